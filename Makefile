@@ -1,0 +1,228 @@
+# Plumb. The two commands of the README are
+#
+#     make deps demo        install what is missing, build, draw a picture
+#     make deps test        install what is missing, build, run every test
+#
+# `make help` lists the rest. Everything is made below $(O). Nothing here needs a compiler or
+# pkg-config before a recipe runs, so that `deps` can install them first.
+#
+# Reading order: this file (library, command line), tools/make/test.mk (tests, benchmark, fuzzing,
+# sanitizers), tools/make/install.mk, tools/make/deps.sh.
+
+.DEFAULT_GOAL := all
+.DELETE_ON_ERROR:
+MAKEFLAGS += --no-builtin-rules
+.SUFFIXES:
+
+# ---- what a user may set on the command line or in the environment
+
+O       ?= build
+JOBS    ?= $(shell nproc 2>/dev/null || echo 1)
+CFLAGS  ?= -O3
+PREFIX  ?= /usr/local
+DESTDIR ?=
+BOX2D3  ?=
+ifeq ($(origin CC),default)
+CC := gcc
+endif
+ifeq ($(origin CXX),default)
+CXX := g++
+endif
+LD      ?= ld
+AR      ?= ar
+OBJCOPY ?= objcopy
+ARCH    ?= $(shell uname -m)
+# WERROR=1: warnings are errors.  SAN=address,undefined: sanitizers.  V=1: show the commands.
+
+# All processors, whatever goals are asked for; a make inside a make keeps its parent's jobs.
+ifeq ($(MAKELEVEL),0)
+MAKEFLAGS += -j$(JOBS)
+endif
+Q := $(if $(V),,@)
+
+# ---- flags
+
+WARN     := -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wvla $(if $(WERROR),-Werror)
+WARN_C   := $(WARN) -Wmissing-prototypes -Wstrict-prototypes
+SANFLAGS := $(if $(SAN),-fsanitize=$(SAN) -fno-sanitize-recover=all -fno-omit-frame-pointer -g)
+SANFLAGS += $(if $(FUZZ),-fsanitize=fuzzer-no-link)
+
+# Results must not depend on compiler or optimisation level: no contraction to fused
+# multiply-add. The last two only give up errno and floating-point flags; values stay IEEE 754.
+MATHS    := -ffp-contract=off -fno-math-errno -fno-trapping-math
+
+# One set of objects serves the static and the shared library: hidden symbols are as fast as
+# local ones, and a static library that is position-independent can go into a user's plug-in.
+SHARED   := -fPIC -fvisibility=hidden -fno-semantic-interposition -DPLUMB_BUILD_SHARED
+
+COMMON   := -std=c17 $(WARN_C) $(MATHS) $(SANFLAGS) -MMD -MP -Iinclude
+LIB_FLAGS  = $(COMMON) $(SHARED) -Isrc $(CFLAGS)
+TOOL_FLAGS = $(COMMON) -Isrc -Itools -Itests $(CFLAGS) $(PKG_CFLAGS)
+CXX_FLAGS  = -std=c++20 $(WARN) $(MATHS) $(SANFLAGS) -MMD -MP -Iinclude $(CFLAGS)
+DEFS_float  :=
+DEFS_double := -DPLUMB_DOUBLE=1
+
+# Asked once, when the first recipe that needs it runs; where pkg-config knows nothing, Debian's places.
+DEBIAN_CFLAGS := -I/usr/include/lua5.4 -I/usr/include/cjson -I/usr/include/freetype2
+PKG_CFLAGS = $(eval PKG_CFLAGS := $$(shell pkg-config --cflags lua5.4 libcjson libpng freetype2 \
+	2>/dev/null || echo $(DEBIAN_CFLAGS)))$(PKG_CFLAGS)
+SCENE_LIBS  := -llua5.4 -lcjson
+RENDER_LIBS := -lOSMesa -lfreetype -lpng -lgif
+
+# Compiler or flags changed: everything is built again.
+FLAGS_LINE := $(CC) $(CXX) $(WARN_C) $(MATHS) $(SANFLAGS) $(SHARED) $(CFLAGS) $(LDFLAGS) $(BOX2D3)
+NO_BUILD   := help clean deps deps-dev format format-check
+ifneq ($(filter-out $(NO_BUILD),$(or $(MAKECMDGOALS),all)),)
+ifneq ($(file <$(O)/flags),$(FLAGS_LINE))
+$(shell mkdir -p $(O))
+$(file >$(O)/flags,$(FLAGS_LINE))
+endif
+endif
+
+# ---- sources and objects: build/float/... and build/double/... mirror the tree
+
+LIB_SRC    := $(filter-out %.simd.c,$(wildcard src/*/*.c))
+SIMD_SRC   := $(wildcard src/*/*.simd.c)
+SCENE_SRC  := $(wildcard tools/scene/*.c)
+RENDER_SRC := $(wildcard tools/render/*.c)
+ENGINE_SRC := $(wildcard tools/plumb/engine*.c)
+CLI_SRC    := $(filter-out $(ENGINE_SRC),$(wildcard tools/plumb/*.c))
+EXAMPLES   := $(patsubst tools/examples/%.c,$(O)/examples/%,$(wildcard tools/examples/*.c))
+
+# A file X.simd.c is compiled once for every number of lanes.
+WIDTHS := 4 8 16
+ifneq ($(filter x86_64 amd64,$(ARCH)),)
+WIDTH_FLAGS_8  := -mavx2
+WIDTH_FLAGS_16 := -mavx512f -mavx512vl -mavx512dq -mavx512bw
+endif
+
+# $(call objects,float,sources)
+objects = $(patsubst %.c,$(O)/$1/%.o,$2)
+lib_objects = $(call objects,$1,$(LIB_SRC)) \
+	$(foreach w,$(WIDTHS),$(SIMD_SRC:%.simd.c=$(O)/$1/%.w$w.o))
+RENDER_OBJ := $(call objects,float,$(RENDER_SRC))
+CLI_OBJ    := $(call objects,float,$(CLI_SRC))
+
+# ---- goals
+
+LIBRARIES := $(O)/libplumb.a $(O)/libplumb_d.a $(O)/libplumb.so $(O)/libplumb_d.so
+
+.PHONY: all lib help clean deps deps-dev demo examples
+all: lib $(O)/plumb examples
+lib: $(LIBRARIES)
+examples: $(EXAMPLES)
+
+help:
+	@sed -n 's/^#: \{0,1\}//p' Makefile
+
+#: Plumb: what make can do (all of it below O=build; V=1 shows the commands)
+#:
+#:   make deps demo    install what is missing, build, draw build/demo.png
+#:   make deps test    install what is missing, build, run every test
+#:
+#:   all (default)     build/plumb, build/libplumb.a, build/libplumb.so, _d in double, examples
+#:   deps, deps-dev    Debian packages: for the two commands above; for fuzz, format, lint as well
+#:   test              every test; T="tests/unit/test_math.c ..." runs only these
+#:   stability         the hard-case tests and the expectations of every scene
+#:   bench             side by side with Box2D 2.4.1; BOX2D3=/prefix adds Box2D 3; BENCH="arguments"
+#:   cost              what accuracy costs, for SCENES="a.lua b.lua"
+#:   asan, ubsan, tsan every test again under a sanitizer
+#:   fuzz              each fuzz harness for FUZZ_TIME=60 seconds
+#:   format, lint      clang-format in place; the rules of tools/lint
+#:   install           PREFIX=/usr/local DESTDIR= (install-lib leaves out the command line)
+#:   clean             remove build/
+#:
+#:   CC=clang  CFLAGS="-O2 -g"  WERROR=1  JOBS=1  O=elsewhere
+
+clean:
+	rm -rf $(O)
+
+# Packages of Debian 12: for building and testing, and what only developers need.
+DEPS := gcc g++ libc6-dev make binutils pkg-config cmake libbox2d-dev libccd-dev libosmesa6-dev \
+	libfreetype-dev fonts-dejavu-core liblua5.4-dev libcmocka-dev libpng-dev libgif-dev \
+	libcjson-dev ffmpeg gnuplot-nox
+DEPS_DEV := $(DEPS) clang clang-format libclang-rt-14-dev valgrind git
+
+deps:
+	@tools/make/deps.sh $(DEPS)
+deps-dev:
+	@tools/make/deps.sh $(DEPS_DEV)
+
+# When packages are asked for in the same command, they come before anything is compiled.
+DEPS_FIRST := $(filter deps deps-dev,$(MAKECMDGOALS))
+
+DEMO := assets/scenes/fruit_bowl.lua
+demo: $(O)/plumb
+	$(Q)$(O)/plumb render $(DEMO) -o $(O)/demo.png
+	@echo "demo: $(DEMO) is drawn in $(abspath $(O)/demo.png)"
+
+# ---- rules
+
+define variant_rules
+$$(O)/$1/src/%.o: src/%.c $$(O)/flags | $$(DEPS_FIRST)
+	@mkdir -p $$(@D)
+	@echo "  CC    $$@"
+	$$(Q)$$(CC) $$(LIB_FLAGS) $$(DEFS_$1) -c $$< -o $$@
+
+$$(O)/$1/%.o: %.c $$(O)/flags | $$(DEPS_FIRST)
+	@mkdir -p $$(@D)
+	@echo "  CC    $$@"
+	$$(Q)$$(CC) $$(TOOL_FLAGS) $$(OWN_FLAGS) $$(DEFS_$1) -c $$< -o $$@
+
+$$(O)/$1/libscene.a: $$(call objects,$1,$$(SCENE_SRC))
+	$$(archive)
+
+# The command line holds both precisions: each is linked into one object of which only the table
+# of functions engine_float or engine_double can be seen from outside.
+$$(O)/engine_$1.o: $$(call objects,$1,$$(ENGINE_SRC)) $$(O)/$1/libscene.a $$(O)/libplumb$2.a
+	@echo "  LD    $$@"
+	$$(Q)$$(LD) -r -o $$@.all $$(filter %.o,$$^) --start-group $$(filter %.a,$$^) --end-group
+	$$(Q)$$(OBJCOPY) --keep-global-symbol=engine_$1 $$@.all $$@
+	@rm -f $$@.all
+
+$$(O)/libplumb$2.a: $$(call lib_objects,$1)
+	$$(archive)
+
+$$(O)/libplumb$2.so: $$(call lib_objects,$1)
+	@echo "  LD    $$@"
+	$$(Q)$$(CC) -shared $$(SANFLAGS) $$(LDFLAGS) -Wl,-soname,libplumb$2.so.0 -o $$@ $$^ -lm -lpthread
+	$$(Q)ln -sf libplumb$2.so $$@.0
+endef
+
+define width_rule
+$$(O)/$1/src/%.w$2.o: src/%.simd.c $$(O)/flags | $$(DEPS_FIRST)
+	@mkdir -p $$(@D)
+	@echo "  CC    $$@"
+	$$(Q)$$(CC) $$(LIB_FLAGS) $$(DEFS_$1) -DPL_WIDTH=$2 $$(WIDTH_FLAGS_$2) -Wno-psabi -c $$< -o $$@
+endef
+
+define archive
+@echo "  AR    $@"
+@rm -f $@
+$(Q)$(AR) rcs $@ $(filter %.o,$^)
+endef
+
+$(eval $(call variant_rules,float,))
+$(eval $(call variant_rules,double,_d))
+$(foreach w,$(WIDTHS),$(eval $(call width_rule,float,$w))$(eval $(call width_rule,double,$w)))
+
+$(O)/librender.a: $(RENDER_OBJ)
+	$(archive)
+
+$(O)/plumb: $(CLI_OBJ) $(O)/engine_float.o $(O)/engine_double.o $(O)/librender.a
+	@echo "  LD    $@"
+	$(Q)$(CC) $(SANFLAGS) $(LDFLAGS) -o $@ $^ $(SCENE_LIBS) $(RENDER_LIBS) -lm -lpthread
+
+$(O)/examples/%: $(O)/float/tools/examples/%.o $(O)/libplumb.a
+	@mkdir -p $(@D)
+	@echo "  LD    $@"
+	$(Q)$(CC) $(SANFLAGS) $(LDFLAGS) -o $@ $^ -lm -lpthread
+
+include tools/make/test.mk
+include tools/make/install.mk
+
+ALL_OBJ := $(call lib_objects,float) $(call lib_objects,double) $(CLI_OBJ) $(RENDER_OBJ) \
+	$(foreach v,float double,$(call objects,$v,$(SCENE_SRC) $(ENGINE_SRC))) $(TEST_OBJ) \
+	$(EXAMPLES:$(O)/%=$(O)/float/tools/%.o)
+.SECONDARY: $(ALL_OBJ)
+-include $(ALL_OBJ:.o=.d)

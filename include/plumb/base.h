@@ -1,0 +1,122 @@
+/// base.h - what every other header of Plumb needs: the scalar type, result codes, entity
+/// handles, and the hooks (memory, log, assert) that belong to a world.
+///
+/// Units are SI, angles radians, counter-clockwise from +x to +y. Headers compile as C17 and C++17.
+#ifndef PLUMB_BASE_H
+#define PLUMB_BASE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#define PLUMB_VERSION_MAJOR 0
+#define PLUMB_VERSION_MINOR 1
+#define PLUMB_VERSION_PATCH 0
+#define PLUMB_VERSION       "0.1.0"
+
+#ifdef __cplusplus
+#define PLUMB_BEGIN extern "C" {
+#define PLUMB_END   }
+#else
+#define PLUMB_BEGIN
+#define PLUMB_END
+#endif
+
+#if defined(PLUMB_BUILD_SHARED) && defined(__GNUC__)
+#define PLUMB_API __attribute__((visibility("default")))
+#else
+#define PLUMB_API
+#endif
+
+PLUMB_BEGIN
+
+/// The scalar of the whole library: float by default, double when PLUMB_DOUBLE is defined to 1.
+/// The program and the library it links must agree; a mismatch is a link error, because
+/// the double library exports plumb_world_create under another name (see world.h).
+#if defined(PLUMB_DOUBLE) && PLUMB_DOUBLE
+typedef double plumb_real;
+#define PLUMB_REAL_EPSILON 2.2204460492503131e-16 ///< [-] spacing of reals at 1
+#define PLUMB_REAL_MAX     1.7976931348623157e+308
+#else
+typedef float plumb_real;
+#define PLUMB_REAL_EPSILON 1.1920929e-7f ///< [-] spacing of reals at 1
+#define PLUMB_REAL_MAX     3.4028235e+38f
+#endif
+
+/// Every result code: X(name, value, text). The one list: enum, plumb_result_text and tests use it.
+// clang-format off
+#define PLUMB_RESULT_LIST(X)                                                                     \
+    X(OK,             0, "ok")                                                                   \
+    X(E_NULL,         1, "a required pointer is null")                                           \
+    X(E_HANDLE,       2, "a handle is null, stale, or of another kind")                          \
+    X(E_RANGE,        3, "a value is outside its documented range")                              \
+    X(E_NOT_FINITE,   4, "a value is NaN or infinite")                                           \
+    X(E_MEMORY,       5, "the allocator returned no memory")                                     \
+    X(E_LOCKED,       6, "a structural change was made directly while the world steps")          \
+    X(E_GEOMETRY,     7, "an outline is degenerate, not convex or crosses itself")               \
+    X(E_DUPLICATE,    8, "a name or component is already there")                                 \
+    X(E_MISSING,      9, "the thing asked for is not there")                                     \
+    X(E_CAPACITY,    10, "a fixed limit is used up")                                             \
+    X(E_STATE,       11, "the call does not fit the state of the object")
+// clang-format on
+
+/// Result of a call that can fail. On any error the state is as it was before the call.
+typedef enum plumb_result {
+#define PLUMB_RESULT_ENUM(name, value, text) PLUMB_##name = value,
+    PLUMB_RESULT_LIST(PLUMB_RESULT_ENUM)
+#undef PLUMB_RESULT_ENUM
+} plumb_result;
+
+/// The fixed English text of a result code ("unknown result" for any other value).
+PLUMB_API const char *plumb_result_text(plumb_result code);
+
+/// A value handle of anything that lives in a world: a body, a shape, a material, a joint or
+/// a bare entity of the user's. {0, 0} is null. A handle of something destroyed is stale and is
+/// caught by every call, in release builds too.
+typedef struct plumb_entity {
+    uint32_t index;      ///< slot in the world's registry
+    uint32_t generation; ///< 0 only in the null handle
+} plumb_entity;
+
+typedef plumb_entity plumb_body;     ///< an entity that has a body row
+typedef plumb_entity plumb_shape;    ///< an entity that has a shape row
+typedef plumb_entity plumb_material; ///< an entity that has a material row; null = the default
+
+#define PLUMB_NULL_INIT { 0, 0 } ///< initialiser of the null handle
+
+/// True when the handle is null. Says nothing about staleness: see plumb_entity_alive.
+static inline bool plumb_is_null(plumb_entity e)
+{
+    return e.generation == 0;
+}
+
+/// True when both handles name the same entity.
+static inline bool plumb_same(plumb_entity a, plumb_entity b)
+{
+    return a.index == b.index && a.generation == b.generation;
+}
+
+/// Memory hooks of one world. `resize` behaves like realloc with the old size told:
+/// (NULL, 0, n) allocates, (p, old, 0) frees and returns NULL, otherwise grows or shrinks.
+/// It returns memory aligned to 64 bytes, or NULL when there is none. All null: the C library.
+typedef struct plumb_allocator {
+    void *(*resize)(void *context, void *memory, size_t old_size, size_t new_size);
+    void *context;
+} plumb_allocator;
+
+typedef enum plumb_log_level {
+    PLUMB_LOG_ERROR, ///< a call was refused; the message is also plumb_world_error's
+    PLUMB_LOG_WARN,  ///< something that is probably not meant
+    PLUMB_LOG_INFO   ///< schedule changes and the like
+} plumb_log_level;
+
+/// Called with one complete line, without newline. Null: nothing is printed.
+typedef void plumb_log_fn(void *context, plumb_log_level level, const char *message);
+
+/// Called when an internal invariant is broken (debug builds). Return to go on.
+/// Null: the message goes to the log hook.
+typedef void plumb_assert_fn(void *context, const char *expression, const char *file, int line);
+
+PLUMB_END
+
+#endif

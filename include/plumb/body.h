@@ -1,0 +1,148 @@
+/// body.h - rigid bodies: made, moved, pushed, asked.
+///
+/// A body's frame has its origin where the user put it; the solver works at the centre of mass.
+/// Getters take a const world; on a bad handle they return zeros and leave an error behind only
+/// where they return plumb_result.
+#ifndef PLUMB_BODY_H
+#define PLUMB_BODY_H
+
+#include "plumb/geometry.h"
+#include "plumb/world.h"
+
+PLUMB_BEGIN
+
+typedef enum plumb_body_type {
+    PLUMB_DYNAMIC,   ///< moved by forces and contacts
+    PLUMB_KINEMATIC, ///< moved by its velocity alone, as if of infinite mass
+    PLUMB_STATIC     ///< does not move
+} plumb_body_type;
+
+/// {0} is valid: a dynamic body at rest at the origin.
+typedef struct plumb_body_desc {
+    plumb_body_type type;        ///< default PLUMB_DYNAMIC
+    plumb_vec2 position;         ///< [m] of the body's origin, finite, |x|, |y| <= 1e9
+    plumb_real angle;            ///< [rad] finite
+    plumb_vec2 velocity;         ///< [m/s] of the centre of mass; must be 0 for static bodies
+    plumb_real angular_velocity; ///< [rad/s]; must be 0 for static bodies
+    plumb_real mass;             ///< [kg] >= 0; 0: from the shapes' densities
+    plumb_real inertia;          ///< [kg m^2] about the centre, >= 0; 0: from the shapes, scaled to `mass`
+    plumb_real gravity_scale;    ///< [-] factor on gravity; 0 means 1 (see no_gravity)
+    bool no_gravity;             ///< gravity does not act on this body
+    bool fixed_rotation;         ///< the body never turns: infinite inertia
+    void *user_data;             ///< see plumb_body_user_data
+} plumb_body_desc;
+
+/// Makes a body without shapes: a dynamic one has `mass` (1 kg if 0) and no inertia until it has.
+/// Null handle on error: E_NULL, E_RANGE, E_NOT_FINITE, E_MEMORY, E_LOCKED. O(1) amortised.
+PLUMB_API plumb_body plumb_body_create(plumb_world *world, const plumb_body_desc *desc);
+
+/// Destroys a body, its shapes and its contacts (which end without an event). Errors: E_HANDLE, E_LOCKED.
+PLUMB_API plumb_result plumb_body_destroy(plumb_world *world, plumb_body body);
+
+/// True for a live handle of a body.
+PLUMB_API bool plumb_body_valid(const plumb_world *world, plumb_body body);
+
+PLUMB_API plumb_body_type plumb_body_get_type(const plumb_world *world, plumb_body body);
+
+/// [m] origin of the body's frame.
+PLUMB_API plumb_vec2 plumb_body_position(const plumb_world *world, plumb_body body);
+/// [m] centre of mass.
+PLUMB_API plumb_vec2 plumb_body_center(const plumb_world *world, plumb_body body);
+/// [rad] in (-pi, pi].
+PLUMB_API plumb_real plumb_body_angle(const plumb_world *world, plumb_body body);
+/// Frame of the body: origin and rotation.
+PLUMB_API plumb_transform plumb_body_transform(const plumb_world *world, plumb_body body);
+/// [m/s] of the centre of mass.
+PLUMB_API plumb_vec2 plumb_body_velocity(const plumb_world *world, plumb_body body);
+/// [rad/s]
+PLUMB_API plumb_real plumb_body_angular_velocity(const plumb_world *world, plumb_body body);
+/// [m/s] of the body's material point now at the world point [m].
+PLUMB_API plumb_vec2 plumb_body_velocity_at(const plumb_world *world, plumb_body body, plumb_vec2 point);
+/// [kg]; 0 for static and kinematic bodies.
+PLUMB_API plumb_real plumb_body_mass(const plumb_world *world, plumb_body body);
+/// [kg m^2] about the centre of mass; 0 when the body cannot turn.
+PLUMB_API plumb_real plumb_body_inertia(const plumb_world *world, plumb_body body);
+/// [m] centre of mass in the body's frame.
+PLUMB_API plumb_vec2 plumb_body_local_center(const plumb_world *world, plumb_body body);
+
+/// Moves a body at once, without travel: contacts are found anew. [m], [rad].
+/// Errors: E_HANDLE, E_RANGE, E_NOT_FINITE, E_LOCKED.
+PLUMB_API plumb_result plumb_body_teleport(plumb_world *world, plumb_body body, plumb_vec2 position,
+                                           plumb_real angle);
+
+/// Sets the velocity [m/s] of the centre of mass. Errors: E_HANDLE, E_NOT_FINITE, E_STATE (static).
+PLUMB_API plumb_result plumb_body_set_velocity(plumb_world *world, plumb_body body, plumb_vec2 velocity);
+/// Sets the angular velocity [rad/s]. Errors: E_HANDLE, E_NOT_FINITE, E_STATE (static).
+PLUMB_API plumb_result plumb_body_set_angular_velocity(plumb_world *world, plumb_body body, plumb_real w);
+
+/// Adds a force [N] at a world point [m] for the next step. Errors: E_HANDLE, E_NOT_FINITE, E_STATE
+/// (not dynamic).
+PLUMB_API plumb_result plumb_body_apply_force(plumb_world *world, plumb_body body, plumb_vec2 force,
+                                              plumb_vec2 point);
+/// Adds a force [N] at the centre of mass for the next step. Errors as above.
+PLUMB_API plumb_result plumb_body_apply_force_center(plumb_world *world, plumb_body body, plumb_vec2 force);
+/// Adds a torque [N m] for the next step. Errors as above.
+PLUMB_API plumb_result plumb_body_apply_torque(plumb_world *world, plumb_body body, plumb_real torque);
+/// Changes the velocity at once by an impulse [N s] at a world point [m]. Errors as above.
+PLUMB_API plumb_result plumb_body_apply_impulse(plumb_world *world, plumb_body body, plumb_vec2 impulse,
+                                                plumb_vec2 point);
+/// Impulse [N s] at the centre of mass. Errors as above.
+PLUMB_API plumb_result plumb_body_apply_impulse_center(plumb_world *world, plumb_body body,
+                                                       plumb_vec2 impulse);
+/// Angular impulse [N m s]. Errors as above.
+PLUMB_API plumb_result plumb_body_apply_angular_impulse(plumb_world *world, plumb_body body,
+                                                        plumb_real impulse);
+
+/// Gives the body a mass [kg] > 0; the inertia scales along. Errors: E_HANDLE, E_RANGE, E_NOT_FINITE,
+/// E_STATE (not dynamic).
+PLUMB_API plumb_result plumb_body_set_mass(plumb_world *world, plumb_body body, plumb_real mass);
+/// Computes mass, centre and inertia from the shapes' densities again. Errors: E_HANDLE, E_STATE.
+PLUMB_API plumb_result plumb_body_reset_mass(plumb_world *world, plumb_body body);
+/// Forbids or allows turning. Errors: E_HANDLE, E_STATE (not dynamic).
+PLUMB_API plumb_result plumb_body_set_fixed_rotation(plumb_world *world, plumb_body body, bool fixed);
+/// Sets the factor on gravity [-], finite; 0 is none. Errors: E_HANDLE, E_NOT_FINITE.
+PLUMB_API plumb_result plumb_body_set_gravity_scale(plumb_world *world, plumb_body body, plumb_real scale);
+PLUMB_API plumb_real plumb_body_gravity_scale(const plumb_world *world, plumb_body body);
+
+PLUMB_API plumb_result plumb_body_set_user_data(plumb_world *world, plumb_body body, void *user_data);
+PLUMB_API void *plumb_body_user_data(const plumb_world *world, plumb_body body);
+
+/// Shapes of a body in order of creation: writes up to `capacity`, returns how many there are.
+PLUMB_API int plumb_body_shapes(const plumb_world *world, plumb_body body, plumb_entity *shapes,
+                                int capacity);
+
+/// Box around all shapes [m]; empty (min > max) without shapes.
+PLUMB_API plumb_aabb plumb_body_aabb(const plumb_world *world, plumb_body body);
+
+/// A point or vector of the body's frame in world coordinates, and back.
+PLUMB_API plumb_vec2 plumb_body_world_point(const plumb_world *world, plumb_body body, plumb_vec2 local);
+PLUMB_API plumb_vec2 plumb_body_local_point(const plumb_world *world, plumb_body body, plumb_vec2 point);
+PLUMB_API plumb_vec2 plumb_body_world_vector(const plumb_world *world, plumb_body body, plumb_vec2 local);
+PLUMB_API plumb_vec2 plumb_body_local_vector(const plumb_world *world, plumb_body body, plumb_vec2 vector);
+
+/// The body columns as they are stored: no copy. Rows are dense and partitioned: awake dynamic rows
+/// first, then kinematic, then asleep, then static. Valid until the next step or structural change.
+/// Velocities and forces may be written (rows below dynamic_count; kinematic velocities too).
+typedef struct plumb_body_span {
+    int count;           ///< all rows
+    int dynamic_count;   ///< rows [0, dynamic_count) are awake dynamic
+    int kinematic_count; ///< then so many kinematic rows
+    int asleep_count;    ///< then so many sleeping rows
+    int static_count;    ///< then so many static rows
+    const plumb_entity *entity;
+    const plumb_real *x, *y;           ///< [m] origin
+    const plumb_real *center_x, *center_y; ///< [m] centre of mass
+    const plumb_real *c, *s;           ///< cosine, sine of the angle
+    plumb_real *vx, *vy;               ///< [m/s]
+    plumb_real *w;                     ///< [rad/s]
+    plumb_real *fx, *fy;               ///< [N] summed for the next step
+    plumb_real *torque;                ///< [N m] summed for the next step
+    const plumb_real *inv_mass;        ///< [1/kg]
+    const plumb_real *inv_inertia;     ///< [1/(kg m^2)]
+} plumb_body_span;
+
+PLUMB_API plumb_body_span plumb_world_bodies(plumb_world *world);
+
+PLUMB_END
+
+#endif

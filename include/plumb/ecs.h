@@ -1,0 +1,152 @@
+/// ecs.h - entities, user components, user systems, commands.
+///
+/// Bodies, shapes and materials are entities; so are things of the user's own. A component is a value
+/// of fixed size that any entity may have; a system is a function called once a step, at a named
+/// phase, with whole columns. A system whose component nobody has is not in the schedule.
+///
+///     plumb_component health = plumb_component_create(world, &(plumb_component_desc){
+///         .name = "health", .size = sizeof(float) });
+///     plumb_component_set(world, body, health, &(float){ 100 });
+#ifndef PLUMB_ECS_H
+#define PLUMB_ECS_H
+
+#include "plumb/body.h"
+#include "plumb/material.h"
+#include "plumb/shape.h"
+
+PLUMB_BEGIN
+
+typedef enum plumb_entity_kind {
+    PLUMB_KIND_NONE,     ///< stale or null
+    PLUMB_KIND_BARE,     ///< made by plumb_entity_create
+    PLUMB_KIND_BODY,
+    PLUMB_KIND_SHAPE,
+    PLUMB_KIND_MATERIAL
+} plumb_entity_kind;
+
+/// Makes a bare entity, to carry user components. Null on error: E_MEMORY, E_LOCKED.
+PLUMB_API plumb_entity plumb_entity_create(plumb_world *world);
+/// Destroys an entity of any kind with its components. Errors: E_HANDLE, E_LOCKED, E_STATE (material in use).
+PLUMB_API plumb_result plumb_entity_destroy(plumb_world *world, plumb_entity entity);
+PLUMB_API bool plumb_entity_alive(const plumb_world *world, plumb_entity entity);
+PLUMB_API plumb_entity_kind plumb_entity_get_kind(const plumb_world *world, plumb_entity entity);
+
+/// A registered component: 1 + its index; 0 is null.
+typedef struct plumb_component {
+    uint32_t id;
+} plumb_component;
+
+typedef enum plumb_field_type {
+    PLUMB_FIELD_F32,
+    PLUMB_FIELD_F64,
+    PLUMB_FIELD_I32,
+    PLUMB_FIELD_I64,
+    PLUMB_FIELD_U32,
+    PLUMB_FIELD_U64,
+    PLUMB_FIELD_BOOL
+} plumb_field_type;
+
+/// One member of a component's value, for tools that print or load it.
+typedef struct plumb_field {
+    const char *name;
+    plumb_field_type type;
+    size_t offset;    ///< [B] in the value
+    const char *unit; ///< "m", "J", "1", ...
+} plumb_field;
+
+/// Called after a value was added, or before it is removed (also when its entity is destroyed).
+/// The world is locked meanwhile: structural changes go through commands.
+typedef void plumb_component_hook(plumb_world *world, plumb_entity entity, void *value, void *context);
+
+typedef struct plumb_component_desc {
+    const char *name; ///< 1..63 characters, unique in the world; copied
+    size_t size;      ///< [B] of one value, 1..65536
+    const plumb_field *fields; ///< may be null; copied, names too
+    int field_count;           ///< 0..64
+    plumb_component_hook *on_add;    ///< may be null
+    plumb_component_hook *on_remove; ///< may be null
+    void *context;                   ///< for the hooks
+} plumb_component_desc;
+
+/// Registers a component. Null on error: E_NULL, E_RANGE, E_DUPLICATE, E_CAPACITY (256), E_MEMORY, E_LOCKED.
+PLUMB_API plumb_component plumb_component_create(plumb_world *world, const plumb_component_desc *desc);
+/// Finds a component by name; null when there is none.
+PLUMB_API plumb_component plumb_component_find(const plumb_world *world, const char *name);
+/// Reads back a registration; fields point into the world. Errors: E_HANDLE, E_NULL.
+PLUMB_API plumb_result plumb_component_info(const plumb_world *world, plumb_component component,
+                                            plumb_component_desc *desc);
+
+/// Gives an entity the component, or overwrites its value. `value` null: zeros.
+/// Errors: E_HANDLE, E_MEMORY; E_LOCKED when it would add a row during a step.
+PLUMB_API plumb_result plumb_component_set(plumb_world *world, plumb_entity entity,
+                                           plumb_component component, const void *value);
+/// The entity's value, or null. Valid until the next structural change. O(1).
+PLUMB_API void *plumb_component_get(plumb_world *world, plumb_entity entity, plumb_component component);
+/// Takes the component away. Errors: E_HANDLE, E_MISSING, E_LOCKED.
+PLUMB_API plumb_result plumb_component_remove(plumb_world *world, plumb_entity entity,
+                                              plumb_component component);
+
+/// All values of a component, dense, in the order in which they were added (a removal moves the last
+/// one into the gap). Valid until the next structural change.
+typedef struct plumb_component_span {
+    int count;
+    size_t stride;              ///< [B] from value to value
+    const plumb_entity *entity; ///< owner of each value
+    void *values;
+} plumb_component_span;
+
+PLUMB_API plumb_component_span plumb_world_column(plumb_world *world, plumb_component component);
+
+/// When a user system runs. Built-in passes lie between the phases.
+typedef enum plumb_phase {
+    PLUMB_PHASE_BEGIN,  ///< at the start of the step, after commands were applied
+    PLUMB_PHASE_FORCES, ///< before forces are integrated: add to the force columns here
+    PLUMB_PHASE_CONTACTS, ///< after the narrow phase, before the solver
+    PLUMB_PHASE_END     ///< after everything: events and transforms are those of this step
+} plumb_phase;
+
+/// What a system is called with.
+typedef struct plumb_system_call {
+    plumb_world *world;
+    plumb_real dt; ///< [s] of the step
+    double time;   ///< [s] simulated before the step (phase END: after it)
+    void *context;
+} plumb_system_call;
+
+typedef struct plumb_system_desc {
+    const char *name; ///< 1..63 characters, unique in the world; copied
+    plumb_phase phase;
+    void (*run)(const plumb_system_call *call);
+    plumb_component needs; ///< not null: runs only while some entity has it
+    const char *reads;     ///< for the schedule; may be null; copied
+    const char *writes;    ///< likewise
+    void *context;
+} plumb_system_desc;
+
+/// Registers a system after those already in its phase. Errors: E_NULL, E_RANGE, E_HANDLE (needs),
+/// E_DUPLICATE, E_CAPACITY (256), E_MEMORY, E_LOCKED.
+PLUMB_API plumb_result plumb_system_create(plumb_world *world, const plumb_system_desc *desc);
+/// Switches a system off or on. Errors: E_NULL, E_MISSING.
+PLUMB_API plumb_result plumb_system_enable(plumb_world *world, const char *name, bool enabled);
+
+/// Commands: structural changes asked for during a step, carried out in order at the start of the next
+/// one (or by plumb_commands_apply). Handles returned are valid at once and come alive when applied;
+/// a command on something that has died meanwhile is dropped and counted as a warning in the log.
+/// Descriptors are checked when the command is given; the same errors as the direct calls, no E_LOCKED.
+PLUMB_API plumb_body plumb_command_body_create(plumb_world *world, const plumb_body_desc *desc);
+PLUMB_API plumb_shape plumb_command_shape_create(plumb_world *world, plumb_body body,
+                                                 const plumb_shape_desc *desc);
+PLUMB_API plumb_entity plumb_command_entity_create(plumb_world *world);
+PLUMB_API plumb_result plumb_command_destroy(plumb_world *world, plumb_entity entity);
+PLUMB_API plumb_result plumb_command_teleport(plumb_world *world, plumb_body body, plumb_vec2 position,
+                                              plumb_real angle);
+PLUMB_API plumb_result plumb_command_component_set(plumb_world *world, plumb_entity entity,
+                                                   plumb_component component, const void *value);
+PLUMB_API plumb_result plumb_command_component_remove(plumb_world *world, plumb_entity entity,
+                                                      plumb_component component);
+/// Carries out pending commands now. Errors: E_LOCKED (during a step), E_MEMORY (the rest stays pending).
+PLUMB_API plumb_result plumb_commands_apply(plumb_world *world);
+
+PLUMB_END
+
+#endif

@@ -1,0 +1,17 @@
+/// plumb.h - everything: include this one.
+#ifndef PLUMB_PLUMB_H
+#define PLUMB_PLUMB_H
+
+#include "plumb/base.h"
+#include "plumb/types.h"
+#include "plumb/math.h"
+#include "plumb/geometry.h"
+#include "plumb/world.h"
+#include "plumb/material.h"
+#include "plumb/body.h"
+#include "plumb/shape.h"
+#include "plumb/ecs.h"
+#include "plumb/event.h"
+#include "plumb/query.h"
+
+#endif

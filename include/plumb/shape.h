@@ -1,0 +1,73 @@
+/// shape.h - shapes of bodies. A shape is one or more convex pieces: a chain has one a link, a
+/// concave outline is split exactly into convex ones.
+///
+///     plumb_shape_create(world, body, &(plumb_shape_desc){ .kind = PLUMB_BOX, .half = { 1, 0.5f } });
+#ifndef PLUMB_SHAPE_H
+#define PLUMB_SHAPE_H
+
+#include "plumb/geometry.h"
+#include "plumb/world.h"
+
+PLUMB_BEGIN
+
+typedef enum plumb_shape_kind {
+    PLUMB_CIRCLE,  ///< center, radius
+    PLUMB_CAPSULE, ///< points[2], radius
+    PLUMB_BOX,     ///< half, center, angle, radius (rounding added outside, default 0)
+    PLUMB_POLYGON, ///< points[3..64]: their convex hull, at most 16 corners; radius rounds it
+    PLUMB_OUTLINE, ///< points[3..256]: a simple closed outline, concave or not, either orientation
+    PLUMB_SEGMENT, ///< points[2]: a line without mass that collides on both sides
+    PLUMB_CHAIN    ///< points[2..]: joined segments, `closed` joins last to first; two-sided, no mass
+} plumb_shape_kind;
+
+/// {0} is not a shape (a circle needs a radius); fields not named by the kind must be zero, else E_RANGE.
+typedef struct plumb_shape_desc {
+    plumb_shape_kind kind;
+    plumb_vec2 center;        ///< [m] circle, box: in the body's frame
+    plumb_real radius;        ///< [m] circle, capsule: > 0; box, polygon: rounding >= 0
+    plumb_vec2 half;          ///< [m] box: half width and height, > 0
+    plumb_real angle;         ///< [rad] box
+    const plumb_vec2 *points; ///< [m] in the body's frame, copied
+    int count;                ///< number of points
+    bool closed;              ///< chain: join the last point to the first
+    plumb_real density;       ///< [kg/m^2] >= 0; 0: the material's
+    plumb_material material;  ///< null: the world's default material
+    void *user_data;
+} plumb_shape_desc;
+
+/// Adds a shape to a body and revises its mass. Null handle on error: E_NULL, E_HANDLE (body, material),
+/// E_RANGE, E_NOT_FINITE, E_GEOMETRY, E_CAPACITY (too many corners), E_MEMORY, E_LOCKED.
+PLUMB_API plumb_shape plumb_shape_create(plumb_world *world, plumb_body body, const plumb_shape_desc *desc);
+
+/// Removes a shape; its body's mass is revised. Errors: E_HANDLE, E_LOCKED.
+PLUMB_API plumb_result plumb_shape_destroy(plumb_world *world, plumb_shape shape);
+
+PLUMB_API bool plumb_shape_valid(const plumb_world *world, plumb_shape shape);
+PLUMB_API plumb_shape_kind plumb_shape_get_kind(const plumb_world *world, plumb_shape shape);
+/// The body that owns the shape.
+PLUMB_API plumb_body plumb_shape_body(const plumb_world *world, plumb_shape shape);
+PLUMB_API plumb_material plumb_shape_material(const plumb_world *world, plumb_shape shape);
+/// Null sets the default material. Density, and so mass, is not revised. Errors: E_HANDLE.
+PLUMB_API plumb_result plumb_shape_set_material(plumb_world *world, plumb_shape shape,
+                                                plumb_material material);
+PLUMB_API plumb_result plumb_shape_set_user_data(plumb_world *world, plumb_shape shape, void *user_data);
+PLUMB_API void *plumb_shape_user_data(const plumb_world *world, plumb_shape shape);
+
+/// Number of convex pieces.
+PLUMB_API int plumb_shape_piece_count(const plumb_world *world, plumb_shape shape);
+/// Piece i in the frame of the body's origin. *seams (may be null) gets a bit per edge (bit k: the edge
+/// from corner k to k+1) that is an inner cut and not part of the outline.
+/// Errors: E_HANDLE, E_NULL, E_RANGE (i).
+PLUMB_API plumb_result plumb_shape_piece(const plumb_world *world, plumb_shape shape, int i,
+                                         plumb_convex *piece, uint32_t *seams);
+/// Tight box [m] around the shape where it is now.
+PLUMB_API plumb_aabb plumb_shape_aabb(const plumb_world *world, plumb_shape shape);
+/// True when the world point [m] lies in the shape.
+PLUMB_API bool plumb_shape_contains(const plumb_world *world, plumb_shape shape, plumb_vec2 point);
+
+/// How many shapes the world has, and the i-th in storage order: for drawing and inspection.
+PLUMB_API int plumb_world_shapes(const plumb_world *world, plumb_entity *shapes, int capacity);
+
+PLUMB_END
+
+#endif

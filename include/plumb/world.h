@@ -1,0 +1,155 @@
+/// world.h - a world: what it is made with, how it steps, what it reports.
+///
+///     plumb_world *world;
+///     if (plumb_world_create(&(plumb_world_desc){ .substeps = 4 }, &world) != PLUMB_OK) ...
+///     for (;;) plumb_world_step(world, (plumb_real)(1.0 / 60.0));
+///     plumb_world_destroy(world);
+///
+/// A world is used from one thread at a time; different worlds share nothing.
+#ifndef PLUMB_WORLD_H
+#define PLUMB_WORLD_H
+
+#include "plumb/types.h"
+
+PLUMB_BEGIN
+
+// A float program that links the double library (or the reverse) fails at link time here.
+#if defined(PLUMB_DOUBLE) && PLUMB_DOUBLE
+#define plumb_world_create plumb_world_create_double
+#endif
+
+typedef struct plumb_world plumb_world;
+
+typedef enum plumb_y_axis {
+    PLUMB_Y_UP,  ///< +y is up (mathematics); default gravity (0, -9.81)
+    PLUMB_Y_DOWN ///< +y is down (screens); default gravity (0, +9.81). Angles still turn from +x to +y
+} plumb_y_axis;
+
+typedef enum plumb_solver {
+    PLUMB_SOLVER_SOFT, ///< soft step: substeps, soft contacts, warm starting, relax pass
+    PLUMB_SOLVER_PGS   ///< the classic: projected Gauss-Seidel on velocities, then positions
+} plumb_solver;
+
+/// How a world is made. {0} is valid: every zero means the default told beside the field.
+typedef struct plumb_world_desc {
+    plumb_vec2 gravity;       ///< [m/s^2] finite; {0, 0}: 9.81 downwards as y_axis says
+    bool zero_gravity;        ///< true: no gravity at all; `gravity` must then be {0, 0}
+    plumb_y_axis y_axis;      ///< default PLUMB_Y_UP
+    plumb_solver solver;      ///< default PLUMB_SOLVER_SOFT
+    int substeps;             ///< [-] 1..64, default 4. PGS: sub-steps of the whole step, default 1
+    int iterations;           ///< [-] 1..1000. PGS: sweeps a step, default 10. Soft: sweeps a substep, default 1
+    plumb_real contact_hertz; ///< [1/s] >= 0. Contact stiffness; default: a quarter of the substep rate,
+                              ///< which is also the largest that is used
+    plumb_real contact_damping;   ///< [-] >= 0, damping ratio of contacts, default 10
+    plumb_real push_speed;        ///< [m/s] >= 0, fastest recovery from overlap, default 3
+    plumb_real restitution_speed; ///< [m/s] >= 0; approach slower than this does not bounce. Default 0:
+                                  ///< only a bounce that would end within the substep is swallowed
+    int simd_width;           ///< lanes of the contact kernels: 4, 8 or 16; default 0 = best measured.
+                              ///< A pure speed setting: every width gives the same bits
+    uint32_t body_capacity;   ///< rows to reserve; 0: grow as needed
+    uint32_t shape_capacity;  ///< likewise for shapes
+    uint32_t contact_capacity;///< likewise for contacts
+    plumb_allocator allocator;///< null members: the C library
+    plumb_log_fn *log;        ///< null: silent
+    plumb_assert_fn *assert_failed; ///< null: broken invariants go to `log`
+    void *hook_context;       ///< handed to `log` and `assert_failed`
+    void *user_data;          ///< see plumb_world_user_data
+} plumb_world_desc;
+
+/// Makes a world. `desc` may be null (= {0}). On error *world is null and, when the descriptor has
+/// a log hook, the message has been sent there.
+/// Errors: E_NULL (no `world`), E_RANGE, E_NOT_FINITE, E_MEMORY.
+PLUMB_API plumb_result plumb_world_create(const plumb_world_desc *desc, plumb_world **world);
+
+/// Destroys a world and all that lives in it. Null is ignored.
+PLUMB_API void plumb_world_destroy(plumb_world *world);
+
+/// The descriptor in force, all defaults resolved.
+PLUMB_API plumb_world_desc plumb_world_settings(const plumb_world *world);
+
+/// Advances the world by dt [s], 0 < dt <= 1. Events, spans and contact views of the step before
+/// become invalid. Cost: see plumb_world_schedule.
+/// Errors: E_RANGE, E_NOT_FINITE, E_LOCKED (called from a system), E_MEMORY (the world has not moved).
+PLUMB_API plumb_result plumb_world_step(plumb_world *world, plumb_real dt);
+
+/// Changes gravity [m/s^2]; zero is zero here. Errors: E_NOT_FINITE.
+PLUMB_API plumb_result plumb_world_set_gravity(plumb_world *world, plumb_vec2 gravity);
+
+/// Gravity in force [m/s^2].
+PLUMB_API plumb_vec2 plumb_world_gravity(const plumb_world *world);
+
+/// Unit vector against which "down" is measured: (0, 1) in a y-up world, (0, -1) in a y-down one.
+PLUMB_API plumb_vec2 plumb_world_up(const plumb_world *world);
+
+/// The pointer given in the descriptor.
+PLUMB_API void *plumb_world_user_data(const plumb_world *world);
+
+/// The last call on this world that was refused. `function` and `message` are "" when none was.
+typedef struct plumb_error {
+    plumb_result code;
+    const char *function; ///< name of the public function
+    const char *message;  ///< one sentence that names the field and the value; valid until the next error
+} plumb_error;
+
+/// The last refused call. Never null members. Successful calls leave it as it is.
+PLUMB_API plumb_error plumb_world_error(const plumb_world *world);
+
+/// Counts and self-measured error of the last step.
+typedef struct plumb_stats {
+    uint64_t step_count;        ///< steps taken
+    double time;                ///< [s] simulated
+    uint32_t body_count;        ///< all bodies
+    uint32_t dynamic_count;     ///< awake dynamic bodies
+    uint32_t kinematic_count;   ///< kinematic bodies
+    uint32_t static_count;      ///< static bodies
+    uint32_t shape_count;       ///< shapes as the user made them
+    uint32_t piece_count;       ///< convex pieces of all shapes
+    uint32_t pair_count;        ///< pairs whose fat boxes overlap
+    uint32_t contact_count;     ///< pairs that touch (a manifold with at least one point)
+    uint32_t point_count;       ///< manifold points of those
+    uint32_t color_count;       ///< colours of the constraint graph
+    uint32_t overflow_count;    ///< contacts that found no colour
+    uint32_t grid_rebuilds;     ///< rebuilds of the pair list since the world was made
+    uint32_t bounce_count;      ///< impacts resolved with restitution in the last step
+    int simd_width;             ///< lanes in use
+    plumb_real max_penetration; ///< [m] deepest overlap after the last step's narrow phase, >= 0
+    plumb_real mean_penetration;///< [m] mean over touching contacts of the deeper point, 0 if apart
+    size_t bytes;               ///< [B] memory held by the world
+    size_t peak_bytes;          ///< [B] most memory ever held
+} plumb_stats;
+
+/// Counters of the last step. O(1).
+PLUMB_API plumb_stats plumb_world_stats(const plumb_world *world);
+
+/// Mechanical state of all dynamic bodies, summed in double in row order. O(bodies).
+typedef struct plumb_energy {
+    double kinetic;          ///< [J] translation and rotation
+    double potential;        ///< [J] -m g.x against the origin
+    double momentum_x;       ///< [kg m/s]
+    double momentum_y;       ///< [kg m/s]
+    double angular_momentum; ///< [kg m^2/s] about the origin
+    double mass;             ///< [kg]
+} plumb_energy;
+
+PLUMB_API plumb_energy plumb_world_energy(const plumb_world *world);
+
+/// One line of the schedule: a pass of the step, built in or the user's.
+typedef struct plumb_pass_info {
+    const char *name;
+    const char *phase;   ///< "commands", "forces", "broad", "narrow", "solve", "finish", or a user phase
+    const char *reads;   ///< columns read
+    const char *writes;  ///< columns written
+    const char *reason;  ///< why it runs, or why it was left out
+    bool scheduled;      ///< false: wanted by nothing in this world, costs nothing
+    bool is_user;        ///< registered by plumb_system_create
+    double last_ns;      ///< [ns] wall time in the last step
+    double total_ns;     ///< [ns] since the world was made
+} plumb_pass_info;
+
+/// The schedule in order, passes left out included. Writes up to `capacity` rows, returns how many
+/// there are. Reasons are valid until the next step.
+PLUMB_API int plumb_world_schedule(const plumb_world *world, plumb_pass_info *rows, int capacity);
+
+PLUMB_END
+
+#endif

@@ -1,0 +1,86 @@
+// broad.c - the broad phase as a whole: fat boxes, grids, and when to rebuild the pair list.
+#include "broad/broad.h"
+#include "broad/pairs.h"
+#include "world/state.h"
+
+static bool file_fixed(plumb_world *world)
+{
+    pl_broad *broad = &world->broad;
+    const pl_pieces *pieces = &world->pieces;
+    if (!pl_buffer_reserve(&world->memory, &broad->list, pieces->table.count * sizeof(uint32_t))) {
+        return false;
+    }
+    uint32_t *list = broad->list.data;
+    uint32_t count = 0;
+    for (uint32_t piece = 0; piece < pieces->table.count; ++piece) {
+        if (pieces->kind[piece] != PL_PIECE_FREE && pieces->moving[piece] == PL_NONE) {
+            list[count++] = piece;
+        }
+    }
+    return pl_grid_build(&world->memory, &broad->fixed, list, count, pieces->fat);
+}
+
+bool pl_broad_update_grids(plumb_world *world, real dt, bool *stale)
+{
+    pl_broad *broad = &world->broad;
+    *stale = world->pairs_dirty || world->static_dirty;
+    if (world->static_dirty) {
+        pl_broad_refresh_fixed(world);
+        if (!file_fixed(world)) {
+            return false;
+        }
+        world->static_dirty = false;
+        world->pairs_dirty = true;
+    }
+    if (pl_broad_refresh_moving(world, dt)) {
+        world->pairs_dirty = true;
+    }
+    *stale = world->pairs_dirty;
+    if (*stale) {
+        return pl_grid_build(&world->memory, &broad->moving, pl_moving(world), world->moving_count,
+                             world->pieces.fat);
+    }
+    return true;
+}
+
+// Rows moved but no piece came or went: pairs stay, their rows are looked up again.
+static void refresh_rows(plumb_world *world)
+{
+    pl_pair *pairs = pl_pairs(&world->broad.pairs);
+    for (uint32_t i = 0; i < world->broad.pairs.count; ++i) {
+        pairs[i].body_a = world->pieces.body[pairs[i].a];
+        pairs[i].body_b = world->pieces.body[pairs[i].b];
+    }
+}
+
+bool pl_broad_update(plumb_world *world, real dt)
+{
+    bool stale;
+    if (!pl_broad_update_grids(world, dt, &stale)) {
+        return false;
+    }
+    if (stale) {
+        if (!pl_pairs_rebuild(world)) {
+            return false;
+        }
+        world->pairs_dirty = false;
+        world->broad.rebuilds++;
+    } else if (world->rows_moved) {
+        refresh_rows(world);
+    }
+    world->rows_moved = false;
+    return true;
+}
+
+void pl_broad_free(pl_memory *memory, pl_broad *broad)
+{
+    pl_grid_free(memory, &broad->moving);
+    pl_grid_free(memory, &broad->fixed);
+    pl_buffer_free(memory, &broad->pairs.items);
+    pl_buffer_free(memory, &broad->pairs.old_items);
+    pl_buffer_free(memory, &broad->list);
+    pl_buffer_free(memory, &broad->found);
+    pl_buffer_free(memory, &broad->sorted);
+    pl_buffer_free(memory, &broad->counts);
+    *broad = (pl_broad){ 0 };
+}

@@ -1,0 +1,30 @@
+// broad.h - the broad phase: which pieces may touch. Keeps fat boxes, two grids (moving and static
+// pieces) and the list of overlapping pairs, rebuilt only when a piece leaves its fat box.
+#ifndef PL_BROAD_H
+#define PL_BROAD_H
+
+#include "broad/grid.h"
+#include "broad/pair.h"
+
+typedef struct pl_broad {
+    pl_grid moving, fixed;
+    pl_pair_list pairs;
+    pl_buffer list;   // uint32_t pieces to file
+    pl_buffer found;  // pl_found: pairs of a rebuild as they come
+    pl_buffer sorted; // pl_found, by lower piece
+    pl_buffer counts; // uint32_t a piece slot + 1
+    uint32_t found_count;
+    uint32_t serial; // newest piece serial at the last rebuild: younger slots carry nothing over
+    uint64_t rebuilds;
+} pl_broad;
+
+// Brings fat boxes and grids up to date with the poses; *stale tells whether the pair list no
+// longer covers all that may touch within dt [s]. False when out of memory.
+bool pl_broad_update_grids(plumb_world *world, real dt, bool *stale);
+
+// The same, then rebuilds the pair list if it is stale. Touching pairs carry their impulses over.
+bool pl_broad_update(plumb_world *world, real dt);
+
+void pl_broad_free(pl_memory *memory, pl_broad *broad);
+
+#endif

@@ -1,0 +1,116 @@
+// fat.c - tight and fat boxes of pieces, and whether the pair list still covers all that may touch.
+//
+// Reads: poses, piece geometry, velocities. Writes: fat boxes. Order: first of the broad phase.
+// Cost: O(moving pieces); O(all pieces) when static ones changed.
+#include "broad/pairs.h"
+#include "world/state.h"
+
+// A fat box goes beyond the tight one by an eighth of its size, at most 0.1 m: large enough that
+// resting and slowly moving bodies do not refile, small enough that few pairs are kept in vain.
+#define FAT_FRACTION ((real)0.125)
+#define FAT_LIMIT    ((real)0.1)
+
+static real absolute(real v)
+{
+    return v < 0 ? -v : v;
+}
+
+static pl_box box_around(real x, real y, real ex, real ey)
+{
+    return (pl_box){ x - ex, y - ey, x + ex, y + ey };
+}
+
+static pl_box polygon_box(const plumb_world *world, uint32_t piece, const pl_pose *pose)
+{
+    const pl_vertex *v = world->vertices.items + world->pieces.vertices[piece];
+    pl_box box = { PLUMB_REAL_MAX, PLUMB_REAL_MAX, -PLUMB_REAL_MAX, -PLUMB_REAL_MAX };
+    for (int i = 0; i < world->pieces.vertex_count[piece]; ++i) {
+        real x = pose->c * v[i].x - pose->s * v[i].y;
+        real y = pose->s * v[i].x + pose->c * v[i].y;
+        box.min_x = x < box.min_x ? x : box.min_x;
+        box.min_y = y < box.min_y ? y : box.min_y;
+        box.max_x = x > box.max_x ? x : box.max_x;
+        box.max_y = y > box.max_y ? y : box.max_y;
+    }
+    real r = world->pieces.core[piece].radius;
+    return (pl_box){ pose->x + box.min_x - r, pose->y + box.min_y - r, pose->x + box.max_x + r,
+                     pose->y + box.max_y + r };
+}
+
+pl_box pl_piece_tight_box(const plumb_world *world, uint32_t piece)
+{
+    const pl_core *core = &world->pieces.core[piece];
+    const pl_pose *pose = &pl_poses(world)[world->pieces.body[piece]];
+    real x = pose->x + pose->c * core->x - pose->s * core->y;
+    real y = pose->y + pose->s * core->x + pose->c * core->y;
+    real c = absolute(pose->c * core->c - pose->s * core->s);
+    real s = absolute(pose->s * core->c + pose->c * core->s);
+    real r = core->radius;
+    switch (world->pieces.kind[piece]) {
+    case PL_PIECE_CIRCLE:
+        return box_around(x, y, r, r);
+    case PL_PIECE_CAPSULE:
+        return box_around(x, y, c * core->hx + r, s * core->hx + r);
+    case PL_PIECE_BOX:
+        return box_around(x, y, c * core->hx + s * core->hy + r, s * core->hx + c * core->hy + r);
+    default:
+        return polygon_box(world, piece, pose);
+    }
+}
+
+static pl_box widened(pl_box box, real margin)
+{
+    return (pl_box){ box.min_x - margin, box.min_y - margin, box.max_x + margin,
+                     box.max_y + margin };
+}
+
+// Stretches a box along a displacement.
+static pl_box swept(pl_box box, real dx, real dy)
+{
+    box.min_x += dx < 0 ? dx : 0;
+    box.max_x += dx > 0 ? dx : 0;
+    box.min_y += dy < 0 ? dy : 0;
+    box.max_y += dy > 0 ? dy : 0;
+    return box;
+}
+
+static bool contains(const pl_box *outer, const pl_box *inner)
+{
+    return outer->min_x <= inner->min_x && outer->min_y <= inner->min_y &&
+           outer->max_x >= inner->max_x && outer->max_y >= inner->max_y;
+}
+
+bool pl_broad_refresh_moving(plumb_world *world, real dt)
+{
+    pl_pieces *pieces = &world->pieces;
+    const uint32_t *moving = pl_moving(world);
+    bool stale = false;
+    for (uint32_t i = 0; i < world->moving_count; ++i) {
+        uint32_t piece = moving[i];
+        pl_box tight = pl_piece_tight_box(world, piece);
+        pl_box needed = widened(tight, PL_SPECULATIVE / 2);
+        if (pieces->restitution[piece] > 0) {
+            // An elastic piece must meet its partner within the step in which they touch.
+            const pl_pose *pose = &pl_poses(world)[pieces->body[piece]];
+            needed = swept(needed, pose->vx * dt, pose->vy * dt);
+        }
+        if (!contains(&pieces->fat[piece], &needed)) {
+            real w = tight.max_x - tight.min_x;
+            real h = tight.max_y - tight.min_y;
+            real margin = FAT_FRACTION * (w > h ? w : h);
+            pieces->fat[piece] = widened(needed, margin < FAT_LIMIT ? margin : FAT_LIMIT);
+            stale = true;
+        }
+    }
+    return stale;
+}
+
+void pl_broad_refresh_fixed(plumb_world *world)
+{
+    pl_pieces *pieces = &world->pieces;
+    for (uint32_t piece = 0; piece < pieces->table.count; ++piece) {
+        if (pieces->kind[piece] != PL_PIECE_FREE && pieces->moving[piece] == PL_NONE) {
+            pieces->fat[piece] = widened(pl_piece_tight_box(world, piece), PL_SPECULATIVE / 2);
+        }
+    }
+}

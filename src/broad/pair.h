@@ -1,0 +1,37 @@
+// pair.h - a pair of pieces whose fat boxes overlap: all of a contact that outlives a step.
+#ifndef PL_PAIR_H
+#define PL_PAIR_H
+
+#include "core/memory.h"
+#include "world/columns.h"
+
+typedef struct pl_pair {
+    uint32_t a, b;           // piece slots: kind of a <= kind of b, equal kinds: a < b
+    uint32_t body_a, body_b; // body rows
+    uint32_t feature[2];     // of the manifold points that the impulses belong to; PL_NONE: none
+    real normal[2];          // [N s] impulses of the last substep
+    real tangent[2];         // [N s]
+    uint32_t manifold;       // index of this step's manifold; PL_NONE: apart
+    uint32_t flags;          // PL_PAIR_...
+} pl_pair;
+
+#define PL_PAIR_TOUCHING 1u // touched in the last step, so the begin event was sent
+#define PL_PAIR_HIT      2u // an impact with restitution was resolved in this step
+
+// [m] manifolds are made for pieces closer than this: contacts are ready before they are needed.
+#define PL_SPECULATIVE ((real)0.02)
+
+// The list, sorted by the kinds of a and b, then by slots; pairs of equal kinds are one range.
+typedef struct pl_pair_list {
+    pl_buffer items, old_items; // pl_pair; the list before the last rebuild is kept for reuse
+    uint32_t count;
+    uint32_t first[PL_PIECE_KIND_COUNT][PL_PIECE_KIND_COUNT];
+    uint32_t size[PL_PIECE_KIND_COUNT][PL_PIECE_KIND_COUNT];
+} pl_pair_list;
+
+static inline pl_pair *pl_pairs(const pl_pair_list *list)
+{
+    return (pl_pair *)list->items.data;
+}
+
+#endif

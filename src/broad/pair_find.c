@@ -1,0 +1,164 @@
+// pair_find.c - every overlapping pair of fat boxes, once.
+//
+// Equal levels: a pair is found from the box whose cell comes first, which looks at its own cell,
+// the next one in its row and the three neighbours in the next row. Different levels: from the
+// finer box. Static pieces: from the moving box. Cost: O(moving pieces + pairs) for sizes within an
+// octave.
+#include "broad/pairs.h"
+#include "world/state.h"
+
+typedef struct finder {
+    plumb_world *world;
+    const uint32_t *body; // of a piece slot
+    uint32_t dynamic_count;
+    pl_found *found;
+    uint32_t count, capacity;
+    bool out_of_memory;
+    uint32_t piece; // whose partners are being collected
+} finder;
+
+static bool grow(finder *f)
+{
+    pl_broad *broad = &f->world->broad;
+    size_t wanted = ((size_t)f->capacity + 1024) * sizeof(pl_found);
+    if (!pl_buffer_reserve(&f->world->memory, &broad->found, wanted)) {
+        f->out_of_memory = true;
+        return false;
+    }
+    f->found = broad->found.data;
+    f->capacity = (uint32_t)(broad->found.size / sizeof(pl_found));
+    return true;
+}
+
+// Adds the pair unless nothing could come of it: one body, or no dynamic body.
+static inline bool add_pair(finder *f, uint32_t p, uint32_t q)
+{
+    uint32_t body_p = f->body[p];
+    uint32_t body_q = f->body[q];
+    if (body_p == body_q || (body_p >= f->dynamic_count && body_q >= f->dynamic_count)) {
+        return true;
+    }
+    if (f->count == f->capacity && !grow(f)) {
+        return false;
+    }
+    f->found[f->count++] = p < q ? (pl_found){ p, q } : (pl_found){ q, p };
+    return true;
+}
+
+static bool add_visited(void *context, const pl_grid_entry *entry)
+{
+    finder *f = context;
+    return add_pair(f, f->piece, entry->piece);
+}
+
+// Entries of a run that lie in the cells x0..x1 of row y and overlap `e`.
+static inline bool scan_run(finder *f, const pl_grid_entry *entries, pl_grid_run run, int32_t x0,
+                            uint32_t width, int32_t y, const pl_grid_entry *e)
+{
+    for (uint32_t i = run.begin; i < run.end; ++i) {
+        const pl_grid_entry *other = &entries[i];
+        if (pl_boxes_overlap(&e->box, &other->box) && other->cell_y == y &&
+            (uint32_t)(other->cell_x - x0) <= width && !add_pair(f, e->piece, other->piece)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool scan_row(finder *f, const pl_grid *grid, const pl_grid_level *level, int32_t x0,
+                     int32_t x1, int32_t y, const pl_grid_entry *e)
+{
+    const pl_grid_entry *entries = pl_grid_entries(grid);
+    pl_grid_run runs[2];
+    int run_count = pl_grid_row(grid, level, x0, x1, y, runs);
+    for (int r = 0; r < run_count; ++r) {
+        if (!scan_run(f, entries, runs[r], x0, (uint32_t)(x1 - x0), y, e)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool find_in_level(finder *f, const pl_grid *grid, const pl_grid_level *level)
+{
+    const pl_grid_entry *entries = pl_grid_entries(grid);
+    for (uint32_t i = level->first; i < level->first + level->count; ++i) {
+        const pl_grid_entry *e = &entries[i];
+        // Own cell: the entries filed behind this one. They are followed by those of other cells,
+        // in hashed levels perhaps of the same bucket, hence the comparison.
+        pl_grid_run runs[2];
+        pl_grid_row(grid, level, e->cell_x, e->cell_x, e->cell_y, runs);
+        runs[0].begin = i + 1;
+        if (!scan_run(f, entries, runs[0], e->cell_x, 0, e->cell_y, e) ||
+            !scan_row(f, grid, level, e->cell_x + 1, e->cell_x + 1, e->cell_y, e) ||
+            !scan_row(f, grid, level, e->cell_x - 1, e->cell_x + 1, e->cell_y + 1, e)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// Partners of every box of level k among the coarser levels of the moving grid.
+static bool find_across_levels(finder *f, const pl_grid *grid, uint32_t k)
+{
+    const pl_grid_entry *entries = pl_grid_entries(grid);
+    const pl_grid_level *fine = &grid->levels[k];
+    for (uint32_t m = k + 1; m < grid->level_count; ++m) {
+        const pl_grid_level *coarse = &grid->levels[m];
+        for (uint32_t i = fine->first; i < fine->first + fine->count; ++i) {
+            const pl_grid_entry *e = &entries[i];
+            pl_cell_range range = pl_grid_range(coarse, e->box);
+            if (pl_grid_range_is_wide(coarse, range)) {
+                for (uint32_t j = coarse->first; j < coarse->first + coarse->count; ++j) {
+                    if (pl_boxes_overlap(&e->box, &entries[j].box) &&
+                        !add_pair(f, e->piece, entries[j].piece)) {
+                        return false;
+                    }
+                }
+                continue;
+            }
+            for (int32_t y = range.y0; y <= range.y1; ++y) {
+                if (!scan_row(f, grid, coarse, range.x0, range.x1, y, e)) {
+                    return false;
+                }
+            }
+        }
+    }
+    return true;
+}
+
+static bool find_against_fixed(finder *f, const pl_grid *moving, const pl_grid *fixed)
+{
+    const pl_grid_entry *entries = pl_grid_entries(moving);
+    if (fixed->entry_count == 0) {
+        return true;
+    }
+    for (uint32_t i = 0; i < moving->entry_count; ++i) {
+        f->piece = entries[i].piece;
+        if (!pl_grid_query(fixed, entries[i].box, add_visited, f)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+bool pl_pairs_find(plumb_world *world)
+{
+    pl_broad *broad = &world->broad;
+    finder f = { .world = world,
+                 .body = world->pieces.body,
+                 .dynamic_count = world->dynamic_count,
+                 .found = broad->found.data,
+                 .capacity = (uint32_t)(broad->found.size / sizeof(pl_found)) };
+    for (uint32_t k = 0; k < broad->moving.level_count; ++k) {
+        if (!find_in_level(&f, &broad->moving, &broad->moving.levels[k]) ||
+            !find_across_levels(&f, &broad->moving, k)) {
+            return false;
+        }
+    }
+    if (!find_against_fixed(&f, &broad->moving, &broad->fixed)) {
+        return false;
+    }
+    broad->found_count = f.count;
+    return !f.out_of_memory;
+}

@@ -1,0 +1,154 @@
+// pairs.c - the pair list: sorted, so that its order depends on piece slots alone, and merged with
+// the list before it, so that contacts keep their impulses.
+//
+// Cost: O(pairs + piece slots), three linear passes.
+#include "broad/pairs.h"
+#include "event/event.h"
+#include "world/state.h"
+
+#include <string.h>
+
+// Sorts broad->found by (low, high) into broad->sorted: counting sort by `low`, then insertion by
+// `high` within the few pairs of a piece.
+static bool sort_found(plumb_world *world)
+{
+    pl_broad *broad = &world->broad;
+    size_t slots = world->pieces.table.count;
+    if (!pl_buffer_reserve(&world->memory, &broad->counts, (slots + 1) * sizeof(uint32_t)) ||
+        !pl_buffer_reserve(&world->memory, &broad->sorted,
+                           ((size_t)broad->found_count + 1) * sizeof(pl_found))) {
+        return false;
+    }
+    uint32_t *at = broad->counts.data;
+    const pl_found *found = broad->found.data;
+    pl_found *sorted = broad->sorted.data;
+    memset(at, 0, (slots + 1) * sizeof(uint32_t));
+    for (uint32_t i = 0; i < broad->found_count; ++i) {
+        ++at[found[i].low + 1];
+    }
+    for (size_t s = 1; s <= slots; ++s) {
+        at[s] += at[s - 1];
+    }
+    for (uint32_t i = 0; i < broad->found_count; ++i) {
+        sorted[at[found[i].low]++] = found[i];
+    }
+    for (uint32_t i = 1; i < broad->found_count; ++i) {
+        pl_found pair = sorted[i];
+        uint32_t j = i;
+        while (j > 0 && sorted[j - 1].low == pair.low && sorted[j - 1].high > pair.high) {
+            sorted[j] = sorted[j - 1];
+            --j;
+        }
+        sorted[j] = pair;
+    }
+    return true;
+}
+
+static void lay_out_kinds(pl_pair_list *list, const pl_found *sorted, uint32_t count,
+                          const uint8_t *kind)
+{
+    memset(list->size, 0, sizeof list->size);
+    for (uint32_t i = 0; i < count; ++i) {
+        uint8_t low = kind[sorted[i].low];
+        uint8_t high = kind[sorted[i].high];
+        ++list->size[low < high ? low : high][low < high ? high : low];
+    }
+    uint32_t first = 0;
+    for (int a = 0; a < PL_PIECE_KIND_COUNT; ++a) {
+        for (int b = 0; b < PL_PIECE_KIND_COUNT; ++b) {
+            list->first[a][b] = first;
+            first += list->size[a][b];
+        }
+    }
+}
+
+static pl_pair fresh_pair(const plumb_world *world, pl_found found)
+{
+    const pl_pieces *pieces = &world->pieces;
+    bool swap = pieces->kind[found.low] > pieces->kind[found.high];
+    pl_pair pair = { .a = swap ? found.high : found.low, .b = swap ? found.low : found.high };
+    pair.body_a = pieces->body[pair.a];
+    pair.body_b = pieces->body[pair.b];
+    pair.feature[0] = pair.feature[1] = PL_NONE;
+    pair.manifold = PL_NONE;
+    return pair;
+}
+
+// Where in the order of (low, high) a pair stands.
+static uint64_t key_of(uint32_t a, uint32_t b)
+{
+    return a < b ? ((uint64_t)a << 32 | b) : ((uint64_t)b << 32 | a);
+}
+
+typedef struct carry {
+    const pl_pair *old;
+    uint32_t next[PL_PIECE_KIND_COUNT][PL_PIECE_KIND_COUNT]; // cursor into the old list
+    uint32_t end[PL_PIECE_KIND_COUNT][PL_PIECE_KIND_COUNT];
+} carry;
+
+static bool is_younger(const plumb_world *world, uint32_t piece)
+{
+    return world->pieces.serial[piece] > world->broad.serial;
+}
+
+static void place_pairs(plumb_world *world, pl_pair *items, carry *c)
+{
+    pl_broad *broad = &world->broad;
+    const pl_found *sorted = broad->sorted.data;
+    uint32_t at[PL_PIECE_KIND_COUNT][PL_PIECE_KIND_COUNT];
+    memcpy(at, broad->pairs.first, sizeof at);
+    for (uint32_t i = 0; i < broad->found_count; ++i) {
+        pl_pair pair = fresh_pair(world, sorted[i]);
+        uint8_t ka = world->pieces.kind[pair.a];
+        uint8_t kb = world->pieces.kind[pair.b];
+        uint64_t key = key_of(pair.a, pair.b);
+        uint32_t *next = &c->next[ka][kb];
+        while (*next < c->end[ka][kb] && key_of(c->old[*next].a, c->old[*next].b) < key) {
+            pl_pair_lost(world, &c->old[(*next)++]);
+        }
+        if (*next < c->end[ka][kb] && c->old[*next].a == pair.a && c->old[*next].b == pair.b) {
+            const pl_pair *old = &c->old[(*next)++];
+            if (!is_younger(world, pair.a) && !is_younger(world, pair.b)) {
+                memcpy(pair.feature, old->feature, sizeof pair.feature);
+                memcpy(pair.normal, old->normal, sizeof pair.normal);
+                memcpy(pair.tangent, old->tangent, sizeof pair.tangent);
+                pair.flags = old->flags;
+            }
+        }
+        items[at[ka][kb]++] = pair;
+    }
+    for (int a = 0; a < PL_PIECE_KIND_COUNT; ++a) {
+        for (int b = 0; b < PL_PIECE_KIND_COUNT; ++b) {
+            while (c->next[a][b] < c->end[a][b]) {
+                pl_pair_lost(world, &c->old[c->next[a][b]++]);
+            }
+        }
+    }
+}
+
+bool pl_pairs_rebuild(plumb_world *world)
+{
+    pl_broad *broad = &world->broad;
+    pl_pair_list *list = &broad->pairs;
+    if (!pl_pairs_find(world) || !sort_found(world) ||
+        !pl_buffer_reserve(&world->memory, &list->old_items,
+                           ((size_t)broad->found_count + 1) * sizeof(pl_pair)) ||
+        !pl_events_reserve_ends(world, list->count)) {
+        return false;
+    }
+    carry c = { .old = list->items.data };
+    for (int a = 0; a < PL_PIECE_KIND_COUNT; ++a) {
+        for (int b = 0; b < PL_PIECE_KIND_COUNT; ++b) {
+            c.next[a][b] = list->first[a][b];
+            c.end[a][b] = list->first[a][b] + list->size[a][b];
+        }
+    }
+    lay_out_kinds(list, broad->sorted.data, broad->found_count, world->pieces.kind);
+    place_pairs(world, list->old_items.data, &c);
+    pl_buffer items = list->items;
+    list->items = list->old_items;
+    list->old_items = items;
+    list->count = broad->found_count;
+    broad->serial = world->serial;
+    return true;
+}

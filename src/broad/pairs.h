@@ -1,0 +1,21 @@
+// pairs.h - finding all overlapping pairs, sorting them, carrying contacts over.
+#ifndef PL_PAIRS_H
+#define PL_PAIRS_H
+
+#include "broad/broad.h"
+
+typedef struct pl_found {
+    uint32_t low, high; // piece slots
+} pl_found;
+
+// Rebuilds the pair list from the grids. False when out of memory; the old list then stands.
+bool pl_pairs_rebuild(plumb_world *world);
+
+// Fills broad->found with every pair of fat boxes that overlap and may collide (pair_find.c).
+bool pl_pairs_find(plumb_world *world);
+
+// Refreshes fat boxes (fat.c); moving: true when some piece left its box.
+bool pl_broad_refresh_moving(plumb_world *world, real dt);
+void pl_broad_refresh_fixed(plumb_world *world);
+
+#endif

@@ -1,0 +1,20 @@
+// command.h - the command buffer: structural changes recorded in order, applied at the start of a step.
+#ifndef PL_COMMAND_H
+#define PL_COMMAND_H
+
+#include "core/memory.h"
+#include "plumb/ecs.h"
+
+typedef struct pl_commands {
+    pl_buffer bytes; // records, one after another, each 16-byte aligned, payload copied in
+    size_t used;
+    uint32_t count;
+} pl_commands;
+
+void pl_commands_free(pl_memory *memory, pl_commands *commands);
+
+// Carries out the commands that were pending when it began; those given meanwhile (by hooks) stay for
+// the next time. On E_MEMORY the command that failed and those after it stay.
+plumb_result pl_commands_run(plumb_world *world);
+
+#endif

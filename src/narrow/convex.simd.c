@@ -1,0 +1,270 @@
+// convex.simd.c - the general pair: convex cores of 2 to 16 corners with radii, and a circle
+// against one.
+//
+// Separating axes over the face normals of both; the face that separates most is the reference
+// face, the incident edge of the other core is clipped to it. Where the cores are apart and the
+// nearest features are two corners, no face normal is the direction of least distance; then the
+// corners give the normal and one point. Corners and normals of W pairs are gathered into lanes;
+// lanes with fewer corners repeat their last one, which changes no minimum. Cost: O(corners of A x
+// corners of B).
+#include "narrow/lanes.h"
+
+#define MAX_CORNERS PLUMB_POLYGON_MAX_VERTICES
+
+// A reference face changes sides only for a gain of this much, so that it does not flicker. [m]
+#define PREFER_A ((plumb_real)5e-4)
+
+// Corners and edge normals of one side of W pairs, in world axes about A's core centre.
+typedef struct outline {
+    int count; // of the lane with most
+    vf x[MAX_CORNERS], y[MAX_CORNERS];
+    vf nx[MAX_CORNERS], ny[MAX_CORNERS];
+} outline;
+
+static inline void outline_gather(outline *o, const pl_narrow_input *in, const uint32_t *piece,
+                                  vf c, vf s, vf cx, vf cy, vf ox, vf oy)
+{
+    const pl_vertex *corner[PL_WIDTH];
+    uint32_t count[PL_WIDTH];
+    o->count = 0;
+    for (int i = 0; i < PL_WIDTH; ++i) {
+        corner[i] = in->vertices + in->vertex_first[piece[i]];
+        count[i] = in->vertex_count[piece[i]];
+        o->count = (int)count[i] > o->count ? (int)count[i] : o->count;
+    }
+    for (int k = 0; k < o->count; ++k) {
+        const plumb_real *row[PL_WIDTH];
+        for (int i = 0; i < PL_WIDTH; ++i) {
+            uint32_t at = (uint32_t)k < count[i] ? (uint32_t)k : count[i] - 1;
+            row[i] = &corner[i][at].x;
+        }
+        vf v[4];
+        gather4(v, row, 0);
+        vf x = v[0] - cx, y = v[1] - cy;
+        o->x[k] = ox + (c * x - s * y);
+        o->y[k] = oy + (s * x + c * y);
+        o->nx[k] = c * v[2] - s * v[3];
+        o->ny[k] = s * v[2] + c * v[3];
+    }
+}
+
+typedef struct best_face {
+    vf separation;
+    vf nx, ny;
+    vm index;
+} best_face;
+
+// The face of `a` that separates it most from `b`.
+static inline best_face find_face(const outline *a, const outline *b)
+{
+    best_face best = { splat(-PL_APART), splat(0), splat(0), (vm){ 0 } };
+    for (int i = 0; i < a->count; ++i) {
+        vf nearest = splat(PL_APART);
+        for (int j = 0; j < b->count; ++j) {
+            vf along = (b->x[j] - a->x[i]) * a->nx[i] + (b->y[j] - a->y[i]) * a->ny[i];
+            nearest = vmin(nearest, along);
+        }
+        vm better = nearest > best.separation;
+        best.separation = sel(better, nearest, best.separation);
+        best.nx = sel(better, a->nx[i], best.nx);
+        best.ny = sel(better, a->ny[i], best.ny);
+        best.index = selm(better, (vm)splat(0) + i, best.index);
+    }
+    return best;
+}
+
+// Ends of edge `index` of each lane: corner index and the one after it.
+static inline void edge_ends(const pl_narrow_input *in, const outline *a, const outline *b,
+                             const uint32_t *piece_a, const uint32_t *piece_b, vm use_b, vm index,
+                             vf end[4])
+{
+    plumb_real x0[PL_WIDTH], y0[PL_WIDTH], x1[PL_WIDTH], y1[PL_WIDTH];
+    for (int i = 0; i < PL_WIDTH; ++i) {
+        const outline *o = use_b[i] ? b : a;
+        int count = in->vertex_count[use_b[i] ? piece_b[i] : piece_a[i]];
+        int k = (int)index[i] < count ? (int)index[i] : count - 1;
+        int next = k + 1 < count ? k + 1 : 0;
+        x0[i] = ((const plumb_real *)&o->x[k])[i];
+        y0[i] = ((const plumb_real *)&o->y[k])[i];
+        x1[i] = ((const plumb_real *)&o->x[next])[i];
+        y1[i] = ((const plumb_real *)&o->y[next])[i];
+    }
+    end[0] = load(x0), end[1] = load(y0), end[2] = load(x1), end[3] = load(y1);
+}
+
+// The edge of the incident core whose normal is most against (nx, ny).
+static inline vm incident_edge(const outline *a, const outline *b, vm flip, vf nx, vf ny)
+{
+    vf least = splat(2);
+    vm index = (vm){ 0 };
+    int count = a->count > b->count ? a->count : b->count;
+    for (int k = 0; k < count; ++k) {
+        int ka = k < a->count ? k : a->count - 1;
+        int kb = k < b->count ? k : b->count - 1;
+        vf dot = nx * sel(flip, a->nx[ka], b->nx[kb]) + ny * sel(flip, a->ny[ka], b->ny[kb]);
+        vm better = dot < least;
+        least = sel(better, dot, least);
+        index = selm(better, (vm)splat(0) + k, index);
+    }
+    return index;
+}
+
+// Squared distance of (px, py) from the segment e0-e1, and the nearest point on it.
+WIDE_INLINE vf segment_distance(vf px, vf py, const vf e[4], vf *qx, vf *qy)
+{
+    vf ex = e[2] - e[0], ey = e[3] - e[1];
+    vf length = ex * ex + ey * ey;
+    vf at = ((px - e[0]) * ex + (py - e[1]) * ey) / length;
+    at = vclamp(at, splat(0), splat(1));
+    *qx = e[0] + at * ex;
+    *qy = e[1] + at * ey;
+    vf rx = px - *qx, ry = py - *qy;
+    return rx * rx + ry * ry;
+}
+
+// Where the cores are apart: the nearest points of reference edge `r` and incident edge `w` decide
+// whether two corners face each other; if so one point along their connection replaces the clip.
+WIDE_INLINE void round_corners(touch *t, const lanes *l, const vf r[4], const vf w[4], vm flip,
+                               vf face_separation)
+{
+    vf best = splat(PL_APART), rx = splat(0), ry = splat(0), wx = splat(0), wy = splat(0);
+    for (int k = 0; k < 4; ++k) {
+        // Each end of one edge against the other edge.
+        const vf *from = k < 2 ? w : r;
+        const vf *to = k < 2 ? r : w;
+        vf px = from[(k & 1) * 2], py = from[(k & 1) * 2 + 1], qx, qy;
+        vf d = segment_distance(px, py, to, &qx, &qy);
+        vm nearer = d < best;
+        best = sel(nearer, d, best);
+        rx = sel(nearer, k < 2 ? qx : px, rx);
+        ry = sel(nearer, k < 2 ? qy : py, ry);
+        wx = sel(nearer, k < 2 ? px : qx, wx);
+        wy = sel(nearer, k < 2 ? py : qy, wy);
+    }
+    vf distance = vsqrt(best);
+    // Face separation is the distance unless corners face each other, where it falls short of it.
+    vm corner = (face_separation > splat((plumb_real)1e-6)) &
+                (distance > face_separation * splat((plumb_real)1.0001) + splat((plumb_real)1e-6));
+    vf inv = splat(1) / sel(corner, distance, splat(1));
+    vf nx = (wx - rx) * inv, ny = (wy - ry) * inv;
+    nx = sel(flip, -nx, nx);
+    ny = sel(flip, -ny, ny);
+    vf sep = distance - l->ar - l->br;
+    // From A's core point outwards by A's radius and half the gap.
+    vf ax = sel(flip, wx, rx), ay = sel(flip, wy, ry);
+    vf out = l->ar + sep * splat((plumb_real)0.5);
+    t->nx = sel(corner, nx, t->nx);
+    t->ny = sel(corner, ny, t->ny);
+    t->px[0] = sel(corner, ax + nx * out, t->px[0]);
+    t->py[0] = sel(corner, ay + ny * out, t->py[0]);
+    t->sep[0] = sel(corner, sep, t->sep[0]);
+    t->sep[1] = sel(corner, splat(PL_APART), t->sep[1]);
+    t->feature[0] = selm(corner, t->feature[0] | 2, t->feature[0]);
+}
+
+static inline void convex_convex(touch *t, const lanes *l, const pl_narrow_input *in)
+{
+    outline a, b;
+    vf zero = splat(0), half = splat((plumb_real)0.5);
+    outline_gather(&a, in, l->a, l->pac, l->pas, l->acx, l->acy, zero, zero);
+    outline_gather(&b, in, l->b, l->pbc, l->pbs, l->bcx, l->bcy, l->dx, l->dy);
+    best_face fa = find_face(&a, &b);
+    best_face fb = find_face(&b, &a);
+    vm flip = fb.separation > fa.separation + splat(PREFER_A);
+    vf nx = sel(flip, fb.nx, fa.nx), ny = sel(flip, fb.ny, fa.ny);
+    vm face = selm(flip, fb.index, fa.index);
+    vm edge = incident_edge(&a, &b, flip, nx, ny);
+    vf r[4], w[4];
+    edge_ends(in, &a, &b, l->a, l->b, flip, face, r);
+    edge_ends(in, &a, &b, l->a, l->b, ~flip, edge, w);
+
+    // Face frame: u along the normal from r0, v along the face; the incident edge runs against v.
+    vf face_v = (r[3] - r[1]) * nx - (r[2] - r[0]) * ny; // length of the face
+    vf pu = (w[2] - r[0]) * nx + (w[3] - r[1]) * ny;
+    vf pv = (w[3] - r[1]) * nx - (w[2] - r[0]) * ny;
+    vf qu = (w[0] - r[0]) * nx + (w[1] - r[1]) * ny;
+    vf qv = (w[1] - r[1]) * nx - (w[0] - r[0]) * ny;
+    vf run = qv - pv;
+    vm flat = run > splat((plumb_real)1e-6);
+    vf slope = sel(flat, (qu - pu) / sel(flat, run, splat(1)), zero);
+    vf low = vmax(pv, zero);
+    vf high = vmin(qv, face_v);
+    vf low_u = pu + slope * (low - pv);
+    vf high_u = qu + slope * (high - qv);
+    // No common stretch, or an edge that stands on its corner: the deepest corner alone.
+    vm beside = (low > high) | ~flat;
+    vm p_deeper = pu < qu;
+    vf corner_v = sel(p_deeper, pv, qv);
+    vf corner_u = sel(p_deeper, pu, qu);
+    low = sel(beside, corner_v, low);
+    low_u = sel(beside, corner_u, low_u);
+
+    vf ref_radius = sel(flip, l->br, l->ar);
+    vf inc_radius = sel(flip, l->ar, l->br);
+    vf radii = ref_radius + inc_radius;
+    vm outside = (corner_v < zero) | (corner_v > face_v);
+    t->sep[0] = sel(beside & outside & (low_u > radii), splat(PL_APART), low_u - radii);
+    t->sep[1] = sel(beside, splat(PL_APART), high_u - radii);
+    vf u0 = half * (low_u + ref_radius - inc_radius);
+    vf u1 = half * (high_u + ref_radius - inc_radius);
+    t->px[0] = r[0] + nx * u0 - ny * low;
+    t->py[0] = r[1] + ny * u0 + nx * low;
+    t->px[1] = r[0] + nx * u1 - ny * high;
+    t->py[1] = r[1] + ny * u1 + nx * high;
+    t->nx = sel(flip, -nx, nx);
+    t->ny = sel(flip, -ny, ny);
+    vm code = (face << 3) | (edge << 8) | ((((vm)splat(0)) + 4) & flip);
+    t->feature[0] = code;
+    t->feature[1] = code | 1;
+    round_corners(t, l, r, w, flip, sel(flip, fb.separation, fa.separation));
+}
+
+// The circle is a core of one corner: faces of B alone, then the corners of the best face.
+static inline void circle_convex(touch *t, const lanes *l, const pl_narrow_input *in)
+{
+    outline b;
+    vf zero = splat(0);
+    outline_gather(&b, in, l->b, l->pbc, l->pbs, l->bcx, l->bcy, l->dx, l->dy);
+    best_face best = { splat(-PL_APART), zero, zero, (vm){ 0 } };
+    for (int i = 0; i < b.count; ++i) {
+        vf along = -(b.x[i] * b.nx[i] + b.y[i] * b.ny[i]);
+        vm better = along > best.separation;
+        best.separation = sel(better, along, best.separation);
+        best.nx = sel(better, b.nx[i], best.nx);
+        best.ny = sel(better, b.ny[i], best.ny);
+        best.index = selm(better, (vm)splat(0) + i, best.index);
+    }
+    vf e[4], qx, qy;
+    edge_ends(in, &b, &b, l->b, l->b, (vm){ 0 }, best.index, e);
+    vf distance = vsqrt(segment_distance(zero, zero, e, &qx, &qy));
+    vm apart = (best.separation > zero) & (distance > splat((plumb_real)1e-9));
+    vf inv = splat(1) / sel(apart, distance, splat(1));
+    t->nx = sel(apart, qx * inv, -best.nx);
+    t->ny = sel(apart, qy * inv, -best.ny);
+    t->sep[0] = sel(apart, distance, best.separation) - l->ar - l->br;
+    vf out = l->ar + t->sep[0] * splat((plumb_real)0.5);
+    t->px[0] = t->nx * out;
+    t->py[0] = t->ny * out;
+    t->px[1] = t->py[1] = zero;
+    t->sep[1] = splat(PL_APART);
+    t->feature[0] = t->feature[1] = (vm){ 0 };
+}
+
+#define DEFINE_KERNEL(name)                                                                        \
+    void PL_WIDE_NAME(pl_##name)(const pl_narrow_input *in, uint32_t first, uint32_t count,        \
+                                 pl_narrow *out);                                                  \
+    void PL_WIDE_NAME(pl_##name)(const pl_narrow_input *in, uint32_t first, uint32_t count,        \
+                                 pl_narrow *out)                                                   \
+    {                                                                                              \
+        for (uint32_t i = 0; i < count; i += PL_WIDTH) {                                           \
+            uint32_t n = count - i < PL_WIDTH ? count - i : PL_WIDTH;                              \
+            lanes l;                                                                               \
+            touch t;                                                                               \
+            lanes_gather(&l, in, first + i, n);                                                    \
+            name(&t, &l, in);                                                                      \
+            lanes_emit(&l, &t, in, first + i, n, out);                                             \
+        }                                                                                          \
+    }
+
+DEFINE_KERNEL(circle_convex)
+DEFINE_KERNEL(convex_convex)

@@ -1,0 +1,167 @@
+// lanes.h - what every narrow-phase kernel begins and ends with: W pairs gathered into lanes, W
+// results written as manifolds. Included by *.simd.c only.
+//
+// All kernels work relative to the core centre of A, in world axes, so that distance from the
+// world's origin costs no precision. d is the core centre of B.
+#ifndef PL_LANES_H
+#define PL_LANES_H
+
+#include "core/wide.h"
+#include "narrow/narrow.h"
+
+typedef struct lanes {
+    uint32_t a[PL_WIDTH], b[PL_WIDTH]; // piece slots
+    vf dx, dy;                         // [m] core centre of B seen from that of A
+    vf ac, as, bc, bs;                 // rotations of the pieces' own frames (boxes, capsules)
+    vf pac, pas, pbc, pbs;             // rotations of the bodies (for pool vertices)
+    vf ahx, ahy, bhx, bhy;             // half extents
+    vf ar, br;                         // radii
+    vf acx, acy, bcx, bcy;             // core centres in the bodies' frames
+    vf oax, oay, obx, oby; // [m] core centre seen from the centre of mass, in world axes
+    vf speed;              // [m/s] of the centres against each other
+} lanes;
+
+// Up to two points; an absent one has separation PL_APART.
+typedef struct touch {
+    vf nx, ny;
+    vf px[2], py[2]; // midway between the surfaces, from A's core centre
+    vf sep[2];
+    vm feature[2];
+} touch;
+
+// Gathers pairs [first, first + count), count <= W; lanes beyond repeat the last pair.
+WIDE_INLINE void lanes_gather(lanes *l, const pl_narrow_input *in, uint32_t first, uint32_t count)
+{
+    const plumb_real *pose_a[PL_WIDTH], *pose_b[PL_WIDTH], *core_a[PL_WIDTH], *core_b[PL_WIDTH];
+    for (uint32_t i = 0; i < PL_WIDTH; ++i) {
+        const pl_pair *pair = &in->pairs[first + (i < count ? i : count - 1)];
+        l->a[i] = pair->a;
+        l->b[i] = pair->b;
+        pose_a[i] = in->poses + (size_t)pair->body_a * 8;
+        pose_b[i] = in->poses + (size_t)pair->body_b * 8;
+        core_a[i] = (const plumb_real *)(const void *)&in->cores[pair->a];
+        core_b[i] = (const plumb_real *)(const void *)&in->cores[pair->b];
+    }
+    vf pa[8], pb[8], ca[8], cb[8]; // x y c s dx dy vx vy; x y c s hx hy radius reach
+    gather8(pa, pose_a);
+    gather8(pb, pose_b);
+    gather8(ca, core_a);
+    gather8(cb, core_b);
+    vf ax = pa[2] * ca[0] - pa[3] * ca[1]; // from the body's origin to the core centre
+    vf ay = pa[3] * ca[0] + pa[2] * ca[1];
+    vf bx = pb[2] * cb[0] - pb[3] * cb[1];
+    vf by = pb[3] * cb[0] + pb[2] * cb[1];
+    l->dx = (pb[0] - pa[0]) + (bx - ax);
+    l->dy = (pb[1] - pa[1]) + (by - ay);
+    l->ac = pa[2] * ca[2] - pa[3] * ca[3];
+    l->as = pa[3] * ca[2] + pa[2] * ca[3];
+    l->bc = pb[2] * cb[2] - pb[3] * cb[3];
+    l->bs = pb[3] * cb[2] + pb[2] * cb[3];
+    l->pac = pa[2], l->pas = pa[3], l->pbc = pb[2], l->pbs = pb[3];
+    l->acx = ca[0], l->acy = ca[1], l->bcx = cb[0], l->bcy = cb[1];
+    l->ahx = ca[4], l->ahy = ca[5], l->bhx = cb[4], l->bhy = cb[5];
+    l->ar = ca[6], l->br = cb[6];
+    l->oax = ax - pa[4], l->oay = ay - pa[5];
+    l->obx = bx - pb[4], l->oby = by - pb[5];
+    vf vx = pb[6] - pa[6];
+    vf vy = pb[7] - pa[7];
+    l->speed = vsqrt(vx * vx + vy * vy);
+}
+
+// One lane's manifold: keeps the points nearer than `limit`, carries impulses over by feature.
+static inline bool emit_lane(pl_pair *pair, pl_manifold *m, const plumb_real *row, plumb_real limit,
+                             const uint32_t feature[2])
+{
+    const pl_pair old = *pair;
+    memcpy(m, row, 24 * sizeof(plumb_real));
+    uint32_t count = 0;
+    for (int k = 0; k < 2; ++k) {
+        if (!(m->point[k].separation < limit)) {
+            continue;
+        }
+        pl_manifold_point *p = &m->point[count];
+        *p = m->point[k];
+        for (int j = 0; j < 2; ++j) {
+            if (old.feature[j] == feature[k]) {
+                p->normal = old.normal[j];
+                p->tangent = old.tangent[j];
+            }
+        }
+        m->feature[count] = pair->feature[count] = feature[k];
+        pair->normal[count] = p->normal;
+        pair->tangent[count] = p->tangent;
+        ++count;
+    }
+    for (uint32_t k = count; k < 2; ++k) {
+        m->point[k] = (pl_manifold_point){ .separation = PL_APART };
+        m->feature[k] = pair->feature[k] = PL_NONE;
+        pair->normal[k] = pair->tangent[k] = 0;
+    }
+    m->count = count;
+    m->body_a = pair->body_a;
+    m->body_b = pair->body_b;
+    return count > 0;
+}
+
+// Counts a manifold into the summary. In order of pairs, so that sums do not depend on the width.
+static inline void summarise(pl_narrow *out, const pl_manifold *m)
+{
+    plumb_real s0 = m->point[0].separation, s1 = m->point[1].separation;
+    plumb_real depth = s0 < s1 ? -s0 : -s1;
+    out->any_friction |= m->friction > 0;
+    out->any_bounce |= m->restitution > 0;
+    out->point_count += m->count;
+    if (depth >= 0) {
+        ++out->touching_count;
+        out->sum_penetration += (double)depth;
+        out->max_penetration = depth > out->max_penetration ? depth : out->max_penetration;
+    }
+}
+
+// Appends the manifolds of `count` lanes.
+WIDE_INLINE void lanes_emit(const lanes *l, const touch *t, const pl_narrow_input *in,
+                            uint32_t first, uint32_t count, pl_narrow *out)
+{
+    plumb_real friction_a[PL_WIDTH], friction_b[PL_WIDTH], bounce_a[PL_WIDTH], bounce_b[PL_WIDTH];
+    for (int i = 0; i < PL_WIDTH; ++i) {
+        friction_a[i] = in->friction[l->a[i]];
+        friction_b[i] = in->friction[l->b[i]];
+        bounce_a[i] = in->restitution[l->a[i]];
+        bounce_b[i] = in->restitution[l->b[i]];
+    }
+    vf zero = splat(0);
+    vf friction = vsqrt(load(friction_a) * load(friction_b));
+    vf restitution = vmax(load(bounce_a), load(bounce_b));
+    // Elastic pairs are found a step ahead, so that the impact can be put where it happens.
+    vf limit = splat(PL_SPECULATIVE);
+    limit = sel(restitution > zero, vmax(limit, l->speed * splat(in->dt) + limit), limit);
+
+    plumb_real rows[PL_WIDTH][24] __attribute__((aligned(64)));
+    plumb_real *row[PL_WIDTH], *point0[PL_WIDTH], *point1[PL_WIDTH];
+    for (int i = 0; i < PL_WIDTH; ++i) {
+        row[i] = rows[i];
+        point0[i] = rows[i] + 8;
+        point1[i] = rows[i] + 16;
+    }
+    scatter8(row, (vf[8]){ t->nx, t->ny, friction, restitution, zero, zero, zero, zero });
+    scatter8(point0, (vf[8]){ t->px[0] + l->oax, t->py[0] + l->oay, t->px[0] - l->dx + l->obx,
+                              t->py[0] - l->dy + l->oby, t->sep[0], zero, zero, zero });
+    scatter8(point1, (vf[8]){ t->px[1] + l->oax, t->py[1] + l->oay, t->px[1] - l->dx + l->obx,
+                              t->py[1] - l->dy + l->oby, t->sep[1], zero, zero, zero });
+    plumb_real limits[PL_WIDTH];
+    store(limits, limit);
+    for (uint32_t i = 0; i < count; ++i) {
+        pl_pair *pair = &in->pairs[first + i];
+        pl_manifold *m = &pl_manifolds(out)[out->manifold_count];
+        uint32_t feature[2] = { (uint32_t)t->feature[0][i], (uint32_t)t->feature[1][i] };
+        pair->flags &= ~PL_PAIR_HIT;
+        pair->manifold = PL_NONE;
+        if (emit_lane(pair, m, rows[i], limits[i], feature)) {
+            m->pair = first + i;
+            summarise(out, m);
+            pair->manifold = out->manifold_count++;
+        }
+    }
+}
+
+#endif

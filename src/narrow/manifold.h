@@ -1,0 +1,55 @@
+// manifold.h - what the narrow phase hands to the solver.
+#ifndef PL_MANIFOLD_H
+#define PL_MANIFOLD_H
+
+#include "broad/pair.h"
+
+// A point of a manifold. Anchors are relative to the centres of mass, in world axes.
+typedef struct pl_manifold_point {
+    real ax, ay;     // [m] from A's centre of mass
+    real bx, by;     // [m] from B's centre of mass
+    real separation; // [m] negative: overlap
+    real normal;     // [N s] impulse carried over from the last step
+    real tangent;    // [N s]
+    real spare;
+} pl_manifold_point;
+
+// A touching or nearly touching pair of this step: three rows of eight reals, which the kernels
+// read by transposes, and a row of indices.
+typedef struct pl_manifold {
+    real nx, ny;      // unit, from A to B
+    real friction;    // [-]
+    real restitution; // [-]
+    real approach;    // [m/s] at the start of the step, for begin events; 0 for pairs that touched
+    real spare[3];
+    pl_manifold_point point[2]; // a point that is absent has separation PL_APART
+    uint32_t body_a, body_b;    // body rows
+    uint32_t pair;              // index in the pair list
+    uint32_t count;             // points, 1 or 2
+    uint32_t feature[2];
+    uint32_t pad[2];
+} pl_manifold;
+
+// [m] separation of a point that is not there: no impulse can ever act on it.
+#define PL_APART ((real)1e6)
+
+typedef struct pl_narrow {
+    pl_buffer manifolds; // pl_manifold of this step, room for every pair
+    uint32_t manifold_count;
+    // Summary of this step's manifolds.
+    bool any_friction;       // some manifold has friction > 0
+    bool any_bounce;         // some manifold has restitution > 0
+    uint32_t touching_count; // manifolds whose surfaces met
+    uint32_t point_count;
+    real max_penetration;   // [m]
+    double sum_penetration; // [m] of the deeper point of each touching manifold
+} pl_narrow;
+
+static inline pl_manifold *pl_manifolds(const pl_narrow *narrow)
+{
+    return (pl_manifold *)narrow->manifolds.data;
+}
+
+void pl_narrow_free(pl_memory *memory, pl_narrow *narrow);
+
+#endif

@@ -1,0 +1,69 @@
+// narrow.c - which kernel serves which kinds, and the narrow phase as a whole.
+//
+// Reads: pairs, poses, geometry, materials. Writes: manifolds, the pairs' features and flags.
+// Order: after the broad phase, before the solver. Cost: O(pairs).
+#include "narrow/narrow.h"
+#include "world/state.h"
+
+static const pl_narrow_kernels *kernels_of(int width)
+{
+    switch (width) {
+    case 16:
+        return &pl_narrow_kernels_w16;
+    case 8:
+        return &pl_narrow_kernels_w8;
+    default:
+        return &pl_narrow_kernels_w4;
+    }
+}
+
+// The matrix: rows kind of A, columns kind of B >= kind of A (pairs are stored so).
+static pl_narrow_kernel *kernel_for(const pl_narrow_kernels *k, int a, int b)
+{
+    // clang-format off
+    pl_narrow_kernel *const matrix[PL_PIECE_KIND_COUNT][PL_PIECE_KIND_COUNT] = {
+        //                    free  circle            capsule            box               polygon
+        [PL_PIECE_CIRCLE]  = { NULL, k->circle_circle, k->circle_capsule, k->circle_box,    k->circle_convex },
+        [PL_PIECE_CAPSULE] = { NULL, NULL,             k->convex_convex,  k->convex_convex, k->convex_convex },
+        [PL_PIECE_BOX]     = { NULL, NULL,             NULL,              k->box_box,       k->convex_convex },
+        [PL_PIECE_POLYGON] = { NULL, NULL,             NULL,              NULL,             k->convex_convex },
+    };
+    // clang-format on
+    return matrix[a][b];
+}
+
+bool pl_narrow_reserve(plumb_world *world)
+{
+    return pl_buffer_reserve(&world->memory, &world->narrow.manifolds,
+                             ((size_t)world->broad.pairs.count + 1) * sizeof(pl_manifold));
+}
+
+void pl_narrow_run(plumb_world *world, real dt)
+{
+    pl_narrow *narrow = &world->narrow;
+    const pl_pair_list *list = &world->broad.pairs;
+    const pl_narrow_kernels *kernels = kernels_of(world->desc.simd_width);
+    pl_narrow_input in = { .poses = (const real *)world->poses.data,
+                           .cores = world->pieces.core,
+                           .vertices = world->vertices.items,
+                           .vertex_first = world->pieces.vertices,
+                           .vertex_count = world->pieces.vertex_count,
+                           .friction = world->pieces.friction,
+                           .restitution = world->pieces.restitution,
+                           .dt = dt,
+                           .pairs = pl_pairs(list) };
+    *narrow = (pl_narrow){ .manifolds = narrow->manifolds };
+    for (int a = PL_PIECE_CIRCLE; a < PL_PIECE_KIND_COUNT; ++a) {
+        for (int b = a; b < PL_PIECE_KIND_COUNT; ++b) {
+            if (list->size[a][b] > 0) {
+                kernel_for(kernels, a, b)(&in, list->first[a][b], list->size[a][b], narrow);
+            }
+        }
+    }
+}
+
+void pl_narrow_free(pl_memory *memory, pl_narrow *narrow)
+{
+    pl_buffer_free(memory, &narrow->manifolds);
+    *narrow = (pl_narrow){ 0 };
+}

@@ -1,0 +1,42 @@
+// narrow.h - the narrow phase: manifolds of all pairs, kind by kind, one pair a SIMD lane.
+#ifndef PL_NARROW_H
+#define PL_NARROW_H
+
+#include "narrow/manifold.h"
+
+// Everything a batch of equal pairs needs; plain arrays, no world.
+typedef struct pl_narrow_input {
+    const plumb_real *poses;                  // pl_pose rows of 8 reals, by body row
+    const pl_core *cores;                     // by piece slot
+    const pl_vertex *vertices;                // the pool
+    const uint32_t *vertex_first;             // by piece slot
+    const uint8_t *vertex_count;              // by piece slot
+    const plumb_real *friction, *restitution; // by piece slot
+    plumb_real dt;                            // [s] elastic pairs look ahead this long
+    pl_pair *pairs;                           // the whole list
+} pl_narrow_input;
+
+// Appends the manifolds of pairs [first, first + count) to the narrow phase's list and keeps up its
+// summary. Sets the pairs' `manifold` and clears PL_PAIR_HIT. Room for every pair must be reserved.
+typedef void pl_narrow_kernel(const pl_narrow_input *in, uint32_t first, uint32_t count,
+                              pl_narrow *out);
+
+// One kernel for each shape of pair; which serves which kinds is the matrix in narrow.c.
+typedef struct pl_narrow_kernels {
+    pl_narrow_kernel *circle_circle;
+    pl_narrow_kernel *circle_capsule;
+    pl_narrow_kernel *circle_box;
+    pl_narrow_kernel *circle_convex;
+    pl_narrow_kernel *box_box;
+    pl_narrow_kernel *convex_convex;
+} pl_narrow_kernels;
+
+extern const pl_narrow_kernels pl_narrow_kernels_w4;
+extern const pl_narrow_kernels pl_narrow_kernels_w8;
+extern const pl_narrow_kernels pl_narrow_kernels_w16;
+
+// Makes the manifolds of all pairs. False when out of memory.
+bool pl_narrow_reserve(plumb_world *world);
+void pl_narrow_run(plumb_world *world, plumb_real dt);
+
+#endif

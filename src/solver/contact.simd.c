@@ -1,0 +1,304 @@
+// contact.simd.c - soft contact constraints of W pairs at a time: prepare, warm start, solve,
+// relax, store.
+//
+// A contact point holds n . (v_B + w_B x r_B - v_A - w_A x r_A) >= 0 by an impulse >= 0. With
+// anchors frozen over the step its separation after the bodies moved by (d, a) is
+//     s = s0 + n . (d_B - d_A) + a_B (r_B x n) - a_A (r_A x n).
+// Apart (s > 0), the point may approach by s within the substep; overlapping, it is pushed apart
+// like a damped spring of frequency w and damping ratio z, integrated implicitly (Catto, Soft
+// Constraints, GDC 2011): with a1 = 2 z + h w, a2 = h w a1, a3 = 1 / (1 + a2),
+//     bias = w / a1 s,  impulse change = -a2 a3 m (v_n + bias) - a3 lambda.
+// Relaxing is the same without spring: it takes the push out of the velocities again.
+//
+// Friction acts along t = (-n_y, n_x), bounded by mu times the point's normal impulse.
+// Symbols: ran = r_A x n, rat = r_A x t; m effective masses; ln, lt accumulated impulses.
+// Cost: per bundle two gathers of W body rows, about 120 flops, one scatter.
+#include "core/wide.h"
+#include "solver/solver.h"
+
+typedef struct point {
+    vf ran, rbn, rat, rbt; // [m]
+    vf separation;         // [m] at the start of the step
+    vf mn, mt;             // [kg] effective masses
+    vf ln, lt;             // [N s]
+} point;
+
+typedef struct bundle {
+    uint32_t a[PL_WIDTH], b[PL_WIDTH]; // solver slots
+    vf nx, ny;
+    vf friction;
+    vf bias_rate, mass_scale, impulse_scale; // softness
+    point p[2];
+} bundle;
+
+typedef struct body {
+    vf vx, vy, w, inv_mass, dx, dy, da, inv_inertia;
+} body;
+
+WIDE_INLINE void gather_body(body *out, const pl_contact_call *call, const uint32_t *slot)
+{
+    const plumb_real *row[PL_WIDTH];
+    for (int i = 0; i < PL_WIDTH; ++i) {
+        row[i] = &call->bodies[slot[i]].vx;
+    }
+    vf r[8];
+    gather8(r, row);
+    *out = (body){ r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7] };
+}
+
+// Writes velocities back; lanes of immovable bodies write to a sink, for others share those rows.
+WIDE_INLINE void scatter_velocity(const body *in, const pl_contact_call *call, const uint32_t *slot)
+{
+    plumb_real sink[4] __attribute__((aligned(32)));
+    plumb_real *row[PL_WIDTH];
+    for (int i = 0; i < PL_WIDTH; ++i) {
+        row[i] = slot[i] < call->dynamic_slots ? &call->bodies[slot[i]].vx : sink;
+    }
+    scatter4(row, 0, (vf[4]){ in->vx, in->vy, in->w, in->inv_mass });
+}
+
+WIDE_INLINE vf inverse_or_zero(vf k)
+{
+    vm positive = k > splat(0);
+    return sel(positive, splat(1) / sel(positive, k, splat(1)), splat(0));
+}
+
+WIDE_INLINE void prepare_point(point *p, const vf row[8], const bundle *c, const body *a,
+                               const body *b)
+{
+    vf ax = row[0], ay = row[1], bx = row[2], by = row[3];
+    p->ran = ax * c->ny - ay * c->nx;
+    p->rbn = bx * c->ny - by * c->nx;
+    p->rat = ax * c->nx + ay * c->ny; // r x t with t = (-ny, nx)
+    p->rbt = bx * c->nx + by * c->ny;
+    p->separation = row[4];
+    vf mass = a->inv_mass + b->inv_mass;
+    p->mn =
+        inverse_or_zero(mass + a->inv_inertia * p->ran * p->ran + b->inv_inertia * p->rbn * p->rbn);
+    p->mt =
+        inverse_or_zero(mass + a->inv_inertia * p->rat * p->rat + b->inv_inertia * p->rbt * p->rbt);
+    p->ln = row[5];
+    p->lt = row[6];
+}
+
+// An empty lane: no mass, no impulse, out of reach.
+static const pl_manifold empty_manifold __attribute__((
+    aligned(64))) = { .point = { { .separation = PL_APART }, { .separation = PL_APART } } };
+
+static void prepare(const pl_contact_call *call, uint32_t first, uint32_t count)
+{
+    bundle *bundles = call->bundles;
+    vf omega = splat((plumb_real)6.283185307179586 * call->hertz);
+    vf a1 = splat(2 * call->damping) + splat(call->h) * omega;
+    vf a2 = splat(call->h) * omega * a1;
+    vf a3 = splat(1) / (splat(1) + a2);
+    for (uint32_t k = first; k < first + count; ++k) {
+        bundle *c = &bundles[k];
+        const plumb_real *row[3][PL_WIDTH];
+        for (int i = 0; i < PL_WIDTH; ++i) {
+            uint32_t at = call->lanes[(size_t)k * PL_WIDTH + (size_t)i];
+            const pl_manifold *m = at == PL_NONE ? &empty_manifold : &call->manifolds[at];
+            c->a[i] = c->b[i] = call->immovable_slot;
+            if (at != PL_NONE && m->body_a < call->movable_rows) {
+                c->a[i] = call->slots[m->body_a];
+            }
+            if (at != PL_NONE && m->body_b < call->movable_rows) {
+                c->b[i] = call->slots[m->body_b];
+            }
+            row[0][i] = &m->nx;
+            row[1][i] = &m->point[0].ax;
+            row[2][i] = &m->point[1].ax;
+        }
+        body a, b;
+        gather_body(&a, call, c->a);
+        gather_body(&b, call, c->b);
+        vf r[8];
+        gather4(r, row[0], 0);
+        c->nx = r[0], c->ny = r[1], c->friction = r[2];
+        c->bias_rate = omega / a1;
+        c->mass_scale = a2 * a3;
+        c->impulse_scale = a3;
+        for (int j = 0; j < 2; ++j) {
+            gather8(r, row[1 + j]);
+            prepare_point(&c->p[j], r, c, &a, &b);
+        }
+    }
+}
+
+// Adds the impulses (along n and t) of a point to both bodies.
+WIDE_INLINE void push(const bundle *c, const point *p, body *a, body *b, vf along_n, vf along_t,
+                      bool rotation)
+{
+    vf px = c->nx * along_n - c->ny * along_t;
+    vf py = c->ny * along_n + c->nx * along_t;
+    a->vx -= a->inv_mass * px;
+    a->vy -= a->inv_mass * py;
+    b->vx += b->inv_mass * px;
+    b->vy += b->inv_mass * py;
+    if (rotation) {
+        a->w -= a->inv_inertia * (p->ran * along_n + p->rat * along_t);
+        b->w += b->inv_inertia * (p->rbn * along_n + p->rbt * along_t);
+    }
+}
+
+WIDE_INLINE void push_normal(const bundle *c, const point *p, body *a, body *b, vf impulse,
+                             bool rotation)
+{
+    vf px = c->nx * impulse;
+    vf py = c->ny * impulse;
+    a->vx -= a->inv_mass * px;
+    a->vy -= a->inv_mass * py;
+    b->vx += b->inv_mass * px;
+    b->vy += b->inv_mass * py;
+    if (rotation) {
+        a->w -= a->inv_inertia * (p->ran * impulse);
+        b->w += b->inv_inertia * (p->rbn * impulse);
+    }
+}
+
+WIDE_INLINE void push_tangent(const bundle *c, const point *p, body *a, body *b, vf impulse,
+                              bool rotation)
+{
+    vf px = -c->ny * impulse;
+    vf py = c->nx * impulse;
+    a->vx -= a->inv_mass * px;
+    a->vy -= a->inv_mass * py;
+    b->vx += b->inv_mass * px;
+    b->vy += b->inv_mass * py;
+    if (rotation) {
+        a->w -= a->inv_inertia * (p->rat * impulse);
+        b->w += b->inv_inertia * (p->rbt * impulse);
+    }
+}
+
+WIDE_INLINE void warm_start_all(const pl_contact_call *call, uint32_t first, uint32_t count,
+                                bool friction, bool rotation)
+{
+    bundle *bundles = call->bundles;
+    for (uint32_t k = first; k < first + count; ++k) {
+        bundle *c = &bundles[k];
+        body a, b;
+        gather_body(&a, call, c->a);
+        gather_body(&b, call, c->b);
+        for (int j = 0; j < 2; ++j) {
+            if (friction) {
+                push(c, &c->p[j], &a, &b, c->p[j].ln, c->p[j].lt, rotation);
+            } else {
+                push_normal(c, &c->p[j], &a, &b, c->p[j].ln, rotation);
+            }
+        }
+        scatter_velocity(&a, call, c->a);
+        scatter_velocity(&b, call, c->b);
+    }
+}
+
+WIDE_INLINE void solve_normal(const bundle *c, point *p, body *a, body *b,
+                              const pl_contact_call *call, bool soft, bool rotation)
+{
+    vf zero = splat(0), one = splat(1);
+    vf s = p->separation + c->nx * (b->dx - a->dx) + c->ny * (b->dy - a->dy);
+    vf vn = c->nx * (b->vx - a->vx) + c->ny * (b->vy - a->vy);
+    if (rotation) {
+        s += p->rbn * b->da - p->ran * a->da;
+        vn += p->rbn * b->w - p->ran * a->w;
+    }
+    vm apart = s > zero;
+    vf bias = s * splat(call->inv_h);
+    vf mass_scale = one, impulse_scale = zero;
+    if (soft) {
+        bias = sel(apart, bias, vmax(s * c->bias_rate, splat(-call->push_speed)));
+        mass_scale = sel(apart, one, c->mass_scale);
+        impulse_scale = sel(apart, zero, c->impulse_scale);
+    } else {
+        bias = sel(apart, bias, zero);
+    }
+    vf impulse = -p->mn * mass_scale * (vn + bias) - impulse_scale * p->ln;
+    vf total = vmax(p->ln + impulse, zero);
+    impulse = total - p->ln;
+    p->ln = total;
+    push_normal(c, p, a, b, impulse, rotation);
+}
+
+WIDE_INLINE void solve_tangent(const bundle *c, point *p, body *a, body *b, bool rotation)
+{
+    vf vt = c->nx * (b->vy - a->vy) - c->ny * (b->vx - a->vx);
+    if (rotation) {
+        vt += p->rbt * b->w - p->rat * a->w;
+    }
+    vf bound = c->friction * p->ln;
+    vf total = vclamp(p->lt - p->mt * vt, -bound, bound);
+    vf impulse = total - p->lt;
+    p->lt = total;
+    push_tangent(c, p, a, b, impulse, rotation);
+}
+
+WIDE_INLINE void sweep(const pl_contact_call *call, uint32_t first, uint32_t count, bool soft,
+                       bool friction, bool rotation)
+{
+    bundle *bundles = call->bundles;
+    for (uint32_t k = first; k < first + count; ++k) {
+        bundle *c = &bundles[k];
+        body a, b;
+        gather_body(&a, call, c->a);
+        gather_body(&b, call, c->b);
+        if (friction) {
+            solve_tangent(c, &c->p[0], &a, &b, rotation);
+            solve_tangent(c, &c->p[1], &a, &b, rotation);
+        }
+        solve_normal(c, &c->p[0], &a, &b, call, soft, rotation);
+        solve_normal(c, &c->p[1], &a, &b, call, soft, rotation);
+        scatter_velocity(&a, call, c->a);
+        scatter_velocity(&b, call, c->b);
+    }
+}
+
+static void store_impulses(const pl_contact_call *call, pl_pair *pairs, uint32_t first,
+                           uint32_t count)
+{
+    const bundle *bundles = call->bundles;
+    for (uint32_t k = first; k < first + count; ++k) {
+        const bundle *c = &bundles[k];
+        for (int i = 0; i < PL_WIDTH; ++i) {
+            uint32_t at = call->lanes[(size_t)k * PL_WIDTH + (size_t)i];
+            if (at != PL_NONE) {
+                pl_pair *pair = &pairs[call->manifolds[at].pair];
+                for (int j = 0; j < 2; ++j) {
+                    pair->normal[j] = c->p[j].ln[i];
+                    pair->tangent[j] = c->p[j].lt[i];
+                }
+            }
+        }
+    }
+}
+
+// The variants: friction F, rotation R.
+#define DEFINE_VARIANT(F, R)                                                                       \
+    static void warm_start_##F##R(const pl_contact_call *call, uint32_t first, uint32_t count)     \
+    {                                                                                              \
+        warm_start_all(call, first, count, F, R);                                                  \
+    }                                                                                              \
+    static void solve_##F##R(const pl_contact_call *call, uint32_t first, uint32_t count)          \
+    {                                                                                              \
+        sweep(call, first, count, true, F, R);                                                     \
+    }                                                                                              \
+    static void relax_##F##R(const pl_contact_call *call, uint32_t first, uint32_t count)          \
+    {                                                                                              \
+        sweep(call, first, count, false, F, R);                                                    \
+    }
+
+DEFINE_VARIANT(0, 0)
+DEFINE_VARIANT(0, 1)
+DEFINE_VARIANT(1, 0)
+DEFINE_VARIANT(1, 1)
+
+const pl_contact_kernels PL_WIDE_NAME(pl_contact_kernels) = {
+    .width = PL_WIDTH,
+    .bundle_size = sizeof(bundle),
+    .separation_offset = { offsetof(bundle, p[0].separation), offsetof(bundle, p[1].separation) },
+    .impulse_offset = { offsetof(bundle, p[0].ln), offsetof(bundle, p[1].ln) },
+    .prepare = prepare,
+    .warm_start = { { warm_start_00, warm_start_01 }, { warm_start_10, warm_start_11 } },
+    .solve = { { solve_00, solve_01 }, { solve_10, solve_11 } },
+    .relax = { { relax_00, relax_01 }, { relax_10, relax_11 } },
+    .store = store_impulses,
+};

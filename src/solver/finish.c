@@ -1,0 +1,61 @@
+// finish.c - what the step did, written into the columns: moved bodies, free flight, kinematic
+// motion.
+//
+// A body in no contact flies freely: x += v dt + a dt^2 / 2, the exact parabola, once for the whole
+// step. Rotations turn by the exact angle. Reads: solver bodies, forces. Writes: transforms,
+// velocities, poses; clears forces. Cost: O(dynamic and kinematic bodies).
+#include "plumb/math.h"
+#include "world/state.h"
+
+static void turn(pl_bodies *b, uint32_t row, real angle)
+{
+    if (angle != 0) {
+        plumb_rot q = plumb_rot_integrate((plumb_rot){ b->c[row], b->s[row] }, angle);
+        b->c[row] = q.c;
+        b->s[row] = q.s;
+    }
+}
+
+static void fly(plumb_world *world, uint32_t row, real dt)
+{
+    pl_bodies *b = &world->bodies;
+    real gravity = b->gravity_scale[row];
+    real ax = world->gravity.x * gravity + b->fx[row] * b->inv_mass[row];
+    real ay = world->gravity.y * gravity + b->fy[row] * b->inv_mass[row];
+    real aw = b->torque[row] * b->inv_inertia[row];
+    b->center_x[row] += dt * (b->vx[row] + ax * dt / 2);
+    b->center_y[row] += dt * (b->vy[row] + ay * dt / 2);
+    turn(b, row, dt * (b->w[row] + aw * dt / 2));
+    b->vx[row] += ax * dt;
+    b->vy[row] += ay * dt;
+    b->w[row] += aw * dt;
+}
+
+void pl_solver_finish(plumb_world *world, real dt)
+{
+    pl_bodies *b = &world->bodies;
+    const pl_solver_body *bodies = pl_solver_bodies(&world->solver);
+    const uint32_t *slots = world->solver.slots.data;
+    for (uint32_t row = 0; row < world->dynamic_count; ++row) {
+        if (slots[row] == PL_NONE) {
+            fly(world, row, dt);
+        } else {
+            const pl_solver_body *body = &bodies[slots[row]];
+            b->center_x[row] += body->dx;
+            b->center_y[row] += body->dy;
+            turn(b, row, body->da);
+            b->vx[row] = body->vx;
+            b->vy[row] = body->vy;
+            b->w[row] = body->w;
+        }
+        b->fx[row] = b->fy[row] = b->torque[row] = 0;
+        pl_body_update_origin(world, row);
+    }
+    for (uint32_t row = world->dynamic_count; row < world->dynamic_count + world->kinematic_count;
+         ++row) {
+        b->center_x[row] += dt * b->vx[row];
+        b->center_y[row] += dt * b->vy[row];
+        turn(b, row, dt * b->w[row]);
+        pl_body_update_origin(world, row);
+    }
+}

@@ -1,0 +1,233 @@
+// graph.c - which bodies take part, and in what order their contacts are solved.
+//
+// Bodies in a contact get a slot in the solver's own array: packed rows, in row order. Contacts get
+// colours so that no body has two contacts of one colour: each body keeps a mask of the colours it
+// has, and a contact takes the first that is free in both. Contacts of one colour fill the lanes of
+// bundles; their order does not matter, so the vector width cannot change a result. What finds no
+// colour goes one after another, several to a bundle only where no body is shared.
+//
+// Reads: manifolds, velocities, masses, forces. Writes: solver bodies, lanes. Cost: O(bodies +
+// contacts).
+#include "world/state.h"
+
+#include <string.h>
+
+#define OVERFLOW_COLOR PL_COLORS
+
+#define DYNAMIC_MASK ((UINT64_C(1) << PL_DYNAMIC_COLORS) - 1)
+
+static const pl_contact_kernels *kernels_of(int width)
+{
+    switch (width) {
+    case 16:
+        return &pl_contact_kernels_w16;
+    case 8:
+        return &pl_contact_kernels_w8;
+    default:
+        return &pl_contact_kernels_w4;
+    }
+}
+
+const pl_contact_kernels *pl_solver_kernels(const plumb_world *world)
+{
+    return kernels_of(world->desc.simd_width);
+}
+
+static bool reserve_bodies(plumb_world *world)
+{
+    pl_solver *s = &world->solver;
+    pl_memory *memory = &world->memory;
+    size_t rows = (size_t)world->dynamic_count + world->kinematic_count + 1;
+    return pl_buffer_reserve(memory, &s->bodies, rows * sizeof(pl_solver_body)) &&
+           pl_buffer_reserve(memory, &s->motions, rows * sizeof(pl_solver_motion)) &&
+           pl_buffer_reserve(memory, &s->rows, rows * sizeof(uint32_t)) &&
+           pl_buffer_reserve(memory, &s->slots, rows * sizeof(uint32_t)) &&
+           pl_buffer_reserve(memory, &s->masks, rows * sizeof(uint64_t)) &&
+           pl_buffer_reserve(memory, &s->colors, (size_t)world->narrow.manifold_count + 1);
+}
+
+// Every colour can end in a partly filled bundle, and every overflow contact can be alone in one.
+static bool reserve_lanes(plumb_world *world, const uint32_t counts[PL_COLORS + 1])
+{
+    pl_solver *s = &world->solver;
+    pl_memory *memory = &world->memory;
+    const pl_contact_kernels *k = pl_solver_kernels(world);
+    size_t width = (size_t)k->width;
+    size_t bundles = counts[OVERFLOW_COLOR];
+    for (int c = 0; c < PL_COLORS; ++c) {
+        bundles += (counts[c] + width - 1) / width;
+    }
+    size_t contacts = world->narrow.manifold_count;
+    size_t impacts = world->narrow.any_bounce ? contacts : 0;
+    size_t classic = world->desc.solver == PLUMB_SOLVER_PGS ? contacts : 0;
+    return pl_buffer_reserve(memory, &s->lanes, bundles * width * sizeof(uint32_t)) &&
+           pl_buffer_reserve(memory, &s->bundles, bundles * k->bundle_size) &&
+           pl_buffer_reserve(memory, &s->impacts, impacts * sizeof(pl_impact)) &&
+           pl_buffer_reserve(memory, &s->classic, classic * sizeof(pl_classic_contact));
+}
+
+// Gives every dynamic and kinematic row that is in a contact its slot and packs its state.
+static void engage(plumb_world *world)
+{
+    pl_solver *s = &world->solver;
+    const pl_bodies *b = &world->bodies;
+    const pl_manifold *m = pl_manifolds(&world->narrow);
+    uint32_t movable = world->dynamic_count + world->kinematic_count;
+    uint32_t *slots = s->slots.data;
+    uint32_t *rows = s->rows.data;
+    memset(slots, 0xff, movable * sizeof(uint32_t));
+    for (uint32_t i = 0; i < world->narrow.manifold_count; ++i) {
+        if (m[i].body_a < movable) {
+            slots[m[i].body_a] = 0;
+        }
+        if (m[i].body_b < movable) {
+            slots[m[i].body_b] = 0;
+        }
+    }
+    uint32_t count = 0;
+    s->dynamic_slots = 0;
+    for (uint32_t row = 0; row < movable; ++row) {
+        if (slots[row] == PL_NONE) {
+            continue;
+        }
+        bool dynamic = row < world->dynamic_count;
+        real im = b->inv_mass[row], ii = b->inv_inertia[row];
+        real gravity = dynamic ? b->gravity_scale[row] : 0;
+        pl_solver_bodies(s)[count] = (pl_solver_body){
+            .vx = b->vx[row], .vy = b->vy[row], .w = b->w[row], .inv_mass = im, .inv_inertia = ii
+        };
+        pl_solver_motions(s)[count] =
+            (pl_solver_motion){ .ax = world->gravity.x * gravity + b->fx[row] * im,
+                                .ay = world->gravity.y * gravity + b->fy[row] * im,
+                                .aw = b->torque[row] * ii,
+                                .ux = b->vx[row],
+                                .uy = b->vy[row],
+                                .uw = b->w[row],
+                                .inv_mass = im };
+        slots[row] = count;
+        rows[count++] = row;
+        s->dynamic_slots += dynamic;
+    }
+    pl_solver_bodies(s)[count] = (pl_solver_body){ 0 };
+    pl_solver_motions(s)[count] = (pl_solver_motion){ 0 };
+    s->slot_count = count + 1;
+}
+
+// The first colour that neither body has; a contact with an immovable body takes one of the last.
+static uint32_t color_of(uint64_t taken, bool against_immovable)
+{
+    uint64_t free = ~taken & (against_immovable ? ~DYNAMIC_MASK : DYNAMIC_MASK);
+    return free != 0 ? (uint32_t)__builtin_ctzll(free) : OVERFLOW_COLOR;
+}
+
+static void color_contacts(plumb_world *world, uint32_t counts[PL_COLORS + 1])
+{
+    pl_solver *s = &world->solver;
+    const pl_manifold *m = pl_manifolds(&world->narrow);
+    const uint32_t *slots = s->slots.data;
+    uint64_t *masks = s->masks.data;
+    uint8_t *colors = s->colors.data;
+    memset(masks, 0, s->slot_count * sizeof(uint64_t));
+    memset(counts, 0, (PL_COLORS + 1) * sizeof(uint32_t));
+    for (uint32_t i = 0; i < world->narrow.manifold_count; ++i) {
+        bool a_moves = m[i].body_a < world->dynamic_count;
+        bool b_moves = m[i].body_b < world->dynamic_count;
+        uint64_t *mask_a = a_moves ? &masks[slots[m[i].body_a]] : NULL;
+        uint64_t *mask_b = b_moves ? &masks[slots[m[i].body_b]] : NULL;
+        uint32_t color =
+            color_of((a_moves ? *mask_a : 0) | (b_moves ? *mask_b : 0), !(a_moves && b_moves));
+        if (color < OVERFLOW_COLOR) {
+            uint64_t bit = UINT64_C(1) << color;
+            if (a_moves) {
+                *mask_a |= bit;
+            }
+            if (b_moves) {
+                *mask_b |= bit;
+            }
+        }
+        colors[i] = (uint8_t)color;
+        ++counts[color];
+    }
+    s->overflow_count = counts[OVERFLOW_COLOR];
+}
+
+// Puts the overflow contacts into bundles in order; a bundle ends where a body would be shared.
+static uint32_t place_overflow(plumb_world *world, uint32_t *lanes, uint32_t at, uint32_t width)
+{
+    pl_solver *s = &world->solver;
+    const pl_manifold *m = pl_manifolds(&world->narrow);
+    const uint8_t *colors = s->colors.data;
+    uint32_t members[32]; // body rows of the open bundle, at most two a lane
+    uint32_t member_count = 0, filled = 0;
+    for (uint32_t i = 0; i < world->narrow.manifold_count; ++i) {
+        if (colors[i] != OVERFLOW_COLOR) {
+            continue;
+        }
+        bool shared = false;
+        for (uint32_t k = 0; k < member_count; ++k) {
+            shared |= members[k] == m[i].body_a || members[k] == m[i].body_b;
+        }
+        if (shared || filled == width) {
+            at += width;
+            member_count = filled = 0;
+        }
+        lanes[at + filled++] = i;
+        if (m[i].body_a < world->dynamic_count) {
+            members[member_count++] = m[i].body_a;
+        }
+        if (m[i].body_b < world->dynamic_count) {
+            members[member_count++] = m[i].body_b;
+        }
+    }
+    return filled > 0 ? at + width : at;
+}
+
+static void place_lanes(plumb_world *world, const uint32_t counts[PL_COLORS + 1])
+{
+    pl_solver *s = &world->solver;
+    uint32_t width = (uint32_t)pl_solver_kernels(world)->width;
+    uint32_t at[PL_COLORS];
+    uint32_t lane_count = 0;
+    s->color_count = 0;
+    for (uint32_t c = 0; c < PL_COLORS; ++c) {
+        at[c] = lane_count;
+        lane_count += (counts[c] + width - 1) / width * width;
+        s->color_count += counts[c] > 0;
+    }
+    uint32_t *lanes = s->lanes.data;
+    memset(lanes, 0xff,
+           ((size_t)lane_count + (size_t)counts[OVERFLOW_COLOR] * width) * sizeof(uint32_t));
+    const uint8_t *colors = s->colors.data;
+    for (uint32_t i = 0; i < world->narrow.manifold_count; ++i) {
+        if (colors[i] != OVERFLOW_COLOR) {
+            lanes[at[colors[i]]++] = i;
+        }
+    }
+    lane_count = place_overflow(world, lanes, lane_count, width);
+    s->bundle_count = lane_count / width;
+}
+
+bool pl_solver_graph(plumb_world *world)
+{
+    uint32_t counts[PL_COLORS + 1];
+    if (!reserve_bodies(world)) {
+        return false;
+    }
+    engage(world);
+    color_contacts(world, counts);
+    if (!reserve_lanes(world, counts)) {
+        return false;
+    }
+    place_lanes(world, counts);
+    return true;
+}
+
+void pl_solver_free(pl_memory *memory, pl_solver *s)
+{
+    pl_buffer *buffers[] = { &s->bodies, &s->motions, &s->rows,    &s->slots,   &s->masks,
+                             &s->colors, &s->lanes,   &s->bundles, &s->impacts, &s->classic };
+    for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; ++i) {
+        pl_buffer_free(memory, buffers[i]);
+    }
+    *s = (pl_solver){ 0 };
+}

@@ -1,0 +1,213 @@
+// pgs.c - the classic solver: projected Gauss-Seidel on velocities, then on positions.
+//
+// The control in every chart: sequential impulses with accumulated clamping and warm starting
+// (Catto, Iterative Dynamics with Temporal Coherence, GDC 2005), restitution as a wanted rebound
+// speed, and a non-linear position pass that leaves a slop. Scalar, contact by contact, in the
+// order of manifolds. Sweeps needed for a digit grow with the square of a stack's height; see the
+// folder's README.
+//
+// Reads, writes: solver bodies, impulses of pairs. Cost: (iterations + 5) sweeps a substep.
+#include "world/state.h"
+
+#define POSITION_SWEEPS   3
+#define SLOP              ((real)0.005) // [m] overlap that is left, so that contacts persist
+#define POSITION_RATE     ((real)0.2)   // [-] share of the rest corrected a sweep
+#define LARGEST_PUSH      ((real)0.2)   // [m] most corrected a sweep
+#define RESTITUTION_SPEED ((real)1)     // [m/s] the classic threshold, where the world sets none
+
+typedef struct classic {
+    pl_solver *solver;
+    pl_solver_body *bodies;
+    pl_classic_contact *contacts;
+    uint32_t count;
+    real h;
+} classic;
+
+static real normal_speed(const classic *c, const pl_classic_contact *m, const pl_classic_point *p)
+{
+    const pl_solver_body *a = &c->bodies[m->a], *b = &c->bodies[m->b];
+    return m->nx * (b->vx - a->vx) + m->ny * (b->vy - a->vy) + p->rbn * b->w - p->ran * a->w;
+}
+
+static real separation_now(const classic *c, const pl_classic_contact *m, const pl_classic_point *p)
+{
+    const pl_solver_body *a = &c->bodies[m->a], *b = &c->bodies[m->b];
+    return p->separation + m->nx * (b->dx - a->dx) + m->ny * (b->dy - a->dy) + p->rbn * b->da -
+           p->ran * a->da;
+}
+
+static void push(const classic *c, const pl_classic_contact *m, const pl_classic_point *p,
+                 real along_n, real along_t)
+{
+    pl_solver_body *a = &c->bodies[m->a], *b = &c->bodies[m->b];
+    real px = m->nx * along_n - m->ny * along_t;
+    real py = m->ny * along_n + m->nx * along_t;
+    a->vx -= a->inv_mass * px;
+    a->vy -= a->inv_mass * py;
+    a->w -= a->inv_inertia * (p->ran * along_n + p->rat * along_t);
+    b->vx += b->inv_mass * px;
+    b->vy += b->inv_mass * py;
+    b->w += b->inv_inertia * (p->rbn * along_n + p->rbt * along_t);
+}
+
+static void prepare(classic *c, const plumb_world *world)
+{
+    const pl_manifold *manifolds = pl_manifolds(&world->narrow);
+    uint32_t movable = world->dynamic_count + world->kinematic_count;
+    for (uint32_t i = 0; i < c->count; ++i) {
+        const pl_manifold *m = &manifolds[i];
+        pl_classic_contact *out = &c->contacts[i];
+        *out = (pl_classic_contact){ .a = pl_solver_slot(c->solver, m->body_a, movable),
+                                     .b = pl_solver_slot(c->solver, m->body_b, movable),
+                                     .pair = m->pair,
+                                     .count = m->count,
+                                     .nx = m->nx,
+                                     .ny = m->ny,
+                                     .friction = m->friction,
+                                     .restitution = m->restitution };
+        const pl_solver_body *a = &c->bodies[out->a], *b = &c->bodies[out->b];
+        real mass = a->inv_mass + b->inv_mass;
+        for (uint32_t j = 0; j < m->count; ++j) {
+            const pl_manifold_point *from = &m->point[j];
+            pl_classic_point *p = &out->point[j];
+            p->ran = from->ax * m->ny - from->ay * m->nx;
+            p->rbn = from->bx * m->ny - from->by * m->nx;
+            p->rat = from->ax * m->nx + from->ay * m->ny;
+            p->rbt = from->bx * m->nx + from->by * m->ny;
+            p->separation = from->separation;
+            p->mn =
+                1 / (mass + a->inv_inertia * p->ran * p->ran + b->inv_inertia * p->rbn * p->rbn);
+            p->mt =
+                1 / (mass + a->inv_inertia * p->rat * p->rat + b->inv_inertia * p->rbt * p->rbt);
+            p->ln = from->normal;
+            p->lt = from->tangent;
+        }
+    }
+}
+
+static void integrate_velocities(const classic *c)
+{
+    const pl_solver_motion *motion = pl_solver_motions(c->solver);
+    for (uint32_t i = 0; i < c->solver->dynamic_slots; ++i) {
+        c->bodies[i].vx += c->h * motion[i].ax;
+        c->bodies[i].vy += c->h * motion[i].ay;
+        c->bodies[i].w += c->h * motion[i].aw;
+    }
+}
+
+// Rebound wanted where the surfaces will meet in this substep.
+static void aim(const classic *c, real threshold)
+{
+    for (uint32_t i = 0; i < c->count; ++i) {
+        pl_classic_contact *m = &c->contacts[i];
+        for (uint32_t j = 0; j < m->count; ++j) {
+            pl_classic_point *p = &m->point[j];
+            real v = normal_speed(c, m, p);
+            bool meets = separation_now(c, m, p) + c->h * v <= 0;
+            p->rebound = meets && v < -threshold ? -m->restitution * v : 0;
+        }
+    }
+}
+
+static void warm_start(const classic *c)
+{
+    for (uint32_t i = 0; i < c->count; ++i) {
+        for (uint32_t j = 0; j < c->contacts[i].count; ++j) {
+            const pl_classic_point *p = &c->contacts[i].point[j];
+            push(c, &c->contacts[i], p, p->ln, p->lt);
+        }
+    }
+}
+
+static void solve_velocity(const classic *c, pl_classic_contact *m, pl_classic_point *p)
+{
+    const pl_solver_body *a = &c->bodies[m->a], *b = &c->bodies[m->b];
+    real slip = m->nx * (b->vy - a->vy) - m->ny * (b->vx - a->vx) + p->rbt * b->w - p->rat * a->w;
+    real bound = m->friction * p->ln;
+    real total = p->lt - p->mt * slip;
+    total = total > bound ? bound : total < -bound ? -bound : total;
+    push(c, m, p, 0, total - p->lt);
+    p->lt = total;
+
+    real s = separation_now(c, m, p);
+    real slack = s > 0 && p->rebound == 0 ? s / c->h : 0; // may still approach so fast
+    total = p->ln - p->mn * (normal_speed(c, m, p) + slack - p->rebound);
+    total = total > 0 ? total : 0;
+    push(c, m, p, total - p->ln, 0);
+    p->ln = total;
+}
+
+static void solve_position(const classic *c, const pl_classic_contact *m, const pl_classic_point *p)
+{
+    pl_solver_body *a = &c->bodies[m->a], *b = &c->bodies[m->b];
+    real error = POSITION_RATE * (separation_now(c, m, p) + SLOP);
+    error = error > 0 ? 0 : error < -LARGEST_PUSH ? -LARGEST_PUSH : error;
+    real impulse = -p->mn * error;
+    a->dx -= a->inv_mass * m->nx * impulse;
+    a->dy -= a->inv_mass * m->ny * impulse;
+    a->da -= a->inv_inertia * p->ran * impulse;
+    b->dx += b->inv_mass * m->nx * impulse;
+    b->dy += b->inv_mass * m->ny * impulse;
+    b->da += b->inv_inertia * p->rbn * impulse;
+}
+
+static void sweep(const classic *c, bool positions)
+{
+    for (uint32_t i = 0; i < c->count; ++i) {
+        pl_classic_contact *m = &c->contacts[i];
+        for (uint32_t j = 0; j < m->count; ++j) {
+            if (positions) {
+                solve_position(c, m, &m->point[j]);
+            } else {
+                solve_velocity(c, m, &m->point[j]);
+            }
+        }
+    }
+}
+
+static void integrate_positions(const classic *c)
+{
+    for (uint32_t i = 0; i + 1 < c->solver->slot_count; ++i) {
+        c->bodies[i].dx += c->h * c->bodies[i].vx;
+        c->bodies[i].dy += c->h * c->bodies[i].vy;
+        c->bodies[i].da += c->h * c->bodies[i].w;
+    }
+}
+
+static void store(const classic *c, pl_pair *pairs)
+{
+    for (uint32_t i = 0; i < c->count; ++i) {
+        pl_pair *pair = &pairs[c->contacts[i].pair];
+        for (uint32_t j = 0; j < c->contacts[i].count; ++j) {
+            pair->normal[j] = c->contacts[i].point[j].ln;
+            pair->tangent[j] = c->contacts[i].point[j].lt;
+            pair->flags |= c->contacts[i].point[j].rebound > 0 ? PL_PAIR_HIT : 0;
+        }
+    }
+}
+
+void pl_solver_pgs(plumb_world *world, real dt)
+{
+    pl_solver *s = &world->solver;
+    classic c = { .solver = s,
+                  .bodies = pl_solver_bodies(s),
+                  .contacts = s->classic.data,
+                  .count = world->narrow.manifold_count,
+                  .h = dt / (real)world->desc.substeps };
+    real threshold =
+        world->desc.restitution_speed > 0 ? world->desc.restitution_speed : RESTITUTION_SPEED;
+    prepare(&c, world);
+    for (int k = 0; k < world->desc.substeps; ++k) {
+        integrate_velocities(&c);
+        aim(&c, threshold);
+        warm_start(&c);
+        for (int i = 0; i < world->desc.iterations; ++i) {
+            sweep(&c, false);
+        }
+        integrate_positions(&c);
+        for (int i = 0; i < POSITION_SWEEPS; ++i) {
+            sweep(&c, true);
+        }
+    }
+    store(&c, pl_pairs(&world->broad.pairs));
+}

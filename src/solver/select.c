@@ -1,0 +1,31 @@
+// select.c - which vector width to use on this machine.
+//
+// Every width gives the same bits, so this is about speed alone; src/solver/README.md has the
+// numbers.
+#include "solver/solver.h"
+
+static bool machine_has(int width)
+{
+#if defined(__x86_64__)
+    __builtin_cpu_init();
+    if (width == 16) {
+        return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+               __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw");
+    }
+    if (width == 8) {
+        return __builtin_cpu_supports("avx2");
+    }
+    return true;
+#else
+    return true; // the compiler splits wide vectors into what there is
+#endif
+}
+
+int pl_solver_best_width(int asked)
+{
+    int width = asked == 0 ? 8 : asked;
+    while (width > 4 && !machine_has(width)) {
+        width /= 2;
+    }
+    return width;
+}

@@ -1,0 +1,96 @@
+// soft.c - the soft step: substeps of integrate, impacts, solve with soft contacts, move, relax.
+//
+// Warm starting within the step is done a body at a time: with anchors frozen, the impulses with
+// which a substep ended changed a body's velocity by v - u (u: velocity as integrated), and
+// applying them again changes it by the same. So contacts are warm started one by one only at the
+// start of the step.
+//
+// Free flight is exact: a body that no contact pushed in the substep moves by h v - h^2 a / 2, the
+// parabola, instead of h v. A pushed body moves by h v; the parabola would make resting bodies hop.
+//
+// Reads: solver bodies, lanes. Writes: solver bodies, impulses of pairs. Order: after the graph.
+// Cost: (2 substeps x iterations + 2) sweeps over the contacts, 2 substeps passes over the bodies.
+#include "world/state.h"
+
+typedef real quad __attribute__((vector_size(4 * sizeof(real)), may_alias));
+
+// v = u + h a, plus what the contacts did in the substep before.
+static void integrate_velocities(const plumb_world *world, real h)
+{
+    const pl_solver *s = &world->solver;
+    quad *body = (quad *)(void *)pl_solver_bodies(s);
+    quad *motion = (quad *)(void *)pl_solver_motions(s);
+    for (uint32_t i = 0; i < s->dynamic_slots; ++i) {
+        quad v = body[2 * i];
+        quad pushed = v - motion[2 * i + 1];
+        quad u = v + h * motion[2 * i];
+        motion[2 * i + 1] = u;
+        body[2 * i] = u + pushed;
+    }
+}
+
+// Moves dynamic and kinematic bodies by the velocities with which the substep's contacts left them.
+static void integrate_positions(const plumb_world *world, real h)
+{
+    const pl_solver *s = &world->solver;
+    pl_solver_body *body = pl_solver_bodies(s);
+    const pl_solver_motion *motion = pl_solver_motions(s);
+    real half = h * h / 2;
+    for (uint32_t i = 0; i + 1 < s->slot_count; ++i) {
+        bool free =
+            body[i].vx == motion[i].ux && body[i].vy == motion[i].uy && body[i].w == motion[i].uw;
+        real back = free ? half : 0;
+        body[i].dx += h * body[i].vx - back * motion[i].ax;
+        body[i].dy += h * body[i].vy - back * motion[i].ay;
+        body[i].da += h * body[i].w - back * motion[i].aw;
+    }
+}
+
+void pl_solver_soft(plumb_world *world, real dt)
+{
+    pl_solver *s = &world->solver;
+    const pl_contact_kernels *kernels = pl_solver_kernels(world);
+    const int substeps = world->desc.substeps;
+    const real h = dt / (real)substeps;
+    const real stiffest = (real)0.25 / h;
+    const real asked = world->desc.contact_hertz;
+    pl_contact_call call = { .bodies = pl_solver_bodies(s),
+                             .motions = pl_solver_motions(s),
+                             .dynamic_slots = s->dynamic_slots,
+                             .bundles = s->bundles.data,
+                             .lanes = s->lanes.data,
+                             .slots = s->slots.data,
+                             .movable_rows = world->dynamic_count + world->kinematic_count,
+                             .immovable_slot = s->slot_count - 1,
+                             .manifolds = pl_manifolds(&world->narrow),
+                             .h = h,
+                             .inv_h = 1 / h,
+                             .hertz = asked > 0 && asked < stiffest ? asked : stiffest,
+                             .damping = world->desc.contact_damping,
+                             .push_speed = world->desc.push_speed };
+    const bool friction = world->narrow.any_friction;
+    const bool rotation = world->turning_bodies > 0;
+    const bool bounce = world->narrow.any_bounce;
+
+    kernels->prepare(&call, 0, s->bundle_count);
+    if (bounce) {
+        pl_impacts_prepare(world);
+    }
+    for (int k = 0; k < substeps; ++k) {
+        integrate_velocities(world, h);
+        if (k == 0) {
+            kernels->warm_start[friction][rotation](&call, 0, s->bundle_count);
+        }
+        if (bounce) {
+            pl_impacts_run(world, h);
+        }
+        for (int i = 0; i < world->desc.iterations; ++i) {
+            kernels->solve[friction][rotation](&call, 0, s->bundle_count);
+        }
+        integrate_positions(world, h);
+        for (int i = 0; i < world->desc.iterations; ++i) {
+            kernels->relax[friction][rotation](&call, 0, s->bundle_count);
+        }
+    }
+    kernels->store(&call, pl_pairs(&world->broad.pairs), 0, s->bundle_count);
+}

@@ -1,0 +1,147 @@
+// solver.h - what the solver keeps between the passes of a step, and the kernels compiled per
+// width.
+#ifndef PL_SOLVER_H
+#define PL_SOLVER_H
+
+#include "narrow/manifold.h"
+
+// A body that is in a contact, as the kernels gather it: one row of eight reals.
+typedef struct pl_solver_body {
+    real vx, vy, w;   // [m/s], [rad/s] now
+    real inv_mass;    // [1/kg]
+    real dx, dy, da;  // [m], [rad] moved since the start of the step
+    real inv_inertia; // [1/(kg m^2)]
+} pl_solver_body;
+
+// What only the passes over bodies touch. Quads, so that they run as vectors.
+typedef struct pl_solver_motion {
+    real ax, ay, aw, none;     // [m/s^2], [rad/s^2] from gravity, forces, torque; 0
+    real ux, uy, uw, inv_mass; // velocity as integrated: before any contact impulse of the substep
+} pl_solver_motion;
+
+// A contact point that may bounce: handled by event, outside the wide kernels (impact.c).
+typedef struct pl_impact_point {
+    real ran, rbn, rat, rbt;  // [m] lever arms
+    real separation;          // [m] at the start of the step
+    real *lane_separation;    // where the contact kernel reads it
+    const real *lane_impulse; // the kernel's accumulated normal impulse
+} pl_impact_point;
+
+typedef struct pl_impact {
+    uint32_t a, b; // solver slots
+    uint32_t pair;
+    uint32_t count;
+    real nx, ny, friction, restitution;
+    pl_impact_point point[2];
+} pl_impact;
+
+// A contact of the classic solver (pgs.c).
+typedef struct pl_classic_point {
+    real ran, rbn, rat, rbt; // [m] lever arms
+    real separation;         // [m] at the start of the step
+    real mn, mt;             // [kg] effective masses
+    real rebound;            // [m/s] wanted after the impact
+    real ln, lt;             // [N s]
+} pl_classic_point;
+
+typedef struct pl_classic_contact {
+    uint32_t a, b; // solver slots
+    uint32_t pair, count;
+    real nx, ny, friction, restitution;
+    pl_classic_point point[2];
+} pl_classic_contact;
+
+#define PL_COLORS 64
+#define PL_DYNAMIC_COLORS                                                                          \
+    48 // contacts with immovable bodies have the last 16: they are solved last
+
+typedef struct pl_solver {
+    pl_buffer bodies, motions; // engaged dynamic bodies, engaged kinematic ones, one immovable body
+    pl_buffer rows;            // uint32_t: body row of a slot
+    pl_buffer slots;   // uint32_t: slot of a dynamic or kinematic row; PL_NONE: not in a contact
+    pl_buffer masks;   // uint64_t a slot: colours taken
+    pl_buffer colors;  // uint8_t a manifold
+    pl_buffer lanes;   // uint32_t a lane: its manifold; PL_NONE: empty
+    pl_buffer bundles; // constraints of `width` contacts each
+    pl_buffer impacts; // pl_impact
+    pl_buffer classic; // pl_classic_contact, for the classic solver alone
+    uint32_t dynamic_slots,
+        slot_count; // slots [0, dynamic_slots) move; the last is the immovable one
+    uint32_t bundle_count, impact_count;
+    uint32_t color_count, overflow_count, bounce_count;
+} pl_solver;
+
+// Numbers of a contact sweep; see contact.simd.c for the formulas.
+typedef struct pl_contact_call {
+    pl_solver_body *bodies;
+    pl_solver_motion *motions;
+    uint32_t dynamic_slots; // slots from here on are read but never written
+    void *bundles;
+    const uint32_t *lanes;
+    const uint32_t *slots; // slot of a body row
+    uint32_t movable_rows; // rows from here on are static
+    uint32_t immovable_slot;
+    const pl_manifold *manifolds;
+    real h, inv_h;       // [s] substep
+    real hertz, damping; // [1/s], [-] of soft contacts
+    real push_speed;     // [m/s]
+} pl_contact_call;
+
+typedef void pl_contact_kernel(const pl_contact_call *call, uint32_t first, uint32_t count);
+
+// One set a width. Sweeps come in variants [friction][rotation]: scenes pay only for what they
+// have.
+typedef struct pl_contact_kernels {
+    int width;
+    size_t bundle_size;
+    size_t separation_offset[2]; // of the lanes' separations and impulses in a bundle
+    size_t impulse_offset[2];
+    pl_contact_kernel *prepare;
+    pl_contact_kernel *warm_start[2][2];
+    pl_contact_kernel *solve[2][2];
+    pl_contact_kernel *relax[2][2];
+    // Writes the impulses of each bundle back to the pairs.
+    void (*store)(const pl_contact_call *call, pl_pair *pairs, uint32_t first, uint32_t count);
+} pl_contact_kernels;
+
+extern const pl_contact_kernels pl_contact_kernels_w4;
+extern const pl_contact_kernels pl_contact_kernels_w8;
+extern const pl_contact_kernels pl_contact_kernels_w16;
+
+// The width to use: `asked` where the machine can, else the best measured one (0 asks for that).
+int pl_solver_best_width(int asked);
+
+void pl_solver_free(pl_memory *memory, pl_solver *solver);
+
+// The kernels of the world's width.
+const pl_contact_kernels *pl_solver_kernels(const plumb_world *world);
+
+// Engaged bodies, colours, lanes (graph.c). False when out of memory; nothing has moved then.
+bool pl_solver_graph(plumb_world *world);
+// The soft step (soft.c) and the classic (pgs.c), over the whole step of dt [s].
+void pl_solver_soft(plumb_world *world, real dt);
+void pl_solver_pgs(plumb_world *world, real dt);
+// Impacts with restitution: collects them; resolves those of one substep of h [s] (impact.c).
+void pl_impacts_prepare(plumb_world *world);
+void pl_impacts_run(plumb_world *world, real h);
+// Solver slot of a body row.
+static inline uint32_t pl_solver_slot(const pl_solver *solver, uint32_t row, uint32_t movable_rows)
+{
+    return row < movable_rows ? ((const uint32_t *)solver->slots.data)[row]
+                              : solver->slot_count - 1;
+}
+
+// Results into the columns, free flight of bodies in no contact, kinematic motion (finish.c).
+void pl_solver_finish(plumb_world *world, real dt);
+
+static inline pl_solver_body *pl_solver_bodies(const pl_solver *solver)
+{
+    return (pl_solver_body *)solver->bodies.data;
+}
+
+static inline pl_solver_motion *pl_solver_motions(const pl_solver *solver)
+{
+    return (pl_solver_motion *)solver->motions.data;
+}
+
+#endif

@@ -1,0 +1,204 @@
+// passes.c - the step as a table: every pass in order, what it reads and writes, and what wants it.
+//
+// This array is the architecture. It drives the step (step.c), the timers and `plumb explain`; a
+// pass that nothing in the world wants is not in the schedule and costs nothing. A pass that
+// changes the world's motion comes after the last one that can run out of memory, so a refused step
+// changes nothing.
+#include "event/event.h"
+#include "narrow/narrow.h"
+#include "world/state.h"
+
+//---- what is wanted ------------------------------------------------------------------------------
+
+static bool say(bool wanted, const char **reason, const char *because, const char *because_not)
+{
+    *reason = wanted ? because : because_not;
+    return wanted;
+}
+
+static bool any_system(const plumb_world *world, plumb_phase phase, const char **reason)
+{
+    const char *unused;
+    bool wanted = false;
+    for (uint32_t i = 0; i < world->systems.count; ++i) {
+        const pl_system *system = &world->systems.items[i];
+        wanted |= system->desc.phase == phase && pl_system_wanted(world, system, &unused);
+    }
+    return say(wanted, reason, "a system of the user's runs here",
+               "no system of the user's runs here");
+}
+
+static bool begin_wanted(const plumb_world *world, const char **reason)
+{
+    return any_system(world, PLUMB_PHASE_BEGIN, reason);
+}
+
+static bool forces_wanted(const plumb_world *world, const char **reason)
+{
+    return any_system(world, PLUMB_PHASE_FORCES, reason);
+}
+
+static bool contacts_wanted(const plumb_world *world, const char **reason)
+{
+    return any_system(world, PLUMB_PHASE_CONTACTS, reason);
+}
+
+static bool end_wanted(const plumb_world *world, const char **reason)
+{
+    return any_system(world, PLUMB_PHASE_END, reason);
+}
+
+// Something dynamic has a shape, and there is something to meet.
+static bool collision_wanted(const plumb_world *world, const char **reason)
+{
+    bool wanted = world->dynamic_count > 0 && world->moving_count > 0 && world->pieces.live > 1;
+    return say(wanted, reason, "dynamic bodies have shapes that can meet others",
+               "no dynamic body has a shape that could meet another");
+}
+
+static bool soft_wanted(const plumb_world *world, const char **reason)
+{
+    if (!collision_wanted(world, reason)) {
+        return false;
+    }
+    return say(world->desc.solver == PLUMB_SOLVER_SOFT, reason, "the world asks for the soft step",
+               "the world asks for the classic solver");
+}
+
+static bool classic_wanted(const plumb_world *world, const char **reason)
+{
+    if (!collision_wanted(world, reason)) {
+        return false;
+    }
+    return say(world->desc.solver == PLUMB_SOLVER_PGS, reason,
+               "the world asks for the classic solver", "the world asks for the soft step");
+}
+
+static bool rotation_wanted(const plumb_world *world, const char **reason)
+{
+    return say(world->turning_bodies > 0, reason, "some dynamic body can turn",
+               "no dynamic body can turn");
+}
+
+// A material that some shape is made of.
+static bool any_material(const plumb_world *world, const real *column)
+{
+    for (uint32_t row = 0; row < world->materials.table.count; ++row) {
+        if (world->materials.users[row] > 0 && column[row] > 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool friction_wanted(const plumb_world *world, const char **reason)
+{
+    return say(any_material(world, world->materials.friction), reason,
+               "some shape's material has friction", "no shape's material has friction");
+}
+
+static bool impacts_wanted(const plumb_world *world, const char **reason)
+{
+    return say(any_material(world, world->materials.restitution), reason,
+               "some shape's material has restitution", "no shape's material has restitution");
+}
+
+//---- what is done --------------------------------------------------------------------------------
+
+static plumb_result run_begin(plumb_world *world, plumb_real dt)
+{
+    pl_systems_run(world, PLUMB_PHASE_BEGIN, dt, world->time);
+    return PLUMB_OK;
+}
+
+static plumb_result run_forces(plumb_world *world, plumb_real dt)
+{
+    pl_systems_run(world, PLUMB_PHASE_FORCES, dt, world->time);
+    return PLUMB_OK;
+}
+
+static plumb_result run_broad(plumb_world *world, plumb_real dt)
+{
+    return pl_broad_update(world, dt) ? PLUMB_OK : PLUMB_E_MEMORY;
+}
+
+static plumb_result run_narrow(plumb_world *world, plumb_real dt)
+{
+    if (!pl_narrow_reserve(world)) {
+        return PLUMB_E_MEMORY;
+    }
+    pl_narrow_run(world, dt);
+    return pl_events_prepare(world) ? PLUMB_OK : PLUMB_E_MEMORY;
+}
+
+static plumb_result run_contacts(plumb_world *world, plumb_real dt)
+{
+    pl_systems_run(world, PLUMB_PHASE_CONTACTS, dt, world->time);
+    return PLUMB_OK;
+}
+
+static plumb_result run_graph(plumb_world *world, plumb_real dt)
+{
+    (void)dt;
+    return pl_solver_graph(world) ? PLUMB_OK : PLUMB_E_MEMORY;
+}
+
+static plumb_result run_soft(plumb_world *world, plumb_real dt)
+{
+    pl_solver_soft(world, dt);
+    return PLUMB_OK;
+}
+
+static plumb_result run_classic(plumb_world *world, plumb_real dt)
+{
+    pl_solver_pgs(world, dt);
+    return PLUMB_OK;
+}
+
+static plumb_result run_motion(plumb_world *world, plumb_real dt)
+{
+    pl_solver_finish(world, dt);
+    world->time += (double)dt;
+    ++world->step_count;
+    return PLUMB_OK;
+}
+
+static plumb_result run_events(plumb_world *world, plumb_real dt)
+{
+    (void)dt;
+    pl_events_publish(world);
+    return PLUMB_OK;
+}
+
+static plumb_result run_end(plumb_world *world, plumb_real dt)
+{
+    pl_systems_run(world, PLUMB_PHASE_END, dt, world->time);
+    return PLUMB_OK;
+}
+
+// Phase of the passes that run the user's systems, in the order of plumb_phase.
+const char pl_user_phase[] = "user";
+
+// clang-format off
+const pl_pass pl_passes[] = {
+    //name             phase       reads                              writes                       wanted            run
+    { "begin systems", pl_user_phase, "declared by the systems",         "declared by the systems",   begin_wanted,     run_begin },
+    { "force systems", pl_user_phase, "declared by the systems",         "declared by the systems",   forces_wanted,    run_forces },
+    { "broad phase",   "broad",    "poses, pieces",                   "fat boxes, grids, pairs",   collision_wanted, run_broad },
+    { "narrow phase",  "narrow",   "pairs, poses, pieces, materials", "manifolds",                 collision_wanted, run_narrow },
+    { "contact systems", pl_user_phase, "declared by the systems",         "declared by the systems",   contacts_wanted,  run_contacts },
+    { "graph",         "solve",    "manifolds, velocities, forces",   "solver bodies, colours",    collision_wanted, run_graph },
+    { "soft step",     "solve",    "manifolds, solver bodies",        "solver bodies, impulses",   soft_wanted,      run_soft },
+    { "classic solver", "solve",   "manifolds, solver bodies",        "solver bodies, impulses",   classic_wanted,   run_classic },
+    { "- friction",    "solve",    "materials",                       "solver bodies, impulses",   friction_wanted,  NULL },
+    { "- rotation",    "solve",    "inertias",                        "solver bodies",             rotation_wanted,  NULL },
+    { "- impacts",     "solve",    "materials, manifolds",            "solver bodies",             impacts_wanted,   NULL },
+    { "motion",        "finish",   "solver bodies, forces, gravity",  "transforms, velocities",    NULL,             run_motion },
+    { "events",        "finish",   "pairs, manifolds",                "event arrays",              collision_wanted, run_events },
+    { "end systems",   pl_user_phase, "declared by the systems",         "declared by the systems",   end_wanted,       run_end },
+};
+// clang-format on
+
+const int pl_pass_count = (int)(sizeof pl_passes / sizeof pl_passes[0]);
+
+_Static_assert(sizeof pl_passes / sizeof pl_passes[0] <= PL_PASS_MAX, "raise PL_PASS_MAX");

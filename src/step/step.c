@@ -1,0 +1,139 @@
+// step.c - drives the pass table: the schedule, the step, the timers, and the schedule's public
+// view.
+#include "core/clock.h"
+#include "event/event.h"
+#include "world/check.h"
+#include "world/state.h"
+
+// Asks every pass whether it is wanted.
+static void revise_schedule(plumb_world *world)
+{
+    pl_schedule *schedule = &world->schedule;
+    for (int i = 0; i < pl_pass_count; ++i) {
+        schedule->reason[i] = "part of every step";
+        schedule->scheduled[i] =
+            pl_passes[i].wanted == NULL || pl_passes[i].wanted(world, &schedule->reason[i]);
+        if (!schedule->scheduled[i]) {
+            schedule->last_ns[i] = 0;
+        }
+    }
+    world->schedule_dirty = false;
+}
+
+// Nothing is left from a step in which there was collision.
+static void forget_contacts(plumb_world *world)
+{
+    world->narrow.manifold_count = 0;
+    world->solver.slot_count = 0;
+}
+
+static plumb_result run_passes(plumb_world *world, plumb_real dt)
+{
+    pl_schedule *schedule = &world->schedule;
+    double start = pl_now_ns();
+    for (int i = 0; i < pl_pass_count; ++i) {
+        if (!schedule->scheduled[i] || pl_passes[i].run == NULL) {
+            continue;
+        }
+        plumb_result result = pl_passes[i].run(world, dt);
+        if (result != PLUMB_OK) {
+            return result;
+        }
+        double end = pl_now_ns();
+        schedule->last_ns[i] = end - start;
+        schedule->total_ns[i] += end - start;
+        start = end;
+    }
+    return PLUMB_OK;
+}
+
+plumb_result plumb_world_step(plumb_world *world, plumb_real dt)
+{
+    if (world == NULL) {
+        return PLUMB_E_NULL;
+    }
+    plumb_result result = pl_check_unlocked(world, __func__);
+    if (result != PLUMB_OK) {
+        return result;
+    }
+    result = pl_check_range(world, __func__, "dt", dt, 0, 1);
+    if (result != PLUMB_OK) {
+        return result;
+    }
+    if (!(dt > 0)) {
+        return pl_fail(world, PLUMB_E_RANGE, __func__, "dt is %g; it must be above 0 and at most 1",
+                       (double)dt);
+    }
+    result = pl_commands_run(world);
+    if (result != PLUMB_OK) {
+        return result;
+    }
+    pl_events_clear(world);
+    forget_contacts(world);
+    // Systems with `needs` come and go with their component, which is no structural change of
+    // physics.
+    if (world->schedule_dirty || world->systems.count > 0) {
+        revise_schedule(world);
+    }
+    result = run_passes(world, dt);
+    return result == PLUMB_E_MEMORY ? pl_fail_memory(world, __func__) : result;
+}
+
+typedef struct listing {
+    plumb_pass_info *rows;
+    int capacity, count;
+} listing;
+
+static void list_row(listing *out, plumb_pass_info row)
+{
+    if (out->count < out->capacity) {
+        out->rows[out->count] = row;
+    }
+    ++out->count;
+}
+
+static void list_systems(listing *out, const plumb_world *world, plumb_phase phase)
+{
+    static const char *const phase_names[] = { "begin", "forces", "contacts", "end" };
+    for (uint32_t i = 0; i < world->systems.count; ++i) {
+        const pl_system *system = &world->systems.items[i];
+        if (system->desc.phase != phase) {
+            continue;
+        }
+        plumb_pass_info row = { .name = system->name,
+                                .phase = phase_names[phase],
+                                .reads = system->reads,
+                                .writes = system->writes,
+                                .is_user = true,
+                                .last_ns = system->last_ns,
+                                .total_ns = system->total_ns };
+        row.scheduled = pl_system_wanted(world, system, &row.reason);
+        list_row(out, row);
+    }
+}
+
+int plumb_world_schedule(const plumb_world *world, plumb_pass_info *rows, int capacity)
+{
+    if (world == NULL) {
+        return 0;
+    }
+    listing out = { rows, rows == NULL ? 0 : capacity, 0 };
+    int phase = PLUMB_PHASE_BEGIN;
+    for (int i = 0; i < pl_pass_count; ++i) {
+        const pl_pass *pass = &pl_passes[i];
+        if (pass->phase == pl_user_phase) {
+            list_systems(&out, world, (plumb_phase)phase++);
+            continue;
+        }
+        plumb_pass_info row = { .name = pass->name,
+                                .phase = pass->phase,
+                                .reads = pass->reads,
+                                .writes = pass->writes,
+                                .reason = "part of every step",
+                                .last_ns = world->schedule.last_ns[i],
+                                .total_ns = world->schedule.total_ns[i] };
+        row.scheduled = pass->wanted == NULL || pass->wanted(world, &row.reason);
+        list_row(&out, row);
+    }
+    return out.count;
+}

@@ -1,0 +1,294 @@
+// body.c - bodies are made, destroyed and set.
+//
+// Reads: arguments, checked before anything changes. Writes: one body row.
+// Cost: O(1); mass functions and teleport O(pieces of the body).
+#include "world/check.h"
+#include "world/rows.h"
+
+#define POSITION_LIMIT ((real)1e9) // [m] see plumb_body_desc
+
+//---- create, destroy
+//------------------------------------------------------------------------------
+
+static plumb_result check_motion(const plumb_world *world, const char *fn,
+                                 const plumb_body_desc *desc)
+{
+    plumb_result r = pl_check_finite_vec(world, fn, "velocity", desc->velocity);
+    if (r == PLUMB_OK) {
+        r = pl_check_finite(world, fn, "angular_velocity", desc->angular_velocity);
+    }
+    if (r != PLUMB_OK) {
+        return r;
+    }
+    bool is_static = desc->type == PLUMB_STATIC;
+    if (is_static && (desc->velocity.x != 0 || desc->velocity.y != 0)) {
+        return pl_fail(world, PLUMB_E_RANGE, fn,
+                       "velocity is (%g, %g); it must be (0, 0) for a static body",
+                       (double)desc->velocity.x, (double)desc->velocity.y);
+    }
+    if ((is_static || desc->fixed_rotation) && desc->angular_velocity != 0) {
+        return pl_fail(world, PLUMB_E_RANGE, fn, "angular_velocity is %g; it must be 0 %s",
+                       (double)desc->angular_velocity,
+                       is_static ? "for a static body" : "with fixed_rotation");
+    }
+    return PLUMB_OK;
+}
+
+// 0 or within the range of masses.
+static plumb_result check_mass(const plumb_world *world, const char *fn, const char *field,
+                               real value)
+{
+    plumb_result r = pl_check_range(world, fn, field, value, 0, PL_MASS_MOST);
+    if (r == PLUMB_OK && value != 0 && value < PL_MASS_LEAST) {
+        r = pl_check_range(world, fn, field, value, PL_MASS_LEAST, PL_MASS_MOST);
+    }
+    return r;
+}
+
+plumb_result pl_place_check(const plumb_world *world, const char *fn, plumb_vec2 position,
+                            plumb_real angle)
+{
+    plumb_result r = pl_check_within(world, fn, "position", position, POSITION_LIMIT);
+    return r != PLUMB_OK ? r : pl_check_finite(world, fn, "angle", angle);
+}
+
+plumb_result pl_body_check(const plumb_world *world, const char *fn, const plumb_body_desc *desc)
+{
+    plumb_result r = pl_check_pointer(world, fn, "desc", desc);
+    if (r != PLUMB_OK) {
+        return r;
+    }
+    if ((unsigned)desc->type > PLUMB_STATIC) {
+        return pl_fail(world, PLUMB_E_RANGE, fn, "type is %d; it must be a plumb_body_type",
+                       (int)desc->type);
+    }
+    r = pl_place_check(world, fn, desc->position, desc->angle);
+    r = r != PLUMB_OK ? r : check_motion(world, fn, desc);
+    r = r != PLUMB_OK ? r : check_mass(world, fn, "mass", desc->mass);
+    r = r != PLUMB_OK ? r : check_mass(world, fn, "inertia", desc->inertia);
+    return r != PLUMB_OK ? r : pl_check_finite(world, fn, "gravity_scale", desc->gravity_scale);
+}
+
+static void fill_row(plumb_world *world, uint32_t row, const plumb_body_desc *desc)
+{
+    pl_bodies *b = &world->bodies;
+    b->type[row] = (uint8_t)desc->type;
+    b->flags[row] = desc->fixed_rotation ? PL_BODY_FIXED_ROTATION : 0;
+    b->vx[row] = desc->velocity.x;
+    b->vy[row] = desc->velocity.y;
+    b->w[row] = desc->angular_velocity;
+    b->set_mass[row] = desc->mass;
+    b->set_inertia[row] = desc->inertia;
+    b->user_data[row] = desc->user_data;
+    b->gravity_scale[row] = desc->no_gravity           ? 0
+                            : desc->gravity_scale != 0 ? desc->gravity_scale
+                                                       : 1;
+    pl_mass_revise(world, row);
+    pl_body_place(world, row, desc->position, desc->angle);
+}
+
+plumb_result pl_body_insert(plumb_world *world, const char *fn, const plumb_body_desc *desc,
+                            plumb_body *body)
+{
+    if (!pl_registry_reserve(&world->memory, &world->registry, 1) || !pl_rows_reserve(world, 1)) {
+        return pl_fail_memory(world, fn);
+    }
+    uint32_t row = pl_row_open(world, pl_partition_of(desc->type));
+    *body = pl_entity_claim(world, *body, PLUMB_KIND_BODY, row);
+    world->bodies.entity[row] = *body;
+    fill_row(world, row, desc);
+    return PLUMB_OK;
+}
+
+plumb_body plumb_body_create(plumb_world *world, const plumb_body_desc *desc)
+{
+    plumb_body body = PLUMB_NULL_INIT;
+    if (world == NULL || pl_check_unlocked(world, __func__) != PLUMB_OK ||
+        pl_body_check(world, __func__, desc) != PLUMB_OK) {
+        return body;
+    }
+    pl_body_insert(world, __func__, desc, &body);
+    return body;
+}
+
+plumb_result plumb_body_destroy(plumb_world *world, plumb_body body)
+{
+    uint32_t row;
+    plumb_result r = pl_check_body(world, __func__, body, &row);
+    r = r != PLUMB_OK ? r : pl_check_unlocked(world, __func__);
+    if (r == PLUMB_OK) {
+        pl_destroy_entity(world, body);
+    }
+    return r;
+}
+
+//---- place and velocity
+//---------------------------------------------------------------------------
+
+void pl_body_place(plumb_world *world, uint32_t row, plumb_vec2 position, plumb_real angle)
+{
+    pl_bodies *b = &world->bodies;
+    plumb_rot q = plumb_rot_make(angle);
+    b->x[row] = position.x;
+    b->y[row] = position.y;
+    b->c[row] = q.c;
+    b->s[row] = q.s;
+    pl_body_update_center(world, row);
+    if (b->first_piece[row] != PL_NONE) {
+        world->pairs_dirty = true;
+        world->static_dirty |= b->type[row] == PLUMB_STATIC;
+    }
+}
+
+plumb_result plumb_body_teleport(plumb_world *world, plumb_body body, plumb_vec2 position,
+                                 plumb_real angle)
+{
+    uint32_t row;
+    plumb_result r = pl_check_body(world, __func__, body, &row);
+    r = r != PLUMB_OK ? r : pl_place_check(world, __func__, position, angle);
+    r = r != PLUMB_OK ? r : pl_check_unlocked(world, __func__);
+    if (r == PLUMB_OK) {
+        pl_body_place(world, row, position, angle);
+    }
+    return r;
+}
+
+static plumb_result check_movable(const plumb_world *world, const char *fn, uint32_t row)
+{
+    if (world->bodies.type[row] != PLUMB_STATIC) {
+        return PLUMB_OK;
+    }
+    return pl_fail(world, PLUMB_E_STATE, fn, "body is static; it must be dynamic or kinematic");
+}
+
+plumb_result plumb_body_set_velocity(plumb_world *world, plumb_body body, plumb_vec2 velocity)
+{
+    uint32_t row;
+    plumb_result r = pl_check_body(world, __func__, body, &row);
+    r = r != PLUMB_OK ? r : pl_check_finite_vec(world, __func__, "velocity", velocity);
+    r = r != PLUMB_OK ? r : check_movable(world, __func__, row);
+    if (r == PLUMB_OK) {
+        world->bodies.vx[row] = pl_poses(world)[row].vx = velocity.x;
+        world->bodies.vy[row] = pl_poses(world)[row].vy = velocity.y;
+    }
+    return r;
+}
+
+plumb_result plumb_body_set_angular_velocity(plumb_world *world, plumb_body body, plumb_real w)
+{
+    uint32_t row;
+    plumb_result r = pl_check_body(world, __func__, body, &row);
+    r = r != PLUMB_OK ? r : pl_check_finite(world, __func__, "w", w);
+    r = r != PLUMB_OK ? r : check_movable(world, __func__, row);
+    if (r == PLUMB_OK && w != 0 && (world->bodies.flags[row] & PL_BODY_FIXED_ROTATION)) {
+        r = pl_fail(world, PLUMB_E_STATE, __func__,
+                    "w is %g; it must be 0 for a body of fixed rotation", (double)w);
+    }
+    if (r == PLUMB_OK) {
+        world->bodies.w[row] = w;
+    }
+    return r;
+}
+
+//---- mass
+//-----------------------------------------------------------------------------------------
+
+plumb_result pl_check_dynamic(const plumb_world *world, const char *fn, plumb_body body,
+                              uint32_t *row)
+{
+    plumb_result r = pl_check_body(world, fn, body, row);
+    if (r != PLUMB_OK || world->bodies.type[*row] == PLUMB_DYNAMIC) {
+        return r;
+    }
+    return pl_fail(world, PLUMB_E_STATE, fn, "body is %s; it must be dynamic",
+                   world->bodies.type[*row] == PLUMB_STATIC ? "static" : "kinematic");
+}
+
+plumb_result plumb_body_set_mass(plumb_world *world, plumb_body body, plumb_real mass)
+{
+    uint32_t row;
+    plumb_result r = pl_check_body(world, __func__, body, &row);
+    r = r != PLUMB_OK ? r
+                      : pl_check_range(world, __func__, "mass", mass, PL_MASS_LEAST, PL_MASS_MOST);
+    r = r != PLUMB_OK ? r : pl_check_dynamic(world, __func__, body, &row);
+    if (r != PLUMB_OK) {
+        return r;
+    }
+    pl_bodies *b = &world->bodies;
+    double ratio = (double)mass / (double)b->mass[row];
+    double inertia = (double)b->set_inertia[row] * ratio;
+    pl_mass_sum sum = pl_mass_of_shapes(world, row);
+    pl_body_mass made;
+    bool given = b->set_inertia[row] > 0;
+    real set_inertia = (real)plumb_min((real)inertia, PLUMB_REAL_MAX);
+    if (!pl_mass_resolve(&sum, mass, given ? set_inertia : 0, &made) ||
+        (given && inertia < (double)PL_MASS_LEAST)) {
+        return pl_fail(world, PLUMB_E_RANGE, __func__,
+                       "mass is %g; the inertia that follows must be %g to %g", (double)mass,
+                       (double)PL_MASS_LEAST, (double)PL_MASS_MOST);
+    }
+    b->set_mass[row] = mass;
+    b->set_inertia[row] = given ? made.inertia : 0;
+    pl_mass_apply(world, row, &made);
+    return PLUMB_OK;
+}
+
+plumb_result plumb_body_reset_mass(plumb_world *world, plumb_body body)
+{
+    uint32_t row;
+    plumb_result r = pl_check_dynamic(world, __func__, body, &row);
+    if (r != PLUMB_OK) {
+        return r;
+    }
+    pl_pieces *pieces = &world->pieces;
+    for (uint32_t p = world->bodies.first_piece[row]; p != PL_NONE; p = pieces->next_in_body[p]) {
+        real own = pieces->own_density[p];
+        pieces->density[p] = own > 0 ? own : world->materials.density[pieces->material[p]];
+    }
+    world->bodies.set_mass[row] = 0;
+    world->bodies.set_inertia[row] = 0;
+    pl_mass_revise(world, row);
+    return PLUMB_OK;
+}
+
+plumb_result plumb_body_set_fixed_rotation(plumb_world *world, plumb_body body, bool fixed)
+{
+    uint32_t row;
+    plumb_result r = pl_check_dynamic(world, __func__, body, &row);
+    if (r != PLUMB_OK) {
+        return r;
+    }
+    pl_bodies *b = &world->bodies;
+    b->flags[row] = fixed ? b->flags[row] | PL_BODY_FIXED_ROTATION
+                          : b->flags[row] & (uint8_t)~PL_BODY_FIXED_ROTATION;
+    if (fixed) {
+        b->w[row] = 0;
+    }
+    pl_mass_revise(world, row);
+    return PLUMB_OK;
+}
+
+//---- the rest
+//-------------------------------------------------------------------------------------
+
+plumb_result plumb_body_set_gravity_scale(plumb_world *world, plumb_body body, plumb_real scale)
+{
+    uint32_t row;
+    plumb_result r = pl_check_body(world, __func__, body, &row);
+    r = r != PLUMB_OK ? r : pl_check_finite(world, __func__, "scale", scale);
+    if (r == PLUMB_OK) {
+        world->bodies.gravity_scale[row] = scale;
+        world->schedule_dirty = true;
+    }
+    return r;
+}
+
+plumb_result plumb_body_set_user_data(plumb_world *world, plumb_body body, void *user_data)
+{
+    uint32_t row;
+    plumb_result r = pl_check_body(world, __func__, body, &row);
+    if (r == PLUMB_OK) {
+        world->bodies.user_data[row] = user_data;
+    }
+    return r;
+}

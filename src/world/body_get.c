@@ -1,0 +1,196 @@
+// body_get.c - questions to bodies. On a bad handle: zeros, and no error left behind.
+//
+// Reads: one body row, or the columns as a whole. Writes: nothing. Cost: O(1) unless said
+// otherwise.
+#include "world/rows.h"
+
+bool plumb_body_valid(const plumb_world *world, plumb_body body)
+{
+    return pl_body_row(world, body) != PL_NONE;
+}
+
+plumb_body_type plumb_body_get_type(const plumb_world *world, plumb_body body)
+{
+    uint32_t row = pl_body_row(world, body);
+    return row == PL_NONE ? PLUMB_DYNAMIC : (plumb_body_type)world->bodies.type[row];
+}
+
+//---- place and motion
+//-----------------------------------------------------------------------------
+
+// All zeros, which is not a rotation, for a bad handle.
+plumb_transform plumb_body_transform(const plumb_world *world, plumb_body body)
+{
+    uint32_t row = pl_body_row(world, body);
+    if (row == PL_NONE) {
+        return (plumb_transform){ { 0, 0 }, { 0, 0 } };
+    }
+    const pl_bodies *b = &world->bodies;
+    return (plumb_transform){ { b->x[row], b->y[row] }, { b->c[row], b->s[row] } };
+}
+
+plumb_vec2 plumb_body_position(const plumb_world *world, plumb_body body)
+{
+    return plumb_body_transform(world, body).p;
+}
+
+plumb_real plumb_body_angle(const plumb_world *world, plumb_body body)
+{
+    return plumb_rot_angle(plumb_body_transform(world, body).q);
+}
+
+plumb_vec2 plumb_body_center(const plumb_world *world, plumb_body body)
+{
+    uint32_t row = pl_body_row(world, body);
+    return row == PL_NONE ? plumb_v2(0, 0)
+                          : plumb_v2(world->bodies.center_x[row], world->bodies.center_y[row]);
+}
+
+plumb_vec2 plumb_body_local_center(const plumb_world *world, plumb_body body)
+{
+    uint32_t row = pl_body_row(world, body);
+    return row == PL_NONE ? plumb_v2(0, 0)
+                          : plumb_v2(world->bodies.local_x[row], world->bodies.local_y[row]);
+}
+
+plumb_vec2 plumb_body_velocity(const plumb_world *world, plumb_body body)
+{
+    uint32_t row = pl_body_row(world, body);
+    return row == PL_NONE ? plumb_v2(0, 0) : plumb_v2(world->bodies.vx[row], world->bodies.vy[row]);
+}
+
+plumb_real plumb_body_angular_velocity(const plumb_world *world, plumb_body body)
+{
+    uint32_t row = pl_body_row(world, body);
+    return row == PL_NONE ? 0 : world->bodies.w[row];
+}
+
+// v + w x r.
+plumb_vec2 plumb_body_velocity_at(const plumb_world *world, plumb_body body, plumb_vec2 point)
+{
+    plumb_vec2 arm = plumb_vec2_sub(point, plumb_body_center(world, body));
+    return plumb_vec2_add_scaled(plumb_body_velocity(world, body),
+                                 plumb_body_angular_velocity(world, body), plumb_vec2_left(arm));
+}
+
+//---- properties
+//-----------------------------------------------------------------------------------
+
+plumb_real plumb_body_mass(const plumb_world *world, plumb_body body)
+{
+    uint32_t row = pl_body_row(world, body);
+    return row == PL_NONE || world->bodies.inv_mass[row] <= 0 ? 0 : world->bodies.mass[row];
+}
+
+plumb_real plumb_body_inertia(const plumb_world *world, plumb_body body)
+{
+    uint32_t row = pl_body_row(world, body);
+    return row == PL_NONE || world->bodies.inv_inertia[row] <= 0 ? 0 : world->bodies.inertia[row];
+}
+
+plumb_real plumb_body_gravity_scale(const plumb_world *world, plumb_body body)
+{
+    uint32_t row = pl_body_row(world, body);
+    return row == PL_NONE ? 0 : world->bodies.gravity_scale[row];
+}
+
+void *plumb_body_user_data(const plumb_world *world, plumb_body body)
+{
+    uint32_t row = pl_body_row(world, body);
+    return row == PL_NONE ? NULL : world->bodies.user_data[row];
+}
+
+// The list has the newest shape first: it is counted, then written from the end.
+int plumb_body_shapes(const plumb_world *world, plumb_body body, plumb_entity *shapes, int capacity)
+{
+    uint32_t row = pl_body_row(world, body);
+    if (row == PL_NONE) {
+        return 0;
+    }
+    const pl_pieces *pieces = &world->pieces;
+    int count = 0;
+    for (int pass = 0; pass < 2; ++pass) {
+        int at = count;
+        uint32_t p = world->bodies.first_piece[row];
+        for (; p != PL_NONE; p = pieces->next_in_body[p]) {
+            if (world->registry.slots[pieces->shape[p].index].row != p) {
+                continue; // not the first piece of its shape
+            }
+            if (pass == 0) {
+                ++count;
+            } else if (--at < capacity && shapes != NULL) {
+                shapes[at] = pieces->shape[p];
+            }
+        }
+    }
+    return count;
+}
+
+plumb_aabb plumb_body_aabb(const plumb_world *world, plumb_body body)
+{
+    plumb_aabb box = plumb_aabb_empty();
+    uint32_t row = pl_body_row(world, body);
+    uint32_t p = row == PL_NONE ? PL_NONE : world->bodies.first_piece[row];
+    for (; p != PL_NONE; p = world->pieces.next_in_body[p]) {
+        pl_box t = pl_piece_tight_box(world, p);
+        box = plumb_aabb_union(box, (plumb_aabb){ { t.min_x, t.min_y }, { t.max_x, t.max_y } });
+    }
+    return box;
+}
+
+//---- frames
+//---------------------------------------------------------------------------------------
+
+plumb_vec2 plumb_body_world_point(const plumb_world *world, plumb_body body, plumb_vec2 local)
+{
+    return plumb_transform_apply(plumb_body_transform(world, body), local);
+}
+
+plumb_vec2 plumb_body_local_point(const plumb_world *world, plumb_body body, plumb_vec2 point)
+{
+    return plumb_transform_inv_apply(plumb_body_transform(world, body), point);
+}
+
+plumb_vec2 plumb_body_world_vector(const plumb_world *world, plumb_body body, plumb_vec2 local)
+{
+    return plumb_rot_apply(plumb_body_transform(world, body).q, local);
+}
+
+plumb_vec2 plumb_body_local_vector(const plumb_world *world, plumb_body body, plumb_vec2 vector)
+{
+    return plumb_rot_inv_apply(plumb_body_transform(world, body).q, vector);
+}
+
+//---- columns
+//--------------------------------------------------------------------------------------
+
+plumb_body_span plumb_world_bodies(plumb_world *world)
+{
+    if (world == NULL) {
+        return (plumb_body_span){ 0 };
+    }
+    const pl_bodies *b = &world->bodies;
+    uint32_t first_static = pl_partition_first(world, PL_PART_STATIC);
+    return (plumb_body_span){
+        .count = (int)b->table.count,
+        .dynamic_count = (int)world->dynamic_count,
+        .kinematic_count = (int)world->kinematic_count,
+        .asleep_count = (int)world->asleep_count,
+        .static_count = (int)(b->table.count - first_static),
+        .entity = b->entity,
+        .x = b->x,
+        .y = b->y,
+        .center_x = b->center_x,
+        .center_y = b->center_y,
+        .c = b->c,
+        .s = b->s,
+        .vx = b->vx,
+        .vy = b->vy,
+        .w = b->w,
+        .fx = b->fx,
+        .fy = b->fy,
+        .torque = b->torque,
+        .inv_mass = b->inv_mass,
+        .inv_inertia = b->inv_inertia,
+    };
+}

@@ -1,0 +1,52 @@
+// check.h - validation at the API boundary. Every check returns PLUMB_OK or records a message of
+// the form
+// "<function>: <field> is <value>; <requirement>" and returns its code.
+#ifndef PL_CHECK_H
+#define PL_CHECK_H
+
+#include "plumb/shape.h"
+
+// Finite. E_NOT_FINITE.
+plumb_result pl_check_finite(const plumb_world *world, const char *function, const char *field,
+                             plumb_real value);
+plumb_result pl_check_finite_vec(const plumb_world *world, const char *function, const char *field,
+                                 plumb_vec2 value);
+
+// Finite and low <= value <= high; high PLUMB_REAL_MAX: no upper bound. E_NOT_FINITE, E_RANGE.
+plumb_result pl_check_range(const plumb_world *world, const char *function, const char *field,
+                            plumb_real value, plumb_real low, plumb_real high);
+
+// Both components finite and within +-limit. E_NOT_FINITE, E_RANGE.
+plumb_result pl_check_within(const plumb_world *world, const char *function, const char *field,
+                             plumb_vec2 value, plumb_real limit);
+
+// Pointer given. E_NULL.
+plumb_result pl_check_pointer(const plumb_world *world, const char *function, const char *field,
+                              const void *pointer);
+
+// 1..63 characters. E_NULL, E_RANGE.
+plumb_result pl_check_name(const plumb_world *world, const char *function, const char *field,
+                           const char *name);
+
+// A live body, shape or material (null: the default one); *row receives its body row, first piece
+// or material row. E_HANDLE.
+plumb_result pl_check_body(const plumb_world *world, const char *function, plumb_body body,
+                           uint32_t *row);
+// The same, and dynamic. E_HANDLE, E_STATE.
+plumb_result pl_check_dynamic(const plumb_world *world, const char *function, plumb_body body,
+                              uint32_t *row);
+plumb_result pl_check_shape(const plumb_world *world, const char *function, plumb_shape shape,
+                            uint32_t *piece);
+plumb_result pl_check_material(const plumb_world *world, const char *function,
+                               plumb_material material, uint32_t *row);
+// No piece names the material of a row. E_STATE.
+plumb_result pl_check_unused(const plumb_world *world, const char *function, uint32_t row);
+// A live entity of any kind. E_HANDLE.
+plumb_result pl_check_entity(const plumb_world *world, const char *function, plumb_entity entity);
+
+// Records that a handle is not `wanted` ("a live body"): what it is instead is found out here.
+plumb_result pl_fail_handle(const plumb_world *world, const char *function, const char *field,
+                            plumb_entity entity, const char *wanted);
+plumb_result pl_fail_memory(const plumb_world *world, const char *function);
+
+#endif

@@ -1,0 +1,127 @@
+// columns.h - the built-in tables of a world: one X-macro list a table, from which the struct, the
+// column descriptors, growth, row moves and clearing follow. Adding a column is one row here.
+#ifndef PL_COLUMNS_H
+#define PL_COLUMNS_H
+
+#include "core/table.h"
+#include "plumb/body.h"
+#include "plumb/material.h"
+#include "plumb/shape.h"
+
+typedef plumb_real real;
+
+// Body rows. Rows are dense and partitioned: [awake dynamic | kinematic | asleep | static].
+// clang-format off
+#define PL_BODY_COLUMNS(X)                                                                          \
+    X(plumb_entity, entity)        /* owner */                                                      \
+    X(real, x) X(real, y)          /* [m] origin of the body's frame, derived from the centre */    \
+    X(real, center_x) X(real, center_y) /* [m] centre of mass: what the solver integrates */        \
+    X(real, c) X(real, s)          /* rotation */                                                   \
+    X(real, vx) X(real, vy)        /* [m/s] */                                                      \
+    X(real, w)                     /* [rad/s] */                                                    \
+    X(real, fx) X(real, fy)        /* [N] for the next step */                                      \
+    X(real, torque)                /* [N m] for the next step */                                    \
+    X(real, inv_mass)              /* [1/kg] 0: immovable */                                        \
+    X(real, inv_inertia)           /* [1/(kg m^2)] 0: does not turn */                              \
+    X(real, local_x) X(real, local_y) /* [m] centre of mass in the body's frame */                  \
+    X(real, gravity_scale)         /* [-] */                                                        \
+    X(real, mass) X(real, inertia) /* [kg], [kg m^2]; kept also where the inverses are 0 */         \
+    X(real, set_mass) X(real, set_inertia) /* given by the user; 0: from the shapes */              \
+    X(void *, user_data)                                                                            \
+    X(uint32_t, first_piece)       /* pieces of the body, newest shape first; PL_NONE ends */       \
+    X(uint8_t, type)               /* plumb_body_type */                                            \
+    X(uint8_t, flags)              /* PL_BODY_... */
+
+#define PL_BODY_FIXED_ROTATION 1u
+
+// Pieces: the convex parts of shapes, what the broad and narrow phase see. Slots are stable for the
+// life of the shape (contacts and grids name them); free slots have kind PL_PIECE_FREE.
+#define PL_PIECE_COLUMNS(X)                                                                         \
+    X(plumb_entity, shape)         /* the shape entity it belongs to */                             \
+    X(uint8_t, kind)               /* pl_piece_kind: which narrow-phase kernel */                   \
+    X(uint8_t, shape_kind)         /* plumb_shape_kind */                                           \
+    X(uint8_t, vertex_count)       /* corners in the vertex pool; 0 for circles */                  \
+    X(uint8_t, vertex_class)       /* size class of its run in the pool */                          \
+    X(uint32_t, vertices)          /* first corner in the vertex pool */                            \
+    X(uint32_t, seams)             /* bit k: edge k is an inner cut */                              \
+    X(uint32_t, body)              /* body row; follows the row when it moves */                    \
+    X(uint32_t, next_in_body)      /* next piece of the body, PL_NONE ends */                       \
+    X(uint32_t, next_in_shape)     /* next piece of the shape, PL_NONE ends; also the free list */  \
+    X(uint32_t, material)          /* material row */                                               \
+    X(real, friction) X(real, restitution) /* copied from the material */                           \
+    X(real, density)               /* [kg/m^2] in force; 0 for lines */                             \
+    X(real, own_density)           /* [kg/m^2] given with the shape; 0: the material's */           \
+    X(plumb_mass_properties, area) /* the whole shape at density 1, on its first piece; else 0 */   \
+    X(uint32_t, serial)            /* world->serial when the slot was taken: tells reused slots */  \
+    X(void *, user_data)                                                                            \
+    X(pl_core, core)               /* geometry in the body's frame, one gatherable record */        \
+    X(pl_box, fat)                 /* [m] fat box in the grid */                                    \
+    X(uint32_t, moving)            /* place in the list of moving pieces; PL_NONE: static */
+
+#define PL_MATERIAL_COLUMNS(X)                                                                      \
+    X(plumb_entity, entity)                                                                         \
+    X(real, density) X(real, friction) X(real, restitution)                                         \
+    X(uint32_t, users)             /* pieces that name it */
+// clang-format on
+
+#define PL_NONE UINT32_MAX
+
+typedef enum pl_piece_kind {
+    PL_PIECE_FREE,
+    PL_PIECE_CIRCLE,  // core: centre, radius
+    PL_PIECE_CAPSULE, // core: centre, direction (c, s), half length hx, radius; segments have radius 0
+    PL_PIECE_BOX,     // core: centre, rotation, half extents, rounding; also in the vertex pool
+    PL_PIECE_POLYGON, // corners in the vertex pool; core: centre of the box around it, radius
+    PL_PIECE_KIND_COUNT
+} pl_piece_kind;
+
+// Geometry of a piece in the frame of the body's origin: eight reals, gathered by the kernels as one
+// row. hx, hy are half extents (box), half length and 0 (capsule), half box (polygon).
+typedef struct pl_core {
+    real x, y;   // [m] centre
+    real c, s;   // rotation of the piece's own frame
+    real hx, hy; // [m]
+    real radius; // [m] rounding, or the radius of a circle
+    real reach;  // [m] farthest point from the body's origin
+} pl_core;
+
+typedef struct pl_box {
+    real min_x, min_y, max_x, max_y; // [m]
+} pl_box;
+
+// A corner and the outward normal of the edge that starts there.
+typedef struct pl_vertex {
+    real x, y;   // [m] in the body's frame
+    real nx, ny; // unit
+} pl_vertex;
+
+#define PL_DECLARE_COLUMN(type, name) type *name;
+
+typedef struct pl_bodies {
+    pl_table table;
+    PL_BODY_COLUMNS(PL_DECLARE_COLUMN)
+} pl_bodies;
+
+typedef struct pl_pieces {
+    pl_table table; // count: slots ever used (high water), free ones included
+    PL_PIECE_COLUMNS(PL_DECLARE_COLUMN)
+    uint32_t free_head; // PL_NONE: none
+    uint32_t live;      // pieces in use
+} pl_pieces;
+
+typedef struct pl_materials {
+    pl_table table; // row 0 is the default material
+    PL_MATERIAL_COLUMNS(PL_DECLARE_COLUMN)
+} pl_materials;
+
+#undef PL_DECLARE_COLUMN
+
+// Descriptors made from the lists (columns.c).
+extern const pl_column pl_body_columns[];
+extern const size_t pl_body_column_count;
+extern const pl_column pl_piece_columns[];
+extern const size_t pl_piece_column_count;
+extern const pl_column pl_material_columns[];
+extern const size_t pl_material_column_count;
+
+#endif

@@ -1,0 +1,107 @@
+// material.c - materials: rows of a table, row 0 the default one, which has no handle.
+//
+// Reads: descriptors. Writes: material rows, and the copies of friction and restitution in pieces.
+// Cost: O(1); plumb_material_set and _destroy O(pieces of the world).
+#include "world/check.h"
+#include "world/rows.h"
+
+#define FRICTION_MOST ((real)10) // [-] see plumb_material_desc
+
+static plumb_result check_desc(const plumb_world *world, const char *fn,
+                               const plumb_material_desc *desc)
+{
+    plumb_result r = pl_check_pointer(world, fn, "desc", desc);
+    r = r != PLUMB_OK ? r : pl_check_range(world, fn, "density", desc->density, 0, PLUMB_REAL_MAX);
+    r = r != PLUMB_OK ? r : pl_check_range(world, fn, "friction", desc->friction, 0, FRICTION_MOST);
+    return r != PLUMB_OK ? r : pl_check_range(world, fn, "restitution", desc->restitution, 0, 1);
+}
+
+static void fill_row(plumb_world *world, uint32_t row, const plumb_material_desc *desc)
+{
+    world->materials.density[row] = desc->density > 0 ? desc->density : 1;
+    world->materials.friction[row] = desc->friction;
+    world->materials.restitution[row] = desc->restitution;
+}
+
+plumb_material plumb_material_create(plumb_world *world, const plumb_material_desc *desc)
+{
+    plumb_material none = PLUMB_NULL_INIT;
+    if (world == NULL || pl_check_unlocked(world, __func__) != PLUMB_OK ||
+        check_desc(world, __func__, desc) != PLUMB_OK) {
+        return none;
+    }
+    pl_materials *materials = &world->materials;
+    if (!pl_registry_reserve(&world->memory, &world->registry, 1) ||
+        !pl_table_reserve(&world->memory, &materials->table, pl_material_columns,
+                          pl_material_column_count, materials->table.count + 1)) {
+        pl_fail_memory(world, __func__);
+        return none;
+    }
+    uint32_t row = materials->table.count++;
+    pl_table_clear(&materials->table, pl_material_columns, pl_material_column_count, row);
+    materials->entity[row] = pl_entity_claim(world, none, PLUMB_KIND_MATERIAL, row);
+    fill_row(world, row, desc);
+    return materials->entity[row];
+}
+
+plumb_result pl_check_unused(const plumb_world *world, const char *fn, uint32_t row)
+{
+    uint32_t users = world->materials.users[row];
+    if (users == 0) {
+        return PLUMB_OK;
+    }
+    return pl_fail(world, PLUMB_E_STATE, fn, "material is used by %u piece%s; no shape may name it",
+                   (unsigned)users, users == 1 ? "" : "s");
+}
+
+plumb_result plumb_material_destroy(plumb_world *world, plumb_material material)
+{
+    if (world == NULL) {
+        return PLUMB_E_NULL;
+    }
+    uint32_t row = pl_material_row(world, material);
+    if (row == PL_NONE) {
+        return pl_fail_handle(world, __func__, "material", material, "a live material");
+    }
+    plumb_result r = pl_check_unlocked(world, __func__);
+    r = r != PLUMB_OK ? r : pl_check_unused(world, __func__, row);
+    if (r == PLUMB_OK) {
+        pl_destroy_entity(world, material);
+    }
+    return r;
+}
+
+plumb_result plumb_material_get(const plumb_world *world, plumb_material material,
+                                plumb_material_desc *desc)
+{
+    uint32_t row;
+    plumb_result r = pl_check_material(world, __func__, material, &row);
+    r = r != PLUMB_OK ? r : pl_check_pointer(world, __func__, "desc", desc);
+    if (r == PLUMB_OK) {
+        *desc =
+            (plumb_material_desc){ world->materials.density[row], world->materials.friction[row],
+                                   world->materials.restitution[row] };
+    }
+    return r;
+}
+
+plumb_result plumb_material_set(plumb_world *world, plumb_material material,
+                                const plumb_material_desc *desc)
+{
+    uint32_t row;
+    plumb_result r = pl_check_material(world, __func__, material, &row);
+    r = r != PLUMB_OK ? r : check_desc(world, __func__, desc);
+    if (r != PLUMB_OK) {
+        return r;
+    }
+    fill_row(world, row, desc);
+    pl_pieces *pieces = &world->pieces;
+    for (uint32_t p = 0; p < pieces->table.count; ++p) {
+        if (pieces->kind[p] != PL_PIECE_FREE && pieces->material[p] == row) {
+            pieces->friction[p] = desc->friction;
+            pieces->restitution[p] = desc->restitution;
+        }
+    }
+    world->schedule_dirty = true;
+    return PLUMB_OK;
+}

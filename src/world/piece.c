@@ -1,0 +1,191 @@
+// piece.c - pieces: slots, the lists that run through them, and their corners in the vertex pool.
+//
+// Slots stay put while the shape lives, since grids and contacts name them. A freed slot keeps the
+// shape that it belonged to until it is taken again, so that an end event can still tell it. Free
+// slots are a stack: the same calls give the same slots.
+//
+// Reads: world->made. Writes: piece table, vertex pool, moving list, counters and flags.
+// Cost: O(pieces of the shape + pieces of the body).
+#include "world/rows.h"
+
+#include <string.h>
+
+bool pl_pieces_reserve(plumb_world *world, uint32_t extra)
+{
+    pl_pieces *pieces = &world->pieces;
+    uint32_t free_slots = pieces->table.count - pieces->live;
+    uint32_t fresh = extra > free_slots ? extra - free_slots : 0;
+    if (fresh >= PL_NONE - pieces->table.count) {
+        return false;
+    }
+    return pl_table_reserve(&world->memory, &pieces->table, pl_piece_columns, pl_piece_column_count,
+                            pieces->table.count + fresh) &&
+           pl_buffer_reserve(&world->memory, &world->moving,
+                             ((size_t)world->moving_count + extra) * sizeof(uint32_t));
+}
+
+static uint32_t take_slot(plumb_world *world)
+{
+    pl_pieces *pieces = &world->pieces;
+    uint32_t slot = pieces->free_head;
+    if (slot == PL_NONE) {
+        slot = pieces->table.count++;
+    } else {
+        pieces->free_head = pieces->next_in_shape[slot];
+    }
+    pl_table_clear(&pieces->table, pl_piece_columns, pl_piece_column_count, slot);
+    ++pieces->live;
+    pieces->serial[slot] = ++world->serial;
+    return slot;
+}
+
+static void enlist_moving(plumb_world *world, uint32_t slot)
+{
+    pl_moving(world)[world->moving_count] = slot;
+    world->pieces.moving[slot] = world->moving_count++;
+}
+
+static void delist_moving(plumb_world *world, uint32_t slot)
+{
+    uint32_t place = world->pieces.moving[slot];
+    uint32_t last = pl_moving(world)[--world->moving_count];
+    pl_moving(world)[place] = last;
+    world->pieces.moving[last] = place;
+    world->pieces.moving[slot] = PL_NONE;
+}
+
+static void store_corners(plumb_world *world, uint32_t slot, const plumb_convex *convex)
+{
+    pl_pieces *pieces = &world->pieces;
+    if (convex->count < 2) {
+        return;
+    }
+    uint8_t vertex_class = pl_pool_class(convex->count);
+    uint32_t first = pl_pool_take(&world->vertices, vertex_class);
+    pieces->vertex_count[slot] = (uint8_t)convex->count;
+    pieces->vertex_class[slot] = vertex_class;
+    pieces->vertices[slot] = first;
+    pl_vertex *corner = world->vertices.items + first;
+    uint32_t run = pl_pool_run(vertex_class);
+    for (uint32_t i = 0; i < run; ++i) {
+        // What is left of the run repeats the last corner: kernels may read whole runs.
+        uint32_t k = i < (uint32_t)convex->count ? i : (uint32_t)convex->count - 1;
+        corner[i] = (pl_vertex){ convex->points[k].x, convex->points[k].y, convex->normals[k].x,
+                                 convex->normals[k].y };
+    }
+}
+
+static void fill_slot(plumb_world *world, uint32_t slot, uint32_t row, const pl_made_piece *made)
+{
+    pl_pieces *pieces = &world->pieces;
+    pieces->kind[slot] = made->kind;
+    pieces->core[slot] = made->core;
+    pieces->seams[slot] = made->seams;
+    pieces->body[slot] = row;
+    pieces->moving[slot] = PL_NONE;
+    // Empty: whatever the tight box is, the piece has left its fat box.
+    pieces->fat[slot] =
+        (pl_box){ PLUMB_REAL_MAX, PLUMB_REAL_MAX, -PLUMB_REAL_MAX, -PLUMB_REAL_MAX };
+    store_corners(world, slot, &made->convex);
+    ++world->piece_kinds[made->kind];
+    if (world->bodies.type[row] == PLUMB_STATIC) {
+        world->static_dirty = true;
+    } else {
+        enlist_moving(world, slot);
+    }
+}
+
+uint32_t pl_pieces_add(plumb_world *world, uint32_t row, plumb_shape shape, const pl_made *made)
+{
+    pl_pieces *pieces = &world->pieces;
+    const pl_made_piece *source = world->made.data;
+    uint32_t first = PL_NONE;
+    uint32_t before = PL_NONE;
+    for (uint32_t i = 0; i < made->count; ++i) {
+        uint32_t slot = take_slot(world);
+        fill_slot(world, slot, row, &source[i]);
+        pieces->shape[slot] = shape;
+        if (before == PL_NONE) {
+            first = slot;
+        } else {
+            pieces->next_in_shape[before] = slot;
+            pieces->next_in_body[before] = slot;
+        }
+        before = slot;
+    }
+    pieces->next_in_shape[before] = PL_NONE;
+    pieces->next_in_body[before] = world->bodies.first_piece[row];
+    world->bodies.first_piece[row] = first;
+    pieces->area[first] = made->area;
+    ++world->shape_count;
+    world->pairs_dirty = true;
+    world->schedule_dirty = true;
+    return first;
+}
+
+// The pieces of a shape follow one another in the list of the body: they come out as one run.
+static void unlink_from_body(plumb_world *world, uint32_t first)
+{
+    pl_pieces *pieces = &world->pieces;
+    uint32_t last = first;
+    while (pieces->next_in_shape[last] != PL_NONE) {
+        last = pieces->next_in_shape[last];
+    }
+    uint32_t *link = &world->bodies.first_piece[pieces->body[first]];
+    while (*link != first) {
+        link = &pieces->next_in_body[*link];
+    }
+    *link = pieces->next_in_body[last];
+}
+
+static void free_slot(plumb_world *world, uint32_t slot)
+{
+    pl_pieces *pieces = &world->pieces;
+    if (pieces->moving[slot] == PL_NONE) {
+        world->static_dirty = true;
+    } else {
+        delist_moving(world, slot);
+    }
+    if (pieces->vertex_count[slot] > 0) {
+        pl_pool_give(&world->vertices, pieces->vertex_class[slot], pieces->vertices[slot]);
+    }
+    --world->materials.users[pieces->material[slot]];
+    --world->piece_kinds[pieces->kind[slot]];
+    --pieces->live;
+    pieces->kind[slot] = PL_PIECE_FREE;
+    pieces->vertex_count[slot] = 0;
+    pieces->next_in_shape[slot] = pieces->free_head;
+    pieces->free_head = slot;
+}
+
+void pl_pieces_remove(plumb_world *world, uint32_t first)
+{
+    unlink_from_body(world, first);
+    uint32_t slot = first;
+    while (slot != PL_NONE) {
+        uint32_t next = world->pieces.next_in_shape[slot];
+        free_slot(world, slot);
+        slot = next;
+    }
+    --world->shape_count;
+    world->pairs_dirty = true;
+    world->schedule_dirty = true;
+}
+
+void pl_piece_convex(const plumb_world *world, uint32_t piece, plumb_convex *out)
+{
+    const pl_pieces *pieces = &world->pieces;
+    memset(out, 0, sizeof *out);
+    out->radius = pieces->core[piece].radius;
+    if (pieces->vertex_count[piece] == 0) {
+        out->count = 1;
+        out->points[0] = plumb_v2(pieces->core[piece].x, pieces->core[piece].y);
+        return;
+    }
+    out->count = pieces->vertex_count[piece];
+    const pl_vertex *corner = world->vertices.items + pieces->vertices[piece];
+    for (int i = 0; i < out->count; ++i) {
+        out->points[i] = plumb_v2(corner[i].x, corner[i].y);
+        out->normals[i] = plumb_v2(corner[i].nx, corner[i].ny);
+    }
+}

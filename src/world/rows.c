@@ -1,0 +1,235 @@
+// rows.c - body rows: opened and closed in their partitions, looked up, brought in line with their
+// pose.
+//
+// Rows lie as [awake dynamic | kinematic | asleep | static]. To open or close a row in one
+// partition, each partition behind it gives its first row to its end, or its last to its beginning:
+// no more than one row a boundary moves, and no gap ever exists. Where a row goes is told to the
+// registry, to the `body` column of the body's pieces, and to the poses.
+//
+// Reads, writes: body table, registry rows, pieces.body, poses. Cost: O(1) + pieces of the rows
+// moved.
+#include "world/rows.h"
+
+//---- lookup
+//---------------------------------------------------------------------------------------
+
+static uint32_t row_of(const plumb_world *world, plumb_entity entity, plumb_entity_kind kind)
+{
+    if (world == NULL) {
+        return PL_NONE;
+    }
+    const pl_slot *slot = pl_registry_find(&world->registry, entity);
+    return slot != NULL && slot->kind == (uint32_t)kind ? slot->row : PL_NONE;
+}
+
+uint32_t pl_body_row(const plumb_world *world, plumb_body body)
+{
+    return row_of(world, body, PLUMB_KIND_BODY);
+}
+
+uint32_t pl_shape_piece(const plumb_world *world, plumb_shape shape)
+{
+    return row_of(world, shape, PLUMB_KIND_SHAPE);
+}
+
+uint32_t pl_material_row(const plumb_world *world, plumb_material material)
+{
+    return row_of(world, material, PLUMB_KIND_MATERIAL);
+}
+
+//---- partitions
+//-----------------------------------------------------------------------------------
+
+uint32_t pl_partition_first(const plumb_world *world, pl_partition partition)
+{
+    const uint32_t sizes[] = { world->dynamic_count, world->kinematic_count, world->asleep_count };
+    if (partition == PL_PART_COUNT) {
+        return world->bodies.table.count;
+    }
+    uint32_t first = 0;
+    for (int p = 0; p < (int)partition; ++p) {
+        first += sizes[p];
+    }
+    return first;
+}
+
+// The count of a partition; static rows are what is left and need none.
+static void count_row(plumb_world *world, pl_partition partition, bool opened)
+{
+    uint32_t *counts[] = { &world->dynamic_count, &world->kinematic_count, &world->asleep_count };
+    world->bodies.table.count += opened ? 1u : UINT32_MAX;
+    if (partition != PL_PART_STATIC) {
+        *counts[partition] += opened ? 1u : UINT32_MAX;
+    }
+}
+
+static void move_row(plumb_world *world, uint32_t from, uint32_t to)
+{
+    if (from == to) {
+        return;
+    }
+    pl_bodies *bodies = &world->bodies;
+    pl_table_copy(&bodies->table, pl_body_columns, pl_body_column_count, from, to);
+    pl_poses(world)[to] = pl_poses(world)[from];
+    world->registry.slots[bodies->entity[to].index].row = to;
+    for (uint32_t p = bodies->first_piece[to]; p != PL_NONE; p = world->pieces.next_in_body[p]) {
+        world->pieces.body[p] = to;
+    }
+    world->rows_moved = true;
+}
+
+bool pl_rows_reserve(plumb_world *world, uint32_t extra)
+{
+    uint32_t count = world->bodies.table.count;
+    return extra < PL_NONE - count &&
+           pl_table_reserve(&world->memory, &world->bodies.table, pl_body_columns,
+                            pl_body_column_count, count + extra) &&
+           pl_buffer_reserve(&world->memory, &world->poses,
+                             ((size_t)count + extra) * sizeof(pl_pose));
+}
+
+uint32_t pl_row_open(plumb_world *world, pl_partition partition)
+{
+    uint32_t hole = world->bodies.table.count;
+    for (int p = PL_PART_STATIC; p > (int)partition; --p) {
+        uint32_t first = pl_partition_first(world, (pl_partition)p);
+        move_row(world, first, hole);
+        hole = first;
+    }
+    count_row(world, partition, true);
+    pl_table_clear(&world->bodies.table, pl_body_columns, pl_body_column_count, hole);
+    pl_poses(world)[hole] = (pl_pose){ 0 };
+    world->bodies.first_piece[hole] = PL_NONE;
+    world->schedule_dirty = true;
+    return hole;
+}
+
+void pl_row_close(plumb_world *world, uint32_t row)
+{
+    if (world->bodies.inv_inertia[row] > 0) {
+        --world->turning_bodies;
+    }
+    int partition = PL_PART_AWAKE;
+    while (row >= pl_partition_first(world, (pl_partition)(partition + 1))) {
+        ++partition;
+    }
+    uint32_t hole = row;
+    for (int p = partition; p < PL_PART_COUNT; ++p) {
+        uint32_t end = pl_partition_first(world, (pl_partition)(p + 1));
+        if (end > pl_partition_first(world, (pl_partition)p)) {
+            move_row(world, end - 1, hole);
+            hole = end - 1;
+        }
+    }
+    count_row(world, (pl_partition)partition, false);
+    world->schedule_dirty = true;
+}
+
+//---- poses
+//----------------------------------------------------------------------------------------
+
+static void write_pose(plumb_world *world, uint32_t row, real dx, real dy)
+{
+    const pl_bodies *b = &world->bodies;
+    pl_poses(world)[row] =
+        (pl_pose){ b->x[row], b->y[row], b->c[row], b->s[row], dx, dy, b->vx[row], b->vy[row] };
+}
+
+void pl_body_update_origin(plumb_world *world, uint32_t row)
+{
+    pl_bodies *b = &world->bodies;
+    real dx = b->c[row] * b->local_x[row] - b->s[row] * b->local_y[row];
+    real dy = b->s[row] * b->local_x[row] + b->c[row] * b->local_y[row];
+    b->x[row] = b->center_x[row] - dx;
+    b->y[row] = b->center_y[row] - dy;
+    write_pose(world, row, dx, dy);
+}
+
+void pl_body_update_center(plumb_world *world, uint32_t row)
+{
+    pl_bodies *b = &world->bodies;
+    real dx = b->c[row] * b->local_x[row] - b->s[row] * b->local_y[row];
+    real dy = b->s[row] * b->local_x[row] + b->c[row] * b->local_y[row];
+    b->center_x[row] = b->x[row] + dx;
+    b->center_y[row] = b->y[row] + dy;
+    write_pose(world, row, dx, dy);
+}
+
+//---- destruction
+//----------------------------------------------------------------------------------
+
+static void destroy_shape(plumb_world *world, plumb_entity shape)
+{
+    uint32_t first = pl_shape_piece(world, shape);
+    uint32_t row = world->pieces.body[first];
+    pl_pieces_remove(world, first);
+    pl_registry_release(&world->registry, shape);
+    pl_mass_revise(world, row);
+}
+
+static void destroy_body(plumb_world *world, plumb_entity body)
+{
+    uint32_t row = pl_body_row(world, body);
+    while (world->bodies.first_piece[row] != PL_NONE) {
+        plumb_entity shape = world->pieces.shape[world->bodies.first_piece[row]];
+        pl_pieces_remove(world, world->bodies.first_piece[row]);
+        pl_registry_release(&world->registry, shape);
+    }
+    pl_row_close(world, row);
+    pl_registry_release(&world->registry, body);
+}
+
+// The last row fills the gap; the pieces that name it are told. Row 0 is the default and stays.
+static void destroy_material(plumb_world *world, plumb_entity material)
+{
+    pl_materials *materials = &world->materials;
+    uint32_t row = pl_material_row(world, material);
+    uint32_t last = --materials->table.count;
+    if (row != last) {
+        pl_table_copy(&materials->table, pl_material_columns, pl_material_column_count, last, row);
+        world->registry.slots[materials->entity[row].index].row = row;
+        for (uint32_t p = 0; p < world->pieces.table.count; ++p) {
+            if (world->pieces.kind[p] != PL_PIECE_FREE && world->pieces.material[p] == last) {
+                world->pieces.material[p] = row;
+            }
+        }
+    }
+    pl_registry_release(&world->registry, material);
+}
+
+// Removal hooks run while everything is still there: shapes of a body first, oldest last.
+static void drop_components(plumb_world *world, plumb_entity entity)
+{
+    uint32_t row = pl_body_row(world, entity);
+    if (row != PL_NONE) {
+        plumb_entity last = PLUMB_NULL_INIT;
+        uint32_t p = world->bodies.first_piece[row];
+        for (; p != PL_NONE; p = world->pieces.next_in_body[p]) {
+            if (!plumb_same(world->pieces.shape[p], last)) {
+                last = world->pieces.shape[p];
+                pl_components_drop_all(world, last);
+            }
+        }
+    }
+    pl_components_drop_all(world, entity);
+}
+
+void pl_destroy_entity(plumb_world *world, plumb_entity entity)
+{
+    drop_components(world, entity);
+    world->schedule_dirty = true;
+    switch (world->registry.slots[entity.index].kind) {
+    case PLUMB_KIND_BODY:
+        destroy_body(world, entity);
+        break;
+    case PLUMB_KIND_SHAPE:
+        destroy_shape(world, entity);
+        break;
+    case PLUMB_KIND_MATERIAL:
+        destroy_material(world, entity);
+        break;
+    default:
+        pl_registry_release(&world->registry, entity);
+        break;
+    }
+}

@@ -1,0 +1,129 @@
+// rows.h - the storage of bodies and shapes, below the API: rows, pieces, corners, mass. Nothing
+// here checks handles; whatever can fail is reserved first and committed afterwards.
+#ifndef PL_ROWS_H
+#define PL_ROWS_H
+
+#include "world/state.h"
+
+//---- body rows (rows.c)
+//---------------------------------------------------------------------------
+
+// Partitions in the order in which they lie in the table.
+typedef enum pl_partition {
+    PL_PART_AWAKE,
+    PL_PART_KINEMATIC,
+    PL_PART_ASLEEP,
+    PL_PART_STATIC,
+    PL_PART_COUNT
+} pl_partition;
+
+static inline pl_partition pl_partition_of(plumb_body_type type)
+{
+    return type == PLUMB_DYNAMIC     ? PL_PART_AWAKE
+           : type == PLUMB_KINEMATIC ? PL_PART_KINEMATIC
+                                     : PL_PART_STATIC;
+}
+
+// First row of a partition; PL_PART_COUNT: one past the last row.
+uint32_t pl_partition_first(const plumb_world *world, pl_partition partition);
+
+bool pl_rows_reserve(plumb_world *world, uint32_t extra);
+// Opens a zeroed row at the end of a partition (room must be reserved); at most one row of each
+// later partition moves.
+uint32_t pl_row_open(plumb_world *world, pl_partition partition);
+// Closes a row; at most one row of its own and of each later partition moves.
+void pl_row_close(plumb_world *world, uint32_t row);
+
+//---- vertex pool (pool.c)
+//-------------------------------------------------------------------------
+
+// Size class of a run of `count` corners, 1..16, and the corners that a class holds.
+uint8_t pl_pool_class(int count);
+uint32_t pl_pool_run(uint8_t vertex_class);
+// Makes room for `corners` corners in runs.
+bool pl_pool_reserve(pl_memory *memory, pl_vertex_pool *pool, uint32_t corners);
+uint32_t pl_pool_take(pl_vertex_pool *pool, uint8_t vertex_class);
+void pl_pool_give(pl_vertex_pool *pool, uint8_t vertex_class, uint32_t first);
+void pl_pool_init(pl_vertex_pool *pool);
+void pl_pool_free(pl_memory *memory, pl_vertex_pool *pool);
+
+//---- pieces (piece.c)
+//-----------------------------------------------------------------------------
+
+// A piece as shape_make.c made it, in the frame of the body's origin.
+typedef struct pl_made_piece {
+    plumb_convex convex;
+    pl_core core;
+    uint32_t seams;
+    uint8_t kind; // pl_piece_kind
+} pl_made_piece;
+
+// All of a shape; the pieces lie in world->made.
+typedef struct pl_made {
+    uint32_t count;
+    uint32_t corners;           // vertex pool corners that the pieces need
+    plumb_mass_properties area; // at density 1
+} pl_made;
+
+bool pl_pieces_reserve(plumb_world *world, uint32_t extra);
+// Stores the pieces in world->made as the newest shape of a body row (room must be reserved) and
+// returns the first. Sets shape, kind, geometry, lists and flags; material and density are the
+// caller's.
+uint32_t pl_pieces_add(plumb_world *world, uint32_t row, plumb_shape shape, const pl_made *made);
+// Removes the pieces of a shape, and its share of the material's users.
+void pl_pieces_remove(plumb_world *world, uint32_t first);
+
+//---- mass (mass.c)
+//--------------------------------------------------------------------------------
+
+// [kg], [kg m^2]: masses and inertias beyond these have no inverse that a float could hold.
+#define PL_MASS_LEAST ((real)1e-36)
+#define PL_MASS_MOST  ((real)1e36)
+
+typedef struct pl_mass_sum {
+    double mass, x, y; // [kg], [m] centre in the body's frame
+    double inertia;    // [kg m^2] about the centre
+} pl_mass_sum;
+
+typedef struct pl_body_mass {
+    real mass, inertia;
+    real x, y; // [m] centre in the body's frame
+} pl_body_mass;
+
+// The shapes of a body at the densities in force, and one more.
+pl_mass_sum pl_mass_of_shapes(const plumb_world *world, uint32_t row);
+void pl_mass_add(pl_mass_sum *sum, plumb_mass_properties area, real density);
+// What the body gets; false when mass or inertia leave their range (they are then clamped).
+bool pl_mass_resolve(const pl_mass_sum *sum, real set_mass, real set_inertia, pl_body_mass *out);
+// Gives a dynamic body its mass. The origin stays; the centre moves with it and keeps to the rigid
+// motion: v' = v + w x (centre' - centre).
+void pl_mass_apply(plumb_world *world, uint32_t row, const pl_body_mass *mass);
+// All of that for a body whose shapes have changed; static and kinematic ones have no mass.
+void pl_mass_revise(plumb_world *world, uint32_t row);
+
+//---- making shapes (shape_make.c)
+//-----------------------------------------------------------------
+
+// Checks a descriptor and makes its pieces in world->made. Errors: see plumb_shape_create.
+plumb_result pl_shape_make(plumb_world *world, const char *function, const plumb_shape_desc *desc,
+                           pl_made *made);
+
+//---- API calls that commands share with the direct ones
+//-------------------------------------------
+
+// `reserved` null: a new handle; otherwise one that a command has reserved, which comes alive.
+plumb_entity pl_entity_claim(plumb_world *world, plumb_entity reserved, plumb_entity_kind kind,
+                             uint32_t row);
+
+// The descriptor was checked (pl_body_check, pl_shape_make). Errors: E_MEMORY, E_RANGE (mass).
+plumb_result pl_body_check(const plumb_world *world, const char *function,
+                           const plumb_body_desc *desc);
+plumb_result pl_body_insert(plumb_world *world, const char *function, const plumb_body_desc *desc,
+                            plumb_body *body);
+plumb_result pl_shape_insert(plumb_world *world, const char *function, uint32_t row,
+                             const plumb_shape_desc *desc, const pl_made *made, plumb_shape *shape);
+void pl_body_place(plumb_world *world, uint32_t row, plumb_vec2 position, plumb_real angle);
+plumb_result pl_place_check(const plumb_world *world, const char *function, plumb_vec2 position,
+                            plumb_real angle);
+
+#endif

@@ -1,0 +1,134 @@
+// state.h - the whole state of a world, for the library's own files.
+//
+// Reading order: columns.h (what is stored), this file (how it hangs together), step/passes.c (what
+// happens to it in a step).
+#ifndef PL_STATE_H
+#define PL_STATE_H
+
+#include "broad/broad.h"
+#include "ecs/command.h"
+#include "ecs/component.h"
+#include "ecs/registry.h"
+#include "ecs/system.h"
+#include "narrow/manifold.h"
+#include "plumb/event.h"
+#include "plumb/query.h"
+#include "solver/solver.h"
+#include "step/pass.h"
+#include "world/columns.h"
+
+// A size class of the vertex pool holds runs of 4, 8 or 16 corners.
+#define PL_VERTEX_CLASSES 3
+
+typedef struct pl_vertex_pool {
+    pl_vertex *items;
+    size_t bytes;
+    uint32_t count;                        // corners handed out, free runs included
+    uint32_t capacity;
+    uint32_t free_head[PL_VERTEX_CLASSES]; // first corner of a free run; its x holds no value, see pool.c
+} pl_vertex_pool;
+
+// Body rows as the narrow phase gathers them: eight reals a row.
+typedef struct pl_pose {
+    real x, y;     // [m] origin
+    real c, s;     // rotation
+    real dx, dy;   // [m] centre of mass minus origin, in world axes
+    real vx, vy;   // [m/s] velocity of the centre
+} pl_pose;
+
+struct plumb_world {
+    plumb_world_desc desc; // defaults resolved
+    pl_memory memory;
+    plumb_vec2 gravity;
+    uint64_t step_count;
+    double time;
+
+    // Entities and rows.
+    pl_registry registry;
+    pl_bodies bodies;
+    uint32_t dynamic_count, kinematic_count, asleep_count; // the rest of bodies.table.count is static
+    pl_pieces pieces;
+    uint32_t shape_count;
+    uint32_t serial;       // counts the pieces ever made
+    pl_buffer made;        // pl_made_piece: pieces of a shape between check and commit
+    pl_buffer outline;     // plumb_convex_piece: scratch of the decomposition
+    pl_vertex_pool vertices;
+    pl_materials materials;
+    pl_components components;
+    pl_systems systems;
+    pl_commands commands;
+
+    // Lists and flags that structural changes keep up.
+    pl_buffer moving;      // uint32_t: pieces of dynamic and kinematic bodies, unordered
+    uint32_t moving_count;
+    pl_buffer poses;       // pl_pose a body row
+    bool rows_moved;       // body rows changed place: pairs must look their rows up again
+    bool pairs_dirty;      // pieces came, went or were teleported: the pair list must be rebuilt
+    bool static_dirty;     // static pieces came, went or moved: the static grid must be rebuilt
+    bool schedule_dirty;   // something structural changed: `wanted` is asked again
+
+    // Counters behind `wanted`: how many pieces or bodies ask for an effect.
+    uint32_t piece_kinds[PL_PIECE_KIND_COUNT]; // live pieces of each kind
+    uint32_t turning_bodies;                   // awake dynamic bodies with inverse inertia > 0
+
+    // Broad phase, narrow phase, solver: each owns its struct.
+    pl_broad broad;
+    pl_narrow narrow;
+    pl_solver solver;
+    pl_schedule schedule;
+
+    // Events of the last step.
+    pl_buffer begin_events, end_events; // plumb_contact_begin, plumb_contact_end
+    int begin_count, end_count;
+
+    // Locking and errors.
+    const char *locked_by; // name of the system or hook that runs; NULL: structural changes allowed
+    bool in_hook;          // locked_by is the component whose hook runs, not a system
+    plumb_error error;
+    char error_text[512];
+};
+
+//---- errors (world/error.c) -----------------------------------------------------------------------
+
+// Records a refused call, sends it to the log, returns `code`.
+plumb_result pl_fail(const plumb_world *world, plumb_result code, const char *function,
+                     const char *format, ...) __attribute__((format(printf, 4, 5)));
+
+// Sends a warning to the log hook.
+void pl_warn(const plumb_world *world, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+
+// E_LOCKED with the name of the system and the remedy when the world is stepping.
+plumb_result pl_check_unlocked(const plumb_world *world, const char *function);
+
+//---- rows (world/rows.c) --------------------------------------------------------------------------
+
+// The body row, piece slot (first of the shape) or material row of a live handle, PL_NONE otherwise.
+uint32_t pl_body_row(const plumb_world *world, plumb_entity body);
+uint32_t pl_shape_piece(const plumb_world *world, plumb_entity shape);
+uint32_t pl_material_row(const plumb_world *world, plumb_entity material);
+
+// Derives origin and pose of a row from its centre, rotation and local centre.
+void pl_body_update_origin(plumb_world *world, uint32_t row);
+// Derives centre and pose from origin and rotation (after a teleport or a change of mass).
+void pl_body_update_center(plumb_world *world, uint32_t row);
+
+// Destroys pieces, rows and components of an entity of any kind; the handle was checked.
+void pl_destroy_entity(plumb_world *world, plumb_entity entity);
+
+// Fills `out` with the piece as the user gave it.
+void pl_piece_convex(const plumb_world *world, uint32_t piece, plumb_convex *out);
+// Tight box of a piece at its body's pose.
+pl_box pl_piece_tight_box(const plumb_world *world, uint32_t piece);
+
+static inline pl_pose *pl_poses(const plumb_world *world)
+{
+    return (pl_pose *)world->poses.data;
+}
+
+static inline uint32_t *pl_moving(const plumb_world *world)
+{
+    return (uint32_t *)world->moving.data;
+}
+
+#endif

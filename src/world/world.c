@@ -1,0 +1,309 @@
+// world.c - a world is made, destroyed, set and summed up.
+//
+// Reads: the descriptor; for stats and energy, the whole state. Writes: the world.
+// Cost: O(1), plumb_world_destroy O(components), plumb_world_energy O(dynamic bodies).
+#include "plumb/world.h"
+
+#include "world/check.h"
+#include "world/rows.h"
+
+#define STANDARD_GRAVITY ((real)9.81) // [m/s^2]
+#define CAPACITY_MOST                                                                              \
+    (UINT32_C(1) << 24) // rows: more than any machine steps, less than wraps sizes
+#define DEFAULT_FRICTION   ((real)0.6)
+#define SOFT_SUBSTEPS      4
+#define SOFT_DAMPING       ((real)10)
+#define SOFT_PUSH_SPEED    ((real)3) // [m/s]
+#define CLASSIC_ITERATIONS 10
+
+//---- the descriptor
+//-------------------------------------------------------------------------------
+
+static plumb_result check_integers(const plumb_world *world, const char *fn,
+                                   const plumb_world_desc *d)
+{
+    const struct {
+        const char *name;
+        int64_t value, high;
+    } fields[] = {
+        { "y_axis", (int64_t)d->y_axis, PLUMB_Y_DOWN },
+        { "solver", (int64_t)d->solver, PLUMB_SOLVER_PGS },
+        { "substeps", d->substeps, 64 },
+        { "iterations", d->iterations, 1000 },
+        { "body_capacity", d->body_capacity, CAPACITY_MOST },
+        { "shape_capacity", d->shape_capacity, CAPACITY_MOST },
+        { "contact_capacity", d->contact_capacity, CAPACITY_MOST },
+    };
+    for (size_t i = 0; i < sizeof fields / sizeof fields[0]; ++i) {
+        if (fields[i].value < 0 || fields[i].value > fields[i].high) {
+            return pl_fail(world, PLUMB_E_RANGE, fn, "%s is %lld; it must be 0 to %lld",
+                           fields[i].name, (long long)fields[i].value, (long long)fields[i].high);
+        }
+    }
+    if (d->simd_width != 0 && d->simd_width != 4 && d->simd_width != 8 && d->simd_width != 16) {
+        return pl_fail(world, PLUMB_E_RANGE, fn, "simd_width is %d; it must be 0, 4, 8 or 16",
+                       d->simd_width);
+    }
+    return PLUMB_OK;
+}
+
+static plumb_result check_desc(const plumb_world *world, const char *fn, const plumb_world_desc *d)
+{
+    plumb_result r = pl_check_finite_vec(world, fn, "gravity", d->gravity);
+    if (r == PLUMB_OK && d->zero_gravity && (d->gravity.x != 0 || d->gravity.y != 0)) {
+        r = pl_fail(world, PLUMB_E_RANGE, fn,
+                    "gravity is (%g, %g); it must be (0, 0) with zero_gravity",
+                    (double)d->gravity.x, (double)d->gravity.y);
+    }
+    const struct {
+        const char *name;
+        real value;
+    } fields[] = {
+        { "contact_hertz", d->contact_hertz },
+        { "contact_damping", d->contact_damping },
+        { "push_speed", d->push_speed },
+        { "restitution_speed", d->restitution_speed },
+    };
+    for (size_t i = 0; i < sizeof fields / sizeof fields[0] && r == PLUMB_OK; ++i) {
+        r = pl_check_range(world, fn, fields[i].name, fields[i].value, 0, PLUMB_REAL_MAX);
+    }
+    return r != PLUMB_OK ? r : check_integers(world, fn, d);
+}
+
+// contact_hertz stays 0: "a quarter of the substep rate", which is known only when a step is taken.
+static void resolve_defaults(plumb_world_desc *d)
+{
+    bool soft = d->solver == PLUMB_SOLVER_SOFT;
+    if (!d->zero_gravity && d->gravity.x == 0 && d->gravity.y == 0) {
+        d->gravity.y = d->y_axis == PLUMB_Y_UP ? -STANDARD_GRAVITY : STANDARD_GRAVITY;
+    }
+    d->substeps = d->substeps != 0 ? d->substeps : soft ? SOFT_SUBSTEPS : 1;
+    d->iterations = d->iterations != 0 ? d->iterations : soft ? 1 : CLASSIC_ITERATIONS;
+    d->contact_damping = d->contact_damping > 0 ? d->contact_damping : SOFT_DAMPING;
+    d->push_speed = d->push_speed > 0 ? d->push_speed : SOFT_PUSH_SPEED;
+    d->simd_width = pl_solver_best_width(d->simd_width);
+}
+
+//---- create, destroy
+//------------------------------------------------------------------------------
+
+static void init_tables(plumb_world *world)
+{
+    pl_registry_init(&world->registry);
+    pl_pool_init(&world->vertices);
+    world->pieces.free_head = PL_NONE;
+    world->schedule_dirty = true;
+}
+
+static bool make_default_material(plumb_world *world)
+{
+    pl_materials *m = &world->materials;
+    if (!pl_table_reserve(&world->memory, &m->table, pl_material_columns, pl_material_column_count,
+                          1)) {
+        return false;
+    }
+    m->table.count = 1;
+    m->density[0] = 1;
+    m->friction[0] = DEFAULT_FRICTION;
+    return true;
+}
+
+static bool reserve_rows(plumb_world *world)
+{
+    const plumb_world_desc *d = &world->desc;
+    size_t pairs = d->contact_capacity * sizeof(pl_pair);
+    pl_memory *memory = &world->memory;
+    return pl_registry_reserve(memory, &world->registry, d->body_capacity + d->shape_capacity) &&
+           pl_rows_reserve(world, d->body_capacity) &&
+           pl_pieces_reserve(world, d->shape_capacity) &&
+           pl_buffer_reserve(memory, &world->broad.pairs.items, pairs) &&
+           pl_buffer_reserve(memory, &world->broad.pairs.old_items, pairs) &&
+           pl_buffer_reserve(memory, &world->narrow.manifolds,
+                             d->contact_capacity * sizeof(pl_manifold));
+}
+
+static void free_world(plumb_world *world)
+{
+    pl_memory memory = world->memory;
+    pl_broad_free(&memory, &world->broad);
+    pl_narrow_free(&memory, &world->narrow);
+    pl_solver_free(&memory, &world->solver);
+    pl_registry_free(&memory, &world->registry);
+    pl_table_free(&memory, &world->bodies.table, pl_body_columns, pl_body_column_count);
+    pl_table_free(&memory, &world->pieces.table, pl_piece_columns, pl_piece_column_count);
+    pl_table_free(&memory, &world->materials.table, pl_material_columns, pl_material_column_count);
+    pl_pool_free(&memory, &world->vertices);
+    pl_components_free(&memory, &world->components);
+    pl_systems_free(&memory, &world->systems);
+    pl_commands_free(&memory, &world->commands);
+    pl_buffer_free(&memory, &world->made);
+    pl_buffer_free(&memory, &world->outline);
+    pl_buffer_free(&memory, &world->moving);
+    pl_buffer_free(&memory, &world->poses);
+    pl_buffer_free(&memory, &world->begin_events);
+    pl_buffer_free(&memory, &world->end_events);
+    pl_resize(&memory, world, sizeof *world, 0);
+}
+
+// What is said of a world that does not come to be: the record would go with it.
+static plumb_result refuse_world(const plumb_world_desc *desc, plumb_result code,
+                                 const char *message)
+{
+    if (desc->log != NULL) {
+        desc->log(desc->hook_context, PLUMB_LOG_ERROR, message);
+    }
+    return code;
+}
+
+plumb_result plumb_world_create(const plumb_world_desc *desc, plumb_world **world)
+{
+    const plumb_world_desc zero = { 0 };
+    desc = desc == NULL ? &zero : desc;
+    if (world == NULL) {
+        return refuse_world(desc, PLUMB_E_NULL,
+                            "plumb_world_create: world is null; it must be given");
+    }
+    *world = NULL;
+    pl_memory memory;
+    pl_memory_init(&memory, &desc->allocator);
+    plumb_world *made = pl_resize(&memory, NULL, 0, sizeof *made);
+    if (made == NULL) {
+        return refuse_world(desc, PLUMB_E_MEMORY,
+                            "plumb_world_create: the allocator returned no memory");
+    }
+    *made = (plumb_world){ .desc = *desc, .memory = memory };
+    init_tables(made);
+    plumb_result r = check_desc(made, "plumb_world_create", desc);
+    if (r == PLUMB_OK) {
+        resolve_defaults(&made->desc);
+        made->desc.allocator = memory.hooks;
+        made->gravity = made->desc.gravity;
+        if (!make_default_material(made) || !reserve_rows(made)) {
+            r = pl_fail_memory(made, "plumb_world_create");
+        }
+    }
+    if (r != PLUMB_OK) {
+        free_world(made);
+        return r;
+    }
+    *world = made;
+    return PLUMB_OK;
+}
+
+void plumb_world_destroy(plumb_world *world)
+{
+    if (world == NULL) {
+        return;
+    }
+    pl_components_bury(world);
+    free_world(world);
+}
+
+//---- settings
+//-------------------------------------------------------------------------------------
+
+plumb_world_desc plumb_world_settings(const plumb_world *world)
+{
+    return world == NULL ? (plumb_world_desc){ 0 } : world->desc;
+}
+
+plumb_result plumb_world_set_gravity(plumb_world *world, plumb_vec2 gravity)
+{
+    if (world == NULL) {
+        return PLUMB_E_NULL;
+    }
+    plumb_result r = pl_check_finite_vec(world, __func__, "gravity", gravity);
+    if (r == PLUMB_OK) {
+        world->gravity = world->desc.gravity = gravity;
+        world->desc.zero_gravity = gravity.x == 0 && gravity.y == 0;
+        world->schedule_dirty = true;
+    }
+    return r;
+}
+
+plumb_vec2 plumb_world_gravity(const plumb_world *world)
+{
+    return world == NULL ? plumb_v2(0, 0) : world->gravity;
+}
+
+plumb_vec2 plumb_world_up(const plumb_world *world)
+{
+    bool down = world != NULL && world->desc.y_axis == PLUMB_Y_DOWN;
+    return plumb_v2(0, down ? -1 : 1);
+}
+
+void *plumb_world_user_data(const plumb_world *world)
+{
+    return world == NULL ? NULL : world->desc.user_data;
+}
+
+//---- sums
+//-----------------------------------------------------------------------------------------
+
+plumb_stats plumb_world_stats(const plumb_world *world)
+{
+    if (world == NULL) {
+        return (plumb_stats){ 0 };
+    }
+    uint32_t bodies = world->bodies.table.count;
+    return (plumb_stats){
+        .step_count = world->step_count,
+        .time = world->time,
+        .body_count = bodies,
+        .dynamic_count = world->dynamic_count,
+        .kinematic_count = world->kinematic_count,
+        .static_count = bodies - pl_partition_first(world, PL_PART_STATIC),
+        .shape_count = world->shape_count,
+        .piece_count = world->pieces.live,
+        .pair_count = world->broad.pairs.count,
+        .contact_count = world->narrow.touching_count,
+        .point_count = world->narrow.point_count,
+        .color_count = world->solver.color_count,
+        .overflow_count = world->solver.overflow_count,
+        .grid_rebuilds = (uint32_t)world->broad.rebuilds,
+        .bounce_count = world->solver.bounce_count,
+        .simd_width = world->desc.simd_width,
+        .max_penetration = world->narrow.max_penetration,
+        .mean_penetration =
+            world->narrow.touching_count > 0
+                ? (real)(world->narrow.sum_penetration / world->narrow.touching_count)
+                : 0,
+        .bytes = world->memory.bytes,
+        .peak_bytes = world->memory.peak,
+    };
+}
+
+static void add_energy(const plumb_world *world, uint32_t row, plumb_energy *e)
+{
+    const pl_bodies *b = &world->bodies;
+    double m = (double)b->mass[row];
+    double inertia = b->inv_inertia[row] > 0 ? (double)b->inertia[row] : 0;
+    double x = (double)b->center_x[row];
+    double y = (double)b->center_y[row];
+    double vx = (double)b->vx[row];
+    double vy = (double)b->vy[row];
+    double w = (double)b->w[row];
+    double g = (double)b->gravity_scale[row];
+    e->kinetic += (m * (vx * vx + vy * vy) + inertia * w * w) / 2;
+    e->potential -= m * g * ((double)world->gravity.x * x + (double)world->gravity.y * y);
+    e->momentum_x += m * vx;
+    e->momentum_y += m * vy;
+    e->angular_momentum += m * (x * vy - y * vx) + inertia * w;
+    e->mass += m;
+}
+
+plumb_energy plumb_world_energy(const plumb_world *world)
+{
+    plumb_energy energy = { 0 };
+    if (world == NULL) {
+        return energy;
+    }
+    for (uint32_t row = 0; row < world->dynamic_count; ++row) {
+        add_energy(world, row, &energy);
+    }
+    uint32_t asleep = pl_partition_first(world, PL_PART_ASLEEP);
+    for (uint32_t row = asleep; row < asleep + world->asleep_count; ++row) {
+        add_energy(world, row, &energy);
+    }
+    return energy;
+}

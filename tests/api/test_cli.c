@@ -1,0 +1,466 @@
+// test_cli.c - the command line as its users meet it: the built binary, run by a shell.
+//
+// Exit codes, what goes to stdout and what to stderr, suggestions for typos, hostile files, full
+// disks, readers that leave, signals, and that the same command gives the same bytes.
+// The binary is $PLUMB_BIN or build/plumb. Files are made in a folder of their own below $TMPDIR.
+#define _XOPEN_SOURCE 700 // mkdtemp, realpath, popen's relatives
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+enum { OUTPUT_MAX = 1 << 20 };
+
+static char binary[4096];
+static char folder[64];
+static char out[OUTPUT_MAX], err[OUTPUT_MAX]; // of the last command
+
+// A ball that falls on a floor and comes to rest: everything a command may ask for.
+static const char good_scene[] =
+    "scene { title = 'drop', duration = 1, dt = 1/60 }\n"
+    "body { name = 'floor', type = 'static', box { 10, 1 }, at = {0, -0.5} }\n"
+    "body { name = 'ball', circle { 0.5 }, at = {0, 2} }\n"
+    "body { name = 'a,\"b\"', box { 1, 1 }, at = {2, 3} }\n"
+    "expect { 'ball stays up', body = 'ball', y = {0.4, 2}, always = true }\n";
+
+static const char failing_scene[] =
+    "scene { title = 'fails', duration = 0.5 }\n"
+    "body { name = 'ball', circle { 0.5 }, at = {0, 2} }\n"
+    "expect { 'ball floats', body = 'ball', y = {1.9, 2.1}, at = 0.5 }\n"
+    "expect { 'ball falls', body = 'ball', vy = {-10, -1}, at = 0.5 }\n";
+
+static const char exact_scene[] = "scene { title = 'throw', duration = 0.5, gravity = {0, -10} }\n"
+                                  "body { name = 'ball', circle { 0.5 }, velocity = {3, 4} }\n"
+                                  "exact { body = 'ball', x = function(t) return 3 * t end,\n"
+                                  "        y = function(t) return 4 * t - 5 * t * t end }\n";
+
+static void write_bytes(const char *name, const char *bytes, size_t count)
+{
+    FILE *file = fopen(name, "wb");
+    assert_non_null(file);
+    assert_int_equal(fwrite(bytes, 1, count, file), count);
+    assert_int_equal(fclose(file), 0);
+}
+
+static void write_text(const char *name, const char *text)
+{
+    write_bytes(name, text, strlen(text));
+}
+
+static size_t read_text(const char *name, char *text)
+{
+    FILE *file = fopen(name, "rb");
+    if (file == NULL) {
+        text[0] = '\0';
+        return 0;
+    }
+    size_t count = fread(text, 1, OUTPUT_MAX - 1, file);
+    text[count] = '\0';
+    fclose(file);
+    return count;
+}
+
+// Runs a shell command in which $P is the binary; exit code, or 128 + signal.
+static int shell(const char *command)
+{
+    char line[8192];
+    snprintf(line, sizeof line, "{ %s\n} >out.txt 2>err.txt </dev/null", command);
+    int status = system(line);
+    read_text("out.txt", out);
+    read_text("err.txt", err);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+static void expect_code(const char *command, int code)
+{
+    int got = shell(command);
+    if (got != code) {
+        fail_msg("%s: exit code %d, not %d\nstderr: %s", command, got, code, err);
+    }
+}
+
+static void expect_error(const char *command, int code, const char *message)
+{
+    expect_code(command, code);
+    if (strstr(err, message) == NULL) {
+        fail_msg("%s: '%s' is not in: %s", command, message, err);
+    }
+}
+
+static int count_lines(const char *text)
+{
+    int count = 0;
+    for (; *text != '\0'; text++) {
+        count += *text == '\n';
+    }
+    return count;
+}
+
+static const char *const commands[] = { "run",  "render",  "check", "explain",
+                                        "cost", "convert", "list" };
+
+static void help_is_everywhere(void **state)
+{
+    (void)state;
+    char line[64];
+    expect_code("\"$P\" --help", 0);
+    assert_string_equal(err, "");
+    for (size_t i = 0; i < sizeof commands / sizeof commands[0]; i++) {
+        char word[16];
+        snprintf(word, sizeof word, "  %s ", commands[i]);
+        expect_code("\"$P\" --help", 0);
+        assert_non_null(strstr(out, word));
+        snprintf(line, sizeof line, "\"$P\" %s --help", commands[i]);
+        expect_code(line, 0);
+        assert_string_equal(err, "");
+        assert_non_null(strstr(out, "usage: plumb "));
+        assert_non_null(strstr(out, "Options:"));
+        snprintf(line, sizeof line, "\"$P\" %s -h >a; \"$P\" help %s >b; cmp a b", commands[i],
+                 commands[i]);
+        expect_code(line, 0);
+        snprintf(line, sizeof line, "awk 'length > 80 { exit 1 }' a");
+        expect_code(line, 0);
+    }
+    expect_code("\"$P\" --version", 0);
+    assert_int_equal(strncmp(out, "plumb ", 6), 0);
+    expect_code("\"$P\"", 2);
+    assert_string_equal(out, "");
+    assert_non_null(strstr(err, "usage: plumb COMMAND"));
+}
+
+static void usage_errors_tell_the_remedy(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *arguments, *message;
+    } cases[] = {
+        { "rnu", "unknown command 'rnu'; did you mean 'run'?" },
+        { "chekc good.lua", "did you mean 'check'?" },
+        { "xyzzy", "unknown command 'xyzzy'; 'plumb --help' lists the commands" },
+        { "good.lua", "did you mean 'plumb run good.lua'?" },
+        { "--time 3", "the command comes first" },
+        { "help rendr", "did you mean 'render'?" },
+        { "help run run", "one operand too many" },
+        { "run", "SCENE is missing" },
+        { "render", "SCENE is missing" },
+        { "check", "SCENE... is missing" },
+        { "run good.lua more.lua", "'more.lua' is one operand too many" },
+        { "run good.lua --substpes 3", "unknown option '--substpes'; did you mean '--substeps'?" },
+        { "run good.lua --sub=3", "did you mean '--substeps'?" },
+        { "run good.lua --qqqqqq", "'plumb help run' lists the options" },
+        { "run good.lua -z", "unknown option '-z'" },
+        { "run good.lua --quiet=yes", "--quiet: takes no value" },
+        { "run good.lua --dt", "--dt: needs a value (S)" },
+        { "run good.lua --dt abc", "'abc' is not a number" },
+        { "run good.lua --dt nan", "'nan' is not a number" },
+        { "run good.lua --dt inf", "'inf' is not a number" },
+        { "run good.lua --dt 1/0", "'1/0' is not a number" },
+        { "run good.lua --dt 0", "--dt: 0 is outside 1e-06 to 1" },
+        { "run good.lua --dt 2", "--dt: 2 is outside 1e-06 to 1" },
+        { "run good.lua --time -1", "--time: -1 is outside" },
+        { "run good.lua --substeps 0", "--substeps: 0 is outside 1 to 64" },
+        { "run good.lua --substeps 65", "--substeps: 65 is outside 1 to 64" },
+        { "run good.lua --substeps 4.5", "'4.5' is not a whole number" },
+        { "run good.lua --substeps 99999999999999999999", "is not a whole number" },
+        { "run good.lua --substeps ''", "'' is not a whole number" },
+        { "run good.lua --solver sofd", "did you mean 'soft'?" },
+        { "run good.lua --precision half", "'half' is not one of float,double" },
+        { "run good.lua --width 5", "5 is not 4, 8 or 16" },
+        { "run good.lua --set friction", "'friction' is not of the form key=value" },
+        { "run good.lua --set =1", "'=1' is not of the form key=value" },
+        { "run good.lua --set frictoin=1", "frictoin" },
+        { "run good.lua --every 0.5", "neither a number of steps (10) nor a time (0.5s)" },
+        { "run good.lua --every 0", "neither a number of steps" },
+        { "run good.lua --every -1s", "neither a number of steps" },
+        { "run good.lua --format cvs", "did you mean 'csv'?" },
+        { "run good.lua -o a.json", "JSON lines are named .jsonl" },
+        { "run good.lua --body bal", "no body is named 'bal'; did you mean 'ball'?" },
+        { "render good.lua", "-o FILE is missing" },
+        { "render good.lua -o a.bmp", "'a.bmp'" },
+        { "render good.lua -o a%s.png", "%" },
+        { "render good.lua -o a.png --size 100", "'100' is not a size such as 960x540" },
+        { "render good.lua -o a.png --size 0x9", "0x9 is outside 16 to 8192" },
+        { "render good.lua -o a.png --overlay contcts", "did you mean 'contacts'?" },
+        { "render good.lua -o a.png --from 1", "--from and --to are for films" },
+        { "render good.lua -o a.gif --at 1", "--at is for one picture" },
+        { "render good.lua -o a.gif --from 2 --to 1", "--to 1 lies before --from 2" },
+        { "render good.lua -o a.png --follow bll", "did you mean 'ball'?" },
+        { "cost good.lua --substeps 1,x", "is not a list of whole numbers such as 1,2,4" },
+        { "cost good.lua --substeps 1,,2", "is not a list of whole numbers" },
+        { "cost good.lua --solvers soft,pg", "did you mean 'pgs'?" },
+        { "cost good.lua --repeat 0", "--repeat: 0 is outside 1 to 1000" },
+        { "convert good.lua a.txt", "does not end in .json" },
+        { "list sovlers", "did you mean 'solvers'?" },
+    };
+    char line[256];
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        snprintf(line, sizeof line, "\"$P\" %s", cases[i].arguments);
+        expect_error(line, 2, cases[i].message);
+        assert_int_equal(strncmp(err, "plumb: ", 7), 0);
+        assert_int_equal(count_lines(err), 1);
+    }
+    assert_int_not_equal(access("a.png", F_OK), 0);
+    assert_int_not_equal(access("a.gif", F_OK), 0);
+}
+
+static void run_prints_every_body_and_step(void **state)
+{
+    (void)state;
+    expect_code("\"$P\" run good.lua", 0);
+    assert_string_equal(err, "");
+    assert_int_equal(strncmp(out,
+                             "time [s],name,x [m],y [m],angle [rad],vx [m/s],vy [m/s],w [rad/s]\n"
+                             "0,floor,0,-0.5,0,0,0,0\n0,ball,0,2,0,0,0,0\n"
+                             "0,\"a,\"\"b\"\"\",2,3,0,0,0,0\n0.0166666666667,floor,",
+                             165),
+                     0);
+    assert_int_equal(count_lines(out), 1 + 3 * 61);
+    expect_code("\"$P\" run good.lua --every 30 --body ball", 0);
+    assert_int_equal(count_lines(out), 1 + 3);
+    assert_non_null(strstr(out, "\n0.5,ball,0,"));
+    expect_code("\"$P\" run good.lua --every 0.25s --body ball", 0);
+    assert_int_equal(count_lines(out), 1 + 5);
+    expect_code("\"$P\" run good.lua --time 0", 0);
+    assert_int_equal(count_lines(out), 1 + 3);
+    expect_code("\"$P\" run good.lua --time 0 --format jsonl", 0);
+    assert_non_null(strstr(out, "{\"time\":0,\"name\":\"a,\\\"b\\\"\",\"x\":2,\"y\":3,\"angle\":0,"
+                                "\"vx\":0,\"vy\":0,\"w\":0}\n"));
+    expect_code("\"$P\" run -- good.lua", 0);
+}
+
+static void same_command_same_bytes(void **state)
+{
+    (void)state;
+    expect_code("\"$P\" run good.lua >a; \"$P\" run good.lua >b; cmp a b", 0);
+    expect_code("\"$P\" run good.lua -o c.csv && cmp a c.csv", 0);
+    for (int width = 4; width <= 16; width *= 2) {
+        char line[128];
+        snprintf(line, sizeof line, "\"$P\" run good.lua --width %d >b; cmp a b", width);
+        expect_code(line, 0);
+    }
+    expect_code("\"$P\" run good.lua --precision double >b; ! cmp -s a b", 0);
+    expect_code(
+        "\"$P\" run good.lua -o d.jsonl; \"$P\" run good.lua --format jsonl | cmp - d.jsonl", 0);
+    expect_code(
+        "for i in 1 2; do \"$P\" explain good.lua --no-timing >e$i || exit; done; cmp e1 e2", 0);
+    expect_code("for i in 1 2; do \"$P\" list >l$i || exit; done; cmp l1 l2", 0);
+    expect_code("for i in 1 2; do \"$P\" check good.lua >k$i || exit; done; cmp k1 k2", 0);
+}
+
+static void overrides_reach_the_scene(void **state)
+{
+    (void)state;
+    expect_code("\"$P\" run good.lua --dt 1/30 --body ball", 0);
+    assert_int_equal(count_lines(out), 1 + 31);
+    expect_code("\"$P\" run good.lua --set duration=0.5 --body ball", 0);
+    assert_int_equal(count_lines(out), 1 + 31);
+    expect_code("\"$P\" explain good.lua --substeps 7 --solver pgs --precision double --width 4 "
+                "--no-timing",
+                0);
+    assert_non_null(strstr(out, "pgs solver, 7 substeps"));
+    assert_non_null(strstr(out, "double, 4 lanes"));
+}
+
+static void bad_scenes_are_code_3(void **state)
+{
+    (void)state;
+    static const char *const names[] = { "binary.lua", "empty.json", "deep.json",  "broken.lua",
+                                         "typo.lua",   "absent.lua", "folder.lua", "nul.json" };
+    char deep[20000], binary_bytes[4096];
+    memset(deep, '[', sizeof deep);
+    for (size_t i = 0; i < sizeof binary_bytes; i++) {
+        binary_bytes[i] = (char)(i * 2654435761u >> 13);
+    }
+    write_bytes("binary.lua", binary_bytes, sizeof binary_bytes);
+    write_bytes("deep.json", deep, sizeof deep);
+    write_bytes("nul.json", "{\"a\":\0}", 7);
+    write_text("empty.json", "");
+    write_text("broken.lua", "scene { duration = \n");
+    write_text("typo.lua", "scene { duration = 1 }\nbody { circle { 1 }, fristion = 2 }\n");
+    mkdir("folder.lua", 0777);
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        for (size_t k = 0; k < sizeof commands / sizeof commands[0] - 1; k++) {
+            char line[128];
+            snprintf(line, sizeof line, "\"$P\" %s %s %s", commands[k], names[i],
+                     strcmp(commands[k], "render") == 0 ? "-o never.png" : "");
+            expect_error(line, 3, names[i]);
+        }
+    }
+    expect_error("\"$P\" run typo.lua", 3, "typo.lua:2:");
+    assert_int_not_equal(access("never.png", F_OK), 0);
+    expect_error("\"$P\" check good.lua typo.lua good.lua", 3, "typo.lua:2:");
+    assert_non_null(strstr(out, "1 scene could not be judged"));
+    assert_non_null(strstr(out, "2 expectations of 2 scenes: 2 ok, 0 failed"));
+}
+
+static void failed_expectations_are_code_4(void **state)
+{
+    (void)state;
+    expect_code("\"$P\" check good.lua", 0);
+    assert_non_null(strstr(out, "ok    good.lua: ball stays up: "));
+    assert_non_null(strstr(out, "1 expectation of 1 scene: 1 ok, 0 failed\n"));
+    expect_code("\"$P\" check good.lua failing.lua", 4);
+    assert_non_null(strstr(out, "FAIL  failing.lua: ball floats: "));
+    assert_non_null(strstr(out, "ok    failing.lua: ball falls: "));
+    assert_non_null(strstr(out, "3 expectations of 2 scenes: 2 ok, 1 failed\n"));
+    expect_code("\"$P\" check failing.lua --time 0.1", 4);
+    assert_non_null(strstr(out, "0 ok, 2 failed"));
+}
+
+static void writing_fails_loudly(void **state)
+{
+    (void)state;
+    if (access("/dev/full", W_OK) == 0) {
+        expect_error("\"$P\" run good.lua >/dev/full", 1, "No space left");
+        expect_error("\"$P\" run good.lua -o /dev/full", 1, "No space left");
+        expect_error("\"$P\" list >/dev/full", 1, "No space left");
+        expect_error("\"$P\" --help >/dev/full", 1, "No space left");
+        expect_error("\"$P\" check good.lua >/dev/full", 1, "No space left");
+        expect_error("\"$P\" convert good.lua >/dev/full", 1, "No space left");
+    }
+    expect_error("\"$P\" run good.lua >&-", 1, "cannot write to standard output");
+    expect_error("\"$P\" run good.lua -o absent/a.csv", 1, "cannot write 'absent/a.csv'");
+    expect_error("\"$P\" convert good.lua absent/a.json", 1, "cannot write 'absent/a.json'");
+    expect_error("\"$P\" render good.lua --time 0 -o absent/a.png", 1, "absent/a.png");
+}
+
+static void a_reader_may_leave(void **state)
+{
+    (void)state;
+    expect_code("{ \"$P\" run good.lua --dt 1e-4; echo $? >code; } | head -1; cat code >&2", 0);
+    assert_int_equal(count_lines(out), 1);
+    assert_string_equal(err, "0\n");
+}
+
+static void files_appear_when_complete(void **state)
+{
+    (void)state;
+    write_text("keep.csv", "precious\n");
+    expect_code("\"$P\" run typo.lua -o keep.csv", 3);
+    expect_code("grep -qx precious keep.csv", 0);
+    expect_code("\"$P\" run good.lua --body nobody -o keep.csv", 2);
+    expect_code("grep -qx precious keep.csv", 0);
+    // A run that would take days is stopped: by the signal, without a file or a piece of one.
+    expect_code(
+        "\"$P\" run good.lua --time 1e8 -o long.csv & p=$!; sleep 0.5; kill -TERM $p; wait $p",
+        128 + 15);
+    expect_code("! ls | grep -E 'long|tmp$'", 0);
+    // Through a link to the file it stands for; rights stay.
+    expect_code("ln -s keep.csv link.csv && chmod 600 keep.csv && \"$P\" run good.lua -o link.csv "
+                "&& test -L link.csv && cmp keep.csv a && test \"$(stat -c %a keep.csv)\" = 600",
+                0);
+}
+
+static void cost_measures_and_judges(void **state)
+{
+    (void)state;
+    expect_code("\"$P\" cost exact.lua --substeps 1,4 --repeat 1 --csv", 0);
+    assert_int_equal(count_lines(out), 1 + 2 * 2 * 2);
+    assert_non_null(strstr(out, "solver,substeps,precision,cpu [s/s],error [m],"));
+    assert_non_null(strstr(out, "soft,4,double,"));
+    expect_code("\"$P\" cost exact.lua --substeps 4 --solvers soft --repeat 1", 0);
+    assert_non_null(strstr(out, "closed form"));
+    assert_int_equal(strncmp(strstr(out, "overlap m\n"), "overlap m\n*", 11), 0);
+    expect_code("\"$P\" cost good.lua --substeps 2 --solvers soft --precisions float --repeat 1",
+                0);
+    assert_non_null(strstr(out, "own finest setting"));
+    expect_code("\"$P\" cost exact.lua --substeps 2 --repeat 1 --tolerance 10", 0);
+    assert_non_null(strstr(out, "cheapest within 10 m: --solver "));
+    expect_code("\"$P\" cost good.lua --substeps 1 --repeat 1 --tolerance 0", 4);
+    assert_non_null(strstr(out, "no setting stays within 0 m"));
+}
+
+static void convert_is_canonical(void **state)
+{
+    (void)state;
+    expect_code("\"$P\" convert good.lua one.json && \"$P\" convert one.json two.json && "
+                "cmp one.json two.json && \"$P\" convert good.lua | cmp - one.json",
+                0);
+    expect_code("\"$P\" run one.json >b && cmp a b", 0);
+}
+
+static unsigned big_endian(const char *bytes)
+{
+    const unsigned char *b = (const unsigned char *)bytes;
+    return (unsigned)b[0] << 24 | (unsigned)b[1] << 16 | (unsigned)b[2] << 8 | b[3];
+}
+
+static void render_draws(void **state)
+{
+    (void)state;
+    expect_code("\"$P\" render good.lua --at 0.5 --size 320x200 -o one.png", 0);
+    assert_true(read_text("one.png", out) > 1000);
+    assert_memory_equal(out, "\x89PNG\r\n\x1a\n", 8);
+    assert_int_equal(big_endian(out + 16), 320);
+    assert_int_equal(big_endian(out + 20), 200);
+    expect_code("\"$P\" render good.lua --at 0.5 --size 320x200 -o two.png && cmp one.png two.png",
+                0);
+    expect_code("\"$P\" render good.lua --at 0.5 --size 320x200 -o two.png "
+                "--overlay contacts,impulses,velocities,aabbs,legend,no-grid && "
+                "! cmp -s one.png two.png",
+                0);
+    expect_code("\"$P\" render good.lua --size 64x64 --fps 4 -o 'f%02d.png' && "
+                "test -e f04.png && ! test -e f05.png",
+                0);
+    expect_code("\"$P\" render good.lua --size 64x64 --fps 4 --follow ball -o film.gif", 0);
+    assert_true(read_text("film.gif", out) > 100);
+    assert_memory_equal(out, "GIF89a", 6);
+    expect_error("PATH=/nowhere \"$P\" render good.lua --size 64x64 -o film.mp4", 1, "ffmpeg");
+    assert_int_not_equal(access("film.mp4", F_OK), 0);
+}
+
+static int set_up(void **state)
+{
+    (void)state;
+    const char *given = getenv("PLUMB_BIN");
+    const char *place = getenv("TMPDIR");
+    if (realpath(given != NULL ? given : "build/plumb", binary) == NULL) {
+        fprintf(stderr, "no binary: set PLUMB_BIN or build build/plumb\n");
+        return 1;
+    }
+    snprintf(folder, sizeof folder, "%.40s/plumb-cli-XXXXXX", place != NULL ? place : "/tmp");
+    if (mkdtemp(folder) == NULL || chdir(folder) != 0 || setenv("P", binary, 1) != 0) {
+        return 1;
+    }
+    write_text("good.lua", good_scene);
+    write_text("failing.lua", failing_scene);
+    write_text("exact.lua", exact_scene);
+    return 0;
+}
+
+static int clean_up(void **state)
+{
+    (void)state;
+    char line[128];
+    snprintf(line, sizeof line, "rm -rf '%s'", folder);
+    return chdir("/") == 0 && system(line) == 0 ? 0 : 1;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(help_is_everywhere),
+        cmocka_unit_test(usage_errors_tell_the_remedy),
+        cmocka_unit_test(run_prints_every_body_and_step),
+        cmocka_unit_test(same_command_same_bytes),
+        cmocka_unit_test(overrides_reach_the_scene),
+        cmocka_unit_test(bad_scenes_are_code_3),
+        cmocka_unit_test(failed_expectations_are_code_4),
+        cmocka_unit_test(writing_fails_loudly),
+        cmocka_unit_test(a_reader_may_leave),
+        cmocka_unit_test(files_appear_when_complete),
+        cmocka_unit_test(cost_measures_and_judges),
+        cmocka_unit_test(convert_is_canonical),
+        cmocka_unit_test(render_draws),
+    };
+    return cmocka_run_group_tests(tests, set_up, clean_up);
+}

@@ -1,0 +1,174 @@
+#!/bin/bash
+# test_install.sh - `make install` into an empty folder, then programs built against what is there:
+# through pkg-config and CMake, static and shared, float and double, in C and in C++.
+set -u
+
+if [ -n "${SAN:-}" ]; then
+    echo "ok - # SKIP a package is not made of sanitized libraries"
+    exit 0
+fi
+
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+failures=0
+
+# try "what it shows" command...: one TAP line; what the command said, when it failed.
+try()
+{
+    local what=$1
+    shift
+    if "$@" >"$work/log" 2>&1; then
+        echo "ok - $what"
+    else
+        echo "not ok - $what"
+        sed 's/^/# /' "$work/log"
+        failures=$((failures + 1))
+    fi
+}
+
+cc=${CC:-gcc}
+cxx=${CXX:-g++}
+prefix=/opt/plumb
+root=$work/root
+lib=$root$prefix/lib
+warnings="-Wall -Wextra -Wpedantic -Werror"
+
+try "installs" make --no-print-directory install DESTDIR="$root" PREFIX=$prefix
+try "leaves no file elsewhere" test "$(ls "$root")" = opt
+try "installs the command line" "$root$prefix/bin/plumb" --help
+
+# ---- headers: each stands alone, in both languages
+alone() # compiler standard language header
+{
+    echo "#include \"plumb/$4\"" >"$work/alone.$3"
+    "$1" -std="$2" $warnings -I"$root$prefix/include" -fsyntax-only "$work/alone.$3"
+}
+for header in "$root$prefix"/include/plumb/*.h; do
+    name=${header##*/}
+    try "$name stands alone in C17" alone "$cc" c17 c "$name"
+    try "$name stands alone in C++17" alone "$cxx" c++17 cpp "$name"
+done
+
+# ---- a program prints 120 lines, and the ball rests on the ground at the end
+says_hello() # program
+{
+    "$1" >"$work/out" && [ "$(wc -l <"$work/out")" -eq 120 ] &&
+        tail -n 1 "$work/out" | awk '{ print; exit !($3 > 1.99 && $3 < 2.01) }'
+}
+
+# The same in C++, where a descriptor is filled member by member.
+cat >"$work/hello.cpp" <<'END'
+#include <plumb/plumb.h>
+#include <cstdio>
+int main()
+{
+    plumb_world *world = nullptr;
+    if (plumb_world_create(nullptr, &world) != PLUMB_OK) {
+        return 1;
+    }
+    plumb_body_desc still = {}, falling = {};
+    still.type = PLUMB_STATIC;
+    falling.position.y = 6;
+    plumb_shape_desc floor = {}, disc = {};
+    floor.kind = PLUMB_BOX;
+    floor.half.x = 9;
+    floor.half.y = 1;
+    disc.kind = PLUMB_CIRCLE;
+    disc.radius = 1;
+    plumb_shape_create(world, plumb_body_create(world, &still), &floor);
+    plumb_body ball = plumb_body_create(world, &falling);
+    plumb_shape_create(world, ball, &disc);
+    for (int i = 1; i <= 120; ++i) {
+        plumb_world_step(world, plumb_real(1.0 / 60));
+        std::printf("%.3f s  %.3f m\n", i / 60.0, double(plumb_body_position(world, ball).y));
+    }
+    plumb_world_destroy(world);
+}
+END
+cp tools/examples/*.c "$work"
+
+# ---- pkg-config
+export PKG_CONFIG_PATH=$lib/pkgconfig PKG_CONFIG_SYSROOT_DIR=$root
+try "pkg-config knows the version of base.h" \
+    grep -q "\"$(pkg-config --modversion plumb)\"" include/plumb/base.h
+
+build() # compiler standard source package static|shared
+{
+    local mode=() more=()
+    [ "$5" = static ] && mode=(-static) && more=(--static)
+    rm -f "$work/program"
+    # Unquoted: pkg-config answers a list.
+    "$1" -std="$2" $warnings "${mode[@]}" "$3" -o "$work/program" \
+        $(pkg-config "${more[@]}" --cflags --libs "$4") &&
+        LD_LIBRARY_PATH=$lib says_hello "$work/program"
+}
+for package in plumb plumb_d; do
+    for kind in shared static; do
+        try "pkg-config, $package, $kind, C" build "$cc" c17 "$work/hello.c" $package $kind
+        try "pkg-config, $package, $kind, C++" build "$cxx" c++17 "$work/hello.cpp" $package $kind
+    done
+done
+
+build_all_examples()
+{
+    local source
+    for source in "$work"/*.c; do
+        [ "${source##*/}" = alone.c ] && continue
+        "$cc" -std=c17 $warnings "$source" -o "$work/program" \
+            $(pkg-config --cflags --libs plumb) -lm || return 1
+        LD_LIBRARY_PATH=$lib "$work/program" >"$work/out" && [ -s "$work/out" ] || return 1
+    done
+}
+try "every example builds and runs" build_all_examples
+
+mixed() # a float program and the double library must not link
+{
+    ! "$cc" -std=c17 -I"$root$prefix/include" "$work/hello.c" -o "$work/program" \
+        "$lib/libplumb_d.a" -lm -lpthread
+}
+try "float program and double library do not link" mixed
+
+# ---- CMake: the package must also work where the folder has been moved to
+cmake_build() # BUILD_SHARED_LIBS
+{
+    rm -rf "$work/build"
+    cmake -S "$work/project" -B "$work/build" -DCMAKE_PREFIX_PATH="$root$prefix" \
+        -DCMAKE_C_COMPILER="$cc" -DCMAKE_CXX_COMPILER="$cxx" -DBUILD_SHARED_LIBS="$1" &&
+        cmake --build "$work/build"
+}
+mkdir "$work/project"
+cp "$work/hello.c" "$work/hello.cpp" "$work/project"
+cat >"$work/project/CMakeLists.txt" <<'END'
+cmake_minimum_required(VERSION 3.16)
+project(hello C CXX)
+set(CMAKE_C_STANDARD 17)
+set(CMAKE_CXX_STANDARD 17)
+find_package(plumb 0.1 REQUIRED)
+foreach(target plumb static shared static_double shared_double)
+    add_executable(c_${target} hello.c)
+    add_executable(cpp_${target} hello.cpp)
+    target_link_libraries(c_${target} plumb::${target})
+    target_link_libraries(cpp_${target} plumb::${target})
+endforeach()
+END
+needs_shared() # program
+{
+    ldd "$1" | grep -q libplumb
+}
+for shared in OFF ON; do
+    try "CMake builds, BUILD_SHARED_LIBS=$shared" cmake_build $shared
+    for program in "$work"/build/c_* "$work"/build/cpp_*; do
+        try "CMake, ${program##*/}, BUILD_SHARED_LIBS=$shared, runs" says_hello "$program"
+    done
+    case $shared in
+    ON) try "plumb::plumb is the shared library" needs_shared "$work/build/c_plumb" ;;
+    OFF) try "plumb::plumb is the static library" bash -c "! ldd '$work/build/c_plumb' | grep libplumb" ;;
+    esac
+done
+sed -i 's/find_package(plumb 0.1/find_package(plumb 7.0/' "$work/project/CMakeLists.txt"
+try "CMake refuses a version that is not there" bash -c "! cmake -S '$work/project' -B '$work/build7' \
+    -DCMAKE_PREFIX_PATH='$root$prefix'"
+
+try "uninstalls" make --no-print-directory uninstall DESTDIR="$root" PREFIX=$prefix
+try "leaves nothing behind" test -z "$(find "$root" -type f -o -type l)"
+[ $failures -eq 0 ]

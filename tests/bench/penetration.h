@@ -1,0 +1,34 @@
+/// penetration.h - how deep the shapes of a scene overlap, from their poses alone.
+///
+/// Independent of every engine: no manifold, no broad phase and no geometry code of theirs.
+#ifndef BENCH_PENETRATION_H
+#define BENCH_PENETRATION_H
+
+#include "scene.h"
+
+/// A convex shape in world coordinates: points as in struct scene_shape.
+struct convex {
+    int count;
+    double x[SCENE_MAX_POINTS], y[SCENE_MAX_POINTS]; ///< [m]
+    double radius;                                   ///< [m]
+};
+
+/// [m] How far two shapes must be moved to part them (> 0), or minus their distance. Exact.
+double convex_depth(const struct convex *a, const struct convex *b);
+
+/// Overlaps at one moment. A pair of shapes counts when its depth is greater than zero.
+struct penetration {
+    double sum;  ///< [m] of the depths
+    double max;  ///< [m]
+    double p99;  ///< [m] 99th percentile of the depths
+    long pairs;  ///< overlapping
+    long astray; ///< bodies with a pose that is not finite or farther than 1 km from the origin
+};
+
+/// Measures all pairs of shapes of different bodies of which one at least is dynamic. `skin` [m] is
+/// added round shapes of two or more points (struct engine, skin). Bodies astray are left out.
+/// Returns false when memory runs out. Cost: O(n log n) and the pairs that overlap in x.
+bool penetration_measure(const struct scene *scene, const struct engine_pose *poses, double skin,
+                         struct penetration *result);
+
+#endif

@@ -1,0 +1,185 @@
+/// engine.h - one small neutral interface over several 2D engines.
+///
+/// The benchmark (tests/bench) and the cross-validation tests (tests/crossval) run the same
+/// scene through Plumb and through foreign engines behind this table of functions. Everything is
+/// double here whatever the engine computes in; units are SI, angles radians, counter-clockwise.
+///
+///     const struct engine *e = &engine_box2d2;
+///     struct engine_options options = engine_options_default();
+///     struct engine_world *world = e->create(&options);
+///     struct engine_body_def ball = { .type = ENGINE_DYNAMIC, .y = 5 };
+///     int body = e->add_body(world, &ball);
+///     e->add_circle(world, body, &engine_material_default, 0, 0, 0.5);
+///     for (int i = 0; i < 60; ++i) { e->step(world, 1.0 / 60); }
+///     struct engine_pose pose = e->get_pose(world, body);
+///     e->destroy(world);
+///
+/// Bodies are dense indices 0, 1, 2, ... in the order of creation. A shape call returns ENGINE_OK,
+/// ENGINE_UNSUPPORTED (the engine has no such shape; the body is as before) or ENGINE_FAILED.
+/// One thread; the worlds are independent.
+///
+/// What differs between engines and cannot be set away, so that a test can allow for it:
+/// - Box2D 2.4.1 puts a skin of 0.01 m round polygons, edges and chains (`skin`): boxes at rest
+///   keep about 15 mm of air, and fall there if they are placed touching. `skin` in the
+///   options replaces it (0 works). Polygons have at most 8 vertices and no rounding, capsules do
+///   not exist. No body travels more than 2 m or turns more than 90 degrees in a step; these are
+///   macros compiled into the library. One step is one substep; more are taken as that many shorter
+///   steps.
+/// - Box2D 3: polygons have at most 8 vertices; a speed limit of 400 m/s and a spin limit of
+///   45 degrees a substep. Contacts can be speculative: up to 20 mm apart and without impulse.
+/// - Both combine friction as sqrt(fa fb), restitution as max(ea, eb).
+#ifndef HARNESS_ENGINE_H
+#define HARNESS_ENGINE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum { ENGINE_OK = 0, ENGINE_UNSUPPORTED = -1, ENGINE_FAILED = -2 };
+
+enum engine_body_type { ENGINE_STATIC, ENGINE_KINEMATIC, ENGINE_DYNAMIC };
+
+/// Defined privately by every adapter.
+struct engine_world;
+
+/// How a world behaves. Start from engine_options_default().
+struct engine_options {
+    double gravity_x;        ///< [m/s^2]
+    double gravity_y;        ///< [m/s^2]
+    int substeps;            ///< a step; 0: the engine's default (Box2D 2.4.1: 1, others: 4)
+    int velocity_iterations; ///< 0: default (Box2D 2.4.1: 8, Plumb's baseline: 10); others: unused
+    int position_iterations; ///< 0: default (Box2D 2.4.1: 3); others: unused
+    bool sleep;              ///< let resting bodies fall asleep
+    bool continuous;         ///< continuous collision where the engine has it
+    double restitution_threshold; ///< [m/s] no bounce below; < 0: its own (Box2D 1.0, Plumb 0)
+    double skin;                  ///< [m] round polygons, where the engine has one; < 0: its own
+    int width;                    ///< SIMD lanes where they can be chosen; 0: the engine's choice
+    const char *solver;           ///< Plumb: "soft" or "baseline"; NULL: soft
+};
+
+struct engine_body_def {
+    enum engine_body_type type;
+    double x, y;         ///< [m] origin of the body
+    double angle;        ///< [rad]
+    double vx, vy;       ///< [m/s] of the centre of mass
+    double w;            ///< [rad/s]
+    bool fixed_rotation; ///< infinite rotational inertia
+    bool asleep;         ///< starts asleep (only where options.sleep is on)
+};
+
+struct engine_material {
+    double density; ///< [kg/m^2] > 0
+    double friction;
+    double restitution;
+};
+
+/// Density 1 kg/m^2, friction 0.6, no bounce: what Box2D 3 takes as its default.
+static const struct engine_material engine_material_default = { 1.0, 0.6, 0.0 };
+
+struct engine_pose {
+    double x, y;  ///< [m] origin of the body, not its centre of mass
+    double c, s;  ///< cosine and sine of the angle, as the engine has them
+    double angle; ///< [rad] in [-pi, pi]
+};
+
+struct engine_velocity {
+    double x, y; ///< [m/s] of the centre of mass
+    double w;    ///< [rad/s]
+};
+
+struct engine_mass {
+    double mass;    ///< [kg] 0 for static and kinematic bodies
+    double inertia; ///< [kg m^2] about the centre of mass; 0 when it cannot rotate
+    double x, y;    ///< [m] centre of mass in the body's frame
+};
+
+/// One point of a contact manifold.
+struct engine_contact {
+    int body_a;
+    int body_b;
+    double x, y;       ///< [m] world, midway between the two surfaces
+    double nx, ny;     ///< unit normal from A to B
+    double separation; ///< [m] negative when overlapping, skin included
+    double impulse;    ///< [N s] normal impulse of the last step, all substeps together
+};
+
+typedef void engine_contact_fn(void *context, const struct engine_contact *contact);
+
+struct engine_counts {
+    int bodies;
+    int contacts; ///< pairs of shapes with at least one manifold point
+    int joints;
+};
+
+/// One engine. Every pointer is set in every engine.
+struct engine {
+    const char *name; ///< short: column title and --engines key
+    bool has_solver;  ///< options.solver and options.width mean something
+
+    /// Writes name, version and what is known of the build, one line.
+    void (*describe)(char *text, size_t size);
+
+    /// NULL when the engine refuses the options or has no memory.
+    struct engine_world *(*create)(const struct engine_options *options);
+    void (*destroy)(struct engine_world *world);
+
+    /// Index of the new body, or ENGINE_FAILED.
+    int (*add_body)(struct engine_world *world, const struct engine_body_def *def);
+
+    // Shapes are in the frame of the body. x and y arrays hold `count` values each.
+    int (*add_circle)(struct engine_world *world, int body, const struct engine_material *material,
+                      double x, double y, double radius);
+    int (*add_capsule)(struct engine_world *world, int body, const struct engine_material *material,
+                       double x1, double y1, double x2, double y2, double radius);
+    /// Convex, any winding; `radius` rounds it outwards.
+    int (*add_polygon)(struct engine_world *world, int body, const struct engine_material *material,
+                       const double *x, const double *y, int count, double radius);
+    /// Two-sided, without mass.
+    int (*add_segment)(struct engine_world *world, int body, const struct engine_material *material,
+                       double x1, double y1, double x2, double y2);
+    /// One-sided and smooth, without mass: free space on the right of the direction of travel.
+    /// Every edge of an open chain collides. At least 3 points, a loop of Box2D 3 at least 4.
+    int (*add_chain)(struct engine_world *world, int body, const struct engine_material *material,
+                     const double *x, const double *y, int count, bool loop);
+
+    /// Of dynamic and kinematic bodies; wakes.
+    void (*set_velocity)(struct engine_world *world, int body, double vx, double vy, double w);
+    /// At the centre of mass, for the next step only; wakes.
+    void (*apply_force)(struct engine_world *world, int body, double fx, double fy, double torque);
+
+    void (*step)(struct engine_world *world, double dt);
+
+    struct engine_pose (*get_pose)(const struct engine_world *world, int body);
+    struct engine_velocity (*get_velocity)(const struct engine_world *world, int body);
+    struct engine_mass (*get_mass)(const struct engine_world *world, int body);
+
+    /// Calls `visit` once for each manifold point, in an order of the engine's own.
+    void (*contacts)(const struct engine_world *world, engine_contact_fn *visit, void *context);
+    struct engine_counts (*counts)(const struct engine_world *world);
+
+    /// [m] the engine keeps its polygons, edges and chains this much thicker than they were given.
+    double (*skin)(const struct engine_world *world);
+    /// Bytes that the engine has allocated and not freed; 0 when it cannot tell.
+    size_t (*bytes)(const struct engine_world *world);
+};
+
+/// Gravity (0, -10), 4 substeps and 8/3 iterations, no sleep, continuous on, thresholds the
+/// engine's own.
+static inline struct engine_options engine_options_default(void)
+{
+    struct engine_options options = { 0.0, -10.0, 0, 0, 0, false, true, -1.0, -1.0, 0, NULL };
+    return options;
+}
+
+extern const struct engine engine_plumb;
+extern const struct engine engine_box2d2; ///< Box2D 2.4.1
+extern const struct engine engine_box2d3; ///< Box2D 3; only in builds with BOX2D3=/prefix
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,129 @@
+#!/bin/bash
+# run.sh - runs test programs and sums up.
+#
+#   tests/run.sh [-j jobs] [-t seconds] [-l log-folder] program-or-script ...
+#
+# Understands what cmocka prints and, from scripts (*.sh), TAP lines "ok ..." and "not ok ...".
+# replay_fuzz_X gets the files of tests/fuzz/seeds/X. A program that is not there, crashes, takes too
+# long, fails without saying which test, or holds no test at all counts as one failed test. What
+# fails is printed in full. The last line is "N passed, N failed"; exit status 1 if any failed.
+set -u
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+jobs=2
+seconds=300
+logs=${O:-build}/test-logs
+while getopts j:t:l: option; do
+    case $option in
+    j) jobs=$OPTARG ;;
+    t) seconds=$OPTARG ;;
+    l) logs=$OPTARG ;;
+    *) exit 2 ;;
+    esac
+done
+shift $((OPTIND - 1))
+
+O=$(realpath -m "${O:-build}")
+export O PLUMB_BIN="$O/plumb" SAN=${SAN:-}
+export LC_ALL=C
+# Of the make that called: its job server is not ours.
+unset MAKEFLAGS MFLAGS MAKELEVEL
+export ASAN_OPTIONS=${ASAN_OPTIONS:-detect_leaks=1:strict_string_checks=1}
+export LSAN_OPTIONS=${LSAN_OPTIONS:-suppressions=$PWD/tests/lsan.supp:print_suppressions=0}
+export UBSAN_OPTIONS=${UBSAN_OPTIONS:-print_stacktrace=1}
+ulimit -c 0
+
+rm -rf "$logs"
+mkdir -p "$logs"
+
+# Adds up what one log says: "passed failed".
+count() # log program
+{
+    awk -v script="${2##*.}" '
+        { gsub(/\033\[[0-9;]*m/, "") }
+        script == "sh" && /^ok( |$)/     { passed++ }
+        script == "sh" && /^not ok( |$)/ { failed++ }
+        script != "sh" && /^\[  PASSED  \] [0-9]+ test\(s\)/ { passed += $4 }
+        script != "sh" && /^\[  FAILED  \] [0-9]+ test\(s\)/ { failed += $4 }
+        END { print passed + 0, failed + 0 }' "$1"
+}
+
+# Runs one, writes "passed failed" to <log>.sum and prints its line, all at once.
+run_one() # program
+{
+    local program=$1 name log status=0 passed failed note= start=$SECONDS
+    name=${program#"$O"/}
+    name=${name#"${O#"$PWD"/}"/}
+    log=$logs/${name//\//.}.log
+    local command=("./$program") seeds
+    [[ $program == /* ]] && command=("$program")
+    case $program in
+    *.sh) command=(bash "$program") ;;
+    */replay_fuzz_*)
+        seeds=tests/fuzz/seeds/${program##*/replay_fuzz_}
+        mapfile -t seeds < <(find "$seeds" -type f ! -name README.md 2>/dev/null | sort)
+        command+=("${seeds[@]}")
+        ;;
+    esac
+
+    if [ ! -e "$program" ]; then
+        echo "$program was not built" >"$log"
+        passed=0 failed=1 note="not built"
+    else
+        # The shell's own remark about a crash is of no use.
+        { timeout -k 10 "$seconds" "${command[@]}" >"$log" 2>&1 </dev/null; } 2>/dev/null || status=$?
+        read -r passed failed < <(count "$log" "$program")
+        case $program in
+        */replay_fuzz_*) [ $((passed + failed)) -eq 0 ] && [ $status -eq 0 ] && passed=1 ;;
+        esac
+        if [ $status -eq 124 ] || [ $status -eq 137 ]; then
+            failed=$((failed + 1)) note="stopped after $seconds s"
+        elif [ $status -gt 128 ]; then
+            failed=$((failed + 1)) note="killed by signal $((status - 128))"
+        elif [ $status -ne 0 ] && [ "$failed" -eq 0 ]; then
+            failed=1 note="exit status $status"
+        elif [ $((passed + failed)) -eq 0 ]; then
+            failed=1 note="no test ran"
+        fi
+    fi
+    echo "$passed $failed" >"$log.sum"
+
+    {
+        flock 9
+        if [ "$failed" -eq 0 ]; then
+            printf 'ok    %-44s %4d passed %17d s\n' "$name" "$passed" $((SECONDS - start))
+        else
+            printf -- '---- %s\n' "$name"
+            cat "$log"
+            printf 'FAIL  %-44s %4d passed %4d failed %4d s  %s\n' "$name" "$passed" "$failed" \
+                $((SECONDS - start)) "$note"
+        fi
+    } 9>"$logs/.lock"
+}
+
+running=0
+for program in "$@"; do
+    if [ $running -ge "$jobs" ]; then
+        wait -n
+        running=$((running - 1))
+    fi
+    run_one "$program" &
+    running=$((running + 1))
+done
+wait
+
+passed=0
+failed=0
+count=0
+for sum in "$logs"/*.sum; do
+    [ -e "$sum" ] || continue
+    read -r p f <"$sum"
+    passed=$((passed + p)) failed=$((failed + f)) count=$((count + 1))
+done
+# A runner that lost a program, or was given none, has not shown anything.
+if [ $count -ne $# ] || [ $count -eq 0 ]; then
+    echo "run.sh: $count of $# test programs left a result" >&2
+    failed=$((failed + 1))
+fi
+echo "$passed passed, $failed failed" | tee "$logs/summary"
+[ $failed -eq 0 ]

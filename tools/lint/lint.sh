@@ -1,0 +1,142 @@
+#!/bin/bash
+# lint.sh - rules of this project that no compiler knows. Run through `make lint`, which builds the
+# libraries first ($O is the build folder). One line for each breach; exit status 1 if there is any.
+# README.md says why each rule is there. Notes (long files) are told and do not fail.
+set -u
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
+export LC_ALL=C
+O=${O:-build}
+here=tools/lint
+breaches=0
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+# Reads lines from stdin; each is a breach of the rule named in $1.
+breach()
+{
+    local line
+    while IFS= read -r line; do
+        echo "$1: $line"
+        breaches=$((breaches + 1))
+    done
+}
+
+sources() # folders...: C and C++ files below them
+{
+    find "$@" -type f \( -name '*.c' -o -name '*.h' -o -name '*.cpp' \) 2>/dev/null | sort
+}
+
+# ---- the tree
+
+find . -mindepth 1 -maxdepth 1 ! -name '.*' ! -name build ! -path "./$O" -printf '%f\n' |
+    grep -vxE 'Makefile|README.md|LICENSE|src|include|tests|tools|assets' |
+    sed 's/$/ does not belong at the top level/' >"$work/out"
+breach "top level" <"$work/out"
+
+# Folders that hold files of their own. Seeds are found input, not text; include/ holds one folder.
+find src include tools tests assets -type f ! -path 'tests/fuzz/seeds/*' -printf '%h\n' | sort -u |
+    while IFS= read -r folder; do
+        [ -e "$folder/README.md" ] || echo "$folder has no README.md"
+    done >"$work/out"
+breach "readme" <"$work/out"
+
+sources src include tools tests | xargs wc -l | awk '
+    $2 != "total" && $1 > 600 { print "note: " $2 " has " $1 " lines; 150 to 500 read best" }'
+
+# ---- the text
+
+sources src include tools tests >"$work/files"
+xargs grep -nE '\b(TODO|FIXME|XXX)\b' <"$work/files" >"$work/out"
+breach "unfinished" <"$work/out"
+# Each .c file begins with what it is for, by name: "// grid.c - ..." or "/// grid.c - ...".
+while IFS= read -r file; do
+    head -n 1 "$file" | grep -qF "// ${file##*/} - " || echo "$file"
+done < <(grep -E '\.(c|cpp|h)$' "$work/files") >"$work/out"
+breach "header comment" <"$work/out"
+grep -rnIE '(^|[^A-Za-z])(/home/|/work/|/root/|/opt/peers|/tmp/[a-z]+-build)' Makefile .ci src include \
+    tools tests assets --exclude=lint.sh >"$work/out"
+breach "machine path" <"$work/out"
+grep -nE '^[^/"]*\b(gets|strcpy|strcat|sprintf|vsprintf|strtok|atoi|atol|atof|alloca|tmpnam)[ ]*\(' \
+    $(sources src include tools tests) /dev/null >"$work/out"
+breach "banned function" <"$work/out"
+grep -nE '^\s*#\s*(pragma\s+(STDC\s+FP_CONTRACT\s+ON|GCC\s+optimize)|include\s*<(complex|tgmath|fenv)\.h>)' \
+    $(sources src include) /dev/null >"$work/out"
+breach "determinism" <"$work/out"
+
+# ---- include direction: layers.txt says which folder may include which
+
+while IFS= read -r file; do
+    folder=${file#src/}
+    folder=${folder%%/*}
+    allowed=$(sed -n "s/^$folder *: *//p" $here/layers.txt)
+    if ! grep -q "^$folder *:" $here/layers.txt; then
+        echo "$file: the folder is not in $here/layers.txt"
+        continue
+    fi
+    sed -n 's/^[[:space:]]*#[[:space:]]*include[[:space:]]*"\([^"]*\)".*/\1/p' "$file" | while IFS= read -r name; do
+        target=${name%%/*}
+        case $name in
+        plumb/* | "$folder"/*) ;;
+        */*) [[ " $allowed " == *" $target "* ]] || echo "$file includes $name; $folder may include: $allowed" ;;
+        *) echo "$file includes $name without its folder" ;;
+        esac
+    done
+done < <(sources src) >"$work/out"
+breach "include direction" <"$work/out"
+
+# No header may include itself by a detour.
+for file in $(sources src include | grep '\.h$'); do
+    sed -n 's/^[[:space:]]*#[[:space:]]*include[[:space:]]*"\([^"]*\)".*/\1/p' "$file" |
+        sed "s|^|${file#*/} |"
+done | tsort 2>&1 >/dev/null | grep -v 'contains a loop' | sed 's/^tsort: /in a cycle: /' >"$work/out"
+breach "include cycle" <"$work/out"
+
+# Public headers know nothing of src/, tools know the public headers only.
+grep -nE '#\s*include\s*"' include/plumb/*.h | grep -v '"plumb/' >"$work/out"
+grep -nE '#\s*include\s*"(core|math|ecs|geometry|world|broad|narrow|solver|query|event|step)/' \
+    $(sources tools) /dev/null >>"$work/out"
+breach "include direction" <"$work/out"
+
+# ---- the libraries
+
+for lib in libplumb libplumb_d; do
+    a=$O/$lib.a
+    so=$O/$lib.so
+    if [ ! -e "$a" ] || [ ! -e "$so" ]; then
+        echo "$a or $so is not built" | breach "libraries"
+        breaches=$((breaches + 1))
+        continue
+    fi
+
+    nm -A --defined-only --extern-only "$a" | awk '$NF !~ /^(plumb|pl)_/ && NF >= 3' >"$work/out"
+    breach "symbol without prefix" <"$work/out"
+    nm -D --defined-only "$so" | awk '$NF !~ /^plumb_/ && $NF !~ /^(_init|_fini)$/' |
+        sed "s|^|$so: |" >"$work/out"
+    breach "symbol exported" <"$work/out"
+
+    # Sections that can be written to; .data.rel.ro is constant once the addresses are filled in.
+    objdump -t "$a" 2>/dev/null | awk '
+        /file format/ { object = $1 }
+        / [.](data|bss|tdata|tbss)| [*]COM[*]/ && !/[.]data[.]rel[.]ro/ && !/ d +[.]/ {
+            print object " " $NF }' >"$work/out"
+    breach "mutable global in $lib" <"$work/out"
+
+    objdump -d --no-show-raw-insn "$a" 2>/dev/null | awk '
+        /file format/ { object = $1 }
+        /^[0-9a-f]+ </ { name = $2 }
+        /\t(vfn?m(add|sub)|fn?m(add|sub)|fml[as])/ { print object " " name " " $2; }' |
+        sort | uniq -c >"$work/out"
+    breach "fused multiply-add in $lib" <"$work/out"
+
+    # What the library takes from outside: allowed.txt, and nothing else.
+    nm -A --undefined-only "$a" | awk '{ print $NF }' | sort -u | grep -vE '^(plumb|pl)_' |
+        grep -vxF -f <(sed 's/#.*//; s/ *$//; /^$/d' $here/allowed.txt) >"$work/out"
+    breach "function not in $here/allowed.txt, $lib" <"$work/out"
+done
+
+if [ $breaches -eq 0 ]; then
+    echo "lint: clean"
+else
+    echo "lint: $breaches breaches"
+    exit 1
+fi

@@ -1,0 +1,40 @@
+# install.mk - `make install`: headers, libraries, plumb.pc, CMake package, command line.
+# Included by the Makefile. Templates are in tools/install.
+
+VERSION := $(shell sed -n 's/^\#define PLUMB_VERSION  *"\(.*\)"/\1/p' include/plumb/base.h)
+
+.PHONY: install install-lib uninstall
+
+BINDIR     := $(PREFIX)/bin
+LIBDIR     := $(PREFIX)/lib
+INCLUDEDIR := $(PREFIX)/include
+PKGDIR     := $(LIBDIR)/pkgconfig
+CMAKEDIR   := $(LIBDIR)/cmake/plumb
+
+fill = sed -e 's|@PREFIX@|$(PREFIX)|g' -e 's|@VERSION@|$(VERSION)|g' -e 's|@SUFFIX@|$1|g' \
+	-e 's|@DEFINES@|$2|g' -e 's|@PRECISION@|$3|g'
+
+install-lib: $(LIBRARIES)
+	install -d $(addprefix $(DESTDIR),$(INCLUDEDIR)/plumb $(PKGDIR) $(CMAKEDIR))
+	install -m 644 include/plumb/*.h $(DESTDIR)$(INCLUDEDIR)/plumb
+	install -m 644 $(O)/libplumb.a $(O)/libplumb_d.a $(DESTDIR)$(LIBDIR)
+	set -e; for lib in libplumb libplumb_d; do \
+		install -m 755 $(O)/$$lib.so $(DESTDIR)$(LIBDIR)/$$lib.so.$(VERSION); \
+		ln -sf $$lib.so.$(VERSION) $(DESTDIR)$(LIBDIR)/$$lib.so.0; \
+		ln -sf $$lib.so.0 $(DESTDIR)$(LIBDIR)/$$lib.so; \
+	done
+	$(call fill,,,float) tools/install/plumb.pc.in >$(DESTDIR)$(PKGDIR)/plumb.pc
+	$(call fill,_d,-DPLUMB_DOUBLE=1,double) tools/install/plumb.pc.in >$(DESTDIR)$(PKGDIR)/plumb_d.pc
+	$(call fill) tools/install/plumb-config.cmake.in >$(DESTDIR)$(CMAKEDIR)/plumb-config.cmake
+	$(call fill) tools/install/plumb-config-version.cmake.in \
+		>$(DESTDIR)$(CMAKEDIR)/plumb-config-version.cmake
+
+install: install-lib $(O)/plumb
+	install -d $(DESTDIR)$(BINDIR)
+	install -m 755 $(O)/plumb $(DESTDIR)$(BINDIR)/plumb
+
+uninstall:
+	rm -rf $(addprefix $(DESTDIR),$(INCLUDEDIR)/plumb $(CMAKEDIR) $(PKGDIR)/plumb.pc \
+		$(PKGDIR)/plumb_d.pc $(BINDIR)/plumb)
+	rm -f $(DESTDIR)$(LIBDIR)/libplumb.a $(DESTDIR)$(LIBDIR)/libplumb_d.a \
+		$(DESTDIR)$(LIBDIR)/libplumb.so* $(DESTDIR)$(LIBDIR)/libplumb_d.so*

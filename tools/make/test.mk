@@ -1,0 +1,151 @@
+# test.mk - tests, benchmark, fuzzing, sanitizers. Included by the Makefile.
+#
+# A test is tests/<kind>/test_<name>.c (a program of its own) or tests/<kind>/test_<name>.sh. What a
+# program is linked with follows from its name and folder; tests/README.md has the table. Other .c
+# files of the folder are helpers of all its programs.
+
+TEST_SRC    := $(sort $(wildcard tests/*/test_*.c))
+TEST_SH     := $(sort $(wildcard tests/*/test_*.sh))
+FUZZ_SRC    := $(sort $(wildcard tests/fuzz/fuzz_*.c))
+BENCH_SRC   := $(wildcard tests/bench/*.c)
+HARNESS_SRC := $(filter-out tests/harness/engine_%,$(wildcard tests/harness/*.c))
+
+# Built and run in double precision as well, unless the file says PLUMB_FLOAT_ONLY.
+DOUBLE_KINDS := unit analytic stability api
+DOUBLE_SRC   := $(filter $(DOUBLE_KINDS:%=tests/%/%),$(TEST_SRC))
+ifneq ($(DOUBLE_SRC),)
+DOUBLE_SRC   := $(filter-out $(shell grep -l PLUMB_FLOAT_ONLY $(DOUBLE_SRC)),$(DOUBLE_SRC))
+endif
+
+TEST_PROGRAMS := $(TEST_SRC:%.c=$(O)/%) $(DOUBLE_SRC:tests/%.c=$(O)/tests-double/%) \
+	$(FUZZ_SRC:tests/fuzz/%.c=$(O)/tests/fuzz/replay_%)
+
+# ---- building
+
+# $(call helpers,source): the other files of its folder and what the harness offers everybody.
+helpers = $(filter-out $(dir $1)test_%,$(wildcard $(dir $1)*.c)) $(HARNESS_SRC)
+# Scene files are read by tests of these names, pictures drawn by those.
+needs_scene  = $(filter test_scene% fuzz_scene%,$(notdir $1))
+needs_render = $(filter test_render%,$(notdir $1))
+
+# $(call test_parts,source,float,): objects and archives;  $(call test_libs,source): -l flags
+test_parts = $(call objects,$2,$1 $(call helpers,$1)) \
+	$(if $(filter tests/crossval/%,$1),$(O)/box2d2.o $(call objects,$2,tests/harness/engine_plumb.c)) \
+	$(if $(call needs_scene,$1),$(O)/$2/libscene.a) \
+	$(if $(call needs_render,$1),$(O)/librender.a) $(O)/libplumb$3.a
+test_libs = $(if $(filter tests/crossval/%,$1),-lbox2d -lccd) \
+	$(if $(call needs_scene,$1),$(SCENE_LIBS)) $(if $(call needs_render,$1),$(RENDER_LIBS)) \
+	-lcmocka -lm -lpthread
+# C++ libraries are linked by the C++ compiler.
+test_link = $(if $(filter tests/crossval/%,$1),$$(CXX),$$(CC))
+
+# $(call test_rule,source,float,,tests)
+define test_rule
+$(O)/$4/$(1:tests/%.c=%): $(call test_parts,$1,$2,$3)
+	@mkdir -p $$(@D)
+	@echo "  LD    $$@"
+	$$(Q)$(call test_link,$1) $$(SANFLAGS) $$(LDFLAGS) -o $$@ $$^ $(call test_libs,$1)
+endef
+$(foreach t,$(TEST_SRC),$(eval $(call test_rule,$t,float,,tests)))
+$(foreach t,$(DOUBLE_SRC),$(eval $(call test_rule,$t,double,_d,tests-double)))
+
+$(O)/box2d2.o: tests/harness/engine_box2d2.cpp $(O)/flags | $(DEPS_FIRST)
+	@mkdir -p $(@D)
+	@echo "  CXX   $@"
+	$(Q)$(CXX) $(CXX_FLAGS) -c $< -o $@
+
+# Box2D 3 has a header folder of the same name as Box2D 2.4.1: only this file sees it.
+$(O)/box2d3.o: tests/harness/engine_box2d3.c $(O)/flags | $(DEPS_FIRST)
+	@echo "  CC    $@"
+	$(Q)$(CC) $(COMMON) $(CFLAGS) -isystem $(BOX2D3)/include -c $< -o $@
+
+BENCH_OBJ := $(call objects,float,$(BENCH_SRC) $(HARNESS_SRC) tests/harness/engine_plumb.c) \
+	$(O)/box2d2.o $(if $(BOX2D3),$(O)/box2d3.o)
+$(O)/float/tests/bench/%.o: OWN_FLAGS := $(if $(BOX2D3),-DBENCH_BOX2D3)
+$(O)/bench: $(BENCH_OBJ) $(O)/libplumb.a
+	@echo "  LD    $@"
+	$(Q)$(CXX) $(SANFLAGS) $(LDFLAGS) -o $@ $^ $(if $(BOX2D3),$(BOX2D3)/lib/libbox2d.a) \
+		-lbox2d -lm -lpthread
+
+# A fuzz harness twice: with a main that goes through its seeds, and with libFuzzer.
+define fuzz_rule
+$(O)/tests/fuzz/$3: $(call objects,float,$1 $2) $(O)/float/libscene.a $(O)/libplumb.a
+	@mkdir -p $$(@D)
+	@echo "  LD    $$@"
+	$$(Q)$$(CC) $$(SANFLAGS) $4 $$(LDFLAGS) -o $$@ $$^ $(SCENE_LIBS) -lm -lpthread
+endef
+$(foreach f,$(FUZZ_SRC),$(eval $(call fuzz_rule,$f,tests/fuzz/replay_main.c,replay_$(notdir $(f:.c=)))))
+$(foreach f,$(FUZZ_SRC),$(eval $(call fuzz_rule,$f,,$(notdir $(f:.c=)),-fsanitize=fuzzer)))
+
+TEST_OBJ := $(sort $(call objects,float,$(TEST_SRC) $(FUZZ_SRC) $(BENCH_SRC) $(HARNESS_SRC)) \
+	$(foreach t,$(TEST_SRC),$(filter %.o,$(call test_parts,$t,float,))) \
+	$(foreach t,$(DOUBLE_SRC),$(filter %.o,$(call test_parts,$t,double,_d))) \
+	$(O)/float/tests/fuzz/replay_main.o $(O)/box2d2.o $(O)/box2d3.o)
+
+# ---- running
+
+.PHONY: test test-programs stability bench cost asan ubsan tsan sanitized fuzz fuzz-run lint \
+	format format-check
+
+# T names the tests to run by their sources; without it, all of them.
+T ?=
+ifeq ($(T),)
+RUN_PROGRAMS := $(TEST_PROGRAMS)
+RUN_SH       := $(TEST_SH)
+else
+RUN_PROGRAMS := $(filter $(T:tests/%.c=$(O)/tests/%) $(T:tests/%.c=$(O)/tests-double/%) \
+	$(T:tests/fuzz/%.c=$(O)/tests/fuzz/replay_%),$(TEST_PROGRAMS))
+RUN_SH       := $(filter $(T),$(TEST_SH))
+endif
+
+test-programs: $(RUN_PROGRAMS) $(O)/plumb lib examples
+
+# What does not build must not hide what does: every test is still run, those that have no up to date
+# program count as failed, and the last line is the sum of the whole run.
+test: | $(DEPS_FIRST)
+	@$(MAKE) --no-print-directory -k test-programs || { \
+		echo "test: the build failed; what could not be built counts as failed" >&2; \
+		for p in $(RUN_PROGRAMS) $(O)/plumb; do \
+			$(MAKE) -q $$p >/dev/null 2>&1 || rm -f $$p; \
+		done; }
+	@O=$(O) SAN=$(SAN) bash tests/run.sh -j $(JOBS) -l $(O)/test-logs $(RUN_PROGRAMS) $(RUN_SH)
+
+SCENES ?= $(sort $(wildcard assets/scenes/*.lua))
+stability: $(O)/plumb
+	@$(MAKE) --no-print-directory test T="$(wildcard tests/stability/test_*)"
+	$(Q)$(O)/plumb check $(SCENES)
+
+bench: $(O)/bench
+	$(O)/bench $(BENCH)
+
+cost: $(O)/plumb
+	$(Q)for s in $(SCENES); do $(O)/plumb cost $$s || exit 1; done
+
+# Sanitizers build apart, so that they and the ordinary build do not undo one another.
+asan:  ; @$(MAKE) --no-print-directory O=$(O)/asan  SAN=address   CFLAGS="-O1" test
+ubsan: ; @$(MAKE) --no-print-directory O=$(O)/ubsan SAN=undefined CFLAGS="-O1" test
+tsan:  ; @$(MAKE) --no-print-directory O=$(O)/tsan  SAN=thread    CFLAGS="-O1" test
+
+# New findings are left in $(O)/fuzz/found; once mended they belong to tests/fuzz/seeds/<name>.
+FUZZ_TIME ?= 60
+FUZZ_BIN  := $(FUZZ_SRC:tests/fuzz/%.c=$(O)/tests/fuzz/%)
+fuzz:
+	@$(MAKE) --no-print-directory O=$(O)/fuzz CC=clang CXX=clang++ SAN=address,undefined FUZZ=1 \
+		CFLAGS="-O1" fuzz-run
+fuzz-run: $(FUZZ_BIN)
+	@set -e; for f in $(FUZZ_BIN); do \
+		name=$${f##*/fuzz_}; mkdir -p $(O)/corpus/$$name $(O)/found; \
+		echo "fuzz: $$name for $(FUZZ_TIME) s"; \
+		$$f -max_total_time=$(FUZZ_TIME) -artifact_prefix=$(O)/found/$$name- -print_final_stats=1 \
+			$(O)/corpus/$$name $$(ls -d tests/fuzz/seeds/$$name 2>/dev/null); \
+	done
+
+# ---- the text itself
+
+FORMATTED := $(wildcard include/plumb/*.h src/*/*.[ch] tools/*/*.[ch] tests/*/*.[ch] tests/*/*.cpp)
+format:
+	clang-format -i $(FORMATTED)
+format-check:
+	clang-format --dry-run -Werror $(FORMATTED)
+lint: lib
+	@O=$(O) bash tools/lint/lint.sh

@@ -1,0 +1,171 @@
+/// cmd_check.c - `plumb check`: runs scenes to their end and judges their `expect` lines.
+///
+/// Reads scenes, writes one line for each expectation to stdout, the same on every run.
+#include "scene_args.h"
+
+#include <string.h>
+
+typedef struct check_args {
+    scene_args scene;
+    bool verbose;
+} check_args;
+
+typedef struct tally {
+    int scenes, broken; ///< scenes that ran to their end, and that did not
+    int held, failed;   ///< expectations
+    int worst;          ///< exit code
+} tally;
+
+/// Of two codes the one to answer: a scene that does not even load outranks one that diverged,
+/// and that one an expectation missed.
+static int worse(int a, int b)
+{
+    static const int order[] = { CLI_SCENE, CLI_FAILED, CLI_DIVERGED, CLI_EXPECT };
+    for (int i = 0; i < (int)(sizeof order / sizeof order[0]); i++) {
+        if (a == order[i] || b == order[i]) {
+            return order[i];
+        }
+    }
+    return CLI_OK;
+}
+
+static const char *base_name(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash != NULL ? slash + 1 : path;
+}
+
+static int judge(scene_run *run, const char *path, tally *sum)
+{
+    const engine_expect *list;
+    int count = run->engine->expectations(run->session, &list);
+    if (count < 0) {
+        cli_message("out of memory");
+        return CLI_FAILED;
+    }
+    if (count == 0) {
+        printf("none  %s: nothing is expected\n", base_name(path));
+    }
+    for (int i = 0; i < count; i++) {
+        const engine_expect *e = &list[i];
+        printf("%s  %s: %s: %s%s\n", e->passed ? "ok  " : "FAIL", base_name(path), e->name, e->text,
+               e->reached ? "" : " (the run ended before it could be judged)");
+        sum->held += e->passed;
+        sum->failed += !e->passed;
+        sum->worst = worse(sum->worst, e->passed ? CLI_OK : CLI_EXPECT);
+    }
+    return CLI_OK;
+}
+
+/// Runs one scene to its end, without judging.
+static int simulate(scene_run *run, progress *bar)
+{
+    int code = CLI_OK;
+    for (long long step = 0; code == CLI_OK && !scene_run_done(run, step); step++) {
+        progress_update(bar, (double)step);
+        code = scene_run_step(run, bar);
+    }
+    engine_error error = { 0 };
+    if (cli_interrupted()) {
+        return CLI_FAILED;
+    }
+    if (code == CLI_OK) {
+        code = run->engine->finish(run->session, &error);
+        if (code != CLI_OK) {
+            progress_end(bar);
+            scene_report(&error);
+        }
+    }
+    return code;
+}
+
+static void print_verbose(const scene_run *run, const char *path)
+{
+    char solver[16] = "";
+    engine_stats stats = run->engine->stats(run->session);
+    (void)cli_member(ENGINE_SOLVERS, run->info.solver, solver, sizeof solver);
+    printf(
+        "note  %s: %lld steps of %.6g s, %s, %d substeps, %s; at the end %u bodies, %u contacts, "
+        "deepest overlap %.3g m\n",
+        base_name(path), run->steps, run->info.dt, solver, run->info.substeps,
+        run->engine->precision, stats.bodies, stats.contacts, stats.max_penetration);
+}
+
+static void check_one(const check_args *args, const char *path, tally *sum)
+{
+    scene_run run;
+    int code = scene_run_open(&args->scene, path, &run);
+    if (code == CLI_OK) {
+        progress bar;
+        progress_begin(&bar, base_name(path), (double)run.steps, args->scene.quiet);
+        code = simulate(&run, &bar);
+        progress_end(&bar);
+        if (code == CLI_OK && args->verbose) {
+            print_verbose(&run, path);
+        }
+        if (code == CLI_OK) {
+            code = judge(&run, path, sum);
+        }
+        scene_run_close(&run, CLI_OK);
+    }
+    if (code == CLI_OK) {
+        sum->scenes++;
+        return;
+    }
+    if (!cli_interrupted()) {
+        printf("FAIL  %s: %s\n", base_name(path),
+               code == CLI_SCENE      ? "the scene is wrong"
+               : code == CLI_DIVERGED ? "the simulation diverged"
+                                      : "the run failed");
+    }
+    sum->broken++;
+    sum->worst = worse(sum->worst, code);
+}
+
+static int check_command(const cli_command *command, int argc, char **argv)
+{
+    check_args args = { .scene = SCENE_ARGS_INIT };
+    cli_operands operands;
+    tally sum = { 0 };
+
+    int code = cli_parse(command, argc, argv, &args, &operands);
+    code = code == CLI_OK ? scene_args_check(command, &args.scene) : code;
+    if (code != CLI_OK) {
+        return code;
+    }
+    for (int i = 0; i < operands.count && !cli_interrupted(); i++) {
+        check_one(&args, operands.items[i], &sum);
+        fflush(stdout);
+    }
+    printf("%d expectation%s of %d scene%s: %d ok, %d failed", sum.held + sum.failed,
+           sum.held + sum.failed == 1 ? "" : "s", sum.scenes, sum.scenes == 1 ? "" : "s", sum.held,
+           sum.failed);
+    if (sum.broken > 0) {
+        printf("; %d scene%s could not be judged", sum.broken, sum.broken == 1 ? "" : "s");
+    }
+    printf("\n");
+    return sum.worst;
+}
+
+static const cli_option options[] = {
+    SCENE_OPTIONS(check_args, scene),
+    { "verbose", 'v', CLI_FLAG, offsetof(check_args, verbose), NULL, 0, 0, NULL,
+      "also tell the settings and the state at the end" },
+    SCENE_OPTION_QUIET(check_args, scene),
+};
+
+const cli_command cmd_check = {
+    .name = "check",
+    .summary = "runs scenes to their end and judges what they expect",
+    .operands = "SCENE...",
+    .text = "Runs every SCENE to its end and prints a line for each of its expectations: ok or "
+            "FAIL, the scene, the name of the expectation, what was measured, the limit. The exit "
+            "code is 4 when any failed, 3 when a scene does not load, 5 when one diverged.",
+    .examples = "plumb check assets/scenes/*.lua\n"
+                "plumb check stack.lua --precision double --verbose",
+    .options = options,
+    .option_count = (int)(sizeof options / sizeof options[0]),
+    .operand_min = 1,
+    .operand_max = 1 << 20,
+    .run = check_command,
+};

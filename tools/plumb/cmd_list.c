@@ -1,0 +1,158 @@
+/// cmd_list.c - `plumb list`: what there is. Everything is asked of the engine, the scene loader
+/// and the option tables themselves; nothing is written down twice.
+///
+/// Writes stdout, the same on every run.
+#include "commands.h"
+#include "scene_args.h"
+
+#include <string.h>
+
+typedef struct list_args {
+    bool brief;
+} list_args;
+
+#define TOPICS "solvers,precisions,passes,scene,overlays"
+
+static void print_members(const char *title, const char *list)
+{
+    char name[32];
+    printf("%s:\n", title);
+    for (int i = 0; cli_member(list, i, name, sizeof name); i++) {
+        printf("  %s\n", name);
+    }
+}
+
+/// All passes, from a world without anything in it.
+static int print_passes(bool brief)
+{
+    engine_settings settings = { .path = "(empty scene)", .text = "scene {} ", .solver = -1 };
+    engine_error error = { 0 };
+    const engine_api *engine = &engine_float;
+    engine_session *session = engine->open(&settings, &error);
+    if (session == NULL) {
+        return scene_report(&error);
+    }
+    const engine_pass *list;
+    int count = engine->passes(session, &list);
+    printf("passes of a step, in order: ");
+    for (int i = 0; i < count; i++) {
+        if (brief) {
+            printf("  %s ", list[i].name);
+        } else {
+            printf("  %-22s %-9s reads %s; writes %s ", list[i].name, list[i].phase,
+                   list[i].reads[0] != '\0' ? list[i].reads : "nothing",
+                   list[i].writes[0] != '\0' ? list[i].writes : "nothing");
+        }
+    }
+    engine->close(session);
+    if (count < 0) {
+        cli_message("out of memory");
+        return CLI_FAILED;
+    }
+    return CLI_OK;
+}
+
+static void print_word(const engine_word *word)
+{
+    bool is_choice = strcmp(word->kind, "one of") == 0;
+    printf("    %-18s%s", word->name, word->kind);
+    if (word->min < word->max) {
+        printf(", %g to %g", word->min, word->max);
+    }
+    if (word->unit[0] != '\0') {
+        printf(is_choice ? " %s" : " [%s]", word->unit);
+    }
+    if (word->position > 0) {
+        printf(", also element %d", word->position);
+    }
+    printf("%s ", word->required ? ", required" : "");
+}
+
+static void print_scene(bool brief)
+{
+    engine_word word;
+    printf("constructors of scene files: ");
+    for (int c = 0; engine_float.word(c, -1, &word); c++) {
+        printf("  %s ", word.name);
+        for (int k = 0; !brief && engine_float.word(c, k, &word); k++) {
+            print_word(&word);
+        }
+    }
+}
+
+static void print_overlays(void)
+{
+    const char *name;
+    printf("overlays of render: ");
+    for (int i = 0; (name = cmd_render_overlay(i)) != NULL; i++) {
+        printf("  %s ", name);
+    }
+}
+
+static int print_topic(int topic, bool brief)
+{
+    switch (topic) {
+    case 0:
+        print_members("solvers", ENGINE_SOLVERS);
+        return CLI_OK;
+    case 1:
+        print_members("precisions", SCENE_PRECISIONS);
+        return CLI_OK;
+    case 2:
+        return print_passes(brief);
+    case 3:
+        print_scene(brief);
+        return CLI_OK;
+    default:
+        print_overlays();
+        return CLI_OK;
+    }
+}
+
+static int list_command(const cli_command *command, int argc, char **argv)
+{
+    list_args args = { 0 };
+    cli_operands operands;
+    char name[32];
+
+    int code = cli_parse(command, argc, argv, &args, &operands);
+    if (code != CLI_OK) {
+        return code;
+    }
+    bool all = operands.count == 0, found = all;
+    for (int i = 0; cli_member(TOPICS, i, name, sizeof name) && code == CLI_OK; i++) {
+        if (all || strcmp(name, operands.items[0]) == 0) {
+            code = print_topic(i, args.brief);
+            found = true;
+        }
+    }
+    if (found) {
+        return code;
+    }
+    int near = cli_nearest(operands.items[0], TOPICS);
+    if (near >= 0 && cli_member(TOPICS, near, name, sizeof name)) {
+        cli_message("list: unknown topic '%.60s'; did you mean '%s'?", operands.items[0], name);
+    } else {
+        cli_message("list: '%.60s' is not one of %s", operands.items[0], TOPICS);
+    }
+    return CLI_USAGE;
+}
+
+static const cli_option options[] = {
+    { "brief", 'b', CLI_FLAG, offsetof(list_args, brief), NULL, 0, 0, NULL, "names only" },
+};
+
+const cli_command cmd_list = {
+    .name = "list",
+    .summary = "lists solvers, passes, words of scene files, overlays",
+    .operands = "[TOPIC]",
+    .text = "Lists what there is: solvers, precisions, the passes of a step, the constructors of "
+            "scene files with their keys, ranges and units, overlays of pictures. "
+            "TOPIC is one of " TOPICS ".",
+    .examples = "plumb list scene\nplumb list --brief",
+    .options = options,
+    .option_count = (int)(sizeof options / sizeof options[0]),
+    .operand_min = 0,
+    .operand_max = 1,
+    .run = list_command,
+};

@@ -1,0 +1,13 @@
+/// commands.h - the commands, one file each: cmd_<name>.c.
+#ifndef PLUMB_COMMANDS_H
+#define PLUMB_COMMANDS_H
+
+#include "cli.h"
+
+extern const cli_command cmd_run, cmd_render, cmd_check, cmd_explain, cmd_cost, cmd_convert,
+    cmd_list;
+
+/// Name of an overlay that `render` knows, NULL past the last.
+const char *cmd_render_overlay(int index);
+
+#endif

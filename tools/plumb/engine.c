@@ -1,0 +1,238 @@
+/// engine.c - engine.h over libplumb and the scene loader. Compiled once with PLUMB_DOUBLE=0 and
+/// once with 1; see README.md for how both get into one program.
+///
+/// Reads scene files through the loader; writes nothing but what it is asked for. A session's
+/// lists are kept from call to call: no allocation once they have grown.
+#include "engine_session.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+int pl_session_fail(engine_error *error, int code, const char *format, ...)
+{
+    va_list list;
+    va_start(list, format);
+    vsnprintf(error->text, sizeof error->text, format, list);
+    va_end(list);
+    error->code = code;
+    return code;
+}
+
+/// The loader's error as an exit code: what is wrong with the command line, the scene, the run.
+int pl_session_fail_scene(const engine_session *session, const scene_error *from,
+                          engine_error *error)
+{
+    int code = CLI_SCENE;
+    if (from->code == SCENE_E_SET) {
+        code = CLI_USAGE;
+    } else if (from->code == SCENE_E_WORLD && session != NULL) {
+        plumb_result why = plumb_world_error(session->world).code;
+        code = why == PLUMB_E_NOT_FINITE ? CLI_DIVERGED : why == PLUMB_E_MEMORY ? CLI_FAILED : code;
+    }
+    return pl_session_fail(error, code, "%s", from->text);
+}
+
+// ------------------------------------------------------------------------------- open and close
+
+/// Settings of the command line become overrides of scene{}, after the user's own: a later one
+/// wins.
+enum { OVERRIDE_COUNT = 5, OVERRIDE_SIZE = 48 };
+
+static int write_overrides(const engine_settings *settings, char texts[][OVERRIDE_SIZE])
+{
+    int count = 0;
+    char solver[16];
+    if (settings->dt > 0) {
+        snprintf(texts[count++], OVERRIDE_SIZE, "dt=%.17g", settings->dt);
+    }
+    if (settings->substeps > 0) {
+        snprintf(texts[count++], OVERRIDE_SIZE, "substeps=%d", settings->substeps);
+    }
+    if (settings->iterations > 0) {
+        snprintf(texts[count++], OVERRIDE_SIZE, "iterations=%d", settings->iterations);
+    }
+    if (cli_member(ENGINE_SOLVERS, settings->solver, solver, sizeof solver)) {
+        snprintf(texts[count++], OVERRIDE_SIZE, "solver=%s", solver);
+    }
+    if (settings->width > 0) {
+        snprintf(texts[count++], OVERRIDE_SIZE, "simd_width=%d", settings->width);
+    }
+    return count;
+}
+
+static scene_code load(const engine_settings *settings, scene **out, scene_error *error)
+{
+    char texts[OVERRIDE_COUNT][OVERRIDE_SIZE];
+    int extra = write_overrides(settings, texts);
+    int count = settings->set_count + extra;
+    const char **sets = calloc((size_t)count + 1, sizeof *sets);
+    if (sets == NULL) {
+        error->code = SCENE_E_LIMIT;
+        snprintf(error->text, sizeof error->text, "%s: out of memory", settings->path);
+        return error->code;
+    }
+    for (int i = 0; i < settings->set_count; i++) {
+        sets[i] = settings->sets[i];
+    }
+    for (int i = 0; i < extra; i++) {
+        sets[settings->set_count + i] = texts[i];
+    }
+    scene_options options = { .path = settings->path,
+                              .text = settings->text,
+                              .text_size = settings->text != NULL ? strlen(settings->text) : 0,
+                              .sets = sets,
+                              .set_count = count };
+    scene_code code = scene_load(&options, out, error);
+    free(sets);
+    return code;
+}
+
+static engine_session *session_open(const engine_settings *settings, engine_error *error)
+{
+    scene_error from = { 0 };
+    engine_session *session = calloc(1, sizeof *session);
+    if (session == NULL) {
+        pl_session_fail(error, CLI_FAILED, "out of memory");
+        return NULL;
+    }
+    if (load(settings, &session->scene, &from) != SCENE_OK) {
+        pl_session_fail_scene(NULL, &from, error);
+        free(session);
+        return NULL;
+    }
+    session->world = scene_world(session->scene);
+    session->info = scene_get_info(session->scene);
+    session->camera = scene_get_camera(session->scene);
+    return session;
+}
+
+static void session_close(engine_session *session)
+{
+    if (session == NULL) {
+        return;
+    }
+    scene_destroy(session->scene);
+    free(session->rows);
+    free(session->expects);
+    free(session->passes);
+    free(session->pass_infos);
+    free(session->contacts);
+    free(session->shapes);
+    free(session);
+}
+
+static engine_info session_info(const engine_session *session)
+{
+    const scene_info *info = &session->info;
+    const scene_camera *camera = &session->camera;
+    return (engine_info){
+        .name = info->title,
+        .duration = info->duration,
+        .dt = info->dt,
+        .substeps = info->substeps,
+        .iterations = info->iterations,
+        .solver = info->solver == PLUMB_SOLVER_PGS ? 1 : 0,
+        .width = plumb_world_stats(session->world).simd_width,
+        .y_down = info->y_axis == PLUMB_Y_DOWN,
+        .exact_count = scene_exact_count(session->scene),
+        .camera = { .has_view = camera->has_view,
+                    .x = camera->center[0],
+                    .y = camera->center[1],
+                    .height = camera->height,
+                    .has_fit = camera->has_fit,
+                    .box = { camera->box[0], camera->box[1], camera->box[2], camera->box[3] },
+                    .follow = camera->follow != NULL ? camera->follow : "" },
+    };
+}
+
+// ------------------------------------------------------------------------------------- stepping
+
+static int session_step(engine_session *session, engine_error *error)
+{
+    scene_error from = { 0 };
+    if (scene_step(session->scene, &from) != SCENE_OK) {
+        return pl_session_fail_scene(session, &from, error);
+    }
+    return CLI_OK;
+}
+
+static int session_check(engine_session *session, engine_error *error)
+{
+    plumb_body_span span = plumb_world_bodies(session->world);
+    for (int i = 0; i < span.count; i++) {
+        // A sum with a NaN or an infinity in it is never finite.
+        double sum = (double)span.x[i] + (double)span.y[i] + (double)span.c[i] + (double)span.s[i] +
+                     (double)span.vx[i] + (double)span.vy[i] + (double)span.w[i];
+        if (!isfinite(sum)) {
+            scene_body body = scene_body_of(session->scene, span.entity[i]);
+            return pl_session_fail(error, CLI_DIVERGED,
+                                   "%s: diverged at %.6g s: the state of body '%s' is not finite",
+                                   session->info.title, scene_time(session->scene),
+                                   body.name != NULL ? body.name : "?");
+        }
+    }
+    return CLI_OK;
+}
+
+static bool session_ended(const engine_session *session)
+{
+    // scene_done is also true once the duration is over; a run may go on after that.
+    return scene_done(session->scene) &&
+           scene_time(session->scene) < session->info.duration - session->info.dt / 2;
+}
+
+static double session_time(const engine_session *session)
+{
+    return scene_time(session->scene);
+}
+
+static int session_finish(engine_session *session, engine_error *error)
+{
+    scene_error from = { 0 };
+    if (scene_finish(session->scene, &from) != SCENE_OK) {
+        return pl_session_fail_scene(session, &from, error);
+    }
+    return CLI_OK;
+}
+
+static const char *session_text(const engine_session *session)
+{
+    const char *text = scene_get_text(session->scene);
+    return text != NULL ? text : "";
+}
+
+static bool session_to_json(const engine_session *session, FILE *file)
+{
+    return scene_to_json(session->scene, file);
+}
+
+#if defined(PLUMB_DOUBLE) && PLUMB_DOUBLE
+#define ENGINE_NAME engine_double
+#else
+#define ENGINE_NAME engine_float
+#endif
+
+const engine_api ENGINE_NAME = {
+    .precision = sizeof(plumb_real) == sizeof(float) ? "float" : "double",
+    .is_float = sizeof(plumb_real) == sizeof(float),
+    .open = session_open,
+    .close = session_close,
+    .info = session_info,
+    .step = session_step,
+    .check = session_check,
+    .ended = session_ended,
+    .time = session_time,
+    .finish = session_finish,
+    .rows = pl_session_rows,
+    .exact = pl_session_exact,
+    .expectations = pl_session_expectations,
+    .passes = pl_session_passes,
+    .stats = pl_session_stats,
+    .bounds = pl_session_bounds,
+    .draw = pl_session_draw,
+    .text = session_text,
+    .word = pl_session_word,
+    .to_json = session_to_json,
+};

@@ -1,0 +1,158 @@
+/// engine.h - the engine and the scene loader behind plain types, so that the float and the
+/// double build of both live in one process.
+///
+/// Nothing here depends on plumb_real. engine.c and engine_draw.c implement it; they are compiled
+/// twice, and each variant is linked with its own libplumb and scene loader into one object of
+/// which only engine_float or engine_double is visible (README.md, "Two precisions").
+///
+/// A function that can fail answers a cli_exit and fills `error` (never null).
+#ifndef PLUMB_ENGINE_H
+#define PLUMB_ENGINE_H
+
+#include "cli.h"
+
+struct render_frame;
+
+/// What went wrong: an exit code and complete text for the user, possibly several lines.
+typedef struct engine_error {
+    int code; ///< cli_exit
+    char text[2048];
+} engine_error;
+
+/// What to open and what to override.
+typedef struct engine_settings {
+    const char *path;        ///< scene file, .lua or .json
+    const char *text;        ///< the scene itself, `path` only names it; NULL: read the file
+    const char *const *sets; ///< "key=value" each
+    int set_count;
+    double dt;      ///< [s] step; 0: the scene's
+    int substeps;   ///< 0: the scene's
+    int iterations; ///< 0: the scene's
+    int solver;     ///< index into ENGINE_SOLVERS; -1: the scene's
+    int width;      ///< SIMD lanes; 0: the scene's or the best
+} engine_settings;
+
+/// The solvers by name, in the order of plumb_solver.
+#define ENGINE_SOLVERS "soft,pgs"
+
+/// What the scene says about where to look.
+typedef struct engine_camera {
+    bool has_view;      ///< center and height are given
+    double x, y;        ///< [m] centre
+    double height;      ///< [m] of the view
+    bool has_fit;       ///< the box is given: all of it must be visible
+    double box[4];      ///< [m] min x, min y, max x, max y
+    const char *follow; ///< body to keep in the middle, "" if none
+} engine_camera;
+
+/// What was opened, with all defaults resolved.
+typedef struct engine_info {
+    const char *name; ///< the scene's title, or its file's name
+    double duration;  ///< [s] the scene's
+    double dt;        ///< [s]
+    int substeps;     ///< [-]
+    int iterations;   ///< [-]
+    int solver;       ///< index into ENGINE_SOLVERS
+    int width;        ///< SIMD lanes in use
+    bool y_down;      ///< the scene's y axis points down
+    int exact_count;  ///< closed forms declared
+    engine_camera camera;
+} engine_info;
+
+/// One body now.
+typedef struct engine_row {
+    const char *name; ///< valid until the next step
+    double x, y;      ///< [m]
+    double angle;     ///< [rad]
+    double vx, vy;    ///< [m/s]
+    double w;         ///< [rad/s]
+    bool moves;       ///< not static
+    int palette;      ///< colour in which it is drawn
+} engine_row;
+
+/// One expectation after engine_api.finish.
+typedef struct engine_expect {
+    const char *name;
+    bool passed;
+    bool reached;     ///< false: the run ended before its time
+    const char *text; ///< what was measured, the limit and when, in one line
+} engine_expect;
+
+/// One pass of the schedule.
+typedef struct engine_pass {
+    const char *name, *phase, *reads, *writes, *reason;
+    bool scheduled, is_user;
+    double total_ns; ///< [ns] since the session was opened
+} engine_pass;
+
+/// Counts of the last step, as in plumb_stats.
+typedef struct engine_stats {
+    unsigned long long step_count;
+    double time; ///< [s]
+    unsigned bodies, moving, statics, shapes, pieces, pairs, contacts, points, colors, overflow;
+    unsigned grid_rebuilds;
+    double max_penetration, mean_penetration; ///< [m]
+    size_t bytes, peak_bytes;                 ///< [B]
+} engine_stats;
+
+/// A word of the scene language.
+typedef struct engine_word {
+    const char *name;
+    const char *kind; ///< what is expected: "number", "true or false", "one of up|down"
+    const char *unit; ///< "" if none
+    double min, max;  ///< range of numbers, equal if there is none
+    int position;     ///< may also be given as the n-th element; 0: by name only
+    bool required;
+} engine_word;
+
+/// A box in the plane [m]; empty when min > max.
+typedef struct engine_box {
+    double min_x, min_y, max_x, max_y;
+} engine_box;
+
+typedef struct engine_session engine_session;
+
+/// One engine. All lists that it hands out are valid until the next call with the same session.
+typedef struct engine_api {
+    const char *precision; ///< "float" or "double"
+    bool is_float;
+
+    engine_session *(*open)(const engine_settings *settings, engine_error *error);
+    void (*close)(engine_session *session); ///< null is allowed
+    engine_info (*info)(const engine_session *session);
+    /// Advances by info.dt. CLI_SCENE: an error in the scene's code; CLI_FAILED: out of memory.
+    int (*step)(engine_session *session, engine_error *error);
+    /// CLI_DIVERGED when a body's state is NaN or infinite. O(bodies).
+    int (*check)(engine_session *session, engine_error *error);
+    /// True when the scene's code has ended the run.
+    bool (*ended)(const engine_session *session);
+    double (*time)(const engine_session *session); ///< [s] simulated
+    /// The end of the run, for what only then can be judged.
+    int (*finish)(engine_session *session, engine_error *error);
+    /// All bodies in the order in which they were made. -1: out of memory.
+    int (*rows)(engine_session *session, const engine_row **rows);
+    /// How far the worst body is from its closed form now: a distance [m], for forms that give
+    /// no position an angle [rad] or a velocity [m/s, rad/s]. -1 when no form holds now.
+    int (*exact)(engine_session *session, double *distance, engine_error *error);
+    /// -1: out of memory.
+    int (*expectations)(engine_session *session, const engine_expect **list);
+    /// -1: out of memory.
+    int (*passes)(engine_session *session, const engine_pass **list);
+    engine_stats (*stats)(const engine_session *session);
+    /// Boxes around the bodies that move and around those that do not.
+    void (*bounds)(const engine_session *session, engine_box *moving, engine_box *fixed);
+    /// Adds bodies and overlays (RENDER_SHOW_* bits) to the frame. CLI_FAILED: out of memory.
+    int (*draw)(engine_session *session, struct render_frame *frame, unsigned show);
+    /// The scene's counters and text in one line, "" if none.
+    const char *(*text)(const engine_session *session);
+    /// Key `key` of constructor `constructor` of the scene language; key -1: the constructor
+    /// itself. False past the end.
+    bool (*word)(int constructor, int key, engine_word *word);
+    /// Writes the scene as canonical JSON. False when writing failed.
+    bool (*to_json)(const engine_session *session, FILE *file);
+} engine_api;
+
+extern const engine_api engine_float;
+extern const engine_api engine_double;
+
+#endif

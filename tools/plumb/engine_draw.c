@@ -1,0 +1,259 @@
+/// engine_draw.c - a session's bodies and overlays as a draw list. Compiled once for each
+/// precision, as engine.c.
+///
+/// Reads the world and the looks that the scene gave, writes a render_frame. A shape is drawn by
+/// its convex pieces: one point is a disc, two are a capsule or a line, more a polygon; the
+/// renderer takes the seams between pieces of one body out.
+/// Cost: O(shapes), for overlays O(contacts).
+#include "engine_session.h"
+
+#include <float.h>
+#include <math.h>
+
+#include "../render/render.h"
+
+/// Most points of one line drawn; a longer chain is drawn as several that share an end.
+enum { LINE_MAX = 256 };
+
+static render_vec to_world(plumb_transform frame, plumb_vec2 p)
+{
+    double c = (double)frame.q.c, s = (double)frame.q.s;
+    double x = (double)p.x, y = (double)p.y;
+    return (render_vec){ (double)frame.p.x + c * x - s * y, (double)frame.p.y + s * x + c * y };
+}
+
+/// A disc, capsule or polygon.
+static void add_piece(render_frame *frame, const plumb_convex *piece, plumb_transform where)
+{
+    render_vec points[PLUMB_POLYGON_MAX_VERTICES];
+    double radius = (double)piece->radius;
+    for (int i = 0; i < piece->count; i++) {
+        points[i] = to_world(where, piece->points[i]);
+    }
+    if (piece->count == 1) {
+        double angle = atan2((double)where.q.s, (double)where.q.c);
+        render_add_circle(frame, points[0].x, points[0].y, radius, angle);
+    } else if (piece->count == 2) {
+        render_add_capsule(frame, points[0].x, points[0].y, points[1].x, points[1].y, radius);
+    } else {
+        render_add_polygon(frame, points, (size_t)piece->count, radius);
+    }
+}
+
+/// A segment or chain: its pieces are links, each beginning where the last one ended.
+static void add_line(const plumb_world *world, plumb_shape shape, int pieces, plumb_transform where,
+                     render_frame *frame, bool is_ground)
+{
+    render_vec points[LINE_MAX];
+    size_t count = 0;
+    plumb_convex piece;
+
+    for (int i = 0; i < pieces; i++) {
+        if (plumb_shape_piece(world, shape, i, &piece, NULL) != PLUMB_OK || piece.count != 2) {
+            continue;
+        }
+        if (count == LINE_MAX) {
+            render_add_polyline(frame, points, count, 0, 0);
+            points[0] = points[count - 1];
+            count = 1;
+        }
+        if (count == 0) {
+            points[count++] = to_world(where, piece.points[0]);
+        }
+        points[count++] = to_world(where, piece.points[1]);
+    }
+    if (count < 2) {
+        return;
+    }
+    bool is_closed = points[0].x == points[count - 1].x && points[0].y == points[count - 1].y;
+    // Hatching belongs below the ground, to the right of a line that runs to the right.
+    bool runs_right = points[count - 1].x > points[0].x;
+    unsigned flags = 0;
+    if (is_closed && count > 3) {
+        count--;
+        flags = RENDER_LINE_CLOSED;
+    } else if (is_ground && pieces < LINE_MAX) {
+        flags = RENDER_LINE_TICKS;
+    }
+    for (size_t i = 0; flags == RENDER_LINE_TICKS && !runs_right && i < count / 2; i++) {
+        render_vec swap = points[i];
+        points[i] = points[count - 1 - i];
+        points[count - 1 - i] = swap;
+    }
+    render_add_polyline(frame, points, count, 0, flags);
+}
+
+static void add_shape(const plumb_world *world, plumb_shape shape, plumb_transform where,
+                      render_frame *frame, bool is_static)
+{
+    plumb_shape_kind kind = plumb_shape_get_kind(world, shape);
+    int pieces = plumb_shape_piece_count(world, shape);
+    if (kind == PLUMB_SEGMENT || kind == PLUMB_CHAIN) {
+        add_line(world, shape, pieces, where, frame, is_static);
+        return;
+    }
+    for (int i = 0; i < pieces; i++) {
+        plumb_convex piece;
+        if (plumb_shape_piece(world, shape, i, &piece, NULL) == PLUMB_OK) {
+            add_piece(frame, &piece, where);
+        }
+    }
+}
+
+/// Shapes of a body, in the session's list; how many, -1 out of memory.
+static int body_shapes(engine_session *session, plumb_body body)
+{
+    int count = plumb_body_shapes(session->world, body, NULL, 0);
+    plumb_entity *list =
+        pl_session_reserve(session->shapes, &session->shape_room, count, sizeof *list);
+    if (list == NULL) {
+        return -1;
+    }
+    session->shapes = list;
+    return plumb_body_shapes(session->world, body, list, count);
+}
+
+static render_class class_of(plumb_body_type type)
+{
+    switch (type) {
+    case PLUMB_STATIC:
+        return RENDER_STATIC;
+    case PLUMB_KINEMATIC:
+        return RENDER_KINEMATIC;
+    case PLUMB_DYNAMIC:
+        break;
+    }
+    return RENDER_DYNAMIC;
+}
+
+static bool add_body(engine_session *session, const scene_body *body, int index,
+                     render_frame *frame)
+{
+    const plumb_world *world = session->world;
+    plumb_body_type type = plumb_body_get_type(world, body->entity);
+    plumb_transform where = plumb_body_transform(world, body->entity);
+    int count = body_shapes(session, body->entity);
+    if (count < 0) {
+        return false;
+    }
+    const char *label = body->label[0] != '\0' ? body->label : body->is_named ? body->name : NULL;
+    render_style style = { .kind = class_of(type),
+                           .palette = pl_session_palette(body, index),
+                           .color = { body->color.r, body->color.g, body->color.b, body->color.a },
+                           .label = type == PLUMB_STATIC && body->label[0] == '\0' ? NULL : label };
+    render_body_begin(frame, &style);
+    for (int i = 0; i < count; i++) {
+        add_shape(world, session->shapes[i], where, frame, type == PLUMB_STATIC);
+    }
+    render_body_end(frame);
+    return true;
+}
+
+static void add_velocities(const engine_session *session, render_frame *frame)
+{
+    int count = scene_body_count(session->scene);
+    for (int i = 0; i < count; i++) {
+        scene_body body = scene_body_get(session->scene, i);
+        plumb_vec2 v = plumb_body_velocity(session->world, body.entity);
+        plumb_vec2 p = plumb_body_center(session->world, body.entity);
+        if (!body.hidden && (v.x != 0 || v.y != 0)) {
+            render_add_velocity(frame, (double)p.x, (double)p.y, (double)v.x, (double)v.y);
+        }
+    }
+}
+
+static bool add_boxes(engine_session *session, render_frame *frame)
+{
+    int bodies = scene_body_count(session->scene);
+    for (int i = 0; i < bodies; i++) {
+        scene_body body = scene_body_get(session->scene, i);
+        int count = body.hidden ? 0 : body_shapes(session, body.entity);
+        if (count < 0) {
+            return false;
+        }
+        for (int k = 0; k < count; k++) {
+            plumb_aabb b = plumb_shape_aabb(session->world, session->shapes[k]);
+            render_add_aabb(frame, (render_box){ { (double)b.min.x, (double)b.min.y },
+                                                 { (double)b.max.x, (double)b.max.y } });
+        }
+    }
+    return true;
+}
+
+static bool add_contacts(engine_session *session, render_frame *frame, unsigned show)
+{
+    int count = plumb_world_contacts(session->world, NULL, 0);
+    plumb_contact *list =
+        pl_session_reserve(session->contacts, &session->contact_room, count, sizeof *list);
+    if (list == NULL) {
+        return false;
+    }
+    session->contacts = list;
+    plumb_world_contacts(session->world, list, count);
+    for (int i = 0; i < count; i++) {
+        double nx = (double)list[i].normal.x, ny = (double)list[i].normal.y;
+        for (int k = 0; k < list[i].point_count; k++) {
+            const plumb_contact_point *p = &list[i].points[k];
+            double x = (double)p->point.x, y = (double)p->point.y;
+            double j = (double)p->normal_impulse, t = (double)p->tangent_impulse;
+            if ((show & RENDER_SHOW_CONTACTS) != 0) {
+                render_add_contact(frame, x, y, nx, ny, -(double)p->separation);
+            }
+            if ((show & RENDER_SHOW_IMPULSES) != 0) {
+                // On body B; the tangent is the normal turned by a quarter counter-clockwise.
+                render_add_impulse(frame, x, y, j * nx - t * ny, j * ny + t * nx);
+            }
+        }
+    }
+    return true;
+}
+
+int pl_session_draw(engine_session *session, struct render_frame *frame, unsigned show)
+{
+    int count = scene_body_count(session->scene);
+    bool good = true;
+    // What does not move lies behind what does.
+    for (int layer = 0; layer < 2; layer++) {
+        for (int i = 0; i < count && good; i++) {
+            scene_body body = scene_body_get(session->scene, i);
+            bool is_static = plumb_body_get_type(session->world, body.entity) == PLUMB_STATIC;
+            if (!body.hidden && is_static == (layer == 0)) {
+                good = add_body(session, &body, i, frame);
+            }
+        }
+    }
+    if (good && (show & (RENDER_SHOW_CONTACTS | RENDER_SHOW_IMPULSES)) != 0) {
+        good = add_contacts(session, frame, show);
+    }
+    if (good && (show & RENDER_SHOW_VELOCITIES) != 0) {
+        add_velocities(session, frame);
+    }
+    if (good && (show & RENDER_SHOW_AABBS) != 0) {
+        good = add_boxes(session, frame);
+    }
+    return good && render_frame_status(frame) != RENDER_E_MEMORY ? CLI_OK : CLI_FAILED;
+}
+
+static void add_to_box(engine_box *box, plumb_aabb b)
+{
+    box->min_x = fmin(box->min_x, (double)b.min.x);
+    box->min_y = fmin(box->min_y, (double)b.min.y);
+    box->max_x = fmax(box->max_x, (double)b.max.x);
+    box->max_y = fmax(box->max_y, (double)b.max.y);
+}
+
+void pl_session_bounds(const engine_session *session, engine_box *moving, engine_box *fixed)
+{
+    const engine_box empty = { DBL_MAX, DBL_MAX, -DBL_MAX, -DBL_MAX };
+    int count = scene_body_count(session->scene);
+
+    *moving = *fixed = empty;
+    for (int i = 0; i < count; i++) {
+        scene_body body = scene_body_get(session->scene, i);
+        plumb_aabb b = plumb_body_aabb(session->world, body.entity);
+        bool is_static = plumb_body_get_type(session->world, body.entity) == PLUMB_STATIC;
+        if (!body.hidden && b.min.x <= b.max.x) {
+            add_to_box(is_static ? fixed : moving, b);
+        }
+    }
+}

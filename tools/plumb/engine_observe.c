@@ -1,0 +1,189 @@
+/// engine_observe.c - what engine.h tells about a session: bodies, closed forms, expectations,
+/// passes, counts. Compiled once for each precision, as engine.c.
+///
+/// Reads the world and the scene, changes neither. The lists belong to the session and are reused:
+/// no allocation once they have grown.
+#include "engine_session.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+void *pl_session_reserve(void *list, size_t *room, int count, size_t size)
+{
+    size_t wanted = ((size_t)count + 1) * size;
+    if (wanted <= *room) {
+        return list;
+    }
+    wanted += wanted / 2; // bodies tend to come one by one
+    void *grown = realloc(list, wanted);
+    if (grown != NULL) {
+        *room = wanted;
+    }
+    return grown;
+}
+
+int pl_session_palette(const scene_body *body, int i)
+{
+    return body->palette >= 0 ? body->palette : i;
+}
+
+int pl_session_rows(engine_session *session, const engine_row **rows)
+{
+    int count = scene_body_count(session->scene);
+    engine_row *list =
+        pl_session_reserve(session->rows, &session->row_room, count, sizeof *session->rows);
+    if (list == NULL) {
+        return -1;
+    }
+    session->rows = list;
+    for (int i = 0; i < count; i++) {
+        scene_body body = scene_body_get(session->scene, i);
+        plumb_vec2 p = plumb_body_position(session->world, body.entity);
+        plumb_vec2 v = plumb_body_velocity(session->world, body.entity);
+        list[i] = (engine_row){
+            .name = body.name,
+            .x = (double)p.x,
+            .y = (double)p.y,
+            .angle = (double)plumb_body_angle(session->world, body.entity),
+            .vx = (double)v.x,
+            .vy = (double)v.y,
+            .w = (double)plumb_body_angular_velocity(session->world, body.entity),
+            .moves = plumb_body_get_type(session->world, body.entity) != PLUMB_STATIC,
+            .palette = pl_session_palette(&body, i),
+        };
+    }
+    *rows = list;
+    return count;
+}
+
+/// Distance of a body from its closed form `values`, of which `given` are there.
+static double exact_distance(const plumb_world *world, plumb_body body, unsigned given,
+                             const double values[SCENE_EXACT_COUNT])
+{
+    const double turn = 6.283185307179586; // [rad] angles are equal modulo one
+    plumb_vec2 p = plumb_body_position(world, body), v = plumb_body_velocity(world, body);
+    double error[SCENE_EXACT_COUNT] = { 0 };
+    const double now[SCENE_EXACT_COUNT] = {
+        [SCENE_EXACT_X] = (double)p.x,
+        [SCENE_EXACT_Y] = (double)p.y,
+        [SCENE_EXACT_ANGLE] = (double)plumb_body_angle(world, body),
+        [SCENE_EXACT_VX] = (double)v.x,
+        [SCENE_EXACT_VY] = (double)v.y,
+        [SCENE_EXACT_SPIN] = (double)plumb_body_angular_velocity(world, body),
+    };
+    for (int q = 0; q < SCENE_EXACT_COUNT; q++) {
+        error[q] = (given >> q & 1u) != 0 ? now[q] - values[q] : 0;
+    }
+    error[SCENE_EXACT_ANGLE] = remainder(error[SCENE_EXACT_ANGLE], turn);
+    if ((given & (1u << SCENE_EXACT_X | 1u << SCENE_EXACT_Y)) != 0) {
+        return hypot(error[SCENE_EXACT_X], error[SCENE_EXACT_Y]);
+    }
+    if ((given & 1u << SCENE_EXACT_ANGLE) != 0) {
+        return fabs(error[SCENE_EXACT_ANGLE]);
+    }
+    if ((given & (1u << SCENE_EXACT_VX | 1u << SCENE_EXACT_VY)) != 0) {
+        return hypot(error[SCENE_EXACT_VX], error[SCENE_EXACT_VY]);
+    }
+    return fabs(error[SCENE_EXACT_SPIN]);
+}
+
+int pl_session_exact(engine_session *session, double *distance, engine_error *error)
+{
+    double time = scene_time(session->scene);
+    *distance = -1;
+    for (int i = 0; i < scene_exact_count(session->scene); i++) {
+        scene_exact form = scene_exact_get(session->scene, i);
+        plumb_body body = scene_body_find(session->scene, form.body).entity;
+        double values[SCENE_EXACT_COUNT];
+        scene_error from = { 0 };
+        // A tenth of a step of slack: times are sums of steps.
+        if (plumb_is_null(body) || time > form.till + session->info.dt / 10) {
+            continue;
+        }
+        if (scene_exact_eval(session->scene, i, time, values, &from) != SCENE_OK) {
+            return pl_session_fail_scene(session, &from, error);
+        }
+        double d = exact_distance(session->world, body, form.given, values);
+        *distance = d > *distance || isnan(d) ? d : *distance;
+    }
+    return CLI_OK;
+}
+
+int pl_session_expectations(engine_session *session, const engine_expect **list)
+{
+    int count = scene_expect_count(session->scene);
+    engine_expect *grown =
+        pl_session_reserve(session->expects, &session->expect_room, count, sizeof *grown);
+    if (grown == NULL) {
+        return -1;
+    }
+    session->expects = grown;
+    for (int i = 0; i < count; i++) {
+        scene_expect_result r = scene_expect_get(session->scene, i);
+        grown[i] = (engine_expect){
+            .name = r.name,
+            .passed = r.passed,
+            .reached = r.status == SCENE_EXPECT_PASSED || r.status == SCENE_EXPECT_FAILED,
+            .text = r.description,
+        };
+    }
+    *list = grown;
+    return count;
+}
+
+int pl_session_passes(engine_session *session, const engine_pass **list)
+{
+    int count = plumb_world_schedule(session->world, NULL, 0);
+    plumb_pass_info *infos =
+        pl_session_reserve(session->pass_infos, &session->info_room, count, sizeof *infos);
+    if (infos == NULL) {
+        return -1;
+    }
+    session->pass_infos = infos;
+    engine_pass *passes =
+        pl_session_reserve(session->passes, &session->pass_room, count, sizeof *passes);
+    if (passes == NULL) {
+        return -1;
+    }
+    session->passes = passes;
+    plumb_world_schedule(session->world, infos, count);
+    for (int i = 0; i < count; i++) {
+        const plumb_pass_info *p = &infos[i];
+        passes[i] = (engine_pass){
+            .name = p->name,
+            .phase = p->phase,
+            .reads = p->reads != NULL ? p->reads : "",
+            .writes = p->writes != NULL ? p->writes : "",
+            .reason = p->reason != NULL ? p->reason : "",
+            .scheduled = p->scheduled,
+            .is_user = p->is_user,
+            .total_ns = p->total_ns,
+        };
+    }
+    *list = passes;
+    return count;
+}
+
+engine_stats pl_session_stats(const engine_session *session)
+{
+    plumb_stats s = plumb_world_stats(session->world);
+    return (engine_stats){
+        .step_count = s.step_count,
+        .time = s.time,
+        .bodies = s.body_count,
+        .moving = s.body_count - s.static_count,
+        .statics = s.static_count,
+        .shapes = s.shape_count,
+        .pieces = s.piece_count,
+        .pairs = s.pair_count,
+        .contacts = s.contact_count,
+        .points = s.point_count,
+        .colors = s.color_count,
+        .overflow = s.overflow_count,
+        .grid_rebuilds = s.grid_rebuilds,
+        .max_penetration = (double)s.max_penetration,
+        .mean_penetration = (double)s.mean_penetration,
+        .bytes = s.bytes,
+        .peak_bytes = s.peak_bytes,
+    };
+}

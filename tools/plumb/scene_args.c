@@ -1,0 +1,110 @@
+/// scene_args.c - opening a scene with what the command line overrides, stepping it, messages.
+///
+/// Reads the scene file, writes stderr.
+#include "scene_args.h"
+
+#include <math.h>
+#include <string.h>
+
+int scene_args_check(const cli_command *command, const scene_args *args)
+{
+    if (args->width != 0 && args->width != 4 && args->width != 8 && args->width != 16) {
+        cli_message("%s: option --width: %d is not 4, 8 or 16", command->name, args->width);
+        return CLI_USAGE;
+    }
+    for (int i = 0; i < args->sets.count; i++) {
+        const char *text = args->sets.items[i];
+        size_t key = strcspn(text, "=");
+        if (key == 0 || text[key] == '\0') {
+            cli_message("%s: option --set: '%.80s' is not of the form key=value", command->name,
+                        text);
+            return CLI_USAGE;
+        }
+    }
+    return CLI_OK;
+}
+
+int scene_report(const engine_error *error)
+{
+    fflush(stdout);
+    // A scene's message begins with its own place, "file:line:column:", as compilers print it.
+    if (error->code == CLI_SCENE) {
+        fprintf(stderr, "%s\n", error->text);
+    } else {
+        cli_message("%s", error->text);
+    }
+    return error->code;
+}
+
+long long scene_step_count(double time, double dt)
+{
+    // 10 s in steps of 1/60 are 600 steps, also when the division gives 600.0000001.
+    return (long long)ceil(time / dt - 1e-6);
+}
+
+int scene_run_open(const scene_args *args, const char *path, scene_run *run)
+{
+    engine_settings settings = { .path = path,
+                                 .sets = args->sets.items,
+                                 .set_count = args->sets.count,
+                                 .dt = args->dt,
+                                 .substeps = args->substeps,
+                                 .iterations = args->iterations,
+                                 .solver = args->solver,
+                                 .width = args->width };
+    engine_error error = { 0 };
+
+    *run = (scene_run){ .engine = args->precision == 0 ? &engine_float : &engine_double };
+    run->session = run->engine->open(&settings, &error);
+    if (run->session == NULL) {
+        return scene_report(&error);
+    }
+    run->info = run->engine->info(run->session);
+    run->time = args->time >= 0 ? args->time : run->info.duration;
+    run->steps = scene_step_count(run->time, run->info.dt);
+    return CLI_OK;
+}
+
+int scene_run_step(scene_run *run, progress *bar)
+{
+    engine_error error = { 0 };
+    int code = run->engine->step(run->session, &error);
+    code = code == CLI_OK ? run->engine->check(run->session, &error) : code;
+    if (code == CLI_OK) {
+        return CLI_OK;
+    }
+    if (bar != NULL) {
+        progress_end(bar);
+    }
+    return scene_report(&error);
+}
+
+int scene_unknown_body(scene_run *run, const char *name)
+{
+    const engine_row *rows;
+    int count = run->engine->rows(run->session, &rows);
+    for (int i = 0; i < count; i++) {
+        // The lists that cli_nearest searches are parted by commas: names with one are not offered.
+        if (strchr(rows[i].name, ',') == NULL && cli_nearest(name, rows[i].name) == 0) {
+            cli_message("%s: no body is named '%.80s'; did you mean '%.80s'?", run->info.name, name,
+                        rows[i].name);
+            return CLI_USAGE;
+        }
+    }
+    cli_message("%s: no body is named '%.80s'", run->info.name, name);
+    return CLI_USAGE;
+}
+
+bool scene_run_done(const scene_run *run, long long step)
+{
+    return step >= run->steps || cli_interrupted() || run->engine->ended(run->session);
+}
+
+int scene_run_close(scene_run *run, int code)
+{
+    if (run->engine != NULL) {
+        run->engine->close(run->session);
+    }
+    run->session = NULL;
+    return code;
+}

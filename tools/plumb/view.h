@@ -1,0 +1,36 @@
+/// view.h - where the camera of `plumb render` looks.
+#ifndef PLUMB_VIEW_H
+#define PLUMB_VIEW_H
+
+#include "../render/render.h"
+#include "scene_args.h"
+
+/// What the command line says about the view. {0} with zoom 1: nothing.
+typedef struct view_wish {
+    const char *follow; ///< body to keep in the middle, NULL = as the scene says
+    double zoom;        ///< > 1: nearer
+    int width, height;  ///< [px]
+} view_wish;
+
+/// A camera being aimed. Feed it the states that must be visible, then ask.
+typedef struct view {
+    view_wish wish;
+    bool y_down;
+    engine_camera hint;
+    char follow[256]; ///< "" = none
+    engine_box start; ///< of the first state fed: how far things may stray is measured by it
+    engine_box seen;  ///< of all
+    bool has_center;  ///< it has been seen; if it vanishes the camera stays
+    double x, y;      ///< [m] where it was last
+} view;
+
+/// Begins. CLI_OK, or CLI_USAGE after a message when nothing is named as `follow` says.
+int view_begin(view *v, const view_wish *wish, scene_run *run);
+/// True when the camera depends on states later than the one to be drawn.
+bool view_needs_run(const view *v);
+/// Sees the state now.
+void view_feed(view *v, scene_run *run);
+/// The camera for the state now.
+render_camera view_camera(view *v, scene_run *run);
+
+#endif

@@ -1,0 +1,400 @@
+// frame.c - the draw list: dynamic arrays filled by the caller, read by the painters.
+//
+// Every adder validates its numbers first and appends after all memory is reserved, so that a
+// failed call leaves the list as it was. Cost: amortised O(1) a point.
+#include "internal.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+// ---- memory and messages
+
+static void *default_resize(void *user, void *block, size_t old_size, size_t new_size)
+{
+    (void)user;
+    (void)old_size;
+    if (new_size == 0) {
+        free(block);
+        return NULL;
+    }
+    return realloc(block, new_size);
+}
+
+render_allocator plr_allocator(const render_allocator *given)
+{
+    if (given != NULL && given->resize != NULL) {
+        return *given;
+    }
+    return (render_allocator){ .resize = default_resize };
+}
+
+bool plr_reserve(const render_allocator *allocator, void **data, size_t *capacity, size_t need,
+                 size_t size)
+{
+    if (need <= *capacity) {
+        return true;
+    }
+    if (need > SIZE_MAX / 2 / size) {
+        return false;
+    }
+    const size_t first_capacity = 64; // small enough for toys, large enough to skip tiny growth
+    size_t wanted = *capacity < first_capacity ? first_capacity : *capacity * 2;
+    if (wanted < need) {
+        wanted = need;
+    }
+    if (wanted > SIZE_MAX / size) {
+        wanted = need;
+    }
+    void *grown = allocator->resize(allocator->user, *data, *capacity * size, wanted * size);
+    if (grown == NULL) {
+        return false;
+    }
+    *data = grown;
+    *capacity = wanted;
+    return true;
+}
+
+void plr_release(const render_allocator *allocator, void *data, size_t capacity, size_t size)
+{
+    if (data != NULL) {
+        allocator->resize(allocator->user, data, capacity * size, 0);
+    }
+}
+
+render_result plr_fail(render_error *error, render_result result, const char *format, ...)
+{
+    if (error != NULL) {
+        va_list arguments;
+        va_start(arguments, format);
+        vsnprintf(error->text, sizeof error->text, format, arguments);
+        va_end(arguments);
+    }
+    return result;
+}
+
+// ---- life cycle
+
+render_frame *render_frame_create(const render_allocator *allocator)
+{
+    render_allocator memory = plr_allocator(allocator);
+    render_frame *frame = memory.resize(memory.user, NULL, 0, sizeof *frame);
+    if (frame == NULL) {
+        return NULL;
+    }
+    *frame = (render_frame){ .allocator = memory };
+    render_frame_clear(frame);
+    return frame;
+}
+
+void render_frame_destroy(render_frame *frame)
+{
+    if (frame == NULL) {
+        return;
+    }
+    const render_allocator memory = frame->allocator;
+    plr_release(&memory, frame->bodies, frame->body_capacity, sizeof *frame->bodies);
+    plr_release(&memory, frame->shapes, frame->shape_capacity, sizeof *frame->shapes);
+    plr_release(&memory, frame->points, frame->point_capacity, sizeof *frame->points);
+    plr_release(&memory, frame->marks, frame->mark_capacity, sizeof *frame->marks);
+    plr_release(&memory, frame->text, frame->text_capacity, sizeof *frame->text);
+    plr_release(&memory, frame, 1, sizeof *frame);
+}
+
+void render_frame_clear(render_frame *frame)
+{
+    frame->body_count = 0;
+    frame->shape_count = 0;
+    frame->point_count = 0;
+    frame->mark_count = 0;
+    frame->text_count = 0;
+    memset(frame->mark_kind_count, 0, sizeof frame->mark_kind_count);
+    frame->title = PLR_NO_TEXT;
+    frame->caption = PLR_NO_TEXT;
+    frame->body_open = false;
+    frame->status = RENDER_OK;
+}
+
+render_result render_frame_status(const render_frame *frame)
+{
+    return frame->status;
+}
+
+const char *plr_frame_text(const render_frame *frame, size_t offset)
+{
+    return offset == PLR_NO_TEXT ? NULL : frame->text + offset;
+}
+
+// Remembers the first trouble; memory trouble wins, because it makes the picture incomplete.
+static render_result note(render_frame *frame, render_result result)
+{
+    if (frame->status == RENDER_OK || result == RENDER_E_MEMORY) {
+        frame->status = result;
+    }
+    return result;
+}
+
+// Coordinates beyond this are treated like infinite ones: their pixels could not be computed.
+static const double coordinate_max = 1e30;
+
+static bool finite2(double x, double y)
+{
+    return fabs(x) <= coordinate_max && fabs(y) <= coordinate_max; // false for NaN
+}
+
+// Copies a string into the text pool; *offset is PLR_NO_TEXT for NULL and "".
+static bool keep_text(render_frame *frame, const char *text, size_t *offset)
+{
+    *offset = PLR_NO_TEXT;
+    if (text == NULL || text[0] == '\0') {
+        return true;
+    }
+    const size_t size = strlen(text) + 1;
+    if (!plr_reserve(&frame->allocator, (void **)&frame->text, &frame->text_capacity,
+                     frame->text_count + size, 1)) {
+        return false;
+    }
+    memcpy(frame->text + frame->text_count, text, size);
+    *offset = frame->text_count;
+    frame->text_count += size;
+    return true;
+}
+
+// ---- bodies
+
+render_result render_body_begin(render_frame *frame, const render_style *style)
+{
+    const render_style plain = { 0 };
+    const render_style *s = style != NULL ? style : &plain;
+    if (frame->body_open || (int)s->kind < 0 || s->kind >= RENDER_CLASS_COUNT) {
+        return note(frame, RENDER_E_ARGUMENT);
+    }
+    if (!plr_reserve(&frame->allocator, (void **)&frame->bodies, &frame->body_capacity,
+                     frame->body_count + 1, sizeof *frame->bodies)) {
+        return note(frame, RENDER_E_MEMORY);
+    }
+    plr_body *body = &frame->bodies[frame->body_count];
+    *body = (plr_body){
+        .kind = s->kind, .palette = s->palette, .color = s->color, .first_shape = frame->shape_count
+    };
+    if (!keep_text(frame, s->label, &body->label)) {
+        return note(frame, RENDER_E_MEMORY);
+    }
+    frame->body_count++;
+    frame->body_open = true;
+    return RENDER_OK;
+}
+
+render_result render_body_end(render_frame *frame)
+{
+    if (!frame->body_open) {
+        return note(frame, RENDER_E_ARGUMENT);
+    }
+    frame->body_open = false;
+    plr_body *body = &frame->bodies[frame->body_count - 1];
+    body->shape_count = frame->shape_count - body->first_shape;
+    if (body->shape_count == 0) {
+        frame->body_count--;
+    }
+    return RENDER_OK;
+}
+
+static render_result add_shape(render_frame *frame, plr_shape shape, const render_vec *points,
+                               size_t count)
+{
+    if (!frame->body_open || !(shape.radius >= 0.0)) {
+        return note(frame, isnan(shape.radius) ? RENDER_E_NOT_FINITE : RENDER_E_ARGUMENT);
+    }
+    bool finite = shape.radius <= coordinate_max && isfinite(shape.angle);
+    for (size_t i = 0; i < count; i++) {
+        finite = finite && finite2(points[i].x, points[i].y);
+    }
+    if (!finite) {
+        return note(frame, RENDER_E_NOT_FINITE);
+    }
+    if (!plr_reserve(&frame->allocator, (void **)&frame->shapes, &frame->shape_capacity,
+                     frame->shape_count + 1, sizeof *frame->shapes) ||
+        !plr_reserve(&frame->allocator, (void **)&frame->points, &frame->point_capacity,
+                     frame->point_count + count, sizeof *frame->points)) {
+        return note(frame, RENDER_E_MEMORY);
+    }
+    shape.first_point = frame->point_count;
+    shape.point_count = count;
+    memcpy(frame->points + frame->point_count, points, count * sizeof *points);
+    frame->point_count += count;
+    frame->shapes[frame->shape_count++] = shape;
+    return RENDER_OK;
+}
+
+render_result render_add_circle(render_frame *frame, double x, double y, double radius,
+                                double angle)
+{
+    const render_vec center = { x, y };
+    const plr_shape shape = { .kind = PLR_CIRCLE, .radius = radius, .angle = angle };
+    return add_shape(frame, shape, &center, 1);
+}
+
+render_result render_add_capsule(render_frame *frame, double ax, double ay, double bx, double by,
+                                 double radius)
+{
+    const render_vec ends[2] = { { ax, ay }, { bx, by } };
+    return add_shape(frame, (plr_shape){ .kind = PLR_CAPSULE, .radius = radius }, ends, 2);
+}
+
+render_result render_add_polygon(render_frame *frame, const render_vec *points, size_t count,
+                                 double radius)
+{
+    if (points == NULL || count < 3 || count > RENDER_POLYGON_MAX) {
+        return note(frame, RENDER_E_ARGUMENT);
+    }
+    return add_shape(frame, (plr_shape){ .kind = PLR_POLYGON, .radius = radius }, points, count);
+}
+
+render_result render_add_box(render_frame *frame, double x, double y, double hx, double hy,
+                             double angle, double radius)
+{
+    if (!(hx >= 0.0) || !(hy >= 0.0)) {
+        return note(frame, isnan(hx) || isnan(hy) ? RENDER_E_NOT_FINITE : RENDER_E_ARGUMENT);
+    }
+    const double c = cos(angle), s = sin(angle);
+    const render_vec corners[4] = {
+        { x - c * hx + s * hy, y - s * hx - c * hy },
+        { x + c * hx + s * hy, y + s * hx - c * hy },
+        { x + c * hx - s * hy, y + s * hx + c * hy },
+        { x - c * hx - s * hy, y - s * hx + c * hy },
+    };
+    return render_add_polygon(frame, corners, 4, radius);
+}
+
+render_result render_add_polyline(render_frame *frame, const render_vec *points, size_t count,
+                                  double radius, unsigned flags)
+{
+    if (points == NULL || count < 2) {
+        return note(frame, RENDER_E_ARGUMENT);
+    }
+    const plr_shape shape = { .kind = PLR_POLYLINE, .radius = radius, .flags = flags };
+    return add_shape(frame, shape, points, count);
+}
+
+// ---- overlays
+
+static render_result add_mark(render_frame *frame, plr_mark mark, const char *text)
+{
+    if (!finite2(mark.a.x, mark.a.y) || !finite2(mark.b.x, mark.b.y) || !finite2(mark.value, 0.0)) {
+        return note(frame, RENDER_E_NOT_FINITE);
+    }
+    if (!plr_reserve(&frame->allocator, (void **)&frame->marks, &frame->mark_capacity,
+                     frame->mark_count + 1, sizeof *frame->marks) ||
+        !keep_text(frame, text, &mark.text)) {
+        return note(frame, RENDER_E_MEMORY);
+    }
+    frame->marks[frame->mark_count++] = mark;
+    frame->mark_kind_count[mark.kind]++;
+    return RENDER_OK;
+}
+
+static render_result add_pair(render_frame *frame, plr_mark_kind kind, double ax, double ay,
+                              double bx, double by)
+{
+    return add_mark(frame, (plr_mark){ .kind = kind, .a = { ax, ay }, .b = { bx, by } }, NULL);
+}
+
+render_result render_add_contact(render_frame *frame, double x, double y, double nx, double ny,
+                                 double depth)
+{
+    const plr_mark mark = { .kind = PLR_CONTACT, .a = { x, y }, .b = { nx, ny }, .value = depth };
+    return add_mark(frame, mark, NULL);
+}
+
+render_result render_add_impulse(render_frame *frame, double x, double y, double jx, double jy)
+{
+    return add_pair(frame, PLR_IMPULSE, x, y, jx, jy);
+}
+
+render_result render_add_velocity(render_frame *frame, double x, double y, double vx, double vy)
+{
+    return add_pair(frame, PLR_VELOCITY, x, y, vx, vy);
+}
+
+render_result render_add_aabb(render_frame *frame, render_box box)
+{
+    return add_pair(frame, PLR_AABB, box.min.x, box.min.y, box.max.x, box.max.y);
+}
+
+render_result render_add_cell(render_frame *frame, render_box box)
+{
+    return add_pair(frame, PLR_CELL, box.min.x, box.min.y, box.max.x, box.max.y);
+}
+
+render_result render_add_trail(render_frame *frame, const render_vec *points, size_t count,
+                               int palette)
+{
+    if (points == NULL || count < 2) {
+        return note(frame, RENDER_E_ARGUMENT);
+    }
+    for (size_t i = 0; i < count; i++) {
+        if (!finite2(points[i].x, points[i].y)) {
+            return note(frame, RENDER_E_NOT_FINITE);
+        }
+    }
+    if (!plr_reserve(&frame->allocator, (void **)&frame->points, &frame->point_capacity,
+                     frame->point_count + count, sizeof *frame->points)) {
+        return note(frame, RENDER_E_MEMORY);
+    }
+    plr_mark mark = { .kind = PLR_TRAIL, .variant = palette, .first_point = frame->point_count };
+    mark.point_count = count;
+    const render_result result = add_mark(frame, mark, NULL);
+    if (result == RENDER_OK) {
+        memcpy(frame->points + frame->point_count, points, count * sizeof *points);
+        frame->point_count += count;
+    }
+    return result;
+}
+
+render_result render_add_joint(render_frame *frame, render_joint kind, double ax, double ay,
+                               double bx, double by)
+{
+    if ((int)kind < 0 || kind > RENDER_JOINT_SLIDER) {
+        return note(frame, RENDER_E_ARGUMENT);
+    }
+    const plr_mark mark = {
+        .kind = PLR_JOINT, .variant = (int)kind, .a = { ax, ay }, .b = { bx, by }
+    };
+    return add_mark(frame, mark, NULL);
+}
+
+static render_result add_text(render_frame *frame, plr_mark_kind kind, double x, double y,
+                              render_anchor anchor, const char *text)
+{
+    if (text == NULL || (int)anchor < 0 || anchor > RENDER_ANCHOR_BELOW) {
+        return note(frame, RENDER_E_ARGUMENT);
+    }
+    if (text[0] == '\0') {
+        return RENDER_OK;
+    }
+    return add_mark(frame, (plr_mark){ .kind = kind, .variant = (int)anchor, .a = { x, y } }, text);
+}
+
+render_result render_add_text(render_frame *frame, double x, double y, render_anchor anchor,
+                              const char *text)
+{
+    return add_text(frame, PLR_TEXT, x, y, anchor, text);
+}
+
+render_result render_add_screen_text(render_frame *frame, double u, double v, render_anchor anchor,
+                                     const char *text)
+{
+    return add_text(frame, PLR_SCREEN_TEXT, u, v, anchor, text);
+}
+
+render_result render_frame_set_title(render_frame *frame, const char *text)
+{
+    return keep_text(frame, text, &frame->title) ? RENDER_OK : note(frame, RENDER_E_MEMORY);
+}
+
+render_result render_frame_set_caption(render_frame *frame, const char *text)
+{
+    return keep_text(frame, text, &frame->caption) ? RENDER_OK : note(frame, RENDER_E_MEMORY);
+}

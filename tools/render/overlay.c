@@ -1,0 +1,301 @@
+// overlay.c - what explains the motion: trails, boxes, cells, joints, contacts, arrows, texts.
+//
+// Marks lie in one array; each kind is drawn in one sweep over it, in a fixed order. Arrows have
+// a length in the world, scaled by a round number (1, 2 or 5 times a power of ten) that the legend
+// states. Cost: O(marks) a kind that is switched on.
+#include "internal.h"
+
+#include <math.h>
+
+static const render_rgba contact_color = { 0xc2, 0x2f, 0x3d, 0xff };
+static const render_rgba impulse_color = { 0xd9, 0x5f, 0x0e, 0xff };
+static const render_rgba velocity_color = { 0x1f, 0x6f, 0x9f, 0xff };
+static const render_rgba aabb_color = { 0x7a, 0x5c, 0xa8, 0xff };
+static const render_rgba cell_color = { 0x2f, 0x95, 0x7a, 0xff };
+static const render_rgba joint_color = { 0x3d, 0x43, 0x55, 0xff };
+
+// The longest arrow is at most this share of the picture's height under automatic scale.
+static const double arrow_share = 0.16;
+static const double normal_length = 13.0; // of a contact normal [px at ui_scale 1]
+enum { text_size = 13 };                  // [px at ui_scale 1]
+
+static bool visible(const plr_painter *painter, plr_mark_kind kind, unsigned flag)
+{
+    return plr_shows(painter, flag) && painter->frame->mark_kind_count[kind] > 0;
+}
+
+double plr_arrow_scale(const plr_painter *painter, plr_mark_kind kind)
+{
+    const double given =
+        kind == PLR_IMPULSE ? painter->options.impulse_scale : painter->options.velocity_scale;
+    if (given > 0.0) {
+        return given;
+    }
+    double longest = 0.0;
+    for (size_t i = 0; i < painter->frame->mark_count; i++) {
+        const plr_mark *mark = &painter->frame->marks[i];
+        if (mark->kind == kind) {
+            longest = fmax(longest, hypot(mark->b.x, mark->b.y));
+        }
+    }
+    const double fits = arrow_share * painter->camera->view_height / longest;
+    return longest > 0.0 && isfinite(fits) ? plr_round_step(fits) : 1.0;
+}
+
+// ---- below the bodies
+
+static void draw_trail(plr_painter *painter, const plr_mark *mark)
+{
+    enum { chunk = 256 };
+    render_vec points[chunk];
+    const render_vec *world = painter->frame->points + mark->first_point;
+    const render_rgba color = plr_mix(render_palette(mark->variant), plr_ink, 0.15);
+    const double span = (double)(mark->point_count - 1);
+    for (size_t start = 0; start + 1 < mark->point_count; start += chunk - 1) {
+        size_t n = 0;
+        for (; n < chunk && start + n < mark->point_count; n++) {
+            points[n] = plr_pixel(painter, world[start + n]);
+        }
+        const double t0 = (double)start / span, t1 = (double)(start + n - 1) / span;
+        plr_stroke(painter, points, n, false, 2.2 * painter->ui, plr_fade(color, 0.75 * t0),
+                   plr_fade(color, 0.75 * t1));
+    }
+}
+
+// The middle of the pixel a point lies in: thin axis-parallel lines there are not blurred.
+static render_vec crisp(render_vec p)
+{
+    return (render_vec){ floor(p.x) + 0.5, floor(p.y) + 0.5 };
+}
+
+// A rectangle given by two corners in the world.
+static void draw_box(plr_painter *painter, const plr_mark *mark, render_rgba color,
+                     render_rgba fill)
+{
+    const render_vec a = crisp(plr_pixel(painter, mark->a));
+    const render_vec b = crisp(plr_pixel(painter, mark->b));
+    const render_vec corners[4] = { a, { b.x, a.y }, b, { a.x, b.y } };
+    if (fill.a > 0) {
+        plr_fill(painter, corners, 4, fill);
+    }
+    plr_stroke(painter, corners, 4, true, fmax(1.0, painter->ui), color, color);
+}
+
+void plr_draw_underlay(plr_painter *painter)
+{
+    const bool cells = visible(painter, PLR_CELL, RENDER_SHOW_CELLS);
+    const bool trails = visible(painter, PLR_TRAIL, RENDER_SHOW_TRAILS);
+    const render_frame *frame = painter->frame;
+    for (size_t i = 0; cells && i < frame->mark_count; i++) {
+        if (frame->marks[i].kind == PLR_CELL) {
+            draw_box(painter, &frame->marks[i], plr_fade(cell_color, 0.35),
+                     plr_fade(cell_color, 0.07));
+        }
+    }
+    for (size_t i = 0; trails && i < frame->mark_count; i++) {
+        if (frame->marks[i].kind == PLR_TRAIL) {
+            draw_trail(painter, &frame->marks[i]);
+        }
+    }
+}
+
+// ---- above the bodies
+
+static void draw_spring(plr_painter *painter, render_vec a, render_vec b, double width)
+{
+    enum { turns = 8, points_max = 2 * turns + 4 };
+    render_vec points[points_max];
+    const double length = hypot(b.x - a.x, b.y - a.y), amplitude = 5.0 * painter->ui;
+    if (length < 2.0 * amplitude) {
+        plr_line(painter, a, b, width, joint_color);
+        return;
+    }
+    const render_vec d = { (b.x - a.x) / length, (b.y - a.y) / length };
+    const double lead = fmin(0.12 * length, 3.0 * amplitude);
+    size_t n = 0;
+    points[n++] = a;
+    points[n++] = (render_vec){ a.x + d.x * lead, a.y + d.y * lead };
+    for (int i = 0; i < 2 * turns; i++) {
+        const double s = lead + (length - 2.0 * lead) * (i + 0.5) / (2 * turns);
+        const double aside = i % 2 == 0 ? amplitude : -amplitude;
+        points[n++] = (render_vec){ a.x + d.x * s - d.y * aside, a.y + d.y * s + d.x * aside };
+    }
+    points[n++] = (render_vec){ b.x - d.x * lead, b.y - d.y * lead };
+    points[n++] = b;
+    plr_stroke(painter, points, n, false, 0.8 * width, joint_color, joint_color);
+}
+
+static void draw_anchor(plr_painter *painter, render_vec at, double radius)
+{
+    plr_dot(painter, at, radius, joint_color);
+    plr_dot(painter, at, radius - 1.4 * painter->ui, plr_background);
+}
+
+static void draw_joint(plr_painter *painter, render_joint kind, render_vec a, render_vec b)
+{
+    const double width = 2.0 * painter->ui, radius = 3.4 * painter->ui;
+    const render_vec ends[2] = { a, b };
+    switch (kind) {
+    case RENDER_JOINT_SPRING:
+        draw_spring(painter, a, b, width);
+        break;
+    case RENDER_JOINT_SLIDER:
+        plr_dashes(painter, ends, 2, false, width, 7.0 * painter->ui, 4.0 * painter->ui,
+                   joint_color);
+        break;
+    case RENDER_JOINT_LINE:
+    case RENDER_JOINT_HINGE:
+        plr_line(painter, a, b, width, joint_color);
+        break;
+    }
+    if (kind == RENDER_JOINT_HINGE) {
+        draw_anchor(painter, a, 5.0 * painter->ui);
+        plr_dot(painter, b, 1.6 * painter->ui, joint_color);
+        return;
+    }
+    draw_anchor(painter, a, radius);
+    draw_anchor(painter, b, radius);
+}
+
+static void draw_contact(plr_painter *painter, render_vec at, render_vec normal, double depth)
+{
+    const double ui = painter->ui;
+    const double length = hypot(normal.x, normal.y);
+    if (length > 0.0) {
+        const double k = normal_length * ui / length;
+        plr_line(painter, at, (render_vec){ at.x + normal.x * k, at.y + normal.y * k }, 1.5 * ui,
+                 contact_color);
+    }
+    plr_dot(painter, at, 3.3 * ui, plr_background);
+    if (depth > 0.0) {
+        plr_dot(painter, at, 2.5 * ui, contact_color);
+    } else {
+        plr_ring(painter, at, 2.1 * ui, 1.2 * ui, contact_color); // a gap: speculative contact
+    }
+}
+
+// World vector to pixel vector.
+static render_vec pixel_vector(const plr_painter *painter, render_vec v)
+{
+    const double up = painter->camera->y_down ? 1.0 : -1.0;
+    return (render_vec){ v.x * painter->scale, v.y * painter->scale * up };
+}
+
+static void draw_arrow(plr_painter *painter, const plr_mark *mark, double scale, render_rgba color)
+{
+    const render_vec a = plr_pixel(painter, mark->a);
+    const render_vec v = pixel_vector(painter, mark->b);
+    const render_vec b = { a.x + v.x * scale, a.y + v.y * scale };
+    plr_arrow(painter, a, b, 2.0 * painter->ui, color);
+}
+
+void plr_draw_overlay(plr_painter *painter)
+{
+    static const struct {
+        plr_mark_kind kind;
+        unsigned flag;
+    } order[] = { { PLR_AABB, RENDER_SHOW_AABBS },
+                  { PLR_JOINT, RENDER_SHOW_JOINTS },
+                  { PLR_VELOCITY, RENDER_SHOW_VELOCITIES },
+                  { PLR_IMPULSE, RENDER_SHOW_IMPULSES },
+                  { PLR_CONTACT, RENDER_SHOW_CONTACTS } };
+    const render_frame *frame = painter->frame;
+    for (size_t k = 0; k < sizeof order / sizeof order[0]; k++) {
+        if (!visible(painter, order[k].kind, order[k].flag)) {
+            continue;
+        }
+        const double scale = plr_arrow_scale(painter, order[k].kind);
+        for (size_t i = 0; i < frame->mark_count; i++) {
+            const plr_mark *mark = &frame->marks[i];
+            if (mark->kind != order[k].kind) {
+                continue;
+            }
+            if (mark->kind == PLR_AABB) {
+                draw_box(painter, mark, plr_fade(aabb_color, 0.55), (render_rgba){ 0 });
+            } else if (mark->kind == PLR_JOINT) {
+                draw_joint(painter, (render_joint)mark->variant, plr_pixel(painter, mark->a),
+                           plr_pixel(painter, mark->b));
+            } else if (mark->kind == PLR_CONTACT) {
+                draw_contact(painter, plr_pixel(painter, mark->a), pixel_vector(painter, mark->b),
+                             mark->value);
+            } else {
+                draw_arrow(painter, mark, scale,
+                           mark->kind == PLR_IMPULSE ? impulse_color : velocity_color);
+            }
+        }
+    }
+}
+
+void plr_overlay_sample(plr_painter *painter, plr_mark_kind kind, render_vec middle, double size)
+{
+    const double half = 0.5 * size, line = fmax(1.0, painter->ui);
+    const render_vec left = { middle.x - half, middle.y }, right = { middle.x + half, middle.y };
+    const render_vec corners[4] = { { left.x, middle.y - 0.55 * half },
+                                    { right.x, middle.y - 0.55 * half },
+                                    { right.x, middle.y + 0.55 * half },
+                                    { left.x, middle.y + 0.55 * half } };
+    const render_rgba trail = render_palette(0);
+    switch (kind) {
+    case PLR_CONTACT:
+        draw_contact(painter, (render_vec){ left.x + 0.5 * half, middle.y },
+                     (render_vec){ 1.0, 0.0 }, 1.0);
+        break;
+    case PLR_IMPULSE:
+        plr_arrow(painter, left, right, 2.0 * painter->ui, impulse_color);
+        break;
+    case PLR_VELOCITY:
+        plr_arrow(painter, left, right, 2.0 * painter->ui, velocity_color);
+        break;
+    case PLR_AABB:
+        plr_stroke(painter, corners, 4, true, line, plr_fade(aabb_color, 0.7),
+                   plr_fade(aabb_color, 0.7));
+        break;
+    case PLR_CELL:
+        plr_fill(painter, corners, 4, plr_fade(cell_color, 0.12));
+        plr_stroke(painter, corners, 4, true, line, plr_fade(cell_color, 0.5),
+                   plr_fade(cell_color, 0.5));
+        break;
+    case PLR_TRAIL:
+        plr_stroke(painter, (render_vec[2]){ left, right }, 2, false, 2.2 * painter->ui,
+                   plr_fade(trail, 0.0), trail);
+        break;
+    case PLR_JOINT:
+        draw_joint(painter, RENDER_JOINT_LINE, (render_vec){ left.x + 3.0 * painter->ui, left.y },
+                   (render_vec){ right.x - 3.0 * painter->ui, right.y });
+        break;
+    case PLR_TEXT:
+    case PLR_SCREEN_TEXT:
+    case PLR_MARK_KINDS:
+        break;
+    }
+}
+
+void plr_draw_texts(plr_painter *painter)
+{
+    if (!plr_shows(painter, RENDER_SHOW_TEXTS)) {
+        return;
+    }
+    const render_frame *frame = painter->frame;
+    const int size = (int)lround(text_size * painter->ui);
+    const double gap = 6.0 * painter->ui, cap = 0.36 * size; // half the height of a capital
+    const render_rgba halo = painter->options.background;
+    for (size_t i = 0; i < frame->mark_count; i++) {
+        const plr_mark *mark = &frame->marks[i];
+        if (mark->kind != PLR_TEXT && mark->kind != PLR_SCREEN_TEXT) {
+            continue;
+        }
+        const char *string = plr_frame_text(frame, mark->text);
+        render_vec at = mark->kind == PLR_TEXT ? plr_pixel(painter, mark->a)
+                                               : (render_vec){ mark->a.x * painter->width,
+                                                               mark->a.y * painter->height };
+        const double width = plr_text_width(painter->text, PLR_FONT_REGULAR, size, string);
+        const render_anchor anchor = (render_anchor)mark->variant;
+        at.x += anchor == RENDER_ANCHOR_LEFT    ? gap
+                : anchor == RENDER_ANCHOR_RIGHT ? -gap - width
+                                                : -0.5 * width;
+        at.y += cap;
+        at.y += anchor == RENDER_ANCHOR_ABOVE ? -gap - cap : 0.0;
+        at.y += anchor == RENDER_ANCHOR_BELOW ? gap + cap : 0.0;
+        plr_text_draw(painter, PLR_FONT_REGULAR, size, at, string, plr_ink, halo);
+    }
+}

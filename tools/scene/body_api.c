@@ -1,0 +1,445 @@
+// body_api.c - bodies as Lua objects: the methods that handlers and test functions call.
+// An object holds the world's handle only, so a destroyed body is noticed; the record (name, looks, user
+// table) hangs on the world's user data. To add a method: one function, one row in `methods`.
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "internal.h"
+
+sc_body *sc_body_of(const scene *s, plumb_body body)
+{
+    if (s->world == NULL || !plumb_body_valid(s->world, body)) {
+        return NULL;
+    }
+    return plumb_body_user_data(s->world, body);
+}
+
+sc_body *sc_body_named(const scene *s, const char *name)
+{
+    lua_State *L = s->L;
+    lua_getfield(L, LUA_REGISTRYINDEX, "plumb.names");
+    lua_pushstring(L, name);
+    lua_rawget(L, -2);
+    sc_body *b = lua_touserdata(L, -1);
+    lua_pop(L, 2);
+    return b;
+}
+
+bool sc_body_at_index(lua_State *L, int index, plumb_body *out)
+{
+    const plumb_body *object = luaL_testudata(L, index, SC_META_BODY);
+    if (object != NULL) {
+        *out = *object;
+    }
+    return object != NULL;
+}
+
+bool sc_name_matches(const char *pattern, const char *name)
+{
+    size_t length = strlen(pattern);
+    if (length > 0 && pattern[length - 1] == '*') {
+        return strncmp(pattern, name, length - 1) == 0;
+    }
+    return strcmp(pattern, name) == 0;
+}
+
+void sc_body_push(scene *s, const sc_body *body)
+{
+    lua_rawgeti(s->L, LUA_REGISTRYINDEX, body->object);
+}
+
+void sc_body_release(scene *s, sc_body *body)
+{
+    lua_State *L = s->L;
+    lua_getfield(L, LUA_REGISTRYINDEX, "plumb.names");
+    lua_pushnil(L);
+    lua_setfield(L, -2, body->def.name);
+    lua_pop(L, 1);
+    luaL_unref(L, LUA_REGISTRYINDEX, body->object);
+    luaL_unref(L, LUA_REGISTRYINDEX, body->user);
+    for (int i = 0; i < body->def.shape_count; i++) {
+        sc_shape_def *d = &body->shapes[i];
+        sc_resize(s, d->points, (size_t)d->point_count * sizeof *d->points, 0);
+    }
+    sc_resize(s, body->shapes, (size_t)body->def.shape_count * sizeof *body->shapes, 0);
+    int at = 0;
+    while (s->bodies.items[at] != body) {
+        at++;
+    }
+    s->bodies.count--;
+    memmove(&s->bodies.items[at], &s->bodies.items[at + 1],
+            (size_t)(s->bodies.count - at) * sizeof(sc_body *));
+    sc_resize(s, body, sizeof *body, 0);
+}
+
+// ------------------------------------------------------------------------------------ arguments
+
+/// What a method needs: filled by `self`.
+typedef struct call {
+    scene *s;
+    plumb_world *world;
+    sc_body *body;
+    plumb_body entity;
+    const char *method;
+} call;
+
+static call self(lua_State *L, const char *method)
+{
+    call c = { .s = sc_of(L), .method = method };
+    const plumb_body *object = luaL_testudata(L, 1, SC_META_BODY);
+    sc_site site = sc_here(c.s, method);
+    if (object == NULL) {
+        sc_raise(c.s, SCENE_E_TYPE, &site, NULL, 0, NULL, "%s is a method: write body:%s(...)", method,
+                 method);
+    }
+    c.world = c.s->world;
+    c.entity = *object;
+    c.body = sc_body_of(c.s, c.entity);
+    if (c.body == NULL) {
+        sc_raise(c.s, SCENE_E_STATE, &site, NULL, 0, NULL, "%s() of a body that was destroyed", method);
+    }
+    return c;
+}
+
+static double finite(lua_State *L, int index)
+{
+    double v = luaL_checknumber(L, index);
+    luaL_argcheck(L, isfinite(v), index, "must be finite");
+    return v;
+}
+
+// Two numbers, or a table {x, y}, at *index, which moves on.
+static plumb_vec2 vector(lua_State *L, int *index)
+{
+    double v[2];
+    if (lua_istable(L, *index)) {
+        luaL_argcheck(L, sc_to_vec2(sc_of(L), *index, v) && isfinite(v[0]) && isfinite(v[1]), *index,
+                      "must be two finite numbers {x, y}");
+        *index += 1;
+    } else {
+        v[0] = finite(L, *index);
+        v[1] = finite(L, *index + 1);
+        *index += 2;
+    }
+    return (plumb_vec2){ (plumb_real)v[0], (plumb_real)v[1] };
+}
+
+static int check(const call *c, plumb_result result)
+{
+    if (result != PLUMB_OK) {
+        sc_site site = sc_here(c->s, c->method);
+        scene_code code = result == PLUMB_E_STATE    ? SCENE_E_STATE
+                          : result == PLUMB_E_MEMORY ? SCENE_E_LIMIT
+                          : result == PLUMB_E_RANGE || result == PLUMB_E_NOT_FINITE ? SCENE_E_RANGE
+                                                                                    : SCENE_E_WORLD;
+        sc_raise(c->s, code, &site, NULL, 0, NULL, "%s() of '%s': %s", c->method, c->body->def.name,
+                 code == SCENE_E_STATE ? "the body's type does not allow it" : plumb_result_text(result));
+    }
+    return 0;
+}
+
+static int push_vector(lua_State *L, plumb_vec2 v)
+{
+    lua_pushnumber(L, (double)v.x);
+    lua_pushnumber(L, (double)v.y);
+    return 2;
+}
+
+static int push_real(lua_State *L, plumb_real v)
+{
+    lua_pushnumber(L, (double)v);
+    return 1;
+}
+
+// -------------------------------------------------------------------------------------- getters
+
+static int method_name(lua_State *L)
+{
+    lua_pushstring(L, self(L, "name").body->def.name);
+    return 1;
+}
+
+static int method_alive(lua_State *L)
+{
+    const plumb_body *object = luaL_checkudata(L, 1, SC_META_BODY);
+    lua_pushboolean(L, sc_body_of(sc_of(L), *object) != NULL);
+    return 1;
+}
+
+static int method_type(lua_State *L)
+{
+    static const char *const names[] = { "dynamic", "kinematic", "static" };
+    lua_pushstring(L, names[self(L, "type").body->def.type]);
+    return 1;
+}
+
+static int method_position(lua_State *L)
+{
+    call c = self(L, "position");
+    return push_vector(L, plumb_body_position(c.world, c.entity));
+}
+
+static int method_center(lua_State *L)
+{
+    call c = self(L, "center");
+    return push_vector(L, plumb_body_center(c.world, c.entity));
+}
+
+static int method_velocity(lua_State *L)
+{
+    call c = self(L, "velocity");
+    return push_vector(L, plumb_body_velocity(c.world, c.entity));
+}
+
+static int method_speed(lua_State *L)
+{
+    call c = self(L, "speed");
+    return push_real(L, plumb_vec2_magnitude(plumb_body_velocity(c.world, c.entity)));
+}
+
+static int method_angle(lua_State *L)
+{
+    call c = self(L, "angle");
+    return push_real(L, plumb_body_angle(c.world, c.entity));
+}
+
+static int method_spin(lua_State *L)
+{
+    call c = self(L, "spin");
+    return push_real(L, plumb_body_angular_velocity(c.world, c.entity));
+}
+
+static int method_mass(lua_State *L)
+{
+    call c = self(L, "mass");
+    return push_real(L, plumb_body_mass(c.world, c.entity));
+}
+
+static int method_inertia(lua_State *L)
+{
+    call c = self(L, "inertia");
+    return push_real(L, plumb_body_inertia(c.world, c.entity));
+}
+
+// -------------------------------------------------------------------------------------- setters
+
+static int method_set_velocity(lua_State *L)
+{
+    call c = self(L, "set_velocity");
+    int index = 2;
+    return check(&c, plumb_body_set_velocity(c.world, c.entity, vector(L, &index)));
+}
+
+static int method_set_spin(lua_State *L)
+{
+    call c = self(L, "set_spin");
+    return check(&c, plumb_body_set_angular_velocity(c.world, c.entity, (plumb_real)finite(L, 2)));
+}
+
+static int method_teleport(lua_State *L)
+{
+    call c = self(L, "teleport");
+    int index = 2;
+    plumb_vec2 p = vector(L, &index);
+    plumb_real angle = lua_isnoneornil(L, index) ? plumb_body_angle(c.world, c.entity)
+                                                 : (plumb_real)finite(L, index);
+    check(&c, plumb_body_teleport(c.world, c.entity, p, angle));
+    c.body->def.angle = (double)angle;
+    c.body->set_rot = plumb_body_transform(c.world, c.entity).q;
+    return 0;
+}
+
+static int method_set_mass(lua_State *L)
+{
+    call c = self(L, "set_mass");
+    double mass = finite(L, 2);
+    check(&c, plumb_body_set_mass(c.world, c.entity, (plumb_real)mass));
+    c.body->def.mass = mass;
+    SC_GIVE(&sc_list_body, &c.body->def, sc_body_def, mass);
+    return 0;
+}
+
+static int method_set_gravity_scale(lua_State *L)
+{
+    call c = self(L, "set_gravity_scale");
+    double scale = finite(L, 2);
+    check(&c, plumb_body_set_gravity_scale(c.world, c.entity, (plumb_real)scale));
+    c.body->def.gravity_scale = scale;
+    SC_GIVE(&sc_list_body, &c.body->def, sc_body_def, gravity_scale);
+    return 0;
+}
+
+static int method_set_fixed_rotation(lua_State *L)
+{
+    call c = self(L, "set_fixed_rotation");
+    luaL_checktype(L, 2, LUA_TBOOLEAN);
+    bool fixed = lua_toboolean(L, 2) != 0;
+    check(&c, plumb_body_set_fixed_rotation(c.world, c.entity, fixed));
+    c.body->def.fixed_rotation = fixed;
+    SC_GIVE(&sc_list_body, &c.body->def, sc_body_def, fixed_rotation);
+    return 0;
+}
+
+static int method_set_label(lua_State *L)
+{
+    call c = self(L, "set_label");
+    snprintf(c.body->def.label, sizeof c.body->def.label, "%s", luaL_checkstring(L, 2));
+    SC_GIVE(&sc_list_body, &c.body->def, sc_body_def, label);
+    return 0;
+}
+
+static int method_set_color(lua_State *L)
+{
+    call c = self(L, "set_color");
+    if (lua_type(L, 2) == LUA_TNUMBER) {
+        lua_Integer n = luaL_checkinteger(L, 2);
+        luaL_argcheck(L, n >= 0 && n <= 1000, 2, "must be a palette number 0..1000");
+        c.body->def.color = (sc_color){ (int)n, { 0 } };
+    } else {
+        luaL_argcheck(L, sc_parse_color(luaL_checkstring(L, 2), &c.body->def.color), 2,
+                      "must be \"#rrggbb\" or a palette number");
+    }
+    SC_GIVE(&sc_list_body, &c.body->def, sc_body_def, color);
+    return 0;
+}
+
+// ------------------------------------------------------------------------------------- pushing
+
+// body:apply_force(fx, fy [, px, py]): at the centre of mass when no point is given.
+static int method_apply_force(lua_State *L)
+{
+    call c = self(L, "apply_force");
+    int index = 2;
+    plumb_vec2 f = vector(L, &index);
+    if (lua_isnoneornil(L, index)) {
+        return check(&c, plumb_body_apply_force_center(c.world, c.entity, f));
+    }
+    return check(&c, plumb_body_apply_force(c.world, c.entity, f, vector(L, &index)));
+}
+
+static int method_apply_impulse(lua_State *L)
+{
+    call c = self(L, "apply_impulse");
+    int index = 2;
+    plumb_vec2 j = vector(L, &index);
+    if (lua_isnoneornil(L, index)) {
+        return check(&c, plumb_body_apply_impulse_center(c.world, c.entity, j));
+    }
+    return check(&c, plumb_body_apply_impulse(c.world, c.entity, j, vector(L, &index)));
+}
+
+static int method_apply_torque(lua_State *L)
+{
+    call c = self(L, "apply_torque");
+    return check(&c, plumb_body_apply_torque(c.world, c.entity, (plumb_real)finite(L, 2)));
+}
+
+static int method_apply_angular_impulse(lua_State *L)
+{
+    call c = self(L, "apply_angular_impulse");
+    return check(&c, plumb_body_apply_angular_impulse(c.world, c.entity, (plumb_real)finite(L, 2)));
+}
+
+static int method_destroy(lua_State *L)
+{
+    call c = self(L, "destroy");
+    check(&c, plumb_body_destroy(c.world, c.entity));
+    sc_body_release(c.s, c.body);
+    return 0;
+}
+
+// --------------------------------------------------------------------------------- metamethods
+
+static const luaL_Reg methods[] = {
+    { "alive", method_alive },
+    { "angle", method_angle },
+    { "apply_angular_impulse", method_apply_angular_impulse },
+    { "apply_force", method_apply_force },
+    { "apply_impulse", method_apply_impulse },
+    { "apply_torque", method_apply_torque },
+    { "center", method_center },
+    { "destroy", method_destroy },
+    { "inertia", method_inertia },
+    { "mass", method_mass },
+    { "name", method_name },
+    { "position", method_position },
+    { "set_color", method_set_color },
+    { "set_fixed_rotation", method_set_fixed_rotation },
+    { "set_gravity_scale", method_set_gravity_scale },
+    { "set_label", method_set_label },
+    { "set_mass", method_set_mass },
+    { "set_spin", method_set_spin },
+    { "set_velocity", method_set_velocity },
+    { "speed", method_speed },
+    { "spin", method_spin },
+    { "teleport", method_teleport },
+    { "type", method_type },
+    { "velocity", method_velocity },
+    { NULL, NULL },
+};
+
+_Noreturn static void fail_member(lua_State *L, const char *name)
+{
+    scene *s = sc_of(L);
+    sc_suggest g = sc_suggest_start(name);
+    sc_suggest_offer(&g, "user");
+    for (const luaL_Reg *m = methods; m->name != NULL; m++) {
+        sc_suggest_offer(&g, m->name);
+    }
+    sc_site site = sc_here(s, name);
+    sc_raise(s, SCENE_E_NAME, &site, NULL, 0, sc_suggest_best(&g), "a body has no '%.40s'", name);
+}
+
+// body.user, else a method (upvalue 1).
+static int body_index(lua_State *L)
+{
+    scene *s = sc_of(L);
+    const char *name = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : "?";
+    if (strcmp(name, "user") == 0) {
+        sc_body *b = self(L, "user").body;
+        if (b->user == LUA_NOREF) {
+            lua_newtable(L);
+            b->user = luaL_ref(L, LUA_REGISTRYINDEX);
+        }
+        lua_rawgeti(L, LUA_REGISTRYINDEX, b->user);
+        return 1;
+    }
+    (void)s;
+    lua_pushvalue(L, 2);
+    if (lua_rawget(L, lua_upvalueindex(1)) == LUA_TNIL) {
+        fail_member(L, name);
+    }
+    return 1;
+}
+
+static int body_newindex(lua_State *L)
+{
+    const char *name = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : "?";
+    scene *s = sc_of(L);
+    sc_site site = sc_here(s, name);
+    sc_raise(s, SCENE_E_STATE, &site, NULL, 0, NULL,
+             "a body's '%.40s' cannot be assigned: call a method, or keep values in body.user", name);
+}
+
+static int body_tostring(lua_State *L)
+{
+    const plumb_body *object = luaL_checkudata(L, 1, SC_META_BODY);
+    const sc_body *b = sc_body_of(sc_of(L), *object);
+    lua_pushstring(L, b == NULL ? "destroyed body" : b->def.name);
+    return 1;
+}
+
+void sc_open_body(lua_State *L)
+{
+    luaL_newmetatable(L, SC_META_BODY);
+    lua_newtable(L);
+    luaL_setfuncs(L, methods, 0);
+    lua_pushcclosure(L, body_index, 1);
+    lua_setfield(L, -2, "__index");
+    lua_pushcfunction(L, body_newindex);
+    lua_setfield(L, -2, "__newindex");
+    lua_pushcfunction(L, body_tostring);
+    lua_setfield(L, -2, "__tostring");
+    lua_pop(L, 1);
+}

@@ -1,0 +1,616 @@
+// build.c - the constructors scene{}, material{}, body{}, camera{} and param(), and --set.
+// Each checks its table by its list, then gives the thing to the world at once, so that whatever the
+// world refuses is reported at the author's line. The same functions serve JSON (json_read.c).
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "internal.h"
+
+// ------------------------------------------------------------------------------------- --set
+
+void sc_apply_sets(scene *s)
+{
+    for (int i = 0; i < s->options.set_count; i++) {
+        const char *text = s->options.sets[i];
+        const char *equal = text == NULL ? NULL : strchr(text, '=');
+        size_t length = equal == NULL ? 0 : (size_t)(equal - text);
+        if (length == 0 || length >= SC_NAME_SIZE || strlen(equal + 1) >= sizeof s->sets.items->value) {
+            s->raising_set = text == NULL ? "" : text;
+            sc_raise(s, SCENE_E_SET, NULL, NULL, 0, NULL, "must have the form key=value");
+        }
+        sc_set *set = SC_PUSH(s, s->sets);
+        *set = (sc_set){ 0 };
+        memcpy(set->key, text, length);
+        strcpy(set->value, equal + 1);
+    }
+}
+
+// Text as a Lua value: true, false, a number, numbers with commas as a table, else a string.
+static void push_parsed(lua_State *L, const char *text)
+{
+    char *rest;
+    double v = strtod(text, &rest);
+    if (strcmp(text, "true") == 0 || strcmp(text, "false") == 0) {
+        lua_pushboolean(L, text[0] == 't');
+    } else if (rest != text && *rest == 0) {
+        if (v == floor(v) && fabs(v) < 0x1p53) {
+            lua_pushinteger(L, (lua_Integer)v);
+        } else {
+            lua_pushnumber(L, v);
+        }
+    } else if (rest != text && *rest == ',') {
+        lua_newtable(L);
+        for (int i = 1; rest != text; i++) {
+            lua_pushnumber(L, v);
+            lua_rawseti(L, -2, i);
+            text = *rest == ',' ? rest + 1 : rest;
+            v = strtod(text, &rest);
+        }
+    } else {
+        lua_pushstring(L, text);
+    }
+}
+
+bool sc_take_set(scene *s, const char *key)
+{
+    const sc_set *last = NULL;
+    for (int i = 0; i < s->sets.count; i++) {
+        if (strcmp(s->sets.items[i].key, key) == 0) {
+            s->sets.items[i].used = true;
+            last = &s->sets.items[i];
+        }
+    }
+    if (last != NULL) {
+        push_parsed(s->L, last->value);
+    }
+    return last != NULL;
+}
+
+static void check_sets(scene *s)
+{
+    for (int i = 0; i < s->sets.count; i++) {
+        const sc_set *set = &s->sets.items[i];
+        if (set->used) {
+            continue;
+        }
+        sc_suggest g = sc_suggest_start(set->key);
+        for (int k = 0; k < sc_list_scene.count; k++) {
+            sc_suggest_offer(&g, sc_list_scene.rows[k].name);
+        }
+        for (int k = 0; k < s->params.count; k++) {
+            sc_suggest_offer(&g, s->params.items[k].name);
+        }
+        s->raising_set = set->key;
+        sc_raise(s, SCENE_E_SET, NULL, NULL, 0, sc_suggest_best(&g),
+                 "neither a key of scene{} nor a param of this scene");
+    }
+}
+
+// ------------------------------------------------------------------------------------ scene{}
+
+static void make_world(scene *s, const sc_site *site)
+{
+    const sc_settings *d = &s->settings;
+    bool zero = SC_GIVEN(&sc_list_scene, d, sc_settings, gravity) && d->gravity[0] == 0 &&
+                d->gravity[1] == 0;
+    plumb_world_desc desc = {
+        .gravity = { (plumb_real)d->gravity[0], (plumb_real)d->gravity[1] },
+        .zero_gravity = zero,
+        .y_axis = d->y == 0 ? PLUMB_Y_UP : PLUMB_Y_DOWN,
+        .solver = d->solver == 0 ? PLUMB_SOLVER_SOFT : PLUMB_SOLVER_PGS,
+        .substeps = (int)d->substeps,
+        .iterations = (int)d->iterations,
+        .contact_hertz = (plumb_real)d->contact_hertz,
+        .contact_damping = (plumb_real)d->contact_damping,
+        .push_speed = (plumb_real)d->push_speed,
+        .restitution_speed = (plumb_real)d->restitution_speed,
+        .simd_width = (int)d->simd_width,
+        .allocator = { sc_world_resize, s },
+    };
+    plumb_result result = plumb_world_create(&desc, &s->world);
+    if (result != PLUMB_OK) {
+        sc_raise(s, result == PLUMB_E_MEMORY ? SCENE_E_LIMIT : SCENE_E_WORLD, site, NULL, 0, NULL,
+                 "the world could not be made: %s", plumb_result_text(result));
+    }
+}
+
+void sc_build_settings(scene *s, const sc_site *site, int table)
+{
+    lua_State *L = s->L;
+    if (s->world != NULL) {
+        if (s->settings_given) {
+            sc_raise(s, SCENE_E_DUPLICATE, site, NULL, 0, NULL, "scene{} was called before, on line %d",
+                     s->settings_line);
+        }
+        sc_raise(s, SCENE_E_STATE, site, NULL, 0, NULL,
+                 "scene{} must come before the first material{} and body{}");
+    }
+    lua_newtable(L);
+    int merged = lua_gettop(L);
+    if (table != 0) {
+        for (lua_pushnil(L); lua_next(L, table) != 0;) {
+            lua_pushvalue(L, -2);
+            lua_insert(L, -2);
+            lua_rawset(L, merged);
+        }
+    }
+    for (int i = 0; i < sc_list_scene.count; i++) {
+        if (sc_take_set(s, sc_list_scene.rows[i].name)) {
+            lua_setfield(L, merged, sc_list_scene.rows[i].name);
+        }
+    }
+    sc_settings *d = &s->settings;
+    sc_read(s, site, &sc_list_scene, merged, d);
+    lua_pop(L, 1);
+    if (d->simd_width != 0 && d->simd_width != 4 && d->simd_width != 8 && d->simd_width != 16) {
+        sc_raise(s, SCENE_E_RANGE, site, "simd_width", 0, NULL,
+                 "'simd_width' of scene{} must be 0, 4, 8 or 16, not %g", d->simd_width);
+    }
+    s->dt = SC_GIVEN(&sc_list_scene, d, sc_settings, dt) ? d->dt : 1.0 / 60;
+    s->duration = SC_GIVEN(&sc_list_scene, d, sc_settings, duration) ? d->duration : 10;
+    s->random = (uint64_t)d->seed;
+    s->settings_given = table != 0;
+    s->settings_line = site->line;
+    make_world(s, site);
+}
+
+void sc_need_world(scene *s)
+{
+    if (s->world == NULL) {
+        sc_build_settings(s, &(sc_site){ .construct = "scene" }, 0);
+    }
+}
+
+// ---------------------------------------------------------------------------------- material{}
+
+void sc_build_material(scene *s, const sc_site *site, int table)
+{
+    lua_State *L = s->L;
+    sc_need_world(s);
+    sc_material_def def = { .density = 1, .friction = 0.6 }; // those of the world's default material
+    sc_read(s, site, &sc_list_material, table, &def);
+    for (int i = 0; i < s->materials.count && def.name[0] != 0; i++) {
+        if (strcmp(s->materials.items[i]->id, def.name) == 0) {
+            sc_raise(s, SCENE_E_DUPLICATE, site, "name", 0, NULL, "two materials are called '%s'",
+                     def.name);
+        }
+    }
+    sc_material **slot = SC_PUSH(s, s->materials);
+    *slot = NULL;
+    sc_material *m = *slot = sc_need(s, NULL, 0, sizeof *m);
+    *m = (sc_material){ .def = def, .line = site->line };
+    if (def.name[0] != 0) {
+        strcpy(m->id, def.name);
+    } else {
+        snprintf(m->id, sizeof m->id, "material%d", s->materials.count);
+    }
+    m->handle = plumb_material_create(s->world, &(plumb_material_desc){
+                                                    .density = (plumb_real)def.density,
+                                                    .friction = (plumb_real)def.friction,
+                                                    .restitution = (plumb_real)def.restitution,
+                                                });
+    if (plumb_is_null(m->handle)) {
+        sc_raise(s, SCENE_E_WORLD, site, NULL, 0, NULL, "material{}: %s",
+                 plumb_world_error(s->world).message);
+    }
+    sc_material **object = lua_newuserdatauv(L, sizeof *object, 0);
+    *object = m;
+    luaL_setmetatable(L, SC_META_MATERIAL);
+}
+
+sc_material *sc_to_material(lua_State *L, int index)
+{
+    sc_material **object = luaL_testudata(L, index, SC_META_MATERIAL);
+    return object == NULL ? NULL : *object;
+}
+
+static int material_collect(lua_State *L)
+{
+    sc_material *m = sc_to_material(L, 1);
+    if (m != NULL) {
+        m->collected = true;
+    }
+    return 0;
+}
+
+// -------------------------------------------------------------------------------------- body{}
+
+static void refuse(scene *s, const sc_site *site, bool given, const char *key, const char *kind)
+{
+    if (given) {
+        sc_raise(s, SCENE_E_CONFLICT, site, key, 0, NULL, "a %s body{} cannot have '%s'", kind, key);
+    }
+}
+
+static void check_body(scene *s, const sc_site *site, const sc_body_def *d)
+{
+    const sc_list *list = &sc_list_body;
+    static const char *const kinds[] = { "dynamic", "kinematic", "static" };
+    if (SC_GIVEN(list, d, sc_body_def, angle) && SC_GIVEN(list, d, sc_body_def, angle_deg)) {
+        sc_raise(s, SCENE_E_CONFLICT, site, "angle_deg", 0, NULL,
+                 "body{} has both 'angle' and 'angle_deg'");
+    }
+    if (d->type != 0) {
+        refuse(s, site, SC_GIVEN(list, d, sc_body_def, mass), "mass", kinds[d->type]);
+        refuse(s, site, d->fixed_rotation, "fixed_rotation", kinds[d->type]);
+        refuse(s, site, SC_GIVEN(list, d, sc_body_def, gravity_scale), "gravity_scale", kinds[d->type]);
+    }
+    if (d->type == 2) {
+        refuse(s, site, SC_GIVEN(list, d, sc_body_def, velocity), "velocity", "static");
+        refuse(s, site, SC_GIVEN(list, d, sc_body_def, spin), "spin", "static");
+    }
+    if (d->shape_count == 0 && !SC_GIVEN(list, d, sc_body_def, mass)) {
+        sc_raise(s, SCENE_E_MISSING, site, NULL, 0, NULL, "body{} needs a shape such as box{1, 1}");
+    }
+    if (strchr(d->name, '*') != NULL) {
+        sc_raise(s, SCENE_E_RANGE, site, "name", 0, NULL,
+                 "'name' of body{} must not contain '*': it stands for any ending elsewhere");
+    }
+    const sc_body *other = d->name[0] != 0 ? sc_body_named(s, d->name) : NULL;
+    if (other != NULL) {
+        sc_raise(s, SCENE_E_DUPLICATE, site, "name", 0, NULL, "two bodies are called '%s'", d->name);
+    }
+}
+
+// Puts a fresh record with its name into the scene's lists; its Lua object is left on the stack.
+static sc_body *add_record(scene *s, const sc_body_def *def)
+{
+    lua_State *L = s->L;
+    sc_body **slot = SC_PUSH(s, s->bodies);
+    s->bodies.count--; // until there is a record
+    sc_body *b = sc_need(s, NULL, 0, sizeof *b);
+    *b = (sc_body){ .def = *def, .is_named = def->name[0] != 0, .object = LUA_NOREF, .user = LUA_NOREF };
+    b->def.shape_count = 0;
+    *slot = b;
+    s->bodies.count++;
+    s->body_serial++;
+    unsigned long long number = s->body_serial;
+    while (b->def.name[0] == 0) { // skip a number that the author has taken
+        char name[SC_NAME_SIZE];
+        snprintf(name, sizeof name, "body%llu", number++);
+        if (sc_body_named(s, name) == NULL) {
+            strcpy(b->def.name, name);
+        }
+    }
+    lua_getfield(L, LUA_REGISTRYINDEX, "plumb.names");
+    lua_pushlightuserdata(L, b);
+    lua_setfield(L, -2, b->def.name);
+    lua_pop(L, 1);
+    return b;
+}
+
+static void create_body(scene *s, const sc_site *site, sc_body *b)
+{
+    static const plumb_body_type types[] = { PLUMB_DYNAMIC, PLUMB_KINEMATIC, PLUMB_STATIC };
+    const sc_body_def *d = &b->def;
+    b->entity = plumb_body_create(
+        s->world,
+        &(plumb_body_desc){
+            .type = types[d->type],
+            .position = { (plumb_real)d->at[0], (plumb_real)d->at[1] },
+            .angle = (plumb_real)d->angle,
+            .mass = (plumb_real)d->mass,
+            .gravity_scale = (plumb_real)d->gravity_scale,
+            .no_gravity = SC_GIVEN(&sc_list_body, d, sc_body_def, gravity_scale) && d->gravity_scale == 0,
+            .fixed_rotation = d->fixed_rotation,
+            .user_data = b,
+        });
+    if (plumb_is_null(b->entity)) {
+        plumb_error e = plumb_world_error(s->world);
+        sc_raise(s, e.code == PLUMB_E_MEMORY ? SCENE_E_LIMIT : SCENE_E_WORLD, site, NULL, 0, NULL,
+                 "body{}: %s", e.message);
+    }
+}
+
+// Copies shape `index` (0-based; its Lua object is on top) into the record and gives it to the world.
+static void add_shape(scene *s, const sc_site *site, sc_body *b, int index)
+{
+    sc_shape_object *object = sc_to_shape(s->L, -1);
+    if (object->epoch == s->epoch) {
+        s->made.items[object->made].used = true;
+    }
+    sc_shape_def *copy = &b->shapes[index];
+    *copy = object->def;
+    copy->points = NULL;
+    b->def.shape_count = index + 1;
+    if (object->def.point_count > 0) {
+        size_t size = (size_t)object->def.point_count * sizeof *copy->points;
+        copy->points = sc_need(s, NULL, 0, size);
+        memcpy(copy->points, object->def.points, size);
+    }
+    sc_shape_create(s, site, index, b, copy);
+}
+
+void sc_build_body(scene *s, const sc_site *site, int table)
+{
+    lua_State *L = s->L;
+    luaL_checkstack(L, 20, NULL);
+    table = lua_absindex(L, table);
+    sc_need_world(s);
+    sc_body_def def = { .gravity_scale = 1, .color = { .palette = -1 } };
+    sc_read(s, site, &sc_list_body, table, &def);
+    check_body(s, site, &def);
+    if (SC_GIVEN(&sc_list_body, &def, sc_body_def, angle_deg)) {
+        def.angle = def.angle_deg * (3.141592653589793 / 180);
+    }
+    sc_body *b = add_record(s, &def);
+    b->line = site->line;
+    create_body(s, site, b);
+    b->shapes = def.shape_count == 0
+                    ? NULL
+                    : sc_need(s, NULL, 0, (size_t)def.shape_count * sizeof *b->shapes);
+    b->def.shape_count = 0;
+    lua_getfield(L, table, "shapes");
+    if (lua_isnil(L, -1)) {
+        lua_pushvalue(L, table);
+        lua_replace(L, -2);
+    }
+    bool massive = false;
+    for (int i = 0; i < def.shape_count; i++) {
+        lua_rawgeti(L, -1, i + 1);
+        add_shape(s, site, b, i);
+        massive |= b->shapes[i].kind != SC_SEGMENT && b->shapes[i].kind != SC_CHAIN;
+        lua_pop(L, 1);
+    }
+    lua_pop(L, 1);
+    if (def.type == 0 && !massive && def.mass == 0) {
+        sc_raise(s, SCENE_E_MISSING, site, NULL, 0, NULL,
+                 "a dynamic body{} of segments and chains needs 'mass'");
+    }
+    if (def.type != 2) { // after the shapes: they have moved the centre of mass
+        plumb_body_set_velocity(s->world, b->entity,
+                                (plumb_vec2){ (plumb_real)def.velocity[0], (plumb_real)def.velocity[1] });
+        plumb_body_set_angular_velocity(s->world, b->entity, (plumb_real)def.spin);
+    }
+    b->set_rot = plumb_body_transform(s->world, b->entity).q;
+    lua_getfield(L, table, "user");
+    b->user = lua_istable(L, -1) ? luaL_ref(L, LUA_REGISTRYINDEX) : (lua_pop(L, 1), LUA_NOREF);
+    plumb_body *object = lua_newuserdatauv(L, sizeof *object, 0);
+    *object = b->entity;
+    luaL_setmetatable(L, SC_META_BODY);
+    lua_pushvalue(L, -1);
+    b->object = luaL_ref(L, LUA_REGISTRYINDEX);
+}
+
+// ------------------------------------------------------------------------------------ camera{}
+
+void sc_build_camera(scene *s, const sc_site *site, int table)
+{
+    const sc_list *list = &sc_list_camera;
+    if (s->camera.present != 0) {
+        sc_raise(s, SCENE_E_DUPLICATE, site, NULL, 0, NULL, "camera{} was called before, on line %d",
+                 s->camera_line);
+    }
+    sc_camera *c = &s->camera;
+    sc_read(s, site, list, table, c);
+    s->camera_line = site->line;
+    bool center = SC_GIVEN(list, c, sc_camera, center);
+    bool height = SC_GIVEN(list, c, sc_camera, height);
+    bool fit = SC_GIVEN(list, c, sc_camera, fit);
+    if (fit && (center || height)) {
+        sc_raise(s, SCENE_E_CONFLICT, site, "fit", 0, NULL,
+                 "camera{} takes either 'fit' or 'center' and 'height'");
+    }
+    if (center && !height) {
+        sc_raise(s, SCENE_E_MISSING, site, NULL, 0, NULL, "camera{} with 'center' needs 'height'");
+    }
+    if (!fit && !height && c->follow[0] == 0) {
+        sc_raise(s, SCENE_E_MISSING, site, NULL, 0, NULL,
+                 "camera{} needs 'fit', 'center' and 'height', or 'follow'");
+    }
+    if (height && !center && c->follow[0] == 0) {
+        sc_raise(s, SCENE_E_MISSING, site, NULL, 0, NULL,
+                 "camera{} with 'height' needs 'center' or 'follow'");
+    }
+}
+
+// ----------------------------------------------------------------------------- Lua's side of it
+
+typedef void constructor(scene *s, const sc_site *site, int table);
+
+static int construct(lua_State *L, const char *name, constructor *build, int results)
+{
+    scene *s = sc_of(L);
+    sc_site site = sc_here(s, name);
+    if (lua_gettop(L) != 1 || lua_type(L, 1) != LUA_TTABLE) {
+        sc_raise(s, SCENE_E_TYPE, &site, NULL, 0, NULL, "%s takes one table: %s{...}", name, name);
+    }
+    build(s, &site, 1);
+    return results;
+}
+
+static int lua_scene(lua_State *L)
+{
+    return construct(L, "scene", sc_build_settings, 0);
+}
+
+static int lua_material(lua_State *L)
+{
+    return construct(L, "material", sc_build_material, 1);
+}
+
+static int lua_body(lua_State *L)
+{
+    return construct(L, "body", sc_build_body, 1);
+}
+
+static int lua_camera(lua_State *L)
+{
+    return construct(L, "camera", sc_build_camera, 0);
+}
+
+// Raises unless the value on top fits what the param's default says.
+static void check_param(scene *s, const sc_site *site, const char *name)
+{
+    lua_State *L = s->L;
+    int type = lua_type(L, 2);
+    if (lua_type(L, -1) != type || (lua_isinteger(L, 2) && !lua_isinteger(L, -1))) {
+        sc_raise(s, SCENE_E_TYPE, site, NULL, 2, NULL, "param '%s' must be %s like its default, not %s",
+                 name,
+                 lua_isinteger(L, 2)      ? "an integer"
+                 : type == LUA_TNUMBER    ? "a number"
+                 : type == LUA_TBOOLEAN   ? "true or false"
+                                          : "a string",
+                 lua_type(L, -1) == LUA_TNUMBER ? lua_tostring(L, -1) : sc_type_name(s, -1));
+    }
+    if (type == LUA_TNUMBER) {
+        double v = lua_tonumber(L, -1);
+        double low = luaL_optnumber(L, 3, -HUGE_VAL);
+        double high = luaL_optnumber(L, 4, HUGE_VAL);
+        if (!(v >= low && v <= high && isfinite(v))) {
+            sc_raise(s, SCENE_E_RANGE, site, NULL, 2, NULL, "param '%s' must be from %.10g to %.10g, not %.10g",
+                     name, low, high, v);
+        }
+    }
+}
+
+static int lua_param(lua_State *L)
+{
+    scene *s = sc_of(L);
+    sc_site site = sc_here(s, "param");
+    lua_settop(L, 4);
+    int type = lua_type(L, 2);
+    if (lua_type(L, 1) != LUA_TSTRING ||
+        (type != LUA_TNUMBER && type != LUA_TBOOLEAN && type != LUA_TSTRING)) {
+        sc_raise(s, SCENE_E_TYPE, &site, NULL, 0, NULL,
+                 "param takes a name, a default and optionally min and max");
+    }
+    const char *name = lua_tostring(L, 1);
+    sc_param p = { 0 };
+    if (strlen(name) >= sizeof p.name || name[0] == 0) {
+        sc_raise(s, SCENE_E_RANGE, &site, NULL, 1, NULL, "a param's name must have 1 to 63 characters");
+    }
+    strcpy(p.name, name);
+    for (int i = 0; i < s->params.count; i++) {
+        if (strcmp(s->params.items[i].name, name) == 0) {
+            sc_raise(s, SCENE_E_DUPLICATE, &site, NULL, 1, NULL, "param '%s' is declared twice", name);
+        }
+    }
+    for (int i = 0; i < sc_list_scene.count; i++) {
+        if (strcmp(sc_list_scene.rows[i].name, name) == 0) {
+            sc_raise(s, SCENE_E_DUPLICATE, &site, NULL, 1, NULL,
+                     "param '%s' has the name of a key of scene{}", name);
+        }
+    }
+    lua_pushvalue(L, 2);
+    check_param(s, &site, p.name);
+    p.overridden = sc_take_set(s, name);
+    if (p.overridden) {
+        s->raising_set = p.name;
+        if (type == LUA_TSTRING && lua_type(L, -1) != LUA_TSTRING) { // --set title=1 is a text too
+            lua_pop(L, 1);
+            for (int i = 0; i < s->sets.count; i++) {
+                if (strcmp(s->sets.items[i].key, name) == 0) {
+                    lua_settop(L, 5);
+                    lua_pushstring(L, s->sets.items[i].value);
+                }
+            }
+        }
+        check_param(s, &site, p.name);
+        s->raising_set = NULL;
+    }
+    lua_pushvalue(L, -1);
+    snprintf(p.value, sizeof p.value, "%s",
+             type == LUA_TBOOLEAN ? (lua_toboolean(L, -1) ? "true" : "false") : lua_tostring(L, -1));
+    lua_pop(L, 1);
+    *SC_PUSH(s, s->params) = p;
+    return 1;
+}
+
+void sc_open_build(lua_State *L)
+{
+    luaL_newmetatable(L, SC_META_MATERIAL);
+    lua_pushcfunction(L, material_collect);
+    lua_setfield(L, -2, "__gc");
+    lua_pushliteral(L, "material");
+    lua_setfield(L, -2, "__name");
+    lua_newtable(L);
+    lua_setfield(L, LUA_REGISTRYINDEX, "plumb.names");
+    lua_register(L, "scene", lua_scene);
+    lua_register(L, "material", lua_material);
+    lua_register(L, "body", lua_body);
+    lua_register(L, "camera", lua_camera);
+    lua_register(L, "param", lua_param);
+    lua_pop(L, 1);
+}
+
+// ------------------------------------------------------------------------- after the build pass
+
+// A thing that was made, is not used, and cannot be used any more: nothing refers to it, or there is
+// no handler left that could.
+static void check_unused(scene *s)
+{
+    lua_gc(s->L, LUA_GCCOLLECT);
+    bool may_come = s->handlers.count > 0;
+    for (int i = 0; i < s->made.count; i++) {
+        const sc_made *m = &s->made.items[i];
+        if (!m->used && (m->collected || !may_come)) {
+            const char *name = sc_shape_kind_name(m->kind);
+            sc_site site = { .construct = name, .line = m->line };
+            sc_raise(s, SCENE_E_UNUSED, &site, NULL, 0, NULL,
+                     "this %s{} is never used: put it into a body{}", name);
+        }
+    }
+    for (int i = 0; i < s->materials.count; i++) {
+        const sc_material *m = s->materials.items[i];
+        if (!m->used && (m->collected || !may_come) && !s->is_json) {
+            sc_site site = { .construct = "material", .line = m->line };
+            sc_raise(s, SCENE_E_UNUSED, &site, NULL, 0, NULL,
+                     "this material{} is never used: give it to a body{} or a shape");
+        }
+    }
+    s->made.count = 0;
+    s->epoch++;
+}
+
+void sc_check_body_name(scene *s, const sc_site *site, const char *key, const char *name)
+{
+    if (name[0] == 0 || strchr(name, '*') != NULL || sc_body_named(s, name) != NULL) {
+        return;
+    }
+    sc_suggest g = sc_suggest_start(name);
+    for (int i = 0; i < s->bodies.count; i++) {
+        sc_suggest_offer(&g, s->bodies.items[i]->def.name);
+    }
+    sc_raise(s, SCENE_E_NAME, site, key, 0, sc_suggest_best(&g), "no body is called '%s'", name);
+}
+
+void sc_check_build(scene *s)
+{
+    sc_need_world(s);
+    check_sets(s);
+    check_unused(s);
+    sc_check_body_name(s, &(sc_site){ "camera", s->camera_line, s->is_json ? "camera" : NULL }, "follow",
+                       s->camera.follow);
+    for (int i = 0; i < s->expects.count; i++) {
+        char path[32];
+        snprintf(path, sizeof path, "expect[%d]", i);
+        sc_expect *e = &s->expects.items[i];
+        sc_site site = { "expect", e->line, s->is_json ? path : NULL };
+        sc_check_body_name(s, &site, "body", e->def.body);
+        if (SC_GIVEN(&sc_list_expect, &e->def, sc_expect_def, at) && e->def.at > s->start_time + s->duration) {
+            // a shorter run was asked for: then the line is simply not reached
+            bool asked = false;
+            for (int k = 0; k < s->sets.count; k++) {
+                asked |= strcmp(s->sets.items[k].key, "duration") == 0;
+            }
+            if (!asked) {
+                sc_raise(s, SCENE_E_RANGE, &site, "at", 0, NULL,
+                         "'at' of expect{} is %.10g s, after the end of the scene at %.10g s", e->def.at,
+                         s->start_time + s->duration);
+            }
+        }
+    }
+    for (int i = 0; i < s->exact_count; i++) {
+        sc_check_body_name(s, &(sc_site){ "exact", s->exacts[i].line, NULL }, "body",
+                           s->exacts[i].def.body);
+    }
+    for (int i = 0; i < s->handlers.count; i++) {
+        const sc_handler *h = &s->handlers.items[i];
+        sc_site site = { h->kind == SC_ON_END ? "on_end" : "on_contact", h->line, NULL };
+        sc_check_body_name(s, &site, "a", h->contact.a);
+        sc_check_body_name(s, &site, "b", h->contact.b);
+    }
+}

@@ -1,0 +1,190 @@
+// error.c - every message of the loader: recorded once, with file, line, column and suggestion.
+// sc_raise is for the loader's own complaints; sc_take_error translates Lua's.
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "internal.h"
+
+const char *scene_code_text(scene_code code)
+{
+    switch (code) {
+#define SCENE_CODE_CASE(name, value, text)                                                         \
+    case SCENE_##name:                                                                             \
+        return text;
+        SCENE_CODE_LIST(SCENE_CODE_CASE)
+#undef SCENE_CODE_CASE
+    }
+    return "unknown code";
+}
+
+void sc_set_error(scene *s, scene_code code, int line, int column, const char *suggestion,
+                  const char *message)
+{
+    scene_error *e = &s->error;
+    *e = (scene_error){ .code = code, .line = line, .column = column };
+    snprintf(e->message, sizeof e->message, "%s", message);
+    snprintf(e->suggestion, sizeof e->suggestion, "%s", suggestion == NULL ? "" : suggestion);
+    snprintf(e->file, sizeof e->file, "%s", s->raising_set != NULL ? "--set" : s->path);
+    char place[400];
+    if (s->raising_set != NULL) {
+        snprintf(place, sizeof place, "--set %s", s->raising_set);
+        e->line = e->column = 0;
+    } else if (line > 0) {
+        snprintf(place, sizeof place, "%s:%d:%d", e->file, line, column);
+    } else {
+        snprintf(place, sizeof place, "%s", e->file);
+    }
+    if (e->suggestion[0] != 0) {
+        snprintf(e->text, sizeof e->text, "%s: %s (did you mean '%s'?)", place, e->message,
+                 e->suggestion);
+    } else {
+        snprintf(e->text, sizeof e->text, "%s: %s", place, e->message);
+    }
+}
+
+void sc_raise(scene *s, scene_code code, const sc_site *site, const char *key, int index,
+              const char *suggestion, const char *format, ...)
+{
+    char message[sizeof s->error.message];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(message, sizeof message, format, arguments);
+    va_end(arguments);
+    int line = 0;
+    int column = 0;
+    if (site != NULL && site->path != NULL) {
+        sc_json_position(s->source, s->source_size, site->path, key, index, &line, &column);
+    } else if (site != NULL && site->line > 0) {
+        sc_lua_position(s->source, s->source_size, site, key, index, &line, &column);
+    }
+    if (site != NULL && strcmp(site->construct, "scene") == 0 && key != NULL) {
+        for (int i = 0; i < s->sets.count; i++) {
+            if (strcmp(s->sets.items[i].key, key) == 0) {
+                s->raising_set = s->sets.items[i].key;
+            }
+        }
+    }
+    sc_set_error(s, code, line, column, suggestion, message);
+    lua_settop(s->L, 0); // makes room: raising must not need memory
+    lua_pushlightuserdata(s->L, s);
+    lua_error(s->L);
+    abort(); // lua_error does not return
+}
+
+sc_site sc_here(scene *s, const char *construct)
+{
+    sc_site site = { .construct = construct };
+    lua_Debug d;
+    for (int level = 0; lua_getstack(s->L, level, &d); level++) {
+        lua_getinfo(s->L, "Sl", &d);
+        if (strcmp(d.source, "=" SC_CHUNK) == 0) {
+            site.line = d.currentline;
+            return site;
+        }
+    }
+    return site;
+}
+
+// ------------------------------------------------------------------------------- Lua's messages
+
+// Copies what stands between the n-th pair of apostrophes; "" if there is none.
+static void quoted(const char *text, int n, char *out, size_t size)
+{
+    out[0] = 0;
+    const char *p = text;
+    for (int i = 0; p != NULL; i++) {
+        p = strchr(p, '\'');
+        const char *close = p == NULL ? NULL : strchr(p + 1, '\'');
+        if (close == NULL) {
+            return;
+        }
+        if (i == n) {
+            snprintf(out, size, "%.*s", (int)(close - p - 1), p + 1);
+            return;
+        }
+        p = close + 1;
+    }
+}
+
+static void take_syntax(scene *s, int line, const char *message)
+{
+    char near[SC_NAME_SIZE] = "";
+    const char *p = strstr(message, " near ");
+    for (const char *q = p; q != NULL; q = strstr(q + 1, " near ")) {
+        p = q;
+    }
+    if (p != NULL && p[6] == '\'') {
+        snprintf(near, sizeof near, "%s", p + 7);
+        size_t length = strlen(near);
+        near[length > 0 ? length - 1 : 0] = 0;
+    }
+    int column;
+    if (p != NULL && strcmp(p + 6, "<eof>") == 0) {
+        column = 1;
+        for (size_t i = 0; i < s->source_size; i++) {
+            column = s->source[i] == '\n' ? 1 : column + 1;
+        }
+    } else {
+        column = sc_lua_syntax_column(s->L, s->source, s->source_size, line, near);
+    }
+    sc_set_error(s, SCENE_E_SYNTAX, line, column, NULL, message);
+}
+
+static void take_runtime(scene *s, int line, const char *message)
+{
+    char name[SC_NAME_SIZE] = "";
+    const char *p = strchr(message, '(');
+    if (p != NULL) { // attempt to index a nil value (local 'x')
+        quoted(p, 0, name, sizeof name);
+    }
+    if (name[0] == 0 || strncmp(message, "bad argument", 12) == 0) {
+        quoted(message, 0, name, sizeof name); // bad argument #1 to 'floor' (...)
+    }
+    int column = sc_lua_column(s->source, s->source_size, line, name[0] != 0 ? name : NULL);
+    sc_set_error(s, SCENE_E_RUNTIME, line, column, NULL, message);
+}
+
+static void take_limit(scene *s)
+{
+    char message[160];
+    sc_budget *b = &s->budget;
+    if (b->long_string) {
+        snprintf(message, sizeof message, "a string of more than %zu bytes was made", SC_STRING_MAX);
+    } else if (b->out_of_time) {
+        snprintf(message, sizeof message, "the %s takes more than %llu instructions",
+                 s->building ? "scene" : "handler", (unsigned long long)b->spend_limit);
+    } else {
+        snprintf(message, sizeof message, "the scene needs more than %zu bytes of memory", b->limit);
+    }
+    int line = s->is_json ? 0 : b->line;
+    int column = line > 0 ? sc_lua_column(s->source, s->source_size, line, NULL) : 0;
+    sc_set_error(s, SCENE_E_LIMIT, line, column, NULL, message);
+}
+
+void sc_take_error(scene *s, int status)
+{
+    if (s->error.code == SCENE_OK && status == LUA_ERRMEM) {
+        take_limit(s);
+    } else if (s->error.code == SCENE_OK) {
+        const char *text = lua_type(s->L, -1) == LUA_TSTRING ? lua_tostring(s->L, -1)
+                                                             : "error() with a value that is no string";
+        char message[sizeof s->error.message];
+        int line = 0;
+        size_t prefix = strlen(SC_CHUNK ":");
+        if (strncmp(text, SC_CHUNK ":", prefix) == 0) {
+            char *rest;
+            line = (int)strtol(text + prefix, &rest, 10);
+            text = strncmp(rest, ": ", 2) == 0 ? rest + 2 : rest;
+        }
+        snprintf(message, sizeof message, "%s", text);
+        message[strcspn(message, "\n")] = 0; // "stack overflow" carries a traceback
+        if (status == LUA_ERRSYNTAX) {
+            take_syntax(s, line, message);
+        } else {
+            take_runtime(s, line, message);
+        }
+    }
+    lua_settop(s->L, 0);
+}

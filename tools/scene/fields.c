@@ -1,0 +1,549 @@
+// fields.c - a Lua table becomes a struct, as the constructor's list (lists.c) says.
+// Reads: a table without metatable, the list. Writes: the struct, s->points, function references.
+// Everything that the list does not allow is an error that names key, value and what was expected.
+// Cost: O(keys * rows) string comparisons; a body with four keys takes about a microsecond.
+#include <math.h>
+#include <string.h>
+
+#include "internal.h"
+
+const char *sc_type_name(scene *s, int index)
+{
+    lua_State *L = s->L;
+    plumb_body body;
+    switch (lua_type(L, index)) {
+    case LUA_TNIL:
+        return "nothing";
+    case LUA_TBOOLEAN:
+        return lua_toboolean(L, index) ? "true" : "false";
+    case LUA_TNUMBER:
+        return "a number";
+    case LUA_TSTRING:
+        return "a string";
+    case LUA_TTABLE:
+        return "a table";
+    case LUA_TFUNCTION:
+        return "a function";
+    default:
+        if (sc_to_material(L, index) != NULL) {
+            return "a material";
+        }
+        if (sc_to_shape(L, index) != NULL) {
+            return "a shape";
+        }
+        return sc_body_at_index(L, index, &body) ? "a body" : "something else";
+    }
+}
+
+static const sc_field *find_row(const sc_list *list, const char *name)
+{
+    for (int i = 0; i < list->count; i++) {
+        if (strcmp(list->rows[i].name, name) == 0) {
+            return &list->rows[i];
+        }
+    }
+    return NULL;
+}
+
+bool sc_given(const sc_list *list, const void *def, size_t offset)
+{
+    uint64_t present;
+    memcpy(&present, def, sizeof present);
+    for (int i = 0; i < list->count; i++) {
+        if (list->rows[i].offset == offset) {
+            return (present >> i) & 1;
+        }
+    }
+    return false;
+}
+
+void sc_give(const sc_list *list, void *def, size_t offset)
+{
+    uint64_t present;
+    memcpy(&present, def, sizeof present);
+    for (int i = 0; i < list->count; i++) {
+        if (list->rows[i].offset == offset) {
+            present |= (uint64_t)1 << i;
+        }
+    }
+    memcpy(def, &present, sizeof present);
+}
+
+// ---------------------------------------------------------------------------------- one value
+
+/// What a reader needs to know to complain.
+typedef struct context {
+    scene *s;
+    const sc_site *site;
+    const sc_field *row;
+    int index; ///< element of the construct when given by position, else 0
+} context;
+
+_Noreturn static void fail_type(const context *c, const char *expected, int value)
+{
+    sc_raise(c->s, SCENE_E_TYPE, c->site, c->row->name, c->index, NULL,
+             "'%s' of %s{} must be %s, not %s", c->row->name, c->site->construct, expected,
+             sc_type_name(c->s, value));
+}
+
+static void check_number(const context *c, double v)
+{
+    const sc_field *row = c->row;
+    bool low = (row->flags & SC_ABOVE) != 0 ? v <= row->min : v < row->min;
+    if (!isfinite(v)) {
+        sc_raise(c->s, SCENE_E_RANGE, c->site, row->name, c->index, NULL,
+                 "'%s' of %s{} must be finite, not %s", row->name, c->site->construct,
+                 isnan(v) ? "nan" : v > 0 ? "inf" : "-inf");
+    }
+    if (low || v > row->max) {
+        sc_raise(c->s, SCENE_E_RANGE, c->site, row->name, c->index, NULL,
+                 "'%s' of %s{} must be %s %.10g and at most %.10g [%s], not %.10g", row->name,
+                 c->site->construct, (row->flags & SC_ABOVE) != 0 ? "above" : "at least", row->min,
+                 row->max, row->detail, v);
+    }
+}
+
+static void read_number(const context *c, int value, double *out)
+{
+    lua_State *L = c->s->L;
+    if (lua_type(L, value) != LUA_TNUMBER) {
+        fail_type(c, c->row->kind == SC_INTEGER ? "an integer" : "a number", value);
+    }
+    double v = lua_tonumber(L, value);
+    check_number(c, v);
+    if (c->row->kind == SC_INTEGER && v != floor(v)) {
+        sc_raise(c->s, SCENE_E_TYPE, c->site, c->row->name, c->index, NULL,
+                 "'%s' of %s{} must be an integer, not %.10g", c->row->name, c->site->construct, v);
+    }
+    *out = v;
+}
+
+bool sc_to_vec2(scene *s, int index, double v[2])
+{
+    lua_State *L = s->L;
+    if (lua_type(L, index) != LUA_TTABLE || lua_rawlen(L, index) != 2) {
+        return false;
+    }
+    int count = 0;
+    lua_pushnil(L);
+    int at = index < 0 ? index - 1 : index;
+    while (lua_next(L, at) != 0) {
+        count++;
+        lua_pop(L, 1);
+    }
+    for (int i = 0; i < 2; i++) {
+        if (lua_rawgeti(L, index, i + 1) != LUA_TNUMBER) {
+            lua_pop(L, 1);
+            return false;
+        }
+        v[i] = lua_tonumber(L, -1);
+        lua_pop(L, 1);
+    }
+    return count == 2;
+}
+
+static void read_vec2(const context *c, int value, double out[2])
+{
+    if (!sc_to_vec2(c->s, value, out)) {
+        if (lua_type(c->s->L, value) == LUA_TTABLE) {
+            sc_raise(c->s, SCENE_E_TYPE, c->site, c->row->name, c->index, NULL,
+                     "'%s' of %s{} must be two numbers {x, y}", c->row->name, c->site->construct);
+        }
+        fail_type(c, "two numbers {x, y}", value);
+    }
+    check_number(c, out[0]);
+    check_number(c, out[1]);
+}
+
+static void read_range(const context *c, int value, double out[2])
+{
+    if (lua_type(c->s->L, value) == LUA_TNUMBER) {
+        out[0] = out[1] = lua_tonumber(c->s->L, value);
+        check_number(c, out[0]);
+        return;
+    }
+    if (!sc_to_vec2(c->s, value, out) || isnan(out[0]) || isnan(out[1])) {
+        sc_raise(c->s, SCENE_E_TYPE, c->site, c->row->name, c->index, NULL,
+                 "'%s' of %s{} must be a number or a range {min, max}", c->row->name,
+                 c->site->construct);
+    }
+    if (out[0] > out[1]) {
+        sc_raise(c->s, SCENE_E_RANGE, c->site, c->row->name, c->index, NULL,
+                 "'%s' of %s{} is empty: min %.10g is above max %.10g", c->row->name,
+                 c->site->construct, out[0], out[1]);
+    }
+}
+
+static void read_string(const context *c, int value, char *out, size_t size)
+{
+    size_t length;
+    if (lua_type(c->s->L, value) != LUA_TSTRING) {
+        fail_type(c, "a string", value);
+    }
+    const char *text = lua_tolstring(c->s->L, value, &length);
+    if (length >= size || strlen(text) != length) {
+        sc_raise(c->s, SCENE_E_RANGE, c->site, c->row->name, c->index, NULL,
+                 "'%s' of %s{} must be at most %d characters without zeros", c->row->name,
+                 c->site->construct, (int)size - 1);
+    }
+    if (length == 0 && strcmp(c->row->name, "name") == 0) {
+        sc_raise(c->s, SCENE_E_RANGE, c->site, c->row->name, c->index, NULL,
+                 "'name' of %s{} must not be empty", c->site->construct);
+    }
+    memcpy(out, text, length + 1);
+}
+
+static void read_choice(const context *c, int value, int *out)
+{
+    if (lua_type(c->s->L, value) != LUA_TSTRING) {
+        fail_type(c, "a string", value);
+    }
+    const char *text = lua_tostring(c->s->L, value);
+    sc_suggest g = sc_suggest_start(text);
+    int number = 0;
+    for (const char *p = c->row->detail; *p != 0; number++) {
+        char option[SC_NAME_SIZE];
+        size_t length = strcspn(p, "|");
+        memcpy(option, p, length);
+        option[length] = 0;
+        if (strcmp(option, text) == 0) {
+            *out = number;
+            return;
+        }
+        sc_suggest_offer(&g, option);
+        p += length + (p[length] == '|');
+    }
+    sc_raise(c->s, SCENE_E_RANGE, c->site, c->row->name, c->index, sc_suggest_best(&g),
+             "'%s' of %s{} must be one of %s, not '%.40s'", c->row->name, c->site->construct,
+             c->row->detail, text);
+}
+
+static int hex_digit(char ch)
+{
+    return ch >= '0' && ch <= '9'   ? ch - '0'
+           : ch >= 'a' && ch <= 'f' ? ch - 'a' + 10
+           : ch >= 'A' && ch <= 'F' ? ch - 'A' + 10
+                                    : -1;
+}
+
+bool sc_parse_color(const char *text, sc_color *out)
+{
+    uint8_t bytes[3];
+    if (text[0] != '#' || strlen(text) != 7) {
+        return false;
+    }
+    for (int i = 0; i < 3; i++) {
+        int high = hex_digit(text[1 + 2 * i]);
+        int low = hex_digit(text[2 + 2 * i]);
+        if (high < 0 || low < 0) {
+            return false;
+        }
+        bytes[i] = (uint8_t)(16 * high + low);
+    }
+    *out = (sc_color){ -1, { bytes[0], bytes[1], bytes[2], 255 } };
+    return true;
+}
+
+static void read_color(const context *c, int value, sc_color *out)
+{
+    lua_State *L = c->s->L;
+    if (lua_type(L, value) == LUA_TNUMBER) {
+        double v = lua_tonumber(L, value);
+        if (v >= 0 && v <= 1000 && v == floor(v)) {
+            *out = (sc_color){ (int)v, { 0 } };
+            return;
+        }
+    } else if (lua_type(L, value) == LUA_TSTRING && sc_parse_color(lua_tostring(L, value), out)) {
+        return;
+    }
+    sc_raise(c->s, SCENE_E_TYPE, c->site, c->row->name, c->index, NULL,
+             "'%s' of %s{} must be \"#rrggbb\" or a palette number 0..1000", c->row->name,
+             c->site->construct);
+}
+
+static void read_body(const context *c, int value, char out[SC_NAME_SIZE])
+{
+    plumb_body body;
+    if (sc_body_at_index(c->s->L, value, &body)) {
+        const sc_body *b = sc_body_of(c->s, body);
+        if (b == NULL) {
+            sc_raise(c->s, SCENE_E_STATE, c->site, c->row->name, c->index, NULL,
+                     "'%s' of %s{} is a body that was destroyed", c->row->name, c->site->construct);
+        }
+        strcpy(out, b->def.name);
+        return;
+    }
+    if (lua_type(c->s->L, value) != LUA_TSTRING) {
+        fail_type(c, "a body or the name of one", value);
+    }
+    read_string(c, value, out, SC_NAME_SIZE);
+}
+
+static void read_box(const context *c, int value, double out[4])
+{
+    lua_State *L = c->s->L;
+    bool good = lua_type(L, value) == LUA_TTABLE && lua_rawlen(L, value) == 2;
+    for (int i = 0; i < 2 && good; i++) {
+        lua_rawgeti(L, value, i + 1);
+        good = sc_to_vec2(c->s, -1, out + 2 * i);
+        lua_pop(L, 1);
+    }
+    if (!good) {
+        sc_raise(c->s, SCENE_E_TYPE, c->site, c->row->name, c->index, NULL,
+                 "'%s' of %s{} must be two corners {{x, y}, {x, y}}", c->row->name,
+                 c->site->construct);
+    }
+    for (int i = 0; i < 4; i++) {
+        check_number(c, out[i]);
+    }
+    for (int i = 0; i < 2; i++) {
+        double low = fmin(out[i], out[i + 2]);
+        out[i + 2] = fmax(out[i], out[i + 2]);
+        out[i] = low;
+    }
+    if (out[0] == out[2] || out[1] == out[3]) {
+        sc_raise(c->s, SCENE_E_RANGE, c->site, c->row->name, c->index, NULL,
+                 "'%s' of %s{} is an empty box", c->row->name, c->site->construct);
+    }
+}
+
+static void read_points(const context *c, int value, int *out)
+{
+    scene *s = c->s;
+    if (lua_type(s->L, value) != LUA_TTABLE) {
+        fail_type(c, "points {{x, y}, ...}", value);
+    }
+    lua_Unsigned count = lua_rawlen(s->L, value);
+    if ((double)count < c->row->min || (double)count > c->row->max) {
+        if (c->row->min == c->row->max) {
+            sc_raise(s, SCENE_E_RANGE, c->site, NULL, 0, NULL, "%s{} needs %d points, not %d",
+                     c->site->construct, (int)c->row->min, (int)count);
+        }
+        sc_raise(s, SCENE_E_RANGE, c->site, NULL, 0, NULL, "%s{} needs %d to %d points, not %d",
+                 c->site->construct, (int)c->row->min, (int)c->row->max, (int)count);
+    }
+    if ((int)count > s->point_capacity) {
+        s->points = sc_need(s, s->points, (size_t)s->point_capacity * sizeof *s->points,
+                            count * sizeof *s->points);
+        s->point_capacity = (int)count;
+    }
+    for (int i = 0; i < (int)count; i++) {
+        lua_rawgeti(s->L, value, i + 1);
+        if (!sc_to_vec2(s, -1, s->points[i])) {
+            sc_raise(s, SCENE_E_TYPE, c->site, NULL, i + 1, NULL,
+                     "point %d of %s{} must be two numbers {x, y}, not %s", i + 1,
+                     c->site->construct,
+                     lua_type(s->L, -1) == LUA_TTABLE ? "another table" : sc_type_name(s, -1));
+        }
+        for (int k = 0; k < 2; k++) {
+            double v = s->points[i][k];
+            if (!isfinite(v) || fabs(v) > 1e7) { // PLUMB_LENGTH_MAX
+                sc_raise(s, SCENE_E_RANGE, c->site, NULL, i + 1, NULL,
+                         "point %d of %s{} must lie within 1e+07 m of the origin", i + 1,
+                         c->site->construct);
+            }
+        }
+        lua_pop(s->L, 1);
+    }
+    s->point_count = (int)count;
+    *out = (int)count;
+}
+
+static void read_shapes(const context *c, int value, int *out)
+{
+    lua_State *L = c->s->L;
+    if (lua_type(L, value) != LUA_TTABLE) {
+        fail_type(c, "shapes", value);
+    }
+    *out = (int)lua_rawlen(L, value);
+    for (int i = 1; i <= *out; i++) {
+        lua_rawgeti(L, value, i);
+        if (sc_to_shape(L, -1) == NULL) {
+            sc_raise(c->s, SCENE_E_TYPE, c->site, NULL, i, NULL,
+                     "value %d in %s{} must be a shape such as box{1, 1}, not %s", i,
+                     c->site->construct, sc_type_name(c->s, -1));
+        }
+        lua_pop(L, 1);
+    }
+}
+
+static void read_value(const context *c, int value, void *out)
+{
+    lua_State *L = c->s->L;
+    void *member = (char *)out + c->row->offset;
+    switch (c->row->kind) {
+    case SC_NUMBER:
+    case SC_INTEGER:
+        read_number(c, value, member);
+        break;
+    case SC_BOOL:
+        if (lua_type(L, value) != LUA_TBOOLEAN) {
+            fail_type(c, "true or false", value);
+        }
+        *(bool *)member = lua_toboolean(L, value) != 0;
+        break;
+    case SC_STRING:
+        read_string(c, value, member, c->row->size);
+        break;
+    case SC_VEC2:
+        read_vec2(c, value, member);
+        break;
+    case SC_CHOICE:
+        read_choice(c, value, member);
+        break;
+    case SC_RANGE:
+        read_range(c, value, member);
+        break;
+    case SC_COLOR:
+        read_color(c, value, member);
+        break;
+    case SC_MATERIAL:
+        if (sc_to_material(L, value) == NULL) {
+            fail_type(c, "a material", value);
+        }
+        *(sc_material **)member = sc_to_material(L, value);
+        (*(sc_material **)member)->used = true;
+        break;
+    case SC_POINTS:
+        read_points(c, value, member);
+        break;
+    case SC_FUNCTION:
+        if (lua_type(L, value) != LUA_TFUNCTION) {
+            fail_type(c, "a function", value);
+        }
+        lua_pushvalue(L, value);
+        *(int *)member = luaL_ref(L, LUA_REGISTRYINDEX);
+        break;
+    case SC_BODY:
+        read_body(c, value, member);
+        break;
+    case SC_BOX:
+        read_box(c, value, member);
+        break;
+    case SC_SHAPES:
+        read_shapes(c, value, member);
+        break;
+    case SC_TABLE:
+        if (lua_type(L, value) != LUA_TTABLE) {
+            fail_type(c, "a table", value);
+        }
+        *(bool *)member = true;
+        break;
+    }
+}
+
+// ---------------------------------------------------------------------------------- the table
+
+// Most elements that the array part may have; -1: any number.
+static int positions(const sc_list *list)
+{
+    int most = 0;
+    for (int i = 0; i < list->count; i++) {
+        if (list->rows[i].position == SC_REST) {
+            return -1;
+        }
+        most = list->rows[i].position > most ? list->rows[i].position : most;
+    }
+    return most;
+}
+
+_Noreturn static void fail_key(scene *s, const sc_site *site, const sc_list *list, const char *key)
+{
+    sc_suggest g = sc_suggest_start(key);
+    for (int i = 0; i < list->count; i++) {
+        sc_suggest_offer(&g, list->rows[i].name);
+    }
+    sc_raise(s, SCENE_E_KEY, site, key, 0, sc_suggest_best(&g), "unknown key '%.63s' in %s{}", key,
+             site->construct);
+}
+
+// Checks that the table has no keys but those of the list. lua_next's order depends on string hashes,
+// so of several unknown keys the alphabetically first is reported.
+static void check_keys(scene *s, const sc_site *site, const sc_list *list, int table)
+{
+    lua_State *L = s->L;
+    int most = positions(list);
+    const char *unknown = NULL;
+    lua_Integer elements = 0;
+    lua_Integer highest = 0;
+    lua_pushnil(L);
+    while (lua_next(L, table) != 0) {
+        lua_pop(L, 1);
+        if (lua_type(L, -1) == LUA_TSTRING) {
+            const char *key = lua_tostring(L, -1);
+            const sc_field *row = find_row(list, key);
+            if (row == NULL && (unknown == NULL || strcmp(key, unknown) < 0)) {
+                unknown = key;
+            }
+        } else if (lua_isinteger(L, -1) && lua_tointeger(L, -1) >= 1) {
+            elements++;
+            highest = lua_tointeger(L, -1) > highest ? lua_tointeger(L, -1) : highest;
+        } else {
+            lua_pop(L, 1);
+            sc_raise(s, SCENE_E_KEY, site, NULL, 0, NULL, "a key of %s{} is neither a name nor a position",
+                     site->construct);
+        }
+    }
+    if (unknown != NULL) {
+        fail_key(s, site, list, unknown);
+    }
+    if (highest != elements) {
+        sc_raise(s, SCENE_E_MISSING, site, NULL, 0, NULL, "the array part of %s{} has a nil in it",
+                 site->construct);
+    }
+    if (most >= 0 && elements > most) {
+        sc_raise(s, SCENE_E_KEY, site, NULL, most + 1, NULL, "%s{} takes %d %s by position, not %d",
+                 site->construct, most, most == 1 ? "value" : "values", (int)elements);
+    }
+}
+
+// Pushes the value of a row; *index tells the element it came from (0: by name).
+static void push_value(scene *s, const sc_site *site, const sc_field *row, int table, int *index)
+{
+    lua_State *L = s->L;
+    *index = 0;
+    lua_pushstring(L, row->name);
+    lua_rawget(L, table);
+    if (row->position == 0 || (row->position == SC_REST && lua_rawlen(L, table) == 0)) {
+        return;
+    }
+    bool named = !lua_isnil(L, -1);
+    if (row->position == SC_REST) {
+        lua_pushvalue(L, table);
+    } else {
+        lua_rawgeti(L, table, row->position);
+    }
+    if (named && !lua_isnil(L, -1)) {
+        sc_raise(s, SCENE_E_DUPLICATE, site, row->name, 0, NULL,
+                 "'%s' of %s{} is given by name and by position", row->name, site->construct);
+    }
+    if (named) {
+        lua_pop(L, 1);
+        return;
+    }
+    lua_remove(L, -2);
+    *index = row->position == SC_REST ? 0 : row->position;
+}
+
+void sc_read(scene *s, const sc_site *site, const sc_list *list, int table, void *out)
+{
+    lua_State *L = s->L;
+    luaL_checkstack(L, 10, NULL);
+    table = lua_absindex(L, table);
+    check_keys(s, site, list, table);
+    uint64_t present = 0;
+    for (int i = 0; i < list->count; i++) {
+        context c = { s, site, &list->rows[i], 0 };
+        push_value(s, site, c.row, table, &c.index);
+        if (!lua_isnil(L, -1)) {
+            read_value(&c, lua_gettop(L), out);
+            present |= (uint64_t)1 << i;
+        } else if ((c.row->flags & SC_REQUIRED) != 0) {
+            sc_raise(s, SCENE_E_MISSING, site, NULL, 0, NULL, "%s{} needs %s%s%s", site->construct,
+                     c.row->kind == SC_POINTS ? "" : "'", c.row->name,
+                     c.row->kind == SC_POINTS ? "" : "'");
+        }
+        lua_pop(L, 1);
+    }
+    memcpy(out, &present, sizeof present);
+}

@@ -1,0 +1,382 @@
+// handlers.c - what a script does while the scene runs: at, every, every_step before a step, on_contact
+// and on_end after it, from copies of the world's event arrays (a handler may make and destroy bodies).
+// Handlers of one kind of moment are called in the order in which they were registered.
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "internal.h"
+
+void sc_call(scene *s, int args, int results)
+{
+    sc_sandbox_budget(s, s->options.handler_instructions);
+    lua_call(s->L, args, results);
+}
+
+// ------------------------------------------------------------------------------------ registering
+
+static sc_handler *add_handler(scene *s, sc_handler_kind kind, const sc_site *site)
+{
+    sc_need_world(s);
+    sc_handler *h = SC_PUSH(s, s->handlers);
+    *h = (sc_handler){ .kind = kind, .line = site->line, .contact.function = LUA_NOREF };
+    return h;
+}
+
+// at(time, function) and every(period, function)
+static int register_timed(lua_State *L, const char *name, sc_handler_kind kind)
+{
+    scene *s = sc_of(L);
+    sc_site site = sc_here(s, name);
+    if (lua_gettop(L) != 2 || lua_type(L, 1) != LUA_TNUMBER || lua_type(L, 2) != LUA_TFUNCTION) {
+        sc_raise(s, SCENE_E_TYPE, &site, NULL, 0, NULL, "%s takes a time in seconds and a function", name);
+    }
+    double time = lua_tonumber(L, 1);
+    bool good = isfinite(time) && (kind == SC_AT ? time >= 0 : time > 0);
+    if (!good) {
+        sc_raise(s, SCENE_E_RANGE, &site, NULL, 1, NULL, "the time of %s() must be %s 0 and finite, not %.10g",
+                 name, kind == SC_AT ? "at least" : "above", time);
+    }
+    sc_need_world(s);
+    if (kind == SC_AT && time > s->start_time + s->duration && s->building) {
+        bool asked = false; // a shorter run may be asked for with --set
+        for (int i = 0; i < s->sets.count; i++) {
+            asked |= strcmp(s->sets.items[i].key, "duration") == 0;
+        }
+        if (!asked) {
+            sc_raise(s, SCENE_E_RANGE, &site, NULL, 1, NULL,
+                     "at(%.10g) never happens: the scene ends at %.10g s", time,
+                     s->start_time + s->duration);
+        }
+    }
+    int function = luaL_ref(L, LUA_REGISTRYINDEX);
+    sc_handler *h = add_handler(s, kind, &site);
+    h->time = time;
+    h->contact.function = function;
+    h->next = kind == SC_EVERY ? (uint64_t)floor(scene_time(s) / time) + 1 : 0;
+    return 0;
+}
+
+static int lua_at(lua_State *L)
+{
+    return register_timed(L, "at", SC_AT);
+}
+
+static int lua_every(lua_State *L)
+{
+    return register_timed(L, "every", SC_EVERY);
+}
+
+static int lua_every_step(lua_State *L)
+{
+    scene *s = sc_of(L);
+    sc_site site = sc_here(s, "every_step");
+    if (lua_gettop(L) != 1 || lua_type(L, 1) != LUA_TFUNCTION) {
+        sc_raise(s, SCENE_E_TYPE, &site, NULL, 0, NULL, "every_step takes a function");
+    }
+    int function = luaL_ref(L, LUA_REGISTRYINDEX);
+    add_handler(s, SC_EVERY_STEP, &site)->contact.function = function;
+    return 0;
+}
+
+// on_contact(function) or on_contact{a = ..., b = ..., function}
+static int register_contact(lua_State *L, const char *name, sc_handler_kind kind)
+{
+    scene *s = sc_of(L);
+    sc_site site = sc_here(s, name);
+    if (lua_gettop(L) == 1 && lua_type(L, 1) == LUA_TFUNCTION) {
+        lua_createtable(L, 1, 0);
+        lua_insert(L, 1);
+        lua_rawseti(L, 1, 1);
+    }
+    if (lua_gettop(L) != 1 || lua_type(L, 1) != LUA_TTABLE) {
+        sc_raise(s, SCENE_E_TYPE, &site, NULL, 0, NULL, "%s takes a function or a table: %s{a = ..., b = ..., function}",
+                 name, name);
+    }
+    sc_contact_def def = { .function = LUA_NOREF };
+    sc_read(s, &site, &sc_list_contact, 1, &def);
+    if (def.b[0] != 0 && def.a[0] == 0) {
+        sc_raise(s, SCENE_E_MISSING, &site, "b", 0, NULL, "%s{} with 'b' needs 'a'", name);
+    }
+    if (!s->building) {
+        sc_check_body_name(s, &site, "a", def.a);
+        sc_check_body_name(s, &site, "b", def.b);
+    }
+    add_handler(s, kind, &site)->contact = def;
+    return 0;
+}
+
+static int lua_on_contact(lua_State *L)
+{
+    return register_contact(L, "on_contact", SC_ON_CONTACT);
+}
+
+static int lua_on_end(lua_State *L)
+{
+    return register_contact(L, "on_end", SC_ON_END);
+}
+
+// ---------------------------------------------------------------------------------------- calling
+
+static void call_timed(scene *s, const sc_handler *h, double time)
+{
+    lua_rawgeti(s->L, LUA_REGISTRYINDEX, h->contact.function);
+    lua_pushnumber(s->L, time);
+    sc_call(s, 1, 0);
+}
+
+void sc_handlers_before(scene *s)
+{
+    double now = scene_time(s);
+    double slack = 1e-9 * s->dt; // k * period and k * dt may differ in the last place
+    for (int i = 0; i < s->handlers.count; i++) {
+        sc_handler *h = &s->handlers.items[i];
+        if (h->kind == SC_AT && !h->spent && h->time <= now + slack) {
+            h->spent = true;
+            call_timed(s, h, now);
+        } else if (h->kind == SC_EVERY && (double)h->next * h->time <= now + slack) {
+            h->next = (uint64_t)floor((now + slack) / h->time) + 1;
+            call_timed(s, h, now);
+        } else if (h->kind == SC_EVERY_STEP) {
+            call_timed(s, h, now);
+        }
+    }
+}
+
+// Whether the handler wants this pair; *swapped when a's pattern fits the second body.
+static bool wants(const sc_handler *h, const sc_body *a, const sc_body *b, bool *swapped)
+{
+    const sc_contact_def *d = &h->contact;
+    *swapped = false;
+    if (d->a[0] == 0) {
+        return true;
+    }
+    const char *second = d->b[0] != 0 ? d->b : "*";
+    if (sc_name_matches(d->a, a->def.name) && sc_name_matches(second, b->def.name)) {
+        return true;
+    }
+    *swapped = true;
+    return sc_name_matches(d->a, b->def.name) && sc_name_matches(second, a->def.name);
+}
+
+static void push_field(lua_State *L, const char *name, plumb_real v)
+{
+    lua_pushnumber(L, (double)v);
+    lua_setfield(L, -2, name);
+}
+
+// The third argument: where and how hard; the normal points from the handler's first body to its second.
+static void push_contact(lua_State *L, const plumb_contact_begin *e, bool swapped)
+{
+    plumb_real sign = swapped ? (plumb_real)-1 : (plumb_real)1;
+    lua_createtable(L, 0, 5);
+    push_field(L, "x", e->point.x);
+    push_field(L, "y", e->point.y);
+    push_field(L, "nx", sign * e->normal.x);
+    push_field(L, "ny", sign * e->normal.y);
+    push_field(L, "speed", e->approach_speed);
+}
+
+static void dispatch(scene *s, sc_handler_kind kind, plumb_body body_a, plumb_body body_b,
+                     const plumb_contact_begin *event)
+{
+    lua_State *L = s->L;
+    int count = s->handlers.count; // those registered meanwhile start with the next event
+    for (int i = 0; i < count; i++) {
+        const sc_handler *h = &s->handlers.items[i];
+        const sc_body *a = sc_body_of(s, body_a);
+        const sc_body *b = sc_body_of(s, body_b);
+        bool swapped;
+        if (a == NULL || b == NULL) {
+            return; // destroyed by an earlier handler
+        }
+        if (h->kind != kind || !wants(h, a, b, &swapped)) {
+            continue;
+        }
+        lua_rawgeti(L, LUA_REGISTRYINDEX, h->contact.function);
+        sc_body_push(s, swapped ? b : a);
+        sc_body_push(s, swapped ? a : b);
+        if (event != NULL) {
+            push_contact(L, event, swapped);
+        }
+        sc_call(s, event != NULL ? 3 : 2, 0);
+    }
+}
+
+static bool has_kind(const scene *s, sc_handler_kind kind)
+{
+    for (int i = 0; i < s->handlers.count; i++) {
+        if (s->handlers.items[i].kind == kind) {
+            return true;
+        }
+    }
+    return false;
+}
+
+void sc_handlers_after(scene *s)
+{
+    s->begins.count = 0;
+    s->ends.count = 0;
+    int count = 0;
+    if (has_kind(s, SC_ON_CONTACT)) {
+        const plumb_contact_begin *events = plumb_world_begin_events(s->world, &count);
+        for (int i = 0; i < count; i++) {
+            *SC_PUSH(s, s->begins) = events[i];
+        }
+    }
+    if (has_kind(s, SC_ON_END)) {
+        const plumb_contact_end *events = plumb_world_end_events(s->world, &count);
+        for (int i = 0; i < count; i++) {
+            *SC_PUSH(s, s->ends) = events[i];
+        }
+    }
+    for (int i = 0; i < s->begins.count; i++) {
+        plumb_contact_begin e = s->begins.items[i];
+        dispatch(s, SC_ON_CONTACT, e.body_a, e.body_b, &e);
+    }
+    for (int i = 0; i < s->ends.count; i++) {
+        dispatch(s, SC_ON_END, s->ends.items[i].body_a, s->ends.items[i].body_b, NULL);
+    }
+}
+
+// --------------------------------------------------------------------- scores, text, the world
+
+sc_score *sc_score_find(scene *s, const char *name)
+{
+    for (int i = 0; i < s->scores.count; i++) {
+        if (strcmp(s->scores.items[i].name, name) == 0) {
+            return &s->scores.items[i];
+        }
+    }
+    return NULL;
+}
+
+// score(name) returns, score(name, value) sets; a new score begins at 0.
+static int lua_score(lua_State *L)
+{
+    scene *s = sc_of(L);
+    size_t length;
+    const char *name = luaL_checklstring(L, 1, &length);
+    luaL_argcheck(L, length > 0 && length < SC_NAME_SIZE, 1, "must have 1 to 63 characters");
+    sc_score *score = sc_score_find(s, name);
+    if (score == NULL) {
+        score = SC_PUSH(s, s->scores);
+        *score = (sc_score){ 0 };
+        memcpy(score->name, name, length + 1);
+    }
+    if (!lua_isnoneornil(L, 2)) {
+        double v = luaL_checknumber(L, 2);
+        luaL_argcheck(L, isfinite(v), 2, "must be finite");
+        score->value = v;
+    }
+    if (score->value == floor(score->value) && fabs(score->value) < 0x1p53) {
+        lua_pushinteger(L, (lua_Integer)score->value);
+    } else {
+        lua_pushnumber(L, score->value);
+    }
+    return 1;
+}
+
+static int lua_text(lua_State *L)
+{
+    scene *s = sc_of(L);
+    size_t length;
+    const char *text = luaL_checklstring(L, 1, &length);
+    luaL_argcheck(L, length < sizeof s->text, 1, "must have at most 255 characters");
+    snprintf(s->text, sizeof s->text, "%s", text);
+    return 0;
+}
+
+static int lua_find_body(lua_State *L)
+{
+    scene *s = sc_of(L);
+    const sc_body *b = sc_body_named(s, luaL_checkstring(L, 1));
+    if (b == NULL) {
+        lua_pushnil(L);
+    } else {
+        sc_body_push(s, b);
+    }
+    return 1;
+}
+
+static int lua_body_count(lua_State *L)
+{
+    lua_pushinteger(L, sc_of(L)->bodies.count);
+    return 1;
+}
+
+static int lua_time(lua_State *L)
+{
+    lua_pushnumber(L, scene_time(sc_of(L)));
+    return 1;
+}
+
+static int lua_finish(lua_State *L)
+{
+    sc_of(L)->stop = true;
+    return 0;
+}
+
+static int lua_energy(lua_State *L)
+{
+    scene *s = sc_of(L);
+    sc_need_world(s);
+    plumb_energy e = plumb_world_energy(s->world);
+    lua_pushnumber(L, e.kinetic);
+    lua_pushnumber(L, e.potential);
+    return 2;
+}
+
+static int lua_momentum(lua_State *L)
+{
+    scene *s = sc_of(L);
+    sc_need_world(s);
+    plumb_energy e = plumb_world_energy(s->world);
+    lua_pushnumber(L, e.momentum_x);
+    lua_pushnumber(L, e.momentum_y);
+    return 2;
+}
+
+static int lua_penetration(lua_State *L)
+{
+    scene *s = sc_of(L);
+    sc_need_world(s);
+    lua_pushnumber(L, (double)plumb_world_stats(s->world).max_penetration);
+    return 1;
+}
+
+static int lua_set_gravity(lua_State *L)
+{
+    scene *s = sc_of(L);
+    sc_need_world(s);
+    double x = luaL_checknumber(L, 1);
+    double y = luaL_checknumber(L, 2);
+    luaL_argcheck(L, fabs(x) <= 1e6 && fabs(y) <= 1e6, 1, "must be at most 1e6 m/s^2");
+    plumb_world_set_gravity(s->world, (plumb_vec2){ (plumb_real)x, (plumb_real)y });
+    return 0;
+}
+
+void sc_open_handlers(lua_State *L)
+{
+    static const luaL_Reg names[] = {
+        { "at", lua_at },
+        { "every", lua_every },
+        { "every_step", lua_every_step },
+        { "on_contact", lua_on_contact },
+        { "on_end", lua_on_end },
+        { "score", lua_score },
+        { "text", lua_text },
+        { "find", lua_find_body },
+        { "body_count", lua_body_count },
+        { "time", lua_time },
+        { "finish", lua_finish },
+        { "energy", lua_energy },
+        { "momentum", lua_momentum },
+        { "penetration", lua_penetration },
+        { "set_gravity", lua_set_gravity },
+        { NULL, NULL },
+    };
+    for (const luaL_Reg *r = names; r->name != NULL; r++) {
+        lua_register(L, r->name, r->func);
+    }
+}

@@ -1,0 +1,275 @@
+// json_read.c - canonical JSON becomes a scene: each object turns into a Lua table and goes through the
+// same constructors as a script's, so the same checks and messages hold, with the JSON's line and column.
+// Only data: no handlers, no functions. cJSON parses; positions are found again by json_pos.c.
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cjson/cJSON.h>
+
+#include "internal.h"
+
+#define META_JSON "plumb.json"
+
+enum { DEEPEST = 16 }; // nesting; a scene needs 6
+
+static int json_collect(lua_State *L)
+{
+    cJSON **root = luaL_checkudata(L, 1, META_JSON);
+    cJSON_Delete(*root);
+    *root = NULL;
+    return 0;
+}
+
+void sc_open_json(lua_State *L)
+{
+    luaL_newmetatable(L, META_JSON);
+    lua_pushcfunction(L, json_collect);
+    lua_setfield(L, -2, "__gc");
+    lua_pop(L, 1);
+}
+
+// The value as Lua sees it, on the stack.
+static void push_value(scene *s, const sc_site *site, const cJSON *item, int depth)
+{
+    lua_State *L = s->L;
+    luaL_checkstack(L, 8, NULL);
+    if (depth > DEEPEST) {
+        sc_raise(s, SCENE_E_LIMIT, site, NULL, 0, NULL, "values are nested more than %d deep", DEEPEST);
+    }
+    if (cJSON_IsNumber(item)) {
+        lua_pushnumber(L, item->valuedouble);
+    } else if (cJSON_IsBool(item)) {
+        lua_pushboolean(L, cJSON_IsTrue(item));
+    } else if (cJSON_IsString(item)) {
+        lua_pushstring(L, item->valuestring);
+    } else if (cJSON_IsArray(item)) {
+        lua_newtable(L);
+        lua_Integer i = 1;
+        for (const cJSON *child = item->child; child != NULL; child = child->next) {
+            push_value(s, site, child, depth + 1);
+            lua_rawseti(L, -2, i++);
+        }
+    } else if (cJSON_IsObject(item)) {
+        lua_newtable(L);
+        for (const cJSON *child = item->child; child != NULL; child = child->next) {
+            lua_pushstring(L, child->string);
+            if (lua_rawget(L, -2) != LUA_TNIL) {
+                sc_raise(s, SCENE_E_DUPLICATE, site, child->string, 0, NULL,
+                         "key '%.63s' is given twice", child->string);
+            }
+            lua_pop(L, 1);
+            push_value(s, site, child, depth + 1);
+            lua_setfield(L, -2, child->string);
+        }
+    } else {
+        sc_raise(s, SCENE_E_TYPE, site, item->string, 0, NULL, "null is not a value of a scene");
+    }
+}
+
+static void push_object(scene *s, const sc_site *site, const cJSON *item)
+{
+    if (!cJSON_IsObject(item)) {
+        sc_raise(s, SCENE_E_TYPE, site, NULL, 0, NULL, "%s must be an object {...}", site->construct);
+    }
+    push_value(s, site, item, 0);
+}
+
+// Puts the material named by the string field "material" of the table on top in its place.
+static void resolve_material(scene *s, const sc_site *site)
+{
+    lua_State *L = s->L;
+    if (lua_getfield(L, -1, "material") != LUA_TSTRING) {
+        lua_pop(L, 1); // absent, or for sc_read to complain about
+        return;
+    }
+    const char *name = lua_tostring(L, -1);
+    sc_suggest g = sc_suggest_start(name);
+    for (int i = 0; i < s->materials.count; i++) {
+        sc_suggest_offer(&g, s->materials.items[i]->id);
+        if (strcmp(s->materials.items[i]->id, name) == 0) {
+            lua_getfield(L, LUA_REGISTRYINDEX, "plumb.materials");
+            lua_rawgeti(L, -1, i + 1);
+            lua_setfield(L, -4, "material");
+            lua_pop(L, 2);
+            return;
+        }
+    }
+    sc_raise(s, SCENE_E_NAME, site, "material", 0, sc_suggest_best(&g), "no material is called '%.63s'",
+             name);
+}
+
+// {"kind": "box", ...} on top becomes a shape object.
+static void make_shape(scene *s, sc_site *site)
+{
+    lua_State *L = s->L;
+    if (lua_type(L, -1) != LUA_TTABLE) {
+        sc_raise(s, SCENE_E_TYPE, site, NULL, 0, NULL, "a shape must be an object {...}");
+    }
+    if (lua_getfield(L, -1, "kind") != LUA_TSTRING) {
+        sc_raise(s, SCENE_E_MISSING, site, NULL, 0, NULL, "a shape needs 'kind', such as \"box\"");
+    }
+    const char *kind = lua_tostring(L, -1);
+    sc_suggest g = sc_suggest_start(kind);
+    for (int k = 0; k < SC_SHAPE_KINDS; k++) {
+        const char *name = sc_shape_kind_name((sc_shape_kind)k);
+        sc_suggest_offer(&g, name);
+        if (strcmp(name, kind) == 0) {
+            site->construct = name;
+            lua_pop(L, 1);
+            lua_pushnil(L);
+            lua_setfield(L, -2, "kind");
+            resolve_material(s, site);
+            sc_build_shape(s, site, (sc_shape_kind)k, lua_gettop(L));
+            lua_remove(L, -2);
+            return;
+        }
+    }
+    sc_raise(s, SCENE_E_NAME, site, "kind", 0, sc_suggest_best(&g), "unknown kind of shape '%.63s'", kind);
+}
+
+static void make_body(scene *s, const cJSON *item, int number)
+{
+    lua_State *L = s->L;
+    char path[48];
+    snprintf(path, sizeof path, "bodies[%d]", number);
+    sc_site site = { .construct = "body", .path = path };
+    push_object(s, &site, item);
+    if (lua_getfield(L, -1, "shapes") == LUA_TTABLE) {
+        lua_Integer count = (lua_Integer)lua_rawlen(L, -1);
+        for (lua_Integer i = 1; i <= count; i++) {
+            char shape_path[96];
+            snprintf(shape_path, sizeof shape_path, "%s.shapes[%d]", path, (int)i - 1);
+            sc_site shape_site = { .construct = "shape", .path = shape_path };
+            lua_rawgeti(L, -1, i);
+            make_shape(s, &shape_site);
+            lua_rawseti(L, -2, i);
+        }
+    }
+    lua_pop(L, 1);
+    resolve_material(s, &site);
+    sc_build_body(s, &site, lua_gettop(L));
+    lua_settop(L, 1); // 1: the parsed tree
+}
+
+// Elements of a member that is an array; null (absent) is an empty one.
+static const cJSON *elements(scene *s, const cJSON *root, const char *name)
+{
+    const cJSON *list = cJSON_GetObjectItemCaseSensitive(root, name);
+    if (list != NULL && !cJSON_IsArray(list)) {
+        sc_raise(s, SCENE_E_TYPE, &(sc_site){ .construct = "scene", .path = "" }, name, 0, NULL,
+                 "'%s' must be an array [...]", name);
+    }
+    return list == NULL ? NULL : list->child;
+}
+
+static void check_root(scene *s, const cJSON *root)
+{
+    static const char *const names[] = { "bodies", "camera", "expect", "format", "materials", "scene", "time" };
+    sc_site site = { .construct = "file", .path = "" };
+    if (!cJSON_IsObject(root)) {
+        sc_raise(s, SCENE_E_TYPE, &site, NULL, 0, NULL, "a scene must be an object {...}");
+    }
+    for (const cJSON *child = root->child; child != NULL; child = child->next) {
+        sc_suggest g = sc_suggest_start(child->string);
+        bool known = false;
+        for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+            sc_suggest_offer(&g, names[i]);
+            known |= strcmp(names[i], child->string) == 0;
+        }
+        if (!known) {
+            sc_raise(s, SCENE_E_KEY, &site, child->string, 0, sc_suggest_best(&g),
+                     "unknown key '%.63s' in a scene", child->string);
+        }
+        for (const cJSON *other = root->child; other != child; other = other->next) {
+            if (strcmp(other->string, child->string) == 0) {
+                sc_raise(s, SCENE_E_DUPLICATE, &site, child->string, 0, NULL, "key '%.63s' is given twice",
+                         child->string);
+            }
+        }
+    }
+    const cJSON *format = cJSON_GetObjectItemCaseSensitive(root, "format");
+    if (!cJSON_IsString(format) || strcmp(format->valuestring, "plumb-scene-1") != 0) {
+        sc_raise(s, SCENE_E_MISSING, &site, "format", 0, NULL, "a scene needs \"format\":\"plumb-scene-1\"");
+    }
+    const cJSON *time = cJSON_GetObjectItemCaseSensitive(root, "time");
+    if (time != NULL && (!cJSON_IsNumber(time) || !isfinite(time->valuedouble) || time->valuedouble < 0)) {
+        sc_raise(s, SCENE_E_TYPE, &site, "time", 0, NULL, "'time' must be a number of at least 0 [s]");
+    }
+    s->start_time = time != NULL ? time->valuedouble : 0;
+}
+
+static cJSON *parse(scene *s)
+{
+    lua_State *L = s->L;
+    cJSON **holder = lua_newuserdatauv(L, sizeof *holder, 0);
+    *holder = NULL;
+    luaL_setmetatable(L, META_JSON);
+    const char *end = NULL;
+    const char *stop = s->source + s->source_size;
+    *holder = cJSON_ParseWithLengthOpts(s->source, s->source_size, &end, false);
+    bool good = *holder != NULL;
+    while (good && end < stop && (unsigned char)*end <= ' ') {
+        end++;
+    }
+    if (!good || end != stop) {
+        int line = 1;
+        int column = 1;
+        for (const char *p = s->source; end != NULL && p < end && p < stop; p++) {
+            column = *p == '\n' ? 1 : column + 1;
+            line += *p == '\n';
+        }
+        sc_set_error(s, SCENE_E_SYNTAX, line, column, NULL,
+                     good ? "something follows the end of the scene" : "this is not JSON");
+        lua_pushlightuserdata(L, s);
+        lua_error(L);
+    }
+    return *holder;
+}
+
+// Builds one object by a constructor.
+static void make(scene *s, const cJSON *item, const char *construct, const char *path,
+                 void (*build)(scene *, const sc_site *, int))
+{
+    sc_site site = { .construct = construct, .path = path };
+    push_object(s, &site, item);
+    build(s, &site, lua_gettop(s->L));
+}
+
+void sc_json_load(scene *s)
+{
+    lua_State *L = s->L;
+    lua_settop(L, 0);
+    const cJSON *root = parse(s);
+    check_root(s, root);
+    char path[48];
+    const cJSON *settings = cJSON_GetObjectItemCaseSensitive(root, "scene");
+    if (settings != NULL) {
+        make(s, settings, "scene", "scene", sc_build_settings);
+    }
+    lua_settop(L, 1);
+    lua_newtable(L);
+    lua_setfield(L, LUA_REGISTRYINDEX, "plumb.materials");
+    int i = 0;
+    for (const cJSON *item = elements(s, root, "materials"); item != NULL; item = item->next, i++) {
+        snprintf(path, sizeof path, "materials[%d]", i);
+        lua_getfield(L, LUA_REGISTRYINDEX, "plumb.materials");
+        make(s, item, "material", path, sc_build_material);
+        lua_rawseti(L, 2, i + 1);
+        lua_settop(L, 1);
+    }
+    i = 0;
+    for (const cJSON *item = elements(s, root, "bodies"); item != NULL; item = item->next, i++) {
+        make_body(s, item, i);
+    }
+    const cJSON *camera = cJSON_GetObjectItemCaseSensitive(root, "camera");
+    if (camera != NULL) {
+        make(s, camera, "camera", "camera", sc_build_camera);
+    }
+    i = 0;
+    for (const cJSON *item = elements(s, root, "expect"); item != NULL; item = item->next, i++) {
+        snprintf(path, sizeof path, "expect[%d]", i);
+        make(s, item, "expect", path, sc_build_expect);
+        lua_settop(L, 1);
+    }
+}

@@ -1,0 +1,308 @@
+// json_write.c - the state of a scene as canonical JSON: sorted keys, bodies in order of making, one line
+// each, every number the shortest that reads back to the same bits.
+// What a construct may say comes from its list; where the world has moved on (places, velocities,
+// gravity) the world's value is written. Handlers, exact{}, test functions and user tables are not state
+// that JSON can hold, nor are the impulses with which contacts warm start.
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "internal.h"
+
+/// Where it goes.
+typedef struct writer {
+    FILE *file;
+    bool first; ///< no comma before the next member
+} writer;
+
+static void write_number(writer *w, double v, bool is_real)
+{
+    char text[40];
+    if (!isfinite(v)) { // a world that has diverged: no JSON number
+        fputs("null", w->file);
+        return;
+    }
+    for (int digits = 1; digits <= 17; digits++) {
+        snprintf(text, sizeof text, "%.*g", digits, v);
+        double back = strtod(text, NULL);
+        if (back == v || (is_real && (plumb_real)back == (plumb_real)v)) {
+            break;
+        }
+    }
+    fputs(text, w->file);
+}
+
+static void write_string(writer *w, const char *text)
+{
+    fputc('"', w->file);
+    for (const unsigned char *p = (const unsigned char *)text; *p != 0; p++) {
+        if (*p == '"' || *p == '\\') {
+            fprintf(w->file, "\\%c", *p);
+        } else if (*p < 0x20) {
+            fprintf(w->file, "\\u%04x", *p);
+        } else {
+            fputc(*p, w->file);
+        }
+    }
+    fputc('"', w->file);
+}
+
+static void write_pair(writer *w, const double v[2], bool is_real)
+{
+    fputc('[', w->file);
+    write_number(w, v[0], is_real);
+    fputc(',', w->file);
+    write_number(w, v[1], is_real);
+    fputc(']', w->file);
+}
+
+static void write_key(writer *w, const char *name)
+{
+    if (!w->first) {
+        fputc(',', w->file);
+    }
+    w->first = false;
+    write_string(w, name);
+    fputc(':', w->file);
+}
+
+static void write_choice(writer *w, const char *choices, int number)
+{
+    const char *p = choices;
+    for (; number > 0; number--) {
+        p += strcspn(p, "|") + 1;
+    }
+    fprintf(w->file, "\"%.*s\"", (int)strcspn(p, "|"), p);
+}
+
+static void write_points(writer *w, const sc_shape_def *d)
+{
+    fputc('[', w->file);
+    for (int i = 0; i < d->point_count; i++) {
+        fputs(i > 0 ? "," : "", w->file);
+        write_pair(w, d->points[i], false);
+    }
+    fputc(']', w->file);
+}
+
+static void write_color(writer *w, const sc_color *c)
+{
+    if (c->palette >= 0) {
+        fprintf(w->file, "%d", c->palette);
+    } else {
+        fprintf(w->file, "\"#%02x%02x%02x\"", c->rgba.r, c->rgba.g, c->rgba.b);
+    }
+}
+
+static bool has_json_form(const sc_field *row)
+{
+    return row->kind != SC_FUNCTION && row->kind != SC_TABLE;
+}
+
+static void write_shapes(writer *w, const sc_body *b);
+
+// `owner`: the body, when def is one (its shapes are not in def). State is written as reals.
+static void write_value(writer *w, const sc_field *row, const void *def, const sc_body *owner)
+{
+    const void *member = (const char *)def + row->offset;
+    const double *numbers = member;
+    bool is_real = owner != NULL; // places and speeds come from the world; author's numbers fit both
+    switch (row->kind) {
+    case SC_NUMBER:
+    case SC_INTEGER:
+        write_number(w, numbers[0], is_real);
+        break;
+    case SC_BOOL:
+        fputs(*(const bool *)member ? "true" : "false", w->file);
+        break;
+    case SC_STRING:
+    case SC_BODY:
+        write_string(w, member);
+        break;
+    case SC_VEC2:
+        write_pair(w, numbers, is_real);
+        break;
+    case SC_CHOICE:
+        write_choice(w, row->detail, *(const int *)member);
+        break;
+    case SC_RANGE:
+        if (numbers[0] == numbers[1]) {
+            write_number(w, numbers[0], false);
+        } else {
+            write_pair(w, numbers, false);
+        }
+        break;
+    case SC_COLOR:
+        write_color(w, member);
+        break;
+    case SC_MATERIAL:
+        write_string(w, (*(sc_material *const *)member)->id);
+        break;
+    case SC_POINTS:
+        write_points(w, def);
+        break;
+    case SC_SHAPES:
+        write_shapes(w, owner);
+        break;
+    case SC_BOX:
+        fputc('[', w->file);
+        write_pair(w, numbers, false);
+        fputc(',', w->file);
+        write_pair(w, numbers + 2, false);
+        fputc(']', w->file);
+        break;
+    case SC_FUNCTION:
+    case SC_TABLE:
+        break;
+    }
+}
+
+// {"a":1,...}: the given fields of a construct; `kind` (may be null) is woven in at its place.
+static void write_object(writer *w, const sc_list *list, const void *def, const char *kind,
+                         const sc_body *owner)
+{
+    uint64_t present;
+    memcpy(&present, def, sizeof present);
+    fputc('{', w->file);
+    w->first = true;
+    for (int i = 0; i < list->count; i++) {
+        const sc_field *row = &list->rows[i];
+        if (kind != NULL && strcmp(row->name, "kind") > 0) {
+            write_key(w, "kind");
+            write_string(w, kind);
+            kind = NULL;
+        }
+        if ((present >> i & 1) != 0 && has_json_form(row)) {
+            write_key(w, row->name);
+            write_value(w, row, def, owner);
+        }
+    }
+    if (kind != NULL) {
+        write_key(w, "kind");
+        write_string(w, kind);
+    }
+    fputc('}', w->file);
+    w->first = false;
+}
+
+static void write_shapes(writer *w, const sc_body *b)
+{
+    fputc('[', w->file);
+    for (int i = 0; i < b->def.shape_count; i++) {
+        sc_shape_def d = b->shapes[i];
+        const sc_list *list = &sc_list_shapes[d.kind];
+        fputs(i > 0 ? "," : "", w->file);
+        write_object(w, list, &d, list->name, NULL);
+    }
+    fputc(']', w->file);
+}
+
+static void write_body(const scene *s, writer *w, const sc_body *b)
+{
+    const sc_list *list = &sc_list_body;
+    sc_body_def d = b->def;
+    plumb_vec2 p = plumb_body_position(s->world, b->entity);
+    plumb_vec2 v = plumb_body_velocity(s->world, b->entity);
+    plumb_rot q = plumb_body_transform(s->world, b->entity).q;
+    d.at[0] = (double)p.x;
+    d.at[1] = (double)p.y;
+    if (q.c != b->set_rot.c || q.s != b->set_rot.s) { // else the angle that was given says it exactly
+        d.angle = (double)plumb_body_angle(s->world, b->entity);
+    }
+    d.velocity[0] = (double)v.x;
+    d.velocity[1] = (double)v.y;
+    d.spin = (double)plumb_body_angular_velocity(s->world, b->entity);
+    uint64_t hidden = 0;
+    for (int i = 0; i < list->count; i++) {
+        hidden |= strcmp(list->rows[i].name, "angle_deg") == 0 ? (uint64_t)1 << i : 0;
+    }
+    d.present &= ~hidden;
+    SC_GIVE(list, &d, sc_body_def, at);
+    SC_GIVE(list, &d, sc_body_def, angle);
+    SC_GIVE(list, &d, sc_body_def, name);
+    SC_GIVE(list, &d, sc_body_def, type);
+    if (d.type != 2) {
+        SC_GIVE(list, &d, sc_body_def, velocity);
+        SC_GIVE(list, &d, sc_body_def, spin);
+    }
+    write_object(w, list, &d, NULL, b);
+}
+
+static void write_settings(const scene *s, writer *w)
+{
+    sc_settings d = s->settings;
+    plumb_vec2 g = plumb_world_gravity(s->world);
+    d.gravity[0] = (double)g.x;
+    d.gravity[1] = (double)g.y;
+    d.dt = s->dt;
+    d.duration = s->duration;
+    if (d.title[0] == 0) {
+        snprintf(d.title, sizeof d.title, "%s", s->title);
+    }
+    SC_GIVE(&sc_list_scene, &d, sc_settings, gravity);
+    SC_GIVE(&sc_list_scene, &d, sc_settings, dt);
+    SC_GIVE(&sc_list_scene, &d, sc_settings, duration);
+    SC_GIVE(&sc_list_scene, &d, sc_settings, title);
+    write_object(w, &sc_list_scene, &d, NULL, NULL);
+}
+
+// Lines whose time has passed are results, not state.
+static bool is_open(const scene *s, const sc_expect_def *d)
+{
+    const sc_list *list = &sc_list_expect;
+    if (SC_GIVEN(list, d, sc_expect_def, test)) {
+        return false;
+    }
+    double now = scene_time(s);
+    return !(SC_GIVEN(list, d, sc_expect_def, at) && d->at < now + 0.5 * s->dt) &&
+           !(SC_GIVEN(list, d, sc_expect_def, till) && d->till < now);
+}
+
+static void write_expects(const scene *s, writer *w)
+{
+    bool any = false;
+    for (int i = 0; i < s->expects.count; i++) {
+        if (is_open(s, &s->expects.items[i].def)) {
+            fputs(any ? ",\n" : "\"expect\":[\n", w->file);
+            write_object(w, &sc_list_expect, &s->expects.items[i].def, NULL, NULL);
+            any = true;
+        }
+    }
+    fputs(any ? "\n],\n" : "", w->file);
+}
+
+bool scene_to_json(const scene *s, FILE *file)
+{
+    writer w = { .file = file };
+    fputs("{\"bodies\":[\n", file);
+    for (int i = 0; i < s->bodies.count; i++) {
+        fputs(i > 0 ? ",\n" : "", file);
+        write_body(s, &w, s->bodies.items[i]);
+    }
+    fputs("\n],\n", file);
+    if (s->camera.present != 0) {
+        fputs("\"camera\":", file);
+        write_object(&w, &sc_list_camera, &s->camera, NULL, NULL);
+        fputs(",\n", file);
+    }
+    write_expects(s, &w);
+    fputs("\"format\":\"plumb-scene-1\",\n\"materials\":[\n", file);
+    bool any = false;
+    for (int i = 0; i < s->materials.count; i++) {
+        sc_material_def d = s->materials.items[i]->def;
+        snprintf(d.name, sizeof d.name, "%s", s->materials.items[i]->id);
+        SC_GIVE(&sc_list_material, &d, sc_material_def, name);
+        SC_GIVE(&sc_list_material, &d, sc_material_def, friction);
+        SC_GIVE(&sc_list_material, &d, sc_material_def, density);
+        fputs(any ? ",\n" : "", file);
+        write_object(&w, &sc_list_material, &d, NULL, NULL);
+        any = true;
+    }
+    fputs("\n],\n\"scene\":", file);
+    write_settings(s, &w);
+    fputs(",\n\"time\":", file);
+    write_number(&w, scene_time(s), false);
+    fputs("}\n", file);
+    return ferror(file) == 0;
+}

@@ -1,0 +1,188 @@
+// lists.c - one list a constructor: every key of the scene language with its kind, range and unit.
+// Reading (fields.c), the JSON form (json_write.c, json_read.c) and "did you mean" follow from the rows.
+// To add a key: one member in internal.h's struct, one row here, its use in the constructor.
+// Rows are sorted by name: that is also the order of the keys in canonical JSON.
+#include "internal.h"
+
+#define FAR  1e9  // [m] plumb_body_desc.position
+#define BIG  1e12 // speeds, angles, masses: anything finite that float holds squared
+#define SIZE 1e7  // [m] PLUMB_LENGTH_MAX
+#define TINY 1e-4 // [m] PLUMB_LENGTH_MIN
+
+#define AT(type, member) offsetof(type, member), sizeof(((type *)0)->member)
+#define COUNT(rows)      (int)(sizeof(rows) / sizeof *(rows))
+
+// clang-format off
+#define T sc_settings
+static const sc_field scene_rows[] = {
+    { "contact_damping",   SC_NUMBER,  AT(T, contact_damping),   0, 1e6, "1", 0, 0 },
+    { "contact_hertz",     SC_NUMBER,  AT(T, contact_hertz),     0, 1e6, "1/s", 0, 0 },
+    { "description",       SC_STRING,  AT(T, description),       0, 0, NULL, 0, 0 },
+    { "dt",                SC_NUMBER,  AT(T, dt),                0, 1, "s", 0, SC_ABOVE },
+    { "duration",          SC_NUMBER,  AT(T, duration),          0, 1e7, "s", 0, SC_ABOVE },
+    { "gravity",           SC_VEC2,    AT(T, gravity),           -1e6, 1e6, "m/s^2", 0, 0 },
+    { "iterations",        SC_INTEGER, AT(T, iterations),        1, 1000, "1", 0, 0 },
+    { "push_speed",        SC_NUMBER,  AT(T, push_speed),        0, 1e6, "m/s", 0, 0 },
+    { "restitution_speed", SC_NUMBER,  AT(T, restitution_speed), 0, 1e6, "m/s", 0, 0 },
+    { "seed",              SC_INTEGER, AT(T, seed),              0, 9007199254740991.0, "1", 0, 0 },
+    { "simd_width",        SC_INTEGER, AT(T, simd_width),        0, 16, "1", 0, 0 },
+    { "solver",            SC_CHOICE,  AT(T, solver),            0, 0, "soft|pgs", 0, 0 },
+    { "substeps",          SC_INTEGER, AT(T, substeps),          1, 64, "1", 0, 0 },
+    { "title",             SC_STRING,  AT(T, title),             0, 0, NULL, 0, 0 },
+    { "y",                 SC_CHOICE,  AT(T, y),                 0, 0, "up|down", 0, 0 },
+};
+const sc_list sc_list_scene = { "scene", scene_rows, COUNT(scene_rows) };
+#undef T
+
+#define T sc_material_def
+static const sc_field material_rows[] = {
+    { "density",     SC_NUMBER, AT(T, density),     0, 1e9, "kg/m^2", 0, SC_ABOVE },
+    { "friction",    SC_NUMBER, AT(T, friction),    0, 10, "1", 0, 0 },
+    { "name",        SC_STRING, AT(T, name),        0, 0, NULL, 0, 0 },
+    { "restitution", SC_NUMBER, AT(T, restitution), 0, 1, "1", 0, 0 },
+};
+const sc_list sc_list_material = { "material", material_rows, COUNT(material_rows) };
+#undef T
+
+#define T sc_body_def
+static const sc_field body_rows[] = {
+    { "angle",          SC_NUMBER,   AT(T, angle),         -BIG, BIG, "rad", 0, 0 },
+    { "angle_deg",      SC_NUMBER,   AT(T, angle_deg),     -BIG, BIG, "deg", 0, 0 },
+    { "at",             SC_VEC2,     AT(T, at),            -FAR, FAR, "m", 0, 0 },
+    { "color",          SC_COLOR,    AT(T, color),         0, 0, NULL, 0, 0 },
+    { "density",        SC_NUMBER,   AT(T, density),       0, 1e9, "kg/m^2", 0, SC_ABOVE },
+    { "fixed_rotation", SC_BOOL,     AT(T, fixed_rotation), 0, 0, NULL, 0, 0 },
+    { "gravity_scale",  SC_NUMBER,   AT(T, gravity_scale), -1e6, 1e6, "1", 0, 0 },
+    { "hidden",         SC_BOOL,     AT(T, hidden),        0, 0, NULL, 0, 0 },
+    { "label",          SC_STRING,   AT(T, label),         0, 0, NULL, 0, 0 },
+    { "mass",           SC_NUMBER,   AT(T, mass),          0, BIG, "kg", 0, SC_ABOVE },
+    { "material",       SC_MATERIAL, AT(T, material),      0, 0, NULL, 0, 0 },
+    { "name",           SC_STRING,   AT(T, name),          0, 0, NULL, 0, 0 },
+    { "shapes",         SC_SHAPES,   AT(T, shape_count),   0, 0, NULL, SC_REST, 0 },
+    { "spin",           SC_NUMBER,   AT(T, spin),          -1e6, 1e6, "rad/s", 0, 0 },
+    { "type",           SC_CHOICE,   AT(T, type),          0, 0, "dynamic|kinematic|static", 0, 0 },
+    { "user",           SC_TABLE,    AT(T, user),          0, 0, NULL, 0, 0 },
+    { "velocity",       SC_VEC2,     AT(T, velocity),      -FAR, FAR, "m/s", 0, 0 },
+};
+const sc_list sc_list_body = { "body", body_rows, COUNT(body_rows) };
+#undef T
+
+// What every shape may say: where it sits in its body, what it is made of.
+#define T sc_shape_def
+#define ROW_ANGLE     { "angle",     SC_NUMBER,   AT(T, angle),     -BIG, BIG, "rad", 0, 0 }
+#define ROW_ANGLE_DEG { "angle_deg", SC_NUMBER,   AT(T, angle_deg), -BIG, BIG, "deg", 0, 0 }
+#define ROW_AT        { "at",        SC_VEC2,     AT(T, at),        -SIZE, SIZE, "m", 0, 0 }
+#define ROW_DENSITY   { "density",   SC_NUMBER,   AT(T, density),   0, 1e9, "kg/m^2", 0, SC_ABOVE }
+#define ROW_MATERIAL  { "material",  SC_MATERIAL, AT(T, material),  0, 0, NULL, 0, 0 }
+#define ROW_ROUND     { "round",     SC_NUMBER,   AT(T, round),     0, SIZE, "m", 0, 0 }
+#define ROW_RADIUS(n) { "r",         SC_NUMBER,   AT(T, r),         TINY, SIZE, "m", n, SC_REQUIRED }
+#define ROW_POINTS(lo, hi) \
+    { "points", SC_POINTS, AT(T, point_count), lo, hi, "points", SC_REST, SC_REQUIRED }
+
+static const sc_field circle_rows[] = { ROW_AT, ROW_DENSITY, ROW_MATERIAL, ROW_RADIUS(1) };
+static const sc_field capsule_rows[] = {
+    ROW_ANGLE, ROW_ANGLE_DEG, ROW_AT, ROW_DENSITY,
+    { "length", SC_NUMBER, AT(T, length), TINY, SIZE, "m", 1, SC_REQUIRED },
+    ROW_MATERIAL, ROW_RADIUS(2),
+};
+static const sc_field box_rows[] = {
+    ROW_ANGLE, ROW_ANGLE_DEG, ROW_AT, ROW_DENSITY,
+    { "h", SC_NUMBER, AT(T, h), 2 * TINY, SIZE, "m", 2, SC_REQUIRED },
+    ROW_MATERIAL, ROW_ROUND,
+    { "w", SC_NUMBER, AT(T, w), 2 * TINY, SIZE, "m", 1, SC_REQUIRED },
+};
+static const sc_field polygon_rows[] = {
+    ROW_ANGLE, ROW_ANGLE_DEG, ROW_AT, ROW_DENSITY, ROW_MATERIAL, ROW_POINTS(3, 64), ROW_ROUND,
+};
+static const sc_field outline_rows[] = {
+    ROW_ANGLE, ROW_ANGLE_DEG, ROW_AT, ROW_DENSITY, ROW_MATERIAL, ROW_POINTS(3, 256),
+};
+static const sc_field segment_rows[] = {
+    ROW_ANGLE, ROW_ANGLE_DEG, ROW_AT, ROW_MATERIAL, ROW_POINTS(2, 2),
+};
+static const sc_field chain_rows[] = {
+    ROW_ANGLE, ROW_ANGLE_DEG, ROW_AT,
+    { "closed", SC_BOOL, AT(T, closed), 0, 0, NULL, 0, 0 },
+    ROW_MATERIAL, ROW_POINTS(2, 65536),
+};
+static const sc_field regular_rows[] = {
+    ROW_ANGLE, ROW_ANGLE_DEG, ROW_AT, ROW_DENSITY, ROW_MATERIAL,
+    { "n", SC_INTEGER, AT(T, n), 3, 16, "corners", 1, SC_REQUIRED },
+    ROW_RADIUS(2), ROW_ROUND,
+};
+const sc_list sc_list_shapes[SC_SHAPE_KINDS] = {
+    [SC_CIRCLE]    = { "circle",  circle_rows,  COUNT(circle_rows) },
+    [SC_CAPSULE]   = { "capsule", capsule_rows, COUNT(capsule_rows) },
+    [SC_BOX_SHAPE] = { "box",     box_rows,     COUNT(box_rows) },
+    [SC_POLYGON]   = { "polygon", polygon_rows, COUNT(polygon_rows) },
+    [SC_OUTLINE]   = { "outline", outline_rows, COUNT(outline_rows) },
+    [SC_SEGMENT]   = { "segment", segment_rows, COUNT(segment_rows) },
+    [SC_CHAIN]     = { "chain",   chain_rows,   COUNT(chain_rows) },
+    [SC_REGULAR]   = { "regular", regular_rows, COUNT(regular_rows) },
+};
+#undef T
+
+#define T sc_camera
+static const sc_field camera_rows[] = {
+    { "center", SC_VEC2,   AT(T, center), -FAR, FAR, "m", 0, 0 },
+    { "fit",    SC_BOX,    AT(T, fit),    -FAR, FAR, "m", 0, 0 },
+    { "follow", SC_BODY,   AT(T, follow), 0, 0, NULL, 0, 0 },
+    { "height", SC_NUMBER, AT(T, height), 0, FAR, "m", 0, SC_ABOVE },
+};
+const sc_list sc_list_camera = { "camera", camera_rows, COUNT(camera_rows) };
+#undef T
+
+#define T sc_expect_def
+static const sc_field expect_rows[] = {
+    { "always",          SC_BOOL,     AT(T, always),          0, 0, NULL, 0, 0 },
+    { "angle",           SC_RANGE,    AT(T, angle),           -BIG, BIG, "rad", 0, 0 },
+    { "at",              SC_NUMBER,   AT(T, at),              0, 1e7, "s", 0, 0 },
+    { "body",            SC_BODY,     AT(T, body),            0, 0, NULL, 0, 0 },
+    { "count",           SC_RANGE,    AT(T, count),           0, 1e9, "1", 0, 0 },
+    { "energy_drift",    SC_NUMBER,   AT(T, energy_drift),    0, BIG, "1", 0, 0 },
+    { "from",            SC_NUMBER,   AT(T, from),            0, 1e7, "s", 0, 0 },
+    { "max_penetration", SC_NUMBER,   AT(T, max_penetration), 0, BIG, "m", 0, 0 },
+    { "max_speed",       SC_NUMBER,   AT(T, max_speed),       0, BIG, "m/s", 0, 0 },
+    { "max_spin",        SC_NUMBER,   AT(T, max_spin),        0, BIG, "rad/s", 0, 0 },
+    { "min_speed",       SC_NUMBER,   AT(T, min_speed),       0, BIG, "m/s", 0, 0 },
+    { "momentum_drift",  SC_NUMBER,   AT(T, momentum_drift),  0, BIG, "1", 0, 0 },
+    { "name",            SC_STRING,   AT(T, name),            0, 0, NULL, 1, SC_REQUIRED },
+    { "position",        SC_VEC2,     AT(T, position),        -FAR, FAR, "m", 0, 0 },
+    { "score",           SC_STRING,   AT(T, score),           0, 0, NULL, 0, 0 },
+    { "speed",           SC_RANGE,    AT(T, speed),           0, BIG, "m/s", 0, 0 },
+    { "spin",            SC_RANGE,    AT(T, spin),            -BIG, BIG, "rad/s", 0, 0 },
+    { "test",            SC_FUNCTION, AT(T, test),            0, 0, NULL, 0, 0 },
+    { "till",            SC_NUMBER,   AT(T, till),            0, 1e7, "s", 0, 0 },
+    { "tolerance",       SC_NUMBER,   AT(T, tolerance),       0, BIG, "1", 0, 0 },
+    { "value",           SC_RANGE,    AT(T, value),           -BIG, BIG, "1", 0, 0 },
+    { "vx",              SC_RANGE,    AT(T, vx),              -BIG, BIG, "m/s", 0, 0 },
+    { "vy",              SC_RANGE,    AT(T, vy),              -BIG, BIG, "m/s", 0, 0 },
+    { "x",               SC_RANGE,    AT(T, x),               -FAR, FAR, "m", 0, 0 },
+    { "y",               SC_RANGE,    AT(T, y),               -FAR, FAR, "m", 0, 0 },
+};
+const sc_list sc_list_expect = { "expect", expect_rows, COUNT(expect_rows) };
+#undef T
+
+#define T sc_exact_def
+static const sc_field exact_rows[] = {
+    { "angle", SC_FUNCTION, AT(T, angle), 0, 0, NULL, 0, 0 },
+    { "body",  SC_BODY,     AT(T, body),  0, 0, NULL, 0, SC_REQUIRED },
+    { "spin",  SC_FUNCTION, AT(T, spin),  0, 0, NULL, 0, 0 },
+    { "till",  SC_NUMBER,   AT(T, till),  0, 1e7, "s", 0, SC_ABOVE },
+    { "vx",    SC_FUNCTION, AT(T, vx),    0, 0, NULL, 0, 0 },
+    { "vy",    SC_FUNCTION, AT(T, vy),    0, 0, NULL, 0, 0 },
+    { "x",     SC_FUNCTION, AT(T, x),     0, 0, NULL, 0, 0 },
+    { "y",     SC_FUNCTION, AT(T, y),     0, 0, NULL, 0, 0 },
+};
+const sc_list sc_list_exact = { "exact", exact_rows, COUNT(exact_rows) };
+#undef T
+
+#define T sc_contact_def
+static const sc_field contact_rows[] = {
+    { "a",        SC_BODY,     AT(T, a),        0, 0, NULL, 0, 0 },
+    { "b",        SC_BODY,     AT(T, b),        0, 0, NULL, 0, 0 },
+    { "function", SC_FUNCTION, AT(T, function), 0, 0, NULL, 1, SC_REQUIRED },
+};
+const sc_list sc_list_contact = { "on_contact", contact_rows, COUNT(contact_rows) };
+#undef T
+// clang-format on

@@ -1,0 +1,542 @@
+// sandbox.c - the Lua state of a scene: an allow-list of names, and limits that no script can lift.
+//
+// Memory: every block of the script, the loader and the world is counted against one limit.
+// Instructions: a hook counts them in units of HOOK_STEP; bytes that Lua asks for count too, one
+// instruction for each BYTES_PER_INSTRUCTION, so that work hidden in C (copying strings) is paid for.
+// Nothing that catches errors (pcall, coroutines) is offered: the first error ends the script.
+// Nothing that depends on addresses or hash seeds is offered: pairs is sorted, tostring of a table says
+// "table", sort is a stable merge sort.
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <lualib.h>
+
+#include "internal.h"
+
+enum {
+    HOOK_STEP = 1000,           // instructions between two looks at the budget
+    BYTES_PER_INSTRUCTION = 64, // a cache line copied is about as dear as an instruction
+    ALIGNMENT = 64              // what plumb_allocator promises
+};
+
+// -------------------------------------------------------------------------------------- memory
+
+static void note_line(sc_budget *b)
+{
+    lua_Debug d;
+    for (int level = 0; b->L != NULL && lua_getstack(b->L, level, &d); level++) {
+        lua_getinfo(b->L, "Sl", &d);
+        if (strcmp(d.source, "=" SC_CHUNK) == 0) {
+            b->line = d.currentline;
+            return;
+        }
+    }
+}
+
+// Room for the change? Counts it if so.
+static bool charge(sc_budget *b, size_t old_size, size_t new_size)
+{
+    if (new_size > old_size && new_size - old_size > b->limit - b->used) {
+        return false;
+    }
+    b->used = b->used - old_size + new_size;
+    return true;
+}
+
+void *sc_resize(scene *s, void *p, size_t old_size, size_t new_size)
+{
+    if (!charge(&s->budget, old_size, new_size)) {
+        return NULL;
+    }
+    if (new_size == 0) {
+        free(p);
+        return NULL;
+    }
+    void *q = realloc(p, new_size);
+    if (q == NULL) {
+        charge(&s->budget, new_size, old_size);
+    }
+    return q;
+}
+
+void *sc_need(scene *s, void *p, size_t old_size, size_t new_size)
+{
+    void *q = sc_resize(s, p, old_size, new_size);
+    if (q == NULL && new_size != 0) {
+        sc_site site = sc_here(s, "");
+        sc_raise(s, SCENE_E_LIMIT, &site, NULL, 0, NULL,
+                 "the scene needs more than %zu bytes of memory", s->budget.limit);
+    }
+    return q;
+}
+
+void sc_grow(scene *s, void *array_of_items, int count, int *capacity, size_t item_size)
+{
+    if (count < *capacity) {
+        return;
+    }
+    void *items;
+    memcpy(&items, array_of_items, sizeof items);
+    int more = *capacity == 0 ? 16 : 2 * *capacity;
+    items = sc_need(s, items, (size_t)*capacity * item_size, (size_t)more * item_size);
+    memcpy(array_of_items, &items, sizeof items);
+    *capacity = more;
+}
+
+void *sc_world_resize(void *context, void *p, size_t old_size, size_t new_size)
+{
+    scene *s = context;
+    if (new_size > SIZE_MAX - ALIGNMENT || !charge(&s->budget, old_size, new_size)) {
+        return NULL;
+    }
+    if (new_size == 0) {
+        free(p);
+        return NULL;
+    }
+    void *q = aligned_alloc(ALIGNMENT, (new_size + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT);
+    if (q == NULL) {
+        charge(&s->budget, new_size, old_size);
+        return NULL;
+    }
+    if (p != NULL) {
+        memcpy(q, p, old_size < new_size ? old_size : new_size);
+        free(p);
+    }
+    return q;
+}
+
+void *sc_lua_alloc(void *context, void *p, size_t old_size, size_t new_size)
+{
+    scene *s = context;
+    sc_budget *b = &s->budget;
+    size_t held = p == NULL ? 0 : old_size; // without a block, Lua tells the kind of object there
+    if (p == NULL && old_size == LUA_TSTRING && new_size > SC_STRING_MAX + 64) {
+        b->long_string = true;
+        note_line(b);
+        return NULL;
+    }
+    if (new_size > held) {
+        b->spent += (new_size - held) / BYTES_PER_INSTRUCTION;
+        if (b->spent > b->spend_limit && new_size - held > BYTES_PER_INSTRUCTION) {
+            b->out_of_time = true;
+            note_line(b);
+            return NULL;
+        }
+    }
+    void *q = sc_resize(s, p, held, new_size);
+    if (q == NULL && new_size != 0) {
+        note_line(b);
+    }
+    return q;
+}
+
+// ---------------------------------------------------------------------------------- instructions
+
+static void count_hook(lua_State *L, lua_Debug *d)
+{
+    scene *s = sc_of(L);
+    (void)d;
+    s->budget.spent += HOOK_STEP;
+    if (s->budget.spent > s->budget.spend_limit) {
+        sc_site site = sc_here(s, "");
+        sc_raise(s, SCENE_E_LIMIT, &site, NULL, 0, NULL, "the %s takes more than %llu instructions",
+                 s->building ? "scene" : "handler", (unsigned long long)s->budget.spend_limit);
+    }
+}
+
+void sc_sandbox_budget(scene *s, uint64_t instructions)
+{
+    s->budget.spent = 0;
+    s->budget.spend_limit = instructions;
+    s->budget.out_of_time = s->budget.long_string = false;
+}
+
+// ------------------------------------------------------------------------------ base functions
+
+static int lua_tostring_plain(lua_State *L)
+{
+    luaL_checkany(L, 1);
+    int type = lua_type(L, 1);
+    if (type == LUA_TTABLE || type == LUA_TFUNCTION) {
+        lua_pushstring(L, lua_typename(L, type));
+    } else {
+        luaL_tolstring(L, 1, NULL);
+    }
+    return 1;
+}
+
+static int lua_print(lua_State *L)
+{
+    scene *s = sc_of(L);
+    luaL_Buffer buffer;
+    int count = lua_gettop(L);
+    luaL_buffinit(L, &buffer);
+    for (int i = 1; i <= count; i++) {
+        if (i > 1) {
+            luaL_addchar(&buffer, '\t');
+        }
+        lua_pushcfunction(L, lua_tostring_plain);
+        lua_pushvalue(L, i);
+        lua_call(L, 1, 1);
+        luaL_addvalue(&buffer);
+    }
+    luaL_pushresult(&buffer);
+    if (s->options.print != NULL) {
+        s->options.print(s->options.print_context, lua_tostring(L, -1));
+    } else {
+        fprintf(stderr, "%s\n", lua_tostring(L, -1));
+    }
+    return 0;
+}
+
+// assert, with the position that Lua's own leaves out.
+static int lua_assert_placed(lua_State *L)
+{
+    luaL_checkany(L, 1);
+    if (lua_toboolean(L, 1)) {
+        return lua_gettop(L);
+    }
+    const char *message = luaL_optstring(L, 2, "assertion failed");
+    return luaL_error(L, "%s", message);
+}
+
+/// A key of a table while it is sorted.
+typedef struct sort_key {
+    const char *text; ///< null: a number
+    size_t length;
+    double number;
+} sort_key;
+
+static int compare_keys(const void *pa, const void *pb)
+{
+    const sort_key *a = pa;
+    const sort_key *b = pb;
+    if (a->text == NULL || b->text == NULL) {
+        return a->text != NULL ? 1 : b->text != NULL ? -1 : (a->number > b->number) - (a->number < b->number);
+    }
+    size_t shorter = a->length < b->length ? a->length : b->length;
+    int order = memcmp(a->text, b->text, shorter);
+    return order != 0 ? order : (a->length > b->length) - (a->length < b->length);
+}
+
+// Upvalues: table, sorted keys, how many were handed out.
+static int pairs_next(lua_State *L)
+{
+    const sort_key *keys = lua_touserdata(L, lua_upvalueindex(2));
+    lua_Integer count = (lua_Integer)(lua_rawlen(L, lua_upvalueindex(2)) / sizeof *keys);
+    for (lua_Integer i = lua_tointeger(L, lua_upvalueindex(3)); i < count; i++) {
+        lua_pushinteger(L, i + 1);
+        lua_replace(L, lua_upvalueindex(3));
+        if (lua_rawgeti(L, lua_upvalueindex(4), i + 1) == LUA_TNIL) {
+            lua_pop(L, 1);
+            continue;
+        }
+        lua_pushvalue(L, -1);
+        if (lua_rawget(L, lua_upvalueindex(1)) != LUA_TNIL) { // else removed meanwhile
+            return 2;
+        }
+        lua_pop(L, 2);
+    }
+    return 0;
+}
+
+// Pushes a table of the keys of the table at 1 in the order of `keys`.
+static void push_sorted(lua_State *L, const sort_key *keys, size_t count)
+{
+    lua_createtable(L, (int)count, 0);
+    for (size_t i = 0; i < count; i++) {
+        if (keys[i].text != NULL) {
+            lua_pushlstring(L, keys[i].text, keys[i].length);
+        } else if (keys[i].number >= -0x1p53 && keys[i].number <= 0x1p53 &&
+                   keys[i].number == (double)(lua_Integer)keys[i].number) {
+            lua_pushinteger(L, (lua_Integer)keys[i].number);
+        } else {
+            lua_pushnumber(L, keys[i].number);
+        }
+        lua_rawseti(L, -2, (lua_Integer)i + 1);
+    }
+}
+
+static int lua_sorted_pairs(lua_State *L)
+{
+    luaL_checktype(L, 1, LUA_TTABLE);
+    size_t count = 0;
+    lua_settop(L, 1);
+    for (lua_pushnil(L); lua_next(L, 1) != 0; lua_pop(L, 1)) {
+        count++;
+    }
+    sc_of(L)->budget.spent += 8 * count; // a look at a key and its part of the sorting
+    sort_key *keys = lua_newuserdatauv(L, count * sizeof *keys, 0);
+    size_t i = 0;
+    for (lua_pushnil(L); lua_next(L, 1) != 0; lua_pop(L, 1)) {
+        keys[i] = (sort_key){ 0 };
+        if (lua_type(L, -2) == LUA_TSTRING) {
+            keys[i].text = lua_tolstring(L, -2, &keys[i].length);
+        } else if (lua_type(L, -2) == LUA_TNUMBER) {
+            keys[i].number = lua_tonumber(L, -2);
+        } else {
+            return luaL_error(L, "pairs needs keys that are numbers or strings, not %s",
+                              luaL_typename(L, -2));
+        }
+        i++;
+    }
+    if (count > 0) {
+        qsort(keys, count, sizeof *keys, compare_keys);
+    }
+    lua_pushvalue(L, 1);                  // upvalue 1
+    lua_pushvalue(L, 2);                  // upvalue 2
+    lua_pushinteger(L, 0);                // upvalue 3
+    push_sorted(L, keys, count);          // upvalue 4
+    lua_pushcclosure(L, pairs_next, 4);
+    return 1;
+}
+
+static int lua_rep(lua_State *L)
+{
+    size_t length;
+    size_t gap = 0;
+    luaL_checklstring(L, 1, &length);
+    lua_Integer n = luaL_checkinteger(L, 2);
+    luaL_optlstring(L, 3, "", &gap);
+    if (n <= 0 || length + gap == 0) { // Lua's own would loop n times over nothing
+        lua_pushliteral(L, "");
+        return 1;
+    }
+    if ((uint64_t)n > SC_STRING_MAX / (length + gap)) {
+        return luaL_error(L, "a string of more than %d bytes was made", (int)SC_STRING_MAX);
+    }
+    lua_pushvalue(L, lua_upvalueindex(1));
+    lua_insert(L, 1);
+    lua_call(L, lua_gettop(L) - 1, 1);
+    return 1;
+}
+
+// string.format without %p, and without addresses of tables behind %s.
+static int lua_format(lua_State *L)
+{
+    int count = lua_gettop(L);
+    const char *format = luaL_checkstring(L, 1);
+    for (const char *p = strchr(format, '%'); p != NULL; p = strchr(p, '%')) {
+        p++;
+        p += strspn(p, "-+ #0123456789.");
+        if (*p == 'p') {
+            return luaL_error(L, "format does not offer %%p: addresses differ from run to run");
+        }
+        p += *p != 0;
+    }
+    for (int i = 2; i <= count; i++) {
+        if (lua_type(L, i) == LUA_TTABLE || lua_type(L, i) == LUA_TFUNCTION) {
+            lua_pushstring(L, luaL_typename(L, i));
+            lua_replace(L, i);
+        }
+    }
+    lua_pushvalue(L, lua_upvalueindex(1));
+    lua_insert(L, 1);
+    lua_call(L, count, 1);
+    return 1;
+}
+
+// string.find of plain text: Lua's patterns can take exponential time that no hook sees.
+static int lua_find(lua_State *L)
+{
+    luaL_checkstring(L, 1);
+    luaL_checkstring(L, 2);
+    lua_settop(L, 3);
+    if (lua_isnil(L, 3)) {
+        lua_pushinteger(L, 1);
+        lua_replace(L, 3);
+    }
+    lua_pushboolean(L, 1);
+    lua_pushvalue(L, lua_upvalueindex(1));
+    lua_insert(L, 1);
+    lua_call(L, 4, 2);
+    return 2;
+}
+
+// A name that the allow-list (or the script) does not have. Upvalue: what to call the table.
+static int lua_strict_index(lua_State *L)
+{
+    scene *s = sc_of(L);
+    const char *owner = lua_tostring(L, lua_upvalueindex(1));
+    if (lua_type(L, 2) != LUA_TSTRING) {
+        lua_pushnil(L);
+        return 1;
+    }
+    const char *name = lua_tostring(L, 2);
+    sc_suggest g = sc_suggest_start(name);
+    for (lua_pushnil(L); lua_next(L, 1) != 0; lua_pop(L, 1)) {
+        if (lua_type(L, -2) == LUA_TSTRING) {
+            sc_suggest_offer(&g, lua_tostring(L, -2));
+        }
+    }
+    sc_site site = sc_here(s, name);
+    int column = sc_lua_column(s->source, s->source_size, site.line, name);
+    char message[200];
+    if (owner[0] == 0) {
+        snprintf(message, sizeof message, "unknown name '%.63s'", name);
+    } else {
+        snprintf(message, sizeof message, "%s has no '%.63s'", owner, name);
+    }
+    sc_set_error(s, SCENE_E_NAME, site.line, column, sc_suggest_best(&g), message);
+    lua_settop(L, 0);
+    lua_pushlightuserdata(L, s);
+    return lua_error(L);
+}
+
+// ------------------------------------------------------------------------------ the environment
+
+// What a C loop would do unseen by the hook is written in Lua, where it is counted.
+static const char prelude[] =
+    "local t = table\n"
+    "local error, type = error, type\n"
+    "function t.insert(a, i, v, ...)\n"
+    "  if ... ~= nil then error('table.insert takes a list, a position and a value', 2) end\n"
+    "  local n = #a\n"
+    "  if v == nil then a[n + 1] = i return end\n"
+    "  if i < 1 or i > n + 1 then error('table.insert: position out of bounds', 2) end\n"
+    "  for k = n, i, -1 do a[k + 1] = a[k] end\n"
+    "  a[i] = v\n"
+    "end\n"
+    "function t.remove(a, i)\n"
+    "  local n = #a\n"
+    "  i = i or n\n"
+    "  if n == 0 then return nil end\n"
+    "  if i < 1 or i > n then error('table.remove: position out of bounds', 2) end\n"
+    "  local v = a[i]\n"
+    "  for k = i, n - 1 do a[k] = a[k + 1] end\n"
+    "  a[n] = nil\n"
+    "  return v\n"
+    "end\n"
+    "local function less(a, b) return a < b end\n"
+    "function t.sort(a, before)\n"
+    "  before = before or less\n"
+    "  local n, from, to, width = #a, a, {}, 1\n"
+    "  while width < n do\n"
+    "    for low = 1, n, 2 * width do\n"
+    "      local i, mid = low, low + width\n"
+    "      local j, high = mid, mid + width\n"
+    "      if mid > n + 1 then mid = n + 1 end\n"
+    "      if high > n + 1 then high = n + 1 end\n"
+    "      for k = low, high - 1 do\n"
+    "        if i < mid and (j >= high or not before(from[j], from[i])) then\n"
+    "          to[k] = from[i] i = i + 1\n"
+    "        else to[k] = from[j] j = j + 1 end\n"
+    "      end\n"
+    "    end\n"
+    "    from, to, width = to, from, 2 * width\n"
+    "  end\n"
+    "  if from ~= a then for k = 1, n do a[k] = from[k] end end\n"
+    "end\n";
+
+// Copies the named functions of a library table (on top) into a new table and pushes that.
+static void copy_allowed(lua_State *L, const char *const *names)
+{
+    lua_newtable(L);
+    for (; *names != NULL; names++) {
+        lua_getfield(L, -2, *names);
+        lua_setfield(L, -2, *names);
+    }
+}
+
+static void make_strict(lua_State *L, const char *owner)
+{
+    lua_newtable(L);
+    lua_pushstring(L, owner);
+    lua_pushcclosure(L, lua_strict_index, 1);
+    lua_setfield(L, -2, "__index");
+    lua_setmetatable(L, -2);
+}
+
+// Wraps the function `name` of the original library at `from` into `wrapper`, in the table on top.
+static void wrap(lua_State *L, int from, const char *name, lua_CFunction wrapper)
+{
+    lua_getfield(L, from, name);
+    lua_pushcclosure(L, wrapper, 1);
+    lua_setfield(L, -2, name);
+}
+
+static void open_string(lua_State *L)
+{
+    static const char *const names[] = { "byte", "char", "len", "lower", "reverse", "sub", "upper", NULL };
+    luaL_requiref(L, LUA_STRLIBNAME, luaopen_string, 0);
+    copy_allowed(L, names);
+    int original = lua_gettop(L) - 1;
+    wrap(L, original, "rep", lua_rep);
+    wrap(L, original, "format", lua_format);
+    wrap(L, original, "find", lua_find);
+    make_strict(L, "string");
+    lua_pushliteral(L, ""); // methods of strings come from the same table
+    lua_getmetatable(L, -1);
+    lua_pushvalue(L, -3);
+    lua_setfield(L, -2, "__index");
+    lua_pop(L, 2);
+    lua_setglobal(L, "string");
+    lua_pop(L, 1);
+}
+
+static void open_base(lua_State *L)
+{
+    static const char *const base[] = { "error", "ipairs", "select", "tonumber", "type", NULL };
+    luaL_requiref(L, LUA_GNAME, luaopen_base, 0);
+    copy_allowed(L, base);
+    lua_pushvalue(L, -1); // this is the global table from now on
+    lua_rawseti(L, LUA_REGISTRYINDEX, LUA_RIDX_GLOBALS);
+    lua_pushcfunction(L, lua_assert_placed);
+    lua_setfield(L, -2, "assert");
+    lua_pushcfunction(L, lua_sorted_pairs);
+    lua_setfield(L, -2, "pairs");
+    lua_pushcfunction(L, lua_print);
+    lua_setfield(L, -2, "print");
+    lua_pushcfunction(L, lua_tostring_plain);
+    lua_setfield(L, -2, "tostring");
+    lua_pop(L, 2);
+    static const char *const table[] = { "concat", "pack", "unpack", NULL };
+    luaL_requiref(L, LUA_TABLIBNAME, luaopen_table, 0);
+    copy_allowed(L, table);
+    lua_setglobal(L, "table");
+    lua_pop(L, 1);
+    open_string(L);
+}
+
+static int open_protected(lua_State *L)
+{
+    open_base(L);
+    sc_open_math(L);
+    if (luaL_loadbufferx(L, prelude, sizeof prelude - 1, "=prelude", "t") != LUA_OK) {
+        return lua_error(L);
+    }
+    lua_call(L, 0, 0);
+    sc_open_shapes(L);
+    sc_open_body(L);
+    sc_open_build(L);
+    sc_open_handlers(L);
+    sc_open_expect(L);
+    sc_open_json(L);
+    lua_getglobal(L, "table");
+    make_strict(L, "table");
+    lua_getglobal(L, "math");
+    make_strict(L, "math");
+    lua_pushglobaltable(L);
+    make_strict(L, "");
+    lua_settop(L, 0);
+    return 0;
+}
+
+lua_State *sc_sandbox_open(scene *s)
+{
+    lua_State *L = lua_newstate(sc_lua_alloc, s);
+    if (L == NULL) {
+        return NULL;
+    }
+    *(scene **)lua_getextraspace(L) = s;
+    s->L = s->budget.L = L;
+    lua_pushcfunction(L, open_protected);
+    if (lua_pcall(L, 0, 0, 0) != LUA_OK) {
+        s->L = s->budget.L = NULL;
+        lua_close(L);
+        return NULL;
+    }
+    lua_sethook(L, count_hook, LUA_MASKCOUNT, HOOK_STEP);
+    return L;
+}

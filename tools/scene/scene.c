@@ -1,0 +1,419 @@
+// scene.c - the life of a scene: load, step, finish, destroy, and what users may ask.
+// Everything that may raise runs inside sc_protected: an error or an exhausted limit ends there, is kept
+// in s->error, and the scene stays failed.
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "internal.h"
+
+#define DEFAULT_MEMORY  ((size_t)256 << 20)   // [B]
+#define DEFAULT_BUILD   UINT64_C(1000000000)  // instructions: some seconds
+#define DEFAULT_HANDLER UINT64_C(10000000)    // instructions: some hundredths of a second
+#define LARGEST_FILE    ((long)64 << 20)      // [B]
+
+// ---------------------------------------------------------------------------------- protection
+
+typedef void protected_fn(scene *s);
+
+/// A function to be called inside a pcall.
+typedef struct protected_call {
+    protected_fn *run;
+    scene *s;
+} protected_call;
+
+static int run_protected(lua_State *L)
+{
+    const protected_call *c = lua_touserdata(L, 1);
+    lua_settop(L, 0);
+    luaL_checkstack(L, 100, NULL);
+    c->run(c->s);
+    return 0;
+}
+
+// True when `run` came to its end.
+static bool sc_protected(scene *s, protected_fn *run)
+{
+    protected_call c = { run, s };
+    lua_pushcfunction(s->L, run_protected);
+    lua_pushlightuserdata(s->L, &c);
+    int status = lua_pcall(s->L, 1, 0, 0);
+    if (status != LUA_OK) {
+        sc_take_error(s, status);
+    }
+    return status == LUA_OK;
+}
+
+// --------------------------------------------------------------------------------------- loading
+
+static void refuse_powers(scene *s)
+{
+    int line;
+    int column;
+    if (sc_lua_find_power(s->source, s->source_size, &line, &column)) {
+        sc_set_error(s, SCENE_E_SYNTAX, line, column, "math.pow(x, y)",
+                     "only x^2 is offered: other powers differ in the last place from machine to machine");
+        lua_pushlightuserdata(s->L, s);
+        lua_error(s->L);
+    }
+}
+
+static void load_lua(scene *s)
+{
+    sc_apply_sets(s);
+    int status = luaL_loadbufferx(s->L, s->source, s->source_size, "=" SC_CHUNK, "t");
+    if (status != LUA_OK) {
+        sc_take_error(s, status);
+        lua_pushlightuserdata(s->L, s);
+        lua_error(s->L);
+    }
+    refuse_powers(s);
+    lua_call(s->L, 0, 0);
+    lua_settop(s->L, 0);
+    sc_check_build(s);
+    sc_expect_begin(s);
+}
+
+static void load_json(scene *s)
+{
+    sc_apply_sets(s);
+    sc_json_load(s);
+    lua_settop(s->L, 0);
+    sc_check_build(s);
+    sc_expect_begin(s);
+}
+
+static bool read_file(scene *s, const char *path)
+{
+    FILE *file = fopen(path, "rb");
+    long size = -1;
+    if (file != NULL && fseek(file, 0, SEEK_END) == 0) {
+        size = ftell(file);
+    }
+    bool good = size >= 0 && size <= LARGEST_FILE && fseek(file, 0, SEEK_SET) == 0;
+    if (good) {
+        s->source = malloc((size_t)size + 1);
+        good = s->source != NULL && fread(s->source, 1, (size_t)size, file) == (size_t)size;
+        s->source_size = (size_t)size;
+    }
+    if (file != NULL) {
+        fclose(file);
+    }
+    if (!good) {
+        sc_set_error(s, SCENE_E_IO, 0, 0, NULL,
+                     file == NULL             ? "cannot be opened"
+                     : size > LARGEST_FILE    ? "is larger than 64 MiB"
+                                              : "cannot be read");
+    }
+    return good;
+}
+
+static bool take_source(scene *s)
+{
+    const scene_options *o = &s->options;
+    if (o->text == NULL) {
+        return read_file(s, o->path);
+    }
+    s->source = malloc(o->text_size + 1);
+    if (s->source == NULL) {
+        sc_set_error(s, SCENE_E_LIMIT, 0, 0, NULL, "no memory for the source");
+        return false;
+    }
+    memcpy(s->source, o->text, o->text_size);
+    s->source_size = o->text_size;
+    return true;
+}
+
+static void take_options(scene *s, const scene_options *opts)
+{
+    s->options = *opts;
+    scene_options *o = &s->options;
+    o->memory_limit = o->memory_limit != 0 ? o->memory_limit : DEFAULT_MEMORY;
+    o->build_instructions = o->build_instructions != 0 ? o->build_instructions : DEFAULT_BUILD;
+    o->handler_instructions = o->handler_instructions != 0 ? o->handler_instructions : DEFAULT_HANDLER;
+    s->budget = (sc_budget){ .limit = o->memory_limit, .spend_limit = UINT64_MAX };
+    snprintf(s->path, sizeof s->path, "%s", o->path != NULL ? o->path : "scene");
+    size_t length = strlen(s->path);
+    s->is_json = length >= 5 && strcmp(s->path + length - 5, ".json") == 0;
+    s->dt = 1.0 / 60;
+    s->duration = 10;
+}
+
+// The title when the author gave none: the file's name without folder and ending.
+static void name_scene(scene *s)
+{
+    const char *slash = strrchr(s->path, '/');
+    const char *base = slash != NULL ? slash + 1 : s->path;
+    const char *dot = strrchr(base, '.');
+    int length = dot != NULL && dot != base ? (int)(dot - base) : (int)strlen(base);
+    snprintf(s->title, sizeof s->title, "%.*s", length, base);
+}
+
+scene_code scene_load(const scene_options *opts, scene **out, scene_error *err)
+{
+    scene_error ignored;
+    err = err != NULL ? err : &ignored;
+    *err = (scene_error){ 0 };
+    if (out != NULL) {
+        *out = NULL;
+    }
+    scene *s = calloc(1, sizeof *s);
+    if (s == NULL || out == NULL || opts == NULL || (opts->path == NULL && opts->text == NULL)) {
+        free(s);
+        err->code = SCENE_E_ARGUMENT;
+        snprintf(err->message, sizeof err->message, "scene_load needs options with a path or a text");
+        snprintf(err->text, sizeof err->text, "%s", err->message);
+        return err->code;
+    }
+    take_options(s, opts);
+    bool good = take_source(s);
+    if (good && sc_sandbox_open(s) == NULL) {
+        sc_set_error(s, SCENE_E_LIMIT, 0, 0, NULL, "the memory limit leaves no room for the script");
+        good = false;
+    }
+    if (good) {
+        s->building = true;
+        sc_sandbox_budget(s, s->options.build_instructions);
+        good = sc_protected(s, s->is_json ? load_json : load_lua);
+        s->building = false;
+    }
+    if (!good) {
+        *err = s->error;
+        scene_destroy(s);
+        return err->code;
+    }
+    name_scene(s);
+    s->options.path = s->path; // the caller's strings need not outlive the call
+    s->options.text = NULL;
+    s->options.sets = NULL;
+    *out = s;
+    return SCENE_OK;
+}
+
+void scene_destroy(scene *s)
+{
+    if (s == NULL) {
+        return;
+    }
+    if (s->L != NULL) {
+        s->budget.L = NULL;
+        lua_close(s->L);
+    }
+    plumb_world_destroy(s->world);
+    for (int i = 0; i < s->bodies.count; i++) {
+        sc_body *b = s->bodies.items[i];
+        for (int k = 0; k < b->def.shape_count; k++) {
+            free(b->shapes[k].points);
+        }
+        free(b->shapes);
+        free(b);
+    }
+    for (int i = 0; i < s->materials.count; i++) {
+        free(s->materials.items[i]);
+    }
+    void *const blocks[] = { s->bodies.items, s->materials.items, s->made.items, s->handlers.items,
+                             s->expects.items, s->exacts, s->scores.items, s->params.items,
+                             s->sets.items, s->begins.items, s->ends.items, s->points, s->source };
+    for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++) {
+        free(blocks[i]);
+    }
+    free(s);
+}
+
+// ---------------------------------------------------------------------------------------- running
+
+static void step_inside(scene *s)
+{
+    sc_handlers_before(s);
+    plumb_result result = plumb_world_step(s->world, (plumb_real)s->dt);
+    if (result != PLUMB_OK) {
+        sc_raise(s, result == PLUMB_E_MEMORY ? SCENE_E_LIMIT : SCENE_E_WORLD, NULL, NULL, 0, NULL,
+                 "step %llu failed: %s", (unsigned long long)s->steps + 1, plumb_result_text(result));
+    }
+    s->steps++;
+    sc_handlers_after(s);
+    sc_expect_step(s);
+}
+
+static scene_code answer(const scene *s, scene_error *err)
+{
+    if (err != NULL) {
+        *err = s->error;
+    }
+    return s->error.code;
+}
+
+scene_code scene_step(scene *s, scene_error *err)
+{
+    if (s->error.code == SCENE_OK) {
+        sc_protected(s, step_inside);
+    }
+    return answer(s, err);
+}
+
+static void finish_inside(scene *s)
+{
+    sc_expect_finish(s);
+}
+
+scene_code scene_finish(scene *s, scene_error *err)
+{
+    if (s->error.code == SCENE_OK && !s->finished) {
+        s->finished = sc_protected(s, finish_inside);
+    }
+    return answer(s, err);
+}
+
+double scene_time(const scene *s)
+{
+    return s->start_time + (double)s->steps * s->dt;
+}
+
+uint64_t scene_steps(const scene *s)
+{
+    return s->steps;
+}
+
+bool scene_done(const scene *s)
+{
+    return s->stop || s->error.code != SCENE_OK || (double)s->steps * s->dt >= s->duration - 0.5 * s->dt;
+}
+
+plumb_world *scene_world(const scene *s)
+{
+    return s->world;
+}
+
+// ----------------------------------------------------------------------------------------- asking
+
+scene_info scene_get_info(const scene *s)
+{
+    plumb_world_desc d = plumb_world_settings(s->world);
+    return (scene_info){
+        .title = s->settings.title[0] != 0 ? s->settings.title : s->title,
+        .description = s->settings.description,
+        .dt = s->dt,
+        .duration = s->duration,
+        .y_axis = d.y_axis,
+        .solver = d.solver,
+        .substeps = d.substeps,
+        .iterations = d.iterations,
+        .seed = (uint64_t)s->settings.seed,
+    };
+}
+
+int scene_body_count(const scene *s)
+{
+    return s->bodies.count;
+}
+
+static scene_body show_body(const sc_body *b)
+{
+    if (b == NULL) {
+        return (scene_body){ .name = "", .label = "", .palette = -1 };
+    }
+    return (scene_body){ .entity = b->entity, .name = b->def.name, .is_named = b->is_named,
+                         .label = b->def.label, .palette = b->def.color.palette,
+                         .color = b->def.color.rgba, .hidden = b->def.hidden };
+}
+
+scene_body scene_body_get(const scene *s, int i)
+{
+    return show_body(i >= 0 && i < s->bodies.count ? s->bodies.items[i] : NULL);
+}
+
+scene_body scene_body_find(const scene *s, const char *name)
+{
+    for (int i = 0; i < s->bodies.count; i++) { // not through Lua: asking must not need memory
+        if (strcmp(s->bodies.items[i]->def.name, name) == 0) {
+            return show_body(s->bodies.items[i]);
+        }
+    }
+    return show_body(NULL);
+}
+
+scene_body scene_body_of(const scene *s, plumb_body body)
+{
+    return show_body(sc_body_of(s, body));
+}
+
+scene_camera scene_get_camera(const scene *s)
+{
+    const sc_camera *c = &s->camera;
+    scene_camera out = { .follow = c->follow };
+    out.has_view = SC_GIVEN(&sc_list_camera, c, sc_camera, height);
+    out.has_fit = SC_GIVEN(&sc_list_camera, c, sc_camera, fit);
+    memcpy(out.center, c->center, sizeof out.center);
+    memcpy(out.box, c->fit, sizeof out.box);
+    out.height = c->height;
+    return out;
+}
+
+const char *scene_get_text(const scene *s)
+{
+    scene *mutable = (scene *)s; // the buffer is a cache of what the scores say now
+    size_t used = 0;
+    mutable->shown[0] = 0;
+    for (int i = 0; i <= s->scores.count && used < sizeof s->shown; i++) {
+        const char *gap = used > 0 ? "   " : "";
+        int n;
+        if (i < s->scores.count) {
+            n = snprintf(mutable->shown + used, sizeof s->shown - used, "%s%s %.10g", gap,
+                         s->scores.items[i].name, s->scores.items[i].value);
+        } else {
+            n = s->text[0] == 0 ? 0 : snprintf(mutable->shown + used, sizeof s->shown - used, "%s%s", gap, s->text);
+        }
+        used += (size_t)(n > 0 ? n : 0);
+    }
+    return s->shown;
+}
+
+int scene_score_count(const scene *s)
+{
+    return s->scores.count;
+}
+
+const char *scene_score_name(const scene *s, int i)
+{
+    return s->scores.items[i].name;
+}
+
+double scene_score_value(const scene *s, int i)
+{
+    return s->scores.items[i].value;
+}
+
+int scene_expect_count(const scene *s)
+{
+    return s->expects.count;
+}
+
+scene_expect_result scene_expect_get(const scene *s, int i)
+{
+    const sc_expect *e = &s->expects.items[i];
+    return (scene_expect_result){ .name = e->def.name, .status = e->status,
+                                  .passed = e->status == SCENE_EXPECT_PASSED, .quantity = e->quantity,
+                                  .unit = e->unit, .measured = e->measured, .limit = e->limit,
+                                  .time = e->time, .line = e->line, .description = e->description };
+}
+
+int scene_expect_failures(const scene *s)
+{
+    int failures = 0;
+    for (int i = 0; i < s->expects.count; i++) {
+        failures += s->expects.items[i].status != SCENE_EXPECT_PASSED;
+    }
+    return failures;
+}
+
+int scene_param_count(const scene *s)
+{
+    return s->params.count;
+}
+
+scene_param scene_param_get(const scene *s, int i)
+{
+    const sc_param *p = &s->params.items[i];
+    return (scene_param){ .name = p->name, .value = p->value, .overridden = p->overridden };
+}
