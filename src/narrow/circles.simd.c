@@ -22,9 +22,9 @@ WIDE_INLINE vf unit(vf x, vf y, vf fx, vf fy, vf *nx, vf *ny)
 {
     vf length = vsqrt(x * x + y * y);
     vm ok = length > splat((plumb_real)1e-9);
-    vf inv = splat(1) / sel(ok, length, splat(1));
-    *nx = sel(ok, x * inv, fx);
-    *ny = sel(ok, y * inv, fy);
+    vf divisor = sel(ok, length, splat(1)); // division, not its inverse times: exact along the axes
+    *nx = sel(ok, x / divisor, fx);
+    *ny = sel(ok, y / divisor, fy);
     return length;
 }
 

@@ -40,6 +40,7 @@ static bool reserve_bodies(plumb_world *world)
     size_t rows = (size_t)world->dynamic_count + world->kinematic_count + 1;
     return pl_buffer_reserve(memory, &s->bodies, rows * sizeof(pl_solver_body)) &&
            pl_buffer_reserve(memory, &s->motions, rows * sizeof(pl_solver_motion)) &&
+           pl_buffer_reserve(memory, &s->lows, world->narrow.any_bounce ? rows * 4 * sizeof(real) : 0) &&
            pl_buffer_reserve(memory, &s->rows, rows * sizeof(uint32_t)) &&
            pl_buffer_reserve(memory, &s->slots, rows * sizeof(uint32_t)) &&
            pl_buffer_reserve(memory, &s->masks, rows * sizeof(uint64_t)) &&
@@ -104,9 +105,16 @@ static void engage(plumb_world *world)
                                 .uy = b->vy[row],
                                 .uw = b->w[row],
                                 .inv_mass = im };
+        if (world->narrow.any_bounce) {
+            real *low = (real *)s->lows.data + (size_t)count * 4;
+            low[0] = b->low_vx[row], low[1] = b->low_vy[row], low[2] = low[3] = 0;
+        }
         slots[row] = count;
         rows[count++] = row;
         s->dynamic_slots += dynamic;
+    }
+    if (world->narrow.any_bounce) {
+        memset((real *)s->lows.data + (size_t)count * 4, 0, 4 * sizeof(real));
     }
     pl_solver_bodies(s)[count] = (pl_solver_body){ 0 };
     pl_solver_motions(s)[count] = (pl_solver_motion){ 0 };
@@ -225,7 +233,8 @@ bool pl_solver_graph(plumb_world *world)
 void pl_solver_free(pl_memory *memory, pl_solver *s)
 {
     pl_buffer *buffers[] = { &s->bodies, &s->motions, &s->rows,    &s->slots,   &s->masks,
-                             &s->colors, &s->lanes,   &s->bundles, &s->impacts, &s->classic };
+                             &s->colors, &s->lanes,   &s->bundles, &s->impacts, &s->classic,
+                             &s->lows };
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; ++i) {
         pl_buffer_free(memory, buffers[i]);
     }

@@ -24,17 +24,11 @@
 // Longest chain of impacts followed within one substep; what is left then is solved without bounce.
 #define SWEEPS 64
 
-#if defined(PLUMB_DOUBLE) && PLUMB_DOUBLE
-#define ROOT sqrt
-#else
-#define ROOT sqrtf
-#endif
-
 typedef struct approach {
-    bool due;   // an impact falls into this substep and bounces
-    bool clear; // the point stays apart in this substep
-    real speed; // [m/s] at which the surfaces meet, > 0
-    real time;  // [s] since the start of the substep
+    bool due;     // an impact falls into this substep and bounces
+    bool clear;   // the point stays apart in this substep
+    double speed; // [m/s] at which the surfaces meet, > 0
+    double time;  // [s] since the start of the substep
 } approach;
 
 static real *lane_value(pl_solver *s, const pl_contact_kernels *kernels, size_t lane, size_t offset)
@@ -86,52 +80,81 @@ void pl_impacts_prepare(plumb_world *world)
     s->bounce_count = 0;
 }
 
+static const real *low_of(const pl_solver *s, uint32_t slot)
+{
+    return (const real *)s->lows.data + (size_t)slot * 4;
+}
+
+// Row of point j applied to (x, y, w) of A and B.
+static double along_normal(const pl_impact *m, const pl_impact_point *p, double ax, double ay,
+                           double aw, double bx, double by, double bw)
+{
+    return (double)m->nx * (bx - ax) + (double)m->ny * (by - ay) + (double)p->rbn * bw -
+           (double)p->ran * aw;
+}
+
 // What happens to point j in the substep if nothing else does.
-static approach foresee(const plumb_world *world, const pl_impact *m, uint32_t j, real h)
+static approach foresee(const plumb_world *world, const pl_impact *m, uint32_t j, double h)
 {
     const pl_solver *s = &world->solver;
     const pl_solver_body *a = &pl_solver_bodies(s)[m->a], *b = &pl_solver_bodies(s)[m->b];
     const pl_solver_motion *ma = &pl_solver_motions(s)[m->a], *mb = &pl_solver_motions(s)[m->b];
+    const real *la = low_of(s, m->a), *lb = low_of(s, m->b);
     const pl_impact_point *p = &m->point[j];
-    real sep = p->separation + m->nx * (b->dx - a->dx) + m->ny * (b->dy - a->dy) + p->rbn * b->da -
-               p->ran * a->da;
-    real v = m->nx * (b->vx - a->vx) + m->ny * (b->vy - a->vy) + p->rbn * b->w - p->ran * a->w;
-    // What the substep's forces and resting contacts added: h a, and v - u from the contacts.
-    real kick_x = (h * mb->ax + (b->vx - mb->ux)) - (h * ma->ax + (a->vx - ma->ux));
-    real kick_y = (h * mb->ay + (b->vy - mb->uy)) - (h * ma->ay + (a->vy - ma->uy));
-    real kick = m->nx * kick_x + m->ny * kick_y + p->rbn * (h * mb->aw + (b->w - mb->uw)) -
-                p->ran * (h * ma->aw + (a->w - ma->uw));
-    real u = v - kick;
-    real acceleration = kick / h;
+    double sep =
+        (double)p->separation + along_normal(m, p, (double)a->dx, (double)a->dy, (double)a->da,
+                                             (double)b->dx, (double)b->dy, (double)b->da);
+    double v = along_normal(m, p, (double)a->vx + (double)la[0], (double)a->vy + (double)la[1],
+                            (double)a->w + (double)la[2], (double)b->vx + (double)lb[0],
+                            (double)b->vy + (double)lb[1], (double)b->w + (double)lb[2]);
+    // What the substep's forces and resting contacts added: a, and (v - u) / h from the contacts.
+    double acceleration = along_normal(m, p, (double)ma->ax, (double)ma->ay, (double)ma->aw,
+                                       (double)mb->ax, (double)mb->ay, (double)mb->aw) +
+                          along_normal(m, p, (double)(a->vx - ma->ux), (double)(a->vy - ma->uy),
+                                       (double)(a->w - ma->uw), (double)(b->vx - mb->ux),
+                                       (double)(b->vy - mb->uy), (double)(b->w - mb->uw)) /
+                              h;
+    double u = v - h * acceleration;
     approach out = { 0 };
     if (sep + h * (u + v) / 2 >= 0) {
         out.clear = true;
         return out;
     }
-    real square = u * u - 2 * acceleration * sep;
+    double square = u * u - 2 * acceleration * sep;
     if (!(u < 0) || !(square > 0)) {
         return out;
     }
-    out.speed = ROOT(square);
+    out.speed = sqrt(square);
     out.time = 2 * sep / (out.speed - u);
-    real loaded = *p->lane_impulse;
-    real weight = acceleration < 0 ? -acceleration : acceleration;
-    if (out.speed <= world->desc.restitution_speed || (loaded > 0 && out.speed <= 4 * weight * h)) {
+    double weight = fabs(acceleration);
+    bool loaded = *p->lane_impulse > 0;
+    if (out.speed <= (double)world->desc.restitution_speed ||
+        (loaded && out.speed <= 4 * weight * h)) {
         return out;
     }
-    real rest = h - out.time;
-    out.due = m->restitution * out.speed + acceleration * rest / 2 > 0;
+    double rest = h - out.time;
+    out.due = (double)m->restitution * out.speed + acceleration * rest / 2 > 0;
     return out;
 }
 
+// Changes a velocity that has not been pushed by a contact (u = v) or has, and keeps the rounding.
+static void kick(real *v, real *u, real *low, double change)
+{
+    bool free = *u == *v;
+    double sum = (double)*v + (double)*low + change;
+    *v = (real)sum;
+    *low = (real)(sum - (double)*v);
+    *u = free ? *v : *u + (real)change;
+}
+
 // Applies impulse (along n, along t) at a point, as of `time` into the substep.
-static void strike(const plumb_world *world, const pl_impact *m, uint32_t j, real along_n,
-                   real along_t, real time)
+static void strike(const plumb_world *world, const pl_impact *m, uint32_t j, double along_n,
+                   double along_t, double time)
 {
     const pl_solver *s = &world->solver;
     const pl_impact_point *p = &m->point[j];
-    real px = m->nx * along_n - m->ny * along_t;
-    real py = m->ny * along_n + m->nx * along_t;
+    double px = (double)m->nx * along_n - (double)m->ny * along_t;
+    double py = (double)m->ny * along_n + (double)m->nx * along_t;
     for (int side = 0; side < 2; ++side) {
         uint32_t slot = side == 0 ? m->a : m->b;
         if (slot >= s->dynamic_slots) {
@@ -139,39 +162,48 @@ static void strike(const plumb_world *world, const pl_impact *m, uint32_t j, rea
         }
         pl_solver_body *body = &pl_solver_bodies(s)[slot];
         pl_solver_motion *motion = &pl_solver_motions(s)[slot];
-        real sign = side == 0 ? -1 : 1;
-        real turn =
-            side == 0 ? p->ran * along_n + p->rat * along_t : p->rbn * along_n + p->rbt * along_t;
-        real dvx = sign * body->inv_mass * px;
-        real dvy = sign * body->inv_mass * py;
-        real dw = sign * body->inv_inertia * turn;
-        body->vx += dvx, motion->ux += dvx, body->dx -= time * dvx;
-        body->vy += dvy, motion->uy += dvy, body->dy -= time * dvy;
-        body->w += dw, motion->uw += dw, body->da -= time * dw;
+        real *low = (real *)s->lows.data + (size_t)slot * 4;
+        double sign = side == 0 ? -1 : 1;
+        double turn = side == 0 ? (double)p->ran * along_n + (double)p->rat * along_t
+                                : (double)p->rbn * along_n + (double)p->rbt * along_t;
+        double dvx = sign * (double)body->inv_mass * px;
+        double dvy = sign * (double)body->inv_mass * py;
+        double dw = sign * (double)body->inv_inertia * turn;
+        kick(&body->vx, &motion->ux, &low[0], dvx);
+        kick(&body->vy, &motion->uy, &low[1], dvy);
+        kick(&body->w, &motion->uw, &low[2], dw);
+        body->dx -= (real)(time * dvx);
+        body->dy -= (real)(time * dvy);
+        body->da -= (real)(time * dw);
     }
 }
 
-// Entry (i, j) of the inverse effective mass of a manifold's normal rows.
-static real coupling(const plumb_world *world, const pl_impact *m, uint32_t i, uint32_t j)
+// Entry (i, j) of the inverse effective mass of a manifold's normal rows. The normal is a unit vector but
+// for rounding; its true length counts here, or every bounce would lose a rounding of energy.
+static double coupling(const plumb_world *world, const pl_impact *m, uint32_t i, uint32_t j)
 {
     const pl_solver_body *a = &pl_solver_bodies(&world->solver)[m->a];
     const pl_solver_body *b = &pl_solver_bodies(&world->solver)[m->b];
-    return a->inv_mass + b->inv_mass + a->inv_inertia * m->point[i].ran * m->point[j].ran +
-           b->inv_inertia * m->point[i].rbn * m->point[j].rbn;
+    double square = (double)m->nx * (double)m->nx + (double)m->ny * (double)m->ny;
+    return ((double)a->inv_mass + (double)b->inv_mass) * square +
+           (double)a->inv_inertia * (double)m->point[i].ran * (double)m->point[j].ran +
+           (double)b->inv_inertia * (double)m->point[i].rbn * (double)m->point[j].rbn;
 }
 
 // Friction of an impact: what stops the slip, at most mu times the normal impulse.
-static void strike_tangent(const plumb_world *world, const pl_impact *m, uint32_t j, real normal,
-                           real time)
+static void strike_tangent(const plumb_world *world, const pl_impact *m, uint32_t j, double normal,
+                           double time)
 {
     const pl_solver_body *a = &pl_solver_bodies(&world->solver)[m->a];
     const pl_solver_body *b = &pl_solver_bodies(&world->solver)[m->b];
     const pl_impact_point *p = &m->point[j];
-    real slip = m->nx * (b->vy - a->vy) - m->ny * (b->vx - a->vx) + p->rbt * b->w - p->rat * a->w;
-    real k = a->inv_mass + b->inv_mass + a->inv_inertia * p->rat * p->rat +
-             b->inv_inertia * p->rbt * p->rbt;
-    real bound = m->friction * normal;
-    real impulse = -slip / k;
+    double rat = (double)p->rat, rbt = (double)p->rbt;
+    double slip = (double)m->nx * (double)(b->vy - a->vy) -
+                  (double)m->ny * (double)(b->vx - a->vx) + rbt * (double)b->w - rat * (double)a->w;
+    double k = (double)a->inv_mass + (double)b->inv_mass + (double)a->inv_inertia * rat * rat +
+               (double)b->inv_inertia * rbt * rbt;
+    double bound = (double)m->friction * normal;
+    double impulse = -slip / k;
     impulse = impulse > bound ? bound : impulse < -bound ? -bound : impulse;
     strike(world, m, j, 0, impulse, time);
 }
@@ -179,15 +211,15 @@ static void strike_tangent(const plumb_world *world, const pl_impact *m, uint32_
 // Resolves a manifold's impacts; true when there was one.
 static bool resolve(plumb_world *world, const pl_impact *m, const approach at[2])
 {
-    const real gain = 1 + m->restitution;
-    real impulse[2] = { 0, 0 };
+    const double gain = 1 + (double)m->restitution;
+    double impulse[2] = { 0, 0 };
     if (at[0].due && at[1].due) {
-        real k00 = coupling(world, m, 0, 0), k11 = coupling(world, m, 1, 1),
-             k01 = coupling(world, m, 0, 1);
-        real det = k00 * k11 - k01 * k01;
-        real r0 = gain * at[0].speed, r1 = gain * at[1].speed;
+        double k00 = coupling(world, m, 0, 0), k11 = coupling(world, m, 1, 1),
+               k01 = coupling(world, m, 0, 1);
+        double det = k00 * k11 - k01 * k01;
+        double r0 = gain * at[0].speed, r1 = gain * at[1].speed;
         // Nearly dependent rows (points close together) are resolved one at a time.
-        if (det > (real)1e-4 * k00 * k11) {
+        if (det > 1e-4 * k00 * k11) {
             impulse[0] = (k11 * r0 - k01 * r1) / det;
             impulse[1] = (k00 * r1 - k01 * r0) / det;
         }
@@ -198,7 +230,7 @@ static bool resolve(plumb_world *world, const pl_impact *m, const approach at[2]
         }
     } else if (at[0].due || at[1].due) {
         uint32_t j = at[0].due ? 0 : 1;
-        real k = coupling(world, m, j, j);
+        double k = coupling(world, m, j, j);
         impulse[j] = k > 0 ? gain * at[j].speed / k : 0;
     }
     bool struck = false;
@@ -228,7 +260,7 @@ void pl_impacts_run(plumb_world *world, real h)
             pl_impact *m = &impacts[i];
             approach at[2] = { { 0 }, { 0 } };
             for (uint32_t j = 0; j < m->count; ++j) {
-                at[j] = foresee(world, m, j, h);
+                at[j] = foresee(world, m, j, (double)h);
             }
             if ((at[0].due || at[1].due) && resolve(world, m, at)) {
                 pairs[m->pair].flags |= PL_PAIR_HIT;
@@ -242,7 +274,7 @@ void pl_impacts_run(plumb_world *world, real h)
         pl_impact *m = &impacts[i];
         for (uint32_t j = 0; j < m->count; ++j) {
             pl_impact_point *p = &m->point[j];
-            bool off = *p->lane_impulse <= 0 && foresee(world, m, j, h).clear;
+            bool off = *p->lane_impulse <= 0 && foresee(world, m, j, (double)h).clear;
             *p->lane_separation = p->separation + (off ? PL_APART : 0);
         }
     }

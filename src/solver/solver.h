@@ -57,6 +57,7 @@ typedef struct pl_classic_contact {
 
 typedef struct pl_solver {
     pl_buffer bodies, motions; // engaged dynamic bodies, engaged kinematic ones, one immovable body
+    pl_buffer lows;            // a quad a slot: what rounding took from its velocity; if any contact bounces
     pl_buffer rows;            // uint32_t: body row of a slot
     pl_buffer slots;   // uint32_t: slot of a dynamic or kinematic row; PL_NONE: not in a contact
     pl_buffer masks;   // uint64_t a slot: colours taken

@@ -19,6 +19,8 @@ typedef plumb_real real;
     X(real, c) X(real, s)          /* rotation */                                                   \
     X(real, vx) X(real, vy)        /* [m/s] */                                                      \
     X(real, w)                     /* [rad/s] */                                                    \
+    X(real, low_x) X(real, low_y)  /* [m] what rounding took from the centre: carried to the next step */ \
+    X(real, low_vx) X(real, low_vy) /* [m/s] the same of the velocity, in free flight */            \
     X(real, fx) X(real, fy)        /* [N] for the next step */                                      \
     X(real, torque)                /* [N m] for the next step */                                    \
     X(real, inv_mass)              /* [1/kg] 0: immovable */                                        \

@@ -40,13 +40,13 @@ typedef struct kind_fields {
 } kind_fields;
 
 static const kind_fields kinds[] = {
-    [PLUMB_CIRCLE] = { "circle", HAS_CENTER | HAS_RADIUS, 0, 0, PLUMB_LENGTH_MIN },
-    [PLUMB_CAPSULE] = { "capsule", HAS_POINTS | HAS_RADIUS, 2, 2, PLUMB_LENGTH_MIN },
-    [PLUMB_BOX] = { "box", HAS_CENTER | HAS_RADIUS | HAS_HALF | HAS_ANGLE, 0, 0, 0 },
-    [PLUMB_POLYGON] = { "polygon", HAS_POINTS | HAS_RADIUS, 3, POLYGON_POINTS, 0 },
-    [PLUMB_OUTLINE] = { "outline", HAS_POINTS, 3, PLUMB_OUTLINE_MAX_VERTICES, 0 },
-    [PLUMB_SEGMENT] = { "segment", HAS_POINTS, 2, 2, 0 },
-    [PLUMB_CHAIN] = { "chain", HAS_POINTS | HAS_CLOSED, 2, INT32_MAX, 0 },
+    [PLUMB_CIRCLE] = { "a circle", HAS_CENTER | HAS_RADIUS, 0, 0, PLUMB_LENGTH_MIN },
+    [PLUMB_CAPSULE] = { "a capsule", HAS_POINTS | HAS_RADIUS, 2, 2, PLUMB_LENGTH_MIN },
+    [PLUMB_BOX] = { "a box", HAS_CENTER | HAS_RADIUS | HAS_HALF | HAS_ANGLE, 0, 0, 0 },
+    [PLUMB_POLYGON] = { "a polygon", HAS_POINTS | HAS_RADIUS, 3, POLYGON_POINTS, 0 },
+    [PLUMB_OUTLINE] = { "an outline", HAS_POINTS, 3, PLUMB_OUTLINE_MAX_VERTICES, 0 },
+    [PLUMB_SEGMENT] = { "a segment", HAS_POINTS, 2, 2, 0 },
+    [PLUMB_CHAIN] = { "a chain", HAS_POINTS | HAS_CLOSED, 2, INT32_MAX, 0 },
 };
 
 // A field that the kind does not name must be zero: a value there is a misunderstanding.
@@ -68,7 +68,7 @@ static plumb_result check_unused(const maker *m, const kind_fields *kind)
     };
     for (size_t i = 0; i < sizeof fields / sizeof fields[0]; ++i) {
         if (fields[i].given && !(kind->has & fields[i].bit)) {
-            return pl_fail(m->world, PLUMB_E_RANGE, m->fn, "%s is given; it must be 0 for a %s",
+            return pl_fail(m->world, PLUMB_E_RANGE, m->fn, "%s is given; it must be 0 for %s",
                            fields[i].name, kind->name);
         }
     }
@@ -82,13 +82,13 @@ static plumb_result check_points(const maker *m, const kind_fields *kind)
     plumb_result r = pl_check_pointer(m->world, m->fn, "points", d->points);
     if (r == PLUMB_OK && kind->count_high == INT32_MAX && d->count < low) {
         r = pl_fail(m->world, PLUMB_E_RANGE, m->fn,
-                    "count is %d; it must be at least %d for a %s%s", d->count, low,
+                    "count is %d; it must be at least %d for %s%s", d->count, low,
                     d->closed ? "closed " : "", kind->name);
     } else if (r == PLUMB_OK && low == kind->count_high && d->count != low) {
-        r = pl_fail(m->world, PLUMB_E_RANGE, m->fn, "count is %d; it must be %d for a %s", d->count,
+        r = pl_fail(m->world, PLUMB_E_RANGE, m->fn, "count is %d; it must be %d for %s", d->count,
                     low, kind->name);
     } else if (r == PLUMB_OK && (d->count < low || d->count > kind->count_high)) {
-        r = pl_fail(m->world, PLUMB_E_RANGE, m->fn, "count is %d; it must be %d to %d for a %s",
+        r = pl_fail(m->world, PLUMB_E_RANGE, m->fn, "count is %d; it must be %d to %d for %s",
                     d->count, low, kind->count_high, kind->name);
     }
     for (int i = 0; i < d->count && r == PLUMB_OK; ++i) {
@@ -152,7 +152,7 @@ static plumb_result refuse_geometry(const maker *m, plumb_result code)
     }
     if (code == PLUMB_E_CAPACITY) {
         return pl_fail(m->world, code, m->fn,
-                       "points have more than %d corners; a %s must have fewer",
+                       "points have more than %d corners; %s must have fewer",
                        PLUMB_POLYGON_MAX_VERTICES, name);
     }
     switch (m->desc->kind) {

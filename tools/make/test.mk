@@ -110,9 +110,10 @@ test: | $(DEPS_FIRST)
 		done; }
 	@O=$(O) SAN=$(SAN) bash tests/run.sh -j $(JOBS) -l $(O)/test-logs $(RUN_PROGRAMS) $(RUN_SH)
 
+STABILITY := $(wildcard tests/stability/test_*)
 SCENES ?= $(sort $(wildcard assets/scenes/*.lua))
 stability: $(O)/plumb
-	@$(MAKE) --no-print-directory test T="$(wildcard tests/stability/test_*)"
+	$(if $(STABILITY),@$(MAKE) --no-print-directory test T="$(STABILITY)")
 	$(Q)$(O)/plumb check $(SCENES)
 
 bench: $(O)/bench

@@ -52,8 +52,12 @@ static void print_pass(const engine_pass *pass, int width, double total, long lo
 {
     printf("  %-*s  %-8s", width, pass->name, pass->phase);
     if (total > 0) {
-        printf("  %5.1f %%  %9.2f us", 100 * pass->total_ns / total,
-               1e-3 * pass->total_ns / (double)steps);
+        if (pass->total_ns > 0) {
+            printf("  %5.1f %%  %9.2f us", 100 * pass->total_ns / total,
+                   1e-3 * pass->total_ns / (double)steps);
+        } else {
+            printf("  %7s  %12s", "-", "-"); // part of another pass, not timed apart
+        }
     }
     printf("  %s%s\n", pass->reason, pass->is_user ? " (registered by the scene)" : "");
     if (columns) {

@@ -39,6 +39,7 @@ static const struct {
     { "legend", RENDER_SHOW_LEGEND },
     { "scale", RENDER_SHOW_SCALE },
     { "title", RENDER_SHOW_TITLE },
+    { "names", RENDER_SHOW_LABELS | ENGINE_SHOW_NAMES },
     { "spokes", RENDER_SHOW_SPOKES },
 };
 
@@ -193,7 +194,7 @@ static int draw(film *f)
     render_error error = { { 0 } };
     char caption[256];
     render_camera camera = view_camera(&f->view, &f->run);
-    render_options options = { .show = f->show };
+    render_options options = { .show = f->show & ~ENGINE_SHOW_NAMES };
 
     render_frame_clear(f->frame);
     write_caption(f, caption, sizeof caption);
@@ -355,7 +356,8 @@ static const cli_option options[] = {
     { "zoom", 0, CLI_REAL, offsetof(render_args, zoom), "F", 0.001, 1000, NULL,
       "show 1/F of the height that would be shown (default 1)" },
     { "overlay", 0, CLI_TEXT, offsetof(render_args, overlay), "LIST", 0, 0, NULL,
-      "contacts, impulses, velocities, aabbs, legend; on unless taken away (no-grid): grid, "
+      "contacts, impulses, velocities, aabbs, legend, names (of all bodies); on unless taken away "
+      "(no-grid): grid, "
       "labels, scale, title, spokes; none: nothing but the bodies" },
     { "trail", 0, CLI_REAL, offsetof(render_args, trail), "S", 0, SCENE_TIME_MAX, NULL,
       "draw behind every moving body where it was in the last S seconds" },

@@ -110,6 +110,10 @@ typedef struct engine_box {
     double min_x, min_y, max_x, max_y;
 } engine_box;
 
+/// A bit for engine_api.draw beside those of the renderer: write the names of all bodies. Without
+/// it names are written only where few bodies have one; labels that the author gave always are.
+#define ENGINE_SHOW_NAMES (1u << 30)
+
 typedef struct engine_session engine_session;
 
 /// One engine. All lists that it hands out are valid until the next call with the same session.
@@ -141,7 +145,8 @@ typedef struct engine_api {
     engine_stats (*stats)(const engine_session *session);
     /// Boxes around the bodies that move and around those that do not.
     void (*bounds)(const engine_session *session, engine_box *moving, engine_box *fixed);
-    /// Adds bodies and overlays (RENDER_SHOW_* bits) to the frame. CLI_FAILED: out of memory.
+    /// Adds bodies and overlays (RENDER_SHOW_* bits, ENGINE_SHOW_NAMES) to the frame. CLI_FAILED:
+    /// out of memory.
     int (*draw)(engine_session *session, struct render_frame *frame, unsigned show);
     /// The scene's counters and text in one line, "" if none.
     const char *(*text)(const engine_session *session);

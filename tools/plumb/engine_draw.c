@@ -12,8 +12,11 @@
 
 #include "../render/render.h"
 
-/// Most points of one line drawn; a longer chain is drawn as several that share an end.
-enum { LINE_MAX = 256 };
+enum {
+    LINE_MAX =
+        256, ///< points of one line drawn; a longer chain is drawn as several that share an end
+    NAMES_MAX = 12 ///< bodies that are named in the picture unasked; more would hide what they name
+};
 
 static render_vec to_world(plumb_transform frame, plumb_vec2 p)
 {
@@ -66,8 +69,9 @@ static void add_line(const plumb_world *world, plumb_shape shape, int pieces, pl
         return;
     }
     bool is_closed = points[0].x == points[count - 1].x && points[0].y == points[count - 1].y;
-    // Hatching belongs below the ground, to the right of a line that runs to the right.
-    bool runs_right = points[count - 1].x > points[0].x;
+    // Hatching belongs below the ground: to the right of a line that runs to +x where y is up.
+    bool is_y_up = plumb_world_up(world).y > 0;
+    bool runs_well = (points[count - 1].x > points[0].x) == is_y_up;
     unsigned flags = 0;
     if (is_closed && count > 3) {
         count--;
@@ -75,7 +79,7 @@ static void add_line(const plumb_world *world, plumb_shape shape, int pieces, pl
     } else if (is_ground && pieces < LINE_MAX) {
         flags = RENDER_LINE_TICKS;
     }
-    for (size_t i = 0; flags == RENDER_LINE_TICKS && !runs_right && i < count / 2; i++) {
+    for (size_t i = 0; flags == RENDER_LINE_TICKS && !runs_well && i < count / 2; i++) {
         render_vec swap = points[i];
         points[i] = points[count - 1 - i];
         points[count - 1 - i] = swap;
@@ -126,7 +130,19 @@ static render_class class_of(plumb_body_type type)
     return RENDER_DYNAMIC;
 }
 
-static bool add_body(engine_session *session, const scene_body *body, int index,
+/// True when the bodies' names are to be written: on demand, or when there are few.
+static bool wants_names(const engine_session *session, unsigned show)
+{
+    int count = scene_body_count(session->scene), named = 0;
+    for (int i = 0; i < count; i++) {
+        scene_body body = scene_body_get(session->scene, i);
+        bool is_static = plumb_body_get_type(session->world, body.entity) == PLUMB_STATIC;
+        named += body.is_named && !body.hidden && !is_static;
+    }
+    return (show & ENGINE_SHOW_NAMES) != 0 || named <= NAMES_MAX;
+}
+
+static bool add_body(engine_session *session, const scene_body *body, int index, bool names,
                      render_frame *frame)
 {
     const plumb_world *world = session->world;
@@ -136,11 +152,14 @@ static bool add_body(engine_session *session, const scene_body *body, int index,
     if (count < 0) {
         return false;
     }
-    const char *label = body->label[0] != '\0' ? body->label : body->is_named ? body->name : NULL;
+    const char *label = body->label[0] != '\0' ? body->label : NULL;
+    if (label == NULL && names && body->is_named && type != PLUMB_STATIC) {
+        label = body->name;
+    }
     render_style style = { .kind = class_of(type),
                            .palette = pl_session_palette(body, index),
                            .color = { body->color.r, body->color.g, body->color.b, body->color.a },
-                           .label = type == PLUMB_STATIC && body->label[0] == '\0' ? NULL : label };
+                           .label = label };
     render_body_begin(frame, &style);
     for (int i = 0; i < count; i++) {
         add_shape(world, session->shapes[i], where, frame, type == PLUMB_STATIC);
@@ -180,6 +199,19 @@ static bool add_boxes(engine_session *session, render_frame *frame)
     return true;
 }
 
+/// An impulse has two ends. Drawn is the one that acts on the body that moves, of two such bodies
+/// the one that points up: what carries a weight.
+static void add_impulse(const plumb_world *world, const plumb_contact *contact,
+                        const plumb_contact_point *at, double jx, double jy, render_frame *frame)
+{
+    bool a_moves = plumb_body_get_type(world, contact->body_a) == PLUMB_DYNAMIC;
+    bool b_moves = plumb_body_get_type(world, contact->body_b) == PLUMB_DYNAMIC;
+    plumb_vec2 up = plumb_world_up(world);
+    bool points_down = jx * (double)up.x + jy * (double)up.y < 0;
+    double sign = !b_moves || (a_moves && points_down) ? -1 : 1;
+    render_add_impulse(frame, (double)at->point.x, (double)at->point.y, sign * jx, sign * jy);
+}
+
 static bool add_contacts(engine_session *session, render_frame *frame, unsigned show)
 {
     int count = plumb_world_contacts(session->world, NULL, 0);
@@ -200,8 +232,8 @@ static bool add_contacts(engine_session *session, render_frame *frame, unsigned 
                 render_add_contact(frame, x, y, nx, ny, -(double)p->separation);
             }
             if ((show & RENDER_SHOW_IMPULSES) != 0) {
-                // On body B; the tangent is the normal turned by a quarter counter-clockwise.
-                render_add_impulse(frame, x, y, j * nx - t * ny, j * ny + t * nx);
+                // The tangent is the normal turned by a quarter counter-clockwise.
+                add_impulse(session->world, &list[i], p, j * nx - t * ny, j * ny + t * nx, frame);
             }
         }
     }
@@ -211,14 +243,14 @@ static bool add_contacts(engine_session *session, render_frame *frame, unsigned 
 int pl_session_draw(engine_session *session, struct render_frame *frame, unsigned show)
 {
     int count = scene_body_count(session->scene);
-    bool good = true;
+    bool good = true, names = wants_names(session, show);
     // What does not move lies behind what does.
     for (int layer = 0; layer < 2; layer++) {
         for (int i = 0; i < count && good; i++) {
             scene_body body = scene_body_get(session->scene, i);
             bool is_static = plumb_body_get_type(session->world, body.entity) == PLUMB_STATIC;
             if (!body.hidden && is_static == (layer == 0)) {
-                good = add_body(session, &body, i, frame);
+                good = add_body(session, &body, i, names, frame);
             }
         }
     }

@@ -9,7 +9,7 @@
 #include <string.h>
 
 /// [-] share of the picture left free on each side.
-static const double MARGIN = 0.08;
+static const double MARGIN = 0.1;
 /// [-] how far, in sizes of the first state, things may stray and still be fitted.
 static const double STRAY = 0.75;
 /// [-] how much of the fixed surroundings is shown around what moves, in sizes of that.
@@ -106,13 +106,11 @@ static render_camera fitted(const view *v)
         return (render_camera){ { v->hint.x, v->hint.y }, v->hint.height, v->y_down };
     }
     render_box box = { { v->seen.min_x, v->seen.min_y }, { v->seen.max_x, v->seen.max_y } };
-    double margin = MARGIN;
     if (v->hint.has_fit) {
         box =
             (render_box){ { v->hint.box[0], v->hint.box[1] }, { v->hint.box[2], v->hint.box[3] } };
-        margin = 0;
     }
-    return render_camera_fit(box, v->wish.width, v->wish.height, margin, v->y_down);
+    return render_camera_fit(box, v->wish.width, v->wish.height, MARGIN, v->y_down);
 }
 
 render_camera view_camera(view *v, scene_run *run)

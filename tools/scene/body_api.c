@@ -102,7 +102,7 @@ static call self(lua_State *L, const char *method)
     return c;
 }
 
-static double finite(lua_State *L, int index)
+static double finite_number(lua_State *L, int index)
 {
     double v = luaL_checknumber(L, index);
     luaL_argcheck(L, isfinite(v), index, "must be finite");
@@ -118,8 +118,8 @@ static plumb_vec2 vector(lua_State *L, int *index)
                       "must be two finite numbers {x, y}");
         *index += 1;
     } else {
-        v[0] = finite(L, *index);
-        v[1] = finite(L, *index + 1);
+        v[0] = finite_number(L, *index);
+        v[1] = finite_number(L, *index + 1);
         *index += 2;
     }
     return (plumb_vec2){ (plumb_real)v[0], (plumb_real)v[1] };
@@ -234,7 +234,7 @@ static int method_set_velocity(lua_State *L)
 static int method_set_spin(lua_State *L)
 {
     call c = self(L, "set_spin");
-    return check(&c, plumb_body_set_angular_velocity(c.world, c.entity, (plumb_real)finite(L, 2)));
+    return check(&c, plumb_body_set_angular_velocity(c.world, c.entity, (plumb_real)finite_number(L, 2)));
 }
 
 static int method_teleport(lua_State *L)
@@ -243,7 +243,7 @@ static int method_teleport(lua_State *L)
     int index = 2;
     plumb_vec2 p = vector(L, &index);
     plumb_real angle = lua_isnoneornil(L, index) ? plumb_body_angle(c.world, c.entity)
-                                                 : (plumb_real)finite(L, index);
+                                                 : (plumb_real)finite_number(L, index);
     check(&c, plumb_body_teleport(c.world, c.entity, p, angle));
     c.body->def.angle = (double)angle;
     c.body->set_rot = plumb_body_transform(c.world, c.entity).q;
@@ -253,7 +253,7 @@ static int method_teleport(lua_State *L)
 static int method_set_mass(lua_State *L)
 {
     call c = self(L, "set_mass");
-    double mass = finite(L, 2);
+    double mass = finite_number(L, 2);
     check(&c, plumb_body_set_mass(c.world, c.entity, (plumb_real)mass));
     c.body->def.mass = mass;
     SC_GIVE(&sc_list_body, &c.body->def, sc_body_def, mass);
@@ -263,7 +263,7 @@ static int method_set_mass(lua_State *L)
 static int method_set_gravity_scale(lua_State *L)
 {
     call c = self(L, "set_gravity_scale");
-    double scale = finite(L, 2);
+    double scale = finite_number(L, 2);
     check(&c, plumb_body_set_gravity_scale(c.world, c.entity, (plumb_real)scale));
     c.body->def.gravity_scale = scale;
     SC_GIVE(&sc_list_body, &c.body->def, sc_body_def, gravity_scale);
@@ -332,13 +332,13 @@ static int method_apply_impulse(lua_State *L)
 static int method_apply_torque(lua_State *L)
 {
     call c = self(L, "apply_torque");
-    return check(&c, plumb_body_apply_torque(c.world, c.entity, (plumb_real)finite(L, 2)));
+    return check(&c, plumb_body_apply_torque(c.world, c.entity, (plumb_real)finite_number(L, 2)));
 }
 
 static int method_apply_angular_impulse(lua_State *L)
 {
     call c = self(L, "apply_angular_impulse");
-    return check(&c, plumb_body_apply_angular_impulse(c.world, c.entity, (plumb_real)finite(L, 2)));
+    return check(&c, plumb_body_apply_angular_impulse(c.world, c.entity, (plumb_real)finite_number(L, 2)));
 }
 
 static int method_destroy(lua_State *L)

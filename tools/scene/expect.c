@@ -127,7 +127,7 @@ typedef struct sample {
 static void keep(scene *s, sc_expect *e, const sample *m)
 {
     double ratio = isnan(m->measured) || isnan(m->ratio) ? DBL_MAX : m->ratio;
-    if (ratio <= e->ratio) {
+    if (ratio < e->ratio) {
         return;
     }
     e->ratio = ratio;

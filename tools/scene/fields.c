@@ -96,10 +96,11 @@ static void check_number(const context *c, double v)
                  isnan(v) ? "nan" : v > 0 ? "inf" : "-inf");
     }
     if (low || v > row->max) {
+        bool unit = row->detail != NULL && strcmp(row->detail, "1") != 0;
         sc_raise(c->s, SCENE_E_RANGE, c->site, row->name, c->index, NULL,
-                 "'%s' of %s{} must be %s %.10g and at most %.10g [%s], not %.10g", row->name,
+                 "'%s' of %s{} must be %s %.10g and at most %.10g%s%s, not %.10g", row->name,
                  c->site->construct, (row->flags & SC_ABOVE) != 0 ? "above" : "at least", row->min,
-                 row->max, row->detail, v);
+                 row->max, unit ? " " : "", unit ? row->detail : "", v);
     }
 }
 
@@ -447,11 +448,29 @@ static int positions(const sc_list *list)
     return most;
 }
 
+// What other engines and languages call our keys.
+static const struct {
+    const char *elsewhere, *here;
+} words[] = {
+    { "position", "at" },         { "rotation", "angle" },      { "angular_velocity", "spin" },
+    { "omega", "spin" },          { "bounce", "restitution" },  { "elasticity", "restitution" },
+    { "radius", "r" },            { "width", "w" },             { "height", "h" },
+    { "linear_velocity", "velocity" }, { "time_step", "dt" },   { "colour", "color" },
+    { "seconds", "duration" },    { "rounding", "round" },      { "sides", "n" },
+};
+
 _Noreturn static void fail_key(scene *s, const sc_site *site, const sc_list *list, const char *key)
 {
     sc_suggest g = sc_suggest_start(key);
     for (int i = 0; i < list->count; i++) {
         sc_suggest_offer(&g, list->rows[i].name);
+    }
+    for (size_t i = 0; i < sizeof words / sizeof *words && sc_suggest_best(&g) == NULL; i++) {
+        sc_suggest h = sc_suggest_start(key);
+        sc_suggest_offer(&h, words[i].elsewhere);
+        if (sc_suggest_best(&h) != NULL && find_row(list, words[i].here) != NULL) {
+            sc_suggest_force(&g, words[i].here);
+        }
     }
     sc_raise(s, SCENE_E_KEY, site, key, 0, sc_suggest_best(&g), "unknown key '%.63s' in %s{}", key,
              site->construct);
@@ -539,9 +558,9 @@ void sc_read(scene *s, const sc_site *site, const sc_list *list, int table, void
             read_value(&c, lua_gettop(L), out);
             present |= (uint64_t)1 << i;
         } else if ((c.row->flags & SC_REQUIRED) != 0) {
+            bool plain = c.row->kind == SC_POINTS || c.row->kind == SC_FUNCTION;
             sc_raise(s, SCENE_E_MISSING, site, NULL, 0, NULL, "%s{} needs %s%s%s", site->construct,
-                     c.row->kind == SC_POINTS ? "" : "'", c.row->name,
-                     c.row->kind == SC_POINTS ? "" : "'");
+                     c.row->kind == SC_FUNCTION ? "a " : plain ? "" : "'", c.row->name, plain ? "" : "'");
         }
         lua_pop(L, 1);
     }

@@ -78,6 +78,8 @@ typedef struct sc_suggest {
 
 sc_suggest sc_suggest_start(const char *word);
 void sc_suggest_offer(sc_suggest *g, const char *candidate);
+/// Takes a word whatever the distance (a known synonym, shorter than SC_NAME_SIZE).
+void sc_suggest_force(sc_suggest *g, const char *candidate);
 /// The best one, or null when none is near enough.
 const char *sc_suggest_best(const sc_suggest *g);
 

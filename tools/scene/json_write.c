@@ -16,6 +16,23 @@ typedef struct writer {
     bool first; ///< no comma before the next member
 } writer;
 
+// The shortest text that reads back to the same bits (of a plumb_real, or of a double).
+static void shortest(char *text, size_t size, double v, bool is_real)
+{
+    const double plain = 1e15; // integers below are written without an exponent
+    if (v == floor(v) && fabs(v) < plain) {
+        snprintf(text, size, "%.0f", v);
+        return;
+    }
+    for (int digits = 1; digits <= 17; digits++) {
+        snprintf(text, size, "%.*g", digits, v);
+        double back = strtod(text, NULL);
+        if (back == v || (is_real && (plumb_real)back == (plumb_real)v)) {
+            return;
+        }
+    }
+}
+
 static void write_number(writer *w, double v, bool is_real)
 {
     char text[40];
@@ -23,14 +40,16 @@ static void write_number(writer *w, double v, bool is_real)
         fputs("null", w->file);
         return;
     }
-    for (int digits = 1; digits <= 17; digits++) {
-        snprintf(text, sizeof text, "%.*g", digits, v);
-        double back = strtod(text, NULL);
-        if (back == v || (is_real && (plumb_real)back == (plumb_real)v)) {
-            break;
-        }
-    }
+    shortest(text, sizeof text, v, is_real);
     fputs(text, w->file);
+}
+
+// The double that stands for a real when an author writes it: -9.81, not -9.8100004196167.
+static double as_written(plumb_real v)
+{
+    char text[40];
+    shortest(text, sizeof text, (double)v, true);
+    return strtod(text, NULL);
 }
 
 static void write_string(writer *w, const char *text)
@@ -233,8 +252,8 @@ static void write_settings(const scene *s, writer *w)
 {
     sc_settings d = s->settings;
     plumb_vec2 g = plumb_world_gravity(s->world);
-    d.gravity[0] = (double)g.x;
-    d.gravity[1] = (double)g.y;
+    d.gravity[0] = as_written(g.x);
+    d.gravity[1] = as_written(g.y);
     d.dt = s->dt;
     d.duration = s->duration;
     if (d.title[0] == 0) {

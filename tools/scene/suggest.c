@@ -60,6 +60,12 @@ void sc_suggest_offer(sc_suggest *g, const char *candidate)
     }
 }
 
+void sc_suggest_force(sc_suggest *g, const char *candidate)
+{
+    strcpy(g->best, candidate);
+    g->distance = 0;
+}
+
 const char *sc_suggest_best(const sc_suggest *g)
 {
     return g->best[0] != 0 ? g->best : NULL;

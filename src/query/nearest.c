@@ -1,0 +1,169 @@
+// nearest.c - the shape nearest to a point.
+//
+// Each level of the grid is searched in squares about the point, each twice as large as the one
+// before, until the square holds all that can be nearer than the nearest so far. When a square has
+// more cells than the level has boxes, all boxes are looked at, once.
+//
+// Inside an outline the surface is the outline's and not that of the convex piece that the point is
+// in: edges that are inner cuts do not count.
+//
+// Reads: grids, pieces, poses. Writes: the answer. Cost: cells and boxes nearer than the answer.
+#include <math.h>
+
+#include "query/query.h"
+#include "query/walk.h"
+#include "world/check.h"
+
+typedef struct search {
+    pl_query q;
+    plumb_vec2 point;
+    double slack;            // [m]
+    plumb_real max_distance; // [m]
+    bool met;
+    plumb_nearest_hit best;
+    double done; // [m] half of the last square: what overlaps it was looked at
+} search;
+
+// [m] nothing farther than this can be nearer than the best.
+static double bound_of(const search *s)
+{
+    double bound = (double)(s->met ? s->best.distance : s->max_distance);
+    return fmax(bound, 0) + s->slack;
+}
+
+// How far a box is away along the axes, 0 on those where it spans the point. [m]
+static void box_distance(const search *s, const pl_box *box, double *dx, double *dy)
+{
+    double x = (double)s->point.x;
+    double y = (double)s->point.y;
+    *dx = fmax(fmax((double)box->min_x - x, x - (double)box->max_x), 0);
+    *dy = fmax(fmax((double)box->min_y - y, y - (double)box->max_y), 0);
+}
+
+static plumb_convex_near nearest_on_edge(const plumb_convex *convex, int k, plumb_vec2 local)
+{
+    plumb_vec2 a = convex->points[k];
+    plumb_vec2 b = convex->points[k + 1 == convex->count ? 0 : k + 1];
+    plumb_vec2 along = plumb_vec2_sub(b, a);
+    plumb_real t = plumb_vec2_dot(plumb_vec2_sub(local, a), along) / plumb_vec2_magnitude_sq(along);
+    plumb_convex_near near = { .point = plumb_vec2_lerp(a, b, plumb_clamp(t, 0, 1)) };
+    near.distance = -plumb_vec2_distance(near.point, local);
+    return near;
+}
+
+// The nearest edge of a piece's whole shape that is not an inner cut, for a point inside.
+static plumb_convex_near nearest_of_outline(const plumb_world *world, uint32_t piece,
+                                            plumb_vec2 local)
+{
+    plumb_convex_near best = { .distance = -PLUMB_REAL_MAX };
+    uint32_t p = pl_shape_piece(world, world->pieces.shape[piece]);
+    for (; p != PL_NONE; p = world->pieces.next_in_shape[p]) {
+        plumb_convex convex;
+        pl_piece_convex(world, p, &convex);
+        for (int k = 0; k < convex.count; ++k) {
+            if ((world->pieces.seams[p] >> k & 1u) == 0) {
+                plumb_convex_near near = nearest_on_edge(&convex, k, local);
+                best = near.distance > best.distance ? near : best;
+            }
+        }
+    }
+    return best;
+}
+
+static plumb_nearest_hit nearest_of_piece(const search *s, uint32_t piece)
+{
+    const plumb_world *world = s->q.world;
+    plumb_convex convex;
+    plumb_transform frame = pl_query_frame(world, piece);
+    plumb_vec2 local = plumb_transform_inv_apply(frame, s->point);
+    pl_query_convex(world, piece, &convex);
+    plumb_convex_near near = plumb_convex_nearest(&convex, local);
+    if (near.distance <= 0 && world->pieces.seams[piece] != 0) {
+        near = nearest_of_outline(world, piece, local);
+    }
+    pl_query_hit names = pl_query_hit_of(world, piece);
+    return (plumb_nearest_hit){ names.shape, names.body, plumb_transform_apply(frame, near.point),
+                                near.distance };
+}
+
+static bool is_nearer(const search *s, const plumb_nearest_hit *hit)
+{
+    if (!s->met) {
+        return hit->distance <= s->max_distance;
+    }
+    return hit->distance < s->best.distance ||
+           (hit->distance == s->best.distance && hit->shape.index < s->best.shape.index);
+}
+
+static bool visit(void *context, const pl_grid_entry *entry)
+{
+    search *s = context;
+    double dx, dy;
+    box_distance(s, &entry->box, &dx, &dy);
+    if (fmax(dx, dy) <= s->done || sqrt(dx * dx + dy * dy) > bound_of(s) ||
+        !pl_query_sees(&s->q, entry->piece)) {
+        return true;
+    }
+    plumb_nearest_hit hit = nearest_of_piece(s, entry->piece);
+    if (is_nearer(s, &hit) && pl_query_accepts(&s->q, hit.shape)) {
+        s->met = true;
+        s->best = hit;
+    }
+    return true;
+}
+
+static void search_level(search *s, const pl_grid *grid, const pl_grid_level *level)
+{
+    s->done = -1;
+    for (double half = level->cell;; half *= 2) {
+        double reach = fmin(half, bound_of(s));
+        pl_box box = pl_query_box_at(s->point, reach + s->slack);
+        if (pl_grid_range_is_wide(level, pl_grid_range(level, box))) {
+            const pl_grid_entry *e = pl_grid_entries(grid) + level->first;
+            for (uint32_t i = 0; i < level->count; ++i) {
+                visit(s, &e[i]);
+            }
+            return;
+        }
+        pl_walk square = { (double)s->point.x, (double)s->point.y, 0, 0, 1, reach + s->slack };
+        pl_walk_level(grid, level, &square, visit, s);
+        if (half >= bound_of(s)) {
+            return;
+        }
+        s->done = reach;
+    }
+}
+
+bool plumb_world_nearest(plumb_world *world, plumb_vec2 point, plumb_real max_distance,
+                         const plumb_query_filter *filter, plumb_nearest_hit *hit)
+{
+    search s;
+    if (world == NULL || pl_check_pointer(world, __func__, "hit", hit) != PLUMB_OK ||
+        pl_check_within(world, __func__, "point", point, PL_QUERY_LIMIT) != PLUMB_OK ||
+        pl_check_finite(world, __func__, "max_distance", max_distance) != PLUMB_OK) {
+        return false;
+    }
+    if (max_distance <= 0) {
+        pl_fail(world, PLUMB_E_RANGE, __func__, "max_distance is %g; it must be above 0",
+                (double)max_distance);
+        return false;
+    }
+    if (pl_query_begin(&s.q, world, __func__, filter) != PLUMB_OK) {
+        return false;
+    }
+    s.point = point;
+    s.slack = pl_query_slack(fabs((double)point.x) + fabs((double)point.y));
+    s.max_distance = max_distance;
+    s.met = false;
+    const pl_grid *grids[2];
+    int grid_count = pl_query_grids(&s.q, grids);
+    for (int i = 0; i < grid_count; ++i) {
+        for (uint32_t k = 0; k < grids[i]->level_count; ++k) {
+            search_level(&s, grids[i], &grids[i]->levels[k]);
+        }
+    }
+    if (s.met) {
+        *hit = s.best;
+    }
+    return s.met;
+}

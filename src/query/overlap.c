@@ -1,0 +1,265 @@
+// overlap.c - shapes that overlap a box, a convex shape or a point; when two convex shapes overlap.
+//
+// Two rounded shapes overlap when the distance of their cores is at most the sum of their radii. No
+// axis that separates the cores by more than that, then no axis that separates them at all (they
+// intersect), else the distance from corners to edges, which two convex sets that are apart have.
+//
+// Axes that suffice are the normals of both outlines (separating axis theorem; Gottschalk 1996). A
+// segment counts as a flat box: both its sides and both its ends.
+//
+// Reads: grids, pieces, poses. Writes: the answer. Cost: cells of the box + O(corners^2) a piece.
+#include "query/overlap.h"
+
+#include <math.h>
+
+#include "query/query.h"
+#include "world/check.h"
+
+//---- two convex shapes -------------------------------------------------------------------------
+
+void pl_round_make(const plumb_convex *convex, plumb_transform t, plumb_vec2 origin, pl_round *out)
+{
+    double px = (double)t.p.x - (double)origin.x;
+    double py = (double)t.p.y - (double)origin.y;
+    double c = (double)t.q.c;
+    double s = (double)t.q.s;
+    out->count = convex->count;
+    out->radius = (double)convex->radius;
+    for (int i = 0; i < convex->count; ++i) {
+        double x = (double)convex->points[i].x;
+        double y = (double)convex->points[i].y;
+        out->x[i] = c * x - s * y + px;
+        out->y[i] = s * x + c * y + py;
+    }
+}
+
+// How far b lies beyond a along a unit vector; negative: not at all.
+static double gap(const pl_round *a, const pl_round *b, double nx, double ny)
+{
+    double farthest = -INFINITY;
+    double nearest = INFINITY;
+    for (int i = 0; i < a->count; ++i) {
+        farthest = fmax(farthest, nx * a->x[i] + ny * a->y[i]);
+    }
+    for (int i = 0; i < b->count; ++i) {
+        nearest = fmin(nearest, nx * b->x[i] + ny * b->y[i]);
+    }
+    return nearest - farthest;
+}
+
+// The widest gap between the cores along the axes of a's outline; -inf when a is a point.
+static double widest_gap(const pl_round *a, const pl_round *b)
+{
+    double widest = -INFINITY;
+    for (int i = 0; i < a->count && a->count > 1; ++i) {
+        int next = i + 1 == a->count ? 0 : i + 1;
+        double dx = a->x[next] - a->x[i];
+        double dy = a->y[next] - a->y[i];
+        double length = sqrt(dx * dx + dy * dy);
+        if (length == 0) {
+            continue;
+        }
+        dx /= length;
+        dy /= length;
+        widest = fmax(widest, gap(a, b, dy, -dx));
+        if (a->count == 2) { // the end towards which this edge runs
+            widest = fmax(widest, gap(a, b, dx, dy));
+        }
+    }
+    return widest;
+}
+
+// Squared distance of a point from the edge that starts at corner i.
+static double distance_sq(const pl_round *a, int i, double px, double py)
+{
+    int next = i + 1 == a->count ? 0 : i + 1;
+    double dx = a->x[next] - a->x[i];
+    double dy = a->y[next] - a->y[i];
+    double rx = px - a->x[i];
+    double ry = py - a->y[i];
+    double length_sq = dx * dx + dy * dy;
+    double t = length_sq > 0 ? (rx * dx + ry * dy) / length_sq : 0; // 0: a point has no edge
+    t = fmin(fmax(t, 0), 1);
+    rx -= t * dx;
+    ry -= t * dy;
+    return rx * rx + ry * ry;
+}
+
+// Smallest squared distance from b's corners to a's outline.
+static double corners_distance_sq(const pl_round *a, const pl_round *b)
+{
+    double nearest = INFINITY;
+    for (int i = 0; i < a->count; ++i) {
+        for (int k = 0; k < b->count; ++k) {
+            nearest = fmin(nearest, distance_sq(a, i, b->x[k], b->y[k]));
+        }
+    }
+    return nearest;
+}
+
+bool pl_rounds_overlap(const pl_round *a, const pl_round *b)
+{
+    double reach = a->radius + b->radius;
+    double widest = fmax(widest_gap(a, b), widest_gap(b, a));
+    if (widest > reach) {
+        return false;
+    }
+    if (widest <= 0 && widest > -INFINITY) { // two points have no axes: -inf
+        return true;
+    }
+    return fmin(corners_distance_sq(a, b), corners_distance_sq(b, a)) <= reach * reach;
+}
+
+//---- queries -----------------------------------------------------------------------------------
+
+typedef struct search {
+    pl_query q;
+    pl_box box;
+    pl_round round;   // of overlap_convex, relative to `origin`
+    plumb_vec2 point; // of overlap_point
+    plumb_vec2 origin;
+} search;
+
+typedef bool overlaps_fn(const search *s, uint32_t piece);
+
+typedef struct visitor {
+    search *s;
+    overlaps_fn *overlaps;
+} visitor;
+
+static bool visit(void *context, const pl_grid_entry *entry)
+{
+    visitor *v = context;
+    if (!pl_query_sees(&v->s->q, entry->piece) || !v->overlaps(v->s, entry->piece)) {
+        return true;
+    }
+    pl_query_hit hit = pl_query_hit_of(v->s->q.world, entry->piece);
+    return pl_query_add(&v->s->q, &hit);
+}
+
+// Asks all pieces near s->box, writes the shapes in slot order.
+static int run(search *s, overlaps_fn *overlaps, plumb_shape *shapes, int capacity)
+{
+    const pl_grid *grids[2];
+    int grid_count = pl_query_grids(&s->q, grids);
+    visitor v = { s, overlaps };
+    for (int i = 0; i < grid_count; ++i) {
+        if (!pl_grid_query(grids[i], s->box, visit, &v)) {
+            break;
+        }
+    }
+    pl_query_one_per_shape(&s->q);
+    int count = (int)s->q.count;
+    for (int i = 0; i < count && i < capacity; ++i) {
+        shapes[i] = s->q.hits[i].shape;
+    }
+    return pl_query_end(&s->q) == PLUMB_OK ? count : -1;
+}
+
+static bool tight_box_overlaps(const search *s, uint32_t piece)
+{
+    pl_box tight = pl_piece_tight_box(s->q.world, piece);
+    return pl_boxes_overlap(&tight, &s->box);
+}
+
+int plumb_world_overlap_aabb(plumb_world *world, plumb_aabb box, const plumb_query_filter *filter,
+                             plumb_shape *shapes, int capacity)
+{
+    search s;
+    if (world == NULL ||
+        pl_query_check_output(world, __func__, "shapes", shapes, capacity) != PLUMB_OK ||
+        pl_check_finite_vec(world, __func__, "box.min", box.min) != PLUMB_OK ||
+        pl_check_finite_vec(world, __func__, "box.max", box.max) != PLUMB_OK ||
+        pl_query_begin(&s.q, world, __func__, filter) != PLUMB_OK) {
+        return -1;
+    }
+    if (plumb_aabb_is_empty(box)) {
+        return 0;
+    }
+    s.box = (pl_box){ box.min.x, box.min.y, box.max.x, box.max.y };
+    return run(&s, tight_box_overlaps, shapes, capacity);
+}
+
+static bool contains_point(const search *s, uint32_t piece)
+{
+    plumb_convex convex;
+    pl_query_convex(s->q.world, piece, &convex);
+    plumb_transform frame = pl_query_frame(s->q.world, piece);
+    return plumb_convex_contains(&convex, plumb_transform_inv_apply(frame, s->point));
+}
+
+int plumb_world_overlap_point(plumb_world *world, plumb_vec2 point,
+                              const plumb_query_filter *filter, plumb_shape *shapes, int capacity)
+{
+    search s;
+    if (world == NULL ||
+        pl_query_check_output(world, __func__, "shapes", shapes, capacity) != PLUMB_OK ||
+        pl_check_within(world, __func__, "point", point, PL_QUERY_LIMIT) != PLUMB_OK ||
+        pl_query_begin(&s.q, world, __func__, filter) != PLUMB_OK) {
+        return -1;
+    }
+    s.point = point;
+    s.box = pl_query_box_at(point, pl_query_slack(fabs((double)point.x) + fabs((double)point.y)));
+    return run(&s, contains_point, shapes, capacity);
+}
+
+static bool rounds_overlap(const search *s, uint32_t piece)
+{
+    plumb_convex convex;
+    pl_round round;
+    pl_query_convex(s->q.world, piece, &convex);
+    pl_round_make(&convex, pl_query_frame(s->q.world, piece), s->origin, &round);
+    return pl_rounds_overlap(&s->round, &round);
+}
+
+static plumb_result check_convex(const plumb_world *world, const char *function,
+                                 const plumb_convex *convex)
+{
+    plumb_result r = pl_check_pointer(world, function, "convex", convex);
+    if (r == PLUMB_OK && (convex->count < 1 || convex->count > PLUMB_POLYGON_MAX_VERTICES)) {
+        return pl_fail(world, PLUMB_E_RANGE, function, "convex.count is %d; it must be 1 to %d",
+                       convex->count, PLUMB_POLYGON_MAX_VERTICES);
+    }
+    for (int i = 0; r == PLUMB_OK && i < convex->count; ++i) {
+        r = pl_check_within(world, function, "convex.points", convex->points[i], PLUMB_LENGTH_MAX);
+    }
+    return r != PLUMB_OK ? r
+                         : pl_check_range(world, function, "convex.radius", convex->radius, 0,
+                                          PLUMB_LENGTH_MAX);
+}
+
+static plumb_result check_transform(const plumb_world *world, const char *function,
+                                    plumb_transform t)
+{
+    plumb_result r = pl_check_within(world, function, "transform.p", t.p, PL_QUERY_LIMIT);
+    plumb_vec2 q = { t.q.c, t.q.s };
+    r = r != PLUMB_OK ? r : pl_check_finite_vec(world, function, "transform.q", q);
+    if (r == PLUMB_OK && !plumb_rot_is_unit(t.q)) {
+        r = pl_fail(world, PLUMB_E_RANGE, function,
+                    "transform.q is (%g, %g); it must be a unit rotation", (double)t.q.c,
+                    (double)t.q.s);
+    }
+    return r;
+}
+
+int plumb_world_overlap_convex(plumb_world *world, const plumb_convex *convex,
+                               plumb_transform transform, const plumb_query_filter *filter,
+                               plumb_shape *shapes, int capacity)
+{
+    search s;
+    if (world == NULL ||
+        pl_query_check_output(world, __func__, "shapes", shapes, capacity) != PLUMB_OK ||
+        check_convex(world, __func__, convex) != PLUMB_OK ||
+        check_transform(world, __func__, transform) != PLUMB_OK ||
+        pl_query_begin(&s.q, world, __func__, filter) != PLUMB_OK) {
+        return -1;
+    }
+    plumb_aabb box = plumb_convex_aabb(convex, transform);
+    double largest = fabs((double)transform.p.x) + fabs((double)transform.p.y) +
+                     (double)(box.max.x - box.min.x) + (double)(box.max.y - box.min.y);
+    box = plumb_aabb_expand(box, (plumb_real)pl_query_slack(largest));
+    s.box = (pl_box){ box.min.x, box.min.y, box.max.x, box.max.y };
+    s.origin = transform.p;
+    pl_round_make(convex, transform, s.origin, &s.round);
+    return run(&s, rounds_overlap, shapes, capacity);
+}

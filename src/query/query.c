@@ -1,0 +1,201 @@
+// query.c - what the queries share: the filter, the list of hits, its order.
+//
+// A query goes through the grids with a box or a ray, asks plumb_convex_* about every piece that it
+// meets there, and keeps a hit for each piece that answers. Shapes of several pieces come out once.
+//
+// Reads: grids, pieces, poses, the filter. Writes: fat boxes and grids (pl_broad_update_grids), the
+// query's own list. Cost: sorting is O(hits log hits); no allocation for PL_QUERY_NEAR_HITS or
+// fewer.
+#include "query/query.h"
+#include "world/check.h"
+
+#include <string.h>
+
+//---- begin -------------------------------------------------------------------------------------
+
+plumb_result pl_query_begin(pl_query *q, plumb_world *world, const char *function,
+                            const plumb_query_filter *filter)
+{
+    q->world = world;
+    q->function = function;
+    q->filter = filter != NULL ? *filter : (plumb_query_filter){ 0 };
+    q->hits = q->near_hits;
+    q->count = 0;
+    q->capacity = PL_QUERY_NEAR_HITS;
+    q->out_of_memory = false;
+    q->buffer = (pl_buffer){ 0 };
+    plumb_body ignored = q->filter.ignore_body;
+    if (!plumb_is_null(ignored) && pl_body_row(world, ignored) == PL_NONE) {
+        return pl_fail_handle(world, function, "filter.ignore_body", ignored,
+                              "a live body or null");
+    }
+    bool stale;
+    return pl_broad_update_grids(world, 0, &stale) ? PLUMB_OK : pl_fail_memory(world, function);
+}
+
+plumb_result pl_query_check_output(const plumb_world *world, const char *function,
+                                   const char *field, const void *output, int capacity)
+{
+    if (capacity < 0) {
+        return pl_fail(world, PLUMB_E_RANGE, function, "capacity is %d; it must be at least 0",
+                       capacity);
+    }
+    return capacity == 0 ? PLUMB_OK : pl_check_pointer(world, function, field, output);
+}
+
+pl_box pl_query_box_at(plumb_vec2 point, double half)
+{
+    plumb_real h = (plumb_real)half;
+    return (pl_box){ point.x - h, point.y - h, point.x + h, point.y + h };
+}
+
+//---- filter ------------------------------------------------------------------------------------
+
+int pl_query_grids(const pl_query *q, const pl_grid *grids[2])
+{
+    int count = 0;
+    if (!q->filter.ignore_dynamic) {
+        grids[count++] = &q->world->broad.moving;
+    }
+    if (!q->filter.ignore_static) {
+        grids[count++] = &q->world->broad.fixed;
+    }
+    return count;
+}
+
+bool pl_query_sees(const pl_query *q, uint32_t piece)
+{
+    if (plumb_is_null(q->filter.ignore_body)) {
+        return true;
+    }
+    const plumb_world *world = q->world;
+    return !plumb_same(world->bodies.entity[world->pieces.body[piece]], q->filter.ignore_body);
+}
+
+bool pl_query_accepts(const pl_query *q, plumb_shape shape)
+{
+    return q->filter.accept == NULL || q->filter.accept(q->filter.context, shape);
+}
+
+//---- pieces ------------------------------------------------------------------------------------
+
+void pl_query_convex(const plumb_world *world, uint32_t piece, plumb_convex *out)
+{
+    pl_piece_convex(world, piece, out);
+    uint32_t seams = world->pieces.seams[piece];
+    // The pieces on both sides of a cut see a point in the same place; their distances from it
+    // differ by the rounding of two dot products and of the normals.
+    plumb_real margin = 4 * PLUMB_REAL_EPSILON * world->pieces.core[piece].reach;
+    for (int k = 0; seams != 0; ++k, seams >>= 1) {
+        if (seams & 1u) {
+            plumb_vec2 *a = &out->points[k];
+            plumb_vec2 *b = &out->points[k + 1 == out->count ? 0 : k + 1];
+            *a = plumb_vec2_add_scaled(*a, margin, out->normals[k]);
+            *b = plumb_vec2_add_scaled(*b, margin, out->normals[k]);
+        }
+    }
+}
+
+plumb_transform pl_query_frame(const plumb_world *world, uint32_t piece)
+{
+    const pl_pose *pose = &pl_poses(world)[world->pieces.body[piece]];
+    return (plumb_transform){ { pose->x, pose->y }, { pose->c, pose->s } };
+}
+
+pl_query_hit pl_query_hit_of(const plumb_world *world, uint32_t piece)
+{
+    return (pl_query_hit){ .shape = world->pieces.shape[piece],
+                           .body = world->bodies.entity[world->pieces.body[piece]] };
+}
+
+//---- hits --------------------------------------------------------------------------------------
+
+bool pl_query_add(pl_query *q, const pl_query_hit *hit)
+{
+    if (q->count == q->capacity) {
+        size_t used = q->count * sizeof(pl_query_hit);
+        if (!pl_buffer_reserve(&q->world->memory, &q->buffer, 2 * used)) {
+            q->out_of_memory = true;
+            return false;
+        }
+        if (q->hits == q->near_hits) {
+            memcpy(q->buffer.data, q->near_hits, used);
+        }
+        q->hits = q->buffer.data;
+        q->capacity *= 2;
+    }
+    q->hits[q->count++] = *hit;
+    return true;
+}
+
+typedef bool before_fn(const pl_query_hit *a, const pl_query_hit *b);
+
+// By slot; hits of one shape by fraction.
+static bool before_by_slot(const pl_query_hit *a, const pl_query_hit *b)
+{
+    return a->shape.index != b->shape.index ? a->shape.index < b->shape.index
+                                            : a->fraction < b->fraction;
+}
+
+static bool before_along(const pl_query_hit *a, const pl_query_hit *b)
+{
+    return a->fraction != b->fraction ? a->fraction < b->fraction : a->shape.index < b->shape.index;
+}
+
+// Lets the hit at `root` sink to its place in the heap of the first `count` hits.
+static void sink(pl_query_hit *hits, uint32_t root, uint32_t count, before_fn *before)
+{
+    pl_query_hit sinking = hits[root];
+    for (uint32_t child = 2 * root + 1; child < count; child = 2 * root + 1) {
+        if (child + 1 < count && before(&hits[child], &hits[child + 1])) {
+            ++child;
+        }
+        if (!before(&sinking, &hits[child])) {
+            break;
+        }
+        hits[root] = hits[child];
+        root = child;
+    }
+    hits[root] = sinking;
+}
+
+// Heap sort (Williams 1964): in place, and unlike qsort of the C library sure not to allocate.
+static void sort_hits(pl_query *q, before_fn *before)
+{
+    pl_query_hit *hits = q->hits;
+    for (uint32_t root = q->count / 2; root-- > 0;) {
+        sink(hits, root, q->count, before);
+    }
+    for (uint32_t last = q->count; last-- > 1;) {
+        pl_query_hit largest = hits[0];
+        hits[0] = hits[last];
+        hits[last] = largest;
+        sink(hits, 0, last, before);
+    }
+}
+
+void pl_query_one_per_shape(pl_query *q)
+{
+    sort_hits(q, before_by_slot);
+    uint32_t kept = 0;
+    uint32_t last = PL_NONE; // slot that was asked about last
+    for (uint32_t i = 0; i < q->count; ++i) {
+        uint32_t slot = q->hits[i].shape.index;
+        if (slot != last && pl_query_accepts(q, q->hits[i].shape)) {
+            q->hits[kept++] = q->hits[i];
+        }
+        last = slot;
+    }
+    q->count = kept;
+}
+
+void pl_query_sort_along(pl_query *q)
+{
+    sort_hits(q, before_along);
+}
+
+plumb_result pl_query_end(pl_query *q)
+{
+    pl_buffer_free(&q->world->memory, &q->buffer);
+    return q->out_of_memory ? pl_fail_memory(q->world, q->function) : PLUMB_OK;
+}

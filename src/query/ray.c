@@ -1,0 +1,129 @@
+// ray.c - what a ray meets: the first shape, or all of them.
+//
+// Every piece whose fat box the ray crosses is asked with the ray in the frame of the piece's body.
+// The first hit so far ends the walk through the grid where it lies.
+//
+// Reads: grids, pieces, poses. Writes: the answer. Cost: cells along the ray + O(corners) a box
+// met.
+#include "query/query.h"
+#include "query/walk.h"
+#include "world/check.h"
+
+typedef struct cast {
+    pl_query q;
+    pl_walk walk;
+    plumb_vec2 from, to;
+    bool met; // first hit only
+    pl_query_hit first;
+} cast;
+
+// The ray against one piece, in world coordinates.
+static bool meets_piece(const cast *c, uint32_t piece, pl_query_hit *hit)
+{
+    plumb_convex convex;
+    plumb_convex_hit local;
+    plumb_transform frame = pl_query_frame(c->q.world, piece);
+    plumb_vec2 along = plumb_rot_inv_apply(frame.q, plumb_vec2_sub(c->to, c->from));
+    pl_query_convex(c->q.world, piece, &convex);
+    if (!plumb_convex_ray(&convex, plumb_transform_inv_apply(frame, c->from), along, &local)) {
+        return false;
+    }
+    *hit = pl_query_hit_of(c->q.world, piece);
+    hit->fraction = local.fraction;
+    bool inside = local.normal.x == 0 && local.normal.y == 0;
+    hit->point = inside ? c->from : plumb_transform_apply(frame, local.point);
+    hit->normal = plumb_rot_apply(frame.q, local.normal);
+    return true;
+}
+
+static bool comes_first(const cast *c, const pl_query_hit *hit)
+{
+    return !c->met || hit->fraction < c->first.fraction ||
+           (hit->fraction == c->first.fraction && hit->shape.index < c->first.shape.index);
+}
+
+static bool keep_first(void *context, const pl_grid_entry *entry)
+{
+    cast *c = context;
+    pl_query_hit hit;
+    if (pl_query_sees(&c->q, entry->piece) && meets_piece(c, entry->piece, &hit) &&
+        comes_first(c, &hit) && pl_query_accepts(&c->q, hit.shape)) {
+        c->met = true;
+        c->first = hit;
+        c->walk.limit = (double)hit.fraction;
+    }
+    return true;
+}
+
+static bool keep_all(void *context, const pl_grid_entry *entry)
+{
+    cast *c = context;
+    pl_query_hit hit;
+    return !pl_query_sees(&c->q, entry->piece) || !meets_piece(c, entry->piece, &hit) ||
+           pl_query_add(&c->q, &hit);
+}
+
+static plumb_result begin(cast *c, plumb_world *world, const char *function, plumb_vec2 from,
+                          plumb_vec2 to, const plumb_query_filter *filter)
+{
+    plumb_result r = pl_check_within(world, function, "from", from, PL_QUERY_LIMIT);
+    r = r != PLUMB_OK ? r : pl_check_within(world, function, "to", to, PL_QUERY_LIMIT);
+    r = r != PLUMB_OK ? r : pl_query_begin(&c->q, world, function, filter);
+    c->from = from;
+    c->to = to;
+    c->met = false;
+    if (r == PLUMB_OK) {
+        c->walk = pl_walk_make(from, to);
+    }
+    return r;
+}
+
+static void walk(cast *c, pl_grid_visit *visit)
+{
+    const pl_grid *grids[2];
+    int count = pl_query_grids(&c->q, grids);
+    for (int i = 0; i < count; ++i) {
+        if (!pl_walk_grid(grids[i], &c->walk, visit, c)) {
+            return;
+        }
+    }
+}
+
+static plumb_ray_hit public_hit(const pl_query_hit *hit)
+{
+    return (plumb_ray_hit){ hit->shape, hit->body, hit->point, hit->normal, hit->fraction };
+}
+
+bool plumb_world_ray(plumb_world *world, plumb_vec2 from, plumb_vec2 to,
+                     const plumb_query_filter *filter, plumb_ray_hit *hit)
+{
+    cast c;
+    if (world == NULL || pl_check_pointer(world, __func__, "hit", hit) != PLUMB_OK ||
+        begin(&c, world, __func__, from, to, filter) != PLUMB_OK) {
+        return false;
+    }
+    walk(&c, keep_first);
+    if (c.met) {
+        *hit = public_hit(&c.first);
+    }
+    return c.met;
+}
+
+int plumb_world_ray_all(plumb_world *world, plumb_vec2 from, plumb_vec2 to,
+                        const plumb_query_filter *filter, plumb_ray_hit *hits, int capacity)
+{
+    cast c;
+    if (world == NULL ||
+        pl_query_check_output(world, __func__, "hits", hits, capacity) != PLUMB_OK ||
+        begin(&c, world, __func__, from, to, filter) != PLUMB_OK) {
+        return -1;
+    }
+    walk(&c, keep_all);
+    pl_query_one_per_shape(&c.q);
+    pl_query_sort_along(&c.q);
+    int count = (int)c.q.count;
+    for (int i = 0; i < count && i < capacity; ++i) {
+        hits[i] = public_hit(&c.q.hits[i]);
+    }
+    return pl_query_end(&c.q) == PLUMB_OK ? count : -1;
+}
