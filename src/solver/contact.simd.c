@@ -19,7 +19,8 @@
 typedef struct point {
     vf ran, rbn, rat, rbt; // [m]
     vf separation;         // [m] at the start of the step
-    vf mn, mt;             // [kg] effective masses
+    vf kn;                 // [1/kg] inverse effective mass along the normal
+    vf mt;                 // [kg] effective mass along the tangent
     vf ln, lt;             // [N s]
 } point;
 
@@ -27,7 +28,8 @@ typedef struct bundle {
     uint32_t a[PL_WIDTH], b[PL_WIDTH]; // solver slots
     vf nx, ny;
     vf friction;
-    vf bias_rate, mass_scale, impulse_scale; // softness
+    vf bias_rate, give; // softness: the push, and how much an impulse gives way, times kn
+    vf k01;             // [1/kg] what an impulse at one point does to the other
     point p[2];
 } bundle;
 
@@ -73,12 +75,28 @@ WIDE_INLINE void prepare_point(point *p, const vf row[8], const bundle *c, const
     p->rbt = bx * c->nx + by * c->ny;
     p->separation = row[4];
     vf mass = a->inv_mass + b->inv_mass;
-    p->mn =
-        inverse_or_zero(mass + a->inv_inertia * p->ran * p->ran + b->inv_inertia * p->rbn * p->rbn);
+    p->kn = mass + a->inv_inertia * p->ran * p->ran + b->inv_inertia * p->rbn * p->rbn;
     p->mt =
         inverse_or_zero(mass + a->inv_inertia * p->rat * p->rat + b->inv_inertia * p->rbt * p->rbt);
     p->ln = row[5];
     p->lt = row[6];
+}
+
+// Contacts with immovable bodies are so many times stiffer: what carries a pile yields last, and no mass
+// ratio can make them unstable.
+#define STATIC_STIFFNESS ((plumb_real)2)
+
+typedef struct softness {
+    vf bias_rate, give;
+} softness;
+
+// Numbers of a soft contact of `factor` times the call's frequency; formulas on top.
+WIDE_INLINE softness soften(const pl_contact_call *call, plumb_real factor)
+{
+    plumb_real omega = (plumb_real)6.283185307179586 * call->hertz * factor;
+    plumb_real a1 = 2 * call->damping + call->h * omega;
+    plumb_real a2 = call->h * omega * a1;
+    return (softness){ splat(omega / a1), splat(1 / a2) };
 }
 
 // An empty lane: no mass, no impulse, out of reach.
@@ -88,10 +106,7 @@ static const pl_manifold empty_manifold __attribute__((
 static void prepare(const pl_contact_call *call, uint32_t first, uint32_t count)
 {
     bundle *bundles = call->bundles;
-    vf omega = splat((plumb_real)6.283185307179586 * call->hertz);
-    vf a1 = splat(2 * call->damping) + splat(call->h) * omega;
-    vf a2 = splat(call->h) * omega * a1;
-    vf a3 = splat(1) / (splat(1) + a2);
+    const softness pair = soften(call, 1), ground = soften(call, STATIC_STIFFNESS);
     for (uint32_t k = first; k < first + count; ++k) {
         bundle *c = &bundles[k];
         const plumb_real *row[3][PL_WIDTH];
@@ -115,13 +130,15 @@ static void prepare(const pl_contact_call *call, uint32_t first, uint32_t count)
         vf r[8];
         gather4(r, row[0], 0);
         c->nx = r[0], c->ny = r[1], c->friction = r[2];
-        c->bias_rate = omega / a1;
-        c->mass_scale = a2 * a3;
-        c->impulse_scale = a3;
+        vm fixed = (a.inv_mass == splat(0)) | (b.inv_mass == splat(0));
+        c->bias_rate = sel(fixed, ground.bias_rate, pair.bias_rate);
+        c->give = sel(fixed, ground.give, pair.give);
         for (int j = 0; j < 2; ++j) {
             gather8(r, row[1 + j]);
             prepare_point(&c->p[j], r, c, &a, &b);
         }
+        c->k01 = a.inv_mass + b.inv_mass + a.inv_inertia * c->p[0].ran * c->p[1].ran +
+                 b.inv_inertia * c->p[0].rbn * c->p[1].rbn;
     }
 }
 
@@ -192,10 +209,11 @@ WIDE_INLINE void warm_start_all(const pl_contact_call *call, uint32_t first, uin
     }
 }
 
-WIDE_INLINE void solve_normal(const bundle *c, point *p, body *a, body *b,
-                              const pl_contact_call *call, bool soft, bool rotation)
+// The speed that point p lacks to be where it should be, and its diagonal with the spring's give.
+WIDE_INLINE vf shortfall(const bundle *c, const point *p, const body *a, const body *b,
+                         const pl_contact_call *call, bool soft, bool rotation, vf *diagonal)
 {
-    vf zero = splat(0), one = splat(1);
+    vf zero = splat(0);
     vf s = p->separation + c->nx * (b->dx - a->dx) + c->ny * (b->dy - a->dy);
     vf vn = c->nx * (b->vx - a->vx) + c->ny * (b->vy - a->vy);
     if (rotation) {
@@ -203,20 +221,49 @@ WIDE_INLINE void solve_normal(const bundle *c, point *p, body *a, body *b,
         vn += p->rbn * b->w - p->ran * a->w;
     }
     vm apart = s > zero;
-    vf bias = s * splat(call->inv_h);
-    vf mass_scale = one, impulse_scale = zero;
+    *diagonal = p->kn;
     if (soft) {
-        bias = sel(apart, bias, vmax(s * c->bias_rate, splat(-call->push_speed)));
-        mass_scale = sel(apart, one, c->mass_scale);
-        impulse_scale = sel(apart, zero, c->impulse_scale);
-    } else {
-        bias = sel(apart, bias, zero);
+        *diagonal += sel(apart, zero, c->give * p->kn);
+        return vn + sel(apart, s * splat(call->inv_h), vmax(s * c->bias_rate, splat(-call->push_speed)));
     }
-    vf impulse = -p->mn * mass_scale * (vn + bias) - impulse_scale * p->ln;
-    vf total = vmax(p->ln + impulse, zero);
-    impulse = total - p->ln;
-    p->ln = total;
-    push_normal(c, p, a, b, impulse, rotation);
+    return vn + sel(apart, s * splat(call->inv_h), zero);
+}
+
+WIDE_INLINE void solve_normals(const bundle *c, point p[2], body *a, body *b, const pl_contact_call *call,
+                              bool soft, bool rotation)
+{
+    vf zero = splat(0), one = splat(1);
+    vf d0, d1;
+    vf lack0 = shortfall(c, &p[0], a, b, call, soft, rotation, &d0);
+    vf lack1 = shortfall(c, &p[1], a, b, call, soft, rotation, &d1);
+    vf k01 = c->k01;
+    vf b0 = p[0].kn * p[0].ln + k01 * p[1].ln - lack0;
+    vf b1 = k01 * p[0].ln + p[1].kn * p[1].ln - lack1;
+    vf det = d0 * d1 - k01 * k01;
+    vm regular = det > splat((plumb_real)1e-3) * d0 * d1;
+    vf inv = one / sel(regular, det, one);
+    vf both0 = (d1 * b0 - k01 * b1) * inv;
+    vf both1 = (d0 * b1 - k01 * b0) * inv;
+    vm both = regular & (both0 >= zero) & (both1 >= zero);
+    vf only0 = vmax(b0 / sel(d0 > zero, d0, one), zero);
+    vf only1 = vmax(b1 / sel(d1 > zero, d1, one), zero);
+    vm first = k01 * only0 >= b1;
+    vf total0 = sel(both, both0, sel(first, only0, zero));
+    vf total1 = sel(both, both1, sel(first, zero, only1));
+    vf impulse0 = total0 - p[0].ln;
+    vf impulse1 = total1 - p[1].ln;
+    p[0].ln = total0;
+    p[1].ln = total1;
+    vf px = c->nx * (impulse0 + impulse1);
+    vf py = c->ny * (impulse0 + impulse1);
+    a->vx -= a->inv_mass * px;
+    a->vy -= a->inv_mass * py;
+    b->vx += b->inv_mass * px;
+    b->vy += b->inv_mass * py;
+    if (rotation) {
+        a->w -= a->inv_inertia * (p[0].ran * impulse0 + p[1].ran * impulse1);
+        b->w += b->inv_inertia * (p[0].rbn * impulse0 + p[1].rbn * impulse1);
+    }
 }
 
 WIDE_INLINE void solve_tangent(const bundle *c, point *p, body *a, body *b, bool rotation)
@@ -245,8 +292,7 @@ WIDE_INLINE void sweep(const pl_contact_call *call, uint32_t first, uint32_t cou
             solve_tangent(c, &c->p[0], &a, &b, rotation);
             solve_tangent(c, &c->p[1], &a, &b, rotation);
         }
-        solve_normal(c, &c->p[0], &a, &b, call, soft, rotation);
-        solve_normal(c, &c->p[1], &a, &b, call, soft, rotation);
+        solve_normals(c, c->p, &a, &b, call, soft, rotation);
         scatter_velocity(&a, call, c->a);
         scatter_velocity(&b, call, c->b);
     }

@@ -48,9 +48,10 @@ void pl_solver_finish(plumb_world *world, real dt)
     pl_bodies *b = &world->bodies;
     const pl_solver_body *bodies = pl_solver_bodies(&world->solver);
     const uint32_t *slots = world->solver.slots.data;
+    const bool collided = world->solver.slot_count > 0; // the graph was made in this step
     const real *lows = world->narrow.any_bounce ? world->solver.lows.data : NULL;
     for (uint32_t row = 0; row < world->dynamic_count; ++row) {
-        if (slots[row] == PL_NONE) {
+        if (!collided || slots[row] == PL_NONE) {
             fly(world, row, dt);
         } else {
             const pl_solver_body *body = &bodies[slots[row]];

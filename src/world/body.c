@@ -170,6 +170,7 @@ plumb_result plumb_body_set_velocity(plumb_world *world, plumb_body body, plumb_
     if (r == PLUMB_OK) {
         world->bodies.vx[row] = pl_poses(world)[row].vx = velocity.x;
         world->bodies.vy[row] = pl_poses(world)[row].vy = velocity.y;
+        world->bodies.low_vx[row] = world->bodies.low_vy[row] = 0;
     }
     return r;
 }

@@ -152,6 +152,7 @@ void pl_body_update_center(plumb_world *world, uint32_t row)
     real dy = b->s[row] * b->local_x[row] + b->c[row] * b->local_y[row];
     b->center_x[row] = b->x[row] + dx;
     b->center_y[row] = b->y[row] + dy;
+    b->low_x[row] = b->low_y[row] = 0;
     write_pose(world, row, dx, dy);
 }
 

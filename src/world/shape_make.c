@@ -82,8 +82,8 @@ static plumb_result check_points(const maker *m, const kind_fields *kind)
     plumb_result r = pl_check_pointer(m->world, m->fn, "points", d->points);
     if (r == PLUMB_OK && kind->count_high == INT32_MAX && d->count < low) {
         r = pl_fail(m->world, PLUMB_E_RANGE, m->fn,
-                    "count is %d; it must be at least %d for %s%s", d->count, low,
-                    d->closed ? "closed " : "", kind->name);
+                    "count is %d; it must be at least %d for %s", d->count, low,
+                    d->closed ? "a closed chain" : kind->name);
     } else if (r == PLUMB_OK && low == kind->count_high && d->count != low) {
         r = pl_fail(m->world, PLUMB_E_RANGE, m->fn, "count is %d; it must be %d for %s", d->count,
                     low, kind->name);
@@ -170,7 +170,7 @@ static plumb_result refuse_geometry(const maker *m, plumb_result code)
                        "points cross, touch or enclose no area; the outline must be simple");
     default:
         return pl_fail(m->world, code, m->fn,
-                       "%s is too small for its distance from the origin; it must be nearer", name);
+                       "half is too small for its distance from the origin; it must be larger");
     }
 }
 

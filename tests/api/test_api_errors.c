@@ -239,8 +239,8 @@ static void shapes_refuse(void **state)
             SHAPE(.kind = PLUMB_CHAIN, .points = points + 3, .count = 2));
     if (sizeof(plumb_real) == sizeof(float)) {
         REFUSED(E_GEOMETRY,
-                "plumb_shape_create: box is too small for its distance from the origin; "
-                "it must be nearer",
+                "plumb_shape_create: half is too small for its distance from the origin; "
+                "it must be larger",
                 SHAPE(.kind = PLUMB_BOX, .half = { R(0.001), R(0.001) }, .center = { R(1e6), 0 }));
     }
 }

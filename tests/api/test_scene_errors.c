@@ -1,7 +1,7 @@
 // test_scene_errors.c - malformed scenes, each with the exact code and message that it must give:
 // file, line, column, what was expected, and the word that was probably meant.
-// Every scene is loaded with small limits, so that those of them that never end do so soon. After each,
-// the same loader must still load a good scene: nothing is kept from one scene to the next.
+// Every scene is loaded with small limits, so that those of them that never end do so soon. After
+// each, the same loader must still load a good scene: nothing is kept from one scene to the next.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -417,7 +417,7 @@ static const malformed table[] = {
     { .what = "memory",
       .file = "scene.lua",
       .text = "local t = {}\n"
-              "for i = 1, 1e9 do t[i] = {i} end",
+              "for i = 1, 1e9 do t[i] = (\"x\"):rep(60000) .. i end",
       .code = SCENE_E_LIMIT,
       .message = "scene.lua:2:1: the scene needs more than 134217728 bytes of memory" },
     { .what = "string.rep",
@@ -686,15 +686,21 @@ static void test_malformed_scenes(void **state)
     int wrong = 0;
     for (size_t i = 0; i < sizeof table / sizeof *table; i++) {
         const malformed *m = &table[i];
-        scene_options options = { .path = m->file, .text = m->text, .text_size = strlen(m->text),
-                                  .sets = &m->set, .set_count = m->set != NULL,
-                                  .memory_limit = (size_t)128 << 20, .build_instructions = 5000000 };
+        scene_options options = { .path = m->file,
+                                  .text = m->text,
+                                  .text_size = strlen(m->text),
+                                  .sets = &m->set,
+                                  .set_count = m->set != NULL,
+                                  .memory_limit = (size_t)128 << 20,
+                                  .build_instructions = 5000000 };
         scene *s = (scene *)&options; // anything but null
         scene_error e;
         scene_code code = scene_load(&options, &s, &e);
-        bool right = code == m->code && e.code == code && s == NULL && strcmp(e.text, m->message) == 0;
+        bool right =
+            code == m->code && e.code == code && s == NULL && strcmp(e.text, m->message) == 0;
         if (!right) {
-            printf("%s\n  expected %d %s\n  got      %d %s\n", m->what, m->code, m->message, code, e.text);
+            printf("%s\n  expected %d %s\n  got      %d %s\n", m->what, m->code, m->message, code,
+                   e.text);
             wrong++;
         }
         scene_destroy(s);
@@ -707,7 +713,9 @@ static scene *load(const char *text)
 {
     scene *s;
     scene_error e;
-    scene_load(&(scene_options){ .path = "scene.lua", .text = text, .text_size = strlen(text),
+    scene_load(&(scene_options){ .path = "scene.lua",
+                                 .text = text,
+                                 .text_size = strlen(text),
                                  .handler_instructions = 100000 },
                &s, &e);
     if (s == NULL) {
@@ -732,7 +740,8 @@ static void test_handler_errors(void **state)
           "scene.lua:3:3: attempt to perform arithmetic on a nil value" },
         { "body{ box{1, 1} }\nat(0, function() expect{ 'late', max_speed = 1 } end)",
           "scene.lua:2:18: expect{} belongs to the script, not to a handler" },
-        { "body{ name = 'b', box{1, 1} }\nat(0, function() local b = find('b') b:destroy() b:mass() end)",
+        { "body{ name = 'b', box{1, 1} }\nat(0, function() local b = find('b') b:destroy() "
+          "b:mass() end)",
           "scene.lua:2:52: mass() of a body that was destroyed" },
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
@@ -757,9 +766,11 @@ static void test_arguments(void **state)
     assert_int_equal(scene_load(NULL, &s, &e), SCENE_E_ARGUMENT);
     assert_int_equal(scene_load(&(scene_options){ 0 }, &s, &e), SCENE_E_ARGUMENT);
     assert_int_equal(scene_load(&(scene_options){ .path = "x.lua" }, NULL, NULL), SCENE_E_ARGUMENT);
-    assert_int_equal(scene_load(&(scene_options){ .path = "/no/such/file.lua" }, &s, &e), SCENE_E_IO);
+    assert_int_equal(scene_load(&(scene_options){ .path = "/no/such/file.lua" }, &s, &e),
+                     SCENE_E_IO);
     assert_string_equal(e.text, "/no/such/file.lua: cannot be opened");
-    assert_int_equal(scene_load(&(scene_options){ .text = "", .memory_limit = 1000 }, &s, &e), SCENE_E_LIMIT);
+    assert_int_equal(scene_load(&(scene_options){ .text = "", .memory_limit = 1000 }, &s, &e),
+                     SCENE_E_LIMIT);
     assert_string_equal(e.text, "scene: the memory limit leaves no room for the script");
     assert_string_equal(scene_code_text(SCENE_E_KEY), "an unknown key");
     assert_string_equal(scene_code_text((scene_code)99), "unknown code");

@@ -1,5 +1,5 @@
-// test_scene.c - what the scene language does: constructors, handlers, expectations, determinism, JSON.
-// The messages of malformed scenes are in tests/api/test_scene_errors.c.
+// test_scene.c - what the scene language does: constructors, handlers, expectations, determinism,
+// JSON. The messages of malformed scenes are in tests/api/test_scene_errors.c.
 #define _POSIX_C_SOURCE 200809L // open_memstream
 #include <math.h>
 #include <setjmp.h>
@@ -17,9 +17,10 @@ static scene *load_as(const char *file, const char *text, size_t size, const cha
 {
     scene *s = NULL;
     scene_error e;
-    scene_load(&(scene_options){ .path = file, .text = text, .text_size = size, .sets = &set,
-                                 .set_count = set != NULL },
-               &s, &e);
+    scene_load(
+        &(scene_options){
+            .path = file, .text = text, .text_size = size, .sets = &set, .set_count = set != NULL },
+        &s, &e);
     if (s == NULL) {
         printf("%s\n", e.text);
     }
@@ -60,8 +61,9 @@ static double score(const scene *s, const char *name)
 static void test_settings(void **state)
 {
     (void)state;
-    scene *s = load("scene{ title = 'T', description = 'D', gravity = {1, -2}, y = 'down', dt = 0.01,"
-                    " duration = 3, solver = 'pgs', substeps = 2, seed = 5 }");
+    scene *s =
+        load("scene{ title = 'T', description = 'D', gravity = {1, -2}, y = 'down', dt = 0.01,"
+             " duration = 3, solver = 'pgs', substeps = 2, seed = 5 }");
     scene_info info = scene_get_info(s);
     assert_string_equal(info.title, "T");
     assert_string_equal(info.description, "D");
@@ -89,9 +91,11 @@ static void test_bodies_and_shapes(void **state)
     scene *s = load("local m = material{ density = 2, friction = 0.25 }\n"
                     "body{ name = 'a', box{2, 3}, at = {1, 2}, angle_deg = 90, material = m }\n"
                     "body{ circle{0.5}, capsule{1, 0.2, at = {2, 0}}, regular(6, 1), mass = 7 }\n"
-                    "body{ type = 'static', segment{{0, 0}, {1, 0}}, chain{{0, 0}, {1, 1}, {2, 0}, closed = true} }\n"
+                    "body{ type = 'static', segment{{0, 0}, {1, 0}}, chain{{0, 0}, {1, 1}, {2, 0}, "
+                    "closed = true} }\n"
                     "body{ type = 'kinematic', outline{{0, 0}, {2, 0}, {2, 2}, {1, 0.5}, {0, 2}},"
-                    " polygon{{0, 0}, {1, 0}, {0, 1}, round = 0.1}, velocity = {1, 0}, hidden = true, color = '#0a0B0c' }\n");
+                    " polygon{{0, 0}, {1, 0}, {0, 1}, round = 0.1}, velocity = {1, 0}, hidden = "
+                    "true, color = '#0a0B0c' }\n");
     assert_int_equal(scene_body_count(s), 4);
     scene_body a = scene_body_find(s, "a");
     plumb_world *w = scene_world(s);
@@ -140,7 +144,8 @@ static void test_params_and_sets(void **state)
 static void test_camera(void **state)
 {
     (void)state;
-    scene *s = load("body{ name = 'b', circle{1} }\ncamera{ center = {1, 2}, height = 5, follow = 'b' }");
+    scene *s =
+        load("body{ name = 'b', circle{1} }\ncamera{ center = {1, 2}, height = 5, follow = 'b' }");
     scene_camera c = scene_get_camera(s);
     assert_true(c.has_view && !c.has_fit && c.center[1] == 2.0 && c.height == 5.0);
     assert_string_equal(c.follow, "b");
@@ -173,17 +178,19 @@ static void test_timed_handlers(void **state)
 static void test_contact_handlers(void **state)
 {
     (void)state;
-    scene *s = load("scene{ duration = 2 }\n"
-                    "body{ name = 'floor', type = 'static', box{10, 1}, at = {0, -0.5} }\n"
-                    "body{ name = 'ball1', circle{0.5}, at = {0, 1} }\nbody{ name = 'ball2', circle{0.5}, at = {3, 1} }\n"
-                    "on_contact(function() score('all', score('all') + 1) end)\n"
-                    "on_contact{ a = 'floor', b = 'ball*', function(a, b, c)\n"
-                    "  assert(a:name() == 'floor' and b:name():find('ball', 1))\n"
-                    "  assert(c.ny > 0.99 and c.speed > 2)\n  score('balls', score('balls') + 1) end }\n"
-                    "on_contact{ a = find('ball2'), function(a) score('destroyed', 1) a:destroy()\n"
-                    "  body{ name = 'new', circle{0.2}, at = {0, 5} } end }\n"
-                    "on_end{ a = 'ball1', function(a, b) score('end', 1) end }\n"
-                    "at(1.5, function() find('ball1'):teleport(0, 9) end)");
+    scene *s =
+        load("scene{ duration = 2 }\n"
+             "body{ name = 'floor', type = 'static', box{10, 1}, at = {0, -0.5} }\n"
+             "body{ name = 'ball1', circle{0.5}, at = {0, 1} }\nbody{ name = 'ball2', circle{0.5}, "
+             "at = {3, 1} }\n"
+             "on_contact(function() score('all', score('all') + 1) end)\n"
+             "on_contact{ a = 'floor', b = 'ball*', function(a, b, c)\n"
+             "  assert(a:name() == 'floor' and b:name():find('ball', 1))\n"
+             "  assert(c.ny > 0.99 and c.speed > 2)\n  score('balls', score('balls') + 1) end }\n"
+             "on_contact{ a = find('ball2'), function(a) score('destroyed', 1) a:destroy()\n"
+             "  body{ name = 'new', circle{0.2}, at = {0, 5} } end }\n"
+             "on_end{ a = 'ball1', function(a, b) score('end', 1) end }\n"
+             "at(1.5, function() find('ball1'):teleport(0, 9) end)");
     run(s);
     assert_true(score(s, "all") >= 2);
     assert_float_equal(score(s, "balls"), 2, 0);
@@ -204,14 +211,19 @@ static void test_body_methods(void **state)
         "local x, y = b:position() assert(x == 1 and y == 2)\n"
         "b:set_velocity(3, 4) assert(b:speed() == 5)\nb:set_velocity{0, 0}\n"
         "b:apply_impulse(2 * b:mass(), 0) assert((b:velocity()) == 2)\n"
-        "b:set_spin(1) assert(b:spin() == 1)\nb:teleport(0, 0, 0.5) assert(math.abs(b:angle() - 0.5) < 1e-6)\n"
-        "b:set_mass(4) assert(b:mass() == 4)\nb.user.health = b.user.health - 1 assert(b.user.health == 2)\n"
+        "b:set_spin(1) assert(b:spin() == 1)\nb:teleport(0, 0, 0.5) assert(math.abs(b:angle() - "
+        "0.5) < 1e-6)\n"
+        "b:set_mass(4) assert(b:mass() == 4)\nb.user.health = b.user.health - 1 "
+        "assert(b.user.health == 2)\n"
         "b:set_gravity_scale(0) b:set_fixed_rotation(true) b:set_label('hi') b:set_color(4)\n"
-        "b:apply_force(1, 0) b:apply_torque(1) b:apply_angular_impulse(0) assert(b:inertia() == 0)\n"
+        "b:apply_force(1, 0) b:apply_torque(1) b:apply_angular_impulse(0) assert(b:inertia() == "
+        "0)\n"
         "assert(b:type() == 'dynamic' and b:name() == 'b' and tostring(b) == 'b' and b:alive())\n"
         "assert(find('b') == b and find('c') == nil and body_count() == 1)\n"
-        "local d = body{ circle{1}, at = {9, 9} } d:destroy() assert(not d:alive() and tostring(d) == 'destroyed body')\n"
-        "local kinetic = energy() assert(kinetic > 0 and (momentum()) > 7 and penetration() == 0 and time() == 0)");
+        "local d = body{ circle{1}, at = {9, 9} } d:destroy() assert(not d:alive() and tostring(d) "
+        "== 'destroyed body')\n"
+        "local kinetic = energy() assert(kinetic > 0 and (momentum()) > 7 and penetration() == 0 "
+        "and time() == 0)");
     scene_body b = scene_body_find(s, "b");
     assert_string_equal(b.label, "hi");
     assert_int_equal(b.palette, 4);
@@ -224,18 +236,19 @@ static void test_body_methods(void **state)
 static void test_expectations(void **state)
 {
     (void)state;
-    scene *s = load(
-        "scene{ gravity = {0, 0}, duration = 1, dt = 0.01 }\n"
-        "body{ name = 'b', circle{0.5}, velocity = {2, 0} }\n"
-        "expect{ 'right place', at = 0.5, body = 'b', position = {1, 0}, tolerance = 1e-4 }\n"
-        "expect{ 'wrong place', at = 0.5, body = 'b', position = {3, 0}, tolerance = 0.5 }\n"
-        "expect{ 'in a window', from = 0.4, till = 0.6, body = 'b', x = {0.79, 1.21} }\n"
-        "expect{ 'leaves the window', from = 0.4, till = 0.7, body = 'b', x = {0.79, 1.21} }\n"
-        "expect{ 'speed', always = true, min_speed = 1.9, max_speed = 2.1 }\n"
-        "expect{ 'at the end', body = 'b', vx = 2, tolerance = 1e-5, energy_drift = 1e-5, momentum_drift = 1e-5 }\n"
-        "expect{ 'count', count = 1 }\nexpect{ 'score', score = 's', value = {1, 2} }\n"
-        "expect{ 'test', test = function() return true, 4, 5 end }\n"
-        "expect{ 'test fails', test = function() return false, 7, 5 end }\nscore('s', 3)\n");
+    scene *s =
+        load("scene{ gravity = {0, 0}, duration = 1, dt = 0.01 }\n"
+             "body{ name = 'b', circle{0.5}, velocity = {2, 0} }\n"
+             "expect{ 'right place', at = 0.5, body = 'b', position = {1, 0}, tolerance = 1e-4 }\n"
+             "expect{ 'wrong place', at = 0.5, body = 'b', position = {3, 0}, tolerance = 0.5 }\n"
+             "expect{ 'in a window', from = 0.4, till = 0.6, body = 'b', x = {0.79, 1.21} }\n"
+             "expect{ 'leaves the window', from = 0.4, till = 0.7, body = 'b', x = {0.79, 1.21} }\n"
+             "expect{ 'speed', always = true, min_speed = 1.9, max_speed = 2.1 }\n"
+             "expect{ 'at the end', body = 'b', vx = 2, tolerance = 1e-5, energy_drift = 1e-5, "
+             "momentum_drift = 1e-5 }\n"
+             "expect{ 'count', count = 1 }\nexpect{ 'score', score = 's', value = {1, 2} }\n"
+             "expect{ 'test', test = function() return true, 4, 5 end }\n"
+             "expect{ 'test fails', test = function() return false, 7, 5 end }\nscore('s', 3)\n");
     static const scene_expect_status expected[] = {
         SCENE_EXPECT_PASSED, SCENE_EXPECT_FAILED, SCENE_EXPECT_PASSED, SCENE_EXPECT_FAILED,
         SCENE_EXPECT_PASSED, SCENE_EXPECT_PASSED, SCENE_EXPECT_PASSED, SCENE_EXPECT_FAILED,
@@ -262,8 +275,10 @@ static void test_expectations(void **state)
 static void test_not_reached(void **state)
 {
     (void)state;
-    const char *text = "scene{ duration = 5 }\nbody{ name = 'b', circle{1} }\nexpect{ 'late', at = 4, max_speed = 1e6 }\n"
-                       "expect{ 'gone', body = 'b', max_speed = 1e6 }\nat(0.01, function() find('b'):destroy() end)";
+    const char *text = "scene{ duration = 5 }\nbody{ name = 'b', circle{1} }\nexpect{ 'late', at = "
+                       "4, max_speed = 1e6 }\n"
+                       "expect{ 'gone', body = 'b', max_speed = 1e6 }\nat(0.01, function() "
+                       "find('b'):destroy() end)";
     scene *s = load_as("test.lua", text, strlen(text), "duration=1");
     run(s);
     assert_int_equal(scene_expect_get(s, 0).status, SCENE_EXPECT_NOT_REACHED);
@@ -276,7 +291,8 @@ static void test_exact(void **state)
 {
     (void)state;
     scene *s = load("body{ name = 'b', circle{1} }\n"
-                    "exact{ body = 'b', y = function(t) return -9.81 * t^2 / 2 end, vy = function(t) return -9.81 * t end,"
+                    "exact{ body = 'b', y = function(t) return -9.81 * t^2 / 2 end, vy = "
+                    "function(t) return -9.81 * t end,"
                     " till = 2 }");
     assert_int_equal(scene_exact_count(s), 1);
     scene_exact x = scene_exact_get(s, 0);
@@ -297,11 +313,15 @@ static void test_environment(void **state)
 {
     (void)state;
     scene *s = load( // the table is filled in an order that hashing would not keep
-        "local t, keys = {}, ''\nfor _, k in ipairs{'pear', 'apple', 'fig', 'date'} do t[k] = 1 end t[3] = 1 t[1] = 1\n"
-        "for k in pairs(t) do keys = keys .. k .. ' ' end\nassert(keys == '1 3 apple date fig pear ', keys)\n"
+        "local t, keys = {}, ''\nfor _, k in ipairs{'pear', 'apple', 'fig', 'date'} do t[k] = 1 "
+        "end t[3] = 1 t[1] = 1\n"
+        "for k in pairs(t) do keys = keys .. k .. ' ' end\nassert(keys == '1 3 apple date fig pear "
+        "', keys)\n"
         "local list = {3, 1, 2} table.sort(list) assert(table.concat(list, ',') == '1,2,3')\n"
-        "table.insert(list, 4) table.insert(list, 1, 0) assert(table.remove(list) == 4 and table.remove(list, 1) == 0)\n"
-        "assert(tostring({}) == 'table' and ('%s'):format({}) == 'table' and ('ab'):rep(2) == 'abab')\n"
+        "table.insert(list, 4) table.insert(list, 1, 0) assert(table.remove(list) == 4 and "
+        "table.remove(list, 1) == 0)\n"
+        "assert(tostring({}) == 'table' and ('%s'):format({}) == 'table' and ('ab'):rep(2) == "
+        "'abab')\n"
         "assert((''):rep(1e15) == '' and ('a.c'):find('.', 1) == 2)\n"
         "local a, b = random(), random(2, 3) assert(a >= 0 and a < 1 and b >= 2 and b < 3)\n"
         "local n = random_int(1, 6) assert(n >= 1 and n <= 6 and math.type(n) == 'integer')\n"
@@ -312,14 +332,16 @@ static void test_environment(void **state)
 static void test_maths_agrees_with_libm(void **state)
 {
     (void)state;
-    scene *s = load("local worst = 0\nfor i = -2000, 2000 do local x = i * 0.37\n"
-                    "  local c, n = math.cos(x), math.sin(x)\n"
-                    "  worst = math.max(worst, math.abs(c * c + n * n - 1))\n"
-                    "  worst = math.max(worst, math.abs(math.sin(math.atan(n, c)) - n))\n"
-                    "  local y = x / 40 worst = math.max(worst, math.abs(math.log(math.exp(y)) - y) / (1 + math.abs(y)))\n"
-                    "end\nscore('worst', worst)\nscore('sin', math.sin(1)) score('cos', math.cos(100))\n"
-                    "score('exp', math.exp(-3.3)) score('log', math.log(17)) score('atan', math.atan(-2, -3))\n"
-                    "score('asin', math.asin(0.3)) score('acos', math.acos(-0.4)) score('tan', math.tan(0.8))");
+    scene *s = load(
+        "local worst = 0\nfor i = -2000, 2000 do local x = i * 0.37\n"
+        "  local c, n = math.cos(x), math.sin(x)\n"
+        "  worst = math.max(worst, math.abs(c * c + n * n - 1))\n"
+        "  worst = math.max(worst, math.abs(math.sin(math.atan(n, c)) - n))\n"
+        "  local y = x / 40 worst = math.max(worst, math.abs(math.log(math.exp(y)) - y) / (1 + "
+        "math.abs(y)))\n"
+        "end\nscore('worst', worst)\nscore('sin', math.sin(1)) score('cos', math.cos(100))\n"
+        "score('exp', math.exp(-3.3)) score('log', math.log(17)) score('atan', math.atan(-2, -3))\n"
+        "score('asin', math.asin(0.3)) score('acos', math.acos(-0.4)) score('tan', math.tan(0.8))");
     assert_true(score(s, "worst") < 1e-15);
     assert_float_equal(score(s, "sin"), sin(1), 3e-16);
     assert_float_equal(score(s, "cos"), cos(100), 3e-16);
@@ -332,7 +354,8 @@ static void test_maths_agrees_with_libm(void **state)
     scene_destroy(s);
 }
 
-// Random numbers come from the seed alone. The values are the generator's definition: they never change.
+// Random numbers come from the seed alone. The values are the generator's definition: they never
+// change.
 static void test_random_is_fixed(void **state)
 {
     (void)state;
@@ -378,16 +401,22 @@ static void check_round_trip(const scene *s)
 static void test_json_round_trip(void **state)
 {
     (void)state;
-    scene *s = load(
-        "scene{ title = 'a \"b\" \\\\', gravity = {0.1, -9.81}, substeps = 8, duration = 2 }\n"
-        "local m = material{ friction = 0.3, restitution = 1/3 }\nlocal n = material{ name = 'n', density = 1e-3 }\n"
-        "body{ type = 'static', box{10, 1}, at = {0, -0.5}, material = n, color = 3 }\n"
-        "body{ circle{1/3}, capsule{1, 0.1, angle = 0.3, density = 0.7}, at = {0.1, 2}, angle_deg = 17, spin = 1e-7,"
-        " velocity = {1/7, -3}, material = m, label = 'x\\ty', color = '#102030' }\n"
-        "body{ outline{{0, 0}, {2, 0}, {2, 2}, {1, 0.5}, {0, 2}}, at = {3, 1}, mass = 0.3, gravity_scale = 0 }\n"
-        "body{ type = 'static', chain{{-5, 0}, {-6, 1}, closed = false}, segment{{5, 0}, {6, 1}, material = m}, hidden = true }\n"
-        "body{ regular(5, 0.4), polygon{{0, 0}, {1, 0}, {0, 1}, round = 0.1}, at = {-2, 3}, fixed_rotation = true }\n"
-        "camera{ fit = {{-5, 0}, {5, 5}} }\nexpect{ 'x', at = 2, max_speed = 100 }\nexpect{ 'y', body = 'body2', x = {-9, 9} }");
+    scene *s =
+        load("scene{ title = 'a \"b\" \\\\', gravity = {0.1, -9.81}, substeps = 8, duration = 2 }\n"
+             "local m = material{ friction = 0.3, restitution = 1/3 }\nlocal n = material{ name = "
+             "'n', density = 1e-3 }\n"
+             "body{ type = 'static', box{10, 1}, at = {0, -0.5}, material = n, color = 3 }\n"
+             "body{ circle{1/3}, capsule{1, 0.1, angle = 0.3, density = 0.7}, at = {0.1, 2}, "
+             "angle_deg = 17, spin = 1e-7,"
+             " velocity = {1/7, -3}, material = m, label = 'x\\ty', color = '#102030' }\n"
+             "body{ outline{{0, 0}, {2, 0}, {2, 2}, {1, 0.5}, {0, 2}}, at = {3, 1}, mass = 0.3, "
+             "gravity_scale = 0 }\n"
+             "body{ type = 'static', chain{{-5, 0}, {-6, 1}, closed = false}, segment{{5, 0}, {6, "
+             "1}, material = m}, hidden = true }\n"
+             "body{ regular(5, 0.4), polygon{{0, 0}, {1, 0}, {0, 1}, round = 0.1}, at = {-2, 3}, "
+             "fixed_rotation = true }\n"
+             "camera{ fit = {{-5, 0}, {5, 5}} }\nexpect{ 'x', at = 2, max_speed = 100 }\nexpect{ "
+             "'y', body = 'body2', x = {-9, 9} }");
     check_round_trip(s);
     scene_error e;
     for (int i = 0; i < 60; i++) {
@@ -401,9 +430,11 @@ static void test_json_round_trip(void **state)
 static void test_runs_are_identical(void **state)
 {
     (void)state;
-    const char *text = "scene{ seed = 9, duration = 2 }\nbody{ type = 'static', box{20, 1} }\n"
-                       "for i = 1, 30 do body{ box{random(0.3, 1), random(0.3, 1)}, at = {random(-4, 4), 1 + i}, angle = random(0, 3) } end\n"
-                       "every(0.2, function() body{ circle{random(0.1, 0.4)}, at = {random(-1, 1), 12} } end)";
+    const char *text =
+        "scene{ seed = 9, duration = 2 }\nbody{ type = 'static', box{20, 1} }\n"
+        "for i = 1, 30 do body{ box{random(0.3, 1), random(0.3, 1)}, at = {random(-4, 4), 1 + i}, "
+        "angle = random(0, 3) } end\n"
+        "every(0.2, function() body{ circle{random(0.1, 0.4)}, at = {random(-1, 1), 12} } end)";
     scene *s[2] = { load(text), load(text) };
     size_t size[2];
     run(s[0]);
@@ -420,13 +451,13 @@ static void test_runs_are_identical(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_settings),          cmocka_unit_test(test_bodies_and_shapes),
-        cmocka_unit_test(test_params_and_sets),   cmocka_unit_test(test_camera),
-        cmocka_unit_test(test_timed_handlers),    cmocka_unit_test(test_contact_handlers),
-        cmocka_unit_test(test_body_methods),      cmocka_unit_test(test_expectations),
-        cmocka_unit_test(test_not_reached),       cmocka_unit_test(test_exact),
-        cmocka_unit_test(test_environment),       cmocka_unit_test(test_maths_agrees_with_libm),
-        cmocka_unit_test(test_random_is_fixed),   cmocka_unit_test(test_json_round_trip),
+        cmocka_unit_test(test_settings),           cmocka_unit_test(test_bodies_and_shapes),
+        cmocka_unit_test(test_params_and_sets),    cmocka_unit_test(test_camera),
+        cmocka_unit_test(test_timed_handlers),     cmocka_unit_test(test_contact_handlers),
+        cmocka_unit_test(test_body_methods),       cmocka_unit_test(test_expectations),
+        cmocka_unit_test(test_not_reached),        cmocka_unit_test(test_exact),
+        cmocka_unit_test(test_environment),        cmocka_unit_test(test_maths_agrees_with_libm),
+        cmocka_unit_test(test_random_is_fixed),    cmocka_unit_test(test_json_round_trip),
         cmocka_unit_test(test_runs_are_identical),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

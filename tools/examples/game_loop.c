@@ -4,8 +4,9 @@
 //     steps     |-------|-------|-------|     dt apart, always the same: results do not depend
 //     frames       ^  ^    ^  ^   ^           on the frame rate
 //
-// A frame at time t is drawn between the last two steps a and b, at a + alpha (b - a), with alpha the
-// part of dt that time has run ahead of b. It shows the world up to one dt late; that is the price.
+// A frame at time t is drawn between the last two steps a and b, at a + alpha (b - a), with alpha
+// the part of dt that time has run ahead of b. It shows the world up to one dt late; that is the
+// price.
 //
 // Build: cc game_loop.c $(pkg-config --cflags --libs plumb) -lm
 #include <plumb/plumb.h>
@@ -18,7 +19,7 @@ enum { CRATES = 5, MAX_STEPS_A_FRAME = 5 };
 static const double dt = 1.0 / 60; // [s] of a step
 
 typedef struct pose {
-    double x, y; // [m]
+    double x, y;  // [m]
     double angle; // [rad]
 } pose;
 
@@ -42,7 +43,8 @@ static bool game_start(game *g)
     plumb_real half = (plumb_real)0.5;
     plumb_shape_desc box = { .kind = PLUMB_BOX, .half = { half, half } };
     for (int i = 0; i < CRATES; ++i) {
-        plumb_body_desc crate = { .position = { (plumb_real)(0.3 * i), (plumb_real)(1 + 1.5 * i) } };
+        plumb_body_desc crate = { .position = { (plumb_real)(0.3 * i),
+                                                (plumb_real)(1 + 1.5 * i) } };
         g->crates[i] = plumb_body_create(g->world, &crate);
         plumb_shape_create(g->world, g->crates[i], &box);
         g->now[i] = (pose){ (double)crate.position.x, (double)crate.position.y, 0 };
@@ -65,8 +67,8 @@ static bool game_step(game *g)
     for (int i = 0; i < CRATES; ++i) {
         plumb_vec2 p = plumb_body_position(g->world, g->crates[i]);
         g->before[i] = g->now[i];
-        g->now[i] = (pose){ (double)p.x, (double)p.y,
-                            (double)plumb_body_angle(g->world, g->crates[i]) };
+        g->now[i] =
+            (pose){ (double)p.x, (double)p.y, (double)plumb_body_angle(g->world, g->crates[i]) };
     }
     return true;
 }

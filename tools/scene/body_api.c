@@ -1,6 +1,6 @@
 // body_api.c - bodies as Lua objects: the methods that handlers and test functions call.
-// An object holds the world's handle only, so a destroyed body is noticed; the record (name, looks, user
-// table) hangs on the world's user data. To add a method: one function, one row in `methods`.
+// An object holds the world's handle only, so a destroyed body is noticed; the record (name, looks,
+// user table) hangs on the world's user data. To add a method: one function, one row in `methods`.
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -90,14 +90,15 @@ static call self(lua_State *L, const char *method)
     const plumb_body *object = luaL_testudata(L, 1, SC_META_BODY);
     sc_site site = sc_here(c.s, method);
     if (object == NULL) {
-        sc_raise(c.s, SCENE_E_TYPE, &site, NULL, 0, NULL, "%s is a method: write body:%s(...)", method,
-                 method);
+        sc_raise(c.s, SCENE_E_TYPE, &site, NULL, 0, NULL, "%s is a method: write body:%s(...)",
+                 method, method);
     }
     c.world = c.s->world;
     c.entity = *object;
     c.body = sc_body_of(c.s, c.entity);
     if (c.body == NULL) {
-        sc_raise(c.s, SCENE_E_STATE, &site, NULL, 0, NULL, "%s() of a body that was destroyed", method);
+        sc_raise(c.s, SCENE_E_STATE, &site, NULL, 0, NULL, "%s() of a body that was destroyed",
+                 method);
     }
     return c;
 }
@@ -114,8 +115,8 @@ static plumb_vec2 vector(lua_State *L, int *index)
 {
     double v[2];
     if (lua_istable(L, *index)) {
-        luaL_argcheck(L, sc_to_vec2(sc_of(L), *index, v) && isfinite(v[0]) && isfinite(v[1]), *index,
-                      "must be two finite numbers {x, y}");
+        luaL_argcheck(L, sc_to_vec2(sc_of(L), *index, v) && isfinite(v[0]) && isfinite(v[1]),
+                      *index, "must be two finite numbers {x, y}");
         *index += 1;
     } else {
         v[0] = finite_number(L, *index);
@@ -129,12 +130,13 @@ static int check(const call *c, plumb_result result)
 {
     if (result != PLUMB_OK) {
         sc_site site = sc_here(c->s, c->method);
-        scene_code code = result == PLUMB_E_STATE    ? SCENE_E_STATE
-                          : result == PLUMB_E_MEMORY ? SCENE_E_LIMIT
+        scene_code code = result == PLUMB_E_STATE                                   ? SCENE_E_STATE
+                          : result == PLUMB_E_MEMORY                                ? SCENE_E_LIMIT
                           : result == PLUMB_E_RANGE || result == PLUMB_E_NOT_FINITE ? SCENE_E_RANGE
                                                                                     : SCENE_E_WORLD;
         sc_raise(c->s, code, &site, NULL, 0, NULL, "%s() of '%s': %s", c->method, c->body->def.name,
-                 code == SCENE_E_STATE ? "the body's type does not allow it" : plumb_result_text(result));
+                 code == SCENE_E_STATE ? "the body's type does not allow it"
+                                       : plumb_result_text(result));
     }
     return 0;
 }
@@ -234,7 +236,8 @@ static int method_set_velocity(lua_State *L)
 static int method_set_spin(lua_State *L)
 {
     call c = self(L, "set_spin");
-    return check(&c, plumb_body_set_angular_velocity(c.world, c.entity, (plumb_real)finite_number(L, 2)));
+    return check(
+        &c, plumb_body_set_angular_velocity(c.world, c.entity, (plumb_real)finite_number(L, 2)));
 }
 
 static int method_teleport(lua_State *L)
@@ -338,7 +341,8 @@ static int method_apply_torque(lua_State *L)
 static int method_apply_angular_impulse(lua_State *L)
 {
     call c = self(L, "apply_angular_impulse");
-    return check(&c, plumb_body_apply_angular_impulse(c.world, c.entity, (plumb_real)finite_number(L, 2)));
+    return check(
+        &c, plumb_body_apply_angular_impulse(c.world, c.entity, (plumb_real)finite_number(L, 2)));
 }
 
 static int method_destroy(lua_State *L)
@@ -419,7 +423,8 @@ static int body_newindex(lua_State *L)
     scene *s = sc_of(L);
     sc_site site = sc_here(s, name);
     sc_raise(s, SCENE_E_STATE, &site, NULL, 0, NULL,
-             "a body's '%.40s' cannot be assigned: call a method, or keep values in body.user", name);
+             "a body's '%.40s' cannot be assigned: call a method, or keep values in body.user",
+             name);
 }
 
 static int body_tostring(lua_State *L)

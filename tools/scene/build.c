@@ -1,6 +1,6 @@
 // build.c - the constructors scene{}, material{}, body{}, camera{} and param(), and --set.
-// Each checks its table by its list, then gives the thing to the world at once, so that whatever the
-// world refuses is reported at the author's line. The same functions serve JSON (json_read.c).
+// Each checks its table by its list, then gives the thing to the world at once, so that whatever
+// the world refuses is reported at the author's line. The same functions serve JSON (json_read.c).
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -16,7 +16,8 @@ void sc_apply_sets(scene *s)
         const char *text = s->options.sets[i];
         const char *equal = text == NULL ? NULL : strchr(text, '=');
         size_t length = equal == NULL ? 0 : (size_t)(equal - text);
-        if (length == 0 || length >= SC_NAME_SIZE || strlen(equal + 1) >= sizeof s->sets.items->value) {
+        if (length == 0 || length >= SC_NAME_SIZE ||
+            strlen(equal + 1) >= sizeof s->sets.items->value) {
             s->raising_set = text == NULL ? "" : text;
             sc_raise(s, SCENE_E_SET, NULL, NULL, 0, NULL, "must have the form key=value");
         }
@@ -121,8 +122,8 @@ void sc_build_settings(scene *s, const sc_site *site, int table)
     lua_State *L = s->L;
     if (s->world != NULL) {
         if (s->settings_given) {
-            sc_raise(s, SCENE_E_DUPLICATE, site, NULL, 0, NULL, "scene{} was called before, on line %d",
-                     s->settings_line);
+            sc_raise(s, SCENE_E_DUPLICATE, site, NULL, 0, NULL,
+                     "scene{} was called before, on line %d", s->settings_line);
         }
         sc_raise(s, SCENE_E_STATE, site, NULL, 0, NULL,
                  "scene{} must come before the first material{} and body{}");
@@ -169,7 +170,8 @@ void sc_build_material(scene *s, const sc_site *site, int table)
 {
     lua_State *L = s->L;
     sc_need_world(s);
-    sc_material_def def = { .density = 1, .friction = 0.6 }; // those of the world's default material
+    sc_material_def def = { .density = 1,
+                            .friction = 0.6 }; // those of the world's default material
     sc_read(s, site, &sc_list_material, table, &def);
     for (int i = 0; i < s->materials.count && def.name[0] != 0; i++) {
         if (strcmp(s->materials.items[i]->id, def.name) == 0) {
@@ -220,7 +222,8 @@ static int material_collect(lua_State *L)
 static void refuse(scene *s, const sc_site *site, bool given, const char *key, const char *kind)
 {
     if (given) {
-        sc_raise(s, SCENE_E_CONFLICT, site, key, 0, NULL, "a %s body{} cannot have '%s'", kind, key);
+        sc_raise(s, SCENE_E_CONFLICT, site, key, 0, NULL, "a %s body{} cannot have '%s'", kind,
+                 key);
     }
 }
 
@@ -235,7 +238,8 @@ static void check_body(scene *s, const sc_site *site, const sc_body_def *d)
     if (d->type != 0) {
         refuse(s, site, SC_GIVEN(list, d, sc_body_def, mass), "mass", kinds[d->type]);
         refuse(s, site, d->fixed_rotation, "fixed_rotation", kinds[d->type]);
-        refuse(s, site, SC_GIVEN(list, d, sc_body_def, gravity_scale), "gravity_scale", kinds[d->type]);
+        refuse(s, site, SC_GIVEN(list, d, sc_body_def, gravity_scale), "gravity_scale",
+               kinds[d->type]);
     }
     if (d->type == 2) {
         refuse(s, site, SC_GIVEN(list, d, sc_body_def, velocity), "velocity", "static");
@@ -250,7 +254,8 @@ static void check_body(scene *s, const sc_site *site, const sc_body_def *d)
     }
     const sc_body *other = d->name[0] != 0 ? sc_body_named(s, d->name) : NULL;
     if (other != NULL) {
-        sc_raise(s, SCENE_E_DUPLICATE, site, "name", 0, NULL, "two bodies are called '%s'", d->name);
+        sc_raise(s, SCENE_E_DUPLICATE, site, "name", 0, NULL, "two bodies are called '%s'",
+                 d->name);
     }
 }
 
@@ -261,7 +266,9 @@ static sc_body *add_record(scene *s, const sc_body_def *def)
     sc_body **slot = SC_PUSH(s, s->bodies);
     s->bodies.count--; // until there is a record
     sc_body *b = sc_need(s, NULL, 0, sizeof *b);
-    *b = (sc_body){ .def = *def, .is_named = def->name[0] != 0, .object = LUA_NOREF, .user = LUA_NOREF };
+    *b = (sc_body){
+        .def = *def, .is_named = def->name[0] != 0, .object = LUA_NOREF, .user = LUA_NOREF
+    };
     b->def.shape_count = 0;
     *slot = b;
     s->bodies.count++;
@@ -286,17 +293,17 @@ static void create_body(scene *s, const sc_site *site, sc_body *b)
     static const plumb_body_type types[] = { PLUMB_DYNAMIC, PLUMB_KINEMATIC, PLUMB_STATIC };
     const sc_body_def *d = &b->def;
     b->entity = plumb_body_create(
-        s->world,
-        &(plumb_body_desc){
-            .type = types[d->type],
-            .position = { (plumb_real)d->at[0], (plumb_real)d->at[1] },
-            .angle = (plumb_real)d->angle,
-            .mass = (plumb_real)d->mass,
-            .gravity_scale = (plumb_real)d->gravity_scale,
-            .no_gravity = SC_GIVEN(&sc_list_body, d, sc_body_def, gravity_scale) && d->gravity_scale == 0,
-            .fixed_rotation = d->fixed_rotation,
-            .user_data = b,
-        });
+        s->world, &(plumb_body_desc){
+                      .type = types[d->type],
+                      .position = { (plumb_real)d->at[0], (plumb_real)d->at[1] },
+                      .angle = (plumb_real)d->angle,
+                      .mass = (plumb_real)d->mass,
+                      .gravity_scale = (plumb_real)d->gravity_scale,
+                      .no_gravity = SC_GIVEN(&sc_list_body, d, sc_body_def, gravity_scale) &&
+                                    d->gravity_scale == 0,
+                      .fixed_rotation = d->fixed_rotation,
+                      .user_data = b,
+                  });
     if (plumb_is_null(b->entity)) {
         plumb_error e = plumb_world_error(s->world);
         sc_raise(s, e.code == PLUMB_E_MEMORY ? SCENE_E_LIMIT : SCENE_E_WORLD, site, NULL, 0, NULL,
@@ -304,7 +311,8 @@ static void create_body(scene *s, const sc_site *site, sc_body *b)
     }
 }
 
-// Copies shape `index` (0-based; its Lua object is on top) into the record and gives it to the world.
+// Copies shape `index` (0-based; its Lua object is on top) into the record and gives it to the
+// world.
 static void add_shape(scene *s, const sc_site *site, sc_body *b, int index)
 {
     sc_shape_object *object = sc_to_shape(s->L, -1);
@@ -360,8 +368,9 @@ void sc_build_body(scene *s, const sc_site *site, int table)
                  "a dynamic body{} of segments and chains needs 'mass'");
     }
     if (def.type != 2) { // after the shapes: they have moved the centre of mass
-        plumb_body_set_velocity(s->world, b->entity,
-                                (plumb_vec2){ (plumb_real)def.velocity[0], (plumb_real)def.velocity[1] });
+        plumb_body_set_velocity(
+            s->world, b->entity,
+            (plumb_vec2){ (plumb_real)def.velocity[0], (plumb_real)def.velocity[1] });
         plumb_body_set_angular_velocity(s->world, b->entity, (plumb_real)def.spin);
     }
     b->set_rot = plumb_body_transform(s->world, b->entity).q;
@@ -380,8 +389,8 @@ void sc_build_camera(scene *s, const sc_site *site, int table)
 {
     const sc_list *list = &sc_list_camera;
     if (s->camera.present != 0) {
-        sc_raise(s, SCENE_E_DUPLICATE, site, NULL, 0, NULL, "camera{} was called before, on line %d",
-                 s->camera_line);
+        sc_raise(s, SCENE_E_DUPLICATE, site, NULL, 0, NULL,
+                 "camera{} was called before, on line %d", s->camera_line);
     }
     sc_camera *c = &s->camera;
     sc_read(s, site, list, table, c);
@@ -447,12 +456,12 @@ static void check_param(scene *s, const sc_site *site, const char *name)
     lua_State *L = s->L;
     int type = lua_type(L, 2);
     if (lua_type(L, -1) != type || (lua_isinteger(L, 2) && !lua_isinteger(L, -1))) {
-        sc_raise(s, SCENE_E_TYPE, site, NULL, 2, NULL, "param '%s' must be %s like its default, not %s",
-                 name,
-                 lua_isinteger(L, 2)      ? "an integer"
-                 : type == LUA_TNUMBER    ? "a number"
-                 : type == LUA_TBOOLEAN   ? "true or false"
-                                          : "a string",
+        sc_raise(s, SCENE_E_TYPE, site, NULL, 2, NULL,
+                 "param '%s' must be %s like its default, not %s", name,
+                 lua_isinteger(L, 2)    ? "an integer"
+                 : type == LUA_TNUMBER  ? "a number"
+                 : type == LUA_TBOOLEAN ? "true or false"
+                                        : "a string",
                  lua_type(L, -1) == LUA_TNUMBER ? lua_tostring(L, -1) : sc_type_name(s, -1));
     }
     if (type == LUA_TNUMBER) {
@@ -460,8 +469,8 @@ static void check_param(scene *s, const sc_site *site, const char *name)
         double low = luaL_optnumber(L, 3, -HUGE_VAL);
         double high = luaL_optnumber(L, 4, HUGE_VAL);
         if (!(v >= low && v <= high && isfinite(v))) {
-            sc_raise(s, SCENE_E_RANGE, site, NULL, 2, NULL, "param '%s' must be from %.10g to %.10g, not %.10g",
-                     name, low, high, v);
+            sc_raise(s, SCENE_E_RANGE, site, NULL, 2, NULL,
+                     "param '%s' must be from %.10g to %.10g, not %.10g", name, low, high, v);
         }
     }
 }
@@ -480,12 +489,14 @@ static int lua_param(lua_State *L)
     const char *name = lua_tostring(L, 1);
     sc_param p = { 0 };
     if (strlen(name) >= sizeof p.name || name[0] == 0) {
-        sc_raise(s, SCENE_E_RANGE, &site, NULL, 1, NULL, "a param's name must have 1 to 63 characters");
+        sc_raise(s, SCENE_E_RANGE, &site, NULL, 1, NULL,
+                 "a param's name must have 1 to 63 characters");
     }
     strcpy(p.name, name);
     for (int i = 0; i < s->params.count; i++) {
         if (strcmp(s->params.items[i].name, name) == 0) {
-            sc_raise(s, SCENE_E_DUPLICATE, &site, NULL, 1, NULL, "param '%s' is declared twice", name);
+            sc_raise(s, SCENE_E_DUPLICATE, &site, NULL, 1, NULL, "param '%s' is declared twice",
+                     name);
         }
     }
     for (int i = 0; i < sc_list_scene.count; i++) {
@@ -513,7 +524,8 @@ static int lua_param(lua_State *L)
     }
     lua_pushvalue(L, -1);
     snprintf(p.value, sizeof p.value, "%s",
-             type == LUA_TBOOLEAN ? (lua_toboolean(L, -1) ? "true" : "false") : lua_tostring(L, -1));
+             type == LUA_TBOOLEAN ? (lua_toboolean(L, -1) ? "true" : "false")
+                                  : lua_tostring(L, -1));
     lua_pop(L, 1);
     *SC_PUSH(s, s->params) = p;
     return 1;
@@ -538,8 +550,8 @@ void sc_open_build(lua_State *L)
 
 // ------------------------------------------------------------------------- after the build pass
 
-// A thing that was made, is not used, and cannot be used any more: nothing refers to it, or there is
-// no handler left that could.
+// A thing that was made, is not used, and cannot be used any more: nothing refers to it, or there
+// is no handler left that could.
 static void check_unused(scene *s)
 {
     lua_gc(s->L, LUA_GCCOLLECT);
@@ -582,15 +594,16 @@ void sc_check_build(scene *s)
     sc_need_world(s);
     check_sets(s);
     check_unused(s);
-    sc_check_body_name(s, &(sc_site){ "camera", s->camera_line, s->is_json ? "camera" : NULL }, "follow",
-                       s->camera.follow);
+    sc_check_body_name(s, &(sc_site){ "camera", s->camera_line, s->is_json ? "camera" : NULL },
+                       "follow", s->camera.follow);
     for (int i = 0; i < s->expects.count; i++) {
         char path[32];
         snprintf(path, sizeof path, "expect[%d]", i);
         sc_expect *e = &s->expects.items[i];
         sc_site site = { "expect", e->line, s->is_json ? path : NULL };
         sc_check_body_name(s, &site, "body", e->def.body);
-        if (SC_GIVEN(&sc_list_expect, &e->def, sc_expect_def, at) && e->def.at > s->start_time + s->duration) {
+        if (SC_GIVEN(&sc_list_expect, &e->def, sc_expect_def, at) &&
+            e->def.at > s->start_time + s->duration) {
             // a shorter run was asked for: then the line is simply not reached
             bool asked = false;
             for (int k = 0; k < s->sets.count; k++) {
@@ -598,8 +611,8 @@ void sc_check_build(scene *s)
             }
             if (!asked) {
                 sc_raise(s, SCENE_E_RANGE, &site, "at", 0, NULL,
-                         "'at' of expect{} is %.10g s, after the end of the scene at %.10g s", e->def.at,
-                         s->start_time + s->duration);
+                         "'at' of expect{} is %.10g s, after the end of the scene at %.10g s",
+                         e->def.at, s->start_time + s->duration);
             }
         }
     }

@@ -1,18 +1,20 @@
-// det_math.c - sin, cos, atan2, exp, log, pow and random numbers for scripts, in double, that give the
-// same bits on every machine: only + - * / sqrt, ldexp and frexp, all exact or correctly rounded.
+// det_math.c - sin, cos, atan2, exp, log, pow and random numbers for scripts, in double, that give
+// the same bits on every machine: only + - * / sqrt, ldexp and frexp, all exact or correctly
+// rounded.
 //
-// sin, cos: Cody-Waite reduction by pi/2 in three parts (|x| < 2^20 keeps k * part exact to far below
+// sin, cos: Cody-Waite reduction by pi/2 in three parts (|x| < 2^20 keeps k * part exact to far
+// below
 //   the last place; larger arguments are first reduced by fmod, which is exact), Taylor to x^19.
 // atan: arguments above tan(pi/12) are turned by pi/6, Taylor to x^25.
 // exp: x = k ln2 + r, |r| <= ln2 / 2, Taylor to r^14. log: m in [sqrt(1/2), sqrt(2)), atanh series.
-// Errors against a multi-precision reference: below 4e-16 relative for exp and log, 3e-16 absolute else.
-// Random: splitmix64 (Steele, Lea, Flood 2014), the top 53 bits.
+// Errors against a multi-precision reference: below 4e-16 relative for exp and log, 3e-16 absolute
+// else. Random: splitmix64 (Steele, Lea, Flood 2014), the top 53 bits.
 #include <math.h>
 
 #include "internal.h"
 
-#define PI_2      1.5707963267948966     // pi / 2
-#define PI_2_HIGH 1.57079632673412561417 // its first 33 bits
+#define PI_2      1.5707963267948966         // pi / 2
+#define PI_2_HIGH 1.57079632673412561417     // its first 33 bits
 #define PI_2_MID  6.07710050630396597660e-11 // the next 33
 #define PI_2_LOW  2.02226624879595063154e-21 // the rest
 #define LN2_HIGH  6.93147180369123816490e-01 // ln 2, first 33 bits
@@ -30,17 +32,30 @@ static double series(const double *c, int count, double y)
 
 static double sin_small(double x)
 {
-    static const double c[] = { 1.0, -1.0 / 6, 1.0 / 120, -1.0 / 5040, 1.0 / 362880,
-                                -1.0 / 39916800, 1.0 / 6227020800.0, -1.0 / 1307674368000.0,
+    static const double c[] = { 1.0,
+                                -1.0 / 6,
+                                1.0 / 120,
+                                -1.0 / 5040,
+                                1.0 / 362880,
+                                -1.0 / 39916800,
+                                1.0 / 6227020800.0,
+                                -1.0 / 1307674368000.0,
                                 1.0 / 355687428096000.0 };
     return x * series(c, 9, x * x);
 }
 
 static double cos_small(double x)
 {
-    static const double c[] = { 1.0, -1.0 / 2, 1.0 / 24, -1.0 / 720, 1.0 / 40320,
-                                -1.0 / 3628800, 1.0 / 479001600.0, -1.0 / 87178291200.0,
-                                1.0 / 20922789888000.0, -1.0 / 6402373705728000.0 };
+    static const double c[] = { 1.0,
+                                -1.0 / 2,
+                                1.0 / 24,
+                                -1.0 / 720,
+                                1.0 / 40320,
+                                -1.0 / 3628800,
+                                1.0 / 479001600.0,
+                                -1.0 / 87178291200.0,
+                                1.0 / 20922789888000.0,
+                                -1.0 / 6402373705728000.0 };
     return series(c, 10, x * x);
 }
 
@@ -80,8 +95,9 @@ double sc_cos(double x)
 // atan of 0 <= x <= 1
 static double atan_unit(double x)
 {
-    static const double c[] = { 1.0, -1.0 / 3, 1.0 / 5, -1.0 / 7, 1.0 / 9, -1.0 / 11, 1.0 / 13,
-                                -1.0 / 15, 1.0 / 17, -1.0 / 19, 1.0 / 21, -1.0 / 23, 1.0 / 25 };
+    static const double c[] = { 1.0,       -1.0 / 3,  1.0 / 5,   -1.0 / 7, 1.0 / 9,
+                                -1.0 / 11, 1.0 / 13,  -1.0 / 15, 1.0 / 17, -1.0 / 19,
+                                1.0 / 21,  -1.0 / 23, 1.0 / 25 };
     const double sqrt3 = 1.7320508075688772;
     const double tan_pi_12 = 0.2679491924311227;
     if (x > tan_pi_12) {
@@ -114,9 +130,20 @@ double sc_atan2(double y, double x)
 
 double sc_exp(double x)
 {
-    static const double c[] = { 1.0, 1.0, 1.0 / 2, 1.0 / 6, 1.0 / 24, 1.0 / 120, 1.0 / 720,
-                                1.0 / 5040, 1.0 / 40320, 1.0 / 362880, 1.0 / 3628800,
-                                1.0 / 39916800, 1.0 / 479001600.0, 1.0 / 6227020800.0,
+    static const double c[] = { 1.0,
+                                1.0,
+                                1.0 / 2,
+                                1.0 / 6,
+                                1.0 / 24,
+                                1.0 / 120,
+                                1.0 / 720,
+                                1.0 / 5040,
+                                1.0 / 40320,
+                                1.0 / 362880,
+                                1.0 / 3628800,
+                                1.0 / 39916800,
+                                1.0 / 479001600.0,
+                                1.0 / 6227020800.0,
                                 1.0 / 87178291200.0 };
     if (isnan(x)) {
         return x;
@@ -143,8 +170,8 @@ double sc_log(double x)
         m *= 2;
         e -= 1;
     }
-    static const double c[] = { 2.0, 2.0 / 3, 2.0 / 5, 2.0 / 7, 2.0 / 9, 2.0 / 11, 2.0 / 13,
-                                2.0 / 15, 2.0 / 17, 2.0 / 19, 2.0 / 21, 2.0 / 23 };
+    static const double c[] = { 2.0,      2.0 / 3,  2.0 / 5,  2.0 / 7,  2.0 / 9,  2.0 / 11,
+                                2.0 / 13, 2.0 / 15, 2.0 / 17, 2.0 / 19, 2.0 / 21, 2.0 / 23 };
     double q = (m - 1) / (m + 1);
     double k = (double)e;
     return k * LN2_HIGH + (q * series(c, 12, q * q) + k * LN2_LOW);

@@ -151,12 +151,14 @@ static void take_limit(scene *s)
     char message[160];
     sc_budget *b = &s->budget;
     if (b->long_string) {
-        snprintf(message, sizeof message, "a string of more than %zu bytes was made", SC_STRING_MAX);
+        snprintf(message, sizeof message, "a string of more than %zu bytes was made",
+                 SC_STRING_MAX);
     } else if (b->out_of_time) {
         snprintf(message, sizeof message, "the %s takes more than %llu instructions",
                  s->building ? "scene" : "handler", (unsigned long long)b->spend_limit);
     } else {
-        snprintf(message, sizeof message, "the scene needs more than %zu bytes of memory", b->limit);
+        snprintf(message, sizeof message, "the scene needs more than %zu bytes of memory",
+                 b->limit);
     }
     int line = s->is_json ? 0 : b->line;
     int column = line > 0 ? sc_lua_column(s->source, s->source_size, line, NULL) : 0;
@@ -168,8 +170,9 @@ void sc_take_error(scene *s, int status)
     if (s->error.code == SCENE_OK && status == LUA_ERRMEM) {
         take_limit(s);
     } else if (s->error.code == SCENE_OK) {
-        const char *text = lua_type(s->L, -1) == LUA_TSTRING ? lua_tostring(s->L, -1)
-                                                             : "error() with a value that is no string";
+        const char *text = lua_type(s->L, -1) == LUA_TSTRING
+                               ? lua_tostring(s->L, -1)
+                               : "error() with a value that is no string";
         char message[sizeof s->error.message];
         int line = 0;
         size_t prefix = strlen(SC_CHUNK ":");

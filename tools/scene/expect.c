@@ -1,6 +1,7 @@
-// expect.c - expect{} and exact{}: what the author says must be true, measured while the scene runs.
-// A line is due at one time, in a window, after every step, or (when it names no time) at the end. Each
-// criterion gives a value, a limit and a ratio (1: just at the limit); the line keeps the worst one.
+// expect.c - expect{} and exact{}: what the author says must be true, measured while the scene
+// runs. A line is due at one time, in a window, after every step, or (when it names no time) at the
+// end. Each criterion gives a value, a limit and a ratio (1: just at the limit); the line keeps the
+// worst one.
 //
 // energy_drift = |E - E0| / (largest kinetic energy so far): the same wherever the origin lies.
 // momentum_drift = |p - p0| / (largest sum of m |v| so far), for scenes without outside forces.
@@ -11,7 +12,7 @@
 
 #include "internal.h"
 
-#define LIST (&sc_list_expect)
+#define LIST             (&sc_list_expect)
 #define HAS(def, member) SC_GIVEN(LIST, (def), sc_expect_def, member)
 
 // ---------------------------------------------------------------------------------- registering
@@ -33,7 +34,8 @@ static void check_expect(scene *s, const sc_site *site, const sc_expect_def *d)
                  "expect{} needs 'body' to know whose position, angle or velocity is meant");
     }
     if (HAS(d, position) && !HAS(d, tolerance)) {
-        sc_raise(s, SCENE_E_MISSING, site, "position", 0, NULL, "expect{} with 'position' needs 'tolerance'");
+        sc_raise(s, SCENE_E_MISSING, site, "position", 0, NULL,
+                 "expect{} with 'position' needs 'tolerance'");
     }
     if (HAS(d, score) != HAS(d, value)) {
         sc_raise(s, SCENE_E_MISSING, site, HAS(d, score) ? "score" : "value", 0, NULL,
@@ -47,7 +49,8 @@ static void check_expect(scene *s, const sc_site *site, const sc_expect_def *d)
                  "expect{} needs something to measure, such as max_penetration = 0.005");
     }
     if (HAS(d, tolerance) && !body_only && !HAS(d, count) && !HAS(d, value)) {
-        sc_raise(s, SCENE_E_UNUSED, site, "tolerance", 0, NULL, "'tolerance' of expect{} is not used");
+        sc_raise(s, SCENE_E_UNUSED, site, "tolerance", 0, NULL,
+                 "'tolerance' of expect{} is not used");
     }
 }
 
@@ -66,7 +69,8 @@ void sc_build_expect(scene *s, const sc_site *site, int table)
     sc_read(s, site, LIST, table, &def);
     check_expect(s, site, &def);
     if (!s->building) {
-        sc_raise(s, SCENE_E_STATE, site, NULL, 0, NULL, "expect{} belongs to the script, not to a handler");
+        sc_raise(s, SCENE_E_STATE, site, NULL, 0, NULL,
+                 "expect{} belongs to the script, not to a handler");
     }
     sc_expect *e = SC_PUSH(s, s->expects);
     *e = (sc_expect){ .def = def, .line = site->line, .ratio = -1, .unit = "1" };
@@ -255,7 +259,8 @@ static void measure_drift(scene *s, sc_expect *e)
                 d->energy_drift);
     }
     if (HAS(d, momentum_drift)) {
-        double dx = now.momentum_x - s->momentum_start[0], dy = now.momentum_y - s->momentum_start[1];
+        double dx = now.momentum_x - s->momentum_start[0],
+               dy = now.momentum_y - s->momentum_start[1];
         double change = sqrt(dx * dx + dy * dy);
         at_most(s, e, "", "momentum_drift", "1", change == 0 ? 0 : change / s->momentum_scale,
                 d->momentum_drift);
@@ -284,8 +289,8 @@ static void measure_test(scene *s, sc_expect *e)
 static void describe(sc_expect *e)
 {
     const char *relation = e->status == SCENE_EXPECT_PASSED ? "ok, limit" : "breaks limit";
-    snprintf(e->description, sizeof e->description, "%s %.6g %s (%s %.6g %s) at %.6g s", e->quantity,
-             e->measured, e->unit, relation, e->limit, e->unit, e->time);
+    snprintf(e->description, sizeof e->description, "%s %.6g %s (%s %.6g %s) at %.6g s",
+             e->quantity, e->measured, e->unit, relation, e->limit, e->unit, e->time);
 }
 
 static void evaluate(scene *s, sc_expect *e)
@@ -294,8 +299,8 @@ static void evaluate(scene *s, sc_expect *e)
     int index = (int)(e - s->expects.items);
     measure_bodies(s, e);
     if (HAS(d, max_penetration)) {
-        at_most(s, e, "", "max_penetration", "m", (double)plumb_world_stats(s->world).max_penetration,
-                d->max_penetration);
+        at_most(s, e, "", "max_penetration", "m",
+                (double)plumb_world_stats(s->world).max_penetration, d->max_penetration);
     }
     measure_drift(s, e);
     if (HAS(d, value)) {
@@ -356,7 +361,8 @@ void sc_expect_step(scene *s)
                 evaluate(s, e);
             }
         } else if (d->always || HAS(d, from) || HAS(d, till)) {
-            bool open = (!HAS(d, from) || now >= d->from - slack) && (!HAS(d, till) || now <= d->till + slack);
+            bool open = (!HAS(d, from) || now >= d->from - slack) &&
+                        (!HAS(d, till) || now <= d->till + slack);
             if (open && e->status != SCENE_EXPECT_FAILED) { // the first break is what is reported
                 evaluate(s, e);
             }

@@ -93,7 +93,9 @@ static void check_number(const context *c, double v)
     if (!isfinite(v)) {
         sc_raise(c->s, SCENE_E_RANGE, c->site, row->name, c->index, NULL,
                  "'%s' of %s{} must be finite, not %s", row->name, c->site->construct,
-                 isnan(v) ? "nan" : v > 0 ? "inf" : "-inf");
+                 isnan(v) ? "nan"
+                 : v > 0  ? "inf"
+                          : "-inf");
     }
     if (low || v > row->max) {
         bool unit = row->detail != NULL && strcmp(row->detail, "1") != 0;
@@ -452,11 +454,21 @@ static int positions(const sc_list *list)
 static const struct {
     const char *elsewhere, *here;
 } words[] = {
-    { "position", "at" },         { "rotation", "angle" },      { "angular_velocity", "spin" },
-    { "omega", "spin" },          { "bounce", "restitution" },  { "elasticity", "restitution" },
-    { "radius", "r" },            { "width", "w" },             { "height", "h" },
-    { "linear_velocity", "velocity" }, { "time_step", "dt" },   { "colour", "color" },
-    { "seconds", "duration" },    { "rounding", "round" },      { "sides", "n" },
+    { "position", "at" },
+    { "rotation", "angle" },
+    { "angular_velocity", "spin" },
+    { "omega", "spin" },
+    { "bounce", "restitution" },
+    { "elasticity", "restitution" },
+    { "radius", "r" },
+    { "width", "w" },
+    { "height", "h" },
+    { "linear_velocity", "velocity" },
+    { "time_step", "dt" },
+    { "colour", "color" },
+    { "seconds", "duration" },
+    { "rounding", "round" },
+    { "sides", "n" },
 };
 
 _Noreturn static void fail_key(scene *s, const sc_site *site, const sc_list *list, const char *key)
@@ -476,8 +488,8 @@ _Noreturn static void fail_key(scene *s, const sc_site *site, const sc_list *lis
              site->construct);
 }
 
-// Checks that the table has no keys but those of the list. lua_next's order depends on string hashes,
-// so of several unknown keys the alphabetically first is reported.
+// Checks that the table has no keys but those of the list. lua_next's order depends on string
+// hashes, so of several unknown keys the alphabetically first is reported.
 static void check_keys(scene *s, const sc_site *site, const sc_list *list, int table)
 {
     lua_State *L = s->L;
@@ -499,8 +511,8 @@ static void check_keys(scene *s, const sc_site *site, const sc_list *list, int t
             highest = lua_tointeger(L, -1) > highest ? lua_tointeger(L, -1) : highest;
         } else {
             lua_pop(L, 1);
-            sc_raise(s, SCENE_E_KEY, site, NULL, 0, NULL, "a key of %s{} is neither a name nor a position",
-                     site->construct);
+            sc_raise(s, SCENE_E_KEY, site, NULL, 0, NULL,
+                     "a key of %s{} is neither a name nor a position", site->construct);
         }
     }
     if (unknown != NULL) {
@@ -560,7 +572,10 @@ void sc_read(scene *s, const sc_site *site, const sc_list *list, int table, void
         } else if ((c.row->flags & SC_REQUIRED) != 0) {
             bool plain = c.row->kind == SC_POINTS || c.row->kind == SC_FUNCTION;
             sc_raise(s, SCENE_E_MISSING, site, NULL, 0, NULL, "%s{} needs %s%s%s", site->construct,
-                     c.row->kind == SC_FUNCTION ? "a " : plain ? "" : "'", c.row->name, plain ? "" : "'");
+                     c.row->kind == SC_FUNCTION ? "a "
+                     : plain                    ? ""
+                                                : "'",
+                     c.row->name, plain ? "" : "'");
         }
         lua_pop(L, 1);
     }

@@ -1,6 +1,7 @@
-// handlers.c - what a script does while the scene runs: at, every, every_step before a step, on_contact
-// and on_end after it, from copies of the world's event arrays (a handler may make and destroy bodies).
-// Handlers of one kind of moment are called in the order in which they were registered.
+// handlers.c - what a script does while the scene runs: at, every, every_step before a step,
+// on_contact and on_end after it, from copies of the world's event arrays (a handler may make and
+// destroy bodies). Handlers of one kind of moment are called in the order in which they were
+// registered.
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -29,13 +30,15 @@ static int register_timed(lua_State *L, const char *name, sc_handler_kind kind)
     scene *s = sc_of(L);
     sc_site site = sc_here(s, name);
     if (lua_gettop(L) != 2 || lua_type(L, 1) != LUA_TNUMBER || lua_type(L, 2) != LUA_TFUNCTION) {
-        sc_raise(s, SCENE_E_TYPE, &site, NULL, 0, NULL, "%s takes a time in seconds and a function", name);
+        sc_raise(s, SCENE_E_TYPE, &site, NULL, 0, NULL, "%s takes a time in seconds and a function",
+                 name);
     }
     double time = lua_tonumber(L, 1);
     bool good = isfinite(time) && (kind == SC_AT ? time >= 0 : time > 0);
     if (!good) {
-        sc_raise(s, SCENE_E_RANGE, &site, NULL, 1, NULL, "the time of %s() must be %s 0 and finite, not %.10g",
-                 name, kind == SC_AT ? "at least" : "above", time);
+        sc_raise(s, SCENE_E_RANGE, &site, NULL, 1, NULL,
+                 "the time of %s() must be %s 0 and finite, not %.10g", name,
+                 kind == SC_AT ? "at least" : "above", time);
     }
     sc_need_world(s);
     if (kind == SC_AT && time > s->start_time + s->duration && s->building) {
@@ -90,8 +93,8 @@ static int register_contact(lua_State *L, const char *name, sc_handler_kind kind
         lua_rawseti(L, 1, 1);
     }
     if (lua_gettop(L) != 1 || lua_type(L, 1) != LUA_TTABLE) {
-        sc_raise(s, SCENE_E_TYPE, &site, NULL, 0, NULL, "%s takes a function or a table: %s{a = ..., b = ..., function}",
-                 name, name);
+        sc_raise(s, SCENE_E_TYPE, &site, NULL, 0, NULL,
+                 "%s takes a function or a table: %s{a = ..., b = ..., function}", name, name);
     }
     sc_contact_def def = { .function = LUA_NOREF };
     sc_read(s, &site, &sc_list_contact, 1, &def);
@@ -165,7 +168,8 @@ static void push_field(lua_State *L, const char *name, plumb_real v)
     lua_setfield(L, -2, name);
 }
 
-// The third argument: where and how hard; the normal points from the handler's first body to its second.
+// The third argument: where and how hard; the normal points from the handler's first body to its
+// second.
 static void push_contact(lua_State *L, const plumb_contact_begin *e, bool swapped)
 {
     plumb_real sign = swapped ? (plumb_real)-1 : (plumb_real)1;

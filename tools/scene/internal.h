@@ -10,15 +10,15 @@
 
 #include "scene.h"
 
-#define SC_NAME_SIZE 64  ///< [B] of a name with its final zero
+#define SC_NAME_SIZE 64      ///< [B] of a name with its final zero
 #define SC_CHUNK     "scene" ///< chunk name given to Lua; errors carry the real path
 
 // ------------------------------------------------------------------------------------- memory
 
 /// Memory and instructions that the script, the loader and the world may use together.
 typedef struct sc_budget {
-    size_t used;  ///< [B] now
-    size_t limit; ///< [B]
+    size_t used;          ///< [B] now
+    size_t limit;         ///< [B]
     uint64_t spent;       ///< Lua instructions since the start of the build pass or handler call
     uint64_t spend_limit; ///< see scene_options
     bool out_of_time;     ///< `spent` went past its limit
@@ -30,7 +30,7 @@ typedef struct sc_budget {
 #define SC_STRING_MAX ((size_t)64 * 1024) ///< [B] longest string a script may make
 
 void *sc_resize(scene *s, void *p, size_t old_size, size_t new_size); ///< realloc within the budget
-void *sc_need(scene *s, void *p, size_t old_size, size_t new_size);   ///< the same, raises on failure
+void *sc_need(scene *s, void *p, size_t old_size, size_t new_size); ///< the same, raises on failure
 void *sc_world_resize(void *context, void *p, size_t old_size, size_t new_size);
 void *sc_lua_alloc(void *context, void *p, size_t old_size, size_t new_size);
 
@@ -114,7 +114,7 @@ typedef struct sc_field {
     const char *name;
     sc_kind kind;
     size_t offset;
-    size_t size;    ///< SC_STRING: bytes
+    size_t size; ///< SC_STRING: bytes
     double min, max;
     const char *detail; ///< unit, or choices
     int position;       ///< may also be given as the n-th element; 0: by name only
@@ -176,7 +176,14 @@ typedef struct sc_material {
 } sc_material;
 
 typedef enum sc_shape_kind {
-    SC_CIRCLE, SC_CAPSULE, SC_BOX_SHAPE, SC_POLYGON, SC_OUTLINE, SC_SEGMENT, SC_CHAIN, SC_REGULAR,
+    SC_CIRCLE,
+    SC_CAPSULE,
+    SC_BOX_SHAPE,
+    SC_POLYGON,
+    SC_OUTLINE,
+    SC_SEGMENT,
+    SC_CHAIN,
+    SC_REGULAR,
     SC_SHAPE_KINDS
 } sc_shape_kind;
 
@@ -261,7 +268,13 @@ typedef struct sc_contact_def {
     int function;
 } sc_contact_def;
 
-typedef enum sc_handler_kind { SC_AT, SC_EVERY, SC_EVERY_STEP, SC_ON_CONTACT, SC_ON_END } sc_handler_kind;
+typedef enum sc_handler_kind {
+    SC_AT,
+    SC_EVERY,
+    SC_EVERY_STEP,
+    SC_ON_CONTACT,
+    SC_ON_END
+} sc_handler_kind;
 
 typedef struct sc_handler {
     sc_handler_kind kind;
@@ -304,7 +317,11 @@ typedef struct sc_shape_object {
 } sc_shape_object;
 
 /// Growable array of T within the budget.
-#define SC_ARRAY(T) struct { T *items; int count, capacity; }
+#define SC_ARRAY(T)                                                                                \
+    struct {                                                                                       \
+        T *items;                                                                                  \
+        int count, capacity;                                                                       \
+    }
 
 struct scene {
     lua_State *L;
@@ -316,7 +333,7 @@ struct scene {
     char *source;
     size_t source_size;
     bool is_json;
-    scene_error error; ///< code != SCENE_OK: the scene has failed
+    scene_error error;       ///< code != SCENE_OK: the scene has failed
     const char *raising_set; ///< key of --set whose value is being read, else null
 
     sc_settings settings;
@@ -335,7 +352,10 @@ struct scene {
     int epoch;
     SC_ARRAY(sc_handler) handlers;
     SC_ARRAY(sc_expect) expects;
-    struct sc_exact_entry { sc_exact_def def; int line; } *exacts;
+    struct sc_exact_entry {
+        sc_exact_def def;
+        int line;
+    } * exacts;
     int exact_count, exact_capacity;
     SC_ARRAY(sc_score) scores;
     SC_ARRAY(sc_param) params;
@@ -348,7 +368,7 @@ struct scene {
     char shown[512];
     uint64_t random;
     bool wants_energy;
-    double energy_start, energy_scale; ///< [J] see expect.c
+    double energy_start, energy_scale;        ///< [J] see expect.c
     double momentum_start[2], momentum_scale; ///< [kg m/s]
 };
 
@@ -376,24 +396,24 @@ static inline scene *sc_of(lua_State *L)
 #define SC_META_MATERIAL "plumb.material"
 #define SC_META_BODY     "plumb.body"
 
-lua_State *sc_sandbox_open(scene *s);       ///< state with allow-listed environment; null: no memory
+lua_State *sc_sandbox_open(scene *s); ///< state with allow-listed environment; null: no memory
 void sc_sandbox_budget(scene *s, uint64_t instructions); ///< a fresh instruction budget
-void sc_open_build(lua_State *L);           ///< scene, material, body, camera, param, ...
-void sc_open_shapes(lua_State *L);          ///< box, circle, ...
-void sc_open_body(lua_State *L);            ///< methods of bodies
-void sc_open_handlers(lua_State *L);        ///< at, every, on_contact, ...
-void sc_open_expect(lua_State *L);          ///< expect, exact
-void sc_open_math(lua_State *L);            ///< math, random
+void sc_open_build(lua_State *L);    ///< scene, material, body, camera, param, ...
+void sc_open_shapes(lua_State *L);   ///< box, circle, ...
+void sc_open_body(lua_State *L);     ///< methods of bodies
+void sc_open_handlers(lua_State *L); ///< at, every, on_contact, ...
+void sc_open_expect(lua_State *L);   ///< expect, exact
+void sc_open_math(lua_State *L);     ///< math, random
 
 void sc_build_settings(scene *s, const sc_site *site, int table); ///< scene{}; table 0: none
-void sc_need_world(scene *s);                                     ///< makes it with defaults if need be
+void sc_need_world(scene *s); ///< makes it with defaults if need be
 void sc_build_material(scene *s, const sc_site *site, int table); ///< pushes the object
 void sc_build_shape(scene *s, const sc_site *site, sc_shape_kind kind, int table); ///< pushes it
 void sc_build_body(scene *s, const sc_site *site, int table);                      ///< pushes it
 void sc_build_camera(scene *s, const sc_site *site, int table);
 void sc_build_expect(scene *s, const sc_site *site, int table);
-void sc_check_build(scene *s);   ///< after the build pass: unused things, unknown names
-void sc_apply_sets(scene *s);    ///< parses scene_options.sets
+void sc_check_build(scene *s);               ///< after the build pass: unused things, unknown names
+void sc_apply_sets(scene *s);                ///< parses scene_options.sets
 bool sc_take_set(scene *s, const char *key); ///< pushes the Lua value of --set key; false: none
 
 const char *sc_shape_kind_name(sc_shape_kind kind);

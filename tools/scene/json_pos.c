@@ -1,6 +1,6 @@
-// json_pos.c - where in a JSON text a value stands: cJSON does not keep positions, so the path of the
-// value ("bodies[3].shapes[0]") is walked again. Only the way to an error comes here. Cost: O(text).
-// The text has been accepted by cJSON before, so the walk need not check it.
+// json_pos.c - where in a JSON text a value stands: cJSON does not keep positions, so the path of
+// the value ("bodies[3].shapes[0]") is walked again. Only the way to an error comes here. Cost:
+// O(text). The text has been accepted by cJSON before, so the walk need not check it.
 #include <stdlib.h>
 #include <string.h>
 
@@ -49,7 +49,8 @@ static const char *skip_value(const char *p, const char *end)
     return p;
 }
 
-// The key (or, for arrays, the value) of member `name` or element `index` of the value at p; null if none.
+// The key (or, for arrays, the value) of member `name` or element `index` of the value at p; null
+// if none.
 static const char *find_member(const char *p, const char *end, const char *name, size_t length,
                                int index)
 {
@@ -63,7 +64,8 @@ static const char *find_member(const char *p, const char *end, const char *name,
         const char *start = p;
         if (is_object) {
             p = skip_string(p, end);
-            if (name != NULL && (size_t)(p - start) == length + 2 && memcmp(start + 1, name, length) == 0) {
+            if (name != NULL && (size_t)(p - start) == length + 2 &&
+                memcmp(start + 1, name, length) == 0) {
                 return start;
             }
             p = skip_space(p, end);
@@ -114,7 +116,8 @@ void sc_json_position(const char *text, size_t size, const char *path, const cha
     if (index > 0) { // elements by position are those of the member "points" or "shapes"
         const char *list = find_member(p, end, "points", 6, 0);
         list = list != NULL ? list : find_member(p, end, "shapes", 6, 0);
-        member = list != NULL ? find_member(value_of(list, end, true), end, NULL, 0, index - 1) : member;
+        member =
+            list != NULL ? find_member(value_of(list, end, true), end, NULL, 0, index - 1) : member;
     }
     p = member != NULL ? member : p;
     *line = 1;

@@ -1,6 +1,7 @@
-// json_read.c - canonical JSON becomes a scene: each object turns into a Lua table and goes through the
-// same constructors as a script's, so the same checks and messages hold, with the JSON's line and column.
-// Only data: no handlers, no functions. cJSON parses; positions are found again by json_pos.c.
+// json_read.c - canonical JSON becomes a scene: each object turns into a Lua table and goes through
+// the same constructors as a script's, so the same checks and messages hold, with the JSON's line
+// and column. Only data: no handlers, no functions. cJSON parses; positions are found again by
+// json_pos.c.
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -35,7 +36,8 @@ static void push_value(scene *s, const sc_site *site, const cJSON *item, int dep
     lua_State *L = s->L;
     luaL_checkstack(L, 8, NULL);
     if (depth > DEEPEST) {
-        sc_raise(s, SCENE_E_LIMIT, site, NULL, 0, NULL, "values are nested more than %d deep", DEEPEST);
+        sc_raise(s, SCENE_E_LIMIT, site, NULL, 0, NULL, "values are nested more than %d deep",
+                 DEEPEST);
     }
     if (cJSON_IsNumber(item)) {
         lua_pushnumber(L, item->valuedouble);
@@ -70,7 +72,8 @@ static void push_value(scene *s, const sc_site *site, const cJSON *item, int dep
 static void push_object(scene *s, const sc_site *site, const cJSON *item)
 {
     if (!cJSON_IsObject(item)) {
-        sc_raise(s, SCENE_E_TYPE, site, NULL, 0, NULL, "%s must be an object {...}", site->construct);
+        sc_raise(s, SCENE_E_TYPE, site, NULL, 0, NULL, "%s must be an object {...}",
+                 site->construct);
     }
     push_value(s, site, item, 0);
 }
@@ -95,8 +98,8 @@ static void resolve_material(scene *s, const sc_site *site)
             return;
         }
     }
-    sc_raise(s, SCENE_E_NAME, site, "material", 0, sc_suggest_best(&g), "no material is called '%.63s'",
-             name);
+    sc_raise(s, SCENE_E_NAME, site, "material", 0, sc_suggest_best(&g),
+             "no material is called '%.63s'", name);
 }
 
 // {"kind": "box", ...} on top becomes a shape object.
@@ -125,7 +128,8 @@ static void make_shape(scene *s, sc_site *site)
             return;
         }
     }
-    sc_raise(s, SCENE_E_NAME, site, "kind", 0, sc_suggest_best(&g), "unknown kind of shape '%.63s'", kind);
+    sc_raise(s, SCENE_E_NAME, site, "kind", 0, sc_suggest_best(&g), "unknown kind of shape '%.63s'",
+             kind);
 }
 
 static void make_body(scene *s, const cJSON *item, int number)
@@ -165,7 +169,8 @@ static const cJSON *elements(scene *s, const cJSON *root, const char *name)
 
 static void check_root(scene *s, const cJSON *root)
 {
-    static const char *const names[] = { "bodies", "camera", "expect", "format", "materials", "scene", "time" };
+    static const char *const names[] = { "bodies",    "camera", "expect", "format",
+                                         "materials", "scene",  "time" };
     sc_site site = { .construct = "file", .path = "" };
     if (!cJSON_IsObject(root)) {
         sc_raise(s, SCENE_E_TYPE, &site, NULL, 0, NULL, "a scene must be an object {...}");
@@ -183,18 +188,21 @@ static void check_root(scene *s, const cJSON *root)
         }
         for (const cJSON *other = root->child; other != child; other = other->next) {
             if (strcmp(other->string, child->string) == 0) {
-                sc_raise(s, SCENE_E_DUPLICATE, &site, child->string, 0, NULL, "key '%.63s' is given twice",
-                         child->string);
+                sc_raise(s, SCENE_E_DUPLICATE, &site, child->string, 0, NULL,
+                         "key '%.63s' is given twice", child->string);
             }
         }
     }
     const cJSON *format = cJSON_GetObjectItemCaseSensitive(root, "format");
     if (!cJSON_IsString(format) || strcmp(format->valuestring, "plumb-scene-1") != 0) {
-        sc_raise(s, SCENE_E_MISSING, &site, "format", 0, NULL, "a scene needs \"format\":\"plumb-scene-1\"");
+        sc_raise(s, SCENE_E_MISSING, &site, "format", 0, NULL,
+                 "a scene needs \"format\":\"plumb-scene-1\"");
     }
     const cJSON *time = cJSON_GetObjectItemCaseSensitive(root, "time");
-    if (time != NULL && (!cJSON_IsNumber(time) || !isfinite(time->valuedouble) || time->valuedouble < 0)) {
-        sc_raise(s, SCENE_E_TYPE, &site, "time", 0, NULL, "'time' must be a number of at least 0 [s]");
+    if (time != NULL &&
+        (!cJSON_IsNumber(time) || !isfinite(time->valuedouble) || time->valuedouble < 0)) {
+        sc_raise(s, SCENE_E_TYPE, &site, "time", 0, NULL,
+                 "'time' must be a number of at least 0 [s]");
     }
     s->start_time = time != NULL ? time->valuedouble : 0;
 }

@@ -1,8 +1,8 @@
-// json_write.c - the state of a scene as canonical JSON: sorted keys, bodies in order of making, one line
-// each, every number the shortest that reads back to the same bits.
-// What a construct may say comes from its list; where the world has moved on (places, velocities,
-// gravity) the world's value is written. Handlers, exact{}, test functions and user tables are not state
-// that JSON can hold, nor are the impulses with which contacts warm start.
+// json_write.c - the state of a scene as canonical JSON: sorted keys, bodies in order of making,
+// one line each, every number the shortest that reads back to the same bits. What a construct may
+// say comes from its list; where the world has moved on (places, velocities, gravity) the world's
+// value is written. Handlers, exact{}, test functions and user tables are not state that JSON can
+// hold, nor are the impulses with which contacts warm start.
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -126,7 +126,8 @@ static void write_value(writer *w, const sc_field *row, const void *def, const s
 {
     const void *member = (const char *)def + row->offset;
     const double *numbers = member;
-    bool is_real = owner != NULL; // places and speeds come from the world; author's numbers fit both
+    bool is_real =
+        owner != NULL; // places and speeds come from the world; author's numbers fit both
     switch (row->kind) {
     case SC_NUMBER:
     case SC_INTEGER:
@@ -226,7 +227,8 @@ static void write_body(const scene *s, writer *w, const sc_body *b)
     plumb_rot q = plumb_body_transform(s->world, b->entity).q;
     d.at[0] = (double)p.x;
     d.at[1] = (double)p.y;
-    if (q.c != b->set_rot.c || q.s != b->set_rot.s) { // else the angle that was given says it exactly
+    if (q.c != b->set_rot.c ||
+        q.s != b->set_rot.s) { // else the angle that was given says it exactly
         d.angle = (double)plumb_body_angle(s->world, b->entity);
     }
     d.velocity[0] = (double)v.x;

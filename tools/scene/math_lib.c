@@ -1,6 +1,6 @@
 // math_lib.c - the names `math`, `random` and the angle helpers of scripts.
-// sin and company come from det_math.c; floor, sqrt, fmod and the like are exact in IEEE arithmetic and
-// are Lua's own. math.random is left out: random() and random_int() are seeded by scene{seed=}.
+// sin and company come from det_math.c; floor, sqrt, fmod and the like are exact in IEEE arithmetic
+// and are Lua's own. math.random is left out: random() and random_int() are seeded by scene{seed=}.
 #include <math.h>
 
 #include <lualib.h>
@@ -74,7 +74,8 @@ static int lua_random(lua_State *L)
     }
     double low = luaL_checknumber(L, 1);
     double high = luaL_checknumber(L, 2);
-    luaL_argcheck(L, isfinite(low) && isfinite(high) && low <= high, 2, "must be finite and not below #1");
+    luaL_argcheck(L, isfinite(low) && isfinite(high) && low <= high, 2,
+                  "must be finite and not below #1");
     lua_pushnumber(L, low + (high - low) * sc_random(s));
     return 1;
 }
@@ -85,7 +86,8 @@ static int lua_random_int(lua_State *L)
     lua_Integer low = luaL_checkinteger(L, 1);
     lua_Integer high = luaL_checkinteger(L, 2);
     const lua_Integer most = (lua_Integer)1 << 53; // what 53 random bits can tell apart
-    luaL_argcheck(L, low <= high && low > -most / 2 && high < most / 2, 2, "must be small and not below #1");
+    luaL_argcheck(L, low <= high && low > -most / 2 && high < most / 2, 2,
+                  "must be small and not below #1");
     lua_pushinteger(L, low + (lua_Integer)(sc_random(s) * (double)(high - low + 1)));
     return 1;
 }
@@ -104,8 +106,9 @@ static int lua_degrees(lua_State *L)
 
 void sc_open_math(lua_State *L)
 {
-    static const char *const exact[] = { "abs", "ceil", "floor", "fmod", "huge", "max", "maxinteger", "min",
-                                         "mininteger", "modf", "pi", "sqrt", "tointeger", "type", "ult" };
+    static const char *const exact[] = { "abs", "ceil",       "floor",     "fmod",       "huge",
+                                         "max", "maxinteger", "min",       "mininteger", "modf",
+                                         "pi",  "sqrt",       "tointeger", "type",       "ult" };
     static const luaL_Reg ours[] = {
         { "sin", math_sin },   { "cos", math_cos },   { "tan", math_tan }, { "atan", math_atan },
         { "asin", math_asin }, { "acos", math_acos }, { "exp", math_exp }, { "log", math_log },

@@ -2,10 +2,10 @@
 //
 // Memory: every block of the script, the loader and the world is counted against one limit.
 // Instructions: a hook counts them in units of HOOK_STEP; bytes that Lua asks for count too, one
-// instruction for each BYTES_PER_INSTRUCTION, so that work hidden in C (copying strings) is paid for.
-// Nothing that catches errors (pcall, coroutines) is offered: the first error ends the script.
-// Nothing that depends on addresses or hash seeds is offered: pairs is sorted, tostring of a table says
-// "table", sort is a stable merge sort.
+// instruction for each BYTES_PER_INSTRUCTION, so that work hidden in C (copying strings) is paid
+// for. Nothing that catches errors (pcall, coroutines) is offered: the first error ends the script.
+// Nothing that depends on addresses or hash seeds is offered: pairs is sorted, tostring of a table
+// says "table", sort is a stable merge sort.
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -213,7 +213,9 @@ static int compare_keys(const void *pa, const void *pb)
     const sort_key *a = pa;
     const sort_key *b = pb;
     if (a->text == NULL || b->text == NULL) {
-        return a->text != NULL ? 1 : b->text != NULL ? -1 : (a->number > b->number) - (a->number < b->number);
+        return a->text != NULL   ? 1
+               : b->text != NULL ? -1
+                                 : (a->number > b->number) - (a->number < b->number);
     }
     size_t shorter = a->length < b->length ? a->length : b->length;
     int order = memcmp(a->text, b->text, shorter);
@@ -284,10 +286,10 @@ static int lua_sorted_pairs(lua_State *L)
     if (count > 0) {
         qsort(keys, count, sizeof *keys, compare_keys);
     }
-    lua_pushvalue(L, 1);                  // upvalue 1
-    lua_pushvalue(L, 2);                  // upvalue 2
-    lua_pushinteger(L, 0);                // upvalue 3
-    push_sorted(L, keys, count);          // upvalue 4
+    lua_pushvalue(L, 1);         // upvalue 1
+    lua_pushvalue(L, 2);         // upvalue 2
+    lua_pushinteger(L, 0);       // upvalue 3
+    push_sorted(L, keys, count); // upvalue 4
     lua_pushcclosure(L, pairs_next, 4);
     return 1;
 }
@@ -458,7 +460,8 @@ static void wrap(lua_State *L, int from, const char *name, lua_CFunction wrapper
 
 static void open_string(lua_State *L)
 {
-    static const char *const names[] = { "byte", "char", "len", "lower", "reverse", "sub", "upper", NULL };
+    static const char *const names[] = { "byte",    "char", "len",   "lower",
+                                         "reverse", "sub",  "upper", NULL };
     luaL_requiref(L, LUA_STRLIBNAME, luaopen_string, 0);
     copy_allowed(L, names);
     int original = lua_gettop(L) - 1;

@@ -1,6 +1,6 @@
 // scene.c - the life of a scene: load, step, finish, destroy, and what users may ask.
-// Everything that may raise runs inside sc_protected: an error or an exhausted limit ends there, is kept
-// in s->error, and the scene stays failed.
+// Everything that may raise runs inside sc_protected: an error or an exhausted limit ends there, is
+// kept in s->error, and the scene stays failed.
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -8,10 +8,10 @@
 
 #include "internal.h"
 
-#define DEFAULT_MEMORY  ((size_t)256 << 20)   // [B]
-#define DEFAULT_BUILD   UINT64_C(1000000000)  // instructions: some seconds
-#define DEFAULT_HANDLER UINT64_C(10000000)    // instructions: some hundredths of a second
-#define LARGEST_FILE    ((long)64 << 20)      // [B]
+#define DEFAULT_MEMORY  ((size_t)256 << 20)  // [B]
+#define DEFAULT_BUILD   UINT64_C(1000000000) // instructions: some seconds
+#define DEFAULT_HANDLER UINT64_C(10000000)   // instructions: some hundredths of a second
+#define LARGEST_FILE    ((long)64 << 20)     // [B]
 
 // ---------------------------------------------------------------------------------- protection
 
@@ -52,8 +52,9 @@ static void refuse_powers(scene *s)
     int line;
     int column;
     if (sc_lua_find_power(s->source, s->source_size, &line, &column)) {
-        sc_set_error(s, SCENE_E_SYNTAX, line, column, "math.pow(x, y)",
-                     "only x^2 is offered: other powers differ in the last place from machine to machine");
+        sc_set_error(
+            s, SCENE_E_SYNTAX, line, column, "math.pow(x, y)",
+            "only x^2 is offered: other powers differ in the last place from machine to machine");
         lua_pushlightuserdata(s->L, s);
         lua_error(s->L);
     }
@@ -102,9 +103,9 @@ static bool read_file(scene *s, const char *path)
     }
     if (!good) {
         sc_set_error(s, SCENE_E_IO, 0, 0, NULL,
-                     file == NULL             ? "cannot be opened"
-                     : size > LARGEST_FILE    ? "is larger than 64 MiB"
-                                              : "cannot be read");
+                     file == NULL          ? "cannot be opened"
+                     : size > LARGEST_FILE ? "is larger than 64 MiB"
+                                           : "cannot be read");
     }
     return good;
 }
@@ -131,7 +132,8 @@ static void take_options(scene *s, const scene_options *opts)
     scene_options *o = &s->options;
     o->memory_limit = o->memory_limit != 0 ? o->memory_limit : DEFAULT_MEMORY;
     o->build_instructions = o->build_instructions != 0 ? o->build_instructions : DEFAULT_BUILD;
-    o->handler_instructions = o->handler_instructions != 0 ? o->handler_instructions : DEFAULT_HANDLER;
+    o->handler_instructions =
+        o->handler_instructions != 0 ? o->handler_instructions : DEFAULT_HANDLER;
     s->budget = (sc_budget){ .limit = o->memory_limit, .spend_limit = UINT64_MAX };
     snprintf(s->path, sizeof s->path, "%s", o->path != NULL ? o->path : "scene");
     size_t length = strlen(s->path);
@@ -162,14 +164,16 @@ scene_code scene_load(const scene_options *opts, scene **out, scene_error *err)
     if (s == NULL || out == NULL || opts == NULL || (opts->path == NULL && opts->text == NULL)) {
         free(s);
         err->code = SCENE_E_ARGUMENT;
-        snprintf(err->message, sizeof err->message, "scene_load needs options with a path or a text");
+        snprintf(err->message, sizeof err->message,
+                 "scene_load needs options with a path or a text");
         snprintf(err->text, sizeof err->text, "%s", err->message);
         return err->code;
     }
     take_options(s, opts);
     bool good = take_source(s);
     if (good && sc_sandbox_open(s) == NULL) {
-        sc_set_error(s, SCENE_E_LIMIT, 0, 0, NULL, "the memory limit leaves no room for the script");
+        sc_set_error(s, SCENE_E_LIMIT, 0, 0, NULL,
+                     "the memory limit leaves no room for the script");
         good = false;
     }
     if (good) {
@@ -212,9 +216,11 @@ void scene_destroy(scene *s)
     for (int i = 0; i < s->materials.count; i++) {
         free(s->materials.items[i]);
     }
-    void *const blocks[] = { s->bodies.items, s->materials.items, s->made.items, s->handlers.items,
-                             s->expects.items, s->exacts, s->scores.items, s->params.items,
-                             s->sets.items, s->begins.items, s->ends.items, s->points, s->source };
+    void *const blocks[] = { s->bodies.items,   s->materials.items, s->made.items,
+                             s->handlers.items, s->expects.items,   s->exacts,
+                             s->scores.items,   s->params.items,    s->sets.items,
+                             s->begins.items,   s->ends.items,      s->points,
+                             s->source };
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++) {
         free(blocks[i]);
     }
@@ -229,7 +235,8 @@ static void step_inside(scene *s)
     plumb_result result = plumb_world_step(s->world, (plumb_real)s->dt);
     if (result != PLUMB_OK) {
         sc_raise(s, result == PLUMB_E_MEMORY ? SCENE_E_LIMIT : SCENE_E_WORLD, NULL, NULL, 0, NULL,
-                 "step %llu failed: %s", (unsigned long long)s->steps + 1, plumb_result_text(result));
+                 "step %llu failed: %s", (unsigned long long)s->steps + 1,
+                 plumb_result_text(result));
     }
     s->steps++;
     sc_handlers_after(s);
@@ -277,7 +284,8 @@ uint64_t scene_steps(const scene *s)
 
 bool scene_done(const scene *s)
 {
-    return s->stop || s->error.code != SCENE_OK || (double)s->steps * s->dt >= s->duration - 0.5 * s->dt;
+    return s->stop || s->error.code != SCENE_OK ||
+           (double)s->steps * s->dt >= s->duration - 0.5 * s->dt;
 }
 
 plumb_world *scene_world(const scene *s)
@@ -313,9 +321,13 @@ static scene_body show_body(const sc_body *b)
     if (b == NULL) {
         return (scene_body){ .name = "", .label = "", .palette = -1 };
     }
-    return (scene_body){ .entity = b->entity, .name = b->def.name, .is_named = b->is_named,
-                         .label = b->def.label, .palette = b->def.color.palette,
-                         .color = b->def.color.rgba, .hidden = b->def.hidden };
+    return (scene_body){ .entity = b->entity,
+                         .name = b->def.name,
+                         .is_named = b->is_named,
+                         .label = b->def.label,
+                         .palette = b->def.color.palette,
+                         .color = b->def.color.rgba,
+                         .hidden = b->def.hidden };
 }
 
 scene_body scene_body_get(const scene *s, int i)
@@ -362,7 +374,9 @@ const char *scene_get_text(const scene *s)
             n = snprintf(mutable->shown + used, sizeof s->shown - used, "%s%s %.10g", gap,
                          s->scores.items[i].name, s->scores.items[i].value);
         } else {
-            n = s->text[0] == 0 ? 0 : snprintf(mutable->shown + used, sizeof s->shown - used, "%s%s", gap, s->text);
+            n = s->text[0] == 0
+                    ? 0
+                    : snprintf(mutable->shown + used, sizeof s->shown - used, "%s%s", gap, s->text);
         }
         used += (size_t)(n > 0 ? n : 0);
     }
@@ -392,10 +406,16 @@ int scene_expect_count(const scene *s)
 scene_expect_result scene_expect_get(const scene *s, int i)
 {
     const sc_expect *e = &s->expects.items[i];
-    return (scene_expect_result){ .name = e->def.name, .status = e->status,
-                                  .passed = e->status == SCENE_EXPECT_PASSED, .quantity = e->quantity,
-                                  .unit = e->unit, .measured = e->measured, .limit = e->limit,
-                                  .time = e->time, .line = e->line, .description = e->description };
+    return (scene_expect_result){ .name = e->def.name,
+                                  .status = e->status,
+                                  .passed = e->status == SCENE_EXPECT_PASSED,
+                                  .quantity = e->quantity,
+                                  .unit = e->unit,
+                                  .measured = e->measured,
+                                  .limit = e->limit,
+                                  .time = e->time,
+                                  .line = e->line,
+                                  .description = e->description };
 }
 
 int scene_expect_failures(const scene *s)

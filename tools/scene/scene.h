@@ -3,18 +3,19 @@
 ///     scene *s;
 ///     scene_error err;
 ///     if (scene_load(&(scene_options){ .path = "stack.lua" }, &s, &err) != SCENE_OK) {
-///         fprintf(stderr, "%s\n", err.text);          // file:line:column: message (did you mean ...)
-///         return 3;
+///         fprintf(stderr, "%s\n", err.text);          // file:line:column: message (did you mean
+///         ...) return 3;
 ///     }
 ///     while (!scene_done(s)) {
 ///         if (scene_step(s, &err) != SCENE_OK) { ... }    // a handler went wrong, or the world
 ///     }
 ///     scene_finish(s, &err);
-///     for (int i = 0; i < scene_expect_count(s); i++) { scene_expect_result r = scene_expect_get(s, i); }
-///     scene_destroy(s);
+///     for (int i = 0; i < scene_expect_count(s); i++) { scene_expect_result r =
+///     scene_expect_get(s, i); } scene_destroy(s);
 ///
 /// The language is described in tools/scene/README.md. A scene is used by one thread at a time;
-/// different scenes share nothing. Strings returned live until the next scene_step or the scene's end.
+/// different scenes share nothing. Strings returned live until the next scene_step or the scene's
+/// end.
 #ifndef SCENE_H
 #define SCENE_H
 
@@ -77,9 +78,9 @@ typedef struct scene_error {
 
 /// How to load. {0} with a path is valid.
 typedef struct scene_options {
-    const char *path;        ///< the file; ".json" at its end means canonical JSON, anything else Lua
-    const char *text;        ///< the source itself instead of the file; `path` then only names it
-    size_t text_size;        ///< [B] of `text`
+    const char *path; ///< the file; ".json" at its end means canonical JSON, anything else Lua
+    const char *text; ///< the source itself instead of the file; `path` then only names it
+    size_t text_size; ///< [B] of `text`
     const char *const *sets; ///< "key=value" each: a key of scene{} or a declared param
     int set_count;
     size_t memory_limit;           ///< [B] of script, world and loader together; 0: 256 MiB
@@ -98,8 +99,8 @@ scene_code scene_load(const scene_options *opts, scene **out, scene_error *err);
 /// Frees a scene with its world. Null is ignored.
 void scene_destroy(scene *s);
 
-/// One step: due `at`/`every` handlers, plumb_world_step, on_contact/on_end handlers, due expectations.
-/// After an error the scene stays failed: the same error comes again.
+/// One step: due `at`/`every` handlers, plumb_world_step, on_contact/on_end handlers, due
+/// expectations. After an error the scene stays failed: the same error comes again.
 scene_code scene_step(scene *s, scene_error *err);
 
 /// Evaluates the expectations that wait for the end. Called twice it does nothing.
@@ -137,12 +138,13 @@ typedef struct scene_rgba {
 /// A body with its name and its looks.
 typedef struct scene_body {
     plumb_body entity;
-    const char *name;  ///< never empty: unnamed bodies are body1, body2, ... by order of making
-    bool is_named;     ///< the author gave the name
-    const char *label; ///< "" when none is wanted; the renderer may fall back on the name if is_named
-    int palette;       ///< colour number, -1 when the author gave none
-    scene_rgba color;  ///< replaces the palette colour when a > 0
-    bool hidden;       ///< not to be drawn
+    const char *name; ///< never empty: unnamed bodies are body1, body2, ... by order of making
+    bool is_named;    ///< the author gave the name
+    const char
+        *label;  ///< "" when none is wanted; the renderer may fall back on the name if is_named
+    int palette; ///< colour number, -1 when the author gave none
+    scene_rgba color; ///< replaces the palette colour when a > 0
+    bool hidden;      ///< not to be drawn
 } scene_body;
 
 /// Bodies now alive, in order of making. i in [0, count). The array changes when handlers make or
@@ -166,7 +168,8 @@ typedef struct scene_camera {
 
 scene_camera scene_get_camera(const scene *s);
 
-/// The counters and the text of the scene in one line, e.g. "left 3   right 2   second half"; "" if none.
+/// The counters and the text of the scene in one line, e.g. "left 3   right 2   second half"; "" if
+/// none.
 const char *scene_get_text(const scene *s);
 
 /// Counters made by score(name, value), in order of first use.
@@ -175,9 +178,9 @@ const char *scene_score_name(const scene *s, int i);
 double scene_score_value(const scene *s, int i);
 
 typedef enum scene_expect_status {
-    SCENE_EXPECT_PENDING,    ///< not evaluated yet
-    SCENE_EXPECT_PASSED,     ///< holds (of `always` and from/till: so far, final after scene_finish)
-    SCENE_EXPECT_FAILED,     ///< does not hold
+    SCENE_EXPECT_PENDING, ///< not evaluated yet
+    SCENE_EXPECT_PASSED,  ///< holds (of `always` and from/till: so far, final after scene_finish)
+    SCENE_EXPECT_FAILED,  ///< does not hold
     SCENE_EXPECT_NOT_REACHED ///< the run ended before its time
 } scene_expect_status;
 
@@ -191,8 +194,8 @@ typedef struct scene_expect_result {
     const char *unit;     ///< "m", "m/s", "1", ...
     double measured;
     double limit;
-    double time; ///< [s] when it was measured
-    int line;    ///< of the expect{} in the file
+    double time;             ///< [s] when it was measured
+    int line;                ///< of the expect{} in the file
     const char *description; ///< one readable line: "max_penetration 0.0012 m <= 0.005 m at 10 s"
 } scene_expect_result;
 

@@ -1,5 +1,5 @@
-// shapes.c - the shape constructors: box{}, circle{}, ... as Lua objects, and their way into the world.
-// A shape object is plain data; a body takes a copy, so one object may serve many bodies.
+// shapes.c - the shape constructors: box{}, circle{}, ... as Lua objects, and their way into the
+// world. A shape object is plain data; a body takes a copy, so one object may serve many bodies.
 #include <string.h>
 
 #include "internal.h"
@@ -50,10 +50,12 @@ static plumb_vec2 place(const sc_shape_def *d, double x, double y)
 {
     double c = sc_cos(d->angle);
     double s = sc_sin(d->angle);
-    return (plumb_vec2){ (plumb_real)(d->at[0] + c * x - s * y), (plumb_real)(d->at[1] + s * x + c * y) };
+    return (plumb_vec2){ (plumb_real)(d->at[0] + c * x - s * y),
+                         (plumb_real)(d->at[1] + s * x + c * y) };
 }
 
-static void check_polygon(scene *s, const sc_site *site, const sc_shape_def *d, const plumb_vec2 *points)
+static void check_polygon(scene *s, const sc_site *site, const sc_shape_def *d,
+                          const plumb_vec2 *points)
 {
     plumb_convex convex;
     plumb_result result =
@@ -71,7 +73,8 @@ static void check_polygon(scene *s, const sc_site *site, const sc_shape_def *d, 
     }
 }
 
-static void check_lines(scene *s, const sc_site *site, const sc_shape_def *d, const plumb_vec2 *points)
+static void check_lines(scene *s, const sc_site *site, const sc_shape_def *d,
+                        const plumb_vec2 *points)
 {
     int links = d->closed ? d->point_count : d->point_count - 1;
     for (int i = 0; i < links; i++) {
@@ -87,7 +90,8 @@ static void check_lines(scene *s, const sc_site *site, const sc_shape_def *d, co
 // The points of the shape in the frame of the body, in memory that Lua collects.
 static plumb_vec2 *placed_points(scene *s, const sc_shape_def *d, int count)
 {
-    plumb_vec2 *points = lua_newuserdatauv(s->L, (size_t)(count > 0 ? count : 1) * sizeof *points, 0);
+    plumb_vec2 *points =
+        lua_newuserdatauv(s->L, (size_t)(count > 0 ? count : 1) * sizeof *points, 0);
     for (int i = 0; i < count; i++) {
         if (d->kind == SC_CAPSULE) {
             points[i] = place(d, (i == 0 ? -0.5 : 0.5) * d->length, 0);
@@ -169,7 +173,8 @@ static plumb_shape_desc describe(scene *s, const sc_site *site, const sc_shape_d
 void sc_shape_create(scene *s, const sc_site *site, int index, const sc_body *body,
                      const sc_shape_def *shape)
 {
-    // Geometry is judged in the body; in Lua the message stands at the shape if it is on the same line.
+    // Geometry is judged in the body; in Lua the message stands at the shape if it is on the same
+    // line.
     sc_site own = *site;
     char path[160];
     own.construct = sc_shape_kind_name(shape->kind);
@@ -181,9 +186,9 @@ void sc_shape_create(scene *s, const sc_site *site, int index, const sc_body *bo
     const sc_material *material = shape->material != NULL ? shape->material : body->def.material;
     desc.material = material != NULL ? material->handle : (plumb_material){ 0, 0 };
     bool line_like = shape->kind == SC_SEGMENT || shape->kind == SC_CHAIN;
-    desc.density = line_like              ? 0
-                   : shape->density != 0  ? (plumb_real)shape->density
-                                          : (plumb_real)body->def.density;
+    desc.density = line_like             ? 0
+                   : shape->density != 0 ? (plumb_real)shape->density
+                                         : (plumb_real)body->def.density;
     if (plumb_is_null(plumb_shape_create(s->world, body->entity, &desc))) {
         plumb_error e = plumb_world_error(s->world);
         scene_code code = e.code == PLUMB_E_MEMORY     ? SCENE_E_LIMIT
@@ -214,8 +219,8 @@ static int lua_shape(lua_State *L)
             lua_rawseti(L, 1, i);
         }
     } else if (count != 1 || lua_type(L, 1) != LUA_TTABLE) {
-        sc_raise(s, SCENE_E_TYPE, &site, NULL, 0, NULL, "%s takes one table: %s{...}", site.construct,
-                 site.construct);
+        sc_raise(s, SCENE_E_TYPE, &site, NULL, 0, NULL, "%s takes one table: %s{...}",
+                 site.construct, site.construct);
     }
     sc_build_shape(s, &site, kind, 1);
     return 1;

@@ -1,7 +1,7 @@
 // source_pos.c - where in the Lua text a message points: Lua itself only knows lines.
-// A small tokenizer of Lua (comments, strings, long brackets, names, numbers, signs); then the construct
-// is looked up on the line of its call, and the key or element within its braces.
-// Only the way to an error comes here. Cost: O(text). Columns count bytes from 1.
+// A small tokenizer of Lua (comments, strings, long brackets, names, numbers, signs); then the
+// construct is looked up on the line of its call, and the key or element within its braces. Only
+// the way to an error comes here. Cost: O(text). Columns count bytes from 1.
 #include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -131,7 +131,8 @@ static bool next_token(cursor *c, token *t)
     } else if (ch == '[' && skip_long(c)) {
         t->kind = TOKEN_STRING;
     } else {
-        static const char *const longer[] = { "...", "..", "==", "~=", "<=", ">=", "//", "::", "<<", ">>" };
+        static const char *const longer[] = { "...", "..", "==", "~=", "<=",
+                                              ">=",  "//", "::", "<<", ">>" };
         t->kind = TOKEN_SIGN;
         size_t length = 1;
         for (size_t i = 0; i < sizeof longer / sizeof *longer && length == 1; i++) {
@@ -183,8 +184,8 @@ static bool closes(const tokens *list, int i)
     return is_text(list, i, "}") || is_text(list, i, ")") || is_text(list, i, "]");
 }
 
-// First token of element `index` or of `key =` directly inside the bracket that opens at token `open`;
-// -1 if it is not there.
+// First token of element `index` or of `key =` directly inside the bracket that opens at token
+// `open`; -1 if it is not there.
 static int find_member(const tokens *list, int open, const char *key, int index)
 {
     int depth = 0;
@@ -217,7 +218,8 @@ static int find_member(const tokens *list, int open, const char *key, int index)
         for (size_t k = 0; k < sizeof openers / sizeof *openers; k++) {
             blocks += is_text(list, i, openers[k]);
         }
-        blocks -= is_text(list, i, "end") || is_text(list, i, "until") || is_text(list, i, "elseif");
+        blocks -=
+            is_text(list, i, "end") || is_text(list, i, "until") || is_text(list, i, "elseif");
     }
     return -1;
 }
@@ -291,7 +293,8 @@ int sc_lua_syntax_column(lua_State *L, const char *text, size_t size, int line, 
         int status = luaL_loadbufferx(L, text, list.items[i].start, "=" SC_CHUNK, "t");
         const char *message = status == LUA_OK ? "" : lua_tostring(L, -1);
         size_t length = strlen(message);
-        bool viable = status == LUA_OK || (length >= 5 && strcmp(message + length - 5, "<eof>") == 0);
+        bool viable =
+            status == LUA_OK || (length >= 5 && strcmp(message + length - 5, "<eof>") == 0);
         lua_pop(L, 1);
         if (viable || column == 0) {
             column = list.items[i].column;

@@ -43,7 +43,8 @@ static int edit_distance(const char *a, const char *b)
 
 sc_suggest sc_suggest_start(const char *word)
 {
-    // One slip in words up to 4 letters, about one more every 3: "desnity" finds "density", "w" nothing.
+    // One slip in words up to 4 letters, about one more every 3: "desnity" finds "density", "w"
+    // nothing.
     int length = (int)strlen(word);
     return (sc_suggest){ .word = word, .distance = (length + 2) / 3 + 1 };
 }

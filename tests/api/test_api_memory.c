@@ -1,0 +1,268 @@
+// test_api_memory.c - out of memory: a script that uses all of the API runs with an allocator that fails
+// its k-th call, for every k. A refused call changes nothing and succeeds when it is tried again; the script
+// ends in the same state as without failures, and every byte is given back.
+#include "world_fixture.h"
+
+#include <stdlib.h>
+
+//---- the allocator --------------------------------------------------------------------------------
+
+typedef struct heap {
+    long calls;      // that asked for memory
+    long fail_at;    // -1: never
+    bool from_there; // fail all from there on, not one
+    size_t bytes;    // handed out
+    long blocks;
+} heap;
+
+// The size is kept in front of the block, so that a wrong old size is found.
+#define FRONT 64
+
+static void *resize(void *context, void *memory, size_t old_size, size_t new_size)
+{
+    heap *h = context;
+    if (memory != NULL) {
+        assert_int_equal(*(size_t *)(void *)((char *)memory - FRONT), old_size);
+    } else {
+        assert_int_equal(old_size, 0);
+    }
+    char *fresh = NULL;
+    if (new_size > 0) {
+        long call = h->calls++;
+        if (h->fail_at >= 0 && (call == h->fail_at || (h->from_there && call > h->fail_at))) {
+            return NULL;
+        }
+        size_t whole = (new_size + FRONT + 63) / 64 * 64;
+        fresh = aligned_alloc(64, whole);
+        assert_non_null(fresh);
+        *(size_t *)(void *)fresh = new_size;
+        fresh += FRONT;
+        memset(fresh, 0xa5, new_size);
+        h->bytes += new_size;
+        ++h->blocks;
+    }
+    if (memory != NULL) {
+        if (fresh != NULL) {
+            memcpy(fresh, memory, old_size < new_size ? old_size : new_size);
+        }
+        free((char *)memory - FRONT);
+        h->bytes -= old_size;
+        --h->blocks;
+    }
+    return fresh;
+}
+
+//---- the script -----------------------------------------------------------------------------------
+
+typedef struct run {
+    heap heap;
+    plumb_world *world;
+    plumb_body bodies[24];
+    int refused;
+    bool keep_trying;
+} run;
+
+// Repeats a call that runs out of memory; before, the world must be what it was.
+#define TRY(r, call)                                                           \
+    do {                                                                       \
+        uint64_t before_ = digest_world((r)->world);                           \
+        while ((call) == PLUMB_E_MEMORY) {                                     \
+            ++(r)->refused;                                                    \
+            assert_true(digest_world((r)->world) == before_);                  \
+            assert_int_equal(plumb_world_stats((r)->world).bytes, (r)->heap.bytes); \
+            if (!(r)->keep_trying) {                                           \
+                return false;                                                  \
+            }                                                                  \
+        }                                                                      \
+    } while (0)
+
+#define TRY_MAKE(r, handle, call) TRY(r, made((r)->world, handle = (call)))
+
+static const plumb_vec2 ell[] = { { 0, 0 }, { 2, 0 }, { 2, 1 }, { 1, 1 }, { 1, 2 }, { 0, 2 } };
+static const plumb_vec2 ground[] = { { -40, 0 }, { 0, -1 }, { 40, 0 } };
+
+static bool make_world(run *r)
+{
+    const plumb_world_desc desc = { .allocator = { resize, &r->heap },
+                                    .body_capacity = 4,
+                                    .shape_capacity = 4,
+                                    .contact_capacity = 8 };
+    while (plumb_world_create(&desc, &r->world) == PLUMB_E_MEMORY) {
+        assert_null(r->world);
+        assert_int_equal(r->heap.blocks, 0);
+        ++r->refused;
+        if (!r->keep_trying) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool fill_world(run *r)
+{
+    plumb_shape shape;
+    plumb_material ice;
+    plumb_body base;
+    TRY_MAKE(r, ice, plumb_material_create(r->world, &(plumb_material_desc){ .restitution = R(0.5) }));
+    TRY_MAKE(r, base, plumb_body_create(r->world, &(plumb_body_desc){ .type = PLUMB_STATIC }));
+    TRY_MAKE(r, shape,
+             plumb_shape_create(
+                 r->world, base,
+                 &(plumb_shape_desc){ .kind = PLUMB_CHAIN, .points = ground, .count = 3 }));
+    const plumb_shape_desc descs[] = {
+        { .kind = PLUMB_CIRCLE, .radius = R(0.5), .material = ice },
+        { .kind = PLUMB_BOX, .half = { R(0.5), R(0.5) } },
+        { .kind = PLUMB_CAPSULE, .points = ell, .count = 2, .radius = R(0.25) },
+        { .kind = PLUMB_OUTLINE, .points = ell, .count = 6 },
+        { .kind = PLUMB_POLYGON, .points = ell, .count = 6 },
+    };
+    for (int i = 0; i < 24; ++i) {
+        const plumb_body_desc desc = { .position = { R(i % 6 * 2.5 - 6), R(1 + i / 6 * 2.25) },
+                                       .type = i % 7 == 6 ? PLUMB_KINEMATIC : PLUMB_DYNAMIC };
+        TRY_MAKE(r, r->bodies[i], plumb_body_create(r->world, &desc));
+        TRY_MAKE(r, shape, plumb_shape_create(r->world, r->bodies[i], &descs[i % 5]));
+    }
+    return true;
+}
+
+static void push(const plumb_system_call *call)
+{
+    plumb_body_span b = plumb_world_bodies(call->world);
+    for (int i = 0; i < b.dynamic_count; ++i) {
+        b.fx[i] += 1;
+    }
+}
+
+static plumb_result make_component(run *r, plumb_component *c)
+{
+    const plumb_field field = { "level", PLUMB_FIELD_F32, 0, "m" };
+    *c = plumb_component_create(
+        r->world,
+        &(plumb_component_desc){ .name = "fuel", .size = 32, .fields = &field, .field_count = 1 });
+    return c->id == 0 ? plumb_world_error(r->world).code : PLUMB_OK;
+}
+
+static bool extend_world(run *r)
+{
+    plumb_component fuel;
+    plumb_entity e;
+    TRY(r, make_component(r, &fuel));
+    TRY(r, plumb_system_create(r->world, &(plumb_system_desc){ .name = "push",
+                                                               .phase = PLUMB_PHASE_FORCES,
+                                                               .run = push,
+                                                               .needs = fuel }));
+    for (int i = 0; i < 10; ++i) {
+        TRY_MAKE(r, e, plumb_entity_create(r->world));
+        TRY(r, plumb_component_set(r->world, e, fuel, NULL));
+    }
+    plumb_body b;
+    plumb_shape s;
+    TRY_MAKE(r, b, plumb_command_body_create(r->world, &(plumb_body_desc){ .position = { 0, 20 } }));
+    TRY_MAKE(r, s,
+             plumb_command_shape_create(
+                 r->world, b,
+                 &(plumb_shape_desc){ .kind = PLUMB_OUTLINE, .points = ell, .count = 6 }));
+    TRY_MAKE(r, e, plumb_command_entity_create(r->world));
+    TRY(r, plumb_command_component_set(r->world, e, fuel, NULL));
+    TRY(r, plumb_command_teleport(r->world, b, plumb_v2(1, 20), 1));
+    TRY(r, plumb_command_component_remove(r->world, e, fuel));
+    TRY(r, plumb_command_destroy(r->world, r->bodies[3]));
+    return true;
+}
+
+// Applies commands: what was done before memory ran out stays done, so only the end is compared.
+static bool apply(run *r)
+{
+    while (plumb_commands_apply(r->world) == PLUMB_E_MEMORY) {
+        ++r->refused;
+        if (!r->keep_trying) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool play(run *r)
+{
+    if (!make_world(r) || !fill_world(r) || !extend_world(r) || !apply(r)) {
+        return false;
+    }
+    for (int i = 0; i < 40; ++i) {
+        TRY(r, plumb_world_step(r->world, R(1.0 / 60)));
+        if (i == 20) {
+            plumb_body_destroy(r->world, r->bodies[5]);
+        }
+    }
+    plumb_contact contacts[4];
+    plumb_world_contacts(r->world, contacts, 4);
+    return true;
+}
+
+// Returns the digest at the end; 0 when the script was given up.
+static uint64_t run_script(run *r, long fail_at, bool from_there)
+{
+    *r = (run){ .heap = { .fail_at = fail_at, .from_there = from_there },
+                .keep_trying = !from_there };
+    uint64_t digest = play(r) ? digest_world(r->world) : 0;
+    if (r->world != NULL) {
+        assert_int_equal(plumb_world_stats(r->world).bytes, r->heap.bytes);
+    }
+    plumb_world_destroy(r->world);
+    assert_int_equal(r->heap.bytes, 0);
+    assert_int_equal(r->heap.blocks, 0);
+    return digest;
+}
+
+static void any_single_allocation_may_fail(void **state)
+{
+    (void)state;
+    static run r;
+    uint64_t digest = run_script(&r, -1, false);
+    long calls = r.heap.calls;
+    assert_int_equal(r.refused, 0);
+    assert_in_range(calls, 30, 5000);
+    for (long k = 0; k < calls; ++k) {
+        assert_true(run_script(&r, k, false) == digest);
+        assert_in_range(r.refused, 1, 2);
+    }
+    print_message("%ld allocations, each failed once\n", calls);
+}
+
+static void memory_may_run_out_for_good_at_any_time(void **state)
+{
+    (void)state;
+    static run r;
+    run_script(&r, -1, false);
+    long calls = r.heap.calls;
+    for (long k = 0; k < calls; ++k) {
+        assert_true(run_script(&r, k, true) == 0);
+        assert_int_equal(r.refused, 1);
+    }
+}
+
+static void a_steady_state_step_allocates_nothing(void **state)
+{
+    (void)state;
+    static run r;
+    r = (run){ .heap = { .fail_at = -1 }, .keep_trying = true };
+    assert_true(play(&r));
+    for (int i = 0; i < 120; ++i) {
+        plumb_world_step(r.world, R(1.0 / 60));
+    }
+    long calls = r.heap.calls;
+    for (int i = 0; i < 60; ++i) {
+        assert_int_equal(plumb_world_step(r.world, R(1.0 / 60)), PLUMB_OK);
+    }
+    assert_int_equal(r.heap.calls, calls);
+    plumb_world_destroy(r.world);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(any_single_allocation_may_fail),
+        cmocka_unit_test(memory_may_run_out_for_good_at_any_time),
+        cmocka_unit_test(a_steady_state_step_allocates_nothing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

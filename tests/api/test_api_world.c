@@ -1,0 +1,256 @@
+// test_api_world.c - worlds: defaults, refused descriptors, gravity, axes, statistics, energy, bodies as
+// columns, two worlds side by side, result texts.
+#include "world_fixture.h"
+
+#include <stdlib.h>
+
+//---- creation -------------------------------------------------------------------------------------
+
+static void a_zero_descriptor_means_the_documented_defaults(void **state)
+{
+    (void)state;
+    plumb_world *w;
+    assert_int_equal(plumb_world_create(NULL, &w), PLUMB_OK);
+    plumb_world_desc d = plumb_world_settings(w);
+    assert_vec_near(d.gravity, 0, -9.81, 1e-6);
+    assert_int_equal(d.solver, PLUMB_SOLVER_SOFT);
+    assert_int_equal(d.substeps, 4);
+    assert_int_equal(d.iterations, 1);
+    assert_true(d.contact_hertz == 0 && d.restitution_speed == 0);
+    assert_true(d.contact_damping == 10 && d.push_speed == 3);
+    assert_true(d.simd_width == 4 || d.simd_width == 8 || d.simd_width == 16);
+    assert_non_null((void *)(uintptr_t)d.allocator.resize);
+    assert_vec_near(plumb_world_up(w), 0, 1, 0);
+    assert_null(plumb_world_user_data(w));
+    plumb_world_destroy(w);
+}
+
+static void given_settings_are_kept(void **state)
+{
+    (void)state;
+    int mine = 0;
+    const plumb_world_desc desc = { .gravity = { 1, 2 },
+                                    .y_axis = PLUMB_Y_DOWN,
+                                    .solver = PLUMB_SOLVER_PGS,
+                                    .substeps = 3,
+                                    .contact_hertz = 30,
+                                    .contact_damping = 5,
+                                    .push_speed = 2,
+                                    .restitution_speed = 1,
+                                    .simd_width = 4,
+                                    .body_capacity = 100,
+                                    .shape_capacity = 200,
+                                    .contact_capacity = 300,
+                                    .user_data = &mine };
+    plumb_world *w;
+    assert_int_equal(plumb_world_create(&desc, &w), PLUMB_OK);
+    plumb_world_desc d = plumb_world_settings(w);
+    assert_vec_near(d.gravity, 1, 2, 0);
+    assert_int_equal(d.substeps, 3);
+    assert_int_equal(d.iterations, 10);
+    assert_int_equal(d.simd_width, 4);
+    assert_true(d.contact_hertz == 30 && d.contact_damping == 5 && d.push_speed == 2);
+    assert_true(d.restitution_speed == 1);
+    assert_int_equal(d.body_capacity, 100);
+    assert_ptr_equal(plumb_world_user_data(w), &mine);
+    assert_vec_near(plumb_world_up(w), 0, -1, 0);
+    plumb_world *again;
+    assert_int_equal(plumb_world_create(&d, &again), PLUMB_OK); // resolved settings make the same world
+    plumb_world_desc e = plumb_world_settings(again);
+    assert_int_equal(e.iterations, d.iterations);
+    plumb_world_destroy(again);
+    plumb_world_destroy(w);
+    plumb_world_destroy(NULL);
+}
+
+static void gravity_follows_axis_and_flags(void **state)
+{
+    (void)state;
+    plumb_world *w;
+    plumb_world_desc desc = { .y_axis = PLUMB_Y_DOWN };
+    assert_int_equal(plumb_world_create(&desc, &w), PLUMB_OK);
+    assert_vec_near(plumb_world_gravity(w), 0, 9.81, 1e-6);
+    plumb_world_destroy(w);
+    desc.zero_gravity = true;
+    assert_int_equal(plumb_world_create(&desc, &w), PLUMB_OK);
+    assert_vec_near(plumb_world_gravity(w), 0, 0, 0);
+    assert_int_equal(plumb_world_set_gravity(w, plumb_v2(3, 0)), PLUMB_OK);
+    assert_vec_near(plumb_world_gravity(w), 3, 0, 0);
+    assert_false(plumb_world_settings(w).zero_gravity);
+    assert_int_equal(plumb_world_set_gravity(w, plumb_v2(0, 0)), PLUMB_OK);
+    assert_vec_near(plumb_world_gravity(w), 0, 0, 0);
+    assert_true(plumb_world_settings(w).zero_gravity);
+    plumb_world_destroy(w);
+}
+
+typedef struct bad_desc {
+    plumb_world_desc desc;
+    plumb_result code;
+    const char *message;
+} bad_desc;
+
+static void bad_descriptors_are_refused_with_a_line_in_the_log(void **state)
+{
+    (void)state;
+    const plumb_real nan = (plumb_real)NAN;
+    const bad_desc bad[] = {
+        { { .gravity = { nan, 0 } }, PLUMB_E_NOT_FINITE, "gravity is (nan, 0); it must be finite" },
+        { { .gravity = { 0, 1 }, .zero_gravity = true },
+          PLUMB_E_RANGE,
+          "gravity is (0, 1); it must be (0, 0) with zero_gravity" },
+        { { .y_axis = (plumb_y_axis)2 }, PLUMB_E_RANGE, "y_axis is 2; it must be 0 to 1" },
+        { { .solver = (plumb_solver)2 }, PLUMB_E_RANGE, "solver is 2; it must be 0 to 1" },
+        { { .substeps = -1 }, PLUMB_E_RANGE, "substeps is -1; it must be 0 to 64" },
+        { { .substeps = 65 }, PLUMB_E_RANGE, "substeps is 65; it must be 0 to 64" },
+        { { .iterations = 1001 }, PLUMB_E_RANGE, "iterations is 1001; it must be 0 to 1000" },
+        { { .contact_hertz = -1 }, PLUMB_E_RANGE, "contact_hertz is -1; it must be at least 0" },
+        { { .contact_damping = nan }, PLUMB_E_NOT_FINITE, "contact_damping is nan; it must be finite" },
+        { { .push_speed = -2 }, PLUMB_E_RANGE, "push_speed is -2; it must be at least 0" },
+        { { .restitution_speed = -1 },
+          PLUMB_E_RANGE,
+          "restitution_speed is -1; it must be at least 0" },
+        { { .simd_width = 6 }, PLUMB_E_RANGE, "simd_width is 6; it must be 0, 4, 8 or 16" },
+        { { .body_capacity = UINT32_MAX },
+          PLUMB_E_RANGE,
+          "body_capacity is 4294967295; it must be 0 to 16777216" },
+    };
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; ++i) {
+        fixture f = { .errors = 0 };
+        plumb_world_desc desc = bad[i].desc;
+        desc.log = keep_log;
+        desc.hook_context = &f;
+        plumb_world *w = (plumb_world *)&f; // must become null
+        assert_int_equal(plumb_world_create(&desc, &w), bad[i].code);
+        assert_null(w);
+        assert_int_equal(f.errors, 1);
+        assert_memory_equal(f.logged, "plumb_world_create: ", 20);
+        assert_string_equal(f.logged + 20, bad[i].message);
+    }
+    assert_int_equal(plumb_world_create(NULL, NULL), PLUMB_E_NULL);
+}
+
+static void a_new_world_has_no_error_and_success_keeps_the_last_one(void **state)
+{
+    (void)state;
+    plumb_world *w;
+    assert_int_equal(plumb_world_create(NULL, &w), PLUMB_OK);
+    assert_int_equal(plumb_world_error(w).code, PLUMB_OK);
+    assert_string_equal(plumb_world_error(w).function, "");
+    assert_string_equal(plumb_world_error(w).message, "");
+    plumb_world_step(w, 5);
+    assert_int_equal(plumb_world_step(w, R(0.01)), PLUMB_OK);
+    assert_int_equal(plumb_world_error(w).code, PLUMB_E_RANGE);
+    assert_string_equal(plumb_world_error(w).function, "plumb_world_step");
+    plumb_world_destroy(w);
+}
+
+static void every_result_has_a_text(void **state)
+{
+    (void)state;
+#define CHECK_TEXT(name, value, text)                                   \
+    assert_int_equal(PLUMB_##name, value);                              \
+    assert_string_equal(plumb_result_text(PLUMB_##name), text);
+    PLUMB_RESULT_LIST(CHECK_TEXT)
+    assert_string_equal(plumb_result_text((plumb_result)12), "unknown result");
+    assert_string_equal(plumb_result_text((plumb_result)-1), "unknown result");
+}
+
+//---- sums -----------------------------------------------------------------------------------------
+
+static void statistics_count_what_is_there(void **state)
+{
+    fixture *f = *state;
+    plumb_stats s = plumb_world_stats(f->world);
+    assert_int_equal(s.body_count, 3);
+    assert_int_equal(s.dynamic_count, 1);
+    assert_int_equal(s.kinematic_count, 1);
+    assert_int_equal(s.static_count, 1);
+    assert_int_equal(s.shape_count, 3);
+    assert_int_equal(s.piece_count, 3);
+    assert_int_equal(s.step_count, 0);
+    assert_true(s.bytes > sizeof(void *) && s.peak_bytes >= s.bytes);
+    for (int i = 0; i < 10; ++i) {
+        assert_int_equal(plumb_world_step(f->world, R(0.125)), PLUMB_OK);
+    }
+    s = plumb_world_stats(f->world);
+    assert_int_equal(s.step_count, 10);
+    assert_true(s.time == 1.25);
+    assert_true(plumb_world_stats(NULL).bytes == 0);
+}
+
+static void energy_is_that_of_the_dynamic_bodies(void **state)
+{
+    (void)state;
+    plumb_world *w;
+    const plumb_world_desc desc = { .gravity = { 0, -10 } };
+    assert_int_equal(plumb_world_create(&desc, &w), PLUMB_OK);
+    plumb_body_create(w, &(plumb_body_desc){ .mass = 2,
+                                             .inertia = 3,
+                                             .position = { 1, 4 },
+                                             .velocity = { 3, -1 },
+                                             .angular_velocity = 2 });
+    plumb_body_create(w, &(plumb_body_desc){ .mass = 1, .position = { 0, 7 }, .no_gravity = true });
+    plumb_body_create(w, &(plumb_body_desc){ .mass = 1, .position = { 0, 1 }, .gravity_scale = -2 });
+    plumb_body_create(w, &(plumb_body_desc){ .type = PLUMB_KINEMATIC, .velocity = { 100, 0 } });
+    plumb_energy e = plumb_world_energy(w);
+    assert_near(e.kinetic, 10 + 6, 1e-5);      // m v^2 / 2 + I w^2 / 2
+    assert_near(e.potential, 80 + 0 - 20, 1e-5);
+    assert_near(e.momentum_x, 6, 1e-6);
+    assert_near(e.momentum_y, -2, 1e-6);
+    assert_near(e.angular_momentum, 2 * (1 * -1 - 4 * 3) + 3 * 2, 1e-5);
+    assert_near(e.mass, 4, 1e-6);
+    plumb_world_destroy(w);
+    assert_true(plumb_world_energy(NULL).mass == 0);
+}
+
+static void body_columns_are_partitioned_and_writable(void **state)
+{
+    fixture *f = *state;
+    plumb_body_span b = plumb_world_bodies(f->world);
+    assert_int_equal(b.count, 3);
+    assert_int_equal(b.dynamic_count, 1);
+    assert_int_equal(b.kinematic_count, 1);
+    assert_int_equal(b.asleep_count, 0);
+    assert_int_equal(b.static_count, 1);
+    assert_true(plumb_same(b.entity[0], f->dynamic));
+    assert_true(plumb_same(b.entity[1], f->kinematic));
+    assert_true(plumb_same(b.entity[2], f->fixed));
+    assert_true(b.x[1] == 10 && b.y[0] == 5 && b.c[2] == 1 && b.s[2] == 0);
+    assert_true(b.inv_mass[0] > 0 && b.inv_inertia[0] > 0 && b.inv_mass[1] == 0);
+    b.vx[0] = 7;
+    b.w[0] = 2;
+    assert_vec_near(plumb_body_velocity(f->world, f->dynamic), 7, 0, 0);
+    assert_near(plumb_body_angular_velocity(f->world, f->dynamic), 2, 0);
+    assert_int_equal(plumb_world_bodies(NULL).count, 0);
+}
+
+static void worlds_share_nothing(void **state)
+{
+    fixture *f = *state;
+    plumb_world *other;
+    assert_int_equal(plumb_world_create(NULL, &other), PLUMB_OK);
+    uint64_t before = digest_world(f->world);
+    plumb_body_create(other, &(plumb_body_desc){ 0 });
+    plumb_world_step(other, 1);
+    plumb_world_step(other, 5);
+    assert_true(digest_world(f->world) == before);
+    assert_int_equal(plumb_world_error(f->world).code, PLUMB_OK);
+    plumb_world_destroy(other);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_zero_descriptor_means_the_documented_defaults),
+        cmocka_unit_test(given_settings_are_kept),
+        cmocka_unit_test(gravity_follows_axis_and_flags),
+        cmocka_unit_test(bad_descriptors_are_refused_with_a_line_in_the_log),
+        cmocka_unit_test(a_new_world_has_no_error_and_success_keeps_the_last_one),
+        cmocka_unit_test(every_result_has_a_text),
+        API_TEST(statistics_count_what_is_there),
+        cmocka_unit_test(energy_is_that_of_the_dynamic_bodies),
+        API_TEST(body_columns_are_partitioned_and_writable),
+        API_TEST(worlds_share_nothing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,1 @@
+body{ circle{1} }
