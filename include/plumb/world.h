@@ -40,7 +40,7 @@ typedef struct plumb_world_desc {
     int iterations;           ///< [-] 1..1000. PGS: sweeps a step, default 10. Soft: sweeps a substep, default 1
     plumb_real contact_hertz; ///< [1/s] >= 0. Contact stiffness; default: a quarter of the substep rate,
                               ///< which is also the largest that is used
-    plumb_real contact_damping;   ///< [-] >= 0, damping ratio of contacts, default 10
+    plumb_real contact_damping;   ///< [-] >= 0, damping ratio of contacts, default 3
     plumb_real push_speed;        ///< [m/s] >= 0, fastest recovery from overlap, default 3
     plumb_real restitution_speed; ///< [m/s] >= 0; approach slower than this does not bounce. Default 0:
                                   ///< only a bounce that would end within the substep is swallowed

@@ -89,11 +89,9 @@ bool pl_broad_refresh_moving(plumb_world *world, real dt)
         uint32_t piece = moving[i];
         pl_box tight = pl_piece_tight_box(world, piece);
         pl_box needed = widened(tight, PL_SPECULATIVE / 2);
-        if (pieces->restitution[piece] > 0) {
-            // An elastic piece must meet its partner within the step in which they touch.
-            const pl_pose *pose = &pl_poses(world)[pieces->body[piece]];
-            needed = swept(needed, pose->vx * dt, pose->vy * dt);
-        }
+        // A piece must meet its partner within the step in which they touch.
+        const pl_pose *pose = &pl_poses(world)[pieces->body[piece]];
+        needed = swept(needed, pose->vx * dt, pose->vy * dt);
         if (!contains(&pieces->fat[piece], &needed)) {
             real w = tight.max_x - tight.min_x;
             real h = tight.max_y - tight.min_y;

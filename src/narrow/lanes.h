@@ -18,7 +18,7 @@ typedef struct lanes {
     vf ar, br;                         // radii
     vf acx, acy, bcx, bcy;             // core centres in the bodies' frames
     vf oax, oay, obx, oby; // [m] core centre seen from the centre of mass, in world axes
-    vf speed;              // [m/s] of the centres against each other
+    vf vx, vy;             // [m/s] of the centre of mass of B against that of A
 } lanes;
 
 // Up to two points; an absent one has separation PL_APART.
@@ -63,9 +63,8 @@ WIDE_INLINE void lanes_gather(lanes *l, const pl_narrow_input *in, uint32_t firs
     l->ar = ca[6], l->br = cb[6];
     l->oax = ax - pa[4], l->oay = ay - pa[5];
     l->obx = bx - pb[4], l->oby = by - pb[5];
-    vf vx = pb[6] - pa[6];
-    vf vy = pb[7] - pa[7];
-    l->speed = vsqrt(vx * vx + vy * vy);
+    l->vx = pb[6] - pa[6];
+    l->vy = pb[7] - pa[7];
 }
 
 // One lane's manifold: keeps the points nearer than `limit`, carries impulses over by feature.
@@ -132,9 +131,11 @@ WIDE_INLINE void lanes_emit(const lanes *l, const touch *t, const pl_narrow_inpu
     vf zero = splat(0);
     vf friction = vsqrt(load(friction_a) * load(friction_b));
     vf restitution = vmax(load(bounce_a), load(bounce_b));
-    // Elastic pairs are found a step ahead, so that the impact can be put where it happens.
+    // Pairs that will meet within the step are contacts already: they stop at the surface instead of
+    // inside it, and an elastic impact can be put where it happens.
     vf limit = splat(PL_SPECULATIVE);
-    limit = sel(restitution > zero, vmax(limit, l->speed * splat(in->dt) + limit), limit);
+    vf closing = -(t->nx * l->vx + t->ny * l->vy) * splat(in->dt);
+    limit = vmax(limit, limit + closing);
 
     plumb_real rows[PL_WIDTH][24] __attribute__((aligned(64)));
     plumb_real *row[PL_WIDTH], *point0[PL_WIDTH], *point1[PL_WIDTH];

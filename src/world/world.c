@@ -12,7 +12,7 @@
     (UINT32_C(1) << 24) // rows: more than any machine steps, less than wraps sizes
 #define DEFAULT_FRICTION   ((real)0.6)
 #define SOFT_SUBSTEPS      4
-#define SOFT_DAMPING       ((real)5)
+#define SOFT_DAMPING       ((real)3)
 #define SOFT_PUSH_SPEED    ((real)3) // [m/s]
 #define CLASSIC_ITERATIONS 10
 

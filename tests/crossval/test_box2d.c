@@ -11,10 +11,14 @@
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include <cmocka.h>
 
 #include "harness/engine.h"
+
+// [m] Both compute in float: about 1000 roundings of 10 m. What is nearer need not fall any more.
+#define NOISE 5e-4
 
 enum { MAX_BODIES = 24, SAMPLES = 60, RATES = 5 };
 
@@ -28,7 +32,12 @@ typedef struct scene {
     double gravity_x, gravity_y;
     void (*build)(const struct engine *e, engine_world *w);
     double fall;   // distance at the finest step over that at the coarsest, at most
-    double finest; // [m] distance at the finest step, at most; that alone suffices where 0.1 mm
+    double finest; // [m] distance at the finest step, at most
+    // [m] Not 0: a difference that stays. Where an impact without bounce meets friction or several
+    // contacts at once, the soft step takes the impulses in another order (one sweep a substep, what
+    // is left in the next) than an iteration to convergence does, and ends at another outcome that
+    // satisfies the contact laws as well.
+    double lasting;
 } scene;
 
 typedef struct track {
@@ -153,6 +162,12 @@ static void box_corner_hits_box(const struct engine *e, engine_world *w)
     box(e, w, 1, 0, 0.5, 0.8, 0, stuff(0, 0.5));
 }
 
+static void rough_box_hits_box(const struct engine *e, engine_world *w)
+{
+    e->set_velocity(w, box(e, w, -2, 0.3, 0.4, 0.4, 0.6, stuff(0.2, 0)), 3, 0, 1);
+    box(e, w, 1, 0, 0.5, 0.8, 0, stuff(0.2, 0));
+}
+
 static void stack(const struct engine *e, engine_world *w)
 {
     ground(e, w, 0, stuff(0.6, 0));
@@ -161,13 +176,11 @@ static void stack(const struct engine *e, engine_world *w)
     }
 }
 
-// Slippery among themselves, as rough on the ground as wood: sqrt(0.01 * 9) = 0.3... see stuff(). An
-// impact with friction and both at once has no one law: the engines differ there for good.
 static void dominoes(const struct engine *e, engine_world *w)
 {
-    ground(e, w, 0, stuff(9, 0));
+    ground(e, w, 0, stuff(0.5, 0));
     for (int i = 0; i < 6; ++i) {
-        int b = box(e, w, 0.6 * i, 0.75, 0.1, 0.75, 0, stuff(0.04, 0));
+        int b = box(e, w, 0.6 * i, 0.75, 0.1, 0.75, 0, stuff(0.5, 0));
         if (i == 0) {
             e->set_velocity(w, b, 1.2, 0, -1.6); // tips about its right foot
         }
@@ -175,30 +188,33 @@ static void dominoes(const struct engine *e, engine_world *w)
 }
 
 static const scene scenes[] = {
-    { "free fall", 2, 0, -10, free_fall, 0.1, 6e-3 },
-    { "bounce", 2.5, 0, -10, bounce, 0.2, 0.02 },
-    { "slide", 2.5, 0, -10, slide, 0.2, 0.012 },
-    { "incline, sliding", 2, 0, -10, incline, 0.2, 0.012 },
-    { "incline, at rest", 4, 0, -10, incline_rest, 1, 6e-3 },
-    { "rolling down", 2, 0, -10, roll, 0.2, 0.012 },
-    { "slipping, rolling", 2.5, 0, -10, slip_to_roll, 0.2, 0.012 },
-    { "discs head on", 1.5, 0, 0, discs_head_on, 0.2, 0.01 },
-    { "discs off centre", 1.5, 0, 0, discs_off_centre, 0.2, 0.01 },
-    { "box struck off centre", 1.5, 0, 0, box_struck_off_centre, 0.3, 0.01 },
-    { "box corner hits box", 1.5, 0, 0, box_corner_hits_box, 0.5, 0.02 },
-    { "stack of 5 at rest", 4, 0, -10, stack, 1, 0.03 },
-    { "dominoes", 1.5, 0, -10, dominoes, 0.6, 0.05 },
+    { "free fall", 2, 0, -10, free_fall, 0.1, 0.012, 0 },
+    { "bounce", 2.5, 0, -10, bounce, 0.3, 0.03, 0 },
+    { "slide", 2.5, 0, -10, slide, 0.2, 0.012, 0 },
+    { "incline, sliding", 2, 0, -10, incline, 0.2, 0.012, 0 },
+    { "incline, at rest", 4, 0, -10, incline_rest, 1, 6e-3, 0 },
+    { "rolling down", 2, 0, -10, roll, 0.2, 0.012, 0 },
+    { "slipping, rolling", 2.5, 0, -10, slip_to_roll, 0.2, 0.012, 0 },
+    { "discs head on", 1.5, 0, 0, discs_head_on, 0.2, 0.01, 0 },
+    { "discs off centre", 1.5, 0, 0, discs_off_centre, 0.2, 0.01, 0 },
+    { "box struck off centre", 1.5, 0, 0, box_struck_off_centre, 0.3, 0.01, 0 },
+    { "box corner hits box", 1.5, 0, 0, box_corner_hits_box, 0.5, 0.02, 0 },
+    { "rough box hits box", 1.5, 0, 0, rough_box_hits_box, 0.5, 0.03, 0.15 },
+    { "stack of 5 at rest", 4, 0, -10, stack, 1, 0.03, 0 },
+    { "dominoes", 1.5, 0, -10, dominoes, 0.6, 0.05, 0.3 },
 };
 
 //---- runs ----------------------------------------------------------------------------------------
 
-static void run(const struct engine *e, const scene *s, double rate, track *out)
+static void run(const struct engine *e, const scene *s, const char *solver, double rate,
+                track *out)
 {
     struct engine_options o = engine_options_default();
     o.gravity_x = s->gravity_x;
     o.gravity_y = s->gravity_y;
     o.restitution_threshold = 0;
     o.skin = 0;
+    o.solver = solver;
     engine_world *w = e->create(&o);
     assert_non_null(w);
     s->build(e, w);
@@ -234,43 +250,64 @@ static double distance(const track *a, const track *b)
     return worst;
 }
 
-static void engines_agree_as_the_step_is_refined(void **state)
+// One row of the table; true when it passes.
+static bool compare(const scene *s, const char *solver, track *plumb, track *other)
 {
-    (void)state;
+    double d[RATES];
+    print_message("%-24s", s->name);
+    for (int r = 0; r < RATES; ++r) {
+        run(&engine_plumb, s, solver, rates[r], plumb);
+        run(&engine_box2d2, s, NULL, rates[r], other);
+        d[r] = distance(plumb, other);
+        print_message(" %11.3g", d[r]);
+    }
+    bool lasts = s->lasting > 0 && strcmp(solver, "soft") == 0;
+    double bound = lasts ? s->lasting : s->finest;
+    bool near = d[RATES - 1] <= bound;
+    bool falls = lasts || d[RATES - 1] <= s->fall * d[0] || d[RATES - 1] <= NOISE;
+    print_message("   %8g   %4g  %s\n", bound, s->fall,
+                  near && falls ? (lasts ? "lasting" : "ok")
+                  : near        ? "DOES NOT FALL"
+                                : "APART");
+    return near && falls;
+}
+
+static void engines_agree(const char *solver)
+{
     track *plumb = malloc(sizeof *plumb), *other = malloc(sizeof *other);
     assert_non_null(plumb);
     assert_non_null(other);
     int failures = 0;
-    print_message("%-24s", "distance [m] at");
+    print_message("%-9s distance [m] at", solver);
     for (int r = 0; r < RATES; ++r) {
-        print_message(" %8.0f Hz", rates[r]);
+        print_message(" %*.0f Hz", r == 0 ? 4 : 8, rates[r]);
     }
     print_message("   finest <=, fall <=\n");
     for (size_t k = 0; k < sizeof scenes / sizeof scenes[0]; ++k) {
-        const scene *s = &scenes[k];
-        double d[RATES];
-        print_message("%-24s", s->name);
-        for (int r = 0; r < RATES; ++r) {
-            run(&engine_plumb, s, rates[r], plumb);
-            run(&engine_box2d2, s, rates[r], other);
-            d[r] = distance(plumb, other);
-            print_message(" %11.3g", d[r]);
-        }
-        bool near = d[RATES - 1] <= s->finest;
-        bool falls = d[RATES - 1] <= s->fall * d[0] || d[RATES - 1] <= 1e-4;
-        print_message("   %8g   %4g  %s\n", s->finest, s->fall,
-                      near && falls ? "ok" : near ? "DOES NOT FALL" : "APART");
-        failures += !(near && falls);
+        failures += !compare(&scenes[k], solver, plumb, other);
     }
     free(plumb);
     free(other);
     assert_int_equal(failures, 0);
 }
 
+static void soft_step_agrees(void **state)
+{
+    (void)state;
+    engines_agree("soft");
+}
+
+static void baseline_agrees(void **state)
+{
+    (void)state;
+    engines_agree("baseline");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(engines_agree_as_the_step_is_refined),
+        cmocka_unit_test(soft_step_agrees),
+        cmocka_unit_test(baseline_agrees),
     };
     return cmocka_run_group_tests_name("box2d", tests, NULL, NULL);
 }

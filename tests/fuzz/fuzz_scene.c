@@ -1,7 +1,6 @@
-// fuzz_scene.c - hostile scene files: the loader must answer with a scene or an error, never with
-// harm. Input that begins with '{' is loaded as JSON, anything else as Lua; a scene that loads runs
-// a few steps, is exported, and the export must load again and give the same bytes. Limits are
-// small, so that no input takes long.
+// fuzz_scene.c - hostile scene files: a scene or an error, never harm. Input that begins with '{'
+// is JSON, else Lua; what loads is exported, and the export must load again and give the same
+// bytes.
 #define _POSIX_C_SOURCE 200809L // open_memstream
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,8 +12,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
 static void be_silent(void *context, const char *line)
 {
-    (void)context;
-    (void)line;
+    (void)context, (void)line;
 }
 
 static scene *load(const char *name, const char *text, size_t size)

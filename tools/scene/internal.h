@@ -27,6 +27,7 @@ typedef struct sc_budget {
     lua_State *L;
 } sc_budget;
 
+#define SC_HOOK_STEP  1000                ///< instructions between two looks at the budget
 #define SC_STRING_MAX ((size_t)64 * 1024) ///< [B] longest string a script may make
 
 void *sc_resize(scene *s, void *p, size_t old_size, size_t new_size); ///< realloc within the budget
@@ -397,6 +398,7 @@ static inline scene *sc_of(lua_State *L)
 #define SC_META_BODY     "plumb.body"
 
 lua_State *sc_sandbox_open(scene *s); ///< state with allow-listed environment; null: no memory
+void sc_count_hook(lua_State *L, lua_Debug *d);          ///< the hook of sc_sandbox_open
 void sc_sandbox_budget(scene *s, uint64_t instructions); ///< a fresh instruction budget
 void sc_open_build(lua_State *L);    ///< scene, material, body, camera, param, ...
 void sc_open_shapes(lua_State *L);   ///< box, circle, ...

@@ -1,0 +1,270 @@
+// pairs.c - the arrays that a narrow-phase kernel reads, filled by hand. Reads, writes: the batch.
+#include "harness/pairs.h"
+#include "plumb/math.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+// A pair has pieces and bodies of its own: 2 i and 2 i + 1.
+struct pair_batch {
+    int count, capacity;
+    pair_side *sides;
+    pl_pose *poses;
+    pl_core *cores;
+    pl_vertex *vertices; // MAX_CORNERS a piece
+    uint32_t *first;
+    uint8_t *corners;
+    plumb_real *friction, *restitution;
+    pl_pair *pairs;
+    pl_narrow out;
+};
+
+#define MAX_CORNERS PLUMB_POLYGON_MAX_VERTICES
+
+static void need(bool ok, const char *what)
+{
+    if (!ok) {
+        fprintf(stderr, "pairs: %s\n", what);
+        abort();
+    }
+}
+
+static pair_shape make(pl_piece_kind kind, plumb_result made, const plumb_convex *convex)
+{
+    need(made == PLUMB_OK, "a shape was refused");
+    pair_shape s = { .kind = kind, .convex = *convex };
+    s.core.c = 1;
+    s.core.radius = convex->radius;
+    for (int i = 0; i < convex->count; ++i) {
+        plumb_real reach = plumb_vec2_magnitude(convex->points[i]) + convex->radius;
+        s.core.reach = plumb_max(s.core.reach, reach);
+    }
+    return s;
+}
+
+pair_shape pair_circle(double r)
+{
+    plumb_convex c = { 0 };
+    plumb_result made = plumb_convex_circle((plumb_vec2){ 0, 0 }, (plumb_real)r, &c);
+    return make(PL_PIECE_CIRCLE, made, &c);
+}
+
+pair_shape pair_capsule(double half, double r)
+{
+    plumb_convex c = { 0 };
+    plumb_vec2 p = { (plumb_real)-half, 0 }, q = { (plumb_real)half, 0 };
+    plumb_result made =
+        r > 0 ? plumb_convex_capsule(p, q, (plumb_real)r, &c) : plumb_convex_segment(p, q, &c);
+    pair_shape s = make(PL_PIECE_CAPSULE, made, &c);
+    s.core.hx = (plumb_real)half;
+    return s;
+}
+
+pair_shape pair_box(double hx, double hy, double r)
+{
+    plumb_convex c = { 0 };
+    plumb_vec2 half = { (plumb_real)hx, (plumb_real)hy };
+    plumb_result made = plumb_convex_box(half, (plumb_vec2){ 0, 0 }, 0, (plumb_real)r, &c);
+    pair_shape s = make(PL_PIECE_BOX, made, &c);
+    s.core.hx = half.x;
+    s.core.hy = half.y;
+    return s;
+}
+
+pair_shape pair_polygon(const plumb_vec2 *points, int count, double r)
+{
+    plumb_convex c = { 0 };
+    plumb_result made = plumb_convex_polygon(points, count, (plumb_real)r, &c);
+    pair_shape s = make(PL_PIECE_POLYGON, made, &c);
+    plumb_aabb box = plumb_aabb_empty();
+    for (int i = 0; i < c.count; ++i) {
+        box = plumb_aabb_add_point(box, c.points[i]);
+    }
+    plumb_vec2 center = plumb_aabb_center(box);
+    s.core.x = center.x;
+    s.core.y = center.y;
+    s.core.hx = (box.max.x - box.min.x) / 2;
+    s.core.hy = (box.max.y - box.min.y) / 2;
+    return s;
+}
+
+static void *room(size_t count, size_t size)
+{
+    size_t bytes = (count * size + PL_ALIGN - 1) / PL_ALIGN * PL_ALIGN;
+    void *memory = aligned_alloc(PL_ALIGN, bytes);
+    need(memory != NULL, "out of memory");
+    memset(memory, 0, bytes);
+    return memory;
+}
+
+pair_batch *pairs_create(int capacity)
+{
+    pair_batch *b = calloc(1, sizeof *b);
+    need(b != NULL, "out of memory");
+    size_t pieces = (size_t)capacity * 2;
+    b->capacity = capacity;
+    b->sides = room(pieces, sizeof *b->sides);
+    b->poses = room(pieces, sizeof *b->poses);
+    b->cores = room(pieces, sizeof *b->cores);
+    b->vertices = room(pieces * MAX_CORNERS, sizeof *b->vertices);
+    b->first = room(pieces, sizeof *b->first);
+    b->corners = room(pieces, sizeof *b->corners);
+    b->friction = room(pieces, sizeof *b->friction);
+    b->restitution = room(pieces, sizeof *b->restitution);
+    b->pairs = room((size_t)capacity, sizeof *b->pairs);
+    b->out.manifolds.size = ((size_t)capacity + 1) * sizeof(pl_manifold);
+    b->out.manifolds.data = room((size_t)capacity + 1, sizeof(pl_manifold));
+    return b;
+}
+
+void pairs_destroy(pair_batch *b)
+{
+    free(b->sides);
+    free(b->poses);
+    free(b->cores);
+    free(b->vertices);
+    free(b->first);
+    free(b->corners);
+    free(b->friction);
+    free(b->restitution);
+    free(b->pairs);
+    free(b->out.manifolds.data);
+    free(b);
+}
+
+void pairs_clear(pair_batch *b)
+{
+    b->count = 0;
+}
+
+static pl_pose pose_of(pair_pose at)
+{
+    return (pl_pose){ .x = (plumb_real)at.x,
+                      .y = (plumb_real)at.y,
+                      .c = (plumb_real)cos(at.angle),
+                      .s = (plumb_real)sin(at.angle) };
+}
+
+static void put_side(pair_batch *b, uint32_t piece, const pair_shape *shape, pair_pose at)
+{
+    pair_side *side = &b->sides[piece];
+    side->shape = *shape;
+    side->pose = b->poses[piece] = pose_of(at);
+    b->cores[piece] = shape->core;
+    b->first[piece] = piece * MAX_CORNERS;
+    int count = shape->convex.count > 1 ? shape->convex.count : 0;
+    b->corners[piece] = (uint8_t)count;
+    for (int k = 0; k < MAX_CORNERS && count > 0; ++k) {
+        int i = k < count ? k : count - 1;
+        plumb_vec2 p = shape->convex.points[i], n = shape->convex.normals[i];
+        b->vertices[piece * MAX_CORNERS + (uint32_t)k] = (pl_vertex){ p.x, p.y, n.x, n.y };
+    }
+}
+
+int pairs_add(pair_batch *b, const pair_shape *p, pair_pose at_p, const pair_shape *q,
+              pair_pose at_q)
+{
+    need(b->count < b->capacity, "the batch is full");
+    uint32_t i = (uint32_t)b->count++;
+    bool swap = p->kind > q->kind;
+    put_side(b, 2 * i, swap ? q : p, swap ? at_q : at_p);
+    put_side(b, 2 * i + 1, swap ? p : q, swap ? at_p : at_q);
+    need(b->sides[2 * i].shape.kind == b->sides[0].shape.kind &&
+             b->sides[2 * i + 1].shape.kind == b->sides[1].shape.kind,
+         "a batch is of one combination of kinds");
+    b->pairs[i] = (pl_pair){ .a = 2 * i,
+                             .b = 2 * i + 1,
+                             .body_a = 2 * i,
+                             .body_b = 2 * i + 1,
+                             .feature = { PL_NONE, PL_NONE },
+                             .manifold = PL_NONE };
+    return (int)i;
+}
+
+int pairs_count(const pair_batch *b)
+{
+    return b->count;
+}
+
+void pairs_move_b(pair_batch *b, int i, pair_pose at)
+{
+    b->poses[2 * i + 1] = b->sides[2 * i + 1].pose = pose_of(at);
+}
+
+bool pairs_width_runs(int width)
+{
+#if defined(__x86_64__) || defined(__i386__)
+    switch (width) {
+    case 8:
+        return __builtin_cpu_supports("avx2");
+    case 16:
+        return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+               __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw");
+    default:
+        return width == 4;
+    }
+#else
+    return width == 4 || width == 8 || width == 16;
+#endif
+}
+
+static pl_narrow_kernel *kernel_for(const pl_narrow_kernels *k, pl_piece_kind a, pl_piece_kind b)
+{
+    if (a == PL_PIECE_CIRCLE) {
+        return b == PL_PIECE_CIRCLE    ? k->circle_circle
+               : b == PL_PIECE_CAPSULE ? k->circle_capsule
+               : b == PL_PIECE_BOX     ? k->circle_box
+                                       : k->circle_convex;
+    }
+    return a == PL_PIECE_BOX && b == PL_PIECE_BOX ? k->box_box : k->convex_convex;
+}
+
+void pairs_run(pair_batch *b, int width)
+{
+    const pl_narrow_kernels *kernels = width == 16  ? &pl_narrow_kernels_w16
+                                       : width == 8 ? &pl_narrow_kernels_w8
+                                                    : &pl_narrow_kernels_w4;
+    pl_narrow_input in = { .poses = &b->poses[0].x,
+                           .cores = b->cores,
+                           .vertices = b->vertices,
+                           .vertex_first = b->first,
+                           .vertex_count = b->corners,
+                           .friction = b->friction,
+                           .restitution = b->restitution,
+                           .dt = (plumb_real)(1.0 / 60),
+                           .pairs = b->pairs };
+    b->out = (pl_narrow){ .manifolds = b->out.manifolds };
+    memset(b->out.manifolds.data, 0, b->out.manifolds.size);
+    if (b->count > 0) {
+        kernel_for(kernels, b->sides[0].shape.kind, b->sides[1].shape.kind)(
+            &in, 0, (uint32_t)b->count, &b->out);
+    }
+}
+
+const pair_side *pairs_a(const pair_batch *b, int i)
+{
+    return &b->sides[2 * i];
+}
+
+const pair_side *pairs_b(const pair_batch *b, int i)
+{
+    return &b->sides[2 * i + 1];
+}
+
+bool pairs_manifold(const pair_batch *b, int i, pl_manifold *out)
+{
+    uint32_t at = b->pairs[i].manifold;
+    if (at == PL_NONE) {
+        return false;
+    }
+    *out = pl_manifolds(&b->out)[at];
+    return true;
+}
+
+const void *pairs_output(const pair_batch *b, size_t *size)
+{
+    *size = b->out.manifold_count * sizeof(pl_manifold);
+    return b->out.manifolds.data;
+}
