@@ -11,6 +11,7 @@
 #include "query/overlap.h"
 
 #include <math.h>
+#include <stdio.h>
 
 #include "query/query.h"
 #include "world/check.h"
@@ -221,7 +222,12 @@ static plumb_result check_convex(const plumb_world *world, const char *function,
                        convex->count, PLUMB_POLYGON_MAX_VERTICES);
     }
     for (int i = 0; r == PLUMB_OK && i < convex->count; ++i) {
-        r = pl_check_within(world, function, "convex.points", convex->points[i], PLUMB_LENGTH_MAX);
+        plumb_vec2 p = convex->points[i];
+        if (!(plumb_abs(p.x) <= PLUMB_LENGTH_MAX && plumb_abs(p.y) <= PLUMB_LENGTH_MAX)) {
+            char field[32];
+            snprintf(field, sizeof field, "convex.points[%d]", i);
+            r = pl_check_within(world, function, field, p, PLUMB_LENGTH_MAX);
+        }
     }
     return r != PLUMB_OK ? r
                          : pl_check_range(world, function, "convex.radius", convex->radius, 0,

@@ -81,9 +81,8 @@ static plumb_result check_points(const maker *m, const kind_fields *kind)
     int low = d->closed ? 3 : kind->count_low;
     plumb_result r = pl_check_pointer(m->world, m->fn, "points", d->points);
     if (r == PLUMB_OK && kind->count_high == INT32_MAX && d->count < low) {
-        r = pl_fail(m->world, PLUMB_E_RANGE, m->fn,
-                    "count is %d; it must be at least %d for %s", d->count, low,
-                    d->closed ? "a closed chain" : kind->name);
+        r = pl_fail(m->world, PLUMB_E_RANGE, m->fn, "count is %d; it must be at least %d for %s",
+                    d->count, low, d->closed ? "a closed chain" : kind->name);
     } else if (r == PLUMB_OK && low == kind->count_high && d->count != low) {
         r = pl_fail(m->world, PLUMB_E_RANGE, m->fn, "count is %d; it must be %d for %s", d->count,
                     low, kind->name);

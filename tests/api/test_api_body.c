@@ -1,9 +1,11 @@
-// test_api_body.c - bodies: what a descriptor sets, place and frames, forces and impulses, mass and centre.
+// test_api_body.c - bodies: what a descriptor sets, place and frames, forces and impulses, mass and
+// centre.
 #include "world_fixture.h"
 
 #define PI 3.14159265358979323846
 
-//---- making and asking ----------------------------------------------------------------------------
+//---- making and asking
+//----------------------------------------------------------------------------
 
 static void a_zero_descriptor_is_a_dynamic_body_at_the_origin(void **state)
 {
@@ -133,7 +135,8 @@ static void a_kinematic_body_moves_by_its_velocity_alone(void **state)
     assert_near(plumb_body_inertia(w, f->kinematic), 0, 0);
 }
 
-//---- pushing --------------------------------------------------------------------------------------
+//---- pushing
+//--------------------------------------------------------------------------------------
 
 static void forces_last_one_step(void **state)
 {
@@ -146,7 +149,8 @@ static void forces_last_one_step(void **state)
     assert_near(inertia, 4 * (4 + 4) / 12.0, 1e-5);
     assert_int_equal(plumb_body_apply_force_center(w, f->dynamic, plumb_v2(8, 0)), PLUMB_OK);
     // At (1, 5), one to the right of the centre: torque 1 x 4.
-    assert_int_equal(plumb_body_apply_force(w, f->dynamic, plumb_v2(0, 4), plumb_v2(1, 5)), PLUMB_OK);
+    assert_int_equal(plumb_body_apply_force(w, f->dynamic, plumb_v2(0, 4), plumb_v2(1, 5)),
+                     PLUMB_OK);
     assert_int_equal(plumb_body_apply_torque(w, f->dynamic, 2), PLUMB_OK);
     plumb_world_step(w, R(0.5));
     assert_vec_near(plumb_body_velocity(w, f->dynamic), 1, 0.5, 1e-5);
@@ -162,14 +166,16 @@ static void impulses_act_at_once(void **state)
     plumb_real inertia = plumb_body_inertia(w, f->dynamic);
     assert_int_equal(plumb_body_apply_impulse_center(w, f->dynamic, plumb_v2(4, 0)), PLUMB_OK);
     assert_vec_near(plumb_body_velocity(w, f->dynamic), 1, 0, 1e-6);
-    assert_int_equal(plumb_body_apply_impulse(w, f->dynamic, plumb_v2(4, 0), plumb_v2(0, 6)), PLUMB_OK);
+    assert_int_equal(plumb_body_apply_impulse(w, f->dynamic, plumb_v2(4, 0), plumb_v2(0, 6)),
+                     PLUMB_OK);
     assert_vec_near(plumb_body_velocity(w, f->dynamic), 2, 0, 1e-6);
     assert_near(plumb_body_angular_velocity(w, f->dynamic), -4 / inertia, 1e-6);
     assert_int_equal(plumb_body_apply_angular_impulse(w, f->dynamic, 4), PLUMB_OK);
     assert_near(plumb_body_angular_velocity(w, f->dynamic), 0, 1e-6);
 }
 
-//---- mass -----------------------------------------------------------------------------------------
+//---- mass
+//-----------------------------------------------------------------------------------------
 
 static void mass_and_centre_follow_the_shapes(void **state)
 {
@@ -267,7 +273,8 @@ static void lines_have_no_mass(void **state)
     plumb_world *w = f->world;
     const plumb_vec2 points[] = { { 3, 3 }, { 5, 3 }, { 5, 5 } };
     plumb_body b = plumb_body_create(w, &(plumb_body_desc){ 0 });
-    plumb_shape_create(w, b, &(plumb_shape_desc){ .kind = PLUMB_CHAIN, .points = points, .count = 3 });
+    plumb_shape_create(w, b,
+                       &(plumb_shape_desc){ .kind = PLUMB_CHAIN, .points = points, .count = 3 });
     assert_near(plumb_body_mass(w, b), 1, 0);
     assert_near(plumb_body_inertia(w, b), 0, 0);
     assert_vec_near(plumb_body_local_center(w, b), 0, 0, 0);
@@ -279,10 +286,12 @@ static void shapes_are_listed_in_order_of_creation(void **state)
     plumb_world *w = f->world;
     const plumb_vec2 points[] = { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } };
     plumb_shape s[4] = { f->box };
-    s[1] = plumb_shape_create(w, f->dynamic,
-                              &(plumb_shape_desc){ .kind = PLUMB_CHAIN, .points = points, .count = 4 });
-    s[2] = plumb_shape_create(w, f->dynamic, &(plumb_shape_desc){ .kind = PLUMB_CIRCLE, .radius = 1 });
-    s[3] = plumb_shape_create(w, f->dynamic, &(plumb_shape_desc){ .kind = PLUMB_CIRCLE, .radius = 2 });
+    s[1] = plumb_shape_create(
+        w, f->dynamic, &(plumb_shape_desc){ .kind = PLUMB_CHAIN, .points = points, .count = 4 });
+    s[2] =
+        plumb_shape_create(w, f->dynamic, &(plumb_shape_desc){ .kind = PLUMB_CIRCLE, .radius = 1 });
+    s[3] =
+        plumb_shape_create(w, f->dynamic, &(plumb_shape_desc){ .kind = PLUMB_CIRCLE, .radius = 2 });
     plumb_entity got[4];
     assert_int_equal(plumb_body_shapes(w, f->dynamic, got, 4), 4);
     assert_memory_equal(got, s, sizeof s);

@@ -1,7 +1,8 @@
 // test_api_ecs.c - entities, systems at their phases, commands, the columns that a system works on.
 #include "world_fixture.h"
 
-//---- entities -------------------------------------------------------------------------------------
+//---- entities
+//-------------------------------------------------------------------------------------
 
 static void entities_of_every_kind_are_told_apart(void **state)
 {
@@ -49,7 +50,8 @@ static void components_go_to_any_kind_and_leave_with_it(void **state)
     assert_int_equal(plumb_world_column(NULL, f->health).count, 0);
 }
 
-//---- systems --------------------------------------------------------------------------------------
+//---- systems
+//--------------------------------------------------------------------------------------
 
 typedef struct trace {
     char order[64];
@@ -90,7 +92,11 @@ static void systems_run_by_phase_then_registration(void **state)
         { .name = "c", .phase = PLUMB_PHASE_END, .run = run_c, .context = &t },
         { .name = "b", .phase = PLUMB_PHASE_BEGIN, .run = run_b, .context = &t },
         { .name = "a", .phase = PLUMB_PHASE_FORCES, .run = run_a, .context = &t },
-        { .name = "a2", .phase = PLUMB_PHASE_BEGIN, .run = run_a, .context = &t, .needs = f->health },
+        { .name = "a2",
+          .phase = PLUMB_PHASE_BEGIN,
+          .run = run_a,
+          .context = &t,
+          .needs = f->health },
     };
     for (int i = 0; i < 4; ++i) {
         assert_int_equal(plumb_system_create(w, &descs[i]), PLUMB_OK);
@@ -176,7 +182,8 @@ static void a_system_pushes_through_columns(void **state)
     assert_vec_near(plumb_body_velocity(w, f->dynamic), 0, 1, 1e-6); // 8 N / 4 kg * 0.5 s
 }
 
-//---- commands -------------------------------------------------------------------------------------
+//---- commands
+//-------------------------------------------------------------------------------------
 
 static void commands_are_carried_out_in_order(void **state)
 {
@@ -237,7 +244,8 @@ static void a_command_whose_material_is_gone_is_dropped(void **state)
     fixture *f = *state;
     plumb_world *w = f->world;
     plumb_shape lost = plumb_command_shape_create(
-        w, f->dynamic, &(plumb_shape_desc){ .kind = PLUMB_CIRCLE, .radius = 1, .material = f->wood });
+        w, f->dynamic,
+        &(plumb_shape_desc){ .kind = PLUMB_CIRCLE, .radius = 1, .material = f->wood });
     plumb_material_destroy(w, f->wood);
     assert_int_equal(plumb_commands_apply(w), PLUMB_OK);
     assert_int_equal(f->warnings, 1);
@@ -254,8 +262,10 @@ static void a_command_whose_material_is_gone_is_dropped(void **state)
 static void spawn(const plumb_system_call *call)
 {
     fixture *f = call->context;
-    plumb_body b = plumb_command_body_create(call->world, &(plumb_body_desc){ .position = { 0, 50 } });
-    plumb_command_shape_create(call->world, b, &(plumb_shape_desc){ .kind = PLUMB_CIRCLE, .radius = 1 });
+    plumb_body b =
+        plumb_command_body_create(call->world, &(plumb_body_desc){ .position = { 0, 50 } });
+    plumb_command_shape_create(call->world, b,
+                               &(plumb_shape_desc){ .kind = PLUMB_CIRCLE, .radius = 1 });
     f->stale = b;
 }
 
@@ -288,7 +298,8 @@ static void commands_of_hooks_wait_for_the_next_time(void **state)
     plumb_world *w = f->world;
     uint32_t id = 0;
     plumb_component c = plumb_component_create(
-        w, &(plumb_component_desc){ .name = "rabbit", .size = 16, .on_add = breed, .context = &id });
+        w,
+        &(plumb_component_desc){ .name = "rabbit", .size = 16, .on_add = breed, .context = &id });
     id = c.id;
     plumb_component_set(w, f->fixed, c, NULL);
     for (int i = 1; i <= 5; ++i) {

@@ -1,18 +1,19 @@
-// test_api_errors.c - wrong calls: each must give its code and its message, word for word, leave one line in
-// the log, and change nothing.
+// test_api_errors.c - wrong calls: each must give its code and its message, word for word, leave
+// one line in the log, and change nothing.
 #include "world_fixture.h"
 
-#define W    f->world
+#define W          f->world
 #define BODY(...)  made(W, plumb_body_create(W, &(plumb_body_desc){ __VA_ARGS__ }))
 #define SHAPE(...) made(W, plumb_shape_create(W, f->dynamic, &(plumb_shape_desc){ __VA_ARGS__ }))
 #define STUFF(...) made(W, plumb_material_create(W, &(plumb_material_desc){ __VA_ARGS__ }))
-#define KIND(...)  component_code(W, plumb_component_create(W, &(plumb_component_desc){ __VA_ARGS__ }))
+#define KIND(...)                                                                                  \
+    component_code(W, plumb_component_create(W, &(plumb_component_desc){ __VA_ARGS__ }))
 #define SYSTEM(...) plumb_system_create(W, &(plumb_system_desc){ __VA_ARGS__ })
 
-#define NAN_   ((plumb_real)NAN)
-#define INF_   ((plumb_real)INFINITY)
-#define NULL_  ((plumb_entity)PLUMB_NULL_INIT)
-#define LONG_  "a-name-of-more-than-sixty-three-characters-is-longer-than-any-name"
+#define NAN_  ((plumb_real)NAN)
+#define INF_  ((plumb_real)INFINITY)
+#define NULL_ ((plumb_entity)PLUMB_NULL_INIT)
+#define LONG_ "a-name-of-more-than-sixty-three-characters-is-longer-than-any-name"
 
 static plumb_result component_code(const plumb_world *w, plumb_component c)
 {
@@ -36,7 +37,8 @@ static void bodies_refuse(void **state)
     REFUSED(E_RANGE,
             "plumb_body_create: position is (2e+09, 0); each component must be -1e+09 to 1e+09",
             BODY(.position = { R(2e9), 0 }));
-    REFUSED(E_NOT_FINITE, "plumb_body_create: angle is nan; it must be finite", BODY(.angle = -NAN_));
+    REFUSED(E_NOT_FINITE, "plumb_body_create: angle is nan; it must be finite",
+            BODY(.angle = -NAN_));
     REFUSED(E_NOT_FINITE, "plumb_body_create: velocity is (0, -inf); it must be finite",
             BODY(.velocity = { 0, -INF_ }));
     REFUSED(E_NOT_FINITE, "plumb_body_create: angular_velocity is inf; it must be finite",
@@ -119,9 +121,10 @@ static void motion_is_refused(void **state)
     REFUSED(E_NOT_FINITE, "plumb_body_apply_angular_impulse: impulse is nan; it must be finite",
             plumb_body_apply_angular_impulse(W, f->dynamic, NAN_));
     plumb_body_apply_force_center(W, f->dynamic, plumb_v2(PLUMB_REAL_MAX, 0));
-    REFUSED(E_NOT_FINITE,
-            "plumb_body_apply_force_center: force is too large; the sum over the body must be finite",
-            plumb_body_apply_force_center(W, f->dynamic, plumb_v2(PLUMB_REAL_MAX, 0)));
+    REFUSED(
+        E_NOT_FINITE,
+        "plumb_body_apply_force_center: force is too large; the sum over the body must be finite",
+        plumb_body_apply_force_center(W, f->dynamic, plumb_v2(PLUMB_REAL_MAX, 0)));
 }
 
 static void masses_are_refused(void **state)
@@ -133,9 +136,10 @@ static void masses_are_refused(void **state)
             plumb_body_set_mass(W, f->dynamic, NAN_));
     REFUSED(E_STATE, "plumb_body_set_mass: body is kinematic; it must be dynamic",
             plumb_body_set_mass(W, f->kinematic, 1));
-    REFUSED(E_RANGE,
-            "plumb_body_set_mass: mass is 1.25e-36; the inertia that follows must be 1e-36 to 1e+36",
-            plumb_body_set_mass(W, f->dynamic, R(1.25e-36)));
+    REFUSED(
+        E_RANGE,
+        "plumb_body_set_mass: mass is 1.25e-36; the inertia that follows must be 1e-36 to 1e+36",
+        plumb_body_set_mass(W, f->dynamic, R(1.25e-36)));
     REFUSED(E_STATE, "plumb_body_reset_mass: body is static; it must be dynamic",
             plumb_body_reset_mass(W, f->fixed));
     REFUSED(E_HANDLE, "plumb_body_reset_mass: body is null; it must be a live body",
@@ -226,14 +230,16 @@ static void shapes_refuse(void **state)
     REFUSED(E_RANGE,
             "plumb_shape_create: points[1] is (2e+07, 0); each component must be -1e+07 to 1e+07",
             SHAPE(.kind = PLUMB_CHAIN, .points = far, .count = 3));
-    REFUSED(E_GEOMETRY, "plumb_shape_create: points enclose no area; their hull must have 3 corners",
+    REFUSED(E_GEOMETRY,
+            "plumb_shape_create: points enclose no area; their hull must have 3 corners",
             SHAPE(.kind = PLUMB_POLYGON, .points = points, .count = 3));
     REFUSED(E_CAPACITY,
             "plumb_shape_create: points have more than 16 corners; a polygon must have fewer",
             SHAPE(.kind = PLUMB_POLYGON, .points = ring, .count = 20));
-    REFUSED(E_GEOMETRY,
-            "plumb_shape_create: points cross, touch or enclose no area; the outline must be simple",
-            SHAPE(.kind = PLUMB_OUTLINE, .points = bow, .count = 4));
+    REFUSED(
+        E_GEOMETRY,
+        "plumb_shape_create: points cross, touch or enclose no area; the outline must be simple",
+        SHAPE(.kind = PLUMB_OUTLINE, .points = bow, .count = 4));
     REFUSED(E_GEOMETRY,
             "plumb_shape_create: points are too near each other; neighbours must be 0.0001 apart",
             SHAPE(.kind = PLUMB_CHAIN, .points = points + 3, .count = 2));
@@ -314,9 +320,10 @@ static void entities_and_components_refuse(void **state)
     REFUSED(E_NULL, "plumb_component_create: name is null; it must be given", KIND(.size = 4));
     REFUSED(E_RANGE, "plumb_component_create: name is empty; it must have 1 to 63 characters",
             KIND(.name = "", .size = 4));
-    REFUSED(E_RANGE,
-            "plumb_component_create: name is 'a-name-of-more-t...'; it must have 1 to 63 characters",
-            KIND(.name = LONG_, .size = 4));
+    REFUSED(
+        E_RANGE,
+        "plumb_component_create: name is 'a-name-of-more-t...'; it must have 1 to 63 characters",
+        KIND(.name = LONG_, .size = 4));
     REFUSED(E_RANGE, "plumb_component_create: size is 0; it must be 1 to 65536", KIND(.name = "a"));
     REFUSED(E_RANGE, "plumb_component_create: size is 65537; it must be 1 to 65536",
             KIND(.name = "a", .size = 65537));
@@ -362,9 +369,10 @@ static void systems_and_capacities_refuse(void **state)
     REFUSED(E_NULL, "plumb_system_create: run is null; it must be given", SYSTEM(.name = "a"));
     REFUSED(E_RANGE, "plumb_system_create: phase is 4; it must be a plumb_phase",
             SYSTEM(.name = "a", .run = nothing, .phase = (plumb_phase)4));
-    REFUSED(E_RANGE,
-            "plumb_system_create: reads is 'xxxxxxxxxxxxxxxx...'; it must have at most 127 characters",
-            SYSTEM(.name = "a", .run = nothing, .reads = wide));
+    REFUSED(
+        E_RANGE,
+        "plumb_system_create: reads is 'xxxxxxxxxxxxxxxx...'; it must have at most 127 characters",
+        SYSTEM(.name = "a", .run = nothing, .reads = wide));
     REFUSED(E_HANDLE, "plumb_system_create: needs is 7; it must be a registered component or null",
             SYSTEM(.name = "a", .run = nothing, .needs = { 7 }));
     REFUSED(E_MISSING, "plumb_system_enable: name is 'a'; it must be that of a system",
@@ -398,18 +406,20 @@ static void commands_refuse(void **state)
             made(W, plumb_command_body_create(W, NULL)));
     REFUSED(E_RANGE, "plumb_command_shape_create: radius is 0; it must be 0.0001 to 1e+07",
             made(W, plumb_command_shape_create(W, f->dynamic, &nought)));
-    REFUSED(E_HANDLE,
-            "plumb_command_shape_create: body is null; it must be a body or one that a command makes",
-            made(W, plumb_command_shape_create(W, NULL_, &nought)));
+    REFUSED(
+        E_HANDLE,
+        "plumb_command_shape_create: body is null; it must be a body or one that a command makes",
+        made(W, plumb_command_shape_create(W, NULL_, &nought)));
     REFUSED(E_HANDLE,
             "plumb_command_destroy: entity is stale (0:1); "
             "it must be an entity or one that a command makes",
             plumb_command_destroy(W, f->stale));
     REFUSED(E_STATE, "plumb_command_destroy: material is used by 1 piece; no shape may name it",
             plumb_command_destroy(W, f->used));
-    REFUSED(E_HANDLE,
-            "plumb_command_teleport: body is a shape; it must be a body or one that a command makes",
-            plumb_command_teleport(W, f->box, plumb_v2(0, 0), 0));
+    REFUSED(
+        E_HANDLE,
+        "plumb_command_teleport: body is a shape; it must be a body or one that a command makes",
+        plumb_command_teleport(W, f->box, plumb_v2(0, 0), 0));
     REFUSED(E_NOT_FINITE, "plumb_command_teleport: position is (nan, 0); it must be finite",
             plumb_command_teleport(W, f->dynamic, plumb_v2(NAN_, 0), 0));
     REFUSED(E_HANDLE,
@@ -425,7 +435,8 @@ static void commands_refuse(void **state)
             plumb_body_destroy(W, pending));
 }
 
-//---- a locked world -------------------------------------------------------------------------------
+//---- a locked world
+//-------------------------------------------------------------------------------
 
 static void try_everything(const plumb_system_call *call)
 {
@@ -459,7 +470,8 @@ static void try_everything(const plumb_system_call *call)
     REFUSED(E_LOCKED, STEPS(plumb_system_create) "call it between steps",
             SYSTEM(.name = "b", .run = nothing));
     REFUSED(E_LOCKED, STEPS(plumb_commands_apply) "call it between steps", plumb_commands_apply(W));
-    REFUSED(E_LOCKED, STEPS(plumb_world_step) "call it between steps", plumb_world_step(W, R(0.01)));
+    REFUSED(E_LOCKED, STEPS(plumb_world_step) "call it between steps",
+            plumb_world_step(W, R(0.01)));
     // Overwriting a value is no structural change.
     assert_int_equal(plumb_component_set(W, f->dynamic, f->health, &(float){ 5 }), PLUMB_OK);
 }
@@ -489,23 +501,41 @@ static void a_null_world_is_refused_everywhere(void **state)
     plumb_component_desc info;
     plumb_convex piece;
     const plumb_result results[] = {
-        plumb_world_step(NULL, 1), plumb_world_set_gravity(NULL, v), plumb_body_destroy(NULL, e),
-        plumb_body_teleport(NULL, e, v, 0), plumb_body_set_velocity(NULL, e, v),
-        plumb_body_set_angular_velocity(NULL, e, 0), plumb_body_apply_force(NULL, e, v, v),
-        plumb_body_apply_force_center(NULL, e, v), plumb_body_apply_torque(NULL, e, 0),
-        plumb_body_apply_impulse(NULL, e, v, v), plumb_body_apply_impulse_center(NULL, e, v),
-        plumb_body_apply_angular_impulse(NULL, e, 0), plumb_body_set_mass(NULL, e, 1),
-        plumb_body_reset_mass(NULL, e), plumb_body_set_fixed_rotation(NULL, e, true),
-        plumb_body_set_gravity_scale(NULL, e, 1), plumb_body_set_user_data(NULL, e, NULL),
-        plumb_shape_destroy(NULL, e), plumb_shape_set_material(NULL, e, e),
-        plumb_shape_set_user_data(NULL, e, NULL), plumb_shape_piece(NULL, e, 0, &piece, NULL),
-        plumb_material_destroy(NULL, e), plumb_material_get(NULL, e, &material),
-        plumb_material_set(NULL, e, &material), plumb_entity_destroy(NULL, e),
-        plumb_component_info(NULL, c, &info), plumb_component_set(NULL, e, c, NULL),
-        plumb_component_remove(NULL, e, c), plumb_system_create(NULL, NULL),
-        plumb_system_enable(NULL, "a", true), plumb_command_destroy(NULL, e),
-        plumb_command_teleport(NULL, e, v, 0), plumb_command_component_set(NULL, e, c, NULL),
-        plumb_command_component_remove(NULL, e, c), plumb_commands_apply(NULL),
+        plumb_world_step(NULL, 1),
+        plumb_world_set_gravity(NULL, v),
+        plumb_body_destroy(NULL, e),
+        plumb_body_teleport(NULL, e, v, 0),
+        plumb_body_set_velocity(NULL, e, v),
+        plumb_body_set_angular_velocity(NULL, e, 0),
+        plumb_body_apply_force(NULL, e, v, v),
+        plumb_body_apply_force_center(NULL, e, v),
+        plumb_body_apply_torque(NULL, e, 0),
+        plumb_body_apply_impulse(NULL, e, v, v),
+        plumb_body_apply_impulse_center(NULL, e, v),
+        plumb_body_apply_angular_impulse(NULL, e, 0),
+        plumb_body_set_mass(NULL, e, 1),
+        plumb_body_reset_mass(NULL, e),
+        plumb_body_set_fixed_rotation(NULL, e, true),
+        plumb_body_set_gravity_scale(NULL, e, 1),
+        plumb_body_set_user_data(NULL, e, NULL),
+        plumb_shape_destroy(NULL, e),
+        plumb_shape_set_material(NULL, e, e),
+        plumb_shape_set_user_data(NULL, e, NULL),
+        plumb_shape_piece(NULL, e, 0, &piece, NULL),
+        plumb_material_destroy(NULL, e),
+        plumb_material_get(NULL, e, &material),
+        plumb_material_set(NULL, e, &material),
+        plumb_entity_destroy(NULL, e),
+        plumb_component_info(NULL, c, &info),
+        plumb_component_set(NULL, e, c, NULL),
+        plumb_component_remove(NULL, e, c),
+        plumb_system_create(NULL, NULL),
+        plumb_system_enable(NULL, "a", true),
+        plumb_command_destroy(NULL, e),
+        plumb_command_teleport(NULL, e, v, 0),
+        plumb_command_component_set(NULL, e, c, NULL),
+        plumb_command_component_remove(NULL, e, c),
+        plumb_commands_apply(NULL),
     };
     for (size_t i = 0; i < sizeof results / sizeof results[0]; ++i) {
         assert_int_equal(results[i], PLUMB_E_NULL);

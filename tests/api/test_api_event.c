@@ -139,7 +139,8 @@ static void contacts_and_events_survive_what_happens_between_steps(void **state)
     plumb_shape_destroy(s.world, s.circle);
     assert_int_equal(plumb_world_contacts(s.world, &c, 1), 0);
     // The slot is taken by another shape: it has no part in the old contact.
-    plumb_shape_create(s.world, s.ball, &(plumb_shape_desc){ .kind = PLUMB_CIRCLE, .radius = R(0.5) });
+    plumb_shape_create(s.world, s.ball,
+                       &(plumb_shape_desc){ .kind = PLUMB_CIRCLE, .radius = R(0.5) });
     assert_int_equal(plumb_world_contacts(s.world, &c, 1), 0);
     assert_int_equal(plumb_world_step(s.world, DT), PLUMB_OK);
     assert_int_equal(begins(&s), 1);

@@ -1,11 +1,12 @@
-// test_api_memory.c - out of memory: a script that uses all of the API runs with an allocator that fails
-// its k-th call, for every k. A refused call changes nothing and succeeds when it is tried again; the script
-// ends in the same state as without failures, and every byte is given back.
+// test_api_memory.c - out of memory: a script that uses all of the API runs with an allocator that
+// fails its k-th call, for every k. A refused call changes nothing and succeeds when it is tried
+// again; the script ends in the same state as without failures, and every byte is given back.
 #include "world_fixture.h"
 
 #include <stdlib.h>
 
-//---- the allocator --------------------------------------------------------------------------------
+//---- the allocator
+//--------------------------------------------------------------------------------
 
 typedef struct heap {
     long calls;      // that asked for memory
@@ -52,7 +53,8 @@ static void *resize(void *context, void *memory, size_t old_size, size_t new_siz
     return fresh;
 }
 
-//---- the script -----------------------------------------------------------------------------------
+//---- the script
+//-----------------------------------------------------------------------------------
 
 typedef struct run {
     heap heap;
@@ -63,17 +65,17 @@ typedef struct run {
 } run;
 
 // Repeats a call that runs out of memory; before, the world must be what it was.
-#define TRY(r, call)                                                           \
-    do {                                                                       \
-        uint64_t before_ = digest_world((r)->world);                           \
-        while ((call) == PLUMB_E_MEMORY) {                                     \
-            ++(r)->refused;                                                    \
-            assert_true(digest_world((r)->world) == before_);                  \
-            assert_int_equal(plumb_world_stats((r)->world).bytes, (r)->heap.bytes); \
-            if (!(r)->keep_trying) {                                           \
-                return false;                                                  \
-            }                                                                  \
-        }                                                                      \
+#define TRY(r, call)                                                                               \
+    do {                                                                                           \
+        uint64_t before_ = digest_world((r)->world);                                               \
+        while ((call) == PLUMB_E_MEMORY) {                                                         \
+            ++(r)->refused;                                                                        \
+            assert_true(digest_world((r)->world) == before_);                                      \
+            assert_int_equal(plumb_world_stats((r)->world).bytes, (r)->heap.bytes);                \
+            if (!(r)->keep_trying) {                                                               \
+                return false;                                                                      \
+            }                                                                                      \
+        }                                                                                          \
     } while (0)
 
 #define TRY_MAKE(r, handle, call) TRY(r, made((r)->world, handle = (call)))
@@ -103,7 +105,8 @@ static bool fill_world(run *r)
     plumb_shape shape;
     plumb_material ice;
     plumb_body base;
-    TRY_MAKE(r, ice, plumb_material_create(r->world, &(plumb_material_desc){ .restitution = R(0.5) }));
+    TRY_MAKE(r, ice,
+             plumb_material_create(r->world, &(plumb_material_desc){ .restitution = R(0.5) }));
     TRY_MAKE(r, base, plumb_body_create(r->world, &(plumb_body_desc){ .type = PLUMB_STATIC }));
     TRY_MAKE(r, shape,
              plumb_shape_create(
@@ -158,11 +161,12 @@ static bool extend_world(run *r)
     }
     plumb_body b;
     plumb_shape s;
-    TRY_MAKE(r, b, plumb_command_body_create(r->world, &(plumb_body_desc){ .position = { 0, 20 } }));
-    TRY_MAKE(r, s,
-             plumb_command_shape_create(
-                 r->world, b,
-                 &(plumb_shape_desc){ .kind = PLUMB_OUTLINE, .points = ell, .count = 6 }));
+    TRY_MAKE(r, b,
+             plumb_command_body_create(r->world, &(plumb_body_desc){ .position = { 0, 20 } }));
+    TRY_MAKE(
+        r, s,
+        plumb_command_shape_create(
+            r->world, b, &(plumb_shape_desc){ .kind = PLUMB_OUTLINE, .points = ell, .count = 6 }));
     TRY_MAKE(r, e, plumb_command_entity_create(r->world));
     TRY(r, plumb_command_component_set(r->world, e, fuel, NULL));
     TRY(r, plumb_command_teleport(r->world, b, plumb_v2(1, 20), 1));

@@ -1,12 +1,14 @@
-// test_api_shape.c - shapes: every kind with its pieces, mass, box and containment; materials of shapes;
-// outlines and their seams.
+// test_api_shape.c - shapes: every kind with its pieces, mass, box and containment; materials of
+// shapes; outlines and their seams.
 #include "world_fixture.h"
 
 #define PI 3.14159265358979323846
 
 static const plumb_vec2 triangle[] = { { 0, 0 }, { 4, 0 }, { 0, 3 } };
 static const plumb_vec2 ell[] = { { 0, 0 }, { 2, 0 }, { 2, 1 }, { 1, 1 }, { 1, 2 }, { 0, 2 } };
-static const plumb_vec2 tilted[] = { { 3, 1 }, { 7, 4 }, { 4, 8 }, { 0, 5 } }; // a 5 x 5 square, 3-4-5
+static const plumb_vec2 tilted[] = {
+    { 3, 1 }, { 7, 4 }, { 4, 8 }, { 0, 5 }
+}; // a 5 x 5 square, 3-4-5
 
 typedef struct expected {
     plumb_shape_desc desc;
@@ -17,26 +19,76 @@ typedef struct expected {
 } expected;
 
 static const expected kinds[] = {
-    { { .kind = PLUMB_CIRCLE, .center = { 1, 2 }, .radius = 2 }, 1, 1, 4 * PI,
-      { { -1, 0 }, { 3, 4 } }, { R(2.3), R(3.3) }, { R(2.6), R(3.6) } },
-    { { .kind = PLUMB_CAPSULE, .points = triangle, .count = 2, .radius = 1 }, 1, 2, 8 + PI,
-      { { -1, -1 }, { 5, 1 } }, { R(4.9), 0 }, { R(4.9), R(0.9) } },
-    { { .kind = PLUMB_BOX, .half = { 2, 1 }, .center = { 1, 1 } }, 1, 4, 8,
-      { { -1, 0 }, { 3, 2 } }, { R(2.9), R(1.9) }, { R(3.1), 1 } },
-    { { .kind = PLUMB_BOX, .half = { 1, 1 }, .radius = R(0.5) }, 1, 4, 4 + 4 + PI / 4,
-      { { R(-1.5), R(-1.5) }, { R(1.5), R(1.5) } }, { R(1.3), R(1.3) }, { R(1.4), R(1.4) } },
-    { { .kind = PLUMB_POLYGON, .points = triangle, .count = 3 }, 1, 3, 6,
-      { { 0, 0 }, { 4, 3 } }, { 1, 1 }, { 3, 2 } },
-    { { .kind = PLUMB_POLYGON, .points = tilted, .count = 4 }, 1, 4, 25,
-      { { 0, 1 }, { 7, 8 } }, { 3, R(1.1) }, { 2, 1 } },
-    { { .kind = PLUMB_OUTLINE, .points = ell, .count = 6 }, 2, 4, 3,
-      { { 0, 0 }, { 2, 2 } }, { R(0.5), R(1.5) }, { R(1.5), R(1.5) } },
-    { { .kind = PLUMB_SEGMENT, .points = triangle, .count = 2 }, 1, 2, 0,
-      { { 0, 0 }, { 4, 0 } }, { 2, 0 }, { 2, R(0.1) } },
-    { { .kind = PLUMB_CHAIN, .points = triangle, .count = 3 }, 2, 2, 0,
-      { { 0, 0 }, { 4, 3 } }, { 2, R(1.5) }, { 0, 1 } },
-    { { .kind = PLUMB_CHAIN, .points = triangle, .count = 3, .closed = true }, 3, 2, 0,
-      { { 0, 0 }, { 4, 3 } }, { 0, 1 }, { 1, 1 } },
+    { { .kind = PLUMB_CIRCLE, .center = { 1, 2 }, .radius = 2 },
+      1,
+      1,
+      4 * PI,
+      { { -1, 0 }, { 3, 4 } },
+      { R(2.3), R(3.3) },
+      { R(2.6), R(3.6) } },
+    { { .kind = PLUMB_CAPSULE, .points = triangle, .count = 2, .radius = 1 },
+      1,
+      2,
+      8 + PI,
+      { { -1, -1 }, { 5, 1 } },
+      { R(4.9), 0 },
+      { R(4.9), R(0.9) } },
+    { { .kind = PLUMB_BOX, .half = { 2, 1 }, .center = { 1, 1 } },
+      1,
+      4,
+      8,
+      { { -1, 0 }, { 3, 2 } },
+      { R(2.9), R(1.9) },
+      { R(3.1), 1 } },
+    { { .kind = PLUMB_BOX, .half = { 1, 1 }, .radius = R(0.5) },
+      1,
+      4,
+      4 + 4 + PI / 4,
+      { { R(-1.5), R(-1.5) }, { R(1.5), R(1.5) } },
+      { R(1.3), R(1.3) },
+      { R(1.4), R(1.4) } },
+    { { .kind = PLUMB_POLYGON, .points = triangle, .count = 3 },
+      1,
+      3,
+      6,
+      { { 0, 0 }, { 4, 3 } },
+      { 1, 1 },
+      { 3, 2 } },
+    { { .kind = PLUMB_POLYGON, .points = tilted, .count = 4 },
+      1,
+      4,
+      25,
+      { { 0, 1 }, { 7, 8 } },
+      { 3, R(1.1) },
+      { 2, 1 } },
+    { { .kind = PLUMB_OUTLINE, .points = ell, .count = 6 },
+      2,
+      4,
+      3,
+      { { 0, 0 }, { 2, 2 } },
+      { R(0.5), R(1.5) },
+      { R(1.5), R(1.5) } },
+    { { .kind = PLUMB_SEGMENT, .points = triangle, .count = 2 },
+      1,
+      2,
+      0,
+      { { 0, 0 }, { 4, 0 } },
+      { 2, 0 },
+      { 2, R(0.1) } },
+    { { .kind = PLUMB_CHAIN, .points = triangle, .count = 3 },
+      2,
+      2,
+      0,
+      { { 0, 0 }, { 4, 3 } },
+      { 2, R(1.5) },
+      { 0, 1 } },
+    { { .kind = PLUMB_CHAIN, .points = triangle, .count = 3, .closed = true },
+      3,
+      2,
+      0,
+      { { 0, 0 }, { 4, 3 } },
+      { 0, 1 },
+      { 1, 1 } },
 };
 #define KIND_COUNT (sizeof kinds / sizeof kinds[0])
 
@@ -129,7 +181,8 @@ static void seams_are_the_edges_that_are_not_of_the_outline(void **state)
     plumb_vec2 comb[42];
     for (int i = 0; i < 40; ++i) {
         star[i] = plumb_vec2_polar(i % 2 ? R(0.4) : 1, R(i * PI / 20));
-        // Teeth that point up. Each gap has a floor of its own height, so that no cut runs along one.
+        // Teeth that point up. Each gap has a floor of its own height, so that no cut runs along
+        // one.
         bool top = i % 4 == 1 || i % 4 == 2;
         comb[i] = plumb_v2(R(i / 4 * 2 + (i % 4 >= 2)), top ? 3 : R(1 + 0.0625 * ((i + 1) / 4)));
     }
@@ -175,7 +228,8 @@ static void shapes_carry_material_and_user_data(void **state)
     int mine;
     plumb_shape s = plumb_shape_create(
         w, f->dynamic,
-        &(plumb_shape_desc){ .kind = PLUMB_CIRCLE, .radius = 1, .material = f->wood, .user_data = &mine });
+        &(plumb_shape_desc){
+            .kind = PLUMB_CIRCLE, .radius = 1, .material = f->wood, .user_data = &mine });
     assert_true(plumb_same(plumb_shape_material(w, s), f->wood));
     assert_ptr_equal(plumb_shape_user_data(w, s), &mine);
     assert_near(plumb_body_mass(w, f->dynamic), 4 + 2 * PI, 1e-5);
@@ -228,14 +282,16 @@ static void points_are_copied(void **state)
     fixture *f = *state;
     plumb_vec2 points[] = { { 0, 0 }, { 1, 0 }, { 0, 1 } };
     plumb_shape s = plumb_shape_create(
-        f->world, f->dynamic, &(plumb_shape_desc){ .kind = PLUMB_POLYGON, .points = points, .count = 3 });
+        f->world, f->dynamic,
+        &(plumb_shape_desc){ .kind = PLUMB_POLYGON, .points = points, .count = 3 });
     memset(points, 0xff, sizeof points);
     plumb_convex piece;
     plumb_shape_piece(f->world, s, 0, &piece, NULL);
     assert_near(plumb_outline_area(piece.points, 3), 0.5, 1e-6);
 }
 
-//---- materials ------------------------------------------------------------------------------------
+//---- materials
+//------------------------------------------------------------------------------------
 
 static void materials_are_read_and_changed(void **state)
 {

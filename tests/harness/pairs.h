@@ -15,6 +15,7 @@
 #define HARNESS_PAIRS_H
 
 #include "narrow/narrow.h"
+#include "world/state.h"
 
 typedef struct pair_shape {
     pl_piece_kind kind;

@@ -1,5 +1,5 @@
-// test_component.c - the sparse sets behind user components: against a plain array under random changes,
-// hooks in order, values that move.
+// test_component.c - the sparse sets behind user components: against a plain array under random
+// changes, hooks in order, values that move.
 #include "ecs/component.h"
 #include "plumb/plumb.h"
 
@@ -112,7 +112,8 @@ static void a_value_of_the_column_itself_may_be_given(void **state)
     plumb_world_destroy(w);
 }
 
-//---- hooks ----------------------------------------------------------------------------------------
+//---- hooks
+//----------------------------------------------------------------------------------------
 
 typedef struct record {
     char text[256];
@@ -180,10 +181,8 @@ static void fields_are_copied_with_their_names(void **state)
     char unit[] = "J";
     plumb_field fields[] = { { name, PLUMB_FIELD_F32, 0, unit },
                              { "armed", PLUMB_FIELD_BOOL, 4, NULL } };
-    plumb_component c = plumb_component_create(w, &(plumb_component_desc){ .name = name,
-                                                                           .size = 8,
-                                                                           .fields = fields,
-                                                                           .field_count = 2 });
+    plumb_component c = plumb_component_create(
+        w, &(plumb_component_desc){ .name = name, .size = 8, .fields = fields, .field_count = 2 });
     memset(name, '?', 3);
     memset(unit, '?', 1);
     memset(fields, 0, sizeof fields);

@@ -1,4 +1,5 @@
-// test_registry.c - entity slots: generations, stale handles, first in first out reuse, reservation.
+// test_registry.c - entity slots: generations, stale handles, first in first out reuse,
+// reservation.
 #include "ecs/registry.h"
 
 #include <setjmp.h>

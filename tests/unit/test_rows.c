@@ -1,5 +1,6 @@
-// test_rows.c - body rows and pieces under random creation and destruction, against a model that knows
-// nothing but a list of bodies: partitions, handles, lists, counters and poses agree after every change.
+// test_rows.c - body rows and pieces under random creation and destruction, against a model that
+// knows nothing but a list of bodies: partitions, handles, lists, counters and poses agree after
+// every change.
 #include "plumb/plumb.h"
 #include "world/rows.h"
 
@@ -36,7 +37,8 @@ static uint32_t choose(model *m, uint32_t below)
     return (m->seed >> 8) % below;
 }
 
-//---- changes --------------------------------------------------------------------------------------
+//---- changes
+//--------------------------------------------------------------------------------------
 
 static void create_body(model *m)
 {
@@ -53,7 +55,8 @@ static void create_shape(model *m, model_body *b)
 {
     static const plumb_vec2 ell[] = { { 0, 0 }, { 2, 0 }, { 2, 1 }, { 1, 1 }, { 1, 2 }, { 0, 2 } };
     static const plumb_vec2 line[] = { { 0, 0 }, { 1, 0 }, { 2, 1 }, { 3, 0 } };
-    static const plumb_vec2 hexagon[] = { { 2, 0 }, { 1, 2 }, { -1, 2 }, { -2, 0 }, { -1, -2 }, { 1, -2 } };
+    static const plumb_vec2 hexagon[] = { { 2, 0 },  { 1, 2 },   { -1, 2 },
+                                          { -2, 0 }, { -1, -2 }, { 1, -2 } };
     const plumb_shape_desc descs[] = {
         { .kind = PLUMB_CIRCLE, .radius = 1 },
         { .kind = PLUMB_BOX, .half = { 1, 2 } },
@@ -116,7 +119,8 @@ static void change(model *m)
     }
 }
 
-//---- agreement ------------------------------------------------------------------------------------
+//---- agreement
+//------------------------------------------------------------------------------------
 
 static void check_partitions(const model *m)
 {
@@ -266,7 +270,8 @@ static void rows_agree_with_a_plain_list(void **state)
     plumb_world_destroy(m.world);
 }
 
-//---- flags and slots ------------------------------------------------------------------------------
+//---- flags and slots
+//------------------------------------------------------------------------------
 
 static void clear_flags(plumb_world *w)
 {
@@ -284,7 +289,8 @@ static void changes_set_the_flags_that_the_step_reads(void **state)
     plumb_shape ground = plumb_shape_create(w, fixed, &box);
     assert_true(w->pairs_dirty && w->static_dirty && w->schedule_dirty);
     clear_flags(w);
-    plumb_body loose = plumb_body_create(w, &(plumb_body_desc){ 0 }); // takes the static row's place
+    plumb_body loose =
+        plumb_body_create(w, &(plumb_body_desc){ 0 }); // takes the static row's place
     assert_true(w->rows_moved && w->schedule_dirty && !w->pairs_dirty && !w->static_dirty);
     assert_int_equal(w->pieces.body[pl_shape_piece(w, ground)], 1);
     clear_flags(w);

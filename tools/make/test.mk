@@ -22,8 +22,14 @@ TEST_PROGRAMS := $(TEST_SRC:%.c=$(O)/%) $(DOUBLE_SRC:tests/%.c=$(O)/tests-double
 
 # ---- building
 
-# $(call helpers,source): the other files of its folder and what the harness offers everybody.
-helpers = $(filter-out $(dir $1)test_%,$(wildcard $(dir $1)*.c)) $(HARNESS_SRC)
+# $(call helpers,source): the other files of its folder, and harness/X.c where one of them, or the
+# test, includes harness/X.h; what X.c itself includes comes along.
+HARNESS_USES := $(if $(HARNESS_SRC),$(shell grep -oHE 'harness/[a-z0-9_]+[.]h' tests/*/*.[ch]))
+harness_of   = $(sort $(filter $(HARNESS_SRC),$(foreach f,$1,\
+	$(patsubst $f:harness/%.h,tests/harness/%.c,$(filter $f:%,$(HARNESS_USES))))))
+folder_files = $(filter-out $(dir $1)test_%,$(wildcard $(dir $1)*.[ch]))
+helpers = $(filter %.c,$(folder_files)) \
+	$(call harness_of,$(call harness_of,$1 $(folder_files)) $1 $(folder_files))
 # Scene files are read by tests of these names, pictures drawn by those.
 needs_scene  = $(filter test_scene% fuzz_scene%,$(notdir $1))
 needs_render = $(filter test_render%,$(notdir $1))
