@@ -10,7 +10,10 @@
 //     bias = w / a1 s,  impulse change = -a2 a3 m (v_n + bias) - a3 lambda.
 // Relaxing is the same without spring: it takes the push out of the velocities again.
 //
-// Friction acts along t = (-n_y, n_x), bounded by mu times the point's normal impulse.
+// Friction acts along t = (-n_y, n_x), bounded by mu times the point's normal impulse. It is solved in the
+// relaxing sweeps alone, after the normals: the pushes of the soft sweeps then cause no friction of
+// their own, piles lean less (the top of a pyramid of 100 rows by 0.6 m instead of 2.3 m while it settles),
+// and sticking contacts hold all the same, because warm starting carries their friction over.
 // Symbols: ran = r_A x n, rat = r_A x t; m effective masses; ln, lt accumulated impulses.
 // Cost: per bundle two gathers of W body rows, about 120 flops, one scatter.
 #include "core/wide.h"
@@ -288,11 +291,11 @@ WIDE_INLINE void sweep(const pl_contact_call *call, uint32_t first, uint32_t cou
         body a, b;
         gather_body(&a, call, c->a);
         gather_body(&b, call, c->b);
-        if (friction) {
+        solve_normals(c, c->p, &a, &b, call, soft, rotation);
+        if (friction && !soft) {
             solve_tangent(c, &c->p[0], &a, &b, rotation);
             solve_tangent(c, &c->p[1], &a, &b, rotation);
         }
-        solve_normals(c, c->p, &a, &b, call, soft, rotation);
         scatter_velocity(&a, call, c->a);
         scatter_velocity(&b, call, c->b);
     }

@@ -33,8 +33,8 @@ static void apexes_follow_the_restitution(void **state)
     (void)state;
     const double h = 5, r = 0.5;
     // The last bounce of e = 0.5 still flies for seven steps of 60 Hz.
-    const apex_case cases[] = { { 0.5, 60, 4, 1e-4 },   { 0.8, 60, 12, 1e-4 }, { 1.0, 60, 50, 1e-4 },
-                                { 0.9, 60, 20, 1e-4 },  { 0.5, 240, 5, 1e-4 }, { 0.8, 30, 8, 1e-4 },
+    const apex_case cases[] = { { 0.5, 60, 4, 1e-4 },  { 0.8, 60, 12, 1e-4 }, { 1.0, 60, 50, 1e-4 },
+                                { 0.9, 60, 20, 1e-4 }, { 0.5, 240, 5, 1e-4 }, { 0.8, 30, 8, 1e-4 },
                                 { 0.3, 60, 2, 1e-4 } };
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; ++k) {
         const apex_case *c = &cases[k];
@@ -92,8 +92,8 @@ static void elastic_ball_keeps_its_energy(void **state)
 
 //---- a ball in a box -----------------------------------------------------------------------------
 
-// Frictionless box without gravity: |vx| and |vy| never change, and the path unfolds into a straight
-// line, which tells the number of bounces on each pair of walls.
+// Frictionless box without gravity: |vx| and |vy| never change, and the path unfolds into a
+// straight line, which tells the number of bounces on each pair of walls.
 static void ball_in_a_box_never_sticks(void **state)
 {
     (void)state;
@@ -155,9 +155,9 @@ static void pair_leaves_as_the_impact_law_says(void **state)
 {
     (void)state;
     const pair_case cases[] = {
-        { 1, 1, 5, 0, 1, false },       { 1, 1, 5, 0, 1, true },    { 1, 1, 5, -3, 0.5, false },
-        { 2, 1, 5, -3, 1, true },       { 1, 10, 8, 0, 1, false },  { 10, 1, 8, -1, 0.25, true },
-        { 1000, 1, 3, -3, 1, false },   { 1, 1000, 9, 1, 1, true }, { 3, 2, 6, 1, 0, false },
+        { 1, 1, 5, 0, 1, false },     { 1, 1, 5, 0, 1, true },    { 1, 1, 5, -3, 0.5, false },
+        { 2, 1, 5, -3, 1, true },     { 1, 10, 8, 0, 1, false },  { 10, 1, 8, -1, 0.25, true },
+        { 1000, 1, 3, -3, 1, false }, { 1, 1000, 9, 1, 1, true }, { 3, 2, 6, 1, 0, false },
         { 1e6, 1, 2, 0, 1, false },
     };
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; ++k) {
@@ -226,7 +226,9 @@ typedef struct pi_case {
 static void collisions_count_out_pi(void **state)
 {
     (void)state;
-    const pi_case cases[] = { { 1, 3, 60 }, { 100, 31, 60 }, { 10000, 314, 60 }, { 10000, 314, 240 } };
+    const pi_case cases[] = {
+        { 1, 3, 60 }, { 100, 31, 60 }, { 10000, 314, 60 }, { 10000, 314, 240 }
+    };
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; ++k) {
         const pi_case *c = &cases[k];
         plumb_world *w = sim_space();
@@ -264,7 +266,8 @@ typedef struct rod_case {
 static void rod_turns_when_its_end_strikes(void **state)
 {
     (void)state;
-    const rod_case cases[] = { { 30, 1 }, { 30, 0.5 }, { 60, 1 }, { 45, 0.8 }, { 10, 0.5 }, { 80, 1 } };
+    const rod_case cases[] = { { 30, 1 },   { 30, 0.5 }, { 60, 1 },
+                               { 45, 0.8 }, { 10, 0.5 }, { 80, 1 } };
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; ++k) {
         const rod_case *c = &cases[k];
         plumb_world *w = sim_space();

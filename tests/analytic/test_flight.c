@@ -32,7 +32,7 @@ static void projectile_is_exact_to_rounding(void **state)
 {
     (void)state;
     const flight_case cases[] = {
-        { "60 Hz, alone", 60, 2, 3, 4, false },   { "60 Hz, in company", 60, 2, 3, 4, true },
+        { "60 Hz, alone", 60, 2, 3, 4, false },    { "60 Hz, in company", 60, 2, 3, 4, true },
         { "30 Hz, upwards", 30, 3, -7, 18, true }, { "10 Hz, coarse", 10, 2, 1, 9, false },
         { "240 Hz", 240, 2, 5, 9, true },
     };
@@ -123,10 +123,10 @@ typedef struct melee_case {
     double least_energy; // [-] of the energy at the start that must be left
 } melee_case;
 
-// A hundred discs and boxes of many sizes fly inwards and hit one another in empty space. Every contact
-// impulse acts on both bodies at one point, so linear momentum keeps to rounding. Anchors are frozen
-// for a step while the bodies slip past each other, which costs angular momentum in proportion to
-// the slip within a step: first order.
+// A hundred discs and boxes of many sizes fly inwards and hit one another in empty space. Every
+// contact impulse acts on both bodies at one point, so linear momentum keeps to rounding. Anchors
+// are frozen for a step while the bodies slip past each other, which costs angular momentum in
+// proportion to the slip within a step: first order.
 static void melee_conserves_momentum(void **state)
 {
     (void)state;

@@ -47,8 +47,8 @@ static double slide_error(const slide_case *c, double rate, double *distance)
     return fabs(*distance / expected - 1);
 }
 
-// What rounding can do to the way: each substep rounds the speed by half a spacing, always to the same
-// side at worst, which passes for that much more or less friction.
+// What rounding can do to the way: each substep rounds the speed by half a spacing, always to the
+// same side at worst, which passes for that much more or less friction.
 static double slide_rounding(const slide_case *c, double rate)
 {
     double loss = c->friction * SIM_G / (rate * 4); // [m/s] a substep
@@ -178,8 +178,8 @@ static void disc_rolls_down(void **state)
             plumb_body b = on_ramp(w, angle, r);
             sim_add_circle(w, b, r, m);
             bool rolls = share[k] >= 1;
-            double a = rolls ? 2.0 / 3 * SIM_G * sin(angle)
-                             : SIM_G * (sin(angle) - mu * cos(angle));
+            double a =
+                rolls ? 2.0 / 3 * SIM_G * sin(angle) : SIM_G * (sin(angle) - mu * cos(angle));
             double alpha = rolls ? a / r : 2 * mu * SIM_G * cos(angle) / r;
             sim_run(w, 30, HZ60);
             double v = hypot(sim_vx(w, b), sim_vy(w, b)), spin = sim_w(w, b);
@@ -250,9 +250,9 @@ static void oblique_impact_grips_or_slips(void **state)
 {
     (void)state;
     const oblique_case cases[] = {
-        { 2, 5, 0.5, 1, false }, { 2, 5, 0.05, 1, false }, { 6, 4, 0.3, 0.5, false },
-        { 6, 4, 0.6, 0.5, false }, { 1, 3, 0.2, 0, false }, { 9, 3, 0.2, 0, false },
-        { 2, 5, 0.5, 1, true },  { 2, 5, 0.05, 1, true },  { 6, 4, 0.3, 0.5, true },
+        { 2, 5, 0.5, 1, false },   { 2, 5, 0.05, 1, false }, { 6, 4, 0.3, 0.5, false },
+        { 6, 4, 0.6, 0.5, false }, { 1, 3, 0.2, 0, false },  { 9, 3, 0.2, 0, false },
+        { 2, 5, 0.5, 1, true },    { 2, 5, 0.05, 1, true },  { 6, 4, 0.3, 0.5, true },
     };
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; ++k) {
         const oblique_case *c = &cases[k];
@@ -297,8 +297,10 @@ static void oblique_impact_grips_or_slips(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(block_slides_its_distance), cmocka_unit_test(block_sticks_without_creep),
-        cmocka_unit_test(block_slides_down),         cmocka_unit_test(disc_rolls_down),
+        cmocka_unit_test(block_slides_its_distance),
+        cmocka_unit_test(block_sticks_without_creep),
+        cmocka_unit_test(block_slides_down),
+        cmocka_unit_test(disc_rolls_down),
         cmocka_unit_test(sliding_disc_starts_to_roll),
         cmocka_unit_test(oblique_impact_grips_or_slips),
     };

@@ -1,5 +1,5 @@
-// test_statics.c - forces at rest: what contacts carry against what statics says. Forces are read from
-// the contacts: impulse of the last substep over its length.
+// test_statics.c - forces at rest: what contacts carry against what statics says. Forces are read
+// from the contacts: impulse of the last substep over its length.
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -125,8 +125,7 @@ static void friction_carries_the_slope(void **state)
         plumb_material m = sim_material(w, 0.8, 0);
         plumb_body ramp = sim_body(w, PLUMB_STATIC, -sin(angle), -cos(angle), -angle);
         sim_add_box(w, ramp, 20, 1, m);
-        plumb_body b =
-            sim_body(w, PLUMB_DYNAMIC, 0.25 * sin(angle), 0.25 * cos(angle), -angle);
+        plumb_body b = sim_body(w, PLUMB_DYNAMIC, 0.25 * sin(angle), 0.25 * cos(angle), -angle);
         sim_add_box(w, b, 0.5, 0.25, m);
         sim_run(w, 180, HZ60);
         plumb_contact contact;

@@ -122,6 +122,24 @@ static void contacts_of_a_resting_body_hold_its_weight(void **state)
     plumb_world_destroy(s.world);
 }
 
+static void a_changed_material_holds_from_the_next_step(void **state)
+{
+    (void)state;
+    scene s = drop(0.5);
+    const plumb_material none = PLUMB_NULL_INIT;
+    plumb_material_set(s.world, none, &(plumb_material_desc){ .friction = R(0.25) });
+    plumb_contact c;
+    plumb_world_step(s.world, DT);
+    assert_int_equal(plumb_world_contacts(s.world, &c, 1), 1);
+    assert_near(c.friction, 0.25, 1e-6);
+    plumb_material rough = plumb_material_create(s.world, &(plumb_material_desc){ .friction = 1 });
+    plumb_shape_set_material(s.world, s.circle, rough);
+    plumb_world_step(s.world, DT);
+    assert_int_equal(plumb_world_contacts(s.world, &c, 1), 1);
+    assert_near(c.friction, 0.5, 1e-6); // sqrt(1 x 0.25)
+    plumb_world_destroy(s.world);
+}
+
 static void contacts_and_events_survive_what_happens_between_steps(void **state)
 {
     (void)state;
@@ -174,6 +192,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_touch_begins_once_and_ends_once),
         cmocka_unit_test(contacts_of_a_resting_body_hold_its_weight),
+        cmocka_unit_test(a_changed_material_holds_from_the_next_step),
         cmocka_unit_test(contacts_and_events_survive_what_happens_between_steps),
         cmocka_unit_test(nothing_is_known_of_no_world),
     };

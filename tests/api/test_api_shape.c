@@ -208,6 +208,33 @@ static void seams_are_the_edges_that_are_not_of_the_outline(void **state)
     }
 }
 
+// The foot of a T: its cut lies in line with edges of the outline on both sides of it, and touches
+// them.
+static void a_cut_in_line_with_the_outline_is_a_seam(void **state)
+{
+    fixture *f = *state;
+    static const plumb_vec2 tee[] = { { 0, 0 }, { 3, 0 }, { 3, 1 }, { 2, 1 },
+                                      { 2, 9 }, { 1, 9 }, { 1, 1 }, { 0, 1 } };
+    plumb_shape s =
+        plumb_shape_create(f->world, f->dynamic,
+                           &(plumb_shape_desc){ .kind = PLUMB_OUTLINE, .points = tee, .count = 8 });
+    int cuts = 0;
+    for (int i = 0; i < plumb_shape_piece_count(f->world, s); ++i) {
+        plumb_convex piece;
+        uint32_t seams;
+        plumb_shape_piece(f->world, s, i, &piece, &seams);
+        for (int k = 0; k < piece.count; ++k) {
+            plumb_vec2 p = piece.points[k];
+            plumb_vec2 q = piece.points[(k + 1) % piece.count];
+            if (p.y == 1 && q.y == 1 && plumb_abs(p.x - q.x) == 1 && p.x + q.x == 3) {
+                ++cuts;
+                assert_true(seams >> k & 1);
+            }
+        }
+    }
+    assert_in_range(cuts, 1, 2);
+}
+
 static void a_convex_outline_has_one_piece_without_seams(void **state)
 {
     fixture *f = *state;
@@ -338,6 +365,7 @@ int main(void)
         API_TEST(every_kind_has_its_pieces_mass_and_box),
         API_TEST(pieces_are_what_the_geometry_functions_make),
         API_TEST(seams_are_the_edges_that_are_not_of_the_outline),
+        API_TEST(a_cut_in_line_with_the_outline_is_a_seam),
         API_TEST(a_convex_outline_has_one_piece_without_seams),
         API_TEST(shapes_carry_material_and_user_data),
         API_TEST(shapes_of_the_world_are_listed),

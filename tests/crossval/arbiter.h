@@ -1,7 +1,7 @@
-/// arbiter.h - the third opinion on a pair of convex shapes, in double and by brute force: along a unit
-/// vector n, B lies beyond A by s(n) = min over B of n . b - max over A of n . a - radii. The
-/// separation is the largest s(n); it is reached at a face normal of either core or, for cores that are
-/// apart, along a line from a corner of A to one of B. All of them are tried.
+/// arbiter.h - the third opinion on a pair of convex shapes, in double and by brute force: along a
+/// unit vector n, B lies beyond A by s(n) = min over B of n . b - max over A of n . a - radii. The
+/// separation is the largest s(n); it is reached at a face normal of either core or, for cores that
+/// are apart, along a line from a corner of A to one of B. All of them are tried.
 #ifndef CROSSVAL_ARBITER_H
 #define CROSSVAL_ARBITER_H
 

@@ -2,9 +2,10 @@
 // their trajectories together. Printed: scene, rate, largest distance of any two counterparts at
 // any common time.
 //
-// Both engines get the same shapes, masses and materials; Box2D without its polygon skin and without
-// a restitution threshold. Where both are first order, the distance falls as the step does. Box2D
-// computes in float and stops short of contact by its slop of 5 mm: the floor that a bound allows for.
+// Both engines get the same shapes, masses and materials; Box2D without its polygon skin and
+// without a restitution threshold. Where both are first order, the distance falls as the step does.
+// Box2D computes in float and stops short of contact by its slop of 5 mm: the floor that a bound
+// allows for.
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -34,9 +35,9 @@ typedef struct scene {
     double fall;   // distance at the finest step over that at the coarsest, at most
     double finest; // [m] distance at the finest step, at most
     // [m] Not 0: a difference that stays. Where an impact without bounce meets friction or several
-    // contacts at once, the soft step takes the impulses in another order (one sweep a substep, what
-    // is left in the next) than an iteration to convergence does, and ends at another outcome that
-    // satisfies the contact laws as well.
+    // contacts at once, the soft step takes the impulses in another order (one sweep a substep,
+    // what is left in the next) than an iteration to convergence does, and ends at another outcome
+    // that satisfies the contact laws as well.
     double lasting;
 } scene;
 
@@ -206,8 +207,7 @@ static const scene scenes[] = {
 
 //---- runs ----------------------------------------------------------------------------------------
 
-static void run(const struct engine *e, const scene *s, const char *solver, double rate,
-                track *out)
+static void run(const struct engine *e, const scene *s, const char *solver, double rate, track *out)
 {
     struct engine_options o = engine_options_default();
     o.gravity_x = s->gravity_x;

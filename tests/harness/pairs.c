@@ -238,8 +238,8 @@ void pairs_run(pair_batch *b, int width)
     b->out = (pl_narrow){ .manifolds = b->out.manifolds };
     memset(b->out.manifolds.data, 0, b->out.manifolds.size);
     if (b->count > 0) {
-        kernel_for(kernels, b->sides[0].shape.kind, b->sides[1].shape.kind)(
-            &in, 0, (uint32_t)b->count, &b->out);
+        kernel_for(kernels, b->sides[0].shape.kind,
+                   b->sides[1].shape.kind)(&in, 0, (uint32_t)b->count, &b->out);
     }
 }
 

@@ -45,9 +45,9 @@ plumb_world *sim_space(void)
 
 plumb_material sim_material(plumb_world *w, double friction, double restitution)
 {
-    plumb_material m = plumb_material_create(
-        w, &(plumb_material_desc){ .friction = (plumb_real)friction,
-                                   .restitution = (plumb_real)restitution });
+    plumb_material m =
+        plumb_material_create(w, &(plumb_material_desc){ .friction = (plumb_real)friction,
+                                                         .restitution = (plumb_real)restitution });
     need(!plumb_is_null(m), "the material");
     return m;
 }
@@ -55,8 +55,8 @@ plumb_material sim_material(plumb_world *w, double friction, double restitution)
 plumb_body sim_body(plumb_world *w, plumb_body_type type, double x, double y, double angle)
 {
     plumb_body b = plumb_body_create(
-        w, &(plumb_body_desc){
-               .type = type, .position = sim_vec(x, y), .angle = (plumb_real)angle });
+        w,
+        &(plumb_body_desc){ .type = type, .position = sim_vec(x, y), .angle = (plumb_real)angle });
     need(!plumb_is_null(b), "the body");
     return b;
 }
@@ -68,8 +68,7 @@ static void add(plumb_world *w, plumb_body b, const plumb_shape_desc *desc)
 
 void sim_add_circle(plumb_world *w, plumb_body b, double r, plumb_material m)
 {
-    add(w, b,
-        &(plumb_shape_desc){ .kind = PLUMB_CIRCLE, .radius = (plumb_real)r, .material = m });
+    add(w, b, &(plumb_shape_desc){ .kind = PLUMB_CIRCLE, .radius = (plumb_real)r, .material = m });
 }
 
 void sim_add_box(plumb_world *w, plumb_body b, double hx, double hy, plumb_material m)
@@ -81,8 +80,7 @@ void sim_add_segment(plumb_world *w, plumb_body b, plumb_vec2 p, plumb_vec2 q, p
 {
     plumb_vec2 points[2] = { p, q };
     add(w, b,
-        &(plumb_shape_desc){
-            .kind = PLUMB_SEGMENT, .points = points, .count = 2, .material = m });
+        &(plumb_shape_desc){ .kind = PLUMB_SEGMENT, .points = points, .count = 2, .material = m });
 }
 
 plumb_body sim_ball(plumb_world *w, double x, double y, double r, plumb_material m)
