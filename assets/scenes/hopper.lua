@@ -8,7 +8,7 @@ local grain = material { name = "grain", density = 800, friction = 0.3, restitut
 body { name = "bin", type = "static", material = steel, color = "#4a5568",
        box { 14, 1, at = {0, -0.5} }, box { 1, 5.2, at = {-6.5, 2.5} }, box { 1, 5.2, at = {6.5, 2.5} } }
 body { name = "funnel", type = "static", material = steel, color = "#4a5568",
-       polygon {{-7, 12}, {-7, 5}, {-1.3, 5}, {-1.1, 6.8}}, polygon {{7, 12}, {1.1, 6.8}, {1.3, 5}, {7, 5}},
+       polygon {{-7, 12}, {-7, 5}, {-2.0, 5}, {-1.8, 6.8}}, polygon {{7, 12}, {1.8, 6.8}, {2.0, 5}, {7, 5}},
        box { 0.5, 6, at = {-6.75, 15} }, box { 0.5, 6, at = {6.75, 15} } }
 
 local makers = {

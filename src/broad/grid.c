@@ -99,7 +99,9 @@ static void lay_out_level(pl_grid_level *level, const survey *o)
 
 static uint32_t bucket_of(const pl_grid_level *level, int32_t x, int32_t y)
 {
-    return ((uint32_t)(x - level->origin_x) + (uint32_t)(y - level->origin_y) * level->stride) &
+    // Unsigned throughout: cells at both ends of the world are farther apart than an int32_t reaches.
+    return ((uint32_t)x - (uint32_t)level->origin_x +
+            ((uint32_t)y - (uint32_t)level->origin_y) * level->stride) &
            level->mask;
 }
 
@@ -234,7 +236,7 @@ static bool visit_row(const pl_grid_entry *entries, pl_grid_run run, pl_cell_ran
     uint32_t width = (uint32_t)(range.x1 - range.x0);
     for (uint32_t i = run.begin; i < run.end; ++i) {
         const pl_grid_entry *e = &entries[i];
-        if (e->cell_y == y && (uint32_t)(e->cell_x - range.x0) <= width &&
+        if (e->cell_y == y && (uint32_t)e->cell_x - (uint32_t)range.x0 <= width &&
             pl_boxes_overlap(&e->box, box) && !visit(context, e)) {
             return false;
         }

@@ -85,7 +85,8 @@ static inline int pl_grid_row(const pl_grid *grid, const pl_grid_level *level, i
 {
     const uint32_t *starts = (const uint32_t *)grid->starts.data + level->starts;
     uint32_t first =
-        ((uint32_t)(x0 - level->origin_x) + (uint32_t)(y - level->origin_y) * level->stride) &
+        ((uint32_t)x0 - (uint32_t)level->origin_x +
+         ((uint32_t)y - (uint32_t)level->origin_y) * level->stride) &
         level->mask;
     uint32_t last = first + (uint32_t)(x1 - x0);
     if (last <= level->mask) {

@@ -58,7 +58,7 @@ static inline bool scan_run(finder *f, const pl_grid_entry *entries, pl_grid_run
     for (uint32_t i = run.begin; i < run.end; ++i) {
         const pl_grid_entry *other = &entries[i];
         if (pl_boxes_overlap(&e->box, &other->box) && other->cell_y == y &&
-            (uint32_t)(other->cell_x - x0) <= width && !add_pair(f, e->piece, other->piece)) {
+            (uint32_t)other->cell_x - (uint32_t)x0 <= width && !add_pair(f, e->piece, other->piece)) {
             return false;
         }
     }

@@ -109,8 +109,8 @@ static bool visit_block(const pl_grid *grid, const pl_grid_level *level, int32_t
     for (int r = 0; r < run_count; ++r) {
         for (uint32_t i = runs[r].begin; i < runs[r].end; ++i) {
             const pl_grid_entry *e = &entries[i];
-            if (e->cell_y == y && (uint32_t)(e->cell_x - x0) <= width && meets(walk, &e->box) &&
-                !visit(context, e)) {
+            if (e->cell_y == y && (uint32_t)e->cell_x - (uint32_t)x0 <= width &&
+                meets(walk, &e->box) && !visit(context, e)) {
                 return false;
             }
         }

@@ -203,6 +203,10 @@ static void place_lanes(plumb_world *world, const uint32_t counts[PL_COLORS + 1]
         s->color_count += counts[c] > 0;
     }
     uint32_t *lanes = s->lanes.data;
+    if (lanes == NULL) {
+        s->bundle_count = 0; // no contact has ever been made
+        return;
+    }
     memset(lanes, 0xff,
            ((size_t)lane_count + (size_t)counts[OVERFLOW_COLOR] * width) * sizeof(uint32_t));
     const uint8_t *colors = s->colors.data;

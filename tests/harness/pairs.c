@@ -147,30 +147,28 @@ static pl_pose pose_of(pair_pose at)
                       .s = (plumb_real)sin(at.angle) };
 }
 
-static void put_side(pair_batch *b, uint32_t piece, const pair_shape *shape, pair_pose at)
+static void put_side(pair_batch *b, uint32_t piece, const pair_side *side)
 {
-    pair_side *side = &b->sides[piece];
-    side->shape = *shape;
-    side->pose = b->poses[piece] = pose_of(at);
-    b->cores[piece] = shape->core;
+    const plumb_convex *convex = &side->shape.convex;
+    b->sides[piece] = *side;
+    b->poses[piece] = side->pose;
+    b->cores[piece] = side->shape.core;
     b->first[piece] = piece * MAX_CORNERS;
-    int count = shape->convex.count > 1 ? shape->convex.count : 0;
+    int count = convex->count > 1 ? convex->count : 0;
     b->corners[piece] = (uint8_t)count;
     for (int k = 0; k < MAX_CORNERS && count > 0; ++k) {
         int i = k < count ? k : count - 1;
-        plumb_vec2 p = shape->convex.points[i], n = shape->convex.normals[i];
+        plumb_vec2 p = convex->points[i], n = convex->normals[i];
         b->vertices[piece * MAX_CORNERS + (uint32_t)k] = (pl_vertex){ p.x, p.y, n.x, n.y };
     }
 }
 
-int pairs_add(pair_batch *b, const pair_shape *p, pair_pose at_p, const pair_shape *q,
-              pair_pose at_q)
+int pairs_add_sides(pair_batch *b, const pair_side *p, const pair_side *q)
 {
     need(b->count < b->capacity, "the batch is full");
     uint32_t i = (uint32_t)b->count++;
-    bool swap = p->kind > q->kind;
-    put_side(b, 2 * i, swap ? q : p, swap ? at_q : at_p);
-    put_side(b, 2 * i + 1, swap ? p : q, swap ? at_p : at_q);
+    put_side(b, 2 * i, p);
+    put_side(b, 2 * i + 1, q);
     need(b->sides[2 * i].shape.kind == b->sides[0].shape.kind &&
              b->sides[2 * i + 1].shape.kind == b->sides[1].shape.kind,
          "a batch is of one combination of kinds");
@@ -181,6 +179,20 @@ int pairs_add(pair_batch *b, const pair_shape *p, pair_pose at_p, const pair_sha
                              .feature = { PL_NONE, PL_NONE },
                              .manifold = PL_NONE };
     return (int)i;
+}
+
+int pairs_add(pair_batch *b, const pair_shape *p, pair_pose at_p, const pair_shape *q,
+              pair_pose at_q)
+{
+    pair_side side_p = { *p, pose_of(at_p) }, side_q = { *q, pose_of(at_q) };
+    bool swap = p->kind > q->kind;
+    return pairs_add_sides(b, swap ? &side_q : &side_p, swap ? &side_p : &side_q);
+}
+
+void pairs_set_impulses(pair_batch *b, int i, double first, double second)
+{
+    b->pairs[i].normal[0] = (plumb_real)first;
+    b->pairs[i].normal[1] = (plumb_real)second;
 }
 
 int pairs_count(const pair_batch *b)

@@ -49,6 +49,10 @@ void pairs_clear(pair_batch *batch);
 /// Adds a pair; the one of the smaller kind becomes A. Returns its index.
 int pairs_add(pair_batch *batch, const pair_shape *p, pair_pose at_p, const pair_shape *q,
               pair_pose at_q);
+/// Adds the very sides of another batch's pair.
+int pairs_add_sides(pair_batch *batch, const pair_side *a, const pair_side *b);
+/// Normal impulses that the solver would have left on the two points of a pair.
+void pairs_set_impulses(pair_batch *batch, int i, double first, double second);
 int pairs_count(const pair_batch *batch);
 /// Moves B of a pair, keeping features and impulses: the next step of a simulation.
 void pairs_move_b(pair_batch *batch, int i, pair_pose at);

@@ -17,6 +17,7 @@
 
 #define DT   ((plumb_real)(1.0 / 60))
 #define MOST 400
+#define R(x) ((plumb_real)(x))
 
 static uint32_t random_state;
 
@@ -373,22 +374,26 @@ static void test_rows_move(void **state)
     plumb_world_destroy(world);
 }
 
-// A piece with restitution is paired with what it will reach within the step.
-static void test_elastic_reach(void **state)
+// A piece is paired with what it will reach within the step, elastic or not, and with nothing
+// beyond.
+static void test_reach_of_a_step(void **state)
 {
     (void)state;
-    for (int elastic = 0; elastic < 2; ++elastic) {
+    for (int elastic = 0; elastic < 4; ++elastic) {
         plumb_world *world = make_world(7);
         plumb_material rubber =
             plumb_material_create(world, &(plumb_material_desc){ .density = 1, .restitution = 1 });
         plumb_material none = PLUMB_NULL_INIT;
-        plumb_body wall = plumb_body_create(world, &(plumb_body_desc){ .type = PLUMB_STATIC });
-        add_shape(world, wall, PLUMB_CIRCLE, 1, none);
+        for (int i = 0; i < 2; ++i) {
+            plumb_body_desc wall = { .type = PLUMB_STATIC, .position = { R(-6 * i), 0 } };
+            add_shape(world, plumb_body_create(world, &wall), PLUMB_CIRCLE, 1,
+                      elastic & 1 ? rubber : none);
+        }
         plumb_body ball = plumb_body_create(
             world, &(plumb_body_desc){ .position = { 4, 0 }, .velocity = { -300, 0 } });
-        add_shape(world, ball, PLUMB_CIRCLE, 1, elastic ? rubber : none);
-        update(world); // 2 m apart, 5 m to go
-        assert_int_equal(world->broad.pairs.count, elastic);
+        add_shape(world, ball, PLUMB_CIRCLE, 1, elastic & 2 ? rubber : none);
+        update(world); // 5 m to go, 2 m to one wall, 8 m to the other
+        assert_int_equal(world->broad.pairs.count, 1);
         plumb_world_destroy(world);
     }
 }
@@ -564,7 +569,7 @@ int main(void)
         cmocka_unit_test(test_stepped),
         cmocka_unit_test(test_structural_changes),
         cmocka_unit_test(test_rows_move),
-        cmocka_unit_test(test_elastic_reach),
+        cmocka_unit_test(test_reach_of_a_step),
         cmocka_unit_test(test_carry_over),
         cmocka_unit_test(test_twins),
         cmocka_unit_test(test_history_does_not_matter),

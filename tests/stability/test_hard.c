@@ -1,0 +1,210 @@
+// test_hard.c - calm in hard cases: deep overlaps part without an explosion, resting balls do not
+// hop, deep and jammed piles come to rest, elastic bodies rest and bounce at once, both solvers.
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "harness/sim.h"
+
+#define HZ60 (1 / 60.0)
+
+typedef struct overlap_case {
+    const char *name;
+    int count;
+    double apart; // [m] between centres of unit boxes or discs
+    bool discs;
+    double speed; // [m/s] at most at any time
+} overlap_case;
+
+// Bodies put into one another drift apart at the recovery speed of the world (push_speed, 3 m/s
+// between two), not faster.
+static void overlap_is_undone_gently(void **state)
+{
+    (void)state;
+    const overlap_case cases[] = {
+        { "two boxes, half inside", 2, 0.5, false, 3.5 },
+        { "two boxes in one place", 2, 0, false, 3.5 },
+        { "two discs, half inside", 2, 0.5, true, 3.5 },
+        { "two discs in one place", 2, 0, true, 3.5 },
+        { "ten boxes in a row", 10, 0.2, false, 12 },
+        { "thirty discs in one place", 30, 0, true, 20 },
+        { "thirty boxes nearly in one place", 30, 0.01, false, 20 },
+    };
+    for (size_t k = 0; k < sizeof cases / sizeof cases[0]; ++k) {
+        const overlap_case *c = &cases[k];
+        plumb_world *w = sim_space();
+        plumb_material m = sim_material(w, 0.3, 0);
+        for (int i = 0; i < c->count; ++i) {
+            if (c->discs) {
+                sim_ball(w, c->apart * i, 0, 0.5, m);
+            } else {
+                sim_crate(w, c->apart * i, 0, 0.5, 0.5, m);
+            }
+        }
+        double fastest = 0;
+        for (int i = 0; i < 240; ++i) {
+            sim_step(w, HZ60);
+            double v = sim_max_speed(w);
+            fastest = v <= fastest ? fastest : v;
+        }
+        double left = (double)plumb_world_stats(w).max_penetration;
+        print_message("%-34s fastest %.3g m/s (%g), still %.2g m deep\n", c->name, fastest,
+                      c->speed, left);
+        assert_true(fastest <= c->speed);
+        assert_true(left <= 0.01);
+        plumb_world_destroy(w);
+    }
+}
+
+typedef struct rest_case {
+    const char *name;
+    double restitution;
+    double gap; // [m] above the floor at the start
+    bool box;
+} rest_case;
+
+static void resting_bodies_do_not_hop(void **state)
+{
+    (void)state;
+    const rest_case cases[] = { { "ball", 0, 0, false },
+                                { "ball, e = 0.5", 0.5, 0, false },
+                                { "ball, e = 1", 1, 0, false },
+                                { "box", 0, 0, true },
+                                { "box, e = 0.5", 0.5, 0, true },
+                                { "box, e = 1", 1, 0, true },
+                                { "ball, just above", 0, 1e-4, false } };
+    for (int solver = 0; solver < 2; ++solver) {
+        for (size_t k = 0; k < sizeof cases / sizeof cases[0]; ++k) {
+            const rest_case *c = &cases[k];
+            plumb_world *w = sim_world(
+                &(plumb_world_desc){ .solver = solver ? PLUMB_SOLVER_PGS : PLUMB_SOLVER_SOFT });
+            plumb_material m = sim_material(w, 0.5, c->restitution);
+            sim_floor(w, m);
+            plumb_body b = c->box ? sim_crate(w, 0, 0.5 + c->gap, 0.5, 0.5, m)
+                                  : sim_ball(w, 0, 0.5 + c->gap, 0.5, m);
+            sim_run(w, 60, HZ60);
+            double low = INFINITY, high = -INFINITY, fastest = 0;
+            for (int i = 0; i < 600; ++i) {
+                sim_step(w, HZ60);
+                double y = sim_y(w, b);
+                low = fmin(low, y), high = fmax(high, y);
+                fastest = fmax(fastest, fabs(sim_vy(w, b)));
+            }
+            print_message("%-18s %s: moves by %.2g m, %.2g m/s, sinks %.2g m\n", c->name,
+                          solver ? "pgs " : "soft", high - low, fastest, 0.5 - low);
+            assert_true(high - low <= 1e-4 && fastest <= 2e-3);
+            assert_true(low >= 0.5 - 0.01);
+            plumb_world_destroy(w);
+        }
+    }
+}
+
+// 400 bodies of several kinds are poured into a bin, from a lattice with random offsets.
+static void deep_pile_settles(void **state)
+{
+    (void)state;
+    for (int solver = 0; solver < 2; ++solver) {
+        plumb_world *w = sim_world(
+            &(plumb_world_desc){ .solver = solver ? PLUMB_SOLVER_PGS : PLUMB_SOLVER_SOFT });
+        plumb_material m = sim_material(w, 0.5, 0);
+        plumb_body bin = sim_floor(w, m);
+        sim_add_segment(w, bin, sim_vec(-4, 1), sim_vec(-4, 60), m);
+        sim_add_segment(w, bin, sim_vec(4, 1), sim_vec(4, 60), m);
+        unsigned seed = 31;
+        for (int i = 0; i < 400; ++i) {
+            double x = (i % 10 - 4.5) * 0.75 + sim_uniform(&seed, -0.05, 0.05);
+            double y = 0.5 + (i / 10) * 0.8, r = sim_uniform(&seed, 0.15, 0.32);
+            if (i % 2) {
+                sim_ball(w, x, y, r, m);
+            } else {
+                sim_crate(w, x, y, r, r, m);
+            }
+        }
+        double fastest = 0, deepest = 0;
+        for (int i = 0; i < 900; ++i) {
+            sim_step(w, HZ60);
+            double v = sim_max_speed(w);
+            fastest = v <= fastest ? fastest : v;
+            if (i > 300) {
+                deepest = fmax(deepest, (double)plumb_world_stats(w).max_penetration);
+            }
+        }
+        double last = sim_max_speed(w);
+        print_message("pile of 400, %s: fastest %.3g m/s, at the end %.2g m/s, deepest %.2g m\n",
+                      solver ? "pgs" : "soft", fastest, last, deepest);
+        // Free fall from the top of the pile is 25 m/s.
+        assert_true(fastest <= 26);
+        assert_true(last <= 0.1);
+        assert_true(deepest <= 0.05);
+        plumb_world_destroy(w);
+    }
+}
+
+// Discs fill a closed box more than fully: they are jammed, cannot all be free of overlap, and
+// still come to rest.
+static void jammed_discs_come_to_rest(void **state)
+{
+    (void)state;
+    plumb_world *w = sim_world(&(plumb_world_desc){ 0 });
+    plumb_material m = sim_material(w, 0.3, 0);
+    plumb_body box = sim_body(w, PLUMB_STATIC, 0, 0, 0);
+    plumb_vec2 corner[4] = { sim_vec(0, 0), sim_vec(5, 0), sim_vec(5, 5), sim_vec(0, 5) };
+    for (int i = 0; i < 4; ++i) {
+        sim_add_segment(w, box, corner[i], corner[(i + 1) % 4], m);
+    }
+    // A square lattice of discs 1.01 m across in cells of 1 m.
+    plumb_body b[25];
+    for (int i = 0; i < 25; ++i) {
+        b[i] = sim_ball(w, 0.5 + i % 5, 0.5 + i / 5, 0.505, m);
+    }
+    sim_run(w, 600, HZ60);
+    double speed = sim_max_speed(w);
+    print_message("jammed discs: %.2g m/s after 10 s, %.2g m deep\n", speed,
+                  (double)plumb_world_stats(w).max_penetration);
+    assert_true(speed <= 0.02);
+    for (int i = 0; i < 25; ++i) {
+        assert_true(sim_x(w, b[i]) > 0 && sim_x(w, b[i]) < 5);
+        assert_true(sim_y(w, b[i]) > 0 && sim_y(w, b[i]) < 5);
+    }
+    plumb_world_destroy(w);
+}
+
+// A pile of elastic balls may bounce for ever but must not win energy.
+static void elastic_pile_wins_no_energy(void **state)
+{
+    (void)state;
+    plumb_world *w = sim_world(&(plumb_world_desc){ 0 });
+    plumb_material m = sim_material(w, 0, 1);
+    plumb_body bin = sim_floor(w, m);
+    sim_add_segment(w, bin, sim_vec(-3, 0), sim_vec(-3, 60), m);
+    sim_add_segment(w, bin, sim_vec(3, 0), sim_vec(3, 60), m);
+    unsigned seed = 5;
+    for (int i = 0; i < 60; ++i) {
+        sim_ball(w, (i % 6 - 2.5) * 0.9 + sim_uniform(&seed, -0.02, 0.02), 0.6 + 0.9 * (i / 6), 0.4,
+                 m);
+    }
+    double start = sim_energy(w), most = start, least = start;
+    for (int i = 0; i < 600; ++i) {
+        sim_step(w, HZ60);
+        most = fmax(most, sim_energy(w));
+        least = fmin(least, sim_energy(w));
+    }
+    print_message("elastic pile: energy %.5g, at most %.5g, at least %.5g J\n", start, most, least);
+    assert_true(most <= start * 1.001);
+    assert_true(least >= start * 0.9);
+    plumb_world_destroy(w);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(overlap_is_undone_gently),    cmocka_unit_test(resting_bodies_do_not_hop),
+        cmocka_unit_test(deep_pile_settles),           cmocka_unit_test(jammed_discs_come_to_rest),
+        cmocka_unit_test(elastic_pile_wins_no_energy),
+    };
+    return cmocka_run_group_tests_name("hard", tests, NULL, NULL);
+}
