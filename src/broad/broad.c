@@ -23,7 +23,12 @@ static bool file_fixed(plumb_world *world)
 bool pl_broad_update_grids(plumb_world *world, real dt, bool *stale)
 {
     pl_broad *broad = &world->broad;
-    *stale = world->pairs_dirty || world->static_dirty;
+    // Poses change in steps, and else only together with the flags: one query after another is free.
+    if (dt == 0 && !world->pairs_dirty && !world->static_dirty &&
+        broad->filed_step == world->step_count) {
+        *stale = broad->stale;
+        return true;
+    }
     if (world->static_dirty) {
         pl_broad_refresh_fixed(world);
         if (!file_fixed(world)) {
@@ -35,11 +40,16 @@ bool pl_broad_update_grids(plumb_world *world, real dt, bool *stale)
     if (pl_broad_refresh_moving(world, dt)) {
         world->pairs_dirty = true;
     }
-    *stale = world->pairs_dirty;
-    if (*stale) {
-        return pl_grid_build(&world->memory, &broad->moving, pl_moving(world), world->moving_count,
-                             world->pieces.fat);
+    if (world->pairs_dirty) {
+        if (!pl_grid_build(&world->memory, &broad->moving, pl_moving(world), world->moving_count,
+                           world->pieces.fat)) {
+            return false;
+        }
+        world->pairs_dirty = false;
+        broad->stale = true;
     }
+    broad->filed_step = world->step_count;
+    *stale = broad->stale;
     return true;
 }
 
@@ -63,7 +73,7 @@ bool pl_broad_update(plumb_world *world, real dt)
         if (!pl_pairs_rebuild(world)) {
             return false;
         }
-        world->pairs_dirty = false;
+        world->broad.stale = false;
         world->broad.rebuilds++;
     } else if (world->rows_moved) {
         refresh_rows(world);

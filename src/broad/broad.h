@@ -16,6 +16,8 @@ typedef struct pl_broad {
     uint32_t found_count;
     uint32_t serial; // newest piece serial at the last rebuild: younger slots carry nothing over
     uint64_t rebuilds;
+    uint64_t filed_step; // step count at which the grids were last brought up to date
+    bool stale;          // boxes were filed anew since the pair list was made
 } pl_broad;
 
 // Brings fat boxes and grids up to date with the poses; *stale tells whether the pair list no

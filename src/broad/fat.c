@@ -80,8 +80,20 @@ static bool contains(const pl_box *outer, const pl_box *inner)
            outer->max_x >= inner->max_x && outer->max_y >= inner->max_y;
 }
 
+// Velocities may have been set, or written through a span, since the poses were made.
+static void refresh_pose_velocities(plumb_world *world)
+{
+    const pl_bodies *b = &world->bodies;
+    pl_pose *poses = pl_poses(world);
+    for (uint32_t row = 0; row < world->dynamic_count + world->kinematic_count; ++row) {
+        poses[row].vx = b->vx[row];
+        poses[row].vy = b->vy[row];
+    }
+}
+
 bool pl_broad_refresh_moving(plumb_world *world, real dt)
 {
+    refresh_pose_velocities(world);
     pl_pieces *pieces = &world->pieces;
     const uint32_t *moving = pl_moving(world);
     bool stale = false;

@@ -8,8 +8,27 @@
 
 #include <string.h>
 
-// Sorts broad->found by (low, high) into broad->sorted: counting sort by `low`, then insertion by
-// `high` within the few pairs of a piece.
+// Sorts the pairs of one piece by `high`. Shell sort: the usual few cost a single insertion pass, and
+// a ground under thousands of bodies does not cost their square. Gaps: Ciura 2001, then times 2.25.
+static void sort_run(pl_found *run, uint32_t count)
+{
+    static const uint32_t gaps[] = { 40412, 17961, 7983, 3548, 1577, 701, 301, 132, 57, 23, 10, 4, 1 };
+    for (size_t g = 0; g < sizeof gaps / sizeof gaps[0]; ++g) {
+        uint32_t gap = gaps[g];
+        for (uint32_t i = gap; i < count; ++i) {
+            pl_found pair = run[i];
+            uint32_t j = i;
+            while (j >= gap && run[j - gap].high > pair.high) {
+                run[j] = run[j - gap];
+                j -= gap;
+            }
+            run[j] = pair;
+        }
+    }
+}
+
+// Sorts broad->found by (low, high) into broad->sorted: counting sort by `low`, then by `high`
+// within the pairs of a piece.
 static bool sort_found(plumb_world *world)
 {
     pl_broad *broad = &world->broad;
@@ -32,14 +51,12 @@ static bool sort_found(plumb_world *world)
     for (uint32_t i = 0; i < broad->found_count; ++i) {
         sorted[at[found[i].low]++] = found[i];
     }
-    for (uint32_t i = 1; i < broad->found_count; ++i) {
-        pl_found pair = sorted[i];
-        uint32_t j = i;
-        while (j > 0 && sorted[j - 1].low == pair.low && sorted[j - 1].high > pair.high) {
-            sorted[j] = sorted[j - 1];
-            --j;
+    // Each `at` now is where the pairs of the next piece begin.
+    for (size_t s = 0; s < slots; ++s) {
+        uint32_t first = s == 0 ? 0 : at[s - 1];
+        if (at[s] - first > 1) {
+            sort_run(sorted + first, at[s] - first);
         }
-        sorted[j] = pair;
     }
     return true;
 }

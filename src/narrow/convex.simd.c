@@ -122,41 +122,70 @@ WIDE_INLINE vf segment_distance(vf px, vf py, const vf e[4], vf *qx, vf *qy)
     return rx * rx + ry * ry;
 }
 
-// Where the cores are apart: the nearest points of reference edge `r` and incident edge `w` decide
-// whether two corners face each other; if so one point along their connection replaces the clip.
-WIDE_INLINE void round_corners(touch *t, const lanes *l, const vf r[4], const vf w[4], vm flip,
-                               vf face_separation)
+// The nearest points of two cores that are apart, found so far.
+typedef struct nearest {
+    vf square;         // [m^2] of the distance
+    vf ax, ay, bx, by; // on the core of A, on that of B
+} nearest;
+
+// Every corner of `from` against every edge of `to`.
+static inline void nearest_corners(nearest *n, const pl_narrow_input *in, const outline *from,
+                                   const outline *to, const uint32_t *to_piece, bool from_a)
 {
-    vf best = splat(PL_APART), rx = splat(0), ry = splat(0), wx = splat(0), wy = splat(0);
-    for (int k = 0; k < 4; ++k) {
-        // Each end of one edge against the other edge.
-        const vf *from = k < 2 ? w : r;
-        const vf *to = k < 2 ? r : w;
-        vf px = from[(k & 1) * 2], py = from[(k & 1) * 2 + 1], qx, qy;
-        vf d = segment_distance(px, py, to, &qx, &qy);
-        vm nearer = d < best;
-        best = sel(nearer, d, best);
-        rx = sel(nearer, k < 2 ? qx : px, rx);
-        ry = sel(nearer, k < 2 ? qy : py, ry);
-        wx = sel(nearer, k < 2 ? px : qx, wx);
-        wy = sel(nearer, k < 2 ? py : qy, wy);
+    for (int k = 0; k < to->count; ++k) {
+        vf e[4];
+        edge_ends(in, to, to, to_piece, to_piece, (vm){ 0 }, (vm)splat(0) + k, e);
+        for (int i = 0; i < from->count; ++i) {
+            vf qx, qy;
+            vf d = segment_distance(from->x[i], from->y[i], e, &qx, &qy);
+            vm nearer = d < n->square;
+            n->square = sel(nearer, d, n->square);
+            n->ax = sel(nearer, from_a ? from->x[i] : qx, n->ax);
+            n->ay = sel(nearer, from_a ? from->y[i] : qy, n->ay);
+            n->bx = sel(nearer, from_a ? qx : from->x[i], n->bx);
+            n->by = sel(nearer, from_a ? qy : from->y[i], n->by);
+        }
     }
-    vf distance = vsqrt(best);
-    // Face separation is the distance unless corners face each other, where it falls short of it.
-    vm corner = (face_separation > splat((plumb_real)1e-6)) &
-                (distance > face_separation * splat((plumb_real)1.0001) + splat((plumb_real)1e-6));
-    vf inv = splat(1) / sel(corner, distance, splat(1));
-    vf nx = (wx - rx) * inv, ny = (wy - ry) * inv;
-    nx = sel(flip, -nx, nx);
-    ny = sel(flip, -ny, ny);
+}
+
+// Distance of the reference edge from the incident one, each end against the other edge.
+WIDE_INLINE vf edge_distance(const vf r[4], const vf w[4])
+{
+    vf qx, qy;
+    vf d = segment_distance(w[0], w[1], r, &qx, &qy);
+    d = vmin(d, segment_distance(w[2], w[3], r, &qx, &qy));
+    d = vmin(d, segment_distance(r[0], r[1], w, &qx, &qy));
+    d = vmin(d, segment_distance(r[2], r[3], w, &qx, &qy));
+    return vsqrt(d);
+}
+
+// Where the cores are apart and two corners face each other, no face separates them by their
+// distance: one point along the connection of the nearest corners replaces the clip. Lines end to
+// end, which have no face across their direction, are such a case at face separation 0.
+static inline void round_corners(touch *t, const lanes *l, const pl_narrow_input *in,
+                                 const outline *a, const outline *b, const vf r[4], const vf w[4],
+                                 vf face_separation)
+{
+    vf zero = splat(0);
+    vm corner = (face_separation > splat((plumb_real)-1e-5)) &
+                (edge_distance(r, w) >
+                 vmax(face_separation, zero) * splat((plumb_real)1.000002) + splat((plumb_real)4e-6));
+    if (!any(corner)) {
+        return; // the result of a lane does not depend on the others: it would not be taken
+    }
+    nearest n = { splat(PL_APART), zero, zero, zero, zero };
+    nearest_corners(&n, in, a, b, l->b, true);
+    nearest_corners(&n, in, b, a, l->a, false);
+    vf distance = vsqrt(n.square);
+    vf divisor = sel(corner & (distance > zero), distance, splat(1));
+    vf nx = (n.bx - n.ax) / divisor, ny = (n.by - n.ay) / divisor;
     vf sep = distance - l->ar - l->br;
-    // From A's core point outwards by A's radius and half the gap.
-    vf ax = sel(flip, wx, rx), ay = sel(flip, wy, ry);
-    vf out = l->ar + sep * splat((plumb_real)0.5);
+    vf out =
+        l->ar + sep * splat((plumb_real)0.5); // from A's core point: A's radius and half the gap
     t->nx = sel(corner, nx, t->nx);
     t->ny = sel(corner, ny, t->ny);
-    t->px[0] = sel(corner, ax + nx * out, t->px[0]);
-    t->py[0] = sel(corner, ay + ny * out, t->py[0]);
+    t->px[0] = sel(corner, n.ax + nx * out, t->px[0]);
+    t->py[0] = sel(corner, n.ay + ny * out, t->py[0]);
     t->sep[0] = sel(corner, sep, t->sep[0]);
     t->sep[1] = sel(corner, splat(PL_APART), t->sep[1]);
     t->feature[0] = selm(corner, t->feature[0] | 2, t->feature[0]);
@@ -202,8 +231,7 @@ static inline void convex_convex(touch *t, const lanes *l, const pl_narrow_input
     vf ref_radius = sel(flip, l->br, l->ar);
     vf inc_radius = sel(flip, l->ar, l->br);
     vf radii = ref_radius + inc_radius;
-    vm outside = (corner_v < zero) | (corner_v > face_v);
-    t->sep[0] = sel(beside & outside & (low_u > radii), splat(PL_APART), low_u - radii);
+    t->sep[0] = low_u - radii;
     t->sep[1] = sel(beside, splat(PL_APART), high_u - radii);
     vf u0 = half * (low_u + ref_radius - inc_radius);
     vf u1 = half * (high_u + ref_radius - inc_radius);
@@ -216,7 +244,7 @@ static inline void convex_convex(touch *t, const lanes *l, const pl_narrow_input
     vm code = (face << 3) | (edge << 8) | ((((vm)splat(0)) + 4) & flip);
     t->feature[0] = code;
     t->feature[1] = code | 1;
-    round_corners(t, l, r, w, flip, sel(flip, fb.separation, fa.separation));
+    round_corners(t, l, in, &a, &b, r, w, sel(flip, fb.separation, fa.separation));
 }
 
 // The circle is a core of one corner: faces of B alone, then the corners of the best face.

@@ -131,10 +131,12 @@ WIDE_INLINE void lanes_emit(const lanes *l, const touch *t, const pl_narrow_inpu
     vf zero = splat(0);
     vf friction = vsqrt(load(friction_a) * load(friction_b));
     vf restitution = vmax(load(bounce_a), load(bounce_b));
-    // Pairs that will meet within the step are contacts already: they stop at the surface instead of
-    // inside it, and an elastic impact can be put where it happens.
+    // Pairs that will meet within the step are contacts already: they stop at the surface instead
+    // of inside it, and an elastic impact can be put where it happens.
     vf limit = splat(PL_SPECULATIVE);
     vf closing = -(t->nx * l->vx + t->ny * l->vy) * splat(in->dt);
+    vf speed = vsqrt(l->vx * l->vx + l->vy * l->vy) * splat(in->dt);
+    closing = sel(restitution > zero, speed, closing); // it may come back from another impact
     limit = vmax(limit, limit + closing);
 
     plumb_real rows[PL_WIDTH][24] __attribute__((aligned(64)));
@@ -145,10 +147,16 @@ WIDE_INLINE void lanes_emit(const lanes *l, const touch *t, const pl_narrow_inpu
         point1[i] = rows[i] + 16;
     }
     scatter8(row, (vf[8]){ t->nx, t->ny, friction, restitution, zero, zero, zero, zero });
-    scatter8(point0, (vf[8]){ t->px[0] + l->oax, t->py[0] + l->oay, t->px[0] - l->dx + l->obx,
-                              t->py[0] - l->dy + l->oby, t->sep[0], zero, zero, zero });
-    scatter8(point1, (vf[8]){ t->px[1] + l->oax, t->py[1] + l->oay, t->px[1] - l->dx + l->obx,
-                              t->py[1] - l->dy + l->oby, t->sep[1], zero, zero, zero });
+    // Anchors lie on the surfaces, half the separation to either side of the middle: an elastic
+    // contact seen from afar has its true lever arms.
+    for (int k = 0; k < 2; ++k) {
+        vf gap = t->sep[k] * splat((plumb_real)0.5);
+        vf gx = t->nx * gap, gy = t->ny * gap;
+        scatter8(k == 0 ? point0 : point1,
+                 (vf[8]){ t->px[k] - gx + l->oax, t->py[k] - gy + l->oay,
+                          t->px[k] + gx - l->dx + l->obx, t->py[k] + gy - l->dy + l->oby, t->sep[k],
+                          zero, zero, zero });
+    }
     plumb_real limits[PL_WIDTH];
     store(limits, limit);
     for (uint32_t i = 0; i < count; ++i) {

@@ -4,7 +4,8 @@
 
 #include "broad/pair.h"
 
-// A point of a manifold. Anchors are relative to the centres of mass, in world axes.
+// A point of a manifold. Anchors lie on the surfaces, relative to the centres of mass, in world
+// axes.
 typedef struct pl_manifold_point {
     real ax, ay;     // [m] from A's centre of mass
     real bx, by;     // [m] from B's centre of mass

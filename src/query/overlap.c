@@ -37,8 +37,8 @@ void pl_round_make(const plumb_convex *convex, plumb_transform t, plumb_vec2 ori
 // How far b lies beyond a along a unit vector; negative: not at all.
 static double gap(const pl_round *a, const pl_round *b, double nx, double ny)
 {
-    double farthest = -INFINITY;
-    double nearest = INFINITY;
+    double farthest = -HUGE_VAL;
+    double nearest = HUGE_VAL;
     for (int i = 0; i < a->count; ++i) {
         farthest = fmax(farthest, nx * a->x[i] + ny * a->y[i]);
     }
@@ -51,7 +51,7 @@ static double gap(const pl_round *a, const pl_round *b, double nx, double ny)
 // The widest gap between the cores along the axes of a's outline; -inf when a is a point.
 static double widest_gap(const pl_round *a, const pl_round *b)
 {
-    double widest = -INFINITY;
+    double widest = -HUGE_VAL;
     for (int i = 0; i < a->count && a->count > 1; ++i) {
         int next = i + 1 == a->count ? 0 : i + 1;
         double dx = a->x[next] - a->x[i];
@@ -89,7 +89,7 @@ static double distance_sq(const pl_round *a, int i, double px, double py)
 // Smallest squared distance from b's corners to a's outline.
 static double corners_distance_sq(const pl_round *a, const pl_round *b)
 {
-    double nearest = INFINITY;
+    double nearest = HUGE_VAL;
     for (int i = 0; i < a->count; ++i) {
         for (int k = 0; k < b->count; ++k) {
             nearest = fmin(nearest, distance_sq(a, i, b->x[k], b->y[k]));
@@ -105,7 +105,7 @@ bool pl_rounds_overlap(const pl_round *a, const pl_round *b)
     if (widest > reach) {
         return false;
     }
-    if (widest <= 0 && widest > -INFINITY) { // two points have no axes: -inf
+    if (widest <= 0 && widest > -HUGE_VAL) { // two points have no axes: -inf
         return true;
     }
     return fmin(corners_distance_sq(a, b), corners_distance_sq(b, a)) <= reach * reach;

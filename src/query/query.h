@@ -8,7 +8,7 @@
 // the squares that are taken of lengths beyond it still are numbers in the float build.
 #define PL_QUERY_LIMIT ((plumb_real)1e12)
 
-// A piece that answers a query. Overlaps use piece and slot alone.
+// A piece that answers a query. Overlaps use the shape alone.
 typedef struct pl_query_hit {
     plumb_shape shape;
     plumb_body body;

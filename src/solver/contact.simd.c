@@ -10,12 +10,12 @@
 //     bias = w / a1 s,  impulse change = -a2 a3 m (v_n + bias) - a3 lambda.
 // Relaxing is the same without spring: it takes the push out of the velocities again.
 //
-// Friction acts along t = (-n_y, n_x), bounded by mu times the point's normal impulse. It is solved in the
-// relaxing sweeps alone, after the normals: the pushes of the soft sweeps then cause no friction of
-// their own, piles lean less (the top of a pyramid of 100 rows by 0.6 m instead of 2.3 m while it settles),
-// and sticking contacts hold all the same, because warm starting carries their friction over.
-// Symbols: ran = r_A x n, rat = r_A x t; m effective masses; ln, lt accumulated impulses.
-// Cost: per bundle two gathers of W body rows, about 120 flops, one scatter.
+// Friction acts along t = (-n_y, n_x), bounded by mu times the point's normal impulse. It is solved
+// in the relaxing sweeps alone, after the normals: the pushes of the soft sweeps then cause no
+// friction of their own, piles lean less (the top of a pyramid of 100 rows by 0.6 m instead of 2.3
+// m while it settles), and sticking contacts hold all the same, because warm starting carries their
+// friction over. Symbols: ran = r_A x n, rat = r_A x t; m effective masses; ln, lt accumulated
+// impulses. Cost: per bundle two gathers of W body rows, about 120 flops, one scatter.
 #include "core/wide.h"
 #include "solver/solver.h"
 
@@ -85,8 +85,8 @@ WIDE_INLINE void prepare_point(point *p, const vf row[8], const bundle *c, const
     p->lt = row[6];
 }
 
-// Contacts with immovable bodies are so many times stiffer: what carries a pile yields last, and no mass
-// ratio can make them unstable.
+// Contacts with immovable bodies are so many times stiffer: what carries a pile yields last, and no
+// mass ratio can make them unstable.
 #define STATIC_STIFFNESS ((plumb_real)2)
 
 typedef struct softness {
@@ -227,13 +227,14 @@ WIDE_INLINE vf shortfall(const bundle *c, const point *p, const body *a, const b
     *diagonal = p->kn;
     if (soft) {
         *diagonal += sel(apart, zero, c->give * p->kn);
-        return vn + sel(apart, s * splat(call->inv_h), vmax(s * c->bias_rate, splat(-call->push_speed)));
+        return vn +
+               sel(apart, s * splat(call->inv_h), vmax(s * c->bias_rate, splat(-call->push_speed)));
     }
     return vn + sel(apart, s * splat(call->inv_h), zero);
 }
 
-WIDE_INLINE void solve_normals(const bundle *c, point p[2], body *a, body *b, const pl_contact_call *call,
-                              bool soft, bool rotation)
+WIDE_INLINE void solve_normals(const bundle *c, point p[2], body *a, body *b,
+                               const pl_contact_call *call, bool soft, bool rotation)
 {
     vf zero = splat(0), one = splat(1);
     vf d0, d1;

@@ -32,7 +32,8 @@ static void fly(plumb_world *world, uint32_t row, real dt)
     real ax = world->gravity.x * gravity + b->fx[row] * b->inv_mass[row];
     real ay = world->gravity.y * gravity + b->fy[row] * b->inv_mass[row];
     real aw = b->torque[row] * b->inv_inertia[row];
-    // The large and the small part of the way apart: v + a dt / 2 would round the same way every step.
+    // The large and the small part of the way apart: v + a dt / 2 would round the same way every
+    // step.
     add(&b->center_x[row], &b->low_x[row], dt * (b->low_vx[row] + ax * dt / 2));
     add(&b->center_y[row], &b->low_y[row], dt * (b->low_vy[row] + ay * dt / 2));
     add(&b->center_x[row], &b->low_x[row], dt * b->vx[row]);

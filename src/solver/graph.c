@@ -38,9 +38,11 @@ static bool reserve_bodies(plumb_world *world)
     pl_solver *s = &world->solver;
     pl_memory *memory = &world->memory;
     size_t rows = (size_t)world->dynamic_count + world->kinematic_count + 1;
+    size_t elastic_rows = world->narrow.any_bounce ? rows : 0;
     return pl_buffer_reserve(memory, &s->bodies, rows * sizeof(pl_solver_body)) &&
            pl_buffer_reserve(memory, &s->motions, rows * sizeof(pl_solver_motion)) &&
-           pl_buffer_reserve(memory, &s->lows, world->narrow.any_bounce ? rows * 4 * sizeof(real) : 0) &&
+           pl_buffer_reserve(memory, &s->lows, elastic_rows * 4 * sizeof(real)) &&
+           pl_buffer_reserve(memory, &s->struck, elastic_rows * sizeof(real)) &&
            pl_buffer_reserve(memory, &s->rows, rows * sizeof(uint32_t)) &&
            pl_buffer_reserve(memory, &s->slots, rows * sizeof(uint32_t)) &&
            pl_buffer_reserve(memory, &s->masks, rows * sizeof(uint64_t)) &&
@@ -236,9 +238,9 @@ bool pl_solver_graph(plumb_world *world)
 
 void pl_solver_free(pl_memory *memory, pl_solver *s)
 {
-    pl_buffer *buffers[] = { &s->bodies, &s->motions, &s->rows,    &s->slots,   &s->masks,
-                             &s->colors, &s->lanes,   &s->bundles, &s->impacts, &s->classic,
-                             &s->lows };
+    pl_buffer *buffers[] = { &s->bodies,  &s->motions, &s->rows,  &s->slots,
+                             &s->masks,   &s->colors,  &s->lanes, &s->bundles,
+                             &s->impacts, &s->classic, &s->lows,  &s->struck };
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; ++i) {
         pl_buffer_free(memory, buffers[i]);
     }

@@ -21,8 +21,9 @@
 
 #include <math.h>
 
-// Longest chain of impacts followed within one substep; what is left then is solved without bounce.
-#define SWEEPS 64
+// Impacts of one substep that are followed, for each elastic contact; what is left then is solved
+// without bounce. A light ball between two heavy ones strikes many times within a substep.
+#define CHAIN 64
 
 typedef struct approach {
     bool due;     // an impact falls into this substep and bounces
@@ -85,6 +86,12 @@ static const real *low_of(const pl_solver *s, uint32_t slot)
     return (const real *)s->lows.data + (size_t)slot * 4;
 }
 
+// When in this substep a body was struck last. [s]
+static double struck_at(const pl_solver *s, uint32_t slot)
+{
+    return (double)((const real *)s->struck.data)[slot];
+}
+
 // Row of point j applied to (x, y, w) of A and B.
 static double along_normal(const pl_impact *m, const pl_impact_point *p, double ax, double ay,
                            double aw, double bx, double by, double bw)
@@ -126,13 +133,15 @@ static approach foresee(const plumb_world *world, const pl_impact *m, uint32_t j
     double square = u * u - 2 * acceleration * sep;
     out.speed = square > 0 ? sqrt(square) : 0;
     out.time = 2 * sep / (out.speed - u);
-    // The parabola holds for this substep and the one before, in which an impact may have been missed.
-    // An overlap that it cannot explain is an old one: struck now, at the speed of now.
+    // The parabola holds for this substep and the one before, in which an impact may have been
+    // missed. An overlap that it cannot explain is an old one: struck now, at the speed of now.
     double fastest = v < u ? -v : -u;
     if (!(square > 0) || out.time < -h || out.speed > fastest) {
         out.speed = sep < 0 ? -u : fastest;
         out.time = sep < 0 ? 0 : sep / fastest;
     }
+    // Neither body's present path reaches back before the impact that put it there.
+    out.time = fmax(out.time, fmax(struck_at(s, m->a), struck_at(s, m->b)));
     // What forces alone make of a substep is not a blow to a contact that carries load.
     double weight = hypot((double)ma->ax, (double)ma->ay) + hypot((double)mb->ax, (double)mb->ay);
     bool loaded = *p->lane_impulse > 0;
@@ -180,14 +189,16 @@ static void strike(const plumb_world *world, const pl_impact *m, uint32_t j, dou
         kick(&body->vx, &motion->ux, &low[0], dvx);
         kick(&body->vy, &motion->uy, &low[1], dvy);
         kick(&body->w, &motion->uw, &low[2], dw);
+        ((real *)s->struck.data)[slot] = (real)time;
         body->dx -= (real)(time * dvx);
         body->dy -= (real)(time * dvy);
         body->da -= (real)(time * dw);
     }
 }
 
-// Entry (i, j) of the inverse effective mass of a manifold's normal rows. The normal is a unit vector but
-// for rounding; its true length counts here, or every bounce would lose a rounding of energy.
+// Entry (i, j) of the inverse effective mass of a manifold's normal rows. The normal is a unit
+// vector but for rounding; its true length counts here, or every bounce would lose a rounding of
+// energy.
 static double coupling(const plumb_world *world, const pl_impact *m, uint32_t i, uint32_t j)
 {
     const pl_solver_body *a = &pl_solver_bodies(&world->solver)[m->a];
@@ -256,24 +267,64 @@ static bool resolve(plumb_world *world, const pl_impact *m, const approach at[2]
     return struck;
 }
 
+// Foresees all points of a manifold; its place in the queue is the time of its first impact.
+static void queue_impact(const plumb_world *world, pl_impact *m, double h)
+{
+    m->due = false;
+    for (uint32_t j = 0; j < m->count; ++j) {
+        approach at = foresee(world, m, j, h);
+        if (at.due && (!m->due || at.time < m->time)) {
+            m->due = true;
+            m->time = at.time;
+        }
+    }
+}
+
+// The manifold whose impact comes first; ties: the first in order. NULL: none is due.
+static pl_impact *first_due(pl_impact *impacts, uint32_t count)
+{
+    pl_impact *first = NULL;
+    for (uint32_t i = 0; i < count; ++i) {
+        if (impacts[i].due && (first == NULL || impacts[i].time < first->time)) {
+            first = &impacts[i];
+        }
+    }
+    return first;
+}
+
+static bool shares_body(const pl_impact *m, const pl_impact *other, uint32_t dynamic_slots)
+{
+    return (m->a < dynamic_slots && (m->a == other->a || m->a == other->b)) ||
+           (m->b < dynamic_slots && (m->b == other->a || m->b == other->b));
+}
+
 void pl_impacts_run(plumb_world *world, real h)
 {
     pl_solver *s = &world->solver;
     pl_impact *impacts = s->impacts.data;
     pl_pair *pairs = pl_pairs(&world->broad.pairs);
-    bool again = true;
-    for (int k = 0; k < SWEEPS && again; ++k) {
-        again = false;
+    real *struck = s->struck.data;
+    for (uint32_t slot = 0; slot < s->slot_count; ++slot) {
+        struck[slot] = -h; // none yet; an impact may lie one substep in the past
+    }
+    for (uint32_t i = 0; i < s->impact_count; ++i) {
+        queue_impact(world, &impacts[i], (double)h);
+    }
+    uint64_t left = (uint64_t)CHAIN * s->impact_count;
+    for (pl_impact *m; left > 0 && (m = first_due(impacts, s->impact_count)) != NULL; --left) {
+        approach at[2] = { { 0 }, { 0 } };
+        for (uint32_t j = 0; j < m->count; ++j) {
+            at[j] = foresee(world, m, j, (double)h);
+        }
+        m->due = false;
+        if (!resolve(world, m, at)) {
+            continue;
+        }
+        pairs[m->pair].flags |= PL_PAIR_HIT;
+        ++s->bounce_count;
         for (uint32_t i = 0; i < s->impact_count; ++i) {
-            pl_impact *m = &impacts[i];
-            approach at[2] = { { 0 }, { 0 } };
-            for (uint32_t j = 0; j < m->count; ++j) {
-                at[j] = foresee(world, m, j, (double)h);
-            }
-            if ((at[0].due || at[1].due) && resolve(world, m, at)) {
-                pairs[m->pair].flags |= PL_PAIR_HIT;
-                ++s->bounce_count;
-                again = true;
+            if (shares_body(m, &impacts[i], s->dynamic_slots)) {
+                queue_impact(world, &impacts[i], (double)h);
             }
         }
     }

@@ -12,8 +12,9 @@
 // Cost: (2 substeps x iterations + 2) sweeps over the contacts, 2 substeps passes over the bodies.
 #include "world/state.h"
 
-// Contact frequency as a share of the substep rate. Stiffer contacts sink less, as the square; above a
-// fifth a pyramid of 20 never comes to rest at one sweep a substep (README.md has the table).
+// Contact frequency as a share of the substep rate. Stiffer contacts sink less, as the square;
+// above a fifth a pyramid of 20 never comes to rest at one sweep a substep (README.md has the
+// table).
 #define STIFFEST ((real)0.1875)
 
 typedef real quad __attribute__((vector_size(4 * sizeof(real)), may_alias));
@@ -33,8 +34,8 @@ static void integrate_velocities(const plumb_world *world, real h)
     }
 }
 
-// The same, and what rounding takes from u is added in the next substep: without that, an elastic ball
-// gains or loses 2e-7 of its energy a bounce in the float library.
+// The same, and what rounding takes from u is added in the next substep: without that, an elastic
+// ball gains or loses 2e-7 of its energy a bounce in the float library.
 static void integrate_velocities_carefully(const plumb_world *world, real h)
 {
     const pl_solver *s = &world->solver;

@@ -32,6 +32,8 @@ typedef struct pl_impact {
     uint32_t pair;
     uint32_t count;
     real nx, ny, friction, restitution;
+    bool due;    // an impact falls into the present substep
+    double time; // [s] of the first one, since the start of the substep
     pl_impact_point point[2];
 } pl_impact;
 
@@ -57,12 +59,13 @@ typedef struct pl_classic_contact {
 
 typedef struct pl_solver {
     pl_buffer bodies, motions; // engaged dynamic bodies, engaged kinematic ones, one immovable body
-    pl_buffer lows;            // a quad a slot: what rounding took from its velocity; if any contact bounces
-    pl_buffer rows;            // uint32_t: body row of a slot
-    pl_buffer slots;   // uint32_t: slot of a dynamic or kinematic row; PL_NONE: not in a contact
-    pl_buffer masks;   // uint64_t a slot: colours taken
-    pl_buffer colors;  // uint8_t a manifold
-    pl_buffer lanes;   // uint32_t a lane: its manifold; PL_NONE: empty
+    pl_buffer lows;   // if any contact bounces, a quad a slot: what rounding took from its velocity
+    pl_buffer struck; // likewise a real a slot: when in the substep an impact struck it last [s]
+    pl_buffer rows;   // uint32_t: body row of a slot
+    pl_buffer slots;  // uint32_t: slot of a dynamic or kinematic row; PL_NONE: not in a contact
+    pl_buffer masks;  // uint64_t a slot: colours taken
+    pl_buffer colors; // uint8_t a manifold
+    pl_buffer lanes;  // uint32_t a lane: its manifold; PL_NONE: empty
     pl_buffer bundles; // constraints of `width` contacts each
     pl_buffer impacts; // pl_impact
     pl_buffer classic; // pl_classic_contact, for the classic solver alone

@@ -72,7 +72,7 @@ typedef enum pl_piece_kind {
     PL_PIECE_FREE,
     PL_PIECE_CIRCLE,  // core: centre, radius
     PL_PIECE_CAPSULE, // core: centre, direction (c, s), half length hx, radius; segments have radius 0
-    PL_PIECE_BOX,     // core: centre, rotation, half extents, rounding; also in the vertex pool
+    PL_PIECE_BOX,     // core: centre, rotation, half extents; no rounding; also in the vertex pool
     PL_PIECE_POLYGON, // corners in the vertex pool; core: centre of the box around it, radius
     PL_PIECE_KIND_COUNT
 } pl_piece_kind;

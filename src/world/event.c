@@ -55,12 +55,11 @@ static plumb_contact_point view_point(const plumb_world *world, const pl_manifol
     const pl_manifold_point *p = &m->point[k];
     plumb_vec2 a = carried(world, row_a, p->ax, p->ay);
     plumb_vec2 b = carried(world, row_b, p->bx, p->by);
-    // Both were one point when the manifold was made: what lies between them now is how far the
-    // surfaces have moved apart.
-    plumb_vec2 moved = plumb_vec2_sub(b, a);
+    // Each lies on its surface: the way from one to the other, along the normal, is the separation.
+    plumb_vec2 gap = plumb_vec2_sub(b, a);
     return (plumb_contact_point){
         .point = plumb_vec2_lerp(a, b, (plumb_real)0.5),
-        .separation = p->separation + m->nx * moved.x + m->ny * moved.y,
+        .separation = m->nx * gap.x + m->ny * gap.y,
         .normal_impulse = pair->normal[k],
         .tangent_impulse = pair->tangent[k],
         .feature = m->feature[k],

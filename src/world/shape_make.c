@@ -230,7 +230,7 @@ static void finish_box(const maker *m, pl_made_piece *piece, plumb_vec2 center, 
 {
     piece->kind = PL_PIECE_BOX;
     piece->core = (pl_core){
-        center.x, center.y, q.c, q.s, half.x, half.y, piece->convex.radius, reach_of(&piece->convex)
+        center.x, center.y, q.c, q.s, half.x, half.y, 0, reach_of(&piece->convex)
     };
     count_corners(m, piece);
 }
@@ -266,8 +266,8 @@ static bool try_box(const maker *m, pl_made_piece *piece)
 
 static void finish_polygon(const maker *m, pl_made_piece *piece)
 {
-    // Seams are the polygon kernel's: a piece that has one stays a polygon.
-    if (piece->seams == 0 && try_box(m, piece)) {
+    // Seams and round corners are the polygon kernel's: a piece that has them stays a polygon.
+    if (piece->seams == 0 && piece->convex.radius <= 0 && try_box(m, piece)) {
         return;
     }
     const plumb_convex *c = &piece->convex;
@@ -320,7 +320,11 @@ static plumb_result make_single(const maker *m)
         finish_capsule(m, piece);
         break;
     case PLUMB_BOX:
-        finish_box(m, piece, d->center, plumb_rot_make(d->angle), d->half);
+        if (piece->convex.radius > 0) {
+            finish_polygon(m, piece);
+        } else {
+            finish_box(m, piece, d->center, plumb_rot_make(d->angle), d->half);
+        }
         break;
     default:
         finish_polygon(m, piece);

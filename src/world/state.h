@@ -63,7 +63,7 @@ struct plumb_world {
     uint32_t moving_count;
     pl_buffer poses;       // pl_pose a body row
     bool rows_moved;       // body rows changed place: pairs must look their rows up again
-    bool pairs_dirty;      // pieces came, went or were teleported: the pair list must be rebuilt
+    bool pairs_dirty;      // pieces came, went or were teleported: grids and pair list must be rebuilt
     bool static_dirty;     // static pieces came, went or moved: the static grid must be rebuilt
     bool schedule_dirty;   // something structural changed: `wanted` is asked again
 

@@ -202,7 +202,7 @@ static const scene scenes[] = {
     { "box corner hits box", 1.5, 0, 0, box_corner_hits_box, 0.5, 0.02, 0 },
     { "rough box hits box", 1.5, 0, 0, rough_box_hits_box, 0.5, 0.03, 0.15 },
     { "stack of 5 at rest", 4, 0, -10, stack, 1, 0.03, 0 },
-    { "dominoes", 1.5, 0, -10, dominoes, 0.6, 0.05, 0.3 },
+    { "dominoes", 1.5, 0, -10, dominoes, 0.6, 0.05, 0 },
 };
 
 //---- runs ----------------------------------------------------------------------------------------

@@ -73,6 +73,16 @@ static pair_shape regular_polygon(unsigned *seed, double r)
     return pair_polygon(p, count, r);
 }
 
+// A polygon that is a box would be stored as one, and go to another kernel.
+static pair_shape some_polygon(unsigned *seed, bool tidy, double r)
+{
+    pair_shape s;
+    do {
+        s = tidy ? regular_polygon(seed, r) : random_polygon(seed, r);
+    } while (s.kind != PL_PIECE_POLYGON);
+    return s;
+}
+
 static pair_shape random_shape(unsigned *seed, shape_class kind, bool tidy)
 {
     // Tidy ones have sizes of quarters, which meet exactly.
@@ -91,9 +101,9 @@ static pair_shape random_shape(unsigned *seed, shape_class kind, bool tidy)
     case ROUNDED_BOX:
         return pair_box(u, v, r);
     case POLYGON:
-        return tidy ? regular_polygon(seed, 0) : random_polygon(seed, 0);
+        return some_polygon(seed, tidy, 0);
     default:
-        return tidy ? regular_polygon(seed, r) : random_polygon(seed, r);
+        return some_polygon(seed, tidy, r);
     }
 }
 
@@ -369,10 +379,10 @@ static void three_opinions(void **state)
     assert_true(sum.pairs >= 100000);
     assert_int_equal(sum.wrong_hit, 0);
     assert_int_equal(sum.both_against_arbiter, 0);
-    // Known limit: rounded shapes whose cores are less than FLICKER apart. The preferred reference
-    // face can then be one that does not face the nearest corner, and the clip cuts that corner
-    // off: a contact is found some millimetres late or shallow, in about one of 20,000 random
-    // pairs.
+    // Known limit of rounded shapes: where two corners face one another within about a degree of a
+    // face's normal, the kernel treats the faces as meeting flat, to keep two points, and clips off
+    // the corner past the end of the face. A contact is then found some millimetres late or
+    // shallow, in about one of 15,000 random pairs.
     int rare = sum.pairs / 10000;
     assert_true(sum.wrong_near <= rare && sum.wrong_depth <= rare);
     assert_true(sum.wrong_normal <= rare && sum.wrong_point <= rare);

@@ -1,6 +1,6 @@
 // pairs.c - the arrays that a narrow-phase kernel reads, filled by hand. Reads, writes: the batch.
 #include "harness/pairs.h"
-#include "plumb/math.h"
+#include "world/rows.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -31,63 +31,48 @@ static void need(bool ok, const char *what)
     }
 }
 
-static pair_shape make(pl_piece_kind kind, plumb_result made, const plumb_convex *convex)
+// The shape as a world stores it: kind, core and corners are what the kernels would get. One world
+// serves all shapes of a program; it holds one body with one shape at a time.
+static pair_shape make(const plumb_shape_desc *desc)
 {
-    need(made == PLUMB_OK, "a shape was refused");
-    pair_shape s = { .kind = kind, .convex = *convex };
-    s.core.c = 1;
-    s.core.radius = convex->radius;
-    for (int i = 0; i < convex->count; ++i) {
-        plumb_real reach = plumb_vec2_magnitude(convex->points[i]) + convex->radius;
-        s.core.reach = plumb_max(s.core.reach, reach);
+    static plumb_world *world;
+    if (world == NULL) {
+        need(plumb_world_create(NULL, &world) == PLUMB_OK, "no world");
     }
+    plumb_body body = plumb_body_create(world, &(plumb_body_desc){ 0 });
+    need(!plumb_is_null(plumb_shape_create(world, body, desc)), "a shape was refused");
+    uint32_t piece = world->bodies.first_piece[0];
+    pair_shape s = { .kind = (pl_piece_kind)world->pieces.kind[piece],
+                     .core = world->pieces.core[piece] };
+    pl_piece_convex(world, piece, &s.convex);
+    plumb_body_destroy(world, body);
     return s;
 }
 
 pair_shape pair_circle(double r)
 {
-    plumb_convex c = { 0 };
-    plumb_result made = plumb_convex_circle((plumb_vec2){ 0, 0 }, (plumb_real)r, &c);
-    return make(PL_PIECE_CIRCLE, made, &c);
+    return make(&(plumb_shape_desc){ .kind = PLUMB_CIRCLE, .radius = (plumb_real)r });
 }
 
 pair_shape pair_capsule(double half, double r)
 {
-    plumb_convex c = { 0 };
-    plumb_vec2 p = { (plumb_real)-half, 0 }, q = { (plumb_real)half, 0 };
-    plumb_result made =
-        r > 0 ? plumb_convex_capsule(p, q, (plumb_real)r, &c) : plumb_convex_segment(p, q, &c);
-    pair_shape s = make(PL_PIECE_CAPSULE, made, &c);
-    s.core.hx = (plumb_real)half;
-    return s;
+    plumb_vec2 ends[2] = { { (plumb_real)-half, 0 }, { (plumb_real)half, 0 } };
+    return make(&(plumb_shape_desc){ .kind = r > 0 ? PLUMB_CAPSULE : PLUMB_SEGMENT,
+                                     .radius = (plumb_real)r,
+                                     .points = ends,
+                                     .count = 2 });
 }
 
 pair_shape pair_box(double hx, double hy, double r)
 {
-    plumb_convex c = { 0 };
-    plumb_vec2 half = { (plumb_real)hx, (plumb_real)hy };
-    plumb_result made = plumb_convex_box(half, (plumb_vec2){ 0, 0 }, 0, (plumb_real)r, &c);
-    pair_shape s = make(PL_PIECE_BOX, made, &c);
-    s.core.hx = half.x;
-    s.core.hy = half.y;
-    return s;
+    return make(&(plumb_shape_desc){
+        .kind = PLUMB_BOX, .half = { (plumb_real)hx, (plumb_real)hy }, .radius = (plumb_real)r });
 }
 
 pair_shape pair_polygon(const plumb_vec2 *points, int count, double r)
 {
-    plumb_convex c = { 0 };
-    plumb_result made = plumb_convex_polygon(points, count, (plumb_real)r, &c);
-    pair_shape s = make(PL_PIECE_POLYGON, made, &c);
-    plumb_aabb box = plumb_aabb_empty();
-    for (int i = 0; i < c.count; ++i) {
-        box = plumb_aabb_add_point(box, c.points[i]);
-    }
-    plumb_vec2 center = plumb_aabb_center(box);
-    s.core.x = center.x;
-    s.core.y = center.y;
-    s.core.hx = (box.max.x - box.min.x) / 2;
-    s.core.hy = (box.max.y - box.min.y) / 2;
-    return s;
+    return make(&(plumb_shape_desc){
+        .kind = PLUMB_POLYGON, .radius = (plumb_real)r, .points = points, .count = count });
 }
 
 static void *room(size_t count, size_t size)

@@ -98,6 +98,10 @@ static void portal(pile *p, int levels, double unused)
 
 //---- the table -----------------------------------------------------------------------------------
 
+// Sinking: a soft contact of stiffness m w^2 (m: effective mass of a point, w: 2 pi times the
+// contact frequency) gives way by F / (m w^2). All that is above adds to F, and every contact below
+// adds to the way of the topmost body, so a stack of n sinks with n (n + 1) / 2; measured 2.8e-4 m
+// times that. Points far from the centre have less effective mass: cards sink more.
 typedef struct stand_case {
     const char *name;
     void (*build)(pile *p, int n, double ratio);
@@ -147,15 +151,15 @@ static void what_stands_stands(void **state)
     (void)state;
     const stand_case cases[] = {
         { "stack of 10", stack, 10, 0, 30, 1e-3, 0.02, 1e-4, 0, 0, false },
-        { "stack of 20", stack, 20, 0, 30, 5e-3, 0.05, 1e-3, 0, 0, false },
+        { "stack of 20", stack, 20, 0, 30, 5e-3, 0.08, 1e-3, 0, 0, false },
         { "pyramid, base 10", pyramid, 10, 0, 20, 5e-3, 0.02, 1e-3, 0, 0, false },
         { "pyramid, base 20", pyramid, 20, 0, 20, 0.02, 0.05, 5e-3, 0, 0, false },
         { "10 times as heavy on 3", heavy_on_light, 3, 10, 20, 1e-3, 0.02, 1e-4, 0, 0, false },
         { "50 times as heavy on 3", heavy_on_light, 3, 50, 20, 5e-3, 0.1, 1e-3, 0, 0, false },
         { "100 times as heavy on 1", heavy_on_light, 1, 100, 20, 5e-3, 0.1, 1e-3, 0, 0, false },
         { "100 times as heavy on 3", heavy_on_light, 3, 100, 20, 0.01, 0.2, 1e-3, 0, 0, false },
-        { "alternating 1 : 10", alternating, 10, 10, 20, 5e-3, 0.05, 1e-3, 0, 0, false },
-        { "cards 25 : 1", cards, 20, 25, 20, 1e-3, 0.02, 1e-3, 0, 0, false },
+        { "alternating 1 : 10", alternating, 10, 10, 20, 5e-3, 0.08, 1e-3, 0, 0, false },
+        { "cards 25 : 1", cards, 20, 25, 20, 1e-3, 0.12, 1e-3, 0, 0, false },
         { "slender 1 : 4", slender, 5, 4, 20, 0.01, 0.02, 1e-3, 0, 0, false },
         { "portals", portal, 5, 0, 20, 5e-3, 0.02, 1e-3, 0, 0, false },
         // Spacing of float: 6e-5 m at 1e3, 1e-3 m at 1e4. A few of those is what there is.

@@ -232,7 +232,7 @@ static void test_far_away(void **state)
     plumb_world *world = make_world(3);
     for (int i = 0; i < 200; ++i) {
         plumb_body body = add_random(world, 10, 0.2, 2);
-        double far = PLUMB_REAL_EPSILON < 1e-10 ? 9e8 : 1e4;
+        double far = (double)PLUMB_REAL_EPSILON < 1e-10 ? 9e8 : 1e4;
         plumb_vec2 at = plumb_v2((plumb_real)((i % 3 - 1) * far + uniform(-9, 9)),
                                  (plumb_real)((i % 2) * far + uniform(-9, 9)));
         assert_int_equal(plumb_body_teleport(world, body, at, 1), PLUMB_OK);

@@ -363,7 +363,7 @@ static double core_distance(const plumb_convex *a, plumb_transform ta, const plu
     if (surely_contains(a, at[0], at[1][0]) || surely_contains(b, at[1], at[0][0])) {
         return -1;
     }
-    double nearest = INFINITY;
+    double nearest = HUGE_VAL;
     for (int i = 0; i < a->count; ++i) {
         spot p = at[0][i], q = at[0][(i + 1) % a->count];
         for (int k = 0; k < b->count; ++k) {
@@ -1064,7 +1064,7 @@ static void test_chain(void **state)
 static void test_far_away(void **state)
 {
     (void)state;
-    double far = PLUMB_REAL_EPSILON < 1e-10 ? 9e8 : 1e5;
+    double far = (double)PLUMB_REAL_EPSILON < 1e-10 ? 9e8 : 1e5;
     plumb_world *world = make_world(12);
     for (int i = 0; i < 150; ++i) {
         plumb_body body = add_random(world, 10, 0.2, 1);
