@@ -38,7 +38,7 @@ typedef struct plumb_world_desc {
     plumb_solver solver;      ///< default PLUMB_SOLVER_SOFT
     int substeps;             ///< [-] 1..64, default 4. PGS: sub-steps of the whole step, default 1
     int iterations;           ///< [-] 1..1000. PGS: sweeps a step, default 10. Soft: sweeps a substep, default 1
-    plumb_real contact_hertz; ///< [1/s] >= 0. Contact stiffness; default: 3/16 of the substep rate,
+    plumb_real contact_hertz; ///< [1/s] >= 0. Contact stiffness; default: a sixth of the substep rate,
                               ///< which is also the largest that is used
     plumb_real contact_damping;   ///< [-] >= 0, damping ratio of contacts, default 3
     plumb_real push_speed;        ///< [m/s] >= 0, fastest recovery from overlap, default 3

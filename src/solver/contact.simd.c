@@ -293,7 +293,7 @@ WIDE_INLINE void sweep(const pl_contact_call *call, uint32_t first, uint32_t cou
         gather_body(&a, call, c->a);
         gather_body(&b, call, c->b);
         solve_normals(c, c->p, &a, &b, call, soft, rotation);
-        if (friction && !soft) {
+        if (friction) {
             solve_tangent(c, &c->p[0], &a, &b, rotation);
             solve_tangent(c, &c->p[1], &a, &b, rotation);
         }

@@ -70,7 +70,7 @@ static plumb_result check_desc(const plumb_world *world, const char *fn, const p
     return r != PLUMB_OK ? r : check_integers(world, fn, d);
 }
 
-// contact_hertz stays 0: "a quarter of the substep rate", which is known only when a step is taken.
+// contact_hertz stays 0: "a sixth of the substep rate", which is known only when a step is taken.
 static void resolve_defaults(plumb_world_desc *d)
 {
     bool soft = d->solver == PLUMB_SOLVER_SOFT;

@@ -253,18 +253,17 @@ static void judge_manifold(tally *t, const pair_batch *batch, int i, const pl_ma
     for (uint32_t k = 0; k < m->count; ++k) {
         const pl_manifold_point *at = &m->point[k];
         const pl_pose *pa = &pairs_a(batch, i)->pose, *pb = &pairs_b(batch, i)->pose;
-        double x = (double)pa->x + (double)at->ax, y = (double)pa->y + (double)at->ay;
-        double half = (double)at->separation / 2;
-        // A's surface lies half a gap back along the normal, B's half a gap on. On rounded
-        // shapes that meet at an angle, the less deep point lies below the surface: the rounding is
-        // counted along the normal. Never above, and the deepest one is on both.
-        double above_a = arbiter_distance(a, x - half * nx, y - half * ny);
-        double above_b = arbiter_distance(b, x + half * nx, y + half * ny);
-        if ((double)at->separation > depth && a->radius + b->radius > 0) {
+        double gap = (double)at->separation;
+        double ax = (double)pa->x + (double)at->ax, ay = (double)pa->y + (double)at->ay;
+        double bx = (double)pb->x + (double)at->bx, by = (double)pb->y + (double)at->by;
+        // On rounded shapes that meet at an angle, the less deep point lies below the surface: the
+        // rounding is counted along the normal. Never above, and the deepest one is on both.
+        double above_a = arbiter_distance(a, ax, ay), above_b = arbiter_distance(b, bx, by);
+        if (gap > depth && a->radius + b->radius > 0) {
             above_a = fmax(above_a, 0), above_b = fmax(above_b, 0);
         }
-        double same = hypot((double)pb->x + (double)at->bx - x, (double)pb->y + (double)at->by - y);
-        double apart = fmax(fmax(fabs(above_a), fabs(above_b)), same);
+        double across = hypot(bx - ax - gap * nx, by - ay - gap * ny);
+        double apart = fmax(fmax(fabs(above_a), fabs(above_b)), across);
         t->worst_point = fmax(t->worst_point, apart / band);
         if (!(apart <= band)) {
             list(&t->wrong_point, "point off a surface by", p, q, i, apart, 0);
@@ -379,11 +378,8 @@ static void three_opinions(void **state)
     assert_true(sum.pairs >= 100000);
     assert_int_equal(sum.wrong_hit, 0);
     assert_int_equal(sum.both_against_arbiter, 0);
-    // Known limit of rounded shapes: where two corners face one another within about a degree of a
-    // face's normal, the kernel treats the faces as meeting flat, to keep two points, and clips off
-    // the corner past the end of the face. A contact is then found some millimetres late or
-    // shallow, in about one of 15,000 random pairs.
-    int rare = sum.pairs / 10000;
+    // Rounded shapes near the change from two flat faces to two corners may be a millimetre off.
+    int rare = sum.pairs / 20000;
     assert_true(sum.wrong_near <= rare && sum.wrong_depth <= rare);
     assert_true(sum.wrong_normal <= rare && sum.wrong_point <= rare);
     // The vote is worth something only where libccd mostly agrees.

@@ -85,6 +85,38 @@ static void slender(pile *p, int n, double ratio)
     }
 }
 
+// Rounded boxes, each a little beside the one below, as bricks are: their flat faces overhang.
+static void staggered(pile *p, int n, double shift)
+{
+    for (int i = 0; i < n; ++i) {
+        double x = i % 2 ? shift : 0;
+        plumb_body b = sim_body(p->w, PLUMB_DYNAMIC, x, 0.5 + i, 0);
+        plumb_shape_desc box = { .kind = PLUMB_BOX, .half = sim_vec(0.4, 0.4), .material = p->m };
+        box.radius = (plumb_real)0.1;
+        assert_false(plumb_is_null(plumb_shape_create(p->w, b, &box)));
+        p->body[p->count] = b;
+        p->x[p->count] = x, p->y[p->count] = 0.5 + i;
+        ++p->count;
+    }
+}
+
+// Capsules lying on one another, side by side.
+static void logs(pile *p, int n, double shift)
+{
+    for (int i = 0; i < n; ++i) {
+        double x = i % 2 ? shift : 0;
+        plumb_vec2 ends[2] = { sim_vec(-1, 0), sim_vec(1, 0) };
+        plumb_body b = sim_body(p->w, PLUMB_DYNAMIC, x, 0.25 + 0.5 * i, 0);
+        plumb_shape_desc log = { .kind = PLUMB_CAPSULE, .points = ends, .count = 2 };
+        log.radius = (plumb_real)0.25;
+        log.material = p->m;
+        assert_false(plumb_is_null(plumb_shape_create(p->w, b, &log)));
+        p->body[p->count] = b;
+        p->x[p->count] = x, p->y[p->count] = 0.25 + 0.5 * i;
+        ++p->count;
+    }
+}
+
 // Each level of two posts and a beam across them.
 static void portal(pile *p, int levels, double unused)
 {
@@ -161,6 +193,8 @@ static void what_stands_stands(void **state)
         { "alternating 1 : 10", alternating, 10, 10, 20, 5e-3, 0.08, 1e-3, 0, 0, false },
         { "cards 25 : 1", cards, 20, 25, 20, 1e-3, 0.12, 1e-3, 0, 0, false },
         { "slender 1 : 4", slender, 5, 4, 20, 0.01, 0.02, 1e-3, 0, 0, false },
+        { "rounded boxes, staggered", staggered, 8, 0.2, 20, 5e-3, 0.03, 1e-3, 0, 0, false },
+        { "capsules, staggered", logs, 8, 0.5, 20, 5e-3, 0.03, 1e-3, 0, 0, false },
         { "portals", portal, 5, 0, 20, 5e-3, 0.02, 1e-3, 0, 0, false },
         // Spacing of float: 6e-5 m at 1e3, 1e-3 m at 1e4. A few of those is what there is.
         { "stack of 5, 1 km off", stack, 5, 0, 20, 5e-3, 0.02, 2e-3, 1e3, 0, true },

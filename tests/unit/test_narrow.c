@@ -152,6 +152,15 @@ static void add_known(pair_batch *batch, const known *k)
               (pair_pose){ k->q.x, k->q.y, k->q.angle });
 }
 
+// The anchors lie on the two surfaces; the table has the point midway.
+static void middle_of(const pair_batch *batch, const pl_manifold *m, uint32_t i, double *x,
+                      double *y)
+{
+    const pl_pose *a = &pairs_a(batch, 0)->pose, *b = &pairs_b(batch, 0)->pose;
+    *x = ((double)(a->x + m->point[i].ax) + (double)(b->x + m->point[i].bx)) / 2;
+    *y = ((double)(a->y + m->point[i].ay) + (double)(b->y + m->point[i].by)) / 2;
+}
+
 // One case; prints what differs. Points that the table gives twice may be one.
 static bool as_known(const pair_batch *batch, const known *k)
 {
@@ -167,9 +176,8 @@ static bool as_known(const pair_batch *batch, const known *k)
     double deepest = INFINITY;
     int found = 0;
     for (uint32_t i = 0; i < m.count; ++i) {
-        double separation = (double)m.point[i].separation;
-        double x = (double)(pairs_a(batch, 0)->pose.x + m.point[i].ax);
-        double y = (double)(pairs_a(batch, 0)->pose.y + m.point[i].ay);
+        double separation = (double)m.point[i].separation, x, y;
+        middle_of(batch, &m, i, &x, &y);
         deepest = fmin(deepest, separation);
         for (int j = 0; j < k->count; ++j) {
             found += fabs(x - k->x[j]) <= slack() && fabs(y - k->y[j]) <= slack() &&
@@ -183,9 +191,9 @@ static bool as_known(const pair_batch *batch, const known *k)
     if (!ok) {
         print_message("%s: normal %g, %g", k->name, (double)m.nx, (double)m.ny);
         for (uint32_t i = 0; i < m.count; ++i) {
-            print_message("; at %g, %g: %g", (double)(pairs_a(batch, 0)->pose.x + m.point[i].ax),
-                          (double)(pairs_a(batch, 0)->pose.y + m.point[i].ay),
-                          (double)m.point[i].separation);
+            double x, y;
+            middle_of(batch, &m, i, &x, &y);
+            print_message("; at %g, %g: %g", x, y, (double)m.point[i].separation);
         }
         print_message("\n");
     }
