@@ -10,12 +10,14 @@
 //     bias = w / a1 s,  impulse change = -a2 a3 m (v_n + bias) - a3 lambda.
 // Relaxing is the same without spring: it takes the push out of the velocities again.
 //
-// Friction acts along t = (-n_y, n_x), bounded by mu times the point's normal impulse. It is solved
-// in the relaxing sweeps alone, after the normals: the pushes of the soft sweeps then cause no
-// friction of their own, piles lean less (the top of a pyramid of 100 rows by 0.6 m instead of 2.3
-// m while it settles), and sticking contacts hold all the same, because warm starting carries their
-// friction over. Symbols: ran = r_A x n, rat = r_A x t; m effective masses; ln, lt accumulated
-// impulses. Cost: per bundle two gathers of W body rows, about 120 flops, one scatter.
+// Friction acts along t = (-n_y, n_x), bounded by mu times the point's normal impulse, and is solved after
+// the normals: a pyramid of 100 rows leans by 0.5 m while it settles, with friction first by 2 m.
+//
+// The two points of a contact are one 2x2 block, solved exactly: of the four cases (both push, one of
+// them, none) the one is taken that leaves no point approaching and no impulse pulling.
+//
+// Symbols: ran = r_A x n, rat = r_A x t; kn inverse effective mass; ln, lt accumulated impulses.
+// Cost: per bundle two gathers of W body rows, about 150 flops, one scatter.
 #include "core/wide.h"
 #include "solver/solver.h"
 
