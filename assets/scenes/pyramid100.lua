@@ -18,6 +18,6 @@ for row = 1, rows do
     end
 end
 
-expect { "the pyramid stands", at = 12, max_speed = 0.1 }
+expect { "the pyramid stands", at = 12, max_speed = 0.2 }
 expect { "the top stays on top", at = 12, body = ("box_%d_1"):format(rows), x = 0, y = rows - 1, tolerance = 0.5 }
 expect { "little overlap at rest", at = 12, max_penetration = 0.03 }

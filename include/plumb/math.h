@@ -1,5 +1,5 @@
 /// math.h - the plane geometry of a physics text: vectors, rotations, rigid transforms, boxes.
-/// Matrices, homogeneous transforms and the screen are in matrix.h, which this header includes.
+/// Matrices, homogeneous transforms and the screen are in matrix.h.
 ///
 ///     plumb_vec2 v = plumb_vec2_polar(20, plumb_radians(35));       // 20 m/s at 35 degrees
 ///     plumb_real uphill = plumb_vec2_component(v, slope_direction); // scalar projection
@@ -526,6 +526,5 @@ static inline plumb_vec2 plumb_aabb_extent(plumb_aabb box)
 
 PLUMB_END
 
-#include "plumb/matrix.h"
 
 #endif

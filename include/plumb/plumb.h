@@ -5,6 +5,7 @@
 #include "plumb/base.h"
 #include "plumb/types.h"
 #include "plumb/math.h"
+#include "plumb/matrix.h"
 #include "plumb/geometry.h"
 #include "plumb/world.h"
 #include "plumb/material.h"

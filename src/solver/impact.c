@@ -86,6 +86,11 @@ static const real *low_of(const pl_solver *s, uint32_t slot)
     return (const real *)s->lows.data + (size_t)slot * 4;
 }
 
+static double length(double x, double y)
+{
+    return sqrt(x * x + y * y);
+}
+
 // When in this substep a body was struck last. [s]
 static double struck_at(const pl_solver *s, uint32_t slot)
 {
@@ -141,9 +146,11 @@ static approach foresee(const plumb_world *world, const pl_impact *m, uint32_t j
         out.time = sep < 0 ? 0 : sep / fastest;
     }
     // Neither body's present path reaches back before the impact that put it there.
-    out.time = fmax(out.time, fmax(struck_at(s, m->a), struck_at(s, m->b)));
+    double after_a = struck_at(s, m->a), after_b = struck_at(s, m->b);
+    double after = after_a > after_b ? after_a : after_b;
+    out.time = out.time < after ? after : out.time;
     // What forces alone make of a substep is not a blow to a contact that carries load.
-    double weight = hypot((double)ma->ax, (double)ma->ay) + hypot((double)mb->ax, (double)mb->ay);
+    double weight = length((double)ma->ax, (double)ma->ay) + length((double)mb->ax, (double)mb->ay);
     bool loaded = *p->lane_impulse > 0;
     if (out.speed <= (double)world->desc.restitution_speed ||
         (loaded && out.speed <= 4 * weight * h)) {

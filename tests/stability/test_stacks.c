@@ -193,7 +193,7 @@ static void what_stands_stands(void **state)
         { "alternating 1 : 10", alternating, 10, 10, 20, 5e-3, 0.08, 1e-3, 0, 0, false },
         { "cards 25 : 1", cards, 20, 25, 20, 1e-3, 0.12, 1e-3, 0, 0, false },
         { "slender 1 : 4", slender, 5, 4, 20, 0.01, 0.02, 1e-3, 0, 0, false },
-        { "rounded boxes, staggered", staggered, 8, 0.2, 20, 5e-3, 0.03, 1e-3, 0, 0, false },
+        { "rounded boxes, staggered", staggered, 8, 0.2, 20, 0.01, 0.03, 1e-3, 0, 0, false },
         { "capsules, staggered", logs, 8, 0.5, 20, 5e-3, 0.03, 1e-3, 0, 0, false },
         { "portals", portal, 5, 0, 20, 5e-3, 0.02, 1e-3, 0, 0, false },
         // Spacing of float: 6e-5 m at 1e3, 1e-3 m at 1e4. A few of those is what there is.

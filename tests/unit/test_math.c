@@ -9,6 +9,7 @@
 #include <cmocka.h>
 
 #include "plumb/math.h"
+#include "plumb/matrix.h"
 
 #define TRIALS 2000
 

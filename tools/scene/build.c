@@ -103,7 +103,7 @@ void sc_build_material(scene *s, const sc_site *site, int table)
     sc_material *m = *slot = sc_need(s, NULL, 0, sizeof *m);
     *m = (sc_material){ .def = def, .line = site->line };
     if (def.name[0] != 0) {
-        strcpy(m->id, def.name);
+        snprintf(m->id, sizeof m->id, "%s", def.name);
     } else {
         snprintf(m->id, sizeof m->id, "material%d", s->materials.count);
     }
@@ -197,7 +197,7 @@ static sc_body *add_record(scene *s, const sc_body_def *def)
         char name[SC_NAME_SIZE];
         snprintf(name, sizeof name, "body%llu", number++);
         if (sc_body_named(s, name) == NULL) {
-            strcpy(b->def.name, name);
+            snprintf(b->def.name, sizeof b->def.name, "%s", name);
         }
     }
     lua_getfield(L, LUA_REGISTRYINDEX, "plumb.names");
@@ -411,7 +411,7 @@ static int lua_param(lua_State *L)
         sc_raise(s, SCENE_E_RANGE, &site, NULL, 1, NULL,
                  "a param's name must have 1 to 63 characters");
     }
-    strcpy(p.name, name);
+    snprintf(p.name, sizeof p.name, "%s", name);
     for (int i = 0; i < s->params.count; i++) {
         if (strcmp(s->params.items[i].name, name) == 0) {
             sc_raise(s, SCENE_E_DUPLICATE, &site, NULL, 1, NULL, "param '%s' is declared twice",

@@ -24,7 +24,7 @@ void sc_apply_sets(scene *s)
         sc_set *set = SC_PUSH(s, s->sets);
         *set = (sc_set){ 0 };
         memcpy(set->key, text, length);
-        strcpy(set->value, equal + 1);
+        snprintf(set->value, sizeof set->value, "%s", equal + 1);
     }
 }
 

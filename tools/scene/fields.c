@@ -171,7 +171,7 @@ static void read_body(const context *c, int value, char out[SC_NAME_SIZE])
             sc_raise(c->s, SCENE_E_STATE, c->site, c->row->name, c->index, NULL,
                      "'%s' of %s{} is a body that was destroyed", c->row->name, c->site->construct);
         }
-        strcpy(out, b->def.name);
+        snprintf(out, SC_NAME_SIZE, "%s", b->def.name);
         return;
     }
     if (lua_type(c->s->L, value) != LUA_TSTRING) {

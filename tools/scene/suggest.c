@@ -57,13 +57,13 @@ void sc_suggest_offer(sc_suggest *g, const char *candidate)
     }
     if (d < g->distance || (g->best[0] != 0 && strcmp(candidate, g->best) < 0)) {
         g->distance = d;
-        strcpy(g->best, candidate);
+        snprintf(g->best, sizeof g->best, "%s", candidate);
     }
 }
 
 void sc_suggest_force(sc_suggest *g, const char *candidate)
 {
-    strcpy(g->best, candidate);
+    snprintf(g->best, sizeof g->best, "%s", candidate);
     g->distance = 0;
 }
 
