@@ -159,17 +159,22 @@ WIDE_INLINE vf edge_distance(const vf r[4], const vf w[4])
     return vsqrt(d);
 }
 
-// Where the cores are apart and two corners face each other, no face separates them by their
-// distance: one point along the connection of the nearest corners replaces the clip. Lines end to
-// end, which have no face across their direction, are such a case at face separation 0.
+// Edges that lean less than this against the face lie on it: a hundredth of a radian and a little.
+#define FLAT_SLOPE ((plumb_real)0.02)
+
+// Where the cores are apart and two corners face each other, no face separates them by their distance:
+// one point along the connection of the nearest corners replaces the clip. Lines end to end, which have
+// no face across their direction, are such a case at face separation 0. Edges that all but lie on the
+// face keep both points, or a body that overhangs would lose its second support at the least tilt (a
+// stack of overhanging capsules then walks); only the depth beside the corner is set right.
 static inline void round_corners(touch *t, const lanes *l, const pl_narrow_input *in,
                                  const outline *a, const outline *b, const vf r[4], const vf w[4],
-                                 vf face_separation)
+                                 vf face_separation, vm lies_flat, vm low_is_nearer)
 {
     vf zero = splat(0);
     vm corner = (face_separation > splat((plumb_real)-1e-5)) &
-                (edge_distance(r, w) >
-                 vmax(face_separation, zero) * splat((plumb_real)1.000002) + splat((plumb_real)4e-6));
+                (edge_distance(r, w) > vmax(face_separation, zero) * splat((plumb_real)1.000002) +
+                                           splat((plumb_real)4e-6));
     if (!any(corner)) {
         return; // the result of a lane does not depend on the others: it would not be taken
     }
@@ -180,8 +185,10 @@ static inline void round_corners(touch *t, const lanes *l, const pl_narrow_input
     vf divisor = sel(corner & (distance > zero), distance, splat(1));
     vf nx = (n.bx - n.ax) / divisor, ny = (n.by - n.ay) / divisor;
     vf sep = distance - l->ar - l->br;
-    vf out =
-        l->ar + sep * splat((plumb_real)0.5); // from A's core point: A's radius and half the gap
+    vf out = l->ar + sep * splat((plumb_real)0.5); // from A's core: its radius and half the gap
+    t->sep[0] = sel(corner & lies_flat & low_is_nearer, sep, t->sep[0]);
+    t->sep[1] = sel(corner & lies_flat & ~low_is_nearer, sep, t->sep[1]);
+    corner &= ~lies_flat;
     t->nx = sel(corner, nx, t->nx);
     t->ny = sel(corner, ny, t->ny);
     t->px[0] = sel(corner, n.ax + nx * out, t->px[0]);
@@ -244,7 +251,9 @@ static inline void convex_convex(touch *t, const lanes *l, const pl_narrow_input
     vm code = (face << 3) | (edge << 8) | ((((vm)splat(0)) + 4) & flip);
     t->feature[0] = code;
     t->feature[1] = code | 1;
-    round_corners(t, l, in, &a, &b, r, w, sel(flip, fb.separation, fa.separation));
+    vm lies_flat = ~beside & (vabs(slope) < splat(FLAT_SLOPE));
+    round_corners(t, l, in, &a, &b, r, w, sel(flip, fb.separation, fa.separation), lies_flat,
+                  p_deeper);
 }
 
 // The circle is a core of one corner: faces of B alone, then the corners of the best face.

@@ -28,7 +28,7 @@ typedef struct search {
 static double bound_of(const search *s)
 {
     double bound = (double)(s->met ? s->best.distance : s->max_distance);
-    return fmax(bound, 0) + s->slack;
+    return pl_most(bound, 0) + s->slack;
 }
 
 // How far a box is away along the axes, 0 on those where it spans the point. [m]
@@ -36,8 +36,8 @@ static void box_distance(const search *s, const pl_box *box, double *dx, double 
 {
     double x = (double)s->point.x;
     double y = (double)s->point.y;
-    *dx = fmax(fmax((double)box->min_x - x, x - (double)box->max_x), 0);
-    *dy = fmax(fmax((double)box->min_y - y, y - (double)box->max_y), 0);
+    *dx = pl_most(pl_most((double)box->min_x - x, x - (double)box->max_x), 0);
+    *dy = pl_most(pl_most((double)box->min_y - y, y - (double)box->max_y), 0);
 }
 
 static plumb_convex_near nearest_on_edge(const plumb_convex *convex, int k, plumb_vec2 local)
@@ -100,7 +100,7 @@ static bool visit(void *context, const pl_grid_entry *entry)
     search *s = context;
     double dx, dy;
     box_distance(s, &entry->box, &dx, &dy);
-    if (fmax(dx, dy) <= s->done || sqrt(dx * dx + dy * dy) > bound_of(s) ||
+    if (pl_most(dx, dy) <= s->done || sqrt(dx * dx + dy * dy) > bound_of(s) ||
         !pl_query_sees(&s->q, entry->piece)) {
         return true;
     }
@@ -116,7 +116,7 @@ static void search_level(search *s, const pl_grid *grid, const pl_grid_level *le
 {
     s->done = -1;
     for (double half = level->cell;; half *= 2) {
-        double reach = fmin(half, bound_of(s));
+        double reach = pl_least(half, bound_of(s));
         pl_box box = pl_query_box_at(s->point, reach + s->slack);
         if (pl_grid_range_is_wide(level, pl_grid_range(level, box))) {
             const pl_grid_entry *e = pl_grid_entries(grid) + level->first;

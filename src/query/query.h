@@ -76,4 +76,15 @@ pl_box pl_query_box_at(plumb_vec2 point, double half);
 plumb_result pl_query_check_output(const plumb_world *world, const char *function,
                                    const char *field, const void *output, int capacity);
 
+// Smaller and larger of two; unlike fmin and fmax the same for zeros of either sign everywhere.
+static inline double pl_least(double a, double b)
+{
+    return a < b ? a : b;
+}
+
+static inline double pl_most(double a, double b)
+{
+    return a > b ? a : b;
+}
+
 #endif

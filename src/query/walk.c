@@ -41,8 +41,8 @@ static bool meets(const pl_walk *w, const pl_box *box)
     double hy = ((double)box->max_y - (double)box->min_y) / 2 + w->slack;
     double cx = ((double)box->max_x + (double)box->min_x) / 2;
     double cy = ((double)box->max_y + (double)box->min_y) / 2;
-    return fmin(w->ox, ex) <= cx + hx && cx - hx <= fmax(w->ox, ex) && fmin(w->oy, ey) <= cy + hy &&
-           cy - hy <= fmax(w->oy, ey) &&
+    return pl_least(w->ox, ex) <= cx + hx && cx - hx <= pl_most(w->ox, ex) &&
+           pl_least(w->oy, ey) <= cy + hy && cy - hy <= pl_most(w->oy, ey) &&
            fabs(w->dx * (cy - w->oy) - w->dy * (cx - w->ox)) <= fabs(w->dx) * hy + fabs(w->dy) * hx;
 }
 
@@ -51,8 +51,10 @@ static pl_box box_between(const pl_walk *w, double t0, double t1)
 {
     double x0 = w->ox + w->dx * t0, x1 = w->ox + w->dx * t1;
     double y0 = w->oy + w->dy * t0, y1 = w->oy + w->dy * t1;
-    return (pl_box){ (plumb_real)(fmin(x0, x1) - w->slack), (plumb_real)(fmin(y0, y1) - w->slack),
-                     (plumb_real)(fmax(x0, x1) + w->slack), (plumb_real)(fmax(y0, y1) + w->slack) };
+    return (pl_box){ (plumb_real)(pl_least(x0, x1) - w->slack),
+                     (plumb_real)(pl_least(y0, y1) - w->slack),
+                     (plumb_real)(pl_most(x0, x1) + w->slack),
+                     (plumb_real)(pl_most(y0, y1) + w->slack) };
 }
 
 // Where on the segment `along` o + t d enters and leaves [low, high], clamped to 0..limit. False
@@ -64,9 +66,9 @@ static bool clip(double o, double d, double low, double high, double limit, doub
     if (d != 0) {
         double a = (low - o) / d;
         double b = (high - o) / d;
-        t[0] = fmin(fmax(fmin(a, b), 0), limit);
-        t[1] = fmin(fmax(fmax(a, b), 0), limit);
-        return fmin(a, b) <= limit;
+        t[0] = pl_least(pl_most(pl_least(a, b), 0), limit);
+        t[1] = pl_least(pl_most(pl_most(a, b), 0), limit);
+        return pl_least(a, b) <= limit;
     }
     return true;
 }
@@ -148,8 +150,8 @@ bool pl_walk_level(const pl_grid *grid, const pl_grid_level *level, pl_walk *wal
         clip_to_level(level, pl_grid_range(level, box_between(walk, 0, walk->limit)));
     double rows = (double)whole.y1 - whole.y0 + 1;
     double blocks = ((double)whole.x1 - whole.x0 + 1) / BLOCK;
-    double farthest = fmax(fmax(fabs(walk->ox), fabs(walk->ox + walk->dx)),
-                           fmax(fabs(walk->oy), fabs(walk->oy + walk->dy)));
+    double farthest = pl_most(pl_most(fabs(walk->ox), fabs(walk->ox + walk->dx)),
+                              pl_most(fabs(walk->oy), fabs(walk->oy + walk->dy)));
     if ((farthest + walk->slack) * level->inv_cell > FAR_CELLS ||
         rows + blocks > (double)level->count + 16) {
         return visit_all(grid, level, walk, visit, context);

@@ -1,0 +1,91 @@
+// fuzz_api.c - libFuzzer harness of the public API: every input is a script of calls with raw numbers, NaN
+// and stale handles included. Nothing may crash, no step may leave a non-finite body, nothing may leak.
+#include "plumb/plumb.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define HANDLES 16
+
+typedef struct script {
+    const uint8_t *at, *end;
+} script;
+
+static unsigned byte_of(script *s)
+{
+    return s->at < s->end ? *s->at++ : 0;
+}
+
+// Mostly tame numbers, sometimes any bit pattern.
+static plumb_real real_of(script *s)
+{
+    unsigned b = byte_of(s);
+    if (b < 250) {
+        return ((plumb_real)b - 125) / 16;
+    }
+    uint32_t bits = byte_of(s) | byte_of(s) << 8 | byte_of(s) << 16 | (uint32_t)byte_of(s) << 24;
+    float any;
+    memcpy(&any, &bits, sizeof any);
+    return (plumb_real)any;
+}
+
+static plumb_vec2 vec_of(script *s)
+{
+    plumb_real x = real_of(s);
+    return (plumb_vec2){ x, real_of(s) };
+}
+
+static plumb_shape shape_of(plumb_world *w, script *s, plumb_body body)
+{
+    plumb_vec2 points[8];
+    for (int i = 0; i < 8; ++i) {
+        points[i] = vec_of(s);
+    }
+    plumb_shape_desc d = { .kind = (plumb_shape_kind)(byte_of(s) % 8), .density = real_of(s) };
+    bool has_points = d.kind != PLUMB_CIRCLE && d.kind != PLUMB_BOX;
+    d.radius = d.kind <= PLUMB_POLYGON ? real_of(s) : 0;
+    d.half = d.kind == PLUMB_BOX ? vec_of(s) : (plumb_vec2){ 0, 0 };
+    d.points = has_points ? points : NULL;
+    d.count = !has_points ? 0 : d.kind == PLUMB_CAPSULE || d.kind == PLUMB_SEGMENT ? 2 : 3 + (int)byte_of(s) % 6;
+    d.closed = d.kind == PLUMB_CHAIN && byte_of(s) % 2;
+    return plumb_shape_create(w, body, &d);
+}
+
+static void call(plumb_world *w, script *s, plumb_entity e[HANDLES])
+{
+    plumb_entity *slot = &e[byte_of(s) % HANDLES], other = e[byte_of(s) % HANDLES];
+    plumb_ray_hit hit;
+    switch (byte_of(s) % 12) {
+    case 0: *slot = plumb_body_create(w, &(plumb_body_desc){ .type = (plumb_body_type)(byte_of(s) % 4), .position = vec_of(s) }); break;
+    case 1: *slot = shape_of(w, s, other); break;
+    case 2: plumb_entity_destroy(w, other); break;
+    case 3: plumb_body_set_velocity(w, other, vec_of(s)); break;
+    case 4: plumb_body_teleport(w, other, vec_of(s), real_of(s)); break;
+    case 5: plumb_body_apply_force(w, other, vec_of(s), vec_of(s)); break;
+    case 6: plumb_body_set_mass(w, other, real_of(s)); break;
+    case 7: plumb_world_ray(w, vec_of(s), vec_of(s), NULL, &hit); break;
+    case 8: *slot = plumb_command_body_create(w, &(plumb_body_desc){ .position = vec_of(s) }); break;
+    case 9: plumb_command_destroy(w, other); break;
+    case 10: *slot = plumb_material_create(w, &(plumb_material_desc){ 1, real_of(s), real_of(s) }); break;
+    default: plumb_world_step(w, real_of(s) / 64); break;
+    }
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    script s = { data, data + (size < 4096 ? size : 4096) };
+    plumb_entity e[HANDLES] = { { 0, 0 } };
+    plumb_world *w = NULL;
+    plumb_world_desc d = { .solver = (plumb_solver)(byte_of(&s) % 2), .simd_width = 4 };
+    if (plumb_world_create(&d, &w) != PLUMB_OK) {
+        abort();
+    }
+    while (s.at < s.end) {
+        call(w, &s, e);
+    }
+    plumb_world_destroy(w);
+    return 0;
+}
