@@ -4,7 +4,7 @@
 // core.
 #include "broad/grid.h"
 
-#include <math.h>
+#include <string.h>
 
 #define LOWEST_EXPONENT (-16)
 #define CELL_LIMIT                                                                                 \
@@ -30,12 +30,14 @@ static real extent_of(const pl_box *box)
     return w > h ? w : h;
 }
 
-// The octave of a size: level k holds extents in (2^(k-17), 2^(k-16)].
+// The octave of a size: level k holds extents in [2^(k-17), 2^(k-16)). The exponent is read from the bits:
+// frexp was a tenth of a build.
 static uint32_t octave_of(real extent)
 {
-    int exponent;
-    (void)frexp((double)extent, &exponent);
-    exponent -= LOWEST_EXPONENT;
+    float size = (float)extent;
+    uint32_t bits;
+    memcpy(&bits, &size, sizeof bits);
+    int exponent = (int)(bits >> 23 & 0xff) - 126 - LOWEST_EXPONENT;
     if (exponent < 0) {
         return 0;
     }

@@ -130,6 +130,7 @@ static void place_pairs(plumb_world *world, pl_pair *items, carry *c)
                 memcpy(pair.normal, old->normal, sizeof pair.normal);
                 memcpy(pair.tangent, old->tangent, sizeof pair.tangent);
                 pair.flags = old->flags;
+                pair.manifold = old->manifold;
             }
         }
         items[at[ka][kb]++] = pair;

@@ -67,10 +67,27 @@ WIDE_INLINE void lanes_gather(lanes *l, const pl_narrow_input *in, uint32_t firs
     l->vy = pb[7] - pa[7];
 }
 
+// A pair that is apart: nothing is carried over.
+static inline void part(pl_pair *pair)
+{
+    if (pair->manifold != PL_NONE) {
+        pair->feature[0] = pair->feature[1] = PL_NONE;
+        pair->normal[0] = pair->normal[1] = 0;
+        pair->tangent[0] = pair->tangent[1] = 0;
+        pair->manifold = PL_NONE;
+    }
+    pair->flags &= ~PL_PAIR_HIT;
+}
+
 // One lane's manifold: keeps the points nearer than `limit`, carries impulses over by feature.
 static inline bool emit_lane(pl_pair *pair, pl_manifold *m, const plumb_real *row, plumb_real limit,
                              const uint32_t feature[2])
 {
+    const pl_manifold_point *point = (const pl_manifold_point *)(const void *)(row + 8);
+    if (!(point[0].separation < limit || point[1].separation < limit)) {
+        part(pair);
+        return false;
+    }
     const pl_pair old = *pair;
     memcpy(m, row, 24 * sizeof(plumb_real));
     uint32_t count = 0;
@@ -99,7 +116,8 @@ static inline bool emit_lane(pl_pair *pair, pl_manifold *m, const plumb_real *ro
     m->count = count;
     m->body_a = pair->body_a;
     m->body_b = pair->body_b;
-    return count > 0;
+    pair->flags &= ~PL_PAIR_HIT;
+    return true;
 }
 
 // Counts a manifold into the summary. In order of pairs, so that sums do not depend on the width.
@@ -139,6 +157,12 @@ WIDE_INLINE void lanes_emit(const lanes *l, const touch *t, const pl_narrow_inpu
     closing = sel(restitution > zero, speed, closing); // it may come back from another impact
     limit = vmax(limit, limit + closing);
 
+    if (!any((t->sep[0] < limit) | (t->sep[1] < limit))) {
+        for (uint32_t i = 0; i < count; ++i) {
+            part(&in->pairs[first + i]);
+        }
+        return;
+    }
     plumb_real rows[PL_WIDTH][24] __attribute__((aligned(64)));
     plumb_real *row[PL_WIDTH], *point0[PL_WIDTH], *point1[PL_WIDTH];
     for (int i = 0; i < PL_WIDTH; ++i) {
@@ -163,8 +187,6 @@ WIDE_INLINE void lanes_emit(const lanes *l, const touch *t, const pl_narrow_inpu
         pl_pair *pair = &in->pairs[first + i];
         pl_manifold *m = &pl_manifolds(out)[out->manifold_count];
         uint32_t feature[2] = { (uint32_t)t->feature[0][i], (uint32_t)t->feature[1][i] };
-        pair->flags &= ~PL_PAIR_HIT;
-        pair->manifold = PL_NONE;
         if (emit_lane(pair, m, rows[i], limits[i], feature)) {
             m->pair = first + i;
             summarise(out, m);

@@ -40,10 +40,10 @@ static double gap(const pl_round *a, const pl_round *b, double nx, double ny)
     double farthest = -HUGE_VAL;
     double nearest = HUGE_VAL;
     for (int i = 0; i < a->count; ++i) {
-        farthest = fmax(farthest, nx * a->x[i] + ny * a->y[i]);
+        farthest = pl_most(farthest, nx * a->x[i] + ny * a->y[i]);
     }
     for (int i = 0; i < b->count; ++i) {
-        nearest = fmin(nearest, nx * b->x[i] + ny * b->y[i]);
+        nearest = pl_least(nearest, nx * b->x[i] + ny * b->y[i]);
     }
     return nearest - farthest;
 }
@@ -62,9 +62,9 @@ static double widest_gap(const pl_round *a, const pl_round *b)
         }
         dx /= length;
         dy /= length;
-        widest = fmax(widest, gap(a, b, dy, -dx));
+        widest = pl_most(widest, gap(a, b, dy, -dx));
         if (a->count == 2) { // the end towards which this edge runs
-            widest = fmax(widest, gap(a, b, dx, dy));
+            widest = pl_most(widest, gap(a, b, dx, dy));
         }
     }
     return widest;
@@ -80,7 +80,7 @@ static double distance_sq(const pl_round *a, int i, double px, double py)
     double ry = py - a->y[i];
     double length_sq = dx * dx + dy * dy;
     double t = length_sq > 0 ? (rx * dx + ry * dy) / length_sq : 0; // 0: a point has no edge
-    t = fmin(fmax(t, 0), 1);
+    t = pl_least(pl_most(t, 0), 1);
     rx -= t * dx;
     ry -= t * dy;
     return rx * rx + ry * ry;
@@ -92,7 +92,7 @@ static double corners_distance_sq(const pl_round *a, const pl_round *b)
     double nearest = HUGE_VAL;
     for (int i = 0; i < a->count; ++i) {
         for (int k = 0; k < b->count; ++k) {
-            nearest = fmin(nearest, distance_sq(a, i, b->x[k], b->y[k]));
+            nearest = pl_least(nearest, distance_sq(a, i, b->x[k], b->y[k]));
         }
     }
     return nearest;
@@ -101,14 +101,14 @@ static double corners_distance_sq(const pl_round *a, const pl_round *b)
 bool pl_rounds_overlap(const pl_round *a, const pl_round *b)
 {
     double reach = a->radius + b->radius;
-    double widest = fmax(widest_gap(a, b), widest_gap(b, a));
+    double widest = pl_most(widest_gap(a, b), widest_gap(b, a));
     if (widest > reach) {
         return false;
     }
     if (widest <= 0 && widest > -HUGE_VAL) { // two points have no axes: -inf
         return true;
     }
-    return fmin(corners_distance_sq(a, b), corners_distance_sq(b, a)) <= reach * reach;
+    return pl_least(corners_distance_sq(a, b), corners_distance_sq(b, a)) <= reach * reach;
 }
 
 //---- queries -----------------------------------------------------------------------------------
