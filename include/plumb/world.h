@@ -112,6 +112,8 @@ typedef struct plumb_stats {
     uint32_t overflow_count;    ///< contacts that found no colour
     uint32_t grid_rebuilds;     ///< rebuilds of the pair list since the world was made
     uint32_t bounce_count;      ///< impacts resolved with restitution in the last step
+    uint32_t arrested_count;    ///< bodies stopped in all, because a step would have left them with a state
+                                ///< that is not finite or beyond 1e12 m or m/s; each is told to the log
     int simd_width;             ///< lanes in use
     plumb_real max_penetration; ///< [m] deepest overlap after the last step's narrow phase, >= 0
     plumb_real mean_penetration;///< [m] mean over touching contacts of the deeper point, 0 if apart

@@ -80,14 +80,21 @@ static bool contains(const pl_box *outer, const pl_box *inner)
            outer->max_x >= inner->max_x && outer->max_y >= inner->max_y;
 }
 
+// A speed that no step will accept must not make a box infinite either (see solver/finish.c).
+static real bounded(real v)
+{
+    const real most = (real)1e12;
+    return v > most ? most : v < -most ? -most : v;
+}
+
 // Velocities may have been set, or written through a span, since the poses were made.
 static void refresh_pose_velocities(plumb_world *world)
 {
     const pl_bodies *b = &world->bodies;
     pl_pose *poses = pl_poses(world);
     for (uint32_t row = 0; row < world->dynamic_count + world->kinematic_count; ++row) {
-        poses[row].vx = b->vx[row];
-        poses[row].vy = b->vy[row];
+        poses[row].vx = bounded(b->vx[row]);
+        poses[row].vy = bounded(b->vy[row]);
     }
 }
 

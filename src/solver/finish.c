@@ -44,6 +44,50 @@ static void fly(plumb_world *world, uint32_t row, real dt)
     b->w[row] += aw * dt;
 }
 
+// [m], [m/s], [rad/s] beyond this a body counts as lost: squares still fit a float.
+#define LARGEST ((real)1e12)
+
+typedef struct where {
+    real x, y, c, s;
+} where;
+
+static bool is_sane(real v)
+{
+    return v >= -LARGEST && v <= LARGEST; // false for NaN
+}
+
+// A step that would leave a body's state without meaning is undone for that body: it stays where it was,
+// at rest, and the world counts and tells it. NaN never gets into the columns.
+static void arrest_if_lost(plumb_world *world, uint32_t row, where before)
+{
+    pl_bodies *b = &world->bodies;
+    if (is_sane(b->center_x[row]) && is_sane(b->center_y[row]) && is_sane(b->c[row]) &&
+        is_sane(b->s[row]) && is_sane(b->vx[row]) && is_sane(b->vy[row]) && is_sane(b->w[row])) {
+        return;
+    }
+    b->center_x[row] = before.x, b->center_y[row] = before.y;
+    b->c[row] = before.c, b->s[row] = before.s;
+    b->vx[row] = b->vy[row] = b->w[row] = 0;
+    b->low_x[row] = b->low_y[row] = b->low_vx[row] = b->low_vy[row] = 0;
+    ++world->arrested_count;
+    pl_warn(world, "body %u was stopped: the step would have left it without a finite state",
+            b->entity[row].index);
+}
+
+// The new state of a dynamic body in a contact.
+static void take_over(plumb_world *world, uint32_t row, const pl_solver_body *body, const real *low)
+{
+    pl_bodies *b = &world->bodies;
+    add(&b->center_x[row], &b->low_x[row], body->dx);
+    add(&b->center_y[row], &b->low_y[row], body->dy);
+    turn(b, row, body->da);
+    b->vx[row] = body->vx;
+    b->vy[row] = body->vy;
+    b->w[row] = body->w;
+    b->low_vx[row] = low == NULL ? 0 : low[0];
+    b->low_vy[row] = low == NULL ? 0 : low[1];
+}
+
 void pl_solver_finish(plumb_world *world, real dt)
 {
     pl_bodies *b = &world->bodies;
@@ -52,27 +96,24 @@ void pl_solver_finish(plumb_world *world, real dt)
     const bool collided = world->solver.slot_count > 0; // the graph was made in this step
     const real *lows = world->narrow.any_bounce ? world->solver.lows.data : NULL;
     for (uint32_t row = 0; row < world->dynamic_count; ++row) {
+        where before = { b->center_x[row], b->center_y[row], b->c[row], b->s[row] };
         if (!collided || slots[row] == PL_NONE) {
             fly(world, row, dt);
         } else {
-            const pl_solver_body *body = &bodies[slots[row]];
-            add(&b->center_x[row], &b->low_x[row], body->dx);
-            add(&b->center_y[row], &b->low_y[row], body->dy);
-            turn(b, row, body->da);
-            b->vx[row] = body->vx;
-            b->vy[row] = body->vy;
-            b->low_vx[row] = lows == NULL ? 0 : lows[(size_t)slots[row] * 4];
-            b->low_vy[row] = lows == NULL ? 0 : lows[(size_t)slots[row] * 4 + 1];
-            b->w[row] = body->w;
+            uint32_t slot = slots[row];
+            take_over(world, row, &bodies[slot], lows == NULL ? NULL : &lows[(size_t)slot * 4]);
         }
         b->fx[row] = b->fy[row] = b->torque[row] = 0;
+        arrest_if_lost(world, row, before);
         pl_body_update_origin(world, row);
     }
     for (uint32_t row = world->dynamic_count; row < world->dynamic_count + world->kinematic_count;
          ++row) {
+        where before = { b->center_x[row], b->center_y[row], b->c[row], b->s[row] };
         add(&b->center_x[row], &b->low_x[row], dt * b->vx[row]);
         add(&b->center_y[row], &b->low_y[row], dt * b->vy[row]);
         turn(b, row, dt * b->w[row]);
+        arrest_if_lost(world, row, before);
         pl_body_update_origin(world, row);
     }
 }

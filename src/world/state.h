@@ -42,6 +42,7 @@ struct plumb_world {
     plumb_vec2 gravity;
     uint64_t step_count;
     double time;
+    uint32_t arrested_count; // bodies stopped because a step would have left them without a finite state
 
     // Entities and rows.
     pl_registry registry;

@@ -262,6 +262,7 @@ plumb_stats plumb_world_stats(const plumb_world *world)
         .overflow_count = world->solver.overflow_count,
         .grid_rebuilds = (uint32_t)world->broad.rebuilds,
         .bounce_count = world->solver.bounce_count,
+        .arrested_count = world->arrested_count,
         .simd_width = world->desc.simd_width,
         .max_penetration = world->narrow.max_penetration,
         .mean_penetration =

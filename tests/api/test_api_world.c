@@ -244,9 +244,27 @@ static void worlds_share_nothing(void **state)
     plumb_world_destroy(other);
 }
 
+// A body whose next state would not be finite is stopped where it is; the others do not notice.
+static void lost_body_is_stopped(void **state)
+{
+    (void)state;
+    plumb_world *world;
+    assert_int_equal(plumb_world_create(NULL, &world), PLUMB_OK);
+    plumb_body lost = plumb_body_create(world, &(plumb_body_desc){ .position = { 1, 2 } });
+    plumb_body other = plumb_body_create(world, &(plumb_body_desc){ .position = { 5, 5 } });
+    assert_int_equal(plumb_body_set_velocity(world, lost, (plumb_vec2){ (plumb_real)1e30, 0 }), PLUMB_OK);
+    assert_int_equal(plumb_world_step(world, (plumb_real)(1.0 / 60)), PLUMB_OK);
+    assert_int_equal(plumb_world_stats(world).arrested_count, 1);
+    plumb_vec2 at = plumb_body_position(world, lost), v = plumb_body_velocity(world, lost);
+    assert_true(at.x == 1 && at.y == 2 && v.x == 0 && v.y == 0);
+    assert_true(plumb_body_velocity(world, other).y < 0);
+    plumb_world_destroy(world);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(lost_body_is_stopped),
         cmocka_unit_test(a_zero_descriptor_means_the_documented_defaults),
         cmocka_unit_test(given_settings_are_kept),
         cmocka_unit_test(gravity_follows_axis_and_flags),

@@ -160,18 +160,13 @@ static int session_step(engine_session *session, engine_error *error)
 
 static int session_check(engine_session *session, engine_error *error)
 {
-    plumb_body_span span = plumb_world_bodies(session->world);
-    for (int i = 0; i < span.count; i++) {
-        // A sum with a NaN or an infinity in it is never finite.
-        double sum = (double)span.x[i] + (double)span.y[i] + (double)span.c[i] + (double)span.s[i] +
-                     (double)span.vx[i] + (double)span.vy[i] + (double)span.w[i];
-        if (!isfinite(sum)) {
-            scene_body body = scene_body_of(session->scene, span.entity[i]);
-            return pl_session_fail(error, CLI_DIVERGED,
-                                   "%s: diverged at %.6g s: the state of body '%s' is not finite",
-                                   session->info.title, scene_time(session->scene),
-                                   body.name != NULL ? body.name : "?");
-        }
+    uint32_t stopped = plumb_world_stats(session->world).arrested_count;
+    if (stopped > 0) {
+        return pl_session_fail(error, CLI_DIVERGED,
+                               "%s: diverged at %.6g s: %u %s stopped, for the step would have left "
+                               "it without a finite state",
+                               session->info.title, scene_time(session->scene), stopped,
+                               stopped == 1 ? "body was" : "bodies were");
     }
     return CLI_OK;
 }
