@@ -136,7 +136,8 @@ WIDE_INLINE void lanes_emit(const lanes *l, const touch *t, const pl_narrow_inpu
     vf limit = splat(PL_SPECULATIVE);
     vf closing = -(t->nx * l->vx + t->ny * l->vy) * splat(in->dt);
     vf speed = vsqrt(l->vx * l->vx + l->vy * l->vy) * splat(in->dt);
-    closing = sel(restitution > zero, speed, closing); // it may come back from another impact
+    closing = sel(restitution > splat(in->elastic_above), speed,
+                  closing); // it may come back from another impact
     limit = vmax(limit, limit + closing);
 
     plumb_real rows[PL_WIDTH][24] __attribute__((aligned(64)));
