@@ -7,7 +7,8 @@
 
 PLUMB_BEGIN
 
-/// Two shapes began to touch. Order: by shape slots; the same on every run.
+/// Two shapes began to touch. A pair of shapes tells it once, however many pieces they have. Order: by
+/// kinds and slots of pieces, then shapes of several pieces; the same on every run.
 typedef struct plumb_contact_begin {
     plumb_shape shape_a, shape_b;
     plumb_body body_a, body_b;
@@ -27,12 +28,69 @@ PLUMB_API const plumb_contact_begin *plumb_world_begin_events(const plumb_world 
 /// End events of the last step; *count is set. Null when there are none.
 PLUMB_API const plumb_contact_end *plumb_world_end_events(const plumb_world *world, int *count);
 
+/// Two shapes struck each other faster than plumb_world_desc.hit_speed, touching before or not; not told
+/// again while the blow lasts. One a pair of shapes, at their fastest point. Order as of begin events.
+typedef struct plumb_contact_hit {
+    plumb_shape shape_a, shape_b;
+    plumb_body body_a, body_b;
+    plumb_vec2 point;          ///< [m] world, where they were at the start of the step
+    plumb_vec2 normal;         ///< unit, from A to B
+    plumb_real approach_speed; ///< [m/s] along the normal just before
+    plumb_real impulse;        ///< [N s] of the whole contact along the normal over the step
+} plumb_contact_hit;
+
+/// Hit events of the last step; *count is set. Null when there are none.
+PLUMB_API const plumb_contact_hit *plumb_world_hit_events(const plumb_world *world, int *count);
+/// Changes the speed [m/s] above which hits are told; 0: none are.
+/// Errors: E_RANGE, E_NOT_FINITE, E_LOCKED.
+PLUMB_API plumb_result plumb_world_set_hit_speed(plumb_world *world, plumb_real speed);
+
+/// A shape began or ceased to overlap a sensor. Two sensors that meet tell it of each.
+typedef struct plumb_sensor_event {
+    plumb_shape sensor, shape; ///< of an end event, either may be stale
+    plumb_body sensor_body, body;
+} plumb_sensor_event;
+
+/// Shapes that began to overlap a sensor in the last step, sorted by slot of sensor, then shape.
+PLUMB_API const plumb_sensor_event *plumb_world_sensor_begin_events(const plumb_world *world,
+                                                                    int *count);
+/// Shapes that ceased to, or that are gone, or whose sensor is. Same order.
+PLUMB_API const plumb_sensor_event *plumb_world_sensor_end_events(const plumb_world *world, int *count);
+
+/// A contact of this step before the solver, as a system of PLUMB_PHASE_CONTACTS may change it. Fields
+/// with a star are taken by plumb_contact_edit_set, the others are for reading.
+typedef struct plumb_contact_edit {
+    plumb_shape shape_a, shape_b;
+    plumb_body body_a, body_b;
+    plumb_vec2 normal;             ///< unit, from A to B
+    int point_count;               ///< 1 or 2
+    plumb_vec2 points[2];          ///< [m] world, midway between the surfaces
+    plumb_real separation[2];      ///< [m] negative when overlapping
+    bool touching;                 ///< it touched in the step before
+    bool enabled;                  ///< * false: in this step the shapes pass through each other, untouched
+    plumb_real friction;           ///< * [-] 0..10
+    plumb_real restitution;        ///< * [-] 0..1
+    plumb_real rolling_resistance; ///< * [m] >= 0
+    plumb_real surface_speed;      ///< * [m/s] of both surfaces together: see plumb_material_desc
+} plumb_contact_edit;
+
+/// How many contacts this step has: touching ones and those that may touch within it. -1 on error.
+/// Errors: E_STATE (not called by a system of PLUMB_PHASE_CONTACTS).
+PLUMB_API int plumb_contact_edit_count(const plumb_world *world);
+/// Contact i; order: by kinds and slots of pieces. O(1). Errors: E_STATE, E_RANGE (i), E_NULL.
+PLUMB_API plumb_result plumb_contact_edit_get(const plumb_world *world, int i, plumb_contact_edit *edit);
+/// Changes contact i for this step; the next one makes it anew. O(1).
+/// Errors: E_STATE, E_RANGE, E_NOT_FINITE, E_NULL.
+PLUMB_API plumb_result plumb_contact_edit_set(plumb_world *world, int i, const plumb_contact_edit *edit);
+
 /// A point of a manifold after the step.
 typedef struct plumb_contact_point {
     plumb_vec2 point;           ///< [m] world, midway between the surfaces
     plumb_real separation;      ///< [m] negative when overlapping
     plumb_real normal_impulse;  ///< [N s] over the last substep, >= 0
     plumb_real tangent_impulse; ///< [N s] over the last substep
+    plumb_real step_impulse;    ///< [N s] along the normal over the whole step, impacts included; 0 unless
+                                ///< plumb_world_desc.contact_impulses or hit_speed is set
     uint32_t feature;           ///< which corner or edge made it: stable from step to step
 } plumb_contact_point;
 

@@ -7,11 +7,31 @@
 
 PLUMB_BEGIN
 
+/// How a number of a pair follows from those of its two materials. If their rules differ, the one that
+/// comes later in this list holds.
+typedef enum plumb_mix {
+    PLUMB_MIX_DEFAULT,   ///< friction: geometric mean; restitution: the larger
+    PLUMB_MIX_AVERAGE,   ///< (a + b) / 2
+    PLUMB_MIX_GEOMETRIC, ///< sqrt(a b)
+    PLUMB_MIX_MULTIPLY,  ///< a b
+    PLUMB_MIX_MIN,       ///< the smaller
+    PLUMB_MIX_MAX        ///< the larger
+} plumb_mix;
+
 /// {0} is valid: no friction, no restitution, density 1.
 typedef struct plumb_material_desc {
     plumb_real density;     ///< [kg/m^2] > 0; 0 means 1
     plumb_real friction;    ///< [-] Coulomb coefficient, 0..10. A pair uses sqrt(a b)
     plumb_real restitution; ///< [-] 0..1. A pair uses max(a, b); 1 conserves energy
+    /// [m] >= 0, lever arm of rolling resistance: the torque against rolling is at most this times the
+    /// normal force. The coefficient of text books, c = f / radius, means radius times c here. A pair
+    /// uses the larger.
+    plumb_real rolling_resistance;
+    /// [m/s] at which the surface runs along the outline of the shape, like a conveyor belt: positive
+    /// carries what lies on top of a shape to +x (the outward normal turned clockwise). Needs friction.
+    plumb_real surface_speed;
+    plumb_mix friction_mix;    ///< how pairs mix friction
+    plumb_mix restitution_mix; ///< how pairs mix restitution
 } plumb_material_desc;
 
 /// Makes a material. Null handle on error (see plumb_world_error): E_NULL, E_RANGE, E_NOT_FINITE,
@@ -30,6 +50,22 @@ PLUMB_API plumb_result plumb_material_get(const plumb_world *world, plumb_materi
 /// Errors: E_HANDLE, E_NULL, E_RANGE, E_NOT_FINITE.
 PLUMB_API plumb_result plumb_material_set(plumb_world *world, plumb_material material,
                                           const plumb_material_desc *desc);
+
+/// What two materials have between them, instead of what mixing gives.
+typedef struct plumb_material_pair {
+    plumb_real friction;           ///< [-] 0..10
+    plumb_real restitution;        ///< [-] 0..1
+    plumb_real rolling_resistance; ///< [m] >= 0
+} plumb_material_pair;
+
+/// Sets what two materials have between them, from the next step on; null handles are the default
+/// material, `pair` null goes back to mixing. Forgotten when one of them is destroyed. A world without
+/// such pairs pays nothing. O(pairs set). Errors: E_HANDLE, E_RANGE, E_NOT_FINITE, E_MEMORY.
+PLUMB_API plumb_result plumb_material_pair_set(plumb_world *world, plumb_material a, plumb_material b,
+                                               const plumb_material_pair *pair);
+/// Reads what was set. Errors: E_HANDLE, E_NULL, E_MISSING (the two are mixed).
+PLUMB_API plumb_result plumb_material_pair_get(const plumb_world *world, plumb_material a,
+                                               plumb_material b, plumb_material_pair *pair);
 
 PLUMB_END
 

@@ -20,6 +20,16 @@ typedef enum plumb_shape_kind {
     PLUMB_CHAIN    ///< points[2..]: joined segments, `closed` joins last to first; two-sided, no mass
 } plumb_shape_kind;
 
+/// Which shapes may meet. {0} is category 1 that meets everything. Two shapes whose groups are equal and
+/// not 0 go by the group alone: they meet when it is positive and do not when it is negative. All others
+/// meet when each one's category has a bit of the other's mask. Shapes of one body never meet.
+typedef struct plumb_filter {
+    uint64_t category; ///< bits: what the shape is; 0 means 1
+    uint64_t mask;     ///< bits: categories that it meets; 0 means all of them
+    int32_t group;     ///< 0: none
+    bool nothing;      ///< it meets no category (a mask of 0 would mean all); `mask` must then be 0
+} plumb_filter;
+
 /// {0} is not a shape (a circle needs a radius); fields not named by the kind must be zero, else E_RANGE.
 typedef struct plumb_shape_desc {
     plumb_shape_kind kind;
@@ -32,6 +42,8 @@ typedef struct plumb_shape_desc {
     bool closed;              ///< chain: join the last point to the first
     plumb_real density;       ///< [kg/m^2] >= 0; 0: the material's
     plumb_material material;  ///< null: the world's default material
+    plumb_filter filter;      ///< {0}: category 1, meets everything
+    bool sensor;              ///< sees what overlaps it and exerts no force; has no mass, whatever its density
     void *user_data;
 } plumb_shape_desc;
 
@@ -52,6 +64,37 @@ PLUMB_API plumb_result plumb_shape_set_material(plumb_world *world, plumb_shape 
                                                 plumb_material material);
 PLUMB_API plumb_result plumb_shape_set_user_data(plumb_world *world, plumb_shape shape, void *user_data);
 PLUMB_API void *plumb_shape_user_data(const plumb_world *world, plumb_shape shape);
+
+/// The filter in force, with category and mask resolved; {0} for a dead handle.
+PLUMB_API plumb_filter plumb_shape_filter(const plumb_world *world, plumb_shape shape);
+/// Changes the filter; holds from the next step, in which touches that it forbids end. The next step
+/// finds its pairs anew. Errors: E_HANDLE, E_RANGE (a mask together with `nothing`).
+PLUMB_API plumb_result plumb_shape_set_filter(plumb_world *world, plumb_shape shape, plumb_filter filter);
+/// True when the two filters let their shapes meet: the rule told at plumb_filter. O(1).
+PLUMB_API bool plumb_filters_meet(plumb_filter a, plumb_filter b);
+
+/// Keeps all shapes of two bodies apart from one another (true) or ends that (false). Sensors do not
+/// see excluded bodies either. Forgotten when one of them is destroyed. O(log excluded pairs), to add or
+/// remove O(excluded pairs). Errors: E_HANDLE, E_RANGE (one body twice), E_MEMORY.
+PLUMB_API plumb_result plumb_world_exclude_pair(plumb_world *world, plumb_body a, plumb_body b,
+                                                bool exclude);
+/// True when plumb_world_exclude_pair keeps the two apart. O(log excluded pairs).
+PLUMB_API bool plumb_world_is_excluded(const plumb_world *world, plumb_body a, plumb_body b);
+
+/// A sensor sees every shape of another body that overlaps it and that its filter lets it meet: shapes
+/// of dynamic and kinematic bodies, those of static bodies unless its own body is static too, and other
+/// sensors. Nothing needs to be switched on in the shapes that are seen. It exerts no force, has no
+/// mass, and queries pass through it unless asked (plumb_query_filter).
+PLUMB_API bool plumb_shape_is_sensor(const plumb_world *world, plumb_shape shape);
+/// Turns a shape into a sensor or back; its body's mass is revised. Errors: E_HANDLE, E_LOCKED.
+PLUMB_API plumb_result plumb_shape_set_sensor(plumb_world *world, plumb_shape shape, bool sensor);
+/// Shapes that overlap a sensor where they were after the last step, in slot order: writes up to
+/// `capacity`, returns how many; -1 on error. The test is exact, shape against shape. What something
+/// struck so hard within the step that it left the box predicted for it is seen one step later; what
+/// flies through a sensor within one step is not seen. O(log overlaps of the world + answer).
+/// Errors: E_HANDLE, E_STATE (no sensor), E_RANGE (capacity), E_NULL.
+PLUMB_API int plumb_shape_overlaps(const plumb_world *world, plumb_shape sensor, plumb_shape *shapes,
+                                   int capacity);
 
 /// Number of convex pieces.
 PLUMB_API int plumb_shape_piece_count(const plumb_world *world, plumb_shape shape);

@@ -44,6 +44,9 @@ typedef struct plumb_world_desc {
     plumb_real push_speed;        ///< [m/s] >= 0, fastest recovery from overlap, default 3
     plumb_real restitution_speed; ///< [m/s] >= 0; approach slower than this does not bounce. Default 0:
                                   ///< only a bounce that would end within the substep is swallowed
+    plumb_real hit_speed;     ///< [m/s] >= 0; contacts that approach faster make hit events. Default 0: none
+    bool contact_impulses;    ///< add up the impulses of each contact over the step (plumb_contact_point);
+                              ///< done anyway where hit_speed is set
     int simd_width;           ///< lanes of the contact kernels: 4, 8 or 16; default 0 = best measured.
                               ///< A pure speed setting: every width gives the same bits
     uint32_t body_capacity;   ///< rows to reserve; 0: grow as needed

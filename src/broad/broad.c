@@ -91,6 +91,7 @@ void pl_broad_free(pl_memory *memory, pl_broad *broad)
     pl_buffer_free(memory, &broad->list);
     pl_buffer_free(memory, &broad->found);
     pl_buffer_free(memory, &broad->sorted);
+    pl_buffer_free(memory, &broad->sensed);
     pl_buffer_free(memory, &broad->counts);
     *broad = (pl_broad){ 0 };
 }

@@ -12,6 +12,8 @@ typedef struct pl_broad {
     pl_buffer list;   // uint32_t pieces to file
     pl_buffer found;  // pl_found: pairs of a rebuild as they come
     pl_buffer sorted; // pl_found, by lower piece
+    pl_buffer sensed; // pl_found: sensor piece and what is near it
+    uint32_t sensed_count;
     pl_buffer counts; // uint32_t a piece slot + 1
     uint32_t found_count;
     uint32_t serial; // newest piece serial at the last rebuild: younger slots carry nothing over

@@ -11,12 +11,15 @@ typedef struct pl_pair {
     uint32_t feature[2];     // of the manifold points that the impulses belong to; PL_NONE: none
     real normal[2];          // [N s] impulses of the last substep
     real tangent[2];         // [N s]
+    real rolling;            // [N m s] about the pair's contact as a whole
     uint32_t manifold;       // index of this step's manifold; PL_NONE: apart
     uint32_t flags;          // PL_PAIR_...
 } pl_pair;
 
 #define PL_PAIR_TOUCHING 1u // touched in the last step, so the begin event was sent
 #define PL_PAIR_HIT      2u // an impact with restitution was resolved in this step
+#define PL_PAIR_STRUCK   4u // it struck in the last step
+#define PL_PAIR_PENDING  8u // and had not been stopped yet: the hit is still to be told
 
 // [m] manifolds are made for pieces closer than this: contacts are ready before they are needed.
 #define PL_SPECULATIVE ((real)0.02)

@@ -5,7 +5,7 @@
 // finer box. Static pieces: from the moving box. Cost: O(moving pieces + pairs) for sizes within an
 // octave.
 #include "broad/pairs.h"
-#include "world/state.h"
+#include "world/filter.h"
 
 typedef struct finder {
     plumb_world *world;
@@ -13,6 +13,7 @@ typedef struct finder {
     uint32_t dynamic_count;
     pl_found *found;
     uint32_t count, capacity;
+    bool selective; // filters, excluded pairs or sensors are there
     bool out_of_memory;
     uint32_t piece; // whose partners are being collected
 } finder;
@@ -30,9 +31,36 @@ static bool grow(finder *f)
     return true;
 }
 
+// A pair with a sensor, which may do without a dynamic body.
+static bool add_sensed(finder *f, uint32_t sensor, uint32_t other)
+{
+    pl_broad *broad = &f->world->broad;
+    size_t wanted = ((size_t)broad->sensed_count + 1) * sizeof(pl_found);
+    if (!pl_buffer_reserve(&f->world->memory, &broad->sensed, wanted)) {
+        f->out_of_memory = true;
+        return false;
+    }
+    ((pl_found *)broad->sensed.data)[broad->sensed_count++] = (pl_found){ sensor, other };
+    return true;
+}
+
+// Asks the filters; pairs with sensors go to their own list, once for each sensor. True: go on.
+static __attribute__((noinline)) bool select_pair(finder *f, uint32_t p, uint32_t q, bool *solid)
+{
+    const uint8_t *flags = f->world->pieces.flags;
+    bool p_senses = (flags[p] & PL_PIECE_SENSOR) != 0, q_senses = (flags[q] & PL_PIECE_SENSOR) != 0;
+    bool meet = f->body[p] != f->body[q] && pl_pieces_meet(f->world, p, q);
+    *solid = meet && !p_senses && !q_senses;
+    return !meet || ((!p_senses || add_sensed(f, p, q)) && (!q_senses || add_sensed(f, q, p)));
+}
+
 // Adds the pair unless nothing could come of it: one body, or no dynamic body.
 static inline bool add_pair(finder *f, uint32_t p, uint32_t q)
 {
+    bool solid = true;
+    if (f->selective && (!select_pair(f, p, q, &solid) || !solid)) {
+        return !f->out_of_memory;
+    }
     uint32_t body_p = f->body[p];
     uint32_t body_q = f->body[q];
     if (body_p == body_q || (body_p >= f->dynamic_count && body_q >= f->dynamic_count)) {
@@ -58,7 +86,8 @@ static inline bool scan_run(finder *f, const pl_grid_entry *entries, pl_grid_run
     for (uint32_t i = run.begin; i < run.end; ++i) {
         const pl_grid_entry *other = &entries[i];
         if (pl_boxes_overlap(&e->box, &other->box) && other->cell_y == y &&
-            (uint32_t)other->cell_x - (uint32_t)x0 <= width && !add_pair(f, e->piece, other->piece)) {
+            (uint32_t)other->cell_x - (uint32_t)x0 <= width &&
+            !add_pair(f, e->piece, other->piece)) {
             return false;
         }
     }
@@ -148,8 +177,10 @@ bool pl_pairs_find(plumb_world *world)
     finder f = { .world = world,
                  .body = world->pieces.body,
                  .dynamic_count = world->dynamic_count,
+                 .selective = pl_world_is_selective(world),
                  .found = broad->found.data,
                  .capacity = (uint32_t)(broad->found.size / sizeof(pl_found)) };
+    broad->sensed_count = 0;
     for (uint32_t k = 0; k < broad->moving.level_count; ++k) {
         if (!find_in_level(&f, &broad->moving, &broad->moving.levels[k]) ||
             !find_across_levels(&f, &broad->moving, k)) {

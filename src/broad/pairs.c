@@ -8,11 +8,14 @@
 
 #include <string.h>
 
-// Sorts the pairs of one piece by `high`. Shell sort: the usual few cost a single insertion pass, and
-// a ground under thousands of bodies does not cost their square. Gaps: Ciura 2001, then times 2.25.
+// Sorts the pairs of one piece by `high`. Shell sort: the usual few cost a single insertion pass,
+// and a ground under thousands of bodies does not cost their square. Gaps: Ciura 2001, then
+// times 2.25.
 static void sort_run(pl_found *run, uint32_t count)
 {
-    static const uint32_t gaps[] = { 40412, 17961, 7983, 3548, 1577, 701, 301, 132, 57, 23, 10, 4, 1 };
+    static const uint32_t gaps[] = {
+        40412, 17961, 7983, 3548, 1577, 701, 301, 132, 57, 23, 10, 4, 1
+    };
     for (size_t g = 0; g < sizeof gaps / sizeof gaps[0]; ++g) {
         uint32_t gap = gaps[g];
         for (uint32_t i = gap; i < count; ++i) {
@@ -129,6 +132,7 @@ static void place_pairs(plumb_world *world, pl_pair *items, carry *c)
                 memcpy(pair.feature, old->feature, sizeof pair.feature);
                 memcpy(pair.normal, old->normal, sizeof pair.normal);
                 memcpy(pair.tangent, old->tangent, sizeof pair.tangent);
+                pair.rolling = old->rolling;
                 pair.flags = old->flags;
                 pair.manifold = old->manifold;
             }
@@ -151,7 +155,7 @@ bool pl_pairs_rebuild(plumb_world *world)
     if (!pl_pairs_find(world) || !sort_found(world) ||
         !pl_buffer_reserve(&world->memory, &list->old_items,
                            ((size_t)broad->found_count + 1) * sizeof(pl_pair)) ||
-        !pl_events_reserve_ends(world, list->count)) {
+        !pl_events_reserve_ends(world, list->count) || !pl_parts_reserve(world, list->count)) {
         return false;
     }
     carry c = { .old = list->items.data };

@@ -5,7 +5,7 @@
 #include "broad/broad.h"
 
 typedef struct pl_found {
-    uint32_t low, high; // piece slots
+    uint32_t low, high; // piece slots; of broad->sensed: sensor, other
 } pl_found;
 
 // Rebuilds the pair list from the grids. False when out of memory; the old list then stands.

@@ -1,14 +1,33 @@
-// contact_events.c - who began and who ceased to touch in this step.
+// contact_events.c - who began and who ceased to touch in this step, and who struck whom.
 //
 // A pair touches when its surfaces met at the start of the step, when its contact carried an
-// impulse in the last substep, or when an impact was resolved. Reads: pairs, manifolds. Writes:
-// event arrays, the pairs' touching flag. Order: last of the built-in passes. Cost: O(pairs).
+// impulse in the last substep, or when an impact was resolved. A hit is a contact that approached
+// faster than the world's hit speed and carried an impulse in the step.
+//
+// Pairs of shapes of several pieces tell each event once: what happens to their pairs of pieces is
+// kept, sorted by shapes, and summed up at the end. They touch while any pair of pieces does, so a
+// body that goes from link to link of a chain neither ends nor begins.
+//
+// Reads: pairs, manifolds. Writes: event arrays, the pairs' flags. Order: last of the built-in
+// passes. Cost: O(pairs), and O(n log n) for the n touching pairs of shapes of several pieces.
 #include "event/event.h"
+
+#include "core/sort.h"
 #include "world/state.h"
+
+// A contact that is made in the last substep of a step is only slowed down there, to meet in the
+// next one: such a blow is told a step later, as a whole.
+typedef struct pl_blow {
+    uint32_t a, b; // pieces of the pair
+    real approach; // [m/s]
+    real impulse;  // [N s]
+} pl_blow;
 
 void pl_events_clear(plumb_world *world)
 {
-    world->begin_count = world->end_count = 0;
+    world->begin_count = world->end_count = world->hit_count = 0;
+    world->parts.count = 0;
+    world->sensing.begin_count = world->sensing.end_count = 0;
 }
 
 bool pl_events_reserve_ends(plumb_world *world, uint32_t count)
@@ -27,13 +46,65 @@ static void append_end(plumb_world *world, const pl_pair *pair)
                              .body_b = world->bodies.entity[pieces->body[pair->b]] };
 }
 
+//---- shapes of several pieces --------------------------------------------------------------------
+
+#define PART_WAS  1u // the pair of pieces touched before
+#define PART_IS   2u // it touches now
+#define PART_HIT  4u // a hit is due
+#define PART_LOST 8u // it is a pair of the list before
+#define PART_BITS 4
+
+bool pl_parts_reserve(plumb_world *world, uint32_t count)
+{
+    if (world->part_pieces == 0) {
+        return true;
+    }
+    size_t room = ((size_t)world->parts.count + count) * sizeof(pl_keyed);
+    return pl_buffer_reserve(&world->memory, &world->parts.items, room);
+}
+
+void pl_parts_free(pl_memory *memory, pl_parts *parts)
+{
+    pl_buffer_free(memory, &parts->items);
+}
+
+static bool is_part(const plumb_world *world, const pl_pair *pair)
+{
+    const uint8_t *flags = world->pieces.flags;
+    return ((flags[pair->a] | flags[pair->b]) & PL_PIECE_PART) != 0;
+}
+
+static void keep_part(plumb_world *world, const pl_pair *pair, uint32_t index, uint32_t bits)
+{
+    uint32_t a = world->pieces.shape[pair->a].index, b = world->pieces.shape[pair->b].index;
+    uint32_t order = world->parts.count++;
+    ((pl_keyed *)world->parts.items.data)[order] =
+        (pl_keyed){ a < b ? pl_key(a, b) : pl_key(b, a), order, index << PART_BITS | bits };
+}
+
+static const pl_pair *part_pair(const plumb_world *world, const pl_keyed *part)
+{
+    const pl_pair_list *list = &world->broad.pairs;
+    const pl_pair *from = (part->value & PART_LOST) != 0 ? list->old_items.data : list->items.data;
+    return from + (part->value >> PART_BITS);
+}
+
+//---- before the solver ---------------------------------------------------------------------------
+
 void pl_pair_lost(plumb_world *world, const pl_pair *pair)
 {
     const pl_pieces *pieces = &world->pieces;
     bool reborn = pieces->serial[pair->a] > world->broad.serial ||
                   pieces->serial[pair->b] > world->broad.serial;
     bool gone = pieces->kind[pair->a] == PL_PIECE_FREE || pieces->kind[pair->b] == PL_PIECE_FREE;
-    if ((pair->flags & PL_PAIR_TOUCHING) != 0 && !reborn && !gone) {
+    if ((pair->flags & PL_PAIR_TOUCHING) == 0 || reborn || gone) {
+        return;
+    }
+    if (is_part(world, pair)) {
+        // The list is about to become the old one: see part_pair.
+        keep_part(world, pair, (uint32_t)(pair - pl_pairs(&world->broad.pairs)),
+                  PART_WAS | PART_LOST);
+    } else {
         append_end(world, pair);
     }
 }
@@ -61,18 +132,27 @@ bool pl_events_prepare(plumb_world *world)
     uint32_t begins = world->narrow.manifold_count;
     if (!pl_buffer_reserve(&world->memory, &world->begin_events,
                            begins * sizeof(plumb_contact_begin)) ||
-        !pl_events_reserve_ends(world, world->broad.pairs.count)) {
+        !pl_events_reserve_ends(world, world->broad.pairs.count + world->parts.count) ||
+        !pl_parts_reserve(world, world->broad.pairs.count)) {
+        return false;
+    }
+    bool all = world->desc.hit_speed > 0;
+    if (all && (!pl_buffer_reserve(&world->memory, &world->hit_events,
+                                   begins * sizeof(plumb_contact_hit)) ||
+                !pl_buffer_reserve(&world->memory, &world->blows.old, begins * sizeof(pl_blow)))) {
         return false;
     }
     pl_manifold *m = pl_manifolds(&world->narrow);
     const pl_pair *pairs = pl_pairs(&world->broad.pairs);
     for (uint32_t i = 0; i < world->narrow.manifold_count; ++i) {
-        if ((pairs[m[i].pair].flags & PL_PAIR_TOUCHING) == 0) {
+        if (all || (pairs[m[i].pair].flags & PL_PAIR_TOUCHING) == 0) {
             m[i].approach = approach_speed(world, &m[i]);
         }
     }
     return true;
 }
+
+//---- after the solver ----------------------------------------------------------------------------
 
 static bool touches(const pl_pair *pair, const pl_manifold *m)
 {
@@ -80,9 +160,15 @@ static bool touches(const pl_pair *pair, const pl_manifold *m)
            m->point[0].separation <= 0 || m->point[1].separation <= 0;
 }
 
-static void append_begin(plumb_world *world, const pl_pair *pair, const pl_manifold *m)
+static const pl_manifold *manifold_of(const plumb_world *world, const pl_pair *pair)
+{
+    return &pl_manifolds(&world->narrow)[pair->manifold];
+}
+
+static void append_begin(plumb_world *world, const pl_pair *pair)
 {
     const pl_bodies *b = &world->bodies;
+    const pl_manifold *m = manifold_of(world, pair);
     const pl_manifold_point *p = &m->point[0];
     ((plumb_contact_begin *)world->begin_events.data)[world->begin_count++] =
         (plumb_contact_begin){ .shape_a = world->pieces.shape[pair->a],
@@ -95,8 +181,189 @@ static void append_begin(plumb_world *world, const pl_pair *pair, const pl_manif
                                .approach_speed = m->approach };
 }
 
+static real impulse_of(const pl_manifold *m)
+{
+    return m->point[0].total + m->point[1].total;
+}
+
+// The bodies have moved meanwhile: where they were is what the solver counts from.
+static plumb_vec2 place_of_hit(const plumb_world *world, const pl_manifold *m)
+{
+    const pl_manifold_point *p = &m->point[m->point[1].total > m->point[0].total ? 1 : 0];
+    plumb_vec2 at = { world->bodies.center_x[m->body_a] + p->ax,
+                      world->bodies.center_y[m->body_a] + p->ay };
+    uint32_t movable = world->dynamic_count + world->kinematic_count;
+    if (m->body_a < movable) {
+        uint32_t slot = pl_solver_slot(&world->solver, m->body_a, movable);
+        at.x -= pl_solver_bodies(&world->solver)[slot].dx;
+        at.y -= pl_solver_bodies(&world->solver)[slot].dy;
+    }
+    return at;
+}
+
+static void append_hit(plumb_world *world, const pl_pair *pair, real impulse)
+{
+    const pl_manifold *m = manifold_of(world, pair);
+    ((plumb_contact_hit *)world->hit_events.data)[world->hit_count++] =
+        (plumb_contact_hit){ .shape_a = world->pieces.shape[pair->a],
+                             .shape_b = world->pieces.shape[pair->b],
+                             .body_a = world->bodies.entity[m->body_a],
+                             .body_b = world->bodies.entity[m->body_b],
+                             .point = place_of_hit(world, m),
+                             .normal = { m->nx, m->ny },
+                             .approach_speed = m->approach,
+                             .impulse = impulse };
+}
+
+#define STILL_CLOSING                                                                              \
+    ((real)0.01) // [-] share of the approach that is left of a contact not yet made
+
+void pl_blows_free(pl_memory *memory, pl_blows *blows)
+{
+    pl_buffer_free(memory, &blows->items);
+    pl_buffer_free(memory, &blows->old);
+}
+
+// What the step before kept of a pair. Both lists are in order of pairs: it is mostly the next one.
+static const pl_blow *find_blow(pl_blows *blows, const pl_pair *pair)
+{
+    const pl_blow *old = blows->old.data;
+    for (uint32_t tries = 0; tries < blows->old_count; ++tries) {
+        blows->next = blows->next < blows->old_count ? blows->next : 0;
+        const pl_blow *blow = &old[blows->next++];
+        if (blow->a == pair->a && blow->b == pair->b) {
+            return blow;
+        }
+    }
+    return NULL;
+}
+
+static void begin_blows(pl_blows *blows)
+{
+    pl_buffer items = blows->items;
+    blows->items = blows->old;
+    blows->old = items;
+    blows->old_count = blows->count;
+    blows->count = blows->next = 0;
+}
+
+// Whether a touching pair's hit is to be told, with the manifold's `approach` and `blow`.
+static bool hit_is_due(plumb_world *world, pl_pair *pair)
+{
+    pl_manifold *m = &pl_manifolds(&world->narrow)[pair->manifold];
+    const pl_blow *pending =
+        (pair->flags & PL_PAIR_PENDING) != 0 ? find_blow(&world->blows, pair) : NULL;
+    bool struck = (pair->flags & PL_PAIR_STRUCK) != 0;
+    m->blow = impulse_of(m);
+    bool strikes = m->approach > world->desc.hit_speed && m->blow > 0;
+    pair->flags &= ~(PL_PAIR_STRUCK | PL_PAIR_PENDING);
+    pair->flags |= strikes ? PL_PAIR_STRUCK : 0;
+    if (pending != NULL) {
+        m->approach = pending->approach > m->approach ? pending->approach : m->approach;
+        m->blow += pending->impulse;
+        return true;
+    }
+    if (!strikes || struck) {
+        return false;
+    }
+    if (approach_speed(world, m) > STILL_CLOSING * m->approach) {
+        pair->flags |= PL_PAIR_PENDING;
+        ((pl_blow *)world->blows.items.data)[world->blows.count++] =
+            (pl_blow){ pair->a, pair->b, m->approach, m->blow };
+        return false;
+    }
+    return true;
+}
+
+// The parts [first, end) are those of one pair of shapes.
+static void publish_group(plumb_world *world, const pl_keyed *first, const pl_keyed *end)
+{
+    uint32_t all = 0;
+    real impulse = 0, fastest = -1, fastest_hit = -1;
+    const pl_pair *touching = NULL, *struck = NULL;
+    for (const pl_keyed *part = first; part < end; ++part) {
+        const pl_pair *pair = part_pair(world, part);
+        all |= part->value & (PART_WAS | PART_IS);
+        if ((part->value & PART_IS) != 0 && manifold_of(world, pair)->approach > fastest) {
+            fastest = manifold_of(world, pair)->approach;
+            touching = pair;
+        }
+        if ((part->value & PART_HIT) != 0) {
+            const pl_manifold *m = manifold_of(world, pair);
+            impulse += m->blow;
+            struck = m->approach > fastest_hit ? pair : struck;
+            fastest_hit = m->approach > fastest_hit ? m->approach : fastest_hit;
+        }
+    }
+    if ((all & PART_WAS) == 0 && touching != NULL) {
+        append_begin(world, touching);
+    } else if (all == PART_WAS) {
+        append_end(world, part_pair(world, first));
+    }
+    if (struck != NULL) {
+        append_hit(world, struck, impulse);
+    }
+}
+
+static void publish_parts(plumb_world *world)
+{
+    const pl_keyed *parts = world->parts.items.data;
+    const pl_keyed *end = parts + world->parts.count;
+    pl_sort_keyed(world->parts.items.data, world->parts.count);
+    for (const pl_keyed *first = parts; first < end;) {
+        const pl_keyed *next = first;
+        while (next < end && next->key == first->key) {
+            ++next;
+        }
+        publish_group(world, first, next);
+        first = next;
+    }
+}
+
+// What happened to one pair, in a world of shapes of several pieces or of hits.
+static void publish_pair(plumb_world *world, pl_pair *pair, uint32_t index, bool was, bool is)
+{
+    bool hit = is && world->desc.hit_speed > 0 && hit_is_due(world, pair);
+    if (!is && !was) {
+        return;
+    }
+    pair->flags &= is ? ~0u : ~(PL_PAIR_STRUCK | PL_PAIR_PENDING);
+    if (is_part(world, pair)) {
+        keep_part(world, pair, index,
+                  (was ? PART_WAS : 0) | (is ? PART_IS : 0) | (hit ? PART_HIT : 0));
+        return;
+    }
+    if (is && !was) {
+        append_begin(world, pair);
+    } else if (was && !is) {
+        append_end(world, pair);
+    }
+    if (hit) {
+        append_hit(world, pair, manifold_of(world, pair)->blow);
+    }
+}
+
+static void publish_all(plumb_world *world)
+{
+    pl_pair *pairs = pl_pairs(&world->broad.pairs);
+    begin_blows(&world->blows);
+    for (uint32_t i = 0; i < world->broad.pairs.count; ++i) {
+        pl_pair *pair = &pairs[i];
+        bool was = (pair->flags & PL_PAIR_TOUCHING) != 0;
+        bool is = pair->manifold != PL_NONE && touches(pair, manifold_of(world, pair));
+        publish_pair(world, pair, i, was, is);
+        pair->flags ^= is != was ? PL_PAIR_TOUCHING : 0;
+    }
+    publish_parts(world);
+}
+
 void pl_events_publish(plumb_world *world)
 {
+    // Parts may have left the list together with the last shape that had any.
+    if (world->part_pieces > 0 || world->parts.count > 0 || world->desc.hit_speed > 0) {
+        publish_all(world);
+        return;
+    }
     pl_pair *pairs = pl_pairs(&world->broad.pairs);
     const pl_manifold *manifolds = pl_manifolds(&world->narrow);
     for (uint32_t i = 0; i < world->broad.pairs.count; ++i) {
@@ -104,7 +371,7 @@ void pl_events_publish(plumb_world *world)
         bool was = (pair->flags & PL_PAIR_TOUCHING) != 0;
         bool is = pair->manifold != PL_NONE && touches(pair, &manifolds[pair->manifold]);
         if (is && !was) {
-            append_begin(world, pair, &manifolds[pair->manifold]);
+            append_begin(world, pair);
             pair->flags |= PL_PAIR_TOUCHING;
         } else if (was && !is) {
             append_end(world, pair);

@@ -1,8 +1,32 @@
-// event.h - how the step makes contact events; the public readers are in contact_view.c.
+// event.h - how the step makes events; the public readers are in world/event.c and sensor_events.c.
 #ifndef PL_EVENT_H
 #define PL_EVENT_H
 
 #include "broad/pair.h"
+
+// Touches of pairs of which a piece is only a part of its shape: told once a pair of shapes.
+typedef struct pl_parts {
+    pl_buffer items; // pl_keyed: slots of the two shapes, what happened to a pair of pieces
+    uint32_t count;
+} pl_parts;
+
+// Hits that began in a step and will be through in the next one.
+typedef struct pl_blows {
+    pl_buffer items, old; // pl_blow, in order of pairs: of this step, of the one before
+    uint32_t count, old_count;
+    uint32_t next; // where in `old` to look first
+} pl_blows;
+
+// What sensors see (sensor_events.c).
+typedef struct pl_sensing {
+    pl_buffer candidates; // pl_keyed: slots of sensor and shape; pieces. Sorted
+    uint32_t candidate_count;
+    uint64_t rebuilds;       // those of the broad phase when the candidates were listed
+    pl_buffer overlaps, old; // pl_overlap, sorted: after the last step, after the one before
+    uint32_t count, old_count;
+    pl_buffer begins, ends; // plumb_sensor_event
+    int begin_count, end_count;
+} pl_sensing;
 
 // Forgets the events of the step before.
 void pl_events_clear(plumb_world *world);
@@ -12,7 +36,22 @@ bool pl_events_reserve_ends(plumb_world *world, uint32_t count);
 void pl_pair_lost(plumb_world *world, const pl_pair *pair);
 // Before the solver: room for all events of this step, approach speeds of pairs that did not touch.
 bool pl_events_prepare(plumb_world *world);
-// After the solver: begin and end events.
+// After the solver: begin, end and hit events.
 void pl_events_publish(plumb_world *world);
+
+// Room for `count` more pairs of pieces that are parts; nothing where there are none.
+bool pl_parts_reserve(plumb_world *world, uint32_t count);
+void pl_parts_free(pl_memory *memory, pl_parts *parts);
+void pl_blows_free(pl_memory *memory, pl_blows *blows);
+
+// Before anything has moved: candidates and room for what may come. False when out of memory.
+bool pl_sensing_prepare(plumb_world *world);
+// After the bodies have moved: overlaps and sensor events.
+void pl_sensing_run(plumb_world *world);
+void pl_sensing_free(pl_memory *memory, pl_sensing *sensing);
+
+// Contact systems are about to run, have run: edits are allowed in between (contact_edit.c).
+void pl_edits_open(plumb_world *world);
+void pl_edits_close(plumb_world *world);
 
 #endif

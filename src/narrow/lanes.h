@@ -154,7 +154,8 @@ WIDE_INLINE void lanes_emit(const lanes *l, const touch *t, const pl_narrow_inpu
     vf limit = splat(PL_SPECULATIVE);
     vf closing = -(t->nx * l->vx + t->ny * l->vy) * splat(in->dt);
     vf speed = vsqrt(l->vx * l->vx + l->vy * l->vy) * splat(in->dt);
-    closing = sel(restitution > zero, speed, closing); // it may come back from another impact
+    closing = sel(restitution > splat(in->elastic_above), speed,
+                  closing); // it may come back from another impact
     limit = vmax(limit, limit + closing);
 
     if (!any((t->sep[0] < limit) | (t->sep[1] < limit))) {

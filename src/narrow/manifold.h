@@ -12,23 +12,26 @@ typedef struct pl_manifold_point {
     real separation; // [m] negative: overlap
     real normal;     // [N s] impulse carried over from the last step
     real tangent;    // [N s]
-    real spare;
+    real total;      // [N s] along the normal over the step, where the world adds it up
 } pl_manifold_point;
 
 // A touching or nearly touching pair of this step: three rows of eight reals, which the kernels
 // read by transposes, and a row of indices.
 typedef struct pl_manifold {
-    real nx, ny;      // unit, from A to B
-    real friction;    // [-]
-    real restitution; // [-]
-    real approach;    // [m/s] at the start of the step, for begin events; 0 for pairs that touched
-    real spare[3];
+    real nx, ny;        // unit, from A to B
+    real friction;      // [-]
+    real restitution;   // [-]
+    real approach;      // [m/s] at the start of the step, for events; 0 for pairs that touched
+    real surface_speed; // [m/s] added to the slip: see surface.c
+    real rolling;       // [m] lever arm of rolling resistance
+    real blow;          // [N s] impulse of the hit that is due, steps before included; then only
     pl_manifold_point point[2]; // a point that is absent has separation PL_APART
     uint32_t body_a, body_b;    // body rows
     uint32_t pair;              // index in the pair list
     uint32_t count;             // points, 1 or 2
     uint32_t feature[2];
-    uint32_t pad[2];
+    uint32_t disabled; // by a system; only while the contact systems run
+    uint32_t pad;
 } pl_manifold;
 
 // [m] separation of a point that is not there: no impulse can ever act on it.
@@ -40,6 +43,7 @@ typedef struct pl_narrow {
     // Summary of this step's manifolds.
     bool any_friction;       // some manifold has friction > 0
     bool any_bounce;         // some manifold has restitution > 0
+    bool any_surface;        // some manifold has surface speed or rolling resistance
     uint32_t touching_count; // manifolds whose surfaces met
     uint32_t point_count;
     real max_penetration;   // [m]

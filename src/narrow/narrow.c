@@ -3,6 +3,7 @@
 // Reads: pairs, poses, geometry, materials. Writes: manifolds, the pairs' features and flags.
 // Order: after the broad phase, before the solver. Cost: O(pairs).
 #include "narrow/narrow.h"
+#include "narrow/surface.h"
 #include "world/state.h"
 
 static const pl_narrow_kernels *kernels_of(int width)
@@ -51,6 +52,7 @@ void pl_narrow_run(plumb_world *world, real dt)
                            .friction = world->pieces.friction,
                            .restitution = world->pieces.restitution,
                            .dt = dt,
+                           .elastic_above = pl_restitution_is_mixed(world) ? -1 : 0,
                            .pairs = pl_pairs(list) };
     *narrow = (pl_narrow){ .manifolds = narrow->manifolds };
     for (int a = PL_PIECE_CIRCLE; a < PL_PIECE_KIND_COUNT; ++a) {

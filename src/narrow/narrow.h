@@ -13,7 +13,9 @@ typedef struct pl_narrow_input {
     const uint8_t *vertex_count;              // by piece slot
     const plumb_real *friction, *restitution; // by piece slot
     plumb_real dt;                            // [s] elastic pairs look ahead this long
-    pl_pair *pairs;                           // the whole list
+    plumb_real
+        elastic_above; // pairs of more restitution are elastic: 0; -1 where it may yet change
+    pl_pair *pairs;    // the whole list
 } pl_narrow_input;
 
 // Appends the manifolds of pairs [first, first + count) to the narrow phase's list and keeps up its

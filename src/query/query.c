@@ -65,10 +65,19 @@ int pl_query_grids(const pl_query *q, const pl_grid *grids[2])
 
 bool pl_query_sees(const pl_query *q, uint32_t piece)
 {
-    if (plumb_is_null(q->filter.ignore_body)) {
+    const plumb_world *world = q->world;
+    const plumb_query_filter *f = &q->filter;
+    if (world->sensor_pieces + world->filtered_pieces > 0 || f->mask != 0) {
+        const pl_pieces *pieces = &world->pieces;
+        if ((!f->sensors && (pieces->flags[piece] & PL_PIECE_SENSOR) != 0) ||
+            (f->mask != 0 && (f->mask & pieces->category[piece]) == 0) ||
+            (f->category != 0 && (f->category & pieces->mask[piece]) == 0)) {
+            return false;
+        }
+    }
+    if (plumb_is_null(f->ignore_body)) {
         return true;
     }
-    const plumb_world *world = q->world;
     return !plumb_same(world->bodies.entity[world->pieces.body[piece]], q->filter.ignore_body);
 }
 

@@ -40,7 +40,8 @@ plumb_result pl_query_begin(pl_query *q, plumb_world *world, const char *functio
 // The grids that a filter can see into, in the order in which they are to be asked.
 int pl_query_grids(const pl_query *q, const pl_grid *grids[2]);
 
-// False for the pieces of the ignored body. All but filter.accept, which is asked last, about hits.
+// False for the pieces of the ignored body, sensors, categories that are not asked for. All but
+// filter.accept, which is asked last, about hits.
 bool pl_query_sees(const pl_query *q, uint32_t piece);
 bool pl_query_accepts(const pl_query *q, plumb_shape shape);
 

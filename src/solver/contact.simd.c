@@ -38,6 +38,17 @@ typedef struct bundle {
     point p[2];
 } bundle;
 
+// What only running surfaces and counted impulses need, apart from the bundle, so that others do
+// not read it. Rolling resistance: a torque between the bodies that opposes their relative turning,
+// at most f times the normal impulse of the contact; like friction it acts in the relaxing sweeps.
+typedef struct extra {
+    vf surface_speed; // [m/s]
+    vf rolling;       // [m]
+    vf mr;            // [kg m^2] effective inertia
+    vf lr;            // [N m s]
+    vf total[2];      // [N s] normal impulses of the substeps so far
+} extra;
+
 typedef struct body {
     vf vx, vy, w, inv_mass, dx, dy, da, inv_inertia;
 } body;
@@ -147,6 +158,37 @@ static void prepare(const pl_contact_call *call, uint32_t first, uint32_t count)
     }
 }
 
+static void prepare_extras(const pl_contact_call *call, uint32_t first, uint32_t count)
+{
+    const bundle *bundles = call->bundles;
+    extra *extras = call->extras;
+    for (uint32_t k = first; k < first + count; ++k) {
+        const bundle *c = &bundles[k];
+        extra *e = &extras[k];
+        *e = (extra){ .surface_speed = splat(0) };
+        body a, b;
+        gather_body(&a, call, c->a);
+        gather_body(&b, call, c->b);
+        e->mr = inverse_or_zero(a.inv_inertia + b.inv_inertia);
+        for (int i = 0; i < PL_WIDTH; ++i) {
+            uint32_t at = call->lanes[(size_t)k * PL_WIDTH + (size_t)i];
+            if (at != PL_NONE) {
+                e->surface_speed[i] = call->manifolds[at].surface_speed;
+                e->rolling[i] = call->manifolds[at].rolling;
+                e->lr[i] = call->pairs[call->manifolds[at].pair].rolling;
+            }
+        }
+        vf bound = e->rolling * (c->p[0].ln + c->p[1].ln);
+        e->lr = vclamp(e->lr, -bound, bound);
+    }
+}
+
+WIDE_INLINE void push_turn(body *a, body *b, vf impulse)
+{
+    a->w -= a->inv_inertia * impulse;
+    b->w += b->inv_inertia * impulse;
+}
+
 // Adds the impulses (along n and t) of a point to both bodies.
 WIDE_INLINE void push(const bundle *c, const point *p, body *a, body *b, vf along_n, vf along_t,
                       bool rotation)
@@ -194,9 +236,10 @@ WIDE_INLINE void push_tangent(const bundle *c, const point *p, body *a, body *b,
 }
 
 WIDE_INLINE void warm_start_all(const pl_contact_call *call, uint32_t first, uint32_t count,
-                                bool friction, bool rotation)
+                                bool friction, bool rotation, bool running)
 {
     bundle *bundles = call->bundles;
+    const extra *extras = call->extras;
     for (uint32_t k = first; k < first + count; ++k) {
         bundle *c = &bundles[k];
         body a, b;
@@ -208,6 +251,9 @@ WIDE_INLINE void warm_start_all(const pl_contact_call *call, uint32_t first, uin
             } else {
                 push_normal(c, &c->p[j], &a, &b, c->p[j].ln, rotation);
             }
+        }
+        if (running && rotation) {
+            push_turn(&a, &b, extras[k].lr);
         }
         scatter_velocity(&a, call, c->a);
         scatter_velocity(&b, call, c->b);
@@ -272,9 +318,22 @@ WIDE_INLINE void solve_normals(const bundle *c, point p[2], body *a, body *b,
     }
 }
 
-WIDE_INLINE void solve_tangent(const bundle *c, point *p, body *a, body *b, bool rotation)
+WIDE_INLINE void solve_rolling(const bundle *c, extra *e, body *a, body *b)
+{
+    vf bound = e->rolling * (c->p[0].ln + c->p[1].ln);
+    vf total = vclamp(e->lr - e->mr * (b->w - a->w), -bound, bound);
+    push_turn(a, b, total - e->lr);
+    e->lr = total;
+}
+
+// `e` null: the surfaces move with their bodies.
+WIDE_INLINE void solve_tangent(const bundle *c, const extra *e, point *p, body *a, body *b,
+                               bool rotation)
 {
     vf vt = c->nx * (b->vy - a->vy) - c->ny * (b->vx - a->vx);
+    if (e != NULL) {
+        vt += e->surface_speed;
+    }
     if (rotation) {
         vt += p->rbt * b->w - p->rat * a->w;
     }
@@ -286,9 +345,10 @@ WIDE_INLINE void solve_tangent(const bundle *c, point *p, body *a, body *b, bool
 }
 
 WIDE_INLINE void sweep(const pl_contact_call *call, uint32_t first, uint32_t count, bool soft,
-                       bool friction, bool rotation)
+                       bool friction, bool rotation, bool running)
 {
     bundle *bundles = call->bundles;
+    extra *extras = call->extras;
     for (uint32_t k = first; k < first + count; ++k) {
         bundle *c = &bundles[k];
         body a, b;
@@ -296,8 +356,12 @@ WIDE_INLINE void sweep(const pl_contact_call *call, uint32_t first, uint32_t cou
         gather_body(&b, call, c->b);
         solve_normals(c, c->p, &a, &b, call, soft, rotation);
         if (friction) {
-            solve_tangent(c, &c->p[0], &a, &b, rotation);
-            solve_tangent(c, &c->p[1], &a, &b, rotation);
+            extra *e = running ? &extras[k] : NULL;
+            if (running && rotation) {
+                solve_rolling(c, e, &a, &b);
+            }
+            solve_tangent(c, e, &c->p[0], &a, &b, rotation);
+            solve_tangent(c, e, &c->p[1], &a, &b, rotation);
         }
         scatter_velocity(&a, call, c->a);
         scatter_velocity(&b, call, c->b);
@@ -323,25 +387,58 @@ static void store_impulses(const pl_contact_call *call, pl_pair *pairs, uint32_t
     }
 }
 
-// The variants: friction F, rotation R.
-#define DEFINE_VARIANT(F, R)                                                                       \
-    static void warm_start_##F##R(const pl_contact_call *call, uint32_t first, uint32_t count)     \
+static void tally(const pl_contact_call *call, uint32_t first, uint32_t count)
+{
+    const bundle *bundles = call->bundles;
+    extra *extras = call->extras;
+    for (uint32_t k = first; k < first + count; ++k) {
+        extras[k].total[0] += bundles[k].p[0].ln;
+        extras[k].total[1] += bundles[k].p[1].ln;
+    }
+}
+
+static void store_extras(const pl_contact_call *call, pl_manifold *manifolds, uint32_t first,
+                         uint32_t count)
+{
+    const extra *extras = call->extras;
+    for (uint32_t k = first; k < first + count; ++k) {
+        for (int i = 0; i < PL_WIDTH; ++i) {
+            uint32_t at = call->lanes[(size_t)k * PL_WIDTH + (size_t)i];
+            if (at != PL_NONE) {
+                call->pairs[manifolds[at].pair].rolling = extras[k].lr[i];
+                manifolds[at].point[0].total += extras[k].total[0][i];
+                manifolds[at].point[1].total += extras[k].total[1][i];
+            }
+        }
+    }
+}
+
+// The variants: friction F, rotation R, running surfaces S.
+#define DEFINE_VARIANT(F, R, S)                                                                    \
+    static void warm_start_##F##R##S(const pl_contact_call *call, uint32_t first, uint32_t count)  \
     {                                                                                              \
-        warm_start_all(call, first, count, F, R);                                                  \
+        warm_start_all(call, first, count, F, R, S);                                               \
     }                                                                                              \
-    static void solve_##F##R(const pl_contact_call *call, uint32_t first, uint32_t count)          \
+    static void solve_##F##R##S(const pl_contact_call *call, uint32_t first, uint32_t count)       \
     {                                                                                              \
-        sweep(call, first, count, true, F, R);                                                     \
+        sweep(call, first, count, true, F, R, S);                                                  \
     }                                                                                              \
-    static void relax_##F##R(const pl_contact_call *call, uint32_t first, uint32_t count)          \
+    static void relax_##F##R##S(const pl_contact_call *call, uint32_t first, uint32_t count)       \
     {                                                                                              \
-        sweep(call, first, count, false, F, R);                                                    \
+        sweep(call, first, count, false, F, R, S);                                                 \
     }
 
-DEFINE_VARIANT(0, 0)
-DEFINE_VARIANT(0, 1)
-DEFINE_VARIANT(1, 0)
-DEFINE_VARIANT(1, 1)
+DEFINE_VARIANT(0, 0, 0)
+DEFINE_VARIANT(0, 1, 0)
+DEFINE_VARIANT(1, 0, 0)
+DEFINE_VARIANT(1, 1, 0)
+DEFINE_VARIANT(1, 0, 1)
+DEFINE_VARIANT(1, 1, 1)
+
+// clang-format off
+#define VARIANTS(name)                                                                             \
+    { { name##_000, name##_010 }, { name##_100, name##_110 }, { name##_101, name##_111 } }
+// clang-format on
 
 const pl_contact_kernels PL_WIDE_NAME(pl_contact_kernels) = {
     .width = PL_WIDTH,
@@ -349,8 +446,12 @@ const pl_contact_kernels PL_WIDE_NAME(pl_contact_kernels) = {
     .separation_offset = { offsetof(bundle, p[0].separation), offsetof(bundle, p[1].separation) },
     .impulse_offset = { offsetof(bundle, p[0].ln), offsetof(bundle, p[1].ln) },
     .prepare = prepare,
-    .warm_start = { { warm_start_00, warm_start_01 }, { warm_start_10, warm_start_11 } },
-    .solve = { { solve_00, solve_01 }, { solve_10, solve_11 } },
-    .relax = { { relax_00, relax_01 }, { relax_10, relax_11 } },
+    .warm_start = VARIANTS(warm_start),
+    .solve = VARIANTS(solve),
+    .relax = VARIANTS(relax),
     .store = store_impulses,
+    .extra_size = sizeof(extra),
+    .prepare_extras = prepare_extras,
+    .tally = tally,
+    .store_extras = store_extras,
 };

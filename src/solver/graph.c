@@ -33,6 +33,11 @@ const pl_contact_kernels *pl_solver_kernels(const plumb_world *world)
     return kernels_of(world->desc.simd_width);
 }
 
+bool pl_solver_tallies(const plumb_world *world)
+{
+    return world->desc.contact_impulses || world->desc.hit_speed > 0;
+}
+
 static bool reserve_bodies(plumb_world *world)
 {
     pl_solver *s = &world->solver;
@@ -62,9 +67,11 @@ static bool reserve_lanes(plumb_world *world, const uint32_t counts[PL_COLORS + 
     }
     size_t contacts = world->narrow.manifold_count;
     size_t impacts = world->narrow.any_bounce ? contacts : 0;
+    size_t extras = world->narrow.any_surface || pl_solver_tallies(world) ? bundles : 0;
     size_t classic = world->desc.solver == PLUMB_SOLVER_PGS ? contacts : 0;
     return pl_buffer_reserve(memory, &s->lanes, bundles * width * sizeof(uint32_t)) &&
            pl_buffer_reserve(memory, &s->bundles, bundles * k->bundle_size) &&
+           pl_buffer_reserve(memory, &s->extras, extras * k->extra_size) &&
            pl_buffer_reserve(memory, &s->impacts, impacts * sizeof(pl_impact)) &&
            pl_buffer_reserve(memory, &s->classic, classic * sizeof(pl_classic_contact));
 }
@@ -240,7 +247,8 @@ void pl_solver_free(pl_memory *memory, pl_solver *s)
 {
     pl_buffer *buffers[] = { &s->bodies,  &s->motions, &s->rows,  &s->slots,
                              &s->masks,   &s->colors,  &s->lanes, &s->bundles,
-                             &s->impacts, &s->classic, &s->lows,  &s->struck };
+                             &s->impacts, &s->classic, &s->lows,  &s->struck,
+                             &s->extras };
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; ++i) {
         pl_buffer_free(memory, buffers[i]);
     }

@@ -63,7 +63,8 @@ void pl_impacts_prepare(plumb_world *world)
                                .nx = m->nx,
                                .ny = m->ny,
                                .friction = m->friction,
-                               .restitution = m->restitution };
+                               .restitution = m->restitution,
+                               .surface_speed = m->surface_speed };
         for (uint32_t j = 0; j < m->count; ++j) {
             const pl_manifold_point *p = &m->point[j];
             impact->point[j] = (pl_impact_point){
@@ -225,7 +226,8 @@ static void strike_tangent(const plumb_world *world, const pl_impact *m, uint32_
     const pl_impact_point *p = &m->point[j];
     double rat = (double)p->rat, rbt = (double)p->rbt;
     double slip = (double)m->nx * (double)(b->vy - a->vy) -
-                  (double)m->ny * (double)(b->vx - a->vx) + rbt * (double)b->w - rat * (double)a->w;
+                  (double)m->ny * (double)(b->vx - a->vx) + rbt * (double)b->w -
+                  rat * (double)a->w + (double)m->surface_speed;
     double k = (double)a->inv_mass + (double)b->inv_mass + (double)a->inv_inertia * rat * rat +
                (double)b->inv_inertia * rbt * rbt;
     double bound = (double)m->friction * normal;
@@ -239,6 +241,8 @@ static bool resolve(plumb_world *world, const pl_impact *m, const approach at[2]
 {
     const double gain = 1 + (double)m->restitution;
     double impulse[2] = { 0, 0 };
+    pl_manifold *manifold =
+        &pl_manifolds(&world->narrow)[pl_pairs(&world->broad.pairs)[m->pair].manifold];
     if (at[0].due && at[1].due) {
         double k00 = coupling(world, m, 0, 0), k11 = coupling(world, m, 1, 1),
                k01 = coupling(world, m, 0, 1);
@@ -263,6 +267,7 @@ static bool resolve(plumb_world *world, const pl_impact *m, const approach at[2]
     for (uint32_t j = 0; j < m->count; ++j) {
         if (impulse[j] > 0) {
             strike(world, m, j, impulse[j], 0, at[j].time);
+            manifold->point[j].total += (real)impulse[j];
             struck = true;
         }
     }

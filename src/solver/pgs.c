@@ -50,6 +50,24 @@ static void push(const classic *c, const pl_classic_contact *m, const pl_classic
     b->w += b->inv_inertia * (p->rbn * along_n + p->rbt * along_t);
 }
 
+static real within(real value, real bound)
+{
+    return value > bound ? bound : value < -bound ? -bound : value;
+}
+
+// [N m s] most that rolling resistance can do.
+static real rolling_bound(const pl_classic_contact *m)
+{
+    return m->rolling * (m->point[0].ln + m->point[1].ln);
+}
+
+static void turn(const classic *c, const pl_classic_contact *m, real impulse)
+{
+    pl_solver_body *a = &c->bodies[m->a], *b = &c->bodies[m->b];
+    a->w -= a->inv_inertia * impulse;
+    b->w += b->inv_inertia * impulse;
+}
+
 static void prepare(classic *c, const plumb_world *world)
 {
     const pl_manifold *manifolds = pl_manifolds(&world->narrow);
@@ -60,11 +78,14 @@ static void prepare(classic *c, const plumb_world *world)
         *out = (pl_classic_contact){ .a = pl_solver_slot(c->solver, m->body_a, movable),
                                      .b = pl_solver_slot(c->solver, m->body_b, movable),
                                      .pair = m->pair,
+                                     .manifold = i,
                                      .count = m->count,
                                      .nx = m->nx,
                                      .ny = m->ny,
                                      .friction = m->friction,
-                                     .restitution = m->restitution };
+                                     .restitution = m->restitution,
+                                     .surface_speed = m->surface_speed,
+                                     .rolling = m->rolling };
         const pl_solver_body *a = &c->bodies[out->a], *b = &c->bodies[out->b];
         real mass = a->inv_mass + b->inv_mass;
         for (uint32_t j = 0; j < m->count; ++j) {
@@ -82,6 +103,9 @@ static void prepare(classic *c, const plumb_world *world)
             p->ln = from->normal;
             p->lt = from->tangent;
         }
+        real inertia = a->inv_inertia + b->inv_inertia;
+        out->mr = inertia > 0 ? 1 / inertia : 0;
+        out->lr = within(pl_pairs(&world->broad.pairs)[m->pair].rolling, rolling_bound(out));
     }
 }
 
@@ -116,16 +140,16 @@ static void warm_start(const classic *c)
             const pl_classic_point *p = &c->contacts[i].point[j];
             push(c, &c->contacts[i], p, p->ln, p->lt);
         }
+        turn(c, &c->contacts[i], c->contacts[i].lr);
     }
 }
 
 static void solve_velocity(const classic *c, pl_classic_contact *m, pl_classic_point *p)
 {
     const pl_solver_body *a = &c->bodies[m->a], *b = &c->bodies[m->b];
-    real slip = m->nx * (b->vy - a->vy) - m->ny * (b->vx - a->vx) + p->rbt * b->w - p->rat * a->w;
-    real bound = m->friction * p->ln;
-    real total = p->lt - p->mt * slip;
-    total = total > bound ? bound : total < -bound ? -bound : total;
+    real slip = m->nx * (b->vy - a->vy) - m->ny * (b->vx - a->vx) + p->rbt * b->w - p->rat * a->w +
+                m->surface_speed;
+    real total = within(p->lt - p->mt * slip, m->friction * p->ln);
     push(c, m, p, 0, total - p->lt);
     p->lt = total;
 
@@ -151,16 +175,37 @@ static void solve_position(const classic *c, const pl_classic_contact *m, const 
     b->da += b->inv_inertia * p->rbn * impulse;
 }
 
+static void solve_rolling(const classic *c, pl_classic_contact *m)
+{
+    real total = within(m->lr - m->mr * (c->bodies[m->b].w - c->bodies[m->a].w), rolling_bound(m));
+    turn(c, m, total - m->lr);
+    m->lr = total;
+}
+
 static void sweep(const classic *c, bool positions)
 {
     for (uint32_t i = 0; i < c->count; ++i) {
         pl_classic_contact *m = &c->contacts[i];
+        if (!positions && m->rolling > 0) {
+            solve_rolling(c, m);
+        }
         for (uint32_t j = 0; j < m->count; ++j) {
             if (positions) {
                 solve_position(c, m, &m->point[j]);
             } else {
                 solve_velocity(c, m, &m->point[j]);
             }
+        }
+    }
+}
+
+// Adds the substep's impulses to what the step did.
+static void tally(const classic *c, pl_manifold *manifolds)
+{
+    for (uint32_t i = 0; i < c->count; ++i) {
+        const pl_classic_contact *m = &c->contacts[i];
+        for (uint32_t j = 0; j < m->count; ++j) {
+            manifolds[m->manifold].point[j].total += m->point[j].ln;
         }
     }
 }
@@ -178,6 +223,7 @@ static void store(const classic *c, pl_pair *pairs)
 {
     for (uint32_t i = 0; i < c->count; ++i) {
         pl_pair *pair = &pairs[c->contacts[i].pair];
+        pair->rolling = c->contacts[i].lr;
         for (uint32_t j = 0; j < c->contacts[i].count; ++j) {
             pair->normal[j] = c->contacts[i].point[j].ln;
             pair->tangent[j] = c->contacts[i].point[j].lt;
@@ -207,6 +253,9 @@ void pl_solver_pgs(plumb_world *world, real dt)
         integrate_positions(&c);
         for (int i = 0; i < POSITION_SWEEPS; ++i) {
             sweep(&c, true);
+        }
+        if (pl_solver_tallies(world)) {
+            tally(&c, pl_manifolds(&world->narrow));
         }
     }
     store(&c, pl_pairs(&world->broad.pairs));

@@ -87,16 +87,25 @@ void pl_solver_soft(plumb_world *world, real dt)
                              .movable_rows = world->dynamic_count + world->kinematic_count,
                              .immovable_slot = s->slot_count - 1,
                              .manifolds = pl_manifolds(&world->narrow),
+                             .pairs = pl_pairs(&world->broad.pairs),
                              .h = h,
                              .inv_h = 1 / h,
                              .hertz = asked > 0 && asked < stiffest ? asked : stiffest,
                              .damping = world->desc.contact_damping,
                              .push_speed = world->desc.push_speed };
-    const bool friction = world->narrow.any_friction;
+    const bool running = world->narrow.any_surface;
+    const bool tallies = pl_solver_tallies(world);
+    const pl_surface_variant surface = running                      ? PL_RUNNING
+                                       : world->narrow.any_friction ? PL_ROUGH
+                                                                    : PL_SMOOTH;
     const bool rotation = world->turning_bodies > 0;
     const bool bounce = world->narrow.any_bounce;
 
     kernels->prepare(&call, 0, s->bundle_count);
+    if (running || tallies) {
+        call.extras = s->extras.data;
+        kernels->prepare_extras(&call, 0, s->bundle_count);
+    }
     if (bounce) {
         pl_impacts_prepare(world);
     }
@@ -107,18 +116,24 @@ void pl_solver_soft(plumb_world *world, real dt)
             integrate_velocities(world, h);
         }
         if (k == 0) {
-            kernels->warm_start[friction][rotation](&call, 0, s->bundle_count);
+            kernels->warm_start[surface][rotation](&call, 0, s->bundle_count);
         }
         if (bounce) {
             pl_impacts_run(world, h);
         }
         for (int i = 0; i < world->desc.iterations; ++i) {
-            kernels->solve[friction][rotation](&call, 0, s->bundle_count);
+            kernels->solve[surface][rotation](&call, 0, s->bundle_count);
         }
         integrate_positions(world, h);
         for (int i = 0; i < world->desc.iterations; ++i) {
-            kernels->relax[friction][rotation](&call, 0, s->bundle_count);
+            kernels->relax[surface][rotation](&call, 0, s->bundle_count);
+        }
+        if (tallies) {
+            kernels->tally(&call, 0, s->bundle_count);
         }
     }
-    kernels->store(&call, pl_pairs(&world->broad.pairs), 0, s->bundle_count);
+    kernels->store(&call, call.pairs, 0, s->bundle_count);
+    if (running || tallies) {
+        kernels->store_extras(&call, pl_manifolds(&world->narrow), 0, s->bundle_count);
+    }
 }

@@ -32,6 +32,7 @@ typedef struct pl_impact {
     uint32_t pair;
     uint32_t count;
     real nx, ny, friction, restitution;
+    real surface_speed; // [m/s]
     bool due;    // an impact falls into the present substep
     double time; // [s] of the first one, since the start of the substep
     pl_impact_point point[2];
@@ -48,8 +49,11 @@ typedef struct pl_classic_point {
 
 typedef struct pl_classic_contact {
     uint32_t a, b; // solver slots
-    uint32_t pair, count;
+    uint32_t pair, manifold, count;
     real nx, ny, friction, restitution;
+    real surface_speed; // [m/s]
+    real rolling;       // [m]
+    real mr, lr;        // [kg m^2], [N m s] of rolling resistance
     pl_classic_point point[2];
 } pl_classic_contact;
 
@@ -67,6 +71,7 @@ typedef struct pl_solver {
     pl_buffer colors; // uint8_t a manifold
     pl_buffer lanes;  // uint32_t a lane: its manifold; PL_NONE: empty
     pl_buffer bundles; // constraints of `width` contacts each
+    pl_buffer extras;  // a record a bundle, where surfaces run or roll hard or impulses are added up
     pl_buffer impacts; // pl_impact
     pl_buffer classic; // pl_classic_contact, for the classic solver alone
     uint32_t dynamic_slots,
@@ -85,7 +90,9 @@ typedef struct pl_contact_call {
     const uint32_t *slots; // slot of a body row
     uint32_t movable_rows; // rows from here on are static
     uint32_t immovable_slot;
+    void *extras; // NULL: none
     const pl_manifold *manifolds;
+    pl_pair *pairs;
     real h, inv_h;       // [s] substep
     real hertz, damping; // [1/s], [-] of soft contacts
     real push_speed;     // [m/s]
@@ -93,17 +100,30 @@ typedef struct pl_contact_call {
 
 typedef void pl_contact_kernel(const pl_contact_call *call, uint32_t first, uint32_t count);
 
-// One set a width. Sweeps come in variants [friction][rotation]: scenes pay only for what they
-// have.
+// Variants of the sweeps: what surfaces do, times rotation. Scenes pay only for what they have.
+typedef enum pl_surface_variant {
+    PL_SMOOTH,  // no friction
+    PL_ROUGH,   // friction
+    PL_RUNNING, // friction, surface speed, rolling resistance: needs `extras`
+    PL_SURFACE_VARIANTS
+} pl_surface_variant;
+
+// One set a width.
 typedef struct pl_contact_kernels {
     int width;
     size_t bundle_size;
     size_t separation_offset[2]; // of the lanes' separations and impulses in a bundle
     size_t impulse_offset[2];
     pl_contact_kernel *prepare;
-    pl_contact_kernel *warm_start[2][2];
-    pl_contact_kernel *solve[2][2];
-    pl_contact_kernel *relax[2][2];
+    pl_contact_kernel *warm_start[PL_SURFACE_VARIANTS][2];
+    pl_contact_kernel *solve[PL_SURFACE_VARIANTS][2];
+    pl_contact_kernel *relax[PL_SURFACE_VARIANTS][2];
+    size_t extra_size;
+    pl_contact_kernel *prepare_extras;
+    pl_contact_kernel *tally; // adds the substep's normal impulses to the totals
+    // Writes rolling impulses to the pairs and adds totals to the manifolds' points.
+    void (*store_extras)(const pl_contact_call *call, pl_manifold *manifolds, uint32_t first,
+                         uint32_t count);
     // Writes the impulses of each bundle back to the pairs.
     void (*store)(const pl_contact_call *call, pl_pair *pairs, uint32_t first, uint32_t count);
 } pl_contact_kernels;
@@ -125,6 +145,8 @@ bool pl_solver_graph(plumb_world *world);
 // The soft step (soft.c) and the classic (pgs.c), over the whole step of dt [s].
 void pl_solver_soft(plumb_world *world, real dt);
 void pl_solver_pgs(plumb_world *world, real dt);
+// Whether the impulses of contacts are added up over the step.
+bool pl_solver_tallies(const plumb_world *world);
 // Impacts with restitution: collects them; resolves those of one substep of h [s] (impact.c).
 void pl_impacts_prepare(plumb_world *world);
 void pl_impacts_run(plumb_world *world, real h);

@@ -6,6 +6,7 @@
 // changes nothing.
 #include "event/event.h"
 #include "narrow/narrow.h"
+#include "narrow/surface.h"
 #include "world/state.h"
 
 //---- what is wanted ------------------------------------------------------------------------------
@@ -54,6 +55,24 @@ static bool collision_wanted(const plumb_world *world, const char **reason)
     bool wanted = world->dynamic_count > 0 && world->moving_count > 0 && world->pieces.live > 1;
     return say(wanted, reason, "dynamic bodies have shapes that can meet others",
                "no dynamic body has a shape that could meet another");
+}
+
+// A sensor that something could meet, or what it saw has to be forgotten.
+static bool sensing_wanted(const plumb_world *world, const char **reason)
+{
+    bool wanted = world->sensor_pieces > 0 && world->moving_count > 0 && world->pieces.live > 1;
+    return say(wanted || world->sensing.count > 0, reason, "there are sensors",
+               "no shape is a sensor that could meet another");
+}
+
+static bool broad_wanted(const plumb_world *world, const char **reason)
+{
+    return collision_wanted(world, reason) || sensing_wanted(world, reason);
+}
+
+static bool surfaces_wanted(const plumb_world *world, const char **reason)
+{
+    return collision_wanted(world, reason) && pl_surfaces_wanted(world, reason);
 }
 
 static bool soft_wanted(const plumb_world *world, const char **reason)
@@ -131,9 +150,31 @@ static plumb_result run_narrow(plumb_world *world, plumb_real dt)
     return pl_events_prepare(world) ? PLUMB_OK : PLUMB_E_MEMORY;
 }
 
+static plumb_result run_candidates(plumb_world *world, plumb_real dt)
+{
+    (void)dt;
+    return pl_sensing_prepare(world) ? PLUMB_OK : PLUMB_E_MEMORY;
+}
+
+static plumb_result run_surfaces(plumb_world *world, plumb_real dt)
+{
+    (void)dt;
+    pl_surfaces_mix(world);
+    return PLUMB_OK;
+}
+
+static plumb_result run_sensors(plumb_world *world, plumb_real dt)
+{
+    (void)dt;
+    pl_sensing_run(world);
+    return PLUMB_OK;
+}
+
 static plumb_result run_contacts(plumb_world *world, plumb_real dt)
 {
+    pl_edits_open(world);
     pl_systems_run(world, PLUMB_PHASE_CONTACTS, dt, world->time);
+    pl_edits_close(world);
     return PLUMB_OK;
 }
 
@@ -184,8 +225,10 @@ const pl_pass pl_passes[] = {
     //name             phase       reads                              writes                       wanted            run
     { "begin systems", pl_user_phase, "declared by the systems",         "declared by the systems",   begin_wanted,     run_begin },
     { "force systems", pl_user_phase, "declared by the systems",         "declared by the systems",   forces_wanted,    run_forces },
-    { "broad phase",   "broad",    "poses, pieces",                   "fat boxes, grids, pairs",   collision_wanted, run_broad },
+    { "broad phase",   "broad",    "poses, pieces",                   "fat boxes, grids, pairs",   broad_wanted,     run_broad },
+    { "sensor pairs",  "broad",    "pairs with sensors",              "candidates of sensors",     sensing_wanted,   run_candidates },
     { "narrow phase",  "narrow",   "pairs, poses, pieces, materials", "manifolds",                 collision_wanted, run_narrow },
+    { "surfaces",      "narrow",   "pairs, materials",                "manifolds",                 surfaces_wanted,  run_surfaces },
     { "contact systems", pl_user_phase, "declared by the systems",         "declared by the systems",   contacts_wanted,  run_contacts },
     { "graph",         "solve",    "manifolds, velocities, forces",   "solver bodies, colours",    collision_wanted, run_graph },
     { "soft step",     "solve",    "manifolds, solver bodies",        "solver bodies, impulses",   soft_wanted,      run_soft },
@@ -195,6 +238,7 @@ const pl_pass pl_passes[] = {
     { "- impacts",     "solve",    "materials, manifolds",            "solver bodies",             impacts_wanted,   NULL },
     { "motion",        "finish",   "solver bodies, forces, gravity",  "transforms, velocities",    NULL,             run_motion },
     { "events",        "finish",   "pairs, manifolds",                "event arrays",              collision_wanted, run_events },
+    { "sensors",       "finish",   "candidates, poses, pieces",       "overlaps, sensor events",   sensing_wanted,   run_sensors },
     { "end systems",   pl_user_phase, "declared by the systems",         "declared by the systems",   end_wanted,       run_end },
 };
 // clang-format on

@@ -243,8 +243,7 @@ plumb_result plumb_body_reset_mass(plumb_world *world, plumb_body body)
     }
     pl_pieces *pieces = &world->pieces;
     for (uint32_t p = world->bodies.first_piece[row]; p != PL_NONE; p = pieces->next_in_body[p]) {
-        real own = pieces->own_density[p];
-        pieces->density[p] = own > 0 ? own : world->materials.density[pieces->material[p]];
+        pieces->density[p] = pl_density_of(world, p);
     }
     world->bodies.set_mass[row] = 0;
     world->bodies.set_inertia[row] = 0;

@@ -35,6 +35,7 @@ typedef plumb_real real;
     X(uint8_t, flags)              /* PL_BODY_... */
 
 #define PL_BODY_FIXED_ROTATION 1u
+#define PL_BODY_EXCLUDING      128u // it is in the table of excluded pairs, or was once
 
 // Pieces: the convex parts of shapes, what the broad and narrow phase see. Slots are stable for the
 // life of the shape (contacts and grids name them); free slots have kind PL_PIECE_FREE.
@@ -50,6 +51,9 @@ typedef plumb_real real;
     X(uint32_t, next_in_body)      /* next piece of the body, PL_NONE ends */                       \
     X(uint32_t, next_in_shape)     /* next piece of the shape, PL_NONE ends; also the free list */  \
     X(uint32_t, material)          /* material row */                                               \
+    X(uint64_t, category) X(uint64_t, mask) /* filter, resolved: mask 0 meets nothing */            \
+    X(int32_t, group)                                                                               \
+    X(uint8_t, flags)              /* PL_PIECE_... */                                               \
     X(real, friction) X(real, restitution) /* copied from the material */                           \
     X(real, density)               /* [kg/m^2] in force; 0 for lines */                             \
     X(real, own_density)           /* [kg/m^2] given with the shape; 0: the material's */           \
@@ -63,8 +67,16 @@ typedef plumb_real real;
 #define PL_MATERIAL_COLUMNS(X)                                                                      \
     X(plumb_entity, entity)                                                                         \
     X(real, density) X(real, friction) X(real, restitution)                                         \
+    X(real, rolling)               /* [m] */                                                        \
+    X(real, surface_speed)         /* [m/s] */                                                      \
+    X(uint8_t, friction_mix) X(uint8_t, restitution_mix) /* plumb_mix */                            \
+    X(uint32_t, pairs)             /* entries of the pair table that name it */                     \
     X(uint32_t, users)             /* pieces that name it */
 // clang-format on
+
+#define PL_PIECE_SENSOR   1u // of a sensor
+#define PL_PIECE_PART     2u // of a shape of several pieces
+#define PL_PIECE_FILTERED 4u // its filter is not {0}
 
 #define PL_NONE UINT32_MAX
 

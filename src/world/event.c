@@ -7,6 +7,7 @@
 // Reads: pairs, manifolds, centres, solver bodies (how far each turned in the step). Writes:
 // nothing. Cost: events O(1); contacts O(pairs).
 #include "plumb/event.h"
+#include "world/check.h"
 #include "world/rows.h"
 
 const plumb_contact_begin *plumb_world_begin_events(const plumb_world *world, int *count)
@@ -25,6 +26,28 @@ const plumb_contact_end *plumb_world_end_events(const plumb_world *world, int *c
         *count = events;
     }
     return events == 0 ? NULL : world->end_events.data;
+}
+
+const plumb_contact_hit *plumb_world_hit_events(const plumb_world *world, int *count)
+{
+    int events = world == NULL ? 0 : world->hit_count;
+    if (count != NULL) {
+        *count = events;
+    }
+    return events == 0 ? NULL : world->hit_events.data;
+}
+
+plumb_result plumb_world_set_hit_speed(plumb_world *world, plumb_real speed)
+{
+    if (world == NULL) {
+        return PLUMB_E_NULL;
+    }
+    plumb_result r = pl_check_unlocked(world, __func__);
+    r = r != PLUMB_OK ? r : pl_check_range(world, __func__, "speed", speed, 0, PLUMB_REAL_MAX);
+    if (r == PLUMB_OK) {
+        world->desc.hit_speed = speed;
+    }
+    return r;
 }
 
 // [rad] by which a row turned in the last step, as the solver left it.
@@ -62,6 +85,7 @@ static plumb_contact_point view_point(const plumb_world *world, const pl_manifol
         .separation = m->nx * gap.x + m->ny * gap.y,
         .normal_impulse = pair->normal[k],
         .tangent_impulse = pair->tangent[k],
+        .step_impulse = pl_solver_tallies(world) ? p->total : 0,
         .feature = m->feature[k],
     };
 }

@@ -24,6 +24,15 @@ void pl_mass_add(pl_mass_sum *sum, plumb_mass_properties area, real density)
     sum->mass = total;
 }
 
+real pl_density_of(const plumb_world *world, uint32_t piece)
+{
+    const pl_pieces *p = &world->pieces;
+    bool weightless = (p->flags[piece] & PL_PIECE_SENSOR) != 0 ||
+                      p->shape_kind[piece] == PLUMB_SEGMENT || p->shape_kind[piece] == PLUMB_CHAIN;
+    real own = p->own_density[piece];
+    return weightless ? 0 : own > 0 ? own : world->materials.density[p->material[piece]];
+}
+
 // Newest shape first, as the list has them: the order is part of the result's last bits.
 pl_mass_sum pl_mass_of_shapes(const plumb_world *world, uint32_t row)
 {

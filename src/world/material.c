@@ -7,13 +7,28 @@
 
 #define FRICTION_MOST ((real)10) // [-] see plumb_material_desc
 
+static plumb_result check_mix(const plumb_world *world, const char *fn, const char *field,
+                              plumb_mix mix)
+{
+    return (unsigned)mix <= PLUMB_MIX_MAX
+               ? PLUMB_OK
+               : pl_fail(world, PLUMB_E_RANGE, fn, "%s is %d; it must be a plumb_mix", field,
+                         (int)mix);
+}
+
 static plumb_result check_desc(const plumb_world *world, const char *fn,
                                const plumb_material_desc *desc)
 {
     plumb_result r = pl_check_pointer(world, fn, "desc", desc);
     r = r != PLUMB_OK ? r : pl_check_range(world, fn, "density", desc->density, 0, PLUMB_REAL_MAX);
     r = r != PLUMB_OK ? r : pl_check_range(world, fn, "friction", desc->friction, 0, FRICTION_MOST);
-    return r != PLUMB_OK ? r : pl_check_range(world, fn, "restitution", desc->restitution, 0, 1);
+    r = r != PLUMB_OK ? r : pl_check_range(world, fn, "restitution", desc->restitution, 0, 1);
+    r = r != PLUMB_OK ? r
+                      : pl_check_range(world, fn, "rolling_resistance", desc->rolling_resistance, 0,
+                                       PLUMB_REAL_MAX);
+    r = r != PLUMB_OK ? r : pl_check_finite(world, fn, "surface_speed", desc->surface_speed);
+    r = r != PLUMB_OK ? r : check_mix(world, fn, "friction_mix", desc->friction_mix);
+    return r != PLUMB_OK ? r : check_mix(world, fn, "restitution_mix", desc->restitution_mix);
 }
 
 static void fill_row(plumb_world *world, uint32_t row, const plumb_material_desc *desc)
@@ -21,6 +36,10 @@ static void fill_row(plumb_world *world, uint32_t row, const plumb_material_desc
     world->materials.density[row] = desc->density > 0 ? desc->density : 1;
     world->materials.friction[row] = desc->friction;
     world->materials.restitution[row] = desc->restitution;
+    world->materials.rolling[row] = desc->rolling_resistance;
+    world->materials.surface_speed[row] = desc->surface_speed;
+    world->materials.friction_mix[row] = (uint8_t)desc->friction_mix;
+    world->materials.restitution_mix[row] = (uint8_t)desc->restitution_mix;
 }
 
 plumb_material plumb_material_create(plumb_world *world, const plumb_material_desc *desc)
@@ -78,9 +97,14 @@ plumb_result plumb_material_get(const plumb_world *world, plumb_material materia
     plumb_result r = pl_check_material(world, __func__, material, &row);
     r = r != PLUMB_OK ? r : pl_check_pointer(world, __func__, "desc", desc);
     if (r == PLUMB_OK) {
-        *desc =
-            (plumb_material_desc){ world->materials.density[row], world->materials.friction[row],
-                                   world->materials.restitution[row] };
+        const pl_materials *m = &world->materials;
+        *desc = (plumb_material_desc){ .density = m->density[row],
+                                       .friction = m->friction[row],
+                                       .restitution = m->restitution[row],
+                                       .rolling_resistance = m->rolling[row],
+                                       .surface_speed = m->surface_speed[row],
+                                       .friction_mix = (plumb_mix)m->friction_mix[row],
+                                       .restitution_mix = (plumb_mix)m->restitution_mix[row] };
     }
     return r;
 }

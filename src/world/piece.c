@@ -117,6 +117,10 @@ uint32_t pl_pieces_add(plumb_world *world, uint32_t row, plumb_shape shape, cons
     pieces->next_in_body[before] = world->bodies.first_piece[row];
     world->bodies.first_piece[row] = first;
     pieces->area[first] = made->area;
+    for (uint32_t p = first; made->count > 1 && p != PL_NONE; p = pieces->next_in_shape[p]) {
+        pieces->flags[p] |= PL_PIECE_PART;
+        ++world->part_pieces;
+    }
     ++world->shape_count;
     world->pairs_dirty = true;
     world->schedule_dirty = true;
@@ -152,6 +156,9 @@ static void free_slot(plumb_world *world, uint32_t slot)
     --world->materials.users[pieces->material[slot]];
     --world->piece_kinds[pieces->kind[slot]];
     --pieces->live;
+    world->sensor_pieces -= (pieces->flags[slot] & PL_PIECE_SENSOR) != 0;
+    world->filtered_pieces -= (pieces->flags[slot] & PL_PIECE_FILTERED) != 0;
+    world->part_pieces -= (pieces->flags[slot] & PL_PIECE_PART) != 0;
     pieces->kind[slot] = PL_PIECE_FREE;
     pieces->vertex_count[slot] = 0;
     pieces->next_in_shape[slot] = pieces->free_head;

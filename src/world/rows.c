@@ -10,6 +10,9 @@
 // moved.
 #include "world/rows.h"
 
+#include "world/filter.h"
+#include "world/material_pair.h"
+
 //---- lookup
 //---------------------------------------------------------------------------------------
 
@@ -171,6 +174,7 @@ static void destroy_shape(plumb_world *world, plumb_entity shape)
 static void destroy_body(plumb_world *world, plumb_entity body)
 {
     uint32_t row = pl_body_row(world, body);
+    pl_exclusions_forget(world, row);
     while (world->bodies.first_piece[row] != PL_NONE) {
         plumb_entity shape = world->pieces.shape[world->bodies.first_piece[row]];
         pl_pieces_remove(world, world->bodies.first_piece[row]);
@@ -185,6 +189,7 @@ static void destroy_material(plumb_world *world, plumb_entity material)
 {
     pl_materials *materials = &world->materials;
     uint32_t row = pl_material_row(world, material);
+    pl_material_pairs_forget(world, row);
     uint32_t last = --materials->table.count;
     if (row != last) {
         pl_table_copy(&materials->table, pl_material_columns, pl_material_column_count, last, row);

@@ -90,6 +90,8 @@ typedef struct pl_body_mass {
     real x, y; // [m] centre in the body's frame
 } pl_body_mass;
 
+// [kg/m^2] in force for a piece: its own or its material's; a sensor has none.
+real pl_density_of(const plumb_world *world, uint32_t piece);
 // The shapes of a body at the densities in force, and one more.
 pl_mass_sum pl_mass_of_shapes(const plumb_world *world, uint32_t row);
 void pl_mass_add(pl_mass_sum *sum, plumb_mass_properties area, real density);

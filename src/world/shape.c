@@ -3,6 +3,7 @@
 // Reads: arguments, pieces. Writes: piece rows through piece.c, mass through mass.c.
 // Cost: O(pieces of the body) to add or remove, O(pieces of the shape) to ask.
 #include "world/check.h"
+#include "world/filter.h"
 #include "world/rows.h"
 
 //---- create, destroy
@@ -58,7 +59,7 @@ plumb_result pl_shape_insert(plumb_world *world, const char *fn, uint32_t row,
 {
     uint32_t material = plumb_is_null(desc->material) ? 0 : pl_material_row(world, desc->material);
     real density = desc->density > 0 ? desc->density : world->materials.density[material];
-    density = is_line(desc) ? 0 : density;
+    density = is_line(desc) || desc->sensor ? 0 : density;
     plumb_result r = check_mass(world, fn, row, made, density);
     if (r != PLUMB_OK) {
         return r;
@@ -77,6 +78,10 @@ plumb_result pl_shape_insert(plumb_world *world, const char *fn, uint32_t row,
         world->pieces.density[p] = density;
         world->pieces.own_density[p] = desc->density;
         world->pieces.user_data[p] = desc->user_data;
+    }
+    pl_filter_apply(world, first, &desc->filter);
+    if (desc->sensor) {
+        pl_sensor_apply(world, first, true);
     }
     pl_mass_revise(world, row);
     return PLUMB_OK;

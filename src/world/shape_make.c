@@ -4,6 +4,7 @@
 // Reads: the descriptor. Writes: world->made, world->outline (scratch of the decomposition).
 // Cost: O(points); outlines as plumb_outline_decompose, and O(corners of pieces x points) for the
 // seams.
+#include "world/filter.h"
 #include "world/check.h"
 #include "world/rows.h"
 
@@ -229,9 +230,8 @@ static void finish_box(const maker *m, pl_made_piece *piece, plumb_vec2 center, 
                        plumb_vec2 half)
 {
     piece->kind = PL_PIECE_BOX;
-    piece->core = (pl_core){
-        center.x, center.y, q.c, q.s, half.x, half.y, 0, reach_of(&piece->convex)
-    };
+    piece->core =
+        (pl_core){ center.x, center.y, q.c, q.s, half.x, half.y, 0, reach_of(&piece->convex) };
     count_corners(m, piece);
 }
 
@@ -448,6 +448,7 @@ plumb_result pl_shape_make(plumb_world *world, const char *function, const plumb
     maker m = { world, function, desc, made };
     *made = (pl_made){ 0 };
     plumb_result r = check_desc(&m);
+    r = r != PLUMB_OK ? r : pl_filter_check(world, function, &desc->filter);
     if (r != PLUMB_OK) {
         return r;
     }

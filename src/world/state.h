@@ -10,6 +10,7 @@
 #include "ecs/component.h"
 #include "ecs/registry.h"
 #include "ecs/system.h"
+#include "event/event.h"
 #include "narrow/manifold.h"
 #include "plumb/event.h"
 #include "plumb/query.h"
@@ -72,6 +73,14 @@ struct plumb_world {
     uint32_t piece_kinds[PL_PIECE_KIND_COUNT]; // live pieces of each kind
     uint32_t turning_bodies;                   // awake dynamic bodies with inverse inertia > 0
 
+    uint32_t sensor_pieces, filtered_pieces, part_pieces; // live pieces with the flag
+
+    // Tables that few worlds have, sorted by key.
+    pl_buffer excluded; // uint64_t: slots of two bodies (filter.c)
+    uint32_t excluded_count;
+    pl_buffer material_pairs; // pl_material_pair (material_pair.c)
+    uint32_t material_pair_count;
+
     // Broad phase, narrow phase, solver: each owns its struct.
     pl_broad broad;
     pl_narrow narrow;
@@ -80,10 +89,16 @@ struct plumb_world {
 
     // Events of the last step.
     pl_buffer begin_events, end_events; // plumb_contact_begin, plumb_contact_end
-    int begin_count, end_count;
+    pl_buffer hit_events;               // plumb_contact_hit
+    int begin_count, end_count, hit_count;
+    pl_parts parts;
+    pl_blows blows;
+    pl_sensing sensing;
 
     // Locking and errors.
     const char *locked_by; // name of the system or hook that runs; NULL: structural changes allowed
+    bool editing;          // systems of PLUMB_PHASE_CONTACTS run
+    bool edited;           // one of them changed a contact
     bool in_hook;          // locked_by is the component whose hook runs, not a system
     plumb_error error;
     char error_text[512];

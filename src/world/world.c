@@ -63,6 +63,7 @@ static plumb_result check_desc(const plumb_world *world, const char *fn, const p
         { "contact_damping", d->contact_damping },
         { "push_speed", d->push_speed },
         { "restitution_speed", d->restitution_speed },
+        { "hit_speed", d->hit_speed },
     };
     for (size_t i = 0; i < sizeof fields / sizeof fields[0] && r == PLUMB_OK; ++i) {
         r = pl_check_range(world, fn, fields[i].name, fields[i].value, 0, PLUMB_REAL_MAX);
@@ -142,6 +143,12 @@ static void free_world(plumb_world *world)
     pl_buffer_free(&memory, &world->poses);
     pl_buffer_free(&memory, &world->begin_events);
     pl_buffer_free(&memory, &world->end_events);
+    pl_buffer_free(&memory, &world->hit_events);
+    pl_buffer_free(&memory, &world->excluded);
+    pl_buffer_free(&memory, &world->material_pairs);
+    pl_parts_free(&memory, &world->parts);
+    pl_blows_free(&memory, &world->blows);
+    pl_sensing_free(&memory, &world->sensing);
     pl_resize(&memory, world, sizeof *world, 0);
 }
 

@@ -88,7 +88,8 @@ static bool make_world(run *r)
     const plumb_world_desc desc = { .allocator = { resize, &r->heap },
                                     .body_capacity = 4,
                                     .shape_capacity = 4,
-                                    .contact_capacity = 8 };
+                                    .contact_capacity = 8,
+                                    .hit_speed = 1 };
     while (plumb_world_create(&desc, &r->world) == PLUMB_E_MEMORY) {
         assert_null(r->world);
         assert_int_equal(r->heap.blocks, 0);
@@ -112,6 +113,16 @@ static bool fill_world(run *r)
              plumb_shape_create(
                  r->world, base,
                  &(plumb_shape_desc){ .kind = PLUMB_CHAIN, .points = ground, .count = 3 }));
+    const plumb_material none = PLUMB_NULL_INIT;
+    TRY(r, plumb_material_pair_set(r->world, ice, none,
+                                   &(plumb_material_pair){ .friction = R(0.25),
+                                                           .rolling_resistance = R(0.01) }));
+    TRY_MAKE(r, shape,
+             plumb_shape_create(r->world, base,
+                                &(plumb_shape_desc){ .kind = PLUMB_BOX,
+                                                     .half = { 3, 2 },
+                                                     .filter = { .category = 2 },
+                                                     .sensor = true }));
     const plumb_shape_desc descs[] = {
         { .kind = PLUMB_CIRCLE, .radius = R(0.5), .material = ice },
         { .kind = PLUMB_BOX, .half = { R(0.5), R(0.5) } },
@@ -125,6 +136,7 @@ static bool fill_world(run *r)
         TRY_MAKE(r, r->bodies[i], plumb_body_create(r->world, &desc));
         TRY_MAKE(r, shape, plumb_shape_create(r->world, r->bodies[i], &descs[i % 5]));
     }
+    TRY(r, plumb_world_exclude_pair(r->world, r->bodies[0], r->bodies[1], true));
     return true;
 }
 

@@ -1,0 +1,27 @@
+// sort.h - sorting of small records by a key. Deterministic, in place, no allocation.
+#ifndef PL_SORT_H
+#define PL_SORT_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+typedef struct pl_keyed {
+    uint64_t key;
+    uint32_t order; // ties: lower first
+    uint32_t value; // what comes along
+} pl_keyed;
+
+// By key, then order. Heap sort (Williams 1964): O(n log n) whatever the input.
+void pl_sort_keyed(pl_keyed *items, uint32_t count);
+
+// Where in a sorted array of records of `stride` bytes, each with its key first, a key stands or
+// would be put. *found tells which.
+uint32_t pl_find_key(const void *items, uint32_t count, uint32_t stride, uint64_t key, bool *found);
+
+// Two slots as one key.
+static inline uint64_t pl_key(uint32_t high, uint32_t low)
+{
+    return (uint64_t)high << 32 | low;
+}
+
+#endif

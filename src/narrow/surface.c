@@ -1,0 +1,115 @@
+// surface.c - friction, restitution, rolling resistance and surface speed of pairs, where some
+// material asks for more than the default mix that the kernels make in their lanes (lanes.h).
+//
+// Surface speed: material on the outline runs along the outward normal turned clockwise. With n
+// from A to B and t = (-n_y, n_x), the surface of A moves by -s_A t and that of B, whose outward
+// normal is -n, by +s_B t: the slip of the surfaces is that of the bodies plus s_A + s_B.
+//
+// Reads: pairs, materials, the pair table. Writes: manifolds, summary. Order: after the narrow
+// phase. Cost: O(manifolds) in worlds that ask for it, O(materials) in others.
+#include "narrow/surface.h"
+
+#include "world/material_pair.h"
+
+#include <math.h>
+
+bool pl_surfaces_wanted(const plumb_world *world, const char **reason)
+{
+    const pl_materials *m = &world->materials;
+    bool wanted = world->material_pair_count > 0;
+    for (uint32_t row = 0; row < m->table.count && !wanted; ++row) {
+        wanted = m->users[row] > 0 && (m->rolling[row] > 0 || m->surface_speed[row] != 0 ||
+                                       m->friction_mix[row] != PLUMB_MIX_DEFAULT ||
+                                       m->restitution_mix[row] != PLUMB_MIX_DEFAULT);
+    }
+    *reason = wanted ? "some material rolls hard, runs like a belt or has a mix of its own"
+                     : "all materials in use are mixed by default";
+    return wanted;
+}
+
+bool pl_restitution_is_mixed(const plumb_world *world)
+{
+    bool mixed = world->material_pair_count > 0;
+    for (uint32_t row = 0; row < world->materials.table.count && !mixed; ++row) {
+        mixed = world->materials.restitution_mix[row] != PLUMB_MIX_DEFAULT;
+    }
+    return mixed;
+}
+
+static real mixed(uint8_t rule, real a, real b)
+{
+    switch (rule) {
+    case PLUMB_MIX_AVERAGE:
+        return (a + b) / 2;
+    case PLUMB_MIX_GEOMETRIC:
+        return (real)sqrt((double)a * (double)b);
+    case PLUMB_MIX_MULTIPLY:
+        return a * b;
+    case PLUMB_MIX_MIN:
+        return a < b ? a : b;
+    default:
+        return a > b ? a : b;
+    }
+}
+
+static uint8_t later(uint8_t a, uint8_t b)
+{
+    return a > b ? a : b;
+}
+
+static void mix(const plumb_world *world, pl_manifold *m, uint32_t a, uint32_t b)
+{
+    const pl_materials *s = &world->materials;
+    m->surface_speed = s->surface_speed[a] + s->surface_speed[b];
+    const plumb_material_pair *set = pl_material_pair_of(world, a, b);
+    if (set != NULL) {
+        m->friction = set->friction;
+        m->restitution = set->restitution;
+        m->rolling = set->rolling_resistance;
+        return;
+    }
+    uint8_t friction_rule = later(s->friction_mix[a], s->friction_mix[b]);
+    uint8_t restitution_rule = later(s->restitution_mix[a], s->restitution_mix[b]);
+    if (friction_rule != PLUMB_MIX_DEFAULT) {
+        m->friction = mixed(friction_rule, s->friction[a], s->friction[b]);
+    }
+    if (restitution_rule != PLUMB_MIX_DEFAULT) {
+        m->restitution = mixed(restitution_rule, s->restitution[a], s->restitution[b]);
+    }
+    m->rolling = s->rolling[a] > s->rolling[b] ? s->rolling[a] : s->rolling[b];
+}
+
+void pl_surfaces_mix(plumb_world *world)
+{
+    pl_narrow *narrow = &world->narrow;
+    pl_manifold *m = pl_manifolds(narrow);
+    const pl_pair *pairs = pl_pairs(&world->broad.pairs);
+    const uint32_t *material = world->pieces.material;
+    for (uint32_t i = 0; i < narrow->manifold_count; ++i) {
+        const pl_pair *pair = &pairs[m[i].pair];
+        mix(world, &m[i], material[pair->a], material[pair->b]);
+    }
+    pl_narrow_summarise(narrow);
+}
+
+// In order of pairs, as the kernels do it.
+void pl_narrow_summarise(pl_narrow *narrow)
+{
+    const pl_manifold *m = pl_manifolds(narrow);
+    *narrow =
+        (pl_narrow){ .manifolds = narrow->manifolds, .manifold_count = narrow->manifold_count };
+    for (uint32_t i = 0; i < narrow->manifold_count; ++i) {
+        real s0 = m[i].point[0].separation, s1 = m[i].point[1].separation;
+        real depth = s0 < s1 ? -s0 : -s1;
+        narrow->any_friction |= m[i].friction > 0;
+        narrow->any_bounce |= m[i].restitution > 0;
+        narrow->any_surface |= m[i].surface_speed != 0 || m[i].rolling > 0;
+        narrow->point_count += m[i].count;
+        if (depth >= 0) {
+            ++narrow->touching_count;
+            narrow->sum_penetration += (double)depth;
+            narrow->max_penetration =
+                depth > narrow->max_penetration ? depth : narrow->max_penetration;
+        }
+    }
+}

@@ -1,0 +1,27 @@
+// filter.h - which shapes may meet: categories, groups, excluded pairs of bodies, sensors.
+#ifndef PL_FILTER_H
+#define PL_FILTER_H
+
+#include "world/state.h"
+
+plumb_result pl_filter_check(const plumb_world *world, const char *function,
+                             const plumb_filter *filter);
+// Writes a checked filter to all pieces of a shape and keeps up the counters.
+void pl_filter_apply(plumb_world *world, uint32_t first, const plumb_filter *filter);
+void pl_sensor_apply(plumb_world *world, uint32_t first, bool sensor);
+
+// True when pair finding has to ask pl_pieces_meet or to tell sensors apart.
+static inline bool pl_world_is_selective(const plumb_world *world)
+{
+    return world->filtered_pieces + world->sensor_pieces + world->excluded_count > 0;
+}
+
+// Filters and excluded bodies of two pieces allow that they meet.
+bool pl_pieces_meet(const plumb_world *world, uint32_t p, uint32_t q);
+
+// Whether the bodies of two rows are an excluded pair.
+bool pl_rows_excluded(const plumb_world *world, uint32_t row_a, uint32_t row_b);
+// A body is about to be destroyed.
+void pl_exclusions_forget(plumb_world *world, uint32_t row);
+
+#endif

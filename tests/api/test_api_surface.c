@@ -1,0 +1,233 @@
+// test_api_surface.c - what materials do at contacts: belts, rolling resistance, mixing, the pair
+// table.
+#include "contact_fixture.h"
+
+static void a_conveyor_carries_a_box_at_its_speed(void **state)
+{
+    (void)state;
+    for (int solver = 0; solver < 2; ++solver) {
+        plumb_world *w = flat_world((plumb_world_desc){ .solver = (plumb_solver)solver });
+        plumb_material belt = plumb_material_create(
+            w, &(plumb_material_desc){ .friction = R(0.5), .surface_speed = 2 });
+        add_floor(w, belt);
+        plumb_body box = plumb_body_create(w, &(plumb_body_desc){ .position = { 0, R(0.5) } });
+        plumb_shape_create(w, box,
+                           &(plumb_shape_desc){ .kind = PLUMB_BOX, .half = { R(0.5), R(0.5) } });
+        steps(w, 200);
+        assert_near(plumb_body_velocity(w, box).x, 2, 1e-3);
+        // It caught up at mu g: 2 / (sqrt(0.5 x 0.6) 9.81) s, and lost half of that way.
+        double mu = sqrt(0.3), t = 200.0 / 64;
+        double way = 2 * t - 2 * 2 / (2 * mu * 9.81);
+        assert_near(plumb_body_position(w, box).x, way, solver == 0 ? 0.02 : 0.1);
+        plumb_world_destroy(w);
+    }
+}
+
+// A disc that rolls without slipping is slowed by a = f g / r / (1 + 1/2), and stops after v^2 /
+// 2a.
+static void a_rolling_disc_stops_where_it_should(void **state)
+{
+    (void)state;
+    for (int solver = 0; solver < 2; ++solver) {
+        plumb_world *w = flat_world((plumb_world_desc){ .solver = (plumb_solver)solver });
+        plumb_material soft = plumb_material_create(
+            w, &(plumb_material_desc){ .friction = 1, .rolling_resistance = R(0.02) });
+        add_floor(w, soft);
+        plumb_body disc = add_disc(w, 0, 0.5, (plumb_shape_desc){ 0 }, NULL);
+        plumb_body_set_velocity(w, disc, plumb_v2(2, 0));
+        plumb_body_set_angular_velocity(w, disc, -4);
+        steps(w, 64 * 12);
+        double a = 0.02 * 9.81 / 0.5 / 1.5;
+        assert_near(plumb_body_position(w, disc).x, 2 * 2 / (2 * a), 0.05);
+        assert_near(plumb_body_velocity(w, disc).x, 0, 1e-4);
+        plumb_world_destroy(w);
+    }
+}
+
+// tan of the slope below f / r: it stays; above: it rolls.
+static void rolling_resistance_holds_a_disc_on_a_slope(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 2; ++i) {
+        double slope = i == 0 ? 0.03 : 0.06; // f / r is 0.04
+        plumb_world *w = flat_world((plumb_world_desc){ .gravity = { R(9.81 * slope), R(-9.81) } });
+        plumb_material soft = plumb_material_create(
+            w, &(plumb_material_desc){ .friction = 1, .rolling_resistance = R(0.02) });
+        add_floor(w, soft);
+        plumb_body disc = add_disc(w, 0, 0.5, (plumb_shape_desc){ 0 }, NULL);
+        steps(w, 640);
+        double x = plumb_body_position(w, disc).x;
+        double t = 10, expected = i == 0 ? 0 : 9.81 * (0.06 - 0.04) / 1.5 * t * t / 2;
+        assert_near(x, expected, i == 0 ? 1e-3 : 0.05 * expected);
+        plumb_world_destroy(w);
+    }
+}
+
+static void contact_numbers(plumb_material_desc a, plumb_material_desc b,
+                            const plumb_material_pair *pair, double friction, double restitution)
+{
+    plumb_world *w = flat_world((plumb_world_desc){ 0 });
+    plumb_material ma = plumb_material_create(w, &a), mb = plumb_material_create(w, &b);
+    assert_int_equal(plumb_material_pair_set(w, mb, ma, pair), PLUMB_OK);
+    add_floor(w, ma);
+    add_disc(w, 0, 0.5, (plumb_shape_desc){ .material = mb }, NULL);
+    steps(w, 1);
+    plumb_contact c;
+    assert_int_equal(plumb_world_contacts(w, &c, 1), 1);
+    assert_near(c.friction, friction, 1e-6);
+    assert_near(c.restitution, restitution, 1e-6);
+    plumb_world_destroy(w);
+}
+
+static void materials_mix_by_rule_or_table(void **state)
+{
+    (void)state;
+    plumb_material_desc a = { .friction = R(0.4), .restitution = R(0.2) };
+    plumb_material_desc b = { .friction = R(0.9), .restitution = R(0.8) };
+    contact_numbers(a, b, NULL, 0.6, 0.8);
+    a.friction_mix = PLUMB_MIX_MIN;
+    a.restitution_mix = PLUMB_MIX_AVERAGE;
+    contact_numbers(a, b, NULL, 0.4, 0.5);
+    b.friction_mix = PLUMB_MIX_MAX; // the later rule holds
+    b.restitution_mix = PLUMB_MIX_GEOMETRIC;
+    contact_numbers(a, b, NULL, 0.9, 0.4);
+    b.friction_mix = PLUMB_MIX_MULTIPLY;
+    a.friction_mix = PLUMB_MIX_GEOMETRIC;
+    contact_numbers(a, b, NULL, 0.36, 0.4);
+    contact_numbers(a, b, &(plumb_material_pair){ .friction = 2, .restitution = 1 }, 2, 1);
+}
+
+static void the_pair_table_is_kept_up(void **state)
+{
+    fixture *f = *state;
+    plumb_material_pair p = { .friction = 1, .rolling_resistance = R(0.25) }, got = { 0 };
+    assert_int_equal(plumb_material_pair_set(W, f->wood, NULL_, &p), PLUMB_OK);
+    assert_int_equal(plumb_material_pair_set(W, f->used, f->used, &p), PLUMB_OK);
+    p.friction = 3;
+    assert_int_equal(plumb_material_pair_set(W, NULL_, f->wood, &p), PLUMB_OK);
+    assert_int_equal(plumb_material_pair_get(W, f->wood, NULL_, &got), PLUMB_OK);
+    assert_near(got.friction, 3, 0);
+    assert_near(got.rolling_resistance, 0.25, 0);
+    REFUSED(E_MISSING,
+            "plumb_material_pair_get: nothing is set for a and b; their materials are mixed",
+            plumb_material_pair_get(W, f->wood, f->used, &got));
+    // Rows move, slots are taken anew: nothing of the dead material is left, the others keep
+    // theirs.
+    assert_int_equal(plumb_material_destroy(W, f->wood), PLUMB_OK);
+    plumb_material next = plumb_material_create(W, &(plumb_material_desc){ 0 });
+    assert_int_equal(plumb_material_pair_get(W, next, NULL_, &got), PLUMB_E_MISSING);
+    assert_int_equal(plumb_material_pair_get(W, f->used, f->used, &got), PLUMB_OK);
+    assert_near(got.friction, 1, 0);
+    assert_int_equal(plumb_material_pair_set(W, f->used, f->used, NULL), PLUMB_OK);
+    assert_int_equal(plumb_material_pair_get(W, f->used, f->used, &got), PLUMB_E_MISSING);
+}
+
+// Two materials without bounce of their own, elastic by the table: as elastic as any.
+static void a_pair_can_be_elastic_by_the_table(void **state)
+{
+    (void)state;
+    plumb_world *w = flat_world((plumb_world_desc){ 0 });
+    assert_int_equal(
+        plumb_material_pair_set(w, NULL_, NULL_, &(plumb_material_pair){ .restitution = 1 }),
+        PLUMB_OK);
+    add_floor(w, NULL_);
+    plumb_body disc = add_disc(w, 0, 2.5, (plumb_shape_desc){ 0 }, NULL);
+    double top = 0;
+    for (int i = 0; i < 128; ++i) {
+        steps(w, 1);
+        top = i > 64 ? fmax(top, plumb_body_position(w, disc).y) : 0;
+    }
+    assert_near(top, 2.5, 0.01);
+    plumb_world_destroy(w);
+}
+
+// Belts, rolling resistance, counted impulses: every number of lanes gives the same bits.
+static uint64_t digest_at(int width)
+{
+    plumb_world *w = flat_world((plumb_world_desc){ .simd_width = width, .hit_speed = 1 });
+    plumb_material belt =
+        plumb_material_create(w, &(plumb_material_desc){ .friction = R(0.5),
+                                                         .restitution = R(0.25),
+                                                         .surface_speed = 1,
+                                                         .rolling_resistance = R(0.01) });
+    add_floor(w, belt);
+    for (int i = 0; i < 37; ++i) {
+        add_disc(w, i % 6 * 0.9, 1 + i / 6 * 1.1, (plumb_shape_desc){ 0 }, NULL);
+    }
+    uint64_t digest = 0;
+    for (int i = 0; i < 128; ++i) {
+        steps(w, 1);
+        int count;
+        const plumb_contact_hit *hits = plumb_world_hit_events(w, &count);
+        for (int k = 0; k < count; ++k) {
+            digest_bytes(&digest, &hits[k].impulse, sizeof hits[k].impulse);
+        }
+    }
+    digest ^= digest_world(w);
+    plumb_world_destroy(w);
+    return digest;
+}
+
+static void every_width_gives_the_same_bits(void **state)
+{
+    (void)state;
+    uint64_t digest = digest_at(4);
+    assert_true(digest_at(8) == digest && digest_at(16) == digest);
+}
+
+//---- refusals ------------------------------------------------------------------------------------
+
+static void wrong_materials_and_speeds_are_refused(void **state)
+{
+    fixture *f = *state;
+    plumb_material_desc d = { .rolling_resistance = -1 };
+    REFUSED(E_RANGE, "plumb_material_create: rolling_resistance is -1; it must be at least 0",
+            made(W, plumb_material_create(W, &d)));
+    d = (plumb_material_desc){ .surface_speed = R(INFINITY) };
+    REFUSED(E_NOT_FINITE, "plumb_material_set: surface_speed is inf; it must be finite",
+            plumb_material_set(W, f->wood, &d));
+    d = (plumb_material_desc){ .friction_mix = (plumb_mix)9 };
+    REFUSED(E_RANGE, "plumb_material_set: friction_mix is 9; it must be a plumb_mix",
+            plumb_material_set(W, f->wood, &d));
+    d = (plumb_material_desc){ .restitution_mix = (plumb_mix)6 };
+    REFUSED(E_RANGE, "plumb_material_set: restitution_mix is 6; it must be a plumb_mix",
+            plumb_material_set(W, f->wood, &d));
+    plumb_material_pair p = { .friction = 11 };
+    REFUSED(E_RANGE, "plumb_material_pair_set: pair.friction is 11; it must be 0 to 10",
+            plumb_material_pair_set(W, f->wood, f->used, &p));
+    p = (plumb_material_pair){ .restitution = R(NAN) };
+    REFUSED(E_NOT_FINITE, "plumb_material_pair_set: pair.restitution is nan; it must be finite",
+            plumb_material_pair_set(W, f->wood, f->used, &p));
+    p = (plumb_material_pair){ .rolling_resistance = -2 };
+    REFUSED(E_RANGE,
+            "plumb_material_pair_set: pair.rolling_resistance is -2; it must be at least 0",
+            plumb_material_pair_set(W, f->wood, f->used, &p));
+    REFUSED(E_HANDLE, "plumb_material_pair_set: a is a body; it must be a live material or null",
+            plumb_material_pair_set(W, f->fixed, f->used, NULL));
+    REFUSED(E_HANDLE, "plumb_material_pair_get: b is a body; it must be a live material or null",
+            plumb_material_pair_get(W, f->used, f->fixed, &p));
+    REFUSED(E_NULL, "plumb_material_pair_get: pair is null; it must be given",
+            plumb_material_pair_get(W, f->used, f->used, NULL));
+    REFUSED(E_RANGE, "plumb_world_set_hit_speed: speed is -1; it must be at least 0",
+            plumb_world_set_hit_speed(W, -1));
+    REFUSED(E_NOT_FINITE, "plumb_world_set_hit_speed: speed is nan; it must be finite",
+            plumb_world_set_hit_speed(W, R(NAN)));
+    plumb_world *none;
+    assert_int_equal(plumb_world_create(&(plumb_world_desc){ .hit_speed = -1 }, &none),
+                     PLUMB_E_RANGE);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_conveyor_carries_a_box_at_its_speed),
+        cmocka_unit_test(a_rolling_disc_stops_where_it_should),
+        cmocka_unit_test(rolling_resistance_holds_a_disc_on_a_slope),
+        cmocka_unit_test(materials_mix_by_rule_or_table),
+        API_TEST(the_pair_table_is_kept_up),
+        cmocka_unit_test(a_pair_can_be_elastic_by_the_table),
+        cmocka_unit_test(every_width_gives_the_same_bits),
+        API_TEST(wrong_materials_and_speeds_are_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
