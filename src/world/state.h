@@ -10,6 +10,7 @@
 #include "ecs/component.h"
 #include "ecs/registry.h"
 #include "ecs/system.h"
+#include "joints/joint.h"
 #include "narrow/manifold.h"
 #include "plumb/event.h"
 #include "plumb/query.h"
@@ -75,6 +76,7 @@ struct plumb_world {
     pl_broad broad;
     pl_narrow narrow;
     pl_solver solver;
+    pl_joints joints;
     pl_schedule schedule;
 
     // Events of the last step.
