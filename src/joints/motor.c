@@ -4,12 +4,7 @@
 
 static void rows(const pl_joint *j, const pl_joint_pose *a, const pl_joint_pose *b, pl_rows *out)
 {
-    plumb_vec2 offset = plumb_rot_apply((plumb_rot){ a->c, a->s }, j->target);
-    // The wanted point turns with A: its arm, not the anchor's, is what A's turning moves.
-    pl_joint_pose from = *a;
-    from.rx += offset.x;
-    from.ry += offset.y;
-    pl_rows_point(out, &from, b, plumb_v2(0, 0));
+    pl_rows_point(out, a, b, j->target);
     out->row[2] = pl_row_angle(a, b, j->desc.rest);
     for (int i = 0; i < 3; ++i) {
         out->row[i].hertz = j->desc.hertz;

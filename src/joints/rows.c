@@ -19,12 +19,6 @@ static pl_row along(plumb_vec2 arm_a, const pl_joint_pose *b, plumb_vec2 n, real
                      .type = PL_ROW_EQUAL };
 }
 
-pl_row pl_row_along(const pl_joint_pose *a, const pl_joint_pose *b, plumb_vec2 n, real offset)
-{
-    real error = plumb_vec2_dot(pl_joint_apart(a, b), n) - offset;
-    return along(plumb_v2(a->rx, a->ry), b, n, error);
-}
-
 pl_row pl_row_along_axis(const pl_joint_pose *a, const pl_joint_pose *b, plumb_vec2 n, real offset)
 {
     plumb_vec2 d = pl_joint_apart(a, b);
@@ -71,8 +65,8 @@ pl_row pl_row_at_most(pl_row row, real upper)
 
 void pl_rows_point(pl_rows *rows, const pl_joint_pose *a, const pl_joint_pose *b, plumb_vec2 offset)
 {
-    rows->row[0] = pl_row_along(a, b, plumb_v2(1, 0), offset.x);
-    rows->row[1] = pl_row_along(a, b, plumb_v2(0, 1), offset.y);
+    rows->row[0] = pl_row_along_axis(a, b, plumb_v2(a->c, a->s), offset.x);
+    rows->row[1] = pl_row_along_axis(a, b, plumb_v2(-a->s, a->c), offset.y);
     rows->block = 2;
     rows->block_most = PL_UNBOUNDED;
 }

@@ -50,8 +50,6 @@ static inline plumb_vec2 pl_joint_apart(const pl_joint_pose *a, const pl_joint_p
     return (plumb_vec2){ (b->x - a->x) + (b->rx - a->rx), (b->y - a->y) + (b->ry - a->ry) };
 }
 
-// C = d . n - offset, n constant: J = (-n, -ra x n, n, rb x n).
-pl_row pl_row_along(const pl_joint_pose *a, const pl_joint_pose *b, plumb_vec2 n, real offset);
 // C = d . n - offset, n turning with A: J = (-n, -(ra + d) x n, n, rb x n).
 pl_row pl_row_along_axis(const pl_joint_pose *a, const pl_joint_pose *b, plumb_vec2 n, real offset);
 // C = angle of B - angle of A - offset.
@@ -61,7 +59,8 @@ pl_row pl_row_length(const pl_joint_pose *a, const pl_joint_pose *b, real length
 // C >= 0 where C is that of `row` - lower, or upper - that of `row`.
 pl_row pl_row_at_least(pl_row row, real lower);
 pl_row pl_row_at_most(pl_row row, real upper);
-// The rows d = 0, in x and y.
+// The rows d = offset, all seen in A's frame: both bodies are then pushed at one point, B's anchor,
+// and angular momentum is kept however far apart the anchors are.
 void pl_rows_point(pl_rows *rows, const pl_joint_pose *a, const pl_joint_pose *b,
                    plumb_vec2 offset);
 
