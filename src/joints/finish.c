@@ -17,9 +17,8 @@ static void react(pl_joint *j)
         y += r->by * j->impulse[i];
         w += r->bw * j->impulse[i];
     }
-    plumb_vec2 arm = { j->b.pose.rx, j->b.pose.ry };
     j->force = plumb_v2(x / j->h, y / j->h);
-    j->torque = w / j->h - plumb_vec2_cross(arm, j->force);
+    j->torque = w / j->h - plumb_vec2_cross(j->arm_b, j->force);
 }
 
 static bool overloaded(const pl_joint *j)
@@ -52,10 +51,10 @@ void pl_joints_finish(plumb_world *world)
         if (plumb_is_null(j->entity)) {
             continue;
         }
-        pl_joint_begin(world, j);
         react(j);
         const pl_joint_class *kind = pl_joint_classes[j->desc.kind];
         if (kind->advance != NULL) {
+            pl_joint_begin(world, j);
             kind->advance(j, &j->a.pose, &j->b.pose);
         }
         if (overloaded(j)) {

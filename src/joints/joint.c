@@ -60,8 +60,9 @@ static void center_of(const plumb_world *world, const pl_joint_end *end, double 
     *y = (double)b->center_y[row] + (double)b->low_y[row];
 }
 
-void pl_joint_pose_now(const plumb_world *world, const pl_joint_end *end, double from_x,
-                       double from_y, pl_joint_pose *pose)
+// Relative to the point (from_x, from_y).
+static void pose_now(const plumb_world *world, const pl_joint_end *end, double from_x,
+                     double from_y, pl_joint_pose *pose)
 {
     double x, y;
     center_of(world, end, &x, &y);
@@ -74,12 +75,9 @@ void pl_joint_pose_now(const plumb_world *world, const pl_joint_end *end, double
     plumb_rot q = { b->c[row], b->s[row] };
     plumb_vec2 arm = plumb_rot_apply(
         q, plumb_v2(end->local.x - b->local_x[row], end->local.y - b->local_y[row]));
-    double now = (double)plumb_rot_angle(q);
-    double jump = now - end->seen;
-    int32_t turns = end->turns + (jump > TURN / 2 ? -1 : jump < -TURN / 2 ? 1 : 0);
     pose->c = q.c, pose->s = q.s;
     pose->rx = arm.x, pose->ry = arm.y;
-    pose->angle = (now - end->start) + TURN * (double)turns;
+    pose->angle = (end->seen - end->start) + TURN * (double)end->turns;
 }
 
 static void count_turns(const plumb_world *world, pl_joint_end *end)
@@ -91,15 +89,6 @@ static void count_turns(const plumb_world *world, pl_joint_end *end)
     }
 }
 
-void pl_joint_poses_now(const plumb_world *world, const pl_joint *joint, pl_joint_pose *a,
-                        pl_joint_pose *b)
-{
-    double x, y;
-    center_of(world, &joint->a, &x, &y);
-    pl_joint_pose_now(world, &joint->a, x, y, a);
-    pl_joint_pose_now(world, &joint->b, x, y, b);
-}
-
 void pl_joint_begin(const plumb_world *world, pl_joint *joint)
 {
     double x, y;
@@ -107,7 +96,8 @@ void pl_joint_begin(const plumb_world *world, pl_joint *joint)
     count_turns(world, &joint->b);
     center_of(world, &joint->a, &x, &y);
     joint->origin = plumb_v2((real)x, (real)y);
-    pl_joint_poses_now(world, joint, &joint->a.pose, &joint->b.pose);
+    pose_now(world, &joint->a, x, y, &joint->a.pose);
+    pose_now(world, &joint->b, x, y, &joint->b.pose);
 }
 
 //---- checks

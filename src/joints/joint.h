@@ -67,6 +67,7 @@ struct pl_joint {
     real inverse[3][3];          // of the block's K = J M^-1 J^T
     real turn[6];                // change of momentum owed because J has turned: see solve.c
     pl_rows rows;
+    plumb_vec2 arm_b; // [m] from B's centre to its anchor, at the rows
     plumb_vec2 force; // [N] reaction
     real torque;      // [N m]
 };
@@ -96,12 +97,6 @@ uint32_t pl_joint_next(const pl_joint *joint, plumb_body body);
 bool pl_joints_forbid(const plumb_world *world, uint32_t row, uint32_t other);
 // Full turns, origin and poses up to date.
 void pl_joint_begin(const plumb_world *world, pl_joint *joint);
-// The pose of an end now; x and y from the point (from_x, from_y). Does not count turns.
-void pl_joint_pose_now(const plumb_world *world, const pl_joint_end *end, double from_x,
-                       double from_y, pl_joint_pose *pose);
-// Both ends, from the centre of A.
-void pl_joint_poses_now(const plumb_world *world, const pl_joint *joint, pl_joint_pose *a,
-                        pl_joint_pose *b);
 
 typedef enum pl_joint_sweep {
     PL_SWEEP_PULL,   // springs, and errors undone

@@ -7,26 +7,28 @@
 void pl_rows_spring_limits(const pl_joint *j, pl_row row, pl_row *out)
 {
     const plumb_joint_desc *d = &j->desc;
-    out[0] = row;
-    out[0].error -= d->rest;
-    out[0].hertz = d->hertz;
-    out[0].damping = d->damping;
-    out[1] = pl_row_at_least(row, d->lower);
-    out[2] = pl_row_at_most(row, d->upper);
-    if (d->hertz == 0) {
-        out[0].type = PL_ROW_OFF;
+    out[0].type = out[1].type = out[2].type = PL_ROW_OFF;
+    if (d->hertz > 0) {
+        out[0] = row;
+        out[0].error -= d->rest;
+        out[0].hertz = d->hertz;
+        out[0].damping = d->damping;
     }
-    if (!d->enable_limit) {
-        out[1].type = out[2].type = PL_ROW_OFF;
+    if (d->enable_limit) {
+        out[1] = pl_row_at_least(row, d->lower);
+        out[2] = pl_row_at_most(row, d->upper);
     }
 }
 
-pl_row pl_row_motor(const pl_joint *j, pl_row row)
+void pl_row_motor(const pl_joint *j, pl_row row, pl_row *out)
 {
-    row.type = j->desc.enable_motor ? PL_ROW_DRIVE : PL_ROW_OFF;
-    row.speed = j->desc.motor_speed;
-    row.most = j->desc.max_motor;
-    return row;
+    out->type = PL_ROW_OFF;
+    if (j->desc.enable_motor) {
+        *out = row;
+        out->type = PL_ROW_DRIVE;
+        out->speed = j->desc.motor_speed;
+        out->most = j->desc.max_motor;
+    }
 }
 
 plumb_result pl_joint_check_axis(const plumb_world *world, const char *fn, plumb_joint_desc *desc,

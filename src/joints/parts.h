@@ -18,10 +18,10 @@ static inline plumb_vec2 pl_joint_axis(const pl_joint *j, const pl_joint_pose *a
 }
 
 // Writes spring, lower and upper limit of a coordinate whose row is `row` (offset 0), three rows;
-// what is switched off is off.
+// of what is switched off, the type alone is set.
 void pl_rows_spring_limits(const pl_joint *j, pl_row row, pl_row *out);
 // The motor on a coordinate.
-pl_row pl_row_motor(const pl_joint *j, pl_row row);
+void pl_row_motor(const pl_joint *j, pl_row row, pl_row *out);
 // `most` [N] or [N m], 0 being unbounded.
 static inline real pl_joint_bound(real most)
 {

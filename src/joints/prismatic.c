@@ -14,7 +14,7 @@ static void rows(const pl_joint *j, const pl_joint_pose *a, const pl_joint_pose 
     out->row[0] = pl_row_along_axis(a, b, plumb_vec2_left(axis), 0);
     out->row[1] = pl_row_angle(a, b, 0);
     pl_rows_spring_limits(j, travel, &out->row[2]);
-    out->row[5] = pl_row_motor(j, travel);
+    pl_row_motor(j, travel, &out->row[5]);
     out->count = 6;
     out->block = 2;
     out->block_most = PL_UNBOUNDED;

@@ -6,7 +6,7 @@ static void rows(const pl_joint *j, const pl_joint_pose *a, const pl_joint_pose 
     pl_row angle = pl_row_angle(a, b, 0);
     pl_rows_point(out, a, b, plumb_v2(0, 0));
     pl_rows_spring_limits(j, angle, &out->row[2]);
-    out->row[5] = pl_row_motor(j, angle);
+    pl_row_motor(j, angle, &out->row[5]);
     out->count = 6;
 }
 

@@ -170,6 +170,17 @@ static void solve_block(pl_joint *j, pl_solver_body *a, pl_solver_body *b, pl_jo
 
 //---- rows at a pose ------------------------------------------------------------------------------
 
+// Bodies turn little in a step: Taylor's series, off by x^9 / 9! = 3e-15 at most.
+static plumb_rot turned_by(real x)
+{
+    if (plumb_abs(x) > (real)0.1) {
+        return plumb_rot_make(x);
+    }
+    real xx = x * x;
+    return (plumb_rot){ 1 - xx / 2 * (1 - xx / 12 * (1 - xx / 30 * (1 - xx / 56))),
+                        x * (1 - xx / 6 * (1 - xx / 20 * (1 - xx / 42))) };
+}
+
 static pl_joint_pose moved(const pl_joint_end *end, const pl_solver_body *body)
 {
     pl_joint_pose pose = end->pose;
@@ -179,7 +190,7 @@ static pl_joint_pose moved(const pl_joint_end *end, const pl_solver_body *body)
     pose.x += body->dx;
     pose.y += body->dy;
     if (body->da != 0) {
-        plumb_rot turn = plumb_rot_make(body->da);
+        plumb_rot turn = turned_by(body->da);
         plumb_vec2 arm = plumb_rot_apply(turn, plumb_v2(pose.rx, pose.ry));
         plumb_rot q = plumb_rot_mul(turn, (plumb_rot){ pose.c, pose.s });
         pose.angle += (double)body->da;
@@ -193,6 +204,9 @@ static void add_momentum(pl_joint *j, real sign)
 {
     for (int i = 0; i < j->rows.count; ++i) {
         const pl_row *r = &j->rows.row[i];
+        if (j->impulse[i] == 0) {
+            continue;
+        }
         real impulse = sign * j->impulse[i];
         j->turn[0] += r->ax * impulse, j->turn[1] += r->ay * impulse, j->turn[2] += r->aw * impulse;
         j->turn[3] += r->bx * impulse, j->turn[4] += r->by * impulse, j->turn[5] += r->bw * impulse;
@@ -203,6 +217,7 @@ static void make_rows(pl_joint *j, const pl_solver_body *a, const pl_solver_body
 {
     pl_joint_pose pa = moved(&j->a, a), pb = moved(&j->b, b);
     pl_joint_classes[j->desc.kind]->rows(j, &pa, &pb, &j->rows);
+    j->arm_b = plumb_v2(pb.rx, pb.ry);
     invert(j, a, b);
     for (int i = j->rows.block; i < j->rows.count; ++i) {
         const pl_row *r = &j->rows.row[i];
@@ -249,7 +264,9 @@ void pl_joints_warm_start(plumb_world *world)
     for (uint32_t i = 0; i < world->joints.count; ++i) {
         pl_joint *j = &items[i];
         for (int k = 0; !plumb_is_null(j->entity) && k < j->rows.count; ++k) {
-            push(&j->rows.row[k], &bodies[j->a.slot], &bodies[j->b.slot], j->impulse[k]);
+            if (j->impulse[k] != 0) {
+                push(&j->rows.row[k], &bodies[j->a.slot], &bodies[j->b.slot], j->impulse[k]);
+            }
         }
     }
 }

@@ -12,7 +12,7 @@ static void rows(const pl_joint *j, const pl_joint_pose *a, const pl_joint_pose 
     plumb_vec2 axis = pl_joint_axis(j, a);
     out->row[0] = pl_row_along_axis(a, b, plumb_vec2_left(axis), 0);
     pl_rows_spring_limits(j, pl_row_along_axis(a, b, axis, 0), &out->row[1]);
-    out->row[4] = pl_row_motor(j, pl_row_angle(a, b, 0));
+    pl_row_motor(j, pl_row_angle(a, b, 0), &out->row[4]);
     out->count = 5;
     out->block = 1;
     out->block_most = PL_UNBOUNDED;
