@@ -1,6 +1,6 @@
 /// ecs.h - entities, user components, user systems, commands.
 ///
-/// Bodies, shapes and materials are entities; so are things of the user's own. A component is a value
+/// Bodies, shapes, materials and joints are entities; so are things of the user's own. A component is a value
 /// of fixed size that any entity may have; a system is a function called once a step, at a named
 /// phase, with whole columns. A system whose component nobody has is not in the schedule.
 ///
@@ -21,7 +21,8 @@ typedef enum plumb_entity_kind {
     PLUMB_KIND_BARE,     ///< made by plumb_entity_create
     PLUMB_KIND_BODY,
     PLUMB_KIND_SHAPE,
-    PLUMB_KIND_MATERIAL
+    PLUMB_KIND_MATERIAL,
+    PLUMB_KIND_JOINT
 } plumb_entity_kind;
 
 /// Makes a bare entity, to carry user components. Null on error: E_MEMORY, E_LOCKED.

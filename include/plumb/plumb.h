@@ -11,6 +11,7 @@
 #include "plumb/material.h"
 #include "plumb/body.h"
 #include "plumb/shape.h"
+#include "plumb/joint.h"
 #include "plumb/ecs.h"
 #include "plumb/event.h"
 #include "plumb/query.h"

@@ -10,6 +10,7 @@
 typedef struct finder {
     plumb_world *world;
     const uint32_t *body; // of a piece slot
+    const uint32_t *first_joint; // of a body row
     uint32_t dynamic_count;
     pl_found *found;
     uint32_t count, capacity;
@@ -54,7 +55,8 @@ static __attribute__((noinline)) bool select_pair(finder *f, uint32_t p, uint32_
     return !meet || ((!p_senses || add_sensed(f, p, q)) && (!q_senses || add_sensed(f, q, p)));
 }
 
-// Adds the pair unless nothing could come of it: one body, or no dynamic body.
+// Adds the pair unless nothing could come of it: one body, no dynamic body, or a joint
+// that keeps them apart.
 static inline bool add_pair(finder *f, uint32_t p, uint32_t q)
 {
     bool solid = true;
@@ -64,6 +66,10 @@ static inline bool add_pair(finder *f, uint32_t p, uint32_t q)
     uint32_t body_p = f->body[p];
     uint32_t body_q = f->body[q];
     if (body_p == body_q || (body_p >= f->dynamic_count && body_q >= f->dynamic_count)) {
+        return true;
+    }
+    if (f->first_joint[body_p] != PL_NONE && f->first_joint[body_q] != PL_NONE &&
+        pl_joints_forbid(f->world, body_p, body_q)) {
         return true;
     }
     if (f->count == f->capacity && !grow(f)) {
@@ -176,6 +182,7 @@ bool pl_pairs_find(plumb_world *world)
     pl_broad *broad = &world->broad;
     finder f = { .world = world,
                  .body = world->pieces.body,
+                 .first_joint = world->bodies.first_joint,
                  .dynamic_count = world->dynamic_count,
                  .selective = pl_world_is_selective(world),
                  .found = broad->found.data,

@@ -76,7 +76,19 @@ static bool reserve_lanes(plumb_world *world, const uint32_t counts[PL_COLORS + 
            pl_buffer_reserve(memory, &s->classic, classic * sizeof(pl_classic_contact));
 }
 
-// Gives every dynamic and kinematic row that is in a contact its slot and packs its state.
+// Marks the rows that have a joint.
+static void engage_jointed(plumb_world *world, uint32_t movable)
+{
+    const uint32_t *first_joint = world->bodies.first_joint;
+    uint32_t *slots = world->solver.slots.data;
+    for (uint32_t row = 0; world->joints.live > 0 && row < movable; ++row) {
+        if (first_joint[row] != PL_NONE) {
+            slots[row] = 0;
+        }
+    }
+}
+
+// Gives every dynamic and kinematic row that is in a contact or has a joint its slot and packs its state.
 static void engage(plumb_world *world)
 {
     pl_solver *s = &world->solver;
@@ -94,6 +106,7 @@ static void engage(plumb_world *world)
             slots[m[i].body_b] = 0;
         }
     }
+    engage_jointed(world, movable);
     uint32_t count = 0;
     s->dynamic_slots = 0;
     for (uint32_t row = 0; row < movable; ++row) {

@@ -242,16 +242,29 @@ void pl_solver_pgs(plumb_world *world, real dt)
                   .h = dt / (real)world->desc.substeps };
     real threshold =
         world->desc.restitution_speed > 0 ? world->desc.restitution_speed : RESTITUTION_SPEED;
+    const bool joints = world->joints.live > 0;
     prepare(&c, world);
+    if (joints) {
+        pl_joints_prepare(world, c.h);
+    }
     for (int k = 0; k < world->desc.substeps; ++k) {
         integrate_velocities(&c);
         aim(&c, threshold);
+        if (joints) {
+            pl_joints_warm_start(world);
+        }
         warm_start(&c);
         for (int i = 0; i < world->desc.iterations; ++i) {
+            if (joints) {
+                pl_joints_solve(world, PL_SWEEP_CLASSIC);
+            }
             sweep(&c, false);
         }
         integrate_positions(&c);
         for (int i = 0; i < POSITION_SWEEPS; ++i) {
+            if (joints) {
+                pl_joints_move(world, POSITION_RATE);
+            }
             sweep(&c, true);
         }
         if (pl_solver_tallies(world)) {

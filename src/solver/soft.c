@@ -3,7 +3,8 @@
 // Warm starting within the step is done a body at a time: with anchors frozen, the impulses with
 // which a substep ended changed a body's velocity by v - u (u: velocity as integrated), and
 // applying them again changes it by the same. So contacts are warm started one by one only at the
-// start of the step.
+// start of the step. Joints likewise, and what their turning changes is
+// added in every substep (joints/solve.c); they come before contacts in a sweep.
 //
 // Free flight is exact: a body that no contact pushed in the substep moves by h v - h^2 a / 2, the
 // parabola, instead of h v. A pushed body moves by h v; the parabola would make resting bodies hop.
@@ -99,6 +100,7 @@ void pl_solver_soft(plumb_world *world, real dt)
                                        : world->narrow.any_friction ? PL_ROUGH
                                                                     : PL_SMOOTH;
     const bool rotation = world->turning_bodies > 0;
+    const bool joints = world->joints.live > 0;
     const bool bounce = world->narrow.any_bounce;
 
     kernels->prepare(&call, 0, s->bundle_count);
@@ -109,11 +111,19 @@ void pl_solver_soft(plumb_world *world, real dt)
     if (bounce) {
         pl_impacts_prepare(world);
     }
+    if (joints) {
+        pl_joints_prepare(world, h);
+    }
     for (int k = 0; k < substeps; ++k) {
         if (bounce) {
             integrate_velocities_carefully(world, h);
         } else {
             integrate_velocities(world, h);
+        }
+        if (joints && k == 0) {
+            pl_joints_warm_start(world);
+        } else if (joints) {
+            pl_joints_turn(world);
         }
         if (k == 0) {
             kernels->warm_start[surface][rotation](&call, 0, s->bundle_count);
@@ -122,10 +132,19 @@ void pl_solver_soft(plumb_world *world, real dt)
             pl_impacts_run(world, h);
         }
         for (int i = 0; i < world->desc.iterations; ++i) {
+            if (joints) {
+                pl_joints_solve(world, PL_SWEEP_PULL);
+            }
             kernels->solve[surface][rotation](&call, 0, s->bundle_count);
         }
         integrate_positions(world, h);
+        if (joints) {
+            pl_joints_refresh(world);
+        }
         for (int i = 0; i < world->desc.iterations; ++i) {
+            if (joints) {
+                pl_joints_solve(world, PL_SWEEP_RELAX);
+            }
             kernels->relax[surface][rotation](&call, 0, s->bundle_count);
         }
         if (tallies) {

@@ -75,9 +75,20 @@ static bool surfaces_wanted(const plumb_world *world, const char **reason)
     return collision_wanted(world, reason) && pl_surfaces_wanted(world, reason);
 }
 
+static bool joints_wanted(const plumb_world *world, const char **reason)
+{
+    return say(world->joints.live > 0, reason, "there are joints", "there are no joints");
+}
+
+// Contacts or joints.
+static bool solver_wanted(const plumb_world *world, const char **reason)
+{
+    return joints_wanted(world, reason) || collision_wanted(world, reason);
+}
+
 static bool soft_wanted(const plumb_world *world, const char **reason)
 {
-    if (!collision_wanted(world, reason)) {
+    if (!solver_wanted(world, reason)) {
         return false;
     }
     return say(world->desc.solver == PLUMB_SOLVER_SOFT, reason, "the world asks for the soft step",
@@ -86,7 +97,7 @@ static bool soft_wanted(const plumb_world *world, const char **reason)
 
 static bool classic_wanted(const plumb_world *world, const char **reason)
 {
-    if (!collision_wanted(world, reason)) {
+    if (!solver_wanted(world, reason)) {
         return false;
     }
     return say(world->desc.solver == PLUMB_SOLVER_PGS, reason,
@@ -204,6 +215,13 @@ static plumb_result run_motion(plumb_world *world, plumb_real dt)
     return PLUMB_OK;
 }
 
+static plumb_result run_reactions(plumb_world *world, plumb_real dt)
+{
+    (void)dt;
+    pl_joints_finish(world);
+    return PLUMB_OK;
+}
+
 static plumb_result run_events(plumb_world *world, plumb_real dt)
 {
     (void)dt;
@@ -230,13 +248,15 @@ const pl_pass pl_passes[] = {
     { "narrow phase",  "narrow",   "pairs, poses, pieces, materials", "manifolds",                 collision_wanted, run_narrow },
     { "surfaces",      "narrow",   "pairs, materials",                "manifolds",                 surfaces_wanted,  run_surfaces },
     { "contact systems", pl_user_phase, "declared by the systems",         "declared by the systems",   contacts_wanted,  run_contacts },
-    { "graph",         "solve",    "manifolds, velocities, forces",   "solver bodies, colours",    collision_wanted, run_graph },
+    { "graph",         "solve",    "manifolds, velocities, forces",   "solver bodies, colours",    solver_wanted,    run_graph },
     { "soft step",     "solve",    "manifolds, solver bodies",        "solver bodies, impulses",   soft_wanted,      run_soft },
     { "classic solver", "solve",   "manifolds, solver bodies",        "solver bodies, impulses",   classic_wanted,   run_classic },
     { "- friction",    "solve",    "materials",                       "solver bodies, impulses",   friction_wanted,  NULL },
     { "- rotation",    "solve",    "inertias",                        "solver bodies",             rotation_wanted,  NULL },
     { "- impacts",     "solve",    "materials, manifolds",            "solver bodies",             impacts_wanted,   NULL },
+    { "- joints",      "solve",    "joints, poses",                   "solver bodies, joints",     joints_wanted,    NULL },
     { "motion",        "finish",   "solver bodies, forces, gravity",  "transforms, velocities",    NULL,             run_motion },
+    { "reactions",     "finish",   "joints, poses",                   "joints, break events",      joints_wanted,    run_reactions },
     { "events",        "finish",   "pairs, manifolds",                "event arrays",              collision_wanted, run_events },
     { "sensors",       "finish",   "candidates, poses, pieces",       "overlaps, sensor events",   sensing_wanted,   run_sensors },
     { "end systems",   pl_user_phase, "declared by the systems",         "declared by the systems",   end_wanted,       run_end },

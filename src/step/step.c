@@ -24,7 +24,9 @@ static void revise_schedule(plumb_world *world)
 static void forget_contacts(plumb_world *world)
 {
     world->narrow.manifold_count = 0;
+    world->narrow.any_friction = world->narrow.any_bounce = false;
     world->solver.slot_count = 0;
+    world->joints.broken_count = 0;
 }
 
 static plumb_result run_passes(plumb_world *world, plumb_real dt)

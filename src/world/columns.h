@@ -31,6 +31,7 @@ typedef plumb_real real;
     X(real, set_mass) X(real, set_inertia) /* given by the user; 0: from the shapes */              \
     X(void *, user_data)                                                                            \
     X(uint32_t, first_piece)       /* pieces of the body, newest shape first; PL_NONE ends */       \
+    X(uint32_t, first_joint)       /* joints of the body, newest first; PL_NONE ends */             \
     X(uint8_t, type)               /* plumb_body_type */                                            \
     X(uint8_t, flags)              /* PL_BODY_... */
 

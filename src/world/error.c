@@ -66,6 +66,7 @@ static const char *const remedies[][2] = {
     { "plumb_body_teleport", "plumb_command_teleport" },
     { "plumb_shape_create", "plumb_command_shape_create" },
     { "plumb_shape_destroy", "plumb_command_destroy" },
+    { "plumb_joint_destroy", "plumb_command_destroy" },
     { "plumb_material_destroy", "plumb_command_destroy" },
     { "plumb_entity_create", "plumb_command_entity_create" },
     { "plumb_entity_destroy", "plumb_command_destroy" },
@@ -182,7 +183,7 @@ plumb_result pl_check_name(const plumb_world *world, const char *function, const
 static const char *kind_text(uint32_t kind)
 {
     static const char *const texts[] = { "nothing", "a bare entity", "a body", "a shape",
-                                         "a material" };
+                                         "a material",    "a joint" };
     return texts[kind];
 }
 

@@ -103,6 +103,7 @@ uint32_t pl_row_open(plumb_world *world, pl_partition partition)
     pl_table_clear(&world->bodies.table, pl_body_columns, pl_body_column_count, hole);
     pl_poses(world)[hole] = (pl_pose){ 0 };
     world->bodies.first_piece[hole] = PL_NONE;
+    world->bodies.first_joint[hole] = PL_NONE;
     world->schedule_dirty = true;
     return hole;
 }
@@ -180,6 +181,9 @@ static void destroy_body(plumb_world *world, plumb_entity body)
         pl_pieces_remove(world, world->bodies.first_piece[row]);
         pl_registry_release(&world->registry, shape);
     }
+    while (world->bodies.first_joint[row] != PL_NONE) {
+        pl_joint_remove(world, world->bodies.first_joint[row]);
+    }
     pl_row_close(world, row);
     pl_registry_release(&world->registry, body);
 }
@@ -203,7 +207,7 @@ static void destroy_material(plumb_world *world, plumb_entity material)
     pl_registry_release(&world->registry, material);
 }
 
-// Removal hooks run while everything is still there: shapes of a body first, oldest last.
+// Removal hooks run while everything is still there: shapes of a body first, oldest last, then joints.
 static void drop_components(plumb_world *world, plumb_entity entity)
 {
     uint32_t row = pl_body_row(world, entity);
@@ -216,6 +220,12 @@ static void drop_components(plumb_world *world, plumb_entity entity)
                 pl_components_drop_all(world, last);
             }
         }
+    }
+    uint32_t joint = row == PL_NONE ? PL_NONE : world->bodies.first_joint[row];
+    while (joint != PL_NONE) {
+        const pl_joint *j = &pl_joint_items(&world->joints)[joint];
+        pl_components_drop_all(world, j->entity);
+        joint = pl_joint_next(j, entity);
     }
     pl_components_drop_all(world, entity);
 }
@@ -230,6 +240,9 @@ void pl_destroy_entity(plumb_world *world, plumb_entity entity)
         break;
     case PLUMB_KIND_SHAPE:
         destroy_shape(world, entity);
+        break;
+    case PLUMB_KIND_JOINT:
+        pl_joint_remove(world, pl_joint_slot(world, entity));
         break;
     case PLUMB_KIND_MATERIAL:
         destroy_material(world, entity);

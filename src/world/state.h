@@ -11,6 +11,7 @@
 #include "ecs/registry.h"
 #include "ecs/system.h"
 #include "event/event.h"
+#include "joints/joint.h"
 #include "narrow/manifold.h"
 #include "plumb/event.h"
 #include "plumb/query.h"
@@ -85,6 +86,7 @@ struct plumb_world {
     pl_broad broad;
     pl_narrow narrow;
     pl_solver solver;
+    pl_joints joints;
     pl_schedule schedule;
 
     // Events of the last step.

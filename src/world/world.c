@@ -93,6 +93,7 @@ static void init_tables(plumb_world *world)
     pl_registry_init(&world->registry);
     pl_pool_init(&world->vertices);
     world->pieces.free_head = PL_NONE;
+    world->joints.free_head = PL_NONE;
     world->schedule_dirty = true;
 }
 
@@ -129,6 +130,7 @@ static void free_world(plumb_world *world)
     pl_broad_free(&memory, &world->broad);
     pl_narrow_free(&memory, &world->narrow);
     pl_solver_free(&memory, &world->solver);
+    pl_joints_free(&memory, &world->joints);
     pl_registry_free(&memory, &world->registry);
     pl_table_free(&memory, &world->bodies.table, pl_body_columns, pl_body_column_count);
     pl_table_free(&memory, &world->pieces.table, pl_piece_columns, pl_piece_column_count);

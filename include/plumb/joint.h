@@ -1,0 +1,143 @@
+/// joint.h - joints: what ties two bodies, or a body and the world, together.
+///
+///     plumb_joint hinge = plumb_joint_create(world, &(plumb_joint_desc){
+///         .kind = PLUMB_REVOLUTE, .body_a = door, .anchor = { 1, 2 } });
+///
+/// Points and directions in the descriptor are in world coordinates, as things are when the joint is
+/// made; from then on they move with their bodies. Angles and lengths are those of B seen from A.
+/// A null body is the world. Joints are rigid unless a spring is asked for.
+#ifndef PLUMB_JOINT_H
+#define PLUMB_JOINT_H
+
+#include "plumb/world.h"
+
+PLUMB_BEGIN
+
+typedef plumb_entity plumb_joint; ///< an entity that has a joint row
+
+/// Every kind of joint: X(NAME, name, text). The one list: enum, table, scene words.
+// clang-format off
+#define PLUMB_JOINT_LIST(X)                                                                         \
+    X(REVOLUTE,  revolute,  "a common point, free to turn; limit, motor, rotary spring")            \
+    X(PRISMATIC, prismatic, "slides along an axis of A, does not turn; limit, motor, spring")       \
+    X(WELD,      weld,      "nothing moves; a spring softens the angle")                            \
+    X(WHEEL,     wheel,     "slides along an axis of A and turns; suspension spring, limit, motor") \
+    X(DISTANCE,  distance,  "rod; with limits a rope or slack rod, with a spring a spring")         \
+    X(MOUSE,     mouse,     "a point of B is drawn to a target in the world or on A")               \
+    X(MOTOR,     motor,     "B is driven to a pose relative to A by bounded force and torque")      \
+    X(GEAR,      gear,      "turns, or a turn and a travel, keep a ratio")                          \
+    X(PULLEY,    pulley,    "length of A's rope + ratio * length of B's rope is constant")          \
+    X(RATCHET,   ratchet,   "B turns one way only, relative to A; falls back by less than a tooth") \
+    X(FRICTION,  friction,  "resists motion of B over A by bounded force and torque")
+// clang-format on
+
+typedef enum plumb_joint_kind {
+#define PLUMB_JOINT_ENUM(NAME, name, text) PLUMB_##NAME,
+    PLUMB_JOINT_LIST(PLUMB_JOINT_ENUM)
+#undef PLUMB_JOINT_ENUM
+} plumb_joint_kind;
+
+/// {0} with one body is a hinge at the world's origin. "Value" is the joint's coordinate: see
+/// plumb_joint_value. Members that a kind does not have must be 0.
+typedef struct plumb_joint_desc {
+    plumb_joint_kind kind;
+    plumb_body body_a, body_b; ///< not both null, not the same; null: the world
+    plumb_vec2 anchor;   ///< [m] the common point; distance, pulley: on A; mouse: the point of B
+    plumb_vec2 anchor_b; ///< [m] distance, pulley: on B; else unused
+    plumb_vec2 ground_a; ///< [m] pulley: the wheel of A's rope, on the world
+    plumb_vec2 ground_b; ///< [m] pulley: the wheel of B's rope, on the world
+    plumb_vec2 axis;     ///< prismatic, wheel: direction of the value, any length; {0}: x (wheel: up).
+                         ///< gear: {0}: turns of both; else B's travel along it (rack)
+    bool enable_limit;       ///< lower <= value <= upper; distance: instead of the rod
+    plumb_real lower, upper; ///< [rad] or [m] lower <= upper; distance: >= 0
+    bool enable_motor;       ///< revolute, prismatic, wheel: drives the value's rate
+    plumb_real motor_speed;  ///< [rad/s] or [m/s]; wheel: [rad/s] of B
+    plumb_real max_motor;    ///< [N m] or [N] >= 0; wheel: [N m]
+    plumb_real hertz;   ///< [1/s] >= 0 of the spring with the joint's own effective mass; 0: none.
+                        ///< Weld, distance, motor: 0 is rigid. Mouse: 0 means 5
+    plumb_real damping; ///< [-] >= 0 damping ratio of the spring. Mouse: 0 means 1
+    plumb_real rest;    ///< [rad] or [m] value at which the spring is at rest; motor: wanted angle
+    plumb_real length;  ///< [m] distance: of rod or spring; 0 means as things are
+    plumb_real ratio;   ///< [-] gear: turn of A + ratio * turn or travel [m] of B is constant; pulley,
+                        ///< > 0; 0 means 1
+    plumb_real pitch;   ///< [rad] ratchet: a tooth, not 0; negative: B turns clockwise only
+    plumb_real max_force;   ///< [N] >= 0; mouse, motor: 0 is unbounded; friction: as given
+    plumb_real max_torque;  ///< [N m] likewise
+    plumb_real break_force; ///< [N] >= 0 breaks where the reaction exceeds it; 0: never
+    plumb_real break_torque; ///< [N m] likewise
+    bool collide_connected;  ///< the two bodies collide with one another; default: they do not
+    void *user_data;
+} plumb_joint_desc;
+
+/// Makes a joint. Null handle on error: E_NULL, E_HANDLE, E_RANGE, E_NOT_FINITE, E_GEOMETRY (a rope or
+/// axis without length), E_MEMORY, E_LOCKED. O(1) amortised.
+PLUMB_API plumb_joint plumb_joint_create(plumb_world *world, const plumb_joint_desc *desc);
+/// Destroys a joint. Errors: E_HANDLE, E_LOCKED. A joint also goes with either of its bodies.
+PLUMB_API plumb_result plumb_joint_destroy(plumb_world *world, plumb_joint joint);
+
+/// Sets lower and upper bound and switches the limit. Errors: E_HANDLE, E_NOT_FINITE, E_RANGE, E_STATE
+/// (the kind has none).
+PLUMB_API plumb_result plumb_joint_set_limit(plumb_world *world, plumb_joint joint, bool enabled,
+                                             plumb_real lower, plumb_real upper);
+/// Sets speed [rad/s] or [m/s] and largest torque [N m] or force [N] and switches the motor. Errors as
+/// above.
+PLUMB_API plumb_result plumb_joint_set_motor(plumb_world *world, plumb_joint joint, bool enabled,
+                                             plumb_real speed, plumb_real max_motor);
+/// Sets the spring; hertz 0 as in the descriptor. Errors as above.
+PLUMB_API plumb_result plumb_joint_set_spring(plumb_world *world, plumb_joint joint, plumb_real hertz,
+                                              plumb_real damping, plumb_real rest);
+/// Mouse: the target [m] in the world. Motor: where B's anchor is to be [m], in A's frame relative to
+/// A's anchor. Errors: E_HANDLE, E_NOT_FINITE, E_STATE (another kind).
+PLUMB_API plumb_result plumb_joint_set_target(plumb_world *world, plumb_joint joint, plumb_vec2 target);
+/// Sets the bounds beyond which it breaks; 0: never. Errors: E_HANDLE, E_NOT_FINITE, E_RANGE.
+PLUMB_API plumb_result plumb_joint_set_break(plumb_world *world, plumb_joint joint, plumb_real force,
+                                             plumb_real torque);
+PLUMB_API plumb_result plumb_joint_set_user_data(plumb_world *world, plumb_joint joint, void *user_data);
+
+/// Questions. On a bad handle: zeros.
+PLUMB_API bool plumb_joint_valid(const plumb_world *world, plumb_joint joint);
+PLUMB_API plumb_joint_kind plumb_joint_get_kind(const plumb_world *world, plumb_joint joint);
+/// "revolute", ...; null for what is no kind.
+PLUMB_API const char *plumb_joint_kind_name(plumb_joint_kind kind);
+PLUMB_API plumb_body plumb_joint_body_a(const plumb_world *world, plumb_joint joint);
+PLUMB_API plumb_body plumb_joint_body_b(const plumb_world *world, plumb_joint joint);
+/// [m] where the anchor on A, or B, is now.
+PLUMB_API plumb_vec2 plumb_joint_anchor_a(const plumb_world *world, plumb_joint joint);
+PLUMB_API plumb_vec2 plumb_joint_anchor_b(const plumb_world *world, plumb_joint joint);
+/// The descriptor as it was given, with defaults resolved and setters applied. Errors: E_HANDLE, E_NULL.
+PLUMB_API plumb_result plumb_joint_settings(const plumb_world *world, plumb_joint joint,
+                                            plumb_joint_desc *desc);
+/// The joint's coordinate now. Revolute, weld, motor, friction, ratchet: [rad] turn of B relative to A
+/// since the joint was made, full turns included. Prismatic, wheel: [m] travel along the axis.
+/// Distance, mouse: [m] length. Gear, pulley: the sum that is kept, less what it was.
+PLUMB_API plumb_real plumb_joint_value(const plumb_world *world, plumb_joint joint);
+/// [m] by how far the rigid part is apart (angles count by the radian), 0 when it has none.
+PLUMB_API plumb_real plumb_joint_error(const plumb_world *world, plumb_joint joint);
+/// [N] on B at its anchor, [N m] on B about its anchor: mean of the last substep of the last step.
+PLUMB_API plumb_vec2 plumb_joint_force(const plumb_world *world, plumb_joint joint);
+PLUMB_API plumb_real plumb_joint_torque(const plumb_world *world, plumb_joint joint);
+PLUMB_API void *plumb_joint_user_data(const plumb_world *world, plumb_joint joint);
+
+/// Joints of the world in order of their slots, or of a body, newest first: writes up to `capacity`,
+/// returns how many there are.
+PLUMB_API int plumb_world_joints(const plumb_world *world, plumb_joint *joints, int capacity);
+PLUMB_API int plumb_body_joints(const plumb_world *world, plumb_body body, plumb_joint *joints,
+                                int capacity);
+
+/// A joint broke in the last step; its handle is stale.
+typedef struct plumb_joint_break {
+    plumb_joint joint;
+    plumb_joint_kind kind;
+    plumb_body body_a, body_b;
+    plumb_vec2 point;  ///< [m] anchor on B
+    plumb_vec2 force;  ///< [N] that broke it
+    plumb_real torque; ///< [N m]
+    void *user_data;
+} plumb_joint_break;
+
+/// Break events of the last step; *count is set. Null when there are none.
+PLUMB_API const plumb_joint_break *plumb_world_joint_break_events(const plumb_world *world, int *count);
+
+PLUMB_END
+
+#endif

@@ -1,0 +1,55 @@
+// distance.c - rod, rope or spring between two anchors. Rigid unless there is a limit or a spring.
+// Value: the length [m].
+#include "joints/parts.h"
+
+#include "world/check.h"
+#include "world/state.h"
+
+static plumb_result check(const plumb_world *world, const char *fn, plumb_joint_desc *desc)
+{
+    plumb_result r = pl_check_range(world, fn, "length", desc->length, 0, PLUMB_REAL_MAX);
+    r = r != PLUMB_OK ? r : pl_check_range(world, fn, "lower", desc->lower, 0, PLUMB_REAL_MAX);
+    if (r != PLUMB_OK) {
+        return r;
+    }
+    if (desc->length == 0) {
+        desc->length = plumb_vec2_distance(desc->anchor, desc->anchor_b);
+    }
+    if (desc->length == 0 && desc->hertz == 0 && !desc->enable_limit) {
+        return pl_fail(world, PLUMB_E_GEOMETRY, fn,
+                       "length is 0; a rod must have length (use a revolute joint)");
+    }
+    return PLUMB_OK;
+}
+
+static void rows(const pl_joint *j, const pl_joint_pose *a, const pl_joint_pose *b, pl_rows *out)
+{
+    pl_row length = pl_row_length(a, b, 0);
+    out->row[0] = length;
+    out->row[0].error -= j->desc.length;
+    out->row[0].hertz = j->desc.hertz;
+    out->row[0].damping = j->desc.damping;
+    out->row[1] = pl_row_at_least(length, j->desc.lower);
+    out->row[2] = pl_row_at_most(length, j->desc.upper);
+    if (!j->desc.enable_limit) {
+        out->row[1].type = out->row[2].type = PL_ROW_OFF;
+    } else if (j->desc.hertz == 0) {
+        out->row[0].type = PL_ROW_OFF;
+    }
+    out->count = 3;
+    out->block = 0;
+}
+
+static real value(const pl_joint *j, const pl_joint_pose *a, const pl_joint_pose *b)
+{
+    (void)j;
+    return plumb_vec2_magnitude(pl_joint_apart(a, b));
+}
+
+const pl_joint_class pl_joint_distance = {
+    .name = "distance",
+    .has = PL_JOINT_LIMIT | PL_JOINT_SPRING | PL_JOINT_TWO_ANCHORS,
+    .check = check,
+    .rows = rows,
+    .value = value,
+};

@@ -1,0 +1,322 @@
+// joint.c - joints are made, checked, destroyed, and found.
+//
+// Joints lie in slots that stay for their life; each body has a list of its joints through them, so
+// that neither rows that move nor other joints that go concern a joint. Reads: descriptor, bodies.
+// Writes: joint slots, body lists. Cost: O(1); destruction O(joints of the two bodies).
+#include "joints/joint.h"
+
+#include "plumb/math.h"
+#include "world/check.h"
+#include "world/rows.h"
+
+#define TURN       6.283185307179586476925
+#define POINT_MOST ((real)1e9) // [m] as positions of bodies
+
+//---- lookup
+//---------------------------------------------------------------------------------------
+
+uint32_t pl_joint_slot(const plumb_world *world, plumb_joint joint)
+{
+    if (world == NULL) {
+        return PL_NONE;
+    }
+    const pl_slot *slot = pl_registry_find(&world->registry, joint);
+    return slot != NULL && slot->kind == PLUMB_KIND_JOINT ? slot->row : PL_NONE;
+}
+
+uint32_t pl_joint_next(const pl_joint *joint, plumb_body body)
+{
+    return plumb_same(joint->a.body, body) ? joint->a.next : joint->b.next;
+}
+
+bool pl_joints_forbid(const plumb_world *world, uint32_t row, uint32_t other)
+{
+    const pl_joint *items = pl_joint_items(&world->joints);
+    plumb_body body = world->bodies.entity[row], partner = world->bodies.entity[other];
+    for (uint32_t i = world->bodies.first_joint[row]; i != PL_NONE;
+         i = pl_joint_next(&items[i], body)) {
+        if (!items[i].desc.collide_connected &&
+            (plumb_same(items[i].a.body, partner) || plumb_same(items[i].b.body, partner))) {
+            return true;
+        }
+    }
+    return false;
+}
+
+//---- poses
+//----------------------------------------------------------------------------------------
+
+// [m] centre of the body; the world's is the anchor.
+static void center_of(const plumb_world *world, const pl_joint_end *end, double *x, double *y)
+{
+    if (plumb_is_null(end->body)) {
+        *x = (double)end->local.x;
+        *y = (double)end->local.y;
+        return;
+    }
+    uint32_t row = pl_body_row(world, end->body);
+    const pl_bodies *b = &world->bodies;
+    *x = (double)b->center_x[row] + (double)b->low_x[row];
+    *y = (double)b->center_y[row] + (double)b->low_y[row];
+}
+
+// Relative to the point (from_x, from_y).
+static void pose_now(const plumb_world *world, const pl_joint_end *end, double from_x,
+                     double from_y, pl_joint_pose *pose)
+{
+    double x, y;
+    center_of(world, end, &x, &y);
+    *pose = (pl_joint_pose){ .x = (real)(x - from_x), .y = (real)(y - from_y), .c = 1 };
+    if (plumb_is_null(end->body)) {
+        return;
+    }
+    uint32_t row = pl_body_row(world, end->body);
+    const pl_bodies *b = &world->bodies;
+    plumb_rot q = { b->c[row], b->s[row] };
+    plumb_vec2 arm = plumb_rot_apply(
+        q, plumb_v2(end->local.x - b->local_x[row], end->local.y - b->local_y[row]));
+    pose->c = q.c, pose->s = q.s;
+    pose->rx = arm.x, pose->ry = arm.y;
+    pose->angle = (end->seen - end->start) + TURN * (double)end->turns;
+}
+
+static void count_turns(const plumb_world *world, pl_joint_end *end)
+{
+    if (!plumb_is_null(end->body)) {
+        double now = (double)plumb_body_angle(world, end->body), jump = now - end->seen;
+        end->turns += jump > TURN / 2 ? -1 : jump < -TURN / 2 ? 1 : 0;
+        end->seen = now;
+    }
+}
+
+void pl_joint_begin(const plumb_world *world, pl_joint *joint)
+{
+    double x, y;
+    count_turns(world, &joint->a);
+    count_turns(world, &joint->b);
+    center_of(world, &joint->a, &x, &y);
+    joint->origin = plumb_v2((real)x, (real)y);
+    pose_now(world, &joint->a, x, y, &joint->a.pose);
+    pose_now(world, &joint->b, x, y, &joint->b.pose);
+}
+
+//---- checks
+//---------------------------------------------------------------------------------------
+
+static plumb_result check_ends(const plumb_world *world, const char *fn, const plumb_joint_desc *d)
+{
+    const struct {
+        const char *name;
+        plumb_body body;
+    } ends[] = { { "body_a", d->body_a }, { "body_b", d->body_b } };
+    for (int i = 0; i < 2; ++i) {
+        if (!plumb_is_null(ends[i].body) && pl_body_row(world, ends[i].body) == PL_NONE) {
+            return pl_fail_handle(world, fn, ends[i].name, ends[i].body, "a live body or null");
+        }
+    }
+    if (plumb_same(d->body_a, d->body_b)) {
+        return pl_fail(world, PLUMB_E_HANDLE, fn, "body_b is %s; it must be another",
+                       plumb_is_null(d->body_b) ? "null as body_a is" : "body_a");
+    }
+    return PLUMB_OK;
+}
+
+static plumb_result check_numbers(const plumb_world *world, const char *fn,
+                                  const plumb_joint_desc *d)
+{
+    const struct {
+        const char *name;
+        real value, low;
+    } fields[] = {
+        { "lower", d->lower, -PLUMB_REAL_MAX },
+        { "upper", d->upper, d->lower },
+        { "motor_speed", d->motor_speed, -PLUMB_REAL_MAX },
+        { "max_motor", d->max_motor, 0 },
+        { "hertz", d->hertz, 0 },
+        { "damping", d->damping, 0 },
+        { "rest", d->rest, -PLUMB_REAL_MAX },
+        { "length", d->length, 0 },
+        { "ratio", d->ratio, -PLUMB_REAL_MAX },
+        { "pitch", d->pitch, -PLUMB_REAL_MAX },
+        { "max_force", d->max_force, 0 },
+        { "max_torque", d->max_torque, 0 },
+        { "break_force", d->break_force, 0 },
+        { "break_torque", d->break_torque, 0 },
+    };
+    plumb_result r = pl_check_within(world, fn, "anchor", d->anchor, POINT_MOST);
+    r = r != PLUMB_OK ? r : pl_check_within(world, fn, "anchor_b", d->anchor_b, POINT_MOST);
+    for (size_t i = 0; i < sizeof fields / sizeof fields[0] && r == PLUMB_OK; ++i) {
+        r = pl_check_range(world, fn, fields[i].name, fields[i].value, fields[i].low,
+                           PLUMB_REAL_MAX);
+    }
+    return r;
+}
+
+static plumb_result check_members(const plumb_world *world, const char *fn,
+                                  const plumb_joint_desc *d)
+{
+    const pl_joint_class *kind = pl_joint_classes[d->kind];
+    const struct {
+        const char *name;
+        bool used;
+        unsigned needs;
+    } members[] = {
+        { "enable_limit", d->enable_limit, PL_JOINT_LIMIT },
+        { "enable_motor", d->enable_motor, PL_JOINT_MOTOR },
+        { "hertz", d->hertz != 0, PL_JOINT_SPRING },
+    };
+    for (size_t i = 0; i < sizeof members / sizeof members[0]; ++i) {
+        if (members[i].used && (kind->has & members[i].needs) == 0) {
+            return pl_fail(world, PLUMB_E_RANGE, fn, "%s is set; it must be 0 for a %s joint",
+                           members[i].name, kind->name);
+        }
+    }
+    return PLUMB_OK;
+}
+
+// Checks a descriptor and resolves its defaults in place.
+static plumb_result check_desc(const plumb_world *world, const char *fn, plumb_joint_desc *d)
+{
+    if ((unsigned)d->kind >= (unsigned)pl_joint_class_count) {
+        return pl_fail(world, PLUMB_E_RANGE, fn, "kind is %d; it must be a plumb_joint_kind",
+                       (int)d->kind);
+    }
+    plumb_result r = check_ends(world, fn, d);
+    r = r != PLUMB_OK ? r : check_numbers(world, fn, d);
+    r = r != PLUMB_OK ? r : check_members(world, fn, d);
+    const pl_joint_class *kind = pl_joint_classes[d->kind];
+    return r == PLUMB_OK && kind->check != NULL ? kind->check(world, fn, d) : r;
+}
+
+//---- create, destroy
+//------------------------------------------------------------------------------
+
+static bool reserve(plumb_world *world)
+{
+    pl_joints *joints = &world->joints;
+    size_t slots = (size_t)joints->count + 1;
+    return pl_registry_reserve(&world->memory, &world->registry, 1) &&
+           pl_buffer_reserve(&world->memory, &joints->items, slots * sizeof(pl_joint)) &&
+           pl_buffer_reserve(&world->memory, &joints->broken, slots * sizeof(plumb_joint_break));
+}
+
+// Room must be reserved.
+static uint32_t take_slot(pl_joints *joints)
+{
+    uint32_t slot = joints->free_head;
+    if (slot == PL_NONE) {
+        return joints->count++;
+    }
+    joints->free_head = pl_joint_items(joints)[slot].a.next;
+    return slot;
+}
+
+static void attach(plumb_world *world, uint32_t slot, pl_joint_end *end, plumb_body body,
+                   plumb_vec2 anchor)
+{
+    *end = (pl_joint_end){ .body = body, .local = anchor, .next = PL_NONE };
+    if (plumb_is_null(body)) {
+        return;
+    }
+    uint32_t row = pl_body_row(world, body);
+    end->local = plumb_body_local_point(world, body, anchor);
+    end->start = end->seen = (double)plumb_body_angle(world, body);
+    end->next = world->bodies.first_joint[row];
+    world->bodies.first_joint[row] = slot;
+}
+
+// Pairs of the two bodies come or go with the joint.
+static void revise_pairs(plumb_world *world, const pl_joint *joint)
+{
+    if (!joint->desc.collide_connected && !plumb_is_null(joint->a.body) &&
+        !plumb_is_null(joint->b.body)) {
+        world->pairs_dirty = true;
+    }
+    world->schedule_dirty = true;
+}
+
+static plumb_joint insert(plumb_world *world, const plumb_joint_desc *d)
+{
+    const plumb_joint none = PLUMB_NULL_INIT;
+    uint32_t slot = take_slot(&world->joints);
+    pl_joint *j = &pl_joint_items(&world->joints)[slot];
+    bool two = (pl_joint_classes[d->kind]->has & PL_JOINT_TWO_ANCHORS) != 0;
+    *j = (pl_joint){ .desc = *d };
+    attach(world, slot, &j->a, d->body_a, d->anchor);
+    attach(world, slot, &j->b, d->body_b, two ? d->anchor_b : d->anchor);
+    j->axis =
+        plumb_is_null(d->body_a) ? d->axis : plumb_body_local_vector(world, d->body_a, d->axis);
+    j->entity = pl_entity_claim(world, none, PLUMB_KIND_JOINT, slot);
+    pl_joint_begin(world, j);
+    if (pl_joint_classes[d->kind]->keep != NULL) {
+        j->sum = pl_joint_classes[d->kind]->keep(j, &j->a.pose, &j->b.pose);
+    }
+    ++world->joints.live;
+    revise_pairs(world, j);
+    return j->entity;
+}
+
+plumb_joint plumb_joint_create(plumb_world *world, const plumb_joint_desc *desc)
+{
+    plumb_joint joint = PLUMB_NULL_INIT;
+    if (world == NULL || pl_check_unlocked(world, __func__) != PLUMB_OK ||
+        pl_check_pointer(world, __func__, "desc", desc) != PLUMB_OK) {
+        return joint;
+    }
+    plumb_joint_desc resolved = *desc;
+    if (check_desc(world, __func__, &resolved) != PLUMB_OK) {
+        return joint;
+    }
+    if (!reserve(world)) {
+        pl_fail_memory(world, __func__);
+        return joint;
+    }
+    return insert(world, &resolved);
+}
+
+static void detach(plumb_world *world, uint32_t slot, const pl_joint_end *end)
+{
+    if (plumb_is_null(end->body)) {
+        return;
+    }
+    pl_joint *items = pl_joint_items(&world->joints);
+    uint32_t *link = &world->bodies.first_joint[pl_body_row(world, end->body)];
+    while (*link != slot) {
+        pl_joint *j = &items[*link];
+        link = plumb_same(j->a.body, end->body) ? &j->a.next : &j->b.next;
+    }
+    *link = end->next;
+}
+
+void pl_joint_remove(plumb_world *world, uint32_t slot)
+{
+    pl_joint *j = &pl_joint_items(&world->joints)[slot];
+    detach(world, slot, &j->a);
+    detach(world, slot, &j->b);
+    revise_pairs(world, j);
+    pl_registry_release(&world->registry, j->entity);
+    *j = (pl_joint){ .a.next = world->joints.free_head };
+    world->joints.free_head = slot;
+    --world->joints.live;
+}
+
+plumb_result plumb_joint_destroy(plumb_world *world, plumb_joint joint)
+{
+    if (world == NULL) {
+        return PLUMB_E_NULL;
+    }
+    if (pl_joint_slot(world, joint) == PL_NONE) {
+        return pl_fail_handle(world, __func__, "joint", joint, "a live joint");
+    }
+    plumb_result r = pl_check_unlocked(world, __func__);
+    if (r == PLUMB_OK) {
+        pl_destroy_entity(world, joint);
+    }
+    return r;
+}
+
+void pl_joints_free(pl_memory *memory, pl_joints *joints)
+{
+    pl_buffer_free(memory, &joints->items);
+    pl_buffer_free(memory, &joints->broken);
+}

@@ -1,0 +1,165 @@
+// joint_get.c - questions to joints. On a bad handle: zeros. Reads: one joint and its bodies. Cost:
+// O(1), lists O(joints).
+#include "joints/joint.h"
+#include "plumb/math.h"
+#include "world/check.h"
+#include "world/state.h"
+
+static const pl_joint *find(const plumb_world *world, plumb_joint joint)
+{
+    uint32_t slot = pl_joint_slot(world, joint);
+    return slot == PL_NONE ? NULL : &pl_joint_items(&world->joints)[slot];
+}
+
+bool plumb_joint_valid(const plumb_world *world, plumb_joint joint)
+{
+    return find(world, joint) != NULL;
+}
+
+plumb_joint_kind plumb_joint_get_kind(const plumb_world *world, plumb_joint joint)
+{
+    const pl_joint *j = find(world, joint);
+    return j == NULL ? PLUMB_REVOLUTE : j->desc.kind;
+}
+
+const char *plumb_joint_kind_name(plumb_joint_kind kind)
+{
+    return (unsigned)kind < (unsigned)pl_joint_class_count ? pl_joint_classes[kind]->name : NULL;
+}
+
+plumb_body plumb_joint_body_a(const plumb_world *world, plumb_joint joint)
+{
+    const pl_joint *j = find(world, joint);
+    return j == NULL ? (plumb_body)PLUMB_NULL_INIT : j->a.body;
+}
+
+plumb_body plumb_joint_body_b(const plumb_world *world, plumb_joint joint)
+{
+    const pl_joint *j = find(world, joint);
+    return j == NULL ? (plumb_body)PLUMB_NULL_INIT : j->b.body;
+}
+
+static plumb_vec2 anchor(const plumb_world *world, const pl_joint_end *end)
+{
+    return plumb_is_null(end->body) ? end->local
+                                    : plumb_body_world_point(world, end->body, end->local);
+}
+
+plumb_vec2 plumb_joint_anchor_a(const plumb_world *world, plumb_joint joint)
+{
+    const pl_joint *j = find(world, joint);
+    return j == NULL ? plumb_v2(0, 0) : anchor(world, &j->a);
+}
+
+plumb_vec2 plumb_joint_anchor_b(const plumb_world *world, plumb_joint joint)
+{
+    const pl_joint *j = find(world, joint);
+    return j == NULL ? plumb_v2(0, 0) : anchor(world, &j->b);
+}
+
+plumb_result plumb_joint_settings(const plumb_world *world, plumb_joint joint,
+                                  plumb_joint_desc *desc)
+{
+    if (world == NULL) {
+        return PLUMB_E_NULL;
+    }
+    const pl_joint *j = find(world, joint);
+    if (j == NULL) {
+        return pl_fail_handle(world, __func__, "joint", joint, "a live joint");
+    }
+    plumb_result r = pl_check_pointer(world, __func__, "desc", desc);
+    if (r == PLUMB_OK) {
+        *desc = j->desc;
+    }
+    return r;
+}
+
+plumb_real plumb_joint_value(const plumb_world *world, plumb_joint joint)
+{
+    const pl_joint *j = find(world, joint);
+    if (j == NULL) {
+        return 0;
+    }
+    pl_joint now = *j;
+    pl_joint_begin(world, &now);
+    return pl_joint_classes[j->desc.kind]->value(&now, &now.a.pose, &now.b.pose);
+}
+
+plumb_real plumb_joint_error(const plumb_world *world, plumb_joint joint)
+{
+    const pl_joint *j = find(world, joint);
+    if (j == NULL) {
+        return 0;
+    }
+    pl_joint now = *j;
+    pl_rows rows;
+    pl_joint_begin(world, &now);
+    pl_joint_classes[j->desc.kind]->rows(&now, &now.a.pose, &now.b.pose, &rows);
+    real sum = 0;
+    for (int i = 0; i < rows.count; ++i) {
+        const pl_row *r = &rows.row[i];
+        bool rigid =
+            r->hertz == 0 && (r->type == PL_ROW_EQUAL || (r->type == PL_ROW_LEAST && r->error < 0));
+        sum += rigid ? r->error * r->error : 0;
+    }
+    return plumb_sqrt(sum);
+}
+
+plumb_vec2 plumb_joint_force(const plumb_world *world, plumb_joint joint)
+{
+    const pl_joint *j = find(world, joint);
+    return j == NULL ? plumb_v2(0, 0) : j->force;
+}
+
+plumb_real plumb_joint_torque(const plumb_world *world, plumb_joint joint)
+{
+    const pl_joint *j = find(world, joint);
+    return j == NULL ? 0 : j->torque;
+}
+
+void *plumb_joint_user_data(const plumb_world *world, plumb_joint joint)
+{
+    const pl_joint *j = find(world, joint);
+    return j == NULL ? NULL : j->desc.user_data;
+}
+
+int plumb_world_joints(const plumb_world *world, plumb_joint *joints, int capacity)
+{
+    int count = 0;
+    for (uint32_t i = 0; world != NULL && i < world->joints.count; ++i) {
+        const pl_joint *j = &pl_joint_items(&world->joints)[i];
+        if (plumb_is_null(j->entity)) {
+            continue;
+        }
+        if (joints != NULL && count < capacity) {
+            joints[count] = j->entity;
+        }
+        ++count;
+    }
+    return count;
+}
+
+int plumb_body_joints(const plumb_world *world, plumb_body body, plumb_joint *joints, int capacity)
+{
+    uint32_t row = pl_body_row(world, body);
+    int count = 0;
+    uint32_t i = row == PL_NONE ? PL_NONE : world->bodies.first_joint[row];
+    while (i != PL_NONE) {
+        const pl_joint *j = &pl_joint_items(&world->joints)[i];
+        if (joints != NULL && count < capacity) {
+            joints[count] = j->entity;
+        }
+        ++count;
+        i = pl_joint_next(j, body);
+    }
+    return count;
+}
+
+const plumb_joint_break *plumb_world_joint_break_events(const plumb_world *world, int *count)
+{
+    int events = world == NULL ? 0 : world->joints.broken_count;
+    if (count != NULL) {
+        *count = events;
+    }
+    return events == 0 ? NULL : world->joints.broken.data;
+}

@@ -1,0 +1,124 @@
+// joint_set.c - what can be changed of a joint. Reads: arguments, checked first. Writes: its
+// descriptor.
+#include "joints/joint.h"
+#include "plumb/math.h"
+#include "world/check.h"
+#include "world/state.h"
+
+// The live joint, whose kind has `needs` (called `what` in the message).
+static plumb_result find(plumb_world *world, const char *fn, plumb_joint joint, unsigned needs,
+                         const char *what, pl_joint **out)
+{
+    if (world == NULL) {
+        return PLUMB_E_NULL;
+    }
+    uint32_t slot = pl_joint_slot(world, joint);
+    if (slot == PL_NONE) {
+        return pl_fail_handle(world, fn, "joint", joint, "a live joint");
+    }
+    *out = &pl_joint_items(&world->joints)[slot];
+    const pl_joint_class *kind = pl_joint_classes[(*out)->desc.kind];
+    if ((kind->has & needs) != needs) {
+        return pl_fail(world, PLUMB_E_STATE, fn, "joint is a %s joint; it must be one with a %s",
+                       kind->name, what);
+    }
+    return PLUMB_OK;
+}
+
+plumb_result plumb_joint_set_limit(plumb_world *world, plumb_joint joint, bool enabled,
+                                   plumb_real lower, plumb_real upper)
+{
+    pl_joint *j = NULL;
+    plumb_result r = find(world, __func__, joint, PL_JOINT_LIMIT, "limit", &j);
+    if (r != PLUMB_OK) {
+        return r;
+    }
+    real least = j->desc.kind == PLUMB_DISTANCE ? 0 : -PLUMB_REAL_MAX;
+    r = pl_check_range(world, __func__, "lower", lower, least, PLUMB_REAL_MAX);
+    r = r != PLUMB_OK ? r : pl_check_range(world, __func__, "upper", upper, lower, PLUMB_REAL_MAX);
+    if (r == PLUMB_OK) {
+        j->desc.enable_limit = enabled;
+        j->desc.lower = lower;
+        j->desc.upper = upper;
+    }
+    return r;
+}
+
+plumb_result plumb_joint_set_motor(plumb_world *world, plumb_joint joint, bool enabled,
+                                   plumb_real speed, plumb_real max_motor)
+{
+    pl_joint *j = NULL;
+    plumb_result r = find(world, __func__, joint, PL_JOINT_MOTOR, "motor", &j);
+    r = r != PLUMB_OK ? r : pl_check_finite(world, __func__, "speed", speed);
+    r = r != PLUMB_OK ? r
+                      : pl_check_range(world, __func__, "max_motor", max_motor, 0, PLUMB_REAL_MAX);
+    if (r == PLUMB_OK) {
+        j->desc.enable_motor = enabled;
+        j->desc.motor_speed = speed;
+        j->desc.max_motor = max_motor;
+    }
+    return r;
+}
+
+plumb_result plumb_joint_set_spring(plumb_world *world, plumb_joint joint, plumb_real hertz,
+                                    plumb_real damping, plumb_real rest)
+{
+    pl_joint *j = NULL;
+    plumb_result r = find(world, __func__, joint, PL_JOINT_SPRING, "spring", &j);
+    r = r != PLUMB_OK ? r : pl_check_range(world, __func__, "hertz", hertz, 0, PLUMB_REAL_MAX);
+    r = r != PLUMB_OK ? r : pl_check_range(world, __func__, "damping", damping, 0, PLUMB_REAL_MAX);
+    r = r != PLUMB_OK ? r : pl_check_finite(world, __func__, "rest", rest);
+    if (r != PLUMB_OK) {
+        return r;
+    }
+    plumb_joint_desc wanted = j->desc;
+    wanted.hertz = hertz;
+    wanted.damping = damping;
+    wanted.rest = rest;
+    if (j->desc.kind == PLUMB_MOUSE) {
+        r = pl_joint_classes[PLUMB_MOUSE]->check(world, __func__, &wanted); // resolves defaults
+    }
+    j->desc = wanted;
+    return r;
+}
+
+plumb_result plumb_joint_set_target(plumb_world *world, plumb_joint joint, plumb_vec2 target)
+{
+    pl_joint *j = NULL;
+    plumb_result r = find(world, __func__, joint, PL_JOINT_TARGET, "target", &j);
+    r = r != PLUMB_OK ? r : pl_check_finite_vec(world, __func__, "target", target);
+    if (r != PLUMB_OK) {
+        return r;
+    }
+    if (j->desc.kind == PLUMB_MOTOR) {
+        j->target = target;
+    } else {
+        j->a.local =
+            plumb_is_null(j->a.body) ? target : plumb_body_local_point(world, j->a.body, target);
+    }
+    return PLUMB_OK;
+}
+
+plumb_result plumb_joint_set_break(plumb_world *world, plumb_joint joint, plumb_real force,
+                                   plumb_real torque)
+{
+    pl_joint *j = NULL;
+    plumb_result r = find(world, __func__, joint, 0, "", &j);
+    r = r != PLUMB_OK ? r : pl_check_range(world, __func__, "force", force, 0, PLUMB_REAL_MAX);
+    r = r != PLUMB_OK ? r : pl_check_range(world, __func__, "torque", torque, 0, PLUMB_REAL_MAX);
+    if (r == PLUMB_OK) {
+        j->desc.break_force = force;
+        j->desc.break_torque = torque;
+    }
+    return r;
+}
+
+plumb_result plumb_joint_set_user_data(plumb_world *world, plumb_joint joint, void *user_data)
+{
+    pl_joint *j = NULL;
+    plumb_result r = find(world, __func__, joint, 0, "", &j);
+    if (r == PLUMB_OK) {
+        j->desc.user_data = user_data;
+    }
+    return r;
+}

@@ -1,0 +1,50 @@
+// parts.c - motor, spring and limits of a joint's coordinate. Reads: descriptor. Writes: rows.
+#include "joints/parts.h"
+
+#include "world/check.h"
+#include "world/state.h"
+
+void pl_rows_spring_limits(const pl_joint *j, pl_row row, pl_row *out)
+{
+    const plumb_joint_desc *d = &j->desc;
+    out[0].type = out[1].type = out[2].type = PL_ROW_OFF;
+    if (d->hertz > 0) {
+        out[0] = row;
+        out[0].error -= d->rest;
+        out[0].hertz = d->hertz;
+        out[0].damping = d->damping;
+    }
+    if (d->enable_limit) {
+        out[1] = pl_row_at_least(row, d->lower);
+        out[2] = pl_row_at_most(row, d->upper);
+    }
+}
+
+void pl_row_motor(const pl_joint *j, pl_row row, pl_row *out)
+{
+    out->type = PL_ROW_OFF;
+    if (j->desc.enable_motor) {
+        *out = row;
+        out->type = PL_ROW_DRIVE;
+        out->speed = j->desc.motor_speed;
+        out->most = j->desc.max_motor;
+    }
+}
+
+plumb_result pl_joint_check_axis(const plumb_world *world, const char *fn, plumb_joint_desc *desc,
+                                 plumb_vec2 fallback)
+{
+    plumb_result r = pl_check_finite_vec(world, fn, "axis", desc->axis);
+    if (r != PLUMB_OK) {
+        return r;
+    }
+    bool given = desc->axis.x != 0 || desc->axis.y != 0;
+    plumb_vec2 unit = given ? plumb_vec2_unit(desc->axis) : fallback;
+    if (unit.x == 0 && unit.y == 0) {
+        return pl_fail(world, PLUMB_E_GEOMETRY, fn,
+                       "axis is (%g, %g); it must be long enough to have a direction",
+                       (double)desc->axis.x, (double)desc->axis.y);
+    }
+    desc->axis = unit;
+    return PLUMB_OK;
+}

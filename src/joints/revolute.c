@@ -1,0 +1,24 @@
+// revolute.c - hinge: the anchors coincide. Value: the turn of B relative to A [rad].
+#include "joints/parts.h"
+
+static void rows(const pl_joint *j, const pl_joint_pose *a, const pl_joint_pose *b, pl_rows *out)
+{
+    pl_row angle = pl_row_angle(a, b, 0);
+    pl_rows_point(out, a, b, plumb_v2(0, 0));
+    pl_rows_spring_limits(j, angle, &out->row[2]);
+    pl_row_motor(j, angle, &out->row[5]);
+    out->count = 6;
+}
+
+static real value(const pl_joint *j, const pl_joint_pose *a, const pl_joint_pose *b)
+{
+    (void)j;
+    return pl_joint_turn(a, b);
+}
+
+const pl_joint_class pl_joint_revolute = {
+    .name = "revolute",
+    .has = PL_JOINT_LIMIT | PL_JOINT_MOTOR | PL_JOINT_SPRING | PL_JOINT_RADIANS,
+    .rows = rows,
+    .value = value,
+};

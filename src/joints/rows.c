@@ -1,0 +1,72 @@
+// rows.c - the rows that joints are put together from. Derivations: d/dt of C with the velocity of
+// a body's point v + w x r; tests/unit/test_joints.c compares every J with finite differences of C.
+//
+// Reads: two poses. Writes: rows. Cost: O(1).
+#include "joints/rows.h"
+
+#include "plumb/math.h"
+
+static pl_row along(plumb_vec2 arm_a, const pl_joint_pose *b, plumb_vec2 n, real error)
+{
+    return (pl_row){ .ax = -n.x,
+                     .ay = -n.y,
+                     .aw = -plumb_vec2_cross(arm_a, n),
+                     .bx = n.x,
+                     .by = n.y,
+                     .bw = b->rx * n.y - b->ry * n.x,
+                     .error = error,
+                     .most = PL_UNBOUNDED,
+                     .type = PL_ROW_EQUAL };
+}
+
+pl_row pl_row_along_axis(const pl_joint_pose *a, const pl_joint_pose *b, plumb_vec2 n, real offset)
+{
+    plumb_vec2 d = pl_joint_apart(a, b);
+    return along(plumb_v2(a->rx + d.x, a->ry + d.y), b, n, plumb_vec2_dot(d, n) - offset);
+}
+
+pl_row pl_row_angle(const pl_joint_pose *a, const pl_joint_pose *b, real offset)
+{
+    return (pl_row){ .aw = -1,
+                     .bw = 1,
+                     .error = (real)(b->angle - a->angle - (double)offset),
+                     .most = PL_UNBOUNDED,
+                     .type = PL_ROW_EQUAL };
+}
+
+// Without length there is no direction: any will do, the row pushes the points apart along it.
+pl_row pl_row_length(const pl_joint_pose *a, const pl_joint_pose *b, real length)
+{
+    real now;
+    plumb_vec2 n = plumb_vec2_unit_and_magnitude(pl_joint_apart(a, b), &now);
+    n = now > 0 ? n : plumb_v2(1, 0);
+    return along(plumb_v2(a->rx, a->ry), b, n, now - length);
+}
+
+pl_row pl_row_at_least(pl_row row, real lower)
+{
+    row.error -= lower;
+    row.type = PL_ROW_LEAST;
+    return row;
+}
+
+pl_row pl_row_at_most(pl_row row, real upper)
+{
+    return (pl_row){ .ax = -row.ax,
+                     .ay = -row.ay,
+                     .aw = -row.aw,
+                     .bx = -row.bx,
+                     .by = -row.by,
+                     .bw = -row.bw,
+                     .error = upper - row.error,
+                     .most = row.most,
+                     .type = PL_ROW_LEAST };
+}
+
+void pl_rows_point(pl_rows *rows, const pl_joint_pose *a, const pl_joint_pose *b, plumb_vec2 offset)
+{
+    rows->row[0] = pl_row_along_axis(a, b, plumb_v2(a->c, a->s), offset.x);
+    rows->row[1] = pl_row_along_axis(a, b, plumb_v2(-a->s, a->c), offset.y);
+    rows->block = 2;
+    rows->block_most = PL_UNBOUNDED;
+}

@@ -1,0 +1,374 @@
+// solve.c - rows of joints in the solvers: warm start, sweeps, and what the turning of bodies does.
+//
+// A rigid row first is a stiff soft one (backward Euler: Catto, Soft Constraints, GDC 2011); after
+// the bodies have moved it is solved again, for C' = 0, with the Jacobian of where they are then.
+// The way of a substep is thus a chord between two places on the circle, left and reached at equal
+// angles, and no speed is lost to turning, as in RATTLE (Andersen 1983): a pendulum keeps its
+// amplitude. Taking all of C back with impulses that never yield holds one joint better, and shakes
+// bridges to pieces.
+//
+// soft.c warm starts body by body, v += v - u, with the directions of the substep before. Where J
+// has turned since, pl_joints_turn adds the difference (J' - J)^T impulse, else a stale pull along
+// the old direction would feed energy to whatever swings.
+//
+// Springs: b = 1 / (1 + 2 z x + 2 (z x)^2 + x^4 / (1 + x^2)), x = h w, and the impulse such that
+// v' = b (v - h w^2 C). The first terms are exp(-2 z x), the damping of the continuous oscillator
+// over a substep; with z = 0 and small x this is the symplectic Euler step, which keeps the
+// amplitude; the last term makes stiff springs implicit, hence stable. At rest w^2 C is the
+// acceleration, exactly.
+//
+// Reads: joints, body columns. Writes: solver bodies, impulses. Cost: O(joints) a sweep.
+#include "joints/joint.h"
+#include "plumb/math.h"
+#include "world/state.h"
+
+// Frequency of a rigid row as a share of the substep rate, and its damping ratio: at a third, long
+// bridges begin to shake; at an eighth, everything hangs three times as low (README.md has the
+// table).
+#define SHARE ((real)0.25)
+#define ZETA  ((real)2)
+#define TAU   ((real)6.2831853071795864769)
+#define PIVOT ((real)1e-6) // [-] of the diagonal: a smaller pivot is no direction of its own
+
+typedef struct soft {
+    real velocity, error, impulse; // factors of J v, C and the impulse so far
+} soft;
+
+static soft soften(const pl_row *row, real h, pl_joint_sweep sweep)
+{
+    if (row->type == PL_ROW_DRIVE || (sweep != PL_SWEEP_PULL && row->hertz == 0)) {
+        return (soft){ 1, 0, 0 };
+    }
+    if (row->hertz == 0) {
+        const real x = TAU * SHARE, stiff = x * (2 * ZETA + x);
+        return (soft){ stiff / (1 + stiff), x * x / (1 + stiff) / h, 1 / (1 + stiff) };
+    }
+    real x = TAU * row->hertz * h, zx = row->damping * x, xx = x * x;
+    real b = 1 / (1 + 2 * zx + 2 * zx * zx + xx * xx / (1 + xx));
+    return (soft){ 1 - b, b * xx / h, b };
+}
+
+//---- one row -------------------------------------------------------------------------------------
+
+static real rate(const pl_row *r, const pl_solver_body *a, const pl_solver_body *b)
+{
+    return (r->ax * a->vx + r->ay * a->vy + r->aw * a->w) +
+           (r->bx * b->vx + r->by * b->vy + r->bw * b->w);
+}
+
+static void push(const pl_row *r, pl_solver_body *a, pl_solver_body *b, real impulse)
+{
+    a->vx += a->inv_mass * r->ax * impulse;
+    a->vy += a->inv_mass * r->ay * impulse;
+    a->w += a->inv_inertia * r->aw * impulse;
+    b->vx += b->inv_mass * r->bx * impulse;
+    b->vy += b->inv_mass * r->by * impulse;
+    b->w += b->inv_inertia * r->bw * impulse;
+}
+
+// J M^-1 K^T of two rows.
+static real coupling(const pl_row *r, const pl_row *q, const pl_solver_body *a,
+                     const pl_solver_body *b)
+{
+    return a->inv_mass * (r->ax * q->ax + r->ay * q->ay) + a->inv_inertia * r->aw * q->aw +
+           b->inv_mass * (r->bx * q->bx + r->by * q->by) + b->inv_inertia * r->bw * q->bw;
+}
+
+static void solve_row(pl_joint *j, int i, pl_solver_body *a, pl_solver_body *b,
+                      pl_joint_sweep sweep)
+{
+    const pl_row *r = &j->rows.row[i];
+    if (r->type == PL_ROW_OFF || (sweep == PL_SWEEP_RELAX && r->hertz > 0)) {
+        return;
+    }
+    soft s = soften(r, j->h, sweep);
+    bool apart = r->type == PL_ROW_LEAST && r->error > 0;
+    if (apart) {
+        s = (soft){ 1, 1 / j->h, 0 }; // may close the gap
+    }
+    real v = rate(r, a, b) - (r->type == PL_ROW_DRIVE ? r->speed : 0);
+    real old = j->impulse[i];
+    real total = old - j->mass[i] * (s.velocity * v + s.error * r->error) - s.impulse * old;
+    real most = r->most * j->h;
+    total = plumb_clamp(total, r->type == PL_ROW_LEAST ? 0 : -most, most);
+    j->impulse[i] = total;
+    push(r, a, b, total - old);
+}
+
+//---- the block -----------------------------------------------------------------------------------
+
+// Inverse of the block's K by Gauss-Jordan; a direction in which nothing can move is left out.
+static void invert(pl_joint *j, const pl_solver_body *a, const pl_solver_body *b)
+{
+    const int n = j->rows.block;
+    real k[3][6] = { { 0 } };
+    real diagonal[3] = { 0 };
+    for (int i = 0; i < n; ++i) {
+        for (int m = 0; m < n; ++m) {
+            k[i][m] = coupling(&j->rows.row[i], &j->rows.row[m], a, b);
+        }
+        k[i][n + i] = 1;
+        diagonal[i] = k[i][i];
+    }
+    for (int p = 0; p < n; ++p) {
+        bool usable = k[p][p] > PIVOT * diagonal[p];
+        real inverse = usable ? 1 / k[p][p] : 0;
+        for (int m = 0; m < 2 * n; ++m) {
+            k[p][m] *= inverse;
+        }
+        for (int i = 0; i < n; ++i) {
+            real factor = i == p ? 0 : k[i][p];
+            for (int m = 0; m < 2 * n; ++m) {
+                k[i][m] -= factor * k[p][m];
+            }
+        }
+    }
+    for (int i = 0; i < n; ++i) {
+        for (int m = 0; m < n; ++m) {
+            j->inverse[i][m] = k[i][n + m];
+        }
+    }
+}
+
+// Shortens the force of a two-row block to its bound.
+static void bound_block(const pl_joint *j, real total[3])
+{
+    real most = j->rows.block_most * j->h;
+    real now = plumb_vec2_magnitude(plumb_v2(total[0], total[1]));
+    if (now > most) {
+        total[0] *= most / now;
+        total[1] *= most / now;
+    }
+}
+
+static void solve_block(pl_joint *j, pl_solver_body *a, pl_solver_body *b, pl_joint_sweep sweep)
+{
+    const int n = j->rows.block;
+    const pl_row *row = j->rows.row;
+    if (n == 0 || (sweep == PL_SWEEP_RELAX && row[0].hertz > 0)) {
+        return;
+    }
+    soft s = soften(&row[0], j->h, sweep);
+    real wrong[3], total[3];
+    for (int i = 0; i < n; ++i) {
+        wrong[i] = s.velocity * rate(&row[i], a, b) + s.error * row[i].error;
+    }
+    for (int i = 0; i < n; ++i) {
+        total[i] = (1 - s.impulse) * j->impulse[i];
+        for (int m = 0; m < n; ++m) {
+            total[i] -= j->inverse[i][m] * wrong[m];
+        }
+    }
+    if (j->rows.block_most < PL_UNBOUNDED) {
+        bound_block(j, total);
+    }
+    for (int i = 0; i < n; ++i) {
+        push(&row[i], a, b, total[i] - j->impulse[i]);
+        j->impulse[i] = total[i];
+    }
+}
+
+//---- rows at a pose ------------------------------------------------------------------------------
+
+// Bodies turn little in a step: Taylor's series, off by x^9 / 9! = 3e-15 at most.
+static plumb_rot turned_by(real x)
+{
+    if (plumb_abs(x) > (real)0.1) {
+        return plumb_rot_make(x);
+    }
+    real xx = x * x;
+    return (plumb_rot){ 1 - xx / 2 * (1 - xx / 12 * (1 - xx / 30 * (1 - xx / 56))),
+                        x * (1 - xx / 6 * (1 - xx / 20 * (1 - xx / 42))) };
+}
+
+static pl_joint_pose moved(const pl_joint_end *end, const pl_solver_body *body)
+{
+    pl_joint_pose pose = end->pose;
+    if (plumb_is_null(end->body)) {
+        return pose;
+    }
+    pose.x += body->dx;
+    pose.y += body->dy;
+    if (body->da != 0) {
+        plumb_rot turn = turned_by(body->da);
+        plumb_vec2 arm = plumb_rot_apply(turn, plumb_v2(pose.rx, pose.ry));
+        plumb_rot q = plumb_rot_mul(turn, (plumb_rot){ pose.c, pose.s });
+        pose.angle += (double)body->da;
+        pose.rx = arm.x, pose.ry = arm.y;
+        pose.c = q.c, pose.s = q.s;
+    }
+    return pose;
+}
+
+static void add_momentum(pl_joint *j, real sign)
+{
+    for (int i = 0; i < j->rows.count; ++i) {
+        const pl_row *r = &j->rows.row[i];
+        if (j->impulse[i] == 0) {
+            continue;
+        }
+        real impulse = sign * j->impulse[i];
+        j->turn[0] += r->ax * impulse, j->turn[1] += r->ay * impulse, j->turn[2] += r->aw * impulse;
+        j->turn[3] += r->bx * impulse, j->turn[4] += r->by * impulse, j->turn[5] += r->bw * impulse;
+    }
+}
+
+static void make_rows(pl_joint *j, const pl_solver_body *a, const pl_solver_body *b)
+{
+    pl_joint_pose pa = moved(&j->a, a), pb = moved(&j->b, b);
+    pl_joint_classes[j->desc.kind]->rows(j, &pa, &pb, &j->rows);
+    j->arm_b = plumb_v2(pb.rx, pb.ry);
+    invert(j, a, b);
+    for (int i = j->rows.block; i < j->rows.count; ++i) {
+        const pl_row *r = &j->rows.row[i];
+        real k = r->type == PL_ROW_OFF ? 0 : coupling(r, r, a, b);
+        j->mass[i] = k > 0 ? 1 / k : 0;
+        j->impulse[i] = k > 0 ? j->impulse[i] : 0;
+    }
+}
+
+//---- all joints ----------------------------------------------------------------------------------
+
+static uint32_t slot_of(const plumb_world *world, plumb_body body)
+{
+    uint32_t movable = world->dynamic_count + world->kinematic_count;
+    uint32_t row = plumb_is_null(body) ? movable : pl_body_row(world, body);
+    return pl_solver_slot(&world->solver, row, movable);
+}
+
+void pl_joints_prepare(plumb_world *world, real h)
+{
+    pl_solver_body *bodies = pl_solver_bodies(&world->solver);
+    pl_joint *items = pl_joint_items(&world->joints);
+    for (uint32_t i = 0; i < world->joints.count; ++i) {
+        pl_joint *j = &items[i];
+        if (plumb_is_null(j->entity)) {
+            continue;
+        }
+        j->a.slot = slot_of(world, j->a.body);
+        j->b.slot = slot_of(world, j->b.body);
+        pl_joint_begin(world, j);
+        real scale = j->h > 0 ? h / j->h : 0;
+        for (int k = 0; k < PL_JOINT_ROWS; ++k) {
+            j->impulse[k] *= scale;
+        }
+        j->h = h;
+        make_rows(j, &bodies[j->a.slot], &bodies[j->b.slot]);
+    }
+}
+
+void pl_joints_warm_start(plumb_world *world)
+{
+    pl_solver_body *bodies = pl_solver_bodies(&world->solver);
+    pl_joint *items = pl_joint_items(&world->joints);
+    for (uint32_t i = 0; i < world->joints.count; ++i) {
+        pl_joint *j = &items[i];
+        for (int k = 0; !plumb_is_null(j->entity) && k < j->rows.count; ++k) {
+            if (j->impulse[k] != 0) {
+                push(&j->rows.row[k], &bodies[j->a.slot], &bodies[j->b.slot], j->impulse[k]);
+            }
+        }
+    }
+}
+
+void pl_joints_turn(plumb_world *world)
+{
+    pl_solver_body *bodies = pl_solver_bodies(&world->solver);
+    pl_joint *items = pl_joint_items(&world->joints);
+    for (uint32_t i = 0; i < world->joints.count; ++i) {
+        const pl_joint *j = &items[i];
+        if (plumb_is_null(j->entity)) {
+            continue;
+        }
+        const pl_row owed = { j->turn[0], j->turn[1], j->turn[2],          j->turn[3],
+                              j->turn[4], j->turn[5], .type = PL_ROW_EQUAL };
+        push(&owed, &bodies[j->a.slot], &bodies[j->b.slot], 1);
+    }
+}
+
+void pl_joints_solve(plumb_world *world, pl_joint_sweep sweep)
+{
+    pl_solver_body *bodies = pl_solver_bodies(&world->solver);
+    pl_joint *items = pl_joint_items(&world->joints);
+    for (uint32_t i = 0; i < world->joints.count; ++i) {
+        pl_joint *j = &items[i];
+        if (plumb_is_null(j->entity)) {
+            continue;
+        }
+        pl_solver_body *a = &bodies[j->a.slot], *b = &bodies[j->b.slot];
+        // Motors and springs first: what must hold has the last word.
+        for (int k = j->rows.count - 1; k >= j->rows.block; --k) {
+            solve_row(j, k, a, b, sweep);
+        }
+        solve_block(j, a, b, sweep);
+    }
+}
+
+void pl_joints_refresh(plumb_world *world)
+{
+    pl_solver_body *bodies = pl_solver_bodies(&world->solver);
+    pl_joint *items = pl_joint_items(&world->joints);
+    for (uint32_t i = 0; i < world->joints.count; ++i) {
+        pl_joint *j = &items[i];
+        if (plumb_is_null(j->entity)) {
+            continue;
+        }
+        for (int k = 0; k < 6; ++k) {
+            j->turn[k] = 0;
+        }
+        add_momentum(j, -1);
+        make_rows(j, &bodies[j->a.slot], &bodies[j->b.slot]);
+        add_momentum(j, 1);
+    }
+}
+
+//---- positions, for the classic solver -----------------------------------------------------------
+
+static void shift(const pl_row *r, pl_solver_body *a, pl_solver_body *b, real amount)
+{
+    a->dx += a->inv_mass * r->ax * amount;
+    a->dy += a->inv_mass * r->ay * amount;
+    a->da += a->inv_inertia * r->aw * amount;
+    b->dx += b->inv_mass * r->bx * amount;
+    b->dy += b->inv_mass * r->by * amount;
+    b->da += b->inv_inertia * r->bw * amount;
+}
+
+static bool is_rigid(const pl_row *r)
+{
+    return r->hertz == 0 && (r->type == PL_ROW_EQUAL || (r->type == PL_ROW_LEAST && r->error < 0));
+}
+
+static void move_joint(const pl_joint *j, pl_solver_body *a, pl_solver_body *b, real share)
+{
+    for (int k = j->rows.count - 1; k >= j->rows.block; --k) {
+        if (is_rigid(&j->rows.row[k]) && j->rows.row[k].most >= PL_UNBOUNDED) {
+            shift(&j->rows.row[k], a, b, -share * j->mass[k] * j->rows.row[k].error);
+        }
+    }
+    bool block =
+        j->rows.block > 0 && is_rigid(&j->rows.row[0]) && j->rows.block_most >= PL_UNBOUNDED;
+    for (int k = 0; block && k < j->rows.block; ++k) {
+        real amount = 0;
+        for (int m = 0; m < j->rows.block; ++m) {
+            amount += j->inverse[k][m] * j->rows.row[m].error;
+        }
+        shift(&j->rows.row[k], a, b, -share * amount);
+    }
+}
+
+void pl_joints_move(plumb_world *world, real share)
+{
+    pl_solver_body *bodies = pl_solver_bodies(&world->solver);
+    pl_joint *items = pl_joint_items(&world->joints);
+    for (uint32_t i = 0; i < world->joints.count; ++i) {
+        pl_joint *j = &items[i];
+        if (plumb_is_null(j->entity)) {
+            continue;
+        }
+        pl_solver_body *a = &bodies[j->a.slot], *b = &bodies[j->b.slot];
+        make_rows(j, a, b);
+        move_joint(j, a, b, share);
+        make_rows(j, a, b);
+    }
+}

@@ -1,0 +1,32 @@
+// wheel.c - B's anchor stays on a line through A's anchor that turns with A, sprung along it, and B
+// turns freely or by the motor. Value: travel along the line [m].
+#include "joints/parts.h"
+
+static plumb_result check(const plumb_world *world, const char *fn, plumb_joint_desc *desc)
+{
+    return pl_joint_check_axis(world, fn, desc, plumb_world_up(world));
+}
+
+static void rows(const pl_joint *j, const pl_joint_pose *a, const pl_joint_pose *b, pl_rows *out)
+{
+    plumb_vec2 axis = pl_joint_axis(j, a);
+    out->row[0] = pl_row_along_axis(a, b, plumb_vec2_left(axis), 0);
+    pl_rows_spring_limits(j, pl_row_along_axis(a, b, axis, 0), &out->row[1]);
+    pl_row_motor(j, pl_row_angle(a, b, 0), &out->row[4]);
+    out->count = 5;
+    out->block = 1;
+    out->block_most = PL_UNBOUNDED;
+}
+
+static real value(const pl_joint *j, const pl_joint_pose *a, const pl_joint_pose *b)
+{
+    return plumb_vec2_dot(pl_joint_apart(a, b), pl_joint_axis(j, a));
+}
+
+const pl_joint_class pl_joint_wheel = {
+    .name = "wheel",
+    .has = PL_JOINT_LIMIT | PL_JOINT_MOTOR | PL_JOINT_SPRING,
+    .check = check,
+    .rows = rows,
+    .value = value,
+};

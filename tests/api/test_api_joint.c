@@ -1,0 +1,341 @@
+// test_api_joint.c - every function of joint.h: what it does, what it refuses and in which words.
+#include "world_fixture.h"
+
+#define NONE (plumb_entity) PLUMB_NULL_INIT
+
+static plumb_joint make(fixture *f, plumb_joint_kind kind)
+{
+    plumb_joint_desc d = { .kind = kind, .body_a = f->fixed, .body_b = f->dynamic };
+    d.anchor_b = plumb_v2(0, 5);
+    d.ground_a = plumb_v2(0, 8);
+    d.ground_b = plumb_v2(0, 9);
+    d.pitch = kind == PLUMB_RATCHET ? 1 : 0;
+    plumb_joint j = plumb_joint_create(f->world, &d);
+    assert_false(plumb_is_null(j));
+    return j;
+}
+
+static void every_kind_is_made_and_named(void **state)
+{
+    fixture *f = *state;
+    const char *const names[] = {
+#define NAME_ROW(NAME, name, text) #name,
+        PLUMB_JOINT_LIST(NAME_ROW)
+#undef NAME_ROW
+    };
+    int count = (int)(sizeof names / sizeof names[0]);
+    for (int kind = 0; kind < count; ++kind) {
+        plumb_joint j = make(f, (plumb_joint_kind)kind);
+        assert_string_equal(plumb_joint_kind_name((plumb_joint_kind)kind), names[kind]);
+        assert_true(plumb_joint_valid(f->world, j));
+        assert_int_equal(plumb_joint_get_kind(f->world, j), kind);
+        assert_int_equal(plumb_entity_get_kind(f->world, j), PLUMB_KIND_JOINT);
+        assert_true(plumb_same(plumb_joint_body_a(f->world, j), f->fixed));
+        assert_true(plumb_same(plumb_joint_body_b(f->world, j), f->dynamic));
+    }
+    assert_null(plumb_joint_kind_name((plumb_joint_kind)count));
+    assert_null(plumb_joint_kind_name((plumb_joint_kind)-1));
+    plumb_joint all[32];
+    assert_int_equal(plumb_world_joints(f->world, all, 32), count);
+    assert_int_equal(plumb_joint_get_kind(f->world, all[1]), 1);
+    assert_int_equal(plumb_world_joints(f->world, all, 2), count);
+    assert_int_equal(plumb_body_joints(f->world, f->fixed, all, 32), count);
+    assert_int_equal(plumb_joint_get_kind(f->world, all[0]), count - 1);
+    assert_int_equal(plumb_body_joints(f->world, f->kinematic, all, 32), 0);
+    assert_int_equal(plumb_world_step(f->world, R(0.01)), PLUMB_OK);
+    assert_int_equal(f->errors, 0);
+}
+
+static void getters_tell_what_was_set(void **state)
+{
+    fixture *f = *state;
+    plumb_world *w = f->world;
+    int tag = 0;
+    plumb_joint j = make(f, PLUMB_DISTANCE);
+    plumb_joint_desc d;
+    assert_int_equal(plumb_joint_settings(w, j, &d), PLUMB_OK);
+    assert_near(d.length, 5, 1e-6);
+    assert_near(plumb_joint_value(w, j), 5, 1e-6);
+    assert_near(plumb_joint_error(w, j), 0, 1e-6);
+    assert_vec_near(plumb_joint_anchor_a(w, j), 0, 0, 1e-6);
+    assert_vec_near(plumb_joint_anchor_b(w, j), 0, 5, 1e-6);
+    assert_int_equal(plumb_joint_set_limit(w, j, true, 1, 7), PLUMB_OK);
+    assert_int_equal(plumb_joint_set_spring(w, j, 2, R(0.5), 0), PLUMB_OK);
+    assert_int_equal(plumb_joint_set_break(w, j, 100, 200), PLUMB_OK);
+    assert_int_equal(plumb_joint_set_user_data(w, j, &tag), PLUMB_OK);
+    assert_int_equal(plumb_joint_settings(w, j, &d), PLUMB_OK);
+    assert_true(d.enable_limit && d.lower == 1 && d.upper == 7 && d.hertz == 2);
+    assert_true(d.damping == R(0.5) && d.break_force == 100 && d.break_torque == 200);
+    assert_ptr_equal(plumb_joint_user_data(w, j), &tag);
+    assert_int_equal(plumb_joint_destroy(w, j), PLUMB_OK);
+
+    j = make(f, PLUMB_REVOLUTE);
+    assert_int_equal(plumb_joint_set_motor(w, j, true, 3, 4), PLUMB_OK);
+    assert_int_equal(plumb_joint_settings(w, j, &d), PLUMB_OK);
+    assert_true(d.enable_motor && d.motor_speed == 3 && d.max_motor == 4);
+    plumb_body_teleport(w, f->dynamic, plumb_v2(0, 5), 1);
+    assert_near(plumb_joint_value(w, j), 1, 1e-6);
+    assert_int_equal(plumb_joint_destroy(w, j), PLUMB_OK);
+
+    j = make(f, PLUMB_MOUSE);
+    assert_int_equal(plumb_joint_settings(w, j, &d), PLUMB_OK);
+    assert_true(d.hertz == 5 && d.damping == 1);
+    assert_int_equal(plumb_joint_set_target(w, j, plumb_v2(3, 4)), PLUMB_OK);
+    assert_vec_near(plumb_joint_anchor_a(w, j), 3, 4, 1e-6);
+    assert_int_equal(plumb_joint_set_spring(w, j, 0, 0, 0), PLUMB_OK);
+    assert_int_equal(plumb_joint_settings(w, j, &d), PLUMB_OK);
+    assert_true(d.hertz == 5 && d.damping == 1);
+    assert_int_equal(plumb_joint_destroy(w, j), PLUMB_OK);
+
+    j = make(f, PLUMB_MOTOR);
+    assert_int_equal(plumb_joint_set_target(w, j, plumb_v2(1, 0)), PLUMB_OK);
+    assert_near(plumb_joint_error(w, j), 1, 1e-5);
+    assert_int_equal(f->errors, 0);
+}
+
+static void mouse_and_motor_go_where_they_are_sent(void **state)
+{
+    fixture *f = *state;
+    plumb_world *w = f->world;
+    plumb_joint_desc d = { .kind = PLUMB_MOUSE, .body_b = f->dynamic, .anchor = { 0, 5 } };
+    plumb_joint j = plumb_joint_create(w, &d);
+    plumb_joint_set_target(w, j, plumb_v2(4, 7));
+    for (int i = 0; i < 240; ++i) {
+        plumb_world_step(w, R(1 / 60.0));
+    }
+    assert_near(plumb_body_position(w, f->dynamic).x, 4, 0.01);
+    assert_near(plumb_body_position(w, f->dynamic).y, 7, 0.05); // the spring gives by g / w^2
+    plumb_joint_destroy(w, j);
+    d = (plumb_joint_desc){ .kind = PLUMB_MOTOR,
+                            .body_b = f->dynamic,
+                            .anchor = plumb_body_position(w, f->dynamic) };
+    d.hertz = 2;
+    d.damping = 1;
+    d.rest = 1;
+    j = plumb_joint_create(w, &d);
+    plumb_joint_set_target(w, j, plumb_v2(-1, 0));
+    for (int i = 0; i < 240; ++i) {
+        plumb_world_step(w, R(1 / 60.0));
+    }
+    assert_near(plumb_body_position(w, f->dynamic).x, 3, 0.01);
+    assert_near(plumb_joint_value(w, j), 1, 0.01);
+}
+
+static void bad_handles_give_zeros(void **state)
+{
+    fixture *f = *state;
+    const plumb_world *w = f->world;
+    const plumb_joint bad[] = { NONE, f->dynamic, f->stale };
+    for (int i = 0; i < 3; ++i) {
+        assert_false(plumb_joint_valid(w, bad[i]));
+        assert_int_equal(plumb_joint_get_kind(w, bad[i]), 0);
+        assert_true(plumb_is_null(plumb_joint_body_a(w, bad[i])));
+        assert_true(plumb_is_null(plumb_joint_body_b(w, bad[i])));
+        assert_vec_near(plumb_joint_anchor_a(w, bad[i]), 0, 0, 0);
+        assert_vec_near(plumb_joint_anchor_b(w, bad[i]), 0, 0, 0);
+        assert_vec_near(plumb_joint_force(w, bad[i]), 0, 0, 0);
+        assert_near(plumb_joint_torque(w, bad[i]), 0, 0);
+        assert_near(plumb_joint_value(w, bad[i]), 0, 0);
+        assert_near(plumb_joint_error(w, bad[i]), 0, 0);
+        assert_null(plumb_joint_user_data(w, bad[i]));
+    }
+    int count = 7;
+    assert_null(plumb_world_joint_break_events(NULL, &count));
+    assert_int_equal(count, 0);
+    assert_int_equal(plumb_world_joints(NULL, NULL, 0), 0);
+    assert_int_equal(plumb_body_joints(NULL, NONE, NULL, 0), 0);
+    assert_true(plumb_is_null(plumb_joint_create(NULL, NULL)));
+    assert_int_equal(plumb_joint_destroy(NULL, NONE), PLUMB_E_NULL);
+    assert_int_equal(plumb_joint_settings(NULL, NONE, NULL), PLUMB_E_NULL);
+    assert_int_equal(plumb_joint_set_limit(NULL, NONE, false, 0, 0), PLUMB_E_NULL);
+    assert_int_equal(f->errors, 0);
+}
+
+#define REFUSED_JOINT(code, message, ...)                                                          \
+    do {                                                                                           \
+        const plumb_joint_desc desc_ = { __VA_ARGS__ };                                            \
+        REFUSED(code, "plumb_joint_create: " message,                                              \
+                made(f->world, plumb_joint_create(f->world, &desc_)));                             \
+    } while (0)
+
+static void descriptors_are_checked(void **state)
+{
+    fixture *f = *state;
+    plumb_body b = f->dynamic;
+    REFUSED(E_NULL, "plumb_joint_create: desc is null; it must be given",
+            made(f->world, plumb_joint_create(f->world, NULL)));
+    REFUSED_JOINT(E_RANGE, "kind is 99; it must be a plumb_joint_kind",
+                  .kind = (plumb_joint_kind)99);
+    REFUSED_JOINT(E_HANDLE, "body_b is null as body_a is; it must be another", .kind = PLUMB_WELD);
+    REFUSED_JOINT(E_HANDLE, "body_b is body_a; it must be another", .body_a = b, .body_b = b);
+    REFUSED_JOINT(E_HANDLE, "body_a is a shape; it must be a live body or null", .body_a = f->box);
+    REFUSED_JOINT(E_NOT_FINITE, "anchor is (nan, 0); it must be finite", .body_b = b,
+                  .anchor = { (plumb_real)NAN, 0 });
+    REFUSED_JOINT(E_RANGE, "anchor_b is (0, 2e+09); each component must be -1e+09 to 1e+09",
+                  .body_b = b, .anchor_b = { 0, R(2e9) });
+    REFUSED_JOINT(E_RANGE, "upper is 1; it must be at least 2", .body_b = b, .lower = 2,
+                  .upper = 1);
+    REFUSED_JOINT(E_NOT_FINITE, "motor_speed is inf; it must be finite", .body_b = b,
+                  .motor_speed = (plumb_real)INFINITY);
+    REFUSED_JOINT(E_RANGE, "max_motor is -1; it must be at least 0", .body_b = b, .max_motor = -1);
+    REFUSED_JOINT(E_RANGE, "hertz is -1; it must be at least 0", .body_b = b, .hertz = -1);
+    REFUSED_JOINT(E_RANGE, "damping is -1; it must be at least 0", .body_b = b, .damping = -1);
+    REFUSED_JOINT(E_RANGE, "break_force is -1; it must be at least 0", .body_b = b,
+                  .break_force = -1);
+    REFUSED_JOINT(E_RANGE, "enable_limit is set; it must be 0 for a weld joint", PLUMB_WELD,
+                  .body_b = b, .enable_limit = true);
+    REFUSED_JOINT(E_RANGE, "enable_motor is set; it must be 0 for a gear joint", PLUMB_GEAR,
+                  .body_b = b, .enable_motor = true);
+    REFUSED_JOINT(E_RANGE, "hertz is set; it must be 0 for a pulley joint", PLUMB_PULLEY,
+                  .body_b = b, .hertz = 1);
+    REFUSED_JOINT(E_NOT_FINITE, "axis is (nan, 0); it must be finite", PLUMB_PRISMATIC, .body_b = b,
+                  .axis = { (plumb_real)NAN, 0 });
+    REFUSED_JOINT(E_GEOMETRY, "length is 0; a rod must have length (use a revolute joint)",
+                  PLUMB_DISTANCE, .body_b = b);
+    REFUSED_JOINT(E_RANGE, "lower is -1; it must be at least 0", PLUMB_DISTANCE, .body_b = b,
+                  .enable_limit = true, .lower = -1);
+    REFUSED_JOINT(E_RANGE, "ratio is -1; it must be above 0, or 0 for 1", PLUMB_PULLEY, .body_b = b,
+                  .ratio = -1);
+    REFUSED_JOINT(E_GEOMETRY, "ground_a is the anchor; the rope must have length on both sides",
+                  PLUMB_PULLEY, .body_b = b);
+    REFUSED_JOINT(E_GEOMETRY, "ground_b is the anchor; the rope must have length on both sides",
+                  PLUMB_PULLEY, .body_b = b, .ground_a = { 0, 1 });
+    REFUSED_JOINT(E_RANGE, "pitch is 0; a ratchet must have teeth", PLUMB_RATCHET, .body_b = b);
+    assert_int_equal(plumb_world_joints(f->world, NULL, 0), 0);
+}
+
+static void setters_refuse(void **state)
+{
+    fixture *f = *state;
+    plumb_world *w = f->world;
+    plumb_joint weld = make(f, PLUMB_WELD), rod = make(f, PLUMB_DISTANCE);
+    REFUSED(E_HANDLE, "plumb_joint_destroy: joint is null; it must be a live joint",
+            plumb_joint_destroy(w, NONE));
+    REFUSED(E_HANDLE, "plumb_joint_set_break: joint is a body; it must be a live joint",
+            plumb_joint_set_break(w, f->dynamic, 0, 0));
+    REFUSED(E_HANDLE, "plumb_joint_settings: joint is null; it must be a live joint",
+            plumb_joint_settings(w, NONE, NULL));
+    REFUSED(E_NULL, "plumb_joint_settings: desc is null; it must be given",
+            plumb_joint_settings(w, weld, NULL));
+    REFUSED(E_HANDLE, "plumb_body_set_gravity_scale: body is a joint; it must be a live body",
+            plumb_body_set_gravity_scale(w, weld, 1));
+    REFUSED(E_STATE, "plumb_joint_set_limit: joint is a weld joint; it must be one with a limit",
+            plumb_joint_set_limit(w, weld, true, 0, 1));
+    REFUSED(E_STATE, "plumb_joint_set_motor: joint is a weld joint; it must be one with a motor",
+            plumb_joint_set_motor(w, weld, true, 0, 1));
+    REFUSED(E_STATE, "plumb_joint_set_target: joint is a weld joint; it must be one with a target",
+            plumb_joint_set_target(w, weld, plumb_v2(0, 0)));
+    plumb_joint gear = make(f, PLUMB_GEAR), mouse = make(f, PLUMB_MOUSE);
+    plumb_joint hinge = make(f, PLUMB_REVOLUTE);
+    REFUSED(E_STATE, "plumb_joint_set_spring: joint is a gear joint; it must be one with a spring",
+            plumb_joint_set_spring(w, gear, 1, 0, 0));
+    REFUSED(E_RANGE, "plumb_joint_set_limit: lower is -1; it must be at least 0",
+            plumb_joint_set_limit(w, rod, true, -1, 1));
+    REFUSED(E_RANGE, "plumb_joint_set_limit: upper is 0.5; it must be at least 1",
+            plumb_joint_set_limit(w, rod, true, 1, R(0.5)));
+    REFUSED(E_NOT_FINITE, "plumb_joint_set_motor: speed is nan; it must be finite",
+            plumb_joint_set_motor(w, hinge, true, (plumb_real)NAN, 0));
+    REFUSED(E_RANGE, "plumb_joint_set_motor: max_motor is -1; it must be at least 0",
+            plumb_joint_set_motor(w, hinge, true, 0, -1));
+    REFUSED(E_RANGE, "plumb_joint_set_spring: hertz is -1; it must be at least 0",
+            plumb_joint_set_spring(w, rod, -1, 0, 0));
+    REFUSED(E_RANGE, "plumb_joint_set_spring: damping is -1; it must be at least 0",
+            plumb_joint_set_spring(w, rod, 1, -1, 0));
+    REFUSED(E_NOT_FINITE, "plumb_joint_set_spring: rest is nan; it must be finite",
+            plumb_joint_set_spring(w, rod, 1, 0, (plumb_real)NAN));
+    REFUSED(E_NOT_FINITE, "plumb_joint_set_target: target is (0, nan); it must be finite",
+            plumb_joint_set_target(w, mouse, plumb_v2(0, (plumb_real)NAN)));
+    REFUSED(E_RANGE, "plumb_joint_set_break: force is -1; it must be at least 0",
+            plumb_joint_set_break(w, rod, -1, 0));
+    REFUSED(E_HANDLE, "plumb_joint_set_user_data: joint is null; it must be a live joint",
+            plumb_joint_set_user_data(w, NONE, NULL));
+}
+
+static void try_in_a_step(const plumb_system_call *call)
+{
+    plumb_joint joints[1];
+    plumb_joint_desc d = { 0 };
+    plumb_world_joints(call->world, joints, 1);
+    assert_true(plumb_is_null(plumb_joint_create(call->world, &d)));
+    assert_string_equal(plumb_world_error(call->world).message,
+                        "plumb_joint_create: the world is stepping (system 'meddle'); call it "
+                        "between steps");
+    assert_int_equal(plumb_joint_destroy(call->world, joints[0]), PLUMB_E_LOCKED);
+    assert_string_equal(plumb_world_error(call->world).message,
+                        "plumb_joint_destroy: the world is stepping (system 'meddle'); use "
+                        "plumb_command_destroy");
+    assert_int_equal(plumb_command_destroy(call->world, joints[0]), PLUMB_OK);
+}
+
+static void joints_are_locked_in_a_step(void **state)
+{
+    fixture *f = *state;
+    plumb_joint j = make(f, PLUMB_WELD);
+    const plumb_system_desc meddle = { .name = "meddle", .run = try_in_a_step };
+    assert_int_equal(plumb_system_create(f->world, &meddle), PLUMB_OK);
+    assert_int_equal(plumb_world_step(f->world, R(0.01)), PLUMB_OK);
+    assert_true(plumb_joint_valid(f->world, j));
+    assert_int_equal(plumb_commands_apply(f->world), PLUMB_OK);
+    assert_false(plumb_joint_valid(f->world, j));
+}
+
+static void joints_go_with_their_bodies(void **state)
+{
+    fixture *f = *state;
+    plumb_joint j = make(f, PLUMB_WELD), k = make(f, PLUMB_REVOLUTE);
+    int value = 1;
+    plumb_component tag = plumb_component_create(
+        f->world, &(plumb_component_desc){ .name = "tag", .size = sizeof value });
+    assert_int_equal(plumb_component_set(f->world, j, tag, &value), PLUMB_OK);
+    assert_int_equal(plumb_body_destroy(f->world, f->dynamic), PLUMB_OK);
+    assert_false(plumb_joint_valid(f->world, j));
+    assert_false(plumb_joint_valid(f->world, k));
+    assert_int_equal(plumb_world_column(f->world, tag).count, 0);
+    assert_int_equal(plumb_body_joints(f->world, f->fixed, NULL, 0), 0);
+    assert_int_equal(plumb_world_step(f->world, R(0.01)), PLUMB_OK);
+}
+
+// A world with joints and no shapes has a solver; without joints it has none.
+static void schedule_follows_joints(void **state)
+{
+    (void)state;
+    plumb_world *w = NULL;
+    assert_int_equal(plumb_world_create(NULL, &w), PLUMB_OK);
+    plumb_body b = plumb_body_create(w, &(plumb_body_desc){ .position = { 1, 0 } });
+    plumb_joint j = PLUMB_NULL_INIT;
+    for (int with = 0; with < 2; ++with) {
+        if (with == 1) {
+            j = plumb_joint_create(w, &(plumb_joint_desc){ .body_b = b, .anchor = { 0, 0 } });
+        }
+        assert_int_equal(plumb_world_step(w, R(0.01)), PLUMB_OK);
+        plumb_pass_info rows[32];
+        int count = plumb_world_schedule(w, rows, 32), found = 0;
+        for (int i = 0; i < count; ++i) {
+            bool joint_pass =
+                strcmp(rows[i].name, "graph") == 0 || strcmp(rows[i].name, "soft step") == 0 ||
+                strcmp(rows[i].name, "- joints") == 0 || strcmp(rows[i].name, "reactions") == 0;
+            found += joint_pass;
+            assert_true(!joint_pass || rows[i].scheduled == (with == 1));
+            assert_true(strcmp(rows[i].name, "narrow phase") != 0 || !rows[i].scheduled);
+        }
+        assert_int_equal(found, 4);
+    }
+    assert_near(plumb_joint_error(w, j), 0, 0.01);
+    plumb_world_destroy(w);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        API_TEST(every_kind_is_made_and_named),
+        API_TEST(getters_tell_what_was_set),
+        API_TEST(mouse_and_motor_go_where_they_are_sent),
+        API_TEST(bad_handles_give_zeros),
+        API_TEST(descriptors_are_checked),
+        API_TEST(setters_refuse),
+        API_TEST(joints_are_locked_in_a_step),
+        API_TEST(joints_go_with_their_bodies),
+        cmocka_unit_test(schedule_follows_joints),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,181 @@
+// test_joints.c - joints under hard loads: a heavy ball on a light chain, long bridges, ragdolls,
+// grids. Everything stays finite and joints stay together; how well is printed.
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+
+#include <cmocka.h>
+
+#include "harness/sim.h"
+
+#define DT (1 / 60.0)
+
+static plumb_joint hinge(plumb_world *w, plumb_body a, plumb_body b, double x, double y)
+{
+    plumb_joint j = plumb_joint_create(
+        w, &(plumb_joint_desc){
+               .kind = PLUMB_REVOLUTE, .body_a = a, .body_b = b, .anchor = sim_vec(x, y) });
+    assert_false(plumb_is_null(j));
+    return j;
+}
+
+// [m] largest error of any joint now; not a number where something is not finite.
+static double worst_error(plumb_world *w)
+{
+    static plumb_joint joints[4096];
+    int count = plumb_world_joints(w, joints, 4096);
+    double worst = 0;
+    for (int i = 0; i < count && i < 4096; ++i) {
+        double e = (double)plumb_joint_error(w, joints[i]);
+        worst = e <= worst ? worst : e;
+    }
+    return worst;
+}
+
+// Runs; the largest error while it runs, and over the last second.
+static double run(plumb_world *w, const char *name, int steps, double *late)
+{
+    double worst = 0;
+    *late = 0;
+    for (int i = 0; i < steps; ++i) {
+        sim_step(w, DT);
+        double e = worst_error(w);
+        assert_true(isfinite(e));
+        worst = fmax(worst, e);
+        *late = i >= steps - 60 ? fmax(*late, e) : *late;
+    }
+    print_message(
+        "%-34s joint error %.3g m at worst, %.3g m in the last second, fastest %.3g m/s\n", name,
+        worst, *late, sim_max_speed(w));
+    return worst;
+}
+
+static const plumb_material none = PLUMB_NULL_INIT;
+
+// A ball of `ratio` times the mass of a link swings from 30 links that begin level.
+static void ball_and_chain_holds(void **state)
+{
+    (void)state;
+    const double ratios[] = { 1, 10, 100, 400 };
+    const double bounds[] = { 0.1, 0.1, 0.2, 1 };
+    for (size_t k = 0; k < sizeof ratios / sizeof ratios[0]; ++k) {
+        plumb_world *w = sim_world(&(plumb_world_desc){ 0 });
+        plumb_body last = PLUMB_NULL_INIT;
+        for (int i = 0; i < 30; ++i) {
+            plumb_body link = sim_crate(w, i + 0.5, 0, 0.5, 0.125, none);
+            hinge(w, last, link, i, 0);
+            last = link;
+        }
+        plumb_body ball = sim_ball(w, 32, 0, 2, none);
+        plumb_body_set_mass(w, ball, (plumb_real)(0.25 * ratios[k]));
+        hinge(w, last, ball, 30, 0);
+        char name[64];
+        double late;
+        snprintf(name, sizeof name, "chain of 30, ball of %g links", ratios[k]);
+        double worst = run(w, name, 900, &late);
+        assert_true(worst < bounds[k]);
+        plumb_world_destroy(w);
+    }
+}
+
+static void bridge_hangs_still(void **state)
+{
+    (void)state;
+    const int lengths[] = { 20, 160 };
+    for (size_t k = 0; k < 2; ++k) {
+        plumb_world *w = sim_world(&(plumb_world_desc){ 0 });
+        plumb_body last = PLUMB_NULL_INIT;
+        int n = lengths[k];
+        for (int i = 0; i < n; ++i) {
+            plumb_body plank = sim_crate(w, i + 0.5, 0, 0.5, 0.125, none);
+            hinge(w, last, plank, i, 0);
+            last = plank;
+        }
+        hinge(w, last, (plumb_body)PLUMB_NULL_INIT, n, 0);
+        char name[64];
+        double late;
+        snprintf(name, sizeof name, "bridge of %d", n);
+        double worst = run(w, name, 1200, &late);
+        assert_true(worst < 0.2);
+        assert_true(late < 0.02);
+        plumb_world_destroy(w);
+    }
+}
+
+// Torso, head, arms and legs with limits, thrown on the floor.
+static void ragdolls_come_to_rest(void **state)
+{
+    (void)state;
+    plumb_world *w = sim_world(&(plumb_world_desc){ 0 });
+    plumb_material skin = sim_material(w, 0.6, 0);
+    sim_floor(w, skin);
+    for (int n = 0; n < 5; ++n) {
+        double x = n * 0.6, y = 2 + 1.5 * n;
+        plumb_body torso = sim_crate(w, x, y, 0.15, 0.35, skin);
+        const double parts[][6] = { // centre, half box, joint, all from the torso's centre
+                                    { 0, 0.5, 0.12, 0.12, 0, 0.37 },
+                                    { 0.4, 0.25, 0.22, 0.06, 0.17, 0.25 },
+                                    { -0.4, 0.25, 0.22, 0.06, -0.17, 0.25 },
+                                    { 0.1, -0.65, 0.07, 0.28, 0.1, -0.36 },
+                                    { -0.1, -0.65, 0.07, 0.28, -0.1, -0.36 }
+        };
+        for (int p = 0; p < 5; ++p) {
+            const double *d = parts[p];
+            plumb_body part = sim_crate(w, x + d[0], y + d[1], d[2], d[3], skin);
+            plumb_joint j =
+                plumb_joint_create(w, &(plumb_joint_desc){ .kind = PLUMB_REVOLUTE,
+                                                           .body_a = torso,
+                                                           .body_b = part,
+                                                           .anchor = sim_vec(x + d[4], y + d[5]),
+                                                           .enable_limit = true,
+                                                           .lower = -1,
+                                                           .upper = 1 });
+            assert_false(plumb_is_null(j));
+        }
+        sim_launch(w, torso, 3, 0, 4);
+    }
+    double late;
+    double worst = run(w, "five ragdolls fall", 900, &late);
+    assert_true(worst < 0.3 && late < 0.03);
+    assert_true(sim_max_speed(w) < 0.3);
+    plumb_world_destroy(w);
+}
+
+static void grid_hangs(void **state)
+{
+    (void)state;
+    enum { N = 20 };
+    plumb_world *w = sim_world(&(plumb_world_desc){ 0 });
+    plumb_body at[N][N];
+    for (int i = 0; i < N; ++i) {
+        for (int k = 0; k < N; ++k) {
+            at[i][k] = sim_body(w, i == 0 && (k == 0 || k == N - 1) ? PLUMB_STATIC : PLUMB_DYNAMIC,
+                                k, -i, 0);
+            sim_add_circle(w, at[i][k], 0.4, none);
+            if (k > 0) {
+                hinge(w, at[i][k - 1], at[i][k], k - 0.5, -i);
+            }
+            if (i > 0) {
+                hinge(w, at[i - 1][k], at[i][k], k, -i + 0.5);
+            }
+        }
+    }
+    double late;
+    double worst = run(w, "grid of 20 x 20 on two nails", 600, &late);
+    assert_true(worst < 0.5 && late < 0.25);
+    plumb_world_destroy(w);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(ball_and_chain_holds),
+        cmocka_unit_test(bridge_hangs_still),
+        cmocka_unit_test(ragdolls_come_to_rest),
+        cmocka_unit_test(grid_hangs),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
