@@ -68,6 +68,46 @@ static void edits_hold_for_the_step(void **state)
     plumb_world_destroy(w);
 }
 
+// Takes out the contacts of the body that is its context.
+static void disable_one(const plumb_system_call *call)
+{
+    const plumb_body *body = call->context;
+    for (int i = 0; i < plumb_contact_edit_count(call->world); ++i) {
+        plumb_contact_edit c;
+        plumb_contact_edit_get(call->world, i, &c);
+        if (plumb_same(c.body_a, *body) || plumb_same(c.body_b, *body)) {
+            c.enabled = false;
+            assert_int_equal(plumb_contact_edit_set(call->world, i, &c), PLUMB_OK);
+        }
+    }
+}
+
+static void one_contact_of_many_is_taken_out(void **state)
+{
+    (void)state;
+    plumb_world *w = flat_world((plumb_world_desc){ 0 });
+    add_floor(w, NULL_);
+    plumb_body discs[3];
+    for (int i = 0; i < 3; ++i) {
+        discs[i] = add_disc(w, 2 * i, 0.5, (plumb_shape_desc){ 0 }, NULL);
+    }
+    plumb_system_create(w, &(plumb_system_desc){ .name = "one",
+                                                 .phase = PLUMB_PHASE_CONTACTS,
+                                                 .run = disable_one,
+                                                 .context = &discs[0] });
+    steps(w, 30);
+    assert_true(plumb_body_position(w, discs[0]).y < 0);
+    plumb_contact c[3];
+    assert_int_equal(plumb_world_contacts(w, c, 3), 2);
+    for (int i = 0; i < 2; ++i) {
+        double x = plumb_body_position(w, discs[i + 1]).x;
+        assert_near(plumb_body_position(w, discs[i + 1]).y, 0.5, 1e-3);
+        assert_near(c[i].points[0].point.x, x, 1e-3);
+        assert_true(c[i].points[0].normal_impulse > 0);
+    }
+    plumb_world_destroy(w);
+}
+
 static void refuse_edits(const plumb_system_call *call)
 {
     fixture *f = call->context;
@@ -299,6 +339,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(edits_hold_for_the_step),
+        cmocka_unit_test(one_contact_of_many_is_taken_out),
         API_TEST(edits_are_refused_out_of_their_phase),
         cmocka_unit_test(a_hit_tells_speed_point_and_impulse),
         cmocka_unit_test(impacts_count_as_impulses),

@@ -91,12 +91,19 @@ static void excluded_bodies_pass_through_each_other(void **state)
     assert_int_equal(plumb_world_exclude_pair(w, a, c, true), PLUMB_OK);
     steps(w, 1);
     assert_int_equal(plumb_world_stats(w).pair_count, 2);
-    plumb_body_destroy(w, c); // its slot is taken anew, without the exclusion
+    plumb_body_destroy(w, c);
+    for (int i = 0; i < 8; ++i) { // one of them takes its slot, and nothing else of it
+        plumb_body e = plumb_body_create(w, &(plumb_body_desc){ .position = { 50, 0 } });
+        plumb_world_exclude_pair(w, e, b, true);
+        assert_false(plumb_world_is_excluded(w, a, e));
+    }
     plumb_body d = add_disc(w, 0, 0.5, (plumb_shape_desc){ 0 }, NULL);
     assert_false(plumb_world_is_excluded(w, a, d));
     assert_false(plumb_world_is_excluded(w, a, c));
+    plumb_world_exclude_pair(w, d, b, true); // that is all that it is kept apart from
+    assert_false(plumb_world_is_excluded(w, a, d));
     steps(w, 1);
-    assert_int_equal(plumb_world_stats(w).pair_count, 3);
+    assert_int_equal(plumb_world_stats(w).pair_count, 2);
     plumb_world_destroy(w);
 }
 
@@ -197,6 +204,19 @@ static void the_test_is_exact(void **state)
     plumb_world_destroy(w);
 }
 
+static bool is_scheduled(const plumb_world *w, const char *name)
+{
+    plumb_pass_info rows[64];
+    int count = plumb_world_schedule(w, rows, 64);
+    for (int i = 0; i < count; ++i) {
+        if (strcmp(rows[i].name, name) == 0) {
+            return rows[i].scheduled;
+        }
+    }
+    fail_msg("no pass is named %s", name);
+    return false;
+}
+
 // No dynamic body at all: a kinematic sensor moves over static shapes, another sensor, its own
 // body.
 static void moving_sensors_see_static_shapes_and_sensors(void **state)
@@ -226,6 +246,7 @@ static void moving_sensors_see_static_shapes_and_sensors(void **state)
     assert_true(plumb_same(seen[0], chain) && plumb_same(seen[1], other));
     assert_int_equal(plumb_shape_overlaps(w, other, seen, 4), 2); // sensor and shape of the eye
     assert_int_equal(begins, 4);
+    assert_true(is_scheduled(w, "sensors"));
     // Both links of the chain overlap; it is one shape, and goes once.
     plumb_shape_destroy(w, chain);
     assert_int_equal(plumb_shape_overlaps(w, sensor, seen, 4), 1);
@@ -237,6 +258,8 @@ static void moving_sensors_see_static_shapes_and_sensors(void **state)
     assert_int_equal(sensor_ends(w), 3);
     steps(w, 1);
     assert_int_equal(sensor_ends(w), 0);
+    add_disc(w, 0, 5, (plumb_shape_desc){ 0 }, NULL);
+    assert_false(is_scheduled(w, "sensors")); // none is left: nothing to pay
     plumb_world_destroy(w);
 }
 

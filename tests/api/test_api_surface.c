@@ -13,8 +13,16 @@ static void a_conveyor_carries_a_box_at_its_speed(void **state)
         plumb_body box = plumb_body_create(w, &(plumb_body_desc){ .position = { 0, R(0.5) } });
         plumb_shape_create(w, box,
                            &(plumb_shape_desc){ .kind = PLUMB_BOX, .half = { R(0.5), R(0.5) } });
+        // A capsule is A to the belt's B, a box is B to the belt's A.
+        const plumb_vec2 ends[] = { { R(-0.5), 0 }, { R(0.5), 0 } };
+        plumb_body rod = plumb_body_create(w, &(plumb_body_desc){ .position = { -9, R(0.25) } });
+        plumb_shape_create(
+            w, rod,
+            &(plumb_shape_desc){
+                .kind = PLUMB_CAPSULE, .points = ends, .count = 2, .radius = R(0.25) });
         steps(w, 200);
         assert_near(plumb_body_velocity(w, box).x, 2, 1e-3);
+        assert_near(plumb_body_velocity(w, rod).x, 2, 1e-3);
         // It caught up at mu g: 2 / (sqrt(0.5 x 0.6) 9.81) s, and lost half of that way.
         double mu = sqrt(0.3), t = 200.0 / 64;
         double way = 2 * t - 2 * 2 / (2 * mu * 9.81);
