@@ -39,14 +39,38 @@ static real *lane_value(pl_solver *s, const pl_contact_kernels *kernels, size_t 
     return (real *)(void *)(bundle + offset) + lane % width;
 }
 
+// What a manifold's impact needs; where its contact reads separations and keeps impulses is the caller's.
+static pl_impact impact_of(const plumb_world *world, const pl_manifold *m)
+{
+    const pl_solver *s = &world->solver;
+    uint32_t movable = world->dynamic_count + world->kinematic_count;
+    pl_impact impact = { .a = pl_solver_slot(s, m->body_a, movable),
+                         .b = pl_solver_slot(s, m->body_b, movable),
+                         .pair = m->pair,
+                         .count = m->count,
+                         .nx = m->nx,
+                         .ny = m->ny,
+                         .friction = m->friction,
+                         .restitution = m->restitution,
+                         .surface_speed = m->surface_speed };
+    for (uint32_t j = 0; j < m->count; ++j) {
+        const pl_manifold_point *p = &m->point[j];
+        impact.point[j] = (pl_impact_point){ .ran = p->ax * m->ny - p->ay * m->nx,
+                                             .rbn = p->bx * m->ny - p->by * m->nx,
+                                             .rat = p->ax * m->nx + p->ay * m->ny,
+                                             .rbt = p->bx * m->nx + p->by * m->ny,
+                                             .separation = p->separation };
+    }
+    return impact;
+}
+
 void pl_impacts_prepare(plumb_world *world)
 {
     pl_solver *s = &world->solver;
     const pl_contact_kernels *kernels = pl_solver_kernels(world);
     const uint32_t *lanes = s->lanes.data;
     pl_impact *impacts = s->impacts.data;
-    uint32_t count = 0;
-    uint32_t movable = world->dynamic_count + world->kinematic_count;
+    s->impact_count = s->bounce_count = 0;
     for (size_t lane = 0; lane < (size_t)s->bundle_count * (size_t)kernels->width; ++lane) {
         if (lanes[lane] == PL_NONE) {
             continue;
@@ -55,31 +79,34 @@ void pl_impacts_prepare(plumb_world *world)
         if (!(m->restitution > 0)) {
             continue;
         }
-        pl_impact *impact = &impacts[count++];
-        *impact = (pl_impact){ .a = pl_solver_slot(s, m->body_a, movable),
-                               .b = pl_solver_slot(s, m->body_b, movable),
-                               .pair = m->pair,
-                               .count = m->count,
-                               .nx = m->nx,
-                               .ny = m->ny,
-                               .friction = m->friction,
-                               .restitution = m->restitution,
-                               .surface_speed = m->surface_speed };
+        pl_impact *impact = &impacts[s->impact_count++];
+        *impact = impact_of(world, m);
         for (uint32_t j = 0; j < m->count; ++j) {
-            const pl_manifold_point *p = &m->point[j];
-            impact->point[j] = (pl_impact_point){
-                .ran = p->ax * m->ny - p->ay * m->nx,
-                .rbn = p->bx * m->ny - p->by * m->nx,
-                .rat = p->ax * m->nx + p->ay * m->ny,
-                .rbt = p->bx * m->nx + p->by * m->ny,
-                .separation = p->separation,
-                .lane_separation = lane_value(s, kernels, lane, kernels->separation_offset[j]),
-                .lane_impulse = lane_value(s, kernels, lane, kernels->impulse_offset[j])
-            };
+            pl_impact_point *p = &impact->point[j];
+            p->lane_separation = lane_value(s, kernels, lane, kernels->separation_offset[j]);
+            p->lane_impulse = lane_value(s, kernels, lane, kernels->impulse_offset[j]);
         }
     }
-    s->impact_count = count;
-    s->bounce_count = 0;
+}
+
+void pl_impacts_prepare_classic(plumb_world *world)
+{
+    pl_solver *s = &world->solver;
+    pl_impact *impacts = s->impacts.data;
+    pl_classic_contact *contacts = s->classic.data;
+    s->impact_count = s->bounce_count = 0;
+    for (uint32_t i = 0; i < world->narrow.manifold_count; ++i) {
+        const pl_manifold *m = &pl_manifolds(&world->narrow)[i];
+        if (!(m->restitution > 0)) {
+            continue;
+        }
+        pl_impact *impact = &impacts[s->impact_count++];
+        *impact = impact_of(world, m);
+        for (uint32_t j = 0; j < m->count; ++j) {
+            impact->point[j].lane_separation = &contacts[i].point[j].separation;
+            impact->point[j].lane_impulse = &contacts[i].point[j].ln;
+        }
+    }
 }
 
 static const real *low_of(const pl_solver *s, uint32_t slot)

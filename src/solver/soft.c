@@ -54,23 +54,6 @@ static void integrate_velocities_carefully(const plumb_world *world, real h)
     }
 }
 
-// Moves dynamic and kinematic bodies by the velocities with which the substep's contacts left them.
-static void integrate_positions(const plumb_world *world, real h)
-{
-    const pl_solver *s = &world->solver;
-    pl_solver_body *body = pl_solver_bodies(s);
-    const pl_solver_motion *motion = pl_solver_motions(s);
-    real half = h * h / 2;
-    for (uint32_t i = 0; i + 1 < s->slot_count; ++i) {
-        bool free =
-            body[i].vx == motion[i].ux && body[i].vy == motion[i].uy && body[i].w == motion[i].uw;
-        real back = free ? half : 0;
-        body[i].dx += h * body[i].vx - back * motion[i].ax;
-        body[i].dy += h * body[i].vy - back * motion[i].ay;
-        body[i].da += h * body[i].w - back * motion[i].aw;
-    }
-}
-
 void pl_solver_soft(plumb_world *world, real dt)
 {
     pl_solver *s = &world->solver;
@@ -137,7 +120,7 @@ void pl_solver_soft(plumb_world *world, real dt)
             }
             kernels->solve[surface][rotation](&call, 0, s->bundle_count);
         }
-        integrate_positions(world, h);
+        pl_integrate_positions(world, h);
         if (joints) {
             pl_joints_refresh(world);
         }

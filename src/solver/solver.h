@@ -43,7 +43,6 @@ typedef struct pl_classic_point {
     real ran, rbn, rat, rbt; // [m] lever arms
     real separation;         // [m] at the start of the step
     real mn, mt;             // [kg] effective masses
-    real rebound;            // [m/s] wanted after the impact
     real ln, lt;             // [N s]
 } pl_classic_point;
 
@@ -147,8 +146,11 @@ void pl_solver_soft(plumb_world *world, real dt);
 void pl_solver_pgs(plumb_world *world, real dt);
 // Whether the impulses of contacts are added up over the step.
 bool pl_solver_tallies(const plumb_world *world);
+// Moves bodies over one substep of h [s] (integrate.c).
+void pl_integrate_positions(const plumb_world *world, real h);
 // Impacts with restitution: collects them; resolves those of one substep of h [s] (impact.c).
 void pl_impacts_prepare(plumb_world *world);
+void pl_impacts_prepare_classic(plumb_world *world);
 void pl_impacts_run(plumb_world *world, real h);
 // Solver slot of a body row.
 static inline uint32_t pl_solver_slot(const pl_solver *solver, uint32_t row, uint32_t movable_rows)
