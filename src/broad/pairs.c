@@ -115,29 +115,32 @@ static void place_pairs(plumb_world *world, pl_pair *items, carry *c)
 {
     pl_broad *broad = &world->broad;
     const pl_found *sorted = broad->sorted.data;
+    const uint8_t *kind = world->pieces.kind;
+    const uint32_t *body = world->pieces.body;
     uint32_t at[PL_PIECE_KIND_COUNT][PL_PIECE_KIND_COUNT];
     memcpy(at, broad->pairs.first, sizeof at);
+    const bool reborn = world->serial > broad->serial; // a slot may have changed its piece
     for (uint32_t i = 0; i < broad->found_count; ++i) {
-        pl_pair pair = fresh_pair(world, sorted[i]);
-        uint8_t ka = world->pieces.kind[pair.a];
-        uint8_t kb = world->pieces.kind[pair.b];
-        uint64_t key = key_of(pair.a, pair.b);
+        uint8_t low = kind[sorted[i].low], high = kind[sorted[i].high];
+        uint8_t ka = low < high ? low : high, kb = low < high ? high : low;
+        uint64_t key = key_of(sorted[i].low, sorted[i].high);
         uint32_t *next = &c->next[ka][kb];
-        while (*next < c->end[ka][kb] && key_of(c->old[*next].a, c->old[*next].b) < key) {
+        uint32_t end = c->end[ka][kb];
+        while (*next < end && key_of(c->old[*next].a, c->old[*next].b) < key) {
             pl_pair_lost(world, &c->old[(*next)++]);
         }
-        if (*next < c->end[ka][kb] && c->old[*next].a == pair.a && c->old[*next].b == pair.b) {
-            const pl_pair *old = &c->old[(*next)++];
-            if (!is_younger(world, pair.a) && !is_younger(world, pair.b)) {
-                memcpy(pair.feature, old->feature, sizeof pair.feature);
-                memcpy(pair.normal, old->normal, sizeof pair.normal);
-                memcpy(pair.tangent, old->tangent, sizeof pair.tangent);
-                pair.rolling = old->rolling;
-                pair.flags = old->flags;
-                pair.manifold = old->manifold;
+        pl_pair *item = &items[at[ka][kb]++];
+        const pl_pair *old = &c->old[*next];
+        if (*next < end && key_of(old->a, old->b) == key) {
+            ++*next;
+            if (!reborn || (!is_younger(world, old->a) && !is_younger(world, old->b))) {
+                *item = *old;
+                item->body_a = body[old->a];
+                item->body_b = body[old->b];
+                continue;
             }
         }
-        items[at[ka][kb]++] = pair;
+        *item = fresh_pair(world, sorted[i]);
     }
     for (int a = 0; a < PL_PIECE_KIND_COUNT; ++a) {
         for (int b = 0; b < PL_PIECE_KIND_COUNT; ++b) {
