@@ -2,7 +2,7 @@
 -- Shows: bodies destroyed by a contact handler while the ball goes on without losing speed.
 scene { title = "Brick breaker", description = "Bricks vanish when the ball hits them.",
         gravity = {0, 0}, duration = 600, seed = 3 }
-camera { fit = {{-5.6, -2}, {5.6, 9.2}} }
+camera { fit = {{-5.6, -2}, {5.6, 9.2}}, at = 6, trail = 0.5 }
 
 local lively = material { name = "lively", friction = 0, restitution = 1 }
 body {

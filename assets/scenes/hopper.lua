@@ -1,15 +1,16 @@
 -- hopper.lua - mixed shapes run through a funnel into a bin.
 -- Shows: circles, boxes, capsules, polygons and compounds of sizes 1:4 in one crowd.
 scene { title = "Hopper", description = "Mixed shapes pour through a funnel.", duration = 20, seed = 5 }
-camera { fit = {{-7, -0.6}, {7, 15}} }
+camera { fit = {{-7, -1}, {7, 16.5}}, at = 1.7 }
 
 local steel = material { name = "steel", friction = 0.3 }
 local grain = material { name = "grain", density = 800, friction = 0.3, restitution = 0.1 }
-body { name = "bin", type = "static", material = steel, color = "#4a5568",
-       box { 14, 1, at = {0, -0.5} }, box { 1, 5.2, at = {-6.5, 2.5} }, box { 1, 5.2, at = {6.5, 2.5} } }
-body { name = "funnel", type = "static", material = steel, color = "#4a5568",
-       polygon {{-7, 12}, {-7, 5}, {-2.0, 5}, {-1.8, 6.8}}, polygon {{7, 12}, {1.8, 6.8}, {2.0, 5}, {7, 5}},
-       box { 0.5, 6, at = {-6.75, 15} }, box { 0.5, 6, at = {6.75, 15} } }
+-- The bin, the funnel above it and the walls on the funnel's shoulders are one body.
+body { name = "hopper", type = "static", material = steel, color = "#4a5568",
+       box { 14, 1, at = {0, -0.5} }, box { 1, 5, at = {-6.5, 2.5} }, box { 1, 5, at = {6.5, 2.5} },
+       polygon {{-7, 12}, {-7, 5}, {-2.0, 5}, {-1.8, 6.8}, {-6.5, 12}},
+       polygon {{7, 12}, {6.5, 12}, {1.8, 6.8}, {2.0, 5}, {7, 5}},
+       box { 0.5, 3, at = {-6.75, 13.5} }, box { 0.5, 3, at = {6.75, 13.5} } }
 
 local makers = {
     function(size) return { circle { size / 2 } } end,

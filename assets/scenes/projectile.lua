@@ -1,7 +1,7 @@
 -- projectile.lua - a stone thrown at 45 degrees: free flight, whose closed form is a parabola.
 -- Shows: free flight is exact to rounding at any step; `plumb cost` measures against exact{}.
 scene { title = "Projectile", description = "Free flight: the parabola is met to rounding.", duration = 3 }
-camera { fit = {{-2, -2}, {47, 12.5}} }
+camera { fit = {{-2, -2}, {47, 12.5}}, at = 2, trail = 2 }
 
 local g, v = 9.81, 20
 local vx, vy = v * math.cos(math.pi / 4), v * math.sin(math.pi / 4)

@@ -171,16 +171,20 @@ static const struct {
     { "run good.lua --substeps ''", "'' is not a whole number" },
     { "run good.lua --solver sofd", "did you mean 'soft'?" },
     { "run good.lua --precision half", "'half' is not one of float,double" },
-    { "run good.lua --width 5", "5 is not 4, 8 or 16" },
+    { "run good.lua --width 5", "5 is not 0, 4, 8 or 16" },
     { "run good.lua --set friction", "'friction' is not of the form key=value" },
     { "run good.lua --set =1", "'=1' is not of the form key=value" },
     { "run good.lua --set frictoin=1", "frictoin" },
+    { "run good.lua --set frction=1", "neither a key of scene{} nor a param of this scene\n" },
+    { "run good.lua --set solver=sfot", "must be one of soft|pgs, not 'sfot' (did you mean" },
+    { "run good.lua --set solver=3", "'solver' of scene{} must be a string, not a number" },
     { "run good.lua --every 0.5", "neither a number of steps (10) nor a time (0.5s)" },
     { "run good.lua --every 0", "neither a number of steps" },
     { "run good.lua --every -1s", "neither a number of steps" },
     { "run good.lua --format cvs", "did you mean 'csv'?" },
     { "run good.lua -o a.json", "JSON lines are named .jsonl" },
-    { "run good.lua --body bal", "no body is named 'bal'; did you mean 'ball'?" },
+    { "run good.lua -o a.txt", "'a.txt' does not end in .csv, .jsonl or .ndjson" },
+    { "run good.lua --body bal", "option --body: no body of 'drop' is named 'bal'; did you mean" },
     { "render good.lua", "-o FILE is missing" },
     { "render good.lua -o a.bmp", "'a.bmp'" },
     { "render good.lua -o a%s.png", "%" },
@@ -188,9 +192,11 @@ static const struct {
     { "render good.lua -o a.png --size 0x9", "0x9 is outside 16 to 8192" },
     { "render good.lua -o a.png --overlay contcts", "did you mean 'contacts'?" },
     { "render good.lua -o a.png --from 1", "--from and --to are for films" },
+    { "render good.lua -o a.png --fps 9", "--fps is for films; 'a.png' is one picture" },
     { "render good.lua -o a.gif --at 1", "--at is for one picture" },
     { "render good.lua -o a.gif --from 2 --to 1", "--to 1 lies before --from 2" },
-    { "render good.lua -o a.png --follow bll", "did you mean 'ball'?" },
+    { "render good.lua -o a.png --follow bll",
+      "option --follow: no body of 'drop' is named 'bll'" },
     { "cost good.lua --substeps 1,x", "is not a list of whole numbers such as 1,2,4" },
     { "cost good.lua --substeps 1,,2", "is not a list of whole numbers" },
     { "cost good.lua --solvers soft,pg", "did you mean 'pgs'?" },
@@ -208,9 +214,33 @@ static void usage_errors_tell_the_remedy(void **state)
         expect_error(line, 2, usage_cases[i].message);
         assert_int_equal(strncmp(err, "plumb: ", 7), 0);
         assert_int_equal(count_lines(err), 1);
+        assert_string_equal(out, "");
     }
     assert_int_not_equal(access("a.png", F_OK), 0);
     assert_int_not_equal(access("a.gif", F_OK), 0);
+    assert_int_not_equal(access("a.txt", F_OK), 0);
+}
+
+static void list_is_one_item_a_line(void **state)
+{
+    (void)state;
+    expect_code("\"$P\" list solvers", 0);
+    assert_string_equal(out, "solvers:\n  soft\n  pgs\n");
+    expect_code("\"$P\" list passes", 0);
+    int passes = count_lines(out);
+    assert_true(passes > 1 + 8);
+    assert_non_null(strstr(out, "\n  classic solver  "));
+    expect_code("\"$P\" list passes --brief", 0);
+    assert_int_equal(count_lines(out), passes);
+    assert_non_null(strstr(out, "\n  classic solver\n"));
+    expect_code("\"$P\" list overlays", 0);
+    assert_int_equal(count_lines(out), 1 + 11);
+    assert_non_null(strstr(out, "\n  contacts\n"));
+    expect_code("\"$P\" list scene --brief", 0);
+    assert_int_equal(count_lines(out), 1 + 15);
+    assert_non_null(strstr(out, "\n  scene\n  material\n  body\n"));
+    expect_code("\"$P\" list scene", 0);
+    assert_non_null(strstr(out, "\n    solver            one of soft|pgs\n"));
 }
 
 static void run_prints_every_body_and_step(void **state)
@@ -270,6 +300,39 @@ static void overrides_reach_the_scene(void **state)
     assert_non_null(strstr(out, "double, 4 lanes"));
 }
 
+// What the command line does not say is the scene's to say.
+static void the_scene_chooses_its_solver(void **state)
+{
+    (void)state;
+    write_text("pgs.lua", "scene { solver = 'pgs' }\nbody { circle { 1 } }\n");
+    expect_code("\"$P\" explain pgs.lua --no-timing", 0);
+    assert_non_null(strstr(out, "pgs solver, 1 substep"));
+    expect_code("\"$P\" explain pgs.lua --no-timing --set solver=soft", 0);
+    assert_non_null(strstr(out, "soft solver, 4 substeps"));
+    expect_code("\"$P\" explain good.lua --no-timing", 0);
+    assert_non_null(strstr(out, "soft solver, 4 substeps"));
+    expect_code("\"$P\" explain good.lua --no-timing --set solver=pgs", 0);
+    assert_non_null(strstr(out, "pgs solver, 1 substep"));
+    expect_code("\"$P\" explain good.lua --no-timing --set solver=pgs --solver soft", 0);
+    assert_non_null(strstr(out, "soft solver, 4 substeps"));
+}
+
+static void what_a_scene_prints_is_no_data(void **state)
+{
+    (void)state;
+    write_text("print.lua", "print('from the scene')\nbody { name = 'ball', circle { 1 } }\n"
+                            "at(0.1, function() body { name = 'late', circle { 1 } } end)\n");
+    expect_code("\"$P\" run print.lua --time 0.2 -q", 0);
+    assert_null(strstr(out, "from the scene"));
+    assert_string_equal(err, "from the scene\n");
+    // A body that the scene makes on its way may be asked for.
+    expect_code("\"$P\" run print.lua --time 0.2 --body late", 0);
+    assert_int_equal(strncmp(out, "time [s],name,", 14), 0);
+    assert_true(count_lines(out) > 2);
+    expect_code("\"$P\" check print.lua --time 0.2", 0);
+    assert_non_null(strstr(out, "none  print.lua: nothing is expected\n"));
+}
+
 static void bad_scenes_are_code_3(void **state)
 {
     (void)state;
@@ -295,6 +358,7 @@ static void bad_scenes_are_code_3(void **state)
             expect_error(line, 3, names[i]);
         }
     }
+    expect_error("\"$P\" run folder.lua", 3, "folder.lua: is a folder, not a scene\n");
     expect_error("\"$P\" run typo.lua", 3, "typo.lua:2:");
     assert_int_not_equal(access("never.png", F_OK), 0);
     expect_error("\"$P\" check good.lua typo.lua good.lua", 3, "typo.lua:2:");
@@ -418,6 +482,25 @@ static void render_draws(void **state)
     assert_int_not_equal(access("film.mp4", F_OK), 0);
 }
 
+// camera{at, trail} say what a single picture shows; --at and --trail what else.
+static void a_scene_knows_its_moment(void **state)
+{
+    (void)state;
+    char text[1024];
+    snprintf(text, sizeof text, "%scamera { at = 0.5, trail = 0.25 }\n", good_scene);
+    write_text("moment.lua", text);
+    expect_code("\"$P\" render moment.lua --size 64x64 -o m.png && "
+                "\"$P\" render good.lua --size 64x64 --at 0.5 --trail 0.25 -o g.png && "
+                "cmp m.png g.png",
+                0);
+    expect_code("\"$P\" render moment.lua --size 64x64 --at 1 --trail 0 -o m.png && "
+                "\"$P\" render good.lua --size 64x64 -o g.png && cmp m.png g.png",
+                0);
+    expect_code("\"$P\" convert moment.lua", 0);
+    assert_non_null(strstr(out, "\"at\":0.5"));
+    assert_non_null(strstr(out, "\"trail\":0.25"));
+}
+
 static int set_up(void **state)
 {
     (void)state;
@@ -450,9 +533,12 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(help_is_everywhere),
         cmocka_unit_test(usage_errors_tell_the_remedy),
+        cmocka_unit_test(list_is_one_item_a_line),
         cmocka_unit_test(run_prints_every_body_and_step),
         cmocka_unit_test(same_command_same_bytes),
         cmocka_unit_test(overrides_reach_the_scene),
+        cmocka_unit_test(the_scene_chooses_its_solver),
+        cmocka_unit_test(what_a_scene_prints_is_no_data),
         cmocka_unit_test(bad_scenes_are_code_3),
         cmocka_unit_test(failed_expectations_are_code_4),
         cmocka_unit_test(writing_fails_loudly),
@@ -461,6 +547,7 @@ int main(void)
         cmocka_unit_test(cost_measures_and_judges),
         cmocka_unit_test(convert_is_canonical),
         cmocka_unit_test(render_draws),
+        cmocka_unit_test(a_scene_knows_its_moment),
     };
     return cmocka_run_group_tests(tests, set_up, clean_up);
 }

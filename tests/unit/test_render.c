@@ -336,6 +336,63 @@ static void test_every_overlay_is_switchable(void **state)
     render_frame_destroy(frame);
 }
 
+// Automatic scale makes a slow body's arrow long, but not the noise of one at rest.
+static void test_rest_shows_no_velocity(void **state)
+{
+    (void)state;
+    render_frame *frame = new_frame();
+    render_target *target = new_target(320, 240);
+    const render_camera camera = { .view_height = 4.0 };
+    render_options options = flat();
+    options.show = RENDER_SHOW_VELOCITIES;
+    const double speeds[2] = { 1e-4, 0.1 };
+    for (int i = 0; i < 2; i++) {
+        render_frame_clear(frame);
+        assert_int_equal(render_add_velocity(frame, 0.0, 0.0, speeds[i], 0.0), RENDER_OK);
+        draw(target, frame, camera, options);
+        assert_true(i == 0 ? changed_pixels(target) == 0 : changed_pixels(target) > 20);
+    }
+    render_target_destroy(target);
+    render_frame_destroy(frame);
+}
+
+// Adds `rows` x `rows` touching boxes, of which the middle one has a name too long for it.
+static void add_block(render_frame *frame, int rows, const char *label)
+{
+    for (int i = 0; i < rows * rows; i++) {
+        const char *own = i == rows * rows / 2 ? label : NULL;
+        render_body_begin(frame, &(render_style){ .color = red, .label = own });
+        render_add_box(frame, i % rows, i / rows, 0.5, 0.5, 0.0, 0.0);
+        render_body_end(frame);
+    }
+}
+
+static void test_labels_leave_other_bodies_alone(void **state)
+{
+    (void)state;
+    render_frame *frame = new_frame();
+    render_target *target = new_target(320, 240);
+    const render_camera camera = { .view_height = 12.0 }; // 20 px a box
+    render_options options = flat();
+    options.show = RENDER_SHOW_LABELS;
+    options.ui_scale = 1.0;
+    static uint8_t plain[320 * 240 * 4];
+    // Alone a box has its name above it; between others, which are as large as the name, none.
+    for (int rows = 1; rows <= 5; rows += 4) {
+        render_frame_clear(frame);
+        add_block(frame, rows, NULL);
+        draw(target, frame, camera, options);
+        memcpy(plain, render_target_pixels(target), sizeof plain);
+        render_frame_clear(frame);
+        add_block(frame, rows, "crate");
+        draw(target, frame, camera, options);
+        const bool same = memcmp(plain, render_target_pixels(target), sizeof plain) == 0;
+        assert_int_equal(same, rows == 5);
+    }
+    render_target_destroy(target);
+    render_frame_destroy(frame);
+}
+
 static void test_every_class_and_line_draws(void **state)
 {
     (void)state;
@@ -858,6 +915,8 @@ int main(void)
         cmocka_unit_test(test_outline_of_a_concave_body),
         cmocka_unit_test(test_huge_ground_stays_exact),
         cmocka_unit_test(test_every_overlay_is_switchable),
+        cmocka_unit_test(test_rest_shows_no_velocity),
+        cmocka_unit_test(test_labels_leave_other_bodies_alone),
         cmocka_unit_test(test_every_class_and_line_draws),
         cmocka_unit_test(test_camera_fit_contains_everything),
         cmocka_unit_test(test_bounds),

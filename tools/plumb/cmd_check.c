@@ -160,7 +160,8 @@ const cli_command cmd_check = {
     .operands = "SCENE...",
     .text = "Runs every SCENE to its end and prints a line for each of its expectations: ok or "
             "FAIL, the scene, the name of the expectation, what was measured, the limit. The exit "
-            "code is 4 when any failed, 3 when a scene does not load, 5 when one diverged.",
+            "code is 4 when any failed, 3 when a scene does not load, 5 when one diverged. A scene "
+            "that expects nothing fails nothing: it is told so (none) and the exit code stays 0.",
     .examples = "plumb check assets/scenes/*.lua\n"
                 "plumb check stack.lua --precision double --verbose",
     .options = options,

@@ -34,12 +34,12 @@ static int print_passes(bool brief)
     }
     const engine_pass *list;
     int count = engine->passes(session, &list);
-    printf("passes of a step, in order: ");
+    printf("passes of a step, in order:\n");
     for (int i = 0; i < count; i++) {
         if (brief) {
-            printf("  %s ", list[i].name);
+            printf("  %s\n", list[i].name);
         } else {
-            printf("  %-22s %-9s reads %s; writes %s ", list[i].name, list[i].phase,
+            printf("  %-22s %-9s reads %s; writes %s\n", list[i].name, list[i].phase,
                    list[i].reads[0] != '\0' ? list[i].reads : "nothing",
                    list[i].writes[0] != '\0' ? list[i].writes : "nothing");
         }
@@ -65,15 +65,15 @@ static void print_word(const engine_word *word)
     if (word->position > 0) {
         printf(", also element %d", word->position);
     }
-    printf("%s ", word->required ? ", required" : "");
+    printf("%s\n", word->required ? ", required" : "");
 }
 
 static void print_scene(bool brief)
 {
     engine_word word;
-    printf("constructors of scene files: ");
+    printf("constructors of scene files:\n");
     for (int c = 0; engine_float.word(c, -1, &word); c++) {
-        printf("  %s ", word.name);
+        printf("  %s\n", word.name);
         for (int k = 0; !brief && engine_float.word(c, k, &word); k++) {
             print_word(&word);
         }
@@ -83,9 +83,9 @@ static void print_scene(bool brief)
 static void print_overlays(void)
 {
     const char *name;
-    printf("overlays of render: ");
+    printf("overlays of render:\n");
     for (int i = 0; (name = cmd_render_overlay(i)) != NULL; i++) {
-        printf("  %s ", name);
+        printf("  %s\n", name);
     }
 }
 

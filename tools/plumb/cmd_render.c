@@ -16,11 +16,11 @@ typedef struct render_args {
     scene_args scene;
     const char *output;
     cli_size size;
-    double fps;
+    double fps;          ///< 0: not given
     double at, from, to; ///< [s]; < 0: not given
     const char *follow;
     double zoom;
-    double trail; ///< [s]
+    double trail; ///< [s]; < 0: the scene's
     const char *overlay;
     const char *title;
 } render_args;
@@ -42,6 +42,9 @@ static const struct {
     { "names", RENDER_SHOW_LABELS | ENGINE_SHOW_NAMES },
     { "spokes", RENDER_SHOW_SPOKES },
 };
+
+/// [1/s] pictures a simulated second.
+static const double FPS_DEFAULT = 30;
 
 enum { OVERLAY_COUNT = (int)(sizeof overlays / sizeof overlays[0]) };
 
@@ -141,6 +144,10 @@ static int check_args(const cli_command *command, const render_args *args)
     }
     if (!is_film(args->output) && (args->from >= 0 || args->to >= 0)) {
         cli_message("%s: --from and --to are for films; one picture has --at", command->name);
+        return CLI_USAGE;
+    }
+    if (!is_film(args->output) && args->fps > 0) {
+        cli_message("%s: --fps is for films; '%.200s' is one picture", command->name, args->output);
         return CLI_USAGE;
     }
     if (args->to >= 0 && args->to < args->from) {
@@ -262,6 +269,10 @@ static int shoot_film(film *f, const render_args *args, const char *path)
 static int shoot_picture(film *f, const render_args *args)
 {
     double time = args->at >= 0 ? args->at : f->run.time;
+    // Of many runs the end is the dullest moment: the scene may know a better one.
+    if (args->at < 0 && args->scene.time < 0 && f->run.info.camera.at >= 0) {
+        time = f->run.info.camera.at;
+    }
     long long steps = llround(time / f->run.info.dt);
     progress bar;
     progress_begin(&bar, "simulating", (double)steps, args->scene.quiet);
@@ -310,11 +321,11 @@ static int render_command(const cli_command *command, int argc, char **argv)
 {
     render_args args = { .scene = SCENE_ARGS_INIT,
                          .size = { 960, 540 },
-                         .fps = 30,
                          .at = -1,
                          .from = -1,
                          .to = -1,
-                         .zoom = 1 };
+                         .zoom = 1,
+                         .trail = -1 };
     cli_operands operands;
     film f = { .step = 0 };
 
@@ -327,6 +338,12 @@ static int render_command(const cli_command *command, int argc, char **argv)
         return code;
     }
     view_wish wish = { args.follow, args.zoom, args.size.width, args.size.height };
+    if (args.trail < 0) {
+        args.trail = f.run.info.camera.trail;
+    }
+    if (args.fps <= 0) {
+        args.fps = FPS_DEFAULT;
+    }
     f.title = args.title;
     f.trails.seconds = args.trail;
     code = view_begin(&f.view, &wish, &f.run);
@@ -344,7 +361,8 @@ static const cli_option options[] = {
     { "size", 's', CLI_SIZE, offsetof(render_args, size), "WxH", 16, RENDER_SIZE_MAX, NULL,
       "in pixels (default 960x540)" },
     { "at", 0, CLI_REAL, offsetof(render_args, at), "S", 0, SCENE_TIME_MAX, NULL,
-      "picture: the moment in seconds (default: --time, the scene's end)" },
+      "picture: the moment in seconds (default: --time, else camera{at}, else the scene's "
+      "end)" },
     { "from", 0, CLI_REAL, offsetof(render_args, from), "S", 0, SCENE_TIME_MAX, NULL,
       "film: where it begins (default 0)" },
     { "to", 0, CLI_REAL, offsetof(render_args, to), "S", 0, SCENE_TIME_MAX, NULL,
@@ -360,7 +378,8 @@ static const cli_option options[] = {
       "(no-grid): grid, "
       "labels, scale, title, spokes; none: nothing but the bodies" },
     { "trail", 0, CLI_REAL, offsetof(render_args, trail), "S", 0, SCENE_TIME_MAX, NULL,
-      "draw behind every moving body where it was in the last S seconds" },
+      "draw behind every moving body where it was in the last S seconds (default: "
+      "camera{trail}, else none)" },
     { "title", 0, CLI_TEXT, offsetof(render_args, title), "TEXT", 0, 0, NULL,
       "instead of the scene's; \"\" for none" },
     SCENE_OPTIONS(render_args, scene),

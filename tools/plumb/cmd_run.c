@@ -30,21 +30,35 @@ static bool ends_with(const char *text, const char *end)
     return a >= b && strcmp(text + a - b, end) == 0;
 }
 
+/// Devices (/dev/stdout) and "-" have none and get CSV.
+static bool has_extension(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    const char *name = slash != NULL ? slash + 1 : path;
+    const char *dot = strrchr(name, '.');
+    return dot != NULL && dot != name;
+}
+
 static int read_format(const cli_command *command, run_args *args)
 {
     if (args->format >= 0) {
         return CLI_OK;
     }
     args->format = FORMAT_CSV;
-    if (args->output != NULL) {
-        if (ends_with(args->output, ".jsonl") || ends_with(args->output, ".ndjson")) {
-            args->format = FORMAT_JSONL;
-        } else if (ends_with(args->output, ".json")) {
-            cli_message("%s: option --output: JSON lines are named .jsonl; --format jsonl writes "
-                        "them to '%.200s' all the same",
-                        command->name, args->output);
-            return CLI_USAGE;
-        }
+    const char *path = args->output != NULL ? args->output : "";
+    if (ends_with(path, ".jsonl") || ends_with(path, ".ndjson")) {
+        args->format = FORMAT_JSONL;
+    } else if (ends_with(path, ".json")) {
+        cli_message("%s: option --output: JSON lines are named .jsonl; --format jsonl writes "
+                    "them to '%.200s' all the same",
+                    command->name, path);
+        return CLI_USAGE;
+    } else if (has_extension(path) && !ends_with(path, ".csv")) {
+        cli_message(
+            "%s: option --output: '%.200s' does not end in .csv, .jsonl or .ndjson; --format "
+            "csv or --format jsonl writes to it all the same",
+            command->name, path);
+        return CLI_USAGE;
     }
     return CLI_OK;
 }
@@ -113,8 +127,10 @@ static void print_row(FILE *file, int format, bool is_float, double time, const 
     fputs(is_csv ? "\n" : "}\n", file);
 }
 
-/// Prints all bodies; *found tells whether the one asked for was among them.
-static int print_rows(const run_args *args, scene_run *run, FILE *file, bool *found)
+/// Prints all bodies. *begun tells whether anything has been printed: the header comes before the
+/// first body, so that a name that no body ever has is told without any output. The body asked for
+/// may be one that the scene's code makes later.
+static int print_rows(const run_args *args, scene_run *run, FILE *file, bool *begun)
 {
     double time = run->engine->time(run->session);
     const engine_row *rows;
@@ -125,7 +141,10 @@ static int print_rows(const run_args *args, scene_run *run, FILE *file, bool *fo
     }
     for (int i = 0; i < count; i++) {
         if (args->only == NULL || strcmp(args->only, rows[i].name) == 0) {
-            *found = true;
+            if (!*begun) {
+                print_header(file, args->format);
+                *begun = true;
+            }
             print_row(file, args->format, run->engine->is_float, time, &rows[i]);
         }
     }
@@ -136,13 +155,15 @@ static int simulate(const run_args *args, const sampling *every, scene_run *run,
 {
     progress bar;
     int code = CLI_OK;
-    bool found = args->only == NULL;
+    bool begun = args->only == NULL;
 
     progress_begin(&bar, run->info.name, (double)run->steps, args->scene.quiet);
-    print_header(out->file, args->format);
+    if (begun) {
+        print_header(out->file, args->format);
+    }
     for (long long step = 0; code == CLI_OK; step++) {
         if (is_sample(every, step, run->info.dt)) {
-            code = print_rows(args, run, out->file, &found);
+            code = print_rows(args, run, out->file, &begun);
         }
         if (code != CLI_OK || !cli_output_good(out) || scene_run_done(run, step)) {
             break;
@@ -151,8 +172,8 @@ static int simulate(const run_args *args, const sampling *every, scene_run *run,
         code = scene_run_step(run, &bar);
     }
     progress_end(&bar);
-    if (code == CLI_OK && !found) {
-        code = scene_unknown_body(run, args->only);
+    if (code == CLI_OK && !begun && !cli_interrupted()) {
+        code = scene_unknown_body(run, "body", args->only);
     }
     return code;
 }

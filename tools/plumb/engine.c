@@ -5,7 +5,6 @@
 /// lists are kept from call to call: no allocation once they have grown.
 #include "engine_session.h"
 
-#include <math.h>
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
@@ -25,7 +24,8 @@ int pl_session_fail_scene(const engine_session *session, const scene_error *from
                           engine_error *error)
 {
     int code = CLI_SCENE;
-    if (from->code == SCENE_E_SET) {
+    // A value that scene{} refuses is the command line's fault, too, when --set gave it.
+    if (from->code == SCENE_E_SET || strcmp(from->file, "--set") == 0) {
         code = CLI_USAGE;
     } else if (from->code == SCENE_E_WORLD && session != NULL) {
         plumb_result why = plumb_world_error(session->world).code;
@@ -143,7 +143,9 @@ static engine_info session_info(const engine_session *session)
                     .height = camera->height,
                     .has_fit = camera->has_fit,
                     .box = { camera->box[0], camera->box[1], camera->box[2], camera->box[3] },
-                    .follow = camera->follow != NULL ? camera->follow : "" },
+                    .follow = camera->follow != NULL ? camera->follow : "",
+                    .at = camera->has_at ? camera->at : -1,
+                    .trail = camera->trail },
     };
 }
 
@@ -162,11 +164,12 @@ static int session_check(engine_session *session, engine_error *error)
 {
     uint32_t stopped = plumb_world_stats(session->world).arrested_count;
     if (stopped > 0) {
-        return pl_session_fail(error, CLI_DIVERGED,
-                               "%s: diverged at %.6g s: %u %s stopped, for the step would have left "
-                               "it without a finite state",
-                               session->info.title, scene_time(session->scene), stopped,
-                               stopped == 1 ? "body was" : "bodies were");
+        return pl_session_fail(
+            error, CLI_DIVERGED,
+            "%s: diverged at %.6g s: %u %s stopped, for the step would have left "
+            "it without a finite state",
+            session->info.title, scene_time(session->scene), stopped,
+            stopped == 1 ? "body was" : "bodies were");
     }
     return CLI_OK;
 }

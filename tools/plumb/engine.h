@@ -43,6 +43,8 @@ typedef struct engine_camera {
     bool has_fit;       ///< the box is given: all of it must be visible
     double box[4];      ///< [m] min x, min y, max x, max y
     const char *follow; ///< body to keep in the middle, "" if none
+    double at;          ///< [s] when a single picture is taken; < 0: not given
+    double trail;       ///< [s] how long trails are; 0: none
 } engine_camera;
 
 /// What was opened, with all defaults resolved.

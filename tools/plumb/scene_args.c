@@ -9,7 +9,7 @@
 int scene_args_check(const cli_command *command, const scene_args *args)
 {
     if (args->width != 0 && args->width != 4 && args->width != 8 && args->width != 16) {
-        cli_message("%s: option --width: %d is not 4, 8 or 16", command->name, args->width);
+        cli_message("%s: option --width: %d is not 0, 4, 8 or 16", command->name, args->width);
         return CLI_USAGE;
     }
     for (int i = 0; i < args->sets.count; i++) {
@@ -79,19 +79,19 @@ int scene_run_step(scene_run *run, progress *bar)
     return scene_report(&error);
 }
 
-int scene_unknown_body(scene_run *run, const char *name)
+int scene_unknown_body(scene_run *run, const char *option, const char *name)
 {
     const engine_row *rows;
     int count = run->engine->rows(run->session, &rows);
     for (int i = 0; i < count; i++) {
         // The lists that cli_nearest searches are parted by commas: names with one are not offered.
         if (strchr(rows[i].name, ',') == NULL && cli_nearest(name, rows[i].name) == 0) {
-            cli_message("%s: no body is named '%.80s'; did you mean '%.80s'?", run->info.name, name,
-                        rows[i].name);
+            cli_message("option --%s: no body of '%s' is named '%.80s'; did you mean '%.80s'?",
+                        option, run->info.name, name, rows[i].name);
             return CLI_USAGE;
         }
     }
-    cli_message("%s: no body is named '%.80s'", run->info.name, name);
+    cli_message("option --%s: no body of '%s' is named '%.80s'", option, run->info.name, name);
     return CLI_USAGE;
 }
 

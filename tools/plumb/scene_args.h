@@ -88,8 +88,9 @@ bool scene_run_done(const scene_run *run, long long step);
 /// Closes. Answers `code`.
 int scene_run_close(scene_run *run, int code);
 
-/// Tells that no body is named `name`, and which name is nearest. CLI_USAGE.
-int scene_unknown_body(scene_run *run, const char *name);
+/// Tells that no body is named `name`, as `option` (without dashes) says, and which name is near.
+/// CLI_USAGE.
+int scene_unknown_body(scene_run *run, const char *option, const char *name);
 
 /// Prints an engine's message to stderr and answers its code.
 int scene_report(const engine_error *error);

@@ -48,6 +48,9 @@ static int edit_distance(const char *a, const char *b)
 bool cli_member(const char *list, int index, char *out, size_t out_size)
 {
     const char *at = list;
+    if (index < 0) {
+        return false; // "not given" where an option's value is an index
+    }
     for (; index > 0; index--) {
         at = strchr(at, ',');
         if (at == NULL) {

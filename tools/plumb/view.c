@@ -79,7 +79,7 @@ int view_begin(view *v, const view_wish *wish, scene_run *run)
         return CLI_OK;
     }
     const engine_row *row = find_row(run, v->follow, &count, &rows);
-    return row != NULL ? CLI_OK : scene_unknown_body(run, v->follow);
+    return row != NULL ? CLI_OK : scene_unknown_body(run, "follow", v->follow);
 }
 
 bool view_needs_run(const view *v)

@@ -1,9 +1,9 @@
 // labels.c - names of bodies, placed where they can be read.
 //
 // A name goes inside its body if it fits, else above, right, below or left of it; the first place
-// that is inside the picture and free of other names wins, and a name without a place is left
-// out. Large bodies choose first, so that small neighbours give way.
-// Cost: O(names^2), bounded by names_max.
+// that is inside the picture and free of other names and of other bodies wins, and a name without
+// a place is left out. Large bodies choose first, so that small neighbours give way.
+// Cost: O(names^2 + names * shapes), names bounded by names_max.
 #include "internal.h"
 
 #include <math.h>
@@ -66,6 +66,66 @@ static bool is_free(const plr_painter *painter, const place *wanted, const place
     return true;
 }
 
+// True if the line through `a` and `b`, moved outwards by `radius`, parts the rectangle from the
+// convex shape that the edge belongs to (on the side where `inner` is).
+static bool edge_parts(render_vec a, render_vec b, render_vec inner, double radius,
+                       const place *wanted)
+{
+    render_vec n = { b.y - a.y, a.x - b.x };
+    const double length = hypot(n.x, n.y);
+    if (!(length > 0.0)) {
+        return false;
+    }
+    const double side = (inner.x - a.x) * n.x + (inner.y - a.y) * n.y > 0.0 ? -1.0 : 1.0;
+    n = (render_vec){ side * n.x / length, side * n.y / length };
+    const render_vec nearest = { n.x > 0.0 ? wanted->left : wanted->right,
+                                 n.y > 0.0 ? wanted->top : wanted->bottom };
+    return (nearest.x - a.x) * n.x + (nearest.y - a.y) * n.y >= radius;
+}
+
+// True if a disc, capsule or polygon reaches into the rectangle (rounded corners count as sharp).
+static bool shape_meets(const plr_painter *painter, const plr_shape *shape, const place *wanted)
+{
+    const render_vec *world = painter->frame->points + shape->first_point;
+    const double r = shape->radius * painter->scale;
+    render_vec min = { INFINITY, INFINITY }, max = { -INFINITY, -INFINITY }, middle = { 0.0, 0.0 };
+    for (size_t k = 0; k < shape->point_count; k++) {
+        const render_vec p = plr_pixel(painter, world[k]);
+        min = (render_vec){ fmin(min.x, p.x - r), fmin(min.y, p.y - r) };
+        max = (render_vec){ fmax(max.x, p.x + r), fmax(max.y, p.y + r) };
+        middle.x += p.x / (double)shape->point_count;
+        middle.y += p.y / (double)shape->point_count;
+    }
+    if (min.x >= wanted->right || max.x <= wanted->left || min.y >= wanted->bottom ||
+        max.y <= wanted->top) {
+        return false;
+    }
+    for (size_t k = 0; shape->kind == PLR_POLYGON && k < shape->point_count; k++) {
+        const render_vec a = plr_pixel(painter, world[k]);
+        const render_vec b = plr_pixel(painter, world[(k + 1) % shape->point_count]);
+        if (edge_parts(a, b, middle, r, wanted)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// True if another body than `own` is where the name would be. Lines may be written over.
+static bool meets_body(const plr_painter *painter, const place *wanted, const plr_body *own)
+{
+    const render_frame *frame = painter->frame;
+    for (size_t i = 0; i < frame->body_count; i++) {
+        const plr_body *body = &frame->bodies[i];
+        for (size_t k = 0; body != own && k < body->shape_count; k++) {
+            const plr_shape *shape = &frame->shapes[body->first_shape + k];
+            if (shape->kind != PLR_POLYLINE && shape_meets(painter, shape, wanted)) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
 // True if the body is one convex piece, whose middle is inside of it.
 static bool has_middle(const plr_painter *painter, const plr_body *body)
 {
@@ -94,7 +154,7 @@ static bool find_place(const plr_painter *painter, const name *entry, double wid
     for (int i = fits ? 0 : 1; i < 5; i++) {
         *found = (place){ centers[i].x - 0.5 * width, centers[i].y - 0.5 * height,
                           centers[i].x + 0.5 * width, centers[i].y + 0.5 * height };
-        if (is_free(painter, found, taken, count)) {
+        if (is_free(painter, found, taken, count) && !meets_body(painter, found, entry->body)) {
             return true;
         }
     }

@@ -16,6 +16,9 @@ static const render_rgba joint_color = { 0x3d, 0x43, 0x55, 0xff };
 
 // The longest arrow is at most this share of the picture's height under automatic scale.
 static const double arrow_share = 0.16;
+// Speeds that would take 50 s to cross the picture's height are rest [1/s]: arrows are not scaled
+// up further than makes this one as long as the longest, so the noise of bodies at rest shows none.
+static const double rest_share = 0.02;
 static const double normal_length = 13.0; // of a contact normal [px at ui_scale 1]
 enum { text_size = 13 };                  // [px at ui_scale 1]
 
@@ -37,6 +40,10 @@ double plr_arrow_scale(const plr_painter *painter, plr_mark_kind kind)
         if (mark->kind == kind) {
             longest = fmax(longest, hypot(mark->b.x, mark->b.y));
         }
+    }
+    // Impulses have no such bound: those that carry a body at rest are worth seeing.
+    if (kind == PLR_VELOCITY) {
+        longest = fmax(longest, rest_share * painter->camera->view_height);
     }
     const double fits = arrow_share * painter->camera->view_height / longest;
     return longest > 0.0 && isfinite(fits) ? plr_round_step(fits) : 1.0;

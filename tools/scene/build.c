@@ -324,7 +324,8 @@ void sc_build_camera(scene *s, const sc_site *site, int table)
     if (center && !height) {
         sc_raise(s, SCENE_E_MISSING, site, NULL, 0, NULL, "camera{} with 'center' needs 'height'");
     }
-    if (!fit && !height && c->follow[0] == 0) {
+    bool other = SC_GIVEN(list, c, sc_camera, at) || SC_GIVEN(list, c, sc_camera, trail);
+    if (!fit && !height && !other && c->follow[0] == 0) {
         sc_raise(s, SCENE_E_MISSING, site, NULL, 0, NULL,
                  "camera{} needs 'fit', 'center' and 'height', or 'follow'");
     }

@@ -226,7 +226,7 @@ typedef struct sc_body {
 
 typedef struct sc_camera {
     uint64_t present;
-    double center[2], height, fit[4];
+    double center[2], height, fit[4], at, trail;
     char follow[SC_NAME_SIZE];
 } sc_camera;
 

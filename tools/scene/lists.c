@@ -124,10 +124,12 @@ const sc_list sc_list_shapes[SC_SHAPE_KINDS] = {
 
 #define T sc_camera
 static const sc_field camera_rows[] = {
+    { "at",     SC_NUMBER, AT(T, at), 0, 1e7, "s", 0, 0 },
     { "center", SC_VEC2,   AT(T, center), -FAR, FAR, "m", 0, 0 },
     { "fit",    SC_BOX,    AT(T, fit),    -FAR, FAR, "m", 0, 0 },
     { "follow", SC_BODY,   AT(T, follow), 0, 0, NULL, 0, 0 },
     { "height", SC_NUMBER, AT(T, height), 0, FAR, "m", 0, SC_ABOVE },
+    { "trail",  SC_NUMBER, AT(T, trail), 0, 1e7, "s", 0, 0 },
 };
 const sc_list sc_list_camera = { "camera", camera_rows, COUNT(camera_rows) };
 #undef T

@@ -1,6 +1,7 @@
 // scene.c - the life of a scene: load, step, finish, destroy, and what users may ask.
 // Everything that may raise runs inside sc_protected: an error or an exhausted limit ends there, is
 // kept in s->error, and the scene stays failed.
+#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -89,7 +90,10 @@ static bool read_file(scene *s, const char *path)
 {
     FILE *file = fopen(path, "rb");
     long size = -1;
-    if (file != NULL && fseek(file, 0, SEEK_END) == 0) {
+    errno = 0;
+    // A folder opens like a file and only cannot be read.
+    bool is_folder = file != NULL && fgetc(file) == EOF && errno == EISDIR;
+    if (file != NULL && !is_folder && fseek(file, 0, SEEK_END) == 0) {
         size = ftell(file);
     }
     bool good = size >= 0 && size <= LARGEST_FILE && fseek(file, 0, SEEK_SET) == 0;
@@ -104,6 +108,7 @@ static bool read_file(scene *s, const char *path)
     if (!good) {
         sc_set_error(s, SCENE_E_IO, 0, 0, NULL,
                      file == NULL          ? "cannot be opened"
+                     : is_folder           ? "is a folder, not a scene"
                      : size > LARGEST_FILE ? "is larger than 64 MiB"
                                            : "cannot be read");
     }
@@ -359,6 +364,9 @@ scene_camera scene_get_camera(const scene *s)
     memcpy(out.center, c->center, sizeof out.center);
     memcpy(out.box, c->fit, sizeof out.box);
     out.height = c->height;
+    out.has_at = SC_GIVEN(&sc_list_camera, c, sc_camera, at);
+    out.at = c->at;
+    out.trail = c->trail;
     return out;
 }
 

@@ -164,6 +164,9 @@ typedef struct scene_camera {
     bool has_fit;       ///< `box` is given: all of it must be visible
     double box[4];      ///< [m] min x, min y, max x, max y
     const char *follow; ///< name of the body to keep in the middle, "" if none
+    bool has_at;        ///< `at` is given
+    double at;          ///< [s] when a single picture is taken
+    double trail;       ///< [s] how long trails behind moving bodies are; 0: none
 } scene_camera;
 
 scene_camera scene_get_camera(const scene *s);

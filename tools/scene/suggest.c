@@ -43,10 +43,10 @@ static int edit_distance(const char *a, const char *b)
 
 sc_suggest sc_suggest_start(const char *word)
 {
-    // One slip in words up to 4 letters, about one more every 3: "desnity" finds "density", "w"
-    // nothing.
-    int length = (int)strlen(word);
-    return (sc_suggest){ .word = word, .distance = (length + 2) / 3 + 1 };
+    // One slip in words up to 6 letters, one more every 4: "desnity" finds "density", "w" nothing,
+    // and "frction" not "duration", which is 3 slips away.
+    int slips = ((int)strlen(word) + 1) / 4;
+    return (sc_suggest){ .word = word, .distance = (slips > 1 ? slips : 1) + 1 };
 }
 
 void sc_suggest_offer(sc_suggest *g, const char *candidate)
