@@ -48,7 +48,9 @@ static plumb_shape shape_of(plumb_world *w, script *s, plumb_body body)
     d.radius = d.kind <= PLUMB_POLYGON ? real_of(s) : 0;
     d.half = d.kind == PLUMB_BOX ? vec_of(s) : (plumb_vec2){ 0, 0 };
     d.points = has_points ? points : NULL;
-    d.count = !has_points ? 0 : d.kind == PLUMB_CAPSULE || d.kind == PLUMB_SEGMENT ? 2 : 3 + (int)byte_of(s) % 6;
+    d.count = !has_points                                          ? 0
+              : d.kind == PLUMB_CAPSULE || d.kind == PLUMB_SEGMENT ? 2
+                                                                   : 3 + (int)byte_of(s) % 6;
     d.closed = d.kind == PLUMB_CHAIN && byte_of(s) % 2;
     return plumb_shape_create(w, body, &d);
 }
@@ -57,19 +59,45 @@ static void call(plumb_world *w, script *s, plumb_entity e[HANDLES])
 {
     plumb_entity *slot = &e[byte_of(s) % HANDLES], other = e[byte_of(s) % HANDLES];
     plumb_ray_hit hit;
+    plumb_material_desc m = { .friction = real_of(s), .restitution = real_of(s) };
     switch (byte_of(s) % 12) {
-    case 0: *slot = plumb_body_create(w, &(plumb_body_desc){ .type = (plumb_body_type)(byte_of(s) % 4), .position = vec_of(s) }); break;
-    case 1: *slot = shape_of(w, s, other); break;
-    case 2: plumb_entity_destroy(w, other); break;
-    case 3: plumb_body_set_velocity(w, other, vec_of(s)); break;
-    case 4: plumb_body_teleport(w, other, vec_of(s), real_of(s)); break;
-    case 5: plumb_body_apply_force(w, other, vec_of(s), vec_of(s)); break;
-    case 6: plumb_body_set_mass(w, other, real_of(s)); break;
-    case 7: plumb_world_ray(w, vec_of(s), vec_of(s), NULL, &hit); break;
-    case 8: *slot = plumb_command_body_create(w, &(plumb_body_desc){ .position = vec_of(s) }); break;
-    case 9: plumb_command_destroy(w, other); break;
-    case 10: *slot = plumb_material_create(w, &(plumb_material_desc){ 1, real_of(s), real_of(s) }); break;
-    default: plumb_world_step(w, real_of(s) / 64); break;
+    case 0:
+        *slot = plumb_body_create(w, &(plumb_body_desc){ .type = (plumb_body_type)(byte_of(s) % 4),
+                                                         .position = vec_of(s) });
+        break;
+    case 1:
+        *slot = shape_of(w, s, other);
+        break;
+    case 2:
+        plumb_entity_destroy(w, other);
+        break;
+    case 3:
+        plumb_body_set_velocity(w, other, vec_of(s));
+        break;
+    case 4:
+        plumb_body_teleport(w, other, vec_of(s), real_of(s));
+        break;
+    case 5:
+        plumb_body_apply_force(w, other, vec_of(s), vec_of(s));
+        break;
+    case 6:
+        plumb_body_set_mass(w, other, real_of(s));
+        break;
+    case 7:
+        plumb_world_ray(w, vec_of(s), vec_of(s), NULL, &hit);
+        break;
+    case 8:
+        *slot = plumb_command_body_create(w, &(plumb_body_desc){ .position = vec_of(s) });
+        break;
+    case 9:
+        plumb_command_destroy(w, other);
+        break;
+    case 10:
+        *slot = plumb_material_create(w, &m);
+        break;
+    default:
+        plumb_world_step(w, real_of(s) / 64);
+        break;
     }
 }
 
