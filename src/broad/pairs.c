@@ -3,7 +3,6 @@
 //
 // Cost: O(pairs + piece slots), three linear passes.
 #include "broad/pairs.h"
-#include "event/event.h"
 #include "world/state.h"
 
 #include <string.h>
