@@ -41,7 +41,7 @@ typedef struct plumb_world_desc {
     plumb_real contact_hertz; ///< [1/s] >= 0. Contact stiffness; default: a sixth of the substep rate,
                               ///< which is also the largest that is used
     plumb_real contact_damping;   ///< [-] >= 0, damping ratio of contacts, default 3
-    plumb_real push_speed;        ///< [m/s] >= 0, fastest recovery from overlap, default 3
+    plumb_real push_speed;        ///< [m/s] >= 0, fastest recovery from overlap, default 6
     plumb_real restitution_speed; ///< [m/s] >= 0; approach slower than this does not bounce. Default 0:
                                   ///< only a bounce that would end within the substep is swallowed
     plumb_real hit_speed;     ///< [m/s] >= 0; contacts that approach faster make hit events. Default 0: none

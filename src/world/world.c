@@ -13,7 +13,7 @@
 #define DEFAULT_FRICTION   ((real)0.6)
 #define SOFT_SUBSTEPS      4
 #define SOFT_DAMPING       ((real)3)
-#define SOFT_PUSH_SPEED    ((real)3) // [m/s]
+#define SOFT_PUSH_SPEED    ((real)6) // [m/s]
 #define CLASSIC_ITERATIONS 10
 
 //---- the descriptor

@@ -18,7 +18,7 @@ static void a_zero_descriptor_means_the_documented_defaults(void **state)
     assert_int_equal(d.substeps, 4);
     assert_int_equal(d.iterations, 1);
     assert_true(d.contact_hertz == 0 && d.restitution_speed == 0);
-    assert_true(d.contact_damping == 3 && d.push_speed == 3);
+    assert_true(d.contact_damping == 3 && d.push_speed == 6);
     assert_true(d.simd_width == 4 || d.simd_width == 8 || d.simd_width == 16);
     assert_non_null((void *)(uintptr_t)d.allocator.resize);
     assert_vec_near(plumb_world_up(w), 0, 1, 0);
