@@ -83,8 +83,7 @@ static bool contains(const pl_box *outer, const pl_box *inner)
 // A speed that no step will accept must not make a box infinite either (see solver/finish.c).
 static real bounded(real v)
 {
-    const real most = (real)1e12;
-    return v > most ? most : v < -most ? -most : v;
+    return v > PL_LARGEST ? PL_LARGEST : v < -PL_LARGEST ? -PL_LARGEST : v;
 }
 
 // Velocities may have been set, or written through a span, since the poses were made.

@@ -44,16 +44,13 @@ static void fly(plumb_world *world, uint32_t row, real dt)
     b->w[row] += aw * dt;
 }
 
-// [m], [m/s], [rad/s] beyond this a body counts as lost: squares still fit a float.
-#define LARGEST ((real)1e12)
-
 typedef struct where {
     real x, y, c, s;
 } where;
 
 static bool is_sane(real v)
 {
-    return v >= -LARGEST && v <= LARGEST; // false for NaN
+    return v >= -PL_LARGEST && v <= PL_LARGEST; // false for NaN
 }
 
 // A step that would leave a body's state without meaning is undone for that body: it stays where it was,

@@ -63,7 +63,6 @@ void pl_solver_soft(plumb_world *world, real dt)
     const real stiffest = STIFFEST / h;
     const real asked = world->desc.contact_hertz;
     pl_contact_call call = { .bodies = pl_solver_bodies(s),
-                             .motions = pl_solver_motions(s),
                              .dynamic_slots = s->dynamic_slots,
                              .bundles = s->bundles.data,
                              .lanes = s->lanes.data,

@@ -82,7 +82,6 @@ typedef struct pl_solver {
 // Numbers of a contact sweep; see contact.simd.c for the formulas.
 typedef struct pl_contact_call {
     pl_solver_body *bodies;
-    pl_solver_motion *motions;
     uint32_t dynamic_slots; // slots from here on are read but never written
     void *bundles;
     const uint32_t *lanes;

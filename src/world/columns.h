@@ -81,6 +81,9 @@ typedef plumb_real real;
 
 #define PL_NONE UINT32_MAX
 
+// [m], [m/s], [rad/s] beyond this a body counts as lost: squares still fit a float.
+#define PL_LARGEST ((real)1e12)
+
 typedef enum pl_piece_kind {
     PL_PIECE_FREE,
     PL_PIECE_CIRCLE,  // core: centre, radius
