@@ -1,8 +1,10 @@
 // fall.c - falling asleep: for how long each body has rested, and which islands rest as a whole.
 //
-// A body rests while it is slower than sleep_speed and its velocity stays within a fifth of that of
-// what it was when the rest began: a large slow pendulum at its turning point is slow, and is not
-// at rest. Speed counts turning by the farthest point: sqrt(v^2 + (w r)^2).
+// A body rests while it is slower than sleep_speed and goes evenly: from one half of sleep_time to the
+// next, its way must not change by more than a fiftieth of what sleep_speed makes in sleep_time. A
+// block that begins to slide, or a large slow pendulum at its turning point, is slow and not at rest;
+// a heap that creeps is. In the defaults, what accelerates by 8 mm/s^2 stays awake. Turning counts
+// by the farthest point: sqrt(v^2 + (w r)^2), and the way likewise.
 //
 // Islands are looked for only when some body has rested for sleep_time, and eight times in that
 // time: union-find with path halving (Tarjan 1983) over the bodies that are ripe, by the contacts
@@ -18,8 +20,8 @@
 #include "world/check.h"
 #include "world/rows.h"
 
-#define STEADY ((real)0.2) // [-] of sleep_speed, by which a velocity may change in a rest
-#define LOOKS  8           // [-] in sleep_time
+#define EVEN  ((real)0.02) // [-] of sleep_speed * sleep_time, by which ways may differ
+#define LOOKS 8            // [-] for islands, in sleep_time
 
 //---- rest ----------------------------------------------------------------------------------------
 
@@ -30,28 +32,66 @@ static real square(real v)
 
 static bool is_ripe(const plumb_world *world, uint32_t row)
 {
-    return world->bodies.still[row] >= world->desc.sleep_time &&
+    return world->bodies.looks[row] >= 2 && world->bodies.still[row] >= world->desc.sleep_time &&
            (world->bodies.flags[row] & PL_BODY_NO_SLEEP) == 0;
 }
 
-static void time_bodies(plumb_world *world, real dt)
+// A system may have written a force of which nothing is to be seen yet.
+static bool is_pushed(const plumb_world *world, uint32_t row)
+{
+    const pl_bodies *b = &world->bodies;
+    return b->fx[row] != 0 || b->fy[row] != 0 || b->torque[row] != 0;
+}
+
+static void begin_rest(pl_bodies *b, uint32_t row)
+{
+    b->still[row] = b->looked[row] = 0;
+    b->looks[row] = 0;
+    b->look_x[row] = b->center_x[row];
+    b->look_y[row] = b->center_y[row];
+    b->look_c[row] = b->c[row];
+    b->look_s[row] = b->s[row];
+}
+
+// Half of sleep_time after the last look: compares the way since with the one before.
+static void look_at(const plumb_world *world, pl_bodies *b, uint32_t row)
+{
+    real x = b->center_x[row] - b->look_x[row], y = b->center_y[row] - b->look_y[row];
+    real turn = b->s[row] * b->look_c[row] - b->c[row] * b->look_s[row];
+    real change = square(x - b->way_x[row]) + square(y - b->way_y[row]) +
+                  square((turn - b->way_turn[row]) * b->extent[row]);
+    real even = EVEN * world->desc.sleep_speed * world->desc.sleep_time;
+    uint8_t looks = b->looks[row];
+    real still = b->still[row];
+    begin_rest(b, row);
+    if (looks == 0 || change <= square(even)) {
+        b->still[row] = still;
+        b->looks[row] = looks < 2 ? (uint8_t)(looks + 1) : 2;
+    }
+    b->way_x[row] = x;
+    b->way_y[row] = y;
+    b->way_turn[row] = turn;
+}
+
+// `passed` [s]: the step before.
+static void time_bodies(plumb_world *world, real passed)
 {
     pl_bodies *b = &world->bodies;
-    const real slow = square(world->desc.sleep_speed), steady = slow * square(STEADY);
+    const real slow = square(world->desc.sleep_speed);
+    const real half = world->desc.sleep_time / 2;
     uint32_t ripe = 0;
     for (uint32_t row = 0; row < world->dynamic_count; ++row) {
-        real vx = b->vx[row], vy = b->vy[row], w = b->w[row], r = b->extent[row];
-        real dx = vx - b->quiet_vx[row], dy = vy - b->quiet_vy[row], dw = w - b->quiet_w[row];
-        if (vx * vx + vy * vy + square(w * r) <= slow &&
-            dx * dx + dy * dy + square(dw * r) <= steady) {
-            b->still[row] += dt;
-            ripe += is_ripe(world, row);
-        } else {
-            b->still[row] = 0;
-            b->quiet_vx[row] = vx;
-            b->quiet_vy[row] = vy;
-            b->quiet_w[row] = w;
+        real speed = square(b->vx[row]) + square(b->vy[row]) + square(b->w[row] * b->extent[row]);
+        if (!(speed <= slow) || b->still[row] < 0) {
+            begin_rest(b, row);
+            continue;
         }
+        b->still[row] += passed;
+        b->looked[row] += passed;
+        if (b->looked[row] >= half) {
+            look_at(world, b, row);
+        }
+        ripe += is_ripe(world, row);
     }
     world->sleep.ripe_count = ripe;
 }
@@ -86,7 +126,7 @@ static void unsettle_around_changed(plumb_world *world, uint32_t pair_count)
     for (uint32_t i = 0; i < pair_count; ++i) {
         uint32_t r = pairs[i].body_a, q = pairs[i].body_b;
         if (is_linked(&pairs[i]) && (b->changed_step[r] == now || b->changed_step[q] == now)) {
-            b->still[r] = b->still[q] = 0;
+            b->still[r] = b->still[q] = PL_UNSEEN;
         }
     }
 }
@@ -184,7 +224,7 @@ static uint32_t find_sleepers(plumb_world *world, uint32_t pair_count)
     uint32_t *parents = world->sleep.parents.data, count = 0;
     uint8_t *held = world->sleep.held.data;
     for (uint32_t row = 0; row < world->dynamic_count; ++row) {
-        parents[row] = is_ripe(world, row) ? row : PL_NONE;
+        parents[row] = is_ripe(world, row) && !is_pushed(world, row) ? row : PL_NONE;
         held[row] = 0;
     }
     link_members(world, pair_count);
@@ -341,8 +381,9 @@ bool pl_sleep_fall(plumb_world *world, real dt)
     const uint32_t pair_count = s->tested_step == step ? world->broad.pairs.count : 0;
     if (s->timed_step != step) {
         s->timed_step = step;
-        s->since += dt;
-        time_bodies(world, dt);
+        s->since += s->passed;
+        time_bodies(world, s->passed);
+        s->passed = dt;
         unsettle_around_changed(world, pair_count);
     }
     if (s->ripe_count == 0 || s->since * LOOKS < world->desc.sleep_time) {

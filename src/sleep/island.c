@@ -183,6 +183,9 @@ void pl_island_keep(plumb_world *world, uint32_t island, const pl_pair *pair,
     c->pair.flags &= PL_PAIR_TOUCHING;
     if (manifold != NULL) {
         c->manifold = *manifold;
+        for (int k = 0; k < 2; ++k) { // at rest, all substeps are alike
+            c->manifold.point[k].total = pair->normal[k] * (real)world->desc.substeps;
+        }
         count_in(i, manifold);
     }
     i->first_contact = slot;
@@ -259,10 +262,7 @@ uint32_t pl_sleep_put_down(plumb_world *world, uint32_t row)
 uint32_t pl_sleep_take_up(plumb_world *world, uint32_t row)
 {
     pl_bodies *b = &world->bodies;
-    b->still[row] = 0;
-    b->quiet_vx[row] = b->vx[row];
-    b->quiet_vy[row] = b->vy[row];
-    b->quiet_w[row] = b->w[row];
+    b->still[row] = PL_UNSEEN;
     for (uint32_t p = b->first_piece[row]; p != PL_NONE; p = world->pieces.next_in_body[p]) {
         pl_piece_move(world, p);
     }

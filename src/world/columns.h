@@ -34,8 +34,12 @@ typedef plumb_real real;
     X(uint32_t, first_joint)       /* joints of the body, newest first; PL_NONE ends */             \
     X(real, extent)                /* [m] farthest point of its shapes from the centre, at most */  \
     X(real, still)                 /* [s] for how long it has been slow (src/sleep) */              \
-    X(real, quiet_vx) X(real, quiet_vy) /* [m/s] velocity when that time began */                   \
-    X(real, quiet_w)               /* [rad/s] the same */                                           \
+    X(real, looked)                /* [s] since the last look at where it is */                     \
+    X(real, look_x) X(real, look_y) /* [m] its centre at that look */                               \
+    X(real, look_c) X(real, look_s) /* its rotation then */                                         \
+    X(real, way_x) X(real, way_y)  /* [m] between the last two looks */                             \
+    X(real, way_turn)              /* [rad] the same */                                             \
+    X(uint8_t, looks)              /* in this rest, up to 2 */                                      \
     X(uint32_t, island)            /* of a sleeping body; PL_NONE: awake */                         \
     X(uint32_t, next_asleep) X(uint32_t, previous_asleep) /* registry slots: bodies of the island */ \
     X(uint32_t, changed_step)      /* step count + 1 when an immovable body was last changed */     \
