@@ -29,6 +29,10 @@ typedef struct plumb_body_desc {
     plumb_real gravity_scale;    ///< [-] factor on gravity; 0 means 1 (see no_gravity)
     bool no_gravity;             ///< gravity does not act on this body
     bool fixed_rotation;         ///< the body never turns: infinite inertia
+    bool no_sleep;               ///< it never falls asleep, nor what it touches: see plumb/sleep.h
+    bool asleep;                 ///< dynamic, without velocity: it starts asleep, alone, and sleeps on while
+                                 ///< shapes and joints are added before the next step. In a world without
+                                 ///< sleeping it starts awake
     void *user_data;             ///< see plumb_body_user_data
 } plumb_body_desc;
 
@@ -122,7 +126,10 @@ PLUMB_API plumb_vec2 plumb_body_local_vector(const plumb_world *world, plumb_bod
 
 /// The body columns as they are stored: no copy. Rows are dense and partitioned: awake dynamic rows
 /// first, then kinematic, then asleep, then static. Valid until the next step or structural change.
-/// Velocities and forces may be written (rows below dynamic_count; kinematic velocities too).
+/// Rows keep their order but for these moves: a body that falls asleep becomes the first sleeping row, one
+/// that wakes the last awake one; the last row of each partition that lost one fills its gap.
+/// Velocities and forces may be written (rows below dynamic_count; kinematic velocities too). Those of
+/// sleeping rows must not be: nothing would wake the body, see plumb_body_wake and the setters.
 typedef struct plumb_body_span {
     int count;           ///< all rows
     int dynamic_count;   ///< rows [0, dynamic_count) are awake dynamic

@@ -14,6 +14,7 @@
 #include "plumb/joint.h"
 #include "plumb/ecs.h"
 #include "plumb/event.h"
+#include "plumb/sleep.h"
 #include "plumb/query.h"
 
 #endif

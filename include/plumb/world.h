@@ -48,6 +48,10 @@ typedef struct plumb_world_desc {
     plumb_real hit_speed;     ///< [m/s] >= 0; contacts that approach faster make hit events. Default 0: none
     bool contact_impulses;    ///< add up the impulses of each contact over the step (plumb_contact_point);
                               ///< done anyway where hit_speed is set
+    bool no_sleep;            ///< bodies at rest stay awake: see plumb/sleep.h
+    plumb_real sleep_speed;   ///< [m/s] >= 0; bodies slower than this rest, default 0.05: of v and w times
+                              ///< the farthest point of the body, the root of the sum of squares
+    plumb_real sleep_time;    ///< [s] >= 0; how long bodies must have rested to fall asleep, default 0.5
     int simd_width;           ///< lanes of the contact kernels: 4, 8 or 16; default 0 = best measured.
                               ///< A pure speed setting: every width gives the same bits
     uint32_t body_capacity;   ///< rows to reserve; 0: grow as needed
@@ -110,10 +114,12 @@ typedef struct plumb_stats {
     uint32_t dynamic_count;     ///< awake dynamic bodies
     uint32_t kinematic_count;   ///< kinematic bodies
     uint32_t static_count;      ///< static bodies
+    uint32_t asleep_count;      ///< sleeping dynamic bodies
+    uint32_t island_count;      ///< islands that sleep
     uint32_t shape_count;       ///< shapes as the user made them
     uint32_t piece_count;       ///< convex pieces of all shapes
-    uint32_t pair_count;        ///< pairs whose fat boxes overlap
-    uint32_t contact_count;     ///< pairs that touch (a manifold with at least one point)
+    uint32_t pair_count;        ///< pairs whose fat boxes overlap, and contacts of sleeping bodies
+    uint32_t contact_count;     ///< pairs that touch (a manifold with at least one point), asleep or not
     uint32_t point_count;       ///< manifold points of those
     uint32_t color_count;       ///< colours of the constraint graph
     uint32_t overflow_count;    ///< contacts that found no colour
@@ -128,7 +134,7 @@ typedef struct plumb_stats {
     size_t peak_bytes;          ///< [B] most memory ever held
 } plumb_stats;
 
-/// Counters of the last step. O(1).
+/// Counters of the last step; of sleeping bodies, as they were when they fell asleep. O(sleeping islands).
 PLUMB_API plumb_stats plumb_world_stats(const plumb_world *world);
 
 /// Mechanical state of all dynamic bodies, summed in double in row order. O(bodies).

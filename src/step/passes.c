@@ -61,7 +61,7 @@ static bool collision_wanted(const plumb_world *world, const char **reason)
 static bool sensing_wanted(const plumb_world *world, const char **reason)
 {
     bool wanted = world->sensor_pieces > 0 && world->moving_count > 0 && world->pieces.live > 1;
-    return say(wanted || world->sensing.count > 0, reason, "there are sensors",
+    return say(wanted || world->sensing.count > 0 || world->sensing.rest_stale, reason, "there are sensors",
                "no shape is a sensor that could meet another");
 }
 
@@ -77,7 +77,25 @@ static bool surfaces_wanted(const plumb_world *world, const char **reason)
 
 static bool joints_wanted(const plumb_world *world, const char **reason)
 {
+    if (world->joints.live > 0 && !pl_joints_any_awake(world)) {
+        return say(false, reason, "", "all that is joined sleeps");
+    }
     return say(world->joints.live > 0, reason, "there are joints", "there are no joints");
+}
+
+static bool waking_wanted(const plumb_world *world, const char **reason)
+{
+    return say(world->asleep_count > 0, reason, "some bodies sleep: what touches them wakes them",
+               "no body sleeps");
+}
+
+static bool sleep_wanted(const plumb_world *world, const char **reason)
+{
+    if (world->desc.no_sleep) {
+        return say(false, reason, "", "the world does not let bodies sleep");
+    }
+    return say(world->dynamic_count > 0, reason, "what rests long enough falls asleep",
+               "no dynamic body is awake");
 }
 
 // Contacts or joints.
@@ -147,6 +165,16 @@ static plumb_result run_forces(plumb_world *world, plumb_real dt)
     return PLUMB_OK;
 }
 
+static plumb_result run_waking(plumb_world *world, plumb_real dt)
+{
+    return pl_sleep_wake(world, dt) ? PLUMB_OK : PLUMB_E_MEMORY;
+}
+
+static plumb_result run_sleep(plumb_world *world, plumb_real dt)
+{
+    return pl_sleep_fall(world, dt) ? PLUMB_OK : PLUMB_E_MEMORY;
+}
+
 static plumb_result run_broad(plumb_world *world, plumb_real dt)
 {
     return pl_broad_update(world, dt) ? PLUMB_OK : PLUMB_E_MEMORY;
@@ -154,10 +182,10 @@ static plumb_result run_broad(plumb_world *world, plumb_real dt)
 
 static plumb_result run_narrow(plumb_world *world, plumb_real dt)
 {
-    if (!pl_narrow_reserve(world)) {
+    if (!pl_narrow_reserve(world, &world->broad.pairs, &world->narrow)) {
         return PLUMB_E_MEMORY;
     }
-    pl_narrow_run(world, dt);
+    pl_narrow_run(world, &world->broad.pairs, dt, &world->narrow);
     return pl_events_prepare(world) ? PLUMB_OK : PLUMB_E_MEMORY;
 }
 
@@ -243,10 +271,12 @@ const pl_pass pl_passes[] = {
     //name             phase       reads                              writes                       wanted            run
     { "begin systems", pl_user_phase, "declared by the systems",         "declared by the systems",   begin_wanted,     run_begin },
     { "force systems", pl_user_phase, "declared by the systems",         "declared by the systems",   forces_wanted,    run_forces },
+    { "waking",      "broad",    "islands, pieces, grids, joints",   "rows, pairs, fat boxes",     waking_wanted,    run_waking },
     { "broad phase",   "broad",    "poses, pieces",                   "fat boxes, grids, pairs",   broad_wanted,     run_broad },
-    { "sensor pairs",  "broad",    "pairs with sensors",              "candidates of sensors",     sensing_wanted,   run_candidates },
     { "narrow phase",  "narrow",   "pairs, poses, pieces, materials", "manifolds",                 collision_wanted, run_narrow },
     { "surfaces",      "narrow",   "pairs, materials",                "manifolds",                 surfaces_wanted,  run_surfaces },
+    { "sleep",       "narrow",   "velocities, pairs, joints",        "islands, rows, pairs, manifolds", sleep_wanted, run_sleep },
+    { "sensor pairs",  "narrow",   "pairs with sensors",              "candidates of sensors",     sensing_wanted,   run_candidates },
     { "contact systems", pl_user_phase, "declared by the systems",         "declared by the systems",   contacts_wanted,  run_contacts },
     { "graph",         "solve",    "manifolds, velocities, forces",   "solver bodies, colours",    solver_wanted,    run_graph },
     { "soft step",     "solve",    "manifolds, solver bodies",        "solver bodies, impulses",   soft_wanted,      run_soft },

@@ -17,6 +17,7 @@
 #include "plumb/event.h"
 #include "plumb/query.h"
 #include "solver/solver.h"
+#include "sleep/sleep.h"
 #include "step/pass.h"
 #include "world/columns.h"
 
@@ -64,7 +65,7 @@ struct plumb_world {
     pl_commands commands;
 
     // Lists and flags that structural changes keep up.
-    pl_buffer moving;      // uint32_t: pieces of dynamic and kinematic bodies, unordered
+    pl_buffer moving;      // uint32_t: pieces of awake dynamic and of kinematic bodies, unordered
     uint32_t moving_count;
     pl_buffer poses;       // pl_pose a body row
     bool rows_moved;       // body rows changed place: pairs must look their rows up again
@@ -74,7 +75,7 @@ struct plumb_world {
 
     // Counters behind `wanted`: how many pieces or bodies ask for an effect.
     uint32_t piece_kinds[PL_PIECE_KIND_COUNT]; // live pieces of each kind
-    uint32_t turning_bodies;                   // awake dynamic bodies with inverse inertia > 0
+    uint32_t turning_bodies;                   // dynamic bodies with inverse inertia > 0, asleep or not
 
     uint32_t sensor_pieces, filtered_pieces, part_pieces; // live pieces with the flag
 
@@ -98,6 +99,7 @@ struct plumb_world {
     pl_parts parts;
     pl_blows blows;
     pl_sensing sensing;
+    pl_sleep sleep;
 
     // Locking and errors.
     const char *locked_by; // name of the system or hook that runs; NULL: structural changes allowed

@@ -65,6 +65,8 @@ static plumb_result check_desc(const plumb_world *world, const char *fn, const p
         { "push_speed", d->push_speed },
         { "restitution_speed", d->restitution_speed },
         { "hit_speed", d->hit_speed },
+        { "sleep_speed", d->sleep_speed },
+        { "sleep_time", d->sleep_time },
     };
     for (size_t i = 0; i < sizeof fields / sizeof fields[0] && r == PLUMB_OK; ++i) {
         r = pl_check_range(world, fn, fields[i].name, fields[i].value, 0, PLUMB_REAL_MAX);
@@ -85,6 +87,7 @@ static void resolve_defaults(plumb_world_desc *d)
     d->push_speed = d->push_speed > 0 ? d->push_speed : SOFT_PUSH_SPEED;
     d->simd_width = pl_solver_best_width(d->simd_width);
     d->workers = d->workers != 0 ? d->workers : 1;
+    pl_sleep_resolve(d);
 }
 
 //---- create, destroy
@@ -96,6 +99,7 @@ static void init_tables(plumb_world *world)
     pl_pool_init(&world->vertices);
     world->pieces.free_head = PL_NONE;
     world->joints.free_head = PL_NONE;
+    world->sleep.first_due = PL_NONE;
     world->schedule_dirty = true;
 }
 
@@ -165,6 +169,7 @@ static void free_world(plumb_world *world)
     pl_parts_free(&memory, &world->parts);
     pl_blows_free(&memory, &world->blows);
     pl_sensing_free(&memory, &world->sensing);
+    pl_sleep_free(&memory, &world->sleep);
     pl_resize(&memory, world, sizeof *world, 0);
 }
 
@@ -236,6 +241,9 @@ plumb_result plumb_world_set_gravity(plumb_world *world, plumb_vec2 gravity)
         return PLUMB_E_NULL;
     }
     plumb_result r = pl_check_finite_vec(world, __func__, "gravity", gravity);
+    if (r == PLUMB_OK && (gravity.x != world->gravity.x || gravity.y != world->gravity.y)) {
+        pl_sleep_disturb_all(world);
+    }
     if (r == PLUMB_OK) {
         world->gravity = world->desc.gravity = gravity;
         world->desc.zero_gravity = gravity.x == 0 && gravity.y == 0;
@@ -263,12 +271,28 @@ void *plumb_world_user_data(const plumb_world *world)
 //---- sums
 //-----------------------------------------------------------------------------------------
 
+// The summary of contacts that sleep, as it was when they fell asleep.
+static void add_sleeping(const plumb_world *world, pl_narrow *sum)
+{
+    for (uint32_t k = 0; k < world->sleep.island_slots; ++k) {
+        const pl_island *i = &pl_islands(&world->sleep)[k]; // a free slot has no contacts
+        sum->touching_count += i->touching_count;
+        sum->point_count += i->point_count;
+        sum->sum_penetration += i->sum_penetration;
+        if (i->max_penetration > sum->max_penetration) {
+            sum->max_penetration = i->max_penetration;
+        }
+    }
+}
+
 plumb_stats plumb_world_stats(const plumb_world *world)
 {
     if (world == NULL) {
         return (plumb_stats){ 0 };
     }
     uint32_t bodies = world->bodies.table.count;
+    pl_narrow all = world->narrow;
+    add_sleeping(world, &all);
     return (plumb_stats){
         .step_count = world->step_count,
         .time = world->time,
@@ -276,22 +300,22 @@ plumb_stats plumb_world_stats(const plumb_world *world)
         .dynamic_count = world->dynamic_count,
         .kinematic_count = world->kinematic_count,
         .static_count = bodies - pl_partition_first(world, PL_PART_STATIC),
+        .asleep_count = world->asleep_count,
+        .island_count = world->sleep.island_count,
         .shape_count = world->shape_count,
         .piece_count = world->pieces.live,
-        .pair_count = world->broad.pairs.count,
-        .contact_count = world->narrow.touching_count,
-        .point_count = world->narrow.point_count,
+        .pair_count = world->broad.pairs.count + world->sleep.contact_count,
+        .contact_count = all.touching_count,
+        .point_count = all.point_count,
         .color_count = world->solver.color_count,
         .overflow_count = world->solver.overflow_count,
         .grid_rebuilds = (uint32_t)world->broad.rebuilds,
         .bounce_count = world->solver.bounce_count,
         .arrested_count = world->arrested_count,
         .simd_width = world->desc.simd_width,
-        .max_penetration = world->narrow.max_penetration,
+        .max_penetration = all.max_penetration,
         .mean_penetration =
-            world->narrow.touching_count > 0
-                ? (real)(world->narrow.sum_penetration / world->narrow.touching_count)
-                : 0,
+            all.touching_count > 0 ? (real)(all.sum_penetration / all.touching_count) : 0,
         .bytes = world->memory.bytes,
         .peak_bytes = world->memory.peak,
     };

@@ -418,7 +418,8 @@ static void test_json_round_trip(void **state)
              "body{ type = 'static', chain{{-5, 0}, {-6, 1}, closed = false}, segment{{5, 0}, {6, "
              "1}, material = m}, hidden = true }\n"
              "body{ regular(5, 0.4), polygon{{0, 0}, {1, 0}, {0, 1}, round = 0.1}, at = {-2, 3}, "
-             "fixed_rotation = true }\n"
+             "fixed_rotation = true, sleep = false }\n"
+             "body{ circle(1), at = {40, 40}, asleep = true }\n"
              "camera{ fit = {{-5, 0}, {5, 5}} }\nexpect{ 'x', at = 2, max_speed = 100 }\nexpect{ "
              "'y', body = 'body2', x = {-9, 9} }");
     check_round_trip(s);

@@ -345,6 +345,25 @@ static int method_apply_angular_impulse(lua_State *L)
         &c, plumb_body_apply_angular_impulse(c.world, c.entity, (plumb_real)finite_number(L, 2)));
 }
 
+static int method_awake(lua_State *L)
+{
+    call c = self(L, "awake");
+    lua_pushboolean(L, plumb_body_is_awake(c.world, c.entity));
+    return 1;
+}
+
+static int method_wake(lua_State *L)
+{
+    call c = self(L, "wake");
+    return check(&c, plumb_body_wake(c.world, c.entity));
+}
+
+static int method_sleep(lua_State *L)
+{
+    call c = self(L, "sleep");
+    return check(&c, plumb_body_sleep(c.world, c.entity));
+}
+
 static int method_destroy(lua_State *L)
 {
     call c = self(L, "destroy");
@@ -362,6 +381,7 @@ static const luaL_Reg methods[] = {
     { "apply_force", method_apply_force },
     { "apply_impulse", method_apply_impulse },
     { "apply_torque", method_apply_torque },
+    { "awake", method_awake },
     { "center", method_center },
     { "destroy", method_destroy },
     { "inertia", method_inertia },
@@ -375,11 +395,13 @@ static const luaL_Reg methods[] = {
     { "set_mass", method_set_mass },
     { "set_spin", method_set_spin },
     { "set_velocity", method_set_velocity },
+    { "sleep", method_sleep },
     { "speed", method_speed },
     { "spin", method_spin },
     { "teleport", method_teleport },
     { "type", method_type },
     { "velocity", method_velocity },
+    { "wake", method_wake },
     { NULL, NULL },
 };
 

@@ -26,6 +26,7 @@ static const sc_field scene_rows[] = {
     { "restitution_speed", SC_NUMBER,  AT(T, restitution_speed), 0, 1e6, "m/s", 0, 0 },
     { "seed",              SC_INTEGER, AT(T, seed),              0, 9007199254740991.0, "1", 0, 0 },
     { "simd_width",        SC_INTEGER, AT(T, simd_width),        0, 16, "1", 0, 0 },
+    { "sleep",             SC_BOOL,    AT(T, sleep),             0, 0, NULL, 0, 0 },
     { "solver",            SC_CHOICE,  AT(T, solver),            0, 0, "soft|pgs", 0, 0 },
     { "substeps",          SC_INTEGER, AT(T, substeps),          1, 64, "1", 0, 0 },
     { "title",             SC_STRING,  AT(T, title),             0, 0, NULL, 0, 0 },
@@ -48,6 +49,7 @@ const sc_list sc_list_material = { "material", material_rows, COUNT(material_row
 static const sc_field body_rows[] = {
     { "angle",          SC_NUMBER,   AT(T, angle),         -BIG, BIG, "rad", 0, 0 },
     { "angle_deg",      SC_NUMBER,   AT(T, angle_deg),     -BIG, BIG, "deg", 0, 0 },
+    { "asleep",         SC_BOOL,     AT(T, asleep),        0, 0, NULL, 0, 0 },
     { "at",             SC_VEC2,     AT(T, at),            -FAR, FAR, "m", 0, 0 },
     { "color",          SC_COLOR,    AT(T, color),         0, 0, NULL, 0, 0 },
     { "density",        SC_NUMBER,   AT(T, density),       0, 1e9, "kg/m^2", 0, SC_ABOVE },
@@ -59,6 +61,7 @@ static const sc_field body_rows[] = {
     { "material",       SC_MATERIAL, AT(T, material),      0, 0, NULL, 0, 0 },
     { "name",           SC_STRING,   AT(T, name),          0, 0, NULL, 0, 0 },
     { "shapes",         SC_SHAPES,   AT(T, shape_count),   0, 0, NULL, SC_REST, 0 },
+    { "sleep",          SC_BOOL,     AT(T, sleep),         0, 0, NULL, 0, 0 },
     { "spin",           SC_NUMBER,   AT(T, spin),          -1e6, 1e6, "rad/s", 0, 0 },
     { "type",           SC_CHOICE,   AT(T, type),          0, 0, "dynamic|kinematic|static", 0, 0 },
     { "user",           SC_TABLE,    AT(T, user),          0, 0, NULL, 0, 0 },
