@@ -27,6 +27,8 @@ static void forget_contacts(plumb_world *world)
     world->narrow.any_friction = world->narrow.any_bounce = false;
     world->solver.slot_count = 0;
     world->joints.broken_count = 0;
+    world->continuous.count = world->continuous.stopped_count = 0;
+    world->continuous.noting = false;
 }
 
 static plumb_result run_passes(plumb_world *world, plumb_real dt)

@@ -29,6 +29,8 @@ typedef plumb_real real;
     X(real, gravity_scale)         /* [-] */                                                        \
     X(real, mass) X(real, inertia) /* [kg], [kg m^2]; kept also where the inverses are 0 */         \
     X(real, set_mass) X(real, set_inertia) /* given by the user; 0: from the shapes */              \
+    X(real, extent)                /* [m] farthest point of a solid shape from the centre of mass */ \
+    X(real, slack)                 /* [m] motion in a step that lets it pass nothing: see extent.c */ \
     X(void *, user_data)                                                                            \
     X(uint32_t, first_piece)       /* pieces of the body, newest shape first; PL_NONE ends */       \
     X(uint32_t, first_joint)       /* joints of the body, newest first; PL_NONE ends */             \
@@ -36,6 +38,8 @@ typedef plumb_real real;
     X(uint8_t, flags)              /* PL_BODY_... */
 
 #define PL_BODY_FIXED_ROTATION 1u
+#define PL_BODY_RECRUITED      32u  // on its way into the list of movers; only within the continuous pass
+#define PL_BODY_CONTINUOUS     64u  // never passes through moving bodies either
 #define PL_BODY_EXCLUDING      128u // it is in the table of excluded pairs, or was once
 
 // Pieces: the convex parts of shapes, what the broad and narrow phase see. Slots are stable for the
