@@ -21,6 +21,8 @@
 
 // Rounds among moving bodies; a pile-up that takes longer stays where it was for one step.
 #define MOST_ROUNDS 64
+// A body deeper than this share of its slack is swept even if it moves slowly.
+#define PRESSED_SHARE ((real)0.5)
 // [-] of a step: stopping earlier by less is no change.
 #define TINY_TIME 1e-9
 
@@ -184,6 +186,27 @@ static uint32_t mark_recruits(plumb_world *world)
     return r.count;
 }
 
+// Slow bodies that are pressed deep into what dynamics does not move might be through it in a step or
+// two: they are held as fast ones are.
+static uint32_t mark_pressed(plumb_world *world)
+{
+    uint32_t count = 0;
+    const pl_bodies *b = &world->bodies;
+    for (uint32_t i = 0; i < world->narrow.manifold_count; ++i) {
+        const pl_manifold *m = &pl_manifolds(&world->narrow)[i];
+        bool a_moves = m->body_a < world->dynamic_count, b_moves = m->body_b < world->dynamic_count;
+        uint32_t row = a_moves ? m->body_a : m->body_b;
+        real s0 = m->point[0].separation, s1 = m->point[1].separation;
+        real depth = s0 < s1 ? -s0 : -s1;
+        if (a_moves != b_moves && depth > b->slack[row] * PRESSED_SHARE &&
+            (b->flags[row] & PL_BODY_RECRUITED) == 0 && find_mover(world, row) == NULL) {
+            b->flags[row] |= PL_BODY_RECRUITED;
+            ++count;
+        }
+    }
+    return count;
+}
+
 static pl_mover recruit(plumb_world *world, uint32_t row, real dt)
 {
     pl_course course = pl_course_of_row(world, row, dt, 0, 0);
@@ -230,8 +253,9 @@ typedef struct search {
     double first;    // the first hit so far; only what comes before it matters
     // Among moving bodies:
     real dt;
-    bool among_kinematic; // looks for kinematic bodies; otherwise for dynamic ones where either asks
-    uint32_t partner;     // row of the body that is hit first
+    bool
+        among_kinematic; // looks for kinematic bodies; otherwise for dynamic ones where either asks
+    uint32_t partner;    // row of the body that is hit first
 } search;
 
 static search search_of(const plumb_world *world, const pl_mover *mover)
@@ -269,8 +293,8 @@ static bool goes_by(const search *s, const pl_box *box)
 
 static pl_swept still_piece(const search *s, uint32_t piece)
 {
-    pl_course course = pl_course_of_row(s->world, s->world->pieces.body[piece], 0, s->course.ox,
-                                        s->course.oy);
+    pl_course course =
+        pl_course_of_row(s->world, s->world->pieces.body[piece], 0, s->course.ox, s->course.oy);
     return pl_course_piece(s->world, piece, &course);
 }
 
@@ -605,12 +629,15 @@ static void finish(plumb_world *world, real dt)
 
 void pl_continuous_run(plumb_world *world, real dt)
 {
-    if (world->continuous.count == 0) {
+    const pl_continuous *c = &world->continuous;
+    uint32_t recruits = world->kinematic_count > 0 ? mark_recruits(world) : 0;
+    if (world->narrow.max_penetration > c->least_slack * PRESSED_SHARE) {
+        recruits += mark_pressed(world);
+    }
+    if (c->count + recruits == 0) {
         return;
     }
-    if (world->kinematic_count > 0) {
-        join_recruits(world, dt, mark_recruits(world));
-    }
+    join_recruits(world, dt, recruits);
     if (world->kinematic_count > 0 || world->continuous_bodies > 0) {
         find_strays(world);
     }

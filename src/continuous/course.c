@@ -61,11 +61,9 @@ static pl_place place_now(const plumb_world *world, uint32_t row)
 static pl_course course_between(const plumb_world *world, uint32_t row, plumb_vec2 pivot,
                                 pl_place from, pl_place to, double angle)
 {
-    pl_course course = { .lx = (double)pivot.x,
-                         .ly = (double)pivot.y,
-                         .c = from.c,
-                         .s = from.s,
-                         .angle = angle };
+    pl_course course = {
+        .lx = (double)pivot.x, .ly = (double)pivot.y, .c = from.c, .s = from.s, .angle = angle
+    };
     double rx = course.lx - (double)world->bodies.local_x[row];
     double ry = course.ly - (double)world->bodies.local_y[row];
     double x1 = to.x + to.c * rx - to.s * ry;

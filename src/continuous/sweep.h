@@ -10,9 +10,9 @@
 // A rounded convex piece on its way through the step: its pivot moves in a straight line while the
 // piece turns about it, both at a constant rate over time 0..1.
 typedef struct pl_swept {
-    int count;                             // core points, 1..16, counter-clockwise
-    double radius;                         // [m] around the core
-    double x[PLUMB_POLYGON_MAX_VERTICES];  // [m] core points from the pivot, in world axes at time 0
+    int count;                            // core points, 1..16, counter-clockwise
+    double radius;                        // [m] around the core
+    double x[PLUMB_POLYGON_MAX_VERTICES]; // [m] core points from the pivot, in world axes at time 0
     double y[PLUMB_POLYGON_MAX_VERTICES];
     double px, py; // [m] pivot at time 0; both pieces from the same origin
     double dx, dy; // [m] way of the pivot from 0 to 1

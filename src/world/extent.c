@@ -82,4 +82,7 @@ void pl_extent_revise(plumb_world *world, uint32_t row)
     }
     b->extent[row] = extent;
     b->slack[row] = half < PLUMB_REAL_MAX ? half * SLACK_SHARE : PLUMB_REAL_MAX;
+    if (b->slack[row] < world->continuous.least_slack) {
+        world->continuous.least_slack = b->slack[row];
+    }
 }

@@ -94,6 +94,7 @@ static void init_tables(plumb_world *world)
     pl_pool_init(&world->vertices);
     world->pieces.free_head = PL_NONE;
     world->joints.free_head = PL_NONE;
+    world->continuous.least_slack = PLUMB_REAL_MAX;
     world->schedule_dirty = true;
 }
 

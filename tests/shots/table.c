@@ -30,9 +30,12 @@ struct target {
 };
 
 static const struct target targets[] = {
-    { SHOT_BOXES, 0.001, "boxes, 1 mm" },   { SHOT_BOXES, 0.003, "boxes, 3 mm" },
-    { SHOT_BOXES, 0.010, "boxes, 10 mm" },  { SHOT_BOXES, 0.030, "boxes, 30 mm" },
-    { SHOT_BOXES, 0.100, "boxes, 100 mm" }, { SHOT_SEGMENTS, 0, "segments" },
+    { SHOT_BOXES, 0.001, "boxes, 1 mm" },
+    { SHOT_BOXES, 0.003, "boxes, 3 mm" },
+    { SHOT_BOXES, 0.010, "boxes, 10 mm" },
+    { SHOT_BOXES, 0.030, "boxes, 30 mm" },
+    { SHOT_BOXES, 0.100, "boxes, 100 mm" },
+    { SHOT_SEGMENTS, 0, "segments" },
     { SHOT_CHAIN, 0, "chain" },
 };
 
