@@ -73,6 +73,7 @@ plumb_result plumb_world_step(plumb_world *world, plumb_real dt)
         return result;
     }
     pl_events_clear(world);
+    pl_edits_forget(world);
     forget_contacts(world);
     // Systems with `needs` come and go with their component, which is no structural change of
     // physics.
