@@ -33,6 +33,8 @@ typedef struct plumb_body_desc {
     bool asleep;                 ///< dynamic, without velocity: it starts asleep, alone, and sleeps on while
                                  ///< shapes and joints are added before the next step. In a world without
                                  ///< sleeping it starts awake
+    bool continuous;             ///< dynamic bodies: however fast, this body and other dynamic ones do not
+                                 ///< pass through each other (static and kinematic ones are never passed)
     void *user_data;             ///< see plumb_body_user_data
 } plumb_body_desc;
 
@@ -104,6 +106,11 @@ PLUMB_API plumb_result plumb_body_set_mass(plumb_world *world, plumb_body body, 
 PLUMB_API plumb_result plumb_body_reset_mass(plumb_world *world, plumb_body body);
 /// Forbids or allows turning. Errors: E_HANDLE, E_STATE (not dynamic).
 PLUMB_API plumb_result plumb_body_set_fixed_rotation(plumb_world *world, plumb_body body, bool fixed);
+/// Whether it and other dynamic bodies, however fast, do not pass through each other: see
+/// plumb_body_desc.continuous. Costs a search among what moves nearby in steps in which either moves
+/// fast. Errors: E_HANDLE, E_STATE (not dynamic).
+PLUMB_API plumb_result plumb_body_set_continuous(plumb_world *world, plumb_body body, bool continuous);
+PLUMB_API bool plumb_body_is_continuous(const plumb_world *world, plumb_body body);
 /// Sets the factor on gravity [-], finite; 0 is none. Errors: E_HANDLE, E_NOT_FINITE.
 PLUMB_API plumb_result plumb_body_set_gravity_scale(plumb_world *world, plumb_body body, plumb_real scale);
 PLUMB_API plumb_real plumb_body_gravity_scale(const plumb_world *world, plumb_body body);

@@ -52,6 +52,8 @@ typedef struct plumb_world_desc {
     plumb_real sleep_speed;   ///< [m/s] >= 0; bodies slower than this rest, default 0.05: of v and w times
                               ///< the farthest point of the body, the root of the sum of squares
     plumb_real sleep_time;    ///< [s] >= 0; how long bodies must have rested to fall asleep, default 0.5
+    bool no_continuous;       ///< bodies that move fast may pass through thin things: no sweeps. For worlds
+                              ///< in which it does not matter; bodies that move slowly cost nothing anyway
     int simd_width;           ///< lanes of the contact kernels: 4, 8 or 16; default 0 = best measured.
                               ///< A pure speed setting: every width gives the same bits
     uint32_t body_capacity;   ///< rows to reserve; 0: grow as needed
@@ -127,6 +129,8 @@ typedef struct plumb_stats {
     uint32_t bounce_count;      ///< impacts resolved with restitution in the last step
     uint32_t arrested_count;    ///< bodies stopped in all, because a step would have left them with a state
                                 ///< that is not finite or beyond 1e12 m or m/s; each is told to the log
+    uint32_t fast_count;        ///< bodies that moved so fast in the last step that their way was swept
+    uint32_t stopped_count;     ///< of those, bodies put back to where they would have passed into something
     int simd_width;             ///< lanes in use
     plumb_real max_penetration; ///< [m] deepest overlap after the last step's narrow phase, >= 0
     plumb_real mean_penetration;///< [m] mean over touching contacts of the deeper point, 0 if apart

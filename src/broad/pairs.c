@@ -128,6 +128,25 @@ static uint64_t key_of(uint32_t a, uint32_t b)
     return a < b ? ((uint64_t)a << 32 | b) : ((uint64_t)b << 32 | a);
 }
 
+pl_pair *pl_pairs_find_one(const plumb_world *world, uint32_t p, uint32_t q)
+{
+    const pl_pair_list *list = &world->broad.pairs;
+    uint8_t kind_p = world->pieces.kind[p], kind_q = world->pieces.kind[q];
+    uint8_t a = kind_p < kind_q ? kind_p : kind_q, b = kind_p < kind_q ? kind_q : kind_p;
+    pl_pair *pairs = pl_pairs(list) + list->first[a][b];
+    uint32_t low = 0, high = list->size[a][b];
+    while (low < high) {
+        uint32_t middle = low + (high - low) / 2;
+        if (key_of(pairs[middle].a, pairs[middle].b) < key_of(p, q)) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    bool found = low < list->size[a][b] && key_of(pairs[low].a, pairs[low].b) == key_of(p, q);
+    return found ? &pairs[low] : NULL;
+}
+
 typedef struct carry {
     const pl_pair *old;
     uint32_t next[PL_PIECE_KIND_COUNT][PL_PIECE_KIND_COUNT]; // cursor into the old list

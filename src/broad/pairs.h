@@ -11,6 +11,9 @@ typedef struct pl_found {
 // Rebuilds the pair list from the grids. False when out of memory; the old list then stands.
 bool pl_pairs_rebuild(plumb_world *world);
 
+// The pair of two pieces; NULL if their fat boxes do not overlap or they may not meet. O(log pairs).
+pl_pair *pl_pairs_find_one(const plumb_world *world, uint32_t p, uint32_t q);
+
 // Fills broad->found with every pair of fat boxes that overlap and may collide (pair_find.c).
 bool pl_pairs_find(plumb_world *world);
 

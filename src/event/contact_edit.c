@@ -2,7 +2,7 @@
 //
 // An edit writes the manifold itself, which the solver reads next. What was disabled is taken out
 // of the list when the systems are through, so that neither solver nor events know of it; the pair
-// forgets its impulses. Reads, writes: manifolds, pairs. Cost: O(1) an edit, O(manifolds) a step in
+// forgets its impulses and is waived for the rest of the step: sweeps let it pass too. Reads, writes: manifolds, pairs. Cost: O(1) an edit, O(manifolds) a step in
 // which something was edited; nothing where no system of the phase is registered.
 #include "event/event.h"
 #include "narrow/surface.h"
@@ -93,6 +93,15 @@ plumb_result plumb_contact_edit_set(plumb_world *world, int i, const plumb_conta
     return PLUMB_OK;
 }
 
+void pl_edits_forget(plumb_world *world)
+{
+    pl_pair *pairs = pl_pairs(&world->broad.pairs);
+    for (uint32_t i = 0; world->edited && i < world->broad.pairs.count; ++i) {
+        pairs[i].flags &= ~PL_PAIR_WAIVED;
+    }
+    world->edited = false;
+}
+
 void pl_edits_open(plumb_world *world)
 {
     pl_manifold *m = pl_manifolds(&world->narrow);
@@ -106,6 +115,7 @@ void pl_edits_open(plumb_world *world)
 static void take_out(pl_pair *pair)
 {
     pair->manifold = PL_NONE;
+    pair->flags |= PL_PAIR_WAIVED;
     pair->rolling = 0;
     for (int k = 0; k < 2; ++k) {
         pair->feature[k] = PL_NONE;

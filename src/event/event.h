@@ -61,6 +61,8 @@ void pl_sensing_free(pl_memory *memory, pl_sensing *sensing);
 
 // Contact systems are about to run, have run: edits are allowed in between (contact_edit.c).
 void pl_edits_open(plumb_world *world);
+// What was edited in the step before no longer holds.
+void pl_edits_forget(plumb_world *world);
 void pl_edits_close(plumb_world *world);
 
 #endif

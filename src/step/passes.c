@@ -4,6 +4,7 @@
 // pass that nothing in the world wants is not in the schedule and costs nothing. A pass that
 // changes the world's motion comes after the last one that can run out of memory, so a refused step
 // changes nothing.
+#include "continuous/continuous.h"
 #include "event/event.h"
 #include "narrow/narrow.h"
 #include "narrow/surface.h"
@@ -128,6 +129,11 @@ static bool rotation_wanted(const plumb_world *world, const char **reason)
                "no dynamic body can turn");
 }
 
+static bool continuous_wanted(const plumb_world *world, const char **reason)
+{
+    return collision_wanted(world, reason) && pl_continuous_wanted(world, reason);
+}
+
 // A material that some shape is made of.
 static bool any_material(const plumb_world *world, const real *column)
 {
@@ -220,7 +226,10 @@ static plumb_result run_contacts(plumb_world *world, plumb_real dt)
 static plumb_result run_graph(plumb_world *world, plumb_real dt)
 {
     (void)dt;
-    return pl_solver_graph(world) ? PLUMB_OK : PLUMB_E_MEMORY;
+    const char *unused;
+    bool room = pl_solver_graph(world) &&
+                (!continuous_wanted(world, &unused) || pl_continuous_reserve(world));
+    return room ? PLUMB_OK : PLUMB_E_MEMORY;
 }
 
 static plumb_result run_soft(plumb_world *world, plumb_real dt)
@@ -240,6 +249,12 @@ static plumb_result run_motion(plumb_world *world, plumb_real dt)
     pl_solver_finish(world, dt);
     world->time += (double)dt;
     ++world->step_count;
+    return PLUMB_OK;
+}
+
+static plumb_result run_continuous(plumb_world *world, plumb_real dt)
+{
+    pl_continuous_run(world, dt);
     return PLUMB_OK;
 }
 
@@ -286,6 +301,7 @@ const pl_pass pl_passes[] = {
     { "- impacts",     "solve",    "materials, manifolds",            "solver bodies",             impacts_wanted,   NULL },
     { "- joints",      "solve",    "joints, poses",                   "solver bodies, joints",     joints_wanted,    NULL },
     { "motion",        "finish",   "solver bodies, forces, gravity",  "transforms, velocities",    NULL,             run_motion },
+    { "continuous",    "finish",   "bodies that moved fast, pieces",  "transforms",                continuous_wanted, run_continuous },
     { "reactions",     "finish",   "joints, poses",                   "joints, break events",      joints_wanted,    run_reactions },
     { "events",        "finish",   "pairs, manifolds",                "event arrays",              collision_wanted, run_events },
     { "sensors",       "finish",   "candidates, poses, pieces",       "overlaps, sensor events",   sensing_wanted,   run_sensors },

@@ -28,6 +28,8 @@ static void forget_contacts(plumb_world *world)
     world->solver.slot_count = 0;
     world->joints.broken_count = 0;
     world->broad.refreshed = false;
+    world->continuous.count = world->continuous.stopped_count = 0;
+    world->continuous.noting = false;
 }
 
 static plumb_result run_passes(plumb_world *world, plumb_real dt)
@@ -76,6 +78,7 @@ plumb_result plumb_world_step(plumb_world *world, plumb_real dt)
         return result;
     }
     pl_events_clear(world);
+    pl_edits_forget(world);
     forget_contacts(world);
     // Systems with `needs` come and go with their component, which is no structural change of
     // physics.

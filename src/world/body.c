@@ -79,9 +79,23 @@ plumb_result pl_body_check(const plumb_world *world, const char *fn, const plumb
     r = pl_place_check(world, fn, desc->position, desc->angle);
     r = r != PLUMB_OK ? r : check_motion(world, fn, desc);
     r = r != PLUMB_OK ? r : check_sleep(world, fn, desc);
+    if (r == PLUMB_OK && desc->continuous && desc->type != PLUMB_DYNAMIC) {
+        r = pl_fail(world, PLUMB_E_RANGE, fn, "continuous is true; it must be false for a %s body",
+                    desc->type == PLUMB_STATIC ? "static" : "kinematic");
+    }
     r = r != PLUMB_OK ? r : check_mass(world, fn, "mass", desc->mass);
     r = r != PLUMB_OK ? r : check_mass(world, fn, "inertia", desc->inertia);
     return r != PLUMB_OK ? r : pl_check_finite(world, fn, "gravity_scale", desc->gravity_scale);
+}
+
+static void set_continuous(plumb_world *world, uint32_t row, bool continuous)
+{
+    uint8_t *flags = &world->bodies.flags[row];
+    uint32_t was = (*flags & PL_BODY_CONTINUOUS) != 0;
+    *flags = (uint8_t)(continuous ? *flags | PL_BODY_CONTINUOUS
+                                  : *flags & (uint8_t)~PL_BODY_CONTINUOUS);
+    world->continuous_bodies += (continuous ? 1u : 0u) - was;
+    world->schedule_dirty = true;
 }
 
 static void fill_row(plumb_world *world, uint32_t row, const plumb_body_desc *desc)
@@ -90,6 +104,7 @@ static void fill_row(plumb_world *world, uint32_t row, const plumb_body_desc *de
     b->type[row] = (uint8_t)desc->type;
     b->flags[row] = (uint8_t)((desc->fixed_rotation ? PL_BODY_FIXED_ROTATION : 0) |
                               (desc->no_sleep ? PL_BODY_NO_SLEEP : 0));
+    set_continuous(world, row, desc->continuous);
     b->vx[row] = desc->velocity.x;
     b->vy[row] = desc->velocity.y;
     b->w[row] = desc->angular_velocity;
@@ -302,6 +317,16 @@ plumb_result plumb_body_set_fixed_rotation(plumb_world *world, plumb_body body, 
     }
     pl_mass_revise(world, row);
     return PLUMB_OK;
+}
+
+plumb_result plumb_body_set_continuous(plumb_world *world, plumb_body body, bool continuous)
+{
+    uint32_t row;
+    plumb_result r = pl_check_dynamic(world, __func__, body, &row);
+    if (r == PLUMB_OK) {
+        set_continuous(world, row, continuous);
+    }
+    return r;
 }
 
 //---- the rest

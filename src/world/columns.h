@@ -29,10 +29,11 @@ typedef plumb_real real;
     X(real, gravity_scale)         /* [-] */                                                        \
     X(real, mass) X(real, inertia) /* [kg], [kg m^2]; kept also where the inverses are 0 */         \
     X(real, set_mass) X(real, set_inertia) /* given by the user; 0: from the shapes */              \
+    X(real, extent)                /* [m] farthest point of a solid shape from the centre of mass; at least the radius of gyration */ \
+    X(real, slack)                 /* [m] motion in a step that lets it pass nothing: see extent.c */ \
     X(void *, user_data)                                                                            \
     X(uint32_t, first_piece)       /* pieces of the body, newest shape first; PL_NONE ends */       \
     X(uint32_t, first_joint)       /* joints of the body, newest first; PL_NONE ends */             \
-    X(real, extent)                /* [m] farthest point of its shapes from the centre, at most */  \
     X(real, still)                 /* [s] for how long it has been slow (src/sleep) */              \
     X(real, looked)                /* [s] since the last look at where it is */                     \
     X(real, look_x) X(real, look_y) /* [m] its centre at that look */                               \
@@ -49,6 +50,8 @@ typedef plumb_real real;
 #define PL_BODY_FIXED_ROTATION 1u
 #define PL_BODY_NO_SLEEP       32u  // it never falls asleep
 #define PL_BODY_STIRRING       64u  // kinematic: it moves, or was changed, and wakes what it touches
+#define PL_BODY_RECRUITED      8u   // on its way into the list of movers; only within the continuous pass
+#define PL_BODY_CONTINUOUS     16u  // never passes through moving bodies either
 #define PL_BODY_EXCLUDING      128u // it is in the table of excluded pairs, or was once
 
 // Pieces: the convex parts of shapes, what the broad and narrow phase see. Slots are stable for the

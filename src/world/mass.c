@@ -93,26 +93,15 @@ void pl_mass_apply(plumb_world *world, uint32_t row, const pl_body_mass *mass)
     }
 }
 
-// How far its farthest point may be from its centre: of what turning is worth in speed.
-static void measure_extent(plumb_world *world, uint32_t row)
-{
-    pl_bodies *b = &world->bodies;
-    real reach = 0;
-    for (uint32_t p = b->first_piece[row]; p != PL_NONE; p = world->pieces.next_in_body[p]) {
-        reach = plumb_max(reach, world->pieces.core[p].reach);
-    }
-    reach += plumb_vec2_magnitude(plumb_v2(b->local_x[row], b->local_y[row]));
-    b->extent[row] = plumb_max(reach, plumb_sqrt(b->inertia[row] / b->mass[row]));
-}
-
 void pl_mass_revise(plumb_world *world, uint32_t row)
 {
     if (world->bodies.type[row] != PLUMB_DYNAMIC) {
+        pl_extent_revise(world, row);
         return;
     }
     pl_mass_sum sum = pl_mass_of_shapes(world, row);
     pl_body_mass mass;
     pl_mass_resolve(&sum, world->bodies.set_mass[row], world->bodies.set_inertia[row], &mass);
     pl_mass_apply(world, row, &mass);
-    measure_extent(world, row);
+    pl_extent_revise(world, row);
 }

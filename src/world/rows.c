@@ -158,6 +158,7 @@ void pl_row_close(plumb_world *world, uint32_t row)
     if (world->bodies.inv_inertia[row] > 0) {
         --world->turning_bodies;
     }
+    world->continuous_bodies -= (world->bodies.flags[row] & PL_BODY_CONTINUOUS) != 0;
     int partition = PL_PART_AWAKE;
     while (row >= pl_partition_first(world, (pl_partition)(partition + 1))) {
         ++partition;

@@ -116,6 +116,15 @@ void pl_mass_apply(plumb_world *world, uint32_t row, const pl_body_mass *mass);
 // All of that for a body whose shapes have changed; static and kinematic ones have no mass.
 void pl_mass_revise(plumb_world *world, uint32_t row);
 
+//---- size (extent.c)
+//---------------------------------------------------------------------------------
+
+// [m] half the least width of a piece, rounding included; 0 for segments. Inner cuts of an outline
+// are no sides where `seams` says so; without any side, PLUMB_REAL_MAX.
+real pl_piece_half_width(const plumb_world *world, uint32_t piece, bool seams);
+// Extent and slack of a dynamic or kinematic body whose shapes or centre have changed.
+void pl_extent_revise(plumb_world *world, uint32_t row);
+
 //---- making shapes (shape_make.c)
 //-----------------------------------------------------------------
 

@@ -7,6 +7,7 @@
 
 #include "broad/broad.h"
 #include "core/tasks.h"
+#include "continuous/continuous.h"
 #include "ecs/command.h"
 #include "ecs/component.h"
 #include "ecs/registry.h"
@@ -77,6 +78,8 @@ struct plumb_world {
     uint32_t piece_kinds[PL_PIECE_KIND_COUNT]; // live pieces of each kind
     uint32_t turning_bodies;                   // dynamic bodies with inverse inertia > 0, asleep or not
 
+    uint32_t continuous_bodies;                // dynamic bodies with PL_BODY_CONTINUOUS
+
     uint32_t sensor_pieces, filtered_pieces, part_pieces; // live pieces with the flag
 
     // Tables that few worlds have, sorted by key.
@@ -89,6 +92,7 @@ struct plumb_world {
     pl_broad broad;
     pl_narrow narrow;
     pl_solver solver;
+    pl_continuous continuous;
     pl_joints joints;
     pl_schedule schedule;
 

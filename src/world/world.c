@@ -100,6 +100,7 @@ static void init_tables(plumb_world *world)
     world->pieces.free_head = PL_NONE;
     world->joints.free_head = PL_NONE;
     world->sleep.first_due = PL_NONE;
+    world->continuous.least_slack = PLUMB_REAL_MAX;
     world->schedule_dirty = true;
 }
 
@@ -149,6 +150,7 @@ static void free_world(plumb_world *world)
     pl_narrow_free(&memory, &world->narrow);
     pl_solver_free(&memory, &world->solver);
     pl_joints_free(&memory, &world->joints);
+    pl_continuous_free(&memory, &world->continuous);
     pl_registry_free(&memory, &world->registry);
     pl_table_free(&memory, &world->bodies.table, pl_body_columns, pl_body_column_count);
     pl_table_free(&memory, &world->pieces.table, pl_piece_columns, pl_piece_column_count);
@@ -312,6 +314,8 @@ plumb_stats plumb_world_stats(const plumb_world *world)
         .grid_rebuilds = (uint32_t)world->broad.rebuilds,
         .bounce_count = world->solver.bounce_count,
         .arrested_count = world->arrested_count,
+        .fast_count = world->continuous.count,
+        .stopped_count = world->continuous.stopped_count,
         .simd_width = world->desc.simd_width,
         .max_penetration = all.max_penetration,
         .mean_penetration =

@@ -81,6 +81,7 @@ static struct engine_world *create(const struct engine_options *options)
     desc.gravity = vec(options->gravity_x, options->gravity_y);
     desc.zero_gravity = !(fabs(options->gravity_x) + fabs(options->gravity_y) > 0.0);
     desc.substeps = options->substeps;
+    desc.no_continuous = !options->continuous;
     desc.simd_width = options->width;
     desc.no_sleep = !options->sleep;
     desc.log = tell;

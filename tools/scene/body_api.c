@@ -284,6 +284,17 @@ static int method_set_fixed_rotation(lua_State *L)
     return 0;
 }
 
+static int method_set_continuous(lua_State *L)
+{
+    call c = self(L, "set_continuous");
+    luaL_checktype(L, 2, LUA_TBOOLEAN);
+    bool continuous = lua_toboolean(L, 2) != 0;
+    check(&c, plumb_body_set_continuous(c.world, c.entity, continuous));
+    c.body->def.continuous = continuous;
+    SC_GIVE(&sc_list_body, &c.body->def, sc_body_def, continuous);
+    return 0;
+}
+
 static int method_set_label(lua_State *L)
 {
     call c = self(L, "set_label");
@@ -389,6 +400,7 @@ static const luaL_Reg methods[] = {
     { "name", method_name },
     { "position", method_position },
     { "set_color", method_set_color },
+    { "set_continuous", method_set_continuous },
     { "set_fixed_rotation", method_set_fixed_rotation },
     { "set_gravity_scale", method_set_gravity_scale },
     { "set_label", method_set_label },

@@ -28,6 +28,7 @@ static void make_world(scene *s, const sc_site *site)
         .restitution_speed = (plumb_real)d->restitution_speed,
         .simd_width = (int)d->simd_width,
         .no_sleep = SC_GIVEN(&sc_list_scene, d, sc_settings, sleep) && !d->sleep,
+        .no_continuous = SC_GIVEN(&sc_list_scene, d, sc_settings, continuous) && !d->continuous,
         .allocator = { sc_world_resize, s },
     };
     plumb_result result = plumb_world_create(&desc, &s->world);
@@ -157,6 +158,7 @@ static void check_body(scene *s, const sc_site *site, const sc_body_def *d)
     }
     if (d->type != 0) {
         refuse(s, site, SC_GIVEN(list, d, sc_body_def, mass), "mass", kinds[d->type]);
+        refuse(s, site, d->continuous, "continuous", kinds[d->type]);
         refuse(s, site, d->fixed_rotation, "fixed_rotation", kinds[d->type]);
         refuse(s, site, d->asleep, "asleep", kinds[d->type]);
         refuse(s, site, SC_GIVEN(list, d, sc_body_def, sleep), "sleep", kinds[d->type]);
@@ -231,6 +233,7 @@ static void create_body(scene *s, const sc_site *site, sc_body *b)
                       .fixed_rotation = d->fixed_rotation,
                       .no_sleep = !d->sleep,
                       .asleep = d->asleep,
+                      .continuous = d->continuous,
                       .user_data = b,
                   });
     if (plumb_is_null(b->entity)) {

@@ -17,6 +17,7 @@
 static const sc_field scene_rows[] = {
     { "contact_damping",   SC_NUMBER,  AT(T, contact_damping),   0, 1e6, "1", 0, 0 },
     { "contact_hertz",     SC_NUMBER,  AT(T, contact_hertz),     0, 1e6, "1/s", 0, 0 },
+    { "continuous",        SC_BOOL,    AT(T, continuous),        0, 0, NULL, 0, 0 },
     { "description",       SC_STRING,  AT(T, description),       0, 0, NULL, 0, 0 },
     { "dt",                SC_NUMBER,  AT(T, dt),                0, 1, "s", 0, SC_ABOVE },
     { "duration",          SC_NUMBER,  AT(T, duration),          0, 1e7, "s", 0, SC_ABOVE },
@@ -52,6 +53,7 @@ static const sc_field body_rows[] = {
     { "asleep",         SC_BOOL,     AT(T, asleep),        0, 0, NULL, 0, 0 },
     { "at",             SC_VEC2,     AT(T, at),            -FAR, FAR, "m", 0, 0 },
     { "color",          SC_COLOR,    AT(T, color),         0, 0, NULL, 0, 0 },
+    { "continuous",     SC_BOOL,     AT(T, continuous),    0, 0, NULL, 0, 0 },
     { "density",        SC_NUMBER,   AT(T, density),       0, 1e9, "kg/m^2", 0, SC_ABOVE },
     { "fixed_rotation", SC_BOOL,     AT(T, fixed_rotation), 0, 0, NULL, 0, 0 },
     { "gravity_scale",  SC_NUMBER,   AT(T, gravity_scale), -1e6, 1e6, "1", 0, 0 },
