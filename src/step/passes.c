@@ -75,6 +75,11 @@ static bool surfaces_wanted(const plumb_world *world, const char **reason)
     return collision_wanted(world, reason) && pl_surfaces_wanted(world, reason);
 }
 
+static bool seams_wanted(const plumb_world *world, const char **reason)
+{
+    return collision_wanted(world, reason) && pl_seams_wanted(world, reason);
+}
+
 static bool joints_wanted(const plumb_world *world, const char **reason)
 {
     return say(world->joints.live > 0, reason, "there are joints", "there are no joints");
@@ -158,7 +163,16 @@ static plumb_result run_narrow(plumb_world *world, plumb_real dt)
         return PLUMB_E_MEMORY;
     }
     pl_narrow_run(world, dt);
+    if (world->seams.pair_count > 0) {
+        pl_seams_correct(world, dt);
+    }
     return pl_events_prepare(world) ? PLUMB_OK : PLUMB_E_MEMORY;
+}
+
+static plumb_result run_seams(plumb_world *world, plumb_real dt)
+{
+    (void)dt;
+    return pl_seams_update(world) ? PLUMB_OK : PLUMB_E_MEMORY;
 }
 
 static plumb_result run_candidates(plumb_world *world, plumb_real dt)
@@ -245,6 +259,7 @@ const pl_pass pl_passes[] = {
     { "force systems", pl_user_phase, "declared by the systems",         "declared by the systems",   forces_wanted,    run_forces },
     { "broad phase",   "broad",    "poses, pieces",                   "fat boxes, grids, pairs",   broad_wanted,     run_broad },
     { "sensor pairs",  "broad",    "pairs with sensors",              "candidates of sensors",     sensing_wanted,   run_candidates },
+    { "seams",         "broad",    "static pieces, grids, pairs",     "covered edges, corners",    seams_wanted,     run_seams },
     { "narrow phase",  "narrow",   "pairs, poses, pieces, materials", "manifolds",                 collision_wanted, run_narrow },
     { "surfaces",      "narrow",   "pairs, materials",                "manifolds",                 surfaces_wanted,  run_surfaces },
     { "contact systems", pl_user_phase, "declared by the systems",         "declared by the systems",   contacts_wanted,  run_contacts },

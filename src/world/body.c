@@ -137,6 +137,7 @@ void pl_body_place(plumb_world *world, uint32_t row, plumb_vec2 position, plumb_
     if (b->first_piece[row] != PL_NONE) {
         world->pairs_dirty = true;
         world->static_dirty |= b->type[row] == PLUMB_STATIC;
+        pl_seams_move_static(world, row);
     }
 }
 

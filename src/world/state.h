@@ -15,6 +15,7 @@
 #include "narrow/manifold.h"
 #include "plumb/event.h"
 #include "plumb/query.h"
+#include "seams/seams.h"
 #include "solver/solver.h"
 #include "step/pass.h"
 #include "world/columns.h"
@@ -86,6 +87,7 @@ struct plumb_world {
     pl_broad broad;
     pl_narrow narrow;
     pl_solver solver;
+    pl_seams seams;
     pl_joints joints;
     pl_schedule schedule;
 

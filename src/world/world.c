@@ -129,6 +129,7 @@ static void free_world(plumb_world *world)
     pl_memory memory = world->memory;
     pl_broad_free(&memory, &world->broad);
     pl_narrow_free(&memory, &world->narrow);
+    pl_seams_free(&memory, &world->seams);
     pl_solver_free(&memory, &world->solver);
     pl_joints_free(&memory, &world->joints);
     pl_registry_free(&memory, &world->registry);

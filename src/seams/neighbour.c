@@ -1,0 +1,133 @@
+// neighbour.c - a convex core against a corner or an edge of its neighbour.
+//
+// A corner p of the ground admits the normal n when nothing solid lies in front of it: (q - p) . n
+// <= 0 for all q of the ground near p. Each piece that has p says so for itself: a corner of it admits
+// the arc between the normals of its two edges, a point of its edge that edge's normal, its inside
+// none. What all of them admit is what the ground admits (README.md).
+//
+// Cost: O(corners) a call.
+#include "seams/neighbour.h"
+
+#include <math.h>
+
+static int after(const pl_outline *o, int k)
+{
+    return k + 1 < o->count ? k + 1 : 0;
+}
+
+static int before(const pl_outline *o, int k)
+{
+    return k > 0 ? k - 1 : o->count - 1;
+}
+
+// How far (x, y) lies in front of edge k.
+static double ahead(const pl_outline *o, int k, double x, double y)
+{
+    return (x - o->x[k]) * o->nx[k] + (y - o->y[k]) * o->ny[k];
+}
+
+double pl_outline_edge_length(const pl_outline *o, int k)
+{
+    double x = o->x[after(o, k)] - o->x[k], y = o->y[after(o, k)] - o->y[k];
+    return sqrt(x * x + y * y);
+}
+
+pl_cone pl_outline_cone(const pl_outline *o, int k)
+{
+    int b = before(o, k);
+    return (pl_cone){ o->nx[b], o->ny[b], o->nx[k], o->ny[k], PL_CONE_ARC };
+}
+
+static pl_cone edge_cone(const pl_outline *o, int k)
+{
+    return (pl_cone){ o->nx[k], o->ny[k], o->nx[k], o->ny[k], PL_CONE_ARC };
+}
+
+// A line has two sides and no inside.
+static bool line_cone_at(const pl_outline *o, double x, double y, double slop, pl_cone *cone)
+{
+    double length = pl_outline_edge_length(o, 0);
+    double along = (y - o->y[0]) * o->nx[0] - (x - o->x[0]) * o->ny[0];
+    if (fabs(ahead(o, 0, x, y)) > slop || along < -slop || along > length + slop) {
+        return false;
+    }
+    if (along < slop || along > length - slop) {
+        *cone = pl_outline_cone(o, along < slop ? 0 : 1);
+    } else {
+        *cone = (pl_cone){ o->nx[0], o->ny[0], o->nx[1], o->ny[1], PL_CONE_ENDS };
+    }
+    return true;
+}
+
+bool pl_outline_cone_at(const pl_outline *o, double x, double y, double slop, pl_cone *cone)
+{
+    if (o->count == 2) {
+        return line_cone_at(o, x, y, slop, cone);
+    }
+    unsigned near = 0;
+    int corner = -1, edge = -1;
+    double nearest = 0;
+    for (int k = 0; k < o->count; ++k) {
+        double d = ahead(o, k, x, y);
+        if (d > slop) {
+            return false;
+        }
+        if (d >= -slop) {
+            near |= 1u << k;
+            edge = k;
+        }
+    }
+    for (int k = 0; k < o->count; ++k) {
+        if ((near >> k & 1) && (near >> before(o, k) & 1)) {
+            double dx = x - o->x[k], dy = y - o->y[k];
+            double square = dx * dx + dy * dy;
+            if (corner < 0 || square < nearest) {
+                corner = k;
+                nearest = square;
+            }
+        }
+    }
+    if (corner < 0) {
+        *cone = edge < 0 ? (pl_cone){ 0 } : edge_cone(o, edge);
+        return true;
+    }
+    // In front of a sharp corner the two edges alone would reach far.
+    if (ahead(o, corner, x, y) > 0 && ahead(o, before(o, corner), x, y) > 0 &&
+        nearest > 4 * slop * slop) {
+        return false;
+    }
+    *cone = pl_outline_cone(o, corner);
+    return true;
+}
+
+bool pl_outline_covers(const pl_outline *o, const pl_outline *edge_of, int edge, double slop,
+                       double *from, double *to)
+{
+    if (o->count == 2) {
+        return false;
+    }
+    double length = pl_outline_edge_length(edge_of, edge);
+    double nx = edge_of->nx[edge], ny = edge_of->ny[edge];
+    double x = edge_of->x[edge] + slop * nx, y = edge_of->y[edge] + slop * ny;
+    double low = 0, high = length;
+    // Clips the edge, moved out by the slop, to the half planes of the core.
+    for (int k = 0; k < o->count; ++k) {
+        double d = ahead(o, k, x, y);
+        double rate = o->ny[k] * nx - o->nx[k] * ny; // of d along (-ny, nx)
+        if (fabs(rate) * length <= 1e-9 * slop) {
+            if (d > 0) {
+                return false;
+            }
+        } else if (rate > 0) {
+            high = fmin(high, -d / rate);
+        } else {
+            low = fmax(low, -d / rate);
+        }
+    }
+    if (!(high > low)) {
+        return false;
+    }
+    *from = fmax(0, low - slop);
+    *to = fmin(length, high + slop);
+    return true;
+}
