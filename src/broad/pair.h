@@ -20,6 +20,7 @@ typedef struct pl_pair {
 #define PL_PAIR_HIT      2u // an impact with restitution was resolved in this step
 #define PL_PAIR_STRUCK   4u // it struck in the last step
 #define PL_PAIR_PENDING  8u // and had not been stopped yet: the hit is still to be told
+#define PL_PAIR_BORNE    16u // flush ground: another pair bears the load of this one
 
 // [m] manifolds are made for pieces closer than this: contacts are ready before they are needed.
 #define PL_SPECULATIVE ((real)0.02)

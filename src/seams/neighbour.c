@@ -100,6 +100,31 @@ bool pl_outline_cone_at(const pl_outline *o, double x, double y, double slop, pl
     return true;
 }
 
+// Share of the slop within which what lies in front of an edge lies on its line: a neighbour that is
+// flush with the edge does not cover it.
+#define ON_LINE 0.01
+
+typedef struct stretch {
+    double low, high;
+} stretch;
+
+// Where the part of a segment at heights near..far above the edge lies along it.
+static void add_segment(stretch *s, double u0, double v0, double u1, double v1, double near,
+                        double far)
+{
+    if ((u0 < near && u1 < near) || (u0 > far && u1 > far)) {
+        return;
+    }
+    const double ends[2][2] = { { u0, v0 }, { u1, v1 } };
+    for (int i = 0; i < 2; ++i) {
+        double u = ends[i][0], v = ends[i][1];
+        double bound = u < near ? near : u > far ? far : u;
+        double at = u == bound ? v : v0 + (v1 - v0) * ((bound - u0) / (u1 - u0));
+        s->low = fmin(s->low, at);
+        s->high = fmax(s->high, at);
+    }
+}
+
 bool pl_outline_covers(const pl_outline *o, const pl_outline *edge_of, int edge, double slop,
                        double *from, double *to)
 {
@@ -108,24 +133,17 @@ bool pl_outline_covers(const pl_outline *o, const pl_outline *edge_of, int edge,
     }
     double length = pl_outline_edge_length(edge_of, edge);
     double nx = edge_of->nx[edge], ny = edge_of->ny[edge];
-    double x = edge_of->x[edge] + slop * nx, y = edge_of->y[edge] + slop * ny;
-    double low = 0, high = length;
-    // Clips the edge, moved out by the slop, to the half planes of the core.
+    stretch s = { INFINITY, -INFINITY };
     for (int k = 0; k < o->count; ++k) {
-        double d = ahead(o, k, x, y);
-        double rate = o->ny[k] * nx - o->nx[k] * ny; // of d along (-ny, nx)
-        if (fabs(rate) * length <= 1e-9 * slop) {
-            if (d > 0) {
-                return false;
-            }
-        } else if (rate > 0) {
-            high = fmin(high, -d / rate);
-        } else {
-            low = fmax(low, -d / rate);
-        }
+        int next = after(o, k);
+        double x0 = o->x[k] - edge_of->x[edge], y0 = o->y[k] - edge_of->y[edge];
+        double x1 = o->x[next] - edge_of->x[edge], y1 = o->y[next] - edge_of->y[edge];
+        add_segment(&s, x0 * nx + y0 * ny, y0 * nx - x0 * ny, x1 * nx + y1 * ny, y1 * nx - x1 * ny,
+                    ON_LINE * slop, slop);
     }
-    if (!(high > low)) {
-        return false;
+    double low = fmax(s.low, 0), high = fmin(s.high, length);
+    if (!(high - low >= fmin(slop, length / 2))) {
+        return false; // it does not reach the edge, or touches it at a corner
     }
     *from = fmax(0, low - slop);
     *to = fmin(length, high + slop);

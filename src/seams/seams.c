@@ -8,6 +8,7 @@
 // after the broad phase. Cost: O(changed pieces x their neighbours), and O(piece slots) for looking;
 // O(pairs) when pairs were made anew, O(pairs with seams) a step; nothing in worlds without seams.
 #include "seams/look.h"
+#include "seams/run.h"
 #include "seams/span.h"
 #include "world/state.h"
 
@@ -22,7 +23,10 @@ bool pl_seams_wanted(const plumb_world *world, const char **reason)
 void pl_seams_free(pl_memory *memory, pl_seams *seams)
 {
     pl_buffer *buffers[] = { &seams->corners, &seams->spans, &seams->regions, &seams->chosen,
-                             &seams->around,  &seams->scratch, &seams->pairs };
+                             &seams->around,  &seams->scratch, &seams->pairs,
+                             &seams->contacts, &seams->runs,   &seams->order,
+                             &seams->loads,   &seams->old_loads, &seams->slots,
+                             &seams->borne };
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; ++i) {
         pl_buffer_free(memory, buffers[i]);
     }
@@ -240,7 +244,7 @@ static bool list_pairs(plumb_world *world)
     }
     s->relist = false;
     s->listed = world->broad.rebuilds;
-    return true;
+    return pl_runs_reserve(world);
 }
 
 bool pl_seams_update(plumb_world *world)

@@ -4,6 +4,7 @@
 #define PL_SEAMS_H
 
 #include "core/memory.h"
+#include "narrow/manifold.h"
 #include "world/columns.h"
 
 // [m] pieces nearer than this touch, and steps lower than this are none; at most a hundredth of the
@@ -62,6 +63,10 @@ typedef struct pl_seams {
     pl_buffer scratch;  // pl_span: what they cover
     pl_buffer pairs;    // pl_seam_pair
     uint32_t pair_count;
+    // Runs of flush faces (run.c): contacts of the step, and what the owners bore in the last one.
+    pl_buffer contacts, runs, order, loads, old_loads, slots, borne;
+    uint32_t contact_count, load_count, old_load_count, slot_count;
+    bool apart;         // each tile keeps its own contact: systems look at them
     uint64_t listed;    // broad->rebuilds when the pairs were listed
     uint64_t updated;   // pieces looked at so far: what changes cost
 } pl_seams;
@@ -91,6 +96,12 @@ bool pl_seams_wanted(const plumb_world *world, const char **reason);
 bool pl_seams_update(plumb_world *world);
 // Sets manifolds right whose normals the ground does not admit (correct.c). After the narrow phase.
 void pl_seams_correct(plumb_world *world, real dt);
+
+// Notes what runs of flush faces bear, for the next step. After the solver.
+void pl_seams_remember(plumb_world *world);
+
+// Whether a contact touches whose load another bears.
+bool pl_seams_borne_touches(const plumb_world *world, const pl_manifold *m);
 
 void pl_seams_free(pl_memory *memory, pl_seams *seams);
 

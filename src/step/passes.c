@@ -239,6 +239,9 @@ static plumb_result run_reactions(plumb_world *world, plumb_real dt)
 static plumb_result run_events(plumb_world *world, plumb_real dt)
 {
     (void)dt;
+    if (world->seams.load_count > 0) {
+        pl_seams_remember(world);
+    }
     pl_events_publish(world);
     return PLUMB_OK;
 }
