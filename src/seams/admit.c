@@ -5,8 +5,9 @@
 #include "seams/span.h"
 #include "world/state.h"
 
-// [rad] normals that differ by less are equal but for rounding.
-#define SAME_DIRECTION (8 * (double)PLUMB_REAL_EPSILON)
+// [rad] normals that differ by less are equal: rounding, above all of kernels that find a normal from
+// points. What lies on flat ground gets its exact normal afterwards (run.c).
+#define SAME_DIRECTION 1e-5
 
 pl_side pl_side_of(const plumb_world *world, uint32_t piece)
 {
@@ -68,6 +69,15 @@ bool pl_side_corner_admits(const pl_side *side, int k, double nx, double ny)
     return pl_cone_admits(&cone, nx, ny, SAME_DIRECTION);
 }
 
+bool pl_side_corner_is_flat(const pl_side *side, int k)
+{
+    if (!(side->corner_bits >> k & 1)) {
+        return false;
+    }
+    pl_cone cone = cone_of(&side->seams[k]);
+    return pl_cone_is_flat(&cone);
+}
+
 pl_edge_end pl_side_edge_end(const pl_side *side, int k, bool at_start)
 {
     int corner = at_start ? k : pl_side_next(side, k);
@@ -79,7 +89,7 @@ pl_edge_end pl_side_edge_end(const pl_side *side, int k, bool at_start)
     if (!pl_cone_admits(&cone, (double)edge->nx, (double)edge->ny, SAME_DIRECTION)) {
         return PL_END_INNER;
     }
-    return pl_cone_is_flat(&cone) ? PL_END_FLAT : PL_END_OUTER;
+    return pl_side_corner_is_flat(side, corner) ? PL_END_FLAT : PL_END_OUTER;
 }
 
 bool pl_seams_admit(const plumb_world *world, uint32_t piece, double nx, double ny, double x,
@@ -95,7 +105,7 @@ bool pl_seams_admit(const plumb_world *world, uint32_t piece, double nx, double 
     bool is_edge;
     int k = pl_side_feature(&side, lx, ly, &is_edge);
     if (!is_edge) {
-        return pl_side_corner_admits(&side, k, lx, ly);
+        return !pl_side_corner_is_flat(&side, k) && pl_side_corner_admits(&side, k, lx, ly);
     }
     const pl_vertex *v = &side.corners[k];
     double px = c * x + s * y - (double)v->x, py = c * y - s * x - (double)v->y;

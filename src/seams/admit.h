@@ -23,7 +23,11 @@ int pl_side_feature(const pl_side *side, double nx, double ny, bool *is_edge);
 // True when some of edge k between `low` and `high` [m] from its start is open.
 bool pl_side_edge_is_open(const pl_side *side, int k, double low, double high);
 
+// True when corner k admits the normal.
 bool pl_side_corner_admits(const pl_side *side, int k, double nx, double ny);
+// True when the ground goes on flat at corner k: its one normal is that of an edge, of this piece or
+// of a neighbour, which has the contact.
+bool pl_side_corner_is_flat(const pl_side *side, int k);
 
 // What the ground does where edge k ends, at corner k (its start) or the next one.
 typedef enum pl_edge_end {

@@ -38,13 +38,15 @@ static verdict judge(const plumb_world *world, const pl_pair *pair, pl_manifold 
     return FALSE_CONTACT;
 }
 
-// Impulses follow their features, as in narrow/lanes.h.
+// Impulses follow their features, as in narrow/lanes.h. A contact of one point keeps its own whichever
+// way it was made.
 static void carry_over(const pl_seam_pair *old, pl_pair *pair, pl_manifold *m)
 {
+    bool single = m->count == 1 && old->feature[0] != PL_NONE && old->feature[1] == PL_NONE;
     for (uint32_t k = 0; k < 2; ++k) {
         pair->feature[k] = m->feature[k];
         for (int j = 0; j < 2 && k < m->count; ++j) {
-            if (old->feature[j] == m->feature[k]) {
+            if (old->feature[j] == m->feature[k] || (single && j == 0)) {
                 m->point[k].normal = old->normal[j];
                 m->point[k].tangent = old->tangent[j];
             }
@@ -112,7 +114,7 @@ void pl_seams_correct(plumb_world *world, real dt)
         if (v == FALSE_CONTACT) {
             m->count = 0;
             take_out(pair);
-        } else if (v == SET_RIGHT) {
+        } else {
             carry_over(&list[i], pair, m);
         }
         if (v != FALSE_CONTACT) {

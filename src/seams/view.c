@@ -125,7 +125,8 @@ bool pl_view_is_admitted(pl_view *v)
     if (is_edge) {
         return faces_open_part(v, k);
     }
-    return pl_side_corner_admits(&v->side, k, v->nx, v->ny) && lies_at(v, k);
+    return !pl_side_corner_is_flat(&v->side, k) &&
+           pl_side_corner_admits(&v->side, k, v->nx, v->ny) && lies_at(v, k);
 }
 
 int pl_view_edge(const pl_view *v)
