@@ -79,6 +79,7 @@ static bool gather_around(plumb_world *world, uint32_t piece)
 typedef struct look {
     pl_outline own;
     pl_cone cones[PLUMB_POLYGON_MAX_VERTICES];
+    pl_wall walls[PLUMB_POLYGON_MAX_VERTICES][2];
     double slops[PLUMB_POLYGON_MAX_VERTICES]; // [m] largest with which a neighbour has a say
     bool narrowed[PLUMB_POLYGON_MAX_VERTICES];
     uint32_t covered[PLUMB_POLYGON_MAX_VERTICES]; // stretches of each edge
@@ -146,6 +147,10 @@ static void look_at_neighbour(look *l, const pl_outline *other, double slop)
                               met.hi_y != l->cones[k].hi_y;
             l->cones[k] = met;
             l->slops[k] = fmax(l->slops[k], slop);
+            for (int i = 0; i < 2; ++i) {
+                int edge = i == 1 ? k : k > 0 ? k - 1 : l->own.count - 1;
+                pl_wall_meet(&l->walls[k][i], &has, l->own.nx[edge], l->own.ny[edge], i == 1);
+            }
         }
         double from, to;
         if (pl_outline_covers(other, &l->own, k, slop, &from, &to)) {
@@ -196,6 +201,10 @@ static bool store(plumb_world *world, uint32_t piece, look *l)
                            .hi_y = (real)cone->hi_y,
                            .slop = (real)l->slops[k],
                            .form = cone->form };
+        for (int i = 0; i < 2; ++i) {
+            seam->walls[i][0] = (real)l->walls[k][i].nx;
+            seam->walls[i][1] = (real)l->walls[k][i].ny;
+        }
         pieces->seam_corners[piece] |= l->narrowed[k] ? UINT32_C(1) << k : 0;
         ok = store_edge(world, piece, l, k);
     }

@@ -10,6 +10,8 @@
 
 #include <math.h>
 
+#define WALL_LEAST 1e-3 // [rad] as PL_SEAM_ANGLE
+
 static int after(const pl_outline *o, int k)
 {
     return k + 1 < o->count ? k + 1 : 0;
@@ -98,6 +100,33 @@ bool pl_outline_cone_at(const pl_outline *o, double x, double y, double slop, pl
     }
     *cone = pl_outline_cone(o, corner);
     return true;
+}
+
+// The face with normal m runs along left(m); its part before the corner bounds the free space of an
+// edge that starts there, the part behind it that of one that ends.
+static void add_wall(pl_wall *wall, double mx, double my, double nx, double ny, bool starts)
+{
+    double sign = starts ? 1 : -1;
+    double fx = sign * my, fy = -sign * mx;  // from the corner along the face
+    double ex = -sign * ny, ey = sign * nx; // from the corner along the edge
+    double rise = fx * nx + fy * ny, flatness = fx * ex + fy * ey;
+    bool none = wall->nx == 0 && wall->ny == 0;
+    if (rise > WALL_LEAST && (none || flatness > wall->flatness)) {
+        *wall = (pl_wall){ mx, my, flatness };
+    }
+}
+
+void pl_wall_meet(pl_wall *wall, const pl_cone *has, double nx, double ny, bool starts)
+{
+    if (has->form == PL_CONE_NONE) {
+        return;
+    }
+    if (starts || has->form == PL_CONE_ENDS) {
+        add_wall(wall, has->lo_x, has->lo_y, nx, ny, starts);
+    }
+    if (!starts || has->form == PL_CONE_ENDS) {
+        add_wall(wall, has->hi_x, has->hi_y, nx, ny, starts);
+    }
 }
 
 // Share of the slop within which what lies in front of an edge lies on its line: a neighbour that is

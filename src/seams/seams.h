@@ -30,6 +30,7 @@ typedef struct pl_span {
 // frame. Valid where a bit of the piece says so.
 typedef struct pl_seam {
     real lo_x, lo_y, hi_x, hi_y;
+    real walls[2][2];  // normals of what stands here in front of the edge that ends, and that starts
     real slop;         // [m] largest with which a neighbour touched the corner
     uint32_t form;     // pl_cone_form
     uint32_t spans;    // first covered stretch, sorted

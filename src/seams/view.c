@@ -80,19 +80,42 @@ static double along(const pl_face *f, double x, double y)
     return (y - f->y) * f->nx - (x - f->x) * f->ny;
 }
 
+// [m] what lies deeper behind a face is not stopped by it: it has come through, or from the other side.
+// A solid is as deep as it is thick; a line holds what has its middle in front.
+static double depth_of(const pl_view *v, const pl_face *f)
+{
+    double deepest = 0, low = INFINITY, high = -INFINITY;
+    for (int k = 0; k < v->side.count; ++k) {
+        const pl_vertex *p = &v->side.corners[k];
+        deepest = fmax(deepest, -ahead(f, (double)p->x, (double)p->y));
+    }
+    for (int i = 0; i < v->count && v->side.count == 2; ++i) {
+        double u = ahead(f, v->x[i], v->y[i]);
+        low = fmin(low, u);
+        high = fmax(high, u);
+    }
+    return v->radii + (v->side.count > 2 ? deepest : (high - low) / 2);
+}
+
 // True when the other piece is, or comes, before a part of edge k that is open.
 static bool faces_open_part(pl_view *v, int k)
 {
-    if (!(v->side.edge_bits & PL_SEAM_PARTLY(k))) {
+    bool is_line = v->side.count == 2;
+    if (!is_line && !(v->side.edge_bits & PL_SEAM_PARTLY(k))) {
         return pl_side_edge_is_open(&v->side, k, 0, 0);
     }
     pl_view_bring_other(v);
     pl_face f = pl_view_face(v, k);
-    double low = INFINITY, high = -INFINITY;
+    double low = INFINITY, high = -INFINITY, nearest = INFINITY;
     for (int i = 0; i < v->count; ++i) {
         double at = along(&f, v->x[i], v->y[i]);
         low = fmin(low, at);
         high = fmax(high, at);
+        nearest = fmin(nearest, ahead(&f, v->x[i], v->y[i]));
+    }
+    // A corner hardly below the end of a line may be taken for one that has come from the other side.
+    if (is_line && nearest - v->radii < -(depth_of(v, &f) + PL_SEAM_SLOP)) {
+        return false;
     }
     double way = v->vy * f.nx - v->vx * f.ny;
     low = fmax(0, low + fmin(0, way));
@@ -170,19 +193,43 @@ pl_strip pl_view_strip(const pl_view *v, int k)
         double slop = kind == PL_END_FLAT ? (double)v->side.seams[corner].slop : 0;
         double reach = kind == PL_END_FLAT ? 0 : fmax(0, at_start ? way : -way);
         *(at_start ? &s.before : &s.after) = reach;
-        *(at_start ? &s.any_before : &s.any_after) = kind == PL_END_INNER;
+        if (kind == PL_END_INNER) {
+            s.walls[end] = v->side.seams[corner].walls[at_start ? 1 : 0];
+        }
         s.low -= at_start ? slop : 0;
         s.high += at_start ? 0 : slop;
     }
     return s;
 }
 
+// [m] points that deep in a wall are still in front of it.
+#define IN_WALL ((double)PL_SPECULATIVE)
+
+// Whether a point before the start of the strip, or behind its end, counts: in front of the face where
+// nothing stands at the end, else in front of what stands there.
+static bool counts_outside(const pl_strip *s, pl_place p, double radii, int end)
+{
+    const real *wall = s->walls[end];
+    double reach = end == 0 ? s->before : s->after;
+    double beyond = end == 0 ? s->low - p.v : p.v - s->high;
+    if (beyond > reach) {
+        return false;
+    }
+    if (wall == NULL) {
+        return p.u > radii;
+    }
+    // The wall's normal in the frame of the face, and the point from its foot.
+    double mu = (double)wall[0] * s->f.nx + (double)wall[1] * s->f.ny;
+    double mv = (double)wall[1] * s->f.nx - (double)wall[0] * s->f.ny;
+    double foot = end == 0 ? s->low : s->high;
+    return (mu != 0 || mv != 0) && p.u * mu + (p.v - foot) * mv > radii - IN_WALL;
+}
+
 static bool counts(const pl_strip *s, pl_place p, double radii)
 {
-    bool front = p.u > radii;
-    double low = s->low - (s->any_before || front ? s->before : 0);
-    double high = s->high + (s->any_after || front ? s->after : 0);
-    return p.v >= low && p.v <= high;
+    return p.v < s->low    ? counts_outside(s, p, radii, 0)
+           : p.v > s->high ? counts_outside(s, p, radii, 1)
+                           : true;
 }
 
 static pl_place place_of(const pl_view *v, const pl_strip *s, int i)
@@ -205,9 +252,8 @@ static bool clip(const pl_strip *s, pl_place *p, pl_place *q)
 }
 
 #define FLATTEST (-1e-3) // [-] edges that face away, or stand on end, give no points
+#define LEVEL    1e-9    // [m] less is no difference in depth
 
-// The points of the other piece over the strip: those of the edge that most faces the ground, or the
-// deepest corner that gets there. Returns how many.
 int pl_view_points(const pl_view *v, const pl_strip *s, pl_place out[2], int *feature)
 {
     double most = FLATTEST;
@@ -224,19 +270,18 @@ int pl_view_points(const pl_view *v, const pl_strip *s, pl_place out[2], int *fe
             *feature = i;
         }
     }
-    for (int i = 0; i < v->count && count == 0; ++i) {
+    // A corner that will get into the strip may be deeper than what is in it now.
+    double deepest = count == 0 ? INFINITY : count == 1 ? out[0].u : fmin(out[0].u, out[1].u);
+    for (int i = 0; i < v->count; ++i) {
         pl_place p = place_of(v, s, i);
-        if (counts(s, p, v->radii)) {
-            out[0] = p;
-            count = 1;
-            *feature = i;
-        }
-    }
-    for (int i = 0; i < v->count && count == 1; ++i) {
-        pl_place p = place_of(v, s, i);
-        if (p.u < out[0].u && counts(s, p, v->radii)) {
-            out[0] = p;
-            *feature = i;
+        if (p.u < deepest - LEVEL && counts(s, p, v->radii)) {
+            bool beyond = count == 2 && p.v >= out[1].v, before = count == 2 && p.v <= out[0].v;
+            deepest = p.u;
+            out[beyond ? 1 : 0] = p;
+            if (!beyond && !before) {
+                count = 1;
+                *feature = i;
+            }
         }
     }
     return count;
@@ -299,23 +344,6 @@ uint32_t pl_view_write(const pl_view *v, const pl_face *f, const pl_place *point
 }
 
 // Puts the manifold on the best open face of the own piece. False when none has the other before it.
-// [m] what lies deeper behind a face is not stopped by it: it has come through, or from the other side.
-// A solid is as deep as it is thick; a line holds what has its middle in front.
-static double depth_of(const pl_view *v, const pl_face *f)
-{
-    double deepest = 0, low = INFINITY, high = -INFINITY;
-    for (int k = 0; k < v->side.count; ++k) {
-        const pl_vertex *p = &v->side.corners[k];
-        deepest = fmax(deepest, -ahead(f, (double)p->x, (double)p->y));
-    }
-    for (int i = 0; i < v->count && v->side.count == 2; ++i) {
-        double u = ahead(f, v->x[i], v->y[i]);
-        low = fmin(low, u);
-        high = fmax(high, u);
-    }
-    return v->radii + (v->side.count > 2 ? deepest : (high - low) / 2);
-}
-
 bool pl_view_rebuild(pl_view *v, pl_manifold *m)
 {
     pl_view_bring_other(v);

@@ -34,7 +34,7 @@ typedef struct pl_strip {
     double separation;   // [m] of the whole other piece from the face's line
     double low, high;    // [m] open part of the face
     double before, after; // [m] how much longer it is for points that move
-    bool any_before, any_after; // those count also behind the line
+    const real *walls[2]; // normals of what stands at its ends; NULL: nothing does
 } pl_strip;
 
 // A point of the other piece in the frame of the face.

@@ -533,6 +533,34 @@ static void passed_bodies_are_apart(void **state)
     plumb_world_destroy(w);
 }
 
+// A floor of two lines and a ramp: what stands at the end of which face.
+static void walls_stand_at_inner_ends(void **state)
+{
+    (void)state;
+    plumb_world *w = sim_space();
+    sim_ball(w, -300, 0, 0.5, sim_material(w, 0, 0));
+    plumb_vec2 p[] = { sim_vec(0, 0), sim_vec(1, 0), sim_vec(2, 0), sim_vec(3, 1) };
+    plumb_shape_desc desc = { .kind = PLUMB_CHAIN, .points = p, .count = 4 };
+    plumb_shape chain = plumb_shape_create(w, sim_body(w, PLUMB_STATIC, 0, 0, 0), &desc);
+    take_a_step(w);
+    uint32_t first = pl_shape_piece(w, chain), second = w->pieces.next_in_shape[first];
+    uint32_t ramp = w->pieces.next_in_shape[second];
+    // Edge 0 of a line is its right side, seen along it: the lower one; edge 1 runs back above.
+    pl_side a = pl_side_of(w, first), b = pl_side_of(w, second), c = pl_side_of(w, ramp);
+    assert_int_equal(pl_side_edge_end(&a, 1, false), PL_END_OUTER);
+    assert_int_equal(pl_side_edge_end(&a, 1, true), PL_END_FLAT);
+    assert_int_equal(pl_side_edge_end(&b, 1, false), PL_END_FLAT);
+    assert_int_equal(pl_side_edge_end(&b, 1, true), PL_END_INNER);
+    assert_int_equal(pl_side_edge_end(&c, 1, false), PL_END_INNER);
+    assert_int_equal(pl_side_edge_end(&b, 0, false), PL_END_OUTER); // below, the bend is convex
+    assert_int_equal(pl_side_edge_end(&c, 1, true), PL_END_OUTER);
+    const real *up = b.seams[1].walls[1], *floor = c.seams[0].walls[0];
+    assert_true(fabs((double)up[0] + sqrt(0.5)) < 1e-6 && fabs((double)up[1] - sqrt(0.5)) < 1e-6);
+    assert_true(fabs((double)floor[0]) < 1e-6 && fabs((double)floor[1] - 1) < 1e-6);
+    assert_true(pl_side_corner_is_flat(&a, 1) && !pl_side_corner_is_flat(&b, 1));
+    plumb_world_destroy(w);
+}
+
 // The question for impacts, in world axes.
 static void normals_are_asked_in_world_axes(void **state)
 {
@@ -571,6 +599,7 @@ int main(void)
         cmocka_unit_test(overlaps_cover_what_they_contain),
         cmocka_unit_test(neighbours_are_within_the_slop),
         cmocka_unit_test(passed_bodies_are_apart),
+        cmocka_unit_test(walls_stand_at_inner_ends),
         cmocka_unit_test(normals_are_asked_in_world_axes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
