@@ -13,14 +13,18 @@
 
 typedef enum verdict { RIGHT, SET_RIGHT, FALSE_CONTACT } verdict;
 
-// Either piece may be ground; the ground of one must admit what the other's makes of the contact.
-static verdict judge(const plumb_world *world, const pl_pair *pair, pl_manifold *m, double dt)
+// Either piece may be ground; the ground of one must admit what the other's makes of the contact. Opens
+// the views of pieces with seams.
+static verdict judge(const plumb_world *world, const pl_pair *pair, pl_manifold *m, double dt,
+                     pl_view views[2])
 {
-    pl_view views[2];
     bool admitted[2];
     for (int i = 0; i < 2; ++i) {
-        pl_view_open(&views[i], world, pair, m, i == 0, dt);
-        admitted[i] = pl_view_is_admitted(&views[i]);
+        bool has = pl_piece_has_seams(&world->pieces, i == 0 ? pair->a : pair->b);
+        if (has) {
+            pl_view_open(&views[i], world, pair, m, i == 0, dt);
+        }
+        admitted[i] = !has || pl_view_is_admitted(&views[i]);
     }
     if (admitted[0] && admitted[1]) {
         return RIGHT;
@@ -29,9 +33,9 @@ static verdict judge(const plumb_world *world, const pl_pair *pair, pl_manifold 
         if (admitted[i] || !pl_view_rebuild(&views[i], m)) {
             continue;
         }
-        pl_view across;
-        pl_view_open(&across, world, pair, m, i == 1, dt);
-        if (pl_view_is_admitted(&across)) {
+        pl_view_open(&views[0], world, pair, m, true, dt);
+        pl_view_open(&views[1], world, pair, m, false, dt);
+        if (pl_view_is_admitted(&views[1 - i])) {
             return SET_RIGHT;
         }
     }
@@ -110,7 +114,8 @@ void pl_seams_correct(plumb_world *world, real dt)
             continue;
         }
         pl_manifold *m = &pl_manifolds(&world->narrow)[pair->manifold];
-        verdict v = judge(world, pair, m, (double)dt);
+        pl_view views[2];
+        verdict v = judge(world, pair, m, (double)dt, views);
         if (v == FALSE_CONTACT) {
             m->count = 0;
             take_out(pair);
@@ -118,7 +123,7 @@ void pl_seams_correct(plumb_world *world, real dt)
             carry_over(&list[i], pair, m);
         }
         if (v != FALSE_CONTACT) {
-            pl_runs_add(world, i, (double)dt);
+            pl_runs_add(world, i, views);
         }
         changed |= v != RIGHT;
     }

@@ -208,7 +208,10 @@ static bool store(plumb_world *world, uint32_t piece, look *l)
         pieces->seam_corners[piece] |= l->narrowed[k] ? UINT32_C(1) << k : 0;
         ok = store_edge(world, piece, l, k);
     }
-    world->seams.count += pl_piece_has_seams(pieces, piece);
+    if ((pieces->seam_corners[piece] & PL_SEAM_CORNERS) != 0 || pieces->seam_edges[piece] != 0) {
+        pieces->seam_corners[piece] |= PL_SEAM_HAS;
+        ++world->seams.count;
+    }
     if (!ok) {
         pl_seams_clear(world, piece);
     }

@@ -14,7 +14,6 @@
 #include "seams/run.h"
 
 #include "core/sort.h"
-#include "seams/view.h"
 
 #include <math.h>
 #include <string.h>
@@ -145,7 +144,7 @@ static run_contact describe(const pl_view *v, uint32_t index, int k)
     return r;
 }
 
-void pl_runs_add(plumb_world *world, uint32_t index, double dt)
+void pl_runs_add(plumb_world *world, uint32_t index, pl_view views[2])
 {
     pl_seams *s = &world->seams;
     if (s->apart) {
@@ -153,18 +152,18 @@ void pl_runs_add(plumb_world *world, uint32_t index, double dt)
     }
     const pl_seam_pair *list = s->pairs.data;
     const pl_pair *pair = &pl_pairs(&world->broad.pairs)[list[index].pair];
-    const pl_manifold *m = &pl_manifolds(&world->narrow)[pair->manifold];
     // Ground is the piece that does not move freely, if either may be it.
     bool a_first = pair->body_a >= world->dynamic_count;
     for (int i = 0; i < 2; ++i) {
-        pl_view v;
-        pl_view_open(&v, world, pair, m, (i == 0) == a_first, dt);
-        int k = flat_edge(&v);
+        bool from_a = (i == 0) == a_first;
+        pl_view *v = &views[from_a ? 0 : 1];
+        bool has = pl_piece_has_seams(&world->pieces, from_a ? pair->a : pair->b);
+        int k = has ? flat_edge(v) : -1;
         if (k >= 0) {
-            run_slot *slot = (run_slot *)s->slots.data + v.other;
-            v.count = 0; // the strip is wanted, not what lies in it
+            run_slot *slot = (run_slot *)s->slots.data + v->other;
+            v->count = 0; // the strip is wanted, not what lies in it
             run_contact *r = (run_contact *)s->contacts.data + s->contact_count;
-            *r = describe(&v, index, k);
+            *r = describe(v, index, k);
             r->next = slot->contact;
             slot->contact = s->contact_count++;
             return;

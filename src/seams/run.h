@@ -2,12 +2,13 @@
 #ifndef PL_RUN_H
 #define PL_RUN_H
 
-#include "seams/seams.h"
+#include "seams/view.h"
 
 // Before the contacts of a step: none is in a run.
 void pl_runs_open(plumb_world *world);
-// Adds the contact of entry `index` of the list of pairs with seams, if it lies on such a face.
-void pl_runs_add(plumb_world *world, uint32_t index, double dt);
+// Adds the contact of entry `index` of the list of pairs with seams, if it lies on such a face. `views`
+// are those from A and from B, of pieces with seams.
+void pl_runs_add(plumb_world *world, uint32_t index, pl_view views[2]);
 // Joins what was added into runs and gives each to one of its contacts. True when some contact
 // changed.
 bool pl_runs_join(plumb_world *world, double dt);

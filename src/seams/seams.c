@@ -108,7 +108,7 @@ void pl_seams_clear(plumb_world *world, uint32_t piece)
         }
     }
     pieces->seam_edges[piece] = 0;
-    pieces->seam_corners[piece] &= ~PL_SEAM_CORNERS;
+    pieces->seam_corners[piece] &= ~(PL_SEAM_CORNERS | PL_SEAM_HAS);
     --s->count;
 }
 
@@ -203,7 +203,7 @@ static void unmark(plumb_world *world, bool done)
     const uint32_t *chosen = s->chosen.data;
     for (uint32_t i = 0; i < s->chosen_count; ++i) {
         world->pieces.seam_corners[chosen[i]] &=
-            done ? PL_SEAM_CORNERS : PL_SEAM_CORNERS | PL_SEAM_STALE;
+            done ? ~(PL_SEAM_CHOSEN | PL_SEAM_STALE) : ~PL_SEAM_CHOSEN;
     }
     s->updated += s->chosen_count;
     s->chosen_count = 0;

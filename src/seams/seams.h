@@ -15,6 +15,7 @@
 
 // Piece column seam_corners: bit k: neighbours narrow what corner k admits.
 #define PL_SEAM_CORNERS UINT32_C(0xffff)
+#define PL_SEAM_HAS     UINT32_C(0x20000000) // some corner is narrowed, or some edge covered
 #define PL_SEAM_STALE   UINT32_C(0x80000000) // the piece is new, moved or changed
 #define PL_SEAM_CHOSEN  UINT32_C(0x40000000) // in the list of an update that runs
 // Piece column seam_edges: bit k: edge k is covered from end to end; bit 16 + k: in part.
@@ -117,7 +118,7 @@ bool pl_seams_admit(const plumb_world *world, uint32_t piece, double nx, double 
 
 static inline bool pl_piece_has_seams(const pl_pieces *pieces, uint32_t piece)
 {
-    return ((pieces->seam_corners[piece] & PL_SEAM_CORNERS) | pieces->seam_edges[piece]) != 0;
+    return (pieces->seam_corners[piece] & PL_SEAM_HAS) != 0;
 }
 
 static inline pl_seam *pl_seam_items(const pl_seams *seams)
