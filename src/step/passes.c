@@ -76,6 +76,11 @@ static bool surfaces_wanted(const plumb_world *world, const char **reason)
     return collision_wanted(world, reason) && pl_surfaces_wanted(world, reason);
 }
 
+static bool seams_wanted(const plumb_world *world, const char **reason)
+{
+    return collision_wanted(world, reason) && pl_seams_wanted(world, reason);
+}
+
 static bool joints_wanted(const plumb_world *world, const char **reason)
 {
     if (world->joints.live > 0 && !pl_joints_any_awake(world)) {
@@ -192,7 +197,16 @@ static plumb_result run_narrow(plumb_world *world, plumb_real dt)
         return PLUMB_E_MEMORY;
     }
     pl_narrow_run(world, &world->broad.pairs, dt, &world->narrow);
+    if (world->seams.pair_count > 0) {
+        pl_seams_correct(world, dt);
+    }
     return pl_events_prepare(world) ? PLUMB_OK : PLUMB_E_MEMORY;
+}
+
+static plumb_result run_seams(plumb_world *world, plumb_real dt)
+{
+    (void)dt;
+    return pl_seams_update(world) ? PLUMB_OK : PLUMB_E_MEMORY;
 }
 
 static plumb_result run_candidates(plumb_world *world, plumb_real dt)
@@ -268,6 +282,9 @@ static plumb_result run_reactions(plumb_world *world, plumb_real dt)
 static plumb_result run_events(plumb_world *world, plumb_real dt)
 {
     (void)dt;
+    if (world->seams.load_count > 0) {
+        pl_seams_remember(world);
+    }
     pl_events_publish(world);
     return PLUMB_OK;
 }
@@ -288,6 +305,7 @@ const pl_pass pl_passes[] = {
     { "force systems", pl_user_phase, "declared by the systems",         "declared by the systems",   forces_wanted,    run_forces },
     { "waking",      "broad",    "islands, pieces, grids, joints",   "rows, pairs, fat boxes",     waking_wanted,    run_waking },
     { "broad phase",   "broad",    "poses, pieces",                   "fat boxes, grids, pairs",   broad_wanted,     run_broad },
+    { "seams",         "broad",    "static pieces, grids, pairs",     "covered edges, corners",    seams_wanted,     run_seams },
     { "narrow phase",  "narrow",   "pairs, poses, pieces, materials", "manifolds",                 collision_wanted, run_narrow },
     { "surfaces",      "narrow",   "pairs, materials",                "manifolds",                 surfaces_wanted,  run_surfaces },
     { "sleep",       "narrow",   "velocities, pairs, joints",        "islands, rows, pairs, manifolds", sleep_wanted, run_sleep },
