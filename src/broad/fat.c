@@ -95,6 +95,9 @@ static void refresh_pose_velocities(plumb_world *world)
         poses[row].vx = bounded(b->vx[row]);
         poses[row].vy = bounded(b->vy[row]);
     }
+    if (world->tunings.scaled > 0) {
+        pl_effects_poses(world);
+    }
 }
 
 bool pl_broad_refresh_moving(plumb_world *world, real dt)

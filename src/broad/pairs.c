@@ -172,6 +172,8 @@ bool pl_pairs_rebuild(plumb_world *world)
     pl_buffer items = list->items;
     list->items = list->old_items;
     list->old_items = items;
+    world->schedule_dirty |= (list->count > 0) != (broad->found_count > 0);
+    world->parts.buried = false;
     list->count = broad->found_count;
     broad->serial = world->serial;
     return true;

@@ -24,7 +24,10 @@ typedef struct pl_manifold {
     real approach;      // [m/s] at the start of the step, for events; 0 for pairs that touched
     real surface_speed; // [m/s] added to the slip: see surface.c
     real rolling;       // [m] lever arm of rolling resistance
-    real blow;          // [N s] impulse of the hit that is due, steps before included; then only
+    union {
+        real adhesion; // [N] that the contact may pull, until it is solved
+        real blow;     // [N s] impulse of the hit that is due, steps before included; then only
+    };
     pl_manifold_point point[2]; // a point that is absent has separation PL_APART
     uint32_t body_a, body_b;    // body rows
     uint32_t pair;              // index in the pair list
@@ -44,6 +47,7 @@ typedef struct pl_narrow {
     bool any_friction;       // some manifold has friction > 0
     bool any_bounce;         // some manifold has restitution > 0
     bool any_surface;        // some manifold has surface speed or rolling resistance
+    bool any_adhesion;       // some manifold may pull
     uint32_t touching_count; // manifolds whose surfaces met
     uint32_t point_count;
     real max_penetration;   // [m]

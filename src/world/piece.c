@@ -1,8 +1,7 @@
 // piece.c - pieces: slots, the lists that run through them, and their corners in the vertex pool.
 //
-// Slots stay put while the shape lives, since grids and contacts name them. A freed slot keeps the
-// shape that it belonged to until it is taken again, so that an end event can still tell it. Free
-// slots are a stack: the same calls give the same slots.
+// Slots stay put while the shape lives, since grids and contacts name them. Free slots are a stack:
+// the same calls give the same slots.
 //
 // Reads: world->made. Writes: piece table, vertex pool, moving list, counters and flags.
 // Cost: O(pieces of the shape + pieces of the body).
@@ -20,8 +19,10 @@ bool pl_pieces_reserve(plumb_world *world, uint32_t extra)
     }
     return pl_table_reserve(&world->memory, &pieces->table, pl_piece_columns, pl_piece_column_count,
                             pieces->table.count + fresh) &&
+           // Bodies change their type and are enabled without asking for memory.
            pl_buffer_reserve(&world->memory, &world->moving,
-                             ((size_t)world->moving_count + extra) * sizeof(uint32_t));
+                             ((size_t)pieces->table.count + extra) * sizeof(uint32_t)) &&
+           pl_graves_reserve(world, pieces->table.count + fresh);
 }
 
 static uint32_t take_slot(plumb_world *world)
@@ -51,7 +52,44 @@ static void delist_moving(plumb_world *world, uint32_t slot)
     uint32_t last = pl_moving(world)[--world->moving_count];
     pl_moving(world)[place] = last;
     world->pieces.moving[last] = place;
-    world->pieces.moving[slot] = PL_NONE;
+    world->pieces.moving[slot] = PL_OUT;
+}
+
+// Files a piece that is in no grid.
+static void file(plumb_world *world, uint32_t slot, uint32_t row)
+{
+    pl_pieces *pieces = &world->pieces;
+    // Empty: whatever the tight box is, the piece has left its fat box.
+    pieces->fat[slot] =
+        (pl_box){ PLUMB_REAL_MAX, PLUMB_REAL_MAX, -PLUMB_REAL_MAX, -PLUMB_REAL_MAX };
+    if ((world->bodies.flags[row] & PL_BODY_DISABLED) != 0) {
+        pieces->moving[slot] = PL_OUT;
+    } else if (world->bodies.type[row] == PLUMB_STATIC) {
+        pieces->moving[slot] = PL_NONE;
+        world->static_dirty = true;
+    } else {
+        enlist_moving(world, slot);
+    }
+}
+
+static void unfile(plumb_world *world, uint32_t slot)
+{
+    if (world->pieces.moving[slot] == PL_NONE) {
+        world->static_dirty = true;
+    } else if (world->pieces.moving[slot] != PL_OUT) {
+        delist_moving(world, slot);
+    }
+}
+
+void pl_pieces_refile(plumb_world *world, uint32_t row)
+{
+    uint32_t p = world->bodies.first_piece[row];
+    for (; p != PL_NONE; p = world->pieces.next_in_body[p]) {
+        unfile(world, p);
+        file(world, p, row);
+        world->pairs_dirty = true;
+    }
+    world->schedule_dirty = true;
 }
 
 static void store_corners(plumb_world *world, uint32_t slot, const plumb_convex *convex)
@@ -82,17 +120,9 @@ static void fill_slot(plumb_world *world, uint32_t slot, uint32_t row, const pl_
     pieces->core[slot] = made->core;
     pieces->seams[slot] = made->seams;
     pieces->body[slot] = row;
-    pieces->moving[slot] = PL_NONE;
-    // Empty: whatever the tight box is, the piece has left its fat box.
-    pieces->fat[slot] =
-        (pl_box){ PLUMB_REAL_MAX, PLUMB_REAL_MAX, -PLUMB_REAL_MAX, -PLUMB_REAL_MAX };
     store_corners(world, slot, &made->convex);
     ++world->piece_kinds[made->kind];
-    if (world->bodies.type[row] == PLUMB_STATIC) {
-        world->static_dirty = true;
-    } else {
-        enlist_moving(world, slot);
-    }
+    file(world, slot, row);
 }
 
 uint32_t pl_pieces_add(plumb_world *world, uint32_t row, plumb_shape shape, const pl_made *made)
@@ -145,11 +175,8 @@ static void unlink_from_body(plumb_world *world, uint32_t first)
 static void free_slot(plumb_world *world, uint32_t slot)
 {
     pl_pieces *pieces = &world->pieces;
-    if (pieces->moving[slot] == PL_NONE) {
-        world->static_dirty = true;
-    } else {
-        delist_moving(world, slot);
-    }
+    unfile(world, slot);
+    pl_grave_dig(world, slot);
     if (pieces->vertex_count[slot] > 0) {
         pl_pool_give(&world->vertices, pieces->vertex_class[slot], pieces->vertices[slot]);
     }
