@@ -2,7 +2,7 @@
 //
 // x = k ln 2 + r, |r| <= ln(2) / 2: exp(-x) = 2^-k exp(-r), by Taylor's series up to r^17 (the next
 // term is below 3e-24). ln 2 is taken off in two parts, the first with trailing zeros, so that k
-// times it is exact (Cody and Waite 1980). Below 1/2 the integrals have series of their own: their
+// times it is exact (Cody and Waite 1980). Below 1 the integrals have series of their own: their
 // formulas would lose digits. Cost: 20 operations, at most 60.
 #include "math/decay.h"
 
@@ -13,7 +13,7 @@
 #define LN2_LOW  0x1.cf79abc9e3b3ap-40
 #define INV_LN2  0x1.71547652b82fep+0
 #define LARGEST  708.0 // beyond it exp(-x) would be denormal: counts as 0
-#define SMALL    0.5
+#define SMALL    1.0
 #define TERMS    17
 
 // 2^-k, 0 <= k <= 1022.
