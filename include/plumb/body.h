@@ -99,7 +99,7 @@ PLUMB_API plumb_result plumb_body_set_angle(plumb_world *world, plumb_body body,
 /// Sends a kinematic body to a pose [m], [rad], to be there after dt [s], turning the shorter way. Steps
 /// move it straight and evenly, so that what it meets is pushed and carried; in the step in which the time
 /// is up it arrives, its pose is the target exactly, and it stands still from then on. With dt the step of
-/// the world, that is the next one. A new target, velocity, teleport or type takes the place of this one.
+/// the world, that is the next one; a shorter dt makes it push as if it were as fast as that says. A new target, velocity, teleport or type takes the place of this one.
 /// O(1). Errors: E_HANDLE, E_RANGE, E_NOT_FINITE, E_STATE (not kinematic), E_MEMORY.
 PLUMB_API plumb_result plumb_body_set_target(plumb_world *world, plumb_body body, plumb_vec2 position,
                                              plumb_real angle, plumb_real dt);

@@ -138,6 +138,7 @@ static void place_pairs(plumb_world *world, pl_pair *items, carry *c)
                 item->body_b = body[old->b];
                 continue;
             }
+            pl_pair_lost(world, old); // other pieces in the same slots
         }
         *item = fresh_pair(world, sorted[i]);
     }

@@ -47,6 +47,8 @@ bool pl_tuning_reserve(plumb_world *world);
 void pl_tuning_set(plumb_world *world, uint32_t row, const pl_tuning *values);
 // The body has no target any more.
 void pl_target_forget(plumb_world *world, uint32_t row);
+// Its time scale has changed: it heads for its target, if it has one, as fast as it takes now.
+void pl_target_reaim(plumb_world *world, uint32_t row);
 // The body goes: its records too.
 void pl_body_forget(plumb_world *world, uint32_t row);
 
@@ -73,8 +75,7 @@ typedef struct pl_flight {
 // The same as free flight in solver/finish.c for a body of PL_BODY_ODD (flight.c).
 pl_flight pl_effects_fly(const plumb_world *world, uint32_t row, real dt);
 
-// Before the broad phase: velocities that lead to the targets; after motion: who has arrived.
-void pl_targets_aim(plumb_world *world, real dt);
+// After motion: who has arrived, and where to from here.
 void pl_targets_arrive(plumb_world *world, real dt);
 
 // [1/kg] along an axis (PL_BODY_LOCK_X or _Y): 0 if it is locked.

@@ -1,9 +1,10 @@
 // target.c - kinematic bodies on their way to a target.
 //
-// In each step the velocity is what leads straight to the target in the time that is left, or in
-// this step if less is left; on arrival the pose is set to the target, bit for bit, and the body
-// stands still. Reads: targets, poses. Writes: velocities and poses of their bodies. Order: aim
-// before the broad phase, which must know velocities; arrive after motion. Cost: O(targets).
+// The velocity is what leads straight to the target in the time that is left; after each step it is
+// aimed anew, for the next step if less than that is left. On arrival the pose is set to the target,
+// bit for bit, and the body stands still. All of it happens after motion: a step that runs out of
+// memory must find velocities as they were. Reads: targets, poses. Writes: velocities and poses of
+// their bodies. Cost: O(targets).
 #include "plumb/math.h"
 #include "world/check.h"
 #include "world/rows.h"
@@ -38,11 +39,22 @@ static void aim(plumb_world *world, uint32_t row, const pl_target *target, real 
 {
     pl_bodies *b = &world->bodies;
     real scale = pl_time_scale(world, row);
-    real rate = scale > 0 ? 1 / (time * scale) : 0;
+    real rate = scale > 0 ? 1 / (time * scale) : 1 / time; // it waits, ready to go
     plumb_rot turn = plumb_rot_inv_mul((plumb_rot){ b->c[row], b->s[row] }, target->turn);
     b->vx[row] = pl_poses(world)[row].vx = (target->x - b->x[row]) * rate;
     b->vy[row] = pl_poses(world)[row].vy = (target->y - b->y[row]) * rate;
     b->w[row] = plumb_rot_angle(turn) * rate;
+}
+
+void pl_target_reaim(plumb_world *world, uint32_t row)
+{
+    bool has = (world->bodies.flags[row] & PL_BODY_TARGETED) != 0;
+    for (uint32_t i = 0; has && i < world->targets.count; ++i) {
+        const pl_target *target = &items(world)[i];
+        if (plumb_same(target->body, world->bodies.entity[row])) {
+            aim(world, row, target, target->left);
+        }
+    }
 }
 
 plumb_result plumb_body_set_target(plumb_world *world, plumb_body body, plumb_vec2 position,
@@ -76,15 +88,6 @@ plumb_result plumb_body_set_target(plumb_world *world, plumb_body body, plumb_ve
     return PLUMB_OK;
 }
 
-void pl_targets_aim(plumb_world *world, real dt)
-{
-    for (uint32_t i = 0; i < world->targets.count; ++i) {
-        const pl_target *target = &items(world)[i];
-        aim(world, pl_body_row(world, target->body), target,
-            target->left > dt ? target->left : dt);
-    }
-}
-
 void pl_targets_arrive(plumb_world *world, real dt)
 {
     pl_bodies *b = &world->bodies;
@@ -96,6 +99,7 @@ void pl_targets_arrive(plumb_world *world, real dt)
         target.left -= waits ? 0 : dt;
         if (target.left > REST * dt) {
             items(world)[kept++] = target;
+            aim(world, row, &target, target.left > dt ? target.left : dt);
             continue;
         }
         b->x[row] = target.x, b->y[row] = target.y;

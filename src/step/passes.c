@@ -183,12 +183,6 @@ static plumb_result run_forces(plumb_world *world, plumb_real dt)
     return PLUMB_OK;
 }
 
-static plumb_result run_aim(plumb_world *world, plumb_real dt)
-{
-    pl_targets_aim(world, dt);
-    return PLUMB_OK;
-}
-
 static plumb_result run_arrive(plumb_world *world, plumb_real dt)
 {
     pl_targets_arrive(world, dt);
@@ -291,7 +285,6 @@ const pl_pass pl_passes[] = {
     //name             phase       reads                              writes                       wanted            run
     { "begin systems", pl_user_phase, "declared by the systems",         "declared by the systems",   begin_wanted,     run_begin },
     { "force systems", pl_user_phase, "declared by the systems",         "declared by the systems",   forces_wanted,    run_forces },
-    { "targets",       "forces",   "targets, poses",                  "kinematic velocities",      targets_wanted,   run_aim },
     { "broad phase",   "broad",    "poses, pieces",                   "fat boxes, grids, pairs",   broad_wanted,     run_broad },
     { "sensor pairs",  "broad",    "pairs with sensors",              "candidates of sensors",     sensing_wanted,   run_candidates },
     { "narrow phase",  "narrow",   "pairs, poses, pieces, materials", "manifolds",                 collision_wanted, run_narrow },
@@ -310,7 +303,7 @@ const pl_pass pl_passes[] = {
     { "- own time",    "solve",    "tunings",                         "solver bodies, transforms", own_time_wanted,  NULL },
     { "- joints",      "solve",    "joints, poses",                   "solver bodies, joints",     joints_wanted,    NULL },
     { "motion",        "finish",   "solver bodies, forces, gravity",  "transforms, velocities",    NULL,             run_motion },
-    { "arrivals",      "finish",   "targets",                         "kinematic transforms",      targets_wanted,   run_arrive },
+    { "targets",       "finish",   "targets, poses",                  "kinematic poses, velocities", targets_wanted, run_arrive },
     { "reactions",     "finish",   "joints, poses",                   "joints, break events",      joints_wanted,    run_reactions },
     { "events",        "finish",   "pairs, manifolds",                "event arrays",              collision_wanted, run_events },
     { "sensors",       "finish",   "candidates, poses, pieces",       "overlaps, sensor events",   sensing_wanted,   run_sensors },

@@ -90,7 +90,9 @@ plumb_result plumb_body_set_time_scale(plumb_world *world, plumb_body body, plum
         return r;
     }
     t.time_scale = scale;
-    return store(world, row, &t);
+    store(world, row, &t);
+    pl_target_reaim(world, row);
+    return PLUMB_OK;
 }
 
 //---- read

@@ -60,7 +60,7 @@ static void call(plumb_world *w, script *s, plumb_entity e[HANDLES])
     plumb_entity *slot = &e[byte_of(s) % HANDLES], other = e[byte_of(s) % HANDLES];
     plumb_ray_hit hit;
     plumb_material_desc m = { .friction = real_of(s), .restitution = real_of(s) };
-    switch (byte_of(s) % 12) {
+    switch (byte_of(s) % 20) {
     case 0:
         *slot = plumb_body_create(w, &(plumb_body_desc){ .type = (plumb_body_type)(byte_of(s) % 4),
                                                          .position = vec_of(s) });
@@ -94,6 +94,33 @@ static void call(plumb_world *w, script *s, plumb_entity e[HANDLES])
         break;
     case 10:
         *slot = plumb_material_create(w, &m);
+        break;
+    case 11:
+        plumb_body_set_type(w, other, (plumb_body_type)(byte_of(s) % 4));
+        break;
+    case 12:
+        plumb_body_set_enabled(w, other, byte_of(s) % 2 == 0);
+        break;
+    case 13:
+        plumb_body_set_locks(w, other, (plumb_axis_locks){ .x = byte_of(s) % 2 == 0, .y = byte_of(s) % 3 == 0 });
+        break;
+    case 14:
+        plumb_body_set_damping(w, other, real_of(s), real_of(s));
+        break;
+    case 15:
+        plumb_body_set_speed_cap(w, other, real_of(s), real_of(s));
+        break;
+    case 16:
+        plumb_body_set_time_scale(w, other, real_of(s));
+        break;
+    case 17:
+        plumb_body_set_target(w, other, vec_of(s), real_of(s), real_of(s));
+        break;
+    case 18:
+        plumb_world_explode(w, &(plumb_explosion_desc){ .position = vec_of(s),
+                                                        .radius = real_of(s),
+                                                        .impulse = real_of(s),
+                                                        .occlusion = (plumb_occlusion)(byte_of(s) % 3) });
         break;
     default:
         plumb_world_step(w, real_of(s) / 64);
