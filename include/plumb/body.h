@@ -162,7 +162,8 @@ PLUMB_API plumb_axis_locks plumb_body_locks(const plumb_world *world, plumb_body
 
 /// Damping rates [1/s] >= 0 of a dynamic body: dv/dt = a - linear v, dw/dt = a - angular w. Velocities
 /// follow the exact exponential whatever the step and substeps; so do places of a body that nothing
-/// touches (else within (rate h)^2 / 12 of the way, h the substep). Linear c is a top speed of a / c.
+/// touches (else within (rate h)^2 / 12 of the way, h the substep, and a body at rest weighs less by the
+/// share rate h / 2). Linear c is a top speed of a / c.
 /// Bodies without damping pay nothing. Errors: E_HANDLE, E_RANGE, E_NOT_FINITE, E_MEMORY.
 PLUMB_API plumb_result plumb_body_set_damping(plumb_world *world, plumb_body body, plumb_real linear,
                                               plumb_real angular);

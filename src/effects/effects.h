@@ -15,13 +15,14 @@ typedef struct pl_tuning {
     real damping, angular_damping; // [1/s]
     real max_speed, max_spin;      // [m/s], [rad/s]; 0: none
     real time_scale;               // [-]
-    real ax, ay, aw; // in a step: acceleration by forces in the world's time, before damping and caps
+    real ax, ay,
+        aw; // in a step: acceleration by forces in the world's time, before damping and caps
 } pl_tuning;
 
 typedef struct pl_tunings {
     pl_buffer items; // pl_tuning, no order
     uint32_t count;
-    uint32_t damped, capped, scaled; // records that ask for it
+    uint32_t damped, capped, scaled, frozen; // records that ask for it; frozen: time scale 0
 } pl_tunings;
 
 // Where a kinematic body is to be in a while.

@@ -18,7 +18,7 @@
 
 #include <math.h>
 
-#define RAYS         32
+#define RAYS          32
 #define POSITION_MOST ((real)1e9)
 #define REACH_MOST    ((real)1e7)
 #define SHIELDED      ((real)0.999) // [-] of the way: what a ray meets before here shields
@@ -38,9 +38,9 @@ typedef struct pushed {
 typedef struct blast {
     plumb_world *world;
     const plumb_explosion_desc *desc;
-    double reach;                     // [m]
-    double sine[RAYS], weight[RAYS];  // of the middle of a piece's angle, in halves of it
-    uint32_t row;                     // of the body that is asked about
+    double reach;                    // [m]
+    double sine[RAYS], weight[RAYS]; // of the middle of a piece's angle, in halves of it
+    uint32_t row;                    // of the body that is asked about
 } blast;
 
 //---- checks
@@ -123,8 +123,8 @@ static bool shields(void *context, plumb_shape shape)
 {
     const blast *b = context;
     uint32_t row = b->world->pieces.body[pl_shape_piece(b->world, shape)];
-    return row != b->row && (b->desc->occlusion == PLUMB_OCCLUDE_ALL ||
-                             b->world->bodies.type[row] != PLUMB_DYNAMIC);
+    return row != b->row &&
+           (b->desc->occlusion == PLUMB_OCCLUDE_ALL || b->world->bodies.type[row] != PLUMB_DYNAMIC);
 }
 
 static bool is_shielded(blast *b, plumb_vec2 way, real fraction)
@@ -204,8 +204,7 @@ static void hit_piece(blast *b, uint32_t piece, impact *sum)
         pl_sincos(middle + half * b->sine[k], &s, &c);
         plumb_vec2 way = { (real)(c * b->reach), (real)(s * b->reach) };
         real fraction;
-        if (!meets(b->world, piece, at, way, &fraction) ||
-            is_behind_own(b, piece, way, fraction)) {
+        if (!meets(b->world, piece, at, way, &fraction) || is_behind_own(b, piece, way, fraction)) {
             continue;
         }
         double distance = (double)fraction * b->reach;

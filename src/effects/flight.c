@@ -72,7 +72,9 @@ pl_flight pl_effects_fly(const plumb_world *world, uint32_t row, real dt)
         turn.way = time * (turn.v + turn.after) / 2;
     }
     // Changes against the columns, without what rounding had taken from them.
-    return (pl_flight){ x.way, y.way, turn.way,
+    return (pl_flight){ x.way,
+                        y.way,
+                        turn.way,
                         x.after - (double)b->vx[row] - (double)b->low_vx[row],
                         y.after - (double)b->vy[row] - (double)b->low_vy[row],
                         turn.after - (double)b->w[row] };

@@ -44,6 +44,7 @@ static void count(pl_tunings *tunings, const pl_tuning *t, uint32_t by)
     tunings->damped += is_damped(t) ? by : 0;
     tunings->capped += is_capped(t) ? by : 0;
     tunings->scaled += t->time_scale != 1 ? by : 0;
+    tunings->frozen += t->time_scale == 0 ? by : 0;
 }
 
 static void take_away(plumb_world *world, uint32_t row)

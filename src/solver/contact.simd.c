@@ -49,7 +49,7 @@ typedef struct extra {
     vf total[2];      // [N s] normal impulses of the substeps so far
 } extra;
 
-// What only locked axes and surfaces that stick need. A body locked along an axis has infinite mass
+// What only locked axes, bodies whose time stands still and surfaces that stick need. A body locked along an axis has infinite mass
 // that way. A point that sticks may pull: its impulse is at least -pull, and so l + pull is what is
 // never negative, what friction goes by, and what the springs carry.
 typedef struct special {
@@ -365,6 +365,10 @@ WIDE_INLINE void solve_normals(const bundle *c, const special *s, point p[2], bo
     vm first = k01 * only0 >= b1;
     vf total0 = sel(both, both0, sel(first, only0, zero));
     vf total1 = sel(both, both1, sel(first, zero, only1));
+    if (s != NULL) { // nothing can push two immovable bodies
+        total0 = sel(d0 > zero, total0, s->pull[0]);
+        total1 = sel(d1 > zero, total1, s->pull[1]);
+    }
     vf impulse0 = total0 - old0;
     vf impulse1 = total1 - old1;
     p[0].ln = s != NULL ? total0 - s->pull[0] : total0;

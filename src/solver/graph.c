@@ -40,7 +40,7 @@ bool pl_solver_tallies(const plumb_world *world)
 
 bool pl_solver_specials(const plumb_world *world)
 {
-    return world->locked_bodies > 0 || world->narrow.any_adhesion;
+    return world->locked_bodies > 0 || world->tunings.frozen > 0 || world->narrow.any_adhesion;
 }
 
 static bool reserve_bodies(plumb_world *world)

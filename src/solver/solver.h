@@ -110,7 +110,7 @@ typedef enum pl_surface_variant {
     PL_SMOOTH,  // no friction
     PL_ROUGH,   // friction
     PL_RUNNING, // friction, surface speed, rolling resistance: needs `extras`
-    PL_SPECIAL, // the same, locked axes, adhesion, always with rotation: needs `specials` too
+    PL_SPECIAL, // the same, locked axes, adhesion, time scale 0, with rotation: needs `specials` too
     PL_SURFACE_VARIANTS
 } pl_surface_variant;
 
@@ -155,7 +155,7 @@ void pl_solver_soft(plumb_world *world, real dt);
 void pl_solver_pgs(plumb_world *world, real dt);
 // Whether the impulses of contacts are added up over the step.
 bool pl_solver_tallies(const plumb_world *world);
-// Whether locked axes or adhesion are there to be solved.
+// Whether locked axes, adhesion or bodies whose time stands still are there to be solved.
 bool pl_solver_specials(const plumb_world *world);
 // Moves bodies over one substep of h [s] (integrate.c).
 void pl_integrate_positions(const plumb_world *world, real h);

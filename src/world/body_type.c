@@ -147,9 +147,9 @@ plumb_result plumb_body_set_inertia(plumb_world *world, plumb_body body, plumb_r
 {
     uint32_t row;
     plumb_result r = pl_check_body(world, __func__, body, &row);
-    r = r != PLUMB_OK ? r
-                      : pl_check_range(world, __func__, "inertia", inertia, PL_MASS_LEAST,
-                                       PL_MASS_MOST);
+    r = r != PLUMB_OK
+            ? r
+            : pl_check_range(world, __func__, "inertia", inertia, PL_MASS_LEAST, PL_MASS_MOST);
     r = r != PLUMB_OK ? r : pl_check_dynamic(world, __func__, body, &row);
     if (r == PLUMB_OK) {
         world->bodies.set_inertia[row] = inertia;

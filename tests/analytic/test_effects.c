@@ -40,11 +40,11 @@ static void damped_flight_is_exact(void **state)
         for (int i = 1; i <= steps; ++i) {
             sim_step(w, dt);
             double t = i * dt, e = exp(-rate * t), one = -expm1(-rate * t);
-            worst_v = fmax(worst_v, hypot(sim_vx(w, b) - 30 * e,
-                                          sim_vy(w, b) - (10 * e + g / rate * one)));
-            worst_x = fmax(worst_x, hypot(sim_x(w, b) - 30 * one / rate,
-                                          sim_y(w, b) - (g * t / rate +
-                                                         (10 - g / rate) * one / rate)));
+            worst_v = fmax(worst_v,
+                           hypot(sim_vx(w, b) - 30 * e, sim_vy(w, b) - (10 * e + g / rate * one)));
+            worst_x =
+                fmax(worst_x, hypot(sim_x(w, b) - 30 * one / rate,
+                                    sim_y(w, b) - (g * t / rate + (10 - g / rate) * one / rate)));
             worst_w = fmax(worst_w, fabs(sim_w(w, b) - 20 * exp(-2 * rate * t)));
         }
         print_message("damping %5.3g /s at %3.0f Hz: place off by %.2g m, velocity %.2g m/s, spin "
@@ -248,8 +248,8 @@ static void slow_motion_follows_the_same_parabola(void **state)
         for (int i = 1; i <= 120; ++i) {
             sim_step(w, dt);
             double t = s * i * dt;
-            worst = fmax(worst, hypot(sim_x(w, b) - 3 * t,
-                                      sim_y(w, b) - (10 + 4 * t + g * t * t / 2)));
+            worst =
+                fmax(worst, hypot(sim_x(w, b) - 3 * t, sim_y(w, b) - (10 + 4 * t + g * t * t / 2)));
             worst = fmax(worst, fabs(sim_vy(w, b) - (4 + g * t)));
         }
         print_message("projectile at %5.3g of the world's time: off by %.2g\n", scales[k], worst);
@@ -283,6 +283,41 @@ static void stack_of_different_times_rests(void **state)
         }
         print_message("stack of times 0.5, 1, 0.25, 2: forces within %.2g\n", worst);
         assert_true(worst < 0.01);
+        plumb_world_destroy(w);
+    }
+}
+
+// A stack in which time stands still for two boxes, then goes on: nothing has moved, nothing jumps.
+static void a_frozen_stack_goes_on(void **state)
+{
+    (void)state;
+    const plumb_solver solvers[] = { PLUMB_SOLVER_SOFT, PLUMB_SOLVER_PGS };
+    for (int s = 0; s < 2; ++s) {
+        plumb_world *w = sim_world(&(plumb_world_desc){ .solver = solvers[s] });
+        plumb_material m = sim_material(w, 0.6, 0.2);
+        plumb_body box[4];
+        sim_floor(w, m);
+        for (int i = 0; i < 4; ++i) {
+            box[i] = sim_crate(w, 0, 0.5 + i, 0.5, 0.5, m);
+        }
+        sim_run(w, 120, HZ60);
+        double top = sim_y(w, box[3]), low = sim_y(w, box[0]);
+        plumb_body_set_time_scale(w, box[0], 0);
+        plumb_body_set_time_scale(w, box[1], 0);
+        sim_run(w, 120, HZ60);
+        assert_true(sim_y(w, box[0]) == low);
+        assert_true(fabs(sim_y(w, box[3]) - top) < 0.01);
+        plumb_body_set_time_scale(w, box[0], 1);
+        plumb_body_set_time_scale(w, box[1], 1);
+        double fastest = 0;
+        for (int i = 0; i < 120; ++i) {
+            sim_step(w, HZ60);
+            fastest = fmax(fastest, sim_max_speed(w));
+        }
+        print_message("stack thawed: fastest %.3g m/s, top off by %.2g m\n", fastest,
+                      sim_y(w, box[3]) - top);
+        assert_true(fastest < 0.1);
+        assert_true(fabs(sim_y(w, box[3]) - top) < 0.01);
         plumb_world_destroy(w);
     }
 }
@@ -373,8 +408,8 @@ static void blast_on_a_disc(void **state)
     double worst = 0;
     for (int k = 0; k < 5; ++k) {
         plumb_world *w = sim_space();
-        plumb_body b = sim_ball(w, 1 + distances[k] * 0.6, 2 + distances[k] * 0.8, 1,
-                                sim_material(w, 0, 0));
+        plumb_body b =
+            sim_ball(w, 1 + distances[k] * 0.6, 2 + distances[k] * 0.8, 1, sim_material(w, 0, 0));
         plumb_explosion_desc blast = { .position = sim_vec(1, 2), .radius = 1000, .impulse = 7 };
         assert_int_equal(plumb_world_explode(w, &blast), PLUMB_OK);
         double mass = (double)plumb_body_mass(w, b);
@@ -530,6 +565,7 @@ int main(void)
         cmocka_unit_test(joint_of_a_locked_body_carries),
         cmocka_unit_test(slow_motion_follows_the_same_parabola),
         cmocka_unit_test(stack_of_different_times_rests),
+        cmocka_unit_test(a_frozen_stack_goes_on),
         cmocka_unit_test(different_times_collide_elastically),
         cmocka_unit_test(targets_are_met_exactly),
         cmocka_unit_test(lift_by_targets_carries_a_box),

@@ -2,14 +2,14 @@
 // tests/analytic/test_effects.c.
 #include "world_fixture.h"
 
-#define W     f->world
-#define NAN_  ((plumb_real)NAN)
+#define W          f->world
+#define NAN_       ((plumb_real)NAN)
 #define BLAST(...) plumb_world_explode(W, &(plumb_explosion_desc){ __VA_ARGS__ })
 
 static plumb_body disc(plumb_world *w, double x, double y, plumb_shape_desc d)
 {
-    plumb_body b = plumb_body_create(
-        w, &(plumb_body_desc){ .position = { R(x), R(y) }, .no_gravity = true });
+    plumb_body b =
+        plumb_body_create(w, &(plumb_body_desc){ .position = { R(x), R(y) }, .no_gravity = true });
     d.kind = PLUMB_CIRCLE;
     d.radius = R(0.5);
     assert_false(plumb_is_null(plumb_shape_create(w, b, &d)));
@@ -27,11 +27,11 @@ static void only_what_is_near_is_pushed(void **state)
     plumb_body near = disc(W, 52, 0, (plumb_shape_desc){ 0 });
     plumb_body half = disc(W, 50, 4.5, (plumb_shape_desc){ 0 });
     plumb_body far = disc(W, 50, -7, (plumb_shape_desc){ 0 });
-    assert_int_equal(BLAST(.position = { 50, 0 }, .radius = 3, .falloff = 2, .impulse = 1), PLUMB_OK);
+    assert_int_equal(BLAST(.position = { 50, 0 }, .radius = 3, .falloff = 2, .impulse = 1),
+                     PLUMB_OK);
     assert_true(plumb_body_velocity(W, near).x > 1);
     assert_near(plumb_body_velocity(W, near).y, 0, 1e-5);
-    assert_true(plumb_body_velocity(W, half).y > 0.2 &&
-                speed(W, half) < speed(W, near));
+    assert_true(plumb_body_velocity(W, half).y > 0.2 && speed(W, half) < speed(W, near));
     assert_true(speed(W, far) == 0);
     assert_true(speed(W, f->dynamic) == 0);
     plumb_body_set_velocity(W, near, plumb_v2(0, 0));
@@ -118,7 +118,8 @@ static void occlusion_says_what_shields(void **state)
             plumb_body target = disc(W, (double)x + 10, 0, (plumb_shape_desc){ 0 });
             plumb_body cover = plumb_body_create(
                 W, &(plumb_body_desc){ .type = types[screen], .position = { x + 5, 0 } });
-            plumb_shape_create(W, cover, &(plumb_shape_desc){ .kind = PLUMB_BOX, .half = { R(0.2), 3 } });
+            plumb_shape_create(W, cover,
+                               &(plumb_shape_desc){ .kind = PLUMB_BOX, .half = { R(0.2), 3 } });
             BLAST(.position = { x, 0 }, .radius = 20, .impulse = 1,
                   .occlusion = (plumb_occlusion)occlusion);
             bool shielded = occlusion == PLUMB_OCCLUDE_ALL ||
@@ -168,9 +169,10 @@ static void explosions_are_refused(void **state)
             BLAST(.radius = 2, .position = { NAN_, 0 }));
     REFUSED(E_RANGE, "plumb_world_explode: occlusion is 3; it must be a plumb_occlusion",
             BLAST(.radius = 2, .occlusion = (plumb_occlusion)3));
-    REFUSED(E_HANDLE,
-            "plumb_world_explode: filter.ignore_body is stale (0:1); it must be a live body or null",
-            BLAST(.radius = 2, .filter = { .ignore_body = f->stale }));
+    REFUSED(
+        E_HANDLE,
+        "plumb_world_explode: filter.ignore_body is stale (0:1); it must be a live body or null",
+        BLAST(.radius = 2, .filter = { .ignore_body = f->stale }));
     disc(W, 2, 5, (plumb_shape_desc){ .density = R(1e-30) });
     REFUSED(E_NOT_FINITE,
             "plumb_world_explode: impulse is too large; the sum over the body must be finite",
@@ -181,14 +183,10 @@ static void explosions_are_refused(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        API_TEST(only_what_is_near_is_pushed),
-        API_TEST(strength_and_filter),
-        API_TEST(a_body_can_get_its_whole_impulse),
-        API_TEST(parts_of_a_body_shield_one_another),
-        API_TEST(occlusion_says_what_shields),
-        API_TEST(a_blast_inside_a_body_drives_it_out),
-        API_TEST(locked_axes_take_nothing),
-        API_TEST(explosions_are_refused),
+        API_TEST(only_what_is_near_is_pushed),      API_TEST(strength_and_filter),
+        API_TEST(a_body_can_get_its_whole_impulse), API_TEST(parts_of_a_body_shield_one_another),
+        API_TEST(occlusion_says_what_shields),      API_TEST(a_blast_inside_a_body_drives_it_out),
+        API_TEST(locked_axes_take_nothing),         API_TEST(explosions_are_refused),
     };
     return cmocka_run_group_tests_name("effect", tests, NULL, NULL);
 }

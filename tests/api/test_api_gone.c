@@ -53,7 +53,8 @@ static void a_destroyed_body_ends_its_touches(void **state)
     assert_true(names(&e, floor, discs[1]) && names(&e, floor, discs[3]));
     assert_false(plumb_shape_valid(w, discs[1]));
     for (int i = 0; i < e.count; ++i) {
-        bool one = plumb_same(e.event[i].body_a, bodies[1]) || plumb_same(e.event[i].body_b, bodies[1]);
+        bool one =
+            plumb_same(e.event[i].body_a, bodies[1]) || plumb_same(e.event[i].body_b, bodies[1]);
         bool other =
             plumb_same(e.event[i].body_a, bodies[3]) || plumb_same(e.event[i].body_b, bodies[3]);
         assert_true(one || other);
@@ -107,13 +108,13 @@ static void shapes_of_several_pieces_end_once(void **state)
         }
         plumb_body ground = plumb_body_create(w, &(plumb_body_desc){ .type = PLUMB_STATIC });
         plumb_shape chain = plumb_shape_create(
-            w, ground,
-            &(plumb_shape_desc){ .kind = PLUMB_CHAIN, .points = points, .count = 12 });
+            w, ground, &(plumb_shape_desc){ .kind = PLUMB_CHAIN, .points = points, .count = 12 });
         plumb_body body = plumb_body_create(w, &(plumb_body_desc){ .position = { 0, R(0.5) } });
         plumb_shape box = plumb_shape_create(w, body, &BOX);
-        plumb_shape far = plumb_shape_create(
-            w, ground,
-            &(plumb_shape_desc){ .kind = PLUMB_CIRCLE, .radius = R(0.2), .center = { R(0.75), R(0.5) } });
+        plumb_shape far = plumb_shape_create(w, ground,
+                                             &(plumb_shape_desc){ .kind = PLUMB_CIRCLE,
+                                                                  .radius = R(0.2),
+                                                                  .center = { R(0.75), R(0.5) } });
         steps(w, 30);
         if (which == 0) {
             plumb_body_destroy(w, body);
@@ -159,7 +160,8 @@ static void a_new_form_touches_anew(void **state)
     plumb_world *w = flat_world((plumb_world_desc){ 0 });
     plumb_shape floor = add_floor(w, NULL_), disc;
     int tag = 0;
-    plumb_body body = add_disc(w, 0, 0.5, (plumb_shape_desc){ .user_data = &tag, .density = 3 }, &disc);
+    plumb_body body =
+        add_disc(w, 0, 0.5, (plumb_shape_desc){ .user_data = &tag, .density = 3 }, &disc);
     steps(w, 30);
     assert_int_equal(plumb_shape_set_geometry(w, disc, &BOX), PLUMB_OK);
     assert_true(plumb_shape_valid(w, disc));
@@ -182,12 +184,11 @@ static void a_new_form_touches_anew(void **state)
     assert_int_equal(plumb_body_shapes(w, body, NULL, 0), 0);
     assert_int_equal(plumb_shape_set_geometry(w, disc, &BOX), PLUMB_E_HANDLE);
     assert_int_equal(plumb_shape_set_geometry(w, floor, NULL), PLUMB_E_NULL);
-    assert_int_equal(
-        plumb_shape_set_geometry(w, floor, &(plumb_shape_desc){ .kind = PLUMB_CIRCLE, .radius = -1 }),
-        PLUMB_E_RANGE);
-    assert_string_equal(
-        plumb_world_error(w).message,
-        "plumb_shape_set_geometry: radius is -1; it must be 0.0001 to 1e+07");
+    assert_int_equal(plumb_shape_set_geometry(
+                         w, floor, &(plumb_shape_desc){ .kind = PLUMB_CIRCLE, .radius = -1 }),
+                     PLUMB_E_RANGE);
+    assert_string_equal(plumb_world_error(w).message,
+                        "plumb_shape_set_geometry: radius is -1; it must be 0.0001 to 1e+07");
     plumb_world_destroy(w);
 }
 

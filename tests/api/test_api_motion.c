@@ -2,9 +2,9 @@
 // targets, given masses; what each refuses and in which words.
 #include "world_fixture.h"
 
-#define NONE  ((plumb_entity)PLUMB_NULL_INIT)
-#define NAN_  ((plumb_real)NAN)
-#define STEP  R(1.0 / 60)
+#define NONE ((plumb_entity)PLUMB_NULL_INIT)
+#define NAN_ ((plumb_real)NAN)
+#define STEP R(1.0 / 60)
 
 static void steps(fixture *f, int count)
 {
@@ -64,11 +64,11 @@ static void a_type_brings_its_mass_and_centre(void **state)
 {
     fixture *f = *state;
     plumb_world *w = f->world;
-    plumb_body b = plumb_body_create(w, &(plumb_body_desc){ .position = { 0, 20 },
-                                                            .velocity = { 1, 0 },
-                                                            .angular_velocity = 2 });
-    plumb_shape_create(w, b,
-                       &(plumb_shape_desc){ .kind = PLUMB_CIRCLE, .radius = 1, .center = { 3, 0 } });
+    plumb_body b = plumb_body_create(
+        w,
+        &(plumb_body_desc){ .position = { 0, 20 }, .velocity = { 1, 0 }, .angular_velocity = 2 });
+    plumb_shape_create(
+        w, b, &(plumb_shape_desc){ .kind = PLUMB_CIRCLE, .radius = 1, .center = { 3, 0 } });
     plumb_vec2 at_origin = plumb_body_velocity_at(w, b, plumb_v2(0, 20));
     plumb_real mass = plumb_body_mass(w, b), inertia = plumb_body_inertia(w, b);
     plumb_body_apply_force_center(w, b, plumb_v2(5, 5));
@@ -144,8 +144,8 @@ static void type_is_refused(void **state)
     REFUSED(E_RANGE, "plumb_body_set_type: type is 3; it must be a plumb_body_type",
             plumb_body_set_type(w, f->dynamic, (plumb_body_type)3));
     plumb_body heavy = plumb_body_create(w, &(plumb_body_desc){ .type = PLUMB_STATIC });
-    plumb_shape_create(w, heavy,
-                       &(plumb_shape_desc){ .kind = PLUMB_CIRCLE, .radius = 1, .density = R(1e37) });
+    plumb_shape_create(
+        w, heavy, &(plumb_shape_desc){ .kind = PLUMB_CIRCLE, .radius = 1, .density = R(1e37) });
     REFUSED(E_RANGE,
             sizeof(plumb_real) == 4
                 ? "plumb_body_set_type: mass is 3.14159e+37; mass and inertia of the body must be "
@@ -176,7 +176,8 @@ static void change_type(const plumb_system_call *call)
 static void structure_is_locked_in_a_step(void **state)
 {
     fixture *f = *state;
-    plumb_system_create(f->world, &(plumb_system_desc){ .name = "s", .run = change_type, .context = f });
+    plumb_system_create(f->world,
+                        &(plumb_system_desc){ .name = "s", .run = change_type, .context = f });
     steps(f, 1);
     assert_int_equal(plumb_body_get_type(f->world, f->dynamic), PLUMB_DYNAMIC);
 }
@@ -242,7 +243,8 @@ static void all_types_can_be_disabled(void **state)
     assert_int_equal(plumb_world_stats(w).disabled_count, 1);
     plumb_body_destroy(w, f->fixed);
     assert_int_equal(plumb_world_stats(w).disabled_count, 0);
-    plumb_body off = plumb_body_create(w, &(plumb_body_desc){ .disabled = true, .position = { 0, 9 } });
+    plumb_body off =
+        plumb_body_create(w, &(plumb_body_desc){ .disabled = true, .position = { 0, 9 } });
     plumb_shape_create(w, off, &(plumb_shape_desc){ .kind = PLUMB_CIRCLE, .radius = 1 });
     steps(f, 10);
     assert_vec_near(plumb_body_position(w, off), 0, 9, 0);
@@ -298,7 +300,8 @@ static void locks_are_kept_and_told(void **state)
     plumb_body_set_angular_velocity(w, f->dynamic, 5);
     plumb_axis_locks locks = plumb_body_locks(w, f->dynamic);
     assert_false(locks.x || locks.y || locks.rotation);
-    assert_int_equal(plumb_body_set_locks(w, f->dynamic, (plumb_axis_locks){ .x = true }), PLUMB_OK);
+    assert_int_equal(plumb_body_set_locks(w, f->dynamic, (plumb_axis_locks){ .x = true }),
+                     PLUMB_OK);
     assert_vec_near(plumb_body_velocity(w, f->dynamic), 0, 4, 0);
     plumb_body_apply_impulse(w, f->dynamic, plumb_v2(8, 8), plumb_v2(0, 5));
     assert_vec_near(plumb_body_velocity(w, f->dynamic), 0, 6, 1e-6);
@@ -362,9 +365,9 @@ static void locks_are_refused(void **state)
     REFUSED(E_STATE,
             "plumb_body_set_velocity: velocity is (1, 2); its x must be 0 for a body locked in x",
             plumb_body_set_velocity(w, f->dynamic, plumb_v2(1, 2)));
-    REFUSED(E_RANGE, "plumb_body_create: velocity is (0, 2); its y must be 0 with lock_y",
-            made(w, plumb_body_create(
-                        w, &(plumb_body_desc){ .lock_y = true, .velocity = { 0, 2 } })));
+    REFUSED(
+        E_RANGE, "plumb_body_create: velocity is (0, 2); its y must be 0 with lock_y",
+        made(w, plumb_body_create(w, &(plumb_body_desc){ .lock_y = true, .velocity = { 0, 2 } })));
 }
 
 //---- damping, caps, time scale
@@ -424,8 +427,8 @@ static void only_what_is_asked_for_is_scheduled(void **state)
 {
     fixture *f = *state;
     plumb_world *w = f->world;
-    const char *const names[] = { "- damping", "- speed caps", "- own time", "- locked axes",
-                                  "targets", "- adhesion" };
+    const char *const names[] = { "- damping",     "- speed caps", "- own time",
+                                  "- locked axes", "targets",      "- adhesion" };
     for (int i = 0; i < 6; ++i) {
         assert_false(is_scheduled(w, names[i]));
     }
@@ -600,9 +603,10 @@ static void inertia_and_centre_can_be_given(void **state)
             plumb_body_set_inertia(w, f->kinematic, 1));
     REFUSED(E_STATE, "plumb_body_set_local_center: body is static; it must be dynamic",
             plumb_body_set_local_center(w, f->fixed, plumb_v2(0, 0)));
-    REFUSED(E_RANGE,
-            "plumb_body_set_local_center: center is (2e+07, 0); each component must be -1e+07 to 1e+07",
-            plumb_body_set_local_center(w, f->dynamic, plumb_v2(R(2e7), 0)));
+    REFUSED(
+        E_RANGE,
+        "plumb_body_set_local_center: center is (2e+07, 0); each component must be -1e+07 to 1e+07",
+        plumb_body_set_local_center(w, f->dynamic, plumb_v2(R(2e7), 0)));
 }
 
 static void forces_can_be_read_and_taken_back(void **state)

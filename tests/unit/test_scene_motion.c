@@ -91,10 +91,9 @@ static void fields_reach_the_world(void **state)
 static void json_keeps_it(void **state)
 {
     (void)state;
-    scene *s = load(EVERYTHING
-                    "find('f'):set_type('kinematic') find('b'):set_damping(3) "
-                    "find('c'):set_lock('x', 'y') find('c'):set_time_scale(2) "
-                    "find('d'):set_enabled(true) find('a'):set_enabled(false)\n");
+    scene *s = load(EVERYTHING "find('f'):set_type('kinematic') find('b'):set_damping(3) "
+                               "find('c'):set_lock('x', 'y') find('c'):set_time_scale(2) "
+                               "find('d'):set_enabled(true) find('a'):set_enabled(false)\n");
     char *text = to_json(s);
     scene *t = load_text("test.json", text, strlen(text));
     char *again = to_json(t);
@@ -116,13 +115,14 @@ static void json_keeps_it(void **state)
 static void handlers_move_bodies(void **state)
 {
     (void)state;
-    scene *s = load("scene{ gravity = {0, 0} }\n"
-                    "local lift = body{ name = 'lift', type = 'kinematic', box{1, 1} }\n"
-                    "local ball = body{ name = 'ball', circle{0.5}, at = {5, 0} }\n"
-                    "at(0, function() lift:move_to(3, 4, 0.5, 0.5) end)\n"
-                    "at(0.25, function() ball:set_type('static') assert(ball:type() == 'static') end)\n"
-                    "at(0.75, function() ball:set_type('dynamic') ball:set_enabled(false)\n"
-                    "  assert(not ball:enabled()) lift:move_to({1, 1}) end)\n");
+    scene *s =
+        load("scene{ gravity = {0, 0} }\n"
+             "local lift = body{ name = 'lift', type = 'kinematic', box{1, 1} }\n"
+             "local ball = body{ name = 'ball', circle{0.5}, at = {5, 0} }\n"
+             "at(0, function() lift:move_to(3, 4, 0.5, 0.5) end)\n"
+             "at(0.25, function() ball:set_type('static') assert(ball:type() == 'static') end)\n"
+             "at(0.75, function() ball:set_type('dynamic') ball:set_enabled(false)\n"
+             "  assert(not ball:enabled()) lift:move_to({1, 1}) end)\n");
     run(s, 30);
     const plumb_world *w = scene_world(s);
     plumb_vec2 p = plumb_body_position(w, named(s, "lift"));
@@ -138,15 +138,16 @@ static void handlers_move_bodies(void **state)
 static void a_blast_pushes(void **state)
 {
     (void)state;
-    scene *s = load("scene{ gravity = {0, 0} }\n"
-                    "body{ name = 'bomb', circle{0.2} }\n"
-                    "body{ name = 'open', circle{0.5}, at = {-5, 0} }\n"
-                    "body{ name = 'hidden', circle{0.5}, at = {5, 0} }\n"
-                    "body{ type = 'static', box{0.5, 4}, at = {3, 0} }\n"
-                    "at(0.1, function() blast{ at = {0, 0}, radius = 8, falloff = 2, impulse = 4,\n"
-                    "  occlusion = 'walls', ignore = 'bomb' } end)\n"
-                    "at(0.5, function() blast{ at = {5, 1}, radius = 2, impulse = 7, per_body = true }"
-                    " end)\n");
+    scene *s =
+        load("scene{ gravity = {0, 0} }\n"
+             "body{ name = 'bomb', circle{0.2} }\n"
+             "body{ name = 'open', circle{0.5}, at = {-5, 0} }\n"
+             "body{ name = 'hidden', circle{0.5}, at = {5, 0} }\n"
+             "body{ type = 'static', box{0.5, 4}, at = {3, 0} }\n"
+             "at(0.1, function() blast{ at = {0, 0}, radius = 8, falloff = 2, impulse = 4,\n"
+             "  occlusion = 'walls', ignore = 'bomb' } end)\n"
+             "at(0.5, function() blast{ at = {5, 1}, radius = 2, impulse = 7, per_body = true }"
+             " end)\n");
     run(s, 10);
     const plumb_world *w = scene_world(s);
     assert_true(plumb_body_velocity(w, named(s, "open")).x < -3);

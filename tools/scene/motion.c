@@ -16,8 +16,8 @@ int sc_axis_bit(const char *name)
     return 0;
 }
 
-static const char *const dynamic_rows[] = { "angular_damping", "damping",   "fixed_rotation",
-                                            "gravity_scale",   "lock",      "mass",
+static const char *const dynamic_rows[] = { "angular_damping", "damping", "fixed_rotation",
+                                            "gravity_scale",   "lock",    "mass",
                                             "max_speed",       "max_spin" };
 
 bool sc_motion_is_dynamic(const char *row)
