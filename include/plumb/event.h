@@ -73,7 +73,7 @@ typedef struct plumb_contact_edit {
     plumb_real restitution;        ///< * [-] 0..1
     plumb_real rolling_resistance; ///< * [m] >= 0
     plumb_real surface_speed;      ///< * [m/s] of both surfaces together: see plumb_material_desc
-    plumb_real adhesion;           ///< * [N] >= 0 that the contact may pull; 0 while it has not touched
+    plumb_real adhesion;           ///< * [N] >= 0 that the contact may pull once it touches
 } plumb_contact_edit;
 
 /// How many contacts this step has: touching ones and those that may touch within it. -1 on error.

@@ -198,10 +198,19 @@ bool pl_events_prepare(plumb_world *world)
 
 //---- after the solver ----------------------------------------------------------------------------
 
+// It touched before, and what sticks is still within reach.
+static bool holds(const pl_pair *pair, const pl_manifold *m)
+{
+    real s0 = m->point[0].separation, s1 = m->point[1].separation;
+    return (pair->flags & PL_PAIR_TOUCHING) != 0 &&
+           (s0 < s1 ? s0 : s1) < pl_adhesion_reach(pair->flags);
+}
+
 static bool touches(const pl_pair *pair, const pl_manifold *m)
 {
-    return (pair->flags & PL_PAIR_HIT) != 0 || pair->normal[0] > 0 || pair->normal[1] > 0 ||
-           m->point[0].separation <= 0 || m->point[1].separation <= 0 || m->adhesion > 0;
+    return (pair->flags & PL_PAIR_HIT) != 0 || pair->normal[0] != 0 || pair->normal[1] != 0 ||
+           m->point[0].separation <= 0 || m->point[1].separation <= 0 ||
+           (m->adhesion > 0 && holds(pair, m));
 }
 
 static const pl_manifold *manifold_of(const plumb_world *world, const pl_pair *pair)

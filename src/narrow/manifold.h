@@ -25,7 +25,7 @@ typedef struct pl_manifold {
     real surface_speed; // [m/s] added to the slip: see surface.c
     real rolling;       // [m] lever arm of rolling resistance
     union {
-        real adhesion; // [N] that the contact may pull, until it is solved
+        real adhesion; // [N] that the contact may pull, until events are made
         real blow;     // [N s] impulse of the hit that is due, steps before included; then only
     };
     pl_manifold_point point[2]; // a point that is absent has separation PL_APART
@@ -36,6 +36,13 @@ typedef struct pl_manifold {
     uint32_t disabled; // by a system; only while the contact systems run
     uint32_t pad;
 } pl_manifold;
+
+// [m] within which surfaces that stick pull: those that touched in the step before hold while they are
+// pulled out of touch; others do not draw one another near.
+static inline real pl_adhesion_reach(uint32_t pair_flags)
+{
+    return (pair_flags & PL_PAIR_TOUCHING) != 0 ? (real)0.005 : (real)1e-4;
+}
 
 // [m] separation of a point that is not there: no impulse can ever act on it.
 #define PL_APART ((real)1e6)

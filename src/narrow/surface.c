@@ -5,9 +5,6 @@
 // from A to B and t = (-n_y, n_x), the surface of A moves by -s_A t and that of B, whose outward
 // normal is -n, by +s_B t: the slip of the surfaces is that of the bodies plus s_A + s_B.
 //
-// Adhesion is of pairs that touched in the step before and are not yet STRING apart: surfaces do not
-// draw one another near, and they hold while they are pulled out of touch.
-//
 // Reads: pairs, materials, the pair table. Writes: manifolds, summary. Order: after the narrow
 // phase. Cost: O(manifolds) in worlds that ask for it, O(materials) in others.
 #include "narrow/surface.h"
@@ -61,15 +58,14 @@ static uint8_t later(uint8_t a, uint8_t b)
     return a > b ? a : b;
 }
 
-#define STRING ((real)0.005) // [m] gap over which adhesion still pulls
-
-// What has let go keeps no pull for the warm start.
+// A point that is out of reach keeps no pull for the warm start.
 static void stick(pl_manifold *m, const pl_pair *pair, real adhesion)
 {
-    bool near = m->point[0].separation < STRING || m->point[1].separation < STRING;
-    m->adhesion = (pair->flags & PL_PAIR_TOUCHING) != 0 && near ? adhesion : 0;
-    for (uint32_t k = 0; k < m->count && m->adhesion == 0; ++k) {
-        m->point[k].normal = m->point[k].normal > 0 ? m->point[k].normal : 0;
+    real reach = adhesion > 0 ? pl_adhesion_reach(pair->flags) : -PL_APART;
+    m->adhesion = adhesion;
+    for (uint32_t k = 0; k < m->count; ++k) {
+        bool pulls = m->point[k].normal < 0;
+        m->point[k].normal = pulls && m->point[k].separation >= reach ? 0 : m->point[k].normal;
     }
 }
 

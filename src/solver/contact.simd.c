@@ -50,11 +50,12 @@ typedef struct extra {
 } extra;
 
 // What only locked axes, bodies whose time stands still and surfaces that stick need. A body locked along an axis has infinite mass
-// that way. A point that sticks may pull: its impulse is at least -pull, and so l + pull is what is
-// never negative, what friction goes by, and what the springs carry.
+// that way. A point that sticks may pull while it is nearer than its reach: its impulse is at least
+// -pull, and so l + pull is what is never negative, what friction goes by, and what the springs carry.
 typedef struct special {
     vf aix, aiy, bix, biy; // [1/kg] inverse masses along the axes
     vf pull[2];            // [N s]
+    vf reach;              // [m]
 } special;
 
 typedef struct body {
@@ -202,7 +203,8 @@ static void prepare_specials(const pl_contact_call *call, uint32_t first, uint32
         body a, b;
         gather_body(&a, call, c->a);
         gather_body(&b, call, c->b);
-        *s = (special){ a.inv_mass, a.inv_mass, b.inv_mass, b.inv_mass, { splat(0), splat(0) } };
+        *s = (special){ .aix = a.inv_mass, .aiy = a.inv_mass, .bix = b.inv_mass, .biy = b.inv_mass };
+        s->pull[0] = s->pull[1] = s->reach = splat(0);
         for (int i = 0; i < PL_WIDTH; ++i) {
             uint32_t at = call->lanes[(size_t)k * PL_WIDTH + (size_t)i];
             if (at == PL_NONE) {
@@ -214,6 +216,7 @@ static void prepare_specials(const pl_contact_call *call, uint32_t first, uint32
             s->aiy[i] = (fa & PL_BODY_LOCK_Y) != 0 ? 0 : s->aiy[i];
             s->bix[i] = (fb & PL_BODY_LOCK_X) != 0 ? 0 : s->bix[i];
             s->biy[i] = (fb & PL_BODY_LOCK_Y) != 0 ? 0 : s->biy[i];
+            s->reach[i] = pl_adhesion_reach(call->pairs[m->pair].flags);
             for (uint32_t j = 0; j < m->count; ++j) {
                 s->pull[j][i] = m->adhesion * call->h / (plumb_real)m->count;
             }
@@ -318,6 +321,23 @@ WIDE_INLINE void warm_start_all(const pl_contact_call *call, uint32_t first, uin
     }
 }
 
+WIDE_INLINE vf separation_now(const bundle *c, const point *p, const body *a, const body *b)
+{
+    return p->separation + c->nx * (b->dx - a->dx) + c->ny * (b->dy - a->dy) + p->rbn * b->da -
+           p->ran * a->da;
+}
+
+// What a special contact is in this substep: only points within reach pull.
+WIDE_INLINE special special_now(const special *s, const bundle *c, const body *a, const body *b)
+{
+    special now = *s;
+    for (int j = 0; j < 2; ++j) {
+        vm near = separation_now(c, &c->p[j], a, b) < s->reach;
+        now.pull[j] = sel(near, s->pull[j], splat(0));
+    }
+    return now;
+}
+
 // The speed that point p lacks to be where it should be, and its diagonal with the spring's give.
 WIDE_INLINE vf shortfall(const bundle *c, const point *p, const body *a, const body *b,
                          const pl_contact_call *call, bool soft, bool rotation, vf *diagonal)
@@ -420,10 +440,14 @@ WIDE_INLINE void sweep(const pl_contact_call *call, uint32_t first, uint32_t cou
     const special *specials = call->specials;
     for (uint32_t k = first; k < first + count; ++k) {
         bundle *c = &bundles[k];
-        const special *s = special_ones ? &specials[k] : NULL;
         body a, b;
         gather_body(&a, call, c->a);
         gather_body(&b, call, c->b);
+        special now;
+        if (special_ones) {
+            now = special_now(&specials[k], c, &a, &b);
+        }
+        const special *s = special_ones ? &now : NULL;
         solve_normals(c, s, c->p, &a, &b, call, soft, rotation);
         if (friction) {
             extra *e = running ? &extras[k] : NULL;

@@ -39,6 +39,20 @@ static real *lane_value(pl_solver *s, const pl_contact_kernels *kernels, size_t 
     return (real *)(void *)(bundle + offset) + lane % width;
 }
 
+// Apart, for few worlds have a locked body and impact_of is worth inlining.
+static __attribute__((noinline)) void note_locks(const plumb_world *world, const pl_manifold *m,
+                                                 pl_impact *impact)
+{
+    const uint16_t *flags = world->bodies.flags;
+    real ima = pl_solver_bodies(&world->solver)[impact->a].inv_mass;
+    real imb = pl_solver_bodies(&world->solver)[impact->b].inv_mass;
+    impact->locked = true;
+    impact->aix = pl_unlocked(flags[m->body_a], PL_BODY_LOCK_X, ima);
+    impact->aiy = pl_unlocked(flags[m->body_a], PL_BODY_LOCK_Y, ima);
+    impact->bix = pl_unlocked(flags[m->body_b], PL_BODY_LOCK_X, imb);
+    impact->biy = pl_unlocked(flags[m->body_b], PL_BODY_LOCK_Y, imb);
+}
+
 // What a manifold's impact needs; where its contact reads separations and keeps impulses is the caller's.
 static pl_impact impact_of(const plumb_world *world, const pl_manifold *m)
 {
@@ -54,14 +68,7 @@ static pl_impact impact_of(const plumb_world *world, const pl_manifold *m)
                          .restitution = m->restitution,
                          .surface_speed = m->surface_speed };
     if (world->locked_bodies > 0) {
-        const uint16_t *flags = world->bodies.flags;
-        real ima = pl_solver_bodies(s)[impact.a].inv_mass;
-        real imb = pl_solver_bodies(s)[impact.b].inv_mass;
-        impact.locked = true;
-        impact.aix = pl_unlocked(flags[m->body_a], PL_BODY_LOCK_X, ima);
-        impact.aiy = pl_unlocked(flags[m->body_a], PL_BODY_LOCK_Y, ima);
-        impact.bix = pl_unlocked(flags[m->body_b], PL_BODY_LOCK_X, imb);
-        impact.biy = pl_unlocked(flags[m->body_b], PL_BODY_LOCK_Y, imb);
+        note_locks(world, m, &impact);
     }
     for (uint32_t j = 0; j < m->count; ++j) {
         const pl_manifold_point *p = &m->point[j];

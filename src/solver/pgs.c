@@ -36,6 +36,12 @@ static real separation_now(const classic *c, const pl_classic_contact *m, const 
            p->ran * a->da;
 }
 
+// [N s] that a point at this separation may pull.
+static real pull_of(const pl_classic_contact *m, real separation)
+{
+    return separation < m->reach ? m->pull : 0;
+}
+
 static void push(const classic *c, const pl_classic_contact *m, const pl_classic_point *p,
                  real along_n, real along_t)
 {
@@ -56,9 +62,13 @@ static real within(real value, real bound)
 }
 
 // [N m s] most that rolling resistance can do.
-static real rolling_bound(const pl_classic_contact *m)
+static real rolling_bound(const classic *c, const pl_classic_contact *m)
 {
-    return m->rolling * (m->point[0].ln + m->point[1].ln + m->pull * (real)m->count);
+    real load = 0;
+    for (uint32_t j = 0; j < m->count; ++j) {
+        load += m->point[j].ln + pull_of(m, separation_now(c, m, &m->point[j]));
+    }
+    return m->rolling * (load > 0 ? load : 0);
 }
 
 static void turn(const classic *c, const pl_classic_contact *m, real impulse)
@@ -106,6 +116,7 @@ static void prepare(classic *c, const plumb_world *world)
         out->bix = pl_unlocked(flags[m->body_b], PL_BODY_LOCK_X, b->inv_mass);
         out->biy = pl_unlocked(flags[m->body_b], PL_BODY_LOCK_Y, b->inv_mass);
         out->pull = m->adhesion * c->h / (real)m->count;
+        out->reach = pl_adhesion_reach(pl_pairs(&world->broad.pairs)[m->pair].flags);
         real mass_n = inverse_mass(world, out, a, b, m->nx, m->ny);
         real mass_t = inverse_mass(world, out, a, b, m->ny, m->nx);
         for (uint32_t j = 0; j < m->count; ++j) {
@@ -125,7 +136,8 @@ static void prepare(classic *c, const plumb_world *world)
         }
         real inertia = a->inv_inertia + b->inv_inertia;
         out->mr = inverse_or_zero(inertia);
-        out->lr = within(pl_pairs(&world->broad.pairs)[m->pair].rolling, rolling_bound(out));
+        real carried = pl_pairs(&world->broad.pairs)[m->pair].rolling;
+        out->lr = m->rolling > 0 ? within(carried, rolling_bound(c, out)) : 0;
     }
 }
 
@@ -168,14 +180,15 @@ static void solve_velocity(const classic *c, pl_classic_contact *m, pl_classic_p
     const pl_solver_body *a = &c->bodies[m->a], *b = &c->bodies[m->b];
     real slip = m->nx * (b->vy - a->vy) - m->ny * (b->vx - a->vx) + p->rbt * b->w - p->rat * a->w +
                 m->surface_speed;
-    real total = within(p->lt - p->mt * slip, m->friction * (p->ln + m->pull));
+    real s = separation_now(c, m, p);
+    real pull = pull_of(m, s), load = p->ln + pull;
+    real total = within(p->lt - p->mt * slip, m->friction * (load > 0 ? load : 0));
     push(c, m, p, 0, total - p->lt);
     p->lt = total;
 
-    real s = separation_now(c, m, p);
     real slack = s > 0 ? s / c->h : 0; // may still approach so fast
     total = p->ln - p->mn * (normal_speed(c, m, p) + slack);
-    total = total > -m->pull ? total : -m->pull;
+    total = total > -pull ? total : -pull;
     push(c, m, p, total - p->ln, 0);
     p->ln = total;
 }
@@ -196,7 +209,7 @@ static void solve_position(const classic *c, const pl_classic_contact *m, const 
 
 static void solve_rolling(const classic *c, pl_classic_contact *m)
 {
-    real total = within(m->lr - m->mr * (c->bodies[m->b].w - c->bodies[m->a].w), rolling_bound(m));
+    real total = within(m->lr - m->mr * (c->bodies[m->b].w - c->bodies[m->a].w), rolling_bound(c, m));
     turn(c, m, total - m->lr);
     m->lr = total;
 }

@@ -52,7 +52,7 @@ typedef struct pl_classic_contact {
     uint32_t a, b; // solver slots
     uint32_t pair, manifold, count;
     real aix, aiy, bix, biy; // [1/kg] inverse masses along the axes
-    real pull;               // [N s] that a point may pull
+    real pull, reach;        // [N s] that a point may pull, [m] while it is nearer than this
     real nx, ny, friction, restitution;
     real surface_speed; // [m/s]
     real rolling;       // [m]

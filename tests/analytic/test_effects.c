@@ -552,6 +552,32 @@ static void sticky_box_stays_on_a_wall(void **state)
     }
 }
 
+// Thrown flat against a wall, a box stays where it hit, at any speed, with restitution too.
+static void what_is_thrown_sticks(void **state)
+{
+    (void)state;
+    const plumb_solver solvers[] = { PLUMB_SOLVER_SOFT, PLUMB_SOLVER_PGS };
+    const double speeds[] = { 0.3, 1.7, 6, 13.1 };
+    for (int s = 0; s < 2; ++s) {
+        for (int k = 0; k < 4; ++k) {
+            plumb_world *w = sim_world(&(plumb_world_desc){ .solver = solvers[s] });
+            plumb_material tar = plumb_material_create(
+                w, &(plumb_material_desc){
+                       .friction = 1, .restitution = (plumb_real)0.5, .adhesion = 500 });
+            plumb_body wall = sim_body(w, PLUMB_STATIC, -1, 0, 0);
+            sim_add_box(w, wall, 1, 50, tar);
+            plumb_body b = sim_crate(w, 0.25 + speeds[k] * 0.2, 0, 0.25, 0.25, tar);
+            sim_launch(w, b, -speeds[k], 0, 0);
+            sim_run(w, 30, HZ60);
+            double y = sim_y(w, b);
+            sim_run(w, 60, HZ60);
+            assert_true(fabs(sim_x(w, b) - 0.25) < 0.01);
+            assert_true(fabs(sim_y(w, b) - y) < 1e-3);
+            plumb_world_destroy(w);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -574,6 +600,7 @@ int main(void)
         cmocka_unit_test(walls_shield),
         cmocka_unit_test(adhesion_holds_what_it_can),
         cmocka_unit_test(sticky_box_stays_on_a_wall),
+        cmocka_unit_test(what_is_thrown_sticks),
     };
     return cmocka_run_group_tests_name("effects", tests, NULL, NULL);
 }

@@ -33,11 +33,11 @@ bool sc_motion_is_dynamic(const char *row)
 void sc_motion_check(scene *s, const sc_site *site, const sc_body_def *d)
 {
     static const char *const kinds[] = { "dynamic", "kinematic", "static" };
-    for (int i = 0; i < sc_list_body.count; i++) {
+    for (int i = 0; d->type != 0 && i < sc_list_body.count; i++) {
         const char *row = sc_list_body.rows[i].name;
         bool mine = (sc_motion_is_dynamic(row) && strcmp(row, "fixed_rotation") != 0) ||
                     (d->type == 2 && strcmp(row, "time_scale") == 0);
-        if (d->type != 0 && mine && (d->present >> i & 1) != 0) {
+        if (mine && (d->present >> i & 1) != 0) {
             sc_raise(s, SCENE_E_CONFLICT, site, row, 0, NULL, "a %s body{} cannot have '%s'",
                      kinds[d->type], row);
         }
