@@ -199,6 +199,7 @@ static void place_pairs(plumb_world *world, pl_pair *items, carry *c)
                 item->body_b = body[old->b];
                 continue;
             }
+            pl_pair_lost(world, old); // other pieces in the same slots
         }
         *item = pl_pair_fresh(world, sorted[i]);
     }
@@ -233,6 +234,8 @@ bool pl_pairs_rebuild(plumb_world *world)
     pl_buffer items = list->items;
     list->items = list->old_items;
     list->old_items = items;
+    world->schedule_dirty |= (list->count > 0) != (broad->found_count > 0);
+    world->parts.buried = false;
     list->count = broad->found_count;
     broad->serial = world->serial;
     return true;

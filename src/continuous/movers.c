@@ -67,7 +67,7 @@ static bool visit_recruit(void *context, const pl_grid_entry *entry)
     recruiting *r = context;
     const plumb_world *world = r->world;
     uint32_t row = world->pieces.body[entry->piece];
-    uint8_t *flags = &world->bodies.flags[row];
+    uint16_t *flags = &world->bodies.flags[row];
     if (row < world->dynamic_count && (*flags & PL_BODY_RECRUITED) == 0 &&
         r->kinematic->moved > world->bodies.slack[r->kinematic->row] + world->bodies.slack[row] &&
         pl_mover_find(world, row) == NULL) {
@@ -119,7 +119,7 @@ static pl_mover recruit(plumb_world *world, uint32_t row, real dt)
 {
     pl_course course = pl_course_of_row(world, row, dt, 0, 0);
     pl_place start = pl_course_place(world, row, &course, 0);
-    world->bodies.flags[row] &= (uint8_t)~PL_BODY_RECRUITED;
+    world->bodies.flags[row] &= (uint16_t)~PL_BODY_RECRUITED;
     return (pl_mover){ .row = row,
                        .x = (real)start.x,
                        .y = (real)start.y,

@@ -126,7 +126,7 @@ static double time_of_hit(const pl_swept *a, const pl_swept *b, double from, dou
     if (pl_target_is_lost(thick, depth)) {
         return PL_SWEEP_NEVER; // it has no side that could be told
     }
-    pl_target target = pl_target_of(thick, depth, sunk);
+    pl_sweep_target target = pl_target_of(thick, depth, sunk);
     return pl_sweep_first(a, b, from, to, target.distance, target.tolerance);
 }
 

@@ -72,8 +72,8 @@ plumb_result plumb_body_set_no_sleep(plumb_world *world, plumb_body body, bool n
     if (r != PLUMB_OK) {
         return r;
     }
-    uint8_t *flags = &world->bodies.flags[row];
-    *flags = (uint8_t)(no_sleep ? *flags | PL_BODY_NO_SLEEP : *flags & (uint8_t)~PL_BODY_NO_SLEEP);
+    uint16_t *flags = &world->bodies.flags[row];
+    *flags = (uint16_t)(no_sleep ? *flags | PL_BODY_NO_SLEEP : *flags & (uint16_t)~PL_BODY_NO_SLEEP);
     if (no_sleep && world->bodies.island[row] != PL_NONE) {
         pl_sleep_stir(world, row);
     }

@@ -113,6 +113,33 @@ static void call(plumb_world *w, script *s, plumb_entity e[HANDLES], unsigned ca
     case 10:
         *slot = plumb_material_create(w, &m);
         break;
+    case 16:
+        plumb_body_set_type(w, other, (plumb_body_type)(byte_of(s) % 4));
+        break;
+    case 17:
+        plumb_body_set_enabled(w, other, byte_of(s) % 2 == 0);
+        break;
+    case 18:
+        plumb_body_set_locks(w, other, (plumb_axis_locks){ .x = byte_of(s) % 2 == 0, .y = byte_of(s) % 3 == 0 });
+        break;
+    case 19:
+        plumb_body_set_damping(w, other, real_of(s), real_of(s));
+        break;
+    case 20:
+        plumb_body_set_speed_cap(w, other, real_of(s), real_of(s));
+        break;
+    case 21:
+        plumb_body_set_time_scale(w, other, real_of(s));
+        break;
+    case 22:
+        plumb_body_set_target(w, other, vec_of(s), real_of(s), real_of(s));
+        break;
+    case 23:
+        plumb_world_explode(w, &(plumb_explosion_desc){ .position = vec_of(s),
+                                                        .radius = real_of(s),
+                                                        .impulse = real_of(s),
+                                                        .occlusion = (plumb_occlusion)(byte_of(s) % 3) });
+        break;
     default:
         plumb_world_step(w, real_of(s) / 64);
         break;
@@ -128,7 +155,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     // Seeds from before there were sleep and joints begin with less than 128.
     unsigned first = byte_of(&s);
     plumb_world_desc d = { .solver = (plumb_solver)(first % 2), .simd_width = 4 };
-    const unsigned calls = first < 128 ? 12 : 16;
+    const unsigned calls = first < 128 ? 12 : 25;
     d.sleep_time = first < 128 ? 0 : (plumb_real)0.1;
     if (plumb_world_create(&d, &w) != PLUMB_OK) {
         abort();

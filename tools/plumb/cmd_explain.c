@@ -41,7 +41,7 @@ static void print_settings(const scene_run *run, const char *path)
            s.islands == 1 ? "" : "s", s.statics, s.shapes, s.pieces);
     printf(
         "  pairs near: %u, contacts: %u, their points: %u, colours: %u, pair list rebuilds: %u\n",
-        s.pairs, s.contacts, s.points, s.colors, s.grid_rebuilds);
+        s.pairs, s.contacts, s.points, s.colors, s.pair_rebuilds);
     printf("  deepest overlap %.3g m, mean %.3g m; %.1f kB held\n", s.max_penetration,
            s.mean_penetration, (double)s.bytes / 1000);
 }
