@@ -77,6 +77,7 @@ static void damped_motion_in_the_solver_is_second_order(void **state)
             double one = -expm1(-4.0), left = exp(-4.0);
             assert_true(fabs(sim_vx(w, b) - 300 * left) <= SIM_TOLERANCE(1e-3, 1e-11));
             error[k] = fabs(sim_x(w, b) - 300 * one / 4);
+            plumb_world_destroy(w);
         }
         double order = sim_order(error, 4);
         print_message("damped in the solver: off by %.2g .. %.2g m, order %.2f\n", error[0],
