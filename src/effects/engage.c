@@ -43,15 +43,14 @@ static void lock(plumb_world *world, uint32_t slot, uint32_t flags)
 {
     pl_solver_body *body = &pl_solver_bodies(&world->solver)[slot];
     pl_solver_motion *motion = &pl_solver_motions(&world->solver)[slot];
+    real unused[2];
     real *low =
-        world->narrow.any_bounce ? (real *)world->solver.lows.data + (size_t)slot * 4 : NULL;
+        world->narrow.any_bounce ? (real *)world->solver.lows.data + (size_t)slot * 4 : unused;
     if ((flags & PL_BODY_LOCK_X) != 0) {
-        body->vx = motion->ux = motion->ax = 0;
-        low != NULL ? low[0] = 0 : 0;
+        body->vx = motion->ux = motion->ax = low[0] = 0;
     }
     if ((flags & PL_BODY_LOCK_Y) != 0) {
-        body->vy = motion->uy = motion->ay = 0;
-        low != NULL ? low[1] = 0 : 0;
+        body->vy = motion->uy = motion->ay = low[1] = 0;
     }
 }
 

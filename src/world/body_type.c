@@ -83,10 +83,10 @@ plumb_result plumb_body_set_type(plumb_world *world, plumb_body body, plumb_body
     }
     r = r == PLUMB_OK && type == PLUMB_DYNAMIC ? check_masses(world, __func__, row) : r;
     r = r != PLUMB_OK ? r : pl_check_unlocked(world, __func__);
-    pl_bodies *b = &world->bodies;
-    if (r != PLUMB_OK || (plumb_body_type)b->type[row] == type) {
+    if (r != PLUMB_OK || (plumb_body_type)world->bodies.type[row] == type) {
         return r;
     }
+    pl_bodies *b = &world->bodies;
     pl_target_forget(world, row);
     if (b->type[row] == PLUMB_DYNAMIC) {
         lose_mass(world, row);

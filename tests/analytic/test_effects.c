@@ -77,6 +77,7 @@ static void damped_motion_in_the_solver_is_second_order(void **state)
             double one = -expm1(-4.0), left = exp(-4.0);
             assert_true(fabs(sim_vx(w, b) - 300 * left) <= SIM_TOLERANCE(1e-3, 1e-11));
             error[k] = fabs(sim_x(w, b) - 300 * one / 4);
+            plumb_world_destroy(w);
         }
         double order = sim_order(error, 4);
         print_message("damped in the solver: off by %.2g .. %.2g m, order %.2f\n", error[0],
@@ -283,6 +284,40 @@ static void stack_of_different_times_rests(void **state)
         }
         print_message("stack of times 0.5, 1, 0.25, 2: forces within %.2g\n", worst);
         assert_true(worst < 0.01);
+        plumb_world_destroy(w);
+    }
+}
+
+// A bob on a rod of 1 m swings at a period of 2 pi sqrt(L / g) / s.
+static void slow_pendulum(void **state)
+{
+    (void)state;
+    const double scales[] = { 0.25, 0.5, 1, 2 };
+    for (int k = 0; k < 4; ++k) {
+        plumb_world *w = sim_world(&(plumb_world_desc){ 0 });
+        plumb_body b = sim_ball(w, sin(0.05), -cos(0.05), 0.1, sim_material(w, 0, 0));
+        plumb_body_set_locks(w, b, (plumb_axis_locks){ .rotation = true });
+        plumb_joint_create(w, &(plumb_joint_desc){ .kind = PLUMB_DISTANCE,
+                                                   .body_b = b,
+                                                   .anchor = sim_vec(0, 0),
+                                                   .anchor_b = sim_vec(sin(0.05), -cos(0.05)) });
+        plumb_body_set_time_scale(w, b, (plumb_real)scales[k]);
+        int crossings = 0;
+        double last = 0, x = sim_x(w, b);
+        for (int i = 1; crossings < 5 && i < 4000; ++i) {
+            double before = x;
+            sim_step(w, HZ60);
+            x = sim_x(w, b);
+            if ((x < 0) != (before < 0)) {
+                last = (i - 1 + before / (before - x)) * HZ60;
+                ++crossings;
+            }
+        }
+        // The fifth crossing comes after two periods and a quarter.
+        double period = last / 2.25, want = 2 * SIM_PI / sqrt(SIM_G) / scales[k];
+        print_message("pendulum at %.2f of the world's time: %.4f s, exactly %.4f s\n", scales[k],
+                      period, want);
+        assert_true(fabs(period / want - 1) < 5e-3);
         plumb_world_destroy(w);
     }
 }
@@ -591,6 +626,7 @@ int main(void)
         cmocka_unit_test(joint_of_a_locked_body_carries),
         cmocka_unit_test(slow_motion_follows_the_same_parabola),
         cmocka_unit_test(stack_of_different_times_rests),
+        cmocka_unit_test(slow_pendulum),
         cmocka_unit_test(a_frozen_stack_goes_on),
         cmocka_unit_test(different_times_collide_elastically),
         cmocka_unit_test(targets_are_met_exactly),
