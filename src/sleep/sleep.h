@@ -5,7 +5,7 @@
 #include "narrow/manifold.h"
 #include "plumb/sleep.h"
 
-#define PL_UNSEEN ((real)-1) // pl_bodies.still of a body that was changed: the next step looks at it
+#define PL_UNSEEN ((real)-1) // pl_bodies.looked of a body that moves or was changed: it rests from anew
 
 // A contact of a sleeping body, kept for when it wakes and for those who ask meanwhile.
 typedef struct pl_dormant {
@@ -68,7 +68,7 @@ typedef struct pl_sleep {
     uint64_t tested_step;  // likewise: pairs were made or looked up
     real since;            // [s] since islands were last looked for
     real passed;           // [s] the last step
-    uint32_t ripe_count;   // bodies that have been slow for long enough
+    real ripe_for;         // [s] for so long, some body may have rested long enough
     pl_buffer parents;     // uint32_t a row
     pl_buffer held;        // uint8_t a row: something keeps its island awake
 
