@@ -1,10 +1,10 @@
 // fall.c - falling asleep: for how long each body has rested, and which islands rest as a whole.
 //
-// A body rests while it is slower than sleep_speed and goes evenly: from one half of sleep_time to the
-// next, its way must not change by more than a fiftieth of what sleep_speed makes in sleep_time. A
-// block that begins to slide, or a large slow pendulum at its turning point, is slow and not at rest;
-// a heap that creeps is. In the defaults, what accelerates by 8 mm/s^2 stays awake. Turning counts
-// by the farthest point: sqrt(v^2 + (w r)^2), and the way likewise.
+// A body rests while it is slower than sleep_speed and goes evenly: from one half of sleep_time to
+// the next, its way must not change by more than a fiftieth of what sleep_speed makes in
+// sleep_time. A block that begins to slide, or a large slow pendulum at its turning point, is slow
+// and not at rest; a heap that creeps is. In the defaults, what accelerates by 8 mm/s^2 stays
+// awake. Turning counts by the farthest point: sqrt(v^2 + (w r)^2), and the way likewise.
 //
 // Islands are looked for only when some body has rested for sleep_time, and eight times in that
 // time: union-find with path halving (Tarjan 1983) over the bodies that are ripe, by the contacts
@@ -69,12 +69,13 @@ static void look_at(plumb_world *world, uint32_t row)
     b->way_turn[row] = turn;
     look_from_here(b, row);
     if (is_ripe(world, row)) {
-        world->sleep.ripe_for = world->desc.sleep_time; // until it has been looked at again, and more
+        // Until it has been looked at again, and more.
+        world->sleep.ripe_for = world->desc.sleep_time;
     }
 }
 
-// Four rows at once: this is all that sleeping costs who is awake. What lies behind the last row is in
-// columns that are longer than that, and means nothing.
+// Four rows at once: this is all that sleeping costs who is awake. What lies behind the last row is
+// in columns that are longer than that, and means nothing.
 typedef real quad __attribute__((vector_size(4 * sizeof(real)), may_alias));
 #if defined(PLUMB_DOUBLE) && PLUMB_DOUBLE
 typedef int64_t quad_mask __attribute__((vector_size(4 * sizeof(real)), may_alias));
@@ -308,7 +309,8 @@ static bool reserve_islands(plumb_world *world, uint32_t pair_count, uint32_t bo
            pl_buffer_reserve(&world->memory, &s->sleep_events, events);
 }
 
-// Takes the pairs of sleepers out of the list, and their manifolds; those that are contacts are kept.
+// Takes the pairs of sleepers out of the list, and their manifolds; those that are contacts are
+// kept.
 static void take_out_pairs(plumb_world *world, uint32_t pair_count)
 {
     pl_pair_list *list = &world->broad.pairs;

@@ -1,4 +1,5 @@
-// island.c - islands asleep: their bodies, their contacts, and the way of a body into sleep and out.
+// island.c - islands asleep: their bodies, their contacts, and the way of a body into sleep and
+// out.
 //
 // Islands and contacts lie in slots with lists of free ones, so that sleeping and waking allocate
 // nothing once there is room. The bodies of an island are a list through their rows, by registry
@@ -29,10 +30,10 @@ bool pl_islands_reserve(plumb_world *world, uint32_t islands, uint32_t contacts)
 
 void pl_sleep_free(pl_memory *memory, pl_sleep *s)
 {
-    pl_buffer *buffers[] = { &s->islands,        &s->contacts,    &s->resting,
-                             &s->near.items,     &s->probe.items, &s->found,
-                             &s->touched.manifolds, &s->marked,   &s->woken,
-                             &s->parents,        &s->held,        &s->sleep_events,
+    pl_buffer *buffers[] = { &s->islands,           &s->contacts,    &s->resting,
+                             &s->near.items,        &s->probe.items, &s->found,
+                             &s->touched.manifolds, &s->marked,      &s->woken,
+                             &s->parents,           &s->held,        &s->sleep_events,
                              &s->wake_events };
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; ++i) {
         pl_buffer_free(memory, buffers[i]);

@@ -1,5 +1,5 @@
-// test_api_wake.c - what wakes a sleeping body, and what does not: one row for each kind of change, with
-// the bodies that are awake after the next step.
+// test_api_wake.c - what wakes a sleeping body, and what does not: one row for each kind of change,
+// with the bodies that are awake after the next step.
 #include "sleep_fixture.h"
 
 typedef struct waker {
@@ -129,9 +129,9 @@ static void edit_nothing(const plumb_system_call *call)
 
 static plumb_result add_contact_system(place *p)
 {
-    return plumb_system_create(p->w, &(plumb_system_desc){ .name = "edit",
-                                                           .phase = PLUMB_PHASE_CONTACTS,
-                                                           .run = edit_nothing });
+    return plumb_system_create(
+        p->w,
+        &(plumb_system_desc){ .name = "edit", .phase = PLUMB_PHASE_CONTACTS, .run = edit_nothing });
 }
 
 static void push_low(const plumb_system_call *call)
@@ -145,13 +145,17 @@ static void push_low(const plumb_system_call *call)
 static plumb_result push_in_phase(place *p, plumb_phase phase)
 {
     return plumb_system_create(
-        p->w, &(plumb_system_desc){ .name = "push", .phase = phase, .run = push_low, .context = p });
+        p->w,
+        &(plumb_system_desc){ .name = "push", .phase = phase, .run = push_low, .context = p });
 }
 
 CHANGE(push_at_begin, push_in_phase(p, PLUMB_PHASE_BEGIN))
 CHANGE(push_with_forces, push_in_phase(p, PLUMB_PHASE_FORCES))
 
-#define ROW(change, wakes) { #change, change, wakes }
+#define ROW(change, wakes)                                                                         \
+    {                                                                                              \
+#change, change, wakes                                                                     \
+    }
 
 static const waker wakers[] = {
     ROW(wake, STACK),

@@ -277,7 +277,8 @@ static void a_ball_meets_a_pile_asleep_as_one_awake(void **state)
     assert_true(deepest[1] < 1.5 * deepest[0] + 0.01);
 }
 
-// Equal elastic balls in contact: the momentum goes through the whole row in one step, asleep or not.
+// Equal elastic balls in contact: the momentum goes through the whole row in one step, asleep or
+// not.
 static void a_blow_goes_through_sleepers(void **state)
 {
     (void)state;
@@ -353,7 +354,8 @@ static void waking_does_not_shake(void **state)
         assert_int_equal(plumb_world_stats(w).asleep_count, 210);
     }
     double later = sim_normal_force(w, b[0], b[20], HZ60);
-    print_message("woken pyramid: fastest %.2g m/s; force %.4f and %.4f N\n", fastest, force, later);
+    print_message("woken pyramid: fastest %.2g m/s; force %.4f and %.4f N\n", fastest, force,
+                  later);
     assert_true(fastest < 0.01);
     assert_true(force > 0 && fabs(later / force - 1) < 0.2);
     plumb_world_destroy(w);
