@@ -83,10 +83,8 @@ typedef int64_t quad_mask __attribute__((vector_size(4 * sizeof(real)), may_alia
 typedef int32_t quad_mask __attribute__((vector_size(4 * sizeof(real)), may_alias));
 #endif
 
-static quad either(quad_mask mask, quad a, quad b)
-{
-    return (quad)((mask & (quad_mask)a) | (~mask & (quad_mask)b));
-}
+// `a` where the mask is set, else `b`. Not a function: how quads are passed depends on the machine.
+#define EITHER(mask, a, b) ((quad)(((mask) & (quad_mask)(a)) | (~(mask) & (quad_mask)(b))))
 
 // The time of each row goes on, begins (0) or is void. True when one begins, or a look is due.
 static bool go_on(const pl_bodies *b, uint32_t count, real slow, real half, real passed)
@@ -99,8 +97,8 @@ static bool go_on(const pl_bodies *b, uint32_t count, real slow, real half, real
     for (uint32_t i = 0; i < (count + 3) / 4; ++i) {
         quad tip = w[i] * extent[i];
         quad speed = vx[i] * vx[i] + vy[i] * vy[i] + tip * tip;
-        quad time = either(looked[i] < zero, zero, looked[i] + passed);
-        time = either(speed <= zero + slow, time, unseen);
+        quad time = EITHER(looked[i] < zero, zero, looked[i] + passed);
+        time = EITHER(speed <= zero + slow, time, unseen);
         looked[i] = time;
         due |= (time == zero) | (time >= zero + half);
     }
