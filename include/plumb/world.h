@@ -83,7 +83,7 @@ PLUMB_API plumb_world_desc plumb_world_settings(const plumb_world *world);
 /// Advances the world by dt [s], 0 < dt <= 1. Events, spans and contact views of the step before
 /// become invalid. Cost: see plumb_world_schedule.
 /// Errors: E_RANGE, E_NOT_FINITE, E_LOCKED (called from a system), E_MEMORY (no body has moved, but systems
-/// of the phases before may have run: forces they added are still there).
+/// of the phases before may have run: forces they added are still there; bodies touched may have woken).
 PLUMB_API plumb_result plumb_world_step(plumb_world *world, plumb_real dt);
 
 /// Changes gravity [m/s^2]; zero is zero here. Errors: E_NOT_FINITE.

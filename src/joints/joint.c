@@ -67,8 +67,7 @@ static uint32_t row_of(const plumb_world *world, const pl_joint_end *end)
 
 static bool is_awake(const plumb_world *world, const pl_joint *joint)
 {
-    return !plumb_is_null(joint->entity) &&
-           !pl_row_is_asleep(world, row_of(world, &joint->a)) &&
+    return !plumb_is_null(joint->entity) && !pl_row_is_asleep(world, row_of(world, &joint->a)) &&
            !pl_row_is_asleep(world, row_of(world, &joint->b));
 }
 
@@ -103,8 +102,8 @@ uint32_t pl_joints_awake(plumb_world *world)
 void pl_joint_disturb(plumb_world *world, const pl_joint *joint)
 {
     uint32_t a = row_of(world, &joint->a), b = row_of(world, &joint->b);
-    bool mixed = a != PL_NONE && b != PL_NONE &&
-                 (a < world->dynamic_count) != (b < world->dynamic_count);
+    bool mixed =
+        a != PL_NONE && b != PL_NONE && (a < world->dynamic_count) != (b < world->dynamic_count);
     const uint32_t rows[2] = { a, b };
     for (int i = 0; i < 2; ++i) {
         if (rows[i] != PL_NONE && mixed && pl_row_is_asleep(world, rows[i])) {

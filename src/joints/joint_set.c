@@ -124,6 +124,7 @@ plumb_result plumb_joint_set_break(plumb_world *world, plumb_joint joint, plumb_
     r = r != PLUMB_OK ? r : pl_check_range(world, __func__, "force", force, 0, PLUMB_REAL_MAX);
     r = r != PLUMB_OK ? r : pl_check_range(world, __func__, "torque", torque, 0, PLUMB_REAL_MAX);
     if (r == PLUMB_OK) {
+        disturb_if(world, j, j->desc.break_force != force || j->desc.break_torque != torque);
         j->desc.break_force = force;
         j->desc.break_torque = torque;
     }

@@ -1,7 +1,7 @@
 // sleep_api.c - the public functions of plumb/sleep.h, and the events' life.
 //
-// Reads: arguments, islands. Writes: flags, islands due; plumb_body_sleep moves rows. Cost: O(1) but
-// for plumb_body_sleep and plumb_world_set_sleep.
+// Reads: arguments, islands. Writes: flags, islands due; plumb_body_sleep moves rows. Cost: O(1)
+// but for plumb_body_sleep and plumb_world_set_sleep.
 #include "plumb/sleep.h"
 
 #include "world/check.h"
@@ -125,7 +125,6 @@ const plumb_body *plumb_world_sleep_events(const plumb_world *world, int *count)
 
 const plumb_body *plumb_world_wake_events(const plumb_world *world, int *count)
 {
-    return world == NULL
-               ? events(NULL, 0, count)
-               : events(&world->sleep.wake_events, world->sleep.wake_event_count, count);
+    return world == NULL ? events(NULL, 0, count)
+                         : events(&world->sleep.wake_events, world->sleep.wake_event_count, count);
 }

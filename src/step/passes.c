@@ -92,8 +92,8 @@ static bool collision_wanted(const plumb_world *world, const char **reason)
 static bool sensing_wanted(const plumb_world *world, const char **reason)
 {
     bool wanted = world->sensor_pieces > 0 && world->moving_count > 0 && world->pieces.live > 1;
-    return say(wanted || world->sensing.count > 0 || world->sensing.rest_stale, reason, "there are sensors",
-               "no shape is a sensor that could meet another");
+    return say(wanted || world->sensing.count > 0 || world->sensing.rest_stale, reason,
+               "there are sensors", "no shape is a sensor that could meet another");
 }
 
 static bool broad_wanted(const plumb_world *world, const char **reason)

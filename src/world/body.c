@@ -44,12 +44,13 @@ static plumb_result check_motion(const plumb_world *world, const char *fn,
 static plumb_result check_sleep(const plumb_world *world, const char *fn,
                                 const plumb_body_desc *desc)
 {
-    const char *why = desc->type == PLUMB_KINEMATIC ? "for a kinematic body"
-                      : desc->type == PLUMB_STATIC  ? "for a static body"
-                      : desc->no_sleep              ? "with no_sleep"
-                      : desc->velocity.x != 0 || desc->velocity.y != 0 || desc->angular_velocity != 0
-                          ? "for a body that moves"
-                          : NULL;
+    const char *why =
+        desc->type == PLUMB_KINEMATIC ? "for a kinematic body"
+        : desc->type == PLUMB_STATIC  ? "for a static body"
+        : desc->no_sleep              ? "with no_sleep"
+        : desc->velocity.x != 0 || desc->velocity.y != 0 || desc->angular_velocity != 0
+            ? "for a body that moves"
+            : NULL;
     return !desc->asleep || why == NULL
                ? PLUMB_OK
                : pl_fail(world, PLUMB_E_RANGE, fn, "asleep is true; it must be false %s", why);

@@ -34,8 +34,7 @@ typedef plumb_real real;
     X(void *, user_data)                                                                            \
     X(uint32_t, first_piece)       /* pieces of the body, newest shape first; PL_NONE ends */       \
     X(uint32_t, first_joint)       /* joints of the body, newest first; PL_NONE ends */             \
-    X(real, still)                 /* [s] for how long it has been slow (src/sleep) */              \
-    X(real, looked)                /* [s] since the last look at where it is */                     \
+    X(real, looked)                /* [s] of rest since the last look at where it is (src/sleep) */ \
     X(real, look_x) X(real, look_y) /* [m] its centre at that look */                               \
     X(real, look_c) X(real, look_s) /* its rotation then */                                         \
     X(real, way_x) X(real, way_y)  /* [m] between the last two looks */                             \

@@ -159,7 +159,7 @@ uint32_t pl_row_open(plumb_world *world, pl_partition partition)
     world->bodies.first_piece[hole] = PL_NONE;
     world->bodies.first_joint[hole] = PL_NONE;
     world->bodies.island[hole] = PL_NONE;
-    world->bodies.still[hole] = PL_UNSEEN;
+    world->bodies.looked[hole] = PL_UNSEEN;
     world->schedule_dirty = true;
     return hole;
 }

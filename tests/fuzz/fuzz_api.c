@@ -63,8 +63,7 @@ static void call(plumb_world *w, script *s, plumb_entity e[HANDLES], unsigned ca
     plumb_material_desc m = { .friction = real_of(s), .restitution = real_of(s) };
     switch (byte_of(s) % calls) {
     case 12:
-        *slot = plumb_body_create(
-            w, &(plumb_body_desc){ .position = vec_of(s), .asleep = true });
+        *slot = plumb_body_create(w, &(plumb_body_desc){ .position = vec_of(s), .asleep = true });
         break;
     case 13:
         plumb_body_sleep(w, other);
@@ -73,11 +72,11 @@ static void call(plumb_world *w, script *s, plumb_entity e[HANDLES], unsigned ca
         plumb_body_wake(w, other);
         break;
     case 15:
-        *slot = plumb_joint_create(
-            w, &(plumb_joint_desc){ .kind = (plumb_joint_kind)(byte_of(s) % 12),
-                                    .body_a = other,
-                                    .body_b = e[byte_of(s) % HANDLES],
-                                    .anchor = vec_of(s) });
+        *slot =
+            plumb_joint_create(w, &(plumb_joint_desc){ .kind = (plumb_joint_kind)(byte_of(s) % 12),
+                                                       .body_a = other,
+                                                       .body_b = e[byte_of(s) % HANDLES],
+                                                       .anchor = vec_of(s) });
         break;
     case 0:
         *slot = plumb_body_create(w, &(plumb_body_desc){ .type = (plumb_body_type)(byte_of(s) % 4),
