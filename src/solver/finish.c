@@ -86,9 +86,14 @@ static inline void note_if_fast(plumb_world *world, uint32_t row, where before, 
     real moved = plumb_abs(b->center_x[row] - before.x) + plumb_abs(b->center_y[row] - before.y) +
                  plumb_abs(angle) * b->extent[row];
     if (moved > b->slack[row]) {
-        pl_movers(&world->continuous)[world->continuous.count++] = (pl_mover){
-            row, false, before.x, before.y, before.c, before.s, angle, moved, 1
-        };
+        pl_movers(&world->continuous)[world->continuous.count++] = (pl_mover){ .row = row,
+                                                                               .x = before.x,
+                                                                               .y = before.y,
+                                                                               .c = before.c,
+                                                                               .s = before.s,
+                                                                               .angle = angle,
+                                                                               .moved = moved,
+                                                                               .stop = 1 };
     }
 }
 
