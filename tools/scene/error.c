@@ -73,6 +73,13 @@ void sc_raise(scene *s, scene_code code, const sc_site *site, const char *key, i
     abort(); // lua_error does not return
 }
 
+const char *sc_world_message(const scene *s)
+{
+    const char *message = plumb_world_error(s->world).message;
+    const char *after = strstr(message, ": ");
+    return after != NULL ? after + 2 : message;
+}
+
 sc_site sc_here(scene *s, const char *construct)
 {
     sc_site site = { .construct = construct };
