@@ -365,6 +365,22 @@ scene_body scene_body_of(const scene *s, plumb_body body)
     return show_body(sc_body_of(s, body));
 }
 
+int scene_joint_count(const scene *s)
+{
+    return s->joints.count;
+}
+
+scene_joint scene_joint_get(const scene *s, int i)
+{
+    if (i < 0 || i >= s->joints.count) {
+        return (scene_joint){ .name = "" };
+    }
+    const sc_joint *j = s->joints.items[i];
+    return (scene_joint){
+        .entity = j->entity, .name = j->def.name, .is_named = j->is_named, .hidden = j->def.hidden
+    };
+}
+
 scene_camera scene_get_camera(const scene *s)
 {
     const sc_camera *c = &s->camera;
