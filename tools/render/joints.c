@@ -49,7 +49,7 @@ static double apart(render_vec a, render_vec b)
 static void stroke(plr_painter *painter, const sketch *s, const render_vec *points, size_t count,
                    bool closed, double width, render_rgba color)
 {
-    const render_rgba rim = plr_fade(plr_background, 0.75);
+    const render_rgba rim = plr_fade(painter->options.background, 0.75);
     plr_stroke(painter, points, count, closed, (width + 2.0 * rim_width) * s->u, rim, rim);
     plr_stroke(painter, points, count, closed, width * s->u, color, color);
 }
@@ -62,16 +62,16 @@ static void line(plr_painter *painter, const sketch *s, render_vec a, render_vec
 static void dashed(plr_painter *painter, const sketch *s, render_vec a, render_vec b)
 {
     const render_vec ends[2] = { a, b };
-    const render_rgba rim = plr_fade(plr_background, 0.6);
+    const render_rgba rim = plr_fade(painter->options.background, 0.6);
     plr_line(painter, a, b, (line_width + 1.6) * s->u, rim);
     plr_dashes(painter, ends, 2, false, 0.8 * line_width * s->u, 5.0 * s->u, 4.0 * s->u, ink);
 }
 
 static void knob(plr_painter *painter, const sketch *s, render_vec at, double radius)
 {
-    plr_dot(painter, at, (radius + rim_width) * s->u, plr_fade(plr_background, 0.75));
+    plr_dot(painter, at, (radius + rim_width) * s->u, plr_fade(painter->options.background, 0.75));
     plr_dot(painter, at, radius * s->u, ink);
-    plr_dot(painter, at, (radius - 1.5) * s->u, plr_background);
+    plr_dot(painter, at, (radius - 1.5) * s->u, painter->options.background);
 }
 
 // ---- parts
@@ -225,7 +225,7 @@ static void draw_slider(plr_painter *painter, const sketch *s)
     const render_vec left = along(s->b, s->axis, -w), right = along(s->b, s->axis, w);
     const render_vec corners[4] = { along(left, n, h), along(right, n, h), along(right, n, -h),
                                     along(left, n, -h) };
-    plr_fill(painter, corners, 4, plr_background);
+    plr_fill(painter, corners, 4, painter->options.background);
     stroke(painter, s, corners, 4, true, 1.6, ink);
     if (s->drive != 0.0) {
         const double way = s->drive > 0.0 ? 1.0 : -1.0;
@@ -258,7 +258,7 @@ static void draw_weld(plr_painter *painter, const sketch *s)
                                     { s->b.x + r, s->b.y },
                                     { s->b.x, s->b.y + r } };
     stroke(painter, s, corners, 4, true, 1.6, ink);
-    plr_fill(painter, corners, 4, s->has_spring ? plr_background : ink);
+    plr_fill(painter, corners, 4, s->has_spring ? painter->options.background : ink);
 }
 
 static void draw_pulley(plr_painter *painter, const sketch *s)
@@ -266,7 +266,7 @@ static void draw_pulley(plr_painter *painter, const sketch *s)
     const render_vec path[4] = { s->a, s->via_a, s->via_b, s->b };
     stroke(painter, s, path, 4, false, 0.8 * line_width, ink);
     for (int i = 1; i <= 2; i++) {
-        plr_dot(painter, path[i], 6.5 * s->u, plr_background);
+        plr_dot(painter, path[i], 6.5 * s->u, painter->options.background);
         plr_ring(painter, path[i], 6.5 * s->u, 1.8 * s->u, ink);
         plr_dot(painter, path[i], 1.6 * s->u, ink);
     }
