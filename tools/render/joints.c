@@ -13,8 +13,9 @@ static const render_rgba motor_color = { 0xc4, 0x5f, 0x10, 0xff };
 // Sizes in pixels at ui_scale 1 of a sign at its full size, chosen by eye.
 static const double line_width = 2.0;
 static const double rim_width = 1.3;    // on each side
-static const double full_reach = 11.0;  // half of a body that has room for the full size
-static const double least_size = 0.4;   // share of the full size that is still legible
+static const double full_reach = 16.0;  // half of a body that has room for the full size
+static const double least_size = 0.35;  // share of the full size that is still legible
+static const double least_width = 0.6;  // the same of a line
 static const double rail_length = 20.0; // of a rail without limits, to each side
 
 /// A joint in pixels; y downwards, as the picture's.
@@ -50,8 +51,9 @@ static void stroke(plr_painter *painter, const sketch *s, const render_vec *poin
                    bool closed, double width, render_rgba color)
 {
     const render_rgba rim = plr_fade(painter->options.background, 0.75);
-    plr_stroke(painter, points, count, closed, (width + 2.0 * rim_width) * s->u, rim, rim);
-    plr_stroke(painter, points, count, closed, width * s->u, color, color);
+    const double u = fmax(s->u, least_width * painter->ui);
+    plr_stroke(painter, points, count, closed, (width + 2.0 * rim_width) * u, rim, rim);
+    plr_stroke(painter, points, count, closed, width * u, color, color);
 }
 
 static void line(plr_painter *painter, const sketch *s, render_vec a, render_vec b)
@@ -431,8 +433,8 @@ void plr_joint_sample(plr_painter *painter, const render_joint *like, render_vec
     switch (like->kind) {
     case RENDER_JOINT_WHEEL:
         s.axis = (render_vec){ 0.0, -1.0 };
-        s.u = 0.42 * painter->ui;
-        s.a = s.b = (render_vec){ middle.x, middle.y + 0.2 * size };
+        s.u = 0.62 * painter->ui;
+        s.a = s.b = (render_vec){ middle.x, middle.y + 0.22 * size };
         break;
     case RENDER_JOINT_SLIDER:
         s.has_spring = false;

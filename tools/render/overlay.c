@@ -13,7 +13,7 @@ static const render_rgba impulse_color = { 0xd9, 0x5f, 0x0e, 0xff };
 static const render_rgba velocity_color = { 0x1f, 0x6f, 0x9f, 0xff };
 static const render_rgba aabb_color = { 0x7a, 0x5c, 0xa8, 0xff };
 static const render_rgba cell_color = { 0x2f, 0x95, 0x7a, 0xff };
-static const render_rgba surface_color = { 0xa8, 0x54, 0x0c, 0xff };
+static const render_rgba surface_color = { 0xf0, 0x9a, 0x3e, 0xff };
 
 // The longest arrow is at most this share of the picture's height under automatic scale.
 static const double arrow_share = 0.16;
@@ -21,6 +21,7 @@ static const double arrow_share = 0.16;
 // up further than makes this one as long as the longest, so the noise of bodies at rest shows none.
 static const double rest_share = 0.02;
 static const double surface_distance = 24.0; // between chevrons [px at ui_scale 1]
+static const double surface_inset = 5.5;     // of chevrons of an outline [px at ui_scale 1]
 static const double normal_length = 13.0;    // of a contact normal [px at ui_scale 1]
 enum { text_size = 13 };                     // [px at ui_scale 1]
 
@@ -125,6 +126,9 @@ static void draw_surface(plr_painter *painter, const render_vec *world, size_t c
                          double travel)
 {
     const double distance = surface_distance * painter->ui;
+    // Those of an outline lie within it: to the left of the path, on the right in a picture with y up.
+    const double inset = closed ? surface_inset * painter->ui : 0.0;
+    const double side = painter->camera->y_down ? -1.0 : 1.0;
     const double sign = travel < 0.0 ? -1.0 : 1.0;
     const double total = travel * painter->scale;
     double next = total - floor(total / distance) * distance; // along the path so far
@@ -138,8 +142,9 @@ static void draw_surface(plr_painter *painter, const render_vec *world, size_t c
         }
         for (; next < length; next += distance) {
             const render_vec d = { (b.x - a.x) / length, (b.y - a.y) / length };
-            chevron(painter, (render_vec){ a.x + d.x * next, a.y + d.y * next },
-                    (render_vec){ sign * d.x, sign * d.y }, surface_color);
+            const render_vec p = { a.x + d.x * next + side * d.y * inset,
+                                   a.y + d.y * next - side * d.x * inset };
+            chevron(painter, p, (render_vec){ sign * d.x, sign * d.y }, surface_color);
         }
         next -= length;
     }
