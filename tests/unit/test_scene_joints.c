@@ -1,5 +1,5 @@
 // test_scene_joints.c - joints, filters, sensors, materials and events in the scene language: what
-// they do, and that JSON keeps them. How they are misused is in tests/api/test_scene_errors.c.
+// they do, and that JSON keeps them. How they are misused is in tests/api/test_scene_joint_errors.c.
 #define _POSIX_C_SOURCE 200809L // open_memstream
 #include <math.h>
 #include <setjmp.h>
@@ -472,6 +472,42 @@ static void test_json_after_setters(void **state)
         "local m = mouse{ body{ circle{0.5}, at = {9, 9} } } m:set_target(8, 9)\n");
 }
 
+// Whatever the limit, a scene loads and runs or says that its memory is used up; nothing leaks.
+static void test_memory_running_out(void **state)
+{
+    (void)state;
+    static const char text[] =
+        "local a = body{ name = 'a', box{1, 1}, category = 'x', apart = 'g' }\n"
+        "local b = body{ name = 'b', box{1, 1}, at = {0, 2}, collides = {'x', 'y'} }\n"
+        "body{ name = 'z', type = 'static', sensor = true, box{9, 9}, category = 'y' }\n"
+        "for i = 1, 20 do weld{ a, b, name = 'w' .. i, break_force = 0.001 } end exclude(a, b)\n"
+        "on_break(function() end) on_enter(function() end) on_hit(function() end)\n"
+        "edit_contact(function(p, q, c) c.friction = 0 end)\n"
+        "expect{ 'broken', broken = 20 }";
+    bool done = false;
+    int refused = 0;
+    for (size_t limit = 20000; !done; limit += 3001) {
+        scene *s = NULL;
+        scene_error e = { 0 };
+        scene_load(&(scene_options){ .path = "m.lua",
+                                     .text = text,
+                                     .text_size = sizeof text - 1,
+                                     .memory_limit = limit },
+                   &s, &e);
+        for (int i = 0; i < 5 && s != NULL && e.code == SCENE_OK; i++) {
+            scene_step(s, &e);
+        }
+        done = s != NULL && e.code == SCENE_OK;
+        refused += !done;
+        if (!done && e.code != SCENE_E_LIMIT) {
+            printf("%zu: %s\n", limit, e.text);
+        }
+        assert_true(done || e.code == SCENE_E_LIMIT);
+        scene_destroy(s);
+    }
+    assert_true(refused > 20);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -488,6 +524,7 @@ int main(void)
         cmocka_unit_test(test_json_joints),
         cmocka_unit_test(test_json_others),
         cmocka_unit_test(test_json_after_setters),
+        cmocka_unit_test(test_memory_running_out),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -296,7 +296,7 @@ int sc_body_overlaps(scene *s, plumb_body body)
     lua_State *L = s->L;
     call c = { .s = s, .world = s->world, .entity = body };
     int count, found = 0;
-    luaL_checkstack(L, 10, NULL);
+    sc_need_stack(s, 10);
     lua_newtable(L);
     int result = lua_gettop(L);
     const plumb_entity *shapes = shapes_of(&c, &count);

@@ -206,7 +206,7 @@ static void add_shape(scene *s, const sc_site *site, sc_body *b, int index)
 void sc_build_body(scene *s, const sc_site *site, int table)
 {
     lua_State *L = s->L;
-    luaL_checkstack(L, 20, NULL);
+    sc_need_stack(s, 20);
     table = lua_absindex(L, table);
     sc_need_world(s);
     sc_body_def def = { .gravity_scale = 1, .color = { .palette = -1 } };

@@ -172,6 +172,16 @@ static void take_limit(scene *s)
     sc_set_error(s, SCENE_E_LIMIT, line, column, NULL, message);
 }
 
+void sc_need_stack(scene *s, int slots)
+{
+    if (!lua_checkstack(s->L, slots)) {
+        take_limit(s);
+        lua_settop(s->L, 0);
+        lua_pushlightuserdata(s->L, s);
+        lua_error(s->L);
+    }
+}
+
 void sc_take_error(scene *s, int status)
 {
     if (s->error.code == SCENE_OK && status == LUA_ERRMEM) {

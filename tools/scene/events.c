@@ -380,7 +380,7 @@ static void edit_one(scene *s, int index)
 static int edit_all(lua_State *L)
 {
     scene *s = sc_of(L);
-    luaL_checkstack(L, 20, NULL);
+    sc_need_stack(s, 20);
     int count = plumb_contact_edit_count(s->world);
     for (int i = 0; i < count; i++) {
         edit_one(s, i);

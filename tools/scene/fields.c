@@ -477,7 +477,7 @@ static void push_value(scene *s, const sc_site *site, const sc_field *row, int t
 void sc_read(scene *s, const sc_site *site, const sc_list *list, int table, void *out)
 {
     lua_State *L = s->L;
-    luaL_checkstack(L, 10, NULL);
+    sc_need_stack(s, 10);
     table = lua_absindex(L, table);
     check_keys(s, site, list, table);
     uint64_t present = 0;

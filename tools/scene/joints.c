@@ -309,7 +309,7 @@ void sc_joint_release(scene *s, sc_joint *joint)
 
 void sc_build_joint(scene *s, const sc_site *site, plumb_joint_kind kind, int table)
 {
-    luaL_checkstack(s->L, 20, NULL);
+    sc_need_stack(s, 20);
     sc_need_world(s);
     sc_joint_def def = { .kind = kind };
     sc_read(s, site, &sc_list_joints[kind], table, &def);

@@ -34,7 +34,7 @@ void sc_open_json(lua_State *L)
 static void push_value(scene *s, const sc_site *site, const cJSON *item, int depth)
 {
     lua_State *L = s->L;
-    luaL_checkstack(L, 8, NULL);
+    sc_need_stack(s, 8);
     if (depth > DEEPEST) {
         sc_raise(s, SCENE_E_LIMIT, site, NULL, 0, NULL, "values are nested more than %d deep",
                  DEEPEST);

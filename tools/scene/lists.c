@@ -1,6 +1,6 @@
 // lists.c - one list a constructor: every key of the scene language with its kind, range and unit.
 // Reading (fields.c), the JSON form (json_write.c, json_read.c) and "did you mean" follow from the
-// rows. To add a key: one member in internal.h's struct, one row here, its use in the constructor.
+// rows. To add a key: one member in the struct of defs.h, one row here, its use in the constructor.
 // Rows are sorted by name: that is also the order of the keys in canonical JSON.
 #include "lists.h"
 

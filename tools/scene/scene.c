@@ -28,7 +28,7 @@ static int run_protected(lua_State *L)
 {
     const protected_call *c = lua_touserdata(L, 1);
     lua_settop(L, 0);
-    luaL_checkstack(L, 100, NULL);
+    sc_need_stack(sc_of(L), 100);
     c->run(c->s);
     return 0;
 }
