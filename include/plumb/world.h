@@ -5,7 +5,8 @@
 ///     for (;;) plumb_world_step(world, (plumb_real)(1.0 / 60.0));
 ///     plumb_world_destroy(world);
 ///
-/// A world is used from one thread at a time; different worlds share nothing.
+/// A world is used from one thread at a time, whatever number of threads it works with itself; different
+/// worlds share nothing.
 #ifndef PLUMB_WORLD_H
 #define PLUMB_WORLD_H
 
@@ -52,10 +53,13 @@ typedef struct plumb_world_desc {
     uint32_t body_capacity;   ///< rows to reserve; 0: grow as needed
     uint32_t shape_capacity;  ///< likewise for shapes
     uint32_t contact_capacity;///< likewise for contacts
+    int workers;              ///< threads that share the work of a step, 0..64, the caller included; default
+                              ///< 1: no thread is made. A pure speed setting: any number gives the same bits
+    plumb_task_hooks tasks;   ///< threads of your own instead: `workers` tells how many there are to reckon with
     plumb_allocator allocator;///< null members: the C library
     plumb_log_fn *log;        ///< null: silent
     plumb_assert_fn *assert_failed; ///< null: broken invariants go to `log`
-    void *hook_context;       ///< handed to `log` and `assert_failed`
+    void *hook_context;       ///< handed to `log`, `assert_failed` and `tasks`
     void *user_data;          ///< see plumb_world_user_data
 } plumb_world_desc;
 

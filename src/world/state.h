@@ -6,6 +6,7 @@
 #define PL_STATE_H
 
 #include "broad/broad.h"
+#include "core/tasks.h"
 #include "ecs/command.h"
 #include "ecs/component.h"
 #include "ecs/registry.h"
@@ -41,6 +42,7 @@ typedef struct pl_pose {
 struct plumb_world {
     plumb_world_desc desc; // defaults resolved
     pl_memory memory;
+    pl_tasks *tasks;       // null: one thread
     plumb_vec2 gravity;
     uint64_t step_count;
     double time;

@@ -30,6 +30,7 @@ static plumb_result check_integers(const plumb_world *world, const char *fn,
         { "solver", (int64_t)d->solver, PLUMB_SOLVER_PGS },
         { "substeps", d->substeps, 64 },
         { "iterations", d->iterations, 1000 },
+        { "workers", d->workers, PLUMB_WORKERS_MAX },
         { "body_capacity", d->body_capacity, CAPACITY_MOST },
         { "shape_capacity", d->shape_capacity, CAPACITY_MOST },
         { "contact_capacity", d->contact_capacity, CAPACITY_MOST },
@@ -83,6 +84,7 @@ static void resolve_defaults(plumb_world_desc *d)
     d->contact_damping = d->contact_damping > 0 ? d->contact_damping : SOFT_DAMPING;
     d->push_speed = d->push_speed > 0 ? d->push_speed : SOFT_PUSH_SPEED;
     d->simd_width = pl_solver_best_width(d->simd_width);
+    d->workers = d->workers != 0 ? d->workers : 1;
 }
 
 //---- create, destroy
@@ -124,9 +126,21 @@ static bool reserve_rows(plumb_world *world)
                              d->contact_capacity * sizeof(pl_manifold));
 }
 
+// A world of one worker and no hooks has no pool.
+static bool start_workers(plumb_world *world)
+{
+    const plumb_world_desc *d = &world->desc;
+    if (d->workers == 1 && d->tasks.run == NULL) {
+        return true;
+    }
+    world->tasks = pl_tasks_create(&world->memory, d->workers, &d->tasks, d->hook_context);
+    return world->tasks != NULL;
+}
+
 static void free_world(plumb_world *world)
 {
     pl_memory memory = world->memory;
+    pl_tasks_destroy(&memory, world->tasks);
     pl_broad_free(&memory, &world->broad);
     pl_narrow_free(&memory, &world->narrow);
     pl_solver_free(&memory, &world->solver);
@@ -187,7 +201,7 @@ plumb_result plumb_world_create(const plumb_world_desc *desc, plumb_world **worl
         resolve_defaults(&made->desc);
         made->desc.allocator = memory.hooks;
         made->gravity = made->desc.gravity;
-        if (!make_default_material(made) || !reserve_rows(made)) {
+        if (!make_default_material(made) || !reserve_rows(made) || !start_workers(made)) {
             r = pl_fail_memory(made, "plumb_world_create");
         }
     }
