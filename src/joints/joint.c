@@ -46,31 +46,31 @@ bool pl_joints_forbid(const plumb_world *world, uint32_t row, uint32_t other)
 //---- poses
 //----------------------------------------------------------------------------------------
 
-// [m] centre of the body; the world's is the anchor.
-static void center_of(const plumb_world *world, const pl_joint_end *end, double *x, double *y)
+// [m] centre of the body at `row`; the world's is the anchor.
+static void center_of(const plumb_world *world, const pl_joint_end *end, uint32_t row, double *x,
+                      double *y)
 {
-    if (plumb_is_null(end->body)) {
+    if (row == PL_NONE) {
         *x = (double)end->local.x;
         *y = (double)end->local.y;
         return;
     }
-    uint32_t row = pl_body_row(world, end->body);
     const pl_bodies *b = &world->bodies;
     *x = (double)b->center_x[row] + (double)b->low_x[row];
     *y = (double)b->center_y[row] + (double)b->low_y[row];
 }
 
 // Relative to the point (from_x, from_y).
-static void pose_now(const plumb_world *world, const pl_joint_end *end, double from_x,
-                     double from_y, pl_joint_pose *pose)
+static void pose_now(const plumb_world *world, pl_joint_end *end, uint32_t row, double from_x,
+                     double from_y)
 {
     double x, y;
-    center_of(world, end, &x, &y);
+    center_of(world, end, row, &x, &y);
+    pl_joint_pose *pose = &end->pose;
     *pose = (pl_joint_pose){ .x = (real)(x - from_x), .y = (real)(y - from_y), .c = 1 };
-    if (plumb_is_null(end->body)) {
+    if (row == PL_NONE) {
         return;
     }
-    uint32_t row = pl_body_row(world, end->body);
     const pl_bodies *b = &world->bodies;
     plumb_rot q = { b->c[row], b->s[row] };
     plumb_vec2 arm = plumb_rot_apply(
@@ -80,24 +80,54 @@ static void pose_now(const plumb_world *world, const pl_joint_end *end, double f
     pose->angle = (end->seen - end->start) + TURN * (double)end->turns;
 }
 
-static void count_turns(const plumb_world *world, pl_joint_end *end)
+// Eighth of a turn in which an angle in (-pi, pi] lies, and a rotation.
+static int eighth_of_angle(double angle)
 {
-    if (!plumb_is_null(end->body)) {
-        double now = (double)plumb_body_angle(world, end->body), jump = now - end->seen;
+    return (int)((angle + TURN / 2) * (8 / TURN)) & 7;
+}
+
+static int eighth_of_rot(real c, real s)
+{
+    real along = s < 0 ? -c : c, across = s < 0 ? -s : s; // in the upper half
+    int eighth = along > 0 ? (across > along) : 2 + (across < -along);
+    return s < 0 ? eighth : 4 + eighth;
+}
+
+// Only a joint that never passes over an eighth of a turn unseen can tell full turns: without need of
+// the angle, it is looked at when it has left the eighth where it was last seen.
+static void count_turns(const plumb_world *world, pl_joint_end *end, uint32_t row, bool angles)
+{
+    if (row == PL_NONE) {
+        return;
+    }
+    real c = world->bodies.c[row], s = world->bodies.s[row];
+    if (angles || eighth_of_angle(end->seen) != eighth_of_rot(c, s)) {
+        double now = (double)plumb_rot_angle((plumb_rot){ c, s }), jump = now - end->seen;
         end->turns += jump > TURN / 2 ? -1 : jump < -TURN / 2 ? 1 : 0;
         end->seen = now;
     }
 }
 
-void pl_joint_begin(const plumb_world *world, pl_joint *joint)
+void pl_joint_place(const plumb_world *world, pl_joint *joint, uint32_t row_a, uint32_t row_b,
+                    bool angles)
 {
     double x, y;
-    count_turns(world, &joint->a);
-    count_turns(world, &joint->b);
-    center_of(world, &joint->a, &x, &y);
+    count_turns(world, &joint->a, row_a, angles);
+    count_turns(world, &joint->b, row_b, angles);
+    center_of(world, &joint->a, row_a, &x, &y);
     joint->origin = plumb_v2((real)x, (real)y);
-    pose_now(world, &joint->a, x, y, &joint->a.pose);
-    pose_now(world, &joint->b, x, y, &joint->b.pose);
+    pose_now(world, &joint->a, row_a, x, y);
+    pose_now(world, &joint->b, row_b, x, y);
+}
+
+static uint32_t row_of(const plumb_world *world, const pl_joint_end *end)
+{
+    return plumb_is_null(end->body) ? PL_NONE : pl_body_row(world, end->body);
+}
+
+void pl_joint_begin(const plumb_world *world, pl_joint *joint)
+{
+    pl_joint_place(world, joint, row_of(world, &joint->a), row_of(world, &joint->b), true);
 }
 
 //---- checks
@@ -319,4 +349,5 @@ void pl_joints_free(pl_memory *memory, pl_joints *joints)
 {
     pl_buffer_free(memory, &joints->items);
     pl_buffer_free(memory, &joints->broken);
+    pl_joints_plan_free(memory, &joints->plan);
 }

@@ -3,6 +3,7 @@
 #define PL_JOINT_H
 
 #include "joints/rows.h"
+#include "joints/wide.h"
 #include "plumb/joint.h"
 
 // Members of the descriptor that a kind has.
@@ -14,8 +15,6 @@ enum {
     PL_JOINT_TWO_ANCHORS = 16,
     PL_JOINT_RADIANS = 32 // its value is an angle
 };
-
-typedef struct pl_joint pl_joint;
 
 typedef struct pl_joint_class {
     const char *name;
@@ -72,6 +71,27 @@ struct pl_joint {
     real torque;      // [N m]
 };
 
+// What a plan rests on: where it differs from how a joint is now, another plan is made.
+typedef struct pl_joint_mark {
+    plumb_body a, b;
+    uint32_t row_a, row_b; // of the bodies, as last found; PL_NONE: the world
+    uint32_t what;         // 0: not solved; else see plan.c
+} pl_joint_mark;
+
+// Who is solved with whom (plan.c). It follows from the joints and bodies that there are, and is
+// kept from step to step as long as it does.
+typedef struct pl_joint_plan {
+    pl_buffer marks;   // pl_joint_mark a slot
+    pl_buffer order;   // pl_keyed: joints to be solved wide
+    pl_buffer bundles; // pl_joint_bundle
+    pl_buffer lanes;   // uint32_t a lane: its joint, PL_NONE: empty
+    pl_buffer records; // of the bundles, kept by the kernels
+    pl_buffer alone;   // uint32_t: joints solved one by one, behind the bundles
+    uint32_t marked, bundle_count, alone_count, pattern_count;
+    pl_joint_pattern patterns[PL_JOINT_PATTERNS];
+    bool made;
+} pl_joint_plan;
+
 typedef struct pl_joints {
     pl_buffer items;  // pl_joint; slots are stable
     pl_buffer broken; // plumb_joint_break of the last step, room for every joint
@@ -79,6 +99,7 @@ typedef struct pl_joints {
     uint32_t live;
     uint32_t free_head; // PL_NONE: none
     int broken_count;
+    pl_joint_plan plan;
 } pl_joints;
 
 static inline pl_joint *pl_joint_items(const pl_joints *joints)
@@ -97,6 +118,10 @@ uint32_t pl_joint_next(const pl_joint *joint, plumb_body body);
 bool pl_joints_forbid(const plumb_world *world, uint32_t row, uint32_t other);
 // Full turns, origin and poses up to date.
 void pl_joint_begin(const plumb_world *world, pl_joint *joint);
+// The same with the rows of its bodies known (PL_NONE: the world); without `angles`, those of the poses
+// are not told, and turns are counted only as often as must be.
+void pl_joint_place(const plumb_world *world, pl_joint *joint, uint32_t row_a, uint32_t row_b,
+                    bool angles);
 
 typedef enum pl_joint_sweep {
     PL_SWEEP_PULL,   // springs, and errors undone
@@ -104,13 +129,39 @@ typedef enum pl_joint_sweep {
     PL_SWEEP_CLASSIC // springs, errors left: pl_joints_move undoes them
 } pl_joint_sweep;
 
-// The solver's part (solve.c), over all joints. Prepare: slots, poses and rows at the start of the
-// step of substeps h [s]. Turn: what J's turning owes. Refresh: rows at the moved poses.
+// Solver slots of bodies, and the plan, before anything moves (plan.c). False when out of memory.
+bool pl_joints_plan(plumb_world *world);
+// Those of the world's width.
+const pl_joint_kernels *pl_joint_kernels_of(const plumb_world *world);
+void pl_joints_plan_free(pl_memory *memory, pl_joint_plan *plan);
+
+static inline const pl_joint_mark *pl_joint_marks(const pl_joints *joints)
+{
+    return (const pl_joint_mark *)joints->plan.marks.data;
+}
+
+// The i-th joint that is solved one by one.
+static inline pl_joint *pl_joint_alone(const pl_joints *joints, uint32_t i)
+{
+    return &pl_joint_items(joints)[((const uint32_t *)joints->plan.alone.data)[i]];
+}
+
+// A hinge of which no more than the point is in force.
+static inline bool pl_joint_is_bare(const pl_joint *j)
+{
+    return j->desc.kind == PLUMB_REVOLUTE && !j->desc.enable_limit && !j->desc.enable_motor &&
+           !(j->desc.hertz > 0);
+}
+
+// The solver's part (solve.c), over all joints of the plan. Prepare: poses and rows at the start of the
+// step of substeps h [s].
 void pl_joints_prepare(plumb_world *world, real h);
 void pl_joints_warm_start(plumb_world *world);
-void pl_joints_turn(plumb_world *world);
-void pl_joints_solve(plumb_world *world, pl_joint_sweep sweep);
-void pl_joints_refresh(plumb_world *world);
+// One sweep. The first one of a substep that pulls pays what J's turning owes, the first that relaxes
+// makes rows at the moved poses.
+void pl_joints_solve(plumb_world *world, real h, pl_joint_sweep sweep, bool first);
+// After the last sweep of a step: impulses back into the joints.
+void pl_joints_store(plumb_world *world);
 // Moves bodies against the errors that are left (classic solver).
 void pl_joints_move(plumb_world *world, real share);
 // Reactions; breaks what is loaded too much (finish.c).

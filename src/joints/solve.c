@@ -28,24 +28,27 @@
 #define SHARE ((real)0.25)
 #define ZETA  ((real)2)
 #define TAU   ((real)6.2831853071795864769)
-#define PIVOT ((real)1e-6) // [-] of the diagonal: a smaller pivot is no direction of its own
 
-typedef struct soft {
-    real velocity, error, impulse; // factors of J v, C and the impulse so far
-} soft;
-
-static soft soften(const pl_row *row, real h, pl_joint_sweep sweep)
+static pl_joint_soft rigid(real h)
 {
-    if (row->type == PL_ROW_DRIVE || (sweep != PL_SWEEP_PULL && row->hertz == 0)) {
-        return (soft){ 1, 0, 0 };
-    }
-    if (row->hertz == 0) {
-        const real x = TAU * SHARE, stiff = x * (2 * ZETA + x);
-        return (soft){ stiff / (1 + stiff), x * x / (1 + stiff) / h, 1 / (1 + stiff) };
+    const real x = TAU * SHARE, stiff = x * (2 * ZETA + x);
+    return (pl_joint_soft){ stiff / (1 + stiff), x * x / (1 + stiff) / h, 1 / (1 + stiff) };
+}
+
+pl_joint_soft pl_joint_spring(const pl_row *row, real h)
+{
+    if (row->type == PL_ROW_DRIVE || row->hertz == 0) {
+        return (pl_joint_soft){ 1, 0, 0 };
     }
     real x = TAU * row->hertz * h, zx = row->damping * x, xx = x * x;
     real b = 1 / (1 + 2 * zx + 2 * zx * zx + xx * xx / (1 + xx));
-    return (soft){ 1 - b, b * xx / h, b };
+    return (pl_joint_soft){ 1 - b, b * xx / h, b };
+}
+
+static pl_joint_soft soften(const pl_row *row, real h, pl_joint_sweep sweep)
+{
+    bool pulls = sweep == PL_SWEEP_PULL && row->type != PL_ROW_DRIVE && row->hertz == 0;
+    return pulls ? rigid(h) : pl_joint_spring(row, h);
 }
 
 //---- one row -------------------------------------------------------------------------------------
@@ -81,10 +84,10 @@ static void solve_row(pl_joint *j, int i, pl_solver_body *a, pl_solver_body *b,
     if (r->type == PL_ROW_OFF || (sweep == PL_SWEEP_RELAX && r->hertz > 0)) {
         return;
     }
-    soft s = soften(r, j->h, sweep);
+    pl_joint_soft s = soften(r, j->h, sweep);
     bool apart = r->type == PL_ROW_LEAST && r->error > 0;
     if (apart) {
-        s = (soft){ 1, 1 / j->h, 0 }; // may close the gap
+        s = (pl_joint_soft){ 1, 1 / j->h, 0 }; // may close the gap
     }
     real v = rate(r, a, b) - (r->type == PL_ROW_DRIVE ? r->speed : 0);
     real old = j->impulse[i];
@@ -111,7 +114,7 @@ static void invert(pl_joint *j, const pl_solver_body *a, const pl_solver_body *b
         diagonal[i] = k[i][i];
     }
     for (int p = 0; p < n; ++p) {
-        bool usable = k[p][p] > PIVOT * diagonal[p];
+        bool usable = k[p][p] > PL_PIVOT * diagonal[p];
         real inverse = usable ? 1 / k[p][p] : 0;
         for (int m = 0; m < 2 * n; ++m) {
             k[p][m] *= inverse;
@@ -148,7 +151,7 @@ static void solve_block(pl_joint *j, pl_solver_body *a, pl_solver_body *b, pl_jo
     if (n == 0 || (sweep == PL_SWEEP_RELAX && row[0].hertz > 0)) {
         return;
     }
-    soft s = soften(&row[0], j->h, sweep);
+    pl_joint_soft s = soften(&row[0], j->h, sweep);
     real wrong[3], total[3];
     for (int i = 0; i < n; ++i) {
         wrong[i] = s.velocity * rate(&row[i], a, b) + s.error * row[i].error;
@@ -229,30 +232,73 @@ static void make_rows(pl_joint *j, const pl_solver_body *a, const pl_solver_body
 
 //---- all joints ----------------------------------------------------------------------------------
 
-static uint32_t slot_of(const plumb_world *world, plumb_body body)
+static pl_joint_call call_of(const plumb_world *world, real h)
 {
-    uint32_t movable = world->dynamic_count + world->kinematic_count;
-    uint32_t row = plumb_is_null(body) ? movable : pl_body_row(world, body);
-    return pl_solver_slot(&world->solver, row, movable);
+    const pl_joint_plan *plan = &world->joints.plan;
+    return (pl_joint_call){ .bodies = pl_solver_bodies(&world->solver),
+                            .dynamic_slots = world->solver.dynamic_slots,
+                            .immovable_slot = world->solver.slot_count - 1,
+                            .bundle_count = plan->bundle_count,
+                            .bundles = plan->bundles.data,
+                            .patterns = plan->patterns,
+                            .lanes = plan->lanes.data,
+                            .records = plan->records.data,
+                            .joints = pl_joint_items(&world->joints),
+                            .h = h,
+                            .rigid = rigid(h) };
+}
+
+static void clear_debt(pl_joint *j)
+{
+    for (int k = 0; k < 6; ++k) {
+        j->turn[k] = 0;
+    }
+}
+
+static void begin(const plumb_world *world, pl_joint *j, bool bare, real h)
+{
+    const pl_joint_mark *mark = &pl_joint_marks(&world->joints)[j - pl_joint_items(&world->joints)];
+    pl_joint_place(world, j, mark->row_a, mark->row_b, !bare);
+    real scale = j->h > 0 ? h / j->h : 0;
+    for (int k = 0; k < PL_JOINT_ROWS; ++k) {
+        j->impulse[k] *= scale;
+    }
+    j->h = h;
+}
+
+// A joint in a lane: its rows now, unless the kernels need none; nothing is kept of rows that are off.
+static void begin_wide(const plumb_world *world, pl_joint *j, const pl_joint_pattern *pattern,
+                       real h)
+{
+    bool bare = pl_joint_is_bare(j);
+    begin(world, j, bare, h);
+    j->rows.count = (int)pattern->rows_of_all;
+    if (!bare) {
+        pl_joint_classes[j->desc.kind]->rows(j, &j->a.pose, &j->b.pose, &j->rows);
+    }
+    for (int k = 0; k < j->rows.count; ++k) {
+        bool on = bare ? k < 2 : j->rows.row[k].type != PL_ROW_OFF;
+        j->impulse[k] = on ? j->impulse[k] : 0;
+    }
 }
 
 void pl_joints_prepare(plumb_world *world, real h)
 {
     pl_solver_body *bodies = pl_solver_bodies(&world->solver);
-    pl_joint *items = pl_joint_items(&world->joints);
-    for (uint32_t i = 0; i < world->joints.count; ++i) {
-        pl_joint *j = &items[i];
-        if (plumb_is_null(j->entity)) {
-            continue;
+    const pl_joint_plan *plan = &world->joints.plan;
+    const pl_joint_call call = call_of(world, h);
+    const pl_joint_kernels *kernels = pl_joint_kernels_of(world);
+    for (uint32_t i = 0; i < plan->bundle_count * (uint32_t)kernels->width; ++i) {
+        const pl_joint_bundle *bundle = &call.bundles[i / (uint32_t)kernels->width];
+        if (call.lanes[i] != PL_NONE) {
+            begin_wide(world, &call.joints[call.lanes[i]], &call.patterns[bundle->pattern], h);
         }
-        j->a.slot = slot_of(world, j->a.body);
-        j->b.slot = slot_of(world, j->b.body);
-        pl_joint_begin(world, j);
-        real scale = j->h > 0 ? h / j->h : 0;
-        for (int k = 0; k < PL_JOINT_ROWS; ++k) {
-            j->impulse[k] *= scale;
-        }
-        j->h = h;
+    }
+    kernels->fill(&call);
+    for (uint32_t i = 0; i < plan->alone_count; ++i) {
+        pl_joint *j = pl_joint_alone(&world->joints, i);
+        begin(world, j, false, h);
+        clear_debt(j);
         make_rows(j, &bodies[j->a.slot], &bodies[j->b.slot]);
     }
 }
@@ -260,10 +306,11 @@ void pl_joints_prepare(plumb_world *world, real h)
 void pl_joints_warm_start(plumb_world *world)
 {
     pl_solver_body *bodies = pl_solver_bodies(&world->solver);
-    pl_joint *items = pl_joint_items(&world->joints);
-    for (uint32_t i = 0; i < world->joints.count; ++i) {
-        pl_joint *j = &items[i];
-        for (int k = 0; !plumb_is_null(j->entity) && k < j->rows.count; ++k) {
+    const pl_joint_call call = call_of(world, 0);
+    pl_joint_kernels_of(world)->warm_start(&call);
+    for (uint32_t i = 0; i < world->joints.plan.alone_count; ++i) {
+        const pl_joint *j = pl_joint_alone(&world->joints, i);
+        for (int k = 0; k < j->rows.count; ++k) {
             if (j->impulse[k] != 0) {
                 push(&j->rows.row[k], &bodies[j->a.slot], &bodies[j->b.slot], j->impulse[k]);
             }
@@ -271,31 +318,40 @@ void pl_joints_warm_start(plumb_world *world)
     }
 }
 
-void pl_joints_turn(plumb_world *world)
+// Pays what J's turning owes.
+static void pay(const pl_joint *j, pl_solver_body *a, pl_solver_body *b)
 {
-    pl_solver_body *bodies = pl_solver_bodies(&world->solver);
-    pl_joint *items = pl_joint_items(&world->joints);
-    for (uint32_t i = 0; i < world->joints.count; ++i) {
-        const pl_joint *j = &items[i];
-        if (plumb_is_null(j->entity)) {
-            continue;
-        }
-        const pl_row owed = { j->turn[0], j->turn[1], j->turn[2],          j->turn[3],
-                              j->turn[4], j->turn[5], .type = PL_ROW_EQUAL };
-        push(&owed, &bodies[j->a.slot], &bodies[j->b.slot], 1);
-    }
+    const pl_row owed = { j->turn[0], j->turn[1], j->turn[2],          j->turn[3],
+                          j->turn[4], j->turn[5], .type = PL_ROW_EQUAL };
+    push(&owed, a, b, 1);
 }
 
-void pl_joints_solve(plumb_world *world, pl_joint_sweep sweep)
+static void refresh(pl_joint *j, const pl_solver_body *a, const pl_solver_body *b)
+{
+    clear_debt(j);
+    add_momentum(j, -1);
+    make_rows(j, a, b);
+    add_momentum(j, 1);
+}
+
+void pl_joints_solve(plumb_world *world, real h, pl_joint_sweep sweep, bool first)
 {
     pl_solver_body *bodies = pl_solver_bodies(&world->solver);
-    pl_joint *items = pl_joint_items(&world->joints);
-    for (uint32_t i = 0; i < world->joints.count; ++i) {
-        pl_joint *j = &items[i];
-        if (plumb_is_null(j->entity)) {
-            continue;
-        }
+    const pl_joint_call call = call_of(world, h);
+    const pl_joint_kernels *kernels = pl_joint_kernels_of(world);
+    if (sweep == PL_SWEEP_PULL) {
+        (first ? kernels->pull_first : kernels->pull)(&call);
+    } else if (sweep == PL_SWEEP_RELAX) {
+        (first ? kernels->relax_first : kernels->relax)(&call);
+    }
+    for (uint32_t i = 0; i < world->joints.plan.alone_count; ++i) {
+        pl_joint *j = pl_joint_alone(&world->joints, i);
         pl_solver_body *a = &bodies[j->a.slot], *b = &bodies[j->b.slot];
+        if (first && sweep == PL_SWEEP_PULL) {
+            pay(j, a, b);
+        } else if (first && sweep == PL_SWEEP_RELAX) {
+            refresh(j, a, b);
+        }
         // Motors and springs first: what must hold has the last word.
         for (int k = j->rows.count - 1; k >= j->rows.block; --k) {
             solve_row(j, k, a, b, sweep);
@@ -304,22 +360,10 @@ void pl_joints_solve(plumb_world *world, pl_joint_sweep sweep)
     }
 }
 
-void pl_joints_refresh(plumb_world *world)
+void pl_joints_store(plumb_world *world)
 {
-    pl_solver_body *bodies = pl_solver_bodies(&world->solver);
-    pl_joint *items = pl_joint_items(&world->joints);
-    for (uint32_t i = 0; i < world->joints.count; ++i) {
-        pl_joint *j = &items[i];
-        if (plumb_is_null(j->entity)) {
-            continue;
-        }
-        for (int k = 0; k < 6; ++k) {
-            j->turn[k] = 0;
-        }
-        add_momentum(j, -1);
-        make_rows(j, &bodies[j->a.slot], &bodies[j->b.slot]);
-        add_momentum(j, 1);
-    }
+    const pl_joint_call call = call_of(world, 0);
+    pl_joint_kernels_of(world)->store(&call);
 }
 
 //---- positions, for the classic solver -----------------------------------------------------------
@@ -360,12 +404,8 @@ static void move_joint(const pl_joint *j, pl_solver_body *a, pl_solver_body *b, 
 void pl_joints_move(plumb_world *world, real share)
 {
     pl_solver_body *bodies = pl_solver_bodies(&world->solver);
-    pl_joint *items = pl_joint_items(&world->joints);
-    for (uint32_t i = 0; i < world->joints.count; ++i) {
-        pl_joint *j = &items[i];
-        if (plumb_is_null(j->entity)) {
-            continue;
-        }
+    for (uint32_t i = 0; i < world->joints.plan.alone_count; ++i) {
+        pl_joint *j = pl_joint_alone(&world->joints, i);
         pl_solver_body *a = &bodies[j->a.slot], *b = &bodies[j->b.slot];
         make_rows(j, a, b);
         move_joint(j, a, b, share);
