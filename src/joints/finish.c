@@ -48,10 +48,13 @@ void pl_joints_finish(plumb_world *world)
 {
     for (uint32_t i = 0; i < world->joints.count; ++i) {
         pl_joint *j = &pl_joint_items(&world->joints)[i];
-        if (plumb_is_null(j->entity)) {
+        const pl_joint_mark *mark = &pl_joint_marks(&world->joints)[i];
+        if (mark->quiet || plumb_is_null(j->entity)) {
             continue;
         }
-        react(j);
+        if (!mark->wide) {
+            react(j);
+        }
         const pl_joint_class *kind = pl_joint_classes[j->desc.kind];
         if (kind->advance != NULL) {
             pl_joint_begin(world, j);

@@ -52,6 +52,11 @@ typedef struct pl_joint_end {
 } pl_joint_end;
 
 struct pl_joint {
+    // What every step reads and writes of every joint comes first, on one cache line.
+    real impulse[PL_JOINT_ROWS]; // [N s] of a substep
+    real h;                      // [s] substep that the impulses belong to
+    plumb_vec2 force;            // [N] reaction
+    real torque;                 // [N m]
     plumb_joint entity; // null: a free slot, whose a.next is the next one
     plumb_joint_desc desc;
     pl_joint_end a, b;
@@ -59,23 +64,21 @@ struct pl_joint {
     plumb_vec2 target; // mouse: world [m]; motor: in A's frame [m]
     plumb_vec2 origin; // [m] from where poses are told: A's centre at the start of the step
     real sum;          // gear, pulley: what is kept; ratchet: the tooth behind the pawl [rad]
-    // Solver.
-    real impulse[PL_JOINT_ROWS]; // [N s] of a substep
-    real h;                      // [s] substep that the impulses belong to
+    // Solver: of joints solved one by one.
     real mass[PL_JOINT_ROWS];    // [kg] effective, of rows outside the block
     real inverse[3][3];          // of the block's K = J M^-1 J^T
     real turn[6];                // change of momentum owed because J has turned: see solve.c
     pl_rows rows;
     plumb_vec2 arm_b; // [m] from B's centre to its anchor, at the rows
-    plumb_vec2 force; // [N] reaction
-    real torque;      // [N m]
 };
 
-// What a plan rests on: where it differs from how a joint is now, another plan is made.
+// A joint as the plan sees it, so that a step need not look at the joint itself.
 typedef struct pl_joint_mark {
     plumb_body a, b;
     uint32_t row_a, row_b; // of the bodies, as last found; PL_NONE: the world
     uint32_t what;         // 0: not solved; else see plan.c
+    bool wide;             // it is in a lane: the kernels tell its reaction
+    bool quiet;            // nothing but its reaction comes of it after the step
 } pl_joint_mark;
 
 // Who is solved with whom (plan.c). It follows from the joints and bodies that there are, and is
@@ -84,10 +87,12 @@ typedef struct pl_joint_plan {
     pl_buffer marks;   // pl_joint_mark a slot
     pl_buffer order;   // pl_keyed: joints to be solved wide
     pl_buffer bundles; // pl_joint_bundle
-    pl_buffer lanes;   // uint32_t a lane: its joint, PL_NONE: empty
+    pl_buffer lanes;   // pl_joint_lane
+    pl_buffer starts;  // pl_joint_start a lane
+    pl_buffer slots;   // uint32_t, two a lane: see pl_joint_call
     pl_buffer records; // of the bundles, kept by the kernels
     pl_buffer alone;   // uint32_t: joints solved one by one, behind the bundles
-    uint32_t marked, bundle_count, alone_count, pattern_count;
+    uint32_t bundle_count, alone_count, pattern_count;
     pl_joint_pattern patterns[PL_JOINT_PATTERNS];
     bool made;
 } pl_joint_plan;
@@ -118,10 +123,13 @@ uint32_t pl_joint_next(const pl_joint *joint, plumb_body body);
 bool pl_joints_forbid(const plumb_world *world, uint32_t row, uint32_t other);
 // Full turns, origin and poses up to date.
 void pl_joint_begin(const plumb_world *world, pl_joint *joint);
-// The same with the rows of its bodies known (PL_NONE: the world); without `angles`, those of the poses
-// are not told, and turns are counted only as often as must be.
-void pl_joint_place(const plumb_world *world, pl_joint *joint, uint32_t row_a, uint32_t row_b,
-                    bool angles);
+// Eighth of a turn, 0 to 7, in which an angle in (-pi, pi] [rad] lies.
+int pl_joint_eighth(double angle);
+// The same as pl_joint_begin with the rows of its bodies known (PL_NONE: the world).
+void pl_joint_place(const plumb_world *world, pl_joint *joint, uint32_t row_a, uint32_t row_b);
+// How a lane of a bare hinge begins a step: of the joint itself, impulses are read, and turns counted
+// where an angle has left the eighth in which it was last seen.
+void pl_joint_start_bare(plumb_world *world, pl_joint_lane *lane, pl_joint_start *start, real h);
 
 typedef enum pl_joint_sweep {
     PL_SWEEP_PULL,   // springs, and errors undone
@@ -146,11 +154,18 @@ static inline pl_joint *pl_joint_alone(const pl_joints *joints, uint32_t i)
     return &pl_joint_items(joints)[((const uint32_t *)joints->plan.alone.data)[i]];
 }
 
-// A hinge of which no more than the point is in force.
-static inline bool pl_joint_is_bare(const pl_joint *j)
+static inline bool pl_joint_may_break(const plumb_joint_desc *d)
 {
-    return j->desc.kind == PLUMB_REVOLUTE && !j->desc.enable_limit && !j->desc.enable_motor &&
-           !(j->desc.hertz > 0);
+    return d->break_force > 0 || d->break_torque > 0;
+}
+
+// What the pattern of a joint depends on. Who changes it, or where a joint is on its bodies, or whether
+// it can break, must call pl_joints_replan.
+uint32_t pl_joint_variant(const plumb_joint_desc *desc);
+
+static inline void pl_joints_replan(pl_joints *joints)
+{
+    joints->plan.made = false;
 }
 
 // The solver's part (solve.c), over all joints of the plan. Prepare: poses and rows at the start of the
@@ -160,8 +175,8 @@ void pl_joints_warm_start(plumb_world *world);
 // One sweep. The first one of a substep that pulls pays what J's turning owes, the first that relaxes
 // makes rows at the moved poses.
 void pl_joints_solve(plumb_world *world, real h, pl_joint_sweep sweep, bool first);
-// After the last sweep of a step: impulses back into the joints.
-void pl_joints_store(plumb_world *world);
+// Impulses and reactions of joints in lanes, into the joints.
+void pl_joints_store(plumb_world *world, real h);
 // Moves bodies against the errors that are left (classic solver).
 void pl_joints_move(plumb_world *world, real share);
 // Reactions; breaks what is loaded too much (finish.c).

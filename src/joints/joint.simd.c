@@ -46,7 +46,6 @@ typedef struct temper {
 
 // Followed by the rows, a source for each if the block is no point, a temper, the singles.
 typedef struct bundle {
-    uint32_t a[PL_WIDTH], b[PL_WIDTH]; // solver slots
     vf inertia_a, inertia_b;           // inverse
     vf owed_x, owed_y, owed_a, owed_b; // momentum that J's turning owes
     vf inverse[6];                     // of the block's K: 00, 01, 11, 02, 12, 22
@@ -55,6 +54,7 @@ typedef struct bundle {
 } bundle;
 
 typedef struct parts {
+    const uint32_t *a, *b; // solver slots
     bundle *c;
     row *rows;
     source *sources;
@@ -67,14 +67,9 @@ typedef struct body {
     vf dx, dy, da, inv_inertia;
 } body;
 
-static bool is_bare_point(const pl_joint_pattern *p)
-{
-    return p->count == 2 && p->row[0].form == PL_FORM_POINT_X;
-}
-
 static size_t record_size(const pl_joint_pattern *p)
 {
-    size_t sources = is_bare_point(p) ? 0 : p->count;
+    size_t sources = p->bare ? 0 : p->count;
     return sizeof(bundle) + p->count * sizeof(row) + sources * sizeof(source) +
            (p->tempered ? sizeof(temper) : 0) + (size_t)(p->count - p->block) * sizeof(single);
 }
@@ -82,10 +77,12 @@ static size_t record_size(const pl_joint_pattern *p)
 WIDE_INLINE parts open(const pl_joint_call *call, uint32_t k, const pl_joint_pattern *p)
 {
     parts at;
+    at.a = call->slots + (size_t)k * 2 * PL_WIDTH;
+    at.b = at.a + PL_WIDTH;
     at.c = (bundle *)(void *)(call->records + call->bundles[k].at);
     at.rows = (row *)(void *)(at.c + 1);
     at.sources = (source *)(void *)(at.rows + p->count);
-    at.temper = (temper *)(void *)(at.sources + (is_bare_point(p) ? 0 : p->count));
+    at.temper = (temper *)(void *)(at.sources + (p->bare ? 0 : p->count));
     at.singles = (single *)(void *)(at.temper + (p->tempered ? 1 : 0));
     return at;
 }
@@ -288,12 +285,11 @@ WIDE_INLINE void make_rows(const parts *at, const pl_joint_pattern *p, const bod
 {
     bundle *c = at->c;
     const place now = place_now(c, a, b);
-    const bool bare = is_bare_point(p);
     c->owed_x = c->owed_y = c->owed_a = c->owed_b = splat(0);
     for (int i = 0; i < p->count; ++i) {
         row *r = &at->rows[i];
         const row old = *r;
-        make_row(r, bare ? NULL : &at->sources[i], p->row[i].form, &now, a, b);
+        make_row(r, p->bare ? NULL : &at->sources[i], p->row[i].form, &now, a, b);
         c->owed_x += (r->nx - old.nx) * r->impulse;
         c->owed_y += (r->ny - old.ny) * r->impulse;
         c->owed_a += (r->wa - old.wa) * r->impulse;
@@ -355,7 +351,10 @@ WIDE_INLINE void solve_single(row *r, const single *s, const pl_pattern_row *kin
 WIDE_INLINE void solve_block(const parts *at, const pl_joint_pattern *p, const int n,
                              const pl_joint_call *call, const bool pull, body *a, body *b)
 {
-    row *r = at->rows;
+    row r[3];
+    for (int i = 0; i < n; ++i) {
+        r[i] = at->rows[i];
+    }
     const vf *inverse = at->c->inverse;
     vf velocity = splat(1), error_rate = splat(0), keep = splat(1);
     if (p->tempered && (p->row[0].spring || p->row[0].type == PL_ROW_DRIVE)) {
@@ -395,7 +394,7 @@ WIDE_INLINE void solve_block(const parts *at, const pl_joint_pattern *p, const i
     vf x = splat(0), y = splat(0), wa = splat(0), wb = splat(0);
     for (int i = 0; i < n; ++i) {
         vf change = total[i] - r[i].impulse;
-        r[i].impulse = total[i];
+        at->rows[i].impulse = total[i];
         x += r[i].nx * change;
         y += r[i].ny * change;
         wa += r[i].wa * change;
@@ -431,27 +430,46 @@ WIDE_INLINE void solve_rows(const parts *at, const pl_joint_pattern *p, const pl
     }
 }
 
+WIDE_INLINE void sweep_bundle(const pl_joint_call *call, uint32_t k, const pl_joint_pattern *p,
+                              const bool pull, const bool first)
+{
+    parts at = open(call, k, p);
+    bundle *c = at.c;
+    body a, b;
+    if (first && !pull) {
+        gather_body(&a, call, at.a);
+        gather_body(&b, call, at.b);
+        make_rows(&at, p, &a, &b);
+    } else {
+        gather_velocity(&a, call, at.a, c->inertia_a);
+        gather_velocity(&b, call, at.b, c->inertia_b);
+    }
+    if (first && pull) {
+        push(&a, &b, c->owed_x, c->owed_y, c->owed_a, c->owed_b);
+    }
+    solve_rows(&at, p, call, pull, &a, &b);
+    scatter_velocity(&a, call, at.a);
+    scatter_velocity(&b, call, at.b);
+}
+
+// The pattern of bare hinges is known to the compiler, which makes a kernel of their own of it.
+static const pl_joint_pattern bare_pattern = {
+    .count = 2,
+    .block = 2,
+    .bare = true,
+    .row = { { .index = 0, .form = PL_FORM_POINT_X, .type = PL_ROW_EQUAL },
+             { .index = 1, .form = PL_FORM_POINT_Y, .type = PL_ROW_EQUAL } },
+};
+
 WIDE_INLINE void sweep(const pl_joint_call *call, const bool pull, const bool first)
 {
     for (uint32_t k = 0; k < call->bundle_count; ++k) {
         const pl_joint_pattern *p = &call->patterns[call->bundles[k].pattern];
-        parts at = open(call, k, p);
-        bundle *c = at.c;
-        body a, b;
-        if (first && !pull) {
-            gather_body(&a, call, c->a);
-            gather_body(&b, call, c->b);
-            make_rows(&at, p, &a, &b);
+        if (p->bare) {
+            sweep_bundle(call, k, &bare_pattern, pull, first);
         } else {
-            gather_velocity(&a, call, c->a, c->inertia_a);
-            gather_velocity(&b, call, c->b, c->inertia_b);
+            sweep_bundle(call, k, p, pull, first);
         }
-        if (first && pull) {
-            push(&a, &b, c->owed_x, c->owed_y, c->owed_a, c->owed_b);
-        }
-        solve_rows(&at, p, call, pull, &a, &b);
-        scatter_velocity(&a, call, c->a);
-        scatter_velocity(&b, call, c->b);
     }
 }
 
@@ -515,29 +533,38 @@ static void fill_temper(temper *t, int lane, const pl_joint *j, real h)
 static void fill_lane(const parts *at, const pl_joint_pattern *p, int lane, const pl_joint *j,
                       real h)
 {
-    bundle *c = at->c;
     const pl_joint_pose *a = &j->a.pose, *b = &j->b.pose;
     plumb_vec2 apart = pl_joint_apart(a, b);
-    c->a[lane] = j->a.slot, c->b[lane] = j->b.slot;
-    c->ra_x[lane] = a->rx, c->ra_y[lane] = a->ry;
-    c->rb_x[lane] = b->rx, c->rb_y[lane] = b->ry;
-    c->apart_x[lane] = b->x - a->x, c->apart_y[lane] = b->y - a->y;
     for (int i = 0; i < p->count; ++i) {
         at->rows[i].impulse[lane] = j->impulse[p->row[i].index];
-    }
-    if (is_bare_point(p) && !p->tempered) {
-        return; // nothing else is read of it
+        fill_row(at, p, i, lane, j, apart, h);
     }
     if (p->row[0].form == PL_FORM_POINT_X) {
         // What B's anchor is held to, seen from A: the anchor, or a target beside it.
-        c->ra_x[lane] = a->rx + apart.x - j->rows.row[0].error;
-        c->ra_y[lane] = a->ry + apart.y - j->rows.row[1].error;
-    }
-    for (int i = 0; i < p->count && !is_bare_point(p); ++i) {
-        fill_row(at, p, i, lane, j, apart, h);
+        at->c->ra_x[lane] = a->rx + apart.x - j->rows.row[0].error;
+        at->c->ra_y[lane] = a->ry + apart.y - j->rows.row[1].error;
     }
     if (p->tempered) {
         fill_temper(at->temper, lane, j, h);
+    }
+}
+
+// What all joints have, and bare ones nothing besides.
+WIDE_INLINE void fill_start(const parts *at, const pl_joint_start *starts, const bool bare)
+{
+    const plumb_real *from[PL_WIDTH];
+    vf r[8];
+    for (int i = 0; i < PL_WIDTH; ++i) {
+        from[i] = &starts[i].arm_a.x;
+    }
+    gather8(r, from);
+    bundle *c = at->c;
+    c->ra_x = r[0], c->ra_y = r[1];
+    c->rb_x = r[2], c->rb_y = r[3];
+    c->apart_x = r[4], c->apart_y = r[5];
+    if (bare) {
+        at->rows[0].impulse = r[6];
+        at->rows[1].impulse = r[7];
     }
 }
 
@@ -546,17 +573,17 @@ static void fill(const pl_joint_call *call)
     for (uint32_t k = 0; k < call->bundle_count; ++k) {
         const pl_joint_pattern *p = &call->patterns[call->bundles[k].pattern];
         parts at = open(call, k, p);
-        const uint32_t *lanes = &call->lanes[(size_t)k * PL_WIDTH];
+        const pl_joint_lane *lanes = &call->lanes[(size_t)k * PL_WIDTH];
         memset(at.c, 0, record_size(p));
-        for (int i = 0; i < PL_WIDTH; ++i) {
-            at.c->a[i] = at.c->b[i] = call->immovable_slot;
-            if (lanes[i] != PL_NONE) {
-                fill_lane(&at, p, i, &call->joints[lanes[i]], call->h);
+        fill_start(&at, &call->starts[(size_t)k * PL_WIDTH], p->bare);
+        for (int i = 0; i < PL_WIDTH && !p->bare; ++i) {
+            if (lanes[i].joint != PL_NONE) {
+                fill_lane(&at, p, i, &call->joints[lanes[i].joint], call->h);
             }
         }
         body a, b;
-        gather_body(&a, call, at.c->a);
-        gather_body(&b, call, at.c->b);
+        gather_body(&a, call, at.a);
+        gather_body(&b, call, at.b);
         at.c->inertia_a = a.inv_inertia;
         at.c->inertia_b = b.inv_inertia;
         make_rows(&at, p, &a, &b);
@@ -570,44 +597,56 @@ static void warm_start(const pl_joint_call *call)
         const pl_joint_pattern *p = &call->patterns[call->bundles[k].pattern];
         parts at = open(call, k, p);
         body a, b;
-        gather_velocity(&a, call, at.c->a, at.c->inertia_a);
-        gather_velocity(&b, call, at.c->b, at.c->inertia_b);
+        gather_velocity(&a, call, at.a, at.c->inertia_a);
+        gather_velocity(&b, call, at.b, at.c->inertia_b);
         for (int i = 0; i < p->count; ++i) {
             const row *r = &at.rows[i];
             push(&a, &b, r->nx * r->impulse, r->ny * r->impulse, r->wa * r->impulse,
                  r->wb * r->impulse);
         }
-        scatter_velocity(&a, call, at.c->a);
-        scatter_velocity(&b, call, at.c->b);
+        scatter_velocity(&a, call, at.a);
+        scatter_velocity(&b, call, at.b);
     }
 }
 
-static void store_lane(const parts *at, const pl_joint_pattern *p, int lane, pl_joint *j,
-                       const place *now)
-{
-    for (int i = 0; i < p->count; ++i) {
-        const row *r = &at->rows[i];
-        pl_row *to = &j->rows.row[p->row[i].index];
-        j->impulse[p->row[i].index] = r->impulse[lane];
-        to->bx = r->nx[lane], to->by = r->ny[lane], to->bw = r->wb[lane];
-    }
-    j->arm_b = plumb_v2(now->rb_x[lane], now->rb_y[lane]);
-}
-
+// The reaction is J^T impulse on B; its torque is told about B's anchor.
 static void store_all(const pl_joint_call *call)
 {
+    const vf inv_h = splat(1 / call->h);
     for (uint32_t k = 0; k < call->bundle_count; ++k) {
         const pl_joint_pattern *p = &call->patterns[call->bundles[k].pattern];
+        const pl_joint_lane *lanes = &call->lanes[(size_t)k * PL_WIDTH];
         parts at = open(call, k, p);
-        const uint32_t *lanes = &call->lanes[(size_t)k * PL_WIDTH];
-        body a, b;
-        gather_body(&a, call, at.c->a);
-        gather_body(&b, call, at.c->b);
-        const place now = place_now(at.c, &a, &b);
-        for (int i = 0; i < PL_WIDTH; ++i) {
-            if (lanes[i] != PL_NONE) {
-                store_lane(&at, p, i, &call->joints[lanes[i]], &now);
+        for (int i = 0; i < PL_WIDTH && k + 1 < call->bundle_count; ++i) {
+            if (lanes[PL_WIDTH + i].joint != PL_NONE) {
+                __builtin_prefetch(&call->joints[lanes[PL_WIDTH + i].joint], 1);
             }
+        }
+        body a, b;
+        gather_body(&a, call, at.a);
+        gather_body(&b, call, at.b);
+        const place now = place_now(at.c, &a, &b);
+        vf x = splat(0), y = splat(0), w = splat(0);
+        for (int i = 0; i < p->count; ++i) {
+            const row *r = &at.rows[i];
+            x += r->nx * r->impulse;
+            y += r->ny * r->impulse;
+            w += r->wb * r->impulse;
+        }
+        w = (w - (now.rb_x * y - now.rb_y * x)) * inv_h;
+        x *= inv_h;
+        y *= inv_h;
+        for (int i = 0; i < PL_WIDTH; ++i) {
+            if (lanes[i].joint == PL_NONE) {
+                continue;
+            }
+            pl_joint *j = &call->joints[lanes[i].joint];
+            for (int m = 0; m < p->count; ++m) {
+                j->impulse[p->row[m].index] = at.rows[m].impulse[i];
+            }
+            j->h = call->h;
+            j->force = plumb_v2(x[i], y[i]);
+            j->torque = w[i];
         }
     }
 }

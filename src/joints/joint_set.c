@@ -25,6 +25,15 @@ static plumb_result find(plumb_world *world, const char *fn, plumb_joint joint, 
     return PLUMB_OK;
 }
 
+// Another descriptor, with which the joint may be solved in another way.
+static void revise(plumb_world *world, pl_joint *joint, plumb_joint_desc wanted)
+{
+    if (pl_joint_variant(&joint->desc) != pl_joint_variant(&wanted)) {
+        pl_joints_replan(&world->joints);
+    }
+    joint->desc = wanted;
+}
+
 plumb_result plumb_joint_set_limit(plumb_world *world, plumb_joint joint, bool enabled,
                                    plumb_real lower, plumb_real upper)
 {
@@ -37,9 +46,11 @@ plumb_result plumb_joint_set_limit(plumb_world *world, plumb_joint joint, bool e
     r = pl_check_range(world, __func__, "lower", lower, least, PLUMB_REAL_MAX);
     r = r != PLUMB_OK ? r : pl_check_range(world, __func__, "upper", upper, lower, PLUMB_REAL_MAX);
     if (r == PLUMB_OK) {
-        j->desc.enable_limit = enabled;
-        j->desc.lower = lower;
-        j->desc.upper = upper;
+        plumb_joint_desc wanted = j->desc;
+        wanted.enable_limit = enabled;
+        wanted.lower = lower;
+        wanted.upper = upper;
+        revise(world, j, wanted);
     }
     return r;
 }
@@ -53,9 +64,11 @@ plumb_result plumb_joint_set_motor(plumb_world *world, plumb_joint joint, bool e
     r = r != PLUMB_OK ? r
                       : pl_check_range(world, __func__, "max_motor", max_motor, 0, PLUMB_REAL_MAX);
     if (r == PLUMB_OK) {
-        j->desc.enable_motor = enabled;
-        j->desc.motor_speed = speed;
-        j->desc.max_motor = max_motor;
+        plumb_joint_desc wanted = j->desc;
+        wanted.enable_motor = enabled;
+        wanted.motor_speed = speed;
+        wanted.max_motor = max_motor;
+        revise(world, j, wanted);
     }
     return r;
 }
@@ -78,7 +91,7 @@ plumb_result plumb_joint_set_spring(plumb_world *world, plumb_joint joint, plumb
     if (j->desc.kind == PLUMB_MOUSE) {
         r = pl_joint_classes[PLUMB_MOUSE]->check(world, __func__, &wanted); // resolves defaults
     }
-    j->desc = wanted;
+    revise(world, j, wanted);
     return r;
 }
 
@@ -107,8 +120,10 @@ plumb_result plumb_joint_set_break(plumb_world *world, plumb_joint joint, plumb_
     r = r != PLUMB_OK ? r : pl_check_range(world, __func__, "force", force, 0, PLUMB_REAL_MAX);
     r = r != PLUMB_OK ? r : pl_check_range(world, __func__, "torque", torque, 0, PLUMB_REAL_MAX);
     if (r == PLUMB_OK) {
-        j->desc.break_force = force;
-        j->desc.break_torque = torque;
+        plumb_joint_desc wanted = j->desc;
+        wanted.break_force = force;
+        wanted.break_torque = torque;
+        revise(world, j, wanted);
     }
     return r;
 }

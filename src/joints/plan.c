@@ -14,12 +14,11 @@
 
 #include <string.h>
 
-// pl_joint_mark.what: pl_joint_pattern.variant and
-#define SOLVED  0x80000000u
-#define MOVES_A 0x40000000u
-#define MOVES_B 0x20000000u
-#define WIDE    0x10000000u // by the soft step
-#define VARIANT 0x0fffffffu
+// pl_joint_mark.what
+#define SOLVED  1u
+#define MOVES_A 2u
+#define MOVES_B 4u
+#define WIDE    8u // by the soft step
 
 #define NO_COLOR 64u
 
@@ -37,10 +36,11 @@ const pl_joint_kernels *pl_joint_kernels_of(const plumb_world *world)
 
 //---- what has changed ----------------------------------------------------------------------------
 
-static uint32_t variant_of(const plumb_joint_desc *d)
+uint32_t pl_joint_variant(const plumb_joint_desc *d)
 {
     return (uint32_t)d->kind | (d->enable_limit ? 0x100u : 0) | (d->enable_motor ? 0x200u : 0) |
-           (d->hertz > 0 ? 0x400u : 0) | (d->max_force > 0 ? 0x800u : 0);
+           (d->hertz > 0 ? 0x400u : 0) | (d->max_force > 0 ? 0x800u : 0) |
+           (pl_joint_may_break(d) ? 0x1000u : 0);
 }
 
 static uint32_t row_of(const plumb_world *world, plumb_body body, uint32_t before)
@@ -48,54 +48,41 @@ static uint32_t row_of(const plumb_world *world, plumb_body body, uint32_t befor
     if (plumb_is_null(body)) {
         return PL_NONE;
     }
-    bool same =
-        before < world->bodies.table.count && plumb_same(world->bodies.entity[before], body);
+    bool same = before < world->bodies.table.count &&
+                plumb_same(world->bodies.entity[before], body);
     return same ? before : pl_body_row(world, body);
 }
 
-static uint32_t slot_of(const plumb_world *world, uint32_t row)
+// Rows of a joint's bodies, and which of them move.
+static uint32_t look(const plumb_world *world, pl_joint_mark *mark)
 {
-    uint32_t movable = world->dynamic_count + world->kinematic_count;
-    return pl_solver_slot(&world->solver, row < movable ? row : movable, movable);
+    mark->row_a = row_of(world, mark->a, mark->row_a);
+    mark->row_b = row_of(world, mark->b, mark->row_b);
+    return SOLVED | (world->desc.solver == PLUMB_SOLVER_SOFT ? WIDE : 0) |
+           (mark->row_a < world->dynamic_count ? MOVES_A : 0) |
+           (mark->row_b < world->dynamic_count ? MOVES_B : 0);
 }
 
-static pl_joint_mark mark_of(const plumb_world *world, const pl_joint *j, const pl_joint_mark *old)
+// True: all marks are as they were when the plan was made.
+static bool still_holds(plumb_world *world)
 {
-    if (plumb_is_null(j->entity)) {
-        return (pl_joint_mark){ .what = 0 };
+    pl_joint_mark *marks = world->joints.plan.marks.data;
+    bool same = world->joints.plan.made;
+    for (uint32_t i = 0; same && i < world->joints.count; ++i) {
+        same = marks[i].what == 0 || marks[i].what == look(world, &marks[i]);
     }
-    pl_joint_mark mark = { .a = j->a.body, .b = j->b.body };
-    mark.row_a = row_of(world, mark.a, old->row_a);
-    mark.row_b = row_of(world, mark.b, old->row_b);
-    mark.what = SOLVED | variant_of(&j->desc) |
-                (world->desc.solver == PLUMB_SOLVER_SOFT ? WIDE : 0) |
-                (mark.row_a < world->dynamic_count ? MOVES_A : 0) |
-                (mark.row_b < world->dynamic_count ? MOVES_B : 0);
-    return mark;
+    return same;
 }
 
-// Brings marks and solver slots up to date. True: the plan no longer holds.
-static bool revise_marks(plumb_world *world)
+static void mark_all(plumb_world *world)
 {
-    pl_joints *joints = &world->joints;
-    pl_joint_mark *marks = joints->plan.marks.data;
-    bool changed = joints->count != joints->plan.marked;
-    for (uint32_t i = joints->plan.marked; i < joints->count; ++i) {
-        marks[i] = (pl_joint_mark){ .what = 0 };
+    pl_joint_mark *marks = world->joints.plan.marks.data;
+    for (uint32_t i = 0; i < world->joints.count; ++i) {
+        const pl_joint *j = &pl_joint_items(&world->joints)[i];
+        marks[i] = (pl_joint_mark){ .a = j->a.body, .b = j->b.body, .row_a = PL_NONE,
+                                    .row_b = PL_NONE };
+        marks[i].what = plumb_is_null(j->entity) ? 0 : look(world, &marks[i]);
     }
-    for (uint32_t i = 0; i < joints->count; ++i) {
-        pl_joint *j = &pl_joint_items(joints)[i];
-        pl_joint_mark now = mark_of(world, j, &marks[i]);
-        changed |= now.what != marks[i].what || !plumb_same(now.a, marks[i].a) ||
-                   !plumb_same(now.b, marks[i].b);
-        marks[i] = now;
-        if (now.what != 0) {
-            j->a.slot = slot_of(world, now.row_a);
-            j->b.slot = slot_of(world, now.row_b);
-        }
-    }
-    joints->plan.marked = joints->count;
-    return changed;
 }
 
 //---- patterns ------------------------------------------------------------------------------------
@@ -106,7 +93,7 @@ static bool describe(const plumb_world *world, pl_joint *j, pl_joint_pattern *ou
     pl_rows *rows = &j->rows;
     pl_joint_begin(world, j);
     pl_joint_classes[j->desc.kind]->rows(j, &j->a.pose, &j->b.pose, rows);
-    *out = (pl_joint_pattern){ .variant = variant_of(&j->desc),
+    *out = (pl_joint_pattern){ .variant = pl_joint_variant(&j->desc),
                                .rows_of_all = (uint32_t)rows->count,
                                .block = (uint8_t)rows->block };
     bool known = true;
@@ -122,6 +109,7 @@ static bool describe(const plumb_world *world, pl_joint *j, pl_joint_pattern *ou
     }
     out->tempered = out->block > 0 && (out->row[0].spring || out->row[0].type == PL_ROW_DRIVE ||
                                        rows->block_most < PL_UNBOUNDED);
+    out->bare = j->desc.kind == PLUMB_REVOLUTE && out->count == 2 && !out->tempered;
     return known && out->count > 0;
 }
 
@@ -129,7 +117,7 @@ static bool describe(const plumb_world *world, pl_joint *j, pl_joint_pattern *ou
 static uint32_t pattern_of(plumb_world *world, pl_joint *j)
 {
     pl_joint_plan *plan = &world->joints.plan;
-    uint32_t variant = variant_of(&j->desc);
+    uint32_t variant = pl_joint_variant(&j->desc);
     for (uint32_t i = 0; i < plan->pattern_count; ++i) {
         if (plan->patterns[i].variant == variant) {
             return i;
@@ -146,21 +134,23 @@ static uint32_t pattern_of(plumb_world *world, pl_joint *j)
 //---- order ---------------------------------------------------------------------------------------
 
 // The first colour that neither body has.
-static uint32_t color_of(plumb_world *world, const pl_joint *j, uint32_t what)
+static uint32_t color_of(plumb_world *world, const pl_joint_mark *mark)
 {
+    const uint32_t movable = world->dynamic_count + world->kinematic_count, what = mark->what;
     uint64_t *masks = world->solver.masks.data;
-    uint64_t taken = ((what & MOVES_A) != 0 ? masks[j->a.slot] : 0) |
-                     ((what & MOVES_B) != 0 ? masks[j->b.slot] : 0);
+    uint64_t *a = &masks[pl_solver_slot(&world->solver, mark->row_a, movable)];
+    uint64_t *b = &masks[pl_solver_slot(&world->solver, mark->row_b, movable)];
+    uint64_t taken = ((what & MOVES_A) != 0 ? *a : 0) | ((what & MOVES_B) != 0 ? *b : 0);
     if (taken == UINT64_MAX) {
         return NO_COLOR;
     }
     uint32_t color = (uint32_t)__builtin_ctzll(~taken);
     uint64_t bit = UINT64_C(1) << color;
     if ((what & MOVES_A) != 0) {
-        masks[j->a.slot] |= bit;
+        *a |= bit;
     }
     if ((what & MOVES_B) != 0) {
-        masks[j->b.slot] |= bit;
+        *b |= bit;
     }
     return color;
 }
@@ -171,18 +161,21 @@ static uint32_t sort_out(plumb_world *world)
     pl_joints *joints = &world->joints;
     pl_joint_plan *plan = &joints->plan;
     pl_keyed *order = plan->order.data;
+    pl_joint_mark *marks = plan->marks.data;
     uint32_t *alone = plan->alone.data, count = 0;
     plan->alone_count = plan->pattern_count = 0;
     memset(world->solver.masks.data, 0, world->solver.slot_count * sizeof(uint64_t));
     for (uint32_t i = 0; i < joints->count; ++i) {
-        uint32_t what = pl_joint_marks(joints)[i].what;
-        pl_joint *j = &pl_joint_items(joints)[i];
-        if (what == 0) {
+        pl_joint_mark *mark = &marks[i];
+        if (mark->what == 0) {
             continue;
         }
-        uint32_t pattern = (what & WIDE) != 0 ? pattern_of(world, j) : PL_NONE;
-        uint32_t color = pattern != PL_NONE ? color_of(world, j, what) : NO_COLOR;
-        if (pattern == PL_NONE || color == NO_COLOR) {
+        pl_joint *j = &pl_joint_items(joints)[i];
+        uint32_t pattern = (mark->what & WIDE) != 0 ? pattern_of(world, j) : PL_NONE;
+        uint32_t color = pattern != PL_NONE ? color_of(world, mark) : NO_COLOR;
+        mark->wide = color != NO_COLOR;
+        mark->quiet = mark->wide && plan->patterns[pattern].bare && !pl_joint_may_break(&j->desc);
+        if (!mark->wide) {
             alone[plan->alone_count++] = i;
         } else {
             order[count++] = (pl_keyed){ .key = pl_key(color, pattern), .order = i, .value = i };
@@ -204,7 +197,19 @@ static bool reserve_lanes(plumb_world *world, uint32_t count)
         filled = opens ? 1 : filled + 1;
     }
     return pl_buffer_reserve(&world->memory, &plan->bundles, bundles * sizeof(pl_joint_bundle)) &&
-           pl_buffer_reserve(&world->memory, &plan->lanes, bundles * width * sizeof(uint32_t));
+           pl_buffer_reserve(&world->memory, &plan->lanes, bundles * width * sizeof(pl_joint_lane)) &&
+           pl_buffer_reserve(&world->memory, &plan->starts, bundles * width * sizeof(pl_joint_start)) &&
+           pl_buffer_reserve(&world->memory, &plan->slots, bundles * width * 2 * sizeof(uint32_t));
+}
+
+static pl_joint_lane lane_of(const plumb_world *world, uint32_t slot)
+{
+    const pl_joint *j = &pl_joint_items(&world->joints)[slot];
+    return (pl_joint_lane){ .joint = slot,
+                            .eighth_a = (uint8_t)pl_joint_eighth(j->a.seen),
+                            .eighth_b = (uint8_t)pl_joint_eighth(j->b.seen),
+                            .local_a = j->a.local,
+                            .local_b = j->b.local };
 }
 
 // Fills lanes; returns the bytes of all records.
@@ -214,7 +219,8 @@ static size_t place_lanes(plumb_world *world, uint32_t count)
     const pl_joint_kernels *kernels = pl_joint_kernels_of(world);
     const pl_keyed *order = plan->order.data;
     pl_joint_bundle *bundles = plan->bundles.data;
-    uint32_t *lanes = plan->lanes.data, width = (uint32_t)kernels->width, filled = 0;
+    pl_joint_lane *lanes = plan->lanes.data;
+    uint32_t width = (uint32_t)kernels->width, filled = 0;
     size_t bytes = 0;
     plan->bundle_count = 0;
     for (uint32_t i = 0; i < count; ++i) {
@@ -225,39 +231,39 @@ static size_t place_lanes(plumb_world *world, uint32_t count)
             bytes += kernels->record_size(&plan->patterns[pattern]);
             filled = 0;
         }
-        lanes[(size_t)(plan->bundle_count - 1) * width + filled++] = order[i].value;
+        lanes[(size_t)(plan->bundle_count - 1) * width + filled++] =
+            lane_of(world, order[i].value);
     }
     return bytes;
 }
 
-bool pl_joints_plan(plumb_world *world)
+static bool make_plan(plumb_world *world)
 {
     pl_joint_plan *plan = &world->joints.plan;
     size_t count = world->joints.count;
-    if (!pl_buffer_reserve(&world->memory, &plan->marks, count * sizeof(pl_joint_mark))) {
-        return false;
-    }
-    if (!revise_marks(world) && plan->made) {
-        return true;
-    }
     plan->made = false;
-    if (!pl_buffer_reserve(&world->memory, &plan->order, count * sizeof(pl_keyed)) ||
+    if (!pl_buffer_reserve(&world->memory, &plan->marks, count * sizeof(pl_joint_mark)) ||
+        !pl_buffer_reserve(&world->memory, &plan->order, count * sizeof(pl_keyed)) ||
         !pl_buffer_reserve(&world->memory, &plan->alone, count * sizeof(uint32_t))) {
         return false;
     }
+    mark_all(world);
     uint32_t wide = sort_out(world);
-    if (!reserve_lanes(world, wide) ||
-        !pl_buffer_reserve(&world->memory, &plan->records, place_lanes(world, wide))) {
-        return false;
-    }
-    plan->made = true;
-    return true;
+    plan->made =
+        reserve_lanes(world, wide) &&
+        pl_buffer_reserve(&world->memory, &plan->records, place_lanes(world, wide));
+    return plan->made;
+}
+
+bool pl_joints_plan(plumb_world *world)
+{
+    return still_holds(world) || make_plan(world);
 }
 
 void pl_joints_plan_free(pl_memory *memory, pl_joint_plan *plan)
 {
-    pl_buffer *buffers[] = { &plan->marks, &plan->order,   &plan->bundles,
-                             &plan->lanes, &plan->records, &plan->alone };
+    pl_buffer *buffers[] = { &plan->marks,  &plan->order, &plan->bundles, &plan->lanes,
+                             &plan->starts, &plan->slots, &plan->records, &plan->alone };
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; ++i) {
         pl_buffer_free(memory, buffers[i]);
     }

@@ -242,6 +242,8 @@ static pl_joint_call call_of(const plumb_world *world, real h)
                             .bundles = plan->bundles.data,
                             .patterns = plan->patterns,
                             .lanes = plan->lanes.data,
+                            .starts = plan->starts.data,
+                            .slots = plan->slots.data,
                             .records = plan->records.data,
                             .joints = pl_joint_items(&world->joints),
                             .h = h,
@@ -255,10 +257,18 @@ static void clear_debt(pl_joint *j)
     }
 }
 
-static void begin(const plumb_world *world, pl_joint *j, bool bare, real h)
+static uint32_t slot_of(const plumb_world *world, uint32_t row)
+{
+    uint32_t movable = world->dynamic_count + world->kinematic_count;
+    return pl_solver_slot(&world->solver, row < movable ? row : movable, movable);
+}
+
+static void begin(const plumb_world *world, pl_joint *j, real h)
 {
     const pl_joint_mark *mark = &pl_joint_marks(&world->joints)[j - pl_joint_items(&world->joints)];
-    pl_joint_place(world, j, mark->row_a, mark->row_b, !bare);
+    pl_joint_place(world, j, mark->row_a, mark->row_b);
+    j->a.slot = slot_of(world, mark->row_a);
+    j->b.slot = slot_of(world, mark->row_b);
     real scale = j->h > 0 ? h / j->h : 0;
     for (int k = 0; k < PL_JOINT_ROWS; ++k) {
         j->impulse[k] *= scale;
@@ -266,19 +276,50 @@ static void begin(const plumb_world *world, pl_joint *j, bool bare, real h)
     j->h = h;
 }
 
-// A joint in a lane: its rows now, unless the kernels need none; nothing is kept of rows that are off.
-static void begin_wide(const plumb_world *world, pl_joint *j, const pl_joint_pattern *pattern,
-                       real h)
+// A joint in a lane, its rows as they are now.
+static void begin_wide(const plumb_world *world, pl_joint *j, pl_joint_start *start, real h)
 {
-    bool bare = pl_joint_is_bare(j);
-    begin(world, j, bare, h);
-    j->rows.count = (int)pattern->rows_of_all;
-    if (!bare) {
-        pl_joint_classes[j->desc.kind]->rows(j, &j->a.pose, &j->b.pose, &j->rows);
-    }
+    begin(world, j, h);
+    pl_joint_classes[j->desc.kind]->rows(j, &j->a.pose, &j->b.pose, &j->rows);
+    *start = (pl_joint_start){ .arm_a = { j->a.pose.rx, j->a.pose.ry },
+                               .arm_b = { j->b.pose.rx, j->b.pose.ry },
+                               .apart = { j->b.pose.x - j->a.pose.x, j->b.pose.y - j->a.pose.y } };
     for (int k = 0; k < j->rows.count; ++k) {
-        bool on = bare ? k < 2 : j->rows.row[k].type != PL_ROW_OFF;
-        j->impulse[k] = on ? j->impulse[k] : 0;
+        j->impulse[k] = j->rows.row[k].type != PL_ROW_OFF ? j->impulse[k] : 0;
+    }
+}
+
+// How the lanes of a bundle begin the step; slots as the kernels want them.
+static void begin_lanes(plumb_world *world, uint32_t bundle, real h)
+{
+    const pl_joint_plan *plan = &world->joints.plan;
+    const uint32_t width = (uint32_t)pl_joint_kernels_of(world)->width;
+    const size_t first = (size_t)bundle * width;
+    uint32_t *slots = (uint32_t *)plan->slots.data + 2 * first;
+    pl_joint_lane *lanes = (pl_joint_lane *)plan->lanes.data + first;
+    pl_joint_start *starts = (pl_joint_start *)plan->starts.data + first;
+    const bool bare =
+        plan->patterns[((const pl_joint_bundle *)plan->bundles.data)[bundle].pattern].bare;
+    for (uint32_t i = 0; i < width && bundle + 1 < plan->bundle_count; ++i) {
+        if (lanes[width + i].joint != PL_NONE) {
+            __builtin_prefetch(&pl_joint_items(&world->joints)[lanes[width + i].joint]);
+        }
+    }
+    for (uint32_t i = 0; i < width; ++i) {
+        uint32_t joint = lanes[i].joint;
+        if (joint == PL_NONE) {
+            slots[i] = slots[width + i] = world->solver.slot_count - 1;
+            starts[i] = (pl_joint_start){ .arm_a = { 0, 0 } };
+            continue;
+        }
+        const pl_joint_mark *mark = &pl_joint_marks(&world->joints)[joint];
+        slots[i] = slot_of(world, mark->row_a);
+        slots[width + i] = slot_of(world, mark->row_b);
+        if (bare) {
+            pl_joint_start_bare(world, &lanes[i], &starts[i], h);
+        } else {
+            begin_wide(world, &pl_joint_items(&world->joints)[joint], &starts[i], h);
+        }
     }
 }
 
@@ -287,17 +328,13 @@ void pl_joints_prepare(plumb_world *world, real h)
     pl_solver_body *bodies = pl_solver_bodies(&world->solver);
     const pl_joint_plan *plan = &world->joints.plan;
     const pl_joint_call call = call_of(world, h);
-    const pl_joint_kernels *kernels = pl_joint_kernels_of(world);
-    for (uint32_t i = 0; i < plan->bundle_count * (uint32_t)kernels->width; ++i) {
-        const pl_joint_bundle *bundle = &call.bundles[i / (uint32_t)kernels->width];
-        if (call.lanes[i] != PL_NONE) {
-            begin_wide(world, &call.joints[call.lanes[i]], &call.patterns[bundle->pattern], h);
-        }
+    for (uint32_t k = 0; k < plan->bundle_count; ++k) {
+        begin_lanes(world, k, h);
     }
-    kernels->fill(&call);
+    pl_joint_kernels_of(world)->fill(&call);
     for (uint32_t i = 0; i < plan->alone_count; ++i) {
         pl_joint *j = pl_joint_alone(&world->joints, i);
-        begin(world, j, false, h);
+        begin(world, j, h);
         clear_debt(j);
         make_rows(j, &bodies[j->a.slot], &bodies[j->b.slot]);
     }
@@ -360,9 +397,9 @@ void pl_joints_solve(plumb_world *world, real h, pl_joint_sweep sweep, bool firs
     }
 }
 
-void pl_joints_store(plumb_world *world)
+void pl_joints_store(plumb_world *world, real h)
 {
-    const pl_joint_call call = call_of(world, 0);
+    const pl_joint_call call = call_of(world, h);
     pl_joint_kernels_of(world)->store(&call);
 }
 

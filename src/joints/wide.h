@@ -25,6 +25,7 @@ typedef struct pl_joint_pattern {
     uint32_t rows_of_all; // rows of the joint, those that are off included
     uint8_t count;        // rows in force
     uint8_t block;        // so many of the first are solved as one system
+    bool bare;            // nothing but the point of a rigid hinge
     bool tempered;        // the block is a spring, or of bounded force
     pl_pattern_row row[PL_JOINT_ROWS];
 } pl_joint_pattern;
@@ -33,6 +34,20 @@ typedef struct pl_joint_pattern {
 typedef struct pl_joint_soft {
     real velocity, error, impulse;
 } pl_joint_soft;
+
+// A lane's joint, and what a bare hinge needs of it.
+typedef struct pl_joint_lane {
+    uint32_t joint;              // slot; PL_NONE: an empty lane
+    uint8_t eighth_a, eighth_b;  // of a turn, where its bodies were last seen
+    plumb_vec2 local_a, local_b; // [m] anchors in the bodies' frames
+} pl_joint_lane;
+
+// How a lane's joint begins a step: eight reals, gathered by the kernels as one row.
+typedef struct pl_joint_start {
+    plumb_vec2 arm_a, arm_b; // [m]
+    plumb_vec2 apart;        // [m] from A's centre to B's
+    plumb_real impulse[2];   // [N s] of the first rows
+} pl_joint_start;
 
 typedef struct pl_joint_bundle {
     size_t at; // [B] of its record
@@ -46,7 +61,9 @@ typedef struct pl_joint_call {
     uint32_t bundle_count;
     const pl_joint_bundle *bundles;
     const pl_joint_pattern *patterns;
-    const uint32_t *lanes; // joint slots, PL_NONE: empty
+    const pl_joint_lane *lanes;
+    const pl_joint_start *starts;
+    const uint32_t *slots; // of a bundle: solver slots of all lanes' A, then of all B
     unsigned char *records;
     pl_joint *joints;
     real h;              // [s] substep

@@ -129,7 +129,7 @@ void pl_solver_soft(plumb_world *world, real dt)
         }
     }
     if (joints) {
-        pl_joints_store(world);
+        pl_joints_store(world, h);
     }
     kernels->store(&call, call.pairs, 0, s->bundle_count);
     if (running || tallies) {
