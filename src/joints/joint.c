@@ -64,10 +64,10 @@ static void center_of(const plumb_world *world, plumb_vec2 local, uint32_t row, 
 static plumb_vec2 arm_of(const plumb_world *world, plumb_vec2 local, uint32_t row)
 {
     const pl_bodies *b = &world->bodies;
-    return row == PL_NONE ? plumb_v2(0, 0)
-                          : plumb_rot_apply((plumb_rot){ b->c[row], b->s[row] },
-                                            plumb_v2(local.x - b->local_x[row],
-                                                     local.y - b->local_y[row]));
+    return row == PL_NONE
+               ? plumb_v2(0, 0)
+               : plumb_rot_apply((plumb_rot){ b->c[row], b->s[row] },
+                                 plumb_v2(local.x - b->local_x[row], local.y - b->local_y[row]));
 }
 
 // Relative to the point (from_x, from_y).

@@ -57,7 +57,7 @@ struct pl_joint {
     real h;                      // [s] substep that the impulses belong to
     plumb_vec2 force;            // [N] reaction
     real torque;                 // [N m]
-    plumb_joint entity; // null: a free slot, whose a.next is the next one
+    plumb_joint entity;          // null: a free slot, whose a.next is the next one
     plumb_joint_desc desc;
     pl_joint_end a, b;
     plumb_vec2 axis;   // unit, in A's frame (the world's without A)
@@ -65,9 +65,9 @@ struct pl_joint {
     plumb_vec2 origin; // [m] from where poses are told: A's centre at the start of the step
     real sum;          // gear, pulley: what is kept; ratchet: the tooth behind the pawl [rad]
     // Solver: of joints solved one by one.
-    real mass[PL_JOINT_ROWS];    // [kg] effective, of rows outside the block
-    real inverse[3][3];          // of the block's K = J M^-1 J^T
-    real turn[6];                // change of momentum owed because J has turned: see solve.c
+    real mass[PL_JOINT_ROWS]; // [kg] effective, of rows outside the block
+    real inverse[3][3];       // of the block's K = J M^-1 J^T
+    real turn[6];             // change of momentum owed because J has turned: see solve.c
     pl_rows rows;
     plumb_vec2 arm_b; // [m] from B's centre to its anchor, at the rows
 };
@@ -172,8 +172,8 @@ static inline void pl_joints_replan(pl_joints *joints)
 // step of substeps h [s].
 void pl_joints_prepare(plumb_world *world, real h);
 void pl_joints_warm_start(plumb_world *world);
-// One sweep. The first one of a substep that pulls pays what J's turning owes, the first that relaxes
-// makes rows at the moved poses.
+// Sweeps. The first of a substep that pulls pays what J's turning owes, the first that relaxes makes
+// rows at the moved poses.
 void pl_joints_solve(plumb_world *world, real h, pl_joint_sweep sweep, bool first);
 // Impulses and reactions of joints in lanes, into the joints.
 void pl_joints_store(plumb_world *world, real h);

@@ -48,8 +48,8 @@ static uint32_t row_of(const plumb_world *world, plumb_body body, uint32_t befor
     if (plumb_is_null(body)) {
         return PL_NONE;
     }
-    bool same = before < world->bodies.table.count &&
-                plumb_same(world->bodies.entity[before], body);
+    bool same =
+        before < world->bodies.table.count && plumb_same(world->bodies.entity[before], body);
     return same ? before : pl_body_row(world, body);
 }
 
@@ -79,8 +79,8 @@ static void mark_all(plumb_world *world)
     pl_joint_mark *marks = world->joints.plan.marks.data;
     for (uint32_t i = 0; i < world->joints.count; ++i) {
         const pl_joint *j = &pl_joint_items(&world->joints)[i];
-        marks[i] = (pl_joint_mark){ .a = j->a.body, .b = j->b.body, .row_a = PL_NONE,
-                                    .row_b = PL_NONE };
+        marks[i] =
+            (pl_joint_mark){ .a = j->a.body, .b = j->b.body, .row_a = PL_NONE, .row_b = PL_NONE };
         marks[i].what = plumb_is_null(j->entity) ? 0 : look(world, &marks[i]);
     }
 }
@@ -197,8 +197,10 @@ static bool reserve_lanes(plumb_world *world, uint32_t count)
         filled = opens ? 1 : filled + 1;
     }
     return pl_buffer_reserve(&world->memory, &plan->bundles, bundles * sizeof(pl_joint_bundle)) &&
-           pl_buffer_reserve(&world->memory, &plan->lanes, bundles * width * sizeof(pl_joint_lane)) &&
-           pl_buffer_reserve(&world->memory, &plan->starts, bundles * width * sizeof(pl_joint_start)) &&
+           pl_buffer_reserve(&world->memory, &plan->lanes,
+                             bundles * width * sizeof(pl_joint_lane)) &&
+           pl_buffer_reserve(&world->memory, &plan->starts,
+                             bundles * width * sizeof(pl_joint_start)) &&
            pl_buffer_reserve(&world->memory, &plan->slots, bundles * width * 2 * sizeof(uint32_t));
 }
 
@@ -231,8 +233,7 @@ static size_t place_lanes(plumb_world *world, uint32_t count)
             bytes += kernels->record_size(&plan->patterns[pattern]);
             filled = 0;
         }
-        lanes[(size_t)(plan->bundle_count - 1) * width + filled++] =
-            lane_of(world, order[i].value);
+        lanes[(size_t)(plan->bundle_count - 1) * width + filled++] = lane_of(world, order[i].value);
     }
     return bytes;
 }
@@ -249,9 +250,8 @@ static bool make_plan(plumb_world *world)
     }
     mark_all(world);
     uint32_t wide = sort_out(world);
-    plan->made =
-        reserve_lanes(world, wide) &&
-        pl_buffer_reserve(&world->memory, &plan->records, place_lanes(world, wide));
+    plan->made = reserve_lanes(world, wide) &&
+                 pl_buffer_reserve(&world->memory, &plan->records, place_lanes(world, wide));
     return plan->made;
 }
 

@@ -22,12 +22,12 @@
 #include "plumb/math.h"
 #include "world/state.h"
 
-// Frequency of a rigid row as a share of the substep rate, and its damping ratio: at a third, long
-// bridges begin to shake; at an eighth, everything hangs three times as low (README.md has the
-// table).
-#define SHARE ((real)0.25)
-#define ZETA  ((real)2)
-#define TAU   ((real)6.2831853071795864769)
+// Frequency of a rigid row as a share of the substep rate, its damping ratio, and sweeps that pull, and
+// that relax, in a substep. Fewer sweeps bear less stiffness: README.md has the table.
+#define SHARE  ((real)0.35)
+#define ZETA   ((real)3)
+#define SWEEPS 2
+#define TAU    ((real)6.2831853071795864769)
 
 static pl_joint_soft rigid(real h)
 {
@@ -371,9 +371,8 @@ static void refresh(pl_joint *j, const pl_solver_body *a, const pl_solver_body *
     add_momentum(j, 1);
 }
 
-void pl_joints_solve(plumb_world *world, real h, pl_joint_sweep sweep, bool first)
+static void sweep_lanes(const plumb_world *world, real h, pl_joint_sweep sweep, bool first)
 {
-    pl_solver_body *bodies = pl_solver_bodies(&world->solver);
     const pl_joint_call call = call_of(world, h);
     const pl_joint_kernels *kernels = pl_joint_kernels_of(world);
     if (sweep == PL_SWEEP_PULL) {
@@ -381,6 +380,11 @@ void pl_joints_solve(plumb_world *world, real h, pl_joint_sweep sweep, bool firs
     } else if (sweep == PL_SWEEP_RELAX) {
         (first ? kernels->relax_first : kernels->relax)(&call);
     }
+}
+
+static void sweep_alone(plumb_world *world, pl_joint_sweep sweep, bool first)
+{
+    pl_solver_body *bodies = pl_solver_bodies(&world->solver);
     for (uint32_t i = 0; i < world->joints.plan.alone_count; ++i) {
         pl_joint *j = pl_joint_alone(&world->joints, i);
         pl_solver_body *a = &bodies[j->a.slot], *b = &bodies[j->b.slot];
@@ -394,6 +398,15 @@ void pl_joints_solve(plumb_world *world, real h, pl_joint_sweep sweep, bool firs
             solve_row(j, k, a, b, sweep);
         }
         solve_block(j, a, b, sweep);
+    }
+}
+
+void pl_joints_solve(plumb_world *world, real h, pl_joint_sweep sweep, bool first)
+{
+    const int sweeps = sweep == PL_SWEEP_CLASSIC ? 1 : SWEEPS;
+    for (int i = 0; i < sweeps; ++i) {
+        sweep_lanes(world, h, sweep, first && i == 0);
+        sweep_alone(world, sweep, first && i == 0);
     }
 }
 

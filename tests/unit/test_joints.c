@@ -60,8 +60,7 @@ static pl_joint_pose nudged(pl_joint_pose p, int k, double e)
 // What J has besides the slope of C: a point's rows push half-way between the anchors. [m]
 static double shift(const pl_rows *rows, int i, int k)
 {
-    bool point =
-        rows->row[i].form == PL_FORM_POINT_X || rows->row[i].form == PL_FORM_POINT_Y;
+    bool point = rows->row[i].form == PL_FORM_POINT_X || rows->row[i].form == PL_FORM_POINT_Y;
     if (!point || (k != 2 && k != 5)) {
         return 0;
     }
