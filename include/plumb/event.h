@@ -18,7 +18,8 @@ typedef struct plumb_contact_begin {
 } plumb_contact_begin;
 
 /// Two shapes ceased to touch, or one of them was removed (its handle and perhaps that of its body are
-/// then stale), disabled with its body, or is kept apart from now on.
+/// then stale), disabled with its body, or is kept apart from now on. Contacts of bodies that sleep when one
+/// of the shapes goes end without an event.
 typedef struct plumb_contact_end {
     plumb_shape shape_a, shape_b;
     plumb_body body_a, body_b;
