@@ -20,6 +20,9 @@ typedef struct pl_pair {
 #define PL_PAIR_HIT      2u // an impact with restitution was resolved in this step
 #define PL_PAIR_STRUCK   4u // it struck in the last step
 #define PL_PAIR_PENDING  8u // and had not been stopped yet: the hit is still to be told
+#define PL_PAIR_HELD     16u // of a one-way piece: it holds
+#define PL_PAIR_PASSING  32u // it is under way through it
+#define PL_PAIR_DROPPING 64u // it was held and asked to drop through
 
 // [m] manifolds are made for pieces closer than this: contacts are ready before they are needed.
 #define PL_SPECULATIVE ((real)0.02)

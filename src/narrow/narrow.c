@@ -64,6 +64,37 @@ void pl_narrow_run(plumb_world *world, real dt)
     }
 }
 
+static void take_out(pl_pair *pair)
+{
+    pair->manifold = PL_NONE;
+    pair->rolling = 0;
+    for (int k = 0; k < 2; ++k) {
+        pair->feature[k] = PL_NONE;
+        pair->normal[k] = pair->tangent[k] = 0;
+    }
+}
+
+void pl_narrow_take_out_disabled(plumb_world *world)
+{
+    pl_narrow *narrow = &world->narrow;
+    pl_manifold *m = pl_manifolds(narrow);
+    pl_pair *pairs = pl_pairs(&world->broad.pairs);
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < narrow->manifold_count; ++i) {
+        if (m[i].disabled) {
+            take_out(&pairs[m[i].pair]);
+            continue;
+        }
+        pairs[m[i].pair].manifold = kept;
+        if (kept != i) {
+            m[kept] = m[i];
+        }
+        ++kept;
+    }
+    narrow->manifold_count = kept;
+    pl_narrow_summarise(narrow);
+}
+
 void pl_narrow_free(pl_memory *memory, pl_narrow *narrow)
 {
     pl_buffer_free(memory, &narrow->manifolds);

@@ -40,5 +40,7 @@ extern const pl_narrow_kernels pl_narrow_kernels_w16;
 // Makes the manifolds of all pairs. False when out of memory.
 bool pl_narrow_reserve(plumb_world *world);
 void pl_narrow_run(plumb_world *world, plumb_real dt);
+// Takes the manifolds that are `disabled` out of the list; their pairs forget their impulses.
+void pl_narrow_take_out_disabled(plumb_world *world);
 
 #endif

@@ -6,6 +6,7 @@
 // changes nothing.
 #include "event/event.h"
 #include "narrow/narrow.h"
+#include "narrow/one_way.h"
 #include "narrow/surface.h"
 #include "world/state.h"
 
@@ -73,6 +74,11 @@ static bool broad_wanted(const plumb_world *world, const char **reason)
 static bool surfaces_wanted(const plumb_world *world, const char **reason)
 {
     return collision_wanted(world, reason) && pl_surfaces_wanted(world, reason);
+}
+
+static bool one_way_wanted(const plumb_world *world, const char **reason)
+{
+    return collision_wanted(world, reason) && pl_one_way_wanted(world, reason);
 }
 
 static bool joints_wanted(const plumb_world *world, const char **reason)
@@ -167,6 +173,13 @@ static plumb_result run_candidates(plumb_world *world, plumb_real dt)
     return pl_sensing_prepare(world) ? PLUMB_OK : PLUMB_E_MEMORY;
 }
 
+static plumb_result run_one_way(plumb_world *world, plumb_real dt)
+{
+    (void)dt;
+    pl_one_way_run(world);
+    return PLUMB_OK;
+}
+
 static plumb_result run_surfaces(plumb_world *world, plumb_real dt)
 {
     (void)dt;
@@ -246,6 +259,7 @@ const pl_pass pl_passes[] = {
     { "broad phase",   "broad",    "poses, pieces",                   "fat boxes, grids, pairs",   broad_wanted,     run_broad },
     { "sensor pairs",  "broad",    "pairs with sensors",              "candidates of sensors",     sensing_wanted,   run_candidates },
     { "narrow phase",  "narrow",   "pairs, poses, pieces, materials", "manifolds",                 collision_wanted, run_narrow },
+    { "one-way",       "narrow",   "manifolds, pieces, rotations",    "manifolds, pairs",          one_way_wanted,   run_one_way },
     { "surfaces",      "narrow",   "pairs, materials",                "manifolds",                 surfaces_wanted,  run_surfaces },
     { "contact systems", pl_user_phase, "declared by the systems",         "declared by the systems",   contacts_wanted,  run_contacts },
     { "graph",         "solve",    "manifolds, velocities, forces",   "solver bodies, colours",    solver_wanted,    run_graph },

@@ -36,6 +36,7 @@ typedef plumb_real real;
     X(uint8_t, flags)              /* PL_BODY_... */
 
 #define PL_BODY_FIXED_ROTATION 1u
+#define PL_BODY_DROPPING       2u // it asks to drop through one-way shapes in the next step
 #define PL_BODY_EXCLUDING      128u // it is in the table of excluded pairs, or was once
 
 // Pieces: the convex parts of shapes, what the broad and narrow phase see. Slots are stable for the
@@ -56,6 +57,8 @@ typedef plumb_real real;
     X(int32_t, group)                                                                               \
     X(uint8_t, flags)              /* PL_PIECE_... */                                               \
     X(real, friction) X(real, restitution) /* copied from the material */                           \
+    X(real, one_way_x) X(real, one_way_y) /* unit, in the body's frame; 0: solid from all sides */  \
+    X(real, one_way_cos) X(real, one_way_angle) /* of normals that hold, about the direction */     \
     X(real, density)               /* [kg/m^2] in force; 0 for lines */                             \
     X(real, own_density)           /* [kg/m^2] given with the shape; 0: the material's */           \
     X(plumb_mass_properties, area) /* the whole shape at density 1, on its first piece; else 0 */   \
@@ -78,6 +81,7 @@ typedef plumb_real real;
 #define PL_PIECE_SENSOR   1u // of a sensor
 #define PL_PIECE_PART     2u // of a shape of several pieces
 #define PL_PIECE_FILTERED 4u // its filter is not {0}
+#define PL_PIECE_ONE_WAY  8u // it holds on one side only
 
 #define PL_NONE UINT32_MAX
 

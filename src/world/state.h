@@ -75,6 +75,8 @@ struct plumb_world {
     uint32_t turning_bodies;                   // awake dynamic bodies with inverse inertia > 0
 
     uint32_t sensor_pieces, filtered_pieces, part_pieces; // live pieces with the flag
+    uint32_t one_way_pieces;
+    uint32_t dropping_bodies; // requests to drop through since the last step
 
     // Tables that few worlds have, sorted by key.
     pl_buffer excluded; // uint64_t: slots of two bodies (filter.c)
