@@ -161,7 +161,7 @@ pl_sum_near pl_sum_nearest(const pl_sum *s, double x, double y)
 
 //---- ray ----------------------------------------------------------------------------------------
 
-// [-] of a ray's length: what rounding may do to a height.
+// [-] of the lengths that a height is made of: what rounding may do to it.
 #define ROUNDING 1e-14
 
 // A ray in unit direction; `length` shrinks to the first meeting.
@@ -208,9 +208,10 @@ static void meet_corner(line *l, const pl_sum *s, int i)
 // Edge i moved out by the radius, from its outer side.
 static void meet_edge(line *l, const pl_sum *s, int i)
 {
-    double height = s->nx[i] * (l->x - s->x[i]) + s->ny[i] * (l->y - s->y[i]) - s->radius;
+    double rx = l->x - s->x[i], ry = l->y - s->y[i];
+    double height = s->nx[i] * rx + s->ny[i] * ry - s->radius;
     double approach = -(l->dx * s->nx[i] + l->dy * s->ny[i]);
-    if (approach <= 0 || height < -ROUNDING * l->length) {
+    if (approach <= 0 || height < -ROUNDING * (fabs(rx) + fabs(ry) + s->radius)) {
         return;
     }
     double at = height > 0 ? height / approach : 0; // outside all the same: by rounding

@@ -81,6 +81,11 @@ static bool one_way_wanted(const plumb_world *world, const char **reason)
     return collision_wanted(world, reason) && pl_one_way_wanted(world, reason);
 }
 
+static bool feet_wanted(const plumb_world *world, const char **reason)
+{
+    return collision_wanted(world, reason) && pl_characters_wanted(world, reason);
+}
+
 static bool joints_wanted(const plumb_world *world, const char **reason)
 {
     return say(world->joints.live > 0, reason, "there are joints", "there are no joints");
@@ -150,6 +155,18 @@ static plumb_result run_begin(plumb_world *world, plumb_real dt)
 static plumb_result run_forces(plumb_world *world, plumb_real dt)
 {
     pl_systems_run(world, PLUMB_PHASE_FORCES, dt, world->time);
+    return PLUMB_OK;
+}
+
+static plumb_result run_characters(plumb_world *world, plumb_real dt)
+{
+    return pl_characters_move(world, dt) ? PLUMB_OK : PLUMB_E_MEMORY;
+}
+
+static plumb_result run_feet(plumb_world *world, plumb_real dt)
+{
+    (void)dt;
+    pl_characters_feet(world);
     return PLUMB_OK;
 }
 
@@ -256,11 +273,13 @@ const pl_pass pl_passes[] = {
     //name             phase       reads                              writes                       wanted            run
     { "begin systems", pl_user_phase, "declared by the systems",         "declared by the systems",   begin_wanted,     run_begin },
     { "force systems", pl_user_phase, "declared by the systems",         "declared by the systems",   forces_wanted,    run_forces },
+    { "characters",    "forces",   "grids, poses, velocities",        "velocities, forces",        pl_characters_wanted, run_characters },
     { "broad phase",   "broad",    "poses, pieces",                   "fat boxes, grids, pairs",   broad_wanted,     run_broad },
     { "sensor pairs",  "broad",    "pairs with sensors",              "candidates of sensors",     sensing_wanted,   run_candidates },
     { "narrow phase",  "narrow",   "pairs, poses, pieces, materials", "manifolds",                 collision_wanted, run_narrow },
     { "one-way",       "narrow",   "manifolds, pieces, rotations",    "manifolds, pairs",          one_way_wanted,   run_one_way },
     { "surfaces",      "narrow",   "pairs, materials",                "manifolds",                 surfaces_wanted,  run_surfaces },
+    { "feet",          "narrow",   "manifolds, characters",           "manifolds",                 feet_wanted,      run_feet },
     { "contact systems", pl_user_phase, "declared by the systems",         "declared by the systems",   contacts_wanted,  run_contacts },
     { "graph",         "solve",    "manifolds, velocities, forces",   "solver bodies, colours",    solver_wanted,    run_graph },
     { "soft step",     "solve",    "manifolds, solver bodies",        "solver bodies, impulses",   soft_wanted,      run_soft },

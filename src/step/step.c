@@ -77,8 +77,13 @@ plumb_result plumb_world_step(plumb_world *world, plumb_real dt)
     if (world->schedule_dirty || world->systems.count > 0) {
         revise_schedule(world);
     }
+    world->characters.moved = false;
     result = run_passes(world, dt);
-    return result == PLUMB_E_MEMORY ? pl_fail_memory(world, __func__) : result;
+    if (result == PLUMB_E_MEMORY) {
+        pl_characters_undo(world);
+        return pl_fail_memory(world, __func__);
+    }
+    return result;
 }
 
 typedef struct listing {

@@ -32,6 +32,7 @@ typedef plumb_real real;
     X(void *, user_data)                                                                            \
     X(uint32_t, first_piece)       /* pieces of the body, newest shape first; PL_NONE ends */       \
     X(uint32_t, first_joint)       /* joints of the body, newest first; PL_NONE ends */             \
+    X(uint32_t, character)         /* 1 + its place among the characters; 0: none */                \
     X(uint8_t, type)               /* plumb_body_type */                                            \
     X(uint8_t, flags)              /* PL_BODY_... */
 

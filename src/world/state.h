@@ -6,6 +6,7 @@
 #define PL_STATE_H
 
 #include "broad/broad.h"
+#include "character/character.h"
 #include "ecs/command.h"
 #include "ecs/component.h"
 #include "ecs/registry.h"
@@ -89,6 +90,7 @@ struct plumb_world {
     pl_narrow narrow;
     pl_solver solver;
     pl_joints joints;
+    pl_characters characters;
     pl_schedule schedule;
 
     // Events of the last step.

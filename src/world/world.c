@@ -131,6 +131,7 @@ static void free_world(plumb_world *world)
     pl_narrow_free(&memory, &world->narrow);
     pl_solver_free(&memory, &world->solver);
     pl_joints_free(&memory, &world->joints);
+    pl_characters_free(&memory, &world->characters);
     pl_registry_free(&memory, &world->registry);
     pl_table_free(&memory, &world->bodies.table, pl_body_columns, pl_body_column_count);
     pl_table_free(&memory, &world->pieces.table, pl_piece_columns, pl_piece_column_count);

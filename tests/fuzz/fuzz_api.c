@@ -8,6 +8,7 @@
 #include <string.h>
 
 #define HANDLES 16
+#define CALLS   20
 
 typedef struct script {
     const uint8_t *at, *end;
@@ -52,7 +53,71 @@ static plumb_shape shape_of(plumb_world *w, script *s, plumb_body body)
               : d.kind == PLUMB_CAPSULE || d.kind == PLUMB_SEGMENT ? 2
                                                                    : 3 + (int)byte_of(s) % 6;
     d.closed = d.kind == PLUMB_CHAIN && byte_of(s) % 2;
+    if (byte_of(s) % 8 == 0) {
+        d.one_way = (plumb_one_way){ vec_of(s), real_of(s) };
+    }
     return plumb_shape_create(w, body, &d);
+}
+
+// A shape of few corners, mostly sound.
+static plumb_convex convex_of(script *s)
+{
+    plumb_convex c = { .count = (int)byte_of(s) % 6, .radius = real_of(s) };
+    for (int i = 0; i < 4; ++i) {
+        c.points[i] = vec_of(s);
+    }
+    return c;
+}
+
+static void ask(plumb_world *w, script *s)
+{
+    plumb_cast_hit hits[4];
+    plumb_nearest_hit near[4];
+    plumb_convex convex = convex_of(s);
+    plumb_cast cast = { &convex, { vec_of(s), { 1, 0 } }, vec_of(s) };
+    plumb_query_filter filter = { .one_way = byte_of(s) % 2 != 0 };
+    if (plumb_world_cast(w, &cast, &filter, hits) &&
+        !(hits[0].fraction >= 0 && hits[0].fraction <= 1 && hits[0].depth >= 0)) {
+        abort();
+    }
+    bool any = plumb_world_cast_any(w, &cast, &filter);
+    int all = plumb_world_cast_all(w, &cast, &filter, hits, 4);
+    if (all >= 0 && any != (all > 0)) {
+        abort();
+    }
+    plumb_world_nearest_all(w, cast.transform.p, real_of(s), &filter, near, 4);
+}
+
+static void order(plumb_world *w, script *s, plumb_entity body)
+{
+    plumb_character_state state;
+    plumb_character_desc d = { .max_slope = real_of(s), .acceleration = real_of(s) };
+    d.up = byte_of(s) % 4 == 0 ? vec_of(s) : (plumb_vec2){ 0, 0 };
+    switch (byte_of(s) % 6) {
+    case 0:
+        plumb_character_create(w, body, byte_of(s) % 2 ? &d : NULL);
+        break;
+    case 1:
+        plumb_character_walk(w, body, real_of(s));
+        break;
+    case 2:
+        plumb_character_jump(w, body, real_of(s));
+        break;
+    case 3:
+        plumb_character_fly(w, body, vec_of(s));
+        break;
+    case 4:
+        plumb_character_drop(w, body);
+        plumb_body_drop_through(w, body);
+        break;
+    default:
+        plumb_character_set_velocity(w, body, vec_of(s));
+        break;
+    }
+    if (plumb_character_get(w, body, &state) == PLUMB_OK &&
+        !(isfinite(state.velocity.x) && isfinite(state.velocity.y))) {
+        abort();
+    }
 }
 
 static void call(plumb_world *w, script *s, plumb_entity e[HANDLES])
@@ -60,7 +125,7 @@ static void call(plumb_world *w, script *s, plumb_entity e[HANDLES])
     plumb_entity *slot = &e[byte_of(s) % HANDLES], other = e[byte_of(s) % HANDLES];
     plumb_ray_hit hit;
     plumb_material_desc m = { .friction = real_of(s), .restitution = real_of(s) };
-    switch (byte_of(s) % 12) {
+    switch (byte_of(s) % CALLS) {
     case 0:
         *slot = plumb_body_create(w, &(plumb_body_desc){ .type = (plumb_body_type)(byte_of(s) % 4),
                                                          .position = vec_of(s) });
@@ -94,6 +159,15 @@ static void call(plumb_world *w, script *s, plumb_entity e[HANDLES])
         break;
     case 10:
         *slot = plumb_material_create(w, &m);
+        break;
+    case 11:
+    case 12:
+        ask(w, s);
+        break;
+    case 13:
+    case 14:
+    case 15:
+        order(w, s, other);
         break;
     default:
         plumb_world_step(w, real_of(s) / 64);
