@@ -29,6 +29,12 @@ typedef struct plumb_body_desc {
     plumb_real gravity_scale;    ///< [-] factor on gravity; 0 means 1 (see no_gravity)
     bool no_gravity;             ///< gravity does not act on this body
     bool fixed_rotation;         ///< the body never turns: infinite inertia
+    bool no_sleep;               ///< it never falls asleep, nor what it touches: see plumb/sleep.h
+    bool asleep;                 ///< dynamic, without velocity: it starts asleep, alone, and sleeps on while
+                                 ///< shapes and joints are added before the next step. In a world without
+                                 ///< sleeping it starts awake
+    bool continuous;             ///< dynamic bodies: however fast, this body and other dynamic ones do not
+                                 ///< pass through each other (static and kinematic ones are never passed)
     void *user_data;             ///< see plumb_body_user_data
 } plumb_body_desc;
 
@@ -100,6 +106,11 @@ PLUMB_API plumb_result plumb_body_set_mass(plumb_world *world, plumb_body body, 
 PLUMB_API plumb_result plumb_body_reset_mass(plumb_world *world, plumb_body body);
 /// Forbids or allows turning. Errors: E_HANDLE, E_STATE (not dynamic).
 PLUMB_API plumb_result plumb_body_set_fixed_rotation(plumb_world *world, plumb_body body, bool fixed);
+/// Whether it and other dynamic bodies, however fast, do not pass through each other: see
+/// plumb_body_desc.continuous. Costs a search among what moves nearby in steps in which either moves
+/// fast. Errors: E_HANDLE, E_STATE (not dynamic).
+PLUMB_API plumb_result plumb_body_set_continuous(plumb_world *world, plumb_body body, bool continuous);
+PLUMB_API bool plumb_body_is_continuous(const plumb_world *world, plumb_body body);
 /// Sets the factor on gravity [-], finite; 0 is none. Errors: E_HANDLE, E_NOT_FINITE.
 PLUMB_API plumb_result plumb_body_set_gravity_scale(plumb_world *world, plumb_body body, plumb_real scale);
 PLUMB_API plumb_real plumb_body_gravity_scale(const plumb_world *world, plumb_body body);
@@ -122,7 +133,10 @@ PLUMB_API plumb_vec2 plumb_body_local_vector(const plumb_world *world, plumb_bod
 
 /// The body columns as they are stored: no copy. Rows are dense and partitioned: awake dynamic rows
 /// first, then kinematic, then asleep, then static. Valid until the next step or structural change.
-/// Velocities and forces may be written (rows below dynamic_count; kinematic velocities too).
+/// Rows keep their order but for these moves: a body that falls asleep becomes the first sleeping row, one
+/// that wakes the last awake one; the last row of each partition that lost one fills its gap.
+/// Velocities and forces may be written (rows below dynamic_count; kinematic velocities too). Those of
+/// sleeping rows must not be: nothing would wake the body, see plumb_body_wake and the setters.
 typedef struct plumb_body_span {
     int count;           ///< all rows
     int dynamic_count;   ///< rows [0, dynamic_count) are awake dynamic

@@ -74,7 +74,8 @@ typedef struct plumb_contact_edit {
     plumb_real surface_speed;      ///< * [m/s] of both surfaces together: see plumb_material_desc
 } plumb_contact_edit;
 
-/// How many contacts this step has: touching ones and those that may touch within it. -1 on error.
+/// How many contacts this step has: touching ones and those that may touch within it, but not those of
+/// sleeping bodies. -1 on error.
 /// Errors: E_STATE (not called by a system of PLUMB_PHASE_CONTACTS).
 PLUMB_API int plumb_contact_edit_count(const plumb_world *world);
 /// Contact i; order: by kinds and slots of pieces. O(1). Errors: E_STATE, E_RANGE (i), E_NULL.

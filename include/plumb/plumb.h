@@ -15,6 +15,7 @@
 #include "plumb/character.h"
 #include "plumb/ecs.h"
 #include "plumb/event.h"
+#include "plumb/sleep.h"
 #include "plumb/query.h"
 
 #endif

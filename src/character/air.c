@@ -6,7 +6,7 @@
 // downwards and a wall upwards, so that it cannot be climbed by running into it.
 //
 // Reads: obstacles. Writes: place, velocity. Cost: O(obstacles) a wall met, at most SLIDES.
-#include "character/mover.h"
+#include "character/walker.h"
 
 #include <math.h>
 
@@ -31,7 +31,7 @@ double pl_ramp(double *v, double target, double rate, double time)
     return way;
 }
 
-bool pl_mover_steers(const pl_character *c, int slope_side)
+bool pl_walker_steers(const pl_character *c, int slope_side)
 {
     return !c->desc.no_air_control && (slope_side == 0 || (double)c->walk * slope_side > 0);
 }
@@ -58,7 +58,7 @@ static void take_normal(double *x, double *y, double nx, double ny)
     }
 }
 
-static void take_from_velocity(pl_mover *m, const pl_touch *t, double nx, double ny)
+static void take_from_velocity(pl_walker *m, const pl_touch *t, double nx, double ny)
 {
     plumb_vec2 *v = &m->c->velocity;
     double ox, oy;
@@ -70,14 +70,14 @@ static void take_from_velocity(pl_mover *m, const pl_touch *t, double nx, double
 }
 
 // Between two slopes that are too steep it stands.
-static bool is_wedged(const pl_mover *m, const flight *f, double nx, double ny)
+static bool is_wedged(const pl_walker *m, const flight *f, double nx, double ny)
 {
     return f->met > 0 && pl_up(m, nx, ny) > 0 && pl_up(m, f->px, f->py) > 0 &&
            pl_right(m, nx, ny) * pl_right(m, f->px, f->py) < 0;
 }
 
 // Turns the rest of the way along what was met. False: there is none.
-static bool turn_aside(pl_mover *m, flight *f, const pl_touch *t)
+static bool turn_aside(pl_walker *m, flight *f, const pl_touch *t)
 {
     double nx = t->nx, ny = t->ny;
     double rising = fmax(pl_up(m, f->dx, f->dy), 0);
@@ -100,7 +100,7 @@ static bool turn_aside(pl_mover *m, flight *f, const pl_touch *t)
     return f->dx * f->dx + f->dy * f->dy > 1e-18;
 }
 
-static void note(pl_mover *m, const pl_touch *t)
+static void note(pl_walker *m, const pl_touch *t)
 {
     pl_character *c = m->c;
     double up = pl_up(m, t->nx, t->ny);
@@ -112,7 +112,7 @@ static void note(pl_mover *m, const pl_touch *t)
     }
 }
 
-static double approach_of(const pl_mover *m, const pl_touch *t)
+static double approach_of(const pl_walker *m, const pl_touch *t)
 {
     double vx, vy;
     pl_obstacle_velocity(t->obstacle, m->x, m->y, &vx, &vy);
@@ -120,7 +120,7 @@ static double approach_of(const pl_mover *m, const pl_touch *t)
 }
 
 // Whether it was on the way out of the floor it meets when the step began, with velocity v.
-static bool is_leaving(const pl_mover *m, const flight *f, const pl_touch *t, plumb_vec2 v)
+static bool is_leaving(const pl_walker *m, const flight *f, const pl_touch *t, plumb_vec2 v)
 {
     double ox, oy;
     pl_obstacle_velocity(t->obstacle, m->x, m->y, &ox, &oy);
@@ -131,12 +131,12 @@ static bool is_leaving(const pl_mover *m, const flight *f, const pl_touch *t, pl
 
 // Goes along (dx, dy), having begun with velocity v; stops where it lands when `lands`, and returns the
 // share that is left.
-static double slide(pl_mover *m, double dx, double dy, plumb_vec2 v, bool lands)
+static double slide(pl_walker *m, double dx, double dy, plumb_vec2 v, bool lands)
 {
     flight f = { .dx = dx, .dy = dy, .left = 1 };
     for (int i = 0; i < SLIDES; ++i) {
         pl_touch t;
-        if (!pl_mover_sweep(m, f.dx, f.dy, &t)) {
+        if (!pl_walker_sweep(m, f.dx, f.dy, &t)) {
             m->x += f.dx;
             m->y += f.dy;
             return 0;
@@ -152,14 +152,14 @@ static double slide(pl_mover *m, double dx, double dy, plumb_vec2 v, bool lands)
             continue;
         }
         double approach = approach_of(m, &t);
-        pl_mover_tell(m, &t, approach);
+        pl_walker_tell(m, &t, approach);
         bool wedged = lands && is_wedged(m, &f, t.nx, t.ny);
         if (lands && (wedged || pl_is_floor(m, t.nx, t.ny)) && approach >= -1e-6) {
-            pl_mover_stand(m, &t);
+            pl_walker_stand(m, &t);
             return wedged ? 0 : f.left;
         }
         note(m, &t);
-        pl_mover_push(m, &t, approach);
+        pl_walker_push(m, &t, approach);
         if (!turn_aside(m, &f, &t)) {
             return 0;
         }
@@ -167,7 +167,7 @@ static double slide(pl_mover *m, double dx, double dy, plumb_vec2 v, bool lands)
     return 0;
 }
 
-double pl_mover_fall(pl_mover *m, double time)
+double pl_walker_fall(pl_walker *m, double time)
 {
     pl_character *c = m->c;
     plumb_vec2 start = c->velocity;
@@ -178,7 +178,7 @@ double pl_mover_fall(pl_mover *m, double time)
     double way_up =
         pull > 0 ? pl_ramp(&rise, -m->max_fall, pull, time) : rise * time - pull * time * time / 2;
     rise -= pull > 0 ? 0 : pull * time;
-    double way = pl_mover_steers(c, m->slope_side)
+    double way = pl_walker_steers(c, m->slope_side)
                      ? pl_ramp(&side, (double)c->walk, m->air_acceleration, time)
                      : side * time;
     way += drift * time * time / 2;
@@ -191,7 +191,7 @@ double pl_mover_fall(pl_mover *m, double time)
     return slide(m, dx, dy, start, true) * time;
 }
 
-void pl_mover_fly(pl_mover *m, double time)
+void pl_walker_fly(pl_walker *m, double time)
 {
     pl_character *c = m->c;
     plumb_vec2 start = c->velocity;

@@ -41,7 +41,7 @@ typedef struct pl_character {
     double step_top;     // [m] likewise: where the step that it climbs has its top
     bool on_ground, climbs, on_slope, at_wall, at_ceiling, crushed;
     int slope_side; // of the last step, on a slope that is too steep: 1 it goes down to the right, -1 left
-    real air_time;  // [s]
+    real air_time; // [s]
     pl_ground ground;
     pl_passing passing[PL_CHARACTER_PASSING];
     int passing_count;
@@ -57,7 +57,7 @@ typedef struct pl_character {
 
 // A force that was added to a body: what it had before.
 typedef struct pl_push {
-    uint32_t row;
+    plumb_body body;
     real fx, fy, torque;
 } pl_push;
 

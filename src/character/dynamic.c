@@ -8,7 +8,7 @@
 //
 // Reads: obstacles, body columns. Writes: forces and velocity of the body, forces of the ground.
 // Cost: as a kinematic character that stands.
-#include "character/mover.h"
+#include "character/walker.h"
 
 #include <math.h>
 
@@ -21,7 +21,7 @@ static double clamp(double v, double most)
     return v < -most ? -most : v > most ? most : v;
 }
 
-static void look_for_ground(pl_mover *m)
+static void look_for_ground(pl_walker *m)
 {
     pl_character *c = m->c;
     const pl_bodies *b = &m->world->bodies;
@@ -30,12 +30,12 @@ static void look_for_ground(pl_mover *m)
     bool was = c->on_ground;
     c->on_ground = c->on_slope = false;
     c->slope_side = 0;
-    if (!pl_mover_sweep(m, -reach * m->ux, -reach * m->uy, &t)) {
+    if (!pl_walker_sweep(m, -reach * m->ux, -reach * m->uy, &t)) {
         c->ground = (pl_ground){ 0 };
         return;
     }
     double x, y;
-    pl_mover_touch_point(m, &t, &x, &y);
+    pl_walker_touch_point(m, &t, &x, &y);
     x += (double)m->start.x, y += (double)m->start.y;
     uint32_t row = t.obstacle->row;
     double w = (double)b->w[row];
@@ -58,7 +58,7 @@ static void look_for_ground(pl_mover *m)
 }
 
 // A force on the character, and the opposite one on what it stands on.
-static void act(pl_mover *m, double fx, double fy, bool on_ground)
+static void act(pl_walker *m, double fx, double fy, bool on_ground)
 {
     plumb_world *world = m->world;
     const pl_ground *g = &m->c->ground;
@@ -70,7 +70,7 @@ static void act(pl_mover *m, double fx, double fy, bool on_ground)
     }
 }
 
-static void jump(pl_mover *m)
+static void jump(pl_walker *m)
 {
     pl_character *c = m->c;
     pl_bodies *b = &m->world->bodies;
@@ -89,7 +89,7 @@ static void jump(pl_mover *m)
     c->ground = (pl_ground){ 0 };
 }
 
-static void walk(pl_mover *m, double acceleration)
+static void walk(pl_walker *m, double acceleration)
 {
     const pl_character *c = m->c;
     const pl_bodies *b = &m->world->bodies;
@@ -101,7 +101,7 @@ static void walk(pl_mover *m, double acceleration)
     act(m, force * tx, force * ty, true);
 }
 
-static void steer(pl_mover *m, double acceleration)
+static void steer(pl_walker *m, double acceleration)
 {
     const pl_bodies *b = &m->world->bodies;
     double speed = pl_right(m, (double)b->vx[m->row], (double)b->vy[m->row]);
@@ -110,7 +110,7 @@ static void steer(pl_mover *m, double acceleration)
     act(m, force * m->rx, force * m->ry, false);
 }
 
-static void fly(pl_mover *m, double acceleration)
+static void fly(pl_walker *m, double acceleration)
 {
     const pl_bodies *b = &m->world->bodies;
     double mass = (double)b->mass[m->row];
@@ -122,11 +122,13 @@ static void fly(pl_mover *m, double acceleration)
 
 bool pl_character_drive(plumb_world *world, pl_character *c, real dt)
 {
-    pl_mover m;
-    if (!pl_mover_begin(world, c, dt, &m)) {
+    pl_walker m;
+    bool idle = c->walk == 0 && c->jump == 0 && !c->flies;
+    if (!pl_walker_begin(world, c, dt, &m) ||
+        (idle && world->bodies.island[m.row] != PL_NONE)) { // it sleeps
         return true;
     }
-    if (!pl_mover_look(&m, REACH * m.half_width + m.skin)) {
+    if (!pl_walker_look(&m, REACH * m.half_width + m.skin)) {
         return false;
     }
     double acceleration = c->desc.acceleration > 0 ? m.acceleration : DEFAULT_ACCELERATION;
@@ -141,7 +143,7 @@ bool pl_character_drive(plumb_world *world, pl_character *c, real dt)
         jump(&m);
     } else if (c->on_ground) {
         walk(&m, acceleration);
-    } else if (pl_mover_steers(c, c->slope_side)) {
+    } else if (pl_walker_steers(c, c->slope_side)) {
         steer(&m, in_air);
     }
     c->jump = 0;

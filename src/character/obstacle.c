@@ -6,7 +6,7 @@
 //
 // Reads: grids, pieces, poses, velocities. Writes: scratch of world->characters.
 // Cost: cells near the character, O(corners) an obstacle.
-#include "character/mover.h"
+#include "character/walker.h"
 #include "math/trig.h"
 #include "narrow/one_way.h"
 #include "query/query.h"
@@ -23,7 +23,7 @@
 #define SAME              1e-9               // [m]
 #define SKIN_PART         0.02               // [-] of the half width
 
-//---- the mover ----------------------------------------------------------------------------------
+//---- the walker ---------------------------------------------------------------------------------
 
 // The first piece of a body that is solid.
 static uint32_t solid_piece(const plumb_world *world, uint32_t row)
@@ -53,7 +53,7 @@ static double given_or(real given, double otherwise)
     return given > 0 ? (double)given : otherwise;
 }
 
-static void resolve(pl_mover *m)
+static void resolve(pl_walker *m)
 {
     const plumb_character_desc *d = &m->c->desc;
     double top = -HUGE_VAL, left = HUGE_VAL, right = -HUGE_VAL;
@@ -85,9 +85,9 @@ static void resolve(pl_mover *m)
     m->max_fall = given_or(d->max_fall_speed, HUGE_VAL);
 }
 
-bool pl_mover_begin(plumb_world *world, pl_character *c, real dt, pl_mover *m)
+bool pl_walker_begin(plumb_world *world, pl_character *c, real dt, pl_walker *m)
 {
-    *m = (pl_mover){ .world = world, .c = c, .dt = (double)dt, .ignored_row = PL_NONE };
+    *m = (pl_walker){ .world = world, .c = c, .dt = (double)dt, .ignored_row = PL_NONE };
     m->row = pl_body_row(world, c->body);
     m->piece = solid_piece(world, m->row);
     plumb_vec2 up = pl_character_up(world, c, m->row);
@@ -112,7 +112,7 @@ bool pl_mover_begin(plumb_world *world, pl_character *c, real dt, pl_mover *m)
 //---- obstacles ----------------------------------------------------------------------------------
 
 typedef struct search {
-    pl_mover *m;
+    pl_walker *m;
     uint32_t count;
     bool out_of_memory;
 } search;
@@ -139,6 +139,14 @@ static bool list_piece(void *context, const pl_grid_entry *entry)
     }
     near[at] = entry->piece;
     return true;
+}
+
+// That grid may still name pieces that sleep no more.
+static bool list_resting(void *context, const pl_grid_entry *entry)
+{
+    const search *s = context;
+    return (s->m->world->pieces.flags[entry->piece] & PL_PIECE_ASLEEP) == 0 ||
+           list_piece(context, entry);
 }
 
 plumb_transform pl_row_end_pose(const plumb_world *world, uint32_t row, double dt)
@@ -173,7 +181,7 @@ static bool is_under_way(const pl_character *c, plumb_shape shape, bool *droppin
     return false;
 }
 
-static void judge_one_way(const pl_mover *m, pl_obstacle *o, const plumb_convex *convex,
+static void judge_one_way(const pl_walker *m, pl_obstacle *o, const plumb_convex *convex,
                           plumb_transform now)
 {
     const pl_pieces *p = &m->world->pieces;
@@ -192,7 +200,7 @@ static void judge_one_way(const pl_mover *m, pl_obstacle *o, const plumb_convex 
     o->cosine = (double)p->one_way_cos[o->piece];
 }
 
-static void make_obstacle(const pl_mover *m, uint32_t piece, pl_obstacle *o)
+static void make_obstacle(const pl_walker *m, uint32_t piece, pl_obstacle *o)
 {
     const plumb_world *world = m->world;
     const pl_bodies *b = &world->bodies;
@@ -239,7 +247,7 @@ static double turning_reach(const plumb_world *world, double dt)
     return most;
 }
 
-bool pl_mover_look(pl_mover *m, double reach)
+bool pl_walker_look(pl_walker *m, double reach)
 {
     plumb_world *world = m->world;
     search s = { .m = m };
@@ -247,6 +255,7 @@ bool pl_mover_look(pl_mover *m, double reach)
     real wide = (real)fmin(reach + turning_reach(world, m->dt) + m->skin, (double)PL_LARGEST);
     box.min_x -= wide, box.min_y -= wide, box.max_x += wide, box.max_y += wide;
     if (!pl_grid_query(&world->broad.moving, box, list_piece, &s) ||
+        !pl_grid_query(&world->broad.resting, box, list_resting, &s) ||
         !pl_grid_query(&world->broad.fixed, box, list_piece, &s) ||
         !pl_buffer_reserve(&world->memory, &world->characters.obstacles,
                            ((size_t)s.count + 1) * sizeof(pl_obstacle))) {
@@ -264,14 +273,14 @@ bool pl_mover_look(pl_mover *m, double reach)
 //---- one-way shapes -----------------------------------------------------------------------------
 
 // It goes on dropping until it is inside, or no longer above.
-static bool still_drops(const pl_mover *m, const pl_obstacle *o, const pl_sum_near *near)
+static bool still_drops(const pl_walker *m, const pl_obstacle *o, const pl_sum_near *near)
 {
     bool dropping = false;
     return is_under_way(m->c, m->world->pieces.shape[o->piece], &dropping) && dropping &&
            near->distance < 3 * m->skin && near->nx * o->dx + near->ny * o->dy >= o->cosine;
 }
 
-void pl_mover_note_passing(pl_mover *m)
+void pl_walker_note_passing(pl_walker *m)
 {
     pl_passing now[PL_CHARACTER_PASSING];
     int count = 0;

@@ -8,8 +8,8 @@
 // on first: those that are still to move stand still for the others.
 //
 // Reads: grids, poses, velocities. Writes: velocities of characters, forces on dynamic bodies.
-// Order: first of the built-in passes. Cost: see mover.h, a character.
-#include "character/mover.h"
+// Order: first of the built-in passes. Cost: see walker.h, a character.
+#include "character/walker.h"
 #include "narrow/narrow.h"
 #include "narrow/surface.h"
 
@@ -35,7 +35,7 @@ static bool is_on(const pl_character *c, const plumb_world *world)
 }
 
 // [m] by which what it stands on carries it in this step.
-static plumb_vec2 carry_of(const pl_mover *m)
+static plumb_vec2 carry_of(const pl_walker *m)
 {
     const pl_character *c = m->c;
     if (!is_on(c, m->world)) {
@@ -59,7 +59,7 @@ static double length_of(plumb_vec2 v)
 }
 
 // [m] farthest that it may come in this step.
-static double reach_of(const pl_mover *m, plumb_vec2 carry)
+static double reach_of(const pl_walker *m, plumb_vec2 carry)
 {
     const pl_character *c = m->c;
     double speed = length_of(c->velocity) + fabs((double)c->walk) + fabs((double)c->jump) +
@@ -70,7 +70,7 @@ static double reach_of(const pl_mover *m, plumb_vec2 carry)
            m->snap + 4 * m->skin + (double)m->world->desc.push_speed * m->dt;
 }
 
-static void be_carried(pl_mover *m, plumb_vec2 carry)
+static void be_carried(pl_walker *m, plumb_vec2 carry)
 {
     double dx = (double)carry.x, dy = (double)carry.y;
     pl_touch t;
@@ -78,7 +78,7 @@ static void be_carried(pl_mover *m, plumb_vec2 carry)
         return;
     }
     m->ignored_row = pl_body_row(m->world, m->c->ground.body);
-    double share = pl_mover_sweep(m, dx, dy, &t) ? t.fraction : 1;
+    double share = pl_walker_sweep(m, dx, dy, &t) ? t.fraction : 1;
     m->ignored_row = PL_NONE;
     m->x += share * dx;
     m->y += share * dy;
@@ -87,14 +87,14 @@ static void be_carried(pl_mover *m, plumb_vec2 carry)
 }
 
 // What the user has asked for since the last step.
-static void take_orders(pl_mover *m)
+static void take_orders(pl_walker *m)
 {
     pl_character *c = m->c;
     if (c->thrown && c->on_ground) {
         plumb_vec2 v = plumb_vec2_sub(c->velocity, c->ground.velocity);
         if ((double)v.x * m->nx + (double)v.y * m->ny > 0) {
             plumb_vec2 thrown = c->velocity;
-            pl_mover_leave_ground(m);
+            pl_walker_leave_ground(m);
             c->velocity = thrown;
         } else {
             c->speed = (real)pl_right(m, (double)v.x, (double)v.y);
@@ -103,7 +103,7 @@ static void take_orders(pl_mover *m)
     if (c->jump > 0 && c->on_ground) {
         plumb_vec2 ground = c->ground.velocity;
         double side = (double)c->speed, up = (double)c->jump;
-        pl_mover_leave_ground(m);
+        pl_walker_leave_ground(m);
         c->velocity.x = (real)((double)ground.x + side * m->rx + up * m->ux);
         c->velocity.y = (real)((double)ground.y + side * m->ry + up * m->uy);
     }
@@ -113,7 +113,7 @@ static void take_orders(pl_mover *m)
 
 // The ground it has landed on is where it will be at the end of the step; what it does sideways in the
 // rest of the step carries the character still.
-static void drift_along(pl_mover *m, double time)
+static void drift_along(pl_walker *m, double time)
 {
     const pl_ground *g = &m->c->ground;
     double along = ((double)g->velocity.x * m->ny - (double)g->velocity.y * m->nx) * time;
@@ -122,12 +122,12 @@ static void drift_along(pl_mover *m, double time)
     }
 }
 
-static void move_on_foot(pl_mover *m)
+static void move_on_foot(pl_walker *m)
 {
     pl_character *c = m->c;
     take_orders(m);
-    if (c->on_ground && !pl_mover_settle(m, m->snap > 0 ? m->snap : m->skin / 2)) {
-        pl_mover_leave_ground(m);
+    if (c->on_ground && !pl_walker_settle(m, m->snap > 0 ? m->snap : m->skin / 2)) {
+        pl_walker_leave_ground(m);
     }
     double left = m->dt;
     for (int i = 0; i < PHASES && left > ALL_DONE * m->dt; ++i) {
@@ -135,16 +135,16 @@ static void move_on_foot(pl_mover *m)
             double speed = (double)c->speed;
             double way = pl_ramp(&speed, (double)c->walk, m->acceleration, left);
             c->speed = (real)speed;
-            left = pl_mover_walk(m, way, left);
+            left = pl_walker_walk(m, way, left);
         } else {
-            left = pl_mover_fall(m, left);
+            left = pl_walker_fall(m, left);
             drift_along(m, left);
         }
     }
 }
 
 // What is known of the ground where everything is when the step is over.
-static void finish_ground(pl_mover *m)
+static void finish_ground(pl_walker *m)
 {
     pl_character *c = m->c;
     uint32_t row = c->on_ground ? pl_body_row(m->world, c->ground.body) : PL_NONE;
@@ -160,38 +160,38 @@ static void finish_ground(pl_mover *m)
 
 static bool move_one(plumb_world *world, pl_character *c, real dt)
 {
-    pl_mover m;
+    pl_walker m;
     pl_bodies *b = &world->bodies;
     c->hit_count = 0;
     c->on_slope = c->at_wall = c->at_ceiling = c->crushed = false;
-    if (!pl_mover_begin(world, c, dt, &m)) {
+    if (!pl_walker_begin(world, c, dt, &m)) {
         c->on_ground = false; // nothing to stand with: it stays where it is
         return true;
     }
     if (c->on_ground && !is_on(c, world)) { // what it stood on was destroyed
-        pl_mover_leave_ground(&m);
+        pl_walker_leave_ground(&m);
     }
     plumb_vec2 carry = carry_of(&m);
-    if (!pl_mover_look(&m, reach_of(&m, carry))) {
+    if (!pl_walker_look(&m, reach_of(&m, carry))) {
         return false;
     }
     m.slope_side = c->slope_side;
     c->slope_side = 0;
     be_carried(&m, carry);
-    pl_mover_recover(&m);
+    pl_walker_recover(&m);
     if (c->flies) {
         if (c->on_ground) {
-            pl_mover_leave_ground(&m);
+            pl_walker_leave_ground(&m);
         }
         c->jump = 0;
         c->thrown = false;
-        pl_mover_fly(&m, m.dt);
+        pl_walker_fly(&m, m.dt);
     } else {
         move_on_foot(&m);
     }
-    pl_mover_note_passing(&m);
+    pl_walker_note_passing(&m);
     finish_ground(&m);
-    pl_mover_weigh(&m);
+    pl_walker_weigh(&m);
     c->pushed = m.pushed ? c->pushed : (plumb_body)PLUMB_NULL_INIT;
     c->air_time = c->on_ground ? 0 : c->air_time + dt;
     // Coming to rest again where it stood, off by a rounding, it has not moved.
@@ -284,7 +284,8 @@ void pl_characters_undo(plumb_world *world)
     const pl_push *pushes = all->pushes.data;
     while (all->push_count > 0) {
         const pl_push *p = &pushes[--all->push_count];
-        b->fx[p->row] = p->fx, b->fy[p->row] = p->fy, b->torque[p->row] = p->torque;
+        uint32_t row = pl_body_row(world, p->body); // it may have moved: bodies woke
+        b->fx[row] = p->fx, b->fy[row] = p->fy, b->torque[row] = p->torque;
     }
     memcpy(all->items.data, all->saved.data, all->count * sizeof(pl_character));
     const pl_character *items = pl_character_items(all);
@@ -322,7 +323,7 @@ void pl_characters_feet(plumb_world *world)
         any |= m[i].disabled != 0;
     }
     if (any) {
-        pl_narrow_take_out_disabled(world);
+        pl_narrow_take_out_disabled(world, 0);
     } else {
         pl_narrow_summarise(&world->narrow);
     }

@@ -10,23 +10,27 @@
 //
 // Reads: body columns. Writes: forces, with what they were, so that a refused step can be undone.
 // Cost: O(1) a push.
-#include "character/mover.h"
+#include "character/walker.h"
 
 #include <math.h>
 
+// Wakes what sleeps.
 void pl_push_add(plumb_world *world, uint32_t row, double fx, double fy, double px, double py)
 {
     pl_bodies *b = &world->bodies;
     pl_push *pushes = world->characters.pushes.data;
     pushes[world->characters.push_count++] =
-        (pl_push){ row, b->fx[row], b->fy[row], b->torque[row] };
+        (pl_push){ b->entity[row], b->fx[row], b->fy[row], b->torque[row] };
     double rx = px - (double)b->center_x[row], ry = py - (double)b->center_y[row];
+    if (b->island[row] != PL_NONE) {
+        pl_sleep_stir(world, row);
+    }
     b->fx[row] += (real)fx;
     b->fy[row] += (real)fy;
     b->torque[row] += (real)(rx * fy - ry * fx);
 }
 
-void pl_mover_push(pl_mover *m, const pl_touch *t, double speed)
+void pl_walker_push(pl_walker *m, const pl_touch *t, double speed)
 {
     pl_character *c = m->c;
     const pl_bodies *b = &m->world->bodies;
@@ -35,7 +39,7 @@ void pl_mover_push(pl_mover *m, const pl_touch *t, double speed)
         return;
     }
     double x, y;
-    pl_mover_touch_point(m, t, &x, &y);
+    pl_walker_touch_point(m, t, &x, &y);
     x += (double)m->start.x, y += (double)m->start.y;
     double rx = x - (double)b->center_x[row], ry = y - (double)b->center_y[row];
     double turn = rx * t->ny - ry * t->nx;
@@ -57,12 +61,18 @@ void pl_mover_push(pl_mover *m, const pl_touch *t, double speed)
     pl_push_add(m->world, row, -force * t->nx, -force * t->ny, x, y);
 }
 
-void pl_mover_weigh(pl_mover *m)
+void pl_walker_weigh(pl_walker *m)
 {
     pl_character *c = m->c;
+    const pl_bodies *b = &m->world->bodies;
     uint32_t row = c->on_ground ? pl_body_row(m->world, c->ground.body) : PL_NONE;
-    if (row != PL_NONE && m->world->bodies.type[row] == PLUMB_DYNAMIC) {
-        m->world->characters.treads = true;
+    if (row == PL_NONE || b->type[row] != PLUMB_DYNAMIC) {
+        return;
+    }
+    m->world->characters.treads = true;
+    // What sleeps under somebody who stands still bears him already.
+    bool rests = b->island[row] != PL_NONE && c->speed == 0 && !m->landed;
+    if (!rests) {
         pl_push_add(m->world, row, m->mass * m->gravity_x, m->mass * m->gravity_y,
                     (double)c->ground.point.x, (double)c->ground.point.y);
     }

@@ -2,7 +2,7 @@
 //
 // An edit writes the manifold itself, which the solver reads next. What was disabled is taken out
 // of the list when the systems are through, so that neither solver nor events know of it; the pair
-// forgets its impulses. Reads, writes: manifolds, pairs. Cost: O(1) an edit, O(manifolds) a step in
+// forgets its impulses and is waived for the rest of the step: sweeps let it pass too. Reads, writes: manifolds, pairs. Cost: O(1) an edit, O(manifolds) a step in
 // which something was edited; nothing where no system of the phase is registered.
 #include "event/event.h"
 #include "narrow/narrow.h"
@@ -93,6 +93,15 @@ plumb_result plumb_contact_edit_set(plumb_world *world, int i, const plumb_conta
     return PLUMB_OK;
 }
 
+void pl_edits_forget(plumb_world *world)
+{
+    pl_pair *pairs = pl_pairs(&world->broad.pairs);
+    for (uint32_t i = 0; world->edited && i < world->broad.pairs.count; ++i) {
+        pairs[i].flags &= ~PL_PAIR_WAIVED;
+    }
+    world->edited = false;
+}
+
 void pl_edits_open(plumb_world *world)
 {
     pl_manifold *m = pl_manifolds(&world->narrow);
@@ -107,6 +116,6 @@ void pl_edits_close(plumb_world *world)
 {
     world->editing = false;
     if (world->edited) {
-        pl_narrow_take_out_disabled(world);
+        pl_narrow_take_out_disabled(world, PL_PAIR_WAIVED);
     }
 }

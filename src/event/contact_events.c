@@ -28,6 +28,7 @@ void pl_events_clear(plumb_world *world)
     world->begin_count = world->end_count = world->hit_count = 0;
     world->parts.count = 0;
     world->sensing.begin_count = world->sensing.end_count = 0;
+    pl_sleep_events_clear(world);
 }
 
 bool pl_events_reserve_ends(plumb_world *world, uint32_t count)

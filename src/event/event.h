@@ -24,6 +24,13 @@ typedef struct pl_sensing {
     uint64_t rebuilds;       // those of the broad phase when the candidates were listed
     pl_buffer overlaps, old; // pl_overlap, sorted: after the last step, after the one before
     uint32_t count, old_count;
+    // Pairs of which neither moves: looked for only in steps in which one falls asleep, wakes, is placed
+    // or goes.
+    pl_buffer rest_candidates; // as candidates
+    uint32_t rest_candidate_count;
+    pl_buffer rest_overlaps, rest_old;
+    uint32_t rest_count, rest_old_count;
+    bool rest_stale;
     pl_buffer begins, ends; // plumb_sensor_event
     int begin_count, end_count;
 } pl_sensing;
@@ -48,10 +55,14 @@ void pl_blows_free(pl_memory *memory, pl_blows *blows);
 bool pl_sensing_prepare(plumb_world *world);
 // After the bodies have moved: overlaps and sensor events.
 void pl_sensing_run(plumb_world *world);
+// Something static or asleep came, went or moved.
+void pl_sensing_note_rest(plumb_world *world);
 void pl_sensing_free(pl_memory *memory, pl_sensing *sensing);
 
 // Contact systems are about to run, have run: edits are allowed in between (contact_edit.c).
 void pl_edits_open(plumb_world *world);
+// What was edited in the step before no longer holds.
+void pl_edits_forget(plumb_world *world);
 void pl_edits_close(plumb_world *world);
 
 #endif

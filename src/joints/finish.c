@@ -46,11 +46,8 @@ static void snap(plumb_world *world, const pl_joint *j)
 
 void pl_joints_finish(plumb_world *world)
 {
-    for (uint32_t i = 0; i < world->joints.count; ++i) {
-        pl_joint *j = &pl_joint_items(&world->joints)[i];
-        if (plumb_is_null(j->entity)) {
-            continue;
-        }
+    for (uint32_t i = 0; i < world->joints.awake_count; ++i) {
+        pl_joint *j = pl_joint_awake(&world->joints, i);
         react(j);
         const pl_joint_class *kind = pl_joint_classes[j->desc.kind];
         if (kind->advance != NULL) {

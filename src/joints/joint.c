@@ -43,6 +43,64 @@ bool pl_joints_forbid(const plumb_world *world, uint32_t row, uint32_t other)
     return false;
 }
 
+//---- sleep
+//----------------------------------------------------------------------------------------
+
+static uint32_t row_of(const plumb_world *world, const pl_joint_end *end)
+{
+    return plumb_is_null(end->body) ? PL_NONE : pl_body_row(world, end->body);
+}
+
+static bool is_awake(const plumb_world *world, const pl_joint *joint)
+{
+    return !plumb_is_null(joint->entity) &&
+           !pl_row_is_asleep(world, row_of(world, &joint->a)) &&
+           !pl_row_is_asleep(world, row_of(world, &joint->b));
+}
+
+bool pl_joints_any_awake(const plumb_world *world)
+{
+    const pl_joint *items = pl_joint_items(&world->joints);
+    for (uint32_t i = 0; i < world->joints.count; ++i) {
+        if (is_awake(world, &items[i])) {
+            return true;
+        }
+    }
+    return false;
+}
+
+uint32_t pl_joints_awake(plumb_world *world)
+{
+    pl_joints *joints = &world->joints;
+    if (joints->awake_stale) {
+        uint32_t *awake = joints->awake.data;
+        joints->awake_stale = false;
+        joints->awake_count = 0;
+        for (uint32_t i = 0; i < joints->count; ++i) {
+            if (is_awake(world, &pl_joint_items(joints)[i])) {
+                awake[joints->awake_count++] = i;
+            }
+        }
+    }
+    return joints->awake_count;
+}
+
+// A joint made awake between a body that is and one that sleeps wakes it, even a furnished one.
+void pl_joint_disturb(plumb_world *world, const pl_joint *joint)
+{
+    uint32_t a = row_of(world, &joint->a), b = row_of(world, &joint->b);
+    bool mixed = a != PL_NONE && b != PL_NONE &&
+                 (a < world->dynamic_count) != (b < world->dynamic_count);
+    const uint32_t rows[2] = { a, b };
+    for (int i = 0; i < 2; ++i) {
+        if (rows[i] != PL_NONE && mixed && pl_row_is_asleep(world, rows[i])) {
+            pl_sleep_stir(world, rows[i]);
+        } else if (rows[i] != PL_NONE) {
+            pl_sleep_disturb(world, rows[i]);
+        }
+    }
+}
+
 //---- poses
 //----------------------------------------------------------------------------------------
 
@@ -197,6 +255,7 @@ static bool reserve(plumb_world *world)
     size_t slots = (size_t)joints->count + 1;
     return pl_registry_reserve(&world->memory, &world->registry, 1) &&
            pl_buffer_reserve(&world->memory, &joints->items, slots * sizeof(pl_joint)) &&
+           pl_buffer_reserve(&world->memory, &joints->awake, slots * sizeof(uint32_t)) &&
            pl_buffer_reserve(&world->memory, &joints->broken, slots * sizeof(plumb_joint_break));
 }
 
@@ -232,6 +291,7 @@ static void revise_pairs(plumb_world *world, const pl_joint *joint)
         !plumb_is_null(joint->b.body)) {
         world->pairs_dirty = true;
     }
+    world->joints.awake_stale = true;
     world->schedule_dirty = true;
 }
 
@@ -252,6 +312,7 @@ static plumb_joint insert(plumb_world *world, const plumb_joint_desc *d)
         j->sum = pl_joint_classes[d->kind]->keep(j, &j->a.pose, &j->b.pose);
     }
     ++world->joints.live;
+    pl_joint_disturb(world, j);
     revise_pairs(world, j);
     return j->entity;
 }
@@ -293,6 +354,7 @@ void pl_joint_remove(plumb_world *world, uint32_t slot)
     pl_joint *j = &pl_joint_items(&world->joints)[slot];
     detach(world, slot, &j->a);
     detach(world, slot, &j->b);
+    pl_joint_disturb(world, j);
     revise_pairs(world, j);
     pl_registry_release(&world->registry, j->entity);
     *j = (pl_joint){ .a.next = world->joints.free_head };
@@ -319,4 +381,5 @@ void pl_joints_free(pl_memory *memory, pl_joints *joints)
 {
     pl_buffer_free(memory, &joints->items);
     pl_buffer_free(memory, &joints->broken);
+    pl_buffer_free(memory, &joints->awake);
 }

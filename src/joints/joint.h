@@ -79,6 +79,9 @@ typedef struct pl_joints {
     uint32_t live;
     uint32_t free_head; // PL_NONE: none
     int broken_count;
+    pl_buffer awake; // uint32_t: slots of joints of which no body sleeps, in order
+    uint32_t awake_count;
+    bool awake_stale; // joints came or went, or bodies fell asleep or woke
 } pl_joints;
 
 static inline pl_joint *pl_joint_items(const pl_joints *joints)
@@ -86,11 +89,22 @@ static inline pl_joint *pl_joint_items(const pl_joints *joints)
     return (pl_joint *)joints->items.data;
 }
 
+// The i-th joint that is awake, after pl_joints_awake.
+static inline pl_joint *pl_joint_awake(const pl_joints *joints, uint32_t i)
+{
+    return &pl_joint_items(joints)[((const uint32_t *)joints->awake.data)[i]];
+}
+
 // The slot of a live joint or PL_NONE.
 uint32_t pl_joint_slot(const plumb_world *world, plumb_joint joint);
 // Unlinks a joint, gives its slot back and releases its handle.
 void pl_joint_remove(plumb_world *world, uint32_t slot);
 void pl_joints_free(pl_memory *memory, pl_joints *joints);
+// How many joints the solver has to do with; the others sleep. O(1) unless something changed.
+uint32_t pl_joints_awake(plumb_world *world);
+bool pl_joints_any_awake(const plumb_world *world);
+// Both bodies of a joint are about to notice that it is another: see sleep.h.
+void pl_joint_disturb(plumb_world *world, const pl_joint *joint);
 // The next joint of a body in its list.
 uint32_t pl_joint_next(const pl_joint *joint, plumb_body body);
 // Whether a joint forbids contacts of two body rows. O(joints of `row`).

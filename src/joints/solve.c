@@ -17,7 +17,8 @@
 // amplitude; the last term makes stiff springs implicit, hence stable. At rest w^2 C is the
 // acceleration, exactly.
 //
-// Reads: joints, body columns. Writes: solver bodies, impulses. Cost: O(joints) a sweep.
+// Joints of sleeping bodies are passed over (pl_joints_awake). Reads: joints, body columns. Writes:
+// solver bodies, impulses. Cost: O(joints awake) a sweep.
 #include "joints/joint.h"
 #include "plumb/math.h"
 #include "world/state.h"
@@ -239,12 +240,8 @@ static uint32_t slot_of(const plumb_world *world, plumb_body body)
 void pl_joints_prepare(plumb_world *world, real h)
 {
     pl_solver_body *bodies = pl_solver_bodies(&world->solver);
-    pl_joint *items = pl_joint_items(&world->joints);
-    for (uint32_t i = 0; i < world->joints.count; ++i) {
-        pl_joint *j = &items[i];
-        if (plumb_is_null(j->entity)) {
-            continue;
-        }
+    for (uint32_t i = 0; i < world->joints.awake_count; ++i) {
+        pl_joint *j = pl_joint_awake(&world->joints, i);
         j->a.slot = slot_of(world, j->a.body);
         j->b.slot = slot_of(world, j->b.body);
         pl_joint_begin(world, j);
@@ -260,10 +257,9 @@ void pl_joints_prepare(plumb_world *world, real h)
 void pl_joints_warm_start(plumb_world *world)
 {
     pl_solver_body *bodies = pl_solver_bodies(&world->solver);
-    pl_joint *items = pl_joint_items(&world->joints);
-    for (uint32_t i = 0; i < world->joints.count; ++i) {
-        pl_joint *j = &items[i];
-        for (int k = 0; !plumb_is_null(j->entity) && k < j->rows.count; ++k) {
+    for (uint32_t i = 0; i < world->joints.awake_count; ++i) {
+        pl_joint *j = pl_joint_awake(&world->joints, i);
+        for (int k = 0; k < j->rows.count; ++k) {
             if (j->impulse[k] != 0) {
                 push(&j->rows.row[k], &bodies[j->a.slot], &bodies[j->b.slot], j->impulse[k]);
             }
@@ -274,12 +270,8 @@ void pl_joints_warm_start(plumb_world *world)
 void pl_joints_turn(plumb_world *world)
 {
     pl_solver_body *bodies = pl_solver_bodies(&world->solver);
-    pl_joint *items = pl_joint_items(&world->joints);
-    for (uint32_t i = 0; i < world->joints.count; ++i) {
-        const pl_joint *j = &items[i];
-        if (plumb_is_null(j->entity)) {
-            continue;
-        }
+    for (uint32_t i = 0; i < world->joints.awake_count; ++i) {
+        const pl_joint *j = pl_joint_awake(&world->joints, i);
         const pl_row owed = { j->turn[0], j->turn[1], j->turn[2],          j->turn[3],
                               j->turn[4], j->turn[5], .type = PL_ROW_EQUAL };
         push(&owed, &bodies[j->a.slot], &bodies[j->b.slot], 1);
@@ -289,12 +281,8 @@ void pl_joints_turn(plumb_world *world)
 void pl_joints_solve(plumb_world *world, pl_joint_sweep sweep)
 {
     pl_solver_body *bodies = pl_solver_bodies(&world->solver);
-    pl_joint *items = pl_joint_items(&world->joints);
-    for (uint32_t i = 0; i < world->joints.count; ++i) {
-        pl_joint *j = &items[i];
-        if (plumb_is_null(j->entity)) {
-            continue;
-        }
+    for (uint32_t i = 0; i < world->joints.awake_count; ++i) {
+        pl_joint *j = pl_joint_awake(&world->joints, i);
         pl_solver_body *a = &bodies[j->a.slot], *b = &bodies[j->b.slot];
         // Motors and springs first: what must hold has the last word.
         for (int k = j->rows.count - 1; k >= j->rows.block; --k) {
@@ -307,12 +295,8 @@ void pl_joints_solve(plumb_world *world, pl_joint_sweep sweep)
 void pl_joints_refresh(plumb_world *world)
 {
     pl_solver_body *bodies = pl_solver_bodies(&world->solver);
-    pl_joint *items = pl_joint_items(&world->joints);
-    for (uint32_t i = 0; i < world->joints.count; ++i) {
-        pl_joint *j = &items[i];
-        if (plumb_is_null(j->entity)) {
-            continue;
-        }
+    for (uint32_t i = 0; i < world->joints.awake_count; ++i) {
+        pl_joint *j = pl_joint_awake(&world->joints, i);
         for (int k = 0; k < 6; ++k) {
             j->turn[k] = 0;
         }
@@ -360,12 +344,8 @@ static void move_joint(const pl_joint *j, pl_solver_body *a, pl_solver_body *b, 
 void pl_joints_move(plumb_world *world, real share)
 {
     pl_solver_body *bodies = pl_solver_bodies(&world->solver);
-    pl_joint *items = pl_joint_items(&world->joints);
-    for (uint32_t i = 0; i < world->joints.count; ++i) {
-        pl_joint *j = &items[i];
-        if (plumb_is_null(j->entity)) {
-            continue;
-        }
+    for (uint32_t i = 0; i < world->joints.awake_count; ++i) {
+        pl_joint *j = pl_joint_awake(&world->joints, i);
         pl_solver_body *a = &bodies[j->a.slot], *b = &bodies[j->b.slot];
         make_rows(j, a, b);
         move_joint(j, a, b, share);

@@ -33,16 +33,14 @@ static pl_narrow_kernel *kernel_for(const pl_narrow_kernels *k, int a, int b)
     return matrix[a][b];
 }
 
-bool pl_narrow_reserve(plumb_world *world)
+bool pl_narrow_reserve(plumb_world *world, const pl_pair_list *list, pl_narrow *narrow)
 {
-    return pl_buffer_reserve(&world->memory, &world->narrow.manifolds,
-                             ((size_t)world->broad.pairs.count + 1) * sizeof(pl_manifold));
+    return pl_buffer_reserve(&world->memory, &narrow->manifolds,
+                             ((size_t)list->count + 1) * sizeof(pl_manifold));
 }
 
-void pl_narrow_run(plumb_world *world, real dt)
+void pl_narrow_run(plumb_world *world, const pl_pair_list *list, real dt, pl_narrow *narrow)
 {
-    pl_narrow *narrow = &world->narrow;
-    const pl_pair_list *list = &world->broad.pairs;
     const pl_narrow_kernels *kernels = kernels_of(world->desc.simd_width);
     pl_narrow_input in = { .poses = (const real *)world->poses.data,
                            .cores = world->pieces.core,
@@ -64,9 +62,10 @@ void pl_narrow_run(plumb_world *world, real dt)
     }
 }
 
-static void take_out(pl_pair *pair)
+static void take_out(pl_pair *pair, uint32_t flag)
 {
     pair->manifold = PL_NONE;
+    pair->flags |= flag;
     pair->rolling = 0;
     for (int k = 0; k < 2; ++k) {
         pair->feature[k] = PL_NONE;
@@ -74,7 +73,7 @@ static void take_out(pl_pair *pair)
     }
 }
 
-void pl_narrow_take_out_disabled(plumb_world *world)
+void pl_narrow_take_out_disabled(plumb_world *world, uint32_t flag)
 {
     pl_narrow *narrow = &world->narrow;
     pl_manifold *m = pl_manifolds(narrow);
@@ -82,7 +81,7 @@ void pl_narrow_take_out_disabled(plumb_world *world)
     uint32_t kept = 0;
     for (uint32_t i = 0; i < narrow->manifold_count; ++i) {
         if (m[i].disabled) {
-            take_out(&pairs[m[i].pair]);
+            take_out(&pairs[m[i].pair], flag);
             continue;
         }
         pairs[m[i].pair].manifold = kept;

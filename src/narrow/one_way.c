@@ -118,6 +118,6 @@ void pl_one_way_run(plumb_world *world)
     }
     forget_requests(world);
     if (any) {
-        pl_narrow_take_out_disabled(world);
+        pl_narrow_take_out_disabled(world, 0);
     }
 }

@@ -162,7 +162,7 @@ static void find(search *s, plumb_vec2 point, plumb_real max_distance)
     s->slack = pl_query_slack(fabs((double)point.x) + fabs((double)point.y));
     s->max_distance = max_distance;
     s->met = false;
-    const pl_grid *grids[2];
+    const pl_grid *grids[PL_QUERY_GRIDS];
     int grid_count = pl_query_grids(&s->q, grids);
     for (int i = 0; i < grid_count; ++i) {
         for (uint32_t k = 0; k < grids[i]->level_count; ++k) {
@@ -213,7 +213,7 @@ int plumb_world_nearest_all(plumb_world *world, plumb_vec2 point, plumb_real max
     s.max_distance = max_distance;
     double slack = pl_query_slack(fabs((double)point.x) + fabs((double)point.y));
     pl_box box = pl_query_box_at(point, pl_least((double)max_distance, PLUMB_REAL_MAX / 2) + slack);
-    const pl_grid *grids[2];
+    const pl_grid *grids[PL_QUERY_GRIDS];
     int grid_count = pl_query_grids(&s.q, grids);
     for (int i = 0; i < grid_count; ++i) {
         if (!pl_grid_query(grids[i], box, keep_near, &s)) {

@@ -25,6 +25,7 @@ typedef struct point {
     vf ran, rbn, rat, rbt; // [m]
     vf separation;         // [m] at the start of the step
     vf kn;                 // [1/kg] inverse effective mass along the normal
+    vf give;               // [1/kg] softness: how much an impulse gives way
     vf mt;                 // [kg] effective mass along the tangent
     vf ln, lt;             // [N s]
 } point;
@@ -33,8 +34,8 @@ typedef struct bundle {
     uint32_t a[PL_WIDTH], b[PL_WIDTH]; // solver slots
     vf nx, ny;
     vf friction;
-    vf bias_rate, give; // softness: the push, and how much an impulse gives way, times kn
-    vf k01;             // [1/kg] what an impulse at one point does to the other
+    vf bias_rate; // [1/s] softness: the push for each metre of overlap
+    vf k01;       // [1/kg] what an impulse at one point does to the other
     point p[2];
 } bundle;
 
@@ -115,6 +116,15 @@ WIDE_INLINE softness soften(const pl_contact_call *call, plumb_real factor)
     return (softness){ splat(omega / a1), splat(1 / a2) };
 }
 
+// A point deeper than the push may undo in a second is pushed less than its spring would. It gives
+// way less by the same share, or the spring would bear no more than the push speed stands for: a
+// point below a heavy pile would sink for ever.
+WIDE_INLINE vf held_back(const bundle *c, const point *p, const pl_contact_call *call)
+{
+    vf limit = splat(call->push_speed);
+    return limit / vmax(-p->separation * c->bias_rate, limit);
+}
+
 // An empty lane: no mass, no impulse, out of reach.
 static const pl_manifold empty_manifold __attribute__((
     aligned(64))) = { .point = { { .separation = PL_APART }, { .separation = PL_APART } } };
@@ -148,10 +158,11 @@ static void prepare(const pl_contact_call *call, uint32_t first, uint32_t count)
         c->nx = r[0], c->ny = r[1], c->friction = r[2];
         vm fixed = (a.inv_mass == splat(0)) | (b.inv_mass == splat(0));
         c->bias_rate = sel(fixed, ground.bias_rate, pair.bias_rate);
-        c->give = sel(fixed, ground.give, pair.give);
+        vf give = sel(fixed, ground.give, pair.give);
         for (int j = 0; j < 2; ++j) {
             gather8(r, row[1 + j]);
             prepare_point(&c->p[j], r, c, &a, &b);
+            c->p[j].give = c->p[j].kn * give * held_back(c, &c->p[j], call);
         }
         c->k01 = a.inv_mass + b.inv_mass + a.inv_inertia * c->p[0].ran * c->p[1].ran +
                  b.inv_inertia * c->p[0].rbn * c->p[1].rbn;
@@ -274,7 +285,7 @@ WIDE_INLINE vf shortfall(const bundle *c, const point *p, const body *a, const b
     vm apart = s > zero;
     *diagonal = p->kn;
     if (soft) {
-        *diagonal += sel(apart, zero, c->give * p->kn);
+        *diagonal += sel(apart, zero, p->give);
         return vn +
                sel(apart, s * splat(call->inv_h), vmax(s * c->bias_rate, splat(-call->push_speed)));
     }

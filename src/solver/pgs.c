@@ -230,7 +230,7 @@ void pl_solver_pgs(plumb_world *world, real dt)
                   .count = world->narrow.manifold_count,
                   .h = dt / (real)world->desc.substeps };
     const bool bounce = world->narrow.any_bounce;
-    const bool joints = world->joints.live > 0;
+    const bool joints = pl_joints_awake(world) > 0;
     prepare(&c, world);
     if (bounce) {
         c.lows = s->lows.data;

@@ -82,7 +82,7 @@ void pl_solver_soft(plumb_world *world, real dt)
                                        : world->narrow.any_friction ? PL_ROUGH
                                                                     : PL_SMOOTH;
     const bool rotation = world->turning_bodies > 0;
-    const bool joints = world->joints.live > 0;
+    const bool joints = pl_joints_awake(world) > 0;
     const bool bounce = world->narrow.any_bounce;
 
     kernels->prepare(&call, 0, s->bundle_count);

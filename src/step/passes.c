@@ -4,6 +4,7 @@
 // pass that nothing in the world wants is not in the schedule and costs nothing. A pass that
 // changes the world's motion comes after the last one that can run out of memory, so a refused step
 // changes nothing.
+#include "continuous/continuous.h"
 #include "event/event.h"
 #include "narrow/narrow.h"
 #include "narrow/one_way.h"
@@ -62,7 +63,7 @@ static bool collision_wanted(const plumb_world *world, const char **reason)
 static bool sensing_wanted(const plumb_world *world, const char **reason)
 {
     bool wanted = world->sensor_pieces > 0 && world->moving_count > 0 && world->pieces.live > 1;
-    return say(wanted || world->sensing.count > 0, reason, "there are sensors",
+    return say(wanted || world->sensing.count > 0 || world->sensing.rest_stale, reason, "there are sensors",
                "no shape is a sensor that could meet another");
 }
 
@@ -88,7 +89,25 @@ static bool feet_wanted(const plumb_world *world, const char **reason)
 
 static bool joints_wanted(const plumb_world *world, const char **reason)
 {
+    if (world->joints.live > 0 && !pl_joints_any_awake(world)) {
+        return say(false, reason, "", "all that is joined sleeps");
+    }
     return say(world->joints.live > 0, reason, "there are joints", "there are no joints");
+}
+
+static bool waking_wanted(const plumb_world *world, const char **reason)
+{
+    return say(world->asleep_count > 0, reason, "some bodies sleep: what touches them wakes them",
+               "no body sleeps");
+}
+
+static bool sleep_wanted(const plumb_world *world, const char **reason)
+{
+    if (world->desc.no_sleep) {
+        return say(false, reason, "", "the world does not let bodies sleep");
+    }
+    return say(world->dynamic_count > 0, reason, "what rests long enough falls asleep",
+               "no dynamic body is awake");
 }
 
 // Contacts or joints.
@@ -119,6 +138,11 @@ static bool rotation_wanted(const plumb_world *world, const char **reason)
 {
     return say(world->turning_bodies > 0, reason, "some dynamic body can turn",
                "no dynamic body can turn");
+}
+
+static bool continuous_wanted(const plumb_world *world, const char **reason)
+{
+    return collision_wanted(world, reason) && pl_continuous_wanted(world, reason);
 }
 
 // A material that some shape is made of.
@@ -170,6 +194,16 @@ static plumb_result run_feet(plumb_world *world, plumb_real dt)
     return PLUMB_OK;
 }
 
+static plumb_result run_waking(plumb_world *world, plumb_real dt)
+{
+    return pl_sleep_wake(world, dt) ? PLUMB_OK : PLUMB_E_MEMORY;
+}
+
+static plumb_result run_sleep(plumb_world *world, plumb_real dt)
+{
+    return pl_sleep_fall(world, dt) ? PLUMB_OK : PLUMB_E_MEMORY;
+}
+
 static plumb_result run_broad(plumb_world *world, plumb_real dt)
 {
     return pl_broad_update(world, dt) ? PLUMB_OK : PLUMB_E_MEMORY;
@@ -177,10 +211,10 @@ static plumb_result run_broad(plumb_world *world, plumb_real dt)
 
 static plumb_result run_narrow(plumb_world *world, plumb_real dt)
 {
-    if (!pl_narrow_reserve(world)) {
+    if (!pl_narrow_reserve(world, &world->broad.pairs, &world->narrow)) {
         return PLUMB_E_MEMORY;
     }
-    pl_narrow_run(world, dt);
+    pl_narrow_run(world, &world->broad.pairs, dt, &world->narrow);
     return pl_events_prepare(world) ? PLUMB_OK : PLUMB_E_MEMORY;
 }
 
@@ -222,7 +256,10 @@ static plumb_result run_contacts(plumb_world *world, plumb_real dt)
 static plumb_result run_graph(plumb_world *world, plumb_real dt)
 {
     (void)dt;
-    return pl_solver_graph(world) ? PLUMB_OK : PLUMB_E_MEMORY;
+    const char *unused;
+    bool room = pl_solver_graph(world) &&
+                (!continuous_wanted(world, &unused) || pl_continuous_reserve(world));
+    return room ? PLUMB_OK : PLUMB_E_MEMORY;
 }
 
 static plumb_result run_soft(plumb_world *world, plumb_real dt)
@@ -242,6 +279,12 @@ static plumb_result run_motion(plumb_world *world, plumb_real dt)
     pl_solver_finish(world, dt);
     world->time += (double)dt;
     ++world->step_count;
+    return PLUMB_OK;
+}
+
+static plumb_result run_continuous(plumb_world *world, plumb_real dt)
+{
+    pl_continuous_run(world, dt);
     return PLUMB_OK;
 }
 
@@ -274,12 +317,14 @@ const pl_pass pl_passes[] = {
     { "begin systems", pl_user_phase, "declared by the systems",         "declared by the systems",   begin_wanted,     run_begin },
     { "force systems", pl_user_phase, "declared by the systems",         "declared by the systems",   forces_wanted,    run_forces },
     { "characters",    "forces",   "grids, poses, velocities",        "velocities, forces",        pl_characters_wanted, run_characters },
+    { "waking",      "broad",    "islands, pieces, grids, joints",   "rows, pairs, fat boxes",     waking_wanted,    run_waking },
     { "broad phase",   "broad",    "poses, pieces",                   "fat boxes, grids, pairs",   broad_wanted,     run_broad },
-    { "sensor pairs",  "broad",    "pairs with sensors",              "candidates of sensors",     sensing_wanted,   run_candidates },
     { "narrow phase",  "narrow",   "pairs, poses, pieces, materials", "manifolds",                 collision_wanted, run_narrow },
     { "one-way",       "narrow",   "manifolds, pieces, rotations",    "manifolds, pairs",          one_way_wanted,   run_one_way },
     { "surfaces",      "narrow",   "pairs, materials",                "manifolds",                 surfaces_wanted,  run_surfaces },
     { "feet",          "narrow",   "manifolds, characters",           "manifolds",                 feet_wanted,      run_feet },
+    { "sleep",       "narrow",   "velocities, pairs, joints",        "islands, rows, pairs, manifolds", sleep_wanted, run_sleep },
+    { "sensor pairs",  "narrow",   "pairs with sensors",              "candidates of sensors",     sensing_wanted,   run_candidates },
     { "contact systems", pl_user_phase, "declared by the systems",         "declared by the systems",   contacts_wanted,  run_contacts },
     { "graph",         "solve",    "manifolds, velocities, forces",   "solver bodies, colours",    solver_wanted,    run_graph },
     { "soft step",     "solve",    "manifolds, solver bodies",        "solver bodies, impulses",   soft_wanted,      run_soft },
@@ -289,6 +334,7 @@ const pl_pass pl_passes[] = {
     { "- impacts",     "solve",    "materials, manifolds",            "solver bodies",             impacts_wanted,   NULL },
     { "- joints",      "solve",    "joints, poses",                   "solver bodies, joints",     joints_wanted,    NULL },
     { "motion",        "finish",   "solver bodies, forces, gravity",  "transforms, velocities",    NULL,             run_motion },
+    { "continuous",    "finish",   "bodies that moved fast, pieces",  "transforms",                continuous_wanted, run_continuous },
     { "reactions",     "finish",   "joints, poses",                   "joints, break events",      joints_wanted,    run_reactions },
     { "events",        "finish",   "pairs, manifolds",                "event arrays",              collision_wanted, run_events },
     { "sensors",       "finish",   "candidates, poses, pieces",       "overlaps, sensor events",   sensing_wanted,   run_sensors },

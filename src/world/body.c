@@ -34,6 +34,20 @@ static plumb_result check_motion(const plumb_world *world, const char *fn,
     return PLUMB_OK;
 }
 
+static plumb_result check_sleep(const plumb_world *world, const char *fn,
+                                const plumb_body_desc *desc)
+{
+    const char *why = desc->type == PLUMB_KINEMATIC ? "for a kinematic body"
+                      : desc->type == PLUMB_STATIC  ? "for a static body"
+                      : desc->no_sleep              ? "with no_sleep"
+                      : desc->velocity.x != 0 || desc->velocity.y != 0 || desc->angular_velocity != 0
+                          ? "for a body that moves"
+                          : NULL;
+    return !desc->asleep || why == NULL
+               ? PLUMB_OK
+               : pl_fail(world, PLUMB_E_RANGE, fn, "asleep is true; it must be false %s", why);
+}
+
 // 0 or within the range of masses.
 static plumb_result check_mass(const plumb_world *world, const char *fn, const char *field,
                                real value)
@@ -64,16 +78,33 @@ plumb_result pl_body_check(const plumb_world *world, const char *fn, const plumb
     }
     r = pl_place_check(world, fn, desc->position, desc->angle);
     r = r != PLUMB_OK ? r : check_motion(world, fn, desc);
+    r = r != PLUMB_OK ? r : check_sleep(world, fn, desc);
+    if (r == PLUMB_OK && desc->continuous && desc->type != PLUMB_DYNAMIC) {
+        r = pl_fail(world, PLUMB_E_RANGE, fn, "continuous is true; it must be false for a %s body",
+                    desc->type == PLUMB_STATIC ? "static" : "kinematic");
+    }
     r = r != PLUMB_OK ? r : check_mass(world, fn, "mass", desc->mass);
     r = r != PLUMB_OK ? r : check_mass(world, fn, "inertia", desc->inertia);
     return r != PLUMB_OK ? r : pl_check_finite(world, fn, "gravity_scale", desc->gravity_scale);
+}
+
+static void set_continuous(plumb_world *world, uint32_t row, bool continuous)
+{
+    uint8_t *flags = &world->bodies.flags[row];
+    uint32_t was = (*flags & PL_BODY_CONTINUOUS) != 0;
+    *flags = (uint8_t)(continuous ? *flags | PL_BODY_CONTINUOUS
+                                  : *flags & (uint8_t)~PL_BODY_CONTINUOUS);
+    world->continuous_bodies += (continuous ? 1u : 0u) - was;
+    world->schedule_dirty = true;
 }
 
 static void fill_row(plumb_world *world, uint32_t row, const plumb_body_desc *desc)
 {
     pl_bodies *b = &world->bodies;
     b->type[row] = (uint8_t)desc->type;
-    b->flags[row] = desc->fixed_rotation ? PL_BODY_FIXED_ROTATION : 0;
+    b->flags[row] = (uint8_t)((desc->fixed_rotation ? PL_BODY_FIXED_ROTATION : 0) |
+                              (desc->no_sleep ? PL_BODY_NO_SLEEP : 0));
+    set_continuous(world, row, desc->continuous);
     b->vx[row] = desc->velocity.x;
     b->vy[row] = desc->velocity.y;
     b->w[row] = desc->angular_velocity;
@@ -93,10 +124,17 @@ plumb_result pl_body_insert(plumb_world *world, const char *fn, const plumb_body
     if (!pl_registry_reserve(&world->memory, &world->registry, 1) || !pl_rows_reserve(world, 1)) {
         return pl_fail_memory(world, fn);
     }
-    uint32_t row = pl_row_open(world, pl_partition_of(desc->type));
+    const bool asleep = desc->asleep && !world->desc.no_sleep;
+    if (asleep && !pl_islands_reserve(world, 1, 0)) {
+        return pl_fail_memory(world, fn);
+    }
+    uint32_t row = pl_row_open(world, asleep ? PL_PART_ASLEEP : pl_partition_of(desc->type));
     *body = pl_entity_claim(world, *body, PLUMB_KIND_BODY, row);
     world->bodies.entity[row] = *body;
     fill_row(world, row, desc);
+    if (asleep) {
+        pl_sleep_make(world, row);
+    }
     return PLUMB_OK;
 }
 
@@ -134,9 +172,11 @@ void pl_body_place(plumb_world *world, uint32_t row, plumb_vec2 position, plumb_
     b->c[row] = q.c;
     b->s[row] = q.s;
     pl_body_update_center(world, row);
+    pl_sleep_disturb(world, row);
     if (b->first_piece[row] != PL_NONE) {
         world->pairs_dirty = true;
         world->static_dirty |= b->type[row] == PLUMB_STATIC;
+        world->sleep.boxes_stale |= b->island[row] != PL_NONE;
     }
 }
 
@@ -168,6 +208,9 @@ plumb_result plumb_body_set_velocity(plumb_world *world, plumb_body body, plumb_
     r = r != PLUMB_OK ? r : pl_check_finite_vec(world, __func__, "velocity", velocity);
     r = r != PLUMB_OK ? r : check_movable(world, __func__, row);
     if (r == PLUMB_OK) {
+        if (velocity.x != world->bodies.vx[row] || velocity.y != world->bodies.vy[row]) {
+            pl_sleep_stir(world, row);
+        }
         world->bodies.vx[row] = pl_poses(world)[row].vx = velocity.x;
         world->bodies.vy[row] = pl_poses(world)[row].vy = velocity.y;
         world->bodies.low_vx[row] = world->bodies.low_vy[row] = 0;
@@ -186,6 +229,9 @@ plumb_result plumb_body_set_angular_velocity(plumb_world *world, plumb_body body
                     "w is %g; it must be 0 for a body of fixed rotation", (double)w);
     }
     if (r == PLUMB_OK) {
+        if (w != world->bodies.w[row]) {
+            pl_sleep_stir(world, row);
+        }
         world->bodies.w[row] = w;
     }
     return r;
@@ -228,6 +274,7 @@ plumb_result plumb_body_set_mass(plumb_world *world, plumb_body body, plumb_real
                        "mass is %g; the inertia that follows must be %g to %g", (double)mass,
                        (double)PL_MASS_LEAST, (double)PL_MASS_MOST);
     }
+    pl_sleep_disturb(world, row);
     b->set_mass[row] = mass;
     b->set_inertia[row] = given ? made.inertia : 0;
     pl_mass_apply(world, row, &made);
@@ -241,6 +288,7 @@ plumb_result plumb_body_reset_mass(plumb_world *world, plumb_body body)
     if (r != PLUMB_OK) {
         return r;
     }
+    pl_sleep_disturb(world, row);
     pl_pieces *pieces = &world->pieces;
     for (uint32_t p = world->bodies.first_piece[row]; p != PL_NONE; p = pieces->next_in_body[p]) {
         pieces->density[p] = pl_density_of(world, p);
@@ -259,6 +307,9 @@ plumb_result plumb_body_set_fixed_rotation(plumb_world *world, plumb_body body, 
         return r;
     }
     pl_bodies *b = &world->bodies;
+    if (fixed != ((b->flags[row] & PL_BODY_FIXED_ROTATION) != 0)) {
+        pl_sleep_disturb(world, row);
+    }
     b->flags[row] = fixed ? b->flags[row] | PL_BODY_FIXED_ROTATION
                           : b->flags[row] & (uint8_t)~PL_BODY_FIXED_ROTATION;
     if (fixed) {
@@ -266,6 +317,16 @@ plumb_result plumb_body_set_fixed_rotation(plumb_world *world, plumb_body body, 
     }
     pl_mass_revise(world, row);
     return PLUMB_OK;
+}
+
+plumb_result plumb_body_set_continuous(plumb_world *world, plumb_body body, bool continuous)
+{
+    uint32_t row;
+    plumb_result r = pl_check_dynamic(world, __func__, body, &row);
+    if (r == PLUMB_OK) {
+        set_continuous(world, row, continuous);
+    }
+    return r;
 }
 
 //---- the rest
@@ -276,6 +337,9 @@ plumb_result plumb_body_set_gravity_scale(plumb_world *world, plumb_body body, p
     uint32_t row;
     plumb_result r = pl_check_body(world, __func__, body, &row);
     r = r != PLUMB_OK ? r : pl_check_finite(world, __func__, "scale", scale);
+    if (r == PLUMB_OK && scale != world->bodies.gravity_scale[row]) {
+        pl_sleep_disturb(world, row);
+    }
     if (r == PLUMB_OK) {
         world->bodies.gravity_scale[row] = scale;
         world->schedule_dirty = true;

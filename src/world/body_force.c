@@ -36,6 +36,9 @@ static plumb_result add_force(plumb_world *world, const char *fn, const char *fi
     if (!plumb_vec2_is_finite(force) || !plumb_is_finite(torque)) {
         return refuse_sum(world, fn, field);
     }
+    if (p.linear.x != 0 || p.linear.y != 0 || p.angular != 0) {
+        pl_sleep_stir(world, row);
+    }
     b->fx[row] = force.x;
     b->fy[row] = force.y;
     b->torque[row] = torque;
@@ -51,6 +54,9 @@ static plumb_result add_impulse(plumb_world *world, const char *fn, uint32_t row
     real w = b->inv_inertia[row] > 0 ? b->w[row] + p.angular * b->inv_inertia[row] : b->w[row];
     if (!plumb_vec2_is_finite(v) || !plumb_is_finite(w)) {
         return refuse_sum(world, fn, "impulse");
+    }
+    if (v.x != b->vx[row] || v.y != b->vy[row] || w != b->w[row]) {
+        pl_sleep_stir(world, row);
     }
     b->vx[row] = pl_poses(world)[row].vx = v.x;
     b->vy[row] = pl_poses(world)[row].vy = v.y;

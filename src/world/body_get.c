@@ -88,6 +88,12 @@ plumb_real plumb_body_inertia(const plumb_world *world, plumb_body body)
     return row == PL_NONE || world->bodies.inv_inertia[row] <= 0 ? 0 : world->bodies.inertia[row];
 }
 
+bool plumb_body_is_continuous(const plumb_world *world, plumb_body body)
+{
+    uint32_t row = pl_body_row(world, body);
+    return row != PL_NONE && (world->bodies.flags[row] & PL_BODY_CONTINUOUS) != 0;
+}
+
 plumb_real plumb_body_gravity_scale(const plumb_world *world, plumb_body body)
 {
     uint32_t row = pl_body_row(world, body);

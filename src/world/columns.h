@@ -29,15 +29,31 @@ typedef plumb_real real;
     X(real, gravity_scale)         /* [-] */                                                        \
     X(real, mass) X(real, inertia) /* [kg], [kg m^2]; kept also where the inverses are 0 */         \
     X(real, set_mass) X(real, set_inertia) /* given by the user; 0: from the shapes */              \
+    X(real, extent)                /* [m] farthest point of a solid shape from the centre of mass; at least the radius of gyration */ \
+    X(real, slack)                 /* [m] motion in a step that lets it pass nothing: see extent.c */ \
     X(void *, user_data)                                                                            \
     X(uint32_t, first_piece)       /* pieces of the body, newest shape first; PL_NONE ends */       \
     X(uint32_t, first_joint)       /* joints of the body, newest first; PL_NONE ends */             \
     X(uint32_t, character)         /* 1 + its place among the characters; 0: none */                \
+    X(real, still)                 /* [s] for how long it has been slow (src/sleep) */              \
+    X(real, looked)                /* [s] since the last look at where it is */                     \
+    X(real, look_x) X(real, look_y) /* [m] its centre at that look */                               \
+    X(real, look_c) X(real, look_s) /* its rotation then */                                         \
+    X(real, way_x) X(real, way_y)  /* [m] between the last two looks */                             \
+    X(real, way_turn)              /* [rad] the same */                                             \
+    X(uint8_t, looks)              /* in this rest, up to 2 */                                      \
+    X(uint32_t, island)            /* of a sleeping body; PL_NONE: awake */                         \
+    X(uint32_t, next_asleep) X(uint32_t, previous_asleep) /* registry slots: bodies of the island */ \
+    X(uint32_t, changed_step)      /* step count + 1 when an immovable body was last changed */     \
     X(uint8_t, type)               /* plumb_body_type */                                            \
     X(uint8_t, flags)              /* PL_BODY_... */
 
 #define PL_BODY_FIXED_ROTATION 1u
 #define PL_BODY_DROPPING       2u // it asks to drop through one-way shapes in the next step
+#define PL_BODY_NO_SLEEP       32u  // it never falls asleep
+#define PL_BODY_STIRRING       64u  // kinematic: it moves, or was changed, and wakes what it touches
+#define PL_BODY_RECRUITED      8u   // on its way into the list of movers; only within the continuous pass
+#define PL_BODY_CONTINUOUS     16u  // never passes through moving bodies either
 #define PL_BODY_EXCLUDING      128u // it is in the table of excluded pairs, or was once
 
 // Pieces: the convex parts of shapes, what the broad and narrow phase see. Slots are stable for the
@@ -67,7 +83,8 @@ typedef plumb_real real;
     X(void *, user_data)                                                                            \
     X(pl_core, core)               /* geometry in the body's frame, one gatherable record */        \
     X(pl_box, fat)                 /* [m] fat box in the grid */                                    \
-    X(uint32_t, moving)            /* place in the list of moving pieces; PL_NONE: static */
+    X(uint32_t, moving)            /* place in the list of moving or resting pieces; PL_NONE: static */ \
+    X(uint32_t, first_dormant)     /* sleeping contacts with this static or kinematic piece */
 
 #define PL_MATERIAL_COLUMNS(X)                                                                      \
     X(plumb_entity, entity)                                                                         \
@@ -82,7 +99,9 @@ typedef plumb_real real;
 #define PL_PIECE_SENSOR   1u // of a sensor
 #define PL_PIECE_PART     2u // of a shape of several pieces
 #define PL_PIECE_FILTERED 4u // its filter is not {0}
-#define PL_PIECE_ONE_WAY  8u // it holds on one side only
+#define PL_PIECE_ONE_WAY  32u // it holds on one side only
+#define PL_PIECE_ASLEEP   8u // of a sleeping body: it is in the list and grid of resting pieces
+#define PL_PIECE_PLACED   16u // static, and new to what sleeps here
 
 #define PL_NONE UINT32_MAX
 

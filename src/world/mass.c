@@ -96,10 +96,12 @@ void pl_mass_apply(plumb_world *world, uint32_t row, const pl_body_mass *mass)
 void pl_mass_revise(plumb_world *world, uint32_t row)
 {
     if (world->bodies.type[row] != PLUMB_DYNAMIC) {
+        pl_extent_revise(world, row);
         return;
     }
     pl_mass_sum sum = pl_mass_of_shapes(world, row);
     pl_body_mass mass;
     pl_mass_resolve(&sum, world->bodies.set_mass[row], world->bodies.set_inertia[row], &mass);
     pl_mass_apply(world, row, &mass);
+    pl_extent_revise(world, row);
 }

@@ -122,6 +122,7 @@ plumb_result plumb_material_set(plumb_world *world, plumb_material material,
     pl_pieces *pieces = &world->pieces;
     for (uint32_t p = 0; p < pieces->table.count; ++p) {
         if (pieces->kind[p] != PL_PIECE_FREE && pieces->material[p] == row) {
+            pl_sleep_disturb_piece(world, p);
             pieces->friction[p] = desc->friction;
             pieces->restitution[p] = desc->restitution;
         }

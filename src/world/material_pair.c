@@ -85,6 +85,18 @@ static plumb_result check_value(const plumb_world *world, const char *function,
                                           pair->rolling_resistance, 0, PLUMB_REAL_MAX);
 }
 
+// What is made of either may slide now.
+static void disturb_users(plumb_world *world, uint32_t row_a, uint32_t row_b)
+{
+    const pl_pieces *pieces = &world->pieces;
+    for (uint32_t p = 0; p < pieces->table.count; ++p) {
+        if (pieces->kind[p] != PL_PIECE_FREE &&
+            (pieces->material[p] == row_a || pieces->material[p] == row_b)) {
+            pl_sleep_disturb_piece(world, p);
+        }
+    }
+}
+
 plumb_result plumb_material_pair_set(plumb_world *world, plumb_material a, plumb_material b,
                                      const plumb_material_pair *pair)
 {
@@ -118,6 +130,7 @@ plumb_result plumb_material_pair_set(plumb_world *world, plumb_material a, plumb
         ++world->materials.pairs[row_a];
         ++world->materials.pairs[row_b];
     }
+    disturb_users(world, row_a, row_b);
     world->schedule_dirty = true;
     return PLUMB_OK;
 }

@@ -65,6 +65,7 @@ plumb_result plumb_shape_set_one_way(plumb_world *world, plumb_shape shape, plum
     r = r != PLUMB_OK ? r : pl_one_way_check(world, __func__, &one_way);
     if (r == PLUMB_OK) {
         pl_one_way_apply(world, first, &one_way);
+        pl_sleep_disturb_piece(world, first);
     }
     return r;
 }
@@ -74,6 +75,7 @@ plumb_result plumb_body_drop_through(plumb_world *world, plumb_body body)
     uint32_t row;
     plumb_result r = pl_check_dynamic(world, __func__, body, &row);
     if (r == PLUMB_OK) {
+        pl_sleep_stir(world, row);
         bool any = world->one_way_pieces > 0; // else nobody would take the request back
         world->bodies.flags[row] |= any ? PL_BODY_DROPPING : 0;
         world->dropping_bodies += any;

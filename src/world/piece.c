@@ -10,6 +10,14 @@
 
 #include <string.h>
 
+// Either list has room for all pieces that can move: they go from one to the other without asking.
+static bool reserve_lists(plumb_world *world, uint32_t extra)
+{
+    size_t most = (size_t)world->moving_count + world->sleep.resting_count + extra;
+    return pl_buffer_reserve(&world->memory, &world->moving, most * sizeof(uint32_t)) &&
+           pl_buffer_reserve(&world->memory, &world->sleep.resting, most * sizeof(uint32_t));
+}
+
 bool pl_pieces_reserve(plumb_world *world, uint32_t extra)
 {
     pl_pieces *pieces = &world->pieces;
@@ -20,8 +28,7 @@ bool pl_pieces_reserve(plumb_world *world, uint32_t extra)
     }
     return pl_table_reserve(&world->memory, &pieces->table, pl_piece_columns, pl_piece_column_count,
                             pieces->table.count + fresh) &&
-           pl_buffer_reserve(&world->memory, &world->moving,
-                             ((size_t)world->moving_count + extra) * sizeof(uint32_t));
+           reserve_lists(world, extra);
 }
 
 static uint32_t take_slot(plumb_world *world)
@@ -39,19 +46,48 @@ static uint32_t take_slot(plumb_world *world)
     return slot;
 }
 
-static void enlist_moving(plumb_world *world, uint32_t slot)
+static void enlist(plumb_world *world, uint32_t *list, uint32_t *count, uint32_t slot)
 {
-    pl_moving(world)[world->moving_count] = slot;
-    world->pieces.moving[slot] = world->moving_count++;
+    list[*count] = slot;
+    world->pieces.moving[slot] = (*count)++;
 }
 
-static void delist_moving(plumb_world *world, uint32_t slot)
+// The last of the list fills the gap.
+static void delist(plumb_world *world, uint32_t *list, uint32_t *count, uint32_t slot)
 {
     uint32_t place = world->pieces.moving[slot];
-    uint32_t last = pl_moving(world)[--world->moving_count];
-    pl_moving(world)[place] = last;
+    uint32_t last = list[--*count];
+    list[place] = last;
     world->pieces.moving[last] = place;
     world->pieces.moving[slot] = PL_NONE;
+}
+
+static void enlist_resting(plumb_world *world, uint32_t slot)
+{
+    pl_sleep *s = &world->sleep;
+    enlist(world, pl_resting(s), &s->resting_count, slot);
+    world->pieces.flags[slot] |= PL_PIECE_ASLEEP;
+    s->grid_stale = true;
+}
+
+static void delist_resting(plumb_world *world, uint32_t slot)
+{
+    pl_sleep *s = &world->sleep;
+    delist(world, pl_resting(s), &s->resting_count, slot);
+    world->pieces.flags[slot] &= (uint8_t)~PL_PIECE_ASLEEP;
+    ++s->gone;
+}
+
+void pl_piece_rest(plumb_world *world, uint32_t piece)
+{
+    delist(world, pl_moving(world), &world->moving_count, piece);
+    enlist_resting(world, piece);
+}
+
+void pl_piece_move(plumb_world *world, uint32_t piece)
+{
+    delist_resting(world, piece);
+    enlist(world, pl_moving(world), &world->moving_count, piece);
 }
 
 static void store_corners(plumb_world *world, uint32_t slot, const plumb_convex *convex)
@@ -83,6 +119,7 @@ static void fill_slot(plumb_world *world, uint32_t slot, uint32_t row, const pl_
     pieces->seams[slot] = made->seams;
     pieces->body[slot] = row;
     pieces->moving[slot] = PL_NONE;
+    pieces->first_dormant[slot] = PL_NONE;
     // Empty: whatever the tight box is, the piece has left its fat box.
     pieces->fat[slot] =
         (pl_box){ PLUMB_REAL_MAX, PLUMB_REAL_MAX, -PLUMB_REAL_MAX, -PLUMB_REAL_MAX };
@@ -90,8 +127,11 @@ static void fill_slot(plumb_world *world, uint32_t slot, uint32_t row, const pl_
     ++world->piece_kinds[made->kind];
     if (world->bodies.type[row] == PLUMB_STATIC) {
         world->static_dirty = true;
+    } else if (pl_row_is_asleep(world, row)) {
+        enlist_resting(world, slot);
+        world->sleep.boxes_stale = true;
     } else {
-        enlist_moving(world, slot);
+        enlist(world, pl_moving(world), &world->moving_count, slot);
     }
 }
 
@@ -122,6 +162,7 @@ uint32_t pl_pieces_add(plumb_world *world, uint32_t row, plumb_shape shape, cons
         ++world->part_pieces;
     }
     ++world->shape_count;
+    pl_sleep_disturb(world, row);
     world->pairs_dirty = true;
     world->schedule_dirty = true;
     return first;
@@ -147,9 +188,14 @@ static void free_slot(plumb_world *world, uint32_t slot)
     pl_pieces *pieces = &world->pieces;
     if (pieces->moving[slot] == PL_NONE) {
         world->static_dirty = true;
+    } else if ((pieces->flags[slot] & PL_PIECE_ASLEEP) != 0) {
+        delist_resting(world, slot);
+        pl_sensing_note_rest(world);
     } else {
-        delist_moving(world, slot);
+        delist(world, pl_moving(world), &world->moving_count, slot);
     }
+    pl_sleep_void_contacts(world, slot);
+    world->sleep.placed_pieces -= (pieces->flags[slot] & PL_PIECE_PLACED) != 0;
     if (pieces->vertex_count[slot] > 0) {
         pl_pool_give(&world->vertices, pieces->vertex_class[slot], pieces->vertices[slot]);
     }

@@ -66,6 +66,16 @@ static void count_row(plumb_world *world, pl_partition partition, bool opened)
     }
 }
 
+// Tells everyone where the body of a row is now.
+static void announce_row(plumb_world *world, uint32_t row)
+{
+    const pl_bodies *bodies = &world->bodies;
+    world->registry.slots[bodies->entity[row].index].row = row;
+    for (uint32_t p = bodies->first_piece[row]; p != PL_NONE; p = world->pieces.next_in_body[p]) {
+        world->pieces.body[p] = row;
+    }
+}
+
 static void move_row(plumb_world *world, uint32_t from, uint32_t to)
 {
     if (from == to) {
@@ -74,11 +84,44 @@ static void move_row(plumb_world *world, uint32_t from, uint32_t to)
     pl_bodies *bodies = &world->bodies;
     pl_table_copy(&bodies->table, pl_body_columns, pl_body_column_count, from, to);
     pl_poses(world)[to] = pl_poses(world)[from];
-    world->registry.slots[bodies->entity[to].index].row = to;
-    for (uint32_t p = bodies->first_piece[to]; p != PL_NONE; p = world->pieces.next_in_body[p]) {
-        world->pieces.body[p] = to;
-    }
+    announce_row(world, to);
     world->rows_moved = true;
+}
+
+static void swap_rows(plumb_world *world, uint32_t a, uint32_t b)
+{
+    if (a == b) {
+        return;
+    }
+    pl_table_swap(&world->bodies.table, pl_body_columns, pl_body_column_count, a, b);
+    pl_pose *poses = pl_poses(world), kept = poses[a];
+    poses[a] = poses[b];
+    poses[b] = kept;
+    announce_row(world, a);
+    announce_row(world, b);
+    world->rows_moved = true;
+}
+
+// Each partition on the way gives its last row for the first, or the reverse.
+uint32_t pl_row_to_asleep(plumb_world *world, uint32_t row)
+{
+    swap_rows(world, row, world->dynamic_count - 1);
+    uint32_t to = world->dynamic_count + world->kinematic_count - 1;
+    swap_rows(world, world->dynamic_count - 1, to);
+    --world->dynamic_count;
+    ++world->asleep_count;
+    world->schedule_dirty = true;
+    return to;
+}
+
+uint32_t pl_row_to_awake(plumb_world *world, uint32_t row)
+{
+    uint32_t first = world->dynamic_count + world->kinematic_count;
+    swap_rows(world, row, first);
+    swap_rows(world, first, world->dynamic_count);
+    --world->asleep_count;
+    world->schedule_dirty = true;
+    return world->dynamic_count++;
 }
 
 bool pl_rows_reserve(plumb_world *world, uint32_t extra)
@@ -104,6 +147,8 @@ uint32_t pl_row_open(plumb_world *world, pl_partition partition)
     pl_poses(world)[hole] = (pl_pose){ 0 };
     world->bodies.first_piece[hole] = PL_NONE;
     world->bodies.first_joint[hole] = PL_NONE;
+    world->bodies.island[hole] = PL_NONE;
+    world->bodies.still[hole] = PL_UNSEEN;
     world->schedule_dirty = true;
     return hole;
 }
@@ -113,6 +158,7 @@ void pl_row_close(plumb_world *world, uint32_t row)
     if (world->bodies.inv_inertia[row] > 0) {
         --world->turning_bodies;
     }
+    world->continuous_bodies -= (world->bodies.flags[row] & PL_BODY_CONTINUOUS) != 0;
     int partition = PL_PART_AWAKE;
     while (row >= pl_partition_first(world, (pl_partition)(partition + 1))) {
         ++partition;
@@ -167,6 +213,7 @@ static void destroy_shape(plumb_world *world, plumb_entity shape)
 {
     uint32_t first = pl_shape_piece(world, shape);
     uint32_t row = world->pieces.body[first];
+    pl_sleep_disturb(world, row);
     pl_pieces_remove(world, first);
     pl_registry_release(&world->registry, shape);
     pl_mass_revise(world, row);
@@ -177,6 +224,7 @@ static void destroy_body(plumb_world *world, plumb_entity body)
     uint32_t row = pl_body_row(world, body);
     pl_exclusions_forget(world, row);
     pl_character_forget(world, row);
+    pl_sleep_forget(world, row);
     while (world->bodies.first_piece[row] != PL_NONE) {
         plumb_entity shape = world->pieces.shape[world->bodies.first_piece[row]];
         pl_pieces_remove(world, world->bodies.first_piece[row]);

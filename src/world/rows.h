@@ -34,6 +34,16 @@ uint32_t pl_row_open(plumb_world *world, pl_partition partition);
 // Closes a row; at most one row of its own and of each later partition moves.
 void pl_row_close(plumb_world *world, uint32_t row);
 
+// Moves a row from the awake partition to the front of the sleeping one, and from there to the end of
+// the awake one; at most one row of each partition between moves. Returns where it is now.
+uint32_t pl_row_to_asleep(plumb_world *world, uint32_t row);
+uint32_t pl_row_to_awake(plumb_world *world, uint32_t row);
+
+static inline bool pl_row_is_asleep(const plumb_world *world, uint32_t row)
+{
+    return row - (world->dynamic_count + world->kinematic_count) < world->asleep_count;
+}
+
 //---- vertex pool (pool.c)
 //-------------------------------------------------------------------------
 
@@ -72,6 +82,9 @@ bool pl_pieces_reserve(plumb_world *world, uint32_t extra);
 uint32_t pl_pieces_add(plumb_world *world, uint32_t row, plumb_shape shape, const pl_made *made);
 // Removes the pieces of a shape, and its share of the material's users.
 void pl_pieces_remove(plumb_world *world, uint32_t first);
+// Moves a piece from the list of moving ones to that of resting ones, and back.
+void pl_piece_rest(plumb_world *world, uint32_t piece);
+void pl_piece_move(plumb_world *world, uint32_t piece);
 
 //---- mass (mass.c)
 //--------------------------------------------------------------------------------
@@ -102,6 +115,15 @@ bool pl_mass_resolve(const pl_mass_sum *sum, real set_mass, real set_inertia, pl
 void pl_mass_apply(plumb_world *world, uint32_t row, const pl_body_mass *mass);
 // All of that for a body whose shapes have changed; static and kinematic ones have no mass.
 void pl_mass_revise(plumb_world *world, uint32_t row);
+
+//---- size (extent.c)
+//---------------------------------------------------------------------------------
+
+// [m] half the least width of a piece, rounding included; 0 for segments. Inner cuts of an outline
+// are no sides where `seams` says so; without any side, PLUMB_REAL_MAX.
+real pl_piece_half_width(const plumb_world *world, uint32_t piece, bool seams);
+// Extent and slack of a dynamic or kinematic body whose shapes or centre have changed.
+void pl_extent_revise(plumb_world *world, uint32_t row);
 
 //---- making shapes (shape_make.c)
 //-----------------------------------------------------------------

@@ -7,6 +7,8 @@
 
 #include "broad/broad.h"
 #include "character/character.h"
+#include "core/tasks.h"
+#include "continuous/continuous.h"
 #include "ecs/command.h"
 #include "ecs/component.h"
 #include "ecs/registry.h"
@@ -17,6 +19,7 @@
 #include "plumb/event.h"
 #include "plumb/query.h"
 #include "solver/solver.h"
+#include "sleep/sleep.h"
 #include "step/pass.h"
 #include "world/columns.h"
 
@@ -42,6 +45,7 @@ typedef struct pl_pose {
 struct plumb_world {
     plumb_world_desc desc; // defaults resolved
     pl_memory memory;
+    pl_tasks *tasks;       // null: one thread
     plumb_vec2 gravity;
     uint64_t step_count;
     double time;
@@ -63,7 +67,7 @@ struct plumb_world {
     pl_commands commands;
 
     // Lists and flags that structural changes keep up.
-    pl_buffer moving;      // uint32_t: pieces of dynamic and kinematic bodies, unordered
+    pl_buffer moving;      // uint32_t: pieces of awake dynamic and of kinematic bodies, unordered
     uint32_t moving_count;
     pl_buffer poses;       // pl_pose a body row
     bool rows_moved;       // body rows changed place: pairs must look their rows up again
@@ -73,7 +77,9 @@ struct plumb_world {
 
     // Counters behind `wanted`: how many pieces or bodies ask for an effect.
     uint32_t piece_kinds[PL_PIECE_KIND_COUNT]; // live pieces of each kind
-    uint32_t turning_bodies;                   // awake dynamic bodies with inverse inertia > 0
+    uint32_t turning_bodies;                   // dynamic bodies with inverse inertia > 0, asleep or not
+
+    uint32_t continuous_bodies;                // dynamic bodies with PL_BODY_CONTINUOUS
 
     uint32_t sensor_pieces, filtered_pieces, part_pieces; // live pieces with the flag
     uint32_t one_way_pieces;
@@ -89,6 +95,7 @@ struct plumb_world {
     pl_broad broad;
     pl_narrow narrow;
     pl_solver solver;
+    pl_continuous continuous;
     pl_joints joints;
     pl_characters characters;
     pl_schedule schedule;
@@ -100,6 +107,7 @@ struct plumb_world {
     pl_parts parts;
     pl_blows blows;
     pl_sensing sensing;
+    pl_sleep sleep;
 
     // Locking and errors.
     const char *locked_by; // name of the system or hook that runs; NULL: structural changes allowed

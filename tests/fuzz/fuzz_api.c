@@ -8,7 +8,6 @@
 #include <string.h>
 
 #define HANDLES 16
-#define CALLS   20
 
 typedef struct script {
     const uint8_t *at, *end;
@@ -44,7 +43,8 @@ static plumb_shape shape_of(plumb_world *w, script *s, plumb_body body)
     for (int i = 0; i < 8; ++i) {
         points[i] = vec_of(s);
     }
-    plumb_shape_desc d = { .kind = (plumb_shape_kind)(byte_of(s) % 8), .density = real_of(s) };
+    unsigned kind = byte_of(s);
+    plumb_shape_desc d = { .kind = (plumb_shape_kind)(kind % 8), .density = real_of(s) };
     bool has_points = d.kind != PLUMB_CIRCLE && d.kind != PLUMB_BOX;
     d.radius = d.kind <= PLUMB_POLYGON ? real_of(s) : 0;
     d.half = d.kind == PLUMB_BOX ? vec_of(s) : (plumb_vec2){ 0, 0 };
@@ -53,8 +53,8 @@ static plumb_shape shape_of(plumb_world *w, script *s, plumb_body body)
               : d.kind == PLUMB_CAPSULE || d.kind == PLUMB_SEGMENT ? 2
                                                                    : 3 + (int)byte_of(s) % 6;
     d.closed = d.kind == PLUMB_CHAIN && byte_of(s) % 2;
-    if (byte_of(s) % 8 == 0) {
-        d.one_way = (plumb_one_way){ vec_of(s), real_of(s) };
+    if (kind >= 224) {
+        d.one_way = (plumb_one_way){ d.density > 0 ? points[0] : (plumb_vec2){ 0, 1 }, 0 };
     }
     return plumb_shape_create(w, body, &d);
 }
@@ -120,12 +120,30 @@ static void order(plumb_world *w, script *s, plumb_entity body)
     }
 }
 
-static void call(plumb_world *w, script *s, plumb_entity e[HANDLES])
+// `calls`: of how many kinds the script may choose.
+static void call(plumb_world *w, script *s, plumb_entity e[HANDLES], unsigned calls)
 {
     plumb_entity *slot = &e[byte_of(s) % HANDLES], other = e[byte_of(s) % HANDLES];
     plumb_ray_hit hit;
     plumb_material_desc m = { .friction = real_of(s), .restitution = real_of(s) };
-    switch (byte_of(s) % CALLS) {
+    switch (byte_of(s) % calls) {
+    case 12:
+        *slot = plumb_body_create(
+            w, &(plumb_body_desc){ .position = vec_of(s), .asleep = true });
+        break;
+    case 13:
+        plumb_body_sleep(w, other);
+        break;
+    case 14:
+        plumb_body_wake(w, other);
+        break;
+    case 15:
+        *slot = plumb_joint_create(
+            w, &(plumb_joint_desc){ .kind = (plumb_joint_kind)(byte_of(s) % 12),
+                                    .body_a = other,
+                                    .body_b = e[byte_of(s) % HANDLES],
+                                    .anchor = vec_of(s) });
+        break;
     case 0:
         *slot = plumb_body_create(w, &(plumb_body_desc){ .type = (plumb_body_type)(byte_of(s) % 4),
                                                          .position = vec_of(s) });
@@ -160,13 +178,13 @@ static void call(plumb_world *w, script *s, plumb_entity e[HANDLES])
     case 10:
         *slot = plumb_material_create(w, &m);
         break;
-    case 11:
-    case 12:
+    case 16:
+    case 17:
         ask(w, s);
         break;
-    case 13:
-    case 14:
-    case 15:
+    case 18:
+    case 19:
+    case 20:
         order(w, s, other);
         break;
     default:
@@ -181,12 +199,17 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     script s = { data, data + (size < 4096 ? size : 4096) };
     plumb_entity e[HANDLES] = { { 0, 0 } };
     plumb_world *w = NULL;
-    plumb_world_desc d = { .solver = (plumb_solver)(byte_of(&s) % 2), .simd_width = 4 };
+    // Seeds from before there were sleep and joints begin with less than 128, those from before there
+    // were characters with less than 192.
+    unsigned first = byte_of(&s);
+    plumb_world_desc d = { .solver = (plumb_solver)(first % 2), .simd_width = 4 };
+    const unsigned calls = first < 128 ? 12 : first < 192 ? 16 : 24;
+    d.sleep_time = first < 128 ? 0 : (plumb_real)0.1;
     if (plumb_world_create(&d, &w) != PLUMB_OK) {
         abort();
     }
     while (s.at < s.end) {
-        call(w, &s, e);
+        call(w, &s, e, calls);
     }
     plumb_world_destroy(w);
     return 0;

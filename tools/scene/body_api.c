@@ -284,6 +284,17 @@ static int method_set_fixed_rotation(lua_State *L)
     return 0;
 }
 
+static int method_set_continuous(lua_State *L)
+{
+    call c = self(L, "set_continuous");
+    luaL_checktype(L, 2, LUA_TBOOLEAN);
+    bool continuous = lua_toboolean(L, 2) != 0;
+    check(&c, plumb_body_set_continuous(c.world, c.entity, continuous));
+    c.body->def.continuous = continuous;
+    SC_GIVE(&sc_list_body, &c.body->def, sc_body_def, continuous);
+    return 0;
+}
+
 static int method_set_label(lua_State *L)
 {
     call c = self(L, "set_label");
@@ -345,6 +356,25 @@ static int method_apply_angular_impulse(lua_State *L)
         &c, plumb_body_apply_angular_impulse(c.world, c.entity, (plumb_real)finite_number(L, 2)));
 }
 
+static int method_awake(lua_State *L)
+{
+    call c = self(L, "awake");
+    lua_pushboolean(L, plumb_body_is_awake(c.world, c.entity));
+    return 1;
+}
+
+static int method_wake(lua_State *L)
+{
+    call c = self(L, "wake");
+    return check(&c, plumb_body_wake(c.world, c.entity));
+}
+
+static int method_sleep(lua_State *L)
+{
+    call c = self(L, "sleep");
+    return check(&c, plumb_body_sleep(c.world, c.entity));
+}
+
 static int method_destroy(lua_State *L)
 {
     call c = self(L, "destroy");
@@ -362,6 +392,7 @@ static const luaL_Reg methods[] = {
     { "apply_force", method_apply_force },
     { "apply_impulse", method_apply_impulse },
     { "apply_torque", method_apply_torque },
+    { "awake", method_awake },
     { "center", method_center },
     { "destroy", method_destroy },
     { "inertia", method_inertia },
@@ -369,17 +400,20 @@ static const luaL_Reg methods[] = {
     { "name", method_name },
     { "position", method_position },
     { "set_color", method_set_color },
+    { "set_continuous", method_set_continuous },
     { "set_fixed_rotation", method_set_fixed_rotation },
     { "set_gravity_scale", method_set_gravity_scale },
     { "set_label", method_set_label },
     { "set_mass", method_set_mass },
     { "set_spin", method_set_spin },
     { "set_velocity", method_set_velocity },
+    { "sleep", method_sleep },
     { "speed", method_speed },
     { "spin", method_spin },
     { "teleport", method_teleport },
     { "type", method_type },
     { "velocity", method_velocity },
+    { "wake", method_wake },
     { NULL, NULL },
 };
 

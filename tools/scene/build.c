@@ -27,6 +27,8 @@ static void make_world(scene *s, const sc_site *site)
         .push_speed = (plumb_real)d->push_speed,
         .restitution_speed = (plumb_real)d->restitution_speed,
         .simd_width = (int)d->simd_width,
+        .no_sleep = SC_GIVEN(&sc_list_scene, d, sc_settings, sleep) && !d->sleep,
+        .no_continuous = SC_GIVEN(&sc_list_scene, d, sc_settings, continuous) && !d->continuous,
         .allocator = { sc_world_resize, s },
     };
     plumb_result result = plumb_world_create(&desc, &s->world);
@@ -156,9 +158,17 @@ static void check_body(scene *s, const sc_site *site, const sc_body_def *d)
     }
     if (d->type != 0) {
         refuse(s, site, SC_GIVEN(list, d, sc_body_def, mass), "mass", kinds[d->type]);
+        refuse(s, site, d->continuous, "continuous", kinds[d->type]);
         refuse(s, site, d->fixed_rotation, "fixed_rotation", kinds[d->type]);
+        refuse(s, site, d->asleep, "asleep", kinds[d->type]);
+        refuse(s, site, SC_GIVEN(list, d, sc_body_def, sleep), "sleep", kinds[d->type]);
         refuse(s, site, SC_GIVEN(list, d, sc_body_def, gravity_scale), "gravity_scale",
                kinds[d->type]);
+    }
+    if (d->asleep) {
+        refuse(s, site, d->velocity[0] != 0 || d->velocity[1] != 0, "velocity", "sleeping");
+        refuse(s, site, d->spin != 0, "spin", "sleeping");
+        refuse(s, site, !d->sleep, "sleep", "sleeping");
     }
     if (d->type == 2) {
         refuse(s, site, SC_GIVEN(list, d, sc_body_def, velocity), "velocity", "static");
@@ -221,6 +231,9 @@ static void create_body(scene *s, const sc_site *site, sc_body *b)
                       .no_gravity = SC_GIVEN(&sc_list_body, d, sc_body_def, gravity_scale) &&
                                     d->gravity_scale == 0,
                       .fixed_rotation = d->fixed_rotation,
+                      .no_sleep = !d->sleep,
+                      .asleep = d->asleep,
+                      .continuous = d->continuous,
                       .user_data = b,
                   });
     if (plumb_is_null(b->entity)) {
@@ -256,7 +269,7 @@ void sc_build_body(scene *s, const sc_site *site, int table)
     luaL_checkstack(L, 20, NULL);
     table = lua_absindex(L, table);
     sc_need_world(s);
-    sc_body_def def = { .gravity_scale = 1, .color = { .palette = -1 } };
+    sc_body_def def = { .gravity_scale = 1, .sleep = true, .color = { .palette = -1 } };
     sc_read(s, site, &sc_list_body, table, &def);
     check_body(s, site, &def);
     if (SC_GIVEN(&sc_list_body, &def, sc_body_def, angle_deg)) {

@@ -160,6 +160,8 @@ typedef struct sc_settings {
     int y, solver;
     double dt, duration, seed, substeps, iterations;
     double contact_hertz, contact_damping, push_speed, restitution_speed, simd_width;
+    bool sleep; ///< read only where it was given
+    bool continuous;
 } sc_settings;
 
 typedef struct sc_material_def {
@@ -204,7 +206,7 @@ typedef struct sc_body_def {
     int type;
     double at[2], angle, angle_deg, velocity[2], spin;
     double mass, gravity_scale, density;
-    bool fixed_rotation, hidden, user;
+    bool fixed_rotation, hidden, user, sleep, asleep, continuous;
     char name[SC_NAME_SIZE];
     char label[SC_NAME_SIZE];
     sc_color color;

@@ -243,6 +243,11 @@ static void write_body(const scene *s, writer *w, const sc_body *b)
     SC_GIVE(list, &d, sc_body_def, angle);
     SC_GIVE(list, &d, sc_body_def, name);
     SC_GIVE(list, &d, sc_body_def, type);
+    bool asleep = d.type == 0 && !plumb_body_is_awake(s->world, b->entity);
+    if (asleep != d.asleep) {
+        d.asleep = asleep;
+        SC_GIVE(list, &d, sc_body_def, asleep);
+    }
     if (d.type != 2) {
         SC_GIVE(list, &d, sc_body_def, velocity);
         SC_GIVE(list, &d, sc_body_def, spin);

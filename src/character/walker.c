@@ -1,9 +1,9 @@
-// mover.c - a point among grown obstacles: where a way ends, how to get out of an overlap.
+// walker.c - a point among grown obstacles: where a way ends, how to get out of an overlap.
 //
-// An obstacle that the mover does not approach never stops it, however deep the two overlap: what is
+// An obstacle that the walker does not approach never stops it, however deep the two overlap: what is
 // inside of something can always leave. One-way shapes count where they hold, and there with the
-// faces that hold alone. Reads: obstacles. Writes: the mover's place, hits. Cost: O(obstacles).
-#include "character/mover.h"
+// faces that hold alone. Reads: obstacles. Writes: the walker's place, hits. Cost: O(obstacles).
+#include "character/walker.h"
 
 #include <math.h>
 
@@ -13,13 +13,13 @@
 #define SAME       1e-9
 #define RECOVERIES 12
 
-static bool may_stop(const pl_mover *m, const pl_obstacle *o, double nx, double ny)
+static bool may_stop(const pl_walker *m, const pl_obstacle *o, double nx, double ny)
 {
     return o->row != m->ignored_row &&
            (!o->is_one_way || (o->holds && nx * o->dx + ny * o->dy >= o->cosine));
 }
 
-bool pl_mover_sweep(const pl_mover *m, double dx, double dy, pl_touch *touch)
+bool pl_walker_sweep(const pl_walker *m, double dx, double dy, pl_touch *touch)
 {
     double length = sqrt(dx * dx + dy * dy);
     bool met = false;
@@ -40,8 +40,8 @@ bool pl_mover_sweep(const pl_mover *m, double dx, double dy, pl_touch *touch)
     return met;
 }
 
-bool pl_mover_probe(const pl_mover *m, double x, double y, double dx, double dy, pl_touch *touch,
-                    bool *inside)
+bool pl_walker_probe(const pl_walker *m, double x, double y, double dx, double dy, pl_touch *touch,
+                     bool *inside)
 {
     const pl_round spot = { .x = { x }, .y = { y }, .count = 1 };
     bool met = false;
@@ -67,12 +67,12 @@ bool pl_mover_probe(const pl_mover *m, double x, double y, double dx, double dy,
     return met;
 }
 
-void pl_mover_touch_point(const pl_mover *m, const pl_touch *touch, double *x, double *y)
+void pl_walker_touch_point(const pl_walker *m, const pl_touch *touch, double *x, double *y)
 {
     pl_round_touch(&touch->obstacle->fixed, &m->shape, m->x, m->y, touch->nx, touch->ny, x, y);
 }
 
-void pl_mover_tell(pl_mover *m, const pl_touch *touch, double speed)
+void pl_walker_tell(pl_walker *m, const pl_touch *touch, double speed)
 {
     pl_character *c = m->c;
     plumb_shape shape = m->world->pieces.shape[touch->obstacle->piece];
@@ -85,7 +85,7 @@ void pl_mover_tell(pl_mover *m, const pl_touch *touch, double speed)
         return;
     }
     double x, y;
-    pl_mover_touch_point(m, touch, &x, &y);
+    pl_walker_touch_point(m, touch, &x, &y);
     c->hits[c->hit_count++] = (plumb_character_hit){
         .shape = shape,
         .body = m->world->bodies.entity[touch->obstacle->row],
@@ -97,9 +97,9 @@ void pl_mover_tell(pl_mover *m, const pl_touch *touch, double speed)
 
 //---- overlaps -----------------------------------------------------------------------------------
 
-// The obstacle that the mover is deepest in. Dynamic ones move out of its way themselves, but for the
+// The obstacle that the walker is deepest in. Dynamic ones move out of its way themselves, but for the
 // one that it stands on: that has no contact with it, see pl_characters_feet.
-static const pl_obstacle *deepest(const pl_mover *m, pl_sum_near *at)
+static const pl_obstacle *deepest(const pl_walker *m, pl_sum_near *at)
 {
     const pl_obstacle *found = NULL;
     at->distance = 0;
@@ -120,26 +120,26 @@ static const pl_obstacle *deepest(const pl_mover *m, pl_sum_near *at)
 
 // Something has moved against it: its velocity loses what goes into that; on what comes from below it
 // stands.
-static void meet_moving(pl_mover *m, const pl_touch *t)
+static void meet_moving(pl_walker *m, const pl_touch *t)
 {
     pl_character *c = m->c;
     double vx, vy;
     pl_obstacle_velocity(t->obstacle, m->x, m->y, &vx, &vy);
     double approach = (vx - (double)c->velocity.x) * t->nx + (vy - (double)c->velocity.y) * t->ny;
-    pl_mover_tell(m, t, approach);
+    pl_walker_tell(m, t, approach);
     if (approach <= 0) {
         return;
     }
     c->velocity.x += (real)(approach * t->nx);
     c->velocity.y += (real)(approach * t->ny);
     if (!c->on_ground && !c->flies && pl_is_floor(m, t->nx, t->ny)) {
-        pl_mover_stand(m, t);
+        pl_walker_stand(m, t);
         m->carried_x = vx * m->dt;
         m->carried_y = vy * m->dt;
     }
 }
 
-void pl_mover_recover(pl_mover *m)
+void pl_walker_recover(pl_walker *m)
 {
     // What moved into it pushes it out at once; what it was put into, as fast as contacts do.
     double allowed = (double)m->world->desc.push_speed * m->dt + m->skin;
