@@ -130,7 +130,7 @@ static real approach_speed(const plumb_world *world, const pl_manifold *m)
 
 bool pl_events_prepare(plumb_world *world)
 {
-    uint32_t begins = world->narrow.manifold_count;
+    uint32_t begins = world->narrow.manifold_count + world->narrow.borne_count;
     if (!pl_buffer_reserve(&world->memory, &world->begin_events,
                            begins * sizeof(plumb_contact_begin)) ||
         !pl_events_reserve_ends(world, world->broad.pairs.count + world->parts.count) ||
@@ -145,7 +145,7 @@ bool pl_events_prepare(plumb_world *world)
     }
     pl_manifold *m = pl_manifolds(&world->narrow);
     const pl_pair *pairs = pl_pairs(&world->broad.pairs);
-    for (uint32_t i = 0; i < world->narrow.manifold_count; ++i) {
+    for (uint32_t i = 0; i < begins; ++i) {
         if (all || (pairs[m[i].pair].flags & PL_PAIR_TOUCHING) == 0) {
             m[i].approach = approach_speed(world, &m[i]);
         }
@@ -155,10 +155,11 @@ bool pl_events_prepare(plumb_world *world)
 
 //---- after the solver ----------------------------------------------------------------------------
 
-static bool touches(const pl_pair *pair, const pl_manifold *m)
+static bool touches(const plumb_world *world, const pl_pair *pair, const pl_manifold *m)
 {
     return (pair->flags & PL_PAIR_HIT) != 0 || pair->normal[0] > 0 || pair->normal[1] > 0 ||
-           m->point[0].separation <= 0 || m->point[1].separation <= 0;
+           m->point[0].separation <= 0 || m->point[1].separation <= 0 ||
+           ((pair->flags & PL_PAIR_BORNE) != 0 && pl_seams_borne_touches(world, m));
 }
 
 static const pl_manifold *manifold_of(const plumb_world *world, const pl_pair *pair)
@@ -351,7 +352,7 @@ static void publish_all(plumb_world *world)
     for (uint32_t i = 0; i < world->broad.pairs.count; ++i) {
         pl_pair *pair = &pairs[i];
         bool was = (pair->flags & PL_PAIR_TOUCHING) != 0;
-        bool is = pair->manifold != PL_NONE && touches(pair, manifold_of(world, pair));
+        bool is = pair->manifold != PL_NONE && touches(world, pair, manifold_of(world, pair));
         publish_pair(world, pair, i, was, is);
         pair->flags ^= is != was ? PL_PAIR_TOUCHING : 0;
     }
@@ -370,7 +371,7 @@ void pl_events_publish(plumb_world *world)
     for (uint32_t i = 0; i < world->broad.pairs.count; ++i) {
         pl_pair *pair = &pairs[i];
         bool was = (pair->flags & PL_PAIR_TOUCHING) != 0;
-        bool is = pair->manifold != PL_NONE && touches(pair, &manifolds[pair->manifold]);
+        bool is = pair->manifold != PL_NONE && touches(world, pair, &manifolds[pair->manifold]);
         if (is && !was) {
             append_begin(world, pair);
             pair->flags |= PL_PAIR_TOUCHING;

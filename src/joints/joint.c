@@ -43,6 +43,20 @@ bool pl_joints_forbid(const plumb_world *world, uint32_t row, uint32_t other)
     return false;
 }
 
+bool pl_joints_part(const plumb_world *world, uint32_t row)
+{
+    const pl_joint *items = pl_joint_items(&world->joints);
+    plumb_body body = world->bodies.entity[row];
+    for (uint32_t i = world->bodies.first_joint[row]; i != PL_NONE;
+         i = pl_joint_next(&items[i], body)) {
+        if (!items[i].desc.collide_connected && !plumb_is_null(items[i].a.body) &&
+            !plumb_is_null(items[i].b.body)) {
+            return true;
+        }
+    }
+    return false;
+}
+
 //---- sleep
 //----------------------------------------------------------------------------------------
 
@@ -290,6 +304,8 @@ static void revise_pairs(plumb_world *world, const pl_joint *joint)
     if (!joint->desc.collide_connected && !plumb_is_null(joint->a.body) &&
         !plumb_is_null(joint->b.body)) {
         world->pairs_dirty = true;
+        pl_seams_touch_static(world, pl_body_row(world, joint->a.body));
+        pl_seams_touch_static(world, pl_body_row(world, joint->b.body));
     }
     world->joints.awake_stale = true;
     world->schedule_dirty = true;

@@ -109,6 +109,8 @@ void pl_joint_disturb(plumb_world *world, const pl_joint *joint);
 uint32_t pl_joint_next(const pl_joint *joint, plumb_body body);
 // Whether a joint forbids contacts of two body rows. O(joints of `row`).
 bool pl_joints_forbid(const plumb_world *world, uint32_t row, uint32_t other);
+// Whether a joint forbids contacts of a body row with any other. O(joints of `row`).
+bool pl_joints_part(const plumb_world *world, uint32_t row);
 // Full turns, origin and poses up to date.
 void pl_joint_begin(const plumb_world *world, pl_joint *joint);
 

@@ -31,7 +31,7 @@ typedef struct pl_manifold {
     uint32_t count;             // points, 1 or 2
     uint32_t feature[2];
     uint32_t disabled; // by a system; only while the contact systems run
-    uint32_t pad;
+    uint32_t bearer;   // of manifolds behind manifold_count: pair that bears the load of this one
 } pl_manifold;
 
 // [m] separation of a point that is not there: no impulse can ever act on it.
@@ -40,6 +40,7 @@ typedef struct pl_manifold {
 typedef struct pl_narrow {
     pl_buffer manifolds; // pl_manifold of this step, room for every pair
     uint32_t manifold_count;
+    uint32_t borne_count; // more manifolds behind those, whose load others bear (seams/run.c)
     // Summary of this step's manifolds.
     bool any_friction;       // some manifold has friction > 0
     bool any_bounce;         // some manifold has restitution > 0

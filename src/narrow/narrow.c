@@ -78,8 +78,8 @@ void pl_narrow_take_out_disabled(plumb_world *world, uint32_t flag)
     pl_narrow *narrow = &world->narrow;
     pl_manifold *m = pl_manifolds(narrow);
     pl_pair *pairs = pl_pairs(&world->broad.pairs);
-    uint32_t kept = 0;
-    for (uint32_t i = 0; i < narrow->manifold_count; ++i) {
+    uint32_t kept = 0, count = narrow->manifold_count;
+    for (uint32_t i = 0; i < count; ++i) {
         if (m[i].disabled) {
             take_out(&pairs[m[i].pair], flag);
             continue;
@@ -91,6 +91,10 @@ void pl_narrow_take_out_disabled(plumb_world *world, uint32_t flag)
         ++kept;
     }
     narrow->manifold_count = kept;
+    for (uint32_t i = 0; i < narrow->borne_count && kept != count; ++i) { // those behind close up
+        m[kept + i] = m[count + i];
+        pairs[m[kept + i].pair].manifold = kept + i;
+    }
     pl_narrow_summarise(narrow);
 }
 

@@ -5,18 +5,21 @@
 // body that is half way through to whichever side is nearer, so each pair remembers what it does
 // while the two are near:
 //
-//     (near)  -- normal within the angle, no deeper than a little --> HELD   else --> PASSING
-//     HELD    -- the normal has left the angle (over an edge)      --> PASSING
-//     PASSING -- apart, and on the side that holds                 --> HELD
-//     HELD    -- its body asks to drop through                     --> DROPPING
-//     DROPPING-- the normal has left the angle: it is inside       --> PASSING
-//     any     -- no longer near                                    --> (forgotten)
+//     (near)   -- normal within the angle, no deeper than a little     --> HELD
+//     (near)   -- else, unless the body is on top of the piece         --> PASSING
+//     HELD     -- the normal has left the angle (over an edge)         --> (near)
+//     PASSING  -- apart                                                --> (near)
+//     HELD     -- its body asks to drop through                        --> DROPPING
+//     DROPPING -- the normal has left the angle: it is inside          --> PASSING
+//     any      -- no longer near                                       --> (forgotten)
 //
+// On top: beyond one of the faces that hold, or just below. A box that slides from tile to tile meets
+// the next one by its side, for a step, with next to no overlap; that must not be taken for passing.
 // HELD does not ask how deep the overlap is: a stack that presses a body into a platform stays on it
 // exactly as on a solid one.
 //
-// Reads: manifolds, pieces, rotations. Writes: manifolds, the pairs' flags. Order: after the narrow
-// phase, before surfaces. Cost: O(pairs) in worlds that have one-way shapes, nothing in others.
+// Reads: manifolds, pieces, rotations. Writes: manifolds, the pairs' flags. Order: after the kernels,
+// before seams, which see only what holds. Cost: O(pairs) in worlds that have one-way shapes, nothing in others.
 // Running it twice on the same manifolds changes nothing the second time (a step may be refused).
 #include "narrow/one_way.h"
 
@@ -66,6 +69,64 @@ static bool asks_to_drop(const plumb_world *world, const pl_pair *pair)
            (is_one_way(world, pair->b) && (flags[pair->body_a] & PL_BODY_DROPPING) != 0);
 }
 
+// How far a piece reaches against a direction, from a point. [m]
+static double reach_against(const plumb_world *world, uint32_t piece, plumb_vec2 n, plumb_vec2 from)
+{
+    const pl_pose *pose = &pl_poses(world)[world->pieces.body[piece]];
+    plumb_rot q = { pose->c, pose->s };
+    plumb_convex convex;
+    double least = (double)PLUMB_REAL_MAX;
+    pl_piece_convex(world, piece, &convex);
+    for (int i = 0; i < convex.count; ++i) {
+        plumb_vec2 p = plumb_rot_apply(q, convex.points[i]);
+        double x = (double)p.x + ((double)pose->x - (double)from.x);
+        double y = (double)p.y + ((double)pose->y - (double)from.y);
+        double h = (double)n.x * x + (double)n.y * y;
+        least = h < least ? h : least;
+    }
+    return least - (double)convex.radius;
+}
+
+// The other piece lies beyond a face of the one-way piece that holds, or no deeper than a little.
+static bool is_on_top(const plumb_world *world, uint32_t piece, uint32_t other)
+{
+    const pl_pose *pose = &pl_poses(world)[world->pieces.body[piece]];
+    plumb_rot q = { pose->c, pose->s };
+    plumb_convex convex;
+    pl_piece_convex(world, piece, &convex);
+    if (convex.count == 1) { // a circle holds with its top
+        convex.normals[0] =
+            plumb_v2(world->pieces.one_way_x[piece], world->pieces.one_way_y[piece]);
+    }
+    for (int i = 0; i < convex.count; ++i) {
+        plumb_vec2 n = plumb_rot_apply(q, convex.normals[i]);
+        plumb_vec2 at = plumb_rot_apply(q, convex.points[i]);
+        if (!pl_one_way_blocks(world, piece, n, 0)) {
+            continue;
+        }
+        at = plumb_vec2_add(at, plumb_v2(pose->x, pose->y));
+        if (reach_against(world, other, n, at) - (double)convex.radius >= -(double)FOUND_HELD) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool pair_is_on_top(const plumb_world *world, const pl_pair *pair)
+{
+    return (!is_one_way(world, pair->a) || is_on_top(world, pair->a, pair->b)) &&
+           (!is_one_way(world, pair->b) || is_on_top(world, pair->b, pair->a));
+}
+
+// Of a pair that is near and does nothing yet.
+static uint32_t first_state(const plumb_world *world, const pl_pair *pair, bool faces, bool shallow)
+{
+    if (faces && shallow) {
+        return asks_to_drop(world, pair) ? PL_PAIR_DROPPING : PL_PAIR_HELD;
+    }
+    return !faces && pair_is_on_top(world, pair) ? 0 : PL_PAIR_PASSING;
+}
+
 static uint32_t next_state(const plumb_world *world, const pl_pair *pair, const pl_manifold *m)
 {
     bool faces = faces_hold(world, pair, m);
@@ -75,15 +136,11 @@ static uint32_t next_state(const plumb_world *world, const pl_pair *pair, const 
     case PL_PAIR_DROPPING:
         return faces ? PL_PAIR_DROPPING : PL_PAIR_PASSING;
     case PL_PAIR_PASSING:
-        return faces && separation > 0 ? PL_PAIR_HELD : PL_PAIR_PASSING;
+        return separation > 0 ? first_state(world, pair, faces, true) : PL_PAIR_PASSING;
     case PL_PAIR_HELD:
-        return !faces                      ? PL_PAIR_PASSING
-               : asks_to_drop(world, pair) ? PL_PAIR_DROPPING
-                                           : PL_PAIR_HELD;
+        return first_state(world, pair, faces, true);
     default:
-        return faces && separation >= -FOUND_HELD
-                   ? (asks_to_drop(world, pair) ? PL_PAIR_DROPPING : PL_PAIR_HELD)
-                   : PL_PAIR_PASSING;
+        return first_state(world, pair, faces, separation >= -FOUND_HELD);
     }
 }
 

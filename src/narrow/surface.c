@@ -96,8 +96,9 @@ void pl_surfaces_mix(plumb_world *world)
 void pl_narrow_summarise(pl_narrow *narrow)
 {
     const pl_manifold *m = pl_manifolds(narrow);
-    *narrow =
-        (pl_narrow){ .manifolds = narrow->manifolds, .manifold_count = narrow->manifold_count };
+    *narrow = (pl_narrow){ .manifolds = narrow->manifolds,
+                           .manifold_count = narrow->manifold_count,
+                           .borne_count = narrow->borne_count };
     for (uint32_t i = 0; i < narrow->manifold_count; ++i) {
         real s0 = m[i].point[0].separation, s1 = m[i].point[1].separation;
         real depth = s0 < s1 ? -s0 : -s1;

@@ -87,6 +87,11 @@ static bool feet_wanted(const plumb_world *world, const char **reason)
     return collision_wanted(world, reason) && pl_characters_wanted(world, reason);
 }
 
+static bool seams_wanted(const plumb_world *world, const char **reason)
+{
+    return collision_wanted(world, reason) && pl_seams_wanted(world, reason);
+}
+
 static bool joints_wanted(const plumb_world *world, const char **reason)
 {
     if (world->joints.live > 0 && !pl_joints_any_awake(world)) {
@@ -215,20 +220,25 @@ static plumb_result run_narrow(plumb_world *world, plumb_real dt)
         return PLUMB_E_MEMORY;
     }
     pl_narrow_run(world, &world->broad.pairs, dt, &world->narrow);
+    if (world->one_way_pieces > 0) {
+        pl_one_way_run(world);
+    }
+    if (world->seams.pair_count > 0) {
+        pl_seams_correct(world, dt);
+    }
     return pl_events_prepare(world) ? PLUMB_OK : PLUMB_E_MEMORY;
+}
+
+static plumb_result run_seams(plumb_world *world, plumb_real dt)
+{
+    (void)dt;
+    return pl_seams_update(world) ? PLUMB_OK : PLUMB_E_MEMORY;
 }
 
 static plumb_result run_candidates(plumb_world *world, plumb_real dt)
 {
     (void)dt;
     return pl_sensing_prepare(world) ? PLUMB_OK : PLUMB_E_MEMORY;
-}
-
-static plumb_result run_one_way(plumb_world *world, plumb_real dt)
-{
-    (void)dt;
-    pl_one_way_run(world);
-    return PLUMB_OK;
 }
 
 static plumb_result run_surfaces(plumb_world *world, plumb_real dt)
@@ -298,6 +308,9 @@ static plumb_result run_reactions(plumb_world *world, plumb_real dt)
 static plumb_result run_events(plumb_world *world, plumb_real dt)
 {
     (void)dt;
+    if (world->seams.load_count > 0) {
+        pl_seams_remember(world);
+    }
     pl_events_publish(world);
     return PLUMB_OK;
 }
@@ -319,8 +332,9 @@ const pl_pass pl_passes[] = {
     { "characters",    "forces",   "grids, poses, velocities",        "velocities, forces",        pl_characters_wanted, run_characters },
     { "waking",      "broad",    "islands, pieces, grids, joints",   "rows, pairs, fat boxes",     waking_wanted,    run_waking },
     { "broad phase",   "broad",    "poses, pieces",                   "fat boxes, grids, pairs",   broad_wanted,     run_broad },
+    { "seams",         "broad",    "static pieces, grids, pairs",     "covered edges, corners",    seams_wanted,     run_seams },
     { "narrow phase",  "narrow",   "pairs, poses, pieces, materials", "manifolds",                 collision_wanted, run_narrow },
-    { "one-way",       "narrow",   "manifolds, pieces, rotations",    "manifolds, pairs",          one_way_wanted,   run_one_way },
+    { "- one-way",     "narrow",   "manifolds, pieces, rotations",    "manifolds, pairs",          one_way_wanted,   NULL },
     { "surfaces",      "narrow",   "pairs, materials",                "manifolds",                 surfaces_wanted,  run_surfaces },
     { "feet",          "narrow",   "manifolds, characters",           "manifolds",                 feet_wanted,      run_feet },
     { "sleep",       "narrow",   "velocities, pairs, joints",        "islands, rows, pairs, manifolds", sleep_wanted, run_sleep },

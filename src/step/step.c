@@ -23,7 +23,7 @@ static void revise_schedule(plumb_world *world)
 // Nothing is left from a step in which there was collision.
 static void forget_contacts(plumb_world *world)
 {
-    world->narrow.manifold_count = 0;
+    world->narrow.manifold_count = world->narrow.borne_count = 0;
     world->narrow.any_friction = world->narrow.any_bounce = false;
     world->solver.slot_count = 0;
     world->joints.broken_count = 0;

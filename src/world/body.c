@@ -177,6 +177,7 @@ void pl_body_place(plumb_world *world, uint32_t row, plumb_vec2 position, plumb_
         world->pairs_dirty = true;
         world->static_dirty |= b->type[row] == PLUMB_STATIC;
         world->sleep.boxes_stale |= b->island[row] != PL_NONE;
+        pl_seams_move_static(world, row);
     }
 }
 

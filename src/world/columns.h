@@ -66,6 +66,8 @@ typedef plumb_real real;
     X(uint8_t, vertex_class)       /* size class of its run in the pool */                          \
     X(uint32_t, vertices)          /* first corner in the vertex pool */                            \
     X(uint32_t, seams)             /* bit k: edge k is an inner cut */                              \
+    X(uint32_t, seam_corners)      /* PL_SEAM_...: corners that neighbours narrow (seams/seams.h) */ \
+    X(uint32_t, seam_edges)        /* PL_SEAM_...: edges that neighbours cover */                   \
     X(uint32_t, body)              /* body row; follows the row when it moves */                    \
     X(uint32_t, next_in_body)      /* next piece of the body, PL_NONE ends */                       \
     X(uint32_t, next_in_shape)     /* next piece of the shape, PL_NONE ends; also the free list */  \

@@ -148,10 +148,11 @@ static int list_contacts(const plumb_world *world, uint32_t row, plumb_contact *
 {
     int count = 0;
     const pl_pair *pairs = pl_pairs(&world->broad.pairs);
+    const uint32_t made = world->narrow.manifold_count + world->narrow.borne_count;
     for (uint32_t i = 0; i < world->broad.pairs.count; ++i) {
         const pl_pair *pair = &pairs[i];
         // Pairs of a step without collision still name manifolds that are gone.
-        if (!(pair->flags & PL_PAIR_TOUCHING) || pair->manifold >= world->narrow.manifold_count ||
+        if (!(pair->flags & PL_PAIR_TOUCHING) || pair->manifold >= made ||
             !is_intact(world, pair)) {
             continue;
         }

@@ -161,6 +161,7 @@ uint32_t pl_pieces_add(plumb_world *world, uint32_t row, plumb_shape shape, cons
         pieces->flags[p] |= PL_PIECE_PART;
         ++world->part_pieces;
     }
+    pl_seams_touch_shape(world, first);
     ++world->shape_count;
     pl_sleep_disturb(world, row);
     world->pairs_dirty = true;
@@ -186,6 +187,7 @@ static void unlink_from_body(plumb_world *world, uint32_t first)
 static void free_slot(plumb_world *world, uint32_t slot)
 {
     pl_pieces *pieces = &world->pieces;
+    pl_seams_forget(world, slot);
     if (pieces->moving[slot] == PL_NONE) {
         world->static_dirty = true;
     } else if ((pieces->flags[slot] & PL_PIECE_ASLEEP) != 0) {
@@ -214,12 +216,16 @@ static void free_slot(plumb_world *world, uint32_t slot)
 
 void pl_pieces_remove(plumb_world *world, uint32_t first)
 {
+    const uint32_t *left = &world->bodies.first_piece[world->pieces.body[first]];
     unlink_from_body(world, first);
     uint32_t slot = first;
     while (slot != PL_NONE) {
         uint32_t next = world->pieces.next_in_shape[slot];
         free_slot(world, slot);
         slot = next;
+    }
+    if (*left != PL_NONE && !pl_piece_is_static(world, *left)) {
+        pl_seams_touch(world, *left); // one stale piece stands for the whole of a moving body
     }
     --world->shape_count;
     world->pairs_dirty = true;

@@ -18,6 +18,7 @@
 #include "narrow/manifold.h"
 #include "plumb/event.h"
 #include "plumb/query.h"
+#include "seams/seams.h"
 #include "solver/solver.h"
 #include "sleep/sleep.h"
 #include "step/pass.h"
@@ -96,6 +97,7 @@ struct plumb_world {
     pl_narrow narrow;
     pl_solver solver;
     pl_continuous continuous;
+    pl_seams seams;
     pl_joints joints;
     pl_characters characters;
     pl_schedule schedule;

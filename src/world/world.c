@@ -148,6 +148,7 @@ static void free_world(plumb_world *world)
     pl_tasks_destroy(&memory, world->tasks);
     pl_broad_free(&memory, &world->broad);
     pl_narrow_free(&memory, &world->narrow);
+    pl_seams_free(&memory, &world->seams);
     pl_solver_free(&memory, &world->solver);
     pl_joints_free(&memory, &world->joints);
     pl_characters_free(&memory, &world->characters);

@@ -29,7 +29,7 @@ static bool scheduled(plumb_world *world)
     plumb_pass_info rows[64];
     int count = plumb_world_schedule(world, rows, 64);
     for (int i = 0; i < count; ++i) {
-        if (strcmp(rows[i].name, "one-way") == 0) {
+        if (strcmp(rows[i].name, "- one-way") == 0) {
             return rows[i].scheduled;
         }
     }

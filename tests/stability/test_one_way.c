@@ -312,6 +312,39 @@ static void dropping_through(void **state)
     }
 }
 
+// Row upon row of one-way tiles is one platform: what slides over it neither stops nor sinks in.
+static void tiles_in_a_row(void **state)
+{
+    (void)state;
+    for (int solver = 0; solver < SOLVERS; ++solver) {
+        for (int ball = 0; ball < 2; ++ball) {
+            for (double speed = 0.5; speed < 40; speed *= 3) {
+                plumb_world *world = make_world(solver);
+                plumb_body ground =
+                    plumb_body_create(world, &(plumb_body_desc){ .type = PLUMB_STATIC });
+                plumb_material ice = plumb_material_create(world, &(plumb_material_desc){ 0 });
+                for (int i = -4; i < 120; ++i) {
+                    plumb_shape_create(world, ground,
+                                       &(plumb_shape_desc){ .kind = PLUMB_BOX,
+                                                            .half = { R(0.25), R(0.25) },
+                                                            .center = { R(i * 0.5), R(-0.25) },
+                                                            .material = ice,
+                                                            .one_way = upwards });
+                }
+                plumb_body body = ball ? add_ball(world, V(0, 0.5), V(speed, 0))
+                                       : add_box(world, V(0, 0.5), V(speed, 0));
+                plumb_body_set_fixed_rotation(world, body, !ball);
+                double seconds = fmin(50 / speed, 6);
+                run(world, seconds);
+                assert_true(fabs(y_of(world, body) - 0.5) < 5e-3);
+                plumb_vec2 v = plumb_body_velocity(world, body);
+                assert_true(fabs((double)v.x - speed) < 0.01 * speed);
+                plumb_world_destroy(world);
+            }
+        }
+    }
+}
+
 // The angle: of a roof's two slopes, a narrow one holds neither, a wide one both.
 static void the_angle_counts(void **state)
 {
@@ -371,6 +404,7 @@ int main(void)
         cmocka_unit_test(dropping_through),
         cmocka_unit_test(the_angle_counts),
         cmocka_unit_test(what_passes_is_no_contact),
+        cmocka_unit_test(tiles_in_a_row),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
