@@ -14,6 +14,7 @@
 ///   included), is pushed aside by kinematic bodies, never pushed by dynamic ones. Other bodies meet it
 ///   as a kinematic body; it pushes dynamic ones with a limited force and weighs on them.
 /// - dynamic: a body that cannot turn, driven by forces: everything can push it, its mass counts.
+/// When the body's type is changed, it goes on as the other kind, by those of its settings that are for both.
 /// Its shape is the first of the body's that is no sensor, one convex piece (a capsule, best), as it is turned
 /// when the step begins.
 ///

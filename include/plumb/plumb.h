@@ -17,5 +17,6 @@
 #include "plumb/event.h"
 #include "plumb/sleep.h"
 #include "plumb/query.h"
+#include "plumb/effect.h"
 
 #endif

@@ -47,9 +47,8 @@ bool pl_broad_update_grids(plumb_world *world, real dt, bool *stale)
 {
     pl_broad *broad = &world->broad;
     // Poses change in steps, and else only together with the flags: one query after another is free.
-    if (dt == 0 && !world->pairs_dirty && !world->static_dirty &&
-        !world->sleep.boxes_stale && !world->sleep.grid_stale &&
-        broad->filed_step == world->step_count) {
+    if (dt == 0 && !world->pairs_dirty && !world->static_dirty && !world->sleep.boxes_stale &&
+        !world->sleep.grid_stale && broad->filed_step == world->step_count) {
         *stale = broad->stale;
         return true;
     }

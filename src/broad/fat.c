@@ -97,6 +97,9 @@ static void refresh_pose_velocities(plumb_world *world)
         poses[row].vx = bounded(b->vx[row]);
         poses[row].vy = bounded(b->vy[row]);
     }
+    if (world->tunings.scaled > 0) {
+        pl_effects_poses(world);
+    }
 }
 
 static pl_box fattened(pl_box needed, const pl_box *tight)

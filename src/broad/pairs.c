@@ -165,7 +165,7 @@ static void lose_pair(plumb_world *world, const pl_pair *pair)
     const uint32_t ends[2] = { pair->a, pair->b };
     for (int i = 0; i < 2 && pair->manifold != PL_NONE; ++i) {
         if (pieces->kind[ends[i]] != PL_PIECE_FREE) {
-            world->bodies.still[pieces->body[ends[i]]] = PL_UNSEEN;
+            world->bodies.looked[pieces->body[ends[i]]] = PL_UNSEEN;
         }
     }
     pl_pair_lost(world, pair);
@@ -199,6 +199,7 @@ static void place_pairs(plumb_world *world, pl_pair *items, carry *c)
                 item->body_b = body[old->b];
                 continue;
             }
+            pl_pair_lost(world, old); // other pieces in the same slots
         }
         *item = pl_pair_fresh(world, sorted[i]);
     }
@@ -233,6 +234,8 @@ bool pl_pairs_rebuild(plumb_world *world)
     pl_buffer items = list->items;
     list->items = list->old_items;
     list->old_items = items;
+    world->schedule_dirty |= (list->count > 0) != (broad->found_count > 0);
+    world->parts.buried = false;
     list->count = broad->found_count;
     broad->serial = world->serial;
     return true;

@@ -145,7 +145,6 @@ plumb_result plumb_character_create(plumb_world *world, plumb_body body,
         (pl_character){ .body = body, .desc = *desc, .velocity = { b->vx[row], b->vy[row] } };
     world->bodies.character[row] = ++all->count;
     if (b->type[row] == PLUMB_DYNAMIC) {
-        ++all->dynamic_count;
         plumb_body_set_fixed_rotation(world, body, true);
     }
     world->schedule_dirty = true;
@@ -165,7 +164,6 @@ void pl_character_forget(plumb_world *world, uint32_t row)
     *c = *last;
     world->bodies.character[row] = 0;
     --all->count;
-    all->dynamic_count -= world->bodies.type[row] == PLUMB_DYNAMIC;
     world->schedule_dirty = true;
 }
 

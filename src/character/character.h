@@ -56,22 +56,22 @@ typedef struct pl_character {
 } pl_character;
 
 // A force that was added to a body: what it had before.
-typedef struct pl_push {
+typedef struct pl_shove {
     plumb_body body;
     real fx, fy, torque;
-} pl_push;
+} pl_shove;
 
 typedef struct pl_characters {
     pl_buffer items; // pl_character, unordered
     pl_buffer saved; // the same, as before the step
     uint32_t count;
-    uint32_t dynamic_count; // of dynamic bodies
     uint32_t turn;
     bool moved;          // in this step: it can be undone
+    bool walks;          // some dynamic one was driven in this step
     bool treads;         // some kinematic one stands on a dynamic body
     pl_buffer obstacles; // pl_obstacle, scratch of one character
     pl_buffer near;      // uint32_t, pieces near it
-    pl_buffer pushes;    // pl_push of this step
+    pl_buffer pushes;    // pl_shove of this step
     uint32_t push_count;
 } pl_characters;
 

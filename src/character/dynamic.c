@@ -63,10 +63,10 @@ static void act(pl_walker *m, double fx, double fy, bool on_ground)
     plumb_world *world = m->world;
     const pl_ground *g = &m->c->ground;
     const pl_bodies *b = &world->bodies;
-    pl_push_add(world, m->row, fx, fy, (double)b->center_x[m->row], (double)b->center_y[m->row]);
+    pl_shove_add(world, m->row, fx, fy, (double)b->center_x[m->row], (double)b->center_y[m->row]);
     uint32_t row = on_ground ? pl_body_row(world, g->body) : PL_NONE;
     if (row != PL_NONE && b->type[row] == PLUMB_DYNAMIC) {
-        pl_push_add(world, row, -fx, -fy, (double)g->point.x, (double)g->point.y);
+        pl_shove_add(world, row, -fx, -fy, (double)g->point.x, (double)g->point.y);
     }
 }
 
@@ -82,7 +82,7 @@ static void jump(pl_walker *m)
     uint32_t row = pl_body_row(m->world, c->ground.body);
     if (row != PL_NONE && b->type[row] == PLUMB_DYNAMIC) {
         double force = -gain * (double)b->mass[m->row] / m->dt;
-        pl_push_add(m->world, row, force * m->ux, force * m->uy, (double)c->ground.point.x,
+        pl_shove_add(m->world, row, force * m->ux, force * m->uy, (double)c->ground.point.x,
                     (double)c->ground.point.y);
     }
     c->on_ground = false;

@@ -87,8 +87,11 @@ static void resolve(pl_walker *m)
 
 bool pl_walker_begin(plumb_world *world, pl_character *c, real dt, pl_walker *m)
 {
-    *m = (pl_walker){ .world = world, .c = c, .dt = (double)dt, .ignored_row = PL_NONE };
-    m->row = pl_body_row(world, c->body);
+    uint32_t row = pl_body_row(world, c->body);
+    *m = (pl_walker){ .world = world, .c = c, .row = row, .step = (double)dt };
+    m->scale = (double)pl_time_scale(world, row);
+    m->dt = m->step * m->scale;
+    m->ignored_row = PL_NONE;
     m->piece = solid_piece(world, m->row);
     plumb_vec2 up = pl_character_up(world, c, m->row);
     m->ux = (double)up.x, m->uy = (double)up.y;
@@ -99,7 +102,7 @@ bool pl_walker_begin(plumb_world *world, pl_character *c, real dt, pl_walker *m)
     m->nx = (double)c->ground.normal.x, m->ny = (double)c->ground.normal.y;
     const pl_pose *pose = &pl_poses(world)[m->row];
     m->start = plumb_v2(pose->x, pose->y);
-    if (m->piece == PL_NONE) {
+    if (m->piece == PL_NONE || !(m->dt > 0)) {
         return false;
     }
     plumb_convex convex;
@@ -154,6 +157,7 @@ plumb_transform pl_row_end_pose(const plumb_world *world, uint32_t row, double d
     const pl_bodies *b = &world->bodies;
     const pl_pose *pose = &pl_poses(world)[row];
     plumb_rot q = { pose->c, pose->s };
+    dt *= (double)pl_time_scale(world, row);
     plumb_rot end = plumb_rot_integrate(q, (real)dt * b->w[row]);
     plumb_vec2 arm = plumb_v2(-pose->dx, -pose->dy); // from the centre to the origin
     arm = plumb_rot_apply(end, plumb_rot_inv_apply(q, arm));
@@ -194,7 +198,7 @@ static void judge_one_way(const pl_walker *m, pl_obstacle *o, const plumb_convex
     bool dropping;
     o->holds = !is_under_way(m->c, p->shape[o->piece], &dropping) &&
                pl_one_way_blocks(m->world, o->piece, normal, (real)near.distance);
-    plumb_transform end = pl_row_end_pose(m->world, o->row, m->dt);
+    plumb_transform end = pl_row_end_pose(m->world, o->row, m->step);
     plumb_vec2 d = plumb_rot_apply(end.q, plumb_v2(p->one_way_x[o->piece], p->one_way_y[o->piece]));
     o->dx = (double)d.x, o->dy = (double)d.y;
     o->cosine = (double)p->one_way_cos[o->piece];
@@ -211,13 +215,15 @@ static void make_obstacle(const pl_walker *m, uint32_t piece, pl_obstacle *o)
     o->is_dynamic = b->type[row] == PLUMB_DYNAMIC;
     o->is_ground = m->c->on_ground && plumb_same(b->entity[row], m->c->ground.body);
     if (b->type[row] == PLUMB_KINEMATIC || (o->is_dynamic && o->is_ground)) {
-        o->vx = (double)b->vx[row], o->vy = (double)b->vy[row], o->w = (double)b->w[row];
+        double pace = (double)pl_time_scale(world, row) / m->scale; // in the character's own time
+        o->vx = pace * (double)b->vx[row], o->vy = pace * (double)b->vy[row];
+        o->w = pace * (double)b->w[row];
     }
     plumb_convex convex;
     plumb_transform now = pl_query_frame(world, piece);
     bool moves = o->vx != 0 || o->vy != 0 || o->w != 0;
     pl_query_convex(world, piece, &convex);
-    pl_round_make(&convex, moves ? pl_row_end_pose(world, row, m->dt) : now, m->start, &o->fixed);
+    pl_round_make(&convex, moves ? pl_row_end_pose(world, row, m->step) : now, m->start, &o->fixed);
     pl_sum_make(&o->fixed, &m->shape, &o->sum);
     o->sum.radius += m->skin;
     if (moves) {
@@ -238,7 +244,7 @@ static double turning_reach(const plumb_world *world, double dt)
     double most = 0;
     for (uint32_t row = world->dynamic_count; row < world->dynamic_count + world->kinematic_count;
          ++row) {
-        double w = fabs((double)world->bodies.w[row]);
+        double w = fabs((double)(world->bodies.w[row] * pl_time_scale(world, row)));
         uint32_t p = w > 0 ? world->bodies.first_piece[row] : PL_NONE;
         for (; p != PL_NONE; p = world->pieces.next_in_body[p]) {
             most = fmax(most, w * dt * (double)world->pieces.core[p].reach);
@@ -252,7 +258,7 @@ bool pl_walker_look(pl_walker *m, double reach)
     plumb_world *world = m->world;
     search s = { .m = m };
     pl_box box = pl_piece_tight_box(world, m->piece);
-    real wide = (real)fmin(reach + turning_reach(world, m->dt) + m->skin, (double)PL_LARGEST);
+    real wide = (real)fmin(reach + turning_reach(world, m->step) + m->skin, (double)PL_LARGEST);
     box.min_x -= wide, box.min_y -= wide, box.max_x += wide, box.max_y += wide;
     if (!pl_grid_query(&world->broad.moving, box, list_piece, &s) ||
         !pl_grid_query(&world->broad.resting, box, list_resting, &s) ||

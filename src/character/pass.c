@@ -48,7 +48,7 @@ static plumb_vec2 carry_of(const pl_walker *m)
     }
     const pl_pose *pose = &pl_poses(m->world)[row];
     plumb_transform now = { { pose->x, pose->y }, { pose->c, pose->s } };
-    plumb_transform end = pl_row_end_pose(m->world, row, m->dt);
+    plumb_transform end = pl_row_end_pose(m->world, row, m->step);
     return plumb_vec2_sub(plumb_transform_apply(end, c->ground.local),
                           plumb_transform_apply(now, c->ground.local));
 }
@@ -151,7 +151,7 @@ static void finish_ground(pl_walker *m)
     if (row == PL_NONE) {
         return;
     }
-    plumb_transform end = pl_row_end_pose(m->world, row, m->dt);
+    plumb_transform end = pl_row_end_pose(m->world, row, m->step);
     c->ground.local = plumb_transform_inv_apply(end, c->ground.point);
     c->velocity.x = c->ground.velocity.x + c->speed * (real)m->ny;
     c->velocity.y = c->ground.velocity.y - c->speed * (real)m->nx;
@@ -193,7 +193,7 @@ static bool move_one(plumb_world *world, pl_character *c, real dt)
     finish_ground(&m);
     pl_walker_weigh(&m);
     c->pushed = m.pushed ? c->pushed : (plumb_body)PLUMB_NULL_INIT;
-    c->air_time = c->on_ground ? 0 : c->air_time + dt;
+    c->air_time = c->on_ground ? 0 : c->air_time + (real)m.dt;
     // Coming to rest again where it stood, off by a rounding, it has not moved.
     double rounding = 4 * (double)PLUMB_REAL_EPSILON *
                       (fabs((double)m.start.x) + fabs((double)m.start.y) + m.half_width);
@@ -210,7 +210,7 @@ static bool reserve(plumb_world *world)
     pl_characters *all = &world->characters;
     return pl_buffer_reserve(&world->memory, &all->saved, all->count * sizeof(pl_character)) &&
            pl_buffer_reserve(&world->memory, &all->pushes,
-                             (size_t)all->count * PUSHES_EACH * sizeof(pl_push));
+                             (size_t)all->count * PUSHES_EACH * sizeof(pl_shove));
 }
 
 // Kinematic ones that are yet to move stand still for the others.
@@ -228,7 +228,7 @@ static void save(plumb_world *world)
     }
     memcpy(all->saved.data, items, all->count * sizeof *items);
     all->push_count = 0;
-    all->treads = false;
+    all->treads = all->walks = false;
     all->moved = true;
     ++all->turn;
 }
@@ -247,7 +247,12 @@ static bool move_in_order(plumb_world *world, pl_character *c, real dt)
     while (count > 0) {
         pl_character *next = chain[--count];
         uint32_t row = pl_body_row(world, next->body);
-        bool is_dynamic = world->bodies.type[row] == PLUMB_DYNAMIC;
+        uint8_t type = world->bodies.type[row];
+        if ((world->bodies.flags[row] & PL_BODY_DISABLED) != 0 || type == PLUMB_STATIC) {
+            continue;
+        }
+        bool is_dynamic = type == PLUMB_DYNAMIC;
+        world->characters.walks |= is_dynamic;
         if (!(is_dynamic ? pl_character_drive(world, next, dt) : move_one(world, next, dt))) {
             return false;
         }
@@ -281,9 +286,9 @@ void pl_characters_undo(plumb_world *world)
     if (!all->moved) {
         return;
     }
-    const pl_push *pushes = all->pushes.data;
+    const pl_shove *pushes = all->pushes.data;
     while (all->push_count > 0) {
-        const pl_push *p = &pushes[--all->push_count];
+        const pl_shove *p = &pushes[--all->push_count];
         uint32_t row = pl_body_row(world, p->body); // it may have moved: bodies woke
         b->fx[row] = p->fx, b->fy[row] = p->fy, b->torque[row] = p->torque;
     }
@@ -311,7 +316,7 @@ void pl_characters_feet(plumb_world *world)
     pl_manifold *m = pl_manifolds(&world->narrow);
     const pl_bodies *b = &world->bodies;
     bool any = false;
-    if (!world->characters.treads && world->characters.dynamic_count == 0) {
+    if (!world->characters.treads && !world->characters.walks) {
         return;
     }
     for (uint32_t i = 0; i < world->narrow.manifold_count; ++i) {

@@ -15,12 +15,12 @@
 #include <math.h>
 
 // Wakes what sleeps.
-void pl_push_add(plumb_world *world, uint32_t row, double fx, double fy, double px, double py)
+void pl_shove_add(plumb_world *world, uint32_t row, double fx, double fy, double px, double py)
 {
     pl_bodies *b = &world->bodies;
-    pl_push *pushes = world->characters.pushes.data;
+    pl_shove *pushes = world->characters.pushes.data;
     pushes[world->characters.push_count++] =
-        (pl_push){ b->entity[row], b->fx[row], b->fy[row], b->torque[row] };
+        (pl_shove){ b->entity[row], b->fx[row], b->fy[row], b->torque[row] };
     double rx = px - (double)b->center_x[row], ry = py - (double)b->center_y[row];
     if (b->island[row] != PL_NONE) {
         pl_sleep_stir(world, row);
@@ -58,7 +58,7 @@ void pl_walker_push(pl_walker *m, const pl_touch *t, double speed)
     c->push = (real)force;
     c->push_speed = (real)v;
     m->pushed = true;
-    pl_push_add(m->world, row, -force * t->nx, -force * t->ny, x, y);
+    pl_shove_add(m->world, row, -force * t->nx, -force * t->ny, x, y);
 }
 
 void pl_walker_weigh(pl_walker *m)
@@ -73,7 +73,7 @@ void pl_walker_weigh(pl_walker *m)
     // What sleeps under somebody who stands still bears him already.
     bool rests = b->island[row] != PL_NONE && c->speed == 0 && !m->landed;
     if (!rests) {
-        pl_push_add(m->world, row, m->mass * m->gravity_x, m->mass * m->gravity_y,
+        pl_shove_add(m->world, row, m->mass * m->gravity_x, m->mass * m->gravity_y,
                     (double)c->ground.point.x, (double)c->ground.point.y);
     }
 }

@@ -32,7 +32,8 @@ typedef struct pl_walker {
     plumb_world *world;
     pl_character *c;
     uint32_t row, piece;
-    double dt;
+    double step, scale;                         // [s] of the world, [-] own pace
+    double dt;                                  // [s] of its own time
     plumb_vec2 start;                           // [m] where (0, 0) is
     pl_round shape;                             // about it
     double x, y;                                // [m] now
@@ -116,7 +117,7 @@ double pl_ramp(double *v, double target, double rate, double time);
 void pl_walker_push(pl_walker *m, const pl_touch *touch, double speed);
 void pl_walker_weigh(pl_walker *m);
 // Adds a force at a point [m, world] of a dynamic row, so that it can be undone. Room is reserved.
-void pl_push_add(plumb_world *world, uint32_t row, double fx, double fy, double px, double py);
+void pl_shove_add(plumb_world *world, uint32_t row, double fx, double fy, double px, double py);
 
 //---- dynamic.c: forces on a dynamic character. False when out of memory.
 bool pl_character_drive(plumb_world *world, pl_character *c, real dt);

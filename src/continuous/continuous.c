@@ -13,6 +13,7 @@
 #include "continuous/continuous.h"
 
 #include "continuous/search.h"
+#include "plumb/math.h"
 
 // Rounds among moving bodies; a pile-up that takes longer stays where it was for one step.
 #define MOST_ROUNDS 64
@@ -54,13 +55,38 @@ void pl_continuous_free(pl_memory *memory, pl_continuous *continuous)
 
 //---- all bodies ----------------------------------------------------------------------------------
 
+static bool visit_any(void *context, const pl_grid_entry *entry)
+{
+    (void)context;
+    (void)entry;
+    return false;
+}
+
+// Whether nothing static lies near the way of a body without joints, however it turned. Most fast
+// bodies are out in the open: this is all that they cost.
+static bool is_in_the_open(const plumb_world *world, const pl_mover *m)
+{
+    if (world->bodies.first_joint[m->row] != PL_NONE) {
+        return false; // it may turn about a hinge: its centre need not go straight
+    }
+    real x = world->bodies.center_x[m->row], y = world->bodies.center_y[m->row];
+    real reach = world->bodies.extent[m->row] * (real)1.001 +
+                 4 * PLUMB_REAL_EPSILON * (plumb_abs(x) + plumb_abs(y) + m->moved);
+    pl_box box = { m->x < x ? m->x : x, m->y < y ? m->y : y, m->x > x ? m->x : x,
+                   m->y > y ? m->y : y };
+    box = (pl_box){ box.min_x - reach, box.min_y - reach, box.max_x + reach, box.max_y + reach };
+    return pl_grid_query(&world->broad.fixed, box, visit_any, NULL);
+}
+
 static void sweep_still(plumb_world *world)
 {
     pl_mover *movers = pl_movers(&world->continuous);
     for (uint32_t i = 0; i < world->continuous.count && pl_row_is_dynamic(world, movers[i].row);
          ++i) {
-        pl_search s = pl_search_of(world, &movers[i]);
-        movers[i].stop = pl_search_still(&s);
+        if (!is_in_the_open(world, &movers[i])) {
+            pl_search s = pl_search_of(world, &movers[i]);
+            movers[i].stop = pl_search_still(&s);
+        }
     }
 }
 
@@ -122,6 +148,17 @@ static bool share_stops(plumb_world *world)
     return changed;
 }
 
+static bool any_stops(const plumb_world *world)
+{
+    const pl_mover *movers = pl_movers(&world->continuous);
+    for (uint32_t i = 0; i < world->continuous.count; ++i) {
+        if (movers[i].stop < 1) {
+            return true;
+        }
+    }
+    return false;
+}
+
 // Until no body stops earlier for another. Each round stops some body earlier; where they do not
 // come to an end, all fast bodies stay where the step began.
 static void settle_stops(plumb_world *world, real dt)
@@ -129,15 +166,19 @@ static void settle_stops(plumb_world *world, real dt)
     const bool asked = world->continuous_bodies > 0;
     for (int round = 0; round < MOST_ROUNDS; ++round) {
         bool changed = asked && sweep_among(world, dt);
-        while (world->joints.live > 0 && share_stops(world)) {
-            changed = true;
+        if (world->joints.live > 0 && any_stops(world)) {
+            while (share_stops(world)) {
+                changed = true;
+            }
         }
         if (!changed || !asked) {
             return;
         }
     }
-    for (uint32_t i = 0; i < world->continuous.count; ++i) {
-        pl_movers(&world->continuous)[i].stop = 0;
+    pl_mover *movers = pl_movers(&world->continuous);
+    for (uint32_t i = 0; i < world->continuous.count && pl_row_is_dynamic(world, movers[i].row);
+         ++i) {
+        movers[i].stop = 0;
     }
 }
 
@@ -178,10 +219,13 @@ static void finish(plumb_world *world, real dt)
     const pl_mover *movers = pl_movers(&world->continuous);
     for (uint32_t i = 0; i < world->continuous.count && pl_row_is_dynamic(world, movers[i].row);
          ++i) {
+        if (!movers[i].beside && movers[i].stop >= 1) {
+            continue;
+        }
         pl_search s = pl_search_of(world, &movers[i]);
         s.dt = dt;
         s.among_kinematic = true;
-        double time = world->kinematic_count > 0 ? pl_search_among(&s) : 1;
+        double time = movers[i].beside ? pl_search_among(&s) : 1;
         if (time < 1) {
             carry(world, &s, time);
         } else if (movers[i].stop < 1) {

@@ -10,6 +10,7 @@
 // something could have passed through.
 typedef struct pl_mover {
     uint32_t row;
+    bool beside;     // a kinematic body may have come its way
     bool stray;      // its way leaves the fat boxes with which its pieces are filed
     real x, y, c, s; // centre [m] and rotation at the start of the step
     real angle;      // [rad] it turned by, whole turns included; the last bits are not

@@ -38,60 +38,79 @@ static bool contains(const pl_box *outer, const pl_box *inner)
 }
 
 // Tells the movers whose way leaves the boxes in which the grid has them: no search of the grid
-// finds those.
+// finds those. Where they began they were within; so is the way if the end is, but for the bulge of an arc.
 static void find_strays(plumb_world *world)
 {
-    pl_mover *movers = pl_movers(&world->continuous);
     const pl_pieces *pieces = &world->pieces;
     for (uint32_t i = 0; i < world->continuous.count; ++i) {
-        pl_mover *m = &movers[i];
-        pl_course course = pl_course_of_mover(world, m, (double)m->x, (double)m->y);
+        pl_mover *m = &pl_movers(&world->continuous)[i];
+        real angle = m->angle < 0 ? -m->angle : m->angle;
+        real bulge = world->bodies.extent[m->row] * angle * angle / 8;
+        m->stray = !(angle < 1);
         for (uint32_t p = world->bodies.first_piece[m->row]; p != PL_NONE && !m->stray;
              p = pieces->next_in_body[p]) {
-            pl_swept swept = pl_course_piece(world, p, &course);
-            pl_box box = pl_course_box(&course, &swept);
-            m->stray = !contains(&pieces->fat[p], &box);
+            pl_box end = pl_piece_tight_box(world, p);
+            end = (pl_box){ end.min_x - bulge, end.min_y - bulge, end.max_x + bulge,
+                            end.max_y + bulge };
+            m->stray = !contains(&pieces->fat[p], &end);
         }
     }
 }
 
-// Marks the slow dynamic bodies over which a fast kinematic one may have swept.
-typedef struct recruiting {
+// What a kinematic body may have come across: movers are told so, slow dynamic bodies are marked if
+// it is fast.
+typedef struct sweeper {
     plumb_world *world;
-    const pl_mover *kinematic;
-    uint32_t count;
-} recruiting;
+    const pl_mover *fast; // NULL: it moves slowly
+    uint32_t row;
+    uint32_t recruits;
+} sweeper;
 
-static bool visit_recruit(void *context, const pl_grid_entry *entry)
+static bool visit_swept(void *context, const pl_grid_entry *entry)
 {
-    recruiting *r = context;
-    const plumb_world *world = r->world;
+    sweeper *s = context;
+    const plumb_world *world = s->world;
     uint32_t row = world->pieces.body[entry->piece];
-    uint8_t *flags = &world->bodies.flags[row];
-    if (row < world->dynamic_count && (*flags & PL_BODY_RECRUITED) == 0 &&
-        r->kinematic->moved > world->bodies.slack[r->kinematic->row] + world->bodies.slack[row] &&
-        pl_mover_find(world, row) == NULL) {
+    uint16_t *flags = &world->bodies.flags[row];
+    if (row >= world->dynamic_count || (*flags & PL_BODY_RECRUITED) != 0) {
+        return true;
+    }
+    pl_mover *mover = pl_mover_find(world, row);
+    if (mover != NULL) {
+        mover->beside = true;
+    } else if (s->fast != NULL &&
+               s->fast->moved > world->bodies.slack[s->row] + world->bodies.slack[row]) {
         *flags |= PL_BODY_RECRUITED;
-        ++r->count;
+        ++s->recruits;
     }
     return true;
 }
 
-static uint32_t mark_recruits(plumb_world *world)
+// Goes through all kinematic bodies if movers are many, else only through fast ones: few movers
+// search the grid themselves.
+static uint32_t mark_swept(plumb_world *world, real dt)
 {
-    const pl_mover *movers = pl_movers(&world->continuous);
-    recruiting r = { .world = world };
-    for (uint32_t i = world->continuous.count; i-- > 0 && movers[i].row >= world->dynamic_count;) {
-        r.kinematic = &movers[i];
-        double ox = (double)movers[i].x, oy = (double)movers[i].y;
-        pl_course course = pl_course_of_mover(world, r.kinematic, ox, oy);
-        for (uint32_t p = world->bodies.first_piece[movers[i].row]; p != PL_NONE;
+    pl_continuous *c = &world->continuous;
+    const bool few = c->count < world->kinematic_count;
+    sweeper s = { .world = world };
+    for (uint32_t i = 0; i < c->count; ++i) {
+        pl_movers(c)[i].beside = world->kinematic_count > 0 && (few || pl_movers(c)[i].stray);
+    }
+    for (uint32_t k = 0; k < world->kinematic_count && c->count > 0; ++k) {
+        s.row = world->dynamic_count + k;
+        s.fast = pl_mover_find(world, s.row);
+        if (few && s.fast == NULL) {
+            continue;
+        }
+        pl_course course = pl_mover_course(world, s.row, dt, (double)world->bodies.center_x[s.row],
+                                           (double)world->bodies.center_y[s.row]);
+        for (uint32_t p = world->bodies.first_piece[s.row]; p != PL_NONE;
              p = world->pieces.next_in_body[p]) {
             pl_swept swept = pl_course_piece(world, p, &course);
-            pl_grid_query(&world->broad.moving, pl_course_box(&course, &swept), visit_recruit, &r);
+            pl_grid_query(&world->broad.moving, pl_course_box(&course, &swept), visit_swept, &s);
         }
     }
-    return r.count;
+    return s.recruits;
 }
 
 // Slow bodies that are pressed deep into what dynamics does not move might be through it in a step or
@@ -119,13 +138,14 @@ static pl_mover recruit(plumb_world *world, uint32_t row, real dt)
 {
     pl_course course = pl_course_of_row(world, row, dt, 0, 0);
     pl_place start = pl_course_place(world, row, &course, 0);
-    world->bodies.flags[row] &= (uint8_t)~PL_BODY_RECRUITED;
+    world->bodies.flags[row] &= (uint16_t)~PL_BODY_RECRUITED;
     return (pl_mover){ .row = row,
                        .x = (real)start.x,
                        .y = (real)start.y,
                        .c = (real)start.c,
                        .s = (real)start.s,
                        .angle = (real)course.angle,
+                       .beside = true,
                        .stop = 1 };
 }
 
@@ -148,12 +168,13 @@ static void join_recruits(plumb_world *world, real dt, uint32_t count)
 void pl_movers_complete(plumb_world *world, real dt)
 {
     const pl_continuous *c = &world->continuous;
-    uint32_t recruits = world->kinematic_count > 0 ? mark_recruits(world) : 0;
+    uint32_t recruits = 0;
+    if (c->count > 0 && (world->kinematic_count > 0 || world->continuous_bodies > 0)) {
+        find_strays(world);
+        recruits = mark_swept(world, dt);
+    }
     if (world->narrow.max_penetration > c->least_slack * PRESSED_SHARE) {
         recruits += mark_pressed(world);
     }
     join_recruits(world, dt, recruits);
-    if (c->count > 0 && (world->kinematic_count > 0 || world->continuous_bodies > 0)) {
-        find_strays(world);
-    }
 }

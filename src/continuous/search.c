@@ -144,7 +144,7 @@ static double time_of_hit(const pl_swept *a, const pl_swept *b, double from, dou
     if (pl_target_is_lost(thick, depth)) {
         return PL_SWEEP_NEVER; // it has no side that could be told
     }
-    pl_target target = pl_target_of(thick, depth, sunk);
+    pl_sweep_target target = pl_target_of(thick, depth, sunk);
     return pl_sweep_first(a, b, from, to, target.distance, target.tolerance);
 }
 
@@ -305,9 +305,14 @@ double pl_search_among(pl_search *s)
         }
         take_piece(s, p);
         pl_grid_query(&world->broad.moving, s->box, visit_moving, s);
-        for (uint32_t i = 0; i < world->continuous.count; ++i) {
-            if (pl_movers(&world->continuous)[i].stray) {
-                meet_stray(s, &pl_movers(&world->continuous)[i]);
+        // Kinematic movers come last.
+        for (uint32_t i = world->continuous.count; i-- > 0;) {
+            const pl_mover *other = &pl_movers(&world->continuous)[i];
+            if (s->among_kinematic && other->row < world->dynamic_count) {
+                break;
+            }
+            if (other->stray) {
+                meet_stray(s, other);
             }
         }
     }

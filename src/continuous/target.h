@@ -18,10 +18,10 @@
 
 #define PL_TARGET_LEAST 0.005 // [m]
 
-typedef struct pl_target {
+typedef struct pl_sweep_target {
     double distance;  // [m] not to be undercut; negative: depth
     double tolerance; // [m] of the search for it
-} pl_target;
+} pl_sweep_target;
 
 static inline bool pl_target_is_lost(double thick, double depth)
 {
@@ -30,7 +30,7 @@ static inline bool pl_target_is_lost(double thick, double depth)
 
 // For pieces that begin `depth` [m] deep (negative: apart), of a body that lies `sunk` [m] deep
 // somewhere. They must not be lost.
-static inline pl_target pl_target_of(double thick, double depth, double sunk)
+static inline pl_sweep_target pl_target_of(double thick, double depth, double sunk)
 {
     double least = thick / 4 < PL_TARGET_LEAST ? thick / 4 : PL_TARGET_LEAST;
     double deep = depth > sunk ? depth : sunk;
@@ -42,7 +42,7 @@ static inline pl_target pl_target_of(double thick, double depth, double sunk)
     }
     double room = (allowed - depth) / 4;
     double fine = least > 0 ? least / 4 : 1e-5;
-    return (pl_target){ -allowed, room < fine ? room : fine };
+    return (pl_sweep_target){ -allowed, room < fine ? room : fine };
 }
 
 #endif

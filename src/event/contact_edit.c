@@ -58,6 +58,7 @@ plumb_result plumb_contact_edit_get(const plumb_world *world, int i, plumb_conta
                                   .friction = m->friction,
                                   .restitution = m->restitution,
                                   .rolling_resistance = m->rolling,
+                                  .adhesion = m->adhesion,
                                   .surface_speed = m->surface_speed };
     for (uint32_t k = 0; k < m->count; ++k) {
         const pl_manifold_point *p = &m->point[k];
@@ -80,6 +81,9 @@ plumb_result plumb_contact_edit_set(plumb_world *world, int i, const plumb_conta
                       : pl_check_range(world, __func__, "rolling_resistance",
                                        edit->rolling_resistance, 0, PLUMB_REAL_MAX);
     r = r != PLUMB_OK ? r : pl_check_finite(world, __func__, "surface_speed", edit->surface_speed);
+    r = r != PLUMB_OK
+            ? r
+            : pl_check_range(world, __func__, "adhesion", edit->adhesion, 0, PLUMB_REAL_MAX);
     if (r != PLUMB_OK) {
         return r;
     }
@@ -87,6 +91,7 @@ plumb_result plumb_contact_edit_set(plumb_world *world, int i, const plumb_conta
     m->friction = edit->friction;
     m->restitution = edit->restitution;
     m->rolling = edit->rolling_resistance;
+    m->adhesion = edit->adhesion;
     m->surface_speed = edit->surface_speed;
     m->disabled = !edit->enabled;
     world->edited = true;

@@ -8,6 +8,7 @@
 typedef struct pl_parts {
     pl_buffer items; // pl_keyed: slots of the two shapes, what happened to a pair of pieces
     uint32_t count;
+    bool buried;     // a piece that was a part went since the pair list was made
 } pl_parts;
 
 // Hits that began in a step and will be through in the next one.
@@ -16,6 +17,14 @@ typedef struct pl_blows {
     uint32_t count, old_count;
     uint32_t next; // where in `old` to look first
 } pl_blows;
+
+// Who a piece was that went since the pair list was made: what touched it still has to be told.
+typedef struct pl_grave {
+    plumb_shape shape;
+    plumb_body body;
+    uint32_t epoch; // 1 + rebuilds of the pair list when it went; 0: never
+    uint8_t flags;  // PL_PIECE_...
+} pl_grave;
 
 // What sensors see (sensor_events.c).
 typedef struct pl_sensing {
@@ -41,6 +50,10 @@ void pl_events_clear(plumb_world *world);
 bool pl_events_reserve_ends(plumb_world *world, uint32_t count);
 // A pair left the list: ends its touch. Room must be reserved.
 void pl_pair_lost(plumb_world *world, const pl_pair *pair);
+// Room for the graves of `slots` piece slots.
+bool pl_graves_reserve(plumb_world *world, uint32_t slots);
+// A piece goes: keeps who it was if a pair may name it. Its slot and body are still as they were.
+void pl_grave_dig(plumb_world *world, uint32_t piece);
 // Before the solver: room for all events of this step, approach speeds of pairs that did not touch.
 bool pl_events_prepare(plumb_world *world);
 // After the solver: begin, end and hit events.

@@ -84,9 +84,8 @@ static bool add_at_rest(void *context, const pl_grid_entry *entry)
     if (!pl_buffer_reserve(&world->memory, &s->rest_candidates, room)) {
         return false;
     }
-    ((pl_keyed *)s->rest_candidates.data)[s->rest_candidate_count++] = (pl_keyed){
-        pl_key(p->shape[f->sensor].index, p->shape[q].index), f->sensor, q
-    };
+    ((pl_keyed *)s->rest_candidates.data)[s->rest_candidate_count++] =
+        (pl_keyed){ pl_key(p->shape[f->sensor].index, p->shape[q].index), f->sensor, q };
     return true;
 }
 
@@ -263,9 +262,8 @@ void pl_sensing_run(plumb_world *world)
     if (s->rest_stale) {
         exchange(&s->rest_overlaps, &s->rest_old);
         rest_old_count = s->rest_count;
-        rest_count = s->rest_count = test_candidates(world, &s->rest_candidates,
-                                                     s->rest_candidate_count, true,
-                                                     &s->rest_overlaps);
+        rest_count = s->rest_count = test_candidates(
+            world, &s->rest_candidates, s->rest_candidate_count, true, &s->rest_overlaps);
         s->rest_stale = false;
         world->schedule_dirty = true;
     }
@@ -299,8 +297,8 @@ const plumb_sensor_event *plumb_world_sensor_end_events(const plumb_world *world
 static const pl_overlap *from_sensor(const pl_buffer *overlaps, uint32_t count, plumb_shape sensor)
 {
     bool found;
-    return (const pl_overlap *)overlaps->data + pl_find_key(overlaps->data, count, sizeof(pl_overlap),
-                                                            pl_key(sensor.index, 0), &found);
+    return (const pl_overlap *)overlaps->data +
+           pl_find_key(overlaps->data, count, sizeof(pl_overlap), pl_key(sensor.index, 0), &found);
 }
 
 int plumb_shape_overlaps(const plumb_world *world, plumb_shape sensor, plumb_shape *shapes,
@@ -321,8 +319,8 @@ int plumb_shape_overlaps(const plumb_world *world, plumb_shape sensor, plumb_sha
                    from_sensor(&s->rest_overlaps, s->rest_count, sensor),
                    (const pl_overlap *)s->rest_overlaps.data + s->rest_count };
     int count = 0;
-    for (const pl_overlap *at = peek(&all);
-         at != NULL && (uint32_t)(at->key >> 32) == sensor.index; advance(&all), at = peek(&all)) {
+    for (const pl_overlap *at = peek(&all); at != NULL && (uint32_t)(at->key >> 32) == sensor.index;
+         advance(&all), at = peek(&all)) {
         // Since the step, either may have been destroyed.
         if (!plumb_same(at->who.sensor, sensor) || !plumb_shape_valid(world, at->who.shape)) {
             continue;

@@ -35,7 +35,7 @@ bool pl_joints_forbid(const plumb_world *world, uint32_t row, uint32_t other)
     plumb_body body = world->bodies.entity[row], partner = world->bodies.entity[other];
     for (uint32_t i = world->bodies.first_joint[row]; i != PL_NONE;
          i = pl_joint_next(&items[i], body)) {
-        if (!items[i].desc.collide_connected &&
+        if (!items[i].desc.collide_connected && !items[i].desc.disabled &&
             (plumb_same(items[i].a.body, partner) || plumb_same(items[i].b.body, partner))) {
             return true;
         }
@@ -67,8 +67,7 @@ static uint32_t row_of(const plumb_world *world, const pl_joint_end *end)
 
 static bool is_awake(const plumb_world *world, const pl_joint *joint)
 {
-    return !plumb_is_null(joint->entity) &&
-           !pl_row_is_asleep(world, row_of(world, &joint->a)) &&
+    return !plumb_is_null(joint->entity) && !pl_row_is_asleep(world, row_of(world, &joint->a)) &&
            !pl_row_is_asleep(world, row_of(world, &joint->b));
 }
 
@@ -103,8 +102,8 @@ uint32_t pl_joints_awake(plumb_world *world)
 void pl_joint_disturb(plumb_world *world, const pl_joint *joint)
 {
     uint32_t a = row_of(world, &joint->a), b = row_of(world, &joint->b);
-    bool mixed = a != PL_NONE && b != PL_NONE &&
-                 (a < world->dynamic_count) != (b < world->dynamic_count);
+    bool mixed =
+        a != PL_NONE && b != PL_NONE && (a < world->dynamic_count) != (b < world->dynamic_count);
     const uint32_t rows[2] = { a, b };
     for (int i = 0; i < 2; ++i) {
         if (rows[i] != PL_NONE && mixed && pl_row_is_asleep(world, rows[i])) {
@@ -214,6 +213,7 @@ static plumb_result check_numbers(const plumb_world *world, const char *fn,
         { "max_torque", d->max_torque, 0 },
         { "break_force", d->break_force, 0 },
         { "break_torque", d->break_torque, 0 },
+        { "break_impulse", d->break_impulse, 0 },
     };
     plumb_result r = pl_check_within(world, fn, "anchor", d->anchor, POINT_MOST);
     r = r != PLUMB_OK ? r : pl_check_within(world, fn, "anchor_b", d->anchor_b, POINT_MOST);
@@ -329,6 +329,7 @@ static plumb_joint insert(plumb_world *world, const plumb_joint_desc *d)
     }
     ++world->joints.live;
     pl_joint_disturb(world, j);
+    world->joints.impulsive += d->break_impulse > 0;
     revise_pairs(world, j);
     return j->entity;
 }
@@ -373,6 +374,7 @@ void pl_joint_remove(plumb_world *world, uint32_t slot)
     pl_joint_disturb(world, j);
     revise_pairs(world, j);
     pl_registry_release(&world->registry, j->entity);
+    world->joints.impulsive -= j->desc.break_impulse > 0;
     *j = (pl_joint){ .a.next = world->joints.free_head };
     world->joints.free_head = slot;
     --world->joints.live;

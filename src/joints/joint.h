@@ -68,7 +68,9 @@ struct pl_joint {
     real turn[6];                // change of momentum owed because J has turned: see solve.c
     pl_rows rows;
     plumb_vec2 arm_b; // [m] from B's centre to its anchor, at the rows
+    bool active;      // in this step: it is on and so are its bodies
     plumb_vec2 force; // [N] reaction
+    plumb_vec2 step_impulse; // [N s] on B over the step, where some joint breaks by impulse
     real torque;      // [N m]
 };
 
@@ -77,6 +79,7 @@ typedef struct pl_joints {
     pl_buffer broken; // plumb_joint_break of the last step, room for every joint
     uint32_t count;   // slots ever used
     uint32_t live;
+    uint32_t impulsive; // those that break by impulse
     uint32_t free_head; // PL_NONE: none
     int broken_count;
     pl_buffer awake; // uint32_t: slots of joints of which no body sleeps, in order
@@ -129,6 +132,10 @@ void pl_joints_solve(plumb_world *world, pl_joint_sweep sweep);
 void pl_joints_refresh(plumb_world *world);
 // Moves bodies against the errors that are left (classic solver).
 void pl_joints_move(plumb_world *world, real share);
+// Adds the substep's reactions to those of the step, where some joint breaks by impulse (finish.c).
+void pl_joints_tally(plumb_world *world);
+// Takes out of the rows what lies along locked axes of their bodies: infinite mass (lock.c).
+void pl_joint_lock_rows(const plumb_world *world, pl_joint *joint);
 // Reactions; breaks what is loaded too much (finish.c).
 void pl_joints_finish(plumb_world *world);
 

@@ -124,8 +124,36 @@ plumb_result plumb_joint_set_break(plumb_world *world, plumb_joint joint, plumb_
     r = r != PLUMB_OK ? r : pl_check_range(world, __func__, "force", force, 0, PLUMB_REAL_MAX);
     r = r != PLUMB_OK ? r : pl_check_range(world, __func__, "torque", torque, 0, PLUMB_REAL_MAX);
     if (r == PLUMB_OK) {
+        disturb_if(world, j, j->desc.break_force != force || j->desc.break_torque != torque);
         j->desc.break_force = force;
         j->desc.break_torque = torque;
+    }
+    return r;
+}
+
+plumb_result plumb_joint_set_break_impulse(plumb_world *world, plumb_joint joint,
+                                           plumb_real impulse)
+{
+    pl_joint *j = NULL;
+    plumb_result r = find(world, __func__, joint, 0, "", &j);
+    r = r != PLUMB_OK ? r
+                      : pl_check_range(world, __func__, "impulse", impulse, 0, PLUMB_REAL_MAX);
+    if (r == PLUMB_OK) {
+        world->joints.impulsive +=
+            (impulse > 0 ? 1u : 0u) - (j->desc.break_impulse > 0 ? 1u : 0u);
+        j->desc.break_impulse = impulse;
+    }
+    return r;
+}
+
+plumb_result plumb_joint_set_enabled(plumb_world *world, plumb_joint joint, bool enabled)
+{
+    pl_joint *j = NULL;
+    plumb_result r = find(world, __func__, joint, 0, "", &j);
+    r = r != PLUMB_OK ? r : pl_check_unlocked(world, __func__);
+    if (r == PLUMB_OK && j->desc.disabled == enabled) {
+        j->desc.disabled = !enabled;
+        world->pairs_dirty |= !j->desc.collide_connected;
     }
     return r;
 }

@@ -214,11 +214,15 @@ static void add_momentum(pl_joint *j, real sign)
     }
 }
 
-static void make_rows(pl_joint *j, const pl_solver_body *a, const pl_solver_body *b)
+static void make_rows(const plumb_world *world, pl_joint *j, const pl_solver_body *a,
+                      const pl_solver_body *b)
 {
     pl_joint_pose pa = moved(&j->a, a), pb = moved(&j->b, b);
     pl_joint_classes[j->desc.kind]->rows(j, &pa, &pb, &j->rows);
     j->arm_b = plumb_v2(pb.rx, pb.ry);
+    if (world->locked_bodies > 0) {
+        pl_joint_lock_rows(world, j);
+    }
     invert(j, a, b);
     for (int i = j->rows.block; i < j->rows.count; ++i) {
         const pl_row *r = &j->rows.row[i];
@@ -237,11 +241,29 @@ static uint32_t slot_of(const plumb_world *world, plumb_body body)
     return pl_solver_slot(&world->solver, row, movable);
 }
 
+static bool is_enabled(const plumb_world *world, plumb_body body)
+{
+    return plumb_is_null(body) ||
+           (world->bodies.flags[pl_body_row(world, body)] & PL_BODY_DISABLED) == 0;
+}
+
+// A free slot is not.
+static bool is_active(const plumb_world *world, const pl_joint *j)
+{
+    return !plumb_is_null(j->entity) && !j->desc.disabled &&
+           (world->disabled_count == 0 ||
+            (is_enabled(world, j->a.body) && is_enabled(world, j->b.body)));
+}
+
 void pl_joints_prepare(plumb_world *world, real h)
 {
     pl_solver_body *bodies = pl_solver_bodies(&world->solver);
     for (uint32_t i = 0; i < world->joints.awake_count; ++i) {
         pl_joint *j = pl_joint_awake(&world->joints, i);
+        j->active = is_active(world, j);
+        if (!j->active) {
+            continue;
+        }
         j->a.slot = slot_of(world, j->a.body);
         j->b.slot = slot_of(world, j->b.body);
         pl_joint_begin(world, j);
@@ -250,7 +272,7 @@ void pl_joints_prepare(plumb_world *world, real h)
             j->impulse[k] *= scale;
         }
         j->h = h;
-        make_rows(j, &bodies[j->a.slot], &bodies[j->b.slot]);
+        make_rows(world, j, &bodies[j->a.slot], &bodies[j->b.slot]);
     }
 }
 
@@ -259,7 +281,7 @@ void pl_joints_warm_start(plumb_world *world)
     pl_solver_body *bodies = pl_solver_bodies(&world->solver);
     for (uint32_t i = 0; i < world->joints.awake_count; ++i) {
         pl_joint *j = pl_joint_awake(&world->joints, i);
-        for (int k = 0; k < j->rows.count; ++k) {
+        for (int k = 0; j->active && k < j->rows.count; ++k) {
             if (j->impulse[k] != 0) {
                 push(&j->rows.row[k], &bodies[j->a.slot], &bodies[j->b.slot], j->impulse[k]);
             }
@@ -272,6 +294,9 @@ void pl_joints_turn(plumb_world *world)
     pl_solver_body *bodies = pl_solver_bodies(&world->solver);
     for (uint32_t i = 0; i < world->joints.awake_count; ++i) {
         const pl_joint *j = pl_joint_awake(&world->joints, i);
+        if (!j->active) {
+            continue;
+        }
         const pl_row owed = { j->turn[0], j->turn[1], j->turn[2],          j->turn[3],
                               j->turn[4], j->turn[5], .type = PL_ROW_EQUAL };
         push(&owed, &bodies[j->a.slot], &bodies[j->b.slot], 1);
@@ -283,6 +308,9 @@ void pl_joints_solve(plumb_world *world, pl_joint_sweep sweep)
     pl_solver_body *bodies = pl_solver_bodies(&world->solver);
     for (uint32_t i = 0; i < world->joints.awake_count; ++i) {
         pl_joint *j = pl_joint_awake(&world->joints, i);
+        if (!j->active) {
+            continue;
+        }
         pl_solver_body *a = &bodies[j->a.slot], *b = &bodies[j->b.slot];
         // Motors and springs first: what must hold has the last word.
         for (int k = j->rows.count - 1; k >= j->rows.block; --k) {
@@ -297,11 +325,14 @@ void pl_joints_refresh(plumb_world *world)
     pl_solver_body *bodies = pl_solver_bodies(&world->solver);
     for (uint32_t i = 0; i < world->joints.awake_count; ++i) {
         pl_joint *j = pl_joint_awake(&world->joints, i);
+        if (!j->active) {
+            continue;
+        }
         for (int k = 0; k < 6; ++k) {
             j->turn[k] = 0;
         }
         add_momentum(j, -1);
-        make_rows(j, &bodies[j->a.slot], &bodies[j->b.slot]);
+        make_rows(world, j, &bodies[j->a.slot], &bodies[j->b.slot]);
         add_momentum(j, 1);
     }
 }
@@ -346,9 +377,12 @@ void pl_joints_move(plumb_world *world, real share)
     pl_solver_body *bodies = pl_solver_bodies(&world->solver);
     for (uint32_t i = 0; i < world->joints.awake_count; ++i) {
         pl_joint *j = pl_joint_awake(&world->joints, i);
+        if (!j->active) {
+            continue;
+        }
         pl_solver_body *a = &bodies[j->a.slot], *b = &bodies[j->b.slot];
-        make_rows(j, a, b);
+        make_rows(world, j, a, b);
         move_joint(j, a, b, share);
-        make_rows(j, a, b);
+        make_rows(world, j, a, b);
     }
 }

@@ -24,7 +24,10 @@ typedef struct pl_manifold {
     real approach;      // [m/s] at the start of the step, for events; 0 for pairs that touched
     real surface_speed; // [m/s] added to the slip: see surface.c
     real rolling;       // [m] lever arm of rolling resistance
-    real blow;          // [N s] impulse of the hit that is due, steps before included; then only
+    union {
+        real adhesion; // [N] that the contact may pull, until events are made
+        real blow;     // [N s] impulse of the hit that is due, steps before included; then only
+    };
     pl_manifold_point point[2]; // a point that is absent has separation PL_APART
     uint32_t body_a, body_b;    // body rows
     uint32_t pair;              // index in the pair list
@@ -33,6 +36,13 @@ typedef struct pl_manifold {
     uint32_t disabled; // by a system; only while the contact systems run
     uint32_t bearer;   // of manifolds behind manifold_count: pair that bears the load of this one
 } pl_manifold;
+
+// [m] within which surfaces that stick pull: those that touched in the step before hold while they are
+// pulled out of touch; others do not draw one another near.
+static inline real pl_adhesion_reach(uint32_t pair_flags)
+{
+    return (pair_flags & PL_PAIR_TOUCHING) != 0 ? (real)0.005 : (real)1e-4;
+}
 
 // [m] separation of a point that is not there: no impulse can ever act on it.
 #define PL_APART ((real)1e6)
@@ -45,6 +55,7 @@ typedef struct pl_narrow {
     bool any_friction;       // some manifold has friction > 0
     bool any_bounce;         // some manifold has restitution > 0
     bool any_surface;        // some manifold has surface speed or rolling resistance
+    bool any_adhesion;       // some manifold may pull
     uint32_t touching_count; // manifolds whose surfaces met
     uint32_t point_count;
     real max_penetration;   // [m]

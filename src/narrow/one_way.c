@@ -64,7 +64,7 @@ static bool faces_hold(const plumb_world *world, const pl_pair *pair, const pl_m
 
 static bool asks_to_drop(const plumb_world *world, const pl_pair *pair)
 {
-    const uint8_t *flags = world->bodies.flags;
+    const uint16_t *flags = world->bodies.flags;
     return (is_one_way(world, pair->a) && (flags[pair->body_b] & PL_BODY_DROPPING) != 0) ||
            (is_one_way(world, pair->b) && (flags[pair->body_a] & PL_BODY_DROPPING) != 0);
 }
@@ -147,7 +147,7 @@ static uint32_t next_state(const plumb_world *world, const pl_pair *pair, const 
 static void forget_requests(plumb_world *world)
 {
     for (uint32_t row = 0; world->dropping_bodies > 0 && row < world->dynamic_count; ++row) {
-        world->bodies.flags[row] &= (uint8_t)~PL_BODY_DROPPING;
+        world->bodies.flags[row] &= (uint16_t)~PL_BODY_DROPPING;
     }
     world->dropping_bodies = 0;
 }

@@ -5,10 +5,6 @@
 #include "seams/span.h"
 #include "world/state.h"
 
-// [rad] normals that differ by less are equal: rounding, above all of kernels that find a normal from
-// points. What lies on flat ground gets its exact normal afterwards (run.c).
-#define SAME_DIRECTION 1e-5
-
 pl_side pl_side_of(const plumb_world *world, uint32_t piece)
 {
     const pl_pieces *pieces = &world->pieces;
@@ -27,7 +23,7 @@ int pl_side_feature(const pl_side *side, double nx, double ny, bool *is_edge)
     int corner = 0;
     for (int k = 0; k < side->count; ++k) {
         const pl_vertex *v = &side->corners[k];
-        if (pl_directions_agree((double)v->nx, (double)v->ny, nx, ny, SAME_DIRECTION)) {
+        if (pl_directions_agree((double)v->nx, (double)v->ny, nx, ny, PL_SAME_DIRECTION)) {
             *is_edge = true;
             return k;
         }
@@ -66,30 +62,20 @@ bool pl_side_corner_admits(const pl_side *side, int k, double nx, double ny)
         return true;
     }
     pl_cone cone = cone_of(&side->seams[k]);
-    return pl_cone_admits(&cone, nx, ny, SAME_DIRECTION);
+    return pl_cone_admits(&cone, nx, ny, PL_SAME_DIRECTION);
 }
 
 bool pl_side_corner_is_flat(const pl_side *side, int k)
 {
-    if (!(side->corner_bits >> k & 1)) {
-        return false;
-    }
-    pl_cone cone = cone_of(&side->seams[k]);
-    return pl_cone_is_flat(&cone);
+    return (side->corner_bits >> k & 1) != 0 && side->seams[k].flat;
 }
 
 pl_edge_end pl_side_edge_end(const pl_side *side, int k, bool at_start)
 {
     int corner = at_start ? k : pl_side_next(side, k);
-    if (!(side->corner_bits >> corner & 1)) {
-        return PL_END_OUTER;
-    }
-    pl_cone cone = cone_of(&side->seams[corner]);
-    const pl_vertex *edge = &side->corners[k];
-    if (!pl_cone_admits(&cone, (double)edge->nx, (double)edge->ny, SAME_DIRECTION)) {
-        return PL_END_INNER;
-    }
-    return pl_side_corner_is_flat(side, corner) ? PL_END_FLAT : PL_END_OUTER;
+    return (side->corner_bits >> corner & 1) == 0
+               ? PL_END_OUTER
+               : (pl_edge_end)side->seams[corner].ends[at_start ? 1 : 0];
 }
 
 bool pl_seams_admit(const plumb_world *world, uint32_t piece, double nx, double ny, double x,

@@ -29,13 +29,7 @@ bool pl_side_corner_admits(const pl_side *side, int k, double nx, double ny);
 // of a neighbour, which has the contact.
 bool pl_side_corner_is_flat(const pl_side *side, int k);
 
-// What the ground does where edge k ends, at corner k (its start) or the next one.
-typedef enum pl_edge_end {
-    PL_END_OUTER, // the outline turns away: nothing lies beyond
-    PL_END_FLAT,  // it goes on as it is
-    PL_END_INNER  // it turns towards the front: something stands there
-} pl_edge_end;
-
+// What the ground does at the start of edge k (corner k) or at its end (the next one).
 pl_edge_end pl_side_edge_end(const pl_side *side, int k, bool at_start);
 
 static inline int pl_side_next(const pl_side *side, int k)

@@ -76,9 +76,7 @@ static pl_cone keep_ends(const pl_cone *own, const pl_cone *other, double angle)
 
 static direction snap(direction d, const pl_cone *own, double angle)
 {
-    return agree(d, lo_of(own), angle)   ? lo_of(own)
-           : agree(d, hi_of(own), angle) ? hi_of(own)
-                                         : d;
+    return agree(d, lo_of(own), angle) ? lo_of(own) : agree(d, hi_of(own), angle) ? hi_of(own) : d;
 }
 
 static pl_cone meet_arcs(const pl_cone *own, const pl_cone *other, double angle)

@@ -54,9 +54,8 @@ static bool are_joined(const plumb_world *world, uint32_t p, uint32_t q)
     if (apart > 1e-3 * (double)s->core[p].radius) {
         return false;
     }
-    return row_p == row_q ||
-           (pl_piece_is_static(world, p) && pl_piece_is_static(world, q) &&
-            !is_passed(world, row_p) && !is_passed(world, row_q));
+    return row_p == row_q || (pl_piece_is_static(world, p) && pl_piece_is_static(world, q) &&
+                              !is_passed(world, row_p) && !is_passed(world, row_q));
 }
 
 typedef struct gathering {
@@ -152,6 +151,12 @@ static double slop_of(const plumb_world *world, uint32_t p, uint32_t q)
     return fmin(thin / 100 + rounding, (double)PL_SPECULATIVE / 2);
 }
 
+// The edge that ends at corner k (0), or starts there (1).
+static int edge_at(const pl_outline *o, int k, int i)
+{
+    return i == 1 ? k : k > 0 ? k - 1 : o->count - 1;
+}
+
 static void look_at_neighbour(look *l, const pl_outline *other, double slop)
 {
     for (int k = 0; k < l->own.count; ++k) {
@@ -164,7 +169,7 @@ static void look_at_neighbour(look *l, const pl_outline *other, double slop)
             l->cones[k] = met;
             l->slops[k] = fmax(l->slops[k], slop);
             for (int i = 0; i < 2; ++i) {
-                int edge = i == 1 ? k : k > 0 ? k - 1 : l->own.count - 1;
+                int edge = edge_at(&l->own, k, i);
                 pl_wall_meet(&l->walls[k][i], &has, l->own.nx[edge], l->own.ny[edge], i == 1);
             }
         }
@@ -204,6 +209,14 @@ static bool store_edge(plumb_world *world, uint32_t piece, look *l, int k)
     return true;
 }
 
+static pl_edge_end end_of(const pl_cone *cone, double nx, double ny)
+{
+    if (!pl_cone_admits(cone, nx, ny, PL_SAME_DIRECTION)) {
+        return PL_END_INNER;
+    }
+    return pl_cone_is_flat(cone) ? PL_END_FLAT : PL_END_OUTER;
+}
+
 static bool store(plumb_world *world, uint32_t piece, look *l)
 {
     pl_pieces *pieces = &world->pieces;
@@ -216,8 +229,11 @@ static bool store(plumb_world *world, uint32_t piece, look *l)
                            .hi_x = (real)cone->hi_x,
                            .hi_y = (real)cone->hi_y,
                            .slop = (real)l->slops[k],
-                           .form = cone->form };
+                           .form = (uint8_t)cone->form,
+                           .flat = pl_cone_is_flat(cone) };
         for (int i = 0; i < 2; ++i) {
+            int edge = edge_at(&l->own, k, i);
+            seam->ends[i] = (uint8_t)end_of(cone, l->own.nx[edge], l->own.ny[edge]);
             seam->walls[i][0] = (real)l->walls[k][i].nx;
             seam->walls[i][1] = (real)l->walls[k][i].ny;
         }

@@ -107,7 +107,7 @@ bool pl_outline_cone_at(const pl_outline *o, double x, double y, double slop, pl
 static void add_wall(pl_wall *wall, double mx, double my, double nx, double ny, bool starts)
 {
     double sign = starts ? 1 : -1;
-    double fx = sign * my, fy = -sign * mx;  // from the corner along the face
+    double fx = sign * my, fy = -sign * mx; // from the corner along the face
     double ex = -sign * ny, ey = sign * nx; // from the corner along the edge
     double rise = fx * nx + fy * ny, flatness = fx * ex + fy * ey;
     bool none = wall->nx == 0 && wall->ny == 0;
@@ -133,46 +133,40 @@ void pl_wall_meet(pl_wall *wall, const pl_cone *has, double nx, double ny, bool 
 // flush with the edge does not cover it.
 #define ON_LINE 0.01
 
-typedef struct stretch {
-    double low, high;
-} stretch;
-
-// Where the part of a segment at heights near..far above the edge lies along it.
-static void add_segment(stretch *s, double u0, double v0, double u1, double v1, double near,
-                        double far)
-{
-    if ((u0 < near && u1 < near) || (u0 > far && u1 > far)) {
-        return;
-    }
-    const double ends[2][2] = { { u0, v0 }, { u1, v1 } };
-    for (int i = 0; i < 2; ++i) {
-        double u = ends[i][0], v = ends[i][1];
-        double bound = u < near ? near : u > far ? far : u;
-        double at = u == bound ? v : v0 + (v1 - v0) * ((bound - u0) / (u1 - u0));
-        s->low = fmin(s->low, at);
-        s->high = fmax(s->high, at);
-    }
-}
-
 bool pl_outline_covers(const pl_outline *o, const pl_outline *edge_of, int edge, double slop,
                        double *from, double *to)
 {
-    if (o->count == 2) {
-        return false;
+    double nx = edge_of->nx[edge], ny = edge_of->ny[edge], near = ON_LINE * slop;
+    double u[PLUMB_POLYGON_MAX_VERTICES], least = INFINITY, most = -INFINITY;
+    for (int k = 0; k < o->count; ++k) {
+        u[k] = (o->x[k] - edge_of->x[edge]) * nx + (o->y[k] - edge_of->y[edge]) * ny;
+        least = u[k] < least ? u[k] : least;
+        most = u[k] > most ? u[k] : most;
     }
-    double length = pl_outline_edge_length(edge_of, edge);
-    double nx = edge_of->nx[edge], ny = edge_of->ny[edge];
-    stretch s = { INFINITY, -INFINITY };
+    if (o->count == 2 || most < near || least > slop) {
+        return false; // a line covers nothing; the rest lies behind the edge, or far in front
+    }
+    // Where the part of the core at heights near..slop lies along the edge.
+    double low = INFINITY, high = -INFINITY;
     for (int k = 0; k < o->count; ++k) {
         int next = after(o, k);
-        double x0 = o->x[k] - edge_of->x[edge], y0 = o->y[k] - edge_of->y[edge];
-        double x1 = o->x[next] - edge_of->x[edge], y1 = o->y[next] - edge_of->y[edge];
-        add_segment(&s, x0 * nx + y0 * ny, y0 * nx - x0 * ny, x1 * nx + y1 * ny, y1 * nx - x1 * ny,
-                    ON_LINE * slop, slop);
+        double u0 = u[k], u1 = u[next];
+        if ((u0 < near && u1 < near) || (u0 > slop && u1 > slop)) {
+            continue;
+        }
+        double v0 = (o->y[k] - edge_of->y[edge]) * nx - (o->x[k] - edge_of->x[edge]) * ny;
+        double v1 = (o->y[next] - edge_of->y[edge]) * nx - (o->x[next] - edge_of->x[edge]) * ny;
+        double rate = u1 == u0 ? 0 : (v1 - v0) / (u1 - u0);
+        double p = v0 + rate * (fmin(fmax(u0, near), slop) - u0);
+        double q = v1 + rate * (fmin(fmax(u1, near), slop) - u1);
+        low = fmin(low, fmin(p, q));
+        high = fmax(high, fmax(p, q));
     }
-    double low = fmax(s.low, 0), high = fmin(s.high, length);
+    double length = pl_outline_edge_length(edge_of, edge);
+    low = fmax(low, 0);
+    high = fmin(high, length);
     if (!(high - low >= fmin(slop, length / 2))) {
-        return false; // it does not reach the edge, or touches it at a corner
+        return false; // it lies beside the edge, or touches it at a corner
     }
     *from = fmax(0, low - slop);
     *to = fmin(length, high + slop);

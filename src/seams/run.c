@@ -109,12 +109,9 @@ void pl_runs_open(plumb_world *world)
 // The edge that the contact lies on if it goes on flat at an end, -1 otherwise.
 static int flat_edge(const pl_view *v)
 {
-    if (v->side.corner_bits == 0) {
-        return -1;
-    }
-    int k = pl_view_edge(v);
-    return k >= 0 && (pl_side_edge_end(&v->side, k, true) == PL_END_FLAT ||
-                      pl_side_edge_end(&v->side, k, false) == PL_END_FLAT)
+    int k = v->feature;
+    return v->is_edge && (pl_side_edge_end(&v->side, k, true) == PL_END_FLAT ||
+                          pl_side_edge_end(&v->side, k, false) == PL_END_FLAT)
                ? k
                : -1;
 }
@@ -303,7 +300,8 @@ static bool bear(plumb_world *world, const flat_run *run, double dt)
 {
     const pl_seams *s = &world->seams;
     const run_contact *r = (const run_contact *)s->contacts.data + run->owner;
-    pl_pair *pair = &pl_pairs(&world->broad.pairs)[((const pl_seam_pair *)s->pairs.data)[r->index].pair];
+    pl_pair *pair =
+        &pl_pairs(&world->broad.pairs)[((const pl_seam_pair *)s->pairs.data)[r->index].pair];
     pl_manifold *m = &pl_manifolds(&world->narrow)[pair->manifold];
     pl_view v;
     pl_view_open(&v, world, pair, m, r->own_is_a, dt);

@@ -22,11 +22,10 @@ bool pl_seams_wanted(const plumb_world *world, const char **reason)
 
 void pl_seams_free(pl_memory *memory, pl_seams *seams)
 {
-    pl_buffer *buffers[] = { &seams->corners, &seams->spans, &seams->regions, &seams->chosen,
-                             &seams->around,  &seams->scratch, &seams->pairs,
-                             &seams->contacts, &seams->runs,   &seams->order,
-                             &seams->loads,   &seams->old_loads, &seams->slots,
-                             &seams->borne };
+    pl_buffer *buffers[] = { &seams->corners, &seams->spans,   &seams->regions, &seams->chosen,
+                             &seams->around,  &seams->scratch, &seams->pairs,   &seams->contacts,
+                             &seams->runs,    &seams->order,   &seams->loads,   &seams->old_loads,
+                             &seams->slots,   &seams->borne };
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; ++i) {
         pl_buffer_free(memory, buffers[i]);
     }

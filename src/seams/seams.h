@@ -13,6 +13,10 @@
 // [rad] bends of less count as flat.
 #define PL_SEAM_ANGLE 1e-3
 
+// [rad] normals that differ by less are equal: rounding, above all of kernels that find a normal from
+// points. What lies on flat ground gets its exact normal afterwards (run.c).
+#define PL_SAME_DIRECTION 1e-5
+
 // Piece column seam_corners: bit k: neighbours narrow what corner k admits.
 #define PL_SEAM_CORNERS UINT32_C(0xffff)
 #define PL_SEAM_HAS     UINT32_C(0x20000000) // some corner is narrowed, or some edge covered
@@ -21,6 +25,13 @@
 // Piece column seam_edges: bit k: edge k is covered from end to end; bit 16 + k: in part.
 #define PL_SEAM_COVERED(k) (UINT32_C(1) << (k))
 #define PL_SEAM_PARTLY(k)  (UINT32_C(0x10000) << (k))
+
+// What the ground does at an end of an edge.
+typedef enum pl_edge_end {
+    PL_END_OUTER, // the outline turns away: nothing lies beyond
+    PL_END_FLAT,  // it goes on as it is
+    PL_END_INNER  // it turns towards the front: something stands there
+} pl_edge_end;
 
 // A covered stretch of an edge.
 typedef struct pl_span {
@@ -31,10 +42,12 @@ typedef struct pl_span {
 // frame. Valid where a bit of the piece says so.
 typedef struct pl_seam {
     real lo_x, lo_y, hi_x, hi_y;
-    real walls[2][2];  // normals of what stands here in front of the edge that ends, and that starts
-    real slop;         // [m] largest with which a neighbour touched the corner
-    uint32_t form;     // pl_cone_form
-    uint32_t spans;    // first covered stretch, sorted
+    real walls[2][2]; // normals of what stands here in front of the edge that ends, and that starts
+    real slop;        // [m] largest with which a neighbour touched the corner
+    uint8_t form;     // pl_cone_form
+    uint8_t ends[2];  // pl_edge_end of the edge that ends here, and of the one that starts
+    bool flat;        // the ground goes on flat: see pl_cone_is_flat
+    uint32_t spans;   // first covered stretch, sorted
     uint32_t span_count;
 } pl_seam;
 
@@ -48,29 +61,29 @@ typedef struct pl_seam_pair {
 #define PL_SPAN_CLASSES 32 // runs of 1, 2, 4, ... spans
 
 typedef struct pl_seams {
-    uint32_t count;     // pieces that have seams
-    bool dirty;         // some piece is stale, or a region changed
-    bool all;           // everything must be looked at again
-    bool relist;        // the list of pairs is out of date
-    pl_buffer corners;  // pl_seam
-    pl_buffer spans;    // pl_span
-    uint32_t span_used; // handed out, free runs included
+    uint32_t count;                      // pieces that have seams
+    bool dirty;                          // some piece is stale, or a region changed
+    bool all;                            // everything must be looked at again
+    bool relist;                         // the list of pairs is out of date
+    pl_buffer corners;                   // pl_seam
+    pl_buffer spans;                     // pl_span
+    uint32_t span_used;                  // handed out, free runs included
     uint32_t span_free[PL_SPAN_CLASSES]; // first span of a free run + 1, whose bytes hold the next
-    pl_buffer regions;  // pl_box: where static pieces went away
+    pl_buffer regions;                   // pl_box: where static pieces went away
     uint32_t region_count;
-    pl_buffer chosen;   // uint32_t pieces to look at
+    pl_buffer chosen; // uint32_t pieces to look at
     uint32_t chosen_count;
-    pl_buffer around;   // uint32_t neighbours of the piece that is looked at
+    pl_buffer around; // uint32_t neighbours of the piece that is looked at
     uint32_t around_count;
-    pl_buffer scratch;  // pl_span: what they cover
-    pl_buffer pairs;    // pl_seam_pair
+    pl_buffer scratch; // pl_span: what they cover
+    pl_buffer pairs;   // pl_seam_pair
     uint32_t pair_count;
     // Runs of flush faces (run.c): contacts of the step, and what the owners bore in the last one.
     pl_buffer contacts, runs, order, loads, old_loads, slots, borne;
     uint32_t contact_count, load_count, old_load_count, slot_count;
-    bool apart;         // each tile keeps its own contact: systems look at them
-    uint64_t listed;    // broad->rebuilds when the pairs were listed
-    uint64_t updated;   // pieces looked at so far: what changes cost
+    bool apart;       // each tile keeps its own contact: systems look at them
+    uint64_t listed;  // broad->rebuilds when the pairs were listed
+    uint64_t updated; // pieces looked at so far: what changes cost
 } pl_seams;
 
 //---- what happened to pieces (seams.c) -------------------------------------------------------------

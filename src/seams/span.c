@@ -33,7 +33,8 @@ uint32_t pl_spans_merge(pl_span *spans, uint32_t count)
     uint32_t kept = 0;
     for (uint32_t i = 0; i < count; ++i) {
         if (kept > 0 && spans[i].from <= spans[kept - 1].to) {
-            spans[kept - 1].to = spans[i].to > spans[kept - 1].to ? spans[i].to : spans[kept - 1].to;
+            spans[kept - 1].to =
+                spans[i].to > spans[kept - 1].to ? spans[i].to : spans[kept - 1].to;
         } else {
             spans[kept++] = spans[i];
         }

@@ -16,7 +16,7 @@
 #include <string.h>
 
 void pl_view_open(pl_view *v, const plumb_world *world, const pl_pair *pair, const pl_manifold *m,
-                      bool own_is_a, double dt)
+                  bool own_is_a, double dt)
 {
     const pl_pieces *pieces = &world->pieces;
     v->world = world;
@@ -32,6 +32,7 @@ void pl_view_open(pl_view *v, const plumb_world *world, const pl_pair *pair, con
     double nx = sign * (double)m->nx, ny = sign * (double)m->ny;
     v->nx = c * nx + s * ny;
     v->ny = c * ny - s * nx;
+    v->feature = pl_side_feature(&v->side, v->nx, v->ny, &v->is_edge);
     double wx = ((double)v->other_pose->vx - (double)v->own_pose->vx) * dt;
     double wy = ((double)v->other_pose->vy - (double)v->own_pose->vy) * dt;
     v->vx = c * wx + s * wy;
@@ -143,20 +144,12 @@ bool pl_view_is_admitted(pl_view *v)
     if ((v->side.corner_bits | v->side.edge_bits) == 0) {
         return true;
     }
-    bool is_edge;
-    int k = pl_side_feature(&v->side, v->nx, v->ny, &is_edge);
-    if (is_edge) {
+    int k = v->feature;
+    if (v->is_edge) {
         return faces_open_part(v, k);
     }
     return !pl_side_corner_is_flat(&v->side, k) &&
            pl_side_corner_admits(&v->side, k, v->nx, v->ny) && lies_at(v, k);
-}
-
-int pl_view_edge(const pl_view *v)
-{
-    bool is_edge;
-    int k = pl_side_feature(&v->side, v->nx, v->ny, &is_edge);
-    return is_edge ? k : -1;
 }
 
 //---- setting it right ----------------------------------------------------------------------------
@@ -367,5 +360,6 @@ bool pl_view_rebuild(pl_view *v, pl_manifold *m)
         }
     }
     return pl_view_write(v, &best.f, points, count,
-                         PL_SEAM_FEATURE | (uint32_t)best.edge << 8 | (uint32_t)feature << 1, m) > 0;
+                         PL_SEAM_FEATURE | (uint32_t)best.edge << 8 | (uint32_t)feature << 1,
+                         m) > 0;
 }

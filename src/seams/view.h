@@ -16,6 +16,8 @@ typedef struct pl_view {
     bool own_is_a;
     pl_side side;
     double nx, ny; // outward normal of the ground
+    int feature;   // what of the ground lies farthest that way: edge or corner
+    bool is_edge;
     double vx, vy; // [m] way of the other in this step
     double radii;  // [m]
     int count;     // corners of the other
@@ -31,8 +33,8 @@ typedef struct pl_face {
 typedef struct pl_strip {
     pl_face f;
     int edge;
-    double separation;   // [m] of the whole other piece from the face's line
-    double low, high;    // [m] open part of the face
+    double separation;    // [m] of the whole other piece from the face's line
+    double low, high;     // [m] open part of the face
     double before, after; // [m] how much longer it is for points that move
     const real *walls[2]; // normals of what stands at its ends; NULL: nothing does
 } pl_strip;
@@ -53,9 +55,6 @@ void pl_view_open(pl_view *v, const plumb_world *world, const pl_pair *pair, con
 void pl_view_bring_other(pl_view *v);
 
 pl_face pl_view_face(const pl_view *v, int k);
-// The edge whose normal the contact has, -1 when it has that of none.
-int pl_view_edge(const pl_view *v);
-
 // True when the ground admits the normal where the other piece is, or comes within the step.
 bool pl_view_is_admitted(pl_view *v);
 

@@ -37,7 +37,7 @@ static void note_immovable(plumb_world *world, uint32_t row)
 void pl_sleep_stir(plumb_world *world, uint32_t row)
 {
     pl_bodies *b = &world->bodies;
-    b->still[row] = PL_UNSEEN;
+    b->looked[row] = PL_UNSEEN;
     if (b->island[row] != PL_NONE) {
         make_due(world, b->island[row]);
     }
@@ -83,7 +83,7 @@ void pl_sleep_disturb_all(plumb_world *world)
         }
     }
     for (uint32_t row = 0; row < world->dynamic_count; ++row) {
-        world->bodies.still[row] = PL_UNSEEN;
+        world->bodies.looked[row] = PL_UNSEEN;
     }
 }
 

@@ -1,10 +1,10 @@
 // fall.c - falling asleep: for how long each body has rested, and which islands rest as a whole.
 //
-// A body rests while it is slower than sleep_speed and goes evenly: from one half of sleep_time to the
-// next, its way must not change by more than a fiftieth of what sleep_speed makes in sleep_time. A
-// block that begins to slide, or a large slow pendulum at its turning point, is slow and not at rest;
-// a heap that creeps is. In the defaults, what accelerates by 8 mm/s^2 stays awake. Turning counts
-// by the farthest point: sqrt(v^2 + (w r)^2), and the way likewise.
+// A body rests while it is slower than sleep_speed and goes evenly: from one half of sleep_time to
+// the next, its way must not change by more than a fiftieth of what sleep_speed makes in
+// sleep_time. A block that begins to slide, or a large slow pendulum at its turning point, is slow
+// and not at rest; a heap that creeps is. In the defaults, what accelerates by 8 mm/s^2 stays
+// awake. Turning counts by the farthest point: sqrt(v^2 + (w r)^2), and the way likewise.
 //
 // Islands are looked for only when some body has rested for sleep_time, and eight times in that
 // time: union-find with path halving (Tarjan 1983) over the bodies that are ripe, by the contacts
@@ -30,10 +30,11 @@ static real square(real v)
     return v * v;
 }
 
+// Rested for two looks, half of sleep_time each.
 static bool is_ripe(const plumb_world *world, uint32_t row)
 {
-    return world->bodies.looks[row] >= 2 && world->bodies.still[row] >= world->desc.sleep_time &&
-           (world->bodies.flags[row] & PL_BODY_NO_SLEEP) == 0;
+    const pl_bodies *b = &world->bodies;
+    return b->looks[row] >= 2 && b->looked[row] >= 0 && (b->flags[row] & PL_BODY_NO_SLEEP) == 0;
 }
 
 // A system may have written a force of which nothing is to be seen yet.
@@ -43,10 +44,9 @@ static bool is_pushed(const plumb_world *world, uint32_t row)
     return b->fx[row] != 0 || b->fy[row] != 0 || b->torque[row] != 0;
 }
 
-static void begin_rest(pl_bodies *b, uint32_t row)
+static void look_from_here(pl_bodies *b, uint32_t row)
 {
-    b->still[row] = b->looked[row] = 0;
-    b->looks[row] = 0;
+    b->looked[row] = 0;
     b->look_x[row] = b->center_x[row];
     b->look_y[row] = b->center_y[row];
     b->look_c[row] = b->c[row];
@@ -54,46 +54,73 @@ static void begin_rest(pl_bodies *b, uint32_t row)
 }
 
 // Half of sleep_time after the last look: compares the way since with the one before.
-static void look_at(const plumb_world *world, pl_bodies *b, uint32_t row)
+static void look_at(plumb_world *world, uint32_t row)
 {
+    pl_bodies *b = &world->bodies;
     real x = b->center_x[row] - b->look_x[row], y = b->center_y[row] - b->look_y[row];
     real turn = b->s[row] * b->look_c[row] - b->c[row] * b->look_s[row];
     real change = square(x - b->way_x[row]) + square(y - b->way_y[row]) +
                   square((turn - b->way_turn[row]) * b->extent[row]);
     real even = EVEN * world->desc.sleep_speed * world->desc.sleep_time;
-    uint8_t looks = b->looks[row];
-    real still = b->still[row];
-    begin_rest(b, row);
-    if (looks == 0 || change <= square(even)) {
-        b->still[row] = still;
-        b->looks[row] = looks < 2 ? (uint8_t)(looks + 1) : 2;
-    }
+    bool first = b->looks[row] == 0;
+    b->looks[row] = first || change > square(even) ? 1 : 2;
     b->way_x[row] = x;
     b->way_y[row] = y;
     b->way_turn[row] = turn;
+    look_from_here(b, row);
+    if (is_ripe(world, row)) {
+        // Until it has been looked at again, and more.
+        world->sleep.ripe_for = world->desc.sleep_time;
+    }
+}
+
+// Four rows at once: this is all that sleeping costs who is awake. What lies behind the last row is
+// in columns that are longer than that, and means nothing.
+typedef real quad __attribute__((vector_size(4 * sizeof(real)), may_alias));
+#if defined(PLUMB_DOUBLE) && PLUMB_DOUBLE
+typedef int64_t quad_mask __attribute__((vector_size(4 * sizeof(real)), may_alias));
+#else
+typedef int32_t quad_mask __attribute__((vector_size(4 * sizeof(real)), may_alias));
+#endif
+
+// `a` where the mask is set, else `b`. Not a function: how quads are passed depends on the machine.
+#define EITHER(mask, a, b) ((quad)(((mask) & (quad_mask)(a)) | (~(mask) & (quad_mask)(b))))
+
+// The time of each row goes on, begins (0) or is void. True when one begins, or a look is due.
+static bool go_on(const pl_bodies *b, uint32_t count, real slow, real half, real passed)
+{
+    const quad *vx = (const quad *)b->vx, *vy = (const quad *)b->vy, *w = (const quad *)b->w;
+    const quad *extent = (const quad *)b->extent;
+    quad *looked = (quad *)b->looked;
+    const quad zero = { 0 }, unseen = zero + PL_UNSEEN;
+    quad_mask due = { 0 };
+    for (uint32_t i = 0; i < (count + 3) / 4; ++i) {
+        quad tip = w[i] * extent[i];
+        quad speed = vx[i] * vx[i] + vy[i] * vy[i] + tip * tip;
+        quad time = EITHER(looked[i] < zero, zero, looked[i] + passed);
+        time = EITHER(speed <= zero + slow, time, unseen);
+        looked[i] = time;
+        due |= (time == zero) | (time >= zero + half);
+    }
+    return (due[0] | due[1] | due[2] | due[3]) != 0;
 }
 
 // `passed` [s]: the step before.
 static void time_bodies(plumb_world *world, real passed)
 {
     pl_bodies *b = &world->bodies;
-    const real slow = square(world->desc.sleep_speed);
     const real half = world->desc.sleep_time / 2;
-    uint32_t ripe = 0;
-    for (uint32_t row = 0; row < world->dynamic_count; ++row) {
-        real speed = square(b->vx[row]) + square(b->vy[row]) + square(b->w[row] * b->extent[row]);
-        if (!(speed <= slow) || b->still[row] < 0) {
-            begin_rest(b, row);
-            continue;
-        }
-        b->still[row] += passed;
-        b->looked[row] += passed;
-        if (b->looked[row] >= half) {
-            look_at(world, b, row);
-        }
-        ripe += is_ripe(world, row);
+    if (!go_on(b, world->dynamic_count, square(world->desc.sleep_speed), half, passed)) {
+        return;
     }
-    world->sleep.ripe_count = ripe;
+    for (uint32_t row = 0; row < world->dynamic_count; ++row) {
+        if (b->looked[row] >= half) {
+            look_at(world, row);
+        } else if (b->looked[row] == 0) {
+            look_from_here(b, row);
+            b->looks[row] = 0;
+        }
+    }
 }
 
 //---- links ---------------------------------------------------------------------------------------
@@ -126,7 +153,7 @@ static void unsettle_around_changed(plumb_world *world, uint32_t pair_count)
     for (uint32_t i = 0; i < pair_count; ++i) {
         uint32_t r = pairs[i].body_a, q = pairs[i].body_b;
         if (is_linked(&pairs[i]) && (b->changed_step[r] == now || b->changed_step[q] == now)) {
-            b->still[r] = b->still[q] = PL_UNSEEN;
+            b->looked[r] = b->looked[q] = PL_UNSEEN;
         }
     }
 }
@@ -226,7 +253,12 @@ static uint32_t find_sleepers(plumb_world *world, uint32_t pair_count)
     for (uint32_t row = 0; row < world->dynamic_count; ++row) {
         parents[row] = is_ripe(world, row) && !is_pushed(world, row) ? row : PL_NONE;
         held[row] = 0;
+        count += parents[row] != PL_NONE;
     }
+    if (count == 0) {
+        return 0;
+    }
+    count = 0;
     link_members(world, pair_count);
     for (uint32_t row = 0; row < world->dynamic_count; ++row) {
         if (held[row]) {
@@ -275,7 +307,8 @@ static bool reserve_islands(plumb_world *world, uint32_t pair_count, uint32_t bo
            pl_buffer_reserve(&world->memory, &s->sleep_events, events);
 }
 
-// Takes the pairs of sleepers out of the list, and their manifolds; those that are contacts are kept.
+// Takes the pairs of sleepers out of the list, and their manifolds; those that are contacts are
+// kept.
 static void take_out_pairs(plumb_world *world, uint32_t pair_count)
 {
     pl_pair_list *list = &world->broad.pairs;
@@ -382,11 +415,12 @@ bool pl_sleep_fall(plumb_world *world, real dt)
     if (s->timed_step != step) {
         s->timed_step = step;
         s->since += s->passed;
+        s->ripe_for -= s->passed;
         time_bodies(world, s->passed);
         s->passed = dt;
         unsettle_around_changed(world, pair_count);
     }
-    if (s->ripe_count == 0 || s->since * LOOKS < world->desc.sleep_time) {
+    if (s->ripe_for <= 0 || s->since * LOOKS < world->desc.sleep_time) {
         return true;
     }
     if (!reserve_members(world)) {

@@ -1,4 +1,5 @@
-// island.c - islands asleep: their bodies, their contacts, and the way of a body into sleep and out.
+// island.c - islands asleep: their bodies, their contacts, and the way of a body into sleep and
+// out.
 //
 // Islands and contacts lie in slots with lists of free ones, so that sleeping and waking allocate
 // nothing once there is room. The bodies of an island are a list through their rows, by registry
@@ -29,10 +30,10 @@ bool pl_islands_reserve(plumb_world *world, uint32_t islands, uint32_t contacts)
 
 void pl_sleep_free(pl_memory *memory, pl_sleep *s)
 {
-    pl_buffer *buffers[] = { &s->islands,        &s->contacts,    &s->resting,
-                             &s->near.items,     &s->probe.items, &s->found,
-                             &s->touched.manifolds, &s->marked,   &s->woken,
-                             &s->parents,        &s->held,        &s->sleep_events,
+    pl_buffer *buffers[] = { &s->islands,           &s->contacts,    &s->resting,
+                             &s->near.items,        &s->probe.items, &s->found,
+                             &s->touched.manifolds, &s->marked,      &s->woken,
+                             &s->parents,           &s->held,        &s->sleep_events,
                              &s->wake_events };
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; ++i) {
         pl_buffer_free(memory, buffers[i]);
@@ -262,7 +263,7 @@ uint32_t pl_sleep_put_down(plumb_world *world, uint32_t row)
 uint32_t pl_sleep_take_up(plumb_world *world, uint32_t row)
 {
     pl_bodies *b = &world->bodies;
-    b->still[row] = PL_UNSEEN;
+    b->looked[row] = PL_UNSEEN;
     for (uint32_t p = b->first_piece[row]; p != PL_NONE; p = world->pieces.next_in_body[p]) {
         pl_piece_move(world, p);
     }

@@ -5,7 +5,8 @@
 #include "narrow/manifold.h"
 #include "plumb/sleep.h"
 
-#define PL_UNSEEN ((real)-1) // pl_bodies.still of a body that was changed: the next step looks at it
+#define PL_UNSEEN                                                                                  \
+    ((real)-1) // pl_bodies.looked of a body that moves or was changed: it rests from anew
 
 // A contact of a sleeping body, kept for when it wakes and for those who ask meanwhile.
 typedef struct pl_dormant {
@@ -13,14 +14,14 @@ typedef struct pl_dormant {
     pl_manifold manifold; // as of when it fell asleep, if `whole`
     bool whole;           // it had a manifold; else only its end event is still due
     uint32_t island;
-    uint32_t next;        // in the island's list, or the list of free ones
-    uint32_t fixed;       // the static or kinematic piece of the pair; PL_NONE: none, or gone
+    uint32_t next;  // in the island's list, or the list of free ones
+    uint32_t fixed; // the static or kinematic piece of the pair; PL_NONE: none, or gone
     uint32_t fixed_next, fixed_previous; // others of that piece
 } pl_dormant;
 
 // Bodies that sleep together: whatever wakes one wakes all.
 typedef struct pl_island {
-    uint32_t first_body;    // registry slot; the list runs through the body rows
+    uint32_t first_body; // registry slot; the list runs through the body rows
     uint32_t last_body;
     uint32_t body_count;    // 0: a free slot, whose first_body is the next one
     uint32_t first_contact; // dormant contacts
@@ -63,12 +64,12 @@ typedef struct pl_sleep {
     pl_buffer woken; // pl_keyed: their contacts, by kinds
 
     // Falling asleep (fall.c).
-    uint64_t timed_step;  // step count + 1 when bodies were last timed: a step may be tried again
+    uint64_t timed_step;   // step count + 1 when bodies were last timed: a step may be tried again
     uint64_t changed_step; // likewise: something immovable was changed
     uint64_t tested_step;  // likewise: pairs were made or looked up
     real since;            // [s] since islands were last looked for
     real passed;           // [s] the last step
-    uint32_t ripe_count;   // bodies that have been slow for long enough
+    real ripe_for;         // [s] for so long, some body may have rested long enough
     pl_buffer parents;     // uint32_t a row
     pl_buffer held;        // uint8_t a row: something keeps its island awake
 
@@ -97,11 +98,12 @@ static inline uint32_t *pl_resting(const pl_sleep *sleep)
 
 // Wakes what is due and what is touched (wake.c). False when out of memory: nobody has woken.
 bool pl_sleep_wake(plumb_world *world, plumb_real dt);
-// Puts to sleep what has rested long enough (fall.c). False when out of memory: nothing has changed.
+// Puts to sleep what has rested long enough (fall.c). False when out of memory: nothing has
+// changed.
 bool pl_sleep_fall(plumb_world *world, plumb_real dt);
 void pl_sleep_events_clear(plumb_world *world);
-// Puts the island of an awake dynamic row to sleep at once. Errors: E_MEMORY, E_STATE (a body of it may
-// not sleep).
+// Puts the island of an awake dynamic row to sleep at once. Errors: E_MEMORY, E_STATE (a body of it
+// may not sleep).
 plumb_result pl_sleep_put_to_sleep(plumb_world *world, const char *function, uint32_t row);
 // Makes the new body of a row of the sleeping partition an island (room must be reserved).
 void pl_sleep_make(plumb_world *world, uint32_t row);

@@ -1,7 +1,7 @@
 // sleep_api.c - the public functions of plumb/sleep.h, and the events' life.
 //
-// Reads: arguments, islands. Writes: flags, islands due; plumb_body_sleep moves rows. Cost: O(1) but
-// for plumb_body_sleep and plumb_world_set_sleep.
+// Reads: arguments, islands. Writes: flags, islands due; plumb_body_sleep moves rows. Cost: O(1)
+// but for plumb_body_sleep and plumb_world_set_sleep.
 #include "plumb/sleep.h"
 
 #include "world/check.h"
@@ -72,8 +72,8 @@ plumb_result plumb_body_set_no_sleep(plumb_world *world, plumb_body body, bool n
     if (r != PLUMB_OK) {
         return r;
     }
-    uint8_t *flags = &world->bodies.flags[row];
-    *flags = (uint8_t)(no_sleep ? *flags | PL_BODY_NO_SLEEP : *flags & (uint8_t)~PL_BODY_NO_SLEEP);
+    uint16_t *flags = &world->bodies.flags[row];
+    *flags = (uint16_t)(no_sleep ? *flags | PL_BODY_NO_SLEEP : *flags & (uint16_t)~PL_BODY_NO_SLEEP);
     if (no_sleep && world->bodies.island[row] != PL_NONE) {
         pl_sleep_stir(world, row);
     }
@@ -125,7 +125,6 @@ const plumb_body *plumb_world_sleep_events(const plumb_world *world, int *count)
 
 const plumb_body *plumb_world_wake_events(const plumb_world *world, int *count)
 {
-    return world == NULL
-               ? events(NULL, 0, count)
-               : events(&world->sleep.wake_events, world->sleep.wake_event_count, count);
+    return world == NULL ? events(NULL, 0, count)
+                         : events(&world->sleep.wake_events, world->sleep.wake_event_count, count);
 }

@@ -10,11 +10,11 @@
 // 4. All of them get up. Their contacts go back into the pair list, with impulses and flags, as if
 //    they had never left it.
 //
-// So the solver never sees a sleeping body, and a body struck in this step moves in this step. Reads:
-// pieces, grids, islands. Writes: rows, lists of pieces, pair list, wake events. Order: before the
-// broad phase, whose refreshing of boxes it does. Cost: O(1) when nothing moves; O(moving pieces)
-// when a box was left; O(what wakes), and one pass over the pair list, in steps in which something
-// does.
+// So the solver never sees a sleeping body, and a body struck in this step moves in this step.
+// Reads: pieces, grids, islands. Writes: rows, lists of pieces, pair list, wake events. Order:
+// before the broad phase, whose refreshing of boxes it does. Cost: O(1) when nothing moves;
+// O(moving pieces) when a box was left; O(what wakes), and one pass over the pair list, in steps in
+// which something does.
 #include "broad/pairs.h"
 #include "core/sort.h"
 #include "narrow/narrow.h"

@@ -48,6 +48,28 @@ static real fly(plumb_world *world, uint32_t row, real dt)
     return angle;
 }
 
+// The large part of a change, then what rounding to a real takes from it.
+static void add_exactly(real *value, real *low, double change)
+{
+    real large = (real)change;
+    add(value, low, (real)(change - (double)large));
+    add(value, low, large);
+}
+
+// The same for a body that has locked axes, damping, caps or a time of its own.
+static real fly_oddly(plumb_world *world, uint32_t row, real dt)
+{
+    pl_bodies *b = &world->bodies;
+    pl_flight f = pl_effects_fly(world, row, dt);
+    add_exactly(&b->center_x[row], &b->low_x[row], f.x);
+    add_exactly(&b->center_y[row], &b->low_y[row], f.y);
+    turn(b, row, (real)f.angle);
+    add_exactly(&b->vx[row], &b->low_vx[row], f.vx);
+    add_exactly(&b->vy[row], &b->low_vy[row], f.vy);
+    b->w[row] = (real)((double)b->w[row] + f.w);
+    return (real)f.angle;
+}
+
 typedef struct where {
     real x, y, c, s;
 } where;
@@ -64,9 +86,14 @@ static inline void note_if_fast(plumb_world *world, uint32_t row, where before, 
     real moved = plumb_abs(b->center_x[row] - before.x) + plumb_abs(b->center_y[row] - before.y) +
                  plumb_abs(angle) * b->extent[row];
     if (moved > b->slack[row]) {
-        pl_movers(&world->continuous)[world->continuous.count++] = (pl_mover){
-            row, false, before.x, before.y, before.c, before.s, angle, moved, 1
-        };
+        pl_movers(&world->continuous)[world->continuous.count++] = (pl_mover){ .row = row,
+                                                                               .x = before.x,
+                                                                               .y = before.y,
+                                                                               .c = before.c,
+                                                                               .s = before.s,
+                                                                               .angle = angle,
+                                                                               .moved = moved,
+                                                                               .stop = 1 };
     }
 }
 
@@ -112,13 +139,19 @@ void pl_solver_finish(plumb_world *world, real dt)
     const real *lows = world->narrow.any_bounce ? world->solver.lows.data : NULL;
     for (uint32_t row = 0; row < world->dynamic_count; ++row) {
         where before = { b->center_x[row], b->center_y[row], b->c[row], b->s[row] };
-        real angle;
-        if (!collided || slots[row] == PL_NONE) {
+        bool odd = (b->flags[row] & PL_BODY_ODD) != 0;
+        real angle = 0;
+        if ((!collided || slots[row] == PL_NONE) && odd) {
+            angle = fly_oddly(world, row, dt);
+        } else if (!collided || slots[row] == PL_NONE) {
             angle = fly(world, row, dt);
-        } else {
+        } else if (!odd || pl_time_scale(world, row) > 0) {
             uint32_t slot = slots[row];
             angle = bodies[slot].da;
             take_over(world, row, &bodies[slot], lows == NULL ? NULL : &lows[(size_t)slot * 4]);
+            if (odd) {
+                pl_effects_take_over(world, row);
+            }
         }
         b->fx[row] = b->fy[row] = b->torque[row] = 0;
         arrest_if_lost(world, row, before);
@@ -130,13 +163,14 @@ void pl_solver_finish(plumb_world *world, real dt)
     for (uint32_t row = world->dynamic_count; row < world->dynamic_count + world->kinematic_count;
          ++row) {
         where before = { b->center_x[row], b->center_y[row], b->c[row], b->s[row] };
-        add(&b->center_x[row], &b->low_x[row], dt * b->vx[row]);
-        add(&b->center_y[row], &b->low_y[row], dt * b->vy[row]);
-        turn(b, row, dt * b->w[row]);
+        real time = (b->flags[row] & PL_BODY_TUNED) != 0 ? dt * pl_time_scale(world, row) : dt;
+        add(&b->center_x[row], &b->low_x[row], time * b->vx[row]);
+        add(&b->center_y[row], &b->low_y[row], time * b->vy[row]);
+        turn(b, row, time * b->w[row]);
         arrest_if_lost(world, row, before);
         pl_body_update_origin(world, row);
         if (noting) {
-            note_if_fast(world, row, before, dt * b->w[row]);
+            note_if_fast(world, row, before, time * b->w[row]);
         }
     }
 }

@@ -51,10 +51,40 @@ static bool end_wanted(const plumb_world *world, const char **reason)
     return any_system(world, PLUMB_PHASE_END, reason);
 }
 
-// Something dynamic has a shape, and there is something to meet.
+static bool targets_wanted(const plumb_world *world, const char **reason)
+{
+    return say(world->targets.count > 0, reason, "kinematic bodies are on their way to a target",
+               "no kinematic body has a target");
+}
+
+static bool damping_wanted(const plumb_world *world, const char **reason)
+{
+    return say(world->tunings.damped > 0, reason, "some body is damped", "no body is damped");
+}
+
+static bool caps_wanted(const plumb_world *world, const char **reason)
+{
+    return say(world->tunings.capped > 0, reason, "some body has a speed cap",
+               "no body has a speed cap");
+}
+
+static bool own_time_wanted(const plumb_world *world, const char **reason)
+{
+    return say(world->tunings.scaled > 0, reason, "some body has a time scale of its own",
+               "all bodies move in the world's time");
+}
+
+static bool locks_wanted(const plumb_world *world, const char **reason)
+{
+    return say(world->locked_bodies > 0, reason, "some body has a locked axis",
+               "no body has a locked axis");
+}
+
+// Something dynamic has a shape, and there is something to meet; or pairs are left that have to end.
 static bool collision_wanted(const plumb_world *world, const char **reason)
 {
     bool wanted = world->dynamic_count > 0 && world->moving_count > 0 && world->pieces.live > 1;
+    wanted |= world->broad.pairs.count > 0;
     return say(wanted, reason, "dynamic bodies have shapes that can meet others",
                "no dynamic body has a shape that could meet another");
 }
@@ -63,8 +93,8 @@ static bool collision_wanted(const plumb_world *world, const char **reason)
 static bool sensing_wanted(const plumb_world *world, const char **reason)
 {
     bool wanted = world->sensor_pieces > 0 && world->moving_count > 0 && world->pieces.live > 1;
-    return say(wanted || world->sensing.count > 0 || world->sensing.rest_stale, reason, "there are sensors",
-               "no shape is a sensor that could meet another");
+    return say(wanted || world->sensing.count > 0 || world->sensing.rest_stale, reason,
+               "there are sensors", "no shape is a sensor that could meet another");
 }
 
 static bool broad_wanted(const plumb_world *world, const char **reason)
@@ -161,6 +191,12 @@ static bool any_material(const plumb_world *world, const real *column)
     return false;
 }
 
+static bool adhesion_wanted(const plumb_world *world, const char **reason)
+{
+    return say(any_material(world, world->materials.adhesion) || world->material_pair_count > 0,
+               reason, "some shape's material may stick", "no shape's material sticks");
+}
+
 static bool friction_wanted(const plumb_world *world, const char **reason)
 {
     return say(any_material(world, world->materials.friction), reason,
@@ -207,6 +243,12 @@ static plumb_result run_waking(plumb_world *world, plumb_real dt)
 static plumb_result run_sleep(plumb_world *world, plumb_real dt)
 {
     return pl_sleep_fall(world, dt) ? PLUMB_OK : PLUMB_E_MEMORY;
+}
+
+static plumb_result run_arrive(plumb_world *world, plumb_real dt)
+{
+    pl_targets_arrive(world, dt);
+    return PLUMB_OK;
 }
 
 static plumb_result run_broad(plumb_world *world, plumb_real dt)
@@ -346,9 +388,15 @@ const pl_pass pl_passes[] = {
     { "- friction",    "solve",    "materials",                       "solver bodies, impulses",   friction_wanted,  NULL },
     { "- rotation",    "solve",    "inertias",                        "solver bodies",             rotation_wanted,  NULL },
     { "- impacts",     "solve",    "materials, manifolds",            "solver bodies",             impacts_wanted,   NULL },
+    { "- adhesion",    "solve",    "materials, manifolds",            "solver bodies, impulses",   adhesion_wanted,  NULL },
+    { "- locked axes", "solve",    "bodies",                          "solver bodies, impulses",   locks_wanted,     NULL },
+    { "- damping",     "solve",    "tunings",                         "solver bodies, velocities", damping_wanted,   NULL },
+    { "- speed caps",  "solve",    "tunings",                         "solver bodies, velocities", caps_wanted,      NULL },
+    { "- own time",    "solve",    "tunings",                         "solver bodies, transforms", own_time_wanted,  NULL },
     { "- joints",      "solve",    "joints, poses",                   "solver bodies, joints",     joints_wanted,    NULL },
     { "motion",        "finish",   "solver bodies, forces, gravity",  "transforms, velocities",    NULL,             run_motion },
     { "continuous",    "finish",   "bodies that moved fast, pieces",  "transforms",                continuous_wanted, run_continuous },
+    { "targets",       "finish",   "targets, poses",                  "kinematic poses, velocities", targets_wanted, run_arrive },
     { "reactions",     "finish",   "joints, poses",                   "joints, break events",      joints_wanted,    run_reactions },
     { "events",        "finish",   "pairs, manifolds",                "event arrays",              collision_wanted, run_events },
     { "sensors",       "finish",   "candidates, poses, pieces",       "overlaps, sensor events",   sensing_wanted,   run_sensors },

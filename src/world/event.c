@@ -90,12 +90,13 @@ static plumb_contact_point view_point(const plumb_world *world, const pl_manifol
     };
 }
 
-// True while both pieces are those that the pair was made for.
+// True while both pieces are those that the pair was made for, and enabled.
 static bool is_intact(const plumb_world *world, const pl_pair *pair)
 {
     const pl_pieces *p = &world->pieces;
     return p->kind[pair->a] != PL_PIECE_FREE && p->serial[pair->a] <= world->broad.serial &&
-           p->kind[pair->b] != PL_PIECE_FREE && p->serial[pair->b] <= world->broad.serial;
+           p->kind[pair->b] != PL_PIECE_FREE && p->serial[pair->b] <= world->broad.serial &&
+           p->moving[pair->a] != PL_OUT && p->moving[pair->b] != PL_OUT;
 }
 
 static plumb_contact view_contact(const plumb_world *world, const pl_pair *pair,

@@ -1,8 +1,7 @@
 // piece.c - pieces: slots, the lists that run through them, and their corners in the vertex pool.
 //
-// Slots stay put while the shape lives, since grids and contacts name them. A freed slot keeps the
-// shape that it belonged to until it is taken again, so that an end event can still tell it. Free
-// slots are a stack: the same calls give the same slots.
+// Slots stay put while the shape lives, since grids and contacts name them. Free slots are a stack:
+// the same calls give the same slots.
 //
 // Reads: world->made. Writes: piece table, vertex pool, moving list, counters and flags.
 // Cost: O(pieces of the shape + pieces of the body).
@@ -10,10 +9,11 @@
 
 #include <string.h>
 
-// Either list has room for all pieces that can move: they go from one to the other without asking.
+// Either list has room for all pieces: bodies fall asleep, change their type and are enabled without
+// asking.
 static bool reserve_lists(plumb_world *world, uint32_t extra)
 {
-    size_t most = (size_t)world->moving_count + world->sleep.resting_count + extra;
+    size_t most = (size_t)world->pieces.table.count + extra;
     return pl_buffer_reserve(&world->memory, &world->moving, most * sizeof(uint32_t)) &&
            pl_buffer_reserve(&world->memory, &world->sleep.resting, most * sizeof(uint32_t));
 }
@@ -28,7 +28,8 @@ bool pl_pieces_reserve(plumb_world *world, uint32_t extra)
     }
     return pl_table_reserve(&world->memory, &pieces->table, pl_piece_columns, pl_piece_column_count,
                             pieces->table.count + fresh) &&
-           reserve_lists(world, extra);
+           reserve_lists(world, extra) &&
+           pl_graves_reserve(world, pieces->table.count + fresh);
 }
 
 static uint32_t take_slot(plumb_world *world)
@@ -59,7 +60,7 @@ static void delist(plumb_world *world, uint32_t *list, uint32_t *count, uint32_t
     uint32_t last = list[--*count];
     list[place] = last;
     world->pieces.moving[last] = place;
-    world->pieces.moving[slot] = PL_NONE;
+    world->pieces.moving[slot] = PL_OUT;
 }
 
 static void enlist_resting(plumb_world *world, uint32_t slot)
@@ -76,6 +77,49 @@ static void delist_resting(plumb_world *world, uint32_t slot)
     delist(world, pl_resting(s), &s->resting_count, slot);
     world->pieces.flags[slot] &= (uint8_t)~PL_PIECE_ASLEEP;
     ++s->gone;
+}
+
+// Files a piece that is in no grid.
+static void file(plumb_world *world, uint32_t slot, uint32_t row)
+{
+    pl_pieces *pieces = &world->pieces;
+    // Empty: whatever the tight box is, the piece has left its fat box.
+    pieces->fat[slot] =
+        (pl_box){ PLUMB_REAL_MAX, PLUMB_REAL_MAX, -PLUMB_REAL_MAX, -PLUMB_REAL_MAX };
+    if ((world->bodies.flags[row] & PL_BODY_DISABLED) != 0) {
+        pieces->moving[slot] = PL_OUT;
+    } else if (world->bodies.type[row] == PLUMB_STATIC) {
+        pieces->moving[slot] = PL_NONE;
+        world->static_dirty = true;
+    } else if (pl_row_is_asleep(world, row)) {
+        enlist_resting(world, slot);
+        world->sleep.boxes_stale = true;
+    } else {
+        enlist(world, pl_moving(world), &world->moving_count, slot);
+    }
+}
+
+static void unfile(plumb_world *world, uint32_t slot)
+{
+    if (world->pieces.moving[slot] == PL_NONE) {
+        world->static_dirty = true;
+    } else if ((world->pieces.flags[slot] & PL_PIECE_ASLEEP) != 0) {
+        delist_resting(world, slot);
+        pl_sensing_note_rest(world);
+    } else if (world->pieces.moving[slot] != PL_OUT) {
+        delist(world, pl_moving(world), &world->moving_count, slot);
+    }
+}
+
+void pl_pieces_refile(plumb_world *world, uint32_t row)
+{
+    uint32_t p = world->bodies.first_piece[row];
+    for (; p != PL_NONE; p = world->pieces.next_in_body[p]) {
+        unfile(world, p);
+        file(world, p, row);
+        world->pairs_dirty = true;
+    }
+    world->schedule_dirty = true;
 }
 
 void pl_piece_rest(plumb_world *world, uint32_t piece)
@@ -118,21 +162,10 @@ static void fill_slot(plumb_world *world, uint32_t slot, uint32_t row, const pl_
     pieces->core[slot] = made->core;
     pieces->seams[slot] = made->seams;
     pieces->body[slot] = row;
-    pieces->moving[slot] = PL_NONE;
     pieces->first_dormant[slot] = PL_NONE;
-    // Empty: whatever the tight box is, the piece has left its fat box.
-    pieces->fat[slot] =
-        (pl_box){ PLUMB_REAL_MAX, PLUMB_REAL_MAX, -PLUMB_REAL_MAX, -PLUMB_REAL_MAX };
     store_corners(world, slot, &made->convex);
     ++world->piece_kinds[made->kind];
-    if (world->bodies.type[row] == PLUMB_STATIC) {
-        world->static_dirty = true;
-    } else if (pl_row_is_asleep(world, row)) {
-        enlist_resting(world, slot);
-        world->sleep.boxes_stale = true;
-    } else {
-        enlist(world, pl_moving(world), &world->moving_count, slot);
-    }
+    file(world, slot, row);
 }
 
 uint32_t pl_pieces_add(plumb_world *world, uint32_t row, plumb_shape shape, const pl_made *made)
@@ -188,16 +221,10 @@ static void free_slot(plumb_world *world, uint32_t slot)
 {
     pl_pieces *pieces = &world->pieces;
     pl_seams_forget(world, slot);
-    if (pieces->moving[slot] == PL_NONE) {
-        world->static_dirty = true;
-    } else if ((pieces->flags[slot] & PL_PIECE_ASLEEP) != 0) {
-        delist_resting(world, slot);
-        pl_sensing_note_rest(world);
-    } else {
-        delist(world, pl_moving(world), &world->moving_count, slot);
-    }
+    unfile(world, slot);
     pl_sleep_void_contacts(world, slot);
     world->sleep.placed_pieces -= (pieces->flags[slot] & PL_PIECE_PLACED) != 0;
+    pl_grave_dig(world, slot);
     if (pieces->vertex_count[slot] > 0) {
         pl_pool_give(&world->vertices, pieces->vertex_class[slot], pieces->vertices[slot]);
     }

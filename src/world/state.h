@@ -13,6 +13,7 @@
 #include "ecs/component.h"
 #include "ecs/registry.h"
 #include "ecs/system.h"
+#include "effects/effects.h"
 #include "event/event.h"
 #include "joints/joint.h"
 #include "narrow/manifold.h"
@@ -55,7 +56,7 @@ struct plumb_world {
     // Entities and rows.
     pl_registry registry;
     pl_bodies bodies;
-    uint32_t dynamic_count, kinematic_count, asleep_count; // the rest of bodies.table.count is static
+    uint32_t dynamic_count, kinematic_count, asleep_count, disabled_count; // the rest is static
     pl_pieces pieces;
     uint32_t shape_count;
     uint32_t serial;       // counts the pieces ever made
@@ -85,6 +86,9 @@ struct plumb_world {
     uint32_t sensor_pieces, filtered_pieces, part_pieces; // live pieces with the flag
     uint32_t one_way_pieces;
     uint32_t dropping_bodies; // requests to drop through since the last step
+    uint32_t locked_bodies; // bodies locked in x or y
+    pl_tunings tunings;
+    pl_targets targets;
 
     // Tables that few worlds have, sorted by key.
     pl_buffer excluded; // uint64_t: slots of two bodies (filter.c)
@@ -106,6 +110,7 @@ struct plumb_world {
     pl_buffer begin_events, end_events; // plumb_contact_begin, plumb_contact_end
     pl_buffer hit_events;               // plumb_contact_hit
     int begin_count, end_count, hit_count;
+    pl_buffer graves; // pl_grave by piece slot
     pl_parts parts;
     pl_blows blows;
     pl_sensing sensing;

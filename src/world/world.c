@@ -15,6 +15,8 @@
 #define SOFT_DAMPING       ((real)3)
 #define SOFT_PUSH_SPEED    ((real)6) // [m/s]
 #define CLASSIC_ITERATIONS 10
+#define SUBSTEPS_MOST      64
+#define ITERATIONS_MOST    1000
 
 //---- the descriptor
 //-------------------------------------------------------------------------------
@@ -28,8 +30,8 @@ static plumb_result check_integers(const plumb_world *world, const char *fn,
     } fields[] = {
         { "y_axis", (int64_t)d->y_axis, PLUMB_Y_DOWN },
         { "solver", (int64_t)d->solver, PLUMB_SOLVER_PGS },
-        { "substeps", d->substeps, 64 },
-        { "iterations", d->iterations, 1000 },
+        { "substeps", d->substeps, SUBSTEPS_MOST },
+        { "iterations", d->iterations, ITERATIONS_MOST },
         { "workers", d->workers, PLUMB_WORKERS_MAX },
         { "body_capacity", d->body_capacity, CAPACITY_MOST },
         { "shape_capacity", d->shape_capacity, CAPACITY_MOST },
@@ -170,6 +172,9 @@ static void free_world(plumb_world *world)
     pl_buffer_free(&memory, &world->hit_events);
     pl_buffer_free(&memory, &world->excluded);
     pl_buffer_free(&memory, &world->material_pairs);
+    pl_buffer_free(&memory, &world->graves);
+    pl_buffer_free(&memory, &world->tunings.items);
+    pl_buffer_free(&memory, &world->targets.items);
     pl_parts_free(&memory, &world->parts);
     pl_blows_free(&memory, &world->blows);
     pl_sensing_free(&memory, &world->sensing);
@@ -256,6 +261,74 @@ plumb_result plumb_world_set_gravity(plumb_world *world, plumb_vec2 gravity)
     return r;
 }
 
+static plumb_result check_count(const plumb_world *world, const char *fn, const char *field,
+                                int value, int most)
+{
+    return value >= 1 && value <= most
+               ? PLUMB_OK
+               : pl_fail(world, PLUMB_E_RANGE, fn, "%s is %d; it must be 1 to %d", field, value,
+                         most);
+}
+
+plumb_result plumb_world_set_substeps(plumb_world *world, int substeps, int iterations)
+{
+    if (world == NULL) {
+        return PLUMB_E_NULL;
+    }
+    plumb_result r = check_count(world, __func__, "substeps", substeps, SUBSTEPS_MOST);
+    r = r != PLUMB_OK ? r
+                      : check_count(world, __func__, "iterations", iterations, ITERATIONS_MOST);
+    r = r != PLUMB_OK ? r : pl_check_unlocked(world, __func__);
+    if (r == PLUMB_OK) {
+        world->desc.substeps = substeps;
+        world->desc.iterations = iterations;
+    }
+    return r;
+}
+
+plumb_result plumb_world_set_contact_tuning(plumb_world *world, plumb_real hertz,
+                                            plumb_real damping, plumb_real push_speed)
+{
+    if (world == NULL) {
+        return PLUMB_E_NULL;
+    }
+    plumb_result r = pl_check_range(world, __func__, "hertz", hertz, 0, PLUMB_REAL_MAX);
+    r = r != PLUMB_OK ? r : pl_check_range(world, __func__, "damping", damping, 0, PLUMB_REAL_MAX);
+    r = r != PLUMB_OK
+            ? r
+            : pl_check_range(world, __func__, "push_speed", push_speed, 0, PLUMB_REAL_MAX);
+    r = r != PLUMB_OK ? r : pl_check_unlocked(world, __func__);
+    if (r == PLUMB_OK) {
+        world->desc.contact_hertz = hertz;
+        world->desc.contact_damping = damping;
+        world->desc.push_speed = push_speed;
+        resolve_defaults(&world->desc);
+    }
+    return r;
+}
+
+plumb_result plumb_world_set_restitution_speed(plumb_world *world, plumb_real speed)
+{
+    if (world == NULL) {
+        return PLUMB_E_NULL;
+    }
+    plumb_result r = pl_check_range(world, __func__, "speed", speed, 0, PLUMB_REAL_MAX);
+    r = r != PLUMB_OK ? r : pl_check_unlocked(world, __func__);
+    if (r == PLUMB_OK) {
+        world->desc.restitution_speed = speed;
+    }
+    return r;
+}
+
+plumb_result plumb_world_set_user_data(plumb_world *world, void *user_data)
+{
+    if (world == NULL) {
+        return PLUMB_E_NULL;
+    }
+    world->desc.user_data = user_data;
+    return PLUMB_OK;
+}
+
 plumb_vec2 plumb_world_gravity(const plumb_world *world)
 {
     return world == NULL ? plumb_v2(0, 0) : world->gravity;
@@ -303,9 +376,11 @@ plumb_stats plumb_world_stats(const plumb_world *world)
         .body_count = bodies,
         .dynamic_count = world->dynamic_count,
         .kinematic_count = world->kinematic_count,
-        .static_count = bodies - pl_partition_first(world, PL_PART_STATIC),
+        .static_count =
+            bodies - world->disabled_count - pl_partition_first(world, PL_PART_STATIC),
         .asleep_count = world->asleep_count,
         .island_count = world->sleep.island_count,
+        .disabled_count = world->disabled_count,
         .shape_count = world->shape_count,
         .piece_count = world->pieces.live,
         .pair_count = world->broad.pairs.count + world->sleep.contact_count,
@@ -313,7 +388,7 @@ plumb_stats plumb_world_stats(const plumb_world *world)
         .point_count = all.point_count,
         .color_count = world->solver.color_count,
         .overflow_count = world->solver.overflow_count,
-        .grid_rebuilds = (uint32_t)world->broad.rebuilds,
+        .pair_rebuilds = (uint32_t)world->broad.rebuilds,
         .bounce_count = world->solver.bounce_count,
         .arrested_count = world->arrested_count,
         .fast_count = world->continuous.count,

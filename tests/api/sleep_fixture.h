@@ -21,7 +21,8 @@ typedef struct place {
     plumb_joint rod;
 } place;
 
-static inline plumb_body crate(plumb_world *w, double x, double y, plumb_material m, plumb_shape *shape)
+static inline plumb_body crate(plumb_world *w, double x, double y, plumb_material m,
+                               plumb_shape *shape)
 {
     plumb_body b = plumb_body_create(w, &(plumb_body_desc){ .position = { R(x), R(y) } });
     const plumb_shape_desc box = { .kind = PLUMB_BOX, .half = { R(0.5), R(0.5) }, .material = m };

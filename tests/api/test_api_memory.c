@@ -136,6 +136,11 @@ static bool fill_world(run *r)
         TRY_MAKE(r, r->bodies[i], plumb_body_create(r->world, &desc));
         TRY_MAKE(r, shape, plumb_shape_create(r->world, r->bodies[i], &descs[i % 5]));
     }
+    TRY(r, plumb_body_set_damping(r->world, r->bodies[2], 1, 0));
+    TRY(r, plumb_body_set_time_scale(r->world, r->bodies[8], R(0.5)));
+    TRY(r, plumb_body_set_speed_cap(r->world, r->bodies[9], 9, 9));
+    TRY(r, plumb_body_set_locks(r->world, r->bodies[10], (plumb_axis_locks){ .x = true }));
+    TRY(r, plumb_body_set_target(r->world, r->bodies[6], plumb_v2(9, 9), 1, R(0.25)));
     TRY(r, plumb_world_exclude_pair(r->world, r->bodies[0], r->bodies[1], true));
     // A kinematic character among them, one that stands on a plank, and a dynamic one.
     TRY_MAKE(r, base, plumb_body_create(r->world, &(plumb_body_desc){ .position = { 20, 1 } }));
@@ -265,6 +270,14 @@ static bool play(run *r)
         TRY(r, plumb_world_step(r->world, R(1.0 / 60)));
         if (i == 20) {
             plumb_body_destroy(r->world, r->bodies[5]);
+            assert_int_equal(plumb_body_set_type(r->world, r->bodies[7], PLUMB_STATIC), PLUMB_OK);
+            assert_int_equal(plumb_body_set_enabled(r->world, r->bodies[12], false), PLUMB_OK);
+        }
+        if (i == 25) {
+            const plumb_explosion_desc blast = { .radius = 9, .impulse = 1, .occlusion = PLUMB_OCCLUDE_ALL };
+            TRY(r, plumb_world_explode(r->world, &blast));
+            assert_int_equal(plumb_body_set_type(r->world, r->bodies[7], PLUMB_DYNAMIC), PLUMB_OK);
+            assert_int_equal(plumb_body_set_enabled(r->world, r->bodies[12], true), PLUMB_OK);
         }
     }
     plumb_contact contacts[4];

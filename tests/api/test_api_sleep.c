@@ -1,5 +1,6 @@
-// test_api_sleep.c - plumb/sleep.h: falling asleep by itself, by command and by descriptor, events, rows,
-// what is seen of sleeping bodies meanwhile, and every refusal. What wakes is in test_api_wake.c.
+// test_api_sleep.c - plumb/sleep.h: falling asleep by itself, by command and by descriptor, events,
+// rows, what is seen of sleeping bodies meanwhile, and every refusal. What wakes is in
+// test_api_wake.c.
 #include "sleep_fixture.h"
 
 #include <stdio.h>
@@ -97,8 +98,8 @@ static void sensors_see_sleepers(void **state)
     place p = make_place();
     int begins, ends;
     plumb_shape seen[8];
-    plumb_body zone = plumb_body_create(
-        p.w, &(plumb_body_desc){ .type = PLUMB_STATIC, .position = { 0, 1 } });
+    plumb_body zone =
+        plumb_body_create(p.w, &(plumb_body_desc){ .type = PLUMB_STATIC, .position = { 0, 1 } });
     plumb_shape eye = plumb_shape_create(
         p.w, zone, &(plumb_shape_desc){ .kind = PLUMB_BOX, .half = { 2, 2 }, .sensor = true });
     steps(p.w, 1);
@@ -133,13 +134,12 @@ static void sensors_see_sleepers(void **state)
     assert_int_equal(ends, 1);
     assert_int_equal(plumb_shape_overlaps(p.w, eye, seen, 8), 0);
     // A sensor that moves, over sleepers; and one that sleeps.
-    plumb_body scanner =
-        plumb_body_create(p.w, &(plumb_body_desc){ .type = PLUMB_KINEMATIC,
-                                                   .position = { 3, 3 },
-                                                   .velocity = { 2, 0 } });
-    plumb_shape beam = plumb_shape_create(p.w, scanner, &(plumb_shape_desc){ .kind = PLUMB_BOX,
-                                                                             .half = { R(0.1), 5 },
-                                                                             .sensor = true });
+    plumb_body scanner = plumb_body_create(
+        p.w,
+        &(plumb_body_desc){ .type = PLUMB_KINEMATIC, .position = { 3, 3 }, .velocity = { 2, 0 } });
+    plumb_shape beam = plumb_shape_create(
+        p.w, scanner,
+        &(plumb_shape_desc){ .kind = PLUMB_BOX, .half = { R(0.1), 5 }, .sensor = true });
     int all_begins = 0, all_ends = 0;
     for (int i = 0; i < 120; ++i) {
         steps(p.w, 1);
@@ -227,8 +227,8 @@ static void bodies_may_start_asleep(void **state)
     plumb_shape_create(w, a, &box);
     plumb_body_set_mass(w, a, 5);
     plumb_body_teleport(w, a, plumb_v2(0, 5), 0);
-    plumb_body b = plumb_command_body_create(
-        w, &(plumb_body_desc){ .position = { 1, 5 }, .asleep = true });
+    plumb_body b =
+        plumb_command_body_create(w, &(plumb_body_desc){ .position = { 1, 5 }, .asleep = true });
     plumb_command_shape_create(w, b, &box);
     plumb_commands_apply(w);
     plumb_joint_create(w, &(plumb_joint_desc){ .kind = PLUMB_WELD, .body_a = a, .body_b = b });
@@ -245,7 +245,8 @@ static void bodies_may_start_asleep(void **state)
     steps(w, 1);
     assert_true(plumb_body_is_awake(w, c));
     // A body awake joined to one that starts asleep.
-    plumb_body d = plumb_body_create(w, &(plumb_body_desc){ .position = { 20, 5 }, .asleep = true });
+    plumb_body d =
+        plumb_body_create(w, &(plumb_body_desc){ .position = { 20, 5 }, .asleep = true });
     plumb_joint_create(w, &(plumb_joint_desc){ .kind = PLUMB_WELD, .body_a = c, .body_b = d });
     steps(w, 1);
     assert_true(plumb_body_is_awake(w, d));
@@ -391,8 +392,8 @@ static void refusals(void **state)
     assert_false(plumb_body_is_awake(NULL, null) || plumb_body_no_sleep(NULL, null));
     assert_true(plumb_body_is_awake(w, f->fixed) && plumb_body_is_awake(w, f->kinematic));
     assert_int_equal(plumb_body_wake(w, f->fixed), PLUMB_OK);
-    plumb_system_create(w, &(plumb_system_desc){
-                               .name = "s", .run = sleep_in_a_system, .context = f });
+    plumb_system_create(
+        w, &(plumb_system_desc){ .name = "s", .run = sleep_in_a_system, .context = f });
     assert_int_equal(plumb_world_step(w, R(1.0 / 60)), PLUMB_OK);
 }
 

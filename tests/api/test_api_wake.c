@@ -1,5 +1,5 @@
-// test_api_wake.c - what wakes a sleeping body, and what does not: one row for each kind of change, with
-// the bodies that are awake after the next step.
+// test_api_wake.c - what wakes a sleeping body, and what does not: one row for each kind of change,
+// with the bodies that are awake after the next step.
 #include "sleep_fixture.h"
 
 typedef struct waker {
@@ -64,6 +64,7 @@ CHANGE(same_spring, plumb_joint_set_spring(p->w, p->rod, 0, 0, 0))
 CHANGE(limit, plumb_joint_set_limit(p->w, p->rod, true, 0, 3))
 CHANGE(same_limit, plumb_joint_set_limit(p->w, p->rod, false, 0, 0))
 CHANGE(break_at, plumb_joint_set_break(p->w, p->rod, 1000, 0))
+CHANGE(same_break, plumb_joint_set_break(p->w, p->rod, 0, 0))
 CHANGE(set_wood, plumb_material_set(p->w, p->wood, &(plumb_material_desc){ .friction = R(0.1) }))
 CHANGE(pair_wood, plumb_material_pair_set(p->w, p->wood, p->wood, &(plumb_material_pair){ 0 }))
 CHANGE(no_sleeping, plumb_world_set_sleep(p->w, false, 0, 0))
@@ -129,9 +130,9 @@ static void edit_nothing(const plumb_system_call *call)
 
 static plumb_result add_contact_system(place *p)
 {
-    return plumb_system_create(p->w, &(plumb_system_desc){ .name = "edit",
-                                                           .phase = PLUMB_PHASE_CONTACTS,
-                                                           .run = edit_nothing });
+    return plumb_system_create(
+        p->w,
+        &(plumb_system_desc){ .name = "edit", .phase = PLUMB_PHASE_CONTACTS, .run = edit_nothing });
 }
 
 static void push_low(const plumb_system_call *call)
@@ -145,13 +146,17 @@ static void push_low(const plumb_system_call *call)
 static plumb_result push_in_phase(place *p, plumb_phase phase)
 {
     return plumb_system_create(
-        p->w, &(plumb_system_desc){ .name = "push", .phase = phase, .run = push_low, .context = p });
+        p->w,
+        &(plumb_system_desc){ .name = "push", .phase = phase, .run = push_low, .context = p });
 }
 
 CHANGE(push_at_begin, push_in_phase(p, PLUMB_PHASE_BEGIN))
 CHANGE(push_with_forces, push_in_phase(p, PLUMB_PHASE_FORCES))
 
-#define ROW(change, wakes) { #change, change, wakes }
+#define ROW(change, wakes)                                                                         \
+    {                                                                                              \
+#change, change, wakes                                                                     \
+    }
 
 static const waker wakers[] = {
     ROW(wake, STACK),
@@ -199,7 +204,8 @@ static const waker wakers[] = {
     ROW(same_spring, 0),
     ROW(limit, HUNG),
     ROW(same_limit, 0),
-    ROW(break_at, 0),
+    ROW(break_at, HUNG),
+    ROW(same_break, 0),
     ROW(set_wood, ALL),
     ROW(pair_wood, ALL),
     ROW(no_sleeping, ALL),

@@ -17,7 +17,14 @@
 #define TILES 500
 
 typedef struct engine_world engine_world;
-typedef enum ground_kind { TILE_ROW, ONE_BODY, KINEMATIC, SEGMENTS, CHAIN, GROUND_KINDS } ground_kind;
+typedef enum ground_kind {
+    TILE_ROW,
+    ONE_BODY,
+    KINEMATIC,
+    SEGMENTS,
+    CHAIN,
+    GROUND_KINDS
+} ground_kind;
 typedef enum body_kind { BOX, DISC, CAPSULE, TRIANGLE, BODY_KINDS } body_kind;
 
 static const char *const ground_names[] = { "tile row", "tiles, one body", "kinematic row",

@@ -59,7 +59,6 @@ int main(int argc, char **argv)
 {
     long total = argc > 1 ? strtol(argv[1], NULL, 10) : 100000;
     unsigned seed = argc > 2 ? (unsigned)strtoul(argv[2], NULL, 10) : 1;
-    int only = argc > 3 ? atoi(argv[3]) : -1;
     long each = total / (TARGETS * SHOT_BODIES) + 1, missed[CONTENDERS] = { 0 };
     double deepest[CONTENDERS] = { 0 };
     printf("%-14s %-9s %7s", "wall", "body", "shots");
@@ -74,7 +73,7 @@ int main(int argc, char **argv)
                 struct shot shot = shot_random(&seed, targets[t].wall, targets[t].thickness,
                                                (enum shot_body)b, 2000);
                 for (int k = 0; k < CONTENDERS; ++k) {
-                    if (!can_build(&contenders[k], &targets[t]) || (only >= 0 && k != only)) {
+                    if (!can_build(&contenders[k], &targets[t])) {
                         continue;
                     }
                     struct engine_options o = engine_options_default();

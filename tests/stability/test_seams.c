@@ -37,9 +37,9 @@ typedef enum ground_kind {
 } ground_kind;
 
 static const char *const body_names[] = { "box", "disc", "capsule", "rounded", "triangle" };
-static const char *const ground_names[] = { "one piece",    "tile row",   "tiles, one body",
-                                            "rotated row",  "offset rows", "overlapping 5 cm",
-                                            "gaps 0.5 mm",  "row at 1e4 m", "chain",
+static const char *const ground_names[] = { "one piece",    "tile row",        "tiles, one body",
+                                            "rotated row",  "offset rows",     "overlapping 5 cm",
+                                            "gaps 0.5 mm",  "row at 1e4 m",    "chain",
                                             "segments",     "concave outline", "kinematic row",
                                             "wall of tiles" };
 
@@ -69,10 +69,9 @@ static plumb_vec2 turned(double x, double y, double tilt)
 static void add_box_at(plumb_world *w, plumb_body b, double x, double y, double hx, double hy,
                        plumb_material m)
 {
-    plumb_shape_desc desc = { .kind = PLUMB_BOX,
-                              .half = sim_vec(hx, hy),
-                              .center = sim_vec(x, y),
-                              .material = m };
+    plumb_shape_desc desc = {
+        .kind = PLUMB_BOX, .half = sim_vec(hx, hy), .center = sim_vec(x, y), .material = m
+    };
     assert_true(plumb_shape_valid(w, plumb_shape_create(w, b, &desc)));
 }
 
@@ -165,8 +164,9 @@ static plumb_body make_body(plumb_world *w, body_kind kind, double x, double til
 {
     plumb_vec2 at = turned(x, height_of(kind), tilt);
     plumb_body b = sim_body(w, PLUMB_DYNAMIC, (double)at.x, (double)at.y, tilt);
-    plumb_vec2 hexagon[6], triangle[3] = { sim_vec(-0.5, -0.5), sim_vec(0.5, -0.5), sim_vec(0, 0.5) },
-                           ends[2] = { sim_vec(-0.3, 0), sim_vec(0.3, 0) };
+    plumb_vec2 hexagon[6],
+        triangle[3] = { sim_vec(-0.5, -0.5), sim_vec(0.5, -0.5), sim_vec(0, 0.5) },
+        ends[2] = { sim_vec(-0.3, 0), sim_vec(0.3, 0) };
     for (int i = 0; i < 6; ++i) {
         double across = 0.4 / cos(SIM_PI / 6); // flat side down
         hexagon[i] = sim_vec(across * cos(i * SIM_PI / 3), across * sin(i * SIM_PI / 3));
@@ -214,8 +214,8 @@ static disturbance slide(body_kind body, ground_kind ground, double speed, doubl
 {
     double tilt = tilt_of(ground);
     double nx = -sin(tilt), ny = cos(tilt);
-    plumb_world *w = sim_world(&(plumb_world_desc){ .gravity = sim_vec(-SIM_G * nx, -SIM_G * ny),
-                                                    .solver = solver });
+    plumb_world *w = sim_world(
+        &(plumb_world_desc){ .gravity = sim_vec(-SIM_G * nx, -SIM_G * ny), .solver = solver });
     plumb_material m = sim_material(w, 0, restitution);
     plumb_body b = PLUMB_NULL_INIT;
     double x = start_of(ground);
@@ -255,7 +255,8 @@ static double bound_of(ground_kind ground, double speed, plumb_solver solver)
     if (in_float && ground == ROTATED) {
         return fmax(2e-6, 2e-3 / speed);
     }
-    return in_float && solver == PLUMB_SOLVER_PGS ? 5e-6 : 1e-6; // the classic solver creeps by itself
+    return in_float && solver == PLUMB_SOLVER_PGS ? 5e-6
+                                                  : 1e-6; // the classic solver creeps by itself
 }
 
 static void check_table(double restitution, bool body_first, plumb_solver solver)
@@ -267,13 +268,16 @@ static void check_table(double restitution, bool body_first, plumb_solver solver
     for (int ground = 0; ground < GROUND_KINDS; ++ground) {
         for (int body = 0; body < BODY_KINDS; ++body) {
             char line[200];
-            int at = snprintf(line, sizeof line, "%-16s %-9s", ground_names[ground], body_names[body]);
+            int at =
+                snprintf(line, sizeof line, "%-16s %-9s", ground_names[ground], body_names[body]);
             for (size_t k = 0; k < sizeof speeds / sizeof speeds[0]; ++k) {
                 disturbance d = slide((body_kind)body, (ground_kind)ground, speeds[k], restitution,
                                       body_first, solver);
                 double worst = fmax(d.across, fmax(d.spin, d.along));
-                bool bad = !(worst <= bound_of((ground_kind)ground, speeds[k], solver)) || d.unsettled;
-                at += snprintf(line + at, sizeof line - (size_t)at, " %8.1e%s", worst, bad ? "!" : " ");
+                bool bad =
+                    !(worst <= bound_of((ground_kind)ground, speeds[k], solver)) || d.unsettled;
+                at += snprintf(line + at, sizeof line - (size_t)at, " %8.1e%s", worst,
+                               bad ? "!" : " ");
                 failed |= bad;
             }
             print_message("%s\n", line);
@@ -350,17 +354,19 @@ static void motion_is_that_on_one_floor(void **state)
     const ground_kind grounds[] = { TILE_ROW, OFFSET, CHAIN, KINEMATIC, OVERLAPPING };
     for (size_t c = 0; c < sizeof cases / sizeof cases[0]; ++c) {
         double x = 0.1;
-        flight one = run_flight(cases[c].body, ONE_PIECE, cases[c].friction, cases[c].restitution, x,
-                                cases[c].y, cases[c].vx, cases[c].vy, cases[c].spin, cases[c].steps);
+        flight one =
+            run_flight(cases[c].body, ONE_PIECE, cases[c].friction, cases[c].restitution, x,
+                       cases[c].y, cases[c].vx, cases[c].vy, cases[c].spin, cases[c].steps);
         double worst = 0;
         for (size_t g = 0; g < sizeof grounds / sizeof grounds[0]; ++g) {
-            flight many = run_flight(cases[c].body, grounds[g], cases[c].friction,
-                                     cases[c].restitution, x, cases[c].y, cases[c].vx, cases[c].vy,
-                                     cases[c].spin, cases[c].steps);
+            flight many =
+                run_flight(cases[c].body, grounds[g], cases[c].friction, cases[c].restitution, x,
+                           cases[c].y, cases[c].vx, cases[c].vy, cases[c].spin, cases[c].steps);
             double off = fmax(fabs(many.vx - one.vx), fabs(many.vy - one.vy));
             off = fmax(off, fmax(fabs(many.w - one.w), fabs(many.y - one.y)));
             worst = off <= worst ? worst : off;
-            print_message("%-24s %-16s off by %.1e m/s\n", cases[c].name, ground_names[grounds[g]], off);
+            print_message("%-24s %-16s off by %.1e m/s\n", cases[c].name, ground_names[grounds[g]],
+                          off);
         }
         assert_true(worst <= SIM_TOLERANCE(2e-4, 1e-6));
     }
@@ -425,8 +431,8 @@ static void walls_stop(void **state)
                 plumb_world_destroy(w);
                 continue;
             }
-            print_message("%-9s at %3.0f m/s comes to x = %.4f, lifted by %.1e m\n", body_names[body],
-                          speeds[k], reach, off);
+            print_message("%-9s at %3.0f m/s comes to x = %.4f, lifted by %.1e m\n",
+                          body_names[body], speeds[k], reach, off);
             assert_true(reach < 11.75 - 0.2 && fabs(sim_vx(w, b)) < 0.01 && fabs(off) < 5e-3);
             plumb_world_destroy(w);
         }
@@ -469,7 +475,9 @@ static void bends_are_followed(void **state)
                 for (int i = 0; i < 62; ++i) {
                     p[i] = sim_vec(i, i < 10 ? 0 : slope * (i - 10));
                 }
-                plumb_shape_desc desc = { .kind = PLUMB_CHAIN, .points = p, .count = 62, .material = m };
+                plumb_shape_desc desc = {
+                    .kind = PLUMB_CHAIN, .points = p, .count = 62, .material = m
+                };
                 plumb_shape_create(w, sim_body(w, PLUMB_STATIC, 0, 0, 0), &desc);
                 plumb_body b = make_body(w, (body_kind)body, 5, 0, m);
                 sim_run(w, 30, HZ60);
@@ -482,8 +490,8 @@ static void bends_are_followed(void **state)
                     double ground = sim_x(w, b) < 10 ? 0 : slope * (sim_x(w, b) - 10);
                     assert_true(sim_y(w, b) > ground);
                 }
-                print_message("%-9s bend %3.0f at %2.0f m/s: %.1e m deep\n", body_names[body], bends[c],
-                              speeds[k], deepest);
+                print_message("%-9s bend %3.0f at %2.0f m/s: %.1e m deep\n", body_names[body],
+                              bends[c], speeds[k], deepest);
                 // Beyond 20 m/s a body turns by a tenth of a radian in the step that throws it up.
                 assert_true(deepest < (speeds[k] > 20 ? 0.08 : 5e-3));
                 plumb_world_destroy(w);
@@ -565,10 +573,9 @@ static void systems_see_every_tile(void **state)
     make_body(w, BOX, 2, 0, m);
     sim_run(w, 60, HZ60);
     int seen = 0;
-    plumb_system_desc desc = { .name = "count",
-                               .phase = PLUMB_PHASE_CONTACTS,
-                               .run = count_edits,
-                               .context = &seen };
+    plumb_system_desc desc = {
+        .name = "count", .phase = PLUMB_PHASE_CONTACTS, .run = count_edits, .context = &seen
+    };
     assert_int_equal(plumb_system_create(w, &desc), PLUMB_OK);
     sim_step(w, HZ60);
     assert_int_equal(seen, 3);

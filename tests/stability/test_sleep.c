@@ -277,7 +277,8 @@ static void a_ball_meets_a_pile_asleep_as_one_awake(void **state)
     assert_true(deepest[1] < 1.5 * deepest[0] + 0.01);
 }
 
-// Equal elastic balls in contact: the momentum goes through the whole row in one step, asleep or not.
+// Equal elastic balls in contact: the momentum goes through the whole row in one step, asleep or
+// not.
 static void a_blow_goes_through_sleepers(void **state)
 {
     (void)state;
@@ -329,6 +330,36 @@ static void a_crate_falls_when_its_platform_goes(void **state)
     }
 }
 
+// Bodies that have rested long enough, and are kept awake by one that may not sleep, lose what they
+// stand on in the step in which they would fall asleep.
+static void who_is_about_to_sleep_falls_too(void **state)
+{
+    (void)state;
+    for (int way = 0; way < 3; ++way) {
+        for (int wait = 0; wait < 10; ++wait) {
+            plumb_world *w = sim_world(&(plumb_world_desc){ 0 });
+            plumb_material m = sim_material(w, 0.6, 0);
+            plumb_body platform = sim_body(w, PLUMB_STATIC, 0, 0, 0);
+            sim_add_box(w, platform, 2, 0.5, m);
+            plumb_body low = sim_crate(w, 0, 1, 0.5, 0.5, m), high = sim_crate(w, 0, 2, 0.5, 0.5, m);
+            plumb_body_set_no_sleep(w, high, true);
+            sim_run(w, 120 + wait, HZ60);
+            plumb_body_set_no_sleep(w, high, false);
+            double y = sim_y(w, low);
+            if (way == 0) {
+                plumb_body_destroy(w, platform);
+            } else if (way == 1) {
+                plumb_body_teleport(w, platform, sim_vec(0, -20), 0);
+            } else { // lowered by less than contacts look ahead
+                plumb_body_teleport(w, platform, sim_vec(0, -0.01), 0);
+            }
+            sim_run(w, 20, HZ60);
+            assert_true(y - sim_y(w, low) > 0.009);
+            plumb_world_destroy(w);
+        }
+    }
+}
+
 // Warm: a pile that wakes stands as it stood. Its impulses are those of before.
 static void waking_does_not_shake(void **state)
 {
@@ -353,7 +384,8 @@ static void waking_does_not_shake(void **state)
         assert_int_equal(plumb_world_stats(w).asleep_count, 210);
     }
     double later = sim_normal_force(w, b[0], b[20], HZ60);
-    print_message("woken pyramid: fastest %.2g m/s; force %.4f and %.4f N\n", fastest, force, later);
+    print_message("woken pyramid: fastest %.2g m/s; force %.4f and %.4f N\n", fastest, force,
+                  later);
     assert_true(fastest < 0.01);
     assert_true(force > 0 && fabs(later / force - 1) < 0.2);
     plumb_world_destroy(w);
@@ -416,6 +448,7 @@ int main(void)
         cmocka_unit_test(a_ball_meets_a_pile_asleep_as_one_awake),
         cmocka_unit_test(a_blow_goes_through_sleepers),
         cmocka_unit_test(a_crate_falls_when_its_platform_goes),
+        cmocka_unit_test(who_is_about_to_sleep_falls_too),
         cmocka_unit_test(waking_does_not_shake),
         cmocka_unit_test(widths_sleep_and_wake_alike),
     };

@@ -361,6 +361,29 @@ static void kinematic_paddle_passes_no_ball(void **state)
     }
 }
 
+// Where a kinematic paddle crushes a ball against a wall, the wall holds, however thin.
+static void a_wall_holds_what_a_paddle_crushes(void **state)
+{
+    (void)state;
+    for (int solver = 0; solver < 2; ++solver) {
+        for (int k = 0; k < 12; ++k) {
+            plumb_world *w = space(solver);
+            plumb_material m = sim_material(w, 0.3, k % 2 * 0.5);
+            plumb_body wall = sim_body(w, PLUMB_STATIC, 0, 0, 0);
+            sim_add_box(w, wall, 0.002, 50, m);
+            plumb_body paddle = sim_body(w, PLUMB_KINEMATIC, 5, 0, 0);
+            sim_add_box(w, paddle, 0.1, 3, m);
+            plumb_body ball = sim_ball(w, 1 + 0.2 * k, 0.1 * k, 0.15, m);
+            sim_launch(w, paddle, -10 * pow(1.5, k), 0, 0);
+            for (int step = 0; step < 60; ++step) {
+                sim_step(w, HZ60);
+                assert_true(sim_x(w, ball) > 0);
+            }
+            plumb_world_destroy(w);
+        }
+    }
+}
+
 static plumb_body bullet(plumb_world *w, double x, double y, double hx, double hy, plumb_material m,
                          double vx, double spin)
 {
@@ -612,6 +635,7 @@ int main(void)
         cmocka_unit_test(driven_rod_does_not_pass_a_post),
         cmocka_unit_test(balls_stay_in_a_closed_box),
         cmocka_unit_test(kinematic_paddle_passes_no_ball),
+        cmocka_unit_test(a_wall_holds_what_a_paddle_crushes),
         cmocka_unit_test(bullets_keep_their_order),
         cmocka_unit_test(only_those_that_ask_stop_at_dynamic_bodies),
         cmocka_unit_test(thrown_chain_stays_whole),

@@ -263,7 +263,8 @@ static void maps_have_the_outline_of_their_union(void **state)
         random_cells(&m, &seed, sim_uniform(&seed, 0.3, 0.95));
         m.w = sim_space();
         sim_ball(m.w, -300, 0, 0.5, sim_material(m.w, 0, 0));
-        fill_map(&m, &seed, round % 2 == 0 ? 1 : 5, round % 5 == 4 ? PLUMB_KINEMATIC : PLUMB_STATIC);
+        fill_map(&m, &seed, round % 2 == 0 ? 1 : 5,
+                 round % 5 == 4 ? PLUMB_KINEMATIC : PLUMB_STATIC);
         take_a_step(m.w);
         check_map(&m);
         plumb_world_destroy(m.w);
@@ -422,7 +423,8 @@ static void overlaps_cover_what_they_contain(void **state)
             uint32_t p = pl_shape_piece(w, shape[i]);
             pl_side side = pl_side_of(w, p);
             for (int k = 0; k < 4; ++k) {
-                const pl_vertex *v = &side.corners[k], *next = &side.corners[pl_side_next(&side, k)];
+                const pl_vertex *v = &side.corners[k],
+                                *next = &side.corners[pl_side_next(&side, k)];
                 for (int s = 0; s < 50; ++s) {
                     real t = (real)((s + 0.5) / 50);
                     plumb_vec2 at = { v->x + t * (next->x - v->x), v->y + t * (next->y - v->y) };
@@ -460,9 +462,9 @@ static void overlaps_cover_what_they_contain(void **state)
 
 typedef struct two_tiles {
     const char *name;
-    double gap, rise;  // [m] of the second tile
-    double size;       // [m] of both
-    double radius;     // [m] rounding of the second
+    double gap, rise; // [m] of the second tile
+    double size;      // [m] of both
+    double radius;    // [m] rounding of the second
     bool joined;
 } two_tiles;
 

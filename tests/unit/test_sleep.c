@@ -221,11 +221,11 @@ static void fill_graph(plumb_world *w, graph *g, uint32_t *seed)
             continue;
         }
         g->joined[a][b] = g->joined[b][a] = true;
-        assert_false(plumb_is_null(
-            plumb_joint_create(w, &(plumb_joint_desc){ .kind = PLUMB_WELD,
-                                                       .body_a = g->bodies[a],
-                                                       .body_b = g->bodies[b],
-                                                       .collide_connected = true })));
+        assert_false(
+            plumb_is_null(plumb_joint_create(w, &(plumb_joint_desc){ .kind = PLUMB_WELD,
+                                                                     .body_a = g->bodies[a],
+                                                                     .body_b = g->bodies[b],
+                                                                     .collide_connected = true })));
     }
 }
 
@@ -314,12 +314,14 @@ static void add_one(crowd *c)
                                    .position = { R(choose(&c->seed, 80) * 0.1 - 4),
                                                  R(0.5 + choose(&c->seed, 60) * 0.1) },
                                    .asleep = kind > 8 };
-    static const plumb_vec2 ell[] = { { 0, 0 }, { 1, 0 },           { 1, R(0.5) }, { R(0.5), R(0.5) },
-                                      { R(0.5), 1 }, { 0, 1 } };
-    const plumb_shape_desc shapes[] = { { .kind = PLUMB_CIRCLE, .radius = R(0.3) },
-                                        { .kind = PLUMB_BOX, .half = { R(0.3), R(0.3) } },
-                                        { .kind = PLUMB_OUTLINE, .points = ell, .count = 6 },
-                                        { .kind = PLUMB_CIRCLE, .radius = R(0.6), .sensor = true } };
+    static const plumb_vec2 ell[] = { { 0, 0 },           { 1, 0 },      { 1, R(0.5) },
+                                      { R(0.5), R(0.5) }, { R(0.5), 1 }, { 0, 1 } };
+    const plumb_shape_desc shapes[] = {
+        { .kind = PLUMB_CIRCLE, .radius = R(0.3) },
+        { .kind = PLUMB_BOX, .half = { R(0.3), R(0.3) } },
+        { .kind = PLUMB_OUTLINE, .points = ell, .count = 6 },
+        { .kind = PLUMB_CIRCLE, .radius = R(0.6), .sensor = true }
+    };
     c->bodies[c->count] = plumb_body_create(c->w, &desc);
     plumb_shape_create(c->w, c->bodies[c->count], &shapes[choose(&c->seed, 4)]);
     if (kind == 1) {
@@ -382,7 +384,8 @@ static void change_one(crowd *c)
         }
         break;
     case 9:
-        plumb_world_ray(w, plumb_v2(-9, 1), plumb_v2(9, 1), NULL, &(plumb_ray_hit){ .fraction = 0 });
+        plumb_world_ray(w, plumb_v2(-9, 1), plumb_v2(9, 1), NULL,
+                        &(plumb_ray_hit){ .fraction = 0 });
         break;
     default:
         plumb_body_set_no_sleep(w, body, choose(&c->seed, 3) == 0);
@@ -442,8 +445,8 @@ static plumb_world *pile(int count)
     for (int i = 0; i < count; ++i) {
         plumb_body box = plumb_body_create(
             w, &(plumb_body_desc){ .position = { R(i / 3 * 2), R(i % 3 + 0.5) } });
-        plumb_shape_create(w, box, &(plumb_shape_desc){ .kind = PLUMB_BOX,
-                                                        .half = { R(0.5), R(0.5) } });
+        plumb_shape_create(w, box,
+                           &(plumb_shape_desc){ .kind = PLUMB_BOX, .half = { R(0.5), R(0.5) } });
     }
     return w;
 }

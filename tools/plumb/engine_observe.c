@@ -182,7 +182,7 @@ engine_stats pl_session_stats(const engine_session *session)
         .points = s.point_count,
         .colors = s.color_count,
         .overflow = s.overflow_count,
-        .grid_rebuilds = s.grid_rebuilds,
+        .pair_rebuilds = s.pair_rebuilds,
         .max_penetration = (double)s.max_penetration,
         .mean_penetration = (double)s.mean_penetration,
         .bytes = s.bytes,
