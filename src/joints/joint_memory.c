@@ -108,5 +108,7 @@ plumb_result plumb_joint_set_memory(plumb_world *world, plumb_joint joint,
     for (int i = 0; i < PL_JOINT_ROWS; ++i) {
         j->impulse[i] = memory->impulses[i];
     }
+    pl_joint_disturb(world, j);
+    pl_joints_replan(&world->joints);
     return PLUMB_OK;
 }

@@ -27,6 +27,7 @@ static void relocate(plumb_world *world, uint32_t row)
     pl_partition home =
         disabled ? PL_PART_DISABLED : pl_partition_of((plumb_body_type)b->type[row]);
     row = pl_row_transfer(world, row, home);
+    pl_joints_replan(&world->joints);
     pl_pieces_refile(world, row);
     world->schedule_dirty = true;
 }
@@ -131,6 +132,7 @@ plumb_result plumb_body_set_locks(plumb_world *world, plumb_body body, plumb_axi
                         (locks.x ? PL_BODY_LOCK_X : 0) | (locks.y ? PL_BODY_LOCK_Y : 0) |
                         (locks.rotation ? PL_BODY_FIXED_ROTATION : 0));
     world->locked_bodies += (locks.x || locks.y ? 1u : 0u) - (was ? 1u : 0u);
+    pl_joints_replan(&world->joints);
     world->bodies.low_vx[row] = world->bodies.low_vy[row] = 0;
     hold(world, row);
     pl_mass_revise(world, row);
