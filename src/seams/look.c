@@ -23,6 +23,19 @@ static bool is_passed(const plumb_world *world, uint32_t row)
     return (world->bodies.flags[row] & PL_BODY_EXCLUDING) != 0 || pl_joints_part(world, row);
 }
 
+// Both let pass what the other does.
+static bool hold_alike(const plumb_world *world, uint32_t p, uint32_t q)
+{
+    const pl_pieces *s = &world->pieces;
+    const pl_pose *a = &pl_poses(world)[s->body[p]], *b = &pl_poses(world)[s->body[q]];
+    double px = (double)a->c * (double)s->one_way_x[p] - (double)a->s * (double)s->one_way_y[p];
+    double py = (double)a->s * (double)s->one_way_x[p] + (double)a->c * (double)s->one_way_y[p];
+    double qx = (double)b->c * (double)s->one_way_x[q] - (double)b->s * (double)s->one_way_y[q];
+    double qy = (double)b->s * (double)s->one_way_x[q] + (double)b->c * (double)s->one_way_y[q];
+    return s->one_way_cos[p] == s->one_way_cos[q] &&
+           fabs(px - qx) + fabs(py - qy) < PL_SEAM_ANGLE;
+}
+
 // Whether two pieces are one ground to all that meets them.
 static bool are_joined(const plumb_world *world, uint32_t p, uint32_t q)
 {
@@ -31,6 +44,9 @@ static bool are_joined(const plumb_world *world, uint32_t p, uint32_t q)
     if (p == q || s->vertex_count[q] == 0 || ((s->flags[p] | s->flags[q]) & PL_PIECE_SENSOR) ||
         s->category[p] != s->category[q] || s->mask[p] != s->mask[q] ||
         s->group[p] != s->group[q]) {
+        return false;
+    }
+    if (((s->flags[p] | s->flags[q]) & PL_PIECE_ONE_WAY) != 0 && !hold_alike(world, p, q)) {
         return false;
     }
     // Cores tell it only of surfaces that lie equally far outside them.
