@@ -135,7 +135,7 @@ static run_contact describe(const pl_view *v, uint32_t index, int k)
     for (int end = 0; end < 2; ++end) {
         int corner = end == 0 ? k : pl_side_next(&v->side, k);
         if (v->side.corner_bits >> corner & 1) {
-            r.slop = fmax(r.slop, (double)v->side.seams[corner].slop);
+            r.slop = pl_greater(r.slop, (double)v->side.seams[corner].slop);
         }
     }
     return r;
@@ -189,7 +189,7 @@ static uint64_t key_of(double value)
 static bool continues(const plumb_world *world, const flat_run *run, const run_contact *owner,
                       const run_contact *r)
 {
-    double slop = fmax(owner->slop, r->slop);
+    double slop = pl_greater(owner->slop, r->slop);
     uint32_t p = ground_of(world, owner), q = ground_of(world, r);
     bool one_frame = world->pieces.body[p] == world->pieces.body[q] ||
                      (pl_piece_is_static(world, p) && pl_piece_is_static(world, q));
@@ -225,7 +225,7 @@ static uint32_t join(plumb_world *world, uint32_t first, uint32_t *run_count)
             k = ++*run_count;
         }
         flat_run *joined = &runs[k - 1];
-        joined->high = fmax(joined->high, r->high);
+        joined->high = pl_greater(joined->high, r->high);
         joined->owner = r->height > contacts[joined->owner].height ? order[i].value : joined->owner;
         ++joined->count;
         r->run = k - 1;

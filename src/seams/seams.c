@@ -241,6 +241,9 @@ static bool list_pairs(plumb_world *world)
         }
         ((pl_seam_pair *)s->pairs.data)[s->pair_count++].pair = i;
     }
+    if (s->pair_count == 0) {
+        s->load_count = 0; // nobody is left to tell of
+    }
     s->relist = false;
     s->listed = world->broad.rebuilds;
     return pl_runs_reserve(world);
