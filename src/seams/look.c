@@ -221,7 +221,9 @@ static bool store(plumb_world *world, uint32_t piece, look *l)
             seam->walls[i][0] = (real)l->walls[k][i].nx;
             seam->walls[i][1] = (real)l->walls[k][i].ny;
         }
-        pieces->seam_corners[piece] |= l->narrowed[k] ? UINT32_C(1) << k : 0;
+        if (l->narrowed[k]) {
+            pieces->seam_corners[piece] |= UINT32_C(1) << k | (seam->flat ? PL_SEAM_FLAT : 0);
+        }
         ok = store_edge(world, piece, l, k);
     }
     if ((pieces->seam_corners[piece] & PL_SEAM_CORNERS) != 0 || pieces->seam_edges[piece] != 0) {

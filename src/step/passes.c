@@ -163,8 +163,8 @@ static plumb_result run_narrow(plumb_world *world, plumb_real dt)
         return PLUMB_E_MEMORY;
     }
     pl_narrow_run(world, dt);
-    if (world->seams.pair_count > 0) {
-        pl_seams_correct(world, dt);
+    if (world->seams.pair_count > 0 && !pl_seams_correct(world, dt)) {
+        return PLUMB_E_MEMORY;
     }
     return pl_events_prepare(world) ? PLUMB_OK : PLUMB_E_MEMORY;
 }
