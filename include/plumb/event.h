@@ -1,5 +1,8 @@
 /// event.h - what happened in the last step: arrays, valid until the next step or structural change.
 /// There are no callbacks inside the solver.
+///
+/// A body that lies on several flush tiles of one material touches each of them, and events tell so; what
+/// they bear together is told as impulses of one of those contacts, the others have none.
 #ifndef PLUMB_EVENT_H
 #define PLUMB_EVENT_H
 

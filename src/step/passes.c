@@ -265,8 +265,8 @@ static plumb_result run_narrow(plumb_world *world, plumb_real dt)
     if (world->one_way_pieces > 0) {
         pl_one_way_run(world);
     }
-    if (world->seams.pair_count > 0) {
-        pl_seams_correct(world, dt);
+    if (world->seams.pair_count > 0 && !pl_seams_correct(world, dt)) {
+        return PLUMB_E_MEMORY;
     }
     return pl_events_prepare(world) ? PLUMB_OK : PLUMB_E_MEMORY;
 }
