@@ -14,6 +14,8 @@
 #include "plumb/joint.h"
 #include "plumb/ecs.h"
 #include "plumb/event.h"
+#include "plumb/sleep.h"
 #include "plumb/query.h"
+#include "plumb/effect.h"
 
 #endif

@@ -34,6 +34,33 @@ const pl_joint_kernels *pl_joint_kernels_of(const plumb_world *world)
     }
 }
 
+//---- who takes part ------------------------------------------------------------------------------
+
+static bool is_enabled(const plumb_world *world, plumb_body body)
+{
+    return plumb_is_null(body) ||
+           (world->bodies.flags[pl_body_row(world, body)] & PL_BODY_DISABLED) == 0;
+}
+
+static bool is_active(const plumb_world *world, const pl_joint *j)
+{
+    return !j->desc.disabled && (world->disabled_count == 0 || (is_enabled(world, j->a.body) &&
+                                                                is_enabled(world, j->b.body)));
+}
+
+static bool is_locked(const plumb_world *world, uint32_t row)
+{
+    return row < world->dynamic_count && (world->bodies.flags[row] & PL_BODY_LOCKED) != 0;
+}
+
+// Rows without what lies along locked axes, and impulses to be added up, are made one by one.
+static bool is_plain(const plumb_world *world, const pl_joint *j, const pl_joint_mark *mark)
+{
+    return !(j->desc.break_impulse > 0) &&
+           (world->locked_bodies == 0 ||
+            (!is_locked(world, mark->row_a) && !is_locked(world, mark->row_b)));
+}
+
 //---- what has changed ----------------------------------------------------------------------------
 
 uint32_t pl_joint_variant(const plumb_joint_desc *d)
@@ -66,10 +93,13 @@ static uint32_t look(const plumb_world *world, pl_joint_mark *mark)
 // True: all marks are as they were when the plan was made.
 static bool still_holds(plumb_world *world)
 {
-    pl_joint_mark *marks = world->joints.plan.marks.data;
-    bool same = world->joints.plan.made;
-    for (uint32_t i = 0; same && i < world->joints.count; ++i) {
-        same = marks[i].what == 0 || marks[i].what == look(world, &marks[i]);
+    const pl_joints *joints = &world->joints;
+    pl_joint_mark *marks = joints->plan.marks.data;
+    const uint32_t *awake = joints->awake.data;
+    bool same = joints->plan.made && !joints->awake_stale;
+    for (uint32_t i = 0; same && i < joints->awake_count; ++i) {
+        pl_joint_mark *mark = &marks[awake[i]];
+        same = mark->what == 0 || mark->what == look(world, mark);
     }
     return same;
 }
@@ -77,11 +107,14 @@ static bool still_holds(plumb_world *world)
 static void mark_all(plumb_world *world)
 {
     pl_joint_mark *marks = world->joints.plan.marks.data;
-    for (uint32_t i = 0; i < world->joints.count; ++i) {
-        const pl_joint *j = &pl_joint_items(&world->joints)[i];
-        marks[i] =
+    const uint32_t *awake = world->joints.awake.data;
+    memset(marks, 0, world->joints.count * sizeof *marks);
+    for (uint32_t i = 0; i < pl_joints_awake(world); ++i) {
+        const pl_joint *j = &pl_joint_items(&world->joints)[awake[i]];
+        pl_joint_mark *mark = &marks[awake[i]];
+        *mark =
             (pl_joint_mark){ .a = j->a.body, .b = j->b.body, .row_a = PL_NONE, .row_b = PL_NONE };
-        marks[i].what = plumb_is_null(j->entity) ? 0 : look(world, &marks[i]);
+        mark->what = is_active(world, j) ? look(world, mark) : 0;
     }
 }
 
@@ -171,7 +204,8 @@ static uint32_t sort_out(plumb_world *world)
             continue;
         }
         pl_joint *j = &pl_joint_items(joints)[i];
-        uint32_t pattern = (mark->what & WIDE) != 0 ? pattern_of(world, j) : PL_NONE;
+        bool wide = (mark->what & WIDE) != 0 && is_plain(world, j, mark);
+        uint32_t pattern = wide ? pattern_of(world, j) : PL_NONE;
         uint32_t color = pattern != PL_NONE ? color_of(world, mark) : NO_COLOR;
         mark->wide = color != NO_COLOR;
         mark->quiet = mark->wide && plan->patterns[pattern].bare && !pl_joint_may_break(&j->desc);

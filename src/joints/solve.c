@@ -17,7 +17,8 @@
 // amplitude; the last term makes stiff springs implicit, hence stable. At rest w^2 C is the
 // acceleration, exactly.
 //
-// Reads: joints, body columns. Writes: solver bodies, impulses. Cost: O(joints) a sweep.
+// Joints of sleeping bodies are passed over (pl_joints_awake). Reads: joints, body columns. Writes:
+// solver bodies, impulses. Cost: O(joints awake) a sweep.
 #include "joints/joint.h"
 #include "plumb/math.h"
 #include "world/state.h"
@@ -216,11 +217,15 @@ static void add_momentum(pl_joint *j, real sign)
     }
 }
 
-static void make_rows(pl_joint *j, const pl_solver_body *a, const pl_solver_body *b)
+static void make_rows(const plumb_world *world, pl_joint *j, const pl_solver_body *a,
+                      const pl_solver_body *b)
 {
     pl_joint_pose pa = moved(&j->a, a), pb = moved(&j->b, b);
     pl_joint_classes[j->desc.kind]->rows(j, &pa, &pb, &j->rows);
     j->arm_b = plumb_v2(pb.rx, pb.ry);
+    if (world->locked_bodies > 0) {
+        pl_joint_lock_rows(world, j);
+    }
     invert(j, a, b);
     for (int i = j->rows.block; i < j->rows.count; ++i) {
         const pl_row *r = &j->rows.row[i];
@@ -336,7 +341,7 @@ void pl_joints_prepare(plumb_world *world, real h)
         pl_joint *j = pl_joint_alone(&world->joints, i);
         begin(world, j, h);
         clear_debt(j);
-        make_rows(j, &bodies[j->a.slot], &bodies[j->b.slot]);
+        make_rows(world, j, &bodies[j->a.slot], &bodies[j->b.slot]);
     }
 }
 
@@ -363,11 +368,12 @@ static void pay(const pl_joint *j, pl_solver_body *a, pl_solver_body *b)
     push(&owed, a, b, 1);
 }
 
-static void refresh(pl_joint *j, const pl_solver_body *a, const pl_solver_body *b)
+static void refresh(const plumb_world *world, pl_joint *j, const pl_solver_body *a,
+                    const pl_solver_body *b)
 {
     clear_debt(j);
     add_momentum(j, -1);
-    make_rows(j, a, b);
+    make_rows(world, j, a, b);
     add_momentum(j, 1);
 }
 
@@ -391,7 +397,7 @@ static void sweep_alone(plumb_world *world, pl_joint_sweep sweep, bool first)
         if (first && sweep == PL_SWEEP_PULL) {
             pay(j, a, b);
         } else if (first && sweep == PL_SWEEP_RELAX) {
-            refresh(j, a, b);
+            refresh(world, j, a, b);
         }
         // Motors and springs first: what must hold has the last word.
         for (int k = j->rows.count - 1; k >= j->rows.block; --k) {
@@ -457,8 +463,8 @@ void pl_joints_move(plumb_world *world, real share)
     for (uint32_t i = 0; i < world->joints.plan.alone_count; ++i) {
         pl_joint *j = pl_joint_alone(&world->joints, i);
         pl_solver_body *a = &bodies[j->a.slot], *b = &bodies[j->b.slot];
-        make_rows(j, a, b);
+        make_rows(world, j, a, b);
         move_joint(j, a, b, share);
-        make_rows(j, a, b);
+        make_rows(world, j, a, b);
     }
 }

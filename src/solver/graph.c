@@ -38,6 +38,11 @@ bool pl_solver_tallies(const plumb_world *world)
     return world->desc.contact_impulses || world->desc.hit_speed > 0;
 }
 
+bool pl_solver_specials(const plumb_world *world)
+{
+    return world->locked_bodies > 0 || world->tunings.frozen > 0 || world->narrow.any_adhesion;
+}
+
 static bool reserve_bodies(plumb_world *world)
 {
     pl_solver *s = &world->solver;
@@ -67,11 +72,14 @@ static bool reserve_lanes(plumb_world *world, const uint32_t counts[PL_COLORS + 
     }
     size_t contacts = world->narrow.manifold_count;
     size_t impacts = world->narrow.any_bounce ? contacts : 0;
-    size_t extras = world->narrow.any_surface || pl_solver_tallies(world) ? bundles : 0;
+    size_t specials = pl_solver_specials(world) ? bundles : 0;
+    size_t extras =
+        world->narrow.any_surface || specials > 0 || pl_solver_tallies(world) ? bundles : 0;
     size_t classic = world->desc.solver == PLUMB_SOLVER_PGS ? contacts : 0;
     return pl_buffer_reserve(memory, &s->lanes, bundles * width * sizeof(uint32_t)) &&
            pl_buffer_reserve(memory, &s->bundles, bundles * k->bundle_size) &&
            pl_buffer_reserve(memory, &s->extras, extras * k->extra_size) &&
+           pl_buffer_reserve(memory, &s->specials, specials * k->special_size) &&
            pl_buffer_reserve(memory, &s->impacts, impacts * sizeof(pl_impact)) &&
            pl_buffer_reserve(memory, &s->classic, classic * sizeof(pl_classic_contact));
 }
@@ -130,6 +138,9 @@ static void engage(plumb_world *world)
         if (world->narrow.any_bounce) {
             real *low = (real *)s->lows.data + (size_t)count * 4;
             low[0] = b->low_vx[row], low[1] = b->low_vy[row], low[2] = low[3] = 0;
+        }
+        if ((b->flags[row] & PL_BODY_ODD) != 0) {
+            pl_effects_engage(world, row, count);
         }
         slots[row] = count;
         rows[count++] = row;
@@ -264,7 +275,7 @@ void pl_solver_free(pl_memory *memory, pl_solver *s)
     pl_buffer *buffers[] = { &s->bodies,  &s->motions, &s->rows,  &s->slots,
                              &s->masks,   &s->colors,  &s->lanes, &s->bundles,
                              &s->impacts, &s->classic, &s->lows,  &s->struck,
-                             &s->extras };
+                             &s->extras,  &s->specials };
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; ++i) {
         pl_buffer_free(memory, buffers[i]);
     }

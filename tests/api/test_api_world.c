@@ -252,7 +252,8 @@ static void lost_body_is_stopped(void **state)
     assert_int_equal(plumb_world_create(NULL, &world), PLUMB_OK);
     plumb_body lost = plumb_body_create(world, &(plumb_body_desc){ .position = { 1, 2 } });
     plumb_body other = plumb_body_create(world, &(plumb_body_desc){ .position = { 5, 5 } });
-    assert_int_equal(plumb_body_set_velocity(world, lost, (plumb_vec2){ (plumb_real)1e30, 0 }), PLUMB_OK);
+    assert_int_equal(plumb_body_set_velocity(world, lost, (plumb_vec2){ (plumb_real)1e30, 0 }),
+                     PLUMB_OK);
     assert_int_equal(plumb_world_step(world, (plumb_real)(1.0 / 60)), PLUMB_OK);
     assert_int_equal(plumb_world_stats(world).arrested_count, 1);
     plumb_vec2 at = plumb_body_position(world, lost), v = plumb_body_velocity(world, lost);
@@ -261,9 +262,110 @@ static void lost_body_is_stopped(void **state)
     plumb_world_destroy(world);
 }
 
+static void settings_change(void **state)
+{
+    fixture *f = *state;
+    plumb_world *w = f->world;
+    int tag;
+    assert_int_equal(plumb_world_set_substeps(w, 8, 2), PLUMB_OK);
+    assert_int_equal(plumb_world_set_contact_tuning(w, 30, 5, 2), PLUMB_OK);
+    assert_int_equal(plumb_world_set_restitution_speed(w, R(0.5)), PLUMB_OK);
+    assert_int_equal(plumb_world_set_user_data(w, &tag), PLUMB_OK);
+    plumb_world_desc d = plumb_world_settings(w);
+    assert_int_equal(d.substeps, 8);
+    assert_int_equal(d.iterations, 2);
+    assert_near(d.contact_hertz, 30, 0);
+    assert_near(d.contact_damping, 5, 0);
+    assert_near(d.push_speed, 2, 0);
+    assert_near(d.restitution_speed, 0.5, 0);
+    assert_ptr_equal(plumb_world_user_data(w), &tag);
+    assert_int_equal(plumb_world_set_contact_tuning(w, 0, 0, 0), PLUMB_OK);
+    d = plumb_world_settings(w);
+    assert_near(d.contact_damping, 3, 0); // the defaults
+    assert_near(d.push_speed, 6, 0);
+    assert_near(d.gravity.y, -9.81, 1e-6);
+    assert_int_equal(plumb_world_step(w, R(0.01)), PLUMB_OK);
+    REFUSED(E_RANGE, "plumb_world_set_substeps: substeps is 0; it must be 1 to 64",
+            plumb_world_set_substeps(w, 0, 1));
+    REFUSED(E_RANGE, "plumb_world_set_substeps: iterations is 1001; it must be 1 to 1000",
+            plumb_world_set_substeps(w, 1, 1001));
+    REFUSED(E_RANGE, "plumb_world_set_contact_tuning: hertz is -1; it must be at least 0",
+            plumb_world_set_contact_tuning(w, -1, 0, 0));
+    REFUSED(E_RANGE, "plumb_world_set_contact_tuning: damping is -1; it must be at least 0",
+            plumb_world_set_contact_tuning(w, 0, -1, 0));
+    REFUSED(E_NOT_FINITE, "plumb_world_set_contact_tuning: push_speed is nan; it must be finite",
+            plumb_world_set_contact_tuning(w, 0, 0, R(NAN)));
+    REFUSED(E_RANGE, "plumb_world_set_restitution_speed: speed is -1; it must be at least 0",
+            plumb_world_set_restitution_speed(w, -1));
+    assert_int_equal(plumb_world_set_substeps(NULL, 1, 1), PLUMB_E_NULL);
+    assert_int_equal(plumb_world_set_contact_tuning(NULL, 1, 1, 1), PLUMB_E_NULL);
+    assert_int_equal(plumb_world_set_restitution_speed(NULL, 1), PLUMB_E_NULL);
+    assert_int_equal(plumb_world_set_user_data(NULL, NULL), PLUMB_E_NULL);
+}
+
+static void set_in_a_step(const plumb_system_call *call)
+{
+    assert_int_equal(plumb_world_set_substeps(call->world, 1, 1), PLUMB_E_LOCKED);
+    assert_int_equal(plumb_world_set_contact_tuning(call->world, 1, 1, 1), PLUMB_E_LOCKED);
+    assert_int_equal(plumb_world_set_restitution_speed(call->world, 1), PLUMB_E_LOCKED);
+}
+
+static void settings_are_locked_in_a_step(void **state)
+{
+    fixture *f = *state;
+    plumb_system_create(f->world, &(plumb_system_desc){ .name = "s", .run = set_in_a_step });
+    assert_int_equal(plumb_world_step(f->world, R(0.01)), PLUMB_OK);
+}
+
+// Every shape's lower corner lies in a cell that is told, no cell is told twice, and shapes of
+// different sizes are filed in cells of different sizes.
+static void cells_hold_what_is_there(void **state)
+{
+    (void)state;
+    plumb_world *w;
+    plumb_aabb cells[32];
+    assert_int_equal(plumb_world_create(&(plumb_world_desc){ .zero_gravity = true }, &w), PLUMB_OK);
+    for (int i = 0; i < 6; ++i) {
+        plumb_body b = plumb_body_create(
+            w, &(plumb_body_desc){ .position = { R(0.4) * (plumb_real)(i / 2), R(0.1) },
+                                   .type = i == 5 ? PLUMB_STATIC : PLUMB_DYNAMIC });
+        plumb_real size = i == 5 ? 40 : R(0.05);
+        plumb_shape_create(w, b, &(plumb_shape_desc){ .kind = PLUMB_BOX, .half = { size, size } });
+    }
+    assert_int_equal(plumb_world_cells(NULL, cells, 32), 0);
+    assert_int_equal(plumb_world_cells(w, cells, 32), 0); // nothing is filed before the first step
+    assert_int_equal(plumb_world_step(w, R(0.01)), PLUMB_OK);
+    int count = plumb_world_cells(w, cells, 32);
+    assert_in_range(count, 3, 6);
+    assert_int_equal(plumb_world_cells(w, cells, 1), count);
+    assert_int_equal(plumb_world_cells(w, NULL, 0), count);
+    plumb_shape shapes[8];
+    int shape_count = plumb_world_shapes(w, shapes, 8);
+    for (int i = 0; i < shape_count; ++i) {
+        plumb_vec2 corner = plumb_shape_aabb(w, shapes[i]).min;
+        bool held = false;
+        for (int k = 0; k < count; ++k) {
+            // Boxes are filed by the corner of their fat box, at most a tenth of a cell lower.
+            plumb_real slack = R(0.2) * (cells[k].max.x - cells[k].min.x);
+            held |= corner.x >= cells[k].min.x && corner.x <= cells[k].max.x + slack &&
+                    corner.y >= cells[k].min.y && corner.y <= cells[k].max.y + slack;
+        }
+        assert_true(held);
+    }
+    for (int i = 0; i < count; ++i) {
+        for (int k = 0; k < i; ++k) {
+            assert_true(memcmp(&cells[i], &cells[k], sizeof cells[i]) != 0);
+        }
+    }
+    assert_true(cells[count - 1].max.x - cells[count - 1].min.x >
+                50 * (cells[0].max.x - cells[0].min.x));
+    plumb_world_destroy(w);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(cells_hold_what_is_there),
         cmocka_unit_test(lost_body_is_stopped),
         cmocka_unit_test(a_zero_descriptor_means_the_documented_defaults),
         cmocka_unit_test(given_settings_are_kept),
@@ -275,6 +377,8 @@ int main(void)
         cmocka_unit_test(energy_is_that_of_the_dynamic_bodies),
         API_TEST(body_columns_are_partitioned_and_writable),
         API_TEST(worlds_share_nothing),
+        API_TEST(settings_change),
+        API_TEST(settings_are_locked_in_a_step),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

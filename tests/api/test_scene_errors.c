@@ -1,26 +1,7 @@
 // test_scene_errors.c - malformed scenes, each with the exact code and message that it must give:
 // file, line, column, what was expected, and the word that was probably meant.
-// Every scene is loaded with small limits, so that those of them that never end do so soon. After
-// each, the same loader must still load a good scene: nothing is kept from one scene to the next.
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <string.h>
-#include <cmocka.h>
-
-#include "scene/scene.h"
-
-/// One malformed scene.
-typedef struct malformed {
-    const char *what; ///< for the reader of a failure
-    const char *file; ///< name given to the text; its ending tells Lua from JSON
-    const char *text;
-    scene_code code;
-    const char *message; ///< scene_error.text
-    const char *set;     ///< a --set, or null
-} malformed;
+// Joints, filters, sensors and materials are in test_scene_joint_errors.c.
+#include "malformed.h"
 
 // clang-format off
 static const malformed table[] = {
@@ -30,6 +11,59 @@ static const malformed table[] = {
               "body{ box{1, 1} }\n",
       .code = SCENE_E_KEY,
       .message = "scene.lua:1:8: unknown key 'gravty' in scene{} (did you mean 'gravity'?)" },
+    { .what = "lock of an axis that is none",
+      .file = "scene.lua",
+      .text = "body{ box{1, 1}, lock = {\"z\"} }",
+      .code = SCENE_E_TYPE,
+      .message = "scene.lua:1:18: 'lock' of body{} must be a list of \"x\", \"y\", \"rotation\", "
+                 "each once" },
+    { .what = "damping of a static body",
+      .file = "scene.lua",
+      .text = "body{ box{1, 1}, type = \"static\", damping = 1 }",
+      .code = SCENE_E_CONFLICT,
+      .message = "scene.lua:1:35: a static body{} cannot have 'damping'" },
+    { .what = "velocity along a locked axis",
+      .file = "scene.lua",
+      .text = "body{ box{1, 1}, lock = {\"x\"}, velocity = {1, 0} }",
+      .code = SCENE_E_CONFLICT,
+      .message = "scene.lua:1:32: 'velocity' of body{} must be 0 along x, which is locked" },
+    { .what = "spin of a body that cannot turn",
+      .file = "scene.lua",
+      .text = "body{ box{1, 1}, lock = {\"rotation\"}, spin = 2 }",
+      .code = SCENE_E_CONFLICT,
+      .message = "scene.lua:1:39: 'spin' of body{} must be 0: its rotation is locked" },
+    { .what = "time scale out of range",
+      .file = "scene.lua",
+      .text = "body{ box{1, 1}, time_scale = 200 }",
+      .code = SCENE_E_RANGE,
+      .message = "scene.lua:1:18: 'time_scale' of body{} must be at least 0 and at most 100, not 200" },
+    { .what = "blast without a radius",
+      .file = "scene.lua",
+      .text = "body{ box{1, 1} }\nblast{ at = {0, 0}, impulse = 1 }",
+      .code = SCENE_E_MISSING,
+      .message = "scene.lua:2:1: blast{} needs 'radius'" },
+    { .what = "blast with an unknown key",
+      .file = "scene.lua",
+      .text = "blast{ at = {0, 0}, impulse = 1, radus = 2 }",
+      .code = SCENE_E_KEY,
+      .message = "scene.lua:1:34: unknown key 'radus' in blast{} (did you mean 'radius'?)" },
+    { .what = "blast that reaches nothing",
+      .file = "scene.lua",
+      .text = "blast{ at = {0, 0}, impulse = 1, radius = 0 }",
+      .code = SCENE_E_RANGE,
+      .message = "scene.lua:1:1: blast{}: plumb_world_explode: radius + falloff is 0; it must be above "
+                 "0 and at most 1e+07" },
+    { .what = "blast that ignores nobody",
+      .file = "scene.lua",
+      .text = "body{ name = \"bomb\", box{1, 1} }\n"
+              "blast{ at = {0, 0}, impulse = 1, radius = 1, ignore = \"bmob\" }",
+      .code = SCENE_E_NAME,
+      .message = "scene.lua:2:46: no body is called 'bmob' (did you mean 'bomb'?)" },
+    { .what = "unknown type in set_type",
+      .file = "scene.lua",
+      .text = "local b = body{ box{1, 1} }\nb:set_type(\"statc\")",
+      .code = SCENE_E_RUNTIME,
+      .message = "scene.lua:2:3: bad argument #1 to 'set_type' (invalid option 'statc')" },
     { .what = "unknown key of material",
       .file = "scene.lua",
       .text = "local m = material{ desnity = 5 }\n"
@@ -91,6 +125,26 @@ static const malformed table[] = {
       .text = "body{ box{1, 1}, fixed_rotation = 1 }",
       .code = SCENE_E_TYPE,
       .message = "scene.lua:1:18: 'fixed_rotation' of body{} must be true or false, not a number" },
+    { .what = "static asleep",
+      .file = "scene.lua",
+      .text = "body{ box{1, 1}, type = 'static', asleep = true }",
+      .code = SCENE_E_CONFLICT,
+      .message = "scene.lua:1:35: a static body{} cannot have 'asleep'" },
+    { .what = "kinematic that sleeps",
+      .file = "scene.lua",
+      .text = "body{ box{1, 1}, type = 'kinematic', sleep = true }",
+      .code = SCENE_E_CONFLICT,
+      .message = "scene.lua:1:38: a kinematic body{} cannot have 'sleep'" },
+    { .what = "asleep and moving",
+      .file = "scene.lua",
+      .text = "body{ box{1, 1}, asleep = true, velocity = {1, 0} }",
+      .code = SCENE_E_CONFLICT,
+      .message = "scene.lua:1:33: a sleeping body{} cannot have 'velocity'" },
+    { .what = "asleep and sleepless",
+      .file = "scene.lua",
+      .text = "body{ box{1, 1}, asleep = true, sleep = false }",
+      .code = SCENE_E_CONFLICT,
+      .message = "scene.lua:1:33: a sleeping body{} cannot have 'sleep'" },
     { .what = "function wanted",
       .file = "scene.lua",
       .text = "body{ box{1, 1} }\n"
@@ -683,29 +737,7 @@ static const malformed table[] = {
 static void test_malformed_scenes(void **state)
 {
     (void)state;
-    int wrong = 0;
-    for (size_t i = 0; i < sizeof table / sizeof *table; i++) {
-        const malformed *m = &table[i];
-        scene_options options = { .path = m->file,
-                                  .text = m->text,
-                                  .text_size = strlen(m->text),
-                                  .sets = &m->set,
-                                  .set_count = m->set != NULL,
-                                  .memory_limit = (size_t)128 << 20,
-                                  .build_instructions = 5000000 };
-        scene *s = (scene *)&options; // anything but null
-        scene_error e;
-        scene_code code = scene_load(&options, &s, &e);
-        bool right =
-            code == m->code && e.code == code && s == NULL && strcmp(e.text, m->message) == 0;
-        if (!right) {
-            printf("%s\n  expected %d %s\n  got      %d %s\n", m->what, m->code, m->message, code,
-                   e.text);
-            wrong++;
-        }
-        scene_destroy(s);
-    }
-    assert_int_equal(wrong, 0);
+    check_malformed(table, (int)(sizeof table / sizeof *table));
     assert_true(sizeof table / sizeof *table >= 40);
 }
 

@@ -91,8 +91,9 @@ typedef struct engine_pass {
 typedef struct engine_stats {
     unsigned long long step_count;
     double time; ///< [s]
-    unsigned bodies, moving, statics, shapes, pieces, pairs, contacts, points, colors, overflow;
-    unsigned grid_rebuilds;
+    unsigned bodies, moving, asleep, islands, statics, shapes, pieces, pairs, contacts, points,
+        colors, overflow;
+    unsigned pair_rebuilds;
     double max_penetration, mean_penetration; ///< [m]
     size_t bytes, peak_bytes;                 ///< [B]
 } engine_stats;
@@ -100,6 +101,7 @@ typedef struct engine_stats {
 /// A word of the scene language.
 typedef struct engine_word {
     const char *name;
+    const char *topic; ///< "shapes", "joints", ...: what the constructor belongs to
     const char *kind; ///< what is expected: "number", "true or false", "one of up|down"
     const char *unit; ///< "" if none
     double min, max;  ///< range of numbers, equal if there is none

@@ -144,7 +144,7 @@ typedef struct scene_body {
         *label;  ///< "" when none is wanted; the renderer may fall back on the name if is_named
     int palette; ///< colour number, -1 when the author gave none
     scene_rgba color; ///< replaces the palette colour when a > 0
-    bool hidden;      ///< not to be drawn
+    bool hidden;      ///< not to be drawn: said so, or disabled
 } scene_body;
 
 /// Bodies now alive, in order of making. i in [0, count). The array changes when handlers make or
@@ -155,6 +155,18 @@ scene_body scene_body_get(const scene *s, int i);
 scene_body scene_body_find(const scene *s, const char *name);
 /// By entity; entity null if it is not a body of the scene.
 scene_body scene_body_of(const scene *s, plumb_body body);
+
+/// A joint with its name and its looks.
+typedef struct scene_joint {
+    plumb_joint entity;
+    const char *name; ///< never empty: unnamed joints are joint1, joint2, ... by order of making
+    bool is_named;    ///< the author gave the name
+    bool hidden;      ///< not to be drawn
+} scene_joint;
+
+/// Joints now there, in order of making. i in [0, count).
+int scene_joint_count(const scene *s);
+scene_joint scene_joint_get(const scene *s, int i);
 
 /// What camera{} said.
 typedef struct scene_camera {
