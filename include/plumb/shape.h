@@ -1,6 +1,10 @@
 /// shape.h - shapes of bodies. A shape is one or more convex pieces: a chain has one a link, a
 /// concave outline is split exactly into convex ones.
 ///
+/// Static pieces that touch (within 1 mm, or a hundredth of the thinner one) are one ground to what slides
+/// over them, whichever bodies and shapes they belong to, if they have the same filter and rounding; so are
+/// the pieces of one body that moves. Steps lower than that, and bends of less than 1e-3 rad, are none.
+///
 ///     plumb_shape_create(world, body, &(plumb_shape_desc){ .kind = PLUMB_BOX, .half = { 1, 0.5f } });
 #ifndef PLUMB_SHAPE_H
 #define PLUMB_SHAPE_H

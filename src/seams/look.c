@@ -143,12 +143,12 @@ static double slop_of(const plumb_world *world, uint32_t p, uint32_t q)
     for (int i = 0; i < 2; ++i) {
         const pl_core *core = &pieces->core[both[i]];
         const pl_pose *pose = &pl_poses(world)[pieces->body[both[i]]];
-        double far = apart ? fmax(fabs((double)pose->x), fabs((double)pose->y)) : 0;
-        thin = fmin(thin, thickness(core));
-        reach = fmax(reach, far + (double)core->reach);
+        double far = apart ? pl_greater(fabs((double)pose->x), fabs((double)pose->y)) : 0;
+        thin = pl_lesser(thin, thickness(core));
+        reach = pl_greater(reach, far + (double)core->reach);
     }
     double rounding = 4 * (double)PLUMB_REAL_EPSILON * reach;
-    return fmin(thin / 100 + rounding, (double)PL_SPECULATIVE / 2);
+    return pl_lesser(thin / 100 + rounding, (double)PL_SPECULATIVE / 2);
 }
 
 // The edge that ends at corner k (0), or starts there (1).
@@ -167,7 +167,7 @@ static void look_at_neighbour(look *l, const pl_outline *other, double slop)
                               met.lo_y != l->cones[k].lo_y || met.hi_x != l->cones[k].hi_x ||
                               met.hi_y != l->cones[k].hi_y;
             l->cones[k] = met;
-            l->slops[k] = fmax(l->slops[k], slop);
+            l->slops[k] = pl_greater(l->slops[k], slop);
             for (int i = 0; i < 2; ++i) {
                 int edge = edge_at(&l->own, k, i);
                 pl_wall_meet(&l->walls[k][i], &has, l->own.nx[edge], l->own.ny[edge], i == 1);
@@ -237,7 +237,9 @@ static bool store(plumb_world *world, uint32_t piece, look *l)
             seam->walls[i][0] = (real)l->walls[k][i].nx;
             seam->walls[i][1] = (real)l->walls[k][i].ny;
         }
-        pieces->seam_corners[piece] |= l->narrowed[k] ? UINT32_C(1) << k : 0;
+        if (l->narrowed[k]) {
+            pieces->seam_corners[piece] |= UINT32_C(1) << k | (seam->flat ? PL_SEAM_FLAT : 0);
+        }
         ok = store_edge(world, piece, l, k);
     }
     if ((pieces->seam_corners[piece] & PL_SEAM_CORNERS) != 0 || pieces->seam_edges[piece] != 0) {

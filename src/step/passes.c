@@ -84,7 +84,7 @@ static bool locks_wanted(const plumb_world *world, const char **reason)
 static bool collision_wanted(const plumb_world *world, const char **reason)
 {
     bool wanted = world->dynamic_count > 0 && world->moving_count > 0 && world->pieces.live > 1;
-    wanted |= world->broad.pairs.count > 0;
+    wanted |= world->broad.pairs.count > 0 || world->parts.count > 0;
     return say(wanted, reason, "dynamic bodies have shapes that can meet others",
                "no dynamic body has a shape that could meet another");
 }
@@ -265,8 +265,8 @@ static plumb_result run_narrow(plumb_world *world, plumb_real dt)
     if (world->one_way_pieces > 0) {
         pl_one_way_run(world);
     }
-    if (world->seams.pair_count > 0) {
-        pl_seams_correct(world, dt);
+    if (world->seams.pair_count > 0 && !pl_seams_correct(world, dt)) {
+        return PLUMB_E_MEMORY;
     }
     return pl_events_prepare(world) ? PLUMB_OK : PLUMB_E_MEMORY;
 }

@@ -13,7 +13,7 @@
 //---- type, enabled
 //--------------------------------------------------------------------------------
 
-// Row and pieces where type and flags of the body want them. What it touched in its sleep wakes.
+// Row and pieces where type and flags of the body want them. What it touched or held in its sleep wakes.
 static void relocate(plumb_world *world, uint32_t row)
 {
     const pl_bodies *b = &world->bodies;
@@ -22,6 +22,12 @@ static void relocate(plumb_world *world, uint32_t row)
     for (uint32_t p = b->first_piece[row]; p != PL_NONE; p = world->pieces.next_in_body[p]) {
         pl_sleep_void_contacts(world, p);
         pl_seams_forget(world, p);
+    }
+    plumb_body body = b->entity[row];
+    for (uint32_t k = b->first_joint[row]; k != PL_NONE;) {
+        const pl_joint *joint = &pl_joint_items(&world->joints)[k];
+        pl_joint_disturb(world, joint);
+        k = pl_joint_next(joint, body);
     }
     bool disabled = (b->flags[row] & PL_BODY_DISABLED) != 0;
     pl_partition home =

@@ -81,7 +81,8 @@ typedef struct run {
 #define TRY_MAKE(r, handle, call) TRY(r, made((r)->world, handle = (call)))
 
 static const plumb_vec2 ell[] = { { 0, 0 }, { 2, 0 }, { 2, 1 }, { 1, 1 }, { 1, 2 }, { 0, 2 } };
-static const plumb_vec2 ground[] = { { -40, 0 }, { 0, -1 }, { 40, 0 } };
+// The second half is two links in a line: bodies on them rest on a run (src/seams).
+static const plumb_vec2 ground[] = { { -40, 0 }, { 0, -1 }, { R(2), R(-0.95) }, { 40, 0 } };
 
 static bool make_world(run *r)
 {
@@ -112,7 +113,7 @@ static bool fill_world(run *r)
     TRY_MAKE(r, shape,
              plumb_shape_create(
                  r->world, base,
-                 &(plumb_shape_desc){ .kind = PLUMB_CHAIN, .points = ground, .count = 3 }));
+                 &(plumb_shape_desc){ .kind = PLUMB_CHAIN, .points = ground, .count = 4 }));
     const plumb_material none = PLUMB_NULL_INIT;
     TRY(r, plumb_material_pair_set(
                r->world, ice, none,
