@@ -6,6 +6,7 @@
 // downwards and a wall upwards, so that it cannot be climbed by running into it.
 //
 // Reads: obstacles. Writes: place, velocity. Cost: O(obstacles) a wall met, at most SLIDES.
+#include "query/query.h"
 #include "character/walker.h"
 
 #include <math.h>
@@ -80,7 +81,7 @@ static bool is_wedged(const pl_walker *m, const flight *f, double nx, double ny)
 static bool turn_aside(pl_walker *m, flight *f, const pl_touch *t)
 {
     double nx = t->nx, ny = t->ny;
-    double rising = fmax(pl_up(m, f->dx, f->dy), 0);
+    double rising = pl_most(pl_up(m, f->dx, f->dy), 0);
     plumb_vec2 before = m->c->velocity;
     take_from_velocity(m, t, nx, ny);
     take_normal(&f->dx, &f->dy, nx, ny);

@@ -12,6 +12,7 @@
 //   v^2 <= g R cos a, as on any hump; faster, it flies off at the tangent.
 //
 // Reads: obstacles. Writes: place, ground. Cost: O(obstacles) a piece of an eighth of the half width.
+#include "query/query.h"
 #include "character/walker.h"
 
 #include <math.h>
@@ -209,7 +210,7 @@ static bool follow(pl_walker *m, double piece)
 // [m] how far to go in one piece; over the top of an upright step, no farther than that.
 static double next_piece(pl_walker *m, double left, double longest, double side)
 {
-    double piece = fmin(left, longest);
+    double piece = pl_least(left, longest);
     if (!m->c->climbs) {
         return piece;
     }
@@ -219,7 +220,7 @@ static double next_piece(pl_walker *m, double left, double longest, double side)
         m->nx = m->ux, m->ny = m->uy;
         return piece;
     }
-    return climb > 0 ? fmin(piece, rest / climb) : piece;
+    return climb > 0 ? pl_least(piece, rest / climb) : piece;
 }
 
 // A wall: the way ends here.

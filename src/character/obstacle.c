@@ -61,10 +61,10 @@ static void resolve(pl_walker *m)
     for (int i = 0; i < m->shape.count; ++i) {
         double h = pl_up(m, m->shape.x[i], m->shape.y[i]);
         double s = pl_right(m, m->shape.x[i], m->shape.y[i]);
-        m->foot = fmin(m->foot, h - m->shape.radius);
-        top = fmax(top, h + m->shape.radius);
-        left = fmin(left, s - m->shape.radius);
-        right = fmax(right, s + m->shape.radius);
+        m->foot = pl_least(m->foot, h - m->shape.radius);
+        top = pl_most(top, h + m->shape.radius);
+        left = pl_least(left, s - m->shape.radius);
+        right = pl_most(right, s + m->shape.radius);
     }
     m->half_width = (right - left) / 2;
     m->middle = (right + left) / 2;
@@ -247,7 +247,7 @@ static double turning_reach(const plumb_world *world, double dt)
         double w = fabs((double)(world->bodies.w[row] * pl_time_scale(world, row)));
         uint32_t p = w > 0 ? world->bodies.first_piece[row] : PL_NONE;
         for (; p != PL_NONE; p = world->pieces.next_in_body[p]) {
-            most = fmax(most, w * dt * (double)world->pieces.core[p].reach);
+            most = pl_most(most, w * dt * (double)world->pieces.core[p].reach);
         }
     }
     return most;
@@ -258,7 +258,7 @@ bool pl_walker_look(pl_walker *m, double reach)
     plumb_world *world = m->world;
     search s = { .m = m };
     pl_box box = pl_piece_tight_box(world, m->piece);
-    real wide = (real)fmin(reach + turning_reach(world, m->step) + m->skin, (double)PL_LARGEST);
+    real wide = (real)pl_least(reach + turning_reach(world, m->step) + m->skin, (double)PL_LARGEST);
     box.min_x -= wide, box.min_y -= wide, box.max_x += wide, box.max_y += wide;
     if (!pl_grid_query(&world->broad.moving, box, list_piece, &s) ||
         !pl_grid_query(&world->broad.resting, box, list_resting, &s) ||

@@ -10,6 +10,7 @@
 //
 // Reads: body columns. Writes: forces, with what they were, so that a refused step can be undone.
 // Cost: O(1) a push.
+#include "query/query.h"
 #include "character/walker.h"
 
 #include <math.h>
@@ -50,10 +51,10 @@ void pl_walker_push(pl_walker *m, const pl_touch *t, double speed)
     double resistance = 0;
     if (plumb_same(c->pushed, b->entity[row])) {
         resistance = (double)c->push - mass * (v - (double)c->push_speed) / m->dt;
-        resistance = fmin(fmax(resistance, 0), m->push_force);
+        resistance = pl_least(pl_most(resistance, 0), m->push_force);
     }
     double force = mass * (speed - v) / m->dt + resistance;
-    force = fmin(fmax(force, 0), m->push_force);
+    force = pl_least(pl_most(force, 0), m->push_force);
     c->pushed = b->entity[row];
     c->push = (real)force;
     c->push_speed = (real)v;

@@ -3,6 +3,7 @@
 // An obstacle that the walker does not approach never stops it, however deep the two overlap: what is
 // inside of something can always leave. One-way shapes count where they hold, and there with the
 // faces that hold alone. Reads: obstacles. Writes: the walker's place, hits. Cost: O(obstacles).
+#include "query/query.h"
 #include "character/walker.h"
 
 #include <math.h>
@@ -146,8 +147,8 @@ void pl_walker_recover(pl_walker *m)
     pl_sum_near at;
     const pl_obstacle *o = deepest(m, &at);
     for (int i = 0; o != NULL && i < RECOVERIES; ++i) {
-        double out = fmin(-at.distance, allowed + o->travel);
-        allowed -= fmax(out - o->travel, 0);
+        double out = pl_least(-at.distance, allowed + o->travel);
+        allowed -= pl_most(out - o->travel, 0);
         m->x += out * at.nx;
         m->y += out * at.ny;
         if (o->travel > 0 && out > SAME) {
