@@ -125,6 +125,8 @@ help:
 #:   test              every test; T="tests/unit/test_math.c ..." runs only these
 #:   stability         the hard-case tests and the expectations of every scene
 #:   bench             side by side with Box2D 2.4.1; BOX2D3=/prefix adds Box2D 3; BENCH="arguments"
+#:   determinism       the same bits with gcc and clang, -O0 to -O3, ASan, every SIMD width
+#:   hashes            write tests/determinism/hashes.txt anew, when physics was meant to change
 #:   cost              what accuracy costs, for SCENES="a.lua b.lua"
 #:   asan, ubsan, tsan every test again under a sanitizer
 #:   fuzz              each fuzz harness for FUZZ_TIME=60 seconds

@@ -15,5 +15,6 @@
 #include "plumb/ecs.h"
 #include "plumb/event.h"
 #include "plumb/query.h"
+#include "plumb/snapshot.h"
 
 #endif

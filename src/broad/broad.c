@@ -24,8 +24,8 @@ bool pl_broad_update_grids(plumb_world *world, real dt, bool *stale)
 {
     pl_broad *broad = &world->broad;
     // Poses change in steps, and else only together with the flags: one query after another is free.
-    if (dt == 0 && !world->pairs_dirty && !world->static_dirty &&
-        broad->filed_step == world->step_count) {
+    if (dt == 0 && !world->pairs_dirty && !world->static_dirty && !broad->moving_lost &&
+        !broad->fixed_lost && broad->filed_step == world->step_count) {
         *stale = broad->stale;
         return true;
     }
@@ -36,17 +36,20 @@ bool pl_broad_update_grids(plumb_world *world, real dt, bool *stale)
         }
         world->static_dirty = false;
         world->pairs_dirty = true;
+    } else if (broad->fixed_lost && !file_fixed(world)) {
+        return false;
     }
+    broad->fixed_lost = false;
     if (pl_broad_refresh_moving(world, dt)) {
         world->pairs_dirty = true;
     }
-    if (world->pairs_dirty) {
+    if (world->pairs_dirty || broad->moving_lost) {
         if (!pl_grid_build(&world->memory, &broad->moving, pl_moving(world), world->moving_count,
                            world->pieces.fat)) {
             return false;
         }
-        world->pairs_dirty = false;
-        broad->stale = true;
+        broad->stale = broad->stale || world->pairs_dirty;
+        world->pairs_dirty = broad->moving_lost = false;
     }
     broad->filed_step = world->step_count;
     *stale = broad->stale;

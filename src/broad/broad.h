@@ -20,6 +20,7 @@ typedef struct pl_broad {
     uint64_t rebuilds;
     uint64_t filed_step; // step count at which the grids were last brought up to date
     bool stale;          // boxes were filed anew since the pair list was made
+    bool moving_lost, fixed_lost; // the world was restored: this grid has to be filed anew
 } pl_broad;
 
 // Brings fat boxes and grids up to date with the poses; *stale tells whether the pair list no

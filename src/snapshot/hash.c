@@ -1,0 +1,88 @@
+// hash.c - plumb_world_hash: all that decides later steps, as 64 bits.
+//
+// Reads: the sections of section.h as far as they count; by hand, because padding or addresses lie
+// in them: joints (PL_STATE_JOINT), pending commands, user components. Writes: nothing.
+// Cost: O(state), about 8 bytes a cycle.
+#include "plumb/snapshot.h"
+
+#include "snapshot/section.h"
+
+#include <string.h>
+
+static void add_section(pl_digest *digest, const plumb_world *world, uint32_t i)
+{
+    pl_section section = pl_section_at(world, i);
+    if (section.hashed == 0 || section.count == 0) {
+        return;
+    }
+    if (section.data == NULL) {
+        char gathered[PL_GATHERED_MOST];
+        pl_section_write(world, i, &section, gathered);
+        pl_digest_add(digest, gathered, pl_section_bytes(&section));
+    } else if (section.hashed == section.stride) {
+        pl_digest_add(digest, section.data, pl_section_bytes(&section));
+    } else {
+        for (uint32_t k = 0; k < section.count; ++k) {
+            pl_digest_add(digest, section.data + (size_t)k * section.stride, section.hashed);
+        }
+    }
+}
+
+#define MEMBER_SIZE(path) +sizeof(((pl_joint *)0)->path)
+#define MEMBER_COPY(path)                                                                          \
+    memcpy(at, &joint->path, sizeof joint->path);                                                  \
+    at += sizeof joint->path;
+
+static void add_joints(pl_digest *digest, const plumb_world *world)
+{
+    for (uint32_t i = 0; i < world->joints.count; ++i) {
+        const pl_joint *joint = &pl_joint_items(&world->joints)[i];
+        char members[0 PL_STATE_JOINT(MEMBER_SIZE)];
+        char *at = members;
+        PL_STATE_JOINT(MEMBER_COPY)
+        pl_digest_add(digest, members, sizeof members);
+    }
+}
+
+static void add_fields(pl_digest *digest, const pl_component *c, const char *value)
+{
+    static const uint8_t sizes[] = { 4, 8, 4, 8, 4, 8, sizeof(bool) };
+    for (int k = 0; k < c->desc.field_count; ++k) {
+        pl_digest_add(digest, value + c->fields[k].offset, sizes[c->fields[k].type]);
+    }
+}
+
+// A component that tells its fields counts by them, any other by its bytes.
+static void add_component(pl_digest *digest, const pl_component *c)
+{
+    pl_digest_add(digest, c->name, strlen(c->name));
+    if (c->count == 0) {
+        return;
+    }
+    pl_digest_add(digest, c->owners.data, c->count * sizeof(plumb_entity));
+    if (c->desc.field_count == 0) {
+        pl_digest_add(digest, c->values.data, c->count * c->desc.size);
+        return;
+    }
+    for (uint32_t row = 0; row < c->count; ++row) {
+        add_fields(digest, c, (const char *)c->values.data + row * c->desc.size);
+    }
+}
+
+uint64_t plumb_world_hash(const plumb_world *world)
+{
+    if (world == NULL) {
+        return 0;
+    }
+    pl_digest digest;
+    pl_digest_begin(&digest);
+    for (uint32_t i = 0; i < pl_section_fixed_count(); ++i) {
+        add_section(&digest, world, i);
+    }
+    add_joints(&digest, world);
+    pl_commands_digest(world, &digest);
+    for (uint32_t i = 0; i < world->components.count; ++i) {
+        add_component(&digest, &world->components.items[i]);
+    }
+    return pl_digest_end(&digest);
+}
