@@ -20,10 +20,10 @@ static void add_blocks(pl_digest *digest, const char *data, size_t blocks)
     uint64_t lane[PL_DIGEST_LANES];
     memcpy(lane, digest->lane, sizeof lane);
     for (size_t i = 0; i < blocks; ++i, data += BLOCK) {
-        uint64_t word[PL_DIGEST_LANES];
-        memcpy(word, data, BLOCK);
-        for (int k = 0; k < PL_DIGEST_LANES; ++k) {
-            lane[k] = mixed(lane[k], word[k]);
+        for (size_t k = 0; k < PL_DIGEST_LANES; ++k) {
+            uint64_t word;
+            memcpy(&word, data + k * sizeof word, sizeof word);
+            lane[k] = mixed(lane[k], word);
         }
     }
     memcpy(digest->lane, lane, sizeof lane);

@@ -21,7 +21,7 @@
 #define TABLE_SIZE_pieces    +(sizeof(pl_table) PL_PIECE_COLUMNS(COLUMN_SIZE))
 #define TABLE_SIZE_materials +(sizeof(pl_table) PL_MATERIAL_COLUMNS(COLUMN_SIZE))
 
-#define LISTED(list) (0 list(SIZE, ARRAY_SIZE, TABLE_SIZE, SIZE, SIZE))
+#define LISTED(list) (0 list(SIZE, SIZE, ARRAY_SIZE, TABLE_SIZE, SIZE, SIZE))
 #define COMPLETE(list, path)                                                                       \
     _Static_assert(LISTED(list) == sizeof PL_STATE_OF(path),                                       \
                    "a member of plumb_world." #path " is not in snapshot/list.h: add its row")

@@ -1,7 +1,8 @@
 // hash.c - plumb_world_hash: all that decides later steps, as 64 bits.
 //
-// Reads: the sections of section.h as far as they count; by hand, because padding or addresses lie
-// in them: joints (PL_STATE_JOINT), pending commands, user components. Writes: nothing.
+// Reads: the sections of section.h as far as they count; by hand, because only part of them decides
+// motion or padding and addresses lie in them: contacts, joints (PL_STATE_JOINT), pending commands, user
+// components. Writes: nothing.
 // Cost: O(state), about 8 bytes a cycle.
 #include "plumb/snapshot.h"
 
@@ -25,6 +26,29 @@ static void add_section(pl_digest *digest, const plumb_world *world, uint32_t i)
         for (uint32_t k = 0; k < section.count; ++k) {
             pl_digest_add(digest, section.data + (size_t)k * section.stride, section.hashed);
         }
+    }
+}
+
+// Contacts that have something to hand on to the next step. Which others are in the list, and where,
+// depends on when the grids were filed last.
+static void add_pairs(pl_digest *digest, const plumb_world *world)
+{
+    const pl_pair *pairs = pl_pairs(&world->broad.pairs);
+    for (uint32_t i = 0; i < world->broad.pairs.count; ++i) {
+        const pl_pair *p = &pairs[i];
+        if (p->flags == 0 && p->normal[0] == 0 && p->normal[1] == 0 && p->rolling == 0) {
+            continue;
+        }
+        struct {
+            uint32_t a, b, feature[2];
+            uint64_t flags;
+            real impulse[6];
+        } kept = { p->a,
+                   p->b,
+                   { p->feature[0], p->feature[1] },
+                   p->flags,
+                   { p->normal[0], p->normal[1], p->tangent[0], p->tangent[1], p->rolling, 0 } };
+        pl_digest_add(digest, &kept, sizeof kept);
     }
 }
 
@@ -79,6 +103,7 @@ uint64_t plumb_world_hash(const plumb_world *world)
     for (uint32_t i = 0; i < pl_section_fixed_count(); ++i) {
         add_section(&digest, world, i);
     }
+    add_pairs(&digest, world);
     add_joints(&digest, world);
     pl_commands_digest(world, &digest);
     for (uint32_t i = 0; i < world->components.count; ++i) {

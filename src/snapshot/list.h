@@ -5,14 +5,17 @@
 // (world/columns.h) are the rows.
 //
 //   VALUE(path)                a number: saved and hashed
+//   TALLY(path)                a number that changes no motion (when the grids were filed, ...): saved. A
+//                              ray that files them early must not change the hash
 //   ARRAY(type, buffer, count, hashed, key)
 //                              the first `count` elements of a pl_buffer: saved. `hashed` bytes at the
 //                              start of each element are hashed: 0 where padding or addresses are in
-//                              it and hash.c does it by hand. `key` bytes at the start name an
+//                              it, or where only part decides motion, and hash.c does that part by
+//                              hand. `key` bytes at the start name an
 //                              element, so that deltas find it where others came or went; 0: its
 //                              index does
-//   TABLE(path)                a table of columns: saved and hashed, but for columns of pointers,
-//                              which are only saved
+//   TABLE(path)                a table of columns: saved and hashed, but for columns of pointers and the
+//                              fat boxes, which are only saved
 //   OWN(path)                  section.c saves it by hand
 //   LEFT(path)                 neither saved nor hashed: scratch that every step fills before reading,
 //                              events of the last step, what follows from the rest (restore.c makes it
@@ -26,108 +29,109 @@
 #include "world/state.h"
 
 // clang-format off
-#define PL_STATE_DESC(VALUE, ARRAY, TABLE, OWN, LEFT)                                               \
-    VALUE(desc.gravity) VALUE(desc.zero_gravity) VALUE(desc.y_axis) VALUE(desc.solver)              \
-    VALUE(desc.substeps) VALUE(desc.iterations) VALUE(desc.contact_hertz)                           \
-    VALUE(desc.contact_damping) VALUE(desc.push_speed) VALUE(desc.restitution_speed)                \
-    VALUE(desc.hit_speed) VALUE(desc.contact_impulses)                                              \
-    LEFT(desc.simd_width) /* of this machine; every width gives the same bits */                    \
-    LEFT(desc.body_capacity) LEFT(desc.shape_capacity) LEFT(desc.contact_capacity)                  \
-    LEFT(desc.allocator) LEFT(desc.log) LEFT(desc.assert_failed) LEFT(desc.hook_context)            \
+#define PL_STATE_DESC(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                       \
+    VALUE(desc.gravity) VALUE(desc.zero_gravity) VALUE(desc.y_axis) VALUE(desc.solver)             \
+    VALUE(desc.substeps) VALUE(desc.iterations) VALUE(desc.contact_hertz)                          \
+    VALUE(desc.contact_damping) VALUE(desc.push_speed) VALUE(desc.restitution_speed)               \
+    VALUE(desc.hit_speed) VALUE(desc.contact_impulses)                                             \
+    LEFT(desc.simd_width) /* of this machine; every width gives the same bits */                   \
+    LEFT(desc.body_capacity) LEFT(desc.shape_capacity) LEFT(desc.contact_capacity)                 \
+    LEFT(desc.allocator) LEFT(desc.log) LEFT(desc.assert_failed) LEFT(desc.hook_context)           \
     LEFT(desc.user_data)
 
-#define PL_STATE_REGISTRY(VALUE, ARRAY, TABLE, OWN, LEFT)                                           \
-    OWN(registry.slots) OWN(registry.count) LEFT(registry.bytes) LEFT(registry.capacity)            \
+#define PL_STATE_REGISTRY(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                   \
+    OWN(registry.slots) OWN(registry.count) LEFT(registry.bytes) LEFT(registry.capacity)           \
     VALUE(registry.free_head) VALUE(registry.free_tail) VALUE(registry.live)
 
-#define PL_STATE_PIECES(VALUE, ARRAY, TABLE, OWN, LEFT)                                             \
+#define PL_STATE_PIECES(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                     \
     TABLE(pieces) VALUE(pieces.free_head) VALUE(pieces.live)
 
-#define PL_STATE_VERTICES(VALUE, ARRAY, TABLE, OWN, LEFT)                                           \
-    OWN(vertices.items) OWN(vertices.count) LEFT(vertices.bytes) LEFT(vertices.capacity)            \
+#define PL_STATE_VERTICES(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                   \
+    OWN(vertices.items) OWN(vertices.count) LEFT(vertices.bytes) LEFT(vertices.capacity)           \
     VALUE(vertices.free_head)
 
-#define PL_STATE_COMMANDS(VALUE, ARRAY, TABLE, OWN, LEFT)                                           \
+#define PL_STATE_COMMANDS(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                   \
     ARRAY(char, commands.bytes, commands.used, 0, 0) VALUE(commands.count)
 
 // The grids follow from the fat boxes and the list of moving pieces.
-#define PL_STATE_BROAD(VALUE, ARRAY, TABLE, OWN, LEFT)                                              \
-    LEFT(broad.moving) LEFT(broad.fixed) LEFT(broad.moving_lost) LEFT(broad.fixed_lost)             \
-    ARRAY(pl_pair, broad.pairs.items, broad.pairs.count, sizeof(pl_pair), 8)                        \
-    VALUE(broad.pairs.first) VALUE(broad.pairs.size) LEFT(broad.pairs.old_items)                    \
-    LEFT(broad.list) LEFT(broad.found) LEFT(broad.sorted) LEFT(broad.counts)                        \
-    LEFT(broad.found_count)                                                                         \
-    ARRAY(pl_found, broad.sensed, broad.sensed_count, sizeof(pl_found), 0)                          \
-    VALUE(broad.serial) VALUE(broad.rebuilds) VALUE(broad.filed_step) VALUE(broad.stale)
+#define PL_STATE_BROAD(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                      \
+    LEFT(broad.moving) LEFT(broad.fixed) LEFT(broad.moving_lost) LEFT(broad.fixed_lost)            \
+    ARRAY(pl_pair, broad.pairs.items, broad.pairs.count, 0, 8)                                     \
+    TALLY(broad.pairs.first) TALLY(broad.pairs.size) LEFT(broad.pairs.old_items)                   \
+    LEFT(broad.list) LEFT(broad.found) LEFT(broad.sorted) LEFT(broad.counts)                       \
+    LEFT(broad.found_count)                                                                        \
+    ARRAY(pl_found, broad.sensed, broad.sensed_count, 0, 0)                                        \
+    TALLY(broad.serial) TALLY(broad.rebuilds) TALLY(broad.filed_step) TALLY(broad.stale)
 
-#define PL_STATE_NARROW(VALUE, ARRAY, TABLE, OWN, LEFT)                                             \
-    LEFT(narrow.manifolds) LEFT(narrow.manifold_count) LEFT(narrow.any_friction)                    \
-    LEFT(narrow.any_bounce) LEFT(narrow.any_surface) LEFT(narrow.touching_count)                    \
+#define PL_STATE_NARROW(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                     \
+    LEFT(narrow.manifolds) LEFT(narrow.manifold_count) LEFT(narrow.any_friction)                   \
+    LEFT(narrow.any_bounce) LEFT(narrow.any_surface) LEFT(narrow.touching_count)                   \
     LEFT(narrow.point_count) LEFT(narrow.max_penetration) LEFT(narrow.sum_penetration)
 
-#define PL_STATE_SOLVER(VALUE, ARRAY, TABLE, OWN, LEFT)                                             \
-    LEFT(solver.bodies) LEFT(solver.motions) LEFT(solver.lows) LEFT(solver.struck)                  \
-    LEFT(solver.rows) LEFT(solver.slots) LEFT(solver.masks) LEFT(solver.colors)                     \
-    LEFT(solver.lanes) LEFT(solver.bundles) LEFT(solver.extras) LEFT(solver.impacts)                \
-    LEFT(solver.classic) LEFT(solver.dynamic_slots) LEFT(solver.slot_count)                         \
-    LEFT(solver.bundle_count) LEFT(solver.impact_count) LEFT(solver.color_count)                    \
+#define PL_STATE_SOLVER(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                     \
+    LEFT(solver.bodies) LEFT(solver.motions) LEFT(solver.lows) LEFT(solver.struck)                 \
+    LEFT(solver.rows) LEFT(solver.slots) LEFT(solver.masks) LEFT(solver.colors)                    \
+    LEFT(solver.lanes) LEFT(solver.bundles) LEFT(solver.extras) LEFT(solver.impacts)               \
+    LEFT(solver.classic) LEFT(solver.dynamic_slots) LEFT(solver.slot_count)                        \
+    LEFT(solver.bundle_count) LEFT(solver.impact_count) LEFT(solver.color_count)                   \
     LEFT(solver.overflow_count) LEFT(solver.bounce_count)
 
-#define PL_STATE_JOINTS(VALUE, ARRAY, TABLE, OWN, LEFT)                                             \
-    ARRAY(pl_joint, joints.items, joints.count, 0, 0)                                               \
+#define PL_STATE_JOINTS(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                     \
+    ARRAY(pl_joint, joints.items, joints.count, 0, 0)                                              \
     LEFT(joints.broken) LEFT(joints.broken_count) VALUE(joints.live) VALUE(joints.free_head)
 
-#define PL_STATE_PARTS(VALUE, ARRAY, TABLE, OWN, LEFT)                                              \
+#define PL_STATE_PARTS(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                      \
     LEFT(parts.items) LEFT(parts.count)
 
-#define PL_STATE_BLOWS(VALUE, ARRAY, TABLE, OWN, LEFT)                                              \
-    ARRAY(pl_blow, blows.items, blows.count, sizeof(pl_blow), 8)                                    \
+#define PL_STATE_BLOWS(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                      \
+    ARRAY(pl_blow, blows.items, blows.count, sizeof(pl_blow), 8)                                   \
     LEFT(blows.old) LEFT(blows.old_count) LEFT(blows.next)
 
-#define PL_STATE_SENSING(VALUE, ARRAY, TABLE, OWN, LEFT)                                            \
-    ARRAY(pl_keyed, sensing.candidates, sensing.candidate_count, sizeof(pl_keyed), 8)               \
-    VALUE(sensing.rebuilds)                                                                         \
-    ARRAY(pl_overlap, sensing.overlaps, sensing.count, sizeof(pl_overlap), 8)                       \
-    LEFT(sensing.old) LEFT(sensing.old_count) LEFT(sensing.begins) LEFT(sensing.ends)               \
+#define PL_STATE_SENSING(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                    \
+    ARRAY(pl_keyed, sensing.candidates, sensing.candidate_count, 0, 8)                             \
+    TALLY(sensing.rebuilds)                                                                        \
+    ARRAY(pl_overlap, sensing.overlaps, sensing.count, sizeof(pl_overlap), 8)                      \
+    LEFT(sensing.old) LEFT(sensing.old_count) LEFT(sensing.begins) LEFT(sensing.ends)              \
     LEFT(sensing.begin_count) LEFT(sensing.end_count)
 
 // What lies in struct plumb_world itself.
-#define PL_STATE_WORLD(VALUE, ARRAY, TABLE, OWN, LEFT)                                              \
-    LEFT(memory) VALUE(gravity) VALUE(step_count) VALUE(time) VALUE(arrested_count)                 \
-    TABLE(bodies) VALUE(dynamic_count) VALUE(kinematic_count) VALUE(asleep_count)                   \
-    VALUE(shape_count) VALUE(serial) LEFT(made) LEFT(outline)                                       \
-    TABLE(materials) OWN(components) OWN(systems)                                                   \
-    ARRAY(uint32_t, moving, moving_count, sizeof(uint32_t), 0) LEFT(poses)                          \
-    VALUE(rows_moved) VALUE(pairs_dirty) VALUE(static_dirty) LEFT(schedule_dirty)                   \
-    VALUE(piece_kinds) VALUE(turning_bodies)                                                        \
-    VALUE(sensor_pieces) VALUE(filtered_pieces) VALUE(part_pieces)                                  \
-    ARRAY(uint64_t, excluded, excluded_count, sizeof(uint64_t), 8)                                  \
-    ARRAY(pl_material_pair, material_pairs, material_pair_count,                                    \
-          sizeof(uint64_t) + sizeof(plumb_material_pair), 8)                                        \
-    LEFT(schedule) LEFT(begin_events) LEFT(end_events) LEFT(hit_events)                             \
-    LEFT(begin_count) LEFT(end_count) LEFT(hit_count)                                               \
+#define PL_STATE_WORLD(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                      \
+    LEFT(memory) VALUE(gravity) VALUE(step_count) VALUE(time) TALLY(arrested_count)                \
+    TABLE(bodies) VALUE(dynamic_count) VALUE(kinematic_count) VALUE(asleep_count)                  \
+    VALUE(shape_count) VALUE(serial) LEFT(made) LEFT(outline)                                      \
+    TABLE(materials) OWN(components) OWN(systems)                                                  \
+    ARRAY(uint32_t, moving, moving_count, sizeof(uint32_t), 0) LEFT(poses)                         \
+    TALLY(rows_moved) TALLY(pairs_dirty) TALLY(static_dirty) LEFT(schedule_dirty)                  \
+    VALUE(piece_kinds) VALUE(turning_bodies)                                                       \
+    VALUE(sensor_pieces) VALUE(filtered_pieces) VALUE(part_pieces)                                 \
+    ARRAY(uint64_t, excluded, excluded_count, sizeof(uint64_t), 8)                                 \
+    ARRAY(pl_material_pair, material_pairs, material_pair_count,                                   \
+          sizeof(uint64_t) + sizeof(plumb_material_pair), 8)                                       \
+    LEFT(schedule) LEFT(begin_events) LEFT(end_events) LEFT(hit_events)                            \
+    LEFT(begin_count) LEFT(end_count) LEFT(hit_count)                                              \
     LEFT(locked_by) LEFT(editing) LEFT(edited) LEFT(in_hook) LEFT(error) LEFT(error_text)
 
-#define PL_STATE(...)                                                                               \
-    PL_STATE_WORLD(__VA_ARGS__) PL_STATE_DESC(__VA_ARGS__) PL_STATE_REGISTRY(__VA_ARGS__)           \
-    PL_STATE_PIECES(__VA_ARGS__) PL_STATE_VERTICES(__VA_ARGS__) PL_STATE_COMMANDS(__VA_ARGS__)      \
-    PL_STATE_BROAD(__VA_ARGS__) PL_STATE_NARROW(__VA_ARGS__) PL_STATE_SOLVER(__VA_ARGS__)           \
-    PL_STATE_JOINTS(__VA_ARGS__) PL_STATE_PARTS(__VA_ARGS__) PL_STATE_BLOWS(__VA_ARGS__)            \
+#define PL_STATE(...)                                                                              \
+    PL_STATE_WORLD(__VA_ARGS__) PL_STATE_DESC(__VA_ARGS__) PL_STATE_REGISTRY(__VA_ARGS__)          \
+    PL_STATE_PIECES(__VA_ARGS__) PL_STATE_VERTICES(__VA_ARGS__) PL_STATE_COMMANDS(__VA_ARGS__)     \
+    PL_STATE_BROAD(__VA_ARGS__) PL_STATE_NARROW(__VA_ARGS__) PL_STATE_SOLVER(__VA_ARGS__)          \
+    PL_STATE_JOINTS(__VA_ARGS__) PL_STATE_PARTS(__VA_ARGS__) PL_STATE_BLOWS(__VA_ARGS__)           \
     PL_STATE_SENSING(__VA_ARGS__)
 
 // Members of a joint that decide later steps: what hash.c hashes of it.
-#define PL_STATE_JOINT(X)                                                                           \
-    X(entity) X(desc.kind) X(desc.enable_limit) X(desc.lower) X(desc.upper) X(desc.enable_motor)    \
-    X(desc.motor_speed) X(desc.max_motor) X(desc.hertz) X(desc.damping) X(desc.rest)                \
-    X(desc.length) X(desc.ratio) X(desc.pitch) X(desc.max_force) X(desc.max_torque)                 \
-    X(desc.break_force) X(desc.break_torque) X(desc.collide_connected)                              \
-    X(a.body) X(a.next) X(a.local) X(a.start) X(a.seen) X(a.turns)                                  \
-    X(b.body) X(b.next) X(b.local) X(b.start) X(b.seen) X(b.turns)                                  \
+#define PL_STATE_JOINT(X)                                                                          \
+    X(entity) X(desc.kind) X(desc.enable_limit) X(desc.lower) X(desc.upper) X(desc.enable_motor)   \
+    X(desc.motor_speed) X(desc.max_motor) X(desc.hertz) X(desc.damping) X(desc.rest)               \
+    X(desc.length) X(desc.ratio) X(desc.pitch) X(desc.max_force) X(desc.max_torque)                \
+    X(desc.break_force) X(desc.break_torque) X(desc.collide_connected)                             \
+    X(a.body) X(a.next) X(a.local) X(a.start) X(a.seen) X(a.turns)                                 \
+    X(b.body) X(b.next) X(b.local) X(b.start) X(b.seen) X(b.turns)                                 \
     X(axis) X(target) X(sum) X(impulse) X(h)
 // clang-format on
 
 // For rows of a kind that is not asked for.
 #define PL_STATE_NO_VALUE(path)
+#define PL_STATE_NO_TALLY(path)
 #define PL_STATE_NO_ARRAY(type, buffer, count, hashed, key)
 #define PL_STATE_NO_TABLE(path)
 #define PL_STATE_NO_OWN(path)

@@ -15,27 +15,35 @@ typedef struct value_row {
 #define VALUE_ROW(path)  { #path, offsetof(plumb_world, path), sizeof PL_STATE_OF(path) },
 #define VALUE_SIZE(path) +sizeof PL_STATE_OF(path)
 
-static const value_row values[] = { PL_STATE(VALUE_ROW, PL_STATE_NO_ARRAY, PL_STATE_NO_TABLE,
-                                             PL_STATE_NO_OWN, PL_STATE_NO_LEFT) };
-#define VALUES_SIZE                                                                                \
-    (0 PL_STATE(VALUE_SIZE, PL_STATE_NO_ARRAY, PL_STATE_NO_TABLE, PL_STATE_NO_OWN,                 \
-                PL_STATE_NO_LEFT))
+#define EACH_VALUE(X)                                                                              \
+    PL_STATE(X, PL_STATE_NO_TALLY, PL_STATE_NO_ARRAY, PL_STATE_NO_TABLE, PL_STATE_NO_OWN,          \
+             PL_STATE_NO_LEFT)
+#define EACH_TALLY(X)                                                                              \
+    PL_STATE(PL_STATE_NO_VALUE, X, PL_STATE_NO_ARRAY, PL_STATE_NO_TABLE, PL_STATE_NO_OWN,          \
+             PL_STATE_NO_LEFT)
+
+static const value_row values[] = { EACH_VALUE(VALUE_ROW) };
+static const value_row tallies[] = { EACH_TALLY(VALUE_ROW) };
+
+#define VALUES_SIZE  (0 EACH_VALUE(VALUE_SIZE))
+#define TALLIES_SIZE (0 EACH_TALLY(VALUE_SIZE))
 
 _Static_assert(VALUES_SIZE <= PL_GATHERED_MOST, "raise PL_GATHERED_MOST");
+_Static_assert(TALLIES_SIZE <= PL_GATHERED_MOST, "raise PL_GATHERED_MOST");
 
-static void write_values(const plumb_world *world, char *to)
+static void write_values(const plumb_world *world, const value_row *rows, size_t count, char *to)
 {
-    for (size_t i = 0; i < COUNT(values); ++i) {
-        memcpy(to, (const char *)world + values[i].offset, values[i].size);
-        to += values[i].size;
+    for (size_t i = 0; i < count; ++i) {
+        memcpy(to, (const char *)world + rows[i].offset, rows[i].size);
+        to += rows[i].size;
     }
 }
 
-static void read_values(plumb_world *world, const char *from)
+static void read_values(plumb_world *world, const value_row *rows, size_t count, const char *from)
 {
-    for (size_t i = 0; i < COUNT(values); ++i) {
-        memcpy((char *)world + values[i].offset, from, values[i].size);
-        from += values[i].size;
+    for (size_t i = 0; i < count; ++i) {
+        memcpy((char *)world + rows[i].offset, from, rows[i].size);
+        from += rows[i].size;
     }
 }
 
@@ -47,8 +55,11 @@ typedef struct column_row {
     uint32_t stride, hashed;
 } column_row;
 
-// Addresses are not hashed.
-#define HASHED(type) _Generic((type){ 0 }, void * : 0, default : (uint32_t)sizeof(type))
+// Not hashed: addresses, and boxes of the grids.
+// clang-format off
+#define HASHED(type) _Generic((type){ 0 }, void *: 0, pl_box: 0, default: (uint32_t)sizeof(type))
+// clang-format on
+
 #define COLUMN_ROW(struct, type, name)                                                             \
     { #struct, #name, offsetof(plumb_world, struct.name), sizeof(type), HASHED(type) },
 #define BODY_ROW(type, name)     COLUMN_ROW(bodies, type, name)
@@ -104,8 +115,9 @@ typedef struct array_row {
       hashed,                                                                                      \
       key },
 
-static const array_row arrays[] = { PL_STATE(PL_STATE_NO_VALUE, ARRAY_ROW, PL_STATE_NO_TABLE,
-                                             PL_STATE_NO_OWN, PL_STATE_NO_LEFT) };
+static const array_row arrays[] = { PL_STATE(PL_STATE_NO_VALUE, PL_STATE_NO_TALLY, ARRAY_ROW,
+                                             PL_STATE_NO_TABLE, PL_STATE_NO_OWN,
+                                             PL_STATE_NO_LEFT) };
 
 static pl_buffer *buffer_of(const plumb_world *world, const array_row *row)
 {
@@ -194,8 +206,7 @@ static pl_section own_section(const plumb_world *world, uint32_t which)
         return (pl_section){ .table = "systems",
                              .name = "enabled",
                              .count = world->systems.count,
-                             .stride = sizeof(system_switch),
-                             .hashed = sizeof(system_switch) };
+                             .stride = sizeof(system_switch) };
     }
 }
 
@@ -267,7 +278,9 @@ static bool reserve_component(plumb_world *world, uint32_t which, uint32_t count
 
 //---- all of them ---------------------------------------------------------------------------------
 
-#define FIRST_COLUMN 1
+#define VALUES       0
+#define TALLIES      1
+#define FIRST_COLUMN 2
 #define FIRST_ARRAY  (FIRST_COLUMN + (uint32_t)COUNT(columns))
 #define FIRST_OWN    (FIRST_ARRAY + (uint32_t)COUNT(arrays))
 #define FIXED_COUNT  (FIRST_OWN + OWN_COUNT)
@@ -277,6 +290,16 @@ uint32_t pl_section_fixed_count(void)
     return FIXED_COUNT;
 }
 
+uint32_t pl_section_registry(void)
+{
+    return FIRST_OWN + REGISTRY;
+}
+
+uint32_t pl_section_key(uint32_t i)
+{
+    return i >= FIRST_ARRAY && i < FIRST_OWN ? arrays[i - FIRST_ARRAY].key : 0;
+}
+
 uint32_t pl_section_count(const plumb_world *world)
 {
     return FIXED_COUNT + 2 * world->components.count;
@@ -284,12 +307,16 @@ uint32_t pl_section_count(const plumb_world *world)
 
 pl_section pl_section_at(const plumb_world *world, uint32_t i)
 {
-    if (i < FIRST_COLUMN) {
+    if (i == VALUES) {
         return (pl_section){ .table = "world",
                              .name = "values",
                              .count = 1,
                              .stride = VALUES_SIZE,
                              .hashed = VALUES_SIZE };
+    }
+    if (i == TALLIES) {
+        return (
+            pl_section){ .table = "world", .name = "tallies", .count = 1, .stride = TALLIES_SIZE };
     }
     if (i < FIRST_ARRAY) {
         const column_row *c = &columns[i - FIRST_COLUMN];
@@ -318,8 +345,10 @@ pl_section pl_section_at(const plumb_world *world, uint32_t i)
 
 void pl_section_write(const plumb_world *world, uint32_t i, const pl_section *section, char *to)
 {
-    if (i < FIRST_COLUMN) {
-        write_values(world, to);
+    if (i == VALUES) {
+        write_values(world, values, COUNT(values), to);
+    } else if (i == TALLIES) {
+        write_values(world, tallies, COUNT(tallies), to);
     } else if (i == FIRST_OWN + SWITCHES) {
         write_switches(world, to);
     } else if (section->count > 0) {
@@ -345,8 +374,12 @@ bool pl_section_reserve(plumb_world *world, uint32_t i, uint32_t count)
 
 void pl_section_read(plumb_world *world, uint32_t i, const char *from, uint32_t count)
 {
-    if (i < FIRST_COLUMN) {
-        read_values(world, from);
+    if (i == VALUES) {
+        read_values(world, values, COUNT(values), from);
+        return;
+    }
+    if (i == TALLIES) {
+        read_values(world, tallies, COUNT(tallies), from);
         return;
     }
     if (i >= FIXED_COUNT) {
@@ -387,6 +420,10 @@ uint64_t pl_section_schema(void)
     for (size_t i = 0; i < COUNT(values); ++i) {
         add_text(&digest, values[i].name);
         add_number(&digest, values[i].size);
+    }
+    for (size_t i = 0; i < COUNT(tallies); ++i) {
+        add_text(&digest, tallies[i].name);
+        add_number(&digest, tallies[i].size);
     }
     for (size_t i = 0; i < COUNT(columns); ++i) {
         add_text(&digest, columns[i].name);

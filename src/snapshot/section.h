@@ -1,7 +1,7 @@
 // section.h - the state of a world as a row of sections, each an array: what hash, images and deltas
 // walk. Which they are follows from list.h.
 //
-// Order: values, columns of bodies, pieces, materials, arrays of list.h, registry, corners, switches
+// Order: values, tallies, columns of bodies, pieces, materials, arrays of list.h, registry, corners, switches
 // of systems, then values and owners of each user component.
 #ifndef PL_SECTION_H
 #define PL_SECTION_H
@@ -21,7 +21,11 @@ typedef struct pl_section {
 
 // The sections that every world has; those of its components come behind them.
 uint32_t pl_section_fixed_count(void);
+// The registry's section.
+uint32_t pl_section_registry(void);
 uint32_t pl_section_count(const plumb_world *world);
+// [B] of an element's key in section i, see list.h.
+uint32_t pl_section_key(uint32_t i);
 // Section i; valid until a structural change. O(1).
 pl_section pl_section_at(const plumb_world *world, uint32_t i);
 
