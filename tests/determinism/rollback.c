@@ -88,8 +88,8 @@ void rollback_reference(plumb_world *world, rollback_step *step, void *context, 
     }
 }
 
-int rollback_run(plumb_world *world, rollback_step *step, void *context, int steps, bool frames,
-                 const uint64_t *hashes)
+int rollback_run(plumb_world *world, plumb_world *other, rollback_step *step, void *context,
+                 int steps, int most, bool frames, const uint64_t *hashes)
 {
     static history h;
     h.seed = 7;
@@ -100,10 +100,15 @@ int rollback_run(plumb_world *world, rollback_step *step, void *context, int ste
         keep(&h, world, at, frames);
         newest = at > newest ? at : newest;
         if (at == newest && next(&h.seed) % 4 == 0) {
-            int back = 1 + (int)(next(&h.seed) % ROLLBACK_MOST);
+            int back = 1 + (int)(next(&h.seed) % (uint32_t)most);
             // Not beyond the first step, nor to one whose base is gone.
             if (at >= back && (!frames || h.base_of[at % KEPT] == h.base_of[(at - back) % KEPT])) {
                 at -= back;
+                if (other != NULL) {
+                    plumb_world *left = world;
+                    world = other;
+                    other = left;
+                }
                 go_back(&h, world, at, frames);
                 check(world, at, hashes[at]);
                 ++times;

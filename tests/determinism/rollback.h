@@ -11,19 +11,21 @@
 #include <stdint.h>
 #include <cmocka.h>
 
-#define ROLLBACK_MOST 12 // steps
+#define ROLLBACK_MOST 24 // steps of a script
 
-// One step of a world, with whatever the script does before it: a function of the world's state alone.
+// A step of a script: calls between steps of the world, or one of those. A function of the world's state
+// alone.
 typedef void rollback_step(plumb_world *world, void *context);
 
 // Hashes of the world after 0..steps steps.
 void rollback_reference(plumb_world *world, rollback_step *step, void *context, int steps,
                         uint64_t *hashes);
 
-// The same world from the start: every fourth step or so goes back by 1..ROLLBACK_MOST steps first.
+// The same world from the start: every fourth step or so goes back by 1..`most` steps first, into
+// `other` if that is not null; the two worlds then take turns.
 // `frames`: what is kept are frames of a base, made anew now and then, instead of whole images.
 // Returns how often it went back.
-int rollback_run(plumb_world *world, rollback_step *step, void *context, int steps, bool frames,
-                 const uint64_t *hashes);
+int rollback_run(plumb_world *world, plumb_world *other, rollback_step *step, void *context,
+                 int steps, int most, bool frames, const uint64_t *hashes);
 
 #endif

@@ -37,7 +37,7 @@ static void roll_scene(const char *path, const char *solver, bool frames)
     uint32_t bodies = plumb_world_stats(scene_world(first)).body_count;
     int steps = bodies > LARGE ? STEPS_LARGE : STEPS;
     rollback_reference(scene_world(first), step, &dt, steps, hashes);
-    int times = rollback_run(scene_world(second), step, &dt, steps, frames, hashes);
+    int times = rollback_run(scene_world(second), NULL, step, &dt, steps, 12, frames, hashes);
     assert_in_range(times, 1, steps);
     print_message("%s %s: went back %d times in %d steps\n", solver, path, times, steps);
     scene_destroy(first);
