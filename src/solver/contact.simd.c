@@ -413,17 +413,21 @@ static void store_extras(const pl_contact_call *call, pl_manifold *manifolds, ui
     }
 }
 
-// The variants: friction F, rotation R, running surfaces S.
+// The variants: friction F, rotation R, running surfaces S. Names that are put together carry the width
+// (tools/amalgamate cannot see them).
 #define DEFINE_VARIANT(F, R, S)                                                                    \
-    static void warm_start_##F##R##S(const pl_contact_call *call, uint32_t first, uint32_t count)  \
+    static void PL_WIDE_NAME(warm_start_##F##R##S)(const pl_contact_call *call, uint32_t first,    \
+                                                   uint32_t count)                                 \
     {                                                                                              \
         warm_start_all(call, first, count, F, R, S);                                               \
     }                                                                                              \
-    static void solve_##F##R##S(const pl_contact_call *call, uint32_t first, uint32_t count)       \
+    static void PL_WIDE_NAME(solve_##F##R##S)(const pl_contact_call *call, uint32_t first,         \
+                                              uint32_t count)                                      \
     {                                                                                              \
         sweep(call, first, count, true, F, R, S);                                                  \
     }                                                                                              \
-    static void relax_##F##R##S(const pl_contact_call *call, uint32_t first, uint32_t count)       \
+    static void PL_WIDE_NAME(relax_##F##R##S)(const pl_contact_call *call, uint32_t first,         \
+                                              uint32_t count)                                      \
     {                                                                                              \
         sweep(call, first, count, false, F, R, S);                                                 \
     }
@@ -437,7 +441,9 @@ DEFINE_VARIANT(1, 1, 1)
 
 // clang-format off
 #define VARIANTS(name)                                                                             \
-    { { name##_000, name##_010 }, { name##_100, name##_110 }, { name##_101, name##_111 } }
+    { { PL_WIDE_NAME(name##_000), PL_WIDE_NAME(name##_010) },                                      \
+      { PL_WIDE_NAME(name##_100), PL_WIDE_NAME(name##_110) },                                      \
+      { PL_WIDE_NAME(name##_101), PL_WIDE_NAME(name##_111) } }
 // clang-format on
 
 const pl_contact_kernels PL_WIDE_NAME(pl_contact_kernels) = {

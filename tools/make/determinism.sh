@@ -15,10 +15,12 @@ matrix=(
     "gcc -O0|gcc|-O0|"
     "gcc -O2|gcc|-O2|"
     "gcc -O3|gcc|-O3|"
+    "gcc -O3 native|gcc|-O3 -march=native|"
     "gcc -O1 ASan|gcc|-O1|address"
     "clang -O0|clang|-O0|"
     "clang -O2|clang|-O2|"
     "clang -O3|clang|-O3|"
+    "clang -O3 native|clang|-O3 -march=native|"
     "clang -O1 ASan|clang|-O1|address"
 )
 
