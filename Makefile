@@ -131,6 +131,7 @@ help:
 #:   deps, deps-dev    Debian packages: for the two commands above; for fuzz, format, lint as well
 #:   test              every test; T="tests/unit/test_math.c ..." runs only these
 #:   stability         the hard-case tests and the expectations of every scene
+#:   shots             what gets through thin walls, beside Box2D 2.4.1; SHOTS=100000
 #:   bench             side by side with Box2D 2.4.1; BOX2D3=/prefix adds Box2D 3; BENCH="arguments"
 #:   amalgamation      build/plumb.h and build/plumb.c: the library as one pair of files
 #:   determinism       the same bits with gcc and clang, -O0 to -O3, ASan, every SIMD width

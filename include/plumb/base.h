@@ -118,6 +118,19 @@ typedef void plumb_log_fn(void *context, plumb_log_level level, const char *mess
 /// Null: the message goes to the log hook.
 typedef void plumb_assert_fn(void *context, const char *expression, const char *file, int line);
 
+/// Most threads that a world works with.
+#define PLUMB_WORKERS_MAX 64
+
+/// Part `chunk` of a job that the library shares out. Calls no function of the library's.
+typedef void plumb_task_fn(void *task_context, uint32_t chunk);
+
+/// Takes the place of the library's own threads. `run` calls task(task_context, i) once for every i from 0
+/// to chunks - 1, in any order and on any threads, and returns when all are done. It is called some
+/// hundred times a step, from the thread that steps the world.
+typedef struct plumb_task_hooks {
+    void (*run)(void *hook_context, plumb_task_fn *task, void *task_context, uint32_t chunks);
+} plumb_task_hooks;
+
 PLUMB_END
 
 #endif

@@ -29,6 +29,20 @@ typedef struct plumb_body_desc {
     plumb_real gravity_scale;    ///< [-] factor on gravity; 0 means 1 (see no_gravity)
     bool no_gravity;             ///< gravity does not act on this body
     bool fixed_rotation;         ///< the body never turns: infinite inertia
+    bool no_sleep;               ///< it never falls asleep, nor what it touches: see plumb/sleep.h
+    bool asleep;                 ///< dynamic, without velocity: it starts asleep, alone, and sleeps on while
+                                 ///< shapes and joints are added before the next step. In a world without
+                                 ///< sleeping it starts awake
+    bool continuous;             ///< dynamic bodies: however fast, this body and other dynamic ones do not
+                                 ///< pass through each other (static and kinematic ones are never passed)
+    bool lock_x, lock_y;         ///< its centre never moves along that axis: infinite mass that way; then
+                                 ///< `velocity` must be 0 along it. As fixed_rotation, for dynamic bodies
+    plumb_real damping;          ///< [1/s] >= 0: see plumb_body_set_damping
+    plumb_real angular_damping;  ///< [1/s] >= 0
+    plumb_real max_speed;        ///< [m/s] >= 0: see plumb_body_set_speed_cap; 0: none
+    plumb_real max_spin;         ///< [rad/s] >= 0; 0: none
+    plumb_real time_scale;       ///< [-] 0..100: see plumb_body_set_time_scale; 0 means 1
+    bool disabled;               ///< out of the simulation: see plumb_body_set_enabled
     void *user_data;             ///< see plumb_body_user_data
 } plumb_body_desc;
 
@@ -36,13 +50,27 @@ typedef struct plumb_body_desc {
 /// Null handle on error: E_NULL, E_RANGE, E_NOT_FINITE, E_MEMORY, E_LOCKED. O(1) amortised.
 PLUMB_API plumb_body plumb_body_create(plumb_world *world, const plumb_body_desc *desc);
 
-/// Destroys a body, its shapes and its contacts (which end without an event). Errors: E_HANDLE, E_LOCKED.
+/// Destroys a body, its shapes and its contacts (their end is told after the next step). Errors: E_HANDLE,
+/// E_LOCKED.
 PLUMB_API plumb_result plumb_body_destroy(plumb_world *world, plumb_body body);
 
 /// True for a live handle of a body.
 PLUMB_API bool plumb_body_valid(const plumb_world *world, plumb_body body);
 
 PLUMB_API plumb_body_type plumb_body_get_type(const plumb_world *world, plumb_body body);
+/// Changes what moves the body. A body that ceases to be dynamic loses mass, forces and a centre that was
+/// given; one that becomes dynamic has the mass of its shapes, or that of the descriptor or of
+/// plumb_body_set_mass. Static bodies lose their velocity. Shapes, joints, settings and touches stay.
+/// O(pieces of the body). Errors: E_HANDLE, E_RANGE (type; mass or inertia of its shapes), E_LOCKED.
+PLUMB_API plumb_result plumb_body_set_type(plumb_world *world, plumb_body body, plumb_body_type type);
+
+/// Takes a body out of the simulation (false) or back in. Out of it, nothing moves it, nothing meets it
+/// and no query sees it; its joints rest, and its touches end with the next step. It keeps shapes, joints,
+/// velocity and settings, and all of them can be changed, but it takes no forces and impulses. Idempotent.
+/// O(pieces of the body), needs no memory. Errors: E_HANDLE, E_LOCKED.
+PLUMB_API plumb_result plumb_body_set_enabled(plumb_world *world, plumb_body body, bool enabled);
+/// False when disabled, and for a bad handle.
+PLUMB_API bool plumb_body_is_enabled(const plumb_world *world, plumb_body body);
 
 /// [m] origin of the body's frame.
 PLUMB_API plumb_vec2 plumb_body_position(const plumb_world *world, plumb_body body);
@@ -70,19 +98,39 @@ PLUMB_API plumb_vec2 plumb_body_local_center(const plumb_world *world, plumb_bod
 PLUMB_API plumb_result plumb_body_teleport(plumb_world *world, plumb_body body, plumb_vec2 position,
                                            plumb_real angle);
 
-/// Sets the velocity [m/s] of the centre of mass. Errors: E_HANDLE, E_NOT_FINITE, E_STATE (static).
+/// plumb_body_teleport that keeps the angle, or the position.
+PLUMB_API plumb_result plumb_body_set_position(plumb_world *world, plumb_body body, plumb_vec2 position);
+PLUMB_API plumb_result plumb_body_set_angle(plumb_world *world, plumb_body body, plumb_real angle);
+
+/// Sends a kinematic body to a pose [m], [rad], to be there after dt [s], turning the shorter way. Steps
+/// move it straight and evenly, so that what it meets is pushed and carried; in the step in which the time
+/// is up it arrives, its pose is the target exactly, and it stands still from then on. With dt the step of
+/// the world, that is the next one; a shorter dt makes it push as if it were as fast as that says. A new target, velocity, teleport or type takes the place of this one.
+/// O(1). Errors: E_HANDLE, E_RANGE, E_NOT_FINITE, E_STATE (not kinematic), E_MEMORY.
+PLUMB_API plumb_result plumb_body_set_target(plumb_world *world, plumb_body body, plumb_vec2 position,
+                                             plumb_real angle, plumb_real dt);
+/// True while the body is on its way to a target.
+PLUMB_API bool plumb_body_has_target(const plumb_world *world, plumb_body body);
+
+/// Sets the velocity [m/s] of the centre of mass. Errors: E_HANDLE, E_NOT_FINITE, E_STATE (static; not 0
+/// along a locked axis).
 PLUMB_API plumb_result plumb_body_set_velocity(plumb_world *world, plumb_body body, plumb_vec2 velocity);
 /// Sets the angular velocity [rad/s]. Errors: E_HANDLE, E_NOT_FINITE, E_STATE (static).
 PLUMB_API plumb_result plumb_body_set_angular_velocity(plumb_world *world, plumb_body body, plumb_real w);
 
 /// Adds a force [N] at a world point [m] for the next step. Errors: E_HANDLE, E_NOT_FINITE, E_STATE
-/// (not dynamic).
+/// (not dynamic, or disabled).
 PLUMB_API plumb_result plumb_body_apply_force(plumb_world *world, plumb_body body, plumb_vec2 force,
                                               plumb_vec2 point);
 /// Adds a force [N] at the centre of mass for the next step. Errors as above.
 PLUMB_API plumb_result plumb_body_apply_force_center(plumb_world *world, plumb_body body, plumb_vec2 force);
 /// Adds a torque [N m] for the next step. Errors as above.
 PLUMB_API plumb_result plumb_body_apply_torque(plumb_world *world, plumb_body body, plumb_real torque);
+/// Takes back the forces and torques given for the next step. Errors: E_HANDLE.
+PLUMB_API plumb_result plumb_body_clear_forces(plumb_world *world, plumb_body body);
+/// [N], [N m] given for the next step so far.
+PLUMB_API plumb_vec2 plumb_body_force(const plumb_world *world, plumb_body body);
+PLUMB_API plumb_real plumb_body_torque(const plumb_world *world, plumb_body body);
 /// Changes the velocity at once by an impulse [N s] at a world point [m]. Errors as above.
 PLUMB_API plumb_result plumb_body_apply_impulse(plumb_world *world, plumb_body body, plumb_vec2 impulse,
                                                 plumb_vec2 point);
@@ -96,10 +144,59 @@ PLUMB_API plumb_result plumb_body_apply_angular_impulse(plumb_world *world, plum
 /// Gives the body a mass [kg] > 0; the inertia scales along. Errors: E_HANDLE, E_RANGE, E_NOT_FINITE,
 /// E_STATE (not dynamic).
 PLUMB_API plumb_result plumb_body_set_mass(plumb_world *world, plumb_body body, plumb_real mass);
+/// Gives the body an inertia [kg m^2] > 0 about its centre of mass. Errors as above.
+PLUMB_API plumb_result plumb_body_set_inertia(plumb_world *world, plumb_body body, plumb_real inertia);
+/// Puts the centre of mass at a point [m] of the body's frame, whatever its shapes say; an inertia that
+/// was not given follows by the parallel axis theorem, and the velocity follows the rigid motion.
+/// Errors: E_HANDLE, E_RANGE (|x|, |y| <= 1e7; inertia), E_NOT_FINITE, E_STATE (not dynamic).
+PLUMB_API plumb_result plumb_body_set_local_center(plumb_world *world, plumb_body body, plumb_vec2 center);
 /// Computes mass, centre and inertia from the shapes' densities again. Errors: E_HANDLE, E_STATE.
 PLUMB_API plumb_result plumb_body_reset_mass(plumb_world *world, plumb_body body);
 /// Forbids or allows turning. Errors: E_HANDLE, E_STATE (not dynamic).
 PLUMB_API plumb_result plumb_body_set_fixed_rotation(plumb_world *world, plumb_body body, bool fixed);
+/// Whether it and other dynamic bodies, however fast, do not pass through each other: see
+/// plumb_body_desc.continuous. Costs a search among what moves nearby in steps in which either moves
+/// fast. Errors: E_HANDLE, E_STATE (not dynamic).
+PLUMB_API plumb_result plumb_body_set_continuous(plumb_world *world, plumb_body body, bool continuous);
+PLUMB_API bool plumb_body_is_continuous(const plumb_world *world, plumb_body body);
+
+/// Axes along which a body does not move, whatever pushes it: there it has infinite mass, for contacts and
+/// joints alike. x, y are those of the world and hold the centre of mass; rotation is fixed_rotation.
+typedef struct plumb_axis_locks {
+    bool x, y, rotation;
+} plumb_axis_locks;
+
+/// Locks and frees axes; velocity along a locked one becomes 0. Worlds without locks in x or y pay nothing
+/// for them, others solve contacts with a slower kernel. Errors: E_HANDLE, E_STATE (not dynamic).
+PLUMB_API plumb_result plumb_body_set_locks(plumb_world *world, plumb_body body, plumb_axis_locks locks);
+PLUMB_API plumb_axis_locks plumb_body_locks(const plumb_world *world, plumb_body body);
+
+/// Damping rates [1/s] >= 0 of a dynamic body: dv/dt = a - linear v, dw/dt = a - angular w. Velocities
+/// follow the exact exponential whatever the step and substeps; so do places of a body that nothing
+/// touches (else within (rate h)^2 / 12 of the way, h the substep, and a body at rest weighs less by the
+/// share rate h / 2). Linear c is a top speed of a / c.
+/// Bodies without damping pay nothing. Errors: E_HANDLE, E_RANGE, E_NOT_FINITE, E_MEMORY.
+PLUMB_API plumb_result plumb_body_set_damping(plumb_world *world, plumb_body body, plumb_real linear,
+                                              plumb_real angular);
+PLUMB_API plumb_real plumb_body_damping(const plumb_world *world, plumb_body body);
+PLUMB_API plumb_real plumb_body_angular_damping(const plumb_world *world, plumb_body body);
+
+/// Speeds [m/s], [rad/s] >= 0 that a dynamic body never ends a step with more than; 0: no cap, the default.
+/// Bodies without a cap pay nothing. Errors: E_HANDLE, E_RANGE, E_NOT_FINITE, E_MEMORY.
+PLUMB_API plumb_result plumb_body_set_speed_cap(plumb_world *world, plumb_body body, plumb_real max_speed,
+                                                plumb_real max_spin);
+PLUMB_API plumb_real plumb_body_max_speed(const plumb_world *world, plumb_body body);
+PLUMB_API plumb_real plumb_body_max_spin(const plumb_world *world, plumb_body body);
+
+/// How many seconds [-] 0..100 a dynamic or kinematic body lives in a second of the world: below 1 is slow
+/// motion, 0 stands still. Its velocity, damping, caps and accelerations are those of its own time: it goes
+/// through the same path at `scale` times the speed, and on from there when the scale is 1 again. To others
+/// it is a body of mass / scale^2 that moves at scale times its velocity: surfaces do not cross, forces
+/// balance (it weighs what it weighs), and the energy m v^2 / 2 is kept when bodies of different time
+/// meet. Bodies of scale 1 pay nothing. Errors: E_HANDLE, E_RANGE, E_NOT_FINITE, E_MEMORY.
+PLUMB_API plumb_result plumb_body_set_time_scale(plumb_world *world, plumb_body body, plumb_real scale);
+PLUMB_API plumb_real plumb_body_time_scale(const plumb_world *world, plumb_body body);
+
 /// Sets the factor on gravity [-], finite; 0 is none. Errors: E_HANDLE, E_NOT_FINITE.
 PLUMB_API plumb_result plumb_body_set_gravity_scale(plumb_world *world, plumb_body body, plumb_real scale);
 PLUMB_API plumb_real plumb_body_gravity_scale(const plumb_world *world, plumb_body body);
@@ -111,6 +208,9 @@ PLUMB_API void *plumb_body_user_data(const plumb_world *world, plumb_body body);
 PLUMB_API int plumb_body_shapes(const plumb_world *world, plumb_body body, plumb_entity *shapes,
                                 int capacity);
 
+/// [J] of translation and rotation; 0 for static and kinematic bodies.
+PLUMB_API plumb_real plumb_body_kinetic_energy(const plumb_world *world, plumb_body body);
+
 /// Box around all shapes [m]; empty (min > max) without shapes.
 PLUMB_API plumb_aabb plumb_body_aabb(const plumb_world *world, plumb_body body);
 
@@ -121,14 +221,18 @@ PLUMB_API plumb_vec2 plumb_body_world_vector(const plumb_world *world, plumb_bod
 PLUMB_API plumb_vec2 plumb_body_local_vector(const plumb_world *world, plumb_body body, plumb_vec2 vector);
 
 /// The body columns as they are stored: no copy. Rows are dense and partitioned: awake dynamic rows
-/// first, then kinematic, then asleep, then static. Valid until the next step or structural change.
-/// Velocities and forces may be written (rows below dynamic_count; kinematic velocities too).
+/// first, then kinematic, then asleep, then static, then disabled. Valid until the next step or structural change.
+/// Rows keep their order but for these moves: a body that falls asleep becomes the first sleeping row, one
+/// that wakes the last awake one; the last row of each partition that lost one fills its gap.
+/// Velocities and forces may be written (rows below dynamic_count; kinematic velocities too). Those of
+/// sleeping rows must not be: nothing would wake the body, see plumb_body_wake and the setters.
 typedef struct plumb_body_span {
     int count;           ///< all rows
     int dynamic_count;   ///< rows [0, dynamic_count) are awake dynamic
     int kinematic_count; ///< then so many kinematic rows
     int asleep_count;    ///< then so many sleeping rows
     int static_count;    ///< then so many static rows
+    int disabled_count;  ///< then so many rows of disabled bodies, of any type
     const plumb_entity *entity;
     const plumb_real *x, *y;           ///< [m] origin
     const plumb_real *center_x, *center_y; ///< [m] centre of mass

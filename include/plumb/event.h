@@ -17,7 +17,8 @@ typedef struct plumb_contact_begin {
     plumb_real approach_speed; ///< [m/s] along the normal just before, >= 0
 } plumb_contact_begin;
 
-/// Two shapes ceased to touch, or one of them was removed (its handle is then stale).
+/// Two shapes ceased to touch, or one of them was removed (its handle and perhaps that of its body are
+/// then stale), disabled with its body, or is kept apart from now on.
 typedef struct plumb_contact_end {
     plumb_shape shape_a, shape_b;
     plumb_body body_a, body_b;
@@ -72,9 +73,11 @@ typedef struct plumb_contact_edit {
     plumb_real restitution;        ///< * [-] 0..1
     plumb_real rolling_resistance; ///< * [m] >= 0
     plumb_real surface_speed;      ///< * [m/s] of both surfaces together: see plumb_material_desc
+    plumb_real adhesion;           ///< * [N] >= 0 that the contact may pull once it touches
 } plumb_contact_edit;
 
-/// How many contacts this step has: touching ones and those that may touch within it. -1 on error.
+/// How many contacts this step has: touching ones and those that may touch within it, but not those of
+/// sleeping bodies. -1 on error.
 /// Errors: E_STATE (not called by a system of PLUMB_PHASE_CONTACTS).
 PLUMB_API int plumb_contact_edit_count(const plumb_world *world);
 /// Contact i; order: by kinds and slots of pieces. O(1). Errors: E_STATE, E_RANGE (i), E_NULL.
@@ -87,7 +90,7 @@ PLUMB_API plumb_result plumb_contact_edit_set(plumb_world *world, int i, const p
 typedef struct plumb_contact_point {
     plumb_vec2 point;           ///< [m] world, midway between the surfaces
     plumb_real separation;      ///< [m] negative when overlapping
-    plumb_real normal_impulse;  ///< [N s] over the last substep, >= 0
+    plumb_real normal_impulse;  ///< [N s] over the last substep, >= 0; negative: adhesion pulls
     plumb_real tangent_impulse; ///< [N s] over the last substep
     plumb_real step_impulse;    ///< [N s] along the normal over the whole step, impacts included; 0 unless
                                 ///< plumb_world_desc.contact_impulses or hit_speed is set

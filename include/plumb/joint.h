@@ -65,6 +65,8 @@ typedef struct plumb_joint_desc {
     plumb_real max_torque;  ///< [N m] likewise
     plumb_real break_force; ///< [N] >= 0 breaks where the reaction exceeds it; 0: never
     plumb_real break_torque; ///< [N m] likewise
+    plumb_real break_impulse; ///< [N s] likewise of the reaction summed over a step: blows too short for a force
+    bool disabled;           ///< it does nothing until plumb_joint_set_enabled
     bool collide_connected;  ///< the two bodies collide with one another; default: they do not
     void *user_data;
 } plumb_joint_desc;
@@ -92,6 +94,15 @@ PLUMB_API plumb_result plumb_joint_set_target(plumb_world *world, plumb_joint jo
 /// Sets the bounds beyond which it breaks; 0: never. Errors: E_HANDLE, E_NOT_FINITE, E_RANGE.
 PLUMB_API plumb_result plumb_joint_set_break(plumb_world *world, plumb_joint joint, plumb_real force,
                                              plumb_real torque);
+/// Sets the impulse [N s] in a step beyond which it breaks; 0: never. Errors: E_HANDLE, E_NOT_FINITE,
+/// E_RANGE.
+PLUMB_API plumb_result plumb_joint_set_break_impulse(plumb_world *world, plumb_joint joint,
+                                                     plumb_real impulse);
+/// Switches a joint off, or on again. Off, it exerts nothing, does not break, and keeps nobody apart; a
+/// rigid joint that is switched on pulls its bodies together. Errors: E_HANDLE, E_LOCKED.
+PLUMB_API plumb_result plumb_joint_set_enabled(plumb_world *world, plumb_joint joint, bool enabled);
+/// False when it was switched off, and for a bad handle; a joint of a disabled body rests too, but is on.
+PLUMB_API bool plumb_joint_is_enabled(const plumb_world *world, plumb_joint joint);
 PLUMB_API plumb_result plumb_joint_set_user_data(plumb_world *world, plumb_joint joint, void *user_data);
 
 /// Questions. On a bad handle: zeros.
@@ -132,6 +143,7 @@ typedef struct plumb_joint_break {
     plumb_vec2 point;  ///< [m] anchor on B
     plumb_vec2 force;  ///< [N] that broke it
     plumb_real torque; ///< [N m]
+    plumb_vec2 impulse; ///< [N s] on B over the step; {0} unless some joint breaks by impulse
     void *user_data;
 } plumb_joint_break;
 

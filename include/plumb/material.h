@@ -10,7 +10,7 @@ PLUMB_BEGIN
 /// How a number of a pair follows from those of its two materials. If their rules differ, the one that
 /// comes later in this list holds.
 typedef enum plumb_mix {
-    PLUMB_MIX_DEFAULT,   ///< friction: geometric mean; restitution: the larger
+    PLUMB_MIX_DEFAULT,   ///< friction: geometric mean; restitution, adhesion: the larger
     PLUMB_MIX_AVERAGE,   ///< (a + b) / 2
     PLUMB_MIX_GEOMETRIC, ///< sqrt(a b)
     PLUMB_MIX_MULTIPLY,  ///< a b
@@ -32,6 +32,12 @@ typedef struct plumb_material_desc {
     plumb_real surface_speed;
     plumb_mix friction_mix;    ///< how pairs mix friction
     plumb_mix restitution_mix; ///< how pairs mix restitution
+    /// [N] >= 0, pull-off force: once two surfaces have touched, it takes so much force along the normal
+    /// to part them, shared among the points of their contact; each pair of convex pieces has its own.
+    /// Friction goes by the normal force plus it, and what sticks does not bounce. They have parted, with
+    /// an end event, when their nearest points are 5 mm apart. A pair uses the larger.
+    plumb_real adhesion;
+    plumb_mix adhesion_mix;    ///< how pairs mix adhesion; default: the larger
 } plumb_material_desc;
 
 /// Makes a material. Null handle on error (see plumb_world_error): E_NULL, E_RANGE, E_NOT_FINITE,
@@ -56,6 +62,7 @@ typedef struct plumb_material_pair {
     plumb_real friction;           ///< [-] 0..10
     plumb_real restitution;        ///< [-] 0..1
     plumb_real rolling_resistance; ///< [m] >= 0
+    plumb_real adhesion;           ///< [N] >= 0
 } plumb_material_pair;
 
 /// Sets what two materials have between them, from the next step on; null handles are the default

@@ -14,7 +14,9 @@
 #include "plumb/joint.h"
 #include "plumb/ecs.h"
 #include "plumb/event.h"
+#include "plumb/sleep.h"
 #include "plumb/query.h"
 #include "plumb/snapshot.h"
+#include "plumb/effect.h"
 
 #endif

@@ -62,6 +62,18 @@ PLUMB_API plumb_material plumb_shape_material(const plumb_world *world, plumb_sh
 /// Null sets the default material. Density, and so mass, is not revised. Errors: E_HANDLE.
 PLUMB_API plumb_result plumb_shape_set_material(plumb_world *world, plumb_shape shape,
                                                 plumb_material material);
+/// [kg/m^2] in force: the shape's own or its material's; 0 for lines and sensors.
+PLUMB_API plumb_real plumb_shape_density(const plumb_world *world, plumb_shape shape);
+/// Sets the shape's own density [kg/m^2] >= 0 and revises the mass of its body; 0: the material's.
+/// Errors: E_HANDLE, E_RANGE (also: mass or inertia of the body), E_NOT_FINITE.
+PLUMB_API plumb_result plumb_shape_set_density(plumb_world *world, plumb_shape shape, plumb_real density);
+/// Mass, centre in the body's frame and inertia about that centre, at the density in force.
+PLUMB_API plumb_mass_properties plumb_shape_mass(const plumb_world *world, plumb_shape shape);
+/// Gives the shape another form: kind, points and measures of `desc`. Its handle, body, material, density,
+/// filter, being a sensor and user data stay, whatever `desc` says of them; the body's mass is revised.
+/// What it touched is found anew: touches that go on end and begin. Errors: as of plumb_shape_create.
+PLUMB_API plumb_result plumb_shape_set_geometry(plumb_world *world, plumb_shape shape,
+                                                const plumb_shape_desc *desc);
 PLUMB_API plumb_result plumb_shape_set_user_data(plumb_world *world, plumb_shape shape, void *user_data);
 PLUMB_API void *plumb_shape_user_data(const plumb_world *world, plumb_shape shape);
 

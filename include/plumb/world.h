@@ -5,7 +5,8 @@
 ///     for (;;) plumb_world_step(world, (plumb_real)(1.0 / 60.0));
 ///     plumb_world_destroy(world);
 ///
-/// A world is used from one thread at a time; different worlds share nothing.
+/// A world is used from one thread at a time, whatever number of threads it works with itself; different
+/// worlds share nothing.
 #ifndef PLUMB_WORLD_H
 #define PLUMB_WORLD_H
 
@@ -47,15 +48,24 @@ typedef struct plumb_world_desc {
     plumb_real hit_speed;     ///< [m/s] >= 0; contacts that approach faster make hit events. Default 0: none
     bool contact_impulses;    ///< add up the impulses of each contact over the step (plumb_contact_point);
                               ///< done anyway where hit_speed is set
+    bool no_sleep;            ///< bodies at rest stay awake: see plumb/sleep.h
+    plumb_real sleep_speed;   ///< [m/s] >= 0; bodies slower than this rest, default 0.05: of v and w times
+                              ///< the farthest point of the body, the root of the sum of squares
+    plumb_real sleep_time;    ///< [s] >= 0; how long bodies must have rested to fall asleep, default 0.5
+    bool no_continuous;       ///< bodies that move fast may pass through thin things: no sweeps. For worlds
+                              ///< in which it does not matter; bodies that move slowly cost nothing anyway
     int simd_width;           ///< lanes of the contact kernels: 4, 8 or 16; default 0 = best measured.
                               ///< A pure speed setting: every width gives the same bits
     uint32_t body_capacity;   ///< rows to reserve; 0: grow as needed
     uint32_t shape_capacity;  ///< likewise for shapes
     uint32_t contact_capacity;///< likewise for contacts
+    int workers;              ///< threads that share the work of a step, 0..64, the caller included; default
+                              ///< 1: no thread is made. A pure speed setting: any number gives the same bits
+    plumb_task_hooks tasks;   ///< threads of your own instead: `workers` tells how many there are to reckon with
     plumb_allocator allocator;///< null members: the C library
     plumb_log_fn *log;        ///< null: silent
     plumb_assert_fn *assert_failed; ///< null: broken invariants go to `log`
-    void *hook_context;       ///< handed to `log` and `assert_failed`
+    void *hook_context;       ///< handed to `log`, `assert_failed` and `tasks`
     void *user_data;          ///< see plumb_world_user_data
 } plumb_world_desc;
 
@@ -73,11 +83,21 @@ PLUMB_API plumb_world_desc plumb_world_settings(const plumb_world *world);
 /// Advances the world by dt [s], 0 < dt <= 1. Events, spans and contact views of the step before
 /// become invalid. Cost: see plumb_world_schedule.
 /// Errors: E_RANGE, E_NOT_FINITE, E_LOCKED (called from a system), E_MEMORY (no body has moved, but systems
-/// of the phases before may have run: forces they added are still there).
+/// of the phases before may have run: forces they added are still there; bodies touched may have woken).
 PLUMB_API plumb_result plumb_world_step(plumb_world *world, plumb_real dt);
 
 /// Changes gravity [m/s^2]; zero is zero here. Errors: E_NOT_FINITE.
 PLUMB_API plumb_result plumb_world_set_gravity(plumb_world *world, plumb_vec2 gravity);
+
+/// Changes substeps (1..64) and iterations (1..1000), as in the descriptor; from the next step on.
+/// Errors: E_RANGE, E_LOCKED.
+PLUMB_API plumb_result plumb_world_set_substeps(plumb_world *world, int substeps, int iterations);
+/// Changes contact_hertz, contact_damping and push_speed; 0 means the default told in the descriptor.
+/// Errors: E_RANGE, E_NOT_FINITE, E_LOCKED.
+PLUMB_API plumb_result plumb_world_set_contact_tuning(plumb_world *world, plumb_real hertz,
+                                                      plumb_real damping, plumb_real push_speed);
+/// Changes restitution_speed [m/s] >= 0. Errors: E_RANGE, E_NOT_FINITE, E_LOCKED.
+PLUMB_API plumb_result plumb_world_set_restitution_speed(plumb_world *world, plumb_real speed);
 
 /// Gravity in force [m/s^2].
 PLUMB_API plumb_vec2 plumb_world_gravity(const plumb_world *world);
@@ -87,6 +107,7 @@ PLUMB_API plumb_vec2 plumb_world_up(const plumb_world *world);
 
 /// The pointer given in the descriptor.
 PLUMB_API void *plumb_world_user_data(const plumb_world *world);
+PLUMB_API plumb_result plumb_world_set_user_data(plumb_world *world, void *user_data);
 
 /// The last call on this world that was refused. `function` and `message` are "" when none was.
 typedef struct plumb_error {
@@ -106,17 +127,22 @@ typedef struct plumb_stats {
     uint32_t dynamic_count;     ///< awake dynamic bodies
     uint32_t kinematic_count;   ///< kinematic bodies
     uint32_t static_count;      ///< static bodies
+    uint32_t asleep_count;      ///< sleeping dynamic bodies
+    uint32_t island_count;      ///< islands that sleep
+    uint32_t disabled_count;    ///< bodies out of the simulation, of any type
     uint32_t shape_count;       ///< shapes as the user made them
     uint32_t piece_count;       ///< convex pieces of all shapes
-    uint32_t pair_count;        ///< pairs whose fat boxes overlap
-    uint32_t contact_count;     ///< pairs that touch (a manifold with at least one point)
+    uint32_t pair_count;        ///< pairs whose fat boxes overlap, and contacts of sleeping bodies
+    uint32_t contact_count;     ///< pairs that touch (a manifold with at least one point), asleep or not
     uint32_t point_count;       ///< manifold points of those
     uint32_t color_count;       ///< colours of the constraint graph
     uint32_t overflow_count;    ///< contacts that found no colour
-    uint32_t grid_rebuilds;     ///< rebuilds of the pair list since the world was made
+    uint32_t pair_rebuilds;     ///< rebuilds of the pair list since the world was made
     uint32_t bounce_count;      ///< impacts resolved with restitution in the last step
     uint32_t arrested_count;    ///< bodies stopped in all, because a step would have left them with a state
                                 ///< that is not finite or beyond 1e12 m or m/s; each is told to the log
+    uint32_t fast_count;        ///< bodies that moved so fast in the last step that their way was swept
+    uint32_t stopped_count;     ///< of those, bodies put back to where they would have passed into something
     int simd_width;             ///< lanes in use
     plumb_real max_penetration; ///< [m] deepest overlap after the last step's narrow phase, >= 0
     plumb_real mean_penetration;///< [m] mean over touching contacts of the deeper point, 0 if apart
@@ -124,7 +150,7 @@ typedef struct plumb_stats {
     size_t peak_bytes;          ///< [B] most memory ever held
 } plumb_stats;
 
-/// Counters of the last step. O(1).
+/// Counters of the last step; of sleeping bodies, as they were when they fell asleep. O(sleeping islands).
 PLUMB_API plumb_stats plumb_world_stats(const plumb_world *world);
 
 /// Mechanical state of all dynamic bodies, summed in double in row order. O(bodies).

@@ -20,12 +20,37 @@ static bool file_fixed(plumb_world *world)
     return pl_grid_build(&world->memory, &broad->fixed, list, count, pieces->fat);
 }
 
+bool pl_broad_update_resting(plumb_world *world)
+{
+    pl_sleep *s = &world->sleep;
+    pl_grid *grid = &world->broad.resting;
+    if (s->boxes_stale) {
+        pl_broad_refresh_resting(world);
+        s->boxes_stale = false;
+        s->grid_stale = true;
+    }
+    // Entries of pieces that woke are passed over; when they are the half, it is filed anew.
+    if (!s->grid_stale && !world->broad.resting_lost && s->gone <= grid->entry_count / 2) {
+        return true;
+    }
+    if (!pl_grid_build(&world->memory, grid, pl_resting(s), s->resting_count, world->pieces.fat)) {
+        s->grid_stale = true;
+        return false;
+    }
+    s->gone = 0;
+    s->grid_stale = world->broad.resting_lost = false;
+    s->near_stale = true;
+    return true;
+}
+
 bool pl_broad_update_grids(plumb_world *world, real dt, bool *stale)
 {
     pl_broad *broad = &world->broad;
     // Poses change in steps, and else only together with the flags: one query after another is free.
-    if (dt == 0 && !world->pairs_dirty && !world->static_dirty && !broad->moving_lost &&
-        !broad->fixed_lost && broad->filed_step == world->step_count) {
+    if (dt == 0 && !world->pairs_dirty && !world->static_dirty && !world->sleep.boxes_stale &&
+        !world->sleep.grid_stale && !broad->moving_lost && !broad->fixed_lost &&
+        !broad->resting_lost &&
+        broad->filed_step == world->step_count) {
         *stale = broad->stale;
         return true;
     }
@@ -36,11 +61,17 @@ bool pl_broad_update_grids(plumb_world *world, real dt, bool *stale)
         }
         world->static_dirty = false;
         world->pairs_dirty = true;
+        if (world->asleep_count > 0) {
+            pl_sensing_note_rest(world);
+        }
     } else if (broad->fixed_lost && !file_fixed(world)) {
         return false;
     }
     broad->fixed_lost = false;
-    if (pl_broad_refresh_moving(world, dt)) {
+    if (!pl_broad_update_resting(world)) {
+        return false;
+    }
+    if (!(broad->refreshed && dt > 0) && pl_broad_refresh_moving(world, dt)) {
         world->pairs_dirty = true;
     }
     if (world->pairs_dirty || broad->moving_lost) {
@@ -82,6 +113,7 @@ bool pl_broad_update(plumb_world *world, real dt)
         refresh_rows(world);
     }
     world->rows_moved = false;
+    world->sleep.tested_step = world->step_count + 1;
     return true;
 }
 
@@ -89,6 +121,7 @@ void pl_broad_free(pl_memory *memory, pl_broad *broad)
 {
     pl_grid_free(memory, &broad->moving);
     pl_grid_free(memory, &broad->fixed);
+    pl_grid_free(memory, &broad->resting);
     pl_buffer_free(memory, &broad->pairs.items);
     pl_buffer_free(memory, &broad->pairs.old_items);
     pl_buffer_free(memory, &broad->list);

@@ -1,5 +1,5 @@
-// broad.h - the broad phase: which pieces may touch. Keeps fat boxes, two grids (moving and static
-// pieces) and the list of overlapping pairs, rebuilt only when a piece leaves its fat box.
+// broad.h - the broad phase: which pieces may touch. Keeps fat boxes, three grids (moving, static and
+// sleeping pieces) and the list of overlapping pairs, rebuilt only when a piece leaves its fat box.
 #ifndef PL_BROAD_H
 #define PL_BROAD_H
 
@@ -8,19 +8,21 @@
 
 typedef struct pl_broad {
     pl_grid moving, fixed;
+    pl_grid resting; // may still name pieces that sleep no more: see PL_PIECE_ASLEEP
     pl_pair_list pairs;
     pl_buffer list;   // uint32_t pieces to file
     pl_buffer found;  // pl_found: pairs of a rebuild as they come
     pl_buffer sorted; // pl_found, by lower piece
     pl_buffer sensed; // pl_found: sensor piece and what is near it
     uint32_t sensed_count;
-    pl_buffer counts; // uint32_t a piece slot + 1
+    pl_buffer counts; // uint32_t a piece slot + 1, or pl_keyed a pair: scratch of sorting
     uint32_t found_count;
     uint32_t serial; // newest piece serial at the last rebuild: younger slots carry nothing over
     uint64_t rebuilds;
     uint64_t filed_step; // step count at which the grids were last brought up to date
     bool stale;          // boxes were filed anew since the pair list was made
-    bool moving_lost, fixed_lost; // the world was restored: this grid has to be filed anew
+    bool moving_lost, fixed_lost, resting_lost; // the world was restored: a grid to be filed anew
+    bool refreshed;      // fat boxes were brought up to date in this step already
 } pl_broad;
 
 // Brings fat boxes and grids up to date with the poses; *stale tells whether the pair list no
@@ -29,6 +31,12 @@ bool pl_broad_update_grids(plumb_world *world, real dt, bool *stale);
 
 // The same, then rebuilds the pair list if it is stale. Touching pairs carry their impulses over.
 bool pl_broad_update(plumb_world *world, real dt);
+
+// Fat boxes of moving pieces for a step of dt [s], velocities of poses (fat.c). True when some piece
+// has left its box.
+bool pl_broad_refresh_moving(plumb_world *world, real dt);
+// Fat boxes and grid of sleeping pieces, where they changed. False when out of memory.
+bool pl_broad_update_resting(plumb_world *world);
 
 void pl_broad_free(pl_memory *memory, pl_broad *broad);
 

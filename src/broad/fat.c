@@ -5,6 +5,8 @@
 #include "broad/pairs.h"
 #include "world/state.h"
 
+#include <string.h>
+
 // A fat box goes beyond the tight one by an eighth of its size, at most 0.1 m: large enough that
 // resting and slowly moving bodies do not refile, small enough that few pairs are kept in vain.
 #define FAT_FRACTION ((real)0.125)
@@ -95,6 +97,17 @@ static void refresh_pose_velocities(plumb_world *world)
         poses[row].vx = bounded(b->vx[row]);
         poses[row].vy = bounded(b->vy[row]);
     }
+    if (world->tunings.scaled > 0) {
+        pl_effects_poses(world);
+    }
+}
+
+static pl_box fattened(pl_box needed, const pl_box *tight)
+{
+    real w = tight->max_x - tight->min_x;
+    real h = tight->max_y - tight->min_y;
+    real margin = FAT_FRACTION * (w > h ? w : h);
+    return widened(needed, margin < FAT_LIMIT ? margin : FAT_LIMIT);
 }
 
 bool pl_broad_refresh_moving(plumb_world *world, real dt)
@@ -111,22 +124,44 @@ bool pl_broad_refresh_moving(plumb_world *world, real dt)
         const pl_pose *pose = &pl_poses(world)[pieces->body[piece]];
         needed = swept(needed, pose->vx * dt, pose->vy * dt);
         if (!contains(&pieces->fat[piece], &needed)) {
-            real w = tight.max_x - tight.min_x;
-            real h = tight.max_y - tight.min_y;
-            real margin = FAT_FRACTION * (w > h ? w : h);
-            pieces->fat[piece] = widened(needed, margin < FAT_LIMIT ? margin : FAT_LIMIT);
+            pieces->fat[piece] = fattened(needed, &tight);
             stale = true;
         }
     }
     return stale;
 }
 
+void pl_broad_refresh_resting(plumb_world *world)
+{
+    for (uint32_t i = 0; i < world->sleep.resting_count; ++i) {
+        uint32_t piece = pl_resting(&world->sleep)[i];
+        pl_box tight = pl_piece_tight_box(world, piece);
+        pl_box needed = widened(tight, PL_SPECULATIVE / 2);
+        if (!contains(&world->pieces.fat[piece], &needed)) {
+            world->pieces.fat[piece] = fattened(needed, &tight);
+        }
+    }
+}
+
+// Static pieces that were not here before may touch what sleeps.
+static void note_placed(plumb_world *world, uint32_t piece)
+{
+    uint8_t *flags = &world->pieces.flags[piece];
+    world->sleep.placed_pieces += (*flags & PL_PIECE_PLACED) == 0;
+    *flags |= PL_PIECE_PLACED;
+}
+
 void pl_broad_refresh_fixed(plumb_world *world)
 {
     pl_pieces *pieces = &world->pieces;
+    const bool asleep = world->asleep_count > 0;
     for (uint32_t piece = 0; piece < pieces->table.count; ++piece) {
         if (pieces->kind[piece] != PL_PIECE_FREE && pieces->moving[piece] == PL_NONE) {
-            pieces->fat[piece] = widened(pl_piece_tight_box(world, piece), PL_SPECULATIVE / 2);
+            pl_box box = widened(pl_piece_tight_box(world, piece), PL_SPECULATIVE / 2);
+            if (asleep && memcmp(&box, &pieces->fat[piece], sizeof box) != 0) {
+                note_placed(world, piece);
+            }
+            pieces->fat[piece] = box;
         }
     }
 }

@@ -20,6 +20,13 @@ typedef struct pl_pair {
 #define PL_PAIR_HIT      2u // an impact with restitution was resolved in this step
 #define PL_PAIR_STRUCK   4u // it struck in the last step
 #define PL_PAIR_PENDING  8u // and had not been stopped yet: the hit is still to be told
+#define PL_PAIR_WAIVED   16u // a system disabled its contact in this step
+#define PL_PAIR_BORNE    32u // flush ground: another pair bears the load of this one
+
+// The face that parted the pieces when they were last looked at, in bits of the flags: 0 none, else
+// 1 + 2 x edge, + 1 when it is an edge of b. Tried first; see narrow/convex.simd.c.
+#define PL_PAIR_FACE_SHIFT 8u
+#define PL_PAIR_FACE_MASK  (63u << PL_PAIR_FACE_SHIFT)
 
 // [m] manifolds are made for pieces closer than this: contacts are ready before they are needed.
 #define PL_SPECULATIVE ((real)0.02)

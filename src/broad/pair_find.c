@@ -177,6 +177,43 @@ static bool find_against_fixed(finder *f, const pl_grid *moving, const pl_grid *
     return true;
 }
 
+bool pl_pair_is_solid(plumb_world *world, uint32_t p, uint32_t q)
+{
+    const pl_pieces *s = &world->pieces;
+    const uint32_t *first_joint = world->bodies.first_joint;
+    uint32_t body_p = s->body[p], body_q = s->body[q];
+    return body_p != body_q && ((s->flags[p] | s->flags[q]) & PL_PIECE_SENSOR) == 0 &&
+           (!pl_world_is_selective(world) || pl_pieces_meet(world, p, q)) &&
+           (first_joint[body_p] == PL_NONE || first_joint[body_q] == PL_NONE ||
+            !pl_joints_forbid(world, body_p, body_q));
+}
+
+// What sleeps is no partner, but sensors see it, and its sensors see others.
+static bool add_resting(void *context, const pl_grid_entry *entry)
+{
+    finder *f = context;
+    const uint8_t *flags = f->world->pieces.flags;
+    bool solid;
+    return (flags[entry->piece] & PL_PIECE_ASLEEP) == 0 ||
+           ((flags[f->piece] | flags[entry->piece]) & PL_PIECE_SENSOR) == 0 ||
+           select_pair(f, f->piece, entry->piece, &solid);
+}
+
+static bool find_sensed_resting(finder *f, const pl_grid *moving, const pl_grid *resting)
+{
+    const pl_grid_entry *entries = pl_grid_entries(moving);
+    if (resting->entry_count == 0 || f->world->sensor_pieces == 0) {
+        return true;
+    }
+    for (uint32_t i = 0; i < moving->entry_count; ++i) {
+        f->piece = entries[i].piece;
+        if (!pl_grid_query(resting, entries[i].box, add_resting, f)) {
+            return false;
+        }
+    }
+    return true;
+}
+
 bool pl_pairs_find(plumb_world *world)
 {
     pl_broad *broad = &world->broad;
@@ -194,7 +231,8 @@ bool pl_pairs_find(plumb_world *world)
             return false;
         }
     }
-    if (!find_against_fixed(&f, &broad->moving, &broad->fixed)) {
+    if (!find_against_fixed(&f, &broad->moving, &broad->fixed) ||
+        !find_sensed_resting(&f, &broad->moving, &broad->resting)) {
         return false;
     }
     broad->found_count = f.count;

@@ -3,6 +3,7 @@
 //
 // Cost: O(pairs + piece slots), three linear passes.
 #include "broad/pairs.h"
+#include "core/sort.h"
 #include "world/state.h"
 
 #include <string.h>
@@ -29,12 +30,40 @@ static void sort_run(pl_found *run, uint32_t count)
     }
 }
 
+// So few pairs among so many slots (most asleep or static) are not worth a pass over the slots.
+#define FEW 32
+
+static bool sort_few(plumb_world *world)
+{
+    pl_broad *broad = &world->broad;
+    uint32_t count = broad->found_count;
+    const pl_found *found = broad->found.data;
+    if (!pl_buffer_reserve(&world->memory, &broad->counts, count * sizeof(pl_keyed)) ||
+        !pl_buffer_reserve(&world->memory, &broad->sorted,
+                           ((size_t)count + 1) * sizeof(pl_found))) {
+        return false;
+    }
+    pl_keyed *keyed = broad->counts.data;
+    pl_found *sorted = broad->sorted.data;
+    for (uint32_t i = 0; i < count; ++i) {
+        keyed[i] = (pl_keyed){ pl_key(found[i].low, found[i].high), 0, 0 };
+    }
+    pl_sort_keyed(keyed, count);
+    for (uint32_t i = 0; i < count; ++i) {
+        sorted[i] = (pl_found){ (uint32_t)(keyed[i].key >> 32), (uint32_t)keyed[i].key };
+    }
+    return true;
+}
+
 // Sorts broad->found by (low, high) into broad->sorted: counting sort by `low`, then by `high`
 // within the pairs of a piece.
 static bool sort_found(plumb_world *world)
 {
     pl_broad *broad = &world->broad;
     size_t slots = world->pieces.table.count;
+    if ((size_t)broad->found_count * FEW < slots) {
+        return sort_few(world);
+    }
     if (!pl_buffer_reserve(&world->memory, &broad->counts, (slots + 1) * sizeof(uint32_t)) ||
         !pl_buffer_reserve(&world->memory, &broad->sorted,
                            ((size_t)broad->found_count + 1) * sizeof(pl_found))) {
@@ -81,7 +110,7 @@ static void lay_out_kinds(pl_pair_list *list, const pl_found *sorted, uint32_t c
     }
 }
 
-static pl_pair fresh_pair(const plumb_world *world, pl_found found)
+pl_pair pl_pair_fresh(const plumb_world *world, pl_found found)
 {
     const pl_pieces *pieces = &world->pieces;
     bool swap = pieces->kind[found.low] > pieces->kind[found.high];
@@ -99,6 +128,25 @@ static uint64_t key_of(uint32_t a, uint32_t b)
     return a < b ? ((uint64_t)a << 32 | b) : ((uint64_t)b << 32 | a);
 }
 
+pl_pair *pl_pairs_find_one(const plumb_world *world, uint32_t p, uint32_t q)
+{
+    const pl_pair_list *list = &world->broad.pairs;
+    uint8_t kind_p = world->pieces.kind[p], kind_q = world->pieces.kind[q];
+    uint8_t a = kind_p < kind_q ? kind_p : kind_q, b = kind_p < kind_q ? kind_q : kind_p;
+    pl_pair *pairs = pl_pairs(list) + list->first[a][b];
+    uint32_t low = 0, high = list->size[a][b];
+    while (low < high) {
+        uint32_t middle = low + (high - low) / 2;
+        if (key_of(pairs[middle].a, pairs[middle].b) < key_of(p, q)) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    bool found = low < list->size[a][b] && key_of(pairs[low].a, pairs[low].b) == key_of(p, q);
+    return found ? &pairs[low] : NULL;
+}
+
 typedef struct carry {
     const pl_pair *old;
     uint32_t next[PL_PIECE_KIND_COUNT][PL_PIECE_KIND_COUNT]; // cursor into the old list
@@ -108,6 +156,19 @@ typedef struct carry {
 static bool is_younger(const plumb_world *world, uint32_t piece)
 {
     return world->pieces.serial[piece] > world->broad.serial;
+}
+
+// What ceases to be touched rests anew: it may have lost what it stood on.
+static void lose_pair(plumb_world *world, const pl_pair *pair)
+{
+    const pl_pieces *pieces = &world->pieces;
+    const uint32_t ends[2] = { pair->a, pair->b };
+    for (int i = 0; i < 2 && pair->manifold != PL_NONE; ++i) {
+        if (pieces->kind[ends[i]] != PL_PIECE_FREE) {
+            world->bodies.looked[pieces->body[ends[i]]] = PL_UNSEEN;
+        }
+    }
+    pl_pair_lost(world, pair);
 }
 
 static void place_pairs(plumb_world *world, pl_pair *items, carry *c)
@@ -126,7 +187,7 @@ static void place_pairs(plumb_world *world, pl_pair *items, carry *c)
         uint32_t *next = &c->next[ka][kb];
         uint32_t end = c->end[ka][kb];
         while (*next < end && key_of(c->old[*next].a, c->old[*next].b) < key) {
-            pl_pair_lost(world, &c->old[(*next)++]);
+            lose_pair(world, &c->old[(*next)++]);
         }
         pl_pair *item = &items[at[ka][kb]++];
         const pl_pair *old = &c->old[*next];
@@ -138,13 +199,14 @@ static void place_pairs(plumb_world *world, pl_pair *items, carry *c)
                 item->body_b = body[old->b];
                 continue;
             }
+            pl_pair_lost(world, old); // other pieces in the same slots
         }
-        *item = fresh_pair(world, sorted[i]);
+        *item = pl_pair_fresh(world, sorted[i]);
     }
     for (int a = 0; a < PL_PIECE_KIND_COUNT; ++a) {
         for (int b = 0; b < PL_PIECE_KIND_COUNT; ++b) {
             while (c->next[a][b] < c->end[a][b]) {
-                pl_pair_lost(world, &c->old[c->next[a][b]++]);
+                lose_pair(world, &c->old[c->next[a][b]++]);
             }
         }
     }
@@ -172,6 +234,8 @@ bool pl_pairs_rebuild(plumb_world *world)
     pl_buffer items = list->items;
     list->items = list->old_items;
     list->old_items = items;
+    world->schedule_dirty |= (list->count > 0) != (broad->found_count > 0);
+    world->parts.buried = false;
     list->count = broad->found_count;
     broad->serial = world->serial;
     return true;

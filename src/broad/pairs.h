@@ -11,11 +11,20 @@ typedef struct pl_found {
 // Rebuilds the pair list from the grids. False when out of memory; the old list then stands.
 bool pl_pairs_rebuild(plumb_world *world);
 
+// The pair of two pieces; NULL if their fat boxes do not overlap or they may not meet. O(log pairs).
+pl_pair *pl_pairs_find_one(const plumb_world *world, uint32_t p, uint32_t q);
+
 // Fills broad->found with every pair of fat boxes that overlap and may collide (pair_find.c).
 bool pl_pairs_find(plumb_world *world);
 
-// Refreshes fat boxes (fat.c); moving: true when some piece left its box.
-bool pl_broad_refresh_moving(plumb_world *world, real dt);
+// A pair without a past, its rows looked up.
+pl_pair pl_pair_fresh(const plumb_world *world, pl_found found);
+
+// False for pieces of one body, those that filters, excluded pairs or joints keep apart, and sensors.
+bool pl_pair_is_solid(plumb_world *world, uint32_t p, uint32_t q);
+
+// Fat boxes of pieces that do not move by themselves (fat.c).
 void pl_broad_refresh_fixed(plumb_world *world);
+void pl_broad_refresh_resting(plumb_world *world);
 
 #endif

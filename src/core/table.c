@@ -82,3 +82,17 @@ void pl_table_clear(pl_table *table, const pl_column *columns, size_t column_cou
         memset(base + columns[i].size * row, 0, columns[i].size);
     }
 }
+
+void pl_table_swap(pl_table *table, const pl_column *columns, size_t column_count, uint32_t a,
+                   uint32_t b)
+{
+    for (size_t i = 0; i < column_count; ++i) {
+        char *base = *column_slot(table, &columns[i]);
+        char *x = base + columns[i].size * a, *y = base + columns[i].size * b;
+        for (size_t k = 0; k < columns[i].size; ++k) {
+            char kept = x[k];
+            x[k] = y[k];
+            y[k] = kept;
+        }
+    }
+}

@@ -29,5 +29,8 @@ void pl_table_free(pl_memory *memory, pl_table *table, const pl_column *columns,
 void pl_table_copy(pl_table *table, const pl_column *columns, size_t column_count, uint32_t from,
                    uint32_t to);
 void pl_table_clear(pl_table *table, const pl_column *columns, size_t column_count, uint32_t row);
+// Exchanges two rows.
+void pl_table_swap(pl_table *table, const pl_column *columns, size_t column_count, uint32_t a,
+                   uint32_t b);
 
 #endif

@@ -98,6 +98,14 @@ static void point_strings(pl_systems *systems)
     }
 }
 
+// Contacts that sleep are not shown to systems: what may change them wakes them.
+static void wake_for(plumb_world *world, plumb_phase phase)
+{
+    if (phase == PLUMB_PHASE_CONTACTS) {
+        pl_sleep_disturb_all(world);
+    }
+}
+
 plumb_result plumb_system_create(plumb_world *world, const plumb_system_desc *desc)
 {
     if (world == NULL) {
@@ -124,6 +132,7 @@ plumb_result plumb_system_create(plumb_world *world, const plumb_system_desc *de
     copy_text(made->reads, desc->reads);
     copy_text(made->writes, desc->writes);
     point_strings(systems);
+    wake_for(world, desc->phase);
     world->schedule_dirty = true;
     return PLUMB_OK;
 }
@@ -141,6 +150,9 @@ plumb_result plumb_system_enable(plumb_world *world, const char *name, bool enab
     if (system == NULL) {
         return pl_fail(world, PLUMB_E_MISSING, __func__,
                        "name is '%.64s'; it must be that of a system", name);
+    }
+    if (system->enabled != enabled) {
+        wake_for(world, system->desc.phase);
     }
     system->enabled = enabled;
     world->schedule_dirty = true;

@@ -2,7 +2,7 @@
 //
 // An edit writes the manifold itself, which the solver reads next. What was disabled is taken out
 // of the list when the systems are through, so that neither solver nor events know of it; the pair
-// forgets its impulses. Reads, writes: manifolds, pairs. Cost: O(1) an edit, O(manifolds) a step in
+// forgets its impulses and is waived for the rest of the step: sweeps let it pass too. Reads, writes: manifolds, pairs. Cost: O(1) an edit, O(manifolds) a step in
 // which something was edited; nothing where no system of the phase is registered.
 #include "event/event.h"
 #include "narrow/surface.h"
@@ -58,6 +58,7 @@ plumb_result plumb_contact_edit_get(const plumb_world *world, int i, plumb_conta
                                   .friction = m->friction,
                                   .restitution = m->restitution,
                                   .rolling_resistance = m->rolling,
+                                  .adhesion = m->adhesion,
                                   .surface_speed = m->surface_speed };
     for (uint32_t k = 0; k < m->count; ++k) {
         const pl_manifold_point *p = &m->point[k];
@@ -80,6 +81,9 @@ plumb_result plumb_contact_edit_set(plumb_world *world, int i, const plumb_conta
                       : pl_check_range(world, __func__, "rolling_resistance",
                                        edit->rolling_resistance, 0, PLUMB_REAL_MAX);
     r = r != PLUMB_OK ? r : pl_check_finite(world, __func__, "surface_speed", edit->surface_speed);
+    r = r != PLUMB_OK
+            ? r
+            : pl_check_range(world, __func__, "adhesion", edit->adhesion, 0, PLUMB_REAL_MAX);
     if (r != PLUMB_OK) {
         return r;
     }
@@ -87,10 +91,20 @@ plumb_result plumb_contact_edit_set(plumb_world *world, int i, const plumb_conta
     m->friction = edit->friction;
     m->restitution = edit->restitution;
     m->rolling = edit->rolling_resistance;
+    m->adhesion = edit->adhesion;
     m->surface_speed = edit->surface_speed;
     m->disabled = !edit->enabled;
     world->edited = true;
     return PLUMB_OK;
+}
+
+void pl_edits_forget(plumb_world *world)
+{
+    pl_pair *pairs = pl_pairs(&world->broad.pairs);
+    for (uint32_t i = 0; world->edited && i < world->broad.pairs.count; ++i) {
+        pairs[i].flags &= ~PL_PAIR_WAIVED;
+    }
+    world->edited = false;
 }
 
 void pl_edits_open(plumb_world *world)
@@ -106,6 +120,7 @@ void pl_edits_open(plumb_world *world)
 static void take_out(pl_pair *pair)
 {
     pair->manifold = PL_NONE;
+    pair->flags |= PL_PAIR_WAIVED;
     pair->rolling = 0;
     for (int k = 0; k < 2; ++k) {
         pair->feature[k] = PL_NONE;

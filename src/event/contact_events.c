@@ -15,11 +15,14 @@
 #include "core/sort.h"
 #include "world/state.h"
 
+#include <string.h>
+
 void pl_events_clear(plumb_world *world)
 {
     world->begin_count = world->end_count = world->hit_count = 0;
     world->parts.count = 0;
     world->sensing.begin_count = world->sensing.end_count = 0;
+    pl_sleep_events_clear(world);
 }
 
 bool pl_events_reserve_ends(plumb_world *world, uint32_t count)
@@ -28,14 +31,52 @@ bool pl_events_reserve_ends(plumb_world *world, uint32_t count)
     return pl_buffer_reserve(&world->memory, &world->end_events, room);
 }
 
-static void append_end(plumb_world *world, const pl_pair *pair)
+//---- pieces that went ----------------------------------------------------------------------------
+
+// One a slot is enough: a piece that is younger than the pair list is in no pair.
+bool pl_graves_reserve(plumb_world *world, uint32_t slots)
 {
-    const pl_pieces *pieces = &world->pieces;
+    size_t old = world->graves.size;
+    if (!pl_buffer_reserve(&world->memory, &world->graves, slots * sizeof(pl_grave))) {
+        return false;
+    }
+    if (world->graves.size > old) {
+        memset((char *)world->graves.data + old, 0, world->graves.size - old);
+    }
+    return true;
+}
+
+void pl_grave_dig(plumb_world *world, uint32_t piece)
+{
+    const pl_pieces *p = &world->pieces;
+    if (p->serial[piece] <= world->broad.serial) {
+        ((pl_grave *)world->graves.data)[piece] =
+            (pl_grave){ .shape = p->shape[piece],
+                        .body = world->bodies.entity[p->body[piece]],
+                        .epoch = (uint32_t)world->broad.rebuilds + 1,
+                        .flags = p->flags[piece] };
+        world->parts.buried |= (p->flags[piece] & PL_PIECE_PART) != 0;
+    }
+}
+
+// Who a piece is, or was for pairs that have left the list. `epoch` 0: the pair is in the list;
+// else 1 + the rebuilds before the one that found it gone.
+static pl_grave who(const plumb_world *world, uint32_t piece, uint32_t epoch)
+{
+    const pl_grave *grave = &((const pl_grave *)world->graves.data)[piece];
+    const pl_pieces *p = &world->pieces;
+    return epoch != 0 && grave->epoch == epoch
+               ? *grave
+               : (pl_grave){ .shape = p->shape[piece],
+                             .body = world->bodies.entity[p->body[piece]],
+                             .flags = p->flags[piece] };
+}
+
+static void append_end(plumb_world *world, const pl_pair *pair, uint32_t epoch)
+{
+    pl_grave a = who(world, pair->a, epoch), b = who(world, pair->b, epoch);
     ((plumb_contact_end *)world->end_events.data)[world->end_count++] =
-        (plumb_contact_end){ .shape_a = pieces->shape[pair->a],
-                             .shape_b = pieces->shape[pair->b],
-                             .body_a = world->bodies.entity[pieces->body[pair->a]],
-                             .body_b = world->bodies.entity[pieces->body[pair->b]] };
+        (plumb_contact_end){ a.shape, b.shape, a.body, b.body };
 }
 
 //---- shapes of several pieces --------------------------------------------------------------------
@@ -48,7 +89,7 @@ static void append_end(plumb_world *world, const pl_pair *pair)
 
 bool pl_parts_reserve(plumb_world *world, uint32_t count)
 {
-    if (world->part_pieces == 0) {
+    if (world->part_pieces == 0 && !world->parts.buried) {
         return true;
     }
     size_t room = ((size_t)world->parts.count + count) * sizeof(pl_keyed);
@@ -66,9 +107,11 @@ static bool is_part(const plumb_world *world, const pl_pair *pair)
     return ((flags[pair->a] | flags[pair->b]) & PL_PIECE_PART) != 0;
 }
 
-static void keep_part(plumb_world *world, const pl_pair *pair, uint32_t index, uint32_t bits)
+static void keep_part(plumb_world *world, const pl_pair *pair, uint32_t index, uint32_t bits,
+                      uint32_t epoch)
 {
-    uint32_t a = world->pieces.shape[pair->a].index, b = world->pieces.shape[pair->b].index;
+    uint32_t a = who(world, pair->a, epoch).shape.index;
+    uint32_t b = who(world, pair->b, epoch).shape.index;
     uint32_t order = world->parts.count++;
     ((pl_keyed *)world->parts.items.data)[order] =
         (pl_keyed){ a < b ? pl_key(a, b) : pl_key(b, a), order, index << PART_BITS | bits };
@@ -85,19 +128,17 @@ static const pl_pair *part_pair(const plumb_world *world, const pl_keyed *part)
 
 void pl_pair_lost(plumb_world *world, const pl_pair *pair)
 {
-    const pl_pieces *pieces = &world->pieces;
-    bool reborn = pieces->serial[pair->a] > world->broad.serial ||
-                  pieces->serial[pair->b] > world->broad.serial;
-    bool gone = pieces->kind[pair->a] == PL_PIECE_FREE || pieces->kind[pair->b] == PL_PIECE_FREE;
-    if ((pair->flags & PL_PAIR_TOUCHING) == 0 || reborn || gone) {
+    const uint32_t epoch = (uint32_t)world->broad.rebuilds + 1;
+    if ((pair->flags & PL_PAIR_TOUCHING) == 0) {
         return;
     }
-    if (is_part(world, pair)) {
+    uint8_t flags = who(world, pair->a, epoch).flags | who(world, pair->b, epoch).flags;
+    if ((flags & PL_PIECE_PART) != 0) {
         // The list is about to become the old one: see part_pair.
         keep_part(world, pair, (uint32_t)(pair - pl_pairs(&world->broad.pairs)),
-                  PART_WAS | PART_LOST);
+                  PART_WAS | PART_LOST, epoch);
     } else {
-        append_end(world, pair);
+        append_end(world, pair, epoch);
     }
 }
 
@@ -105,9 +146,13 @@ void pl_pair_lost(plumb_world *world, const pl_pair *pair)
 static real approach_speed(const plumb_world *world, const pl_manifold *m)
 {
     const pl_bodies *b = &world->bodies;
-    real dvx = b->vx[m->body_b] - b->vx[m->body_a];
-    real dvy = b->vy[m->body_b] - b->vy[m->body_a];
-    real wa = b->w[m->body_a], wb = b->w[m->body_b];
+    real sa = 1, sb = 1; // what moves in slow motion strikes in slow motion
+    if (world->tunings.scaled > 0) {
+        sa = pl_time_scale(world, m->body_a), sb = pl_time_scale(world, m->body_b);
+    }
+    real dvx = sb * b->vx[m->body_b] - sa * b->vx[m->body_a];
+    real dvy = sb * b->vy[m->body_b] - sa * b->vy[m->body_a];
+    real wa = sa * b->w[m->body_a], wb = sb * b->w[m->body_b];
     real fastest = 0;
     for (uint32_t j = 0; j < m->count; ++j) {
         const pl_manifold_point *p = &m->point[j];
@@ -121,7 +166,7 @@ static real approach_speed(const plumb_world *world, const pl_manifold *m)
 
 bool pl_events_prepare(plumb_world *world)
 {
-    uint32_t begins = world->narrow.manifold_count;
+    uint32_t begins = world->narrow.manifold_count + world->narrow.borne_count;
     if (!pl_buffer_reserve(&world->memory, &world->begin_events,
                            begins * sizeof(plumb_contact_begin)) ||
         !pl_events_reserve_ends(world, world->broad.pairs.count + world->parts.count) ||
@@ -136,7 +181,7 @@ bool pl_events_prepare(plumb_world *world)
     }
     pl_manifold *m = pl_manifolds(&world->narrow);
     const pl_pair *pairs = pl_pairs(&world->broad.pairs);
-    for (uint32_t i = 0; i < world->narrow.manifold_count; ++i) {
+    for (uint32_t i = 0; i < begins; ++i) {
         if (all || (pairs[m[i].pair].flags & PL_PAIR_TOUCHING) == 0) {
             m[i].approach = approach_speed(world, &m[i]);
         }
@@ -146,10 +191,20 @@ bool pl_events_prepare(plumb_world *world)
 
 //---- after the solver ----------------------------------------------------------------------------
 
-static bool touches(const pl_pair *pair, const pl_manifold *m)
+// It touched before, and what sticks is still within reach.
+static bool holds(const pl_pair *pair, const pl_manifold *m)
 {
-    return (pair->flags & PL_PAIR_HIT) != 0 || pair->normal[0] > 0 || pair->normal[1] > 0 ||
-           m->point[0].separation <= 0 || m->point[1].separation <= 0;
+    real s0 = m->point[0].separation, s1 = m->point[1].separation;
+    return (pair->flags & PL_PAIR_TOUCHING) != 0 &&
+           (s0 < s1 ? s0 : s1) < pl_adhesion_reach(pair->flags);
+}
+
+static bool touches(const plumb_world *world, const pl_pair *pair, const pl_manifold *m)
+{
+    return (pair->flags & PL_PAIR_HIT) != 0 || pair->normal[0] != 0 || pair->normal[1] != 0 ||
+           m->point[0].separation <= 0 || m->point[1].separation <= 0 ||
+           (m->adhesion > 0 && holds(pair, m)) ||
+           ((pair->flags & PL_PAIR_BORNE) != 0 && pl_seams_borne_touches(world, m));
 }
 
 static const pl_manifold *manifold_of(const plumb_world *world, const pl_pair *pair)
@@ -290,7 +345,8 @@ static void publish_group(plumb_world *world, const pl_keyed *first, const pl_ke
     if ((all & PART_WAS) == 0 && touching != NULL) {
         append_begin(world, touching);
     } else if (all == PART_WAS) {
-        append_end(world, part_pair(world, first));
+        append_end(world, part_pair(world, first),
+                   (first->value & PART_LOST) != 0 ? (uint32_t)world->broad.rebuilds : 0);
     }
     if (struck != NULL) {
         append_hit(world, struck, impulse);
@@ -322,13 +378,13 @@ static void publish_pair(plumb_world *world, pl_pair *pair, uint32_t index, bool
     pair->flags &= is ? ~0u : ~(PL_PAIR_STRUCK | PL_PAIR_PENDING);
     if (is_part(world, pair)) {
         keep_part(world, pair, index,
-                  (was ? PART_WAS : 0) | (is ? PART_IS : 0) | (hit ? PART_HIT : 0));
+                  (was ? PART_WAS : 0) | (is ? PART_IS : 0) | (hit ? PART_HIT : 0), 0);
         return;
     }
     if (is && !was) {
         append_begin(world, pair);
     } else if (was && !is) {
-        append_end(world, pair);
+        append_end(world, pair, 0);
     }
     if (hit) {
         append_hit(world, pair, manifold_of(world, pair)->blow);
@@ -342,7 +398,7 @@ static void publish_all(plumb_world *world)
     for (uint32_t i = 0; i < world->broad.pairs.count; ++i) {
         pl_pair *pair = &pairs[i];
         bool was = (pair->flags & PL_PAIR_TOUCHING) != 0;
-        bool is = pair->manifold != PL_NONE && touches(pair, manifold_of(world, pair));
+        bool is = pair->manifold != PL_NONE && touches(world, pair, manifold_of(world, pair));
         publish_pair(world, pair, i, was, is);
         pair->flags ^= is != was ? PL_PAIR_TOUCHING : 0;
     }
@@ -361,12 +417,12 @@ void pl_events_publish(plumb_world *world)
     for (uint32_t i = 0; i < world->broad.pairs.count; ++i) {
         pl_pair *pair = &pairs[i];
         bool was = (pair->flags & PL_PAIR_TOUCHING) != 0;
-        bool is = pair->manifold != PL_NONE && touches(pair, &manifolds[pair->manifold]);
+        bool is = pair->manifold != PL_NONE && touches(world, pair, &manifolds[pair->manifold]);
         if (is && !was) {
             append_begin(world, pair);
             pair->flags |= PL_PAIR_TOUCHING;
         } else if (was && !is) {
-            append_end(world, pair);
+            append_end(world, pair, 0);
             pair->flags &= ~PL_PAIR_TOUCHING;
         }
     }

@@ -9,6 +9,7 @@
 typedef struct pl_parts {
     pl_buffer items; // pl_keyed: slots of the two shapes, what happened to a pair of pieces
     uint32_t count;
+    bool buried;     // a piece that was a part went since the pair list was made
 } pl_parts;
 
 // A contact that is made in the last substep of a step is only slowed down there, to meet in the
@@ -31,6 +32,14 @@ typedef struct pl_overlap {
     plumb_sensor_event who;
 } pl_overlap;
 
+// Who a piece was that went since the pair list was made: what touched it still has to be told.
+typedef struct pl_grave {
+    plumb_shape shape;
+    plumb_body body;
+    uint32_t epoch; // 1 + rebuilds of the pair list when it went; 0: never
+    uint8_t flags;  // PL_PIECE_...
+} pl_grave;
+
 // What sensors see (sensor_events.c).
 typedef struct pl_sensing {
     pl_buffer candidates; // pl_keyed: slots of sensor and shape; pieces. Sorted
@@ -38,6 +47,13 @@ typedef struct pl_sensing {
     uint64_t rebuilds;       // those of the broad phase when the candidates were listed
     pl_buffer overlaps, old; // pl_overlap, sorted: after the last step, after the one before
     uint32_t count, old_count;
+    // Pairs of which neither moves: looked for only in steps in which one falls asleep, wakes, is placed
+    // or goes.
+    pl_buffer rest_candidates; // as candidates
+    uint32_t rest_candidate_count;
+    pl_buffer rest_overlaps, rest_old;
+    uint32_t rest_count, rest_old_count;
+    bool rest_stale;
     pl_buffer begins, ends; // plumb_sensor_event
     int begin_count, end_count;
 } pl_sensing;
@@ -48,6 +64,10 @@ void pl_events_clear(plumb_world *world);
 bool pl_events_reserve_ends(plumb_world *world, uint32_t count);
 // A pair left the list: ends its touch. Room must be reserved.
 void pl_pair_lost(plumb_world *world, const pl_pair *pair);
+// Room for the graves of `slots` piece slots.
+bool pl_graves_reserve(plumb_world *world, uint32_t slots);
+// A piece goes: keeps who it was if a pair may name it. Its slot and body are still as they were.
+void pl_grave_dig(plumb_world *world, uint32_t piece);
 // Before the solver: room for all events of this step, approach speeds of pairs that did not touch.
 bool pl_events_prepare(plumb_world *world);
 // After the solver: begin, end and hit events.
@@ -62,10 +82,14 @@ void pl_blows_free(pl_memory *memory, pl_blows *blows);
 bool pl_sensing_prepare(plumb_world *world);
 // After the bodies have moved: overlaps and sensor events.
 void pl_sensing_run(plumb_world *world);
+// Something static or asleep came, went or moved.
+void pl_sensing_note_rest(plumb_world *world);
 void pl_sensing_free(pl_memory *memory, pl_sensing *sensing);
 
 // Contact systems are about to run, have run: edits are allowed in between (contact_edit.c).
 void pl_edits_open(plumb_world *world);
+// What was edited in the step before no longer holds.
+void pl_edits_forget(plumb_world *world);
 void pl_edits_close(plumb_world *world);
 
 #endif

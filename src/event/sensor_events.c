@@ -5,20 +5,24 @@
 // tested exactly, shape against shape, in double. The overlaps are sorted as the candidates are, so
 // those of the step before are compared with them in one pass.
 //
+// Pairs of which neither piece moves (a static sensor over what sleeps) are kept apart, and looked for
+// and tested only in steps in which something falls asleep, wakes, is placed or goes.
+//
 // Reads: broad->sensed, pieces, poses. Writes: overlaps, sensor events. Order: candidates after the
-// broad phase, overlaps after motion. Cost: O(candidates); a world without sensors has neither
-// pass.
+// broad phase and the sleep pass, overlaps after motion. Cost: O(candidates that move); a world without
+// sensors has neither pass.
 #include "broad/pairs.h"
 #include "core/sort.h"
 #include "event/event.h"
 #include "query/overlap.h"
 #include "query/query.h"
 #include "world/check.h"
-#include "world/state.h"
+#include "world/filter.h"
 
 void pl_sensing_free(pl_memory *memory, pl_sensing *s)
 {
-    pl_buffer *buffers[] = { &s->candidates, &s->overlaps, &s->old, &s->begins, &s->ends };
+    pl_buffer *buffers[] = { &s->candidates,    &s->overlaps, &s->old,    &s->rest_candidates,
+                             &s->rest_overlaps, &s->rest_old, &s->begins, &s->ends };
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; ++i) {
         pl_buffer_free(memory, buffers[i]);
     }
@@ -47,16 +51,88 @@ static bool list_candidates(plumb_world *world)
     return true;
 }
 
+// Neither by itself nor by contacts: static or asleep.
+static bool is_at_rest(const plumb_world *world, uint32_t piece)
+{
+    const pl_pieces *p = &world->pieces;
+    return p->kind[piece] != PL_PIECE_FREE &&
+           (p->moving[piece] == PL_NONE || (p->flags[piece] & PL_PIECE_ASLEEP) != 0);
+}
+
+typedef struct rest_finder {
+    plumb_world *world;
+    uint32_t sensor;
+} rest_finder;
+
+static bool add_at_rest(void *context, const pl_grid_entry *entry)
+{
+    const rest_finder *f = context;
+    plumb_world *world = f->world;
+    const pl_pieces *p = &world->pieces;
+    pl_sensing *s = &world->sensing;
+    uint32_t q = entry->piece;
+    if (!is_at_rest(world, q) || p->body[q] == p->body[f->sensor] ||
+        !pl_pieces_meet(world, f->sensor, q)) {
+        return true;
+    }
+    size_t room = ((size_t)s->rest_candidate_count + 1) * sizeof(pl_keyed);
+    if (!pl_buffer_reserve(&world->memory, &s->rest_candidates, room)) {
+        return false;
+    }
+    ((pl_keyed *)s->rest_candidates.data)[s->rest_candidate_count++] =
+        (pl_keyed){ pl_key(p->shape[f->sensor].index, p->shape[q].index), f->sensor, q };
+    return true;
+}
+
+// What sleeps near a sensor at rest, and what is static near a sensor that sleeps.
+static bool list_rest_candidates(plumb_world *world)
+{
+    const pl_pieces *p = &world->pieces;
+    pl_sensing *s = &world->sensing;
+    s->rest_candidate_count = 0;
+    for (uint32_t piece = 0; world->sensor_pieces > 0 && piece < p->table.count; ++piece) {
+        rest_finder f = { world, piece };
+        bool asleep = (p->flags[piece] & PL_PIECE_ASLEEP) != 0;
+        if (!is_at_rest(world, piece) || (p->flags[piece] & PL_PIECE_SENSOR) == 0) {
+            continue;
+        }
+        if (!pl_grid_query(&world->broad.resting, p->fat[piece], add_at_rest, &f) ||
+            (asleep && !pl_grid_query(&world->broad.fixed, p->fat[piece], add_at_rest, &f))) {
+            return false;
+        }
+    }
+    pl_sort_keyed(s->rest_candidates.data, s->rest_candidate_count);
+    return true;
+}
+
+void pl_sensing_note_rest(plumb_world *world)
+{
+    pl_sensing *s = &world->sensing;
+    if (!s->rest_stale && (world->sensor_pieces > 0 || s->rest_count > 0)) {
+        s->rest_stale = true;
+        world->schedule_dirty = true;
+    }
+}
+
 bool pl_sensing_prepare(plumb_world *world)
 {
     pl_sensing *s = &world->sensing;
+    pl_memory *memory = &world->memory;
+    size_t rest = 0;
     if (s->rebuilds != world->broad.rebuilds && !list_candidates(world)) {
         return false;
     }
-    pl_memory *memory = &world->memory;
+    if (s->rest_stale) {
+        if (!pl_broad_update_resting(world) || !list_rest_candidates(world)) {
+            return false;
+        }
+        rest = s->rest_candidate_count;
+    }
+    size_t begins = s->candidate_count + rest, ends = (size_t)s->count + s->rest_count;
     return pl_buffer_reserve(memory, &s->old, s->candidate_count * sizeof(pl_overlap)) &&
-           pl_buffer_reserve(memory, &s->begins, s->candidate_count * sizeof(plumb_sensor_event)) &&
-           pl_buffer_reserve(memory, &s->ends, s->count * sizeof(plumb_sensor_event));
+           pl_buffer_reserve(memory, &s->rest_old, rest * sizeof(pl_overlap)) &&
+           pl_buffer_reserve(memory, &s->begins, begins * sizeof(plumb_sensor_event)) &&
+           pl_buffer_reserve(memory, &s->ends, ends * sizeof(plumb_sensor_event));
 }
 
 //---- after motion --------------------------------------------------------------------------------
@@ -77,19 +153,21 @@ static bool pieces_overlap(const plumb_world *world, uint32_t p, uint32_t q)
     return pl_rounds_overlap(&round_p, &round_q);
 }
 
-// Fills s->overlaps from the candidates: one a pair of shapes.
-static void test_candidates(plumb_world *world)
+// The overlaps among candidates, one a pair of shapes; returns how many. `rest`: those of which neither
+// moves, which are left out otherwise.
+static uint32_t test_candidates(const plumb_world *world, const pl_buffer *candidates,
+                                uint32_t candidate_count, bool rest, pl_buffer *overlaps)
 {
-    pl_sensing *s = &world->sensing;
     const pl_pieces *pieces = &world->pieces;
-    const pl_keyed *c = s->candidates.data;
-    pl_overlap *out = s->overlaps.data;
-    s->count = 0;
-    for (uint32_t i = 0; i < s->candidate_count; ++i) {
+    const pl_keyed *c = candidates->data;
+    pl_overlap *out = overlaps->data;
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < candidate_count; ++i) {
         uint32_t sensor = c[i].order, other = c[i].value;
-        bool known = s->count > 0 && out[s->count - 1].key == c[i].key;
-        if (!known && pieces_overlap(world, sensor, other)) {
-            out[s->count++] =
+        bool known = count > 0 && out[count - 1].key == c[i].key;
+        bool wanted = rest == (is_at_rest(world, sensor) && is_at_rest(world, other));
+        if (!known && wanted && pieces_overlap(world, sensor, other)) {
+            out[count++] =
                 (pl_overlap){ c[i].key,
                               { .sensor = pieces->shape[sensor],
                                 .shape = pieces->shape[other],
@@ -97,6 +175,7 @@ static void test_candidates(plumb_world *world)
                                 .body = world->bodies.entity[pieces->body[other]] } };
         }
     }
+    return count;
 }
 
 static bool is_same(const pl_overlap *a, const pl_overlap *b)
@@ -104,36 +183,87 @@ static bool is_same(const pl_overlap *a, const pl_overlap *b)
     return plumb_same(a->who.sensor, b->who.sensor) && plumb_same(a->who.shape, b->who.shape);
 }
 
-// Both lists are sorted; slots may have been taken anew, hence is_same.
-static void compare(pl_sensing *s)
+// Two sorted lists read as one: of pairs that move, and of pairs at rest.
+typedef struct cursor {
+    const pl_overlap *at, *end, *rest, *rest_end;
+} cursor;
+
+static const pl_overlap *peek(const cursor *c)
 {
-    const pl_overlap *now = s->overlaps.data, *old = s->old.data;
-    plumb_sensor_event *begins = s->begins.data, *ends = s->ends.data;
-    uint32_t i = 0, k = 0;
-    while (i < s->count || k < s->old_count) {
-        bool takes_now = i < s->count && (k == s->old_count || now[i].key <= old[k].key);
-        bool takes_old = k < s->old_count && (i == s->count || old[k].key <= now[i].key);
-        bool goes_on = takes_now && takes_old && is_same(&now[i], &old[k]);
-        if (takes_now && !goes_on) {
-            begins[s->begin_count++] = now[i].who;
-        }
-        if (takes_old && !goes_on) {
-            ends[s->end_count++] = old[k].who;
-        }
-        i += takes_now;
-        k += takes_old;
+    if (c->at == c->end || (c->rest < c->rest_end && c->rest->key < c->at->key)) {
+        return c->rest < c->rest_end ? c->rest : NULL;
+    }
+    return c->at;
+}
+
+static void advance(cursor *c)
+{
+    if (peek(c) == c->at && c->at < c->end) {
+        ++c->at;
+    } else {
+        ++c->rest;
     }
 }
 
+// Slots may have been taken anew, hence is_same.
+static void compare(pl_sensing *s, cursor now, cursor old)
+{
+    plumb_sensor_event *begins = s->begins.data, *ends = s->ends.data;
+    for (;;) {
+        const pl_overlap *n = peek(&now), *o = peek(&old);
+        if (n == NULL && o == NULL) {
+            return;
+        }
+        bool takes_now = n != NULL && (o == NULL || n->key <= o->key);
+        bool takes_old = o != NULL && (n == NULL || o->key <= n->key);
+        bool goes_on = takes_now && takes_old && is_same(n, o);
+        if (takes_now && !goes_on) {
+            begins[s->begin_count++] = n->who;
+        }
+        if (takes_old && !goes_on) {
+            ends[s->end_count++] = o->who;
+        }
+        if (takes_now) {
+            advance(&now);
+        }
+        if (takes_old) {
+            advance(&old);
+        }
+    }
+}
+
+static void exchange(pl_buffer *a, pl_buffer *b)
+{
+    pl_buffer kept = *a;
+    *a = *b;
+    *b = kept;
+}
+
+static cursor cursor_over(const pl_buffer *overlaps, uint32_t count, const pl_buffer *rest,
+                          uint32_t rest_count)
+{
+    const pl_overlap *at = overlaps->data, *calm = rest->data;
+    return (cursor){ at, at + count, calm, calm + rest_count };
+}
+
+// Pairs at rest overlap as they did, unless something was laid to rest, or woke.
 void pl_sensing_run(plumb_world *world)
 {
     pl_sensing *s = &world->sensing;
-    pl_buffer overlaps = s->overlaps;
-    s->overlaps = s->old;
-    s->old = overlaps;
+    uint32_t rest_count = 0, rest_old_count = 0;
+    exchange(&s->overlaps, &s->old);
     s->old_count = s->count;
-    test_candidates(world);
-    compare(s);
+    s->count = test_candidates(world, &s->candidates, s->candidate_count, false, &s->overlaps);
+    if (s->rest_stale) {
+        exchange(&s->rest_overlaps, &s->rest_old);
+        rest_old_count = s->rest_count;
+        rest_count = s->rest_count = test_candidates(
+            world, &s->rest_candidates, s->rest_candidate_count, true, &s->rest_overlaps);
+        s->rest_stale = false;
+        world->schedule_dirty = true;
+    }
+    compare(s, cursor_over(&s->overlaps, s->count, &s->rest_overlaps, rest_count),
+            cursor_over(&s->old, s->old_count, &s->rest_old, rest_old_count));
 }
 
 //---- read ----------------------------------------------------------------------------------------
@@ -158,6 +288,14 @@ const plumb_sensor_event *plumb_world_sensor_end_events(const plumb_world *world
                          : events(&world->sensing.ends, world->sensing.end_count, count);
 }
 
+// Where the overlaps of a sensor begin.
+static const pl_overlap *from_sensor(const pl_buffer *overlaps, uint32_t count, plumb_shape sensor)
+{
+    bool found;
+    return (const pl_overlap *)overlaps->data +
+           pl_find_key(overlaps->data, count, sizeof(pl_overlap), pl_key(sensor.index, 0), &found);
+}
+
 int plumb_shape_overlaps(const plumb_world *world, plumb_shape sensor, plumb_shape *shapes,
                          int capacity)
 {
@@ -171,17 +309,19 @@ int plumb_shape_overlaps(const plumb_world *world, plumb_shape sensor, plumb_sha
         return -1;
     }
     const pl_sensing *s = &world->sensing;
-    const pl_overlap *at = s->overlaps.data;
-    bool found;
-    uint32_t i = pl_find_key(at, s->count, sizeof *at, pl_key(sensor.index, 0), &found);
+    cursor all = { from_sensor(&s->overlaps, s->count, sensor),
+                   (const pl_overlap *)s->overlaps.data + s->count,
+                   from_sensor(&s->rest_overlaps, s->rest_count, sensor),
+                   (const pl_overlap *)s->rest_overlaps.data + s->rest_count };
     int count = 0;
-    for (; i < s->count && (uint32_t)(at[i].key >> 32) == sensor.index; ++i) {
+    for (const pl_overlap *at = peek(&all); at != NULL && (uint32_t)(at->key >> 32) == sensor.index;
+         advance(&all), at = peek(&all)) {
         // Since the step, either may have been destroyed.
-        if (!plumb_same(at[i].who.sensor, sensor) || !plumb_shape_valid(world, at[i].who.shape)) {
+        if (!plumb_same(at->who.sensor, sensor) || !plumb_shape_valid(world, at->who.shape)) {
             continue;
         }
         if (count < capacity) {
-            shapes[count] = at[i].who.shape;
+            shapes[count] = at->who.shape;
         }
         ++count;
     }

@@ -8,23 +8,69 @@
 #include "plumb/math.h"
 #include "world/state.h"
 
-static void react(pl_joint *j)
+static plumb_vec2 impulse_on_b(const pl_joint *j, const pl_rows *rows)
 {
-    real x = 0, y = 0, w = 0;
-    for (int i = 0; i < j->rows.count; ++i) {
-        const pl_row *r = &j->rows.row[i];
-        x += r->bx * j->impulse[i];
-        y += r->by * j->impulse[i];
-        w += r->bw * j->impulse[i];
+    plumb_vec2 sum = { 0, 0 };
+    for (int i = 0; i < rows->count; ++i) {
+        sum.x += rows->row[i].bx * j->impulse[i];
+        sum.y += rows->row[i].by * j->impulse[i];
     }
-    j->force = plumb_v2(x / j->h, y / j->h);
+    return sum;
+}
+
+// The rows of a joint, with what lies along locked axes of B; `made` is room for them.
+static const pl_rows *whole_rows(const plumb_world *world, const pl_joint *j, pl_rows *made)
+{
+    if (world->locked_bodies == 0 || plumb_is_null(j->b.body) ||
+        (world->bodies.flags[pl_body_row(world, j->b.body)] & PL_BODY_LOCKED) == 0) {
+        return &j->rows;
+    }
+    pl_joint now = *j;
+    pl_joint_begin(world, &now);
+    pl_joint_classes[j->desc.kind]->rows(&now, &now.a.pose, &now.b.pose, made);
+    return made;
+}
+
+static void react(const plumb_world *world, pl_joint *j)
+{
+    pl_rows made;
+    const pl_rows *rows = whole_rows(world, j, &made);
+    plumb_vec2 impulse = impulse_on_b(j, rows);
+    real w = 0;
+    for (int i = 0; i < rows->count; ++i) {
+        w += rows->row[i].bw * j->impulse[i];
+    }
+    j->force = plumb_v2(impulse.x / j->h, impulse.y / j->h);
     j->torque = w / j->h - plumb_vec2_cross(j->arm_b, j->force);
+}
+
+// It did nothing in this step, and has nothing to start the next one with.
+static void rest(pl_joint *j)
+{
+    for (int i = 0; i < PL_JOINT_ROWS; ++i) {
+        j->impulse[i] = 0;
+    }
+    j->force = plumb_v2(0, 0);
+    j->torque = 0;
+}
+
+void pl_joints_tally(plumb_world *world)
+{
+    for (uint32_t i = 0; i < world->joints.count; ++i) {
+        pl_joint *j = &pl_joint_items(&world->joints)[i];
+        if (j->active) {
+            pl_rows made;
+            j->step_impulse = plumb_vec2_add(j->step_impulse,
+                                             impulse_on_b(j, whole_rows(world, j, &made)));
+        }
+    }
 }
 
 static bool overloaded(const pl_joint *j)
 {
     const plumb_joint_desc *d = &j->desc;
-    return (d->break_force > 0 && plumb_vec2_magnitude(j->force) > d->break_force) ||
+    return (d->break_impulse > 0 && plumb_vec2_magnitude(j->step_impulse) > d->break_impulse) ||
+           (d->break_force > 0 && plumb_vec2_magnitude(j->force) > d->break_force) ||
            (d->break_torque > 0 && plumb_abs(j->torque) > d->break_torque);
 }
 
@@ -40,18 +86,20 @@ static void snap(plumb_world *world, const pl_joint *j)
                              .point = plumb_joint_anchor_b(world, j->entity),
                              .force = j->force,
                              .torque = j->torque,
+                             .impulse = j->step_impulse,
                              .user_data = j->desc.user_data };
     pl_destroy_entity(world, j->entity);
 }
 
 void pl_joints_finish(plumb_world *world)
 {
-    for (uint32_t i = 0; i < world->joints.count; ++i) {
-        pl_joint *j = &pl_joint_items(&world->joints)[i];
-        if (plumb_is_null(j->entity)) {
+    for (uint32_t i = 0; i < world->joints.awake_count; ++i) {
+        pl_joint *j = pl_joint_awake(&world->joints, i);
+        if (!j->active) {
+            rest(j);
             continue;
         }
-        react(j);
+        react(world, j);
         const pl_joint_class *kind = pl_joint_classes[j->desc.kind];
         if (kind->advance != NULL) {
             pl_joint_begin(world, j);
@@ -59,6 +107,8 @@ void pl_joints_finish(plumb_world *world)
         }
         if (overloaded(j)) {
             snap(world, j);
+        } else {
+            j->step_impulse = plumb_v2(0, 0);
         }
     }
 }

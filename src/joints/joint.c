@@ -35,12 +35,83 @@ bool pl_joints_forbid(const plumb_world *world, uint32_t row, uint32_t other)
     plumb_body body = world->bodies.entity[row], partner = world->bodies.entity[other];
     for (uint32_t i = world->bodies.first_joint[row]; i != PL_NONE;
          i = pl_joint_next(&items[i], body)) {
-        if (!items[i].desc.collide_connected &&
+        if (!items[i].desc.collide_connected && !items[i].desc.disabled &&
             (plumb_same(items[i].a.body, partner) || plumb_same(items[i].b.body, partner))) {
             return true;
         }
     }
     return false;
+}
+
+bool pl_joints_part(const plumb_world *world, uint32_t row)
+{
+    const pl_joint *items = pl_joint_items(&world->joints);
+    plumb_body body = world->bodies.entity[row];
+    for (uint32_t i = world->bodies.first_joint[row]; i != PL_NONE;
+         i = pl_joint_next(&items[i], body)) {
+        if (!items[i].desc.collide_connected && !plumb_is_null(items[i].a.body) &&
+            !plumb_is_null(items[i].b.body)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+//---- sleep
+//----------------------------------------------------------------------------------------
+
+static uint32_t row_of(const plumb_world *world, const pl_joint_end *end)
+{
+    return plumb_is_null(end->body) ? PL_NONE : pl_body_row(world, end->body);
+}
+
+static bool is_awake(const plumb_world *world, const pl_joint *joint)
+{
+    return !plumb_is_null(joint->entity) && !pl_row_is_asleep(world, row_of(world, &joint->a)) &&
+           !pl_row_is_asleep(world, row_of(world, &joint->b));
+}
+
+bool pl_joints_any_awake(const plumb_world *world)
+{
+    const pl_joint *items = pl_joint_items(&world->joints);
+    for (uint32_t i = 0; i < world->joints.count; ++i) {
+        if (is_awake(world, &items[i])) {
+            return true;
+        }
+    }
+    return false;
+}
+
+uint32_t pl_joints_awake(plumb_world *world)
+{
+    pl_joints *joints = &world->joints;
+    if (joints->awake_stale) {
+        uint32_t *awake = joints->awake.data;
+        joints->awake_stale = false;
+        joints->awake_count = 0;
+        for (uint32_t i = 0; i < joints->count; ++i) {
+            if (is_awake(world, &pl_joint_items(joints)[i])) {
+                awake[joints->awake_count++] = i;
+            }
+        }
+    }
+    return joints->awake_count;
+}
+
+// A joint made awake between a body that is and one that sleeps wakes it, even a furnished one.
+void pl_joint_disturb(plumb_world *world, const pl_joint *joint)
+{
+    uint32_t a = row_of(world, &joint->a), b = row_of(world, &joint->b);
+    bool mixed =
+        a != PL_NONE && b != PL_NONE && (a < world->dynamic_count) != (b < world->dynamic_count);
+    const uint32_t rows[2] = { a, b };
+    for (int i = 0; i < 2; ++i) {
+        if (rows[i] != PL_NONE && mixed && pl_row_is_asleep(world, rows[i])) {
+            pl_sleep_stir(world, rows[i]);
+        } else if (rows[i] != PL_NONE) {
+            pl_sleep_disturb(world, rows[i]);
+        }
+    }
 }
 
 //---- poses
@@ -142,6 +213,7 @@ static plumb_result check_numbers(const plumb_world *world, const char *fn,
         { "max_torque", d->max_torque, 0 },
         { "break_force", d->break_force, 0 },
         { "break_torque", d->break_torque, 0 },
+        { "break_impulse", d->break_impulse, 0 },
     };
     plumb_result r = pl_check_within(world, fn, "anchor", d->anchor, POINT_MOST);
     r = r != PLUMB_OK ? r : pl_check_within(world, fn, "anchor_b", d->anchor_b, POINT_MOST);
@@ -197,6 +269,7 @@ static bool reserve(plumb_world *world)
     size_t slots = (size_t)joints->count + 1;
     return pl_registry_reserve(&world->memory, &world->registry, 1) &&
            pl_buffer_reserve(&world->memory, &joints->items, slots * sizeof(pl_joint)) &&
+           pl_buffer_reserve(&world->memory, &joints->awake, slots * sizeof(uint32_t)) &&
            pl_buffer_reserve(&world->memory, &joints->broken, slots * sizeof(plumb_joint_break));
 }
 
@@ -231,7 +304,10 @@ static void revise_pairs(plumb_world *world, const pl_joint *joint)
     if (!joint->desc.collide_connected && !plumb_is_null(joint->a.body) &&
         !plumb_is_null(joint->b.body)) {
         world->pairs_dirty = true;
+        pl_seams_touch_static(world, pl_body_row(world, joint->a.body));
+        pl_seams_touch_static(world, pl_body_row(world, joint->b.body));
     }
+    world->joints.awake_stale = true;
     world->schedule_dirty = true;
 }
 
@@ -252,6 +328,8 @@ static plumb_joint insert(plumb_world *world, const plumb_joint_desc *d)
         j->sum = pl_joint_classes[d->kind]->keep(j, &j->a.pose, &j->b.pose);
     }
     ++world->joints.live;
+    pl_joint_disturb(world, j);
+    world->joints.impulsive += d->break_impulse > 0;
     revise_pairs(world, j);
     return j->entity;
 }
@@ -293,8 +371,10 @@ void pl_joint_remove(plumb_world *world, uint32_t slot)
     pl_joint *j = &pl_joint_items(&world->joints)[slot];
     detach(world, slot, &j->a);
     detach(world, slot, &j->b);
+    pl_joint_disturb(world, j);
     revise_pairs(world, j);
     pl_registry_release(&world->registry, j->entity);
+    world->joints.impulsive -= j->desc.break_impulse > 0;
     *j = (pl_joint){ .a.next = world->joints.free_head };
     world->joints.free_head = slot;
     --world->joints.live;
@@ -319,4 +399,5 @@ void pl_joints_free(pl_memory *memory, pl_joints *joints)
 {
     pl_buffer_free(memory, &joints->items);
     pl_buffer_free(memory, &joints->broken);
+    pl_buffer_free(memory, &joints->awake);
 }

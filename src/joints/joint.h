@@ -68,7 +68,9 @@ struct pl_joint {
     real turn[6];                // change of momentum owed because J has turned: see solve.c
     pl_rows rows;
     plumb_vec2 arm_b; // [m] from B's centre to its anchor, at the rows
+    bool active;      // in this step: it is on and so are its bodies
     plumb_vec2 force; // [N] reaction
+    plumb_vec2 step_impulse; // [N s] on B over the step, where some joint breaks by impulse
     real torque;      // [N m]
 };
 
@@ -77,8 +79,12 @@ typedef struct pl_joints {
     pl_buffer broken; // plumb_joint_break of the last step, room for every joint
     uint32_t count;   // slots ever used
     uint32_t live;
+    uint32_t impulsive; // those that break by impulse
     uint32_t free_head; // PL_NONE: none
     int broken_count;
+    pl_buffer awake; // uint32_t: slots of joints of which no body sleeps, in order
+    uint32_t awake_count;
+    bool awake_stale; // joints came or went, or bodies fell asleep or woke
 } pl_joints;
 
 static inline pl_joint *pl_joint_items(const pl_joints *joints)
@@ -86,15 +92,28 @@ static inline pl_joint *pl_joint_items(const pl_joints *joints)
     return (pl_joint *)joints->items.data;
 }
 
+// The i-th joint that is awake, after pl_joints_awake.
+static inline pl_joint *pl_joint_awake(const pl_joints *joints, uint32_t i)
+{
+    return &pl_joint_items(joints)[((const uint32_t *)joints->awake.data)[i]];
+}
+
 // The slot of a live joint or PL_NONE.
 uint32_t pl_joint_slot(const plumb_world *world, plumb_joint joint);
 // Unlinks a joint, gives its slot back and releases its handle.
 void pl_joint_remove(plumb_world *world, uint32_t slot);
 void pl_joints_free(pl_memory *memory, pl_joints *joints);
+// How many joints the solver has to do with; the others sleep. O(1) unless something changed.
+uint32_t pl_joints_awake(plumb_world *world);
+bool pl_joints_any_awake(const plumb_world *world);
+// Both bodies of a joint are about to notice that it is another: see sleep.h.
+void pl_joint_disturb(plumb_world *world, const pl_joint *joint);
 // The next joint of a body in its list.
 uint32_t pl_joint_next(const pl_joint *joint, plumb_body body);
 // Whether a joint forbids contacts of two body rows. O(joints of `row`).
 bool pl_joints_forbid(const plumb_world *world, uint32_t row, uint32_t other);
+// Whether a joint forbids contacts of a body row with any other. O(joints of `row`).
+bool pl_joints_part(const plumb_world *world, uint32_t row);
 // Full turns, origin and poses up to date.
 void pl_joint_begin(const plumb_world *world, pl_joint *joint);
 
@@ -113,6 +132,10 @@ void pl_joints_solve(plumb_world *world, pl_joint_sweep sweep);
 void pl_joints_refresh(plumb_world *world);
 // Moves bodies against the errors that are left (classic solver).
 void pl_joints_move(plumb_world *world, real share);
+// Adds the substep's reactions to those of the step, where some joint breaks by impulse (finish.c).
+void pl_joints_tally(plumb_world *world);
+// Takes out of the rows what lies along locked axes of their bodies: infinite mass (lock.c).
+void pl_joint_lock_rows(const plumb_world *world, pl_joint *joint);
 // Reactions; breaks what is loaded too much (finish.c).
 void pl_joints_finish(plumb_world *world);
 

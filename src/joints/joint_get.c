@@ -16,6 +16,12 @@ bool plumb_joint_valid(const plumb_world *world, plumb_joint joint)
     return find(world, joint) != NULL;
 }
 
+bool plumb_joint_is_enabled(const plumb_world *world, plumb_joint joint)
+{
+    uint32_t slot = pl_joint_slot(world, joint);
+    return slot != PL_NONE && !pl_joint_items(&world->joints)[slot].desc.disabled;
+}
+
 plumb_joint_kind plumb_joint_get_kind(const plumb_world *world, plumb_joint joint)
 {
     const pl_joint *j = find(world, joint);

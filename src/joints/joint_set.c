@@ -25,6 +25,14 @@ static plumb_result find(plumb_world *world, const char *fn, plumb_joint joint, 
     return PLUMB_OK;
 }
 
+// What is set to what it was wakes nobody.
+static void disturb_if(plumb_world *world, const pl_joint *joint, bool changed)
+{
+    if (changed) {
+        pl_joint_disturb(world, joint);
+    }
+}
+
 plumb_result plumb_joint_set_limit(plumb_world *world, plumb_joint joint, bool enabled,
                                    plumb_real lower, plumb_real upper)
 {
@@ -37,6 +45,9 @@ plumb_result plumb_joint_set_limit(plumb_world *world, plumb_joint joint, bool e
     r = pl_check_range(world, __func__, "lower", lower, least, PLUMB_REAL_MAX);
     r = r != PLUMB_OK ? r : pl_check_range(world, __func__, "upper", upper, lower, PLUMB_REAL_MAX);
     if (r == PLUMB_OK) {
+        disturb_if(world, j,
+                   j->desc.enable_limit != enabled || j->desc.lower != lower ||
+                       j->desc.upper != upper);
         j->desc.enable_limit = enabled;
         j->desc.lower = lower;
         j->desc.upper = upper;
@@ -53,6 +64,9 @@ plumb_result plumb_joint_set_motor(plumb_world *world, plumb_joint joint, bool e
     r = r != PLUMB_OK ? r
                       : pl_check_range(world, __func__, "max_motor", max_motor, 0, PLUMB_REAL_MAX);
     if (r == PLUMB_OK) {
+        disturb_if(world, j,
+                   j->desc.enable_motor != enabled || j->desc.motor_speed != speed ||
+                       j->desc.max_motor != max_motor);
         j->desc.enable_motor = enabled;
         j->desc.motor_speed = speed;
         j->desc.max_motor = max_motor;
@@ -78,6 +92,9 @@ plumb_result plumb_joint_set_spring(plumb_world *world, plumb_joint joint, plumb
     if (j->desc.kind == PLUMB_MOUSE) {
         r = pl_joint_classes[PLUMB_MOUSE]->check(world, __func__, &wanted); // resolves defaults
     }
+    disturb_if(world, j,
+               j->desc.hertz != wanted.hertz || j->desc.damping != wanted.damping ||
+                   j->desc.rest != wanted.rest);
     j->desc = wanted;
     return r;
 }
@@ -90,12 +107,12 @@ plumb_result plumb_joint_set_target(plumb_world *world, plumb_joint joint, plumb
     if (r != PLUMB_OK) {
         return r;
     }
-    if (j->desc.kind == PLUMB_MOTOR) {
-        j->target = target;
-    } else {
-        j->a.local =
-            plumb_is_null(j->a.body) ? target : plumb_body_local_point(world, j->a.body, target);
+    plumb_vec2 *kept = j->desc.kind == PLUMB_MOTOR ? &j->target : &j->a.local;
+    if (kept == &j->a.local && !plumb_is_null(j->a.body)) {
+        target = plumb_body_local_point(world, j->a.body, target);
     }
+    disturb_if(world, j, kept->x != target.x || kept->y != target.y);
+    *kept = target;
     return PLUMB_OK;
 }
 
@@ -107,8 +124,36 @@ plumb_result plumb_joint_set_break(plumb_world *world, plumb_joint joint, plumb_
     r = r != PLUMB_OK ? r : pl_check_range(world, __func__, "force", force, 0, PLUMB_REAL_MAX);
     r = r != PLUMB_OK ? r : pl_check_range(world, __func__, "torque", torque, 0, PLUMB_REAL_MAX);
     if (r == PLUMB_OK) {
+        disturb_if(world, j, j->desc.break_force != force || j->desc.break_torque != torque);
         j->desc.break_force = force;
         j->desc.break_torque = torque;
+    }
+    return r;
+}
+
+plumb_result plumb_joint_set_break_impulse(plumb_world *world, plumb_joint joint,
+                                           plumb_real impulse)
+{
+    pl_joint *j = NULL;
+    plumb_result r = find(world, __func__, joint, 0, "", &j);
+    r = r != PLUMB_OK ? r
+                      : pl_check_range(world, __func__, "impulse", impulse, 0, PLUMB_REAL_MAX);
+    if (r == PLUMB_OK) {
+        world->joints.impulsive +=
+            (impulse > 0 ? 1u : 0u) - (j->desc.break_impulse > 0 ? 1u : 0u);
+        j->desc.break_impulse = impulse;
+    }
+    return r;
+}
+
+plumb_result plumb_joint_set_enabled(plumb_world *world, plumb_joint joint, bool enabled)
+{
+    pl_joint *j = NULL;
+    plumb_result r = find(world, __func__, joint, 0, "", &j);
+    r = r != PLUMB_OK ? r : pl_check_unlocked(world, __func__);
+    if (r == PLUMB_OK && j->desc.disabled == enabled) {
+        j->desc.disabled = !enabled;
+        world->pairs_dirty |= !j->desc.collide_connected;
     }
     return r;
 }

@@ -17,7 +17,8 @@
 // amplitude; the last term makes stiff springs implicit, hence stable. At rest w^2 C is the
 // acceleration, exactly.
 //
-// Reads: joints, body columns. Writes: solver bodies, impulses. Cost: O(joints) a sweep.
+// Joints of sleeping bodies are passed over (pl_joints_awake). Reads: joints, body columns. Writes:
+// solver bodies, impulses. Cost: O(joints awake) a sweep.
 #include "joints/joint.h"
 #include "plumb/math.h"
 #include "world/state.h"
@@ -213,11 +214,15 @@ static void add_momentum(pl_joint *j, real sign)
     }
 }
 
-static void make_rows(pl_joint *j, const pl_solver_body *a, const pl_solver_body *b)
+static void make_rows(const plumb_world *world, pl_joint *j, const pl_solver_body *a,
+                      const pl_solver_body *b)
 {
     pl_joint_pose pa = moved(&j->a, a), pb = moved(&j->b, b);
     pl_joint_classes[j->desc.kind]->rows(j, &pa, &pb, &j->rows);
     j->arm_b = plumb_v2(pb.rx, pb.ry);
+    if (world->locked_bodies > 0) {
+        pl_joint_lock_rows(world, j);
+    }
     invert(j, a, b);
     for (int i = j->rows.block; i < j->rows.count; ++i) {
         const pl_row *r = &j->rows.row[i];
@@ -236,13 +241,27 @@ static uint32_t slot_of(const plumb_world *world, plumb_body body)
     return pl_solver_slot(&world->solver, row, movable);
 }
 
+static bool is_enabled(const plumb_world *world, plumb_body body)
+{
+    return plumb_is_null(body) ||
+           (world->bodies.flags[pl_body_row(world, body)] & PL_BODY_DISABLED) == 0;
+}
+
+// A free slot is not.
+static bool is_active(const plumb_world *world, const pl_joint *j)
+{
+    return !plumb_is_null(j->entity) && !j->desc.disabled &&
+           (world->disabled_count == 0 ||
+            (is_enabled(world, j->a.body) && is_enabled(world, j->b.body)));
+}
+
 void pl_joints_prepare(plumb_world *world, real h)
 {
     pl_solver_body *bodies = pl_solver_bodies(&world->solver);
-    pl_joint *items = pl_joint_items(&world->joints);
-    for (uint32_t i = 0; i < world->joints.count; ++i) {
-        pl_joint *j = &items[i];
-        if (plumb_is_null(j->entity)) {
+    for (uint32_t i = 0; i < world->joints.awake_count; ++i) {
+        pl_joint *j = pl_joint_awake(&world->joints, i);
+        j->active = is_active(world, j);
+        if (!j->active) {
             continue;
         }
         j->a.slot = slot_of(world, j->a.body);
@@ -253,17 +272,16 @@ void pl_joints_prepare(plumb_world *world, real h)
             j->impulse[k] *= scale;
         }
         j->h = h;
-        make_rows(j, &bodies[j->a.slot], &bodies[j->b.slot]);
+        make_rows(world, j, &bodies[j->a.slot], &bodies[j->b.slot]);
     }
 }
 
 void pl_joints_warm_start(plumb_world *world)
 {
     pl_solver_body *bodies = pl_solver_bodies(&world->solver);
-    pl_joint *items = pl_joint_items(&world->joints);
-    for (uint32_t i = 0; i < world->joints.count; ++i) {
-        pl_joint *j = &items[i];
-        for (int k = 0; !plumb_is_null(j->entity) && k < j->rows.count; ++k) {
+    for (uint32_t i = 0; i < world->joints.awake_count; ++i) {
+        pl_joint *j = pl_joint_awake(&world->joints, i);
+        for (int k = 0; j->active && k < j->rows.count; ++k) {
             if (j->impulse[k] != 0) {
                 push(&j->rows.row[k], &bodies[j->a.slot], &bodies[j->b.slot], j->impulse[k]);
             }
@@ -274,10 +292,9 @@ void pl_joints_warm_start(plumb_world *world)
 void pl_joints_turn(plumb_world *world)
 {
     pl_solver_body *bodies = pl_solver_bodies(&world->solver);
-    pl_joint *items = pl_joint_items(&world->joints);
-    for (uint32_t i = 0; i < world->joints.count; ++i) {
-        const pl_joint *j = &items[i];
-        if (plumb_is_null(j->entity)) {
+    for (uint32_t i = 0; i < world->joints.awake_count; ++i) {
+        const pl_joint *j = pl_joint_awake(&world->joints, i);
+        if (!j->active) {
             continue;
         }
         const pl_row owed = { j->turn[0], j->turn[1], j->turn[2],          j->turn[3],
@@ -289,10 +306,9 @@ void pl_joints_turn(plumb_world *world)
 void pl_joints_solve(plumb_world *world, pl_joint_sweep sweep)
 {
     pl_solver_body *bodies = pl_solver_bodies(&world->solver);
-    pl_joint *items = pl_joint_items(&world->joints);
-    for (uint32_t i = 0; i < world->joints.count; ++i) {
-        pl_joint *j = &items[i];
-        if (plumb_is_null(j->entity)) {
+    for (uint32_t i = 0; i < world->joints.awake_count; ++i) {
+        pl_joint *j = pl_joint_awake(&world->joints, i);
+        if (!j->active) {
             continue;
         }
         pl_solver_body *a = &bodies[j->a.slot], *b = &bodies[j->b.slot];
@@ -307,17 +323,16 @@ void pl_joints_solve(plumb_world *world, pl_joint_sweep sweep)
 void pl_joints_refresh(plumb_world *world)
 {
     pl_solver_body *bodies = pl_solver_bodies(&world->solver);
-    pl_joint *items = pl_joint_items(&world->joints);
-    for (uint32_t i = 0; i < world->joints.count; ++i) {
-        pl_joint *j = &items[i];
-        if (plumb_is_null(j->entity)) {
+    for (uint32_t i = 0; i < world->joints.awake_count; ++i) {
+        pl_joint *j = pl_joint_awake(&world->joints, i);
+        if (!j->active) {
             continue;
         }
         for (int k = 0; k < 6; ++k) {
             j->turn[k] = 0;
         }
         add_momentum(j, -1);
-        make_rows(j, &bodies[j->a.slot], &bodies[j->b.slot]);
+        make_rows(world, j, &bodies[j->a.slot], &bodies[j->b.slot]);
         add_momentum(j, 1);
     }
 }
@@ -360,15 +375,14 @@ static void move_joint(const pl_joint *j, pl_solver_body *a, pl_solver_body *b, 
 void pl_joints_move(plumb_world *world, real share)
 {
     pl_solver_body *bodies = pl_solver_bodies(&world->solver);
-    pl_joint *items = pl_joint_items(&world->joints);
-    for (uint32_t i = 0; i < world->joints.count; ++i) {
-        pl_joint *j = &items[i];
-        if (plumb_is_null(j->entity)) {
+    for (uint32_t i = 0; i < world->joints.awake_count; ++i) {
+        pl_joint *j = pl_joint_awake(&world->joints, i);
+        if (!j->active) {
             continue;
         }
         pl_solver_body *a = &bodies[j->a.slot], *b = &bodies[j->b.slot];
-        make_rows(j, a, b);
+        make_rows(world, j, a, b);
         move_joint(j, a, b, share);
-        make_rows(j, a, b);
+        make_rows(world, j, a, b);
     }
 }

@@ -70,8 +70,9 @@ WIDE_INLINE void choose_face(face_frame *f, const lanes *l)
     f->code = (two & ~is_x) | (four & (sign < zero)) | (eight & f->flip);
 }
 
-WIDE_INLINE void box_box(touch *t, const lanes *l)
+WIDE_INLINE void box_box(touch *t, const lanes *l, const pl_narrow_input *in)
 {
+    (void)in;
     face_frame f;
     choose_face(&f, l);
     vf zero = splat(0), one = splat(1), half = splat((plumb_real)0.5);
@@ -122,17 +123,4 @@ WIDE_INLINE void box_box(touch *t, const lanes *l)
     t->feature[1] = face + 1;
 }
 
-void PL_WIDE_NAME(pl_box_box)(const pl_narrow_input *in, uint32_t first, uint32_t count,
-                              pl_narrow *out);
-void PL_WIDE_NAME(pl_box_box)(const pl_narrow_input *in, uint32_t first, uint32_t count,
-                              pl_narrow *out)
-{
-    for (uint32_t i = 0; i < count; i += PL_WIDTH) {
-        uint32_t n = count - i < PL_WIDTH ? count - i : PL_WIDTH;
-        lanes l;
-        touch t;
-        lanes_gather(&l, in, first + i, n);
-        box_box(&t, &l);
-        lanes_emit(&l, &t, in, first + i, n, out);
-    }
-}
+DEFINE_KERNEL(box_box)

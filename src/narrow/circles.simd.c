@@ -28,15 +28,17 @@ WIDE_INLINE vf unit(vf x, vf y, vf fx, vf fy, vf *nx, vf *ny)
     return length;
 }
 
-WIDE_INLINE void circle_circle(touch *t, const lanes *l)
+WIDE_INLINE void circle_circle(touch *t, const lanes *l, const pl_narrow_input *in)
 {
+    (void)in;
     vf nx, ny;
     vf distance = unit(l->dx, l->dy, splat(0), splat(1), &nx, &ny);
     touch_point(t, l, nx, ny, distance);
 }
 
-WIDE_INLINE void circle_capsule(touch *t, const lanes *l)
+WIDE_INLINE void circle_capsule(touch *t, const lanes *l, const pl_narrow_input *in)
 {
+    (void)in;
     vf along = vclamp(-(l->dx * l->bc + l->dy * l->bs), -l->bhx, l->bhx);
     vf qx = l->dx + l->bc * along;
     vf qy = l->dy + l->bs * along;
@@ -47,8 +49,9 @@ WIDE_INLINE void circle_capsule(touch *t, const lanes *l)
 
 // The circle's centre in the box's frame: outside, the nearest point by clamping; inside, the face
 // of least depth.
-WIDE_INLINE void circle_box(touch *t, const lanes *l)
+WIDE_INLINE void circle_box(touch *t, const lanes *l, const pl_narrow_input *in)
 {
+    (void)in;
     vf zero = splat(0), one = splat(1);
     vf cx = -(l->dx * l->bc + l->dy * l->bs);
     vf cy = -(l->dy * l->bc - l->dx * l->bs);
@@ -70,22 +73,6 @@ WIDE_INLINE void circle_box(touch *t, const lanes *l)
     // u points from the box to the circle; the normal from A (circle) to B (box).
     touch_point(t, l, -(ux * l->bc - uy * l->bs), -(ux * l->bs + uy * l->bc), distance);
 }
-
-#define DEFINE_KERNEL(name)                                                                        \
-    void PL_WIDE_NAME(pl_##name)(const pl_narrow_input *in, uint32_t first, uint32_t count,        \
-                                 pl_narrow *out);                                                  \
-    void PL_WIDE_NAME(pl_##name)(const pl_narrow_input *in, uint32_t first, uint32_t count,        \
-                                 pl_narrow *out)                                                   \
-    {                                                                                              \
-        for (uint32_t i = 0; i < count; i += PL_WIDTH) {                                           \
-            uint32_t n = count - i < PL_WIDTH ? count - i : PL_WIDTH;                              \
-            lanes l;                                                                               \
-            touch t;                                                                               \
-            lanes_gather(&l, in, first + i, n);                                                    \
-            name(&t, &l);                                                                          \
-            lanes_emit(&l, &t, in, first + i, n, out);                                             \
-        }                                                                                          \
-    }
 
 DEFINE_KERNEL(circle_circle)
 DEFINE_KERNEL(circle_capsule)

@@ -198,7 +198,9 @@ static inline void round_corners(touch *t, const lanes *l, const pl_narrow_input
     t->feature[0] = selm(corner, t->feature[0] | 2, t->feature[0]);
 }
 
-static inline void convex_convex(touch *t, const lanes *l, const pl_narrow_input *in)
+// `flip_out` and `face_out`: which side has the reference face, and its edge.
+static inline void convex_convex(touch *t, const lanes *l, const pl_narrow_input *in, vm *flip_out,
+                                 vm *face_out)
 {
     outline a, b;
     vf zero = splat(0), half = splat((plumb_real)0.5);
@@ -254,6 +256,8 @@ static inline void convex_convex(touch *t, const lanes *l, const pl_narrow_input
     vm lies_flat = ~beside & (vabs(slope) < splat(FLAT_SLOPE));
     round_corners(t, l, in, &a, &b, r, w, sel(flip, fb.separation, fa.separation), lies_flat,
                   p_deeper);
+    *flip_out = flip;
+    *face_out = face;
 }
 
 // The circle is a core of one corner: faces of B alone, then the corners of the best face.
@@ -287,21 +291,134 @@ static inline void circle_convex(touch *t, const lanes *l, const pl_narrow_input
     t->feature[0] = t->feature[1] = (vm){ 0 };
 }
 
-#define DEFINE_KERNEL(name)                                                                        \
-    void PL_WIDE_NAME(pl_##name)(const pl_narrow_input *in, uint32_t first, uint32_t count,        \
-                                 pl_narrow *out);                                                  \
-    void PL_WIDE_NAME(pl_##name)(const pl_narrow_input *in, uint32_t first, uint32_t count,        \
-                                 pl_narrow *out)                                                   \
-    {                                                                                              \
-        for (uint32_t i = 0; i < count; i += PL_WIDTH) {                                           \
-            uint32_t n = count - i < PL_WIDTH ? count - i : PL_WIDTH;                              \
-            lanes l;                                                                               \
-            touch t;                                                                               \
-            lanes_gather(&l, in, first + i, n);                                                    \
-            name(&t, &l, in);                                                                      \
-            lanes_emit(&l, &t, in, first + i, n, out);                                             \
-        }                                                                                          \
+//---- pairs that were apart -----------------------------------------------------------------------
+
+// Most pairs whose fat boxes overlap are apart, and the face that parted them in the last step does
+// so in this one. Such a pair is done with after one face instead of all. The test asks for more room
+// than any look-ahead of lanes_emit: what it dismisses would get no manifold.
+enum { chunk = 64 };
+
+static void remember_face(const lanes *l, const pl_narrow_input *in, uint32_t count, vm flip,
+                          vm face)
+{
+    for (uint32_t i = 0; i < count; ++i) {
+        pl_pair *pair = &in->pairs[l->pair[i]];
+        uint32_t code = 0;
+        if (pair->manifold == PL_NONE) {
+            code = 1 + 2 * (uint32_t)face[i] + (flip[i] ? 1 : 0);
+        }
+        pair->flags = (pair->flags & ~PL_PAIR_FACE_MASK) | code << PL_PAIR_FACE_SHIFT;
     }
+}
+
+// Lanes whose remembered face still parts them.
+static inline vm parted(const lanes *l, const pl_narrow_input *in)
+{
+    const pl_vertex *corner[PL_WIDTH];
+    const plumb_real *row[PL_WIDTH];
+    uint32_t count[PL_WIDTH];
+    uint32_t most = 0;
+    vm of_b = (vm){ 0 };
+    for (int i = 0; i < PL_WIDTH; ++i) {
+        uint32_t code = (in->pairs[l->pair[i]].flags & PL_PAIR_FACE_MASK) >> PL_PAIR_FACE_SHIFT;
+        bool flip = ((code - 1) & 1) != 0;
+        uint32_t ref = flip ? l->b[i] : l->a[i], other = flip ? l->a[i] : l->b[i];
+        // A slot may hold another piece by now: any face of it will do.
+        uint32_t edge = (code - 1) >> 1, edges = in->vertex_count[ref];
+        row[i] = &in->vertices[in->vertex_first[ref] + (edge < edges ? edge : 0)].x;
+        corner[i] = in->vertices + in->vertex_first[other];
+        count[i] = in->vertex_count[other];
+        most = count[i] > most ? count[i] : most;
+        of_b[i] = flip ? -1 : 0;
+    }
+    // The face in world axes about A's core centre, then in the other body's frame.
+    vf zero = splat(0);
+    vf rc = sel(of_b, l->pbc, l->pac), rs = sel(of_b, l->pbs, l->pas);
+    vf oc = sel(of_b, l->pac, l->pbc), os = sel(of_b, l->pas, l->pbs);
+    vf face[4];
+    gather4(face, row, 0);
+    vf x = face[0] - sel(of_b, l->bcx, l->acx), y = face[1] - sel(of_b, l->bcy, l->acy);
+    vf fx = sel(of_b, l->dx, zero) + (rc * x - rs * y);
+    vf fy = sel(of_b, l->dy, zero) + (rs * x + rc * y);
+    vf nx = rc * face[2] - rs * face[3], ny = rs * face[2] + rc * face[3];
+    vf to_x = sel(of_b, zero, l->dx) - fx, to_y = sel(of_b, zero, l->dy) - fy;
+    vf mx = oc * nx + os * ny, my = oc * ny - os * nx;
+    vf from =
+        to_x * nx + to_y * ny - (sel(of_b, l->acx, l->bcx) * mx + sel(of_b, l->acy, l->bcy) * my);
+    vf least = splat(PL_APART);
+    for (uint32_t k = 0; k < most; ++k) {
+        for (int i = 0; i < PL_WIDTH; ++i) {
+            row[i] = &corner[i][k < count[i] ? k : count[i] - 1].x;
+        }
+        vf v[4];
+        gather4(v, row, 0);
+        least = vmin(least, v[0] * mx + v[1] * my);
+    }
+    vf speed = vsqrt(l->vx * l->vx + l->vy * l->vy) * splat(in->dt);
+    return from + least - l->ar - l->br > splat(PL_SPECULATIVE) + speed;
+}
+
+// Which of the `count` <= 64 pairs from `first` are still parted by their remembered face: a bit each.
+static uint64_t find_parted(const pl_narrow_input *in, uint32_t first, uint32_t count)
+{
+    uint32_t places[chunk];
+    uint32_t tried = 0;
+    for (uint32_t i = 0; i < count; ++i) {
+        places[tried] = first + i;
+        tried += (in->pairs[first + i].flags & PL_PAIR_FACE_MASK) != 0 ? 1 : 0;
+    }
+    uint64_t bits = 0;
+    for (uint32_t i = 0; i < tried; i += PL_WIDTH) {
+        uint32_t n = tried - i < PL_WIDTH ? tried - i : PL_WIDTH;
+        lanes l;
+        lanes_gather(&l, in, places + i, n);
+        vm apart = parted(&l, in);
+        for (uint32_t j = 0; j < n; ++j) {
+            bits |= (uint64_t)(apart[j] & 1) << (l.pair[j] - first);
+        }
+    }
+    return bits;
+}
+
+static void look_closely(const pl_narrow_input *in, const uint32_t *places, uint32_t count,
+                         pl_narrow *out)
+{
+    lanes l;
+    touch t;
+    vm flip, face;
+    lanes_gather(&l, in, places, count);
+    convex_convex(&t, &l, in, &flip, &face);
+    lanes_emit(&l, &t, in, count, out);
+    remember_face(&l, in, count, flip, face);
+}
+
+// In order of pairs, so that the order of manifolds does not depend on the width.
+pl_narrow_kernel PL_WIDE_NAME(pl_convex_convex);
+void PL_WIDE_NAME(pl_convex_convex)(const pl_narrow_input *in, uint32_t first, uint32_t count,
+                                    pl_narrow *out)
+{
+    uint32_t waiting[chunk + PL_WIDTH];
+    uint32_t held = 0;
+    for (uint32_t i = 0; i < count; i += chunk) {
+        uint32_t n = count - i < chunk ? count - i : chunk;
+        uint64_t apart = find_parted(in, first + i, n);
+        for (uint32_t j = 0; j < n; ++j) {
+            if ((apart >> j & 1) != 0) {
+                part(&in->pairs[first + i + j]);
+            } else {
+                waiting[held++] = first + i + j;
+            }
+        }
+        uint32_t done = 0;
+        for (; held - done >= PL_WIDTH; done += PL_WIDTH) {
+            look_closely(in, waiting + done, PL_WIDTH, out);
+        }
+        memmove(waiting, waiting + done, (held - done) * sizeof waiting[0]);
+        held -= done;
+    }
+    if (held > 0) {
+        look_closely(in, waiting, held, out);
+    }
+}
 
 DEFINE_KERNEL(circle_convex)
-DEFINE_KERNEL(convex_convex)

@@ -10,6 +10,7 @@
 #include "narrow/narrow.h"
 
 typedef struct lanes {
+    uint32_t pair[PL_WIDTH];           // places in the pair list
     uint32_t a[PL_WIDTH], b[PL_WIDTH]; // piece slots
     vf dx, dy;                         // [m] core centre of B seen from that of A
     vf ac, as, bc, bs;                 // rotations of the pieces' own frames (boxes, capsules)
@@ -29,12 +30,14 @@ typedef struct touch {
     vm feature[2];
 } touch;
 
-// Gathers pairs [first, first + count), count <= W; lanes beyond repeat the last pair.
-WIDE_INLINE void lanes_gather(lanes *l, const pl_narrow_input *in, uint32_t first, uint32_t count)
+// Gathers the `count` <= W pairs at these places; lanes beyond repeat the last one.
+WIDE_INLINE void lanes_gather(lanes *l, const pl_narrow_input *in, const uint32_t *places,
+                              uint32_t count)
 {
     const plumb_real *pose_a[PL_WIDTH], *pose_b[PL_WIDTH], *core_a[PL_WIDTH], *core_b[PL_WIDTH];
     for (uint32_t i = 0; i < PL_WIDTH; ++i) {
-        const pl_pair *pair = &in->pairs[first + (i < count ? i : count - 1)];
+        l->pair[i] = places[i < count ? i : count - 1];
+        const pl_pair *pair = &in->pairs[l->pair[i]];
         l->a[i] = pair->a;
         l->b[i] = pair->b;
         pose_a[i] = in->poses + (size_t)pair->body_a * 8;
@@ -137,7 +140,7 @@ static inline void summarise(pl_narrow *out, const pl_manifold *m)
 
 // Appends the manifolds of `count` lanes.
 WIDE_INLINE void lanes_emit(const lanes *l, const touch *t, const pl_narrow_input *in,
-                            uint32_t first, uint32_t count, pl_narrow *out)
+                            uint32_t count, pl_narrow *out)
 {
     plumb_real friction_a[PL_WIDTH], friction_b[PL_WIDTH], bounce_a[PL_WIDTH], bounce_b[PL_WIDTH];
     for (int i = 0; i < PL_WIDTH; ++i) {
@@ -160,7 +163,7 @@ WIDE_INLINE void lanes_emit(const lanes *l, const touch *t, const pl_narrow_inpu
 
     if (!any((t->sep[0] < limit) | (t->sep[1] < limit))) {
         for (uint32_t i = 0; i < count; ++i) {
-            part(&in->pairs[first + i]);
+            part(&in->pairs[l->pair[i]]);
         }
         return;
     }
@@ -185,15 +188,35 @@ WIDE_INLINE void lanes_emit(const lanes *l, const touch *t, const pl_narrow_inpu
     plumb_real limits[PL_WIDTH];
     store(limits, limit);
     for (uint32_t i = 0; i < count; ++i) {
-        pl_pair *pair = &in->pairs[first + i];
+        pl_pair *pair = &in->pairs[l->pair[i]];
         pl_manifold *m = &pl_manifolds(out)[out->manifold_count];
         uint32_t feature[2] = { (uint32_t)t->feature[0][i], (uint32_t)t->feature[1][i] };
         if (emit_lane(pair, m, rows[i], limits[i], feature)) {
-            m->pair = first + i;
+            m->pair = l->pair[i];
             summarise(out, m);
             pair->manifold = out->manifold_count++;
         }
     }
 }
+
+// A kernel that takes every pair of its range through `name(touch *, const lanes *, input *)`.
+#define DEFINE_KERNEL(name)                                                                        \
+    pl_narrow_kernel PL_WIDE_NAME(pl_##name);                                                      \
+    void PL_WIDE_NAME(pl_##name)(const pl_narrow_input *in, uint32_t first, uint32_t count,        \
+                                 pl_narrow *out)                                                   \
+    {                                                                                              \
+        for (uint32_t i = 0; i < count; i += PL_WIDTH) {                                           \
+            uint32_t n = count - i < PL_WIDTH ? count - i : PL_WIDTH;                              \
+            uint32_t places[PL_WIDTH];                                                             \
+            for (uint32_t j = 0; j < n; ++j) {                                                     \
+                places[j] = first + i + j;                                                         \
+            }                                                                                      \
+            lanes l;                                                                               \
+            touch t;                                                                               \
+            lanes_gather(&l, in, places, n);                                                       \
+            name(&t, &l, in);                                                                      \
+            lanes_emit(&l, &t, in, n, out);                                                        \
+        }                                                                                          \
+    }
 
 #endif

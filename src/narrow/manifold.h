@@ -24,15 +24,25 @@ typedef struct pl_manifold {
     real approach;      // [m/s] at the start of the step, for events; 0 for pairs that touched
     real surface_speed; // [m/s] added to the slip: see surface.c
     real rolling;       // [m] lever arm of rolling resistance
-    real blow;          // [N s] impulse of the hit that is due, steps before included; then only
+    union {
+        real adhesion; // [N] that the contact may pull, until events are made
+        real blow;     // [N s] impulse of the hit that is due, steps before included; then only
+    };
     pl_manifold_point point[2]; // a point that is absent has separation PL_APART
     uint32_t body_a, body_b;    // body rows
     uint32_t pair;              // index in the pair list
     uint32_t count;             // points, 1 or 2
     uint32_t feature[2];
     uint32_t disabled; // by a system; only while the contact systems run
-    uint32_t pad;
+    uint32_t bearer;   // of manifolds behind manifold_count: pair that bears the load of this one
 } pl_manifold;
+
+// [m] within which surfaces that stick pull: those that touched in the step before hold while they are
+// pulled out of touch; others do not draw one another near.
+static inline real pl_adhesion_reach(uint32_t pair_flags)
+{
+    return (pair_flags & PL_PAIR_TOUCHING) != 0 ? (real)0.005 : (real)1e-4;
+}
 
 // [m] separation of a point that is not there: no impulse can ever act on it.
 #define PL_APART ((real)1e6)
@@ -40,10 +50,12 @@ typedef struct pl_manifold {
 typedef struct pl_narrow {
     pl_buffer manifolds; // pl_manifold of this step, room for every pair
     uint32_t manifold_count;
+    uint32_t borne_count; // more manifolds behind those, whose load others bear (seams/run.c)
     // Summary of this step's manifolds.
     bool any_friction;       // some manifold has friction > 0
     bool any_bounce;         // some manifold has restitution > 0
     bool any_surface;        // some manifold has surface speed or rolling resistance
+    bool any_adhesion;       // some manifold may pull
     uint32_t touching_count; // manifolds whose surfaces met
     uint32_t point_count;
     real max_penetration;   // [m]

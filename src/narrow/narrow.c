@@ -33,16 +33,14 @@ static pl_narrow_kernel *kernel_for(const pl_narrow_kernels *k, int a, int b)
     return matrix[a][b];
 }
 
-bool pl_narrow_reserve(plumb_world *world)
+bool pl_narrow_reserve(plumb_world *world, const pl_pair_list *list, pl_narrow *narrow)
 {
-    return pl_buffer_reserve(&world->memory, &world->narrow.manifolds,
-                             ((size_t)world->broad.pairs.count + 1) * sizeof(pl_manifold));
+    return pl_buffer_reserve(&world->memory, &narrow->manifolds,
+                             ((size_t)list->count + 1) * sizeof(pl_manifold));
 }
 
-void pl_narrow_run(plumb_world *world, real dt)
+void pl_narrow_run(plumb_world *world, const pl_pair_list *list, real dt, pl_narrow *narrow)
 {
-    pl_narrow *narrow = &world->narrow;
-    const pl_pair_list *list = &world->broad.pairs;
     const pl_narrow_kernels *kernels = kernels_of(world->desc.simd_width);
     pl_narrow_input in = { .poses = (const real *)world->poses.data,
                            .cores = world->pieces.core,

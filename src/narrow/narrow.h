@@ -37,8 +37,8 @@ extern const pl_narrow_kernels pl_narrow_kernels_w4;
 extern const pl_narrow_kernels pl_narrow_kernels_w8;
 extern const pl_narrow_kernels pl_narrow_kernels_w16;
 
-// Makes the manifolds of all pairs. False when out of memory.
-bool pl_narrow_reserve(plumb_world *world);
-void pl_narrow_run(plumb_world *world, plumb_real dt);
+// Makes the manifolds of all pairs of a list. Room for them; false when out of memory.
+bool pl_narrow_reserve(plumb_world *world, const pl_pair_list *list, pl_narrow *narrow);
+void pl_narrow_run(plumb_world *world, const pl_pair_list *list, plumb_real dt, pl_narrow *narrow);
 
 #endif

@@ -1,5 +1,5 @@
-// surface.c - friction, restitution, rolling resistance and surface speed of pairs, where some
-// material asks for more than the default mix that the kernels make in their lanes (lanes.h).
+// surface.c - friction, restitution, rolling resistance, surface speed and adhesion of pairs, where
+// some material asks for more than the default mix that the kernels make in their lanes (lanes.h).
 //
 // Surface speed: material on the outline runs along the outward normal turned clockwise. With n
 // from A to B and t = (-n_y, n_x), the surface of A moves by -s_A t and that of B, whose outward
@@ -19,10 +19,11 @@ bool pl_surfaces_wanted(const plumb_world *world, const char **reason)
     bool wanted = world->material_pair_count > 0;
     for (uint32_t row = 0; row < m->table.count && !wanted; ++row) {
         wanted = m->users[row] > 0 && (m->rolling[row] > 0 || m->surface_speed[row] != 0 ||
+                                       m->adhesion[row] > 0 ||
                                        m->friction_mix[row] != PLUMB_MIX_DEFAULT ||
                                        m->restitution_mix[row] != PLUMB_MIX_DEFAULT);
     }
-    *reason = wanted ? "some material rolls hard, runs like a belt or has a mix of its own"
+    *reason = wanted ? "some material rolls hard, runs like a belt, sticks or has a mix of its own"
                      : "all materials in use are mixed by default";
     return wanted;
 }
@@ -57,7 +58,19 @@ static uint8_t later(uint8_t a, uint8_t b)
     return a > b ? a : b;
 }
 
-static void mix(const plumb_world *world, pl_manifold *m, uint32_t a, uint32_t b)
+// A point that is out of reach keeps no pull for the warm start.
+static void stick(pl_manifold *m, const pl_pair *pair, real adhesion)
+{
+    real reach = adhesion > 0 ? pl_adhesion_reach(pair->flags) : -PL_APART;
+    m->adhesion = adhesion;
+    for (uint32_t k = 0; k < m->count; ++k) {
+        bool pulls = m->point[k].normal < 0;
+        m->point[k].normal = pulls && m->point[k].separation >= reach ? 0 : m->point[k].normal;
+    }
+}
+
+static void mix(const plumb_world *world, pl_manifold *m, const pl_pair *pair, uint32_t a,
+                uint32_t b)
 {
     const pl_materials *s = &world->materials;
     m->surface_speed = s->surface_speed[a] + s->surface_speed[b];
@@ -66,8 +79,11 @@ static void mix(const plumb_world *world, pl_manifold *m, uint32_t a, uint32_t b
         m->friction = set->friction;
         m->restitution = set->restitution;
         m->rolling = set->rolling_resistance;
+        stick(m, pair, set->adhesion);
         return;
     }
+    stick(m, pair,
+          mixed(later(s->adhesion_mix[a], s->adhesion_mix[b]), s->adhesion[a], s->adhesion[b]));
     uint8_t friction_rule = later(s->friction_mix[a], s->friction_mix[b]);
     uint8_t restitution_rule = later(s->restitution_mix[a], s->restitution_mix[b]);
     if (friction_rule != PLUMB_MIX_DEFAULT) {
@@ -87,7 +103,7 @@ void pl_surfaces_mix(plumb_world *world)
     const uint32_t *material = world->pieces.material;
     for (uint32_t i = 0; i < narrow->manifold_count; ++i) {
         const pl_pair *pair = &pairs[m[i].pair];
-        mix(world, &m[i], material[pair->a], material[pair->b]);
+        mix(world, &m[i], pair, material[pair->a], material[pair->b]);
     }
     pl_narrow_summarise(narrow);
 }
@@ -96,14 +112,16 @@ void pl_surfaces_mix(plumb_world *world)
 void pl_narrow_summarise(pl_narrow *narrow)
 {
     const pl_manifold *m = pl_manifolds(narrow);
-    *narrow =
-        (pl_narrow){ .manifolds = narrow->manifolds, .manifold_count = narrow->manifold_count };
+    *narrow = (pl_narrow){ .manifolds = narrow->manifolds,
+                           .manifold_count = narrow->manifold_count,
+                           .borne_count = narrow->borne_count };
     for (uint32_t i = 0; i < narrow->manifold_count; ++i) {
         real s0 = m[i].point[0].separation, s1 = m[i].point[1].separation;
         real depth = s0 < s1 ? -s0 : -s1;
         narrow->any_friction |= m[i].friction > 0;
         narrow->any_bounce |= m[i].restitution > 0;
         narrow->any_surface |= m[i].surface_speed != 0 || m[i].rolling > 0;
+        narrow->any_adhesion |= m[i].adhesion > 0;
         narrow->point_count += m[i].count;
         if (depth >= 0) {
             ++narrow->touching_count;

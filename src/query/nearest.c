@@ -155,7 +155,7 @@ bool plumb_world_nearest(plumb_world *world, plumb_vec2 point, plumb_real max_di
     s.slack = pl_query_slack(fabs((double)point.x) + fabs((double)point.y));
     s.max_distance = max_distance;
     s.met = false;
-    const pl_grid *grids[2];
+    const pl_grid *grids[PL_QUERY_GRIDS];
     int grid_count = pl_query_grids(&s.q, grids);
     for (int i = 0; i < grid_count; ++i) {
         for (uint32_t k = 0; k < grids[i]->level_count; ++k) {

@@ -141,7 +141,7 @@ static bool visit(void *context, const pl_grid_entry *entry)
 // Asks all pieces near s->box, writes the shapes in slot order.
 static int run(search *s, overlaps_fn *overlaps, plumb_shape *shapes, int capacity)
 {
-    const pl_grid *grids[2];
+    const pl_grid *grids[PL_QUERY_GRIDS];
     int grid_count = pl_query_grids(&s->q, grids);
     visitor v = { s, overlaps };
     for (int i = 0; i < grid_count; ++i) {

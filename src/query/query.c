@@ -51,11 +51,14 @@ pl_box pl_query_box_at(plumb_vec2 point, double half)
 
 //---- filter ------------------------------------------------------------------------------------
 
-int pl_query_grids(const pl_query *q, const pl_grid *grids[2])
+int pl_query_grids(const pl_query *q, const pl_grid *grids[static PL_QUERY_GRIDS])
 {
     int count = 0;
     if (!q->filter.ignore_dynamic) {
         grids[count++] = &q->world->broad.moving;
+        if (q->world->broad.resting.entry_count > 0) {
+            grids[count++] = &q->world->broad.resting;
+        }
     }
     if (!q->filter.ignore_static) {
         grids[count++] = &q->world->broad.fixed;
@@ -67,6 +70,10 @@ bool pl_query_sees(const pl_query *q, uint32_t piece)
 {
     const plumb_world *world = q->world;
     const plumb_query_filter *f = &q->filter;
+    // The grid of sleeping pieces may name one that woke, which the other grid has, or that is gone.
+    if (world->sleep.gone > 0 && world->pieces.kind[piece] == PL_PIECE_FREE) {
+        return false;
+    }
     if (world->sensor_pieces + world->filtered_pieces > 0 || f->mask != 0) {
         const pl_pieces *pieces = &world->pieces;
         if ((!f->sensors && (pieces->flags[piece] & PL_PIECE_SENSOR) != 0) ||

@@ -37,8 +37,9 @@ typedef struct pl_query {
 plumb_result pl_query_begin(pl_query *q, plumb_world *world, const char *function,
                             const plumb_query_filter *filter);
 
-// The grids that a filter can see into, in the order in which they are to be asked.
-int pl_query_grids(const pl_query *q, const pl_grid *grids[2]);
+// The grids that a filter can see into, in the order in which they are to be asked; returns how many.
+#define PL_QUERY_GRIDS 3
+int pl_query_grids(const pl_query *q, const pl_grid *grids[static PL_QUERY_GRIDS]);
 
 // False for the pieces of the ignored body, sensors, categories that are not asked for. All but
 // filter.accept, which is asked last, about hits.

@@ -80,7 +80,7 @@ static plumb_result begin(cast *c, plumb_world *world, const char *function, plu
 
 static void walk(cast *c, pl_grid_visit *visit)
 {
-    const pl_grid *grids[2];
+    const pl_grid *grids[PL_QUERY_GRIDS];
     int count = pl_query_grids(&c->q, grids);
     for (int i = 0; i < count; ++i) {
         if (!pl_walk_grid(grids[i], &c->walk, visit, c)) {

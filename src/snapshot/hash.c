@@ -1,7 +1,7 @@
 // hash.c - plumb_world_hash: all that decides later steps, as 64 bits.
 //
 // Reads: the sections of section.h as far as they count; by hand, because only part of them decides
-// motion or padding and addresses lie in them: contacts, joints (PL_STATE_JOINT), pending commands, user
+// motion or padding and addresses lie in them: contacts, awake or asleep, joints (PL_STATE_JOINT), pending commands, user
 // components. Writes: nothing.
 // Cost: O(state), about 8 bytes a cycle.
 #include "plumb/snapshot.h"
@@ -29,6 +29,23 @@ static void add_section(pl_digest *digest, const plumb_world *world, uint32_t i)
     }
 }
 
+#define KEPT_FLAGS (~PL_PAIR_FACE_MASK) // where to look first changes nothing
+
+// What a contact hands on to the next step.
+static void add_pair(pl_digest *digest, const pl_pair *p)
+{
+    struct {
+        uint32_t a, b, feature[2];
+        uint64_t flags;
+        real impulse[6];
+    } kept = { p->a,
+               p->b,
+               { p->feature[0], p->feature[1] },
+               p->flags & KEPT_FLAGS,
+               { p->normal[0], p->normal[1], p->tangent[0], p->tangent[1], p->rolling, 0 } };
+    pl_digest_add(digest, &kept, sizeof kept);
+}
+
 // Contacts that have something to hand on to the next step. Which others are in the list, and where,
 // depends on when the grids were filed last.
 static void add_pairs(pl_digest *digest, const plumb_world *world)
@@ -36,18 +53,44 @@ static void add_pairs(pl_digest *digest, const plumb_world *world)
     const pl_pair *pairs = pl_pairs(&world->broad.pairs);
     for (uint32_t i = 0; i < world->broad.pairs.count; ++i) {
         const pl_pair *p = &pairs[i];
-        if (p->flags == 0 && p->normal[0] == 0 && p->normal[1] == 0 && p->rolling == 0) {
+        if ((p->flags & KEPT_FLAGS) != 0 || p->normal[0] != 0 || p->normal[1] != 0 ||
+            p->rolling != 0) {
+            add_pair(digest, p);
+        }
+    }
+}
+
+// Contacts of what sleeps, by islands.
+static void add_sleepers(pl_digest *digest, const plumb_world *world)
+{
+    const pl_sleep *s = &world->sleep;
+    for (uint32_t i = 0; i < s->island_slots; ++i) {
+        const pl_island *island = &pl_islands(s)[i];
+        if (island->body_count == 0) {
             continue;
         }
+        const uint32_t kept[] = { i, island->first_body, island->body_count, island->due };
+        pl_digest_add(digest, kept, sizeof kept);
+        for (uint32_t c = island->first_contact; c != PL_NONE; c = pl_dormants(s)[c].next) {
+            add_pair(digest, &pl_dormants(s)[c].pair);
+        }
+    }
+}
+
+// What the owners of runs of flush faces bore.
+static void add_loads(pl_digest *digest, const plumb_world *world)
+{
+    const pl_run_load *loads = world->seams.loads.data;
+    for (uint32_t i = 0; i < world->seams.load_count; ++i) {
+        const pl_run_load *l = &loads[i];
         struct {
-            uint32_t a, b, feature[2];
-            uint64_t flags;
-            real impulse[6];
-        } kept = { p->a,
-                   p->b,
-                   { p->feature[0], p->feature[1] },
-                   p->flags,
-                   { p->normal[0], p->normal[1], p->tangent[0], p->tangent[1], p->rolling, 0 } };
+            uint32_t mover, serial, feature[2];
+            real values[8];
+        } kept = { l->mover,
+                   l->serial,
+                   { l->feature[0], l->feature[1] },
+                   { l->normal[0], l->normal[1], l->tangent[0], l->tangent[1], l->rolling, l->nx,
+                     l->ny, 0 } };
         pl_digest_add(digest, &kept, sizeof kept);
     }
 }
@@ -104,6 +147,8 @@ uint64_t plumb_world_hash(const plumb_world *world)
         add_section(&digest, world, i);
     }
     add_pairs(&digest, world);
+    add_sleepers(&digest, world);
+    add_loads(&digest, world);
     add_joints(&digest, world);
     pl_commands_digest(world, &digest);
     for (uint32_t i = 0; i < world->components.count; ++i) {

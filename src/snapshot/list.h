@@ -33,7 +33,9 @@
     VALUE(desc.gravity) VALUE(desc.zero_gravity) VALUE(desc.y_axis) VALUE(desc.solver)             \
     VALUE(desc.substeps) VALUE(desc.iterations) VALUE(desc.contact_hertz)                          \
     VALUE(desc.contact_damping) VALUE(desc.push_speed) VALUE(desc.restitution_speed)               \
-    VALUE(desc.hit_speed) VALUE(desc.contact_impulses)                                             \
+    VALUE(desc.hit_speed) VALUE(desc.contact_impulses) VALUE(desc.no_sleep)                        \
+    VALUE(desc.sleep_speed) VALUE(desc.sleep_time) VALUE(desc.no_continuous)                       \
+    LEFT(desc.workers) LEFT(desc.tasks)                                                            \
     LEFT(desc.simd_width) /* of this machine; every width gives the same bits */                   \
     LEFT(desc.body_capacity) LEFT(desc.shape_capacity) LEFT(desc.contact_capacity)                 \
     LEFT(desc.allocator) LEFT(desc.log) LEFT(desc.assert_failed) LEFT(desc.hook_context)           \
@@ -55,7 +57,8 @@
 
 // The grids follow from the fat boxes and the list of moving pieces.
 #define PL_STATE_BROAD(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                      \
-    LEFT(broad.moving) LEFT(broad.fixed) LEFT(broad.moving_lost) LEFT(broad.fixed_lost)            \
+    LEFT(broad.moving) LEFT(broad.fixed) LEFT(broad.resting) LEFT(broad.refreshed)                 \
+    LEFT(broad.moving_lost) LEFT(broad.fixed_lost) LEFT(broad.resting_lost)                        \
     ARRAY(pl_pair, broad.pairs.items, broad.pairs.count, 0, 8)                                     \
     TALLY(broad.pairs.first) TALLY(broad.pairs.size) LEFT(broad.pairs.old_items)                   \
     LEFT(broad.list) LEFT(broad.found) LEFT(broad.sorted) LEFT(broad.counts)                       \
@@ -64,24 +67,26 @@
     TALLY(broad.serial) TALLY(broad.rebuilds) TALLY(broad.filed_step) TALLY(broad.stale)
 
 #define PL_STATE_NARROW(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                     \
-    LEFT(narrow.manifolds) LEFT(narrow.manifold_count) LEFT(narrow.any_friction)                   \
+    LEFT(narrow.manifolds) LEFT(narrow.manifold_count) LEFT(narrow.borne_count)                    \
+    LEFT(narrow.any_adhesion) LEFT(narrow.any_friction)                                            \
     LEFT(narrow.any_bounce) LEFT(narrow.any_surface) LEFT(narrow.touching_count)                   \
     LEFT(narrow.point_count) LEFT(narrow.max_penetration) LEFT(narrow.sum_penetration)
 
 #define PL_STATE_SOLVER(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                     \
     LEFT(solver.bodies) LEFT(solver.motions) LEFT(solver.lows) LEFT(solver.struck)                 \
     LEFT(solver.rows) LEFT(solver.slots) LEFT(solver.masks) LEFT(solver.colors)                    \
-    LEFT(solver.lanes) LEFT(solver.bundles) LEFT(solver.extras) LEFT(solver.impacts)               \
-    LEFT(solver.classic) LEFT(solver.dynamic_slots) LEFT(solver.slot_count)                        \
+    LEFT(solver.lanes) LEFT(solver.bundles) LEFT(solver.extras) LEFT(solver.specials)              \
+    LEFT(solver.impacts) LEFT(solver.classic) LEFT(solver.dynamic_slots) LEFT(solver.slot_count)   \
     LEFT(solver.bundle_count) LEFT(solver.impact_count) LEFT(solver.color_count)                   \
     LEFT(solver.overflow_count) LEFT(solver.bounce_count)
 
 #define PL_STATE_JOINTS(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                     \
     ARRAY(pl_joint, joints.items, joints.count, 0, 0)                                              \
-    LEFT(joints.broken) LEFT(joints.broken_count) VALUE(joints.live) VALUE(joints.free_head)
+    LEFT(joints.broken) LEFT(joints.broken_count) VALUE(joints.live) VALUE(joints.free_head)       \
+    VALUE(joints.impulsive) LEFT(joints.awake) LEFT(joints.awake_count) LEFT(joints.awake_stale)
 
 #define PL_STATE_PARTS(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                      \
-    LEFT(parts.items) LEFT(parts.count)
+    LEFT(parts.items) LEFT(parts.count) TALLY(parts.buried)
 
 #define PL_STATE_BLOWS(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                      \
     ARRAY(pl_blow, blows.items, blows.count, sizeof(pl_blow), 8)                                   \
@@ -91,13 +96,53 @@
     ARRAY(pl_keyed, sensing.candidates, sensing.candidate_count, 0, 8)                             \
     TALLY(sensing.rebuilds)                                                                        \
     ARRAY(pl_overlap, sensing.overlaps, sensing.count, sizeof(pl_overlap), 8)                      \
+    ARRAY(pl_keyed, sensing.rest_candidates, sensing.rest_candidate_count, 0, 8)                   \
+    ARRAY(pl_overlap, sensing.rest_overlaps, sensing.rest_count, sizeof(pl_overlap), 8)            \
+    LEFT(sensing.rest_old) LEFT(sensing.rest_old_count) TALLY(sensing.rest_stale)                  \
     LEFT(sensing.old) LEFT(sensing.old_count) LEFT(sensing.begins) LEFT(sensing.ends)              \
     LEFT(sensing.begin_count) LEFT(sensing.end_count)
+
+// The grid of what sleeps and the list of what moves near it are made anew.
+#define PL_STATE_SLEEP(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                      \
+    ARRAY(pl_island, sleep.islands, sleep.island_slots, 0, 0)                                      \
+    ARRAY(pl_dormant, sleep.contacts, sleep.contact_slots, 0, 0)                                   \
+    VALUE(sleep.island_count) VALUE(sleep.free_island) VALUE(sleep.contact_count)                  \
+    VALUE(sleep.free_contact) VALUE(sleep.first_due)                                               \
+    ARRAY(uint32_t, sleep.resting, sleep.resting_count, sizeof(uint32_t), 0)                       \
+    TALLY(sleep.boxes_stale) TALLY(sleep.grid_stale) LEFT(sleep.gone) VALUE(sleep.placed_pieces)   \
+    LEFT(sleep.near) LEFT(sleep.near_stale) LEFT(sleep.probe) LEFT(sleep.found)                    \
+    LEFT(sleep.found_count) LEFT(sleep.touched) LEFT(sleep.marked) LEFT(sleep.marked_count)        \
+    LEFT(sleep.woken) VALUE(sleep.timed_step) VALUE(sleep.changed_step) VALUE(sleep.tested_step)   \
+    VALUE(sleep.since) VALUE(sleep.passed) VALUE(sleep.ripe_for) LEFT(sleep.parents)               \
+    LEFT(sleep.held) LEFT(sleep.sleep_events) LEFT(sleep.wake_events)                              \
+    LEFT(sleep.sleep_event_count) LEFT(sleep.wake_event_count) LEFT(sleep.events_told)
+
+// Corners and stretches follow from where the ground lies, but not at once: they are kept up.
+#define PL_STATE_SEAMS(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                      \
+    VALUE(seams.count) TALLY(seams.dirty) TALLY(seams.all) TALLY(seams.relist) OWN(seams.corners)  \
+    ARRAY(pl_span, seams.spans, seams.span_used, 0, 0) TALLY(seams.span_free)                      \
+    ARRAY(pl_box, seams.regions, seams.region_count, 0, 0)                                         \
+    LEFT(seams.chosen) LEFT(seams.chosen_count) LEFT(seams.around) LEFT(seams.around_count)        \
+    LEFT(seams.scratch) ARRAY(pl_seam_pair, seams.pairs, seams.pair_count, 0, 0)                   \
+    LEFT(seams.contacts) LEFT(seams.contact_count) LEFT(seams.runs) LEFT(seams.order)              \
+    ARRAY(pl_run_load, seams.loads, seams.load_count, 0, 0)                                        \
+    LEFT(seams.old_loads) LEFT(seams.old_load_count) LEFT(seams.slots) LEFT(seams.slot_count)      \
+    LEFT(seams.borne) LEFT(seams.apart) TALLY(seams.listed) TALLY(seams.updated)
+
+#define PL_STATE_CONTINUOUS(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                 \
+    LEFT(continuous.movers) LEFT(continuous.count) VALUE(continuous.least_slack)                   \
+    LEFT(continuous.noting) LEFT(continuous.stopped_count)
+
+#define PL_STATE_EFFECTS(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                    \
+    ARRAY(pl_tuning, tunings.items, tunings.count, offsetof(pl_tuning, ax), 8)                     \
+    VALUE(tunings.damped) VALUE(tunings.capped) VALUE(tunings.scaled) VALUE(tunings.frozen)        \
+    ARRAY(pl_target, targets.items, targets.count, sizeof(pl_target), 8)
 
 // What lies in struct plumb_world itself.
 #define PL_STATE_WORLD(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                      \
     LEFT(memory) VALUE(gravity) VALUE(step_count) VALUE(time) TALLY(arrested_count)                \
     TABLE(bodies) VALUE(dynamic_count) VALUE(kinematic_count) VALUE(asleep_count)                  \
+    VALUE(disabled_count) VALUE(continuous_bodies) VALUE(locked_bodies) OWN(graves) LEFT(tasks)    \
     VALUE(shape_count) VALUE(serial) LEFT(made) LEFT(outline)                                      \
     TABLE(materials) OWN(components) OWN(systems)                                                  \
     ARRAY(uint32_t, moving, moving_count, sizeof(uint32_t), 0) LEFT(poses)                         \
@@ -109,21 +154,23 @@
           sizeof(uint64_t) + sizeof(plumb_material_pair), 8)                                       \
     LEFT(schedule) LEFT(begin_events) LEFT(end_events) LEFT(hit_events)                            \
     LEFT(begin_count) LEFT(end_count) LEFT(hit_count)                                              \
-    LEFT(locked_by) LEFT(editing) LEFT(edited) LEFT(in_hook) LEFT(error) LEFT(error_text)
+    LEFT(locked_by) LEFT(editing) VALUE(edited) LEFT(in_hook) LEFT(error) LEFT(error_text)
 
 #define PL_STATE(...)                                                                              \
     PL_STATE_WORLD(__VA_ARGS__) PL_STATE_DESC(__VA_ARGS__) PL_STATE_REGISTRY(__VA_ARGS__)          \
     PL_STATE_PIECES(__VA_ARGS__) PL_STATE_VERTICES(__VA_ARGS__) PL_STATE_COMMANDS(__VA_ARGS__)     \
     PL_STATE_BROAD(__VA_ARGS__) PL_STATE_NARROW(__VA_ARGS__) PL_STATE_SOLVER(__VA_ARGS__)          \
     PL_STATE_JOINTS(__VA_ARGS__) PL_STATE_PARTS(__VA_ARGS__) PL_STATE_BLOWS(__VA_ARGS__)           \
-    PL_STATE_SENSING(__VA_ARGS__)
+    PL_STATE_SENSING(__VA_ARGS__) PL_STATE_SLEEP(__VA_ARGS__) PL_STATE_SEAMS(__VA_ARGS__)          \
+    PL_STATE_CONTINUOUS(__VA_ARGS__) PL_STATE_EFFECTS(__VA_ARGS__)
 
 // Members of a joint that decide later steps: what hash.c hashes of it.
 #define PL_STATE_JOINT(X)                                                                          \
     X(entity) X(desc.kind) X(desc.enable_limit) X(desc.lower) X(desc.upper) X(desc.enable_motor)   \
     X(desc.motor_speed) X(desc.max_motor) X(desc.hertz) X(desc.damping) X(desc.rest)               \
     X(desc.length) X(desc.ratio) X(desc.pitch) X(desc.max_force) X(desc.max_torque)                \
-    X(desc.break_force) X(desc.break_torque) X(desc.collide_connected)                             \
+    X(desc.break_force) X(desc.break_torque) X(desc.break_impulse) X(desc.disabled)                \
+    X(desc.collide_connected)                                                                      \
     X(a.body) X(a.next) X(a.local) X(a.start) X(a.seen) X(a.turns)                                 \
     X(b.body) X(b.next) X(b.local) X(b.start) X(b.seen) X(b.turns)                                 \
     X(axis) X(target) X(sum) X(impulse) X(h)

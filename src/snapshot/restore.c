@@ -5,8 +5,9 @@
 // changes the state, so a refused image changes nothing.
 //
 // Made anew: poses (from origins, rotations and centres), rows of components (from their owners),
-// the schedule. The grids follow from fat boxes and the list of moving pieces; they are kept where
-// those are what they were, else filed again by whoever asks for them next. Events and contacts of the
+// the schedule, the lists of joints awake and of what moves near what sleeps. The grids follow from fat
+// boxes and lists of pieces; they are kept where those are what they were, else filed again by whoever
+// asks for them next. Events and contacts of the
 // last step are gone.
 //
 // Reads: image, base. Writes: the world. Cost: O(state) digested and copied. No allocation where
@@ -198,8 +199,12 @@ static void forget_last_step(plumb_world *world)
 {
     pl_events_clear(world);
     world->blows.old_count = 0;
-    world->sensing.old_count = 0;
+    world->sensing.old_count = world->sensing.rest_old_count = 0;
+    world->seams.old_load_count = world->seams.contact_count = 0;
+    world->sleep.sleep_event_count = world->sleep.wake_event_count = 0;
+    world->sleep.events_told = false;
     world->joints.broken_count = 0;
+    world->continuous.count = world->continuous.stopped_count = 0;
     world->narrow = (pl_narrow){ .manifolds = world->narrow.manifolds };
     world->solver.slot_count = world->solver.dynamic_slots = 0;
     world->solver.bundle_count = world->solver.impact_count = 0;
@@ -223,6 +228,13 @@ static void take_over(plumb_world *world, source s)
     forget_last_step(world);
     world->broad.fixed_lost = !keeps_fixed;
     world->broad.moving_lost = !keeps_moving;
+    world->broad.resting_lost =
+        world->sleep.resting_count > 0 || world->broad.resting.entry_count > 0;
+    world->broad.refreshed = false;
+    world->sleep.gone = 0;
+    world->sleep.near.count = 0;
+    world->sleep.near_stale = true;
+    world->joints.awake_stale = true;
     world->schedule_dirty = true;
 }
 

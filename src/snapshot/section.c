@@ -82,18 +82,23 @@ static pl_table *table_of(const plumb_world *world, const column_row *column)
     }
 }
 
+// With what goes along with the rows: see pl_rows_reserve and pl_pieces_reserve.
 static bool reserve_table(plumb_world *world, const column_row *column, uint32_t count)
 {
+    pl_memory *memory = &world->memory;
     switch (column->table[0]) {
     case 'b':
-        return pl_table_reserve(&world->memory, &world->bodies.table, pl_body_columns,
-                                pl_body_column_count, count) &&
-               pl_buffer_reserve(&world->memory, &world->poses, count * sizeof(pl_pose));
+        return pl_table_reserve(memory, &world->bodies.table, pl_body_columns, pl_body_column_count,
+                                count + 1) &&
+               pl_buffer_reserve(memory, &world->poses, (count + 1) * sizeof(pl_pose));
     case 'p':
-        return pl_table_reserve(&world->memory, &world->pieces.table, pl_piece_columns,
-                                pl_piece_column_count, count);
+        return pl_table_reserve(memory, &world->pieces.table, pl_piece_columns,
+                                pl_piece_column_count, count) &&
+               pl_buffer_reserve(memory, &world->moving, count * sizeof(uint32_t)) &&
+               pl_buffer_reserve(memory, &world->sleep.resting, count * sizeof(uint32_t)) &&
+               pl_graves_reserve(world, count);
     default:
-        return pl_table_reserve(&world->memory, &world->materials.table, pl_material_columns,
+        return pl_table_reserve(memory, &world->materials.table, pl_material_columns,
                                 pl_material_column_count, count);
     }
 }
@@ -137,6 +142,19 @@ static uint32_t array_count(const plumb_world *world, const array_row *row)
     return narrow;
 }
 
+// With what has to have as much room.
+static bool reserve_array(plumb_world *world, const array_row *row, uint32_t count)
+{
+    pl_memory *memory = &world->memory;
+    pl_joints *joints = &world->joints;
+    if (row->buffer == offsetof(plumb_world, joints.items) &&
+        (!pl_buffer_reserve(memory, &joints->awake, count * sizeof(uint32_t)) ||
+         !pl_buffer_reserve(memory, &joints->broken, count * sizeof(plumb_joint_break)))) {
+        return false;
+    }
+    return pl_buffer_reserve(memory, buffer_of(world, row), (size_t)count * row->stride);
+}
+
 static void set_array_count(plumb_world *world, const array_row *row, uint32_t count)
 {
     size_t wide = count;
@@ -150,7 +168,7 @@ static void set_array_count(plumb_world *world, const array_row *row, uint32_t c
 
 //---- what list.h calls OWN -----------------------------------------------------------------------
 
-enum { REGISTRY, CORNERS, SWITCHES, OWN_COUNT };
+enum { REGISTRY, CORNERS, SEAMS, GRAVES, SWITCHES, OWN_COUNT };
 
 // Systems are code and stay; whether one is switched off is state, told by its name.
 typedef struct system_switch {
@@ -185,6 +203,15 @@ static void read_switches(plumb_world *world, const char *from, uint32_t count)
     }
 }
 
+// Corners with seams lie as the corners of the pool do, as far as there have ever been any.
+static uint32_t seam_count(const plumb_world *world)
+{
+    size_t room = world->seams.corners.size / sizeof(pl_seam);
+    return world->seams.count == 0        ? 0
+           : room < world->vertices.count ? (uint32_t)room
+                                          : world->vertices.count;
+}
+
 static pl_section own_section(const plumb_world *world, uint32_t which)
 {
     switch (which) {
@@ -202,6 +229,18 @@ static pl_section own_section(const plumb_world *world, uint32_t which)
                              .count = world->vertices.count,
                              .stride = sizeof(pl_vertex),
                              .hashed = sizeof(pl_vertex) };
+    case SEAMS:
+        return (pl_section){ .table = "seams",
+                             .name = "corners",
+                             .data = world->seams.corners.data,
+                             .count = seam_count(world),
+                             .stride = sizeof(pl_seam) };
+    case GRAVES:
+        return (pl_section){ .table = "world",
+                             .name = "graves",
+                             .data = world->graves.data,
+                             .count = world->pieces.table.count,
+                             .stride = sizeof(pl_grave) };
     default:
         return (pl_section){ .table = "systems",
                              .name = "enabled",
@@ -220,27 +259,45 @@ static bool reserve_own(plumb_world *world, uint32_t which, uint32_t count)
     case CORNERS:
         return count <= corners ||
                pl_pool_reserve(&world->memory, &world->vertices, count - corners);
-    default:
+    case SEAMS:
+        return pl_buffer_reserve(&world->memory, &world->seams.corners, count * sizeof(pl_seam));
+    default: // graves: with the pieces
         return true;
     }
 }
 
 static void read_own(plumb_world *world, uint32_t which, const char *from, uint32_t count)
 {
+    void *to = NULL;
+    size_t bytes = 0;
     switch (which) {
     case REGISTRY:
         world->registry.count = count;
+        to = world->registry.slots;
+        bytes = count * sizeof(pl_slot);
         break;
     case CORNERS:
         world->vertices.count = count;
+        to = world->vertices.items;
+        bytes = count * sizeof(pl_vertex);
+        break;
+    case SEAMS:
+        to = world->seams.corners.data;
+        bytes = count * sizeof(pl_seam);
+        break;
+    case GRAVES:
+        to = world->graves.data;
+        bytes = count * sizeof(pl_grave);
+        if (to != NULL) {
+            memset((char *)to + bytes, 0, world->graves.size - bytes);
+        }
         break;
     default:
         read_switches(world, from, count);
-        return;
+        break;
     }
-    if (count > 0) {
-        pl_section section = own_section(world, which);
-        memcpy(section.data, from, pl_section_bytes(&section));
+    if (bytes > 0) {
+        memcpy(to, from, bytes);
     }
 }
 
@@ -365,8 +422,7 @@ bool pl_section_reserve(plumb_world *world, uint32_t i, uint32_t count)
         return reserve_table(world, &columns[i - FIRST_COLUMN], count);
     }
     if (i < FIRST_OWN) {
-        const array_row *a = &arrays[i - FIRST_ARRAY];
-        return pl_buffer_reserve(&world->memory, buffer_of(world, a), (size_t)count * a->stride);
+        return reserve_array(world, &arrays[i - FIRST_ARRAY], count);
     }
     return i < FIXED_COUNT ? reserve_own(world, i - FIRST_OWN, count)
                            : reserve_component(world, i - FIXED_COUNT, count);

@@ -25,6 +25,7 @@ typedef struct point {
     vf ran, rbn, rat, rbt; // [m]
     vf separation;         // [m] at the start of the step
     vf kn;                 // [1/kg] inverse effective mass along the normal
+    vf give;               // [1/kg] softness: how much an impulse gives way
     vf mt;                 // [kg] effective mass along the tangent
     vf ln, lt;             // [N s]
 } point;
@@ -33,8 +34,8 @@ typedef struct bundle {
     uint32_t a[PL_WIDTH], b[PL_WIDTH]; // solver slots
     vf nx, ny;
     vf friction;
-    vf bias_rate, give; // softness: the push, and how much an impulse gives way, times kn
-    vf k01;             // [1/kg] what an impulse at one point does to the other
+    vf bias_rate; // [1/s] softness: the push for each metre of overlap
+    vf k01;       // [1/kg] what an impulse at one point does to the other
     point p[2];
 } bundle;
 
@@ -48,6 +49,15 @@ typedef struct extra {
     vf lr;            // [N m s]
     vf total[2];      // [N s] normal impulses of the substeps so far
 } extra;
+
+// What only locked axes, bodies whose time stands still and surfaces that stick need. A body locked along an axis has infinite mass
+// that way. A point that sticks may pull while it is nearer than its reach: its impulse is at least
+// -pull, and so l + pull is what is never negative, what friction goes by, and what the springs carry.
+typedef struct special {
+    vf aix, aiy, bix, biy; // [1/kg] inverse masses along the axes
+    vf pull[2];            // [N s]
+    vf reach;              // [m]
+} special;
 
 typedef struct body {
     vf vx, vy, w, inv_mass, dx, dy, da, inv_inertia;
@@ -115,6 +125,15 @@ WIDE_INLINE softness soften(const pl_contact_call *call, plumb_real factor)
     return (softness){ splat(omega / a1), splat(1 / a2) };
 }
 
+// A point deeper than the push may undo in a second is pushed less than its spring would. It gives
+// way less by the same share, or the spring would bear no more than the push speed stands for: a
+// point below a heavy pile would sink for ever.
+WIDE_INLINE vf held_back(const bundle *c, const point *p, const pl_contact_call *call)
+{
+    vf limit = splat(call->push_speed);
+    return limit / vmax(-p->separation * c->bias_rate, limit);
+}
+
 // An empty lane: no mass, no impulse, out of reach.
 static const pl_manifold empty_manifold __attribute__((
     aligned(64))) = { .point = { { .separation = PL_APART }, { .separation = PL_APART } } };
@@ -148,10 +167,11 @@ static void prepare(const pl_contact_call *call, uint32_t first, uint32_t count)
         c->nx = r[0], c->ny = r[1], c->friction = r[2];
         vm fixed = (a.inv_mass == splat(0)) | (b.inv_mass == splat(0));
         c->bias_rate = sel(fixed, ground.bias_rate, pair.bias_rate);
-        c->give = sel(fixed, ground.give, pair.give);
+        vf give = sel(fixed, ground.give, pair.give);
         for (int j = 0; j < 2; ++j) {
             gather8(r, row[1 + j]);
             prepare_point(&c->p[j], r, c, &a, &b);
+            c->p[j].give = c->p[j].kn * give * held_back(c, &c->p[j], call);
         }
         c->k01 = a.inv_mass + b.inv_mass + a.inv_inertia * c->p[0].ran * c->p[1].ran +
                  b.inv_inertia * c->p[0].rbn * c->p[1].rbn;
@@ -183,6 +203,66 @@ static void prepare_extras(const pl_contact_call *call, uint32_t first, uint32_t
     }
 }
 
+static void prepare_specials(const pl_contact_call *call, uint32_t first, uint32_t count)
+{
+    const softness pair = soften(call, 1), ground = soften(call, STATIC_STIFFNESS);
+    bundle *bundles = call->bundles;
+    special *specials = call->specials;
+    for (uint32_t k = first; k < first + count; ++k) {
+        bundle *c = &bundles[k];
+        special *s = &specials[k];
+        body a, b;
+        gather_body(&a, call, c->a);
+        gather_body(&b, call, c->b);
+        *s =
+            (special){ .aix = a.inv_mass, .aiy = a.inv_mass, .bix = b.inv_mass, .biy = b.inv_mass };
+        s->pull[0] = s->pull[1] = s->reach = splat(0);
+        for (int i = 0; i < PL_WIDTH; ++i) {
+            uint32_t at = call->lanes[(size_t)k * PL_WIDTH + (size_t)i];
+            if (at == PL_NONE) {
+                continue;
+            }
+            const pl_manifold *m = &call->manifolds[at];
+            uint32_t fa = call->flags[m->body_a], fb = call->flags[m->body_b];
+            s->aix[i] = (fa & PL_BODY_LOCK_X) != 0 ? 0 : s->aix[i];
+            s->aiy[i] = (fa & PL_BODY_LOCK_Y) != 0 ? 0 : s->aiy[i];
+            s->bix[i] = (fb & PL_BODY_LOCK_X) != 0 ? 0 : s->bix[i];
+            s->biy[i] = (fb & PL_BODY_LOCK_Y) != 0 ? 0 : s->biy[i];
+            s->reach[i] = pl_adhesion_reach(call->pairs[m->pair].flags);
+            for (uint32_t j = 0; j < m->count; ++j) {
+                s->pull[j][i] = m->adhesion * call->h / (plumb_real)m->count;
+            }
+        }
+        vf nxx = c->nx * c->nx, nyy = c->ny * c->ny;
+        vf mass_a = s->aix * nxx + s->aiy * nyy, mass_b = s->bix * nxx + s->biy * nyy;
+        vf mass_n = mass_a + mass_b, mass_t = (s->aix + s->bix) * nyy + (s->aiy + s->biy) * nxx;
+        for (int j = 0; j < 2; ++j) {
+            point *p = &c->p[j];
+            p->kn = mass_n + a.inv_inertia * p->ran * p->ran + b.inv_inertia * p->rbn * p->rbn;
+            p->mt = inverse_or_zero(mass_t + a.inv_inertia * p->rat * p->rat +
+                                    b.inv_inertia * p->rbt * p->rbt);
+        }
+        c->k01 = mass_n + a.inv_inertia * c->p[0].ran * c->p[1].ran +
+                 b.inv_inertia * c->p[0].rbn * c->p[1].rbn;
+        vm fixed = ((mass_a == splat(0)) & (a.inv_inertia == splat(0))) |
+                   ((mass_b == splat(0)) & (b.inv_inertia == splat(0)));
+        c->bias_rate = sel(fixed, ground.bias_rate, pair.bias_rate);
+        vf give = sel(fixed, ground.give, pair.give);
+        for (int j = 0; j < 2; ++j) {
+            c->p[j].give = c->p[j].kn * give * held_back(c, &c->p[j], call);
+        }
+    }
+}
+
+// Adds an impulse (px, py) to B and takes it from A; `s` null: no axis is locked.
+WIDE_INLINE void shove(body *a, body *b, const special *s, vf px, vf py)
+{
+    a->vx -= (s != NULL ? s->aix : a->inv_mass) * px;
+    a->vy -= (s != NULL ? s->aiy : a->inv_mass) * py;
+    b->vx += (s != NULL ? s->bix : b->inv_mass) * px;
+    b->vy += (s != NULL ? s->biy : b->inv_mass) * py;
+}
+
 WIDE_INLINE void push_turn(body *a, body *b, vf impulse)
 {
     a->w -= a->inv_inertia * impulse;
@@ -190,15 +270,12 @@ WIDE_INLINE void push_turn(body *a, body *b, vf impulse)
 }
 
 // Adds the impulses (along n and t) of a point to both bodies.
-WIDE_INLINE void push(const bundle *c, const point *p, body *a, body *b, vf along_n, vf along_t,
-                      bool rotation)
+WIDE_INLINE void push(const bundle *c, const special *s, const point *p, body *a, body *b,
+                      vf along_n, vf along_t, bool rotation)
 {
     vf px = c->nx * along_n - c->ny * along_t;
     vf py = c->ny * along_n + c->nx * along_t;
-    a->vx -= a->inv_mass * px;
-    a->vy -= a->inv_mass * py;
-    b->vx += b->inv_mass * px;
-    b->vy += b->inv_mass * py;
+    shove(a, b, s, px, py);
     if (rotation) {
         a->w -= a->inv_inertia * (p->ran * along_n + p->rat * along_t);
         b->w += b->inv_inertia * (p->rbn * along_n + p->rbt * along_t);
@@ -220,15 +297,12 @@ WIDE_INLINE void push_normal(const bundle *c, const point *p, body *a, body *b, 
     }
 }
 
-WIDE_INLINE void push_tangent(const bundle *c, const point *p, body *a, body *b, vf impulse,
-                              bool rotation)
+WIDE_INLINE void push_tangent(const bundle *c, const special *s, const point *p, body *a, body *b,
+                              vf impulse, bool rotation)
 {
     vf px = -c->ny * impulse;
     vf py = c->nx * impulse;
-    a->vx -= a->inv_mass * px;
-    a->vy -= a->inv_mass * py;
-    b->vx += b->inv_mass * px;
-    b->vy += b->inv_mass * py;
+    shove(a, b, s, px, py);
     if (rotation) {
         a->w -= a->inv_inertia * (p->rat * impulse);
         b->w += b->inv_inertia * (p->rbt * impulse);
@@ -236,10 +310,11 @@ WIDE_INLINE void push_tangent(const bundle *c, const point *p, body *a, body *b,
 }
 
 WIDE_INLINE void warm_start_all(const pl_contact_call *call, uint32_t first, uint32_t count,
-                                bool friction, bool rotation, bool running)
+                                bool friction, bool rotation, bool running, bool special_ones)
 {
     bundle *bundles = call->bundles;
     const extra *extras = call->extras;
+    const special *specials = call->specials;
     for (uint32_t k = first; k < first + count; ++k) {
         bundle *c = &bundles[k];
         body a, b;
@@ -247,7 +322,8 @@ WIDE_INLINE void warm_start_all(const pl_contact_call *call, uint32_t first, uin
         gather_body(&b, call, c->b);
         for (int j = 0; j < 2; ++j) {
             if (friction) {
-                push(c, &c->p[j], &a, &b, c->p[j].ln, c->p[j].lt, rotation);
+                push(c, special_ones ? &specials[k] : NULL, &c->p[j], &a, &b, c->p[j].ln,
+                     c->p[j].lt, rotation);
             } else {
                 push_normal(c, &c->p[j], &a, &b, c->p[j].ln, rotation);
             }
@@ -258,6 +334,23 @@ WIDE_INLINE void warm_start_all(const pl_contact_call *call, uint32_t first, uin
         scatter_velocity(&a, call, c->a);
         scatter_velocity(&b, call, c->b);
     }
+}
+
+WIDE_INLINE vf separation_now(const bundle *c, const point *p, const body *a, const body *b)
+{
+    return p->separation + c->nx * (b->dx - a->dx) + c->ny * (b->dy - a->dy) + p->rbn * b->da -
+           p->ran * a->da;
+}
+
+// What a special contact is in this substep: only points within reach pull.
+WIDE_INLINE special special_now(const special *s, const bundle *c, const body *a, const body *b)
+{
+    special now = *s;
+    for (int j = 0; j < 2; ++j) {
+        vm near = separation_now(c, &c->p[j], a, b) < s->reach;
+        now.pull[j] = sel(near, s->pull[j], splat(0));
+    }
+    return now;
 }
 
 // The speed that point p lacks to be where it should be, and its diagonal with the spring's give.
@@ -274,14 +367,14 @@ WIDE_INLINE vf shortfall(const bundle *c, const point *p, const body *a, const b
     vm apart = s > zero;
     *diagonal = p->kn;
     if (soft) {
-        *diagonal += sel(apart, zero, c->give * p->kn);
+        *diagonal += sel(apart, zero, p->give);
         return vn +
                sel(apart, s * splat(call->inv_h), vmax(s * c->bias_rate, splat(-call->push_speed)));
     }
     return vn + sel(apart, s * splat(call->inv_h), zero);
 }
 
-WIDE_INLINE void solve_normals(const bundle *c, point p[2], body *a, body *b,
+WIDE_INLINE void solve_normals(const bundle *c, const special *s, point p[2], body *a, body *b,
                                const pl_contact_call *call, bool soft, bool rotation)
 {
     vf zero = splat(0), one = splat(1);
@@ -289,8 +382,13 @@ WIDE_INLINE void solve_normals(const bundle *c, point p[2], body *a, body *b,
     vf lack0 = shortfall(c, &p[0], a, b, call, soft, rotation, &d0);
     vf lack1 = shortfall(c, &p[1], a, b, call, soft, rotation, &d1);
     vf k01 = c->k01;
-    vf b0 = p[0].kn * p[0].ln + k01 * p[1].ln - lack0;
-    vf b1 = k01 * p[0].ln + p[1].kn * p[1].ln - lack1;
+    vf old0 = p[0].ln, old1 = p[1].ln;
+    if (s != NULL) {
+        old0 += s->pull[0];
+        old1 += s->pull[1];
+    }
+    vf b0 = p[0].kn * old0 + k01 * old1 - lack0;
+    vf b1 = k01 * old0 + p[1].kn * old1 - lack1;
     vf det = d0 * d1 - k01 * k01;
     vm regular = det > splat((plumb_real)1e-3) * d0 * d1;
     vf inv = one / sel(regular, det, one);
@@ -302,33 +400,38 @@ WIDE_INLINE void solve_normals(const bundle *c, point p[2], body *a, body *b,
     vm first = k01 * only0 >= b1;
     vf total0 = sel(both, both0, sel(first, only0, zero));
     vf total1 = sel(both, both1, sel(first, zero, only1));
-    vf impulse0 = total0 - p[0].ln;
-    vf impulse1 = total1 - p[1].ln;
-    p[0].ln = total0;
-    p[1].ln = total1;
+    if (s != NULL) { // nothing can push two immovable bodies
+        total0 = sel(d0 > zero, total0, s->pull[0]);
+        total1 = sel(d1 > zero, total1, s->pull[1]);
+    }
+    vf impulse0 = total0 - old0;
+    vf impulse1 = total1 - old1;
+    p[0].ln = s != NULL ? total0 - s->pull[0] : total0;
+    p[1].ln = s != NULL ? total1 - s->pull[1] : total1;
     vf px = c->nx * (impulse0 + impulse1);
     vf py = c->ny * (impulse0 + impulse1);
-    a->vx -= a->inv_mass * px;
-    a->vy -= a->inv_mass * py;
-    b->vx += b->inv_mass * px;
-    b->vy += b->inv_mass * py;
+    shove(a, b, s, px, py);
     if (rotation) {
         a->w -= a->inv_inertia * (p[0].ran * impulse0 + p[1].ran * impulse1);
         b->w += b->inv_inertia * (p[0].rbn * impulse0 + p[1].rbn * impulse1);
     }
 }
 
-WIDE_INLINE void solve_rolling(const bundle *c, extra *e, body *a, body *b)
+WIDE_INLINE void solve_rolling(const bundle *c, const special *s, extra *e, body *a, body *b)
 {
-    vf bound = e->rolling * (c->p[0].ln + c->p[1].ln);
+    vf load = c->p[0].ln + c->p[1].ln;
+    if (s != NULL) {
+        load += s->pull[0] + s->pull[1];
+    }
+    vf bound = e->rolling * load;
     vf total = vclamp(e->lr - e->mr * (b->w - a->w), -bound, bound);
     push_turn(a, b, total - e->lr);
     e->lr = total;
 }
 
 // `e` null: the surfaces move with their bodies.
-WIDE_INLINE void solve_tangent(const bundle *c, const extra *e, point *p, body *a, body *b,
-                               bool rotation)
+WIDE_INLINE void solve_tangent(const bundle *c, const special *s, const extra *e, int j, point *p,
+                               body *a, body *b, bool rotation)
 {
     vf vt = c->nx * (b->vy - a->vy) - c->ny * (b->vx - a->vx);
     if (e != NULL) {
@@ -337,31 +440,37 @@ WIDE_INLINE void solve_tangent(const bundle *c, const extra *e, point *p, body *
     if (rotation) {
         vt += p->rbt * b->w - p->rat * a->w;
     }
-    vf bound = c->friction * p->ln;
+    vf bound = c->friction * (s != NULL ? p->ln + s->pull[j] : p->ln);
     vf total = vclamp(p->lt - p->mt * vt, -bound, bound);
     vf impulse = total - p->lt;
     p->lt = total;
-    push_tangent(c, p, a, b, impulse, rotation);
+    push_tangent(c, s, p, a, b, impulse, rotation);
 }
 
 WIDE_INLINE void sweep(const pl_contact_call *call, uint32_t first, uint32_t count, bool soft,
-                       bool friction, bool rotation, bool running)
+                       bool friction, bool rotation, bool running, bool special_ones)
 {
     bundle *bundles = call->bundles;
     extra *extras = call->extras;
+    const special *specials = call->specials;
     for (uint32_t k = first; k < first + count; ++k) {
         bundle *c = &bundles[k];
         body a, b;
         gather_body(&a, call, c->a);
         gather_body(&b, call, c->b);
-        solve_normals(c, c->p, &a, &b, call, soft, rotation);
+        special now;
+        if (special_ones) {
+            now = special_now(&specials[k], c, &a, &b);
+        }
+        const special *s = special_ones ? &now : NULL;
+        solve_normals(c, s, c->p, &a, &b, call, soft, rotation);
         if (friction) {
             extra *e = running ? &extras[k] : NULL;
             if (running && rotation) {
-                solve_rolling(c, e, &a, &b);
+                solve_rolling(c, s, e, &a, &b);
             }
-            solve_tangent(c, e, &c->p[0], &a, &b, rotation);
-            solve_tangent(c, e, &c->p[1], &a, &b, rotation);
+            solve_tangent(c, s, e, 0, &c->p[0], &a, &b, rotation);
+            solve_tangent(c, s, e, 1, &c->p[1], &a, &b, rotation);
         }
         scatter_velocity(&a, call, c->a);
         scatter_velocity(&b, call, c->b);
@@ -413,37 +522,37 @@ static void store_extras(const pl_contact_call *call, pl_manifold *manifolds, ui
     }
 }
 
-// The variants: friction F, rotation R, running surfaces S. Names that are put together carry the width
-// (tools/amalgamate cannot see them).
-#define DEFINE_VARIANT(F, R, S)                                                                    \
-    static void PL_WIDE_NAME(warm_start_##F##R##S)(const pl_contact_call *call, uint32_t first,    \
-                                                   uint32_t count)                                 \
+// The variants: friction F, rotation R, running surfaces S, locked axes and adhesion X. Names that are
+// put together carry the width (tools/amalgamate cannot see them).
+#define DEFINE_VARIANT(F, R, S, X)                                                                 \
+    static void PL_WIDE_NAME(warm_start_##F##R##S##X)(const pl_contact_call *call, uint32_t first, \
+                                                      uint32_t count)                              \
     {                                                                                              \
-        warm_start_all(call, first, count, F, R, S);                                               \
+        warm_start_all(call, first, count, F, R, S, X);                                            \
     }                                                                                              \
-    static void PL_WIDE_NAME(solve_##F##R##S)(const pl_contact_call *call, uint32_t first,         \
-                                              uint32_t count)                                      \
+    static void PL_WIDE_NAME(solve_##F##R##S##X)(const pl_contact_call *call, uint32_t first,      \
+                                                 uint32_t count)                                   \
     {                                                                                              \
-        sweep(call, first, count, true, F, R, S);                                                  \
+        sweep(call, first, count, true, F, R, S, X);                                               \
     }                                                                                              \
-    static void PL_WIDE_NAME(relax_##F##R##S)(const pl_contact_call *call, uint32_t first,         \
-                                              uint32_t count)                                      \
+    static void PL_WIDE_NAME(relax_##F##R##S##X)(const pl_contact_call *call, uint32_t first,      \
+                                                 uint32_t count)                                   \
     {                                                                                              \
-        sweep(call, first, count, false, F, R, S);                                                 \
+        sweep(call, first, count, false, F, R, S, X);                                              \
     }
 
-DEFINE_VARIANT(0, 0, 0)
-DEFINE_VARIANT(0, 1, 0)
-DEFINE_VARIANT(1, 0, 0)
-DEFINE_VARIANT(1, 1, 0)
-DEFINE_VARIANT(1, 0, 1)
-DEFINE_VARIANT(1, 1, 1)
+DEFINE_VARIANT(0, 0, 0, 0)
+DEFINE_VARIANT(0, 1, 0, 0)
+DEFINE_VARIANT(1, 0, 0, 0)
+DEFINE_VARIANT(1, 1, 0, 0)
+DEFINE_VARIANT(1, 0, 1, 0)
+DEFINE_VARIANT(1, 1, 1, 0)
+DEFINE_VARIANT(1, 1, 1, 1)
 
 // clang-format off
 #define VARIANTS(name)                                                                             \
-    { { PL_WIDE_NAME(name##_000), PL_WIDE_NAME(name##_010) },                                      \
-      { PL_WIDE_NAME(name##_100), PL_WIDE_NAME(name##_110) },                                      \
-      { PL_WIDE_NAME(name##_101), PL_WIDE_NAME(name##_111) } }
+    { { PL_WIDE_NAME(name##_0000), PL_WIDE_NAME(name##_0100) }, { PL_WIDE_NAME(name##_1000), PL_WIDE_NAME(name##_1100) }, { PL_WIDE_NAME(name##_1010), PL_WIDE_NAME(name##_1110) },    \
+      { PL_WIDE_NAME(name##_1111), PL_WIDE_NAME(name##_1111) } }
 // clang-format on
 
 const pl_contact_kernels PL_WIDE_NAME(pl_contact_kernels) = {
@@ -458,6 +567,8 @@ const pl_contact_kernels PL_WIDE_NAME(pl_contact_kernels) = {
     .store = store_impulses,
     .extra_size = sizeof(extra),
     .prepare_extras = prepare_extras,
+    .special_size = sizeof(special),
+    .prepare_specials = prepare_specials,
     .tally = tally,
     .store_extras = store_extras,
 };

@@ -2,8 +2,9 @@
 // motion.
 //
 // A body in no contact flies freely: x += v dt + a dt^2 / 2, the exact parabola, once for the whole
-// step. Rotations turn by the exact angle. Reads: solver bodies, forces. Writes: transforms,
-// velocities, poses; clears forces. Cost: O(dynamic and kinematic bodies).
+// step. Rotations turn by the exact angle. Bodies that moved farther than their slack are noted for the
+// continuous pass, with where they came from. Reads: solver bodies, forces. Writes: transforms,
+// velocities, poses, movers; clears forces. Cost: O(dynamic and kinematic bodies).
 #include "plumb/math.h"
 #include "world/state.h"
 
@@ -25,7 +26,8 @@ static void add(real *value, real *low, real change)
     *low = (real)(wanted - (double)*value);
 }
 
-static void fly(plumb_world *world, uint32_t row, real dt)
+// Returns the angle by which the body turned.
+static real fly(plumb_world *world, uint32_t row, real dt)
 {
     pl_bodies *b = &world->bodies;
     real gravity = b->gravity_scale[row];
@@ -38,10 +40,34 @@ static void fly(plumb_world *world, uint32_t row, real dt)
     add(&b->center_y[row], &b->low_y[row], dt * (b->low_vy[row] + ay * dt / 2));
     add(&b->center_x[row], &b->low_x[row], dt * b->vx[row]);
     add(&b->center_y[row], &b->low_y[row], dt * b->vy[row]);
-    turn(b, row, dt * (b->w[row] + aw * dt / 2));
+    real angle = dt * (b->w[row] + aw * dt / 2);
+    turn(b, row, angle);
     add(&b->vx[row], &b->low_vx[row], ax * dt);
     add(&b->vy[row], &b->low_vy[row], ay * dt);
     b->w[row] += aw * dt;
+    return angle;
+}
+
+// The large part of a change, then what rounding to a real takes from it.
+static void add_exactly(real *value, real *low, double change)
+{
+    real large = (real)change;
+    add(value, low, (real)(change - (double)large));
+    add(value, low, large);
+}
+
+// The same for a body that has locked axes, damping, caps or a time of its own.
+static real fly_oddly(plumb_world *world, uint32_t row, real dt)
+{
+    pl_bodies *b = &world->bodies;
+    pl_flight f = pl_effects_fly(world, row, dt);
+    add_exactly(&b->center_x[row], &b->low_x[row], f.x);
+    add_exactly(&b->center_y[row], &b->low_y[row], f.y);
+    turn(b, row, (real)f.angle);
+    add_exactly(&b->vx[row], &b->low_vx[row], f.vx);
+    add_exactly(&b->vy[row], &b->low_vy[row], f.vy);
+    b->w[row] = (real)((double)b->w[row] + f.w);
+    return (real)f.angle;
 }
 
 typedef struct where {
@@ -51,6 +77,24 @@ typedef struct where {
 static bool is_sane(real v)
 {
     return v >= -PL_LARGEST && v <= PL_LARGEST; // false for NaN
+}
+
+// A body whose points may have moved farther than its slack is noted for the continuous pass.
+static inline void note_if_fast(plumb_world *world, uint32_t row, where before, real angle)
+{
+    const pl_bodies *b = &world->bodies;
+    real moved = plumb_abs(b->center_x[row] - before.x) + plumb_abs(b->center_y[row] - before.y) +
+                 plumb_abs(angle) * b->extent[row];
+    if (moved > b->slack[row]) {
+        pl_movers(&world->continuous)[world->continuous.count++] = (pl_mover){ .row = row,
+                                                                               .x = before.x,
+                                                                               .y = before.y,
+                                                                               .c = before.c,
+                                                                               .s = before.s,
+                                                                               .angle = angle,
+                                                                               .moved = moved,
+                                                                               .stop = 1 };
+    }
 }
 
 // A step that would leave a body's state without meaning is undone for that body: it stays where it was,
@@ -91,26 +135,42 @@ void pl_solver_finish(plumb_world *world, real dt)
     const pl_solver_body *bodies = pl_solver_bodies(&world->solver);
     const uint32_t *slots = world->solver.slots.data;
     const bool collided = world->solver.slot_count > 0; // the graph was made in this step
+    const bool noting = world->continuous.noting;
     const real *lows = world->narrow.any_bounce ? world->solver.lows.data : NULL;
     for (uint32_t row = 0; row < world->dynamic_count; ++row) {
         where before = { b->center_x[row], b->center_y[row], b->c[row], b->s[row] };
-        if (!collided || slots[row] == PL_NONE) {
-            fly(world, row, dt);
-        } else {
+        bool odd = (b->flags[row] & PL_BODY_ODD) != 0;
+        real angle = 0;
+        if ((!collided || slots[row] == PL_NONE) && odd) {
+            angle = fly_oddly(world, row, dt);
+        } else if (!collided || slots[row] == PL_NONE) {
+            angle = fly(world, row, dt);
+        } else if (!odd || pl_time_scale(world, row) > 0) {
             uint32_t slot = slots[row];
+            angle = bodies[slot].da;
             take_over(world, row, &bodies[slot], lows == NULL ? NULL : &lows[(size_t)slot * 4]);
+            if (odd) {
+                pl_effects_take_over(world, row);
+            }
         }
         b->fx[row] = b->fy[row] = b->torque[row] = 0;
         arrest_if_lost(world, row, before);
         pl_body_update_origin(world, row);
+        if (noting) {
+            note_if_fast(world, row, before, angle);
+        }
     }
     for (uint32_t row = world->dynamic_count; row < world->dynamic_count + world->kinematic_count;
          ++row) {
         where before = { b->center_x[row], b->center_y[row], b->c[row], b->s[row] };
-        add(&b->center_x[row], &b->low_x[row], dt * b->vx[row]);
-        add(&b->center_y[row], &b->low_y[row], dt * b->vy[row]);
-        turn(b, row, dt * b->w[row]);
+        real time = (b->flags[row] & PL_BODY_TUNED) != 0 ? dt * pl_time_scale(world, row) : dt;
+        add(&b->center_x[row], &b->low_x[row], time * b->vx[row]);
+        add(&b->center_y[row], &b->low_y[row], time * b->vy[row]);
+        turn(b, row, time * b->w[row]);
         arrest_if_lost(world, row, before);
         pl_body_update_origin(world, row);
+        if (noting) {
+            note_if_fast(world, row, before, time * b->w[row]);
+        }
     }
 }

@@ -38,6 +38,11 @@ bool pl_solver_tallies(const plumb_world *world)
     return world->desc.contact_impulses || world->desc.hit_speed > 0;
 }
 
+bool pl_solver_specials(const plumb_world *world)
+{
+    return world->locked_bodies > 0 || world->tunings.frozen > 0 || world->narrow.any_adhesion;
+}
+
 static bool reserve_bodies(plumb_world *world)
 {
     pl_solver *s = &world->solver;
@@ -67,11 +72,14 @@ static bool reserve_lanes(plumb_world *world, const uint32_t counts[PL_COLORS + 
     }
     size_t contacts = world->narrow.manifold_count;
     size_t impacts = world->narrow.any_bounce ? contacts : 0;
-    size_t extras = world->narrow.any_surface || pl_solver_tallies(world) ? bundles : 0;
+    size_t specials = pl_solver_specials(world) ? bundles : 0;
+    size_t extras =
+        world->narrow.any_surface || specials > 0 || pl_solver_tallies(world) ? bundles : 0;
     size_t classic = world->desc.solver == PLUMB_SOLVER_PGS ? contacts : 0;
     return pl_buffer_reserve(memory, &s->lanes, bundles * width * sizeof(uint32_t)) &&
            pl_buffer_reserve(memory, &s->bundles, bundles * k->bundle_size) &&
            pl_buffer_reserve(memory, &s->extras, extras * k->extra_size) &&
+           pl_buffer_reserve(memory, &s->specials, specials * k->special_size) &&
            pl_buffer_reserve(memory, &s->impacts, impacts * sizeof(pl_impact)) &&
            pl_buffer_reserve(memory, &s->classic, classic * sizeof(pl_classic_contact));
 }
@@ -149,6 +157,9 @@ static void engage(plumb_world *world)
                                 .inv_mass = im };
         if (world->narrow.any_bounce) {
             start_low((real *)s->lows.data + (size_t)count * 4, b, row, slots[row] == ELASTIC);
+        }
+        if ((b->flags[row] & PL_BODY_ODD) != 0) {
+            pl_effects_engage(world, row, count);
         }
         slots[row] = count;
         rows[count++] = row;
@@ -277,9 +288,10 @@ bool pl_solver_graph(plumb_world *world)
 
 void pl_solver_free(pl_memory *memory, pl_solver *s)
 {
-    pl_buffer *buffers[] = { &s->bodies, &s->motions, &s->rows,    &s->slots,   &s->masks,
-                             &s->colors, &s->lanes,   &s->bundles, &s->impacts, &s->classic,
-                             &s->lows,   &s->struck,  &s->extras };
+    pl_buffer *buffers[] = { &s->bodies,  &s->motions, &s->rows,  &s->slots,
+                             &s->masks,   &s->colors,  &s->lanes, &s->bundles,
+                             &s->impacts, &s->classic, &s->lows,  &s->struck,
+                             &s->extras,  &s->specials };
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; ++i) {
         pl_buffer_free(memory, buffers[i]);
     }

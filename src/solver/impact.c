@@ -39,6 +39,20 @@ static real *lane_value(pl_solver *s, const pl_contact_kernels *kernels, size_t 
     return (real *)(void *)(bundle + offset) + lane % width;
 }
 
+// Apart, for few worlds have a locked body and impact_of is worth inlining.
+static __attribute__((noinline)) void note_locks(const plumb_world *world, const pl_manifold *m,
+                                                 pl_impact *impact)
+{
+    const uint16_t *flags = world->bodies.flags;
+    real ima = pl_solver_bodies(&world->solver)[impact->a].inv_mass;
+    real imb = pl_solver_bodies(&world->solver)[impact->b].inv_mass;
+    impact->locked = true;
+    impact->aix = pl_unlocked(flags[m->body_a], PL_BODY_LOCK_X, ima);
+    impact->aiy = pl_unlocked(flags[m->body_a], PL_BODY_LOCK_Y, ima);
+    impact->bix = pl_unlocked(flags[m->body_b], PL_BODY_LOCK_X, imb);
+    impact->biy = pl_unlocked(flags[m->body_b], PL_BODY_LOCK_Y, imb);
+}
+
 // What a manifold's impact needs; where its contact reads separations and keeps impulses is the caller's.
 static pl_impact impact_of(const plumb_world *world, const pl_manifold *m)
 {
@@ -53,6 +67,9 @@ static pl_impact impact_of(const plumb_world *world, const pl_manifold *m)
                          .friction = m->friction,
                          .restitution = m->restitution,
                          .surface_speed = m->surface_speed };
+    if (world->locked_bodies > 0) {
+        note_locks(world, m, &impact);
+    }
     for (uint32_t j = 0; j < m->count; ++j) {
         const pl_manifold_point *p = &m->point[j];
         impact.point[j] = (pl_impact_point){ .ran = p->ax * m->ny - p->ay * m->nx,
@@ -76,7 +93,7 @@ void pl_impacts_prepare(plumb_world *world)
             continue;
         }
         const pl_manifold *m = &pl_manifolds(&world->narrow)[lanes[lane]];
-        if (!(m->restitution > 0)) {
+        if (!(m->restitution > 0) || m->adhesion > 0) { // what sticks does not bounce
             continue;
         }
         pl_impact *impact = &impacts[s->impact_count++];
@@ -97,7 +114,7 @@ void pl_impacts_prepare_classic(plumb_world *world)
     s->impact_count = s->bounce_count = 0;
     for (uint32_t i = 0; i < world->narrow.manifold_count; ++i) {
         const pl_manifold *m = &pl_manifolds(&world->narrow)[i];
-        if (!(m->restitution > 0)) {
+        if (!(m->restitution > 0) || m->adhesion > 0) { // what sticks does not bounce
             continue;
         }
         pl_impact *impact = &impacts[s->impact_count++];
@@ -218,8 +235,9 @@ static void strike(const plumb_world *world, const pl_impact *m, uint32_t j, dou
         double sign = side == 0 ? -1 : 1;
         double turn = side == 0 ? (double)p->ran * along_n + (double)p->rat * along_t
                                 : (double)p->rbn * along_n + (double)p->rbt * along_t;
-        double dvx = sign * (double)body->inv_mass * px;
-        double dvy = sign * (double)body->inv_mass * py;
+        real ix = side == 0 ? m->aix : m->bix, iy = side == 0 ? m->aiy : m->biy;
+        double dvx = sign * (double)(m->locked ? ix : body->inv_mass) * px;
+        double dvy = sign * (double)(m->locked ? iy : body->inv_mass) * py;
         double dw = sign * (double)body->inv_inertia * turn;
         kick(&body->vx, &motion->ux, &low[0], dvx);
         kick(&body->vy, &motion->uy, &low[1], dvy);
@@ -231,6 +249,17 @@ static void strike(const plumb_world *world, const pl_impact *m, uint32_t j, dou
     }
 }
 
+// What the two bodies have against a push along (x, y) of any length, turning aside. [1/kg]
+static double inverse_mass(const plumb_world *world, const pl_impact *m, double x, double y)
+{
+    if (m->locked) {
+        return ((double)m->aix + (double)m->bix) * x * x +
+               ((double)m->aiy + (double)m->biy) * y * y;
+    }
+    const pl_solver_body *bodies = pl_solver_bodies(&world->solver);
+    return ((double)bodies[m->a].inv_mass + (double)bodies[m->b].inv_mass) * (x * x + y * y);
+}
+
 // Entry (i, j) of the inverse effective mass of a manifold's normal rows. The normal is a unit
 // vector but for rounding; its true length counts here, or every bounce would lose a rounding of
 // energy.
@@ -238,8 +267,7 @@ static double coupling(const plumb_world *world, const pl_impact *m, uint32_t i,
 {
     const pl_solver_body *a = &pl_solver_bodies(&world->solver)[m->a];
     const pl_solver_body *b = &pl_solver_bodies(&world->solver)[m->b];
-    double square = (double)m->nx * (double)m->nx + (double)m->ny * (double)m->ny;
-    return ((double)a->inv_mass + (double)b->inv_mass) * square +
+    return inverse_mass(world, m, (double)m->nx, (double)m->ny) +
            (double)a->inv_inertia * (double)m->point[i].ran * (double)m->point[j].ran +
            (double)b->inv_inertia * (double)m->point[i].rbn * (double)m->point[j].rbn;
 }
@@ -255,10 +283,11 @@ static void strike_tangent(const plumb_world *world, const pl_impact *m, uint32_
     double slip = (double)m->nx * (double)(b->vy - a->vy) -
                   (double)m->ny * (double)(b->vx - a->vx) + rbt * (double)b->w -
                   rat * (double)a->w + (double)m->surface_speed;
-    double k = (double)a->inv_mass + (double)b->inv_mass + (double)a->inv_inertia * rat * rat +
-               (double)b->inv_inertia * rbt * rbt;
+    double mass = m->locked ? inverse_mass(world, m, (double)m->ny, (double)m->nx)
+                            : (double)a->inv_mass + (double)b->inv_mass;
+    double k = mass + (double)a->inv_inertia * rat * rat + (double)b->inv_inertia * rbt * rbt;
     double bound = (double)m->friction * normal;
-    double impulse = -slip / k;
+    double impulse = k > 0 ? -slip / k : 0;
     impulse = impulse > bound ? bound : impulse < -bound ? -bound : impulse;
     strike(world, m, j, 0, impulse, time);
 }
@@ -282,7 +311,8 @@ static bool resolve(plumb_world *world, const pl_impact *m, const approach at[2]
         }
         if (!(impulse[0] > 0 && impulse[1] > 0)) {
             int first = at[0].speed >= at[1].speed ? 0 : 1;
-            impulse[first] = first == 0 ? r0 / k00 : r1 / k11;
+            double k = first == 0 ? k00 : k11;
+            impulse[first] = k > 0 ? (first == 0 ? r0 : r1) / k : 0;
             impulse[1 - first] = 0;
         }
     } else if (at[0].due || at[1].due) {

@@ -36,17 +36,23 @@ static real separation_now(const classic *c, const pl_classic_contact *m, const 
            p->ran * a->da;
 }
 
+// [N s] that a point at this separation may pull.
+static real pull_of(const pl_classic_contact *m, real separation)
+{
+    return separation < m->reach ? m->pull : 0;
+}
+
 static void push(const classic *c, const pl_classic_contact *m, const pl_classic_point *p,
                  real along_n, real along_t)
 {
     pl_solver_body *a = &c->bodies[m->a], *b = &c->bodies[m->b];
     real px = m->nx * along_n - m->ny * along_t;
     real py = m->ny * along_n + m->nx * along_t;
-    a->vx -= a->inv_mass * px;
-    a->vy -= a->inv_mass * py;
+    a->vx -= m->aix * px;
+    a->vy -= m->aiy * py;
     a->w -= a->inv_inertia * (p->ran * along_n + p->rat * along_t);
-    b->vx += b->inv_mass * px;
-    b->vy += b->inv_mass * py;
+    b->vx += m->bix * px;
+    b->vy += m->biy * py;
     b->w += b->inv_inertia * (p->rbn * along_n + p->rbt * along_t);
 }
 
@@ -56,9 +62,13 @@ static real within(real value, real bound)
 }
 
 // [N m s] most that rolling resistance can do.
-static real rolling_bound(const pl_classic_contact *m)
+static real rolling_bound(const classic *c, const pl_classic_contact *m)
 {
-    return m->rolling * (m->point[0].ln + m->point[1].ln);
+    real load = 0;
+    for (uint32_t j = 0; j < m->count; ++j) {
+        load += m->point[j].ln + pull_of(m, separation_now(c, m, &m->point[j]));
+    }
+    return m->rolling * (load > 0 ? load : 0);
 }
 
 static void turn(const classic *c, const pl_classic_contact *m, real impulse)
@@ -66,6 +76,19 @@ static void turn(const classic *c, const pl_classic_contact *m, real impulse)
     pl_solver_body *a = &c->bodies[m->a], *b = &c->bodies[m->b];
     a->w -= a->inv_inertia * impulse;
     b->w += b->inv_inertia * impulse;
+}
+
+static real inverse_or_zero(real k)
+{
+    return k > 0 ? 1 / k : 0;
+}
+
+// What two bodies have against a push along (x, y), turning aside. [1/kg]
+static real inverse_mass(const plumb_world *world, const pl_classic_contact *m,
+                         const pl_solver_body *a, const pl_solver_body *b, real x, real y)
+{
+    return world->locked_bodies == 0 ? a->inv_mass + b->inv_mass
+                                     : (m->aix + m->bix) * x * x + (m->aiy + m->biy) * y * y;
 }
 
 static void prepare(classic *c, const plumb_world *world)
@@ -87,7 +110,15 @@ static void prepare(classic *c, const plumb_world *world)
                                      .surface_speed = m->surface_speed,
                                      .rolling = m->rolling };
         const pl_solver_body *a = &c->bodies[out->a], *b = &c->bodies[out->b];
-        real mass = a->inv_mass + b->inv_mass;
+        const uint16_t *flags = world->bodies.flags;
+        out->aix = pl_unlocked(flags[m->body_a], PL_BODY_LOCK_X, a->inv_mass);
+        out->aiy = pl_unlocked(flags[m->body_a], PL_BODY_LOCK_Y, a->inv_mass);
+        out->bix = pl_unlocked(flags[m->body_b], PL_BODY_LOCK_X, b->inv_mass);
+        out->biy = pl_unlocked(flags[m->body_b], PL_BODY_LOCK_Y, b->inv_mass);
+        out->pull = m->adhesion * c->h / (real)m->count;
+        out->reach = pl_adhesion_reach(pl_pairs(&world->broad.pairs)[m->pair].flags);
+        real mass_n = inverse_mass(world, out, a, b, m->nx, m->ny);
+        real mass_t = inverse_mass(world, out, a, b, m->ny, m->nx);
         for (uint32_t j = 0; j < m->count; ++j) {
             const pl_manifold_point *from = &m->point[j];
             pl_classic_point *p = &out->point[j];
@@ -96,16 +127,17 @@ static void prepare(classic *c, const plumb_world *world)
             p->rat = from->ax * m->nx + from->ay * m->ny;
             p->rbt = from->bx * m->nx + from->by * m->ny;
             p->separation = from->separation;
-            p->mn =
-                1 / (mass + a->inv_inertia * p->ran * p->ran + b->inv_inertia * p->rbn * p->rbn);
-            p->mt =
-                1 / (mass + a->inv_inertia * p->rat * p->rat + b->inv_inertia * p->rbt * p->rbt);
+            p->mn = inverse_or_zero(mass_n + a->inv_inertia * p->ran * p->ran +
+                                    b->inv_inertia * p->rbn * p->rbn);
+            p->mt = inverse_or_zero(mass_t + a->inv_inertia * p->rat * p->rat +
+                                    b->inv_inertia * p->rbt * p->rbt);
             p->ln = from->normal;
             p->lt = from->tangent;
         }
         real inertia = a->inv_inertia + b->inv_inertia;
-        out->mr = inertia > 0 ? 1 / inertia : 0;
-        out->lr = within(pl_pairs(&world->broad.pairs)[m->pair].rolling, rolling_bound(out));
+        out->mr = inverse_or_zero(inertia);
+        real carried = pl_pairs(&world->broad.pairs)[m->pair].rolling;
+        out->lr = m->rolling > 0 ? within(carried, rolling_bound(c, out)) : 0;
     }
 }
 
@@ -149,14 +181,15 @@ static void solve_velocity(const classic *c, pl_classic_contact *m, pl_classic_p
     const pl_solver_body *a = &c->bodies[m->a], *b = &c->bodies[m->b];
     real slip = m->nx * (b->vy - a->vy) - m->ny * (b->vx - a->vx) + p->rbt * b->w - p->rat * a->w +
                 m->surface_speed;
-    real total = within(p->lt - p->mt * slip, m->friction * p->ln);
+    real s = separation_now(c, m, p);
+    real pull = pull_of(m, s), load = p->ln + pull;
+    real total = within(p->lt - p->mt * slip, m->friction * (load > 0 ? load : 0));
     push(c, m, p, 0, total - p->lt);
     p->lt = total;
 
-    real s = separation_now(c, m, p);
     real slack = s > 0 ? s / c->h : 0; // may still approach so fast
     total = p->ln - p->mn * (normal_speed(c, m, p) + slack);
-    total = total > 0 ? total : 0;
+    total = total > -pull ? total : -pull;
     push(c, m, p, total - p->ln, 0);
     p->ln = total;
 }
@@ -167,17 +200,17 @@ static void solve_position(const classic *c, const pl_classic_contact *m, const 
     real error = POSITION_RATE * (separation_now(c, m, p) + SLOP);
     error = error > 0 ? 0 : error < -LARGEST_PUSH ? -LARGEST_PUSH : error;
     real impulse = -p->mn * error;
-    a->dx -= a->inv_mass * m->nx * impulse;
-    a->dy -= a->inv_mass * m->ny * impulse;
+    a->dx -= m->aix * m->nx * impulse;
+    a->dy -= m->aiy * m->ny * impulse;
     a->da -= a->inv_inertia * p->ran * impulse;
-    b->dx += b->inv_mass * m->nx * impulse;
-    b->dy += b->inv_mass * m->ny * impulse;
+    b->dx += m->bix * m->nx * impulse;
+    b->dy += m->biy * m->ny * impulse;
     b->da += b->inv_inertia * p->rbn * impulse;
 }
 
 static void solve_rolling(const classic *c, pl_classic_contact *m)
 {
-    real total = within(m->lr - m->mr * (c->bodies[m->b].w - c->bodies[m->a].w), rolling_bound(m));
+    real total = within(m->lr - m->mr * (c->bodies[m->b].w - c->bodies[m->a].w), rolling_bound(c, m));
     turn(c, m, total - m->lr);
     m->lr = total;
 }
@@ -231,7 +264,8 @@ void pl_solver_pgs(plumb_world *world, real dt)
                   .count = world->narrow.manifold_count,
                   .h = dt / (real)world->desc.substeps };
     const bool bounce = world->narrow.any_bounce;
-    const bool joints = world->joints.live > 0;
+    const bool joints = pl_joints_awake(world) > 0;
+    const bool resist = pl_effects_resist(world);
     prepare(&c, world);
     if (bounce) {
         c.lows = s->lows.data;
@@ -241,6 +275,9 @@ void pl_solver_pgs(plumb_world *world, real dt)
         pl_joints_prepare(world, c.h);
     }
     for (int k = 0; k < world->desc.substeps; ++k) {
+        if (resist) {
+            pl_effects_substep(world, c.h);
+        }
         integrate_velocities(&c);
         if (joints) {
             pl_joints_warm_start(world);
@@ -254,6 +291,9 @@ void pl_solver_pgs(plumb_world *world, real dt)
                 pl_joints_solve(world, PL_SWEEP_CLASSIC);
             }
             sweep(&c, false);
+        }
+        if (world->joints.impulsive > 0) {
+            pl_joints_tally(world);
         }
         pl_integrate_positions(world, c.h);
         for (int i = 0; i < POSITION_SWEEPS; ++i) {

@@ -79,20 +79,28 @@ void pl_solver_soft(plumb_world *world, real dt)
                              .inv_h = 1 / h,
                              .hertz = asked > 0 && asked < stiffest ? asked : stiffest,
                              .damping = world->desc.contact_damping,
-                             .push_speed = world->desc.push_speed };
-    const bool running = world->narrow.any_surface;
+                             .push_speed = world->desc.push_speed,
+                             .flags = world->bodies.flags };
+    const bool special = pl_solver_specials(world);
+    const bool running = world->narrow.any_surface || special;
     const bool tallies = pl_solver_tallies(world);
-    const pl_surface_variant surface = running                      ? PL_RUNNING
+    const pl_surface_variant surface = special                      ? PL_SPECIAL
+                                       : running                    ? PL_RUNNING
                                        : world->narrow.any_friction ? PL_ROUGH
                                                                     : PL_SMOOTH;
     const bool rotation = world->turning_bodies > 0;
-    const bool joints = world->joints.live > 0;
+    const bool joints = pl_joints_awake(world) > 0;
     const bool bounce = world->narrow.any_bounce;
+    const bool resist = pl_effects_resist(world);
 
     kernels->prepare(&call, 0, s->bundle_count);
     if (running || tallies) {
         call.extras = s->extras.data;
         kernels->prepare_extras(&call, 0, s->bundle_count);
+    }
+    if (special) {
+        call.specials = s->specials.data;
+        kernels->prepare_specials(&call, 0, s->bundle_count);
     }
     if (bounce) {
         pl_impacts_prepare(world);
@@ -101,6 +109,9 @@ void pl_solver_soft(plumb_world *world, real dt)
         pl_joints_prepare(world, h);
     }
     for (int k = 0; k < substeps; ++k) {
+        if (resist) {
+            pl_effects_substep(world, h);
+        }
         if (bounce) {
             integrate_velocities_carefully(world, h);
         } else {
@@ -132,6 +143,9 @@ void pl_solver_soft(plumb_world *world, real dt)
                 pl_joints_solve(world, PL_SWEEP_RELAX);
             }
             kernels->relax[surface][rotation](&call, 0, s->bundle_count);
+        }
+        if (world->joints.impulsive > 0) {
+            pl_joints_tally(world);
         }
         if (tallies) {
             kernels->tally(&call, 0, s->bundle_count);

@@ -33,6 +33,8 @@ typedef struct pl_impact {
     uint32_t count;
     real nx, ny, friction, restitution;
     real surface_speed; // [m/s]
+    bool locked; // a body has a locked axis: then
+    real aix, aiy, bix, biy; // [1/kg] inverse masses along the axes
     bool due;    // an impact falls into the present substep
     uint32_t left; // impacts that are still followed in the present substep
     double time; // [s] of the first one, since the start of the substep
@@ -50,6 +52,8 @@ typedef struct pl_classic_point {
 typedef struct pl_classic_contact {
     uint32_t a, b; // solver slots
     uint32_t pair, manifold, count;
+    real aix, aiy, bix, biy; // [1/kg] inverse masses along the axes
+    real pull, reach;        // [N s] that a point may pull, [m] while it is nearer than this
     real nx, ny, friction, restitution;
     real surface_speed; // [m/s]
     real rolling;       // [m]
@@ -72,6 +76,7 @@ typedef struct pl_solver {
     pl_buffer lanes;  // uint32_t a lane: its manifold; PL_NONE: empty
     pl_buffer bundles; // constraints of `width` contacts each
     pl_buffer extras;  // a record a bundle, where surfaces run or roll hard or impulses are added up
+    pl_buffer specials; // a record a bundle, where bodies are locked or surfaces stick
     pl_buffer impacts; // pl_impact
     pl_buffer classic; // pl_classic_contact, for the classic solver alone
     uint32_t dynamic_slots,
@@ -90,6 +95,8 @@ typedef struct pl_contact_call {
     uint32_t movable_rows; // rows from here on are static
     uint32_t immovable_slot;
     void *extras; // NULL: none
+    void *specials;         // NULL: none
+    const uint16_t *flags;  // PL_BODY_... of a body row
     const pl_manifold *manifolds;
     pl_pair *pairs;
     real h, inv_h;       // [s] substep
@@ -104,6 +111,7 @@ typedef enum pl_surface_variant {
     PL_SMOOTH,  // no friction
     PL_ROUGH,   // friction
     PL_RUNNING, // friction, surface speed, rolling resistance: needs `extras`
+    PL_SPECIAL, // the same, locked axes, adhesion, time scale 0, with rotation: needs `specials` too
     PL_SURFACE_VARIANTS
 } pl_surface_variant;
 
@@ -119,6 +127,8 @@ typedef struct pl_contact_kernels {
     pl_contact_kernel *relax[PL_SURFACE_VARIANTS][2];
     size_t extra_size;
     pl_contact_kernel *prepare_extras;
+    size_t special_size;
+    pl_contact_kernel *prepare_specials; // after prepare_extras
     pl_contact_kernel *tally; // adds the substep's normal impulses to the totals
     // Writes rolling impulses to the pairs and adds totals to the manifolds' points.
     void (*store_extras)(const pl_contact_call *call, pl_manifold *manifolds, uint32_t first,
@@ -146,6 +156,8 @@ void pl_solver_soft(plumb_world *world, real dt);
 void pl_solver_pgs(plumb_world *world, real dt);
 // Whether the impulses of contacts are added up over the step.
 bool pl_solver_tallies(const plumb_world *world);
+// Whether locked axes, adhesion or bodies whose time stands still are there to be solved.
+bool pl_solver_specials(const plumb_world *world);
 // Moves bodies over one substep of h [s] (integrate.c).
 void pl_integrate_positions(const plumb_world *world, real h);
 // Impacts with restitution: collects them; resolves those of one substep of h [s] (impact.c).

@@ -4,6 +4,7 @@
 // pass that nothing in the world wants is not in the schedule and costs nothing. A pass that
 // changes the world's motion comes after the last one that can run out of memory, so a refused step
 // changes nothing.
+#include "continuous/continuous.h"
 #include "event/event.h"
 #include "narrow/narrow.h"
 #include "narrow/surface.h"
@@ -49,10 +50,40 @@ static bool end_wanted(const plumb_world *world, const char **reason)
     return any_system(world, PLUMB_PHASE_END, reason);
 }
 
-// Something dynamic has a shape, and there is something to meet.
+static bool targets_wanted(const plumb_world *world, const char **reason)
+{
+    return say(world->targets.count > 0, reason, "kinematic bodies are on their way to a target",
+               "no kinematic body has a target");
+}
+
+static bool damping_wanted(const plumb_world *world, const char **reason)
+{
+    return say(world->tunings.damped > 0, reason, "some body is damped", "no body is damped");
+}
+
+static bool caps_wanted(const plumb_world *world, const char **reason)
+{
+    return say(world->tunings.capped > 0, reason, "some body has a speed cap",
+               "no body has a speed cap");
+}
+
+static bool own_time_wanted(const plumb_world *world, const char **reason)
+{
+    return say(world->tunings.scaled > 0, reason, "some body has a time scale of its own",
+               "all bodies move in the world's time");
+}
+
+static bool locks_wanted(const plumb_world *world, const char **reason)
+{
+    return say(world->locked_bodies > 0, reason, "some body has a locked axis",
+               "no body has a locked axis");
+}
+
+// Something dynamic has a shape, and there is something to meet; or pairs are left that have to end.
 static bool collision_wanted(const plumb_world *world, const char **reason)
 {
     bool wanted = world->dynamic_count > 0 && world->moving_count > 0 && world->pieces.live > 1;
+    wanted |= world->broad.pairs.count > 0;
     return say(wanted, reason, "dynamic bodies have shapes that can meet others",
                "no dynamic body has a shape that could meet another");
 }
@@ -61,8 +92,8 @@ static bool collision_wanted(const plumb_world *world, const char **reason)
 static bool sensing_wanted(const plumb_world *world, const char **reason)
 {
     bool wanted = world->sensor_pieces > 0 && world->moving_count > 0 && world->pieces.live > 1;
-    return say(wanted || world->sensing.count > 0, reason, "there are sensors",
-               "no shape is a sensor that could meet another");
+    return say(wanted || world->sensing.count > 0 || world->sensing.rest_stale, reason,
+               "there are sensors", "no shape is a sensor that could meet another");
 }
 
 static bool broad_wanted(const plumb_world *world, const char **reason)
@@ -75,9 +106,32 @@ static bool surfaces_wanted(const plumb_world *world, const char **reason)
     return collision_wanted(world, reason) && pl_surfaces_wanted(world, reason);
 }
 
+static bool seams_wanted(const plumb_world *world, const char **reason)
+{
+    return collision_wanted(world, reason) && pl_seams_wanted(world, reason);
+}
+
 static bool joints_wanted(const plumb_world *world, const char **reason)
 {
+    if (world->joints.live > 0 && !pl_joints_any_awake(world)) {
+        return say(false, reason, "", "all that is joined sleeps");
+    }
     return say(world->joints.live > 0, reason, "there are joints", "there are no joints");
+}
+
+static bool waking_wanted(const plumb_world *world, const char **reason)
+{
+    return say(world->asleep_count > 0, reason, "some bodies sleep: what touches them wakes them",
+               "no body sleeps");
+}
+
+static bool sleep_wanted(const plumb_world *world, const char **reason)
+{
+    if (world->desc.no_sleep) {
+        return say(false, reason, "", "the world does not let bodies sleep");
+    }
+    return say(world->dynamic_count > 0, reason, "what rests long enough falls asleep",
+               "no dynamic body is awake");
 }
 
 // Contacts or joints.
@@ -110,6 +164,11 @@ static bool rotation_wanted(const plumb_world *world, const char **reason)
                "no dynamic body can turn");
 }
 
+static bool continuous_wanted(const plumb_world *world, const char **reason)
+{
+    return collision_wanted(world, reason) && pl_continuous_wanted(world, reason);
+}
+
 // A material that some shape is made of.
 static bool any_material(const plumb_world *world, const real *column)
 {
@@ -119,6 +178,12 @@ static bool any_material(const plumb_world *world, const real *column)
         }
     }
     return false;
+}
+
+static bool adhesion_wanted(const plumb_world *world, const char **reason)
+{
+    return say(any_material(world, world->materials.adhesion) || world->material_pair_count > 0,
+               reason, "some shape's material may stick", "no shape's material sticks");
 }
 
 static bool friction_wanted(const plumb_world *world, const char **reason)
@@ -147,6 +212,22 @@ static plumb_result run_forces(plumb_world *world, plumb_real dt)
     return PLUMB_OK;
 }
 
+static plumb_result run_waking(plumb_world *world, plumb_real dt)
+{
+    return pl_sleep_wake(world, dt) ? PLUMB_OK : PLUMB_E_MEMORY;
+}
+
+static plumb_result run_sleep(plumb_world *world, plumb_real dt)
+{
+    return pl_sleep_fall(world, dt) ? PLUMB_OK : PLUMB_E_MEMORY;
+}
+
+static plumb_result run_arrive(plumb_world *world, plumb_real dt)
+{
+    pl_targets_arrive(world, dt);
+    return PLUMB_OK;
+}
+
 static plumb_result run_broad(plumb_world *world, plumb_real dt)
 {
     return pl_broad_update(world, dt) ? PLUMB_OK : PLUMB_E_MEMORY;
@@ -154,11 +235,20 @@ static plumb_result run_broad(plumb_world *world, plumb_real dt)
 
 static plumb_result run_narrow(plumb_world *world, plumb_real dt)
 {
-    if (!pl_narrow_reserve(world)) {
+    if (!pl_narrow_reserve(world, &world->broad.pairs, &world->narrow)) {
         return PLUMB_E_MEMORY;
     }
-    pl_narrow_run(world, dt);
+    pl_narrow_run(world, &world->broad.pairs, dt, &world->narrow);
+    if (world->seams.pair_count > 0) {
+        pl_seams_correct(world, dt);
+    }
     return pl_events_prepare(world) ? PLUMB_OK : PLUMB_E_MEMORY;
+}
+
+static plumb_result run_seams(plumb_world *world, plumb_real dt)
+{
+    (void)dt;
+    return pl_seams_update(world) ? PLUMB_OK : PLUMB_E_MEMORY;
 }
 
 static plumb_result run_candidates(plumb_world *world, plumb_real dt)
@@ -192,7 +282,10 @@ static plumb_result run_contacts(plumb_world *world, plumb_real dt)
 static plumb_result run_graph(plumb_world *world, plumb_real dt)
 {
     (void)dt;
-    return pl_solver_graph(world) ? PLUMB_OK : PLUMB_E_MEMORY;
+    const char *unused;
+    bool room = pl_solver_graph(world) &&
+                (!continuous_wanted(world, &unused) || pl_continuous_reserve(world));
+    return room ? PLUMB_OK : PLUMB_E_MEMORY;
 }
 
 static plumb_result run_soft(plumb_world *world, plumb_real dt)
@@ -215,6 +308,12 @@ static plumb_result run_motion(plumb_world *world, plumb_real dt)
     return PLUMB_OK;
 }
 
+static plumb_result run_continuous(plumb_world *world, plumb_real dt)
+{
+    pl_continuous_run(world, dt);
+    return PLUMB_OK;
+}
+
 static plumb_result run_reactions(plumb_world *world, plumb_real dt)
 {
     (void)dt;
@@ -225,6 +324,9 @@ static plumb_result run_reactions(plumb_world *world, plumb_real dt)
 static plumb_result run_events(plumb_world *world, plumb_real dt)
 {
     (void)dt;
+    if (world->seams.load_count > 0) {
+        pl_seams_remember(world);
+    }
     pl_events_publish(world);
     return PLUMB_OK;
 }
@@ -243,10 +345,13 @@ const pl_pass pl_passes[] = {
     //name             phase       reads                              writes                       wanted            run
     { "begin systems", pl_user_phase, "declared by the systems",         "declared by the systems",   begin_wanted,     run_begin },
     { "force systems", pl_user_phase, "declared by the systems",         "declared by the systems",   forces_wanted,    run_forces },
+    { "waking",      "broad",    "islands, pieces, grids, joints",   "rows, pairs, fat boxes",     waking_wanted,    run_waking },
     { "broad phase",   "broad",    "poses, pieces",                   "fat boxes, grids, pairs",   broad_wanted,     run_broad },
-    { "sensor pairs",  "broad",    "pairs with sensors",              "candidates of sensors",     sensing_wanted,   run_candidates },
+    { "seams",         "broad",    "static pieces, grids, pairs",     "covered edges, corners",    seams_wanted,     run_seams },
     { "narrow phase",  "narrow",   "pairs, poses, pieces, materials", "manifolds",                 collision_wanted, run_narrow },
     { "surfaces",      "narrow",   "pairs, materials",                "manifolds",                 surfaces_wanted,  run_surfaces },
+    { "sleep",       "narrow",   "velocities, pairs, joints",        "islands, rows, pairs, manifolds", sleep_wanted, run_sleep },
+    { "sensor pairs",  "narrow",   "pairs with sensors",              "candidates of sensors",     sensing_wanted,   run_candidates },
     { "contact systems", pl_user_phase, "declared by the systems",         "declared by the systems",   contacts_wanted,  run_contacts },
     { "graph",         "solve",    "manifolds, velocities, forces",   "solver bodies, colours",    solver_wanted,    run_graph },
     { "soft step",     "solve",    "manifolds, solver bodies",        "solver bodies, impulses",   soft_wanted,      run_soft },
@@ -254,8 +359,15 @@ const pl_pass pl_passes[] = {
     { "- friction",    "solve",    "materials",                       "solver bodies, impulses",   friction_wanted,  NULL },
     { "- rotation",    "solve",    "inertias",                        "solver bodies",             rotation_wanted,  NULL },
     { "- impacts",     "solve",    "materials, manifolds",            "solver bodies",             impacts_wanted,   NULL },
+    { "- adhesion",    "solve",    "materials, manifolds",            "solver bodies, impulses",   adhesion_wanted,  NULL },
+    { "- locked axes", "solve",    "bodies",                          "solver bodies, impulses",   locks_wanted,     NULL },
+    { "- damping",     "solve",    "tunings",                         "solver bodies, velocities", damping_wanted,   NULL },
+    { "- speed caps",  "solve",    "tunings",                         "solver bodies, velocities", caps_wanted,      NULL },
+    { "- own time",    "solve",    "tunings",                         "solver bodies, transforms", own_time_wanted,  NULL },
     { "- joints",      "solve",    "joints, poses",                   "solver bodies, joints",     joints_wanted,    NULL },
     { "motion",        "finish",   "solver bodies, forces, gravity",  "transforms, velocities",    NULL,             run_motion },
+    { "continuous",    "finish",   "bodies that moved fast, pieces",  "transforms",                continuous_wanted, run_continuous },
+    { "targets",       "finish",   "targets, poses",                  "kinematic poses, velocities", targets_wanted, run_arrive },
     { "reactions",     "finish",   "joints, poses",                   "joints, break events",      joints_wanted,    run_reactions },
     { "events",        "finish",   "pairs, manifolds",                "event arrays",              collision_wanted, run_events },
     { "sensors",       "finish",   "candidates, poses, pieces",       "overlaps, sensor events",   sensing_wanted,   run_sensors },

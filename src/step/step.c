@@ -23,10 +23,13 @@ static void revise_schedule(plumb_world *world)
 // Nothing is left from a step in which there was collision.
 static void forget_contacts(plumb_world *world)
 {
-    world->narrow.manifold_count = 0;
+    world->narrow.manifold_count = world->narrow.borne_count = 0;
     world->narrow.any_friction = world->narrow.any_bounce = false;
     world->solver.slot_count = 0;
     world->joints.broken_count = 0;
+    world->broad.refreshed = false;
+    world->continuous.count = world->continuous.stopped_count = 0;
+    world->continuous.noting = false;
 }
 
 static plumb_result run_passes(plumb_world *world, plumb_real dt)
@@ -40,6 +43,10 @@ static plumb_result run_passes(plumb_world *world, plumb_real dt)
         plumb_result result = pl_passes[i].run(world, dt);
         if (result != PLUMB_OK) {
             return result;
+        }
+        // Bodies that fell asleep or woke may leave passes without anything to do, or give them some.
+        if (world->schedule_dirty) {
+            revise_schedule(world);
         }
         double end = pl_now_ns();
         schedule->last_ns[i] = end - start;
@@ -71,6 +78,7 @@ plumb_result plumb_world_step(plumb_world *world, plumb_real dt)
         return result;
     }
     pl_events_clear(world);
+    pl_edits_forget(world);
     forget_contacts(world);
     // Systems with `needs` come and go with their component, which is no structural change of
     // physics.
@@ -78,6 +86,7 @@ plumb_result plumb_world_step(plumb_world *world, plumb_real dt)
         revise_schedule(world);
     }
     result = run_passes(world, dt);
+    world->sleep.events_told |= result == PLUMB_OK;
     return result == PLUMB_E_MEMORY ? pl_fail_memory(world, __func__) : result;
 }
 

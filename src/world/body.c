@@ -2,6 +2,7 @@
 //
 // Reads: arguments, checked before anything changes. Writes: one body row.
 // Cost: O(1); mass functions and teleport O(pieces of the body).
+#include "effects/effects.h"
 #include "world/check.h"
 #include "world/rows.h"
 
@@ -31,7 +32,28 @@ static plumb_result check_motion(const plumb_world *world, const char *fn,
                        (double)desc->angular_velocity,
                        is_static ? "for a static body" : "with fixed_rotation");
     }
-    return PLUMB_OK;
+    const char *along = desc->lock_x && desc->velocity.x != 0   ? "x"
+                        : desc->lock_y && desc->velocity.y != 0 ? "y"
+                                                                : NULL;
+    return along == NULL ? PLUMB_OK
+                         : pl_fail(world, PLUMB_E_RANGE, fn,
+                                   "velocity is (%g, %g); its %s must be 0 with lock_%s",
+                                   (double)desc->velocity.x, (double)desc->velocity.y, along, along);
+}
+
+static plumb_result check_sleep(const plumb_world *world, const char *fn,
+                                const plumb_body_desc *desc)
+{
+    const char *why =
+        desc->type == PLUMB_KINEMATIC ? "for a kinematic body"
+        : desc->type == PLUMB_STATIC  ? "for a static body"
+        : desc->no_sleep              ? "with no_sleep"
+        : desc->velocity.x != 0 || desc->velocity.y != 0 || desc->angular_velocity != 0
+            ? "for a body that moves"
+            : NULL;
+    return !desc->asleep || why == NULL
+               ? PLUMB_OK
+               : pl_fail(world, PLUMB_E_RANGE, fn, "asleep is true; it must be false %s", why);
 }
 
 // 0 or within the range of masses.
@@ -64,16 +86,44 @@ plumb_result pl_body_check(const plumb_world *world, const char *fn, const plumb
     }
     r = pl_place_check(world, fn, desc->position, desc->angle);
     r = r != PLUMB_OK ? r : check_motion(world, fn, desc);
+    r = r != PLUMB_OK ? r : check_sleep(world, fn, desc);
+    if (r == PLUMB_OK && desc->continuous && desc->type != PLUMB_DYNAMIC) {
+        r = pl_fail(world, PLUMB_E_RANGE, fn, "continuous is true; it must be false for a %s body",
+                    desc->type == PLUMB_STATIC ? "static" : "kinematic");
+    }
     r = r != PLUMB_OK ? r : check_mass(world, fn, "mass", desc->mass);
     r = r != PLUMB_OK ? r : check_mass(world, fn, "inertia", desc->inertia);
-    return r != PLUMB_OK ? r : pl_check_finite(world, fn, "gravity_scale", desc->gravity_scale);
+    r = r != PLUMB_OK ? r : pl_check_finite(world, fn, "gravity_scale", desc->gravity_scale);
+    return r != PLUMB_OK ? r : pl_tuning_check(world, fn, desc);
+}
+
+static void set_continuous(plumb_world *world, uint32_t row, bool continuous)
+{
+    uint16_t *flags = &world->bodies.flags[row];
+    uint32_t was = (*flags & PL_BODY_CONTINUOUS) != 0;
+    *flags = (uint16_t)(continuous ? *flags | PL_BODY_CONTINUOUS
+                                   : *flags & (uint16_t)~PL_BODY_CONTINUOUS);
+    world->continuous_bodies += (continuous ? 1u : 0u) - was;
+    world->schedule_dirty = true;
 }
 
 static void fill_row(plumb_world *world, uint32_t row, const plumb_body_desc *desc)
 {
     pl_bodies *b = &world->bodies;
     b->type[row] = (uint8_t)desc->type;
-    b->flags[row] = desc->fixed_rotation ? PL_BODY_FIXED_ROTATION : 0;
+    b->flags[row] = (uint16_t)((desc->fixed_rotation ? PL_BODY_FIXED_ROTATION : 0) |
+                               (desc->lock_x ? PL_BODY_LOCK_X : 0) |
+                               (desc->lock_y ? PL_BODY_LOCK_Y : 0) |
+                               (desc->disabled ? PL_BODY_DISABLED : 0) |
+                               (desc->no_sleep ? PL_BODY_NO_SLEEP : 0));
+    set_continuous(world, row, desc->continuous);
+    world->locked_bodies += desc->lock_x || desc->lock_y;
+    pl_tuning_set(world, row, &(pl_tuning){ .damping = desc->damping,
+                                            .angular_damping = desc->angular_damping,
+                                            .max_speed = desc->max_speed,
+                                            .max_spin = desc->max_spin,
+                                            .time_scale =
+                                                desc->time_scale > 0 ? desc->time_scale : 1 });
     b->vx[row] = desc->velocity.x;
     b->vy[row] = desc->velocity.y;
     b->w[row] = desc->angular_velocity;
@@ -90,13 +140,23 @@ static void fill_row(plumb_world *world, uint32_t row, const plumb_body_desc *de
 plumb_result pl_body_insert(plumb_world *world, const char *fn, const plumb_body_desc *desc,
                             plumb_body *body)
 {
-    if (!pl_registry_reserve(&world->memory, &world->registry, 1) || !pl_rows_reserve(world, 1)) {
+    if (!pl_registry_reserve(&world->memory, &world->registry, 1) || !pl_rows_reserve(world, 1) ||
+        !pl_tuning_reserve(world)) {
         return pl_fail_memory(world, fn);
     }
-    uint32_t row = pl_row_open(world, pl_partition_of(desc->type));
+    const bool asleep = desc->asleep && !desc->disabled && !world->desc.no_sleep;
+    if (asleep && !pl_islands_reserve(world, 1, 0)) {
+        return pl_fail_memory(world, fn);
+    }
+    uint32_t row = pl_row_open(world, desc->disabled ? PL_PART_DISABLED
+                                      : asleep       ? PL_PART_ASLEEP
+                                                     : pl_partition_of(desc->type));
     *body = pl_entity_claim(world, *body, PLUMB_KIND_BODY, row);
     world->bodies.entity[row] = *body;
     fill_row(world, row, desc);
+    if (asleep) {
+        pl_sleep_make(world, row);
+    }
     return PLUMB_OK;
 }
 
@@ -127,16 +187,24 @@ plumb_result plumb_body_destroy(plumb_world *world, plumb_body body)
 
 void pl_body_place(plumb_world *world, uint32_t row, plumb_vec2 position, plumb_real angle)
 {
+    pl_body_place_at(world, row, position, plumb_rot_make(angle));
+}
+
+void pl_body_place_at(plumb_world *world, uint32_t row, plumb_vec2 position, plumb_rot q)
+{
     pl_bodies *b = &world->bodies;
-    plumb_rot q = plumb_rot_make(angle);
     b->x[row] = position.x;
     b->y[row] = position.y;
     b->c[row] = q.c;
     b->s[row] = q.s;
     pl_body_update_center(world, row);
+    pl_sleep_disturb(world, row);
+    pl_target_forget(world, row);
     if (b->first_piece[row] != PL_NONE) {
         world->pairs_dirty = true;
         world->static_dirty |= b->type[row] == PLUMB_STATIC;
+        world->sleep.boxes_stale |= b->island[row] != PL_NONE;
+        pl_seams_move_static(world, row);
     }
 }
 
@@ -161,13 +229,31 @@ static plumb_result check_movable(const plumb_world *world, const char *fn, uint
     return pl_fail(world, PLUMB_E_STATE, fn, "body is static; it must be dynamic or kinematic");
 }
 
+static plumb_result check_locks(const plumb_world *world, const char *fn, uint32_t row,
+                                plumb_vec2 velocity)
+{
+    uint32_t flags = world->bodies.type[row] == PLUMB_DYNAMIC ? world->bodies.flags[row] : 0;
+    const char *along = (flags & PL_BODY_LOCK_X) != 0 && velocity.x != 0   ? "x"
+                        : (flags & PL_BODY_LOCK_Y) != 0 && velocity.y != 0 ? "y"
+                                                                           : NULL;
+    return along == NULL ? PLUMB_OK
+                         : pl_fail(world, PLUMB_E_STATE, fn,
+                                   "velocity is (%g, %g); its %s must be 0 for a body locked in %s",
+                                   (double)velocity.x, (double)velocity.y, along, along);
+}
+
 plumb_result plumb_body_set_velocity(plumb_world *world, plumb_body body, plumb_vec2 velocity)
 {
     uint32_t row;
     plumb_result r = pl_check_body(world, __func__, body, &row);
     r = r != PLUMB_OK ? r : pl_check_finite_vec(world, __func__, "velocity", velocity);
     r = r != PLUMB_OK ? r : check_movable(world, __func__, row);
+    r = r != PLUMB_OK ? r : check_locks(world, __func__, row, velocity);
     if (r == PLUMB_OK) {
+        if (velocity.x != world->bodies.vx[row] || velocity.y != world->bodies.vy[row]) {
+            pl_sleep_stir(world, row);
+        }
+        pl_target_forget(world, row);
         world->bodies.vx[row] = pl_poses(world)[row].vx = velocity.x;
         world->bodies.vy[row] = pl_poses(world)[row].vy = velocity.y;
         world->bodies.low_vx[row] = world->bodies.low_vy[row] = 0;
@@ -186,6 +272,10 @@ plumb_result plumb_body_set_angular_velocity(plumb_world *world, plumb_body body
                     "w is %g; it must be 0 for a body of fixed rotation", (double)w);
     }
     if (r == PLUMB_OK) {
+        if (w != world->bodies.w[row]) {
+            pl_sleep_stir(world, row);
+        }
+        pl_target_forget(world, row);
         world->bodies.w[row] = w;
     }
     return r;
@@ -228,6 +318,7 @@ plumb_result plumb_body_set_mass(plumb_world *world, plumb_body body, plumb_real
                        "mass is %g; the inertia that follows must be %g to %g", (double)mass,
                        (double)PL_MASS_LEAST, (double)PL_MASS_MOST);
     }
+    pl_sleep_disturb(world, row);
     b->set_mass[row] = mass;
     b->set_inertia[row] = given ? made.inertia : 0;
     pl_mass_apply(world, row, &made);
@@ -241,12 +332,14 @@ plumb_result plumb_body_reset_mass(plumb_world *world, plumb_body body)
     if (r != PLUMB_OK) {
         return r;
     }
+    pl_sleep_disturb(world, row);
     pl_pieces *pieces = &world->pieces;
     for (uint32_t p = world->bodies.first_piece[row]; p != PL_NONE; p = pieces->next_in_body[p]) {
         pieces->density[p] = pl_density_of(world, p);
     }
     world->bodies.set_mass[row] = 0;
     world->bodies.set_inertia[row] = 0;
+    world->bodies.flags[row] &= (uint16_t)~PL_BODY_OWN_CENTER;
     pl_mass_revise(world, row);
     return PLUMB_OK;
 }
@@ -259,13 +352,26 @@ plumb_result plumb_body_set_fixed_rotation(plumb_world *world, plumb_body body, 
         return r;
     }
     pl_bodies *b = &world->bodies;
+    if (fixed != ((b->flags[row] & PL_BODY_FIXED_ROTATION) != 0)) {
+        pl_sleep_disturb(world, row);
+    }
     b->flags[row] = fixed ? b->flags[row] | PL_BODY_FIXED_ROTATION
-                          : b->flags[row] & (uint8_t)~PL_BODY_FIXED_ROTATION;
+                          : b->flags[row] & (uint16_t)~PL_BODY_FIXED_ROTATION;
     if (fixed) {
         b->w[row] = 0;
     }
     pl_mass_revise(world, row);
     return PLUMB_OK;
+}
+
+plumb_result plumb_body_set_continuous(plumb_world *world, plumb_body body, bool continuous)
+{
+    uint32_t row;
+    plumb_result r = pl_check_dynamic(world, __func__, body, &row);
+    if (r == PLUMB_OK) {
+        set_continuous(world, row, continuous);
+    }
+    return r;
 }
 
 //---- the rest
@@ -276,6 +382,9 @@ plumb_result plumb_body_set_gravity_scale(plumb_world *world, plumb_body body, p
     uint32_t row;
     plumb_result r = pl_check_body(world, __func__, body, &row);
     r = r != PLUMB_OK ? r : pl_check_finite(world, __func__, "scale", scale);
+    if (r == PLUMB_OK && scale != world->bodies.gravity_scale[row]) {
+        pl_sleep_disturb(world, row);
+    }
     if (r == PLUMB_OK) {
         world->bodies.gravity_scale[row] = scale;
         world->schedule_dirty = true;

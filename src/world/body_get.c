@@ -88,10 +88,57 @@ plumb_real plumb_body_inertia(const plumb_world *world, plumb_body body)
     return row == PL_NONE || world->bodies.inv_inertia[row] <= 0 ? 0 : world->bodies.inertia[row];
 }
 
+bool plumb_body_is_continuous(const plumb_world *world, plumb_body body)
+{
+    uint32_t row = pl_body_row(world, body);
+    return row != PL_NONE && (world->bodies.flags[row] & PL_BODY_CONTINUOUS) != 0;
+}
+
 plumb_real plumb_body_gravity_scale(const plumb_world *world, plumb_body body)
 {
     uint32_t row = pl_body_row(world, body);
     return row == PL_NONE ? 0 : world->bodies.gravity_scale[row];
+}
+
+bool plumb_body_is_enabled(const plumb_world *world, plumb_body body)
+{
+    uint32_t row = pl_body_row(world, body);
+    return row != PL_NONE && (world->bodies.flags[row] & PL_BODY_DISABLED) == 0;
+}
+
+bool plumb_body_has_target(const plumb_world *world, plumb_body body)
+{
+    uint32_t row = pl_body_row(world, body);
+    return row != PL_NONE && (world->bodies.flags[row] & PL_BODY_TARGETED) != 0;
+}
+
+plumb_axis_locks plumb_body_locks(const plumb_world *world, plumb_body body)
+{
+    uint32_t row = pl_body_row(world, body);
+    uint32_t flags = row == PL_NONE ? 0 : world->bodies.flags[row];
+    return (plumb_axis_locks){ .x = (flags & PL_BODY_LOCK_X) != 0,
+                               .y = (flags & PL_BODY_LOCK_Y) != 0,
+                               .rotation = (flags & PL_BODY_FIXED_ROTATION) != 0 };
+}
+
+plumb_vec2 plumb_body_force(const plumb_world *world, plumb_body body)
+{
+    uint32_t row = pl_body_row(world, body);
+    return row == PL_NONE ? plumb_v2(0, 0) : plumb_v2(world->bodies.fx[row], world->bodies.fy[row]);
+}
+
+plumb_real plumb_body_torque(const plumb_world *world, plumb_body body)
+{
+    uint32_t row = pl_body_row(world, body);
+    return row == PL_NONE ? 0 : world->bodies.torque[row];
+}
+
+plumb_real plumb_body_kinetic_energy(const plumb_world *world, plumb_body body)
+{
+    plumb_vec2 v = plumb_body_velocity(world, body);
+    real w = plumb_body_angular_velocity(world, body);
+    return (plumb_body_mass(world, body) * plumb_vec2_dot(v, v) +
+            plumb_body_inertia(world, body) * w * w) / 2;
 }
 
 void *plumb_body_user_data(const plumb_world *world, plumb_body body)
@@ -176,7 +223,8 @@ plumb_body_span plumb_world_bodies(plumb_world *world)
         .dynamic_count = (int)world->dynamic_count,
         .kinematic_count = (int)world->kinematic_count,
         .asleep_count = (int)world->asleep_count,
-        .static_count = (int)(b->table.count - first_static),
+        .static_count = (int)(b->table.count - world->disabled_count - first_static),
+        .disabled_count = (int)world->disabled_count,
         .entity = b->entity,
         .x = b->x,
         .y = b->y,

@@ -29,13 +29,37 @@ typedef plumb_real real;
     X(real, gravity_scale)         /* [-] */                                                        \
     X(real, mass) X(real, inertia) /* [kg], [kg m^2]; kept also where the inverses are 0 */         \
     X(real, set_mass) X(real, set_inertia) /* given by the user; 0: from the shapes */              \
+    X(real, extent)                /* [m] farthest point of a solid shape from the centre of mass; at least the radius of gyration */ \
+    X(real, slack)                 /* [m] motion in a step that lets it pass nothing: see extent.c */ \
     X(void *, user_data)                                                                            \
     X(uint32_t, first_piece)       /* pieces of the body, newest shape first; PL_NONE ends */       \
     X(uint32_t, first_joint)       /* joints of the body, newest first; PL_NONE ends */             \
+    X(real, looked)                /* [s] of rest since the last look at where it is (src/sleep) */ \
+    X(real, look_x) X(real, look_y) /* [m] its centre at that look */                               \
+    X(real, look_c) X(real, look_s) /* its rotation then */                                         \
+    X(real, way_x) X(real, way_y)  /* [m] between the last two looks */                             \
+    X(real, way_turn)              /* [rad] the same */                                             \
+    X(uint8_t, looks)              /* in this rest, up to 2 */                                      \
+    X(uint32_t, island)            /* of a sleeping body; PL_NONE: awake */                         \
+    X(uint32_t, next_asleep) X(uint32_t, previous_asleep) /* registry slots: bodies of the island */ \
+    X(uint32_t, changed_step)      /* step count + 1 when an immovable body was last changed */     \
+    X(uint32_t, tuning)            /* 1 + its record in world->tunings; 0: none */                  \
     X(uint8_t, type)               /* plumb_body_type */                                            \
-    X(uint8_t, flags)              /* PL_BODY_... */
+    X(uint16_t, flags)             /* PL_BODY_... */
 
 #define PL_BODY_FIXED_ROTATION 1u
+#define PL_BODY_NO_SLEEP       32u  // it never falls asleep
+#define PL_BODY_STIRRING       64u  // kinematic: it moves, or was changed, and wakes what it touches
+#define PL_BODY_RECRUITED      8u   // on its way into the list of movers; only within the continuous pass
+#define PL_BODY_CONTINUOUS     16u  // never passes through moving bodies either
+#define PL_BODY_LOCK_X         0x100u // never moves along x: infinite mass that way
+#define PL_BODY_LOCK_Y         0x200u
+#define PL_BODY_TUNED          0x400u // has a record in world->tunings
+#define PL_BODY_DISABLED       0x800u // out of the simulation
+#define PL_BODY_TARGETED       0x1000u // has a record in world->targets
+#define PL_BODY_OWN_CENTER     0x2000u // its centre of mass was given, not taken from the shapes
+#define PL_BODY_LOCKED         (PL_BODY_LOCK_X | PL_BODY_LOCK_Y)
+#define PL_BODY_ODD            (PL_BODY_LOCKED | PL_BODY_TUNED) // does not move as the rest do
 #define PL_BODY_EXCLUDING      128u // it is in the table of excluded pairs, or was once
 
 // Pieces: the convex parts of shapes, what the broad and narrow phase see. Slots are stable for the
@@ -48,6 +72,8 @@ typedef plumb_real real;
     X(uint8_t, vertex_class)       /* size class of its run in the pool */                          \
     X(uint32_t, vertices)          /* first corner in the vertex pool */                            \
     X(uint32_t, seams)             /* bit k: edge k is an inner cut */                              \
+    X(uint32_t, seam_corners)      /* PL_SEAM_...: corners that neighbours narrow (seams/seams.h) */ \
+    X(uint32_t, seam_edges)        /* PL_SEAM_...: edges that neighbours cover */                   \
     X(uint32_t, body)              /* body row; follows the row when it moves */                    \
     X(uint32_t, next_in_body)      /* next piece of the body, PL_NONE ends */                       \
     X(uint32_t, next_in_shape)     /* next piece of the shape, PL_NONE ends; also the free list */  \
@@ -63,14 +89,17 @@ typedef plumb_real real;
     X(void *, user_data)                                                                            \
     X(pl_core, core)               /* geometry in the body's frame, one gatherable record */        \
     X(pl_box, fat)                 /* [m] fat box in the grid */                                    \
-    X(uint32_t, moving)            /* place in the list of moving pieces; PL_NONE: static */
+    X(uint32_t, moving)            /* place in the list of moving or resting pieces; PL_NONE: static; PL_OUT */ \
+    X(uint32_t, first_dormant)     /* sleeping contacts with this static or kinematic piece */
 
 #define PL_MATERIAL_COLUMNS(X)                                                                      \
     X(plumb_entity, entity)                                                                         \
     X(real, density) X(real, friction) X(real, restitution)                                         \
     X(real, rolling)               /* [m] */                                                        \
     X(real, surface_speed)         /* [m/s] */                                                      \
+    X(real, adhesion)              /* [N] */                                                        \
     X(uint8_t, friction_mix) X(uint8_t, restitution_mix) /* plumb_mix */                            \
+    X(uint8_t, adhesion_mix)                                                                        \
     X(uint32_t, pairs)             /* entries of the pair table that name it */                     \
     X(uint32_t, users)             /* pieces that name it */
 // clang-format on
@@ -78,8 +107,11 @@ typedef plumb_real real;
 #define PL_PIECE_SENSOR   1u // of a sensor
 #define PL_PIECE_PART     2u // of a shape of several pieces
 #define PL_PIECE_FILTERED 4u // its filter is not {0}
+#define PL_PIECE_ASLEEP   8u // of a sleeping body: it is in the list and grid of resting pieces
+#define PL_PIECE_PLACED   16u // static, and new to what sleeps here
 
 #define PL_NONE UINT32_MAX
+#define PL_OUT  (UINT32_MAX - 1) // pieces.moving: of a disabled body, in no grid
 
 // [m], [m/s], [rad/s] beyond this a body counts as lost: squares still fit a float.
 #define PL_LARGEST ((real)1e12)

@@ -90,18 +90,19 @@ static plumb_contact_point view_point(const plumb_world *world, const pl_manifol
     };
 }
 
-// True while both pieces are those that the pair was made for.
+// True while both pieces are those that the pair was made for, and enabled.
 static bool is_intact(const plumb_world *world, const pl_pair *pair)
 {
     const pl_pieces *p = &world->pieces;
     return p->kind[pair->a] != PL_PIECE_FREE && p->serial[pair->a] <= world->broad.serial &&
-           p->kind[pair->b] != PL_PIECE_FREE && p->serial[pair->b] <= world->broad.serial;
+           p->kind[pair->b] != PL_PIECE_FREE && p->serial[pair->b] <= world->broad.serial &&
+           p->moving[pair->a] != PL_OUT && p->moving[pair->b] != PL_OUT;
 }
 
-static plumb_contact view_contact(const plumb_world *world, const pl_pair *pair)
+static plumb_contact view_contact(const plumb_world *world, const pl_pair *pair,
+                                  const pl_manifold *m)
 {
     const pl_pieces *pieces = &world->pieces;
-    const pl_manifold *m = &pl_manifolds(&world->narrow)[pair->manifold];
     uint32_t row_a = pieces->body[pair->a];
     uint32_t row_b = pieces->body[pair->b];
     plumb_contact contact = {
@@ -120,16 +121,39 @@ static plumb_contact view_contact(const plumb_world *world, const pl_pair *pair)
     return contact;
 }
 
+// The contacts of an island that sleeps: nothing has moved since.
+static int list_dormant(const plumb_world *world, uint32_t island, uint32_t row,
+                        plumb_contact *contacts, int capacity, int count)
+{
+    const pl_dormant *all = pl_dormants(&world->sleep);
+    uint32_t i = pl_islands(&world->sleep)[island].first_contact;
+    for (; i != PL_NONE; i = all[i].next) {
+        const pl_pair *pair = &all[i].pair;
+        if (!(pair->flags & PL_PAIR_TOUCHING) || !all[i].whole ||
+            !pl_dormant_is_intact(world, &all[i]) ||
+            (row != PL_NONE && world->pieces.body[pair->a] != row &&
+             world->pieces.body[pair->b] != row)) {
+            continue;
+        }
+        if (contacts != NULL && count < capacity) {
+            contacts[count] = view_contact(world, pair, &all[i].manifold);
+        }
+        ++count;
+    }
+    return count;
+}
+
 // `row` PL_NONE: contacts of all bodies.
 static int list_contacts(const plumb_world *world, uint32_t row, plumb_contact *contacts,
                          int capacity)
 {
     int count = 0;
     const pl_pair *pairs = pl_pairs(&world->broad.pairs);
+    const uint32_t made = world->narrow.manifold_count + world->narrow.borne_count;
     for (uint32_t i = 0; i < world->broad.pairs.count; ++i) {
         const pl_pair *pair = &pairs[i];
         // Pairs of a step without collision still name manifolds that are gone.
-        if (!(pair->flags & PL_PAIR_TOUCHING) || pair->manifold >= world->narrow.manifold_count ||
+        if (!(pair->flags & PL_PAIR_TOUCHING) || pair->manifold >= made ||
             !is_intact(world, pair)) {
             continue;
         }
@@ -138,9 +162,15 @@ static int list_contacts(const plumb_world *world, uint32_t row, plumb_contact *
             continue;
         }
         if (contacts != NULL && count < capacity) {
-            contacts[count] = view_contact(world, pair);
+            contacts[count] =
+                view_contact(world, pair, &pl_manifolds(&world->narrow)[pair->manifold]);
         }
         ++count;
+    }
+    for (uint32_t i = 0; i < world->sleep.island_slots; ++i) {
+        if (pl_islands(&world->sleep)[i].body_count > 0) {
+            count = list_dormant(world, i, row, contacts, capacity, count);
+        }
     }
     return count;
 }

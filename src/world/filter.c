@@ -94,7 +94,11 @@ plumb_result plumb_shape_set_filter(plumb_world *world, plumb_shape shape, plumb
     plumb_result r = pl_check_shape(world, __func__, shape, &first);
     r = r != PLUMB_OK ? r : pl_filter_check(world, __func__, &filter);
     if (r == PLUMB_OK) {
+        for (uint32_t p = first; p != PL_NONE; p = world->pieces.next_in_shape[p]) {
+            pl_sleep_see_anew(world, p);
+        }
         pl_filter_apply(world, first, &filter);
+        pl_seams_touch_shape(world, first);
         world->pairs_dirty = true;
     }
     return r;
@@ -130,8 +134,12 @@ plumb_result plumb_shape_set_sensor(plumb_world *world, plumb_shape shape, bool 
     plumb_result r = pl_check_shape(world, __func__, shape, &first);
     r = r != PLUMB_OK ? r : pl_check_unlocked(world, __func__);
     if (r == PLUMB_OK && sensor != plumb_shape_is_sensor(world, shape)) {
+        for (uint32_t p = first; p != PL_NONE; p = world->pieces.next_in_shape[p]) {
+            pl_sleep_see_anew(world, p);
+        }
         pl_sensor_apply(world, first, sensor);
         pl_mass_revise(world, world->pieces.body[first]);
+        pl_seams_touch_shape(world, first);
         world->pairs_dirty = true;
         world->schedule_dirty = true;
     }
@@ -226,11 +234,15 @@ plumb_result plumb_world_exclude_pair(plumb_world *world, plumb_body a, plumb_bo
         }
         world->bodies.flags[row_a] |= PL_BODY_EXCLUDING;
         world->bodies.flags[row_b] |= PL_BODY_EXCLUDING;
+        pl_seams_touch_static(world, row_a);
+        pl_seams_touch_static(world, row_b);
     } else {
         uint64_t *keys = world->excluded.data;
         --world->excluded_count;
         memmove(keys + at, keys + at + 1, (world->excluded_count - at) * sizeof key);
     }
+    pl_sleep_disturb(world, row_a);
+    pl_sleep_disturb(world, row_b);
     world->pairs_dirty = true;
     return PLUMB_OK;
 }

@@ -33,6 +33,15 @@ real pl_density_of(const plumb_world *world, uint32_t piece)
     return weightless ? 0 : own > 0 ? own : world->materials.density[p->material[piece]];
 }
 
+// Parallel axis theorem: I about another point is I + m d^2.
+void pl_mass_recenter(pl_mass_sum *sum, real x, real y)
+{
+    double dx = (double)x - sum->x, dy = (double)y - sum->y;
+    sum->inertia += sum->mass * (dx * dx + dy * dy);
+    sum->x = (double)x;
+    sum->y = (double)y;
+}
+
 // Newest shape first, as the list has them: the order is part of the result's last bits.
 pl_mass_sum pl_mass_of_shapes(const plumb_world *world, uint32_t row)
 {
@@ -41,6 +50,9 @@ pl_mass_sum pl_mass_of_shapes(const plumb_world *world, uint32_t row)
     uint32_t p = world->bodies.first_piece[row];
     for (; p != PL_NONE; p = pieces->next_in_body[p]) {
         pl_mass_add(&sum, pieces->area[p], pieces->density[p]);
+    }
+    if ((world->bodies.flags[row] & PL_BODY_OWN_CENTER) != 0) {
+        pl_mass_recenter(&sum, world->bodies.local_x[row], world->bodies.local_y[row]);
     }
     return sum;
 }
@@ -96,10 +108,12 @@ void pl_mass_apply(plumb_world *world, uint32_t row, const pl_body_mass *mass)
 void pl_mass_revise(plumb_world *world, uint32_t row)
 {
     if (world->bodies.type[row] != PLUMB_DYNAMIC) {
+        pl_extent_revise(world, row);
         return;
     }
     pl_mass_sum sum = pl_mass_of_shapes(world, row);
     pl_body_mass mass;
     pl_mass_resolve(&sum, world->bodies.set_mass[row], world->bodies.set_inertia[row], &mass);
     pl_mass_apply(world, row, &mass);
+    pl_extent_revise(world, row);
 }

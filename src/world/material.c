@@ -27,7 +27,11 @@ static plumb_result check_desc(const plumb_world *world, const char *fn,
                       : pl_check_range(world, fn, "rolling_resistance", desc->rolling_resistance, 0,
                                        PLUMB_REAL_MAX);
     r = r != PLUMB_OK ? r : pl_check_finite(world, fn, "surface_speed", desc->surface_speed);
+    r = r != PLUMB_OK
+            ? r
+            : pl_check_range(world, fn, "adhesion", desc->adhesion, 0, PLUMB_REAL_MAX);
     r = r != PLUMB_OK ? r : check_mix(world, fn, "friction_mix", desc->friction_mix);
+    r = r != PLUMB_OK ? r : check_mix(world, fn, "adhesion_mix", desc->adhesion_mix);
     return r != PLUMB_OK ? r : check_mix(world, fn, "restitution_mix", desc->restitution_mix);
 }
 
@@ -38,6 +42,8 @@ static void fill_row(plumb_world *world, uint32_t row, const plumb_material_desc
     world->materials.restitution[row] = desc->restitution;
     world->materials.rolling[row] = desc->rolling_resistance;
     world->materials.surface_speed[row] = desc->surface_speed;
+    world->materials.adhesion[row] = desc->adhesion;
+    world->materials.adhesion_mix[row] = (uint8_t)desc->adhesion_mix;
     world->materials.friction_mix[row] = (uint8_t)desc->friction_mix;
     world->materials.restitution_mix[row] = (uint8_t)desc->restitution_mix;
 }
@@ -104,7 +110,9 @@ plumb_result plumb_material_get(const plumb_world *world, plumb_material materia
                                        .rolling_resistance = m->rolling[row],
                                        .surface_speed = m->surface_speed[row],
                                        .friction_mix = (plumb_mix)m->friction_mix[row],
-                                       .restitution_mix = (plumb_mix)m->restitution_mix[row] };
+                                       .restitution_mix = (plumb_mix)m->restitution_mix[row],
+                                       .adhesion = m->adhesion[row],
+                                       .adhesion_mix = (plumb_mix)m->adhesion_mix[row] };
     }
     return r;
 }
@@ -122,6 +130,7 @@ plumb_result plumb_material_set(plumb_world *world, plumb_material material,
     pl_pieces *pieces = &world->pieces;
     for (uint32_t p = 0; p < pieces->table.count; ++p) {
         if (pieces->kind[p] != PL_PIECE_FREE && pieces->material[p] == row) {
+            pl_sleep_disturb_piece(world, p);
             pieces->friction[p] = desc->friction;
             pieces->restitution[p] = desc->restitution;
         }

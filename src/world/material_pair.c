@@ -80,9 +80,25 @@ static plumb_result check_value(const plumb_world *world, const char *function,
     r = r != PLUMB_OK
             ? r
             : pl_check_range(world, function, "pair.restitution", pair->restitution, 0, 1);
-    return r != PLUMB_OK ? r
-                         : pl_check_range(world, function, "pair.rolling_resistance",
-                                          pair->rolling_resistance, 0, PLUMB_REAL_MAX);
+    r = r != PLUMB_OK ? r
+                      : pl_check_range(world, function, "pair.rolling_resistance",
+                                       pair->rolling_resistance, 0, PLUMB_REAL_MAX);
+    return r != PLUMB_OK
+               ? r
+               : pl_check_range(world, function, "pair.adhesion", pair->adhesion, 0,
+                                PLUMB_REAL_MAX);
+}
+
+// What is made of either may slide now.
+static void disturb_users(plumb_world *world, uint32_t row_a, uint32_t row_b)
+{
+    const pl_pieces *pieces = &world->pieces;
+    for (uint32_t p = 0; p < pieces->table.count; ++p) {
+        if (pieces->kind[p] != PL_PIECE_FREE &&
+            (pieces->material[p] == row_a || pieces->material[p] == row_b)) {
+            pl_sleep_disturb_piece(world, p);
+        }
+    }
 }
 
 plumb_result plumb_material_pair_set(plumb_world *world, plumb_material a, plumb_material b,
@@ -118,6 +134,7 @@ plumb_result plumb_material_pair_set(plumb_world *world, plumb_material a, plumb
         ++world->materials.pairs[row_a];
         ++world->materials.pairs[row_b];
     }
+    disturb_users(world, row_a, row_b);
     world->schedule_dirty = true;
     return PLUMB_OK;
 }

@@ -1,14 +1,22 @@
 // piece.c - pieces: slots, the lists that run through them, and their corners in the vertex pool.
 //
-// Slots stay put while the shape lives, since grids and contacts name them. A freed slot keeps the
-// shape that it belonged to until it is taken again, so that an end event can still tell it. Free
-// slots are a stack: the same calls give the same slots.
+// Slots stay put while the shape lives, since grids and contacts name them. Free slots are a stack:
+// the same calls give the same slots.
 //
 // Reads: world->made. Writes: piece table, vertex pool, moving list, counters and flags.
 // Cost: O(pieces of the shape + pieces of the body).
 #include "world/rows.h"
 
 #include <string.h>
+
+// Either list has room for all pieces: bodies fall asleep, change their type and are enabled without
+// asking.
+static bool reserve_lists(plumb_world *world, uint32_t extra)
+{
+    size_t most = (size_t)world->pieces.table.count + extra;
+    return pl_buffer_reserve(&world->memory, &world->moving, most * sizeof(uint32_t)) &&
+           pl_buffer_reserve(&world->memory, &world->sleep.resting, most * sizeof(uint32_t));
+}
 
 bool pl_pieces_reserve(plumb_world *world, uint32_t extra)
 {
@@ -20,8 +28,8 @@ bool pl_pieces_reserve(plumb_world *world, uint32_t extra)
     }
     return pl_table_reserve(&world->memory, &pieces->table, pl_piece_columns, pl_piece_column_count,
                             pieces->table.count + fresh) &&
-           pl_buffer_reserve(&world->memory, &world->moving,
-                             ((size_t)world->moving_count + extra) * sizeof(uint32_t));
+           reserve_lists(world, extra) &&
+           pl_graves_reserve(world, pieces->table.count + fresh);
 }
 
 static uint32_t take_slot(plumb_world *world)
@@ -39,19 +47,91 @@ static uint32_t take_slot(plumb_world *world)
     return slot;
 }
 
-static void enlist_moving(plumb_world *world, uint32_t slot)
+static void enlist(plumb_world *world, uint32_t *list, uint32_t *count, uint32_t slot)
 {
-    pl_moving(world)[world->moving_count] = slot;
-    world->pieces.moving[slot] = world->moving_count++;
+    list[*count] = slot;
+    world->pieces.moving[slot] = (*count)++;
 }
 
-static void delist_moving(plumb_world *world, uint32_t slot)
+// The last of the list fills the gap.
+static void delist(plumb_world *world, uint32_t *list, uint32_t *count, uint32_t slot)
 {
     uint32_t place = world->pieces.moving[slot];
-    uint32_t last = pl_moving(world)[--world->moving_count];
-    pl_moving(world)[place] = last;
+    uint32_t last = list[--*count];
+    list[place] = last;
     world->pieces.moving[last] = place;
-    world->pieces.moving[slot] = PL_NONE;
+    world->pieces.moving[slot] = PL_OUT;
+}
+
+static void enlist_resting(plumb_world *world, uint32_t slot)
+{
+    pl_sleep *s = &world->sleep;
+    enlist(world, pl_resting(s), &s->resting_count, slot);
+    world->pieces.flags[slot] |= PL_PIECE_ASLEEP;
+    s->grid_stale = true;
+}
+
+static void delist_resting(plumb_world *world, uint32_t slot)
+{
+    pl_sleep *s = &world->sleep;
+    delist(world, pl_resting(s), &s->resting_count, slot);
+    world->pieces.flags[slot] &= (uint8_t)~PL_PIECE_ASLEEP;
+    ++s->gone;
+}
+
+// Files a piece that is in no grid.
+static void file(plumb_world *world, uint32_t slot, uint32_t row)
+{
+    pl_pieces *pieces = &world->pieces;
+    // Empty: whatever the tight box is, the piece has left its fat box.
+    pieces->fat[slot] =
+        (pl_box){ PLUMB_REAL_MAX, PLUMB_REAL_MAX, -PLUMB_REAL_MAX, -PLUMB_REAL_MAX };
+    if ((world->bodies.flags[row] & PL_BODY_DISABLED) != 0) {
+        pieces->moving[slot] = PL_OUT;
+    } else if (world->bodies.type[row] == PLUMB_STATIC) {
+        pieces->moving[slot] = PL_NONE;
+        world->static_dirty = true;
+    } else if (pl_row_is_asleep(world, row)) {
+        enlist_resting(world, slot);
+        world->sleep.boxes_stale = true;
+    } else {
+        enlist(world, pl_moving(world), &world->moving_count, slot);
+    }
+}
+
+static void unfile(plumb_world *world, uint32_t slot)
+{
+    if (world->pieces.moving[slot] == PL_NONE) {
+        world->static_dirty = true;
+    } else if ((world->pieces.flags[slot] & PL_PIECE_ASLEEP) != 0) {
+        delist_resting(world, slot);
+        pl_sensing_note_rest(world);
+    } else if (world->pieces.moving[slot] != PL_OUT) {
+        delist(world, pl_moving(world), &world->moving_count, slot);
+    }
+}
+
+void pl_pieces_refile(plumb_world *world, uint32_t row)
+{
+    uint32_t p = world->bodies.first_piece[row];
+    for (; p != PL_NONE; p = world->pieces.next_in_body[p]) {
+        unfile(world, p);
+        file(world, p, row);
+        world->pairs_dirty = true;
+    }
+    world->schedule_dirty = true;
+}
+
+void pl_piece_rest(plumb_world *world, uint32_t piece)
+{
+    delist(world, pl_moving(world), &world->moving_count, piece);
+    enlist_resting(world, piece);
+}
+
+void pl_piece_move(plumb_world *world, uint32_t piece)
+{
+    delist_resting(world, piece);
+    enlist(world, pl_moving(world), &world->moving_count, piece);
 }
 
 static void store_corners(plumb_world *world, uint32_t slot, const plumb_convex *convex)
@@ -82,17 +162,10 @@ static void fill_slot(plumb_world *world, uint32_t slot, uint32_t row, const pl_
     pieces->core[slot] = made->core;
     pieces->seams[slot] = made->seams;
     pieces->body[slot] = row;
-    pieces->moving[slot] = PL_NONE;
-    // Empty: whatever the tight box is, the piece has left its fat box.
-    pieces->fat[slot] =
-        (pl_box){ PLUMB_REAL_MAX, PLUMB_REAL_MAX, -PLUMB_REAL_MAX, -PLUMB_REAL_MAX };
+    pieces->first_dormant[slot] = PL_NONE;
     store_corners(world, slot, &made->convex);
     ++world->piece_kinds[made->kind];
-    if (world->bodies.type[row] == PLUMB_STATIC) {
-        world->static_dirty = true;
-    } else {
-        enlist_moving(world, slot);
-    }
+    file(world, slot, row);
 }
 
 uint32_t pl_pieces_add(plumb_world *world, uint32_t row, plumb_shape shape, const pl_made *made)
@@ -121,7 +194,9 @@ uint32_t pl_pieces_add(plumb_world *world, uint32_t row, plumb_shape shape, cons
         pieces->flags[p] |= PL_PIECE_PART;
         ++world->part_pieces;
     }
+    pl_seams_touch_shape(world, first);
     ++world->shape_count;
+    pl_sleep_disturb(world, row);
     world->pairs_dirty = true;
     world->schedule_dirty = true;
     return first;
@@ -145,11 +220,11 @@ static void unlink_from_body(plumb_world *world, uint32_t first)
 static void free_slot(plumb_world *world, uint32_t slot)
 {
     pl_pieces *pieces = &world->pieces;
-    if (pieces->moving[slot] == PL_NONE) {
-        world->static_dirty = true;
-    } else {
-        delist_moving(world, slot);
-    }
+    pl_seams_forget(world, slot);
+    unfile(world, slot);
+    pl_sleep_void_contacts(world, slot);
+    world->sleep.placed_pieces -= (pieces->flags[slot] & PL_PIECE_PLACED) != 0;
+    pl_grave_dig(world, slot);
     if (pieces->vertex_count[slot] > 0) {
         pl_pool_give(&world->vertices, pieces->vertex_class[slot], pieces->vertices[slot]);
     }
@@ -167,12 +242,16 @@ static void free_slot(plumb_world *world, uint32_t slot)
 
 void pl_pieces_remove(plumb_world *world, uint32_t first)
 {
+    const uint32_t *left = &world->bodies.first_piece[world->pieces.body[first]];
     unlink_from_body(world, first);
     uint32_t slot = first;
     while (slot != PL_NONE) {
         uint32_t next = world->pieces.next_in_shape[slot];
         free_slot(world, slot);
         slot = next;
+    }
+    if (*left != PL_NONE && !pl_piece_is_static(world, *left)) {
+        pl_seams_touch(world, *left); // one stale piece stands for the whole of a moving body
     }
     --world->shape_count;
     world->pairs_dirty = true;

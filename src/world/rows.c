@@ -10,6 +10,7 @@
 // moved.
 #include "world/rows.h"
 
+#include "effects/effects.h"
 #include "world/filter.h"
 #include "world/material_pair.h"
 
@@ -46,8 +47,9 @@ uint32_t pl_material_row(const plumb_world *world, plumb_material material)
 uint32_t pl_partition_first(const plumb_world *world, pl_partition partition)
 {
     const uint32_t sizes[] = { world->dynamic_count, world->kinematic_count, world->asleep_count };
-    if (partition == PL_PART_COUNT) {
-        return world->bodies.table.count;
+    if (partition >= PL_PART_DISABLED) {
+        return world->bodies.table.count -
+               (partition == PL_PART_DISABLED ? world->disabled_count : 0);
     }
     uint32_t first = 0;
     for (int p = 0; p < (int)partition; ++p) {
@@ -59,10 +61,21 @@ uint32_t pl_partition_first(const plumb_world *world, pl_partition partition)
 // The count of a partition; static rows are what is left and need none.
 static void count_row(plumb_world *world, pl_partition partition, bool opened)
 {
-    uint32_t *counts[] = { &world->dynamic_count, &world->kinematic_count, &world->asleep_count };
+    uint32_t *counts[] = { &world->dynamic_count, &world->kinematic_count, &world->asleep_count,
+                           NULL, &world->disabled_count };
     world->bodies.table.count += opened ? 1u : UINT32_MAX;
     if (partition != PL_PART_STATIC) {
         *counts[partition] += opened ? 1u : UINT32_MAX;
+    }
+}
+
+// Tells everyone where the body of a row is now.
+static void announce_row(plumb_world *world, uint32_t row)
+{
+    const pl_bodies *bodies = &world->bodies;
+    world->registry.slots[bodies->entity[row].index].row = row;
+    for (uint32_t p = bodies->first_piece[row]; p != PL_NONE; p = world->pieces.next_in_body[p]) {
+        world->pieces.body[p] = row;
     }
 }
 
@@ -74,16 +87,50 @@ static void move_row(plumb_world *world, uint32_t from, uint32_t to)
     pl_bodies *bodies = &world->bodies;
     pl_table_copy(&bodies->table, pl_body_columns, pl_body_column_count, from, to);
     pl_poses(world)[to] = pl_poses(world)[from];
-    world->registry.slots[bodies->entity[to].index].row = to;
-    for (uint32_t p = bodies->first_piece[to]; p != PL_NONE; p = world->pieces.next_in_body[p]) {
-        world->pieces.body[p] = to;
-    }
+    announce_row(world, to);
     world->rows_moved = true;
 }
 
+static void swap_rows(plumb_world *world, uint32_t a, uint32_t b)
+{
+    if (a == b) {
+        return;
+    }
+    pl_table_swap(&world->bodies.table, pl_body_columns, pl_body_column_count, a, b);
+    pl_pose *poses = pl_poses(world), kept = poses[a];
+    poses[a] = poses[b];
+    poses[b] = kept;
+    announce_row(world, a);
+    announce_row(world, b);
+    world->rows_moved = true;
+}
+
+// Each partition on the way gives its last row for the first, or the reverse.
+uint32_t pl_row_to_asleep(plumb_world *world, uint32_t row)
+{
+    swap_rows(world, row, world->dynamic_count - 1);
+    uint32_t to = world->dynamic_count + world->kinematic_count - 1;
+    swap_rows(world, world->dynamic_count - 1, to);
+    --world->dynamic_count;
+    ++world->asleep_count;
+    world->schedule_dirty = true;
+    return to;
+}
+
+uint32_t pl_row_to_awake(plumb_world *world, uint32_t row)
+{
+    uint32_t first = world->dynamic_count + world->kinematic_count;
+    swap_rows(world, row, first);
+    swap_rows(world, first, world->dynamic_count);
+    --world->asleep_count;
+    world->schedule_dirty = true;
+    return world->dynamic_count++;
+}
+
+// One more than asked for: pl_row_transfer carries a row there.
 bool pl_rows_reserve(plumb_world *world, uint32_t extra)
 {
-    uint32_t count = world->bodies.table.count;
+    uint32_t count = world->bodies.table.count + 1;
     return extra < PL_NONE - count &&
            pl_table_reserve(&world->memory, &world->bodies.table, pl_body_columns,
                             pl_body_column_count, count + extra) &&
@@ -91,21 +138,55 @@ bool pl_rows_reserve(plumb_world *world, uint32_t extra)
                              ((size_t)count + extra) * sizeof(pl_pose));
 }
 
-uint32_t pl_row_open(plumb_world *world, pl_partition partition)
+// Makes a hole at the end of a partition.
+static uint32_t open_hole(plumb_world *world, pl_partition partition)
 {
     uint32_t hole = world->bodies.table.count;
-    for (int p = PL_PART_STATIC; p > (int)partition; --p) {
+    for (int p = PL_PART_COUNT - 1; p > (int)partition; --p) {
         uint32_t first = pl_partition_first(world, (pl_partition)p);
         move_row(world, first, hole);
         hole = first;
     }
     count_row(world, partition, true);
+    return hole;
+}
+
+uint32_t pl_row_open(plumb_world *world, pl_partition partition)
+{
+    uint32_t hole = open_hole(world, partition);
     pl_table_clear(&world->bodies.table, pl_body_columns, pl_body_column_count, hole);
     pl_poses(world)[hole] = (pl_pose){ 0 };
     world->bodies.first_piece[hole] = PL_NONE;
     world->bodies.first_joint[hole] = PL_NONE;
+    world->bodies.island[hole] = PL_NONE;
+    world->bodies.looked[hole] = PL_UNSEEN;
     world->schedule_dirty = true;
     return hole;
+}
+
+pl_partition pl_row_partition(const plumb_world *world, uint32_t row)
+{
+    int partition = PL_PART_AWAKE;
+    while (row >= pl_partition_first(world, (pl_partition)(partition + 1))) {
+        ++partition;
+    }
+    return (pl_partition)partition;
+}
+
+// Fills the hole that `row` is; its content must be elsewhere.
+static void close_hole(plumb_world *world, uint32_t row)
+{
+    pl_partition partition = pl_row_partition(world, row);
+    uint32_t hole = row;
+    for (int p = (int)partition; p < PL_PART_COUNT; ++p) {
+        uint32_t end = pl_partition_first(world, (pl_partition)(p + 1));
+        if (end > pl_partition_first(world, (pl_partition)p)) {
+            move_row(world, end - 1, hole);
+            hole = end - 1;
+        }
+    }
+    count_row(world, partition, false);
+    world->schedule_dirty = true;
 }
 
 void pl_row_close(plumb_world *world, uint32_t row)
@@ -113,20 +194,20 @@ void pl_row_close(plumb_world *world, uint32_t row)
     if (world->bodies.inv_inertia[row] > 0) {
         --world->turning_bodies;
     }
-    int partition = PL_PART_AWAKE;
-    while (row >= pl_partition_first(world, (pl_partition)(partition + 1))) {
-        ++partition;
-    }
-    uint32_t hole = row;
-    for (int p = partition; p < PL_PART_COUNT; ++p) {
-        uint32_t end = pl_partition_first(world, (pl_partition)(p + 1));
-        if (end > pl_partition_first(world, (pl_partition)p)) {
-            move_row(world, end - 1, hole);
-            hole = end - 1;
-        }
-    }
-    count_row(world, (pl_partition)partition, false);
-    world->schedule_dirty = true;
+    world->continuous_bodies -= (world->bodies.flags[row] & PL_BODY_CONTINUOUS) != 0;
+    pl_body_forget(world, row);
+    close_hole(world, row);
+}
+
+// The row waits behind the last one meanwhile, where pl_rows_reserve has left room.
+uint32_t pl_row_transfer(plumb_world *world, uint32_t row, pl_partition partition)
+{
+    uint32_t aside = world->bodies.table.count;
+    move_row(world, row, aside);
+    close_hole(world, row);
+    uint32_t to = open_hole(world, partition);
+    move_row(world, aside, to);
+    return to;
 }
 
 //---- poses
@@ -174,6 +255,7 @@ static void destroy_shape(plumb_world *world, plumb_entity shape)
 {
     uint32_t first = pl_shape_piece(world, shape);
     uint32_t row = world->pieces.body[first];
+    pl_sleep_disturb(world, row);
     pl_pieces_remove(world, first);
     pl_registry_release(&world->registry, shape);
     pl_mass_revise(world, row);
@@ -183,6 +265,7 @@ static void destroy_body(plumb_world *world, plumb_entity body)
 {
     uint32_t row = pl_body_row(world, body);
     pl_exclusions_forget(world, row);
+    pl_sleep_forget(world, row);
     while (world->bodies.first_piece[row] != PL_NONE) {
         plumb_entity shape = world->pieces.shape[world->bodies.first_piece[row]];
         pl_pieces_remove(world, world->bodies.first_piece[row]);

@@ -14,6 +14,7 @@ typedef enum pl_partition {
     PL_PART_KINEMATIC,
     PL_PART_ASLEEP,
     PL_PART_STATIC,
+    PL_PART_DISABLED, // of any type
     PL_PART_COUNT
 } pl_partition;
 
@@ -33,6 +34,21 @@ bool pl_rows_reserve(plumb_world *world, uint32_t extra);
 uint32_t pl_row_open(plumb_world *world, pl_partition partition);
 // Closes a row; at most one row of its own and of each later partition moves.
 void pl_row_close(plumb_world *world, uint32_t row);
+// Moves a row to another partition; at most one row of each partition from one to the other moves
+// along. Needs no memory. Returns the new row.
+uint32_t pl_row_transfer(plumb_world *world, uint32_t row, pl_partition partition);
+// The partition in which a row lies.
+pl_partition pl_row_partition(const plumb_world *world, uint32_t row);
+
+// Moves a row from the awake partition to the front of the sleeping one, and from there to the end of
+// the awake one; at most one row of each partition between moves. Returns where it is now.
+uint32_t pl_row_to_asleep(plumb_world *world, uint32_t row);
+uint32_t pl_row_to_awake(plumb_world *world, uint32_t row);
+
+static inline bool pl_row_is_asleep(const plumb_world *world, uint32_t row)
+{
+    return row - (world->dynamic_count + world->kinematic_count) < world->asleep_count;
+}
 
 //---- vertex pool (pool.c)
 //-------------------------------------------------------------------------
@@ -70,8 +86,14 @@ bool pl_pieces_reserve(plumb_world *world, uint32_t extra);
 // returns the first. Sets shape, kind, geometry, lists and flags; material and density are the
 // caller's.
 uint32_t pl_pieces_add(plumb_world *world, uint32_t row, plumb_shape shape, const pl_made *made);
+// Takes the pieces of a body out of the grid they are in and files them where its type and its
+// being enabled want them. Needs no memory.
+void pl_pieces_refile(plumb_world *world, uint32_t row);
 // Removes the pieces of a shape, and its share of the material's users.
 void pl_pieces_remove(plumb_world *world, uint32_t first);
+// Moves a piece from the list of moving ones to that of resting ones, and back.
+void pl_piece_rest(plumb_world *world, uint32_t piece);
+void pl_piece_move(plumb_world *world, uint32_t piece);
 
 //---- mass (mass.c)
 //--------------------------------------------------------------------------------
@@ -95,6 +117,8 @@ real pl_density_of(const plumb_world *world, uint32_t piece);
 // The shapes of a body at the densities in force, and one more.
 pl_mass_sum pl_mass_of_shapes(const plumb_world *world, uint32_t row);
 void pl_mass_add(pl_mass_sum *sum, plumb_mass_properties area, real density);
+// The same about another centre.
+void pl_mass_recenter(pl_mass_sum *sum, real x, real y);
 // What the body gets; false when mass or inertia leave their range (they are then clamped).
 bool pl_mass_resolve(const pl_mass_sum *sum, real set_mass, real set_inertia, pl_body_mass *out);
 // Gives a dynamic body its mass. The origin stays; the centre moves with it and keeps to the rigid
@@ -102,6 +126,15 @@ bool pl_mass_resolve(const pl_mass_sum *sum, real set_mass, real set_inertia, pl
 void pl_mass_apply(plumb_world *world, uint32_t row, const pl_body_mass *mass);
 // All of that for a body whose shapes have changed; static and kinematic ones have no mass.
 void pl_mass_revise(plumb_world *world, uint32_t row);
+
+//---- size (extent.c)
+//---------------------------------------------------------------------------------
+
+// [m] half the least width of a piece, rounding included; 0 for segments. Inner cuts of an outline
+// are no sides where `seams` says so; without any side, PLUMB_REAL_MAX.
+real pl_piece_half_width(const plumb_world *world, uint32_t piece, bool seams);
+// Extent and slack of a dynamic or kinematic body whose shapes or centre have changed.
+void pl_extent_revise(plumb_world *world, uint32_t row);
 
 //---- making shapes (shape_make.c)
 //-----------------------------------------------------------------
@@ -120,11 +153,26 @@ plumb_entity pl_entity_claim(plumb_world *world, plumb_entity reserved, plumb_en
 // The descriptor was checked (pl_body_check, pl_shape_make). Errors: E_MEMORY, E_RANGE (mass).
 plumb_result pl_body_check(const plumb_world *world, const char *function,
                            const plumb_body_desc *desc);
+// Damping, caps and time scale of a descriptor (body_tune.c).
+plumb_result pl_tuning_check(const plumb_world *world, const char *function,
+                             const plumb_body_desc *desc);
+// What is added to a row: force and torque, or impulse and angular impulse (body_force.c).
+typedef struct pl_push {
+    plumb_vec2 linear;
+    real angular;
+} pl_push;
+
+// Changes the velocity of a dynamic row by an impulse. E_NOT_FINITE: it would overflow; the first
+// only asks whether.
+plumb_result pl_impulse_check(const plumb_world *world, const char *function, uint32_t row,
+                              pl_push push);
+plumb_result pl_impulse_add(plumb_world *world, const char *function, uint32_t row, pl_push push);
 plumb_result pl_body_insert(plumb_world *world, const char *function, const plumb_body_desc *desc,
                             plumb_body *body);
 plumb_result pl_shape_insert(plumb_world *world, const char *function, uint32_t row,
                              const plumb_shape_desc *desc, const pl_made *made, plumb_shape *shape);
 void pl_body_place(plumb_world *world, uint32_t row, plumb_vec2 position, plumb_real angle);
+void pl_body_place_at(plumb_world *world, uint32_t row, plumb_vec2 position, plumb_rot q);
 plumb_result pl_place_check(const plumb_world *world, const char *function, plumb_vec2 position,
                             plumb_real angle);
 

@@ -126,10 +126,71 @@ plumb_result plumb_shape_set_material(plumb_world *world, plumb_shape shape,
     }
     for (uint32_t p = first; p != PL_NONE; p = world->pieces.next_in_shape[p]) {
         --world->materials.users[world->pieces.material[p]];
+        if (world->pieces.material[p] != row) {
+            pl_sleep_disturb_piece(world, p);
+        }
     }
     set_material(world, first, row);
     world->schedule_dirty = true;
     return PLUMB_OK;
+}
+
+plumb_result plumb_shape_set_density(plumb_world *world, plumb_shape shape, plumb_real density)
+{
+    uint32_t first;
+    plumb_result r = pl_check_shape(world, __func__, shape, &first);
+    r = r != PLUMB_OK ? r : pl_check_range(world, __func__, "density", density, 0, PLUMB_REAL_MAX);
+    if (r != PLUMB_OK) {
+        return r;
+    }
+    pl_pieces *pieces = &world->pieces;
+    uint32_t row = pieces->body[first];
+    real own = pieces->own_density[first], old = pieces->density[first];
+    for (uint32_t p = first; p != PL_NONE; p = pieces->next_in_shape[p]) {
+        pieces->own_density[p] = density;
+        pieces->density[p] = pl_density_of(world, p);
+    }
+    r = check_mass(world, __func__, row, &(pl_made){ 0 }, density);
+    for (uint32_t p = first; r != PLUMB_OK && p != PL_NONE; p = pieces->next_in_shape[p]) {
+        pieces->own_density[p] = own;
+        pieces->density[p] = old;
+    }
+    if (r == PLUMB_OK) {
+        pl_mass_revise(world, row);
+        pl_sleep_disturb(world, row);
+    }
+    return r;
+}
+
+plumb_result plumb_shape_set_geometry(plumb_world *world, plumb_shape shape,
+                                      const plumb_shape_desc *desc)
+{
+    uint32_t first;
+    plumb_result r = pl_check_shape(world, __func__, shape, &first);
+    r = r != PLUMB_OK ? r : pl_check_pointer(world, __func__, "desc", desc);
+    r = r != PLUMB_OK ? r : pl_check_unlocked(world, __func__);
+    if (r != PLUMB_OK) {
+        return r;
+    }
+    const pl_pieces *pieces = &world->pieces;
+    uint32_t row = pieces->body[first];
+    plumb_shape_desc wanted = *desc;
+    wanted.material = plumb_shape_material(world, shape);
+    wanted.density = pieces->own_density[first];
+    wanted.filter = plumb_shape_filter(world, shape);
+    wanted.filter.mask = wanted.filter.nothing ? 0 : wanted.filter.mask;
+    wanted.sensor = plumb_shape_is_sensor(world, shape);
+    wanted.user_data = pieces->user_data[first];
+    pl_made made;
+    r = pl_shape_make(world, __func__, &wanted, &made);
+    // The new pieces take the handle over while the old ones are there: only then can nothing fail.
+    r = r != PLUMB_OK ? r : pl_shape_insert(world, __func__, row, &wanted, &made, &shape);
+    if (r == PLUMB_OK) {
+        pl_pieces_remove(world, first);
+        pl_mass_revise(world, row);
+        pl_sleep_disturb(world, row);
+    }
+    return r;
 }
 
 plumb_result plumb_shape_set_user_data(plumb_world *world, plumb_shape shape, void *user_data)
@@ -169,6 +230,24 @@ plumb_material plumb_shape_material(const plumb_world *world, plumb_shape shape)
     uint32_t first = pl_shape_piece(world, shape);
     plumb_material none = PLUMB_NULL_INIT;
     return first == PL_NONE ? none : world->materials.entity[world->pieces.material[first]];
+}
+
+plumb_real plumb_shape_density(const plumb_world *world, plumb_shape shape)
+{
+    uint32_t first = pl_shape_piece(world, shape);
+    return first == PL_NONE ? 0 : world->pieces.density[first];
+}
+
+plumb_mass_properties plumb_shape_mass(const plumb_world *world, plumb_shape shape)
+{
+    uint32_t first = pl_shape_piece(world, shape);
+    if (first == PL_NONE) {
+        return (plumb_mass_properties){ 0 };
+    }
+    plumb_mass_properties m = world->pieces.area[first];
+    m.mass *= world->pieces.density[first];
+    m.inertia *= world->pieces.density[first];
+    return m;
 }
 
 void *plumb_shape_user_data(const plumb_world *world, plumb_shape shape)

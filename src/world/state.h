@@ -6,16 +6,21 @@
 #define PL_STATE_H
 
 #include "broad/broad.h"
+#include "core/tasks.h"
+#include "continuous/continuous.h"
 #include "ecs/command.h"
 #include "ecs/component.h"
 #include "ecs/registry.h"
 #include "ecs/system.h"
+#include "effects/effects.h"
 #include "event/event.h"
 #include "joints/joint.h"
 #include "narrow/manifold.h"
 #include "plumb/event.h"
 #include "plumb/query.h"
+#include "seams/seams.h"
 #include "solver/solver.h"
+#include "sleep/sleep.h"
 #include "step/pass.h"
 #include "world/columns.h"
 
@@ -41,6 +46,7 @@ typedef struct pl_pose {
 struct plumb_world {
     plumb_world_desc desc; // defaults resolved
     pl_memory memory;
+    pl_tasks *tasks;       // null: one thread
     plumb_vec2 gravity;
     uint64_t step_count;
     double time;
@@ -49,7 +55,7 @@ struct plumb_world {
     // Entities and rows.
     pl_registry registry;
     pl_bodies bodies;
-    uint32_t dynamic_count, kinematic_count, asleep_count; // the rest of bodies.table.count is static
+    uint32_t dynamic_count, kinematic_count, asleep_count, disabled_count; // the rest is static
     pl_pieces pieces;
     uint32_t shape_count;
     uint32_t serial;       // counts the pieces ever made
@@ -62,7 +68,7 @@ struct plumb_world {
     pl_commands commands;
 
     // Lists and flags that structural changes keep up.
-    pl_buffer moving;      // uint32_t: pieces of dynamic and kinematic bodies, unordered
+    pl_buffer moving;      // uint32_t: pieces of awake dynamic and of kinematic bodies, unordered
     uint32_t moving_count;
     pl_buffer poses;       // pl_pose a body row
     bool rows_moved;       // body rows changed place: pairs must look their rows up again
@@ -72,9 +78,14 @@ struct plumb_world {
 
     // Counters behind `wanted`: how many pieces or bodies ask for an effect.
     uint32_t piece_kinds[PL_PIECE_KIND_COUNT]; // live pieces of each kind
-    uint32_t turning_bodies;                   // awake dynamic bodies with inverse inertia > 0
+    uint32_t turning_bodies;                   // dynamic bodies with inverse inertia > 0, asleep or not
+
+    uint32_t continuous_bodies;                // dynamic bodies with PL_BODY_CONTINUOUS
 
     uint32_t sensor_pieces, filtered_pieces, part_pieces; // live pieces with the flag
+    uint32_t locked_bodies; // bodies locked in x or y
+    pl_tunings tunings;
+    pl_targets targets;
 
     // Tables that few worlds have, sorted by key.
     pl_buffer excluded; // uint64_t: slots of two bodies (filter.c)
@@ -86,6 +97,8 @@ struct plumb_world {
     pl_broad broad;
     pl_narrow narrow;
     pl_solver solver;
+    pl_continuous continuous;
+    pl_seams seams;
     pl_joints joints;
     pl_schedule schedule;
 
@@ -93,9 +106,11 @@ struct plumb_world {
     pl_buffer begin_events, end_events; // plumb_contact_begin, plumb_contact_end
     pl_buffer hit_events;               // plumb_contact_hit
     int begin_count, end_count, hit_count;
+    pl_buffer graves; // pl_grave by piece slot
     pl_parts parts;
     pl_blows blows;
     pl_sensing sensing;
+    pl_sleep sleep;
 
     // Locking and errors.
     const char *locked_by; // name of the system or hook that runs; NULL: structural changes allowed

@@ -15,6 +15,8 @@
 #define SOFT_DAMPING       ((real)3)
 #define SOFT_PUSH_SPEED    ((real)6) // [m/s]
 #define CLASSIC_ITERATIONS 10
+#define SUBSTEPS_MOST      64
+#define ITERATIONS_MOST    1000
 
 //---- the descriptor
 //-------------------------------------------------------------------------------
@@ -28,8 +30,9 @@ static plumb_result check_integers(const plumb_world *world, const char *fn,
     } fields[] = {
         { "y_axis", (int64_t)d->y_axis, PLUMB_Y_DOWN },
         { "solver", (int64_t)d->solver, PLUMB_SOLVER_PGS },
-        { "substeps", d->substeps, 64 },
-        { "iterations", d->iterations, 1000 },
+        { "substeps", d->substeps, SUBSTEPS_MOST },
+        { "iterations", d->iterations, ITERATIONS_MOST },
+        { "workers", d->workers, PLUMB_WORKERS_MAX },
         { "body_capacity", d->body_capacity, CAPACITY_MOST },
         { "shape_capacity", d->shape_capacity, CAPACITY_MOST },
         { "contact_capacity", d->contact_capacity, CAPACITY_MOST },
@@ -64,6 +67,8 @@ static plumb_result check_desc(const plumb_world *world, const char *fn, const p
         { "push_speed", d->push_speed },
         { "restitution_speed", d->restitution_speed },
         { "hit_speed", d->hit_speed },
+        { "sleep_speed", d->sleep_speed },
+        { "sleep_time", d->sleep_time },
     };
     for (size_t i = 0; i < sizeof fields / sizeof fields[0] && r == PLUMB_OK; ++i) {
         r = pl_check_range(world, fn, fields[i].name, fields[i].value, 0, PLUMB_REAL_MAX);
@@ -83,6 +88,8 @@ static void resolve_defaults(plumb_world_desc *d)
     d->contact_damping = d->contact_damping > 0 ? d->contact_damping : SOFT_DAMPING;
     d->push_speed = d->push_speed > 0 ? d->push_speed : SOFT_PUSH_SPEED;
     d->simd_width = pl_solver_best_width(d->simd_width);
+    d->workers = d->workers != 0 ? d->workers : 1;
+    pl_sleep_resolve(d);
 }
 
 //---- create, destroy
@@ -94,6 +101,8 @@ static void init_tables(plumb_world *world)
     pl_pool_init(&world->vertices);
     world->pieces.free_head = PL_NONE;
     world->joints.free_head = PL_NONE;
+    world->sleep.first_due = PL_NONE;
+    world->continuous.least_slack = PLUMB_REAL_MAX;
     world->schedule_dirty = true;
 }
 
@@ -124,13 +133,27 @@ static bool reserve_rows(plumb_world *world)
                              d->contact_capacity * sizeof(pl_manifold));
 }
 
+// A world of one worker and no hooks has no pool.
+static bool start_workers(plumb_world *world)
+{
+    const plumb_world_desc *d = &world->desc;
+    if (d->workers == 1 && d->tasks.run == NULL) {
+        return true;
+    }
+    world->tasks = pl_tasks_create(&world->memory, d->workers, &d->tasks, d->hook_context);
+    return world->tasks != NULL;
+}
+
 static void free_world(plumb_world *world)
 {
     pl_memory memory = world->memory;
+    pl_tasks_destroy(&memory, world->tasks);
     pl_broad_free(&memory, &world->broad);
     pl_narrow_free(&memory, &world->narrow);
+    pl_seams_free(&memory, &world->seams);
     pl_solver_free(&memory, &world->solver);
     pl_joints_free(&memory, &world->joints);
+    pl_continuous_free(&memory, &world->continuous);
     pl_registry_free(&memory, &world->registry);
     pl_table_free(&memory, &world->bodies.table, pl_body_columns, pl_body_column_count);
     pl_table_free(&memory, &world->pieces.table, pl_piece_columns, pl_piece_column_count);
@@ -148,9 +171,13 @@ static void free_world(plumb_world *world)
     pl_buffer_free(&memory, &world->hit_events);
     pl_buffer_free(&memory, &world->excluded);
     pl_buffer_free(&memory, &world->material_pairs);
+    pl_buffer_free(&memory, &world->graves);
+    pl_buffer_free(&memory, &world->tunings.items);
+    pl_buffer_free(&memory, &world->targets.items);
     pl_parts_free(&memory, &world->parts);
     pl_blows_free(&memory, &world->blows);
     pl_sensing_free(&memory, &world->sensing);
+    pl_sleep_free(&memory, &world->sleep);
     pl_resize(&memory, world, sizeof *world, 0);
 }
 
@@ -187,7 +214,7 @@ plumb_result plumb_world_create(const plumb_world_desc *desc, plumb_world **worl
         resolve_defaults(&made->desc);
         made->desc.allocator = memory.hooks;
         made->gravity = made->desc.gravity;
-        if (!make_default_material(made) || !reserve_rows(made)) {
+        if (!make_default_material(made) || !reserve_rows(made) || !start_workers(made)) {
             r = pl_fail_memory(made, "plumb_world_create");
         }
     }
@@ -222,12 +249,83 @@ plumb_result plumb_world_set_gravity(plumb_world *world, plumb_vec2 gravity)
         return PLUMB_E_NULL;
     }
     plumb_result r = pl_check_finite_vec(world, __func__, "gravity", gravity);
+    if (r == PLUMB_OK && (gravity.x != world->gravity.x || gravity.y != world->gravity.y)) {
+        pl_sleep_disturb_all(world);
+    }
     if (r == PLUMB_OK) {
         world->gravity = world->desc.gravity = gravity;
         world->desc.zero_gravity = gravity.x == 0 && gravity.y == 0;
         world->schedule_dirty = true;
     }
     return r;
+}
+
+static plumb_result check_count(const plumb_world *world, const char *fn, const char *field,
+                                int value, int most)
+{
+    return value >= 1 && value <= most
+               ? PLUMB_OK
+               : pl_fail(world, PLUMB_E_RANGE, fn, "%s is %d; it must be 1 to %d", field, value,
+                         most);
+}
+
+plumb_result plumb_world_set_substeps(plumb_world *world, int substeps, int iterations)
+{
+    if (world == NULL) {
+        return PLUMB_E_NULL;
+    }
+    plumb_result r = check_count(world, __func__, "substeps", substeps, SUBSTEPS_MOST);
+    r = r != PLUMB_OK ? r
+                      : check_count(world, __func__, "iterations", iterations, ITERATIONS_MOST);
+    r = r != PLUMB_OK ? r : pl_check_unlocked(world, __func__);
+    if (r == PLUMB_OK) {
+        world->desc.substeps = substeps;
+        world->desc.iterations = iterations;
+    }
+    return r;
+}
+
+plumb_result plumb_world_set_contact_tuning(plumb_world *world, plumb_real hertz,
+                                            plumb_real damping, plumb_real push_speed)
+{
+    if (world == NULL) {
+        return PLUMB_E_NULL;
+    }
+    plumb_result r = pl_check_range(world, __func__, "hertz", hertz, 0, PLUMB_REAL_MAX);
+    r = r != PLUMB_OK ? r : pl_check_range(world, __func__, "damping", damping, 0, PLUMB_REAL_MAX);
+    r = r != PLUMB_OK
+            ? r
+            : pl_check_range(world, __func__, "push_speed", push_speed, 0, PLUMB_REAL_MAX);
+    r = r != PLUMB_OK ? r : pl_check_unlocked(world, __func__);
+    if (r == PLUMB_OK) {
+        world->desc.contact_hertz = hertz;
+        world->desc.contact_damping = damping;
+        world->desc.push_speed = push_speed;
+        resolve_defaults(&world->desc);
+    }
+    return r;
+}
+
+plumb_result plumb_world_set_restitution_speed(plumb_world *world, plumb_real speed)
+{
+    if (world == NULL) {
+        return PLUMB_E_NULL;
+    }
+    plumb_result r = pl_check_range(world, __func__, "speed", speed, 0, PLUMB_REAL_MAX);
+    r = r != PLUMB_OK ? r : pl_check_unlocked(world, __func__);
+    if (r == PLUMB_OK) {
+        world->desc.restitution_speed = speed;
+    }
+    return r;
+}
+
+plumb_result plumb_world_set_user_data(plumb_world *world, void *user_data)
+{
+    if (world == NULL) {
+        return PLUMB_E_NULL;
+    }
+    world->desc.user_data = user_data;
+    return PLUMB_OK;
 }
 
 plumb_vec2 plumb_world_gravity(const plumb_world *world)
@@ -249,35 +347,55 @@ void *plumb_world_user_data(const plumb_world *world)
 //---- sums
 //-----------------------------------------------------------------------------------------
 
+// The summary of contacts that sleep, as it was when they fell asleep.
+static void add_sleeping(const plumb_world *world, pl_narrow *sum)
+{
+    for (uint32_t k = 0; k < world->sleep.island_slots; ++k) {
+        const pl_island *i = &pl_islands(&world->sleep)[k]; // a free slot has no contacts
+        sum->touching_count += i->touching_count;
+        sum->point_count += i->point_count;
+        sum->sum_penetration += i->sum_penetration;
+        if (i->max_penetration > sum->max_penetration) {
+            sum->max_penetration = i->max_penetration;
+        }
+    }
+}
+
 plumb_stats plumb_world_stats(const plumb_world *world)
 {
     if (world == NULL) {
         return (plumb_stats){ 0 };
     }
     uint32_t bodies = world->bodies.table.count;
+    pl_narrow all = world->narrow;
+    add_sleeping(world, &all);
     return (plumb_stats){
         .step_count = world->step_count,
         .time = world->time,
         .body_count = bodies,
         .dynamic_count = world->dynamic_count,
         .kinematic_count = world->kinematic_count,
-        .static_count = bodies - pl_partition_first(world, PL_PART_STATIC),
+        .static_count =
+            bodies - world->disabled_count - pl_partition_first(world, PL_PART_STATIC),
+        .asleep_count = world->asleep_count,
+        .island_count = world->sleep.island_count,
+        .disabled_count = world->disabled_count,
         .shape_count = world->shape_count,
         .piece_count = world->pieces.live,
-        .pair_count = world->broad.pairs.count,
-        .contact_count = world->narrow.touching_count,
-        .point_count = world->narrow.point_count,
+        .pair_count = world->broad.pairs.count + world->sleep.contact_count,
+        .contact_count = all.touching_count,
+        .point_count = all.point_count,
         .color_count = world->solver.color_count,
         .overflow_count = world->solver.overflow_count,
-        .grid_rebuilds = (uint32_t)world->broad.rebuilds,
+        .pair_rebuilds = (uint32_t)world->broad.rebuilds,
         .bounce_count = world->solver.bounce_count,
         .arrested_count = world->arrested_count,
+        .fast_count = world->continuous.count,
+        .stopped_count = world->continuous.stopped_count,
         .simd_width = world->desc.simd_width,
-        .max_penetration = world->narrow.max_penetration,
+        .max_penetration = all.max_penetration,
         .mean_penetration =
-            world->narrow.touching_count > 0
-                ? (real)(world->narrow.sum_penetration / world->narrow.touching_count)
-                : 0,
+            all.touching_count > 0 ? (real)(all.sum_penetration / all.touching_count) : 0,
         .bytes = world->memory.bytes,
         .peak_bytes = world->memory.peak,
     };

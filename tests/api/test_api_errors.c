@@ -49,6 +49,12 @@ static void bodies_refuse(void **state)
             BODY(.type = PLUMB_STATIC, .angular_velocity = 2));
     REFUSED(E_RANGE, "plumb_body_create: angular_velocity is 2; it must be 0 with fixed_rotation",
             BODY(.fixed_rotation = true, .angular_velocity = 2));
+    REFUSED(E_RANGE,
+            "plumb_body_create: continuous is true; it must be false for a static body",
+            BODY(.type = PLUMB_STATIC, .continuous = true));
+    REFUSED(E_RANGE,
+            "plumb_body_create: continuous is true; it must be false for a kinematic body",
+            BODY(.type = PLUMB_KINEMATIC, .continuous = true));
     REFUSED(E_RANGE, "plumb_body_create: mass is -1; it must be 0 to 1e+36", BODY(.mass = -1));
     REFUSED(E_RANGE, "plumb_body_create: mass is 1e-37; it must be 1e-36 to 1e+36",
             BODY(.mass = R(1e-37)));
@@ -146,6 +152,10 @@ static void masses_are_refused(void **state)
             plumb_body_reset_mass(W, NULL_));
     REFUSED(E_STATE, "plumb_body_set_fixed_rotation: body is kinematic; it must be dynamic",
             plumb_body_set_fixed_rotation(W, f->kinematic, true));
+    REFUSED(E_STATE, "plumb_body_set_continuous: body is kinematic; it must be dynamic",
+            plumb_body_set_continuous(W, f->kinematic, true));
+    REFUSED(E_HANDLE, "plumb_body_set_continuous: body is null; it must be a live body",
+            plumb_body_set_continuous(W, NULL_, true));
     REFUSED(E_NOT_FINITE, "plumb_body_set_gravity_scale: scale is inf; it must be finite",
             plumb_body_set_gravity_scale(W, f->dynamic, INF_));
     REFUSED(E_HANDLE, "plumb_body_set_gravity_scale: body is null; it must be a live body",
@@ -516,6 +526,7 @@ static void a_null_world_is_refused_everywhere(void **state)
         plumb_body_set_mass(NULL, e, 1),
         plumb_body_reset_mass(NULL, e),
         plumb_body_set_fixed_rotation(NULL, e, true),
+        plumb_body_set_continuous(NULL, e, true),
         plumb_body_set_gravity_scale(NULL, e, 1),
         plumb_body_set_user_data(NULL, e, NULL),
         plumb_shape_destroy(NULL, e),

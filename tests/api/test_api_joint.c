@@ -295,6 +295,106 @@ static void joints_go_with_their_bodies(void **state)
     assert_int_equal(plumb_world_step(f->world, R(0.01)), PLUMB_OK);
 }
 
+// A rod that a blow of 12 N s loads: it breaks by 10 N s, not by 15 N s, and by no force.
+static void joints_break_by_impulse(void **state)
+{
+    (void)state;
+    const plumb_solver solvers[] = { PLUMB_SOLVER_SOFT, PLUMB_SOLVER_PGS };
+    for (int k = 0; k < 4; ++k) {
+        plumb_world *w = NULL;
+        plumb_world_create(
+            &(plumb_world_desc){ .zero_gravity = true, .solver = solvers[k / 2] }, &w);
+        plumb_body b = plumb_body_create(w, &(plumb_body_desc){ .mass = 2, .inertia = 1 });
+        plumb_joint j = plumb_joint_create(w, &(plumb_joint_desc){ .body_b = b });
+        plumb_real bound = k % 2 == 0 ? 10 : 15;
+        assert_int_equal(plumb_joint_set_break_impulse(w, j, bound), PLUMB_OK);
+        plumb_joint_desc d;
+        plumb_joint_settings(w, j, &d);
+        assert_near(d.break_impulse, bound, 0);
+        for (int i = 0; i < 30; ++i) {
+            assert_int_equal(plumb_world_step(w, R(1.0 / 60)), PLUMB_OK);
+        }
+        assert_true(plumb_joint_valid(w, j));
+        plumb_body_apply_impulse_center(w, b, plumb_v2(12, 0));
+        assert_int_equal(plumb_world_step(w, R(1.0 / 60)), PLUMB_OK);
+        int count;
+        const plumb_joint_break *e = plumb_world_joint_break_events(w, &count);
+        assert_int_equal(count, k % 2 == 0 ? 1 : 0);
+        assert_int_equal(plumb_joint_valid(w, j), k % 2 != 0);
+        if (count > 0) {
+            assert_true(plumb_same(e->joint, j));
+            assert_near(plumb_vec2_magnitude(e->impulse), 12, 0.5);
+        }
+        plumb_world_destroy(w);
+    }
+}
+
+static void a_joint_that_is_off_does_nothing(void **state)
+{
+    fixture *f = *state;
+    plumb_world *w = f->world;
+    plumb_joint_desc d = { .kind = PLUMB_WELD, .body_b = f->dynamic, .anchor = { 0, 5 } };
+    d.disabled = true;
+    plumb_joint j = plumb_joint_create(w, &d);
+    assert_true(plumb_joint_valid(w, j));
+    assert_false(plumb_joint_is_enabled(w, j));
+    for (int i = 0; i < 10; ++i) {
+        plumb_world_step(w, R(0.01));
+    }
+    plumb_real y = plumb_body_position(w, f->dynamic).y;
+    assert_true(y < R(4.97));
+    assert_vec_near(plumb_joint_force(w, j), 0, 0, 0);
+    assert_int_equal(plumb_joint_set_enabled(w, j, true), PLUMB_OK);
+    assert_true(plumb_joint_is_enabled(w, j));
+    for (int i = 0; i < 200; ++i) {
+        plumb_world_step(w, R(0.01));
+    }
+    assert_near(plumb_body_position(w, f->dynamic).y, 5, 0.01);
+    assert_near(plumb_joint_force(w, j).y, 4 * 9.81, 0.1);
+    assert_int_equal(plumb_joint_set_enabled(w, j, false), PLUMB_OK);
+    plumb_world_step(w, R(0.01));
+    assert_vec_near(plumb_joint_force(w, j), 0, 0, 0);
+    assert_near(plumb_joint_torque(w, j), 0, 0);
+    assert_false(plumb_joint_is_enabled(w, NONE));
+}
+
+// Joined bodies do not collide; with the joint off, they do.
+static void a_joint_that_is_off_keeps_nobody_apart(void **state)
+{
+    fixture *f = *state;
+    plumb_world *w = f->world;
+    plumb_body_teleport(w, f->dynamic, plumb_v2(0, 2), 0);
+    plumb_joint j = plumb_joint_create(w, &(plumb_joint_desc){ .kind = PLUMB_FRICTION,
+                                                               .body_a = f->fixed,
+                                                               .body_b = f->dynamic });
+    plumb_joint_set_enabled(w, j, false);
+    for (int i = 0; i < 60; ++i) {
+        plumb_world_step(w, R(1.0 / 60));
+    }
+    assert_near(plumb_body_position(w, f->dynamic).y, 2, 0.01);
+    plumb_joint_set_enabled(w, j, true);
+    for (int i = 0; i < 30; ++i) {
+        plumb_world_step(w, R(1.0 / 60));
+    }
+    assert_true(plumb_body_position(w, f->dynamic).y < R(1.5));
+}
+
+static void impulse_and_enabling_are_refused(void **state)
+{
+    fixture *f = *state;
+    plumb_world *w = f->world;
+    plumb_joint j = make(f, PLUMB_REVOLUTE);
+    REFUSED(E_RANGE, "plumb_joint_set_break_impulse: impulse is -1; it must be at least 0",
+            plumb_joint_set_break_impulse(w, j, -1));
+    REFUSED(E_HANDLE, "plumb_joint_set_break_impulse: joint is null; it must be a live joint",
+            plumb_joint_set_break_impulse(w, NONE, 1));
+    REFUSED(E_HANDLE, "plumb_joint_set_enabled: joint is a body; it must be a live joint",
+            plumb_joint_set_enabled(w, f->dynamic, true));
+    REFUSED(E_RANGE, "plumb_joint_create: break_impulse is -1; it must be at least 0",
+            made(w, plumb_joint_create(w, &(plumb_joint_desc){ .body_b = f->dynamic,
+                                                               .break_impulse = -1 })));
+}
+
 // A world with joints and no shapes has a solver; without joints it has none.
 static void schedule_follows_joints(void **state)
 {
@@ -308,8 +408,8 @@ static void schedule_follows_joints(void **state)
             j = plumb_joint_create(w, &(plumb_joint_desc){ .body_b = b, .anchor = { 0, 0 } });
         }
         assert_int_equal(plumb_world_step(w, R(0.01)), PLUMB_OK);
-        plumb_pass_info rows[32];
-        int count = plumb_world_schedule(w, rows, 32), found = 0;
+        plumb_pass_info rows[64];
+        int count = plumb_world_schedule(w, rows, 64), found = 0;
         for (int i = 0; i < count; ++i) {
             bool joint_pass =
                 strcmp(rows[i].name, "graph") == 0 || strcmp(rows[i].name, "soft step") == 0 ||
@@ -335,6 +435,10 @@ int main(void)
         API_TEST(setters_refuse),
         API_TEST(joints_are_locked_in_a_step),
         API_TEST(joints_go_with_their_bodies),
+        cmocka_unit_test(joints_break_by_impulse),
+        API_TEST(a_joint_that_is_off_does_nothing),
+        API_TEST(a_joint_that_is_off_keeps_nobody_apart),
+        API_TEST(impulse_and_enabling_are_refused),
         cmocka_unit_test(schedule_follows_joints),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

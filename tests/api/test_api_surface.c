@@ -185,6 +185,154 @@ static void every_width_gives_the_same_bits(void **state)
 
 //---- refusals ------------------------------------------------------------------------------------
 
+// A disc under a ceiling: how it comes by its pull-off force, and what its end is.
+static plumb_world *hang(plumb_material_desc disc, plumb_material_desc ceiling, plumb_body *body,
+                         plumb_material made[2])
+{
+    plumb_world *w = flat_world((plumb_world_desc){ 0 });
+    made[0] = plumb_material_create(w, &disc);
+    made[1] = plumb_material_create(w, &ceiling);
+    plumb_body top = plumb_body_create(w, &(plumb_body_desc){ .type = PLUMB_STATIC });
+    plumb_shape_create(w, top,
+                       &(plumb_shape_desc){ .kind = PLUMB_BOX,
+                                            .half = { 5, 1 },
+                                            .center = { 0, R(1.499) },
+                                            .material = made[1] });
+    *body = add_disc(w, 0, 0, (plumb_shape_desc){ .material = made[0] }, NULL);
+    plumb_body_set_mass(w, *body, 1);
+    return w;
+}
+
+static bool holds(plumb_world *w, plumb_body body)
+{
+    plumb_body_set_gravity_scale(w, body, 0);
+    plumb_body_set_velocity(w, body, plumb_v2(0, R(0.1)));
+    steps(w, 8); // to touch
+    plumb_body_set_gravity_scale(w, body, 1);
+    steps(w, 128);
+    return plumb_body_position(w, body).y > R(-0.1);
+}
+
+static void adhesion_is_mixed(void **state)
+{
+    (void)state;
+    plumb_body b;
+    plumb_material m[2];
+    const struct {
+        plumb_real disc, ceiling;
+        plumb_mix mix;
+        bool holds;
+    } cases[] = { { 0, 20, PLUMB_MIX_DEFAULT, true },  { 20, 0, PLUMB_MIX_DEFAULT, true },
+                  { 5, 9, PLUMB_MIX_DEFAULT, false },  { 20, 0, PLUMB_MIX_MIN, false },
+                  { 20, 2, PLUMB_MIX_AVERAGE, true },  { 20, 1, PLUMB_MIX_GEOMETRIC, false },
+                  { 4, 4, PLUMB_MIX_MULTIPLY, true } };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
+        plumb_world *w = hang((plumb_material_desc){ .adhesion = cases[i].disc,
+                                                     .adhesion_mix = cases[i].mix },
+                              (plumb_material_desc){ .adhesion = cases[i].ceiling }, &b, m);
+        assert_int_equal(holds(w, b), cases[i].holds);
+        plumb_world_destroy(w);
+    }
+    plumb_world *w = hang((plumb_material_desc){ .adhesion = 20 }, (plumb_material_desc){ 0 }, &b, m);
+    plumb_material_desc d;
+    plumb_material_get(w, m[0], &d);
+    assert_near(d.adhesion, 20, 0);
+    assert_int_equal(d.adhesion_mix, PLUMB_MIX_DEFAULT);
+    plumb_material_pair_set(w, m[0], m[1], &(plumb_material_pair){ .adhesion = 5 });
+    assert_false(holds(w, b));
+    plumb_world_destroy(w);
+    w = hang((plumb_material_desc){ 0 }, (plumb_material_desc){ 0 }, &b, m);
+    plumb_material_pair_set(w, m[0], m[1], &(plumb_material_pair){ .adhesion = 15 });
+    assert_true(holds(w, b));
+    plumb_world_destroy(w);
+}
+
+// It hangs until pulled off: one begin, no end; then one end, and it is not drawn back.
+static void what_sticks_lets_go_with_an_event(void **state)
+{
+    (void)state;
+    plumb_body b;
+    plumb_material m[2];
+    plumb_world *w = hang((plumb_material_desc){ .adhesion = 30, .restitution = R(0.5) },
+                          (plumb_material_desc){ 0 }, &b, m);
+    int count, begins = 0, ends = 0;
+    for (int i = 0; i < 300; ++i) {
+        if (i == 100) {
+            assert_near(plumb_body_position(w, b).y, 0, 0.01);
+            assert_int_equal(begins, 1);
+            assert_int_equal(ends, 0);
+        }
+        if (i >= 100 && i < 150) {
+            plumb_body_apply_force_center(w, b, plumb_v2(0, -25)); // 34.8 N in all
+        }
+        steps(w, 1);
+        plumb_world_begin_events(w, &count);
+        begins += count;
+        plumb_world_end_events(w, &count);
+        ends += count;
+    }
+    assert_int_equal(begins, 1);
+    assert_int_equal(ends, 1);
+    assert_true(plumb_body_position(w, b).y < -5);
+    plumb_world_destroy(w);
+}
+
+static void glue(const plumb_system_call *call)
+{
+    int count = plumb_contact_edit_count(call->world);
+    for (int i = 0; i < count; ++i) {
+        plumb_contact_edit edit;
+        assert_int_equal(plumb_contact_edit_get(call->world, i, &edit), PLUMB_OK);
+        edit.adhesion = edit.touching ? *(plumb_real *)call->context : 0;
+        assert_int_equal(plumb_contact_edit_set(call->world, i, &edit), PLUMB_OK);
+        edit.adhesion = -1;
+        assert_int_equal(plumb_contact_edit_set(call->world, i, &edit), PLUMB_E_RANGE);
+        assert_string_equal(plumb_world_error(call->world).message,
+                            "plumb_contact_edit_set: adhesion is -1; it must be at least 0");
+    }
+}
+
+static void a_system_can_glue(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 2; ++i) {
+        plumb_body b;
+        plumb_material m[2];
+        plumb_world *w = hang((plumb_material_desc){ 0 }, (plumb_material_desc){ 0 }, &b, m);
+        plumb_real force = i == 0 ? 12 : 8;
+        plumb_system_create(w, &(plumb_system_desc){ .name = "glue",
+                                                     .phase = PLUMB_PHASE_CONTACTS,
+                                                     .run = glue,
+                                                     .context = &force });
+        assert_int_equal(holds(w, b), i == 0);
+        plumb_world_destroy(w);
+    }
+}
+
+// Locked and sticky bodies take the special kernel: the same bits at every width.
+static void special_contacts_give_the_same_bits(void **state)
+{
+    (void)state;
+    uint64_t digest[3];
+    for (int k = 0; k < 3; ++k) {
+        plumb_world *w = flat_world((plumb_world_desc){ .simd_width = 4 << k });
+        plumb_material tar = plumb_material_create(
+            w, &(plumb_material_desc){ .friction = R(0.4), .adhesion = 3, .rolling_resistance = R(0.01) });
+        add_floor(w, tar);
+        for (int i = 0; i < 60; ++i) {
+            plumb_shape_desc d = { .material = i % 2 == 0 ? tar : NULL_ };
+            plumb_body b = add_disc(w, i % 10 * 0.9 + 0.03 * i, 0.6 + i / 10 * 0.95, d, NULL);
+            plumb_body_set_locks(w, b, (plumb_axis_locks){ .x = i % 7 == 0, .rotation = i % 5 == 0 });
+            plumb_body_set_time_scale(w, b, i % 11 == 0 ? R(0.5) : 1);
+            plumb_body_set_damping(w, b, i % 3 == 0 ? R(0.2) : 0, 0);
+        }
+        steps(w, 200);
+        digest[k] = digest_world(w);
+        plumb_world_destroy(w);
+    }
+    assert_true(digest[0] == digest[1] && digest[0] == digest[2]);
+}
+
 static void wrong_materials_and_speeds_are_refused(void **state)
 {
     fixture *f = *state;
@@ -210,6 +358,13 @@ static void wrong_materials_and_speeds_are_refused(void **state)
     REFUSED(E_RANGE,
             "plumb_material_pair_set: pair.rolling_resistance is -2; it must be at least 0",
             plumb_material_pair_set(W, f->wood, f->used, &p));
+    p = (plumb_material_pair){ .adhesion = -2 };
+    REFUSED(E_RANGE, "plumb_material_pair_set: pair.adhesion is -2; it must be at least 0",
+            plumb_material_pair_set(W, f->wood, f->used, &p));
+    REFUSED(E_RANGE, "plumb_material_set: adhesion is -1; it must be at least 0",
+            plumb_material_set(W, f->wood, &(plumb_material_desc){ .adhesion = -1 }));
+    REFUSED(E_RANGE, "plumb_material_set: adhesion_mix is 9; it must be a plumb_mix",
+            plumb_material_set(W, f->wood, &(plumb_material_desc){ .adhesion_mix = (plumb_mix)9 }));
     REFUSED(E_HANDLE, "plumb_material_pair_set: a is a body; it must be a live material or null",
             plumb_material_pair_set(W, f->fixed, f->used, NULL));
     REFUSED(E_HANDLE, "plumb_material_pair_get: b is a body; it must be a live material or null",
@@ -235,6 +390,10 @@ int main(void)
         API_TEST(the_pair_table_is_kept_up),
         cmocka_unit_test(a_pair_can_be_elastic_by_the_table),
         cmocka_unit_test(every_width_gives_the_same_bits),
+        cmocka_unit_test(adhesion_is_mixed),
+        cmocka_unit_test(what_sticks_lets_go_with_an_event),
+        cmocka_unit_test(a_system_can_glue),
+        cmocka_unit_test(special_contacts_give_the_same_bits),
         API_TEST(wrong_materials_and_speeds_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -261,6 +261,61 @@ static void lost_body_is_stopped(void **state)
     plumb_world_destroy(world);
 }
 
+static void settings_change(void **state)
+{
+    fixture *f = *state;
+    plumb_world *w = f->world;
+    int tag;
+    assert_int_equal(plumb_world_set_substeps(w, 8, 2), PLUMB_OK);
+    assert_int_equal(plumb_world_set_contact_tuning(w, 30, 5, 2), PLUMB_OK);
+    assert_int_equal(plumb_world_set_restitution_speed(w, R(0.5)), PLUMB_OK);
+    assert_int_equal(plumb_world_set_user_data(w, &tag), PLUMB_OK);
+    plumb_world_desc d = plumb_world_settings(w);
+    assert_int_equal(d.substeps, 8);
+    assert_int_equal(d.iterations, 2);
+    assert_near(d.contact_hertz, 30, 0);
+    assert_near(d.contact_damping, 5, 0);
+    assert_near(d.push_speed, 2, 0);
+    assert_near(d.restitution_speed, 0.5, 0);
+    assert_ptr_equal(plumb_world_user_data(w), &tag);
+    assert_int_equal(plumb_world_set_contact_tuning(w, 0, 0, 0), PLUMB_OK);
+    d = plumb_world_settings(w);
+    assert_near(d.contact_damping, 3, 0); // the defaults
+    assert_near(d.push_speed, 6, 0);
+    assert_near(d.gravity.y, -9.81, 1e-6);
+    assert_int_equal(plumb_world_step(w, R(0.01)), PLUMB_OK);
+    REFUSED(E_RANGE, "plumb_world_set_substeps: substeps is 0; it must be 1 to 64",
+            plumb_world_set_substeps(w, 0, 1));
+    REFUSED(E_RANGE, "plumb_world_set_substeps: iterations is 1001; it must be 1 to 1000",
+            plumb_world_set_substeps(w, 1, 1001));
+    REFUSED(E_RANGE, "plumb_world_set_contact_tuning: hertz is -1; it must be at least 0",
+            plumb_world_set_contact_tuning(w, -1, 0, 0));
+    REFUSED(E_RANGE, "plumb_world_set_contact_tuning: damping is -1; it must be at least 0",
+            plumb_world_set_contact_tuning(w, 0, -1, 0));
+    REFUSED(E_NOT_FINITE, "plumb_world_set_contact_tuning: push_speed is nan; it must be finite",
+            plumb_world_set_contact_tuning(w, 0, 0, R(NAN)));
+    REFUSED(E_RANGE, "plumb_world_set_restitution_speed: speed is -1; it must be at least 0",
+            plumb_world_set_restitution_speed(w, -1));
+    assert_int_equal(plumb_world_set_substeps(NULL, 1, 1), PLUMB_E_NULL);
+    assert_int_equal(plumb_world_set_contact_tuning(NULL, 1, 1, 1), PLUMB_E_NULL);
+    assert_int_equal(plumb_world_set_restitution_speed(NULL, 1), PLUMB_E_NULL);
+    assert_int_equal(plumb_world_set_user_data(NULL, NULL), PLUMB_E_NULL);
+}
+
+static void set_in_a_step(const plumb_system_call *call)
+{
+    assert_int_equal(plumb_world_set_substeps(call->world, 1, 1), PLUMB_E_LOCKED);
+    assert_int_equal(plumb_world_set_contact_tuning(call->world, 1, 1, 1), PLUMB_E_LOCKED);
+    assert_int_equal(plumb_world_set_restitution_speed(call->world, 1), PLUMB_E_LOCKED);
+}
+
+static void settings_are_locked_in_a_step(void **state)
+{
+    fixture *f = *state;
+    plumb_system_create(f->world, &(plumb_system_desc){ .name = "s", .run = set_in_a_step });
+    assert_int_equal(plumb_world_step(f->world, R(0.01)), PLUMB_OK);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -275,6 +330,8 @@ int main(void)
         cmocka_unit_test(energy_is_that_of_the_dynamic_bodies),
         API_TEST(body_columns_are_partitioned_and_writable),
         API_TEST(worlds_share_nothing),
+        API_TEST(settings_change),
+        API_TEST(settings_are_locked_in_a_step),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

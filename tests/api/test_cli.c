@@ -237,7 +237,7 @@ static void list_is_one_item_a_line(void **state)
     assert_int_equal(count_lines(out), 1 + 11);
     assert_non_null(strstr(out, "\n  contacts\n"));
     expect_code("\"$P\" list scene --brief", 0);
-    assert_int_equal(count_lines(out), 1 + 15);
+    assert_int_equal(count_lines(out), 1 + 16);
     assert_non_null(strstr(out, "\n  scene\n  material\n  body\n"));
     expect_code("\"$P\" list scene", 0);
     assert_non_null(strstr(out, "\n    solver            one of soft|pgs\n"));

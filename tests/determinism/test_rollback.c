@@ -199,6 +199,34 @@ static plumb_world *make_empty(script *s, const plumb_world_desc *desc)
     return w;
 }
 
+// Out of the way: a tiled floor with stacks that fall asleep, and a ball that wakes one now and then.
+static void make_corner(plumb_world *w)
+{
+    plumb_body floor =
+        plumb_body_create(w, &(plumb_body_desc){ .type = PLUMB_STATIC, .position = { 50, 0 } });
+    for (int i = 0; i < 8; ++i) {
+        plumb_shape_create(w, floor,
+                           &(plumb_shape_desc){ .kind = PLUMB_BOX,
+                                                .half = { 1, R(0.5) },
+                                                .center = { R(2 * i), 0 } });
+    }
+    for (int i = 0; i < 16; ++i) {
+        plumb_body b = plumb_body_create(
+            w, &(plumb_body_desc){ .position = { 50 + R(i % 4) * 3, R(0.9) + R(i / 4) * R(0.8) } });
+        plumb_shape_create(w, b,
+                           &(plumb_shape_desc){ .kind = PLUMB_BOX, .half = { R(0.4), R(0.4) } });
+    }
+    plumb_body post =
+        plumb_body_create(w, &(plumb_body_desc){ .type = PLUMB_KINEMATIC, .position = { 47, 3 } });
+    plumb_body ball = plumb_body_create(w, &(plumb_body_desc){ .position = { 47, 6 } });
+    plumb_shape_create(w, ball, &(plumb_shape_desc){ .kind = PLUMB_CIRCLE, .radius = R(0.4) });
+    plumb_joint_create(w, &(plumb_joint_desc){ .kind = PLUMB_DISTANCE,
+                                               .body_a = post,
+                                               .body_b = ball,
+                                               .anchor = { 47, 3 },
+                                               .anchor_b = { 47, 6 } });
+}
+
 // No setting has its default value.
 static plumb_world *make_world(script *s, plumb_solver solver)
 {
@@ -212,7 +240,9 @@ static plumb_world *make_world(script *s, plumb_solver solver)
                                     .push_speed = 4,
                                     .restitution_speed = R(0.5),
                                     .hit_speed = 2,
-                                    .contact_impulses = true };
+                                    .contact_impulses = true,
+                                    .sleep_speed = R(0.1),
+                                    .sleep_time = R(0.25) };
     plumb_world *w = make_empty(s, &desc);
     s->rubber =
         plumb_material_create(w, &(plumb_material_desc){ .friction = 1, .restitution = R(0.75) });
@@ -223,6 +253,7 @@ static plumb_world *make_world(script *s, plumb_solver solver)
     plumb_component_set(w, plumb_entity_create(w), s->clock, NULL);
     make_ground(w, s);
     make_joints(w);
+    make_corner(w);
     return w;
 }
 
@@ -239,12 +270,73 @@ static void make_material(plumb_world *w, uint32_t step)
     }
 }
 
+// What makes bodies move unlike the rest.
+static void act_on_motion(plumb_world *w, uint32_t step, plumb_body a, plumb_body b)
+{
+    switch (step % 48) {
+    case 25:
+        plumb_body_set_locks(w, a, (plumb_axis_locks){ .x = true });
+        plumb_body_set_locks(w, b, (plumb_axis_locks){ .y = step % 96 == 25 });
+        break;
+    case 27:
+        plumb_body_set_damping(w, a, 1, 2);
+        plumb_body_set_damping(w, b, 0, 0);
+        break;
+    case 29:
+        plumb_body_set_speed_cap(w, a, 3, 4);
+        break;
+    case 31:
+        plumb_body_set_time_scale(w, a, R(0.5));
+        plumb_body_set_time_scale(w, b, 1);
+        break;
+    case 33:
+        plumb_body_set_continuous(w, a, true);
+        plumb_body_set_velocity(w, a, (plumb_vec2){ 90, -20 });
+        break;
+    case 35:
+        plumb_body_set_enabled(w, a, false);
+        break;
+    case 37:
+        plumb_body_set_type(w, a, step % 96 == 37 ? PLUMB_KINEMATIC : PLUMB_STATIC);
+        break;
+    case 39: {
+        plumb_body_span span = plumb_world_bodies(w);
+        if (span.kinematic_count > 0) {
+            plumb_body_set_target(w, span.entity[span.dynamic_count], (plumb_vec2){ 1, 5 }, 0,
+                                  R(0.5));
+        }
+        break;
+    }
+    case 41:
+        plumb_world_explode(w, &(plumb_explosion_desc){ .position = { R(step % 7) - 3, 1 },
+                                                        .radius = 2,
+                                                        .falloff = 1,
+                                                        .impulse = R(0.5) });
+        break;
+    case 43:
+        plumb_body_sleep(w, a);
+        break;
+    case 45: {
+        plumb_joint joint;
+        if (plumb_world_joints(w, &joint, 1) > 0) {
+            plumb_joint_set_enabled(w, joint, step % 96 == 45);
+        }
+        break;
+    }
+    case 47:
+        plumb_body_set_no_sleep(w, b, step % 96 == 47);
+        break;
+    default:
+        break;
+    }
+}
+
 // A direct call between two steps.
 static void act(plumb_world *w, const script *s)
 {
     uint32_t step = (uint32_t)plumb_world_stats(w).step_count;
     plumb_body a = row_body(w, step), b = row_body(w, step * 3 + 1);
-    switch (step % 24) {
+    switch (step % 48) {
     case 0:
         plumb_body_apply_impulse_center(w, a, (plumb_vec2){ 0, R(0.5) });
         break;
@@ -252,7 +344,7 @@ static void act(plumb_world *w, const script *s)
         plumb_body_set_velocity(w, a, (plumb_vec2){ 3, 1 });
         break;
     case 5:
-        plumb_world_exclude_pair(w, a, b, step % 48 == 5);
+        plumb_world_exclude_pair(w, a, b, step % 96 == 5);
         break;
     case 7:
         plumb_component_set(w, a, s->marked, "ab");
@@ -269,13 +361,13 @@ static void act(plumb_world *w, const script *s)
                    .kind = PLUMB_DISTANCE, .body_a = a, .body_b = b, .length = 1, .hertz = 1 });
         break;
     case 15:
-        plumb_body_set_fixed_rotation(w, a, step % 48 == 15);
+        plumb_body_set_fixed_rotation(w, a, step % 96 == 15);
         break;
     case 17:
-        plumb_system_enable(w, "push", step % 48 == 17);
+        plumb_system_enable(w, "push", step % 96 == 17);
         break;
     case 19:
-        plumb_world_set_hit_speed(w, step % 48 == 19 ? 0 : 1);
+        plumb_world_set_hit_speed(w, step % 96 == 19 ? 0 : 1);
         break;
     case 21:
         plumb_shape_create(
@@ -286,6 +378,7 @@ static void act(plumb_world *w, const script *s)
         plumb_body_destroy(w, b);
         break;
     default:
+        act_on_motion(w, step, a, b);
         break;
     }
 }

@@ -55,12 +55,29 @@ static plumb_shape shape_of(plumb_world *w, script *s, plumb_body body)
     return plumb_shape_create(w, body, &d);
 }
 
-static void call(plumb_world *w, script *s, plumb_entity e[HANDLES])
+// `calls`: of how many kinds the script may choose.
+static void call(plumb_world *w, script *s, plumb_entity e[HANDLES], unsigned calls)
 {
     plumb_entity *slot = &e[byte_of(s) % HANDLES], other = e[byte_of(s) % HANDLES];
     plumb_ray_hit hit;
     plumb_material_desc m = { .friction = real_of(s), .restitution = real_of(s) };
-    switch (byte_of(s) % 12) {
+    switch (byte_of(s) % calls) {
+    case 12:
+        *slot = plumb_body_create(w, &(plumb_body_desc){ .position = vec_of(s), .asleep = true });
+        break;
+    case 13:
+        plumb_body_sleep(w, other);
+        break;
+    case 14:
+        plumb_body_wake(w, other);
+        break;
+    case 15:
+        *slot =
+            plumb_joint_create(w, &(plumb_joint_desc){ .kind = (plumb_joint_kind)(byte_of(s) % 12),
+                                                       .body_a = other,
+                                                       .body_b = e[byte_of(s) % HANDLES],
+                                                       .anchor = vec_of(s) });
+        break;
     case 0:
         *slot = plumb_body_create(w, &(plumb_body_desc){ .type = (plumb_body_type)(byte_of(s) % 4),
                                                          .position = vec_of(s) });
@@ -95,6 +112,33 @@ static void call(plumb_world *w, script *s, plumb_entity e[HANDLES])
     case 10:
         *slot = plumb_material_create(w, &m);
         break;
+    case 16:
+        plumb_body_set_type(w, other, (plumb_body_type)(byte_of(s) % 4));
+        break;
+    case 17:
+        plumb_body_set_enabled(w, other, byte_of(s) % 2 == 0);
+        break;
+    case 18:
+        plumb_body_set_locks(w, other, (plumb_axis_locks){ .x = byte_of(s) % 2 == 0, .y = byte_of(s) % 3 == 0 });
+        break;
+    case 19:
+        plumb_body_set_damping(w, other, real_of(s), real_of(s));
+        break;
+    case 20:
+        plumb_body_set_speed_cap(w, other, real_of(s), real_of(s));
+        break;
+    case 21:
+        plumb_body_set_time_scale(w, other, real_of(s));
+        break;
+    case 22:
+        plumb_body_set_target(w, other, vec_of(s), real_of(s), real_of(s));
+        break;
+    case 23:
+        plumb_world_explode(w, &(plumb_explosion_desc){ .position = vec_of(s),
+                                                        .radius = real_of(s),
+                                                        .impulse = real_of(s),
+                                                        .occlusion = (plumb_occlusion)(byte_of(s) % 3) });
+        break;
     default:
         plumb_world_step(w, real_of(s) / 64);
         break;
@@ -107,12 +151,16 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     script s = { data, data + (size < 4096 ? size : 4096) };
     plumb_entity e[HANDLES] = { { 0, 0 } };
     plumb_world *w = NULL;
-    plumb_world_desc d = { .solver = (plumb_solver)(byte_of(&s) % 2), .simd_width = 4 };
+    // Seeds from before there were sleep and joints begin with less than 128.
+    unsigned first = byte_of(&s);
+    plumb_world_desc d = { .solver = (plumb_solver)(first % 2), .simd_width = 4 };
+    const unsigned calls = first < 128 ? 12 : 25;
+    d.sleep_time = first < 128 ? 0 : (plumb_real)0.1;
     if (plumb_world_create(&d, &w) != PLUMB_OK) {
         abort();
     }
     while (s.at < s.end) {
-        call(w, &s, e);
+        call(w, &s, e, calls);
     }
     plumb_world_destroy(w);
     return 0;

@@ -81,7 +81,9 @@ static struct engine_world *create(const struct engine_options *options)
     desc.gravity = vec(options->gravity_x, options->gravity_y);
     desc.zero_gravity = !(fabs(options->gravity_x) + fabs(options->gravity_y) > 0.0);
     desc.substeps = options->substeps;
+    desc.no_continuous = !options->continuous;
     desc.simd_width = options->width;
+    desc.no_sleep = !options->sleep;
     desc.log = tell;
     if (options->restitution_threshold > 0.0) {
         desc.restitution_speed = (plumb_real)options->restitution_threshold;
@@ -120,6 +122,7 @@ static int add_body(struct engine_world *w, const struct engine_body_def *def)
     desc.velocity = vec(def->vx, def->vy);
     desc.angular_velocity = (plumb_real)def->w;
     desc.fixed_rotation = def->fixed_rotation;
+    desc.asleep = def->asleep;
     desc.user_data = (void *)(intptr_t)w->count;
     plumb_body body = plumb_body_create(w->world, &desc);
     if (plumb_is_null(body)) {

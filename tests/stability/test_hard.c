@@ -210,12 +210,34 @@ static void elastic_pile_wins_no_energy(void **state)
     plumb_world_destroy(w);
 }
 
+// A spring that may not push faster still bears its whole force: the load of a heavy pile, here
+// a force, that it could hold at the depth where the body is put must not press the body deeper.
+static void deep_overlap_bears_its_load(void **state)
+{
+    (void)state;
+    plumb_world *w = sim_world(&(plumb_world_desc){ 0 });
+    plumb_material m = sim_material(w, 0.3, 0);
+    sim_floor(w, m);
+    plumb_body ball = sim_ball(w, 0, 0.7, 1, m);
+    assert_int_equal(plumb_body_set_mass(w, ball, 1), PLUMB_OK);
+    double y = sim_y(w, ball);
+    for (int i = 0; i < 60; ++i) {
+        assert_int_equal(plumb_body_apply_force_center(w, ball, sim_vec(0, -40e3)), PLUMB_OK);
+        sim_step(w, HZ60);
+        assert_true(sim_y(w, ball) >= y - 1e-3);
+        y = fmax(y, sim_y(w, ball));
+    }
+    print_message("1 kg under 40 kN, put 0.3 m deep: now %.3f m deep\n", 1 - y);
+    assert_true(y >= 0.75);
+    plumb_world_destroy(w);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(overlap_is_undone_gently),    cmocka_unit_test(resting_bodies_do_not_hop),
         cmocka_unit_test(deep_pile_settles),           cmocka_unit_test(jammed_discs_come_to_rest),
-        cmocka_unit_test(elastic_pile_wins_no_energy),
+        cmocka_unit_test(elastic_pile_wins_no_energy), cmocka_unit_test(deep_overlap_bears_its_load),
     };
     return cmocka_run_group_tests_name("hard", tests, NULL, NULL);
 }

@@ -155,7 +155,7 @@ static void impulses_are_kept_from_step_to_step(void **state)
 {
     (void)state;
     enum { LINKS = 10 };
-    plumb_world *w = sim_world(&(plumb_world_desc){ 0 });
+    plumb_world *w = sim_world(&(plumb_world_desc){ .no_sleep = true });
     plumb_body last = PLUMB_NULL_INIT;
     for (int i = 0; i < LINKS; ++i) {
         plumb_body link = sim_crate(w, 0, -i - 0.5, 0.125, 0.5, (plumb_material)PLUMB_NULL_INIT);

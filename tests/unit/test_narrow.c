@@ -12,6 +12,7 @@
 
 #include "harness/pairs.h"
 #include "harness/sim.h"
+#include "world/state.h"
 
 #define QUARTER (SIM_PI / 4)
 #define ROOT2   1.41421356237309505
@@ -339,6 +340,57 @@ static void widths_agree_bit_for_bit(void **state)
     }
 }
 
+// A heap of polygons, capsules and circles thrown together, one shape a body.
+static plumb_world *heap_of_shapes(void)
+{
+    plumb_world *w = sim_world(&(plumb_world_desc){ 0 });
+    plumb_material m = sim_material(w, 0.5, 0);
+    sim_floor(w, m);
+    unsigned seed = 77;
+    for (int i = 0; i < 120; ++i) {
+        plumb_body b = sim_body(w, PLUMB_DYNAMIC, sim_uniform(&seed, -4, 4),
+                                1 + sim_uniform(&seed, 0, 12), sim_uniform(&seed, -3, 3));
+        plumb_vec2 corners[7];
+        int count = 3 + i % 5;
+        for (int k = 0; k < count; ++k) {
+            double angle = 2 * SIM_PI * k / count, r = sim_uniform(&seed, 0.3, 0.4);
+            corners[k] = sim_vec(r * cos(angle), r * sin(angle));
+        }
+        plumb_shape_desc desc = { .kind = i % 7 == 0 ? PLUMB_CAPSULE : PLUMB_POLYGON,
+                                  .points = corners,
+                                  .count = i % 7 == 0 ? 2 : count,
+                                  .radius = (plumb_real)(i % 7 == 0 ? 0.2 : i % 3 * 0.05),
+                                  .material = m };
+        plumb_shape s = plumb_shape_create(w, b, &desc);
+        assert_true(plumb_shape_valid(w, s));
+    }
+    return w;
+}
+
+static void remembered_face_changes_nothing(void **state)
+{
+    (void)state;
+    plumb_world *with = heap_of_shapes(), *without = heap_of_shapes();
+    uint32_t dismissed = 0;
+    for (int step = 0; step < 300; ++step) {
+        sim_step(with, 1 / 60.0);
+        pl_pair *pairs = pl_pairs(&without->broad.pairs);
+        for (uint32_t i = 0; i < without->broad.pairs.count; ++i) {
+            dismissed += (pairs[i].flags & PL_PAIR_FACE_MASK) != 0 ? 1 : 0;
+            pairs[i].flags &= ~PL_PAIR_FACE_MASK;
+        }
+        sim_step(without, 1 / 60.0);
+        plumb_body_span p = plumb_world_bodies(with), q = plumb_world_bodies(without);
+        size_t bytes = (size_t)p.dynamic_count * sizeof(plumb_real);
+        assert_memory_equal(p.center_x, q.center_x, bytes);
+        assert_memory_equal(p.center_y, q.center_y, bytes);
+        assert_memory_equal(p.w, q.w, bytes);
+    }
+    assert_true(dismissed > 1000); // pairs that were apart
+    plumb_world_destroy(with);
+    plumb_world_destroy(without);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -346,6 +398,7 @@ int main(void)
         cmocka_unit_test(coincident_shapes_get_some_contact),
         cmocka_unit_test(features_stay_and_carry_impulses),
         cmocka_unit_test(widths_agree_bit_for_bit),
+        cmocka_unit_test(remembered_face_changes_nothing),
     };
     return cmocka_run_group_tests_name("narrow", tests, NULL, NULL);
 }

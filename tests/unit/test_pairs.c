@@ -302,6 +302,7 @@ static void test_stepped(void **state)
     (void)state;
     for (uint32_t seed = 1; seed <= 4; ++seed) {
         plumb_world *world = make_world(seed + 100);
+        plumb_world_set_sleep(world, false, 0, 0); // see test_sleep.c
         for (int i = 0; i < 100; ++i) {
             add_random(world, 8, 0.2, 0.7);
         }

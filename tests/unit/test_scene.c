@@ -219,7 +219,8 @@ static void test_body_methods(void **state)
         "0.5) < 1e-6)\n"
         "b:set_mass(4) assert(b:mass() == 4)\nb.user.health = b.user.health - 1 "
         "assert(b.user.health == 2)\n"
-        "b:set_gravity_scale(0) b:set_fixed_rotation(true) b:set_label('hi') b:set_color(4)\n"
+        "b:set_gravity_scale(0) b:set_fixed_rotation(true) b:set_label('hi') b:set_color(4) "
+        "b:set_continuous(true)\n"
         "b:apply_force(1, 0) b:apply_torque(1) b:apply_angular_impulse(0) assert(b:inertia() == "
         "0)\n"
         "assert(b:type() == 'dynamic' and b:name() == 'b' and tostring(b) == 'b' and b:alive())\n"
@@ -406,7 +407,8 @@ static void test_json_round_trip(void **state)
 {
     (void)state;
     scene *s =
-        load("scene{ title = 'a \"b\" \\\\', gravity = {0.1, -9.81}, substeps = 8, duration = 2 }\n"
+        load("scene{ title = 'a \"b\" \\\\', gravity = {0.1, -9.81}, substeps = 8, duration = 2, "
+             "continuous = false }\n"
              "local m = material{ friction = 0.3, restitution = 1/3 }\nlocal n = material{ name = "
              "'n', density = 1e-3 }\n"
              "body{ type = 'static', box{10, 1}, at = {0, -0.5}, material = n, color = 3 }\n"
@@ -418,7 +420,8 @@ static void test_json_round_trip(void **state)
              "body{ type = 'static', chain{{-5, 0}, {-6, 1}, closed = false}, segment{{5, 0}, {6, "
              "1}, material = m}, hidden = true }\n"
              "body{ regular(5, 0.4), polygon{{0, 0}, {1, 0}, {0, 1}, round = 0.1}, at = {-2, 3}, "
-             "fixed_rotation = true }\n"
+             "fixed_rotation = true, continuous = true, sleep = false }\n"
+             "body{ circle(1), at = {40, 40}, asleep = true }\n"
              "camera{ fit = {{-5, 0}, {5, 5}} }\nexpect{ 'x', at = 2, max_speed = 100 }\nexpect{ "
              "'y', body = 'body2', x = {-9, 9} }");
     check_round_trip(s);

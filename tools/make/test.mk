@@ -37,6 +37,7 @@ needs_render = $(filter test_render%,$(notdir $1))
 # $(call test_parts,source,float,): objects and archives;  $(call test_libs,source): -l flags
 test_parts = $(call objects,$2,$1 $(call helpers,$1)) \
 	$(if $(filter tests/crossval/%,$1),$(O)/box2d2.o $(call objects,$2,tests/harness/engine_plumb.c)) \
+	$(if $(filter tests/stability/%,$1),$(call objects,$2,tests/harness/engine_plumb.c)) \
 	$(if $(call needs_scene,$1),$(O)/$2/libscene.a) \
 	$(if $(call needs_render,$1),$(O)/librender.a) $(O)/libplumb$3.a
 test_libs = $(if $(filter tests/crossval/%,$1),-lbox2d -lccd) \
@@ -72,6 +73,12 @@ $(O)/bench: $(BENCH_OBJ) $(O)/libplumb.a
 	@echo "  LD    $@"
 	$(Q)$(CXX) $(SANFLAGS) $(LDFLAGS) -o $@ $^ $(if $(BOX2D3),$(BOX2D3)/lib/libbox2d.a) \
 		-lbox2d -lm -lpthread
+
+# Shots at thin walls, beside Box2D: tests/shots.
+$(O)/shots: $(call objects,float,tests/shots/table.c tests/harness/shots.c \
+		tests/harness/engine_plumb.c) $(O)/box2d2.o $(O)/libplumb.a
+	@echo "  LD    $@"
+	$(Q)$(CXX) $(SANFLAGS) $(LDFLAGS) -o $@ $^ -lbox2d -lm -lpthread
 
 # A fuzz harness twice: with a main that goes through its seeds, and with libFuzzer.
 define fuzz_rule
@@ -121,6 +128,10 @@ SCENES ?= $(sort $(wildcard assets/scenes/*.lua))
 stability: $(O)/plumb
 	$(if $(STABILITY),@$(MAKE) --no-print-directory test T="$(STABILITY)")
 	$(Q)$(O)/plumb check $(SCENES)
+
+SHOTS ?= 100000
+shots: $(O)/shots
+	$(O)/shots $(SHOTS)
 
 bench: $(O)/bench
 	$(O)/bench $(BENCH)

@@ -36,12 +36,13 @@ static void print_settings(const scene_run *run, const char *path)
            run->info.iterations == 1 ? "" : "s", run->info.dt, run->engine->precision,
            run->info.width);
     printf(
-        "  after %.6g s (%lld steps): %u bodies (%u moving, %u static), %u shapes of %u pieces\n",
-        (double)run->steps * run->info.dt, run->steps, s.bodies, s.moving, s.statics, s.shapes,
-        s.pieces);
+        "  after %.6g s (%lld steps): %u bodies (%u moving, %u asleep in %u island%s, %u static), "
+        "%u shapes of %u pieces\n",
+        (double)run->steps * run->info.dt, run->steps, s.bodies, s.moving, s.asleep, s.islands,
+        s.islands == 1 ? "" : "s", s.statics, s.shapes, s.pieces);
     printf(
         "  pairs near: %u, contacts: %u, their points: %u, colours: %u, pair list rebuilds: %u\n",
-        s.pairs, s.contacts, s.points, s.colors, s.grid_rebuilds);
+        s.pairs, s.contacts, s.points, s.colors, s.pair_rebuilds);
     printf("  deepest overlap %.3g m, mean %.3g m; %.1f kB held\n", s.max_penetration,
            s.mean_penetration, (double)s.bytes / 1000);
 }

@@ -91,8 +91,9 @@ typedef struct engine_pass {
 typedef struct engine_stats {
     unsigned long long step_count;
     double time; ///< [s]
-    unsigned bodies, moving, statics, shapes, pieces, pairs, contacts, points, colors, overflow;
-    unsigned grid_rebuilds;
+    unsigned bodies, moving, asleep, islands, statics, shapes, pieces, pairs, contacts, points,
+        colors, overflow;
+    unsigned pair_rebuilds;
     double max_penetration, mean_penetration; ///< [m]
     size_t bytes, peak_bytes;                 ///< [B]
 } engine_stats;

@@ -156,7 +156,8 @@ static bool add_body(engine_session *session, const scene_body *body, int index,
     if (label == NULL && names && body->is_named && type != PLUMB_STATIC) {
         label = body->name;
     }
-    render_style style = { .kind = class_of(type),
+    bool asleep = !plumb_body_is_awake(world, body->entity);
+    render_style style = { .kind = asleep ? RENDER_ASLEEP : class_of(type),
                            .palette = pl_session_palette(body, index),
                            .color = { body->color.r, body->color.g, body->color.b, body->color.a },
                            .label = label };

@@ -11,8 +11,8 @@ static const sc_list *list_at(int index)
 {
     static const sc_list *const before[] = { &sc_list_scene, &sc_list_material, &sc_list_body };
     static const sc_list *const after[] = { &sc_list_camera, &sc_list_contact, &sc_list_expect,
-                                            &sc_list_exact };
-    const int before_count = 3, after_count = 4;
+                                            &sc_list_exact, &sc_list_blast };
+    const int before_count = 3, after_count = 5;
 
     if (index < 0 || index >= before_count + SC_SHAPE_KINDS + after_count) {
         return NULL;
@@ -55,6 +55,8 @@ static const char *kind_name(sc_kind kind)
         return "{{x, y}, {x, y}}";
     case SC_SHAPES:
         return "shapes";
+    case SC_AXES:
+        return "list of \"x\", \"y\", \"rotation\"";
     case SC_TABLE:
         return "table";
     }

@@ -169,10 +169,11 @@ static int method_alive(lua_State *L)
     return 1;
 }
 
+static const char *const types[] = { "dynamic", "kinematic", "static", NULL };
+
 static int method_type(lua_State *L)
 {
-    static const char *const names[] = { "dynamic", "kinematic", "static" };
-    lua_pushstring(L, names[self(L, "type").body->def.type]);
+    lua_pushstring(L, types[self(L, "type").body->def.type]);
     return 1;
 }
 
@@ -284,6 +285,104 @@ static int method_set_fixed_rotation(lua_State *L)
     return 0;
 }
 
+static int method_set_continuous(lua_State *L)
+{
+    call c = self(L, "set_continuous");
+    luaL_checktype(L, 2, LUA_TBOOLEAN);
+    bool continuous = lua_toboolean(L, 2) != 0;
+    check(&c, plumb_body_set_continuous(c.world, c.entity, continuous));
+    c.body->def.continuous = continuous;
+    SC_GIVE(&sc_list_body, &c.body->def, sc_body_def, continuous);
+    return 0;
+}
+
+// ------------------------------------------------------------------------------ taking part
+
+static int method_set_type(lua_State *L)
+{
+    static const plumb_body_type all[] = { PLUMB_DYNAMIC, PLUMB_KINEMATIC, PLUMB_STATIC };
+    call c = self(L, "set_type");
+    int type = luaL_checkoption(L, 2, NULL, types);
+    check(&c, plumb_body_set_type(c.world, c.entity, all[type]));
+    c.body->def.type = type;
+    return 0;
+}
+
+static int method_set_enabled(lua_State *L)
+{
+    call c = self(L, "set_enabled");
+    luaL_checktype(L, 2, LUA_TBOOLEAN);
+    bool enabled = lua_toboolean(L, 2) != 0;
+    check(&c, plumb_body_set_enabled(c.world, c.entity, enabled));
+    c.body->def.enabled = enabled;
+    SC_GIVE(&sc_list_body, &c.body->def, sc_body_def, enabled);
+    return 0;
+}
+
+static int method_enabled(lua_State *L)
+{
+    call c = self(L, "enabled");
+    lua_pushboolean(L, plumb_body_is_enabled(c.world, c.entity));
+    return 1;
+}
+
+// body:set_lock("x", "rotation"): these axes and no others.
+static int method_set_lock(lua_State *L)
+{
+    call c = self(L, "set_lock");
+    int axes = 0;
+    for (int i = 2; i <= lua_gettop(L); i++) {
+        int bit = sc_axis_bit(luaL_checkstring(L, i));
+        luaL_argcheck(L, bit != 0, i, "must be \"x\", \"y\" or \"rotation\"");
+        axes |= bit;
+    }
+    plumb_axis_locks locks = { .x = (axes & SC_LOCK_X) != 0,
+                               .y = (axes & SC_LOCK_Y) != 0,
+                               .rotation = (axes & SC_LOCK_ROTATION) != 0 };
+    check(&c, plumb_body_set_locks(c.world, c.entity, locks));
+    c.body->def.lock = axes;
+    c.body->def.fixed_rotation = false;
+    SC_GIVE(&sc_list_body, &c.body->def, sc_body_def, lock);
+    return 0;
+}
+
+// body:set_damping(c [, c of the spin])
+static int method_set_damping(lua_State *L)
+{
+    call c = self(L, "set_damping");
+    double linear = finite_number(L, 2);
+    double angular =
+        lua_isnoneornil(L, 3) ? c.body->def.angular_damping : finite_number(L, 3);
+    check(&c, plumb_body_set_damping(c.world, c.entity, (plumb_real)linear, (plumb_real)angular));
+    c.body->def.damping = linear;
+    c.body->def.angular_damping = angular;
+    SC_GIVE(&sc_list_body, &c.body->def, sc_body_def, damping);
+    SC_GIVE(&sc_list_body, &c.body->def, sc_body_def, angular_damping);
+    return 0;
+}
+
+static int method_set_time_scale(lua_State *L)
+{
+    call c = self(L, "set_time_scale");
+    double scale = finite_number(L, 2);
+    check(&c, plumb_body_set_time_scale(c.world, c.entity, (plumb_real)scale));
+    c.body->def.time_scale = scale;
+    SC_GIVE(&sc_list_body, &c.body->def, sc_body_def, time_scale);
+    return 0;
+}
+
+// body:move_to(x, y [, angle [, seconds]]): by default within the next step.
+static int method_move_to(lua_State *L)
+{
+    call c = self(L, "move_to");
+    int index = 2;
+    plumb_vec2 p = vector(L, &index);
+    plumb_real angle = lua_isnoneornil(L, index) ? plumb_body_angle(c.world, c.entity)
+                                                 : (plumb_real)finite_number(L, index);
+    double time = lua_isnoneornil(L, index + 1) ? c.s->dt : finite_number(L, index + 1);
+    return check(&c, plumb_body_set_target(c.world, c.entity, p, angle, (plumb_real)time));
+}
+
 static int method_set_label(lua_State *L)
 {
     call c = self(L, "set_label");
@@ -345,6 +444,25 @@ static int method_apply_angular_impulse(lua_State *L)
         &c, plumb_body_apply_angular_impulse(c.world, c.entity, (plumb_real)finite_number(L, 2)));
 }
 
+static int method_awake(lua_State *L)
+{
+    call c = self(L, "awake");
+    lua_pushboolean(L, plumb_body_is_awake(c.world, c.entity));
+    return 1;
+}
+
+static int method_wake(lua_State *L)
+{
+    call c = self(L, "wake");
+    return check(&c, plumb_body_wake(c.world, c.entity));
+}
+
+static int method_sleep(lua_State *L)
+{
+    call c = self(L, "sleep");
+    return check(&c, plumb_body_sleep(c.world, c.entity));
+}
+
 static int method_destroy(lua_State *L)
 {
     call c = self(L, "destroy");
@@ -362,24 +480,35 @@ static const luaL_Reg methods[] = {
     { "apply_force", method_apply_force },
     { "apply_impulse", method_apply_impulse },
     { "apply_torque", method_apply_torque },
+    { "awake", method_awake },
     { "center", method_center },
     { "destroy", method_destroy },
+    { "enabled", method_enabled },
     { "inertia", method_inertia },
     { "mass", method_mass },
+    { "move_to", method_move_to },
     { "name", method_name },
     { "position", method_position },
     { "set_color", method_set_color },
+    { "set_continuous", method_set_continuous },
+    { "set_damping", method_set_damping },
+    { "set_enabled", method_set_enabled },
     { "set_fixed_rotation", method_set_fixed_rotation },
     { "set_gravity_scale", method_set_gravity_scale },
     { "set_label", method_set_label },
+    { "set_lock", method_set_lock },
     { "set_mass", method_set_mass },
     { "set_spin", method_set_spin },
+    { "set_time_scale", method_set_time_scale },
+    { "set_type", method_set_type },
     { "set_velocity", method_set_velocity },
+    { "sleep", method_sleep },
     { "speed", method_speed },
     { "spin", method_spin },
     { "teleport", method_teleport },
     { "type", method_type },
     { "velocity", method_velocity },
+    { "wake", method_wake },
     { NULL, NULL },
 };
 

@@ -27,6 +27,8 @@ static void make_world(scene *s, const sc_site *site)
         .push_speed = (plumb_real)d->push_speed,
         .restitution_speed = (plumb_real)d->restitution_speed,
         .simd_width = (int)d->simd_width,
+        .no_sleep = SC_GIVEN(&sc_list_scene, d, sc_settings, sleep) && !d->sleep,
+        .no_continuous = SC_GIVEN(&sc_list_scene, d, sc_settings, continuous) && !d->continuous,
         .allocator = { sc_world_resize, s },
     };
     plumb_result result = plumb_world_create(&desc, &s->world);
@@ -111,6 +113,7 @@ void sc_build_material(scene *s, const sc_site *site, int table)
                                                     .density = (plumb_real)def.density,
                                                     .friction = (plumb_real)def.friction,
                                                     .restitution = (plumb_real)def.restitution,
+                                                    .adhesion = (plumb_real)def.adhesion,
                                                 });
     if (plumb_is_null(m->handle)) {
         sc_raise(s, SCENE_E_WORLD, site, NULL, 0, NULL, "material{}: %s",
@@ -156,14 +159,23 @@ static void check_body(scene *s, const sc_site *site, const sc_body_def *d)
     }
     if (d->type != 0) {
         refuse(s, site, SC_GIVEN(list, d, sc_body_def, mass), "mass", kinds[d->type]);
+        refuse(s, site, d->continuous, "continuous", kinds[d->type]);
         refuse(s, site, d->fixed_rotation, "fixed_rotation", kinds[d->type]);
+        refuse(s, site, d->asleep, "asleep", kinds[d->type]);
+        refuse(s, site, SC_GIVEN(list, d, sc_body_def, sleep), "sleep", kinds[d->type]);
         refuse(s, site, SC_GIVEN(list, d, sc_body_def, gravity_scale), "gravity_scale",
                kinds[d->type]);
+    }
+    if (d->asleep) {
+        refuse(s, site, d->velocity[0] != 0 || d->velocity[1] != 0, "velocity", "sleeping");
+        refuse(s, site, d->spin != 0, "spin", "sleeping");
+        refuse(s, site, !d->sleep, "sleep", "sleeping");
     }
     if (d->type == 2) {
         refuse(s, site, SC_GIVEN(list, d, sc_body_def, velocity), "velocity", "static");
         refuse(s, site, SC_GIVEN(list, d, sc_body_def, spin), "spin", "static");
     }
+    sc_motion_check(s, site, d);
     if (d->shape_count == 0 && !SC_GIVEN(list, d, sc_body_def, mass)) {
         sc_raise(s, SCENE_E_MISSING, site, NULL, 0, NULL, "body{} needs a shape such as box{1, 1}");
     }
@@ -211,18 +223,22 @@ static void create_body(scene *s, const sc_site *site, sc_body *b)
 {
     static const plumb_body_type types[] = { PLUMB_DYNAMIC, PLUMB_KINEMATIC, PLUMB_STATIC };
     const sc_body_def *d = &b->def;
-    b->entity = plumb_body_create(
-        s->world, &(plumb_body_desc){
-                      .type = types[d->type],
-                      .position = { (plumb_real)d->at[0], (plumb_real)d->at[1] },
-                      .angle = (plumb_real)d->angle,
-                      .mass = (plumb_real)d->mass,
-                      .gravity_scale = (plumb_real)d->gravity_scale,
-                      .no_gravity = SC_GIVEN(&sc_list_body, d, sc_body_def, gravity_scale) &&
-                                    d->gravity_scale == 0,
-                      .fixed_rotation = d->fixed_rotation,
-                      .user_data = b,
-                  });
+    plumb_body_desc desc = {
+        .type = types[d->type],
+        .position = { (plumb_real)d->at[0], (plumb_real)d->at[1] },
+        .angle = (plumb_real)d->angle,
+        .mass = (plumb_real)d->mass,
+        .gravity_scale = (plumb_real)d->gravity_scale,
+        .no_gravity =
+            SC_GIVEN(&sc_list_body, d, sc_body_def, gravity_scale) && d->gravity_scale == 0,
+        .fixed_rotation = d->fixed_rotation,
+        .no_sleep = !d->sleep,
+        .asleep = d->asleep,
+        .continuous = d->continuous,
+        .user_data = b,
+    };
+    sc_motion_describe(d, &desc);
+    b->entity = plumb_body_create(s->world, &desc);
     if (plumb_is_null(b->entity)) {
         plumb_error e = plumb_world_error(s->world);
         sc_raise(s, e.code == PLUMB_E_MEMORY ? SCENE_E_LIMIT : SCENE_E_WORLD, site, NULL, 0, NULL,
@@ -256,7 +272,11 @@ void sc_build_body(scene *s, const sc_site *site, int table)
     luaL_checkstack(L, 20, NULL);
     table = lua_absindex(L, table);
     sc_need_world(s);
-    sc_body_def def = { .gravity_scale = 1, .color = { .palette = -1 } };
+    sc_body_def def = { .gravity_scale = 1,
+                        .time_scale = 1,
+                        .enabled = true,
+                        .sleep = true,
+                        .color = { .palette = -1 } };
     sc_read(s, site, &sc_list_body, table, &def);
     check_body(s, site, &def);
     if (SC_GIVEN(&sc_list_body, &def, sc_body_def, angle_deg)) {
@@ -291,6 +311,9 @@ void sc_build_body(scene *s, const sc_site *site, int table)
             s->world, b->entity,
             (plumb_vec2){ (plumb_real)def.velocity[0], (plumb_real)def.velocity[1] });
         plumb_body_set_angular_velocity(s->world, b->entity, (plumb_real)def.spin);
+    }
+    if (SC_GIVEN(&sc_list_body, &def, sc_body_def, time_scale)) { // 0 is none to the descriptor
+        plumb_body_set_time_scale(s->world, b->entity, (plumb_real)def.time_scale);
     }
     b->set_rot = plumb_body_transform(s->world, b->entity).q;
     lua_getfield(L, table, "user");

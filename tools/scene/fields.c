@@ -268,6 +268,30 @@ static void read_shapes(const context *c, int value, int *out)
     }
 }
 
+// {"x", "y", "rotation"}, in any order, or one of them.
+static void read_axes(const context *c, int value, int *out)
+{
+    lua_State *L = c->s->L;
+    bool is_table = lua_type(L, value) == LUA_TTABLE;
+    int count = is_table ? (int)lua_rawlen(L, value) : 1;
+    *out = 0;
+    for (int i = 1; i <= count; i++) {
+        if (is_table) {
+            lua_rawgeti(L, value, i);
+        } else {
+            lua_pushvalue(L, value);
+        }
+        int bit = lua_type(L, -1) == LUA_TSTRING ? sc_axis_bit(lua_tostring(L, -1)) : 0;
+        if (bit == 0 || (*out & bit) != 0) {
+            sc_raise(c->s, SCENE_E_TYPE, c->site, c->row->name, c->index, NULL,
+                     "'%s' of %s{} must be a list of \"x\", \"y\", \"rotation\", each once",
+                     c->row->name, c->site->construct);
+        }
+        *out |= bit;
+        lua_pop(L, 1);
+    }
+}
+
 static void read_value(const context *c, int value, void *out)
 {
     lua_State *L = c->s->L;
@@ -323,6 +347,9 @@ static void read_value(const context *c, int value, void *out)
         break;
     case SC_SHAPES:
         read_shapes(c, value, member);
+        break;
+    case SC_AXES:
+        read_axes(c, value, member);
         break;
     case SC_TABLE:
         if (lua_type(L, value) != LUA_TTABLE) {

@@ -101,6 +101,7 @@ typedef enum sc_kind {
     SC_BODY,     ///< char[SC_NAME_SIZE]: from a name or a body
     SC_BOX,      ///< double[4], from {{x0, y0}, {x1, y1}}
     SC_SHAPES,   ///< int: how many shapes stand in the array part
+    SC_AXES,     ///< int: bits of locked axes, from {"x", "y", "rotation"}
     SC_TABLE     ///< bool: a table is there
 } sc_kind;
 
@@ -160,12 +161,15 @@ typedef struct sc_settings {
     int y, solver;
     double dt, duration, seed, substeps, iterations;
     double contact_hertz, contact_damping, push_speed, restitution_speed, simd_width;
+    bool sleep; ///< read only where it was given
+    bool continuous;
 } sc_settings;
 
 typedef struct sc_material_def {
     uint64_t present;
     char name[SC_NAME_SIZE];
     double density, friction, restitution;
+    double adhesion;
 } sc_material_def;
 
 typedef struct sc_material {
@@ -204,7 +208,10 @@ typedef struct sc_body_def {
     int type;
     double at[2], angle, angle_deg, velocity[2], spin;
     double mass, gravity_scale, density;
-    bool fixed_rotation, hidden, user;
+    double damping, angular_damping, max_speed, max_spin, time_scale;
+    int lock; ///< bits: SC_LOCK_X, ...
+    bool enabled;
+    bool fixed_rotation, hidden, user, sleep, asleep, continuous;
     char name[SC_NAME_SIZE];
     char label[SC_NAME_SIZE];
     sc_color color;
@@ -255,6 +262,15 @@ typedef struct sc_expect {
     const char *unit;
     char description[320];
 } sc_expect;
+
+/// blast{}
+typedef struct sc_blast_def {
+    uint64_t present;
+    double at[2], radius, falloff, impulse;
+    bool per_body;
+    int occlusion;
+    char ignore[SC_NAME_SIZE];
+} sc_blast_def;
 
 typedef struct sc_exact_def {
     uint64_t present;
@@ -382,7 +398,7 @@ void sc_grow(scene *s, void *array_of_items, int count, int *capacity, size_t it
 // ---------------------------------------------------------------------------------------- lists
 
 extern const sc_list sc_list_scene, sc_list_material, sc_list_body, sc_list_camera, sc_list_expect,
-    sc_list_exact, sc_list_contact;
+    sc_list_exact, sc_list_contact, sc_list_blast;
 extern const sc_list sc_list_shapes[SC_SHAPE_KINDS];
 
 // --------------------------------------------------------------------------------------- pieces
@@ -391,6 +407,17 @@ static inline scene *sc_of(lua_State *L)
 {
     return *(scene **)lua_getextraspace(L);
 }
+
+/// Bits of SC_AXES, in the order of the names "x", "y", "rotation".
+enum { SC_LOCK_X = 1, SC_LOCK_Y = 2, SC_LOCK_ROTATION = 4 };
+/// The bit of an axis by its name; 0: there is none.
+int sc_axis_bit(const char *name);
+/// Raises when what a body says of its motion does not fit its type or itself.
+void sc_motion_check(scene *s, const sc_site *site, const sc_body_def *d);
+/// Puts it into the world's descriptor.
+void sc_motion_describe(const sc_body_def *d, plumb_body_desc *desc);
+/// Whether a row of body{} is for dynamic bodies alone.
+bool sc_motion_is_dynamic(const char *row);
 
 /// Metatable names of the Lua objects.
 #define SC_META_SHAPE    "plumb.shape"
@@ -403,6 +430,7 @@ void sc_sandbox_budget(scene *s, uint64_t instructions); ///< a fresh instructio
 void sc_open_build(lua_State *L);    ///< scene, material, body, camera, param, ...
 void sc_open_shapes(lua_State *L);   ///< box, circle, ...
 void sc_open_body(lua_State *L);     ///< methods of bodies
+void sc_open_motion(lua_State *L);   ///< blast
 void sc_open_handlers(lua_State *L); ///< at, every, on_contact, ...
 void sc_open_expect(lua_State *L);   ///< expect, exact
 void sc_open_math(lua_State *L);     ///< math, random

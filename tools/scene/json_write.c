@@ -114,6 +114,20 @@ static void write_color(writer *w, const sc_color *c)
     }
 }
 
+static void write_axes(writer *w, int axes)
+{
+    static const char *const names[] = { "x", "y", "rotation" };
+    bool any = false;
+    fputc('[', w->file);
+    for (int i = 0; i < 3; i++) {
+        if ((axes & sc_axis_bit(names[i])) != 0) {
+            fprintf(w->file, "%s\"%s\"", any ? "," : "", names[i]);
+            any = true;
+        }
+    }
+    fputc(']', w->file);
+}
+
 static bool has_json_form(const sc_field *row)
 {
     return row->kind != SC_FUNCTION && row->kind != SC_TABLE;
@@ -164,6 +178,9 @@ static void write_value(writer *w, const sc_field *row, const void *def, const s
         break;
     case SC_SHAPES:
         write_shapes(w, owner);
+        break;
+    case SC_AXES:
+        write_axes(w, *(const int *)member);
         break;
     case SC_BOX:
         fputc('[', w->file);
@@ -236,13 +253,21 @@ static void write_body(const scene *s, writer *w, const sc_body *b)
     d.spin = (double)plumb_body_angular_velocity(s->world, b->entity);
     uint64_t hidden = 0;
     for (int i = 0; i < list->count; i++) {
-        hidden |= strcmp(list->rows[i].name, "angle_deg") == 0 ? (uint64_t)1 << i : 0;
+        const char *row = list->rows[i].name;
+        // A body that is dynamic no more keeps what it was told, but cannot say it.
+        bool cannot = d.type != 0 && sc_motion_is_dynamic(row);
+        hidden |= cannot || strcmp(row, "angle_deg") == 0 ? (uint64_t)1 << i : 0;
     }
     d.present &= ~hidden;
     SC_GIVE(list, &d, sc_body_def, at);
     SC_GIVE(list, &d, sc_body_def, angle);
     SC_GIVE(list, &d, sc_body_def, name);
     SC_GIVE(list, &d, sc_body_def, type);
+    bool asleep = d.type == 0 && !plumb_body_is_awake(s->world, b->entity);
+    if (asleep != d.asleep) {
+        d.asleep = asleep;
+        SC_GIVE(list, &d, sc_body_def, asleep);
+    }
     if (d.type != 2) {
         SC_GIVE(list, &d, sc_body_def, velocity);
         SC_GIVE(list, &d, sc_body_def, spin);

@@ -17,6 +17,7 @@
 static const sc_field scene_rows[] = {
     { "contact_damping",   SC_NUMBER,  AT(T, contact_damping),   0, 1e6, "1", 0, 0 },
     { "contact_hertz",     SC_NUMBER,  AT(T, contact_hertz),     0, 1e6, "1/s", 0, 0 },
+    { "continuous",        SC_BOOL,    AT(T, continuous),        0, 0, NULL, 0, 0 },
     { "description",       SC_STRING,  AT(T, description),       0, 0, NULL, 0, 0 },
     { "dt",                SC_NUMBER,  AT(T, dt),                0, 1, "s", 0, SC_ABOVE },
     { "duration",          SC_NUMBER,  AT(T, duration),          0, 1e7, "s", 0, SC_ABOVE },
@@ -26,6 +27,7 @@ static const sc_field scene_rows[] = {
     { "restitution_speed", SC_NUMBER,  AT(T, restitution_speed), 0, 1e6, "m/s", 0, 0 },
     { "seed",              SC_INTEGER, AT(T, seed),              0, 9007199254740991.0, "1", 0, 0 },
     { "simd_width",        SC_INTEGER, AT(T, simd_width),        0, 16, "1", 0, 0 },
+    { "sleep",             SC_BOOL,    AT(T, sleep),             0, 0, NULL, 0, 0 },
     { "solver",            SC_CHOICE,  AT(T, solver),            0, 0, "soft|pgs", 0, 0 },
     { "substeps",          SC_INTEGER, AT(T, substeps),          1, 64, "1", 0, 0 },
     { "title",             SC_STRING,  AT(T, title),             0, 0, NULL, 0, 0 },
@@ -36,6 +38,7 @@ const sc_list sc_list_scene = { "scene", scene_rows, COUNT(scene_rows) };
 
 #define T sc_material_def
 static const sc_field material_rows[] = {
+    { "adhesion",    SC_NUMBER, AT(T, adhesion),    0, BIG, "N", 0, 0 },
     { "density",     SC_NUMBER, AT(T, density),     0, 1e9, "kg/m^2", 0, SC_ABOVE },
     { "friction",    SC_NUMBER, AT(T, friction),    0, 10, "1", 0, 0 },
     { "name",        SC_STRING, AT(T, name),        0, 0, NULL, 0, 0 },
@@ -48,18 +51,28 @@ const sc_list sc_list_material = { "material", material_rows, COUNT(material_row
 static const sc_field body_rows[] = {
     { "angle",          SC_NUMBER,   AT(T, angle),         -BIG, BIG, "rad", 0, 0 },
     { "angle_deg",      SC_NUMBER,   AT(T, angle_deg),     -BIG, BIG, "deg", 0, 0 },
+    { "angular_damping", SC_NUMBER,  AT(T, angular_damping), 0, 1e6, "1/s", 0, 0 },
+    { "asleep",         SC_BOOL,     AT(T, asleep),        0, 0, NULL, 0, 0 },
     { "at",             SC_VEC2,     AT(T, at),            -FAR, FAR, "m", 0, 0 },
     { "color",          SC_COLOR,    AT(T, color),         0, 0, NULL, 0, 0 },
+    { "continuous",     SC_BOOL,     AT(T, continuous),    0, 0, NULL, 0, 0 },
+    { "damping",        SC_NUMBER,   AT(T, damping),       0, 1e6, "1/s", 0, 0 },
     { "density",        SC_NUMBER,   AT(T, density),       0, 1e9, "kg/m^2", 0, SC_ABOVE },
+    { "enabled",        SC_BOOL,     AT(T, enabled),       0, 0, NULL, 0, 0 },
     { "fixed_rotation", SC_BOOL,     AT(T, fixed_rotation), 0, 0, NULL, 0, 0 },
     { "gravity_scale",  SC_NUMBER,   AT(T, gravity_scale), -1e6, 1e6, "1", 0, 0 },
     { "hidden",         SC_BOOL,     AT(T, hidden),        0, 0, NULL, 0, 0 },
     { "label",          SC_STRING,   AT(T, label),         0, 0, NULL, 0, 0 },
+    { "lock",           SC_AXES,     AT(T, lock),          0, 0, NULL, 0, 0 },
     { "mass",           SC_NUMBER,   AT(T, mass),          0, BIG, "kg", 0, SC_ABOVE },
     { "material",       SC_MATERIAL, AT(T, material),      0, 0, NULL, 0, 0 },
+    { "max_speed",      SC_NUMBER,   AT(T, max_speed),     0, BIG, "m/s", 0, SC_ABOVE },
+    { "max_spin",       SC_NUMBER,   AT(T, max_spin),      0, BIG, "rad/s", 0, SC_ABOVE },
     { "name",           SC_STRING,   AT(T, name),          0, 0, NULL, 0, 0 },
     { "shapes",         SC_SHAPES,   AT(T, shape_count),   0, 0, NULL, SC_REST, 0 },
+    { "sleep",          SC_BOOL,     AT(T, sleep),         0, 0, NULL, 0, 0 },
     { "spin",           SC_NUMBER,   AT(T, spin),          -1e6, 1e6, "rad/s", 0, 0 },
+    { "time_scale",     SC_NUMBER,   AT(T, time_scale),    0, 100, "1", 0, 0 },
     { "type",           SC_CHOICE,   AT(T, type),          0, 0, "dynamic|kinematic|static", 0, 0 },
     { "user",           SC_TABLE,    AT(T, user),          0, 0, NULL, 0, 0 },
     { "velocity",       SC_VEC2,     AT(T, velocity),      -FAR, FAR, "m/s", 0, 0 },
@@ -177,6 +190,19 @@ static const sc_field exact_rows[] = {
     { "y",     SC_FUNCTION, AT(T, y),     0, 0, NULL, 0, 0 },
 };
 const sc_list sc_list_exact = { "exact", exact_rows, COUNT(exact_rows) };
+#undef T
+
+#define T sc_blast_def
+static const sc_field blast_rows[] = {
+    { "at",        SC_VEC2,   AT(T, at),        -FAR, FAR, "m", 0, SC_REQUIRED },
+    { "falloff",   SC_NUMBER, AT(T, falloff),   0, SIZE, "m", 0, 0 },
+    { "ignore",    SC_BODY,   AT(T, ignore),    0, 0, NULL, 0, 0 },
+    { "impulse",   SC_NUMBER, AT(T, impulse),   -BIG, BIG, "N s/m", 0, SC_REQUIRED },
+    { "occlusion", SC_CHOICE, AT(T, occlusion), 0, 0, "none|walls|all", 0, 0 },
+    { "per_body",  SC_BOOL,   AT(T, per_body),  0, 0, NULL, 0, 0 },
+    { "radius",    SC_NUMBER, AT(T, radius),    0, SIZE, "m", 0, SC_REQUIRED },
+};
+const sc_list sc_list_blast = { "blast", blast_rows, COUNT(blast_rows) };
 #undef T
 
 #define T sc_contact_def

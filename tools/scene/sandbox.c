@@ -371,6 +371,7 @@ static int open_protected(lua_State *L)
     lua_call(L, 0, 0);
     sc_open_shapes(L);
     sc_open_body(L);
+    sc_open_motion(L);
     sc_open_build(L);
     sc_open_handlers(L);
     sc_open_expect(L);

@@ -332,7 +332,7 @@ static scene_body show_body(const sc_body *b)
                          .label = b->def.label,
                          .palette = b->def.color.palette,
                          .color = b->def.color.rgba,
-                         .hidden = b->def.hidden };
+                         .hidden = b->def.hidden || !b->def.enabled };
 }
 
 scene_body scene_body_get(const scene *s, int i)

@@ -144,7 +144,7 @@ typedef struct scene_body {
         *label;  ///< "" when none is wanted; the renderer may fall back on the name if is_named
     int palette; ///< colour number, -1 when the author gave none
     scene_rgba color; ///< replaces the palette colour when a > 0
-    bool hidden;      ///< not to be drawn
+    bool hidden;      ///< not to be drawn: said so, or disabled
 } scene_body;
 
 /// Bodies now alive, in order of making. i in [0, count). The array changes when handlers make or

@@ -1,0 +1,55 @@
+// continuous.h - bodies that moved fast in a step do not pass through anything (README.md has the
+// algorithm and what it promises).
+#ifndef PL_CONTINUOUS_H
+#define PL_CONTINUOUS_H
+
+#include "core/memory.h"
+#include "world/columns.h"
+
+// A body that moved so far in this step that it could have passed through something, or that
+// something could have passed through.
+typedef struct pl_mover {
+    uint32_t row;
+    bool beside;     // a kinematic body may have come its way
+    bool stray;      // its way leaves the fat boxes with which its pieces are filed
+    real x, y, c, s; // centre [m] and rotation at the start of the step
+    real angle;      // [rad] it turned by, whole turns included; the last bits are not
+    real moved;      // [m] no point of it moved farther
+    double stop;     // [-] of the step after which it stays where it is; 1: goes all the way
+} pl_mover;
+
+typedef struct pl_continuous {
+    pl_buffer movers; // pl_mover, by row; room for every dynamic and kinematic body
+    uint32_t count;
+    real least_slack;       // [m] of all bodies ever made
+    bool noting;            // the pass will run in this step
+    uint32_t stopped_count; // bodies put back to an impact in the last step
+} pl_continuous;
+
+// A place at which two pieces are about to go into each other.
+typedef struct pl_impact_place {
+    uint32_t piece, other; // slots; piece is of the dynamic body that is to be stopped
+    double x, y;           // [m] on the surface of piece
+    double nx, ny;         // unit, out of other
+} pl_impact_place;
+
+// Whether the pieces may be solid to one another: of different bodies, no sensors, kept apart by
+// neither filter, excluded pair nor joint. Asked before any geometry.
+bool pl_pieces_collide(const plumb_world *world, uint32_t piece, uint32_t other);
+// Whether the body stops at this impact, or goes on as if `other` were not there: it does where a
+// system disabled the contact in this step. The only question of its kind in the pass: what depends
+// on the place or the side of an impact (one-way platforms) belongs here as well.
+bool pl_impact_stops(const plumb_world *world, const pl_impact_place *place);
+
+bool pl_continuous_wanted(const plumb_world *world, const char **reason);
+// Room for the movers; the last thing of a step that can run out of memory.
+bool pl_continuous_reserve(plumb_world *world);
+void pl_continuous_run(plumb_world *world, real dt);
+void pl_continuous_free(pl_memory *memory, pl_continuous *continuous);
+
+static inline pl_mover *pl_movers(const pl_continuous *continuous)
+{
+    return (pl_mover *)continuous->movers.data;
+}
+
+#endif

@@ -1,0 +1,43 @@
+// course.h - the way of a body through the step just taken, and its pieces on that way.
+#ifndef PL_COURSE_H
+#define PL_COURSE_H
+
+#include "continuous/sweep.h"
+#include "world/state.h"
+
+// A point of the body, its pivot, moves in a straight line at a constant rate while the body turns
+// about it at a constant rate. Both ends are those of the step.
+typedef struct pl_course {
+    double ox, oy; // [m] origin of what follows
+    double lx, ly; // [m] pivot in the body's frame
+    double px, py; // [m] pivot at the start
+    double dx, dy; // [m] its way
+    double c, s;   // rotation at the start
+    double angle;  // [rad] turned, whole turns included
+} pl_course;
+
+// Centre of mass [m] and rotation at a time of a course.
+typedef struct pl_place {
+    double x, y, c, s;
+} pl_place;
+
+// Of a body that was noted. It turns about its centre of mass, but about a hinge that holds it to
+// something which dynamics does not move.
+pl_course pl_course_of_mover(const plumb_world *world, const pl_mover *mover, double ox, double oy);
+// Of any other body: at rest, or moved by a step of dt [s] to where it is.
+pl_course pl_course_of_row(const plumb_world *world, uint32_t row, real dt, double ox, double oy);
+// Of a body that goes straight from one place to another while it turns by `angle`.
+pl_course pl_course_between(const plumb_world *world, uint32_t row, pl_place from, pl_place to,
+                            double angle);
+
+// Without the origin: world coordinates.
+pl_place pl_course_place(const plumb_world *world, uint32_t row, const pl_course *course,
+                         double time);
+// The body stays where it is from `time` on; the way after that and its turn are dropped.
+pl_course pl_course_stopped(const pl_course *course, double time);
+
+pl_swept pl_course_piece(const plumb_world *world, uint32_t piece, const pl_course *course);
+// A box around all places of a piece on its way, in world coordinates.
+pl_box pl_course_box(const pl_course *course, const pl_swept *piece);
+
+#endif

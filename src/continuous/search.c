@@ -1,0 +1,302 @@
+// search.c - one mover against what stands still, then against what moves: pieces found by the grids,
+// asked whether they may collide, swept, and asked once more where they would.
+//
+// Reads: movers, poses, pieces, grids, filters, joints. Writes: the search. Cost: entries of the grids
+// in the box around the way; a gap and a few rounds of sweep.c for each that the way does not miss.
+#include "continuous/search.h"
+
+#include <math.h>
+
+#include "broad/pairs.h"
+#include "continuous/target.h"
+#include "world/filter.h"
+#include "world/rows.h"
+
+// [-] of a step: stopping earlier by less is no change.
+#define TINY_TIME 1e-9
+
+static bool is_solid(const plumb_world *world, uint32_t piece)
+{
+    return (world->pieces.flags[piece] & PL_PIECE_SENSOR) == 0;
+}
+
+bool pl_pieces_collide(const plumb_world *world, uint32_t piece, uint32_t other)
+{
+    const uint8_t *flags = world->pieces.flags;
+    uint32_t row = world->pieces.body[piece], other_row = world->pieces.body[other];
+    if (row == other_row || ((flags[piece] | flags[other]) & PL_PIECE_SENSOR) != 0) {
+        return false;
+    }
+    if (pl_world_is_selective(world) && !pl_pieces_meet(world, piece, other)) {
+        return false;
+    }
+    const uint32_t *first_joint = world->bodies.first_joint;
+    return first_joint[row] == PL_NONE || first_joint[other_row] == PL_NONE ||
+           !pl_joints_forbid(world, row, other_row);
+}
+
+bool pl_impact_stops(const plumb_world *world, const pl_impact_place *place)
+{
+    if (!world->edited) {
+        return true;
+    }
+    const pl_pair *pair = pl_pairs_find_one(world, place->piece, place->other);
+    return pair == NULL || (pair->flags & PL_PAIR_WAIVED) == 0;
+}
+
+//---- one body against what stands still ----------------------------------------------------------
+
+pl_search pl_search_of(const plumb_world *world, const pl_mover *mover)
+{
+    pl_search s = { .world = world, .mover = mover, .sunk = -1, .first = 1 };
+    s.course = pl_course_of_mover(world, mover, (double)mover->x, (double)mover->y);
+    return s;
+}
+
+static void take_piece(pl_search *s, uint32_t piece)
+{
+    s->piece = piece;
+    s->swept = pl_course_piece(s->world, piece, &s->course);
+    s->box = pl_course_box(&s->course, &s->swept);
+    s->half_width = pl_piece_half_width(s->world, piece, false);
+    double reach_sq = 0;
+    for (int i = 0; i < s->swept.count; ++i) {
+        double x = s->swept.x[i], y = s->swept.y[i];
+        reach_sq = x * x + y * y > reach_sq ? x * x + y * y : reach_sq;
+    }
+    s->reach = sqrt(reach_sq) + s->swept.radius;
+}
+
+// Whether the piece, wherever it has turned, stays clear of a box to one side of its way.
+static bool goes_by(const pl_search *s, const pl_box *box)
+{
+    double dx = s->swept.dx, dy = s->swept.dy;
+    double hx = ((double)box->max_x - (double)box->min_x) / 2;
+    double hy = ((double)box->max_y - (double)box->min_y) / 2;
+    double x = (double)box->min_x + hx - s->course.ox - s->swept.px;
+    double y = (double)box->min_y + hy - s->course.oy - s->swept.py;
+    double aside = fabs(dx * y - dy * x) - fabs(dx) * hy - fabs(dy) * hx;
+    return aside > 0 && aside * aside > s->reach * s->reach * (dx * dx + dy * dy);
+}
+
+static pl_swept still_piece(const pl_search *s, uint32_t piece)
+{
+    pl_course course =
+        pl_course_of_row(s->world, s->world->pieces.body[piece], 0, s->course.ox, s->course.oy);
+    return pl_course_piece(s->world, piece, &course);
+}
+
+static double thickness(const pl_search *s, uint32_t other)
+{
+    return (double)s->half_width + (double)pl_piece_half_width(s->world, other, false);
+}
+
+static bool visit_depth(void *context, const pl_grid_entry *entry)
+{
+    pl_search *s = context;
+    if (pl_pieces_collide(s->world, s->piece, entry->piece)) {
+        pl_swept other = still_piece(s, entry->piece);
+        double depth = -pl_sweep_gap(&s->swept, &other, 0).distance;
+        if (depth > s->sunk && !pl_target_is_lost(thickness(s, entry->piece), depth)) {
+            s->sunk = depth;
+        }
+    }
+    return true;
+}
+
+// How deep the body lies in static pieces at the start.
+static double depth_at_start(const pl_search *s)
+{
+    pl_search at = *s;
+    at.course = pl_course_stopped(&s->course, 0);
+    at.sunk = 0;
+    for (uint32_t p = s->world->bodies.first_piece[s->mover->row]; p != PL_NONE;
+         p = s->world->pieces.next_in_body[p]) {
+        take_piece(&at, p);
+        pl_grid_query(&s->world->broad.fixed, at.box, visit_depth, &at);
+    }
+    return at.sunk;
+}
+
+// When `a` goes too deep into `b`; `sunk` lets it go so much deeper.
+static double time_of_hit(const pl_swept *a, const pl_swept *b, double from, double to,
+                          double thick, double sunk)
+{
+    double depth = -pl_sweep_gap(a, b, from).distance;
+    if (pl_target_is_lost(thick, depth)) {
+        return PL_SWEEP_NEVER; // it has no side that could be told
+    }
+    pl_sweep_target target = pl_target_of(thick, depth, sunk);
+    return pl_sweep_first(a, b, from, to, target.distance, target.tolerance);
+}
+
+static bool stops(const pl_search *s, uint32_t other, const pl_swept *other_swept, double time)
+{
+    pl_gap gap = pl_sweep_gap(&s->swept, other_swept, time);
+    double x, y;
+    pl_sweep_point(&s->swept, time, -gap.nx, -gap.ny, &x, &y);
+    return pl_impact_stops(s->world, &(pl_impact_place){ .piece = s->piece,
+                                                         .other = other,
+                                                         .x = s->course.ox + x,
+                                                         .y = s->course.oy + y,
+                                                         .nx = gap.nx,
+                                                         .ny = gap.ny });
+}
+
+static bool visit_still(void *context, const pl_grid_entry *entry)
+{
+    pl_search *s = context;
+    if (goes_by(s, &entry->box) || !pl_pieces_collide(s->world, s->piece, entry->piece)) {
+        return true;
+    }
+    pl_swept other = still_piece(s, entry->piece);
+    double until = s->first;
+    double thick = thickness(s, entry->piece);
+    double time = time_of_hit(&s->swept, &other, 0, until, thick, s->sunk > 0 ? s->sunk : 0);
+    if (time < until && s->sunk < 0) {
+        // It may only be as deep there as it is here.
+        s->sunk = depth_at_start(s);
+        time = s->sunk > 0 ? time_of_hit(&s->swept, &other, 0, until, thick, s->sunk) : time;
+    }
+    if (time < until && stops(s, entry->piece, &other, time)) {
+        s->first = time;
+    }
+    return true;
+}
+
+static bool asks(const plumb_world *world, uint32_t row)
+{
+    return (world->bodies.flags[row] & PL_BODY_CONTINUOUS) != 0;
+}
+
+// What sleeps on the way was woken at the start of the step; this is for what a bounce led here.
+static bool visit_asleep(void *context, const pl_grid_entry *entry)
+{
+    const pl_search *s = context;
+    bool asleep = (s->world->pieces.flags[entry->piece] & PL_PIECE_ASLEEP) != 0;
+    bool asked =
+        asks(s->world, s->mover->row) || asks(s->world, s->world->pieces.body[entry->piece]);
+    return !asleep || !asked || visit_still(context, entry);
+}
+
+double pl_search_still(pl_search *s)
+{
+    const plumb_world *world = s->world;
+    for (uint32_t p = world->bodies.first_piece[s->mover->row]; p != PL_NONE;
+         p = world->pieces.next_in_body[p]) {
+        if (is_solid(world, p)) {
+            take_piece(s, p);
+            pl_grid_query(&world->broad.fixed, s->box, visit_still, s);
+            if (world->continuous_bodies > 0) {
+                pl_grid_query(&world->broad.resting, s->box, visit_asleep, s);
+            }
+        }
+    }
+    return s->first;
+}
+
+//---- one body against what moves -----------------------------------------------------------------
+
+// When the piece at hand goes too deep into one of another moving body, each on its way until it
+// stops. First while both move, then while one does.
+static double time_among(const pl_search *s, uint32_t piece, const pl_course *course, double stop)
+{
+    double thick = thickness(s, piece);
+    double low = stop < s->mover->stop ? stop : s->mover->stop;
+    double high = stop > s->mover->stop ? stop : s->mover->stop;
+    pl_swept other = pl_course_piece(s->world, piece, course);
+    double time = time_of_hit(&s->swept, &other, 0, low, thick, 0);
+    if (time < low - TINY_TIME) {
+        return time;
+    }
+    if (high <= low) {
+        return PL_SWEEP_NEVER;
+    }
+    pl_course stopped = pl_course_stopped(stop < high ? course : &s->course, low);
+    pl_swept still = pl_course_piece(s->world, stop < high ? piece : s->piece, &stopped);
+    time = stop < high ? time_of_hit(&s->swept, &still, low, high, thick, 0)
+                       : time_of_hit(&still, &other, low, high, thick, 0);
+    return time < high - TINY_TIME ? time : PL_SWEEP_NEVER;
+}
+
+static bool is_partner(const pl_search *s, uint32_t row)
+{
+    if (row == s->mover->row || pl_row_is_dynamic(s->world, row) == s->among_kinematic) {
+        return false;
+    }
+    return s->among_kinematic || asks(s->world, row) || asks(s->world, s->mover->row);
+}
+
+static void meet(pl_search *s, uint32_t piece)
+{
+    uint32_t row = s->world->pieces.body[piece];
+    if (!pl_pieces_collide(s->world, s->piece, piece)) {
+        return;
+    }
+    const pl_mover *other = pl_mover_find(s->world, row);
+    pl_course course = pl_mover_course(s->world, row, s->dt, s->course.ox, s->course.oy);
+    double time = time_among(s, piece, &course, other != NULL ? other->stop : 1);
+    pl_swept swept = pl_course_piece(s->world, piece, &course);
+    if (time < s->first && stops(s, piece, &swept, time)) {
+        s->first = time;
+        s->partner = row;
+    }
+}
+
+static bool visit_moving(void *context, const pl_grid_entry *entry)
+{
+    pl_search *s = context;
+    uint32_t row = s->world->pieces.body[entry->piece];
+    if (is_partner(s, row)) {
+        const pl_mover *other = pl_mover_find(s->world, row);
+        if (other == NULL || !other->stray) {
+            meet(s, entry->piece);
+        }
+    }
+    return true;
+}
+
+// Strays are where no grid has them.
+static void meet_stray(pl_search *s, const pl_mover *stray)
+{
+    const pl_bodies *b = &s->world->bodies;
+    double dx = (double)stray->x - (double)s->mover->x, dy = (double)stray->y - (double)s->mover->y;
+    double near = (double)stray->moved + (double)s->mover->moved + (double)b->extent[stray->row] +
+                  (double)b->extent[s->mover->row];
+    if (!is_partner(s, stray->row) || dx * dx + dy * dy > near * near) {
+        return;
+    }
+    pl_course course = pl_course_of_mover(s->world, stray, s->course.ox, s->course.oy);
+    for (uint32_t p = b->first_piece[stray->row]; p != PL_NONE;
+         p = s->world->pieces.next_in_body[p]) {
+        pl_swept swept = pl_course_piece(s->world, p, &course);
+        pl_box box = pl_course_box(&course, &swept);
+        if (pl_boxes_overlap(&box, &s->box)) {
+            meet(s, p);
+        }
+    }
+}
+
+double pl_search_among(pl_search *s)
+{
+    const plumb_world *world = s->world;
+    for (uint32_t p = world->bodies.first_piece[s->mover->row]; p != PL_NONE;
+         p = world->pieces.next_in_body[p]) {
+        if (!is_solid(world, p)) {
+            continue;
+        }
+        take_piece(s, p);
+        pl_grid_query(&world->broad.moving, s->box, visit_moving, s);
+        // Kinematic movers come last.
+        for (uint32_t i = world->continuous.count; i-- > 0;) {
+            const pl_mover *other = &pl_movers(&world->continuous)[i];
+            if (s->among_kinematic && other->row < world->dynamic_count) {
+                break;
+            }
+            if (other->stray) {
+                meet_stray(s, other);
+            }
+        }
+    }
+    return s->first;
+}

@@ -1,0 +1,48 @@
+// sweep.h - two convex pieces that move and turn: how far apart they are, and when they first come
+// too near. Plain geometry in double; no world.
+#ifndef PL_SWEEP_H
+#define PL_SWEEP_H
+
+#include <stdbool.h>
+
+#include "plumb/geometry.h"
+
+// A rounded convex piece on its way through the step: its pivot moves in a straight line while the
+// piece turns about it, both at a constant rate over time 0..1.
+typedef struct pl_swept {
+    int count;                            // core points, 1..16, counter-clockwise
+    double radius;                        // [m] around the core
+    double x[PLUMB_POLYGON_MAX_VERTICES]; // [m] core points from the pivot, in world axes at time 0
+    double y[PLUMB_POLYGON_MAX_VERTICES];
+    double px, py; // [m] pivot at time 0; both pieces from the same origin
+    double dx, dy; // [m] way of the pivot from 0 to 1
+    double angle;  // [rad] turned from 0 to 1, whole turns included
+} pl_swept;
+
+// The distance of two pieces at one time; negative: the least translation that parts them. It
+// holds along a unit normal from B to A.
+typedef struct pl_gap {
+    double distance; // [m]
+    double nx, ny;
+} pl_gap;
+
+pl_gap pl_sweep_gap(const pl_swept *a, const pl_swept *b, double time);
+
+// The point of a piece's surface farthest along a unit vector.
+void pl_sweep_point(const pl_swept *piece, double time, double nx, double ny, double *x, double *y);
+
+// The first time in [from, to] at which the pieces are nearer than `target` [m], found at a moment
+// at which they are at most `tolerance` [m] > 0 farther apart than that and not yet nearer; above
+// 1 when there is none. They must be farther apart than target + tolerance at `from`. Early, but
+// never late: where the search takes too long, the time up to which it knows that all is well.
+double pl_sweep_first(const pl_swept *a, const pl_swept *b, double from, double to, double target,
+                      double tolerance);
+
+// What pl_sweep_first returns for never.
+#define PL_SWEEP_NEVER 2.0
+
+// Rounds of pl_sweep_first at the most; a rod of 4 m that turns eight times about in a step and
+// passes a post by a millimetre takes 144.
+#define PL_SWEEP_ROUNDS 1000
+
+#endif

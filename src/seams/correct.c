@@ -1,0 +1,135 @@
+// correct.c - contacts whose normal the ground does not admit, set right or taken out; then runs.
+//
+// A kernel sees two convex pieces and takes the axis that separates them most. That may be a side
+// that a neighbour covers, or lean on a corner where the ground goes on. Then the best face of the
+// ground that is open there takes its place (view.c). Where nothing of the other piece lies before
+// it, nor will within the step, the neighbour has the contact, and this one is taken out.
+//
+// Reads: pairs, poses, pieces, seams. Writes: manifolds, pairs, summary. Order: after the narrow
+// phase, before anything else looks at manifolds. Cost: README.md has the counts.
+#include "narrow/surface.h"
+#include "seams/run.h"
+#include "seams/view.h"
+
+typedef enum verdict { RIGHT, SET_RIGHT, FALSE_CONTACT } verdict;
+
+// Either piece may be ground; the ground of one must admit what the other's makes of the contact. Opens
+// the views of pieces with seams.
+static verdict judge(const plumb_world *world, const pl_pair *pair, pl_manifold *m, double dt,
+                     pl_view views[2])
+{
+    bool admitted[2];
+    for (int i = 0; i < 2; ++i) {
+        bool has = pl_piece_has_seams(&world->pieces, i == 0 ? pair->a : pair->b);
+        if (has) {
+            pl_view_open(&views[i], world, pair, m, i == 0, dt);
+        }
+        admitted[i] = !has || pl_view_is_admitted(&views[i]);
+    }
+    if (admitted[0] && admitted[1]) {
+        return RIGHT;
+    }
+    for (int i = 0; i < 2; ++i) {
+        if (admitted[i] || !pl_view_rebuild(&views[i], m)) {
+            continue;
+        }
+        pl_view_open(&views[0], world, pair, m, true, dt);
+        pl_view_open(&views[1], world, pair, m, false, dt);
+        if (pl_view_is_admitted(&views[1 - i])) {
+            return SET_RIGHT;
+        }
+    }
+    return FALSE_CONTACT;
+}
+
+// Impulses follow their features, as in narrow/lanes.h. A contact of one point keeps its own whichever
+// way it was made.
+static void carry_over(const pl_seam_pair *old, pl_pair *pair, pl_manifold *m)
+{
+    bool single = m->count == 1 && old->feature[0] != PL_NONE && old->feature[1] == PL_NONE;
+    for (uint32_t k = 0; k < 2; ++k) {
+        pair->feature[k] = m->feature[k];
+        for (int j = 0; j < 2 && k < m->count; ++j) {
+            if (old->feature[j] == m->feature[k] || (single && j == 0)) {
+                m->point[k].normal = old->normal[j];
+                m->point[k].tangent = old->tangent[j];
+            }
+        }
+        pair->normal[k] = m->point[k].normal;
+        pair->tangent[k] = m->point[k].tangent;
+    }
+}
+
+static void take_out(pl_pair *pair)
+{
+    pair->manifold = PL_NONE;
+    pair->rolling = 0;
+    for (int k = 0; k < 2; ++k) {
+        pair->feature[k] = PL_NONE;
+        pair->normal[k] = pair->tangent[k] = 0;
+    }
+}
+
+// Closes the gaps that were left: manifolds without points go, those that another bears the load of
+// stand behind the rest, where the solver does not look.
+static void close_gaps(plumb_world *world)
+{
+    pl_narrow *narrow = &world->narrow;
+    pl_manifold *m = pl_manifolds(narrow), *borne = world->seams.borne.data;
+    pl_pair *pairs = pl_pairs(&world->broad.pairs);
+    uint32_t kept = 0, borne_count = 0;
+    for (uint32_t i = 0; i < narrow->manifold_count; ++i) {
+        if (m[i].count == 0) {
+            continue;
+        }
+        if (pairs[m[i].pair].flags & PL_PAIR_BORNE) {
+            borne[borne_count++] = m[i];
+            continue;
+        }
+        if (kept != i) {
+            m[kept] = m[i];
+            pairs[m[kept].pair].manifold = kept;
+        }
+        ++kept;
+    }
+    narrow->manifold_count = kept;
+    narrow->borne_count = borne_count;
+    for (uint32_t i = 0; i < borne_count; ++i) {
+        m[kept + i] = borne[i];
+        pairs[borne[i].pair].manifold = kept + i;
+    }
+}
+
+void pl_seams_correct(plumb_world *world, real dt)
+{
+    pl_seams *s = &world->seams;
+    pl_pair *pairs = pl_pairs(&world->broad.pairs);
+    const pl_seam_pair *list = s->pairs.data;
+    bool changed = false;
+    pl_runs_open(world);
+    for (uint32_t i = 0; i < s->pair_count; ++i) {
+        pl_pair *pair = &pairs[list[i].pair];
+        pair->flags &= ~PL_PAIR_BORNE;
+        if (pair->manifold == PL_NONE) {
+            continue;
+        }
+        pl_manifold *m = &pl_manifolds(&world->narrow)[pair->manifold];
+        pl_view views[2];
+        verdict v = judge(world, pair, m, (double)dt, views);
+        if (v == FALSE_CONTACT) {
+            m->count = 0;
+            take_out(pair);
+        } else {
+            carry_over(&list[i], pair, m);
+        }
+        if (v != FALSE_CONTACT) {
+            pl_runs_add(world, i, views);
+        }
+        changed |= v != RIGHT;
+    }
+    changed |= pl_runs_join(world, (double)dt);
+    if (changed) {
+        close_gaps(world);
+        pl_narrow_summarise(&world->narrow);
+    }
+}

@@ -1,0 +1,268 @@
+// look.c - one piece of ground among its neighbours: what is covered, what stands out.
+//
+// Reads: the piece, pieces around it, poses. Writes: its seam columns, corners and spans. Order: part
+// of an update. Cost: O(neighbours x corners x corners of theirs), about 4,000 instructions for a
+// square tile among eight others.
+#include "seams/look.h"
+#include "seams/neighbour.h"
+#include "seams/span.h"
+#include "world/state.h"
+
+#include <math.h>
+
+bool pl_piece_is_static(const plumb_world *world, uint32_t piece)
+{
+    return world->bodies.type[world->pieces.body[piece]] == PLUMB_STATIC;
+}
+
+//---- who is a neighbour --------------------------------------------------------------------------
+
+// A body that something passes through by a joint or an exclusion is not one ground with others.
+static bool is_passed(const plumb_world *world, uint32_t row)
+{
+    return (world->bodies.flags[row] & PL_BODY_EXCLUDING) != 0 || pl_joints_part(world, row);
+}
+
+// Whether two pieces are one ground to all that meets them.
+static bool are_joined(const plumb_world *world, uint32_t p, uint32_t q)
+{
+    const pl_pieces *s = &world->pieces;
+    uint32_t row_p = s->body[p], row_q = s->body[q];
+    if (p == q || s->vertex_count[q] == 0 || ((s->flags[p] | s->flags[q]) & PL_PIECE_SENSOR) ||
+        s->category[p] != s->category[q] || s->mask[p] != s->mask[q] ||
+        s->group[p] != s->group[q]) {
+        return false;
+    }
+    // Cores tell it only of surfaces that lie equally far outside them.
+    double apart = fabs((double)s->core[p].radius - (double)s->core[q].radius);
+    if (apart > 1e-3 * (double)s->core[p].radius) {
+        return false;
+    }
+    return row_p == row_q || (pl_piece_is_static(world, p) && pl_piece_is_static(world, q) &&
+                              !is_passed(world, row_p) && !is_passed(world, row_q));
+}
+
+typedef struct gathering {
+    plumb_world *world;
+    uint32_t piece;
+} gathering;
+
+static bool gather(void *context, const pl_grid_entry *entry)
+{
+    const gathering *g = context;
+    pl_seams *s = &g->world->seams;
+    if (!are_joined(g->world, g->piece, entry->piece)) {
+        return true;
+    }
+    if (!pl_buffer_reserve(&g->world->memory, &s->around,
+                           ((size_t)s->around_count + 1) * sizeof(uint32_t))) {
+        return false;
+    }
+    ((uint32_t *)s->around.data)[s->around_count++] = entry->piece;
+    return true;
+}
+
+static bool gather_around(plumb_world *world, uint32_t piece)
+{
+    gathering g = { world, piece };
+    pl_box box = world->pieces.fat[piece];
+    world->seams.around_count = 0;
+    return pl_grid_query(&world->broad.fixed, box, gather, &g) &&
+           (pl_piece_is_static(world, piece) ||
+            pl_grid_query(&world->broad.moving, box, gather, &g));
+}
+
+//---- what they do --------------------------------------------------------------------------------
+
+// A piece while it is looked at.
+typedef struct look {
+    pl_outline own;
+    pl_cone cones[PLUMB_POLYGON_MAX_VERTICES];
+    pl_wall walls[PLUMB_POLYGON_MAX_VERTICES][2];
+    double slops[PLUMB_POLYGON_MAX_VERTICES]; // [m] largest with which a neighbour has a say
+    bool narrowed[PLUMB_POLYGON_MAX_VERTICES];
+    uint32_t covered[PLUMB_POLYGON_MAX_VERTICES]; // stretches of each edge
+    pl_span *spans;                               // room for one a neighbour, edge by edge
+    uint32_t room;
+} look;
+
+// Corners of a piece in the frame of the body of another, without the rounding of world positions.
+static void outline_of(const plumb_world *world, uint32_t piece, uint32_t in_frame_of,
+                       pl_outline *out)
+{
+    const pl_pieces *pieces = &world->pieces;
+    const pl_pose *f = &pl_poses(world)[pieces->body[in_frame_of]];
+    const pl_pose *p = &pl_poses(world)[pieces->body[piece]];
+    double fc = (double)f->c, fs = (double)f->s, pc = (double)p->c, ps = (double)p->s;
+    double dx = (double)p->x - (double)f->x, dy = (double)p->y - (double)f->y;
+    bool same = pieces->body[piece] == pieces->body[in_frame_of];
+    double c = same ? 1 : fc * pc + fs * ps, s = same ? 0 : fc * ps - fs * pc;
+    double ox = fc * dx + fs * dy, oy = fc * dy - fs * dx;
+    const pl_vertex *v = world->vertices.items + pieces->vertices[piece];
+    out->count = pieces->vertex_count[piece];
+    for (int k = 0; k < out->count; ++k) {
+        double x = (double)v[k].x, y = (double)v[k].y;
+        double nx = (double)v[k].nx, ny = (double)v[k].ny;
+        out->x[k] = ox + c * x - s * y;
+        out->y[k] = oy + s * x + c * y;
+        out->nx[k] = c * nx - s * ny;
+        out->ny[k] = s * nx + c * ny;
+    }
+}
+
+// [m] how thick a core is, by the box around it; a line has its length.
+static double thickness(const pl_core *core)
+{
+    double x = 2 * (double)core->hx, y = 2 * (double)core->hy;
+    return y > 0 && y < x ? y : x;
+}
+
+// [m] what lies nearer touches: PL_SEAM_SLOP and what rounding may have done to the positions.
+static double slop_of(const plumb_world *world, uint32_t p, uint32_t q)
+{
+    const pl_pieces *pieces = &world->pieces;
+    const uint32_t both[] = { p, q };
+    bool apart = pieces->body[p] != pieces->body[q];
+    double thin = PL_SEAM_SLOP * 100, reach = 0;
+    for (int i = 0; i < 2; ++i) {
+        const pl_core *core = &pieces->core[both[i]];
+        const pl_pose *pose = &pl_poses(world)[pieces->body[both[i]]];
+        double far = apart ? fmax(fabs((double)pose->x), fabs((double)pose->y)) : 0;
+        thin = fmin(thin, thickness(core));
+        reach = fmax(reach, far + (double)core->reach);
+    }
+    double rounding = 4 * (double)PLUMB_REAL_EPSILON * reach;
+    return fmin(thin / 100 + rounding, (double)PL_SPECULATIVE / 2);
+}
+
+// The edge that ends at corner k (0), or starts there (1).
+static int edge_at(const pl_outline *o, int k, int i)
+{
+    return i == 1 ? k : k > 0 ? k - 1 : o->count - 1;
+}
+
+static void look_at_neighbour(look *l, const pl_outline *other, double slop)
+{
+    for (int k = 0; k < l->own.count; ++k) {
+        pl_cone has;
+        if (pl_outline_cone_at(other, l->own.x[k], l->own.y[k], slop, &has)) {
+            pl_cone met = pl_cone_meet(&l->cones[k], &has, PL_SEAM_ANGLE);
+            l->narrowed[k] |= met.form != l->cones[k].form || met.lo_x != l->cones[k].lo_x ||
+                              met.lo_y != l->cones[k].lo_y || met.hi_x != l->cones[k].hi_x ||
+                              met.hi_y != l->cones[k].hi_y;
+            l->cones[k] = met;
+            l->slops[k] = fmax(l->slops[k], slop);
+            for (int i = 0; i < 2; ++i) {
+                int edge = edge_at(&l->own, k, i);
+                pl_wall_meet(&l->walls[k][i], &has, l->own.nx[edge], l->own.ny[edge], i == 1);
+            }
+        }
+        double from, to;
+        if (pl_outline_covers(other, &l->own, k, slop, &from, &to)) {
+            pl_span *edge = l->spans + (size_t)k * l->room;
+            edge[l->covered[k]++] = (pl_span){ (real)from, (real)to };
+        }
+    }
+}
+
+// Stores what one edge has; a stretch from end to end needs no span.
+static bool store_edge(plumb_world *world, uint32_t piece, look *l, int k)
+{
+    pl_seams *s = &world->seams;
+    pl_span *found = l->spans + (size_t)k * l->room;
+    uint32_t count = pl_spans_merge(found, l->covered[k]);
+    real length = (real)pl_outline_edge_length(&l->own, k);
+    if (count == 0) {
+        return true;
+    }
+    if (found[0].from <= 0 && found[0].to >= length) {
+        world->pieces.seam_edges[piece] |= PL_SEAM_COVERED(k);
+        return true;
+    }
+    uint32_t first = pl_spans_take(&world->memory, s, count);
+    if (first == PL_NONE) {
+        return false;
+    }
+    pl_seam *seam = &pl_seam_items(s)[world->pieces.vertices[piece] + (uint32_t)k];
+    seam->spans = first;
+    seam->span_count = count;
+    for (uint32_t i = 0; i < count; ++i) {
+        pl_seam_spans(s)[first + i] = found[i];
+    }
+    world->pieces.seam_edges[piece] |= PL_SEAM_PARTLY(k);
+    return true;
+}
+
+static pl_edge_end end_of(const pl_cone *cone, double nx, double ny)
+{
+    if (!pl_cone_admits(cone, nx, ny, PL_SAME_DIRECTION)) {
+        return PL_END_INNER;
+    }
+    return pl_cone_is_flat(cone) ? PL_END_FLAT : PL_END_OUTER;
+}
+
+static bool store(plumb_world *world, uint32_t piece, look *l)
+{
+    pl_pieces *pieces = &world->pieces;
+    bool ok = true;
+    for (int k = 0; k < l->own.count && ok; ++k) {
+        pl_seam *seam = &pl_seam_items(&world->seams)[pieces->vertices[piece] + (uint32_t)k];
+        const pl_cone *cone = &l->cones[k];
+        *seam = (pl_seam){ .lo_x = (real)cone->lo_x,
+                           .lo_y = (real)cone->lo_y,
+                           .hi_x = (real)cone->hi_x,
+                           .hi_y = (real)cone->hi_y,
+                           .slop = (real)l->slops[k],
+                           .form = (uint8_t)cone->form,
+                           .flat = pl_cone_is_flat(cone) };
+        for (int i = 0; i < 2; ++i) {
+            int edge = edge_at(&l->own, k, i);
+            seam->ends[i] = (uint8_t)end_of(cone, l->own.nx[edge], l->own.ny[edge]);
+            seam->walls[i][0] = (real)l->walls[k][i].nx;
+            seam->walls[i][1] = (real)l->walls[k][i].ny;
+        }
+        pieces->seam_corners[piece] |= l->narrowed[k] ? UINT32_C(1) << k : 0;
+        ok = store_edge(world, piece, l, k);
+    }
+    if ((pieces->seam_corners[piece] & PL_SEAM_CORNERS) != 0 || pieces->seam_edges[piece] != 0) {
+        pieces->seam_corners[piece] |= PL_SEAM_HAS;
+        ++world->seams.count;
+    }
+    if (!ok) {
+        pl_seams_clear(world, piece);
+    }
+    return ok;
+}
+
+bool pl_seams_look(plumb_world *world, uint32_t piece)
+{
+    const pl_pieces *pieces = &world->pieces;
+    pl_seams *s = &world->seams;
+    pl_seams_clear(world, piece);
+    if (pieces->vertex_count[piece] == 0) {
+        return true; // a circle has no edge and no corner
+    }
+    if (!gather_around(world, piece)) {
+        return false;
+    }
+    if (s->around_count == 0) {
+        return true;
+    }
+    look l = { .room = s->around_count };
+    outline_of(world, piece, piece, &l.own);
+    if (!pl_buffer_reserve(&world->memory, &s->scratch,
+                           (size_t)l.own.count * l.room * sizeof(pl_span))) {
+        return false;
+    }
+    l.spans = s->scratch.data;
+    for (int k = 0; k < l.own.count; ++k) {
+        l.cones[k] = pl_outline_cone(&l.own, k);
+    }
+    const uint32_t *around = s->around.data;
+    for (uint32_t i = 0; i < s->around_count; ++i) {
+        pl_outline other;
+        outline_of(world, around[i], piece, &other);
+        look_at_neighbour(&l, &other, slop_of(world, piece, around[i]));
+    }
+    return store(world, piece, &l);
+}

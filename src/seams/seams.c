@@ -1,0 +1,270 @@
+// seams.c - keeps up what neighbours cover and what corners admit while pieces come, go and move.
+//
+// Static pieces have the static pieces of all bodies as neighbours, others those of their own body.
+// A change is local: a new piece and what lies around it, what lay around one that went, all of
+// a body that moves. Nothing is done in steps without a change but to note what pairs keep.
+//
+// Reads: pieces, poses, grids, pairs. Writes: seam columns, corners, spans, list of pairs. Order:
+// after the broad phase. Cost: O(changed pieces x their neighbours), and O(piece slots) for looking;
+// O(pairs) when pairs were made anew, O(pairs with seams) a step; nothing in worlds without seams.
+#include "seams/look.h"
+#include "seams/run.h"
+#include "seams/span.h"
+#include "world/state.h"
+
+bool pl_seams_wanted(const plumb_world *world, const char **reason)
+{
+    bool wanted = world->seams.count > 0 || world->seams.dirty;
+    *reason = wanted ? "pieces of ground lie side by side, or some have come or gone"
+                     : "no two pieces of ground lie side by side";
+    return wanted;
+}
+
+void pl_seams_free(pl_memory *memory, pl_seams *seams)
+{
+    pl_buffer *buffers[] = { &seams->corners, &seams->spans,   &seams->regions, &seams->chosen,
+                             &seams->around,  &seams->scratch, &seams->pairs,   &seams->contacts,
+                             &seams->runs,    &seams->order,   &seams->loads,   &seams->old_loads,
+                             &seams->slots,   &seams->borne };
+    for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; ++i) {
+        pl_buffer_free(memory, buffers[i]);
+    }
+    *seams = (pl_seams){ 0 };
+}
+
+//---- changes -------------------------------------------------------------------------------------
+
+static void mark_dirty(plumb_world *world)
+{
+    if (!world->seams.dirty) {
+        world->seams.dirty = true;
+        world->schedule_dirty = true;
+    }
+}
+
+void pl_seams_touch(plumb_world *world, uint32_t piece)
+{
+    const pl_pieces *pieces = &world->pieces;
+    uint32_t first = world->bodies.first_piece[pieces->body[piece]];
+    bool alone = pieces->next_in_body[first] == PL_NONE && !pl_piece_is_static(world, piece);
+    if (!alone || pl_piece_has_seams(pieces, piece)) {
+        world->pieces.seam_corners[piece] |= PL_SEAM_STALE;
+        mark_dirty(world);
+    }
+}
+
+void pl_seams_touch_shape(plumb_world *world, uint32_t first)
+{
+    for (uint32_t p = first; p != PL_NONE; p = world->pieces.next_in_shape[p]) {
+        pl_seams_touch(world, p);
+    }
+}
+
+void pl_seams_touch_static(plumb_world *world, uint32_t row)
+{
+    uint32_t p = world->bodies.first_piece[row];
+    for (; p != PL_NONE && pl_piece_is_static(world, p); p = world->pieces.next_in_body[p]) {
+        pl_seams_touch(world, p);
+    }
+}
+
+// Without room for the region everything is looked at again.
+void pl_seams_leave(plumb_world *world, uint32_t piece)
+{
+    pl_seams *s = &world->seams;
+    if (!pl_piece_is_static(world, piece) || !pl_piece_has_seams(&world->pieces, piece)) {
+        return; // what has no seams has no neighbours that could lose theirs
+    }
+    mark_dirty(world);
+    if (!pl_buffer_reserve(&world->memory, &s->regions,
+                           ((size_t)s->region_count + 1) * sizeof(pl_box))) {
+        s->all = true;
+        return;
+    }
+    ((pl_box *)s->regions.data)[s->region_count++] = world->pieces.fat[piece];
+}
+
+void pl_seams_move_static(plumb_world *world, uint32_t row)
+{
+    uint32_t p = world->bodies.first_piece[row];
+    for (; p != PL_NONE && pl_piece_is_static(world, p); p = world->pieces.next_in_body[p]) {
+        pl_seams_leave(world, p);
+        pl_seams_touch(world, p);
+    }
+}
+
+void pl_seams_clear(plumb_world *world, uint32_t piece)
+{
+    pl_pieces *pieces = &world->pieces;
+    pl_seams *s = &world->seams;
+    if (!pl_piece_has_seams(pieces, piece)) {
+        return;
+    }
+    for (uint32_t k = 0; k < pieces->vertex_count[piece]; ++k) {
+        if (pieces->seam_edges[piece] & PL_SEAM_PARTLY(k)) {
+            const pl_seam *seam = &pl_seam_items(s)[pieces->vertices[piece] + k];
+            pl_spans_give(s, seam->spans, seam->span_count);
+        }
+    }
+    pieces->seam_edges[piece] = 0;
+    pieces->seam_corners[piece] &= ~(PL_SEAM_CORNERS | PL_SEAM_HAS);
+    --s->count;
+}
+
+void pl_seams_forget(plumb_world *world, uint32_t piece)
+{
+    pl_seams_leave(world, piece);
+    pl_seams_clear(world, piece);
+    world->pieces.seam_corners[piece] = 0;
+}
+
+//---- which pieces are looked at ------------------------------------------------------------------
+
+static bool choose(plumb_world *world, uint32_t piece)
+{
+    pl_seams *s = &world->seams;
+    uint32_t *bits = &world->pieces.seam_corners[piece];
+    if (*bits & PL_SEAM_CHOSEN) {
+        return true;
+    }
+    if (!pl_buffer_reserve(&world->memory, &s->chosen,
+                           ((size_t)s->chosen_count + 1) * sizeof(uint32_t))) {
+        return false;
+    }
+    ((uint32_t *)s->chosen.data)[s->chosen_count++] = piece;
+    *bits |= PL_SEAM_CHOSEN;
+    return true;
+}
+
+static bool choose_visited(void *context, const pl_grid_entry *entry)
+{
+    return choose(context, entry->piece);
+}
+
+static bool choose_around(plumb_world *world, pl_box box)
+{
+    return pl_grid_query(&world->broad.fixed, box, choose_visited, world);
+}
+
+static bool choose_body(plumb_world *world, uint32_t row)
+{
+    uint32_t p = world->bodies.first_piece[row];
+    bool ok = true;
+    for (; p != PL_NONE && ok; p = world->pieces.next_in_body[p]) {
+        ok = choose(world, p);
+    }
+    return ok;
+}
+
+static bool choose_stale(plumb_world *world)
+{
+    const pl_pieces *pieces = &world->pieces;
+    pl_seams *s = &world->seams;
+    bool ok = true;
+    for (uint32_t p = 0; p < pieces->table.count && ok; ++p) {
+        if (pieces->kind[p] == PL_PIECE_FREE ||
+            !(s->all || (pieces->seam_corners[p] & PL_SEAM_STALE))) {
+            continue;
+        }
+        if (s->all) {
+            ok = choose(world, p);
+        } else if (!pl_piece_is_static(world, p)) {
+            ok = choose_body(world, pieces->body[p]);
+        } else {
+            ok = choose(world, p) && choose_around(world, pieces->fat[p]);
+        }
+    }
+    const pl_box *regions = s->regions.data;
+    for (uint32_t i = 0; i < s->region_count && ok && !s->all; ++i) {
+        ok = choose_around(world, regions[i]);
+    }
+    return ok;
+}
+
+//---- the passes ----------------------------------------------------------------------------------
+
+static bool look_at_chosen(plumb_world *world)
+{
+    pl_seams *s = &world->seams;
+    const uint32_t *chosen = s->chosen.data;
+    for (uint32_t i = 0; i < s->chosen_count; ++i) {
+        if (!pl_seams_look(world, chosen[i])) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// Marks of what was chosen go; those of stale pieces too, if all went well.
+static void unmark(plumb_world *world, bool done)
+{
+    pl_seams *s = &world->seams;
+    const uint32_t *chosen = s->chosen.data;
+    for (uint32_t i = 0; i < s->chosen_count; ++i) {
+        world->pieces.seam_corners[chosen[i]] &=
+            done ? ~(PL_SEAM_CHOSEN | PL_SEAM_STALE) : ~PL_SEAM_CHOSEN;
+    }
+    s->updated += s->chosen_count;
+    s->chosen_count = 0;
+}
+
+static bool refresh(plumb_world *world)
+{
+    pl_seams *s = &world->seams;
+    const pl_vertex_pool *pool = &world->vertices;
+    bool done = pl_buffer_reserve(&world->memory, &s->corners, pool->count * sizeof(pl_seam)) &&
+                choose_stale(world) && look_at_chosen(world);
+    unmark(world, done);
+    if (done) {
+        s->dirty = s->all = false;
+        s->region_count = 0;
+        s->relist = true;
+        world->schedule_dirty |= s->count == 0;
+    }
+    return done;
+}
+
+static bool list_pairs(plumb_world *world)
+{
+    pl_seams *s = &world->seams;
+    const pl_pair_list *list = &world->broad.pairs;
+    const pl_pair *pairs = pl_pairs(list);
+    s->pair_count = 0;
+    for (uint32_t i = 0; i < list->count && s->count > 0; ++i) {
+        if (!pl_piece_has_seams(&world->pieces, pairs[i].a) &&
+            !pl_piece_has_seams(&world->pieces, pairs[i].b)) {
+            continue;
+        }
+        if (!pl_buffer_reserve(&world->memory, &s->pairs,
+                               ((size_t)s->pair_count + 1) * sizeof(pl_seam_pair))) {
+            return false;
+        }
+        ((pl_seam_pair *)s->pairs.data)[s->pair_count++].pair = i;
+    }
+    s->relist = false;
+    s->listed = world->broad.rebuilds;
+    return pl_runs_reserve(world);
+}
+
+bool pl_seams_update(plumb_world *world)
+{
+    pl_seams *s = &world->seams;
+    if (s->dirty && !refresh(world)) {
+        return false;
+    }
+    if ((s->relist || s->listed != world->broad.rebuilds) && !list_pairs(world)) {
+        return false;
+    }
+    // The kernels carry impulses over by features of their own; these are for contacts set right.
+    const pl_pair *pairs = pl_pairs(&world->broad.pairs);
+    pl_seam_pair *kept = s->pairs.data;
+    for (uint32_t i = 0; i < s->pair_count; ++i) {
+        const pl_pair *pair = &pairs[kept[i].pair];
+        for (int k = 0; k < 2; ++k) {
+            kept[i].feature[k] = pair->feature[k];
+            kept[i].normal[k] = pair->normal[k];
+            kept[i].tangent[k] = pair->tangent[k];
+        }
+    }
+    return true;
+}

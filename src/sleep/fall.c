@@ -1,0 +1,482 @@
+// fall.c - falling asleep: for how long each body has rested, and which islands rest as a whole.
+//
+// A body rests while it is slower than sleep_speed and goes evenly: from one half of sleep_time to
+// the next, its way must not change by more than a fiftieth of what sleep_speed makes in
+// sleep_time. A block that begins to slide, or a large slow pendulum at its turning point, is slow
+// and not at rest; a heap that creeps is. In the defaults, what accelerates by 8 mm/s^2 stays
+// awake. Turning counts by the farthest point: sqrt(v^2 + (w r)^2), and the way likewise.
+//
+// Islands are looked for eight times in sleep_time, by the world's clock, so that none falls
+// asleep sooner or later for what others do, and only when some body has rested for sleep_time:
+// union-find with path halving (Tarjan 1983) over the bodies that are ripe, by the contacts of
+// this step and the joints. A contact or joint of a ripe body with one that is not, or with a
+// kinematic one that moves, holds its island awake.
+//
+// What falls asleep is taken out of pair list and manifolds, of which it is the last to see this
+// step, and its rows change partition: nothing after this pass knows of it. Reads: velocities,
+// pairs, joints. Writes: times of rest; islands, rows, pairs, manifolds, sleep events. Order: after
+// the narrow phase, before anything has moved. Cost: a dozen instructions an awake body and step;
+// O(pairs + joints) when islands are looked for.
+#include "narrow/surface.h"
+#include "world/check.h"
+#include "world/rows.h"
+
+#define EVEN  ((real)0.02) // [-] of sleep_speed * sleep_time, by which ways may differ
+#define LOOKS 8            // [-] for islands, in sleep_time
+
+//---- rest ----------------------------------------------------------------------------------------
+
+static real square(real v)
+{
+    return v * v;
+}
+
+// Rested for two looks, half of sleep_time each.
+static bool is_ripe(const plumb_world *world, uint32_t row)
+{
+    const pl_bodies *b = &world->bodies;
+    return b->looks[row] >= 2 && b->looked[row] >= 0 && (b->flags[row] & PL_BODY_NO_SLEEP) == 0;
+}
+
+// A system may have written a force of which nothing is to be seen yet.
+static bool is_pushed(const plumb_world *world, uint32_t row)
+{
+    const pl_bodies *b = &world->bodies;
+    return b->fx[row] != 0 || b->fy[row] != 0 || b->torque[row] != 0;
+}
+
+static void look_from_here(pl_bodies *b, uint32_t row)
+{
+    b->looked[row] = 0;
+    b->look_x[row] = b->center_x[row];
+    b->look_y[row] = b->center_y[row];
+    b->look_c[row] = b->c[row];
+    b->look_s[row] = b->s[row];
+}
+
+// Half of sleep_time after the last look: compares the way since with the one before.
+static void look_at(plumb_world *world, uint32_t row)
+{
+    pl_bodies *b = &world->bodies;
+    real x = b->center_x[row] - b->look_x[row], y = b->center_y[row] - b->look_y[row];
+    real turn = b->s[row] * b->look_c[row] - b->c[row] * b->look_s[row];
+    real change = square(x - b->way_x[row]) + square(y - b->way_y[row]) +
+                  square((turn - b->way_turn[row]) * b->extent[row]);
+    real even = EVEN * world->desc.sleep_speed * world->desc.sleep_time;
+    bool first = b->looks[row] == 0;
+    b->looks[row] = first || change > square(even) ? 1 : 2;
+    b->way_x[row] = x;
+    b->way_y[row] = y;
+    b->way_turn[row] = turn;
+    look_from_here(b, row);
+    if (is_ripe(world, row)) {
+        // Until it has been looked at again, and more.
+        world->sleep.ripe_for = world->desc.sleep_time;
+    }
+}
+
+// Four rows at once: this is all that sleeping costs who is awake. What lies behind the last row is
+// in columns that are longer than that, and means nothing.
+typedef real quad __attribute__((vector_size(4 * sizeof(real)), may_alias));
+#if defined(PLUMB_DOUBLE) && PLUMB_DOUBLE
+typedef int64_t quad_mask __attribute__((vector_size(4 * sizeof(real)), may_alias));
+#else
+typedef int32_t quad_mask __attribute__((vector_size(4 * sizeof(real)), may_alias));
+#endif
+
+// `a` where the mask is set, else `b`. Not a function: how quads are passed depends on the machine.
+#define EITHER(mask, a, b) ((quad)(((mask) & (quad_mask)(a)) | (~(mask) & (quad_mask)(b))))
+
+// The time of each row goes on, begins (0) or is void. True when one begins, or a look is due.
+static bool go_on(const pl_bodies *b, uint32_t count, real slow, real half, real passed)
+{
+    const quad *vx = (const quad *)b->vx, *vy = (const quad *)b->vy, *w = (const quad *)b->w;
+    const quad *extent = (const quad *)b->extent;
+    quad *looked = (quad *)b->looked;
+    const quad zero = { 0 }, unseen = zero + PL_UNSEEN;
+    quad_mask due = { 0 };
+    for (uint32_t i = 0; i < (count + 3) / 4; ++i) {
+        quad tip = w[i] * extent[i];
+        quad speed = vx[i] * vx[i] + vy[i] * vy[i] + tip * tip;
+        quad time = EITHER(looked[i] < zero, zero, looked[i] + passed);
+        time = EITHER(speed <= zero + slow, time, unseen);
+        looked[i] = time;
+        due |= (time == zero) | (time >= zero + half);
+    }
+    return (due[0] | due[1] | due[2] | due[3]) != 0;
+}
+
+// `passed` [s]: the step before.
+static void time_bodies(plumb_world *world, real passed)
+{
+    pl_bodies *b = &world->bodies;
+    const real half = world->desc.sleep_time / 2;
+    if (!go_on(b, world->dynamic_count, square(world->desc.sleep_speed), half, passed)) {
+        return;
+    }
+    for (uint32_t row = 0; row < world->dynamic_count; ++row) {
+        if (b->looked[row] >= half) {
+            look_at(world, row);
+        } else if (b->looked[row] == 0) {
+            look_from_here(b, row);
+            b->looks[row] = 0;
+        }
+    }
+}
+
+//---- links ---------------------------------------------------------------------------------------
+
+// A contact of the last narrow phase, or one whose end event is still to come.
+static bool is_linked(const pl_pair *pair)
+{
+    return pair->manifold != PL_NONE || (pair->flags & PL_PAIR_TOUCHING) != 0;
+}
+
+// Body rows of a pair; false when one of its pieces has gone or changed since the pair was made.
+static bool rows_of(const plumb_world *world, const pl_pair *pair, uint32_t *a, uint32_t *b)
+{
+    const pl_pieces *p = &world->pieces;
+    *a = p->body[pair->a];
+    *b = p->body[pair->b];
+    return p->kind[pair->a] != PL_PIECE_FREE && p->serial[pair->a] <= world->broad.serial &&
+           p->kind[pair->b] != PL_PIECE_FREE && p->serial[pair->b] <= world->broad.serial;
+}
+
+// What touches an immovable body that was changed begins to rest anew.
+static void unsettle_around_changed(plumb_world *world, uint32_t pair_count)
+{
+    const pl_pair *pairs = pl_pairs(&world->broad.pairs);
+    pl_bodies *b = &world->bodies;
+    const uint32_t now = (uint32_t)(world->step_count + 1);
+    if (world->sleep.changed_step != world->step_count + 1) {
+        return;
+    }
+    for (uint32_t i = 0; i < pair_count; ++i) {
+        uint32_t r = pairs[i].body_a, q = pairs[i].body_b;
+        if (is_linked(&pairs[i]) && (b->changed_step[r] == now || b->changed_step[q] == now)) {
+            b->looked[r] = b->looked[q] = PL_UNSEEN;
+        }
+    }
+}
+
+//---- islands -------------------------------------------------------------------------------------
+
+static uint32_t root_of(uint32_t *parents, uint32_t row)
+{
+    while (parents[row] != row) {
+        row = parents[row] = parents[parents[row]];
+    }
+    return row;
+}
+
+// The lower row becomes the root: parents never lie above their children.
+static void unite(uint32_t *parents, uint32_t a, uint32_t b)
+{
+    a = root_of(parents, a);
+    b = root_of(parents, b);
+    if (a < b) {
+        parents[b] = a;
+    } else {
+        parents[a] = b;
+    }
+}
+
+static bool moves(const plumb_world *world, uint32_t row)
+{
+    const pl_bodies *b = &world->bodies;
+    return b->vx[row] != 0 || b->vy[row] != 0 || b->w[row] != 0;
+}
+
+// Keeps nobody awake: static, kinematic and at rest, or the world.
+static bool is_calm(const plumb_world *world, uint32_t row)
+{
+    return row >= world->dynamic_count + world->kinematic_count ||
+           (row >= world->dynamic_count && !moves(world, row));
+}
+
+// A contact or joint of two rows; PL_NONE: the world. Only members have a parent.
+static void link_rows(plumb_world *world, uint32_t a, uint32_t b)
+{
+    uint32_t *parents = world->sleep.parents.data;
+    uint8_t *held = world->sleep.held.data;
+    bool member_a = a < world->dynamic_count && parents[a] != PL_NONE;
+    bool member_b = b < world->dynamic_count && parents[b] != PL_NONE;
+    if (member_a && member_b) {
+        unite(parents, a, b);
+    } else if (member_a && !is_calm(world, b)) {
+        held[a] = 1;
+    } else if (member_b && !is_calm(world, a)) {
+        held[b] = 1;
+    }
+}
+
+static uint32_t row_of(const plumb_world *world, plumb_body body)
+{
+    return plumb_is_null(body) ? PL_NONE : pl_body_row(world, body);
+}
+
+// Unites the members that are linked; afterwards the parent of each is its root.
+static void link_members(plumb_world *world, uint32_t pair_count)
+{
+    const pl_pair *pairs = pl_pairs(&world->broad.pairs);
+    uint32_t a, b;
+    for (uint32_t i = 0; i < pair_count; ++i) {
+        if (is_linked(&pairs[i]) && rows_of(world, &pairs[i], &a, &b)) {
+            link_rows(world, a, b);
+        }
+    }
+    uint32_t joint_count = pl_joints_awake(world);
+    for (uint32_t i = 0; i < joint_count; ++i) {
+        const pl_joint *j = pl_joint_awake(&world->joints, i);
+        link_rows(world, row_of(world, j->a.body), row_of(world, j->b.body));
+    }
+    uint32_t *parents = world->sleep.parents.data;
+    for (uint32_t row = 0; row < world->dynamic_count; ++row) {
+        if (parents[row] != PL_NONE) {
+            parents[row] = parents[parents[row]];
+        }
+    }
+}
+
+static bool reserve_members(plumb_world *world)
+{
+    pl_sleep *s = &world->sleep;
+    return pl_buffer_reserve(&world->memory, &s->parents,
+                             world->dynamic_count * sizeof(uint32_t)) &&
+           pl_buffer_reserve(&world->memory, &s->held, world->dynamic_count);
+}
+
+// Leaves parents only to the bodies that fall asleep; returns how many they are.
+static uint32_t find_sleepers(plumb_world *world, uint32_t pair_count)
+{
+    uint32_t *parents = world->sleep.parents.data, count = 0;
+    uint8_t *held = world->sleep.held.data;
+    for (uint32_t row = 0; row < world->dynamic_count; ++row) {
+        parents[row] = is_ripe(world, row) && !is_pushed(world, row) ? row : PL_NONE;
+        held[row] = 0;
+        count += parents[row] != PL_NONE;
+    }
+    if (count == 0) {
+        return 0;
+    }
+    count = 0;
+    link_members(world, pair_count);
+    for (uint32_t row = 0; row < world->dynamic_count; ++row) {
+        if (held[row]) {
+            held[parents[row]] = 1;
+        }
+    }
+    for (uint32_t row = 0; row < world->dynamic_count; ++row) {
+        if (parents[row] != PL_NONE) {
+            parents[row] = held[parents[row]] ? PL_NONE : parents[row];
+            count += parents[row] != PL_NONE;
+        }
+    }
+    return count;
+}
+
+//---- lying down ----------------------------------------------------------------------------------
+
+// The island of a pair that falls asleep; PL_NONE: it stays.
+static uint32_t island_of(const plumb_world *world, const pl_pair *pair)
+{
+    const uint32_t *parents = world->sleep.parents.data;
+    uint32_t a, b;
+    if (!rows_of(world, pair, &a, &b)) {
+        return PL_NONE;
+    }
+    uint32_t row = a < world->dynamic_count && parents[a] != PL_NONE   ? a
+                   : b < world->dynamic_count && parents[b] != PL_NONE ? b
+                                                                       : PL_NONE;
+    return row == PL_NONE ? PL_NONE : parents[row];
+}
+
+static bool reserve_islands(plumb_world *world, uint32_t pair_count, uint32_t bodies)
+{
+    pl_sleep *s = &world->sleep;
+    const uint32_t *parents = s->parents.data;
+    const pl_pair *pairs = pl_pairs(&world->broad.pairs);
+    uint32_t islands = 0, contacts = 0;
+    for (uint32_t row = 0; row < world->dynamic_count; ++row) {
+        islands += parents[row] == row;
+    }
+    for (uint32_t i = 0; i < pair_count; ++i) {
+        contacts += is_linked(&pairs[i]) && island_of(world, &pairs[i]) != PL_NONE;
+    }
+    size_t events = ((size_t)s->sleep_event_count + bodies) * sizeof(plumb_body);
+    return pl_islands_reserve(world, islands, contacts) &&
+           pl_buffer_reserve(&world->memory, &s->sleep_events, events);
+}
+
+// Takes the pairs of sleepers out of the list, and their manifolds; those that are contacts are
+// kept.
+static void take_out_pairs(plumb_world *world, uint32_t pair_count)
+{
+    pl_pair_list *list = &world->broad.pairs;
+    pl_pair *pairs = pl_pairs(list);
+    pl_narrow *narrow = &world->narrow;
+    pl_manifold *m = pl_manifolds(narrow);
+    const uint8_t *kind = world->pieces.kind;
+    uint32_t kept = 0, kept_manifolds = 0, taken[PL_PIECE_KIND_COUNT][PL_PIECE_KIND_COUNT] = { 0 };
+    for (uint32_t i = 0; i < pair_count; ++i) {
+        pl_pair *pair = &pairs[i];
+        // Manifolds lie in the order of their pairs.
+        pl_manifold *its = pair->manifold < narrow->manifold_count ? &m[pair->manifold] : NULL;
+        uint32_t root = island_of(world, pair);
+        if (root != PL_NONE) {
+            if (is_linked(pair)) {
+                pl_island_keep(world, world->bodies.island[root], pair, its);
+            }
+            ++taken[kind[pair->a]][kind[pair->b]];
+            continue;
+        }
+        if (its != NULL) {
+            its->pair = kept;
+            pair->manifold = kept_manifolds;
+            m[kept_manifolds++] = *its;
+        }
+        pairs[kept++] = *pair;
+    }
+    uint32_t first = 0;
+    for (int a = 0; a < PL_PIECE_KIND_COUNT; ++a) {
+        for (int b = 0; b < PL_PIECE_KIND_COUNT; ++b) {
+            list->first[a][b] = first;
+            list->size[a][b] -= taken[a][b];
+            first += list->size[a][b];
+        }
+    }
+    list->count = kept;
+    narrow->manifold_count = kept_manifolds;
+    pl_narrow_summarise(narrow);
+}
+
+// Rows of what is left, after rows have moved.
+static void look_up_rows(plumb_world *world)
+{
+    pl_pair *pairs = pl_pairs(&world->broad.pairs);
+    pl_manifold *m = pl_manifolds(&world->narrow);
+    for (uint32_t i = 0; i < world->broad.pairs.count; ++i) {
+        pairs[i].body_a = world->pieces.body[pairs[i].a];
+        pairs[i].body_b = world->pieces.body[pairs[i].b];
+    }
+    for (uint32_t i = 0; i < world->narrow.manifold_count; ++i) {
+        m[i].body_a = pairs[m[i].pair].body_a;
+        m[i].body_b = pairs[m[i].pair].body_b;
+    }
+}
+
+// Puts everybody to sleep who has a parent. Room must be reserved.
+static void lie_down(plumb_world *world, uint32_t pair_count)
+{
+    pl_sleep *s = &world->sleep;
+    const uint32_t *parents = s->parents.data;
+    uint32_t rows = world->dynamic_count;
+    for (uint32_t row = 0; row < rows; ++row) {
+        if (parents[row] != PL_NONE) {
+            uint32_t root = parents[row];
+            uint32_t island = root == row ? pl_island_open(world) : world->bodies.island[root];
+            pl_island_add(world, island, row);
+        }
+    }
+    if (pair_count > 0) {
+        take_out_pairs(world, pair_count);
+    }
+    // From the last on: what fills a gap stays awake.
+    for (uint32_t row = rows; row-- > 0;) {
+        if (parents[row] != PL_NONE) {
+            pl_sleep_put_down(world, row);
+        }
+    }
+    look_up_rows(world);
+    s->near_stale = true;
+    pl_sensing_note_rest(world);
+    world->joints.awake_stale = true;
+    world->pairs_dirty = true;
+}
+
+static void tell_sleepers(plumb_world *world)
+{
+    pl_sleep *s = &world->sleep;
+    const uint32_t *parents = s->parents.data;
+    plumb_body *events = s->sleep_events.data;
+    for (uint32_t row = 0; row < world->dynamic_count; ++row) {
+        if (parents[row] != PL_NONE) {
+            events[s->sleep_event_count++] = world->bodies.entity[row];
+        }
+    }
+}
+
+//---- the pass ------------------------------------------------------------------------------------
+
+bool pl_sleep_fall(plumb_world *world, real dt)
+{
+    pl_sleep *s = &world->sleep;
+    const uint64_t step = world->step_count + 1;
+    const uint32_t pair_count = s->tested_step == step ? world->broad.pairs.count : 0;
+    if (s->timed_step != step) {
+        s->timed_step = step;
+        s->since += s->passed;
+        s->ripe_for -= s->passed;
+        time_bodies(world, s->passed);
+        s->passed = dt;
+        unsettle_around_changed(world, pair_count);
+    }
+    if (s->since * LOOKS < world->desc.sleep_time) {
+        return true;
+    }
+    if (s->ripe_for <= 0) {
+        s->since = 0;
+        return true;
+    }
+    if (!reserve_members(world)) {
+        return false;
+    }
+    uint32_t sleepers = find_sleepers(world, pair_count);
+    if (sleepers > 0) {
+        if (!reserve_islands(world, pair_count, sleepers)) {
+            return false;
+        }
+        tell_sleepers(world);
+        lie_down(world, pair_count);
+        world->rows_moved = false; // pairs and manifolds know
+    }
+    s->since = 0;
+    return true;
+}
+
+//---- by command ----------------------------------------------------------------------------------
+
+plumb_result pl_sleep_put_to_sleep(plumb_world *world, const char *function, uint32_t row)
+{
+    // Contacts are those of the last step, if it had any.
+    const uint32_t pair_count =
+        world->sleep.tested_step == world->step_count ? world->broad.pairs.count : 0;
+    if (!reserve_members(world)) {
+        return pl_fail_memory(world, function);
+    }
+    uint32_t *parents = world->sleep.parents.data;
+    for (uint32_t r = 0; r < world->dynamic_count; ++r) {
+        parents[r] = r;
+    }
+    link_members(world, pair_count);
+    const uint32_t root = parents[row];
+    uint32_t count = 0;
+    for (uint32_t r = 0; r < world->dynamic_count; ++r) {
+        bool member = parents[r] == root;
+        count += member;
+        if (member && (world->bodies.flags[r] & PL_BODY_NO_SLEEP) != 0) {
+            return pl_fail(world, PLUMB_E_STATE, function,
+                           "body is in an island with one that may not sleep (%u:%u)",
+                           (unsigned)world->bodies.entity[r].index,
+                           (unsigned)world->bodies.entity[r].generation);
+        }
+    }
+    for (uint32_t r = 0; r < world->dynamic_count; ++r) {
+        parents[r] = parents[r] == root ? root : PL_NONE;
+    }
+    if (!reserve_islands(world, pair_count, count)) {
+        return pl_fail_memory(world, function);
+    }
+    lie_down(world, pair_count);
+    return PLUMB_OK;
+}

@@ -1,0 +1,172 @@
+// test_scene_motion.c - how bodies of a scene move: locks, damping, caps, time scale, enabling, types,
+// targets, blast{}; and their JSON.
+#define _POSIX_C_SOURCE 200809L // open_memstream
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "scene/scene.h"
+
+static scene *load_text(const char *name, const char *text, size_t size)
+{
+    scene *s = NULL;
+    scene_error e;
+    if (scene_load(&(scene_options){ .path = name, .text = text, .text_size = size }, &s, &e) !=
+        SCENE_OK) {
+        fail_msg("%s", e.text);
+    }
+    return s;
+}
+
+static scene *load(const char *text)
+{
+    return load_text("test.lua", text, strlen(text));
+}
+
+static void run(scene *s, int steps)
+{
+    for (int i = 0; i < steps; i++) {
+        scene_error e;
+        if (scene_step(s, &e) != SCENE_OK) {
+            fail_msg("%s", e.text);
+        }
+    }
+}
+
+static plumb_body named(scene *s, const char *name)
+{
+    return scene_body_find(s, name).entity;
+}
+
+static char *to_json(const scene *s)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *file = open_memstream(&text, &size);
+    assert_true(scene_to_json(s, file));
+    fclose(file);
+    return text;
+}
+
+#define EVERYTHING                                                                                 \
+    "scene{ gravity = {0, 0} }\n"                                                                  \
+    "local tar = material{ adhesion = 25, friction = 0.5 }\n"                                      \
+    "body{ name = 'a', circle{1}, lock = {'y', 'rotation'}, material = tar }\n"                    \
+    "body{ name = 'b', circle{1}, at = {5, 0}, damping = 0.5, angular_damping = 2 }\n"             \
+    "body{ name = 'c', circle{1}, at = {10, 0}, max_speed = 3, max_spin = 4 }\n"                   \
+    "body{ name = 'd', circle{1}, at = {15, 0}, enabled = false, time_scale = 0.25 }\n"            \
+    "body{ name = 'e', type = 'kinematic', circle{1}, at = {20, 0}, time_scale = 0 }\n"            \
+    "body{ name = 'f', circle{1}, at = {25, 0}, mass = 5, damping = 1, lock = 'x' }\n"
+
+static void fields_reach_the_world(void **state)
+{
+    (void)state;
+    scene *s = load(EVERYTHING);
+    const plumb_world *w = scene_world(s);
+    plumb_axis_locks a = plumb_body_locks(w, named(s, "a")), f = plumb_body_locks(w, named(s, "f"));
+    assert_true(!a.x && a.y && a.rotation);
+    assert_true(f.x && !f.y && !f.rotation);
+    assert_true(plumb_body_damping(w, named(s, "b")) == (plumb_real)0.5);
+    assert_true(plumb_body_angular_damping(w, named(s, "b")) == 2);
+    assert_true(plumb_body_max_speed(w, named(s, "c")) == 3);
+    assert_true(plumb_body_max_spin(w, named(s, "c")) == 4);
+    assert_false(plumb_body_is_enabled(w, named(s, "d")));
+    assert_true(plumb_body_time_scale(w, named(s, "d")) == (plumb_real)0.25);
+    assert_true(plumb_body_time_scale(w, named(s, "e")) == 0);
+    plumb_shape shape;
+    plumb_material_desc m;
+    plumb_body_shapes(w, named(s, "a"), &shape, 1);
+    plumb_material_get(w, plumb_shape_material(w, shape), &m);
+    assert_true(m.adhesion == 25);
+    scene_destroy(s);
+}
+
+static void json_keeps_it(void **state)
+{
+    (void)state;
+    scene *s = load(EVERYTHING "find('f'):set_type('kinematic') find('b'):set_damping(3) "
+                               "find('c'):set_lock('x', 'y') find('c'):set_time_scale(2) "
+                               "find('d'):set_enabled(true) find('a'):set_enabled(false)\n");
+    char *text = to_json(s);
+    scene *t = load_text("test.json", text, strlen(text));
+    char *again = to_json(t);
+    assert_string_equal(text, again);
+    const plumb_world *w = scene_world(t);
+    assert_int_equal(plumb_body_get_type(w, named(t, "f")), PLUMB_KINEMATIC);
+    assert_true(plumb_body_damping(w, named(t, "b")) == 3);
+    assert_true(plumb_body_angular_damping(w, named(t, "b")) == 2);
+    assert_true(plumb_body_locks(w, named(t, "c")).x && plumb_body_locks(w, named(t, "c")).y);
+    assert_true(plumb_body_time_scale(w, named(t, "c")) == 2);
+    assert_true(plumb_body_is_enabled(w, named(t, "d")));
+    assert_false(plumb_body_is_enabled(w, named(t, "a")));
+    free(text);
+    free(again);
+    scene_destroy(s);
+    scene_destroy(t);
+}
+
+static void handlers_move_bodies(void **state)
+{
+    (void)state;
+    scene *s =
+        load("scene{ gravity = {0, 0} }\n"
+             "local lift = body{ name = 'lift', type = 'kinematic', box{1, 1} }\n"
+             "local ball = body{ name = 'ball', circle{0.5}, at = {5, 0} }\n"
+             "at(0, function() lift:move_to(3, 4, 0.5, 0.5) end)\n"
+             "at(0.25, function() ball:set_type('static') assert(ball:type() == 'static') end)\n"
+             "at(0.75, function() ball:set_type('dynamic') ball:set_enabled(false)\n"
+             "  assert(not ball:enabled()) lift:move_to({1, 1}) end)\n");
+    run(s, 30);
+    const plumb_world *w = scene_world(s);
+    plumb_vec2 p = plumb_body_position(w, named(s, "lift"));
+    assert_true(p.x == 3 && p.y == 4);
+    assert_int_equal(plumb_body_get_type(w, named(s, "ball")), PLUMB_STATIC);
+    run(s, 16);
+    p = plumb_body_position(w, named(s, "lift"));
+    assert_true(p.x == 1 && p.y == 1);
+    assert_false(plumb_body_is_enabled(w, named(s, "ball")));
+    scene_destroy(s);
+}
+
+static void a_blast_pushes(void **state)
+{
+    (void)state;
+    scene *s =
+        load("scene{ gravity = {0, 0} }\n"
+             "body{ name = 'bomb', circle{0.2} }\n"
+             "body{ name = 'open', circle{0.5}, at = {-5, 0} }\n"
+             "body{ name = 'hidden', circle{0.5}, at = {5, 0} }\n"
+             "body{ type = 'static', box{0.5, 4}, at = {3, 0} }\n"
+             "at(0.1, function() blast{ at = {0, 0}, radius = 8, falloff = 2, impulse = 4,\n"
+             "  occlusion = 'walls', ignore = 'bomb' } end)\n"
+             "at(0.5, function() blast{ at = {5, 1}, radius = 2, impulse = 7, per_body = true }"
+             " end)\n");
+    run(s, 10);
+    const plumb_world *w = scene_world(s);
+    assert_true(plumb_body_velocity(w, named(s, "open")).x < -3);
+    assert_true(plumb_body_velocity(w, named(s, "hidden")).x == 0);
+    assert_true(plumb_body_velocity(w, named(s, "bomb")).x == 0);
+    run(s, 25);
+    plumb_body hidden = named(s, "hidden");
+    double impulse = (double)(plumb_body_velocity(w, hidden).y * plumb_body_mass(w, hidden));
+    assert_true(fabs(impulse + 7) < 1e-4);
+    scene_destroy(s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(fields_reach_the_world),
+        cmocka_unit_test(json_keeps_it),
+        cmocka_unit_test(handlers_move_bodies),
+        cmocka_unit_test(a_blast_pushes),
+    };
+    return cmocka_run_group_tests_name("scene motion", tests, NULL, NULL);
+}

@@ -1,0 +1,137 @@
+// test_tasks.c - the task pool: every chunk of every job is done once, whatever the number of threads;
+// small jobs in a row, jobs after a pause, pools that come and go; the user's hooks in its place.
+#define _POSIX_C_SOURCE 199309L // nanosleep
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdatomic.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+#include <time.h>
+
+#include <cmocka.h>
+
+#include "core/tasks.h"
+
+enum { most_chunks = 3000 };
+
+typedef struct tally {
+    atomic_uint times[most_chunks];
+    unsigned plain[most_chunks]; // written without a lock: a sanitizer would see two writers
+} tally;
+
+static void count_chunk(void *context, uint32_t chunk)
+{
+    tally *t = context;
+    atomic_fetch_add(&t->times[chunk], 1);
+    ++t->plain[chunk];
+}
+
+static void expect_all_once(tally *t, uint32_t chunks)
+{
+    for (uint32_t i = 0; i < most_chunks; ++i) {
+        assert_int_equal(atomic_exchange(&t->times[i], 0), i < chunks ? 1 : 0);
+        assert_int_equal(t->plain[i], i < chunks ? 1 : 0);
+        t->plain[i] = 0;
+    }
+}
+
+static const plumb_task_hooks no_hooks = { NULL };
+
+static void every_chunk_is_done_once(void **state)
+{
+    (void)state;
+    static tally t;
+    pl_memory memory;
+    pl_memory_init(&memory, &(plumb_allocator){ 0 });
+    const int workers[] = { 1, 2, 3, 8, PLUMB_WORKERS_MAX };
+    const uint32_t chunks[] = { 0, 1, 2, 3, 7, 64, most_chunks };
+    for (size_t w = 0; w < sizeof workers / sizeof workers[0]; ++w) {
+        pl_tasks *tasks = pl_tasks_create(&memory, workers[w], &no_hooks, NULL);
+        assert_non_null(tasks);
+        assert_int_equal(pl_tasks_workers(tasks), workers[w]);
+        for (size_t c = 0; c < sizeof chunks / sizeof chunks[0]; ++c) {
+            pl_tasks_run(tasks, count_chunk, &t, chunks[c]);
+            expect_all_once(&t, chunks[c]);
+        }
+        pl_tasks_destroy(&memory, tasks);
+    }
+    pl_tasks_run(NULL, count_chunk, &t, 5);
+    expect_all_once(&t, 5);
+    assert_int_equal(pl_tasks_workers(NULL), 1);
+    pl_tasks_destroy(&memory, NULL);
+    assert_int_equal(memory.bytes, 0);
+}
+
+// Jobs of a few chunks, one right after another: a thread that comes late to a job must not take
+// chunks of the next one for its own.
+static void many_small_jobs(void **state)
+{
+    (void)state;
+    static tally t;
+    pl_memory memory;
+    pl_memory_init(&memory, &(plumb_allocator){ 0 });
+    pl_tasks *tasks = pl_tasks_create(&memory, 3, &no_hooks, NULL);
+    for (uint32_t job = 0; job < 20000; ++job) {
+        uint32_t chunks = 2 + job % 5;
+        pl_tasks_run(tasks, count_chunk, &t, chunks);
+        for (uint32_t i = 0; i < chunks; ++i) {
+            assert_int_equal(atomic_exchange(&t.times[i], 0), 1);
+        }
+    }
+    memset(t.plain, 0, sizeof t.plain);
+    pl_tasks_destroy(&memory, tasks);
+}
+
+// Threads that went to sleep are woken.
+static void jobs_after_pauses(void **state)
+{
+    (void)state;
+    static tally t;
+    pl_memory memory;
+    pl_memory_init(&memory, &(plumb_allocator){ 0 });
+    pl_tasks *tasks = pl_tasks_create(&memory, 4, &no_hooks, NULL);
+    for (int i = 0; i < 20; ++i) {
+        nanosleep(&(struct timespec){ 0, 2000000 }, NULL);
+        pl_tasks_run(tasks, count_chunk, &t, 100);
+        expect_all_once(&t, 100);
+    }
+    pl_tasks_destroy(&memory, tasks);
+}
+
+static void run_backwards(void *hook_context, plumb_task_fn *task, void *context, uint32_t chunks)
+{
+    ++*(int *)hook_context;
+    while (chunks > 0) {
+        task(context, --chunks);
+    }
+}
+
+static void hooks_take_the_place_of_threads(void **state)
+{
+    (void)state;
+    static tally t;
+    pl_memory memory;
+    pl_memory_init(&memory, &(plumb_allocator){ 0 });
+    int calls = 0;
+    const plumb_task_hooks hooks = { run_backwards };
+    pl_tasks *tasks = pl_tasks_create(&memory, 4, &hooks, &calls);
+    pl_tasks_run(tasks, count_chunk, &t, 9);
+    expect_all_once(&t, 9);
+    pl_tasks_run(tasks, count_chunk, &t, 1); // not worth a call
+    expect_all_once(&t, 1);
+    assert_int_equal(calls, 1);
+    pl_tasks_destroy(&memory, tasks);
+    assert_int_equal(memory.bytes, 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_chunk_is_done_once),
+        cmocka_unit_test(many_small_jobs),
+        cmocka_unit_test(jobs_after_pauses),
+        cmocka_unit_test(hooks_take_the_place_of_threads),
+    };
+    return cmocka_run_group_tests_name("tasks", tests, NULL, NULL);
+}

@@ -1,0 +1,106 @@
+// motion.c - what bodies say of the way they move (locks, damping, caps, time scale, enabled), and
+// blast{}. To add a key of that kind: a member in internal.h, a row in lists.c, a line in
+// sc_motion_describe.
+#include <string.h>
+
+#include "internal.h"
+
+int sc_axis_bit(const char *name)
+{
+    static const char *const names[] = { "x", "y", "rotation" };
+    for (int i = 0; i < 3; i++) {
+        if (strcmp(names[i], name) == 0) {
+            return 1 << i;
+        }
+    }
+    return 0;
+}
+
+static const char *const dynamic_rows[] = { "angular_damping", "damping", "fixed_rotation",
+                                            "gravity_scale",   "lock",    "mass",
+                                            "max_speed",       "max_spin" };
+
+bool sc_motion_is_dynamic(const char *row)
+{
+    for (size_t i = 0; i < sizeof dynamic_rows / sizeof *dynamic_rows; i++) {
+        if (strcmp(dynamic_rows[i], row) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+void sc_motion_check(scene *s, const sc_site *site, const sc_body_def *d)
+{
+    static const char *const kinds[] = { "dynamic", "kinematic", "static" };
+    for (int i = 0; d->type != 0 && i < sc_list_body.count; i++) {
+        const char *row = sc_list_body.rows[i].name;
+        bool mine = (sc_motion_is_dynamic(row) && strcmp(row, "fixed_rotation") != 0) ||
+                    (d->type == 2 && strcmp(row, "time_scale") == 0);
+        if (mine && (d->present >> i & 1) != 0) {
+            sc_raise(s, SCENE_E_CONFLICT, site, row, 0, NULL, "a %s body{} cannot have '%s'",
+                     kinds[d->type], row);
+        }
+    }
+    const char *along = (d->lock & SC_LOCK_X) != 0 && d->velocity[0] != 0   ? "x"
+                        : (d->lock & SC_LOCK_Y) != 0 && d->velocity[1] != 0 ? "y"
+                                                                            : NULL;
+    if (along != NULL) {
+        sc_raise(s, SCENE_E_CONFLICT, site, "velocity", 0, NULL,
+                 "'velocity' of body{} must be 0 along %s, which is locked", along);
+    }
+    if (((d->lock & SC_LOCK_ROTATION) != 0 || d->fixed_rotation) && d->spin != 0) {
+        sc_raise(s, SCENE_E_CONFLICT, site, "spin", 0, NULL,
+                 "'spin' of body{} must be 0: its rotation is %s",
+                 d->fixed_rotation ? "fixed" : "locked");
+    }
+}
+
+void sc_motion_describe(const sc_body_def *d, plumb_body_desc *desc)
+{
+    desc->lock_x = (d->lock & SC_LOCK_X) != 0;
+    desc->lock_y = (d->lock & SC_LOCK_Y) != 0;
+    desc->fixed_rotation |= (d->lock & SC_LOCK_ROTATION) != 0;
+    desc->damping = (plumb_real)d->damping;
+    desc->angular_damping = (plumb_real)d->angular_damping;
+    desc->max_speed = (plumb_real)d->max_speed;
+    desc->max_spin = (plumb_real)d->max_spin;
+    desc->disabled = !d->enabled;
+}
+
+// blast{at = {x, y}, radius = 5, impulse = 40}: at once.
+static int lua_blast(lua_State *L)
+{
+    static const plumb_occlusion occlusions[] = { PLUMB_OCCLUDE_NOTHING, PLUMB_OCCLUDE_WALLS,
+                                                  PLUMB_OCCLUDE_ALL };
+    scene *s = sc_of(L);
+    sc_site site = sc_here(s, "blast");
+    if (lua_gettop(L) != 1 || lua_type(L, 1) != LUA_TTABLE) {
+        sc_raise(s, SCENE_E_TYPE, &site, NULL, 0, NULL, "blast takes one table: blast{...}");
+    }
+    sc_need_world(s);
+    sc_blast_def d = { 0 };
+    sc_read(s, &site, &sc_list_blast, 1, &d);
+    sc_check_body_name(s, &site, "ignore", d.ignore);
+    plumb_explosion_desc blast = { .position = { (plumb_real)d.at[0], (plumb_real)d.at[1] },
+                                   .radius = (plumb_real)d.radius,
+                                   .falloff = (plumb_real)d.falloff,
+                                   .impulse = (plumb_real)d.impulse,
+                                   .per_body = d.per_body,
+                                   .occlusion = occlusions[d.occlusion] };
+    const sc_body *ignored = d.ignore[0] != 0 ? sc_body_named(s, d.ignore) : NULL;
+    if (ignored != NULL) {
+        blast.filter.ignore_body = ignored->entity;
+    }
+    plumb_result r = plumb_world_explode(s->world, &blast);
+    if (r != PLUMB_OK) {
+        sc_raise(s, r == PLUMB_E_MEMORY ? SCENE_E_LIMIT : SCENE_E_RANGE, &site, NULL, 0, NULL,
+                 "blast{}: %s", plumb_world_error(s->world).message);
+    }
+    return 0;
+}
+
+void sc_open_motion(lua_State *L)
+{
+    lua_register(L, "blast", lua_blast);
+}
