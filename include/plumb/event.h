@@ -1,5 +1,8 @@
 /// event.h - what happened in the last step: arrays, valid until the next step or structural change.
 /// There are no callbacks inside the solver.
+///
+/// A body that lies on several flush tiles of one material touches each of them, and events tell so; what
+/// they bear together is told as impulses of one of those contacts, the others have none.
 #ifndef PLUMB_EVENT_H
 #define PLUMB_EVENT_H
 
@@ -18,7 +21,8 @@ typedef struct plumb_contact_begin {
 } plumb_contact_begin;
 
 /// Two shapes ceased to touch, or one of them was removed (its handle and perhaps that of its body are
-/// then stale), disabled with its body, or is kept apart from now on.
+/// then stale), disabled with its body, or is kept apart from now on. Contacts of bodies that sleep when one
+/// of the shapes goes end without an event.
 typedef struct plumb_contact_end {
     plumb_shape shape_a, shape_b;
     plumb_body body_a, body_b;

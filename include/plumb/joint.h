@@ -135,6 +135,28 @@ PLUMB_API int plumb_world_joints(const plumb_world *world, plumb_joint *joints, 
 PLUMB_API int plumb_body_joints(const plumb_world *world, plumb_body body, plumb_joint *joints,
                                 int capacity);
 
+/// What a joint knows of its past: enough to go on from, once it has been made anew between bodies
+/// that stand where they stood. All of {0} is not valid: read one, keep it, give it back.
+typedef struct plumb_joint_memory {
+    plumb_vec2 anchor_a, anchor_b; ///< [m] in the frames of A and B; the world's: in the world
+    plumb_vec2 axis;               ///< unit, in A's frame; {0}: the kind has none
+    plumb_vec2 offset;             ///< [m] motor: where B's anchor is to be, in A's frame
+    plumb_real start_a, start_b;   ///< [rad] angles of the bodies when the joint was made
+    int32_t turns_a, turns_b;      ///< full turns of each since
+    plumb_real kept;               ///< gear, pulley: the sum that is kept; ratchet: [rad] its tooth
+    plumb_real substep;            ///< [s] >= 0, to which the impulses belong; 0: there are none
+    plumb_real impulses[6];        ///< [N s], [N m s] with which the next step starts
+} plumb_joint_memory;
+
+/// Reads what a joint knows of its past. Errors: E_HANDLE, E_NULL.
+PLUMB_API plumb_result plumb_joint_get_memory(const plumb_world *world, plumb_joint joint,
+                                              plumb_joint_memory *memory);
+/// Gives a joint that past, for loading what was saved: the angles, lengths and sums that it keeps are
+/// then those of the joint that was read, to the last bit. The bodies must stand where they stood.
+/// Errors: E_HANDLE, E_NULL, E_NOT_FINITE, E_RANGE (anchor, axis, substep), E_LOCKED.
+PLUMB_API plumb_result plumb_joint_set_memory(plumb_world *world, plumb_joint joint,
+                                              const plumb_joint_memory *memory);
+
 /// A joint broke in the last step; its handle is stale.
 typedef struct plumb_joint_break {
     plumb_joint joint;

@@ -12,6 +12,7 @@
 #include "plumb/body.h"
 #include "plumb/shape.h"
 #include "plumb/joint.h"
+#include "plumb/character.h"
 #include "plumb/ecs.h"
 #include "plumb/event.h"
 #include "plumb/sleep.h"

@@ -1,4 +1,4 @@
-/// query.h - questions to a world: rays, overlaps, nearest points. They use the same grid as the
+/// query.h - questions to a world: rays, shape casts, overlaps, nearest points. They use the same grid as the
 /// broad phase and see every shape where it is now. Not to be called during a step, except from systems.
 #ifndef PLUMB_QUERY_H
 #define PLUMB_QUERY_H
@@ -16,6 +16,8 @@ typedef struct plumb_query_filter {
     uint64_t category;      ///< bits that a shape's own mask must have one of; 0: its mask is not asked
     uint64_t mask;          ///< bits that a shape's category must have one of; 0: all
     bool sensors;           ///< see sensors too
+    bool one_way;           ///< rays and casts pass one-way shapes (plumb_one_way) in the direction in which
+                            ///< those let things pass; false: they meet them from all sides
     bool (*accept)(void *context, plumb_shape shape); ///< null: accept all
     void *context;
 } plumb_query_filter;
@@ -38,6 +40,57 @@ PLUMB_API bool plumb_world_ray(plumb_world *world, plumb_vec2 from, plumb_vec2 t
 /// -1 on error.
 PLUMB_API int plumb_world_ray_all(plumb_world *world, plumb_vec2 from, plumb_vec2 to,
                                   const plumb_query_filter *filter, plumb_ray_hit *hits, int capacity);
+
+/// True when there is any shape on the segment: cheaper than the first one. False also on error.
+PLUMB_API bool plumb_world_ray_any(plumb_world *world, plumb_vec2 from, plumb_vec2 to,
+                                   const plumb_query_filter *filter);
+
+/// A ray of a batch.
+typedef struct plumb_ray {
+    plumb_vec2 from, to; ///< [m]
+} plumb_ray;
+
+/// The first hit of each of `count` rays, in their order; a ray that meets nothing gets a hit of null
+/// handles with fraction 1. Returns how many met something, -1 on error (then nothing is written).
+/// Arguments and grids are looked at once for all.
+PLUMB_API int plumb_world_ray_batch(plumb_world *world, const plumb_ray *rays, int count,
+                                    const plumb_query_filter *filter, plumb_ray_hit *hits);
+
+/// A convex shape that is moved along a translation without turning.
+typedef struct plumb_cast {
+    const plumb_convex *convex; ///< rounded or not: plumb_convex_capsule and the like
+    plumb_transform transform;  ///< where it starts
+    plumb_vec2 translation;     ///< [m] may be zero: then only what it overlaps is met
+} plumb_cast;
+
+/// Where a moving shape met another. Exact to rounding, some 1e-7 of the coordinates in the float build;
+/// overlaps of up to 5e-7 of them at the start count as touches.
+typedef struct plumb_cast_hit {
+    plumb_shape shape;
+    plumb_body body;
+    plumb_vec2 point;    ///< [m] on the surface of the shape that was met; midway where faces meet
+    plumb_vec2 normal;   ///< unit, out of the shape that was met. In an overlap: the shortest way out
+    plumb_real fraction; ///< [-] 0..1 of the translation
+    plumb_real depth;    ///< [m] of the overlap at the start, > 0: fraction is 0 then; 0: apart or touching.
+                         ///< A shape that touches is met when the cast approaches it
+} plumb_cast_hit;
+
+/// First shape on the way; true when there is one. Of several that it overlaps at the start: the deepest.
+/// Ties: lower shape slot. False on error: E_NULL, E_RANGE, E_NOT_FINITE, E_HANDLE (filter). Cost: grid
+/// cells under the way, O(corners) for each shape near it.
+PLUMB_API bool plumb_world_cast(plumb_world *world, const plumb_cast *cast,
+                                const plumb_query_filter *filter, plumb_cast_hit *hit);
+/// True when there is any shape on the way. False also on error.
+PLUMB_API bool plumb_world_cast_any(plumb_world *world, const plumb_cast *cast,
+                                    const plumb_query_filter *filter);
+/// All shapes on the way sorted by fraction, then slot: writes up to `capacity`, returns how many.
+/// -1 on error.
+PLUMB_API int plumb_world_cast_all(plumb_world *world, const plumb_cast *cast,
+                                   const plumb_query_filter *filter, plumb_cast_hit *hits,
+                                   int capacity);
+/// The first hit of each of `count` casts, as plumb_world_ray_batch does it.
+PLUMB_API int plumb_world_cast_batch(plumb_world *world, const plumb_cast *casts, int count,
+                                     const plumb_query_filter *filter, plumb_cast_hit *hits);
 
 /// Shapes whose tight box overlaps the box, in slot order: writes up to `capacity`, returns how many.
 /// -1 on error.
@@ -64,6 +117,17 @@ typedef struct plumb_nearest_hit {
 /// The shape nearest to `point` within `max_distance` [m] (> 0, may be PLUMB_REAL_MAX); true if any.
 PLUMB_API bool plumb_world_nearest(plumb_world *world, plumb_vec2 point, plumb_real max_distance,
                                    const plumb_query_filter *filter, plumb_nearest_hit *hit);
+
+/// All shapes within `max_distance` [m] of a point, sorted by distance, then slot: writes up to
+/// `capacity`, returns how many. -1 on error.
+PLUMB_API int plumb_world_nearest_all(plumb_world *world, plumb_vec2 point, plumb_real max_distance,
+                                      const plumb_query_filter *filter, plumb_nearest_hit *hits,
+                                      int capacity);
+/// The nearest shape to each of `count` points [m], in their order; a point with none near gets null
+/// handles and `max_distance`. Returns how many have one, -1 on error (then nothing is written).
+PLUMB_API int plumb_world_nearest_batch(plumb_world *world, const plumb_vec2 *points, int count,
+                                        plumb_real max_distance, const plumb_query_filter *filter,
+                                        plumb_nearest_hit *hits);
 
 PLUMB_END
 

@@ -1,6 +1,10 @@
 /// shape.h - shapes of bodies. A shape is one or more convex pieces: a chain has one a link, a
 /// concave outline is split exactly into convex ones.
 ///
+/// Static pieces that touch (within 1 mm, or a hundredth of the thinner one) are one ground to what slides
+/// over them, whichever bodies and shapes they belong to, if they have the same filter and rounding; so are
+/// the pieces of one body that moves. Steps lower than that, and bends of less than 1e-3 rad, are none.
+///
 ///     plumb_shape_create(world, body, &(plumb_shape_desc){ .kind = PLUMB_BOX, .half = { 1, 0.5f } });
 #ifndef PLUMB_SHAPE_H
 #define PLUMB_SHAPE_H
@@ -30,6 +34,15 @@ typedef struct plumb_filter {
     bool nothing;      ///< it meets no category (a mask of 0 would mean all); `mask` must then be 0
 } plumb_filter;
 
+/// A shape that things pass through in one direction and that holds them against it: a platform to be
+/// jumped on from below. {0}: solid from all sides. What comes from the side that lets pass goes through
+/// and, once it is out, can stand on it; nothing is pushed out while it is inside.
+typedef struct plumb_one_way {
+    plumb_vec2 direction; ///< in the body's frame, of any length, in which things pass: {0, 1} is upwards
+    plumb_real angle;     ///< [rad] 0..pi/2: surfaces whose outward normal is within it of `direction` hold,
+                          ///< others let pass; 0 means 60 degrees. Must be 0 without `direction`
+} plumb_one_way;
+
 /// {0} is not a shape (a circle needs a radius); fields not named by the kind must be zero, else E_RANGE.
 typedef struct plumb_shape_desc {
     plumb_shape_kind kind;
@@ -43,6 +56,7 @@ typedef struct plumb_shape_desc {
     plumb_real density;       ///< [kg/m^2] >= 0; 0: the material's
     plumb_material material;  ///< null: the world's default material
     plumb_filter filter;      ///< {0}: category 1, meets everything
+    plumb_one_way one_way;    ///< {0}: solid from all sides
     bool sensor;              ///< sees what overlaps it and exerts no force; has no mass, whatever its density
     void *user_data;
 } plumb_shape_desc;
@@ -84,6 +98,16 @@ PLUMB_API plumb_filter plumb_shape_filter(const plumb_world *world, plumb_shape 
 PLUMB_API plumb_result plumb_shape_set_filter(plumb_world *world, plumb_shape shape, plumb_filter filter);
 /// True when the two filters let their shapes meet: the rule told at plumb_filter. O(1).
 PLUMB_API bool plumb_filters_meet(plumb_filter a, plumb_filter b);
+
+/// The one-way property in force, its direction a unit vector; {0} if it has none, or for a dead handle.
+PLUMB_API plumb_one_way plumb_shape_one_way(const plumb_world *world, plumb_shape shape);
+/// Changes it; what overlaps the shape by more than 2 cm at the next step passes. Errors: E_HANDLE, E_RANGE,
+/// E_NOT_FINITE.
+PLUMB_API plumb_result plumb_shape_set_one_way(plumb_world *world, plumb_shape shape,
+                                               plumb_one_way one_way);
+/// Lets a dynamic body drop through the one-way shapes that hold it in the next step, until it has left
+/// them; holds for that step's contacts alone. Errors: E_HANDLE, E_STATE (not dynamic).
+PLUMB_API plumb_result plumb_body_drop_through(plumb_world *world, plumb_body body);
 
 /// Keeps all shapes of two bodies apart from one another (true) or ends that (false). Sensors do not
 /// see excluded bodies either. Forgotten when one of them is destroyed. O(log excluded pairs), to add or

@@ -153,6 +153,11 @@ typedef struct plumb_stats {
 /// Counters of the last step; of sleeping bodies, as they were when they fell asleep. O(sleeping islands).
 PLUMB_API plumb_stats plumb_world_stats(const plumb_world *world);
 
+/// Cells [m] of the broad phase's grids that shapes were filed in by the last step, each once, for
+/// drawing: moving shapes first, small cells before large. Writes up to `capacity`, returns how many
+/// there are. O(shapes).
+PLUMB_API int plumb_world_cells(const plumb_world *world, plumb_aabb *cells, int capacity);
+
 /// Mechanical state of all dynamic bodies, summed in double in row order. O(bodies).
 typedef struct plumb_energy {
     double kinetic;          ///< [J] translation and rotation

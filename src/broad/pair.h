@@ -22,6 +22,9 @@ typedef struct pl_pair {
 #define PL_PAIR_PENDING  8u // and had not been stopped yet: the hit is still to be told
 #define PL_PAIR_WAIVED   16u // a system disabled its contact in this step
 #define PL_PAIR_BORNE    32u // flush ground: another pair bears the load of this one
+#define PL_PAIR_HELD     64u // of a one-way piece: it holds
+#define PL_PAIR_PASSING  128u // it is under way through it
+#define PL_PAIR_DROPPING 16384u // it was held and asked to drop through
 
 // The face that parted the pieces when they were last looked at, in bits of the flags: 0 none, else
 // 1 + 2 x edge, + 1 when it is an edge of b. Tried first; see narrow/convex.simd.c.

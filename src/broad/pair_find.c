@@ -9,7 +9,7 @@
 
 typedef struct finder {
     plumb_world *world;
-    const uint32_t *body; // of a piece slot
+    const uint32_t *body;        // of a piece slot
     const uint32_t *first_joint; // of a body row
     uint32_t dynamic_count;
     pl_found *found;
@@ -214,6 +214,58 @@ static bool find_sensed_resting(finder *f, const pl_grid *moving, const pl_grid 
     return true;
 }
 
+//---- crowds that never meet ----------------------------------------------------------------------
+
+// What the filters of many pieces have in common.
+typedef struct crowd {
+    uint64_t category, mask; // of any
+    int32_t group;           // of all, where `one_group`
+    bool one_group, forced;  // forced: a positive group, which no mask keeps apart
+} crowd;
+
+static void join_crowd(crowd *c, const pl_pieces *pieces, uint32_t piece)
+{
+    bool first = c->category == 0;
+    c->one_group = first || (c->one_group && c->group == pieces->group[piece]);
+    c->group = pieces->group[piece];
+    c->forced |= c->group > 0;
+    c->category |= pieces->category[piece];
+    c->mask |= pieces->mask[piece];
+}
+
+static bool may_meet(const crowd *a, const crowd *b)
+{
+    if (a->one_group && b->one_group && a->group == b->group && a->group < 0) {
+        return false;
+    }
+    return (a->forced && b->forced) ||
+           ((a->category & b->mask) != 0 && (b->category & a->mask) != 0);
+}
+
+// The crowd of moving pieces; stops where it may meet itself, whatever comes.
+static bool moving_crowd(const plumb_world *world, crowd *c)
+{
+    const uint32_t *moving = pl_moving(world);
+    *c = (crowd){ .category = 0 };
+    for (uint32_t i = 0; i < world->moving_count; ++i) {
+        join_crowd(c, &world->pieces, moving[i]);
+        if (!(c->one_group && c->group < 0) && may_meet(c, c)) {
+            return true;
+        }
+    }
+    return may_meet(c, c);
+}
+
+static bool meets_fixed(const plumb_world *world, const crowd *moving)
+{
+    const pl_grid *fixed = &world->broad.fixed;
+    crowd c = { .category = 0 };
+    for (uint32_t i = 0; i < fixed->entry_count; ++i) {
+        join_crowd(&c, &world->pieces, pl_grid_entries(fixed)[i].piece);
+    }
+    return may_meet(moving, &c);
+}
+
 bool pl_pairs_find(plumb_world *world)
 {
     pl_broad *broad = &world->broad;
@@ -225,14 +277,20 @@ bool pl_pairs_find(plumb_world *world)
                  .found = broad->found.data,
                  .capacity = (uint32_t)(broad->found.size / sizeof(pl_found)) };
     broad->sensed_count = 0;
-    for (uint32_t k = 0; k < broad->moving.level_count; ++k) {
+    crowd moving;
+    // Debris that passes through debris, a net in one group: no box need be compared.
+    const bool meet = world->filtered_pieces == 0 || moving_crowd(world, &moving);
+    const bool grounded = meet || meets_fixed(world, &moving);
+    for (uint32_t k = 0; meet && k < broad->moving.level_count; ++k) {
         if (!find_in_level(&f, &broad->moving, &broad->moving.levels[k]) ||
             !find_across_levels(&f, &broad->moving, k)) {
             return false;
         }
     }
-    if (!find_against_fixed(&f, &broad->moving, &broad->fixed) ||
-        !find_sensed_resting(&f, &broad->moving, &broad->resting)) {
+    if (grounded && !find_against_fixed(&f, &broad->moving, &broad->fixed)) {
+        return false;
+    }
+    if (!find_sensed_resting(&f, &broad->moving, &broad->resting)) {
         return false;
     }
     broad->found_count = f.count;

@@ -148,6 +148,17 @@ static bool share_stops(plumb_world *world)
     return changed;
 }
 
+static bool any_stops(const plumb_world *world)
+{
+    const pl_mover *movers = pl_movers(&world->continuous);
+    for (uint32_t i = 0; i < world->continuous.count; ++i) {
+        if (movers[i].stop < 1) {
+            return true;
+        }
+    }
+    return false;
+}
+
 // Until no body stops earlier for another. Each round stops some body earlier; where they do not
 // come to an end, all fast bodies stay where the step began.
 static void settle_stops(plumb_world *world, real dt)
@@ -155,15 +166,19 @@ static void settle_stops(plumb_world *world, real dt)
     const bool asked = world->continuous_bodies > 0;
     for (int round = 0; round < MOST_ROUNDS; ++round) {
         bool changed = asked && sweep_among(world, dt);
-        while (world->joints.live > 0 && share_stops(world)) {
-            changed = true;
+        if (world->joints.live > 0 && any_stops(world)) {
+            while (share_stops(world)) {
+                changed = true;
+            }
         }
         if (!changed || !asked) {
             return;
         }
     }
-    for (uint32_t i = 0; i < world->continuous.count; ++i) {
-        pl_movers(&world->continuous)[i].stop = 0;
+    pl_mover *movers = pl_movers(&world->continuous);
+    for (uint32_t i = 0; i < world->continuous.count && pl_row_is_dynamic(world, movers[i].row);
+         ++i) {
+        movers[i].stop = 0;
     }
 }
 

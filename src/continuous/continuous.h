@@ -37,8 +37,8 @@ typedef struct pl_impact_place {
 // neither filter, excluded pair nor joint. Asked before any geometry.
 bool pl_pieces_collide(const plumb_world *world, uint32_t piece, uint32_t other);
 // Whether the body stops at this impact, or goes on as if `other` were not there: it does where a
-// system disabled the contact in this step. The only question of its kind in the pass: what depends
-// on the place or the side of an impact (one-way platforms) belongs here as well.
+// system disabled the contact in this step, and where a one-way shape lets it pass. The only question of
+// its kind in the pass.
 bool pl_impact_stops(const plumb_world *world, const pl_impact_place *place);
 
 bool pl_continuous_wanted(const plumb_world *world, const char **reason);

@@ -9,6 +9,8 @@
 
 #include "broad/pairs.h"
 #include "continuous/target.h"
+#include "narrow/one_way.h"
+#include "plumb/math.h"
 #include "world/filter.h"
 #include "world/rows.h"
 
@@ -35,13 +37,29 @@ bool pl_pieces_collide(const plumb_world *world, uint32_t piece, uint32_t other)
            !pl_joints_forbid(world, row, other_row);
 }
 
+// Each of the two that is one-way holds the other where they meet.
+static bool one_way_holds(const plumb_world *world, const pl_impact_place *place)
+{
+    const uint8_t *flags = world->pieces.flags;
+    plumb_vec2 n = { (real)place->nx, (real)place->ny };
+    return ((flags[place->other] & PL_PIECE_ONE_WAY) == 0 ||
+            pl_one_way_blocks(world, place->other, n, 0)) &&
+           ((flags[place->piece] & PL_PIECE_ONE_WAY) == 0 ||
+            pl_one_way_blocks(world, place->piece, plumb_vec2_neg(n), 0));
+}
+
 bool pl_impact_stops(const plumb_world *world, const pl_impact_place *place)
 {
-    if (!world->edited) {
+    const uint8_t *flags = world->pieces.flags;
+    uint8_t one_way = (flags[place->piece] | flags[place->other]) & PL_PIECE_ONE_WAY;
+    if (!world->edited && one_way == 0) {
         return true;
     }
     const pl_pair *pair = pl_pairs_find_one(world, place->piece, place->other);
-    return pair == NULL || (pair->flags & PL_PAIR_WAIVED) == 0;
+    if (pair != NULL && ((pair->flags & PL_PAIR_WAIVED) != 0 || pl_pair_passes(pair))) {
+        return false;
+    }
+    return one_way == 0 || one_way_holds(world, place);
 }
 
 //---- one body against what stands still ----------------------------------------------------------

@@ -5,7 +5,7 @@
 // forgets its impulses and is waived for the rest of the step: sweeps let it pass too. Reads, writes: manifolds, pairs. Cost: O(1) an edit, O(manifolds) a step in
 // which something was edited; nothing where no system of the phase is registered.
 #include "event/event.h"
-#include "narrow/surface.h"
+#include "narrow/narrow.h"
 #include "plumb/math.h"
 #include "world/check.h"
 #include "world/state.h"
@@ -117,38 +117,10 @@ void pl_edits_open(plumb_world *world)
     world->edited = false;
 }
 
-static void take_out(pl_pair *pair)
-{
-    pair->manifold = PL_NONE;
-    pair->flags |= PL_PAIR_WAIVED;
-    pair->rolling = 0;
-    for (int k = 0; k < 2; ++k) {
-        pair->feature[k] = PL_NONE;
-        pair->normal[k] = pair->tangent[k] = 0;
-    }
-}
-
 void pl_edits_close(plumb_world *world)
 {
     world->editing = false;
-    if (!world->edited) {
-        return;
+    if (world->edited) {
+        pl_narrow_take_out_disabled(world, PL_PAIR_WAIVED);
     }
-    pl_narrow *narrow = &world->narrow;
-    pl_manifold *m = pl_manifolds(narrow);
-    pl_pair *pairs = pl_pairs(&world->broad.pairs);
-    uint32_t kept = 0;
-    for (uint32_t i = 0; i < narrow->manifold_count; ++i) {
-        if (m[i].disabled) {
-            take_out(&pairs[m[i].pair]);
-            continue;
-        }
-        pairs[m[i].pair].manifold = kept;
-        if (kept != i) {
-            m[kept] = m[i];
-        }
-        ++kept;
-    }
-    narrow->manifold_count = kept;
-    pl_narrow_summarise(narrow);
 }

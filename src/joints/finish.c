@@ -54,15 +54,14 @@ static void rest(pl_joint *j)
     j->torque = 0;
 }
 
+// Joints that break by impulse are solved one by one.
 void pl_joints_tally(plumb_world *world)
 {
-    for (uint32_t i = 0; i < world->joints.count; ++i) {
-        pl_joint *j = &pl_joint_items(&world->joints)[i];
-        if (j->active) {
-            pl_rows made;
-            j->step_impulse = plumb_vec2_add(j->step_impulse,
-                                             impulse_on_b(j, whole_rows(world, j, &made)));
-        }
+    for (uint32_t i = 0; i < world->joints.plan.alone_count; ++i) {
+        pl_joint *j = pl_joint_alone(&world->joints, i);
+        pl_rows made;
+        j->step_impulse =
+            plumb_vec2_add(j->step_impulse, impulse_on_b(j, whole_rows(world, j, &made)));
     }
 }
 
@@ -94,12 +93,19 @@ static void snap(plumb_world *world, const pl_joint *j)
 void pl_joints_finish(plumb_world *world)
 {
     for (uint32_t i = 0; i < world->joints.awake_count; ++i) {
-        pl_joint *j = pl_joint_awake(&world->joints, i);
-        if (!j->active) {
+        uint32_t slot = ((const uint32_t *)world->joints.awake.data)[i];
+        const pl_joint_mark *mark = &pl_joint_marks(&world->joints)[slot];
+        if (mark->quiet) {
+            continue;
+        }
+        pl_joint *j = &pl_joint_items(&world->joints)[slot];
+        if (mark->what == 0) {
             rest(j);
             continue;
         }
-        react(world, j);
+        if (!mark->wide) {
+            react(world, j);
+        }
         const pl_joint_class *kind = pl_joint_classes[j->desc.kind];
         if (kind->advance != NULL) {
             pl_joint_begin(world, j);

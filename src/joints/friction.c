@@ -5,12 +5,15 @@
 
 static void rows(const pl_joint *j, const pl_joint_pose *a, const pl_joint_pose *b, pl_rows *out)
 {
-    pl_rows_point(out, a, b, plumb_v2(0, 0));
+    // Nothing is held: both are pushed where B's anchor is.
+    out->row[0] = pl_row_along_axis(a, b, plumb_v2(a->c, a->s), 0);
+    out->row[1] = pl_row_along_axis(a, b, plumb_v2(-a->s, a->c), 0);
     out->row[2] = pl_row_angle(a, b, 0);
     for (int i = 0; i < 3; ++i) {
         out->row[i].type = PL_ROW_DRIVE;
     }
     out->row[2].most = j->desc.max_torque;
+    out->block = 2;
     out->block_most = j->desc.max_force;
     out->count = 3;
 }

@@ -89,6 +89,7 @@ uint32_t pl_joints_awake(plumb_world *world)
         uint32_t *awake = joints->awake.data;
         joints->awake_stale = false;
         joints->awake_count = 0;
+        pl_joints_replan(joints);
         for (uint32_t i = 0; i < joints->count; ++i) {
             if (is_awake(world, &pl_joint_items(joints)[i])) {
                 awake[joints->awake_count++] = i;
@@ -117,58 +118,111 @@ void pl_joint_disturb(plumb_world *world, const pl_joint *joint)
 //---- poses
 //----------------------------------------------------------------------------------------
 
-// [m] centre of the body; the world's is the anchor.
-static void center_of(const plumb_world *world, const pl_joint_end *end, double *x, double *y)
+// [m] centre of the body at `row`; the world's is the anchor.
+static void center_of(const plumb_world *world, plumb_vec2 local, uint32_t row, double *x,
+                      double *y)
 {
-    if (plumb_is_null(end->body)) {
-        *x = (double)end->local.x;
-        *y = (double)end->local.y;
+    if (row == PL_NONE) {
+        *x = (double)local.x;
+        *y = (double)local.y;
         return;
     }
-    uint32_t row = pl_body_row(world, end->body);
     const pl_bodies *b = &world->bodies;
     *x = (double)b->center_x[row] + (double)b->low_x[row];
     *y = (double)b->center_y[row] + (double)b->low_y[row];
 }
 
+// [m] from a body's centre to its anchor, in world axes.
+static plumb_vec2 arm_of(const plumb_world *world, plumb_vec2 local, uint32_t row)
+{
+    const pl_bodies *b = &world->bodies;
+    return row == PL_NONE
+               ? plumb_v2(0, 0)
+               : plumb_rot_apply((plumb_rot){ b->c[row], b->s[row] },
+                                 plumb_v2(local.x - b->local_x[row], local.y - b->local_y[row]));
+}
+
 // Relative to the point (from_x, from_y).
-static void pose_now(const plumb_world *world, const pl_joint_end *end, double from_x,
-                     double from_y, pl_joint_pose *pose)
+static void pose_now(const plumb_world *world, pl_joint_end *end, uint32_t row, double from_x,
+                     double from_y)
 {
     double x, y;
-    center_of(world, end, &x, &y);
+    center_of(world, end->local, row, &x, &y);
+    pl_joint_pose *pose = &end->pose;
     *pose = (pl_joint_pose){ .x = (real)(x - from_x), .y = (real)(y - from_y), .c = 1 };
-    if (plumb_is_null(end->body)) {
+    if (row == PL_NONE) {
         return;
     }
-    uint32_t row = pl_body_row(world, end->body);
-    const pl_bodies *b = &world->bodies;
-    plumb_rot q = { b->c[row], b->s[row] };
-    plumb_vec2 arm = plumb_rot_apply(
-        q, plumb_v2(end->local.x - b->local_x[row], end->local.y - b->local_y[row]));
-    pose->c = q.c, pose->s = q.s;
+    plumb_vec2 arm = arm_of(world, end->local, row);
+    pose->c = world->bodies.c[row], pose->s = world->bodies.s[row];
     pose->rx = arm.x, pose->ry = arm.y;
     pose->angle = (end->seen - end->start) + TURN * (double)end->turns;
 }
 
-static void count_turns(const plumb_world *world, pl_joint_end *end)
+static void count_turns(const plumb_world *world, pl_joint_end *end, uint32_t row)
 {
-    if (!plumb_is_null(end->body)) {
-        double now = (double)plumb_body_angle(world, end->body), jump = now - end->seen;
+    if (row != PL_NONE) {
+        plumb_rot q = { world->bodies.c[row], world->bodies.s[row] };
+        double now = (double)plumb_rot_angle(q), jump = now - end->seen;
         end->turns += jump > TURN / 2 ? -1 : jump < -TURN / 2 ? 1 : 0;
         end->seen = now;
     }
 }
 
-void pl_joint_begin(const plumb_world *world, pl_joint *joint)
+void pl_joint_place(const plumb_world *world, pl_joint *joint, uint32_t row_a, uint32_t row_b)
 {
     double x, y;
-    count_turns(world, &joint->a);
-    count_turns(world, &joint->b);
-    center_of(world, &joint->a, &x, &y);
+    count_turns(world, &joint->a, row_a);
+    count_turns(world, &joint->b, row_b);
+    center_of(world, joint->a.local, row_a, &x, &y);
     joint->origin = plumb_v2((real)x, (real)y);
-    pose_now(world, &joint->a, x, y, &joint->a.pose);
-    pose_now(world, &joint->b, x, y, &joint->b.pose);
+    pose_now(world, &joint->a, row_a, x, y);
+    pose_now(world, &joint->b, row_b, x, y);
+}
+
+int pl_joint_eighth(double angle)
+{
+    return (int)((angle + TURN / 2) * (8 / TURN)) & 7;
+}
+
+// The same of a rotation.
+static int eighth_now(const plumb_world *world, uint32_t row)
+{
+    real c = world->bodies.c[row], s = world->bodies.s[row];
+    real along = s < 0 ? -c : c, across = s < 0 ? -s : s; // half a turn back into the upper half
+    int eighth = along > 0 ? (across > along) : 2 + (across < -along);
+    return s < 0 ? eighth : 4 + eighth;
+}
+
+// Turns are told apart as long as a body does not pass three eighths of a turn in a step.
+static void look_at_turns(const plumb_world *world, pl_joint_end *end, uint32_t row,
+                          uint8_t *eighth)
+{
+    if (row != PL_NONE && eighth_now(world, row) != *eighth) {
+        count_turns(world, end, row);
+        *eighth = (uint8_t)pl_joint_eighth(end->seen);
+    }
+}
+
+void pl_joint_start_bare(plumb_world *world, pl_joint_lane *lane, pl_joint_start *start, real h)
+{
+    pl_joint *j = &pl_joint_items(&world->joints)[lane->joint];
+    const pl_joint_mark *mark = &pl_joint_marks(&world->joints)[lane->joint];
+    double ax, ay, bx, by;
+    center_of(world, lane->local_a, mark->row_a, &ax, &ay);
+    center_of(world, lane->local_b, mark->row_b, &bx, &by);
+    real scale = j->h > 0 ? h / j->h : 0;
+    *start = (pl_joint_start){ .arm_a = arm_of(world, lane->local_a, mark->row_a),
+                               .arm_b = arm_of(world, lane->local_b, mark->row_b),
+                               .apart = plumb_v2((real)(bx - ax), (real)(by - ay)),
+                               .impulse = { scale * j->impulse[0], scale * j->impulse[1] } };
+    look_at_turns(world, &j->a, mark->row_a, &lane->eighth_a);
+    look_at_turns(world, &j->b, mark->row_b, &lane->eighth_b);
+}
+
+void pl_joint_begin(const plumb_world *world, pl_joint *joint)
+{
+    pl_joint_place(world, joint, row_of(world, &joint->a), row_of(world, &joint->b));
 }
 
 //---- checks
@@ -309,6 +363,7 @@ static void revise_pairs(plumb_world *world, const pl_joint *joint)
     }
     world->joints.awake_stale = true;
     world->schedule_dirty = true;
+    pl_joints_replan(&world->joints);
 }
 
 static plumb_joint insert(plumb_world *world, const plumb_joint_desc *d)
@@ -400,4 +455,5 @@ void pl_joints_free(pl_memory *memory, pl_joints *joints)
     pl_buffer_free(memory, &joints->items);
     pl_buffer_free(memory, &joints->broken);
     pl_buffer_free(memory, &joints->awake);
+    pl_joints_plan_free(memory, &joints->plan);
 }

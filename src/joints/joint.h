@@ -3,6 +3,7 @@
 #define PL_JOINT_H
 
 #include "joints/rows.h"
+#include "joints/wide.h"
 #include "plumb/joint.h"
 
 // Members of the descriptor that a kind has.
@@ -14,8 +15,6 @@ enum {
     PL_JOINT_TWO_ANCHORS = 16,
     PL_JOINT_RADIANS = 32 // its value is an angle
 };
-
-typedef struct pl_joint pl_joint;
 
 typedef struct pl_joint_class {
     const char *name;
@@ -53,26 +52,51 @@ typedef struct pl_joint_end {
 } pl_joint_end;
 
 struct pl_joint {
-    plumb_joint entity; // null: a free slot, whose a.next is the next one
+    // What every step reads and writes of every joint comes first, on one cache line.
+    real impulse[PL_JOINT_ROWS]; // [N s] of a substep
+    real h;                      // [s] substep that the impulses belong to
+    plumb_vec2 force;            // [N] reaction
+    real torque;                 // [N m]
+    plumb_joint entity;          // null: a free slot, whose a.next is the next one
     plumb_joint_desc desc;
     pl_joint_end a, b;
     plumb_vec2 axis;   // unit, in A's frame (the world's without A)
     plumb_vec2 target; // mouse: world [m]; motor: in A's frame [m]
     plumb_vec2 origin; // [m] from where poses are told: A's centre at the start of the step
     real sum;          // gear, pulley: what is kept; ratchet: the tooth behind the pawl [rad]
-    // Solver.
-    real impulse[PL_JOINT_ROWS]; // [N s] of a substep
-    real h;                      // [s] substep that the impulses belong to
-    real mass[PL_JOINT_ROWS];    // [kg] effective, of rows outside the block
-    real inverse[3][3];          // of the block's K = J M^-1 J^T
-    real turn[6];                // change of momentum owed because J has turned: see solve.c
+    // Solver: of joints solved one by one.
+    real mass[PL_JOINT_ROWS]; // [kg] effective, of rows outside the block
+    real inverse[3][3];       // of the block's K = J M^-1 J^T
+    real turn[6];             // change of momentum owed because J has turned: see solve.c
     pl_rows rows;
     plumb_vec2 arm_b; // [m] from B's centre to its anchor, at the rows
-    bool active;      // in this step: it is on and so are its bodies
-    plumb_vec2 force; // [N] reaction
-    plumb_vec2 step_impulse; // [N s] on B over the step, where some joint breaks by impulse
-    real torque;      // [N m]
+    plumb_vec2 step_impulse; // [N s] on B over the step, where it breaks by impulse
 };
+
+// A joint as the plan sees it, so that a step need not look at the joint itself.
+typedef struct pl_joint_mark {
+    plumb_body a, b;
+    uint32_t row_a, row_b; // of the bodies, as last found; PL_NONE: the world
+    uint32_t what;         // 0: not solved (off, or a body of it asleep or disabled); else see plan.c
+    bool wide;             // it is in a lane: the kernels tell its reaction
+    bool quiet;            // nothing but its reaction comes of it after the step
+} pl_joint_mark;
+
+// Who is solved with whom (plan.c). It follows from the joints and bodies that there are, and is
+// kept from step to step as long as it does.
+typedef struct pl_joint_plan {
+    pl_buffer marks;   // pl_joint_mark a slot
+    pl_buffer order;   // pl_keyed: joints to be solved wide
+    pl_buffer bundles; // pl_joint_bundle
+    pl_buffer lanes;   // pl_joint_lane
+    pl_buffer starts;  // pl_joint_start a lane
+    pl_buffer slots;   // uint32_t, two a lane: see pl_joint_call
+    pl_buffer records; // of the bundles, kept by the kernels
+    pl_buffer alone;   // uint32_t: joints solved one by one, behind the bundles
+    uint32_t bundle_count, alone_count, pattern_count;
+    pl_joint_pattern patterns[PL_JOINT_PATTERNS];
+    bool made;
+} pl_joint_plan;
 
 typedef struct pl_joints {
     pl_buffer items;  // pl_joint; slots are stable
@@ -85,6 +109,7 @@ typedef struct pl_joints {
     pl_buffer awake; // uint32_t: slots of joints of which no body sleeps, in order
     uint32_t awake_count;
     bool awake_stale; // joints came or went, or bodies fell asleep or woke
+    pl_joint_plan plan;
 } pl_joints;
 
 static inline pl_joint *pl_joint_items(const pl_joints *joints)
@@ -116,6 +141,13 @@ bool pl_joints_forbid(const plumb_world *world, uint32_t row, uint32_t other);
 bool pl_joints_part(const plumb_world *world, uint32_t row);
 // Full turns, origin and poses up to date.
 void pl_joint_begin(const plumb_world *world, pl_joint *joint);
+// Eighth of a turn, 0 to 7, in which an angle in (-pi, pi] [rad] lies.
+int pl_joint_eighth(double angle);
+// The same as pl_joint_begin with the rows of its bodies known (PL_NONE: the world).
+void pl_joint_place(const plumb_world *world, pl_joint *joint, uint32_t row_a, uint32_t row_b);
+// How a lane of a bare hinge begins a step: of the joint itself, impulses are read, and turns counted
+// where an angle has left the eighth in which it was last seen.
+void pl_joint_start_bare(plumb_world *world, pl_joint_lane *lane, pl_joint_start *start, real h);
 
 typedef enum pl_joint_sweep {
     PL_SWEEP_PULL,   // springs, and errors undone
@@ -123,13 +155,46 @@ typedef enum pl_joint_sweep {
     PL_SWEEP_CLASSIC // springs, errors left: pl_joints_move undoes them
 } pl_joint_sweep;
 
-// The solver's part (solve.c), over all joints. Prepare: slots, poses and rows at the start of the
-// step of substeps h [s]. Turn: what J's turning owes. Refresh: rows at the moved poses.
+// Solver slots of bodies, and the plan, before anything moves (plan.c). False when out of memory.
+bool pl_joints_plan(plumb_world *world);
+// Those of the world's width.
+const pl_joint_kernels *pl_joint_kernels_of(const plumb_world *world);
+void pl_joints_plan_free(pl_memory *memory, pl_joint_plan *plan);
+
+static inline const pl_joint_mark *pl_joint_marks(const pl_joints *joints)
+{
+    return (const pl_joint_mark *)joints->plan.marks.data;
+}
+
+// The i-th joint that is solved one by one.
+static inline pl_joint *pl_joint_alone(const pl_joints *joints, uint32_t i)
+{
+    return &pl_joint_items(joints)[((const uint32_t *)joints->plan.alone.data)[i]];
+}
+
+static inline bool pl_joint_may_break(const plumb_joint_desc *d)
+{
+    return d->break_force > 0 || d->break_torque > 0 || d->break_impulse > 0;
+}
+
+// What the pattern of a joint depends on. Who changes it, or where a joint is on its bodies, or whether
+// it can break, must call pl_joints_replan.
+uint32_t pl_joint_variant(const plumb_joint_desc *desc);
+
+static inline void pl_joints_replan(pl_joints *joints)
+{
+    joints->plan.made = false;
+}
+
+// The solver's part (solve.c), over all joints of the plan. Prepare: poses and rows at the start of the
+// step of substeps h [s].
 void pl_joints_prepare(plumb_world *world, real h);
 void pl_joints_warm_start(plumb_world *world);
-void pl_joints_turn(plumb_world *world);
-void pl_joints_solve(plumb_world *world, pl_joint_sweep sweep);
-void pl_joints_refresh(plumb_world *world);
+// Sweeps. The first of a substep that pulls pays what J's turning owes, the first that relaxes makes
+// rows at the moved poses.
+void pl_joints_solve(plumb_world *world, real h, pl_joint_sweep sweep, bool first);
+// Impulses and reactions of joints in lanes, into the joints.
+void pl_joints_store(plumb_world *world, real h);
 // Moves bodies against the errors that are left (classic solver).
 void pl_joints_move(plumb_world *world, real share);
 // Adds the substep's reactions to those of the step, where some joint breaks by impulse (finish.c).

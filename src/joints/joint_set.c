@@ -33,6 +33,15 @@ static void disturb_if(plumb_world *world, const pl_joint *joint, bool changed)
     }
 }
 
+// Another descriptor, with which the joint may be solved in another way.
+static void revise(plumb_world *world, pl_joint *joint, plumb_joint_desc wanted)
+{
+    if (pl_joint_variant(&joint->desc) != pl_joint_variant(&wanted)) {
+        pl_joints_replan(&world->joints);
+    }
+    joint->desc = wanted;
+}
+
 plumb_result plumb_joint_set_limit(plumb_world *world, plumb_joint joint, bool enabled,
                                    plumb_real lower, plumb_real upper)
 {
@@ -45,12 +54,14 @@ plumb_result plumb_joint_set_limit(plumb_world *world, plumb_joint joint, bool e
     r = pl_check_range(world, __func__, "lower", lower, least, PLUMB_REAL_MAX);
     r = r != PLUMB_OK ? r : pl_check_range(world, __func__, "upper", upper, lower, PLUMB_REAL_MAX);
     if (r == PLUMB_OK) {
+        plumb_joint_desc wanted = j->desc;
+        wanted.enable_limit = enabled;
+        wanted.lower = lower;
+        wanted.upper = upper;
         disturb_if(world, j,
                    j->desc.enable_limit != enabled || j->desc.lower != lower ||
                        j->desc.upper != upper);
-        j->desc.enable_limit = enabled;
-        j->desc.lower = lower;
-        j->desc.upper = upper;
+        revise(world, j, wanted);
     }
     return r;
 }
@@ -64,12 +75,14 @@ plumb_result plumb_joint_set_motor(plumb_world *world, plumb_joint joint, bool e
     r = r != PLUMB_OK ? r
                       : pl_check_range(world, __func__, "max_motor", max_motor, 0, PLUMB_REAL_MAX);
     if (r == PLUMB_OK) {
+        plumb_joint_desc wanted = j->desc;
+        wanted.enable_motor = enabled;
+        wanted.motor_speed = speed;
+        wanted.max_motor = max_motor;
         disturb_if(world, j,
                    j->desc.enable_motor != enabled || j->desc.motor_speed != speed ||
                        j->desc.max_motor != max_motor);
-        j->desc.enable_motor = enabled;
-        j->desc.motor_speed = speed;
-        j->desc.max_motor = max_motor;
+        revise(world, j, wanted);
     }
     return r;
 }
@@ -95,7 +108,7 @@ plumb_result plumb_joint_set_spring(plumb_world *world, plumb_joint joint, plumb
     disturb_if(world, j,
                j->desc.hertz != wanted.hertz || j->desc.damping != wanted.damping ||
                    j->desc.rest != wanted.rest);
-    j->desc = wanted;
+    revise(world, j, wanted);
     return r;
 }
 
@@ -124,9 +137,11 @@ plumb_result plumb_joint_set_break(plumb_world *world, plumb_joint joint, plumb_
     r = r != PLUMB_OK ? r : pl_check_range(world, __func__, "force", force, 0, PLUMB_REAL_MAX);
     r = r != PLUMB_OK ? r : pl_check_range(world, __func__, "torque", torque, 0, PLUMB_REAL_MAX);
     if (r == PLUMB_OK) {
+        plumb_joint_desc wanted = j->desc;
+        wanted.break_force = force;
+        wanted.break_torque = torque;
         disturb_if(world, j, j->desc.break_force != force || j->desc.break_torque != torque);
-        j->desc.break_force = force;
-        j->desc.break_torque = torque;
+        revise(world, j, wanted);
     }
     return r;
 }
@@ -142,6 +157,7 @@ plumb_result plumb_joint_set_break_impulse(plumb_world *world, plumb_joint joint
         world->joints.impulsive +=
             (impulse > 0 ? 1u : 0u) - (j->desc.break_impulse > 0 ? 1u : 0u);
         j->desc.break_impulse = impulse;
+        pl_joints_replan(&world->joints);
     }
     return r;
 }
@@ -153,6 +169,8 @@ plumb_result plumb_joint_set_enabled(plumb_world *world, plumb_joint joint, bool
     r = r != PLUMB_OK ? r : pl_check_unlocked(world, __func__);
     if (r == PLUMB_OK && j->desc.disabled == enabled) {
         j->desc.disabled = !enabled;
+        pl_joint_disturb(world, j);
+        pl_joints_replan(&world->joints);
         world->pairs_dirty |= !j->desc.collide_connected;
     }
     return r;

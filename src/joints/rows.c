@@ -6,23 +6,26 @@
 
 #include "plumb/math.h"
 
-static pl_row along(plumb_vec2 arm_a, const pl_joint_pose *b, plumb_vec2 n, real error)
+// A row that pushes A at arm_a, B at arm_b.
+static pl_row along(plumb_vec2 arm_a, plumb_vec2 arm_b, plumb_vec2 n, real error, pl_row_form form)
 {
     return (pl_row){ .ax = -n.x,
                      .ay = -n.y,
                      .aw = -plumb_vec2_cross(arm_a, n),
                      .bx = n.x,
                      .by = n.y,
-                     .bw = b->rx * n.y - b->ry * n.x,
+                     .bw = plumb_vec2_cross(arm_b, n),
                      .error = error,
                      .most = PL_UNBOUNDED,
-                     .type = PL_ROW_EQUAL };
+                     .type = PL_ROW_EQUAL,
+                     .form = form };
 }
 
 pl_row pl_row_along_axis(const pl_joint_pose *a, const pl_joint_pose *b, plumb_vec2 n, real offset)
 {
     plumb_vec2 d = pl_joint_apart(a, b);
-    return along(plumb_v2(a->rx + d.x, a->ry + d.y), b, n, plumb_vec2_dot(d, n) - offset);
+    return along(plumb_v2(a->rx + d.x, a->ry + d.y), plumb_v2(b->rx, b->ry), n,
+                 plumb_vec2_dot(d, n) - offset, PL_FORM_ALONG);
 }
 
 pl_row pl_row_angle(const pl_joint_pose *a, const pl_joint_pose *b, real offset)
@@ -31,7 +34,8 @@ pl_row pl_row_angle(const pl_joint_pose *a, const pl_joint_pose *b, real offset)
                      .bw = 1,
                      .error = (real)(b->angle - a->angle - (double)offset),
                      .most = PL_UNBOUNDED,
-                     .type = PL_ROW_EQUAL };
+                     .type = PL_ROW_EQUAL,
+                     .form = PL_FORM_ANGLE };
 }
 
 // Without length there is no direction: any will do, the row pushes the points apart along it.
@@ -40,7 +44,7 @@ pl_row pl_row_length(const pl_joint_pose *a, const pl_joint_pose *b, real length
     real now;
     plumb_vec2 n = plumb_vec2_unit_and_magnitude(pl_joint_apart(a, b), &now);
     n = now > 0 ? n : plumb_v2(1, 0);
-    return along(plumb_v2(a->rx, a->ry), b, n, now - length);
+    return along(plumb_v2(a->rx, a->ry), plumb_v2(b->rx, b->ry), n, now - length, PL_FORM_LENGTH);
 }
 
 pl_row pl_row_at_least(pl_row row, real lower)
@@ -60,13 +64,19 @@ pl_row pl_row_at_most(pl_row row, real upper)
                      .bw = -row.bw,
                      .error = upper - row.error,
                      .most = row.most,
-                     .type = PL_ROW_LEAST };
+                     .type = PL_ROW_LEAST,
+                     .form = row.form };
 }
 
 void pl_rows_point(pl_rows *rows, const pl_joint_pose *a, const pl_joint_pose *b, plumb_vec2 offset)
 {
-    rows->row[0] = pl_row_along_axis(a, b, plumb_v2(a->c, a->s), offset.x);
-    rows->row[1] = pl_row_along_axis(a, b, plumb_v2(-a->s, a->c), offset.y);
+    plumb_vec2 held = plumb_rot_apply((plumb_rot){ a->c, a->s }, offset);
+    plumb_vec2 error = plumb_vec2_sub(pl_joint_apart(a, b), held);
+    plumb_vec2 half = plumb_v2(error.x / 2, error.y / 2);
+    plumb_vec2 arm_a = plumb_v2(a->rx + held.x + half.x, a->ry + held.y + half.y);
+    plumb_vec2 arm_b = plumb_v2(b->rx - half.x, b->ry - half.y);
+    rows->row[0] = along(arm_a, arm_b, plumb_v2(1, 0), error.x, PL_FORM_POINT_X);
+    rows->row[1] = along(arm_a, arm_b, plumb_v2(0, 1), error.y, PL_FORM_POINT_Y);
     rows->block = 2;
     rows->block_most = PL_UNBOUNDED;
 }

@@ -11,6 +11,7 @@
 #include "world/columns.h"
 
 #define PL_JOINT_ROWS 6
+#define PL_PIVOT      ((real)1e-6) // [-] of the diagonal: a smaller pivot is no direction of its own
 #define PL_UNBOUNDED  ((real)1e30) // [N] or [N m]
 
 // Where a body is, as rows see it.
@@ -28,6 +29,16 @@ typedef enum pl_row_type {
     PL_ROW_DRIVE  // J v = speed; C is the coordinate driven
 } pl_row_type;
 
+// How a row follows from where the bodies are: what the wide kernels (joint.simd.c) go by.
+typedef enum pl_row_form {
+    PL_FORM_OWN,     // only its kind knows
+    PL_FORM_POINT_X, // pl_rows_point, always both
+    PL_FORM_POINT_Y,
+    PL_FORM_ALONG, // pl_row_along_axis, the axis turning with A
+    PL_FORM_ANGLE, // pl_row_angle
+    PL_FORM_LENGTH // pl_row_length
+} pl_row_form;
+
 typedef struct pl_row {
     real ax, ay, aw, bx, by, bw; // J
     real error;                  // C
@@ -35,6 +46,7 @@ typedef struct pl_row {
     real hertz, damping;         // of the spring
     real most;                   // [N] or [N m] largest force either way
     pl_row_type type;
+    pl_row_form form;
 } pl_row;
 
 typedef struct pl_rows {
@@ -59,8 +71,10 @@ pl_row pl_row_length(const pl_joint_pose *a, const pl_joint_pose *b, real length
 // C >= 0 where C is that of `row` - lower, or upper - that of `row`.
 pl_row pl_row_at_least(pl_row row, real lower);
 pl_row pl_row_at_most(pl_row row, real upper);
-// The rows d = offset, all seen in A's frame: both bodies are then pushed at one point, B's anchor,
-// and angular momentum is kept however far apart the anchors are.
+// The rows d = offset, along the world's axes; offset [m] turns with A. Both bodies are pushed at one
+// point, half-way between the anchors: angular momentum is kept however far apart they are, and the
+// arms stay those of the joint. J is the slope of C but for half of what the anchors are apart. (With
+// the exact slope, A pushed at B's anchor, a net of 100 x 100 hinges flies to pieces.)
 void pl_rows_point(pl_rows *rows, const pl_joint_pose *a, const pl_joint_pose *b,
                    plumb_vec2 offset);
 

@@ -23,30 +23,33 @@
 #include "plumb/math.h"
 #include "world/state.h"
 
-// Frequency of a rigid row as a share of the substep rate, and its damping ratio: at a third, long
-// bridges begin to shake; at an eighth, everything hangs three times as low (README.md has the
-// table).
-#define SHARE ((real)0.25)
-#define ZETA  ((real)2)
-#define TAU   ((real)6.2831853071795864769)
-#define PIVOT ((real)1e-6) // [-] of the diagonal: a smaller pivot is no direction of its own
+// Frequency of a rigid row as a share of the substep rate, its damping ratio, and sweeps that pull, and
+// that relax, in a substep. Fewer sweeps bear less stiffness: README.md has the table.
+#define SHARE  ((real)0.35)
+#define ZETA   ((real)3)
+#define SWEEPS 2
+#define TAU    ((real)6.2831853071795864769)
 
-typedef struct soft {
-    real velocity, error, impulse; // factors of J v, C and the impulse so far
-} soft;
-
-static soft soften(const pl_row *row, real h, pl_joint_sweep sweep)
+static pl_joint_soft rigid(real h)
 {
-    if (row->type == PL_ROW_DRIVE || (sweep != PL_SWEEP_PULL && row->hertz == 0)) {
-        return (soft){ 1, 0, 0 };
-    }
-    if (row->hertz == 0) {
-        const real x = TAU * SHARE, stiff = x * (2 * ZETA + x);
-        return (soft){ stiff / (1 + stiff), x * x / (1 + stiff) / h, 1 / (1 + stiff) };
+    const real x = TAU * SHARE, stiff = x * (2 * ZETA + x);
+    return (pl_joint_soft){ stiff / (1 + stiff), x * x / (1 + stiff) / h, 1 / (1 + stiff) };
+}
+
+pl_joint_soft pl_joint_spring(const pl_row *row, real h)
+{
+    if (row->type == PL_ROW_DRIVE || row->hertz == 0) {
+        return (pl_joint_soft){ 1, 0, 0 };
     }
     real x = TAU * row->hertz * h, zx = row->damping * x, xx = x * x;
     real b = 1 / (1 + 2 * zx + 2 * zx * zx + xx * xx / (1 + xx));
-    return (soft){ 1 - b, b * xx / h, b };
+    return (pl_joint_soft){ 1 - b, b * xx / h, b };
+}
+
+static pl_joint_soft soften(const pl_row *row, real h, pl_joint_sweep sweep)
+{
+    bool pulls = sweep == PL_SWEEP_PULL && row->type != PL_ROW_DRIVE && row->hertz == 0;
+    return pulls ? rigid(h) : pl_joint_spring(row, h);
 }
 
 //---- one row -------------------------------------------------------------------------------------
@@ -82,10 +85,10 @@ static void solve_row(pl_joint *j, int i, pl_solver_body *a, pl_solver_body *b,
     if (r->type == PL_ROW_OFF || (sweep == PL_SWEEP_RELAX && r->hertz > 0)) {
         return;
     }
-    soft s = soften(r, j->h, sweep);
+    pl_joint_soft s = soften(r, j->h, sweep);
     bool apart = r->type == PL_ROW_LEAST && r->error > 0;
     if (apart) {
-        s = (soft){ 1, 1 / j->h, 0 }; // may close the gap
+        s = (pl_joint_soft){ 1, 1 / j->h, 0 }; // may close the gap
     }
     real v = rate(r, a, b) - (r->type == PL_ROW_DRIVE ? r->speed : 0);
     real old = j->impulse[i];
@@ -112,7 +115,7 @@ static void invert(pl_joint *j, const pl_solver_body *a, const pl_solver_body *b
         diagonal[i] = k[i][i];
     }
     for (int p = 0; p < n; ++p) {
-        bool usable = k[p][p] > PIVOT * diagonal[p];
+        bool usable = k[p][p] > PL_PIVOT * diagonal[p];
         real inverse = usable ? 1 / k[p][p] : 0;
         for (int m = 0; m < 2 * n; ++m) {
             k[p][m] *= inverse;
@@ -149,7 +152,7 @@ static void solve_block(pl_joint *j, pl_solver_body *a, pl_solver_body *b, pl_jo
     if (n == 0 || (sweep == PL_SWEEP_RELAX && row[0].hertz > 0)) {
         return;
     }
-    soft s = soften(&row[0], j->h, sweep);
+    pl_joint_soft s = soften(&row[0], j->h, sweep);
     real wrong[3], total[3];
     for (int i = 0; i < n; ++i) {
         wrong[i] = s.velocity * rate(&row[i], a, b) + s.error * row[i].error;
@@ -234,44 +237,110 @@ static void make_rows(const plumb_world *world, pl_joint *j, const pl_solver_bod
 
 //---- all joints ----------------------------------------------------------------------------------
 
-static uint32_t slot_of(const plumb_world *world, plumb_body body)
+static pl_joint_call call_of(const plumb_world *world, real h)
+{
+    const pl_joint_plan *plan = &world->joints.plan;
+    return (pl_joint_call){ .bodies = pl_solver_bodies(&world->solver),
+                            .dynamic_slots = world->solver.dynamic_slots,
+                            .immovable_slot = world->solver.slot_count - 1,
+                            .bundle_count = plan->bundle_count,
+                            .bundles = plan->bundles.data,
+                            .patterns = plan->patterns,
+                            .lanes = plan->lanes.data,
+                            .starts = plan->starts.data,
+                            .slots = plan->slots.data,
+                            .records = plan->records.data,
+                            .joints = pl_joint_items(&world->joints),
+                            .h = h,
+                            .rigid = rigid(h) };
+}
+
+static void clear_debt(pl_joint *j)
+{
+    for (int k = 0; k < 6; ++k) {
+        j->turn[k] = 0;
+    }
+}
+
+static uint32_t slot_of(const plumb_world *world, uint32_t row)
 {
     uint32_t movable = world->dynamic_count + world->kinematic_count;
-    uint32_t row = plumb_is_null(body) ? movable : pl_body_row(world, body);
-    return pl_solver_slot(&world->solver, row, movable);
+    return pl_solver_slot(&world->solver, row < movable ? row : movable, movable);
 }
 
-static bool is_enabled(const plumb_world *world, plumb_body body)
+static void begin(const plumb_world *world, pl_joint *j, real h)
 {
-    return plumb_is_null(body) ||
-           (world->bodies.flags[pl_body_row(world, body)] & PL_BODY_DISABLED) == 0;
+    const pl_joint_mark *mark = &pl_joint_marks(&world->joints)[j - pl_joint_items(&world->joints)];
+    pl_joint_place(world, j, mark->row_a, mark->row_b);
+    j->a.slot = slot_of(world, mark->row_a);
+    j->b.slot = slot_of(world, mark->row_b);
+    real scale = j->h > 0 ? h / j->h : 0;
+    for (int k = 0; k < PL_JOINT_ROWS; ++k) {
+        j->impulse[k] *= scale;
+    }
+    j->h = h;
 }
 
-// A free slot is not.
-static bool is_active(const plumb_world *world, const pl_joint *j)
+// A joint in a lane, its rows as they are now.
+static void begin_wide(const plumb_world *world, pl_joint *j, pl_joint_start *start, real h)
 {
-    return !plumb_is_null(j->entity) && !j->desc.disabled &&
-           (world->disabled_count == 0 ||
-            (is_enabled(world, j->a.body) && is_enabled(world, j->b.body)));
+    begin(world, j, h);
+    pl_joint_classes[j->desc.kind]->rows(j, &j->a.pose, &j->b.pose, &j->rows);
+    *start = (pl_joint_start){ .arm_a = { j->a.pose.rx, j->a.pose.ry },
+                               .arm_b = { j->b.pose.rx, j->b.pose.ry },
+                               .apart = { j->b.pose.x - j->a.pose.x, j->b.pose.y - j->a.pose.y } };
+    for (int k = 0; k < j->rows.count; ++k) {
+        j->impulse[k] = j->rows.row[k].type != PL_ROW_OFF ? j->impulse[k] : 0;
+    }
+}
+
+// How the lanes of a bundle begin the step; slots as the kernels want them.
+static void begin_lanes(plumb_world *world, uint32_t bundle, real h)
+{
+    const pl_joint_plan *plan = &world->joints.plan;
+    const uint32_t width = (uint32_t)pl_joint_kernels_of(world)->width;
+    const size_t first = (size_t)bundle * width;
+    uint32_t *slots = (uint32_t *)plan->slots.data + 2 * first;
+    pl_joint_lane *lanes = (pl_joint_lane *)plan->lanes.data + first;
+    pl_joint_start *starts = (pl_joint_start *)plan->starts.data + first;
+    const bool bare =
+        plan->patterns[((const pl_joint_bundle *)plan->bundles.data)[bundle].pattern].bare;
+    for (uint32_t i = 0; i < width && bundle + 1 < plan->bundle_count; ++i) {
+        if (lanes[width + i].joint != PL_NONE) {
+            __builtin_prefetch(&pl_joint_items(&world->joints)[lanes[width + i].joint]);
+        }
+    }
+    for (uint32_t i = 0; i < width; ++i) {
+        uint32_t joint = lanes[i].joint;
+        if (joint == PL_NONE) {
+            slots[i] = slots[width + i] = world->solver.slot_count - 1;
+            starts[i] = (pl_joint_start){ .arm_a = { 0, 0 } };
+            continue;
+        }
+        const pl_joint_mark *mark = &pl_joint_marks(&world->joints)[joint];
+        slots[i] = slot_of(world, mark->row_a);
+        slots[width + i] = slot_of(world, mark->row_b);
+        if (bare) {
+            pl_joint_start_bare(world, &lanes[i], &starts[i], h);
+        } else {
+            begin_wide(world, &pl_joint_items(&world->joints)[joint], &starts[i], h);
+        }
+    }
 }
 
 void pl_joints_prepare(plumb_world *world, real h)
 {
     pl_solver_body *bodies = pl_solver_bodies(&world->solver);
-    for (uint32_t i = 0; i < world->joints.awake_count; ++i) {
-        pl_joint *j = pl_joint_awake(&world->joints, i);
-        j->active = is_active(world, j);
-        if (!j->active) {
-            continue;
-        }
-        j->a.slot = slot_of(world, j->a.body);
-        j->b.slot = slot_of(world, j->b.body);
-        pl_joint_begin(world, j);
-        real scale = j->h > 0 ? h / j->h : 0;
-        for (int k = 0; k < PL_JOINT_ROWS; ++k) {
-            j->impulse[k] *= scale;
-        }
-        j->h = h;
+    const pl_joint_plan *plan = &world->joints.plan;
+    const pl_joint_call call = call_of(world, h);
+    for (uint32_t k = 0; k < plan->bundle_count; ++k) {
+        begin_lanes(world, k, h);
+    }
+    pl_joint_kernels_of(world)->fill(&call);
+    for (uint32_t i = 0; i < plan->alone_count; ++i) {
+        pl_joint *j = pl_joint_alone(&world->joints, i);
+        begin(world, j, h);
+        clear_debt(j);
         make_rows(world, j, &bodies[j->a.slot], &bodies[j->b.slot]);
     }
 }
@@ -279,9 +348,11 @@ void pl_joints_prepare(plumb_world *world, real h)
 void pl_joints_warm_start(plumb_world *world)
 {
     pl_solver_body *bodies = pl_solver_bodies(&world->solver);
-    for (uint32_t i = 0; i < world->joints.awake_count; ++i) {
-        pl_joint *j = pl_joint_awake(&world->joints, i);
-        for (int k = 0; j->active && k < j->rows.count; ++k) {
+    const pl_joint_call call = call_of(world, 0);
+    pl_joint_kernels_of(world)->warm_start(&call);
+    for (uint32_t i = 0; i < world->joints.plan.alone_count; ++i) {
+        const pl_joint *j = pl_joint_alone(&world->joints, i);
+        for (int k = 0; k < j->rows.count; ++k) {
             if (j->impulse[k] != 0) {
                 push(&j->rows.row[k], &bodies[j->a.slot], &bodies[j->b.slot], j->impulse[k]);
             }
@@ -289,29 +360,45 @@ void pl_joints_warm_start(plumb_world *world)
     }
 }
 
-void pl_joints_turn(plumb_world *world)
+// Pays what J's turning owes.
+static void pay(const pl_joint *j, pl_solver_body *a, pl_solver_body *b)
 {
-    pl_solver_body *bodies = pl_solver_bodies(&world->solver);
-    for (uint32_t i = 0; i < world->joints.awake_count; ++i) {
-        const pl_joint *j = pl_joint_awake(&world->joints, i);
-        if (!j->active) {
-            continue;
-        }
-        const pl_row owed = { j->turn[0], j->turn[1], j->turn[2],          j->turn[3],
-                              j->turn[4], j->turn[5], .type = PL_ROW_EQUAL };
-        push(&owed, &bodies[j->a.slot], &bodies[j->b.slot], 1);
+    const pl_row owed = { j->turn[0], j->turn[1], j->turn[2],          j->turn[3],
+                          j->turn[4], j->turn[5], .type = PL_ROW_EQUAL };
+    push(&owed, a, b, 1);
+}
+
+static void refresh(const plumb_world *world, pl_joint *j, const pl_solver_body *a,
+                    const pl_solver_body *b)
+{
+    clear_debt(j);
+    add_momentum(j, -1);
+    make_rows(world, j, a, b);
+    add_momentum(j, 1);
+}
+
+static void sweep_lanes(const plumb_world *world, real h, pl_joint_sweep sweep, bool first)
+{
+    const pl_joint_call call = call_of(world, h);
+    const pl_joint_kernels *kernels = pl_joint_kernels_of(world);
+    if (sweep == PL_SWEEP_PULL) {
+        (first ? kernels->pull_first : kernels->pull)(&call);
+    } else if (sweep == PL_SWEEP_RELAX) {
+        (first ? kernels->relax_first : kernels->relax)(&call);
     }
 }
 
-void pl_joints_solve(plumb_world *world, pl_joint_sweep sweep)
+static void sweep_alone(plumb_world *world, pl_joint_sweep sweep, bool first)
 {
     pl_solver_body *bodies = pl_solver_bodies(&world->solver);
-    for (uint32_t i = 0; i < world->joints.awake_count; ++i) {
-        pl_joint *j = pl_joint_awake(&world->joints, i);
-        if (!j->active) {
-            continue;
-        }
+    for (uint32_t i = 0; i < world->joints.plan.alone_count; ++i) {
+        pl_joint *j = pl_joint_alone(&world->joints, i);
         pl_solver_body *a = &bodies[j->a.slot], *b = &bodies[j->b.slot];
+        if (first && sweep == PL_SWEEP_PULL) {
+            pay(j, a, b);
+        } else if (first && sweep == PL_SWEEP_RELAX) {
+            refresh(world, j, a, b);
+        }
         // Motors and springs first: what must hold has the last word.
         for (int k = j->rows.count - 1; k >= j->rows.block; --k) {
             solve_row(j, k, a, b, sweep);
@@ -320,21 +407,19 @@ void pl_joints_solve(plumb_world *world, pl_joint_sweep sweep)
     }
 }
 
-void pl_joints_refresh(plumb_world *world)
+void pl_joints_solve(plumb_world *world, real h, pl_joint_sweep sweep, bool first)
 {
-    pl_solver_body *bodies = pl_solver_bodies(&world->solver);
-    for (uint32_t i = 0; i < world->joints.awake_count; ++i) {
-        pl_joint *j = pl_joint_awake(&world->joints, i);
-        if (!j->active) {
-            continue;
-        }
-        for (int k = 0; k < 6; ++k) {
-            j->turn[k] = 0;
-        }
-        add_momentum(j, -1);
-        make_rows(world, j, &bodies[j->a.slot], &bodies[j->b.slot]);
-        add_momentum(j, 1);
+    const int sweeps = sweep == PL_SWEEP_CLASSIC ? 1 : SWEEPS;
+    for (int i = 0; i < sweeps; ++i) {
+        sweep_lanes(world, h, sweep, first && i == 0);
+        sweep_alone(world, sweep, first && i == 0);
     }
+}
+
+void pl_joints_store(plumb_world *world, real h)
+{
+    const pl_joint_call call = call_of(world, h);
+    pl_joint_kernels_of(world)->store(&call);
 }
 
 //---- positions, for the classic solver -----------------------------------------------------------
@@ -375,11 +460,8 @@ static void move_joint(const pl_joint *j, pl_solver_body *a, pl_solver_body *b, 
 void pl_joints_move(plumb_world *world, real share)
 {
     pl_solver_body *bodies = pl_solver_bodies(&world->solver);
-    for (uint32_t i = 0; i < world->joints.awake_count; ++i) {
-        pl_joint *j = pl_joint_awake(&world->joints, i);
-        if (!j->active) {
-            continue;
-        }
+    for (uint32_t i = 0; i < world->joints.plan.alone_count; ++i) {
+        pl_joint *j = pl_joint_alone(&world->joints, i);
         pl_solver_body *a = &bodies[j->a.slot], *b = &bodies[j->b.slot];
         make_rows(world, j, a, b);
         move_joint(j, a, b, share);

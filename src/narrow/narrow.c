@@ -62,6 +62,42 @@ void pl_narrow_run(plumb_world *world, const pl_pair_list *list, real dt, pl_nar
     }
 }
 
+static void take_out(pl_pair *pair, uint32_t flag)
+{
+    pair->manifold = PL_NONE;
+    pair->flags |= flag;
+    pair->rolling = 0;
+    for (int k = 0; k < 2; ++k) {
+        pair->feature[k] = PL_NONE;
+        pair->normal[k] = pair->tangent[k] = 0;
+    }
+}
+
+void pl_narrow_take_out_disabled(plumb_world *world, uint32_t flag)
+{
+    pl_narrow *narrow = &world->narrow;
+    pl_manifold *m = pl_manifolds(narrow);
+    pl_pair *pairs = pl_pairs(&world->broad.pairs);
+    uint32_t kept = 0, count = narrow->manifold_count;
+    for (uint32_t i = 0; i < count; ++i) {
+        if (m[i].disabled) {
+            take_out(&pairs[m[i].pair], flag);
+            continue;
+        }
+        pairs[m[i].pair].manifold = kept;
+        if (kept != i) {
+            m[kept] = m[i];
+        }
+        ++kept;
+    }
+    narrow->manifold_count = kept;
+    for (uint32_t i = 0; i < narrow->borne_count && kept != count; ++i) { // those behind close up
+        m[kept + i] = m[count + i];
+        pairs[m[kept + i].pair].manifold = kept + i;
+    }
+    pl_narrow_summarise(narrow);
+}
+
 void pl_narrow_free(pl_memory *memory, pl_narrow *narrow)
 {
     pl_buffer_free(memory, &narrow->manifolds);

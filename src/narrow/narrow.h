@@ -40,5 +40,8 @@ extern const pl_narrow_kernels pl_narrow_kernels_w16;
 // Makes the manifolds of all pairs of a list. Room for them; false when out of memory.
 bool pl_narrow_reserve(plumb_world *world, const pl_pair_list *list, pl_narrow *narrow);
 void pl_narrow_run(plumb_world *world, const pl_pair_list *list, plumb_real dt, pl_narrow *narrow);
+// Takes the manifolds that are `disabled` out of the world's list; their pairs forget their impulses and
+// get a flag (0: none).
+void pl_narrow_take_out_disabled(plumb_world *world, uint32_t flag);
 
 #endif

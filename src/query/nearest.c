@@ -1,4 +1,4 @@
-// nearest.c - the shape nearest to a point.
+// nearest.c - the shape nearest to a point, all shapes near it, the nearest to each of many points.
 //
 // Each level of the grid is searched in squares about the point, each twice as large as the one
 // before, until the square holds all that can be nearer than the nearest so far. When a square has
@@ -9,6 +9,7 @@
 //
 // Reads: grids, pieces, poses. Writes: the answer. Cost: cells and boxes nearer than the answer.
 #include <math.h>
+#include <stdio.h>
 
 #include "query/query.h"
 #include "query/walk.h"
@@ -125,7 +126,10 @@ static void search_level(search *s, const pl_grid *grid, const pl_grid_level *le
             }
             return;
         }
-        pl_walk square = { (double)s->point.x, (double)s->point.y, 0, 0, 1, reach + s->slack };
+        pl_walk square = { .ox = (double)s->point.x,
+                           .oy = (double)s->point.y,
+                           .limit = 1,
+                           .slack = reach + s->slack };
         pl_walk_level(grid, level, &square, visit, s);
         if (half >= bound_of(s)) {
             return;
@@ -134,36 +138,129 @@ static void search_level(search *s, const pl_grid *grid, const pl_grid_level *le
     }
 }
 
+static plumb_result check_distance(const plumb_world *world, const char *function,
+                                   plumb_real max_distance)
+{
+    plumb_result r = pl_check_finite(world, function, "max_distance", max_distance);
+    return r != PLUMB_OK || max_distance > 0
+               ? r
+               : pl_fail(world, PLUMB_E_RANGE, function, "max_distance is %g; it must be above 0",
+                         (double)max_distance);
+}
+
+static plumb_result begin(search *s, plumb_world *world, const char *function, plumb_vec2 point,
+                          plumb_real max_distance, const plumb_query_filter *filter)
+{
+    plumb_result r = pl_check_within(world, function, "point", point, PL_QUERY_LIMIT);
+    r = r != PLUMB_OK ? r : check_distance(world, function, max_distance);
+    return r != PLUMB_OK ? r : pl_query_begin(&s->q, world, function, filter);
+}
+
+static void find(search *s, plumb_vec2 point, plumb_real max_distance)
+{
+    s->point = point;
+    s->slack = pl_query_slack(fabs((double)point.x) + fabs((double)point.y));
+    s->max_distance = max_distance;
+    s->met = false;
+    const pl_grid *grids[PL_QUERY_GRIDS];
+    int grid_count = pl_query_grids(&s->q, grids);
+    for (int i = 0; i < grid_count; ++i) {
+        for (uint32_t k = 0; k < grids[i]->level_count; ++k) {
+            search_level(s, grids[i], &grids[i]->levels[k]);
+        }
+    }
+}
+
 bool plumb_world_nearest(plumb_world *world, plumb_vec2 point, plumb_real max_distance,
                          const plumb_query_filter *filter, plumb_nearest_hit *hit)
 {
     search s;
     if (world == NULL || pl_check_pointer(world, __func__, "hit", hit) != PLUMB_OK ||
-        pl_check_within(world, __func__, "point", point, PL_QUERY_LIMIT) != PLUMB_OK ||
-        pl_check_finite(world, __func__, "max_distance", max_distance) != PLUMB_OK) {
+        begin(&s, world, __func__, point, max_distance, filter) != PLUMB_OK) {
         return false;
     }
-    if (max_distance <= 0) {
-        pl_fail(world, PLUMB_E_RANGE, __func__, "max_distance is %g; it must be above 0",
-                (double)max_distance);
-        return false;
-    }
-    if (pl_query_begin(&s.q, world, __func__, filter) != PLUMB_OK) {
-        return false;
-    }
-    s.point = point;
-    s.slack = pl_query_slack(fabs((double)point.x) + fabs((double)point.y));
-    s.max_distance = max_distance;
-    s.met = false;
-    const pl_grid *grids[PL_QUERY_GRIDS];
-    int grid_count = pl_query_grids(&s.q, grids);
-    for (int i = 0; i < grid_count; ++i) {
-        for (uint32_t k = 0; k < grids[i]->level_count; ++k) {
-            search_level(&s, grids[i], &grids[i]->levels[k]);
-        }
-    }
+    find(&s, point, max_distance);
     if (s.met) {
         *hit = s.best;
     }
     return s.met;
+}
+
+static bool keep_near(void *context, const pl_grid_entry *entry)
+{
+    search *s = context;
+    if (!pl_query_sees(&s->q, entry->piece)) {
+        return true;
+    }
+    plumb_nearest_hit near = nearest_of_piece(s, entry->piece);
+    pl_query_hit hit = { .shape = near.shape,
+                         .body = near.body,
+                         .fraction = near.distance,
+                         .point = near.point };
+    return near.distance > s->max_distance || pl_query_add(&s->q, &hit);
+}
+
+int plumb_world_nearest_all(plumb_world *world, plumb_vec2 point, plumb_real max_distance,
+                            const plumb_query_filter *filter, plumb_nearest_hit *hits, int capacity)
+{
+    search s;
+    if (world == NULL ||
+        pl_query_check_output(world, __func__, "hits", hits, capacity) != PLUMB_OK ||
+        begin(&s, world, __func__, point, max_distance, filter) != PLUMB_OK) {
+        return -1;
+    }
+    s.point = point;
+    s.max_distance = max_distance;
+    double slack = pl_query_slack(fabs((double)point.x) + fabs((double)point.y));
+    pl_box box = pl_query_box_at(point, pl_least((double)max_distance, PLUMB_REAL_MAX / 2) + slack);
+    const pl_grid *grids[PL_QUERY_GRIDS];
+    int grid_count = pl_query_grids(&s.q, grids);
+    for (int i = 0; i < grid_count; ++i) {
+        if (!pl_grid_query(grids[i], box, keep_near, &s)) {
+            break;
+        }
+    }
+    pl_query_one_per_shape(&s.q);
+    pl_query_sort_along(&s.q);
+    int count = (int)s.q.count;
+    for (int i = 0; i < count && i < capacity; ++i) {
+        const pl_query_hit *hit = &s.q.hits[i];
+        hits[i] = (plumb_nearest_hit){ hit->shape, hit->body, hit->point, hit->fraction };
+    }
+    return pl_query_end(&s.q) == PLUMB_OK ? count : -1;
+}
+
+static plumb_result check_points(const plumb_world *world, const char *function,
+                                 const plumb_vec2 *points, int count, const plumb_nearest_hit *hits)
+{
+    plumb_result r = pl_query_check_count(world, function, count);
+    r = r != PLUMB_OK || count == 0 ? r : pl_check_pointer(world, function, "points", points);
+    r = r != PLUMB_OK || count == 0 ? r : pl_check_pointer(world, function, "hits", hits);
+    for (int i = 0; r == PLUMB_OK && i < count; ++i) {
+        if (!pl_query_is_near(points[i])) {
+            char field[32];
+            snprintf(field, sizeof field, "points[%d]", i);
+            r = pl_check_within(world, function, field, points[i], PL_QUERY_LIMIT);
+        }
+    }
+    return r;
+}
+
+int plumb_world_nearest_batch(plumb_world *world, const plumb_vec2 *points, int count,
+                              plumb_real max_distance, const plumb_query_filter *filter,
+                              plumb_nearest_hit *hits)
+{
+    search s;
+    if (world == NULL || check_points(world, __func__, points, count, hits) != PLUMB_OK ||
+        check_distance(world, __func__, max_distance) != PLUMB_OK ||
+        pl_query_begin(&s.q, world, __func__, filter) != PLUMB_OK) {
+        return -1;
+    }
+    int met = 0;
+    for (int i = 0; i < count; ++i) {
+        find(&s, points[i], max_distance);
+        hits[i] = s.met ? s.best : (plumb_nearest_hit){ .distance = max_distance };
+        met += s.met;
+    }
+    return met;
 }

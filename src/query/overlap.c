@@ -11,7 +11,6 @@
 #include "query/overlap.h"
 
 #include <math.h>
-#include <stdio.h>
 
 #include "query/query.h"
 #include "world/check.h"
@@ -213,41 +212,6 @@ static bool rounds_overlap(const search *s, uint32_t piece)
     return pl_rounds_overlap(&s->round, &round);
 }
 
-static plumb_result check_convex(const plumb_world *world, const char *function,
-                                 const plumb_convex *convex)
-{
-    plumb_result r = pl_check_pointer(world, function, "convex", convex);
-    if (r == PLUMB_OK && (convex->count < 1 || convex->count > PLUMB_POLYGON_MAX_VERTICES)) {
-        return pl_fail(world, PLUMB_E_RANGE, function, "convex.count is %d; it must be 1 to %d",
-                       convex->count, PLUMB_POLYGON_MAX_VERTICES);
-    }
-    for (int i = 0; r == PLUMB_OK && i < convex->count; ++i) {
-        plumb_vec2 p = convex->points[i];
-        if (!(plumb_abs(p.x) <= PLUMB_LENGTH_MAX && plumb_abs(p.y) <= PLUMB_LENGTH_MAX)) {
-            char field[32];
-            snprintf(field, sizeof field, "convex.points[%d]", i);
-            r = pl_check_within(world, function, field, p, PLUMB_LENGTH_MAX);
-        }
-    }
-    return r != PLUMB_OK ? r
-                         : pl_check_range(world, function, "convex.radius", convex->radius, 0,
-                                          PLUMB_LENGTH_MAX);
-}
-
-static plumb_result check_transform(const plumb_world *world, const char *function,
-                                    plumb_transform t)
-{
-    plumb_result r = pl_check_within(world, function, "transform.p", t.p, PL_QUERY_LIMIT);
-    plumb_vec2 q = { t.q.c, t.q.s };
-    r = r != PLUMB_OK ? r : pl_check_finite_vec(world, function, "transform.q", q);
-    if (r == PLUMB_OK && !plumb_rot_is_unit(t.q)) {
-        r = pl_fail(world, PLUMB_E_RANGE, function,
-                    "transform.q is (%g, %g); it must be a unit rotation", (double)t.q.c,
-                    (double)t.q.s);
-    }
-    return r;
-}
-
 int plumb_world_overlap_convex(plumb_world *world, const plumb_convex *convex,
                                plumb_transform transform, const plumb_query_filter *filter,
                                plumb_shape *shapes, int capacity)
@@ -255,8 +219,8 @@ int plumb_world_overlap_convex(plumb_world *world, const plumb_convex *convex,
     search s;
     if (world == NULL ||
         pl_query_check_output(world, __func__, "shapes", shapes, capacity) != PLUMB_OK ||
-        check_convex(world, __func__, convex) != PLUMB_OK ||
-        check_transform(world, __func__, transform) != PLUMB_OK ||
+        pl_query_check_convex(world, __func__, "", convex) != PLUMB_OK ||
+        pl_query_check_transform(world, __func__, "", transform) != PLUMB_OK ||
         pl_query_begin(&s.q, world, __func__, filter) != PLUMB_OK) {
         return -1;
     }

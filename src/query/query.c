@@ -7,8 +7,10 @@
 // query's own list. Cost: sorting is O(hits log hits); no allocation for PL_QUERY_NEAR_HITS or
 // fewer.
 #include "query/query.h"
+#include "narrow/one_way.h"
 #include "world/check.h"
 
+#include <stdio.h>
 #include <string.h>
 
 //---- begin -------------------------------------------------------------------------------------
@@ -41,6 +43,62 @@ plumb_result pl_query_check_output(const plumb_world *world, const char *functio
                        capacity);
     }
     return capacity == 0 ? PLUMB_OK : pl_check_pointer(world, function, field, output);
+}
+
+plumb_result pl_query_check_count(const plumb_world *world, const char *function, int count)
+{
+    return count >= 0 ? PLUMB_OK
+                      : pl_fail(world, PLUMB_E_RANGE, function,
+                                "count is %d; it must be at least 0", count);
+}
+
+const char *pl_query_field(char buffer[PL_QUERY_FIELD], const char *prefix, const char *name)
+{
+    if (prefix[0] == '\0') {
+        return name;
+    }
+    snprintf(buffer, PL_QUERY_FIELD, "%s%s", prefix, name);
+    return buffer;
+}
+
+plumb_result pl_query_check_convex(const plumb_world *world, const char *function,
+                                   const char *prefix, const plumb_convex *convex)
+{
+    char buffer[PL_QUERY_FIELD];
+    const char *name = pl_query_field(buffer, prefix, "convex");
+    plumb_result r = pl_check_pointer(world, function, name, convex);
+    if (r == PLUMB_OK && (convex->count < 1 || convex->count > PLUMB_POLYGON_MAX_VERTICES)) {
+        return pl_fail(world, PLUMB_E_RANGE, function, "%s.count is %d; it must be 1 to %d", name,
+                       convex->count, PLUMB_POLYGON_MAX_VERTICES);
+    }
+    for (int i = 0; r == PLUMB_OK && i < convex->count; ++i) {
+        plumb_vec2 p = convex->points[i];
+        if (!(plumb_abs(p.x) <= PLUMB_LENGTH_MAX && plumb_abs(p.y) <= PLUMB_LENGTH_MAX)) {
+            char field[PL_QUERY_FIELD + 24];
+            snprintf(field, sizeof field, "%s.points[%d]", name, i);
+            r = pl_check_within(world, function, field, p, PLUMB_LENGTH_MAX);
+        }
+    }
+    name = pl_query_field(buffer, prefix, "convex.radius");
+    return r != PLUMB_OK
+               ? r
+               : pl_check_range(world, function, name, convex->radius, 0, PLUMB_LENGTH_MAX);
+}
+
+plumb_result pl_query_check_transform(const plumb_world *world, const char *function,
+                                      const char *prefix, plumb_transform t)
+{
+    char buffer[PL_QUERY_FIELD];
+    const char *name = pl_query_field(buffer, prefix, "transform.p");
+    plumb_result r = pl_check_within(world, function, name, t.p, PL_QUERY_LIMIT);
+    plumb_vec2 q = { t.q.c, t.q.s };
+    name = pl_query_field(buffer, prefix, "transform.q");
+    r = r != PLUMB_OK ? r : pl_check_finite_vec(world, function, name, q);
+    if (r == PLUMB_OK && !plumb_rot_is_unit(t.q)) {
+        r = pl_fail(world, PLUMB_E_RANGE, function, "%s is (%g, %g); it must be a unit rotation",
+                    name, (double)t.q.c, (double)t.q.s);
+    }
+    return r;
 }
 
 pl_box pl_query_box_at(plumb_vec2 point, double half)
@@ -86,6 +144,12 @@ bool pl_query_sees(const pl_query *q, uint32_t piece)
         return true;
     }
     return !plumb_same(world->bodies.entity[world->pieces.body[piece]], q->filter.ignore_body);
+}
+
+bool pl_query_passes(const pl_query *q, uint32_t piece, plumb_vec2 normal)
+{
+    return q->filter.one_way && (q->world->pieces.flags[piece] & PL_PIECE_ONE_WAY) != 0 &&
+           !pl_one_way_blocks(q->world, piece, normal, 0);
 }
 
 bool pl_query_accepts(const pl_query *q, plumb_shape shape)
@@ -146,11 +210,13 @@ bool pl_query_add(pl_query *q, const pl_query_hit *hit)
 
 typedef bool before_fn(const pl_query_hit *a, const pl_query_hit *b);
 
-// By slot; hits of one shape by fraction.
+// By slot; hits of one shape by fraction, then the deepest first.
 static bool before_by_slot(const pl_query_hit *a, const pl_query_hit *b)
 {
-    return a->shape.index != b->shape.index ? a->shape.index < b->shape.index
-                                            : a->fraction < b->fraction;
+    if (a->shape.index != b->shape.index) {
+        return a->shape.index < b->shape.index;
+    }
+    return a->fraction != b->fraction ? a->fraction < b->fraction : a->depth > b->depth;
 }
 
 static bool before_along(const pl_query_hit *a, const pl_query_hit *b)

@@ -2,19 +2,24 @@
 #ifndef PL_QUERY_H
 #define PL_QUERY_H
 
+#include "plumb/math.h"
 #include "world/state.h"
 
 // [m] points of rays, nearest queries and placed shapes: the world's bodies start within 1e9 m, and
 // the squares that are taken of lengths beyond it still are numbers in the float build.
 #define PL_QUERY_LIMIT ((plumb_real)1e12)
 
+// [-] of the coordinates: a shape that was put where a cast ended is up to so much inside what it met.
+#define PL_QUERY_TOUCH (4 * (double)PLUMB_REAL_EPSILON)
+
 // A piece that answers a query. Overlaps use the shape alone.
 typedef struct pl_query_hit {
     plumb_shape shape;
     plumb_body body;
-    plumb_real fraction; // [-] along the ray
+    plumb_real fraction; // [-] along the way; nearest: the distance [m]
     plumb_vec2 point;    // [m]
     plumb_vec2 normal;
+    plumb_real depth;    // [m] casts: of the overlap at the start
 } pl_query_hit;
 
 // So many hits are held on the stack: queries that find fewer allocate nothing.
@@ -46,6 +51,10 @@ int pl_query_grids(const pl_query *q, const pl_grid *grids[static PL_QUERY_GRIDS
 bool pl_query_sees(const pl_query *q, uint32_t piece);
 bool pl_query_accepts(const pl_query *q, plumb_shape shape);
 
+// filter.one_way: whether a piece that lets things pass in one direction lets pass what comes to it at
+// a surface of this normal (zero: from inside).
+bool pl_query_passes(const pl_query *q, uint32_t piece, plumb_vec2 normal);
+
 // The piece as queries see it, in the frame of its body: inner cuts of an outline are moved out by
 // a few roundings, so that no ray and no point slips between two pieces.
 void pl_query_convex(const plumb_world *world, uint32_t piece, plumb_convex *out);
@@ -71,10 +80,24 @@ static inline double pl_query_slack(double largest)
     return 16 * (double)PLUMB_REAL_EPSILON * largest;
 }
 
+// Within PL_QUERY_LIMIT; false for NaN.
+static inline bool pl_query_is_near(plumb_vec2 p)
+{
+    return plumb_abs(p.x) <= PL_QUERY_LIMIT && plumb_abs(p.y) <= PL_QUERY_LIMIT;
+}
+
 // A box around a point.
 pl_box pl_query_box_at(plumb_vec2 point, double half);
 
 // Checks of arguments; see world/check.h for the messages.
+plumb_result pl_query_check_count(const plumb_world *world, const char *function, int count);
+// `prefix` stands before the names of fields: "", or "casts[3].". A null world: no message.
+plumb_result pl_query_check_convex(const plumb_world *world, const char *function,
+                                   const char *prefix, const plumb_convex *convex);
+plumb_result pl_query_check_transform(const plumb_world *world, const char *function,
+                                      const char *prefix, plumb_transform t);
+#define PL_QUERY_FIELD 48 // characters of a field's name
+const char *pl_query_field(char buffer[PL_QUERY_FIELD], const char *prefix, const char *name);
 plumb_result pl_query_check_output(const plumb_world *world, const char *function,
                                    const char *field, const void *output, int capacity);
 

@@ -1,4 +1,4 @@
-// ray.c - what a ray meets: the first shape, or all of them.
+// ray.c - what a ray meets: the first shape, any, or all of them; many rays in one call.
 //
 // Every piece whose fat box the ray crosses is asked with the ray in the frame of the piece's body.
 // The first hit so far ends the walk through the grid where it lies.
@@ -9,11 +9,13 @@
 #include "query/walk.h"
 #include "world/check.h"
 
+#include <stdio.h>
+
 typedef struct cast {
     pl_query q;
     pl_walk walk;
     plumb_vec2 from, to;
-    bool met; // first hit only
+    bool met; // first hit, any hit
     pl_query_hit first;
 } cast;
 
@@ -33,7 +35,7 @@ static bool meets_piece(const cast *c, uint32_t piece, pl_query_hit *hit)
     bool inside = local.normal.x == 0 && local.normal.y == 0;
     hit->point = inside ? c->from : plumb_transform_apply(frame, local.point);
     hit->normal = plumb_rot_apply(frame.q, local.normal);
-    return true;
+    return !pl_query_passes(&c->q, piece, hit->normal);
 }
 
 static bool comes_first(const cast *c, const pl_query_hit *hit)
@@ -55,6 +57,15 @@ static bool keep_first(void *context, const pl_grid_entry *entry)
     return true;
 }
 
+// The first that comes along: the walk ends.
+static bool keep_any(void *context, const pl_grid_entry *entry)
+{
+    cast *c = context;
+    c->met = pl_query_sees(&c->q, entry->piece) && meets_piece(c, entry->piece, &c->first) &&
+             pl_query_accepts(&c->q, c->first.shape);
+    return !c->met;
+}
+
 static bool keep_all(void *context, const pl_grid_entry *entry)
 {
     cast *c = context;
@@ -63,17 +74,28 @@ static bool keep_all(void *context, const pl_grid_entry *entry)
            pl_query_add(&c->q, &hit);
 }
 
-static plumb_result begin(cast *c, plumb_world *world, const char *function, plumb_vec2 from,
-                          plumb_vec2 to, const plumb_query_filter *filter)
+static plumb_result check_ray(const plumb_world *world, const char *function, plumb_vec2 from,
+                              plumb_vec2 to)
 {
     plumb_result r = pl_check_within(world, function, "from", from, PL_QUERY_LIMIT);
-    r = r != PLUMB_OK ? r : pl_check_within(world, function, "to", to, PL_QUERY_LIMIT);
-    r = r != PLUMB_OK ? r : pl_query_begin(&c->q, world, function, filter);
+    return r != PLUMB_OK ? r : pl_check_within(world, function, "to", to, PL_QUERY_LIMIT);
+}
+
+static void aim(cast *c, plumb_vec2 from, plumb_vec2 to)
+{
     c->from = from;
     c->to = to;
     c->met = false;
+    c->walk = pl_walk_make(from, to);
+}
+
+static plumb_result begin(cast *c, plumb_world *world, const char *function, plumb_vec2 from,
+                          plumb_vec2 to, const plumb_query_filter *filter)
+{
+    plumb_result r = check_ray(world, function, from, to);
+    r = r != PLUMB_OK ? r : pl_query_begin(&c->q, world, function, filter);
     if (r == PLUMB_OK) {
-        c->walk = pl_walk_make(from, to);
+        aim(c, from, to);
     }
     return r;
 }
@@ -126,4 +148,55 @@ int plumb_world_ray_all(plumb_world *world, plumb_vec2 from, plumb_vec2 to,
         hits[i] = public_hit(&c.q.hits[i]);
     }
     return pl_query_end(&c.q) == PLUMB_OK ? count : -1;
+}
+
+bool plumb_world_ray_any(plumb_world *world, plumb_vec2 from, plumb_vec2 to,
+                         const plumb_query_filter *filter)
+{
+    cast c;
+    if (world == NULL || begin(&c, world, __func__, from, to, filter) != PLUMB_OK) {
+        return false;
+    }
+    walk(&c, keep_any);
+    return c.met;
+}
+
+//---- many in one call ----------------------------------------------------------------------------
+
+static plumb_result check_rays(const plumb_world *world, const char *function,
+                               const plumb_ray *rays, int count, const plumb_ray_hit *hits)
+{
+    plumb_result r = pl_query_check_count(world, function, count);
+    r = r != PLUMB_OK || count == 0 ? r : pl_check_pointer(world, function, "rays", rays);
+    r = r != PLUMB_OK || count == 0 ? r : pl_check_pointer(world, function, "hits", hits);
+    for (int i = 0; r == PLUMB_OK && i < count; ++i) {
+        if (!pl_query_is_near(rays[i].from) || !pl_query_is_near(rays[i].to)) {
+            char from[32], to[32];
+            snprintf(from, sizeof from, "rays[%d].from", i);
+            snprintf(to, sizeof to, "rays[%d].to", i);
+            r = pl_check_within(world, function, from, rays[i].from, PL_QUERY_LIMIT);
+            r = r != PLUMB_OK
+                    ? r
+                    : pl_check_within(world, function, to, rays[i].to, PL_QUERY_LIMIT);
+        }
+    }
+    return r;
+}
+
+int plumb_world_ray_batch(plumb_world *world, const plumb_ray *rays, int count,
+                          const plumb_query_filter *filter, plumb_ray_hit *hits)
+{
+    cast c;
+    if (world == NULL || check_rays(world, __func__, rays, count, hits) != PLUMB_OK ||
+        pl_query_begin(&c.q, world, __func__, filter) != PLUMB_OK) {
+        return -1;
+    }
+    int met = 0;
+    for (int i = 0; i < count; ++i) {
+        aim(&c, rays[i].from, rays[i].to);
+        walk(&c, keep_first);
+        hits[i] = c.met ? public_hit(&c.first) : (plumb_ray_hit){ .fraction = 1 };
+        met += c.met;
+    }
+    return met;
 }

@@ -21,14 +21,38 @@
 
 pl_walk pl_walk_make(plumb_vec2 from, plumb_vec2 to)
 {
-    pl_walk walk = { (double)from.x,
-                     (double)from.y,
-                     (double)to.x - (double)from.x,
-                     (double)to.y - (double)from.y,
-                     1,
-                     0 };
+    pl_walk walk = { .ox = (double)from.x,
+                     .oy = (double)from.y,
+                     .dx = (double)to.x - (double)from.x,
+                     .dy = (double)to.y - (double)from.y,
+                     .limit = 1 };
     walk.slack = pl_query_slack(fabs(walk.ox) + fabs(walk.oy) + fabs(walk.dx) + fabs(walk.dy));
     return walk;
+}
+
+pl_walk pl_walk_make_box(plumb_aabb box, plumb_vec2 translation)
+{
+    pl_walk walk = { .ox = ((double)box.min.x + (double)box.max.x) / 2,
+                     .oy = ((double)box.min.y + (double)box.max.y) / 2,
+                     .dx = (double)translation.x,
+                     .dy = (double)translation.y,
+                     .limit = 1,
+                     .half_x = ((double)box.max.x - (double)box.min.x) / 2,
+                     .half_y = ((double)box.max.y - (double)box.min.y) / 2 };
+    walk.slack = pl_query_slack(fabs(walk.ox) + fabs(walk.oy) + fabs(walk.dx) + fabs(walk.dy) +
+                                walk.half_x + walk.half_y);
+    return walk;
+}
+
+// [m] by how much boxes count as larger.
+static double slack_x(const pl_walk *w)
+{
+    return w->slack + w->half_x;
+}
+
+static double slack_y(const pl_walk *w)
+{
+    return w->slack + w->half_y;
 }
 
 // True when the segment meets the box before the limit: neither the axes nor the segment's normal
@@ -37,8 +61,8 @@ static bool meets(const pl_walk *w, const pl_box *box)
 {
     double ex = w->ox + w->dx * w->limit;
     double ey = w->oy + w->dy * w->limit;
-    double hx = ((double)box->max_x - (double)box->min_x) / 2 + w->slack;
-    double hy = ((double)box->max_y - (double)box->min_y) / 2 + w->slack;
+    double hx = ((double)box->max_x - (double)box->min_x) / 2 + slack_x(w);
+    double hy = ((double)box->max_y - (double)box->min_y) / 2 + slack_y(w);
     double cx = ((double)box->max_x + (double)box->min_x) / 2;
     double cy = ((double)box->max_y + (double)box->min_y) / 2;
     return pl_least(w->ox, ex) <= cx + hx && cx - hx <= pl_most(w->ox, ex) &&
@@ -51,10 +75,10 @@ static pl_box box_between(const pl_walk *w, double t0, double t1)
 {
     double x0 = w->ox + w->dx * t0, x1 = w->ox + w->dx * t1;
     double y0 = w->oy + w->dy * t0, y1 = w->oy + w->dy * t1;
-    return (pl_box){ (plumb_real)(pl_least(x0, x1) - w->slack),
-                     (plumb_real)(pl_least(y0, y1) - w->slack),
-                     (plumb_real)(pl_most(x0, x1) + w->slack),
-                     (plumb_real)(pl_most(y0, y1) + w->slack) };
+    return (pl_box){ (plumb_real)(pl_least(x0, x1) - slack_x(w)),
+                     (plumb_real)(pl_least(y0, y1) - slack_y(w)),
+                     (plumb_real)(pl_most(x0, x1) + slack_x(w)),
+                     (plumb_real)(pl_most(y0, y1) + slack_y(w)) };
 }
 
 // Where on the segment `along` o + t d enters and leaves [low, high], clamped to 0..limit. False
@@ -132,8 +156,8 @@ static bool walk_row(const pl_grid *grid, const pl_grid_level *level, pl_cell_ra
         int32_t x0 = right ? (int32_t)(range.x0 + k) : (int32_t)(range.x1 - k - length);
         int32_t x1 = x0 + length;
         double t[2];
-        if (!clip(walk->ox, walk->dx, (double)x0 * level->cell - walk->slack,
-                  ((double)x1 + 2) * level->cell + walk->slack, walk->limit, t)) {
+        if (!clip(walk->ox, walk->dx, (double)x0 * level->cell - slack_x(walk),
+                  ((double)x1 + 2) * level->cell + slack_x(walk), walk->limit, t)) {
             break;
         }
         if (!visit_block(grid, level, x0, x1, y, walk, visit, context)) {
@@ -152,7 +176,7 @@ bool pl_walk_level(const pl_grid *grid, const pl_grid_level *level, pl_walk *wal
     double blocks = ((double)whole.x1 - whole.x0 + 1) / BLOCK;
     double farthest = pl_most(pl_most(fabs(walk->ox), fabs(walk->ox + walk->dx)),
                               pl_most(fabs(walk->oy), fabs(walk->oy + walk->dy)));
-    if ((farthest + walk->slack) * level->inv_cell > FAR_CELLS ||
+    if ((farthest + walk->slack + walk->half_x + walk->half_y) * level->inv_cell > FAR_CELLS ||
         rows + blocks > (double)level->count + 16) {
         return visit_all(grid, level, walk, visit, context);
     }
@@ -160,8 +184,8 @@ bool pl_walk_level(const pl_grid *grid, const pl_grid_level *level, pl_walk *wal
     for (int32_t k = 0; k <= whole.y1 - whole.y0; ++k) {
         int32_t y = up ? whole.y0 + k : whole.y1 - k;
         double t[2];
-        if (!clip(walk->oy, walk->dy, (double)y * level->cell - walk->slack,
-                  ((double)y + 2) * level->cell + walk->slack, walk->limit, t)) {
+        if (!clip(walk->oy, walk->dy, (double)y * level->cell - slack_y(walk),
+                  ((double)y + 2) * level->cell + slack_y(walk), walk->limit, t)) {
             break;
         }
         pl_cell_range row = pl_grid_range(level, box_between(walk, t[0], t[1]));

@@ -9,10 +9,13 @@ typedef struct pl_walk {
     double ox, oy, dx, dy;
     double limit; // [-] 0..1; a visitor may lower it: what lies beyond is no longer visited
     double slack; // [m] boxes count as so much larger
+    double half_x, half_y; // [m] the same, along one axis: half of a box that is moved along
 } pl_walk;
 
 // The segment between two points, with the slack that their rounding asks for.
 pl_walk pl_walk_make(plumb_vec2 from, plumb_vec2 to);
+// The same for a box [m] that is moved by a translation.
+pl_walk pl_walk_make_box(plumb_aabb box, plumb_vec2 translation);
 
 // Calls visit(context, entry) once for every entry whose box the segment meets before its limit;
 // the visitor sees the walk through its context. Stops and returns false when visit does. Cost: the

@@ -16,6 +16,17 @@ typedef struct pl_cone {
     pl_cone_form form;
 } pl_cone;
 
+// The lesser and the greater of two: the same in every C library, zeros of either sign included.
+static inline double pl_lesser(double a, double b)
+{
+    return a < b ? a : b;
+}
+
+static inline double pl_greater(double a, double b)
+{
+    return a > b ? a : b;
+}
+
 // True when the angle between two unit vectors is at most `angle` [rad], which is small.
 static inline bool pl_directions_agree(double ax, double ay, double bx, double by, double angle)
 {

@@ -13,6 +13,16 @@
 
 typedef enum verdict { RIGHT, SET_RIGHT, FALSE_CONTACT } verdict;
 
+// Piles press free bodies into one another. What is deeper than this is let out by the shortest way: to
+// ask for an open face would hold it longer (compounds of tests/bench: 27 against 31 mm mean overlap).
+#define DEEP PL_SPECULATIVE
+
+static bool is_deep_in_free_body(const plumb_world *world, const pl_manifold *m, uint32_t row)
+{
+    return row < world->dynamic_count &&
+           plumb_min(m->point[0].separation, m->point[1].separation) < -DEEP;
+}
+
 // Either piece may be ground; the ground of one must admit what the other's makes of the contact. Opens
 // the views of pieces with seams.
 static verdict judge(const plumb_world *world, const pl_pair *pair, pl_manifold *m, double dt,
@@ -24,7 +34,8 @@ static verdict judge(const plumb_world *world, const pl_pair *pair, pl_manifold 
         if (has) {
             pl_view_open(&views[i], world, pair, m, i == 0, dt);
         }
-        admitted[i] = !has || pl_view_is_admitted(&views[i]);
+        admitted[i] = !has || is_deep_in_free_body(world, m, i == 0 ? m->body_a : m->body_b) ||
+                      pl_view_is_admitted(&views[i]);
     }
     if (admitted[0] && admitted[1]) {
         return RIGHT;
@@ -100,13 +111,21 @@ static void close_gaps(plumb_world *world)
     }
 }
 
-void pl_seams_correct(plumb_world *world, real dt)
+bool pl_seams_correct(plumb_world *world, real dt)
 {
     pl_seams *s = &world->seams;
     pl_pair *pairs = pl_pairs(&world->broad.pairs);
     const pl_seam_pair *list = s->pairs.data;
     bool changed = false;
-    pl_runs_open(world);
+    uint32_t contacts = 0;
+    const uint32_t *bits = world->pieces.seam_corners;
+    for (uint32_t i = 0; i < s->pair_count; ++i) {
+        const pl_pair *pair = &pairs[list[i].pair];
+        contacts += pair->manifold != PL_NONE && ((bits[pair->a] | bits[pair->b]) & PL_SEAM_FLAT);
+    }
+    if (!pl_runs_open(world, contacts)) {
+        return false;
+    }
     for (uint32_t i = 0; i < s->pair_count; ++i) {
         pl_pair *pair = &pairs[list[i].pair];
         pair->flags &= ~PL_PAIR_BORNE;
@@ -127,9 +146,12 @@ void pl_seams_correct(plumb_world *world, real dt)
         }
         changed |= v != RIGHT;
     }
-    changed |= pl_runs_join(world, (double)dt);
-    if (changed) {
+    if (!pl_runs_join(world, (double)dt)) {
+        return false;
+    }
+    if (changed || s->contact_count > 0) {
         close_gaps(world);
         pl_narrow_summarise(&world->narrow);
     }
+    return true;
 }

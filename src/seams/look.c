@@ -23,6 +23,19 @@ static bool is_passed(const plumb_world *world, uint32_t row)
     return (world->bodies.flags[row] & PL_BODY_EXCLUDING) != 0 || pl_joints_part(world, row);
 }
 
+// Both let pass what the other does.
+static bool hold_alike(const plumb_world *world, uint32_t p, uint32_t q)
+{
+    const pl_pieces *s = &world->pieces;
+    const pl_pose *a = &pl_poses(world)[s->body[p]], *b = &pl_poses(world)[s->body[q]];
+    double px = (double)a->c * (double)s->one_way_x[p] - (double)a->s * (double)s->one_way_y[p];
+    double py = (double)a->s * (double)s->one_way_x[p] + (double)a->c * (double)s->one_way_y[p];
+    double qx = (double)b->c * (double)s->one_way_x[q] - (double)b->s * (double)s->one_way_y[q];
+    double qy = (double)b->s * (double)s->one_way_x[q] + (double)b->c * (double)s->one_way_y[q];
+    return s->one_way_cos[p] == s->one_way_cos[q] &&
+           fabs(px - qx) + fabs(py - qy) < PL_SEAM_ANGLE;
+}
+
 // Whether two pieces are one ground to all that meets them.
 static bool are_joined(const plumb_world *world, uint32_t p, uint32_t q)
 {
@@ -31,6 +44,9 @@ static bool are_joined(const plumb_world *world, uint32_t p, uint32_t q)
     if (p == q || s->vertex_count[q] == 0 || ((s->flags[p] | s->flags[q]) & PL_PIECE_SENSOR) ||
         s->category[p] != s->category[q] || s->mask[p] != s->mask[q] ||
         s->group[p] != s->group[q]) {
+        return false;
+    }
+    if (((s->flags[p] | s->flags[q]) & PL_PIECE_ONE_WAY) != 0 && !hold_alike(world, p, q)) {
         return false;
     }
     // Cores tell it only of surfaces that lie equally far outside them.
@@ -127,12 +143,12 @@ static double slop_of(const plumb_world *world, uint32_t p, uint32_t q)
     for (int i = 0; i < 2; ++i) {
         const pl_core *core = &pieces->core[both[i]];
         const pl_pose *pose = &pl_poses(world)[pieces->body[both[i]]];
-        double far = apart ? fmax(fabs((double)pose->x), fabs((double)pose->y)) : 0;
-        thin = fmin(thin, thickness(core));
-        reach = fmax(reach, far + (double)core->reach);
+        double far = apart ? pl_greater(fabs((double)pose->x), fabs((double)pose->y)) : 0;
+        thin = pl_lesser(thin, thickness(core));
+        reach = pl_greater(reach, far + (double)core->reach);
     }
     double rounding = 4 * (double)PLUMB_REAL_EPSILON * reach;
-    return fmin(thin / 100 + rounding, (double)PL_SPECULATIVE / 2);
+    return pl_lesser(thin / 100 + rounding, (double)PL_SPECULATIVE / 2);
 }
 
 // The edge that ends at corner k (0), or starts there (1).
@@ -151,7 +167,7 @@ static void look_at_neighbour(look *l, const pl_outline *other, double slop)
                               met.lo_y != l->cones[k].lo_y || met.hi_x != l->cones[k].hi_x ||
                               met.hi_y != l->cones[k].hi_y;
             l->cones[k] = met;
-            l->slops[k] = fmax(l->slops[k], slop);
+            l->slops[k] = pl_greater(l->slops[k], slop);
             for (int i = 0; i < 2; ++i) {
                 int edge = edge_at(&l->own, k, i);
                 pl_wall_meet(&l->walls[k][i], &has, l->own.nx[edge], l->own.ny[edge], i == 1);
@@ -221,7 +237,9 @@ static bool store(plumb_world *world, uint32_t piece, look *l)
             seam->walls[i][0] = (real)l->walls[k][i].nx;
             seam->walls[i][1] = (real)l->walls[k][i].ny;
         }
-        pieces->seam_corners[piece] |= l->narrowed[k] ? UINT32_C(1) << k : 0;
+        if (l->narrowed[k]) {
+            pieces->seam_corners[piece] |= UINT32_C(1) << k | (seam->flat ? PL_SEAM_FLAT : 0);
+        }
         ok = store_edge(world, piece, l, k);
     }
     if ((pieces->seam_corners[piece] & PL_SEAM_CORNERS) != 0 || pieces->seam_edges[piece] != 0) {

@@ -157,18 +157,18 @@ bool pl_outline_covers(const pl_outline *o, const pl_outline *edge_of, int edge,
         double v0 = (o->y[k] - edge_of->y[edge]) * nx - (o->x[k] - edge_of->x[edge]) * ny;
         double v1 = (o->y[next] - edge_of->y[edge]) * nx - (o->x[next] - edge_of->x[edge]) * ny;
         double rate = u1 == u0 ? 0 : (v1 - v0) / (u1 - u0);
-        double p = v0 + rate * (fmin(fmax(u0, near), slop) - u0);
-        double q = v1 + rate * (fmin(fmax(u1, near), slop) - u1);
-        low = fmin(low, fmin(p, q));
-        high = fmax(high, fmax(p, q));
+        double p = v0 + rate * (pl_lesser(pl_greater(u0, near), slop) - u0);
+        double q = v1 + rate * (pl_lesser(pl_greater(u1, near), slop) - u1);
+        low = pl_lesser(low, pl_lesser(p, q));
+        high = pl_greater(high, pl_greater(p, q));
     }
     double length = pl_outline_edge_length(edge_of, edge);
-    low = fmax(low, 0);
-    high = fmin(high, length);
-    if (!(high - low >= fmin(slop, length / 2))) {
+    low = pl_greater(low, 0);
+    high = pl_lesser(high, length);
+    if (!(high - low >= pl_lesser(slop, length / 2))) {
         return false; // it lies beside the edge, or touches it at a corner
     }
-    *from = fmax(0, low - slop);
-    *to = fmin(length, high + slop);
+    *from = pl_greater(0, low - slop);
+    *to = pl_lesser(length, high + slop);
     return true;
 }

@@ -44,18 +44,12 @@ typedef struct run_slot {
     uint32_t contact, load;
 } run_slot;
 
-bool pl_runs_reserve(plumb_world *world)
+// What is found by piece slots has a place for every slot.
+static bool reserve_slots(plumb_world *world)
 {
     pl_seams *s = &world->seams;
-    pl_memory *memory = &world->memory;
-    size_t pairs = s->pair_count, slots = world->pieces.table.count;
-    if (!pl_buffer_reserve(memory, &s->contacts, pairs * sizeof(run_contact)) ||
-        !pl_buffer_reserve(memory, &s->runs, pairs * sizeof(flat_run)) ||
-        !pl_buffer_reserve(memory, &s->order, pairs * sizeof(pl_keyed)) ||
-        !pl_buffer_reserve(memory, &s->loads, pairs * sizeof(pl_run_load)) ||
-        !pl_buffer_reserve(memory, &s->old_loads, pairs * sizeof(pl_run_load)) ||
-        !pl_buffer_reserve(memory, &s->borne, pairs * sizeof(pl_manifold)) ||
-        !pl_buffer_reserve(memory, &s->slots, slots * sizeof(run_slot))) {
+    size_t slots = world->pieces.table.count;
+    if (!pl_buffer_reserve(&world->memory, &s->slots, slots * sizeof(run_slot))) {
         return false;
     }
     run_slot *slot = s->slots.data;
@@ -63,6 +57,17 @@ bool pl_runs_reserve(plumb_world *world)
         slot[s->slot_count] = (run_slot){ PL_NONE, PL_NONE };
     }
     return true;
+}
+
+static bool reserve_runs(plumb_world *world)
+{
+    pl_seams *s = &world->seams;
+    pl_memory *memory = &world->memory;
+    size_t contacts = s->contact_count;
+    return pl_buffer_reserve(memory, &s->runs, contacts * sizeof(flat_run)) &&
+           pl_buffer_reserve(memory, &s->order, contacts * sizeof(pl_keyed)) &&
+           pl_buffer_reserve(memory, &s->loads, contacts * sizeof(pl_run_load)) &&
+           pl_buffer_reserve(memory, &s->borne, contacts * sizeof(pl_manifold));
 }
 
 static bool shown_to_systems(const plumb_world *world)
@@ -78,13 +83,24 @@ static bool shown_to_systems(const plumb_world *world)
     return false;
 }
 
-void pl_runs_open(plumb_world *world)
+static void swap_loads(pl_seams *s)
+{
+    pl_buffer loads = s->loads;
+    uint32_t count = s->load_count;
+    s->loads = s->old_loads;
+    s->load_count = s->old_load_count;
+    s->old_loads = loads;
+    s->old_load_count = count;
+}
+
+bool pl_runs_open(plumb_world *world, uint32_t contacts)
 {
     pl_seams *s = &world->seams;
-    pl_buffer loads = s->loads;
-    s->loads = s->old_loads;
-    s->old_loads = loads;
-    s->old_load_count = s->load_count;
+    if (!pl_buffer_reserve(&world->memory, &s->contacts, contacts * sizeof(run_contact)) ||
+        !reserve_slots(world)) {
+        return false;
+    }
+    swap_loads(s);
     s->load_count = s->contact_count = 0;
     s->apart = shown_to_systems(world);
     pl_run_load *old = s->old_loads.data;
@@ -93,6 +109,7 @@ void pl_runs_open(plumb_world *world)
         old[i].next = slots[old[i].mover].load;
         slots[old[i].mover].load = i;
     }
+    return true;
 }
 
 //---- which contacts ------------------------------------------------------------------------------
@@ -126,7 +143,7 @@ static run_contact describe(const pl_view *v, uint32_t index, int k)
     for (int end = 0; end < 2; ++end) {
         int corner = end == 0 ? k : pl_side_next(&v->side, k);
         if (v->side.corner_bits >> corner & 1) {
-            r.slop = fmax(r.slop, (double)v->side.seams[corner].slop);
+            r.slop = pl_greater(r.slop, (double)v->side.seams[corner].slop);
         }
     }
     return r;
@@ -145,7 +162,8 @@ void pl_runs_add(plumb_world *world, uint32_t index, pl_view views[2])
     for (int i = 0; i < 2; ++i) {
         bool from_a = (i == 0) == a_first;
         pl_view *v = &views[from_a ? 0 : 1];
-        bool has = pl_piece_has_seams(&world->pieces, from_a ? pair->a : pair->b);
+        uint32_t piece = from_a ? pair->a : pair->b;
+        bool has = (world->pieces.seam_corners[piece] & PL_SEAM_FLAT) != 0;
         int k = has ? flat_edge(v) : -1;
         if (k >= 0) {
             run_slot *slot = (run_slot *)s->slots.data + v->other;
@@ -180,7 +198,7 @@ static uint64_t key_of(double value)
 static bool continues(const plumb_world *world, const flat_run *run, const run_contact *owner,
                       const run_contact *r)
 {
-    double slop = fmax(owner->slop, r->slop);
+    double slop = pl_greater(owner->slop, r->slop);
     uint32_t p = ground_of(world, owner), q = ground_of(world, r);
     bool one_frame = world->pieces.body[p] == world->pieces.body[q] ||
                      (pl_piece_is_static(world, p) && pl_piece_is_static(world, q));
@@ -216,7 +234,7 @@ static uint32_t join(plumb_world *world, uint32_t first, uint32_t *run_count)
             k = ++*run_count;
         }
         flat_run *joined = &runs[k - 1];
-        joined->high = fmax(joined->high, r->high);
+        joined->high = pl_greater(joined->high, r->high);
         joined->owner = r->height > contacts[joined->owner].height ? order[i].value : joined->owner;
         ++joined->count;
         r->run = k - 1;
@@ -327,9 +345,29 @@ static void stand_back(plumb_world *world, const run_contact *r, const run_conta
     pair->rolling = 0;
 }
 
+// Slots name nothing between steps.
+static void clear_slots(plumb_world *world)
+{
+    pl_seams *s = &world->seams;
+    const run_contact *contacts = s->contacts.data;
+    const pl_run_load *old = s->old_loads.data;
+    run_slot *slots = s->slots.data;
+    for (uint32_t i = 0; i < s->contact_count; ++i) {
+        slots[contacts[i].mover].contact = PL_NONE;
+    }
+    for (uint32_t i = 0; i < s->old_load_count; ++i) {
+        slots[old[i].mover].load = PL_NONE;
+    }
+}
+
 bool pl_runs_join(plumb_world *world, double dt)
 {
     pl_seams *s = &world->seams;
+    if (!reserve_runs(world)) {
+        clear_slots(world);
+        swap_loads(s); // the step will be tried again
+        return false;
+    }
     run_contact *contacts = s->contacts.data;
     run_slot *slots = s->slots.data;
     for (uint32_t i = 0; i < s->contact_count; ++i) {
@@ -352,11 +390,8 @@ bool pl_runs_join(plumb_world *world, double dt)
             }
         }
     }
-    const pl_run_load *old = s->old_loads.data;
-    for (uint32_t i = 0; i < s->old_load_count; ++i) {
-        slots[old[i].mover].load = PL_NONE;
-    }
-    return s->contact_count > 0;
+    clear_slots(world);
+    return true;
 }
 
 void pl_seams_remember(plumb_world *world)

@@ -4,16 +4,13 @@
 
 #include "seams/view.h"
 
-// Before the contacts of a step: none is in a run.
-void pl_runs_open(plumb_world *world);
+// Before the contacts of a step, of which there are at most `contacts`: none is in a run. False when out
+// of memory.
+bool pl_runs_open(plumb_world *world, uint32_t contacts);
 // Adds the contact of entry `index` of the list of pairs with seams, if it lies on such a face. `views`
 // are those from A and from B, of pieces with seams.
 void pl_runs_add(plumb_world *world, uint32_t index, pl_view views[2]);
-// Joins what was added into runs and gives each to one of its contacts. True when some contact
-// changed.
+// Joins what was added into runs and gives each to one of its contacts. False when out of memory.
 bool pl_runs_join(plumb_world *world, double dt);
-
-// Room for the contacts of all listed pairs. False when out of memory.
-bool pl_runs_reserve(plumb_world *world);
 
 #endif

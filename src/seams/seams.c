@@ -8,7 +8,6 @@
 // after the broad phase. Cost: O(changed pieces x their neighbours), and O(piece slots) for looking;
 // O(pairs) when pairs were made anew, O(pairs with seams) a step; nothing in worlds without seams.
 #include "seams/look.h"
-#include "seams/run.h"
 #include "seams/span.h"
 #include "world/state.h"
 
@@ -107,7 +106,7 @@ void pl_seams_clear(plumb_world *world, uint32_t piece)
         }
     }
     pieces->seam_edges[piece] = 0;
-    pieces->seam_corners[piece] &= ~(PL_SEAM_CORNERS | PL_SEAM_HAS);
+    pieces->seam_corners[piece] &= ~(PL_SEAM_CORNERS | PL_SEAM_HAS | PL_SEAM_FLAT);
     --s->count;
 }
 
@@ -241,9 +240,12 @@ static bool list_pairs(plumb_world *world)
         }
         ((pl_seam_pair *)s->pairs.data)[s->pair_count++].pair = i;
     }
+    if (s->pair_count == 0) {
+        s->load_count = 0; // nobody is left to tell of
+    }
     s->relist = false;
     s->listed = world->broad.rebuilds;
-    return pl_runs_reserve(world);
+    return true;
 }
 
 bool pl_seams_update(plumb_world *world)

@@ -20,6 +20,7 @@
 // Piece column seam_corners: bit k: neighbours narrow what corner k admits.
 #define PL_SEAM_CORNERS UINT32_C(0xffff)
 #define PL_SEAM_HAS     UINT32_C(0x20000000) // some corner is narrowed, or some edge covered
+#define PL_SEAM_FLAT    UINT32_C(0x10000000) // the ground goes on flat at some corner
 #define PL_SEAM_STALE   UINT32_C(0x80000000) // the piece is new, moved or changed
 #define PL_SEAM_CHOSEN  UINT32_C(0x40000000) // in the list of an update that runs
 // Piece column seam_edges: bit k: edge k is covered from end to end; bit 16 + k: in part.
@@ -118,8 +119,9 @@ bool pl_seams_wanted(const plumb_world *world, const char **reason);
 // Looks again at pieces that changed and at their neighbours, and notes what pairs with seams keep.
 // After the broad phase. False when out of memory.
 bool pl_seams_update(plumb_world *world);
-// Sets manifolds right whose normals the ground does not admit (correct.c). After the narrow phase.
-void pl_seams_correct(plumb_world *world, real dt);
+// Sets manifolds right whose normals the ground does not admit (correct.c). After the narrow phase. False
+// when out of memory; the next step makes manifolds anew.
+bool pl_seams_correct(plumb_world *world, real dt);
 
 // Notes what runs of flush faces bear, for the next step. After the solver.
 void pl_seams_remember(plumb_world *world);

@@ -88,12 +88,12 @@ static double depth_of(const pl_view *v, const pl_face *f)
     double deepest = 0, low = INFINITY, high = -INFINITY;
     for (int k = 0; k < v->side.count; ++k) {
         const pl_vertex *p = &v->side.corners[k];
-        deepest = fmax(deepest, -ahead(f, (double)p->x, (double)p->y));
+        deepest = pl_greater(deepest, -ahead(f, (double)p->x, (double)p->y));
     }
     for (int i = 0; i < v->count && v->side.count == 2; ++i) {
         double u = ahead(f, v->x[i], v->y[i]);
-        low = fmin(low, u);
-        high = fmax(high, u);
+        low = pl_lesser(low, u);
+        high = pl_greater(high, u);
     }
     return v->radii + (v->side.count > 2 ? deepest : (high - low) / 2);
 }
@@ -110,18 +110,18 @@ static bool faces_open_part(pl_view *v, int k)
     double low = INFINITY, high = -INFINITY, nearest = INFINITY;
     for (int i = 0; i < v->count; ++i) {
         double at = along(&f, v->x[i], v->y[i]);
-        low = fmin(low, at);
-        high = fmax(high, at);
-        nearest = fmin(nearest, ahead(&f, v->x[i], v->y[i]));
+        low = pl_lesser(low, at);
+        high = pl_greater(high, at);
+        nearest = pl_lesser(nearest, ahead(&f, v->x[i], v->y[i]));
     }
     // A corner hardly below the end of a line may be taken for one that has come from the other side.
     if (is_line && nearest - v->radii < -(depth_of(v, &f) + PL_SEAM_SLOP)) {
         return false;
     }
     double way = v->vy * f.nx - v->vx * f.ny;
-    low = fmax(0, low + fmin(0, way));
-    high = fmin(f.length, high + fmax(0, way));
-    return pl_side_edge_is_open(&v->side, k, low, fmax(low, high));
+    low = pl_greater(0, low + pl_lesser(0, way));
+    high = pl_lesser(f.length, high + pl_greater(0, way));
+    return pl_side_edge_is_open(&v->side, k, low, pl_greater(low, high));
 }
 
 // True when the deepest point is at corner k. Otherwise it lies on an edge, with the normal of the other
@@ -172,7 +172,7 @@ pl_strip pl_view_strip(const pl_view *v, int k)
 {
     pl_strip s = { .f = pl_view_face(v, k), .edge = k, .separation = INFINITY };
     for (int i = 0; i < v->count; ++i) {
-        s.separation = fmin(s.separation, ahead(&s.f, v->x[i], v->y[i]) - v->radii);
+        s.separation = pl_lesser(s.separation, ahead(&s.f, v->x[i], v->y[i]) - v->radii);
     }
     open_stretch(v, k, s.f.length, &s.low, &s.high);
     double way = v->vy * s.f.nx - v->vx * s.f.ny;
@@ -184,7 +184,7 @@ pl_strip pl_view_strip(const pl_view *v, int k)
         pl_edge_end kind = pl_side_edge_end(&v->side, k, at_start);
         int corner = at_start ? k : pl_side_next(&v->side, k);
         double slop = kind == PL_END_FLAT ? (double)v->side.seams[corner].slop : 0;
-        double reach = kind == PL_END_FLAT ? 0 : fmax(0, at_start ? way : -way);
+        double reach = kind == PL_END_FLAT ? 0 : pl_greater(0, at_start ? way : -way);
         *(at_start ? &s.before : &s.after) = reach;
         if (kind == PL_END_INNER) {
             s.walls[end] = v->side.seams[corner].walls[at_start ? 1 : 0];
@@ -234,7 +234,7 @@ static pl_seam_place place_of(const pl_view *v, const pl_strip *s, int i)
 static bool clip(const pl_strip *s, pl_seam_place *p, pl_seam_place *q)
 {
     double slope = (q->u - p->u) / (q->v - p->v);
-    double low = fmax(p->v, s->low), high = fmin(q->v, s->high);
+    double low = pl_greater(p->v, s->low), high = pl_lesser(q->v, s->high);
     if (!(low <= high)) {
         return false;
     }
@@ -264,7 +264,7 @@ int pl_view_points(const pl_view *v, const pl_strip *s, pl_seam_place out[2], in
         }
     }
     // A corner that will get into the strip may be deeper than what is in it now.
-    double deepest = count == 0 ? INFINITY : count == 1 ? out[0].u : fmin(out[0].u, out[1].u);
+    double deepest = count == 0 ? INFINITY : count == 1 ? out[0].u : pl_lesser(out[0].u, out[1].u);
     for (int i = 0; i < v->count; ++i) {
         pl_seam_place p = place_of(v, s, i);
         if (p.u < deepest - LEVEL && counts(s, p, v->radii)) {
@@ -286,7 +286,7 @@ static double limit_of(const pl_view *v, const pl_face *f)
     double closing = -(v->vx * f->nx + v->vy * f->ny);
     bool elastic = v->m->restitution > (pl_restitution_is_mixed(v->world) ? -1 : 0);
     closing = elastic ? sqrt(v->vx * v->vx + v->vy * v->vy) : closing;
-    return (double)PL_SPECULATIVE + fmax(0, closing);
+    return (double)PL_SPECULATIVE + pl_greater(0, closing);
 }
 
 // Writes point k of the manifold: (u, v) of the other's core in the face's frame.

@@ -40,6 +40,7 @@ COMPLETE(PL_STATE_BLOWS, blows);
 COMPLETE(PL_STATE_SENSING, sensing);
 COMPLETE(PL_STATE_SLEEP, sleep);
 COMPLETE(PL_STATE_SEAMS, seams);
+COMPLETE(PL_STATE_CHARACTERS, characters);
 COMPLETE(PL_STATE_CONTINUOUS, continuous);
 _Static_assert(LISTED(PL_STATE) == sizeof(plumb_world),
                "a member of plumb_world is not in snapshot/list.h: add its row");

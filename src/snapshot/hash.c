@@ -1,7 +1,7 @@
 // hash.c - plumb_world_hash: all that decides later steps, as 64 bits.
 //
 // Reads: the sections of section.h as far as they count; by hand, because only part of them decides
-// motion or padding and addresses lie in them: contacts, awake or asleep, joints (PL_STATE_JOINT), pending commands, user
+// motion or padding and addresses lie in them: contacts, awake or asleep, joints, characters, pending commands, user
 // components. Writes: nothing.
 // Cost: O(state), about 8 bytes a cycle.
 #include "plumb/snapshot.h"
@@ -95,18 +95,30 @@ static void add_loads(pl_digest *digest, const plumb_world *world)
     }
 }
 
-#define MEMBER_SIZE(path) +sizeof(((pl_joint *)0)->path)
-#define MEMBER_COPY(path)                                                                          \
-    memcpy(at, &joint->path, sizeof joint->path);                                                  \
-    at += sizeof joint->path;
+#define JOINT_SIZE(path)     +sizeof(((pl_joint *)0)->path)
+#define CHARACTER_SIZE(path) +sizeof(((pl_character *)0)->path)
+#define COPY(path)                                                                                 \
+    memcpy(at, &item->path, sizeof item->path);                                                    \
+    at += sizeof item->path;
 
 static void add_joints(pl_digest *digest, const plumb_world *world)
 {
     for (uint32_t i = 0; i < world->joints.count; ++i) {
-        const pl_joint *joint = &pl_joint_items(&world->joints)[i];
-        char members[0 PL_STATE_JOINT(MEMBER_SIZE)];
+        const pl_joint *item = &pl_joint_items(&world->joints)[i];
+        char members[0 PL_STATE_JOINT(JOINT_SIZE)];
         char *at = members;
-        PL_STATE_JOINT(MEMBER_COPY)
+        PL_STATE_JOINT(COPY)
+        pl_digest_add(digest, members, sizeof members);
+    }
+}
+
+static void add_characters(pl_digest *digest, const plumb_world *world)
+{
+    for (uint32_t i = 0; i < world->characters.count; ++i) {
+        const pl_character *item = &pl_character_items(&world->characters)[i];
+        char members[0 PL_STATE_CHARACTER(CHARACTER_SIZE)];
+        char *at = members;
+        PL_STATE_CHARACTER(COPY)
         pl_digest_add(digest, members, sizeof members);
     }
 }
@@ -150,6 +162,7 @@ uint64_t plumb_world_hash(const plumb_world *world)
     add_sleepers(&digest, world);
     add_loads(&digest, world);
     add_joints(&digest, world);
+    add_characters(&digest, world);
     pl_commands_digest(world, &digest);
     for (uint32_t i = 0; i < world->components.count; ++i) {
         add_component(&digest, &world->components.items[i]);

@@ -83,7 +83,8 @@
 #define PL_STATE_JOINTS(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                     \
     ARRAY(pl_joint, joints.items, joints.count, 0, 0)                                              \
     LEFT(joints.broken) LEFT(joints.broken_count) VALUE(joints.live) VALUE(joints.free_head)       \
-    VALUE(joints.impulsive) LEFT(joints.awake) LEFT(joints.awake_count) LEFT(joints.awake_stale)
+    VALUE(joints.impulsive) LEFT(joints.awake) LEFT(joints.awake_count) LEFT(joints.awake_stale)   \
+    LEFT(joints.plan)
 
 #define PL_STATE_PARTS(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                      \
     LEFT(parts.items) LEFT(parts.count) TALLY(parts.buried)
@@ -129,6 +130,12 @@
     LEFT(seams.old_loads) LEFT(seams.old_load_count) LEFT(seams.slots) LEFT(seams.slot_count)      \
     LEFT(seams.borne) LEFT(seams.apart) TALLY(seams.listed) TALLY(seams.updated)
 
+#define PL_STATE_CHARACTERS(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                 \
+    ARRAY(pl_character, characters.items, characters.count, 0, 8) LEFT(characters.saved)           \
+    VALUE(characters.turn) LEFT(characters.moved) LEFT(characters.walks) LEFT(characters.treads)   \
+    LEFT(characters.obstacles) LEFT(characters.near) LEFT(characters.pushes)                       \
+    LEFT(characters.push_count)
+
 #define PL_STATE_CONTINUOUS(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                 \
     LEFT(continuous.movers) LEFT(continuous.count) VALUE(continuous.least_slack)                   \
     LEFT(continuous.noting) LEFT(continuous.stopped_count)
@@ -142,7 +149,9 @@
 #define PL_STATE_WORLD(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                      \
     LEFT(memory) VALUE(gravity) VALUE(step_count) VALUE(time) TALLY(arrested_count)                \
     TABLE(bodies) VALUE(dynamic_count) VALUE(kinematic_count) VALUE(asleep_count)                  \
-    VALUE(disabled_count) VALUE(continuous_bodies) VALUE(locked_bodies) OWN(graves) LEFT(tasks)    \
+    VALUE(disabled_count) VALUE(continuous_bodies) VALUE(locked_bodies)                            \
+    VALUE(one_way_pieces) VALUE(dropping_bodies)                                                   \
+    OWN(graves) LEFT(tasks)                                                                        \
     VALUE(shape_count) VALUE(serial) LEFT(made) LEFT(outline)                                      \
     TABLE(materials) OWN(components) OWN(systems)                                                  \
     ARRAY(uint32_t, moving, moving_count, sizeof(uint32_t), 0) LEFT(poses)                         \
@@ -162,18 +171,30 @@
     PL_STATE_BROAD(__VA_ARGS__) PL_STATE_NARROW(__VA_ARGS__) PL_STATE_SOLVER(__VA_ARGS__)          \
     PL_STATE_JOINTS(__VA_ARGS__) PL_STATE_PARTS(__VA_ARGS__) PL_STATE_BLOWS(__VA_ARGS__)           \
     PL_STATE_SENSING(__VA_ARGS__) PL_STATE_SLEEP(__VA_ARGS__) PL_STATE_SEAMS(__VA_ARGS__)          \
-    PL_STATE_CONTINUOUS(__VA_ARGS__) PL_STATE_EFFECTS(__VA_ARGS__)
+    PL_STATE_CHARACTERS(__VA_ARGS__) PL_STATE_CONTINUOUS(__VA_ARGS__)                              \
+    PL_STATE_EFFECTS(__VA_ARGS__)
 
-// Members of a joint that decide later steps: what hash.c hashes of it.
+// Members of a joint that decide later steps: what hash.c hashes of it. (When an angle was seen last is
+// the business of plan.c, and may differ after a restore.)
 #define PL_STATE_JOINT(X)                                                                          \
     X(entity) X(desc.kind) X(desc.enable_limit) X(desc.lower) X(desc.upper) X(desc.enable_motor)   \
     X(desc.motor_speed) X(desc.max_motor) X(desc.hertz) X(desc.damping) X(desc.rest)               \
     X(desc.length) X(desc.ratio) X(desc.pitch) X(desc.max_force) X(desc.max_torque)                \
     X(desc.break_force) X(desc.break_torque) X(desc.break_impulse) X(desc.disabled)                \
     X(desc.collide_connected)                                                                      \
-    X(a.body) X(a.next) X(a.local) X(a.start) X(a.seen) X(a.turns)                                 \
-    X(b.body) X(b.next) X(b.local) X(b.start) X(b.seen) X(b.turns)                                 \
+    X(a.body) X(a.next) X(a.local) X(a.start) X(a.turns)                                           \
+    X(b.body) X(b.next) X(b.local) X(b.start) X(b.turns)                                           \
     X(axis) X(target) X(sum) X(impulse) X(h)
+
+// The same of a character.
+#define PL_STATE_CHARACTER(X)                                                                      \
+    X(body) X(flies) X(walk) X(fly) X(jump) X(thrown) X(velocity) X(speed) X(rise) X(step_top)     \
+    X(on_ground) X(climbs) X(on_slope) X(at_wall) X(at_ceiling) X(crushed) X(slope_side)           \
+    X(air_time) X(ground.body) X(ground.shape) X(ground.local) X(ground.normal) X(passing_count)   \
+    X(pushed) X(push) X(push_speed) X(desc.up) X(desc.max_slope) X(desc.skin) X(desc.step_height)  \
+    X(desc.step_width) X(desc.snap_distance) X(desc.acceleration) X(desc.air_acceleration)         \
+    X(desc.max_fall_speed) X(desc.mass) X(desc.push_force) X(desc.no_steps) X(desc.no_snap)        \
+    X(desc.no_push) X(desc.no_air_control)
 // clang-format on
 
 // For rows of a kind that is not asked for.

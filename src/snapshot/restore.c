@@ -5,7 +5,7 @@
 // changes the state, so a refused image changes nothing.
 //
 // Made anew: poses (from origins, rotations and centres), rows of components (from their owners),
-// the schedule, the lists of joints awake and of what moves near what sleeps. The grids follow from fat
+// the schedule, the plan of the joints, the lists of joints awake and of what moves near what sleeps. The grids follow from fat
 // boxes and lists of pieces; they are kept where those are what they were, else filed again by whoever
 // asks for them next. Events and contacts of the
 // last step are gone.
@@ -235,6 +235,8 @@ static void take_over(plumb_world *world, source s)
     world->sleep.near.count = 0;
     world->sleep.near_stale = true;
     world->joints.awake_stale = true;
+    pl_joints_replan(&world->joints);
+    world->characters.moved = false;
     world->schedule_dirty = true;
 }
 

@@ -278,6 +278,9 @@ bool pl_solver_graph(plumb_world *world)
         return false;
     }
     engage(world);
+    if (world->joints.live > 0 && !pl_joints_plan(world)) {
+        return false;
+    }
     color_contacts(world, counts);
     if (!reserve_lanes(world, counts)) {
         return false;

@@ -288,7 +288,7 @@ void pl_solver_pgs(plumb_world *world, real dt)
         }
         for (int i = 0; i < world->desc.iterations; ++i) {
             if (joints) {
-                pl_joints_solve(world, PL_SWEEP_CLASSIC);
+                pl_joints_solve(world, c.h, PL_SWEEP_CLASSIC, false);
             }
             sweep(&c, false);
         }

@@ -119,8 +119,6 @@ void pl_solver_soft(plumb_world *world, real dt)
         }
         if (joints && k == 0) {
             pl_joints_warm_start(world);
-        } else if (joints) {
-            pl_joints_turn(world);
         }
         if (k == 0) {
             kernels->warm_start[surface][rotation](&call, 0, s->bundle_count);
@@ -130,17 +128,14 @@ void pl_solver_soft(plumb_world *world, real dt)
         }
         for (int i = 0; i < world->desc.iterations; ++i) {
             if (joints) {
-                pl_joints_solve(world, PL_SWEEP_PULL);
+                pl_joints_solve(world, h, PL_SWEEP_PULL, i == 0);
             }
             kernels->solve[surface][rotation](&call, 0, s->bundle_count);
         }
         pl_integrate_positions(world, h);
-        if (joints) {
-            pl_joints_refresh(world);
-        }
         for (int i = 0; i < world->desc.iterations; ++i) {
             if (joints) {
-                pl_joints_solve(world, PL_SWEEP_RELAX);
+                pl_joints_solve(world, h, PL_SWEEP_RELAX, i == 0);
             }
             kernels->relax[surface][rotation](&call, 0, s->bundle_count);
         }
@@ -150,6 +145,9 @@ void pl_solver_soft(plumb_world *world, real dt)
         if (tallies) {
             kernels->tally(&call, 0, s->bundle_count);
         }
+    }
+    if (joints) {
+        pl_joints_store(world, h);
     }
     kernels->store(&call, call.pairs, 0, s->bundle_count);
     if (running || tallies) {

@@ -7,6 +7,7 @@
 #include "continuous/continuous.h"
 #include "event/event.h"
 #include "narrow/narrow.h"
+#include "narrow/one_way.h"
 #include "narrow/surface.h"
 #include "world/state.h"
 
@@ -104,6 +105,16 @@ static bool broad_wanted(const plumb_world *world, const char **reason)
 static bool surfaces_wanted(const plumb_world *world, const char **reason)
 {
     return collision_wanted(world, reason) && pl_surfaces_wanted(world, reason);
+}
+
+static bool one_way_wanted(const plumb_world *world, const char **reason)
+{
+    return collision_wanted(world, reason) && pl_one_way_wanted(world, reason);
+}
+
+static bool feet_wanted(const plumb_world *world, const char **reason)
+{
+    return collision_wanted(world, reason) && pl_characters_wanted(world, reason);
 }
 
 static bool seams_wanted(const plumb_world *world, const char **reason)
@@ -212,6 +223,18 @@ static plumb_result run_forces(plumb_world *world, plumb_real dt)
     return PLUMB_OK;
 }
 
+static plumb_result run_characters(plumb_world *world, plumb_real dt)
+{
+    return pl_characters_move(world, dt) ? PLUMB_OK : PLUMB_E_MEMORY;
+}
+
+static plumb_result run_feet(plumb_world *world, plumb_real dt)
+{
+    (void)dt;
+    pl_characters_feet(world);
+    return PLUMB_OK;
+}
+
 static plumb_result run_waking(plumb_world *world, plumb_real dt)
 {
     return pl_sleep_wake(world, dt) ? PLUMB_OK : PLUMB_E_MEMORY;
@@ -239,8 +262,11 @@ static plumb_result run_narrow(plumb_world *world, plumb_real dt)
         return PLUMB_E_MEMORY;
     }
     pl_narrow_run(world, &world->broad.pairs, dt, &world->narrow);
-    if (world->seams.pair_count > 0) {
-        pl_seams_correct(world, dt);
+    if (world->one_way_pieces > 0) {
+        pl_one_way_run(world);
+    }
+    if (world->seams.pair_count > 0 && !pl_seams_correct(world, dt)) {
+        return PLUMB_E_MEMORY;
     }
     return pl_events_prepare(world) ? PLUMB_OK : PLUMB_E_MEMORY;
 }
@@ -345,11 +371,14 @@ const pl_pass pl_passes[] = {
     //name             phase       reads                              writes                       wanted            run
     { "begin systems", pl_user_phase, "declared by the systems",         "declared by the systems",   begin_wanted,     run_begin },
     { "force systems", pl_user_phase, "declared by the systems",         "declared by the systems",   forces_wanted,    run_forces },
+    { "characters",    "forces",   "grids, poses, velocities",        "velocities, forces",        pl_characters_wanted, run_characters },
     { "waking",      "broad",    "islands, pieces, grids, joints",   "rows, pairs, fat boxes",     waking_wanted,    run_waking },
     { "broad phase",   "broad",    "poses, pieces",                   "fat boxes, grids, pairs",   broad_wanted,     run_broad },
     { "seams",         "broad",    "static pieces, grids, pairs",     "covered edges, corners",    seams_wanted,     run_seams },
     { "narrow phase",  "narrow",   "pairs, poses, pieces, materials", "manifolds",                 collision_wanted, run_narrow },
+    { "- one-way",     "narrow",   "manifolds, pieces, rotations",    "manifolds, pairs",          one_way_wanted,   NULL },
     { "surfaces",      "narrow",   "pairs, materials",                "manifolds",                 surfaces_wanted,  run_surfaces },
+    { "feet",          "narrow",   "manifolds, characters",           "manifolds",                 feet_wanted,      run_feet },
     { "sleep",       "narrow",   "velocities, pairs, joints",        "islands, rows, pairs, manifolds", sleep_wanted, run_sleep },
     { "sensor pairs",  "narrow",   "pairs with sensors",              "candidates of sensors",     sensing_wanted,   run_candidates },
     { "contact systems", pl_user_phase, "declared by the systems",         "declared by the systems",   contacts_wanted,  run_contacts },

@@ -85,9 +85,14 @@ plumb_result plumb_world_step(plumb_world *world, plumb_real dt)
     if (world->schedule_dirty || world->systems.count > 0) {
         revise_schedule(world);
     }
+    world->characters.moved = false;
     result = run_passes(world, dt);
+    if (result == PLUMB_E_MEMORY) {
+        pl_characters_undo(world);
+        return pl_fail_memory(world, __func__);
+    }
     world->sleep.events_told |= result == PLUMB_OK;
-    return result == PLUMB_E_MEMORY ? pl_fail_memory(world, __func__) : result;
+    return result;
 }
 
 typedef struct listing {

@@ -13,7 +13,7 @@
 //---- type, enabled
 //--------------------------------------------------------------------------------
 
-// Row and pieces where type and flags of the body want them. What it touched in its sleep wakes.
+// Row and pieces where type and flags of the body want them. What it touched or held in its sleep wakes.
 static void relocate(plumb_world *world, uint32_t row)
 {
     const pl_bodies *b = &world->bodies;
@@ -23,10 +23,17 @@ static void relocate(plumb_world *world, uint32_t row)
         pl_sleep_void_contacts(world, p);
         pl_seams_forget(world, p);
     }
+    plumb_body body = b->entity[row];
+    for (uint32_t k = b->first_joint[row]; k != PL_NONE;) {
+        const pl_joint *joint = &pl_joint_items(&world->joints)[k];
+        pl_joint_disturb(world, joint);
+        k = pl_joint_next(joint, body);
+    }
     bool disabled = (b->flags[row] & PL_BODY_DISABLED) != 0;
     pl_partition home =
         disabled ? PL_PART_DISABLED : pl_partition_of((plumb_body_type)b->type[row]);
     row = pl_row_transfer(world, row, home);
+    pl_joints_replan(&world->joints);
     pl_pieces_refile(world, row);
     world->schedule_dirty = true;
 }
@@ -131,6 +138,7 @@ plumb_result plumb_body_set_locks(plumb_world *world, plumb_body body, plumb_axi
                         (locks.x ? PL_BODY_LOCK_X : 0) | (locks.y ? PL_BODY_LOCK_Y : 0) |
                         (locks.rotation ? PL_BODY_FIXED_ROTATION : 0));
     world->locked_bodies += (locks.x || locks.y ? 1u : 0u) - (was ? 1u : 0u);
+    pl_joints_replan(&world->joints);
     world->bodies.low_vx[row] = world->bodies.low_vy[row] = 0;
     hold(world, row);
     pl_mass_revise(world, row);

@@ -34,6 +34,7 @@ typedef plumb_real real;
     X(void *, user_data)                                                                            \
     X(uint32_t, first_piece)       /* pieces of the body, newest shape first; PL_NONE ends */       \
     X(uint32_t, first_joint)       /* joints of the body, newest first; PL_NONE ends */             \
+    X(uint32_t, character)         /* 1 + its place among the characters; 0: none */                \
     X(real, looked)                /* [s] of rest since the last look at where it is (src/sleep) */ \
     X(real, look_x) X(real, look_y) /* [m] its centre at that look */                               \
     X(real, look_c) X(real, look_s) /* its rotation then */                                         \
@@ -48,6 +49,7 @@ typedef plumb_real real;
     X(uint16_t, flags)             /* PL_BODY_... */
 
 #define PL_BODY_FIXED_ROTATION 1u
+#define PL_BODY_DROPPING       2u // it asks to drop through one-way shapes in the next step
 #define PL_BODY_NO_SLEEP       32u  // it never falls asleep
 #define PL_BODY_STIRRING       64u  // kinematic: it moves, or was changed, and wakes what it touches
 #define PL_BODY_RECRUITED      8u   // on its way into the list of movers; only within the continuous pass
@@ -82,6 +84,8 @@ typedef plumb_real real;
     X(int32_t, group)                                                                               \
     X(uint8_t, flags)              /* PL_PIECE_... */                                               \
     X(real, friction) X(real, restitution) /* copied from the material */                           \
+    X(real, one_way_x) X(real, one_way_y) /* unit, in the body's frame; 0: solid from all sides */  \
+    X(real, one_way_cos) X(real, one_way_angle) /* of normals that hold, about the direction */     \
     X(real, density)               /* [kg/m^2] in force; 0 for lines */                             \
     X(real, own_density)           /* [kg/m^2] given with the shape; 0: the material's */           \
     X(plumb_mass_properties, area) /* the whole shape at density 1, on its first piece; else 0 */   \
@@ -107,6 +111,7 @@ typedef plumb_real real;
 #define PL_PIECE_SENSOR   1u // of a sensor
 #define PL_PIECE_PART     2u // of a shape of several pieces
 #define PL_PIECE_FILTERED 4u // its filter is not {0}
+#define PL_PIECE_ONE_WAY  32u // it holds on one side only
 #define PL_PIECE_ASLEEP   8u // of a sleeping body: it is in the list and grid of resting pieces
 #define PL_PIECE_PLACED   16u // static, and new to what sleeps here
 

@@ -58,7 +58,7 @@ bool plumb_filters_meet(plumb_filter a, plumb_filter b)
     return meet(a.category, a.mask, a.group, b.category, b.mask, b.group);
 }
 
-static void set_flag(plumb_world *world, uint32_t piece, uint8_t flag, bool on, uint32_t *counter)
+void pl_piece_flag(plumb_world *world, uint32_t piece, uint8_t flag, bool on, uint32_t *counter)
 {
     uint8_t *flags = &world->pieces.flags[piece];
     *counter += (on ? 1u : 0u) - ((*flags & flag) != 0 ? 1u : 0u);
@@ -73,7 +73,7 @@ void pl_filter_apply(plumb_world *world, uint32_t first, const plumb_filter *fil
         pieces->category[p] = f.category;
         pieces->mask[p] = f.mask;
         pieces->group[p] = f.group;
-        set_flag(world, p, PL_PIECE_FILTERED, !is_default(&f), &world->filtered_pieces);
+        pl_piece_flag(world, p, PL_PIECE_FILTERED, !is_default(&f), &world->filtered_pieces);
     }
 }
 
@@ -117,7 +117,7 @@ void pl_sensor_apply(plumb_world *world, uint32_t first, bool sensor)
 {
     pl_pieces *pieces = &world->pieces;
     for (uint32_t p = first; p != PL_NONE; p = pieces->next_in_shape[p]) {
-        set_flag(world, p, PL_PIECE_SENSOR, sensor, &world->sensor_pieces);
+        pl_piece_flag(world, p, PL_PIECE_SENSOR, sensor, &world->sensor_pieces);
         pieces->density[p] = pl_density_of(world, p);
     }
 }

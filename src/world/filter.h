@@ -4,6 +4,9 @@
 
 #include "world/state.h"
 
+// Sets or clears a flag of a piece and counts it.
+void pl_piece_flag(plumb_world *world, uint32_t piece, uint8_t flag, bool on, uint32_t *counter);
+
 plumb_result pl_filter_check(const plumb_world *world, const char *function,
                              const plumb_filter *filter);
 // Writes a checked filter to all pieces of a shape and keeps up the counters.

@@ -234,6 +234,7 @@ static void free_slot(plumb_world *world, uint32_t slot)
     world->sensor_pieces -= (pieces->flags[slot] & PL_PIECE_SENSOR) != 0;
     world->filtered_pieces -= (pieces->flags[slot] & PL_PIECE_FILTERED) != 0;
     world->part_pieces -= (pieces->flags[slot] & PL_PIECE_PART) != 0;
+    world->one_way_pieces -= (pieces->flags[slot] & PL_PIECE_ONE_WAY) != 0;
     pieces->kind[slot] = PL_PIECE_FREE;
     pieces->vertex_count[slot] = 0;
     pieces->next_in_shape[slot] = pieces->free_head;

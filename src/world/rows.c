@@ -265,6 +265,7 @@ static void destroy_body(plumb_world *world, plumb_entity body)
 {
     uint32_t row = pl_body_row(world, body);
     pl_exclusions_forget(world, row);
+    pl_character_forget(world, row);
     pl_sleep_forget(world, row);
     while (world->bodies.first_piece[row] != PL_NONE) {
         plumb_entity shape = world->pieces.shape[world->bodies.first_piece[row]];

@@ -2,6 +2,7 @@
 //
 // Reads: arguments, pieces. Writes: piece rows through piece.c, mass through mass.c.
 // Cost: O(pieces of the body) to add or remove, O(pieces of the shape) to ask.
+#include "narrow/one_way.h"
 #include "world/check.h"
 #include "world/filter.h"
 #include "world/rows.h"
@@ -82,6 +83,9 @@ plumb_result pl_shape_insert(plumb_world *world, const char *fn, uint32_t row,
     pl_filter_apply(world, first, &desc->filter);
     if (desc->sensor) {
         pl_sensor_apply(world, first, true);
+    }
+    if (desc->one_way.direction.x != 0 || desc->one_way.direction.y != 0) {
+        pl_one_way_apply(world, first, &desc->one_way);
     }
     pl_mass_revise(world, row);
     return PLUMB_OK;

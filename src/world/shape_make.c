@@ -4,6 +4,7 @@
 // Reads: the descriptor. Writes: world->made, world->outline (scratch of the decomposition).
 // Cost: O(points); outlines as plumb_outline_decompose, and O(corners of pieces x points) for the
 // seams.
+#include "narrow/one_way.h"
 #include "world/filter.h"
 #include "world/check.h"
 #include "world/rows.h"
@@ -449,6 +450,7 @@ plumb_result pl_shape_make(plumb_world *world, const char *function, const plumb
     *made = (pl_made){ 0 };
     plumb_result r = check_desc(&m);
     r = r != PLUMB_OK ? r : pl_filter_check(world, function, &desc->filter);
+    r = r != PLUMB_OK ? r : pl_one_way_check(world, function, &desc->one_way);
     if (r != PLUMB_OK) {
         return r;
     }

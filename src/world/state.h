@@ -6,6 +6,7 @@
 #define PL_STATE_H
 
 #include "broad/broad.h"
+#include "character/character.h"
 #include "core/tasks.h"
 #include "continuous/continuous.h"
 #include "ecs/command.h"
@@ -83,6 +84,8 @@ struct plumb_world {
     uint32_t continuous_bodies;                // dynamic bodies with PL_BODY_CONTINUOUS
 
     uint32_t sensor_pieces, filtered_pieces, part_pieces; // live pieces with the flag
+    uint32_t one_way_pieces;
+    uint32_t dropping_bodies; // requests to drop through since the last step
     uint32_t locked_bodies; // bodies locked in x or y
     pl_tunings tunings;
     pl_targets targets;
@@ -100,6 +103,7 @@ struct plumb_world {
     pl_continuous continuous;
     pl_seams seams;
     pl_joints joints;
+    pl_characters characters;
     pl_schedule schedule;
 
     // Events of the last step.

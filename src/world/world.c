@@ -153,6 +153,7 @@ static void free_world(plumb_world *world)
     pl_seams_free(&memory, &world->seams);
     pl_solver_free(&memory, &world->solver);
     pl_joints_free(&memory, &world->joints);
+    pl_characters_free(&memory, &world->characters);
     pl_continuous_free(&memory, &world->continuous);
     pl_registry_free(&memory, &world->registry);
     pl_table_free(&memory, &world->bodies.table, pl_body_columns, pl_body_column_count);

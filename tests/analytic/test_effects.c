@@ -29,7 +29,8 @@ static void damped_flight_is_exact(void **state)
         int substeps;
     } cases[] = { { 60, 0.5, 4 }, { 60, 5, 1 }, { 60, 300, 4 }, { 10, 2, 4 }, { 240, 1e-3, 16 } };
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; ++k) {
-        plumb_world *w = sim_world(&(plumb_world_desc){ .substeps = cases[k].substeps });
+        plumb_world *w = sim_world(&(plumb_world_desc){ .substeps = cases[k].substeps,
+                                                        .no_sleep = true });
         plumb_body b = sim_ball(w, 0, 0, 0.5, sim_material(w, 0, 0));
         plumb_real c = (plumb_real)cases[k].c;
         sim_launch(w, b, 30, 10, 20);

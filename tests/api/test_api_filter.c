@@ -51,6 +51,52 @@ static void filtered_shapes_pass_through_each_other(void **state)
         passes((plumb_filter){ .group = 1 }, (plumb_filter){ .group = 1, .nothing = true }));
 }
 
+// Pair finding passes over whole crowds whose filters keep them apart: the pairs that are left are those
+// of the rule. Discs on one spot, the last of them of the floor's body type.
+static void crowds_are_kept_apart_by_the_rule(void **state)
+{
+    (void)state;
+    enum { DISCS = 5 };
+    const plumb_filter palettes[][DISCS] = {
+        { { .group = -1 }, { .group = -1 }, { .group = -1 }, { .group = -1 }, { .group = -1 } },
+        { { .group = -1 }, { .group = -1 }, { .group = -1 }, { .group = -1 }, { .group = -2 } },
+        { { .group = -1 }, { .group = -2 }, { .group = -1 }, { .group = -2 }, { .group = 0 } },
+        { { 2, 1, 0, false }, { 2, 1, 0, false }, { 4, 1, 0, false }, { 2, 8, 0, false }, { 0 } },
+        { { 2, 1, 0, false },
+          { 2, 1, 0, false },
+          { 4, 1, 0, false },
+          { 2, 8, 0, false },
+          { 2, 1, 0, false } },
+        { { 2, 1, 3, false }, { 2, 1, 0, false }, { 4, 1, 3, false }, { 2, 8, 0, false }, { 0 } },
+        { { 2, 1, 0, false },
+          { 2, 1, 0, false },
+          { 4, 1, 3, false },
+          { 2, 8, 0, false },
+          { 2, 1, 3, false } },
+        { { .nothing = true }, { .nothing = true }, { .nothing = true }, { 0 }, { 0 } },
+        { { 0 }, { 0 }, { 2, 1, 0, false }, { 0 }, { 2, 1, 0, false } },
+    };
+    for (size_t k = 0; k < sizeof palettes / sizeof palettes[0]; ++k) {
+        plumb_world *w = flat_world((plumb_world_desc){ .zero_gravity = true });
+        plumb_shape shapes[DISCS];
+        uint32_t expected = 0;
+        for (int i = 0; i < DISCS; ++i) {
+            plumb_body body = plumb_body_create(
+                w, &(plumb_body_desc){ .type = i == DISCS - 1 ? PLUMB_STATIC : PLUMB_DYNAMIC });
+            shapes[i] = plumb_shape_create(
+                w, body,
+                &(plumb_shape_desc){ .kind = PLUMB_CIRCLE, .radius = 1, .filter = palettes[k][i] });
+            assert_false(plumb_is_null(shapes[i]));
+            for (int j = 0; j < i; ++j) {
+                expected += plumb_filters_meet(palettes[k][i], palettes[k][j]);
+            }
+        }
+        steps(w, 1);
+        assert_int_equal(plumb_world_stats(w).pair_count, expected);
+        plumb_world_destroy(w);
+    }
+}
+
 static void a_changed_filter_ends_the_touch(void **state)
 {
     (void)state;
@@ -342,6 +388,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_rule_of_filters),
         cmocka_unit_test(filtered_shapes_pass_through_each_other),
+        cmocka_unit_test(crowds_are_kept_apart_by_the_rule),
         cmocka_unit_test(a_changed_filter_ends_the_touch),
         cmocka_unit_test(excluded_bodies_pass_through_each_other),
         cmocka_unit_test(queries_ask_the_filter),

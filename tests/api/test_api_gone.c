@@ -101,7 +101,8 @@ static void shapes_of_several_pieces_end_once(void **state)
 {
     (void)state;
     for (int which = 0; which < 3; ++which) {
-        plumb_world *w = flat_world((plumb_world_desc){ .hit_speed = which == 2 ? R(1) : 0 });
+        plumb_world *w = flat_world(
+            (plumb_world_desc){ .hit_speed = which == 2 ? R(1) : 0, .no_sleep = true });
         plumb_vec2 points[12];
         for (int i = 0; i < 12; ++i) {
             points[i] = plumb_v2(R(i * 0.4 - 2.2), 0);

@@ -264,6 +264,8 @@ static void try_in_a_step(const plumb_system_call *call)
     assert_string_equal(plumb_world_error(call->world).message,
                         "plumb_joint_destroy: the world is stepping (system 'meddle'); use "
                         "plumb_command_destroy");
+    plumb_joint_memory memory = { .turns_a = 1 };
+    assert_int_equal(plumb_joint_set_memory(call->world, joints[0], &memory), PLUMB_E_LOCKED);
     assert_int_equal(plumb_command_destroy(call->world, joints[0]), PLUMB_OK);
 }
 
@@ -424,6 +426,73 @@ static void schedule_follows_joints(void **state)
     plumb_world_destroy(w);
 }
 
+// A wheel driven for some turns is made anew from its memory: its coordinate, and what it does next,
+// are those of the first one.
+static void memory_carries_a_joint_over(void **state)
+{
+    fixture *f = *state;
+    plumb_world *w = f->world;
+    plumb_joint_desc d = { .kind = PLUMB_REVOLUTE,
+                           .body_b = f->dynamic,
+                           .enable_motor = true,
+                           .motor_speed = 9,
+                           .max_motor = 1e6f };
+    d.anchor = plumb_body_center(w, f->dynamic);
+    plumb_joint j = plumb_joint_create(w, &d);
+    for (int i = 0; i < 120; ++i) {
+        assert_int_equal(plumb_world_step(w, R(1.0 / 60)), PLUMB_OK);
+    }
+    plumb_joint_memory m;
+    assert_int_equal(plumb_joint_get_memory(w, j, &m), PLUMB_OK);
+    assert_int_equal(m.turns_b, 3); // 18 rad
+    assert_true(m.substep > 0);
+    plumb_real value = plumb_joint_value(w, j);
+    assert_int_equal(plumb_joint_destroy(w, j), PLUMB_OK);
+    plumb_joint again = plumb_joint_create(w, &d);
+    assert_near(plumb_joint_value(w, again), 0, 1e-6);
+    assert_int_equal(plumb_joint_set_memory(w, again, &m), PLUMB_OK);
+    assert_true(plumb_joint_value(w, again) == value);
+    plumb_joint_memory n;
+    assert_int_equal(plumb_joint_get_memory(w, again, &n), PLUMB_OK);
+    assert_memory_equal(&n, &m, sizeof m);
+    assert_int_equal(plumb_world_step(w, R(1.0 / 60)), PLUMB_OK);
+    assert_near(plumb_joint_value(w, again), (double)value + 9.0 / 60, 1e-3);
+}
+
+static void memory_refuses(void **state)
+{
+    fixture *f = *state;
+    plumb_world *w = f->world;
+    plumb_joint j = make(f, PLUMB_PRISMATIC);
+    plumb_joint_memory m, good;
+    assert_int_equal(plumb_joint_get_memory(w, j, &good), PLUMB_OK);
+    assert_int_equal(plumb_joint_get_memory(NULL, j, &m), PLUMB_E_NULL);
+    assert_int_equal(plumb_joint_get_memory(w, j, NULL), PLUMB_E_NULL);
+    assert_int_equal(plumb_joint_get_memory(w, NONE, &m), PLUMB_E_HANDLE);
+    assert_int_equal(plumb_joint_set_memory(NULL, j, &good), PLUMB_E_NULL);
+    assert_int_equal(plumb_joint_set_memory(w, j, NULL), PLUMB_E_NULL);
+    assert_int_equal(plumb_joint_set_memory(w, f->dynamic, &good), PLUMB_E_HANDLE);
+    plumb_real *const numbers[] = { &m.anchor_a.x, &m.anchor_b.y, &m.axis.x,
+                                    &m.offset.y,   &m.start_a,    &m.start_b,
+                                    &m.kept,       &m.substep,    &m.impulses[5] };
+    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; ++i) {
+        m = good;
+        *numbers[i] = (plumb_real)NAN;
+        assert_int_equal(plumb_joint_set_memory(w, j, &m), PLUMB_E_NOT_FINITE);
+    }
+    m = good, m.anchor_a.x = R(2e9);
+    assert_int_equal(plumb_joint_set_memory(w, j, &m), PLUMB_E_RANGE);
+    m = good, m.substep = R(-0.1);
+    assert_int_equal(plumb_joint_set_memory(w, j, &m), PLUMB_E_RANGE);
+    m = good, m.axis = plumb_v2(3, 4);
+    assert_int_equal(plumb_joint_set_memory(w, j, &m), PLUMB_E_RANGE);
+    assert_non_null(
+        strstr(plumb_world_error(w).message,
+               "plumb_joint_set_memory: axis is (3, 4); it must have length 1, or be 0"));
+    assert_int_equal(plumb_joint_get_memory(w, j, &m), PLUMB_OK);
+    assert_memory_equal(&m, &good, sizeof m); // as it was
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -439,6 +508,8 @@ int main(void)
         API_TEST(a_joint_that_is_off_does_nothing),
         API_TEST(a_joint_that_is_off_keeps_nobody_apart),
         API_TEST(impulse_and_enabling_are_refused),
+        API_TEST(memory_carries_a_joint_over),
+        API_TEST(memory_refuses),
         cmocka_unit_test(schedule_follows_joints),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

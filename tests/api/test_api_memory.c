@@ -81,7 +81,8 @@ typedef struct run {
 #define TRY_MAKE(r, handle, call) TRY(r, made((r)->world, handle = (call)))
 
 static const plumb_vec2 ell[] = { { 0, 0 }, { 2, 0 }, { 2, 1 }, { 1, 1 }, { 1, 2 }, { 0, 2 } };
-static const plumb_vec2 ground[] = { { -40, 0 }, { 0, -1 }, { 40, 0 } };
+// The second half is two links in a line: bodies on them rest on a run (src/seams).
+static const plumb_vec2 ground[] = { { -40, 0 }, { 0, -1 }, { R(2), R(-0.95) }, { 40, 0 } };
 
 static bool make_world(run *r)
 {
@@ -112,11 +113,11 @@ static bool fill_world(run *r)
     TRY_MAKE(r, shape,
              plumb_shape_create(
                  r->world, base,
-                 &(plumb_shape_desc){ .kind = PLUMB_CHAIN, .points = ground, .count = 3 }));
+                 &(plumb_shape_desc){ .kind = PLUMB_CHAIN, .points = ground, .count = 4 }));
     const plumb_material none = PLUMB_NULL_INIT;
-    TRY(r, plumb_material_pair_set(r->world, ice, none,
-                                   &(plumb_material_pair){ .friction = R(0.25),
-                                                           .rolling_resistance = R(0.01) }));
+    TRY(r, plumb_material_pair_set(
+               r->world, ice, none,
+               &(plumb_material_pair){ .friction = R(0.25), .rolling_resistance = R(0.01) }));
     TRY_MAKE(r, shape,
              plumb_shape_create(r->world, base,
                                 &(plumb_shape_desc){ .kind = PLUMB_BOX,
@@ -142,6 +143,20 @@ static bool fill_world(run *r)
     TRY(r, plumb_body_set_locks(r->world, r->bodies[10], (plumb_axis_locks){ .x = true }));
     TRY(r, plumb_body_set_target(r->world, r->bodies[6], plumb_v2(9, 9), 1, R(0.25)));
     TRY(r, plumb_world_exclude_pair(r->world, r->bodies[0], r->bodies[1], true));
+    // A kinematic character among them, one that stands on a plank, and a dynamic one.
+    TRY_MAKE(r, base, plumb_body_create(r->world, &(plumb_body_desc){ .position = { 20, 1 } }));
+    TRY_MAKE(r, shape,
+             plumb_shape_create(r->world, base,
+                                &(plumb_shape_desc){ .kind = PLUMB_BOX,
+                                                     .half = { 2, R(0.25) },
+                                                     .one_way = { { 0, 1 }, 0 } }));
+    TRY(r, plumb_character_create(r->world, r->bodies[6], NULL));
+    TRY(r, plumb_character_create(r->world, r->bodies[13], NULL));
+    TRY(r, plumb_character_create(r->world, r->bodies[0], NULL));
+    plumb_body_teleport(r->world, r->bodies[13], plumb_v2(20, R(1.8)), 0);
+    plumb_character_walk(r->world, r->bodies[6], 2);
+    plumb_character_walk(r->world, r->bodies[13], R(0.25));
+    plumb_character_walk(r->world, r->bodies[0], -1);
     return true;
 }
 

@@ -283,6 +283,29 @@ static void sleeping_is_optional(void **state)
     plumb_world_destroy(p.w);
 }
 
+static void lean(const plumb_system_call *call)
+{
+    plumb_body_span s = plumb_world_bodies(call->world);
+    for (int i = 0; i < s.dynamic_count; ++i) {
+        s.fx[i] += R(0.01); // friction holds against it
+    }
+}
+
+static void a_force_in_the_columns_keeps_awake(void **state)
+{
+    (void)state;
+    place p = make_place();
+    plumb_system_create(
+        p.w, &(plumb_system_desc){ .name = "lean", .phase = PLUMB_PHASE_FORCES, .run = lean });
+    plumb_body_wake(p.w, p.apart);
+    steps(p.w, 300);
+    assert_true(plumb_body_is_awake(p.w, p.apart));
+    plumb_system_enable(p.w, "lean", false);
+    steps(p.w, 60);
+    assert_false(plumb_body_is_awake(p.w, p.apart));
+    plumb_world_destroy(p.w);
+}
+
 static void events_tell_who_slept_and_who_woke(void **state)
 {
     (void)state;
@@ -416,6 +439,7 @@ int main(void)
         cmocka_unit_test(bodies_are_put_to_sleep),
         cmocka_unit_test(bodies_may_start_asleep),
         cmocka_unit_test(sleeping_is_optional),
+        cmocka_unit_test(a_force_in_the_columns_keeps_awake),
         cmocka_unit_test(events_tell_who_slept_and_who_woke),
         cmocka_unit_test(rows_are_partitioned_as_told),
         API_TEST(refusals),

@@ -155,7 +155,7 @@ static void every_result_has_a_text(void **state)
     assert_int_equal(PLUMB_##name, value);                                                         \
     assert_string_equal(plumb_result_text(PLUMB_##name), text);
     PLUMB_RESULT_LIST(CHECK_TEXT)
-    assert_string_equal(plumb_result_text((plumb_result)12), "unknown result");
+    assert_string_equal(plumb_result_text((plumb_result)13), "unknown result");
     assert_string_equal(plumb_result_text((plumb_result)-1), "unknown result");
 }
 
@@ -252,7 +252,8 @@ static void lost_body_is_stopped(void **state)
     assert_int_equal(plumb_world_create(NULL, &world), PLUMB_OK);
     plumb_body lost = plumb_body_create(world, &(plumb_body_desc){ .position = { 1, 2 } });
     plumb_body other = plumb_body_create(world, &(plumb_body_desc){ .position = { 5, 5 } });
-    assert_int_equal(plumb_body_set_velocity(world, lost, (plumb_vec2){ (plumb_real)1e30, 0 }), PLUMB_OK);
+    assert_int_equal(plumb_body_set_velocity(world, lost, (plumb_vec2){ (plumb_real)1e30, 0 }),
+                     PLUMB_OK);
     assert_int_equal(plumb_world_step(world, (plumb_real)(1.0 / 60)), PLUMB_OK);
     assert_int_equal(plumb_world_stats(world).arrested_count, 1);
     plumb_vec2 at = plumb_body_position(world, lost), v = plumb_body_velocity(world, lost);
@@ -316,9 +317,55 @@ static void settings_are_locked_in_a_step(void **state)
     assert_int_equal(plumb_world_step(f->world, R(0.01)), PLUMB_OK);
 }
 
+// Every shape's lower corner lies in a cell that is told, no cell is told twice, and shapes of
+// different sizes are filed in cells of different sizes.
+static void cells_hold_what_is_there(void **state)
+{
+    (void)state;
+    plumb_world *w;
+    plumb_aabb cells[32];
+    assert_int_equal(plumb_world_create(&(plumb_world_desc){ .zero_gravity = true }, &w), PLUMB_OK);
+    for (int i = 0; i < 6; ++i) {
+        plumb_body b = plumb_body_create(
+            w, &(plumb_body_desc){ .position = { R(0.4) * (plumb_real)(i / 2), R(0.1) },
+                                   .type = i == 5 ? PLUMB_STATIC : PLUMB_DYNAMIC });
+        plumb_real size = i == 5 ? 40 : R(0.05);
+        plumb_shape_create(w, b, &(plumb_shape_desc){ .kind = PLUMB_BOX, .half = { size, size } });
+    }
+    assert_int_equal(plumb_world_cells(NULL, cells, 32), 0);
+    assert_int_equal(plumb_world_cells(w, cells, 32), 0); // nothing is filed before the first step
+    assert_int_equal(plumb_world_step(w, R(0.01)), PLUMB_OK);
+    int count = plumb_world_cells(w, cells, 32);
+    assert_in_range(count, 3, 6);
+    assert_int_equal(plumb_world_cells(w, cells, 1), count);
+    assert_int_equal(plumb_world_cells(w, NULL, 0), count);
+    plumb_shape shapes[8];
+    int shape_count = plumb_world_shapes(w, shapes, 8);
+    for (int i = 0; i < shape_count; ++i) {
+        plumb_vec2 corner = plumb_shape_aabb(w, shapes[i]).min;
+        bool held = false;
+        for (int k = 0; k < count; ++k) {
+            // Boxes are filed by the corner of their fat box, at most a tenth of a cell lower.
+            plumb_real slack = R(0.2) * (cells[k].max.x - cells[k].min.x);
+            held |= corner.x >= cells[k].min.x && corner.x <= cells[k].max.x + slack &&
+                    corner.y >= cells[k].min.y && corner.y <= cells[k].max.y + slack;
+        }
+        assert_true(held);
+    }
+    for (int i = 0; i < count; ++i) {
+        for (int k = 0; k < i; ++k) {
+            assert_true(memcmp(&cells[i], &cells[k], sizeof cells[i]) != 0);
+        }
+    }
+    assert_true(cells[count - 1].max.x - cells[count - 1].min.x >
+                50 * (cells[0].max.x - cells[0].min.x));
+    plumb_world_destroy(w);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(cells_hold_what_is_there),
         cmocka_unit_test(lost_body_is_stopped),
         cmocka_unit_test(a_zero_descriptor_means_the_documented_defaults),
         cmocka_unit_test(given_settings_are_kept),

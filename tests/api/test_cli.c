@@ -234,11 +234,21 @@ static void list_is_one_item_a_line(void **state)
     assert_int_equal(count_lines(out), passes);
     assert_non_null(strstr(out, "\n  classic solver\n"));
     expect_code("\"$P\" list overlays", 0);
-    assert_int_equal(count_lines(out), 1 + 11);
+    assert_int_equal(count_lines(out), 1 + 14);
     assert_non_null(strstr(out, "\n  contacts\n"));
     expect_code("\"$P\" list scene --brief", 0);
-    assert_int_equal(count_lines(out), 1 + 16);
-    assert_non_null(strstr(out, "\n  scene\n  material\n  body\n"));
+    assert_int_equal(count_lines(out), 1 + 32);
+    assert_non_null(strstr(out, "\n  scene\n  material\n  material_pair\n  body\n"));
+    expect_code("\"$P\" list joints --brief", 0);
+    assert_int_equal(count_lines(out), 1 + 11 + 2);
+    assert_non_null(strstr(out, "joints of scene files:\n  revolute\n  prismatic\n"));
+    expect_code("\"$P\" list joints", 0);
+    assert_non_null(
+        strstr(out, "\n    pitch             number, -1e+12 to 1e+12 [rad], required\n"));
+    expect_code("\"$P\" list shapes --brief", 0);
+    assert_int_equal(count_lines(out), 1 + 8);
+    expect_code("\"$P\" list materials --brief", 0);
+    assert_string_equal(out, "materials of scene files:\n  material\n  material_pair\n");
     expect_code("\"$P\" list scene", 0);
     assert_non_null(strstr(out, "\n    solver            one of soft|pgs\n"));
 }

@@ -1,26 +1,7 @@
 // test_scene_errors.c - malformed scenes, each with the exact code and message that it must give:
 // file, line, column, what was expected, and the word that was probably meant.
-// Every scene is loaded with small limits, so that those of them that never end do so soon. After
-// each, the same loader must still load a good scene: nothing is kept from one scene to the next.
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <string.h>
-#include <cmocka.h>
-
-#include "scene/scene.h"
-
-/// One malformed scene.
-typedef struct malformed {
-    const char *what; ///< for the reader of a failure
-    const char *file; ///< name given to the text; its ending tells Lua from JSON
-    const char *text;
-    scene_code code;
-    const char *message; ///< scene_error.text
-    const char *set;     ///< a --set, or null
-} malformed;
+// Joints, filters, sensors and materials are in test_scene_joint_errors.c.
+#include "malformed.h"
 
 // clang-format off
 static const malformed table[] = {
@@ -756,29 +737,7 @@ static const malformed table[] = {
 static void test_malformed_scenes(void **state)
 {
     (void)state;
-    int wrong = 0;
-    for (size_t i = 0; i < sizeof table / sizeof *table; i++) {
-        const malformed *m = &table[i];
-        scene_options options = { .path = m->file,
-                                  .text = m->text,
-                                  .text_size = strlen(m->text),
-                                  .sets = &m->set,
-                                  .set_count = m->set != NULL,
-                                  .memory_limit = (size_t)128 << 20,
-                                  .build_instructions = 5000000 };
-        scene *s = (scene *)&options; // anything but null
-        scene_error e;
-        scene_code code = scene_load(&options, &s, &e);
-        bool right =
-            code == m->code && e.code == code && s == NULL && strcmp(e.text, m->message) == 0;
-        if (!right) {
-            printf("%s\n  expected %d %s\n  got      %d %s\n", m->what, m->code, m->message, code,
-                   e.text);
-            wrong++;
-        }
-        scene_destroy(s);
-    }
-    assert_int_equal(wrong, 0);
+    check_malformed(table, (int)(sizeof table / sizeof *table));
     assert_true(sizeof table / sizeof *table >= 40);
 }
 

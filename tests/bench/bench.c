@@ -311,9 +311,9 @@ static void bench_scene(const struct plan *plan, const struct scene_row *row,
     if (isatty(STDERR_FILENO)) {
         fputs("\r\033[K", stderr);
     }
-    report_scene(row, &scene, plan->contenders, results, plan->contender_count);
+    report_scene(row, plan->contenders, results, plan->contender_count);
     if (plan->csv != NULL) {
-        report_csv_scene(plan->csv, row, &scene, plan->contenders, results, plan->contender_count);
+        report_csv_scene(plan->csv, row, plan->contenders, results, plan->contender_count);
     }
     scene_free(&scene);
 }

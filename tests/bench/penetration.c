@@ -76,7 +76,7 @@ double convex_depth(const struct convex *a, const struct convex *b)
 struct placed {
     double min_x, max_x, min_y, max_y;
     struct convex convex;
-    int body;
+    int body, group;
     bool dynamic;
 };
 
@@ -148,7 +148,7 @@ static bool collect(const struct placed *shapes, int count, struct depths *list)
         for (int j = i + 1; j < count && shapes[j].min_x <= a->max_x; ++j) {
             const struct placed *b = &shapes[j];
             if (a->min_y > b->max_y || b->min_y > a->max_y || a->body == b->body ||
-                !(a->dynamic || b->dynamic)) {
+                !(a->dynamic || b->dynamic) || (a->group != 0 && a->group == b->group)) {
                 continue;
             }
             double depth = convex_depth(&a->convex, &b->convex);
@@ -160,26 +160,72 @@ static bool collect(const struct placed *shapes, int count, struct depths *list)
     return true;
 }
 
-bool penetration_measure(const struct scene *scene, const struct engine_pose *poses, double skin,
-                         struct penetration *result)
+// What is placed so far.
+struct placing {
+    const struct scene *scene;
+    const struct engine_pose *poses;
+    int step;
+    double skin;
+    struct placed *shapes;
+    int count;
+};
+
+static void place_shape(struct placing *p, const struct scene_shape *shape)
+{
+    const struct scene_member *body = &p->scene->bodies[shape->body];
+    if (!scene_has(p->scene, shape->body, p->step) || is_astray(p->poses[shape->body])) {
+        return;
+    }
+    struct placed *out = &p->shapes[p->count++];
+    out->body = shape->body;
+    out->group = body->def.group;
+    out->dynamic = body->def.type == ENGINE_DYNAMIC;
+    place(shape, p->poses[shape->body], p->skin, out);
+}
+
+static void place_chain(struct placing *p, const struct scene_chain *chain)
+{
+    for (int i = 0; i + (chain->loop ? 0 : 1) < chain->count; ++i) {
+        int k = i + 1 < chain->count ? i + 1 : 0;
+        struct scene_shape edge = { .body = chain->body, .count = 2 };
+        edge.x[0] = chain->x[i], edge.y[0] = chain->y[i];
+        edge.x[1] = chain->x[k], edge.y[1] = chain->y[k];
+        place_shape(p, &edge);
+    }
+}
+
+static bool place_all(struct placing *p)
+{
+    size_t most = (size_t)p->scene->shape_count;
+    for (int i = 0; i < p->scene->chain_count; ++i) {
+        most += (size_t)p->scene->chains[i].count;
+    }
+    p->shapes = malloc(most * sizeof *p->shapes);
+    if (p->shapes == NULL) {
+        return false;
+    }
+    for (int i = 0; i < p->scene->shape_count; ++i) {
+        place_shape(p, &p->scene->shapes[i]);
+    }
+    for (int i = 0; i < p->scene->chain_count; ++i) {
+        place_chain(p, &p->scene->chains[i]);
+    }
+    return true;
+}
+
+bool penetration_measure(const struct scene *scene, const struct engine_pose *poses, int step,
+                         double skin, struct penetration *result)
 {
     *result = (struct penetration){ 0 };
-    struct placed *shapes = malloc((size_t)scene->shape_count * sizeof *shapes);
-    if (shapes == NULL) {
+    struct placing placing = { .scene = scene, .poses = poses, .step = step, .skin = skin };
+    if (!place_all(&placing)) {
         return false;
     }
     for (int i = 0; i < scene->body_count; ++i) {
-        result->astray += is_astray(poses[i]) ? 1 : 0;
+        result->astray += scene_has(scene, i, step) && is_astray(poses[i]) ? 1 : 0;
     }
-    int count = 0;
-    for (int i = 0; i < scene->shape_count; ++i) {
-        int body = scene->shapes[i].body;
-        if (!is_astray(poses[body])) {
-            shapes[count].body = body;
-            shapes[count].dynamic = scene->bodies[body].type == ENGINE_DYNAMIC;
-            place(&scene->shapes[i], poses[body], skin, &shapes[count++]);
-        }
-    }
+    struct placed *shapes = placing.shapes;
+    const int count = placing.count;
     qsort(shapes, (size_t)count, sizeof *shapes, by_min_x);
     struct depths list = { NULL, 0, 0 };
     bool done = collect(shapes, count, &list);

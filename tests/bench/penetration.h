@@ -25,10 +25,11 @@ struct penetration {
     long astray; ///< bodies with a pose that is not finite or farther than 1 km from the origin
 };
 
-/// Measures all pairs of shapes of different bodies of which one at least is dynamic. `skin` [m] is
-/// added round shapes of two or more points (struct engine, skin). Bodies astray are left out.
+/// Measures all pairs of shapes of different bodies of which one at least is dynamic and that are not of
+/// one group, of the bodies that are there in `step`. A chain counts by its segments, two-sided. `skin`
+/// [m] is added round shapes of two or more points (struct engine, skin). Bodies astray are left out.
 /// Returns false when memory runs out. Cost: O(n log n) and the pairs that overlap in x.
-bool penetration_measure(const struct scene *scene, const struct engine_pose *poses, double skin,
-                         struct penetration *result);
+bool penetration_measure(const struct scene *scene, const struct engine_pose *poses, int step,
+                         double skin, struct penetration *result);
 
 #endif

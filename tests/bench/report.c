@@ -45,9 +45,10 @@ static const char *status_text(const struct row_result *r)
     return texts[r->status];
 }
 
-static long bytes_per_body(const struct scene *scene, const struct row_result *r)
+static long bytes_per_body(const struct row_result *r)
 {
-    return r->peak_bytes / (scene->body_count > 0 ? scene->body_count : 1);
+    int bodies = r->quality.counts.bodies;
+    return r->peak_bytes / (bodies > 0 ? bodies : 1);
 }
 
 static double ratio(const struct row_result *r, const struct row_result *base)
@@ -58,11 +59,15 @@ static double ratio(const struct row_result *r, const struct row_result *base)
 
 void report_header(void)
 {
-    printf("\n%-14s %-12s %6s %6s | %9s %9s %9s %6s | %9s %9s %9s %9s | %7s %6s\n", "", "", "", "",
-           "ms/step", "ms/step", "ms", "", "mm mean", "mm max", "mm mean", "mm p99", "bytes", "");
-    printf("%-14s %-12s %6s %6s | %9s %9s %9s %6s | %9s %9s %9s %9s | %7s %6s\n", "scene", "engine",
-           "bodies", "touch", "median", "min", "worst", "ratio", "whole run", "whole run", "at end",
-           "at end", "a body", "astray");
+    printf("\n%-14s %-12s %6s %6s %6s | %9s %9s %9s %6s | %9s %9s %9s %9s | %9s %9s %9s %9s | "
+           "%7s %6s\n",
+           "", "", "", "", "", "ms/step", "ms/step", "ms", "", "mm mean", "mm max", "mm mean",
+           "mm p99", "joint", "joint mm", "joint", "joint mm", "bytes", "");
+    printf("%-14s %-12s %6s %6s %6s | %9s %9s %9s %6s | %9s %9s %9s %9s | %9s %9s %9s %9s | "
+           "%7s %6s\n",
+           "scene", "engine", "bodies", "touch", "joints", "median", "min", "worst", "ratio",
+           "whole run", "whole run", "at end", "at end", "mm mean", "max", "at end", "max at end",
+           "a body", "astray");
 }
 
 // A ratio as text, or a dash where there is nothing to divide by.
@@ -83,8 +88,19 @@ static void print_overlap(const struct overlap *o)
            o->end_p99 * 1e3);
 }
 
-void report_scene(const struct scene_row *row, const struct scene *scene,
-                  const struct contender *contenders, const struct row_result *results, int count)
+static void print_apart(const struct run_result *q)
+{
+    if (q->counts.joints > 0) {
+        const struct apart *a = &q->apart;
+        printf("%9.2f %9.1f %9.2f %9.1f", a->mean * 1e3, a->max * 1e3, a->end_mean * 1e3,
+               a->end_max * 1e3);
+    } else {
+        printf("%9s %9s %9s %9s", "-", "-", "-", "-");
+    }
+}
+
+void report_scene(const struct scene_row *row, const struct contender *contenders,
+                  const struct row_result *results, int count)
 {
     for (int i = 0; i < count; ++i) {
         const struct row_result *r = &results[i];
@@ -99,12 +115,15 @@ void report_scene(const struct scene_row *row, const struct scene *scene,
             printf("\n");
             continue;
         }
-        printf("%6d %6d | %9.3f %9.3f %9.3f %6s | ", scene->body_count, q->counts.contacts,
-               r->median_ms, r->min_ms, r->worst_ms, ratio_text(text, sizeof text, r, &results[0]));
+        printf("%6d %6d %6d | %9.3f %9.3f %9.3f %6s | ", q->counts.bodies, q->counts.contacts,
+               q->counts.joints, r->median_ms, r->min_ms, r->worst_ms,
+               ratio_text(text, sizeof text, r, &results[0]));
         print_overlap(&q->drawn);
-        printf(" | %7ld %6ld\n", bytes_per_body(scene, r), q->astray);
+        printf(" | ");
+        print_apart(q);
+        printf(" | %7ld %6ld\n", bytes_per_body(r), q->astray);
         if (q->skin > 0.0) {
-            printf("%41s | %25s of %5.1f mm | ", "", "with its skin", q->skin * 1e3);
+            printf("%48s | %25s of %5.1f mm | ", "", "with its skin", q->skin * 1e3);
             print_overlap(&q->own);
             printf(" |\n");
         }
@@ -162,7 +181,8 @@ void report_csv_header(FILE *file)
           "peak_bytes_per_body,engine_bytes,astray,"
           "mean_depth_mm,max_depth_mm,end_mean_depth_mm,end_p99_depth_mm,end_overlapping_pairs,"
           "skin_mm,own_mean_depth_mm,own_max_depth_mm,own_end_mean_depth_mm,"
-          "own_end_p99_depth_mm,own_end_overlapping_pairs\n",
+          "own_end_p99_depth_mm,own_end_overlapping_pairs,"
+          "joints,joint_mean_mm,joint_max_mm,joint_end_mean_mm,joint_end_max_mm\n",
           file);
 }
 
@@ -172,20 +192,21 @@ static void csv_overlap(FILE *file, const struct overlap *o)
             o->end_p99 * 1e3, o->end_pairs);
 }
 
-void report_csv_scene(FILE *file, const struct scene_row *row, const struct scene *scene,
-                      const struct contender *contenders, const struct row_result *results,
-                      int count)
+void report_csv_scene(FILE *file, const struct scene_row *row, const struct contender *contenders,
+                      const struct row_result *results, int count)
 {
     for (int i = 0; i < count; ++i) {
         const struct row_result *r = &results[i];
         const struct run_result *q = &r->quality;
         fprintf(file, "%s,%s,%s,%d,%d,%.6g,%.6g,%.6g,%.6g,%ld,%zu,%ld", row->name,
-                contenders[i].label, status_text(r), scene->body_count, q->counts.contacts,
-                r->median_ms, r->min_ms, r->worst_ms, ratio(r, &results[0]),
-                bytes_per_body(scene, r), r->engine_bytes, q->astray);
+                contenders[i].label, status_text(r), q->counts.bodies, q->counts.contacts,
+                r->median_ms, r->min_ms, r->worst_ms, ratio(r, &results[0]), bytes_per_body(r),
+                r->engine_bytes, q->astray);
         csv_overlap(file, &q->drawn);
         fprintf(file, ",%.6g", q->skin * 1e3);
         csv_overlap(file, &q->own);
+        fprintf(file, ",%d,%.6g,%.6g,%.6g,%.6g", q->counts.joints, q->apart.mean * 1e3,
+                q->apart.max * 1e3, q->apart.end_mean * 1e3, q->apart.end_max * 1e3);
         fputs("\n", file);
     }
     fflush(file);

@@ -23,8 +23,8 @@ void report_machine(const struct contender *contenders, int count);
 
 void report_header(void);
 /// The rows of one scene; ratios are against contender 0.
-void report_scene(const struct scene_row *row, const struct scene *scene,
-                  const struct contender *contenders, const struct row_result *results, int count);
+void report_scene(const struct scene_row *row, const struct contender *contenders,
+                  const struct row_result *results, int count);
 /// Times of all scenes side by side, their ratios and the geometric means of these.
 /// `results` holds `count` entries a scene.
 void report_summary(const struct scene_row *const *rows, int row_count,
@@ -33,8 +33,7 @@ void report_summary(const struct scene_row *const *rows, int row_count,
 
 /// CSV: the header line, then one line a scene and contender.
 void report_csv_header(FILE *file);
-void report_csv_scene(FILE *file, const struct scene_row *row, const struct scene *scene,
-                      const struct contender *contenders, const struct row_result *results,
-                      int count);
+void report_csv_scene(FILE *file, const struct scene_row *row, const struct contender *contenders,
+                      const struct row_result *results, int count);
 
 #endif

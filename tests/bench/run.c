@@ -5,6 +5,7 @@
 #include "run.h"
 
 #include "penetration.h"
+#include "separation.h"
 
 #include <math.h>
 #include <sched.h>
@@ -56,17 +57,20 @@ static struct engine_world *open_world(const struct scene *scene, const struct c
     return contender->engine->create(&options);
 }
 
-// Creates the world and fills it; null with the status set when that fails.
-static struct engine_world *start(const struct scene *scene, const struct contender *contender,
-                                  const struct run_settings *settings, struct run_result *result)
+// Everything that happens to the world before a step. False with the status set when it fails.
+static bool before_step(const struct scene_row *row, const struct scene *scene,
+                        const struct engine *engine, struct engine_world *world,
+                        struct scene_cursor *cursor, int step, struct run_result *result)
 {
-    struct engine_world *world = open_world(scene, contender, settings);
-    int status = world != NULL ? scene_fill(scene, contender->engine, world) : ENGINE_FAILED;
-    if (status == ENGINE_OK) {
-        return world;
+    int status = scene_advance(scene, engine, world, cursor, step);
+    if (status != ENGINE_OK) {
+        result->status = status == ENGINE_UNSUPPORTED ? RUN_UNSUPPORTED : RUN_FAILED;
+        return false;
     }
-    result->status = status == ENGINE_UNSUPPORTED ? RUN_UNSUPPORTED : RUN_FAILED;
-    return NULL;
+    if (row->before_step != NULL) {
+        row->before_step(scene, engine, world, step, dt);
+    }
+    return true;
 }
 
 // Touches the engine's code and its fixed buffers, so that they are not taken for the scene's.
@@ -99,15 +103,16 @@ static void timed_body(const struct scene_row *row, const struct scene *scene,
     const struct engine *engine = contender->engine;
     warm_up(scene, contender, settings);
     long before = peak_resident();
-    struct engine_world *world = start(scene, contender, settings, result);
+    struct engine_world *world = open_world(scene, contender, settings);
     if (world == NULL) {
         return;
     }
+    struct scene_cursor cursor = { 0 };
     int steps = run_steps(row, settings);
     double total = 0.0;
     for (int i = 0; i < steps; ++i) {
-        if (row->before_step != NULL) {
-            row->before_step(scene, engine, world, i, dt);
+        if (!before_step(row, scene, engine, world, &cursor, i, result)) {
+            return;
         }
         double from = now_ms(settings);
         engine->step(world, dt);
@@ -122,11 +127,11 @@ static void timed_body(const struct scene_row *row, const struct scene *scene,
 }
 
 // Adds one moment to a run. False when memory runs out.
-static bool add_moment(const struct scene *scene, const struct engine_pose *poses, double skin,
-                       struct overlap *run, long *astray)
+static bool add_moment(const struct scene *scene, const struct engine_pose *poses, int step,
+                       double skin, struct overlap *run, long *astray)
 {
     struct penetration now;
-    if (!penetration_measure(scene, poses, skin, &now)) {
+    if (!penetration_measure(scene, poses, step, skin, &now)) {
         return false;
     }
     run->sum += now.sum;
@@ -140,21 +145,34 @@ static bool add_moment(const struct scene *scene, const struct engine_pose *pose
     return true;
 }
 
+static void add_separation(struct separation now, struct apart *run)
+{
+    run->sum += now.sum;
+    run->hinges += now.hinges;
+    run->mean = run->hinges > 0 ? run->sum / (double)run->hinges : 0.0;
+    run->max = fmax(run->max, now.max);
+    run->end_mean = now.hinges > 0 ? now.sum / (double)now.hinges : 0.0;
+    run->end_max = now.max;
+}
+
 static bool sample(const struct scene *scene, const struct engine *engine,
-                   const struct engine_world *world, struct engine_pose *poses,
+                   const struct engine_world *world, int step, struct engine_pose *poses,
                    struct run_result *result)
 {
     for (int i = 0; i < scene->body_count; ++i) {
-        poses[i] = engine->get_pose(world, i);
+        if (scene_has(scene, i, step)) {
+            poses[i] = engine->get_pose(world, i);
+        }
     }
-    if (!add_moment(scene, poses, 0.0, &result->drawn, &result->astray)) {
+    add_separation(separation_measure(scene, poses, step), &result->apart);
+    if (!add_moment(scene, poses, step, 0.0, &result->drawn, &result->astray)) {
         return false;
     }
     if (!(result->skin > 0.0)) {
         result->own = result->drawn;
         return true;
     }
-    return add_moment(scene, poses, result->skin, &result->own, &result->astray);
+    return add_moment(scene, poses, step, result->skin, &result->own, &result->astray);
 }
 
 static void quality_body(const struct scene_row *row, const struct scene *scene,
@@ -163,20 +181,21 @@ static void quality_body(const struct scene_row *row, const struct scene *scene,
 {
     const struct engine *engine = contender->engine;
     struct engine_pose *poses = calloc((size_t)scene->body_count, sizeof *poses);
-    struct engine_world *world = start(scene, contender, settings, result);
+    struct engine_world *world = open_world(scene, contender, settings);
     if (world == NULL || poses == NULL) {
         return;
     }
+    struct scene_cursor cursor = { 0 };
     result->skin = engine->skin(world);
     int steps = run_steps(row, settings);
     bool measured = true;
     for (int i = 0; i < steps && measured; ++i) {
-        if (row->before_step != NULL) {
-            row->before_step(scene, engine, world, i, dt);
+        if (!before_step(row, scene, engine, world, &cursor, i, result)) {
+            return;
         }
         engine->step(world, dt);
         if ((i + 1) % settings->sample_every == 0 || i + 1 == steps) {
-            measured = sample(scene, engine, world, poses, result);
+            measured = sample(scene, engine, world, i, poses, result);
         }
     }
     result->counts = engine->counts(world);

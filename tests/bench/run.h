@@ -40,6 +40,16 @@ struct overlap {
     long pairs;      ///< of all samples
 };
 
+/// Separation of hinges over a run; all 0 without hinges.
+struct apart {
+    double mean;     ///< [m] over all hinges of all samples
+    double max;      ///< [m] over all samples
+    double end_mean; ///< [m] at the end
+    double end_max;  ///< [m]
+    double sum;      ///< [m] of all samples
+    long hinges;     ///< of all samples
+};
+
 /// Result of one run. Timed runs fill times and memory, quality runs the rest.
 struct run_result {
     enum run_status status;
@@ -53,6 +63,7 @@ struct run_result {
     double skin;                 ///< [m] of the engine: see struct engine
     struct overlap drawn;        ///< of the shapes as they were given
     struct overlap own;          ///< of the engine's own surfaces, skin included; equal without one
+    struct apart apart;          ///< of hinges
 };
 
 int run_steps(const struct scene_row *row, const struct run_settings *settings);

@@ -6,14 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Makes room for one more item.
-static void *grown(void *items, int count, int *capacity, size_t size)
+static void *resized(void *items, size_t size)
 {
-    if (count < *capacity) {
-        return items;
-    }
-    *capacity = *capacity > 0 ? 2 * *capacity : 64;
-    void *more = realloc(items, (size_t)*capacity * size);
+    void *more = realloc(items, size);
     if (more == NULL) {
         fputs("bench: out of memory while building a scene\n", stderr);
         exit(1);
@@ -21,12 +16,23 @@ static void *grown(void *items, int count, int *capacity, size_t size)
     return more;
 }
 
+// Makes room for one more item.
+static void *grown(void *items, int count, int *capacity, size_t size)
+{
+    if (count < *capacity) {
+        return items;
+    }
+    *capacity = *capacity > 0 ? 2 * *capacity : 64;
+    return resized(items, (size_t)*capacity * size);
+}
+
 int scene_body(struct scene *scene, enum engine_body_type type, double x, double y)
 {
     scene->bodies =
         grown(scene->bodies, scene->body_count, &scene->body_capacity, sizeof *scene->bodies);
-    struct engine_body_def def = { .type = type, .x = x, .y = y };
-    scene->bodies[scene->body_count] = def;
+    scene->bodies[scene->body_count] = (struct scene_member){
+        .def = { .type = type, .x = x, .y = y }, .from = scene->now, .to = SCENE_NEVER
+    };
     return scene->body_count++;
 }
 
@@ -53,6 +59,32 @@ void scene_box(struct scene *scene, int body, struct engine_material material, d
     scene_convex(scene, body, material, xs, ys, 4, 0.0);
 }
 
+static double *copy_of(const double *values, int count)
+{
+    size_t size = (size_t)count * sizeof *values;
+    return memcpy(resized(NULL, size), values, size);
+}
+
+void scene_add_chain(struct scene *scene, int body, struct engine_material material,
+                     const double *x, const double *y, int count, bool loop)
+{
+    scene->chains =
+        grown(scene->chains, scene->chain_count, &scene->chain_capacity, sizeof *scene->chains);
+    scene->chains[scene->chain_count++] = (struct scene_chain){ .body = body,
+                                                                .count = count,
+                                                                .x = copy_of(x, count),
+                                                                .y = copy_of(y, count),
+                                                                .loop = loop,
+                                                                .material = material };
+}
+
+void scene_hinge(struct scene *scene, struct engine_hinge_def def)
+{
+    scene->hinges =
+        grown(scene->hinges, scene->hinge_count, &scene->hinge_capacity, sizeof *scene->hinges);
+    scene->hinges[scene->hinge_count++] = def;
+}
+
 void scene_build(const struct scene_row *row, struct scene *scene)
 {
     memset(scene, 0, sizeof *scene);
@@ -64,6 +96,12 @@ void scene_free(struct scene *scene)
 {
     free(scene->bodies);
     free(scene->shapes);
+    for (int i = 0; i < scene->chain_count; ++i) {
+        free(scene->chains[i].x);
+        free(scene->chains[i].y);
+    }
+    free(scene->chains);
+    free(scene->hinges);
     memset(scene, 0, sizeof *scene);
 }
 
@@ -84,20 +122,50 @@ static int fill_shape(const struct scene_shape *s, const struct engine *engine,
     return engine->add_polygon(world, s->body, m, s->x, s->y, s->count, s->radius);
 }
 
-int scene_fill(const struct scene *scene, const struct engine *engine, struct engine_world *world)
+// A body with its shapes and the hinges to bodies before it, as a game would.
+static int enter(const struct scene *scene, const struct engine *engine, struct engine_world *world,
+                 struct scene_cursor *at)
 {
-    // Body by body with its shapes, as a game would: shapes are stored in the order of bodies.
-    int next = 0;
-    for (int i = 0; i < scene->body_count; ++i) {
-        if (engine->add_body(world, &scene->bodies[i]) != i) {
-            return ENGINE_FAILED;
-        }
-        for (; next < scene->shape_count && scene->shapes[next].body == i; ++next) {
-            int status = fill_shape(&scene->shapes[next], engine, world);
-            if (status != ENGINE_OK) {
-                return status;
-            }
+    int body = at->body++;
+    if (engine->add_body(world, &scene->bodies[body].def) != body) {
+        return ENGINE_FAILED;
+    }
+    int status = ENGINE_OK;
+    for (; status == ENGINE_OK && at->shape < scene->shape_count &&
+           scene->shapes[at->shape].body == body;
+         ++at->shape) {
+        status = fill_shape(&scene->shapes[at->shape], engine, world);
+    }
+    for (; status == ENGINE_OK && at->chain < scene->chain_count &&
+           scene->chains[at->chain].body == body;
+         ++at->chain) {
+        const struct scene_chain *c = &scene->chains[at->chain];
+        status = engine->add_chain(world, body, &c->material, c->x, c->y, c->count, c->loop);
+    }
+    for (; status == ENGINE_OK && at->hinge < scene->hinge_count &&
+           scene->hinges[at->hinge].body_a <= body && scene->hinges[at->hinge].body_b <= body;
+         ++at->hinge) {
+        status = engine->add_hinge(world, &scene->hinges[at->hinge]);
+    }
+    return status;
+}
+
+int scene_advance(const struct scene *scene, const struct engine *engine,
+                  struct engine_world *world, struct scene_cursor *cursor, int step)
+{
+    for (; cursor->gone < cursor->body; ++cursor->gone) {
+        int to = scene->bodies[cursor->gone].to;
+        if (to <= step) {
+            engine->destroy_body(world, cursor->gone);
+        } else if (to < SCENE_NEVER) {
+            break;
         }
     }
-    return next == scene->shape_count ? ENGINE_OK : ENGINE_FAILED;
+    while (cursor->body < scene->body_count && scene->bodies[cursor->body].from <= step) {
+        int status = enter(scene, engine, world, cursor);
+        if (status != ENGINE_OK) {
+            return status;
+        }
+    }
+    return ENGINE_OK;
 }

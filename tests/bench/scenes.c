@@ -4,7 +4,7 @@
 // The sizes, places and speeds are those of the benchmark that Box2D 3.2 ships, so that figures
 // published for it can be set beside ours; the materials are its defaults (friction 0.6, density 1)
 // unless a scene says otherwise. Body 0 is what the others stand on or are hit by.
-#include "scene.h"
+#include "scenes.h"
 
 #include <math.h>
 
@@ -57,13 +57,13 @@ static void build_smash(struct scene *scene)
     struct engine_material heavy = engine_material_default;
     heavy.density = 8.0;
     int hammer = scene_body(scene, ENGINE_DYNAMIC, -20.0, 0.0);
-    scene->bodies[hammer].vx = 40.0;
+    scene->bodies[hammer].def.vx = 40.0;
     scene_box(scene, hammer, heavy, 4.0, 4.0, 0.0, 0.0);
     for (int i = 0; i < columns; ++i) {
         for (int j = 0; j < rows; ++j) {
             double y = (j - 0.5 * rows) * side;
             int body = scene_body(scene, ENGINE_DYNAMIC, 30.0 + i * side, y);
-            scene->bodies[body].asleep = true;
+            scene->bodies[body].def.asleep = true;
             scene_box(scene, body, engine_material_default, 0.5 * side, 0.5 * side, 0.0, 0.0);
         }
     }
@@ -86,9 +86,9 @@ static void build_washer(struct scene *scene)
     const double pitch = 0.21;
     scene->sleeps = true;
     int drum = scene_body(scene, ENGINE_KINEMATIC, 0.0, 10.0);
-    scene->bodies[drum].w = 25.0 * pi / 180.0;
-    scene->bodies[drum].vx = 0.001;
-    scene->bodies[drum].vy = -0.002;
+    scene->bodies[drum].def.w = 25.0 * pi / 180.0;
+    scene->bodies[drum].def.vx = 0.001;
+    scene->bodies[drum].def.vy = -0.002;
     for (int i = 0; i < pieces; ++i) {
         ring_piece(scene, drum, 16.0, 18.0, i * turn - overlap, (i + 1) * turn + overlap);
         if (i % paddle_every == 0) {
@@ -202,6 +202,10 @@ const struct scene_row scene_rows[] = {
     { "washer", 500, build_washer, NULL, "boxes tumbled by a turning drum" },
     { "junkyard", 800, build_junkyard, push_junk, "pentagons pushed to and fro" },
     { "compounds", 500, build_compounds, NULL, "bodies of two triangles poured" },
+    { "tumbler", 750, build_tumbler, NULL, "boxes in a motor-driven box" },
+    { "joint_grid", 500, build_joint_grid, NULL, "a net of 19,800 hinges" },
+    { "spinner", 500, build_spinner, NULL, "a motor stirs a bowl" },
+    { "rain", 1000, build_rain, NULL, "ragdolls come and go" },
 };
 
 const int scene_row_count = (int)(sizeof scene_rows / sizeof scene_rows[0]);

@@ -216,6 +216,27 @@ static void make_corner(plumb_world *w)
         plumb_shape_create(w, b,
                            &(plumb_shape_desc){ .kind = PLUMB_BOX, .half = { R(0.4), R(0.4) } });
     }
+    // A hero who walks to and fro under a ledge that can be jumped through, and pushes a crate.
+    plumb_shape_create(w, floor,
+                       &(plumb_shape_desc){ .kind = PLUMB_BOX,
+                                            .half = { 2, R(0.1) },
+                                            .center = { 18, 2 },
+                                            .one_way = { .direction = { 0, 1 } } });
+    plumb_shape_create(
+        w, floor,
+        &(plumb_shape_desc){ .kind = PLUMB_BOX, .half = { 3, R(0.5) }, .center = { 18, 0 } });
+    plumb_body hero = plumb_body_create(
+        w, &(plumb_body_desc){ .type = PLUMB_KINEMATIC, .position = { 68, R(1.5) } });
+    plumb_shape_create(
+        w, hero,
+        &(plumb_shape_desc){ .kind = PLUMB_CAPSULE,
+                             .points = (plumb_vec2[]){ { 0, R(-0.4) }, { 0, R(0.4) } },
+                             .count = 2,
+                             .radius = R(0.3) });
+    assert_int_equal(plumb_character_create(w, hero, NULL), PLUMB_OK);
+    plumb_body crate = plumb_body_create(w, &(plumb_body_desc){ .position = { 69, R(0.9) } });
+    plumb_shape_create(w, crate,
+                       &(plumb_shape_desc){ .kind = PLUMB_BOX, .half = { R(0.3), R(0.3) } });
     plumb_body post =
         plumb_body_create(w, &(plumb_body_desc){ .type = PLUMB_KINEMATIC, .position = { 47, 3 } });
     plumb_body ball = plumb_body_create(w, &(plumb_body_desc){ .position = { 47, 6 } });
@@ -320,6 +341,17 @@ static void act_on_motion(plumb_world *w, uint32_t step, plumb_body a, plumb_bod
         plumb_joint joint;
         if (plumb_world_joints(w, &joint, 1) > 0) {
             plumb_joint_set_enabled(w, joint, step % 96 == 45);
+        }
+        break;
+    }
+    case 46: {
+        plumb_body_span span = plumb_world_bodies(w);
+        for (int i = span.dynamic_count; i < span.dynamic_count + span.kinematic_count; ++i) {
+            if (plumb_body_is_character(w, span.entity[i])) {
+                plumb_character_walk(w, span.entity[i], step % 96 == 46 ? 2 : -2);
+                plumb_character_jump(w, span.entity[i], 6);
+                plumb_character_drop(w, span.entity[i]);
+            }
         }
         break;
     }

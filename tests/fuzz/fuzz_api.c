@@ -43,7 +43,8 @@ static plumb_shape shape_of(plumb_world *w, script *s, plumb_body body)
     for (int i = 0; i < 8; ++i) {
         points[i] = vec_of(s);
     }
-    plumb_shape_desc d = { .kind = (plumb_shape_kind)(byte_of(s) % 8), .density = real_of(s) };
+    unsigned kind = byte_of(s);
+    plumb_shape_desc d = { .kind = (plumb_shape_kind)(kind % 8), .density = real_of(s) };
     bool has_points = d.kind != PLUMB_CIRCLE && d.kind != PLUMB_BOX;
     d.radius = d.kind <= PLUMB_POLYGON ? real_of(s) : 0;
     d.half = d.kind == PLUMB_BOX ? vec_of(s) : (plumb_vec2){ 0, 0 };
@@ -52,7 +53,71 @@ static plumb_shape shape_of(plumb_world *w, script *s, plumb_body body)
               : d.kind == PLUMB_CAPSULE || d.kind == PLUMB_SEGMENT ? 2
                                                                    : 3 + (int)byte_of(s) % 6;
     d.closed = d.kind == PLUMB_CHAIN && byte_of(s) % 2;
+    if (kind >= 224) {
+        d.one_way = (plumb_one_way){ d.density > 0 ? points[0] : (plumb_vec2){ 0, 1 }, 0 };
+    }
     return plumb_shape_create(w, body, &d);
+}
+
+// A shape of few corners, mostly sound.
+static plumb_convex convex_of(script *s)
+{
+    plumb_convex c = { .count = (int)byte_of(s) % 6, .radius = real_of(s) };
+    for (int i = 0; i < 4; ++i) {
+        c.points[i] = vec_of(s);
+    }
+    return c;
+}
+
+static void ask(plumb_world *w, script *s)
+{
+    plumb_cast_hit hits[4];
+    plumb_nearest_hit near[4];
+    plumb_convex convex = convex_of(s);
+    plumb_cast cast = { &convex, { vec_of(s), { 1, 0 } }, vec_of(s) };
+    plumb_query_filter filter = { .one_way = byte_of(s) % 2 != 0 };
+    if (plumb_world_cast(w, &cast, &filter, hits) &&
+        !(hits[0].fraction >= 0 && hits[0].fraction <= 1 && hits[0].depth >= 0)) {
+        abort();
+    }
+    bool any = plumb_world_cast_any(w, &cast, &filter);
+    int all = plumb_world_cast_all(w, &cast, &filter, hits, 4);
+    if (all >= 0 && any != (all > 0)) {
+        abort();
+    }
+    plumb_world_nearest_all(w, cast.transform.p, real_of(s), &filter, near, 4);
+}
+
+static void order(plumb_world *w, script *s, plumb_entity body)
+{
+    plumb_character_state state;
+    plumb_character_desc d = { .max_slope = real_of(s), .acceleration = real_of(s) };
+    d.up = byte_of(s) % 4 == 0 ? vec_of(s) : (plumb_vec2){ 0, 0 };
+    switch (byte_of(s) % 6) {
+    case 0:
+        plumb_character_create(w, body, byte_of(s) % 2 ? &d : NULL);
+        break;
+    case 1:
+        plumb_character_walk(w, body, real_of(s));
+        break;
+    case 2:
+        plumb_character_jump(w, body, real_of(s));
+        break;
+    case 3:
+        plumb_character_fly(w, body, vec_of(s));
+        break;
+    case 4:
+        plumb_character_drop(w, body);
+        plumb_body_drop_through(w, body);
+        break;
+    default:
+        plumb_character_set_velocity(w, body, vec_of(s));
+        break;
+    }
+    if (plumb_character_get(w, body, &state) == PLUMB_OK &&
+        !(isfinite(state.velocity.x) && isfinite(state.velocity.y))) {
+        abort();
+    }
 }
 
 // `calls`: of how many kinds the script may choose.
@@ -139,6 +204,14 @@ static void call(plumb_world *w, script *s, plumb_entity e[HANDLES], unsigned ca
                                                         .impulse = real_of(s),
                                                         .occlusion = (plumb_occlusion)(byte_of(s) % 3) });
         break;
+    case 26:
+        ask(w, s);
+        break;
+    case 27:
+    case 28:
+    case 29:
+        order(w, s, other);
+        break;
     default:
         plumb_world_step(w, real_of(s) / 64);
         break;
@@ -151,10 +224,11 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     script s = { data, data + (size < 4096 ? size : 4096) };
     plumb_entity e[HANDLES] = { { 0, 0 } };
     plumb_world *w = NULL;
-    // Seeds from before there were sleep and joints begin with less than 128.
+    // Seeds from before there were sleep and joints begin with less than 128, those from before there
+    // were characters with less than 192.
     unsigned first = byte_of(&s);
     plumb_world_desc d = { .solver = (plumb_solver)(first % 2), .simd_width = 4 };
-    const unsigned calls = first < 128 ? 12 : 25;
+    const unsigned calls = first < 128 ? 12 : first < 192 ? 25 : 36;
     d.sleep_time = first < 128 ? 0 : (plumb_real)0.1;
     if (plumb_world_create(&d, &w) != PLUMB_OK) {
         abort();

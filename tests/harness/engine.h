@@ -14,7 +14,8 @@
 ///     struct engine_pose pose = e->get_pose(world, body);
 ///     e->destroy(world);
 ///
-/// Bodies are dense indices 0, 1, 2, ... in the order of creation. A shape call returns ENGINE_OK,
+/// Bodies are dense indices 0, 1, 2, ... in the order of creation; a destroyed body's index
+/// is not given again and may only be forgotten. A shape call returns ENGINE_OK,
 /// ENGINE_UNSUPPORTED (the engine has no such shape; the body is as before) or ENGINE_FAILED.
 /// One thread; the worlds are independent.
 ///
@@ -68,6 +69,18 @@ struct engine_body_def {
     double w;            ///< [rad/s]
     bool fixed_rotation; ///< infinite rotational inertia
     bool asleep;         ///< starts asleep (only where options.sleep is on)
+    int group;           ///< > 0: its shapes do not collide with those of bodies of the same group
+};
+
+/// A hinge between two bodies; they do not collide with one another.
+struct engine_hinge_def {
+    int body_a, body_b;
+    double x, y;         ///< [m] world, as things are when the hinge is made
+    bool enable_limit;   ///< lower <= turn of B relative to A since then <= upper
+    double lower, upper; ///< [rad]
+    bool enable_motor;   ///< drives that turn; speed 0 is friction
+    double motor_speed;  ///< [rad/s]
+    double max_torque;   ///< [N m]
 };
 
 struct engine_material {
@@ -128,6 +141,10 @@ struct engine {
 
     /// Index of the new body, or ENGINE_FAILED.
     int (*add_body)(struct engine_world *world, const struct engine_body_def *def);
+    /// With its shapes and hinges.
+    void (*destroy_body)(struct engine_world *world, int body);
+    /// ENGINE_OK or ENGINE_FAILED.
+    int (*add_hinge)(struct engine_world *world, const struct engine_hinge_def *def);
 
     // Shapes are in the frame of the body. x and y arrays hold `count` values each.
     int (*add_circle)(struct engine_world *world, int body, const struct engine_material *material,

@@ -22,7 +22,8 @@ struct engine_world {
     explicit engine_world(const b2Vec2 &gravity) : world(gravity) {}
 
     b2World world;
-    std::vector<b2Body *> bodies;
+    std::vector<b2Body *> bodies; // null: destroyed
+    std::vector<int> groups;      // of the bodies
     int substeps = 1;
     int velocity_iterations = default_velocity_iterations;
     int position_iterations = default_position_iterations;
@@ -88,13 +89,36 @@ int add_body(engine_world *w, const engine_body_def *def)
     b.awake = !def->asleep;
     b.userData.pointer = w->bodies.size();
     w->bodies.push_back(w->world.CreateBody(&b));
+    w->groups.push_back(def->group);
     return static_cast<int>(w->bodies.size()) - 1;
+}
+
+void destroy_body(engine_world *w, int body)
+{
+    b2Body *&b = w->bodies[static_cast<size_t>(body)];
+    w->world.DestroyBody(b);
+    b = nullptr;
+}
+
+int add_hinge(engine_world *w, const engine_hinge_def *def)
+{
+    b2RevoluteJointDef j;
+    j.Initialize(w->bodies[static_cast<size_t>(def->body_a)],
+                 w->bodies[static_cast<size_t>(def->body_b)], vec(def->x, def->y));
+    j.enableLimit = def->enable_limit;
+    j.lowerAngle = static_cast<float>(def->lower);
+    j.upperAngle = static_cast<float>(def->upper);
+    j.enableMotor = def->enable_motor;
+    j.motorSpeed = static_cast<float>(def->motor_speed);
+    j.maxMotorTorque = static_cast<float>(def->max_torque);
+    return w->world.CreateJoint(&j) ? ENGINE_OK : ENGINE_FAILED;
 }
 
 int add_shape(engine_world *w, int body, const engine_material *material, const b2Shape &shape)
 {
     b2FixtureDef def;
     def.shape = &shape;
+    def.filter.groupIndex = static_cast<int16>(-w->groups[static_cast<size_t>(body)]);
     def.density = static_cast<float>(material->density);
     def.friction = static_cast<float>(material->friction);
     def.restitution = static_cast<float>(material->restitution);
@@ -274,6 +298,8 @@ extern "C" const engine engine_box2d2 = {
     .create = create,
     .destroy = destroy,
     .add_body = add_body,
+    .destroy_body = destroy_body,
+    .add_hinge = add_hinge,
     .add_circle = add_circle,
     .add_capsule = add_capsule,
     .add_polygon = add_polygon,

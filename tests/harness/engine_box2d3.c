@@ -19,6 +19,7 @@ enum { default_substeps = 4 };
 struct engine_world {
     b2WorldId id;
     b2BodyId *bodies;
+    int *groups; // of the bodies
     int count;
     int capacity;
     int substeps;
@@ -58,6 +59,7 @@ static void destroy(struct engine_world *w)
 {
     b2DestroyWorld(w->id);
     free(w->bodies);
+    free(w->groups);
     free(w);
 }
 
@@ -66,10 +68,12 @@ static int add_body(struct engine_world *w, const struct engine_body_def *def)
     if (w->count == w->capacity) {
         int capacity = w->capacity > 0 ? 2 * w->capacity : 64;
         b2BodyId *bodies = realloc(w->bodies, (size_t)capacity * sizeof *bodies);
-        if (bodies == NULL) {
+        w->bodies = bodies != NULL ? bodies : w->bodies;
+        int *groups = realloc(w->groups, (size_t)capacity * sizeof *groups);
+        w->groups = groups != NULL ? groups : w->groups;
+        if (bodies == NULL || groups == NULL) {
             return ENGINE_FAILED;
         }
-        w->bodies = bodies;
         w->capacity = capacity;
     }
     b2BodyDef b = b2DefaultBodyDef();
@@ -84,12 +88,44 @@ static int add_body(struct engine_world *w, const struct engine_body_def *def)
     b.isAwake = !def->asleep;
     b.userData = (void *)(intptr_t)w->count;
     w->bodies[w->count] = b2CreateBody(w->id, &b);
+    w->groups[w->count] = def->group;
     return w->count++;
 }
 
-static b2ShapeDef shape_def(const struct engine_material *material)
+static void destroy_body(struct engine_world *w, int body)
+{
+    b2DestroyBody(w->bodies[body]);
+    w->bodies[body] = b2_nullBodyId;
+}
+
+static b2Transform frame_at(b2BodyId body, double x, double y)
+{
+    // Both frames have the world's axes now, so that the angle between them is 0.
+    b2Rot turn = b2Body_GetRotation(body);
+    return (b2Transform){ b2Body_GetLocalPoint(body, b2ToPos(vec(x, y))), b2InvertRot(turn) };
+}
+
+static int add_hinge(struct engine_world *w, const struct engine_hinge_def *def)
+{
+    b2RevoluteJointDef j = b2DefaultRevoluteJointDef();
+    j.base.bodyIdA = w->bodies[def->body_a];
+    j.base.bodyIdB = w->bodies[def->body_b];
+    j.base.localFrameA = frame_at(j.base.bodyIdA, def->x, def->y);
+    j.base.localFrameB = frame_at(j.base.bodyIdB, def->x, def->y);
+    j.enableLimit = def->enable_limit;
+    j.lowerAngle = (float)def->lower;
+    j.upperAngle = (float)def->upper;
+    j.enableMotor = def->enable_motor;
+    j.motorSpeed = (float)def->motor_speed;
+    j.maxMotorTorque = (float)def->max_torque;
+    return b2Joint_IsValid(b2CreateRevoluteJoint(w->id, &j)) ? ENGINE_OK : ENGINE_FAILED;
+}
+
+static b2ShapeDef shape_def(const struct engine_world *w, int body,
+                            const struct engine_material *material)
 {
     b2ShapeDef def = b2DefaultShapeDef();
+    def.filter.groupIndex = -w->groups[body];
     def.density = (float)material->density;
     def.material.friction = (float)material->friction;
     def.material.restitution = (float)material->restitution;
@@ -99,7 +135,7 @@ static b2ShapeDef shape_def(const struct engine_material *material)
 static int add_circle(struct engine_world *w, int body, const struct engine_material *material,
                       double x, double y, double radius)
 {
-    b2ShapeDef def = shape_def(material);
+    b2ShapeDef def = shape_def(w, body, material);
     b2Circle circle = { vec(x, y), (float)radius };
     return b2Shape_IsValid(b2CreateCircleShape(w->bodies[body], &def, &circle)) ? ENGINE_OK
                                                                                 : ENGINE_FAILED;
@@ -108,7 +144,7 @@ static int add_circle(struct engine_world *w, int body, const struct engine_mate
 static int add_capsule(struct engine_world *w, int body, const struct engine_material *material,
                        double x1, double y1, double x2, double y2, double radius)
 {
-    b2ShapeDef def = shape_def(material);
+    b2ShapeDef def = shape_def(w, body, material);
     b2Capsule capsule = { vec(x1, y1), vec(x2, y2), (float)radius };
     return b2Shape_IsValid(b2CreateCapsuleShape(w->bodies[body], &def, &capsule)) ? ENGINE_OK
                                                                                   : ENGINE_FAILED;
@@ -128,7 +164,7 @@ static int add_polygon(struct engine_world *w, int body, const struct engine_mat
     if (hull.count == 0) {
         return ENGINE_FAILED;
     }
-    b2ShapeDef def = shape_def(material);
+    b2ShapeDef def = shape_def(w, body, material);
     b2Polygon polygon = b2MakePolygon(&hull, (float)radius);
     return b2Shape_IsValid(b2CreatePolygonShape(w->bodies[body], &def, &polygon)) ? ENGINE_OK
                                                                                   : ENGINE_FAILED;
@@ -137,7 +173,7 @@ static int add_polygon(struct engine_world *w, int body, const struct engine_mat
 static int add_segment(struct engine_world *w, int body, const struct engine_material *material,
                        double x1, double y1, double x2, double y2)
 {
-    b2ShapeDef def = shape_def(material);
+    b2ShapeDef def = shape_def(w, body, material);
     b2Segment segment = { vec(x1, y1), vec(x2, y2) };
     return b2Shape_IsValid(b2CreateSegmentShape(w->bodies[body], &def, &segment)) ? ENGINE_OK
                                                                                   : ENGINE_FAILED;
@@ -174,6 +210,7 @@ static int add_chain(struct engine_world *w, int body, const struct engine_mater
     def.materials = &surface;
     def.materialCount = 1;
     def.isLoop = loop;
+    def.filter.groupIndex = -w->groups[body];
     b2ChainId chain = b2CreateChain(w->bodies[body], &def);
     free(points);
     return b2Chain_IsValid(chain) ? ENGINE_OK : ENGINE_FAILED;
@@ -234,6 +271,9 @@ static void each_contact(const struct engine_world *w, contact_fn *use, void *co
     b2ContactData *data = NULL;
     int capacity = 0;
     for (int i = 0; i < w->count; ++i) {
+        if (B2_IS_NULL(w->bodies[i])) {
+            continue;
+        }
         int wanted = b2Body_GetContactCapacity(w->bodies[i]);
         if (wanted > capacity) {
             free(data);
@@ -319,6 +359,8 @@ const struct engine engine_box2d3 = {
     .create = create,
     .destroy = destroy,
     .add_body = add_body,
+    .destroy_body = destroy_body,
+    .add_hinge = add_hinge,
     .add_circle = add_circle,
     .add_capsule = add_capsule,
     .add_polygon = add_polygon,

@@ -24,6 +24,7 @@ struct shared_material {
 struct engine_world {
     plumb_world *world;
     plumb_body *bodies;
+    int *groups; // of the bodies
     int count;
     int capacity;
     int material_count;
@@ -99,6 +100,7 @@ static void destroy(struct engine_world *w)
 {
     plumb_world_destroy(w->world);
     free(w->bodies);
+    free(w->groups);
     free(w);
 }
 
@@ -107,10 +109,12 @@ static int add_body(struct engine_world *w, const struct engine_body_def *def)
     if (w->count == w->capacity) {
         int capacity = w->capacity > 0 ? 2 * w->capacity : 64;
         plumb_body *bodies = realloc(w->bodies, (size_t)capacity * sizeof *bodies);
-        if (bodies == NULL) {
+        w->bodies = bodies != NULL ? bodies : w->bodies;
+        int *groups = realloc(w->groups, (size_t)capacity * sizeof *groups);
+        w->groups = groups != NULL ? groups : w->groups;
+        if (bodies == NULL || groups == NULL) {
             return ENGINE_FAILED;
         }
-        w->bodies = bodies;
         w->capacity = capacity;
     }
     plumb_body_desc desc = { 0 };
@@ -129,7 +133,28 @@ static int add_body(struct engine_world *w, const struct engine_body_def *def)
         return ENGINE_FAILED;
     }
     w->bodies[w->count] = body;
+    w->groups[w->count] = def->group;
     return w->count++;
+}
+
+static void destroy_body(struct engine_world *w, int body)
+{
+    (void)plumb_body_destroy(w->world, w->bodies[body]);
+}
+
+static int add_hinge(struct engine_world *w, const struct engine_hinge_def *def)
+{
+    plumb_joint_desc desc = { .kind = PLUMB_REVOLUTE,
+                              .body_a = w->bodies[def->body_a],
+                              .body_b = w->bodies[def->body_b],
+                              .anchor = vec(def->x, def->y),
+                              .enable_limit = def->enable_limit,
+                              .lower = (plumb_real)def->lower,
+                              .upper = (plumb_real)def->upper,
+                              .enable_motor = def->enable_motor,
+                              .motor_speed = (plumb_real)def->motor_speed,
+                              .max_motor = (plumb_real)def->max_torque };
+    return plumb_is_null(plumb_joint_create(w->world, &desc)) ? ENGINE_FAILED : ENGINE_OK;
 }
 
 // The shared handle of a material; null when it cannot be made.
@@ -168,6 +193,7 @@ static int add_shape(struct engine_world *w, int body, const struct engine_mater
     if (desc->kind != PLUMB_SEGMENT && desc->kind != PLUMB_CHAIN) {
         desc->density = (plumb_real)material->density;
     }
+    desc->filter.group = -w->groups[body];
     return plumb_is_null(plumb_shape_create(w->world, w->bodies[body], desc)) ? ENGINE_FAILED
                                                                               : ENGINE_OK;
 }
@@ -324,7 +350,8 @@ static void contacts(const struct engine_world *w, engine_contact_fn *visit, voi
 static struct engine_counts counts(const struct engine_world *w)
 {
     plumb_stats stats = plumb_world_stats(w->world);
-    return (struct engine_counts){ (int)stats.body_count, (int)stats.contact_count, 0 };
+    return (struct engine_counts){ (int)stats.body_count, (int)stats.contact_count,
+                                   plumb_world_joints(w->world, NULL, 0) };
 }
 
 static double skin(const struct engine_world *w)
@@ -345,6 +372,8 @@ const struct engine engine_plumb = {
     .create = create,
     .destroy = destroy,
     .add_body = add_body,
+    .destroy_body = destroy_body,
+    .add_hinge = add_hinge,
     .add_circle = add_circle,
     .add_capsule = add_capsule,
     .add_polygon = add_polygon,

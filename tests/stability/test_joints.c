@@ -60,7 +60,7 @@ static void ball_and_chain_holds(void **state)
 {
     (void)state;
     const double ratios[] = { 1, 10, 100, 400 };
-    const double bounds[] = { 0.1, 0.1, 0.2, 1 };
+    const double bounds[] = { 0.15, 0.1, 0.1, 0.2 };
     for (size_t k = 0; k < sizeof ratios / sizeof ratios[0]; ++k) {
         plumb_world *w = sim_world(&(plumb_world_desc){ 0 });
         plumb_body last = PLUMB_NULL_INIT;
@@ -99,8 +99,8 @@ static void bridge_hangs_still(void **state)
         double late;
         snprintf(name, sizeof name, "bridge of %d", n);
         double worst = run(w, name, 1200, &late);
-        assert_true(worst < 0.2);
-        assert_true(late < 0.02);
+        assert_true(worst < (n == 20 ? 0.015 : 0.06));
+        assert_true(late < (n == 20 ? 0.007 : 0.06)); // the long one swings for minutes
         plumb_world_destroy(w);
     }
 }
@@ -165,7 +165,7 @@ static void grid_hangs(void **state)
     }
     double late;
     double worst = run(w, "grid of 20 x 20 on two nails", 600, &late);
-    assert_true(worst < 0.5 && late < 0.25);
+    assert_true(worst < 0.03 && late < 0.02);
     plumb_world_destroy(w);
 }
 

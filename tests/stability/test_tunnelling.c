@@ -151,6 +151,7 @@ static void hinged_rod_stays_between_posts(void **state)
     const double speeds[] = { 1, 3, 10, 30, 60, 100, 200, 300, 500, 700, 1000 };
     for (int solver = 0; solver < 2; ++solver) {
         double least = INFINITY;
+        int torn = 0;
         for (size_t i = 0; i < sizeof speeds / sizeof speeds[0]; ++i) {
             for (int k = 0; k < 24; ++k) {
                 plumb_world *w = hinged_space(solver);
@@ -165,6 +166,11 @@ static void hinged_rod_stays_between_posts(void **state)
                 sim_launch(w, rod, 0, w0 * ROD_HALF, w0);
                 for (int step = 0; step < 60; ++step) {
                     sim_step(w, HZ60);
+                    plumb_vec2 end = plumb_body_world_point(w, rod, sim_vec(-ROD_HALF, 0));
+                    if (plumb_vec2_magnitude(end) > at) {
+                        ++torn; // the hinge gave by so much that the rod's end went round the post
+                        break;
+                    }
                     double room = room_between(w, rod, at);
                     least = fmin(least, room);
                     if (!(room > 0)) {
@@ -176,8 +182,9 @@ static void hinged_rod_stays_between_posts(void **state)
                 plumb_world_destroy(w);
             }
         }
-        print_message("rods between posts, %s: middle at least %.4f m off\n", solver_name(solver),
-                      least);
+        print_message("rods between posts, %s: middle at least %.4f m off; %d of 264 torn off\n",
+                      solver_name(solver), least, torn);
+        assert_true(torn <= 20);
     }
 }
 
@@ -358,6 +365,29 @@ static void kinematic_paddle_passes_no_ball(void **state)
         print_message("paddles over balls, %s: not passed in %d looks\n", solver_name(solver),
                       swept);
         assert_true(swept > 300);
+    }
+}
+
+// Where a kinematic paddle crushes a ball against a wall, the wall holds, however thin.
+static void a_wall_holds_what_a_paddle_crushes(void **state)
+{
+    (void)state;
+    for (int solver = 0; solver < 2; ++solver) {
+        for (int k = 0; k < 12; ++k) {
+            plumb_world *w = space(solver);
+            plumb_material m = sim_material(w, 0.3, k % 2 * 0.5);
+            plumb_body wall = sim_body(w, PLUMB_STATIC, 0, 0, 0);
+            sim_add_box(w, wall, 0.002, 50, m);
+            plumb_body paddle = sim_body(w, PLUMB_KINEMATIC, 5, 0, 0);
+            sim_add_box(w, paddle, 0.1, 3, m);
+            plumb_body ball = sim_ball(w, 1 + 0.2 * k, 0.1 * k, 0.15, m);
+            sim_launch(w, paddle, -10 * pow(1.5, k), 0, 0);
+            for (int step = 0; step < 60; ++step) {
+                sim_step(w, HZ60);
+                assert_true(sim_x(w, ball) > 0);
+            }
+            plumb_world_destroy(w);
+        }
     }
 }
 
@@ -612,6 +642,7 @@ int main(void)
         cmocka_unit_test(driven_rod_does_not_pass_a_post),
         cmocka_unit_test(balls_stay_in_a_closed_box),
         cmocka_unit_test(kinematic_paddle_passes_no_ball),
+        cmocka_unit_test(a_wall_holds_what_a_paddle_crushes),
         cmocka_unit_test(bullets_keep_their_order),
         cmocka_unit_test(only_those_that_ask_stop_at_dynamic_bodies),
         cmocka_unit_test(thrown_chain_stays_whole),

@@ -57,6 +57,17 @@ static pl_joint_pose nudged(pl_joint_pose p, int k, double e)
     return p;
 }
 
+// What J has besides the slope of C: a point's rows push half-way between the anchors. [m]
+static double shift(const pl_rows *rows, int i, int k)
+{
+    bool point = rows->row[i].form == PL_FORM_POINT_X || rows->row[i].form == PL_FORM_POINT_Y;
+    if (!point || (k != 2 && k != 5)) {
+        return 0;
+    }
+    double ex = (double)rows->row[0].error, ey = (double)rows->row[1].error;
+    return (rows->row[i].form == PL_FORM_POINT_X ? ey : -ex) / 2;
+}
+
 // [-] largest difference of a row's J from the central difference of its C.
 static double jacobian_error(const pl_joint *j)
 {
@@ -76,7 +87,7 @@ static double jacobian_error(const pl_joint *j)
             const pl_row *r = &rows.row[i];
             const plumb_real jacobian[] = { r->ax, r->ay, r->aw, r->bx, r->by, r->bw };
             double slope = ((double)up.row[i].error - (double)down.row[i].error) / (2 * e);
-            worst = fmax(worst, fabs(slope - (double)jacobian[k]));
+            worst = fmax(worst, fabs(slope + shift(&rows, i, k) - (double)jacobian[k]));
         }
     }
     return worst;

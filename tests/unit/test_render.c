@@ -289,9 +289,23 @@ static void add_every_overlay(render_frame *frame)
     assert_int_equal(render_add_aabb(frame, box), RENDER_OK);
     assert_int_equal(render_add_cell(frame, box), RENDER_OK);
     assert_int_equal(render_add_trail(frame, path, 3, 2), RENDER_OK);
-    for (int kind = RENDER_JOINT_LINE; kind <= RENDER_JOINT_SLIDER; kind++) {
-        assert_int_equal(render_add_joint(frame, (render_joint)kind, 0.0, 0.0, 1.0, 1.0),
-                         RENDER_OK);
+    assert_int_equal(render_add_surface(frame, path, 3, true, -0.3), RENDER_OK);
+    for (int kind = 0; kind < RENDER_JOINT_KINDS; kind++) {
+        for (int parts = 0; parts < 2; parts++) {
+            const render_joint joint = { .kind = (render_joint_kind)kind,
+                                         .b = { 1.0, 1.0 },
+                                         .via_a = { 0.0, 1.0 },
+                                         .via_b = { 1.0, 2.0 },
+                                         .axis = { 0.6, 0.8 },
+                                         .has_limit = parts != 0,
+                                         .lower = -1.0,
+                                         .upper = 0.5,
+                                         .drive = parts,
+                                         .has_spring = parts != 0,
+                                         .slack = 0.5,
+                                         .reach = 0.1 * parts };
+            assert_int_equal(render_add_joint(frame, &joint), RENDER_OK);
+        }
     }
     assert_int_equal(
         render_add_text(frame, 0.0, 0.0, RENDER_ANCHOR_ABOVE, "gr\xc3\xbc\xc3\x9f \xff"),
@@ -312,8 +326,10 @@ static void test_every_overlay_is_switchable(void **state)
     const render_camera camera = { .view_height = 4.0 };
     draw(target, frame, camera, flat());
     assert_int_equal(changed_pixels(target), 0);
-    for (unsigned bit = 0; bit < 13; bit++) {
-        if ((1u << bit) == RENDER_SHOW_LABELS || (1u << bit) == RENDER_SHOW_LEGEND) {
+    const unsigned alone = RENDER_SHOW_LABELS | RENDER_SHOW_LEGEND | RENDER_SHOW_SPOKES |
+                           RENDER_SHOW_NOTHING; // these show nothing of an overlay
+    for (unsigned bit = 0; bit < 16; bit++) {
+        if ((1u << bit & alone) != 0) {
             continue;
         }
         render_options options = flat();
@@ -334,6 +350,72 @@ static void test_every_overlay_is_switchable(void **state)
     assert_true(changed_pixels(target) > without + 100);
     render_target_destroy(target);
     render_frame_destroy(frame);
+}
+
+// Each kind of joint has a sign, and a row of the legend, of its own; signs shrink with their bodies.
+static void test_joints_have_signs(void **state)
+{
+    (void)state;
+    render_target *target = new_target(320, 240);
+    const render_camera camera = { .view_height = 4.0 };
+    size_t signs[RENDER_JOINT_KINDS], rows[RENDER_JOINT_KINDS];
+    for (int kind = 0; kind < RENDER_JOINT_KINDS; kind++) {
+        render_joint joint = { .kind = (render_joint_kind)kind,
+                               .a = { -0.5, 0.0 },
+                               .b = { 0.5, 0.1 },
+                               .via_a = { -0.5, 1.0 },
+                               .via_b = { 0.5, 1.0 },
+                               .axis = { 1.0, 0.0 } };
+        for (int pass = 0; pass < 3; pass++) {
+            render_frame *frame = new_frame();
+            render_options options = flat();
+            options.show = RENDER_SHOW_JOINTS | (pass == 1 ? RENDER_SHOW_LEGEND : 0);
+            joint.reach = pass == 2 ? 0.01 : 0.0;
+            assert_int_equal(render_add_joint(frame, &joint), RENDER_OK);
+            draw(target, frame, camera, options);
+            const size_t pixels = changed_pixels(target);
+            if (pass == 0) {
+                signs[kind] = pixels;
+                assert_true(pixels > 25);
+            } else if (pass == 1) {
+                rows[kind] = pixels - signs[kind];
+                assert_true(rows[kind] > 100); // the letters
+            } else {
+                assert_true(pixels < signs[kind]);
+            }
+            render_frame_destroy(frame);
+        }
+        for (int other = 0; other < kind; other++) {
+            assert_true(signs[other] != signs[kind] || rows[other] != rows[kind]);
+        }
+    }
+    render_target_destroy(target);
+}
+
+// Chevrons point the way and move on with the surface.
+static void test_surfaces_run(void **state)
+{
+    (void)state;
+    render_target *target = new_target(320, 240);
+    const render_camera camera = { .view_height = 4.0 }; // 60 px a metre
+    const render_vec path[2] = { { -2.0, 0.0 }, { 2.0, 0.0 } };
+    static const double travels[] = { 0.1, 0.3, -0.1 };
+    uint8_t first[320 * 240 * 4];
+    for (int i = 0; i < 3; i++) {
+        render_frame *frame = new_frame();
+        render_options options = flat();
+        options.show = RENDER_SHOW_SURFACES;
+        render_add_surface(frame, path, 2, false, travels[i]);
+        draw(target, frame, camera, options);
+        assert_true(changed_pixels(target) > 100);
+        if (i == 0) {
+            memcpy(first, render_target_pixels(target), sizeof first);
+        }
+        const bool same = memcmp(first, render_target_pixels(target), sizeof first) == 0;
+        assert_int_equal(same, i == 0);
+        render_frame_destroy(frame);
+    }
+    render_target_destroy(target);
 }
 
 // Automatic scale makes a slow body's arrow long, but not the noise of one at rest.
@@ -497,6 +579,14 @@ static void test_bad_calls_are_refused(void **state)
                      RENDER_E_ARGUMENT);
     assert_int_equal(render_add_box(frame, 0.0, 0.0, -1.0, 1.0, 0.0, 0.0), RENDER_E_ARGUMENT);
     assert_int_equal(render_add_polyline(frame, bad, 1, 0.0, 0), RENDER_E_ARGUMENT);
+    assert_int_equal(render_add_surface(frame, bad, 1, false, 0.0), RENDER_E_ARGUMENT);
+    assert_int_equal(render_add_surface(frame, NULL, 2, false, 0.0), RENDER_E_ARGUMENT);
+    assert_int_equal(render_add_joint(frame, NULL), RENDER_E_ARGUMENT);
+    assert_int_equal(render_add_joint(frame, &(render_joint){ .kind = RENDER_JOINT_KINDS }),
+                     RENDER_E_ARGUMENT);
+    assert_int_equal(render_add_joint(frame, &(render_joint){ .kind = RENDER_JOINT_SLIDER }),
+                     RENDER_E_ARGUMENT);
+    assert_int_equal(render_add_joint(frame, &(render_joint){ .value = NAN }), RENDER_E_NOT_FINITE);
     assert_int_equal(render_add_contact(frame, NAN, 0.0, 0.0, 1.0, 0.0), RENDER_E_NOT_FINITE);
     assert_int_equal(render_add_trail(frame, bad, 3, 0), RENDER_E_NOT_FINITE);
     assert_int_equal(render_add_text(frame, 0.0, 0.0, RENDER_ANCHOR_LEFT, NULL), RENDER_E_ARGUMENT);
@@ -562,6 +652,7 @@ static bool draw_poorly(long allocations, uint8_t *pixels)
             render_add_box(frame, i, 1.0, 0.5, 0.5, 0.0, 0.0);
             render_body_end(frame);
             render_add_impulse(frame, i, 0.0, 1.0, 1.0);
+            render_add_joint(frame, &(render_joint){ .b = { i, 1.0 } });
         }
         const render_camera camera =
             render_camera_fit(render_frame_bounds(frame), poor_size, poor_size, 0.1, false);
@@ -915,6 +1006,8 @@ int main(void)
         cmocka_unit_test(test_outline_of_a_concave_body),
         cmocka_unit_test(test_huge_ground_stays_exact),
         cmocka_unit_test(test_every_overlay_is_switchable),
+        cmocka_unit_test(test_joints_have_signs),
+        cmocka_unit_test(test_surfaces_run),
         cmocka_unit_test(test_rest_shows_no_velocity),
         cmocka_unit_test(test_labels_leave_other_bodies_alone),
         cmocka_unit_test(test_every_class_and_line_draws),

@@ -178,7 +178,7 @@ static void targets_leave_room_and_keep_sides(void **state)
     for (double thick = 1e-4; thick < 2; thick *= 1.7) {
         for (double depth = -thick; depth < 0.9 * thick; depth += thick / 37) {
             for (double sunk = 0; sunk < thick; sunk += thick / 5) {
-                pl_target t = pl_target_of(thick, depth, sunk);
+                pl_sweep_target t = pl_target_of(thick, depth, sunk);
                 assert_true(t.tolerance > 0);
                 assert_true(-depth > t.distance + t.tolerance); // a search can begin
                 assert_true(-t.distance < 0.9 * thick);
@@ -190,7 +190,7 @@ static void targets_leave_room_and_keep_sides(void **state)
         }
         assert_true(pl_target_is_lost(thick, thick));
     }
-    pl_target lines = pl_target_of(0, -0.1, 0);
+    pl_sweep_target lines = pl_target_of(0, -0.1, 0);
     assert_true(lines.distance >= 0 && lines.tolerance > 0);
     assert_true(pl_target_is_lost(0, 0) && !pl_target_is_lost(0, -1e-6));
 }

@@ -115,6 +115,21 @@ static source *read_all(const char *path)
     return s;
 }
 
+// The first macro of a header is its include guard: of two headers with one guard, only one would count.
+static void check_guards(void)
+{
+    for (int i = 0; i < source_count; ++i) {
+        for (int k = 0; k < i; ++k) {
+            const source *a = &sources[k], *b = &sources[i];
+            if (ends_with(a->path, ".h") && ends_with(b->path, ".h") && a->macros.count > 0 &&
+                b->macros.count > 0 && strcmp(a->macros.items[0], b->macros.items[0]) == 0) {
+                give_up("%s and %s have one include guard, %s", a->path, b->path,
+                        a->macros.items[0]);
+            }
+        }
+    }
+}
+
 // A header that is compiled once for each width.
 static bool is_wide(const source *s)
 {
@@ -431,6 +446,7 @@ int main(int argc, char **argv)
     for (int i = 0; i < count; ++i) {
         read_all(paths[i]);
     }
+    check_guards();
     for (int i = 0; i < source_count; ++i) {
         source_declare(&sources[i], &calls);
     }

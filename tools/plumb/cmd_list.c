@@ -11,7 +11,7 @@ typedef struct list_args {
     bool brief;
 } list_args;
 
-#define TOPICS "solvers,precisions,passes,scene,overlays"
+#define TOPICS "solvers,precisions,passes,scene,shapes,joints,materials,events,overlays"
 
 static void print_members(const char *title, const char *list)
 {
@@ -68,11 +68,15 @@ static void print_word(const engine_word *word)
     printf("%s\n", word->required ? ", required" : "");
 }
 
-static void print_scene(bool brief)
+/// Constructors of one topic, or of all (null).
+static void print_scene(const char *topic, bool brief)
 {
     engine_word word;
-    printf("constructors of scene files:\n");
+    printf("%s of scene files:\n", topic != NULL ? topic : "constructors");
     for (int c = 0; engine_float.word(c, -1, &word); c++) {
+        if (topic != NULL && strcmp(topic, word.topic) != 0) {
+            continue;
+        }
         printf("  %s\n", word.name);
         for (int k = 0; !brief && engine_float.word(c, k, &word); k++) {
             print_word(&word);
@@ -89,24 +93,33 @@ static void print_overlays(void)
     }
 }
 
-static int print_topic(int topic, bool brief)
+static int print_topic(const char *topic, bool brief)
 {
-    switch (topic) {
-    case 0:
-        print_members("solvers", ENGINE_SOLVERS);
-        return CLI_OK;
-    case 1:
-        print_members("precisions", SCENE_PRECISIONS);
-        return CLI_OK;
-    case 2:
+    if (strcmp(topic, "passes") == 0) {
         return print_passes(brief);
-    case 3:
-        print_scene(brief);
-        return CLI_OK;
-    default:
-        print_overlays();
-        return CLI_OK;
     }
+    if (strcmp(topic, "solvers") == 0) {
+        print_members("solvers", ENGINE_SOLVERS);
+    } else if (strcmp(topic, "precisions") == 0) {
+        print_members("precisions", SCENE_PRECISIONS);
+    } else if (strcmp(topic, "overlays") == 0) {
+        print_overlays();
+    } else {
+        print_scene(strcmp(topic, "scene") == 0 ? NULL : topic, brief);
+    }
+    return CLI_OK;
+}
+
+/// The constructors of these are among those of the scene: not told twice.
+static bool is_part(const char *topic)
+{
+    static const char *const parts[] = { "shapes", "joints", "materials", "events" };
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
+        if (strcmp(topic, parts[i]) == 0) {
+            return true;
+        }
+    }
+    return false;
 }
 
 static int list_command(const cli_command *command, int argc, char **argv)
@@ -121,8 +134,8 @@ static int list_command(const cli_command *command, int argc, char **argv)
     }
     bool all = operands.count == 0, found = all;
     for (int i = 0; cli_member(TOPICS, i, name, sizeof name) && code == CLI_OK; i++) {
-        if (all || strcmp(name, operands.items[0]) == 0) {
-            code = print_topic(i, args.brief);
+        if (all ? !is_part(name) : strcmp(name, operands.items[0]) == 0) {
+            code = print_topic(name, args.brief);
             found = true;
         }
     }
@@ -144,12 +157,12 @@ static const cli_option options[] = {
 
 const cli_command cmd_list = {
     .name = "list",
-    .summary = "lists solvers, passes, words of scene files, overlays",
+    .summary = "lists solvers, passes, words of scene files (shapes, joints, ...), overlays",
     .operands = "[TOPIC]",
     .text = "Lists what there is: solvers, precisions, the passes of a step, the constructors of "
             "scene files with their keys, ranges and units, overlays of pictures. "
             "TOPIC is one of " TOPICS ".",
-    .examples = "plumb list scene\nplumb list --brief",
+    .examples = "plumb list scene\nplumb list joints\nplumb list --brief",
     .options = options,
     .option_count = (int)(sizeof options / sizeof options[0]),
     .operand_min = 0,

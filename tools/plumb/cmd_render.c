@@ -34,6 +34,9 @@ static const struct {
     { "impulses", RENDER_SHOW_IMPULSES },
     { "velocities", RENDER_SHOW_VELOCITIES },
     { "aabbs", RENDER_SHOW_AABBS },
+    { "cells", RENDER_SHOW_CELLS },
+    { "joints", RENDER_SHOW_JOINTS },
+    { "surfaces", RENDER_SHOW_SURFACES },
     { "grid", RENDER_SHOW_GRID },
     { "labels", RENDER_SHOW_LABELS },
     { "legend", RENDER_SHOW_LEGEND },
@@ -374,9 +377,9 @@ static const cli_option options[] = {
     { "zoom", 0, CLI_REAL, offsetof(render_args, zoom), "F", 0.001, 1000, NULL,
       "show 1/F of the height that would be shown (default 1)" },
     { "overlay", 0, CLI_TEXT, offsetof(render_args, overlay), "LIST", 0, 0, NULL,
-      "contacts, impulses, velocities, aabbs, legend, names (of all bodies); on unless taken away "
-      "(no-grid): grid, "
-      "labels, scale, title, spokes; none: nothing but the bodies" },
+      "contacts, impulses, velocities, aabbs, cells (of the broad phase), legend, names (of all "
+      "bodies); on unless taken away (no-grid): joints, surfaces (the way they run), grid, labels, "
+      "scale, title, spokes; none: nothing but the bodies" },
     { "trail", 0, CLI_REAL, offsetof(render_args, trail), "S", 0, SCENE_TIME_MAX, NULL,
       "draw behind every moving body where it was in the last S seconds (default: "
       "camera{trail}, else none)" },

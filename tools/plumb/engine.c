@@ -120,6 +120,7 @@ static void session_close(engine_session *session)
     free(session->pass_infos);
     free(session->contacts);
     free(session->shapes);
+    free(session->cells);
     free(session);
 }
 

@@ -101,6 +101,7 @@ typedef struct engine_stats {
 /// A word of the scene language.
 typedef struct engine_word {
     const char *name;
+    const char *topic; ///< "shapes", "joints", ...: what the constructor belongs to
     const char *kind; ///< what is expected: "number", "true or false", "one of up|down"
     const char *unit; ///< "" if none
     double min, max;  ///< range of numbers, equal if there is none

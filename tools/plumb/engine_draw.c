@@ -142,8 +142,28 @@ static bool wants_names(const engine_session *session, unsigned show)
     return (show & ENGINE_SHOW_NAMES) != 0 || named <= NAMES_MAX;
 }
 
+/// The sensors of a body, or what is solid of it; true when there was something.
+static bool add_shapes(const engine_session *session, int count, bool sensors,
+                       plumb_transform where, bool is_static, const render_style *style,
+                       render_frame *frame)
+{
+    int added = 0;
+    for (int i = 0; i < count; i++) {
+        if (plumb_shape_is_sensor(session->world, session->shapes[i]) == sensors) {
+            if (added++ == 0) {
+                render_body_begin(frame, style);
+            }
+            add_shape(session->world, session->shapes[i], where, frame, is_static && !sensors);
+        }
+    }
+    if (added > 0) {
+        render_body_end(frame);
+    }
+    return added > 0;
+}
+
 static bool add_body(engine_session *session, const scene_body *body, int index, bool names,
-                     render_frame *frame)
+                     unsigned show, render_frame *frame)
 {
     const plumb_world *world = session->world;
     plumb_body_type type = plumb_body_get_type(world, body->entity);
@@ -161,11 +181,15 @@ static bool add_body(engine_session *session, const scene_body *body, int index,
                            .palette = pl_session_palette(body, index),
                            .color = { body->color.r, body->color.g, body->color.b, body->color.a },
                            .label = label };
-    render_body_begin(frame, &style);
-    for (int i = 0; i < count; i++) {
-        add_shape(world, session->shapes[i], where, frame, type == PLUMB_STATIC);
+    bool is_static = type == PLUMB_STATIC;
+    if (add_shapes(session, count, false, where, is_static, &style, frame)) {
+        style.label = NULL;
     }
-    render_body_end(frame);
+    style.kind = RENDER_SENSOR;
+    add_shapes(session, count, true, where, is_static, &style, frame);
+    if ((show & RENDER_SHOW_SURFACES) != 0) {
+        pl_session_add_surfaces(session, session->shapes, count, frame);
+    }
     return true;
 }
 
@@ -196,6 +220,22 @@ static bool add_boxes(engine_session *session, render_frame *frame)
             render_add_aabb(frame, (render_box){ { (double)b.min.x, (double)b.min.y },
                                                  { (double)b.max.x, (double)b.max.y } });
         }
+    }
+    return true;
+}
+
+static bool add_cells(engine_session *session, render_frame *frame)
+{
+    int count = plumb_world_cells(session->world, NULL, 0);
+    plumb_aabb *list = pl_session_reserve(session->cells, &session->cell_room, count, sizeof *list);
+    if (list == NULL) {
+        return false;
+    }
+    session->cells = list;
+    count = plumb_world_cells(session->world, list, count);
+    for (int i = 0; i < count; i++) {
+        render_add_cell(frame, (render_box){ { (double)list[i].min.x, (double)list[i].min.y },
+                                             { (double)list[i].max.x, (double)list[i].max.y } });
     }
     return true;
 }
@@ -251,9 +291,15 @@ int pl_session_draw(engine_session *session, struct render_frame *frame, unsigne
             scene_body body = scene_body_get(session->scene, i);
             bool is_static = plumb_body_get_type(session->world, body.entity) == PLUMB_STATIC;
             if (!body.hidden && is_static == (layer == 0)) {
-                good = add_body(session, &body, i, names, frame);
+                good = add_body(session, &body, i, names, show, frame);
             }
         }
+    }
+    if ((show & RENDER_SHOW_JOINTS) != 0) {
+        pl_session_add_joints(session, frame);
+    }
+    if (good && (show & RENDER_SHOW_CELLS) != 0) {
+        good = add_cells(session, frame);
     }
     if (good && (show & (RENDER_SHOW_CONTACTS | RENDER_SHOW_IMPULSES)) != 0) {
         good = add_contacts(session, frame, show);

@@ -18,7 +18,9 @@ struct engine_session {
     plumb_pass_info *pass_infos;
     plumb_contact *contacts;
     plumb_entity *shapes;
-    size_t row_room, expect_room, pass_room, info_room, contact_room, shape_room; ///< [B]
+    plumb_aabb *cells;
+    size_t row_room, expect_room, pass_room, info_room, contact_room, shape_room,
+        cell_room; ///< [B]
 };
 
 /// `list` with room for `count` elements of `size` bytes, perhaps moved, not null even for none.
@@ -44,6 +46,10 @@ int pl_session_expectations(engine_session *session, const engine_expect **list)
 int pl_session_passes(engine_session *session, const engine_pass **list);
 engine_stats pl_session_stats(const engine_session *session);
 bool pl_session_word(int constructor, int key, engine_word *word);
+/// Parts of pl_session_draw: joints that the scene does not hide; of `shapes` those that run.
+void pl_session_add_joints(const engine_session *session, struct render_frame *frame);
+void pl_session_add_surfaces(const engine_session *session, const plumb_entity *shapes, int count,
+                             struct render_frame *frame);
 int pl_session_draw(engine_session *session, struct render_frame *frame, unsigned show);
 void pl_session_bounds(const engine_session *session, engine_box *moving, engine_box *fixed);
 

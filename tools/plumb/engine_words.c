@@ -6,22 +6,47 @@
 
 #include "../scene/internal.h"
 
-/// Constructors in the order in which an author meets them; shapes come after body.
-static const sc_list *list_at(int index)
-{
-    static const sc_list *const before[] = { &sc_list_scene, &sc_list_material, &sc_list_body };
-    static const sc_list *const after[] = { &sc_list_camera, &sc_list_contact, &sc_list_expect,
-                                            &sc_list_exact, &sc_list_blast };
-    const int before_count = 3, after_count = 5;
+/// A run of lists of one topic; `name` (may be null) is told instead of the list's own.
+typedef struct word_run {
+    const char *topic, *name;
+    const sc_list *lists;
+    int count;
+} word_run;
 
-    if (index < 0 || index >= before_count + SC_SHAPE_KINDS + after_count) {
-        return NULL;
+/// Constructors in the order in which an author meets them.
+static const word_run runs[] = {
+    { "settings", NULL, &sc_list_scene, 1 },
+    { "materials", NULL, &sc_list_material, 1 },
+    { "materials", NULL, &sc_list_pair, 1 },
+    { "bodies", NULL, &sc_list_body, 1 },
+    { "shapes", NULL, sc_list_shapes, SC_SHAPE_KINDS },
+    { "joints", NULL, sc_list_joints, SC_JOINT_KINDS },
+    { "joints", "the table 'motor' of a joint", &sc_list_motor, 1 },
+    { "joints", "the table 'spring' of a joint", &sc_list_spring, 1 },
+    { "camera", NULL, &sc_list_camera, 1 },
+    { "events", "on_contact, on_end, on_enter, on_leave, edit_contact", &sc_list_contact, 1 },
+    { "events", NULL, &sc_list_hit, 1 },
+    { "events", NULL, &sc_list_break, 1 },
+    { "effects", NULL, &sc_list_blast, 1 },
+    { "expectations", NULL, &sc_list_expect, 1 },
+    { "expectations", NULL, &sc_list_exact, 1 },
+};
+
+static const sc_list *list_at(int index, engine_word *word)
+{
+    for (size_t i = 0; index >= 0 && i < sizeof runs / sizeof *runs; i++) {
+        const word_run *r = &runs[i];
+        if (index < r->count) {
+            const sc_list *list = &r->lists[index];
+            *word = (engine_word){ .name = r->name != NULL ? r->name : list->name,
+                                   .topic = r->topic,
+                                   .kind = "",
+                                   .unit = "" };
+            return list;
+        }
+        index -= r->count;
     }
-    if (index < before_count) {
-        return before[index];
-    }
-    index -= before_count;
-    return index < SC_SHAPE_KINDS ? &sc_list_shapes[index] : after[index - SC_SHAPE_KINDS];
+    return NULL;
 }
 
 static const char *kind_name(sc_kind kind)
@@ -59,28 +84,45 @@ static const char *kind_name(sc_kind kind)
         return "list of \"x\", \"y\", \"rotation\"";
     case SC_TABLE:
         return "table";
+    case SC_LIMITS:
+        return "{lower, upper}";
+    case SC_NAMES:
+        return "name or list of names";
+    case SC_END:
+        return "body, its name, or world";
+    case SC_JOINT:
+        return "joint or its name";
+    case SC_RECORD:
+        return "table";
+    case SC_NUMBERS:
+        return "list of numbers";
     }
     return "";
 }
 
+static bool is_bounded(sc_kind kind)
+{
+    return kind == SC_NUMBER || kind == SC_INTEGER || kind == SC_POINTS || kind == SC_VEC2 ||
+           kind == SC_RANGE || kind == SC_BOX || kind == SC_LIMITS;
+}
+
 bool pl_session_word(int constructor, int key, engine_word *word)
 {
-    const sc_list *list = list_at(constructor);
+    const sc_list *list = list_at(constructor, word);
     if (list == NULL || key >= list->count) {
         return false;
     }
     if (key < 0) {
-        *word = (engine_word){ .name = list->name, .kind = "", .unit = "" };
         return true;
     }
     const sc_field *row = &list->rows[key];
-    bool is_bounded = row->kind == SC_NUMBER || row->kind == SC_INTEGER || row->kind == SC_POINTS ||
-                      row->kind == SC_VEC2 || row->kind == SC_RANGE || row->kind == SC_BOX;
+    bool has_unit = row->detail != NULL && row->kind != SC_RECORD;
     *word = (engine_word){ .name = row->name,
+                           .topic = word->topic,
                            .kind = kind_name(row->kind),
-                           .unit = row->detail != NULL ? row->detail : "",
-                           .min = is_bounded ? row->min : 0,
-                           .max = is_bounded ? row->max : 0,
+                           .unit = has_unit ? row->detail : "",
+                           .min = is_bounded(row->kind) ? row->min : 0,
+                           .max = is_bounded(row->kind) ? row->max : 0,
                            .position = row->position > 0 ? row->position : 0,
                            .required = (row->flags & SC_REQUIRED) != 0 };
     return true;

@@ -99,6 +99,7 @@ void render_frame_destroy(render_frame *frame)
     plr_release(&memory, frame->shapes, frame->shape_capacity, sizeof *frame->shapes);
     plr_release(&memory, frame->points, frame->point_capacity, sizeof *frame->points);
     plr_release(&memory, frame->marks, frame->mark_capacity, sizeof *frame->marks);
+    plr_release(&memory, frame->joints, frame->joint_capacity, sizeof *frame->joints);
     plr_release(&memory, frame->text, frame->text_capacity, sizeof *frame->text);
     plr_release(&memory, frame, 1, sizeof *frame);
 }
@@ -109,6 +110,7 @@ void render_frame_clear(render_frame *frame)
     frame->shape_count = 0;
     frame->point_count = 0;
     frame->mark_count = 0;
+    frame->joint_count = 0;
     frame->text_count = 0;
     memset(frame->mark_kind_count, 0, sizeof frame->mark_kind_count);
     frame->title = PLR_NO_TEXT;
@@ -328,8 +330,9 @@ render_result render_add_cell(render_frame *frame, render_box box)
     return add_pair(frame, PLR_CELL, box.min.x, box.min.y, box.max.x, box.max.y);
 }
 
-render_result render_add_trail(render_frame *frame, const render_vec *points, size_t count,
-                               int palette)
+// A mark with a run of points.
+static render_result add_path(render_frame *frame, plr_mark mark, const render_vec *points,
+                              size_t count)
 {
     if (points == NULL || count < 2) {
         return note(frame, RENDER_E_ARGUMENT);
@@ -343,7 +346,7 @@ render_result render_add_trail(render_frame *frame, const render_vec *points, si
                      frame->point_count + count, sizeof *frame->points)) {
         return note(frame, RENDER_E_MEMORY);
     }
-    plr_mark mark = { .kind = PLR_TRAIL, .variant = palette, .first_point = frame->point_count };
+    mark.first_point = frame->point_count;
     mark.point_count = count;
     const render_result result = add_mark(frame, mark, NULL);
     if (result == RENDER_OK) {
@@ -353,16 +356,46 @@ render_result render_add_trail(render_frame *frame, const render_vec *points, si
     return result;
 }
 
-render_result render_add_joint(render_frame *frame, render_joint kind, double ax, double ay,
-                               double bx, double by)
+render_result render_add_trail(render_frame *frame, const render_vec *points, size_t count,
+                               int palette)
 {
-    if ((int)kind < 0 || kind > RENDER_JOINT_SLIDER) {
+    return add_path(frame, (plr_mark){ .kind = PLR_TRAIL, .variant = palette }, points, count);
+}
+
+render_result render_add_joint(render_frame *frame, const render_joint *joint)
+{
+    const render_joint *j = joint;
+    if (j == NULL || (int)j->kind < 0 || j->kind >= RENDER_JOINT_KINDS ||
+        ((j->kind == RENDER_JOINT_SLIDER || j->kind == RENDER_JOINT_WHEEL) && j->axis.x == 0.0 &&
+         j->axis.y == 0.0)) {
         return note(frame, RENDER_E_ARGUMENT);
     }
-    const plr_mark mark = {
-        .kind = PLR_JOINT, .variant = (int)kind, .a = { ax, ay }, .b = { bx, by }
-    };
-    return add_mark(frame, mark, NULL);
+    const render_vec vectors[] = { j->a,
+                                   j->b,
+                                   j->via_a,
+                                   j->via_b,
+                                   j->axis,
+                                   { j->lower, j->upper },
+                                   { j->value, j->drive },
+                                   { j->slack, j->reach } };
+    for (size_t i = 0; i < sizeof vectors / sizeof vectors[0]; i++) {
+        if (!finite2(vectors[i].x, vectors[i].y)) {
+            return note(frame, RENDER_E_NOT_FINITE);
+        }
+    }
+    if (!plr_reserve(&frame->allocator, (void **)&frame->joints, &frame->joint_capacity,
+                     frame->joint_count + 1, sizeof *frame->joints)) {
+        return note(frame, RENDER_E_MEMORY);
+    }
+    frame->joints[frame->joint_count++] = *j;
+    return RENDER_OK;
+}
+
+render_result render_add_surface(render_frame *frame, const render_vec *points, size_t count,
+                                 bool closed, double travel)
+{
+    const plr_mark mark = { .kind = PLR_SURFACE, .variant = closed, .value = travel };
+    return add_path(frame, mark, points, count);
 }
 
 static render_result add_text(render_frame *frame, plr_mark_kind kind, double x, double y,

@@ -12,7 +12,7 @@
 static const double grid_distance = 45.0; // between grid lines, at least
 static const double bar_length = 130.0;   // of the scale bar, at most
 static const double margin = 16.0;
-enum { title_size = 17, small_size = 12, legend_rows_max = 8 };
+enum { title_size = 17, small_size = 12, legend_rows_max = 24 };
 
 static const double minor_strength = 0.055; // of ink over the background
 static const double major_strength = 0.10;
@@ -113,8 +113,31 @@ static void draw_scale(plr_painter *painter)
 
 typedef struct legend_row {
     plr_mark_kind kind;
+    const render_joint *joint; // not null: a row for joints like this
     char text[64];
 } legend_row;
+
+// Adds a row for each kind of joint that is there; those with a motor are a kind of their own.
+static int joint_rows(const plr_painter *painter, legend_row *rows, int count)
+{
+    const render_frame *frame = painter->frame;
+    bool seen[RENDER_JOINT_KINDS][2] = { { false } };
+    if (!plr_shows(painter, RENDER_SHOW_JOINTS)) {
+        return count;
+    }
+    for (size_t i = 0; i < frame->joint_count && count < legend_rows_max; i++) {
+        const render_joint *j = &frame->joints[i];
+        const bool driven = j->drive != 0.0 && j->kind != RENDER_JOINT_RATCHET;
+        if (!seen[j->kind][driven]) {
+            seen[j->kind][driven] = true;
+            rows[count].joint = j;
+            snprintf(rows[count].text, sizeof rows[count].text, "%s%s", plr_joint_name(j->kind),
+                     driven ? " with motor" : "");
+            count++;
+        }
+    }
+    return count;
+}
 
 // Fills the rows; returns how many.
 static int legend_rows(const plr_painter *painter, legend_row *rows)
@@ -128,7 +151,7 @@ static int legend_rows(const plr_painter *painter, legend_row *rows)
         { RENDER_SHOW_CONTACTS, PLR_CONTACT, "contact and normal", NULL },
         { RENDER_SHOW_IMPULSES, PLR_IMPULSE, "impulse", "N s" },
         { RENDER_SHOW_VELOCITIES, PLR_VELOCITY, "velocity", "m/s" },
-        { RENDER_SHOW_JOINTS, PLR_JOINT, "joint", NULL },
+        { RENDER_SHOW_SURFACES, PLR_SURFACE, "running surface", NULL },
         { RENDER_SHOW_TRAILS, PLR_TRAIL, "trail", NULL },
         { RENDER_SHOW_AABBS, PLR_AABB, "bounding box", NULL },
         { RENDER_SHOW_CELLS, PLR_CELL, "grid cell in use", NULL },
@@ -141,6 +164,7 @@ static int legend_rows(const plr_painter *painter, legend_row *rows)
         }
         legend_row *row = &rows[count++];
         row->kind = kind;
+        row->joint = NULL;
         if (entries[i].quantity != NULL) {
             snprintf(row->text, sizeof row->text, "%s: 1 %s = %g %s", entries[i].name,
                      entries[i].quantity, plr_arrow_scale(painter, kind), painter->options.unit);
@@ -148,7 +172,7 @@ static int legend_rows(const plr_painter *painter, legend_row *rows)
             snprintf(row->text, sizeof row->text, "%s", entries[i].name);
         }
     }
-    return count;
+    return joint_rows(painter, rows, count);
 }
 
 // True if less of the bodies lies behind a legend in the lower right corner than in the upper.
@@ -204,8 +228,12 @@ static void draw_legend(plr_painter *painter)
               plr_mix(plr_ink, painter->options.background, 0.72));
     for (int i = 0; i < count; i++) {
         const double y = min.y + 0.6 * pad + (i + 0.5) * line;
-        plr_overlay_sample(painter, rows[i].kind, (render_vec){ min.x + pad + 0.5 * sample, y },
-                           sample);
+        const render_vec middle = { min.x + pad + 0.5 * sample, y };
+        if (rows[i].joint != NULL) {
+            plr_joint_sample(painter, rows[i].joint, middle, sample);
+        } else {
+            plr_overlay_sample(painter, rows[i].kind, middle, sample);
+        }
         plr_text_draw(painter, PLR_FONT_REGULAR, size,
                       (render_vec){ min.x + 2.0 * pad + sample, y + 0.36 * size }, rows[i].text,
                       plr_ink, (render_rgba){ 0 });

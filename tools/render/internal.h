@@ -63,7 +63,7 @@ typedef enum plr_mark_kind {
     PLR_AABB,
     PLR_CELL,
     PLR_TRAIL,
-    PLR_JOINT,
+    PLR_SURFACE,
     PLR_TEXT,
     PLR_SCREEN_TEXT,
     PLR_MARK_KINDS
@@ -72,12 +72,12 @@ typedef enum plr_mark_kind {
 /// One overlay mark: two points or vectors, or a run of points (trail), or a text.
 typedef struct plr_mark {
     plr_mark_kind kind;
-    int variant; ///< joint kind, anchor or palette index
+    int variant; ///< anchor, palette index, or whether a surface is closed
     render_vec a;
     render_vec b;
-    double value;       ///< depth of a contact
-    size_t first_point; ///< trail
-    size_t point_count; ///< trail
+    double value;       ///< depth of a contact; travel of a surface
+    size_t first_point; ///< trail, surface
+    size_t point_count; ///< trail, surface
     size_t text;        ///< offset into frame->text
 } plr_mark;
 
@@ -91,6 +91,8 @@ struct render_frame {
     size_t point_count, point_capacity;
     plr_mark *marks;
     size_t mark_count, mark_capacity;
+    render_joint *joints;
+    size_t joint_count, joint_capacity;
     char *text;
     size_t text_count, text_capacity;
     size_t mark_kind_count[PLR_MARK_KINDS];
@@ -272,8 +274,13 @@ void plr_group_destroy(plr_group *group);
 
 /// Trails, which lie under the bodies; cells and boxes (overlay.c).
 void plr_draw_underlay(plr_painter *painter);
-/// Joints, contacts, arrows.
+/// Surfaces, boxes, contacts, arrows.
 void plr_draw_overlay(plr_painter *painter);
+/// Joints, and the name and a sample of one for the legend (joints.c).
+void plr_draw_joints(plr_painter *painter);
+const char *plr_joint_name(render_joint_kind kind);
+void plr_joint_sample(plr_painter *painter, const render_joint *like, render_vec middle,
+                      double size);
 /// Texts of the caller.
 void plr_draw_texts(plr_painter *painter);
 /// Arrow scale in use [world units per unit of the quantity] for PLR_IMPULSE or PLR_VELOCITY.

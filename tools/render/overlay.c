@@ -1,4 +1,5 @@
-// overlay.c - what explains the motion: trails, boxes, cells, joints, contacts, arrows, texts.
+// overlay.c - what explains the motion: trails, boxes, cells, running surfaces, contacts, arrows,
+// texts. Joints are in joints.c.
 //
 // Marks lie in one array; each kind is drawn in one sweep over it, in a fixed order. Arrows have
 // a length in the world, scaled by a round number (1, 2 or 5 times a power of ten) that the legend
@@ -12,15 +13,17 @@ static const render_rgba impulse_color = { 0xd9, 0x5f, 0x0e, 0xff };
 static const render_rgba velocity_color = { 0x1f, 0x6f, 0x9f, 0xff };
 static const render_rgba aabb_color = { 0x7a, 0x5c, 0xa8, 0xff };
 static const render_rgba cell_color = { 0x2f, 0x95, 0x7a, 0xff };
-static const render_rgba joint_color = { 0x3d, 0x43, 0x55, 0xff };
+static const render_rgba surface_color = { 0xf0, 0x9a, 0x3e, 0xff };
 
 // The longest arrow is at most this share of the picture's height under automatic scale.
 static const double arrow_share = 0.16;
 // Speeds that would take 50 s to cross the picture's height are rest [1/s]: arrows are not scaled
 // up further than makes this one as long as the longest, so the noise of bodies at rest shows none.
 static const double rest_share = 0.02;
-static const double normal_length = 13.0; // of a contact normal [px at ui_scale 1]
-enum { text_size = 13 };                  // [px at ui_scale 1]
+static const double surface_distance = 24.0; // between chevrons [px at ui_scale 1]
+static const double surface_inset = 5.5;     // of chevrons of an outline [px at ui_scale 1]
+static const double normal_length = 13.0;    // of a contact normal [px at ui_scale 1]
+enum { text_size = 13 };                     // [px at ui_scale 1]
 
 static bool visible(const plr_painter *painter, plr_mark_kind kind, unsigned flag)
 {
@@ -108,60 +111,43 @@ void plr_draw_underlay(plr_painter *painter)
 
 // ---- above the bodies
 
-static void draw_spring(plr_painter *painter, render_vec a, render_vec b, double width)
+static void chevron(plr_painter *painter, render_vec at, render_vec d, render_rgba color)
 {
-    enum { turns = 8, points_max = 2 * turns + 4 };
-    render_vec points[points_max];
-    const double length = hypot(b.x - a.x, b.y - a.y), amplitude = 5.0 * painter->ui;
-    if (length < 2.0 * amplitude) {
-        plr_line(painter, a, b, width, joint_color);
-        return;
-    }
-    const render_vec d = { (b.x - a.x) / length, (b.y - a.y) / length };
-    const double lead = fmin(0.12 * length, 3.0 * amplitude);
-    size_t n = 0;
-    points[n++] = a;
-    points[n++] = (render_vec){ a.x + d.x * lead, a.y + d.y * lead };
-    for (int i = 0; i < 2 * turns; i++) {
-        const double s = lead + (length - 2.0 * lead) * (i + 0.5) / (2 * turns);
-        const double aside = i % 2 == 0 ? amplitude : -amplitude;
-        points[n++] = (render_vec){ a.x + d.x * s - d.y * aside, a.y + d.y * s + d.x * aside };
-    }
-    points[n++] = (render_vec){ b.x - d.x * lead, b.y - d.y * lead };
-    points[n++] = b;
-    plr_stroke(painter, points, n, false, 0.8 * width, joint_color, joint_color);
+    const double w = 2.6 * painter->ui, h = 3.0 * painter->ui;
+    const render_vec n = { -d.y, d.x };
+    const render_vec points[3] = { { at.x - d.x * w + n.x * h, at.y - d.y * w + n.y * h },
+                                   { at.x + d.x * w, at.y + d.y * w },
+                                   { at.x - d.x * w - n.x * h, at.y - d.y * w - n.y * h } };
+    plr_stroke(painter, points, 3, false, 1.6 * painter->ui, color, color);
 }
 
-static void draw_anchor(plr_painter *painter, render_vec at, double radius)
+// Chevrons at equal distances along the path, moved on by how far the surface has run.
+static void draw_surface(plr_painter *painter, const render_vec *world, size_t count, bool closed,
+                         double travel)
 {
-    plr_dot(painter, at, radius, joint_color);
-    plr_dot(painter, at, radius - 1.4 * painter->ui, plr_background);
-}
-
-static void draw_joint(plr_painter *painter, render_joint kind, render_vec a, render_vec b)
-{
-    const double width = 2.0 * painter->ui, radius = 3.4 * painter->ui;
-    const render_vec ends[2] = { a, b };
-    switch (kind) {
-    case RENDER_JOINT_SPRING:
-        draw_spring(painter, a, b, width);
-        break;
-    case RENDER_JOINT_SLIDER:
-        plr_dashes(painter, ends, 2, false, width, 7.0 * painter->ui, 4.0 * painter->ui,
-                   joint_color);
-        break;
-    case RENDER_JOINT_LINE:
-    case RENDER_JOINT_HINGE:
-        plr_line(painter, a, b, width, joint_color);
-        break;
+    const double distance = surface_distance * painter->ui;
+    // Those of an outline lie within it: to the left of the path, on the right in a picture with y up.
+    const double inset = closed ? surface_inset * painter->ui : 0.0;
+    const double side = painter->camera->y_down ? -1.0 : 1.0;
+    const double sign = travel < 0.0 ? -1.0 : 1.0;
+    const double total = travel * painter->scale;
+    double next = total - floor(total / distance) * distance; // along the path so far
+    const size_t segments = closed ? count : count - 1;
+    for (size_t i = 0; i < segments; i++) {
+        const render_vec a = plr_pixel(painter, world[i]);
+        const render_vec b = plr_pixel(painter, world[(i + 1) % count]);
+        const double length = hypot(b.x - a.x, b.y - a.y);
+        if (length > 1e5) {
+            return; // far too near to be looked at
+        }
+        for (; next < length; next += distance) {
+            const render_vec d = { (b.x - a.x) / length, (b.y - a.y) / length };
+            const render_vec p = { a.x + d.x * next + side * d.y * inset,
+                                   a.y + d.y * next - side * d.x * inset };
+            chevron(painter, p, (render_vec){ sign * d.x, sign * d.y }, surface_color);
+        }
+        next -= length;
     }
-    if (kind == RENDER_JOINT_HINGE) {
-        draw_anchor(painter, a, 5.0 * painter->ui);
-        plr_dot(painter, b, 1.6 * painter->ui, joint_color);
-        return;
-    }
-    draw_anchor(painter, a, radius);
-    draw_anchor(painter, b, radius);
 }
 
 static void draw_contact(plr_painter *painter, render_vec at, render_vec normal, double depth)
@@ -202,11 +188,12 @@ void plr_draw_overlay(plr_painter *painter)
         plr_mark_kind kind;
         unsigned flag;
     } order[] = { { PLR_AABB, RENDER_SHOW_AABBS },
-                  { PLR_JOINT, RENDER_SHOW_JOINTS },
+                  { PLR_SURFACE, RENDER_SHOW_SURFACES },
                   { PLR_VELOCITY, RENDER_SHOW_VELOCITIES },
                   { PLR_IMPULSE, RENDER_SHOW_IMPULSES },
                   { PLR_CONTACT, RENDER_SHOW_CONTACTS } };
     const render_frame *frame = painter->frame;
+    plr_draw_joints(painter);
     for (size_t k = 0; k < sizeof order / sizeof order[0]; k++) {
         if (!visible(painter, order[k].kind, order[k].flag)) {
             continue;
@@ -219,9 +206,9 @@ void plr_draw_overlay(plr_painter *painter)
             }
             if (mark->kind == PLR_AABB) {
                 draw_box(painter, mark, plr_fade(aabb_color, 0.55), (render_rgba){ 0 });
-            } else if (mark->kind == PLR_JOINT) {
-                draw_joint(painter, (render_joint)mark->variant, plr_pixel(painter, mark->a),
-                           plr_pixel(painter, mark->b));
+            } else if (mark->kind == PLR_SURFACE) {
+                draw_surface(painter, frame->points + mark->first_point, mark->point_count,
+                             mark->variant != 0, mark->value);
             } else if (mark->kind == PLR_CONTACT) {
                 draw_contact(painter, plr_pixel(painter, mark->a), pixel_vector(painter, mark->b),
                              mark->value);
@@ -266,9 +253,11 @@ void plr_overlay_sample(plr_painter *painter, plr_mark_kind kind, render_vec mid
         plr_stroke(painter, (render_vec[2]){ left, right }, 2, false, 2.2 * painter->ui,
                    plr_fade(trail, 0.0), trail);
         break;
-    case PLR_JOINT:
-        draw_joint(painter, RENDER_JOINT_LINE, (render_vec){ left.x + 3.0 * painter->ui, left.y },
-                   (render_vec){ right.x - 3.0 * painter->ui, right.y });
+    case PLR_SURFACE:
+        chevron(painter, (render_vec){ middle.x - 0.4 * half, middle.y }, (render_vec){ 1.0, 0.0 },
+                surface_color);
+        chevron(painter, (render_vec){ middle.x + 0.4 * half, middle.y }, (render_vec){ 1.0, 0.0 },
+                surface_color);
         break;
     case PLR_TEXT:
     case PLR_SCREEN_TEXT:

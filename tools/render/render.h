@@ -160,15 +160,46 @@ render_result render_add_cell(render_frame *frame, render_box box);
 render_result render_add_trail(render_frame *frame, const render_vec *points, size_t count,
                                int palette);
 
-/// How a joint is drawn between its two anchors.
-typedef enum render_joint {
-    RENDER_JOINT_LINE = 0, ///< rod, rope, weld: a line
-    RENDER_JOINT_SPRING,   ///< a coil
-    RENDER_JOINT_HINGE,    ///< a ring; a line if the anchors drifted apart
-    RENDER_JOINT_SLIDER    ///< a dashed line
+/// The sign of a joint.
+typedef enum render_joint_kind {
+    RENDER_JOINT_ROD = 0, ///< a line
+    RENDER_JOINT_ROPE,    ///< a line that sags when it is slack
+    RENDER_JOINT_SPRING,  ///< a zigzag
+    RENDER_JOINT_HINGE,   ///< a pin; a line if the anchors drifted apart
+    RENDER_JOINT_SLIDER,  ///< a rail and a carriage
+    RENDER_JOINT_WELD,    ///< a diamond
+    RENDER_JOINT_WHEEL,   ///< a hub and its strut
+    RENDER_JOINT_POINTER, ///< a cross at the target, a dashed line to the body
+    RENDER_JOINT_DRIVE,   ///< a dashed line: B is driven to a pose
+    RENDER_JOINT_GEAR,    ///< toothed rings
+    RENDER_JOINT_PULLEY,  ///< a rope over two wheels
+    RENDER_JOINT_RATCHET, ///< a ring of slanted teeth
+    RENDER_JOINT_PADS,    ///< two pads that rub
+    RENDER_JOINT_KINDS
+} render_joint_kind;
+
+/// A joint between two anchors. {0} but for the anchors is a rod.
+typedef struct render_joint {
+    render_joint_kind kind;
+    render_vec a, b;         ///< anchors on the two bodies; a pointer's target is `a`
+    render_vec via_a, via_b; ///< pulley: the wheels
+    render_vec axis;         ///< unit; slider, wheel: the way; hinge: where B points at value 0
+    bool has_limit;
+    double lower, upper; ///< slider, wheel: along the axis from `a`; hinge: [rad] of the value
+    double value;        ///< hinge: [rad] from the axis
+    double drive;        ///< motor: its sign (counter-clockwise, or along the axis), 0: none;
+                         ///< ratchet: the way it turns
+    bool has_spring;
+    double slack; ///< rope: by how much it is longer than the straight way
+    double reach; ///< half the size of the smaller body: signs shrink to fit; 0: full size
 } render_joint;
-render_result render_add_joint(render_frame *frame, render_joint kind, double ax, double ay,
-                               double bx, double by);
+/// A joint. RENDER_E_ARGUMENT: no such kind, or an axis that is needed and {0}.
+render_result render_add_joint(render_frame *frame, const render_joint *joint);
+/// The running surface of a conveyor: a path (closed: the last point joins the first) along which
+/// chevrons show the way. `travel`: how far the surface has run, its sign is the direction along the
+/// path; 0 is forwards.
+render_result render_add_surface(render_frame *frame, const render_vec *points, size_t count,
+                                 bool closed, double travel);
 
 /// Where the text lies relative to its point.
 typedef enum render_anchor {
@@ -220,19 +251,21 @@ enum {
     RENDER_SHOW_CELLS = 1 << 4,
     RENDER_SHOW_TRAILS = 1 << 5,
     RENDER_SHOW_JOINTS = 1 << 6,
-    RENDER_SHOW_LABELS = 1 << 7,  ///< names of bodies; left out where there is no room
-    RENDER_SHOW_TEXTS = 1 << 8,   ///< texts of the caller
-    RENDER_SHOW_LEGEND = 1 << 9,  ///< explains the overlays that are on and present
-    RENDER_SHOW_GRID = 1 << 10,   ///< background lines at round distances
-    RENDER_SHOW_SCALE = 1 << 11,  ///< scale bar with its length
-    RENDER_SHOW_TITLE = 1 << 12,  ///< title and caption
-    RENDER_SHOW_SPOKES = 1 << 13, ///< rotation marks of discs
-    RENDER_SHOW_NOTHING = 1 << 14 ///< bodies only (0 means the default)
+    RENDER_SHOW_LABELS = 1 << 7,   ///< names of bodies; left out where there is no room
+    RENDER_SHOW_TEXTS = 1 << 8,    ///< texts of the caller
+    RENDER_SHOW_LEGEND = 1 << 9,   ///< explains the overlays that are on and present
+    RENDER_SHOW_GRID = 1 << 10,    ///< background lines at round distances
+    RENDER_SHOW_SCALE = 1 << 11,   ///< scale bar with its length
+    RENDER_SHOW_TITLE = 1 << 12,   ///< title and caption
+    RENDER_SHOW_SPOKES = 1 << 13,  ///< rotation marks of discs
+    RENDER_SHOW_NOTHING = 1 << 14, ///< bodies only (0 means the default)
+    RENDER_SHOW_SURFACES = 1 << 15 ///< chevrons on surfaces that run
 };
 /// What a `show` of 0 means.
 #define RENDER_SHOW_DEFAULT                                                                        \
     (RENDER_SHOW_TRAILS | RENDER_SHOW_JOINTS | RENDER_SHOW_LABELS | RENDER_SHOW_TEXTS |            \
-     RENDER_SHOW_GRID | RENDER_SHOW_SCALE | RENDER_SHOW_TITLE | RENDER_SHOW_SPOKES)
+     RENDER_SHOW_SURFACES | RENDER_SHOW_GRID | RENDER_SHOW_SCALE | RENDER_SHOW_TITLE |             \
+     RENDER_SHOW_SPOKES)
 
 /// Where the legend goes, always at the right edge.
 typedef enum render_legend_at {

@@ -7,72 +7,6 @@
 
 #include "internal.h"
 
-sc_body *sc_body_of(const scene *s, plumb_body body)
-{
-    if (s->world == NULL || !plumb_body_valid(s->world, body)) {
-        return NULL;
-    }
-    return plumb_body_user_data(s->world, body);
-}
-
-sc_body *sc_body_named(const scene *s, const char *name)
-{
-    lua_State *L = s->L;
-    lua_getfield(L, LUA_REGISTRYINDEX, "plumb.names");
-    lua_pushstring(L, name);
-    lua_rawget(L, -2);
-    sc_body *b = lua_touserdata(L, -1);
-    lua_pop(L, 2);
-    return b;
-}
-
-bool sc_body_at_index(lua_State *L, int index, plumb_body *out)
-{
-    const plumb_body *object = luaL_testudata(L, index, SC_META_BODY);
-    if (object != NULL) {
-        *out = *object;
-    }
-    return object != NULL;
-}
-
-bool sc_name_matches(const char *pattern, const char *name)
-{
-    size_t length = strlen(pattern);
-    if (length > 0 && pattern[length - 1] == '*') {
-        return strncmp(pattern, name, length - 1) == 0;
-    }
-    return strcmp(pattern, name) == 0;
-}
-
-void sc_body_push(scene *s, const sc_body *body)
-{
-    lua_rawgeti(s->L, LUA_REGISTRYINDEX, body->object);
-}
-
-void sc_body_release(scene *s, sc_body *body)
-{
-    lua_State *L = s->L;
-    lua_getfield(L, LUA_REGISTRYINDEX, "plumb.names");
-    lua_pushnil(L);
-    lua_setfield(L, -2, body->def.name);
-    lua_pop(L, 1);
-    luaL_unref(L, LUA_REGISTRYINDEX, body->object);
-    luaL_unref(L, LUA_REGISTRYINDEX, body->user);
-    for (int i = 0; i < body->def.shape_count; i++) {
-        sc_shape_def *d = &body->shapes[i];
-        sc_resize(s, d->points, (size_t)d->point_count * sizeof *d->points, 0);
-    }
-    sc_resize(s, body->shapes, (size_t)body->def.shape_count * sizeof *body->shapes, 0);
-    int at = 0;
-    while (s->bodies.items[at] != body) {
-        at++;
-    }
-    s->bodies.count--;
-    memmove(&s->bodies.items[at], &s->bodies.items[at + 1],
-            (size_t)(s->bodies.count - at) * sizeof(sc_body *));
-    sc_resize(s, body, sizeof *body, 0);
-}
-
 // ------------------------------------------------------------------------------------ arguments
 
 /// What a method needs: filled by `self`.
@@ -463,10 +397,119 @@ static int method_sleep(lua_State *L)
     return check(&c, plumb_body_sleep(c.world, c.entity));
 }
 
+// ------------------------------------------------------------------------- sensors and filters
+
+// The shapes of the body, in memory that Lua collects; *count is set.
+static plumb_entity *shapes_of(const call *c, int *count)
+{
+    *count = plumb_body_shapes(c->world, c->entity, NULL, 0);
+    plumb_entity *list = lua_newuserdatauv(c->s->L, (size_t)(*count + 1) * sizeof *list, 0);
+    plumb_body_shapes(c->world, c->entity, list, *count);
+    return list;
+}
+
+// Bodies that now overlap the sensors of this one, each once, in a list on the stack; how many.
+int sc_body_overlaps(scene *s, plumb_body body)
+{
+    lua_State *L = s->L;
+    call c = { .s = s, .world = s->world, .entity = body };
+    int count, found = 0;
+    sc_need_stack(s, 10);
+    lua_newtable(L);
+    int result = lua_gettop(L);
+    const plumb_entity *shapes = shapes_of(&c, &count);
+    for (int i = 0; i < count; i++) {
+        if (!plumb_shape_is_sensor(c.world, shapes[i])) {
+            continue;
+        }
+        int seen = plumb_shape_overlaps(c.world, shapes[i], NULL, 0);
+        plumb_shape *list = lua_newuserdatauv(L, (size_t)(seen + 1) * sizeof *list, 0);
+        plumb_shape_overlaps(c.world, shapes[i], list, seen);
+        for (int k = 0; k < seen; k++) {
+            const sc_body *b = sc_body_of(s, plumb_shape_body(c.world, list[k]));
+            bool known = b == NULL;
+            for (int m = 1; m <= found && !known; m++) {
+                plumb_body other = PLUMB_NULL_INIT;
+                lua_rawgeti(L, result, m);
+                known = sc_body_at_index(L, -1, &other) && plumb_same(other, b->entity);
+                lua_pop(L, 1);
+            }
+            if (!known) {
+                sc_body_push(s, b);
+                lua_rawseti(L, result, ++found);
+            }
+        }
+        lua_pop(L, 1);
+    }
+    lua_settop(L, result);
+    return found;
+}
+
+static int method_overlaps(lua_State *L)
+{
+    call c = self(L, "overlaps");
+    int count = 0, sensors = 0;
+    const plumb_entity *shapes = shapes_of(&c, &count);
+    for (int i = 0; i < count; i++) {
+        sensors += plumb_shape_is_sensor(c.world, shapes[i]);
+    }
+    if (sensors == 0) {
+        sc_site site = sc_here(c.s, c.method);
+        sc_raise(c.s, SCENE_E_STATE, &site, NULL, 0, NULL, "overlaps() of '%s': it has no sensor",
+                 c.body->def.name);
+    }
+    sc_body_overlaps(c.s, c.entity);
+    return 1;
+}
+
+// body:set_filter{ collides = {} }: for all shapes of the body, whatever they said themselves.
+static int method_set_filter(lua_State *L)
+{
+    call c = self(L, "set_filter");
+    sc_site site = sc_here(c.s, c.method);
+    sc_body_def def = { 0 };
+    if (lua_gettop(L) != 2 || lua_type(L, 2) != LUA_TTABLE) {
+        sc_raise(c.s, SCENE_E_TYPE, &site, NULL, 0, NULL,
+                 "set_filter takes one table: body:set_filter{...}");
+    }
+    sc_read(c.s, &site, &sc_list_filter, 2, &def);
+    sc_filter_given g = SC_FILTER_GIVEN(&sc_list_filter, &def, sc_body_def);
+    sc_filter_check(c.s, &site, &g);
+    plumb_filter f = sc_filter_resolve(c.s, &def.filter, g, &def.filter, g);
+    int count;
+    const plumb_entity *shapes = shapes_of(&c, &count);
+    for (int i = 0; i < count; i++) {
+        check(&c, plumb_shape_set_filter(c.world, shapes[i], f));
+    }
+    sc_filter_record(c.body, &def.filter, g);
+    return 0;
+}
+
+// -------------------------------------------------------------------------------------- the end
+
+// Joints go with their bodies; their records are ours to forget.
+static plumb_result destroy_body(scene *s, plumb_body body)
+{
+    plumb_joint joint;
+    while (plumb_body_joints(s->world, body, &joint, 1) > 0) {
+        sc_joint *record = sc_joint_of(s, joint);
+        plumb_result r = plumb_joint_destroy(s->world, joint);
+        if (r != PLUMB_OK) {
+            return r;
+        }
+        sc_joint_release(s, record);
+    }
+    plumb_result r = plumb_body_destroy(s->world, body);
+    if (r == PLUMB_OK) {
+        sc_excluded_forget(s, body);
+    }
+    return r;
+}
+
 static int method_destroy(lua_State *L)
 {
     call c = self(L, "destroy");
-    check(&c, plumb_body_destroy(c.world, c.entity));
+    check(&c, destroy_body(c.s, c.entity));
     sc_body_release(c.s, c.body);
     return 0;
 }
@@ -488,11 +531,13 @@ static const luaL_Reg methods[] = {
     { "mass", method_mass },
     { "move_to", method_move_to },
     { "name", method_name },
+    { "overlaps", method_overlaps },
     { "position", method_position },
     { "set_color", method_set_color },
     { "set_continuous", method_set_continuous },
     { "set_damping", method_set_damping },
     { "set_enabled", method_set_enabled },
+    { "set_filter", method_set_filter },
     { "set_fixed_rotation", method_set_fixed_rotation },
     { "set_gravity_scale", method_set_gravity_scale },
     { "set_label", method_set_label },

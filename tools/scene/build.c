@@ -1,4 +1,4 @@
-// build.c - the constructors scene{}, material{}, body{}, camera{} and param().
+// build.c - the constructors scene{}, body{}, camera{} and param().
 // Each checks its table by its list, then gives the thing to the world at once, so that whatever
 // the world refuses is reported at the author's line. The same functions serve JSON (json_read.c).
 #include <math.h>
@@ -85,60 +85,6 @@ void sc_need_world(scene *s)
     }
 }
 
-// ---------------------------------------------------------------------------------- material{}
-
-void sc_build_material(scene *s, const sc_site *site, int table)
-{
-    lua_State *L = s->L;
-    sc_need_world(s);
-    sc_material_def def = { .density = 1,
-                            .friction = 0.6 }; // those of the world's default material
-    sc_read(s, site, &sc_list_material, table, &def);
-    for (int i = 0; i < s->materials.count && def.name[0] != 0; i++) {
-        if (strcmp(s->materials.items[i]->id, def.name) == 0) {
-            sc_raise(s, SCENE_E_DUPLICATE, site, "name", 0, NULL, "two materials are called '%s'",
-                     def.name);
-        }
-    }
-    sc_material **slot = SC_PUSH(s, s->materials);
-    *slot = NULL;
-    sc_material *m = *slot = sc_need(s, NULL, 0, sizeof *m);
-    *m = (sc_material){ .def = def, .line = site->line };
-    if (def.name[0] != 0) {
-        snprintf(m->id, sizeof m->id, "%s", def.name);
-    } else {
-        snprintf(m->id, sizeof m->id, "material%d", s->materials.count);
-    }
-    m->handle = plumb_material_create(s->world, &(plumb_material_desc){
-                                                    .density = (plumb_real)def.density,
-                                                    .friction = (plumb_real)def.friction,
-                                                    .restitution = (plumb_real)def.restitution,
-                                                    .adhesion = (plumb_real)def.adhesion,
-                                                });
-    if (plumb_is_null(m->handle)) {
-        sc_raise(s, SCENE_E_WORLD, site, NULL, 0, NULL, "material{}: %s",
-                 plumb_world_error(s->world).message);
-    }
-    sc_material **object = lua_newuserdatauv(L, sizeof *object, 0);
-    *object = m;
-    luaL_setmetatable(L, SC_META_MATERIAL);
-}
-
-sc_material *sc_to_material(lua_State *L, int index)
-{
-    sc_material **object = luaL_testudata(L, index, SC_META_MATERIAL);
-    return object == NULL ? NULL : *object;
-}
-
-static int material_collect(lua_State *L)
-{
-    sc_material *m = sc_to_material(L, 1);
-    if (m != NULL) {
-        m->collected = true;
-    }
-    return 0;
-}
-
 // -------------------------------------------------------------------------------------- body{}
 
 static void refuse(scene *s, const sc_site *site, bool given, const char *key, const char *kind)
@@ -178,6 +124,12 @@ static void check_body(scene *s, const sc_site *site, const sc_body_def *d)
     sc_motion_check(s, site, d);
     if (d->shape_count == 0 && !SC_GIVEN(list, d, sc_body_def, mass)) {
         sc_raise(s, SCENE_E_MISSING, site, NULL, 0, NULL, "body{} needs a shape such as box{1, 1}");
+    }
+    sc_filter_given given = SC_FILTER_GIVEN(list, d, sc_body_def);
+    sc_filter_check(s, site, &given);
+    if (strcmp(d->name, "world") == 0) {
+        sc_raise(s, SCENE_E_RANGE, site, "name", 0, NULL,
+                 "'name' of body{} must not be 'world': that is what joints hold on to");
     }
     if (strchr(d->name, '*') != NULL) {
         sc_raise(s, SCENE_E_RANGE, site, "name", 0, NULL,
@@ -269,7 +221,7 @@ static void add_shape(scene *s, const sc_site *site, sc_body *b, int index)
 void sc_build_body(scene *s, const sc_site *site, int table)
 {
     lua_State *L = s->L;
-    luaL_checkstack(L, 20, NULL);
+    sc_need_stack(s, 20);
     table = lua_absindex(L, table);
     sc_need_world(s);
     sc_body_def def = { .gravity_scale = 1,
@@ -294,17 +246,20 @@ void sc_build_body(scene *s, const sc_site *site, int table)
         lua_pushvalue(L, table);
         lua_replace(L, -2);
     }
-    bool massive = false;
+    bool massive = false, sensors = false;
     for (int i = 0; i < def.shape_count; i++) {
         lua_rawgeti(L, -1, i + 1);
         add_shape(s, site, b, i);
-        massive |= b->shapes[i].kind != SC_SEGMENT && b->shapes[i].kind != SC_CHAIN;
+        bool is_sensor = sc_shape_is_sensor(b, &b->shapes[i]);
+        sensors |= is_sensor;
+        massive |= !is_sensor && b->shapes[i].kind != SC_SEGMENT && b->shapes[i].kind != SC_CHAIN;
         lua_pop(L, 1);
     }
     lua_pop(L, 1);
     if (def.type == 0 && !massive && def.mass == 0) {
         sc_raise(s, SCENE_E_MISSING, site, NULL, 0, NULL,
-                 "a dynamic body{} of segments and chains needs 'mass'");
+                 sensors ? "a dynamic body{} of nothing but sensors needs 'mass'"
+                         : "a dynamic body{} of segments and chains needs 'mass'");
     }
     if (def.type != 2) { // after the shapes: they have moved the centre of mass
         plumb_body_set_velocity(
@@ -360,9 +315,7 @@ void sc_build_camera(scene *s, const sc_site *site, int table)
 
 // ----------------------------------------------------------------------------- Lua's side of it
 
-typedef void constructor(scene *s, const sc_site *site, int table);
-
-static int construct(lua_State *L, const char *name, constructor *build, int results)
+int sc_construct(lua_State *L, const char *name, sc_constructor *build, int results)
 {
     scene *s = sc_of(L);
     sc_site site = sc_here(s, name);
@@ -375,22 +328,17 @@ static int construct(lua_State *L, const char *name, constructor *build, int res
 
 static int lua_scene(lua_State *L)
 {
-    return construct(L, "scene", sc_build_settings, 0);
-}
-
-static int lua_material(lua_State *L)
-{
-    return construct(L, "material", sc_build_material, 1);
+    return sc_construct(L, "scene", sc_build_settings, 0);
 }
 
 static int lua_body(lua_State *L)
 {
-    return construct(L, "body", sc_build_body, 1);
+    return sc_construct(L, "body", sc_build_body, 1);
 }
 
 static int lua_camera(lua_State *L)
 {
-    return construct(L, "camera", sc_build_camera, 0);
+    return sc_construct(L, "camera", sc_build_camera, 0);
 }
 
 // Raises unless the value on top fits what the param's default says.
@@ -476,17 +424,10 @@ static int lua_param(lua_State *L)
 
 void sc_open_build(lua_State *L)
 {
-    luaL_newmetatable(L, SC_META_MATERIAL);
-    lua_pushcfunction(L, material_collect);
-    lua_setfield(L, -2, "__gc");
-    lua_pushliteral(L, "material");
-    lua_setfield(L, -2, "__name");
     lua_newtable(L);
     lua_setfield(L, LUA_REGISTRYINDEX, "plumb.names");
     lua_register(L, "scene", lua_scene);
-    lua_register(L, "material", lua_material);
     lua_register(L, "body", lua_body);
     lua_register(L, "camera", lua_camera);
     lua_register(L, "param", lua_param);
-    lua_pop(L, 1);
 }

@@ -130,19 +130,36 @@ void sc_check_body_name(scene *s, const sc_site *site, const char *key, const ch
     sc_raise(s, SCENE_E_NAME, site, key, 0, sc_suggest_best(&g), "no body is called '%s'", name);
 }
 
+void sc_check_joint_name(scene *s, const sc_site *site, const char *key, const char *name)
+{
+    if (name[0] == 0 || strchr(name, '*') != NULL || sc_joint_named(s, name) != NULL) {
+        return;
+    }
+    sc_suggest g = sc_suggest_start(name);
+    for (int i = 0; i < s->joints.count; i++) {
+        sc_suggest_offer(&g, s->joints.items[i]->def.name);
+    }
+    sc_raise(s, SCENE_E_NAME, site, key, 0, sc_suggest_best(&g), "no joint is called '%s'", name);
+}
+
 void sc_check_build(scene *s)
 {
     sc_need_world(s);
     check_sets(s);
     check_unused(s);
-    sc_check_body_name(s, &(sc_site){ "camera", s->camera_line, s->is_json ? "camera" : NULL },
+    sc_check_categories(s);
+    sc_check_body_name(s,
+                       &(sc_site){ .construct = "camera",
+                                   .line = s->camera_line,
+                                   .path = s->is_json ? "camera" : NULL },
                        "follow", s->camera.follow);
     for (int i = 0; i < s->expects.count; i++) {
         char path[32];
         snprintf(path, sizeof path, "expect[%d]", i);
         sc_expect *e = &s->expects.items[i];
-        sc_site site = { "expect", e->line, s->is_json ? path : NULL };
+        sc_site site = { .construct = "expect", .line = e->line, .path = s->is_json ? path : NULL };
         sc_check_body_name(s, &site, "body", e->def.body);
+        sc_check_joint_name(s, &site, "joint", e->def.joint);
         if (SC_GIVEN(&sc_list_expect, &e->def, sc_expect_def, at) &&
             e->def.at > s->start_time + s->duration) {
             // a shorter run was asked for: then the line is simply not reached
@@ -158,13 +175,14 @@ void sc_check_build(scene *s)
         }
     }
     for (int i = 0; i < s->exact_count; i++) {
-        sc_check_body_name(s, &(sc_site){ "exact", s->exacts[i].line, NULL }, "body",
+        sc_check_body_name(s, &(sc_site){ .construct = "exact", .line = s->exacts[i].line }, "body",
                            s->exacts[i].def.body);
     }
     for (int i = 0; i < s->handlers.count; i++) {
         const sc_handler *h = &s->handlers.items[i];
-        sc_site site = { h->kind == SC_ON_END ? "on_end" : "on_contact", h->line, NULL };
+        sc_site site = { .construct = sc_handler_name(h->kind), .line = h->line };
         sc_check_body_name(s, &site, "a", h->contact.a);
         sc_check_body_name(s, &site, "b", h->contact.b);
+        sc_check_joint_name(s, &site, "joint", h->contact.joint);
     }
 }

@@ -73,6 +73,13 @@ void sc_raise(scene *s, scene_code code, const sc_site *site, const char *key, i
     abort(); // lua_error does not return
 }
 
+const char *sc_world_message(const scene *s)
+{
+    const char *message = plumb_world_error(s->world).message;
+    const char *after = strstr(message, ": ");
+    return after != NULL ? after + 2 : message;
+}
+
 sc_site sc_here(scene *s, const char *construct)
 {
     sc_site site = { .construct = construct };
@@ -163,6 +170,16 @@ static void take_limit(scene *s)
     int line = s->is_json ? 0 : b->line;
     int column = line > 0 ? sc_lua_column(s->source, s->source_size, line, NULL) : 0;
     sc_set_error(s, SCENE_E_LIMIT, line, column, NULL, message);
+}
+
+void sc_need_stack(scene *s, int slots)
+{
+    if (!lua_checkstack(s->L, slots)) {
+        take_limit(s);
+        lua_settop(s->L, 0);
+        lua_pushlightuserdata(s->L, s);
+        lua_error(s->L);
+    }
 }
 
 void sc_take_error(scene *s, int status)

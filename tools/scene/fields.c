@@ -19,22 +19,14 @@ static const sc_field *find_row(const sc_list *list, const char *name)
 
 // ---------------------------------------------------------------------------------- one value
 
-/// What a reader needs to know to complain.
-typedef struct context {
-    scene *s;
-    const sc_site *site;
-    const sc_field *row;
-    int index; ///< element of the construct when given by position, else 0
-} context;
-
-_Noreturn static void fail_type(const context *c, const char *expected, int value)
+void sc_fail_type(const sc_context *c, const char *expected, int value)
 {
     sc_raise(c->s, SCENE_E_TYPE, c->site, c->row->name, c->index, NULL,
              "'%s' of %s{} must be %s, not %s", c->row->name, c->site->construct, expected,
              sc_type_name(c->s, value));
 }
 
-static void check_number(const context *c, double v)
+void sc_check_number(const sc_context *c, double v)
 {
     const sc_field *row = c->row;
     bool low = (row->flags & SC_ABOVE) != 0 ? v <= row->min : v < row->min;
@@ -54,14 +46,14 @@ static void check_number(const context *c, double v)
     }
 }
 
-static void read_number(const context *c, int value, double *out)
+static void read_number(const sc_context *c, int value, double *out)
 {
     lua_State *L = c->s->L;
     if (lua_type(L, value) != LUA_TNUMBER) {
-        fail_type(c, c->row->kind == SC_INTEGER ? "an integer" : "a number", value);
+        sc_fail_type(c, c->row->kind == SC_INTEGER ? "an integer" : "a number", value);
     }
     double v = lua_tonumber(L, value);
-    check_number(c, v);
+    sc_check_number(c, v);
     if (c->row->kind == SC_INTEGER && v != floor(v)) {
         sc_raise(c->s, SCENE_E_TYPE, c->site, c->row->name, c->index, NULL,
                  "'%s' of %s{} must be an integer, not %.10g", c->row->name, c->site->construct, v);
@@ -69,24 +61,24 @@ static void read_number(const context *c, int value, double *out)
     *out = v;
 }
 
-static void read_vec2(const context *c, int value, double out[2])
+static void read_vec2(const sc_context *c, int value, double out[2])
 {
     if (!sc_to_vec2(c->s, value, out)) {
         if (lua_type(c->s->L, value) == LUA_TTABLE) {
             sc_raise(c->s, SCENE_E_TYPE, c->site, c->row->name, c->index, NULL,
                      "'%s' of %s{} must be two numbers {x, y}", c->row->name, c->site->construct);
         }
-        fail_type(c, "two numbers {x, y}", value);
+        sc_fail_type(c, "two numbers {x, y}", value);
     }
-    check_number(c, out[0]);
-    check_number(c, out[1]);
+    sc_check_number(c, out[0]);
+    sc_check_number(c, out[1]);
 }
 
-static void read_range(const context *c, int value, double out[2])
+static void read_range(const sc_context *c, int value, double out[2])
 {
     if (lua_type(c->s->L, value) == LUA_TNUMBER) {
         out[0] = out[1] = lua_tonumber(c->s->L, value);
-        check_number(c, out[0]);
+        sc_check_number(c, out[0]);
         return;
     }
     if (!sc_to_vec2(c->s, value, out) || isnan(out[0]) || isnan(out[1])) {
@@ -101,11 +93,11 @@ static void read_range(const context *c, int value, double out[2])
     }
 }
 
-static void read_string(const context *c, int value, char *out, size_t size)
+void sc_read_string(const sc_context *c, int value, char *out, size_t size)
 {
     size_t length;
     if (lua_type(c->s->L, value) != LUA_TSTRING) {
-        fail_type(c, "a string", value);
+        sc_fail_type(c, "a string", value);
     }
     const char *text = lua_tolstring(c->s->L, value, &length);
     if (length >= size || strlen(text) != length) {
@@ -120,10 +112,10 @@ static void read_string(const context *c, int value, char *out, size_t size)
     memcpy(out, text, length + 1);
 }
 
-static void read_choice(const context *c, int value, int *out)
+static void read_choice(const sc_context *c, int value, int *out)
 {
     if (lua_type(c->s->L, value) != LUA_TSTRING) {
-        fail_type(c, "a string", value);
+        sc_fail_type(c, "a string", value);
     }
     const char *text = lua_tostring(c->s->L, value);
     sc_suggest g = sc_suggest_start(text);
@@ -145,7 +137,7 @@ static void read_choice(const context *c, int value, int *out)
              c->row->detail, text);
 }
 
-static void read_color(const context *c, int value, sc_color *out)
+static void read_color(const sc_context *c, int value, sc_color *out)
 {
     lua_State *L = c->s->L;
     if (lua_type(L, value) == LUA_TNUMBER) {
@@ -162,25 +154,7 @@ static void read_color(const context *c, int value, sc_color *out)
              c->site->construct);
 }
 
-static void read_body(const context *c, int value, char out[SC_NAME_SIZE])
-{
-    plumb_body body;
-    if (sc_body_at_index(c->s->L, value, &body)) {
-        const sc_body *b = sc_body_of(c->s, body);
-        if (b == NULL) {
-            sc_raise(c->s, SCENE_E_STATE, c->site, c->row->name, c->index, NULL,
-                     "'%s' of %s{} is a body that was destroyed", c->row->name, c->site->construct);
-        }
-        snprintf(out, SC_NAME_SIZE, "%s", b->def.name);
-        return;
-    }
-    if (lua_type(c->s->L, value) != LUA_TSTRING) {
-        fail_type(c, "a body or the name of one", value);
-    }
-    read_string(c, value, out, SC_NAME_SIZE);
-}
-
-static void read_box(const context *c, int value, double out[4])
+static void read_box(const sc_context *c, int value, double out[4])
 {
     lua_State *L = c->s->L;
     bool good = lua_type(L, value) == LUA_TTABLE && lua_rawlen(L, value) == 2;
@@ -195,7 +169,7 @@ static void read_box(const context *c, int value, double out[4])
                  c->site->construct);
     }
     for (int i = 0; i < 4; i++) {
-        check_number(c, out[i]);
+        sc_check_number(c, out[i]);
     }
     for (int i = 0; i < 2; i++) {
         double low = fmin(out[i], out[i + 2]);
@@ -208,11 +182,11 @@ static void read_box(const context *c, int value, double out[4])
     }
 }
 
-static void read_points(const context *c, int value, int *out)
+static void read_points(const sc_context *c, int value, int *out)
 {
     scene *s = c->s;
     if (lua_type(s->L, value) != LUA_TTABLE) {
-        fail_type(c, "points {{x, y}, ...}", value);
+        sc_fail_type(c, "points {{x, y}, ...}", value);
     }
     lua_Unsigned count = lua_rawlen(s->L, value);
     if ((double)count < c->row->min || (double)count > c->row->max) {
@@ -250,11 +224,11 @@ static void read_points(const context *c, int value, int *out)
     *out = (int)count;
 }
 
-static void read_shapes(const context *c, int value, int *out)
+static void read_shapes(const sc_context *c, int value, int *out)
 {
     lua_State *L = c->s->L;
     if (lua_type(L, value) != LUA_TTABLE) {
-        fail_type(c, "shapes", value);
+        sc_fail_type(c, "shapes", value);
     }
     *out = (int)lua_rawlen(L, value);
     for (int i = 1; i <= *out; i++) {
@@ -269,7 +243,7 @@ static void read_shapes(const context *c, int value, int *out)
 }
 
 // {"x", "y", "rotation"}, in any order, or one of them.
-static void read_axes(const context *c, int value, int *out)
+static void read_axes(const sc_context *c, int value, int *out)
 {
     lua_State *L = c->s->L;
     bool is_table = lua_type(L, value) == LUA_TTABLE;
@@ -292,7 +266,56 @@ static void read_axes(const context *c, int value, int *out)
     }
 }
 
-static void read_value(const context *c, int value, void *out)
+static void read_limits(const sc_context *c, int value, double out[2])
+{
+    if (!sc_to_vec2(c->s, value, out)) {
+        sc_fail_type(c, "two numbers {lower, upper}", value);
+    }
+    sc_check_number(c, out[0]);
+    sc_check_number(c, out[1]);
+    if (out[0] > out[1]) {
+        sc_raise(c->s, SCENE_E_RANGE, c->site, c->row->name, c->index, NULL,
+                 "'%s' of %s{} is empty: lower %.10g is above upper %.10g", c->row->name,
+                 c->site->construct, out[0], out[1]);
+    }
+}
+
+static void read_numbers(const sc_context *c, int value, double *out)
+{
+    lua_State *L = c->s->L;
+    size_t count = c->row->size / sizeof *out;
+    bool good = lua_type(L, value) == LUA_TTABLE && lua_rawlen(L, value) == count;
+    for (size_t i = 0; i < count && good; i++) {
+        good = lua_rawgeti(L, value, (lua_Integer)i + 1) == LUA_TNUMBER;
+        out[i] = lua_tonumber(L, -1);
+        lua_pop(L, 1);
+    }
+    if (!good) {
+        sc_raise(c->s, SCENE_E_TYPE, c->site, c->row->name, c->index, NULL,
+                 "'%s' of %s{} must be %d numbers", c->row->name, c->site->construct, (int)count);
+    }
+    for (size_t i = 0; i < count; i++) {
+        sc_check_number(c, out[i]);
+    }
+}
+
+// A table in the table, with a list of its own: motor = { speed = 3, torque = 10 }.
+static void read_record(const sc_context *c, int value, void *out)
+{
+    char path[200];
+    if (lua_type(c->s->L, value) != LUA_TTABLE) {
+        sc_fail_type(c, "a table {...}", value);
+    }
+    sc_site inner = { .construct = c->row->name, .line = c->site->line };
+    inner.outer = c->site->construct;
+    if (c->site->path != NULL) {
+        snprintf(path, sizeof path, "%s.%s", c->site->path, c->row->name);
+        inner.path = path;
+    }
+    sc_read(c->s, &inner, sc_list_named(c->row->detail), value, out);
+}
+
+static void read_value(const sc_context *c, int value, void *out)
 {
     lua_State *L = c->s->L;
     void *member = (char *)out + c->row->offset;
@@ -303,12 +326,12 @@ static void read_value(const context *c, int value, void *out)
         break;
     case SC_BOOL:
         if (lua_type(L, value) != LUA_TBOOLEAN) {
-            fail_type(c, "true or false", value);
+            sc_fail_type(c, "true or false", value);
         }
         *(bool *)member = lua_toboolean(L, value) != 0;
         break;
     case SC_STRING:
-        read_string(c, value, member, c->row->size);
+        sc_read_string(c, value, member, c->row->size);
         break;
     case SC_VEC2:
         read_vec2(c, value, member);
@@ -324,23 +347,23 @@ static void read_value(const context *c, int value, void *out)
         break;
     case SC_MATERIAL:
         if (sc_to_material(L, value) == NULL) {
-            fail_type(c, "a material", value);
+            sc_fail_type(c, "a material", value);
         }
         *(sc_material **)member = sc_to_material(L, value);
-        (*(sc_material **)member)->used = true;
+        (*(sc_material **)member)->used |= (c->row->flags & SC_MENTION) == 0;
         break;
     case SC_POINTS:
         read_points(c, value, member);
         break;
     case SC_FUNCTION:
         if (lua_type(L, value) != LUA_TFUNCTION) {
-            fail_type(c, "a function", value);
+            sc_fail_type(c, "a function", value);
         }
         lua_pushvalue(L, value);
         *(int *)member = luaL_ref(L, LUA_REGISTRYINDEX);
         break;
     case SC_BODY:
-        read_body(c, value, member);
+        sc_read_body(c, value, member);
         break;
     case SC_BOX:
         read_box(c, value, member);
@@ -353,9 +376,27 @@ static void read_value(const context *c, int value, void *out)
         break;
     case SC_TABLE:
         if (lua_type(L, value) != LUA_TTABLE) {
-            fail_type(c, "a table", value);
+            sc_fail_type(c, "a table", value);
         }
         *(bool *)member = true;
+        break;
+    case SC_LIMITS:
+        read_limits(c, value, member);
+        break;
+    case SC_NUMBERS:
+        read_numbers(c, value, member);
+        break;
+    case SC_RECORD:
+        read_record(c, value, member);
+        break;
+    case SC_NAMES:
+        *(uint64_t *)member = sc_read_names(c, value);
+        break;
+    case SC_END:
+        sc_read_end(c, value, member);
+        break;
+    case SC_JOINT:
+        sc_read_joint(c, value, member);
         break;
     }
 }
@@ -375,38 +416,17 @@ static int positions(const sc_list *list)
     return most;
 }
 
-// What other engines and languages call our keys.
-static const struct {
-    const char *elsewhere, *here;
-} words[] = {
-    { "position", "at" },
-    { "rotation", "angle" },
-    { "angular_velocity", "spin" },
-    { "omega", "spin" },
-    { "bounce", "restitution" },
-    { "elasticity", "restitution" },
-    { "radius", "r" },
-    { "width", "w" },
-    { "height", "h" },
-    { "linear_velocity", "velocity" },
-    { "time_step", "dt" },
-    { "colour", "color" },
-    { "seconds", "duration" },
-    { "rounding", "round" },
-    { "sides", "n" },
-};
-
 _Noreturn static void fail_key(scene *s, const sc_site *site, const sc_list *list, const char *key)
 {
     sc_suggest g = sc_suggest_start(key);
     for (int i = 0; i < list->count; i++) {
         sc_suggest_offer(&g, list->rows[i].name);
     }
-    for (size_t i = 0; i < sizeof words / sizeof *words && sc_suggest_best(&g) == NULL; i++) {
+    for (int i = 0; sc_synonyms[i].elsewhere != NULL && sc_suggest_best(&g) == NULL; i++) {
         sc_suggest h = sc_suggest_start(key);
-        sc_suggest_offer(&h, words[i].elsewhere);
-        if (sc_suggest_best(&h) != NULL && find_row(list, words[i].here) != NULL) {
-            sc_suggest_force(&g, words[i].here);
+        sc_suggest_offer(&h, sc_synonyms[i].elsewhere);
+        if (sc_suggest_best(&h) != NULL && find_row(list, sc_synonyms[i].here) != NULL) {
+            sc_suggest_force(&g, sc_synonyms[i].here);
         }
     }
     sc_raise(s, SCENE_E_KEY, site, key, 0, sc_suggest_best(&g), "unknown key '%.63s' in %s{}", key,
@@ -484,12 +504,12 @@ static void push_value(scene *s, const sc_site *site, const sc_field *row, int t
 void sc_read(scene *s, const sc_site *site, const sc_list *list, int table, void *out)
 {
     lua_State *L = s->L;
-    luaL_checkstack(L, 10, NULL);
+    sc_need_stack(s, 10);
     table = lua_absindex(L, table);
     check_keys(s, site, list, table);
     uint64_t present = 0;
     for (int i = 0; i < list->count; i++) {
-        context c = { s, site, &list->rows[i], 0 };
+        sc_context c = { s, site, &list->rows[i], 0 };
         push_value(s, site, c.row, table, &c.index);
         if (!lua_isnil(L, -1)) {
             read_value(&c, lua_gettop(L), out);

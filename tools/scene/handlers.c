@@ -1,7 +1,6 @@
-// handlers.c - what a script does while the scene runs: at, every, every_step before a step,
-// on_contact and on_end after it, from copies of the world's event arrays (a handler may make and
-// destroy bodies). Handlers of one kind of moment are called in the order in which they were
-// registered.
+// handlers.c - what a script does while the scene runs: at, every, every_step before a step (what
+// follows a step is in events.c), counters, text, and what a script may ask of the world. Handlers of
+// one kind of moment are called in the order in which they were registered.
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -16,7 +15,7 @@ void sc_call(scene *s, int args, int results)
 
 // ------------------------------------------------------------------------------------ registering
 
-static sc_handler *add_handler(scene *s, sc_handler_kind kind, const sc_site *site)
+sc_handler *sc_handler_add(scene *s, sc_handler_kind kind, const sc_site *site)
 {
     sc_need_world(s);
     sc_handler *h = SC_PUSH(s, s->handlers);
@@ -53,7 +52,7 @@ static int register_timed(lua_State *L, const char *name, sc_handler_kind kind)
         }
     }
     int function = luaL_ref(L, LUA_REGISTRYINDEX);
-    sc_handler *h = add_handler(s, kind, &site);
+    sc_handler *h = sc_handler_add(s, kind, &site);
     h->time = time;
     h->contact.function = function;
     h->next = kind == SC_EVERY ? (uint64_t)floor(scene_time(s) / time) + 1 : 0;
@@ -78,45 +77,8 @@ static int lua_every_step(lua_State *L)
         sc_raise(s, SCENE_E_TYPE, &site, NULL, 0, NULL, "every_step takes a function");
     }
     int function = luaL_ref(L, LUA_REGISTRYINDEX);
-    add_handler(s, SC_EVERY_STEP, &site)->contact.function = function;
+    sc_handler_add(s, SC_EVERY_STEP, &site)->contact.function = function;
     return 0;
-}
-
-// on_contact(function) or on_contact{a = ..., b = ..., function}
-static int register_contact(lua_State *L, const char *name, sc_handler_kind kind)
-{
-    scene *s = sc_of(L);
-    sc_site site = sc_here(s, name);
-    if (lua_gettop(L) == 1 && lua_type(L, 1) == LUA_TFUNCTION) {
-        lua_createtable(L, 1, 0);
-        lua_insert(L, 1);
-        lua_rawseti(L, 1, 1);
-    }
-    if (lua_gettop(L) != 1 || lua_type(L, 1) != LUA_TTABLE) {
-        sc_raise(s, SCENE_E_TYPE, &site, NULL, 0, NULL,
-                 "%s takes a function or a table: %s{a = ..., b = ..., function}", name, name);
-    }
-    sc_contact_def def = { .function = LUA_NOREF };
-    sc_read(s, &site, &sc_list_contact, 1, &def);
-    if (def.b[0] != 0 && def.a[0] == 0) {
-        sc_raise(s, SCENE_E_MISSING, &site, "b", 0, NULL, "%s{} with 'b' needs 'a'", name);
-    }
-    if (!s->building) {
-        sc_check_body_name(s, &site, "a", def.a);
-        sc_check_body_name(s, &site, "b", def.b);
-    }
-    add_handler(s, kind, &site)->contact = def;
-    return 0;
-}
-
-static int lua_on_contact(lua_State *L)
-{
-    return register_contact(L, "on_contact", SC_ON_CONTACT);
-}
-
-static int lua_on_end(lua_State *L)
-{
-    return register_contact(L, "on_end", SC_ON_END);
 }
 
 // ---------------------------------------------------------------------------------------- calling
@@ -143,103 +105,6 @@ void sc_handlers_before(scene *s)
         } else if (h->kind == SC_EVERY_STEP) {
             call_timed(s, h, now);
         }
-    }
-}
-
-// Whether the handler wants this pair; *swapped when a's pattern fits the second body.
-static bool wants(const sc_handler *h, const sc_body *a, const sc_body *b, bool *swapped)
-{
-    const sc_contact_def *d = &h->contact;
-    *swapped = false;
-    if (d->a[0] == 0) {
-        return true;
-    }
-    const char *second = d->b[0] != 0 ? d->b : "*";
-    if (sc_name_matches(d->a, a->def.name) && sc_name_matches(second, b->def.name)) {
-        return true;
-    }
-    *swapped = true;
-    return sc_name_matches(d->a, b->def.name) && sc_name_matches(second, a->def.name);
-}
-
-static void push_field(lua_State *L, const char *name, plumb_real v)
-{
-    lua_pushnumber(L, (double)v);
-    lua_setfield(L, -2, name);
-}
-
-// The third argument: where and how hard; the normal points from the handler's first body to its
-// second.
-static void push_contact(lua_State *L, const plumb_contact_begin *e, bool swapped)
-{
-    plumb_real sign = swapped ? (plumb_real)-1 : (plumb_real)1;
-    lua_createtable(L, 0, 5);
-    push_field(L, "x", e->point.x);
-    push_field(L, "y", e->point.y);
-    push_field(L, "nx", sign * e->normal.x);
-    push_field(L, "ny", sign * e->normal.y);
-    push_field(L, "speed", e->approach_speed);
-}
-
-static void dispatch(scene *s, sc_handler_kind kind, plumb_body body_a, plumb_body body_b,
-                     const plumb_contact_begin *event)
-{
-    lua_State *L = s->L;
-    int count = s->handlers.count; // those registered meanwhile start with the next event
-    for (int i = 0; i < count; i++) {
-        const sc_handler *h = &s->handlers.items[i];
-        const sc_body *a = sc_body_of(s, body_a);
-        const sc_body *b = sc_body_of(s, body_b);
-        bool swapped;
-        if (a == NULL || b == NULL) {
-            return; // destroyed by an earlier handler
-        }
-        if (h->kind != kind || !wants(h, a, b, &swapped)) {
-            continue;
-        }
-        lua_rawgeti(L, LUA_REGISTRYINDEX, h->contact.function);
-        sc_body_push(s, swapped ? b : a);
-        sc_body_push(s, swapped ? a : b);
-        if (event != NULL) {
-            push_contact(L, event, swapped);
-        }
-        sc_call(s, event != NULL ? 3 : 2, 0);
-    }
-}
-
-static bool has_kind(const scene *s, sc_handler_kind kind)
-{
-    for (int i = 0; i < s->handlers.count; i++) {
-        if (s->handlers.items[i].kind == kind) {
-            return true;
-        }
-    }
-    return false;
-}
-
-void sc_handlers_after(scene *s)
-{
-    s->begins.count = 0;
-    s->ends.count = 0;
-    int count = 0;
-    if (has_kind(s, SC_ON_CONTACT)) {
-        const plumb_contact_begin *events = plumb_world_begin_events(s->world, &count);
-        for (int i = 0; i < count; i++) {
-            *SC_PUSH(s, s->begins) = events[i];
-        }
-    }
-    if (has_kind(s, SC_ON_END)) {
-        const plumb_contact_end *events = plumb_world_end_events(s->world, &count);
-        for (int i = 0; i < count; i++) {
-            *SC_PUSH(s, s->ends) = events[i];
-        }
-    }
-    for (int i = 0; i < s->begins.count; i++) {
-        plumb_contact_begin e = s->begins.items[i];
-        dispatch(s, SC_ON_CONTACT, e.body_a, e.body_b, &e);
-    }
-    for (int i = 0; i < s->ends.count; i++) {
-        dispatch(s, SC_ON_END, s->ends.items[i].body_a, s->ends.items[i].body_b, NULL);
     }
 }
 
@@ -366,8 +231,6 @@ void sc_open_handlers(lua_State *L)
         { "at", lua_at },
         { "every", lua_every },
         { "every_step", lua_every_step },
-        { "on_contact", lua_on_contact },
-        { "on_end", lua_on_end },
         { "score", lua_score },
         { "text", lua_text },
         { "find", lua_find_body },

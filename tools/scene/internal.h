@@ -1,7 +1,8 @@
 /// internal.h - what the files of the scene loader share. Nothing here is for users.
 ///
 /// Reading order: scene.h, internal.h, fields.c (how a table becomes a struct), lists.c (one list a
-/// constructor), build.c, shapes.c, body_api.c, handlers.c, expect.c, scene.c, sandbox.c, the rest.
+/// constructor), build.c, shapes.c, joints.c, body_api.c, handlers.c, events.c, expect.c, scene.c,
+/// sandbox.c, the rest.
 #ifndef SCENE_INTERNAL_H
 #define SCENE_INTERNAL_H
 
@@ -42,6 +43,7 @@ typedef struct sc_site {
     const char *construct; ///< "body", "box", ...; a JSON object of that kind
     int line;              ///< Lua: line of the call
     const char *path;      ///< JSON: "bodies[3].shapes[0]"; null in Lua
+    const char *outer;     ///< Lua: the constructor in whose table `construct` is a key; else null
 } sc_site;
 
 /// Records an error and leaves the protected call. `key` (may be null) or `index` (0: none) tell
@@ -49,8 +51,12 @@ typedef struct sc_site {
 _Noreturn void sc_raise(scene *s, scene_code code, const sc_site *site, const char *key, int index,
                         const char *suggestion, const char *format, ...)
     __attribute__((format(printf, 7, 8)));
+/// Why the world refused the last call, without the name of its function.
+const char *sc_world_message(const scene *s);
 /// The site of the function that the script is calling now.
 sc_site sc_here(scene *s, const char *construct);
+/// Room for so many more values on Lua's stack; raises when the budget is used up.
+void sc_need_stack(scene *s, int slots);
 /// Turns a failed lua_pcall into s->error (unless sc_raise did already) and empties the stack.
 void sc_take_error(scene *s, int status);
 /// Fills s->error without leaving.
@@ -84,6 +90,13 @@ void sc_suggest_force(sc_suggest *g, const char *candidate);
 /// The best one, or null when none is near enough.
 const char *sc_suggest_best(const sc_suggest *g);
 
+/// What other engines, languages and people call our keys, and our constructors; null at the end.
+typedef struct sc_synonym {
+    const char *elsewhere, *here;
+} sc_synonym;
+
+extern const sc_synonym sc_synonyms[], sc_other_names[];
+
 // ------------------------------------------------------------------------------------- fields
 
 typedef enum sc_kind {
@@ -102,12 +115,19 @@ typedef enum sc_kind {
     SC_BOX,      ///< double[4], from {{x0, y0}, {x1, y1}}
     SC_SHAPES,   ///< int: how many shapes stand in the array part
     SC_AXES,     ///< int: bits of locked axes, from {"x", "y", "rotation"}
-    SC_TABLE     ///< bool: a table is there
+    SC_TABLE,    ///< bool: a table is there
+    SC_LIMITS,   ///< double[2], from {lower, upper}
+    SC_NAMES,    ///< uint64_t: categories, from a name or a list of names
+    SC_END,      ///< sc_end: a body, its name, or world; where a gear goes, a joint
+    SC_JOINT,    ///< char[SC_NAME_SIZE]: from the name of a joint, or a joint
+    SC_RECORD,   ///< a struct, from a table with the list that `detail` names
+    SC_NUMBERS   ///< double[size / sizeof(double)], from so many numbers
 } sc_kind;
 
 enum {
     SC_REQUIRED = 1, ///< must be given
     SC_ABOVE = 2,    ///< `min` itself is not allowed
+    SC_MENTION = 4,  ///< naming a material here is not using it
     SC_REST = -1     ///< as `position`: takes the whole array part
 };
 
@@ -118,7 +138,7 @@ typedef struct sc_field {
     size_t offset;
     size_t size; ///< SC_STRING: bytes
     double min, max;
-    const char *detail; ///< unit, or choices
+    const char *detail; ///< unit, or choices, or name of a list
     int position;       ///< may also be given as the n-th element; 0: by name only
     unsigned flags;
 } sc_field;
@@ -131,6 +151,24 @@ typedef struct sc_list {
     int count;
 } sc_list;
 
+/// What a reader of one value needs to know to complain.
+typedef struct sc_context {
+    scene *s;
+    const sc_site *site;
+    const sc_field *row;
+    int index; ///< element of the construct when given by position, else 0
+} sc_context;
+
+_Noreturn void sc_fail_type(const sc_context *c, const char *expected, int value);
+void sc_check_number(const sc_context *c, double v);
+void sc_read_string(const sc_context *c, int value, char *out, size_t size);
+/// Readers of what refers to something else (refs.c, filters.c).
+void sc_read_body(const sc_context *c, int value, char out[SC_NAME_SIZE]);
+void sc_read_joint(const sc_context *c, int value, char out[SC_NAME_SIZE]);
+struct sc_end;
+void sc_read_end(const sc_context *c, int value, struct sc_end *out);
+uint64_t sc_read_names(const sc_context *c, int value);
+
 /// Reads the table at `table` into *out; raises on anything that the list does not allow.
 void sc_read(scene *s, const sc_site *site, const sc_list *list, int table, void *out);
 /// Whether a field was given: offset of the struct's member.
@@ -139,6 +177,10 @@ bool sc_given(const sc_list *list, const void *def, size_t offset);
 /// Marks a field as given.
 void sc_give(const sc_list *list, void *def, size_t offset);
 #define SC_GIVE(list, def, type, member) sc_give((list), (def), offsetof(type, member))
+/// Marks a field as given or not.
+void sc_mark(const sc_list *list, void *def, size_t offset, bool given);
+#define SC_MARK(list, def, type, member, given)                                                    \
+    sc_mark((list), (def), offsetof(type, member), (given))
 /// What a value on the stack is, in words: "a number", "a material".
 const char *sc_type_name(scene *s, int index);
 /// {x, y} at `index` into v. False if it is not two finite numbers.
@@ -151,187 +193,9 @@ typedef struct sc_color {
 
 bool sc_parse_color(const char *text, sc_color *out);
 
-// ----------------------------------------------------------------------- what constructors hold
+#include "defs.h"
 
-typedef struct sc_settings {
-    uint64_t present;
-    char title[128];
-    char description[512];
-    double gravity[2];
-    int y, solver;
-    double dt, duration, seed, substeps, iterations;
-    double contact_hertz, contact_damping, push_speed, restitution_speed, simd_width;
-    bool sleep; ///< read only where it was given
-    bool continuous;
-} sc_settings;
-
-typedef struct sc_material_def {
-    uint64_t present;
-    char name[SC_NAME_SIZE];
-    double density, friction, restitution;
-    double adhesion;
-} sc_material_def;
-
-typedef struct sc_material {
-    sc_material_def def;
-    plumb_material handle;
-    bool used, collected;
-    int line;
-    char id[SC_NAME_SIZE]; ///< its name, or material1, material2, ...
-} sc_material;
-
-typedef enum sc_shape_kind {
-    SC_CIRCLE,
-    SC_CAPSULE,
-    SC_BOX_SHAPE,
-    SC_POLYGON,
-    SC_OUTLINE,
-    SC_SEGMENT,
-    SC_CHAIN,
-    SC_REGULAR,
-    SC_SHAPE_KINDS
-} sc_shape_kind;
-
-typedef struct sc_shape_def {
-    uint64_t present;
-    sc_shape_kind kind;
-    double w, h, r, n, length, round;
-    double at[2], angle, angle_deg, density;
-    bool closed;
-    sc_material *material;
-    int point_count;
-    double (*points)[2]; ///< as written, before at and angle
-} sc_shape_def;
-
-typedef struct sc_body_def {
-    uint64_t present;
-    int type;
-    double at[2], angle, angle_deg, velocity[2], spin;
-    double mass, gravity_scale, density;
-    double damping, angular_damping, max_speed, max_spin, time_scale;
-    int lock; ///< bits: SC_LOCK_X, ...
-    bool enabled;
-    bool fixed_rotation, hidden, user, sleep, asleep, continuous;
-    char name[SC_NAME_SIZE];
-    char label[SC_NAME_SIZE];
-    sc_color color;
-    sc_material *material;
-    int shape_count;
-} sc_body_def;
-
-/// A body of the scene; the world's user data of the body point here.
-typedef struct sc_body {
-    sc_body_def def;
-    plumb_body entity;
-    bool is_named;
-    int line;
-    int object;        ///< registry reference of its Lua object
-    int user;          ///< registry reference of its user table
-    plumb_rot set_rot; ///< rotation right after `def.angle` was given to the world
-    sc_shape_def *shapes;
-} sc_body;
-
-typedef struct sc_camera {
-    uint64_t present;
-    double center[2], height, fit[4], at, trail;
-    char follow[SC_NAME_SIZE];
-} sc_camera;
-
-typedef struct sc_expect_def {
-    uint64_t present;
-    char name[128];
-    double at, from, till;
-    bool always;
-    char body[SC_NAME_SIZE];
-    double position[2], tolerance;
-    double x[2], y[2], vx[2], vy[2], angle[2], spin[2], speed[2];
-    double max_speed, min_speed, max_spin, max_penetration, energy_drift, momentum_drift;
-    double count[2], value[2];
-    char score[SC_NAME_SIZE];
-    int test;
-} sc_expect_def;
-
-typedef struct sc_expect {
-    sc_expect_def def;
-    int line;
-    scene_expect_status status;
-    bool done;
-    double ratio; ///< how near to the limit: > 1 is broken
-    double measured, limit, time;
-    char quantity[2 * SC_NAME_SIZE];
-    const char *unit;
-    char description[320];
-} sc_expect;
-
-/// blast{}
-typedef struct sc_blast_def {
-    uint64_t present;
-    double at[2], radius, falloff, impulse;
-    bool per_body;
-    int occlusion;
-    char ignore[SC_NAME_SIZE];
-} sc_blast_def;
-
-typedef struct sc_exact_def {
-    uint64_t present;
-    char body[SC_NAME_SIZE];
-    int x, y, angle, vx, vy, spin;
-    double till;
-} sc_exact_def;
-
-typedef struct sc_contact_def {
-    uint64_t present;
-    char a[SC_NAME_SIZE], b[SC_NAME_SIZE];
-    int function;
-} sc_contact_def;
-
-typedef enum sc_handler_kind {
-    SC_AT,
-    SC_EVERY,
-    SC_EVERY_STEP,
-    SC_ON_CONTACT,
-    SC_ON_END
-} sc_handler_kind;
-
-typedef struct sc_handler {
-    sc_handler_kind kind;
-    double time;   ///< [s] at: when; every: the period
-    uint64_t next; ///< every: number of the next call
-    bool spent;    ///< at: has been called
-    int line;
-    sc_contact_def contact;
-} sc_handler;
-
-typedef struct sc_score {
-    char name[SC_NAME_SIZE];
-    double value;
-} sc_score;
-
-typedef struct sc_param {
-    char name[SC_NAME_SIZE];
-    char value[SC_NAME_SIZE];
-    bool overridden;
-} sc_param;
-
-typedef struct sc_set {
-    char key[SC_NAME_SIZE];
-    char value[256];
-    bool used;
-} sc_set;
-
-/// A shape that the script made: for "is never used".
-typedef struct sc_made {
-    sc_shape_kind kind;
-    int line;
-    bool used, collected;
-} sc_made;
-
-/// What a Lua shape object holds; the points follow in the same block.
-typedef struct sc_shape_object {
-    sc_shape_def def;
-    int made;  ///< index into s->made
-    int epoch; ///< valid while s->epoch is the same
-} sc_shape_object;
+// ------------------------------------------------------------------------------------ the scene
 
 /// Growable array of T within the budget.
 #define SC_ARRAY(T)                                                                                \
@@ -364,6 +228,14 @@ struct scene {
     int camera_line;
     SC_ARRAY(sc_body *) bodies;
     uint64_t body_serial;
+    SC_ARRAY(sc_joint *) joints;
+    uint64_t joint_serial;
+    SC_ARRAY(sc_name) broken; ///< names of joints that broke, oldest first
+    int broken_before;        ///< how many of them before the last step
+    SC_ARRAY(sc_category) categories;
+    SC_ARRAY(sc_name) groups; ///< of apart and together; group numbers count from 1
+    SC_ARRAY(sc_pair_def) pairs;
+    SC_ARRAY(sc_excluded) excluded;
     SC_ARRAY(sc_material *) materials;
     SC_ARRAY(sc_made) made;
     int epoch;
@@ -379,6 +251,13 @@ struct scene {
     SC_ARRAY(sc_set) sets;
     SC_ARRAY(plumb_contact_begin) begins;
     SC_ARRAY(plumb_contact_end) ends;
+    SC_ARRAY(plumb_contact_hit) hits;
+    SC_ARRAY(plumb_sensor_event) enters;
+    SC_ARRAY(plumb_sensor_event) leaves;
+    SC_ARRAY(plumb_joint_break) breaks;
+    bool edits;       ///< the system of edit_contact is there
+    bool edit_failed; ///< one of its handlers raised; s->error has it
+    bool wants_visits;
     double (*points)[2]; ///< last points read by a SC_POINTS field
     int point_count, point_capacity;
     char text[256];
@@ -398,8 +277,16 @@ void sc_grow(scene *s, void *array_of_items, int count, int *capacity, size_t it
 // ---------------------------------------------------------------------------------------- lists
 
 extern const sc_list sc_list_scene, sc_list_material, sc_list_body, sc_list_camera, sc_list_expect,
-    sc_list_exact, sc_list_contact, sc_list_blast;
+    sc_list_exact, sc_list_contact, sc_list_hit, sc_list_break, sc_list_pair, sc_list_filter,
+    sc_list_motor, sc_list_spring, sc_list_state, sc_list_blast;
 extern const sc_list sc_list_shapes[SC_SHAPE_KINDS];
+
+#define SC_COUNT_JOINT(NAME, name, text) +1
+enum { SC_JOINT_KINDS = 0 PLUMB_JOINT_LIST(SC_COUNT_JOINT) };
+#undef SC_COUNT_JOINT
+extern const sc_list sc_list_joints[SC_JOINT_KINDS]; ///< by plumb_joint_kind
+/// The list of a SC_RECORD.
+const sc_list *sc_list_named(const char *name);
 
 // --------------------------------------------------------------------------------------- pieces
 
@@ -423,23 +310,37 @@ bool sc_motion_is_dynamic(const char *row);
 #define SC_META_SHAPE    "plumb.shape"
 #define SC_META_MATERIAL "plumb.material"
 #define SC_META_BODY     "plumb.body"
+#define SC_META_JOINT    "plumb.joint"
+#define SC_META_WORLD    "plumb.world"
 
 lua_State *sc_sandbox_open(scene *s); ///< state with allow-listed environment; null: no memory
 void sc_count_hook(lua_State *L, lua_Debug *d);          ///< the hook of sc_sandbox_open
 void sc_sandbox_budget(scene *s, uint64_t instructions); ///< a fresh instruction budget
-void sc_open_build(lua_State *L);    ///< scene, material, body, camera, param, ...
-void sc_open_shapes(lua_State *L);   ///< box, circle, ...
-void sc_open_body(lua_State *L);     ///< methods of bodies
-void sc_open_motion(lua_State *L);   ///< blast
-void sc_open_handlers(lua_State *L); ///< at, every, on_contact, ...
-void sc_open_expect(lua_State *L);   ///< expect, exact
-void sc_open_math(lua_State *L);     ///< math, random
+void sc_open_build(lua_State *L);     ///< scene, material, body, camera, param, ...
+void sc_open_materials(lua_State *L); ///< material, material_pair
+void sc_open_shapes(lua_State *L);    ///< box, circle, ...
+void sc_open_body(lua_State *L);      ///< methods of bodies
+void sc_open_motion(lua_State *L);    ///< blast
+void sc_open_joints(lua_State *L);    ///< revolute, wheel, ..., exclude, world
+void sc_open_joint(lua_State *L);     ///< methods of joints
+void sc_open_handlers(lua_State *L);  ///< at, every, score, ...
+void sc_open_events(lua_State *L);    ///< on_contact, on_break, ...
+void sc_open_expect(lua_State *L);    ///< expect, exact
+void sc_open_math(lua_State *L);      ///< math, random
+
+typedef void sc_constructor(scene *s, const sc_site *site, int table);
+/// What a constructor does that takes one table and leaves `results` values.
+int sc_construct(lua_State *L, const char *name, sc_constructor *build, int results);
 
 void sc_build_settings(scene *s, const sc_site *site, int table); ///< scene{}; table 0: none
 void sc_need_world(scene *s); ///< makes it with defaults if need be
 void sc_build_material(scene *s, const sc_site *site, int table); ///< pushes the object
 void sc_build_shape(scene *s, const sc_site *site, sc_shape_kind kind, int table); ///< pushes it
-void sc_build_body(scene *s, const sc_site *site, int table);                      ///< pushes it
+/// A joint's definition as the world has it now, for writing down.
+sc_joint_def sc_joint_now(const scene *s, const sc_joint *joint);
+void sc_build_body(scene *s, const sc_site *site, int table);                         ///< pushes it
+void sc_build_joint(scene *s, const sc_site *site, plumb_joint_kind kind, int table); ///< pushes it
+void sc_build_pair(scene *s, const sc_site *site, int table);
 void sc_build_camera(scene *s, const sc_site *site, int table);
 void sc_build_expect(scene *s, const sc_site *site, int table);
 void sc_check_build(scene *s);               ///< after the build pass: unused things, unknown names
@@ -453,6 +354,42 @@ void sc_shape_create(scene *s, const sc_site *site, int index, const sc_body *bo
 sc_shape_object *sc_to_shape(lua_State *L, int index);
 sc_material *sc_to_material(lua_State *L, int index);
 
+bool sc_is_world(lua_State *L, int index);
+sc_joint *sc_joint_of(const scene *s, plumb_joint joint); ///< null if it is none of ours or dead
+sc_joint *sc_joint_named(const scene *s, const char *name);
+bool sc_joint_at_index(lua_State *L, int index, plumb_joint *out); ///< a Lua joint object?
+void sc_joint_push(scene *s, plumb_joint joint);
+void sc_joint_release(scene *s, sc_joint *joint); ///< forgets it; the world's joint is gone
+/// Raises unless the name (or pattern) is that of a joint that is there.
+void sc_check_joint_name(scene *s, const sc_site *site, const char *key, const char *name);
+/// Two bodies that never meet, or do again. Codes as of plumb_world_exclude_pair.
+plumb_result sc_exclude(scene *s, plumb_body a, plumb_body b, bool exclude);
+
+/// Which words of a filter were said.
+typedef struct sc_filter_given {
+    bool category, collides, ignores, apart, together;
+} sc_filter_given;
+
+#define SC_FILTER_GIVEN(list, def, type)                                                           \
+    ((sc_filter_given){                                                                            \
+        SC_GIVEN(list, def, type, filter.category), SC_GIVEN(list, def, type, filter.collides),    \
+        SC_GIVEN(list, def, type, filter.ignores), SC_GIVEN(list, def, type, filter.apart),        \
+        SC_GIVEN(list, def, type, filter.together) })
+
+/// What a shape's own words and, where it says nothing, its body's make.
+plumb_filter sc_filter_resolve(scene *s, const sc_filter *own, sc_filter_given g,
+                               const sc_filter *body, sc_filter_given b);
+/// Raises when words exclude each other.
+void sc_filter_check(scene *s, const sc_site *site, const sc_filter_given *g);
+void sc_check_categories(scene *s); ///< after the build pass: masks that name what nothing is
+bool sc_shape_is_sensor(const sc_body *body, const sc_shape_def *shape);
+/// Writes into the records of a body and its shapes what all its shapes now have.
+void sc_filter_record(sc_body *body, const sc_filter *filter, sc_filter_given g);
+/// Pushes a list of the bodies that overlap a body's sensors; returns how many.
+int sc_body_overlaps(scene *s, plumb_body body);
+void sc_excluded_forget(scene *s, plumb_body body);
+void sc_open_filters(lua_State *L); ///< exclude
+
 sc_body *sc_body_of(const scene *s, plumb_body body); ///< null if it is none of ours or dead
 sc_body *sc_body_named(const scene *s, const char *name);
 void sc_body_push(scene *s, const sc_body *body);
@@ -462,11 +399,15 @@ bool sc_name_matches(const char *pattern, const char *name);     ///< "brick*" o
 /// Raises unless the name (or pattern) fits a body that is alive.
 void sc_check_body_name(scene *s, const sc_site *site, const char *key, const char *name);
 
+const char *sc_handler_name(sc_handler_kind kind);
+sc_handler *sc_handler_add(scene *s, sc_handler_kind kind, const sc_site *site);
 void sc_handlers_before(scene *s); ///< at, every, every_step
-void sc_handlers_after(scene *s);  ///< on_contact, on_end
+void sc_events_after(scene *s);    ///< on_contact and all others that follow a step
 /// Calls the function on the stack (below `args` arguments) with a fresh instruction budget.
 void sc_call(scene *s, int args, int results);
 
+/// Measured criteria: each is held against its limit, the line keeps the worst (expect_measure.c).
+void sc_measure(scene *s, sc_expect *e);
 void sc_expect_begin(scene *s); ///< remembers energy and momentum at the start
 void sc_expect_step(scene *s);
 void sc_expect_finish(scene *s);

@@ -34,7 +34,7 @@ void sc_open_json(lua_State *L)
 static void push_value(scene *s, const sc_site *site, const cJSON *item, int depth)
 {
     lua_State *L = s->L;
-    luaL_checkstack(L, 8, NULL);
+    sc_need_stack(s, 8);
     if (depth > DEEPEST) {
         sc_raise(s, SCENE_E_LIMIT, site, NULL, 0, NULL, "values are nested more than %d deep",
                  DEEPEST);
@@ -78,11 +78,11 @@ static void push_object(scene *s, const sc_site *site, const cJSON *item)
     push_value(s, site, item, 0);
 }
 
-// Puts the material named by the string field "material" of the table on top in its place.
-static void resolve_material(scene *s, const sc_site *site)
+// Puts the material named by the string field `key` of the table on top in its place.
+static void resolve_material(scene *s, const sc_site *site, const char *key)
 {
     lua_State *L = s->L;
-    if (lua_getfield(L, -1, "material") != LUA_TSTRING) {
+    if (lua_getfield(L, -1, key) != LUA_TSTRING) {
         lua_pop(L, 1); // absent, or for sc_read to complain about
         return;
     }
@@ -93,13 +93,13 @@ static void resolve_material(scene *s, const sc_site *site)
         if (strcmp(s->materials.items[i]->id, name) == 0) {
             lua_getfield(L, LUA_REGISTRYINDEX, "plumb.materials");
             lua_rawgeti(L, -1, i + 1);
-            lua_setfield(L, -4, "material");
+            lua_setfield(L, -4, key);
             lua_pop(L, 2);
             return;
         }
     }
-    sc_raise(s, SCENE_E_NAME, site, "material", 0, sc_suggest_best(&g),
-             "no material is called '%.63s'", name);
+    sc_raise(s, SCENE_E_NAME, site, key, 0, sc_suggest_best(&g), "no material is called '%.63s'",
+             name);
 }
 
 // {"kind": "box", ...} on top becomes a shape object.
@@ -122,7 +122,7 @@ static void make_shape(scene *s, sc_site *site)
             lua_pop(L, 1);
             lua_pushnil(L);
             lua_setfield(L, -2, "kind");
-            resolve_material(s, site);
+            resolve_material(s, site, "material");
             sc_build_shape(s, site, (sc_shape_kind)k, lua_gettop(L));
             lua_remove(L, -2);
             return;
@@ -151,7 +151,7 @@ static void make_body(scene *s, const cJSON *item, int number)
         }
     }
     lua_pop(L, 1);
-    resolve_material(s, &site);
+    resolve_material(s, &site, "material");
     sc_build_body(s, &site, lua_gettop(L));
     lua_settop(L, 1); // 1: the parsed tree
 }
@@ -169,8 +169,8 @@ static const cJSON *elements(scene *s, const cJSON *root, const char *name)
 
 static void check_root(scene *s, const cJSON *root)
 {
-    static const char *const names[] = { "bodies",    "camera", "expect", "format",
-                                         "materials", "scene",  "time" };
+    static const char *const names[] = { "bodies", "camera",    "excluded", "expect", "format",
+                                         "joints", "materials", "pairs",    "scene",  "time" };
     sc_site site = { .construct = "file", .path = "" };
     if (!cJSON_IsObject(root)) {
         sc_raise(s, SCENE_E_TYPE, &site, NULL, 0, NULL, "a scene must be an object {...}");
@@ -207,6 +207,66 @@ static void check_root(scene *s, const cJSON *root)
     s->start_time = time != NULL ? time->valuedouble : 0;
 }
 
+// {"kind": "revolute", ...}
+static void make_joint(scene *s, const cJSON *item, int number)
+{
+    lua_State *L = s->L;
+    char path[48];
+    snprintf(path, sizeof path, "joints[%d]", number);
+    sc_site site = { .construct = "joint", .path = path };
+    push_object(s, &site, item);
+    if (lua_getfield(L, -1, "kind") != LUA_TSTRING) {
+        sc_raise(s, SCENE_E_MISSING, &site, NULL, 0, NULL,
+                 "a joint needs 'kind', such as \"revolute\"");
+    }
+    const char *kind = lua_tostring(L, -1);
+    sc_suggest g = sc_suggest_start(kind);
+    for (int k = 0; k < SC_JOINT_KINDS; k++) {
+        const char *name = sc_list_joints[k].name;
+        sc_suggest_offer(&g, name);
+        if (strcmp(name, kind) == 0) {
+            site.construct = name;
+            lua_pop(L, 1);
+            lua_pushnil(L);
+            lua_setfield(L, -2, "kind");
+            sc_build_joint(s, &site, (plumb_joint_kind)k, lua_gettop(L));
+            lua_settop(L, 1); // 1: the parsed tree
+            return;
+        }
+    }
+    sc_raise(s, SCENE_E_NAME, &site, "kind", 0, sc_suggest_best(&g),
+             "unknown kind of joint '%.63s'", kind);
+}
+
+// ["a", "b"]
+static void make_excluded(scene *s, const cJSON *item, int number)
+{
+    char path[48];
+    plumb_body ends[2];
+    snprintf(path, sizeof path, "excluded[%d]", number);
+    sc_site site = { .construct = "excluded", .path = path };
+    const cJSON *names[2] = { item->child, item->child != NULL ? item->child->next : NULL };
+    bool good = cJSON_IsArray(item) && cJSON_IsString(names[0]) && cJSON_IsString(names[1]) &&
+                names[1]->next == NULL && strcmp(names[0]->valuestring, names[1]->valuestring) != 0;
+    if (!good) {
+        sc_raise(s, SCENE_E_TYPE, &site, NULL, 0, NULL,
+                 "an excluded pair must be the names of two bodies");
+    }
+    for (int i = 0; i < 2; i++) {
+        const char *name = names[i]->valuestring;
+        const sc_body *b = sc_body_named(s, name);
+        if (b == NULL) {
+            sc_check_body_name(s, &site, NULL, name); // says what is meant
+            sc_raise(s, SCENE_E_NAME, &site, NULL, 0, NULL, "no body is called '%.63s'", name);
+        }
+        ends[i] = b->entity;
+    }
+    plumb_result r = sc_exclude(s, ends[0], ends[1], true);
+    if (r != PLUMB_OK) {
+        sc_raise(s, SCENE_E_WORLD, &site, NULL, 0, NULL, "excluded: %s", plumb_result_text(r));
+    }
+}
+
 static cJSON *parse(scene *s)
 {
     lua_State *L = s->L;
@@ -233,6 +293,18 @@ static cJSON *parse(scene *s)
         lua_error(L);
     }
     return *holder;
+}
+
+static void make_pair(scene *s, const cJSON *item, int number)
+{
+    char path[48];
+    snprintf(path, sizeof path, "pairs[%d]", number);
+    sc_site site = { .construct = "material_pair", .path = path };
+    push_object(s, &site, item);
+    resolve_material(s, &site, "a");
+    resolve_material(s, &site, "b");
+    sc_build_pair(s, &site, lua_gettop(s->L));
+    lua_settop(s->L, 1);
 }
 
 // Builds one object by a constructor.
@@ -267,8 +339,20 @@ void sc_json_load(scene *s)
         lua_settop(L, 1);
     }
     i = 0;
+    for (const cJSON *item = elements(s, root, "pairs"); item != NULL; item = item->next, i++) {
+        make_pair(s, item, i);
+    }
+    i = 0;
     for (const cJSON *item = elements(s, root, "bodies"); item != NULL; item = item->next, i++) {
         make_body(s, item, i);
+    }
+    i = 0;
+    for (const cJSON *item = elements(s, root, "joints"); item != NULL; item = item->next, i++) {
+        make_joint(s, item, i);
+    }
+    i = 0;
+    for (const cJSON *item = elements(s, root, "excluded"); item != NULL; item = item->next, i++) {
+        make_excluded(s, item, i);
     }
     const cJSON *camera = cJSON_GetObjectItemCaseSensitive(root, "camera");
     if (camera != NULL) {

@@ -12,9 +12,18 @@
 
 /// Where it goes.
 typedef struct writer {
+    const scene *s;
     FILE *file;
     bool first; ///< no comma before the next member
 } writer;
+
+/// Where the numbers of a construct come from.
+typedef struct origin {
+    bool is_state; ///< the world, as reals; else the author, whose numbers fit both precisions
+    const sc_body *body; ///< the body that is being written: its shapes are not in its definition
+} origin;
+
+static const origin as_said = { .is_state = false };
 
 // The shortest text that reads back to the same bits (of a plumb_real, or of a double).
 static void shortest(char *text, size_t size, double v, bool is_real)
@@ -134,14 +143,52 @@ static bool has_json_form(const sc_field *row)
 }
 
 static void write_shapes(writer *w, const sc_body *b);
+static void write_object(writer *w, const sc_list *list, const void *def, const char *kind,
+                         const origin *from);
 
-// `owner`: the body, when def is one (its shapes are not in def). State is written as reals.
-static void write_value(writer *w, const sc_field *row, const void *def, const sc_body *owner)
+// Categories by name, in the order of names.
+static void write_names(writer *w, uint64_t bits)
+{
+    const char *last = "";
+    fputc('[', w->file);
+    for (uint64_t left = bits; left != 0;) {
+        int next = -1;
+        for (int i = 0; i < w->s->categories.count; i++) {
+            const char *name = w->s->categories.items[i].name;
+            if ((bits >> i & 1) != 0 && strcmp(name, last) > 0 &&
+                (next < 0 || strcmp(name, w->s->categories.items[next].name) < 0)) {
+                next = i;
+            }
+        }
+        fputs(last[0] != 0 ? "," : "", w->file);
+        last = w->s->categories.items[next].name;
+        write_string(w, last);
+        left &= ~((uint64_t)1 << next);
+    }
+    fputc(']', w->file);
+}
+
+static void write_numbers(writer *w, const double *numbers, size_t count, bool is_real)
+{
+    fputc('[', w->file);
+    for (size_t i = 0; i < count; i++) {
+        fputs(i > 0 ? "," : "", w->file);
+        write_number(w, numbers[i], is_real);
+    }
+    fputc(']', w->file);
+}
+
+static const char *name_of(const scene *s, plumb_body body)
+{
+    const sc_body *b = sc_body_of(s, body);
+    return b != NULL ? b->def.name : "world";
+}
+
+static void write_value(writer *w, const sc_field *row, const void *def, const origin *from)
 {
     const void *member = (const char *)def + row->offset;
     const double *numbers = member;
-    bool is_real =
-        owner != NULL; // places and speeds come from the world; author's numbers fit both
+    bool is_real = from->is_state;
     switch (row->kind) {
     case SC_NUMBER:
     case SC_INTEGER:
@@ -152,10 +199,24 @@ static void write_value(writer *w, const sc_field *row, const void *def, const s
         break;
     case SC_STRING:
     case SC_BODY:
+    case SC_JOINT:
         write_string(w, member);
         break;
     case SC_VEC2:
+    case SC_LIMITS:
         write_pair(w, numbers, is_real);
+        break;
+    case SC_NUMBERS:
+        write_numbers(w, numbers, row->size / sizeof *numbers, is_real);
+        break;
+    case SC_NAMES:
+        write_names(w, *(const uint64_t *)member);
+        break;
+    case SC_END:
+        write_string(w, name_of(w->s, ((const sc_end *)member)->body));
+        break;
+    case SC_RECORD:
+        write_object(w, sc_list_named(row->detail), member, NULL, from);
         break;
     case SC_CHOICE:
         write_choice(w, row->detail, *(const int *)member);
@@ -177,7 +238,7 @@ static void write_value(writer *w, const sc_field *row, const void *def, const s
         write_points(w, def);
         break;
     case SC_SHAPES:
-        write_shapes(w, owner);
+        write_shapes(w, from->body);
         break;
     case SC_AXES:
         write_axes(w, *(const int *)member);
@@ -197,7 +258,7 @@ static void write_value(writer *w, const sc_field *row, const void *def, const s
 
 // {"a":1,...}: the given fields of a construct; `kind` (may be null) is woven in at its place.
 static void write_object(writer *w, const sc_list *list, const void *def, const char *kind,
-                         const sc_body *owner)
+                         const origin *from)
 {
     uint64_t present;
     memcpy(&present, def, sizeof present);
@@ -212,7 +273,7 @@ static void write_object(writer *w, const sc_list *list, const void *def, const 
         }
         if ((present >> i & 1) != 0 && has_json_form(row)) {
             write_key(w, row->name);
-            write_value(w, row, def, owner);
+            write_value(w, row, def, from);
         }
     }
     if (kind != NULL) {
@@ -230,7 +291,7 @@ static void write_shapes(writer *w, const sc_body *b)
         sc_shape_def d = b->shapes[i];
         const sc_list *list = &sc_list_shapes[d.kind];
         fputs(i > 0 ? "," : "", w->file);
-        write_object(w, list, &d, list->name, NULL);
+        write_object(w, list, &d, list->name, &as_said);
     }
     fputc(']', w->file);
 }
@@ -272,7 +333,7 @@ static void write_body(const scene *s, writer *w, const sc_body *b)
         SC_GIVE(list, &d, sc_body_def, velocity);
         SC_GIVE(list, &d, sc_body_def, spin);
     }
-    write_object(w, list, &d, NULL, b);
+    write_object(w, list, &d, NULL, &(origin){ .is_state = true, .body = b });
 }
 
 static void write_settings(const scene *s, writer *w)
@@ -290,7 +351,7 @@ static void write_settings(const scene *s, writer *w)
     SC_GIVE(&sc_list_scene, &d, sc_settings, dt);
     SC_GIVE(&sc_list_scene, &d, sc_settings, duration);
     SC_GIVE(&sc_list_scene, &d, sc_settings, title);
-    write_object(w, &sc_list_scene, &d, NULL, NULL);
+    write_object(w, &sc_list_scene, &d, NULL, &as_said);
 }
 
 // Lines whose time has passed are results, not state.
@@ -311,16 +372,64 @@ static void write_expects(const scene *s, writer *w)
     for (int i = 0; i < s->expects.count; i++) {
         if (is_open(s, &s->expects.items[i].def)) {
             fputs(any ? ",\n" : "\"expect\":[\n", w->file);
-            write_object(w, &sc_list_expect, &s->expects.items[i].def, NULL, NULL);
+            write_object(w, &sc_list_expect, &s->expects.items[i].def, NULL, &as_said);
             any = true;
         }
     }
     fputs(any ? "\n],\n" : "", w->file);
 }
 
+static void write_excluded(writer *w)
+{
+    const scene *s = w->s;
+    for (int i = 0; i < s->excluded.count; i++) {
+        const sc_excluded *e = &s->excluded.items[i];
+        fputs(i > 0 ? "," : "\"excluded\":[", w->file);
+        fputc('[', w->file);
+        write_string(w, name_of(s, e->a));
+        fputc(',', w->file);
+        write_string(w, name_of(s, e->b));
+        fputc(']', w->file);
+    }
+    fputs(s->excluded.count > 0 ? "],\n" : "", w->file);
+}
+
+static void write_joints(writer *w)
+{
+    const scene *s = w->s;
+    for (int i = 0; i < s->joints.count; i++) {
+        sc_joint_def d = sc_joint_now(s, s->joints.items[i]);
+        const sc_list *list = &sc_list_joints[d.kind];
+        fputs(i > 0 ? ",\n" : "\"joints\":[\n", w->file);
+        write_object(w, list, &d, list->name, &(origin){ .is_state = true });
+    }
+    fputs(s->joints.count > 0 ? "\n],\n" : "", w->file);
+}
+
+static void write_materials(writer *w)
+{
+    const scene *s = w->s;
+    fputs("\"materials\":[\n", w->file);
+    for (int i = 0; i < s->materials.count; i++) {
+        sc_material_def d = s->materials.items[i]->def;
+        snprintf(d.name, sizeof d.name, "%s", s->materials.items[i]->id);
+        SC_GIVE(&sc_list_material, &d, sc_material_def, name);
+        SC_GIVE(&sc_list_material, &d, sc_material_def, friction);
+        SC_GIVE(&sc_list_material, &d, sc_material_def, density);
+        fputs(i > 0 ? ",\n" : "", w->file);
+        write_object(w, &sc_list_material, &d, NULL, &as_said);
+    }
+    fputs("\n],\n", w->file);
+    for (int i = 0; i < s->pairs.count; i++) {
+        fputs(i > 0 ? ",\n" : "\"pairs\":[\n", w->file);
+        write_object(w, &sc_list_pair, &s->pairs.items[i], NULL, &as_said);
+    }
+    fputs(s->pairs.count > 0 ? "\n],\n" : "", w->file);
+}
+
 bool scene_to_json(const scene *s, FILE *file)
 {
-    writer w = { .file = file };
+    writer w = { .s = s, .file = file };
     fputs("{\"bodies\":[\n", file);
     for (int i = 0; i < s->bodies.count; i++) {
         fputs(i > 0 ? ",\n" : "", file);
@@ -329,23 +438,15 @@ bool scene_to_json(const scene *s, FILE *file)
     fputs("\n],\n", file);
     if (s->camera.present != 0) {
         fputs("\"camera\":", file);
-        write_object(&w, &sc_list_camera, &s->camera, NULL, NULL);
+        write_object(&w, &sc_list_camera, &s->camera, NULL, &as_said);
         fputs(",\n", file);
     }
+    write_excluded(&w);
     write_expects(s, &w);
-    fputs("\"format\":\"plumb-scene-1\",\n\"materials\":[\n", file);
-    bool any = false;
-    for (int i = 0; i < s->materials.count; i++) {
-        sc_material_def d = s->materials.items[i]->def;
-        snprintf(d.name, sizeof d.name, "%s", s->materials.items[i]->id);
-        SC_GIVE(&sc_list_material, &d, sc_material_def, name);
-        SC_GIVE(&sc_list_material, &d, sc_material_def, friction);
-        SC_GIVE(&sc_list_material, &d, sc_material_def, density);
-        fputs(any ? ",\n" : "", file);
-        write_object(&w, &sc_list_material, &d, NULL, NULL);
-        any = true;
-    }
-    fputs("\n],\n\"scene\":", file);
+    fputs("\"format\":\"plumb-scene-1\",\n", file);
+    write_joints(&w);
+    write_materials(&w);
+    fputs("\"scene\":", file);
     write_settings(s, &w);
     fputs(",\n\"time\":", file);
     write_number(&w, scene_time(s), false);

@@ -1,16 +1,8 @@
 // lists.c - one list a constructor: every key of the scene language with its kind, range and unit.
 // Reading (fields.c), the JSON form (json_write.c, json_read.c) and "did you mean" follow from the
-// rows. To add a key: one member in internal.h's struct, one row here, its use in the constructor.
+// rows. To add a key: one member in the struct of defs.h, one row here, its use in the constructor.
 // Rows are sorted by name: that is also the order of the keys in canonical JSON.
-#include "internal.h"
-
-#define FAR  1e9  // [m] plumb_body_desc.position
-#define BIG  1e12 // speeds, angles, masses: anything finite that float holds squared
-#define SIZE 1e7  // [m] PLUMB_LENGTH_MAX
-#define TINY 1e-4 // [m] PLUMB_LENGTH_MIN
-
-#define AT(type, member) offsetof(type, member), sizeof(((type *)0)->member)
-#define COUNT(rows)      (int)(sizeof(rows) / sizeof *(rows))
+#include "lists.h"
 
 // clang-format off
 #define T sc_settings
@@ -36,15 +28,46 @@ static const sc_field scene_rows[] = {
 const sc_list sc_list_scene = { "scene", scene_rows, COUNT(scene_rows) };
 #undef T
 
+#define MIX "default|average|geometric|multiply|min|max" // in the order of plumb_mix
 #define T sc_material_def
 static const sc_field material_rows[] = {
-    { "adhesion",    SC_NUMBER, AT(T, adhesion),    0, BIG, "N", 0, 0 },
-    { "density",     SC_NUMBER, AT(T, density),     0, 1e9, "kg/m^2", 0, SC_ABOVE },
-    { "friction",    SC_NUMBER, AT(T, friction),    0, 10, "1", 0, 0 },
-    { "name",        SC_STRING, AT(T, name),        0, 0, NULL, 0, 0 },
-    { "restitution", SC_NUMBER, AT(T, restitution), 0, 1, "1", 0, 0 },
+    { "adhesion",           SC_NUMBER, AT(T, adhesion),           0, BIG, "N", 0, 0 },
+    { "density",            SC_NUMBER, AT(T, density),            0, 1e9, "kg/m^2", 0, SC_ABOVE },
+    { "friction",           SC_NUMBER, AT(T, friction),           0, 10, "1", 0, 0 },
+    { "friction_mix",       SC_CHOICE, AT(T, friction_mix),       0, 0, MIX, 0, 0 },
+    { "name",               SC_STRING, AT(T, name),               0, 0, NULL, 0, 0 },
+    { "restitution",        SC_NUMBER, AT(T, restitution),        0, 1, "1", 0, 0 },
+    { "restitution_mix",    SC_CHOICE, AT(T, restitution_mix),    0, 0, MIX, 0, 0 },
+    { "rolling_resistance", SC_NUMBER, AT(T, rolling_resistance), 0, SIZE, "m", 0, 0 },
+    { "surface_speed",      SC_NUMBER, AT(T, surface_speed),      -1e6, 1e6, "m/s", 0, 0 },
 };
 const sc_list sc_list_material = { "material", material_rows, COUNT(material_rows) };
+#undef T
+
+#define T sc_pair_def
+static const sc_field pair_rows[] = {
+    { "a",                  SC_MATERIAL, AT(T, a),                  0, 0, NULL, 1, SC_REQUIRED | SC_MENTION },
+    { "b",                  SC_MATERIAL, AT(T, b),                  0, 0, NULL, 2, SC_REQUIRED | SC_MENTION },
+    { "friction",           SC_NUMBER,   AT(T, friction),           0, 10, "1", 0, SC_REQUIRED },
+    { "restitution",        SC_NUMBER,   AT(T, restitution),        0, 1, "1", 0, 0 },
+    { "rolling_resistance", SC_NUMBER,   AT(T, rolling_resistance), 0, SIZE, "m", 0, 0 },
+};
+const sc_list sc_list_pair = { "material_pair", pair_rows, COUNT(pair_rows) };
+#undef T
+
+// Which shapes may meet: keys of body{} and of every shape, and what set_filter takes.
+#define ROW_APART    { "apart",    SC_STRING, AT(T, filter.apart),    0, 0, NULL, 0, 0 }
+#define ROW_CATEGORY { "category", SC_NAMES,  AT(T, filter.category), 0, 0, NULL, 0, 0 }
+#define ROW_COLLIDES { "collides", SC_NAMES,  AT(T, filter.collides), 0, 0, NULL, 0, 0 }
+#define ROW_IGNORES  { "ignores",  SC_NAMES,  AT(T, filter.ignores),  0, 0, NULL, 0, 0 }
+#define ROW_SENSOR   { "sensor",   SC_BOOL,   AT(T, sensor),          0, 0, NULL, 0, 0 }
+#define ROW_TOGETHER { "together", SC_STRING, AT(T, filter.together), 0, 0, NULL, 0, 0 }
+
+#define T sc_body_def
+static const sc_field filter_rows[] = {
+    ROW_APART, ROW_CATEGORY, ROW_COLLIDES, ROW_IGNORES, ROW_TOGETHER,
+};
+const sc_list sc_list_filter = { "set_filter", filter_rows, COUNT(filter_rows) };
 #undef T
 
 #define T sc_body_def
@@ -52,8 +75,10 @@ static const sc_field body_rows[] = {
     { "angle",          SC_NUMBER,   AT(T, angle),         -BIG, BIG, "rad", 0, 0 },
     { "angle_deg",      SC_NUMBER,   AT(T, angle_deg),     -BIG, BIG, "deg", 0, 0 },
     { "angular_damping", SC_NUMBER,  AT(T, angular_damping), 0, 1e6, "1/s", 0, 0 },
+    ROW_APART,
     { "asleep",         SC_BOOL,     AT(T, asleep),        0, 0, NULL, 0, 0 },
     { "at",             SC_VEC2,     AT(T, at),            -FAR, FAR, "m", 0, 0 },
+    ROW_CATEGORY, ROW_COLLIDES,
     { "color",          SC_COLOR,    AT(T, color),         0, 0, NULL, 0, 0 },
     { "continuous",     SC_BOOL,     AT(T, continuous),    0, 0, NULL, 0, 0 },
     { "damping",        SC_NUMBER,   AT(T, damping),       0, 1e6, "1/s", 0, 0 },
@@ -62,6 +87,7 @@ static const sc_field body_rows[] = {
     { "fixed_rotation", SC_BOOL,     AT(T, fixed_rotation), 0, 0, NULL, 0, 0 },
     { "gravity_scale",  SC_NUMBER,   AT(T, gravity_scale), -1e6, 1e6, "1", 0, 0 },
     { "hidden",         SC_BOOL,     AT(T, hidden),        0, 0, NULL, 0, 0 },
+    ROW_IGNORES,
     { "label",          SC_STRING,   AT(T, label),         0, 0, NULL, 0, 0 },
     { "lock",           SC_AXES,     AT(T, lock),          0, 0, NULL, 0, 0 },
     { "mass",           SC_NUMBER,   AT(T, mass),          0, BIG, "kg", 0, SC_ABOVE },
@@ -69,10 +95,12 @@ static const sc_field body_rows[] = {
     { "max_speed",      SC_NUMBER,   AT(T, max_speed),     0, BIG, "m/s", 0, SC_ABOVE },
     { "max_spin",       SC_NUMBER,   AT(T, max_spin),      0, BIG, "rad/s", 0, SC_ABOVE },
     { "name",           SC_STRING,   AT(T, name),          0, 0, NULL, 0, 0 },
+    ROW_SENSOR,
     { "shapes",         SC_SHAPES,   AT(T, shape_count),   0, 0, NULL, SC_REST, 0 },
     { "sleep",          SC_BOOL,     AT(T, sleep),         0, 0, NULL, 0, 0 },
     { "spin",           SC_NUMBER,   AT(T, spin),          -1e6, 1e6, "rad/s", 0, 0 },
     { "time_scale",     SC_NUMBER,   AT(T, time_scale),    0, 100, "1", 0, 0 },
+    ROW_TOGETHER,
     { "type",           SC_CHOICE,   AT(T, type),          0, 0, "dynamic|kinematic|static", 0, 0 },
     { "user",           SC_TABLE,    AT(T, user),          0, 0, NULL, 0, 0 },
     { "velocity",       SC_VEC2,     AT(T, velocity),      -FAR, FAR, "m/s", 0, 0 },
@@ -92,36 +120,43 @@ const sc_list sc_list_body = { "body", body_rows, COUNT(body_rows) };
 #define ROW_POINTS(lo, hi) \
     { "points", SC_POINTS, AT(T, point_count), lo, hi, "points", SC_REST, SC_REQUIRED }
 
-static const sc_field circle_rows[] = { ROW_AT, ROW_DENSITY, ROW_MATERIAL, ROW_RADIUS(1) };
+// The rows that every shape but the circle begins with, and those before its material.
+#define ROWS_PLACE  ROW_ANGLE, ROW_ANGLE_DEG, ROW_APART, ROW_AT, ROW_CATEGORY
+#define ROWS_SOLID  ROW_COLLIDES, ROW_DENSITY
+#define ROWS_END    ROW_SENSOR, ROW_TOGETHER
+
+static const sc_field circle_rows[] = {
+    ROW_APART, ROW_AT, ROW_CATEGORY, ROWS_SOLID, ROW_IGNORES, ROW_MATERIAL, ROW_RADIUS(1), ROWS_END,
+};
 static const sc_field capsule_rows[] = {
-    ROW_ANGLE, ROW_ANGLE_DEG, ROW_AT, ROW_DENSITY,
+    ROWS_PLACE, ROWS_SOLID, ROW_IGNORES,
     { "length", SC_NUMBER, AT(T, length), TINY, SIZE, "m", 1, SC_REQUIRED },
-    ROW_MATERIAL, ROW_RADIUS(2),
+    ROW_MATERIAL, ROW_RADIUS(2), ROWS_END,
 };
 static const sc_field box_rows[] = {
-    ROW_ANGLE, ROW_ANGLE_DEG, ROW_AT, ROW_DENSITY,
+    ROWS_PLACE, ROWS_SOLID,
     { "h", SC_NUMBER, AT(T, h), 2 * TINY, SIZE, "m", 2, SC_REQUIRED },
-    ROW_MATERIAL, ROW_ROUND,
+    ROW_IGNORES, ROW_MATERIAL, ROW_ROUND, ROWS_END,
     { "w", SC_NUMBER, AT(T, w), 2 * TINY, SIZE, "m", 1, SC_REQUIRED },
 };
 static const sc_field polygon_rows[] = {
-    ROW_ANGLE, ROW_ANGLE_DEG, ROW_AT, ROW_DENSITY, ROW_MATERIAL, ROW_POINTS(3, 64), ROW_ROUND,
+    ROWS_PLACE, ROWS_SOLID, ROW_IGNORES, ROW_MATERIAL, ROW_POINTS(3, 64), ROW_ROUND, ROWS_END,
 };
 static const sc_field outline_rows[] = {
-    ROW_ANGLE, ROW_ANGLE_DEG, ROW_AT, ROW_DENSITY, ROW_MATERIAL, ROW_POINTS(3, 256),
+    ROWS_PLACE, ROWS_SOLID, ROW_IGNORES, ROW_MATERIAL, ROW_POINTS(3, 256), ROWS_END,
 };
 static const sc_field segment_rows[] = {
-    ROW_ANGLE, ROW_ANGLE_DEG, ROW_AT, ROW_MATERIAL, ROW_POINTS(2, 2),
+    ROWS_PLACE, ROW_COLLIDES, ROW_IGNORES, ROW_MATERIAL, ROW_POINTS(2, 2), ROWS_END,
 };
 static const sc_field chain_rows[] = {
-    ROW_ANGLE, ROW_ANGLE_DEG, ROW_AT,
+    ROWS_PLACE,
     { "closed", SC_BOOL, AT(T, closed), 0, 0, NULL, 0, 0 },
-    ROW_MATERIAL, ROW_POINTS(2, 65536),
+    ROW_COLLIDES, ROW_IGNORES, ROW_MATERIAL, ROW_POINTS(2, 65536), ROWS_END,
 };
 static const sc_field regular_rows[] = {
-    ROW_ANGLE, ROW_ANGLE_DEG, ROW_AT, ROW_DENSITY, ROW_MATERIAL,
+    ROWS_PLACE, ROWS_SOLID, ROW_IGNORES, ROW_MATERIAL,
     { "n", SC_INTEGER, AT(T, n), 3, 16, "corners", 1, SC_REQUIRED },
-    ROW_RADIUS(2), ROW_ROUND,
+    ROW_RADIUS(2), ROW_ROUND, ROWS_END,
 };
 const sc_list sc_list_shapes[SC_SHAPE_KINDS] = {
     [SC_CIRCLE]    = { "circle",  circle_rows,  COUNT(circle_rows) },
@@ -153,9 +188,14 @@ static const sc_field expect_rows[] = {
     { "angle",           SC_RANGE,    AT(T, angle),           -BIG, BIG, "rad", 0, 0 },
     { "at",              SC_NUMBER,   AT(T, at),              0, 1e7, "s", 0, 0 },
     { "body",            SC_BODY,     AT(T, body),            0, 0, NULL, 0, 0 },
+    { "broken",          SC_RANGE,    AT(T, broken),          0, 1e9, "1", 0, 0 },
     { "count",           SC_RANGE,    AT(T, count),           0, 1e9, "1", 0, 0 },
     { "energy_drift",    SC_NUMBER,   AT(T, energy_drift),    0, BIG, "1", 0, 0 },
     { "from",            SC_NUMBER,   AT(T, from),            0, 1e7, "s", 0, 0 },
+    { "inside",          SC_RANGE,    AT(T, inside),          0, 1e9, "1", 0, 0 },
+    { "joint",           SC_JOINT,    AT(T, joint),           0, 0, NULL, 0, 0 },
+    { "joint_value",     SC_RANGE,    AT(T, joint_value),     -BIG, BIG, "rad or m", 0, 0 },
+    { "max_joint_error", SC_NUMBER,   AT(T, max_joint_error), 0, BIG, "m", 0, 0 },
     { "max_penetration", SC_NUMBER,   AT(T, max_penetration), 0, BIG, "m", 0, 0 },
     { "max_speed",       SC_NUMBER,   AT(T, max_speed),       0, BIG, "m/s", 0, 0 },
     { "max_spin",        SC_NUMBER,   AT(T, max_spin),        0, BIG, "rad/s", 0, 0 },
@@ -163,6 +203,8 @@ static const sc_field expect_rows[] = {
     { "momentum_drift",  SC_NUMBER,   AT(T, momentum_drift),  0, BIG, "1", 0, 0 },
     { "name",            SC_STRING,   AT(T, name),            0, 0, NULL, 1, SC_REQUIRED },
     { "position",        SC_VEC2,     AT(T, position),        -FAR, FAR, "m", 0, 0 },
+    { "reaction",        SC_RANGE,    AT(T, reaction),        0, BIG, "N", 0, 0 },
+    { "reaction_torque", SC_RANGE,    AT(T, reaction_torque), -BIG, BIG, "N m", 0, 0 },
     { "score",           SC_STRING,   AT(T, score),           0, 0, NULL, 0, 0 },
     { "speed",           SC_RANGE,    AT(T, speed),           0, BIG, "m/s", 0, 0 },
     { "spin",            SC_RANGE,    AT(T, spin),            -BIG, BIG, "rad/s", 0, 0 },
@@ -170,6 +212,7 @@ static const sc_field expect_rows[] = {
     { "till",            SC_NUMBER,   AT(T, till),            0, 1e7, "s", 0, 0 },
     { "tolerance",       SC_NUMBER,   AT(T, tolerance),       0, BIG, "1", 0, 0 },
     { "value",           SC_RANGE,    AT(T, value),           -BIG, BIG, "1", 0, 0 },
+    { "visits",          SC_RANGE,    AT(T, visits),          0, 1e9, "1", 0, 0 },
     { "vx",              SC_RANGE,    AT(T, vx),              -BIG, BIG, "m/s", 0, 0 },
     { "vy",              SC_RANGE,    AT(T, vy),              -BIG, BIG, "m/s", 0, 0 },
     { "x",               SC_RANGE,    AT(T, x),               -FAR, FAR, "m", 0, 0 },
@@ -212,5 +255,17 @@ static const sc_field contact_rows[] = {
     { "function", SC_FUNCTION, AT(T, function), 0, 0, NULL, 1, SC_REQUIRED },
 };
 const sc_list sc_list_contact = { "on_contact", contact_rows, COUNT(contact_rows) };
+static const sc_field hit_rows[] = {
+    { "a",        SC_BODY,     AT(T, a),        0, 0, NULL, 0, 0 },
+    { "b",        SC_BODY,     AT(T, b),        0, 0, NULL, 0, 0 },
+    { "function", SC_FUNCTION, AT(T, function), 0, 0, NULL, 1, SC_REQUIRED },
+    { "speed",    SC_NUMBER,   AT(T, speed),    0, 1e6, "m/s", 0, SC_ABOVE },
+};
+const sc_list sc_list_hit = { "on_hit", hit_rows, COUNT(hit_rows) };
+static const sc_field break_rows[] = {
+    { "function", SC_FUNCTION, AT(T, function), 0, 0, NULL, 1, SC_REQUIRED },
+    { "joint",    SC_JOINT,    AT(T, joint),    0, 0, NULL, 0, 0 },
+};
+const sc_list sc_list_break = { "on_break", break_rows, COUNT(break_rows) };
 #undef T
 // clang-format on

@@ -231,6 +231,11 @@ static int lua_strict_index(lua_State *L)
             sc_suggest_offer(&g, lua_tostring(L, -2));
         }
     }
+    for (int i = 0; owner[0] == 0 && sc_other_names[i].elsewhere != NULL; i++) {
+        if (strcmp(name, sc_other_names[i].elsewhere) == 0) {
+            sc_suggest_force(&g, sc_other_names[i].here);
+        }
+    }
     sc_site site = sc_here(s, name);
     int column = sc_lua_column(s->source, s->source_size, site.line, name);
     char message[200];
@@ -373,7 +378,12 @@ static int open_protected(lua_State *L)
     sc_open_body(L);
     sc_open_motion(L);
     sc_open_build(L);
+    sc_open_materials(L);
+    sc_open_filters(L);
+    sc_open_joints(L);
+    sc_open_joint(L);
     sc_open_handlers(L);
+    sc_open_events(L);
     sc_open_expect(L);
     sc_open_json(L);
     lua_getglobal(L, "table");

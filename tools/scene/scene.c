@@ -28,7 +28,7 @@ static int run_protected(lua_State *L)
 {
     const protected_call *c = lua_touserdata(L, 1);
     lua_settop(L, 0);
-    luaL_checkstack(L, 100, NULL);
+    sc_need_stack(sc_of(L), 100);
     c->run(c->s);
     return 0;
 }
@@ -218,14 +218,20 @@ void scene_destroy(scene *s)
         free(b->shapes);
         free(b);
     }
+    for (int i = 0; i < s->joints.count; i++) {
+        free(s->joints.items[i]);
+    }
     for (int i = 0; i < s->materials.count; i++) {
         free(s->materials.items[i]);
     }
-    void *const blocks[] = { s->bodies.items,   s->materials.items, s->made.items,
-                             s->handlers.items, s->expects.items,   s->exacts,
-                             s->scores.items,   s->params.items,    s->sets.items,
-                             s->begins.items,   s->ends.items,      s->points,
-                             s->source };
+    void *const blocks[] = { s->bodies.items,     s->materials.items, s->made.items,
+                             s->handlers.items,   s->expects.items,   s->exacts,
+                             s->scores.items,     s->params.items,    s->sets.items,
+                             s->begins.items,     s->ends.items,      s->points,
+                             s->source,           s->joints.items,    s->broken.items,
+                             s->categories.items, s->groups.items,    s->pairs.items,
+                             s->excluded.items,   s->hits.items,      s->enters.items,
+                             s->leaves.items,     s->breaks.items };
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++) {
         free(blocks[i]);
     }
@@ -238,13 +244,17 @@ static void step_inside(scene *s)
 {
     sc_handlers_before(s);
     plumb_result result = plumb_world_step(s->world, (plumb_real)s->dt);
+    if (s->edit_failed) { // s->error says why
+        lua_pushlightuserdata(s->L, s);
+        lua_error(s->L);
+    }
     if (result != PLUMB_OK) {
         sc_raise(s, result == PLUMB_E_MEMORY ? SCENE_E_LIMIT : SCENE_E_WORLD, NULL, NULL, 0, NULL,
                  "step %llu failed: %s", (unsigned long long)s->steps + 1,
                  plumb_result_text(result));
     }
     s->steps++;
-    sc_handlers_after(s);
+    sc_events_after(s);
     sc_expect_step(s);
 }
 
@@ -353,6 +363,22 @@ scene_body scene_body_find(const scene *s, const char *name)
 scene_body scene_body_of(const scene *s, plumb_body body)
 {
     return show_body(sc_body_of(s, body));
+}
+
+int scene_joint_count(const scene *s)
+{
+    return s->joints.count;
+}
+
+scene_joint scene_joint_get(const scene *s, int i)
+{
+    if (i < 0 || i >= s->joints.count) {
+        return (scene_joint){ .name = "" };
+    }
+    const sc_joint *j = s->joints.items[i];
+    return (scene_joint){
+        .entity = j->entity, .name = j->def.name, .is_named = j->is_named, .hidden = j->def.hidden
+    };
 }
 
 scene_camera scene_get_camera(const scene *s)

@@ -156,6 +156,18 @@ scene_body scene_body_find(const scene *s, const char *name);
 /// By entity; entity null if it is not a body of the scene.
 scene_body scene_body_of(const scene *s, plumb_body body);
 
+/// A joint with its name and its looks.
+typedef struct scene_joint {
+    plumb_joint entity;
+    const char *name; ///< never empty: unnamed joints are joint1, joint2, ... by order of making
+    bool is_named;    ///< the author gave the name
+    bool hidden;      ///< not to be drawn
+} scene_joint;
+
+/// Joints now there, in order of making. i in [0, count).
+int scene_joint_count(const scene *s);
+scene_joint scene_joint_get(const scene *s, int i);
+
 /// What camera{} said.
 typedef struct scene_camera {
     bool has_view;      ///< `center` and `height` are given

@@ -24,6 +24,8 @@ void sc_build_shape(scene *s, const sc_site *site, sc_shape_kind kind, int table
         sc_raise(s, SCENE_E_CONFLICT, site, "angle_deg", 0, NULL,
                  "%s{} has both 'angle' and 'angle_deg'", site->construct);
     }
+    sc_filter_given given = SC_FILTER_GIVEN(&sc_list_shapes[kind], &def, sc_shape_def);
+    sc_filter_check(s, site, &given);
     if (def.angle_deg != 0) {
         def.angle = def.angle_deg * (3.141592653589793 / 180);
     }
@@ -170,6 +172,12 @@ static plumb_shape_desc describe(scene *s, const sc_site *site, const sc_shape_d
     return desc;
 }
 
+bool sc_shape_is_sensor(const sc_body *body, const sc_shape_def *shape)
+{
+    bool own = SC_GIVEN(&sc_list_shapes[shape->kind], shape, sc_shape_def, sensor);
+    return own ? shape->sensor : body->def.sensor;
+}
+
 void sc_shape_create(scene *s, const sc_site *site, int index, const sc_body *body,
                      const sc_shape_def *shape)
 {
@@ -189,6 +197,10 @@ void sc_shape_create(scene *s, const sc_site *site, int index, const sc_body *bo
     desc.density = line_like             ? 0
                    : shape->density != 0 ? (plumb_real)shape->density
                                          : (plumb_real)body->def.density;
+    desc.sensor = sc_shape_is_sensor(body, shape);
+    desc.filter = sc_filter_resolve(
+        s, &shape->filter, SC_FILTER_GIVEN(&sc_list_shapes[shape->kind], shape, sc_shape_def),
+        &body->def.filter, SC_FILTER_GIVEN(&sc_list_body, &body->def, sc_body_def));
     if (plumb_is_null(plumb_shape_create(s->world, body->entity, &desc))) {
         plumb_error e = plumb_world_error(s->world);
         scene_code code = e.code == PLUMB_E_MEMORY     ? SCENE_E_LIMIT

@@ -237,11 +237,18 @@ void sc_lua_position(const char *text, size_t size, const sc_site *site, const c
             continue;
         }
         first = first < 0 ? i : first;
-        if (!is_text(&list, i, site->construct) || i + 1 >= list.count ||
+        const char *name = site->outer != NULL ? site->outer : site->construct;
+        if (!is_text(&list, i, name) || i + 1 >= list.count ||
             !(opens(&list, i + 1) || list.items[i + 1].kind == TOKEN_STRING)) {
             continue;
         }
         int open = is_text(&list, i + 1, "(") && is_text(&list, i + 2, "{") ? i + 2 : i + 1;
+        if (site->outer != NULL) { // the table is itself a member: its own members are within it
+            int inner = find_member(&list, open, site->construct, 0);
+            bool is_table = inner >= 0 && is_text(&list, inner + 1, "=") && opens(&list, inner + 2);
+            found = inner >= 0 ? inner : found;
+            open = is_table ? inner + 2 : list.count;
+        }
         int member = key != NULL || index > 0 ? find_member(&list, open, key, index) : -1;
         if (member >= 0) {
             found = member;

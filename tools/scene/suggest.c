@@ -1,6 +1,6 @@
 // suggest.c - "did you mean": the known word that is fewest slips of the pen away.
 // Optimal string alignment distance (insert, delete, replace, swap neighbours), row by row.
-// Cost: O(length of word * length of candidate) a candidate, only on the way to an error.
+// Also what other engines call our words, which no distance finds. Cost: O(length of word * length of candidate) a candidate, only on the way to an error.
 #include <string.h>
 
 #include "internal.h"
@@ -71,3 +71,56 @@ const char *sc_suggest_best(const sc_suggest *g)
 {
     return g->best[0] != 0 ? g->best : NULL;
 }
+
+// clang-format off
+const sc_synonym sc_synonyms[] = {
+    { "position", "at" },
+    { "rotation", "angle" },
+    { "angular_velocity", "spin" },
+    { "omega", "spin" },
+    { "bounce", "restitution" },
+    { "elasticity", "restitution" },
+    { "radius", "r" },
+    { "width", "w" },
+    { "height", "h" },
+    { "linear_velocity", "velocity" },
+    { "time_step", "dt" },
+    { "colour", "color" },
+    { "seconds", "duration" },
+    { "rounding", "round" },
+    { "sides", "n" },
+    { "anchor", "at" },
+    { "anchor_a", "at_a" },
+    { "anchor_b", "at_b" },
+    { "limit", "limits" },
+    { "hertz", "frequency" },
+    { "stiffness", "frequency" },
+    { "teeth", "pitch" },
+    { "group", "apart" },
+    { "mask", "collides" },
+    { "layer", "category" },
+    { "body_a", "a" },
+    { "body_b", "b" },
+    { "ground_a", "wheel_a" },
+    { "ground_b", "wheel_b" },
+    { "rolling_friction", "rolling_resistance" },
+    { "trigger", "sensor" },
+    { NULL, NULL },
+};
+
+const sc_synonym sc_other_names[] = {
+    { "rope", "distance" },
+    { "rod", "distance" },
+    { "spring", "distance" },
+    { "hinge", "revolute" },
+    { "pin", "revolute" },
+    { "slider", "prismatic" },
+    { "axle", "wheel" },
+    { "fixed", "weld" },
+    { "sensor", "body" },
+    { "on_begin", "on_contact" },
+    { "on_trigger", "on_enter" },
+    { "filter", "exclude" },
+    { NULL, NULL },
+};
+// clang-format on

@@ -8,6 +8,7 @@ const char *sc_type_name(scene *s, int index)
 {
     lua_State *L = s->L;
     plumb_body body;
+    plumb_joint joint;
     switch (lua_type(L, index)) {
     case LUA_TNIL:
         return "nothing";
@@ -28,7 +29,10 @@ const char *sc_type_name(scene *s, int index)
         if (sc_to_shape(L, index) != NULL) {
             return "a shape";
         }
-        return sc_body_at_index(L, index, &body) ? "a body" : "something else";
+        return sc_body_at_index(L, index, &body)     ? "a body"
+               : sc_joint_at_index(L, index, &joint) ? "a joint"
+               : sc_is_world(L, index)               ? "the world"
+                                                     : "something else";
     }
 }
 
@@ -44,16 +48,22 @@ bool sc_given(const sc_list *list, const void *def, size_t offset)
     return false;
 }
 
-void sc_give(const sc_list *list, void *def, size_t offset)
+void sc_mark(const sc_list *list, void *def, size_t offset, bool given)
 {
     uint64_t present;
     memcpy(&present, def, sizeof present);
     for (int i = 0; i < list->count; i++) {
         if (list->rows[i].offset == offset) {
-            present |= (uint64_t)1 << i;
+            uint64_t bit = (uint64_t)1 << i;
+            present = given ? present | bit : present & ~bit;
         }
     }
     memcpy(def, &present, sizeof present);
+}
+
+void sc_give(const sc_list *list, void *def, size_t offset)
+{
+    sc_mark(list, def, offset, true);
 }
 
 bool sc_to_vec2(scene *s, int index, double v[2])

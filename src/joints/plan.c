@@ -1,0 +1,304 @@
+// plan.c - which joints are solved several at a time, and in what order.
+//
+// Joints get colours so that no body that moves has two of one colour, and within a colour those of
+// one pattern fill the lanes of bundles. Kinds with rows of their own form (gear, pulley), and what
+// finds no colour, are solved one by one. Both follow from the joints there are, in the order of
+// their slots, and from which of their bodies move: never from the width, so that widths give the
+// same bits, nor from the past, so that a plan can be kept until one of these changes.
+//
+// Reads: joints, slots of bodies. Writes: the plan, solver slots of joints. Cost: O(joints); a new
+// plan O(n log n).
+#include "core/sort.h"
+#include "joints/joint.h"
+#include "world/state.h"
+
+#include <string.h>
+
+// pl_joint_mark.what
+#define SOLVED  1u
+#define MOVES_A 2u
+#define MOVES_B 4u
+#define WIDE    8u // by the soft step
+
+#define NO_COLOR 64u
+
+const pl_joint_kernels *pl_joint_kernels_of(const plumb_world *world)
+{
+    switch (world->desc.simd_width) {
+    case 16:
+        return &pl_joint_kernels_w16;
+    case 8:
+        return &pl_joint_kernels_w8;
+    default:
+        return &pl_joint_kernels_w4;
+    }
+}
+
+//---- who takes part ------------------------------------------------------------------------------
+
+static bool is_enabled(const plumb_world *world, plumb_body body)
+{
+    return plumb_is_null(body) ||
+           (world->bodies.flags[pl_body_row(world, body)] & PL_BODY_DISABLED) == 0;
+}
+
+static bool is_active(const plumb_world *world, const pl_joint *j)
+{
+    return !j->desc.disabled && (world->disabled_count == 0 || (is_enabled(world, j->a.body) &&
+                                                                is_enabled(world, j->b.body)));
+}
+
+static bool is_locked(const plumb_world *world, uint32_t row)
+{
+    return row < world->dynamic_count && (world->bodies.flags[row] & PL_BODY_LOCKED) != 0;
+}
+
+// Rows without what lies along locked axes, and impulses to be added up, are made one by one.
+static bool is_plain(const plumb_world *world, const pl_joint *j, const pl_joint_mark *mark)
+{
+    return !(j->desc.break_impulse > 0) &&
+           (world->locked_bodies == 0 ||
+            (!is_locked(world, mark->row_a) && !is_locked(world, mark->row_b)));
+}
+
+//---- what has changed ----------------------------------------------------------------------------
+
+uint32_t pl_joint_variant(const plumb_joint_desc *d)
+{
+    return (uint32_t)d->kind | (d->enable_limit ? 0x100u : 0) | (d->enable_motor ? 0x200u : 0) |
+           (d->hertz > 0 ? 0x400u : 0) | (d->max_force > 0 ? 0x800u : 0) |
+           (pl_joint_may_break(d) ? 0x1000u : 0);
+}
+
+static uint32_t row_of(const plumb_world *world, plumb_body body, uint32_t before)
+{
+    if (plumb_is_null(body)) {
+        return PL_NONE;
+    }
+    bool same =
+        before < world->bodies.table.count && plumb_same(world->bodies.entity[before], body);
+    return same ? before : pl_body_row(world, body);
+}
+
+// Rows of a joint's bodies, and which of them move.
+static uint32_t look(const plumb_world *world, pl_joint_mark *mark)
+{
+    mark->row_a = row_of(world, mark->a, mark->row_a);
+    mark->row_b = row_of(world, mark->b, mark->row_b);
+    return SOLVED | (world->desc.solver == PLUMB_SOLVER_SOFT ? WIDE : 0) |
+           (mark->row_a < world->dynamic_count ? MOVES_A : 0) |
+           (mark->row_b < world->dynamic_count ? MOVES_B : 0);
+}
+
+// True: all marks are as they were when the plan was made.
+static bool still_holds(plumb_world *world)
+{
+    const pl_joints *joints = &world->joints;
+    pl_joint_mark *marks = joints->plan.marks.data;
+    const uint32_t *awake = joints->awake.data;
+    bool same = joints->plan.made && !joints->awake_stale;
+    for (uint32_t i = 0; same && i < joints->awake_count; ++i) {
+        pl_joint_mark *mark = &marks[awake[i]];
+        same = mark->what == 0 || mark->what == look(world, mark);
+    }
+    return same;
+}
+
+static void mark_all(plumb_world *world)
+{
+    pl_joint_mark *marks = world->joints.plan.marks.data;
+    const uint32_t *awake = world->joints.awake.data;
+    memset(marks, 0, world->joints.count * sizeof *marks);
+    for (uint32_t i = 0; i < pl_joints_awake(world); ++i) {
+        const pl_joint *j = &pl_joint_items(&world->joints)[awake[i]];
+        pl_joint_mark *mark = &marks[awake[i]];
+        *mark =
+            (pl_joint_mark){ .a = j->a.body, .b = j->b.body, .row_a = PL_NONE, .row_b = PL_NONE };
+        mark->what = is_active(world, j) ? look(world, mark) : 0;
+    }
+}
+
+//---- patterns ------------------------------------------------------------------------------------
+
+// False for rows that only their kind knows how to make.
+static bool describe(const plumb_world *world, pl_joint *j, pl_joint_pattern *out)
+{
+    pl_rows *rows = &j->rows;
+    pl_joint_begin(world, j);
+    pl_joint_classes[j->desc.kind]->rows(j, &j->a.pose, &j->b.pose, rows);
+    *out = (pl_joint_pattern){ .variant = pl_joint_variant(&j->desc),
+                               .rows_of_all = (uint32_t)rows->count,
+                               .block = (uint8_t)rows->block };
+    bool known = true;
+    for (int i = 0; i < rows->count; ++i) {
+        const pl_row *r = &rows->row[i];
+        if (r->type != PL_ROW_OFF) {
+            known &= r->form != PL_FORM_OWN;
+            out->row[out->count++] = (pl_pattern_row){ .index = (uint8_t)i,
+                                                       .form = (uint8_t)r->form,
+                                                       .type = (uint8_t)r->type,
+                                                       .spring = r->hertz > 0 };
+        }
+    }
+    out->tempered = out->block > 0 && (out->row[0].spring || out->row[0].type == PL_ROW_DRIVE ||
+                                       rows->block_most < PL_UNBOUNDED);
+    out->bare = j->desc.kind == PLUMB_REVOLUTE && out->count == 2 && !out->tempered;
+    return known && out->count > 0;
+}
+
+// PL_NONE: to be solved one by one.
+static uint32_t pattern_of(plumb_world *world, pl_joint *j)
+{
+    pl_joint_plan *plan = &world->joints.plan;
+    uint32_t variant = pl_joint_variant(&j->desc);
+    for (uint32_t i = 0; i < plan->pattern_count; ++i) {
+        if (plan->patterns[i].variant == variant) {
+            return i;
+        }
+    }
+    pl_joint_pattern pattern;
+    if (plan->pattern_count == PL_JOINT_PATTERNS || !describe(world, j, &pattern)) {
+        return PL_NONE;
+    }
+    plan->patterns[plan->pattern_count] = pattern;
+    return plan->pattern_count++;
+}
+
+//---- order ---------------------------------------------------------------------------------------
+
+// The first colour that neither body has.
+static uint32_t color_of(plumb_world *world, const pl_joint_mark *mark)
+{
+    const uint32_t movable = world->dynamic_count + world->kinematic_count, what = mark->what;
+    uint64_t *masks = world->solver.masks.data;
+    uint64_t *a = &masks[pl_solver_slot(&world->solver, mark->row_a, movable)];
+    uint64_t *b = &masks[pl_solver_slot(&world->solver, mark->row_b, movable)];
+    uint64_t taken = ((what & MOVES_A) != 0 ? *a : 0) | ((what & MOVES_B) != 0 ? *b : 0);
+    if (taken == UINT64_MAX) {
+        return NO_COLOR;
+    }
+    uint32_t color = (uint32_t)__builtin_ctzll(~taken);
+    uint64_t bit = UINT64_C(1) << color;
+    if ((what & MOVES_A) != 0) {
+        *a |= bit;
+    }
+    if ((what & MOVES_B) != 0) {
+        *b |= bit;
+    }
+    return color;
+}
+
+// Colours of all joints; those that are solved one by one into their list. Returns how many are not.
+static uint32_t sort_out(plumb_world *world)
+{
+    pl_joints *joints = &world->joints;
+    pl_joint_plan *plan = &joints->plan;
+    pl_keyed *order = plan->order.data;
+    pl_joint_mark *marks = plan->marks.data;
+    uint32_t *alone = plan->alone.data, count = 0;
+    plan->alone_count = plan->pattern_count = 0;
+    memset(world->solver.masks.data, 0, world->solver.slot_count * sizeof(uint64_t));
+    for (uint32_t i = 0; i < joints->count; ++i) {
+        pl_joint_mark *mark = &marks[i];
+        if (mark->what == 0) {
+            continue;
+        }
+        pl_joint *j = &pl_joint_items(joints)[i];
+        bool wide = (mark->what & WIDE) != 0 && is_plain(world, j, mark);
+        uint32_t pattern = wide ? pattern_of(world, j) : PL_NONE;
+        uint32_t color = pattern != PL_NONE ? color_of(world, mark) : NO_COLOR;
+        mark->wide = color != NO_COLOR;
+        mark->quiet = mark->wide && plan->patterns[pattern].bare && !pl_joint_may_break(&j->desc);
+        if (!mark->wide) {
+            alone[plan->alone_count++] = i;
+        } else {
+            order[count++] = (pl_keyed){ .key = pl_key(color, pattern), .order = i, .value = i };
+        }
+    }
+    pl_sort_keyed(order, count);
+    return count;
+}
+
+// Every lane may end up alone in its bundle.
+static bool reserve_lanes(plumb_world *world, uint32_t count)
+{
+    pl_joint_plan *plan = &world->joints.plan;
+    const pl_keyed *order = plan->order.data;
+    size_t width = (size_t)pl_joint_kernels_of(world)->width, bundles = 0, filled = 0;
+    for (uint32_t i = 0; i < count; ++i) {
+        bool opens = i == 0 || order[i].key != order[i - 1].key || filled == width;
+        bundles += opens;
+        filled = opens ? 1 : filled + 1;
+    }
+    return pl_buffer_reserve(&world->memory, &plan->bundles, bundles * sizeof(pl_joint_bundle)) &&
+           pl_buffer_reserve(&world->memory, &plan->lanes,
+                             bundles * width * sizeof(pl_joint_lane)) &&
+           pl_buffer_reserve(&world->memory, &plan->starts,
+                             bundles * width * sizeof(pl_joint_start)) &&
+           pl_buffer_reserve(&world->memory, &plan->slots, bundles * width * 2 * sizeof(uint32_t));
+}
+
+static pl_joint_lane lane_of(const plumb_world *world, uint32_t slot)
+{
+    const pl_joint *j = &pl_joint_items(&world->joints)[slot];
+    return (pl_joint_lane){ .joint = slot,
+                            .eighth_a = (uint8_t)pl_joint_eighth(j->a.seen),
+                            .eighth_b = (uint8_t)pl_joint_eighth(j->b.seen),
+                            .local_a = j->a.local,
+                            .local_b = j->b.local };
+}
+
+// Fills lanes; returns the bytes of all records.
+static size_t place_lanes(plumb_world *world, uint32_t count)
+{
+    pl_joint_plan *plan = &world->joints.plan;
+    const pl_joint_kernels *kernels = pl_joint_kernels_of(world);
+    const pl_keyed *order = plan->order.data;
+    pl_joint_bundle *bundles = plan->bundles.data;
+    pl_joint_lane *lanes = plan->lanes.data;
+    uint32_t width = (uint32_t)kernels->width, filled = 0;
+    size_t bytes = 0;
+    plan->bundle_count = 0;
+    for (uint32_t i = 0; i < count; ++i) {
+        if (i == 0 || order[i].key != order[i - 1].key || filled == width) {
+            uint32_t pattern = (uint32_t)order[i].key;
+            memset(&lanes[(size_t)plan->bundle_count * width], 0xff, width * sizeof *lanes);
+            bundles[plan->bundle_count++] = (pl_joint_bundle){ .at = bytes, .pattern = pattern };
+            bytes += kernels->record_size(&plan->patterns[pattern]);
+            filled = 0;
+        }
+        lanes[(size_t)(plan->bundle_count - 1) * width + filled++] = lane_of(world, order[i].value);
+    }
+    return bytes;
+}
+
+static bool make_plan(plumb_world *world)
+{
+    pl_joint_plan *plan = &world->joints.plan;
+    size_t count = world->joints.count;
+    plan->made = false;
+    if (!pl_buffer_reserve(&world->memory, &plan->marks, count * sizeof(pl_joint_mark)) ||
+        !pl_buffer_reserve(&world->memory, &plan->order, count * sizeof(pl_keyed)) ||
+        !pl_buffer_reserve(&world->memory, &plan->alone, count * sizeof(uint32_t))) {
+        return false;
+    }
+    mark_all(world);
+    uint32_t wide = sort_out(world);
+    plan->made = reserve_lanes(world, wide) &&
+                 pl_buffer_reserve(&world->memory, &plan->records, place_lanes(world, wide));
+    return plan->made;
+}
+
+bool pl_joints_plan(plumb_world *world)
+{
+    return still_holds(world) || make_plan(world);
+}
+
+void pl_joints_plan_free(pl_memory *memory, pl_joint_plan *plan)
+{
+    pl_buffer *buffers[] = { &plan->marks,  &plan->order, &plan->bundles, &plan->lanes,
+                             &plan->starts, &plan->slots, &plan->records, &plan->alone };
+    for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; ++i) {
+        pl_buffer_free(memory, buffers[i]);
+    }
+}

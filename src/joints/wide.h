@@ -1,0 +1,93 @@
+// wide.h - joints that are solved several at a time: patterns of rows, what the kernels are given,
+// one set of kernels a width.
+//
+// Two joints have one pattern when they are of one kind with the same parts switched on. Lanes of a
+// bundle hold joints of one pattern of which no two share a body that moves.
+#ifndef PL_JOINTS_WIDE_H
+#define PL_JOINTS_WIDE_H
+
+#include "joints/rows.h"
+
+typedef struct pl_joint pl_joint;
+typedef struct pl_solver_body pl_solver_body;
+
+#define PL_JOINT_PATTERNS 32 // joints of further patterns are solved one by one
+
+typedef struct pl_pattern_row {
+    uint8_t index; // in pl_joint.impulse
+    uint8_t form;  // pl_row_form
+    uint8_t type;  // pl_row_type
+    bool spring;
+} pl_pattern_row;
+
+typedef struct pl_joint_pattern {
+    uint32_t variant;     // what joints of the pattern have in common: see plan.c
+    uint32_t rows_of_all; // rows of the joint, those that are off included
+    uint8_t count;        // rows in force
+    uint8_t block;        // so many of the first are solved as one system
+    bool bare;            // nothing but the point of a rigid hinge
+    bool tempered;        // the block is a spring, or of bounded force
+    pl_pattern_row row[PL_JOINT_ROWS];
+} pl_joint_pattern;
+
+// Factors of J v, C and the impulse so far: see solve.c.
+typedef struct pl_joint_soft {
+    real velocity, error, impulse;
+} pl_joint_soft;
+
+// A lane's joint, and what a bare hinge needs of it.
+typedef struct pl_joint_lane {
+    uint32_t joint;              // slot; PL_NONE: an empty lane
+    uint8_t eighth_a, eighth_b;  // of a turn, where its bodies were last seen
+    plumb_vec2 local_a, local_b; // [m] anchors in the bodies' frames
+} pl_joint_lane;
+
+// How a lane's joint begins a step: eight reals, gathered by the kernels as one row.
+typedef struct pl_joint_start {
+    plumb_vec2 arm_a, arm_b; // [m]
+    plumb_vec2 apart;        // [m] from A's centre to B's
+    plumb_real impulse[2];   // [N s] of the first rows
+} pl_joint_start;
+
+typedef struct pl_joint_bundle {
+    size_t at; // [B] of its record
+    uint32_t pattern;
+} pl_joint_bundle;
+
+typedef struct pl_joint_call {
+    pl_solver_body *bodies;
+    uint32_t dynamic_slots; // slots from here on are read but never written
+    uint32_t immovable_slot;
+    uint32_t bundle_count;
+    const pl_joint_bundle *bundles;
+    const pl_joint_pattern *patterns;
+    const pl_joint_lane *lanes;
+    const pl_joint_start *starts;
+    const uint32_t *slots; // of a bundle: solver slots of all lanes' A, then of all B
+    unsigned char *records;
+    pl_joint *joints;
+    real h;              // [s] substep
+    pl_joint_soft rigid; // of rows that are no springs, where they pull
+} pl_joint_call;
+
+typedef void pl_joint_kernel(const pl_joint_call *call);
+
+typedef struct pl_joint_kernels {
+    int width;
+    size_t (*record_size)(const pl_joint_pattern *pattern); // [B]
+    pl_joint_kernel *fill;       // from poses, rows and impulses of the joints
+    pl_joint_kernel *warm_start; // the impulses that the step begins with
+    // One sweep each. First of a substep: what J's turning owes is paid before pulling, rows are made
+    // for the new poses before relaxing.
+    pl_joint_kernel *pull_first, *pull, *relax_first, *relax;
+    pl_joint_kernel *store; // impulses and rows into the joints
+} pl_joint_kernels;
+
+extern const pl_joint_kernels pl_joint_kernels_w4;
+extern const pl_joint_kernels pl_joint_kernels_w8;
+extern const pl_joint_kernels pl_joint_kernels_w16;
+
+// Factors of a spring's row over a substep of h [s].
+pl_joint_soft pl_joint_spring(const pl_row *row, real h);
+
+#endif

@@ -1,0 +1,228 @@
+// cast.c - what a convex shape meets on its way along a translation: the first shape, any, or all of
+// them; many casts in one call.
+//
+// Every piece whose fat box the moving box crosses is asked with a ray against the sum of both
+// shapes (sweep.h), in double, relative to where the moved shape starts: exact to rounding, however
+// far from the origin. The first hit so far ends the walk through the grid where it lies.
+//
+// Reads: grids, pieces, poses. Writes: the answer. Cost: cells under the way + O(corners) a box met.
+#include "query/query.h"
+#include "query/sweep.h"
+#include "query/walk.h"
+#include "world/check.h"
+
+#include <math.h>
+#include <stdio.h>
+
+typedef struct caster {
+    pl_query q;
+    pl_walk walk;
+    pl_round mover;    // relative to `origin`
+    plumb_vec2 origin; // [m]
+    double dx, dy;     // [m] the way
+    double touch;      // [m] overlaps up to this are touches
+    bool met;          // first hit, any hit
+    pl_query_hit first;
+} caster;
+
+// `hit`: fraction, normal, depth.
+static bool meets_piece(const caster *c, uint32_t piece, pl_query_hit *hit)
+{
+    plumb_convex convex;
+    pl_round fixed;
+    pl_sum sum;
+    pl_sum_hit met;
+    pl_query_convex(c->q.world, piece, &convex);
+    pl_round_make(&convex, pl_query_frame(c->q.world, piece), c->origin, &fixed);
+    pl_sum_make(&fixed, &c->mover, &sum);
+    if (!pl_sum_cast(&sum, 0, 0, c->dx, c->dy, c->touch, &met)) {
+        return false;
+    }
+    *hit = pl_query_hit_of(c->q.world, piece);
+    hit->fraction = (plumb_real)met.fraction;
+    hit->normal = plumb_v2((plumb_real)met.nx, (plumb_real)met.ny);
+    hit->depth = (plumb_real)met.depth;
+    double x, y;
+    pl_round_touch(&fixed, &c->mover, met.fraction * c->dx, met.fraction * c->dy, met.nx, met.ny,
+                   &x, &y);
+    hit->point =
+        plumb_v2((plumb_real)((double)c->origin.x + x), (plumb_real)((double)c->origin.y + y));
+    return !pl_query_passes(&c->q, piece, met.depth > 0 ? plumb_v2(0, 0) : hit->normal);
+}
+
+// Of shapes that overlap at the start, the deepest.
+static bool comes_first(const caster *c, const pl_query_hit *hit)
+{
+    const pl_query_hit *first = &c->first;
+    if (!c->met || hit->fraction != first->fraction) {
+        return !c->met || hit->fraction < first->fraction;
+    }
+    return hit->depth != first->depth ? hit->depth > first->depth
+                                      : hit->shape.index < first->shape.index;
+}
+
+static bool keep_first(void *context, const pl_grid_entry *entry)
+{
+    caster *c = context;
+    pl_query_hit hit;
+    if (pl_query_sees(&c->q, entry->piece) && meets_piece(c, entry->piece, &hit) &&
+        comes_first(c, &hit) && pl_query_accepts(&c->q, hit.shape)) {
+        c->met = true;
+        c->first = hit;
+        c->walk.limit = (double)hit.fraction;
+    }
+    return true;
+}
+
+// The first that comes along: the walk ends.
+static bool keep_any(void *context, const pl_grid_entry *entry)
+{
+    caster *c = context;
+    c->met = pl_query_sees(&c->q, entry->piece) && meets_piece(c, entry->piece, &c->first) &&
+             pl_query_accepts(&c->q, c->first.shape);
+    return !c->met;
+}
+
+static bool keep_all(void *context, const pl_grid_entry *entry)
+{
+    caster *c = context;
+    pl_query_hit hit;
+    return !pl_query_sees(&c->q, entry->piece) || !meets_piece(c, entry->piece, &hit) ||
+           pl_query_add(&c->q, &hit);
+}
+
+// `prefix`: see pl_query_check_convex.
+static plumb_result check_cast(const plumb_world *world, const char *function, const char *prefix,
+                               const plumb_cast *cast)
+{
+    char buffer[PL_QUERY_FIELD];
+    plumb_result r = pl_query_check_convex(world, function, prefix, cast->convex);
+    r = r != PLUMB_OK ? r : pl_query_check_transform(world, function, prefix, cast->transform);
+    const char *name = pl_query_field(buffer, prefix, "translation");
+    return r != PLUMB_OK
+               ? r
+               : pl_check_within(world, function, name, cast->translation, PL_QUERY_LIMIT);
+}
+
+static void aim(caster *c, const plumb_cast *cast)
+{
+    plumb_aabb box = plumb_convex_aabb(cast->convex, cast->transform);
+    c->origin = cast->transform.p;
+    c->dx = (double)cast->translation.x;
+    c->dy = (double)cast->translation.y;
+    c->met = false;
+    c->walk = pl_walk_make_box(box, cast->translation);
+    c->touch =
+        PL_QUERY_TOUCH * (fabs(c->walk.ox) + fabs(c->walk.oy) + c->walk.half_x + c->walk.half_y);
+    pl_round_make(cast->convex, cast->transform, c->origin, &c->mover);
+}
+
+static plumb_result begin(caster *c, plumb_world *world, const char *function,
+                          const plumb_cast *cast, const plumb_query_filter *filter)
+{
+    plumb_result r = pl_check_pointer(world, function, "cast", cast);
+    r = r != PLUMB_OK ? r : check_cast(world, function, "", cast);
+    r = r != PLUMB_OK ? r : pl_query_begin(&c->q, world, function, filter);
+    if (r == PLUMB_OK) {
+        aim(c, cast);
+    }
+    return r;
+}
+
+static void walk(caster *c, pl_grid_visit *visit)
+{
+    const pl_grid *grids[PL_QUERY_GRIDS];
+    int count = pl_query_grids(&c->q, grids);
+    for (int i = 0; i < count; ++i) {
+        if (!pl_walk_grid(grids[i], &c->walk, visit, c)) {
+            return;
+        }
+    }
+}
+
+static plumb_cast_hit public_hit(const pl_query_hit *hit)
+{
+    return (plumb_cast_hit){ hit->shape,  hit->body,     hit->point,
+                             hit->normal, hit->fraction, hit->depth };
+}
+
+bool plumb_world_cast(plumb_world *world, const plumb_cast *cast, const plumb_query_filter *filter,
+                      plumb_cast_hit *hit)
+{
+    caster c;
+    if (world == NULL || pl_check_pointer(world, __func__, "hit", hit) != PLUMB_OK ||
+        begin(&c, world, __func__, cast, filter) != PLUMB_OK) {
+        return false;
+    }
+    walk(&c, keep_first);
+    if (c.met) {
+        *hit = public_hit(&c.first);
+    }
+    return c.met;
+}
+
+bool plumb_world_cast_any(plumb_world *world, const plumb_cast *cast,
+                          const plumb_query_filter *filter)
+{
+    caster c;
+    if (world == NULL || begin(&c, world, __func__, cast, filter) != PLUMB_OK) {
+        return false;
+    }
+    walk(&c, keep_any);
+    return c.met;
+}
+
+int plumb_world_cast_all(plumb_world *world, const plumb_cast *cast,
+                         const plumb_query_filter *filter, plumb_cast_hit *hits, int capacity)
+{
+    caster c;
+    if (world == NULL ||
+        pl_query_check_output(world, __func__, "hits", hits, capacity) != PLUMB_OK ||
+        begin(&c, world, __func__, cast, filter) != PLUMB_OK) {
+        return -1;
+    }
+    walk(&c, keep_all);
+    pl_query_one_per_shape(&c.q);
+    pl_query_sort_along(&c.q);
+    int count = (int)c.q.count;
+    for (int i = 0; i < count && i < capacity; ++i) {
+        hits[i] = public_hit(&c.q.hits[i]);
+    }
+    return pl_query_end(&c.q) == PLUMB_OK ? count : -1;
+}
+
+//---- many in one call ----------------------------------------------------------------------------
+
+static plumb_result check_casts(const plumb_world *world, const char *function,
+                                const plumb_cast *casts, int count, const plumb_cast_hit *hits)
+{
+    plumb_result r = pl_query_check_count(world, function, count);
+    r = r != PLUMB_OK || count == 0 ? r : pl_check_pointer(world, function, "casts", casts);
+    r = r != PLUMB_OK || count == 0 ? r : pl_check_pointer(world, function, "hits", hits);
+    for (int i = 0; r == PLUMB_OK && i < count; ++i) {
+        if (check_cast(NULL, function, "", &casts[i]) != PLUMB_OK) {
+            char prefix[24];
+            snprintf(prefix, sizeof prefix, "casts[%d].", i);
+            r = check_cast(world, function, prefix, &casts[i]);
+        }
+    }
+    return r;
+}
+
+int plumb_world_cast_batch(plumb_world *world, const plumb_cast *casts, int count,
+                           const plumb_query_filter *filter, plumb_cast_hit *hits)
+{
+    caster c;
+    if (world == NULL || check_casts(world, __func__, casts, count, hits) != PLUMB_OK ||
+        pl_query_begin(&c.q, world, __func__, filter) != PLUMB_OK) {
+        return -1;
+    }
+    int met = 0;
+    for (int i = 0; i < count; ++i) {
+        aim(&c, &casts[i]);
+        walk(&c, keep_first);
+        hits[i] = c.met ? public_hit(&c.first) : (plumb_cast_hit){ .fraction = 1 };
+        met += c.met;
+    }
+    return met;
+}

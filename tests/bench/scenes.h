@@ -1,0 +1,12 @@
+/// scenes.h - build functions of the scenes that stand in files of their own.
+#ifndef BENCH_SCENES_H
+#define BENCH_SCENES_H
+
+#include "scene.h"
+
+void build_tumbler(struct scene *scene);
+void build_joint_grid(struct scene *scene);
+void build_spinner(struct scene *scene);
+void build_rain(struct scene *scene);
+
+#endif

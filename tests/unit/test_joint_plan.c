@@ -1,0 +1,265 @@
+// test_joint_plan.c - joints solved several at a time: who shares a bundle, when a plan is kept, that
+// widths give the same bits, and lanes what one by one gives.
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "harness/sim.h"
+#include "plumb/math.h"
+#include "world/state.h"
+
+#define DT ((plumb_real)(1 / 60.0))
+
+static const plumb_material none = PLUMB_NULL_INIT;
+
+// A descriptor with parts switched on by the bits of `parts` where the kind has them.
+static plumb_joint_desc desc_of(plumb_joint_kind kind, unsigned parts, double x, double y)
+{
+    unsigned has = pl_joint_classes[kind]->has;
+    plumb_joint_desc d = { .kind = kind, .anchor = sim_vec(x, y), .anchor_b = sim_vec(x + 1, y) };
+    d.ground_a = sim_vec(x, y + 4);
+    d.ground_b = sim_vec(x + 1, y + 4);
+    d.enable_limit = (has & PL_JOINT_LIMIT) != 0 && (parts & 1) != 0;
+    d.upper = d.enable_limit ? (plumb_real)0.5 : 0;
+    d.enable_motor = (has & PL_JOINT_MOTOR) != 0 && (parts & 2) != 0;
+    d.motor_speed = 1;
+    d.max_motor = 2;
+    d.hertz = (plumb_real)((has & PL_JOINT_SPRING) != 0 && (parts & 4) != 0 ? 3 : 0);
+    d.damping = (plumb_real)0.2;
+    d.max_force = (plumb_real)(parts & 8 ? 4 : 0);
+    d.max_torque = 3;
+    d.break_force = (plumb_real)(parts & 16 ? 1e6 : 0);
+    d.pitch = kind == PLUMB_RATCHET ? (plumb_real)0.3 : 0;
+    return d;
+}
+
+static plumb_joint add(plumb_world *w, plumb_joint_desc d, plumb_body a, plumb_body b)
+{
+    d.body_a = a;
+    d.body_b = b;
+    plumb_joint j = plumb_joint_create(w, &d);
+    assert_false(plumb_is_null(j));
+    return j;
+}
+
+// Chains of every kind in every outfit over a floor, a net of hinges, and a hub with more joints than
+// there are colours.
+static plumb_world *zoo(int width)
+{
+    plumb_world *w = sim_world(&(plumb_world_desc){ .simd_width = width });
+    sim_floor(w, none);
+    for (int kind = 0; kind < pl_joint_class_count; ++kind) {
+        for (unsigned parts = 0; parts < 16; ++parts) {
+            double x = 3 * kind, y = 2 + 3.0 * parts;
+            plumb_body a = parts % 3 == 0 ? (plumb_body)PLUMB_NULL_INIT
+                                          : sim_crate(w, x - 0.5, y, 0.4, 0.2, none);
+            plumb_body b = sim_crate(w, x + 0.5, y, 0.4, 0.2, none);
+            add(w, desc_of((plumb_joint_kind)kind, parts, x, y), a, b);
+        }
+    }
+    plumb_body hub = sim_crate(w, -10, 5, 0.5, 0.5, none);
+    for (int i = 0; i < 70; ++i) {
+        plumb_body rod = sim_crate(w, -10 + 0.01 * i, 5.6, 0.05, 0.4, none);
+        add(w, desc_of(PLUMB_REVOLUTE, 0, -10 + 0.01 * i, 5.3), hub, rod);
+    }
+    return w;
+}
+
+static uint64_t bits_of(const plumb_world *w)
+{
+    uint64_t hash = UINT64_C(14695981039346656037);
+    const pl_bodies *b = &w->bodies;
+    for (uint32_t row = 0; row < w->dynamic_count; ++row) {
+        const plumb_real values[] = { b->center_x[row], b->center_y[row], b->c[row],
+                                      b->s[row],        b->vx[row],       b->w[row] };
+        unsigned char bytes[sizeof values];
+        memcpy(bytes, values, sizeof values);
+        for (size_t i = 0; i < sizeof bytes; ++i) {
+            hash = (hash ^ bytes[i]) * UINT64_C(1099511628211);
+        }
+    }
+    return hash;
+}
+
+static void widths_give_the_same_bits(void **state)
+{
+    (void)state;
+    uint64_t expected = 0;
+    for (int width = 4; width <= 16; width *= 2) {
+        plumb_world *w = zoo(width);
+        for (int i = 0; i < 90; ++i) {
+            plumb_joint j = pl_joint_items(&w->joints)[i].entity;
+            if (i % 10 == 5) {
+                plumb_joint_destroy(w, j);
+            } else if (i % 10 == 7 && plumb_joint_get_kind(w, j) == PLUMB_REVOLUTE) {
+                plumb_joint_set_motor(w, j, i % 20 == 7, 2, 1);
+            }
+            assert_int_equal(plumb_world_step(w, DT), PLUMB_OK);
+        }
+        uint64_t bits = bits_of(w);
+        assert_true(w->joints.plan.bundle_count > 0 && w->joints.plan.alone_count > 30);
+        assert_true(width == 4 || bits == expected);
+        expected = bits;
+        plumb_world_destroy(w);
+    }
+}
+
+static void bundles_share_no_body_and_leave_no_joint_out(void **state)
+{
+    (void)state;
+    plumb_world *w = zoo(8);
+    plumb_world_step(w, DT);
+    const pl_joint_plan *plan = &w->joints.plan;
+    const pl_joint_lane *lanes = plan->lanes.data;
+    const uint32_t width = (uint32_t)pl_joint_kernels_of(w)->width;
+    uint32_t seen = plan->alone_count;
+    for (uint32_t k = 0; k < plan->bundle_count; ++k) {
+        uint32_t rows[32], count = 0;
+        for (uint32_t i = 0; i < width; ++i) {
+            if (lanes[k * width + i].joint == PL_NONE) {
+                continue;
+            }
+            const pl_joint_mark *mark = &pl_joint_marks(&w->joints)[lanes[k * width + i].joint];
+            assert_true(mark->wide);
+            rows[count++] = mark->row_a;
+            rows[count++] = mark->row_b;
+            ++seen;
+        }
+        for (uint32_t i = 0; i < count; ++i) {
+            for (uint32_t m = 0; m < i; ++m) {
+                assert_true(rows[i] != rows[m] || rows[i] >= w->dynamic_count);
+            }
+        }
+    }
+    assert_int_equal(seen, w->joints.live);
+    plumb_world_destroy(w);
+}
+
+static void a_plan_is_kept_until_something_changes(void **state)
+{
+    (void)state;
+    plumb_world *w = sim_world(&(plumb_world_desc){ 0 });
+    plumb_body a = sim_crate(w, 0, 0, 0.5, 0.5, none), b = sim_crate(w, 2, 0, 0.5, 0.5, none);
+    plumb_joint j = add(w, desc_of(PLUMB_REVOLUTE, 3, 1, 0), a, b);
+    const pl_joint_plan *plan = &w->joints.plan;
+    plumb_world_step(w, DT);
+    assert_true(plan->made);
+    plumb_joint_set_motor(w, j, true, 5, 3);
+    plumb_joint_set_limit(w, j, true, -1, 1);
+    assert_true(plan->made); // other numbers, the same rows
+    for (int change = 0; change < 6; ++change) {
+        switch (change) {
+        case 0:
+            plumb_joint_set_motor(w, j, false, 0, 0);
+            break;
+        case 1:
+            plumb_joint_set_limit(w, j, false, 0, 0);
+            break;
+        case 2:
+            plumb_joint_set_spring(w, j, 2, 1, 0);
+            break;
+        case 3:
+            plumb_joint_set_break(w, j, 1e6, 0);
+            break;
+        case 4:
+            add(w, desc_of(PLUMB_WELD, 0, 1, 0), a, b);
+            break;
+        default:
+            plumb_joint_destroy(w, j);
+            break;
+        }
+        assert_false(plan->made);
+        plumb_world_step(w, DT);
+        assert_true(plan->made);
+    }
+    assert_int_equal(plan->bundle_count, 1);
+    plumb_world_destroy(w);
+}
+
+// Joints that came and went leave no trace.
+static void a_plan_does_not_depend_on_the_past(void **state)
+{
+    (void)state;
+    plumb_world *plain = zoo(8), *busy = zoo(8);
+    plumb_body extra = sim_crate(busy, -20, 5, 0.5, 0.5, none);
+    plumb_joint j = add(busy, desc_of(PLUMB_REVOLUTE, 0, -20, 5), none, extra);
+    plumb_world_step(plain, DT);
+    plumb_world_step(busy, DT);
+    plumb_joint_destroy(busy, j);
+    plumb_body_destroy(busy, extra);
+    for (int i = 0; i < 30; ++i) {
+        plumb_world_step(plain, DT);
+        plumb_world_step(busy, DT);
+    }
+    assert_true(bits_of(plain) == bits_of(busy));
+    plumb_world_destroy(plain);
+    plumb_world_destroy(busy);
+}
+
+// Two crates tied together fly and spin; `crowded`: so many patterns are there before that this one
+// is solved by itself. Returns where the second one is.
+static plumb_vec2 swing(plumb_joint_kind kind, unsigned parts, bool crowded)
+{
+    plumb_world *w = sim_world(&(plumb_world_desc){ 0 });
+    plumb_body s = sim_body(w, PLUMB_STATIC, 50, 0, 0), t = sim_body(w, PLUMB_STATIC, 51, 0, 0);
+    plumb_joint_kind filler = kind == PLUMB_REVOLUTE ? PLUMB_PRISMATIC : PLUMB_REVOLUTE;
+    for (unsigned i = 0; crowded && i < PL_JOINT_PATTERNS; ++i) {
+        add(w, desc_of(filler, i, 50, 0), s, t);
+    }
+    plumb_body a = sim_crate(w, 0.5, 0, 0.4, 0.2, none), b = sim_crate(w, 1.5, 0.2, 0.4, 0.2, none);
+    plumb_joint hook = add(w, desc_of(kind, parts, 1, 0), a, b);
+    sim_launch(w, a, 1, 2, 1);
+    sim_launch(w, b, -1, 0.5, -2);
+    if (pl_joint_classes[kind]->has & PL_JOINT_TARGET) {
+        plumb_joint_set_target(w, hook, sim_vec(0.8, 0.4));
+    }
+    for (int i = 0; i < 30; ++i) {
+        plumb_world_step(w, DT);
+    }
+    const pl_joint_mark *mark = &pl_joint_marks(&w->joints)[pl_joint_slot(w, hook)];
+    assert_true(mark->wide == (!crowded && kind != PLUMB_GEAR && kind != PLUMB_PULLEY));
+    plumb_vec2 place = plumb_body_center(w, b);
+    plumb_vec2 force = plumb_joint_force(w, hook);
+    plumb_world_destroy(w);
+    return plumb_v2(place.x + force.x / 1000, place.y + force.y / 1000);
+}
+
+static void lanes_do_what_one_by_one_does(void **state)
+{
+    (void)state;
+    double worst = 0;
+    for (int kind = 0; kind < pl_joint_class_count; ++kind) {
+        for (unsigned parts = 0; parts < 16; ++parts) {
+            plumb_vec2 wide = swing((plumb_joint_kind)kind, parts, false);
+            plumb_vec2 alone = swing((plumb_joint_kind)kind, parts, true);
+            double off = (double)plumb_vec2_distance(wide, alone);
+            if (kind == PLUMB_RATCHET) { // a pawl on its tooth: the last bit says if it is apart
+                assert_true(off < 1e-3);
+                continue;
+            }
+            if (!(off < SIM_TOLERANCE(1e-4, 1e-10))) {
+                print_error("%s, parts %u: off by %g\n", pl_joint_classes[kind]->name, parts, off);
+            }
+            worst = fmax(worst, off);
+        }
+    }
+    print_message("lanes and one by one: off by %.2g at most\n", worst);
+    assert_true(worst < SIM_TOLERANCE(1e-4, 1e-10));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(widths_give_the_same_bits),
+        cmocka_unit_test(bundles_share_no_body_and_leave_no_joint_out),
+        cmocka_unit_test(a_plan_is_kept_until_something_changes),
+        cmocka_unit_test(a_plan_does_not_depend_on_the_past),
+        cmocka_unit_test(lanes_do_what_one_by_one_does),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

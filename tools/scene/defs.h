@@ -1,0 +1,282 @@
+/// defs.h - what constructors hold: the structs that lists (lists.c, lists_joints.c) fill, and the
+/// records of what was made. Included by internal.h, which has the types of fields.
+#ifndef SCENE_DEFS_H
+#define SCENE_DEFS_H
+
+#ifndef SCENE_INTERNAL_H
+#error "include internal.h"
+#endif
+
+typedef struct sc_settings {
+    uint64_t present;
+    char title[128];
+    char description[512];
+    double gravity[2];
+    int y, solver;
+    double dt, duration, seed, substeps, iterations;
+    double contact_hertz, contact_damping, push_speed, restitution_speed, simd_width;
+    bool sleep, continuous; ///< read only where they were given
+} sc_settings;
+
+typedef struct sc_material_def {
+    uint64_t present;
+    char name[SC_NAME_SIZE];
+    double density, friction, restitution, rolling_resistance, surface_speed, adhesion;
+    int friction_mix, restitution_mix;
+} sc_material_def;
+
+typedef struct sc_material {
+    sc_material_def def;
+    plumb_material handle;
+    bool used, collected;
+    int line;
+    char id[SC_NAME_SIZE]; ///< its name, or material1, material2, ...
+} sc_material;
+
+/// material_pair{}: what two materials have between them.
+typedef struct sc_pair_def {
+    uint64_t present;
+    sc_material *a, *b;
+    double friction, restitution, rolling_resistance;
+} sc_pair_def;
+
+/// Which shapes may meet, by names; a body's is for those of its shapes that say nothing.
+typedef struct sc_filter {
+    uint64_t category;           ///< bits: see sc_category
+    uint64_t collides;           ///< bits: meets these alone
+    uint64_t ignores;            ///< bits: meets all but these
+    char apart[SC_NAME_SIZE];    ///< shapes with the same word never meet
+    char together[SC_NAME_SIZE]; ///< shapes with the same word always do
+} sc_filter;
+
+typedef enum sc_shape_kind {
+    SC_CIRCLE,
+    SC_CAPSULE,
+    SC_BOX_SHAPE,
+    SC_POLYGON,
+    SC_OUTLINE,
+    SC_SEGMENT,
+    SC_CHAIN,
+    SC_REGULAR,
+    SC_SHAPE_KINDS
+} sc_shape_kind;
+
+typedef struct sc_shape_def {
+    uint64_t present;
+    sc_shape_kind kind;
+    double w, h, r, n, length, round;
+    double at[2], angle, angle_deg, density;
+    bool closed, sensor;
+    sc_filter filter;
+    sc_material *material;
+    int point_count;
+    double (*points)[2]; ///< as written, before at and angle
+} sc_shape_def;
+
+typedef struct sc_body_def {
+    uint64_t present;
+    int type;
+    double at[2], angle, angle_deg, velocity[2], spin;
+    double mass, gravity_scale, density;
+    double damping, angular_damping, max_speed, max_spin, time_scale;
+    int lock; ///< bits: SC_LOCK_X, ...
+    bool enabled, fixed_rotation, hidden, user, sensor, sleep, asleep, continuous;
+    sc_filter filter;
+    char name[SC_NAME_SIZE];
+    char label[SC_NAME_SIZE];
+    sc_color color;
+    sc_material *material;
+    int shape_count;
+} sc_body_def;
+
+/// A body of the scene; the world's user data of the body point here.
+typedef struct sc_body {
+    sc_body_def def;
+    plumb_body entity;
+    bool is_named;
+    int line;
+    int object;        ///< registry reference of its Lua object
+    int user;          ///< registry reference of its user table
+    plumb_rot set_rot; ///< rotation right after `def.angle` was given to the world
+    int visits;        ///< how often something began to overlap its sensors
+    sc_shape_def *shapes;
+} sc_body;
+
+/// What a joint holds on to: a body, or the world.
+typedef struct sc_end {
+    plumb_body body;   ///< null: the world
+    plumb_joint joint; ///< not null: given as a joint, whose B this is
+    bool given;
+} sc_end;
+
+typedef struct sc_motor {
+    uint64_t present;
+    double speed, torque, force;
+} sc_motor;
+
+typedef struct sc_spring {
+    uint64_t present;
+    double frequency, damping, rest;
+} sc_spring;
+
+/// What plumb_joint_memory holds: only JSON says it.
+typedef struct sc_joint_state {
+    uint64_t present;
+    double anchor_a[2], anchor_b[2], axis[2], offset[2], start[2], turns[2];
+    double kept, substep, impulses[6];
+} sc_joint_state;
+
+typedef struct sc_joint_def {
+    uint64_t present;
+    plumb_joint_kind kind;
+    char name[SC_NAME_SIZE];
+    sc_end a, b;
+    double at[2], at_a[2], at_b[2], wheel_a[2], wheel_b[2], axis[2], target[2], offset[2];
+    double limits[2], angle, length, ratio, pitch;
+    double max_force, max_torque, break_force, break_torque;
+    bool collide, hidden;
+    sc_motor motor;
+    sc_spring spring;
+    sc_joint_state state;
+} sc_joint_def;
+
+/// A joint of the scene; the world's user data of the joint point here.
+typedef struct sc_joint {
+    sc_joint_def def;
+    plumb_joint entity;
+    bool is_named;
+    int line;
+} sc_joint;
+
+typedef struct sc_camera {
+    uint64_t present;
+    double center[2], height, fit[4], at, trail;
+    char follow[SC_NAME_SIZE];
+} sc_camera;
+
+typedef struct sc_expect_def {
+    uint64_t present;
+    char name[128];
+    double at, from, till;
+    bool always;
+    char body[SC_NAME_SIZE];
+    double position[2], tolerance;
+    double x[2], y[2], vx[2], vy[2], angle[2], spin[2], speed[2];
+    double max_speed, min_speed, max_spin, max_penetration, energy_drift, momentum_drift;
+    double count[2], value[2];
+    char joint[SC_NAME_SIZE];
+    double joint_value[2], reaction[2], reaction_torque[2], max_joint_error;
+    double broken[2], visits[2], inside[2];
+    char score[SC_NAME_SIZE];
+    int test;
+} sc_expect_def;
+
+typedef struct sc_expect {
+    sc_expect_def def;
+    int line;
+    scene_expect_status status;
+    bool done;
+    double ratio; ///< how near to the limit: > 1 is broken
+    double measured, limit, time;
+    char quantity[2 * SC_NAME_SIZE];
+    const char *unit;
+    char description[320];
+} sc_expect;
+
+/// blast{}
+typedef struct sc_blast_def {
+    uint64_t present;
+    double at[2], radius, falloff, impulse;
+    bool per_body;
+    int occlusion;
+    char ignore[SC_NAME_SIZE];
+} sc_blast_def;
+
+typedef struct sc_exact_def {
+    uint64_t present;
+    char body[SC_NAME_SIZE];
+    int x, y, angle, vx, vy, spin;
+    double till;
+} sc_exact_def;
+
+typedef struct sc_contact_def {
+    uint64_t present;
+    char a[SC_NAME_SIZE], b[SC_NAME_SIZE];
+    char joint[SC_NAME_SIZE]; ///< on_break
+    double speed;             ///< [m/s] on_hit
+    int function;
+} sc_contact_def;
+
+typedef enum sc_handler_kind {
+    SC_AT,
+    SC_EVERY,
+    SC_EVERY_STEP,
+    SC_ON_CONTACT,
+    SC_ON_END,
+    SC_ON_HIT,
+    SC_ON_ENTER,
+    SC_ON_LEAVE,
+    SC_ON_BREAK,
+    SC_EDIT_CONTACT
+} sc_handler_kind;
+
+typedef struct sc_handler {
+    sc_handler_kind kind;
+    double time;   ///< [s] at: when; every: the period
+    uint64_t next; ///< every: number of the next call
+    bool spent;    ///< at: has been called
+    int line;
+    sc_contact_def contact;
+} sc_handler;
+
+typedef struct sc_score {
+    char name[SC_NAME_SIZE];
+    double value;
+} sc_score;
+
+typedef struct sc_param {
+    char name[SC_NAME_SIZE];
+    char value[SC_NAME_SIZE];
+    bool overridden;
+} sc_param;
+
+typedef struct sc_set {
+    char key[SC_NAME_SIZE];
+    char value[256];
+    bool used;
+} sc_set;
+
+/// A shape that the script made: for "is never used".
+typedef struct sc_made {
+    sc_shape_kind kind;
+    int line;
+    bool used, collected;
+} sc_made;
+
+/// What a Lua shape object holds; the points follow in the same block.
+typedef struct sc_shape_object {
+    sc_shape_def def;
+    int made;  ///< index into s->made
+    int epoch; ///< valid while s->epoch is the same
+} sc_shape_object;
+
+typedef struct sc_name {
+    char text[SC_NAME_SIZE];
+} sc_name;
+
+/// A category of shapes; its bit is its place in the list. The first one is "default".
+typedef struct sc_category {
+    char name[SC_NAME_SIZE];
+    bool is_had; ///< some shape is of it
+    // Where it was named first, as sc_site.
+    const char *construct, *key;
+    int line;
+    char path[SC_NAME_SIZE];
+} sc_category;
+
+/// Two bodies kept apart by exclude().
+typedef struct sc_excluded {
+    plumb_body a, b;
+} sc_excluded;
+
+#endif
