@@ -84,7 +84,7 @@ static bool locks_wanted(const plumb_world *world, const char **reason)
 static bool collision_wanted(const plumb_world *world, const char **reason)
 {
     bool wanted = world->dynamic_count > 0 && world->moving_count > 0 && world->pieces.live > 1;
-    wanted |= world->broad.pairs.count > 0;
+    wanted |= world->broad.pairs.count > 0 || world->parts.count > 0;
     return say(wanted, reason, "dynamic bodies have shapes that can meet others",
                "no dynamic body has a shape that could meet another");
 }

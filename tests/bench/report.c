@@ -62,11 +62,11 @@ void report_header(void)
     printf("\n%-14s %-12s %6s %6s %6s | %9s %9s %9s %6s | %9s %9s %9s %9s | %9s %9s %9s %9s | "
            "%7s %6s\n",
            "", "", "", "", "", "ms/step", "ms/step", "ms", "", "mm mean", "mm max", "mm mean",
-           "mm p99", "joint", "joint mm", "joint", "joint mm", "bytes", "");
+           "mm p99", "joint mm", "joint mm", "joint mm", "joint mm", "bytes", "");
     printf("%-14s %-12s %6s %6s %6s | %9s %9s %9s %6s | %9s %9s %9s %9s | %9s %9s %9s %9s | "
            "%7s %6s\n",
            "scene", "engine", "bodies", "touch", "joints", "median", "min", "worst", "ratio",
-           "whole run", "whole run", "at end", "at end", "mm mean", "max", "at end", "max at end",
+           "whole run", "whole run", "at end", "at end", "mean", "max", "mean, end", "max, end",
            "a body", "astray");
 }
 
@@ -92,7 +92,7 @@ static void print_apart(const struct run_result *q)
 {
     if (q->counts.joints > 0) {
         const struct apart *a = &q->apart;
-        printf("%9.2f %9.1f %9.2f %9.1f", a->mean * 1e3, a->max * 1e3, a->end_mean * 1e3,
+        printf("%9.2f %9.2f %9.2f %9.2f", a->mean * 1e3, a->max * 1e3, a->end_mean * 1e3,
                a->end_max * 1e3);
     } else {
         printf("%9s %9s %9s %9s", "-", "-", "-", "-");
