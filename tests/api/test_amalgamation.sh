@@ -135,9 +135,9 @@ END
 try "tells clashing names apart" bash -c "
     '$O/amalgamate' out LICENSE include/plumb/plumb.h src/a/one.c src/a/two.c &&
     $cc -std=c17 -Wall -Wextra -Werror -Iout out/plumb.c main.c -o clash && ./clash"
-echo "static int two_find; int plumb_three(void); int plumb_three(void) { return two_find; }" >src/a/three.c
+echo "static int a_two_find; int plumb_three(void); int plumb_three(void) { return a_two_find; }" >src/a/three.c
 try "says when a new name is taken" bash -c "
     ! '$O/amalgamate' out LICENSE include/plumb/plumb.h src/a/one.c src/a/two.c src/a/three.c 2>said &&
-    grep -q \"would become 'two_find', which is taken\" said"
+    grep -q \"would become 'a_two_find', which is taken\" said"
 try "says when a file is missing" bash -c "
     ! '$O/amalgamate' out LICENSE include/plumb/plumb.h src/a/none.c 2>said && grep -q 'none.c cannot be read' said"

@@ -146,11 +146,17 @@ static bool is_wide(const source *s)
 
 //---- names ---------------------------------------------------------------------------------------
 
-// The name of a file as part of a name: src/world/rows.c gives rows.
+// The name of a file as part of a name: src/world/rows.c gives world_rows.
 static void stem_of(const char *path, char *stem, size_t size)
 {
     const char *name = strrchr(path, '/') == NULL ? path : strrchr(path, '/') + 1;
-    snprintf(stem, size, "%.*s", (int)strcspn(name, "."), name);
+    const char *folder = name;
+    while (folder > path && (folder == name || folder[-1] != '/')) {
+        --folder;
+    }
+    int length = name > folder ? (int)(name - folder - 1) : 0;
+    snprintf(stem, size, "%.*s%s%.*s", length, folder, length > 0 ? "_" : "",
+             (int)strcspn(name, "."), name);
 }
 
 static bool is_public(const char *name)
@@ -220,7 +226,9 @@ static void find_changes(changes *c, const source *s, int width)
     }
 }
 
-static changes wide; // of the headers of the present width
+// Headers per width that the present source includes, and their changes: macros end with the source.
+static names active;
+static changes wide;
 
 static const change *change_of(const changes *c, const token *t)
 {
@@ -253,30 +261,66 @@ static void emit_undefs(FILE *out, const source *s)
     }
 }
 
+static void emit_header(FILE *out, const char *path, int width);
+
+// What a header includes, where its own text is written already.
+static void activate_included(FILE *out, const source *s, int width)
+{
+    for (size_t i = 0; i < s->count; ++i) {
+        char header[256];
+        included(s, i, header, sizeof header);
+        if (ends_with(header, ".h")) {
+            emit_header(out, header, width);
+        }
+    }
+}
+
+// A header per width: its text once a width, its names for each source that includes it.
+static void emit_wide_header(FILE *out, source *header, int width)
+{
+    const char *path = header->path;
+    if (names_have(&active, path, strlen(path))) {
+        return;
+    }
+    names_add(&active, path, strlen(path));
+    bool written = names_have(&emitted, path, strlen(path));
+    names_add(&emitted, path, strlen(path));
+    changes *c = grow(NULL, sizeof *c);
+    find_changes(c, header, width);
+    emit_macros(out, c, true);
+    if (written) {
+        activate_included(out, header, width);
+    } else {
+        emit(out, header, c, width);
+    }
+    for (size_t i = 0; i < c->count; ++i) {
+        wide.items[wide.count++] = c->items[i];
+    }
+    free(c);
+}
+
 // A header that was not yet written, or nothing.
 static void emit_header(FILE *out, const char *path, int width)
 {
+    source *header = path[0] == '<' ? NULL : read_all(path);
+    if (header != NULL && is_wide(header)) {
+        emit_wide_header(out, header, width);
+        return;
+    }
     if (names_have(&emitted, path, strlen(path))) {
         return;
     }
     names_add(&emitted, path, strlen(path));
-    if (path[0] == '<') {
+    if (header == NULL) {
         fprintf(out, "#include %s\n", path);
         return;
     }
-    source *header = read_all(path);
     changes *c = grow(NULL, sizeof *c);
-    find_changes(c, header, is_wide(header) ? width : 0);
-    if (!is_wide(header)) {
-        if (c->count > 0) {
-            give_up("%s: '%s' is also declared elsewhere", path, c->items[0].from);
-        }
+    find_changes(c, header, 0);
+    if (c->count > 0) {
+        give_up("%s: '%s' is also declared elsewhere", path, c->items[0].from);
     }
-    emit_macros(out, c, true);
     emit(out, header, c, width);
-    for (size_t i = 0; i < c->count; ++i) {
-        wide.items[wide.count++] = c->items[i];
-    }
     free(c);
 }
 
@@ -315,6 +359,8 @@ static void emit_source(FILE *out, const char *path, int width)
     emit_undefs(out, s);
     if (width > 0) {
         emit_macros(out, c, false);
+        emit_macros(out, &wide, false);
+        wide.count = active.count = 0;
     }
     free(c);
 }
@@ -410,9 +456,7 @@ static void emit_width(FILE *out, char **paths, int count, int width)
         }
         emit_undefs(out, header);
     }
-    emit_macros(out, &wide, false);
     emitted.count = before.count; // the next width has them again
-    wide.count = 0;
     fputs("#undef PL_WIDTH\n", out);
 }
 
