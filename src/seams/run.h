@@ -12,5 +12,7 @@ bool pl_runs_open(plumb_world *world, uint32_t contacts);
 void pl_runs_add(plumb_world *world, uint32_t index, pl_view views[2]);
 // Joins what was added into runs and gives each to one of its contacts. False when out of memory.
 bool pl_runs_join(plumb_world *world, double dt);
+// The loads as they were when the step began.
+void pl_runs_undo(pl_seams *seams);
 
 #endif

@@ -8,6 +8,7 @@
 // after the broad phase. Cost: O(changed pieces x their neighbours), and O(piece slots) for looking;
 // O(pairs) when pairs were made anew, O(pairs with seams) a step; nothing in worlds without seams.
 #include "seams/look.h"
+#include "seams/run.h"
 #include "seams/span.h"
 #include "world/state.h"
 
@@ -267,6 +268,38 @@ bool pl_seams_update(plumb_world *world)
             kept[i].normal[k] = pair->normal[k];
             kept[i].tangent[k] = pair->tangent[k];
         }
+        kept[i].a = pair->a;
+        kept[i].b = pair->b;
     }
+    s->noted = true;
     return true;
+}
+
+static void give_back(pl_pair *pair, const pl_seam_pair *kept)
+{
+    for (int k = 0; k < 2; ++k) {
+        pair->feature[k] = kept->feature[k];
+        pair->normal[k] = kept->normal[k];
+        pair->tangent[k] = kept->tangent[k];
+    }
+}
+
+void pl_seams_undo(plumb_world *world)
+{
+    pl_seams *s = &world->seams;
+    pl_pair *pairs = pl_pairs(&world->broad.pairs);
+    const pl_seam_pair *kept = s->pairs.data;
+    uint32_t at = 0;
+    for (uint32_t i = 0; s->noted && i < s->pair_count; ++i) {
+        // Those of bodies that fell asleep have left the list; the others moved up in it.
+        for (uint32_t k = at; k < world->broad.pairs.count && k <= kept[i].pair; ++k) {
+            if (pairs[k].a == kept[i].a && pairs[k].b == kept[i].b) {
+                give_back(&pairs[k], &kept[i]);
+                at = k + 1;
+                break;
+            }
+        }
+    }
+    s->noted = false;
+    pl_runs_undo(s);
 }

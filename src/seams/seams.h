@@ -57,6 +57,7 @@ typedef struct pl_seam_pair {
     uint32_t pair;
     uint32_t feature[2];
     real normal[2], tangent[2];
+    uint32_t a, b;       // its pieces
 } pl_seam_pair;
 
 // What the owner of a run of flush faces bore in the last step, by the mover's piece (run.c).
@@ -91,6 +92,8 @@ typedef struct pl_seams {
     // Runs of flush faces (run.c): contacts of the step, and what the owners bore in the last one.
     pl_buffer contacts, runs, order, loads, old_loads, slots, borne;
     uint32_t contact_count, load_count, old_load_count, slot_count;
+    bool noted;  // in this step: what the pairs had is in `pairs`
+    bool opened; // in this step: loads were swapped
     bool apart;       // each tile keeps its own contact: systems look at them
     uint64_t listed;  // broad->rebuilds when the pairs were listed
     uint64_t updated; // pieces looked at so far: what changes cost
@@ -119,6 +122,8 @@ bool pl_seams_wanted(const plumb_world *world, const char **reason);
 // Looks again at pieces that changed and at their neighbours, and notes what pairs with seams keep.
 // After the broad phase. False when out of memory.
 bool pl_seams_update(plumb_world *world);
+// Gives pairs and loads back what they had when a step began that is refused.
+void pl_seams_undo(plumb_world *world);
 // Sets manifolds right whose normals the ground does not admit (correct.c). After the narrow phase. False
 // when out of memory; the next step makes manifolds anew.
 bool pl_seams_correct(plumb_world *world, real dt);

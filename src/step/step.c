@@ -28,6 +28,7 @@ static void forget_contacts(plumb_world *world)
     world->solver.slot_count = 0;
     world->joints.broken_count = 0;
     world->broad.refreshed = false;
+    world->seams.noted = world->seams.opened = false;
     world->continuous.count = world->continuous.stopped_count = 0;
     world->continuous.noting = false;
 }
@@ -89,6 +90,7 @@ plumb_result plumb_world_step(plumb_world *world, plumb_real dt)
     result = run_passes(world, dt);
     if (result == PLUMB_E_MEMORY) {
         pl_characters_undo(world);
+        pl_seams_undo(world);
         return pl_fail_memory(world, __func__);
     }
     world->sleep.events_told |= result == PLUMB_OK;

@@ -19,6 +19,7 @@ static const word_run runs[] = {
     { "materials", NULL, &sc_list_material, 1 },
     { "materials", NULL, &sc_list_pair, 1 },
     { "bodies", NULL, &sc_list_body, 1 },
+    { "bodies", "the table 'character' of a body", &sc_list_character, 1 },
     { "shapes", NULL, sc_list_shapes, SC_SHAPE_KINDS },
     { "joints", NULL, sc_list_joints, SC_JOINT_KINDS },
     { "joints", "the table 'motor' of a joint", &sc_list_motor, 1 },
@@ -28,6 +29,7 @@ static const word_run runs[] = {
     { "events", NULL, &sc_list_hit, 1 },
     { "events", NULL, &sc_list_break, 1 },
     { "effects", NULL, &sc_list_blast, 1 },
+    { "queries", NULL, sc_list_queries, SC_QUERIES },
     { "expectations", NULL, &sc_list_expect, 1 },
     { "expectations", NULL, &sc_list_exact, 1 },
 };

@@ -565,6 +565,9 @@ _Noreturn static void fail_member(lua_State *L, const char *name)
     for (const luaL_Reg *m = methods; m->name != NULL; m++) {
         sc_suggest_offer(&g, m->name);
     }
+    for (const luaL_Reg *m = sc_character_methods; m->name != NULL; m++) {
+        sc_suggest_offer(&g, m->name);
+    }
     sc_site site = sc_here(s, name);
     sc_raise(s, SCENE_E_NAME, &site, NULL, 0, sc_suggest_best(&g), "a body has no '%.40s'", name);
 }
@@ -614,6 +617,7 @@ void sc_open_body(lua_State *L)
     luaL_newmetatable(L, SC_META_BODY);
     lua_newtable(L);
     luaL_setfuncs(L, methods, 0);
+    luaL_setfuncs(L, sc_character_methods, 0);
     lua_pushcclosure(L, body_index, 1);
     lua_setfield(L, -2, "__index");
     lua_pushcfunction(L, body_newindex);

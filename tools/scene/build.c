@@ -122,6 +122,7 @@ static void check_body(scene *s, const sc_site *site, const sc_body_def *d)
         refuse(s, site, SC_GIVEN(list, d, sc_body_def, spin), "spin", "static");
     }
     sc_motion_check(s, site, d);
+    sc_one_way_check(s, site, d);
     if (d->shape_count == 0 && !SC_GIVEN(list, d, sc_body_def, mass)) {
         sc_raise(s, SCENE_E_MISSING, site, NULL, 0, NULL, "body{} needs a shape such as box{1, 1}");
     }
@@ -269,6 +270,9 @@ void sc_build_body(scene *s, const sc_site *site, int table)
     }
     if (SC_GIVEN(&sc_list_body, &def, sc_body_def, time_scale)) { // 0 is none to the descriptor
         plumb_body_set_time_scale(s->world, b->entity, (plumb_real)def.time_scale);
+    }
+    if (SC_GIVEN(&sc_list_body, &def, sc_body_def, character)) {
+        sc_character_make(s, site, b);
     }
     b->set_rot = plumb_body_transform(s->world, b->entity).q;
     lua_getfield(L, table, "user");

@@ -73,12 +73,33 @@ typedef struct sc_shape_def {
     double (*points)[2]; ///< as written, before at and angle
 } sc_shape_def;
 
+/// The table `character` of a body, and what character{} may say of it.
+typedef struct sc_character_def {
+    uint64_t present;
+    double up[2], max_slope, max_slope_deg, skin, step_height, step_width, snap_distance;
+    double acceleration, air_acceleration, max_fall_speed, mass, push_force, gravity_scale;
+    bool steps, snap, push, air_control;
+} sc_character_def;
+
+/// What handlers may ask: ray{}, cast{}, nearest{}, inside{}.
+typedef enum sc_query { SC_RAY, SC_CAST, SC_NEAREST, SC_INSIDE, SC_QUERIES } sc_query;
+
+typedef struct sc_query_def {
+    uint64_t present;
+    double from[2], to[2], angle, within;
+    char ignore[SC_NAME_SIZE];
+    bool one_way, sensors;
+    int shape_count;
+} sc_query_def;
+
 typedef struct sc_body_def {
     uint64_t present;
     int type;
     double at[2], angle, angle_deg, velocity[2], spin;
     double mass, gravity_scale, density;
     double damping, angular_damping, max_speed, max_spin, time_scale;
+    double one_way[2], one_way_angle;
+    sc_character_def character;
     int lock; ///< bits: SC_LOCK_X, ...
     bool enabled, fixed_rotation, hidden, user, sensor, sleep, asleep, continuous;
     sc_filter filter;

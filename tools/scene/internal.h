@@ -278,7 +278,8 @@ void sc_grow(scene *s, void *array_of_items, int count, int *capacity, size_t it
 
 extern const sc_list sc_list_scene, sc_list_material, sc_list_body, sc_list_camera, sc_list_expect,
     sc_list_exact, sc_list_contact, sc_list_hit, sc_list_break, sc_list_pair, sc_list_filter,
-    sc_list_motor, sc_list_spring, sc_list_state, sc_list_blast;
+    sc_list_motor, sc_list_spring, sc_list_state, sc_list_blast, sc_list_character;
+extern const sc_list sc_list_queries[SC_QUERIES];
 extern const sc_list sc_list_shapes[SC_SHAPE_KINDS];
 
 #define SC_COUNT_JOINT(NAME, name, text) +1
@@ -306,6 +307,14 @@ void sc_motion_describe(const sc_body_def *d, plumb_body_desc *desc);
 /// Whether a row of body{} is for dynamic bodies alone.
 bool sc_motion_is_dynamic(const char *row);
 
+/// Makes a body a character, as its definition says.
+void sc_character_make(scene *s, const sc_site *site, const sc_body *b);
+extern const luaL_Reg sc_character_methods[]; ///< of bodies
+plumb_one_way sc_one_way_of(const sc_body_def *d);
+void sc_one_way_check(scene *s, const sc_site *site, const sc_body_def *d);
+/// The convex shape whose object is on top of the stack, in its own frame; raises when it is none.
+void sc_shape_convex(scene *s, const sc_site *site, plumb_convex *convex);
+
 /// Metatable names of the Lua objects.
 #define SC_META_SHAPE    "plumb.shape"
 #define SC_META_MATERIAL "plumb.material"
@@ -321,6 +330,8 @@ void sc_open_materials(lua_State *L); ///< material, material_pair
 void sc_open_shapes(lua_State *L);    ///< box, circle, ...
 void sc_open_body(lua_State *L);      ///< methods of bodies
 void sc_open_motion(lua_State *L);    ///< blast
+void sc_open_characters(lua_State *L); ///< character
+void sc_open_queries(lua_State *L);   ///< ray, cast, nearest, inside
 void sc_open_joints(lua_State *L);    ///< revolute, wheel, ..., exclude, world
 void sc_open_joint(lua_State *L);     ///< methods of joints
 void sc_open_handlers(lua_State *L);  ///< at, every, score, ...

@@ -172,6 +172,32 @@ static plumb_shape_desc describe(scene *s, const sc_site *site, const sc_shape_d
     return desc;
 }
 
+void sc_shape_convex(scene *s, const sc_site *site, plumb_convex *convex)
+{
+    sc_shape_object *object = sc_to_shape(s->L, -1);
+    if (object->epoch == s->epoch) {
+        s->made.items[object->made].used = true;
+    }
+    plumb_shape_desc d = describe(s, site, &object->def);
+    plumb_result r = PLUMB_E_GEOMETRY;
+    if (d.kind == PLUMB_CIRCLE) {
+        r = plumb_convex_circle(d.center, d.radius, convex);
+    } else if (d.kind == PLUMB_CAPSULE) {
+        r = plumb_convex_capsule(d.points[0], d.points[1], d.radius, convex);
+    } else if (d.kind == PLUMB_BOX) {
+        r = plumb_convex_box(d.half, d.center, d.angle, d.radius, convex);
+    } else if (d.kind == PLUMB_POLYGON) {
+        r = plumb_convex_polygon(d.points, d.count, d.radius, convex);
+    } else if (d.kind == PLUMB_SEGMENT) {
+        r = plumb_convex_segment(d.points[0], d.points[1], convex);
+    }
+    lua_pop(s->L, 1);
+    if (r != PLUMB_OK) {
+        sc_raise(s, SCENE_E_GEOMETRY, site, NULL, 0, NULL, "%s{} takes a convex shape, not %s{}",
+                 site->construct, sc_shape_kind_name(object->def.kind));
+    }
+}
+
 bool sc_shape_is_sensor(const sc_body *body, const sc_shape_def *shape)
 {
     bool own = SC_GIVEN(&sc_list_shapes[shape->kind], shape, sc_shape_def, sensor);
@@ -198,6 +224,7 @@ void sc_shape_create(scene *s, const sc_site *site, int index, const sc_body *bo
                    : shape->density != 0 ? (plumb_real)shape->density
                                          : (plumb_real)body->def.density;
     desc.sensor = sc_shape_is_sensor(body, shape);
+    desc.one_way = desc.sensor ? (plumb_one_way){ 0 } : sc_one_way_of(&body->def);
     desc.filter = sc_filter_resolve(
         s, &shape->filter, SC_FILTER_GIVEN(&sc_list_shapes[shape->kind], shape, sc_shape_def),
         &body->def.filter, SC_FILTER_GIVEN(&sc_list_body, &body->def, sc_body_def));
