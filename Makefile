@@ -51,13 +51,20 @@ SANFLAGS += $(if $(FUZZ),-fsanitize=fuzzer-no-link)
 # multiply-add. The last two only give up errno and floating-point flags; values stay IEEE 754.
 MATHS    := -ffp-contract=off -fno-math-errno -fno-trapping-math
 
+# The plain files are compiled for any machine of the kind, whatever -march CFLAGS ask for: the kernels
+# choose their width when a world is made, and GCC 12 makes vfmaddsub of products and sums even when told
+# not to contract.
+ifneq ($(filter x86_64 amd64,$(ARCH)),)
+BASELINE := -march=x86-64 -mno-fma
+endif
+
 # One set of objects serves the static and the shared library: hidden symbols are as fast as
 # local ones, and a static library that is position-independent can go into a user's plug-in.
 SHARED   := -fPIC -fvisibility=hidden -fno-semantic-interposition -DPLUMB_BUILD_SHARED
 
 COMMON   := -std=c17 $(WARN_C) $(MATHS) $(SANFLAGS) -MMD -MP -Iinclude
-LIB_FLAGS  = $(COMMON) $(SHARED) -Isrc $(CFLAGS)
-TOOL_FLAGS = $(COMMON) -Isrc -Itools -Itests $(CFLAGS) $(PKG_CFLAGS)
+LIB_FLAGS  = $(COMMON) $(SHARED) -Isrc $(CFLAGS) $(BASELINE)
+TOOL_FLAGS = $(COMMON) -Isrc -Itools -Itests $(CFLAGS) $(BASELINE) $(PKG_CFLAGS)
 CXX_FLAGS  = -std=c++20 $(WARN) $(MATHS) $(SANFLAGS) -MMD -MP -Iinclude $(CFLAGS)
 DEFS_float  :=
 DEFS_double := -DPLUMB_DOUBLE=1
@@ -70,7 +77,7 @@ SCENE_LIBS  := -llua5.4 -lcjson
 RENDER_LIBS := -lOSMesa -lfreetype -lpng -lgif
 
 # Compiler or flags changed: everything is built again.
-FLAGS_LINE := $(CC) $(CXX) $(WARN_C) $(MATHS) $(SANFLAGS) $(SHARED) $(CFLAGS) $(LDFLAGS) $(BOX2D3)
+FLAGS_LINE := $(CC) $(CXX) $(WARN_C) $(MATHS) $(BASELINE) $(SANFLAGS) $(SHARED) $(CFLAGS) $(LDFLAGS) $(BOX2D3)
 NO_BUILD   := help clean deps deps-dev format format-check
 ifneq ($(filter-out $(NO_BUILD),$(or $(MAKECMDGOALS),all)),)
 ifneq ($(file <$(O)/flags),$(FLAGS_LINE))
@@ -107,7 +114,7 @@ CLI_OBJ    := $(call objects,float,$(CLI_SRC))
 
 LIBRARIES := $(O)/libplumb.a $(O)/libplumb_d.a $(O)/libplumb.so $(O)/libplumb_d.so
 
-.PHONY: all lib help clean deps deps-dev demo examples
+.PHONY: all lib help clean deps deps-dev demo examples amalgamation
 all: lib $(O)/plumb examples
 lib: $(LIBRARIES)
 examples: $(EXAMPLES)
@@ -126,6 +133,9 @@ help:
 #:   stability         the hard-case tests and the expectations of every scene
 #:   shots             what gets through thin walls, beside Box2D 2.4.1; SHOTS=100000
 #:   bench             side by side with Box2D 2.4.1; BOX2D3=/prefix adds Box2D 3; BENCH="arguments"
+#:   amalgamation      build/plumb.h and build/plumb.c: the library as one pair of files
+#:   determinism       the same bits with gcc and clang, -O0 to -O3, ASan, every SIMD width
+#:   hashes            write tests/determinism/hashes.txt anew, when physics was meant to change
 #:   cost              what accuracy costs, for SCENES="a.lua b.lua"
 #:   asan, ubsan, tsan every test again under a sanitizer
 #:   fuzz              each fuzz harness for FUZZ_TIME=60 seconds
@@ -219,10 +229,21 @@ $(O)/examples/%: $(O)/float/tools/examples/%.o $(O)/libplumb.a
 	@echo "  LD    $@"
 	$(Q)$(CC) $(SANFLAGS) $(LDFLAGS) -o $@ $^ -lm -lpthread
 
+# The library as one pair of files, written by a program of ours.
+AMALGAMATED := $(filter-out src/snapshot/complete.c,$(LIB_SRC)) $(SIMD_SRC)
+AMALGAMATE_OBJ := $(call objects,float,$(wildcard tools/amalgamate/*.c))
+amalgamation: $(O)/plumb.c
+$(O)/plumb.c: $(O)/amalgamate LICENSE $(wildcard include/plumb/*.h src/*/*.h) $(AMALGAMATED)
+	@echo "  GEN   $@ $(O)/plumb.h"
+	$(Q)$(O)/amalgamate $(O) LICENSE include/plumb/plumb.h $(AMALGAMATED)
+$(O)/amalgamate: $(AMALGAMATE_OBJ)
+	@echo "  LD    $@"
+	$(Q)$(CC) $(SANFLAGS) $(LDFLAGS) -o $@ $^
+
 include tools/make/test.mk
 include tools/make/install.mk
 
-ALL_OBJ := $(call lib_objects,float) $(call lib_objects,double) $(CLI_OBJ) $(RENDER_OBJ) \
+ALL_OBJ := $(AMALGAMATE_OBJ) $(call lib_objects,float) $(call lib_objects,double) $(CLI_OBJ) $(RENDER_OBJ) \
 	$(foreach v,float double,$(call objects,$v,$(SCENE_SRC) $(ENGINE_SRC))) $(TEST_OBJ) \
 	$(EXAMPLES:$(O)/%=$(O)/float/tools/%.o)
 .SECONDARY: $(ALL_OBJ)

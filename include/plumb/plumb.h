@@ -17,6 +17,7 @@
 #include "plumb/event.h"
 #include "plumb/sleep.h"
 #include "plumb/query.h"
+#include "plumb/snapshot.h"
 #include "plumb/effect.h"
 
 #endif

@@ -30,7 +30,7 @@ bool pl_broad_update_resting(plumb_world *world)
         s->grid_stale = true;
     }
     // Entries of pieces that woke are passed over; when they are the half, it is filed anew.
-    if (!s->grid_stale && s->gone <= grid->entry_count / 2) {
+    if (!s->grid_stale && !world->broad.resting_lost && s->gone <= grid->entry_count / 2) {
         return true;
     }
     if (!pl_grid_build(&world->memory, grid, pl_resting(s), s->resting_count, world->pieces.fat)) {
@@ -38,7 +38,7 @@ bool pl_broad_update_resting(plumb_world *world)
         return false;
     }
     s->gone = 0;
-    s->grid_stale = false;
+    s->grid_stale = world->broad.resting_lost = false;
     s->near_stale = true;
     return true;
 }
@@ -48,7 +48,9 @@ bool pl_broad_update_grids(plumb_world *world, real dt, bool *stale)
     pl_broad *broad = &world->broad;
     // Poses change in steps, and else only together with the flags: one query after another is free.
     if (dt == 0 && !world->pairs_dirty && !world->static_dirty && !world->sleep.boxes_stale &&
-        !world->sleep.grid_stale && broad->filed_step == world->step_count) {
+        !world->sleep.grid_stale && !broad->moving_lost && !broad->fixed_lost &&
+        !broad->resting_lost &&
+        broad->filed_step == world->step_count) {
         *stale = broad->stale;
         return true;
     }
@@ -62,20 +64,23 @@ bool pl_broad_update_grids(plumb_world *world, real dt, bool *stale)
         if (world->asleep_count > 0) {
             pl_sensing_note_rest(world);
         }
+    } else if (broad->fixed_lost && !file_fixed(world)) {
+        return false;
     }
+    broad->fixed_lost = false;
     if (!pl_broad_update_resting(world)) {
         return false;
     }
     if (!(broad->refreshed && dt > 0) && pl_broad_refresh_moving(world, dt)) {
         world->pairs_dirty = true;
     }
-    if (world->pairs_dirty) {
+    if (world->pairs_dirty || broad->moving_lost) {
         if (!pl_grid_build(&world->memory, &broad->moving, pl_moving(world), world->moving_count,
                            world->pieces.fat)) {
             return false;
         }
-        world->pairs_dirty = false;
-        broad->stale = true;
+        broad->stale = broad->stale || world->pairs_dirty;
+        world->pairs_dirty = broad->moving_lost = false;
     }
     broad->filed_step = world->step_count;
     *stale = broad->stale;

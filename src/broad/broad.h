@@ -21,6 +21,7 @@ typedef struct pl_broad {
     uint64_t rebuilds;
     uint64_t filed_step; // step count at which the grids were last brought up to date
     bool stale;          // boxes were filed anew since the pair list was made
+    bool moving_lost, fixed_lost, resting_lost; // the world was restored: a grid to be filed anew
     bool refreshed;      // fat boxes were brought up to date in this step already
 } pl_broad;
 

@@ -1,7 +1,7 @@
 // sweep.h - two convex pieces that move and turn: how far apart they are, and when they first come
 // too near. Plain geometry in double; no world.
-#ifndef PL_SWEEP_H
-#define PL_SWEEP_H
+#ifndef PL_CONTINUOUS_SWEEP_H
+#define PL_CONTINUOUS_SWEEP_H
 
 #include <stdbool.h>
 

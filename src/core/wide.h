@@ -84,7 +84,7 @@ WIDE_INLINE vf vabs(vf v)
 
 WIDE_INLINE vf vsqrt(vf v)
 {
-    vf r;
+    vf r = v;
     for (int i = 0; i < PL_WIDTH; ++i) {
         r[i] = LANE_SQRT(v[i]);
     }

@@ -369,6 +369,21 @@ plumb_result pl_commands_run(plumb_world *world)
     return result;
 }
 
+void pl_commands_digest(const plumb_world *world, pl_digest *digest)
+{
+    const pl_commands *commands = &world->commands;
+    for (size_t at = 0; at < commands->used;) {
+        record r;
+        memcpy(&r, (const char *)commands->bytes.data + at, sizeof r);
+        const uint32_t handles[] = { r.kind,       r.target.index,    r.target.generation,
+                                     r.body.index, r.body.generation, r.component.id };
+        const plumb_real place[] = { r.position.x, r.position.y, r.angle };
+        pl_digest_add(digest, handles, sizeof handles);
+        pl_digest_add(digest, place, sizeof place);
+        at += r.bytes;
+    }
+}
+
 plumb_result plumb_commands_apply(plumb_world *world)
 {
     if (world == NULL) {

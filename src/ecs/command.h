@@ -2,6 +2,7 @@
 #ifndef PL_COMMAND_H
 #define PL_COMMAND_H
 
+#include "core/digest.h"
 #include "core/memory.h"
 #include "plumb/ecs.h"
 
@@ -16,5 +17,8 @@ void pl_commands_free(pl_memory *memory, pl_commands *commands);
 // Carries out the commands that were pending when it began; those given meanwhile (by hooks) stay for
 // the next time. On E_MEMORY the command that failed and those after it stay.
 plumb_result pl_commands_run(plumb_world *world);
+
+// Adds what is pending to the world hash: kinds, handles, places.
+void pl_commands_digest(const plumb_world *world, pl_digest *digest);
 
 #endif

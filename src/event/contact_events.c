@@ -17,14 +17,6 @@
 
 #include <string.h>
 
-// A contact that is made in the last substep of a step is only slowed down there, to meet in the
-// next one: such a blow is told a step later, as a whole.
-typedef struct pl_blow {
-    uint32_t a, b; // pieces of the pair
-    real approach; // [m/s]
-    real impulse;  // [N s]
-} pl_blow;
-
 void pl_events_clear(plumb_world *world)
 {
     world->begin_count = world->end_count = world->hit_count = 0;

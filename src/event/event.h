@@ -3,6 +3,7 @@
 #define PL_EVENT_H
 
 #include "broad/pair.h"
+#include "plumb/event.h"
 
 // Touches of pairs of which a piece is only a part of its shape: told once a pair of shapes.
 typedef struct pl_parts {
@@ -11,12 +12,25 @@ typedef struct pl_parts {
     bool buried;     // a piece that was a part went since the pair list was made
 } pl_parts;
 
+// A contact that is made in the last substep of a step is only slowed down there, to meet in the
+// next one: such a blow is told a step later, as a whole.
+typedef struct pl_blow {
+    uint32_t a, b; // pieces of the pair
+    real approach; // [m/s]
+    real impulse;  // [N s]
+} pl_blow;
+
 // Hits that began in a step and will be through in the next one.
 typedef struct pl_blows {
     pl_buffer items, old; // pl_blow, in order of pairs: of this step, of the one before
     uint32_t count, old_count;
     uint32_t next; // where in `old` to look first
 } pl_blows;
+
+typedef struct pl_overlap {
+    uint64_t key; // slots of sensor and shape
+    plumb_sensor_event who;
+} pl_overlap;
 
 // Who a piece was that went since the pair list was made: what touched it still has to be told.
 typedef struct pl_grave {

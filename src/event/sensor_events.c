@@ -19,11 +19,6 @@
 #include "world/check.h"
 #include "world/filter.h"
 
-typedef struct pl_overlap {
-    uint64_t key; // slots of sensor and shape
-    plumb_sensor_event who;
-} pl_overlap;
-
 void pl_sensing_free(pl_memory *memory, pl_sensing *s)
 {
     pl_buffer *buffers[] = { &s->candidates,    &s->overlaps, &s->old,    &s->rest_candidates,

@@ -13,23 +13,23 @@
 #include "plumb/geometry.h"
 
 /// An unevaluated sum of two doubles.
-typedef struct pl_pair {
+typedef struct pl_exact {
     double high;
     double low;
-} pl_pair;
+} pl_exact;
 
 /// a - b exactly.
-static inline pl_pair pl_pair_difference(double a, double b)
+static inline pl_exact pl_exact_difference(double a, double b)
 {
     double d = a - b;
     double b_virtual = a - d;
     double a_virtual = d + b_virtual;
-    pl_pair r = { d, (a - a_virtual) - (b - b_virtual) };
+    pl_exact r = { d, (a - a_virtual) - (b - b_virtual) };
     return r;
 }
 
 /// a times b exactly, by splitting both into halves of 26 bits.
-static inline pl_pair pl_pair_product(double a, double b)
+static inline pl_exact pl_exact_product(double a, double b)
 {
     const double splitter = 134217729.0; // 2^27 + 1
     double ca = splitter * a;
@@ -39,7 +39,7 @@ static inline pl_pair pl_pair_product(double a, double b)
     double a2 = a - a1;
     double b2 = b - b1;
     double p = a * b;
-    pl_pair r = { p, ((a1 * b1 - p) + a1 * b2 + a2 * b1) + a2 * b2 };
+    pl_exact r = { p, ((a1 * b1 - p) + a1 * b2 + a2 * b1) + a2 * b2 };
     return r;
 }
 
@@ -55,13 +55,13 @@ static inline double pl_orient(plumb_vec2 a, plumb_vec2 b, plumb_vec2 c)
     if (det > 1e-15 * size || -det > 1e-15 * size) {
         return det;
     }
-    pl_pair ux = pl_pair_difference((double)b.x, (double)a.x);
-    pl_pair uy = pl_pair_difference((double)b.y, (double)a.y);
-    pl_pair vx = pl_pair_difference((double)c.x, (double)a.x);
-    pl_pair vy = pl_pair_difference((double)c.y, (double)a.y);
-    pl_pair p = pl_pair_product(ux.high, vy.high);
-    pl_pair q = pl_pair_product(uy.high, vx.high);
-    pl_pair d = pl_pair_difference(p.high, q.high);
+    pl_exact ux = pl_exact_difference((double)b.x, (double)a.x);
+    pl_exact uy = pl_exact_difference((double)b.y, (double)a.y);
+    pl_exact vx = pl_exact_difference((double)c.x, (double)a.x);
+    pl_exact vy = pl_exact_difference((double)c.y, (double)a.y);
+    pl_exact p = pl_exact_product(ux.high, vy.high);
+    pl_exact q = pl_exact_product(uy.high, vx.high);
+    pl_exact d = pl_exact_difference(p.high, q.high);
     double tails_p = ux.high * vy.low + ux.low * vy.high;
     double tails_q = uy.high * vx.low + uy.low * vx.high;
     return d.high + (d.low + (p.low - q.low) + (tails_p - tails_q));

@@ -21,7 +21,9 @@
 #include "plumb/math.h"
 
 // Results are only the same bits if doubles are computed as doubles (not so on the x87).
-_Static_assert(FLT_EVAL_METHOD == 0, "plumb needs plain double arithmetic (SSE2, NEON, ...)");
+// 16: that, and _Float16 in its own format.
+_Static_assert(FLT_EVAL_METHOD == 0 || FLT_EVAL_METHOD == 16,
+               "plumb needs plain double arithmetic (SSE2, NEON, ...)");
 
 // pi / 2 in four parts; the first three have 33 significant bits.
 #define HALF_PI_1 1.5707963267341256

@@ -39,15 +39,6 @@ typedef struct flat_run {
     double low, high;
 } flat_run;
 
-// What a run's contact kept, by the mover's piece.
-typedef struct run_load {
-    uint32_t mover, serial, next, pair;
-    uint32_t feature[2];
-    real normal[2], tangent[2];
-    real rolling;
-    real nx, ny;
-} run_load;
-
 // By piece slot: where its contacts and its loads begin.
 typedef struct run_slot {
     uint32_t contact, load;
@@ -75,7 +66,7 @@ static bool reserve_runs(plumb_world *world)
     size_t contacts = s->contact_count;
     return pl_buffer_reserve(memory, &s->runs, contacts * sizeof(flat_run)) &&
            pl_buffer_reserve(memory, &s->order, contacts * sizeof(pl_keyed)) &&
-           pl_buffer_reserve(memory, &s->loads, contacts * sizeof(run_load)) &&
+           pl_buffer_reserve(memory, &s->loads, contacts * sizeof(pl_run_load)) &&
            pl_buffer_reserve(memory, &s->borne, contacts * sizeof(pl_manifold));
 }
 
@@ -113,7 +104,7 @@ bool pl_runs_open(plumb_world *world, uint32_t contacts)
     s->opened = true;
     s->load_count = s->contact_count = 0;
     s->apart = shown_to_systems(world);
-    run_load *old = s->old_loads.data;
+    pl_run_load *old = s->old_loads.data;
     run_slot *slots = s->slots.data;
     for (uint32_t i = 0; i < s->old_load_count; ++i) {
         old[i].next = slots[old[i].mover].load;
@@ -254,10 +245,10 @@ static uint32_t join(plumb_world *world, uint32_t first, uint32_t *run_count)
 
 //---- what they bear ------------------------------------------------------------------------------
 
-static const run_load *load_of(const plumb_world *world, uint32_t mover, const pl_manifold *m)
+static const pl_run_load *load_of(const plumb_world *world, uint32_t mover, const pl_manifold *m)
 {
     const pl_seams *s = &world->seams;
-    const run_load *loads = s->old_loads.data;
+    const pl_run_load *loads = s->old_loads.data;
     uint32_t i = ((const run_slot *)s->slots.data)[mover].load;
     for (; i != PL_NONE; i = loads[i].next) {
         bool same = loads[i].serial == world->pieces.serial[mover] &&
@@ -273,7 +264,7 @@ static const run_load *load_of(const plumb_world *world, uint32_t mover, const p
 static void carry_load(plumb_world *world, const run_contact *r, pl_pair *pair, pl_manifold *m)
 {
     const pl_seam_pair *kept = (const pl_seam_pair *)world->seams.pairs.data + r->index;
-    const run_load *load = load_of(world, r->mover, m);
+    const pl_run_load *load = load_of(world, r->mover, m);
     const uint32_t *feature = load != NULL ? load->feature : kept->feature;
     const real *normal = load != NULL ? load->normal : kept->normal;
     const real *tangent = load != NULL ? load->tangent : kept->tangent;
@@ -291,7 +282,7 @@ static void carry_load(plumb_world *world, const run_contact *r, pl_pair *pair, 
     }
 }
 
-static void keep_load(run_load *load, const pl_pair *pair)
+static void keep_load(pl_run_load *load, const pl_pair *pair)
 {
     load->rolling = pair->rolling;
     for (int k = 0; k < 2; ++k) {
@@ -304,13 +295,13 @@ static void keep_load(run_load *load, const pl_pair *pair)
 static void note_load(plumb_world *world, const run_contact *r, const pl_manifold *m)
 {
     pl_seams *s = &world->seams;
-    run_load *load = (run_load *)s->loads.data + s->load_count++;
-    *load = (run_load){ .mover = r->mover,
-                        .serial = world->pieces.serial[r->mover],
-                        .next = PL_NONE,
-                        .pair = m->pair,
-                        .nx = m->nx,
-                        .ny = m->ny };
+    pl_run_load *load = (pl_run_load *)s->loads.data + s->load_count++;
+    *load = (pl_run_load){ .mover = r->mover,
+                           .serial = world->pieces.serial[r->mover],
+                           .next = PL_NONE,
+                           .pair = m->pair,
+                           .nx = m->nx,
+                           .ny = m->ny };
     keep_load(load, &pl_pairs(&world->broad.pairs)[m->pair]);
 }
 
@@ -328,7 +319,7 @@ static bool bear(plumb_world *world, const flat_run *run, double dt)
     pl_strip strip = pl_view_strip(&v, r->edge);
     strip.low += run->low - r->low;
     strip.high += run->high - r->high;
-    pl_place points[2];
+    pl_seam_place points[2];
     int feature = 0;
     int count = pl_view_points(&v, &strip, points, &feature);
     pl_manifold written = *m;
@@ -360,7 +351,7 @@ static void clear_slots(plumb_world *world)
 {
     pl_seams *s = &world->seams;
     const run_contact *contacts = s->contacts.data;
-    const run_load *old = s->old_loads.data;
+    const pl_run_load *old = s->old_loads.data;
     run_slot *slots = s->slots.data;
     for (uint32_t i = 0; i < s->contact_count; ++i) {
         slots[contacts[i].mover].contact = PL_NONE;
@@ -414,7 +405,7 @@ void pl_runs_undo(pl_seams *s)
 void pl_seams_remember(plumb_world *world)
 {
     const pl_pair *pairs = pl_pairs(&world->broad.pairs);
-    run_load *loads = world->seams.loads.data;
+    pl_run_load *loads = world->seams.loads.data;
     for (uint32_t i = 0; i < world->seams.load_count; ++i) {
         keep_load(&loads[i], &pairs[loads[i].pair]);
     }

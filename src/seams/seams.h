@@ -60,6 +60,15 @@ typedef struct pl_seam_pair {
     uint32_t a, b;       // its pieces
 } pl_seam_pair;
 
+// What the owner of a run of flush faces bore in the last step, by the mover's piece (run.c).
+typedef struct pl_run_load {
+    uint32_t mover, serial, next, pair;
+    uint32_t feature[2];
+    real normal[2], tangent[2];
+    real rolling;
+    real nx, ny;
+} pl_run_load;
+
 #define PL_SPAN_CLASSES 32 // runs of 1, 2, 4, ... spans
 
 typedef struct pl_seams {

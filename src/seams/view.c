@@ -200,7 +200,7 @@ pl_strip pl_view_strip(const pl_view *v, int k)
 
 // Whether a point before the start of the strip, or behind its end, counts: in front of the face where
 // nothing stands at the end, else in front of what stands there.
-static bool counts_outside(const pl_strip *s, pl_place p, double radii, int end)
+static bool counts_outside(const pl_strip *s, pl_seam_place p, double radii, int end)
 {
     const real *wall = s->walls[end];
     double reach = end == 0 ? s->before : s->after;
@@ -218,28 +218,28 @@ static bool counts_outside(const pl_strip *s, pl_place p, double radii, int end)
     return (mu != 0 || mv != 0) && p.u * mu + (p.v - foot) * mv > radii - IN_WALL;
 }
 
-static bool counts(const pl_strip *s, pl_place p, double radii)
+static bool counts(const pl_strip *s, pl_seam_place p, double radii)
 {
     return p.v < s->low    ? counts_outside(s, p, radii, 0)
            : p.v > s->high ? counts_outside(s, p, radii, 1)
                            : true;
 }
 
-static pl_place place_of(const pl_view *v, const pl_strip *s, int i)
+static pl_seam_place place_of(const pl_view *v, const pl_strip *s, int i)
 {
-    return (pl_place){ ahead(&s->f, v->x[i], v->y[i]), along(&s->f, v->x[i], v->y[i]) };
+    return (pl_seam_place){ ahead(&s->f, v->x[i], v->y[i]), along(&s->f, v->x[i], v->y[i]) };
 }
 
 // The part of the edge from p to q (which runs towards greater v) over the open part itself.
-static bool clip(const pl_strip *s, pl_place *p, pl_place *q)
+static bool clip(const pl_strip *s, pl_seam_place *p, pl_seam_place *q)
 {
     double slope = (q->u - p->u) / (q->v - p->v);
     double low = pl_greater(p->v, s->low), high = pl_lesser(q->v, s->high);
     if (!(low <= high)) {
         return false;
     }
-    pl_place from = { p->u + slope * (low - p->v), low };
-    pl_place to = { q->u + slope * (high - q->v), high };
+    pl_seam_place from = { p->u + slope * (low - p->v), low };
+    pl_seam_place to = { q->u + slope * (high - q->v), high };
     *p = from, *q = to;
     return true;
 }
@@ -247,13 +247,13 @@ static bool clip(const pl_strip *s, pl_place *p, pl_place *q)
 #define FLATTEST (-1e-3) // [-] edges that face away, or stand on end, give no points
 #define LEVEL    1e-9    // [m] less is no difference in depth
 
-int pl_view_points(const pl_view *v, const pl_strip *s, pl_place out[2], int *feature)
+int pl_view_points(const pl_view *v, const pl_strip *s, pl_seam_place out[2], int *feature)
 {
     double most = FLATTEST;
     int count = 0;
     for (int i = 0; i < v->count && v->count > 1; ++i) {
         // Counter-clockwise, edges that face the ground run against v.
-        pl_place q = place_of(v, s, i), p = place_of(v, s, i + 1 < v->count ? i + 1 : 0);
+        pl_seam_place q = place_of(v, s, i), p = place_of(v, s, i + 1 < v->count ? i + 1 : 0);
         double run = q.v - p.v, rise = q.u - p.u;
         double facing = -run / sqrt(run * run + rise * rise); // the edge's normal along the face's
         if (run > 0 && facing < most && clip(s, &p, &q)) {
@@ -266,7 +266,7 @@ int pl_view_points(const pl_view *v, const pl_strip *s, pl_place out[2], int *fe
     // A corner that will get into the strip may be deeper than what is in it now.
     double deepest = count == 0 ? INFINITY : count == 1 ? out[0].u : pl_lesser(out[0].u, out[1].u);
     for (int i = 0; i < v->count; ++i) {
-        pl_place p = place_of(v, s, i);
+        pl_seam_place p = place_of(v, s, i);
         if (p.u < deepest - LEVEL && counts(s, p, v->radii)) {
             bool beyond = count == 2 && p.v >= out[1].v, before = count == 2 && p.v <= out[0].v;
             deepest = p.u;
@@ -290,7 +290,7 @@ static double limit_of(const pl_view *v, const pl_face *f)
 }
 
 // Writes point k of the manifold: (u, v) of the other's core in the face's frame.
-static void write_point(const pl_view *v, const pl_face *f, pl_place p, pl_manifold_point *out)
+static void write_point(const pl_view *v, const pl_face *f, pl_seam_place p, pl_manifold_point *out)
 {
     const pl_pose *own = v->own_pose, *other = v->other_pose;
     double c = (double)own->c, s = (double)own->s;
@@ -313,7 +313,7 @@ static void write_point(const pl_view *v, const pl_face *f, pl_place p, pl_manif
                                 .separation = (real)(p.u - v->radii) };
 }
 
-uint32_t pl_view_write(const pl_view *v, const pl_face *f, const pl_place *points, int count,
+uint32_t pl_view_write(const pl_view *v, const pl_face *f, const pl_seam_place *points, int count,
                        uint32_t feature, pl_manifold *m)
 {
     double limit = limit_of(v, f);
@@ -341,14 +341,14 @@ bool pl_view_rebuild(pl_view *v, pl_manifold *m)
 {
     pl_view_bring_other(v);
     pl_strip best = { .separation = -INFINITY };
-    pl_place points[2];
+    pl_seam_place points[2];
     int count = 0, feature = 0;
     for (int k = 0; k < v->side.count; ++k) {
         if (v->side.edge_bits & PL_SEAM_COVERED(k)) {
             continue;
         }
         pl_strip s = pl_view_strip(v, k);
-        pl_place found[2];
+        pl_seam_place found[2];
         int from = 0;
         bool better = s.separation > best.separation && s.separation >= -depth_of(v, &s.f);
         int n = better ? pl_view_points(v, &s, found, &from) : 0;

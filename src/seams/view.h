@@ -40,9 +40,9 @@ typedef struct pl_strip {
 } pl_strip;
 
 // A point of the other piece in the frame of the face.
-typedef struct pl_place {
+typedef struct pl_seam_place {
     double u, v;
-} pl_place;
+} pl_seam_place;
 
 // Features that are given here, apart from those of the kernels.
 #define PL_SEAM_FEATURE UINT32_C(0x40000000) // face of the ground, edge or corner of the other
@@ -63,11 +63,11 @@ pl_strip pl_view_strip(const pl_view *v, int k);
 
 // The points of the other piece over the strip: those of the edge that most faces the ground, or the
 // deepest corner that is or gets there. Returns how many; *feature names edge or corner.
-int pl_view_points(const pl_view *v, const pl_strip *s, pl_place out[2], int *feature);
+int pl_view_points(const pl_view *v, const pl_strip *s, pl_seam_place out[2], int *feature);
 
 // Puts the points on the manifold, with the face's normal; `feature` is that of the first, the second
 // has one more. Those too far to matter in the step are left out. Returns how many it has then.
-uint32_t pl_view_write(const pl_view *v, const pl_face *f, const pl_place *points, int count,
+uint32_t pl_view_write(const pl_view *v, const pl_face *f, const pl_seam_place *points, int count,
                        uint32_t feature, pl_manifold *m);
 
 // Puts the manifold on the best open face of the ground. False when none has the other piece before it.

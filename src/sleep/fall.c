@@ -6,9 +6,10 @@
 // and not at rest; a heap that creeps is. In the defaults, what accelerates by 8 mm/s^2 stays
 // awake. Turning counts by the farthest point: sqrt(v^2 + (w r)^2), and the way likewise.
 //
-// Islands are looked for only when some body has rested for sleep_time, and eight times in that
-// time: union-find with path halving (Tarjan 1983) over the bodies that are ripe, by the contacts
-// of this step and the joints. A contact or joint of a ripe body with one that is not, or with a
+// Islands are looked for eight times in sleep_time, by the world's clock, so that none falls
+// asleep sooner or later for what others do, and only when some body has rested for sleep_time:
+// union-find with path halving (Tarjan 1983) over the bodies that are ripe, by the contacts of
+// this step and the joints. A contact or joint of a ripe body with one that is not, or with a
 // kinematic one that moves, holds its island awake.
 //
 // What falls asleep is taken out of pair list and manifolds, of which it is the last to see this
@@ -420,7 +421,11 @@ bool pl_sleep_fall(plumb_world *world, real dt)
         s->passed = dt;
         unsettle_around_changed(world, pair_count);
     }
-    if (s->ripe_for <= 0 || s->since * LOOKS < world->desc.sleep_time) {
+    if (s->since * LOOKS < world->desc.sleep_time) {
+        return true;
+    }
+    if (s->ripe_for <= 0) {
+        s->since = 0;
         return true;
     }
     if (!reserve_members(world)) {

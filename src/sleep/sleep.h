@@ -67,7 +67,7 @@ typedef struct pl_sleep {
     uint64_t timed_step;   // step count + 1 when bodies were last timed: a step may be tried again
     uint64_t changed_step; // likewise: something immovable was changed
     uint64_t tested_step;  // likewise: pairs were made or looked up
-    real since;            // [s] since islands were last looked for
+    real since;            // [s] since islands were last looked for, or nobody was ripe
     real passed;           // [s] the last step
     real ripe_for;         // [s] for so long, some body may have rested long enough
     pl_buffer parents;     // uint32_t a row

@@ -346,7 +346,7 @@ static pl_pair woken_pair(const pl_sleep *s, const pl_keyed *woken)
 {
     const pl_dormant *c = &pl_dormants(s)[woken->value];
     pl_pair pair = c->pair;
-    pair.manifold = c->whole ? 0 : PL_NONE; // not that of this step, but it had one
+    pair.manifold = pair.manifold != PL_NONE ? 0 : PL_NONE; // not that of this step, but it had one
     return pair;
 }
 

@@ -214,7 +214,8 @@ static void prepare_specials(const pl_contact_call *call, uint32_t first, uint32
         body a, b;
         gather_body(&a, call, c->a);
         gather_body(&b, call, c->b);
-        *s = (special){ .aix = a.inv_mass, .aiy = a.inv_mass, .bix = b.inv_mass, .biy = b.inv_mass };
+        *s =
+            (special){ .aix = a.inv_mass, .aiy = a.inv_mass, .bix = b.inv_mass, .biy = b.inv_mass };
         s->pull[0] = s->pull[1] = s->reach = splat(0);
         for (int i = 0; i < PL_WIDTH; ++i) {
             uint32_t at = call->lanes[(size_t)k * PL_WIDTH + (size_t)i];
@@ -521,18 +522,21 @@ static void store_extras(const pl_contact_call *call, pl_manifold *manifolds, ui
     }
 }
 
-// The variants: friction F, rotation R, running surfaces S, locked axes and adhesion X.
+// The variants: friction F, rotation R, running surfaces S, locked axes and adhesion X. Names that are
+// put together carry the width (tools/amalgamate cannot see them).
 #define DEFINE_VARIANT(F, R, S, X)                                                                 \
-    static void warm_start_##F##R##S##X(const pl_contact_call *call, uint32_t first,               \
-                                        uint32_t count)                                            \
+    static void PL_WIDE_NAME(warm_start_##F##R##S##X)(const pl_contact_call *call, uint32_t first, \
+                                                      uint32_t count)                              \
     {                                                                                              \
         warm_start_all(call, first, count, F, R, S, X);                                            \
     }                                                                                              \
-    static void solve_##F##R##S##X(const pl_contact_call *call, uint32_t first, uint32_t count)    \
+    static void PL_WIDE_NAME(solve_##F##R##S##X)(const pl_contact_call *call, uint32_t first,      \
+                                                 uint32_t count)                                   \
     {                                                                                              \
         sweep(call, first, count, true, F, R, S, X);                                               \
     }                                                                                              \
-    static void relax_##F##R##S##X(const pl_contact_call *call, uint32_t first, uint32_t count)    \
+    static void PL_WIDE_NAME(relax_##F##R##S##X)(const pl_contact_call *call, uint32_t first,      \
+                                                 uint32_t count)                                   \
     {                                                                                              \
         sweep(call, first, count, false, F, R, S, X);                                              \
     }
@@ -547,8 +551,8 @@ DEFINE_VARIANT(1, 1, 1, 1)
 
 // clang-format off
 #define VARIANTS(name)                                                                             \
-    { { name##_0000, name##_0100 }, { name##_1000, name##_1100 }, { name##_1010, name##_1110 },    \
-      { name##_1111, name##_1111 } }
+    { { PL_WIDE_NAME(name##_0000), PL_WIDE_NAME(name##_0100) }, { PL_WIDE_NAME(name##_1000), PL_WIDE_NAME(name##_1100) }, { PL_WIDE_NAME(name##_1010), PL_WIDE_NAME(name##_1110) },    \
+      { PL_WIDE_NAME(name##_1111), PL_WIDE_NAME(name##_1111) } }
 // clang-format on
 
 const pl_contact_kernels PL_WIDE_NAME(pl_contact_kernels) = {

@@ -84,16 +84,46 @@ static bool reserve_lanes(plumb_world *world, const uint32_t counts[PL_COLORS + 
            pl_buffer_reserve(memory, &s->classic, classic * sizeof(pl_classic_contact));
 }
 
-// Marks the rows that have a joint.
-static void engage_jointed(plumb_world *world, uint32_t movable)
+// What a row is marked with in `slots` before it gets its slot. An elastic body, one in a contact with
+// restitution, keeps what rounding takes from its velocity; the others must not, or what one
+// island asks for would change the bits of the rest.
+enum { ENGAGED, ELASTIC };
+
+// Marks the rows that have a contact or a joint.
+static void mark_rows(plumb_world *world, uint32_t movable)
 {
+    const pl_manifold *m = pl_manifolds(&world->narrow);
     const uint32_t *first_joint = world->bodies.first_joint;
     uint32_t *slots = world->solver.slots.data;
+    memset(slots, 0xff, movable * sizeof(uint32_t));
     for (uint32_t row = 0; world->joints.live > 0 && row < movable; ++row) {
         if (first_joint[row] != PL_NONE) {
-            slots[row] = 0;
+            slots[row] = ENGAGED;
         }
     }
+    for (uint32_t i = 0; i < world->narrow.manifold_count; ++i) {
+        if (m[i].body_a < movable && slots[m[i].body_a] == PL_NONE) {
+            slots[m[i].body_a] = ENGAGED;
+        }
+        if (m[i].body_b < movable && slots[m[i].body_b] == PL_NONE) {
+            slots[m[i].body_b] = ENGAGED;
+        }
+    }
+    for (uint32_t i = 0; world->narrow.any_bounce && i < world->narrow.manifold_count; ++i) {
+        if (m[i].restitution > 0) {
+            slots[m[i].body_a < movable ? m[i].body_a : m[i].body_b] = ELASTIC;
+            slots[m[i].body_b < movable ? m[i].body_b : m[i].body_a] = ELASTIC;
+        }
+    }
+}
+
+// A quad: what rounding took from the velocity so far, and 1 where that is kept, 0 where it is not.
+static void start_low(real *low, const pl_bodies *b, uint32_t row, bool elastic)
+{
+    low[0] = elastic ? b->low_vx[row] : 0;
+    low[1] = elastic ? b->low_vy[row] : 0;
+    low[2] = 0;
+    low[3] = elastic;
 }
 
 // Gives every dynamic and kinematic row that is in a contact or has a joint its slot and packs its state.
@@ -101,20 +131,10 @@ static void engage(plumb_world *world)
 {
     pl_solver *s = &world->solver;
     const pl_bodies *b = &world->bodies;
-    const pl_manifold *m = pl_manifolds(&world->narrow);
     uint32_t movable = world->dynamic_count + world->kinematic_count;
     uint32_t *slots = s->slots.data;
     uint32_t *rows = s->rows.data;
-    memset(slots, 0xff, movable * sizeof(uint32_t));
-    for (uint32_t i = 0; i < world->narrow.manifold_count; ++i) {
-        if (m[i].body_a < movable) {
-            slots[m[i].body_a] = 0;
-        }
-        if (m[i].body_b < movable) {
-            slots[m[i].body_b] = 0;
-        }
-    }
-    engage_jointed(world, movable);
+    mark_rows(world, movable);
     uint32_t count = 0;
     s->dynamic_slots = 0;
     for (uint32_t row = 0; row < movable; ++row) {
@@ -136,8 +156,7 @@ static void engage(plumb_world *world)
                                 .uw = b->w[row],
                                 .inv_mass = im };
         if (world->narrow.any_bounce) {
-            real *low = (real *)s->lows.data + (size_t)count * 4;
-            low[0] = b->low_vx[row], low[1] = b->low_vy[row], low[2] = low[3] = 0;
+            start_low((real *)s->lows.data + (size_t)count * 4, b, row, slots[row] == ELASTIC);
         }
         if ((b->flags[row] & PL_BODY_ODD) != 0) {
             pl_effects_engage(world, row, count);

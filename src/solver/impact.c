@@ -21,7 +21,7 @@
 
 #include <math.h>
 
-// Impacts of one substep that are followed, for each elastic contact; what is left then is solved
+// Impacts of one substep that are followed, of each elastic contact; what is left then is solved
 // without bounce. A light ball between two heavy ones strikes many times within a substep.
 #define CHAIN 64
 
@@ -340,7 +340,7 @@ static bool resolve(plumb_world *world, const pl_impact *m, const approach at[2]
 static void queue_impact(const plumb_world *world, pl_impact *m, double h)
 {
     m->due = false;
-    for (uint32_t j = 0; j < m->count; ++j) {
+    for (uint32_t j = 0; j < m->count && m->left > 0; ++j) {
         approach at = foresee(world, m, j, h);
         if (at.due && (!m->due || at.time < m->time)) {
             m->due = true;
@@ -377,10 +377,11 @@ void pl_impacts_run(plumb_world *world, real h)
         struck[slot] = -h; // none yet; an impact may lie one substep in the past
     }
     for (uint32_t i = 0; i < s->impact_count; ++i) {
+        impacts[i].left = CHAIN;
         queue_impact(world, &impacts[i], (double)h);
     }
-    uint64_t left = (uint64_t)CHAIN * s->impact_count;
-    for (pl_impact *m; left > 0 && (m = first_due(impacts, s->impact_count)) != NULL; --left) {
+    for (pl_impact *m; (m = first_due(impacts, s->impact_count)) != NULL;) {
+        --m->left;
         approach at[2] = { { 0 }, { 0 } };
         for (uint32_t j = 0; j < m->count; ++j) {
             at[j] = foresee(world, m, j, (double)h);

@@ -9,10 +9,10 @@
 // Reads, writes: solver bodies, impulses of pairs. Cost: (iterations + 5) sweeps a substep.
 #include "world/state.h"
 
-#define POSITION_SWEEPS   3
-#define SLOP              ((real)0.005) // [m] overlap that is left, so that contacts persist
-#define POSITION_RATE     ((real)0.2)   // [-] share of the rest corrected a sweep
-#define LARGEST_PUSH      ((real)0.2)   // [m] most corrected a sweep
+#define POSITION_SWEEPS 3
+#define SLOP            ((real)0.005) // [m] overlap that is left, so that contacts persist
+#define POSITION_RATE   ((real)0.2)   // [-] share of the rest corrected a sweep
+#define LARGEST_PUSH    ((real)0.2)   // [m] most corrected a sweep
 
 typedef struct classic {
     pl_solver *solver;
@@ -141,7 +141,7 @@ static void prepare(classic *c, const plumb_world *world)
     }
 }
 
-// v = u + h a; with bounces, what rounding takes is added in the next substep, as in soft.c.
+// v = u + h a; what rounding takes from elastic bodies is added in the next substep, as in soft.c.
 static void add(real *v, real *u, real *low, real change)
 {
     real wanted = change + (low != NULL ? *low : 0);
@@ -157,7 +157,8 @@ static void integrate_velocities(const classic *c)
     pl_solver_motion *motion = pl_solver_motions(c->solver);
     for (uint32_t i = 0; i < c->solver->dynamic_slots; ++i) {
         pl_solver_body *body = &c->bodies[i];
-        real *low = c->lows != NULL ? c->lows + (size_t)i * 4 : NULL;
+        real *low =
+            c->lows != NULL && c->lows[(size_t)i * 4 + 3] > 0 ? c->lows + (size_t)i * 4 : NULL;
         add(&body->vx, &motion[i].ux, low, c->h * motion[i].ax);
         add(&body->vy, &motion[i].uy, low != NULL ? low + 1 : NULL, c->h * motion[i].ay);
         add(&body->w, &motion[i].uw, low != NULL ? low + 2 : NULL, c->h * motion[i].aw);

@@ -35,8 +35,9 @@ static void integrate_velocities(const plumb_world *world, real h)
     }
 }
 
-// The same, and what rounding takes from u is added in the next substep: without that, an elastic
-// ball gains or loses 2e-7 of its energy a bounce in the float library.
+// The same, and what rounding takes from u of an elastic body is added in the next substep: without
+// that, it gains or loses 2e-7 of its energy a bounce in the float library. For others this does, bit
+// for bit, what the function above does.
 static void integrate_velocities_carefully(const plumb_world *world, real h)
 {
     const pl_solver *s = &world->solver;
@@ -46,9 +47,12 @@ static void integrate_velocities_carefully(const plumb_world *world, real h)
     for (uint32_t i = 0; i < s->dynamic_slots; ++i) {
         quad v = body[2 * i];
         quad pushed = v - motion[2 * i + 1];
+        real kept = low[i][3];
+        low[i][3] = 0;
         quad wanted = h * motion[2 * i] + low[i];
         quad u = v + wanted;
-        low[i] = wanted - (u - v);
+        low[i] = kept * (wanted - (u - v));
+        low[i][3] = kept;
         motion[2 * i + 1] = u;
         body[2 * i] = u + pushed;
     }

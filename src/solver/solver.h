@@ -36,6 +36,7 @@ typedef struct pl_impact {
     bool locked; // a body has a locked axis: then
     real aix, aiy, bix, biy; // [1/kg] inverse masses along the axes
     bool due;    // an impact falls into the present substep
+    uint32_t left; // impacts that are still followed in the present substep
     double time; // [s] of the first one, since the start of the substep
     pl_impact_point point[2];
 } pl_impact;
@@ -66,7 +67,7 @@ typedef struct pl_classic_contact {
 
 typedef struct pl_solver {
     pl_buffer bodies, motions; // engaged dynamic bodies, engaged kinematic ones, one immovable body
-    pl_buffer lows;   // if any contact bounces, a quad a slot: what rounding took from its velocity
+    pl_buffer lows;   // if any contact bounces, a quad a slot: what rounding took from its velocity, if kept
     pl_buffer struck; // likewise a real a slot: when in the substep an impact struck it last [s]
     pl_buffer rows;   // uint32_t: body row of a slot
     pl_buffer slots;  // uint32_t: slot of a dynamic or kinematic row; PL_NONE: not in a contact

@@ -220,6 +220,13 @@ static void write_pose(plumb_world *world, uint32_t row, real dx, real dy)
         (pl_pose){ b->x[row], b->y[row], b->c[row], b->s[row], dx, dy, b->vx[row], b->vy[row] };
 }
 
+void pl_body_update_pose(plumb_world *world, uint32_t row)
+{
+    const pl_bodies *b = &world->bodies;
+    write_pose(world, row, b->c[row] * b->local_x[row] - b->s[row] * b->local_y[row],
+               b->s[row] * b->local_x[row] + b->c[row] * b->local_y[row]);
+}
+
 void pl_body_update_origin(plumb_world *world, uint32_t row)
 {
     pl_bodies *b = &world->bodies;

@@ -150,6 +150,9 @@ void pl_body_update_origin(plumb_world *world, uint32_t row);
 // Derives centre and pose from origin and rotation (after a teleport or a change of mass).
 void pl_body_update_center(plumb_world *world, uint32_t row);
 
+// Derives the pose of a row alone (after a restore, which brings origin and centre).
+void pl_body_update_pose(plumb_world *world, uint32_t row);
+
 // Destroys pieces, rows and components of an entity of any kind; the handle was checked.
 void pl_destroy_entity(plumb_world *world, plumb_entity entity);
 

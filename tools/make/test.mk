@@ -11,7 +11,7 @@ BENCH_SRC   := $(wildcard tests/bench/*.c)
 HARNESS_SRC := $(filter-out tests/harness/engine_%,$(wildcard tests/harness/*.c))
 
 # Built and run in double precision as well, unless the file says PLUMB_FLOAT_ONLY.
-DOUBLE_KINDS := unit analytic stability api
+DOUBLE_KINDS := unit analytic stability api determinism
 DOUBLE_SRC   := $(filter $(DOUBLE_KINDS:%=tests/%/%),$(TEST_SRC))
 ifneq ($(DOUBLE_SRC),)
 DOUBLE_SRC   := $(filter-out $(shell grep -l PLUMB_FLOAT_ONLY $(DOUBLE_SRC)),$(DOUBLE_SRC))
@@ -97,7 +97,7 @@ TEST_OBJ := $(sort $(call objects,float,$(TEST_SRC) $(FUZZ_SRC) $(BENCH_SRC) $(H
 
 # ---- running
 
-.PHONY: test test-programs stability bench cost asan ubsan tsan sanitized fuzz fuzz-run lint \
+.PHONY: test test-programs stability bench cost determinism hashes asan ubsan tsan sanitized fuzz fuzz-run lint \
 	format format-check
 
 # T names the tests to run by their sources; without it, all of them.
@@ -138,6 +138,18 @@ bench: $(O)/bench
 
 cost: $(O)/plumb
 	$(Q)for s in $(SCENES); do $(O)/plumb cost $$s || exit 1; done
+
+# The matrix of compilers, optimisation levels, a sanitizer, widths, solvers. See the script.
+determinism:
+	@O=$(O) JOBS=$(JOBS) bash tools/make/determinism.sh
+
+# Writes the committed hashes anew: after every change that is meant to change what bodies do.
+HASH_PROGRAMS := $(O)/tests/determinism/test_scene_hashes $(O)/tests-double/determinism/test_scene_hashes
+hashes: $(HASH_PROGRAMS)
+	$(Q)echo "# Written by \`make hashes\`: precision, solver, scene, steps, plumb_world_hash." >$(O)/hashes
+	$(Q)for p in $(HASH_PROGRAMS); do $$p --print >>$(O)/hashes || exit 1; done
+	$(Q)mv $(O)/hashes tests/determinism/hashes.txt
+	@echo "hashes: tests/determinism/hashes.txt is written"
 
 # Sanitizers build apart, so that they and the ordinary build do not undo one another.
 asan:  ; @$(MAKE) --no-print-directory O=$(O)/asan  SAN=address   CFLAGS="-O1" test

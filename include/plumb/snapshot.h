@@ -1,0 +1,102 @@
+/// snapshot.h - the state of a world as bytes: save, restore, roll back, send; and as a number: hash.
+///
+///     size_t size = plumb_world_snapshot_size(world);
+///     void *image = malloc(size);
+///     plumb_world_save(world, image, size);
+///     plumb_world_step(world, dt); ...
+///     plumb_world_restore(world, image, size); // every step from here gives the same bits again
+///
+/// In an image: bodies, shapes with their geometry, materials, joints, contacts with their impulses,
+/// filters, sensors' overlaps, settings that decide motion, gravity, time, handles in use and to be used
+/// next, user components, pending commands, which systems are switched off. User data are in it as
+/// the pointers that they are, and so is whatever pointer a component holds: what they point to is
+/// the user's to keep, and such an image means something in its own process only. Not in it: capacities,
+/// SIMD width, hooks, user systems (code; register the same ones), timers, the last error, and the
+/// events, contacts and counters of the last step: after a restore there are none until the next step.
+/// Hooks of components are not called by a restore.
+///
+/// An image is of one build: format version, precision, byte order and columns must agree, and the world
+/// must have the same components registered in the same order. Anything else, and every damage, is
+/// refused whole: E_IMAGE, the state unchanged. A checksum guards against accidents, not against forgery:
+/// do not restore images from strangers.
+///
+/// Rolling back: keep one image of the world as it was built (the base) and save frames against it: a
+/// frame holds what is not as in the base. Restoring in a world that has held as much before allocates
+/// nothing, nor does the next step. For a network: plumb_snapshot_delta.
+#ifndef PLUMB_SNAPSHOT_H
+#define PLUMB_SNAPSHOT_H
+
+#include "plumb/world.h"
+
+PLUMB_BEGIN
+
+/// 64 bits over all that decides later steps: every column of bodies, shapes and materials, joints,
+/// contacts with their impulses, filters, settings, gravity, time, handles in use, user components,
+/// pending commands. Two worlds that took the same calls have the same hash at every step, on any
+/// machine, compiler and SIMD width of one precision; worlds that differ have different ones but for one
+/// chance in 2^64. Not in it: user data, capacities, timers, the last error, events and contacts of
+/// the last step. A component counts by its fields, or by its bytes when it was registered without
+/// (padding and pointers in those would make it differ). A pending command counts by its kind, what
+/// it acts on, and where to; the rest of it when it is carried out. Not cryptographic. 0 for null.
+/// O(state): see src/snapshot/README.md.
+PLUMB_API uint64_t plumb_world_hash(const plumb_world *world);
+
+/// [B] of an image of the world as it is now, 0 for null. Contacts come and go: leave room for more, or
+/// ask each time. O(1) in the size of the world.
+PLUMB_API size_t plumb_world_snapshot_size(const plumb_world *world);
+
+/// Writes the whole image; `buffer` needs no alignment. Its size is plumb_world_snapshot_size. On an
+/// error what is in the buffer is undefined. O(state).
+/// Errors: E_NULL, E_RANGE (size), E_LOCKED (called from a system or hook).
+PLUMB_API plumb_result plumb_world_save(const plumb_world *world, void *buffer, size_t size);
+
+/// Makes the world what it was when the image was saved, here or in another world: all handles mean
+/// what they meant then. `size` may be larger than the image. O(state).
+/// Errors: E_NULL, E_IMAGE, E_LOCKED, E_MEMORY.
+PLUMB_API plumb_result plumb_world_restore(plumb_world *world, const void *buffer, size_t size);
+
+/// Writes a frame: the columns and lists that differ from those of the image `base`; never more than
+/// plumb_world_snapshot_size. *bytes tells how much. `base` is compared, not verified. O(state).
+/// Errors: E_NULL, E_RANGE (size), E_LOCKED, E_IMAGE (base does not fit the world, or is a frame).
+PLUMB_API plumb_result plumb_world_save_frame(const plumb_world *world, const void *base,
+                                              size_t base_size, void *buffer, size_t size,
+                                              size_t *bytes);
+
+/// Restores a frame with the base that it was saved against. O(state).
+/// Errors: E_NULL, E_IMAGE, E_LOCKED, E_MEMORY.
+PLUMB_API plumb_result plumb_world_restore_frame(plumb_world *world, const void *base,
+                                                 size_t base_size, const void *frame,
+                                                 size_t frame_size);
+
+/// What an image tells of itself.
+typedef struct plumb_snapshot_info {
+    size_t bytes;        ///< [B] of the image
+    bool is_frame;       ///< it needs its base
+    uint64_t id;         ///< its checksum, which names it
+    uint64_t base_id;    ///< of a frame: the id of its base
+    uint64_t step_count; ///< steps taken when it was saved
+    double time;         ///< [s] simulated when it was saved
+} plumb_snapshot_info;
+
+/// Verifies an image, or frame, and reads its header. O(bytes). Errors: E_NULL, E_IMAGE.
+PLUMB_API plumb_result plumb_snapshot_read_info(const void *image, size_t size,
+                                                plumb_snapshot_info *info);
+
+/// [B] that a delta to an image of so many bytes takes at the most.
+PLUMB_API size_t plumb_snapshot_delta_bound(size_t image_size);
+
+/// Writes what turns the image `from` into the image `to`: both complete, or frames of one base. Small
+/// where little changed: some 60 to 90 bytes a moving body in the float library. O(bytes).
+/// Errors: E_NULL, E_RANGE (size), E_IMAGE (either is damaged, or they are not of the same world).
+PLUMB_API plumb_result plumb_snapshot_delta(const void *from, size_t from_size, const void *to,
+                                            size_t to_size, void *buffer, size_t size, size_t *bytes);
+
+/// Rebuilds `to`, bit for bit, in `buffer` of `size` bytes. O(bytes).
+/// Errors: E_NULL, E_RANGE (size), E_IMAGE (either is damaged, or `from` is not the one of the delta).
+PLUMB_API plumb_result plumb_snapshot_apply(const void *from, size_t from_size, const void *delta,
+                                            size_t delta_size, void *buffer, size_t size,
+                                            size_t *bytes);
+
+PLUMB_END
+
+#endif

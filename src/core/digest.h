@@ -1,0 +1,28 @@
+// digest.h - a 64-bit digest of bytes: checksum of images, hash of worlds. Not cryptographic.
+//
+// Eight lanes of 64 bits, each lane = rotate(lane ^ word, 29) * odd: a word more is a bijection of
+// its lane, so a single changed word always changes the result; eight lanes keep the multiplier
+// busy. Words are read as the machine stores them: digests of little-endian machines agree.
+// Cost: about 8 bytes a cycle.
+#ifndef PL_DIGEST_H
+#define PL_DIGEST_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#define PL_DIGEST_LANES 8
+
+typedef struct pl_digest {
+    uint64_t lane[PL_DIGEST_LANES];
+    uint64_t length; // [B] so far
+} pl_digest;
+
+void pl_digest_begin(pl_digest *digest);
+// Adds a run of bytes; where runs begin and end counts too.
+void pl_digest_add(pl_digest *digest, const void *data, size_t bytes);
+uint64_t pl_digest_end(const pl_digest *digest);
+
+// The digest of one run.
+uint64_t pl_digest_of(const void *data, size_t bytes);
+
+#endif

@@ -1,0 +1,46 @@
+// complete.c - a build in which a member of the world is missing in list.h fails here.
+//
+// The headers are read with all padding taken out; the sizes of the members listed must then add up
+// to the size of each struct, exactly. No code comes of this file.
+#include <limits.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#pragma pack(push, 1)
+#include "snapshot/list.h"
+#pragma pack(pop)
+
+#define SIZE(path)                                   +sizeof PL_STATE_OF(path)
+#define ARRAY_SIZE(type, buffer, count, hashed, key) SIZE(buffer) SIZE(count)
+#define COLUMN_SIZE(type, name)                      +sizeof(void *)
+
+// A table with its columns; members besides are rows of their own.
+#define TABLE_SIZE(path)     TABLE_SIZE_##path
+#define TABLE_SIZE_bodies    +(sizeof(pl_table) PL_BODY_COLUMNS(COLUMN_SIZE))
+#define TABLE_SIZE_pieces    +(sizeof(pl_table) PL_PIECE_COLUMNS(COLUMN_SIZE))
+#define TABLE_SIZE_materials +(sizeof(pl_table) PL_MATERIAL_COLUMNS(COLUMN_SIZE))
+
+#define LISTED(list) (0 list(SIZE, SIZE, ARRAY_SIZE, TABLE_SIZE, SIZE, SIZE))
+#define COMPLETE(list, path)                                                                       \
+    _Static_assert(LISTED(list) == sizeof PL_STATE_OF(path),                                       \
+                   "a member of plumb_world." #path " is not in snapshot/list.h: add its row")
+
+COMPLETE(PL_STATE_DESC, desc);
+COMPLETE(PL_STATE_REGISTRY, registry);
+COMPLETE(PL_STATE_PIECES, pieces);
+COMPLETE(PL_STATE_VERTICES, vertices);
+COMPLETE(PL_STATE_COMMANDS, commands);
+COMPLETE(PL_STATE_BROAD, broad);
+COMPLETE(PL_STATE_NARROW, narrow);
+COMPLETE(PL_STATE_SOLVER, solver);
+COMPLETE(PL_STATE_JOINTS, joints);
+COMPLETE(PL_STATE_PARTS, parts);
+COMPLETE(PL_STATE_BLOWS, blows);
+COMPLETE(PL_STATE_SENSING, sensing);
+COMPLETE(PL_STATE_SLEEP, sleep);
+COMPLETE(PL_STATE_SEAMS, seams);
+COMPLETE(PL_STATE_CHARACTERS, characters);
+COMPLETE(PL_STATE_CONTINUOUS, continuous);
+_Static_assert(LISTED(PL_STATE) == sizeof(plumb_world),
+               "a member of plumb_world is not in snapshot/list.h: add its row");

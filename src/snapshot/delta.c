@@ -1,0 +1,497 @@
+// delta.c - what turns one image into another, and back.
+//
+// Section by section, each element is compared with one of the image before: the one with the same
+// index or, where elements have a key (contacts: their two pieces), the one with the same key. Their
+// bitwise difference is written in groups of eight 32-bit words: a byte that says which words are
+// not 0, half a byte for each of those that says which of its bytes are not, those bytes; groups of
+// zeros as a count. Numbers that move a little keep their sign, exponent and first digits, so that
+// most words cost one to three and a half bytes.
+//
+//     delta:   header | coded header and directory of `to` | a bit a section: changed | changed sections
+//     section: (skip, match, insert)* over the elements | coded differences
+//
+// skip: elements of `from` that are gone; match: elements compared; insert: elements that are new.
+//
+// Reads: two images, or image and delta. Writes: the buffer. Cost: O(bytes).
+#include "plumb/snapshot.h"
+
+#include "snapshot/image.h"
+
+#include <string.h>
+
+#define DELTA_MAGIC   UINT64_C(0x544c44424d554c50) // "PLUMBDLT" in a little-endian file
+#define DELTA_VERSION 1u
+#define SEARCH_MOST   256u // elements of `from` that are searched for a key
+#define GROUP         32u  // [B]
+
+typedef struct delta_header {
+    uint64_t magic;
+    uint64_t version;
+    uint64_t bytes;
+    uint64_t checksum; // of the delta with 0 here
+    uint64_t from, to; // checksums of the images
+    uint64_t to_bytes;
+} delta_header;
+
+static uint64_t checksum_of(const char *bytes, const delta_header *header)
+{
+    delta_header blank = *header;
+    blank.checksum = 0;
+    pl_digest digest;
+    pl_digest_begin(&digest);
+    pl_digest_add(&digest, &blank, sizeof blank);
+    pl_digest_add(&digest, bytes + sizeof blank, header->bytes - sizeof blank);
+    return pl_digest_end(&digest);
+}
+
+//---- which element is compared with which --------------------------------------------------------
+
+typedef struct run {
+    uint32_t skip, match, insert;
+} run;
+
+// A section in both images.
+typedef struct sides {
+    const char *from;
+    char *to;
+    uint32_t from_count, to_count, stride, key;
+} sides;
+
+static bool has_key_of(const sides *s, uint32_t to, uint32_t from)
+{
+    return s->key == 0 ? to == from
+                       : memcmp(s->to + (size_t)to * s->stride, s->from + (size_t)from * s->stride,
+                                s->key) == 0;
+}
+
+// How many elements of `from`, from `j` on, come before the one of to[i]; UINT32_MAX: it is not near.
+static uint32_t way_to(const sides *s, uint32_t i, uint32_t j)
+{
+    for (uint32_t skip = 0; skip < SEARCH_MOST && j + skip < s->from_count; ++skip) {
+        if (has_key_of(s, i, j + skip)) {
+            return skip;
+        }
+    }
+    return UINT32_MAX;
+}
+
+static run next_run(const sides *s, uint32_t i, uint32_t j)
+{
+    run r = { 0, 0, 0 };
+    uint32_t skip = way_to(s, i, j);
+    if (skip != UINT32_MAX) {
+        r.skip = skip;
+        j += skip;
+        while (i < s->to_count && j < s->from_count && has_key_of(s, i, j)) {
+            ++i, ++j, ++r.match;
+        }
+    }
+    while (i < s->to_count && way_to(s, i, j) == UINT32_MAX) {
+        ++i, ++r.insert;
+    }
+    return r;
+}
+
+//---- writing -------------------------------------------------------------------------------------
+
+typedef struct coder {
+    unsigned char *to;
+    size_t size, used; // used goes on counting when it does not fit
+    unsigned char group[GROUP];
+    uint32_t fill;
+    uint32_t zero_groups;
+} coder;
+
+static void put(coder *c, unsigned byte)
+{
+    if (c->used < c->size) {
+        c->to[c->used] = (unsigned char)byte;
+    }
+    ++c->used;
+}
+
+// Seven bits a byte, low ones first.
+static void put_number(coder *c, uint32_t v)
+{
+    for (; v >= 128; v >>= 7) {
+        put(c, (v & 127) | 128);
+    }
+    put(c, v);
+}
+
+static void put_zeros(coder *c)
+{
+    if (c->zero_groups > 0) {
+        put(c, 0);
+        put_number(c, c->zero_groups);
+        c->zero_groups = 0;
+    }
+}
+
+static void put_group(coder *c)
+{
+    unsigned words = 0, halves[8] = { 0 };
+    for (unsigned k = 0; k < GROUP; ++k) {
+        if (c->group[k] != 0) {
+            words |= 1u << k / 4;
+            halves[k / 4] |= 1u << k % 4;
+        }
+    }
+    c->fill = 0;
+    if (words == 0) {
+        ++c->zero_groups;
+        return;
+    }
+    put_zeros(c);
+    put(c, words);
+    unsigned pending = 0, have = 0;
+    for (unsigned k = 0; k < 8; ++k) {
+        if ((words >> k & 1) != 0) {
+            pending |= halves[k] << (have == 0 ? 0 : 4);
+            if (++have == 2) {
+                put(c, pending);
+                pending = have = 0;
+            }
+        }
+    }
+    if (have > 0) {
+        put(c, pending);
+    }
+    for (unsigned k = 0; k < GROUP; ++k) {
+        if (c->group[k] != 0) {
+            put(c, c->group[k]);
+        }
+    }
+}
+
+// Difference of `bytes` bytes to those at `from`; NULL: to zeros.
+static void put_difference(coder *c, const char *to, const char *from, size_t bytes)
+{
+    while (bytes > 0) {
+        size_t part = GROUP - c->fill < bytes ? GROUP - c->fill : bytes;
+        for (size_t k = 0; k < part; ++k) {
+            c->group[c->fill + k] = (unsigned char)((unsigned char)to[k] ^
+                                                    (from == NULL ? 0u : (unsigned char)from[k]));
+        }
+        c->fill += (uint32_t)part;
+        if (c->fill == GROUP) {
+            put_group(c);
+        }
+        to += part;
+        from = from == NULL ? NULL : from + part;
+        bytes -= part;
+    }
+}
+
+static void end_differences(coder *c)
+{
+    if (c->fill > 0) {
+        memset(c->group + c->fill, 0, GROUP - c->fill);
+        put_group(c);
+    }
+    put_zeros(c);
+}
+
+static void put_section(coder *c, const sides *s)
+{
+    uint32_t i = 0, j = 0;
+    while (i < s->to_count) {
+        run r = next_run(s, i, j);
+        put_number(c, r.skip);
+        put_number(c, r.match);
+        put_number(c, r.insert);
+        i += r.match + r.insert;
+        j += r.skip + r.match;
+    }
+    for (i = j = 0; i < s->to_count;) {
+        run r = next_run(s, i, j);
+        size_t at = (size_t)i * s->stride, matched = (size_t)r.match * s->stride;
+        put_difference(c, s->to + at, s->from + (size_t)(j + r.skip) * s->stride, matched);
+        put_difference(c, s->to + at + matched, NULL, (size_t)r.insert * s->stride);
+        i += r.match + r.insert;
+        j += r.skip + r.match;
+    }
+    end_differences(c);
+}
+
+// The section that both cursors are at. One that `from` leaves to its base counts as empty.
+static sides sides_at(const pl_image_cursor *from, const pl_image_cursor *to)
+{
+    return (sides){ .from = from->data,
+                    .to = (char *)to->data,
+                    .from_count = from->entry.stride == 0 ? 0 : from->entry.count,
+                    .to_count = to->entry.stride == 0 ? 0 : to->entry.count,
+                    .stride = to->entry.stride,
+                    .key = pl_section_key((uint32_t)to->index) };
+}
+
+static bool is_changed(const sides *s)
+{
+    return s->to_count != s->from_count ||
+           (s->to_count > 0 && memcmp(s->to, s->from, (size_t)s->to_count * s->stride) != 0);
+}
+
+static size_t directory_bytes(const pl_image *image)
+{
+    return sizeof(pl_image_header) + image->header.section_count * sizeof(pl_image_entry);
+}
+
+static void put_sections(coder *c, const pl_image *from, const pl_image *to)
+{
+    uint64_t count = to->header.section_count;
+    for (int pass = 0; pass < 2; ++pass) { // first the bits, then the sections
+        pl_image_cursor at_from = pl_image_begin(from), at_to = pl_image_begin(to);
+        unsigned bits = 0;
+        for (uint64_t i = 0; i < count; ++i) {
+            pl_image_next(from, &at_from);
+            pl_image_next(to, &at_to);
+            sides s = sides_at(&at_from, &at_to);
+            bool changed = is_changed(&s);
+            bits |= (unsigned)changed << i % 8;
+            if (pass == 0 && (i % 8 == 7 || i + 1 == count)) {
+                put(c, bits);
+                bits = 0;
+            } else if (pass == 1 && changed) {
+                put_section(c, &s);
+            }
+        }
+    }
+}
+
+// Both can be opened and are of one world.
+static bool open_both(const void *from, size_t from_size, const void *to, size_t to_size,
+                      pl_image *a, pl_image *b)
+{
+    return pl_image_open(from, from_size, true, a) == NULL &&
+           pl_image_open(to, to_size, true, b) == NULL &&
+           a->header.user_schema == b->header.user_schema &&
+           a->header.section_count == b->header.section_count && a->header.base == b->header.base;
+}
+
+size_t plumb_snapshot_delta_bound(size_t image_size)
+{
+    return sizeof(delta_header) + 2 * image_size + 64;
+}
+
+plumb_result plumb_snapshot_delta(const void *from, size_t from_size, const void *to,
+                                  size_t to_size, void *buffer, size_t size, size_t *bytes)
+{
+    pl_image a, b;
+    if (from == NULL || to == NULL || buffer == NULL || bytes == NULL) {
+        return PLUMB_E_NULL;
+    }
+    if (!open_both(from, from_size, to, to_size, &a, &b)) {
+        return PLUMB_E_IMAGE;
+    }
+    coder c = { .to = buffer, .size = size, .used = sizeof(delta_header) };
+    put_difference(&c, b.bytes, a.bytes, directory_bytes(&b));
+    end_differences(&c);
+    put_sections(&c, &a, &b);
+    if (c.used > size) {
+        return PLUMB_E_RANGE;
+    }
+    delta_header h = { .magic = DELTA_MAGIC,
+                       .version = DELTA_VERSION,
+                       .bytes = c.used,
+                       .from = a.header.checksum,
+                       .to = b.header.checksum,
+                       .to_bytes = b.header.bytes };
+    h.checksum = checksum_of(buffer, &h);
+    memcpy(buffer, &h, sizeof h);
+    *bytes = c.used;
+    return PLUMB_OK;
+}
+
+//---- reading -------------------------------------------------------------------------------------
+
+typedef struct decoder {
+    const unsigned char *from;
+    size_t size, used;
+    bool damaged;
+    unsigned char group[GROUP];
+    uint32_t left; // bytes of the group not taken yet
+    uint32_t zero_groups;
+} decoder;
+
+static unsigned get(decoder *d)
+{
+    if (d->used == d->size) {
+        d->damaged = true;
+        return 0;
+    }
+    return d->from[d->used++];
+}
+
+static uint32_t get_number(decoder *d)
+{
+    uint32_t v = 0;
+    for (unsigned shift = 0; shift < 35; shift += 7) {
+        unsigned byte = get(d);
+        v |= (uint32_t)(byte & 127) << shift;
+        if (byte < 128) {
+            return v;
+        }
+    }
+    d->damaged = true;
+    return 0;
+}
+
+static void get_group(decoder *d)
+{
+    memset(d->group, 0, GROUP);
+    d->left = GROUP;
+    if (d->zero_groups > 0) {
+        --d->zero_groups;
+        return;
+    }
+    unsigned words = get(d);
+    if (words == 0) {
+        d->zero_groups = get_number(d) - 1;
+        return;
+    }
+    unsigned halves[8] = { 0 }, pending = 0, have = 0;
+    for (unsigned k = 0; k < 8; ++k) {
+        if ((words >> k & 1) != 0) {
+            if (have == 0) {
+                pending = get(d);
+                have = 2;
+            }
+            halves[k] = pending & 15;
+            pending >>= 4;
+            --have;
+        }
+    }
+    for (unsigned k = 0; k < GROUP; ++k) {
+        if ((halves[k / 4] >> k % 4 & 1) != 0) {
+            d->group[k] = (unsigned char)get(d);
+        }
+    }
+}
+
+static void get_difference(decoder *d, char *to, const char *from, size_t bytes)
+{
+    while (bytes > 0 && !d->damaged) {
+        if (d->left == 0) {
+            get_group(d);
+        }
+        size_t part = d->left < bytes ? d->left : bytes;
+        const unsigned char *group = d->group + (GROUP - d->left);
+        for (size_t k = 0; k < part; ++k) {
+            to[k] = (char)(group[k] ^ (from == NULL ? 0u : (unsigned char)from[k]));
+        }
+        d->left -= (uint32_t)part;
+        to += part;
+        from = from == NULL ? NULL : from + part;
+        bytes -= part;
+    }
+}
+
+// The rest of a group, and of the zeros behind, belongs to nothing.
+static void drop_group(decoder *d)
+{
+    d->left = d->zero_groups = 0;
+}
+
+// Goes through the runs twice: from the first to the last, to find where the differences begin, and
+// again with them.
+static void get_section(decoder *d, const sides *s)
+{
+    decoder runs = *d;
+    uint32_t i = 0;
+    while (i < s->to_count && !d->damaged) {
+        get_number(d);
+        uint32_t match = get_number(d), insert = get_number(d), left = s->to_count - i;
+        if (match > left || insert > left - match || match + insert == 0) {
+            d->damaged = true;
+            return;
+        }
+        i += match + insert;
+    }
+    uint32_t j = 0;
+    for (i = 0; i < s->to_count && !d->damaged;) {
+        run r = { .skip = get_number(&runs) };
+        r.match = get_number(&runs);
+        r.insert = get_number(&runs);
+        uint32_t left = s->from_count - j;
+        if (r.skip > left || r.match > left - r.skip) {
+            d->damaged = true;
+            return;
+        }
+        j += r.skip;
+        size_t at = (size_t)i * s->stride, matched = (size_t)r.match * s->stride;
+        get_difference(d, s->to + at, s->from + (size_t)j * s->stride, matched);
+        get_difference(d, s->to + at + matched, NULL, (size_t)r.insert * s->stride);
+        i += r.match + r.insert;
+        j += r.match;
+    }
+    drop_group(d);
+}
+
+static void get_sections(decoder *d, const pl_image *from, const pl_image *to)
+{
+    uint64_t count = to->header.section_count;
+    const unsigned char *bits = d->from + d->used;
+    size_t bit_bytes = (size_t)(count + 7) / 8;
+    if (bit_bytes > d->size - d->used) {
+        d->damaged = true;
+        return;
+    }
+    d->used += bit_bytes;
+    pl_image_cursor at_from = pl_image_begin(from), at_to = pl_image_begin(to);
+    for (uint64_t i = 0; i < count && !d->damaged; ++i) {
+        pl_image_next(from, &at_from);
+        pl_image_next(to, &at_to);
+        sides s = sides_at(&at_from, &at_to);
+        size_t bytes = (size_t)s.to_count * s.stride;
+        memset(s.to + bytes, 0, pl_image_padded(bytes) - bytes);
+        if ((bits[i / 8] >> i % 8 & 1) != 0) {
+            get_section(d, &s);
+        } else if (s.from_count != s.to_count) {
+            d->damaged = true;
+        } else if (bytes > 0) {
+            memcpy(s.to, s.from, bytes);
+        }
+    }
+}
+
+static bool open_delta(const void *delta, size_t size, delta_header *h)
+{
+    if (size < sizeof *h) {
+        return false;
+    }
+    memcpy(h, delta, sizeof *h);
+    return h->magic == DELTA_MAGIC && h->version == DELTA_VERSION && h->bytes >= sizeof *h &&
+           h->bytes <= size && checksum_of(delta, h) == h->checksum;
+}
+
+plumb_result plumb_snapshot_apply(const void *from, size_t from_size, const void *delta,
+                                  size_t delta_size, void *buffer, size_t size, size_t *bytes)
+{
+    pl_image a;
+    delta_header h;
+    if (from == NULL || delta == NULL || buffer == NULL || bytes == NULL) {
+        return PLUMB_E_NULL;
+    }
+    if (pl_image_open(from, from_size, true, &a) != NULL || !open_delta(delta, delta_size, &h) ||
+        h.from != a.header.checksum || h.to_bytes < directory_bytes(&a)) {
+        return PLUMB_E_IMAGE;
+    }
+    if (h.to_bytes > size) {
+        return PLUMB_E_RANGE;
+    }
+    decoder d = { .from = delta, .size = h.bytes, .used = sizeof h };
+    get_difference(&d, buffer, a.bytes, directory_bytes(&a));
+    drop_group(&d);
+    pl_image b;
+    // The sections are not there yet; that they fit is known once the directory is.
+    if (d.damaged || pl_image_open(buffer, h.to_bytes, false, &b) != NULL ||
+        b.header.bytes != h.to_bytes || b.header.section_count != a.header.section_count) {
+        return PLUMB_E_IMAGE;
+    }
+    get_sections(&d, &a, &b);
+    if (d.damaged || pl_image_checksum(buffer, &b.header) != h.to) {
+        return PLUMB_E_IMAGE;
+    }
+    *bytes = h.to_bytes;
+    return PLUMB_OK;
+}

@@ -1,0 +1,211 @@
+// list.h - THE list: every member of a world, and what a snapshot and the world hash do with it.
+//
+// Whoever adds a member to struct plumb_world, or to one of the structs in it, adds a row here;
+// complete.c does not compile otherwise. Columns of the built-in tables need no row: their own lists
+// (world/columns.h) are the rows.
+//
+//   VALUE(path)                a number: saved and hashed
+//   TALLY(path)                a number that changes no motion (when the grids were filed, ...): saved. A
+//                              ray that files them early must not change the hash
+//   ARRAY(type, buffer, count, hashed, key)
+//                              the first `count` elements of a pl_buffer: saved. `hashed` bytes at the
+//                              start of each element are hashed: 0 where padding or addresses are in
+//                              it, or where only part decides motion, and hash.c does that part by
+//                              hand. `key` bytes at the start name an
+//                              element, so that deltas find it where others came or went; 0: its
+//                              index does
+//   TABLE(path)                a table of columns: saved and hashed, but for columns of pointers and the
+//                              fat boxes, which are only saved
+//   OWN(path)                  section.c saves it by hand
+//   LEFT(path)                 neither saved nor hashed: scratch that every step fills before reading,
+//                              events of the last step, what follows from the rest (restore.c makes it
+//                              anew), what belongs to this process (memory, hooks, timers, errors)
+#ifndef PL_STATE_LIST_H
+#define PL_STATE_LIST_H
+
+#include "broad/pairs.h"
+#include "core/sort.h"
+#include "world/material_pair.h"
+#include "world/state.h"
+
+// clang-format off
+#define PL_STATE_DESC(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                       \
+    VALUE(desc.gravity) VALUE(desc.zero_gravity) VALUE(desc.y_axis) VALUE(desc.solver)             \
+    VALUE(desc.substeps) VALUE(desc.iterations) VALUE(desc.contact_hertz)                          \
+    VALUE(desc.contact_damping) VALUE(desc.push_speed) VALUE(desc.restitution_speed)               \
+    VALUE(desc.hit_speed) VALUE(desc.contact_impulses) VALUE(desc.no_sleep)                        \
+    VALUE(desc.sleep_speed) VALUE(desc.sleep_time) VALUE(desc.no_continuous)                       \
+    LEFT(desc.workers) LEFT(desc.tasks)                                                            \
+    LEFT(desc.simd_width) /* of this machine; every width gives the same bits */                   \
+    LEFT(desc.body_capacity) LEFT(desc.shape_capacity) LEFT(desc.contact_capacity)                 \
+    LEFT(desc.allocator) LEFT(desc.log) LEFT(desc.assert_failed) LEFT(desc.hook_context)           \
+    LEFT(desc.user_data)
+
+#define PL_STATE_REGISTRY(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                   \
+    OWN(registry.slots) OWN(registry.count) LEFT(registry.bytes) LEFT(registry.capacity)           \
+    VALUE(registry.free_head) VALUE(registry.free_tail) VALUE(registry.live)
+
+#define PL_STATE_PIECES(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                     \
+    TABLE(pieces) VALUE(pieces.free_head) VALUE(pieces.live)
+
+#define PL_STATE_VERTICES(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                   \
+    OWN(vertices.items) OWN(vertices.count) LEFT(vertices.bytes) LEFT(vertices.capacity)           \
+    VALUE(vertices.free_head)
+
+#define PL_STATE_COMMANDS(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                   \
+    ARRAY(char, commands.bytes, commands.used, 0, 0) VALUE(commands.count)
+
+// The grids follow from the fat boxes and the list of moving pieces.
+#define PL_STATE_BROAD(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                      \
+    LEFT(broad.moving) LEFT(broad.fixed) LEFT(broad.resting) LEFT(broad.refreshed)                 \
+    LEFT(broad.moving_lost) LEFT(broad.fixed_lost) LEFT(broad.resting_lost)                        \
+    ARRAY(pl_pair, broad.pairs.items, broad.pairs.count, 0, 8)                                     \
+    TALLY(broad.pairs.first) TALLY(broad.pairs.size) LEFT(broad.pairs.old_items)                   \
+    LEFT(broad.list) LEFT(broad.found) LEFT(broad.sorted) LEFT(broad.counts)                       \
+    LEFT(broad.found_count)                                                                        \
+    ARRAY(pl_found, broad.sensed, broad.sensed_count, 0, 0)                                        \
+    TALLY(broad.serial) TALLY(broad.rebuilds) TALLY(broad.filed_step) TALLY(broad.stale)
+
+#define PL_STATE_NARROW(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                     \
+    LEFT(narrow.manifolds) LEFT(narrow.manifold_count) LEFT(narrow.borne_count)                    \
+    LEFT(narrow.any_adhesion) LEFT(narrow.any_friction)                                            \
+    LEFT(narrow.any_bounce) LEFT(narrow.any_surface) LEFT(narrow.touching_count)                   \
+    LEFT(narrow.point_count) LEFT(narrow.max_penetration) LEFT(narrow.sum_penetration)
+
+#define PL_STATE_SOLVER(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                     \
+    LEFT(solver.bodies) LEFT(solver.motions) LEFT(solver.lows) LEFT(solver.struck)                 \
+    LEFT(solver.rows) LEFT(solver.slots) LEFT(solver.masks) LEFT(solver.colors)                    \
+    LEFT(solver.lanes) LEFT(solver.bundles) LEFT(solver.extras) LEFT(solver.specials)              \
+    LEFT(solver.impacts) LEFT(solver.classic) LEFT(solver.dynamic_slots) LEFT(solver.slot_count)   \
+    LEFT(solver.bundle_count) LEFT(solver.impact_count) LEFT(solver.color_count)                   \
+    LEFT(solver.overflow_count) LEFT(solver.bounce_count)
+
+#define PL_STATE_JOINTS(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                     \
+    ARRAY(pl_joint, joints.items, joints.count, 0, 0)                                              \
+    LEFT(joints.broken) LEFT(joints.broken_count) VALUE(joints.live) VALUE(joints.free_head)       \
+    VALUE(joints.impulsive) LEFT(joints.awake) LEFT(joints.awake_count) LEFT(joints.awake_stale)   \
+    LEFT(joints.plan)
+
+#define PL_STATE_PARTS(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                      \
+    LEFT(parts.items) LEFT(parts.count) TALLY(parts.buried)
+
+#define PL_STATE_BLOWS(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                      \
+    ARRAY(pl_blow, blows.items, blows.count, sizeof(pl_blow), 8)                                   \
+    LEFT(blows.old) LEFT(blows.old_count) LEFT(blows.next)
+
+#define PL_STATE_SENSING(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                    \
+    ARRAY(pl_keyed, sensing.candidates, sensing.candidate_count, 0, 8)                             \
+    TALLY(sensing.rebuilds)                                                                        \
+    ARRAY(pl_overlap, sensing.overlaps, sensing.count, sizeof(pl_overlap), 8)                      \
+    ARRAY(pl_keyed, sensing.rest_candidates, sensing.rest_candidate_count, 0, 8)                   \
+    ARRAY(pl_overlap, sensing.rest_overlaps, sensing.rest_count, sizeof(pl_overlap), 8)            \
+    LEFT(sensing.rest_old) LEFT(sensing.rest_old_count) TALLY(sensing.rest_stale)                  \
+    LEFT(sensing.old) LEFT(sensing.old_count) LEFT(sensing.begins) LEFT(sensing.ends)              \
+    LEFT(sensing.begin_count) LEFT(sensing.end_count)
+
+// The grid of what sleeps and the list of what moves near it are made anew.
+#define PL_STATE_SLEEP(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                      \
+    ARRAY(pl_island, sleep.islands, sleep.island_slots, 0, 0)                                      \
+    ARRAY(pl_dormant, sleep.contacts, sleep.contact_slots, 0, 0)                                   \
+    VALUE(sleep.island_count) VALUE(sleep.free_island) VALUE(sleep.contact_count)                  \
+    VALUE(sleep.free_contact) VALUE(sleep.first_due)                                               \
+    ARRAY(uint32_t, sleep.resting, sleep.resting_count, sizeof(uint32_t), 0)                       \
+    TALLY(sleep.boxes_stale) TALLY(sleep.grid_stale) LEFT(sleep.gone) VALUE(sleep.placed_pieces)   \
+    LEFT(sleep.near) LEFT(sleep.near_stale) LEFT(sleep.probe) LEFT(sleep.found)                    \
+    LEFT(sleep.found_count) LEFT(sleep.touched) LEFT(sleep.marked) LEFT(sleep.marked_count)        \
+    LEFT(sleep.woken) VALUE(sleep.timed_step) VALUE(sleep.changed_step) VALUE(sleep.tested_step)   \
+    VALUE(sleep.since) VALUE(sleep.passed) VALUE(sleep.ripe_for) LEFT(sleep.parents)               \
+    LEFT(sleep.held) LEFT(sleep.sleep_events) LEFT(sleep.wake_events)                              \
+    LEFT(sleep.sleep_event_count) LEFT(sleep.wake_event_count) LEFT(sleep.events_told)
+
+// Corners and stretches follow from where the ground lies, but not at once: they are kept up.
+#define PL_STATE_SEAMS(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                      \
+    VALUE(seams.count) TALLY(seams.dirty) TALLY(seams.all) TALLY(seams.relist) OWN(seams.corners)  \
+    ARRAY(pl_span, seams.spans, seams.span_used, 0, 0) TALLY(seams.span_free)                      \
+    ARRAY(pl_box, seams.regions, seams.region_count, 0, 0)                                         \
+    LEFT(seams.chosen) LEFT(seams.chosen_count) LEFT(seams.around) LEFT(seams.around_count)        \
+    LEFT(seams.scratch) ARRAY(pl_seam_pair, seams.pairs, seams.pair_count, 0, 0)                   \
+    LEFT(seams.contacts) LEFT(seams.contact_count) LEFT(seams.runs) LEFT(seams.order)              \
+    ARRAY(pl_run_load, seams.loads, seams.load_count, 0, 0)                                        \
+    LEFT(seams.old_loads) LEFT(seams.old_load_count) LEFT(seams.slots) LEFT(seams.slot_count)      \
+    LEFT(seams.borne) LEFT(seams.apart) TALLY(seams.listed) TALLY(seams.updated)
+
+#define PL_STATE_CHARACTERS(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                 \
+    ARRAY(pl_character, characters.items, characters.count, 0, 8) LEFT(characters.saved)           \
+    VALUE(characters.turn) LEFT(characters.moved) LEFT(characters.walks) LEFT(characters.treads)   \
+    LEFT(characters.obstacles) LEFT(characters.near) LEFT(characters.pushes)                       \
+    LEFT(characters.push_count)
+
+#define PL_STATE_CONTINUOUS(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                 \
+    LEFT(continuous.movers) LEFT(continuous.count) VALUE(continuous.least_slack)                   \
+    LEFT(continuous.noting) LEFT(continuous.stopped_count)
+
+#define PL_STATE_EFFECTS(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                    \
+    ARRAY(pl_tuning, tunings.items, tunings.count, offsetof(pl_tuning, ax), 8)                     \
+    VALUE(tunings.damped) VALUE(tunings.capped) VALUE(tunings.scaled) VALUE(tunings.frozen)        \
+    ARRAY(pl_target, targets.items, targets.count, sizeof(pl_target), 8)
+
+// What lies in struct plumb_world itself.
+#define PL_STATE_WORLD(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                      \
+    LEFT(memory) VALUE(gravity) VALUE(step_count) VALUE(time) TALLY(arrested_count)                \
+    TABLE(bodies) VALUE(dynamic_count) VALUE(kinematic_count) VALUE(asleep_count)                  \
+    VALUE(disabled_count) VALUE(continuous_bodies) VALUE(locked_bodies)                            \
+    VALUE(one_way_pieces) VALUE(dropping_bodies)                                                   \
+    OWN(graves) LEFT(tasks)                                                                        \
+    VALUE(shape_count) VALUE(serial) LEFT(made) LEFT(outline)                                      \
+    TABLE(materials) OWN(components) OWN(systems)                                                  \
+    ARRAY(uint32_t, moving, moving_count, sizeof(uint32_t), 0) LEFT(poses)                         \
+    TALLY(rows_moved) TALLY(pairs_dirty) TALLY(static_dirty) LEFT(schedule_dirty)                  \
+    VALUE(piece_kinds) VALUE(turning_bodies)                                                       \
+    VALUE(sensor_pieces) VALUE(filtered_pieces) VALUE(part_pieces)                                 \
+    ARRAY(uint64_t, excluded, excluded_count, sizeof(uint64_t), 8)                                 \
+    ARRAY(pl_material_pair, material_pairs, material_pair_count,                                   \
+          sizeof(uint64_t) + sizeof(plumb_material_pair), 8)                                       \
+    LEFT(schedule) LEFT(begin_events) LEFT(end_events) LEFT(hit_events)                            \
+    LEFT(begin_count) LEFT(end_count) LEFT(hit_count)                                              \
+    LEFT(locked_by) LEFT(editing) VALUE(edited) LEFT(in_hook) LEFT(error) LEFT(error_text)
+
+#define PL_STATE(...)                                                                              \
+    PL_STATE_WORLD(__VA_ARGS__) PL_STATE_DESC(__VA_ARGS__) PL_STATE_REGISTRY(__VA_ARGS__)          \
+    PL_STATE_PIECES(__VA_ARGS__) PL_STATE_VERTICES(__VA_ARGS__) PL_STATE_COMMANDS(__VA_ARGS__)     \
+    PL_STATE_BROAD(__VA_ARGS__) PL_STATE_NARROW(__VA_ARGS__) PL_STATE_SOLVER(__VA_ARGS__)          \
+    PL_STATE_JOINTS(__VA_ARGS__) PL_STATE_PARTS(__VA_ARGS__) PL_STATE_BLOWS(__VA_ARGS__)           \
+    PL_STATE_SENSING(__VA_ARGS__) PL_STATE_SLEEP(__VA_ARGS__) PL_STATE_SEAMS(__VA_ARGS__)          \
+    PL_STATE_CHARACTERS(__VA_ARGS__) PL_STATE_CONTINUOUS(__VA_ARGS__)                              \
+    PL_STATE_EFFECTS(__VA_ARGS__)
+
+// Members of a joint that decide later steps: what hash.c hashes of it. (When an angle was seen last is
+// the business of plan.c, and may differ after a restore.)
+#define PL_STATE_JOINT(X)                                                                          \
+    X(entity) X(desc.kind) X(desc.enable_limit) X(desc.lower) X(desc.upper) X(desc.enable_motor)   \
+    X(desc.motor_speed) X(desc.max_motor) X(desc.hertz) X(desc.damping) X(desc.rest)               \
+    X(desc.length) X(desc.ratio) X(desc.pitch) X(desc.max_force) X(desc.max_torque)                \
+    X(desc.break_force) X(desc.break_torque) X(desc.break_impulse) X(desc.disabled)                \
+    X(desc.collide_connected)                                                                      \
+    X(a.body) X(a.next) X(a.local) X(a.start) X(a.turns)                                           \
+    X(b.body) X(b.next) X(b.local) X(b.start) X(b.turns)                                           \
+    X(axis) X(target) X(sum) X(impulse) X(h)
+
+// The same of a character.
+#define PL_STATE_CHARACTER(X)                                                                      \
+    X(body) X(flies) X(walk) X(fly) X(jump) X(thrown) X(velocity) X(speed) X(rise) X(step_top)     \
+    X(on_ground) X(climbs) X(on_slope) X(at_wall) X(at_ceiling) X(crushed) X(slope_side)           \
+    X(air_time) X(ground.body) X(ground.shape) X(ground.local) X(ground.normal) X(passing_count)   \
+    X(pushed) X(push) X(push_speed) X(desc.up) X(desc.max_slope) X(desc.skin) X(desc.step_height)  \
+    X(desc.step_width) X(desc.snap_distance) X(desc.acceleration) X(desc.air_acceleration)         \
+    X(desc.max_fall_speed) X(desc.mass) X(desc.push_force) X(desc.no_steps) X(desc.no_snap)        \
+    X(desc.no_push) X(desc.no_air_control)
+// clang-format on
+
+// For rows of a kind that is not asked for.
+#define PL_STATE_NO_VALUE(path)
+#define PL_STATE_NO_TALLY(path)
+#define PL_STATE_NO_ARRAY(type, buffer, count, hashed, key)
+#define PL_STATE_NO_TABLE(path)
+#define PL_STATE_NO_OWN(path)
+#define PL_STATE_NO_LEFT(path)
+
+// A world for sizeof.
+#define PL_STATE_OF(path) (((plumb_world *)0)->path)
+
+#endif

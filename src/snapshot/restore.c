@@ -1,0 +1,288 @@
+// restore.c - a world becomes what its image says.
+//
+// In three stages: the image is checked whole; then room is made for all of it; then it is copied in
+// and what follows from it is made anew. Only the second can run out of memory and only the third
+// changes the state, so a refused image changes nothing.
+//
+// Made anew: poses (from origins, rotations and centres), rows of components (from their owners),
+// the schedule, the plan of the joints, the lists of joints awake and of what moves near what sleeps. The grids follow from fat
+// boxes and lists of pieces; they are kept where those are what they were, else filed again by whoever
+// asks for them next. Events and contacts of the
+// last step are gone.
+//
+// Reads: image, base. Writes: the world. Cost: O(state) digested and copied. No allocation where
+// the world has held as much before.
+#include "plumb/snapshot.h"
+
+#include "snapshot/image.h"
+#include "world/check.h"
+
+#include <string.h>
+
+plumb_result pl_image_fit(const plumb_world *world, const char *function, const char *field,
+                          const void *buffer, size_t size, bool strict, pl_image *image)
+{
+    const char *wrong = pl_image_open(buffer, size, strict, image);
+    if (wrong != NULL) {
+        return pl_fail(world, PLUMB_E_IMAGE, function, "%s %s; it must be as it was saved", field,
+                       wrong);
+    }
+    if (image->header.user_schema != pl_section_user_schema(world) ||
+        image->header.section_count != pl_section_count(world)) {
+        return pl_fail(world, PLUMB_E_IMAGE, function,
+                       "%s has other components; register the same ones in the same order", field);
+    }
+    pl_image_cursor at = pl_image_begin(image);
+    for (uint32_t i = 0; i < pl_section_count(world); ++i) {
+        pl_image_next(image, &at);
+        if (at.entry.stride != 0 && at.entry.stride != pl_section_at(world, i).stride) {
+            return pl_fail(world, PLUMB_E_IMAGE, function,
+                           "%s is damaged; it must be as it was saved", field);
+        }
+    }
+    return PLUMB_OK;
+}
+
+//---- the sections of a frame and its base as one row ---------------------------------------------
+
+typedef struct source {
+    const pl_image *image, *base; // base NULL: the image is complete
+    pl_image_cursor at, base_at;
+    const char *data; // of the section that was reached
+    uint32_t count;
+} source;
+
+static source source_begin(const pl_image *image, const pl_image *base)
+{
+    source s = { .image = image, .base = base, .at = pl_image_begin(image) };
+    if (base != NULL) {
+        s.base_at = pl_image_begin(base);
+    }
+    return s;
+}
+
+static void source_next(source *s)
+{
+    pl_image_next(s->image, &s->at);
+    s->data = s->at.data;
+    s->count = s->at.entry.count;
+    if (s->base != NULL) {
+        pl_image_next(s->base, &s->base_at);
+        if (s->at.entry.stride == 0) {
+            s->data = s->base_at.data;
+            s->count = s->base_at.entry.count;
+        }
+    }
+}
+
+//---- room ----------------------------------------------------------------------------------------
+
+// Rows of components lie by registry slot.
+static bool reserve_component_rows(plumb_world *world, uint32_t slots)
+{
+    for (uint32_t i = 0; i < world->components.count; ++i) {
+        pl_component *c = &world->components.items[i];
+        size_t known = c->rows.size;
+        if (c->owners.data != NULL &&
+            !pl_buffer_reserve(&world->memory, &c->rows, slots * sizeof(uint32_t))) {
+            return false;
+        }
+        if (c->rows.size > known) {
+            memset((char *)c->rows.data + known, 0, c->rows.size - known);
+        }
+    }
+    return true;
+}
+
+static bool reserve_all(plumb_world *world, source s)
+{
+    uint32_t slots = 0;
+    for (uint32_t i = 0; i < pl_section_count(world); ++i) {
+        source_next(&s);
+        if (!pl_section_reserve(world, i, s.count)) {
+            return false;
+        }
+        if (i == pl_section_registry()) {
+            slots = s.count;
+        }
+    }
+    return reserve_component_rows(world, slots);
+}
+
+//---- grids ---------------------------------------------------------------------------------------
+
+// What the grids are filed from, in the image.
+typedef struct filed {
+    const char *kind, *moving, *fat, *list;
+    uint32_t pieces, listed;
+} filed;
+
+static filed find_filed(const plumb_world *world, source s)
+{
+    filed f = { 0 };
+    for (uint32_t i = 0; i < pl_section_fixed_count(); ++i) {
+        source_next(&s);
+        const char *now = pl_section_at(world, i).data;
+        if (now == NULL) {
+            continue;
+        }
+        if (now == (const char *)world->pieces.kind) {
+            f.kind = s.data;
+            f.pieces = s.count;
+        } else if (now == (const char *)world->pieces.moving) {
+            f.moving = s.data;
+        } else if (now == (const char *)world->pieces.fat) {
+            f.fat = s.data;
+        } else if (now == (const char *)world->moving.data) {
+            f.list = s.data;
+            f.listed = s.count;
+        }
+    }
+    return f;
+}
+
+static bool is_fixed_grid_kept(const plumb_world *world, const filed *f)
+{
+    const pl_pieces *p = &world->pieces;
+    uint32_t count = p->table.count;
+    if (world->broad.fixed_lost || world->static_dirty || count == 0 || f->pieces != count ||
+        memcmp(f->kind, p->kind, count * sizeof *p->kind) != 0 ||
+        memcmp(f->moving, p->moving, count * sizeof *p->moving) != 0) {
+        return false;
+    }
+    for (uint32_t i = 0; i < count; ++i) {
+        if (p->kind[i] != PL_PIECE_FREE && p->moving[i] == PL_NONE &&
+            memcmp(f->fat + i * sizeof *p->fat, &p->fat[i], sizeof *p->fat) != 0) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool is_moving_grid_kept(const plumb_world *world, const filed *f)
+{
+    const pl_pieces *p = &world->pieces;
+    uint32_t count = p->table.count;
+    return !world->broad.moving_lost && !world->pairs_dirty && count > 0 && f->pieces == count &&
+           world->moving_count > 0 && f->listed == world->moving_count &&
+           memcmp(f->list, world->moving.data, f->listed * sizeof(uint32_t)) == 0 &&
+           memcmp(f->fat, p->fat, count * sizeof *p->fat) == 0;
+}
+
+//---- the change ----------------------------------------------------------------------------------
+
+static void clear_rows(plumb_world *world)
+{
+    for (uint32_t i = 0; i < world->components.count; ++i) {
+        const pl_component *c = &world->components.items[i];
+        const plumb_entity *owner = c->owners.data;
+        uint32_t *rows = c->rows.data;
+        for (uint32_t row = 0; row < c->count; ++row) {
+            rows[owner[row].index] = 0;
+        }
+    }
+}
+
+static void fill_rows(plumb_world *world)
+{
+    for (uint32_t i = 0; i < world->components.count; ++i) {
+        const pl_component *c = &world->components.items[i];
+        const plumb_entity *owner = c->owners.data;
+        uint32_t *rows = c->rows.data;
+        for (uint32_t row = 0; row < c->count; ++row) {
+            rows[owner[row].index] = row + 1;
+        }
+    }
+}
+
+static void forget_last_step(plumb_world *world)
+{
+    pl_events_clear(world);
+    world->blows.old_count = 0;
+    world->sensing.old_count = world->sensing.rest_old_count = 0;
+    world->seams.old_load_count = world->seams.contact_count = 0;
+    world->sleep.sleep_event_count = world->sleep.wake_event_count = 0;
+    world->sleep.events_told = false;
+    world->joints.broken_count = 0;
+    world->continuous.count = world->continuous.stopped_count = 0;
+    world->narrow = (pl_narrow){ .manifolds = world->narrow.manifolds };
+    world->solver.slot_count = world->solver.dynamic_slots = 0;
+    world->solver.bundle_count = world->solver.impact_count = 0;
+    world->solver.color_count = world->solver.overflow_count = world->solver.bounce_count = 0;
+}
+
+static void take_over(plumb_world *world, source s)
+{
+    filed f = find_filed(world, s);
+    bool keeps_fixed = is_fixed_grid_kept(world, &f);
+    bool keeps_moving = is_moving_grid_kept(world, &f);
+    clear_rows(world);
+    for (uint32_t i = 0; i < pl_section_count(world); ++i) {
+        source_next(&s);
+        pl_section_read(world, i, s.data, s.count);
+    }
+    fill_rows(world);
+    for (uint32_t row = 0; row < world->bodies.table.count; ++row) {
+        pl_body_update_pose(world, row);
+    }
+    forget_last_step(world);
+    world->broad.fixed_lost = !keeps_fixed;
+    world->broad.moving_lost = !keeps_moving;
+    world->broad.resting_lost =
+        world->sleep.resting_count > 0 || world->broad.resting.entry_count > 0;
+    world->broad.refreshed = false;
+    world->sleep.gone = 0;
+    world->sleep.near.count = 0;
+    world->sleep.near_stale = true;
+    world->joints.awake_stale = true;
+    pl_joints_replan(&world->joints);
+    world->characters.moved = false;
+    world->schedule_dirty = true;
+}
+
+static plumb_result restore(plumb_world *world, const char *function, const pl_image *image,
+                            const pl_image *base)
+{
+    source s = source_begin(image, base);
+    if (!reserve_all(world, s)) {
+        return pl_fail_memory(world, function);
+    }
+    take_over(world, s);
+    return PLUMB_OK;
+}
+
+plumb_result plumb_world_restore(plumb_world *world, const void *buffer, size_t size)
+{
+    if (world == NULL) {
+        return PLUMB_E_NULL;
+    }
+    pl_image image;
+    plumb_result r = pl_check_unlocked(world, __func__);
+    r = r != PLUMB_OK ? r : pl_check_pointer(world, __func__, "buffer", buffer);
+    r = r != PLUMB_OK ? r : pl_image_fit(world, __func__, "buffer", buffer, size, true, &image);
+    if (r == PLUMB_OK && image.header.base != 0) {
+        r = pl_fail(world, PLUMB_E_IMAGE, __func__,
+                    "buffer is a frame; plumb_world_restore_frame takes it with its base");
+    }
+    return r != PLUMB_OK ? r : restore(world, __func__, &image, NULL);
+}
+
+plumb_result plumb_world_restore_frame(plumb_world *world, const void *base, size_t base_size,
+                                       const void *frame, size_t frame_size)
+{
+    if (world == NULL) {
+        return PLUMB_E_NULL;
+    }
+    pl_image image, base_image;
+    plumb_result r = pl_check_unlocked(world, __func__);
+    r = r != PLUMB_OK ? r : pl_check_pointer(world, __func__, "base", base);
+    r = r != PLUMB_OK ? r : pl_check_pointer(world, __func__, "frame", frame);
+    r = r != PLUMB_OK ? r
+                      : pl_image_fit(world, __func__, "base", base, base_size, true, &base_image);
+    r = r != PLUMB_OK ? r : pl_image_fit(world, __func__, "frame", frame, frame_size, true, &image);
+    if (r == PLUMB_OK && image.header.base != base_image.header.checksum) {
+        r = pl_fail(world, PLUMB_E_IMAGE, __func__,
+                    "base is not the one that the frame was made with");
+    }
+    return r != PLUMB_OK ? r : restore(world, __func__, &image, &base_image);
+}

@@ -1,0 +1,504 @@
+// section.c - see section.h. The lists of list.h and world/columns.h become tables of offsets.
+#include "snapshot/section.h"
+
+#include <string.h>
+
+#define COUNT(array) (sizeof(array) / sizeof((array)[0]))
+
+//---- values: many numbers, one section -----------------------------------------------------------
+
+typedef struct value_row {
+    const char *name;
+    size_t offset, size;
+} value_row;
+
+#define VALUE_ROW(path)  { #path, offsetof(plumb_world, path), sizeof PL_STATE_OF(path) },
+#define VALUE_SIZE(path) +sizeof PL_STATE_OF(path)
+
+#define EACH_VALUE(X)                                                                              \
+    PL_STATE(X, PL_STATE_NO_TALLY, PL_STATE_NO_ARRAY, PL_STATE_NO_TABLE, PL_STATE_NO_OWN,          \
+             PL_STATE_NO_LEFT)
+#define EACH_TALLY(X)                                                                              \
+    PL_STATE(PL_STATE_NO_VALUE, X, PL_STATE_NO_ARRAY, PL_STATE_NO_TABLE, PL_STATE_NO_OWN,          \
+             PL_STATE_NO_LEFT)
+
+static const value_row values[] = { EACH_VALUE(VALUE_ROW) };
+static const value_row tallies[] = { EACH_TALLY(VALUE_ROW) };
+
+#define VALUES_SIZE  (0 EACH_VALUE(VALUE_SIZE))
+#define TALLIES_SIZE (0 EACH_TALLY(VALUE_SIZE))
+
+_Static_assert(VALUES_SIZE <= PL_GATHERED_MOST, "raise PL_GATHERED_MOST");
+_Static_assert(TALLIES_SIZE <= PL_GATHERED_MOST, "raise PL_GATHERED_MOST");
+
+static void write_values(const plumb_world *world, const value_row *rows, size_t count, char *to)
+{
+    for (size_t i = 0; i < count; ++i) {
+        memcpy(to, (const char *)world + rows[i].offset, rows[i].size);
+        to += rows[i].size;
+    }
+}
+
+static void read_values(plumb_world *world, const value_row *rows, size_t count, const char *from)
+{
+    for (size_t i = 0; i < count; ++i) {
+        memcpy((char *)world + rows[i].offset, from, rows[i].size);
+        from += rows[i].size;
+    }
+}
+
+//---- tables --------------------------------------------------------------------------------------
+
+typedef struct column_row {
+    const char *table, *name;
+    size_t offset; // of the column pointer in the world
+    uint32_t stride, hashed;
+} column_row;
+
+// Not hashed: addresses, and boxes of the grids.
+// clang-format off
+#define HASHED(type) _Generic((type){ 0 }, void *: 0, pl_box: 0, default: (uint32_t)sizeof(type))
+// clang-format on
+
+#define COLUMN_ROW(struct, type, name)                                                             \
+    { #struct, #name, offsetof(plumb_world, struct.name), sizeof(type), HASHED(type) },
+#define BODY_ROW(type, name)     COLUMN_ROW(bodies, type, name)
+#define PIECE_ROW(type, name)    COLUMN_ROW(pieces, type, name)
+#define MATERIAL_ROW(type, name) COLUMN_ROW(materials, type, name)
+
+static const column_row columns[] = { PL_BODY_COLUMNS(BODY_ROW) PL_PIECE_COLUMNS(PIECE_ROW)
+                                          PL_MATERIAL_COLUMNS(MATERIAL_ROW) };
+
+static pl_table *table_of(const plumb_world *world, const column_row *column)
+{
+    // The first member of each concrete table.
+    switch (column->table[0]) {
+    case 'b':
+        return (pl_table *)&world->bodies.table;
+    case 'p':
+        return (pl_table *)&world->pieces.table;
+    default:
+        return (pl_table *)&world->materials.table;
+    }
+}
+
+// With what goes along with the rows: see pl_rows_reserve and pl_pieces_reserve.
+static bool reserve_table(plumb_world *world, const column_row *column, uint32_t count)
+{
+    pl_memory *memory = &world->memory;
+    switch (column->table[0]) {
+    case 'b':
+        return pl_table_reserve(memory, &world->bodies.table, pl_body_columns, pl_body_column_count,
+                                count + 1) &&
+               pl_buffer_reserve(memory, &world->poses, (count + 1) * sizeof(pl_pose));
+    case 'p':
+        return pl_table_reserve(memory, &world->pieces.table, pl_piece_columns,
+                                pl_piece_column_count, count) &&
+               pl_buffer_reserve(memory, &world->moving, count * sizeof(uint32_t)) &&
+               pl_buffer_reserve(memory, &world->sleep.resting, count * sizeof(uint32_t)) &&
+               pl_graves_reserve(world, count);
+    default:
+        return pl_table_reserve(memory, &world->materials.table, pl_material_columns,
+                                pl_material_column_count, count);
+    }
+}
+
+//---- arrays --------------------------------------------------------------------------------------
+
+typedef struct array_row {
+    const char *name;
+    size_t buffer, count, count_size; // offsets in the world; bytes of the count
+    uint32_t stride, hashed, key;
+} array_row;
+
+#define ARRAY_ROW(type, buffer, count, hashed, key)                                                \
+    { #buffer,                                                                                     \
+      offsetof(plumb_world, buffer),                                                               \
+      offsetof(plumb_world, count),                                                                \
+      sizeof PL_STATE_OF(count),                                                                   \
+      sizeof(type),                                                                                \
+      hashed,                                                                                      \
+      key },
+
+static const array_row arrays[] = { PL_STATE(PL_STATE_NO_VALUE, PL_STATE_NO_TALLY, ARRAY_ROW,
+                                             PL_STATE_NO_TABLE, PL_STATE_NO_OWN,
+                                             PL_STATE_NO_LEFT) };
+
+static pl_buffer *buffer_of(const plumb_world *world, const array_row *row)
+{
+    return (pl_buffer *)(void *)((char *)world + row->buffer);
+}
+
+static uint32_t array_count(const plumb_world *world, const array_row *row)
+{
+    size_t wide = 0;
+    uint32_t narrow = 0;
+    const char *from = (const char *)world + row->count;
+    if (row->count_size == sizeof wide) {
+        memcpy(&wide, from, sizeof wide);
+        return (uint32_t)wide;
+    }
+    memcpy(&narrow, from, sizeof narrow);
+    return narrow;
+}
+
+// With what has to have as much room.
+static bool reserve_array(plumb_world *world, const array_row *row, uint32_t count)
+{
+    pl_memory *memory = &world->memory;
+    pl_joints *joints = &world->joints;
+    if (row->buffer == offsetof(plumb_world, joints.items) &&
+        (!pl_buffer_reserve(memory, &joints->awake, count * sizeof(uint32_t)) ||
+         !pl_buffer_reserve(memory, &joints->broken, count * sizeof(plumb_joint_break)))) {
+        return false;
+    }
+    return pl_buffer_reserve(memory, buffer_of(world, row), (size_t)count * row->stride);
+}
+
+static void set_array_count(plumb_world *world, const array_row *row, uint32_t count)
+{
+    size_t wide = count;
+    char *to = (char *)world + row->count;
+    if (row->count_size == sizeof wide) {
+        memcpy(to, &wide, sizeof wide);
+    } else {
+        memcpy(to, &count, sizeof count);
+    }
+}
+
+//---- what list.h calls OWN -----------------------------------------------------------------------
+
+enum { REGISTRY, CORNERS, SEAMS, GRAVES, SWITCHES, OWN_COUNT };
+
+// Systems are code and stay; whether one is switched off is state, told by its name.
+typedef struct system_switch {
+    uint64_t name; // digest
+    uint64_t enabled;
+} system_switch;
+
+_Static_assert(PL_SYSTEM_MAX * sizeof(system_switch) <= PL_GATHERED_MOST, "raise PL_GATHERED_MOST");
+
+static void write_switches(const plumb_world *world, char *to)
+{
+    for (uint32_t i = 0; i < world->systems.count; ++i) {
+        const pl_system *system = &world->systems.items[i];
+        const system_switch s = { pl_digest_of(system->name, strlen(system->name)),
+                                  system->enabled };
+        memcpy(to + i * sizeof s, &s, sizeof s);
+    }
+}
+
+static void read_switches(plumb_world *world, const char *from, uint32_t count)
+{
+    for (uint32_t i = 0; i < world->systems.count; ++i) {
+        pl_system *system = &world->systems.items[i];
+        uint64_t name = pl_digest_of(system->name, strlen(system->name));
+        for (uint32_t k = 0; k < count; ++k) {
+            system_switch s;
+            memcpy(&s, from + k * sizeof s, sizeof s);
+            if (s.name == name) {
+                system->enabled = s.enabled != 0;
+            }
+        }
+    }
+}
+
+// Corners with seams lie as the corners of the pool do, as far as there have ever been any.
+static uint32_t seam_count(const plumb_world *world)
+{
+    size_t room = world->seams.corners.size / sizeof(pl_seam);
+    return world->seams.count == 0        ? 0
+           : room < world->vertices.count ? (uint32_t)room
+                                          : world->vertices.count;
+}
+
+static pl_section own_section(const plumb_world *world, uint32_t which)
+{
+    switch (which) {
+    case REGISTRY:
+        return (pl_section){ .table = "registry",
+                             .name = "slots",
+                             .data = (char *)world->registry.slots,
+                             .count = world->registry.count,
+                             .stride = sizeof(pl_slot),
+                             .hashed = sizeof(pl_slot) };
+    case CORNERS:
+        return (pl_section){ .table = "vertices",
+                             .name = "items",
+                             .data = (char *)world->vertices.items,
+                             .count = world->vertices.count,
+                             .stride = sizeof(pl_vertex),
+                             .hashed = sizeof(pl_vertex) };
+    case SEAMS:
+        return (pl_section){ .table = "seams",
+                             .name = "corners",
+                             .data = world->seams.corners.data,
+                             .count = seam_count(world),
+                             .stride = sizeof(pl_seam) };
+    case GRAVES:
+        return (pl_section){ .table = "world",
+                             .name = "graves",
+                             .data = world->graves.data,
+                             .count = world->pieces.table.count,
+                             .stride = sizeof(pl_grave) };
+    default:
+        return (pl_section){ .table = "systems",
+                             .name = "enabled",
+                             .count = world->systems.count,
+                             .stride = sizeof(system_switch) };
+    }
+}
+
+static bool reserve_own(plumb_world *world, uint32_t which, uint32_t count)
+{
+    uint32_t slots = world->registry.count, corners = world->vertices.count;
+    switch (which) {
+    case REGISTRY:
+        return count <= slots ||
+               pl_registry_reserve(&world->memory, &world->registry, count - slots);
+    case CORNERS:
+        return count <= corners ||
+               pl_pool_reserve(&world->memory, &world->vertices, count - corners);
+    case SEAMS:
+        return pl_buffer_reserve(&world->memory, &world->seams.corners, count * sizeof(pl_seam));
+    default: // graves: with the pieces
+        return true;
+    }
+}
+
+static void read_own(plumb_world *world, uint32_t which, const char *from, uint32_t count)
+{
+    void *to = NULL;
+    size_t bytes = 0;
+    switch (which) {
+    case REGISTRY:
+        world->registry.count = count;
+        to = world->registry.slots;
+        bytes = count * sizeof(pl_slot);
+        break;
+    case CORNERS:
+        world->vertices.count = count;
+        to = world->vertices.items;
+        bytes = count * sizeof(pl_vertex);
+        break;
+    case SEAMS:
+        to = world->seams.corners.data;
+        bytes = count * sizeof(pl_seam);
+        break;
+    case GRAVES:
+        to = world->graves.data;
+        bytes = count * sizeof(pl_grave);
+        if (to != NULL) {
+            memset((char *)to + bytes, 0, world->graves.size - bytes);
+        }
+        break;
+    default:
+        read_switches(world, from, count);
+        break;
+    }
+    if (bytes > 0) {
+        memcpy(to, from, bytes);
+    }
+}
+
+//---- components: two sections each ---------------------------------------------------------------
+
+static pl_section component_section(const plumb_world *world, uint32_t which)
+{
+    const pl_component *c = &world->components.items[which / 2];
+    bool owners = which % 2 == 1;
+    return (pl_section){ .table = c->name,
+                         .name = owners ? "owner" : "value",
+                         .data = owners ? c->owners.data : c->values.data,
+                         .count = c->count,
+                         .stride =
+                             owners ? (uint32_t)sizeof(plumb_entity) : (uint32_t)c->desc.size };
+}
+
+static void read_component(plumb_world *world, uint32_t which, const char *from, uint32_t count)
+{
+    pl_component *c = &world->components.items[which / 2];
+    c->count = count;
+    pl_section section = component_section(world, which);
+    if (count > 0) {
+        memcpy(section.data, from, pl_section_bytes(&section));
+    }
+}
+
+static bool reserve_component(plumb_world *world, uint32_t which, uint32_t count)
+{
+    pl_component *c = &world->components.items[which / 2];
+    bool owners = which % 2 == 1;
+    return pl_buffer_reserve(&world->memory, owners ? &c->owners : &c->values,
+                             count * (owners ? sizeof(plumb_entity) : c->desc.size));
+}
+
+//---- all of them ---------------------------------------------------------------------------------
+
+#define VALUES       0
+#define TALLIES      1
+#define FIRST_COLUMN 2
+#define FIRST_ARRAY  (FIRST_COLUMN + (uint32_t)COUNT(columns))
+#define FIRST_OWN    (FIRST_ARRAY + (uint32_t)COUNT(arrays))
+#define FIXED_COUNT  (FIRST_OWN + OWN_COUNT)
+
+uint32_t pl_section_fixed_count(void)
+{
+    return FIXED_COUNT;
+}
+
+uint32_t pl_section_registry(void)
+{
+    return FIRST_OWN + REGISTRY;
+}
+
+uint32_t pl_section_key(uint32_t i)
+{
+    return i >= FIRST_ARRAY && i < FIRST_OWN ? arrays[i - FIRST_ARRAY].key : 0;
+}
+
+uint32_t pl_section_count(const plumb_world *world)
+{
+    return FIXED_COUNT + 2 * world->components.count;
+}
+
+pl_section pl_section_at(const plumb_world *world, uint32_t i)
+{
+    if (i == VALUES) {
+        return (pl_section){ .table = "world",
+                             .name = "values",
+                             .count = 1,
+                             .stride = VALUES_SIZE,
+                             .hashed = VALUES_SIZE };
+    }
+    if (i == TALLIES) {
+        return (
+            pl_section){ .table = "world", .name = "tallies", .count = 1, .stride = TALLIES_SIZE };
+    }
+    if (i < FIRST_ARRAY) {
+        const column_row *c = &columns[i - FIRST_COLUMN];
+        char *data;
+        memcpy(&data, (const char *)world + c->offset, sizeof data);
+        return (pl_section){ .table = c->table,
+                             .name = c->name,
+                             .data = data,
+                             .count = table_of(world, c)->count,
+                             .stride = c->stride,
+                             .hashed = c->hashed };
+    }
+    if (i < FIRST_OWN) {
+        const array_row *a = &arrays[i - FIRST_ARRAY];
+        return (pl_section){ .table = "world",
+                             .name = a->name,
+                             .data = buffer_of(world, a)->data,
+                             .count = array_count(world, a),
+                             .stride = a->stride,
+                             .hashed = a->hashed,
+                             .key = a->key };
+    }
+    return i < FIXED_COUNT ? own_section(world, i - FIRST_OWN)
+                           : component_section(world, i - FIXED_COUNT);
+}
+
+void pl_section_write(const plumb_world *world, uint32_t i, const pl_section *section, char *to)
+{
+    if (i == VALUES) {
+        write_values(world, values, COUNT(values), to);
+    } else if (i == TALLIES) {
+        write_values(world, tallies, COUNT(tallies), to);
+    } else if (i == FIRST_OWN + SWITCHES) {
+        write_switches(world, to);
+    } else if (section->count > 0) {
+        memcpy(to, section->data, pl_section_bytes(section));
+    }
+}
+
+bool pl_section_reserve(plumb_world *world, uint32_t i, uint32_t count)
+{
+    if (i < FIRST_COLUMN) {
+        return true;
+    }
+    if (i < FIRST_ARRAY) {
+        return reserve_table(world, &columns[i - FIRST_COLUMN], count);
+    }
+    if (i < FIRST_OWN) {
+        return reserve_array(world, &arrays[i - FIRST_ARRAY], count);
+    }
+    return i < FIXED_COUNT ? reserve_own(world, i - FIRST_OWN, count)
+                           : reserve_component(world, i - FIXED_COUNT, count);
+}
+
+void pl_section_read(plumb_world *world, uint32_t i, const char *from, uint32_t count)
+{
+    if (i == VALUES) {
+        read_values(world, values, COUNT(values), from);
+        return;
+    }
+    if (i == TALLIES) {
+        read_values(world, tallies, COUNT(tallies), from);
+        return;
+    }
+    if (i >= FIXED_COUNT) {
+        read_component(world, i - FIXED_COUNT, from, count);
+        return;
+    }
+    if (i >= FIRST_OWN) {
+        read_own(world, i - FIRST_OWN, from, count);
+        return;
+    }
+    if (i < FIRST_ARRAY) {
+        table_of(world, &columns[i - FIRST_COLUMN])->count = count;
+    } else {
+        set_array_count(world, &arrays[i - FIRST_ARRAY], count);
+    }
+    if (count > 0) {
+        pl_section section = pl_section_at(world, i);
+        memcpy(section.data, from, pl_section_bytes(&section));
+    }
+}
+
+//---- schema --------------------------------------------------------------------------------------
+
+static void add_text(pl_digest *digest, const char *text)
+{
+    pl_digest_add(digest, text, strlen(text));
+}
+
+static void add_number(pl_digest *digest, uint64_t number)
+{
+    pl_digest_add(digest, &number, sizeof number);
+}
+
+uint64_t pl_section_schema(void)
+{
+    pl_digest digest;
+    pl_digest_begin(&digest);
+    for (size_t i = 0; i < COUNT(values); ++i) {
+        add_text(&digest, values[i].name);
+        add_number(&digest, values[i].size);
+    }
+    for (size_t i = 0; i < COUNT(tallies); ++i) {
+        add_text(&digest, tallies[i].name);
+        add_number(&digest, tallies[i].size);
+    }
+    for (size_t i = 0; i < COUNT(columns); ++i) {
+        add_text(&digest, columns[i].name);
+        add_number(&digest, columns[i].stride);
+    }
+    for (size_t i = 0; i < COUNT(arrays); ++i) {
+        add_text(&digest, arrays[i].name);
+        add_number(&digest, arrays[i].stride);
+    }
+    return pl_digest_end(&digest);
+}
+
+uint64_t pl_section_user_schema(const plumb_world *world)
+{
+    pl_digest digest;
+    pl_digest_begin(&digest);
+    for (uint32_t i = 0; i < world->components.count; ++i) {
+        add_text(&digest, world->components.items[i].name);
+        add_number(&digest, world->components.items[i].desc.size);
+    }
+    return pl_digest_end(&digest);
+}

@@ -1,0 +1,51 @@
+// section.h - the state of a world as a row of sections, each an array: what hash, images and deltas
+// walk. Which they are follows from list.h.
+//
+// Order: values, tallies, columns of bodies, pieces, materials, arrays of list.h, registry, corners, switches
+// of systems, then values and owners of each user component.
+#ifndef PL_SECTION_H
+#define PL_SECTION_H
+
+#include "core/digest.h"
+#include "snapshot/list.h"
+#include "world/rows.h"
+
+typedef struct pl_section {
+    const char *table, *name; // "bodies", "vx"
+    char *data;               // in the world; NULL: gathered from several places (pl_section_write)
+    uint32_t count;           // elements
+    uint32_t stride;          // [B] of an element
+    uint32_t hashed;          // [B] of each that count for the world hash; see list.h
+    uint32_t key;             // [B] of each that name it; see list.h
+} pl_section;
+
+// The sections that every world has; those of its components come behind them.
+uint32_t pl_section_fixed_count(void);
+// The registry's section.
+uint32_t pl_section_registry(void);
+uint32_t pl_section_count(const plumb_world *world);
+// [B] of an element's key in section i, see list.h.
+uint32_t pl_section_key(uint32_t i);
+// Section i; valid until a structural change. O(1).
+pl_section pl_section_at(const plumb_world *world, uint32_t i);
+
+#define PL_GATHERED_MOST 8192 // [B] of a section without `data`: values, switches of 256 systems
+
+static inline size_t pl_section_bytes(const pl_section *section)
+{
+    return (size_t)section->count * section->stride;
+}
+
+// Copies a section out.
+void pl_section_write(const plumb_world *world, uint32_t i, const pl_section *section, char *to);
+// Copies `count` elements in; room must be reserved. Sets the count.
+void pl_section_read(plumb_world *world, uint32_t i, const char *from, uint32_t count);
+// Makes room for `count` elements. False when out of memory.
+bool pl_section_reserve(plumb_world *world, uint32_t i, uint32_t count);
+
+// What the sections of this build are: names and sizes of all that is saved.
+uint64_t pl_section_schema(void);
+// The same of the components that a world has registered.
+uint64_t pl_section_user_schema(const plumb_world *world);
+
+#endif

@@ -1,0 +1,143 @@
+#!/bin/bash
+# test_amalgamation.sh - plumb.c and plumb.h of `make amalgamation`: they compile without a warning, as C17
+# and in C++, with flags that would change results elsewhere; the scenes end in the committed hashes; a
+# program in C++ runs. And what tools/amalgamate does with names that clash.
+set -u
+
+if [ -n "${SAN:-}" ]; then
+    echo "ok - # SKIP the files are the same with sanitizers"
+    exit 0
+fi
+
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+# try "what it shows" command...: one TAP line; what the command said, when it failed.
+try()
+{
+    local what=$1
+    shift
+    if "$@" >"$work/log" 2>&1; then
+        echo "ok - $what"
+    else
+        echo "not ok - $what"
+        sed 's/^/# /' "$work/log"
+    fi
+}
+
+cc=${CC:-gcc}
+cxx=${CXX:-g++}
+strict="-Wall -Wextra -Wpedantic -Werror"
+
+try "is written" make --no-print-directory amalgamation
+try "compiles in float" "$cc" -std=c17 -O1 $strict -c "$O/plumb.c" -o "$work/plumb.o"
+try "compiles in double" "$cc" -std=c17 -O1 $strict -DPLUMB_DOUBLE=1 -c "$O/plumb.c" -o "$work/plumb_d.o"
+try "compiles for this machine, contraction allowed" \
+    "$cc" -std=gnu17 -O1 -march=native -ffp-contract=fast -c "$O/plumb.c" -o "$work/native.o"
+try "is refused with -ffast-math" \
+    bash -c "! '$cc' -std=c17 -ffast-math -fsyntax-only '$O/plumb.c' 2>'$work/fast' &&
+             grep -q 'Plumb needs IEEE arithmetic' '$work/fast'"
+no_fused() # object
+{
+    [ -s "$1" ] && ! objdump -d --no-show-raw-insn "$1" | grep -E '\s(vfn?m(add|sub)|fn?m(add|sub)|fml[as])'
+}
+for object in plumb plumb_d native; do
+    try "$object.o holds no fused multiply-add" no_fused "$work/$object.o"
+done
+exports() # object: only what has a prefix
+{
+    [ -s "$1" ] && ! nm --defined-only --extern-only "$1" | awk '$NF !~ /^(plumb|pl)_/' | grep .
+}
+try "exports only names with a prefix" exports "$work/plumb.o"
+
+# ---- the same bits
+scenes="-llua5.4 -lcjson -lcmocka -lm -lpthread"
+hashes() # object variant
+{
+    "$cc" -o "$work/hashes" "$O/$2/tests/determinism/test_scene_hashes.o" "$O/$2/libscene.a" \
+        "$1" $scenes && "$work/hashes"
+}
+for variant in float double; do
+    make --no-print-directory "$O/$variant/tests/determinism/test_scene_hashes.o" \
+        "$O/$variant/libscene.a" >"$work/log" 2>&1 || sed 's/^/# /' "$work/log"
+done
+try "ends in the committed hashes in float" hashes "$work/plumb.o" float
+try "ends in the committed hashes in double" hashes "$work/plumb_d.o" double
+try "ends in the committed hashes when compiled for this machine" hashes "$work/native.o" float
+
+# ---- C++
+cat >"$work/hello.cpp" <<'END'
+#include "plumb.h"
+#include <cstdio>
+int main()
+{
+    plumb_world *world = nullptr;
+    plumb_body_desc falling = {};
+    if (plumb_world_create(nullptr, &world) != PLUMB_OK) {
+        return 1;
+    }
+    plumb_body body = plumb_body_create(world, &falling);
+    for (int i = 0; i < 60; ++i) {
+        plumb_world_step(world, plumb_real(1.0 / 60));
+    }
+    std::printf("%.4f\n", double(plumb_body_position(world, body).y));
+    plumb_world_destroy(world);
+    return 0;
+}
+END
+runs_in_cpp() # standard
+{
+    "$cxx" -std="$1" $strict -I"$O" "$work/hello.cpp" "$work/plumb.o" -o "$work/hello" -lm -lpthread &&
+        [ "$("$work/hello")" = -4.9050 ]
+}
+try "is used from C++17" runs_in_cpp c++17
+try "is used from C++20" runs_in_cpp c++20
+
+# ---- names that clash: two files with the same ones, as function, type, enumerator, macro, member
+mkdir -p "$work/tree/include/plumb" "$work/tree/src/a" "$work/tree/out"
+cd "$work/tree" || exit 1
+echo "// none" >LICENSE
+echo "int plumb_one(int); int plumb_two(int);" >include/plumb/plumb.h
+cat >src/a/one.c <<'END'
+#include "plumb/plumb.h"
+#define TWICE(x) ((x) + (x))
+typedef struct item { int find, size; } item;
+enum { FIRST, LAST };
+static int find(item i)
+{
+    return i.find + TWICE(i.size) + LAST;
+}
+int plumb_one(int x)
+{
+    item i = { .find = x, .size = 10 };
+    return find(i);
+}
+END
+cat >src/a/two.c <<'END'
+#include "plumb/plumb.h"
+#define TWICE(x) (2 * (x) + 1)
+typedef struct item { int size; double find; } item;
+enum { LAST = 100, FIRST };
+static const int find[] = { 1000, 2000 };
+int plumb_two(int x)
+{
+    const item i = { x, 0 };
+    return find[1] + TWICE(i.size) + FIRST;
+}
+END
+cat >main.c <<'END'
+#include "plumb.h"
+int main(void)
+{
+    return plumb_one(1) == 22 && plumb_two(1) == 2104 ? 0 : 1;
+}
+END
+try "tells clashing names apart" bash -c "
+    '$O/amalgamate' out LICENSE include/plumb/plumb.h src/a/one.c src/a/two.c &&
+    $cc -std=c17 -Wall -Wextra -Werror -Iout out/plumb.c main.c -o clash && ./clash"
+echo "static int a_two_find; int plumb_three(void); int plumb_three(void) { return a_two_find; }" >src/a/three.c
+try "says when a new name is taken" bash -c "
+    ! '$O/amalgamate' out LICENSE include/plumb/plumb.h src/a/one.c src/a/two.c src/a/three.c 2>said &&
+    grep -q \"would become 'a_two_find', which is taken\" said"
+try "says when a file is missing" bash -c "
+    ! '$O/amalgamate' out LICENSE include/plumb/plumb.h src/a/none.c 2>said && grep -q 'none.c cannot be read' said"
