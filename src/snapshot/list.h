@@ -128,7 +128,7 @@
     LEFT(seams.contacts) LEFT(seams.contact_count) LEFT(seams.runs) LEFT(seams.order)              \
     ARRAY(pl_run_load, seams.loads, seams.load_count, 0, 0)                                        \
     LEFT(seams.old_loads) LEFT(seams.old_load_count) LEFT(seams.slots) LEFT(seams.slot_count)      \
-    LEFT(seams.borne) LEFT(seams.apart) TALLY(seams.listed) TALLY(seams.updated)
+    LEFT(seams.borne) LEFT(seams.apart) LEFT(seams.noted) LEFT(seams.opened) TALLY(seams.listed) TALLY(seams.updated)
 
 #define PL_STATE_CHARACTERS(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                 \
     ARRAY(pl_character, characters.items, characters.count, 0, 8) LEFT(characters.saved)           \
