@@ -126,6 +126,8 @@ void pl_piece_rest(plumb_world *world, uint32_t piece)
 {
     delist(world, pl_moving(world), &world->moving_count, piece);
     enlist_resting(world, piece);
+    // A piece alone in the world, or put to sleep between steps, may never have had a fat box.
+    world->sleep.boxes_stale = true;
 }
 
 void pl_piece_move(plumb_world *world, uint32_t piece)

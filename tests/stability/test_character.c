@@ -631,6 +631,37 @@ static void ground_may_go(void **state)
     plumb_world_destroy(world);
 }
 
+// A plank on a pivot that sleeps: who lands on it wakes it, and it does not sleep under him.
+static void sleeping_ground(void **state)
+{
+    (void)state;
+    plumb_world *world = make_world();
+    plumb_body plank = add_box(world, PLUMB_DYNAMIC, V(0, 1), V(3, 0.1));
+    plumb_body_set_mass(world, plank, 10);
+    plumb_joint_create(world, &(plumb_joint_desc){ .kind = PLUMB_REVOLUTE,
+                                                   .body_b = plank,
+                                                   .anchor = { R(-0.5), 1 },
+                                                   .enable_limit = true,
+                                                   .lower = R(-0.2),
+                                                   .upper = R(0.2) });
+    run(world, 60, 4); // its long end is down
+    assert_true(plumb_body_angle(world, plank) < R(-0.19));
+    assert_false(plumb_body_is_awake(world, plank));
+    plumb_body hero = add_hero(world, -2, 2.5, NULL);
+    run(world, 60, 3); // he is heavier
+    assert_true(plumb_body_angle(world, plank) > R(0.18));
+    assert_true(plumb_body_is_awake(world, plank));
+    assert_true(state_of(world, hero).on_ground);
+    assert_int_equal(plumb_body_sleep(world, plank), PLUMB_OK); // put to sleep under him
+    run(world, 60, 1);
+    assert_false(plumb_body_is_awake(world, plank));
+    assert_true(plumb_character_jump(world, hero, 6));
+    run(world, 60, 0.6);
+    assert_true(plumb_body_is_awake(world, plank));
+    assert_true(plumb_body_angle(world, plank) < R(0.1)); // free, it falls to the other side
+    plumb_world_destroy(world);
+}
+
 // Slow motion: the same jump at half pace takes twice as long; a platform at half pace carries half as far.
 static void own_time(void **state)
 {
@@ -728,6 +759,7 @@ int main(void)
         cmocka_unit_test(comes_out_of_what_it_was_put_in),
         cmocka_unit_test(is_a_body_to_others),
         cmocka_unit_test(ground_may_go),
+        cmocka_unit_test(sleeping_ground),
         cmocka_unit_test(own_time),
         cmocka_unit_test(other_types),
         cmocka_unit_test(far_from_the_origin),
