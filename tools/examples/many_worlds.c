@@ -44,7 +44,7 @@ static plumb_result randomise(plumb_world *world, uint32_t index, plumb_random *
                               void *context)
 {
     (void)index, (void)context;
-    plumb_real turn = plumb_random_range(random, (plumb_real)-0.5, (plumb_real)0.5);
+    plumb_real turn = plumb_random_range(random, (plumb_real)-1.5, (plumb_real)1.5);
     return plumb_body_set_angular_velocity(world, bodies[POLE], turn); // [rad/s]
 }
 
