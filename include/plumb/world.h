@@ -168,6 +168,7 @@ typedef struct plumb_energy {
     double mass;             ///< [kg]
 } plumb_energy;
 
+/// Energy and momentum of now; all zero for null. O(dynamic bodies).
 PLUMB_API plumb_energy plumb_world_energy(const plumb_world *world);
 
 /// One line of the schedule: a pass of the step, built in or the user's.
