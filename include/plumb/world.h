@@ -153,6 +153,17 @@ typedef struct plumb_stats {
 /// Counters of the last step; of sleeping bodies, as they were when they fell asleep. O(sleeping islands).
 PLUMB_API plumb_stats plumb_world_stats(const plumb_world *world);
 
+/// One part of a world's memory.
+typedef struct plumb_memory_row {
+    const char *name; ///< "bodies", "contacts", ...
+    size_t bytes;     ///< [B] held, room for growth included
+    uint32_t count;   ///< things in it now; 0 where it is scratch or has no rows
+} plumb_memory_row;
+
+/// Where plumb_stats.bytes are, part by part; together they are all of them. Writes up to `capacity` rows,
+/// returns how many there are. O(1).
+PLUMB_API int plumb_world_memory(const plumb_world *world, plumb_memory_row *rows, int capacity);
+
 /// Cells [m] of the broad phase's grids that shapes were filed in by the last step, each once, for
 /// drawing: moving shapes first, small cells before large. Writes up to `capacity`, returns how many
 /// there are. O(shapes).
