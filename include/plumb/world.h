@@ -57,7 +57,7 @@ typedef struct plumb_world_desc {
     int simd_width;           ///< lanes of the contact kernels: 4, 8 or 16; default 0 = best measured.
                               ///< A pure speed setting: every width gives the same bits
     uint32_t body_capacity;   ///< rows to reserve; 0: grow as needed
-    uint32_t shape_capacity;  ///< likewise for shapes
+    uint32_t shape_capacity;  ///< likewise for shapes, of 4 corners
     uint32_t contact_capacity;///< likewise for contacts
     int workers;              ///< threads that share the work of a step, 0..64, the caller included; default
                               ///< 1: no thread is made. A pure speed setting: any number gives the same bits
