@@ -1,10 +1,11 @@
 // many_worlds.c - thousands of cart-poles at once: a batch that is stepped, observed, acted on and reset,
 // as a learner would. Prints steps a second for one thread and for two.
 //
-//     many_worlds [worlds [steps]]
+//     many_worlds [worlds [steps [crates]]]
 //
 // The cart slides on a rail, the pole is hinged to it. The cart is pushed at random, which is where a
-// learner begins; a pole that leans beyond 0.3 rad ends its episode.
+// learner begins; a pole that leans beyond 0.3 rad ends its episode. Crates, if
+// any are asked for, stand in stacks of eight below and only cost time: for a table of worlds by bodies.
 #define _POSIX_C_SOURCE 199309L // clock_gettime
 #include <plumb/plumb.h>
 #include <stdio.h>
@@ -14,11 +15,32 @@
 #define DT ((plumb_real)(1.0 / 60))
 
 enum { CART, POLE, BODIES };
+enum { STACK = 8 };               // crates in a stack
 static plumb_body bodies[BODIES]; // the same handles in every world
+
+static plumb_result add_crates(plumb_world *world, long count)
+{
+    const plumb_body_desc floor = { .type = PLUMB_STATIC, .position = { 0, -21 } };
+    const plumb_shape_desc slab = { .kind = PLUMB_BOX, .half = { 1000, 1 } };
+    const plumb_shape_desc box = { .kind = PLUMB_BOX,
+                                   .half = { (plumb_real)0.5, (plumb_real)0.5 } };
+    if (count > 0) {
+        plumb_shape_create(world, plumb_body_create(world, &floor), &slab);
+    }
+    for (long i = 0; i < count; ++i) {
+        const plumb_vec2 at = { (plumb_real)(2 * (i / STACK)), (plumb_real)(i % STACK - 19.5) };
+        plumb_body crate =
+            plumb_body_create(world, &(plumb_body_desc){ .position = at, .no_sleep = true });
+        if (plumb_is_null(plumb_shape_create(world, crate, &box))) {
+            return plumb_world_error(world).code;
+        }
+    }
+    return PLUMB_OK;
+}
 
 static plumb_result build(plumb_world *world, uint32_t index, plumb_random *random, void *context)
 {
-    (void)random, (void)context;
+    (void)random;
     plumb_body cart = plumb_body_create(
         world, &(plumb_body_desc){ .lock_y = true, .fixed_rotation = true, .mass = 1 });
     plumb_body pole = plumb_body_create(
@@ -37,7 +59,7 @@ static plumb_result build(plumb_world *world, uint32_t index, plumb_random *rand
         bodies[CART] = cart;
         bodies[POLE] = pole;
     }
-    return PLUMB_OK;
+    return add_crates(world, *(const long *)context);
 }
 
 static plumb_result randomise(plumb_world *world, uint32_t index, plumb_random *random,
@@ -83,7 +105,8 @@ static long learn(plumb_batch *batch, uint32_t worlds, int steps, plumb_real *se
     return episodes;
 }
 
-static int run(uint32_t worlds, int steps, int workers, plumb_real *room, uint32_t *ended)
+static int run(uint32_t worlds, int steps, int workers, long crates, plumb_real *room,
+               uint32_t *ended)
 {
     plumb_batch *batch;
     const plumb_batch_desc desc = {
@@ -107,15 +130,17 @@ int main(int argc, char **argv)
 {
     long worlds = argc > 1 ? strtol(argv[1], NULL, 10) : 512;
     long steps = argc > 2 ? strtol(argv[2], NULL, 10) : 100;
-    if (worlds < 1 || worlds > (long)PLUMB_BATCH_MAX || steps < 1 || steps > 1000000) {
-        fprintf(stderr, "usage: many_worlds [worlds [steps]]\n");
+    long crates = argc > 3 ? strtol(argv[3], NULL, 10) : 0;
+    if (crates < 0 || crates > 1000 || worlds < 1 || worlds > (long)PLUMB_BATCH_MAX || steps < 1 ||
+        steps > 1000000) {
+        fprintf(stderr, "usage: many_worlds [worlds [steps [crates]]]\n");
         return 2;
     }
     plumb_real *room = malloc((size_t)worlds * 3 * sizeof *room);
     uint32_t *ended = malloc((size_t)worlds * sizeof *ended);
     int failed = room == NULL || ended == NULL;
     for (int workers = 1; workers <= 2 && !failed; ++workers) {
-        failed = run((uint32_t)worlds, (int)steps, workers, room, ended);
+        failed = run((uint32_t)worlds, (int)steps, workers, crates, room, ended);
     }
     free(ended);
     free(room);
