@@ -173,11 +173,9 @@ static bool mark_near(plumb_world *world, real dt)
         return true;
     }
     note_stirring(world);
-    if (pl_broad_refresh_moving(world, dt)) {
-        world->pairs_dirty = true;
-    }
+    pl_broad_refresh_moving(world, dt);
     world->broad.refreshed = true;
-    if (world->pairs_dirty || world->broad.stale || s->near_stale) {
+    if (world->pairs_dirty || pl_broad_is_stale(&world->broad) || s->near_stale) {
         s->near_stale = true;
         if (!list_near(world)) {
             return false;
