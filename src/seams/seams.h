@@ -128,6 +128,10 @@ void pl_seams_undo(plumb_world *world);
 // when out of memory; the next step makes manifolds anew.
 bool pl_seams_correct(plumb_world *world, real dt);
 
+// Pairs of what fell asleep have left the list: `places` tells where each of the others now is (PL_NONE:
+// it has left). Manifolds whose load others bear lie from `borne` on; those that stay close up to the rest.
+void pl_seams_follow(plumb_world *world, const uint32_t *places, uint32_t borne);
+
 // Notes what runs of flush faces bear, for the next step. After the solver.
 void pl_seams_remember(plumb_world *world);
 

@@ -115,7 +115,7 @@
     LEFT(sleep.found_count) LEFT(sleep.touched) LEFT(sleep.marked) LEFT(sleep.marked_count)        \
     LEFT(sleep.woken) VALUE(sleep.timed_step) VALUE(sleep.changed_step) VALUE(sleep.tested_step)   \
     VALUE(sleep.since) VALUE(sleep.passed) VALUE(sleep.ripe_for) LEFT(sleep.parents)               \
-    LEFT(sleep.held) LEFT(sleep.sleep_events) LEFT(sleep.wake_events)                              \
+    LEFT(sleep.held) LEFT(sleep.places) LEFT(sleep.sleep_events) LEFT(sleep.wake_events)           \
     LEFT(sleep.sleep_event_count) LEFT(sleep.wake_event_count) LEFT(sleep.events_told)
 
 // Corners and stretches follow from where the ground lies, but not at once: they are kept up.

@@ -35,6 +35,10 @@ static void relocate(plumb_world *world, uint32_t row)
     row = pl_row_transfer(world, row, home);
     pl_joints_replan(&world->joints);
     pl_pieces_refile(world, row);
+    for (uint32_t p = b->first_piece[row]; p != PL_NONE && !disabled;
+         p = world->pieces.next_in_body[p]) {
+        pl_seams_touch(world, p);
+    }
     world->schedule_dirty = true;
 }
 
