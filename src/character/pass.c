@@ -299,6 +299,7 @@ void pl_characters_undo(plumb_world *world)
         b->vx[row] = items[i].body_velocity.x;
         b->vy[row] = items[i].body_velocity.y;
     }
+    --all->turn;
     all->moved = false;
 }
 

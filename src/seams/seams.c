@@ -273,6 +273,8 @@ bool pl_seams_update(plumb_world *world)
             kept[i].normal[k] = pair->normal[k];
             kept[i].tangent[k] = pair->tangent[k];
         }
+        kept[i].rolling = pair->rolling;
+        kept[i].manifold = pair->manifold;
         kept[i].a = pair->a;
         kept[i].b = pair->b;
     }
@@ -287,6 +289,8 @@ static void give_back(pl_pair *pair, const pl_seam_pair *kept)
         pair->normal[k] = kept->normal[k];
         pair->tangent[k] = kept->tangent[k];
     }
+    pair->rolling = kept->rolling;
+    pair->manifold = kept->manifold; // pairs that part forget the above, those that are apart do not
 }
 
 void pl_seams_undo(plumb_world *world)

@@ -57,7 +57,9 @@ typedef struct pl_seam_pair {
     uint32_t pair;
     uint32_t feature[2];
     real normal[2], tangent[2];
-    uint32_t a, b;       // its pieces
+    real rolling;
+    uint32_t a, b;     // its pieces
+    uint32_t manifold; // PL_NONE: it was apart
 } pl_seam_pair;
 
 // What the owner of a run of flush faces bore in the last step, by the mover's piece (run.c).
