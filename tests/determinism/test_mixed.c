@@ -80,6 +80,13 @@ static unsigned pick(run *r, unsigned count)
     return sim_random(&r->seed) % count;
 }
 
+// x before y, whatever the compiler evaluates first.
+static plumb_vec2 place(run *r, double left, double right, double low, double high)
+{
+    double x = uniform(r, left, right);
+    return sim_vec(x, uniform(r, low, high));
+}
+
 // What a system does must follow from the step: one that is refused runs it again.
 static void edit(const plumb_system_call *call)
 {
@@ -136,11 +143,12 @@ static void add_shape(run *r, plumb_body b, bool ground)
 static void make_body(run *r, int i)
 {
     const unsigned type = pick(r, 8);
-    plumb_body_desc d = { .position = sim_vec(uniform(r, -6, 6), uniform(r, 0.5, 6)) };
+    plumb_body_desc d = { .position = place(r, -6, 6, 0.5, 6) };
     d.angle = pick(r, 3) == 0 ? (plumb_real)uniform(r, -3, 3) : 0;
     if (type == 0) {
         d.type = PLUMB_STATIC;
-        d.position = sim_vec((double)pick(r, 13) - 6, 0.5 * pick(r, 8) - 0.25);
+        d.position.x = (plumb_real)((double)pick(r, 13) - 6);
+        d.position.y = (plumb_real)(0.5 * pick(r, 8) - 0.25);
         d.angle = 0;
     } else if (type == 1) {
         d.type = PLUMB_KINEMATIC;
@@ -226,7 +234,7 @@ static void change(run *r)
         make_body(r, i);
         break;
     case 2:
-        plumb_body_teleport(w, b, sim_vec(uniform(r, -6, 6), uniform(r, 0, 5)), 0);
+        plumb_body_teleport(w, b, place(r, -6, 6, 0, 5), 0);
         break;
     case 3:
         plumb_body_set_enabled(w, b, !plumb_body_is_enabled(w, b));
@@ -241,7 +249,7 @@ static void change(run *r)
         plumb_body_wake(w, b);
         break;
     case 7:
-        plumb_body_apply_impulse_center(w, b, sim_vec(uniform(r, -2, 2), uniform(r, 0, 3)));
+        plumb_body_apply_impulse_center(w, b, place(r, -2, 2, 0, 3));
         break;
     case 8:
         add_shape(r, b, false);
@@ -283,7 +291,7 @@ static void change(run *r)
         break;
     case 18:
         if (plumb_body_get_type(w, b) == PLUMB_KINEMATIC) {
-            plumb_body_set_target(w, b, sim_vec(uniform(r, -4, 4), uniform(r, 0, 4)), 0,
+            plumb_body_set_target(w, b, place(r, -4, 4, 0, 4), 0,
                                   (plumb_real)0.3);
         }
         break;
