@@ -133,7 +133,7 @@
 #define PL_STATE_CHARACTERS(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                 \
     ARRAY(pl_character, characters.items, characters.count, 0, 8) LEFT(characters.saved)           \
     VALUE(characters.turn) LEFT(characters.moved) LEFT(characters.walks) LEFT(characters.treads)   \
-    LEFT(characters.obstacles) LEFT(characters.near) LEFT(characters.pushes)                       \
+    LEFT(characters.farthest) LEFT(characters.obstacles) LEFT(characters.near) LEFT(characters.pushes)                       \
     LEFT(characters.push_count)
 
 #define PL_STATE_CONTINUOUS(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                 \
