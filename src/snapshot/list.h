@@ -117,7 +117,7 @@
     LEFT(sleep.found_count) LEFT(sleep.touched) LEFT(sleep.marked) LEFT(sleep.marked_count)        \
     LEFT(sleep.woken) VALUE(sleep.timed_step) VALUE(sleep.changed_step) VALUE(sleep.tested_step)   \
     VALUE(sleep.since) VALUE(sleep.passed) VALUE(sleep.ripe_for) LEFT(sleep.parents)               \
-    LEFT(sleep.held) LEFT(sleep.sleep_events) LEFT(sleep.wake_events)                              \
+    LEFT(sleep.held) LEFT(sleep.places) LEFT(sleep.sleep_events) LEFT(sleep.wake_events)           \
     LEFT(sleep.sleep_event_count) LEFT(sleep.wake_event_count) LEFT(sleep.events_told)
 
 // Corners and stretches follow from where the ground lies, but not at once: they are kept up.
@@ -135,7 +135,7 @@
 #define PL_STATE_CHARACTERS(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                 \
     ARRAY(pl_character, characters.items, characters.count, 0, 8) LEFT(characters.saved)           \
     VALUE(characters.turn) LEFT(characters.moved) LEFT(characters.walks) LEFT(characters.treads)   \
-    LEFT(characters.obstacles) LEFT(characters.near) LEFT(characters.pushes)                       \
+    LEFT(characters.farthest) LEFT(characters.obstacles) LEFT(characters.near) LEFT(characters.pushes)                       \
     LEFT(characters.push_count)
 
 #define PL_STATE_CONTINUOUS(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                 \

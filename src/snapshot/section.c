@@ -55,9 +55,10 @@ typedef struct column_row {
     uint32_t stride, hashed;
 } column_row;
 
-// Not hashed: addresses, and boxes of the grids.
+// Not hashed: addresses, hints, and boxes of the grids.
 // clang-format off
-#define HASHED(type) _Generic((type){ 0 }, void *: 0, pl_box: 0, default: (uint32_t)sizeof(type))
+#define HASHED(type)                                                                                \
+    _Generic((type){ 0 }, void *: 0, pl_box: 0, pl_hint: 0, default: (uint32_t)sizeof(type))
 // clang-format on
 
 #define COLUMN_ROW(struct, type, name)                                                             \
