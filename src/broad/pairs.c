@@ -305,6 +305,7 @@ bool pl_pairs_update(plumb_world *world)
         list->old_items = items;
     }
     broad->rebuilds += changed || whole || world->sensor_pieces > 0; // or what sensors see
+    world->rows_moved |= whole; // contacts of what woke do not know their rows
     world->parts.buried = false;
     broad->serial = world->serial;
     broad->stale = false;
