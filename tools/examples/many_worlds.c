@@ -28,7 +28,8 @@ static plumb_result add_crates(plumb_world *world, long count)
         plumb_shape_create(world, plumb_body_create(world, &floor), &slab);
     }
     for (long i = 0; i < count; ++i) {
-        const plumb_vec2 at = { (plumb_real)(2 * (i / STACK)), (plumb_real)(i % STACK - 19.5) };
+        const plumb_vec2 at = { (plumb_real)(2 * (i / STACK)),
+                                (plumb_real)(i % STACK) - (plumb_real)19.5 };
         plumb_body crate =
             plumb_body_create(world, &(plumb_body_desc){ .position = at, .no_sleep = true });
         if (plumb_is_null(plumb_shape_create(world, crate, &box))) {
@@ -109,9 +110,12 @@ static int run(uint32_t worlds, int steps, int workers, long crates, plumb_real 
                uint32_t *ended)
 {
     plumb_batch *batch;
-    const plumb_batch_desc desc = {
-        .count = worlds, .workers = workers, .build = build, .randomise = randomise, .seed = 1
-    };
+    const plumb_batch_desc desc = { .count = worlds,
+                                    .workers = workers,
+                                    .build = build,
+                                    .randomise = randomise,
+                                    .context = &crates,
+                                    .seed = 1 };
     if (plumb_batch_create(&desc, &batch) != PLUMB_OK) {
         return 1;
     }
