@@ -3,7 +3,7 @@
 // Reads: poses, piece geometry, velocities. Writes: fat boxes. Order: first of the broad phase.
 // Cost: O(moving pieces); O(all pieces) when static ones changed.
 #include "broad/pairs.h"
-#include "world/state.h"
+#include "world/wrap.h"
 
 #include <string.h>
 
@@ -58,6 +58,13 @@ pl_box pl_piece_tight_box(const plumb_world *world, uint32_t piece)
     default:
         return polygon_box(world, piece, pose);
     }
+}
+
+// Where the grids have the tight box of a piece.
+static pl_box tight_box(const plumb_world *world, uint32_t piece)
+{
+    pl_box box = pl_piece_tight_box(world, piece);
+    return pl_is_wrapped(world) ? pl_wrap_box(world, box) : box;
 }
 
 static pl_box widened(pl_box box, real margin)
@@ -118,7 +125,7 @@ bool pl_broad_refresh_moving(plumb_world *world, real dt)
     bool stale = false;
     for (uint32_t i = 0; i < world->moving_count; ++i) {
         uint32_t piece = moving[i];
-        pl_box tight = pl_piece_tight_box(world, piece);
+        pl_box tight = tight_box(world, piece);
         pl_box needed = widened(tight, PL_SPECULATIVE / 2);
         // A piece must meet its partner within the step in which they touch.
         const pl_pose *pose = &pl_poses(world)[pieces->body[piece]];
@@ -135,7 +142,7 @@ void pl_broad_refresh_resting(plumb_world *world)
 {
     for (uint32_t i = 0; i < world->sleep.resting_count; ++i) {
         uint32_t piece = pl_resting(&world->sleep)[i];
-        pl_box tight = pl_piece_tight_box(world, piece);
+        pl_box tight = tight_box(world, piece);
         pl_box needed = widened(tight, PL_SPECULATIVE / 2);
         if (!contains(&world->pieces.fat[piece], &needed)) {
             world->pieces.fat[piece] = fattened(needed, &tight);
@@ -157,7 +164,7 @@ void pl_broad_refresh_fixed(plumb_world *world)
     const bool asleep = world->asleep_count > 0;
     for (uint32_t piece = 0; piece < pieces->table.count; ++piece) {
         if (pieces->kind[piece] != PL_PIECE_FREE && pieces->moving[piece] == PL_NONE) {
-            pl_box box = widened(pl_piece_tight_box(world, piece), PL_SPECULATIVE / 2);
+            pl_box box = widened(tight_box(world, piece), PL_SPECULATIVE / 2);
             if (asleep && memcmp(&box, &pieces->fat[piece], sizeof box) != 0) {
                 note_placed(world, piece);
             }

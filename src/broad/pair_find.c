@@ -4,6 +4,7 @@
 // the next one in its row and the three neighbours in the next row. Different levels: from the
 // finer box. Static pieces: from the moving box. Cost: O(moving pieces + pairs) for sizes within an
 // octave.
+#include "broad/images.h"
 #include "broad/pairs.h"
 #include "world/filter.h"
 
@@ -214,6 +215,30 @@ static bool find_sensed_resting(finder *f, const pl_grid *moving, const pl_grid 
     return true;
 }
 
+//---- over the edges of a world that wraps around --------------------------------------------------
+
+static bool add_image(void *context, uint32_t piece, uint32_t other)
+{
+    return add_pair(context, piece, other);
+}
+
+static bool add_resting_image(void *context, uint32_t piece, uint32_t other)
+{
+    finder *f = context;
+    f->piece = piece;
+    return add_resting(f, &(pl_grid_entry){ .piece = other });
+}
+
+static bool find_over_edges(finder *f, bool meet, bool grounded)
+{
+    const plumb_world *world = f->world;
+    const pl_broad *b = &world->broad;
+    return (!meet || pl_images_pairs(world, &b->moving, &b->moving, add_image, f)) &&
+           (!grounded || pl_images_pairs(world, &b->moving, &b->fixed, add_image, f)) &&
+           (world->sensor_pieces == 0 ||
+            pl_images_pairs(world, &b->moving, &b->resting, add_resting_image, f));
+}
+
 //---- crowds that never meet ----------------------------------------------------------------------
 
 // What the filters of many pieces have in common.
@@ -291,6 +316,9 @@ bool pl_pairs_find(plumb_world *world)
         return false;
     }
     if (!find_sensed_resting(&f, &broad->moving, &broad->resting)) {
+        return false;
+    }
+    if (pl_is_wrapped(world) && !find_over_edges(&f, meet, grounded)) {
         return false;
     }
     broad->found_count = f.count;
