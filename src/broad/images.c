@@ -17,7 +17,8 @@ static double bound_of(const pl_grid *grid, double period)
 }
 
 // The k for which [low, high] - k period meets [-bound, bound].
-static void range_of(double low, double high, double period, double bound, double *first, double *last)
+static void range_of(double low, double high, double period, double bound, double *first,
+                     double *last)
 {
     *first = *last = 0;
     if (period > 0) {
@@ -121,8 +122,8 @@ static bool is_first(const seeker *s, const pl_grid_entry *other)
     }
     for (int k = 0; k < now; ++k) {
         const int *by = shifts[k];
-        bool turns = (by[0] == 0 || s->world->desc.wrap_x > 0) &&
-                     (by[1] == 0 || s->world->desc.wrap_y > 0);
+        bool turns =
+            (by[0] == 0 || s->world->desc.wrap_x > 0) && (by[1] == 0 || s->world->desc.wrap_y > 0);
         if (turns && overlap_at(s, a, b, k)) {
             return false;
         }

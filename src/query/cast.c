@@ -100,14 +100,18 @@ static plumb_result check_cast(const plumb_world *world, const char *function, c
     plumb_result r = pl_query_check_convex(world, function, prefix, cast->convex);
     r = r != PLUMB_OK ? r : pl_query_check_transform(world, function, prefix, cast->transform);
     const char *name = pl_query_field(buffer, prefix, "translation");
-    r = r != PLUMB_OK ? r
-                      : pl_check_within(world, function, name, cast->translation, PL_QUERY_LIMIT);
-    if (r != PLUMB_OK || !pl_is_wrapped(world)) {
-        return r;
-    }
+    return r != PLUMB_OK
+               ? r
+               : pl_check_within(world, function, name, cast->translation, PL_QUERY_LIMIT);
+}
+
+static plumb_result check_reach(const plumb_world *world, const char *function, const char *prefix,
+                                const plumb_cast *cast)
+{
+    char buffer[PL_QUERY_FIELD];
     plumb_aabb box = plumb_convex_aabb(cast->convex, cast->transform);
     return pl_query_check_reach(
-        world, function, pl_query_field(buffer, prefix, "the way with the shape"),
+        world, function, pl_query_field(buffer, prefix, "translation with the shape"),
         fabs((double)cast->translation.x) + (double)box.max.x - (double)box.min.x,
         fabs((double)cast->translation.y) + (double)box.max.y - (double)box.min.y);
 }
@@ -130,6 +134,7 @@ static plumb_result begin(caster *c, plumb_world *world, const char *function,
 {
     plumb_result r = pl_check_pointer(world, function, "cast", cast);
     r = r != PLUMB_OK ? r : check_cast(world, function, "", cast);
+    r = r != PLUMB_OK || !pl_is_wrapped(world) ? r : check_reach(world, function, "", cast);
     r = r != PLUMB_OK ? r : pl_query_begin(&c->q, world, function, filter);
     if (r == PLUMB_OK) {
         aim(c, cast);
@@ -208,10 +213,12 @@ static plumb_result check_casts(const plumb_world *world, const char *function,
     r = r != PLUMB_OK || count == 0 ? r : pl_check_pointer(world, function, "casts", casts);
     r = r != PLUMB_OK || count == 0 ? r : pl_check_pointer(world, function, "hits", hits);
     for (int i = 0; r == PLUMB_OK && i < count; ++i) {
-        if (check_cast(NULL, function, "", &casts[i]) != PLUMB_OK) {
+        bool refused = check_cast(NULL, function, "", &casts[i]) != PLUMB_OK;
+        if (refused || pl_is_wrapped(world)) {
             char prefix[24];
             snprintf(prefix, sizeof prefix, "casts[%d].", i);
-            r = check_cast(world, function, prefix, &casts[i]);
+            r = refused ? check_cast(world, function, prefix, &casts[i])
+                        : check_reach(world, function, prefix, &casts[i]);
         }
     }
     return r;

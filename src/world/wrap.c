@@ -41,15 +41,16 @@ plumb_result pl_wrap_check_piece(const plumb_world *world, const char *function,
         return PLUMB_OK;
     }
     real least = !(x > 0) || (y > 0 && y < x) ? y : x;
-    double across = 2 * (sqrt((double)core->hx * (double)core->hx +
-                              (double)core->hy * (double)core->hy) +
-                         (double)core->radius);
+    double across =
+        2 * (sqrt((double)core->hx * (double)core->hx + (double)core->hy * (double)core->hy) +
+             (double)core->radius);
     return across < (double)least / 2
                ? PLUMB_OK
-               : pl_fail(world, PLUMB_E_RANGE, function,
-                         "the shape is %g m across; in a world that wraps every %g m each convex piece "
-                         "must be below %g",
-                         across, (double)least, (double)least / 2);
+               : pl_fail(
+                     world, PLUMB_E_RANGE, function,
+                     "the shape is %g m across; in a world that wraps every %g m each convex piece "
+                     "must be below %g",
+                     across, (double)least, (double)least / 2);
 }
 
 //---- shifts --------------------------------------------------------------------------------------
@@ -69,8 +70,8 @@ plumb_vec2 pl_wrap_point(const plumb_world *world, plumb_vec2 point, plumb_vec2 
     if (!pl_is_wrapped(world)) {
         return point;
     }
-    pl_shift s = pl_wrap_shift(world, (double)point.x - (double)about.x,
-                               (double)point.y - (double)about.y);
+    pl_shift s =
+        pl_wrap_shift(world, (double)point.x - (double)about.x, (double)point.y - (double)about.y);
     return plumb_v2((real)((double)point.x + s.x), (real)((double)point.y + s.y));
 }
 
@@ -79,10 +80,10 @@ static pl_shift middle_of(const plumb_world *world, uint32_t piece)
 {
     const pl_pose *pose = &pl_poses(world)[world->pieces.body[piece]];
     const pl_core *core = &world->pieces.core[piece];
-    return (pl_shift){ (double)pose->x + ((double)pose->c * (double)core->x -
-                                          (double)pose->s * (double)core->y),
-                       (double)pose->y + ((double)pose->s * (double)core->x +
-                                          (double)pose->c * (double)core->y) };
+    return (pl_shift){
+        (double)pose->x + ((double)pose->c * (double)core->x - (double)pose->s * (double)core->y),
+        (double)pose->y + ((double)pose->s * (double)core->x + (double)pose->c * (double)core->y)
+    };
 }
 
 pl_shift pl_wrap_piece(const plumb_world *world, uint32_t piece, double x, double y)

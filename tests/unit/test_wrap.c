@@ -48,9 +48,9 @@ static plumb_shape_desc some_shape(uint32_t *seed, plumb_vec2 points[4])
     double ox = random_in(seed, -1, 1), oy = random_in(seed, -1, 1);
     switch ((int)random_in(seed, 0, 4)) {
     case 0:
-        return (plumb_shape_desc){
-            .kind = PLUMB_CIRCLE, .radius = R(size), .center = { R(ox), R(oy) }
-        };
+        return (plumb_shape_desc){ .kind = PLUMB_CIRCLE,
+                                   .radius = R(size),
+                                   .center = { R(ox), R(oy) } };
     case 1:
         points[0] = plumb_v2(R(ox - size), R(oy));
         points[1] = plumb_v2(R(ox + size), R(oy + size));
@@ -283,10 +283,10 @@ static void every_pair_over_the_edge_once(void **state)
             plumb_vec2 points[4];
             plumb_shape_desc shape = some_shape(&seed, points);
             plumb_body body = plumb_body_create(
-                w, &(plumb_body_desc){ .type = (plumb_body_type)(i % 3),
-                                       .position = some_point(&seed),
-                                       .velocity = { R(random_in(&seed, -5, 5)),
-                                                     R(random_in(&seed, -5, 5)) } });
+                w, &(plumb_body_desc){
+                       .type = (plumb_body_type)(i % 3),
+                       .position = some_point(&seed),
+                       .velocity = { R(random_in(&seed, -5, 5)), R(random_in(&seed, -5, 5)) } });
             if (i % 3 == (int)PLUMB_STATIC) {
                 plumb_body_set_velocity(w, body, plumb_v2(0, 0));
             }
@@ -299,7 +299,8 @@ static void every_pair_over_the_edge_once(void **state)
                 for (uint32_t q = p + 1; q < w->pieces.table.count; ++q) {
                     bool dynamic = w->pieces.body[p] < w->dynamic_count ||
                                    w->pieces.body[q] < w->dynamic_count;
-                    expected += dynamic && overlap_somewhere(w, &w->pieces.fat[p], &w->pieces.fat[q]);
+                    expected +=
+                        dynamic && overlap_somewhere(w, &w->pieces.fat[p], &w->pieces.fat[q]);
                 }
             }
             // No more than expected, none of them twice: a list in strict order.
@@ -321,9 +322,9 @@ static void points_are_brought_back(void **state)
     (void)state;
     plumb_world *w;
     assert_int_equal(plumb_world_create(&(plumb_world_desc){ .wrap_x = 20 }, &w), PLUMB_OK);
-    const double table[][2] = { { 0, 0 },    { 9.5, 9.5 },   { 10, -10 },   { -10, -10 },
-                                { 10.5, -9.5 }, { -10.5, 9.5 }, { 29.5, 9.5 }, { 30, -10 },
-                                { 1e6, 0 },  { -1e6 - 0.25, -0.25 } };
+    const double table[][2] = { { 0, 0 },       { 9.5, 9.5 },          { 10, -10 },   { -10, -10 },
+                                { 10.5, -9.5 }, { -10.5, 9.5 },        { 29.5, 9.5 }, { 30, -10 },
+                                { 1e6, 0 },     { -1e6 - 0.25, -0.25 } };
     for (size_t i = 0; i < sizeof table / sizeof table[0]; ++i) {
         plumb_vec2 p = plumb_world_wrapped(w, plumb_v2(R(table[i][0]), R(table[i][0])));
         assert_true(p.x == R(table[i][1]));
@@ -349,9 +350,12 @@ static void points_are_brought_back(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(rays_go_over_the_edge),      cmocka_unit_test(casts_go_over_the_edge),
-        cmocka_unit_test(overlaps_go_over_the_edge),  cmocka_unit_test(nearest_goes_over_the_edge),
-        cmocka_unit_test(every_pair_over_the_edge_once), cmocka_unit_test(points_are_brought_back),
+        cmocka_unit_test(rays_go_over_the_edge),
+        cmocka_unit_test(casts_go_over_the_edge),
+        cmocka_unit_test(overlaps_go_over_the_edge),
+        cmocka_unit_test(nearest_goes_over_the_edge),
+        cmocka_unit_test(every_pair_over_the_edge_once),
+        cmocka_unit_test(points_are_brought_back),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
