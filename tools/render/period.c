@@ -98,7 +98,7 @@ void plr_draw_period(plr_painter *painter)
     const double x1 = wraps_x ? fmax(a.x, b.x) : painter->width;
     const double y0 = wraps_y ? fmin(a.y, b.y) : 0.0;
     const double y1 = wraps_y ? fmax(a.y, b.y) : painter->height;
-    if (!wraps_x && !wraps_y) {
+    if ((!wraps_x && !wraps_y) || !plr_shows(painter, RENDER_SHOW_GRID)) {
         return;
     }
     if (x0 >= 0.0 && x1 <= painter->width && y0 >= 0.0 && y1 <= painter->height) {
