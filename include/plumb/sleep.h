@@ -36,7 +36,7 @@ PLUMB_API plumb_result plumb_body_wake(plumb_world *world, plumb_body body);
 
 /// Puts the body and all that it touches or is joined to, as of the last step, to sleep at once,
 /// whatever their speed. Rows move. O(contacts and joints of the world). Errors: E_HANDLE, E_STATE
-/// (not dynamic; the world, or a body of the island, may not sleep), E_MEMORY, E_LOCKED.
+/// (not dynamic; disabled; the world, or a body of the island, may not sleep), E_MEMORY, E_LOCKED.
 PLUMB_API plumb_result plumb_body_sleep(plumb_world *world, plumb_body body);
 
 /// Forbids or allows a body to fall asleep, and its island with it; forbidding wakes it.

@@ -48,10 +48,10 @@ bool pl_broad_update_grids(plumb_world *world, real dt, bool *stale)
     pl_broad *broad = &world->broad;
     // Poses change in steps, and else only together with the flags: one query after another is free.
     if (dt == 0 && !world->pairs_dirty && !world->static_dirty && !world->sleep.boxes_stale &&
-        !world->sleep.grid_stale && !broad->moving_lost && !broad->fixed_lost &&
+        !world->sleep.grid_stale && !broad->unfiled && !broad->moving_lost && !broad->fixed_lost &&
         !broad->resting_lost &&
         broad->filed_step == world->step_count) {
-        *stale = broad->stale;
+        *stale = pl_broad_is_stale(broad);
         return true;
     }
     if (world->static_dirty) {
@@ -71,19 +71,19 @@ bool pl_broad_update_grids(plumb_world *world, real dt, bool *stale)
     if (!pl_broad_update_resting(world)) {
         return false;
     }
-    if (!(broad->refreshed && dt > 0) && pl_broad_refresh_moving(world, dt)) {
-        world->pairs_dirty = true;
+    if (!(broad->refreshed && dt > 0)) {
+        pl_broad_refresh_moving(world, dt);
     }
-    if (world->pairs_dirty || broad->moving_lost) {
+    if (world->pairs_dirty || broad->unfiled || broad->moving_lost) {
         if (!pl_grid_build(&world->memory, &broad->moving, pl_moving(world), world->moving_count,
                            world->pieces.fat)) {
             return false;
         }
         broad->stale = broad->stale || world->pairs_dirty;
-        world->pairs_dirty = broad->moving_lost = false;
+        world->pairs_dirty = broad->unfiled = broad->moving_lost = false;
     }
     broad->filed_step = world->step_count;
-    *stale = broad->stale;
+    *stale = pl_broad_is_stale(broad);
     return true;
 }
 
@@ -103,13 +103,10 @@ bool pl_broad_update(plumb_world *world, real dt)
     if (!pl_broad_update_grids(world, dt, &stale)) {
         return false;
     }
-    if (stale) {
-        if (!pl_pairs_rebuild(world)) {
-            return false;
-        }
-        world->broad.stale = false;
-        world->broad.rebuilds++;
-    } else if (world->rows_moved) {
+    if (stale && !pl_pairs_update(world)) {
+        return false;
+    }
+    if (world->rows_moved) {
         refresh_rows(world);
     }
     world->rows_moved = false;
@@ -124,6 +121,8 @@ void pl_broad_free(pl_memory *memory, pl_broad *broad)
     pl_grid_free(memory, &broad->resting);
     pl_buffer_free(memory, &broad->pairs.items);
     pl_buffer_free(memory, &broad->pairs.old_items);
+    pl_buffer_free(memory, &broad->left);
+    pl_buffer_free(memory, &broad->left_marks);
     pl_buffer_free(memory, &broad->list);
     pl_buffer_free(memory, &broad->found);
     pl_buffer_free(memory, &broad->sorted);

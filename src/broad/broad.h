@@ -20,7 +20,11 @@ typedef struct pl_broad {
     uint32_t serial; // newest piece serial at the last rebuild: younger slots carry nothing over
     uint64_t rebuilds;
     uint64_t filed_step; // step count at which the grids were last brought up to date
-    bool stale;          // boxes were filed anew since the pair list was made
+    bool stale;          // the pair list must be made from nothing
+    bool unfiled;        // a box was left since the moving grid was filed
+    pl_buffer left;      // uint32_t moving pieces whose box was made anew since the pair list was made
+    pl_buffer left_marks; // uint8_t a piece slot: it is in `left`
+    uint32_t left_count;
     bool moving_lost, fixed_lost, resting_lost; // the world was restored: a grid to be filed anew
     bool refreshed;      // fat boxes were brought up to date in this step already
 } pl_broad;
@@ -35,6 +39,15 @@ bool pl_broad_update(plumb_world *world, real dt);
 // Fat boxes of moving pieces for a step of dt [s], velocities of poses (fat.c). True when some piece
 // has left its box.
 bool pl_broad_refresh_moving(plumb_world *world, real dt);
+// Room for `slots` pieces that leave their boxes. False when out of memory.
+bool pl_broad_reserve_left(plumb_world *world, uint32_t slots);
+// No piece has left its box.
+void pl_broad_forget_left(pl_broad *broad);
+// The pair list no longer covers all that may touch.
+static inline bool pl_broad_is_stale(const pl_broad *broad)
+{
+    return broad->stale || broad->left_count > 0;
+}
 // Fat boxes and grid of sleeping pieces, where they changed. False when out of memory.
 bool pl_broad_update_resting(plumb_world *world);
 

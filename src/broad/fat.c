@@ -1,6 +1,6 @@
 // fat.c - tight and fat boxes of pieces, and whether the pair list still covers all that may touch.
 //
-// Reads: poses, piece geometry, velocities. Writes: fat boxes. Order: first of the broad phase.
+// Reads: poses, piece geometry, velocities. Writes: fat boxes, which pieces left theirs. Order: first of the broad phase.
 // Cost: O(moving pieces); O(all pieces) when static ones changed.
 #include "broad/pairs.h"
 #include "world/wrap.h"
@@ -11,6 +11,9 @@
 // resting and slowly moving bodies do not refile, small enough that few pairs are kept in vain.
 #define FAT_FRACTION ((real)0.125)
 #define FAT_LIMIT    ((real)0.1)
+
+// When more than one in so many moving pieces has left its box, the pair list is made from nothing.
+#define MANY 2
 
 static real absolute(real v)
 {
@@ -117,25 +120,65 @@ static pl_box fattened(pl_box needed, const pl_box *tight)
     return widened(needed, margin < FAT_LIMIT ? margin : FAT_LIMIT);
 }
 
+bool pl_broad_reserve_left(plumb_world *world, uint32_t slots)
+{
+    pl_broad *broad = &world->broad;
+    size_t old = broad->left_marks.size;
+    if (!pl_buffer_reserve(&world->memory, &broad->left, slots * sizeof(uint32_t)) ||
+        !pl_buffer_reserve(&world->memory, &broad->left_marks, slots)) {
+        return false;
+    }
+    if (broad->left_marks.size > old) {
+        memset((char *)broad->left_marks.data + old, 0, broad->left_marks.size - old);
+    }
+    return true;
+}
+
+void pl_broad_forget_left(pl_broad *broad)
+{
+    const uint32_t *left = broad->left.data;
+    uint8_t *marks = broad->left_marks.data;
+    for (uint32_t i = 0; i < broad->left_count; ++i) {
+        marks[left[i]] = 0;
+    }
+    broad->left_count = 0;
+}
+
+static void note_left(pl_broad *broad, uint32_t piece)
+{
+    uint8_t *mark = (uint8_t *)broad->left_marks.data + piece;
+    if (*mark == 0) {
+        ((uint32_t *)broad->left.data)[broad->left_count++] = piece;
+        *mark = 1;
+    }
+}
+
+// A piece must meet its partner within the step in which they touch.
+static pl_box needed_box(const plumb_world *world, uint32_t piece, const pl_box *tight, real dt)
+{
+    const pl_pose *pose = &pl_poses(world)[world->pieces.body[piece]];
+    return swept(widened(*tight, PL_SPECULATIVE / 2), pose->vx * dt, pose->vy * dt);
+}
+
 bool pl_broad_refresh_moving(plumb_world *world, real dt)
 {
     refresh_pose_velocities(world);
-    pl_pieces *pieces = &world->pieces;
+    pl_box *fat = world->pieces.fat;
     const uint32_t *moving = pl_moving(world);
-    bool stale = false;
+    uint32_t left = 0;
     for (uint32_t i = 0; i < world->moving_count; ++i) {
         uint32_t piece = moving[i];
         pl_box tight = tight_box(world, piece);
-        pl_box needed = widened(tight, PL_SPECULATIVE / 2);
-        // A piece must meet its partner within the step in which they touch.
-        const pl_pose *pose = &pl_poses(world)[pieces->body[piece]];
-        needed = swept(needed, pose->vx * dt, pose->vy * dt);
-        if (!contains(&pieces->fat[piece], &needed)) {
-            pieces->fat[piece] = fattened(needed, &tight);
-            stale = true;
+        pl_box needed = needed_box(world, piece, &tight, dt);
+        if (!contains(&fat[piece], &needed)) {
+            fat[piece] = fattened(needed, &tight);
+            note_left(&world->broad, piece);
+            ++left;
         }
     }
-    return stale;
+    world->broad.stale |= left > world->moving_count / MANY;
+    world->broad.unfiled |= left > 0;
+    return left > 0;
 }
 
 void pl_broad_refresh_resting(plumb_world *world)

@@ -98,6 +98,12 @@ typedef struct seeker {
     void *context;
 } seeker;
 
+static bool turns_along(const plumb_world *world, int shift)
+{
+    return (shifts[shift][0] == 0 || world->desc.wrap_x > 0) &&
+           (shifts[shift][1] == 0 || world->desc.wrap_y > 0);
+}
+
 static int opposite(int shift)
 {
     return (shift + SHIFTS / 2) % SHIFTS;
@@ -150,6 +156,20 @@ static bool seek(seeker *s, const pl_grid *among, double bound_x, double bound_y
     return pl_grid_query(among, at, visit_partner, s);
 }
 
+bool pl_images_partners(const plumb_world *world, const pl_grid_entry *entry, const pl_grid *among,
+                        pl_pair_found *found, void *context)
+{
+    const double bound_x = bound_of(among, (double)world->desc.wrap_x);
+    const double bound_y = bound_of(among, (double)world->desc.wrap_y);
+    seeker s = { .world = world, .entry = entry, .found = found, .context = context };
+    for (s.shift = 0; s.shift < SHIFTS && among->entry_count > 0; ++s.shift) {
+        if (turns_along(world, s.shift) && !seek(&s, among, bound_x, bound_y)) {
+            return false;
+        }
+    }
+    return true;
+}
+
 bool pl_images_pairs(const plumb_world *world, const pl_grid *from, const pl_grid *among,
                      pl_pair_found *found, void *context)
 {
@@ -158,7 +178,7 @@ bool pl_images_pairs(const plumb_world *world, const pl_grid *from, const pl_gri
     const pl_grid_entry *entries = pl_grid_entries(from);
     const int count = from == among ? SHIFTS / 2 : SHIFTS;
     for (int k = 0; k < count && among->entry_count > 0; ++k) {
-        if ((shifts[k][0] != 0 && !(wrap_x > 0)) || (shifts[k][1] != 0 && !(wrap_y > 0))) {
+        if (!turns_along(world, k)) {
             continue;
         }
         seeker s = { .world = world, .shift = k, .found = found, .context = context };

@@ -27,5 +27,8 @@ pl_images pl_images_of(const plumb_world *world, const pl_grid *grid, pl_box box
 typedef bool pl_pair_found(void *context, uint32_t piece, uint32_t other);
 bool pl_images_pairs(const plumb_world *world, const pl_grid *from, const pl_grid *among,
                      pl_pair_found *found, void *context);
+// The same of one entry, which need not be in the grid.
+bool pl_images_partners(const plumb_world *world, const pl_grid_entry *entry, const pl_grid *among,
+                        pl_pair_found *found, void *context);
 
 #endif

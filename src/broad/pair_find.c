@@ -4,6 +4,9 @@
 // the next one in its row and the three neighbours in the next row. Different levels: from the
 // finer box. Static pieces: from the moving box. Cost: O(moving pieces + pairs) for sizes within an
 // octave.
+//
+// Around the pieces that left their boxes: from each of those, all about it. Two of them find each
+// other twice; the find of the lower one counts.
 #include "broad/images.h"
 #include "broad/pairs.h"
 #include "world/filter.h"
@@ -15,7 +18,8 @@ typedef struct finder {
     uint32_t dynamic_count;
     pl_found *found;
     uint32_t count, capacity;
-    bool selective; // filters, excluded pairs or sensors are there
+    const uint8_t *left; // marks of the pieces around which is looked; NULL: everywhere
+    bool selective;      // filters, excluded pairs or sensors are there
     bool out_of_memory;
     uint32_t piece; // whose partners are being collected
 } finder;
@@ -61,6 +65,9 @@ static __attribute__((noinline)) bool select_pair(finder *f, uint32_t p, uint32_
 static inline bool add_pair(finder *f, uint32_t p, uint32_t q)
 {
     bool solid = true;
+    if (f->left != NULL && q < p && f->left[q] != 0) {
+        return true;
+    }
     if (f->selective && (!select_pair(f, p, q, &solid) || !solid)) {
         return !f->out_of_memory;
     }
@@ -134,29 +141,38 @@ static bool find_in_level(finder *f, const pl_grid *grid, const pl_grid_level *l
     return true;
 }
 
+// Partners of a box in a level of the grid, all about it.
+static bool find_about(finder *f, const pl_grid *grid, const pl_grid_level *level,
+                       const pl_grid_entry *e)
+{
+    const pl_grid_entry *entries = pl_grid_entries(grid);
+    pl_cell_range range = pl_grid_range(level, e->box);
+    if (pl_grid_range_is_wide(level, range)) {
+        for (uint32_t j = level->first; j < level->first + level->count; ++j) {
+            if (pl_boxes_overlap(&e->box, &entries[j].box) &&
+                !add_pair(f, e->piece, entries[j].piece)) {
+                return false;
+            }
+        }
+        return true;
+    }
+    for (int32_t y = range.y0; y <= range.y1; ++y) {
+        if (!scan_row(f, grid, level, range.x0, range.x1, y, e)) {
+            return false;
+        }
+    }
+    return true;
+}
+
 // Partners of every box of level k among the coarser levels of the moving grid.
 static bool find_across_levels(finder *f, const pl_grid *grid, uint32_t k)
 {
     const pl_grid_entry *entries = pl_grid_entries(grid);
     const pl_grid_level *fine = &grid->levels[k];
     for (uint32_t m = k + 1; m < grid->level_count; ++m) {
-        const pl_grid_level *coarse = &grid->levels[m];
         for (uint32_t i = fine->first; i < fine->first + fine->count; ++i) {
-            const pl_grid_entry *e = &entries[i];
-            pl_cell_range range = pl_grid_range(coarse, e->box);
-            if (pl_grid_range_is_wide(coarse, range)) {
-                for (uint32_t j = coarse->first; j < coarse->first + coarse->count; ++j) {
-                    if (pl_boxes_overlap(&e->box, &entries[j].box) &&
-                        !add_pair(f, e->piece, entries[j].piece)) {
-                        return false;
-                    }
-                }
-                continue;
-            }
-            for (int32_t y = range.y0; y <= range.y1; ++y) {
-                if (!scan_row(f, grid, coarse, range.x0, range.x1, y, e)) {
-                    return false;
-                }
+            if (!find_about(f, grid, &grid->levels[m], &entries[i])) {
+                return false;
             }
         }
     }
@@ -229,6 +245,17 @@ static bool add_resting_image(void *context, uint32_t piece, uint32_t other)
     return add_resting(f, &(pl_grid_entry){ .piece = other });
 }
 
+// Of one piece that left its box.
+static bool find_over_edges_about(finder *f, const pl_grid_entry *e, bool meet, bool grounded)
+{
+    const plumb_world *world = f->world;
+    const pl_broad *b = &world->broad;
+    return (!meet || pl_images_partners(world, e, &b->moving, add_image, f)) &&
+           (!grounded || pl_images_partners(world, e, &b->fixed, add_image, f)) &&
+           (world->sensor_pieces == 0 ||
+            pl_images_partners(world, e, &b->resting, add_resting_image, f));
+}
+
 static bool find_over_edges(finder *f, bool meet, bool grounded)
 {
     const plumb_world *world = f->world;
@@ -291,21 +318,33 @@ static bool meets_fixed(const plumb_world *world, const crowd *moving)
     return may_meet(moving, &c);
 }
 
+static finder make_finder(plumb_world *world)
+{
+    pl_broad *broad = &world->broad;
+    return (finder){ .world = world,
+                     .body = world->pieces.body,
+                     .first_joint = world->bodies.first_joint,
+                     .dynamic_count = world->dynamic_count,
+                     .selective = pl_world_is_selective(world),
+                     .found = broad->found.data,
+                     .capacity = (uint32_t)(broad->found.size / sizeof(pl_found)) };
+}
+
+// Debris that passes through debris, a net in one group: no box need be compared.
+static void judge_crowds(const plumb_world *world, bool *meet, bool *grounded)
+{
+    crowd moving;
+    *meet = world->filtered_pieces == 0 || moving_crowd(world, &moving);
+    *grounded = *meet || meets_fixed(world, &moving);
+}
+
 bool pl_pairs_find(plumb_world *world)
 {
     pl_broad *broad = &world->broad;
-    finder f = { .world = world,
-                 .body = world->pieces.body,
-                 .first_joint = world->bodies.first_joint,
-                 .dynamic_count = world->dynamic_count,
-                 .selective = pl_world_is_selective(world),
-                 .found = broad->found.data,
-                 .capacity = (uint32_t)(broad->found.size / sizeof(pl_found)) };
+    finder f = make_finder(world);
+    bool meet, grounded;
     broad->sensed_count = 0;
-    crowd moving;
-    // Debris that passes through debris, a net in one group: no box need be compared.
-    const bool meet = world->filtered_pieces == 0 || moving_crowd(world, &moving);
-    const bool grounded = meet || meets_fixed(world, &moving);
+    judge_crowds(world, &meet, &grounded);
     for (uint32_t k = 0; meet && k < broad->moving.level_count; ++k) {
         if (!find_in_level(&f, &broad->moving, &broad->moving.levels[k]) ||
             !find_across_levels(&f, &broad->moving, k)) {
@@ -320,6 +359,50 @@ bool pl_pairs_find(plumb_world *world)
     }
     if (pl_is_wrapped(world) && !find_over_edges(&f, meet, grounded)) {
         return false;
+    }
+    broad->found_count = f.count;
+    return !f.out_of_memory;
+}
+
+// Takes out what the pieces that left their boxes had to do with sensors.
+static void forget_sensed(pl_broad *broad)
+{
+    const uint8_t *left = broad->left_marks.data;
+    pl_found *sensed = broad->sensed.data;
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < broad->sensed_count; ++i) {
+        sensed[kept] = sensed[i];
+        kept += left[sensed[i].low] == 0 && left[sensed[i].high] == 0;
+    }
+    broad->sensed_count = kept;
+}
+
+bool pl_pairs_find_left(plumb_world *world)
+{
+    pl_broad *broad = &world->broad;
+    const pl_grid *moving = &broad->moving;
+    finder f = make_finder(world);
+    bool meet, grounded;
+    f.left = broad->left_marks.data;
+    forget_sensed(broad);
+    judge_crowds(world, &meet, &grounded);
+    const bool senses = world->sensor_pieces > 0 && broad->resting.entry_count > 0;
+    for (uint32_t i = 0; i < broad->left_count; ++i) {
+        uint32_t piece = ((const uint32_t *)broad->left.data)[i];
+        pl_grid_entry e = { .piece = piece, .box = world->pieces.fat[piece] };
+        f.piece = piece;
+        for (uint32_t k = 0; meet && k < moving->level_count; ++k) {
+            if (!find_about(&f, moving, &moving->levels[k], &e)) {
+                return false;
+            }
+        }
+        if ((grounded && !pl_grid_query(&broad->fixed, e.box, add_visited, &f)) ||
+            (senses && !pl_grid_query(&broad->resting, e.box, add_resting, &f))) {
+            return false;
+        }
+        if (pl_is_wrapped(world) && !find_over_edges_about(&f, &e, meet, grounded)) {
+            return false;
+        }
     }
     broad->found_count = f.count;
     return !f.out_of_memory;

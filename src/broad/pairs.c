@@ -92,24 +92,6 @@ static bool sort_found(plumb_world *world)
     return true;
 }
 
-static void lay_out_kinds(pl_pair_list *list, const pl_found *sorted, uint32_t count,
-                          const uint8_t *kind)
-{
-    memset(list->size, 0, sizeof list->size);
-    for (uint32_t i = 0; i < count; ++i) {
-        uint8_t low = kind[sorted[i].low];
-        uint8_t high = kind[sorted[i].high];
-        ++list->size[low < high ? low : high][low < high ? high : low];
-    }
-    uint32_t first = 0;
-    for (int a = 0; a < PL_PIECE_KIND_COUNT; ++a) {
-        for (int b = 0; b < PL_PIECE_KIND_COUNT; ++b) {
-            list->first[a][b] = first;
-            first += list->size[a][b];
-        }
-    }
-}
-
 pl_pair pl_pair_fresh(const plumb_world *world, pl_found found)
 {
     const pl_pieces *pieces = &world->pieces;
@@ -147,11 +129,17 @@ pl_pair *pl_pairs_find_one(const plumb_world *world, uint32_t p, uint32_t q)
     return found ? &pairs[low] : NULL;
 }
 
-typedef struct carry {
-    const pl_pair *old;
-    uint32_t next[PL_PIECE_KIND_COUNT][PL_PIECE_KIND_COUNT]; // cursor into the old list
-    uint32_t end[PL_PIECE_KIND_COUNT][PL_PIECE_KIND_COUNT];
-} carry;
+//---- merging with the list before -----------------------------------------------------------------
+
+typedef struct merger {
+    plumb_world *world;
+    const uint8_t *left; // marks of the pieces whose pairs were found; NULL: all were
+    bool reborn;         // a slot may have changed its piece
+    const pl_pair *old, *old_end;
+    const pl_pair *kept; // first of the pairs of the old list that stay and are yet to be copied
+    pl_pair *out;
+    bool changed;
+} merger;
 
 static bool is_younger(const plumb_world *world, uint32_t piece)
 {
@@ -171,72 +159,156 @@ static void lose_pair(plumb_world *world, const pl_pair *pair)
     pl_pair_lost(world, pair);
 }
 
-static void place_pairs(plumb_world *world, pl_pair *items, carry *c)
+// Copies the pairs that stay, up to `end`.
+static void copy_kept(merger *m, const pl_pair *end)
 {
-    pl_broad *broad = &world->broad;
-    const pl_found *sorted = broad->sorted.data;
-    const uint8_t *kind = world->pieces.kind;
-    const uint32_t *body = world->pieces.body;
-    uint32_t at[PL_PIECE_KIND_COUNT][PL_PIECE_KIND_COUNT];
-    memcpy(at, broad->pairs.first, sizeof at);
-    const bool reborn = world->serial > broad->serial; // a slot may have changed its piece
-    for (uint32_t i = 0; i < broad->found_count; ++i) {
-        uint8_t low = kind[sorted[i].low], high = kind[sorted[i].high];
-        uint8_t ka = low < high ? low : high, kb = low < high ? high : low;
-        uint64_t key = key_of(sorted[i].low, sorted[i].high);
-        uint32_t *next = &c->next[ka][kb];
-        uint32_t end = c->end[ka][kb];
-        while (*next < end && key_of(c->old[*next].a, c->old[*next].b) < key) {
-            lose_pair(world, &c->old[(*next)++]);
-        }
-        pl_pair *item = &items[at[ka][kb]++];
-        const pl_pair *old = &c->old[*next];
-        if (*next < end && key_of(old->a, old->b) == key) {
-            ++*next;
-            if (!reborn || (!is_younger(world, old->a) && !is_younger(world, old->b))) {
-                *item = *old;
-                item->body_a = body[old->a];
-                item->body_b = body[old->b];
-                continue;
-            }
-            pl_pair_lost(world, old); // other pieces in the same slots
-        }
-        *item = pl_pair_fresh(world, sorted[i]);
+    size_t count = (size_t)(end - m->kept);
+    if (count > 0) {
+        memcpy(m->out, m->kept, count * sizeof(pl_pair));
     }
-    for (int a = 0; a < PL_PIECE_KIND_COUNT; ++a) {
-        for (int b = 0; b < PL_PIECE_KIND_COUNT; ++b) {
-            while (c->next[a][b] < c->end[a][b]) {
-                lose_pair(world, &c->old[c->next[a][b]++]);
-            }
+    m->out += count;
+    m->kept = end;
+}
+
+static void drop_old(merger *m)
+{
+    copy_kept(m, m->old);
+    m->kept = ++m->old;
+    m->changed = true;
+}
+
+static void add_fresh(merger *m, pl_found found)
+{
+    copy_kept(m, m->old);
+    *m->out++ = pl_pair_fresh(m->world, found);
+    m->changed = true;
+}
+
+// What becomes of the next pair of the old list, when the next one found has this key. True: it is
+// that one, and stays.
+static bool pass_old(merger *m, uint64_t key)
+{
+    const pl_pair *old = m->old;
+    bool is_found = key_of(old->a, old->b) == key;
+    if (!is_found && (m->left == NULL || m->left[old->a] != 0 || m->left[old->b] != 0)) {
+        lose_pair(m->world, old);
+        drop_old(m);
+        return false;
+    }
+    if (m->reborn && (is_younger(m->world, old->a) || is_younger(m->world, old->b))) {
+        pl_pair_lost(m->world, old); // other pieces in the same slots
+        drop_old(m);
+        return false;
+    }
+    ++m->old;
+    return is_found;
+}
+
+// The pairs of two kinds; what was found is in order.
+static void merge_kinds(merger *m, const pl_found *found, uint32_t count)
+{
+    for (uint32_t i = 0; i < count; ++i) {
+        uint64_t key = key_of(found[i].low, found[i].high);
+        while (m->old < m->old_end && key_of(m->old->a, m->old->b) < key) {
+            pass_old(m, key);
         }
+        if (m->old == m->old_end || key_of(m->old->a, m->old->b) != key || !pass_old(m, key)) {
+            add_fresh(m, found[i]);
+        }
+    }
+    while (m->old < m->old_end) {
+        pass_old(m, UINT64_MAX);
     }
 }
 
-bool pl_pairs_rebuild(plumb_world *world)
+typedef uint32_t by_kinds[PL_PIECE_KIND_COUNT][PL_PIECE_KIND_COUNT];
+
+// Sorts broad->sorted by kinds into broad->found; the order within stays.
+static void part_kinds(plumb_world *world, by_kinds first, by_kinds size)
+{
+    pl_broad *broad = &world->broad;
+    const uint8_t *kind = world->pieces.kind;
+    const pl_found *sorted = broad->sorted.data;
+    pl_found *parted = broad->found.data;
+    by_kinds at;
+    memset(size, 0, sizeof(by_kinds));
+    for (uint32_t i = 0; i < broad->found_count; ++i) {
+        uint8_t low = kind[sorted[i].low], high = kind[sorted[i].high];
+        ++size[low < high ? low : high][low < high ? high : low];
+    }
+    uint32_t sum = 0;
+    for (int a = 0; a < PL_PIECE_KIND_COUNT; ++a) {
+        for (int b = 0; b < PL_PIECE_KIND_COUNT; ++b) {
+            at[a][b] = first[a][b] = sum;
+            sum += size[a][b];
+        }
+    }
+    for (uint32_t i = 0; i < broad->found_count; ++i) {
+        uint8_t low = kind[sorted[i].low], high = kind[sorted[i].high];
+        parted[at[low < high ? low : high][low < high ? high : low]++] = sorted[i];
+    }
+}
+
+// The old list and what was found, to a new list in old_items. False: nothing has changed.
+static bool merge(plumb_world *world, const uint8_t *left)
 {
     pl_broad *broad = &world->broad;
     pl_pair_list *list = &broad->pairs;
-    if (!pl_pairs_find(world) || !sort_found(world) ||
-        !pl_buffer_reserve(&world->memory, &list->old_items,
-                           ((size_t)broad->found_count + 1) * sizeof(pl_pair)) ||
-        !pl_events_reserve_ends(world, list->count) || !pl_parts_reserve(world, list->count)) {
-        return false;
-    }
-    carry c = { .old = list->items.data };
+    merger m = { .world = world,
+                 .left = left,
+                 .reborn = world->serial > broad->serial,
+                 .old = list->items.data,
+                 .kept = list->items.data,
+                 .out = list->old_items.data };
+    by_kinds first, size, new_first, new_size;
+    part_kinds(world, first, size);
+    // The runs of the kinds follow one another in both lists, so pairs that stay are copied across them.
+    uint32_t before = 0;
     for (int a = 0; a < PL_PIECE_KIND_COUNT; ++a) {
         for (int b = 0; b < PL_PIECE_KIND_COUNT; ++b) {
-            c.next[a][b] = list->first[a][b];
-            c.end[a][b] = list->first[a][b] + list->size[a][b];
+            m.old_end = m.old + list->size[a][b];
+            merge_kinds(&m, (const pl_found *)broad->found.data + first[a][b], size[a][b]);
+            uint32_t here =
+                (uint32_t)(m.out - (pl_pair *)list->old_items.data) + (uint32_t)(m.old - m.kept);
+            new_first[a][b] = before;
+            new_size[a][b] = here - before;
+            before = here;
         }
     }
-    lay_out_kinds(list, broad->sorted.data, broad->found_count, world->pieces.kind);
-    place_pairs(world, list->old_items.data, &c);
-    pl_buffer items = list->items;
-    list->items = list->old_items;
-    list->old_items = items;
-    world->schedule_dirty |= (list->count > 0) != (broad->found_count > 0);
+    if (!m.changed) {
+        return false;
+    }
+    copy_kept(&m, pl_pairs(list) + list->count);
+    memcpy(list->first, new_first, sizeof new_first);
+    memcpy(list->size, new_size, sizeof new_size);
+    world->schedule_dirty |= (list->count > 0) != (before > 0);
+    list->count = before;
+    return true;
+}
+
+bool pl_pairs_update(plumb_world *world)
+{
+    pl_broad *broad = &world->broad;
+    pl_pair_list *list = &broad->pairs;
+    const bool whole = broad->stale;
+    if (!(whole ? pl_pairs_find(world) : pl_pairs_find_left(world)) || !sort_found(world) ||
+        !pl_buffer_reserve(&world->memory, &list->old_items,
+                           ((size_t)list->count + broad->found_count + 1) * sizeof(pl_pair)) ||
+        !pl_events_reserve_ends(world, list->count) || !pl_parts_reserve(world, list->count)) {
+        broad->stale = true; // what sensors see may have been taken out
+        return false;
+    }
+    bool changed = merge(world, whole ? NULL : broad->left_marks.data);
+    if (changed) {
+        pl_buffer items = list->items;
+        list->items = list->old_items;
+        list->old_items = items;
+    }
+    broad->rebuilds += changed || whole || world->sensor_pieces > 0; // or what sensors see
+    world->rows_moved |= whole; // contacts of what woke do not know their rows
     world->parts.buried = false;
-    list->count = broad->found_count;
     broad->serial = world->serial;
+    broad->stale = false;
+    pl_broad_forget_left(broad);
     return true;
 }

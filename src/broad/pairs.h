@@ -8,14 +8,17 @@ typedef struct pl_found {
     uint32_t low, high; // piece slots; of broad->sensed: sensor, other
 } pl_found;
 
-// Rebuilds the pair list from the grids. False when out of memory; the old list then stands.
-bool pl_pairs_rebuild(plumb_world *world);
+// Brings the pair list up to date with the grids: around the pieces that left their boxes, or from
+// nothing when the list is stale. False when out of memory; the old list then stands.
+bool pl_pairs_update(plumb_world *world);
 
 // The pair of two pieces; NULL if their fat boxes do not overlap or they may not meet. O(log pairs).
 pl_pair *pl_pairs_find_one(const plumb_world *world, uint32_t p, uint32_t q);
 
-// Fills broad->found with every pair of fat boxes that overlap and may collide (pair_find.c).
+// Fills broad->found with every pair of fat boxes that overlap and may collide, or with those of the
+// pieces that left their boxes; broad->sensed likewise (pair_find.c).
 bool pl_pairs_find(plumb_world *world);
+bool pl_pairs_find_left(plumb_world *world);
 
 // A pair without a past, its rows looked up.
 pl_pair pl_pair_fresh(const plumb_world *world, pl_found found);

@@ -69,6 +69,7 @@ typedef struct pl_characters {
     bool moved;          // in this step: it can be undone
     bool walks;          // some dynamic one was driven in this step
     bool treads;         // some kinematic one stands on a dynamic body
+    double farthest;     // [m] that a kinematic one moves in this step, of those that had their turn
     pl_buffer obstacles; // pl_obstacle, scratch of one character
     pl_buffer near;      // uint32_t, pieces near it
     pl_buffer pushes;    // pl_shove of this step

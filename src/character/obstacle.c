@@ -245,10 +245,11 @@ static void make_obstacle(const pl_walker *m, uint32_t piece, pl_obstacle *o)
     }
 }
 
-// [m] how far a turning kinematic body can reach beyond its fat box within the step.
-static double turning_reach(const plumb_world *world, double dt)
+// [m] how far a kinematic body that turns, or a character that has had its turn in this step, can reach
+// beyond its fat box within the step.
+static double reach_of_others(const plumb_world *world, double dt)
 {
-    double most = 0;
+    double most = world->characters.farthest;
     for (uint32_t row = world->dynamic_count; row < world->dynamic_count + world->kinematic_count;
          ++row) {
         double w = fabs((double)(world->bodies.w[row] * pl_time_scale(world, row)));
@@ -265,7 +266,7 @@ bool pl_walker_look(pl_walker *m, double reach)
     plumb_world *world = m->world;
     search s = { .m = m };
     pl_box box = pl_piece_tight_box(world, m->piece);
-    real wide = (real)pl_least(reach + turning_reach(world, m->step) + m->skin, (double)PL_LARGEST);
+    real wide = (real)pl_least(reach + reach_of_others(world, m->step) + m->skin, (double)PL_LARGEST);
     box.min_x -= wide, box.min_y -= wide, box.max_x += wide, box.max_y += wide;
     if (!pl_world_query(world, &world->broad.moving, box, list_piece, &s) ||
         !pl_world_query(world, &world->broad.resting, box, list_resting, &s) ||

@@ -202,6 +202,9 @@ static bool move_one(plumb_world *world, pl_character *c, real dt)
     bool moved = fabs(m.x) + fabs(m.y) > rounding;
     b->vx[m.row] = moved ? (real)(m.x / m.dt) : 0;
     b->vy[m.row] = moved ? (real)(m.y / m.dt) : 0;
+    double way = sqrt(m.x * m.x + m.y * m.y);
+    world->characters.farthest =
+        way > world->characters.farthest ? way : world->characters.farthest;
     return true;
 }
 
@@ -231,6 +234,7 @@ static void save(plumb_world *world)
     memcpy(all->saved.data, items, all->count * sizeof *items);
     all->push_count = 0;
     all->treads = all->walks = false;
+    all->farthest = 0;
     all->moved = true;
     ++all->turn;
 }
@@ -301,6 +305,7 @@ void pl_characters_undo(plumb_world *world)
         b->vx[row] = items[i].body_velocity.x;
         b->vy[row] = items[i].body_velocity.y;
     }
+    --all->turn;
     all->moved = false;
 }
 

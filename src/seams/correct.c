@@ -111,6 +111,26 @@ static void close_gaps(plumb_world *world)
     }
 }
 
+// A contact and the one that bears its load are of the same two bodies: both stay, or neither.
+void pl_seams_follow(plumb_world *world, const uint32_t *places, uint32_t borne)
+{
+    pl_narrow *narrow = &world->narrow;
+    pl_manifold *m = pl_manifolds(narrow);
+    pl_pair *pairs = pl_pairs(&world->broad.pairs);
+    uint32_t kept = narrow->manifold_count;
+    for (uint32_t i = borne; i < borne + narrow->borne_count; ++i) {
+        uint32_t place = places[m[i].pair];
+        if (place != PL_NONE) {
+            m[kept] = m[i];
+            m[kept].pair = place;
+            m[kept].bearer = places[m[i].bearer];
+            pairs[place].manifold = kept++;
+        }
+    }
+    narrow->borne_count = kept - narrow->manifold_count;
+    pl_runs_follow(world, places);
+}
+
 bool pl_seams_correct(plumb_world *world, real dt)
 {
     pl_seams *s = &world->seams;

@@ -83,10 +83,12 @@ static bool gather_around(plumb_world *world, uint32_t piece)
 {
     gathering g = { world, piece };
     pl_box box = world->pieces.fat[piece];
+    const bool asleep = (world->pieces.flags[piece] & PL_PIECE_ASLEEP) != 0;
     world->seams.around_count = 0;
     return pl_world_query(world, &world->broad.fixed, box, gather, &g) &&
            (pl_piece_is_static(world, piece) ||
-            pl_world_query(world, &world->broad.moving, box, gather, &g));
+            pl_world_query(world, asleep ? &world->broad.resting : &world->broad.moving, box, gather,
+                           &g));
 }
 
 //---- what they do --------------------------------------------------------------------------------

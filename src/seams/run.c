@@ -403,6 +403,21 @@ void pl_runs_undo(pl_seams *s)
     }
 }
 
+void pl_runs_follow(plumb_world *world, const uint32_t *places)
+{
+    pl_seams *s = &world->seams;
+    pl_run_load *loads = s->loads.data;
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < s->load_count; ++i) {
+        if (places[loads[i].pair] != PL_NONE) {
+            loads[kept] = loads[i];
+            loads[kept].pair = places[loads[i].pair];
+            ++kept;
+        }
+    }
+    s->load_count = kept;
+}
+
 void pl_seams_remember(plumb_world *world)
 {
     const pl_pair *pairs = pl_pairs(&world->broad.pairs);

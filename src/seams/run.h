@@ -12,6 +12,8 @@ bool pl_runs_open(plumb_world *world, uint32_t contacts);
 void pl_runs_add(plumb_world *world, uint32_t index, pl_view views[2]);
 // Joins what was added into runs and gives each to one of its contacts. False when out of memory.
 bool pl_runs_join(plumb_world *world, double dt);
+// Pairs have moved in the list: see pl_seams_follow.
+void pl_runs_follow(plumb_world *world, const uint32_t *places);
 // The loads as they were when the step began.
 void pl_runs_undo(pl_seams *seams);
 

@@ -73,7 +73,9 @@ void pl_seams_touch_static(plumb_world *world, uint32_t row)
 void pl_seams_leave(plumb_world *world, uint32_t piece)
 {
     pl_seams *s = &world->seams;
-    if (!pl_piece_is_static(world, piece) || !pl_piece_has_seams(&world->pieces, piece)) {
+    // As it is filed: its body may have another type by now.
+    bool is_filed = world->pieces.moving[piece] == PL_NONE;
+    if (!is_filed || !pl_piece_has_seams(&world->pieces, piece)) {
         return; // what has no seams has no neighbours that could lose theirs
     }
     mark_dirty(world);
@@ -115,6 +117,9 @@ void pl_seams_clear(plumb_world *world, uint32_t piece)
 void pl_seams_forget(plumb_world *world, uint32_t piece)
 {
     pl_seams_leave(world, piece);
+    if (pl_piece_has_seams(&world->pieces, piece)) {
+        mark_dirty(world); // what is noted of its pairs is out of date, even if it was the last one
+    }
     pl_seams_clear(world, piece);
     world->pieces.seam_corners[piece] = 0;
 }
@@ -163,7 +168,7 @@ static bool choose_stale(plumb_world *world)
     pl_seams *s = &world->seams;
     bool ok = true;
     for (uint32_t p = 0; p < pieces->table.count && ok; ++p) {
-        if (pieces->kind[p] == PL_PIECE_FREE ||
+        if (pieces->kind[p] == PL_PIECE_FREE || pieces->moving[p] == PL_OUT ||
             !(s->all || (pieces->seam_corners[p] & PL_SEAM_STALE))) {
             continue;
         }
@@ -269,6 +274,8 @@ bool pl_seams_update(plumb_world *world)
             kept[i].normal[k] = pair->normal[k];
             kept[i].tangent[k] = pair->tangent[k];
         }
+        kept[i].rolling = pair->rolling;
+        kept[i].manifold = pair->manifold;
         kept[i].a = pair->a;
         kept[i].b = pair->b;
     }
@@ -283,6 +290,8 @@ static void give_back(pl_pair *pair, const pl_seam_pair *kept)
         pair->normal[k] = kept->normal[k];
         pair->tangent[k] = kept->tangent[k];
     }
+    pair->rolling = kept->rolling;
+    pair->manifold = kept->manifold; // pairs that part forget the above, those that are apart do not
 }
 
 void pl_seams_undo(plumb_world *world)

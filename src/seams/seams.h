@@ -57,7 +57,9 @@ typedef struct pl_seam_pair {
     uint32_t pair;
     uint32_t feature[2];
     real normal[2], tangent[2];
-    uint32_t a, b;       // its pieces
+    real rolling;
+    uint32_t a, b;     // its pieces
+    uint32_t manifold; // PL_NONE: it was apart
 } pl_seam_pair;
 
 // What the owner of a run of flush faces bore in the last step, by the mover's piece (run.c).
@@ -127,6 +129,10 @@ void pl_seams_undo(plumb_world *world);
 // Sets manifolds right whose normals the ground does not admit (correct.c). After the narrow phase. False
 // when out of memory; the next step makes manifolds anew.
 bool pl_seams_correct(plumb_world *world, real dt);
+
+// Pairs of what fell asleep have left the list: `places` tells where each of the others now is (PL_NONE:
+// it has left). Manifolds whose load others bear lie from `borne` on; those that stay close up to the rest.
+void pl_seams_follow(plumb_world *world, const uint32_t *places, uint32_t borne);
 
 // Notes what runs of flush faces bear, for the next step. After the solver.
 void pl_seams_remember(plumb_world *world);

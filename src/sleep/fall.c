@@ -304,7 +304,9 @@ static bool reserve_islands(plumb_world *world, uint32_t pair_count, uint32_t bo
         contacts += is_linked(&pairs[i]) && island_of(world, &pairs[i]) != PL_NONE;
     }
     size_t events = ((size_t)s->sleep_event_count + bodies) * sizeof(plumb_body);
+    size_t places = world->seams.pair_count > 0 ? pair_count * sizeof(uint32_t) : 0;
     return pl_islands_reserve(world, islands, contacts) &&
+           pl_buffer_reserve(&world->memory, &s->places, places) &&
            pl_buffer_reserve(&world->memory, &s->sleep_events, events);
 }
 
@@ -317,12 +319,17 @@ static void take_out_pairs(plumb_world *world, uint32_t pair_count)
     pl_narrow *narrow = &world->narrow;
     pl_manifold *m = pl_manifolds(narrow);
     const uint8_t *kind = world->pieces.kind;
+    const uint32_t own = narrow->manifold_count, all = own + narrow->borne_count;
+    uint32_t *places = world->seams.pair_count > 0 ? world->sleep.places.data : NULL;
     uint32_t kept = 0, kept_manifolds = 0, taken[PL_PIECE_KIND_COUNT][PL_PIECE_KIND_COUNT] = { 0 };
     for (uint32_t i = 0; i < pair_count; ++i) {
         pl_pair *pair = &pairs[i];
         // Manifolds lie in the order of their pairs.
-        pl_manifold *its = pair->manifold < narrow->manifold_count ? &m[pair->manifold] : NULL;
+        pl_manifold *its = pair->manifold < all ? &m[pair->manifold] : NULL;
         uint32_t root = island_of(world, pair);
+        if (places != NULL) {
+            places[i] = root == PL_NONE ? kept : PL_NONE;
+        }
         if (root != PL_NONE) {
             if (is_linked(pair)) {
                 pl_island_keep(world, world->bodies.island[root], pair, its);
@@ -330,7 +337,7 @@ static void take_out_pairs(plumb_world *world, uint32_t pair_count)
             ++taken[kind[pair->a]][kind[pair->b]];
             continue;
         }
-        if (its != NULL) {
+        if (pair->manifold < own) {
             its->pair = kept;
             pair->manifold = kept_manifolds;
             m[kept_manifolds++] = *its;
@@ -347,6 +354,9 @@ static void take_out_pairs(plumb_world *world, uint32_t pair_count)
     }
     list->count = kept;
     narrow->manifold_count = kept_manifolds;
+    if (places != NULL) {
+        pl_seams_follow(world, places, own);
+    }
     pl_narrow_summarise(narrow);
 }
 
@@ -359,7 +369,7 @@ static void look_up_rows(plumb_world *world)
         pairs[i].body_a = world->pieces.body[pairs[i].a];
         pairs[i].body_b = world->pieces.body[pairs[i].b];
     }
-    for (uint32_t i = 0; i < world->narrow.manifold_count; ++i) {
+    for (uint32_t i = 0; i < world->narrow.manifold_count + world->narrow.borne_count; ++i) {
         m[i].body_a = pairs[m[i].pair].body_a;
         m[i].body_b = pairs[m[i].pair].body_b;
     }

@@ -33,8 +33,8 @@ void pl_sleep_free(pl_memory *memory, pl_sleep *s)
     pl_buffer *buffers[] = { &s->islands,           &s->contacts,    &s->resting,
                              &s->near.items,        &s->probe.items, &s->found,
                              &s->touched.manifolds, &s->marked,      &s->woken,
-                             &s->parents,           &s->held,        &s->sleep_events,
-                             &s->wake_events };
+                             &s->parents,           &s->held,        &s->places,
+                             &s->sleep_events,      &s->wake_events };
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; ++i) {
         pl_buffer_free(memory, buffers[i]);
     }
@@ -187,7 +187,9 @@ void pl_island_keep(plumb_world *world, uint32_t island, const pl_pair *pair,
         for (int k = 0; k < 2; ++k) { // at rest, all substeps are alike
             c->manifold.point[k].total = pair->normal[k] * (real)world->desc.substeps;
         }
-        count_in(i, manifold);
+        if ((pair->flags & PL_PAIR_BORNE) == 0) { // those are not among the manifolds of a step
+            count_in(i, manifold);
+        }
     }
     i->first_contact = slot;
     ++i->contact_count;

@@ -72,6 +72,7 @@ typedef struct pl_sleep {
     real ripe_for;         // [s] for so long, some body may have rested long enough
     pl_buffer parents;     // uint32_t a row
     pl_buffer held;        // uint8_t a row: something keeps its island awake
+    pl_buffer places;      // uint32_t a pair: where in the list it is afterwards; PL_NONE: asleep
 
     // Events of the last step.
     pl_buffer sleep_events, wake_events; // plumb_body

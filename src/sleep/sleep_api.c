@@ -55,6 +55,9 @@ plumb_result plumb_body_sleep(plumb_world *world, plumb_body body)
         r = pl_fail(world, PLUMB_E_STATE, __func__,
                     "the world has no_sleep; see plumb_world_set_sleep");
     }
+    if (r == PLUMB_OK && (world->bodies.flags[row] & PL_BODY_DISABLED) != 0) {
+        r = pl_fail(world, PLUMB_E_STATE, __func__, "body is disabled; it must be enabled");
+    }
     if (r != PLUMB_OK || (pl_row_is_asleep(world, row) && !plumb_body_is_awake(world, body))) {
         return r;
     }

@@ -141,10 +141,8 @@ static void note_stirring(plumb_world *world)
     for (uint32_t row = world->dynamic_count; row < end; ++row) {
         bool stirs = b->vx[row] != 0 || b->vy[row] != 0 || b->w[row] != 0 ||
                      b->changed_step[row] == (uint32_t)(world->step_count + 1);
-        if (stirs != ((b->flags[row] & PL_BODY_STIRRING) != 0)) {
-            b->flags[row] ^= PL_BODY_STIRRING;
-            world->sleep.near_stale = true;
-        }
+        world->sleep.near_stale |= stirs != b->stirring[row].is;
+        b->stirring[row].is = stirs;
     }
 }
 
@@ -155,8 +153,7 @@ static bool list_near(plumb_world *world)
     s->found_count = 0;
     for (uint32_t i = 0; i < world->moving_count; ++i) {
         uint32_t piece = pl_moving(world)[i], row = pieces->body[piece];
-        bool stirs =
-            row < world->dynamic_count || (world->bodies.flags[row] & PL_BODY_STIRRING) != 0;
+        bool stirs = row < world->dynamic_count || world->bodies.stirring[row].is;
         if (stirs && !seek(world, piece, pieces->fat[piece])) {
             return false;
         }
@@ -174,11 +171,9 @@ static bool mark_near(plumb_world *world, real dt)
         return true;
     }
     note_stirring(world);
-    if (pl_broad_refresh_moving(world, dt)) {
-        world->pairs_dirty = true;
-    }
+    pl_broad_refresh_moving(world, dt);
     world->broad.refreshed = true;
-    if (world->pairs_dirty || world->broad.stale || s->near_stale) {
+    if (world->pairs_dirty || pl_broad_is_stale(&world->broad) || s->near_stale) {
         s->near_stale = true;
         if (!list_near(world)) {
             return false;

@@ -59,6 +59,7 @@
 // The grids follow from the fat boxes and the list of moving pieces.
 #define PL_STATE_BROAD(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                      \
     LEFT(broad.moving) LEFT(broad.fixed) LEFT(broad.resting) LEFT(broad.refreshed)                 \
+    LEFT(broad.unfiled) LEFT(broad.left) LEFT(broad.left_marks) TALLY(broad.left_count)            \
     LEFT(broad.moving_lost) LEFT(broad.fixed_lost) LEFT(broad.resting_lost)                        \
     ARRAY(pl_pair, broad.pairs.items, broad.pairs.count, 0, 8)                                     \
     TALLY(broad.pairs.first) TALLY(broad.pairs.size) LEFT(broad.pairs.old_items)                   \
@@ -77,7 +78,8 @@
     LEFT(solver.bodies) LEFT(solver.motions) LEFT(solver.lows) LEFT(solver.struck)                 \
     LEFT(solver.rows) LEFT(solver.slots) LEFT(solver.masks) LEFT(solver.colors)                    \
     LEFT(solver.lanes) LEFT(solver.bundles) LEFT(solver.extras) LEFT(solver.specials)              \
-    LEFT(solver.impacts) LEFT(solver.classic) LEFT(solver.dynamic_slots) LEFT(solver.slot_count)   \
+    LEFT(solver.impacts) LEFT(solver.impact_heap) LEFT(solver.impact_heads) LEFT(solver.due_count)   \
+    LEFT(solver.lively_count)     LEFT(solver.classic) LEFT(solver.dynamic_slots) LEFT(solver.slot_count)   \
     LEFT(solver.bundle_count) LEFT(solver.impact_count) LEFT(solver.color_count)                   \
     LEFT(solver.overflow_count) LEFT(solver.bounce_count)
 
@@ -116,7 +118,7 @@
     LEFT(sleep.found_count) LEFT(sleep.touched) LEFT(sleep.marked) LEFT(sleep.marked_count)        \
     LEFT(sleep.woken) VALUE(sleep.timed_step) VALUE(sleep.changed_step) VALUE(sleep.tested_step)   \
     VALUE(sleep.since) VALUE(sleep.passed) VALUE(sleep.ripe_for) LEFT(sleep.parents)               \
-    LEFT(sleep.held) LEFT(sleep.sleep_events) LEFT(sleep.wake_events)                              \
+    LEFT(sleep.held) LEFT(sleep.places) LEFT(sleep.sleep_events) LEFT(sleep.wake_events)           \
     LEFT(sleep.sleep_event_count) LEFT(sleep.wake_event_count) LEFT(sleep.events_told)
 
 // Corners and stretches follow from where the ground lies, but not at once: they are kept up.
@@ -134,7 +136,7 @@
 #define PL_STATE_CHARACTERS(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                 \
     ARRAY(pl_character, characters.items, characters.count, 0, 8) LEFT(characters.saved)           \
     VALUE(characters.turn) LEFT(characters.moved) LEFT(characters.walks) LEFT(characters.treads)   \
-    LEFT(characters.obstacles) LEFT(characters.near) LEFT(characters.pushes)                       \
+    LEFT(characters.farthest) LEFT(characters.obstacles) LEFT(characters.near) LEFT(characters.pushes)                       \
     LEFT(characters.push_count)
 
 #define PL_STATE_CONTINUOUS(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                 \

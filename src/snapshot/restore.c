@@ -163,8 +163,8 @@ static bool is_moving_grid_kept(const plumb_world *world, const filed *f)
 {
     const pl_pieces *p = &world->pieces;
     uint32_t count = p->table.count;
-    return !world->broad.moving_lost && !world->pairs_dirty && count > 0 && f->pieces == count &&
-           world->moving_count > 0 && f->listed == world->moving_count &&
+    return !world->broad.moving_lost && !world->broad.unfiled && !world->pairs_dirty && count > 0 &&
+           f->pieces == count && world->moving_count > 0 && f->listed == world->moving_count &&
            memcmp(f->list, world->moving.data, f->listed * sizeof(uint32_t)) == 0 &&
            memcmp(f->fat, p->fat, count * sizeof *p->fat) == 0;
 }
@@ -216,6 +216,7 @@ static void take_over(plumb_world *world, source s)
     filed f = find_filed(world, s);
     bool keeps_fixed = is_fixed_grid_kept(world, &f);
     bool keeps_moving = is_moving_grid_kept(world, &f);
+    pl_broad_forget_left(&world->broad);
     clear_rows(world);
     for (uint32_t i = 0; i < pl_section_count(world); ++i) {
         source_next(&s);
@@ -230,7 +231,9 @@ static void take_over(plumb_world *world, source s)
     world->broad.moving_lost = !keeps_moving;
     world->broad.resting_lost =
         world->sleep.resting_count > 0 || world->broad.resting.entry_count > 0;
-    world->broad.refreshed = false;
+    world->broad.stale |= world->broad.left_count > 0; // which they were is not saved
+    world->broad.left_count = 0;
+    world->broad.refreshed = world->broad.unfiled = false;
     world->sleep.gone = 0;
     world->sleep.near.count = 0;
     world->sleep.near_stale = true;

@@ -55,9 +55,10 @@ typedef struct column_row {
     uint32_t stride, hashed;
 } column_row;
 
-// Not hashed: addresses, and boxes of the grids.
+// Not hashed: addresses, hints, and boxes of the grids.
 // clang-format off
-#define HASHED(type) _Generic((type){ 0 }, void *: 0, pl_box: 0, default: (uint32_t)sizeof(type))
+#define HASHED(type)                                                                                \
+    _Generic((type){ 0 }, void *: 0, pl_box: 0, pl_hint: 0, default: (uint32_t)sizeof(type))
 // clang-format on
 
 #define COLUMN_ROW(struct, type, name)                                                             \
@@ -96,7 +97,7 @@ static bool reserve_table(plumb_world *world, const column_row *column, uint32_t
                                 pl_piece_column_count, count) &&
                pl_buffer_reserve(memory, &world->moving, count * sizeof(uint32_t)) &&
                pl_buffer_reserve(memory, &world->sleep.resting, count * sizeof(uint32_t)) &&
-               pl_graves_reserve(world, count);
+               pl_broad_reserve_left(world, (uint32_t)count) && pl_graves_reserve(world, count);
     default:
         return pl_table_reserve(memory, &world->materials.table, pl_material_columns,
                                 pl_material_column_count, count);

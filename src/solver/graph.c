@@ -81,6 +81,9 @@ static bool reserve_lanes(plumb_world *world, const uint32_t counts[PL_COLORS + 
            pl_buffer_reserve(memory, &s->extras, extras * k->extra_size) &&
            pl_buffer_reserve(memory, &s->specials, specials * k->special_size) &&
            pl_buffer_reserve(memory, &s->impacts, impacts * sizeof(pl_impact)) &&
+           pl_buffer_reserve(memory, &s->impact_heap, impacts * sizeof(uint32_t)) &&
+           pl_buffer_reserve(memory, &s->impact_heads,
+                             (impacts > 0 ? s->dynamic_slots : 0) * sizeof(uint32_t)) &&
            pl_buffer_reserve(memory, &s->classic, classic * sizeof(pl_classic_contact));
 }
 
@@ -294,7 +297,7 @@ void pl_solver_free(pl_memory *memory, pl_solver *s)
     pl_buffer *buffers[] = { &s->bodies,  &s->motions, &s->rows,  &s->slots,
                              &s->masks,   &s->colors,  &s->lanes, &s->bundles,
                              &s->impacts, &s->classic, &s->lows,  &s->struck,
-                             &s->extras,  &s->specials };
+                             &s->extras,  &s->specials, &s->impact_heap, &s->impact_heads };
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; ++i) {
         pl_buffer_free(memory, buffers[i]);
     }

@@ -36,8 +36,12 @@ typedef struct pl_impact {
     bool locked; // a body has a locked axis: then
     real aix, aiy, bix, biy; // [1/kg] inverse masses along the axes
     bool due;    // an impact falls into the present substep
+    bool clear[2]; // the point stays apart in it
+    uint32_t chain; // impacts of it that are followed in a substep
     uint32_t left; // impacts that are still followed in the present substep
     double time; // [s] of the first one, since the start of the substep
+    uint32_t place;   // in the queue (impact_queue.h); PL_NONE: not in it
+    uint32_t next[2]; // impact of a, and of b; PL_NONE: no more
     pl_impact_point point[2];
 } pl_impact;
 
@@ -78,10 +82,11 @@ typedef struct pl_solver {
     pl_buffer extras;  // a record a bundle, where surfaces run or roll hard or impulses are added up
     pl_buffer specials; // a record a bundle, where bodies are locked or surfaces stick
     pl_buffer impacts; // pl_impact
+    pl_buffer impact_heap, impact_heads; // uint32_t: due ones by time; the first one of a dynamic slot
     pl_buffer classic; // pl_classic_contact, for the classic solver alone
     uint32_t dynamic_slots,
         slot_count; // slots [0, dynamic_slots) move; the last is the immovable one
-    uint32_t bundle_count, impact_count;
+    uint32_t bundle_count, impact_count, due_count, lively_count;
     uint32_t color_count, overflow_count, bounce_count;
 } pl_solver;
 

@@ -267,7 +267,7 @@ static plumb_result run_narrow(plumb_world *world, plumb_real dt)
         return PLUMB_E_MEMORY;
     }
     pl_narrow_run(world, &world->broad.pairs, dt, &world->narrow);
-    if (world->one_way_pieces > 0) {
+    if (world->one_way_pieces > 0 || world->dropping_bodies > 0) {
         pl_one_way_run(world);
     }
     if (world->seams.pair_count > 0 && !pl_seams_correct(world, dt)) {

@@ -91,6 +91,7 @@ plumb_result plumb_world_step(plumb_world *world, plumb_real dt)
     if (result == PLUMB_E_MEMORY) {
         pl_characters_undo(world);
         pl_seams_undo(world);
+        world->narrow.manifold_count = world->narrow.borne_count = 0; // pairs no longer name them
         return pl_fail_memory(world, __func__);
     }
     world->sleep.events_told |= result == PLUMB_OK;

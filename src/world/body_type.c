@@ -17,6 +17,7 @@
 static void relocate(plumb_world *world, uint32_t row)
 {
     const pl_bodies *b = &world->bodies;
+    b->flags[row] &= (uint16_t)~PL_BODY_DROPPING; // who does not move has nothing to drop through
     pl_sleep_stir(world, row);
     pl_sleep_forget(world, row);
     for (uint32_t p = b->first_piece[row]; p != PL_NONE; p = world->pieces.next_in_body[p]) {
@@ -35,6 +36,10 @@ static void relocate(plumb_world *world, uint32_t row)
     row = pl_row_transfer(world, row, home);
     pl_joints_replan(&world->joints);
     pl_pieces_refile(world, row);
+    for (uint32_t p = b->first_piece[row]; p != PL_NONE && !disabled;
+         p = world->pieces.next_in_body[p]) {
+        pl_seams_touch(world, p);
+    }
     world->schedule_dirty = true;
 }
 

@@ -10,6 +10,11 @@
 
 typedef plumb_real real;
 
+// What saves looking anew and decides nothing: not part of a world's hash.
+typedef struct pl_hint {
+    bool is;
+} pl_hint;
+
 // Body rows. Rows are dense and partitioned: [awake dynamic | kinematic | asleep | static].
 // clang-format off
 #define PL_BODY_COLUMNS(X)                                                                          \
@@ -45,13 +50,13 @@ typedef plumb_real real;
     X(uint32_t, next_asleep) X(uint32_t, previous_asleep) /* registry slots: bodies of the island */ \
     X(uint32_t, changed_step)      /* step count + 1 when an immovable body was last changed */     \
     X(uint32_t, tuning)            /* 1 + its record in world->tunings; 0: none */                  \
+    X(pl_hint, stirring)           /* kinematic: it moves, or was changed, and wakes what it touches */ \
     X(uint8_t, type)               /* plumb_body_type */                                            \
     X(uint16_t, flags)             /* PL_BODY_... */
 
 #define PL_BODY_FIXED_ROTATION 1u
 #define PL_BODY_DROPPING       2u // it asks to drop through one-way shapes in the next step
 #define PL_BODY_NO_SLEEP       32u  // it never falls asleep
-#define PL_BODY_STIRRING       64u  // kinematic: it moves, or was changed, and wakes what it touches
 #define PL_BODY_RECRUITED      8u   // on its way into the list of movers; only within the continuous pass
 #define PL_BODY_CONTINUOUS     16u  // never passes through moving bodies either
 #define PL_BODY_LOCK_X         0x100u // never moves along x: infinite mass that way

@@ -29,6 +29,7 @@ bool pl_pieces_reserve(plumb_world *world, uint32_t extra)
     return pl_table_reserve(&world->memory, &pieces->table, pl_piece_columns, pl_piece_column_count,
                             pieces->table.count + fresh) &&
            reserve_lists(world, extra) &&
+           pl_broad_reserve_left(world, pieces->table.count + fresh) &&
            pl_graves_reserve(world, pieces->table.count + fresh);
 }
 

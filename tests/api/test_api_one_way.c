@@ -138,6 +138,24 @@ static void requests_do_not_outlive_a_step(void **state)
         plumb_world_step(f->world, R(1.0 / 60));
     }
     assert_near(plumb_body_position(f->world, f->dynamic).y, 3, 0.01);
+    // Nor when the body takes no part in that step, or the last one-way shape has gone by then.
+    assert_int_equal(plumb_body_drop_through(f->world, f->dynamic), PLUMB_OK);
+    plumb_body_set_enabled(f->world, f->dynamic, false);
+    assert_int_equal(plumb_body_drop_through(f->world, f->dynamic), PLUMB_OK);
+    plumb_world_step(f->world, R(1.0 / 60));
+    plumb_body_set_enabled(f->world, f->dynamic, true);
+    for (int i = 0; i < 60; ++i) {
+        plumb_world_step(f->world, R(1.0 / 60));
+    }
+    assert_near(plumb_body_position(f->world, f->dynamic).y, 3, 0.01);
+    assert_int_equal(plumb_body_drop_through(f->world, f->dynamic), PLUMB_OK);
+    plumb_shape_set_one_way(f->world, ground, (plumb_one_way){ 0 });
+    plumb_world_step(f->world, R(1.0 / 60));
+    plumb_shape_set_one_way(f->world, ground, (plumb_one_way){ { 0, 1 }, 0 });
+    for (int i = 0; i < 60; ++i) {
+        plumb_world_step(f->world, R(1.0 / 60));
+    }
+    assert_near(plumb_body_position(f->world, f->dynamic).y, 3, 0.01);
 }
 
 int main(void)

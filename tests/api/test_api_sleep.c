@@ -380,6 +380,10 @@ static void refusals(void **state)
             plumb_body_sleep(w, null));
     REFUSED(E_STATE, "plumb_body_sleep: body is static; it must be dynamic",
             plumb_body_sleep(w, f->fixed));
+    plumb_body_set_enabled(w, f->dynamic, false);
+    REFUSED(E_STATE, "plumb_body_sleep: body is disabled; it must be enabled",
+            plumb_body_sleep(w, f->dynamic));
+    plumb_body_set_enabled(w, f->dynamic, true);
     REFUSED(E_STATE, "plumb_body_sleep: body is kinematic; it must be dynamic",
             plumb_body_sleep(w, f->kinematic));
     REFUSED(E_HANDLE, "plumb_body_set_no_sleep: body is a shape; it must be a live body",

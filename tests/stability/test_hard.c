@@ -232,11 +232,37 @@ static void deep_overlap_bears_its_load(void **state)
     plumb_world_destroy(w);
 }
 
+// A heap that is stirred, of e = 0.1: a contact is struck no more than once in a substep, where
+// following every impact to its end would take ten times as many.
+static void stirred_heap_strikes_each_contact_once(void **state)
+{
+    (void)state;
+    plumb_world *w = sim_world(&(plumb_world_desc){ 0 });
+    plumb_material m = sim_material(w, 0.1, 0.1);
+    sim_floor(w, m);
+    for (int i = 0; i < 200; ++i) {
+        plumb_body b = sim_ball(w, i % 10, 0.5 + i / 10, 0.5, m);
+        plumb_body_set_velocity(w, b, plumb_v2((plumb_real)(3 * (i % 7 - 3)), (plumb_real)(i % 5)));
+    }
+    const uint32_t substeps = (uint32_t)plumb_world_settings(w).substeps;
+    uint32_t most = 0;
+    for (int i = 0; i < 120; ++i) {
+        sim_step(w, HZ60);
+        plumb_stats stats = plumb_world_stats(w);
+        assert_true(stats.bounce_count <= substeps * stats.contact_count);
+        most = stats.bounce_count > most ? stats.bounce_count : most;
+    }
+    print_message("%u impacts in a step\n", most);
+    assert_true(most > 100);
+    plumb_world_destroy(w);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(overlap_is_undone_gently),    cmocka_unit_test(resting_bodies_do_not_hop),
         cmocka_unit_test(deep_pile_settles),           cmocka_unit_test(jammed_discs_come_to_rest),
+        cmocka_unit_test(stirred_heap_strikes_each_contact_once),
         cmocka_unit_test(elastic_pile_wins_no_energy), cmocka_unit_test(deep_overlap_bears_its_load),
     };
     return cmocka_run_group_tests_name("hard", tests, NULL, NULL);

@@ -295,8 +295,8 @@ static void put_tile(map *m, int x, int y)
     ++m->count;
 }
 
-// Tiles are dug out, put back, teleported, turned into sensors, given other filters: after each step
-// the map is as if it had been made that way.
+// Tiles are dug out, put back, teleported, turned into sensors, given other filters, disabled, given
+// another type: after each step the map is as if it had been made that way.
 static void changes_are_followed(void **state)
 {
     (void)state;
@@ -312,7 +312,8 @@ static void changes_are_followed(void **state)
         int x = 1 + (int)(sim_random(&seed) % SIDE), y = 1 + (int)(sim_random(&seed) % SIDE);
         plumb_entity shape;
         assert_int_equal(plumb_body_shapes(m.w, m.body[i], &shape, 1), 1);
-        switch (sim_random(&seed) % 5) {
+        const unsigned change = sim_random(&seed) % 7;
+        switch (change) {
         case 0:
             plumb_body_destroy(m.w, m.body[i]);
             forget_tile(&m, i);
@@ -346,7 +347,7 @@ static void changes_are_followed(void **state)
             plumb_shape_set_sensor(m.w, shape, false);
             m.filled[m.row[i]][m.at[i]] = true;
             break;
-        default:
+        case 4:
             plumb_shape_set_filter(m.w, shape, (plumb_filter){ .category = 2 });
             m.filled[m.row[i]][m.at[i]] = false;
             take_a_step(m.w);
@@ -356,6 +357,23 @@ static void changes_are_followed(void **state)
                 }
             }
             plumb_shape_set_filter(m.w, shape, (plumb_filter){ 0 });
+            m.filled[m.row[i]][m.at[i]] = true;
+            break;
+        default: // disabled, or of another type, for a step
+            if (change == 5) {
+                plumb_body_set_enabled(m.w, m.body[i], false);
+            } else {
+                plumb_body_set_type(m.w, m.body[i], PLUMB_KINEMATIC);
+            }
+            m.filled[m.row[i]][m.at[i]] = false;
+            take_a_step(m.w);
+            for (int k = 0; k < m.count; ++k) {
+                if (k != i) {
+                    check_piece(&m, k);
+                }
+            }
+            plumb_body_set_enabled(m.w, m.body[i], true);
+            plumb_body_set_type(m.w, m.body[i], PLUMB_STATIC);
             m.filled[m.row[i]][m.at[i]] = true;
             break;
         }
@@ -590,6 +608,133 @@ static void normals_are_asked_in_world_axes(void **state)
     plumb_world_destroy(w);
 }
 
+// A body of several pieces has seams of its own. When it goes as the last one that has any, what was noted
+// of its pairs goes too: they name places in a pair list that is no more.
+static void what_was_noted_goes_with_the_last_seams(void **state)
+{
+    (void)state;
+    enum { BALLS = 200 };
+    for (int how = 0; how < 3; ++how) {
+        plumb_world *w = sim_space();
+        plumb_material m = sim_material(w, 0, 0);
+        plumb_body floor = sim_floor(w, m), balls[BALLS];
+        plumb_body tee = sim_body(w, PLUMB_DYNAMIC, 0, 0, 0);
+        const plumb_vec2 outline[] = { { 0, 0 }, { 2, 0 }, { 2, 1 }, { 1, 1 }, { 1, 2 }, { 0, 2 } };
+        plumb_shape_desc desc = { .kind = PLUMB_OUTLINE, .points = outline, .count = 6, .material = m };
+        plumb_shape shape = plumb_shape_create(w, tee, &desc);
+        take_a_step(w); // few pairs
+        for (int i = 0; i < BALLS; ++i) {
+            balls[i] = sim_ball(w, 4 + i, 0.5, 0.4999, m);
+        }
+        take_a_step(w); // and many, in another buffer
+        assert_true(w->seams.pair_count > 0);
+        for (int i = 4; i < BALLS; ++i) {
+            plumb_body_destroy(w, balls[i]);
+        }
+        if (how == 0) {
+            plumb_body_destroy(w, tee);
+        } else if (how == 1) {
+            plumb_shape_destroy(w, shape);
+        } else {
+            plumb_body_set_enabled(w, tee, false);
+        }
+        for (int step = 0; step < 3; ++step) {
+            take_a_step(w);
+            assert_int_equal(w->seams.count, 0);
+            assert_int_equal(w->seams.pair_count, 0);
+        }
+        assert_true(plumb_body_valid(w, floor));
+        plumb_world_destroy(w);
+    }
+}
+
+// A body of several pieces has its seams whether it is awake or asleep when they are looked for.
+static void bodies_asleep_keep_their_seams(void **state)
+{
+    (void)state;
+    plumb_world *w = sim_space();
+    plumb_material m = sim_material(w, 0, 0);
+    const plumb_vec2 outline[] = { { 0, 0 }, { 2, 0 }, { 2, 1 }, { 1, 1 }, { 1, 2 }, { 0, 2 } };
+    const plumb_shape_desc desc = {
+        .kind = PLUMB_OUTLINE, .points = outline, .count = 6, .material = m
+    };
+    sim_ball(w, -300, 0, 0.5, m);
+    plumb_body bodies[2];
+    for (int i = 0; i < 2; ++i) {
+        bodies[i] = plumb_body_create(
+            w, &(plumb_body_desc){ .position = sim_vec(10 * i, 0), .asleep = i == 1 });
+        assert_true(plumb_shape_valid(w, plumb_shape_create(w, bodies[i], &desc)));
+    }
+    for (int round = 0; round < 3; ++round) {
+        take_a_step(w);
+        assert_int_equal(plumb_body_is_awake(w, bodies[1]), round == 2);
+        uint32_t p = w->bodies.first_piece[pl_body_row(w, bodies[0])];
+        uint32_t q = w->bodies.first_piece[pl_body_row(w, bodies[1])];
+        for (; p != PL_NONE; p = w->pieces.next_in_body[p], q = w->pieces.next_in_body[q]) {
+            assert_true(pl_piece_has_seams(&w->pieces, p));
+            assert_int_equal(w->pieces.seam_corners[p], w->pieces.seam_corners[q]);
+            assert_int_equal(w->pieces.seam_edges[p], w->pieces.seam_edges[q]);
+        }
+        w->seams.all = w->seams.dirty = true; // as after a restore
+        w->schedule_dirty = true;
+        if (round == 1) {
+            plumb_body_wake(w, bodies[1]);
+        }
+    }
+    plumb_world_destroy(w);
+}
+
+// A box that slides over tiles, beside boxes that fall asleep meanwhile: its pairs move up in the list,
+// and what it bears, and on which tile, with them.
+static plumb_world *tiles_and_sleepers(int sleepers, plumb_body *slider)
+{
+    plumb_world *w = sim_world(&(plumb_world_desc){ .sleep_time = (plumb_real)0.1 });
+    plumb_material m = sim_material(w, 0.3, 0);
+    for (int i = 0; i < 60; ++i) {
+        plumb_body tile = sim_body(w, PLUMB_STATIC, 0.5 * i, -0.25, 0);
+        sim_add_box(w, tile, 0.25, 0.25, m);
+    }
+    for (int i = 0; i < sleepers; ++i) {
+        // Each rests a step later than the one before it.
+        plumb_body b = sim_crate(w, 0.3 + 0.11 * i, 10 + 0.5, 0.04, 0.5, m);
+        plumb_body shelf = sim_body(w, PLUMB_STATIC, 0.3 + 0.11 * i, 9, 0);
+        sim_add_box(w, shelf, 0.05, 1, m);
+        sim_launch(w, b, 0, 0.01 * i, 0);
+    }
+    *slider = sim_crate(w, 1, 0.4, 0.9, 0.4, m);
+    plumb_body_set_no_sleep(w, *slider, true);
+    sim_launch(w, *slider, 5, 0, 0);
+    return w;
+}
+
+static void those_who_fall_asleep_change_nothing_for_others(void **state)
+{
+    (void)state;
+    plumb_body with, alone;
+    plumb_world *w = tiles_and_sleepers(40, &with), *v = tiles_and_sleepers(0, &alone);
+    uint32_t asleep = 0, falls = 0;
+    for (int step = 0; step < 200; ++step) {
+        plumb_contact a[8], b[8];
+        take_a_step(w);
+        take_a_step(v);
+        uint32_t now = plumb_world_stats(w).asleep_count;
+        falls += now > asleep;
+        asleep = now;
+        assert_true(sim_x(w, with) == sim_x(v, alone) && sim_y(w, with) == sim_y(v, alone) &&
+                    sim_angle(w, with) == sim_angle(v, alone));
+        int count = plumb_body_contacts(w, with, a, 8);
+        assert_int_equal(count, plumb_body_contacts(v, alone, b, 8));
+        for (int i = 0; i < count; ++i) {
+            assert_true(plumb_same(a[i].body_a, with) || plumb_same(a[i].body_b, with));
+            assert_memory_equal(&a[i].normal, &b[i].normal, sizeof a[i].normal);
+            assert_memory_equal(a[i].points, b[i].points, sizeof a[i].points);
+        }
+    }
+    assert_true(falls > 5 && asleep == 40);
+    plumb_world_destroy(w);
+    plumb_world_destroy(v);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -604,6 +749,9 @@ int main(void)
         cmocka_unit_test(passed_bodies_are_apart),
         cmocka_unit_test(walls_stand_at_inner_ends),
         cmocka_unit_test(normals_are_asked_in_world_axes),
+        cmocka_unit_test(what_was_noted_goes_with_the_last_seams),
+        cmocka_unit_test(bodies_asleep_keep_their_seams),
+        cmocka_unit_test(those_who_fall_asleep_change_nothing_for_others),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

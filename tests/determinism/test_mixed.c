@@ -1,0 +1,458 @@
+// test_mixed.c - random worlds of everything at once: tiles with seams, slabs and outlines, one-way
+// platforms, sleeping bodies, characters, joints, sensors, filters, contacts edited by a system, bodies
+// made, destroyed, disabled, retyped and teleported at any time. Nobody knows what such a world should
+// do; but it must do the same, to the last bit, in steps that run out of memory anywhere and are tried
+// again, in other SIMD widths, restored from an image, and when it is asked things. And what begins to touch ceases to, once.
+// The sanitizers see the rest.
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "harness/sim.h"
+
+#define HZ60 (1 / 60.0)
+
+enum { BODIES = 60, STEPS = 220, PAIRS = 4096 };
+
+typedef enum disturbance { NONE, FAILING, WIDTH, RESTORED, ASKED } disturbance;
+
+//---- memory that runs out on demand --------------------------------------------------------------
+
+typedef struct heap {
+    bool armed;
+    long left; // calls that are still answered
+    long refused;
+} heap;
+
+static void *resize(void *context, void *memory, size_t old_size, size_t new_size)
+{
+    heap *h = context;
+    (void)old_size;
+    if (new_size == 0) {
+        free(memory);
+        return NULL;
+    }
+    if (h->armed && h->left-- <= 0) {
+        h->armed = false;
+        ++h->refused;
+        return NULL;
+    }
+    void *fresh = aligned_alloc(64, (new_size + 63) / 64 * 64);
+    assert_non_null(fresh);
+    if (memory != NULL) {
+        memcpy(fresh, memory, old_size < new_size ? old_size : new_size);
+        free(memory);
+    }
+    return fresh;
+}
+
+//---- a world -------------------------------------------------------------------------------------
+
+typedef struct touch {
+    plumb_shape a, b;
+} touch;
+
+typedef struct run {
+    heap heap;
+    plumb_world *w;
+    unsigned seed;
+    plumb_material rough, slick;
+    plumb_body body[BODIES];
+    touch touching[PAIRS];
+    int touch_count;
+    uint64_t step;
+    void *image;
+    size_t image_size;
+} run;
+
+static double uniform(run *r, double low, double high)
+{
+    return sim_uniform(&r->seed, low, high);
+}
+
+static unsigned pick(run *r, unsigned count)
+{
+    return sim_random(&r->seed) % count;
+}
+
+// x before y, whatever the compiler evaluates first.
+static plumb_vec2 place(run *r, double left, double right, double low, double high)
+{
+    double x = uniform(r, left, right);
+    return sim_vec(x, uniform(r, low, high));
+}
+
+// What a system does must follow from the step: one that is refused runs it again.
+static void edit(const plumb_system_call *call)
+{
+    const uint64_t step = plumb_world_stats(call->world).step_count;
+    for (int i = 0; i < plumb_contact_edit_count(call->world); ++i) {
+        plumb_contact_edit e;
+        assert_int_equal(plumb_contact_edit_get(call->world, i, &e), PLUMB_OK);
+        const uint64_t salt = e.shape_a.index * 7u + e.shape_b.index * 3u + step / 20;
+        e.enabled = salt % 11 != 0;
+        e.friction = salt % 3 == 0 ? (plumb_real)0.1 : e.friction;
+        e.surface_speed = salt % 5 == 0 ? 1 : 0;
+        assert_int_equal(plumb_contact_edit_set(call->world, i, &e), PLUMB_OK);
+    }
+}
+
+static void add_shape(run *r, plumb_body b, bool ground)
+{
+    static const plumb_vec2 ell[] = { { 0, 0 },
+                                      { 1, 0 },
+                                      { 1, (plumb_real)0.5 },
+                                      { (plumb_real)0.5, (plumb_real)0.5 },
+                                      { (plumb_real)0.5, 1 },
+                                      { 0, 1 } };
+    plumb_shape_desc d = { .material = pick(r, 2) ? r->rough : r->slick };
+    if (pick(r, 8) == 0) {
+        d.filter = (plumb_filter){ .category = 2, .mask = pick(r, 2) ? 1 : 3 };
+    }
+    d.sensor = pick(r, 12) == 0;
+    switch (pick(r, 6)) {
+    case 0:
+        d.kind = PLUMB_CIRCLE;
+        d.radius = (plumb_real)uniform(r, 0.1, 0.5);
+        break;
+    case 1:
+        d.kind = PLUMB_CAPSULE;
+        d.points = ell;
+        d.count = 2;
+        d.radius = (plumb_real)0.2;
+        break;
+    case 2:
+        d.kind = PLUMB_OUTLINE;
+        d.points = ell;
+        d.count = 6;
+        break;
+    default:
+        d.kind = PLUMB_BOX;
+        d.half = sim_vec(ground ? 0.5 : uniform(r, 0.2, 0.9), ground ? 0.25 : 0.3);
+        break;
+    }
+    if (ground && !d.sensor && pick(r, 4) == 0) {
+        d.one_way = (plumb_one_way){ { 0, 1 }, 0 };
+    }
+    plumb_shape_create(r->w, b, &d);
+}
+
+// One of the bodies anew: static ones lie in the raster of the tiles.
+static void make_body(run *r, int i)
+{
+    const unsigned type = pick(r, 8);
+    plumb_body_desc d = { .position = place(r, -6, 6, 0.5, 6) };
+    d.angle = pick(r, 3) == 0 ? (plumb_real)uniform(r, -3, 3) : 0;
+    if (type == 0) {
+        d.type = PLUMB_STATIC;
+        d.position.x = (plumb_real)((double)pick(r, 13) - 6);
+        d.position.y = (plumb_real)(0.5 * pick(r, 8) - 0.25);
+        d.angle = 0;
+    } else if (type == 1) {
+        d.type = PLUMB_KINEMATIC;
+        d.velocity = sim_vec(uniform(r, -1, 1), 0);
+    } else {
+        d.asleep = pick(r, 6) == 0;
+        d.continuous = pick(r, 4) == 0;
+        d.disabled = pick(r, 12) == 0;
+    }
+    r->body[i] = plumb_body_create(r->w, &d);
+    add_shape(r, r->body[i], type == 0);
+    if (pick(r, 5) == 0) {
+        add_shape(r, r->body[i], type == 0);
+    }
+    if (type > 0 && pick(r, 8) == 0) {
+        plumb_character_create(r->w, r->body[i], NULL);
+        plumb_character_walk(r->w, r->body[i], (plumb_real)uniform(r, -2, 2));
+    }
+}
+
+static void begin(run *r, unsigned seed, disturbance how)
+{
+    const int widths[] = { 4, 8, 16 };
+    r->seed = seed;
+    const plumb_world_desc d = { .allocator = { resize, &r->heap },
+                                 .solver = seed % 4 == 3 ? PLUMB_SOLVER_PGS : PLUMB_SOLVER_SOFT,
+                                 .sleep_time = (plumb_real)0.15,
+                                 .hit_speed = (plumb_real)(seed % 2),
+                                 .simd_width = how == WIDTH ? widths[1 + seed % 2] : 4 };
+    assert_int_equal(plumb_world_create(&d, &r->w), PLUMB_OK);
+    r->rough = sim_material(r->w, 0.6, 0);
+    r->slick = sim_material(r->w, 0.05, seed % 3 ? 0.5 : 0);
+    if (seed % 3 == 0) {
+        plumb_system_create(r->w, &(plumb_system_desc){
+                                      .name = "edit", .phase = PLUMB_PHASE_CONTACTS, .run = edit });
+        plumb_system_enable(r->w, "edit", false);
+    }
+    for (int i = -16; i <= 16; ++i) {
+        plumb_body tile = sim_body(r->w, PLUMB_STATIC, 0.5 * i, -0.75, 0);
+        sim_add_box(r->w, tile, 0.25, 0.25, r->rough);
+    }
+    for (int i = 0; i < BODIES; ++i) {
+        make_body(r, i);
+    }
+}
+
+//---- what users do -------------------------------------------------------------------------------
+
+static void join(run *r, plumb_body a, plumb_body b)
+{
+    if (plumb_same(a, b)) {
+        return;
+    }
+    plumb_joint_desc d = { .kind = (plumb_joint_kind)pick(r, 11), .body_a = a, .body_b = b };
+    d.anchor = plumb_body_position(r->w, a);
+    d.anchor_b = plumb_body_position(r->w, b);
+    d.ground_a = sim_vec(0, 12);
+    d.ground_b = sim_vec(1, 12);
+    d.pitch = d.kind == PLUMB_RATCHET ? (plumb_real)0.3 : 0;
+    d.break_force = pick(r, 2) ? 500 : 0;
+    if (d.kind != PLUMB_DISTANCE && d.kind != PLUMB_PULLEY) {
+        d.anchor_b = sim_vec(0, 0);
+    }
+    if (d.kind != PLUMB_PULLEY) {
+        d.ground_a = d.ground_b = sim_vec(0, 0);
+    }
+    plumb_joint_create(r->w, &d);
+}
+
+static void change(run *r)
+{
+    plumb_world *w = r->w;
+    int i = (int)pick(r, BODIES);
+    plumb_body b = r->body[i], other = r->body[pick(r, BODIES)];
+    plumb_entity shape[4];
+    plumb_joint joint;
+    int shapes = plumb_body_shapes(w, b, shape, 4);
+    switch (pick(r, 20)) {
+    case 0:
+    case 1:
+        plumb_body_destroy(w, b);
+        make_body(r, i);
+        break;
+    case 2:
+        plumb_body_teleport(w, b, place(r, -6, 6, 0, 5), 0);
+        break;
+    case 3:
+        plumb_body_set_enabled(w, b, !plumb_body_is_enabled(w, b));
+        break;
+    case 4:
+        plumb_body_set_type(w, b, (plumb_body_type)pick(r, 3));
+        break;
+    case 5:
+        plumb_body_sleep(w, b);
+        break;
+    case 6:
+        plumb_body_wake(w, b);
+        break;
+    case 7:
+        plumb_body_apply_impulse_center(w, b, place(r, -2, 2, 0, 3));
+        break;
+    case 8:
+        add_shape(r, b, false);
+        break;
+    case 9:
+        if (shapes > 0) {
+            plumb_shape_destroy(w, shape[0]);
+        }
+        break;
+    case 10:
+        if (shapes > 0) {
+            plumb_shape_set_filter(w, shape[0], (plumb_filter){ .group = pick(r, 2) ? -1 : 0 });
+        }
+        break;
+    case 11:
+        if (shapes > 0) {
+            plumb_shape_set_sensor(w, shape[0], pick(r, 3) == 0);
+        }
+        break;
+    case 12:
+    case 13:
+        join(r, b, other);
+        break;
+    case 14:
+        if (plumb_body_joints(w, b, &joint, 1) > 0) {
+            plumb_joint_destroy(w, joint);
+        }
+        break;
+    case 15:
+        plumb_world_exclude_pair(w, b, other, pick(r, 2) == 0);
+        break;
+    case 16:
+        plumb_body_drop_through(w, b);
+        plumb_character_drop(w, b);
+        plumb_character_jump(w, b, 3);
+        break;
+    case 17:
+        plumb_system_enable(w, "edit", pick(r, 2) == 0);
+        break;
+    case 18:
+        if (plumb_body_get_type(w, b) == PLUMB_KINEMATIC) {
+            plumb_body_set_target(w, b, place(r, -4, 4, 0, 4), 0, (plumb_real)0.3);
+        }
+        break;
+    default:
+        plumb_world_set_gravity(w, sim_vec(uniform(r, -1, 1), -9.81));
+        break;
+    }
+}
+
+//---- steps ---------------------------------------------------------------------------------------
+
+static bool is_touch(const touch *t, plumb_shape a, plumb_shape b)
+{
+    return (plumb_same(t->a, a) && plumb_same(t->b, b)) ||
+           (plumb_same(t->a, b) && plumb_same(t->b, a));
+}
+
+static int find_touch(const run *r, plumb_shape a, plumb_shape b)
+{
+    int i = 0;
+    while (i < r->touch_count && !is_touch(&r->touching[i], a, b)) {
+        ++i;
+    }
+    return i;
+}
+
+// What begins was not there, what ends was.
+static void count_touches(run *r)
+{
+    int begins, ends;
+    const plumb_contact_begin *begun = plumb_world_begin_events(r->w, &begins);
+    const plumb_contact_end *ended = plumb_world_end_events(r->w, &ends);
+    for (int i = 0; i < ends; ++i) {
+        int at = find_touch(r, ended[i].shape_a, ended[i].shape_b);
+        assert_true(at < r->touch_count);
+        r->touching[at] = r->touching[--r->touch_count];
+    }
+    for (int i = 0; i < begins; ++i) {
+        assert_int_equal(find_touch(r, begun[i].shape_a, begun[i].shape_b), r->touch_count);
+        assert_true(r->touch_count < PAIRS);
+        r->touching[r->touch_count++] = (touch){ begun[i].shape_a, begun[i].shape_b };
+    }
+    // Contacts of sleepers end without an event when a shape goes.
+    for (int i = 0; i < r->touch_count;) {
+        bool gone = !plumb_shape_valid(r->w, r->touching[i].a) ||
+                    !plumb_shape_valid(r->w, r->touching[i].b);
+        r->touching[i] = gone ? r->touching[--r->touch_count] : r->touching[i];
+        i += !gone;
+    }
+    static plumb_contact contacts[PAIRS];
+    int count = plumb_world_contacts(r->w, contacts, PAIRS);
+    for (int i = 0; i < count; ++i) {
+        assert_true(find_touch(r, contacts[i].shape_a, contacts[i].shape_b) < r->touch_count);
+    }
+}
+
+static void step(run *r, disturbance how, unsigned *chance)
+{
+    if (how == FAILING) {
+        r->heap.armed = true;
+        r->heap.left = (long)(sim_random(chance) % 6);
+    }
+    if (how == ASKED && sim_random(chance) % 2 == 0) { // which files the grids
+        plumb_ray_hit hit;
+        plumb_shape shapes[8];
+        plumb_world_ray(r->w, sim_vec(-9, 1), sim_vec(9, 2), NULL, &hit);
+        plumb_world_overlap_aabb(r->w, (plumb_aabb){ { -1, 0 }, { 1, 2 } }, NULL, shapes, 8);
+    }
+    plumb_result result = plumb_world_step(r->w, (plumb_real)HZ60);
+    r->heap.armed = false;
+    if (result == PLUMB_E_MEMORY) {
+        result = plumb_world_step(r->w, (plumb_real)HZ60);
+    }
+    assert_int_equal(result, PLUMB_OK);
+    ++r->step;
+    if (how == RESTORED && sim_random(chance) % 4 == 0) {
+        r->image_size = plumb_world_snapshot_size(r->w);
+        r->image = realloc(r->image, r->image_size);
+        assert_int_equal(plumb_world_save(r->w, r->image, r->image_size), PLUMB_OK);
+        sim_step(r->w, HZ60);
+        sim_step(r->w, HZ60);
+        assert_int_equal(plumb_world_restore(r->w, r->image, r->image_size), PLUMB_OK);
+    } else if (how != RESTORED) {
+        count_touches(r);
+    }
+}
+
+// Hashes after every step into `hashes`, or compared with them.
+static long play(unsigned seed, disturbance how, uint64_t *hashes, bool compare)
+{
+    static run r;
+    unsigned chance = seed * 2654435761u + 1;
+    r = (run){ .step = 0 };
+    begin(&r, seed, how);
+    for (int i = 0; i < STEPS; ++i) {
+        unsigned changes = pick(&r, 3);
+        for (unsigned k = 0; k < changes; ++k) {
+            change(&r);
+        }
+        step(&r, how, &chance);
+        uint64_t hash = plumb_world_hash(r.w);
+        if (compare && hash != hashes[i]) {
+            print_message("seed %u, disturbance %d: another world after step %d\n", seed, (int)how,
+                          i);
+            fail();
+        }
+        hashes[i] = hash;
+    }
+    plumb_world_destroy(r.w);
+    free(r.image);
+    return r.heap.refused;
+}
+
+enum { WORLDS = 40 };
+
+static void compare_with_undisturbed(disturbance how)
+{
+    static uint64_t hashes[STEPS];
+    long refused = 0;
+    for (unsigned seed = 1; seed <= WORLDS; ++seed) {
+        play(seed, NONE, hashes, false);
+        refused += play(seed, how, hashes, true);
+    }
+    if (how == FAILING) {
+        print_message("%d worlds, %ld refused steps\n", WORLDS, refused);
+        assert_true(refused > 5 * WORLDS);
+    }
+}
+
+static void refused_steps_leave_no_trace(void **state)
+{
+    (void)state;
+    compare_with_undisturbed(FAILING);
+}
+
+static void widths_agree(void **state)
+{
+    (void)state;
+    compare_with_undisturbed(WIDTH);
+}
+
+static void restored_worlds_go_on_alike(void **state)
+{
+    (void)state;
+    compare_with_undisturbed(RESTORED);
+}
+
+static void questions_change_nothing(void **state)
+{
+    (void)state;
+    compare_with_undisturbed(ASKED);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(refused_steps_leave_no_trace),
+        cmocka_unit_test(widths_agree),
+        cmocka_unit_test(restored_worlds_go_on_alike),
+        cmocka_unit_test(questions_change_nothing),
+    };
+    return cmocka_run_group_tests_name("mixed", tests, NULL, NULL);
+}
