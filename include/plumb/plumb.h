@@ -18,6 +18,7 @@
 #include "plumb/sleep.h"
 #include "plumb/query.h"
 #include "plumb/snapshot.h"
+#include "plumb/batch.h"
 #include "plumb/effect.h"
 
 #endif

@@ -17,6 +17,7 @@
 #define CLASSIC_ITERATIONS 10
 #define SUBSTEPS_MOST      64
 #define ITERATIONS_MOST    1000
+#define BOX_CORNERS        4 // reserved a shape
 
 //---- the descriptor
 //-------------------------------------------------------------------------------
@@ -127,6 +128,7 @@ static bool reserve_rows(plumb_world *world)
     return pl_registry_reserve(memory, &world->registry, d->body_capacity + d->shape_capacity) &&
            pl_rows_reserve(world, d->body_capacity) &&
            pl_pieces_reserve(world, d->shape_capacity) &&
+           pl_pool_reserve(memory, &world->vertices, d->shape_capacity * BOX_CORNERS) &&
            pl_buffer_reserve(memory, &world->broad.pairs.items, pairs) &&
            pl_buffer_reserve(memory, &world->broad.pairs.old_items, pairs) &&
            pl_buffer_reserve(memory, &world->narrow.manifolds,
