@@ -12,6 +12,8 @@
 #include "seams/span.h"
 #include "world/state.h"
 
+#include <string.h>
+
 bool pl_seams_wanted(const plumb_world *world, const char **reason)
 {
     bool wanted = world->seams.count > 0 || world->seams.dirty;
@@ -212,8 +214,12 @@ static bool refresh(plumb_world *world)
 {
     pl_seams *s = &world->seams;
     const pl_vertex_pool *pool = &world->vertices;
-    bool done = pl_buffer_reserve(&world->memory, &s->corners, pool->count * sizeof(pl_seam)) &&
-                choose_stale(world) && look_at_chosen(world);
+    size_t known = s->corners.size;
+    bool room = pl_buffer_reserve(&world->memory, &s->corners, pool->count * sizeof(pl_seam));
+    if (s->corners.size > known) { // images hold corners without seams, too
+        memset((char *)s->corners.data + known, 0, s->corners.size - known);
+    }
+    bool done = room && choose_stale(world) && look_at_chosen(world);
     unmark(world, done);
     if (done) {
         s->dirty = s->all = false;
