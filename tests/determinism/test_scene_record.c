@@ -162,6 +162,10 @@ static void check_again(const char *path, const run *r)
     again = (run){ .steps = 0 };
     char *elsewhere = malloc(12345); // so that addresses are others
     record(path, 25, &again);
+    if (again.bytes.size != r->bytes.size ||
+        memcmp(again.bytes.bytes, r->bytes.bytes, r->bytes.size) != 0) {
+        print_error("%s: another recording\n", path);
+    }
     assert_int_equal(again.bytes.size, r->bytes.size);
     assert_memory_equal(again.bytes.bytes, r->bytes.bytes, r->bytes.size);
     recording_free(&again.bytes);
