@@ -165,7 +165,7 @@ typedef struct plumb_difference {
     plumb_entity_kind entity_kind;
     char table[32];      ///< "bodies", "joints", "contacts", "components", "world", ...
     char component[64];  ///< column, member, name of a user component and its field: "x", "health.points"
-    char a[40], b[40];   ///< values, with as many digits as give the same number when read; "" if none
+    char a[64], b[64];   ///< values, with as many digits as give the same number when read; "" if none
 } plumb_difference;
 
 /// How two worlds differ: bodies first, each with its columns in their order, then shapes, joints,
@@ -189,7 +189,7 @@ PLUMB_API int plumb_replay_edits(const plumb_replay *replay, plumb_replay_edit *
 /// The first step of two recordings after which the worlds differ in more than their settings.
 typedef struct plumb_replay_difference {
     bool found;       ///< false: all steps that both have are the same
-    uint64_t step;    ///< after so many steps they differ; 0: at the head already
+    uint64_t step;    ///< after so many steps (of B) they differ; 0: at the head already
     double time[2];   ///< [s] then
     const char *pass; ///< "head", "edits" (what the user did before the step), or the first pass of the
                       ///< schedule after which they differ

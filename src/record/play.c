@@ -4,8 +4,8 @@
 // the step have found out as it is.
 //
 // Reads: the recording. Writes: the world. Cost: O(state) an edit.
+#include "record/compare.h"
 #include "record/replay.h"
-
 #include "world/check.h"
 
 #include <string.h>
@@ -121,6 +121,25 @@ static void play_state(plumb_replay *replay, uint32_t phase, const char *delta, 
     if (replay->desc.list_edits) {
         pl_replay_list(replay, (int)phase - 1, &before->image, &now->image);
     }
+}
+
+void pl_replay_list(plumb_replay *replay, int phase, const pl_image *a, const pl_image *b)
+{
+    int known = replay->edit_count;
+    int count = pl_compare_images(replay->world, a, b, true, NULL, 0);
+    pl_buffer found = { 0 };
+    if (!reserve(replay, &found, (size_t)count * sizeof(plumb_difference)) ||
+        !reserve(replay, &replay->edits, (size_t)(known + count) * sizeof(plumb_replay_edit))) {
+        pl_buffer_free(&replay->memory, &found);
+        return;
+    }
+    pl_compare_images(replay->world, a, b, true, found.data, count);
+    plumb_replay_edit *rows = replay->edits.data;
+    for (int i = 0; i < count; ++i) {
+        rows[known + i] = (plumb_replay_edit){ phase, ((plumb_difference *)found.data)[i] };
+    }
+    replay->edit_count += count;
+    pl_buffer_free(&replay->memory, &found);
 }
 
 static void play_contacts(plumb_replay *replay, const char *from, size_t bytes)

@@ -232,6 +232,7 @@ static plumb_result take_step(plumb_replay *replay, const char *fn)
     replay->playing = pl_index_step(&replay->index, replay->step);
     plumb_result r = play_head(replay, fn);
     if (r == PLUMB_OK) {
+        after_pass(&replay->tape, replay->world, -1);
         r = plumb_world_step(replay->world, (plumb_real)head.dt);
         r = r != PLUMB_OK ? r : replay->failed;
     }

@@ -25,10 +25,9 @@ struct plumb_replay {
     const pl_chunk *playing;     // the step under way; NULL: none
     plumb_result failed;         // an edit could not be played
     bool differs;                // the last step gave other bits than were recorded
-    bool passing;                // compare.c looks at the passes of a step
     pl_buffer edits;             // plumb_replay_edit of the last step
     int edit_count;
-    // Per pass: called behind each one of a step while `passing`.
+    // differ.c: called behind each pass of a step, and with -1 before the first. NULL: nobody looks.
     void (*look)(void *context, plumb_world *world, int pass);
     void *look_context;
     char error[256];
