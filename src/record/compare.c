@@ -445,11 +445,11 @@ static void add_world(comparison *c)
     pl_member m;
     plumb_difference who = thing((plumb_entity){ 0 }, PLUMB_KIND_NONE, "world");
     for (uint32_t i = 0; pl_section_value(i, &m); ++i) {
-        bool is_setting = strncmp(m.name, "desc.", 5) == 0;
-        bool is_twice = strcmp(m.name, "desc.gravity") == 0 || strcmp(m.name, "step_count") == 0;
+        bool is_setting = strncmp(m.name, "desc.", 5) == 0 && strcmp(m.name, "desc.gravity") != 0;
+        bool is_told = is_setting || strcmp(m.name, "gravity") == 0 ||
+                       strcmp(m.name, "time") == 0 || strcmp(m.name, "commands.count") == 0;
         m.name += is_setting ? 5 : 0;
-        if (c->second || (is_setting && !is_twice) || strcmp(m.name, "gravity") == 0 ||
-            strcmp(m.name, "time") == 0 || strcmp(m.name, "commands.count") == 0) {
+        if (is_told || c->second) {
             add_member(c, &who, c->a.data[0], c->b.data[0], &m);
         }
     }

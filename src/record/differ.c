@@ -46,7 +46,9 @@ static void look(void *context, plumb_world *world, int pass)
     const uint64_t state = pl_world_digest(world, false);
     pl_digest_begin(&digest);
     pl_digest_add(&digest, &state, sizeof state);
-    add_products(&digest, world);
+    if (pass >= 0) { // before, there may be those of the last step, or not
+        add_products(&digest, world);
+    }
     p->digest[pass + 1] = pl_digest_end(&digest);
     if (pass + 1 == p->wanted) {
         pl_replay_keep(p->replay, &p->image);

@@ -95,6 +95,12 @@ static plumb_result restore_key(plumb_replay *replay, const char *fn, const pl_k
     if (replay->world == NULL) {
         r = make_world(replay);
     }
+    if (r == PLUMB_E_RANGE) {
+        return pl_replay_fail(replay, r, fn,
+                              "simd_width is %d, workers is %d; they must be as "
+                              "for plumb_world_create",
+                              replay->desc.simd_width, replay->desc.workers);
+    }
     if (r == PLUMB_OK && replay->code != key->code) {
         r = pl_replay_register(replay, key->code);
     }

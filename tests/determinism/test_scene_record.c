@@ -1,6 +1,6 @@
 // test_scene_record.c - every shipped scene, recorded with its handlers running: the replay gives the same
 // bits at every step, forwards, after seeking, backwards, at every SIMD width and with threads.
-#include "recording.h"
+#include "harness/recording.h"
 #include "scene/scene.h"
 
 #include <glob.h>
