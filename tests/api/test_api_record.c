@@ -685,7 +685,9 @@ static bool to_disk(void *context, const void *bytes, size_t size)
 {
     disk *d = context;
     if (d->tape.size + size > d->room) {
-        to_recording(&d->tape, bytes, d->room - d->tape.size); // as a full disk does
+        if (d->room > d->tape.size) { // as a full disk does
+            to_recording(&d->tape, bytes, d->room - d->tape.size);
+        }
         d->room = 0;
         return false;
     }

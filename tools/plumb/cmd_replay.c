@@ -130,7 +130,9 @@ static int find_range(const cli_command *command, const replay_args *args, const
     if (args->step >= 0) {
         *first = *last = (unsigned long long)args->step;
     } else if (args->seek >= 0) {
-        *first = *last = r->engine->replay_find(r->replay, args->seek);
+        // The nearest one: sums of float steps are a little off the times that people ask for.
+        double half = info.steps > 0 ? (info.end - info.start) / (double)info.steps / 2 : 0;
+        *first = *last = r->engine->replay_find(r->replay, args->seek + half);
     }
     return CLI_OK;
 }
@@ -189,7 +191,7 @@ static int replay_command(const cli_command *command, int argc, char **argv)
 
 static const cli_option options[] = {
     { "seek", 0, CLI_REAL, offsetof(replay_args, seek), "S", 0, SCENE_TIME_MAX, NULL,
-      "only the last step at which no more than S seconds had gone by" },
+      "only the step nearest to S seconds" },
     { "step", 0, CLI_REAL, offsetof(replay_args, step), "N", 0, STEP_MAX, NULL,
       "only the state after N steps; 0 is the head of the recording" },
     { "list", 'l', CLI_FLAG, offsetof(replay_args, list), NULL, 0, 0, NULL,
