@@ -584,7 +584,8 @@ static void differences_are_found(void **state)
                 "\"$P\" diff p.rec s.rec",
                 6);
     assert_int_equal(strncmp(out, "setting: world: substeps 4 | 8\ndiffer after step ", 49), 0);
-    assert_non_null(strstr(out, "in pass 'soft step'\nfirst: body 'ball': "));
+    assert_non_null(strstr(out, "in pass 'soft step'\nfirst: contact of body 'ball' and body "
+                                "'floor': normal "));
     expect_code("\"$P\" run push.lua --time 0.5 --record t.rec -o /dev/null && "
                 "\"$P\" diff p.rec t.rec",
                 6);

@@ -232,6 +232,21 @@ static void write_who(const engine_replay *replay, const plumb_difference *d, ch
     }
 }
 
+/// Choices by their names.
+static void name_choice(engine_change *change)
+{
+    static const struct {
+        const char *what, *names[2];
+    } choices[] = { { "solver", { "soft", "pgs" } }, { "y_axis", { "up", "down" } } };
+    for (size_t i = 0; i < sizeof choices / sizeof choices[0]; i++) {
+        if (strcmp(change->what, choices[i].what) == 0) {
+            const char *const *names = choices[i].names;
+            snprintf(change->from, sizeof change->from, "%s", names[change->from[0] != '0']);
+            snprintf(change->to, sizeof change->to, "%s", names[change->to[0] != '0']);
+        }
+    }
+}
+
 /// `only`: what a thing is called that only B, or only A, has.
 static void write_change(const engine_replay *replay, const plumb_difference *d,
                          const char *const only[2], engine_change *to)
@@ -242,6 +257,9 @@ static void write_change(const engine_replay *replay, const plumb_difference *d,
         snprintf(to->what, sizeof to->what, "%s", d->component);
         snprintf(to->from, sizeof to->from, "%s", d->a);
         snprintf(to->to, sizeof to->to, "%s", d->b);
+        if (plumb_is_null(d->entity)) {
+            name_choice(to);
+        }
     } else {
         snprintf(to->what, sizeof to->what, "%s%s%s", d->component,
                  d->component[0] != '\0' ? " " : "", only[d->kind == PLUMB_ONLY_B]);
