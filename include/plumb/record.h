@@ -192,14 +192,18 @@ typedef struct plumb_replay_difference {
     uint64_t step;    ///< after so many steps (of B) they differ; 0: at the head already
     double time[2];   ///< [s] then
     const char *pass; ///< "head", "edits" (what the user did before the step), or the first pass of the
-                      ///< schedule after which they differ
+                      ///< schedule after which they differ; "" where that cannot be found out: see `seen`
+    uint64_t seen;    ///< steps at which `first` was seen: `step`, but where one does not give its bits in this
+                      ///< build, the next keyframe that both have; 0: there is none
     plumb_difference first; ///< what differs then
 } plumb_replay_difference;
 
 /// Replays both from where they stand, side by side, to the first step after which the worlds differ, and
 /// that step again pass by pass. Afterwards both stand after that step, or at the end of the shorter.
+/// Where a recording of another build does not replay in this one, the recorded hashes and keyframes are compared
+/// instead; the replays then stand where that was found out.
 /// Cost: both replays, two digests a step. Errors: E_NULL, E_IMAGE (other components; or a recording does not replay
-/// in this build, see plumb_replay_error of both), E_MEMORY.
+/// and they have other settings, see plumb_replay_error of both), E_MEMORY.
 PLUMB_API plumb_result plumb_replay_compare(plumb_replay *a, plumb_replay *b,
                                             plumb_replay_difference *difference);
 

@@ -245,7 +245,9 @@ static bool list_pairs(plumb_world *world)
                                ((size_t)s->pair_count + 1) * sizeof(pl_seam_pair))) {
             return false;
         }
-        ((pl_seam_pair *)s->pairs.data)[s->pair_count++].pair = i;
+        pl_seam_pair *made = (pl_seam_pair *)s->pairs.data + s->pair_count++;
+        memset(made, 0, sizeof *made); // padding, too: images of equal worlds have equal bytes
+        made->pair = i;
     }
     if (s->pair_count == 0) {
         s->load_count = 0; // nobody is left to tell of

@@ -46,13 +46,21 @@ static int print_difference(const engine_difference *d)
     if (d->time[0] != d->time[1]) {
         printf(" | %.12g s", d->time[1]);
     }
-    if (d->step > 0) {
-        printf(", in %s%s%s", strcmp(d->pass, "edits") == 0 ? "what was done before it" : "pass '",
-               strcmp(d->pass, "edits") == 0 ? "" : d->pass,
-               strcmp(d->pass, "edits") == 0 ? "" : "'");
+    if (d->pass[0] == '\0') {
+        printf("; one of them is of another build, which gives other bits here");
+    } else if (strcmp(d->pass, "edits") == 0) {
+        printf(", in what was done before it");
+    } else if (d->step > 0) {
+        printf(", in pass '%s'", d->pass);
     }
-    printf("\nfirst: ");
-    print_change(&d->first);
+    printf("\n");
+    if (d->pass[0] != '\0' || d->seen > 0) {
+        if (d->pass[0] == '\0') {
+            printf("at the keyframe behind step %llu, ", d->seen);
+        }
+        printf("first: ");
+        print_change(&d->first);
+    }
     return CLI_DIFFERS;
 }
 

@@ -143,7 +143,8 @@ typedef struct engine_difference {
     bool found;
     unsigned long long step;
     double time[2]; ///< [s]
-    char pass[64];
+    char pass[64];           ///< "": unknown, one of them is of another build
+    unsigned long long seen; ///< steps at which `first` was seen; 0: nowhere
     engine_change first;
 } engine_difference;
 

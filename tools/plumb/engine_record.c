@@ -385,9 +385,10 @@ int pl_replay_session_compare(engine_replay *a, engine_replay *b, engine_differe
     }
     *difference = (engine_difference){ .found = found.found,
                                        .step = found.step,
+                                       .seen = found.seen,
                                        .time = { found.time[0], found.time[1] } };
     snprintf(difference->pass, sizeof difference->pass, "%s", found.pass);
-    if (found.found) {
+    if (found.found && found.first.table[0] != '\0') {
         write_change(found.first.kind == PLUMB_ONLY_B ? b : a, &found.first, only,
                      &difference->first);
     }
