@@ -4,6 +4,7 @@
 // Cost: O(1), plumb_world_destroy O(components), plumb_world_energy O(dynamic bodies).
 #include "plumb/world.h"
 
+#include "step/tape.h"
 #include "world/check.h"
 #include "world/rows.h"
 
@@ -233,6 +234,9 @@ void plumb_world_destroy(plumb_world *world)
 {
     if (world == NULL) {
         return;
+    }
+    if (world->tape != NULL && world->tape->gone != NULL) {
+        world->tape->gone(world->tape, world);
     }
     pl_components_bury(world);
     free_world(world);
