@@ -7,6 +7,7 @@
 //
 // Around the pieces that left their boxes: from each of those, all about it. Two of them find each
 // other twice; the find of the lower one counts.
+#include "broad/images.h"
 #include "broad/pairs.h"
 #include "world/filter.h"
 
@@ -233,6 +234,30 @@ static bool find_sensed_resting(finder *f, const pl_grid *moving, const pl_grid 
     return true;
 }
 
+//---- over the edges of a world that wraps around --------------------------------------------------
+
+static bool add_image(void *context, uint32_t piece, uint32_t other)
+{
+    return add_pair(context, piece, other);
+}
+
+static bool add_resting_image(void *context, uint32_t piece, uint32_t other)
+{
+    finder *f = context;
+    f->piece = piece;
+    return add_resting(f, &(pl_grid_entry){ .piece = other });
+}
+
+static bool find_over_edges(finder *f, bool meet, bool grounded)
+{
+    const plumb_world *world = f->world;
+    const pl_broad *b = &world->broad;
+    return (!meet || pl_images_pairs(world, &b->moving, &b->moving, add_image, f)) &&
+           (!grounded || pl_images_pairs(world, &b->moving, &b->fixed, add_image, f)) &&
+           (world->sensor_pieces == 0 ||
+            pl_images_pairs(world, &b->moving, &b->resting, add_resting_image, f));
+}
+
 //---- crowds that never meet ----------------------------------------------------------------------
 
 // What the filters of many pieces have in common.
@@ -322,6 +347,9 @@ bool pl_pairs_find(plumb_world *world)
         return false;
     }
     if (!find_sensed_resting(&f, &broad->moving, &broad->resting)) {
+        return false;
+    }
+    if (pl_is_wrapped(world) && !find_over_edges(&f, meet, grounded)) {
         return false;
     }
     broad->found_count = f.count;

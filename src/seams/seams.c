@@ -7,6 +7,7 @@
 // Reads: pieces, poses, grids, pairs. Writes: seam columns, corners, spans, list of pairs. Order:
 // after the broad phase. Cost: O(changed pieces x their neighbours), and O(piece slots) for looking;
 // O(pairs) when pairs were made anew, O(pairs with seams) a step; nothing in worlds without seams.
+#include "broad/images.h"
 #include "seams/look.h"
 #include "seams/run.h"
 #include "seams/span.h"
@@ -150,7 +151,7 @@ static bool choose_visited(void *context, const pl_grid_entry *entry)
 
 static bool choose_around(plumb_world *world, pl_box box)
 {
-    return pl_grid_query(&world->broad.fixed, box, choose_visited, world);
+    return pl_world_query(world, &world->broad.fixed, box, choose_visited, world);
 }
 
 static bool choose_body(plumb_world *world, uint32_t row)

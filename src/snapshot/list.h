@@ -35,6 +35,7 @@
     VALUE(desc.contact_damping) VALUE(desc.push_speed) VALUE(desc.restitution_speed)               \
     VALUE(desc.hit_speed) VALUE(desc.contact_impulses) VALUE(desc.no_sleep)                        \
     VALUE(desc.sleep_speed) VALUE(desc.sleep_time) VALUE(desc.no_continuous)                       \
+    VALUE(desc.wrap_x) VALUE(desc.wrap_y)                                                          \
     LEFT(desc.workers) LEFT(desc.tasks)                                                            \
     LEFT(desc.simd_width) /* of this machine; every width gives the same bits */                   \
     LEFT(desc.body_capacity) LEFT(desc.shape_capacity) LEFT(desc.contact_capacity)                 \

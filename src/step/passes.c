@@ -10,7 +10,7 @@
 #include "narrow/one_way.h"
 #include "narrow/surface.h"
 #include "step/tape.h"
-#include "world/state.h"
+#include "world/wrap.h"
 
 //---- what is wanted ------------------------------------------------------------------------------
 
@@ -144,6 +144,11 @@ static bool sleep_wanted(const plumb_world *world, const char **reason)
     }
     return say(world->dynamic_count > 0, reason, "what rests long enough falls asleep",
                "no dynamic body is awake");
+}
+
+static bool edges_wanted(const plumb_world *world, const char **reason)
+{
+    return say(pl_is_wrapped(world), reason, "the world wraps around", "the world does not wrap");
 }
 
 // Contacts or joints.
@@ -356,6 +361,13 @@ static plumb_result run_continuous(plumb_world *world, plumb_real dt)
     return PLUMB_OK;
 }
 
+static plumb_result run_edges(plumb_world *world, plumb_real dt)
+{
+    (void)dt;
+    pl_wrap_bodies(world);
+    return PLUMB_OK;
+}
+
 static plumb_result run_reactions(plumb_world *world, plumb_real dt)
 {
     (void)dt;
@@ -413,6 +425,7 @@ const pl_pass pl_passes[] = {
     { "motion",        "finish",   "solver bodies, forces, gravity",  "transforms, velocities",    NULL,             run_motion },
     { "continuous",    "finish",   "bodies that moved fast, pieces",  "transforms",                continuous_wanted, run_continuous },
     { "targets",       "finish",   "targets, poses",                  "kinematic poses, velocities", targets_wanted, run_arrive },
+    { "edges",         "finish",   "transforms",                      "transforms",                edges_wanted,     run_edges },
     { "reactions",     "finish",   "joints, poses",                   "joints, break events",      joints_wanted,    run_reactions },
     { "events",        "finish",   "pairs, manifolds",                "event arrays",              collision_wanted, run_events },
     { "sensors",       "finish",   "candidates, poses, pieces",       "overlaps, sensor events",   sensing_wanted,   run_sensors },

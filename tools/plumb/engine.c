@@ -138,6 +138,8 @@ static engine_info session_info(const engine_session *session)
         .solver = info->solver == PLUMB_SOLVER_PGS ? 1 : 0,
         .width = plumb_world_stats(session->world).simd_width,
         .y_down = info->y_axis == PLUMB_Y_DOWN,
+        .wrap_x = (double)plumb_world_settings(session->world).wrap_x,
+        .wrap_y = (double)plumb_world_settings(session->world).wrap_y,
         .exact_count = scene_exact_count(session->scene),
         .camera = { .has_view = camera->has_view,
                     .x = camera->center[0],

@@ -57,6 +57,7 @@ typedef struct engine_info {
     int solver;       ///< index into ENGINE_SOLVERS
     int width;        ///< SIMD lanes in use
     bool y_down;      ///< the scene's y axis points down
+    double wrap_x, wrap_y; ///< [m] the world wraps around every so many; 0: not along that axis
     int exact_count;  ///< closed forms declared
     engine_camera camera;
 } engine_info;
