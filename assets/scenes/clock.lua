@@ -49,7 +49,7 @@ anchor_shapes[#anchor_shapes + 1] = circle { 0.4, at = {0, -4}, density = 40, co
 anchor_shapes.name, anchor_shapes.at, anchor_shapes.angle = "pendulum", {0, axis}, radians(5)
 anchor_shapes.density, anchor_shapes.material, anchor_shapes.color = 0.5, brass, "#5b8fbf"
 local pendulum = body(anchor_shapes)
-local air = 0.7 -- [N m] friction that the weight makes good
+local air = 0.8 -- [N m] friction that the weight makes good; with less it swings so far that the pallets strike the disc
 local pivot = revolute { pendulum, at = {0, axis}, name = "pivot", motor = { speed = 0, torque = air } }
 
 -- The train: a weight on a drum, a ratchet from the drum to the great wheel, gears to the escape wheel.

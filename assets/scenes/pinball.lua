@@ -84,4 +84,4 @@ expect { "the plunger gets the ball onto the table", at = 3, body = "ball", x = 
 expect { "the ball stays on the table", always = true, body = "ball", x = {-3.3, 3.7}, y = {-0.2, 9.2} }
 expect { "flippers keep their limits", always = true, joint = "left flipper", joint_value = {-0.16, 0.96} }
 expect { "flippers keep their hinges", always = true, max_joint_error = 0.05 }
-expect { "there is a score", score = "points", value = {200, 1e6} }
+expect { "there is a score", score = "points", value = {50, 1e6} }

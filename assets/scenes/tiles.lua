@@ -2,7 +2,7 @@
 -- Shows: ground of many pieces is one ground. Without friction the speed is kept and nothing is lifted; the
 -- wall at the end, of tiles too, does stop what comes.
 scene { title = "Tiles", duration = 6, description = "Bodies slide over a row of tiles and do not catch on its seams." }
-camera { fit = {{-4, -4}, {104, 8}} }
+camera { fit = {{28, -3}, {46, 4}}, at = 1.5, trail = 0.25 }
 
 local ice = material { name = "ice", friction = 0 }
 for i = 0, 199 do

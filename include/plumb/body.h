@@ -57,6 +57,7 @@ PLUMB_API plumb_result plumb_body_destroy(plumb_world *world, plumb_body body);
 /// True for a live handle of a body.
 PLUMB_API bool plumb_body_valid(const plumb_world *world, plumb_body body);
 
+/// Its type; PLUMB_DYNAMIC for a bad handle.
 PLUMB_API plumb_body_type plumb_body_get_type(const plumb_world *world, plumb_body body);
 /// Changes what moves the body. A body that ceases to be dynamic loses mass, forces and a centre that was
 /// given; one that becomes dynamic has the mass of its shapes, or that of the descriptor or of
@@ -201,6 +202,7 @@ PLUMB_API plumb_real plumb_body_time_scale(const plumb_world *world, plumb_body 
 PLUMB_API plumb_result plumb_body_set_gravity_scale(plumb_world *world, plumb_body body, plumb_real scale);
 PLUMB_API plumb_real plumb_body_gravity_scale(const plumb_world *world, plumb_body body);
 
+/// A pointer of your own, null until set; the library only keeps it. Errors: E_HANDLE.
 PLUMB_API plumb_result plumb_body_set_user_data(plumb_world *world, plumb_body body, void *user_data);
 PLUMB_API void *plumb_body_user_data(const plumb_world *world, plumb_body body);
 
@@ -245,6 +247,7 @@ typedef struct plumb_body_span {
     const plumb_real *inv_inertia;     ///< [1/(kg m^2)]
 } plumb_body_span;
 
+/// The span of now; all zero for null. O(1).
 PLUMB_API plumb_body_span plumb_world_bodies(plumb_world *world);
 
 PLUMB_END

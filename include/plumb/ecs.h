@@ -96,6 +96,7 @@ typedef struct plumb_component_span {
     void *values;
 } plumb_component_span;
 
+/// The span of now; all zero for a component that is not there. O(1).
 PLUMB_API plumb_component_span plumb_world_column(plumb_world *world, plumb_component component);
 
 /// When a user system runs. Built-in passes lie between the phases.

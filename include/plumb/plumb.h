@@ -18,6 +18,8 @@
 #include "plumb/sleep.h"
 #include "plumb/query.h"
 #include "plumb/snapshot.h"
+#include "plumb/batch.h"
+#include "plumb/record.h"
 #include "plumb/effect.h"
 
 #endif

@@ -68,6 +68,7 @@ PLUMB_API plumb_shape plumb_shape_create(plumb_world *world, plumb_body body, co
 /// Removes a shape; its body's mass is revised. Errors: E_HANDLE, E_LOCKED.
 PLUMB_API plumb_result plumb_shape_destroy(plumb_world *world, plumb_shape shape);
 
+/// True for a live handle of a shape.
 PLUMB_API bool plumb_shape_valid(const plumb_world *world, plumb_shape shape);
 PLUMB_API plumb_shape_kind plumb_shape_get_kind(const plumb_world *world, plumb_shape shape);
 /// The body that owns the shape.

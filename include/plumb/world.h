@@ -59,7 +59,7 @@ typedef struct plumb_world_desc {
     int simd_width;           ///< lanes of the contact kernels: 4, 8 or 16; default 0 = best measured.
                               ///< A pure speed setting: every width gives the same bits
     uint32_t body_capacity;   ///< rows to reserve; 0: grow as needed
-    uint32_t shape_capacity;  ///< likewise for shapes
+    uint32_t shape_capacity;  ///< likewise for shapes, of 4 corners
     uint32_t contact_capacity;///< likewise for contacts
     int workers;              ///< threads that share the work of a step, 0..64, the caller included; default
                               ///< 1: no thread is made. A pure speed setting: any number gives the same bits
@@ -174,6 +174,17 @@ typedef struct plumb_stats {
 /// Counters of the last step; of sleeping bodies, as they were when they fell asleep. O(sleeping islands).
 PLUMB_API plumb_stats plumb_world_stats(const plumb_world *world);
 
+/// One part of a world's memory.
+typedef struct plumb_memory_row {
+    const char *name; ///< "bodies", "contacts", ...
+    size_t bytes;     ///< [B] held, room for growth included
+    uint32_t count;   ///< things in it now; 0 where it is scratch or has no rows
+} plumb_memory_row;
+
+/// Where plumb_stats.bytes are, part by part; together they are all of them. Writes up to `capacity` rows,
+/// returns how many there are. O(1).
+PLUMB_API int plumb_world_memory(const plumb_world *world, plumb_memory_row *rows, int capacity);
+
 /// Cells [m] of the broad phase's grids that shapes were filed in by the last step, each once, for
 /// drawing: moving shapes first, small cells before large. Writes up to `capacity`, returns how many
 /// there are. O(shapes).
@@ -189,6 +200,7 @@ typedef struct plumb_energy {
     double mass;             ///< [kg]
 } plumb_energy;
 
+/// Energy and momentum of now; all zero for null. O(dynamic bodies).
 PLUMB_API plumb_energy plumb_world_energy(const plumb_world *world);
 
 /// One line of the schedule: a pass of the step, built in or the user's.

@@ -176,7 +176,8 @@ bool pl_broad_refresh_moving(plumb_world *world, real dt)
             ++left;
         }
     }
-    world->broad.stale |= left > world->moving_count / MANY;
+    // Over an edge of a world that wraps around pairs are sought all at once.
+    world->broad.stale |= left > (pl_is_wrapped(world) ? 0 : world->moving_count / MANY);
     world->broad.unfiled |= left > 0;
     return left > 0;
 }

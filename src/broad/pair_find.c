@@ -146,6 +146,9 @@ static bool find_about(finder *f, const pl_grid *grid, const pl_grid_level *leve
                        const pl_grid_entry *e)
 {
     const pl_grid_entry *entries = pl_grid_entries(grid);
+    if (!pl_boxes_overlap(&level->bounds, &e->box)) {
+        return true;
+    }
     pl_cell_range range = pl_grid_range(level, e->box);
     if (pl_grid_range_is_wide(level, range)) {
         for (uint32_t j = level->first; j < level->first + level->count; ++j) {

@@ -240,8 +240,8 @@ static void hit_piece(blast *b, uint32_t piece, impact *sum)
 static bool collect(void *context, const pl_grid_entry *entry)
 {
     pl_query *q = context;
-    uint32_t row = q->world->pieces.body[entry->piece];
-    if (q->world->bodies.type[row] != PLUMB_DYNAMIC || !pl_query_sees(q, entry->piece)) {
+    if (!pl_query_sees(q, entry->piece) ||
+        q->world->bodies.type[q->world->pieces.body[entry->piece]] != PLUMB_DYNAMIC) {
         return true;
     }
     pl_query_hit hit = pl_query_hit_of(q->world, entry->piece);
@@ -333,8 +333,11 @@ plumb_result plumb_world_explode(plumb_world *world, const plumb_explosion_desc 
                 .desc = desc,
                 .reach = (double)desc->radius + (double)desc->falloff };
     place_rays(&b);
-    pl_world_query(world, &world->broad.moving, pl_query_box_at(desc->position, b.reach), collect,
-                   &q);
+    const pl_box near = pl_query_box_at(desc->position, b.reach);
+    pl_world_query(world, &world->broad.moving, near, collect, &q);
+    if (world->broad.resting.entry_count > 0) {
+        pl_world_query(world, &world->broad.resting, near, collect, &q);
+    }
     pl_query_one_per_shape(&q);
     pl_buffer list = { 0 };
     if (!pl_buffer_reserve(&world->memory, &list, q.count * sizeof(pushed))) {

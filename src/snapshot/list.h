@@ -166,7 +166,7 @@
           sizeof(uint64_t) + sizeof(plumb_material_pair), 8)                                       \
     LEFT(schedule) LEFT(begin_events) LEFT(end_events) LEFT(hit_events)                            \
     LEFT(begin_count) LEFT(end_count) LEFT(hit_count)                                              \
-    LEFT(locked_by) LEFT(editing) VALUE(edited) LEFT(in_hook) LEFT(error) LEFT(error_text)
+    LEFT(tape) LEFT(locked_by) LEFT(editing) VALUE(edited) LEFT(in_hook) LEFT(error) LEFT(error_text)
 
 #define PL_STATE(...)                                                                              \
     PL_STATE_WORLD(__VA_ARGS__) PL_STATE_DESC(__VA_ARGS__) PL_STATE_REGISTRY(__VA_ARGS__)          \

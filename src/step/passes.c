@@ -9,6 +9,7 @@
 #include "narrow/narrow.h"
 #include "narrow/one_way.h"
 #include "narrow/surface.h"
+#include "step/tape.h"
 #include "world/wrap.h"
 
 //---- what is wanted ------------------------------------------------------------------------------
@@ -216,15 +217,30 @@ static bool impacts_wanted(const plumb_world *world, const char **reason)
 
 //---- what is done --------------------------------------------------------------------------------
 
+// What the user does in a step, or what is on the tape of it.
+static void run_systems(plumb_world *world, plumb_phase phase, plumb_real dt)
+{
+    pl_tape *tape = world->tape;
+    if (tape != NULL && tape->before != NULL) {
+        tape->before(tape, world, phase);
+    }
+    if (tape == NULL || !tape->replays) {
+        pl_systems_run(world, phase, dt, world->time);
+    }
+    if (tape != NULL && tape->after != NULL) {
+        tape->after(tape, world, phase);
+    }
+}
+
 static plumb_result run_begin(plumb_world *world, plumb_real dt)
 {
-    pl_systems_run(world, PLUMB_PHASE_BEGIN, dt, world->time);
+    run_systems(world, PLUMB_PHASE_BEGIN, dt);
     return PLUMB_OK;
 }
 
 static plumb_result run_forces(plumb_world *world, plumb_real dt)
 {
-    pl_systems_run(world, PLUMB_PHASE_FORCES, dt, world->time);
+    run_systems(world, PLUMB_PHASE_FORCES, dt);
     return PLUMB_OK;
 }
 
@@ -305,7 +321,7 @@ static plumb_result run_sensors(plumb_world *world, plumb_real dt)
 static plumb_result run_contacts(plumb_world *world, plumb_real dt)
 {
     pl_edits_open(world);
-    pl_systems_run(world, PLUMB_PHASE_CONTACTS, dt, world->time);
+    run_systems(world, PLUMB_PHASE_CONTACTS, dt);
     pl_edits_close(world);
     return PLUMB_OK;
 }
@@ -371,7 +387,7 @@ static plumb_result run_events(plumb_world *world, plumb_real dt)
 
 static plumb_result run_end(plumb_world *world, plumb_real dt)
 {
-    pl_systems_run(world, PLUMB_PHASE_END, dt, world->time);
+    run_systems(world, PLUMB_PHASE_END, dt);
     return PLUMB_OK;
 }
 

@@ -4,6 +4,7 @@
 // Cost: O(1), plumb_world_destroy O(components), plumb_world_energy O(dynamic bodies).
 #include "plumb/world.h"
 
+#include "step/tape.h"
 #include "world/check.h"
 #include "world/rows.h"
 #include "world/wrap.h"
@@ -18,6 +19,7 @@
 #define CLASSIC_ITERATIONS 10
 #define SUBSTEPS_MOST      64
 #define ITERATIONS_MOST    1000
+#define BOX_CORNERS        4 // reserved a shape
 
 //---- the descriptor
 //-------------------------------------------------------------------------------
@@ -129,6 +131,7 @@ static bool reserve_rows(plumb_world *world)
     return pl_registry_reserve(memory, &world->registry, d->body_capacity + d->shape_capacity) &&
            pl_rows_reserve(world, d->body_capacity) &&
            pl_pieces_reserve(world, d->shape_capacity) &&
+           pl_pool_reserve(memory, &world->vertices, d->shape_capacity * BOX_CORNERS) &&
            pl_buffer_reserve(memory, &world->broad.pairs.items, pairs) &&
            pl_buffer_reserve(memory, &world->broad.pairs.old_items, pairs) &&
            pl_buffer_reserve(memory, &world->narrow.manifolds,
@@ -233,6 +236,9 @@ void plumb_world_destroy(plumb_world *world)
 {
     if (world == NULL) {
         return;
+    }
+    if (world->tape != NULL && world->tape->gone != NULL) {
+        world->tape->gone(world->tape, world);
     }
     pl_components_bury(world);
     free_world(world);

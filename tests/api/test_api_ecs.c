@@ -35,6 +35,9 @@ static void components_go_to_any_kind_and_leave_with_it(void **state)
         float value = (float)i;
         assert_int_equal(plumb_component_set(w, all[i], f->health, &value), PLUMB_OK);
     }
+    assert_int_equal(plumb_component_find(w, "health").id, f->health.id);
+    assert_int_equal(plumb_component_find(w, "nobody's").id, 0);
+    assert_int_equal(plumb_component_find(NULL, "health").id, 0);
     assert_int_equal(plumb_world_column(w, f->health).count, 4);
     for (int i = 0; i < 4; ++i) {
         assert_true(*(float *)plumb_component_get(w, all[i], f->health) == (float)i);

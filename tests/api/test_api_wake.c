@@ -279,12 +279,37 @@ static void pushes_lose_nothing_to_sleep(void **state)
     plumb_world_destroy(p.w);
 }
 
+// Above the stack: what sees it is pushed as hard asleep as awake, and nothing else wakes.
+static void explosions_push_sleeping_bodies(void **state)
+{
+    (void)state;
+    plumb_vec2 pushed[2];
+    for (int awake = 0; awake < 2; ++awake) {
+        place p = make_place();
+        const plumb_explosion_desc blast = { .position = { 0, 4 }, .radius = 3, .impulse = 5000 };
+        if (awake == 1) {
+            plumb_body_wake(p.w, p.high);
+            steps(p.w, 1);
+            plumb_body_set_velocity(p.w, p.high, none);
+            plumb_body_set_angular_velocity(p.w, p.high, 0);
+        }
+        assert_int_equal(plumb_world_explode(p.w, &blast), PLUMB_OK);
+        pushed[awake] = plumb_body_velocity(p.w, p.high);
+        assert_true(plumb_body_is_awake(p.w, p.high));
+        assert_false(plumb_body_is_awake(p.w, p.on_ledge));
+        plumb_world_destroy(p.w);
+    }
+    assert_true(pushed[0].y < -1);
+    assert_near(pushed[0].y, pushed[1].y, 1e-2 * (double)-pushed[1].y);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_change_wakes_whom_it_concerns),
         cmocka_unit_test(systems_at_the_end_wake_for_the_next_step),
         cmocka_unit_test(pushes_lose_nothing_to_sleep),
+        cmocka_unit_test(explosions_push_sleeping_bodies),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

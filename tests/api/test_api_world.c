@@ -181,6 +181,18 @@ static void statistics_count_what_is_there(void **state)
     assert_int_equal(s.step_count, 10);
     assert_true(s.time == 1.25);
     assert_true(plumb_world_stats(NULL).bytes == 0);
+    plumb_memory_row rows[32];
+    int parts = plumb_world_memory(f->world, rows, 32);
+    size_t sum = 0;
+    assert_in_range(parts, 10, 32);
+    for (int i = 0; i < parts; ++i) {
+        sum += rows[i].bytes;
+    }
+    assert_int_equal(sum, plumb_world_stats(f->world).bytes);
+    assert_string_equal(rows[0].name, "bodies");
+    assert_int_equal(rows[0].count, plumb_world_stats(f->world).body_count);
+    assert_int_equal(plumb_world_memory(f->world, NULL, 5), parts);
+    assert_int_equal(plumb_world_memory(NULL, rows, 32), 0);
 }
 
 static void energy_is_that_of_the_dynamic_bodies(void **state)

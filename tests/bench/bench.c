@@ -41,7 +41,7 @@ struct plan {
 
 static const char usage[] =
     "usage: bench [options]\n"
-    "  --scenes A,B      scenes in this order (default: all; --list shows them)\n"
+    "  --scenes A,B      scenes in this order (default: all but field_*; --list shows them)\n"
     "  --engines X,Y     engines in this order, each name[:width][:solver]; ratios are\n"
     "                    against the first (default: all; --list shows them)\n"
     "  --repeats N       turns of every engine on a scene, 1..101 (default 5)\n"
@@ -228,7 +228,7 @@ static void read_plan(struct plan *plan, int argc, char **argv)
         snprintf(name, sizeof name, "%s", engines[i]->name);
         add_contender(plan, name);
     }
-    for (int i = 0; i < scene_row_count && plan->row_count <= i; ++i) {
+    for (int i = 0; i < scene_default_count && plan->row_count <= i; ++i) {
         add_scene(plan, scene_rows[i].name);
     }
     for (int i = 0; i < plan->contender_count; ++i) {

@@ -69,6 +69,8 @@ struct scene_row {
 /// The table of scenes.
 extern const struct scene_row scene_rows[];
 extern const int scene_row_count;
+/// So many of them, from the first, run when none is named.
+extern const int scene_default_count;
 
 /// Adds a body at rest; returns its index. Memory running out ends the program.
 int scene_body(struct scene *scene, enum engine_body_type type, double x, double y);

@@ -30,9 +30,10 @@ static void build_large_pyramid(struct scene *scene)
     pyramid(scene, base, -0.5 * base, 0.0);
 }
 
-static void build_many_pyramids(struct scene *scene)
+// Piles of 55 boxes each, on floors one above another.
+static void pyramid_field(struct scene *scene, int rows, int columns)
 {
-    enum { base = 10, rows = 20, columns = 20 };
+    enum { base = 10 };
     const double pitch = base + 1.0; // one box of room between neighbours, both ways
     const double half_width = 0.5 * pitch * columns;
     int ground = scene_body(scene, ENGINE_STATIC, 0.0, 0.0);
@@ -46,6 +47,32 @@ static void build_many_pyramids(struct scene *scene)
             pyramid(scene, base, -half_width + pitch * column + 0.5, pitch * row);
         }
     }
+}
+
+static void build_many_pyramids(struct scene *scene)
+{
+    pyramid_field(scene, 20, 20);
+}
+
+// The same at four sizes: what a body costs should not depend on how many there are.
+static void build_field_1e3(struct scene *scene)
+{
+    pyramid_field(scene, 3, 6); // 990 boxes
+}
+
+static void build_field_1e4(struct scene *scene)
+{
+    pyramid_field(scene, 13, 14); // 10,010
+}
+
+static void build_field_1e5(struct scene *scene)
+{
+    pyramid_field(scene, 40, 45); // 99,000
+}
+
+static void build_field_1e6(struct scene *scene)
+{
+    pyramid_field(scene, 130, 140); // 1,001,000
 }
 
 static void build_smash(struct scene *scene)
@@ -195,6 +222,8 @@ static void build_compounds(struct scene *scene)
     }
 }
 
+enum { FIELDS = 4 }; // rows at the end that run only when they are named
+
 const struct scene_row scene_rows[] = {
     { "large_pyramid", 500, build_large_pyramid, NULL, "one deep pile at rest" },
     { "many_pyramids", 200, build_many_pyramids, NULL, "400 small piles at rest" },
@@ -206,6 +235,11 @@ const struct scene_row scene_rows[] = {
     { "joint_grid", 500, build_joint_grid, NULL, "a net of 19,800 hinges" },
     { "spinner", 500, build_spinner, NULL, "a motor stirs a bowl" },
     { "rain", 1000, build_rain, NULL, "ragdolls come and go" },
+    { "field_1e3", 400, build_field_1e3, NULL, "18 small piles at rest" },
+    { "field_1e4", 200, build_field_1e4, NULL, "182 small piles at rest" },
+    { "field_1e5", 60, build_field_1e5, NULL, "1,800 small piles at rest" },
+    { "field_1e6", 20, build_field_1e6, NULL, "18,200 small piles at rest" },
 };
 
 const int scene_row_count = (int)(sizeof scene_rows / sizeof scene_rows[0]);
+const int scene_default_count = (int)(sizeof scene_rows / sizeof scene_rows[0]) - FIELDS;

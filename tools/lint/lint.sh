@@ -63,6 +63,24 @@ grep -nE '^\s*#\s*(pragma\s+(STDC\s+FP_CONTRACT\s+ON|GCC\s+optimize)|include\s*<
     $(sources src include) /dev/null >"$work/out"
 breach "determinism" <"$work/out"
 
+# ---- the public interface: each function is documented and called by a test of tests/api, each result code is
+# the outcome that one of them asks for
+
+awk '/^PLUMB_API/ && before !~ /^\/\/\// && before !~ /^(PLUMB_API.*|  .*);$/ {
+        sub(/^PLUMB_API /, ""); print FILENAME ": no comment with ///: " $0 }
+    { before = $0 }' include/plumb/*.h >"$work/out"
+breach "undocumented" <"$work/out"
+cat include/plumb/*.h | tr '\n' ' ' | grep -oE 'PLUMB_API [^;(]*\(' | grep -oE 'plumb_[a-z0-9_]+ *\(' |
+    tr -d ' (' | sort -u >"$work/public"
+cat tests/api/*.[ch] >"$work/calls"
+grep -oE 'plumb_[a-z0-9_]+ *\(' "$work/calls" | tr -d ' (' | sort -u | comm -23 "$work/public" - |
+    sed 's/$/ is called by no test of tests\/api/' >"$work/out"
+breach "untested" <"$work/out"
+sed -n 's/^    X(\([A-Z_]*\),.*/\1/p' include/plumb/base.h | while IFS= read -r code; do
+    grep -qE "PLUMB_$code\b|\b$code," "$work/calls" || echo "PLUMB_$code is asked for by no test of tests/api"
+done >"$work/out"
+breach "untested" <"$work/out"
+
 # ---- include direction: layers.txt says which folder may include which
 
 while IFS= read -r file; do
