@@ -90,7 +90,7 @@
     LEFT(joints.plan)
 
 #define PL_STATE_PARTS(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                      \
-    LEFT(parts.items) LEFT(parts.count) TALLY(parts.buried)
+    LEFT(parts.items) LEFT(parts.count) LEFT(parts.lost) LEFT(parts.lost_count) TALLY(parts.buried)
 
 #define PL_STATE_BLOWS(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                      \
     ARRAY(pl_blow, blows.items, blows.count, sizeof(pl_blow), 8)                                   \

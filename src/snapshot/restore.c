@@ -197,6 +197,7 @@ static void fill_rows(plumb_world *world)
 
 static void forget_last_step(plumb_world *world)
 {
+    world->sleep.events_told = true; // those of a refused step too
     pl_events_clear(world);
     world->blows.old_count = 0;
     world->sensing.old_count = world->sensing.rest_old_count = 0;
