@@ -19,6 +19,7 @@
 #include "plumb/query.h"
 #include "plumb/snapshot.h"
 #include "plumb/batch.h"
+#include "plumb/record.h"
 #include "plumb/effect.h"
 
 #endif

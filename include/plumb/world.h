@@ -52,6 +52,8 @@ typedef struct plumb_world_desc {
     plumb_real sleep_speed;   ///< [m/s] >= 0; bodies slower than this rest, default 0.05: of v and w times
                               ///< the farthest point of the body, the root of the sum of squares
     plumb_real sleep_time;    ///< [s] >= 0; how long bodies must have rested to fall asleep, default 0.5
+    plumb_real wrap_x, wrap_y;///< [m] 0.1..2e9: the world is so long along the axis and closes in on itself,
+                              ///< see plumb_world_wrapped. Default 0: it has no end
     bool no_continuous;       ///< bodies that move fast may pass through thin things: no sweeps. For worlds
                               ///< in which it does not matter; bodies that move slowly cost nothing anyway
     int simd_width;           ///< lanes of the contact kernels: 4, 8 or 16; default 0 = best measured.
@@ -104,6 +106,25 @@ PLUMB_API plumb_vec2 plumb_world_gravity(const plumb_world *world);
 
 /// Unit vector against which "down" is measured: (0, 1) in a y-up world, (0, -1) in a y-down one.
 PLUMB_API plumb_vec2 plumb_world_up(const plumb_world *world);
+
+/// Worlds that wrap around (`wrap_x`, `wrap_y`, either or both): what leaves at one edge comes in at the
+/// other. The centre of mass of every body lies in -wrap/2 <= x < wrap/2, whatever place it was given; it is
+/// brought back at the end of a step, by whole periods, which rounds nothing. Contacts, joints, sweeps,
+/// sensors, explosions and queries go by the nearest image, over the edge too; so do places handed to a
+/// function (a point that a force acts at, an anchor, a target: the way there is the shortest).
+/// - Each convex piece of a shape must be smaller than half the period (shapes refuse others: E_RANGE); a
+///   ground that goes all around is made of several. What a joint or a query compares should be nearer than
+///   half a period too: of two images, the nearer one counts.
+/// - Points that are handed out (contacts, hits) lie beside the body, or the ray, that they belong to, so they
+///   may be beyond the edge; bounding boxes too.
+/// - A body that crosses half a period in a step may meet things an image too late.
+/// - plumb_world_energy: potential energy and angular momentum jump when a body crosses.
+/// Returns the image of a point that lies in the world's period; the point itself where it does not wrap.
+PLUMB_API plumb_vec2 plumb_world_wrapped(const plumb_world *world, plumb_vec2 point);
+
+/// The shortest way [m] from one point to another: `to` - `from` where the world does not wrap. Of two
+/// ways of half a period each, that towards lower coordinates.
+PLUMB_API plumb_vec2 plumb_world_way(const plumb_world *world, plumb_vec2 from, plumb_vec2 to);
 
 /// The pointer given in the descriptor.
 PLUMB_API void *plumb_world_user_data(const plumb_world *world);

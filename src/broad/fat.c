@@ -3,7 +3,7 @@
 // Reads: poses, piece geometry, velocities. Writes: fat boxes, which pieces left theirs. Order: first of the broad phase.
 // Cost: O(moving pieces); O(all pieces) when static ones changed.
 #include "broad/pairs.h"
-#include "world/state.h"
+#include "world/wrap.h"
 
 #include <string.h>
 
@@ -61,6 +61,13 @@ pl_box pl_piece_tight_box(const plumb_world *world, uint32_t piece)
     default:
         return polygon_box(world, piece, pose);
     }
+}
+
+// Where the grids have the tight box of a piece.
+static pl_box tight_box(const plumb_world *world, uint32_t piece)
+{
+    pl_box box = pl_piece_tight_box(world, piece);
+    return pl_is_wrapped(world) ? pl_wrap_box(world, box) : box;
 }
 
 static pl_box widened(pl_box box, real margin)
@@ -161,7 +168,7 @@ bool pl_broad_refresh_moving(plumb_world *world, real dt)
     uint32_t left = 0;
     for (uint32_t i = 0; i < world->moving_count; ++i) {
         uint32_t piece = moving[i];
-        pl_box tight = pl_piece_tight_box(world, piece);
+        pl_box tight = tight_box(world, piece);
         pl_box needed = needed_box(world, piece, &tight, dt);
         if (!contains(&fat[piece], &needed)) {
             fat[piece] = fattened(needed, &tight);
@@ -169,7 +176,8 @@ bool pl_broad_refresh_moving(plumb_world *world, real dt)
             ++left;
         }
     }
-    world->broad.stale |= left > world->moving_count / MANY;
+    // Over an edge of a world that wraps around pairs are sought all at once.
+    world->broad.stale |= left > (pl_is_wrapped(world) ? 0 : world->moving_count / MANY);
     world->broad.unfiled |= left > 0;
     return left > 0;
 }
@@ -178,7 +186,7 @@ void pl_broad_refresh_resting(plumb_world *world)
 {
     for (uint32_t i = 0; i < world->sleep.resting_count; ++i) {
         uint32_t piece = pl_resting(&world->sleep)[i];
-        pl_box tight = pl_piece_tight_box(world, piece);
+        pl_box tight = tight_box(world, piece);
         pl_box needed = widened(tight, PL_SPECULATIVE / 2);
         if (!contains(&world->pieces.fat[piece], &needed)) {
             world->pieces.fat[piece] = fattened(needed, &tight);
@@ -200,7 +208,7 @@ void pl_broad_refresh_fixed(plumb_world *world)
     const bool asleep = world->asleep_count > 0;
     for (uint32_t piece = 0; piece < pieces->table.count; ++piece) {
         if (pieces->kind[piece] != PL_PIECE_FREE && pieces->moving[piece] == PL_NONE) {
-            pl_box box = widened(pl_piece_tight_box(world, piece), PL_SPECULATIVE / 2);
+            pl_box box = widened(tight_box(world, piece), PL_SPECULATIVE / 2);
             if (asleep && memcmp(&box, &pieces->fat[piece], sizeof box) != 0) {
                 note_placed(world, piece);
             }

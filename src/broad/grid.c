@@ -48,6 +48,7 @@ typedef struct survey {
     uint32_t count;
     real extent;                     // largest
     real min_x, min_y, max_x, max_y; // of the lower corners
+    real top_x, top_y;               // of the upper ones
 } survey;
 
 static void take_survey(survey *octaves, const uint32_t *pieces, uint32_t count, const pl_box *fat)
@@ -57,7 +58,8 @@ static void take_survey(survey *octaves, const uint32_t *pieces, uint32_t count,
         real extent = extent_of(box);
         survey *o = &octaves[octave_of(extent)];
         if (o->count++ == 0) {
-            *o = (survey){ 1, extent, box->min_x, box->min_y, box->min_x, box->min_y };
+            *o = (survey){ 1,          extent,     box->min_x, box->min_y,
+                           box->min_x, box->min_y, box->max_x, box->max_y };
             continue;
         }
         o->extent = extent > o->extent ? extent : o->extent;
@@ -65,6 +67,8 @@ static void take_survey(survey *octaves, const uint32_t *pieces, uint32_t count,
         o->min_y = box->min_y < o->min_y ? box->min_y : o->min_y;
         o->max_x = box->min_x > o->max_x ? box->min_x : o->max_x;
         o->max_y = box->min_y > o->max_y ? box->min_y : o->max_y;
+        o->top_x = box->max_x > o->top_x ? box->max_x : o->top_x;
+        o->top_y = box->max_y > o->top_y ? box->max_y : o->top_y;
     }
 }
 
@@ -84,6 +88,7 @@ static void lay_out_level(pl_grid_level *level, const survey *o)
     level->cell = (double)o->extent * (1.0 + 1e-5) + 1e-9;
     level->inv_cell = 1.0 / level->cell;
     level->count = o->count;
+    level->bounds = (pl_box){ o->min_x, o->min_y, o->top_x, o->top_y };
     level->origin_x = cell_of((double)o->min_x, level->inv_cell) - 1;
     level->origin_y = cell_of((double)o->min_y, level->inv_cell) - 1;
     int64_t columns = (int64_t)cell_of((double)o->max_x, level->inv_cell) - level->origin_x + 2;
@@ -251,6 +256,9 @@ bool pl_grid_query(const pl_grid *grid, pl_box box, pl_grid_visit *visit, void *
     const pl_grid_entry *entries = pl_grid_entries(grid);
     for (uint32_t k = 0; k < grid->level_count; ++k) {
         const pl_grid_level *level = &grid->levels[k];
+        if (!pl_boxes_overlap(&level->bounds, &box)) {
+            continue;
+        }
         pl_cell_range range = pl_grid_range(level, box);
         if (pl_grid_range_is_wide(level, range)) {
             pl_grid_run all = { level->first, level->first + level->count };

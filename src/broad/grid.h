@@ -28,6 +28,7 @@ typedef struct pl_grid_level {
     uint32_t mask;         // buckets - 1
     uint32_t stride;       // buckets between rows of cells
     int32_t origin_x, origin_y;
+    pl_box bounds; // of its boxes: most of a pile does not reach down to the tiles of the ground
 } pl_grid_level;
 
 typedef struct pl_grid {

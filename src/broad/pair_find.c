@@ -7,6 +7,7 @@
 //
 // Around the pieces that left their boxes: from each of those, all about it. Two of them find each
 // other twice; the find of the lower one counts.
+#include "broad/images.h"
 #include "broad/pairs.h"
 #include "world/filter.h"
 
@@ -145,6 +146,9 @@ static bool find_about(finder *f, const pl_grid *grid, const pl_grid_level *leve
                        const pl_grid_entry *e)
 {
     const pl_grid_entry *entries = pl_grid_entries(grid);
+    if (!pl_boxes_overlap(&level->bounds, &e->box)) {
+        return true;
+    }
     pl_cell_range range = pl_grid_range(level, e->box);
     if (pl_grid_range_is_wide(level, range)) {
         for (uint32_t j = level->first; j < level->first + level->count; ++j) {
@@ -228,6 +232,41 @@ static bool find_sensed_resting(finder *f, const pl_grid *moving, const pl_grid 
         }
     }
     return true;
+}
+
+//---- over the edges of a world that wraps around --------------------------------------------------
+
+static bool add_image(void *context, uint32_t piece, uint32_t other)
+{
+    return add_pair(context, piece, other);
+}
+
+static bool add_resting_image(void *context, uint32_t piece, uint32_t other)
+{
+    finder *f = context;
+    f->piece = piece;
+    return add_resting(f, &(pl_grid_entry){ .piece = other });
+}
+
+// Of one piece that left its box.
+static bool find_over_edges_about(finder *f, const pl_grid_entry *e, bool meet, bool grounded)
+{
+    const plumb_world *world = f->world;
+    const pl_broad *b = &world->broad;
+    return (!meet || pl_images_partners(world, e, &b->moving, add_image, f)) &&
+           (!grounded || pl_images_partners(world, e, &b->fixed, add_image, f)) &&
+           (world->sensor_pieces == 0 ||
+            pl_images_partners(world, e, &b->resting, add_resting_image, f));
+}
+
+static bool find_over_edges(finder *f, bool meet, bool grounded)
+{
+    const plumb_world *world = f->world;
+    const pl_broad *b = &world->broad;
+    return (!meet || pl_images_pairs(world, &b->moving, &b->moving, add_image, f)) &&
+           (!grounded || pl_images_pairs(world, &b->moving, &b->fixed, add_image, f)) &&
+           (world->sensor_pieces == 0 ||
+            pl_images_pairs(world, &b->moving, &b->resting, add_resting_image, f));
 }
 
 //---- crowds that never meet ----------------------------------------------------------------------
@@ -321,6 +360,9 @@ bool pl_pairs_find(plumb_world *world)
     if (!find_sensed_resting(&f, &broad->moving, &broad->resting)) {
         return false;
     }
+    if (pl_is_wrapped(world) && !find_over_edges(&f, meet, grounded)) {
+        return false;
+    }
     broad->found_count = f.count;
     return !f.out_of_memory;
 }
@@ -359,6 +401,9 @@ bool pl_pairs_find_left(plumb_world *world)
         }
         if ((grounded && !pl_grid_query(&broad->fixed, e.box, add_visited, &f)) ||
             (senses && !pl_grid_query(&broad->resting, e.box, add_resting, &f))) {
+            return false;
+        }
+        if (pl_is_wrapped(world) && !find_over_edges_about(&f, &e, meet, grounded)) {
             return false;
         }
     }

@@ -9,6 +9,7 @@
 // Reads: obstacles, body columns. Writes: forces and velocity of the body, forces of the ground.
 // Cost: as a kinematic character that stands.
 #include "character/walker.h"
+#include "world/wrap.h"
 
 #include <math.h>
 
@@ -39,8 +40,9 @@ static void look_for_ground(pl_walker *m)
     x += (double)m->start.x, y += (double)m->start.y;
     uint32_t row = t.obstacle->row;
     double w = (double)b->w[row];
-    double gx = (double)b->vx[row] - w * (y - (double)b->center_y[row]);
-    double gy = (double)b->vy[row] + w * (x - (double)b->center_x[row]);
+    pl_shift arm = pl_wrap_arm(m->world, row, x, y);
+    double gx = (double)b->vx[row] - w * arm.y;
+    double gy = (double)b->vy[row] + w * arm.x;
     double away = ((double)b->vx[m->row] - gx) * t.nx + ((double)b->vy[m->row] - gy) * t.ny;
     double g = sqrt(m->gravity_x * m->gravity_x + m->gravity_y * m->gravity_y);
     bool stays = away <= LEAVING + 2 * g * m->dt && (was || away <= LEAVING);

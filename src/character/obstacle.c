@@ -6,6 +6,7 @@
 //
 // Reads: grids, pieces, poses, velocities. Writes: scratch of world->characters.
 // Cost: cells near the character, O(corners) an obstacle.
+#include "broad/images.h"
 #include "character/walker.h"
 #include "math/trig.h"
 #include "narrow/one_way.h"
@@ -107,7 +108,7 @@ bool pl_walker_begin(plumb_world *world, pl_character *c, real dt, pl_walker *m)
     }
     plumb_convex convex;
     pl_piece_convex(world, m->piece, &convex);
-    pl_round_make(&convex, pl_query_frame(world, m->piece), m->start, &m->shape);
+    pl_round_make(&convex, pl_query_frame(world, m->piece, m->start), m->start, &m->shape);
     resolve(m);
     return true;
 }
@@ -220,15 +221,21 @@ static void make_obstacle(const pl_walker *m, uint32_t piece, pl_obstacle *o)
         o->w = pace * (double)b->w[row];
     }
     plumb_convex convex;
-    plumb_transform now = pl_query_frame(world, piece);
+    plumb_transform now = pl_query_frame(world, piece, m->start), end = now;
     bool moves = o->vx != 0 || o->vy != 0 || o->w != 0;
     pl_query_convex(world, piece, &convex);
-    pl_round_make(&convex, moves ? pl_row_end_pose(world, row, m->step) : now, m->start, &o->fixed);
+    if (moves) {
+        end = pl_row_end_pose(world, row, m->step);
+        end.p = pl_wrap_point(world, end.p, now.p);
+    }
+    pl_round_make(&convex, end, m->start, &o->fixed);
     pl_sum_make(&o->fixed, &m->shape, &o->sum);
     o->sum.radius += m->skin;
     if (moves) {
-        o->cx = (double)b->center_x[row] + m->dt * o->vx - (double)m->start.x;
-        o->cy = (double)b->center_y[row] + m->dt * o->vy - (double)m->start.y;
+        plumb_vec2 center = { b->center_x[row], b->center_y[row] };
+        center = pl_wrap_point(world, center, now.p);
+        o->cx = (double)center.x + m->dt * o->vx - (double)m->start.x;
+        o->cy = (double)center.y + m->dt * o->vy - (double)m->start.y;
         double arm = sqrt(o->cx * o->cx + o->cy * o->cy) + m->half_width + fabs(m->foot);
         o->travel = m->dt * (sqrt(o->vx * o->vx + o->vy * o->vy) + fabs(o->w) * arm);
     }
@@ -261,9 +268,9 @@ bool pl_walker_look(pl_walker *m, double reach)
     pl_box box = pl_piece_tight_box(world, m->piece);
     real wide = (real)pl_least(reach + reach_of_others(world, m->step) + m->skin, (double)PL_LARGEST);
     box.min_x -= wide, box.min_y -= wide, box.max_x += wide, box.max_y += wide;
-    if (!pl_grid_query(&world->broad.moving, box, list_piece, &s) ||
-        !pl_grid_query(&world->broad.resting, box, list_resting, &s) ||
-        !pl_grid_query(&world->broad.fixed, box, list_piece, &s) ||
+    if (!pl_world_query(world, &world->broad.moving, box, list_piece, &s) ||
+        !pl_world_query(world, &world->broad.resting, box, list_resting, &s) ||
+        !pl_world_query(world, &world->broad.fixed, box, list_piece, &s) ||
         !pl_buffer_reserve(&world->memory, &world->characters.obstacles,
                            ((size_t)s.count + 1) * sizeof(pl_obstacle))) {
         return false;

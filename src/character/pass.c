@@ -12,6 +12,7 @@
 #include "character/walker.h"
 #include "narrow/narrow.h"
 #include "narrow/surface.h"
+#include "world/wrap.h"
 
 #include <math.h>
 #include <string.h>
@@ -152,7 +153,8 @@ static void finish_ground(pl_walker *m)
         return;
     }
     plumb_transform end = pl_row_end_pose(m->world, row, m->step);
-    c->ground.local = plumb_transform_inv_apply(end, c->ground.point);
+    c->ground.local =
+        plumb_transform_inv_apply(end, pl_wrap_point(m->world, c->ground.point, end.p));
     c->velocity.x = c->ground.velocity.x + c->speed * (real)m->ny;
     c->velocity.y = c->ground.velocity.y - c->speed * (real)m->nx;
     c->on_slope = false;

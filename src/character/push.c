@@ -12,6 +12,7 @@
 // Cost: O(1) a push.
 #include "query/query.h"
 #include "character/walker.h"
+#include "world/wrap.h"
 
 #include <math.h>
 
@@ -22,13 +23,13 @@ void pl_shove_add(plumb_world *world, uint32_t row, double fx, double fy, double
     pl_shove *pushes = world->characters.pushes.data;
     pushes[world->characters.push_count++] =
         (pl_shove){ b->entity[row], b->fx[row], b->fy[row], b->torque[row] };
-    double rx = px - (double)b->center_x[row], ry = py - (double)b->center_y[row];
+    pl_shift arm = pl_wrap_arm(world, row, px, py);
     if (b->island[row] != PL_NONE) {
         pl_sleep_stir(world, row);
     }
     b->fx[row] += (real)fx;
     b->fy[row] += (real)fy;
-    b->torque[row] += (real)(rx * fy - ry * fx);
+    b->torque[row] += (real)(arm.x * fy - arm.y * fx);
 }
 
 void pl_walker_push(pl_walker *m, const pl_touch *t, double speed)
@@ -42,7 +43,8 @@ void pl_walker_push(pl_walker *m, const pl_touch *t, double speed)
     double x, y;
     pl_walker_touch_point(m, t, &x, &y);
     x += (double)m->start.x, y += (double)m->start.y;
-    double rx = x - (double)b->center_x[row], ry = y - (double)b->center_y[row];
+    pl_shift arm = pl_wrap_arm(m->world, row, x, y);
+    double rx = arm.x, ry = arm.y;
     double turn = rx * t->ny - ry * t->nx;
     double inverse = (double)b->inv_mass[row] + (double)b->inv_inertia[row] * turn * turn;
     double vx = (double)b->vx[row] - (double)b->w[row] * ry;

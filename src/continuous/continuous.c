@@ -12,6 +12,7 @@
 // the grid and a few rounds of sweep.c for each piece on its way; nothing else.
 #include "continuous/continuous.h"
 
+#include "broad/images.h"
 #include "continuous/search.h"
 #include "plumb/math.h"
 
@@ -75,7 +76,7 @@ static bool is_in_the_open(const plumb_world *world, const pl_mover *m)
     pl_box box = { m->x < x ? m->x : x, m->y < y ? m->y : y, m->x > x ? m->x : x,
                    m->y > y ? m->y : y };
     box = (pl_box){ box.min_x - reach, box.min_y - reach, box.max_x + reach, box.max_y + reach };
-    return pl_grid_query(&world->broad.fixed, box, visit_any, NULL);
+    return pl_world_query(world, &world->broad.fixed, box, visit_any, NULL);
 }
 
 static void sweep_still(plumb_world *world)
@@ -200,6 +201,7 @@ static void carry(plumb_world *world, const pl_search *s, double time)
 {
     uint32_t row = s->mover->row;
     pl_course by = pl_mover_course(world, s->partner, s->dt, s->course.ox, s->course.oy);
+    by.px += s->partner_shift.x, by.py += s->partner_shift.y;
     double stop = time < s->mover->stop ? time : s->mover->stop;
     pl_place from = pl_course_place(world, row, &s->course, stop);
     pl_place by_from = pl_course_place(world, s->partner, &by, time);

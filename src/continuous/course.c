@@ -191,6 +191,19 @@ pl_swept pl_course_piece(const plumb_world *world, uint32_t piece, const pl_cour
     return out;
 }
 
+pl_shift pl_course_image(const plumb_world *world, const pl_course *course, uint32_t piece, double x,
+                         double y)
+{
+    if (!pl_is_wrapped(world)) {
+        return (pl_shift){ 0, 0 };
+    }
+    const pl_core *core = &world->pieces.core[piece];
+    double lx = (double)core->x - course->lx, ly = (double)core->y - course->ly;
+    double at_x = course->ox + course->px + (course->c * lx - course->s * ly);
+    double at_y = course->oy + course->py + (course->s * lx + course->c * ly);
+    return pl_wrap_shift(world, at_x - x, at_y - y);
+}
+
 typedef struct bounds {
     double min_x, min_y, max_x, max_y;
 } bounds;

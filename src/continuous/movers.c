@@ -6,6 +6,8 @@
 // O(movers), of fast kinematic bodies also O(dynamic bodies).
 #include "continuous/movers.h"
 
+#include "broad/images.h"
+
 // A body deeper than this share of its slack is swept even if it moves slowly.
 #define PRESSED_SHARE ((real)0.5)
 
@@ -107,7 +109,7 @@ static uint32_t mark_swept(plumb_world *world, real dt)
         for (uint32_t p = world->bodies.first_piece[s.row]; p != PL_NONE;
              p = world->pieces.next_in_body[p]) {
             pl_swept swept = pl_course_piece(world, p, &course);
-            pl_grid_query(&world->broad.moving, pl_course_box(&course, &swept), visit_swept, &s);
+            pl_world_query(world, &world->broad.moving, pl_course_box(&course, &swept), visit_swept, &s);
         }
     }
     return s.recruits;

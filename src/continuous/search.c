@@ -7,6 +7,7 @@
 
 #include <math.h>
 
+#include "broad/images.h"
 #include "broad/pairs.h"
 #include "continuous/target.h"
 #include "narrow/one_way.h"
@@ -97,10 +98,28 @@ static bool goes_by(const pl_search *s, const pl_box *box)
     return aside > 0 && aside * aside > s->reach * s->reach * (dx * dx + dy * dy);
 }
 
-static pl_swept still_piece(const pl_search *s, uint32_t piece)
+// Takes a course by the image of the piece that is where the grid has found it.
+static pl_shift take_image(const pl_search *s, pl_course *course, uint32_t piece)
 {
+    pl_shift by = pl_course_image(s->world, course, piece, s->at_x, s->at_y);
+    course->px += by.x;
+    course->py += by.y;
+    return by;
+}
+
+static void look_at(pl_search *s, const pl_box *box)
+{
+    s->at_x = ((double)box->min_x + (double)box->max_x) / 2;
+    s->at_y = ((double)box->min_y + (double)box->max_y) / 2;
+}
+
+static pl_swept still_piece(pl_search *s, const pl_grid_entry *entry)
+{
+    const uint32_t piece = entry->piece;
     pl_course course =
         pl_course_of_row(s->world, s->world->pieces.body[piece], 0, s->course.ox, s->course.oy);
+    look_at(s, &entry->box);
+    take_image(s, &course, piece);
     return pl_course_piece(s->world, piece, &course);
 }
 
@@ -113,7 +132,7 @@ static bool visit_depth(void *context, const pl_grid_entry *entry)
 {
     pl_search *s = context;
     if (pl_pieces_collide(s->world, s->piece, entry->piece)) {
-        pl_swept other = still_piece(s, entry->piece);
+        pl_swept other = still_piece(s, entry);
         double depth = -pl_sweep_gap(&s->swept, &other, 0).distance;
         if (depth > s->sunk && !pl_target_is_lost(thickness(s, entry->piece), depth)) {
             s->sunk = depth;
@@ -131,7 +150,7 @@ static double depth_at_start(const pl_search *s)
     for (uint32_t p = s->world->bodies.first_piece[s->mover->row]; p != PL_NONE;
          p = s->world->pieces.next_in_body[p]) {
         take_piece(&at, p);
-        pl_grid_query(&s->world->broad.fixed, at.box, visit_depth, &at);
+        pl_world_query(s->world, &s->world->broad.fixed, at.box, visit_depth, &at);
     }
     return at.sunk;
 }
@@ -167,7 +186,7 @@ static bool visit_still(void *context, const pl_grid_entry *entry)
     if (goes_by(s, &entry->box) || !pl_pieces_collide(s->world, s->piece, entry->piece)) {
         return true;
     }
-    pl_swept other = still_piece(s, entry->piece);
+    pl_swept other = still_piece(s, entry);
     double until = s->first;
     double thick = thickness(s, entry->piece);
     double time = time_of_hit(&s->swept, &other, 0, until, thick, s->sunk > 0 ? s->sunk : 0);
@@ -204,9 +223,9 @@ double pl_search_still(pl_search *s)
          p = world->pieces.next_in_body[p]) {
         if (is_solid(world, p)) {
             take_piece(s, p);
-            pl_grid_query(&world->broad.fixed, s->box, visit_still, s);
+            pl_world_query(world, &world->broad.fixed, s->box, visit_still, s);
             if (world->continuous_bodies > 0) {
-                pl_grid_query(&world->broad.resting, s->box, visit_asleep, s);
+                pl_world_query(world, &world->broad.resting, s->box, visit_asleep, s);
             }
         }
     }
@@ -253,11 +272,13 @@ static void meet(pl_search *s, uint32_t piece)
     }
     const pl_mover *other = pl_mover_find(s->world, row);
     pl_course course = pl_mover_course(s->world, row, s->dt, s->course.ox, s->course.oy);
+    pl_shift by = take_image(s, &course, piece);
     double time = time_among(s, piece, &course, other != NULL ? other->stop : 1);
     pl_swept swept = pl_course_piece(s->world, piece, &course);
     if (time < s->first && stops(s, piece, &swept, time)) {
         s->first = time;
         s->partner = row;
+        s->partner_shift = by;
     }
 }
 
@@ -268,6 +289,7 @@ static bool visit_moving(void *context, const pl_grid_entry *entry)
     if (is_partner(s, row)) {
         const pl_mover *other = pl_mover_find(s->world, row);
         if (other == NULL || !other->stray) {
+            look_at(s, &entry->box);
             meet(s, entry->piece);
         }
     }
@@ -279,14 +301,20 @@ static void meet_stray(pl_search *s, const pl_mover *stray)
 {
     const pl_bodies *b = &s->world->bodies;
     double dx = (double)stray->x - (double)s->mover->x, dy = (double)stray->y - (double)s->mover->y;
+    if (pl_is_wrapped(s->world)) {
+        pl_shift by = pl_wrap_shift(s->world, dx, dy);
+        dx += by.x, dy += by.y;
+    }
     double near = (double)stray->moved + (double)s->mover->moved + (double)b->extent[stray->row] +
                   (double)b->extent[s->mover->row];
     if (!is_partner(s, stray->row) || dx * dx + dy * dy > near * near) {
         return;
     }
     pl_course course = pl_course_of_mover(s->world, stray, s->course.ox, s->course.oy);
+    s->at_x = (double)s->mover->x, s->at_y = (double)s->mover->y;
     for (uint32_t p = b->first_piece[stray->row]; p != PL_NONE;
          p = s->world->pieces.next_in_body[p]) {
+        take_image(s, &course, p);
         pl_swept swept = pl_course_piece(s->world, p, &course);
         pl_box box = pl_course_box(&course, &swept);
         if (pl_boxes_overlap(&box, &s->box)) {
@@ -304,7 +332,7 @@ double pl_search_among(pl_search *s)
             continue;
         }
         take_piece(s, p);
-        pl_grid_query(&world->broad.moving, s->box, visit_moving, s);
+        pl_world_query(world, &world->broad.moving, s->box, visit_moving, s);
         // Kinematic movers come last.
         for (uint32_t i = world->continuous.count; i-- > 0;) {
             const pl_mover *other = &pl_movers(&world->continuous)[i];

@@ -21,6 +21,8 @@ typedef struct pl_search {
     bool
         among_kinematic; // looks for kinematic bodies; otherwise for dynamic ones where either asks
     uint32_t partner;    // row of the body that is hit first
+    pl_shift partner_shift; // [m] of the image that is hit, in a world that wraps around
+    double at_x, at_y;      // [m] about where the piece is that is looked at: tells which image
 } pl_search;
 
 // A search along the mover's way, or along another one that it is given afterwards.

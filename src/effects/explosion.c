@@ -9,6 +9,7 @@
 // All impulses are summed up in double before any body is pushed; the order is that of the slots of
 // shapes. Reads: grids, pieces, poses. Writes: velocities. Cost: O(pieces near x RAYS), times the
 // cost of a ray where something shields.
+#include "broad/images.h"
 #include "math/trig.h"
 #include "plumb/effect.h"
 #include "plumb/math.h"
@@ -63,6 +64,10 @@ static plumb_result check(const plumb_world *world, const char *fn,
                        "radius + falloff is %g; it must be above 0 and at most %g", (double)reach,
                        (double)REACH_MOST);
     }
+    r = pl_query_check_reach(world, fn, "the blast", 2 * (double)reach, 2 * (double)reach);
+    if (r != PLUMB_OK) {
+        return r;
+    }
     return (unsigned)desc->occlusion <= PLUMB_OCCLUDE_ALL
                ? PLUMB_OK
                : pl_fail(world, PLUMB_E_RANGE, fn, "occlusion is %d; it must be a plumb_occlusion",
@@ -95,7 +100,7 @@ static bool meets(const plumb_world *world, uint32_t piece, plumb_vec2 from, plu
 {
     plumb_convex convex;
     plumb_convex_hit hit;
-    plumb_transform frame = pl_query_frame(world, piece);
+    plumb_transform frame = pl_query_frame(world, piece, from);
     pl_piece_convex(world, piece, &convex);
     bool met = plumb_convex_ray(&convex, plumb_transform_inv_apply(frame, from),
                                 plumb_rot_inv_apply(frame.q, way), &hit);
@@ -145,7 +150,7 @@ static bool is_shielded(blast *b, plumb_vec2 way, real fraction)
 static bool covers(const blast *b, uint32_t piece, double *middle, double *half)
 {
     plumb_convex convex;
-    plumb_transform frame = pl_query_frame(b->world, piece);
+    plumb_transform frame = pl_query_frame(b->world, piece, b->desc->position);
     pl_piece_convex(b->world, piece, &convex);
     plumb_vec2 from = plumb_transform_inv_apply(frame, b->desc->position);
     if (plumb_convex_contains(&convex, from)) {
@@ -168,14 +173,21 @@ static bool covers(const blast *b, uint32_t piece, double *middle, double *half)
     return true;
 }
 
+// Centre of mass of the body that is asked about, by the image nearest to the blast.
+static plumb_vec2 center_of(const blast *b)
+{
+    const pl_bodies *bodies = &b->world->bodies;
+    return pl_wrap_point(b->world, plumb_v2(bodies->center_x[b->row], bodies->center_y[b->row]),
+                         b->desc->position);
+}
+
 // A blast inside a piece: see plumb_world_explode.
 static void hit_from_inside(const blast *b, uint32_t piece, impact *sum)
 {
-    const pl_bodies *bodies = &b->world->bodies;
-    plumb_vec2 center = { bodies->center_x[b->row], bodies->center_y[b->row] };
+    plumb_vec2 center = center_of(b);
     plumb_vec2 way = plumb_vec2_unit(plumb_vec2_sub(center, b->desc->position));
     plumb_convex convex;
-    plumb_rot turn = pl_query_frame(b->world, piece).q;
+    plumb_rot turn = pl_query_frame(b->world, piece, b->desc->position).q;
     pl_piece_convex(b->world, piece, &convex);
     plumb_vec2 across = plumb_rot_inv_apply(turn, plumb_vec2_left(way));
     plumb_vec2 left = plumb_convex_support(&convex, across);
@@ -195,10 +207,9 @@ static void hit_piece(blast *b, uint32_t piece, impact *sum)
         hit_from_inside(b, piece, sum);
         return;
     }
-    const pl_bodies *bodies = &b->world->bodies;
-    const plumb_vec2 at = b->desc->position;
-    double arm_x = (double)at.x - (double)bodies->center_x[b->row];
-    double arm_y = (double)at.y - (double)bodies->center_y[b->row];
+    const plumb_vec2 at = b->desc->position, center = center_of(b);
+    double arm_x = (double)at.x - (double)center.x;
+    double arm_y = (double)at.y - (double)center.y;
     for (int k = 0; k < RAYS; ++k) {
         double s, c;
         pl_sincos(middle + half * b->sine[k], &s, &c);
@@ -258,8 +269,7 @@ static pl_push push_of(const blast *b, const impact *sum)
     if (!b->desc->per_body) {
         return (pl_push){ { (real)(sum->x * p), (real)(sum->y * p) }, (real)(sum->w * p) };
     }
-    const pl_bodies *bodies = &b->world->bodies;
-    plumb_vec2 center = { bodies->center_x[b->row], bodies->center_y[b->row] };
+    plumb_vec2 center = center_of(b);
     plumb_vec2 way = plumb_vec2_unit(plumb_vec2_sub(center, b->desc->position));
     real share = sum->possible > 0 ? (real)(sum->strength / sum->possible * p) : 0;
     return (pl_push){ plumb_vec2_scale(share, way), 0 };
@@ -324,9 +334,9 @@ plumb_result plumb_world_explode(plumb_world *world, const plumb_explosion_desc 
                 .reach = (double)desc->radius + (double)desc->falloff };
     place_rays(&b);
     const pl_box near = pl_query_box_at(desc->position, b.reach);
-    pl_grid_query(&world->broad.moving, near, collect, &q);
+    pl_world_query(world, &world->broad.moving, near, collect, &q);
     if (world->broad.resting.entry_count > 0) {
-        pl_grid_query(&world->broad.resting, near, collect, &q);
+        pl_world_query(world, &world->broad.resting, near, collect, &q);
     }
     pl_query_one_per_shape(&q);
     pl_buffer list = { 0 };

@@ -8,6 +8,7 @@
 #include "plumb/math.h"
 #include "world/check.h"
 #include "world/rows.h"
+#include "world/wrap.h"
 
 // [-] of the step: a rest below this is rounding.
 #define REST ((real)1e-4)
@@ -41,8 +42,10 @@ static void aim(plumb_world *world, uint32_t row, const pl_target *target, real 
     real scale = pl_time_scale(world, row);
     real rate = scale > 0 ? 1 / (time * scale) : 1 / time; // it waits, ready to go
     plumb_rot turn = plumb_rot_inv_mul((plumb_rot){ b->c[row], b->s[row] }, target->turn);
-    b->vx[row] = pl_poses(world)[row].vx = (target->x - b->x[row]) * rate;
-    b->vy[row] = pl_poses(world)[row].vy = (target->y - b->y[row]) * rate;
+    plumb_vec2 here = { b->x[row], b->y[row] };
+    plumb_vec2 way = plumb_world_way(world, here, plumb_v2(target->x, target->y));
+    b->vx[row] = pl_poses(world)[row].vx = way.x * rate;
+    b->vy[row] = pl_poses(world)[row].vy = way.y * rate;
     b->w[row] = plumb_rot_angle(turn) * rate;
 }
 

@@ -8,7 +8,7 @@
 #include "narrow/narrow.h"
 #include "plumb/math.h"
 #include "world/check.h"
-#include "world/state.h"
+#include "world/wrap.h"
 
 #define FRICTION_MOST ((real)10) // [-] see plumb_material_desc
 
@@ -64,6 +64,7 @@ plumb_result plumb_contact_edit_get(const plumb_world *world, int i, plumb_conta
         const pl_manifold_point *p = &m->point[k];
         plumb_vec2 on_a = { b->center_x[m->body_a] + p->ax, b->center_y[m->body_a] + p->ay };
         plumb_vec2 on_b = { b->center_x[m->body_b] + p->bx, b->center_y[m->body_b] + p->by };
+        on_b = pl_wrap_point(world, on_b, on_a);
         edit->points[k] = plumb_vec2_lerp(on_a, on_b, (real)0.5);
         edit->separation[k] = p->separation;
     }

@@ -19,8 +19,12 @@
 
 void pl_events_clear(plumb_world *world)
 {
-    world->begin_count = world->end_count = world->hit_count = 0;
-    world->parts.count = 0;
+    world->begin_count = world->hit_count = 0;
+    // What was found to have ended by a step that was refused is still to be told.
+    if (world->sleep.events_told) {
+        world->end_count = 0;
+        world->parts.count = world->parts.lost_count = 0;
+    }
     world->sensing.begin_count = world->sensing.end_count = 0;
     pl_sleep_events_clear(world);
 }
@@ -72,11 +76,15 @@ static pl_grave who(const plumb_world *world, uint32_t piece, uint32_t epoch)
                              .flags = p->flags[piece] };
 }
 
-static void append_end(plumb_world *world, const pl_pair *pair, uint32_t epoch)
+static plumb_contact_end end_of(const plumb_world *world, const pl_pair *pair, uint32_t epoch)
 {
     pl_grave a = who(world, pair->a, epoch), b = who(world, pair->b, epoch);
-    ((plumb_contact_end *)world->end_events.data)[world->end_count++] =
-        (plumb_contact_end){ a.shape, b.shape, a.body, b.body };
+    return (plumb_contact_end){ a.shape, b.shape, a.body, b.body };
+}
+
+static void append_end(plumb_world *world, plumb_contact_end end)
+{
+    ((plumb_contact_end *)world->end_events.data)[world->end_count++] = end;
 }
 
 //---- shapes of several pieces --------------------------------------------------------------------
@@ -84,7 +92,7 @@ static void append_end(plumb_world *world, const pl_pair *pair, uint32_t epoch)
 #define PART_WAS  1u // the pair of pieces touched before
 #define PART_IS   2u // it touches now
 #define PART_HIT  4u // a hit is due
-#define PART_LOST 8u // it is a pair of the list before
+#define PART_LOST 8u // it has left the list of pairs: its index is that of parts.lost
 #define PART_BITS 4
 
 bool pl_parts_reserve(plumb_world *world, uint32_t count)
@@ -92,13 +100,16 @@ bool pl_parts_reserve(plumb_world *world, uint32_t count)
     if (world->part_pieces == 0 && !world->parts.buried) {
         return true;
     }
-    size_t room = ((size_t)world->parts.count + count) * sizeof(pl_keyed);
-    return pl_buffer_reserve(&world->memory, &world->parts.items, room);
+    pl_parts *parts = &world->parts;
+    size_t lost = (size_t)parts->lost_count + count, all = (size_t)parts->count + count;
+    return pl_buffer_reserve(&world->memory, &parts->items, all * sizeof(pl_keyed)) &&
+           pl_buffer_reserve(&world->memory, &parts->lost, lost * sizeof(plumb_contact_end));
 }
 
 void pl_parts_free(pl_memory *memory, pl_parts *parts)
 {
     pl_buffer_free(memory, &parts->items);
+    pl_buffer_free(memory, &parts->lost);
 }
 
 static bool is_part(const plumb_world *world, const pl_pair *pair)
@@ -107,21 +118,22 @@ static bool is_part(const plumb_world *world, const pl_pair *pair)
     return ((flags[pair->a] | flags[pair->b]) & PL_PIECE_PART) != 0;
 }
 
-static void keep_part(plumb_world *world, const pl_pair *pair, uint32_t index, uint32_t bits,
-                      uint32_t epoch)
+static void keep_part(plumb_world *world, plumb_shape shape_a, plumb_shape shape_b, uint32_t index,
+                      uint32_t bits)
 {
-    uint32_t a = who(world, pair->a, epoch).shape.index;
-    uint32_t b = who(world, pair->b, epoch).shape.index;
-    uint32_t order = world->parts.count++;
+    uint32_t a = shape_a.index, b = shape_b.index, order = world->parts.count++;
     ((pl_keyed *)world->parts.items.data)[order] =
         (pl_keyed){ a < b ? pl_key(a, b) : pl_key(b, a), order, index << PART_BITS | bits };
 }
 
 static const pl_pair *part_pair(const plumb_world *world, const pl_keyed *part)
 {
-    const pl_pair_list *list = &world->broad.pairs;
-    const pl_pair *from = (part->value & PART_LOST) != 0 ? list->old_items.data : list->items.data;
-    return from + (part->value >> PART_BITS);
+    return pl_pairs(&world->broad.pairs) + (part->value >> PART_BITS);
+}
+
+static const plumb_contact_end *part_lost(const plumb_world *world, const pl_keyed *part)
+{
+    return (const plumb_contact_end *)world->parts.lost.data + (part->value >> PART_BITS);
 }
 
 //---- before the solver ---------------------------------------------------------------------------
@@ -134,11 +146,12 @@ void pl_pair_lost(plumb_world *world, const pl_pair *pair)
     }
     uint8_t flags = who(world, pair->a, epoch).flags | who(world, pair->b, epoch).flags;
     if ((flags & PL_PIECE_PART) != 0) {
-        // The list is about to become the old one: see part_pair.
-        keep_part(world, pair, (uint32_t)(pair - pl_pairs(&world->broad.pairs)),
-                  PART_WAS | PART_LOST, epoch);
+        pl_parts *parts = &world->parts;
+        plumb_contact_end end = end_of(world, pair, epoch);
+        ((plumb_contact_end *)parts->lost.data)[parts->lost_count] = end;
+        keep_part(world, end.shape_a, end.shape_b, parts->lost_count++, PART_WAS | PART_LOST);
     } else {
-        append_end(world, pair, epoch);
+        append_end(world, end_of(world, pair, epoch));
     }
 }
 
@@ -322,15 +335,46 @@ static bool hit_is_due(plumb_world *world, pl_pair *pair)
     return true;
 }
 
-// The parts [first, end) are those of one pair of shapes.
-static void publish_group(plumb_world *world, const pl_keyed *first, const pl_keyed *end)
+static bool is_gone(const plumb_world *world, const plumb_contact_end *end)
 {
-    uint32_t all = 0;
+    return !plumb_shape_valid(world, end->shape_a) || !plumb_shape_valid(world, end->shape_b);
+}
+
+// What has ended of the parts [first, last): told once of those whose shapes are gone, whose slots
+// others may have by now. Returns that of shapes that are still there; NULL: none.
+static const plumb_contact_end *end_gone(plumb_world *world, const pl_keyed *first,
+                                         const pl_keyed *last)
+{
+    const plumb_contact_end *gone = NULL, *there = NULL;
+    for (const pl_keyed *part = first; part < last; ++part) {
+        const plumb_contact_end *end =
+            (part->value & PART_LOST) != 0 ? part_lost(world, part) : NULL;
+        bool is_old = end != NULL && is_gone(world, end);
+        gone = is_old ? end : gone;
+        there = is_old ? there : end != NULL ? end : there;
+    }
+    if (gone != NULL) {
+        append_end(world, *gone);
+    }
+    return there;
+}
+
+// The parts [first, last) are those of one pair of shapes, or of shapes that had its slots before.
+static void publish_group(plumb_world *world, const pl_keyed *first, const pl_keyed *last)
+{
+    const plumb_contact_end *lost = end_gone(world, first, last);
+    bool was = lost != NULL;
     real impulse = 0, fastest = -1, fastest_hit = -1;
-    const pl_pair *touching = NULL, *struck = NULL;
-    for (const pl_keyed *part = first; part < end; ++part) {
+    const pl_pair *touching = NULL, *struck = NULL, *parted = NULL;
+    for (const pl_keyed *part = first; part < last; ++part) {
+        if ((part->value & PART_LOST) != 0) {
+            continue;
+        }
         const pl_pair *pair = part_pair(world, part);
-        all |= part->value & (PART_WAS | PART_IS);
+        if ((part->value & PART_WAS) != 0) {
+            was = true;
+            parted = pair;
+        }
         if ((part->value & PART_IS) != 0 && manifold_of(world, pair)->approach > fastest) {
             fastest = manifold_of(world, pair)->approach;
             touching = pair;
@@ -342,11 +386,10 @@ static void publish_group(plumb_world *world, const pl_keyed *first, const pl_ke
             fastest_hit = m->approach > fastest_hit ? m->approach : fastest_hit;
         }
     }
-    if ((all & PART_WAS) == 0 && touching != NULL) {
+    if (!was && touching != NULL) {
         append_begin(world, touching);
-    } else if (all == PART_WAS) {
-        append_end(world, part_pair(world, first),
-                   (first->value & PART_LOST) != 0 ? (uint32_t)world->broad.rebuilds : 0);
+    } else if (was && touching == NULL) {
+        append_end(world, lost != NULL ? *lost : end_of(world, parted, 0));
     }
     if (struck != NULL) {
         append_hit(world, struck, impulse);
@@ -377,14 +420,15 @@ static void publish_pair(plumb_world *world, pl_pair *pair, uint32_t index, bool
     }
     pair->flags &= is ? ~0u : ~(PL_PAIR_STRUCK | PL_PAIR_PENDING);
     if (is_part(world, pair)) {
-        keep_part(world, pair, index,
-                  (was ? PART_WAS : 0) | (is ? PART_IS : 0) | (hit ? PART_HIT : 0), 0);
+        const plumb_shape *shape = world->pieces.shape;
+        keep_part(world, shape[pair->a], shape[pair->b], index,
+                  (was ? PART_WAS : 0) | (is ? PART_IS : 0) | (hit ? PART_HIT : 0));
         return;
     }
     if (is && !was) {
         append_begin(world, pair);
     } else if (was && !is) {
-        append_end(world, pair, 0);
+        append_end(world, end_of(world, pair, 0));
     }
     if (hit) {
         append_hit(world, pair, manifold_of(world, pair)->blow);
@@ -422,7 +466,7 @@ void pl_events_publish(plumb_world *world)
             append_begin(world, pair);
             pair->flags |= PL_PAIR_TOUCHING;
         } else if (was && !is) {
-            append_end(world, pair, 0);
+            append_end(world, end_of(world, pair, 0));
             pair->flags &= ~PL_PAIR_TOUCHING;
         }
     }

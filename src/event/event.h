@@ -9,6 +9,8 @@
 typedef struct pl_parts {
     pl_buffer items; // pl_keyed: slots of the two shapes, what happened to a pair of pieces
     uint32_t count;
+    pl_buffer lost; // plumb_contact_end: who they were, of pairs that have left the list
+    uint32_t lost_count;
     bool buried;     // a piece that was a part went since the pair list was made
 } pl_parts;
 

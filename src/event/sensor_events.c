@@ -11,6 +11,7 @@
 // Reads: broad->sensed, pieces, poses. Writes: overlaps, sensor events. Order: candidates after the
 // broad phase and the sleep pass, overlaps after motion. Cost: O(candidates that move); a world without
 // sensors has neither pass.
+#include "broad/images.h"
 #include "broad/pairs.h"
 #include "core/sort.h"
 #include "event/event.h"
@@ -96,8 +97,8 @@ static bool list_rest_candidates(plumb_world *world)
         if (!is_at_rest(world, piece) || (p->flags[piece] & PL_PIECE_SENSOR) == 0) {
             continue;
         }
-        if (!pl_grid_query(&world->broad.resting, p->fat[piece], add_at_rest, &f) ||
-            (asleep && !pl_grid_query(&world->broad.fixed, p->fat[piece], add_at_rest, &f))) {
+        if (!pl_world_query(world, &world->broad.resting, p->fat[piece], add_at_rest, &f) ||
+            (asleep && !pl_world_query(world, &world->broad.fixed, p->fat[piece], add_at_rest, &f))) {
             return false;
         }
     }
@@ -140,16 +141,18 @@ bool pl_sensing_prepare(plumb_world *world)
 static bool pieces_overlap(const plumb_world *world, uint32_t p, uint32_t q)
 {
     pl_box box_p = pl_piece_tight_box(world, p), box_q = pl_piece_tight_box(world, q);
-    if (!pl_boxes_overlap(&box_p, &box_q)) {
+    plumb_vec2 middle = { box_p.min_x + (box_p.max_x - box_p.min_x) / 2,
+                          box_p.min_y + (box_p.max_y - box_p.min_y) / 2 };
+    if (!pl_is_wrapped(world) && !pl_boxes_overlap(&box_p, &box_q)) {
         return false;
     }
     plumb_convex convex;
     pl_round round_p, round_q;
-    plumb_vec2 origin = pl_query_frame(world, p).p;
+    plumb_transform frame = pl_query_frame(world, p, middle);
     pl_piece_convex(world, p, &convex);
-    pl_round_make(&convex, pl_query_frame(world, p), origin, &round_p);
+    pl_round_make(&convex, frame, frame.p, &round_p);
     pl_piece_convex(world, q, &convex);
-    pl_round_make(&convex, pl_query_frame(world, q), origin, &round_q);
+    pl_round_make(&convex, pl_query_frame(world, q, middle), frame.p, &round_q);
     return pl_rounds_overlap(&round_p, &round_q);
 }
 

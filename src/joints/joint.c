@@ -8,6 +8,7 @@
 #include "plumb/math.h"
 #include "world/check.h"
 #include "world/rows.h"
+#include "world/wrap.h"
 
 #define TURN       6.283185307179586476925
 #define POINT_MOST ((real)1e9) // [m] as positions of bodies
@@ -169,6 +170,36 @@ static void count_turns(const plumb_world *world, pl_joint_end *end, uint32_t ro
     }
 }
 
+// In a world that wraps around: how much nearer an image of an anchor is to a place.
+static pl_shift shift_of(const plumb_world *world, const pl_joint_end *end, uint32_t row,
+                         double to_x, double to_y)
+{
+    double x, y;
+    center_of(world, end->local, row, &x, &y);
+    plumb_vec2 arm = arm_of(world, end->local, row);
+    return pl_wrap_shift(world, x + (double)arm.x - to_x, y + (double)arm.y - to_y);
+}
+
+// Takes B's anchor by the image that is nearest to A's; those of a pulley by what is nearest to their wheels.
+static void place_images(const plumb_world *world, pl_joint *joint, uint32_t row_a, uint32_t row_b)
+{
+    double ax, ay, bx, by;
+    center_of(world, joint->a.local, row_a, &ax, &ay);
+    center_of(world, joint->b.local, row_b, &bx, &by);
+    const plumb_vec2 arm = arm_of(world, joint->a.local, row_a);
+    pl_shift a = { 0, 0 }, b;
+    if (joint->desc.kind == PLUMB_PULLEY) {
+        const plumb_vec2 wheel_a = joint->desc.ground_a, wheel_b = joint->desc.ground_b;
+        a = shift_of(world, &joint->a, row_a, (double)wheel_a.x, (double)wheel_a.y);
+        b = shift_of(world, &joint->b, row_b, (double)wheel_b.x, (double)wheel_b.y);
+        joint->origin = plumb_v2((real)(ax + a.x), (real)(ay + a.y));
+    } else {
+        b = shift_of(world, &joint->b, row_b, ax + (double)arm.x, ay + (double)arm.y);
+    }
+    joint->b.pose.x = (real)((bx + b.x / 2) - (ax - b.x / 2) - a.x);
+    joint->b.pose.y = (real)((by + b.y / 2) - (ay - b.y / 2) - a.y);
+}
+
 void pl_joint_place(const plumb_world *world, pl_joint *joint, uint32_t row_a, uint32_t row_b)
 {
     double x, y;
@@ -178,6 +209,9 @@ void pl_joint_place(const plumb_world *world, pl_joint *joint, uint32_t row_a, u
     joint->origin = plumb_v2((real)x, (real)y);
     pose_now(world, &joint->a, row_a, x, y);
     pose_now(world, &joint->b, row_b, x, y);
+    if (pl_is_wrapped(world)) {
+        place_images(world, joint, row_a, row_b);
+    }
 }
 
 int pl_joint_eighth(double angle)
@@ -211,6 +245,14 @@ void pl_joint_start_bare(plumb_world *world, pl_joint_lane *lane, pl_joint_start
     double ax, ay, bx, by;
     center_of(world, lane->local_a, mark->row_a, &ax, &ay);
     center_of(world, lane->local_b, mark->row_b, &bx, &by);
+    if (pl_is_wrapped(world)) {
+        pl_joint_end a = { .local = lane->local_a }, b = { .local = lane->local_b };
+        plumb_vec2 arm = arm_of(world, a.local, mark->row_a);
+        pl_shift s =
+            shift_of(world, &b, mark->row_b, ax + (double)arm.x, ay + (double)arm.y);
+        ax -= s.x / 2, ay -= s.y / 2;
+        bx += s.x / 2, by += s.y / 2;
+    }
     real scale = j->h > 0 ? h / j->h : 0;
     *start = (pl_joint_start){ .arm_a = arm_of(world, lane->local_a, mark->row_a),
                                .arm_b = arm_of(world, lane->local_b, mark->row_b),

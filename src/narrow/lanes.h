@@ -30,6 +30,25 @@ typedef struct touch {
     vm feature[2];
 } touch;
 
+// Adding and taking it away rounds to whole numbers.
+#if defined(PLUMB_DOUBLE) && PLUMB_DOUBLE
+#define LANE_WHOLE ((plumb_real)6755399441055744) // 1.5 x 2^52
+#else
+#define LANE_WHOLE ((plumb_real)12582912) // 1.5 x 2^23
+#endif
+
+// (b - a) + arm by the nearest image in a world of this period [m]. Half of the periods between is taken from
+// either side: near the edge that is exact, where it would not be to take them from one.
+WIDE_INLINE vf nearest_image(vf a, vf b, vf arm, plumb_real period)
+{
+    if (!(period > 0)) {
+        return (b - a) + arm;
+    }
+    vf whole = splat(LANE_WHOLE);
+    vf half = ((((b - a) + arm) / splat(period) + whole) - whole) * splat(period / 2);
+    return ((b - half) - (a + half)) + arm;
+}
+
 // Gathers the `count` <= W pairs at these places; lanes beyond repeat the last one.
 WIDE_INLINE void lanes_gather(lanes *l, const pl_narrow_input *in, const uint32_t *places,
                               uint32_t count)
@@ -54,8 +73,13 @@ WIDE_INLINE void lanes_gather(lanes *l, const pl_narrow_input *in, const uint32_
     vf ay = pa[3] * ca[0] + pa[2] * ca[1];
     vf bx = pb[2] * cb[0] - pb[3] * cb[1];
     vf by = pb[3] * cb[0] + pb[2] * cb[1];
-    l->dx = (pb[0] - pa[0]) + (bx - ax);
-    l->dy = (pb[1] - pa[1]) + (by - ay);
+    if (in->wrapped) {
+        l->dx = nearest_image(pa[0], pb[0], bx - ax, in->wrap_x);
+        l->dy = nearest_image(pa[1], pb[1], by - ay, in->wrap_y);
+    } else {
+        l->dx = (pb[0] - pa[0]) + (bx - ax);
+        l->dy = (pb[1] - pa[1]) + (by - ay);
+    }
     l->ac = pa[2] * ca[2] - pa[3] * ca[3];
     l->as = pa[3] * ca[2] + pa[2] * ca[3];
     l->bc = pb[2] * cb[2] - pb[3] * cb[3];

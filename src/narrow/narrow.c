@@ -4,7 +4,7 @@
 // Order: after the broad phase, before the solver. Cost: O(pairs).
 #include "narrow/narrow.h"
 #include "narrow/surface.h"
-#include "world/state.h"
+#include "world/wrap.h"
 
 static const pl_narrow_kernels *kernels_of(int width)
 {
@@ -51,7 +51,10 @@ void pl_narrow_run(plumb_world *world, const pl_pair_list *list, real dt, pl_nar
                            .restitution = world->pieces.restitution,
                            .dt = dt,
                            .elastic_above = pl_restitution_is_mixed(world) ? -1 : 0,
-                           .pairs = pl_pairs(list) };
+                           .pairs = pl_pairs(list),
+                           .wrapped = pl_is_wrapped(world),
+                           .wrap_x = world->desc.wrap_x,
+                           .wrap_y = world->desc.wrap_y };
     *narrow = (pl_narrow){ .manifolds = narrow->manifolds };
     for (int a = PL_PIECE_CIRCLE; a < PL_PIECE_KIND_COUNT; ++a) {
         for (int b = a; b < PL_PIECE_KIND_COUNT; ++b) {

@@ -16,6 +16,8 @@ typedef struct pl_narrow_input {
     plumb_real
         elastic_above; // pairs of more restitution are elastic: 0; -1 where it may yet change
     pl_pair *pairs;    // the whole list
+    bool wrapped;                  // the world wraps around: the nearest images meet
+    plumb_real wrap_x, wrap_y;     // [m] its periods; 0: none
 } pl_narrow_input;
 
 // Appends the manifolds of pairs [first, first + count) to the narrow phase's list and keeps up its

@@ -26,7 +26,7 @@
 #include "narrow/narrow.h"
 #include "narrow/surface.h"
 #include "plumb/math.h"
-#include "world/state.h"
+#include "world/wrap.h"
 
 #define STATES (PL_PAIR_HELD | PL_PAIR_PASSING | PL_PAIR_DROPPING)
 
@@ -69,9 +69,11 @@ static bool asks_to_drop(const plumb_world *world, const pl_pair *pair)
            (is_one_way(world, pair->b) && (flags[pair->body_a] & PL_BODY_DROPPING) != 0);
 }
 
-// How far a piece reaches against a direction, from a point. [m]
-static double reach_against(const plumb_world *world, uint32_t piece, plumb_vec2 n, plumb_vec2 from)
+// How far a piece reaches against a direction, from a point that is told from the origin of another's body. [m]
+static double reach_against(const plumb_world *world, uint32_t piece, plumb_vec2 n, uint32_t other,
+                            plumb_vec2 from)
 {
+    const pl_shift way = pl_wrap_between(world, other, piece);
     const pl_pose *pose = &pl_poses(world)[world->pieces.body[piece]];
     plumb_rot q = { pose->c, pose->s };
     plumb_convex convex;
@@ -79,8 +81,8 @@ static double reach_against(const plumb_world *world, uint32_t piece, plumb_vec2
     pl_piece_convex(world, piece, &convex);
     for (int i = 0; i < convex.count; ++i) {
         plumb_vec2 p = plumb_rot_apply(q, convex.points[i]);
-        double x = (double)p.x + ((double)pose->x - (double)from.x);
-        double y = (double)p.y + ((double)pose->y - (double)from.y);
+        double x = (double)p.x + (way.x - (double)from.x);
+        double y = (double)p.y + (way.y - (double)from.y);
         double h = (double)n.x * x + (double)n.y * y;
         least = h < least ? h : least;
     }
@@ -104,8 +106,7 @@ static bool is_on_top(const plumb_world *world, uint32_t piece, uint32_t other)
         if (!pl_one_way_blocks(world, piece, n, 0)) {
             continue;
         }
-        at = plumb_vec2_add(at, plumb_v2(pose->x, pose->y));
-        if (reach_against(world, other, n, at) - (double)convex.radius >= -(double)FOUND_HELD) {
+        if (reach_against(world, other, n, piece, at) - (double)convex.radius >= -(double)FOUND_HELD) {
             return true;
         }
     }

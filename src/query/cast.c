@@ -26,14 +26,15 @@ typedef struct caster {
 } caster;
 
 // `hit`: fraction, normal, depth.
-static bool meets_piece(const caster *c, uint32_t piece, pl_query_hit *hit)
+static bool meets_piece(const caster *c, const pl_grid_entry *entry, pl_query_hit *hit)
 {
+    const uint32_t piece = entry->piece;
     plumb_convex convex;
     pl_round fixed;
     pl_sum sum;
     pl_sum_hit met;
     pl_query_convex(c->q.world, piece, &convex);
-    pl_round_make(&convex, pl_query_frame(c->q.world, piece), c->origin, &fixed);
+    pl_round_make(&convex, pl_query_frame_of(c->q.world, entry), c->origin, &fixed);
     pl_sum_make(&fixed, &c->mover, &sum);
     if (!pl_sum_cast(&sum, 0, 0, c->dx, c->dy, c->touch, &met)) {
         return false;
@@ -65,7 +66,7 @@ static bool keep_first(void *context, const pl_grid_entry *entry)
 {
     caster *c = context;
     pl_query_hit hit;
-    if (pl_query_sees(&c->q, entry->piece) && meets_piece(c, entry->piece, &hit) &&
+    if (pl_query_sees(&c->q, entry->piece) && meets_piece(c, entry, &hit) &&
         comes_first(c, &hit) && pl_query_accepts(&c->q, hit.shape)) {
         c->met = true;
         c->first = hit;
@@ -78,7 +79,7 @@ static bool keep_first(void *context, const pl_grid_entry *entry)
 static bool keep_any(void *context, const pl_grid_entry *entry)
 {
     caster *c = context;
-    c->met = pl_query_sees(&c->q, entry->piece) && meets_piece(c, entry->piece, &c->first) &&
+    c->met = pl_query_sees(&c->q, entry->piece) && meets_piece(c, entry, &c->first) &&
              pl_query_accepts(&c->q, c->first.shape);
     return !c->met;
 }
@@ -87,7 +88,7 @@ static bool keep_all(void *context, const pl_grid_entry *entry)
 {
     caster *c = context;
     pl_query_hit hit;
-    return !pl_query_sees(&c->q, entry->piece) || !meets_piece(c, entry->piece, &hit) ||
+    return !pl_query_sees(&c->q, entry->piece) || !meets_piece(c, entry, &hit) ||
            pl_query_add(&c->q, &hit);
 }
 
@@ -102,6 +103,17 @@ static plumb_result check_cast(const plumb_world *world, const char *function, c
     return r != PLUMB_OK
                ? r
                : pl_check_within(world, function, name, cast->translation, PL_QUERY_LIMIT);
+}
+
+static plumb_result check_reach(const plumb_world *world, const char *function, const char *prefix,
+                                const plumb_cast *cast)
+{
+    char buffer[PL_QUERY_FIELD];
+    plumb_aabb box = plumb_convex_aabb(cast->convex, cast->transform);
+    return pl_query_check_reach(
+        world, function, pl_query_field(buffer, prefix, "translation with the shape"),
+        fabs((double)cast->translation.x) + (double)box.max.x - (double)box.min.x,
+        fabs((double)cast->translation.y) + (double)box.max.y - (double)box.min.y);
 }
 
 static void aim(caster *c, const plumb_cast *cast)
@@ -122,6 +134,7 @@ static plumb_result begin(caster *c, plumb_world *world, const char *function,
 {
     plumb_result r = pl_check_pointer(world, function, "cast", cast);
     r = r != PLUMB_OK ? r : check_cast(world, function, "", cast);
+    r = r != PLUMB_OK || !pl_is_wrapped(world) ? r : check_reach(world, function, "", cast);
     r = r != PLUMB_OK ? r : pl_query_begin(&c->q, world, function, filter);
     if (r == PLUMB_OK) {
         aim(c, cast);
@@ -134,7 +147,7 @@ static void walk(caster *c, pl_grid_visit *visit)
     const pl_grid *grids[PL_QUERY_GRIDS];
     int count = pl_query_grids(&c->q, grids);
     for (int i = 0; i < count; ++i) {
-        if (!pl_walk_grid(grids[i], &c->walk, visit, c)) {
+        if (!pl_query_walk(&c->q, grids[i], &c->walk, visit, c)) {
             return;
         }
     }
@@ -200,10 +213,12 @@ static plumb_result check_casts(const plumb_world *world, const char *function,
     r = r != PLUMB_OK || count == 0 ? r : pl_check_pointer(world, function, "casts", casts);
     r = r != PLUMB_OK || count == 0 ? r : pl_check_pointer(world, function, "hits", hits);
     for (int i = 0; r == PLUMB_OK && i < count; ++i) {
-        if (check_cast(NULL, function, "", &casts[i]) != PLUMB_OK) {
+        bool refused = check_cast(NULL, function, "", &casts[i]) != PLUMB_OK;
+        if (refused || pl_is_wrapped(world)) {
             char prefix[24];
             snprintf(prefix, sizeof prefix, "casts[%d].", i);
-            r = check_cast(world, function, prefix, &casts[i]);
+            r = refused ? check_cast(world, function, prefix, &casts[i])
+                        : check_reach(world, function, prefix, &casts[i]);
         }
     }
     return r;

@@ -11,13 +11,15 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "broad/images.h"
 #include "query/query.h"
 #include "query/walk.h"
 #include "world/check.h"
 
 typedef struct search {
     pl_query q;
-    plumb_vec2 point;
+    plumb_vec2 point;        // an image of the one that is asked about
+    pl_shift back;           // [m] from that image to the point
     double slack;            // [m]
     plumb_real max_distance; // [m]
     bool met;
@@ -71,11 +73,12 @@ static plumb_convex_near nearest_of_outline(const plumb_world *world, uint32_t p
     return best;
 }
 
-static plumb_nearest_hit nearest_of_piece(const search *s, uint32_t piece)
+static plumb_nearest_hit nearest_of_piece(const search *s, const pl_grid_entry *entry)
 {
+    const uint32_t piece = entry->piece;
     const plumb_world *world = s->q.world;
     plumb_convex convex;
-    plumb_transform frame = pl_query_frame(world, piece);
+    plumb_transform frame = pl_query_frame_of(world, entry);
     plumb_vec2 local = plumb_transform_inv_apply(frame, s->point);
     pl_query_convex(world, piece, &convex);
     plumb_convex_near near = plumb_convex_nearest(&convex, local);
@@ -83,8 +86,11 @@ static plumb_nearest_hit nearest_of_piece(const search *s, uint32_t piece)
         near = nearest_of_outline(world, piece, local);
     }
     pl_query_hit names = pl_query_hit_of(world, piece);
-    return (plumb_nearest_hit){ names.shape, names.body, plumb_transform_apply(frame, near.point),
-                                near.distance };
+    plumb_vec2 at = plumb_transform_apply(frame, near.point);
+    if (pl_is_wrapped(world)) {
+        at = plumb_v2((plumb_real)((double)at.x + s->back.x), (plumb_real)((double)at.y + s->back.y));
+    }
+    return (plumb_nearest_hit){ names.shape, names.body, at, near.distance };
 }
 
 static bool is_nearer(const search *s, const plumb_nearest_hit *hit)
@@ -105,7 +111,7 @@ static bool visit(void *context, const pl_grid_entry *entry)
         !pl_query_sees(&s->q, entry->piece)) {
         return true;
     }
-    plumb_nearest_hit hit = nearest_of_piece(s, entry->piece);
+    plumb_nearest_hit hit = nearest_of_piece(s, entry);
     if (is_nearer(s, &hit) && pl_query_accepts(&s->q, hit.shape)) {
         s->met = true;
         s->best = hit;
@@ -156,17 +162,39 @@ static plumb_result begin(search *s, plumb_world *world, const char *function, p
     return r != PLUMB_OK ? r : pl_query_begin(&s->q, world, function, filter);
 }
 
-static void find(search *s, plumb_vec2 point, plumb_real max_distance)
+// Goes on with what was found at other images of the point.
+static void find_at(search *s, plumb_vec2 point, pl_shift back)
 {
     s->point = point;
+    s->back = back;
     s->slack = pl_query_slack(fabs((double)point.x) + fabs((double)point.y));
-    s->max_distance = max_distance;
-    s->met = false;
     const pl_grid *grids[PL_QUERY_GRIDS];
     int grid_count = pl_query_grids(&s->q, grids);
     for (int i = 0; i < grid_count; ++i) {
         for (uint32_t k = 0; k < grids[i]->level_count; ++k) {
             search_level(s, grids[i], &grids[i]->levels[k]);
+        }
+    }
+}
+
+// Shapes are looked for by the images of the point that may be nearest to them, of which one lies in the period.
+static void find(search *s, plumb_vec2 point, plumb_real max_distance)
+{
+    s->max_distance = max_distance;
+    s->met = false;
+    if (!pl_is_wrapped(s->q.world)) {
+        find_at(s, point, (pl_shift){ 0, 0 });
+        return;
+    }
+    plumb_vec2 at = plumb_world_wrapped(s->q.world, point);
+    const double wrap_x = (double)s->q.world->desc.wrap_x, wrap_y = (double)s->q.world->desc.wrap_y;
+    static const int order[] = { 0, 1, -1 }; // the nearest first
+    for (int i = 0; i < 9; ++i) {
+        double x = order[i % 3] * wrap_x, y = order[i / 3] * wrap_y;
+        if ((x != 0 || i % 3 == 0) && (y != 0 || i / 3 == 0)) {
+            plumb_vec2 image = { (plumb_real)((double)at.x + x), (plumb_real)((double)at.y + y) };
+            find_at(s, image, (pl_shift){ (double)point.x - (double)image.x,
+                                          (double)point.y - (double)image.y });
         }
     }
 }
@@ -192,7 +220,7 @@ static bool keep_near(void *context, const pl_grid_entry *entry)
     if (!pl_query_sees(&s->q, entry->piece)) {
         return true;
     }
-    plumb_nearest_hit near = nearest_of_piece(s, entry->piece);
+    plumb_nearest_hit near = nearest_of_piece(s, entry);
     pl_query_hit hit = { .shape = near.shape,
                          .body = near.body,
                          .fraction = near.distance,
@@ -210,13 +238,14 @@ int plumb_world_nearest_all(plumb_world *world, plumb_vec2 point, plumb_real max
         return -1;
     }
     s.point = point;
+    s.back = (pl_shift){ 0, 0 };
     s.max_distance = max_distance;
     double slack = pl_query_slack(fabs((double)point.x) + fabs((double)point.y));
     pl_box box = pl_query_box_at(point, pl_least((double)max_distance, PLUMB_REAL_MAX / 2) + slack);
     const pl_grid *grids[PL_QUERY_GRIDS];
     int grid_count = pl_query_grids(&s.q, grids);
     for (int i = 0; i < grid_count; ++i) {
-        if (!pl_grid_query(grids[i], box, keep_near, &s)) {
+        if (!pl_world_query(world, grids[i], box, keep_near, &s)) {
             break;
         }
     }

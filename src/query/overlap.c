@@ -12,6 +12,7 @@
 
 #include <math.h>
 
+#include "broad/images.h"
 #include "query/query.h"
 #include "world/check.h"
 
@@ -120,7 +121,7 @@ typedef struct search {
     plumb_vec2 origin;
 } search;
 
-typedef bool overlaps_fn(const search *s, uint32_t piece);
+typedef bool overlaps_fn(const search *s, const pl_grid_entry *entry);
 
 typedef struct visitor {
     search *s;
@@ -130,7 +131,7 @@ typedef struct visitor {
 static bool visit(void *context, const pl_grid_entry *entry)
 {
     visitor *v = context;
-    if (!pl_query_sees(&v->s->q, entry->piece) || !v->overlaps(v->s, entry->piece)) {
+    if (!pl_query_sees(&v->s->q, entry->piece) || !v->overlaps(v->s, entry)) {
         return true;
     }
     pl_query_hit hit = pl_query_hit_of(v->s->q.world, entry->piece);
@@ -144,7 +145,7 @@ static int run(search *s, overlaps_fn *overlaps, plumb_shape *shapes, int capaci
     int grid_count = pl_query_grids(&s->q, grids);
     visitor v = { s, overlaps };
     for (int i = 0; i < grid_count; ++i) {
-        if (!pl_grid_query(grids[i], s->box, visit, &v)) {
+        if (!pl_world_query(s->q.world, grids[i], s->box, visit, &v)) {
             break;
         }
     }
@@ -156,9 +157,16 @@ static int run(search *s, overlaps_fn *overlaps, plumb_shape *shapes, int capaci
     return pl_query_end(&s->q) == PLUMB_OK ? count : -1;
 }
 
-static bool tight_box_overlaps(const search *s, uint32_t piece)
+static bool tight_box_overlaps(const search *s, const pl_grid_entry *entry)
 {
-    pl_box tight = pl_piece_tight_box(s->q.world, piece);
+    const plumb_world *world = s->q.world;
+    pl_box tight = pl_piece_tight_box(world, entry->piece);
+    if (pl_is_wrapped(world)) {
+        pl_shift at = pl_wrap_shift(world, (double)(tight.min_x - entry->box.min_x),
+                                    (double)(tight.min_y - entry->box.min_y));
+        tight = (pl_box){ tight.min_x + (real)at.x, tight.min_y + (real)at.y,
+                          tight.max_x + (real)at.x, tight.max_y + (real)at.y };
+    }
     return pl_boxes_overlap(&tight, &s->box);
 }
 
@@ -180,11 +188,11 @@ int plumb_world_overlap_aabb(plumb_world *world, plumb_aabb box, const plumb_que
     return run(&s, tight_box_overlaps, shapes, capacity);
 }
 
-static bool contains_point(const search *s, uint32_t piece)
+static bool contains_point(const search *s, const pl_grid_entry *entry)
 {
     plumb_convex convex;
-    pl_query_convex(s->q.world, piece, &convex);
-    plumb_transform frame = pl_query_frame(s->q.world, piece);
+    pl_query_convex(s->q.world, entry->piece, &convex);
+    plumb_transform frame = pl_query_frame_of(s->q.world, entry);
     return plumb_convex_contains(&convex, plumb_transform_inv_apply(frame, s->point));
 }
 
@@ -203,12 +211,12 @@ int plumb_world_overlap_point(plumb_world *world, plumb_vec2 point,
     return run(&s, contains_point, shapes, capacity);
 }
 
-static bool rounds_overlap(const search *s, uint32_t piece)
+static bool rounds_overlap(const search *s, const pl_grid_entry *entry)
 {
     plumb_convex convex;
     pl_round round;
-    pl_query_convex(s->q.world, piece, &convex);
-    pl_round_make(&convex, pl_query_frame(s->q.world, piece), s->origin, &round);
+    pl_query_convex(s->q.world, entry->piece, &convex);
+    pl_round_make(&convex, pl_query_frame_of(s->q.world, entry), s->origin, &round);
     return pl_rounds_overlap(&s->round, &round);
 }
 
@@ -225,6 +233,10 @@ int plumb_world_overlap_convex(plumb_world *world, const plumb_convex *convex,
         return -1;
     }
     plumb_aabb box = plumb_convex_aabb(convex, transform);
+    if (pl_query_check_reach(world, __func__, "the shape", (double)box.max.x - (double)box.min.x,
+                             (double)box.max.y - (double)box.min.y) != PLUMB_OK) {
+        return -1;
+    }
     double largest = fabs((double)transform.p.x) + fabs((double)transform.p.y) +
                      (double)(box.max.x - box.min.x) + (double)(box.max.y - box.min.y);
     box = plumb_aabb_expand(box, (plumb_real)pl_query_slack(largest));

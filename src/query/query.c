@@ -7,7 +7,9 @@
 // query's own list. Cost: sorting is O(hits log hits); no allocation for PL_QUERY_NEAR_HITS or
 // fewer.
 #include "query/query.h"
+#include "broad/images.h"
 #include "narrow/one_way.h"
+#include "query/walk.h"
 #include "world/check.h"
 
 #include <stdio.h>
@@ -176,10 +178,83 @@ void pl_query_convex(const plumb_world *world, uint32_t piece, plumb_convex *out
     }
 }
 
-plumb_transform pl_query_frame(const plumb_world *world, uint32_t piece)
+plumb_transform pl_query_frame(const plumb_world *world, uint32_t piece, plumb_vec2 about)
 {
     const pl_pose *pose = &pl_poses(world)[world->pieces.body[piece]];
-    return (plumb_transform){ { pose->x, pose->y }, { pose->c, pose->s } };
+    plumb_transform frame = { { pose->x, pose->y }, { pose->c, pose->s } };
+    if (pl_is_wrapped(world)) {
+        pl_shift s = pl_wrap_piece(world, piece, (double)about.x, (double)about.y);
+        frame.p = plumb_v2((plumb_real)((double)pose->x + s.x), (plumb_real)((double)pose->y + s.y));
+    }
+    return frame;
+}
+
+plumb_transform pl_query_frame_of(const plumb_world *world, const pl_grid_entry *entry)
+{
+    const pl_box *box = &entry->box;
+    plumb_vec2 middle = { box->min_x + (box->max_x - box->min_x) / 2,
+                          box->min_y + (box->max_y - box->min_y) / 2 };
+    return pl_query_frame(world, entry->piece, middle);
+}
+
+//---- grids ---------------------------------------------------------------------------------------
+
+typedef struct image_walk {
+    pl_grid_visit *visit;
+    void *context;
+    double x, y; // [m] from where an entry is filed to the image
+    pl_walk *walk, *image;
+} image_walk;
+
+// The caller's walk is where it lowers the limit.
+static bool visit_image(void *context, const pl_grid_entry *entry)
+{
+    const image_walk *w = context;
+    pl_grid_entry at = *entry;
+    at.box = (pl_box){ (plumb_real)((double)entry->box.min_x + w->x),
+                       (plumb_real)((double)entry->box.min_y + w->y),
+                       (plumb_real)((double)entry->box.max_x + w->x),
+                       (plumb_real)((double)entry->box.max_y + w->y) };
+    bool goes_on = w->visit(w->context, &at);
+    w->image->limit = w->walk->limit;
+    return goes_on;
+}
+
+bool pl_query_walk(const pl_query *q, const pl_grid *grid, pl_walk *walk, pl_grid_visit *visit,
+                   void *context)
+{
+    if (!pl_is_wrapped(q->world)) {
+        return pl_walk_grid(grid, walk, visit, context);
+    }
+    pl_images images = pl_images_of(q->world, grid, pl_walk_box(walk));
+    for (double ky = images.y0; ky <= images.y1; ++ky) {
+        for (double kx = images.x0; kx <= images.x1; ++kx) {
+            pl_walk image = *walk;
+            image_walk w = { visit, context, kx * images.period.x, ky * images.period.y, walk,
+                             &image };
+            image.ox -= w.x;
+            image.oy -= w.y;
+            if (!pl_walk_grid(grid, &image, visit_image, &w)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+plumb_result pl_query_check_reach(const plumb_world *world, const char *function, const char *what,
+                                  double x, double y)
+{
+    const double wrap_x = (double)world->desc.wrap_x, wrap_y = (double)world->desc.wrap_y;
+    bool far_x = wrap_x > 0 && !(x <= PL_QUERY_PERIODS * wrap_x);
+    bool far_y = wrap_y > 0 && !(y <= PL_QUERY_PERIODS * wrap_y);
+    if (!far_x && !far_y) {
+        return PLUMB_OK;
+    }
+    return pl_fail(world, PLUMB_E_RANGE, function,
+                   "%s is %g m along %s; in a world that wraps every %g m it must be at most %g", what,
+                   far_x ? x : y, far_x ? "x" : "y", far_x ? wrap_x : wrap_y,
+                   PL_QUERY_PERIODS * (far_x ? wrap_x : wrap_y));
 }
 
 pl_query_hit pl_query_hit_of(const plumb_world *world, uint32_t piece)

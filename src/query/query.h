@@ -3,7 +3,9 @@
 #define PL_QUERY_H
 
 #include "plumb/math.h"
-#include "world/state.h"
+#include "world/wrap.h"
+
+struct pl_walk;
 
 // [m] points of rays, nearest queries and placed shapes: the world's bodies start within 1e9 m, and
 // the squares that are taken of lengths beyond it still are numbers in the float build.
@@ -59,8 +61,19 @@ bool pl_query_passes(const pl_query *q, uint32_t piece, plumb_vec2 normal);
 // a few roundings, so that no ray and no point slips between two pieces.
 void pl_query_convex(const plumb_world *world, uint32_t piece, plumb_convex *out);
 
-// Frame of the piece's body.
-plumb_transform pl_query_frame(const plumb_world *world, uint32_t piece);
+// Frame of the piece's body, by the image of the piece that is nearest to a point; of an entry: where that is.
+plumb_transform pl_query_frame(const plumb_world *world, uint32_t piece, plumb_vec2 about);
+plumb_transform pl_query_frame_of(const plumb_world *world, const pl_grid_entry *entry);
+// pl_walk_grid by every image that the walk meets; entries as pl_world_query hands them out.
+bool pl_query_walk(const pl_query *q, const pl_grid *grid, struct pl_walk *walk,
+                   pl_grid_visit *visit, void *context);
+
+// In a world that wraps around, a way or a box of this size [m] goes over an edge PL_QUERY_PERIODS times at
+// most. E_RANGE.
+#define PL_QUERY_PERIODS 8
+plumb_result pl_query_check_reach(const plumb_world *world, const char *function, const char *what,
+                                  double x, double y);
+
 // A hit that names the piece's shape and body.
 pl_query_hit pl_query_hit_of(const plumb_world *world, uint32_t piece);
 

@@ -9,6 +9,7 @@
 #include "query/walk.h"
 #include "world/check.h"
 
+#include <math.h>
 #include <stdio.h>
 
 typedef struct cast {
@@ -20,11 +21,12 @@ typedef struct cast {
 } cast;
 
 // The ray against one piece, in world coordinates.
-static bool meets_piece(const cast *c, uint32_t piece, pl_query_hit *hit)
+static bool meets_piece(const cast *c, const pl_grid_entry *entry, pl_query_hit *hit)
 {
+    const uint32_t piece = entry->piece;
     plumb_convex convex;
     plumb_convex_hit local;
-    plumb_transform frame = pl_query_frame(c->q.world, piece);
+    plumb_transform frame = pl_query_frame_of(c->q.world, entry);
     plumb_vec2 along = plumb_rot_inv_apply(frame.q, plumb_vec2_sub(c->to, c->from));
     pl_query_convex(c->q.world, piece, &convex);
     if (!plumb_convex_ray(&convex, plumb_transform_inv_apply(frame, c->from), along, &local)) {
@@ -48,7 +50,7 @@ static bool keep_first(void *context, const pl_grid_entry *entry)
 {
     cast *c = context;
     pl_query_hit hit;
-    if (pl_query_sees(&c->q, entry->piece) && meets_piece(c, entry->piece, &hit) &&
+    if (pl_query_sees(&c->q, entry->piece) && meets_piece(c, entry, &hit) &&
         comes_first(c, &hit) && pl_query_accepts(&c->q, hit.shape)) {
         c->met = true;
         c->first = hit;
@@ -61,7 +63,7 @@ static bool keep_first(void *context, const pl_grid_entry *entry)
 static bool keep_any(void *context, const pl_grid_entry *entry)
 {
     cast *c = context;
-    c->met = pl_query_sees(&c->q, entry->piece) && meets_piece(c, entry->piece, &c->first) &&
+    c->met = pl_query_sees(&c->q, entry->piece) && meets_piece(c, entry, &c->first) &&
              pl_query_accepts(&c->q, c->first.shape);
     return !c->met;
 }
@@ -70,15 +72,23 @@ static bool keep_all(void *context, const pl_grid_entry *entry)
 {
     cast *c = context;
     pl_query_hit hit;
-    return !pl_query_sees(&c->q, entry->piece) || !meets_piece(c, entry->piece, &hit) ||
+    return !pl_query_sees(&c->q, entry->piece) || !meets_piece(c, entry, &hit) ||
            pl_query_add(&c->q, &hit);
+}
+
+static plumb_result check_length(const plumb_world *world, const char *function, const char *what,
+                                 plumb_vec2 from, plumb_vec2 to)
+{
+    return pl_query_check_reach(world, function, what, fabs((double)to.x - (double)from.x),
+                                fabs((double)to.y - (double)from.y));
 }
 
 static plumb_result check_ray(const plumb_world *world, const char *function, plumb_vec2 from,
                               plumb_vec2 to)
 {
     plumb_result r = pl_check_within(world, function, "from", from, PL_QUERY_LIMIT);
-    return r != PLUMB_OK ? r : pl_check_within(world, function, "to", to, PL_QUERY_LIMIT);
+    r = r != PLUMB_OK ? r : pl_check_within(world, function, "to", to, PL_QUERY_LIMIT);
+    return r != PLUMB_OK ? r : check_length(world, function, "the ray", from, to);
 }
 
 static void aim(cast *c, plumb_vec2 from, plumb_vec2 to)
@@ -105,7 +115,7 @@ static void walk(cast *c, pl_grid_visit *visit)
     const pl_grid *grids[PL_QUERY_GRIDS];
     int count = pl_query_grids(&c->q, grids);
     for (int i = 0; i < count; ++i) {
-        if (!pl_walk_grid(grids[i], &c->walk, visit, c)) {
+        if (!pl_query_walk(&c->q, grids[i], &c->walk, visit, c)) {
             return;
         }
     }
@@ -178,6 +188,11 @@ static plumb_result check_rays(const plumb_world *world, const char *function,
             r = r != PLUMB_OK
                     ? r
                     : pl_check_within(world, function, to, rays[i].to, PL_QUERY_LIMIT);
+        }
+        if (r == PLUMB_OK && pl_is_wrapped(world)) {
+            char ray[32];
+            snprintf(ray, sizeof ray, "rays[%d]", i);
+            r = check_length(world, function, ray, rays[i].from, rays[i].to);
         }
     }
     return r;

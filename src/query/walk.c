@@ -81,6 +81,11 @@ static pl_box box_between(const pl_walk *w, double t0, double t1)
                      (plumb_real)(pl_most(y0, y1) + slack_y(w)) };
 }
 
+pl_box pl_walk_box(const pl_walk *walk)
+{
+    return box_between(walk, 0, walk->limit);
+}
+
 // Where on the segment `along` o + t d enters and leaves [low, high], clamped to 0..limit. False
 // when that is beyond the limit.
 static bool clip(double o, double d, double low, double high, double limit, double t[2])

@@ -17,6 +17,9 @@ pl_walk pl_walk_make(plumb_vec2 from, plumb_vec2 to);
 // The same for a box [m] that is moved by a translation.
 pl_walk pl_walk_make_box(plumb_aabb box, plumb_vec2 translation);
 
+// A box around it [m].
+pl_box pl_walk_box(const pl_walk *walk);
+
 // Calls visit(context, entry) once for every entry whose box the segment meets before its limit;
 // the visitor sees the walk through its context. Stops and returns false when visit does. Cost: the
 // cells along the segment, about three for each row of cells that it crosses, or the entries of the

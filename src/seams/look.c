@@ -4,6 +4,7 @@
 // of an update. Cost: O(neighbours x corners x corners of theirs), about 19,000 instructions for a
 // square tile among eight others.
 #include "seams/look.h"
+#include "broad/images.h"
 #include "seams/neighbour.h"
 #include "seams/span.h"
 #include "world/state.h"
@@ -84,9 +85,10 @@ static bool gather_around(plumb_world *world, uint32_t piece)
     pl_box box = world->pieces.fat[piece];
     const bool asleep = (world->pieces.flags[piece] & PL_PIECE_ASLEEP) != 0;
     world->seams.around_count = 0;
-    return pl_grid_query(&world->broad.fixed, box, gather, &g) &&
+    return pl_world_query(world, &world->broad.fixed, box, gather, &g) &&
            (pl_piece_is_static(world, piece) ||
-            pl_grid_query(asleep ? &world->broad.resting : &world->broad.moving, box, gather, &g));
+            pl_world_query(world, asleep ? &world->broad.resting : &world->broad.moving, box, gather,
+                           &g));
 }
 
 //---- what they do --------------------------------------------------------------------------------
@@ -111,7 +113,8 @@ static void outline_of(const plumb_world *world, uint32_t piece, uint32_t in_fra
     const pl_pose *f = &pl_poses(world)[pieces->body[in_frame_of]];
     const pl_pose *p = &pl_poses(world)[pieces->body[piece]];
     double fc = (double)f->c, fs = (double)f->s, pc = (double)p->c, ps = (double)p->s;
-    double dx = (double)p->x - (double)f->x, dy = (double)p->y - (double)f->y;
+    pl_shift way = pl_wrap_between(world, in_frame_of, piece);
+    double dx = way.x, dy = way.y;
     bool same = pieces->body[piece] == pieces->body[in_frame_of];
     double c = same ? 1 : fc * pc + fs * ps, s = same ? 0 : fc * ps - fs * pc;
     double ox = fc * dx + fs * dy, oy = fc * dy - fs * dx;

@@ -14,6 +14,7 @@
 #include "seams/run.h"
 
 #include "core/sort.h"
+#include "world/wrap.h"
 
 #include <math.h>
 #include <string.h>
@@ -127,15 +128,15 @@ static int flat_edge(const pl_view *v)
 
 static run_contact describe(const pl_view *v, uint32_t index, int k)
 {
-    const pl_pose *own = v->own_pose, *other = v->other_pose;
-    double c = (double)own->c, s = (double)own->s;
+    double c = (double)v->own_pose->c, s = (double)v->own_pose->s;
+    pl_shift way = pl_wrap_between(v->world, v->other, v->own);
     pl_strip strip = pl_view_strip(v, k);
     const pl_face *f = &strip.f;
     run_contact r = { .index = index, .mover = v->other, .own_is_a = v->own_is_a, .edge = k };
     r.nx = c * f->nx - s * f->ny;
     r.ny = s * f->nx + c * f->ny;
-    double x = c * f->x - s * f->y + ((double)own->x - (double)other->x);
-    double y = s * f->x + c * f->y + ((double)own->y - (double)other->y);
+    double x = c * f->x - s * f->y + way.x;
+    double y = s * f->x + c * f->y + way.y;
     double start = y * r.nx - x * r.ny;
     r.height = x * r.nx + y * r.ny;
     r.low = start + strip.low;

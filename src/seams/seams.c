@@ -7,10 +7,13 @@
 // Reads: pieces, poses, grids, pairs. Writes: seam columns, corners, spans, list of pairs. Order:
 // after the broad phase. Cost: O(changed pieces x their neighbours), and O(piece slots) for looking;
 // O(pairs) when pairs were made anew, O(pairs with seams) a step; nothing in worlds without seams.
+#include "broad/images.h"
 #include "seams/look.h"
 #include "seams/run.h"
 #include "seams/span.h"
 #include "world/state.h"
+
+#include <string.h>
 
 bool pl_seams_wanted(const plumb_world *world, const char **reason)
 {
@@ -148,7 +151,7 @@ static bool choose_visited(void *context, const pl_grid_entry *entry)
 
 static bool choose_around(plumb_world *world, pl_box box)
 {
-    return pl_grid_query(&world->broad.fixed, box, choose_visited, world);
+    return pl_world_query(world, &world->broad.fixed, box, choose_visited, world);
 }
 
 static bool choose_body(plumb_world *world, uint32_t row)
@@ -217,8 +220,12 @@ static bool refresh(plumb_world *world)
 {
     pl_seams *s = &world->seams;
     const pl_vertex_pool *pool = &world->vertices;
-    bool done = pl_buffer_reserve(&world->memory, &s->corners, pool->count * sizeof(pl_seam)) &&
-                choose_stale(world) && look_at_chosen(world);
+    size_t known = s->corners.size;
+    bool room = pl_buffer_reserve(&world->memory, &s->corners, pool->count * sizeof(pl_seam));
+    if (s->corners.size > known) { // images hold corners without seams, too
+        memset((char *)s->corners.data + known, 0, s->corners.size - known);
+    }
+    bool done = room && choose_stale(world) && look_at_chosen(world);
     unmark(world, done);
     if (done) {
         s->dirty = s->all = false;
@@ -244,7 +251,9 @@ static bool list_pairs(plumb_world *world)
                                ((size_t)s->pair_count + 1) * sizeof(pl_seam_pair))) {
             return false;
         }
-        ((pl_seam_pair *)s->pairs.data)[s->pair_count++].pair = i;
+        pl_seam_pair *made = (pl_seam_pair *)s->pairs.data + s->pair_count++;
+        memset(made, 0, sizeof *made); // padding, too: images of equal worlds have equal bytes
+        made->pair = i;
     }
     if (s->pair_count == 0) {
         s->load_count = 0; // nobody is left to tell of

@@ -11,6 +11,7 @@
 #include "seams/view.h"
 
 #include "narrow/surface.h"
+#include "world/wrap.h"
 
 #include <math.h>
 #include <string.h>
@@ -45,7 +46,8 @@ void pl_view_bring_other(pl_view *v)
     const pl_pieces *pieces = &v->world->pieces;
     const pl_pose *f = v->own_pose, *p = v->other_pose;
     double fc = (double)f->c, fs = (double)f->s, pc = (double)p->c, ps = (double)p->s;
-    double dx = (double)p->x - (double)f->x, dy = (double)p->y - (double)f->y;
+    pl_shift way = pl_wrap_between(v->world, v->own, v->other);
+    double dx = way.x, dy = way.y;
     double c = fc * pc + fs * ps, s = fc * ps - fs * pc;
     double ox = fc * dx + fs * dy, oy = fc * dy - fs * dx;
     const pl_vertex *corner = v->world->vertices.items + pieces->vertices[v->other];
@@ -296,7 +298,8 @@ static void write_point(const pl_view *v, const pl_face *f, pl_seam_place p, pl_
     double c = (double)own->c, s = (double)own->s;
     double own_radius = (double)v->world->pieces.core[v->own].radius;
     double other_radius = v->radii - own_radius;
-    double dx = (double)other->x - (double)own->x, dy = (double)other->y - (double)own->y;
+    pl_shift way = pl_wrap_between(v->world, v->own, v->other);
+    double dx = way.x, dy = way.y;
     double anchor[2][2]; // on the own surface, on the other's; world axes, from the own origin
     for (int side = 0; side < 2; ++side) {
         double u = side == 0 ? own_radius : p.u - other_radius;

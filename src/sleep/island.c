@@ -9,6 +9,8 @@
 // Reads, writes: islands, contacts, body rows. Cost: O(1) a body or contact.
 #include "world/rows.h"
 
+#include <string.h>
+
 //---- room ----------------------------------------------------------------------------------------
 
 static bool reserve_slots(pl_memory *memory, pl_buffer *buffer, size_t used, size_t live,
@@ -54,10 +56,10 @@ uint32_t pl_island_open(plumb_world *world)
         ++s->island_slots;
     }
     ++s->island_count;
-    pl_islands(s)[slot] = (pl_island){ .first_body = PL_NONE,
-                                       .last_body = PL_NONE,
-                                       .first_contact = PL_NONE,
-                                       .serial = world->serial };
+    pl_island *i = &pl_islands(s)[slot];
+    memset(i, 0, sizeof *i); // padding, too
+    i->first_body = i->last_body = i->first_contact = PL_NONE;
+    i->serial = world->serial;
     return slot;
 }
 
@@ -175,15 +177,17 @@ void pl_island_keep(plumb_world *world, uint32_t island, const pl_pair *pair,
     }
     ++s->contact_count;
     pl_dormant *c = &pl_dormants(s)[slot];
-    *c = (pl_dormant){ .pair = *pair,
-                       .whole = manifold != NULL,
-                       .island = island,
-                       .next = i->first_contact,
-                       .fixed = fixed_piece(world, pair) };
+    memset(c, 0, sizeof *c); // padding, too: images of equal worlds have equal bytes
+    c->pair = *pair;
+    c->whole = manifold != NULL;
+    c->island = island;
+    c->next = i->first_contact;
+    c->fixed = fixed_piece(world, pair);
     // A blow that lasted is over.
     c->pair.flags &= PL_PAIR_TOUCHING;
     if (manifold != NULL) {
         c->manifold = *manifold;
+        c->manifold.disabled = c->manifold.bearer = 0; // of the step, and not always written
         for (int k = 0; k < 2; ++k) { // at rest, all substeps are alike
             c->manifold.point[k].total = pair->normal[k] * (real)world->desc.substeps;
         }

@@ -15,6 +15,7 @@
 // before the broad phase, whose refreshing of boxes it does. Cost: O(1) when nothing moves;
 // O(moving pieces) when a box was left; O(what wakes), and one pass over the pair list, in steps in
 // which something does.
+#include "broad/images.h"
 #include "broad/pairs.h"
 #include "core/sort.h"
 #include "narrow/narrow.h"
@@ -57,7 +58,7 @@ static bool seek(plumb_world *world, uint32_t piece, pl_box box)
 {
     seeker k = { world, piece };
     return (world->pieces.flags[piece] & PL_PIECE_SENSOR) != 0 ||
-           pl_grid_query(&world->broad.resting, box, collect, &k);
+           pl_world_query(world, &world->broad.resting, box, collect, &k);
 }
 
 // The found pairs by kinds, as the narrow phase wants them.

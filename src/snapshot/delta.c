@@ -268,6 +268,25 @@ static bool open_both(const void *from, size_t from_size, const void *to, size_t
            a->header.section_count == b->header.section_count && a->header.base == b->header.base;
 }
 
+size_t pl_delta_write(const pl_image *from, const pl_image *to, void *buffer, size_t size)
+{
+    coder c = { .to = buffer, .size = size, .used = sizeof(delta_header) };
+    put_difference(&c, to->bytes, from->bytes, directory_bytes(to));
+    end_differences(&c);
+    put_sections(&c, from, to);
+    if (c.used <= size) {
+        delta_header h = { .magic = DELTA_MAGIC,
+                           .version = DELTA_VERSION,
+                           .bytes = c.used,
+                           .from = from->header.checksum,
+                           .to = to->header.checksum,
+                           .to_bytes = to->header.bytes };
+        h.checksum = checksum_of(buffer, &h);
+        memcpy(buffer, &h, sizeof h);
+    }
+    return c.used;
+}
+
 size_t plumb_snapshot_delta_bound(size_t image_size)
 {
     return sizeof(delta_header) + 2 * image_size + 64;
@@ -283,22 +302,11 @@ plumb_result plumb_snapshot_delta(const void *from, size_t from_size, const void
     if (!open_both(from, from_size, to, to_size, &a, &b)) {
         return PLUMB_E_IMAGE;
     }
-    coder c = { .to = buffer, .size = size, .used = sizeof(delta_header) };
-    put_difference(&c, b.bytes, a.bytes, directory_bytes(&b));
-    end_differences(&c);
-    put_sections(&c, &a, &b);
-    if (c.used > size) {
+    size_t needed = pl_delta_write(&a, &b, buffer, size);
+    if (needed > size) {
         return PLUMB_E_RANGE;
     }
-    delta_header h = { .magic = DELTA_MAGIC,
-                       .version = DELTA_VERSION,
-                       .bytes = c.used,
-                       .from = a.header.checksum,
-                       .to = b.header.checksum,
-                       .to_bytes = b.header.bytes };
-    h.checksum = checksum_of(buffer, &h);
-    memcpy(buffer, &h, sizeof h);
-    *bytes = c.used;
+    *bytes = needed;
     return PLUMB_OK;
 }
 
@@ -464,6 +472,32 @@ static bool open_delta(const void *delta, size_t size, delta_header *h)
            h->bytes <= size && checksum_of(delta, h) == h->checksum;
 }
 
+size_t pl_delta_result_bytes(const void *delta, size_t size)
+{
+    delta_header h;
+    return open_delta(delta, size, &h) ? h.to_bytes : 0;
+}
+
+bool pl_delta_apply(const pl_image *from, const void *delta, size_t size, void *buffer,
+                    pl_image *to)
+{
+    delta_header h;
+    if (!open_delta(delta, size, &h) || h.from != from->header.checksum ||
+        h.to_bytes < directory_bytes(from)) {
+        return false;
+    }
+    decoder d = { .from = delta, .size = h.bytes, .used = sizeof h };
+    get_difference(&d, buffer, from->bytes, directory_bytes(from));
+    drop_group(&d);
+    // The sections are not there yet; that they fit is known once the directory is.
+    if (d.damaged || !pl_image_view(buffer, h.to_bytes, to) ||
+        to->header.bytes != h.to_bytes || to->header.section_count != from->header.section_count) {
+        return false;
+    }
+    get_sections(&d, from, to);
+    return !d.damaged;
+}
+
 plumb_result plumb_snapshot_apply(const void *from, size_t from_size, const void *delta,
                                   size_t delta_size, void *buffer, size_t size, size_t *bytes)
 {
@@ -479,17 +513,9 @@ plumb_result plumb_snapshot_apply(const void *from, size_t from_size, const void
     if (h.to_bytes > size) {
         return PLUMB_E_RANGE;
     }
-    decoder d = { .from = delta, .size = h.bytes, .used = sizeof h };
-    get_difference(&d, buffer, a.bytes, directory_bytes(&a));
-    drop_group(&d);
     pl_image b;
-    // The sections are not there yet; that they fit is known once the directory is.
-    if (d.damaged || pl_image_open(buffer, h.to_bytes, false, &b) != NULL ||
-        b.header.bytes != h.to_bytes || b.header.section_count != a.header.section_count) {
-        return PLUMB_E_IMAGE;
-    }
-    get_sections(&d, &a, &b);
-    if (d.damaged || pl_image_checksum(buffer, &b.header) != h.to) {
+    if (!pl_delta_apply(&a, delta, delta_size, buffer, &b) ||
+        pl_image_checksum(buffer, &b.header) != h.to) {
         return PLUMB_E_IMAGE;
     }
     *bytes = h.to_bytes;

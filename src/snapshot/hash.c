@@ -150,12 +150,14 @@ static void add_component(pl_digest *digest, const pl_component *c)
 
 uint64_t plumb_world_hash(const plumb_world *world)
 {
-    if (world == NULL) {
-        return 0;
-    }
+    return world == NULL ? 0 : pl_world_digest(world, true);
+}
+
+uint64_t pl_world_digest(const plumb_world *world, bool values)
+{
     pl_digest digest;
     pl_digest_begin(&digest);
-    for (uint32_t i = 0; i < pl_section_fixed_count(); ++i) {
+    for (uint32_t i = values ? 0 : 1; i < pl_section_fixed_count(); ++i) {
         add_section(&digest, world, i);
     }
     add_pairs(&digest, world);

@@ -44,6 +44,17 @@ static bool is_laid_out(const pl_image *image)
     return left == 0;
 }
 
+bool pl_image_view(const void *buffer, size_t size, pl_image *image)
+{
+    if (size < sizeof image->header) {
+        return false;
+    }
+    image->bytes = buffer;
+    memcpy(&image->header, buffer, sizeof image->header);
+    return image->header.bytes >= sizeof image->header && image->header.bytes <= size &&
+           is_laid_out(image);
+}
+
 const char *pl_image_open(const void *buffer, size_t size, bool strict, pl_image *image)
 {
     pl_image_header *h = &image->header;
@@ -75,6 +86,17 @@ const char *pl_image_open(const void *buffer, size_t size, bool strict, pl_image
         return "is damaged";
     }
     return NULL;
+}
+
+void pl_image_strip(const pl_image *image)
+{
+    pl_image_cursor at = pl_image_begin(image);
+    for (uint64_t i = 0; i < image->header.section_count; ++i) {
+        pl_image_next(image, &at);
+        if (at.entry.stride != 0) {
+            pl_section_strip((uint32_t)i, (char *)at.data, at.entry.count);
+        }
+    }
 }
 
 pl_image_cursor pl_image_begin(const pl_image *image)

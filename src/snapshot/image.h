@@ -45,6 +45,34 @@ plumb_result pl_image_fit(const plumb_world *world, const char *function, const 
 
 uint64_t pl_image_checksum(const char *bytes, const pl_image_header *header);
 
+// Images that do not leave the library need no schema and no checksum.
+// The image of the world as it is, without; false when it does not fit.
+bool pl_image_write(const plumb_world *world, void *buffer, size_t size);
+// Gives them to an image of this world.
+void pl_image_seal(const plumb_world *world, char *bytes);
+// Reads an image written so; false when its directory does not agree with its size.
+bool pl_image_view(const void *buffer, size_t size, pl_image *image);
+// Every section of the world is as in a complete image.
+bool pl_image_is_current(const plumb_world *world, const pl_image *image);
+// Sets to 0 what means something in this process only.
+void pl_image_strip(const pl_image *image);
+// The world becomes the image, which fits it: as plumb_world_restore. False when out of memory.
+bool pl_image_restore(plumb_world *world, const pl_image *image);
+// Makes room for what the image holds. False when out of memory.
+bool pl_image_reserve(plumb_world *world, const pl_image *image);
+// In the midst of a step: takes over the sections of `after` that are not as in `before`; room is
+// reserved. What the passes of this step have found out so far stays.
+void pl_image_play(plumb_world *world, const pl_image *before, const pl_image *after);
+
+// Writes what turns one into the other; returns the bytes needed, of which those beyond `size` were not
+// written. delta.c.
+size_t pl_delta_write(const pl_image *from, const pl_image *to, void *buffer, size_t size);
+// [B] of the image that a delta leads to; 0: it is damaged.
+size_t pl_delta_result_bytes(const void *delta, size_t size);
+// Rebuilds that image in a buffer of so many bytes. False: it does not fit `from`.
+bool pl_delta_apply(const pl_image *from, const void *delta, size_t size, void *buffer,
+                    pl_image *to);
+
 // Goes through the sections of an image in order.
 typedef struct pl_image_cursor {
     uint64_t index;

@@ -35,6 +35,7 @@
     VALUE(desc.contact_damping) VALUE(desc.push_speed) VALUE(desc.restitution_speed)               \
     VALUE(desc.hit_speed) VALUE(desc.contact_impulses) VALUE(desc.no_sleep)                        \
     VALUE(desc.sleep_speed) VALUE(desc.sleep_time) VALUE(desc.no_continuous)                       \
+    VALUE(desc.wrap_x) VALUE(desc.wrap_y)                                                          \
     LEFT(desc.workers) LEFT(desc.tasks)                                                            \
     LEFT(desc.simd_width) /* of this machine; every width gives the same bits */                   \
     LEFT(desc.body_capacity) LEFT(desc.shape_capacity) LEFT(desc.contact_capacity)                 \
@@ -89,7 +90,7 @@
     LEFT(joints.plan)
 
 #define PL_STATE_PARTS(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                      \
-    LEFT(parts.items) LEFT(parts.count) TALLY(parts.buried)
+    LEFT(parts.items) LEFT(parts.count) LEFT(parts.lost) LEFT(parts.lost_count) TALLY(parts.buried)
 
 #define PL_STATE_BLOWS(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                      \
     ARRAY(pl_blow, blows.items, blows.count, sizeof(pl_blow), 8)                                   \
@@ -165,7 +166,7 @@
           sizeof(uint64_t) + sizeof(plumb_material_pair), 8)                                       \
     LEFT(schedule) LEFT(begin_events) LEFT(end_events) LEFT(hit_events)                            \
     LEFT(begin_count) LEFT(end_count) LEFT(hit_count)                                              \
-    LEFT(locked_by) LEFT(editing) VALUE(edited) LEFT(in_hook) LEFT(error) LEFT(error_text)
+    LEFT(tape) LEFT(locked_by) LEFT(editing) VALUE(edited) LEFT(in_hook) LEFT(error) LEFT(error_text)
 
 #define PL_STATE(...)                                                                              \
     PL_STATE_WORLD(__VA_ARGS__) PL_STATE_DESC(__VA_ARGS__) PL_STATE_REGISTRY(__VA_ARGS__)          \

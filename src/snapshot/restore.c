@@ -197,6 +197,7 @@ static void fill_rows(plumb_world *world)
 
 static void forget_last_step(plumb_world *world)
 {
+    world->sleep.events_told = true; // those of a refused step too
     pl_events_clear(world);
     world->blows.old_count = 0;
     world->sensing.old_count = world->sensing.rest_old_count = 0;
@@ -240,6 +241,48 @@ static void take_over(plumb_world *world, source s)
     world->joints.awake_stale = true;
     pl_joints_replan(&world->joints);
     world->characters.moved = false;
+    world->schedule_dirty = true;
+}
+
+bool pl_image_reserve(plumb_world *world, const pl_image *image)
+{
+    return reserve_all(world, source_begin(image, NULL));
+}
+
+bool pl_image_restore(plumb_world *world, const pl_image *image)
+{
+    if (!pl_image_reserve(world, image)) {
+        return false;
+    }
+    take_over(world, source_begin(image, NULL));
+    return true;
+}
+
+void pl_image_play(plumb_world *world, const pl_image *before, const pl_image *after)
+{
+    source a = source_begin(before, NULL), b = source_begin(after, NULL);
+    filed f = find_filed(world, b);
+    bool keeps_fixed = is_fixed_grid_kept(world, &f);
+    bool keeps_moving = is_moving_grid_kept(world, &f);
+    clear_rows(world);
+    for (uint32_t i = 0; i < pl_section_count(world); ++i) {
+        source_next(&a);
+        source_next(&b);
+        if (a.count != b.count ||
+            (b.count > 0 && memcmp(a.data, b.data, (size_t)b.count * b.at.entry.stride) != 0)) {
+            pl_section_read(world, i, b.data, b.count);
+        }
+    }
+    fill_rows(world);
+    for (uint32_t row = 0; row < world->bodies.table.count; ++row) {
+        pl_body_update_pose(world, row);
+    }
+    // No structural change happens within a step; what is due to be filed anew is marked as such.
+    world->broad.fixed_lost |= !keeps_fixed && !world->static_dirty && f.pieces > 0;
+    world->broad.moving_lost |= !keeps_moving && !world->pairs_dirty && f.listed > 0;
+    world->sleep.near_stale = true;
+    world->joints.awake_stale = true;
+    pl_joints_replan(&world->joints);
     world->schedule_dirty = true;
 }
 

@@ -39,7 +39,7 @@ size_t plumb_world_snapshot_size(const plumb_world *world)
     return bytes;
 }
 
-static bool is_same(const writer *w, uint32_t i, const pl_section *section,
+static bool is_same(const plumb_world *world, uint32_t i, const pl_section *section,
                     const pl_image_cursor *base)
 {
     char gathered[PL_GATHERED_MOST];
@@ -48,7 +48,7 @@ static bool is_same(const writer *w, uint32_t i, const pl_section *section,
         return false;
     }
     if (now == NULL && section->count > 0) {
-        pl_section_write(w->world, i, section, gathered);
+        pl_section_write(world, i, section, gathered);
         now = gathered;
     }
     return section->count == 0 || memcmp(base->data, now, pl_section_bytes(section)) == 0;
@@ -66,8 +66,8 @@ static void write_section(writer *w, uint32_t i, const pl_section *section)
     w->offset += padded;
 }
 
-// Writes the image, against a base if there is one; returns its size. The room for the directory is
-// there.
+// Writes the image but for what pl_image_seal writes, against a base if there is one; returns its size. The room for
+// the directory is there.
 static size_t write_image(writer *w, const pl_image *base)
 {
     pl_image_cursor at = { 0 };
@@ -82,7 +82,7 @@ static size_t write_image(writer *w, const pl_image *base)
         if (base != NULL) {
             pl_image_next(base, &at);
         }
-        if (base != NULL && is_same(w, i, &section, &at)) {
+        if (base != NULL && is_same(w->world, i, &section, &at)) {
             entry.stride = 0;
         } else {
             write_section(w, i, &section);
@@ -93,17 +93,44 @@ static size_t write_image(writer *w, const pl_image *base)
                                .version = PL_IMAGE_VERSION,
                                .real_bytes = sizeof(real),
                                .bytes = w->offset,
-                               .schema = pl_section_schema(),
-                               .user_schema = pl_section_user_schema(w->world),
                                .base = base == NULL ? 0 : base->header.checksum,
                                .section_count = count,
                                .step_count = w->world->step_count,
                                .time = w->world->time };
-    if (!w->overflown) {
-        header.checksum = pl_image_checksum(w->to, &header);
-    }
     memcpy(w->to, &header, sizeof header);
     return w->offset;
+}
+
+void pl_image_seal(const plumb_world *world, char *bytes)
+{
+    pl_image_header header;
+    memcpy(&header, bytes, sizeof header);
+    header.schema = pl_section_schema();
+    header.user_schema = pl_section_user_schema(world);
+    header.checksum = pl_image_checksum(bytes, &header);
+    memcpy(bytes, &header, sizeof header);
+}
+
+bool pl_image_write(const plumb_world *world, void *buffer, size_t size)
+{
+    writer w = { .world = world, .to = buffer, .size = size };
+    return directory_bytes(world) <= size && write_image(&w, NULL) <= size;
+}
+
+bool pl_image_is_current(const plumb_world *world, const pl_image *image)
+{
+    pl_image_cursor at = pl_image_begin(image);
+    if (image->header.section_count != pl_section_count(world)) {
+        return false;
+    }
+    for (uint32_t i = 0; i < pl_section_count(world); ++i) {
+        pl_section section = pl_section_at(world, i);
+        pl_image_next(image, &at);
+        if (!is_same(world, i, &section, &at)) {
+            return false;
+        }
+    }
+    return true;
 }
 
 static plumb_result save(const plumb_world *world, const char *function, const pl_image *base,
@@ -113,6 +140,9 @@ static plumb_result save(const plumb_world *world, const char *function, const p
     size_t needed = directory_bytes(world);
     if (needed <= size) {
         needed = write_image(&w, base);
+        if (!w.overflown) {
+            pl_image_seal(world, buffer);
+        }
     } else if (base == NULL) {
         needed = plumb_world_snapshot_size(world);
     }

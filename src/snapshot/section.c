@@ -10,9 +10,11 @@
 typedef struct value_row {
     const char *name;
     size_t offset, size;
+    pl_type type;
 } value_row;
 
-#define VALUE_ROW(path)  { #path, offsetof(plumb_world, path), sizeof PL_STATE_OF(path) },
+#define VALUE_ROW(path)                                                                            \
+    { #path, offsetof(plumb_world, path), sizeof PL_STATE_OF(path), PL_TYPE(PL_STATE_OF(path)) },
 #define VALUE_SIZE(path) +sizeof PL_STATE_OF(path)
 
 #define EACH_VALUE(X)                                                                              \
@@ -53,6 +55,7 @@ typedef struct column_row {
     const char *table, *name;
     size_t offset; // of the column pointer in the world
     uint32_t stride, hashed;
+    pl_type type;
 } column_row;
 
 // Not hashed: addresses, hints, and boxes of the grids.
@@ -62,7 +65,8 @@ typedef struct column_row {
 // clang-format on
 
 #define COLUMN_ROW(struct, type, name)                                                             \
-    { #struct, #name, offsetof(plumb_world, struct.name), sizeof(type), HASHED(type) },
+    { #struct,      #name,        offsetof(plumb_world, struct.name),                              \
+      sizeof(type), HASHED(type), PL_TYPE((type){ 0 }) },
 #define BODY_ROW(type, name)     COLUMN_ROW(bodies, type, name)
 #define PIECE_ROW(type, name)    COLUMN_ROW(pieces, type, name)
 #define MATERIAL_ROW(type, name) COLUMN_ROW(materials, type, name)
@@ -353,6 +357,36 @@ uint32_t pl_section_registry(void)
     return FIRST_OWN + REGISTRY;
 }
 
+bool pl_section_value(uint32_t i, pl_member *member)
+{
+    uint32_t offset = 0;
+    if (i >= COUNT(values)) {
+        return false;
+    }
+    for (uint32_t k = 0; k < i; ++k) {
+        offset += (uint32_t)values[k].size;
+    }
+    *member = (pl_member){ values[i].name, offset, (uint32_t)values[i].size, values[i].type };
+    return true;
+}
+
+void pl_section_strip(uint32_t i, char *data, uint32_t count)
+{
+    uint32_t joints = FIRST_ARRAY;
+    while (arrays[joints - FIRST_ARRAY].buffer != offsetof(plumb_world, joints.items)) {
+        ++joints;
+    }
+    if (i >= FIRST_COLUMN && i < FIRST_ARRAY &&
+        columns[i - FIRST_COLUMN].type == PL_TYPE_POINTER) {
+        memset(data, 0, (size_t)count * sizeof(void *));
+    } else if (i == joints) {
+        for (uint32_t k = 0; k < count; ++k) {
+            char *item = data + (size_t)k * sizeof(pl_joint);
+            memset(item + offsetof(pl_joint, desc.user_data), 0, sizeof(void *));
+        }
+    }
+}
+
 uint32_t pl_section_key(uint32_t i)
 {
     return i >= FIRST_ARRAY && i < FIRST_OWN ? arrays[i - FIRST_ARRAY].key : 0;
@@ -385,7 +419,8 @@ pl_section pl_section_at(const plumb_world *world, uint32_t i)
                              .data = data,
                              .count = table_of(world, c)->count,
                              .stride = c->stride,
-                             .hashed = c->hashed };
+                             .hashed = c->hashed,
+                             .type = c->type };
     }
     if (i < FIRST_OWN) {
         const array_row *a = &arrays[i - FIRST_ARRAY];

@@ -10,6 +10,44 @@
 #include "snapshot/list.h"
 #include "world/rows.h"
 
+// What a number of the state is, for those who print it: a letter.
+#define PL_TYPE(value)                                                                             \
+    _Generic((value),                                                                              \
+        float: PL_TYPE_FLOAT,                                                                      \
+        double: PL_TYPE_DOUBLE,                                                                    \
+        bool: PL_TYPE_BOOL,                                                                        \
+        uint8_t: PL_TYPE_U8,                                                                       \
+        uint16_t: PL_TYPE_U16,                                                                     \
+        uint32_t: PL_TYPE_U32,                                                                     \
+        int32_t: PL_TYPE_I32,                                                                      \
+        uint64_t: PL_TYPE_U64,                                                                     \
+        plumb_vec2: PL_TYPE_VEC2,                                                                  \
+        plumb_entity: PL_TYPE_ENTITY,                                                              \
+        void *: PL_TYPE_POINTER,                                                                   \
+        default: PL_TYPE_OTHER)
+
+typedef enum pl_type {
+    PL_TYPE_OTHER,
+    PL_TYPE_FLOAT,
+    PL_TYPE_DOUBLE,
+    PL_TYPE_BOOL,
+    PL_TYPE_U8,
+    PL_TYPE_U16,
+    PL_TYPE_U32,
+    PL_TYPE_I32,
+    PL_TYPE_U64,
+    PL_TYPE_VEC2,
+    PL_TYPE_ENTITY,
+    PL_TYPE_POINTER
+} pl_type;
+
+// A named number within an element.
+typedef struct pl_member {
+    const char *name;
+    uint32_t offset, size; // [B]
+    pl_type type;
+} pl_member;
+
 typedef struct pl_section {
     const char *table, *name; // "bodies", "vx"
     char *data;               // in the world; NULL: gathered from several places (pl_section_write)
@@ -17,6 +55,7 @@ typedef struct pl_section {
     uint32_t stride;          // [B] of an element
     uint32_t hashed;          // [B] of each that count for the world hash; see list.h
     uint32_t key;             // [B] of each that name it; see list.h
+    pl_type type;             // of the elements of a column
 } pl_section;
 
 // The sections that every world has; those of its components come behind them.
@@ -24,6 +63,10 @@ uint32_t pl_section_fixed_count(void);
 // The registry's section.
 uint32_t pl_section_registry(void);
 uint32_t pl_section_count(const plumb_world *world);
+// Member i of the section of all values (the first one); false past the last.
+bool pl_section_value(uint32_t i, pl_member *member);
+// Sets to 0 what of an image means something in this process only: pointers of the user's.
+void pl_section_strip(uint32_t i, char *data, uint32_t count);
 // [B] of an element's key in section i, see list.h.
 uint32_t pl_section_key(uint32_t i);
 // Section i; valid until a structural change. O(1).
@@ -42,6 +85,9 @@ void pl_section_write(const plumb_world *world, uint32_t i, const pl_section *se
 void pl_section_read(plumb_world *world, uint32_t i, const char *from, uint32_t count);
 // Makes room for `count` elements. False when out of memory.
 bool pl_section_reserve(plumb_world *world, uint32_t i, uint32_t count);
+
+// plumb_world_hash; `values` false: without the numbers of the first section (settings, time, counts).
+uint64_t pl_world_digest(const plumb_world *world, bool values);
 
 // What the sections of this build are: names and sizes of all that is saved.
 uint64_t pl_section_schema(void);

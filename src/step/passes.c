@@ -9,7 +9,8 @@
 #include "narrow/narrow.h"
 #include "narrow/one_way.h"
 #include "narrow/surface.h"
-#include "world/state.h"
+#include "step/tape.h"
+#include "world/wrap.h"
 
 //---- what is wanted ------------------------------------------------------------------------------
 
@@ -145,6 +146,11 @@ static bool sleep_wanted(const plumb_world *world, const char **reason)
                "no dynamic body is awake");
 }
 
+static bool edges_wanted(const plumb_world *world, const char **reason)
+{
+    return say(pl_is_wrapped(world), reason, "the world wraps around", "the world does not wrap");
+}
+
 // Contacts or joints.
 static bool solver_wanted(const plumb_world *world, const char **reason)
 {
@@ -211,15 +217,30 @@ static bool impacts_wanted(const plumb_world *world, const char **reason)
 
 //---- what is done --------------------------------------------------------------------------------
 
+// What the user does in a step, or what is on the tape of it.
+static void run_systems(plumb_world *world, plumb_phase phase, plumb_real dt)
+{
+    pl_tape *tape = world->tape;
+    if (tape != NULL && tape->before != NULL) {
+        tape->before(tape, world, phase);
+    }
+    if (tape == NULL || !tape->replays) {
+        pl_systems_run(world, phase, dt, world->time);
+    }
+    if (tape != NULL && tape->after != NULL) {
+        tape->after(tape, world, phase);
+    }
+}
+
 static plumb_result run_begin(plumb_world *world, plumb_real dt)
 {
-    pl_systems_run(world, PLUMB_PHASE_BEGIN, dt, world->time);
+    run_systems(world, PLUMB_PHASE_BEGIN, dt);
     return PLUMB_OK;
 }
 
 static plumb_result run_forces(plumb_world *world, plumb_real dt)
 {
-    pl_systems_run(world, PLUMB_PHASE_FORCES, dt, world->time);
+    run_systems(world, PLUMB_PHASE_FORCES, dt);
     return PLUMB_OK;
 }
 
@@ -300,7 +321,7 @@ static plumb_result run_sensors(plumb_world *world, plumb_real dt)
 static plumb_result run_contacts(plumb_world *world, plumb_real dt)
 {
     pl_edits_open(world);
-    pl_systems_run(world, PLUMB_PHASE_CONTACTS, dt, world->time);
+    run_systems(world, PLUMB_PHASE_CONTACTS, dt);
     pl_edits_close(world);
     return PLUMB_OK;
 }
@@ -340,6 +361,13 @@ static plumb_result run_continuous(plumb_world *world, plumb_real dt)
     return PLUMB_OK;
 }
 
+static plumb_result run_edges(plumb_world *world, plumb_real dt)
+{
+    (void)dt;
+    pl_wrap_bodies(world);
+    return PLUMB_OK;
+}
+
 static plumb_result run_reactions(plumb_world *world, plumb_real dt)
 {
     (void)dt;
@@ -359,7 +387,7 @@ static plumb_result run_events(plumb_world *world, plumb_real dt)
 
 static plumb_result run_end(plumb_world *world, plumb_real dt)
 {
-    pl_systems_run(world, PLUMB_PHASE_END, dt, world->time);
+    run_systems(world, PLUMB_PHASE_END, dt);
     return PLUMB_OK;
 }
 
@@ -397,6 +425,7 @@ const pl_pass pl_passes[] = {
     { "motion",        "finish",   "solver bodies, forces, gravity",  "transforms, velocities",    NULL,             run_motion },
     { "continuous",    "finish",   "bodies that moved fast, pieces",  "transforms",                continuous_wanted, run_continuous },
     { "targets",       "finish",   "targets, poses",                  "kinematic poses, velocities", targets_wanted, run_arrive },
+    { "edges",         "finish",   "transforms",                      "transforms",                edges_wanted,     run_edges },
     { "reactions",     "finish",   "joints, poses",                   "joints, break events",      joints_wanted,    run_reactions },
     { "events",        "finish",   "pairs, manifolds",                "event arrays",              collision_wanted, run_events },
     { "sensors",       "finish",   "candidates, poses, pieces",       "overlaps, sensor events",   sensing_wanted,   run_sensors },

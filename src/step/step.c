@@ -2,6 +2,7 @@
 // view.
 #include "core/clock.h"
 #include "event/event.h"
+#include "step/tape.h"
 #include "world/check.h"
 #include "world/state.h"
 
@@ -45,6 +46,9 @@ static plumb_result run_passes(plumb_world *world, plumb_real dt)
         if (result != PLUMB_OK) {
             return result;
         }
+        if (world->tape != NULL && world->tape->passed != NULL) {
+            world->tape->passed(world->tape, world, i);
+        }
         // Bodies that fell asleep or woke may leave passes without anything to do, or give them some.
         if (world->schedule_dirty) {
             revise_schedule(world);
@@ -74,9 +78,15 @@ plumb_result plumb_world_step(plumb_world *world, plumb_real dt)
         return pl_fail(world, PLUMB_E_RANGE, __func__, "dt is %g; it must be above 0 and at most 1",
                        (double)dt);
     }
-    result = pl_commands_run(world);
+    pl_tape *tape = world->tape;
+    if (tape == NULL || !tape->replays) {
+        result = pl_commands_run(world);
+    }
     if (result != PLUMB_OK) {
         return result;
+    }
+    if (tape != NULL && tape->begin != NULL) {
+        tape->begin(tape, world);
     }
     pl_events_clear(world);
     pl_edits_forget(world);
@@ -95,6 +105,9 @@ plumb_result plumb_world_step(plumb_world *world, plumb_real dt)
         return pl_fail_memory(world, __func__);
     }
     world->sleep.events_told |= result == PLUMB_OK;
+    if (tape != NULL && tape->end != NULL) {
+        tape->end(tape, world, dt);
+    }
     return result;
 }
 

@@ -7,11 +7,12 @@
 // Reads: centre, inverse masses. Writes: force and velocity columns of one row. Cost: O(1).
 #include "world/check.h"
 #include "world/rows.h"
+#include "world/wrap.h"
 
 static pl_push push_at(const plumb_world *world, uint32_t row, plumb_vec2 linear, plumb_vec2 point)
 {
     const pl_bodies *b = &world->bodies;
-    plumb_vec2 arm = plumb_v2(point.x - b->center_x[row], point.y - b->center_y[row]);
+    plumb_vec2 arm = plumb_world_way(world, plumb_v2(b->center_x[row], b->center_y[row]), point);
     return (pl_push){ linear, plumb_vec2_cross(arm, linear) };
 }
 

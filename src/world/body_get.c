@@ -3,6 +3,7 @@
 // Reads: one body row, or the columns as a whole. Writes: nothing. Cost: O(1) unless said
 // otherwise.
 #include "world/rows.h"
+#include "world/wrap.h"
 
 bool plumb_body_valid(const plumb_world *world, plumb_body body)
 {
@@ -195,7 +196,8 @@ plumb_vec2 plumb_body_world_point(const plumb_world *world, plumb_body body, plu
 
 plumb_vec2 plumb_body_local_point(const plumb_world *world, plumb_body body, plumb_vec2 point)
 {
-    return plumb_transform_inv_apply(plumb_body_transform(world, body), point);
+    plumb_transform at = plumb_body_transform(world, body);
+    return plumb_transform_inv_apply(at, world == NULL ? point : pl_wrap_point(world, point, at.p));
 }
 
 plumb_vec2 plumb_body_world_vector(const plumb_world *world, plumb_body body, plumb_vec2 local)

@@ -34,6 +34,7 @@ static void relocate(plumb_world *world, uint32_t row)
     pl_partition home =
         disabled ? PL_PART_DISABLED : pl_partition_of((plumb_body_type)b->type[row]);
     row = pl_row_transfer(world, row, home);
+    world->joints.awake_stale = true; // it may have slept
     pl_joints_replan(&world->joints);
     pl_pieces_refile(world, row);
     for (uint32_t p = b->first_piece[row]; p != PL_NONE && !disabled;

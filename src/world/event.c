@@ -9,6 +9,7 @@
 #include "plumb/event.h"
 #include "world/check.h"
 #include "world/rows.h"
+#include "world/wrap.h"
 
 const plumb_contact_begin *plumb_world_begin_events(const plumb_world *world, int *count)
 {
@@ -77,7 +78,7 @@ static plumb_contact_point view_point(const plumb_world *world, const pl_manifol
 {
     const pl_manifold_point *p = &m->point[k];
     plumb_vec2 a = carried(world, row_a, p->ax, p->ay);
-    plumb_vec2 b = carried(world, row_b, p->bx, p->by);
+    plumb_vec2 b = pl_wrap_point(world, carried(world, row_b, p->bx, p->by), a);
     // Each lies on its surface: the way from one to the other, along the normal, is the separation.
     plumb_vec2 gap = plumb_vec2_sub(b, a);
     return (plumb_contact_point){

@@ -13,6 +13,7 @@
 #include "effects/effects.h"
 #include "world/filter.h"
 #include "world/material_pair.h"
+#include "world/wrap.h"
 
 //---- lookup
 //---------------------------------------------------------------------------------------
@@ -246,6 +247,9 @@ void pl_body_update_center(plumb_world *world, uint32_t row)
     b->center_y[row] = b->y[row] + dy;
     b->low_x[row] = b->low_y[row] = 0;
     write_pose(world, row, dx, dy);
+    if (pl_is_wrapped(world)) {
+        pl_wrap_row(world, row);
+    }
 }
 
 //---- destruction

@@ -8,6 +8,7 @@
 #include "world/filter.h"
 #include "world/check.h"
 #include "world/rows.h"
+#include "world/wrap.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -466,5 +467,12 @@ plumb_result pl_shape_make(plumb_world *world, const char *function, const plumb
         r = make_single(&m);
         break;
     }
-    return r == PLUMB_OK ? r : refuse_geometry(&m, r);
+    if (r != PLUMB_OK) {
+        return refuse_geometry(&m, r);
+    }
+    const pl_made_piece *pieces = world->made.data;
+    for (uint32_t i = 0; r == PLUMB_OK && i < made->count; ++i) {
+        r = pl_wrap_check_piece(world, function, &pieces[i].core);
+    }
+    return r;
 }

@@ -116,6 +116,8 @@ struct plumb_world {
     pl_sensing sensing;
     pl_sleep sleep;
 
+    struct pl_tape *tape; // who records or replays this world (step/tape.h); NULL: nobody
+
     // Locking and errors.
     const char *locked_by; // name of the system or hook that runs; NULL: structural changes allowed
     bool editing;          // systems of PLUMB_PHASE_CONTACTS run

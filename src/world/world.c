@@ -4,8 +4,10 @@
 // Cost: O(1), plumb_world_destroy O(components), plumb_world_energy O(dynamic bodies).
 #include "plumb/world.h"
 
+#include "step/tape.h"
 #include "world/check.h"
 #include "world/rows.h"
+#include "world/wrap.h"
 
 #define STANDARD_GRAVITY ((real)9.81) // [m/s^2]
 #define CAPACITY_MOST                                                                              \
@@ -74,6 +76,7 @@ static plumb_result check_desc(const plumb_world *world, const char *fn, const p
     for (size_t i = 0; i < sizeof fields / sizeof fields[0] && r == PLUMB_OK; ++i) {
         r = pl_check_range(world, fn, fields[i].name, fields[i].value, 0, PLUMB_REAL_MAX);
     }
+    r = r != PLUMB_OK ? r : pl_wrap_check(world, fn, d);
     return r != PLUMB_OK ? r : check_integers(world, fn, d);
 }
 
@@ -233,6 +236,9 @@ void plumb_world_destroy(plumb_world *world)
 {
     if (world == NULL) {
         return;
+    }
+    if (world->tape != NULL && world->tape->gone != NULL) {
+        world->tape->gone(world->tape, world);
     }
     pl_components_bury(world);
     free_world(world);

@@ -101,8 +101,8 @@ static void shapes_of_several_pieces_end_once(void **state)
 {
     (void)state;
     for (int which = 0; which < 3; ++which) {
-        plumb_world *w = flat_world(
-            (plumb_world_desc){ .hit_speed = which == 2 ? R(1) : 0, .no_sleep = true });
+        plumb_world *w =
+            flat_world((plumb_world_desc){ .hit_speed = which == 2 ? R(1) : 0, .no_sleep = true });
         plumb_vec2 points[12];
         for (int i = 0; i < 12; ++i) {
             points[i] = plumb_v2(R(i * 0.4 - 2.2), 0);
@@ -224,10 +224,39 @@ static void own_density_of_a_shape(void **state)
     plumb_world_destroy(w);
 }
 
+// The same of a shape of several pieces, made anew in the slots that it had: one touch ends, another
+// begins.
+static void a_shape_of_several_pieces_made_anew(void **state)
+{
+    (void)state;
+    static const plumb_vec2 ell[] = { { 0, 0 }, { 2, 0 }, { 2, 1 }, { 1, 1 }, { 1, 2 }, { 0, 2 } };
+    const plumb_shape_desc desc = { .kind = PLUMB_OUTLINE, .points = ell, .count = 6 };
+    plumb_world *w = flat_world((plumb_world_desc){ 0 });
+    plumb_shape floor = add_floor(w, NULL_), old = PLUMB_NULL_INIT;
+    plumb_body body = plumb_body_create(w, &(plumb_body_desc){ .no_sleep = true });
+    for (int i = 0; i < 3; ++i) {
+        if (i > 0) {
+            plumb_shape_destroy(w, old);
+        }
+        plumb_shape shape = plumb_shape_create(w, body, &desc);
+        ends e = step(w);
+        int begins;
+        const plumb_contact_begin *begun = plumb_world_begin_events(w, &begins);
+        assert_int_equal(begins, 1);
+        assert_true(plumb_same(begun[0].shape_a, shape) || plumb_same(begun[0].shape_b, shape));
+        assert_int_equal(e.count, i > 0);
+        assert_true(i == 0 || names(&e, floor, old));
+        assert_true(i == 0 || old.index == shape.index);
+        old = shape;
+    }
+    plumb_world_destroy(w);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_destroyed_body_ends_its_touches),
+        cmocka_unit_test(a_shape_of_several_pieces_made_anew),
         cmocka_unit_test(the_last_touch_ends_too),
         cmocka_unit_test(shapes_of_several_pieces_end_once),
         cmocka_unit_test(slots_taken_anew_do_not_confuse),

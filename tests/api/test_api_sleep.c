@@ -221,7 +221,7 @@ static void bodies_may_start_asleep(void **state)
 {
     (void)state;
     plumb_world *w;
-    assert_int_equal(plumb_world_create(NULL, &w), PLUMB_OK);
+    assert_int_equal(plumb_world_create(&(plumb_world_desc){ 0 }, &w), PLUMB_OK);
     const plumb_shape_desc box = { .kind = PLUMB_BOX, .half = { R(0.5), R(0.5) } };
     plumb_body a = plumb_body_create(w, &(plumb_body_desc){ .asleep = true });
     plumb_shape_create(w, a, &box);
@@ -433,6 +433,29 @@ static void thresholds_are_checked(void **state)
     assert_int_equal(plumb_world_create(&bad[1], &w), PLUMB_E_NOT_FINITE);
 }
 
+// A joint whose only body slept holds it when it has been out of the simulation and in again.
+static void joints_of_sleepers_that_were_disabled_hold(void **state)
+{
+    (void)state;
+    plumb_world *w = NULL;
+    assert_int_equal(plumb_world_create(&(plumb_world_desc){ 0 }, &w), PLUMB_OK);
+    plumb_body b = plumb_body_create(w, &(plumb_body_desc){ .position = { 0, -1 } });
+    plumb_shape_create(w, b, &(plumb_shape_desc){ .kind = PLUMB_BOX, .half = { 1, 1 } });
+    plumb_joint_create(w, &(plumb_joint_desc){ .body_b = b });
+    // Another one that swings on, so that joints are looked through meanwhile.
+    plumb_body other =
+        plumb_body_create(w, &(plumb_body_desc){ .position = { 9, -1 }, .no_sleep = true });
+    plumb_joint_create(w, &(plumb_joint_desc){ .body_b = other, .anchor = { 9, 0 } });
+    steps(w, 10);
+    assert_int_equal(plumb_body_sleep(w, b), PLUMB_OK);
+    steps(w, 1); // the joint is passed over from here on
+    plumb_body_set_enabled(w, b, false);
+    plumb_body_set_enabled(w, b, true);
+    steps(w, 60);
+    assert_near(plumb_body_position(w, b).y, -1, 0.01);
+    plumb_world_destroy(w);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -448,6 +471,7 @@ int main(void)
         cmocka_unit_test(rows_are_partitioned_as_told),
         API_TEST(refusals),
         cmocka_unit_test(thresholds_are_checked),
+        cmocka_unit_test(joints_of_sleepers_that_were_disabled_hold),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

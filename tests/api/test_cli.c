@@ -511,6 +511,117 @@ static void a_scene_knows_its_moment(void **state)
     assert_non_null(strstr(out, "\"trail\":0.25"));
 }
 
+//---- recordings ----------------------------------------------------------------------------------
+
+// A ball that a handler pushes after half a second.
+static const char push_scene[] =
+    "scene { title = 'push', duration = 1, dt = 1/64 }\n"
+    "body { name = 'floor', type = 'static', box { 10, 1 }, at = {0, -0.5} }\n"
+    "local ball = body { name = 'ball', circle { 0.5 }, at = {0, 2} }\n"
+    "at(0.5, function() ball:set_velocity(3, 1) end)\n";
+
+static void a_recording_is_replayed(void **state)
+{
+    (void)state;
+    write_text("push.lua", push_scene);
+    expect_code(
+        "\"$P\" run push.lua -o run.csv && \"$P\" run push.lua --record p.rec -o rec.csv && "
+        "cmp run.csv rec.csv",
+        0);
+    expect_code("\"$P\" replay p.rec -o again.csv && cmp run.csv again.csv", 0);
+    expect_code("\"$P\" replay p.rec --width 4 -o again.csv && cmp run.csv again.csv", 0);
+    expect_code("\"$P\" run push.lua --record q.rec -o /dev/null && cmp p.rec q.rec", 0);
+    expect_code("\"$P\" run push.lua --precision double --record d.rec -o run.csv && "
+                "\"$P\" replay d.rec -o again.csv && cmp run.csv again.csv",
+                0);
+    expect_code("\"$P\" replay p.rec --info", 0);
+    static const char head[] = "title      push\nprecision  float\nsteps      64, after 0 that are "
+                               "not recorded\ntime       0 s to 1 s\nedited     1 steps\n"
+                               "keyframes  1\nbytes      ";
+    assert_memory_equal(out, head, sizeof head - 1);
+    assert_non_null(strstr(out, "\ncomplete   yes\n"));
+}
+
+static void a_replay_goes_anywhere(void **state)
+{
+    (void)state;
+    expect_code("\"$P\" run push.lua --every 16 --body ball >all.csv && "
+                "\"$P\" run push.lua --keyframes 10 --record k.rec -o /dev/null && "
+                "{ head -1 all.csv; for n in 0 16 32 48 64; do "
+                "\"$P\" replay k.rec --step $n --body ball | tail -1; done; } | cmp - all.csv",
+                0);
+    expect_code("\"$P\" replay k.rec --step 32 >a && \"$P\" replay k.rec --seek 0.5 >b && cmp a b",
+                0);
+    expect_code("\"$P\" replay k.rec --step 33 --list", 0);
+    assert_non_null(strstr(out, "step 33  time 0.515625 s  dt 0.015625 s  hash "));
+    assert_non_null(strstr(out, "\n  before the step: body 'ball': vx 0 -> 3\n"));
+    expect_code("\"$P\" replay k.rec --list", 0);
+    assert_int_equal(strncmp(out, "step 0  time 0 s  dt 0 s  hash ", 31), 0);
+    expect_error("\"$P\" replay k.rec --step 65", 2,
+                 "plumb: replay: option --step: 65 is beyond the last step, 64\n");
+    expect_error("\"$P\" replay k.rec --seek 1.5", 2,
+                 "plumb: replay: option --seek: 1.5 s is beyond the end, 1 s\n");
+    expect_error("\"$P\" replay k.rec --seek 1 --step 2", 2, "--seek names a moment already");
+    expect_error("\"$P\" replay k.rec --list --body ball", 2, "belong to the table of bodies");
+    expect_error("\"$P\" replay k.rec --body bell", 2,
+                 "plumb: option --body: no body of 'push' is named 'bell'\n");
+    expect_error("\"$P\" replay k.rec --width 5", 2, "5 is not 0, 4, 8 or 16");
+}
+
+static void differences_are_found(void **state)
+{
+    (void)state;
+    expect_code("\"$P\" diff p.rec k.rec", 0);
+    assert_string_equal(out, "the same for 64 steps\n");
+    expect_code("sed 's/(3, 1)/(4, 1)/' push.lua >pull.lua && "
+                "\"$P\" run pull.lua --record o.rec -o /dev/null && \"$P\" diff p.rec o.rec",
+                6);
+    assert_string_equal(out, "differ after step 33, 0.515625 s, in what was done before it\n"
+                             "first: body 'ball': vx 3 | 4\n");
+    expect_code("\"$P\" diff --brief p.rec o.rec", 6);
+    assert_string_equal(out, "");
+    expect_code("\"$P\" run push.lua --substeps 8 --record s.rec -o /dev/null && "
+                "\"$P\" diff p.rec s.rec",
+                6);
+    assert_int_equal(strncmp(out, "setting: world: substeps 4 | 8\ndiffer after step ", 49), 0);
+    assert_non_null(strstr(out, "in pass 'soft step'\nfirst: contact of body 'ball' and body "
+                                "'floor': normal "));
+    expect_code("\"$P\" run push.lua --time 0.5 --record t.rec -o /dev/null && "
+                "\"$P\" diff p.rec t.rec",
+                6);
+    assert_string_equal(out, "the same for 32 steps; then only one goes on: 64 | 32 steps\n");
+    expect_error("\"$P\" diff p.rec d.rec", 1,
+                 "plumb: diff: 'p.rec' was recorded in float precision, 'd.rec' in double; nothing "
+                 "in them is the same\n");
+    expect_error("\"$P\" diff p.rec", 2, "RECORDING");
+    expect_error("\"$P\" diff --from 65 p.rec k.rec", 2,
+                 "plumb: diff: option --from: 65 is beyond the last step, 64\n");
+}
+
+static void bad_recordings_are_refused(void **state)
+{
+    (void)state;
+    expect_error("\"$P\" replay nowhere.rec", 1,
+                 "plumb: cannot read 'nowhere.rec': No such file or directory\n");
+    expect_error("\"$P\" replay push.lua", 1, "plumb: 'push.lua' is no recording\n");
+    expect_error("\"$P\" diff p.rec push.lua", 1, "plumb: 'push.lua' is no recording\n");
+    expect_error("head -c 600 p.rec >c.rec; \"$P\" replay c.rec", 1,
+                 "plumb: 'c.rec' is truncated before its first step\n");
+    expect_error("{ head -c 3000 p.rec; printf x; tail -c +3002 p.rec; } >x.rec; "
+                 "\"$P\" replay x.rec",
+                 1, "plumb: 'x.rec' is damaged\n");
+    expect_code("head -c -100 p.rec >c.rec; \"$P\" replay c.rec --info", 0);
+    assert_non_null(strstr(out, "complete   no: it breaks off after its last step\n"));
+    expect_error("\"$P\" run push.lua --record -", 2,
+                 "plumb: run: option --record: a recording goes to a file, not to stdout\n");
+    expect_error("\"$P\" run push.lua --keyframes 3", 2,
+                 "plumb: run: option --keyframes: needs --record\n");
+    expect_error("\"$P\" run push.lua --record /nowhere/x.rec -o /dev/null", 1, "/nowhere/x.rec");
+    if (access("/dev/full", W_OK) == 0) {
+        expect_error("\"$P\" run push.lua --record /dev/full -o /dev/null", 1, "/dev/full");
+    }
+}
+
 static int set_up(void **state)
 {
     (void)state;
@@ -558,6 +669,10 @@ int main(void)
         cmocka_unit_test(convert_is_canonical),
         cmocka_unit_test(render_draws),
         cmocka_unit_test(a_scene_knows_its_moment),
+        cmocka_unit_test(a_recording_is_replayed),
+        cmocka_unit_test(a_replay_goes_anywhere),
+        cmocka_unit_test(differences_are_found),
+        cmocka_unit_test(bad_recordings_are_refused),
     };
     return cmocka_run_group_tests(tests, set_up, clean_up);
 }

@@ -189,6 +189,20 @@ static const malformed table[] = {
               "body{ box{1, 1} }\n",
       .code = SCENE_E_RANGE,
       .message = "scene.lua:1:8: 'substeps' of scene{} must be at least 1 and at most 64, not 65" },
+    { .what = "period too short",
+      .file = "scene.lua",
+      .text = "scene{ wrap_x = 0.05 }\n"
+              "body{ box{1, 1} }\n",
+      .code = SCENE_E_RANGE,
+      .message =
+          "scene.lua:1:8: 'wrap_x' of scene{} must be at least 0.1 and at most 2000000000 m, not 0.05" },
+    { .what = "shape too large for the period",
+      .file = "scene.lua",
+      .text = "scene{ wrap_y = 8 }\n"
+              "body{ box{4, 1} }\n",
+      .code = SCENE_E_WORLD,
+      .message = "scene.lua:2:7: box{}: plumb_shape_create: the shape is 4.12311 m across; in a world "
+                 "that wraps every 8 m each convex piece must be below 4" },
     { .what = "dt of zero",
       .file = "scene.lua",
       .text = "scene{ dt = 0 }\n"

@@ -106,6 +106,50 @@ static void add_disc(render_frame *frame, double x, double y, double radius)
 
 // ---- pixels
 
+// A disc across the upper right corner of the period is seen at all four; one in the middle once.
+static void test_period_is_drawn_at_both_sides(void **state)
+{
+    (void)state;
+    render_frame *frame = new_frame();
+    render_target *target = new_target(400, 300);
+    const render_camera camera = { .view_height = 3.0 }; // 100 px a unit: 4 x 3 units in view
+    const double pi = 3.14159265358979323846, whole = pi * 0.3 * 0.3 * 1e4;
+    assert_int_equal(render_frame_set_period(frame, 4.0, 3.0), RENDER_OK);
+    add_disc(frame, 1.9, 1.4, 0.3);
+    add_disc(frame, 0.0, 0.0, 0.3);
+    draw(target, frame, camera, flat());
+    assert_true(fabs(coverage(target, 0, 300) - 2.0 * whole) < 0.02 * whole);
+    assert_color(target, 390, 10, red);
+    assert_color(target, 3, 10, red);
+    assert_color(target, 390, 297, red);
+    assert_color(target, 3, 297, red);
+    // Along x alone nothing comes in at the bottom.
+    assert_int_equal(render_frame_set_period(frame, 4.0, 0.0), RENDER_OK);
+    draw(target, frame, camera, flat());
+    assert_color(target, 3, 10, red);
+    assert_color(target, 390, 297, white);
+    // Seen from elsewhere, it is the same world.
+    assert_int_equal(render_frame_set_period(frame, 4.0, 3.0), RENDER_OK);
+    const render_camera aside = { .center = { 9.9, -4.6 }, .view_height = 3.0 };
+    draw(target, frame, aside, flat());
+    assert_true(fabs(coverage(target, 0, 300) - 2.0 * whole) < 0.02 * whole);
+    assert_color(target, 200, 150, red);
+    // With the grid on, what lies outside the period is faded.
+    const render_camera wide = { .view_height = 6.0 }; // 50 px a unit
+    render_options options = flat();
+    options.show = RENDER_SHOW_GRID;
+    draw(target, frame, wide, options);
+    assert_color(target, 200, 150, red);
+    assert_true(pixel(target, 200, 10)[1] > 128); // the disc in the middle, one period up
+    assert_true(pixel(target, 200, 10)[1] < 255);
+    render_frame_clear(frame);
+    assert_int_equal(render_frame_set_period(frame, -1.0, 0.0), RENDER_E_ARGUMENT);
+    render_frame_clear(frame);
+    assert_int_equal(render_frame_set_period(frame, (double)INFINITY, 0.0), RENDER_E_NOT_FINITE);
+    render_target_destroy(target);
+    render_frame_destroy(frame);
+}
+
 static void test_areas(void **state)
 {
     (void)state;
@@ -1000,6 +1044,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_areas),
+        cmocka_unit_test(test_period_is_drawn_at_both_sides),
         cmocka_unit_test(test_polygon_orientation_does_not_matter),
         cmocka_unit_test(test_y_down_flips),
         cmocka_unit_test(test_seams_of_one_body_are_not_outlined),

@@ -86,6 +86,12 @@ static void test_settings(void **state)
     scene_destroy(s);
     s = load("scene{ gravity = {0, 0} }");
     assert_true(plumb_world_gravity(scene_world(s)).y == (plumb_real)0);
+    assert_true(plumb_world_settings(scene_world(s)).wrap_x == (plumb_real)0);
+    scene_destroy(s);
+    s = load("scene{ wrap_x = 20, wrap_y = 12.5 }\nbody{ name = 'b', circle{1}, at = {19, 0} }");
+    assert_true(plumb_world_settings(scene_world(s)).wrap_x == (plumb_real)20);
+    assert_true(plumb_world_settings(scene_world(s)).wrap_y == (plumb_real)12.5);
+    assert_true(plumb_body_position(scene_world(s), scene_body_get(s, 0).entity).x == (plumb_real)-1);
     scene_destroy(s);
 }
 
@@ -408,7 +414,7 @@ static void test_json_round_trip(void **state)
     (void)state;
     scene *s =
         load("scene{ title = 'a \"b\" \\\\', gravity = {0.1, -9.81}, substeps = 8, duration = 2, "
-             "continuous = false }\n"
+             "wrap_x = 100, continuous = false }\n"
              "local m = material{ friction = 0.3, restitution = 1/3 }\nlocal n = material{ name = "
              "'n', density = 1e-3 }\n"
              "body{ type = 'static', box{10, 1}, at = {0, -0.5}, material = n, color = 3 }\n"

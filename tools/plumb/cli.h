@@ -18,6 +18,7 @@ typedef enum cli_exit {
     CLI_SCENE = 3,    ///< the scene is wrong
     CLI_EXPECT = 4,   ///< an expectation of a scene does not hold
     CLI_DIVERGED = 5, ///< the state of the world is no longer finite
+    CLI_DIFFERS = 6,  ///< two recordings differ, or a replay gives other bits than were recorded
     CLI_HELP = -1     ///< cli_parse only: help was printed, the command is done
 } cli_exit;
 

@@ -121,6 +121,7 @@ static void session_close(engine_session *session)
     free(session->contacts);
     free(session->shapes);
     free(session->cells);
+    free(session->named);
     free(session);
 }
 
@@ -137,6 +138,8 @@ static engine_info session_info(const engine_session *session)
         .solver = info->solver == PLUMB_SOLVER_PGS ? 1 : 0,
         .width = plumb_world_stats(session->world).simd_width,
         .y_down = info->y_axis == PLUMB_Y_DOWN,
+        .wrap_x = (double)plumb_world_settings(session->world).wrap_x,
+        .wrap_y = (double)plumb_world_settings(session->world).wrap_y,
         .exact_count = scene_exact_count(session->scene),
         .camera = { .has_view = camera->has_view,
                     .x = camera->center[0],
@@ -158,7 +161,7 @@ static int session_step(engine_session *session, engine_error *error)
     if (scene_step(session->scene, &from) != SCENE_OK) {
         return pl_session_fail_scene(session, &from, error);
     }
-    return CLI_OK;
+    return session->recording ? pl_session_name(session, error) : CLI_OK;
 }
 
 static int session_check(engine_session *session, engine_error *error)
@@ -234,4 +237,15 @@ const engine_api ENGINE_NAME = {
     .text = session_text,
     .word = pl_session_word,
     .to_json = session_to_json,
+    .record = pl_session_record,
+    .record_end = pl_session_record_end,
+    .replay_open = pl_replay_session_open,
+    .replay_close = pl_replay_session_close,
+    .replay_info = pl_replay_session_info,
+    .replay_seek = pl_replay_session_seek,
+    .replay_find = pl_replay_session_find,
+    .replay_rows = pl_replay_session_rows,
+    .replay_edits = pl_replay_session_edits,
+    .replay_settings = pl_replay_session_settings,
+    .replay_compare = pl_replay_session_compare,
 };

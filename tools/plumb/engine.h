@@ -57,6 +57,7 @@ typedef struct engine_info {
     int solver;       ///< index into ENGINE_SOLVERS
     int width;        ///< SIMD lanes in use
     bool y_down;      ///< the scene's y axis points down
+    double wrap_x, wrap_y; ///< [m] the world wraps around every so many; 0: not along that axis
     int exact_count;  ///< closed forms declared
     engine_camera camera;
 } engine_info;
@@ -118,6 +119,37 @@ typedef struct engine_box {
 /// it names are written only where few bodies have one; labels that the author gave always are.
 #define ENGINE_SHOW_NAMES (1u << 30)
 
+/// A recording that is being replayed, and where it stands.
+typedef struct engine_replay_info {
+    const char *title;
+    unsigned long long steps, step; ///< in the recording; taken
+    unsigned long long keyframes, edited, bytes;
+    unsigned long long first; ///< steps that the world had taken before
+    double start, end;        ///< [s] of the world at the head and after the last step
+    double time, dt;          ///< [s] now; of the step that led here
+    unsigned long long hash;  ///< of the world here
+    bool complete;            ///< it was ended; false: it breaks off
+} engine_replay_info;
+
+/// Something that a user changed, or that differs between two worlds, in words.
+typedef struct engine_change {
+    char when[24];  ///< "before the step", "begin systems", ...
+    char who[160];  ///< "body 'ball'", "shape 7:1 of body 'ball'", "world"
+    char what[96];  ///< "vx", "created", ...
+    char from[64], to[64]; ///< values, "" if none
+} engine_change;
+
+/// Where two recordings differ first.
+typedef struct engine_difference {
+    bool found;
+    unsigned long long step;
+    double time[2]; ///< [s]
+    char pass[64];           ///< "": unknown, one of them is of another build
+    unsigned long long seen; ///< steps at which `first` was seen; 0: nowhere
+    engine_change first;
+} engine_difference;
+
+typedef struct engine_replay engine_replay;
 typedef struct engine_session engine_session;
 
 /// One engine. All lists that it hands out are valid until the next call with the same session.
@@ -159,6 +191,31 @@ typedef struct engine_api {
     bool (*word)(int constructor, int key, engine_word *word);
     /// Writes the scene as canonical JSON. False when writing failed.
     bool (*to_json)(const engine_session *session, FILE *file);
+
+    /// Records the session from here on, with the names of bodies and joints; every `keyframes` steps
+    /// (0: the default) with a keyframe. CLI_FAILED: out of memory, or the file takes no more.
+    int (*record)(engine_session *session, FILE *file, int keyframes, engine_error *error);
+    int (*record_end)(engine_session *session, engine_error *error);
+
+    /// Opens a recording, which must stay where it is; NULL: see `error`. `edits`: they are told.
+    engine_replay *(*replay_open)(const char *path, const void *bytes, size_t size, int width,
+                                  bool edits, engine_error *error);
+    void (*replay_close)(engine_replay *replay); ///< null is allowed
+    engine_replay_info (*replay_info)(const engine_replay *replay);
+    /// Goes to where `step` steps have been taken. CLI_DIFFERS: a step does not give the bits that were
+    /// recorded.
+    int (*replay_seek)(engine_replay *replay, unsigned long long step, engine_error *error);
+    /// The last step at which no more than `time` [s] had gone by.
+    unsigned long long (*replay_find)(const engine_replay *replay, double time);
+    /// All bodies, by handle. -1: out of memory.
+    int (*replay_rows)(engine_replay *replay, const engine_row **rows);
+    /// What the user changed in the step that led here. -1: out of memory.
+    int (*replay_edits)(engine_replay *replay, const engine_change **list);
+    /// Settings in which two replays differ now. -1: out of memory.
+    int (*replay_settings)(engine_replay *a, engine_replay *b, const engine_change **list);
+    /// From where both stand to the first step in which they differ.
+    int (*replay_compare)(engine_replay *a, engine_replay *b, engine_difference *difference,
+                          engine_error *error);
 } engine_api;
 
 extern const engine_api engine_float;

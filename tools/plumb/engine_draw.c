@@ -285,6 +285,8 @@ int pl_session_draw(engine_session *session, struct render_frame *frame, unsigne
 {
     int count = scene_body_count(session->scene);
     bool good = true, names = wants_names(session, show);
+    plumb_world_desc world = plumb_world_settings(session->world);
+    render_frame_set_period(frame, (double)world.wrap_x, (double)world.wrap_y);
     // What does not move lies behind what does.
     for (int layer = 0; layer < 2; layer++) {
         for (int i = 0; i < count && good; i++) {
@@ -334,5 +336,16 @@ void pl_session_bounds(const engine_session *session, engine_box *moving, engine
         if (!body.hidden && b.min.x <= b.max.x) {
             add_to_box(is_static ? fixed : moving, b);
         }
+    }
+    // Of a world that wraps around all is worth seeing, and nothing twice.
+    plumb_world_desc world = plumb_world_settings(session->world);
+    double x = (double)world.wrap_x / 2, y = (double)world.wrap_y / 2;
+    if (x > 0) {
+        moving->min_x = fixed->min_x = -x;
+        moving->max_x = fixed->max_x = x;
+    }
+    if (y > 0) {
+        moving->min_y = fixed->min_y = -y;
+        moving->max_y = fixed->max_y = y;
     }
 }

@@ -67,7 +67,8 @@ static bool axis_of(const plumb_world *world, plumb_joint joint, render_joint *o
     plumb_body a = plumb_joint_body_a(world, joint), b = plumb_joint_body_b(world, joint);
     if (out->kind == RENDER_JOINT_HINGE) {
         plumb_vec2 center = plumb_body_center(world, b);
-        double x = (double)center.x - out->b.x, y = (double)center.y - out->b.y;
+        plumb_vec2 arm = plumb_world_way(world, plumb_joint_anchor_b(world, joint), center);
+        double x = (double)arm.x, y = (double)arm.y;
         double angle = atan2(y, x) - out->value;
         out->axis = (render_vec){ cos(angle), sin(angle) };
         return !plumb_is_null(b) && hypot(x, y) > 0.1 * out->reach;
@@ -80,16 +81,24 @@ static bool axis_of(const plumb_world *world, plumb_joint joint, render_joint *o
     return true;
 }
 
+/// The image of a point that is nearest to another.
+static render_vec nearest(const plumb_world *world, plumb_vec2 point, plumb_vec2 to)
+{
+    plumb_vec2 way = plumb_world_way(world, to, point);
+    return (render_vec){ (double)to.x + (double)way.x, (double)to.y + (double)way.y };
+}
+
 static void add_joint(const plumb_world *world, plumb_joint joint, render_frame *frame)
 {
     plumb_joint_desc d = { .kind = PLUMB_REVOLUTE };
     plumb_joint_settings(world, joint, &d);
     plumb_body a = plumb_joint_body_a(world, joint), b = plumb_joint_body_b(world, joint);
+    plumb_vec2 at = plumb_joint_anchor_a(world, joint);
     render_joint out = { .kind = sign_of(&d),
-                         .a = to_render(plumb_joint_anchor_a(world, joint)),
-                         .b = to_render(plumb_joint_anchor_b(world, joint)),
-                         .via_a = to_render(d.ground_a),
-                         .via_b = to_render(d.ground_b),
+                         .a = to_render(at),
+                         .b = nearest(world, plumb_joint_anchor_b(world, joint), at),
+                         .via_a = nearest(world, d.ground_a, at),
+                         .via_b = nearest(world, d.ground_b, at),
                          .has_limit = d.enable_limit,
                          .lower = (double)d.lower,
                          .upper = (double)d.upper,
@@ -107,7 +116,8 @@ static void add_joint(const plumb_world *world, plumb_joint joint, render_frame 
     }
     if (d.kind == PLUMB_GEAR) { // it has no anchors: it ties how bodies turn
         out.a = to_render(plumb_body_center(world, plumb_is_null(a) ? b : a));
-        out.b = to_render(plumb_body_center(world, plumb_is_null(b) ? a : b));
+        out.b = nearest(world, plumb_body_center(world, plumb_is_null(b) ? a : b),
+                        plumb_body_center(world, plumb_is_null(a) ? b : a));
     }
     if (!axis_of(world, joint, &out)) {
         out.has_limit = false;

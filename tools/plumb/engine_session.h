@@ -21,6 +21,10 @@ struct engine_session {
     plumb_aabb *cells;
     size_t row_room, expect_room, pass_room, info_room, contact_room, shape_room,
         cell_room; ///< [B]
+    // While it is recorded: generation of the entities that were named, by their index.
+    bool recording;
+    uint32_t *named;
+    uint32_t named_count;
 };
 
 /// `list` with room for `count` elements of `size` bytes, perhaps moved, not null even for none.
@@ -52,5 +56,21 @@ void pl_session_add_surfaces(const engine_session *session, const plumb_entity *
                              struct render_frame *frame);
 int pl_session_draw(engine_session *session, struct render_frame *frame, unsigned show);
 void pl_session_bounds(const engine_session *session, engine_box *moving, engine_box *fixed);
+int pl_session_record(engine_session *session, FILE *file, int keyframes, engine_error *error);
+int pl_session_record_end(engine_session *session, engine_error *error);
+/// Names what is new to the recording. CLI_FAILED: out of memory.
+int pl_session_name(engine_session *session, engine_error *error);
+
+engine_replay *pl_replay_session_open(const char *path, const void *bytes, size_t size, int width,
+                                      bool edits, engine_error *error);
+void pl_replay_session_close(engine_replay *replay);
+engine_replay_info pl_replay_session_info(const engine_replay *replay);
+int pl_replay_session_seek(engine_replay *replay, unsigned long long step, engine_error *error);
+unsigned long long pl_replay_session_find(const engine_replay *replay, double time);
+int pl_replay_session_rows(engine_replay *replay, const engine_row **rows);
+int pl_replay_session_edits(engine_replay *replay, const engine_change **list);
+int pl_replay_session_settings(engine_replay *a, engine_replay *b, const engine_change **list);
+int pl_replay_session_compare(engine_replay *a, engine_replay *b, engine_difference *difference,
+                              engine_error *error);
 
 #endif

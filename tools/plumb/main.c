@@ -15,7 +15,8 @@
 #include "plumb/base.h"
 
 static const cli_command *const commands[] = { &cmd_run,  &cmd_render,  &cmd_check, &cmd_explain,
-                                               &cmd_cost, &cmd_convert, &cmd_list };
+                                               &cmd_cost, &cmd_convert, &cmd_replay, &cmd_diff,
+                                               &cmd_list };
 
 enum { COMMAND_COUNT = (int)(sizeof commands / sizeof commands[0]) };
 

@@ -4,6 +4,7 @@
 /// dropped when they are as many as those in use.
 #include "trail.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -73,6 +74,8 @@ bool trail_record(trail_set *set, const scene_run *run)
     if (set->seconds <= 0) {
         return true;
     }
+    set->wrap_x = run->info.wrap_x;
+    set->wrap_y = run->info.wrap_y;
     int count = run->engine->rows(run->session, &rows), moving = 0;
     double time = run->engine->time(run->session);
     for (int i = 0; i < set->count; i++) {
@@ -92,12 +95,29 @@ bool trail_record(trail_set *set, const scene_run *run)
     return count >= 0;
 }
 
+/// Where a trail that goes on at the other edge of the world is cut.
+static size_t end_of_part(const trail_set *set, const struct trail *t, size_t from)
+{
+    size_t k = from + 1;
+    for (; k < t->count; k++) {
+        double dx = fabs(t->points[k].x - t->points[k - 1].x);
+        double dy = fabs(t->points[k].y - t->points[k - 1].y);
+        if ((set->wrap_x > 0 && dx > set->wrap_x / 2) || (set->wrap_y > 0 && dy > set->wrap_y / 2)) {
+            break;
+        }
+    }
+    return k;
+}
+
 void trail_draw(const trail_set *set, render_frame *frame)
 {
     for (int i = 0; i < set->count; i++) {
         const struct trail *t = &set->items[i];
-        if (t->seen && t->count - t->first >= 2) {
-            render_add_trail(frame, t->points + t->first, t->count - t->first, t->palette);
+        for (size_t from = t->first, to; t->seen && from < t->count; from = to) {
+            to = end_of_part(set, t, from);
+            if (to - from >= 2) {
+                render_add_trail(frame, t->points + from, to - from, t->palette);
+            }
         }
     }
 }

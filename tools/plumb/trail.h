@@ -10,6 +10,7 @@ typedef struct trail_set {
     double seconds; ///< [s] how far back; 0: keep nothing
     struct trail *items;
     int count, room;
+    double wrap_x, wrap_y; ///< [m] see engine_info
 } trail_set;
 
 /// Remembers where all moving bodies are now. False: out of memory.

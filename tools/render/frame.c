@@ -115,6 +115,7 @@ void render_frame_clear(render_frame *frame)
     memset(frame->mark_kind_count, 0, sizeof frame->mark_kind_count);
     frame->title = PLR_NO_TEXT;
     frame->caption = PLR_NO_TEXT;
+    frame->period = (render_vec){ 0.0, 0.0 };
     frame->body_open = false;
     frame->status = RENDER_OK;
 }
@@ -420,6 +421,18 @@ render_result render_add_screen_text(render_frame *frame, double u, double v, re
                                      const char *text)
 {
     return add_text(frame, PLR_SCREEN_TEXT, u, v, anchor, text);
+}
+
+render_result render_frame_set_period(render_frame *frame, double x, double y)
+{
+    if (!isfinite(x) || !isfinite(y)) {
+        return note(frame, RENDER_E_NOT_FINITE);
+    }
+    if (x < 0.0 || y < 0.0) {
+        return note(frame, RENDER_E_ARGUMENT);
+    }
+    frame->period = (render_vec){ x, y };
+    return RENDER_OK;
 }
 
 render_result render_frame_set_title(render_frame *frame, const char *text)

@@ -97,6 +97,7 @@ struct render_frame {
     size_t text_count, text_capacity;
     size_t mark_kind_count[PLR_MARK_KINDS];
     size_t title, caption; ///< offsets or PLR_NO_TEXT
+    render_vec period;     ///< 0: it does not wrap along that axis
     bool body_open;
     render_result status;
 };
@@ -287,6 +288,12 @@ void plr_draw_texts(plr_painter *painter);
 double plr_arrow_scale(const plr_painter *painter, plr_mark_kind kind);
 /// A short sample of an overlay for the legend, inside the box of that middle and size.
 void plr_overlay_sample(plr_painter *painter, plr_mark_kind kind, render_vec middle, double size);
+
+/// Calls `draw` for every image of the frame in view, the camera aimed at it (period.c).
+typedef void plr_draw_fn(plr_painter *painter);
+void plr_for_images(plr_painter *painter, plr_draw_fn *draw);
+/// Fades what lies outside the period, marks its edges.
+void plr_draw_period(plr_painter *painter);
 
 /// Background grid; scale bar, title, legend (hud.c).
 void plr_draw_grid(plr_painter *painter);

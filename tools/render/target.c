@@ -113,10 +113,11 @@ static render_options with_defaults(const render_options *given, int height)
 static void paint(plr_painter *painter)
 {
     plr_draw_grid(painter);
-    plr_draw_underlay(painter);
-    plr_draw_bodies(painter);
-    plr_draw_overlay(painter);
-    plr_draw_labels(painter);
+    plr_for_images(painter, plr_draw_underlay);
+    plr_for_images(painter, plr_draw_bodies);
+    plr_for_images(painter, plr_draw_overlay);
+    plr_for_images(painter, plr_draw_labels);
+    plr_draw_period(painter);
     plr_draw_texts(painter);
     plr_draw_hud(painter);
 }

@@ -15,6 +15,7 @@ typedef struct sc_settings {
     int y, solver;
     double dt, duration, seed, substeps, iterations;
     double contact_hertz, contact_damping, push_speed, restitution_speed, simd_width;
+    double wrap_x, wrap_y;
     bool sleep, continuous; ///< read only where they were given
 } sc_settings;
 

@@ -1,0 +1,110 @@
+// format.h - how a recording lies in a file.
+//
+//     header | chunk | chunk | ...
+//     chunk: kind, number, bytes, two checksums | payload, a multiple of 8 bytes
+//
+// Chunks are written whole and numbered, and each is verified by itself: one that is missing, swapped or
+// damaged is found; a file that ends within one ends before it. In order: CODE and KEY (the head), then
+// STEPs, with a KEY behind every so many; CODE and KEY again where components or systems were
+// registered meanwhile; NAMEs anywhere; END. All numbers are the machine's own.
+#ifndef PL_RECORD_FORMAT_H
+#define PL_RECORD_FORMAT_H
+
+#include "snapshot/image.h"
+
+#define PL_RECORD_MAGIC   UINT64_C(0x434552424d554c50) // "PLUMBREC" in a little-endian file
+#define PL_RECORD_VERSION 1u
+#define PL_TITLE_MAX      256
+
+typedef struct pl_record_header {
+    uint64_t magic;
+    uint32_t version;
+    uint32_t real_bytes; // 4 or 8
+    uint64_t schema;     // of the columns: see pl_section_schema
+    uint64_t keyframe_every;
+    char title[PL_TITLE_MAX];
+    uint64_t checksum; // of what is before
+} pl_record_header;
+
+typedef enum pl_chunk_kind {
+    PL_CHUNK_CODE = 1, // pl_code_head, components with their fields, systems
+    PL_CHUNK_KEY,      // pl_key_head, image
+    PL_CHUNK_STEP,     // pl_step_head, edits
+    PL_CHUNK_NAME,     // plumb_entity, text padded with zeros
+    PL_CHUNK_END       // nothing
+} pl_chunk_kind;
+
+typedef struct pl_chunk_header {
+    uint32_t kind;
+    uint32_t number;   // of the chunk, from 0
+    uint64_t bytes;    // of the payload
+    uint64_t checksum; // of the payload
+    uint64_t check;    // of the four before
+} pl_chunk_header;
+
+typedef struct pl_code_head {
+    uint32_t components, systems;
+} pl_code_head;
+
+typedef struct pl_code_component {
+    char name[PL_NAME_MAX];
+    uint64_t size;
+    uint64_t fields; // pl_code_field behind
+} pl_code_component;
+
+typedef struct pl_code_field {
+    char name[PL_NAME_MAX], unit[PL_NAME_MAX]; // cut where longer
+    uint64_t type, offset;
+} pl_code_field;
+
+typedef struct pl_code_system {
+    char name[PL_NAME_MAX];
+    uint32_t phase, needs; // id of a component; 0: none
+} pl_code_system;
+
+typedef struct pl_key_head {
+    uint64_t step;  // steps taken
+    uint64_t edits; // 1: the user's edits before the next step are in it
+} pl_key_head;
+
+typedef struct pl_step_head {
+    double dt;     // [s]
+    double time;   // [s] after it
+    uint64_t hash; // after it
+    uint64_t edits;
+} pl_step_head;
+
+// An edit, padded to 8 bytes. What the state was and became, as a delta; or contacts.
+typedef struct pl_edit_head {
+    uint32_t phase; // 0: before the step, else 1 + plumb_phase
+    uint32_t kind;  // pl_edit_kind
+    uint64_t bytes;
+} pl_edit_head;
+
+typedef enum pl_edit_kind { PL_EDIT_STATE, PL_EDIT_CONTACTS } pl_edit_kind;
+
+// What a contact system made of a manifold.
+typedef struct pl_contact_note {
+    uint32_t manifold, disabled;
+    double friction, restitution, rolling, adhesion, surface_speed;
+} pl_contact_note;
+
+typedef struct pl_chunk {
+    pl_chunk_kind kind;
+    const char *data;
+    size_t bytes;
+} pl_chunk;
+
+void pl_record_seal(pl_record_header *header);
+pl_chunk_header pl_chunk_seal(pl_chunk_kind kind, uint32_t number, const void *data, size_t bytes);
+
+// What is wrong with the header of a recording; NULL: nothing.
+const char *pl_record_open(const void *bytes, size_t size, pl_record_header *header);
+
+typedef enum pl_chunk_state { PL_CHUNK_WHOLE, PL_CHUNK_CUT, PL_CHUNK_DAMAGED } pl_chunk_state;
+
+// Verifies chunk `number` at *offset and moves behind it.
+pl_chunk_state pl_chunk_read(const char *bytes, size_t size, size_t *offset, uint32_t number,
+                             pl_chunk *chunk);
+
+#endif

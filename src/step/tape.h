@@ -1,0 +1,24 @@
+// tape.h - how a step tells whoever records or replays it (src/record) what it is about.
+//
+// A step of a world without a tape asks once a phase whether there is one. Within a step the order is:
+// `begin` once commands were carried out, `before` and `after` around the systems of each phase that
+// runs, `passed` after each pass, `end` (not of a step that is refused). Where `replays` is set, neither commands nor systems run: what
+// they did is put in their place by `begin` and `after`.
+#ifndef PL_TAPE_H
+#define PL_TAPE_H
+
+#include "plumb/ecs.h"
+
+typedef struct pl_tape {
+    bool replays;
+    // Members may be NULL. `self` is the tape.
+    void (*begin)(struct pl_tape *self, plumb_world *world);
+    void (*before)(struct pl_tape *self, plumb_world *world, plumb_phase phase);
+    void (*after)(struct pl_tape *self, plumb_world *world, plumb_phase phase);
+    void (*passed)(struct pl_tape *self, plumb_world *world, int pass);
+    void (*end)(struct pl_tape *self, plumb_world *world, plumb_real dt);
+    // The world is about to be destroyed.
+    void (*gone)(struct pl_tape *self, plumb_world *world);
+} pl_tape;
+
+#endif

@@ -1,0 +1,233 @@
+/// cmd_replay.c - `plumb replay`: a recording in, a table of where everything was, or what was done, out.
+///
+/// Reads the recording, writes CSV, JSON lines or text. Each step is verified against what was recorded.
+#include "recording.h"
+#include "scene_args.h"
+#include "table.h"
+
+#include <string.h>
+
+typedef struct replay_args {
+    int format; ///< -1: by the extension of `output`
+    const char *output;
+    const char *every;
+    const char *only; ///< name of the one body to print, NULL = all
+    double seek;      ///< [s] < 0: not given
+    double step;      ///< < 0: not given
+    bool list, info;
+    scene_args scene; ///< `quiet` alone
+    int width;
+} replay_args;
+
+/// 2^53: steps are counted in doubles by the option.
+#define STEP_MAX 9007199254740992.0
+
+static int print_rows(const replay_args *args, recording *r, FILE *file, bool *found)
+{
+    const engine_row *rows;
+    double time = r->engine->replay_info(r->replay).time;
+    int count = r->engine->replay_rows(r->replay, &rows);
+    for (int i = 0; i < count; i++) {
+        if (args->only == NULL || strcmp(args->only, rows[i].name) == 0) {
+            table_print_row(file, args->format, r->engine->is_float, time, &rows[i]);
+            *found = true;
+        }
+    }
+    if (count < 0) {
+        cli_message("out of memory");
+    }
+    return count < 0 ? CLI_FAILED : CLI_OK;
+}
+
+/// A line for the step, and one for each change that the user made in it.
+static int print_step(recording *r, FILE *file)
+{
+    const engine_change *changes;
+    engine_replay_info info = r->engine->replay_info(r->replay);
+    int count = r->engine->replay_edits(r->replay, &changes);
+    fprintf(file, "step %llu  time %.12g s  dt %.9g s  hash %016llx\n", info.step, info.time,
+            info.dt, info.hash);
+    for (int i = 0; i < count; i++) {
+        const engine_change *c = &changes[i];
+        bool values = c->from[0] != '\0' || c->to[0] != '\0';
+        fprintf(file, "  %s: %s: %s%s%s%s%s\n", c->when, c->who, c->what, values ? " " : "",
+                c->from, values ? " -> " : "", c->to);
+    }
+    if (count < 0) {
+        cli_message("out of memory");
+    }
+    return count < 0 ? CLI_FAILED : CLI_OK;
+}
+
+static void print_info(const recording *r, FILE *file)
+{
+    engine_replay_info info = r->engine->replay_info(r->replay);
+    fprintf(file,
+            "title      %s\nprecision  %s\nsteps      %llu, after %llu that are not recorded\n"
+            "time       %.12g s to %.12g s\nedited     %llu steps\nkeyframes  %llu\n"
+            "bytes      %llu\ncomplete   %s\n",
+            info.title, r->engine->precision, info.steps, info.first, info.start, info.end,
+            info.edited, info.keyframes, info.bytes,
+            info.complete ? "yes" : "no: it breaks off after its last step");
+}
+
+/// From `first` to `last` step.
+static int play(const replay_args *args, const table_sampling *every, recording *r,
+                unsigned long long first, unsigned long long last, FILE *file)
+{
+    progress bar;
+    engine_error error = { 0 };
+    engine_replay_info info = r->engine->replay_info(r->replay);
+    double start = info.start, dt = 0;
+    bool found = false;
+    progress_begin(&bar, info.title, (double)last + 1, args->scene.quiet);
+    if (!args->list) {
+        table_print_header(file, args->format);
+    }
+    int code = CLI_OK;
+    for (unsigned long long step = first; code == CLI_OK && step <= last; step++) {
+        code = r->engine->replay_seek(r->replay, step, &error);
+        if (code != CLI_OK) {
+            progress_end(&bar);
+            code = scene_report(&error);
+            break;
+        }
+        info = r->engine->replay_info(r->replay);
+        dt = info.step > 0 ? (info.time - start) / (double)info.step : 0;
+        if (first == last || table_is_sample(every, (long long)step, dt)) {
+            code = args->list ? print_step(r, file) : print_rows(args, r, file, &found);
+        }
+        if (cli_interrupted() || ferror(file)) {
+            break;
+        }
+        progress_update(&bar, (double)step);
+    }
+    progress_end(&bar);
+    if (code == CLI_OK && !found && args->only != NULL && !args->list && !cli_interrupted()) {
+        cli_message("option --body: no body of '%s' is named '%.80s'", info.title, args->only);
+        code = CLI_USAGE;
+    }
+    return code;
+}
+
+/// Which steps are asked for.
+static int find_range(const cli_command *command, const replay_args *args, const recording *r,
+                      unsigned long long *first, unsigned long long *last)
+{
+    engine_replay_info info = r->engine->replay_info(r->replay);
+    *first = 0;
+    *last = info.steps;
+    if (args->step > (double)info.steps) {
+        cli_message("%s: option --step: %.0f is beyond the last step, %llu", command->name,
+                    args->step, info.steps);
+        return CLI_USAGE;
+    }
+    if (args->seek > info.end + info.dt) {
+        cli_message("%s: option --seek: %.12g s is beyond the end, %.12g s", command->name,
+                    args->seek, info.end);
+        return CLI_USAGE;
+    }
+    if (args->step >= 0) {
+        *first = *last = (unsigned long long)args->step;
+    } else if (args->seek >= 0) {
+        // The nearest one: sums of float steps are a little off the times that people ask for.
+        double half = info.steps > 0 ? (info.end - info.start) / (double)info.steps / 2 : 0;
+        *first = *last = r->engine->replay_find(r->replay, args->seek + half);
+    }
+    return CLI_OK;
+}
+
+static int check_args(const cli_command *command, const replay_args *args)
+{
+    if (args->width != 0 && args->width != 4 && args->width != 8 && args->width != 16) {
+        cli_message("%s: option --width: %d is not 0, 4, 8 or 16", command->name, args->width);
+        return CLI_USAGE;
+    }
+    if (args->step >= 0 && args->seek >= 0) {
+        cli_message("%s: option --step: --seek names a moment already", command->name);
+        return CLI_USAGE;
+    }
+    if (args->list && (args->only != NULL || args->format >= 0)) {
+        cli_message("%s: option --list: --body and --format belong to the table of bodies",
+                    command->name);
+        return CLI_USAGE;
+    }
+    return CLI_OK;
+}
+
+static int replay_command(const cli_command *command, int argc, char **argv)
+{
+    replay_args args = { .format = -1, .seek = -1, .step = -1 };
+    cli_operands operands;
+    table_sampling every;
+    recording r;
+    cli_output out;
+    unsigned long long first, last;
+
+    int code = cli_parse(command, argc, argv, &args, &operands);
+    code = code == CLI_OK ? check_args(command, &args) : code;
+    if (code == CLI_OK && !args.list && !args.info) {
+        code = table_read_format(command, args.output, &args.format);
+    }
+    code = code == CLI_OK ? table_read_every(command, args.every, &every) : code;
+    code = code == CLI_OK ? recording_open(operands.items[0], args.width, args.list, &r) : code;
+    if (code != CLI_OK) {
+        return code;
+    }
+    code = find_range(command, &args, &r, &first, &last);
+    code = code == CLI_OK ? cli_output_open(&out, args.output) : code;
+    if (code == CLI_OK) {
+        if (args.info) {
+            print_info(&r, out.file);
+        } else {
+            code = play(&args, &every, &r, first, last, out.file);
+        }
+        int closed = cli_output_close(&out, code == CLI_OK || code == CLI_DIFFERS);
+        code = code == CLI_OK ? closed : code;
+    }
+    recording_close(&r);
+    return code;
+}
+
+static const cli_option options[] = {
+    { "seek", 0, CLI_REAL, offsetof(replay_args, seek), "S", 0, SCENE_TIME_MAX, NULL,
+      "only the step nearest to S seconds" },
+    { "step", 0, CLI_REAL, offsetof(replay_args, step), "N", 0, STEP_MAX, NULL,
+      "only the state after N steps; 0 is the head of the recording" },
+    { "list", 'l', CLI_FLAG, offsetof(replay_args, list), NULL, 0, 0, NULL,
+      "print steps with their hashes, and what the user changed in each, in words" },
+    { "info", 'i', CLI_FLAG, offsetof(replay_args, info), NULL, 0, 0, NULL,
+      "print what the recording says of itself, and replay nothing" },
+    { "output", 'o', CLI_TEXT, offsetof(replay_args, output), "FILE", 0, 0, NULL,
+      "write to FILE, which appears when complete; .csv or .jsonl (default: CSV to stdout)" },
+    { "format", 0, CLI_CHOICE, offsetof(replay_args, format), "NAME", 0, 0, "csv,jsonl",
+      "csv or jsonl, whatever FILE is called" },
+    { "every", 0, CLI_TEXT, offsetof(replay_args, every), "N", 0, 0, NULL,
+      "print every N steps, or every so many seconds: 0.5s (default 1)" },
+    { "body", 0, CLI_TEXT, offsetof(replay_args, only), "NAME", 0, 0, NULL,
+      "print only the body of that name" },
+    { "width", 0, CLI_INT, offsetof(replay_args, width), "N", 0, 16, NULL,
+      "SIMD lanes: 4, 8 or 16; 0 takes the best measured (default). Changes the speed, "
+      "not a bit of the result" },
+    SCENE_OPTION_QUIET(replay_args, scene),
+};
+
+const cli_command cmd_replay = {
+    .name = "replay",
+    .summary = "runs a recording again and prints where every body is, or what was done",
+    .operands = "RECORDING",
+    .text =
+        "Replays what `plumb run --record` or a program with plumb_recorder_start wrote, without "
+        "the scene, and verifies that every step gives the bits that were recorded (exit code 6 "
+        "where one does not). Prints the table of `plumb run`, bodies in the order of their "
+        "handles. Rows are the state right after a step; what handlers of the scene change then "
+        "is in the next one.",
+    .examples = "plumb replay pong.rec --seek 12.5\n"
+                "plumb replay pong.rec --list --every 60\n"
+                "plumb replay pong.rec --body ball -o ball.csv",
+    .options = options,
+    .option_count = (int)(sizeof options / sizeof options[0]),
+    .operand_min = 1,
+    .operand_max = 1,
+    .run = replay_command,
+};

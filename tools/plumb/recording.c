@@ -1,0 +1,82 @@
+/// recording.c - see recording.h.
+#include "recording.h"
+
+#include "scene_args.h"
+
+#include <errno.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+/// Reads a whole file. NULL after a message.
+static char *read_file(const char *path, size_t *size)
+{
+    errno = 0;
+    FILE *file = fopen(path, "rb");
+    char *bytes = NULL;
+    size_t room = 0, got = 1;
+    *size = 0;
+    while (file != NULL && got > 0) {
+        if (*size == room) {
+            room = room == 0 ? 1 << 16 : 2 * room;
+            char *grown = realloc(bytes, room);
+            if (grown == NULL) {
+                free(bytes);
+                fclose(file);
+                cli_message("'%s': out of memory", path);
+                return NULL;
+            }
+            bytes = grown;
+        }
+        got = fread(bytes + *size, 1, room - *size, file);
+        *size += got;
+    }
+    bool failed = file == NULL || ferror(file) != 0;
+    int reason = errno;
+    if (file != NULL) {
+        fclose(file);
+    }
+    if (failed) {
+        cli_message("cannot read '%s': %s", path, strerror(reason));
+        free(bytes);
+        return NULL;
+    }
+    return bytes;
+}
+
+/// The precision stands in the header behind magic number and version: src/record/format.h.
+static const engine_api *engine_of(const char *bytes, size_t size)
+{
+    uint32_t real_bytes = 0;
+    if (size >= 16) {
+        memcpy(&real_bytes, bytes + 12, sizeof real_bytes);
+    }
+    return real_bytes == sizeof(double) ? &engine_double : &engine_float;
+}
+
+int recording_open(const char *path, int width, bool edits, recording *out)
+{
+    size_t size;
+    engine_error error = { 0 };
+    *out = (recording){ .bytes = read_file(path, &size) };
+    if (out->bytes == NULL) {
+        return CLI_FAILED;
+    }
+    out->engine = engine_of(out->bytes, size);
+    out->replay = out->engine->replay_open(path, out->bytes, size, width, edits, &error);
+    if (out->replay == NULL) {
+        free(out->bytes);
+        *out = (recording){ 0 };
+        return scene_report(&error);
+    }
+    return CLI_OK;
+}
+
+void recording_close(recording *r)
+{
+    if (r->engine != NULL) {
+        r->engine->replay_close(r->replay);
+    }
+    free(r->bytes);
+    r->bytes = NULL;
+}
