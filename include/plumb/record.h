@@ -73,6 +73,7 @@ typedef struct plumb_recorder_info {
     plumb_result ended; ///< not OK: the recording has ended early (E_WRITE, E_MEMORY)
 } plumb_recorder_info;
 
+/// What the recorder of a world has written so far; all zero when there is none. O(1).
 PLUMB_API plumb_recorder_info plumb_recorder_get_info(const plumb_world *world);
 
 //---- replay --------------------------------------------------------------------------------------
