@@ -12,6 +12,7 @@
 #include "character/walker.h"
 #include "narrow/narrow.h"
 #include "narrow/surface.h"
+#include "world/rows.h"
 #include "world/wrap.h"
 
 #include <math.h>
@@ -302,8 +303,10 @@ void pl_characters_undo(plumb_world *world)
     const pl_character *items = pl_character_items(all);
     for (uint32_t i = 0; i < all->count; ++i) {
         uint32_t row = pl_body_row(world, items[i].body);
-        b->vx[row] = items[i].body_velocity.x;
-        b->vy[row] = items[i].body_velocity.y;
+        if (!pl_row_is_asleep(world, row)) { // what fell asleep in the refused step sleeps on
+            b->vx[row] = items[i].body_velocity.x;
+            b->vy[row] = items[i].body_velocity.y;
+        }
     }
     --all->turn;
     all->moved = false;

@@ -98,7 +98,7 @@ plumb_real plumb_joint_error(const plumb_world *world, plumb_joint joint)
         return 0;
     }
     pl_joint now = *j;
-    pl_rows rows;
+    pl_rows rows = { .count = 0 };
     pl_joint_begin(world, &now);
     pl_joint_classes[j->desc.kind]->rows(&now, &now.a.pose, &now.b.pose, &rows);
     real sum = 0;

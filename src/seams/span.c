@@ -67,6 +67,8 @@ uint32_t pl_spans_take(pl_memory *memory, pl_seams *seams, uint32_t count)
     }
     first = seams->span_used;
     seams->span_used += run;
+    // The whole run, of which some may stay unused: images of equal worlds have equal bytes.
+    memset(pl_seam_spans(seams) + first, 0, run * sizeof(pl_span));
     return first;
 }
 
