@@ -14,7 +14,10 @@
 pl_mover *pl_mover_find(const plumb_world *world, uint32_t row)
 {
     pl_mover *movers = pl_movers(&world->continuous);
-    uint32_t low = 0, high = world->continuous.count;
+    // In order of rows: at most as many are missing before it as rows are not movers.
+    uint32_t count = world->continuous.count;
+    uint32_t missing = world->dynamic_count + world->kinematic_count - count;
+    uint32_t low = row > missing ? row - missing : 0, high = row < count ? row + 1 : count;
     while (low < high) {
         uint32_t middle = low + (high - low) / 2;
         if (movers[middle].row < row) {
@@ -23,7 +26,7 @@ pl_mover *pl_mover_find(const plumb_world *world, uint32_t row)
             high = middle;
         }
     }
-    return low < world->continuous.count && movers[low].row == row ? &movers[low] : NULL;
+    return low < count && movers[low].row == row ? &movers[low] : NULL;
 }
 
 pl_course pl_mover_course(const plumb_world *world, uint32_t row, real dt, double ox, double oy)
@@ -109,7 +112,8 @@ static uint32_t mark_swept(plumb_world *world, real dt)
         for (uint32_t p = world->bodies.first_piece[s.row]; p != PL_NONE;
              p = world->pieces.next_in_body[p]) {
             pl_swept swept = pl_course_piece(world, p, &course);
-            pl_world_query(world, &world->broad.moving, pl_course_box(&course, &swept), visit_swept, &s);
+            pl_world_query(world, &world->broad.moving, pl_course_box(&course, &swept), visit_swept,
+                           &s);
         }
     }
     return s.recruits;

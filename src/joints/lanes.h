@@ -143,10 +143,14 @@ WIDE_INLINE vf rate(const row *r, const body *a, const body *b)
 
 #define TAYLOR(n) splat((plumb_real)(1.0 / (n)))
 
+#define PL_TINY_TURN ((plumb_real)1e-10) // [rad]
+
 // Bodies turn little in a step: see turned_by in solve.c.
 WIDE_INLINE void turned_by(vf x, vf *c, vf *s)
 {
-    vf xx = x * x;
+    // Squares of less than this change no bit, but may be subnormal, which costs hundreds of cycles.
+    vf large = sel(vabs(x) > splat(PL_TINY_TURN), x, splat(0));
+    vf xx = large * large;
     const vf one = splat(1);
     *c = one - xx * splat((plumb_real)0.5) *
                    (one - xx * TAYLOR(12) * (one - xx * TAYLOR(30) * (one - xx * TAYLOR(56))));

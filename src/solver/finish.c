@@ -8,9 +8,25 @@
 #include "plumb/math.h"
 #include "world/state.h"
 
+// What is left of a motion that contacts and joints have damped away halves and halves until it is
+// subnormal, and then costs hundreds of cycles wherever it is multiplied. Less than this counts as none:
+// a turn [rad] that moves no coordinate, and a speed [m/s, rad/s].
+#if defined(PLUMB_DOUBLE) && PLUMB_DOUBLE
+#define NO_TURN  1e-100
+#define NO_SPEED 1e-150
+#else
+#define NO_TURN  1e-12f
+#define NO_SPEED 1e-20f
+#endif
+
+static real noticed(real speed)
+{
+    return plumb_abs(speed) > NO_SPEED ? speed : 0;
+}
+
 static void turn(pl_bodies *b, uint32_t row, real angle)
 {
-    if (angle != 0) {
+    if (plumb_abs(angle) > NO_TURN) {
         plumb_rot q = plumb_rot_integrate((plumb_rot){ b->c[row], b->s[row] }, angle);
         b->c[row] = q.c;
         b->s[row] = q.s;
@@ -122,9 +138,9 @@ static void take_over(plumb_world *world, uint32_t row, const pl_solver_body *bo
     add(&b->center_x[row], &b->low_x[row], body->dx);
     add(&b->center_y[row], &b->low_y[row], body->dy);
     turn(b, row, body->da);
-    b->vx[row] = body->vx;
-    b->vy[row] = body->vy;
-    b->w[row] = body->w;
+    b->vx[row] = noticed(body->vx);
+    b->vy[row] = noticed(body->vy);
+    b->w[row] = noticed(body->w);
     b->low_vx[row] = low == NULL ? 0 : low[0];
     b->low_vy[row] = low == NULL ? 0 : low[1];
 }
