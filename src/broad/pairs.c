@@ -292,6 +292,9 @@ bool pl_pairs_update(plumb_world *world)
     pl_pair_list *list = &broad->pairs;
     const bool whole = broad->stale;
     if (!(whole ? pl_pairs_find(world) : pl_pairs_find_left(world)) || !sort_found(world) ||
+        // Neither is null, even if both are empty: offsets are taken.
+        !pl_buffer_reserve(&world->memory, &broad->found, sizeof(pl_found)) ||
+        !pl_buffer_reserve(&world->memory, &list->items, sizeof(pl_pair)) ||
         !pl_buffer_reserve(&world->memory, &list->old_items,
                            ((size_t)list->count + broad->found_count + 1) * sizeof(pl_pair)) ||
         !pl_events_reserve_ends(world, list->count) || !pl_parts_reserve(world, list->count)) {

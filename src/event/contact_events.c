@@ -398,6 +398,9 @@ static void publish_group(plumb_world *world, const pl_keyed *first, const pl_ke
 
 static void publish_parts(plumb_world *world)
 {
+    if (world->parts.count == 0) {
+        return; // perhaps there is no list
+    }
     const pl_keyed *parts = world->parts.items.data;
     const pl_keyed *end = parts + world->parts.count;
     pl_sort_keyed(world->parts.items.data, world->parts.count);

@@ -98,7 +98,8 @@ static bool list_rest_candidates(plumb_world *world)
             continue;
         }
         if (!pl_world_query(world, &world->broad.resting, p->fat[piece], add_at_rest, &f) ||
-            (asleep && !pl_world_query(world, &world->broad.fixed, p->fat[piece], add_at_rest, &f))) {
+            (asleep &&
+             !pl_world_query(world, &world->broad.fixed, p->fat[piece], add_at_rest, &f))) {
             return false;
         }
     }
@@ -246,7 +247,9 @@ static cursor cursor_over(const pl_buffer *overlaps, uint32_t count, const pl_bu
                           uint32_t rest_count)
 {
     const pl_overlap *at = overlaps->data, *calm = rest->data;
-    return (cursor){ at, at + count, calm, calm + rest_count };
+    // No offset to a list that may be null.
+    return (cursor){ at, count > 0 ? at + count : at, calm,
+                     rest_count > 0 ? calm + rest_count : calm };
 }
 
 // Pairs at rest overlap as they did, unless something was laid to rest, or woke.

@@ -332,7 +332,9 @@ static bool list_woken(plumb_world *world, by_kinds first, by_kinds size, uint32
     }
     for (int a = 0; a < PL_PIECE_KIND_COUNT; ++a) {
         for (int b = 0; b < PL_PIECE_KIND_COUNT; ++b) {
-            pl_sort_keyed(woken + first[a][b], size[a][b]);
+            if (size[a][b] > 0) { // else `woken` may be null
+                pl_sort_keyed(woken + first[a][b], size[a][b]);
+            }
         }
     }
     return true;
