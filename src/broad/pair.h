@@ -16,14 +16,14 @@ typedef struct pl_pair {
     uint32_t flags;          // PL_PAIR_...
 } pl_pair;
 
-#define PL_PAIR_TOUCHING 1u // touched in the last step, so the begin event was sent
-#define PL_PAIR_HIT      2u // an impact with restitution was resolved in this step
-#define PL_PAIR_STRUCK   4u // it struck in the last step
-#define PL_PAIR_PENDING  8u // and had not been stopped yet: the hit is still to be told
-#define PL_PAIR_WAIVED   16u // a system disabled its contact in this step
-#define PL_PAIR_BORNE    32u // flush ground: another pair bears the load of this one
-#define PL_PAIR_HELD     64u // of a one-way piece: it holds
-#define PL_PAIR_PASSING  128u // it is under way through it
+#define PL_PAIR_TOUCHING 1u     // touched in the last step, so the begin event was sent
+#define PL_PAIR_HIT      2u     // an impact with restitution was resolved in this step
+#define PL_PAIR_STRUCK   4u     // it struck in the last step
+#define PL_PAIR_PENDING  8u     // and had not been stopped yet: the hit is still to be told
+#define PL_PAIR_WAIVED   16u    // a system disabled its contact in this step
+#define PL_PAIR_BORNE    32u    // flush ground: another pair bears the load of this one
+#define PL_PAIR_HELD     64u    // of a one-way piece: it holds
+#define PL_PAIR_PASSING  128u   // it is under way through it
 #define PL_PAIR_DROPPING 16384u // it was held and asked to drop through
 
 // The face that parted the pieces when they were last looked at, in bits of the flags: 0 none, else
@@ -34,12 +34,14 @@ typedef struct pl_pair {
 // [m] manifolds are made for pieces closer than this: contacts are ready before they are needed.
 #define PL_SPECULATIVE ((real)0.02)
 
+// Something for each two kinds of pieces, the lower kind first.
+typedef uint32_t pl_by_kinds[PL_PIECE_KIND_COUNT][PL_PIECE_KIND_COUNT];
+
 // The list, sorted by the kinds of a and b, then by slots; pairs of equal kinds are one range.
 typedef struct pl_pair_list {
     pl_buffer items, old_items; // pl_pair; the list before the last rebuild is kept for reuse
     uint32_t count;
-    uint32_t first[PL_PIECE_KIND_COUNT][PL_PIECE_KIND_COUNT];
-    uint32_t size[PL_PIECE_KIND_COUNT][PL_PIECE_KIND_COUNT];
+    pl_by_kinds first, size;
 } pl_pair_list;
 
 static inline pl_pair *pl_pairs(const pl_pair_list *list)

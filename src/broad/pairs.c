@@ -104,12 +104,6 @@ pl_pair pl_pair_fresh(const plumb_world *world, pl_found found)
     return pair;
 }
 
-// Where in the order of (low, high) a pair stands.
-static uint64_t key_of(uint32_t a, uint32_t b)
-{
-    return a < b ? ((uint64_t)a << 32 | b) : ((uint64_t)b << 32 | a);
-}
-
 pl_pair *pl_pairs_find_one(const plumb_world *world, uint32_t p, uint32_t q)
 {
     const pl_pair_list *list = &world->broad.pairs;
@@ -119,13 +113,14 @@ pl_pair *pl_pairs_find_one(const plumb_world *world, uint32_t p, uint32_t q)
     uint32_t low = 0, high = list->size[a][b];
     while (low < high) {
         uint32_t middle = low + (high - low) / 2;
-        if (key_of(pairs[middle].a, pairs[middle].b) < key_of(p, q)) {
+        if (pl_pair_key(pairs[middle].a, pairs[middle].b) < pl_pair_key(p, q)) {
             low = middle + 1;
         } else {
             high = middle;
         }
     }
-    bool found = low < list->size[a][b] && key_of(pairs[low].a, pairs[low].b) == key_of(p, q);
+    bool found =
+        low < list->size[a][b] && pl_pair_key(pairs[low].a, pairs[low].b) == pl_pair_key(p, q);
     return found ? &pairs[low] : NULL;
 }
 
@@ -189,7 +184,7 @@ static void add_fresh(merger *m, pl_found found)
 static bool pass_old(merger *m, uint64_t key)
 {
     const pl_pair *old = m->old;
-    bool is_found = key_of(old->a, old->b) == key;
+    bool is_found = pl_pair_key(old->a, old->b) == key;
     if (!is_found && (m->left == NULL || m->left[old->a] != 0 || m->left[old->b] != 0)) {
         lose_pair(m->world, old);
         drop_old(m);
@@ -208,11 +203,11 @@ static bool pass_old(merger *m, uint64_t key)
 static void merge_kinds(merger *m, const pl_found *found, uint32_t count)
 {
     for (uint32_t i = 0; i < count; ++i) {
-        uint64_t key = key_of(found[i].low, found[i].high);
-        while (m->old < m->old_end && key_of(m->old->a, m->old->b) < key) {
+        uint64_t key = pl_pair_key(found[i].low, found[i].high);
+        while (m->old < m->old_end && pl_pair_key(m->old->a, m->old->b) < key) {
             pass_old(m, key);
         }
-        if (m->old == m->old_end || key_of(m->old->a, m->old->b) != key || !pass_old(m, key)) {
+        if (m->old == m->old_end || pl_pair_key(m->old->a, m->old->b) != key || !pass_old(m, key)) {
             add_fresh(m, found[i]);
         }
     }
@@ -221,17 +216,15 @@ static void merge_kinds(merger *m, const pl_found *found, uint32_t count)
     }
 }
 
-typedef uint32_t by_kinds[PL_PIECE_KIND_COUNT][PL_PIECE_KIND_COUNT];
-
 // Sorts broad->sorted by kinds into broad->found; the order within stays.
-static void part_kinds(plumb_world *world, by_kinds first, by_kinds size)
+static void part_kinds(plumb_world *world, pl_by_kinds first, pl_by_kinds size)
 {
     pl_broad *broad = &world->broad;
     const uint8_t *kind = world->pieces.kind;
     const pl_found *sorted = broad->sorted.data;
     pl_found *parted = broad->found.data;
-    by_kinds at;
-    memset(size, 0, sizeof(by_kinds));
+    pl_by_kinds at;
+    memset(size, 0, sizeof(pl_by_kinds));
     for (uint32_t i = 0; i < broad->found_count; ++i) {
         uint8_t low = kind[sorted[i].low], high = kind[sorted[i].high];
         ++size[low < high ? low : high][low < high ? high : low];
@@ -260,7 +253,7 @@ static bool merge(plumb_world *world, const uint8_t *left)
                  .old = list->items.data,
                  .kept = list->items.data,
                  .out = list->old_items.data };
-    by_kinds first, size, new_first, new_size;
+    pl_by_kinds first, size, new_first, new_size;
     part_kinds(world, first, size);
     // The runs of the kinds follow one another in both lists, so pairs that stay are copied across them.
     uint32_t before = 0;

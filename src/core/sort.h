@@ -24,4 +24,10 @@ static inline uint64_t pl_key(uint32_t high, uint32_t low)
     return (uint64_t)high << 32 | low;
 }
 
+// Of a pair, whichever comes first: the lower one leads.
+static inline uint64_t pl_pair_key(uint32_t a, uint32_t b)
+{
+    return a < b ? pl_key(a, b) : pl_key(b, a);
+}
+
 #endif

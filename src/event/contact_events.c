@@ -123,7 +123,7 @@ static void keep_part(plumb_world *world, plumb_shape shape_a, plumb_shape shape
 {
     uint32_t a = shape_a.index, b = shape_b.index, order = world->parts.count++;
     ((pl_keyed *)world->parts.items.data)[order] =
-        (pl_keyed){ a < b ? pl_key(a, b) : pl_key(b, a), order, index << PART_BITS | bits };
+        (pl_keyed){ pl_pair_key(a, b), order, index << PART_BITS | bits };
 }
 
 static const pl_pair *part_pair(const plumb_world *world, const pl_keyed *part)

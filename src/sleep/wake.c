@@ -66,7 +66,8 @@ static bool lay_out(plumb_world *world, pl_pair_list *list)
 {
     const pl_sleep *s = &world->sleep;
     const uint8_t *kind = world->pieces.kind;
-    uint32_t at[PL_PIECE_KIND_COUNT][PL_PIECE_KIND_COUNT], first = 0;
+    pl_by_kinds at;
+    uint32_t first = 0;
     if (!pl_buffer_reserve(&world->memory, &list->items,
                            ((size_t)s->found_count + 1) * sizeof(pl_pair))) {
         return false;
@@ -285,24 +286,17 @@ static bool mark_neighbours(plumb_world *world, real dt)
 
 //---- getting up ----------------------------------------------------------------------------------
 
-typedef uint32_t by_kinds[PL_PIECE_KIND_COUNT][PL_PIECE_KIND_COUNT];
-
-static uint64_t key_of(const pl_pair *pair)
-{
-    return pair->a < pair->b ? pl_key(pair->a, pair->b) : pl_key(pair->b, pair->a);
-}
-
 // The contacts of marked islands, in s->woken by kinds and key. Bodies and contacts are counted.
-static bool list_woken(plumb_world *world, by_kinds first, by_kinds size, uint32_t *bodies)
+static bool list_woken(plumb_world *world, pl_by_kinds first, pl_by_kinds size, uint32_t *bodies)
 {
     pl_sleep *s = &world->sleep;
     const pl_dormant *all = pl_dormants(s);
     const uint8_t *kind = world->pieces.kind;
     const uint32_t *marked = s->marked.data;
-    by_kinds at;
+    pl_by_kinds at;
     uint32_t total = 0;
     *bodies = 0;
-    memset(size, 0, sizeof(by_kinds));
+    memset(size, 0, sizeof(pl_by_kinds));
     for (uint32_t i = 0; i < s->marked_count; ++i) {
         const pl_island *island = &pl_islands(s)[marked[i]];
         *bodies += island->body_count;
@@ -326,7 +320,7 @@ static bool list_woken(plumb_world *world, by_kinds first, by_kinds size, uint32
         for (uint32_t c = pl_islands(s)[marked[i]].first_contact; c != PL_NONE; c = all[c].next) {
             if (pl_dormant_is_intact(world, &all[c])) {
                 uint32_t *to = &at[kind[all[c].pair.a]][kind[all[c].pair.b]];
-                woken[(*to)++] = (pl_keyed){ key_of(&all[c].pair), 0, c };
+                woken[(*to)++] = (pl_keyed){ pl_pair_key(all[c].pair.a, all[c].pair.b), 0, c };
             }
         }
     }
@@ -349,7 +343,7 @@ static pl_pair woken_pair(const pl_sleep *s, const pl_keyed *woken)
 }
 
 // Merges the woken contacts into the pair list, kind by kind. Room must be reserved.
-static void merge_pairs(plumb_world *world, by_kinds first, by_kinds size)
+static void merge_pairs(plumb_world *world, pl_by_kinds first, pl_by_kinds size)
 {
     pl_sleep *s = &world->sleep;
     pl_pair_list *list = &world->broad.pairs;
@@ -363,7 +357,7 @@ static void merge_pairs(plumb_world *world, by_kinds first, by_kinds size)
             const pl_keyed *w_end = w + size[a][b];
             list->first[a][b] = count;
             while (o < o_end || w < w_end) {
-                bool takes_old = w == w_end || (o < o_end && key_of(o) < w->key);
+                bool takes_old = w == w_end || (o < o_end && pl_pair_key(o->a, o->b) < w->key);
                 out[count++] = takes_old ? *o++ : woken_pair(s, w++);
             }
             list->size[a][b] = count - list->first[a][b];
@@ -403,7 +397,7 @@ static void get_up(plumb_world *world)
 static bool wake_marked(plumb_world *world)
 {
     pl_sleep *s = &world->sleep;
-    by_kinds first, size;
+    pl_by_kinds first, size;
     uint32_t bodies;
     if (!list_woken(world, first, size, &bodies)) {
         return false;

@@ -150,7 +150,7 @@ plumb_result plumb_shape_set_sensor(plumb_world *world, plumb_shape shape, bool 
 
 static uint64_t key_of(plumb_body a, plumb_body b)
 {
-    return a.index < b.index ? pl_key(a.index, b.index) : pl_key(b.index, a.index);
+    return pl_pair_key(a.index, b.index);
 }
 
 static uint32_t find(const plumb_world *world, uint64_t key, bool *found)

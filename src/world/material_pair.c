@@ -18,7 +18,7 @@ static uint64_t key_of(const plumb_world *world, uint32_t row_a, uint32_t row_b)
     const plumb_entity *entity = world->materials.entity;
     uint32_t a = row_a == 0 ? 0 : entity[row_a].index + 1;
     uint32_t b = row_b == 0 ? 0 : entity[row_b].index + 1;
-    return a < b ? pl_key(a, b) : pl_key(b, a);
+    return pl_pair_key(a, b);
 }
 
 static pl_material_pair *find(const plumb_world *world, uint64_t key, uint32_t *at)
