@@ -3,20 +3,14 @@
 #include "broad/broad.h"
 #include "world/state.h"
 
-static uint32_t bucket_of(const pl_grid_level *level, const pl_grid_entry *e)
-{
-    return ((uint32_t)e->cell_x - (uint32_t)level->origin_x +
-            ((uint32_t)e->cell_y - (uint32_t)level->origin_y) * level->stride) &
-           level->mask;
-}
-
 // An entry before this one, back to the start of its bucket, lies in the same cell.
 static bool is_known(const pl_grid_level *level, const pl_grid_entry *entries, uint32_t i)
 {
     const pl_grid_entry *e = &entries[i];
     for (uint32_t k = i; k > level->first; --k) {
         const pl_grid_entry *other = &entries[k - 1];
-        if (bucket_of(level, other) != bucket_of(level, e)) {
+        if (pl_grid_bucket(level, other->cell_x, other->cell_y) !=
+            pl_grid_bucket(level, e->cell_x, e->cell_y)) {
             return false;
         }
         if (other->cell_x == e->cell_x && other->cell_y == e->cell_y) {

@@ -104,14 +104,6 @@ static void lay_out_level(pl_grid_level *level, const survey *o)
     }
 }
 
-static uint32_t bucket_of(const pl_grid_level *level, int32_t x, int32_t y)
-{
-    // Unsigned throughout: cells at both ends of the world are farther apart than an int32_t reaches.
-    return ((uint32_t)x - (uint32_t)level->origin_x +
-            ((uint32_t)y - (uint32_t)level->origin_y) * level->stride) &
-           level->mask;
-}
-
 // Counts the boxes of each bucket into starts[bucket + 1] and remembers every box's bucket.
 static void count_buckets(pl_grid *grid, const uint8_t *level_of_octave, const uint32_t *pieces,
                           uint32_t count, const pl_box *fat)
@@ -122,8 +114,8 @@ static void count_buckets(pl_grid *grid, const uint8_t *level_of_octave, const u
         const pl_box *box = &fat[pieces[i]];
         const pl_grid_level *level = &grid->levels[level_of_octave[octave_of(extent_of(box))]];
         uint32_t bucket =
-            level->starts + bucket_of(level, cell_of((double)box->min_x, level->inv_cell),
-                                      cell_of((double)box->min_y, level->inv_cell));
+            level->starts + pl_grid_bucket(level, cell_of((double)box->min_x, level->inv_cell),
+                                           cell_of((double)box->min_y, level->inv_cell));
         buckets[i] = bucket;
         ++starts[bucket + 1];
     }

@@ -74,6 +74,15 @@ static inline const pl_grid_entry *pl_grid_entries(const pl_grid *grid)
     return (const pl_grid_entry *)grid->entries.data;
 }
 
+// Bucket of a cell of a level. Unsigned throughout: cells at both ends of the world are farther apart
+// than an int32_t reaches.
+static inline uint32_t pl_grid_bucket(const pl_grid_level *level, int32_t x, int32_t y)
+{
+    return ((uint32_t)x - (uint32_t)level->origin_x +
+            ((uint32_t)y - (uint32_t)level->origin_y) * level->stride) &
+           level->mask;
+}
+
 // A run of entries [begin, end) in storage; a row of cells is one run, or two when it wraps.
 typedef struct pl_grid_run {
     uint32_t begin, end;
@@ -85,10 +94,7 @@ static inline int pl_grid_row(const pl_grid *grid, const pl_grid_level *level, i
                               int32_t x1, int32_t y, pl_grid_run runs[2])
 {
     const uint32_t *starts = (const uint32_t *)grid->starts.data + level->starts;
-    uint32_t first =
-        ((uint32_t)x0 - (uint32_t)level->origin_x +
-         ((uint32_t)y - (uint32_t)level->origin_y) * level->stride) &
-        level->mask;
+    uint32_t first = pl_grid_bucket(level, x0, y);
     uint32_t last = first + (uint32_t)(x1 - x0);
     if (last <= level->mask) {
         runs[0] = (pl_grid_run){ starts[first], starts[last + 1] };
