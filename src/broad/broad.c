@@ -49,8 +49,7 @@ bool pl_broad_update_grids(plumb_world *world, real dt, bool *stale)
     // Poses change in steps, and else only together with the flags: one query after another is free.
     if (dt == 0 && !world->pairs_dirty && !world->static_dirty && !world->sleep.boxes_stale &&
         !world->sleep.grid_stale && !broad->unfiled && !broad->moving_lost && !broad->fixed_lost &&
-        !broad->resting_lost &&
-        broad->filed_step == world->step_count) {
+        !broad->resting_lost && broad->filed_step == world->step_count) {
         *stale = pl_broad_is_stale(broad);
         return true;
     }

@@ -22,11 +22,11 @@ typedef struct pl_broad {
     uint64_t filed_step; // step count at which the grids were last brought up to date
     bool stale;          // the pair list must be made from nothing
     bool unfiled;        // a box was left since the moving grid was filed
-    pl_buffer left;      // uint32_t moving pieces whose box was made anew since the pair list was made
+    pl_buffer left; // uint32_t moving pieces whose box was made anew since the pair list was made
     pl_buffer left_marks; // uint8_t a piece slot: it is in `left`
     uint32_t left_count;
     bool moving_lost, fixed_lost, resting_lost; // the world was restored: a grid to be filed anew
-    bool refreshed;      // fat boxes were brought up to date in this step already
+    bool refreshed; // fat boxes were brought up to date in this step already
 } pl_broad;
 
 // Brings fat boxes and grids up to date with the poses; *stale tells whether the pair list no
@@ -36,9 +36,8 @@ bool pl_broad_update_grids(plumb_world *world, real dt, bool *stale);
 // The same, then rebuilds the pair list if it is stale. Touching pairs carry their impulses over.
 bool pl_broad_update(plumb_world *world, real dt);
 
-// Fat boxes of moving pieces for a step of dt [s], velocities of poses (fat.c). True when some piece
-// has left its box.
-bool pl_broad_refresh_moving(plumb_world *world, real dt);
+// Fat boxes of moving pieces for a step of dt [s], velocities of poses (fat.c); which have left theirs.
+void pl_broad_refresh_moving(plumb_world *world, real dt);
 // Room for `slots` pieces that leave their boxes. False when out of memory.
 bool pl_broad_reserve_left(plumb_world *world, uint32_t slots);
 // No piece has left its box.

@@ -160,7 +160,7 @@ static pl_box needed_box(const plumb_world *world, uint32_t piece, const pl_box 
     return swept(widened(*tight, PL_SPECULATIVE / 2), pose->vx * dt, pose->vy * dt);
 }
 
-bool pl_broad_refresh_moving(plumb_world *world, real dt)
+void pl_broad_refresh_moving(plumb_world *world, real dt)
 {
     refresh_pose_velocities(world);
     pl_box *fat = world->pieces.fat;
@@ -179,7 +179,6 @@ bool pl_broad_refresh_moving(plumb_world *world, real dt)
     // Over an edge of a world that wraps around pairs are sought all at once.
     world->broad.stale |= left > (pl_is_wrapped(world) ? 0 : world->moving_count / MANY);
     world->broad.unfiled |= left > 0;
-    return left > 0;
 }
 
 void pl_broad_refresh_resting(plumb_world *world)

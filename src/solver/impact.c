@@ -416,7 +416,6 @@ static void queue_neighbours(plumb_world *world, uint32_t slot, double h)
 static void happen(plumb_world *world, pl_impact *m, const approach at[2], double h)
 {
     --m->left;
-    m->due = false;
     if (resolve(world, m, at)) {
         pl_pairs(&world->broad.pairs)[m->pair].flags |= PL_PAIR_HIT;
         ++world->solver.bounce_count;
