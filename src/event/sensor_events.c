@@ -243,13 +243,18 @@ static void exchange(pl_buffer *a, pl_buffer *b)
     *b = kept;
 }
 
+// No offset to a list that is not there.
+static const pl_overlap *overlap_at(const pl_buffer *overlaps, uint32_t i)
+{
+    const pl_overlap *first = overlaps->data;
+    return i > 0 ? first + i : first;
+}
+
 static cursor cursor_over(const pl_buffer *overlaps, uint32_t count, const pl_buffer *rest,
                           uint32_t rest_count)
 {
-    const pl_overlap *at = overlaps->data, *calm = rest->data;
-    // No offset to a list that may be null.
-    return (cursor){ at, count > 0 ? at + count : at, calm,
-                     rest_count > 0 ? calm + rest_count : calm };
+    return (cursor){ overlap_at(overlaps, 0), overlap_at(overlaps, count), overlap_at(rest, 0),
+                     overlap_at(rest, rest_count) };
 }
 
 // Pairs at rest overlap as they did, unless something was laid to rest, or woke.
@@ -298,8 +303,8 @@ const plumb_sensor_event *plumb_world_sensor_end_events(const plumb_world *world
 static const pl_overlap *from_sensor(const pl_buffer *overlaps, uint32_t count, plumb_shape sensor)
 {
     bool found;
-    return (const pl_overlap *)overlaps->data +
-           pl_find_key(overlaps->data, count, sizeof(pl_overlap), pl_key(sensor.index, 0), &found);
+    return overlap_at(overlaps, pl_find_key(overlaps->data, count, sizeof(pl_overlap),
+                                            pl_key(sensor.index, 0), &found));
 }
 
 int plumb_shape_overlaps(const plumb_world *world, plumb_shape sensor, plumb_shape *shapes,
@@ -315,10 +320,9 @@ int plumb_shape_overlaps(const plumb_world *world, plumb_shape sensor, plumb_sha
         return -1;
     }
     const pl_sensing *s = &world->sensing;
-    cursor all = { from_sensor(&s->overlaps, s->count, sensor),
-                   (const pl_overlap *)s->overlaps.data + s->count,
+    cursor all = { from_sensor(&s->overlaps, s->count, sensor), overlap_at(&s->overlaps, s->count),
                    from_sensor(&s->rest_overlaps, s->rest_count, sensor),
-                   (const pl_overlap *)s->rest_overlaps.data + s->rest_count };
+                   overlap_at(&s->rest_overlaps, s->rest_count) };
     int count = 0;
     for (const pl_overlap *at = peek(&all); at != NULL && (uint32_t)(at->key >> 32) == sensor.index;
          advance(&all), at = peek(&all)) {
