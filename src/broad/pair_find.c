@@ -344,10 +344,13 @@ static bool look_about(const hunt *h, finder *f, pl_share share)
     return true;
 }
 
+// The finder is kept apart from those of other threads meanwhile, in a cache line of its own.
 static void look_share(void *context, uint32_t i)
 {
     hunt *h = context;
-    h->look(h, &h->finders[i], pl_share_of(h->count, h->shares, i));
+    finder f = h->finders[i];
+    h->look(h, &f, pl_share_of(h->count, h->shares, i));
+    h->finders[i] = f;
 }
 
 // Every thread with its part of the room for what is found.
