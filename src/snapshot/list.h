@@ -69,18 +69,18 @@
     TALLY(broad.serial) TALLY(broad.rebuilds) TALLY(broad.filed_step) TALLY(broad.stale)
 
 #define PL_STATE_NARROW(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                     \
-    LEFT(narrow.manifolds) LEFT(narrow.manifold_count) LEFT(narrow.borne_count)                    \
+    LEFT(narrow.manifolds) LEFT(narrow.staged) LEFT(narrow.manifold_count) LEFT(narrow.borne_count)                    \
     LEFT(narrow.any_adhesion) LEFT(narrow.any_friction)                                            \
     LEFT(narrow.any_bounce) LEFT(narrow.any_surface) LEFT(narrow.touching_count)                   \
     LEFT(narrow.point_count) LEFT(narrow.max_penetration) LEFT(narrow.sum_penetration)
 
 #define PL_STATE_SOLVER(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                     \
     LEFT(solver.bodies) LEFT(solver.motions) LEFT(solver.lows) LEFT(solver.struck)                 \
-    LEFT(solver.rows) LEFT(solver.slots) LEFT(solver.masks) LEFT(solver.colors)                    \
+    LEFT(solver.rows) LEFT(solver.slots) LEFT(solver.ends) LEFT(solver.masks) LEFT(solver.colors)                    \
     LEFT(solver.lanes) LEFT(solver.bundles) LEFT(solver.extras) LEFT(solver.specials)              \
     LEFT(solver.impacts) LEFT(solver.impact_heap) LEFT(solver.impact_heads) LEFT(solver.due_count)   \
     LEFT(solver.lively_count)     LEFT(solver.classic) LEFT(solver.dynamic_slots) LEFT(solver.slot_count)   \
-    LEFT(solver.bundle_count) LEFT(solver.impact_count) LEFT(solver.color_count)                   \
+    LEFT(solver.color_first) LEFT(solver.bundle_count) LEFT(solver.impact_count) LEFT(solver.color_count)                 \
     LEFT(solver.overflow_count) LEFT(solver.bounce_count)
 
 #define PL_STATE_JOINTS(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                     \
@@ -164,7 +164,7 @@
     ARRAY(uint64_t, excluded, excluded_count, sizeof(uint64_t), 8)                                 \
     ARRAY(pl_material_pair, material_pairs, material_pair_count,                                   \
           sizeof(uint64_t) + sizeof(plumb_material_pair), 8)                                       \
-    LEFT(schedule) LEFT(begin_events) LEFT(end_events) LEFT(hit_events)                            \
+    LEFT(schedule) LEFT(begin_events) LEFT(end_events) LEFT(changed_pairs) LEFT(hit_events)                            \
     LEFT(begin_count) LEFT(end_count) LEFT(hit_count)                                              \
     LEFT(tape) LEFT(locked_by) LEFT(editing) VALUE(edited) LEFT(in_hook) LEFT(error) LEFT(error_text)
 

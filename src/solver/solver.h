@@ -65,6 +65,11 @@ typedef struct pl_classic_contact {
     pl_classic_point point[2];
 } pl_classic_contact;
 
+// Body rows of a manifold: all that the graph looks at.
+typedef struct pl_ends {
+    uint32_t a, b;
+} pl_ends;
+
 #define PL_COLORS 64
 #define PL_DYNAMIC_COLORS                                                                          \
     48 // contacts with immovable bodies have the last 16: they are solved last
@@ -75,6 +80,7 @@ typedef struct pl_solver {
     pl_buffer struck; // likewise a real a slot: when in the substep an impact struck it last [s]
     pl_buffer rows;   // uint32_t: body row of a slot
     pl_buffer slots;  // uint32_t: slot of a dynamic or kinematic row; PL_NONE: not in a contact
+    pl_buffer ends;   // pl_ends a manifold
     pl_buffer masks;  // uint64_t a slot: colours taken
     pl_buffer colors; // uint8_t a manifold
     pl_buffer lanes;  // uint32_t a lane: its manifold; PL_NONE: empty
@@ -86,6 +92,7 @@ typedef struct pl_solver {
     pl_buffer classic; // pl_classic_contact, for the classic solver alone
     uint32_t dynamic_slots,
         slot_count; // slots [0, dynamic_slots) move; the last is the immovable one
+    uint32_t color_first[PL_COLORS + 1]; // first bundle of a colour; of the overflow contacts
     uint32_t bundle_count, impact_count, due_count, lively_count;
     uint32_t color_count, overflow_count, bounce_count;
 } pl_solver;
@@ -102,7 +109,7 @@ typedef struct pl_contact_call {
     void *extras; // NULL: none
     void *specials;         // NULL: none
     const uint16_t *flags;  // PL_BODY_... of a body row
-    const pl_manifold *manifolds;
+    pl_manifold *manifolds;
     pl_pair *pairs;
     real h, inv_h;       // [s] substep
     real hertz, damping; // [1/s], [-] of soft contacts
@@ -135,11 +142,8 @@ typedef struct pl_contact_kernels {
     size_t special_size;
     pl_contact_kernel *prepare_specials; // after prepare_extras
     pl_contact_kernel *tally; // adds the substep's normal impulses to the totals
-    // Writes rolling impulses to the pairs and adds totals to the manifolds' points.
-    void (*store_extras)(const pl_contact_call *call, pl_manifold *manifolds, uint32_t first,
-                         uint32_t count);
-    // Writes the impulses of each bundle back to the pairs.
-    void (*store)(const pl_contact_call *call, pl_pair *pairs, uint32_t first, uint32_t count);
+    pl_contact_kernel *store_extras; // rolling impulses to the pairs, totals to the manifolds' points
+    pl_contact_kernel *store;        // impulses to the pairs
 } pl_contact_kernels;
 
 extern const pl_contact_kernels pl_contact_kernels_w4;
@@ -175,6 +179,9 @@ static inline uint32_t pl_solver_slot(const pl_solver *solver, uint32_t row, uin
     return row < movable_rows ? ((const uint32_t *)solver->slots.data)[row]
                               : solver->slot_count - 1;
 }
+
+// Fewer bodies than this are not worth another thread in a pass that goes over them once.
+#define PL_BODIES_SHARED 256
 
 // Results into the columns, free flight of bodies in no contact, kinematic motion (finish.c).
 void pl_solver_finish(plumb_world *world, real dt);
