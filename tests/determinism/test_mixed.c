@@ -2,7 +2,7 @@
 // platforms, sleeping bodies, characters, joints, sensors, filters, contacts edited by a system, bodies
 // made, destroyed, disabled, retyped and teleported at any time. Nobody knows what such a world should
 // do; but it must do the same, to the last bit, in steps that run out of memory anywhere and are tried
-// again, in other SIMD widths, and restored from an image. And what begins to touch ceases to, once.
+// again, in other SIMD widths, restored from an image, and asked about at any time. And what begins to touch ceases to, once.
 // The sanitizers see the rest.
 #include <setjmp.h>
 #include <stdarg.h>
@@ -19,7 +19,7 @@
 
 enum { BODIES = 60, STEPS = 220, PAIRS = 4096 };
 
-typedef enum disturbance { NONE, FAILING, WIDTH, RESTORED } disturbance;
+typedef enum disturbance { NONE, FAILING, WIDTH, RESTORED, QUERIED } disturbance;
 
 //---- memory that runs out on demand --------------------------------------------------------------
 
@@ -302,6 +302,36 @@ static void change(run *r)
     }
 }
 
+// Questions, anywhere, at random: an answer, and nothing else.
+static void ask(run *r, unsigned *chance)
+{
+    plumb_convex box;
+    assert_int_equal(plumb_convex_box(sim_vec(0.5, 0.5), sim_vec(0, 0), 0, 0, &box), PLUMB_OK);
+    for (unsigned count = sim_random(chance) % 3; count > 0; --count) {
+        const double x = sim_uniform(chance, -7, 7), y = sim_uniform(chance, -1, 6);
+        const plumb_vec2 at = sim_vec(x, y), to = sim_vec(y, -1);
+        const plumb_query_filter all = { .sensors = true };
+        plumb_shape shapes[8];
+        switch (sim_random(chance) % 4) {
+        case 0:
+            plumb_world_ray(r->w, at, to, &all, &(plumb_ray_hit){ .fraction = 0 });
+            break;
+        case 1:
+            plumb_world_cast(
+                r->w,
+                &(plumb_cast){ .convex = &box, .transform = { at, { 1, 0 } }, .translation = to },
+                &all, &(plumb_cast_hit){ .fraction = 0 });
+            break;
+        case 2:
+            plumb_world_nearest(r->w, at, 2, &all, &(plumb_nearest_hit){ .distance = 0 });
+            break;
+        default:
+            plumb_world_overlap_point(r->w, at, &all, shapes, 8);
+            break;
+        }
+    }
+}
+
 //---- steps ---------------------------------------------------------------------------------------
 
 static bool is_touch(const touch *t, plumb_shape a, plumb_shape b)
@@ -385,6 +415,12 @@ static long play(unsigned seed, disturbance how, uint64_t *hashes, bool compare)
         unsigned changes = pick(&r, 3);
         for (unsigned k = 0; k < changes; ++k) {
             change(&r);
+            if (how == QUERIED) {
+                ask(&r, &chance);
+            }
+        }
+        if (how == QUERIED) {
+            ask(&r, &chance);
         }
         step(&r, how, &chance);
         uint64_t hash = plumb_world_hash(r.w);
@@ -434,12 +470,19 @@ static void restored_worlds_go_on_alike(void **state)
     compare_with_undisturbed(RESTORED);
 }
 
+static void questions_change_nothing(void **state)
+{
+    (void)state;
+    compare_with_undisturbed(QUERIED);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(refused_steps_leave_no_trace),
         cmocka_unit_test(widths_agree),
         cmocka_unit_test(restored_worlds_go_on_alike),
+        cmocka_unit_test(questions_change_nothing),
     };
     return cmocka_run_group_tests_name("mixed", tests, NULL, NULL);
 }
