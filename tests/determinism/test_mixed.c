@@ -13,6 +13,7 @@
 
 #include <cmocka.h>
 
+#include "harness/heap.h"
 #include "harness/sim.h"
 
 #define HZ60 (1 / 60.0)
@@ -20,36 +21,6 @@
 enum { BODIES = 60, STEPS = 220, PAIRS = 4096 };
 
 typedef enum disturbance { NONE, FAILING, WIDTH, RESTORED, QUERIED } disturbance;
-
-//---- memory that runs out on demand --------------------------------------------------------------
-
-typedef struct heap {
-    bool armed;
-    long left; // calls that are still answered
-    long refused;
-} heap;
-
-static void *resize(void *context, void *memory, size_t old_size, size_t new_size)
-{
-    heap *h = context;
-    (void)old_size;
-    if (new_size == 0) {
-        free(memory);
-        return NULL;
-    }
-    if (h->armed && h->left-- <= 0) {
-        h->armed = false;
-        ++h->refused;
-        return NULL;
-    }
-    void *fresh = aligned_alloc(64, (new_size + 63) / 64 * 64);
-    assert_non_null(fresh);
-    if (memory != NULL) {
-        memcpy(fresh, memory, old_size < new_size ? old_size : new_size);
-        free(memory);
-    }
-    return fresh;
-}
 
 //---- a world -------------------------------------------------------------------------------------
 
@@ -176,7 +147,7 @@ static void begin(run *r, unsigned seed, disturbance how)
 {
     const int widths[] = { 4, 8, 16 };
     r->seed = seed;
-    const plumb_world_desc d = { .allocator = { resize, &r->heap },
+    const plumb_world_desc d = { .allocator = heap_allocator(&r->heap),
                                  .solver = seed % 4 == 3 ? PLUMB_SOLVER_PGS : PLUMB_SOLVER_SOFT,
                                  .sleep_time = (plumb_real)0.15,
                                  .hit_speed = (plumb_real)(seed % 2),
@@ -229,7 +200,7 @@ static void change(run *r)
     plumb_entity shape[4];
     plumb_joint joint;
     int shapes = plumb_body_shapes(w, b, shape, 4);
-    switch (pick(r, 20)) {
+    switch (pick(r, 21)) {
     case 0:
     case 1:
         plumb_body_destroy(w, b);
@@ -295,6 +266,11 @@ static void change(run *r)
         if (plumb_body_get_type(w, b) == PLUMB_KINEMATIC) {
             plumb_body_set_target(w, b, place(r, -4, 4, 0, 4), 0, (plumb_real)0.3);
         }
+        break;
+    case 19:
+        plumb_world_explode(
+            w, &(plumb_explosion_desc){
+                   .position = place(r, -6, 6, 0, 4), .radius = 1, .falloff = 1, .impulse = 2 });
         break;
     default:
         plumb_world_set_gravity(w, sim_vec(uniform(r, -1, 1), -9.81));
@@ -382,11 +358,10 @@ static void count_touches(run *r)
 static void step(run *r, disturbance how, unsigned *chance)
 {
     if (how == FAILING) {
-        r->heap.armed = true;
-        r->heap.left = (long)(sim_random(chance) % 6);
+        heap_fail(&r->heap, (long)(sim_random(chance) % 6));
     }
     plumb_result result = plumb_world_step(r->w, (plumb_real)HZ60);
-    r->heap.armed = false;
+    heap_fail(&r->heap, -1);
     if (result == PLUMB_E_MEMORY) {
         result = plumb_world_step(r->w, (plumb_real)HZ60);
     }
@@ -409,7 +384,7 @@ static long play(unsigned seed, disturbance how, uint64_t *hashes, bool compare)
 {
     static run r;
     unsigned chance = seed * 2654435761u + 1;
-    r = (run){ .step = 0 };
+    r = (run){ .heap = HEAP_INIT };
     begin(&r, seed, how);
     for (int i = 0; i < STEPS; ++i) {
         unsigned changes = pick(&r, 3);
