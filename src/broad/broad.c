@@ -17,7 +17,8 @@ static bool file_fixed(plumb_world *world)
             list[count++] = piece;
         }
     }
-    return pl_grid_build(&world->memory, &broad->fixed, list, count, pieces->fat);
+    return pl_grid_build(&world->memory, &broad->fixed, list, count, pieces->fat) &&
+           pl_grid_make_maps(&world->memory, &broad->fixed);
 }
 
 bool pl_broad_update_resting(plumb_world *world)
@@ -33,7 +34,8 @@ bool pl_broad_update_resting(plumb_world *world)
     if (!s->grid_stale && !world->broad.resting_lost && s->gone <= grid->entry_count / 2) {
         return true;
     }
-    if (!pl_grid_build(&world->memory, grid, pl_resting(s), s->resting_count, world->pieces.fat)) {
+    if (!pl_grid_build(&world->memory, grid, pl_resting(s), s->resting_count, world->pieces.fat) ||
+        !pl_grid_make_maps(&world->memory, grid)) {
         s->grid_stale = true;
         return false;
     }

@@ -143,12 +143,19 @@ void pl_broad_forget_left(pl_broad *broad)
     broad->left_count = 0;
 }
 
-static void note_left(pl_broad *broad, uint32_t piece)
+// Marks of a piece: it is in `left`, or is to be put there.
+enum { IN_LIST = 1, JUST_LEFT = 2 };
+
+static void list_left(plumb_world *world)
 {
-    uint8_t *mark = (uint8_t *)broad->left_marks.data + piece;
-    if (*mark == 0) {
-        ((uint32_t *)broad->left.data)[broad->left_count++] = piece;
-        *mark = 1;
+    pl_broad *broad = &world->broad;
+    uint8_t *marks = broad->left_marks.data;
+    const uint32_t *moving = pl_moving(world);
+    for (uint32_t i = 0; i < world->moving_count; ++i) {
+        if (marks[moving[i]] == JUST_LEFT) {
+            ((uint32_t *)broad->left.data)[broad->left_count++] = moving[i];
+            marks[moving[i]] = IN_LIST;
+        }
     }
 }
 
@@ -159,21 +166,49 @@ static pl_box needed_box(const plumb_world *world, uint32_t piece, const pl_box 
     return swept(widened(*tight, PL_SPECULATIVE / 2), pose->vx * dt, pose->vy * dt);
 }
 
-void pl_broad_refresh_moving(plumb_world *world, real dt)
+// Fewer pieces than this are not worth a thread.
+#define LEAST 256
+
+typedef struct refreshment {
+    plumb_world *world;
+    real dt;
+    uint32_t shares;
+    uint32_t left[PLUMB_WORKERS_MAX];
+} refreshment;
+
+static void refresh_share(void *context, uint32_t share)
 {
-    refresh_pose_velocities(world);
+    refreshment *r = context;
+    const plumb_world *world = r->world;
     pl_box *fat = world->pieces.fat;
-    const uint32_t *moving = pl_moving(world);
+    uint8_t *marks = world->broad.left_marks.data;
+    const pl_share s = pl_share_of(world->moving_count, r->shares, share);
     uint32_t left = 0;
-    for (uint32_t i = 0; i < world->moving_count; ++i) {
-        uint32_t piece = moving[i];
+    for (uint32_t i = s.first; i < s.end; ++i) {
+        uint32_t piece = pl_moving(world)[i];
         pl_box tight = pl_piece_filed_box(world, piece);
-        pl_box needed = needed_box(world, piece, &tight, dt);
+        pl_box needed = needed_box(world, piece, &tight, r->dt);
         if (!contains(&fat[piece], &needed)) {
             fat[piece] = fattened(needed, &tight);
-            note_left(&world->broad, piece);
+            marks[piece] = marks[piece] == 0 ? JUST_LEFT : marks[piece];
             ++left;
         }
+    }
+    r->left[share] = left;
+}
+
+void pl_broad_refresh_moving(plumb_world *world, real dt)
+{
+    refreshment r = { .world = world, .dt = dt };
+    r.shares = pl_tasks_share_count(world->tasks, world->moving_count, LEAST);
+    refresh_pose_velocities(world);
+    pl_tasks_run(world->tasks, refresh_share, &r, r.shares);
+    uint32_t left = 0;
+    for (uint32_t i = 0; i < r.shares; ++i) {
+        left += r.left[i];
+    }
+    if (left > 0) {
+        list_left(world);
     }
     // Over an edge of a world that wraps around pairs are sought all at once.
     world->broad.stale |= left > (pl_is_wrapped(world) ? 0 : world->moving_count / MANY);

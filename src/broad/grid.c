@@ -144,6 +144,7 @@ bool pl_grid_build(pl_memory *memory, pl_grid *grid, const uint32_t *pieces, uin
     uint8_t level_of_octave[PL_GRID_LEVELS] = { 0 };
     grid->level_count = 0;
     grid->entry_count = 0;
+    grid->mapped = false;
     take_survey(octaves, pieces, count, fat);
 
     size_t start_count = 0;
@@ -193,11 +194,54 @@ bool pl_grid_build(pl_memory *memory, pl_grid *grid, const uint32_t *pieces, uin
     return true;
 }
 
+static double squares_per_metre(double length)
+{
+    return length > 0 ? PL_GRID_MAP / length : 0;
+}
+
+// A square of a map along x or y; what lies beyond it counts to its ends.
+static inline uint32_t square_of(double from_low, double per_metre)
+{
+    double square = from_low * per_metre;
+    square = square > 0 ? square : 0;
+    return (uint32_t)(int32_t)(square < PL_GRID_MAP - 1 ? square : PL_GRID_MAP - 1);
+}
+
+static uint64_t *map_of(const pl_grid *grid, uint32_t level)
+{
+    return (uint64_t *)grid->maps.data + (size_t)level * PL_GRID_MAP;
+}
+
+bool pl_grid_make_maps(pl_memory *memory, pl_grid *grid)
+{
+    size_t size = (size_t)grid->level_count * PL_GRID_MAP * sizeof(uint64_t);
+    if (!pl_buffer_reserve(memory, &grid->maps, size + 1)) {
+        return false;
+    }
+    memset(grid->maps.data, 0, size);
+    for (uint32_t k = 0; k < grid->level_count; ++k) {
+        pl_grid_level *level = &grid->levels[k];
+        const pl_grid_entry *entries = pl_grid_entries(grid) + level->first;
+        uint64_t *map = map_of(grid, k);
+        double low_x = (double)level->bounds.min_x, low_y = (double)level->bounds.min_y;
+        level->map_per_x = squares_per_metre((double)level->bounds.max_x - low_x);
+        level->map_per_y = squares_per_metre((double)level->bounds.max_y - low_y);
+        for (uint32_t i = 0; i < level->count; ++i) {
+            uint32_t x = square_of((double)entries[i].box.min_x - low_x, level->map_per_x);
+            uint32_t y = square_of((double)entries[i].box.min_y - low_y, level->map_per_y);
+            map[y] |= UINT64_C(1) << x;
+        }
+    }
+    grid->mapped = true;
+    return true;
+}
+
 void pl_grid_free(pl_memory *memory, pl_grid *grid)
 {
     pl_buffer_free(memory, &grid->entries);
     pl_buffer_free(memory, &grid->starts);
     pl_buffer_free(memory, &grid->buckets);
+    pl_buffer_free(memory, &grid->maps);
     *grid = (pl_grid){ 0 };
 }
 
@@ -216,6 +260,24 @@ bool pl_grid_range_is_wide(const pl_grid_level *level, pl_cell_range range)
     uint64_t columns = (uint64_t)((int64_t)range.x1 - range.x0) + 1;
     uint64_t rows = (uint64_t)((int64_t)range.y1 - range.y0) + 1;
     return columns > level->mask || rows * columns > (uint64_t)level->count + 16;
+}
+
+// False: by the map, nothing of the level overlaps the box. Lower corners of what does are at most a cell
+// before it.
+static inline bool is_on_map(const pl_grid *grid, uint32_t k, const pl_box *box)
+{
+    const pl_grid_level *level = &grid->levels[k];
+    const uint64_t *map = map_of(grid, k);
+    double low_x = (double)level->bounds.min_x, low_y = (double)level->bounds.min_y;
+    uint32_t x0 = square_of((double)box->min_x - level->cell - low_x, level->map_per_x);
+    uint32_t x1 = square_of((double)box->max_x - low_x, level->map_per_x);
+    uint32_t y0 = square_of((double)box->min_y - level->cell - low_y, level->map_per_y);
+    uint32_t y1 = square_of((double)box->max_y - low_y, level->map_per_y);
+    uint64_t columns = UINT64_MAX >> (PL_GRID_MAP - 1 - (x1 - x0)) << x0, some = 0;
+    for (uint32_t y = y0; y <= y1; ++y) {
+        some |= map[y] & columns;
+    }
+    return some != 0;
 }
 
 static bool visit_run(const pl_grid_entry *entries, pl_grid_run run, const pl_box *box,
@@ -248,7 +310,8 @@ bool pl_grid_query(const pl_grid *grid, pl_box box, pl_grid_visit *visit, void *
     const pl_grid_entry *entries = pl_grid_entries(grid);
     for (uint32_t k = 0; k < grid->level_count; ++k) {
         const pl_grid_level *level = &grid->levels[k];
-        if (!pl_boxes_overlap(&level->bounds, &box)) {
+        if (!pl_boxes_overlap(&level->bounds, &box) ||
+            (grid->mapped && !is_on_map(grid, k, &box))) {
             continue;
         }
         pl_cell_range range = pl_grid_range(level, box);

@@ -29,7 +29,11 @@ typedef struct pl_grid_level {
     uint32_t stride;       // buckets between rows of cells
     int32_t origin_x, origin_y;
     pl_box bounds; // of its boxes: most of a pile does not reach down to the tiles of the ground
+    double map_per_x, map_per_y; // [1/m] squares of its map, which begins where the bounds do
 } pl_grid_level;
+
+// A map of a level: for each of its rows of squares in which of them a lower corner lies.
+#define PL_GRID_MAP 64
 
 typedef struct pl_grid {
     pl_grid_level levels[PL_GRID_LEVELS]; // used ones, finest first
@@ -38,6 +42,8 @@ typedef struct pl_grid {
     pl_buffer entries; // pl_grid_entry
     pl_buffer starts;  // uint32_t
     pl_buffer buckets; // uint32_t, scratch of the build
+    pl_buffer maps;    // uint64_t, PL_GRID_MAP rows a level
+    bool mapped;
 } pl_grid;
 
 // A range of cells, both ends included.
@@ -49,6 +55,9 @@ typedef struct pl_cell_range {
 // grid is then empty. O(count).
 bool pl_grid_build(pl_memory *memory, pl_grid *grid, const uint32_t *pieces, uint32_t count,
                    const pl_box *fat);
+// Makes a map of each level, until the grid is built again. Queries ask it first: worth it for a grid that is
+// built seldom, for the bounds of ground, walls and rings are mostly void. False when out of memory. O(count).
+bool pl_grid_make_maps(pl_memory *memory, pl_grid *grid);
 void pl_grid_free(pl_memory *memory, pl_grid *grid);
 
 // Cells of a level in which boxes that overlap `box` can be filed.

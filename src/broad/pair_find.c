@@ -7,9 +7,14 @@
 //
 // Around the pieces that left their boxes: from each of those, all about it. Two of them find each
 // other twice; the find of the lower one counts.
+//
+// Threads share the boxes from which is looked; each has a part of `found`, and when one of these is too
+// small all is done again with more room. What is found is sorted later: its order does not matter here.
 #include "broad/images.h"
 #include "broad/pairs.h"
 #include "world/filter.h"
+
+#include <string.h>
 
 typedef struct finder {
     plumb_world *world;
@@ -20,13 +25,18 @@ typedef struct finder {
     uint32_t count, capacity;
     const uint8_t *left; // marks of the pieces around which is looked; NULL: everywhere
     bool selective;      // filters, excluded pairs or sensors are there
-    bool out_of_memory;
+    bool alone;          // no other thread looks: it may grow its list
+    bool out_of_room, out_of_memory;
     uint32_t piece; // whose partners are being collected
 } finder;
 
 static bool grow(finder *f)
 {
     pl_broad *broad = &f->world->broad;
+    if (!f->alone) {
+        f->out_of_room = true;
+        return false;
+    }
     size_t wanted = ((size_t)f->capacity + 1024) * sizeof(pl_found);
     if (!pl_buffer_reserve(&f->world->memory, &broad->found, wanted)) {
         f->out_of_memory = true;
@@ -122,10 +132,20 @@ static bool scan_row(finder *f, const pl_grid *grid, const pl_grid_level *level,
     return true;
 }
 
-static bool find_in_level(finder *f, const pl_grid *grid, const pl_grid_level *level)
+// Entries of a level from which a thread looks.
+static pl_share part_of(const pl_grid_level *level, pl_share share)
+{
+    uint32_t end = level->first + level->count;
+    return (pl_share){ level->first > share.first ? level->first : share.first,
+                       end < share.end ? end : share.end };
+}
+
+static bool find_in_level(finder *f, const pl_grid *grid, const pl_grid_level *level,
+                          pl_share share)
 {
     const pl_grid_entry *entries = pl_grid_entries(grid);
-    for (uint32_t i = level->first; i < level->first + level->count; ++i) {
+    const pl_share part = part_of(level, share);
+    for (uint32_t i = part.first; i < part.end; ++i) {
         const pl_grid_entry *e = &entries[i];
         // Own cell: the entries filed behind this one. They are followed by those of other cells,
         // in hashed levels perhaps of the same bucket, hence the comparison.
@@ -168,12 +188,12 @@ static bool find_about(finder *f, const pl_grid *grid, const pl_grid_level *leve
 }
 
 // Partners of every box of level k among the coarser levels of the moving grid.
-static bool find_across_levels(finder *f, const pl_grid *grid, uint32_t k)
+static bool find_across_levels(finder *f, const pl_grid *grid, uint32_t k, pl_share share)
 {
     const pl_grid_entry *entries = pl_grid_entries(grid);
-    const pl_grid_level *fine = &grid->levels[k];
+    const pl_share part = part_of(&grid->levels[k], share);
     for (uint32_t m = k + 1; m < grid->level_count; ++m) {
-        for (uint32_t i = fine->first; i < fine->first + fine->count; ++i) {
+        for (uint32_t i = part.first; i < part.end; ++i) {
             if (!find_about(f, grid, &grid->levels[m], &entries[i])) {
                 return false;
             }
@@ -182,13 +202,14 @@ static bool find_across_levels(finder *f, const pl_grid *grid, uint32_t k)
     return true;
 }
 
-static bool find_against_fixed(finder *f, const pl_grid *moving, const pl_grid *fixed)
+static bool find_against_fixed(finder *f, const pl_grid *moving, const pl_grid *fixed,
+                               pl_share share)
 {
     const pl_grid_entry *entries = pl_grid_entries(moving);
     if (fixed->entry_count == 0) {
         return true;
     }
-    for (uint32_t i = 0; i < moving->entry_count; ++i) {
+    for (uint32_t i = share.first; i < share.end; ++i) {
         f->piece = entries[i].piece;
         if (!pl_grid_query(fixed, entries[i].box, add_visited, f)) {
             return false;
@@ -269,102 +290,131 @@ static bool find_over_edges(finder *f, bool meet, bool grounded)
             pl_images_pairs(world, &b->moving, &b->resting, add_resting_image, f));
 }
 
-//---- crowds that never meet ----------------------------------------------------------------------
+//---- all -----------------------------------------------------------------------------------------
 
-// What the filters of many pieces have in common.
-typedef struct crowd {
-    uint64_t category, mask; // of any
-    int32_t group;           // of all, where `one_group`
-    bool one_group, forced;  // forced: a positive group, which no mask keeps apart
-} crowd;
+// Fewer boxes than this are not worth a thread.
+#define LEAST 64
 
-static void join_crowd(crowd *c, const pl_pieces *pieces, uint32_t piece)
+typedef struct hunt {
+    plumb_world *world;
+    bool meet, grounded; // moving pieces may meet one another; static ones
+    bool senses;         // sensors may see what sleeps
+    uint32_t count;      // boxes from which is looked: of the moving grid, or those that were left
+    uint32_t shares;
+    bool (*look)(const struct hunt *hunt, finder *f, pl_share share);
+    finder finders[PLUMB_WORKERS_MAX];
+} hunt;
+
+// From every box of the moving grid.
+static bool look_everywhere(const hunt *h, finder *f, pl_share share)
 {
-    bool first = c->category == 0;
-    c->one_group = first || (c->one_group && c->group == pieces->group[piece]);
-    c->group = pieces->group[piece];
-    c->forced |= c->group > 0;
-    c->category |= pieces->category[piece];
-    c->mask |= pieces->mask[piece];
-}
-
-static bool may_meet(const crowd *a, const crowd *b)
-{
-    if (a->one_group && b->one_group && a->group == b->group && a->group < 0) {
-        return false;
-    }
-    return (a->forced && b->forced) ||
-           ((a->category & b->mask) != 0 && (b->category & a->mask) != 0);
-}
-
-// The crowd of moving pieces; stops where it may meet itself, whatever comes.
-static bool moving_crowd(const plumb_world *world, crowd *c)
-{
-    const uint32_t *moving = pl_moving(world);
-    *c = (crowd){ .category = 0 };
-    for (uint32_t i = 0; i < world->moving_count; ++i) {
-        join_crowd(c, &world->pieces, moving[i]);
-        if (!(c->one_group && c->group < 0) && may_meet(c, c)) {
-            return true;
+    const plumb_world *world = h->world;
+    const pl_broad *b = &world->broad;
+    for (uint32_t k = 0; h->meet && k < b->moving.level_count; ++k) {
+        if (!find_in_level(f, &b->moving, &b->moving.levels[k], share) ||
+            !find_across_levels(f, &b->moving, k, share)) {
+            return false;
         }
     }
-    return may_meet(c, c);
+    return (!h->grounded || find_against_fixed(f, &b->moving, &b->fixed, share)) &&
+           (!h->senses || find_sensed_resting(f, &b->moving, &b->resting)) &&
+           (!pl_is_wrapped(world) || find_over_edges(f, h->meet, h->grounded));
 }
 
-static bool meets_fixed(const plumb_world *world, const crowd *moving)
+// About every piece that left its box.
+static bool look_about(const hunt *h, finder *f, pl_share share)
 {
-    const pl_grid *fixed = &world->broad.fixed;
-    crowd c = { .category = 0 };
-    for (uint32_t i = 0; i < fixed->entry_count; ++i) {
-        join_crowd(&c, &world->pieces, pl_grid_entries(fixed)[i].piece);
+    const plumb_world *world = h->world;
+    const pl_broad *b = &world->broad;
+    for (uint32_t i = share.first; i < share.end; ++i) {
+        uint32_t piece = ((const uint32_t *)b->left.data)[i];
+        pl_grid_entry e = { .piece = piece, .box = world->pieces.fat[piece] };
+        f->piece = piece;
+        for (uint32_t k = 0; h->meet && k < b->moving.level_count; ++k) {
+            if (!find_about(f, &b->moving, &b->moving.levels[k], &e)) {
+                return false;
+            }
+        }
+        if ((h->grounded && !pl_grid_query(&b->fixed, e.box, add_visited, f)) ||
+            (h->senses && !pl_grid_query(&b->resting, e.box, add_resting, f)) ||
+            (pl_is_wrapped(world) && !find_over_edges_about(f, &e, h->meet, h->grounded))) {
+            return false;
+        }
     }
-    return may_meet(moving, &c);
+    return true;
 }
 
-static finder make_finder(plumb_world *world)
+static void look_share(void *context, uint32_t i)
 {
-    pl_broad *broad = &world->broad;
-    return (finder){ .world = world,
-                     .body = world->pieces.body,
-                     .first_joint = world->bodies.first_joint,
-                     .dynamic_count = world->dynamic_count,
-                     .selective = pl_world_is_selective(world),
-                     .found = broad->found.data,
-                     .capacity = (uint32_t)(broad->found.size / sizeof(pl_found)) };
+    hunt *h = context;
+    h->look(h, &h->finders[i], pl_share_of(h->count, h->shares, i));
 }
 
-// Debris that passes through debris, a net in one group: no box need be compared.
-static void judge_crowds(const plumb_world *world, bool *meet, bool *grounded)
+// Every thread with its part of the room for what is found.
+static void set_out(hunt *h, const uint8_t *left)
 {
-    crowd moving;
-    *meet = world->filtered_pieces == 0 || moving_crowd(world, &moving);
-    *grounded = *meet || meets_fixed(world, &moving);
+    const pl_broad *broad = &h->world->broad;
+    const uint32_t room = (uint32_t)(broad->found.size / sizeof(pl_found)) / h->shares;
+    for (uint32_t i = 0; i < h->shares; ++i) {
+        h->finders[i] = (finder){ .world = h->world,
+                                  .body = h->world->pieces.body,
+                                  .first_joint = h->world->bodies.first_joint,
+                                  .dynamic_count = h->world->dynamic_count,
+                                  .selective = pl_world_is_selective(h->world),
+                                  .left = left,
+                                  .alone = h->shares == 1,
+                                  .found = (pl_found *)broad->found.data + (size_t)i * room,
+                                  .capacity = room };
+    }
+}
+
+// Puts what all found together. False: some of them had not room enough.
+static bool bring_in(hunt *h)
+{
+    pl_broad *broad = &h->world->broad;
+    broad->found_count = 0;
+    bool whole = true;
+    for (uint32_t i = 0; i < h->shares; ++i) {
+        const finder *f = &h->finders[i];
+        if (i > 0 && f->count > 0) {
+            memmove((pl_found *)broad->found.data + broad->found_count, f->found,
+                    f->count * sizeof(pl_found));
+        }
+        broad->found_count += f->count;
+        whole &= !f->out_of_room;
+    }
+    return whole;
+}
+
+static bool look(hunt *h, const uint8_t *left)
+{
+    plumb_world *world = h->world;
+    pl_crowds_judge(world, &h->meet, &h->grounded);
+    h->senses = world->sensor_pieces > 0 && world->broad.resting.entry_count > 0;
+    const bool together = world->sensor_pieces == 0 && !pl_is_wrapped(world);
+    h->shares = together ? pl_tasks_share_count(world->tasks, h->count, LEAST) : 1;
+    for (;;) {
+        // Never null, even where nothing comes to lie: parts of it are pointed to.
+        if (!pl_buffer_reserve(&world->memory, &world->broad.found, sizeof(pl_found))) {
+            return false;
+        }
+        set_out(h, left);
+        pl_tasks_run(world->tasks, look_share, h, h->shares);
+        if (bring_in(h)) {
+            return !h->finders[0].out_of_memory;
+        }
+        if (!pl_buffer_reserve(&world->memory, &world->broad.found,
+                               2 * world->broad.found.size + 1024 * sizeof(pl_found))) {
+            return false;
+        }
+    }
 }
 
 bool pl_pairs_find(plumb_world *world)
 {
-    pl_broad *broad = &world->broad;
-    finder f = make_finder(world);
-    bool meet, grounded;
-    broad->sensed_count = 0;
-    judge_crowds(world, &meet, &grounded);
-    for (uint32_t k = 0; meet && k < broad->moving.level_count; ++k) {
-        if (!find_in_level(&f, &broad->moving, &broad->moving.levels[k]) ||
-            !find_across_levels(&f, &broad->moving, k)) {
-            return false;
-        }
-    }
-    if (grounded && !find_against_fixed(&f, &broad->moving, &broad->fixed)) {
-        return false;
-    }
-    if (!find_sensed_resting(&f, &broad->moving, &broad->resting)) {
-        return false;
-    }
-    if (pl_is_wrapped(world) && !find_over_edges(&f, meet, grounded)) {
-        return false;
-    }
-    broad->found_count = f.count;
-    return !f.out_of_memory;
+    world->broad.sensed_count = 0;
+    hunt h = { .world = world, .look = look_everywhere, .count = world->broad.moving.entry_count };
+    return look(&h, NULL);
 }
 
 // Takes out what the pieces that left their boxes had to do with sensors.
@@ -382,31 +432,7 @@ static void forget_sensed(pl_broad *broad)
 
 bool pl_pairs_find_left(plumb_world *world)
 {
-    pl_broad *broad = &world->broad;
-    const pl_grid *moving = &broad->moving;
-    finder f = make_finder(world);
-    bool meet, grounded;
-    f.left = broad->left_marks.data;
-    forget_sensed(broad);
-    judge_crowds(world, &meet, &grounded);
-    const bool senses = world->sensor_pieces > 0 && broad->resting.entry_count > 0;
-    for (uint32_t i = 0; i < broad->left_count; ++i) {
-        uint32_t piece = ((const uint32_t *)broad->left.data)[i];
-        pl_grid_entry e = { .piece = piece, .box = world->pieces.fat[piece] };
-        f.piece = piece;
-        for (uint32_t k = 0; meet && k < moving->level_count; ++k) {
-            if (!find_about(&f, moving, &moving->levels[k], &e)) {
-                return false;
-            }
-        }
-        if ((grounded && !pl_grid_query(&broad->fixed, e.box, add_visited, &f)) ||
-            (senses && !pl_grid_query(&broad->resting, e.box, add_resting, &f))) {
-            return false;
-        }
-        if (pl_is_wrapped(world) && !find_over_edges_about(&f, &e, meet, grounded)) {
-            return false;
-        }
-    }
-    broad->found_count = f.count;
-    return !f.out_of_memory;
+    forget_sensed(&world->broad);
+    hunt h = { .world = world, .look = look_about, .count = world->broad.left_count };
+    return look(&h, world->broad.left_marks.data);
 }

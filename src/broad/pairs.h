@@ -20,6 +20,9 @@ pl_pair *pl_pairs_find_one(const plumb_world *world, uint32_t p, uint32_t q);
 bool pl_pairs_find(plumb_world *world);
 bool pl_pairs_find_left(plumb_world *world);
 
+// Whether moving pieces may meet one another, and static ones, as far as filters tell (crowd.c).
+void pl_crowds_judge(const plumb_world *world, bool *meet, bool *grounded);
+
 // A pair without a past, its rows looked up.
 pl_pair pl_pair_fresh(const plumb_world *world, pl_found found);
 

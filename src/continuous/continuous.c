@@ -63,20 +63,18 @@ static bool visit_any(void *context, const pl_grid_entry *entry)
     return false;
 }
 
-// Whether nothing static lies near the way of a body without joints, however it turned. Most fast
-// bodies are out in the open: this is all that they cost.
+// Whether nothing static lies near the way of a body whose centre goes straight, however it turned. Most
+// fast bodies are out in the open: this is all that they cost.
 static bool is_in_the_open(const plumb_world *world, const pl_mover *m)
 {
-    if (world->bodies.first_joint[m->row] != PL_NONE) {
-        return false; // it may turn about a hinge: its centre need not go straight
-    }
     real x = world->bodies.center_x[m->row], y = world->bodies.center_y[m->row];
     real reach = world->bodies.extent[m->row] * (real)1.001 +
                  4 * PLUMB_REAL_EPSILON * (plumb_abs(x) + plumb_abs(y) + m->moved);
     pl_box box = { m->x < x ? m->x : x, m->y < y ? m->y : y, m->x > x ? m->x : x,
                    m->y > y ? m->y : y };
     box = (pl_box){ box.min_x - reach, box.min_y - reach, box.max_x + reach, box.max_y + reach };
-    return pl_world_query(world, &world->broad.fixed, box, visit_any, NULL);
+    return pl_world_query(world, &world->broad.fixed, box, visit_any, NULL) &&
+           pl_course_is_free(world, m->row);
 }
 
 static void sweep_still(plumb_world *world)
@@ -128,36 +126,37 @@ static bool sweep_among(plumb_world *world, real dt)
     return changed;
 }
 
-// Bodies with a joint between them stop together, so that it is not torn. True when one changed.
-static bool share_stops(plumb_world *world)
+// What is tied by a joint to a body that stops, stops with it. True when one changed.
+static bool share_stop(plumb_world *world, const pl_mover *m)
 {
     bool changed = false;
-    for (uint32_t i = 0; i < world->joints.count; ++i) {
-        const pl_joint *j = &pl_joint_items(&world->joints)[i];
-        if (plumb_is_null(j->entity) || plumb_is_null(j->a.body) || plumb_is_null(j->b.body)) {
-            continue;
+    const pl_joint *items = pl_joint_items(&world->joints);
+    plumb_body body = world->bodies.entity[m->row];
+    for (uint32_t i = world->bodies.first_joint[m->row]; i != PL_NONE;
+         i = pl_joint_next(&items[i], body)) {
+        const pl_joint *j = &items[i];
+        plumb_body other = plumb_same(j->a.body, body) ? j->b.body : j->a.body;
+        pl_mover *o = plumb_is_null(other) ? NULL : pl_mover_find(world, pl_body_row(world, other));
+        if (o != NULL && pl_row_is_dynamic(world, o->row) && o->stop > m->stop) {
+            o->stop = m->stop;
+            changed = true;
         }
-        pl_mover *a = pl_mover_find(world, pl_body_row(world, j->a.body));
-        pl_mover *b = pl_mover_find(world, pl_body_row(world, j->b.body));
-        if (a == NULL || b == NULL || !pl_row_is_dynamic(world, a->row) ||
-            !pl_row_is_dynamic(world, b->row)) {
-            continue;
-        }
-        changed |= a->stop < b->stop || b->stop < a->stop;
-        a->stop = b->stop = a->stop < b->stop ? a->stop : b->stop;
     }
     return changed;
 }
 
-static bool any_stops(const plumb_world *world)
+// Bodies with a joint between them stop together, so that it is not torn. True when one changed.
+static bool share_stops(plumb_world *world)
 {
+    bool changed = false;
     const pl_mover *movers = pl_movers(&world->continuous);
-    for (uint32_t i = 0; i < world->continuous.count; ++i) {
+    for (uint32_t i = 0; i < world->continuous.count && pl_row_is_dynamic(world, movers[i].row);
+         ++i) {
         if (movers[i].stop < 1) {
-            return true;
+            changed |= share_stop(world, &movers[i]);
         }
     }
-    return false;
+    return changed;
 }
 
 // Until no body stops earlier for another. Each round stops some body earlier; where they do not
@@ -167,10 +166,8 @@ static void settle_stops(plumb_world *world, real dt)
     const bool asked = world->continuous_bodies > 0;
     for (int round = 0; round < MOST_ROUNDS; ++round) {
         bool changed = asked && sweep_among(world, dt);
-        if (world->joints.live > 0 && any_stops(world)) {
-            while (share_stops(world)) {
-                changed = true;
-            }
+        while (world->joints.live > 0 && share_stops(world)) {
+            changed = true;
         }
         if (!changed || !asked) {
             return;

@@ -35,20 +35,33 @@ static bool is_held(const plumb_world *world, const pl_joint_end *other)
     return plumb_is_null(other->body) || pl_body_row(world, other->body) >= world->dynamic_count;
 }
 
-// The pivot of a body in its frame: see pl_course_of_mover.
-static plumb_vec2 pivot_of(const plumb_world *world, uint32_t row)
+// The end of the body's first hinge to what dynamics does not move; NULL: there is none.
+static const pl_joint_end *hinge_of(const plumb_world *world, uint32_t row)
 {
-    const pl_bodies *b = &world->bodies;
     const pl_joint *items = pl_joint_items(&world->joints);
-    plumb_body body = b->entity[row];
-    for (uint32_t i = b->first_joint[row]; i != PL_NONE; i = pl_joint_next(&items[i], body)) {
+    plumb_body body = world->bodies.entity[row];
+    for (uint32_t i = world->bodies.first_joint[row]; i != PL_NONE;
+         i = pl_joint_next(&items[i], body)) {
         const pl_joint *j = &items[i];
         bool is_a = plumb_same(j->a.body, body);
         if (j->desc.kind == PLUMB_REVOLUTE && is_held(world, is_a ? &j->b : &j->a)) {
-            return is_a ? j->a.local : j->b.local;
+            return is_a ? &j->a : &j->b;
         }
     }
-    return (plumb_vec2){ b->local_x[row], b->local_y[row] };
+    return NULL;
+}
+
+bool pl_course_is_free(const plumb_world *world, uint32_t row)
+{
+    return hinge_of(world, row) == NULL;
+}
+
+// The pivot of a body in its frame: see pl_course_of_mover.
+static plumb_vec2 pivot_of(const plumb_world *world, uint32_t row)
+{
+    const pl_joint_end *hinge = hinge_of(world, row);
+    return hinge != NULL ? hinge->local
+                         : plumb_v2(world->bodies.local_x[row], world->bodies.local_y[row]);
 }
 
 static pl_place place_now(const plumb_world *world, uint32_t row)

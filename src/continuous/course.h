@@ -24,6 +24,8 @@ typedef struct pl_place {
 // Of a body that was noted. It turns about its centre of mass, but about a hinge that holds it to
 // something which dynamics does not move.
 pl_course pl_course_of_mover(const plumb_world *world, const pl_mover *mover, double ox, double oy);
+// Whether it is one of those that turn about their centre, in a straight line. O(joints of the body).
+bool pl_course_is_free(const plumb_world *world, uint32_t row);
 // Of any other body: at rest, or moved by a step of dt [s] to where it is.
 pl_course pl_course_of_row(const plumb_world *world, uint32_t row, real dt, double ox, double oy);
 // Of a body that goes straight from one place to another while it turns by `angle`.

@@ -8,12 +8,14 @@
 #include "core/tasks.h"
 
 #include <pthread.h>
+#include <sched.h>
 #include <stdatomic.h>
 #include <stdbool.h>
 #include <string.h>
 
-// Turns of the waiting loop before a thread goes to sleep: some tens of microseconds.
-#define SPINS 4000
+// Turns of the waiting loop before a thread goes to sleep, or, while a step is under way, lets others
+// have its core for a moment: some tens of microseconds. Waking one costs as much.
+#define SPINS 1000
 
 struct pl_tasks {
     plumb_task_hooks hooks;
@@ -28,6 +30,7 @@ struct pl_tasks {
 
     _Alignas(64) _Atomic int sleeping;
     _Atomic bool ending;
+    _Atomic bool busy; // a job was run, and more are to come soon
     pthread_mutex_t lock;
     pthread_cond_t wake;
     int threads; // that were started
@@ -82,7 +85,9 @@ static void *worker(void *argument)
             relax();
             ++spins;
         }
-        if (spins == SPINS) {
+        if (spins == SPINS && atomic_load_explicit(&t->busy, memory_order_relaxed)) {
+            sched_yield();
+        } else if (spins == SPINS) {
             sleep_until_work(t);
         }
     }
@@ -110,6 +115,7 @@ void pl_tasks_run(pl_tasks *t, plumb_task_fn *task, void *context, uint32_t chun
         }
         return;
     }
+    atomic_store_explicit(&t->busy, true, memory_order_relaxed);
     atomic_store_explicit(&t->task, task, memory_order_relaxed);
     atomic_store_explicit(&t->context, context, memory_order_relaxed);
     atomic_store_explicit(&t->chunks, chunks, memory_order_relaxed);
@@ -121,6 +127,102 @@ void pl_tasks_run(pl_tasks *t, plumb_task_fn *task, void *context, uint32_t chun
     }
     while (atomic_load_explicit(&t->done, memory_order_acquire) < chunks) {
         relax();
+    }
+}
+
+void pl_tasks_rest(pl_tasks *t)
+{
+    if (t != NULL) {
+        atomic_store_explicit(&t->busy, false, memory_order_relaxed);
+    }
+}
+
+typedef struct job {
+    pl_range_fn *range;
+    void *context;
+    uint32_t first, count, shares;
+    const uint32_t *bounds;
+    uint32_t phases, least;
+} job;
+
+static uint32_t share_count(uint32_t workers, uint32_t count, uint32_t least)
+{
+    uint32_t most = count / least;
+    return most < 1 ? 1 : most < workers ? most : workers;
+}
+
+uint32_t pl_tasks_share_count(const pl_tasks *t, uint32_t count, uint32_t least)
+{
+    return share_count((uint32_t)pl_tasks_workers(t), count, least);
+}
+
+static void run_share(void *context, uint32_t i)
+{
+    const job *j = context;
+    pl_share s = pl_share_of(j->count, j->shares, i);
+    j->range(j->context, j->first + s.first, s.end - s.first);
+}
+
+static void run_shared(pl_tasks *t, job *j)
+{
+    if (j->shares == 1) {
+        j->range(j->context, j->first, j->count);
+    } else {
+        pl_tasks_run(t, run_share, j, j->shares);
+    }
+}
+
+void pl_tasks_ranges(pl_tasks *t, uint32_t count, uint32_t least, pl_range_fn *range, void *context)
+{
+    run_shared(t, &(job){ .range = range,
+                          .context = context,
+                          .count = count,
+                          .shares = pl_tasks_share_count(t, count, least) });
+}
+
+void pl_tasks_phases(pl_tasks *t, const uint32_t *bounds, uint32_t phases, uint32_t least,
+                     pl_range_fn *range, void *context)
+{
+    const uint32_t workers = (uint32_t)pl_tasks_workers(t);
+    job j = { .range = range, .context = context };
+    uint32_t done = bounds[0];
+    for (uint32_t p = 0; p < phases && workers > 1; ++p) {
+        j.first = bounds[p];
+        j.count = bounds[p + 1] - bounds[p];
+        j.shares = share_count(workers, j.count, least);
+        if (j.shares > 1) {
+            range(context, done, j.first - done); // small ones before it, one after another
+            run_shared(t, &j);
+            done = bounds[p + 1];
+        }
+    }
+    range(context, done, bounds[phases] - done);
+}
+
+// What thread i has of all phases; the first one has what is not shared.
+static void run_all_shares(void *context, uint32_t i)
+{
+    job j = *(const job *)context;
+    const uint32_t workers = j.shares;
+    for (uint32_t p = 0; p < j.phases; ++p) {
+        j.first = j.bounds[p];
+        j.count = j.bounds[p + 1] - j.bounds[p];
+        j.shares = share_count(workers, j.count, j.least);
+        if (i < j.shares) {
+            run_share(&j, i);
+        }
+    }
+}
+
+void pl_tasks_shares(pl_tasks *t, const uint32_t *bounds, uint32_t phases, uint32_t least,
+                     pl_range_fn *range, void *context)
+{
+    job j = { .range = range, .context = context, .bounds = bounds, .phases = phases, .least = least };
+    j.shares = (uint32_t)pl_tasks_workers(t);
+    if (j.shares == 1 || bounds[phases] - bounds[0] < 2 * least) {
+        range(context, bounds[0], bounds[phases] - bounds[0]);
+    } else {
+        pl_tasks_run(t, run_all_shares, &j, j.shares);
     }
 }
 

@@ -35,6 +35,9 @@ bool pl_events_reserve_ends(plumb_world *world, uint32_t count)
     return pl_buffer_reserve(&world->memory, &world->end_events, room);
 }
 
+// So many contacts are worth a thread.
+#define SHARED 256
+
 //---- pieces that went ----------------------------------------------------------------------------
 
 // One a slot is enough: a piece that is younger than the pair list is in no pair.
@@ -177,6 +180,20 @@ static real approach_speed(const plumb_world *world, const pl_manifold *m)
     return fastest;
 }
 
+// Approaches of the manifolds of new pairs, or of all where hits are told.
+static void note_approaches(void *context, uint32_t first, uint32_t count)
+{
+    const plumb_world *world = context;
+    const bool all = world->desc.hit_speed > 0;
+    pl_manifold *m = pl_manifolds(&world->narrow);
+    const pl_pair *pairs = pl_pairs(&world->broad.pairs);
+    for (uint32_t i = first; i < first + count; ++i) {
+        if (all || (pairs[m[i].pair].flags & PL_PAIR_TOUCHING) == 0) {
+            m[i].approach = approach_speed(world, &m[i]);
+        }
+    }
+}
+
 bool pl_events_prepare(plumb_world *world)
 {
     uint32_t begins = world->narrow.manifold_count + world->narrow.borne_count;
@@ -186,19 +203,13 @@ bool pl_events_prepare(plumb_world *world)
         !pl_parts_reserve(world, world->broad.pairs.count)) {
         return false;
     }
-    bool all = world->desc.hit_speed > 0;
-    if (all && (!pl_buffer_reserve(&world->memory, &world->hit_events,
-                                   begins * sizeof(plumb_contact_hit)) ||
-                !pl_buffer_reserve(&world->memory, &world->blows.old, begins * sizeof(pl_blow)))) {
+    if (world->desc.hit_speed > 0 &&
+        (!pl_buffer_reserve(&world->memory, &world->hit_events,
+                            begins * sizeof(plumb_contact_hit)) ||
+         !pl_buffer_reserve(&world->memory, &world->blows.old, begins * sizeof(pl_blow)))) {
         return false;
     }
-    pl_manifold *m = pl_manifolds(&world->narrow);
-    const pl_pair *pairs = pl_pairs(&world->broad.pairs);
-    for (uint32_t i = 0; i < begins; ++i) {
-        if (all || (pairs[m[i].pair].flags & PL_PAIR_TOUCHING) == 0) {
-            m[i].approach = approach_speed(world, &m[i]);
-        }
-    }
+    pl_tasks_ranges(world->tasks, begins, SHARED, note_approaches, world);
     return true;
 }
 

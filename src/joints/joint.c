@@ -238,7 +238,8 @@ static void look_at_turns(const plumb_world *world, pl_joint_end *end, uint32_t 
     }
 }
 
-void pl_joint_start_bare(plumb_world *world, pl_joint_lane *lane, pl_joint_start *start, real h)
+void pl_joint_start_bare(const plumb_world *world, pl_joint_lane *lane, pl_joint_start *start,
+                         real h)
 {
     pl_joint *j = &pl_joint_items(&world->joints)[lane->joint];
     const pl_joint_mark *mark = &pl_joint_marks(&world->joints)[lane->joint];

@@ -82,6 +82,8 @@ typedef struct pl_joint_mark {
     bool quiet;            // nothing but its reaction comes of it after the step
 } pl_joint_mark;
 
+#define PL_JOINT_COLORS 64
+
 // Who is solved with whom (plan.c). It follows from the joints and bodies that there are, and is
 // kept from step to step as long as it does.
 typedef struct pl_joint_plan {
@@ -93,6 +95,7 @@ typedef struct pl_joint_plan {
     pl_buffer slots;   // uint32_t, two a lane: see pl_joint_call
     pl_buffer records; // of the bundles, kept by the kernels
     pl_buffer alone;   // uint32_t: joints solved one by one, behind the bundles
+    uint32_t color_first[PL_JOINT_COLORS + 1]; // first bundle of a colour; then where the last ends
     uint32_t bundle_count, alone_count, pattern_count;
     pl_joint_pattern patterns[PL_JOINT_PATTERNS];
     bool made;
@@ -147,7 +150,8 @@ int pl_joint_eighth(double angle);
 void pl_joint_place(const plumb_world *world, pl_joint *joint, uint32_t row_a, uint32_t row_b);
 // How a lane of a bare hinge begins a step: of the joint itself, impulses are read, and turns counted
 // where an angle has left the eighth in which it was last seen.
-void pl_joint_start_bare(plumb_world *world, pl_joint_lane *lane, pl_joint_start *start, real h);
+void pl_joint_start_bare(const plumb_world *world, pl_joint_lane *lane, pl_joint_start *start,
+                         real h);
 
 typedef enum pl_joint_sweep {
     PL_SWEEP_PULL,   // springs, and errors undone

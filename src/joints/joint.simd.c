@@ -154,7 +154,7 @@ static const pl_joint_pattern bare_pattern = {
 
 WIDE_INLINE void sweep(const pl_joint_call *call, const bool pull, const bool first)
 {
-    for (uint32_t k = 0; k < call->bundle_count; ++k) {
+    for (uint32_t k = call->first; k < call->end; ++k) {
         const pl_joint_pattern *p = &call->patterns[call->bundles[k].pattern];
         if (p->bare) {
             sweep_bundle(call, k, &bare_pattern, pull, first);
@@ -261,7 +261,7 @@ WIDE_INLINE void fill_start(const parts *at, const pl_joint_start *starts, const
 
 static void fill(const pl_joint_call *call)
 {
-    for (uint32_t k = 0; k < call->bundle_count; ++k) {
+    for (uint32_t k = call->first; k < call->end; ++k) {
         const pl_joint_pattern *p = &call->patterns[call->bundles[k].pattern];
         parts at = open(call, k, p);
         const pl_joint_lane *lanes = &call->lanes[(size_t)k * PL_WIDTH];
@@ -284,7 +284,7 @@ static void fill(const pl_joint_call *call)
 
 static void warm_start(const pl_joint_call *call)
 {
-    for (uint32_t k = 0; k < call->bundle_count; ++k) {
+    for (uint32_t k = call->first; k < call->end; ++k) {
         const pl_joint_pattern *p = &call->patterns[call->bundles[k].pattern];
         parts at = open(call, k, p);
         body a, b;
@@ -304,11 +304,11 @@ static void warm_start(const pl_joint_call *call)
 static void store_all(const pl_joint_call *call)
 {
     const vf inv_h = splat(1 / call->h);
-    for (uint32_t k = 0; k < call->bundle_count; ++k) {
+    for (uint32_t k = call->first; k < call->end; ++k) {
         const pl_joint_pattern *p = &call->patterns[call->bundles[k].pattern];
         const pl_joint_lane *lanes = &call->lanes[(size_t)k * PL_WIDTH];
         parts at = open(call, k, p);
-        for (int i = 0; i < PL_WIDTH && k + 1 < call->bundle_count; ++i) {
+        for (int i = 0; i < PL_WIDTH && k + 1 < call->end; ++i) {
             if (lanes[PL_WIDTH + i].joint != PL_NONE) {
                 __builtin_prefetch(&call->joints[lanes[PL_WIDTH + i].joint], 1);
             }

@@ -20,7 +20,7 @@
 #define MOVES_B 4u
 #define WIDE    8u // by the soft step
 
-#define NO_COLOR 64u
+#define NO_COLOR PL_JOINT_COLORS
 
 const pl_joint_kernels *pl_joint_kernels_of(const plumb_world *world)
 {
@@ -259,15 +259,22 @@ static size_t place_lanes(plumb_world *world, uint32_t count)
     uint32_t width = (uint32_t)kernels->width, filled = 0;
     size_t bytes = 0;
     plan->bundle_count = 0;
+    uint32_t colors = 0; // whose first bundle is known
     for (uint32_t i = 0; i < count; ++i) {
         if (i == 0 || order[i].key != order[i - 1].key || filled == width) {
             uint32_t pattern = (uint32_t)order[i].key;
+            while (colors <= order[i].key >> 32) {
+                plan->color_first[colors++] = plan->bundle_count;
+            }
             memset(&lanes[(size_t)plan->bundle_count * width], 0xff, width * sizeof *lanes);
             bundles[plan->bundle_count++] = (pl_joint_bundle){ .at = bytes, .pattern = pattern };
             bytes += kernels->record_size(&plan->patterns[pattern]);
             filled = 0;
         }
         lanes[(size_t)(plan->bundle_count - 1) * width + filled++] = lane_of(world, order[i].value);
+    }
+    while (colors <= PL_JOINT_COLORS) {
+        plan->color_first[colors++] = plan->bundle_count;
     }
     return bytes;
 }

@@ -235,7 +235,7 @@ static void make_rows(const plumb_world *world, pl_joint *j, const pl_solver_bod
     }
 }
 
-//---- all joints ----------------------------------------------------------------------------------
+//---- joints in lanes ----------------------------------------------------------------------------------
 
 static pl_joint_call call_of(const plumb_world *world, real h)
 {
@@ -243,7 +243,6 @@ static pl_joint_call call_of(const plumb_world *world, real h)
     return (pl_joint_call){ .bodies = pl_solver_bodies(&world->solver),
                             .dynamic_slots = world->solver.dynamic_slots,
                             .immovable_slot = world->solver.slot_count - 1,
-                            .bundle_count = plan->bundle_count,
                             .bundles = plan->bundles.data,
                             .patterns = plan->patterns,
                             .lanes = plan->lanes.data,
@@ -254,6 +253,40 @@ static pl_joint_call call_of(const plumb_world *world, real h)
                             .h = h,
                             .rigid = rigid(h) };
 }
+
+// A share of fewer bundles than this is not worth a thread.
+#define LEAST 8
+
+typedef struct kernel_call {
+    pl_joint_call call;
+    pl_joint_kernel *kernel;
+} kernel_call;
+
+static void run_kernel(void *context, uint32_t first, uint32_t count)
+{
+    const kernel_call *c = context;
+    pl_joint_call call = c->call;
+    call.first = first, call.end = first + count;
+    c->kernel(&call);
+}
+
+// A kernel over all bundles, shared out among threads colour after colour.
+static void sweep_bundles(const plumb_world *world, real h, pl_joint_kernel *kernel)
+{
+    kernel_call c = { call_of(world, h), kernel };
+    pl_tasks_phases(world->tasks, world->joints.plan.color_first, PL_JOINT_COLORS, LEAST,
+                    run_kernel, &c);
+}
+
+// The same for a kernel in which every bundle stands by itself.
+static void each_bundle(const plumb_world *world, real h, pl_joint_kernel *kernel)
+{
+    kernel_call c = { call_of(world, h), kernel };
+    pl_tasks_shares(world->tasks, world->joints.plan.color_first, PL_JOINT_COLORS, LEAST,
+                    run_kernel, &c);
+}
+
+//---- all joints ----------------------------------------------------------------------------------
 
 static void clear_debt(pl_joint *j)
 {
@@ -295,7 +328,7 @@ static void begin_wide(const plumb_world *world, pl_joint *j, pl_joint_start *st
 }
 
 // How the lanes of a bundle begin the step; slots as the kernels want them.
-static void begin_lanes(plumb_world *world, uint32_t bundle, real h)
+static void begin_lanes(const plumb_world *world, uint32_t bundle, real h)
 {
     const pl_joint_plan *plan = &world->joints.plan;
     const uint32_t width = (uint32_t)pl_joint_kernels_of(world)->width;
@@ -328,15 +361,28 @@ static void begin_lanes(plumb_world *world, uint32_t bundle, real h)
     }
 }
 
+typedef struct beginning {
+    const plumb_world *world;
+    pl_joint_call call;
+} beginning;
+
+static void begin_bundles(void *context, uint32_t first, uint32_t count)
+{
+    const beginning *b = context;
+    pl_joint_call call = b->call;
+    call.first = first, call.end = first + count;
+    for (uint32_t k = call.first; k < call.end; ++k) {
+        begin_lanes(b->world, k, call.h);
+    }
+    pl_joint_kernels_of(b->world)->fill(&call);
+}
+
 void pl_joints_prepare(plumb_world *world, real h)
 {
     pl_solver_body *bodies = pl_solver_bodies(&world->solver);
     const pl_joint_plan *plan = &world->joints.plan;
-    const pl_joint_call call = call_of(world, h);
-    for (uint32_t k = 0; k < plan->bundle_count; ++k) {
-        begin_lanes(world, k, h);
-    }
-    pl_joint_kernels_of(world)->fill(&call);
+    pl_tasks_shares(world->tasks, plan->color_first, PL_JOINT_COLORS, LEAST, begin_bundles,
+                    &(beginning){ world, call_of(world, h) });
     for (uint32_t i = 0; i < plan->alone_count; ++i) {
         pl_joint *j = pl_joint_alone(&world->joints, i);
         begin(world, j, h);
@@ -348,8 +394,7 @@ void pl_joints_prepare(plumb_world *world, real h)
 void pl_joints_warm_start(plumb_world *world)
 {
     pl_solver_body *bodies = pl_solver_bodies(&world->solver);
-    const pl_joint_call call = call_of(world, 0);
-    pl_joint_kernels_of(world)->warm_start(&call);
+    sweep_bundles(world, 0, pl_joint_kernels_of(world)->warm_start);
     for (uint32_t i = 0; i < world->joints.plan.alone_count; ++i) {
         const pl_joint *j = pl_joint_alone(&world->joints, i);
         for (int k = 0; k < j->rows.count; ++k) {
@@ -379,12 +424,11 @@ static void refresh(const plumb_world *world, pl_joint *j, const pl_solver_body 
 
 static void sweep_lanes(const plumb_world *world, real h, pl_joint_sweep sweep, bool first)
 {
-    const pl_joint_call call = call_of(world, h);
     const pl_joint_kernels *kernels = pl_joint_kernels_of(world);
     if (sweep == PL_SWEEP_PULL) {
-        (first ? kernels->pull_first : kernels->pull)(&call);
+        sweep_bundles(world, h, first ? kernels->pull_first : kernels->pull);
     } else if (sweep == PL_SWEEP_RELAX) {
-        (first ? kernels->relax_first : kernels->relax)(&call);
+        sweep_bundles(world, h, first ? kernels->relax_first : kernels->relax);
     }
 }
 
@@ -418,8 +462,7 @@ void pl_joints_solve(plumb_world *world, real h, pl_joint_sweep sweep, bool firs
 
 void pl_joints_store(plumb_world *world, real h)
 {
-    const pl_joint_call call = call_of(world, h);
-    pl_joint_kernels_of(world)->store(&call);
+    each_bundle(world, h, pl_joint_kernels_of(world)->store);
 }
 
 //---- positions, for the classic solver -----------------------------------------------------------

@@ -58,7 +58,7 @@ typedef struct pl_joint_call {
     pl_solver_body *bodies;
     uint32_t dynamic_slots; // slots from here on are read but never written
     uint32_t immovable_slot;
-    uint32_t bundle_count;
+    uint32_t first, end; // bundles to go through
     const pl_joint_bundle *bundles;
     const pl_joint_pattern *patterns;
     const pl_joint_lane *lanes;

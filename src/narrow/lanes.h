@@ -147,7 +147,7 @@ static inline bool emit_lane(pl_pair *pair, pl_manifold *m, const plumb_real *ro
     return true;
 }
 
-// Counts a manifold into the summary. In order of pairs, so that sums do not depend on the width.
+// Counts a manifold into the summary.
 static inline void summarise(pl_narrow *out, const pl_manifold *m)
 {
     plumb_real s0 = m->point[0].separation, s1 = m->point[1].separation;
@@ -157,7 +157,7 @@ static inline void summarise(pl_narrow *out, const pl_manifold *m)
     out->point_count += m->count;
     if (depth >= 0) {
         ++out->touching_count;
-        out->sum_penetration += (double)depth;
+        out->sum_penetration += pl_depth_units(depth);
         out->max_penetration = depth > out->max_penetration ? depth : out->max_penetration;
     }
 }

@@ -49,6 +49,7 @@ static inline real pl_adhesion_reach(uint32_t pair_flags)
 
 typedef struct pl_narrow {
     pl_buffer manifolds; // pl_manifold of this step, room for every pair
+    pl_buffer staged;    // pl_manifold, with several threads: before they are put together
     uint32_t manifold_count;
     uint32_t borne_count; // more manifolds behind those, whose load others bear (seams/run.c)
     // Summary of this step's manifolds.
@@ -59,8 +60,16 @@ typedef struct pl_narrow {
     uint32_t touching_count; // manifolds whose surfaces met
     uint32_t point_count;
     real max_penetration;   // [m]
-    double sum_penetration; // [m] of the deeper point of each touching manifold
+    uint64_t sum_penetration; // [PL_DEPTH_UNIT] of the deeper point of each touching manifold
 } pl_narrow;
+
+// [m] sums of penetration are whole numbers of this, so that the order of adding makes no difference.
+#define PL_DEPTH_UNIT 0x1p-36
+
+static inline uint64_t pl_depth_units(real depth)
+{
+    return depth < 1000 ? (uint64_t)((double)depth / PL_DEPTH_UNIT) : (uint64_t)(1000 / PL_DEPTH_UNIT);
+}
 
 static inline pl_manifold *pl_manifolds(const pl_narrow *narrow)
 {

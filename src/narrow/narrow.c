@@ -35,34 +35,124 @@ static pl_narrow_kernel *kernel_for(const pl_narrow_kernels *k, int a, int b)
 
 bool pl_narrow_reserve(plumb_world *world, const pl_pair_list *list, pl_narrow *narrow)
 {
-    return pl_buffer_reserve(&world->memory, &narrow->manifolds,
-                             ((size_t)list->count + 1) * sizeof(pl_manifold));
+    size_t size = ((size_t)list->count + 1) * sizeof(pl_manifold);
+    return pl_buffer_reserve(&world->memory, &narrow->manifolds, size) &&
+           (pl_tasks_workers(world->tasks) == 1 ||
+            pl_buffer_reserve(&world->memory, &narrow->staged, size));
+}
+
+//---- shares --------------------------------------------------------------------------------------
+
+// Fewer pairs than this are not worth a thread.
+#define LEAST 128
+
+// A thread's part of the list: pairs in order, so that manifolds put together share after share are
+// those of one thread.
+typedef struct share {
+    pl_share pairs;
+    uint32_t at;         // where its manifolds come in the end
+    pl_narrow made;
+} share;
+
+typedef struct job {
+    const pl_narrow_kernels *kernels;
+    const pl_narrow_input *in;
+    const pl_pair_list *list;
+    pl_manifold *manifolds;
+    uint32_t count;
+    share shares[PLUMB_WORKERS_MAX];
+} job;
+
+// Kind by kind, as the list has them.
+static void make_share(void *context, uint32_t i)
+{
+    job *j = context;
+    share *s = &j->shares[i];
+    for (int a = PL_PIECE_CIRCLE; a < PL_PIECE_KIND_COUNT; ++a) {
+        for (int b = a; b < PL_PIECE_KIND_COUNT; ++b) {
+            uint32_t first = j->list->first[a][b], end = first + j->list->size[a][b];
+            first = first > s->pairs.first ? first : s->pairs.first;
+            end = end < s->pairs.end ? end : s->pairs.end;
+            if (first < end) {
+                kernel_for(j->kernels, a, b)(j->in, first, end - first, &s->made);
+            }
+        }
+    }
+}
+
+// Manifolds of these places, counted from the end of the first share, to where they belong; the pairs are
+// told.
+static void place(void *context, uint32_t first, uint32_t count)
+{
+    const job *j = context;
+    first += j->shares[0].made.manifold_count;
+    for (uint32_t i = 1; i < j->count; ++i) {
+        const share *s = &j->shares[i];
+        uint32_t from = s->at > first ? s->at : first;
+        uint32_t end = s->at + s->made.manifold_count;
+        end = end < first + count ? end : first + count;
+        for (uint32_t k = from; k < end; ++k) {
+            j->manifolds[k] = pl_manifolds(&s->made)[k - s->at];
+            j->in->pairs[j->manifolds[k].pair].manifold = k;
+        }
+    }
+}
+
+static void add_share(pl_narrow *all, const pl_narrow *made)
+{
+    all->manifold_count += made->manifold_count;
+    all->any_friction |= made->any_friction;
+    all->any_bounce |= made->any_bounce;
+    all->touching_count += made->touching_count;
+    all->point_count += made->point_count;
+    all->sum_penetration += made->sum_penetration;
+    all->max_penetration = made->max_penetration > all->max_penetration ? made->max_penetration
+                                                                        : all->max_penetration;
+}
+
+// The first share is made where it stays.
+static void make_manifolds(plumb_world *world, const pl_narrow_input *in, const pl_pair_list *list,
+                           pl_narrow *narrow)
+{
+    job j = { .kernels = kernels_of(world->desc.simd_width),
+              .in = in,
+              .list = list,
+              .manifolds = pl_manifolds(narrow),
+              .count = pl_tasks_share_count(world->tasks, list->count, LEAST) };
+    for (uint32_t i = 0; i < j.count; ++i) {
+        share *s = &j.shares[i];
+        s->pairs = pl_share_of(list->count, j.count, i);
+        s->made.manifolds.data =
+            i == 0 ? j.manifolds : (pl_manifold *)narrow->staged.data + s->pairs.first;
+    }
+    pl_tasks_run(world->tasks, make_share, &j, j.count);
+    for (uint32_t i = 0; i < j.count; ++i) {
+        j.shares[i].at = narrow->manifold_count;
+        add_share(narrow, &j.shares[i].made);
+    }
+    uint32_t staged = narrow->manifold_count - j.shares[0].made.manifold_count;
+    if (staged > 0) {
+        pl_tasks_ranges(world->tasks, staged, LEAST, place, &j);
+    }
 }
 
 void pl_narrow_run(plumb_world *world, const pl_pair_list *list, real dt, pl_narrow *narrow)
 {
-    const pl_narrow_kernels *kernels = kernels_of(world->desc.simd_width);
-    pl_narrow_input in = { .poses = (const real *)world->poses.data,
-                           .cores = world->pieces.core,
-                           .vertices = world->vertices.items,
-                           .vertex_first = world->pieces.vertices,
-                           .vertex_count = world->pieces.vertex_count,
-                           .friction = world->pieces.friction,
-                           .restitution = world->pieces.restitution,
-                           .dt = dt,
-                           .elastic_above = pl_restitution_is_mixed(world) ? -1 : 0,
-                           .pairs = pl_pairs(list),
-                           .wrapped = pl_is_wrapped(world),
-                           .wrap_x = world->desc.wrap_x,
-                           .wrap_y = world->desc.wrap_y };
-    *narrow = (pl_narrow){ .manifolds = narrow->manifolds };
-    for (int a = PL_PIECE_CIRCLE; a < PL_PIECE_KIND_COUNT; ++a) {
-        for (int b = a; b < PL_PIECE_KIND_COUNT; ++b) {
-            if (list->size[a][b] > 0) {
-                kernel_for(kernels, a, b)(&in, list->first[a][b], list->size[a][b], narrow);
-            }
-        }
-    }
+    const pl_narrow_input in = { .poses = (const real *)world->poses.data,
+                                 .cores = world->pieces.core,
+                                 .vertices = world->vertices.items,
+                                 .vertex_first = world->pieces.vertices,
+                                 .vertex_count = world->pieces.vertex_count,
+                                 .friction = world->pieces.friction,
+                                 .restitution = world->pieces.restitution,
+                                 .dt = dt,
+                                 .elastic_above = pl_restitution_is_mixed(world) ? -1 : 0,
+                                 .pairs = pl_pairs(list),
+                                 .wrapped = pl_is_wrapped(world),
+                                 .wrap_x = world->desc.wrap_x,
+                                 .wrap_y = world->desc.wrap_y };
+    *narrow = (pl_narrow){ .manifolds = narrow->manifolds, .staged = narrow->staged };
+    make_manifolds(world, &in, list, narrow);
 }
 
 static void take_out(pl_pair *pair, uint32_t flag)
@@ -104,5 +194,6 @@ void pl_narrow_take_out_disabled(plumb_world *world, uint32_t flag)
 void pl_narrow_free(pl_memory *memory, pl_narrow *narrow)
 {
     pl_buffer_free(memory, &narrow->manifolds);
+    pl_buffer_free(memory, &narrow->staged);
     *narrow = (pl_narrow){ 0 };
 }

@@ -113,6 +113,7 @@ void pl_narrow_summarise(pl_narrow *narrow)
 {
     const pl_manifold *m = pl_manifolds(narrow);
     *narrow = (pl_narrow){ .manifolds = narrow->manifolds,
+                           .staged = narrow->staged,
                            .manifold_count = narrow->manifold_count,
                            .borne_count = narrow->borne_count };
     for (uint32_t i = 0; i < narrow->manifold_count; ++i) {
@@ -125,7 +126,7 @@ void pl_narrow_summarise(pl_narrow *narrow)
         narrow->point_count += m[i].count;
         if (depth >= 0) {
             ++narrow->touching_count;
-            narrow->sum_penetration += (double)depth;
+            narrow->sum_penetration += pl_depth_units(depth);
             narrow->max_penetration =
                 depth > narrow->max_penetration ? depth : narrow->max_penetration;
         }

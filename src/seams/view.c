@@ -84,7 +84,8 @@ static double along(const pl_face *f, double x, double y)
 }
 
 // [m] what lies deeper behind a face is not stopped by it: it has come through, or from the other side.
-// A solid is as deep as it is thick; a line holds what has its middle in front.
+// A solid holds what lies inside it, and like a line, all that has its middle in front of its own: of a
+// thin wall the sweeps let corners through by more than its thickness (continuous/target.h).
 static double depth_of(const pl_view *v, const pl_face *f)
 {
     double deepest = 0, low = INFINITY, high = -INFINITY;
@@ -92,12 +93,12 @@ static double depth_of(const pl_view *v, const pl_face *f)
         const pl_vertex *p = &v->side.corners[k];
         deepest = pl_greater(deepest, -ahead(f, (double)p->x, (double)p->y));
     }
-    for (int i = 0; i < v->count && v->side.count == 2; ++i) {
+    for (int i = 0; i < v->count; ++i) {
         double u = ahead(f, v->x[i], v->y[i]);
         low = pl_lesser(low, u);
         high = pl_greater(high, u);
     }
-    return v->radii + (v->side.count > 2 ? deepest : (high - low) / 2);
+    return v->radii + pl_greater(deepest, (deepest + high - low) / 2);
 }
 
 // True when the other piece is, or comes, before a part of edge k that is open.

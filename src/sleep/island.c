@@ -158,7 +158,7 @@ static void count_in(pl_island *i, const pl_manifold *m)
     i->point_count += m->count;
     if (depth >= 0) {
         ++i->touching_count;
-        i->sum_penetration += (double)depth;
+        i->sum_penetration += pl_depth_units(depth);
         i->max_penetration = depth > i->max_penetration ? depth : i->max_penetration;
     }
 }

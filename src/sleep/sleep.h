@@ -33,7 +33,7 @@ typedef struct pl_island {
     // Summary of its manifolds, as pl_narrow has it.
     uint32_t contact_count, touching_count, point_count;
     real max_penetration;   // [m]
-    double sum_penetration; // [m]
+    uint64_t sum_penetration; // [PL_DEPTH_UNIT]
 } pl_island;
 
 typedef struct pl_sleep {

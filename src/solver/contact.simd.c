@@ -477,8 +477,7 @@ WIDE_INLINE void sweep(const pl_contact_call *call, uint32_t first, uint32_t cou
     }
 }
 
-static void store_impulses(const pl_contact_call *call, pl_pair *pairs, uint32_t first,
-                           uint32_t count)
+static void store_impulses(const pl_contact_call *call, uint32_t first, uint32_t count)
 {
     const bundle *bundles = call->bundles;
     for (uint32_t k = first; k < first + count; ++k) {
@@ -486,7 +485,7 @@ static void store_impulses(const pl_contact_call *call, pl_pair *pairs, uint32_t
         for (int i = 0; i < PL_WIDTH; ++i) {
             uint32_t at = call->lanes[(size_t)k * PL_WIDTH + (size_t)i];
             if (at != PL_NONE) {
-                pl_pair *pair = &pairs[call->manifolds[at].pair];
+                pl_pair *pair = &call->pairs[call->manifolds[at].pair];
                 for (int j = 0; j < 2; ++j) {
                     pair->normal[j] = c->p[j].ln[i];
                     pair->tangent[j] = c->p[j].lt[i];
@@ -506,17 +505,17 @@ static void tally(const pl_contact_call *call, uint32_t first, uint32_t count)
     }
 }
 
-static void store_extras(const pl_contact_call *call, pl_manifold *manifolds, uint32_t first,
-                         uint32_t count)
+static void store_extras(const pl_contact_call *call, uint32_t first, uint32_t count)
 {
     const extra *extras = call->extras;
     for (uint32_t k = first; k < first + count; ++k) {
         for (int i = 0; i < PL_WIDTH; ++i) {
             uint32_t at = call->lanes[(size_t)k * PL_WIDTH + (size_t)i];
             if (at != PL_NONE) {
-                call->pairs[manifolds[at].pair].rolling = extras[k].lr[i];
-                manifolds[at].point[0].total += extras[k].total[0][i];
-                manifolds[at].point[1].total += extras[k].total[1][i];
+                pl_manifold *m = &call->manifolds[at];
+                call->pairs[m->pair].rolling = extras[k].lr[i];
+                m->point[0].total += extras[k].total[0][i];
+                m->point[1].total += extras[k].total[1][i];
             }
         }
     }

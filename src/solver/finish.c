@@ -8,6 +8,8 @@
 #include "plumb/math.h"
 #include "world/state.h"
 
+#include <string.h>
+
 // What is left of a motion that contacts and joints have damped away halves and halves until it is
 // subnormal, and then costs hundreds of cycles wherever it is multiplied. Less than this counts as none:
 // a turn [rad] that moves no coordinate, and a speed [m/s, rad/s].
@@ -95,40 +97,70 @@ static bool is_sane(real v)
     return v >= -PL_LARGEST && v <= PL_LARGEST; // false for NaN
 }
 
-// A body whose points may have moved farther than its slack is noted for the continuous pass.
-static inline void note_if_fast(plumb_world *world, uint32_t row, where before, real angle)
+// What the bodies of a share have in common.
+typedef struct passage {
+    plumb_world *world;
+    real dt;
+    bool collided; // the graph was made in this step
+    bool noting;
+    const real *lows;
+    uint32_t shares;
+    struct {
+        uint32_t count; // movers, noted where the share's rows begin
+        bool lost;      // some body of it was
+    } made[PLUMB_WORKERS_MAX];
+} passage;
+
+// A body whose points may have moved farther than its slack is noted for the continuous pass. Returns
+// how many were.
+static inline uint32_t note_if_fast(const plumb_world *world, uint32_t row, where before,
+                                    real angle, pl_mover *out)
 {
     const pl_bodies *b = &world->bodies;
     real moved = plumb_abs(b->center_x[row] - before.x) + plumb_abs(b->center_y[row] - before.y) +
                  plumb_abs(angle) * b->extent[row];
-    if (moved > b->slack[row]) {
-        pl_movers(&world->continuous)[world->continuous.count++] = (pl_mover){ .row = row,
-                                                                               .x = before.x,
-                                                                               .y = before.y,
-                                                                               .c = before.c,
-                                                                               .s = before.s,
-                                                                               .angle = angle,
-                                                                               .moved = moved,
-                                                                               .stop = 1 };
+    if (!(moved > b->slack[row])) {
+        return 0;
     }
+    *out = (pl_mover){ .row = row,
+                       .x = before.x,
+                       .y = before.y,
+                       .c = before.c,
+                       .s = before.s,
+                       .angle = angle,
+                       .moved = moved,
+                       .stop = 1 };
+    return 1;
 }
 
 // A step that would leave a body's state without meaning is undone for that body: it stays where it was,
-// at rest, and the world counts and tells it. NaN never gets into the columns.
-static void arrest_if_lost(plumb_world *world, uint32_t row, where before)
+// at rest, and is marked to be counted and told. NaN never gets into the columns.
+static bool arrest_if_lost(plumb_world *world, uint32_t row, where before)
 {
     pl_bodies *b = &world->bodies;
     if (is_sane(b->center_x[row]) && is_sane(b->center_y[row]) && is_sane(b->c[row]) &&
         is_sane(b->s[row]) && is_sane(b->vx[row]) && is_sane(b->vy[row]) && is_sane(b->w[row])) {
-        return;
+        return false;
     }
     b->center_x[row] = before.x, b->center_y[row] = before.y;
     b->c[row] = before.c, b->s[row] = before.s;
     b->vx[row] = b->vy[row] = b->w[row] = 0;
     b->low_x[row] = b->low_y[row] = b->low_vx[row] = b->low_vy[row] = 0;
-    ++world->arrested_count;
-    pl_warn(world, "body %u was stopped: the step would have left it without a finite state",
-            b->entity[row].index);
+    b->flags[row] |= PL_BODY_LOST;
+    return true;
+}
+
+static void tell_lost(plumb_world *world)
+{
+    pl_bodies *b = &world->bodies;
+    for (uint32_t row = 0; row < world->dynamic_count + world->kinematic_count; ++row) {
+        if ((b->flags[row] & PL_BODY_LOST) != 0) {
+            b->flags[row] &= (uint16_t)~PL_BODY_LOST;
+            ++world->arrested_count;
+            pl_warn(world, "body %u was stopped: the step would have left it without a finite state",
+                    b->entity[row].index);
+        }
+    }
 }
 
 // The new state of a dynamic body in a contact.
@@ -145,48 +177,100 @@ static void take_over(plumb_world *world, uint32_t row, const pl_solver_body *bo
     b->low_vy[row] = low == NULL ? 0 : low[1];
 }
 
-void pl_solver_finish(plumb_world *world, real dt)
+// Moves a dynamic body; returns the angle by which it turned.
+static real move_dynamic(const passage *p, uint32_t row)
 {
+    plumb_world *world = p->world;
+    const bool odd = (world->bodies.flags[row] & PL_BODY_ODD) != 0;
+    const uint32_t slot =
+        p->collided ? ((const uint32_t *)world->solver.slots.data)[row] : PL_NONE;
+    if (slot == PL_NONE) {
+        return odd ? fly_oddly(world, row, p->dt) : fly(world, row, p->dt);
+    }
+    if (odd && !(pl_time_scale(world, row) > 0)) {
+        return 0;
+    }
+    const pl_solver_body *body = &pl_solver_bodies(&world->solver)[slot];
+    take_over(world, row, body, p->lows == NULL ? NULL : &p->lows[(size_t)slot * 4]);
+    if (odd) {
+        pl_effects_take_over(world, row);
+    }
+    return body->da;
+}
+
+static real move_kinematic(const passage *p, uint32_t row)
+{
+    pl_bodies *b = &p->world->bodies;
+    bool tuned = (b->flags[row] & PL_BODY_TUNED) != 0;
+    real time = tuned ? p->dt * pl_time_scale(p->world, row) : p->dt;
+    add(&b->center_x[row], &b->low_x[row], time * b->vx[row]);
+    add(&b->center_y[row], &b->low_y[row], time * b->vy[row]);
+    turn(b, row, time * b->w[row]);
+    return time * b->w[row];
+}
+
+static void move_share(void *context, uint32_t i)
+{
+    passage *p = context;
+    plumb_world *world = p->world;
     pl_bodies *b = &world->bodies;
-    const pl_solver_body *bodies = pl_solver_bodies(&world->solver);
-    const uint32_t *slots = world->solver.slots.data;
-    const bool collided = world->solver.slot_count > 0; // the graph was made in this step
-    const bool noting = world->continuous.noting;
-    const real *lows = world->narrow.any_bounce ? world->solver.lows.data : NULL;
-    for (uint32_t row = 0; row < world->dynamic_count; ++row) {
+    const pl_share rows =
+        pl_share_of(world->dynamic_count + world->kinematic_count, p->shares, i);
+    pl_mover *movers = p->noting ? pl_movers(&world->continuous) + rows.first : NULL;
+    uint32_t count = 0;
+    bool lost = false;
+    for (uint32_t row = rows.first; row < rows.end; ++row) {
         where before = { b->center_x[row], b->center_y[row], b->c[row], b->s[row] };
-        bool odd = (b->flags[row] & PL_BODY_ODD) != 0;
-        real angle = 0;
-        if ((!collided || slots[row] == PL_NONE) && odd) {
-            angle = fly_oddly(world, row, dt);
-        } else if (!collided || slots[row] == PL_NONE) {
-            angle = fly(world, row, dt);
-        } else if (!odd || pl_time_scale(world, row) > 0) {
-            uint32_t slot = slots[row];
-            angle = bodies[slot].da;
-            take_over(world, row, &bodies[slot], lows == NULL ? NULL : &lows[(size_t)slot * 4]);
-            if (odd) {
-                pl_effects_take_over(world, row);
-            }
+        real angle;
+        if (row < world->dynamic_count) {
+            angle = move_dynamic(p, row);
+            b->fx[row] = b->fy[row] = b->torque[row] = 0;
+        } else {
+            angle = move_kinematic(p, row);
         }
-        b->fx[row] = b->fy[row] = b->torque[row] = 0;
-        arrest_if_lost(world, row, before);
+        lost |= arrest_if_lost(world, row, before);
         pl_body_update_origin(world, row);
-        if (noting) {
-            note_if_fast(world, row, before, angle);
+        if (p->noting) {
+            count += note_if_fast(world, row, before, angle, &movers[count]);
         }
     }
-    for (uint32_t row = world->dynamic_count; row < world->dynamic_count + world->kinematic_count;
-         ++row) {
-        where before = { b->center_x[row], b->center_y[row], b->c[row], b->s[row] };
-        real time = (b->flags[row] & PL_BODY_TUNED) != 0 ? dt * pl_time_scale(world, row) : dt;
-        add(&b->center_x[row], &b->low_x[row], time * b->vx[row]);
-        add(&b->center_y[row], &b->low_y[row], time * b->vy[row]);
-        turn(b, row, time * b->w[row]);
-        arrest_if_lost(world, row, before);
-        pl_body_update_origin(world, row);
-        if (noting) {
-            note_if_fast(world, row, before, time * b->w[row]);
+    p->made[i].count = count;
+    p->made[i].lost = lost;
+}
+
+// Movers in order of rows, without gaps.
+static void close_up(passage *p)
+{
+    pl_continuous *c = &p->world->continuous;
+    const uint32_t rows = p->world->dynamic_count + p->world->kinematic_count;
+    for (uint32_t i = 0; i < p->shares; ++i) {
+        uint32_t first = pl_share_of(rows, p->shares, i).first;
+        if (first != c->count && p->made[i].count > 0) {
+            memmove(pl_movers(c) + c->count, pl_movers(c) + first,
+                    p->made[i].count * sizeof(pl_mover));
         }
+        c->count += p->made[i].count;
+    }
+}
+
+void pl_solver_finish(plumb_world *world, real dt)
+{
+    const uint32_t rows = world->dynamic_count + world->kinematic_count;
+    passage p = { .world = world,
+                  .dt = dt,
+                  .collided = world->solver.slot_count > 0,
+                  .noting = world->continuous.noting,
+                  .lows = world->narrow.any_bounce ? world->solver.lows.data : NULL,
+                  .shares = pl_tasks_share_count(world->tasks, rows, PL_BODIES_SHARED) };
+    pl_tasks_run(world->tasks, move_share, &p, p.shares);
+    bool lost = false;
+    for (uint32_t i = 0; i < p.shares; ++i) {
+        lost |= p.made[i].lost;
+    }
+    if (lost) {
+        tell_lost(world);
+    }
+    if (p.noting) {
+        close_up(&p);
     }
 }

@@ -254,9 +254,11 @@ static void place_lanes(plumb_world *world, const uint32_t counts[PL_COLORS + 1]
     s->color_count = 0;
     for (uint32_t c = 0; c < PL_COLORS; ++c) {
         at[c] = lane_count;
+        s->color_first[c] = lane_count / width;
         lane_count += (counts[c] + width - 1) / width * width;
         s->color_count += counts[c] > 0;
     }
+    s->color_first[OVERFLOW_COLOR] = lane_count / width;
     uint32_t *lanes = s->lanes.data;
     if (lanes == NULL) {
         s->bundle_count = 0; // no contact has ever been made

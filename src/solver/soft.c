@@ -20,13 +20,20 @@
 
 typedef real quad __attribute__((vector_size(4 * sizeof(real)), may_alias));
 
+typedef struct flight {
+    const pl_solver *solver;
+    real h; // [s]
+} flight;
+
 // v = u + h a, plus what the contacts did in the substep before.
-static void integrate_velocities(const plumb_world *world, real h)
+static void fly(void *context, uint32_t first, uint32_t count)
 {
-    const pl_solver *s = &world->solver;
+    const flight *f = context;
+    const pl_solver *s = f->solver;
+    const real h = f->h;
     quad *body = (quad *)(void *)pl_solver_bodies(s);
     quad *motion = (quad *)(void *)pl_solver_motions(s);
-    for (uint32_t i = 0; i < s->dynamic_slots; ++i) {
+    for (uint32_t i = first; i < first + count; ++i) {
         quad v = body[2 * i];
         quad pushed = v - motion[2 * i + 1];
         quad u = v + h * motion[2 * i];
@@ -38,13 +45,15 @@ static void integrate_velocities(const plumb_world *world, real h)
 // The same, and what rounding takes from u of an elastic body is added in the next substep: without
 // that, it gains or loses 2e-7 of its energy a bounce in the float library. For others this does, bit
 // for bit, what the function above does.
-static void integrate_velocities_carefully(const plumb_world *world, real h)
+static void fly_carefully(void *context, uint32_t first, uint32_t count)
 {
-    const pl_solver *s = &world->solver;
+    const flight *f = context;
+    const pl_solver *s = f->solver;
+    const real h = f->h;
     quad *body = (quad *)(void *)pl_solver_bodies(s);
     quad *motion = (quad *)(void *)pl_solver_motions(s);
     quad *low = (quad *)s->lows.data;
-    for (uint32_t i = 0; i < s->dynamic_slots; ++i) {
+    for (uint32_t i = first; i < first + count; ++i) {
         quad v = body[2 * i];
         quad pushed = v - motion[2 * i + 1];
         real kept = low[i][3];
@@ -56,6 +65,41 @@ static void integrate_velocities_carefully(const plumb_world *world, real h)
         motion[2 * i + 1] = u;
         body[2 * i] = u + pushed;
     }
+}
+
+// A share of fewer bundles than this is not worth a thread: about a microsecond of work.
+#define LEAST 12
+
+typedef struct kernel_call {
+    const pl_contact_call *call;
+    pl_contact_kernel *kernel;
+} kernel_call;
+
+static void run_kernel(void *context, uint32_t first, uint32_t count)
+{
+    const kernel_call *c = context;
+    c->kernel(c->call, first, count);
+}
+
+// A kernel over all bundles. Those of one colour have no body in common that moves, so threads share
+// them; overflow contacts come last, one bundle after another.
+static void sweep(const plumb_world *world, const pl_contact_call *call, pl_contact_kernel *kernel)
+{
+    const pl_solver *s = &world->solver;
+    const uint32_t shared = s->color_first[PL_COLORS];
+    kernel_call c = { call, kernel };
+    pl_tasks_phases(world->tasks, s->color_first, PL_COLORS, LEAST, run_kernel, &c);
+    kernel(call, shared, s->bundle_count - shared);
+}
+
+// The same for a kernel in which every bundle stands by itself.
+static void each(const plumb_world *world, const pl_contact_call *call, pl_contact_kernel *kernel)
+{
+    const pl_solver *s = &world->solver;
+    const uint32_t shared = s->color_first[PL_COLORS];
+    kernel_call c = { call, kernel };
+    pl_tasks_shares(world->tasks, s->color_first, PL_COLORS, LEAST, run_kernel, &c);
+    kernel(call, shared, s->bundle_count - shared);
 }
 
 void pl_solver_soft(plumb_world *world, real dt)
@@ -93,14 +137,14 @@ void pl_solver_soft(plumb_world *world, real dt)
     const bool bounce = world->narrow.any_bounce;
     const bool resist = pl_effects_resist(world);
 
-    kernels->prepare(&call, 0, s->bundle_count);
+    each(world, &call, kernels->prepare);
     if (running || tallies) {
         call.extras = s->extras.data;
-        kernels->prepare_extras(&call, 0, s->bundle_count);
+        each(world, &call, kernels->prepare_extras);
     }
     if (special) {
         call.specials = s->specials.data;
-        kernels->prepare_specials(&call, 0, s->bundle_count);
+        each(world, &call, kernels->prepare_specials);
     }
     if (bounce) {
         pl_impacts_prepare(world);
@@ -112,16 +156,13 @@ void pl_solver_soft(plumb_world *world, real dt)
         if (resist) {
             pl_effects_substep(world, h);
         }
-        if (bounce) {
-            integrate_velocities_carefully(world, h);
-        } else {
-            integrate_velocities(world, h);
-        }
+        pl_tasks_ranges(world->tasks, s->dynamic_slots, PL_BODIES_SHARED,
+                        bounce ? fly_carefully : fly, &(flight){ s, h });
         if (joints && k == 0) {
             pl_joints_warm_start(world);
         }
         if (k == 0) {
-            kernels->warm_start[surface][rotation](&call, 0, s->bundle_count);
+            sweep(world, &call, kernels->warm_start[surface][rotation]);
         }
         if (bounce) {
             pl_impacts_run(world, h);
@@ -130,27 +171,27 @@ void pl_solver_soft(plumb_world *world, real dt)
             if (joints) {
                 pl_joints_solve(world, h, PL_SWEEP_PULL, i == 0);
             }
-            kernels->solve[surface][rotation](&call, 0, s->bundle_count);
+            sweep(world, &call, kernels->solve[surface][rotation]);
         }
         pl_integrate_positions(world, h);
         for (int i = 0; i < world->desc.iterations; ++i) {
             if (joints) {
                 pl_joints_solve(world, h, PL_SWEEP_RELAX, i == 0);
             }
-            kernels->relax[surface][rotation](&call, 0, s->bundle_count);
+            sweep(world, &call, kernels->relax[surface][rotation]);
         }
         if (world->joints.impulsive > 0) {
             pl_joints_tally(world);
         }
         if (tallies) {
-            kernels->tally(&call, 0, s->bundle_count);
+            each(world, &call, kernels->tally);
         }
     }
     if (joints) {
         pl_joints_store(world, h);
     }
-    kernels->store(&call, call.pairs, 0, s->bundle_count);
+    each(world, &call, kernels->store);
     if (running || tallies) {
-        kernels->store_extras(&call, pl_manifolds(&world->narrow), 0, s->bundle_count);
+        each(world, &call, kernels->store_extras);
     }
 }

@@ -86,6 +86,7 @@ typedef struct pl_solver {
     pl_buffer classic; // pl_classic_contact, for the classic solver alone
     uint32_t dynamic_slots,
         slot_count; // slots [0, dynamic_slots) move; the last is the immovable one
+    uint32_t color_first[PL_COLORS + 1]; // first bundle of a colour; of the overflow contacts
     uint32_t bundle_count, impact_count, due_count, lively_count;
     uint32_t color_count, overflow_count, bounce_count;
 } pl_solver;
@@ -102,7 +103,7 @@ typedef struct pl_contact_call {
     void *extras; // NULL: none
     void *specials;         // NULL: none
     const uint16_t *flags;  // PL_BODY_... of a body row
-    const pl_manifold *manifolds;
+    pl_manifold *manifolds;
     pl_pair *pairs;
     real h, inv_h;       // [s] substep
     real hertz, damping; // [1/s], [-] of soft contacts
@@ -135,11 +136,8 @@ typedef struct pl_contact_kernels {
     size_t special_size;
     pl_contact_kernel *prepare_specials; // after prepare_extras
     pl_contact_kernel *tally; // adds the substep's normal impulses to the totals
-    // Writes rolling impulses to the pairs and adds totals to the manifolds' points.
-    void (*store_extras)(const pl_contact_call *call, pl_manifold *manifolds, uint32_t first,
-                         uint32_t count);
-    // Writes the impulses of each bundle back to the pairs.
-    void (*store)(const pl_contact_call *call, pl_pair *pairs, uint32_t first, uint32_t count);
+    pl_contact_kernel *store_extras; // rolling impulses to the pairs, totals to the manifolds' points
+    pl_contact_kernel *store;        // impulses to the pairs
 } pl_contact_kernels;
 
 extern const pl_contact_kernels pl_contact_kernels_w4;
@@ -175,6 +173,9 @@ static inline uint32_t pl_solver_slot(const pl_solver *solver, uint32_t row, uin
     return row < movable_rows ? ((const uint32_t *)solver->slots.data)[row]
                               : solver->slot_count - 1;
 }
+
+// Fewer bodies than this are not worth another thread in a pass that goes over them once.
+#define PL_BODIES_SHARED 256
 
 // Results into the columns, free flight of bodies in no contact, kinematic motion (finish.c).
 void pl_solver_finish(plumb_world *world, real dt);

@@ -99,6 +99,7 @@ plumb_result plumb_world_step(plumb_world *world, plumb_real dt)
     }
     world->characters.moved = false;
     result = run_passes(world, dt);
+    pl_tasks_rest(world->tasks);
     if (result == PLUMB_E_MEMORY) {
         pl_characters_undo(world);
         pl_seams_undo(world);

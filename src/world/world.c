@@ -405,7 +405,9 @@ plumb_stats plumb_world_stats(const plumb_world *world)
         .simd_width = world->desc.simd_width,
         .max_penetration = all.max_penetration,
         .mean_penetration =
-            all.touching_count > 0 ? (real)(all.sum_penetration / all.touching_count) : 0,
+            all.touching_count > 0
+                ? (real)((double)all.sum_penetration * PL_DEPTH_UNIT / all.touching_count)
+                : 0,
         .bytes = world->memory.bytes,
         .peak_bytes = world->memory.peak,
     };

@@ -42,8 +42,8 @@ struct plan {
 static const char usage[] =
     "usage: bench [options]\n"
     "  --scenes A,B      scenes in this order (default: all but field_*; --list shows them)\n"
-    "  --engines X,Y     engines in this order, each name[:width][:solver]; ratios are\n"
-    "                    against the first (default: all; --list shows them)\n"
+    "  --engines X,Y     engines in this order, each name[:width][:solver][:tN]; ratios\n"
+    "                    are against the first (default: all; --list shows them); t2: two threads\n"
     "  --repeats N       turns of every engine on a scene, 1..101 (default 5)\n"
     "  --steps-scale F   factor on the number of steps (default 1)\n"
     "  --substeps N      substeps of every engine; Box2D 2.4.1 takes N shorter steps\n"
@@ -52,7 +52,7 @@ static const char usage[] =
     "  --sleep           let bodies sleep in the scenes whose origin does\n"
     "  --clock wall|cpu  elapsed time (default), or processor time: steadier on a busy machine,\n"
     "                    but a few ms coarse on some\n"
-    "  --core N          pin to this core (default 0; -1: do not pin)\n"
+    "  --core N          pin to this core, N threads to the N from there (default 0; -1: no)\n"
     "  --sample N        steps between measurements of penetration (default 25)\n"
     "  --quick           --repeats 1 --steps-scale 0.1\n"
     "  --csv FILE        write all figures there too\n"
@@ -108,6 +108,13 @@ static void add_contender(struct plan *plan, char *spec)
     }
     for (char *part = strtok_r(NULL, ":", &state); part != NULL;
          part = strtok_r(NULL, ":", &state)) {
+        if (*part == 't' && part[1] >= '0' && part[1] <= '9') {
+            if (!c->engine->has_threads) {
+                fail("this engine has no threads:", c->label);
+            }
+            c->workers = (int)number("engines", part + 1, 1.0, 64.0);
+            continue;
+        }
         if (!c->engine->has_solver) {
             fail("this engine has neither widths nor solvers:", c->label);
         }

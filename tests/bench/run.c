@@ -53,6 +53,7 @@ static struct engine_world *open_world(const struct scene *scene, const struct c
     options.substeps = settings->substeps;
     options.sleep = settings->sleep && scene->sleeps;
     options.width = contender->width;
+    options.workers = contender->workers;
     options.solver = contender->solver;
     return contender->engine->create(&options);
 }
@@ -211,7 +212,9 @@ static void be_child(body_fn *body, const struct scene_row *row, const struct sc
     if (settings->core >= 0) {
         cpu_set_t set;
         CPU_ZERO(&set);
-        CPU_SET((size_t)settings->core, &set);
+        for (int i = 0; i == 0 || i < contender->workers; ++i) {
+            CPU_SET((size_t)(settings->core + i), &set);
+        }
         sched_setaffinity(0, sizeof set, &set);
     }
     struct run_result result;

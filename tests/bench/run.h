@@ -6,9 +6,10 @@
 
 /// An engine with the settings it runs under: one column of the comparison.
 struct contender {
-    char label[32]; ///< as given on the command line: name[:width][:solver]
+    char label[32]; ///< as given on the command line: name[:width][:solver][:tN]
     const struct engine *engine;
     int width;          ///< 0: the engine's choice
+    int workers;        ///< threads; 0: one
     const char *solver; ///< NULL: the engine's choice
 };
 
@@ -18,7 +19,7 @@ struct run_settings {
     int substeps;       ///< 0: the engine's default
     bool sleep;         ///< let bodies sleep where the scene's origin does
     bool cpu_clock;     ///< time by the processor time of the process instead of elapsed time
-    int core;           ///< to be pinned to; < 0: none
+    int core;           ///< to be pinned to, with more threads to those after it as well; < 0: none
     int sample_every;   ///< [steps] between two measurements of penetration
 };
 

@@ -17,7 +17,7 @@
 /// Bodies are dense indices 0, 1, 2, ... in the order of creation; a destroyed body's index
 /// is not given again and may only be forgotten. A shape call returns ENGINE_OK,
 /// ENGINE_UNSUPPORTED (the engine has no such shape; the body is as before) or ENGINE_FAILED.
-/// One thread; the worlds are independent.
+/// One thread calls; an engine may have more of its own (`workers`). The worlds are independent.
 ///
 /// What differs between engines and cannot be set away, so that a test can allow for it:
 /// - Box2D 2.4.1 puts a skin of 0.01 m round polygons, edges and chains (`skin`): boxes at rest
@@ -58,6 +58,7 @@ struct engine_options {
     double restitution_threshold; ///< [m/s] no bounce below; < 0: its own (Box2D 1.0, Plumb 0)
     double skin;                  ///< [m] round polygons, where the engine has one; < 0: its own
     int width;                    ///< SIMD lanes where they can be chosen; 0: the engine's choice
+    int workers;                  ///< threads, where the engine has them; 0: one
     const char *solver;           ///< Plumb: "soft" or "baseline"; NULL: soft
 };
 
@@ -130,6 +131,7 @@ struct engine_counts {
 /// One engine. Every pointer is set in every engine.
 struct engine {
     const char *name; ///< short: column title and --engines key
+    bool has_threads; ///< options.workers means something
     bool has_solver;  ///< options.solver and options.width mean something
 
     /// Writes name, version and what is known of the build, one line.
@@ -187,7 +189,9 @@ struct engine {
 /// engine's own.
 static inline struct engine_options engine_options_default(void)
 {
-    struct engine_options options = { 0.0, -10.0, 0, 0, 0, false, true, -1.0, -1.0, 0, NULL };
+    // In order: engine_box2d2.cpp is C++17.
+    struct engine_options options = { 0.0,  -10.0, 0,    0, 0, false,
+                                      true, -1.0,  -1.0, 0, 0, NULL };
     return options;
 }
 

@@ -293,6 +293,7 @@ size_t bytes(const engine_world *)
 
 extern "C" const engine engine_box2d2 = {
     .name = "box2d2",
+    .has_threads = false,
     .has_solver = false,
     .describe = describe,
     .create = create,

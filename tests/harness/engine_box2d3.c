@@ -3,7 +3,7 @@
 // Reads: nothing but its arguments. Writes: the world it owns.
 //
 // Angles go in and out as cosine and sine, because the library's own arc tangent is an
-// approximation. One worker; contact stiffness, damping and recycling are the library's defaults.
+// approximation. Its own threads, as many as asked for; contact stiffness, damping and recycling are the library's defaults.
 #include "engine.h"
 
 #include <box2d/box2d.h>
@@ -46,7 +46,7 @@ static struct engine_world *create(const struct engine_options *options)
     def.gravity = vec(options->gravity_x, options->gravity_y);
     def.enableSleep = options->sleep;
     def.enableContinuous = options->continuous;
-    def.workerCount = 1;
+    def.workerCount = options->workers > 1 ? options->workers : 1;
     if (options->restitution_threshold >= 0.0) {
         def.restitutionThreshold = (float)options->restitution_threshold;
     }
@@ -354,6 +354,7 @@ static size_t bytes(const struct engine_world *w)
 
 const struct engine engine_box2d3 = {
     .name = "box2d3",
+    .has_threads = true,
     .has_solver = false,
     .describe = describe,
     .create = create,

@@ -84,6 +84,7 @@ static struct engine_world *create(const struct engine_options *options)
     desc.substeps = options->substeps;
     desc.no_continuous = !options->continuous;
     desc.simd_width = options->width;
+    desc.workers = options->workers;
     desc.no_sleep = !options->sleep;
     desc.log = tell;
     if (options->restitution_threshold > 0.0) {
@@ -367,6 +368,7 @@ static size_t bytes(const struct engine_world *w)
 
 const struct engine engine_plumb = {
     .name = "plumb",
+    .has_threads = true,
     .has_solver = true,
     .describe = describe,
     .create = create,

@@ -176,6 +176,9 @@ struct shot_result shot_fire(const struct engine *engine, const struct engine_op
     for (int i = 0; i < s->steps; ++i) {
         engine->step(w, s->dt);
         struct engine_pose at = engine->get_pose(w, body);
+        if (fabs(ny * at.x - nx * at.y) > WALL_HALF - ROD_HALF) {
+            break; // it has slid along to where the wall ends
+        }
         height = height_of(&outline, s, at.x, at.y, at.angle);
         r.deepest = fmax(r.deepest, s->thickness / 2 - height);
         r.missed |= !(nx * at.x + ny * at.y > 0);

@@ -7,7 +7,8 @@
 /// A wall is 1000 m long, made of pieces end to end, turned by any angle. The body starts clear of
 /// it on one side and is shot at it, spinning. The referee looks at poses alone, after every step:
 /// a shot is missed when the body's centre lies beyond the middle of the wall at any time, or when any
-/// part of it is farther than 1 cm beyond the wall's far side at the end.
+/// part of it is farther than 1 cm beyond the wall's far side at the end, or when it gets to within 2 m of
+/// the wall's ends: from there on nobody looks.
 #ifndef HARNESS_SHOTS_H
 #define HARNESS_SHOTS_H
 

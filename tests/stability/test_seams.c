@@ -582,6 +582,49 @@ static void systems_see_every_tile(void **state)
     plumb_world_destroy(w);
 }
 
+// Two thin plates end to end, and a slat that has a corner deep in them, down to where a sweep of
+// src/continuous lets it go (seven tenths of the half widths): farther than a plate is thick, it sticks
+// out below. It lies on the plates in the end, wherever the seam is. Returns how deep, in metres.
+static double rest_depth(int solver, double thickness, double share, double angle, double beside)
+{
+    const double hx = 0.1, hy = 0.02;
+    plumb_world *w = sim_world(&(plumb_world_desc){ .solver = (plumb_solver)solver });
+    plumb_material m = sim_material(w, 0.3, 0);
+    plumb_body ground = sim_body(w, PLUMB_STATIC, 0, 0, 0);
+    for (int side = -1; side <= 1; side += 2) {
+        add_box_at(w, ground, 5 * side, -thickness / 2, 5, thickness / 2, m);
+    }
+    double depth = share * (thickness / 2 + hy), c = cos(angle), s = sin(angle);
+    plumb_body b =
+        sim_body(w, PLUMB_DYNAMIC, beside + c * hx - s * hy, s * hx + c * hy - depth, angle);
+    sim_add_box(w, b, hx, hy, m);
+    sim_run(w, 120, HZ60);
+    double lowest = INFINITY;
+    for (int k = 0; k < 4; ++k) {
+        plumb_vec2 corner = sim_vec(k % 2 ? hx : -hx, k / 2 ? hy : -hy);
+        lowest = fmin(lowest, (double)plumb_body_world_point(w, b, corner).y);
+    }
+    plumb_world_destroy(w);
+    return -lowest;
+}
+
+static void thin_plates_hold_what_sticks_through(void **state)
+{
+    (void)state;
+    const double thick[] = { 0.001, 0.003, 0.01 };
+    for (int solver = 0; solver < 2; ++solver) {
+        double deepest = 0;
+        for (int i = 0; i < 3 * 5 * 4 * 9; ++i) {
+            double depth = rest_depth(solver, thick[i % 3], 0.175 * (i / 3 % 5),
+                                      0.2 + 0.35 * (i / 15 % 4), 0.01 * (i / 60 - 4));
+            deepest = fmax(deepest, depth);
+            assert_true(depth < 0.006); // the classic solver leaves 5 mm
+        }
+        print_message("slats that stuck through, solver %d: %.2g m deep in the end\n", solver,
+                      deepest);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -594,6 +637,7 @@ int main(void)
         cmocka_unit_test(walls_stop),
         cmocka_unit_test(ends_and_gaps_let_fall),
         cmocka_unit_test(bends_are_followed),
+        cmocka_unit_test(thin_plates_hold_what_sticks_through),
         cmocka_unit_test(rough_and_smooth_tiles_take_turns),
         cmocka_unit_test(every_tile_is_told),
         cmocka_unit_test(systems_see_every_tile),

@@ -69,6 +69,8 @@ static void build(boxes *b)
 {
     assert_true(pl_grid_build(&b->memory, &b->grid, b->pieces, b->count, b->fat));
     assert_int_equal(b->grid.entry_count, b->count);
+    assert_false(b->grid.mapped);
+    assert_true(pl_grid_make_maps(&b->memory, &b->grid));
 }
 
 static bool count_visit(void *context, const pl_grid_entry *entry)
@@ -79,13 +81,17 @@ static bool count_visit(void *context, const pl_grid_entry *entry)
     return b->stop_after == 0 || --b->stop_after > 0;
 }
 
+// With maps and without.
 static void check_query(boxes *b, pl_box box)
 {
-    memset(b->visits, 0, sizeof b->visits);
-    assert_true(pl_grid_query(&b->grid, box, count_visit, b));
-    for (uint32_t i = 0; i < b->count; ++i) {
-        if (b->visits[b->pieces[i]] != pl_boxes_overlap(&b->fat[b->pieces[i]], &box)) {
-            fail_msg("box %u of %u: visited %d times", i, b->count, b->visits[b->pieces[i]]);
+    for (int mapped = 0; mapped < 2; ++mapped) {
+        b->grid.mapped = mapped == 1;
+        memset(b->visits, 0, sizeof b->visits);
+        assert_true(pl_grid_query(&b->grid, box, count_visit, b));
+        for (uint32_t i = 0; i < b->count; ++i) {
+            if (b->visits[b->pieces[i]] != pl_boxes_overlap(&b->fat[b->pieces[i]], &box)) {
+                fail_msg("box %u of %u: visited %d times", i, b->count, b->visits[b->pieces[i]]);
+            }
         }
     }
 }
@@ -416,6 +422,11 @@ static void test_no_memory(void **state)
         assert_int_equal(b->grid.entry_count, 0);
     }
     assert_true(refused > 3);
+    for (m.left = 0; !pl_grid_make_maps(&b->memory, &b->grid); m.left += 512) {
+        ++refused;
+        assert_false(b->grid.mapped);
+    }
+    assert_true(refused > 4);
     check_queries(b, 20, 50);
     teardown(b);
 }
