@@ -422,7 +422,7 @@ static void test_no_memory(void **state)
         assert_int_equal(b->grid.entry_count, 0);
     }
     assert_true(refused > 3);
-    for (m.left = 0; !pl_grid_make_maps(&b->memory, &b->grid); m.left += 512) {
+    for (; !pl_grid_make_maps(&b->memory, &b->grid); h.limit += 512) {
         ++refused;
         assert_false(b->grid.mapped);
     }
