@@ -79,6 +79,7 @@ int scene_args_check(const cli_command *command, const scene_args *args);
 typedef struct scene_run {
     const engine_api *engine;
     engine_session *session;
+    engine_stage *stage;
     engine_info info;
     double time;     ///< [s] to simulate
     long long steps; ///< of info.dt, to reach `time`
@@ -96,7 +97,7 @@ int scene_run_close(scene_run *run, int code);
 
 /// Tells that no body is named `name`, as `option` (without dashes) says, and which name is near.
 /// CLI_USAGE.
-int scene_unknown_body(scene_run *run, const char *option, const char *name);
+int scene_unknown_body(const engine_scenery *of, const char *option, const char *name);
 
 /// Prints an engine's message to stderr and answers its code.
 int scene_report(const engine_error *error);
