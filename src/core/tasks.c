@@ -125,8 +125,13 @@ void pl_tasks_run(pl_tasks *t, plumb_task_fn *task, void *context, uint32_t chun
     wake_sleepers(t);
     while (work(t)) {
     }
-    while (atomic_load_explicit(&t->done, memory_order_acquire) < chunks) {
-        relax();
+    // With more threads than cores, the one that has the last chunk may have to get a core first.
+    for (int spins = 0; atomic_load_explicit(&t->done, memory_order_acquire) < chunks; ++spins) {
+        if (spins < SPINS) {
+            relax();
+        } else {
+            sched_yield();
+        }
     }
 }
 
@@ -217,7 +222,9 @@ static void run_all_shares(void *context, uint32_t i)
 void pl_tasks_shares(pl_tasks *t, const uint32_t *bounds, uint32_t phases, uint32_t least,
                      pl_range_fn *range, void *context)
 {
-    job j = { .range = range, .context = context, .bounds = bounds, .phases = phases, .least = least };
+    job j = {
+        .range = range, .context = context, .bounds = bounds, .phases = phases, .least = least
+    };
     j.shares = (uint32_t)pl_tasks_workers(t);
     if (j.shares == 1 || bounds[phases] - bounds[0] < 2 * least) {
         range(context, bounds[0], bounds[phases] - bounds[0]);

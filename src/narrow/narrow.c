@@ -50,7 +50,7 @@ bool pl_narrow_reserve(plumb_world *world, const pl_pair_list *list, pl_narrow *
 // those of one thread.
 typedef struct share {
     pl_share pairs;
-    uint32_t at;         // where its manifolds come in the end
+    uint32_t at; // where its manifolds come in the end
     pl_narrow made;
 } share;
 
@@ -109,8 +109,8 @@ static void add_share(pl_narrow *all, const pl_narrow *made)
     all->touching_count += made->touching_count;
     all->point_count += made->point_count;
     all->sum_penetration += made->sum_penetration;
-    all->max_penetration = made->max_penetration > all->max_penetration ? made->max_penetration
-                                                                        : all->max_penetration;
+    all->max_penetration =
+        made->max_penetration > all->max_penetration ? made->max_penetration : all->max_penetration;
 }
 
 // The first share is made where it stays.

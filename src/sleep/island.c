@@ -32,11 +32,12 @@ bool pl_islands_reserve(plumb_world *world, uint32_t islands, uint32_t contacts)
 
 void pl_sleep_free(pl_memory *memory, pl_sleep *s)
 {
-    pl_buffer *buffers[] = { &s->islands,           &s->contacts,    &s->resting,
-                             &s->near.items,        &s->probe.items, &s->found,
-                             &s->touched.manifolds, &s->marked,      &s->woken,
-                             &s->parents,           &s->held,        &s->places,
-                             &s->sleep_events,      &s->wake_events };
+    pl_buffer *buffers[] = {
+        &s->islands,     &s->contacts,     &s->resting,           &s->near.items,
+        &s->probe.items, &s->found,        &s->touched.manifolds, &s->touched.staged,
+        &s->marked,      &s->woken,        &s->parents,           &s->held,
+        &s->places,      &s->sleep_events, &s->wake_events
+    };
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; ++i) {
         pl_buffer_free(memory, buffers[i]);
     }
@@ -188,7 +189,7 @@ void pl_island_keep(plumb_world *world, uint32_t island, const pl_pair *pair,
     if (manifold != NULL) {
         c->manifold = *manifold;
         c->manifold.disabled = c->manifold.bearer = 0; // of the step, and not always written
-        for (int k = 0; k < 2; ++k) { // at rest, all substeps are alike
+        for (int k = 0; k < 2; ++k) {                  // at rest, all substeps are alike
             c->manifold.point[k].total = pair->normal[k] * (real)world->desc.substeps;
         }
         if ((pair->flags & PL_PAIR_BORNE) == 0) { // those are not among the manifolds of a step

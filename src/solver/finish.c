@@ -157,7 +157,8 @@ static void tell_lost(plumb_world *world)
         if ((b->flags[row] & PL_BODY_LOST) != 0) {
             b->flags[row] &= (uint16_t)~PL_BODY_LOST;
             ++world->arrested_count;
-            pl_warn(world, "body %u was stopped: the step would have left it without a finite state",
+            pl_warn(world,
+                    "body %u was stopped: the step would have left it without a finite state",
                     b->entity[row].index);
         }
     }
@@ -182,8 +183,7 @@ static real move_dynamic(const passage *p, uint32_t row)
 {
     plumb_world *world = p->world;
     const bool odd = (world->bodies.flags[row] & PL_BODY_ODD) != 0;
-    const uint32_t slot =
-        p->collided ? ((const uint32_t *)world->solver.slots.data)[row] : PL_NONE;
+    const uint32_t slot = p->collided ? ((const uint32_t *)world->solver.slots.data)[row] : PL_NONE;
     if (slot == PL_NONE) {
         return odd ? fly_oddly(world, row, p->dt) : fly(world, row, p->dt);
     }
@@ -214,8 +214,7 @@ static void move_share(void *context, uint32_t i)
     passage *p = context;
     plumb_world *world = p->world;
     pl_bodies *b = &world->bodies;
-    const pl_share rows =
-        pl_share_of(world->dynamic_count + world->kinematic_count, p->shares, i);
+    const pl_share rows = pl_share_of(world->dynamic_count + world->kinematic_count, p->shares, i);
     pl_mover *movers = p->noting ? pl_movers(&world->continuous) + rows.first : NULL;
     uint32_t count = 0;
     bool lost = false;

@@ -1,4 +1,5 @@
-// test_scene_hashes.c - every shipped scene ends in the committed bits, at every SIMD width.
+// test_scene_hashes.c - every shipped scene ends in the committed bits, at every SIMD width and with
+// several threads.
 //
 // hashes.txt has a line a scene and solver: precision, solver, file, steps, plumb_world_hash. With the
 // argument --print the program writes such lines for its precision instead (`make hashes`), with
@@ -18,10 +19,11 @@
 #define HASHES "tests/determinism/hashes.txt"
 #define SCENES "assets/scenes/*.lua"
 
-#define LARGE        1000 // bodies
-#define STEPS        120
-#define STEPS_LARGE  20
-#define SCENES_LEAST 10
+#define LARGE         1000 // bodies
+#define STEPS         120
+#define STEPS_LARGE   20
+#define SCENES_LEAST  10
+#define SPEEDS_TESTED 4 // of `speeds`; make determinism runs all
 
 static const char *precision(void)
 {
@@ -29,7 +31,13 @@ static const char *precision(void)
 }
 
 static const char *const solvers[] = { "soft", "pgs" };
-static const int widths[] = { 4, 8, 16 };
+
+// What must not change a bit.
+typedef struct speed {
+    int width, workers;
+} speed;
+
+static const speed speeds[] = { { 4, 1 }, { 8, 1 }, { 16, 1 }, { 8, 2 }, { 4, 3 }, { 16, 8 } };
 
 typedef struct outcome {
     uint64_t hash;
@@ -38,13 +46,14 @@ typedef struct outcome {
 } outcome;
 
 // `steps` 0: as many as the size of the scene allows.
-static outcome run(const char *path, const char *solver, int width, int steps)
+static outcome run(const char *path, const char *solver, speed at, int steps)
 {
-    char sets[2][64];
+    char sets[3][64];
     snprintf(sets[0], sizeof sets[0], "solver=%s", solver);
-    snprintf(sets[1], sizeof sets[1], "simd_width=%d", width);
-    const char *const set[] = { sets[0], sets[1] };
-    const scene_options options = { .path = path, .sets = set, .set_count = 2 };
+    snprintf(sets[1], sizeof sets[1], "simd_width=%d", at.width);
+    snprintf(sets[2], sizeof sets[2], "workers=%d", at.workers);
+    const char *const set[] = { sets[0], sets[1], sets[2] };
+    const scene_options options = { .path = path, .sets = set, .set_count = 3 };
     scene *s = NULL;
     scene_error error;
     if (scene_load(&options, &s, &error) != SCENE_OK) {
@@ -86,7 +95,7 @@ static bool read_line(FILE *file, line *out)
     return false;
 }
 
-static void committed_hashes_hold_at_every_width(void **state)
+static void committed_hashes_hold_at_every_speed(void **state)
 {
     (void)state;
     FILE *file = fopen(HASHES, "r");
@@ -98,12 +107,13 @@ static void committed_hashes_hold_at_every_width(void **state)
             continue;
         }
         ++lines;
-        for (size_t w = 0; w < sizeof widths / sizeof widths[0]; ++w) {
-            outcome got = run(l.path, l.solver, widths[w], l.steps);
+        for (size_t k = 0; k < SPEEDS_TESTED; ++k) {
+            outcome got = run(l.path, l.solver, speeds[k], l.steps);
             if (got.hash != l.hash) {
-                print_error("%s %s %s width %d: %016" PRIx64
+                print_error("%s %s %s width %d, %d workers: %016" PRIx64
                             " after %d steps, committed %016" PRIx64 "\n",
-                            l.precision, l.solver, l.path, got.width, got.hash, l.steps, l.hash);
+                            l.precision, l.solver, l.path, got.width, speeds[k].workers, got.hash,
+                            l.steps, l.hash);
                 ++wrong;
             }
         }
@@ -124,11 +134,12 @@ static void print_lines(bool table)
     }
     for (size_t i = 0; i < found.gl_pathc; ++i) {
         for (int s = 0; s < 2; ++s) {
-            for (int w = 0; w < (table ? 3 : 1); ++w) {
-                outcome o = run(found.gl_pathv[i], solvers[s], widths[w], 0);
+            for (size_t k = 0; k < (table ? sizeof speeds / sizeof speeds[0] : 1); ++k) {
+                outcome o = run(found.gl_pathv[i], solvers[s], speeds[k], 0);
                 if (table) {
-                    printf("%s %s %d->%d %s %d %016" PRIx64 "\n", precision(), solvers[s],
-                           widths[w], o.width, found.gl_pathv[i], o.steps, o.hash);
+                    printf("%s %s %d->%d,%d %s %d %016" PRIx64 "\n", precision(), solvers[s],
+                           speeds[k].width, o.width, speeds[k].workers, found.gl_pathv[i], o.steps,
+                           o.hash);
                 } else {
                     printf("%s %s %s %d %016" PRIx64 "\n", precision(), solvers[s],
                            found.gl_pathv[i], o.steps, o.hash);
@@ -151,7 +162,7 @@ int main(int argc, char **argv)
         return 0;
     }
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(committed_hashes_hold_at_every_width),
+        cmocka_unit_test(committed_hashes_hold_at_every_speed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

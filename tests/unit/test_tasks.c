@@ -125,6 +125,99 @@ static void hooks_take_the_place_of_threads(void **state)
     assert_int_equal(memory.bytes, 0);
 }
 
+// ---- ranges, phases, shares
+
+typedef struct items {
+    unsigned times[most_chunks]; // written without a lock: no two threads have one item
+    unsigned order[most_chunks]; // phase in which an item was visited
+    atomic_uint calls;
+    const uint32_t *bounds;
+    uint32_t phases;
+} items;
+
+static void visit_range(void *context, uint32_t first, uint32_t count)
+{
+    items *all = context;
+    atomic_fetch_add(&all->calls, 1);
+    for (uint32_t i = first; i < first + count; ++i) {
+        ++all->times[i];
+    }
+}
+
+static void ranges_cover_all_once(void **state)
+{
+    (void)state;
+    static items all;
+    pl_memory memory;
+    pl_memory_init(&memory, &(plumb_allocator){ 0 });
+    const uint32_t counts[] = { 0, 1, 9, 10, 19, 20, 21, 1000, most_chunks };
+    for (int workers = 1; workers <= 8; ++workers) {
+        pl_tasks *tasks = pl_tasks_create(&memory, workers, &no_hooks, NULL);
+        for (size_t c = 0; c < sizeof counts / sizeof counts[0]; ++c) {
+            all = (items){ .calls = 0 };
+            pl_tasks_ranges(tasks, counts[c], 10, visit_range, &all);
+            for (uint32_t i = 0; i < most_chunks; ++i) {
+                assert_int_equal(all.times[i], i < counts[c] ? 1 : 0);
+            }
+            uint32_t shares = pl_tasks_share_count(tasks, counts[c], 10);
+            assert_int_equal(all.calls, shares);
+            assert_true(shares >= 1 && shares <= (uint32_t)workers);
+            assert_true(shares == 1 || counts[c] / shares >= 10);
+        }
+        pl_tasks_rest(tasks);
+        pl_tasks_destroy(&memory, tasks);
+    }
+    pl_tasks_rest(NULL);
+    assert_int_equal(memory.bytes, 0);
+}
+
+// Each item of a phase asks whether all of the phase before are done.
+static void visit_in_order(void *context, uint32_t first, uint32_t count)
+{
+    items *all = context;
+    for (uint32_t i = first; i < first + count; ++i) {
+        uint32_t phase = 0;
+        while (i >= all->bounds[phase + 1]) {
+            ++phase;
+        }
+        for (uint32_t k = phase > 0 ? all->bounds[phase - 1] : 0; k < all->bounds[phase]; ++k) {
+            all->order[i] += all->times[k]; // a race here is a phase begun too early
+        }
+        ++all->times[i];
+    }
+}
+
+static void phases_follow_one_another(void **state)
+{
+    (void)state;
+    static items all;
+    pl_memory memory;
+    pl_memory_init(&memory, &(plumb_allocator){ 0 });
+    // Phases to be shared out, phases too small for that, empty ones.
+    static const uint32_t bounds[] = { 0, 100, 101, 101, 400, 410, 415, 700, 700, 715 };
+    const uint32_t phases = sizeof bounds / sizeof bounds[0] - 1;
+    for (int workers = 1; workers <= 4; ++workers) {
+        pl_tasks *tasks = pl_tasks_create(&memory, workers, &no_hooks, NULL);
+        for (int turn = 0; turn < 50; ++turn) {
+            all = (items){ .bounds = bounds, .phases = phases };
+            pl_tasks_phases(tasks, bounds, phases, 8, visit_in_order, &all);
+            for (uint32_t p = 0; p < phases; ++p) {
+                uint32_t before = p > 0 ? bounds[p] - bounds[p - 1] : 0;
+                for (uint32_t i = bounds[p]; i < bounds[p + 1]; ++i) {
+                    assert_int_equal(all.times[i], 1);
+                    assert_int_equal(all.order[i], before);
+                }
+            }
+            pl_tasks_shares(tasks, bounds, phases, 8, visit_range, &all);
+            for (uint32_t i = 0; i < most_chunks; ++i) {
+                assert_int_equal(all.times[i], i < bounds[phases] ? 2 : 0);
+            }
+        }
+        pl_tasks_destroy(&memory, tasks);
+    }
+    assert_int_equal(memory.bytes, 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -132,6 +225,8 @@ int main(void)
         cmocka_unit_test(many_small_jobs),
         cmocka_unit_test(jobs_after_pauses),
         cmocka_unit_test(hooks_take_the_place_of_threads),
+        cmocka_unit_test(ranges_cover_all_once),
+        cmocka_unit_test(phases_follow_one_another),
     };
     return cmocka_run_group_tests_name("tasks", tests, NULL, NULL);
 }

@@ -1,8 +1,9 @@
 #!/bin/bash
 # determinism.sh - `make determinism`: the shipped scenes end in the same bits whatever the compiler,
-# optimisation level, sanitizer, SIMD width. Builds tests/determinism once for each row of the matrix
-# below $O/determinism, runs it, and prints a table: a cell is a checksum of the hashes of all scenes,
-# and each column must hold one value, the same for all widths. Exit status 1 on any difference.
+# optimisation level, sanitizer, SIMD width and number of threads. Builds tests/determinism once for each
+# row of the matrix below $O/determinism, runs it, and prints a table: a cell is a checksum of the hashes
+# of all scenes, and each column must hold one value, the same for all widths and threads. Exit status 1 on
+# any difference.
 set -u
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 export LC_ALL=C
@@ -43,7 +44,7 @@ for row in "${matrix[@]}"; do
         exit 1
     fi
     for program in "${programs[@]}"; do
-        # precision solver asked->used scene steps hash
+        # precision solver asked->used,threads scene steps hash
         if ! "$program" --table >"$folder.out"; then
             echo "determinism: $program failed" >&2
             exit 1
@@ -77,7 +78,7 @@ awk '
         return sprintf("%08x", value)
     }
     END {
-        printf "%-16s %-8s", "build", "lanes"
+        printf "%-16s %-8s", "build", "lanes,th"
         for (c = 1; c <= column_count; ++c) printf " %-12s", columns[c]
         print ""
         for (b = 1; b <= build_count; ++b)
