@@ -62,7 +62,8 @@ typedef struct plumb_world_desc {
     uint32_t shape_capacity;  ///< likewise for shapes, of 4 corners
     uint32_t contact_capacity;///< likewise for contacts
     int workers;              ///< threads that share the work of a step, 0..64, the caller included; default
-                              ///< 1: no thread is made. A pure speed setting: any number gives the same bits
+                              ///< 1: no thread is made. A pure speed setting: any number gives the same bits.
+                              ///< Pays from some thousand bodies on; no more than there are idle cores
     plumb_task_hooks tasks;   ///< threads of your own instead: `workers` tells how many there are to reckon with
     plumb_allocator allocator;///< null members: the C library
     plumb_log_fn *log;        ///< null: silent

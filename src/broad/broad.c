@@ -80,11 +80,15 @@ bool pl_broad_update_grids(plumb_world *world, real dt, bool *stale)
     return true;
 }
 
+// So many pairs are worth a thread.
+#define LEAST 1024
+
 // Rows moved but no piece came or went: pairs stay, their rows are looked up again.
-static void refresh_rows(plumb_world *world)
+static void refresh_rows(void *context, uint32_t first, uint32_t count)
 {
+    const plumb_world *world = context;
     pl_pair *pairs = pl_pairs(&world->broad.pairs);
-    for (uint32_t i = 0; i < world->broad.pairs.count; ++i) {
+    for (uint32_t i = first; i < first + count; ++i) {
         pairs[i].body_a = world->pieces.body[pairs[i].a];
         pairs[i].body_b = world->pieces.body[pairs[i].b];
     }
@@ -100,7 +104,7 @@ bool pl_broad_update(plumb_world *world, real dt)
         return false;
     }
     if (world->rows_moved) {
-        refresh_rows(world);
+        pl_tasks_ranges(world->tasks, world->broad.pairs.count, LEAST, refresh_rows, world);
     }
     world->rows_moved = false;
     world->sleep.tested_step = world->step_count + 1;

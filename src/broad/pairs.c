@@ -55,6 +55,55 @@ static bool sort_few(plumb_world *world)
     return true;
 }
 
+// So many pairs are worth a thread.
+#define LEAST 2048
+
+typedef struct sorter {
+    const pl_found *found;
+    uint32_t count;
+    pl_found *sorted;
+    uint32_t
+        *at; // of a piece slot: how many pairs it is the lower one of, then where the next goes
+    uint32_t slots, shares;
+} sorter;
+
+// The pairs whose lower piece is in a share of the slots. Each thread goes over all that was found, so it
+// knows how many come before its own.
+static void sort_share(void *context, uint32_t i)
+{
+    const sorter *s = context;
+    const pl_share mine = pl_share_of(s->slots, s->shares, i);
+    const uint32_t width = mine.end - mine.first;
+    uint32_t *at = s->at + mine.first, before = 0;
+    memset(at, 0, width * sizeof *at);
+    for (uint32_t k = 0; k < s->count; ++k) {
+        uint32_t low = s->found[k].low - mine.first;
+        before += s->found[k].low < mine.first;
+        if (low < width) {
+            ++at[low];
+        }
+    }
+    uint32_t sum = before;
+    for (uint32_t k = 0; k < width; ++k) {
+        uint32_t here = at[k];
+        at[k] = sum;
+        sum += here;
+    }
+    for (uint32_t k = 0; k < s->count; ++k) {
+        uint32_t low = s->found[k].low - mine.first;
+        if (low < width) {
+            s->sorted[at[low]++] = s->found[k];
+        }
+    }
+    // Each `at` now is where the pairs of the next piece begin.
+    for (uint32_t k = 0; k < width; ++k) {
+        uint32_t first = k == 0 ? before : at[k - 1];
+        if (at[k] - first > 1) {
+            sort_run(s->sorted + first, at[k] - first);
+        }
+    }
+}
+
 // Sorts broad->found by (low, high) into broad->sorted: counting sort by `low`, then by `high`
 // within the pairs of a piece.
 static bool sort_found(plumb_world *world)
@@ -69,26 +118,13 @@ static bool sort_found(plumb_world *world)
                            ((size_t)broad->found_count + 1) * sizeof(pl_found))) {
         return false;
     }
-    uint32_t *at = broad->counts.data;
-    const pl_found *found = broad->found.data;
-    pl_found *sorted = broad->sorted.data;
-    memset(at, 0, (slots + 1) * sizeof(uint32_t));
-    for (uint32_t i = 0; i < broad->found_count; ++i) {
-        ++at[found[i].low + 1];
-    }
-    for (size_t s = 1; s <= slots; ++s) {
-        at[s] += at[s - 1];
-    }
-    for (uint32_t i = 0; i < broad->found_count; ++i) {
-        sorted[at[found[i].low]++] = found[i];
-    }
-    // Each `at` now is where the pairs of the next piece begin.
-    for (size_t s = 0; s < slots; ++s) {
-        uint32_t first = s == 0 ? 0 : at[s - 1];
-        if (at[s] - first > 1) {
-            sort_run(sorted + first, at[s] - first);
-        }
-    }
+    sorter s = { .found = broad->found.data,
+                 .count = broad->found_count,
+                 .sorted = broad->sorted.data,
+                 .at = broad->counts.data,
+                 .slots = (uint32_t)slots,
+                 .shares = pl_tasks_share_count(world->tasks, broad->found_count, LEAST) };
+    pl_tasks_run(world->tasks, sort_share, &s, s.shares);
     return true;
 }
 

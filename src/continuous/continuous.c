@@ -198,7 +198,6 @@ static void put(plumb_world *world, uint32_t row, pl_place at)
     b->c[row] = (real)at.c;
     b->s[row] = (real)at.s;
     pl_body_update_origin(world, row);
-    ++world->continuous.stopped_count;
 }
 
 // From `time` on the mover keeps its place on a kinematic body, as far as static pieces let it.
@@ -221,24 +220,48 @@ static void carry(plumb_world *world, const pl_search *s, double time)
     put(world, row, pl_course_place(world, row, &leg.course, pl_search_still(&leg)));
 }
 
-static void finish(plumb_world *world, real dt)
+typedef struct ending {
+    plumb_world *world;
+    real dt;
+    uint32_t shares;
+    uint32_t stopped[PLUMB_WORKERS_MAX];
+} ending;
+
+// Each body by itself: it looks at the ways of kinematic bodies only.
+static void finish_share(void *context, uint32_t share)
 {
+    ending *e = context;
+    plumb_world *world = e->world;
     const pl_mover *movers = pl_movers(&world->continuous);
-    for (uint32_t i = 0; i < world->continuous.count && pl_row_is_dynamic(world, movers[i].row);
-         ++i) {
+    const pl_share mine = pl_share_of(world->continuous.count, e->shares, share);
+    uint32_t stopped = 0;
+    for (uint32_t i = mine.first; i < mine.end && pl_row_is_dynamic(world, movers[i].row); ++i) {
         if (!movers[i].beside && movers[i].stop >= 1) {
             continue;
         }
         pl_search s = pl_search_of(world, &movers[i]);
-        s.dt = dt;
+        s.dt = e->dt;
         s.among_kinematic = true;
         double time = movers[i].beside ? pl_search_among(&s) : 1;
         if (time < 1) {
             carry(world, &s, time);
+            ++stopped;
         } else if (movers[i].stop < 1) {
             put(world, movers[i].row,
                 pl_course_place(world, movers[i].row, &s.course, movers[i].stop));
+            ++stopped;
         }
+    }
+    e->stopped[share] = stopped;
+}
+
+static void finish(plumb_world *world, real dt)
+{
+    ending e = { .world = world, .dt = dt };
+    e.shares = pl_tasks_share_count(world->tasks, world->continuous.count, LEAST);
+    pl_tasks_run(world->tasks, finish_share, &e, e.shares);
+    for (uint32_t i = 0; i < e.shares; ++i) {
+        world->continuous.stopped_count += e.stopped[i];
     }
 }
 

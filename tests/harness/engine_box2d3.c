@@ -3,7 +3,7 @@
 // Reads: nothing but its arguments. Writes: the world it owns.
 //
 // Angles go in and out as cosine and sine, because the library's own arc tangent is an
-// approximation. Its own threads, as many as asked for; contact stiffness, damping and recycling are the library's defaults.
+// approximation. Threads are its own, as many as asked for; contact stiffness, damping and recycling are the library's defaults.
 #include "engine.h"
 
 #include <box2d/box2d.h>
