@@ -70,6 +70,18 @@ static __attribute__((noinline)) bool select_pair(finder *f, uint32_t p, uint32_
     return !meet || ((!p_senses || add_sensed(f, p, q)) && (!q_senses || add_sensed(f, q, p)));
 }
 
+// Whether the pieces meet is plain to see: 1: they do, as no rule is about them; -1: not, being of one body
+// or of one group that does not meet itself. 0: select_pair must tell.
+static inline int see_pair(const finder *f, uint32_t p, uint32_t q)
+{
+    const pl_pieces *s = &f->world->pieces;
+    if (f->body[p] == f->body[q] || (s->group[p] == s->group[q] && s->group[p] < 0)) {
+        return -1;
+    }
+    return ((s->flags[p] | s->flags[q]) & (PL_PIECE_FILTERED | PL_PIECE_SENSOR)) == 0 &&
+           f->world->excluded_count == 0;
+}
+
 // Adds the pair unless nothing could come of it: one body, no dynamic body, or a joint
 // that keeps them apart.
 static inline bool add_pair(finder *f, uint32_t p, uint32_t q)
@@ -78,8 +90,11 @@ static inline bool add_pair(finder *f, uint32_t p, uint32_t q)
     if (f->left != NULL && q < p && f->left[q] != 0) {
         return true;
     }
-    if (f->selective && (!select_pair(f, p, q, &solid) || !solid)) {
-        return !f->out_of_memory;
+    if (f->selective) {
+        int seen = see_pair(f, p, q);
+        if (seen < 0 || (seen == 0 && (!select_pair(f, p, q, &solid) || !solid))) {
+            return !f->out_of_memory;
+        }
     }
     uint32_t body_p = f->body[p];
     uint32_t body_q = f->body[q];
@@ -344,10 +359,13 @@ static bool look_about(const hunt *h, finder *f, pl_share share)
     return true;
 }
 
+// The finder is kept apart from those of other threads meanwhile, in a cache line of its own.
 static void look_share(void *context, uint32_t i)
 {
     hunt *h = context;
-    h->look(h, &h->finders[i], pl_share_of(h->count, h->shares, i));
+    finder f = h->finders[i];
+    h->look(h, &f, pl_share_of(h->count, h->shares, i));
+    h->finders[i] = f;
 }
 
 // Every thread with its part of the room for what is found.

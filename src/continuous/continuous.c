@@ -77,16 +77,24 @@ static bool is_in_the_open(const plumb_world *world, const pl_mover *m)
            pl_course_is_free(world, m->row);
 }
 
-static void sweep_still(plumb_world *world)
+// So many fast bodies are worth a thread.
+#define LEAST 64
+
+static void sweep_some(void *context, uint32_t first, uint32_t count)
 {
+    const plumb_world *world = context;
     pl_mover *movers = pl_movers(&world->continuous);
-    for (uint32_t i = 0; i < world->continuous.count && pl_row_is_dynamic(world, movers[i].row);
-         ++i) {
+    for (uint32_t i = first; i < first + count && pl_row_is_dynamic(world, movers[i].row); ++i) {
         if (!is_in_the_open(world, &movers[i])) {
             pl_search s = pl_search_of(world, &movers[i]);
             movers[i].stop = pl_search_still(&s);
         }
     }
+}
+
+static void sweep_still(plumb_world *world)
+{
+    pl_tasks_ranges(world->tasks, world->continuous.count, LEAST, sweep_some, world);
 }
 
 // Which of two bodies that hit each other stops: the one that still moves; of two, the lighter;

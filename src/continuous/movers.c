@@ -8,6 +8,9 @@
 
 #include "broad/images.h"
 
+// So many movers are worth a thread.
+#define LEAST 256
+
 // A body deeper than this share of its slack is swept even if it moves slowly.
 #define PRESSED_SHARE ((real)0.5)
 
@@ -44,10 +47,11 @@ static bool contains(const pl_box *outer, const pl_box *inner)
 
 // Tells the movers whose way leaves the boxes in which the grid has them: no search of the grid
 // finds those. Where they began they were within; so is the way if the end is, but for the bulge of an arc.
-static void find_strays(plumb_world *world)
+static void find_strays(void *context, uint32_t first, uint32_t count)
 {
+    const plumb_world *world = context;
     const pl_pieces *pieces = &world->pieces;
-    for (uint32_t i = 0; i < world->continuous.count; ++i) {
+    for (uint32_t i = first; i < first + count; ++i) {
         pl_mover *m = &pl_movers(&world->continuous)[i];
         real angle = m->angle < 0 ? -m->angle : m->angle;
         real bulge = world->bodies.extent[m->row] * angle * angle / 8;
@@ -176,7 +180,7 @@ void pl_movers_complete(plumb_world *world, real dt)
     const pl_continuous *c = &world->continuous;
     uint32_t recruits = 0;
     if (c->count > 0 && (world->kinematic_count > 0 || world->continuous_bodies > 0)) {
-        find_strays(world);
+        pl_tasks_ranges(world->tasks, c->count, LEAST, find_strays, world);
         recruits = mark_swept(world, dt);
     }
     if (world->narrow.max_penetration > c->least_slack * PRESSED_SHARE) {

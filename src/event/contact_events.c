@@ -199,6 +199,8 @@ bool pl_events_prepare(plumb_world *world)
     uint32_t begins = world->narrow.manifold_count + world->narrow.borne_count;
     if (!pl_buffer_reserve(&world->memory, &world->begin_events,
                            begins * sizeof(plumb_contact_begin)) ||
+        !pl_buffer_reserve(&world->memory, &world->changed_pairs,
+                           ((size_t)world->broad.pairs.count + 1) * sizeof(uint32_t)) ||
         !pl_events_reserve_ends(world, world->broad.pairs.count + world->parts.count) ||
         !pl_parts_reserve(world, world->broad.pairs.count)) {
         return false;
@@ -463,25 +465,58 @@ static void publish_all(plumb_world *world)
     publish_parts(world);
 }
 
+// Pairs of a share of the list that begin or cease to touch, noted where the share begins.
+typedef struct watch {
+    const plumb_world *world;
+    uint32_t shares;
+    uint32_t count[PLUMB_WORKERS_MAX];
+} watch;
+
+static void watch_share(void *context, uint32_t i)
+{
+    watch *w = context;
+    const plumb_world *world = w->world;
+    const pl_pair *pairs = pl_pairs(&world->broad.pairs);
+    const pl_share s = pl_share_of(world->broad.pairs.count, w->shares, i);
+    uint32_t *changed = (uint32_t *)world->changed_pairs.data + s.first, count = 0;
+    for (uint32_t k = s.first; k < s.end; ++k) {
+        bool was = (pairs[k].flags & PL_PAIR_TOUCHING) != 0;
+        bool is = pairs[k].manifold != PL_NONE &&
+                  touches(world, &pairs[k], manifold_of(world, &pairs[k]));
+        changed[count] = k;
+        count += is != was;
+    }
+    w->count[i] = count;
+}
+
+// In a world without parts and hits: few pairs have anything to tell.
+static void publish_changes(plumb_world *world)
+{
+    pl_pair *pairs = pl_pairs(&world->broad.pairs);
+    watch w = { .world = world };
+    w.shares = pl_tasks_share_count(world->tasks, world->broad.pairs.count, SHARED);
+    pl_tasks_run(world->tasks, watch_share, &w, w.shares);
+    for (uint32_t i = 0; i < w.shares; ++i) {
+        const uint32_t first = pl_share_of(world->broad.pairs.count, w.shares, i).first;
+        const uint32_t *changed = (const uint32_t *)world->changed_pairs.data + first;
+        for (uint32_t k = 0; k < w.count[i]; ++k) {
+            pl_pair *pair = &pairs[changed[k]];
+            if ((pair->flags & PL_PAIR_TOUCHING) == 0) {
+                append_begin(world, pair);
+            } else {
+                append_end(world, end_of(world, pair, 0));
+            }
+            pair->flags ^= PL_PAIR_TOUCHING;
+        }
+    }
+}
+
 void pl_events_publish(plumb_world *world)
 {
     // Parts may have left the list together with the last shape that had any.
     if (world->part_pieces > 0 || world->parts.count > 0 || world->desc.hit_speed > 0) {
         publish_all(world);
-        return;
-    }
-    pl_pair *pairs = pl_pairs(&world->broad.pairs);
-    const pl_manifold *manifolds = pl_manifolds(&world->narrow);
-    for (uint32_t i = 0; i < world->broad.pairs.count; ++i) {
-        pl_pair *pair = &pairs[i];
-        bool was = (pair->flags & PL_PAIR_TOUCHING) != 0;
-        bool is = pair->manifold != PL_NONE && touches(world, pair, &manifolds[pair->manifold]);
-        if (is && !was) {
-            append_begin(world, pair);
-            pair->flags |= PL_PAIR_TOUCHING;
-        } else if (was && !is) {
-            append_end(world, end_of(world, pair, 0));
-            pair->flags &= ~PL_PAIR_TOUCHING;
-        }
+    } else {
+        publish_changes(world);
     }
 }

@@ -76,7 +76,7 @@
 
 #define PL_STATE_SOLVER(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                     \
     LEFT(solver.bodies) LEFT(solver.motions) LEFT(solver.lows) LEFT(solver.struck)                 \
-    LEFT(solver.rows) LEFT(solver.slots) LEFT(solver.masks) LEFT(solver.colors)                    \
+    LEFT(solver.rows) LEFT(solver.slots) LEFT(solver.ends) LEFT(solver.masks) LEFT(solver.colors)                    \
     LEFT(solver.lanes) LEFT(solver.bundles) LEFT(solver.extras) LEFT(solver.specials)              \
     LEFT(solver.impacts) LEFT(solver.impact_heap) LEFT(solver.impact_heads) LEFT(solver.due_count)   \
     LEFT(solver.lively_count)     LEFT(solver.classic) LEFT(solver.dynamic_slots) LEFT(solver.slot_count)   \
@@ -164,7 +164,7 @@
     ARRAY(uint64_t, excluded, excluded_count, sizeof(uint64_t), 8)                                 \
     ARRAY(pl_material_pair, material_pairs, material_pair_count,                                   \
           sizeof(uint64_t) + sizeof(plumb_material_pair), 8)                                       \
-    LEFT(schedule) LEFT(begin_events) LEFT(end_events) LEFT(hit_events)                            \
+    LEFT(schedule) LEFT(begin_events) LEFT(end_events) LEFT(changed_pairs) LEFT(hit_events)                            \
     LEFT(begin_count) LEFT(end_count) LEFT(hit_count)                                              \
     LEFT(tape) LEFT(locked_by) LEFT(editing) VALUE(edited) LEFT(in_hook) LEFT(error) LEFT(error_text)
 

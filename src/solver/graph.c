@@ -55,6 +55,8 @@ static bool reserve_bodies(plumb_world *world)
            pl_buffer_reserve(memory, &s->struck, elastic_rows * sizeof(real)) &&
            pl_buffer_reserve(memory, &s->rows, rows * sizeof(uint32_t)) &&
            pl_buffer_reserve(memory, &s->slots, rows * sizeof(uint32_t)) &&
+           pl_buffer_reserve(memory, &s->ends,
+                             ((size_t)world->narrow.manifold_count + 1) * sizeof(pl_ends)) &&
            pl_buffer_reserve(memory, &s->masks, rows * sizeof(uint64_t)) &&
            pl_buffer_reserve(memory, &s->colors, (size_t)world->narrow.manifold_count + 1);
 }
@@ -92,10 +94,24 @@ static bool reserve_lanes(plumb_world *world, const uint32_t counts[PL_COLORS + 
 // island asks for would change the bits of the rest.
 enum { ENGAGED, ELASTIC };
 
+// So many manifolds are worth a thread.
+#define LEAST 512
+
+static void note_ends(void *context, uint32_t first, uint32_t count)
+{
+    const plumb_world *world = context;
+    const pl_manifold *m = pl_manifolds(&world->narrow);
+    pl_ends *ends = world->solver.ends.data;
+    for (uint32_t i = first; i < first + count; ++i) {
+        ends[i] = (pl_ends){ m[i].body_a, m[i].body_b };
+    }
+}
+
 // Marks the rows that have a contact or a joint.
 static void mark_rows(plumb_world *world, uint32_t movable)
 {
     const pl_manifold *m = pl_manifolds(&world->narrow);
+    const pl_ends *ends = world->solver.ends.data;
     const uint32_t *first_joint = world->bodies.first_joint;
     uint32_t *slots = world->solver.slots.data;
     memset(slots, 0xff, movable * sizeof(uint32_t));
@@ -105,11 +121,11 @@ static void mark_rows(plumb_world *world, uint32_t movable)
         }
     }
     for (uint32_t i = 0; i < world->narrow.manifold_count; ++i) {
-        if (m[i].body_a < movable && slots[m[i].body_a] == PL_NONE) {
-            slots[m[i].body_a] = ENGAGED;
+        if (ends[i].a < movable) {
+            slots[ends[i].a] = ENGAGED;
         }
-        if (m[i].body_b < movable && slots[m[i].body_b] == PL_NONE) {
-            slots[m[i].body_b] = ENGAGED;
+        if (ends[i].b < movable) {
+            slots[ends[i].b] = ENGAGED;
         }
     }
     for (uint32_t i = 0; world->narrow.any_bounce && i < world->narrow.manifold_count; ++i) {
@@ -129,45 +145,86 @@ static void start_low(real *low, const pl_bodies *b, uint32_t row, bool elastic)
     low[3] = elastic;
 }
 
+// The slot of a row: its state, packed.
+static void engage_row(plumb_world *world, uint32_t row, uint32_t slot)
+{
+    pl_solver *s = &world->solver;
+    const pl_bodies *b = &world->bodies;
+    uint32_t *slots = s->slots.data;
+    real im = b->inv_mass[row], ii = b->inv_inertia[row];
+    real gravity = row < world->dynamic_count ? b->gravity_scale[row] : 0;
+    pl_solver_bodies(s)[slot] = (pl_solver_body){
+        .vx = b->vx[row], .vy = b->vy[row], .w = b->w[row], .inv_mass = im, .inv_inertia = ii
+    };
+    pl_solver_motions(s)[slot] =
+        (pl_solver_motion){ .ax = world->gravity.x * gravity + b->fx[row] * im,
+                            .ay = world->gravity.y * gravity + b->fy[row] * im,
+                            .aw = b->torque[row] * ii,
+                            .ux = b->vx[row],
+                            .uy = b->vy[row],
+                            .uw = b->w[row],
+                            .inv_mass = im };
+    if (world->narrow.any_bounce) {
+        start_low((real *)s->lows.data + (size_t)slot * 4, b, row, slots[row] == ELASTIC);
+    }
+    if ((b->flags[row] & PL_BODY_ODD) != 0) {
+        pl_effects_engage(world, row, slot);
+    }
+    slots[row] = slot;
+    ((uint32_t *)s->rows.data)[slot] = row;
+}
+
+typedef struct engagement {
+    plumb_world *world;
+    uint32_t movable, shares;
+    uint32_t first[PLUMB_WORKERS_MAX + 1]; // slot of a share of the rows
+} engagement;
+
+static void count_share(void *context, uint32_t i)
+{
+    engagement *e = context;
+    const uint32_t *slots = e->world->solver.slots.data;
+    const pl_share rows = pl_share_of(e->movable, e->shares, i);
+    uint32_t count = 0;
+    for (uint32_t row = rows.first; row < rows.end; ++row) {
+        count += slots[row] != PL_NONE;
+    }
+    e->first[i + 1] = count;
+}
+
+static void engage_share(void *context, uint32_t i)
+{
+    const engagement *e = context;
+    const uint32_t *slots = e->world->solver.slots.data;
+    const pl_share rows = pl_share_of(e->movable, e->shares, i);
+    uint32_t slot = e->first[i];
+    for (uint32_t row = rows.first; row < rows.end; ++row) {
+        if (slots[row] != PL_NONE) {
+            engage_row(e->world, row, slot++);
+        }
+    }
+}
+
 // Gives every dynamic and kinematic row that is in a contact or has a joint its slot and packs its state.
 static void engage(plumb_world *world)
 {
     pl_solver *s = &world->solver;
-    const pl_bodies *b = &world->bodies;
-    uint32_t movable = world->dynamic_count + world->kinematic_count;
-    uint32_t *slots = s->slots.data;
-    uint32_t *rows = s->rows.data;
-    mark_rows(world, movable);
-    uint32_t count = 0;
-    s->dynamic_slots = 0;
-    for (uint32_t row = 0; row < movable; ++row) {
-        if (slots[row] == PL_NONE) {
-            continue;
-        }
-        bool dynamic = row < world->dynamic_count;
-        real im = b->inv_mass[row], ii = b->inv_inertia[row];
-        real gravity = dynamic ? b->gravity_scale[row] : 0;
-        pl_solver_bodies(s)[count] = (pl_solver_body){
-            .vx = b->vx[row], .vy = b->vy[row], .w = b->w[row], .inv_mass = im, .inv_inertia = ii
-        };
-        pl_solver_motions(s)[count] =
-            (pl_solver_motion){ .ax = world->gravity.x * gravity + b->fx[row] * im,
-                                .ay = world->gravity.y * gravity + b->fy[row] * im,
-                                .aw = b->torque[row] * ii,
-                                .ux = b->vx[row],
-                                .uy = b->vy[row],
-                                .uw = b->w[row],
-                                .inv_mass = im };
-        if (world->narrow.any_bounce) {
-            start_low((real *)s->lows.data + (size_t)count * 4, b, row, slots[row] == ELASTIC);
-        }
-        if ((b->flags[row] & PL_BODY_ODD) != 0) {
-            pl_effects_engage(world, row, count);
-        }
-        slots[row] = count;
-        rows[count++] = row;
-        s->dynamic_slots += dynamic;
+    engagement e = { .world = world, .movable = world->dynamic_count + world->kinematic_count };
+    e.shares = pl_tasks_share_count(world->tasks, e.movable, PL_BODIES_SHARED);
+    pl_tasks_ranges(world->tasks, world->narrow.manifold_count, LEAST, note_ends, world);
+    mark_rows(world, e.movable);
+    pl_tasks_run(world->tasks, count_share, &e, e.shares);
+    for (uint32_t i = 0; i < e.shares; ++i) {
+        e.first[i + 1] += e.first[i];
     }
+    const uint32_t count = e.first[e.shares];
+    pl_tasks_run(world->tasks, engage_share, &e, e.shares);
+    uint32_t kinematic = 0; // rows of those are the last
+    while (kinematic < count &&
+           ((const uint32_t *)s->rows.data)[count - 1 - kinematic] >= world->dynamic_count) {
+        ++kinematic;
+    }
+    s->dynamic_slots = count - kinematic;
     if (world->narrow.any_bounce) {
         memset((real *)s->lows.data + (size_t)count * 4, 0, 4 * sizeof(real));
     }
@@ -186,17 +243,17 @@ static uint32_t color_of(uint64_t taken, bool against_immovable)
 static void color_contacts(plumb_world *world, uint32_t counts[PL_COLORS + 1])
 {
     pl_solver *s = &world->solver;
-    const pl_manifold *m = pl_manifolds(&world->narrow);
+    const pl_ends *ends = s->ends.data;
     const uint32_t *slots = s->slots.data;
     uint64_t *masks = s->masks.data;
     uint8_t *colors = s->colors.data;
     memset(masks, 0, s->slot_count * sizeof(uint64_t));
     memset(counts, 0, (PL_COLORS + 1) * sizeof(uint32_t));
     for (uint32_t i = 0; i < world->narrow.manifold_count; ++i) {
-        bool a_moves = m[i].body_a < world->dynamic_count;
-        bool b_moves = m[i].body_b < world->dynamic_count;
-        uint64_t *mask_a = a_moves ? &masks[slots[m[i].body_a]] : NULL;
-        uint64_t *mask_b = b_moves ? &masks[slots[m[i].body_b]] : NULL;
+        bool a_moves = ends[i].a < world->dynamic_count;
+        bool b_moves = ends[i].b < world->dynamic_count;
+        uint64_t *mask_a = a_moves ? &masks[slots[ends[i].a]] : NULL;
+        uint64_t *mask_b = b_moves ? &masks[slots[ends[i].b]] : NULL;
         uint32_t color =
             color_of((a_moves ? *mask_a : 0) | (b_moves ? *mask_b : 0), !(a_moves && b_moves));
         if (color < OVERFLOW_COLOR) {
@@ -218,7 +275,7 @@ static void color_contacts(plumb_world *world, uint32_t counts[PL_COLORS + 1])
 static uint32_t place_overflow(plumb_world *world, uint32_t *lanes, uint32_t at, uint32_t width)
 {
     pl_solver *s = &world->solver;
-    const pl_manifold *m = pl_manifolds(&world->narrow);
+    const pl_ends *ends = s->ends.data;
     const uint8_t *colors = s->colors.data;
     uint32_t members[32]; // body rows of the open bundle, at most two a lane
     uint32_t member_count = 0, filled = 0;
@@ -228,18 +285,18 @@ static uint32_t place_overflow(plumb_world *world, uint32_t *lanes, uint32_t at,
         }
         bool shared = false;
         for (uint32_t k = 0; k < member_count; ++k) {
-            shared |= members[k] == m[i].body_a || members[k] == m[i].body_b;
+            shared |= members[k] == ends[i].a || members[k] == ends[i].b;
         }
         if (shared || filled == width) {
             at += width;
             member_count = filled = 0;
         }
         lanes[at + filled++] = i;
-        if (m[i].body_a < world->dynamic_count) {
-            members[member_count++] = m[i].body_a;
+        if (ends[i].a < world->dynamic_count) {
+            members[member_count++] = ends[i].a;
         }
-        if (m[i].body_b < world->dynamic_count) {
-            members[member_count++] = m[i].body_b;
+        if (ends[i].b < world->dynamic_count) {
+            members[member_count++] = ends[i].b;
         }
     }
     return filled > 0 ? at + width : at;
@@ -296,7 +353,7 @@ bool pl_solver_graph(plumb_world *world)
 
 void pl_solver_free(pl_memory *memory, pl_solver *s)
 {
-    pl_buffer *buffers[] = { &s->bodies,  &s->motions, &s->rows,  &s->slots,
+    pl_buffer *buffers[] = { &s->bodies,  &s->motions, &s->rows,  &s->slots,   &s->ends,
                              &s->masks,   &s->colors,  &s->lanes, &s->bundles,
                              &s->impacts, &s->classic, &s->lows,  &s->struck,
                              &s->extras,  &s->specials, &s->impact_heap, &s->impact_heads };

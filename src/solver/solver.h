@@ -65,6 +65,11 @@ typedef struct pl_classic_contact {
     pl_classic_point point[2];
 } pl_classic_contact;
 
+// Body rows of a manifold: all that the graph looks at.
+typedef struct pl_ends {
+    uint32_t a, b;
+} pl_ends;
+
 #define PL_COLORS 64
 #define PL_DYNAMIC_COLORS                                                                          \
     48 // contacts with immovable bodies have the last 16: they are solved last
@@ -75,6 +80,7 @@ typedef struct pl_solver {
     pl_buffer struck; // likewise a real a slot: when in the substep an impact struck it last [s]
     pl_buffer rows;   // uint32_t: body row of a slot
     pl_buffer slots;  // uint32_t: slot of a dynamic or kinematic row; PL_NONE: not in a contact
+    pl_buffer ends;   // pl_ends a manifold
     pl_buffer masks;  // uint64_t a slot: colours taken
     pl_buffer colors; // uint8_t a manifold
     pl_buffer lanes;  // uint32_t a lane: its manifold; PL_NONE: empty

@@ -113,7 +113,7 @@ static void tell_rest(listing *out, const plumb_world *w)
 {
     size_t characters = 0, systems = 0;
     size_t effects = BUFFERS(&w->tunings.items, &w->targets.items);
-    size_t events = BUFFERS(&w->begin_events, &w->end_events, &w->hit_events);
+    size_t events = BUFFERS(&w->begin_events, &w->end_events, &w->changed_pairs, &w->hit_events);
     PART(characters, pl_characters, w->characters, pl_characters_free(&dry, &copy));
     PART(systems, pl_systems, w->systems, pl_systems_free(&dry, &copy));
     PART(systems, pl_commands, w->commands, pl_commands_free(&dry, &copy));

@@ -110,6 +110,7 @@ struct plumb_world {
 
     // Events of the last step.
     pl_buffer begin_events, end_events; // plumb_contact_begin, plumb_contact_end
+    pl_buffer changed_pairs;            // uint32_t: pairs that began or ceased to touch
     pl_buffer hit_events;               // plumb_contact_hit
     int begin_count, end_count, hit_count;
     pl_buffer graves; // pl_grave by piece slot

@@ -174,6 +174,7 @@ static void free_world(plumb_world *world)
     pl_buffer_free(&memory, &world->moving);
     pl_buffer_free(&memory, &world->poses);
     pl_buffer_free(&memory, &world->begin_events);
+    pl_buffer_free(&memory, &world->changed_pairs);
     pl_buffer_free(&memory, &world->end_events);
     pl_buffer_free(&memory, &world->hit_events);
     pl_buffer_free(&memory, &world->excluded);

@@ -404,7 +404,7 @@ static void books_are_kept_under_random_changes(void **state)
     plumb_body ground =
         plumb_body_create(c.w, &(plumb_body_desc){ .type = PLUMB_STATIC, .position = { 0, -1 } });
     plumb_shape_create(c.w, ground, &(plumb_shape_desc){ .kind = PLUMB_BOX, .half = { 20, 1 } });
-    for (int round = 0; round < 6000; ++round) {
+    for (int round = 0; round < 8000; ++round) {
         if (c.count < 4 || choose(&c.seed, 12) == 0) {
             add_one(&c);
         } else if (choose(&c.seed, 6) == 0) {

@@ -151,6 +151,7 @@ static const cli_option options[] = {
     SCENE_OPTION_ITERATIONS(explain_args, scene),
     SCENE_OPTION_SOLVER(explain_args, scene),
     SCENE_OPTION_WIDTH(explain_args, scene),
+    SCENE_OPTION_WORKERS(explain_args, scene),
     SCENE_OPTION_PRECISION(explain_args, scene),
     SCENE_OPTION_SET(explain_args, scene),
     SCENE_OPTION_QUIET(explain_args, scene),

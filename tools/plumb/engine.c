@@ -38,7 +38,7 @@ int pl_session_fail_scene(const engine_session *session, const scene_error *from
 
 /// Settings of the command line become overrides of scene{}, after the user's own: a later one
 /// wins.
-enum { OVERRIDE_COUNT = 5, OVERRIDE_SIZE = 48 };
+enum { OVERRIDE_COUNT = 6, OVERRIDE_SIZE = 48 };
 
 static int write_overrides(const engine_settings *settings, char texts[][OVERRIDE_SIZE])
 {
@@ -58,6 +58,9 @@ static int write_overrides(const engine_settings *settings, char texts[][OVERRID
     }
     if (settings->width > 0) {
         snprintf(texts[count++], OVERRIDE_SIZE, "simd_width=%d", settings->width);
+    }
+    if (settings->workers > 0) {
+        snprintf(texts[count++], OVERRIDE_SIZE, "workers=%d", settings->workers);
     }
     return count;
 }

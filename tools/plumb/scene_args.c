@@ -51,7 +51,8 @@ int scene_run_open(const scene_args *args, const char *path, scene_run *run)
                                  .substeps = args->substeps,
                                  .iterations = args->iterations,
                                  .solver = args->solver,
-                                 .width = args->width };
+                                 .width = args->width,
+                                 .workers = args->workers };
     engine_error error = { 0 };
 
     *run = (scene_run){ .engine = args->precision == 0 ? &engine_float : &engine_double };

@@ -13,6 +13,7 @@ typedef struct scene_args {
     int iterations; ///< 0: the scene's
     int solver;     ///< -1: the scene's
     int width;      ///< 0: best
+    int workers;    ///< 0: the scene's
     int precision;  ///< index into SCENE_PRECISIONS
     cli_texts sets;
     bool quiet;
@@ -39,6 +40,10 @@ typedef struct scene_args {
     { "width", 0, CLI_INT, offsetof(type, member.width), "N", 0, 16, NULL,                       \
       "SIMD lanes: 4, 8 or 16; 0 takes the best measured (default). Changes the speed, "          \
       "not a bit of the result" }
+#define SCENE_OPTION_WORKERS(type, member)                                                       \
+    { "workers", 0, CLI_INT, offsetof(type, member.workers), "N", 1, 64, NULL,                   \
+      "threads that share the work of a step (default: the scene's, else 1). Changes the speed, " \
+      "not a bit of the result" }
 #define SCENE_OPTION_SET(type, member)                                                           \
     { "set", 0, CLI_TEXTS, offsetof(type, member.sets), "KEY=VALUE", 0, 0, NULL,                 \
       "override what the scene declares; may be repeated" }
@@ -63,6 +68,7 @@ typedef struct scene_args {
     SCENE_OPTION_TIME(type, member), SCENE_OPTION_DT(type, member),                              \
     SCENE_OPTION_SUBSTEPS(type, member), SCENE_OPTION_ITERATIONS(type, member),                  \
     SCENE_OPTION_SOLVER(type, member), SCENE_OPTION_WIDTH(type, member),                         \
+    SCENE_OPTION_WORKERS(type, member),                                                          \
     SCENE_OPTION_PRECISION(type, member), SCENE_OPTION_SET(type, member)
 // clang-format on
 
