@@ -31,16 +31,19 @@
 PLUMB_BEGIN
 
 /// The scalar of the whole library: float by default, double when PLUMB_DOUBLE is defined to 1.
-/// The program and the library it links must agree; a mismatch is a link error, because
-/// the double library exports plumb_world_create under another name (see world.h).
+/// The program and the library it links must agree; a mismatch is a link error ("undefined reference to
+/// plumb_world_create_double"): all functions that need no object of the library's to be called with, but take
+/// or give reals, have symbols with the precision in them.
 #if defined(PLUMB_DOUBLE) && PLUMB_DOUBLE
 typedef double plumb_real;
 #define PLUMB_REAL_EPSILON 2.2204460492503131e-16 ///< [-] spacing of reals at 1
 #define PLUMB_REAL_MAX     1.7976931348623157e+308
+#define PLUMB_SYMBOL(name) name##_double
 #else
 typedef float plumb_real;
 #define PLUMB_REAL_EPSILON 1.1920929e-7f ///< [-] spacing of reals at 1
 #define PLUMB_REAL_MAX     3.4028235e+38f
+#define PLUMB_SYMBOL(name) name##_float ///< of a function by which a mismatch is found
 #endif
 
 /// Every result code: X(name, value, text). The one list: enum, plumb_result_text and tests use it.

@@ -25,6 +25,10 @@
 
 PLUMB_BEGIN
 
+// The symbols tell the precision: see plumb_real.
+#define plumb_batch_create PLUMB_SYMBOL(plumb_batch_create)
+#define plumb_random_range PLUMB_SYMBOL(plumb_random_range)
+
 /// Most worlds of a batch.
 #define PLUMB_BATCH_MAX (1u << 20)
 

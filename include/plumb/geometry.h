@@ -21,6 +21,33 @@
 
 PLUMB_BEGIN
 
+// The symbols tell the precision: see plumb_real.
+#define plumb_convex_circle        PLUMB_SYMBOL(plumb_convex_circle)
+#define plumb_convex_capsule       PLUMB_SYMBOL(plumb_convex_capsule)
+#define plumb_convex_segment       PLUMB_SYMBOL(plumb_convex_segment)
+#define plumb_convex_box           PLUMB_SYMBOL(plumb_convex_box)
+#define plumb_convex_polygon       PLUMB_SYMBOL(plumb_convex_polygon)
+#define plumb_convex_transform     PLUMB_SYMBOL(plumb_convex_transform)
+#define plumb_hull                 PLUMB_SYMBOL(plumb_hull)
+#define plumb_outline_check        PLUMB_SYMBOL(plumb_outline_check)
+#define plumb_outline_area         PLUMB_SYMBOL(plumb_outline_area)
+#define plumb_outline_is_convex    PLUMB_SYMBOL(plumb_outline_is_convex)
+#define plumb_outline_contains     PLUMB_SYMBOL(plumb_outline_contains)
+#define plumb_outline_decompose    PLUMB_SYMBOL(plumb_outline_decompose)
+#define plumb_circle_mass          PLUMB_SYMBOL(plumb_circle_mass)
+#define plumb_capsule_mass         PLUMB_SYMBOL(plumb_capsule_mass)
+#define plumb_convex_mass          PLUMB_SYMBOL(plumb_convex_mass)
+#define plumb_outline_mass         PLUMB_SYMBOL(plumb_outline_mass)
+#define plumb_mass_combine         PLUMB_SYMBOL(plumb_mass_combine)
+#define plumb_mass_with_total      PLUMB_SYMBOL(plumb_mass_with_total)
+#define plumb_mass_inertia_about   PLUMB_SYMBOL(plumb_mass_inertia_about)
+#define plumb_convex_aabb          PLUMB_SYMBOL(plumb_convex_aabb)
+#define plumb_convex_support_index PLUMB_SYMBOL(plumb_convex_support_index)
+#define plumb_convex_support       PLUMB_SYMBOL(plumb_convex_support)
+#define plumb_convex_contains      PLUMB_SYMBOL(plumb_convex_contains)
+#define plumb_convex_nearest       PLUMB_SYMBOL(plumb_convex_nearest)
+#define plumb_convex_ray           PLUMB_SYMBOL(plumb_convex_ray)
+
 /// Most vertices of one convex polygon.
 #define PLUMB_POLYGON_MAX_VERTICES 16
 

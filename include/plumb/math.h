@@ -19,6 +19,11 @@
 
 PLUMB_BEGIN
 
+// The symbols tell the precision: see plumb_real.
+#define plumb_sincos     PLUMB_SYMBOL(plumb_sincos)
+#define plumb_atan2      PLUMB_SYMBOL(plumb_atan2)
+#define plumb_angle_wrap PLUMB_SYMBOL(plumb_angle_wrap)
+
 /// A literal as a plumb_real, without conversion warnings in either build: PLUMB_REAL(0.5).
 #define PLUMB_REAL(literal) ((plumb_real)(literal))
 

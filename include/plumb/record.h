@@ -30,6 +30,9 @@
 
 PLUMB_BEGIN
 
+// The symbol tells the precision: see plumb_real.
+#define plumb_replay_open PLUMB_SYMBOL(plumb_replay_open)
+
 /// Takes `size` bytes, which follow those of the call before. False: no more can be taken (disk full);
 /// the recording ends there, the world goes on. Calls no function of the library's.
 typedef bool plumb_write_fn(void *context, const void *bytes, size_t size);

@@ -14,10 +14,8 @@
 
 PLUMB_BEGIN
 
-// A float program that links the double library (or the reverse) fails at link time here.
-#if defined(PLUMB_DOUBLE) && PLUMB_DOUBLE
-#define plumb_world_create plumb_world_create_double
-#endif
+// A program for the other precision fails at link time here: see plumb_real.
+#define plumb_world_create PLUMB_SYMBOL(plumb_world_create)
 
 typedef struct plumb_world plumb_world;
 

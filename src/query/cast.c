@@ -6,40 +6,37 @@
 // far from the origin. The first hit so far ends the walk through the grid where it lies.
 //
 // Reads: grids, pieces, poses. Writes: the answer. Cost: cells under the way + O(corners) a box met.
-#include "query/query.h"
+#include "query/seek.h"
 #include "query/sweep.h"
-#include "query/walk.h"
 #include "world/check.h"
 
 #include <math.h>
 #include <stdio.h>
 
 typedef struct caster {
-    pl_query q;
-    pl_walk walk;
+    pl_seek seek;      // comes first
     pl_round mover;    // relative to `origin`
     plumb_vec2 origin; // [m]
     double dx, dy;     // [m] the way
     double touch;      // [m] overlaps up to this are touches
-    bool met;          // first hit, any hit
-    pl_query_hit first;
 } caster;
 
 // `hit`: fraction, normal, depth.
-static bool meets_piece(const caster *c, const pl_grid_entry *entry, pl_query_hit *hit)
+static bool meets_piece(const pl_seek *seek, const pl_grid_entry *entry, pl_query_hit *hit)
 {
+    const caster *c = (const caster *)(const void *)seek;
     const uint32_t piece = entry->piece;
     plumb_convex convex;
     pl_round fixed;
     pl_sum sum;
     pl_sum_hit met;
-    pl_query_convex(c->q.world, piece, &convex);
-    pl_round_make(&convex, pl_query_frame_of(c->q.world, entry), c->origin, &fixed);
+    pl_query_convex(c->seek.q.world, piece, &convex);
+    pl_round_make(&convex, pl_query_frame_of(c->seek.q.world, entry), c->origin, &fixed);
     pl_sum_make(&fixed, &c->mover, &sum);
     if (!pl_sum_cast(&sum, 0, 0, c->dx, c->dy, c->touch, &met)) {
         return false;
     }
-    *hit = pl_query_hit_of(c->q.world, piece);
+    *hit = pl_query_hit_of(c->seek.q.world, piece);
     hit->fraction = (plumb_real)met.fraction;
     hit->normal = plumb_v2((plumb_real)met.nx, (plumb_real)met.ny);
     hit->depth = (plumb_real)met.depth;
@@ -48,48 +45,7 @@ static bool meets_piece(const caster *c, const pl_grid_entry *entry, pl_query_hi
                    &x, &y);
     hit->point =
         plumb_v2((plumb_real)((double)c->origin.x + x), (plumb_real)((double)c->origin.y + y));
-    return !pl_query_passes(&c->q, piece, met.depth > 0 ? plumb_v2(0, 0) : hit->normal);
-}
-
-// Of shapes that overlap at the start, the deepest.
-static bool comes_first(const caster *c, const pl_query_hit *hit)
-{
-    const pl_query_hit *first = &c->first;
-    if (!c->met || hit->fraction != first->fraction) {
-        return !c->met || hit->fraction < first->fraction;
-    }
-    return hit->depth != first->depth ? hit->depth > first->depth
-                                      : hit->shape.index < first->shape.index;
-}
-
-static bool keep_first(void *context, const pl_grid_entry *entry)
-{
-    caster *c = context;
-    pl_query_hit hit;
-    if (pl_query_sees(&c->q, entry->piece) && meets_piece(c, entry, &hit) &&
-        comes_first(c, &hit) && pl_query_accepts(&c->q, hit.shape)) {
-        c->met = true;
-        c->first = hit;
-        c->walk.limit = (double)hit.fraction;
-    }
-    return true;
-}
-
-// The first that comes along: the walk ends.
-static bool keep_any(void *context, const pl_grid_entry *entry)
-{
-    caster *c = context;
-    c->met = pl_query_sees(&c->q, entry->piece) && meets_piece(c, entry, &c->first) &&
-             pl_query_accepts(&c->q, c->first.shape);
-    return !c->met;
-}
-
-static bool keep_all(void *context, const pl_grid_entry *entry)
-{
-    caster *c = context;
-    pl_query_hit hit;
-    return !pl_query_sees(&c->q, entry->piece) || !meets_piece(c, entry, &hit) ||
-           pl_query_add(&c->q, &hit);
+    return !pl_query_passes(&c->seek.q, piece, met.depth > 0 ? plumb_v2(0, 0) : hit->normal);
 }
 
 // `prefix`: see pl_query_check_convex.
@@ -122,10 +78,10 @@ static void aim(caster *c, const plumb_cast *cast)
     c->origin = cast->transform.p;
     c->dx = (double)cast->translation.x;
     c->dy = (double)cast->translation.y;
-    c->met = false;
-    c->walk = pl_walk_make_box(box, cast->translation);
-    c->touch =
-        PL_QUERY_TOUCH * (fabs(c->walk.ox) + fabs(c->walk.oy) + c->walk.half_x + c->walk.half_y);
+    c->seek.meets = meets_piece;
+    c->seek.walk = pl_walk_make_box(box, cast->translation);
+    c->touch = PL_QUERY_TOUCH * (fabs(c->seek.walk.ox) + fabs(c->seek.walk.oy) +
+                                 c->seek.walk.half_x + c->seek.walk.half_y);
     pl_round_make(cast->convex, cast->transform, c->origin, &c->mover);
 }
 
@@ -135,22 +91,11 @@ static plumb_result begin(caster *c, plumb_world *world, const char *function,
     plumb_result r = pl_check_pointer(world, function, "cast", cast);
     r = r != PLUMB_OK ? r : check_cast(world, function, "", cast);
     r = r != PLUMB_OK || !pl_is_wrapped(world) ? r : check_reach(world, function, "", cast);
-    r = r != PLUMB_OK ? r : pl_query_begin(&c->q, world, function, filter);
+    r = r != PLUMB_OK ? r : pl_query_begin(&c->seek.q, world, function, filter);
     if (r == PLUMB_OK) {
         aim(c, cast);
     }
     return r;
-}
-
-static void walk(caster *c, pl_grid_visit *visit)
-{
-    const pl_grid *grids[PL_QUERY_GRIDS];
-    int count = pl_query_grids(&c->q, grids);
-    for (int i = 0; i < count; ++i) {
-        if (!pl_query_walk(&c->q, grids[i], &c->walk, visit, c)) {
-            return;
-        }
-    }
 }
 
 static plumb_cast_hit public_hit(const pl_query_hit *hit)
@@ -167,11 +112,11 @@ bool plumb_world_cast(plumb_world *world, const plumb_cast *cast, const plumb_qu
         begin(&c, world, __func__, cast, filter) != PLUMB_OK) {
         return false;
     }
-    walk(&c, keep_first);
-    if (c.met) {
-        *hit = public_hit(&c.first);
+    if (!pl_seek_first(&c.seek)) {
+        return false;
     }
-    return c.met;
+    *hit = public_hit(&c.seek.first);
+    return true;
 }
 
 bool plumb_world_cast_any(plumb_world *world, const plumb_cast *cast,
@@ -181,8 +126,7 @@ bool plumb_world_cast_any(plumb_world *world, const plumb_cast *cast,
     if (world == NULL || begin(&c, world, __func__, cast, filter) != PLUMB_OK) {
         return false;
     }
-    walk(&c, keep_any);
-    return c.met;
+    return pl_seek_any(&c.seek);
 }
 
 int plumb_world_cast_all(plumb_world *world, const plumb_cast *cast,
@@ -194,14 +138,12 @@ int plumb_world_cast_all(plumb_world *world, const plumb_cast *cast,
         begin(&c, world, __func__, cast, filter) != PLUMB_OK) {
         return -1;
     }
-    walk(&c, keep_all);
-    pl_query_one_per_shape(&c.q);
-    pl_query_sort_along(&c.q);
-    int count = (int)c.q.count;
+    pl_seek_all(&c.seek);
+    int count = (int)c.seek.q.count;
     for (int i = 0; i < count && i < capacity; ++i) {
-        hits[i] = public_hit(&c.q.hits[i]);
+        hits[i] = public_hit(&c.seek.q.hits[i]);
     }
-    return pl_query_end(&c.q) == PLUMB_OK ? count : -1;
+    return pl_query_end(&c.seek.q) == PLUMB_OK ? count : -1;
 }
 
 //---- many in one call ----------------------------------------------------------------------------
@@ -229,15 +171,15 @@ int plumb_world_cast_batch(plumb_world *world, const plumb_cast *casts, int coun
 {
     caster c;
     if (world == NULL || check_casts(world, __func__, casts, count, hits) != PLUMB_OK ||
-        pl_query_begin(&c.q, world, __func__, filter) != PLUMB_OK) {
+        pl_query_begin(&c.seek.q, world, __func__, filter) != PLUMB_OK) {
         return -1;
     }
     int met = 0;
     for (int i = 0; i < count; ++i) {
         aim(&c, &casts[i]);
-        walk(&c, keep_first);
-        hits[i] = c.met ? public_hit(&c.first) : (plumb_cast_hit){ .fraction = 1 };
-        met += c.met;
+        bool meets = pl_seek_first(&c.seek);
+        hits[i] = meets ? public_hit(&c.seek.first) : (plumb_cast_hit){ .fraction = 1 };
+        met += meets;
     }
     return met;
 }

@@ -5,75 +5,36 @@
 //
 // Reads: grids, pieces, poses. Writes: the answer. Cost: cells along the ray + O(corners) a box
 // met.
-#include "query/query.h"
-#include "query/walk.h"
+#include "query/seek.h"
 #include "world/check.h"
 
 #include <math.h>
 #include <stdio.h>
 
-typedef struct cast {
-    pl_query q;
-    pl_walk walk;
+typedef struct raycast {
+    pl_seek seek; // comes first
     plumb_vec2 from, to;
-    bool met; // first hit, any hit
-    pl_query_hit first;
-} cast;
+} raycast;
 
 // The ray against one piece, in world coordinates.
-static bool meets_piece(const cast *c, const pl_grid_entry *entry, pl_query_hit *hit)
+static bool meets_piece(const pl_seek *seek, const pl_grid_entry *entry, pl_query_hit *hit)
 {
+    const raycast *c = (const raycast *)(const void *)seek;
     const uint32_t piece = entry->piece;
     plumb_convex convex;
     plumb_convex_hit local;
-    plumb_transform frame = pl_query_frame_of(c->q.world, entry);
+    plumb_transform frame = pl_query_frame_of(c->seek.q.world, entry);
     plumb_vec2 along = plumb_rot_inv_apply(frame.q, plumb_vec2_sub(c->to, c->from));
-    pl_query_convex(c->q.world, piece, &convex);
+    pl_query_convex(c->seek.q.world, piece, &convex);
     if (!plumb_convex_ray(&convex, plumb_transform_inv_apply(frame, c->from), along, &local)) {
         return false;
     }
-    *hit = pl_query_hit_of(c->q.world, piece);
+    *hit = pl_query_hit_of(c->seek.q.world, piece);
     hit->fraction = local.fraction;
     bool inside = local.normal.x == 0 && local.normal.y == 0;
     hit->point = inside ? c->from : plumb_transform_apply(frame, local.point);
     hit->normal = plumb_rot_apply(frame.q, local.normal);
-    return !pl_query_passes(&c->q, piece, hit->normal);
-}
-
-static bool comes_first(const cast *c, const pl_query_hit *hit)
-{
-    return !c->met || hit->fraction < c->first.fraction ||
-           (hit->fraction == c->first.fraction && hit->shape.index < c->first.shape.index);
-}
-
-static bool keep_first(void *context, const pl_grid_entry *entry)
-{
-    cast *c = context;
-    pl_query_hit hit;
-    if (pl_query_sees(&c->q, entry->piece) && meets_piece(c, entry, &hit) &&
-        comes_first(c, &hit) && pl_query_accepts(&c->q, hit.shape)) {
-        c->met = true;
-        c->first = hit;
-        c->walk.limit = (double)hit.fraction;
-    }
-    return true;
-}
-
-// The first that comes along: the walk ends.
-static bool keep_any(void *context, const pl_grid_entry *entry)
-{
-    cast *c = context;
-    c->met = pl_query_sees(&c->q, entry->piece) && meets_piece(c, entry, &c->first) &&
-             pl_query_accepts(&c->q, c->first.shape);
-    return !c->met;
-}
-
-static bool keep_all(void *context, const pl_grid_entry *entry)
-{
-    cast *c = context;
-    pl_query_hit hit;
-    return !pl_query_sees(&c->q, entry->piece) || !meets_piece(c, entry, &hit) ||
-           pl_query_add(&c->q, &hit);
+    return !pl_query_passes(&c->seek.q, piece, hit->normal);
 }
 
 static plumb_result check_length(const plumb_world *world, const char *function, const char *what,
@@ -91,34 +52,23 @@ static plumb_result check_ray(const plumb_world *world, const char *function, pl
     return r != PLUMB_OK ? r : check_length(world, function, "the ray", from, to);
 }
 
-static void aim(cast *c, plumb_vec2 from, plumb_vec2 to)
+static void aim(raycast *c, plumb_vec2 from, plumb_vec2 to)
 {
     c->from = from;
     c->to = to;
-    c->met = false;
-    c->walk = pl_walk_make(from, to);
+    c->seek.meets = meets_piece;
+    c->seek.walk = pl_walk_make(from, to);
 }
 
-static plumb_result begin(cast *c, plumb_world *world, const char *function, plumb_vec2 from,
+static plumb_result begin(raycast *c, plumb_world *world, const char *function, plumb_vec2 from,
                           plumb_vec2 to, const plumb_query_filter *filter)
 {
     plumb_result r = check_ray(world, function, from, to);
-    r = r != PLUMB_OK ? r : pl_query_begin(&c->q, world, function, filter);
+    r = r != PLUMB_OK ? r : pl_query_begin(&c->seek.q, world, function, filter);
     if (r == PLUMB_OK) {
         aim(c, from, to);
     }
     return r;
-}
-
-static void walk(cast *c, pl_grid_visit *visit)
-{
-    const pl_grid *grids[PL_QUERY_GRIDS];
-    int count = pl_query_grids(&c->q, grids);
-    for (int i = 0; i < count; ++i) {
-        if (!pl_query_walk(&c->q, grids[i], &c->walk, visit, c)) {
-            return;
-        }
-    }
 }
 
 static plumb_ray_hit public_hit(const pl_query_hit *hit)
@@ -129,46 +79,43 @@ static plumb_ray_hit public_hit(const pl_query_hit *hit)
 bool plumb_world_ray(plumb_world *world, plumb_vec2 from, plumb_vec2 to,
                      const plumb_query_filter *filter, plumb_ray_hit *hit)
 {
-    cast c;
+    raycast c;
     if (world == NULL || pl_check_pointer(world, __func__, "hit", hit) != PLUMB_OK ||
         begin(&c, world, __func__, from, to, filter) != PLUMB_OK) {
         return false;
     }
-    walk(&c, keep_first);
-    if (c.met) {
-        *hit = public_hit(&c.first);
+    if (!pl_seek_first(&c.seek)) {
+        return false;
     }
-    return c.met;
+    *hit = public_hit(&c.seek.first);
+    return true;
 }
 
 int plumb_world_ray_all(plumb_world *world, plumb_vec2 from, plumb_vec2 to,
                         const plumb_query_filter *filter, plumb_ray_hit *hits, int capacity)
 {
-    cast c;
+    raycast c;
     if (world == NULL ||
         pl_query_check_output(world, __func__, "hits", hits, capacity) != PLUMB_OK ||
         begin(&c, world, __func__, from, to, filter) != PLUMB_OK) {
         return -1;
     }
-    walk(&c, keep_all);
-    pl_query_one_per_shape(&c.q);
-    pl_query_sort_along(&c.q);
-    int count = (int)c.q.count;
+    pl_seek_all(&c.seek);
+    int count = (int)c.seek.q.count;
     for (int i = 0; i < count && i < capacity; ++i) {
-        hits[i] = public_hit(&c.q.hits[i]);
+        hits[i] = public_hit(&c.seek.q.hits[i]);
     }
-    return pl_query_end(&c.q) == PLUMB_OK ? count : -1;
+    return pl_query_end(&c.seek.q) == PLUMB_OK ? count : -1;
 }
 
 bool plumb_world_ray_any(plumb_world *world, plumb_vec2 from, plumb_vec2 to,
                          const plumb_query_filter *filter)
 {
-    cast c;
+    raycast c;
     if (world == NULL || begin(&c, world, __func__, from, to, filter) != PLUMB_OK) {
         return false;
     }
-    walk(&c, keep_any);
-    return c.met;
+    return pl_seek_any(&c.seek);
 }
 
 //---- many in one call ----------------------------------------------------------------------------
@@ -185,9 +132,8 @@ static plumb_result check_rays(const plumb_world *world, const char *function,
             snprintf(from, sizeof from, "rays[%d].from", i);
             snprintf(to, sizeof to, "rays[%d].to", i);
             r = pl_check_within(world, function, from, rays[i].from, PL_QUERY_LIMIT);
-            r = r != PLUMB_OK
-                    ? r
-                    : pl_check_within(world, function, to, rays[i].to, PL_QUERY_LIMIT);
+            r = r != PLUMB_OK ? r
+                              : pl_check_within(world, function, to, rays[i].to, PL_QUERY_LIMIT);
         }
         if (r == PLUMB_OK && pl_is_wrapped(world)) {
             char ray[32];
@@ -201,17 +147,17 @@ static plumb_result check_rays(const plumb_world *world, const char *function,
 int plumb_world_ray_batch(plumb_world *world, const plumb_ray *rays, int count,
                           const plumb_query_filter *filter, plumb_ray_hit *hits)
 {
-    cast c;
+    raycast c;
     if (world == NULL || check_rays(world, __func__, rays, count, hits) != PLUMB_OK ||
-        pl_query_begin(&c.q, world, __func__, filter) != PLUMB_OK) {
+        pl_query_begin(&c.seek.q, world, __func__, filter) != PLUMB_OK) {
         return -1;
     }
     int met = 0;
     for (int i = 0; i < count; ++i) {
         aim(&c, rays[i].from, rays[i].to);
-        walk(&c, keep_first);
-        hits[i] = c.met ? public_hit(&c.first) : (plumb_ray_hit){ .fraction = 1 };
-        met += c.met;
+        bool meets = pl_seek_first(&c.seek);
+        hits[i] = meets ? public_hit(&c.seek.first) : (plumb_ray_hit){ .fraction = 1 };
+        met += meets;
     }
     return met;
 }

@@ -16,7 +16,7 @@
 //                              index does
 //   TABLE(path)                a table of columns: saved and hashed, but for columns of pointers and the
 //                              fat boxes, which are only saved
-//   OWN(path)                  section.c saves it by hand
+//   OWN(path)                  section_own.c saves it by hand
 //   LEFT(path)                 neither saved nor hashed: scratch that every step fills before reading,
 //                              events of the last step, what follows from the rest (restore.c makes it
 //                              anew), what belongs to this process (memory, hooks, timers, errors)

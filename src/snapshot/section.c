@@ -1,5 +1,6 @@
 // section.c - see section.h. The lists of list.h and world/columns.h become tables of offsets.
 #include "snapshot/section.h"
+#include "snapshot/section_own.h"
 
 #include <string.h>
 
@@ -171,173 +172,6 @@ static void set_array_count(plumb_world *world, const array_row *row, uint32_t c
     }
 }
 
-//---- what list.h calls OWN -----------------------------------------------------------------------
-
-enum { REGISTRY, CORNERS, SEAMS, GRAVES, SWITCHES, OWN_COUNT };
-
-// Systems are code and stay; whether one is switched off is state, told by its name.
-typedef struct system_switch {
-    uint64_t name; // digest
-    uint64_t enabled;
-} system_switch;
-
-_Static_assert(PL_SYSTEM_MAX * sizeof(system_switch) <= PL_GATHERED_MOST, "raise PL_GATHERED_MOST");
-
-static void write_switches(const plumb_world *world, char *to)
-{
-    for (uint32_t i = 0; i < world->systems.count; ++i) {
-        const pl_system *system = &world->systems.items[i];
-        const system_switch s = { pl_digest_of(system->name, strlen(system->name)),
-                                  system->enabled };
-        memcpy(to + i * sizeof s, &s, sizeof s);
-    }
-}
-
-static void read_switches(plumb_world *world, const char *from, uint32_t count)
-{
-    for (uint32_t i = 0; i < world->systems.count; ++i) {
-        pl_system *system = &world->systems.items[i];
-        uint64_t name = pl_digest_of(system->name, strlen(system->name));
-        for (uint32_t k = 0; k < count; ++k) {
-            system_switch s;
-            memcpy(&s, from + k * sizeof s, sizeof s);
-            if (s.name == name) {
-                system->enabled = s.enabled != 0;
-            }
-        }
-    }
-}
-
-// Corners with seams lie as the corners of the pool do, as far as there have ever been any.
-static uint32_t seam_count(const plumb_world *world)
-{
-    size_t room = world->seams.corners.size / sizeof(pl_seam);
-    return world->seams.count == 0        ? 0
-           : room < world->vertices.count ? (uint32_t)room
-                                          : world->vertices.count;
-}
-
-static pl_section own_section(const plumb_world *world, uint32_t which)
-{
-    switch (which) {
-    case REGISTRY:
-        return (pl_section){ .table = "registry",
-                             .name = "slots",
-                             .data = (char *)world->registry.slots,
-                             .count = world->registry.count,
-                             .stride = sizeof(pl_slot),
-                             .hashed = sizeof(pl_slot) };
-    case CORNERS:
-        return (pl_section){ .table = "vertices",
-                             .name = "items",
-                             .data = (char *)world->vertices.items,
-                             .count = world->vertices.count,
-                             .stride = sizeof(pl_vertex),
-                             .hashed = sizeof(pl_vertex) };
-    case SEAMS:
-        return (pl_section){ .table = "seams",
-                             .name = "corners",
-                             .data = world->seams.corners.data,
-                             .count = seam_count(world),
-                             .stride = sizeof(pl_seam) };
-    case GRAVES:
-        return (pl_section){ .table = "world",
-                             .name = "graves",
-                             .data = world->graves.data,
-                             .count = world->pieces.table.count,
-                             .stride = sizeof(pl_grave) };
-    default:
-        return (pl_section){ .table = "systems",
-                             .name = "enabled",
-                             .count = world->systems.count,
-                             .stride = sizeof(system_switch) };
-    }
-}
-
-static bool reserve_own(plumb_world *world, uint32_t which, uint32_t count)
-{
-    uint32_t slots = world->registry.count, corners = world->vertices.count;
-    switch (which) {
-    case REGISTRY:
-        return count <= slots ||
-               pl_registry_reserve(&world->memory, &world->registry, count - slots);
-    case CORNERS:
-        return count <= corners ||
-               pl_pool_reserve(&world->memory, &world->vertices, count - corners);
-    case SEAMS:
-        return pl_buffer_reserve(&world->memory, &world->seams.corners, count * sizeof(pl_seam));
-    default: // graves: with the pieces
-        return true;
-    }
-}
-
-static void read_own(plumb_world *world, uint32_t which, const char *from, uint32_t count)
-{
-    void *to = NULL;
-    size_t bytes = 0;
-    switch (which) {
-    case REGISTRY:
-        world->registry.count = count;
-        to = world->registry.slots;
-        bytes = count * sizeof(pl_slot);
-        break;
-    case CORNERS:
-        world->vertices.count = count;
-        to = world->vertices.items;
-        bytes = count * sizeof(pl_vertex);
-        break;
-    case SEAMS:
-        to = world->seams.corners.data;
-        bytes = count * sizeof(pl_seam);
-        break;
-    case GRAVES:
-        to = world->graves.data;
-        bytes = count * sizeof(pl_grave);
-        if (to != NULL) {
-            memset((char *)to + bytes, 0, world->graves.size - bytes);
-        }
-        break;
-    default:
-        read_switches(world, from, count);
-        break;
-    }
-    if (bytes > 0) {
-        memcpy(to, from, bytes);
-    }
-}
-
-//---- components: two sections each ---------------------------------------------------------------
-
-static pl_section component_section(const plumb_world *world, uint32_t which)
-{
-    const pl_component *c = &world->components.items[which / 2];
-    bool owners = which % 2 == 1;
-    return (pl_section){ .table = c->name,
-                         .name = owners ? "owner" : "value",
-                         .data = owners ? c->owners.data : c->values.data,
-                         .count = c->count,
-                         .stride =
-                             owners ? (uint32_t)sizeof(plumb_entity) : (uint32_t)c->desc.size };
-}
-
-static void read_component(plumb_world *world, uint32_t which, const char *from, uint32_t count)
-{
-    pl_component *c = &world->components.items[which / 2];
-    c->count = count;
-    pl_section section = component_section(world, which);
-    if (count > 0) {
-        memcpy(section.data, from, pl_section_bytes(&section));
-    }
-}
-
-static bool reserve_component(plumb_world *world, uint32_t which, uint32_t count)
-{
-    pl_component *c = &world->components.items[which / 2];
-    bool owners = which % 2 == 1;
-    return pl_buffer_reserve(&world->memory, owners ? &c->owners : &c->values,
-                             count * (owners ? sizeof(plumb_entity) : c->desc.size));
-}
-
 //---- all of them ---------------------------------------------------------------------------------
 
 #define VALUES       0
@@ -345,7 +179,7 @@ static bool reserve_component(plumb_world *world, uint32_t which, uint32_t count
 #define FIRST_COLUMN 2
 #define FIRST_ARRAY  (FIRST_COLUMN + (uint32_t)COUNT(columns))
 #define FIRST_OWN    (FIRST_ARRAY + (uint32_t)COUNT(arrays))
-#define FIXED_COUNT  (FIRST_OWN + OWN_COUNT)
+#define FIXED_COUNT  (FIRST_OWN + PL_OWN_COUNT)
 
 uint32_t pl_section_fixed_count(void)
 {
@@ -354,7 +188,7 @@ uint32_t pl_section_fixed_count(void)
 
 uint32_t pl_section_registry(void)
 {
-    return FIRST_OWN + REGISTRY;
+    return FIRST_OWN + PL_OWN_REGISTRY;
 }
 
 bool pl_section_value(uint32_t i, pl_member *member)
@@ -432,8 +266,8 @@ pl_section pl_section_at(const plumb_world *world, uint32_t i)
                              .hashed = a->hashed,
                              .key = a->key };
     }
-    return i < FIXED_COUNT ? own_section(world, i - FIRST_OWN)
-                           : component_section(world, i - FIXED_COUNT);
+    return i < FIXED_COUNT ? pl_own_section(world, i - FIRST_OWN)
+                           : pl_own_component(world, i - FIXED_COUNT);
 }
 
 void pl_section_write(const plumb_world *world, uint32_t i, const pl_section *section, char *to)
@@ -442,8 +276,8 @@ void pl_section_write(const plumb_world *world, uint32_t i, const pl_section *se
         write_values(world, values, COUNT(values), to);
     } else if (i == TALLIES) {
         write_values(world, tallies, COUNT(tallies), to);
-    } else if (i == FIRST_OWN + SWITCHES) {
-        write_switches(world, to);
+    } else if (i == FIRST_OWN + PL_OWN_SWITCHES) {
+        pl_own_write_switches(world, to);
     } else if (section->count > 0) {
         memcpy(to, section->data, pl_section_bytes(section));
     }
@@ -460,8 +294,8 @@ bool pl_section_reserve(plumb_world *world, uint32_t i, uint32_t count)
     if (i < FIRST_OWN) {
         return reserve_array(world, &arrays[i - FIRST_ARRAY], count);
     }
-    return i < FIXED_COUNT ? reserve_own(world, i - FIRST_OWN, count)
-                           : reserve_component(world, i - FIXED_COUNT, count);
+    return i < FIXED_COUNT ? pl_own_reserve(world, i - FIRST_OWN, count)
+                           : pl_own_reserve_component(world, i - FIXED_COUNT, count);
 }
 
 void pl_section_read(plumb_world *world, uint32_t i, const char *from, uint32_t count)
@@ -475,11 +309,11 @@ void pl_section_read(plumb_world *world, uint32_t i, const char *from, uint32_t 
         return;
     }
     if (i >= FIXED_COUNT) {
-        read_component(world, i - FIXED_COUNT, from, count);
+        pl_own_read_component(world, i - FIXED_COUNT, from, count);
         return;
     }
     if (i >= FIRST_OWN) {
-        read_own(world, i - FIRST_OWN, from, count);
+        pl_own_read(world, i - FIRST_OWN, from, count);
         return;
     }
     if (i < FIRST_ARRAY) {

@@ -121,12 +121,37 @@ build_all_examples()
 }
 try "every example builds and runs" build_all_examples
 
-mixed() # a float program and the double library must not link
+# A program for one precision and the library of the other must not link, whatever it begins with, and the
+# linker must say which it is.
+declare -A begins=(
+    [world]='plumb_world *w; return plumb_world_create(0, &w);'
+    [batch]='plumb_batch *b; return plumb_batch_create(0, &b);'
+    [replay]='plumb_replay *r; return plumb_replay_open(0, 0, 0, &r);'
+    [geometry]='plumb_vec2 p[3] = { { 0, 0 } }; return plumb_outline_area(p, 3) > 0;'
+    [convex]='plumb_convex c; return plumb_convex_circle(plumb_v2(0, 0), 1, &c);'
+    [numbers]='plumb_random r = { 0 }; return plumb_random_range(&r, 0, 1) > 2;'
+    [math]='return plumb_atan2(0, 1) > 1;'
+)
+links() # beginning library PLUMB_DOUBLE
 {
-    ! "$cc" -std=c17 -I"$root$prefix/include" "$work/hello.c" -o "$work/program" \
-        "$lib/libplumb_d.a" -lm -lpthread
+    printf '#include <plumb/plumb.h>\nint main(void)\n{\n    %s\n}\n' "${begins[$1]}" >"$work/mixed.c"
+    "$cc" -std=c17 $warnings -DPLUMB_DOUBLE="$3" -I"$root$prefix/include" "$work/mixed.c" \
+        -o "$work/program" "$lib/$2" -lm -lpthread
 }
-try "float program and double library do not link" mixed
+refuses() # beginning library PLUMB_DOUBLE precision
+{
+    ! links "$1" "$2" "$3" 2>"$work/said" && grep -q "undefined reference to .plumb_[a-z0-9_]*_$4'" "$work/said"
+}
+both() # beginning static|shared suffix
+{
+    links "$1" "libplumb.$2" 0 && links "$1" "libplumb_d.$2" 1 &&
+        refuses "$1" "libplumb_d.$2" 0 float && refuses "$1" "libplumb.$2" 1 double
+}
+for begin in world batch replay geometry convex numbers math; do
+    for suffix in a so; do
+        try "$begin of one precision does not link with lib*.$suffix of the other" both $begin $suffix
+    done
+done
 
 # ---- CMake: the package must also work where the folder has been moved to
 cmake_build() # BUILD_SHARED_LIBS

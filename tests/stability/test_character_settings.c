@@ -123,19 +123,18 @@ static void skin(void **state)
 static void acceleration(void **state)
 {
     (void)state;
-    const double rates[] = { 30, 60, 144, 1000 };
-    for (int k = 0; k < 4; ++k) {
+    for (int k = 0; k < STEP_RATES; ++k) {
         plumb_world *world = make_world();
         add_floor(world);
         plumb_body hero = add_hero(world, 0, 0, &(plumb_character_desc){ .acceleration = 5 });
-        run(world, rates[k], 0.5);
+        run(world, step_rates[k], 0.5);
         plumb_character_walk(world, hero, 4);
-        run(world, rates[k], 0.5);
+        run(world, step_rates[k], 0.5);
         NEAR(x_of(world, hero), 5 * 0.25 / 2, 1e-4);
-        run(world, rates[k], 1);
+        run(world, step_rates[k], 1);
         NEAR(x_of(world, hero), 4 * 0.8 / 2 + 4 * 0.7, 1e-4);
         plumb_character_walk(world, hero, 0);
-        run(world, rates[k], 1);
+        run(world, step_rates[k], 1);
         NEAR(x_of(world, hero), 4 * 0.8 / 2 + 4 * 0.7 + 4 * 0.8 / 2, 2e-4);
         plumb_world_destroy(world);
     }

@@ -119,4 +119,8 @@ static inline void near_at(double a, double b, double tolerance, const char *fil
 }
 #define NEAR(a, b, tolerance) near_at((double)(a), (double)(b), tolerance, __FILE__, __LINE__)
 
+// [1/s] steps of which a way must not depend
+static const double step_rates[] = { 30, 60, 144, 1000 };
+#define STEP_RATES ((int)(sizeof step_rates / sizeof step_rates[0]))
+
 #endif

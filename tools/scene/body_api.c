@@ -75,19 +75,6 @@ static int check(const call *c, plumb_result result)
     return 0;
 }
 
-static int push_vector(lua_State *L, plumb_vec2 v)
-{
-    lua_pushnumber(L, (double)v.x);
-    lua_pushnumber(L, (double)v.y);
-    return 2;
-}
-
-static int push_real(lua_State *L, plumb_real v)
-{
-    lua_pushnumber(L, (double)v);
-    return 1;
-}
-
 // -------------------------------------------------------------------------------------- getters
 
 static int method_name(lua_State *L)
@@ -114,49 +101,49 @@ static int method_type(lua_State *L)
 static int method_position(lua_State *L)
 {
     call c = self(L, "position");
-    return push_vector(L, plumb_body_position(c.world, c.entity));
+    return sc_push_vector(L, plumb_body_position(c.world, c.entity));
 }
 
 static int method_center(lua_State *L)
 {
     call c = self(L, "center");
-    return push_vector(L, plumb_body_center(c.world, c.entity));
+    return sc_push_vector(L, plumb_body_center(c.world, c.entity));
 }
 
 static int method_velocity(lua_State *L)
 {
     call c = self(L, "velocity");
-    return push_vector(L, plumb_body_velocity(c.world, c.entity));
+    return sc_push_vector(L, plumb_body_velocity(c.world, c.entity));
 }
 
 static int method_speed(lua_State *L)
 {
     call c = self(L, "speed");
-    return push_real(L, plumb_vec2_magnitude(plumb_body_velocity(c.world, c.entity)));
+    return sc_push_real(L, plumb_vec2_magnitude(plumb_body_velocity(c.world, c.entity)));
 }
 
 static int method_angle(lua_State *L)
 {
     call c = self(L, "angle");
-    return push_real(L, plumb_body_angle(c.world, c.entity));
+    return sc_push_real(L, plumb_body_angle(c.world, c.entity));
 }
 
 static int method_spin(lua_State *L)
 {
     call c = self(L, "spin");
-    return push_real(L, plumb_body_angular_velocity(c.world, c.entity));
+    return sc_push_real(L, plumb_body_angular_velocity(c.world, c.entity));
 }
 
 static int method_mass(lua_State *L)
 {
     call c = self(L, "mass");
-    return push_real(L, plumb_body_mass(c.world, c.entity));
+    return sc_push_real(L, plumb_body_mass(c.world, c.entity));
 }
 
 static int method_inertia(lua_State *L)
 {
     call c = self(L, "inertia");
-    return push_real(L, plumb_body_inertia(c.world, c.entity));
+    return sc_push_real(L, plumb_body_inertia(c.world, c.entity));
 }
 
 // -------------------------------------------------------------------------------------- setters

@@ -1,36 +1,8 @@
-// body_record.c - the records of bodies: found by handle, by name, by Lua object; matched against
-// patterns; forgotten. Cost: O(1), O(bodies) to forget one.
+// body_record.c - the records of bodies: matched against patterns; forgotten. Cost: O(1), O(bodies) to forget
+// one.
 #include <string.h>
 
 #include "internal.h"
-
-sc_body *sc_body_of(const scene *s, plumb_body body)
-{
-    if (s->world == NULL || !plumb_body_valid(s->world, body)) {
-        return NULL;
-    }
-    return plumb_body_user_data(s->world, body);
-}
-
-sc_body *sc_body_named(const scene *s, const char *name)
-{
-    lua_State *L = s->L;
-    lua_getfield(L, LUA_REGISTRYINDEX, "plumb.names");
-    lua_pushstring(L, name);
-    lua_rawget(L, -2);
-    sc_body *b = lua_touserdata(L, -1);
-    lua_pop(L, 2);
-    return b;
-}
-
-bool sc_body_at_index(lua_State *L, int index, plumb_body *out)
-{
-    const plumb_body *object = luaL_testudata(L, index, SC_META_BODY);
-    if (object != NULL) {
-        *out = *object;
-    }
-    return object != NULL;
-}
 
 bool sc_name_matches(const char *pattern, const char *name)
 {
@@ -49,10 +21,7 @@ void sc_body_push(scene *s, const sc_body *body)
 void sc_body_release(scene *s, sc_body *body)
 {
     lua_State *L = s->L;
-    lua_getfield(L, LUA_REGISTRYINDEX, "plumb.names");
-    lua_pushnil(L);
-    lua_setfield(L, -2, body->def.name);
-    lua_pop(L, 1);
+    sc_record_name(s, &sc_bodies, body->def.name, NULL);
     luaL_unref(L, LUA_REGISTRYINDEX, body->object);
     luaL_unref(L, LUA_REGISTRYINDEX, body->user);
     for (int i = 0; i < body->def.shape_count; i++) {

@@ -149,7 +149,6 @@ static void check_body(scene *s, const sc_site *site, const sc_body_def *d)
 // Puts a fresh record with its name into the scene's lists; its Lua object is left on the stack.
 static sc_body *add_record(scene *s, const sc_body_def *def)
 {
-    lua_State *L = s->L;
     sc_body **slot = SC_PUSH(s, s->bodies);
     s->bodies.count--; // until there is a record
     sc_body *b = sc_need(s, NULL, 0, sizeof *b);
@@ -168,10 +167,7 @@ static sc_body *add_record(scene *s, const sc_body_def *def)
             snprintf(b->def.name, sizeof b->def.name, "%s", name);
         }
     }
-    lua_getfield(L, LUA_REGISTRYINDEX, "plumb.names");
-    lua_pushlightuserdata(L, b);
-    lua_setfield(L, -2, b->def.name);
-    lua_pop(L, 1);
+    sc_record_name(s, &sc_bodies, b->def.name, b);
     return b;
 }
 
@@ -431,8 +427,7 @@ static int lua_param(lua_State *L)
 
 void sc_open_build(lua_State *L)
 {
-    lua_newtable(L);
-    lua_setfield(L, LUA_REGISTRYINDEX, "plumb.names");
+    sc_records_open(L, &sc_bodies);
     lua_register(L, "scene", lua_scene);
     lua_register(L, "body", lua_body);
     lua_register(L, "camera", lua_camera);

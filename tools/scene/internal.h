@@ -365,10 +365,55 @@ void sc_shape_create(scene *s, const sc_site *site, int index, const sc_body *bo
 sc_shape_object *sc_to_shape(lua_State *L, int index);
 sc_material *sc_to_material(lua_State *L, int index);
 
+/// What has records (records.c): bodies, joints.
+typedef struct sc_record_kind {
+    const char *meta;  ///< metatable of its Lua objects, which hold the handle
+    const char *names; ///< table of its records by name, in the registry
+    bool (*valid)(const plumb_world *world, plumb_entity entity);
+    void *(*user_data)(const plumb_world *world, plumb_entity entity);
+} sc_record_kind;
+extern const sc_record_kind sc_bodies, sc_joints;
+
+void sc_records_open(lua_State *L, const sc_record_kind *kind); ///< no names yet
+void *sc_record_of(const scene *s, const sc_record_kind *kind, plumb_entity entity);
+void *sc_record_named(const scene *s, const sc_record_kind *kind, const char *name);
+/// Gives a record its name; null: takes it away.
+void sc_record_name(scene *s, const sc_record_kind *kind, const char *name, void *record);
+bool sc_handle_at(lua_State *L, int index, const sc_record_kind *kind, plumb_entity *out);
+
+/// Null if it is none of ours or dead.
+static inline sc_body *sc_body_of(const scene *s, plumb_body body)
+{
+    return sc_record_of(s, &sc_bodies, body);
+}
+static inline sc_joint *sc_joint_of(const scene *s, plumb_joint joint)
+{
+    return sc_record_of(s, &sc_joints, joint);
+}
+/// Null if there is none.
+static inline sc_body *sc_body_named(const scene *s, const char *name)
+{
+    return sc_record_named(s, &sc_bodies, name);
+}
+static inline sc_joint *sc_joint_named(const scene *s, const char *name)
+{
+    return sc_record_named(s, &sc_joints, name);
+}
+/// A Lua object of that kind?
+static inline bool sc_body_at_index(lua_State *L, int index, plumb_body *out)
+{
+    return sc_handle_at(L, index, &sc_bodies, out);
+}
+static inline bool sc_joint_at_index(lua_State *L, int index, plumb_joint *out)
+{
+    return sc_handle_at(L, index, &sc_joints, out);
+}
+
+/// Values of methods: 2 numbers, 1.
+int sc_push_vector(lua_State *L, plumb_vec2 v);
+int sc_push_real(lua_State *L, plumb_real v);
+
 bool sc_is_world(lua_State *L, int index);
-sc_joint *sc_joint_of(const scene *s, plumb_joint joint); ///< null if it is none of ours or dead
-sc_joint *sc_joint_named(const scene *s, const char *name);
-bool sc_joint_at_index(lua_State *L, int index, plumb_joint *out); ///< a Lua joint object?
 void sc_joint_push(scene *s, plumb_joint joint);
 void sc_joint_release(scene *s, sc_joint *joint); ///< forgets it; the world's joint is gone
 /// Raises unless the name (or pattern) is that of a joint that is there.
@@ -401,11 +446,8 @@ int sc_body_overlaps(scene *s, plumb_body body);
 void sc_excluded_forget(scene *s, plumb_body body);
 void sc_open_filters(lua_State *L); ///< exclude
 
-sc_body *sc_body_of(const scene *s, plumb_body body); ///< null if it is none of ours or dead
-sc_body *sc_body_named(const scene *s, const char *name);
 void sc_body_push(scene *s, const sc_body *body);
 void sc_body_release(scene *s, sc_body *body); ///< forgets it; the world's body is gone
-bool sc_body_at_index(lua_State *L, int index, plumb_body *out); ///< a Lua body object?
 bool sc_name_matches(const char *pattern, const char *name);     ///< "brick*" or exact
 /// Raises unless the name (or pattern) fits a body that is alive.
 void sc_check_body_name(scene *s, const sc_site *site, const char *key, const char *name);

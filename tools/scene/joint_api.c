@@ -7,34 +7,6 @@
 
 #include "internal.h"
 
-sc_joint *sc_joint_of(const scene *s, plumb_joint joint)
-{
-    if (s->world == NULL || !plumb_joint_valid(s->world, joint)) {
-        return NULL;
-    }
-    return plumb_joint_user_data(s->world, joint);
-}
-
-sc_joint *sc_joint_named(const scene *s, const char *name)
-{
-    lua_State *L = s->L;
-    lua_getfield(L, LUA_REGISTRYINDEX, "plumb.joints");
-    lua_pushstring(L, name);
-    lua_rawget(L, -2);
-    sc_joint *j = lua_touserdata(L, -1);
-    lua_pop(L, 2);
-    return j;
-}
-
-bool sc_joint_at_index(lua_State *L, int index, plumb_joint *out)
-{
-    const plumb_joint *object = luaL_testudata(L, index, SC_META_JOINT);
-    if (object != NULL) {
-        *out = *object;
-    }
-    return object != NULL;
-}
-
 void sc_joint_push(scene *s, plumb_joint joint)
 {
     plumb_joint *object = lua_newuserdatauv(s->L, sizeof *object, 0);
@@ -97,19 +69,6 @@ static int check(const call *c, plumb_result result, const char *what)
     return 0;
 }
 
-static int push_vector(lua_State *L, plumb_vec2 v)
-{
-    lua_pushnumber(L, (double)v.x);
-    lua_pushnumber(L, (double)v.y);
-    return 2;
-}
-
-static int push_real(lua_State *L, plumb_real v)
-{
-    lua_pushnumber(L, (double)v);
-    return 1;
-}
-
 static int push_body(const call *c, plumb_body body)
 {
     const sc_body *b = sc_body_of(c->s, body);
@@ -164,19 +123,19 @@ static int method_b(lua_State *L)
 static int method_anchor_a(lua_State *L)
 {
     call c = self(L, "anchor_a");
-    return push_vector(L, plumb_joint_anchor_a(c.world, c.entity));
+    return sc_push_vector(L, plumb_joint_anchor_a(c.world, c.entity));
 }
 
 static int method_anchor_b(lua_State *L)
 {
     call c = self(L, "anchor_b");
-    return push_vector(L, plumb_joint_anchor_b(c.world, c.entity));
+    return sc_push_vector(L, plumb_joint_anchor_b(c.world, c.entity));
 }
 
 static int method_value(lua_State *L)
 {
     call c = self(L, "value");
-    return push_real(L, plumb_joint_value(c.world, c.entity));
+    return sc_push_real(L, plumb_joint_value(c.world, c.entity));
 }
 
 static int method_angle(lua_State *L)
@@ -188,7 +147,7 @@ static int method_angle(lua_State *L)
     case PLUMB_MOTOR:
     case PLUMB_RATCHET:
     case PLUMB_FRICTION:
-        return push_real(L, plumb_joint_value(c.world, c.entity));
+        return sc_push_real(L, plumb_joint_value(c.world, c.entity));
     default:
         fail_state(&c, "angle: see value()");
     }
@@ -197,25 +156,25 @@ static int method_angle(lua_State *L)
 static int method_error(lua_State *L)
 {
     call c = self(L, "error");
-    return push_real(L, plumb_joint_error(c.world, c.entity));
+    return sc_push_real(L, plumb_joint_error(c.world, c.entity));
 }
 
 static int method_force(lua_State *L)
 {
     call c = self(L, "force");
-    return push_vector(L, plumb_joint_force(c.world, c.entity));
+    return sc_push_vector(L, plumb_joint_force(c.world, c.entity));
 }
 
 static int method_torque(lua_State *L)
 {
     call c = self(L, "torque");
-    return push_real(L, plumb_joint_torque(c.world, c.entity));
+    return sc_push_real(L, plumb_joint_torque(c.world, c.entity));
 }
 
 static int method_reaction(lua_State *L)
 {
     call c = self(L, "reaction");
-    return push_real(L, plumb_vec2_magnitude(plumb_joint_force(c.world, c.entity)));
+    return sc_push_real(L, plumb_vec2_magnitude(plumb_joint_force(c.world, c.entity)));
 }
 
 // -------------------------------------------------------------------------------------- setters

@@ -268,7 +268,6 @@ static void check_name(scene *s, const sc_site *site, const sc_joint_def *d)
 
 static sc_joint *add_record(scene *s, const sc_joint_def *def)
 {
-    lua_State *L = s->L;
     sc_joint **slot = SC_PUSH(s, s->joints);
     s->joints.count--; // until there is a record
     sc_joint *j = sc_need(s, NULL, 0, sizeof *j);
@@ -283,20 +282,13 @@ static sc_joint *add_record(scene *s, const sc_joint_def *def)
             snprintf(j->def.name, sizeof j->def.name, "%s", name);
         }
     }
-    lua_getfield(L, LUA_REGISTRYINDEX, "plumb.joints");
-    lua_pushlightuserdata(L, j);
-    lua_setfield(L, -2, j->def.name);
-    lua_pop(L, 1);
+    sc_record_name(s, &sc_joints, j->def.name, j);
     return j;
 }
 
 void sc_joint_release(scene *s, sc_joint *joint)
 {
-    lua_State *L = s->L;
-    lua_getfield(L, LUA_REGISTRYINDEX, "plumb.joints");
-    lua_pushnil(L);
-    lua_setfield(L, -2, joint->def.name);
-    lua_pop(L, 1);
+    sc_record_name(s, &sc_joints, joint->def.name, NULL);
     int at = 0;
     while (s->joints.items[at] != joint) {
         at++;
@@ -438,8 +430,7 @@ bool sc_is_world(lua_State *L, int index)
 
 void sc_open_joints(lua_State *L)
 {
-    lua_newtable(L);
-    lua_setfield(L, LUA_REGISTRYINDEX, "plumb.joints");
+    sc_records_open(L, &sc_joints);
     for (int kind = 0; kind < SC_JOINT_KINDS; kind++) {
         lua_pushinteger(L, kind);
         lua_pushcclosure(L, lua_joint, 1);

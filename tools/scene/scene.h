@@ -27,10 +27,8 @@
 extern "C" {
 #endif
 
-// A float program cannot link the double loader by mistake, as with plumb_world_create.
-#if defined(PLUMB_DOUBLE) && PLUMB_DOUBLE
-#define scene_load scene_load_double
-#endif
+// A program cannot link the loader of the other precision by mistake, as with plumb_world_create.
+#define scene_load PLUMB_SYMBOL(scene_load)
 
 // clang-format off
 /// Every code of the loader: X(name, value, text).

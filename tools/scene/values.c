@@ -1,4 +1,4 @@
-// values.c - small readers of Lua values, and the `present` bits of what a list has read.
+// values.c - small readers and writers of Lua values, and the `present` bits of what a list has read.
 // Cost: O(1) each, O(rows) for the bits.
 #include <string.h>
 
@@ -114,4 +114,17 @@ bool sc_parse_color(const char *text, sc_color *out)
     }
     *out = (sc_color){ -1, { bytes[0], bytes[1], bytes[2], 255 } };
     return true;
+}
+
+int sc_push_vector(lua_State *L, plumb_vec2 v)
+{
+    lua_pushnumber(L, (double)v.x);
+    lua_pushnumber(L, (double)v.y);
+    return 2;
+}
+
+int sc_push_real(lua_State *L, plumb_real v)
+{
+    lua_pushnumber(L, (double)v);
+    return 1;
 }

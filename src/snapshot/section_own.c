@@ -1,0 +1,169 @@
+// section_own.c - see section_own.h: what list.h calls OWN, and the components that users register.
+//
+// Reads and writes the world's registry, pool of corners, seams, graves, switches of systems, components.
+#include "snapshot/section_own.h"
+
+#include <string.h>
+
+// Systems are code and stay; whether one is switched off is state, told by its name.
+typedef struct system_switch {
+    uint64_t name; // digest
+    uint64_t enabled;
+} system_switch;
+
+_Static_assert(PL_SYSTEM_MAX * sizeof(system_switch) <= PL_GATHERED_MOST, "raise PL_GATHERED_MOST");
+
+void pl_own_write_switches(const plumb_world *world, char *to)
+{
+    for (uint32_t i = 0; i < world->systems.count; ++i) {
+        const pl_system *system = &world->systems.items[i];
+        const system_switch s = { pl_digest_of(system->name, strlen(system->name)),
+                                  system->enabled };
+        memcpy(to + i * sizeof s, &s, sizeof s);
+    }
+}
+
+static void read_switches(plumb_world *world, const char *from, uint32_t count)
+{
+    for (uint32_t i = 0; i < world->systems.count; ++i) {
+        pl_system *system = &world->systems.items[i];
+        uint64_t name = pl_digest_of(system->name, strlen(system->name));
+        for (uint32_t k = 0; k < count; ++k) {
+            system_switch s;
+            memcpy(&s, from + k * sizeof s, sizeof s);
+            if (s.name == name) {
+                system->enabled = s.enabled != 0;
+            }
+        }
+    }
+}
+
+// Corners with seams lie as the corners of the pool do, as far as there have ever been any.
+static uint32_t seam_count(const plumb_world *world)
+{
+    size_t room = world->seams.corners.size / sizeof(pl_seam);
+    return world->seams.count == 0        ? 0
+           : room < world->vertices.count ? (uint32_t)room
+                                          : world->vertices.count;
+}
+
+pl_section pl_own_section(const plumb_world *world, uint32_t which)
+{
+    switch (which) {
+    case PL_OWN_REGISTRY:
+        return (pl_section){ .table = "registry",
+                             .name = "slots",
+                             .data = (char *)world->registry.slots,
+                             .count = world->registry.count,
+                             .stride = sizeof(pl_slot),
+                             .hashed = sizeof(pl_slot) };
+    case PL_OWN_CORNERS:
+        return (pl_section){ .table = "vertices",
+                             .name = "items",
+                             .data = (char *)world->vertices.items,
+                             .count = world->vertices.count,
+                             .stride = sizeof(pl_vertex),
+                             .hashed = sizeof(pl_vertex) };
+    case PL_OWN_SEAMS:
+        return (pl_section){ .table = "seams",
+                             .name = "corners",
+                             .data = world->seams.corners.data,
+                             .count = seam_count(world),
+                             .stride = sizeof(pl_seam) };
+    case PL_OWN_GRAVES:
+        return (pl_section){ .table = "world",
+                             .name = "graves",
+                             .data = world->graves.data,
+                             .count = world->pieces.table.count,
+                             .stride = sizeof(pl_grave) };
+    default:
+        return (pl_section){ .table = "systems",
+                             .name = "enabled",
+                             .count = world->systems.count,
+                             .stride = sizeof(system_switch) };
+    }
+}
+
+bool pl_own_reserve(plumb_world *world, uint32_t which, uint32_t count)
+{
+    uint32_t slots = world->registry.count, corners = world->vertices.count;
+    switch (which) {
+    case PL_OWN_REGISTRY:
+        return count <= slots ||
+               pl_registry_reserve(&world->memory, &world->registry, count - slots);
+    case PL_OWN_CORNERS:
+        return count <= corners ||
+               pl_pool_reserve(&world->memory, &world->vertices, count - corners);
+    case PL_OWN_SEAMS:
+        return pl_buffer_reserve(&world->memory, &world->seams.corners, count * sizeof(pl_seam));
+    default: // graves: with the pieces
+        return true;
+    }
+}
+
+void pl_own_read(plumb_world *world, uint32_t which, const char *from, uint32_t count)
+{
+    void *to = NULL;
+    size_t bytes = 0;
+    switch (which) {
+    case PL_OWN_REGISTRY:
+        world->registry.count = count;
+        to = world->registry.slots;
+        bytes = count * sizeof(pl_slot);
+        break;
+    case PL_OWN_CORNERS:
+        world->vertices.count = count;
+        to = world->vertices.items;
+        bytes = count * sizeof(pl_vertex);
+        break;
+    case PL_OWN_SEAMS:
+        to = world->seams.corners.data;
+        bytes = count * sizeof(pl_seam);
+        break;
+    case PL_OWN_GRAVES:
+        to = world->graves.data;
+        bytes = count * sizeof(pl_grave);
+        if (to != NULL) {
+            memset((char *)to + bytes, 0, world->graves.size - bytes);
+        }
+        break;
+    default:
+        read_switches(world, from, count);
+        break;
+    }
+    if (bytes > 0) {
+        memcpy(to, from, bytes);
+    }
+}
+
+//---- components: two sections each ---------------------------------------------------------------
+
+pl_section pl_own_component(const plumb_world *world, uint32_t which)
+{
+    const pl_component *c = &world->components.items[which / 2];
+    bool owners = which % 2 == 1;
+    return (pl_section){ .table = c->name,
+                         .name = owners ? "owner" : "value",
+                         .data = owners ? c->owners.data : c->values.data,
+                         .count = c->count,
+                         .stride =
+                             owners ? (uint32_t)sizeof(plumb_entity) : (uint32_t)c->desc.size };
+}
+
+void pl_own_read_component(plumb_world *world, uint32_t which, const char *from, uint32_t count)
+{
+    pl_component *c = &world->components.items[which / 2];
+    c->count = count;
+    pl_section section = pl_own_component(world, which);
+    if (count > 0) {
+        memcpy(section.data, from, pl_section_bytes(&section));
+    }
+}
+
+bool pl_own_reserve_component(plumb_world *world, uint32_t which, uint32_t count)
+{
+    pl_component *c = &world->components.items[which / 2];
+    bool owners = which % 2 == 1;
+    return pl_buffer_reserve(&world->memory, owners ? &c->owners : &c->values,
+                             count * (owners ? sizeof(plumb_entity) : c->desc.size));
+}

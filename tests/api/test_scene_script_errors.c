@@ -1,0 +1,437 @@
+// test_scene_script_errors.c - what goes wrong in the script of a scene: Lua itself, its limits, handlers,
+// expectations, params, --set, JSON. Each with the exact code and message that it must give.
+#include "malformed.h"
+
+// clang-format off
+static const malformed table[] = {
+    { .what = "unknown global",
+      .file = "scene.lua",
+      .text = "bdoy{ box{1, 1} }",
+      .code = SCENE_E_NAME,
+      .message = "scene.lua:1:1: unknown name 'bdoy' (did you mean 'body'?)" },
+    { .what = "io is not there",
+      .file = "scene.lua",
+      .text = "io.open(\"x\")",
+      .code = SCENE_E_NAME,
+      .message = "scene.lua:1:1: unknown name 'io'" },
+    { .what = "math.sine",
+      .file = "scene.lua",
+      .text = "body{ box{1, math.sine(1)} }",
+      .code = SCENE_E_NAME,
+      .message = "scene.lua:1:19: math has no 'sine' (did you mean 'sin'?)" },
+    { .what = "string.dump",
+      .file = "scene.lua",
+      .text = "print(string.dump(print))",
+      .code = SCENE_E_NAME,
+      .message = "scene.lua:1:14: string has no 'dump'" },
+    { .what = "syntax error",
+      .file = "scene.lua",
+      .text = "body{ box{1, 1} \n"
+              "body{ box{1, 1} }",
+      .code = SCENE_E_SYNTAX,
+      .message = "scene.lua:2:1: '}' expected (to close '{' at line 1) near 'body'" },
+    { .what = "syntax error at the end",
+      .file = "scene.lua",
+      .text = "for i = 1, 3 do\n"
+              "body{ box{1, 1} }\n",
+      .code = SCENE_E_SYNTAX,
+      .message = "scene.lua:3:1: 'end' expected (to close 'for' at line 1) near <eof>" },
+    { .what = "unfinished string",
+      .file = "scene.lua",
+      .text = "body{ name = \"abc }",
+      .code = SCENE_E_SYNTAX,
+      .message = "scene.lua:1:20: unfinished string near <eof>" },
+    { .what = "power",
+      .file = "scene.lua",
+      .text = "body{ box{1, 2^3} }",
+      .code = SCENE_E_SYNTAX,
+      .message = "scene.lua:1:15: only x^2 is offered: other powers differ in the last place from machine to machine (did you mean 'math.pow(x, y)'?)" },
+    { .what = "nil indexed",
+      .file = "scene.lua",
+      .text = "local x\n"
+              "print(x.y)",
+      .code = SCENE_E_RUNTIME,
+      .message = "scene.lua:2:7: attempt to index a nil value (local 'x')" },
+    { .what = "arithmetic on nil",
+      .file = "scene.lua",
+      .text = "local w = {}\n"
+              "body{ box{1, w.width + 1} }",
+      .code = SCENE_E_RUNTIME,
+      .message = "scene.lua:2:16: attempt to perform arithmetic on a nil value (field 'width')" },
+    { .what = "error()",
+      .file = "scene.lua",
+      .text = "error(\"no \" .. \"way\")",
+      .code = SCENE_E_RUNTIME,
+      .message = "scene.lua:1:1: no way" },
+    { .what = "assert",
+      .file = "scene.lua",
+      .text = "local n = 3\n"
+              "assert(n == 4, \"n is three\")",
+      .code = SCENE_E_RUNTIME,
+      .message = "scene.lua:2:1: n is three" },
+    { .what = "bad argument of Lua",
+      .file = "scene.lua",
+      .text = "print(math.floor({}))",
+      .code = SCENE_E_RUNTIME,
+      .message = "scene.lua:1:12: bad argument #1 to 'floor' (number expected, got table)" },
+    { .what = "endless loop",
+      .file = "scene.lua",
+      .text = "while true do end",
+      .code = SCENE_E_LIMIT,
+      .message = "scene.lua:1:1: the scene takes more than 5000000 instructions" },
+    { .what = "endless recursion",
+      .file = "scene.lua",
+      .text = "local function f() return 1 + f() end\n"
+              "f()",
+      .code = SCENE_E_RUNTIME,
+      .message = "scene.lua:1:1: stack overflow" },
+    { .what = "memory",
+      .file = "scene.lua",
+      .text = "local t = {}\n"
+              "for i = 1, 1e9 do t[i] = (\"x\"):rep(60000) .. i end",
+      .code = SCENE_E_LIMIT,
+      .message = "scene.lua:2:1: the scene needs more than 134217728 bytes of memory" },
+    { .what = "string.rep",
+      .file = "scene.lua",
+      .text = "local s = (\"x\"):rep(1e9)",
+      .code = SCENE_E_RUNTIME,
+      .message = "scene.lua:1:1: a string of more than 65536 bytes was made" },
+    { .what = "doubling string",
+      .file = "scene.lua",
+      .text = "local s = \"x\"\n"
+              "while true do s = s .. s end",
+      .code = SCENE_E_LIMIT,
+      .message = "scene.lua:2:1: a string of more than 65536 bytes was made" },
+    { .what = "at never happens",
+      .file = "scene.lua",
+      .text = "scene{ duration = 5 }\n"
+              "body{ box{1, 1} }\n"
+              "at(6, function() end)",
+      .code = SCENE_E_RANGE,
+      .message = "scene.lua:3:4: at(6) never happens: the scene ends at 5 s" },
+    { .what = "at without function",
+      .file = "scene.lua",
+      .text = "body{ box{1, 1} }\n"
+              "at(1)",
+      .code = SCENE_E_TYPE,
+      .message = "scene.lua:2:1: at takes a time in seconds and a function" },
+    { .what = "every zero",
+      .file = "scene.lua",
+      .text = "body{ box{1, 1} }\n"
+              "every(0, function() end)",
+      .code = SCENE_E_RANGE,
+      .message = "scene.lua:2:7: the time of every() must be above 0 and finite, not 0" },
+    { .what = "expect after the end",
+      .file = "scene.lua",
+      .text = "scene{ duration = 5 }\n"
+              "body{ box{1, 1} }\n"
+              "expect{ \"late\", at = 6, max_speed = 1 }",
+      .code = SCENE_E_RANGE,
+      .message = "scene.lua:3:17: 'at' of expect{} is 6 s, after the end of the scene at 5 s" },
+    { .what = "expect nothing",
+      .file = "scene.lua",
+      .text = "body{ box{1, 1} }\n"
+              "expect{ \"nothing\" }",
+      .code = SCENE_E_MISSING,
+      .message = "scene.lua:2:1: expect{} needs something to measure, such as max_penetration = 0.005" },
+    { .what = "expect without name",
+      .file = "scene.lua",
+      .text = "body{ box{1, 1} }\n"
+              "expect{ max_speed = 1 }",
+      .code = SCENE_E_MISSING,
+      .message = "scene.lua:2:1: expect{} needs 'name'" },
+    { .what = "expect unknown body",
+      .file = "scene.lua",
+      .text = "body{ name = \"ball\", circle{1} }\n"
+              "expect{ \"x\", body = \"bell\", y = 1 }",
+      .code = SCENE_E_NAME,
+      .message = "scene.lua:2:14: no body is called 'bell' (did you mean 'ball'?)" },
+    { .what = "expect position without body",
+      .file = "scene.lua",
+      .text = "body{ box{1, 1} }\n"
+              "expect{ \"x\", y = 1 }",
+      .code = SCENE_E_MISSING,
+      .message = "scene.lua:2:1: expect{} needs 'body' to know whose position, angle or velocity is meant" },
+    { .what = "expect empty range",
+      .file = "scene.lua",
+      .text = "body{ name = \"ball\", circle{1} }\n"
+              "expect{ \"x\", body = \"ball\", y = {2, 1} }",
+      .code = SCENE_E_RANGE,
+      .message = "scene.lua:2:29: 'y' of expect{} is empty: min 2 is above max 1" },
+    { .what = "expect at and always",
+      .file = "scene.lua",
+      .text = "body{ box{1, 1} }\n"
+              "expect{ \"x\", at = 1, always = true, max_speed = 1 }",
+      .code = SCENE_E_CONFLICT,
+      .message = "scene.lua:2:14: expect{} takes one of 'at', 'always' and 'from'/'till'" },
+    { .what = "on_contact unknown body",
+      .file = "scene.lua",
+      .text = "body{ name = \"ball\", circle{1} }\n"
+              "on_contact{ a = \"boll\", function() end }",
+      .code = SCENE_E_NAME,
+      .message = "scene.lua:2:13: no body is called 'boll' (did you mean 'ball'?)" },
+    { .what = "on_contact without function",
+      .file = "scene.lua",
+      .text = "body{ box{1, 1} }\n"
+              "on_contact{ a = \"body1\" }",
+      .code = SCENE_E_MISSING,
+      .message = "scene.lua:2:1: on_contact{} needs a function" },
+    { .what = "exact without function",
+      .file = "scene.lua",
+      .text = "body{ name = \"ball\", circle{1} }\n"
+              "exact{ body = \"ball\" }",
+      .code = SCENE_E_MISSING,
+      .message = "scene.lua:2:1: exact{} needs a function of time, such as y = function(t) ... end" },
+    { .what = "param twice",
+      .file = "scene.lua",
+      .text = "local n = param(\"n\", 1)\n"
+              "local m = param(\"n\", 2)\n"
+              "body{ box{1, 1} }\n",
+      .code = SCENE_E_DUPLICATE,
+      .message = "scene.lua:2:17: param 'n' is declared twice" },
+    { .what = "param named like scene",
+      .file = "scene.lua",
+      .text = "local n = param(\"dt\", 1)\n"
+              "body{ box{1, 1} }\n",
+      .code = SCENE_E_DUPLICATE,
+      .message = "scene.lua:1:17: param 'dt' has the name of a key of scene{}" },
+    { .what = "param default out of range",
+      .file = "scene.lua",
+      .text = "local n = param(\"n\", 0, 1, 5)\n"
+              "body{ box{1, 1} }\n",
+      .code = SCENE_E_RANGE,
+      .message = "scene.lua:1:22: param 'n' must be from 1 to 5, not 0" },
+    { .what = "body misused",
+      .file = "scene.lua",
+      .text = "local b = body{ box{1, 1} }\n"
+              "b.position = 5",
+      .code = SCENE_E_STATE,
+      .message = "scene.lua:2:1: a body's 'position' cannot be assigned: call a method, or keep values in body.user" },
+    { .what = "unknown method",
+      .file = "scene.lua",
+      .text = "local b = body{ box{1, 1} }\n"
+              "print(b:positon())",
+      .code = SCENE_E_NAME,
+      .message = "scene.lua:2:9: a body has no 'positon' (did you mean 'position'?)" },
+    { .what = "method without colon",
+      .file = "scene.lua",
+      .text = "local b = body{ box{1, 1} }\n"
+              "print(b.position())",
+      .code = SCENE_E_TYPE,
+      .message = "scene.lua:2:9: position is a method: write body:position(...)" },
+    { .what = "dead body",
+      .file = "scene.lua",
+      .text = "local b = body{ box{1, 1} }\n"
+              "b:destroy()\n"
+              "print(b:position())",
+      .code = SCENE_E_STATE,
+      .message = "scene.lua:3:9: position() of a body that was destroyed" },
+    { .what = "force on a static body",
+      .file = "scene.lua",
+      .text = "local b = body{ type = \"static\", box{1, 1} }\n"
+              "b:apply_force(1, 0)",
+      .code = SCENE_E_STATE,
+      .message = "scene.lua:2:3: apply_force() of 'body1': the body's type does not allow it" },
+    { .what = "--set of nothing known",
+      .file = "scene.lua",
+      .text = "body{ box{1, 1} }\n",
+      .code = SCENE_E_SET,
+      .message = "--set gravty: neither a key of scene{} nor a param of this scene (did you mean 'gravity'?)",
+      .set = "gravty=0,1" },
+    { .what = "--set misspelt param",
+      .file = "scene.lua",
+      .text = "local count = param(\"count\", 3)\n"
+              "body{ box{1, 1} }\n",
+      .code = SCENE_E_SET,
+      .message = "--set cout: neither a key of scene{} nor a param of this scene (did you mean 'count'?)",
+      .set = "cout=5" },
+    { .what = "--set wrong type",
+      .file = "scene.lua",
+      .text = "body{ box{1, 1} }\n",
+      .code = SCENE_E_TYPE,
+      .message = "--set dt: 'dt' of scene{} must be a number, not a string",
+      .set = "dt=fast" },
+    { .what = "--set out of range",
+      .file = "scene.lua",
+      .text = "scene{ substeps = 4 }\n"
+              "body{ box{1, 1} }\n",
+      .code = SCENE_E_RANGE,
+      .message = "--set substeps: 'substeps' of scene{} must be at least 1 and at most 64, not 100",
+      .set = "substeps=100" },
+    { .what = "--set param out of range",
+      .file = "scene.lua",
+      .text = "local count = param(\"count\", 3, 1, 10)\n"
+              "body{ box{1, 1} }\n",
+      .code = SCENE_E_RANGE,
+      .message = "--set count: param 'count' must be from 1 to 10, not 50",
+      .set = "count=50" },
+    { .what = "--set param wrong type",
+      .file = "scene.lua",
+      .text = "local count = param(\"count\", 3)\n"
+              "body{ box{1, 1} }\n",
+      .code = SCENE_E_TYPE,
+      .message = "--set count: param 'count' must be an integer like its default, not 2.5",
+      .set = "count=2.5" },
+    { .what = "--set without =",
+      .file = "scene.lua",
+      .text = "body{ box{1, 1} }\n",
+      .code = SCENE_E_SET,
+      .message = "--set count: must have the form key=value",
+      .set = "count" },
+    { .what = "json syntax",
+      .file = "scene.json",
+      .text = "{\"bodies\":[}",
+      .code = SCENE_E_SYNTAX,
+      .message = "scene.json:1:12: this is not JSON" },
+    { .what = "json rest",
+      .file = "scene.json",
+      .text = "{\"format\":\"plumb-scene-1\"} 5",
+      .code = SCENE_E_SYNTAX,
+      .message = "scene.json:1:28: something follows the end of the scene" },
+    { .what = "json no format",
+      .file = "scene.json",
+      .text = "{\"bodies\":[]}",
+      .code = SCENE_E_MISSING,
+      .message = "scene.json:1:1: a scene needs \"format\":\"plumb-scene-1\"" },
+    { .what = "json array",
+      .file = "scene.json",
+      .text = "[]",
+      .code = SCENE_E_TYPE,
+      .message = "scene.json:1:1: a scene must be an object {...}" },
+    { .what = "json unknown key",
+      .file = "scene.json",
+      .text = "{\"format\":\"plumb-scene-1\",\n"
+              " \"bodes\":[]}",
+      .code = SCENE_E_KEY,
+      .message = "scene.json:2:2: unknown key 'bodes' in a scene (did you mean 'bodies'?)" },
+    { .what = "json key twice",
+      .file = "scene.json",
+      .text = "{\"format\":\"plumb-scene-1\",\n"
+              " \"bodies\":[], \"bodies\":[]}",
+      .code = SCENE_E_DUPLICATE,
+      .message = "scene.json:2:2: key 'bodies' is given twice" },
+    { .what = "json body key",
+      .file = "scene.json",
+      .text = "{\"format\":\"plumb-scene-1\",\n"
+              " \"bodies\":[{\"shapes\":[{\"kind\":\"box\",\"w\":1,\"h\":1}]},\n"
+              "  {\"colr\":1, \"shapes\":[{\"kind\":\"circle\",\"r\":1}]}]}",
+      .code = SCENE_E_KEY,
+      .message = "scene.json:3:4: unknown key 'colr' in body{} (did you mean 'color'?)" },
+    { .what = "json body type",
+      .file = "scene.json",
+      .text = "{\"format\":\"plumb-scene-1\", \"bodies\":[{\"at\":[1,\"x\"],\"shapes\":[{\"kind\":\"circle\",\"r\":1}]}]}",
+      .code = SCENE_E_TYPE,
+      .message = "scene.json:1:39: 'at' of body{} must be two numbers {x, y}" },
+    { .what = "json kind",
+      .file = "scene.json",
+      .text = "{\"format\":\"plumb-scene-1\", \"bodies\":[{\"shapes\":[{\"kind\":\"cirle\",\"r\":1}]}]}",
+      .code = SCENE_E_NAME,
+      .message = "scene.json:1:50: unknown kind of shape 'cirle' (did you mean 'circle'?)" },
+    { .what = "json shape range",
+      .file = "scene.json",
+      .text = "{\"format\":\"plumb-scene-1\", \"bodies\":[{\"shapes\":[{\"kind\":\"circle\",\"r\":-1}]}]}",
+      .code = SCENE_E_RANGE,
+      .message = "scene.json:1:66: 'r' of circle{} must be at least 0.0001 and at most 10000000 m, not -1" },
+    { .what = "json material",
+      .file = "scene.json",
+      .text = "{\"format\":\"plumb-scene-1\", \"materials\":[{\"name\":\"wood\"}],\n"
+              " \"bodies\":[{\"material\":\"wod\",\"shapes\":[{\"kind\":\"circle\",\"r\":1}]}]}",
+      .code = SCENE_E_NAME,
+      .message = "scene.json:2:13: no material is called 'wod' (did you mean 'wood'?)" },
+    { .what = "json null",
+      .file = "scene.json",
+      .text = "{\"format\":\"plumb-scene-1\", \"bodies\":[{\"at\":null}]}",
+      .code = SCENE_E_TYPE,
+      .message = "scene.json:1:39: null is not a value of a scene" },
+    { .what = "json time",
+      .file = "scene.json",
+      .text = "{\"format\":\"plumb-scene-1\", \"time\":-1}",
+      .code = SCENE_E_TYPE,
+      .message = "scene.json:1:28: 'time' must be a number of at least 0 [s]" },
+};
+// clang-format on
+
+static void test_malformed_scripts(void **state)
+{
+    (void)state;
+    check_malformed(table, (int)(sizeof table / sizeof *table));
+    assert_true(sizeof table / sizeof *table >= 45);
+}
+
+static scene *load(const char *text)
+{
+    scene *s;
+    scene_error e;
+    scene_load(&(scene_options){ .path = "scene.lua",
+                                 .text = text,
+                                 .text_size = strlen(text),
+                                 .handler_instructions = 100000 },
+               &s, &e);
+    if (s == NULL) {
+        printf("%s\n", e.text);
+    }
+    assert_non_null(s);
+    return s;
+}
+
+// Errors of handlers come out of scene_step, with their place, again and again.
+static void test_handler_errors(void **state)
+{
+    (void)state;
+    static const char *const rows[][2] = {
+        { "body{ name = 'b', box{1, 1} }\nat(0, function()\n  find('b'):set_velocity('x', 0)\nend)",
+          "scene.lua:3:13: bad argument #1 to 'set_velocity' (number expected, got string)" },
+        { "body{ name = 'b', box{1, 1} }\nat(0, function() while true do end end)",
+          "scene.lua:2:1: the handler takes more than 100000 instructions" },
+        { "body{ box{1, 1} }\nat(0, function()\n  body{ box{1, -1} }\nend)",
+          "scene.lua:3:16: 'h' of box{} must be at least 0.0002 and at most 10000000 m, not -1" },
+        { "body{ box{1, 1} }\nevery_step(function()\n  local b = nil + 1\nend)",
+          "scene.lua:3:3: attempt to perform arithmetic on a nil value" },
+        { "body{ box{1, 1} }\nat(0, function() expect{ 'late', max_speed = 1 } end)",
+          "scene.lua:2:18: expect{} belongs to the script, not to a handler" },
+        { "body{ name = 'b', box{1, 1} }\nat(0, function() local b = find('b') b:destroy() "
+          "b:mass() end)",
+          "scene.lua:2:52: mass() of a body that was destroyed" },
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        scene *s = load(rows[i][0]);
+        scene_error e = { 0 };
+        scene_error again = { 0 };
+        scene_code code = scene_step(s, &e);
+        assert_int_not_equal(code, SCENE_OK);
+        assert_string_equal(e.text, rows[i][1]);
+        assert_int_equal(scene_step(s, &again), code);
+        assert_string_equal(again.text, e.text);
+        assert_true(scene_done(s));
+        scene_destroy(s);
+    }
+}
+
+static void test_arguments(void **state)
+{
+    (void)state;
+    scene *s;
+    scene_error e;
+    assert_int_equal(scene_load(NULL, &s, &e), SCENE_E_ARGUMENT);
+    assert_int_equal(scene_load(&(scene_options){ 0 }, &s, &e), SCENE_E_ARGUMENT);
+    assert_int_equal(scene_load(&(scene_options){ .path = "x.lua" }, NULL, NULL), SCENE_E_ARGUMENT);
+    assert_int_equal(scene_load(&(scene_options){ .path = "/no/such/file.lua" }, &s, &e),
+                     SCENE_E_IO);
+    assert_string_equal(e.text, "/no/such/file.lua: cannot be opened");
+    assert_int_equal(scene_load(&(scene_options){ .text = "", .memory_limit = 1000 }, &s, &e),
+                     SCENE_E_LIMIT);
+    assert_string_equal(e.text, "scene: the memory limit leaves no room for the script");
+    assert_string_equal(scene_code_text(SCENE_E_KEY), "an unknown key");
+    assert_string_equal(scene_code_text((scene_code)99), "unknown code");
+    scene_destroy(NULL);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_malformed_scripts),
+        cmocka_unit_test(test_handler_errors),
+        cmocka_unit_test(test_arguments),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

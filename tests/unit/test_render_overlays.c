@@ -1,0 +1,260 @@
+// test_render_overlays.c - what is drawn over bodies: contacts, joints, surfaces, labels; classes of bodies.
+#define _POSIX_C_SOURCE 200809L // mkdtemp, setenv
+
+#include "render_fixture.h"
+
+static size_t changed_pixels(const render_target *target)
+{
+    size_t count = 0;
+    for (int y = 0; y < render_target_height(target); y++) {
+        for (int x = 0; x < render_target_width(target); x++) {
+            count += memcmp(pixel(target, x, y), &white, 4) != 0 ? 1 : 0;
+        }
+    }
+    return count;
+}
+
+static void add_every_overlay(render_frame *frame)
+{
+    const render_vec path[3] = { { -1.0, -1.0 }, { 0.0, 1.0 }, { 1.0, 0.0 } };
+    const render_box box = { { -0.5, -0.5 }, { 0.5, 0.5 } };
+    assert_int_equal(render_add_contact(frame, 0.0, 0.0, 0.0, 1.0, 0.01), RENDER_OK);
+    assert_int_equal(render_add_impulse(frame, 0.0, 0.0, 1.0, 1.0), RENDER_OK);
+    assert_int_equal(render_add_velocity(frame, 0.0, 0.0, -1.0, 1.0), RENDER_OK);
+    assert_int_equal(render_add_aabb(frame, box), RENDER_OK);
+    assert_int_equal(render_add_cell(frame, box), RENDER_OK);
+    assert_int_equal(render_add_trail(frame, path, 3, 2), RENDER_OK);
+    assert_int_equal(render_add_surface(frame, path, 3, true, -0.3), RENDER_OK);
+    for (int kind = 0; kind < RENDER_JOINT_KINDS; kind++) {
+        for (int parts = 0; parts < 2; parts++) {
+            const render_joint joint = { .kind = (render_joint_kind)kind,
+                                         .b = { 1.0, 1.0 },
+                                         .via_a = { 0.0, 1.0 },
+                                         .via_b = { 1.0, 2.0 },
+                                         .axis = { 0.6, 0.8 },
+                                         .has_limit = parts != 0,
+                                         .lower = -1.0,
+                                         .upper = 0.5,
+                                         .drive = parts,
+                                         .has_spring = parts != 0,
+                                         .slack = 0.5,
+                                         .reach = 0.1 * parts };
+            assert_int_equal(render_add_joint(frame, &joint), RENDER_OK);
+        }
+    }
+    assert_int_equal(
+        render_add_text(frame, 0.0, 0.0, RENDER_ANCHOR_ABOVE, "gr\xc3\xbc\xc3\x9f \xff"),
+        RENDER_OK);
+    assert_int_equal(render_frame_set_title(frame, "title"), RENDER_OK);
+    assert_int_equal(render_frame_set_caption(frame, "caption"), RENDER_OK);
+}
+
+static void test_every_overlay_is_switchable(void **state)
+{
+    (void)state;
+    render_frame *frame = new_frame();
+    render_target *target = new_target(320, 240);
+    add_every_overlay(frame);
+    render_body_begin(frame, &(render_style){ .kind = RENDER_SENSOR, .label = "name" });
+    render_add_circle(frame, 100.0, 0.0, 0.1, 0.0); // out of view, its label too
+    render_body_end(frame);
+    const render_camera camera = { .view_height = 4.0 };
+    draw(target, frame, camera, flat());
+    assert_int_equal(changed_pixels(target), 0);
+    const unsigned alone = RENDER_SHOW_LABELS | RENDER_SHOW_LEGEND | RENDER_SHOW_SPOKES |
+                           RENDER_SHOW_NOTHING; // these show nothing of an overlay
+    for (unsigned bit = 0; bit < 16; bit++) {
+        if ((1u << bit & alone) != 0) {
+            continue;
+        }
+        render_options options = flat();
+        options.show = 1u << bit;
+        draw(target, frame, camera, options);
+        assert_true(changed_pixels(target) > 20);
+    }
+    // The legend explains only what is on.
+    render_options options = flat();
+    options.show = RENDER_SHOW_LEGEND;
+    draw(target, frame, camera, options);
+    assert_int_equal(changed_pixels(target), 0);
+    options.show = RENDER_SHOW_CONTACTS;
+    draw(target, frame, camera, options);
+    const size_t without = changed_pixels(target);
+    options.show |= RENDER_SHOW_LEGEND;
+    draw(target, frame, camera, options);
+    assert_true(changed_pixels(target) > without + 100);
+    render_target_destroy(target);
+    render_frame_destroy(frame);
+}
+
+// Each kind of joint has a sign, and a row of the legend, of its own; signs shrink with their bodies.
+static void test_joints_have_signs(void **state)
+{
+    (void)state;
+    render_target *target = new_target(320, 240);
+    const render_camera camera = { .view_height = 4.0 };
+    size_t signs[RENDER_JOINT_KINDS], rows[RENDER_JOINT_KINDS];
+    for (int kind = 0; kind < RENDER_JOINT_KINDS; kind++) {
+        render_joint joint = { .kind = (render_joint_kind)kind,
+                               .a = { -0.5, 0.0 },
+                               .b = { 0.5, 0.1 },
+                               .via_a = { -0.5, 1.0 },
+                               .via_b = { 0.5, 1.0 },
+                               .axis = { 1.0, 0.0 } };
+        for (int pass = 0; pass < 3; pass++) {
+            render_frame *frame = new_frame();
+            render_options options = flat();
+            options.show = RENDER_SHOW_JOINTS | (pass == 1 ? RENDER_SHOW_LEGEND : 0);
+            joint.reach = pass == 2 ? 0.01 : 0.0;
+            assert_int_equal(render_add_joint(frame, &joint), RENDER_OK);
+            draw(target, frame, camera, options);
+            const size_t pixels = changed_pixels(target);
+            if (pass == 0) {
+                signs[kind] = pixels;
+                assert_true(pixels > 25);
+            } else if (pass == 1) {
+                rows[kind] = pixels - signs[kind];
+                assert_true(rows[kind] > 100); // the letters
+            } else {
+                assert_true(pixels < signs[kind]);
+            }
+            render_frame_destroy(frame);
+        }
+        for (int other = 0; other < kind; other++) {
+            assert_true(signs[other] != signs[kind] || rows[other] != rows[kind]);
+        }
+    }
+    render_target_destroy(target);
+}
+
+// Chevrons point the way and move on with the surface.
+static void test_surfaces_run(void **state)
+{
+    (void)state;
+    render_target *target = new_target(320, 240);
+    const render_camera camera = { .view_height = 4.0 }; // 60 px a metre
+    const render_vec path[2] = { { -2.0, 0.0 }, { 2.0, 0.0 } };
+    static const double travels[] = { 0.1, 0.3, -0.1 };
+    uint8_t first[320 * 240 * 4];
+    for (int i = 0; i < 3; i++) {
+        render_frame *frame = new_frame();
+        render_options options = flat();
+        options.show = RENDER_SHOW_SURFACES;
+        render_add_surface(frame, path, 2, false, travels[i]);
+        draw(target, frame, camera, options);
+        assert_true(changed_pixels(target) > 100);
+        if (i == 0) {
+            memcpy(first, render_target_pixels(target), sizeof first);
+        }
+        const bool same = memcmp(first, render_target_pixels(target), sizeof first) == 0;
+        assert_int_equal(same, i == 0);
+        render_frame_destroy(frame);
+    }
+    render_target_destroy(target);
+}
+
+// Automatic scale makes a slow body's arrow long, but not the noise of one at rest.
+static void test_rest_shows_no_velocity(void **state)
+{
+    (void)state;
+    render_frame *frame = new_frame();
+    render_target *target = new_target(320, 240);
+    const render_camera camera = { .view_height = 4.0 };
+    render_options options = flat();
+    options.show = RENDER_SHOW_VELOCITIES;
+    const double speeds[2] = { 1e-4, 0.1 };
+    for (int i = 0; i < 2; i++) {
+        render_frame_clear(frame);
+        assert_int_equal(render_add_velocity(frame, 0.0, 0.0, speeds[i], 0.0), RENDER_OK);
+        draw(target, frame, camera, options);
+        assert_true(i == 0 ? changed_pixels(target) == 0 : changed_pixels(target) > 20);
+    }
+    render_target_destroy(target);
+    render_frame_destroy(frame);
+}
+
+// Adds `rows` x `rows` touching boxes, of which the middle one has a name too long for it.
+static void add_block(render_frame *frame, int rows, const char *label)
+{
+    for (int i = 0; i < rows * rows; i++) {
+        const char *own = i == rows * rows / 2 ? label : NULL;
+        render_body_begin(frame, &(render_style){ .color = red, .label = own });
+        render_add_box(frame, i % rows, i / rows, 0.5, 0.5, 0.0, 0.0);
+        render_body_end(frame);
+    }
+}
+
+static void test_labels_leave_other_bodies_alone(void **state)
+{
+    (void)state;
+    render_frame *frame = new_frame();
+    render_target *target = new_target(320, 240);
+    const render_camera camera = { .view_height = 12.0 }; // 20 px a box
+    render_options options = flat();
+    options.show = RENDER_SHOW_LABELS;
+    options.ui_scale = 1.0;
+    static uint8_t plain[320 * 240 * 4];
+    // Alone a box has its name above it; between others, which are as large as the name, none.
+    for (int rows = 1; rows <= 5; rows += 4) {
+        render_frame_clear(frame);
+        add_block(frame, rows, NULL);
+        draw(target, frame, camera, options);
+        memcpy(plain, render_target_pixels(target), sizeof plain);
+        render_frame_clear(frame);
+        add_block(frame, rows, "crate");
+        draw(target, frame, camera, options);
+        const bool same = memcmp(plain, render_target_pixels(target), sizeof plain) == 0;
+        assert_int_equal(same, rows == 5);
+    }
+    render_target_destroy(target);
+    render_frame_destroy(frame);
+}
+
+static void test_every_class_and_line_draws(void **state)
+{
+    (void)state;
+    render_frame *frame = new_frame();
+    render_target *target = new_target(160, 120);
+    const render_vec chain[5] = {
+        { -1.0, 0.0 }, { 0.0, 0.5 }, { 1.0, 0.0 }, { 1.0, 0.0 }, { 0.9, 0.02 }
+    };
+    for (int kind = 0; kind < RENDER_CLASS_COUNT; kind++) {
+        for (unsigned flags = 0; flags < 4; flags++) {
+            render_frame_clear(frame);
+            render_body_begin(
+                frame,
+                &(render_style){ .kind = (render_class)kind, .palette = -7 + kind, .label = "n" });
+            render_add_polyline(frame, chain, 5, 0.05 * (double)flags, flags);
+            render_add_polyline(frame, chain, 2, 0.0, 0);
+            render_add_capsule(frame, 0.3, 0.3, 0.3, 0.3, 0.2); // no length: a disc
+            render_body_end(frame);
+            draw(target, frame, (render_camera){ .view_height = 4.0 }, (render_options){ 0 });
+        }
+    }
+    // Nothing to see, nothing wrong: no area, no length, far away.
+    render_frame_clear(frame);
+    begin_red(frame);
+    render_add_circle(frame, 0.0, 0.0, 0.0, 0.0);
+    render_add_box(frame, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
+    render_add_circle(frame, 1e29, -1e29, 1.0, 0.0);
+    const render_vec far[2] = { { -1e29, -1e29 }, { 1e29, -1e29 } };
+    render_add_polyline(frame, far, 2, 0.0, RENDER_LINE_TICKS);
+    render_body_end(frame);
+    draw(target, frame, (render_camera){ .view_height = 4.0 }, flat());
+    assert_int_equal(changed_pixels(target), 0);
+    render_target_destroy(target);
+    render_frame_destroy(frame);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_every_overlay_is_switchable),
+        cmocka_unit_test(test_joints_have_signs),
+        cmocka_unit_test(test_surfaces_run),
+        cmocka_unit_test(test_rest_shows_no_velocity),
+        cmocka_unit_test(test_labels_leave_other_bodies_alone),
+        cmocka_unit_test(test_every_class_and_line_draws),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}
