@@ -66,7 +66,7 @@ typedef struct pl_joint_call {
     const uint32_t *slots; // of a bundle: solver slots of all lanes' A, then of all B
     unsigned char *records;
     pl_joint *joints;
-    const pl_rows *rows; // for `fill`: of the lanes of the one bundle that is filled, unless it is bare
+    const pl_rows *rows; // for `fill`: of the lanes of its one bundle, unless that is bare
     real h;              // [s] substep
     pl_joint_soft rigid; // of rows that are no springs, where they pull
 } pl_joint_call;
