@@ -31,7 +31,7 @@ typedef struct plumb_explosion_desc {
     plumb_query_filter filter; ///< which shapes are hit; {0}: all but sensors
 } plumb_explosion_desc;
 
-/// Pushes dynamic bodies away from a point at once, and wakes them. A disc of radius R at the distance D
+/// Pushes dynamic bodies away from a point at once, and wakes those that it pushes. A disc of radius R at the distance D
 /// within `radius` gets impulse * (D (t + sin t cos t) - pi R^2 / (2 D)), sin t = R / D, which is 2 R impulse
 /// from far off. A convex piece that contains the point is pushed as if the blast were at its far side: along
 /// the way to its body's centre, by its width across. A blast inside what shields reaches nothing.

@@ -1,5 +1,9 @@
-/// query.h - questions to a world: rays, shape casts, overlaps, nearest points. They use the same grid as the
+/// query.h - questions to a world: rays, shape casts, overlaps, nearest points. They use the same grids as the
 /// broad phase and see every shape where it is now. Not to be called during a step, except from systems.
+///
+/// A world that is asked goes on, bit for bit, as one that is not. The first question after a step, or after
+/// shapes came, went or were moved, looks through all that moves; where that is not where the step has filed it,
+/// the grids are filed anew for the questions: O(shapes). The next ones are free of that.
 #ifndef PLUMB_QUERY_H
 #define PLUMB_QUERY_H
 

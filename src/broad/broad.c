@@ -48,13 +48,6 @@ bool pl_broad_update_resting(plumb_world *world)
 bool pl_broad_update_grids(plumb_world *world, real dt, bool *stale)
 {
     pl_broad *broad = &world->broad;
-    // Poses change in steps, and else only together with the flags: one query after another is free.
-    if (dt == 0 && !world->pairs_dirty && !world->static_dirty && !world->sleep.boxes_stale &&
-        !world->sleep.grid_stale && !broad->unfiled && !broad->moving_lost && !broad->fixed_lost &&
-        !broad->resting_lost && broad->filed_step == world->step_count) {
-        *stale = pl_broad_is_stale(broad);
-        return true;
-    }
     if (world->static_dirty) {
         pl_broad_refresh_fixed(world);
         if (!file_fixed(world)) {
@@ -72,7 +65,7 @@ bool pl_broad_update_grids(plumb_world *world, real dt, bool *stale)
     if (!pl_broad_update_resting(world)) {
         return false;
     }
-    if (!(broad->refreshed && dt > 0)) {
+    if (!broad->refreshed) {
         pl_broad_refresh_moving(world, dt);
     }
     if (world->pairs_dirty || broad->unfiled || broad->moving_lost) {
@@ -83,7 +76,6 @@ bool pl_broad_update_grids(plumb_world *world, real dt, bool *stale)
         broad->stale = broad->stale || world->pairs_dirty;
         world->pairs_dirty = broad->unfiled = broad->moving_lost = false;
     }
-    broad->filed_step = world->step_count;
     *stale = pl_broad_is_stale(broad);
     return true;
 }

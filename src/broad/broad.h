@@ -19,7 +19,6 @@ typedef struct pl_broad {
     uint32_t found_count;
     uint32_t serial; // newest piece serial at the last rebuild: younger slots carry nothing over
     uint64_t rebuilds;
-    uint64_t filed_step; // step count at which the grids were last brought up to date
     bool stale;          // the pair list must be made from nothing
     bool unfiled;        // a box was left since the moving grid was filed
     pl_buffer left; // uint32_t moving pieces whose box was made anew since the pair list was made

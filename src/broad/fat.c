@@ -63,8 +63,7 @@ pl_box pl_piece_tight_box(const plumb_world *world, uint32_t piece)
     }
 }
 
-// Where the grids have the tight box of a piece.
-static pl_box tight_box(const plumb_world *world, uint32_t piece)
+pl_box pl_piece_filed_box(const plumb_world *world, uint32_t piece)
 {
     pl_box box = pl_piece_tight_box(world, piece);
     return pl_is_wrapped(world) ? pl_wrap_box(world, box) : box;
@@ -187,7 +186,7 @@ static void refresh_share(void *context, uint32_t share)
     uint32_t left = 0;
     for (uint32_t i = s.first; i < s.end; ++i) {
         uint32_t piece = pl_moving(world)[i];
-        pl_box tight = tight_box(world, piece);
+        pl_box tight = pl_piece_filed_box(world, piece);
         pl_box needed = needed_box(world, piece, &tight, r->dt);
         if (!contains(&fat[piece], &needed)) {
             fat[piece] = fattened(needed, &tight);
@@ -220,7 +219,7 @@ void pl_broad_refresh_resting(plumb_world *world)
 {
     for (uint32_t i = 0; i < world->sleep.resting_count; ++i) {
         uint32_t piece = pl_resting(&world->sleep)[i];
-        pl_box tight = tight_box(world, piece);
+        pl_box tight = pl_piece_filed_box(world, piece);
         pl_box needed = widened(tight, PL_SPECULATIVE / 2);
         if (!contains(&world->pieces.fat[piece], &needed)) {
             world->pieces.fat[piece] = fattened(needed, &tight);
@@ -242,7 +241,7 @@ void pl_broad_refresh_fixed(plumb_world *world)
     const bool asleep = world->asleep_count > 0;
     for (uint32_t piece = 0; piece < pieces->table.count; ++piece) {
         if (pieces->kind[piece] != PL_PIECE_FREE && pieces->moving[piece] == PL_NONE) {
-            pl_box box = widened(tight_box(world, piece), PL_SPECULATIVE / 2);
+            pl_box box = widened(pl_piece_filed_box(world, piece), PL_SPECULATIVE / 2);
             if (asleep && memcmp(&box, &pieces->fat[piece], sizeof box) != 0) {
                 note_placed(world, piece);
             }

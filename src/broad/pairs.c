@@ -279,6 +279,15 @@ static bool merge(plumb_world *world, const uint8_t *left)
     return true;
 }
 
+// The two lists take turns, so both get the room: else a second time as busy might find the smaller one.
+static bool reserve_lists(plumb_world *world)
+{
+    pl_pair_list *list = &world->broad.pairs;
+    size_t most = ((size_t)list->count + world->broad.found_count + 1) * sizeof(pl_pair);
+    return pl_buffer_reserve(&world->memory, &list->items, most) &&
+           pl_buffer_reserve(&world->memory, &list->old_items, most);
+}
+
 bool pl_pairs_update(plumb_world *world)
 {
     pl_broad *broad = &world->broad;
@@ -287,10 +296,8 @@ bool pl_pairs_update(plumb_world *world)
     if (!(whole ? pl_pairs_find(world) : pl_pairs_find_left(world)) || !sort_found(world) ||
         // Neither is null, even if both are empty: offsets are taken.
         !pl_buffer_reserve(&world->memory, &broad->found, sizeof(pl_found)) ||
-        !pl_buffer_reserve(&world->memory, &list->items, sizeof(pl_pair)) ||
-        !pl_buffer_reserve(&world->memory, &list->old_items,
-                           ((size_t)list->count + broad->found_count + 1) * sizeof(pl_pair)) ||
-        !pl_events_reserve_ends(world, list->count) || !pl_parts_reserve(world, list->count)) {
+        !reserve_lists(world) || !pl_events_reserve_ends(world, list->count) ||
+        !pl_parts_reserve(world, list->count)) {
         broad->stale = true; // what sensors see may have been taken out
         return false;
     }

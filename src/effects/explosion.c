@@ -275,8 +275,13 @@ static pl_push push_of(const blast *b, const impact *sum)
     return (pl_push){ plumb_vec2_scale(share, way), 0 };
 }
 
-// The impulses on all bodies, by slots of their shapes. Hits are one a shape: a body of several has
-// the sum of all at the first that was hit.
+static bool is_nothing(const pl_push *push)
+{
+    return push->linear.x == 0 && push->linear.y == 0 && push->angular == 0;
+}
+
+// The impulses on all bodies that get one, by slots of their shapes. Hits are one a shape that may be near:
+// a body of several has the sum of all at the first that the front meets.
 static uint32_t sum_up(blast *b, const pl_query *q, pushed *out)
 {
     const pl_pieces *pieces = &b->world->pieces;
@@ -284,16 +289,19 @@ static uint32_t sum_up(blast *b, const pl_query *q, pushed *out)
     for (uint32_t i = 0; i < q->count; ++i) {
         b->row = pl_body_row(b->world, q->hits[i].body);
         impact sum = { .x = 0 };
-        uint32_t first = PL_NONE; // slot of the body's first shape that was hit
+        uint32_t first = PL_NONE; // slot of the body's first shape that the front meets
         uint32_t p = b->world->bodies.first_piece[b->row];
         for (; p != PL_NONE; p = pieces->next_in_body[p]) {
-            if (is_hit(q, pieces->shape[p].index)) {
-                first = pieces->shape[p].index < first ? pieces->shape[p].index : first;
+            uint32_t slot = pieces->shape[p].index;
+            double before = sum.possible;
+            if (is_hit(q, slot)) {
                 hit_piece(b, p, &sum);
+                first = sum.possible > before && slot < first ? slot : first;
             }
         }
-        if (first == q->hits[i].shape.index) {
-            out[count++] = (pushed){ q->hits[i].body, push_of(b, &sum) };
+        pl_push push = push_of(b, &sum);
+        if (first == q->hits[i].shape.index && !is_nothing(&push)) {
+            out[count++] = (pushed){ q->hits[i].body, push };
         }
     }
     return count;
@@ -334,9 +342,10 @@ plumb_result plumb_world_explode(plumb_world *world, const plumb_explosion_desc 
                 .reach = (double)desc->radius + (double)desc->falloff };
     place_rays(&b);
     const pl_box near = pl_query_box_at(desc->position, b.reach);
-    pl_world_query(world, &world->broad.moving, near, collect, &q);
-    if (world->broad.resting.entry_count > 0) {
-        pl_world_query(world, &world->broad.resting, near, collect, &q);
+    pl_world_query(world, pl_sight_of(world, PL_SIGHT_MOVING), near, collect, &q);
+    const pl_grid *resting = pl_sight_of(world, PL_SIGHT_RESTING);
+    if (resting->entry_count > 0) {
+        pl_world_query(world, resting, near, collect, &q);
     }
     pl_query_one_per_shape(&q);
     pl_buffer list = { 0 };

@@ -160,11 +160,19 @@ static void pose_now(const plumb_world *world, pl_joint_end *end, uint32_t row, 
     pose->angle = (end->seen - end->start) + TURN * (double)end->turns;
 }
 
+int pl_joint_eighth(double angle)
+{
+    return (int)((angle + TURN / 2) * (8 / TURN)) & 7;
+}
+
+// From the middle of the eighth in which it was last seen: whether somebody looks while it stays in there, as
+// plans do differently after a restore, decides nothing.
 static void count_turns(const plumb_world *world, pl_joint_end *end, uint32_t row)
 {
     if (row != PL_NONE) {
         plumb_rot q = { world->bodies.c[row], world->bodies.s[row] };
-        double now = (double)plumb_rot_angle(q), jump = now - end->seen;
+        double from = (pl_joint_eighth(end->seen) + 0.5) * (TURN / 8) - TURN / 2;
+        double now = (double)plumb_rot_angle(q), jump = now - from;
         end->turns += jump > TURN / 2 ? -1 : jump < -TURN / 2 ? 1 : 0;
         end->seen = now;
     }
@@ -214,12 +222,7 @@ void pl_joint_place(const plumb_world *world, pl_joint *joint, uint32_t row_a, u
     }
 }
 
-int pl_joint_eighth(double angle)
-{
-    return (int)((angle + TURN / 2) * (8 / TURN)) & 7;
-}
-
-// The same of a rotation.
+// The eighth of a turn that a rotation is in.
 static int eighth_now(const plumb_world *world, uint32_t row)
 {
     real c = world->bodies.c[row], s = world->bodies.s[row];

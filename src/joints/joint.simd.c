@@ -40,7 +40,8 @@ WIDE_INLINE void solve_single(row *r, const single *s, const pl_pattern_row *kin
 }
 
 WIDE_INLINE void solve_block(const parts *at, const pl_joint_pattern *p, const int n,
-                             const pl_joint_call *call, const bool pull, body *a, body *b)
+                             const pl_joint_call *call, const bool pull, const bool first, body *a,
+                             body *b)
 {
     row r[3];
     for (int i = 0; i < n; ++i) {
@@ -48,7 +49,8 @@ WIDE_INLINE void solve_block(const parts *at, const pl_joint_pattern *p, const i
     }
     const vf *inverse = at->c->inverse;
     vf velocity = splat(1), error_rate = splat(0), keep = splat(1);
-    if (p->tempered && (p->row[0].spring || p->row[0].type == PL_ROW_DRIVE)) {
+    const bool driven = p->tempered && (p->row[0].spring || p->row[0].type == PL_ROW_DRIVE);
+    if (driven) {
         velocity = at->temper->velocity;
         error_rate = at->temper->error_rate;
         keep = splat(1) - at->temper->give;
@@ -60,6 +62,12 @@ WIDE_INLINE void solve_block(const parts *at, const pl_joint_pattern *p, const i
     vf wrong[3], total[3];
     for (int i = 0; i < n; ++i) {
         wrong[i] = rate(&r[i], a, b);
+    }
+    if (n > 1 && pull && !first && !driven && p->row[0].form == PL_FORM_POINT_X) {
+        add_arc(wrong, a->w, splat(call->h), r[0].wa, r[1].wa);
+        add_arc(wrong, b->w, splat(call->h), r[0].wb, r[1].wb);
+    }
+    for (int i = 0; i < n; ++i) {
         if (pull) {
             wrong[i] = velocity * wrong[i] + error_rate * r[i].error;
         }
@@ -96,7 +104,7 @@ WIDE_INLINE void solve_block(const parts *at, const pl_joint_pattern *p, const i
 
 // Motors and springs first: what must hold has the last word.
 WIDE_INLINE void solve_rows(const parts *at, const pl_joint_pattern *p, const pl_joint_call *call,
-                            const bool pull, body *a, body *b)
+                            const bool pull, const bool first, body *a, body *b)
 {
     for (int i = p->count - 1; i >= p->block; --i) {
         if (pull || !p->row[i].spring) {
@@ -108,13 +116,13 @@ WIDE_INLINE void solve_rows(const parts *at, const pl_joint_pattern *p, const pl
     }
     switch (p->block) {
     case 1:
-        solve_block(at, p, 1, call, pull, a, b);
+        solve_block(at, p, 1, call, pull, first, a, b);
         break;
     case 2:
-        solve_block(at, p, 2, call, pull, a, b);
+        solve_block(at, p, 2, call, pull, first, a, b);
         break;
     case 3:
-        solve_block(at, p, 3, call, pull, a, b);
+        solve_block(at, p, 3, call, pull, first, a, b);
         break;
     default:
         break;
@@ -138,7 +146,7 @@ WIDE_INLINE void sweep_bundle(const pl_joint_call *call, uint32_t k, const pl_jo
     if (first && pull) {
         push(&a, &b, c->owed_x, c->owed_y, c->owed_a, c->owed_b);
     }
-    solve_rows(&at, p, call, pull, &a, &b);
+    solve_rows(&at, p, call, pull, first, &a, &b);
     scatter_velocity(&a, call, at.a);
     scatter_velocity(&b, call, at.b);
 }

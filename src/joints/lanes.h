@@ -167,6 +167,18 @@ WIDE_INLINE void turned_by(vf x, vf *c, vf *s)
     }
 }
 
+// Adds to J v of a point what the arc of a body's anchor does, as in solve.c.
+WIDE_INLINE void add_arc(vf v[2], vf w, vf h, vf w0, vf w1)
+{
+    vf turn = vabs(h * w);
+    vf u = sel((turn > splat(PL_LEAST_ARC)) & (turn < splat(1)), w, splat(0));
+    vf x = h * u, xx = x * x;
+    u *= splat(1) - xx * xx;
+    vf c = x * u * splat((plumb_real)-0.5), s = xx * u * -TAYLOR(6);
+    v[0] += c * w1 + s * w0;
+    v[1] += s * w1 - c * w0;
+}
+
 WIDE_INLINE vf inverse_or_zero(vf k)
 {
     vm positive = k > splat(0);

@@ -5,7 +5,8 @@
 // The way of a substep is thus a chord between two places on the circle, left and reached at equal
 // angles, and no speed is lost to turning, as in RATTLE (Andersen 1983): a pendulum keeps its
 // amplitude. Taking all of C back with impulses that never yield holds one joint better, and shakes
-// bridges to pieces.
+// bridges to pieces. The chord is met by the last sweep that pulls: it adds to the rows of a point what
+// the arcs of the anchors make of a substep (add_arc). README.md says why not by all sweeps, and not by J.
 //
 // soft.c warm starts body by body, v += v - u, with the directions of the substep before. Where J
 // has turned since, pl_joints_turn adds the difference (J' - J)^T impulse, else a stale pull along
@@ -145,7 +146,22 @@ static void bound_block(const pl_joint *j, real total[3])
     }
 }
 
-static void solve_block(pl_joint *j, pl_solver_body *a, pl_solver_body *b, pl_joint_sweep sweep)
+// A body that turns by x = h w in a substep takes its anchor r round an arc: it ends (R(x) - 1 - x k x) r
+// from where h J v leads. Added to J v of a point, whose rows have w0 and w1 of the body: the series, faded
+// out up to a radian, from where a tangent leads nowhere near.
+static void add_arc(real v[2], real w, real h, real w0, real w1)
+{
+    real x = h * w, xx = x * x;
+    if (plumb_abs(x) > PL_LEAST_ARC && plumb_abs(x) < 1) {
+        real u = w * (1 - xx * xx);
+        real c = -x * u / 2, s = -xx * u / 6;
+        v[0] += c * w1 + s * w0;
+        v[1] += s * w1 - c * w0;
+    }
+}
+
+static void solve_block(pl_joint *j, pl_solver_body *a, pl_solver_body *b, pl_joint_sweep sweep,
+                        bool first)
 {
     const int n = j->rows.block;
     const pl_row *row = j->rows.row;
@@ -155,7 +171,15 @@ static void solve_block(pl_joint *j, pl_solver_body *a, pl_solver_body *b, pl_jo
     pl_joint_soft s = soften(&row[0], j->h, sweep);
     real wrong[3], total[3];
     for (int i = 0; i < n; ++i) {
-        wrong[i] = s.velocity * rate(&row[i], a, b) + s.error * row[i].error;
+        wrong[i] = rate(&row[i], a, b);
+    }
+    bool holds = row[0].type == PL_ROW_EQUAL && row[0].hertz == 0;
+    if (holds && sweep == PL_SWEEP_PULL && !first && row[0].form == PL_FORM_POINT_X) {
+        add_arc(wrong, a->w, j->h, row[0].aw, row[1].aw);
+        add_arc(wrong, b->w, j->h, row[0].bw, row[1].bw);
+    }
+    for (int i = 0; i < n; ++i) {
+        wrong[i] = s.velocity * wrong[i] + s.error * row[i].error;
     }
     for (int i = 0; i < n; ++i) {
         total[i] = (1 - s.impulse) * j->impulse[i];
@@ -451,7 +475,7 @@ static void sweep_alone(plumb_world *world, pl_joint_sweep sweep, bool first)
         for (int k = j->rows.count - 1; k >= j->rows.block; --k) {
             solve_row(j, k, a, b, sweep);
         }
-        solve_block(j, a, b, sweep);
+        solve_block(j, a, b, sweep, first);
     }
 }
 

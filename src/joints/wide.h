@@ -8,6 +8,8 @@
 
 #include "joints/rows.h"
 
+#define PL_LEAST_ARC ((real)1e-4) // [rad] less is straight: its cube may be subnormal
+
 typedef struct pl_joint pl_joint;
 typedef struct pl_solver_body pl_solver_body;
 

@@ -3,7 +3,7 @@
 // A query goes through the grids with a box or a ray, asks plumb_convex_* about every piece that it
 // meets there, and keeps a hit for each piece that answers. Shapes of several pieces come out once.
 //
-// Reads: grids, pieces, poses, the filter. Writes: fat boxes and grids (pl_broad_update_grids), the
+// Reads: grids, pieces, poses, the filter. Writes: grids of the queries' own (broad/sight.h), the
 // query's own list. Cost: sorting is O(hits log hits); no allocation for PL_QUERY_NEAR_HITS or
 // fewer.
 #include "query/query.h"
@@ -33,8 +33,7 @@ plumb_result pl_query_begin(pl_query *q, plumb_world *world, const char *functio
         return pl_fail_handle(world, function, "filter.ignore_body", ignored,
                               "a live body or null");
     }
-    bool stale;
-    return pl_broad_update_grids(world, 0, &stale) ? PLUMB_OK : pl_fail_memory(world, function);
+    return pl_sight_update(world) ? PLUMB_OK : pl_fail_memory(world, function);
 }
 
 plumb_result pl_query_check_output(const plumb_world *world, const char *function,
@@ -115,13 +114,14 @@ int pl_query_grids(const pl_query *q, const pl_grid *grids[static PL_QUERY_GRIDS
 {
     int count = 0;
     if (!q->filter.ignore_dynamic) {
-        grids[count++] = &q->world->broad.moving;
-        if (q->world->broad.resting.entry_count > 0) {
-            grids[count++] = &q->world->broad.resting;
+        grids[count++] = pl_sight_of(q->world, PL_SIGHT_MOVING);
+        const pl_grid *resting = pl_sight_of(q->world, PL_SIGHT_RESTING);
+        if (resting->entry_count > 0) {
+            grids[count++] = resting;
         }
     }
     if (!q->filter.ignore_static) {
-        grids[count++] = &q->world->broad.fixed;
+        grids[count++] = pl_sight_of(q->world, PL_SIGHT_FIXED);
     }
     return count;
 }

@@ -240,11 +240,12 @@ static bool list_pairs(plumb_world *world)
 {
     pl_seams *s = &world->seams;
     const pl_pair_list *list = &world->broad.pairs;
-    const pl_pair *pairs = pl_pairs(list);
+    pl_pair *pairs = pl_pairs(list);
     s->pair_count = 0;
-    for (uint32_t i = 0; i < list->count && s->count > 0; ++i) {
+    for (uint32_t i = 0; i < list->count; ++i) {
         if (!pl_piece_has_seams(&world->pieces, pairs[i].a) &&
             !pl_piece_has_seams(&world->pieces, pairs[i].b)) {
+            pairs[i].flags &= ~PL_PAIR_BORNE; // what bore it was at a seam that is no more
             continue;
         }
         if (!pl_buffer_reserve(&world->memory, &s->pairs,

@@ -66,7 +66,7 @@
     LEFT(broad.list) LEFT(broad.found) LEFT(broad.sorted) LEFT(broad.counts)                       \
     LEFT(broad.found_count)                                                                        \
     ARRAY(pl_found, broad.sensed, broad.sensed_count, 0, 0)                                        \
-    TALLY(broad.serial) TALLY(broad.rebuilds) TALLY(broad.filed_step) TALLY(broad.stale)
+    TALLY(broad.serial) TALLY(broad.rebuilds) TALLY(broad.stale)
 
 #define PL_STATE_NARROW(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                     \
     LEFT(narrow.manifolds) LEFT(narrow.staged) LEFT(narrow.manifold_count) LEFT(narrow.borne_count)                    \
@@ -150,7 +150,7 @@
 
 // What lies in struct plumb_world itself.
 #define PL_STATE_WORLD(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                      \
-    LEFT(memory) VALUE(gravity) VALUE(step_count) VALUE(time) TALLY(arrested_count)                \
+    LEFT(memory) LEFT(sight) VALUE(gravity) VALUE(step_count) VALUE(time) TALLY(arrested_count)                \
     TABLE(bodies) VALUE(dynamic_count) VALUE(kinematic_count) VALUE(asleep_count)                  \
     VALUE(disabled_count) VALUE(continuous_bodies) VALUE(locked_bodies)                            \
     VALUE(one_way_pieces) VALUE(dropping_bodies)                                                   \

@@ -234,7 +234,7 @@ static void take_over(plumb_world *world, source s)
         world->sleep.resting_count > 0 || world->broad.resting.entry_count > 0;
     world->broad.stale |= world->broad.left_count > 0; // which they were is not saved
     world->broad.left_count = 0;
-    world->broad.refreshed = world->broad.unfiled = false;
+    world->broad.refreshed = world->broad.unfiled = world->sight.fresh = false;
     world->sleep.gone = 0;
     world->sleep.near.count = 0;
     world->sleep.near_stale = true;
@@ -280,6 +280,7 @@ void pl_image_play(plumb_world *world, const pl_image *before, const pl_image *a
     // No structural change happens within a step; what is due to be filed anew is marked as such.
     world->broad.fixed_lost |= !keeps_fixed && !world->static_dirty && f.pieces > 0;
     world->broad.moving_lost |= !keeps_moving && !world->pairs_dirty && f.listed > 0;
+    world->sight.fresh = false;
     world->sleep.near_stale = true;
     world->joints.awake_stale = true;
     pl_joints_replan(&world->joints);

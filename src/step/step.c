@@ -42,6 +42,7 @@ static plumb_result run_passes(plumb_world *world, plumb_real dt)
         if (!schedule->scheduled[i] || pl_passes[i].run == NULL) {
             continue;
         }
+        world->sight.fresh = false; // what systems ask about moves from pass to pass
         plumb_result result = pl_passes[i].run(world, dt);
         if (result != PLUMB_OK) {
             return result;

@@ -2,7 +2,7 @@
 //
 // A part's own function that frees it knows all of its buffers. Here it is given a copy of the part and
 // an allocator that gives nothing back but adds up what it is told: no second list of buffers to
-// keep. Only components are counted by hand, for theirs are reached through pointers.
+// keep. Only components and the queries' grids are counted by hand, for theirs are reached through pointers.
 //
 // Reads: sizes. Writes: nothing. Cost: O(buffers).
 #include "plumb/world.h"
@@ -99,6 +99,16 @@ static size_t component_bytes(const pl_components *all)
     return bytes;
 }
 
+static size_t sight_bytes(const pl_sight *sight)
+{
+    const pl_grid *grids = sight->grids.data;
+    size_t bytes = BUFFERS(&sight->grids, &sight->boxes, &sight->list);
+    for (int i = 0; grids != NULL && i < PL_SIGHT_GRIDS; ++i) {
+        PART(bytes, pl_grid, grids[i], pl_grid_free(&dry, &copy));
+    }
+    return bytes;
+}
+
 static void tell_rest(listing *out, const plumb_world *w)
 {
     size_t characters = 0, systems = 0;
@@ -110,6 +120,7 @@ static void tell_rest(listing *out, const plumb_world *w)
     PART(events, pl_parts, w->parts, pl_parts_free(&dry, &copy));
     PART(events, pl_blows, w->blows, pl_blows_free(&dry, &copy));
     PART(events, pl_sensing, w->sensing, pl_sensing_free(&dry, &copy));
+    tell(out, "queries", sight_bytes(&w->sight), 0);
     tell(out, "characters", characters, 0);
     tell(out, "effects", effects, 0);
     tell(out, "events", events, 0);

@@ -52,6 +52,7 @@ static void enlist(plumb_world *world, uint32_t *list, uint32_t *count, uint32_t
 {
     list[*count] = slot;
     world->pieces.moving[slot] = (*count)++;
+    world->sight.fresh = false;
 }
 
 // The last of the list fills the gap.
@@ -62,6 +63,7 @@ static void delist(plumb_world *world, uint32_t *list, uint32_t *count, uint32_t
     list[place] = last;
     world->pieces.moving[last] = place;
     world->pieces.moving[slot] = PL_OUT;
+    world->sight.fresh = false;
 }
 
 static void enlist_resting(plumb_world *world, uint32_t slot)
@@ -92,6 +94,7 @@ static void file(plumb_world *world, uint32_t slot, uint32_t row)
     } else if (world->bodies.type[row] == PLUMB_STATIC) {
         pieces->moving[slot] = PL_NONE;
         world->static_dirty = true;
+        world->sight.fresh = false;
     } else if (pl_row_is_asleep(world, row)) {
         enlist_resting(world, slot);
         world->sleep.boxes_stale = true;
@@ -104,6 +107,7 @@ static void unfile(plumb_world *world, uint32_t slot)
 {
     if (world->pieces.moving[slot] == PL_NONE) {
         world->static_dirty = true;
+        world->sight.fresh = false;
     } else if ((world->pieces.flags[slot] & PL_PIECE_ASLEEP) != 0) {
         delist_resting(world, slot);
         pl_sensing_note_rest(world);

@@ -247,6 +247,7 @@ void pl_body_update_center(plumb_world *world, uint32_t row)
     b->center_y[row] = b->y[row] + dy;
     b->low_x[row] = b->low_y[row] = 0;
     write_pose(world, row, dx, dy);
+    world->sight.fresh = false;
     if (pl_is_wrapped(world)) {
         pl_wrap_row(world, row);
     }

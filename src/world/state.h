@@ -6,6 +6,7 @@
 #define PL_STATE_H
 
 #include "broad/broad.h"
+#include "broad/sight.h"
 #include "character/character.h"
 #include "core/tasks.h"
 #include "continuous/continuous.h"
@@ -98,6 +99,7 @@ struct plumb_world {
 
     // Broad phase, narrow phase, solver: each owns its struct.
     pl_broad broad;
+    pl_sight sight;
     pl_narrow narrow;
     pl_solver solver;
     pl_continuous continuous;
@@ -163,6 +165,8 @@ void pl_destroy_entity(plumb_world *world, plumb_entity entity);
 void pl_piece_convex(const plumb_world *world, uint32_t piece, plumb_convex *out);
 // Tight box of a piece at its body's pose.
 pl_box pl_piece_tight_box(const plumb_world *world, uint32_t piece);
+// The same where the grids have it, in a world that wraps around.
+pl_box pl_piece_filed_box(const plumb_world *world, uint32_t piece);
 
 static inline pl_pose *pl_poses(const plumb_world *world)
 {

@@ -154,6 +154,7 @@ static void free_world(plumb_world *world)
     pl_memory memory = world->memory;
     pl_tasks_destroy(&memory, world->tasks);
     pl_broad_free(&memory, &world->broad);
+    pl_sight_free(&memory, &world->sight);
     pl_narrow_free(&memory, &world->narrow);
     pl_seams_free(&memory, &world->seams);
     pl_solver_free(&memory, &world->solver);

@@ -1,5 +1,6 @@
 // test_api_batch.c - many worlds: the bits of each are those it has alone, whatever the workers; reset,
 // randomise, observe and act; who is refused, and that the others go on; out of memory.
+#include "harness/heap.h"
 #include "world_fixture.h"
 
 #include <pthread.h>
@@ -482,46 +483,17 @@ static void a_refused_world_does_not_stop_the_others(void **state)
 
 //---- memory --------------------------------------------------------------------------------------
 
-typedef struct heap {
-    atomic_long calls, blocks, bytes;
-    long fail_at; // -1: never
-} heap;
-
-static void *resize(void *context, void *memory, size_t old_size, size_t new_size)
-{
-    heap *h = context;
-    void *fresh = NULL;
-    if (new_size > 0) {
-        long call = atomic_fetch_add(&h->calls, 1);
-        if (h->fail_at >= 0 && call >= h->fail_at) {
-            return NULL;
-        }
-        fresh = aligned_alloc(64, (new_size + 63) / 64 * 64);
-        assert_non_null(fresh);
-        atomic_fetch_add(&h->blocks, 1);
-    }
-    if (memory != NULL) {
-        if (fresh != NULL) {
-            memcpy(fresh, memory, old_size < new_size ? old_size : new_size);
-        }
-        free(memory);
-        atomic_fetch_sub(&h->blocks, 1);
-    }
-    atomic_fetch_add(&h->bytes, (long)new_size - (long)old_size);
-    return fresh;
-}
-
 static void creation_out_of_memory_leaves_nothing(void **state)
 {
     (void)state;
-    heap h = { .fail_at = 0 };
-    const plumb_world_desc world = { .allocator = { resize, &h } };
+    heap h = { .fail_at = 0, .from_there = true };
+    const plumb_world_desc world = { .allocator = heap_allocator(&h) };
     const plumb_batch_desc d = { .count = 3,
                                  .workers = 2,
                                  .world = &world,
                                  .build = build_unlike,
                                  .randomise = randomise,
-                                 .allocator = { resize, &h } };
+                                 .allocator = heap_allocator(&h) };
     plumb_batch *batch = NULL;
     plumb_result r = PLUMB_E_MEMORY;
     while (r == PLUMB_E_MEMORY) {
@@ -544,8 +516,8 @@ static void creation_out_of_memory_leaves_nothing(void **state)
 static void a_world_out_of_memory_does_not_stop_the_others(void **state)
 {
     (void)state;
-    heap h = { .fail_at = -1 };
-    const plumb_world_desc desc = { .allocator = { resize, &h } };
+    heap h = { .fail_at = -1, .from_there = true };
+    const plumb_world_desc desc = { .allocator = heap_allocator(&h) };
     plumb_batch *b = make((plumb_batch_desc){ .count = 6, .workers = 2, .world = &desc });
     assert_int_equal(plumb_batch_step(b, DT, 60), PLUMB_OK);
     build(plumb_batch_world(b, 3), 3, NULL, NULL); // as many bodies again: room is needed
@@ -570,10 +542,10 @@ static void a_world_out_of_memory_does_not_stop_the_others(void **state)
 static void episodes_allocate_nothing(void **state)
 {
     (void)state;
-    heap h = { .fail_at = -1 };
-    const plumb_world_desc desc = { .allocator = { resize, &h } };
+    heap h = HEAP_INIT;
+    const plumb_world_desc desc = { .allocator = heap_allocator(&h) };
     plumb_batch *b = make((plumb_batch_desc){
-        .count = WORLDS, .workers = 2, .world = &desc, .allocator = { resize, &h } });
+        .count = WORLDS, .workers = 2, .world = &desc, .allocator = heap_allocator(&h) });
     const plumb_batch_field fields[] = { PLUMB_FIELD_X, PLUMB_FIELD_VX };
     const plumb_batch_view view = { &people[CART], 1, fields, 2 };
     plumb_real numbers[WORLDS * 2];

@@ -1,57 +1,8 @@
 // test_api_memory.c - out of memory: a script that uses all of the API runs with an allocator that
 // fails its k-th call, for every k. A refused call changes nothing and succeeds when it is tried
 // again; the script ends in the same state as without failures, and every byte is given back.
+#include "harness/heap.h"
 #include "world_fixture.h"
-
-#include <stdlib.h>
-
-//---- the allocator
-//--------------------------------------------------------------------------------
-
-typedef struct heap {
-    long calls;      // that asked for memory
-    long fail_at;    // -1: never
-    bool from_there; // fail all from there on, not one
-    size_t bytes;    // handed out
-    long blocks;
-} heap;
-
-// The size is kept in front of the block, so that a wrong old size is found.
-#define FRONT 64
-
-static void *resize(void *context, void *memory, size_t old_size, size_t new_size)
-{
-    heap *h = context;
-    if (memory != NULL) {
-        assert_int_equal(*(size_t *)(void *)((char *)memory - FRONT), old_size);
-    } else {
-        assert_int_equal(old_size, 0);
-    }
-    char *fresh = NULL;
-    if (new_size > 0) {
-        long call = h->calls++;
-        if (h->fail_at >= 0 && (call == h->fail_at || (h->from_there && call > h->fail_at))) {
-            return NULL;
-        }
-        size_t whole = (new_size + FRONT + 63) / 64 * 64;
-        fresh = aligned_alloc(64, whole);
-        assert_non_null(fresh);
-        *(size_t *)(void *)fresh = new_size;
-        fresh += FRONT;
-        memset(fresh, 0xa5, new_size);
-        h->bytes += new_size;
-        ++h->blocks;
-    }
-    if (memory != NULL) {
-        if (fresh != NULL) {
-            memcpy(fresh, memory, old_size < new_size ? old_size : new_size);
-        }
-        free((char *)memory - FRONT);
-        h->bytes -= old_size;
-        --h->blocks;
-    }
-    return fresh;
-}
 
 //---- the script
 //-----------------------------------------------------------------------------------
@@ -86,7 +37,7 @@ static const plumb_vec2 ground[] = { { -40, 0 }, { 0, -1 }, { R(2), R(-0.95) }, 
 
 static bool make_world(run *r)
 {
-    const plumb_world_desc desc = { .allocator = { resize, &r->heap },
+    const plumb_world_desc desc = { .allocator = heap_allocator(&r->heap),
                                     .body_capacity = 4,
                                     .shape_capacity = 4,
                                     .contact_capacity = 8,

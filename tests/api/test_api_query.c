@@ -12,6 +12,7 @@
 
 #include <cmocka.h>
 
+#include "harness/heap.h"
 #include "plumb/plumb.h"
 
 #define R(x)    ((plumb_real)(x))
@@ -24,8 +25,7 @@ typedef struct fixture {
     plumb_world *world;
     plumb_body ball, stale;
     plumb_shape shape;
-    size_t bytes;  // held by the allocator
-    size_t limit;  // bytes; SIZE_MAX: none
+    heap heap;
     char log[512]; // last message
 } fixture;
 
@@ -36,30 +36,13 @@ static void keep_message(void *context, plumb_log_level level, const char *messa
     snprintf(f->log, sizeof f->log, "%s", message);
 }
 
-static void *resize(void *context, void *memory, size_t old_size, size_t new_size)
-{
-    fixture *f = context;
-    if (new_size > old_size && f->bytes + new_size - old_size > f->limit) {
-        return NULL;
-    }
-    void *fresh = NULL;
-    if (new_size > 0) {
-        fresh = aligned_alloc(64, (new_size + 63) / 64 * 64);
-        assert_non_null(fresh);
-        if (memory != NULL) {
-            memcpy(fresh, memory, old_size < new_size ? old_size : new_size);
-        }
-    }
-    free(memory);
-    f->bytes = f->bytes + new_size - old_size;
-    return fresh;
-}
-
 static void setup(fixture *f)
 {
     memset(f, 0, sizeof *f);
-    f->limit = SIZE_MAX;
-    plumb_world_desc desc = { .allocator = { resize, f }, .log = keep_message, .hook_context = f };
+    f->heap = (heap)HEAP_INIT;
+    plumb_world_desc desc = { .allocator = heap_allocator(&f->heap),
+                              .log = keep_message,
+                              .hook_context = f };
     assert_int_equal(plumb_world_create(&desc, &f->world), PLUMB_OK);
     f->stale = plumb_body_create(f->world, &(plumb_body_desc){ 0 });
     f->ball = plumb_body_create(f->world, &(plumb_body_desc){ 0 });
@@ -72,7 +55,7 @@ static void setup(fixture *f)
 static void teardown(fixture *f)
 {
     plumb_world_destroy(f->world);
-    assert_int_equal(f->bytes, 0);
+    assert_int_equal(f->heap.bytes, 0);
 }
 
 static void refused(fixture *f, plumb_result code, const char *function, const char *rest)
@@ -574,16 +557,16 @@ static void test_no_memory(void **state)
         int expected = lists ? 150 : 1;
         int failures = 0;
         int answer;
-        for (f.limit = f.bytes; (answer = queries[q].call(f.world, &a)) != expected;
-             f.limit += 256) {
+        for (f.heap.limit = f.heap.bytes; (answer = queries[q].call(f.world, &a)) != expected;
+             f.heap.limit += 256) {
             assert_int_equal(answer, queries[q].error);
             refused(&f, PLUMB_E_MEMORY, queries[q].name, "the allocator returned no memory");
             ++failures;
         }
         assert_true(failures > (lists ? 4 : 0));
-        size_t held = f.bytes;
+        long held = f.heap.bytes;
         assert_int_equal(queries[q].call(f.world, &a), expected);
-        assert_int_equal(f.bytes, held); // nothing is kept from query to query
+        assert_int_equal(f.heap.bytes, held); // nothing is kept from query to query
         teardown(&f);
     }
 }
@@ -597,7 +580,7 @@ static void test_no_allocation(void **state)
     for (int q = 0; q < QUERY_COUNT; ++q) {
         args a = { .capacity = 1 };
         assert_int_equal(queries[q].call(f.world, &a), 1);
-        f.limit = f.bytes;
+        f.heap.limit = f.heap.bytes;
     }
     teardown(&f);
 }

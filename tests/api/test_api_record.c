@@ -1,5 +1,6 @@
 // test_api_record.c - record.h: a world whose user interferes in every way that the API has is replayed in
 // the same bits; every error of the recorder and the replay.
+#include "harness/heap.h"
 #include "harness/recording.h"
 #include "world_fixture.h"
 
@@ -988,30 +989,6 @@ static void the_pass_that_differs_is_named(void **state)
 
 //---- memory --------------------------------------------------------------------------------------
 
-typedef struct heap {
-    long calls, fail_at;
-} heap;
-
-static void *resize(void *context, void *memory, size_t old_size, size_t new_size)
-{
-    heap *h = context;
-    (void)old_size;
-    if (new_size == 0) {
-        free(memory);
-        return NULL;
-    }
-    if (h->fail_at >= 0 && h->calls++ == h->fail_at) {
-        return NULL;
-    }
-    char *fresh = aligned_alloc(64, (new_size + 63) / 64 * 64);
-    assert_non_null(fresh);
-    if (memory != NULL) {
-        memcpy(fresh, memory, old_size < new_size ? old_size : new_size);
-        free(memory);
-    }
-    return fresh;
-}
-
 static void a_replay_survives_each_failing_allocation(void **state)
 {
     (void)state;
@@ -1019,8 +996,9 @@ static void a_replay_survives_each_failing_allocation(void **state)
     small_recording(&tape);
     int refused = 0;
     for (long k = 0;; ++k) {
-        heap h = { 0, k };
-        const plumb_replay_desc desc = { .allocator = { resize, &h }, .list_edits = true };
+        heap h = HEAP_INIT;
+        heap_fail(&h, k);
+        const plumb_replay_desc desc = { .allocator = heap_allocator(&h), .list_edits = true };
         plumb_replay *replay;
         plumb_result r = plumb_replay_open(tape.bytes, tape.size, &desc, &replay);
         if (r != PLUMB_OK) {
@@ -1039,7 +1017,7 @@ static void a_replay_survives_each_failing_allocation(void **state)
         }
         assert_int_equal(plumb_replay_step(replay), PLUMB_E_MISSING);
         plumb_replay_close(replay);
-        if (h.calls <= k) {
+        if (h.refused == 0) {
             break;
         }
     }
@@ -1052,15 +1030,14 @@ static void a_recorder_that_runs_out_of_memory_ends(void **state)
     (void)state;
     int ended = 0;
     for (long k = 0;; ++k) {
-        heap h = { 0, -1 };
+        heap h = HEAP_INIT;
         recording tape = { 0 };
         plumb_world *w;
-        assert_int_equal(plumb_world_create(&(plumb_world_desc){ .allocator = { resize, &h } }, &w),
+        assert_int_equal(plumb_world_create(&(plumb_world_desc){ .allocator = heap_allocator(&h) }, &w),
                          PLUMB_OK);
         plumb_body ball = plumb_body_create(w, &(plumb_body_desc){ 0 });
         assert_int_equal(plumb_world_step(w, DT), PLUMB_OK);
-        h.fail_at = k;
-        h.calls = 0;
+        heap_fail(&h, k);
         const plumb_recorder_desc desc = { .write = to_recording, .context = &tape };
         plumb_result r = plumb_recorder_start(w, &desc);
         assert_true(r == PLUMB_OK || r == PLUMB_E_MEMORY);
@@ -1076,7 +1053,7 @@ static void a_recorder_that_runs_out_of_memory_ends(void **state)
         ended += r != PLUMB_OK || info.ended != PLUMB_OK;
         plumb_world_destroy(w);
         recording_free(&tape);
-        if (h.calls <= k) {
+        if (h.refused == 0) {
             break;
         }
     }

@@ -1,4 +1,5 @@
 // test_api_snapshot.c - world hash, images, frames, deltas: what they promise, what they refuse.
+#include "harness/heap.h"
 #include "world_fixture.h"
 
 #include <stdio.h>
@@ -728,34 +729,12 @@ static void a_stepping_world_is_locked(void **state)
 
 //---- memory --------------------------------------------------------------------------------------
 
-typedef struct heap {
-    long calls, fail_at;
-} heap;
-
-static void *resize(void *context, void *memory, size_t old_size, size_t new_size)
-{
-    heap *h = context;
-    if (new_size == 0) {
-        free(memory);
-        return NULL;
-    }
-    if (h->calls++ == h->fail_at) {
-        return NULL;
-    }
-    void *fresh = aligned_alloc(64, (new_size + 63) / 64 * 64);
-    if (memory != NULL) {
-        memcpy(fresh, memory, old_size < new_size ? old_size : new_size);
-        free(memory);
-    }
-    return fresh;
-}
-
 static void rolling_back_allocates_nothing(void **state)
 {
     (void)state;
-    heap h = { .fail_at = -1 };
+    heap h = HEAP_INIT;
     pile p;
-    make_pile(&p, (plumb_world_desc){ .allocator = { resize, &h } }, 10);
+    make_pile(&p, (plumb_world_desc){ .allocator = heap_allocator(&h) }, 10);
     image base = save(p.world), kept[12];
     for (int i = 0; i < 12; ++i) {
         kept[i] = (image){ malloc(2 * base.size), 2 * base.size };
@@ -794,15 +773,15 @@ static void out_of_memory_leaves_the_world_as_it_was(void **state)
     image i = save(p.world);
     int refused = 0;
     for (long k = 0;; ++k) {
-        heap h = { .fail_at = -1 };
+        heap h = HEAP_INIT;
         plumb_world *w = NULL;
-        assert_int_equal(plumb_world_create(&(plumb_world_desc){ .allocator = { resize, &h } }, &w),
+        assert_int_equal(plumb_world_create(&(plumb_world_desc){ .allocator = heap_allocator(&h) }, &w),
                          PLUMB_OK);
         plumb_component_create(w, &(plumb_component_desc){ .name = "tag", .size = 8 });
         plumb_body_create(w, &(plumb_body_desc){ 0 });
         step(w, 2);
         uint64_t hash = plumb_world_hash(w);
-        h.fail_at = h.calls + k;
+        heap_fail(&h, k);
         plumb_result r = plumb_world_restore(w, i.bytes, i.size);
         if (r == PLUMB_E_MEMORY) {
             ++refused;
@@ -813,7 +792,7 @@ static void out_of_memory_leaves_the_world_as_it_was(void **state)
             assert_int_equal(r, PLUMB_OK);
         }
         assert_true(plumb_world_hash(w) == plumb_world_hash(p.world));
-        bool all = h.calls <= h.fail_at;
+        bool all = h.refused == 0;
         plumb_world_destroy(w);
         if (all) {
             break;

@@ -107,6 +107,8 @@ static int count_lines(const char *text)
 
 static const char *const commands[] = { "run",  "render",  "check", "explain",
                                         "cost", "convert", "list" };
+static const char *const helped[] = { "run",     "render", "check",  "explain", "cost",
+                                      "convert", "list",   "replay", "diff" };
 
 static void help_is_everywhere(void **state)
 {
@@ -114,18 +116,18 @@ static void help_is_everywhere(void **state)
     char line[64];
     expect_code("\"$P\" --help", 0);
     assert_string_equal(err, "");
-    for (size_t i = 0; i < sizeof commands / sizeof commands[0]; i++) {
+    for (size_t i = 0; i < sizeof helped / sizeof helped[0]; i++) {
         char word[16];
-        snprintf(word, sizeof word, "  %s ", commands[i]);
+        snprintf(word, sizeof word, "  %s ", helped[i]);
         expect_code("\"$P\" --help", 0);
         assert_non_null(strstr(out, word));
-        snprintf(line, sizeof line, "\"$P\" %s --help", commands[i]);
+        snprintf(line, sizeof line, "\"$P\" %s --help", helped[i]);
         expect_code(line, 0);
         assert_string_equal(err, "");
         assert_non_null(strstr(out, "usage: plumb "));
         assert_non_null(strstr(out, "Options:"));
-        snprintf(line, sizeof line, "\"$P\" %s -h >a; \"$P\" help %s >b; cmp a b", commands[i],
-                 commands[i]);
+        snprintf(line, sizeof line, "\"$P\" %s -h >a; \"$P\" help %s >b; cmp a b", helped[i],
+                 helped[i]);
         expect_code(line, 0);
         snprintf(line, sizeof line, "awk 'length > 80 { exit 1 }' a");
         expect_code(line, 0);
@@ -564,8 +566,109 @@ static void a_replay_goes_anywhere(void **state)
     expect_error("\"$P\" replay k.rec --seek 1 --step 2", 2, "--seek names a moment already");
     expect_error("\"$P\" replay k.rec --list --body ball", 2, "belong to the table of bodies");
     expect_error("\"$P\" replay k.rec --body bell", 2,
-                 "plumb: option --body: no body of 'push' is named 'bell'\n");
+                 "plumb: option --body: no body of 'push' is named 'bell'; did you mean 'ball'?\n");
     expect_error("\"$P\" replay k.rec --width 5", 2, "5 is not 0, 4, 8 or 16");
+}
+
+// Of a scene that gives no looks the pictures of a recording are those of the scene, to the byte.
+static void a_recording_is_drawn(void **state)
+{
+    (void)state;
+    expect_code("\"$P\" run good.lua --keyframes 10 --record g.rec -o /dev/null && "
+                "\"$P\" render good.lua --size 320x200 -o s.png && "
+                "\"$P\" replay g.rec --size 320x200 --render r.png && cmp s.png r.png",
+                0);
+    assert_string_equal(out, "");
+    expect_code(
+        "\"$P\" render good.lua --size 320x200 --at 0.5 --trail 0.25 --overlay contacts,legend "
+        "--title x --zoom 2 --follow ball -o s.png && "
+        "for when in '--seek 0.5' '--step 30'; do "
+        "\"$P\" replay g.rec --size 320x200 $when --trail 0.25 --overlay contacts,legend "
+        "--title x --zoom 2 --follow ball --render r.png && cmp s.png r.png || exit; done",
+        0);
+    expect_code("\"$P\" replay g.rec --size 64x64 --fps 4 --render 's%02d.png' && "
+                "\"$P\" render good.lua --size 64x64 --fps 4 -o 'r%02d.png' && "
+                "test -e s04.png && ! test -e s05.png && "
+                "for i in 00 01 02 03 04; do cmp s$i.png r$i.png || exit; done",
+                0);
+    expect_code(
+        "\"$P\" replay g.rec --size 64x64 --fps 8 --from 0.5 --to 0.75 --render 'h%02d.png' && "
+        "test -e h02.png && ! test -e h03.png",
+        0);
+    expect_code("\"$P\" replay g.rec --size 64x64 --fps 4 --to 0.5 --render g.gif", 0);
+    assert_true(read_text("g.gif", out) > 100);
+    assert_memory_equal(out, "GIF89a", 6);
+    // One without a step.
+    expect_code("\"$P\" run good.lua --time 0 --record n.rec -o /dev/null && "
+                "\"$P\" replay n.rec --size 64x64 --render n.png && "
+                "\"$P\" replay n.rec --size 64x64 --fps 10 --render 'n%d.png' && test -e n0.png && "
+                "! test -e n1.png",
+                0);
+    expect_code("\"$P\" run good.lua --precision double --record e.rec -o /dev/null && "
+                "\"$P\" render good.lua --precision double --size 64x64 -o s.png && "
+                "\"$P\" replay e.rec --size 64x64 --render r.png && cmp s.png r.png",
+                0);
+}
+
+static const struct {
+    const char *arguments, *message;
+} replay_cases[] = {
+    { "--render", "option --render: needs a value (FILE)" },
+    { "--render z.bmp", "'z.bmp'" },
+    { "--render z%s.png", "%" },
+    { "--render z.png --size 1x9", "1x9 is outside 16 to 8192" },
+    { "--render z.png --follow bell", "option --follow: no body of 'drop' is named 'bell'; did you "
+                                      "mean 'ball'?" },
+    { "--render z.png --overlay contcts", "did you mean 'contacts'?" },
+    { "--render z.png --from 0.5", "--from and --to are for films; 'z.png' is one picture" },
+    { "--render z.png --fps 5", "--fps is for films; 'z.png' is one picture" },
+    { "--render z.gif --seek 0.5",
+      "option --seek: is for one picture; a film has --from and --to" },
+    { "--render z.gif --step 3", "option --step: is for one picture; a film has --from and --to" },
+    { "--render z.gif --from 0.5 --to 0.25", "--to 0.25 lies before --from 0.5" },
+    { "--render z.gif --to 2", "option --to: 2 s is beyond the end, 1" },
+    { "--render z.gif --from 2", "option --from: 2 s is beyond the end, 1" },
+    { "--render z.png --seek 2", "option --seek: 2 s is beyond the end, 1" },
+    { "--render z.png --step 61", "option --step: 61 is beyond the last step, 60" },
+    { "--render z.png --seek 1 --step 1", "--seek names a moment already" },
+    { "--render z.png --list", "option --list: is for text; --render makes pictures" },
+    { "--render z.png --info", "option --info: is for text" },
+    { "--render z.png -o z.csv", "option --output: is for text" },
+    { "--render z.png --format csv", "option --format: is for text" },
+    { "--render z.png --every 2", "option --every: is for text" },
+    { "--render z.png --body ball", "option --body: is for text" },
+    { "--size 64x64", "option --size: is for pictures; --render FILE makes them" },
+    { "--from 0", "option --from: is for pictures" },
+    { "--to 1", "option --to: is for pictures" },
+    { "--fps 30", "option --fps: is for pictures" },
+    { "--follow ball", "option --follow: is for pictures" },
+    { "--zoom 2", "option --zoom: is for pictures" },
+    { "--overlay grid", "option --overlay: is for pictures" },
+    { "--trail 0", "option --trail: is for pictures" },
+    { "--title x", "option --title: is for pictures" },
+};
+
+static void drawing_a_recording_tells_the_remedy(void **state)
+{
+    (void)state;
+    char line[256];
+    for (size_t i = 0; i < sizeof replay_cases / sizeof replay_cases[0]; i++) {
+        snprintf(line, sizeof line, "\"$P\" replay g.rec %s", replay_cases[i].arguments);
+        expect_error(line, 2, replay_cases[i].message);
+        assert_int_equal(strncmp(err, "plumb: ", 7), 0);
+        assert_int_equal(count_lines(err), 1);
+        assert_string_equal(out, "");
+    }
+    // Files that are no recording, or a piece of one, leave no picture behind.
+    expect_error("\"$P\" replay good.lua --render z.png", 1, "plumb: 'good.lua' is no recording\n");
+    expect_error("\"$P\" replay absent.rec --render z.png", 1, "cannot read 'absent.rec'");
+    expect_error("{ head -c 3000 g.rec; printf x; tail -c +3002 g.rec; } >x.rec; "
+                 "\"$P\" replay x.rec --render z.png",
+                 1, "plumb: 'x.rec' is damaged\n");
+    expect_code("head -c -100 g.rec >c.rec; \"$P\" replay c.rec --size 64x64 --render c.png", 0);
+    expect_error("\"$P\" replay g.rec --render absent/z.png", 1, "absent/z.png");
+    expect_error("PATH=/nowhere \"$P\" replay g.rec --size 64x64 --render z.mp4", 1, "ffmpeg");
+    expect_code("! ls | grep '^z'", 0);
 }
 
 static void differences_are_found(void **state)
@@ -671,6 +774,8 @@ int main(void)
         cmocka_unit_test(a_scene_knows_its_moment),
         cmocka_unit_test(a_recording_is_replayed),
         cmocka_unit_test(a_replay_goes_anywhere),
+        cmocka_unit_test(a_recording_is_drawn),
+        cmocka_unit_test(drawing_a_recording_tells_the_remedy),
         cmocka_unit_test(differences_are_found),
         cmocka_unit_test(bad_recordings_are_refused),
     };

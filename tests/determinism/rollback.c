@@ -1,4 +1,5 @@
 // rollback.c - see rollback.h.
+#include "harness/random.h"
 #include "rollback.h"
 
 #include <inttypes.h>
@@ -19,12 +20,6 @@ typedef struct history {
     int bases;
     uint32_t seed;
 } history;
-
-static uint32_t next(uint32_t *seed)
-{
-    *seed = *seed * 1664525u + 1013904223u;
-    return *seed >> 16;
-}
 
 static void make_room(image *i, size_t size)
 {
@@ -99,8 +94,8 @@ int rollback_run(plumb_world *world, plumb_world *other, rollback_step *step, vo
         check(world, at, hashes[at]);
         keep(&h, world, at, frames);
         newest = at > newest ? at : newest;
-        if (at == newest && next(&h.seed) % 4 == 0) {
-            int back = 1 + (int)(next(&h.seed) % (uint32_t)most);
+        if (at == newest && sim_random(&h.seed) % 4 == 0) {
+            int back = 1 + (int)(sim_random(&h.seed) % (uint32_t)most);
             // Not beyond the first step, nor to one whose base is gone.
             if (at >= back && (!frames || h.base_of[at % KEPT] == h.base_of[(at - back) % KEPT])) {
                 at -= back;

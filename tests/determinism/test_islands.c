@@ -1,5 +1,6 @@
 // test_islands.c - islands that never meet end in the same bits whatever the order in which they were
 // made, and whatever else is in the world.
+#include "harness/random.h"
 #include "plumb/plumb.h"
 
 #include <setjmp.h>
@@ -23,12 +24,6 @@ typedef struct island {
     plumb_material material;
 } island;
 
-static uint32_t next(uint32_t *seed)
-{
-    *seed = *seed * 1664525u + 1013904223u;
-    return *seed >> 16;
-}
-
 static void begin(plumb_world *w, island *i)
 {
     i->ground = plumb_body_create(
@@ -45,10 +40,10 @@ static void add(plumb_world *w, island *i)
         { R(-0.4), 0 }, { 0, R(-0.3) }, { R(0.5), 0 }, { 0, R(0.6) }
     };
     int n = i->made++;
-    plumb_real x = i->x + R(n % 5) * R(0.8) - 2 + R(next(&i->seed) % 100) / 1000;
+    plumb_real x = i->x + R(n % 5) * R(0.8) - 2 + R(sim_random(&i->seed) % 100) / 1000;
     plumb_vec2 at = { x, R(0.75) + R(n) / 5 };
     i->body[n] = plumb_body_create(w, &(plumb_body_desc){ .position = at, .angle = R(n) / 7 });
-    plumb_real size = R(0.2) + R(next(&i->seed) % 100) / 500;
+    plumb_real size = R(0.2) + R(sim_random(&i->seed) % 100) / 500;
     const plumb_shape_desc shapes[] = {
         { .kind = PLUMB_BOX, .half = { size, R(0.3) } },
         { .kind = PLUMB_CIRCLE, .radius = size, .material = i->material },

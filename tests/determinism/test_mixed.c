@@ -2,7 +2,7 @@
 // platforms, sleeping bodies, characters, joints, sensors, filters, contacts edited by a system, bodies
 // made, destroyed, disabled, retyped and teleported at any time. Nobody knows what such a world should
 // do; but it must do the same, to the last bit, in steps that run out of memory anywhere and are tried
-// again, in other SIMD widths, and restored from an image. And what begins to touch ceases to, once.
+// again, in other SIMD widths, restored from an image, and asked about at any time. And what begins to touch ceases to, once.
 // The sanitizers see the rest.
 #include <setjmp.h>
 #include <stdarg.h>
@@ -13,43 +13,14 @@
 
 #include <cmocka.h>
 
+#include "harness/heap.h"
 #include "harness/sim.h"
 
 #define HZ60 (1 / 60.0)
 
 enum { BODIES = 60, STEPS = 220, PAIRS = 4096 };
 
-typedef enum disturbance { NONE, FAILING, WIDTH, RESTORED } disturbance;
-
-//---- memory that runs out on demand --------------------------------------------------------------
-
-typedef struct heap {
-    bool armed;
-    long left; // calls that are still answered
-    long refused;
-} heap;
-
-static void *resize(void *context, void *memory, size_t old_size, size_t new_size)
-{
-    heap *h = context;
-    (void)old_size;
-    if (new_size == 0) {
-        free(memory);
-        return NULL;
-    }
-    if (h->armed && h->left-- <= 0) {
-        h->armed = false;
-        ++h->refused;
-        return NULL;
-    }
-    void *fresh = aligned_alloc(64, (new_size + 63) / 64 * 64);
-    assert_non_null(fresh);
-    if (memory != NULL) {
-        memcpy(fresh, memory, old_size < new_size ? old_size : new_size);
-        free(memory);
-    }
-    return fresh;
-}
+typedef enum disturbance { NONE, FAILING, WIDTH, RESTORED, QUERIED } disturbance;
 
 //---- a world -------------------------------------------------------------------------------------
 
@@ -176,7 +147,7 @@ static void begin(run *r, unsigned seed, disturbance how)
 {
     const int widths[] = { 4, 8, 16 };
     r->seed = seed;
-    const plumb_world_desc d = { .allocator = { resize, &r->heap },
+    const plumb_world_desc d = { .allocator = heap_allocator(&r->heap),
                                  .solver = seed % 4 == 3 ? PLUMB_SOLVER_PGS : PLUMB_SOLVER_SOFT,
                                  .sleep_time = (plumb_real)0.15,
                                  .hit_speed = (plumb_real)(seed % 2),
@@ -229,7 +200,7 @@ static void change(run *r)
     plumb_entity shape[4];
     plumb_joint joint;
     int shapes = plumb_body_shapes(w, b, shape, 4);
-    switch (pick(r, 20)) {
+    switch (pick(r, 21)) {
     case 0:
     case 1:
         plumb_body_destroy(w, b);
@@ -296,9 +267,44 @@ static void change(run *r)
             plumb_body_set_target(w, b, place(r, -4, 4, 0, 4), 0, (plumb_real)0.3);
         }
         break;
+    case 19:
+        plumb_world_explode(
+            w, &(plumb_explosion_desc){
+                   .position = place(r, -6, 6, 0, 4), .radius = 1, .falloff = 1, .impulse = 2 });
+        break;
     default:
         plumb_world_set_gravity(w, sim_vec(uniform(r, -1, 1), -9.81));
         break;
+    }
+}
+
+// Questions, anywhere, at random: an answer, and nothing else.
+static void ask(run *r, unsigned *chance)
+{
+    plumb_convex box;
+    assert_int_equal(plumb_convex_box(sim_vec(0.5, 0.5), sim_vec(0, 0), 0, 0, &box), PLUMB_OK);
+    for (unsigned count = sim_random(chance) % 3; count > 0; --count) {
+        const double x = sim_uniform(chance, -7, 7), y = sim_uniform(chance, -1, 6);
+        const plumb_vec2 at = sim_vec(x, y), to = sim_vec(y, -1);
+        const plumb_query_filter all = { .sensors = true };
+        plumb_shape shapes[8];
+        switch (sim_random(chance) % 4) {
+        case 0:
+            plumb_world_ray(r->w, at, to, &all, &(plumb_ray_hit){ .fraction = 0 });
+            break;
+        case 1:
+            plumb_world_cast(
+                r->w,
+                &(plumb_cast){ .convex = &box, .transform = { at, { 1, 0 } }, .translation = to },
+                &all, &(plumb_cast_hit){ .fraction = 0 });
+            break;
+        case 2:
+            plumb_world_nearest(r->w, at, 2, &all, &(plumb_nearest_hit){ .distance = 0 });
+            break;
+        default:
+            plumb_world_overlap_point(r->w, at, &all, shapes, 8);
+            break;
+        }
     }
 }
 
@@ -352,11 +358,10 @@ static void count_touches(run *r)
 static void step(run *r, disturbance how, unsigned *chance)
 {
     if (how == FAILING) {
-        r->heap.armed = true;
-        r->heap.left = (long)(sim_random(chance) % 6);
+        heap_fail(&r->heap, (long)(sim_random(chance) % 6));
     }
     plumb_result result = plumb_world_step(r->w, (plumb_real)HZ60);
-    r->heap.armed = false;
+    heap_fail(&r->heap, -1);
     if (result == PLUMB_E_MEMORY) {
         result = plumb_world_step(r->w, (plumb_real)HZ60);
     }
@@ -379,12 +384,18 @@ static long play(unsigned seed, disturbance how, uint64_t *hashes, bool compare)
 {
     static run r;
     unsigned chance = seed * 2654435761u + 1;
-    r = (run){ .step = 0 };
+    r = (run){ .heap = HEAP_INIT };
     begin(&r, seed, how);
     for (int i = 0; i < STEPS; ++i) {
         unsigned changes = pick(&r, 3);
         for (unsigned k = 0; k < changes; ++k) {
             change(&r);
+            if (how == QUERIED) {
+                ask(&r, &chance);
+            }
+        }
+        if (how == QUERIED) {
+            ask(&r, &chance);
         }
         step(&r, how, &chance);
         uint64_t hash = plumb_world_hash(r.w);
@@ -434,12 +445,19 @@ static void restored_worlds_go_on_alike(void **state)
     compare_with_undisturbed(RESTORED);
 }
 
+static void questions_change_nothing(void **state)
+{
+    (void)state;
+    compare_with_undisturbed(QUERIED);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(refused_steps_leave_no_trace),
         cmocka_unit_test(widths_agree),
         cmocka_unit_test(restored_worlds_go_on_alike),
+        cmocka_unit_test(questions_change_nothing),
     };
     return cmocka_run_group_tests_name("mixed", tests, NULL, NULL);
 }

@@ -1,5 +1,6 @@
 // test_scene_record.c - every shipped scene, recorded with its handlers running: the replay gives the same
 // bits at every step, forwards, after seeking, backwards, at every SIMD width and with threads.
+#include "harness/random.h"
 #include "harness/recording.h"
 #include "scene/scene.h"
 
@@ -99,8 +100,7 @@ static void seek_about(const run *r)
     plumb_replay *replay = open_run(r, NULL);
     uint32_t seed = 5;
     for (int i = 0; i < SEEKS; ++i) {
-        seed = seed * 1664525u + 1013904223u;
-        int to = (int)((seed >> 16) % (uint32_t)(r->steps + 1));
+        int to = (int)(sim_random(&seed) % (uint32_t)(r->steps + 1));
         check_result(replay, plumb_replay_seek(replay, (uint64_t)to));
         check_at(replay, r, to);
     }

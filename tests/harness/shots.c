@@ -1,5 +1,6 @@
 // shots.c - see shots.h. Reads: a shot. Writes: a world of its own. An engine that refuses a shape
 // ends the program: a shot that is not fired must not count as one that was stopped.
+#include "harness/random.h"
 #include "harness/shots.h"
 
 #include <math.h>
@@ -25,19 +26,9 @@ struct outline {
     int count;
 };
 
-static double uniform(unsigned *seed, double low, double high)
-{
-    unsigned s = *seed;
-    s ^= s << 13;
-    s ^= s >> 17;
-    s ^= s << 5;
-    *seed = s;
-    return low + (high - low) * (s / 4294967296.0);
-}
-
 static double log_uniform(unsigned *seed, double low, double high)
 {
-    return low * pow(high / low, uniform(seed, 0, 1));
+    return low * pow(high / low, sim_uniform(seed, 0, 1));
 }
 
 struct shot shot_random(unsigned *seed, enum shot_wall wall, double thickness, enum shot_body body,
@@ -45,14 +36,14 @@ struct shot shot_random(unsigned *seed, enum shot_wall wall, double thickness, e
 {
     struct shot s = { .wall = wall, .body = body, .dt = 1 / 60.0, .steps = 20 };
     s.thickness = wall == SHOT_BOXES ? thickness : 0;
-    s.turned = uniform(seed, -PI, PI);
+    s.turned = sim_uniform(seed, -PI, PI);
     s.size = log_uniform(seed, 0.05, 0.5);
-    s.angle = uniform(seed, -PI, PI);
+    s.angle = sim_uniform(seed, -PI, PI);
     s.clear = log_uniform(seed, 0.001, 10);
     s.speed = log_uniform(seed, 10, fastest);
-    s.incidence = uniform(seed, -89, 89) * PI / 180;
-    s.spin = uniform(seed, 0, 5) < 1 ? 0 : log_uniform(seed, 1, 1000);
-    s.spin *= uniform(seed, -1, 1) < 0 ? -1 : 1;
+    s.incidence = sim_uniform(seed, -89, 89) * PI / 180;
+    s.spin = sim_uniform(seed, 0, 5) < 1 ? 0 : log_uniform(seed, 1, 1000);
+    s.spin *= sim_uniform(seed, -1, 1) < 0 ? -1 : 1;
     return s;
 }
 

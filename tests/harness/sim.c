@@ -189,20 +189,6 @@ double sim_normal_force(const plumb_world *w, plumb_body a, plumb_body b, double
     return impulse * plumb_world_settings(w).substeps / dt;
 }
 
-unsigned sim_random(unsigned *state)
-{
-    unsigned s = *state;
-    s ^= s << 13;
-    s ^= s >> 17;
-    s ^= s << 5;
-    return *state = s;
-}
-
-double sim_uniform(unsigned *state, double low, double high)
-{
-    return low + (high - low) * (sim_random(state) / 4294967296.0);
-}
-
 double sim_order(const double *error, int count)
 {
     double sx = 0, sy = 0, sxx = 0, sxy = 0;

@@ -11,6 +11,7 @@
 #ifndef HARNESS_SIM_H
 #define HARNESS_SIM_H
 
+#include "harness/random.h"
 #include "plumb/plumb.h"
 
 #define SIM_PI 3.14159265358979323846
@@ -63,10 +64,6 @@ double sim_energy(const plumb_world *w);
 double sim_max_speed(plumb_world *w);
 /// [N] force between two bodies along their normals: impulse of the last substep over its length.
 double sim_normal_force(const plumb_world *w, plumb_body a, plumb_body b, double dt);
-
-/// xorshift32 (Marsaglia 2003): next number, and uniform in [low, high).
-unsigned sim_random(unsigned *state);
-double sim_uniform(unsigned *state, double low, double high);
 
 /// Order of convergence: least-squares slope of log error over log h, where h halves from one
 /// row to the next.

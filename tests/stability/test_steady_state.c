@@ -1,7 +1,7 @@
 // test_steady_state.c - busy worlds at work, with an allocator that counts: steps that the
 // tables have room for allocate nothing, whatever comes, goes, sleeps and wakes. The same steps are taken
 // twice, from a snapshot: the second time there has been a need for all that they need.
-#include "plumb/plumb.h"
+#include "harness/heap.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -15,20 +15,6 @@
 #define R(x) ((plumb_real)(x))
 #define DT   ((plumb_real)(1.0 / 60))
 
-static void *counting(void *context, void *memory, size_t old_size, size_t new_size)
-{
-    void *fresh = NULL;
-    if (new_size > 0) {
-        ++*(long *)context;
-        fresh = aligned_alloc(64, (new_size + 63) / 64 * 64);
-        if (memory != NULL && fresh != NULL) {
-            memcpy(fresh, memory, old_size < new_size ? old_size : new_size);
-        }
-    }
-    free(memory);
-    return fresh;
-}
-
 typedef struct busy {
     plumb_world *world;
     plumb_random dice;
@@ -38,17 +24,17 @@ typedef struct busy {
 
 static busy begin(plumb_world_desc desc)
 {
-    static long calls;
-    calls = 0;
+    static heap memory;
+    memory = (heap)HEAP_INIT;
     busy b = { .dice = plumb_random_stream(3, 0) };
-    desc.allocator = (plumb_allocator){ counting, &calls };
+    desc.allocator = heap_allocator(&memory);
     assert_int_equal(plumb_world_create(&desc, &b.world), PLUMB_OK);
     return b;
 }
 
 static long asked(const busy *b)
 {
-    return *(const long *)plumb_world_settings(b->world).allocator.context;
+    return ((const heap *)plumb_world_settings(b->world).allocator.context)->calls;
 }
 
 static void wall(const busy *b, plumb_body body, double x, double y, double half_x, double half_y)

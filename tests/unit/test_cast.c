@@ -11,6 +11,7 @@
 
 #include <cmocka.h>
 
+#include "harness/random.h"
 #include "plumb/plumb.h"
 #include "query/sweep.h"
 
@@ -23,10 +24,7 @@ static uint32_t random_state;
 
 static double uniform(double low, double high)
 {
-    random_state ^= random_state << 13; // xorshift32 (Marsaglia 2003)
-    random_state ^= random_state >> 17;
-    random_state ^= random_state << 5;
-    return low + (high - low) * (random_state / 4294967295.0);
+    return sim_uniform(&random_state, low, high);
 }
 
 static plumb_transform random_place(double reach)

@@ -1,5 +1,6 @@
 // test_component.c - the sparse sets behind user components: against a plain array under random
 // changes, hooks in order, values that move.
+#include "harness/random.h"
 #include "ecs/component.h"
 #include "plumb/plumb.h"
 
@@ -12,12 +13,6 @@
 
 #define ENTITIES 40
 #define ROUNDS   20000
-
-static uint32_t next_random(uint32_t *seed)
-{
-    *seed = *seed * 1664525u + 1013904223u; // Numerical Recipes' linear congruential generator
-    return *seed >> 8;
-}
 
 static void a_set_behaves_as_a_plain_array(void **state)
 {
@@ -34,11 +29,11 @@ static void a_set_behaves_as_a_plain_array(void **state)
     }
     uint32_t seed = 12345;
     for (int round = 0; round < ROUNDS; ++round) {
-        uint32_t i = next_random(&seed) % ENTITIES;
-        switch (next_random(&seed) % 4) {
+        uint32_t i = sim_random(&seed) % ENTITIES;
+        switch (sim_random(&seed) % 4) {
         case 0:
         case 1:
-            value[i] = next_random(&seed);
+            value[i] = sim_random(&seed);
             has[i] = true;
             assert_int_equal(plumb_component_set(w, entity[i], c, &value[i]), PLUMB_OK);
             break;

@@ -11,6 +11,8 @@
 
 #include <cmocka.h>
 
+#include "harness/heap.h"
+#include "harness/random.h"
 #include "broad/grid.h"
 #include "query/walk.h"
 
@@ -20,10 +22,7 @@ static uint32_t random_state;
 
 static double uniform(double low, double high)
 {
-    random_state ^= random_state << 13; // xorshift32 (Marsaglia 2003)
-    random_state ^= random_state >> 17;
-    random_state ^= random_state << 5;
-    return low + (high - low) * (random_state / 4294967295.0);
+    return sim_uniform(&random_state, low, high);
 }
 
 // Sizes and distances of many orders of magnitude.
@@ -406,24 +405,6 @@ static void test_order(void **state)
     teardown(b);
 }
 
-typedef struct miser {
-    size_t left; // bytes
-} miser;
-
-static void *miser_resize(void *context, void *memory, size_t old_size, size_t new_size)
-{
-    miser *m = context;
-    if (new_size > m->left + old_size) {
-        return NULL;
-    }
-    m->left = m->left + old_size - new_size;
-    if (new_size == 0) {
-        free(memory);
-        return NULL;
-    }
-    return realloc(memory, new_size);
-}
-
 static void test_no_memory(void **state)
 {
     (void)state;
@@ -431,17 +412,17 @@ static void test_no_memory(void **state)
     while (b->count < 200) {
         add_box(b, uniform(-50, 50), uniform(-50, 50), 1, 1);
     }
-    miser m = { 0 };
-    pl_memory_init(&b->memory, &(plumb_allocator){ miser_resize, &m });
+    heap h = { .fail_at = -1, .limit = 1 };
+    const plumb_allocator hooks = heap_allocator(&h);
+    pl_memory_init(&b->memory, &hooks);
     int refused = 0;
-    for (m.left = 0; !pl_grid_build(&b->memory, &b->grid, b->pieces, b->count, b->fat);
-         m.left += 512) {
+    for (; !pl_grid_build(&b->memory, &b->grid, b->pieces, b->count, b->fat); h.limit += 512) {
         ++refused;
         assert_int_equal(b->grid.level_count, 0);
         assert_int_equal(b->grid.entry_count, 0);
     }
     assert_true(refused > 3);
-    for (m.left = 0; !pl_grid_make_maps(&b->memory, &b->grid); m.left += 512) {
+    for (; !pl_grid_make_maps(&b->memory, &b->grid); h.limit += 512) {
         ++refused;
         assert_false(b->grid.mapped);
     }

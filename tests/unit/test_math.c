@@ -8,6 +8,7 @@
 
 #include <cmocka.h>
 
+#include "harness/random.h"
 #include "plumb/math.h"
 #include "plumb/matrix.h"
 
@@ -34,13 +35,9 @@ static void near_at(double a, double b, double tolerance, int line)
 
 static uint32_t random_state;
 
-// Uniform in [low, high]; xorshift32 (Marsaglia 2003).
 static plumb_real uniform(double low, double high)
 {
-    random_state ^= random_state << 13;
-    random_state ^= random_state >> 17;
-    random_state ^= random_state << 5;
-    return (plumb_real)(low + (high - low) * (random_state / 4294967295.0));
+    return (plumb_real)sim_uniform(&random_state, low, high);
 }
 
 static plumb_vec2 random_vector(void)

@@ -1,6 +1,7 @@
 // test_rows.c - body rows and pieces under random creation and destruction, against a model that
 // knows nothing but a list of bodies: partitions, handles, lists, counters and poses agree after
 // every change.
+#include "harness/random.h"
 #include "plumb/plumb.h"
 #include "world/rows.h"
 
@@ -33,8 +34,7 @@ typedef struct model {
 
 static uint32_t choose(model *m, uint32_t below)
 {
-    m->seed = m->seed * 1664525u + 1013904223u;
-    return (m->seed >> 8) % below;
+    return sim_random(&m->seed) % below;
 }
 
 //---- changes

@@ -1,5 +1,6 @@
 // test_sleep.c - islands against brute force on random graphs; the books of sleeping (rows, lists,
 // islands, contacts, grid) under random changes; and that no pass visits what sleeps.
+#include "harness/random.h"
 #include "plumb/plumb.h"
 #include "world/rows.h"
 
@@ -16,8 +17,7 @@ static const plumb_real dt = R(1.0 / 60);
 
 static uint32_t choose(uint32_t *seed, uint32_t below)
 {
-    *seed = *seed * 1664525u + 1013904223u;
-    return (*seed >> 8) % below;
+    return sim_random(seed) % below;
 }
 
 static plumb_body disc_at(plumb_world *w, plumb_body_type type, double x, double y)
@@ -404,7 +404,7 @@ static void books_are_kept_under_random_changes(void **state)
     plumb_body ground =
         plumb_body_create(c.w, &(plumb_body_desc){ .type = PLUMB_STATIC, .position = { 0, -1 } });
     plumb_shape_create(c.w, ground, &(plumb_shape_desc){ .kind = PLUMB_BOX, .half = { 20, 1 } });
-    for (int round = 0; round < 6000; ++round) {
+    for (int round = 0; round < 8000; ++round) {
         if (c.count < 4 || choose(&c.seed, 12) == 0) {
             add_one(&c);
         } else if (choose(&c.seed, 6) == 0) {

@@ -5,15 +5,10 @@
 #include <stdint.h>
 #include <cmocka.h>
 
+#include "harness/random.h"
 #include "core/sort.h"
 
 #define MOST 300
-
-static uint32_t next(uint32_t *seed)
-{
-    *seed = *seed * UINT32_C(1664525) + UINT32_C(1013904223);
-    return *seed >> 8;
-}
 
 static void sorted_by_key_then_order(void **state)
 {
@@ -23,7 +18,7 @@ static void sorted_by_key_then_order(void **state)
         pl_keyed items[MOST];
         uint64_t sum = 0;
         for (uint32_t i = 0; i < count; ++i) {
-            items[i] = (pl_keyed){ pl_key(next(&seed) % 4, next(&seed) % 8), i, next(&seed) };
+            items[i] = (pl_keyed){ pl_key(sim_random(&seed) % 4, sim_random(&seed) % 8), i, sim_random(&seed) };
             sum += items[i].key * 31 + items[i].value;
         }
         pl_sort_keyed(items, count);

@@ -12,25 +12,18 @@
 
 #include <cmocka.h>
 
+#include "harness/random.h"
 #include "plumb/math.h"
 
 #define SAMPLES 400000
 
 static uint32_t random_state;
 
-static uint32_t next_random(void)
-{
-    random_state ^= random_state << 13; // xorshift32 (Marsaglia 2003)
-    random_state ^= random_state >> 17;
-    random_state ^= random_state << 5;
-    return random_state;
-}
-
 // Uniform in [-1, 1] with all bits of a double in use.
 static double uniform(void)
 {
-    double high = next_random();
-    return (high + next_random() / 4294967296.0) / 2147483648.0 - 1;
+    double high = sim_random(&random_state);
+    return (high + sim_random(&random_state) / 4294967296.0) / 2147483648.0 - 1;
 }
 
 static int seed(void **state)

@@ -1,5 +1,6 @@
 // test_wrap.c - a world that wraps around against one without an end in which everything stands many times: pairs,
 // rays, casts, overlaps, nearest shapes; and shifts by whole periods.
+#include "harness/random.h"
 #include "plumb/plumb.h"
 #include "world/wrap.h"
 
@@ -17,12 +18,6 @@
 #define PERIOD_Y 10.0
 #define COPIES   2 // to either side
 #define SHAPES   40
-
-static double random_in(uint32_t *seed, double low, double high)
-{
-    *seed = *seed * 1664525u + 1013904223u;
-    return low + (high - low) * (*seed >> 8) / 16777216.0;
-}
 
 typedef struct pair_of_worlds {
     plumb_world *wrapped, *plain;
@@ -44,9 +39,9 @@ static plumb_shape put(plumb_world *w, plumb_vec2 at, plumb_real angle, int i,
 // Shapes of all kinds, off their bodies' origins too.
 static plumb_shape_desc some_shape(uint32_t *seed, plumb_vec2 points[4])
 {
-    double size = random_in(seed, 0.05, 0.7);
-    double ox = random_in(seed, -1, 1), oy = random_in(seed, -1, 1);
-    switch ((int)random_in(seed, 0, 4)) {
+    double size = sim_uniform(seed, 0.05, 0.7);
+    double ox = sim_uniform(seed, -1, 1), oy = sim_uniform(seed, -1, 1);
+    switch ((int)sim_uniform(seed, 0, 4)) {
     case 0:
         return (plumb_shape_desc){ .kind = PLUMB_CIRCLE,
                                    .radius = R(size),
@@ -81,8 +76,8 @@ static void make_worlds(pair_of_worlds *p, uint32_t *seed, bool along_x, bool al
     for (int i = 0; i < SHAPES; ++i) {
         plumb_vec2 points[4];
         plumb_shape_desc shape = some_shape(seed, points);
-        double x = random_in(seed, -8, 8), y = random_in(seed, -5, 5);
-        plumb_real angle = R(random_in(seed, -3, 3));
+        double x = sim_uniform(seed, -8, 8), y = sim_uniform(seed, -5, 5);
+        plumb_real angle = R(sim_uniform(seed, -3, 3));
         put(p->wrapped, plumb_v2(R(x), R(y)), angle, i, &shape);
         for (int kx = -COPIES; kx <= COPIES; ++kx) {
             for (int ky = -COPIES; ky <= COPIES; ++ky) {
@@ -108,7 +103,7 @@ static uint64_t bit_of(const plumb_world *w, plumb_shape shape)
 
 static plumb_vec2 some_point(uint32_t *seed)
 {
-    return plumb_v2(R(random_in(seed, -8, 8)), R(random_in(seed, -5, 5)));
+    return plumb_v2(R(sim_uniform(seed, -8, 8)), R(sim_uniform(seed, -5, 5)));
 }
 
 // Float coordinates to 40 m: what both worlds make of them differs by so much.
@@ -130,7 +125,7 @@ static void each_way(void (*check)(pair_of_worlds *p, uint32_t *seed))
 static void check_ray(pair_of_worlds *p, uint32_t *seed)
 {
     plumb_vec2 from = some_point(seed);
-    plumb_vec2 to = { from.x + R(random_in(seed, -20, 20)), from.y + R(random_in(seed, -12, 12)) };
+    plumb_vec2 to = { from.x + R(sim_uniform(seed, -20, 20)), from.y + R(sim_uniform(seed, -12, 12)) };
     plumb_ray_hit a, b;
     bool met_a = plumb_world_ray(p->wrapped, from, to, NULL, &a);
     bool met_b = plumb_world_ray(p->plain, from, to, NULL, &b);
@@ -167,8 +162,8 @@ static void check_cast(pair_of_worlds *p, uint32_t *seed)
     plumb_convex_box(plumb_v2(R(0.3), R(0.2)), plumb_v2(0, 0), R(0.3), R(0.05), &box);
     plumb_cast cast = { .convex = &box,
                         .transform = { some_point(seed), { 1, 0 } },
-                        .translation = { R(random_in(seed, -20, 20)),
-                                         R(random_in(seed, -12, 12)) } };
+                        .translation = { R(sim_uniform(seed, -20, 20)),
+                                         R(sim_uniform(seed, -12, 12)) } };
     plumb_cast_hit a, b;
     bool met_a = plumb_world_cast(p->wrapped, &cast, NULL, &a);
     bool met_b = plumb_world_cast(p->plain, &cast, NULL, &b);
@@ -199,7 +194,7 @@ static void check_overlap(pair_of_worlds *p, uint32_t *seed)
 {
     plumb_shape a[SHAPES], b[SHAPES * 25];
     plumb_vec2 at = some_point(seed);
-    plumb_real w = R(random_in(seed, 0, 3)), h = R(random_in(seed, 0, 3));
+    plumb_real w = R(sim_uniform(seed, 0, 3)), h = R(sim_uniform(seed, 0, 3));
     plumb_aabb box = { { at.x - w, at.y - h }, { at.x + w, at.y + h } };
     int count = plumb_world_overlap_aabb(p->wrapped, box, NULL, a, SHAPES);
     int plain = plumb_world_overlap_aabb(p->plain, box, NULL, b, SHAPES * 25);
@@ -235,7 +230,7 @@ static void check_nearest(pair_of_worlds *p, uint32_t *seed)
     double dx = (double)(a.point.x - far.x), dy = (double)(a.point.y - far.y);
     assert_float_equal((float)sqrt(dx * dx + dy * dy), (float)fabs((double)b.distance), NEAR);
     plumb_nearest_hit some[SHAPES], many[SHAPES * 25];
-    plumb_real reach = R(random_in(seed, 0.1, 4));
+    plumb_real reach = R(sim_uniform(seed, 0.1, 4));
     int count = plumb_world_nearest_all(p->wrapped, at, reach, NULL, some, SHAPES);
     int plain = plumb_world_nearest_all(p->plain, at, reach, NULL, many, SHAPES * 25);
     uint64_t in_a = 0, in_b = 0;
@@ -286,7 +281,7 @@ static void every_pair_over_the_edge_once(void **state)
                 w, &(plumb_body_desc){
                        .type = (plumb_body_type)(i % 3),
                        .position = some_point(&seed),
-                       .velocity = { R(random_in(&seed, -5, 5)), R(random_in(&seed, -5, 5)) } });
+                       .velocity = { R(sim_uniform(&seed, -5, 5)), R(sim_uniform(&seed, -5, 5)) } });
             if (i % 3 == (int)PLUMB_STATIC) {
                 plumb_body_set_velocity(w, body, plumb_v2(0, 0));
             }

@@ -66,7 +66,7 @@ $(O)/box2d3.o: tests/harness/engine_box2d3.c $(O)/flags | $(DEPS_FIRST)
 	@echo "  CC    $@"
 	$(Q)$(CC) $(COMMON) $(CFLAGS) -isystem $(BOX2D3)/include -c $< -o $@
 
-BENCH_OBJ := $(call objects,float,$(BENCH_SRC) $(HARNESS_SRC) tests/harness/engine_plumb.c) \
+BENCH_OBJ := $(call objects,float,$(BENCH_SRC) tests/harness/engine_plumb.c) \
 	$(O)/box2d2.o $(if $(BOX2D3),$(O)/box2d3.o)
 $(O)/float/tests/bench/%.o: OWN_FLAGS := $(if $(BOX2D3),-DBENCH_BOX2D3)
 $(O)/bench: $(BENCH_OBJ) $(O)/libplumb.a

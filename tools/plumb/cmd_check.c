@@ -82,7 +82,7 @@ static int simulate(scene_run *run, progress *bar)
 static void print_verbose(const scene_run *run, const char *path)
 {
     char solver[16] = "";
-    engine_stats stats = run->engine->stats(run->session);
+    engine_stats stats = run->engine->stats(run->stage);
     (void)cli_member(ENGINE_SOLVERS, run->info.solver, solver, sizeof solver);
     printf(
         "note  %s: %lld steps of %.6g s, %s, %d substeps, %s; at the end %u bodies, %u contacts, "

@@ -265,6 +265,7 @@ static const cli_option options[] = {
     SCENE_OPTION_DT(cost_args, scene),
     SCENE_OPTION_ITERATIONS(cost_args, scene),
     SCENE_OPTION_WIDTH(cost_args, scene),
+    SCENE_OPTION_WORKERS(cost_args, scene),
     SCENE_OPTION_SET(cost_args, scene),
     SCENE_OPTION_QUIET(cost_args, scene),
 };

@@ -28,7 +28,7 @@ static int longest(const engine_pass *list, int count)
 static void print_settings(const scene_run *run, const char *path)
 {
     char solver[16] = "";
-    engine_stats s = run->engine->stats(run->session);
+    engine_stats s = run->engine->stats(run->stage);
     (void)cli_member(ENGINE_SOLVERS, run->info.solver, solver, sizeof solver);
     printf("%s (%s)\n", run->info.name, path);
     printf("  %s solver, %d substep%s, %d sweep%s, steps of %.6g s, %s, %d lanes\n", solver,
@@ -132,7 +132,7 @@ static int explain_command(const cli_command *command, int argc, char **argv)
         code = scene_run_step(&run, &bar);
     }
     progress_end(&bar);
-    run.steps = (long long)run.engine->stats(run.session).step_count; // the scene may end itself
+    run.steps = (long long)run.engine->stats(run.stage).step_count; // the scene may end itself
     if (code == CLI_OK && !cli_interrupted()) {
         print_settings(&run, operands.items[0]);
         code = print_schedule(&args, &run);
@@ -151,6 +151,7 @@ static const cli_option options[] = {
     SCENE_OPTION_ITERATIONS(explain_args, scene),
     SCENE_OPTION_SOLVER(explain_args, scene),
     SCENE_OPTION_WIDTH(explain_args, scene),
+    SCENE_OPTION_WORKERS(explain_args, scene),
     SCENE_OPTION_PRECISION(explain_args, scene),
     SCENE_OPTION_SET(explain_args, scene),
     SCENE_OPTION_QUIET(explain_args, scene),

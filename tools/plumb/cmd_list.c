@@ -3,6 +3,7 @@
 ///
 /// Writes stdout, the same on every run.
 #include "commands.h"
+#include "film.h"
 #include "scene_args.h"
 
 #include <string.h>
@@ -87,8 +88,8 @@ static void print_scene(const char *topic, bool brief)
 static void print_overlays(void)
 {
     const char *name;
-    printf("overlays of render:\n");
-    for (int i = 0; (name = cmd_render_overlay(i)) != NULL; i++) {
+    printf("overlays of pictures:\n");
+    for (int i = 0; (name = film_overlay(i)) != NULL; i++) {
         printf("  %s\n", name);
     }
 }

@@ -1,10 +1,13 @@
-/// cmd_replay.c - `plumb replay`: a recording in, a table of where everything was, or what was done, out.
+/// cmd_replay.c - `plumb replay`: a recording in, a table of where everything was, what was done, or
+/// pictures out.
 ///
-/// Reads the recording, writes CSV, JSON lines or text. Each step is verified against what was recorded.
+/// Reads the recording, writes CSV, JSON lines or text, or lets film.c draw. Each step is verified against what was recorded.
+#include "film.h"
 #include "recording.h"
 #include "scene_args.h"
 #include "table.h"
 
+#include <math.h>
 #include <string.h>
 
 typedef struct replay_args {
@@ -15,6 +18,7 @@ typedef struct replay_args {
     double seek;      ///< [s] < 0: not given
     double step;      ///< < 0: not given
     bool list, info;
+    film_args film;   ///< pictures instead, if `film.output` is given
     scene_args scene; ///< `quiet` alone
     int width;
 } replay_args;
@@ -26,7 +30,8 @@ static int print_rows(const replay_args *args, recording *r, FILE *file, bool *f
 {
     const engine_row *rows;
     double time = r->engine->replay_info(r->replay).time;
-    int count = r->engine->replay_rows(r->replay, &rows);
+    engine_stage *stage = r->engine->replay_stage(r->replay);
+    int count = stage != NULL ? r->engine->rows(stage, &rows) : -1;
     for (int i = 0; i < count; i++) {
         if (args->only == NULL || strcmp(args->only, rows[i].name) == 0) {
             table_print_row(file, args->format, r->engine->is_float, time, &rows[i]);
@@ -71,6 +76,17 @@ static void print_info(const recording *r, FILE *file)
             info.complete ? "yes" : "no: it breaks off after its last step");
 }
 
+static int tell_unknown(const replay_args *args, recording *r)
+{
+    engine_stage *stage = r->engine->replay_stage(r->replay);
+    if (stage == NULL) {
+        cli_message("out of memory");
+        return CLI_FAILED;
+    }
+    const engine_scenery of = { r->engine, stage, r->engine->info(stage) };
+    return scene_unknown_body(&of, "body", args->only);
+}
+
 /// From `first` to `last` step.
 static int play(const replay_args *args, const table_sampling *every, recording *r,
                 unsigned long long first, unsigned long long last, FILE *file)
@@ -104,10 +120,90 @@ static int play(const replay_args *args, const table_sampling *every, recording 
     }
     progress_end(&bar);
     if (code == CLI_OK && !found && args->only != NULL && !args->list && !cli_interrupted()) {
-        cli_message("option --body: no body of '%s' is named '%.80s'", info.title, args->only);
-        code = CLI_USAGE;
+        code = tell_unknown(args, r);
     }
     return code;
+}
+
+// -------------------------------------------------------------------------------------- pictures
+
+/// [s] Half a mean step: sums of float steps are a little off the times that people ask for.
+static double half_step(const recording *r)
+{
+    engine_replay_info info = r->engine->replay_info(r->replay);
+    return info.steps > 0 ? (info.end - info.start) / (double)info.steps / 2 : 0;
+}
+
+static long long find(const film_source *source, double time)
+{
+    const recording *r = source->context;
+    return (long long)r->engine->replay_find(r->replay, time + half_step(r));
+}
+
+static int go(film_source *source, long long to, progress *bar)
+{
+    const recording *r = source->context;
+    engine_error error = { 0 };
+    int code = r->engine->replay_seek(r->replay, (unsigned long long)to, &error);
+    if (code == CLI_OK) {
+        engine_stage *stage = r->engine->replay_stage(r->replay);
+        if (stage != NULL) {
+            source->seen.stage = stage;
+            source->step = to;
+            return CLI_OK;
+        }
+        error = (engine_error){ CLI_FAILED, "out of memory" };
+    }
+    progress_end(bar);
+    return scene_report(&error);
+}
+
+/// The picture of step `at`, or a film.
+static int render(const replay_args *args, recording *r, unsigned long long at)
+{
+    engine_replay_info info = r->engine->replay_info(r->replay);
+    engine_error error = { 0 };
+    double from = args->film.from >= 0 ? args->film.from : info.start;
+    film_source source = { .start = info.start,
+                           .end = info.end,
+                           .verb = "replaying",
+                           .quiet = args->scene.quiet,
+                           .context = r,
+                           .go = go,
+                           .find = find };
+    bool is_film = film_is_film(args->film.output);
+    source.step = is_film ? find(&source, from) : (long long)at;
+    int code = r->engine->replay_seek(r->replay, (unsigned long long)source.step, &error);
+    if (code != CLI_OK) {
+        return scene_report(&error);
+    }
+    engine_stage *stage = r->engine->replay_stage(r->replay);
+    if (stage == NULL) {
+        cli_message("out of memory");
+        return CLI_FAILED;
+    }
+    source.seen = (engine_scenery){ r->engine, stage, r->engine->info(stage) };
+    return film_shoot(&args->film, &source, r->engine->time(stage));
+}
+
+// --------------------------------------------------------------------------------- what is asked
+
+/// A moment that is to be in the recording.
+static int check_moment(const cli_command *command, const recording *r, const char *option,
+                        double time)
+{
+    engine_replay_info info = r->engine->replay_info(r->replay);
+    if (time > info.end + half_step(r)) {
+        cli_message("%s: option --%s: %.12g s is beyond the end, %.12g s", command->name, option,
+                    time, info.end);
+        return CLI_USAGE;
+    }
+    if (time >= 0 && time < info.start - half_step(r)) {
+        cli_message("%s: option --%s: %.12g s is before the beginning, %.12g s", command->name,
+                    option, time, info.start);
+        return CLI_USAGE;
+    }
+    return CLI_OK;
 }
 
 /// Which steps are asked for.
@@ -122,19 +218,55 @@ static int find_range(const cli_command *command, const replay_args *args, const
                     args->step, info.steps);
         return CLI_USAGE;
     }
-    if (args->seek > info.end + info.dt) {
-        cli_message("%s: option --seek: %.12g s is beyond the end, %.12g s", command->name,
-                    args->seek, info.end);
-        return CLI_USAGE;
-    }
+    int code = check_moment(command, r, "seek", args->seek);
+    code = code == CLI_OK ? check_moment(command, r, "from", args->film.from) : code;
+    code = code == CLI_OK ? check_moment(command, r, "to", args->film.to) : code;
     if (args->step >= 0) {
         *first = *last = (unsigned long long)args->step;
     } else if (args->seek >= 0) {
-        // The nearest one: sums of float steps are a little off the times that people ask for.
-        double half = info.steps > 0 ? (info.end - info.start) / (double)info.steps / 2 : 0;
-        *first = *last = r->engine->replay_find(r->replay, args->seek + half);
+        *first = *last = r->engine->replay_find(r->replay, args->seek + half_step(r));
     }
-    return CLI_OK;
+    return code;
+}
+
+/// What belongs to pictures only, and what to anything else.
+static int check_render(const cli_command *command, replay_args *args)
+{
+    const film_args *film = &args->film;
+    const struct {
+        const char *name;
+        bool given;
+    } of_pictures[] = { { "size", film->size.width > 0 }, { "from", film->from >= 0 },
+                        { "to", film->to >= 0 },          { "fps", film->fps > 0 },
+                        { "follow", film->follow },       { "zoom", film->zoom > 0 },
+                        { "overlay", film->overlay },     { "trail", film->trail >= 0 },
+                        { "title", film->title } },
+      of_text[] = { { "list", args->list },     { "info", args->info },
+                    { "output", args->output }, { "format", args->format >= 0 },
+                    { "every", args->every },   { "body", args->only } };
+    for (size_t i = 0; film->output == NULL && i < sizeof of_pictures / sizeof *of_pictures; i++) {
+        if (of_pictures[i].given) {
+            cli_message("%s: option --%s: is for pictures; --render FILE makes them", command->name,
+                        of_pictures[i].name);
+            return CLI_USAGE;
+        }
+    }
+    for (size_t i = 0; film->output != NULL && i < sizeof of_text / sizeof *of_text; i++) {
+        if (of_text[i].given) {
+            cli_message("%s: option --%s: is for text; --render makes pictures", command->name,
+                        of_text[i].name);
+            return CLI_USAGE;
+        }
+    }
+    if (film->output == NULL) {
+        return CLI_OK;
+    }
+    if (film_is_film(film->output) && (args->seek >= 0 || args->step >= 0)) {
+        cli_message("%s: option --%s: is for one picture; a film has --from and --to",
+                    command->name, args->seek >= 0 ? "seek" : "step");
+        return CLI_USAGE;
+    }
+    return film_args_check(command, &args->film);
 }
 
 static int check_args(const cli_command *command, const replay_args *args)
@@ -155,17 +287,35 @@ static int check_args(const cli_command *command, const replay_args *args)
     return CLI_OK;
 }
 
+/// Prints what is asked for.
+static int print(const replay_args *args, const table_sampling *every, recording *r,
+                 unsigned long long first, unsigned long long last)
+{
+    cli_output out;
+    int code = cli_output_open(&out, args->output);
+    if (code != CLI_OK) {
+        return code;
+    }
+    if (args->info) {
+        print_info(r, out.file);
+    } else {
+        code = play(args, every, r, first, last, out.file);
+    }
+    int closed = cli_output_close(&out, code == CLI_OK || code == CLI_DIFFERS);
+    return code == CLI_OK ? closed : code;
+}
+
 static int replay_command(const cli_command *command, int argc, char **argv)
 {
-    replay_args args = { .format = -1, .seek = -1, .step = -1 };
+    replay_args args = { .format = -1, .seek = -1, .step = -1, .film = FILM_ARGS_INIT };
     cli_operands operands;
     table_sampling every;
     recording r;
-    cli_output out;
     unsigned long long first, last;
 
     int code = cli_parse(command, argc, argv, &args, &operands);
     code = code == CLI_OK ? check_args(command, &args) : code;
+    code = code == CLI_OK ? check_render(command, &args) : code;
     if (code == CLI_OK && !args.list && !args.info) {
         code = table_read_format(command, args.output, &args.format);
     }
@@ -175,15 +325,9 @@ static int replay_command(const cli_command *command, int argc, char **argv)
         return code;
     }
     code = find_range(command, &args, &r, &first, &last);
-    code = code == CLI_OK ? cli_output_open(&out, args.output) : code;
     if (code == CLI_OK) {
-        if (args.info) {
-            print_info(&r, out.file);
-        } else {
-            code = play(&args, &every, &r, first, last, out.file);
-        }
-        int closed = cli_output_close(&out, code == CLI_OK || code == CLI_DIFFERS);
-        code = code == CLI_OK ? closed : code;
+        code = args.film.output != NULL ? render(&args, &r, last)
+                                        : print(&args, &every, &r, first, last);
     }
     recording_close(&r);
     return code;
@@ -209,22 +353,29 @@ static const cli_option options[] = {
     { "width", 0, CLI_INT, offsetof(replay_args, width), "N", 0, 16, NULL,
       "SIMD lanes: 4, 8 or 16; 0 takes the best measured (default). Changes the speed, "
       "not a bit of the result" },
+    { "render", 0, CLI_TEXT, offsetof(replay_args, film.output), "FILE", 0, 0, NULL,
+      "draw instead: picture.png (of the end, or of --seek or --step), frame%04d.png (one file a "
+      "picture), film.gif or film.mp4 (needs ffmpeg)" },
+    FILM_OPTIONS(replay_args, film),
     SCENE_OPTION_QUIET(replay_args, scene),
 };
 
 const cli_command cmd_replay = {
     .name = "replay",
-    .summary = "runs a recording again and prints where every body is, or what was done",
+    .summary = "runs a recording again: prints where bodies are, what was done, or draws",
     .operands = "RECORDING",
     .text =
         "Replays what `plumb run --record` or a program with plumb_recorder_start wrote, without "
         "the scene, and verifies that every step gives the bits that were recorded (exit code 6 "
         "where one does not). Prints the table of `plumb run`, bodies in the order of their "
         "handles. Rows are the state right after a step; what handlers of the scene change then "
-        "is in the next one.",
+        "is in the next one. With --render it draws as `plumb render` does; colours and the camera "
+        "of the scene are not in a recording, so the camera shows all that moves.",
     .examples = "plumb replay pong.rec --seek 12.5\n"
                 "plumb replay pong.rec --list --every 60\n"
-                "plumb replay pong.rec --body ball -o ball.csv",
+                "plumb replay pong.rec --body ball -o ball.csv\n"
+                "plumb replay pong.rec --render pong.png --seek 12.5 --trail 1\n"
+                "plumb replay pong.rec --render pong.mp4 --from 10 --to 15",
     .options = options,
     .option_count = (int)(sizeof options / sizeof options[0]),
     .operand_min = 1,

@@ -22,9 +22,9 @@ typedef struct run_args {
 /// may be one that the scene's code makes later.
 static int print_rows(const run_args *args, scene_run *run, FILE *file, bool *begun)
 {
-    double time = run->engine->time(run->session);
+    double time = run->engine->time(run->stage);
     const engine_row *rows;
-    int count = run->engine->rows(run->session, &rows);
+    int count = run->engine->rows(run->stage, &rows);
     if (count < 0) {
         cli_message("out of memory");
         return CLI_FAILED;
@@ -64,7 +64,8 @@ static int simulate(const run_args *args, const table_sampling *every, scene_run
     }
     progress_end(&bar);
     if (code == CLI_OK && !begun && !cli_interrupted()) {
-        code = scene_unknown_body(run, "body", args->only);
+        const engine_scenery of = { run->engine, run->stage, run->info };
+        code = scene_unknown_body(&of, "body", args->only);
     }
     return code;
 }

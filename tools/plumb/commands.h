@@ -7,7 +7,4 @@
 extern const cli_command cmd_run, cmd_render, cmd_check, cmd_explain, cmd_cost, cmd_convert,
     cmd_list, cmd_replay, cmd_diff;
 
-/// Name of an overlay that `render` knows, NULL past the last.
-const char *cmd_render_overlay(int index);
-
 #endif

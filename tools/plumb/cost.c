@@ -50,7 +50,7 @@ void cost_track_free(cost_track *track)
 static bool track_add(cost_track *track, const scene_run *run)
 {
     const engine_row *rows;
-    int count = run->engine->rows(run->session, &rows);
+    int count = run->engine->rows(run->stage, &rows);
     if (count < 0) {
         return false;
     }
@@ -156,7 +156,7 @@ static int follow(cost_plan *plan, scene_run *run, long long sample, int substep
         }
         if (row != NULL) {
             row->penetration =
-                fmax(row->penetration, run->engine->stats(run->session).max_penetration);
+                fmax(row->penetration, run->engine->stats(run->stage).max_penetration);
         }
         if (step % sample == 0 || step == run->steps) {
             if (track != NULL && !track_add(track, run)) {

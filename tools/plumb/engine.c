@@ -28,7 +28,7 @@ int pl_session_fail_scene(const engine_session *session, const scene_error *from
     if (from->code == SCENE_E_SET || strcmp(from->file, "--set") == 0) {
         code = CLI_USAGE;
     } else if (from->code == SCENE_E_WORLD && session != NULL) {
-        plumb_result why = plumb_world_error(session->world).code;
+        plumb_result why = plumb_world_error(session->stage.world).code;
         code = why == PLUMB_E_NOT_FINITE ? CLI_DIVERGED : why == PLUMB_E_MEMORY ? CLI_FAILED : code;
     }
     return pl_session_fail(error, code, "%s", from->text);
@@ -38,7 +38,7 @@ int pl_session_fail_scene(const engine_session *session, const scene_error *from
 
 /// Settings of the command line become overrides of scene{}, after the user's own: a later one
 /// wins.
-enum { OVERRIDE_COUNT = 5, OVERRIDE_SIZE = 48 };
+enum { OVERRIDE_COUNT = 6, OVERRIDE_SIZE = 48 };
 
 static int write_overrides(const engine_settings *settings, char texts[][OVERRIDE_SIZE])
 {
@@ -58,6 +58,9 @@ static int write_overrides(const engine_settings *settings, char texts[][OVERRID
     }
     if (settings->width > 0) {
         snprintf(texts[count++], OVERRIDE_SIZE, "simd_width=%d", settings->width);
+    }
+    if (settings->workers > 0) {
+        snprintf(texts[count++], OVERRIDE_SIZE, "workers=%d", settings->workers);
     }
     return count;
 }
@@ -97,14 +100,15 @@ static engine_session *session_open(const engine_settings *settings, engine_erro
         pl_session_fail(error, CLI_FAILED, "out of memory");
         return NULL;
     }
-    if (load(settings, &session->scene, &from) != SCENE_OK) {
+    if (load(settings, &session->stage.scene, &from) != SCENE_OK) {
         pl_session_fail_scene(NULL, &from, error);
         free(session);
         return NULL;
     }
-    session->world = scene_world(session->scene);
-    session->info = scene_get_info(session->scene);
-    session->camera = scene_get_camera(session->scene);
+    engine_stage *stage = &session->stage;
+    stage->world = scene_world(stage->scene);
+    stage->info = scene_get_info(stage->scene);
+    stage->camera = scene_get_camera(stage->scene);
     return session;
 }
 
@@ -113,44 +117,18 @@ static void session_close(engine_session *session)
     if (session == NULL) {
         return;
     }
-    scene_destroy(session->scene);
-    free(session->rows);
+    scene_destroy(session->stage.scene);
+    pl_stage_close(&session->stage);
     free(session->expects);
     free(session->passes);
     free(session->pass_infos);
-    free(session->contacts);
-    free(session->shapes);
-    free(session->cells);
     free(session->named);
     free(session);
 }
 
-static engine_info session_info(const engine_session *session)
+static engine_stage *session_stage(engine_session *session)
 {
-    const scene_info *info = &session->info;
-    const scene_camera *camera = &session->camera;
-    return (engine_info){
-        .name = info->title,
-        .duration = info->duration,
-        .dt = info->dt,
-        .substeps = info->substeps,
-        .iterations = info->iterations,
-        .solver = info->solver == PLUMB_SOLVER_PGS ? 1 : 0,
-        .width = plumb_world_stats(session->world).simd_width,
-        .y_down = info->y_axis == PLUMB_Y_DOWN,
-        .wrap_x = (double)plumb_world_settings(session->world).wrap_x,
-        .wrap_y = (double)plumb_world_settings(session->world).wrap_y,
-        .exact_count = scene_exact_count(session->scene),
-        .camera = { .has_view = camera->has_view,
-                    .x = camera->center[0],
-                    .y = camera->center[1],
-                    .height = camera->height,
-                    .has_fit = camera->has_fit,
-                    .box = { camera->box[0], camera->box[1], camera->box[2], camera->box[3] },
-                    .follow = camera->follow != NULL ? camera->follow : "",
-                    .at = camera->has_at ? camera->at : -1,
-                    .trail = camera->trail },
-    };
+    return &session->stage;
 }
 
 // ------------------------------------------------------------------------------------- stepping
@@ -158,7 +136,7 @@ static engine_info session_info(const engine_session *session)
 static int session_step(engine_session *session, engine_error *error)
 {
     scene_error from = { 0 };
-    if (scene_step(session->scene, &from) != SCENE_OK) {
+    if (scene_step(session->stage.scene, &from) != SCENE_OK) {
         return pl_session_fail_scene(session, &from, error);
     }
     return session->recording ? pl_session_name(session, error) : CLI_OK;
@@ -166,13 +144,13 @@ static int session_step(engine_session *session, engine_error *error)
 
 static int session_check(engine_session *session, engine_error *error)
 {
-    uint32_t stopped = plumb_world_stats(session->world).arrested_count;
+    uint32_t stopped = plumb_world_stats(session->stage.world).arrested_count;
     if (stopped > 0) {
         return pl_session_fail(
             error, CLI_DIVERGED,
             "%s: diverged at %.6g s: %u %s stopped, for the step would have left "
             "it without a finite state",
-            session->info.title, scene_time(session->scene), stopped,
+            session->stage.info.title, scene_time(session->stage.scene), stopped,
             stopped == 1 ? "body was" : "bodies were");
     }
     return CLI_OK;
@@ -181,33 +159,23 @@ static int session_check(engine_session *session, engine_error *error)
 static bool session_ended(const engine_session *session)
 {
     // scene_done is also true once the duration is over; a run may go on after that.
-    return scene_done(session->scene) &&
-           scene_time(session->scene) < session->info.duration - session->info.dt / 2;
-}
-
-static double session_time(const engine_session *session)
-{
-    return scene_time(session->scene);
+    return scene_done(session->stage.scene) &&
+           scene_time(session->stage.scene) <
+               session->stage.info.duration - session->stage.info.dt / 2;
 }
 
 static int session_finish(engine_session *session, engine_error *error)
 {
     scene_error from = { 0 };
-    if (scene_finish(session->scene, &from) != SCENE_OK) {
+    if (scene_finish(session->stage.scene, &from) != SCENE_OK) {
         return pl_session_fail_scene(session, &from, error);
     }
     return CLI_OK;
 }
 
-static const char *session_text(const engine_session *session)
-{
-    const char *text = scene_get_text(session->scene);
-    return text != NULL ? text : "";
-}
-
 static bool session_to_json(const engine_session *session, FILE *file)
 {
-    return scene_to_json(session->scene, file);
+    return scene_to_json(session->stage.scene, file);
 }
 
 #if defined(PLUMB_DOUBLE) && PLUMB_DOUBLE
@@ -221,30 +189,31 @@ const engine_api ENGINE_NAME = {
     .is_float = sizeof(plumb_real) == sizeof(float),
     .open = session_open,
     .close = session_close,
-    .info = session_info,
+    .stage = session_stage,
     .step = session_step,
     .check = session_check,
     .ended = session_ended,
-    .time = session_time,
     .finish = session_finish,
-    .rows = pl_session_rows,
     .exact = pl_session_exact,
     .expectations = pl_session_expectations,
     .passes = pl_session_passes,
-    .stats = pl_session_stats,
-    .bounds = pl_session_bounds,
-    .draw = pl_session_draw,
-    .text = session_text,
     .word = pl_session_word,
     .to_json = session_to_json,
     .record = pl_session_record,
     .record_end = pl_session_record_end,
+    .info = pl_stage_info,
+    .time = pl_stage_time,
+    .stats = pl_stage_stats,
+    .text = pl_stage_text,
+    .rows = pl_stage_rows,
+    .bounds = pl_stage_bounds,
+    .draw = pl_stage_draw,
     .replay_open = pl_replay_session_open,
     .replay_close = pl_replay_session_close,
     .replay_info = pl_replay_session_info,
     .replay_seek = pl_replay_session_seek,
     .replay_find = pl_replay_session_find,
-    .replay_rows = pl_replay_session_rows,
+    .replay_stage = pl_replay_session_stage,
     .replay_edits = pl_replay_session_edits,
     .replay_settings = pl_replay_session_settings,
     .replay_compare = pl_replay_session_compare,

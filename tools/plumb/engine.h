@@ -1,7 +1,7 @@
 /// engine.h - the engine and the scene loader behind plain types, so that the float and the
 /// double build of both live in one process.
 ///
-/// Nothing here depends on plumb_real. engine.c and engine_draw.c implement it; they are compiled
+/// Nothing here depends on plumb_real. The files engine*.c implement it; they are compiled
 /// twice, and each variant is linked with its own libplumb and scene loader into one object of
 /// which only engine_float or engine_double is visible (README.md, "Two precisions").
 ///
@@ -30,6 +30,7 @@ typedef struct engine_settings {
     int iterations; ///< 0: the scene's
     int solver;     ///< index into ENGINE_SOLVERS; -1: the scene's
     int width;      ///< SIMD lanes; 0: the scene's or the best
+    int workers;    ///< threads; 0: the scene's or one
 } engine_settings;
 
 /// The solvers by name, in the order of plumb_solver.
@@ -50,8 +51,8 @@ typedef struct engine_camera {
 /// What was opened, with all defaults resolved.
 typedef struct engine_info {
     const char *name; ///< the scene's title, or its file's name
-    double duration;  ///< [s] the scene's
-    double dt;        ///< [s]
+    double duration;  ///< [s] the scene's, the recording's
+    double dt;        ///< [s] of a recording the mean
     int substeps;     ///< [-]
     int iterations;   ///< [-]
     int solver;       ///< index into ENGINE_SOLVERS
@@ -151,26 +152,27 @@ typedef struct engine_difference {
 
 typedef struct engine_replay engine_replay;
 typedef struct engine_session engine_session;
+/// What is to be seen now: of a scene that runs, or of a recording.
+typedef struct engine_stage engine_stage;
 
-/// One engine. All lists that it hands out are valid until the next call with the same session.
+/// One engine. All lists that it hands out are valid until the next call with the same session, stage
+/// or replay.
 typedef struct engine_api {
     const char *precision; ///< "float" or "double"
     bool is_float;
 
     engine_session *(*open)(const engine_settings *settings, engine_error *error);
     void (*close)(engine_session *session); ///< null is allowed
-    engine_info (*info)(const engine_session *session);
+    /// As long as the session is open, always the same.
+    engine_stage *(*stage)(engine_session *session);
     /// Advances by info.dt. CLI_SCENE: an error in the scene's code; CLI_FAILED: out of memory.
     int (*step)(engine_session *session, engine_error *error);
     /// CLI_DIVERGED when a body's state is NaN or infinite. O(bodies).
     int (*check)(engine_session *session, engine_error *error);
     /// True when the scene's code has ended the run.
     bool (*ended)(const engine_session *session);
-    double (*time)(const engine_session *session); ///< [s] simulated
     /// The end of the run, for what only then can be judged.
     int (*finish)(engine_session *session, engine_error *error);
-    /// All bodies in the order in which they were made. -1: out of memory.
-    int (*rows)(engine_session *session, const engine_row **rows);
     /// How far the worst body is from its closed form now: a distance [m], for forms that give
     /// no position an angle [rad] or a velocity [m/s, rad/s]. -1 when no form holds now.
     int (*exact)(engine_session *session, double *distance, engine_error *error);
@@ -178,14 +180,6 @@ typedef struct engine_api {
     int (*expectations)(engine_session *session, const engine_expect **list);
     /// -1: out of memory.
     int (*passes)(engine_session *session, const engine_pass **list);
-    engine_stats (*stats)(const engine_session *session);
-    /// Boxes around the bodies that move and around those that do not.
-    void (*bounds)(const engine_session *session, engine_box *moving, engine_box *fixed);
-    /// Adds bodies and overlays (RENDER_SHOW_* bits, ENGINE_SHOW_NAMES) to the frame. CLI_FAILED:
-    /// out of memory.
-    int (*draw)(engine_session *session, struct render_frame *frame, unsigned show);
-    /// The scene's counters and text in one line, "" if none.
-    const char *(*text)(const engine_session *session);
     /// Key `key` of constructor `constructor` of the scene language; key -1: the constructor
     /// itself. False past the end.
     bool (*word)(int constructor, int key, engine_word *word);
@@ -197,6 +191,20 @@ typedef struct engine_api {
     int (*record)(engine_session *session, FILE *file, int keyframes, engine_error *error);
     int (*record_end)(engine_session *session, engine_error *error);
 
+    engine_info (*info)(const engine_stage *stage);
+    double (*time)(const engine_stage *stage); ///< [s] simulated
+    engine_stats (*stats)(const engine_stage *stage);
+    /// The scene's counters and text in one line, "" if none.
+    const char *(*text)(const engine_stage *stage);
+    /// All bodies in the order in which they were made; of a recording by handle, which is the same as
+    /// long as none is used again. -1: out of memory.
+    int (*rows)(engine_stage *stage, const engine_row **rows);
+    /// Boxes around the bodies that move and around those that do not.
+    void (*bounds)(const engine_stage *stage, engine_box *moving, engine_box *fixed);
+    /// Adds bodies and overlays (RENDER_SHOW_* bits, ENGINE_SHOW_NAMES) to the frame. CLI_FAILED:
+    /// out of memory.
+    int (*draw)(engine_stage *stage, struct render_frame *frame, unsigned show);
+
     /// Opens a recording, which must stay where it is; NULL: see `error`. `edits`: they are told.
     engine_replay *(*replay_open)(const char *path, const void *bytes, size_t size, int width,
                                   bool edits, engine_error *error);
@@ -207,8 +215,8 @@ typedef struct engine_api {
     int (*replay_seek)(engine_replay *replay, unsigned long long step, engine_error *error);
     /// The last step at which no more than `time` [s] had gone by.
     unsigned long long (*replay_find)(const engine_replay *replay, double time);
-    /// All bodies, by handle. -1: out of memory.
-    int (*replay_rows)(engine_replay *replay, const engine_row **rows);
+    /// What is to be seen where it stands, until the next seek; NULL: out of memory. O(bodies), sorted.
+    engine_stage *(*replay_stage)(engine_replay *replay);
     /// What the user changed in the step that led here. -1: out of memory.
     int (*replay_edits)(engine_replay *replay, const engine_change **list);
     /// Settings in which two replays differ now. -1: out of memory.
@@ -217,6 +225,13 @@ typedef struct engine_api {
     int (*replay_compare)(engine_replay *a, engine_replay *b, engine_difference *difference,
                           engine_error *error);
 } engine_api;
+
+/// A stage, its engine and what is known of it: what cameras aim at and pictures are taken of.
+typedef struct engine_scenery {
+    const engine_api *engine;
+    engine_stage *stage;
+    engine_info info;
+} engine_scenery;
 
 extern const engine_api engine_float;
 extern const engine_api engine_double;

@@ -1,7 +1,7 @@
-/// engine_draw.c - a session's bodies and overlays as a draw list. Compiled once for each
+/// engine_draw.c - a stage's bodies and overlays as a draw list. Compiled once for each
 /// precision, as engine.c.
 ///
-/// Reads the world and the looks that the scene gave, writes a render_frame. A shape is drawn by
+/// Reads the world and the looks that a scene gave, writes a render_frame. A shape is drawn by
 /// its convex pieces: one point is a disc, two are a capsule or a line, more a polygon; the
 /// renderer takes the seams between pieces of one body out.
 /// Cost: O(shapes), for overlays O(contacts).
@@ -104,17 +104,16 @@ static void add_shape(const plumb_world *world, plumb_shape shape, plumb_transfo
     }
 }
 
-/// Shapes of a body, in the session's list; how many, -1 out of memory.
-static int body_shapes(engine_session *session, plumb_body body)
+/// Shapes of a body, in the stage's list; how many, -1 out of memory.
+static int body_shapes(engine_stage *stage, plumb_body body)
 {
-    int count = plumb_body_shapes(session->world, body, NULL, 0);
-    plumb_entity *list =
-        pl_session_reserve(session->shapes, &session->shape_room, count, sizeof *list);
+    int count = plumb_body_shapes(stage->world, body, NULL, 0);
+    plumb_entity *list = pl_session_reserve(stage->shapes, &stage->shape_room, count, sizeof *list);
     if (list == NULL) {
         return -1;
     }
-    session->shapes = list;
-    return plumb_body_shapes(session->world, body, list, count);
+    stage->shapes = list;
+    return plumb_body_shapes(stage->world, body, list, count);
 }
 
 static render_class class_of(plumb_body_type type)
@@ -131,29 +130,28 @@ static render_class class_of(plumb_body_type type)
 }
 
 /// True when the bodies' names are to be written: on demand, or when there are few.
-static bool wants_names(const engine_session *session, unsigned show)
+static bool wants_names(const engine_stage *stage, unsigned show)
 {
-    int count = scene_body_count(session->scene), named = 0;
+    int count = pl_stage_body_count(stage), named = 0;
     for (int i = 0; i < count; i++) {
-        scene_body body = scene_body_get(session->scene, i);
-        bool is_static = plumb_body_get_type(session->world, body.entity) == PLUMB_STATIC;
+        scene_body body = pl_stage_body(stage, i);
+        bool is_static = plumb_body_get_type(stage->world, body.entity) == PLUMB_STATIC;
         named += body.is_named && !body.hidden && !is_static;
     }
     return (show & ENGINE_SHOW_NAMES) != 0 || named <= NAMES_MAX;
 }
 
 /// The sensors of a body, or what is solid of it; true when there was something.
-static bool add_shapes(const engine_session *session, int count, bool sensors,
-                       plumb_transform where, bool is_static, const render_style *style,
-                       render_frame *frame)
+static bool add_shapes(const engine_stage *stage, int count, bool sensors, plumb_transform where,
+                       bool is_static, const render_style *style, render_frame *frame)
 {
     int added = 0;
     for (int i = 0; i < count; i++) {
-        if (plumb_shape_is_sensor(session->world, session->shapes[i]) == sensors) {
+        if (plumb_shape_is_sensor(stage->world, stage->shapes[i]) == sensors) {
             if (added++ == 0) {
                 render_body_begin(frame, style);
             }
-            add_shape(session->world, session->shapes[i], where, frame, is_static && !sensors);
+            add_shape(stage->world, stage->shapes[i], where, frame, is_static && !sensors);
         }
     }
     if (added > 0) {
@@ -162,13 +160,13 @@ static bool add_shapes(const engine_session *session, int count, bool sensors,
     return added > 0;
 }
 
-static bool add_body(engine_session *session, const scene_body *body, int index, bool names,
+static bool add_body(engine_stage *stage, const scene_body *body, int index, bool names,
                      unsigned show, render_frame *frame)
 {
-    const plumb_world *world = session->world;
+    const plumb_world *world = stage->world;
     plumb_body_type type = plumb_body_get_type(world, body->entity);
     plumb_transform where = plumb_body_transform(world, body->entity);
-    int count = body_shapes(session, body->entity);
+    int count = body_shapes(stage, body->entity);
     if (count < 0) {
         return false;
     }
@@ -178,45 +176,45 @@ static bool add_body(engine_session *session, const scene_body *body, int index,
     }
     bool asleep = !plumb_body_is_awake(world, body->entity);
     render_style style = { .kind = asleep ? RENDER_ASLEEP : class_of(type),
-                           .palette = pl_session_palette(body, index),
+                           .palette = pl_stage_palette(body, index),
                            .color = { body->color.r, body->color.g, body->color.b, body->color.a },
                            .label = label };
     bool is_static = type == PLUMB_STATIC;
-    if (add_shapes(session, count, false, where, is_static, &style, frame)) {
+    if (add_shapes(stage, count, false, where, is_static, &style, frame)) {
         style.label = NULL;
     }
     style.kind = RENDER_SENSOR;
-    add_shapes(session, count, true, where, is_static, &style, frame);
+    add_shapes(stage, count, true, where, is_static, &style, frame);
     if ((show & RENDER_SHOW_SURFACES) != 0) {
-        pl_session_add_surfaces(session, session->shapes, count, frame);
+        pl_stage_add_surfaces(stage, stage->shapes, count, frame);
     }
     return true;
 }
 
-static void add_velocities(const engine_session *session, render_frame *frame)
+static void add_velocities(const engine_stage *stage, render_frame *frame)
 {
-    int count = scene_body_count(session->scene);
+    int count = pl_stage_body_count(stage);
     for (int i = 0; i < count; i++) {
-        scene_body body = scene_body_get(session->scene, i);
-        plumb_vec2 v = plumb_body_velocity(session->world, body.entity);
-        plumb_vec2 p = plumb_body_center(session->world, body.entity);
+        scene_body body = pl_stage_body(stage, i);
+        plumb_vec2 v = plumb_body_velocity(stage->world, body.entity);
+        plumb_vec2 p = plumb_body_center(stage->world, body.entity);
         if (!body.hidden && (v.x != 0 || v.y != 0)) {
             render_add_velocity(frame, (double)p.x, (double)p.y, (double)v.x, (double)v.y);
         }
     }
 }
 
-static bool add_boxes(engine_session *session, render_frame *frame)
+static bool add_boxes(engine_stage *stage, render_frame *frame)
 {
-    int bodies = scene_body_count(session->scene);
+    int bodies = pl_stage_body_count(stage);
     for (int i = 0; i < bodies; i++) {
-        scene_body body = scene_body_get(session->scene, i);
-        int count = body.hidden ? 0 : body_shapes(session, body.entity);
+        scene_body body = pl_stage_body(stage, i);
+        int count = body.hidden ? 0 : body_shapes(stage, body.entity);
         if (count < 0) {
             return false;
         }
         for (int k = 0; k < count; k++) {
-            plumb_aabb b = plumb_shape_aabb(session->world, session->shapes[k]);
+            plumb_aabb b = plumb_shape_aabb(stage->world, stage->shapes[k]);
             render_add_aabb(frame, (render_box){ { (double)b.min.x, (double)b.min.y },
                                                  { (double)b.max.x, (double)b.max.y } });
         }
@@ -224,15 +222,15 @@ static bool add_boxes(engine_session *session, render_frame *frame)
     return true;
 }
 
-static bool add_cells(engine_session *session, render_frame *frame)
+static bool add_cells(engine_stage *stage, render_frame *frame)
 {
-    int count = plumb_world_cells(session->world, NULL, 0);
-    plumb_aabb *list = pl_session_reserve(session->cells, &session->cell_room, count, sizeof *list);
+    int count = plumb_world_cells(stage->world, NULL, 0);
+    plumb_aabb *list = pl_session_reserve(stage->cells, &stage->cell_room, count, sizeof *list);
     if (list == NULL) {
         return false;
     }
-    session->cells = list;
-    count = plumb_world_cells(session->world, list, count);
+    stage->cells = list;
+    count = plumb_world_cells(stage->world, list, count);
     for (int i = 0; i < count; i++) {
         render_add_cell(frame, (render_box){ { (double)list[i].min.x, (double)list[i].min.y },
                                              { (double)list[i].max.x, (double)list[i].max.y } });
@@ -253,16 +251,16 @@ static void add_impulse(const plumb_world *world, const plumb_contact *contact,
     render_add_impulse(frame, (double)at->point.x, (double)at->point.y, sign * jx, sign * jy);
 }
 
-static bool add_contacts(engine_session *session, render_frame *frame, unsigned show)
+static bool add_contacts(engine_stage *stage, render_frame *frame, unsigned show)
 {
-    int count = plumb_world_contacts(session->world, NULL, 0);
+    int count = plumb_world_contacts(stage->world, NULL, 0);
     plumb_contact *list =
-        pl_session_reserve(session->contacts, &session->contact_room, count, sizeof *list);
+        pl_session_reserve(stage->contacts, &stage->contact_room, count, sizeof *list);
     if (list == NULL) {
         return false;
     }
-    session->contacts = list;
-    plumb_world_contacts(session->world, list, count);
+    stage->contacts = list;
+    plumb_world_contacts(stage->world, list, count);
     for (int i = 0; i < count; i++) {
         double nx = (double)list[i].normal.x, ny = (double)list[i].normal.y;
         for (int k = 0; k < list[i].point_count; k++) {
@@ -274,43 +272,43 @@ static bool add_contacts(engine_session *session, render_frame *frame, unsigned 
             }
             if ((show & RENDER_SHOW_IMPULSES) != 0) {
                 // The tangent is the normal turned by a quarter counter-clockwise.
-                add_impulse(session->world, &list[i], p, j * nx - t * ny, j * ny + t * nx, frame);
+                add_impulse(stage->world, &list[i], p, j * nx - t * ny, j * ny + t * nx, frame);
             }
         }
     }
     return true;
 }
 
-int pl_session_draw(engine_session *session, struct render_frame *frame, unsigned show)
+int pl_stage_draw(engine_stage *stage, struct render_frame *frame, unsigned show)
 {
-    int count = scene_body_count(session->scene);
-    bool good = true, names = wants_names(session, show);
-    plumb_world_desc world = plumb_world_settings(session->world);
+    int count = pl_stage_body_count(stage);
+    bool good = true, names = wants_names(stage, show);
+    plumb_world_desc world = plumb_world_settings(stage->world);
     render_frame_set_period(frame, (double)world.wrap_x, (double)world.wrap_y);
     // What does not move lies behind what does.
     for (int layer = 0; layer < 2; layer++) {
         for (int i = 0; i < count && good; i++) {
-            scene_body body = scene_body_get(session->scene, i);
-            bool is_static = plumb_body_get_type(session->world, body.entity) == PLUMB_STATIC;
+            scene_body body = pl_stage_body(stage, i);
+            bool is_static = plumb_body_get_type(stage->world, body.entity) == PLUMB_STATIC;
             if (!body.hidden && is_static == (layer == 0)) {
-                good = add_body(session, &body, i, names, show, frame);
+                good = add_body(stage, &body, i, names, show, frame);
             }
         }
     }
     if ((show & RENDER_SHOW_JOINTS) != 0) {
-        pl_session_add_joints(session, frame);
+        pl_stage_add_joints(stage, frame);
     }
     if (good && (show & RENDER_SHOW_CELLS) != 0) {
-        good = add_cells(session, frame);
+        good = add_cells(stage, frame);
     }
     if (good && (show & (RENDER_SHOW_CONTACTS | RENDER_SHOW_IMPULSES)) != 0) {
-        good = add_contacts(session, frame, show);
+        good = add_contacts(stage, frame, show);
     }
     if (good && (show & RENDER_SHOW_VELOCITIES) != 0) {
-        add_velocities(session, frame);
+        add_velocities(stage, frame);
     }
     if (good && (show & RENDER_SHOW_AABBS) != 0) {
-        good = add_boxes(session, frame);
+        good = add_boxes(stage, frame);
     }
     return good && render_frame_status(frame) != RENDER_E_MEMORY ? CLI_OK : CLI_FAILED;
 }
@@ -323,22 +321,22 @@ static void add_to_box(engine_box *box, plumb_aabb b)
     box->max_y = fmax(box->max_y, (double)b.max.y);
 }
 
-void pl_session_bounds(const engine_session *session, engine_box *moving, engine_box *fixed)
+void pl_stage_bounds(const engine_stage *stage, engine_box *moving, engine_box *fixed)
 {
     const engine_box empty = { DBL_MAX, DBL_MAX, -DBL_MAX, -DBL_MAX };
-    int count = scene_body_count(session->scene);
+    int count = pl_stage_body_count(stage);
 
     *moving = *fixed = empty;
     for (int i = 0; i < count; i++) {
-        scene_body body = scene_body_get(session->scene, i);
-        plumb_aabb b = plumb_body_aabb(session->world, body.entity);
-        bool is_static = plumb_body_get_type(session->world, body.entity) == PLUMB_STATIC;
+        scene_body body = pl_stage_body(stage, i);
+        plumb_aabb b = plumb_body_aabb(stage->world, body.entity);
+        bool is_static = plumb_body_get_type(stage->world, body.entity) == PLUMB_STATIC;
         if (!body.hidden && b.min.x <= b.max.x) {
             add_to_box(is_static ? fixed : moving, b);
         }
     }
     // Of a world that wraps around all is worth seeing, and nothing twice.
-    plumb_world_desc world = plumb_world_settings(session->world);
+    plumb_world_desc world = plumb_world_settings(stage->world);
     double x = (double)world.wrap_x / 2, y = (double)world.wrap_y / 2;
     if (x > 0) {
         moving->min_x = fixed->min_x = -x;

@@ -1,4 +1,4 @@
-/// engine_joints.c - a session's joints, and the surfaces that run, as parts of a draw list. Compiled
+/// engine_joints.c - a stage's joints, and the surfaces that run, as parts of a draw list. Compiled
 /// once for each precision, as engine.c.
 ///
 /// Reads the world and what the scene hides, writes a render_frame. Cost: O(joints), for surfaces
@@ -125,13 +125,13 @@ static void add_joint(const plumb_world *world, plumb_joint joint, render_frame 
     render_add_joint(frame, &out);
 }
 
-void pl_session_add_joints(const engine_session *session, struct render_frame *frame)
+void pl_stage_add_joints(const engine_stage *stage, struct render_frame *frame)
 {
-    int count = scene_joint_count(session->scene);
+    int count = pl_stage_joint_count(stage);
     for (int i = 0; i < count; i++) {
-        scene_joint joint = scene_joint_get(session->scene, i);
+        scene_joint joint = pl_stage_joint(stage, i);
         if (!joint.hidden) {
-            add_joint(session->world, joint.entity, frame);
+            add_joint(stage->world, joint.entity, frame);
         }
     }
 }
@@ -214,17 +214,17 @@ static void add_surface(const plumb_world *world, plumb_shape shape, double run,
     }
 }
 
-void pl_session_add_surfaces(const engine_session *session, const plumb_entity *shapes, int count,
-                             struct render_frame *frame)
+void pl_stage_add_surfaces(const engine_stage *stage, const plumb_entity *shapes, int count,
+                           struct render_frame *frame)
 {
     const double moment = 1e-9; // [s] the sign of how far it has run tells the way even at time 0
     for (int i = 0; i < count; i++) {
         plumb_material_desc m;
-        plumb_material material = plumb_shape_material(session->world, shapes[i]);
-        if (!plumb_shape_is_sensor(session->world, shapes[i]) &&
-            plumb_material_get(session->world, material, &m) == PLUMB_OK && m.surface_speed != 0) {
-            double run = (double)m.surface_speed * (scene_time(session->scene) + moment);
-            add_surface(session->world, shapes[i], run, frame);
+        plumb_material material = plumb_shape_material(stage->world, shapes[i]);
+        if (!plumb_shape_is_sensor(stage->world, shapes[i]) &&
+            plumb_material_get(stage->world, material, &m) == PLUMB_OK && m.surface_speed != 0) {
+            double run = (double)m.surface_speed * (pl_stage_time(stage) + moment);
+            add_surface(stage->world, shapes[i], run, frame);
         }
     }
 }

@@ -1,5 +1,4 @@
-/// engine_observe.c - what engine.h tells about a session: bodies, closed forms, expectations,
-/// passes, counts. Compiled once for each precision, as engine.c.
+/// engine_observe.c - what engine.h tells about a session: closed forms, expectations, passes. Compiled once for each precision, as engine.c.
 ///
 /// Reads the world and the scene, changes neither. The lists belong to the session and are reused:
 /// no allocation once they have grown.
@@ -20,40 +19,6 @@ void *pl_session_reserve(void *list, size_t *room, int count, size_t size)
         *room = wanted;
     }
     return grown;
-}
-
-int pl_session_palette(const scene_body *body, int i)
-{
-    return body->palette >= 0 ? body->palette : i;
-}
-
-int pl_session_rows(engine_session *session, const engine_row **rows)
-{
-    int count = scene_body_count(session->scene);
-    engine_row *list =
-        pl_session_reserve(session->rows, &session->row_room, count, sizeof *session->rows);
-    if (list == NULL) {
-        return -1;
-    }
-    session->rows = list;
-    for (int i = 0; i < count; i++) {
-        scene_body body = scene_body_get(session->scene, i);
-        plumb_vec2 p = plumb_body_position(session->world, body.entity);
-        plumb_vec2 v = plumb_body_velocity(session->world, body.entity);
-        list[i] = (engine_row){
-            .name = body.name,
-            .x = (double)p.x,
-            .y = (double)p.y,
-            .angle = (double)plumb_body_angle(session->world, body.entity),
-            .vx = (double)v.x,
-            .vy = (double)v.y,
-            .w = (double)plumb_body_angular_velocity(session->world, body.entity),
-            .moves = plumb_body_get_type(session->world, body.entity) != PLUMB_STATIC,
-            .palette = pl_session_palette(&body, i),
-        };
-    }
-    *rows = list;
-    return count;
 }
 
 /// Distance of a body from its closed form `values`, of which `given` are there.
@@ -89,21 +54,21 @@ static double exact_distance(const plumb_world *world, plumb_body body, unsigned
 
 int pl_session_exact(engine_session *session, double *distance, engine_error *error)
 {
-    double time = scene_time(session->scene);
+    double time = scene_time(session->stage.scene);
     *distance = -1;
-    for (int i = 0; i < scene_exact_count(session->scene); i++) {
-        scene_exact form = scene_exact_get(session->scene, i);
-        plumb_body body = scene_body_find(session->scene, form.body).entity;
+    for (int i = 0; i < scene_exact_count(session->stage.scene); i++) {
+        scene_exact form = scene_exact_get(session->stage.scene, i);
+        plumb_body body = scene_body_find(session->stage.scene, form.body).entity;
         double values[SCENE_EXACT_COUNT];
         scene_error from = { 0 };
         // A tenth of a step of slack: times are sums of steps.
-        if (plumb_is_null(body) || time > form.till + session->info.dt / 10) {
+        if (plumb_is_null(body) || time > form.till + session->stage.info.dt / 10) {
             continue;
         }
-        if (scene_exact_eval(session->scene, i, time, values, &from) != SCENE_OK) {
+        if (scene_exact_eval(session->stage.scene, i, time, values, &from) != SCENE_OK) {
             return pl_session_fail_scene(session, &from, error);
         }
-        double d = exact_distance(session->world, body, form.given, values);
+        double d = exact_distance(session->stage.world, body, form.given, values);
         *distance = d > *distance || isnan(d) ? d : *distance;
     }
     return CLI_OK;
@@ -111,7 +76,7 @@ int pl_session_exact(engine_session *session, double *distance, engine_error *er
 
 int pl_session_expectations(engine_session *session, const engine_expect **list)
 {
-    int count = scene_expect_count(session->scene);
+    int count = scene_expect_count(session->stage.scene);
     engine_expect *grown =
         pl_session_reserve(session->expects, &session->expect_room, count, sizeof *grown);
     if (grown == NULL) {
@@ -119,7 +84,7 @@ int pl_session_expectations(engine_session *session, const engine_expect **list)
     }
     session->expects = grown;
     for (int i = 0; i < count; i++) {
-        scene_expect_result r = scene_expect_get(session->scene, i);
+        scene_expect_result r = scene_expect_get(session->stage.scene, i);
         grown[i] = (engine_expect){
             .name = r.name,
             .passed = r.passed,
@@ -133,7 +98,7 @@ int pl_session_expectations(engine_session *session, const engine_expect **list)
 
 int pl_session_passes(engine_session *session, const engine_pass **list)
 {
-    int count = plumb_world_schedule(session->world, NULL, 0);
+    int count = plumb_world_schedule(session->stage.world, NULL, 0);
     plumb_pass_info *infos =
         pl_session_reserve(session->pass_infos, &session->info_room, count, sizeof *infos);
     if (infos == NULL) {
@@ -146,7 +111,7 @@ int pl_session_passes(engine_session *session, const engine_pass **list)
         return -1;
     }
     session->passes = passes;
-    plumb_world_schedule(session->world, infos, count);
+    plumb_world_schedule(session->stage.world, infos, count);
     for (int i = 0; i < count; i++) {
         const plumb_pass_info *p = &infos[i];
         passes[i] = (engine_pass){
@@ -162,30 +127,4 @@ int pl_session_passes(engine_session *session, const engine_pass **list)
     }
     *list = passes;
     return count;
-}
-
-engine_stats pl_session_stats(const engine_session *session)
-{
-    plumb_stats s = plumb_world_stats(session->world);
-    return (engine_stats){
-        .step_count = s.step_count,
-        .time = s.time,
-        .bodies = s.body_count,
-        .moving = s.dynamic_count + s.kinematic_count,
-        .asleep = s.asleep_count,
-        .islands = s.island_count,
-        .statics = s.static_count,
-        .shapes = s.shape_count,
-        .pieces = s.piece_count,
-        .pairs = s.pair_count,
-        .contacts = s.contact_count,
-        .points = s.point_count,
-        .colors = s.color_count,
-        .overflow = s.overflow_count,
-        .pair_rebuilds = s.pair_rebuilds,
-        .max_penetration = (double)s.max_penetration,
-        .mean_penetration = (double)s.mean_penetration,
-        .bytes = s.bytes,
-        .peak_bytes = s.peak_bytes,
-    };
 }

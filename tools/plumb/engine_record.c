@@ -34,7 +34,7 @@ static plumb_result name_entity(engine_session *session, plumb_entity entity, co
     char cut[64];
     snprintf(cut, sizeof cut, "%.63s", name);
     session->named[entity.index] = entity.generation;
-    plumb_result r = plumb_recorder_name(session->world, entity, cut);
+    plumb_result r = plumb_recorder_name(session->stage.world, entity, cut);
     // The file takes no more: told when the recording ends.
     return r == PLUMB_E_WRITE || r == PLUMB_E_MEMORY ? PLUMB_OK : r;
 }
@@ -42,31 +42,31 @@ static plumb_result name_entity(engine_session *session, plumb_entity entity, co
 int pl_session_name(engine_session *session, engine_error *error)
 {
     plumb_result r = PLUMB_OK;
-    for (int i = 0; r == PLUMB_OK && i < scene_body_count(session->scene); i++) {
-        scene_body body = scene_body_get(session->scene, i);
+    for (int i = 0; r == PLUMB_OK && i < scene_body_count(session->stage.scene); i++) {
+        scene_body body = scene_body_get(session->stage.scene, i);
         r = name_entity(session, body.entity, body.name);
     }
-    for (int i = 0; r == PLUMB_OK && i < scene_joint_count(session->scene); i++) {
-        scene_joint joint = scene_joint_get(session->scene, i);
+    for (int i = 0; r == PLUMB_OK && i < scene_joint_count(session->stage.scene); i++) {
+        scene_joint joint = scene_joint_get(session->stage.scene, i);
         r = name_entity(session, joint.entity, joint.name);
     }
-    return r == PLUMB_OK
-               ? CLI_OK
-               : pl_session_fail(error, CLI_FAILED, "--record: %s",
-                                 r == PLUMB_E_MEMORY ? "out of memory"
-                                                     : plumb_world_error(session->world).message);
+    return r == PLUMB_OK ? CLI_OK
+                         : pl_session_fail(error, CLI_FAILED, "--record: %s",
+                                           r == PLUMB_E_MEMORY
+                                               ? "out of memory"
+                                               : plumb_world_error(session->stage.world).message);
 }
 
 int pl_session_record(engine_session *session, FILE *file, int keyframes, engine_error *error)
 {
     char title[256];
-    snprintf(title, sizeof title, "%.255s", session->info.title);
+    snprintf(title, sizeof title, "%.255s", session->stage.info.title);
     const plumb_recorder_desc desc = {
         .write = to_file, .context = file, .keyframe_every = keyframes, .title = title
     };
-    if (plumb_recorder_start(session->world, &desc) != PLUMB_OK) {
+    if (plumb_recorder_start(session->stage.world, &desc) != PLUMB_OK) {
         return pl_session_fail(error, CLI_FAILED, "--record: %s",
-                               plumb_world_error(session->world).message);
+                               plumb_world_error(session->stage.world).message);
     }
     session->recording = true;
     return pl_session_name(session, error);
@@ -75,9 +75,9 @@ int pl_session_record(engine_session *session, FILE *file, int keyframes, engine
 int pl_session_record_end(engine_session *session, engine_error *error)
 {
     session->recording = false;
-    if (plumb_recorder_stop(session->world) != PLUMB_OK) {
+    if (plumb_recorder_stop(session->stage.world) != PLUMB_OK) {
         return pl_session_fail(error, CLI_FAILED, "--record: %s",
-                               plumb_world_error(session->world).message);
+                               plumb_world_error(session->stage.world).message);
     }
     return CLI_OK;
 }
@@ -88,13 +88,11 @@ struct engine_replay {
     plumb_replay *replay;
     const char *path;
     char message[512]; ///< the last one of the library
-    engine_row *rows;
-    char (*names)[64];
-    plumb_body *bodies;
+    engine_stage stage;
     engine_change *changes;
     plumb_replay_edit *edits;
     plumb_difference *differences;
-    size_t row_room, name_room, body_room, change_room, edit_room, difference_room; ///< [B]
+    size_t change_room, edit_room, difference_room; ///< [B]
 };
 
 static void keep_message(void *context, plumb_log_level level, const char *message)
@@ -131,6 +129,7 @@ engine_replay *pl_replay_session_open(const char *path, const void *bytes, size_
     };
     plumb_result r = plumb_replay_open(bytes, size, &desc, &replay->replay);
     if (r == PLUMB_OK) {
+        pl_stage_open_replay(&replay->stage, replay->replay, path);
         return replay;
     }
     // "bytes is damaged; it must be as it was recorded": the file is what the user knows of.
@@ -147,9 +146,7 @@ void pl_replay_session_close(engine_replay *replay)
         return;
     }
     plumb_replay_close(replay->replay);
-    free(replay->rows);
-    free(replay->names);
-    free(replay->bodies);
+    pl_stage_close(&replay->stage);
     free(replay->changes);
     free(replay->edits);
     free(replay->differences);
@@ -179,6 +176,11 @@ int pl_replay_session_seek(engine_replay *replay, unsigned long long step, engin
 {
     plumb_result r = plumb_replay_seek(replay->replay, step);
     return r == PLUMB_OK ? CLI_OK : fail_replay(replay, r, error);
+}
+
+engine_stage *pl_replay_session_stage(engine_replay *replay)
+{
+    return pl_stage_look(&replay->stage) ? &replay->stage : NULL;
 }
 
 unsigned long long pl_replay_session_find(const engine_replay *replay, double time)
@@ -288,57 +290,6 @@ int pl_replay_session_edits(engine_replay *replay, const engine_change **list)
     }
     *list = changes;
     return count;
-}
-
-// ------------------------------------------------------------------------------------------ bodies
-
-static int by_index(const void *a, const void *b)
-{
-    uint32_t x = ((const plumb_body *)a)->index, y = ((const plumb_body *)b)->index;
-    return x < y ? -1 : x > y;
-}
-
-int pl_replay_session_rows(engine_replay *replay, const engine_row **rows)
-{
-    plumb_world *world = plumb_replay_world(replay->replay);
-    plumb_body_span span = plumb_world_bodies(world);
-    engine_row *list =
-        pl_session_reserve(replay->rows, &replay->row_room, span.count, sizeof *list);
-    replay->rows = list != NULL ? list : replay->rows;
-    char(*names)[64] =
-        pl_session_reserve(replay->names, &replay->name_room, span.count, sizeof *names);
-    replay->names = names != NULL ? names : replay->names;
-    plumb_body *bodies =
-        pl_session_reserve(replay->bodies, &replay->body_room, span.count, sizeof *bodies);
-    replay->bodies = bodies != NULL ? bodies : replay->bodies;
-    if (list == NULL || names == NULL || bodies == NULL) {
-        return -1;
-    }
-    // In the order of handles, which is that of making as long as none is used again.
-    if (span.count > 0) {
-        memcpy(bodies, span.entity, (size_t)span.count * sizeof *bodies);
-        qsort(bodies, (size_t)span.count, sizeof *bodies, by_index);
-    }
-    for (int count = 0; count < span.count; count++) {
-        plumb_body body = bodies[count];
-        const char *name = plumb_replay_name(replay->replay, body);
-        plumb_vec2 p = plumb_body_position(world, body), v = plumb_body_velocity(world, body);
-        if (name != NULL) {
-            snprintf(names[count], sizeof names[count], "%s", name);
-        } else {
-            snprintf(names[count], sizeof names[count], "%u:%u", (unsigned)body.index,
-                     (unsigned)body.generation);
-        }
-        list[count] = (engine_row){ .name = names[count],
-                                    .x = (double)p.x,
-                                    .y = (double)p.y,
-                                    .angle = (double)plumb_body_angle(world, body),
-                                    .vx = (double)v.x,
-                                    .vy = (double)v.y,
-                                    .w = (double)plumb_body_angular_velocity(world, body) };
-    }
-    *rows = list;
-    return span.count;
 }
 
 // ----------------------------------------------------------------------------------------- compare

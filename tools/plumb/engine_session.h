@@ -1,4 +1,4 @@
-/// engine_session.h - what engine.c, engine_observe.c and engine_draw.c know of a session.
+/// engine_session.h - what the files engine*.c know of a session, of a stage and of a replay.
 #ifndef PLUMB_ENGINE_SESSION_H
 #define PLUMB_ENGINE_SESSION_H
 
@@ -6,21 +6,40 @@
 
 #include "../scene/scene.h"
 
-struct engine_session {
-    scene *scene;
+/// What can be seen of a world: of a scene that runs, or of a recording, which has no scene but names.
+struct engine_stage {
     plumb_world *world;
+    scene *scene; ///< null: of a recording
     scene_info info;
     scene_camera camera;
-    // Lists handed out; grown when too small, never shrunk.
+    // Of a recording only: its bodies and joints by handle, and their colours; see engine_stage.c.
+    plumb_replay *replay;
+    scene_body *bodies;
+    scene_joint *joints;
+    int body_count, joint_count;
+    plumb_entity *handles;
+    char (*names)[64];
+    struct stage_hue {
+        uint32_t generation;
+        int palette;
+    } * hues; ///< by index of the entity
+    uint32_t hue_count;
+    int next_palette;
+    // Lists handed out or drawn from; grown when too small, never shrunk.
     engine_row *rows;
-    engine_expect *expects;
-    engine_pass *passes;
-    plumb_pass_info *pass_infos;
     plumb_contact *contacts;
     plumb_entity *shapes;
     plumb_aabb *cells;
-    size_t row_room, expect_room, pass_room, info_room, contact_room, shape_room,
+    size_t body_room, joint_room, handle_room, name_room, row_room, contact_room, shape_room,
         cell_room; ///< [B]
+};
+
+struct engine_session {
+    engine_stage stage;
+    engine_expect *expects;
+    engine_pass *passes;
+    plumb_pass_info *pass_infos;
+    size_t expect_room, pass_room, info_room; ///< [B]
     // While it is recorded: generation of the entities that were named, by their index.
     bool recording;
     uint32_t *named;
@@ -40,22 +59,36 @@ int pl_session_fail(engine_error *error, int code, const char *format, ...);
 int pl_session_fail_scene(const engine_session *session, const scene_error *from,
                           engine_error *error);
 
+/// Stages, by the names that the functions have in engine_api.
+engine_info pl_stage_info(const engine_stage *stage);
+double pl_stage_time(const engine_stage *stage);
+engine_stats pl_stage_stats(const engine_stage *stage);
+const char *pl_stage_text(const engine_stage *stage);
+int pl_stage_rows(engine_stage *stage, const engine_row **rows);
+void pl_stage_bounds(const engine_stage *stage, engine_box *moving, engine_box *fixed);
+int pl_stage_draw(engine_stage *stage, struct render_frame *frame, unsigned show);
+/// Bodies and joints as scene.h tells them.
+int pl_stage_body_count(const engine_stage *stage);
+scene_body pl_stage_body(const engine_stage *stage, int i);
+int pl_stage_joint_count(const engine_stage *stage);
+scene_joint pl_stage_joint(const engine_stage *stage, int i);
 /// The colour number of body `i`: the author's, else by order of making.
-int pl_session_palette(const scene_body *body, int i);
+int pl_stage_palette(const scene_body *body, int i);
+/// Parts of pl_stage_draw: joints that are not hidden; of `shapes` those that run.
+void pl_stage_add_joints(const engine_stage *stage, struct render_frame *frame);
+void pl_stage_add_surfaces(const engine_stage *stage, const plumb_entity *shapes, int count,
+                           struct render_frame *frame);
+/// Of a recording: `path` names it where it has no title.
+void pl_stage_open_replay(engine_stage *stage, plumb_replay *replay, const char *path);
+/// Sees the replay's world as it is now. False: out of memory.
+bool pl_stage_look(engine_stage *stage);
+void pl_stage_close(engine_stage *stage);
 
 /// The functions of engine_api that are not in engine.c, by the names they have there.
-int pl_session_rows(engine_session *session, const engine_row **rows);
 int pl_session_exact(engine_session *session, double *distance, engine_error *error);
 int pl_session_expectations(engine_session *session, const engine_expect **list);
 int pl_session_passes(engine_session *session, const engine_pass **list);
-engine_stats pl_session_stats(const engine_session *session);
 bool pl_session_word(int constructor, int key, engine_word *word);
-/// Parts of pl_session_draw: joints that the scene does not hide; of `shapes` those that run.
-void pl_session_add_joints(const engine_session *session, struct render_frame *frame);
-void pl_session_add_surfaces(const engine_session *session, const plumb_entity *shapes, int count,
-                             struct render_frame *frame);
-int pl_session_draw(engine_session *session, struct render_frame *frame, unsigned show);
-void pl_session_bounds(const engine_session *session, engine_box *moving, engine_box *fixed);
 int pl_session_record(engine_session *session, FILE *file, int keyframes, engine_error *error);
 int pl_session_record_end(engine_session *session, engine_error *error);
 /// Names what is new to the recording. CLI_FAILED: out of memory.
@@ -67,7 +100,7 @@ void pl_replay_session_close(engine_replay *replay);
 engine_replay_info pl_replay_session_info(const engine_replay *replay);
 int pl_replay_session_seek(engine_replay *replay, unsigned long long step, engine_error *error);
 unsigned long long pl_replay_session_find(const engine_replay *replay, double time);
-int pl_replay_session_rows(engine_replay *replay, const engine_row **rows);
+engine_stage *pl_replay_session_stage(engine_replay *replay);
 int pl_replay_session_edits(engine_replay *replay, const engine_change **list);
 int pl_replay_session_settings(engine_replay *a, engine_replay *b, const engine_change **list);
 int pl_replay_session_compare(engine_replay *a, engine_replay *b, engine_difference *difference,

@@ -51,7 +51,8 @@ int scene_run_open(const scene_args *args, const char *path, scene_run *run)
                                  .substeps = args->substeps,
                                  .iterations = args->iterations,
                                  .solver = args->solver,
-                                 .width = args->width };
+                                 .width = args->width,
+                                 .workers = args->workers };
     engine_error error = { 0 };
 
     *run = (scene_run){ .engine = args->precision == 0 ? &engine_float : &engine_double };
@@ -59,7 +60,8 @@ int scene_run_open(const scene_args *args, const char *path, scene_run *run)
     if (run->session == NULL) {
         return scene_report(&error);
     }
-    run->info = run->engine->info(run->session);
+    run->stage = run->engine->stage(run->session);
+    run->info = run->engine->info(run->stage);
     run->time = args->time >= 0 ? args->time : run->info.duration;
     run->steps = scene_step_count(run->time, run->info.dt);
     return CLI_OK;
@@ -79,19 +81,19 @@ int scene_run_step(scene_run *run, progress *bar)
     return scene_report(&error);
 }
 
-int scene_unknown_body(scene_run *run, const char *option, const char *name)
+int scene_unknown_body(const engine_scenery *of, const char *option, const char *name)
 {
     const engine_row *rows;
-    int count = run->engine->rows(run->session, &rows);
+    int count = of->engine->rows(of->stage, &rows);
     for (int i = 0; i < count; i++) {
         // The lists that cli_nearest searches are parted by commas: names with one are not offered.
         if (strchr(rows[i].name, ',') == NULL && cli_nearest(name, rows[i].name) == 0) {
             cli_message("option --%s: no body of '%s' is named '%.80s'; did you mean '%.80s'?",
-                        option, run->info.name, name, rows[i].name);
+                        option, of->info.name, name, rows[i].name);
             return CLI_USAGE;
         }
     }
-    cli_message("option --%s: no body of '%s' is named '%.80s'", option, run->info.name, name);
+    cli_message("option --%s: no body of '%s' is named '%.80s'", option, of->info.name, name);
     return CLI_USAGE;
 }
 

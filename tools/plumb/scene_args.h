@@ -13,6 +13,7 @@ typedef struct scene_args {
     int iterations; ///< 0: the scene's
     int solver;     ///< -1: the scene's
     int width;      ///< 0: best
+    int workers;    ///< 0: the scene's
     int precision;  ///< index into SCENE_PRECISIONS
     cli_texts sets;
     bool quiet;
@@ -39,6 +40,10 @@ typedef struct scene_args {
     { "width", 0, CLI_INT, offsetof(type, member.width), "N", 0, 16, NULL,                       \
       "SIMD lanes: 4, 8 or 16; 0 takes the best measured (default). Changes the speed, "          \
       "not a bit of the result" }
+#define SCENE_OPTION_WORKERS(type, member)                                                       \
+    { "workers", 0, CLI_INT, offsetof(type, member.workers), "N", 1, 64, NULL,                   \
+      "threads that share the work of a step (default: the scene's, else 1). Changes the speed, " \
+      "not a bit of the result" }
 #define SCENE_OPTION_SET(type, member)                                                           \
     { "set", 0, CLI_TEXTS, offsetof(type, member.sets), "KEY=VALUE", 0, 0, NULL,                 \
       "override what the scene declares; may be repeated" }
@@ -63,6 +68,7 @@ typedef struct scene_args {
     SCENE_OPTION_TIME(type, member), SCENE_OPTION_DT(type, member),                              \
     SCENE_OPTION_SUBSTEPS(type, member), SCENE_OPTION_ITERATIONS(type, member),                  \
     SCENE_OPTION_SOLVER(type, member), SCENE_OPTION_WIDTH(type, member),                         \
+    SCENE_OPTION_WORKERS(type, member),                                                          \
     SCENE_OPTION_PRECISION(type, member), SCENE_OPTION_SET(type, member)
 // clang-format on
 
@@ -73,6 +79,7 @@ int scene_args_check(const cli_command *command, const scene_args *args);
 typedef struct scene_run {
     const engine_api *engine;
     engine_session *session;
+    engine_stage *stage;
     engine_info info;
     double time;     ///< [s] to simulate
     long long steps; ///< of info.dt, to reach `time`
@@ -90,7 +97,7 @@ int scene_run_close(scene_run *run, int code);
 
 /// Tells that no body is named `name`, as `option` (without dashes) says, and which name is near.
 /// CLI_USAGE.
-int scene_unknown_body(scene_run *run, const char *option, const char *name);
+int scene_unknown_body(const engine_scenery *of, const char *option, const char *name);
 
 /// Prints an engine's message to stderr and answers its code.
 int scene_report(const engine_error *error);

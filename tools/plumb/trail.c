@@ -1,6 +1,6 @@
 /// trail.c - keeps the last seconds of every moving body's way.
 ///
-/// Reads the rows of a session, fills a frame. Cost: a point a body and step; points too old are
+/// Reads the rows of a stage, fills a frame. Cost: a point a body and step; points too old are
 /// dropped when they are as many as those in use.
 #include "trail.h"
 
@@ -68,16 +68,18 @@ static bool add_point(struct trail *t, double time, double oldest, render_vec po
     return true;
 }
 
-bool trail_record(trail_set *set, const scene_run *run)
+bool trail_record(trail_set *set, const engine_scenery *of)
 {
     const engine_row *rows;
     if (set->seconds <= 0) {
         return true;
     }
-    set->wrap_x = run->info.wrap_x;
-    set->wrap_y = run->info.wrap_y;
-    int count = run->engine->rows(run->session, &rows), moving = 0;
-    double time = run->engine->time(run->session);
+    set->wrap_x = of->info.wrap_x;
+    set->wrap_y = of->info.wrap_y;
+    int count = of->engine->rows(of->stage, &rows), moving = 0;
+    double time = of->engine->time(of->stage);
+    // A tenth of a step of slack: times are sums of steps.
+    double oldest = time - set->seconds - of->info.dt / 10;
     for (int i = 0; i < set->count; i++) {
         set->items[i].seen = false;
     }
@@ -87,7 +89,7 @@ bool trail_record(trail_set *set, const scene_run *run)
         }
         struct trail *t = find_trail(set, &rows[i], moving++);
         if (t == NULL ||
-            !add_point(t, time, time - set->seconds, (render_vec){ rows[i].x, rows[i].y })) {
+            !add_point(t, time, oldest, (render_vec){ rows[i].x, rows[i].y })) {
             return false;
         }
         t->seen = true;
@@ -129,5 +131,5 @@ void trail_free(trail_set *set)
         free(set->items[i].times);
     }
     free(set->items);
-    *set = (trail_set){ 0 };
+    *set = (trail_set){ .seconds = set->seconds };
 }

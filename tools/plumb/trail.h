@@ -1,9 +1,9 @@
-/// trail.h - where bodies have been: the lines that `plumb render --trail` draws behind them.
+/// trail.h - where bodies have been: the lines that `--trail` draws behind them.
 #ifndef PLUMB_TRAIL_H
 #define PLUMB_TRAIL_H
 
 #include "../render/render.h"
-#include "scene_args.h"
+#include "engine.h"
 
 /// Trails of all moving bodies. {0} with `seconds` set is empty; trail_free.
 typedef struct trail_set {
@@ -14,9 +14,10 @@ typedef struct trail_set {
 } trail_set;
 
 /// Remembers where all moving bodies are now. False: out of memory.
-bool trail_record(trail_set *set, const scene_run *run);
+bool trail_record(trail_set *set, const engine_scenery *of);
 /// Adds the trails as they are now to the frame.
 void trail_draw(const trail_set *set, render_frame *frame);
+/// Forgets them all.
 void trail_free(trail_set *set);
 
 #endif

@@ -1,9 +1,11 @@
 /// view.c - aims the camera: as the scene says, else so that all that moves stays visible.
 ///
-/// Reads positions and boxes of the run. What does not move is shown as far as it is near what
+/// Reads positions and boxes of what is drawn. What does not move is shown as far as it is near what
 /// does: a ground of a kilometre must not make a stack of boxes a dot. What flies away is let go
 /// once it is a picture's size away from where all began.
 #include "view.h"
+
+#include "scene_args.h"
 
 #include <math.h>
 #include <string.h>
@@ -43,10 +45,10 @@ static engine_box grow(engine_box b, double by)
 }
 
 /// What is worth seeing of a state: what moves, and the surroundings near it.
-static engine_box interest(const scene_run *run)
+static engine_box interest(const engine_scenery *of)
 {
     engine_box moving, fixed;
-    run->engine->bounds(run->session, &moving, &fixed);
+    of->engine->bounds(of->stage, &moving, &fixed);
     if (is_empty(moving)) {
         return fixed;
     }
@@ -54,10 +56,10 @@ static engine_box interest(const scene_run *run)
     return is_empty(near_by) ? moving : join(moving, near_by);
 }
 
-static const engine_row *find_row(scene_run *run, const char *name, int *count,
+static const engine_row *find_row(const engine_scenery *of, const char *name, int *count,
                                   const engine_row **rows)
 {
-    *count = run->engine->rows(run->session, rows);
+    *count = of->engine->rows(of->stage, rows);
     for (int i = 0; i < *count; i++) {
         if (strcmp((*rows)[i].name, name) == 0) {
             return &(*rows)[i];
@@ -66,20 +68,20 @@ static const engine_row *find_row(scene_run *run, const char *name, int *count,
     return NULL;
 }
 
-int view_begin(view *v, const view_wish *wish, scene_run *run)
+int view_begin(view *v, const view_wish *wish, const engine_scenery *of)
 {
     const engine_row *rows;
     int count;
 
-    *v = (view){ .wish = *wish, .y_down = run->info.y_down, .hint = run->info.camera };
+    *v = (view){ .wish = *wish, .y_down = of->info.y_down, .hint = of->info.camera };
     const char *follow = wish->follow != NULL ? wish->follow : v->hint.follow;
     snprintf(v->follow, sizeof v->follow, "%s", follow);
-    v->start = v->seen = interest(run);
+    v->start = v->seen = interest(of);
     if (v->follow[0] == '\0') {
         return CLI_OK;
     }
-    const engine_row *row = find_row(run, v->follow, &count, &rows);
-    return row != NULL ? CLI_OK : scene_unknown_body(run, "follow", v->follow);
+    const engine_row *row = find_row(of, v->follow, &count, &rows);
+    return row != NULL ? CLI_OK : scene_unknown_body(of, "follow", v->follow);
 }
 
 bool view_needs_run(const view *v)
@@ -87,9 +89,9 @@ bool view_needs_run(const view *v)
     return v->follow[0] == '\0' && !v->hint.has_view && !v->hint.has_fit;
 }
 
-void view_feed(view *v, scene_run *run)
+void view_feed(view *v, const engine_scenery *of)
 {
-    engine_box now = interest(run);
+    engine_box now = interest(of);
     if (is_empty(v->start)) {
         v->start = v->seen = now;
         return;
@@ -113,13 +115,13 @@ static render_camera fitted(const view *v)
     return render_camera_fit(box, v->wish.width, v->wish.height, MARGIN, v->y_down);
 }
 
-render_camera view_camera(view *v, scene_run *run)
+render_camera view_camera(view *v, const engine_scenery *of)
 {
     render_camera camera = fitted(v);
     if (v->follow[0] != '\0') {
         const engine_row *rows;
         int count;
-        const engine_row *row = find_row(run, v->follow, &count, &rows);
+        const engine_row *row = find_row(of, v->follow, &count, &rows);
         if (row != NULL) {
             v->x = row->x;
             v->y = row->y;

@@ -1,9 +1,9 @@
-/// view.h - where the camera of `plumb render` looks.
+/// view.h - where the camera looks.
 #ifndef PLUMB_VIEW_H
 #define PLUMB_VIEW_H
 
 #include "../render/render.h"
-#include "scene_args.h"
+#include "engine.h"
 
 /// What the command line says about the view. {0} with zoom 1: nothing.
 typedef struct view_wish {
@@ -25,12 +25,12 @@ typedef struct view {
 } view;
 
 /// Begins. CLI_OK, or CLI_USAGE after a message when nothing is named as `follow` says.
-int view_begin(view *v, const view_wish *wish, scene_run *run);
+int view_begin(view *v, const view_wish *wish, const engine_scenery *of);
 /// True when the camera depends on states later than the one to be drawn.
 bool view_needs_run(const view *v);
 /// Sees the state now.
-void view_feed(view *v, scene_run *run);
+void view_feed(view *v, const engine_scenery *of);
 /// The camera for the state now.
-render_camera view_camera(view *v, scene_run *run);
+render_camera view_camera(view *v, const engine_scenery *of);
 
 #endif

@@ -27,6 +27,7 @@ static void make_world(scene *s, const sc_site *site)
         .push_speed = (plumb_real)d->push_speed,
         .restitution_speed = (plumb_real)d->restitution_speed,
         .simd_width = (int)d->simd_width,
+        .workers = (int)d->workers,
         .wrap_x = (plumb_real)d->wrap_x,
         .wrap_y = (plumb_real)d->wrap_y,
         .no_sleep = SC_GIVEN(&sc_list_scene, d, sc_settings, sleep) && !d->sleep,

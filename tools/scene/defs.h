@@ -14,7 +14,7 @@ typedef struct sc_settings {
     double gravity[2];
     int y, solver;
     double dt, duration, seed, substeps, iterations;
-    double contact_hertz, contact_damping, push_speed, restitution_speed, simd_width;
+    double contact_hertz, contact_damping, push_speed, restitution_speed, simd_width, workers;
     double wrap_x, wrap_y;
     bool sleep, continuous; ///< read only where they were given
 } sc_settings;

@@ -23,6 +23,7 @@ static const sc_field scene_rows[] = {
     { "solver",            SC_CHOICE,  AT(T, solver),            0, 0, "soft|pgs", 0, 0 },
     { "substeps",          SC_INTEGER, AT(T, substeps),          1, 64, "1", 0, 0 },
     { "title",             SC_STRING,  AT(T, title),             0, 0, NULL, 0, 0 },
+    { "workers",           SC_INTEGER, AT(T, workers),           0, 64, "1", 0, 0 },
     { "wrap_x",            SC_NUMBER,  AT(T, wrap_x),            0.1, 2e9, "m", 0, 0 },
     { "wrap_y",            SC_NUMBER,  AT(T, wrap_y),            0.1, 2e9, "m", 0, 0 },
     { "y",                 SC_CHOICE,  AT(T, y),                 0, 0, "up|down", 0, 0 },

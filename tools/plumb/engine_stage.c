@@ -1,0 +1,275 @@
+/// engine_stage.c - what is to be seen of a world: bodies and joints with their names and looks, be it
+/// of a scene that runs or of a recording. Compiled once for each precision, as engine.c.
+///
+/// Reads the world, the scene or the replay, changes none of them. A recording has names and no looks:
+/// colours go round in the order in which bodies are met, and a body keeps its own as long as the stage
+/// is open. Cost: O(bodies), of a recording once sorted for each step that is looked at.
+#include "engine_session.h"
+
+#include <ctype.h>
+#include <stdlib.h>
+#include <string.h>
+
+// ------------------------------------------------------------------------------- of a recording
+
+static int by_index(const void *a, const void *b)
+{
+    uint32_t x = ((const plumb_entity *)a)->index, y = ((const plumb_entity *)b)->index;
+    return x < y ? -1 : x > y;
+}
+
+/// `base` and a number: what the loader calls things that their author gave no name.
+static bool is_counted(const char *name, const char *base)
+{
+    size_t length = strlen(base);
+    if (strncmp(name, base, length) != 0 || name[length] == '\0') {
+        return false;
+    }
+    const char *digit = name + length;
+    while (isdigit((unsigned char)*digit)) {
+        digit++;
+    }
+    return *digit == '\0';
+}
+
+/// The name in the recording, or "7:1" written to `text`.
+static const char *name_of(const engine_stage *stage, plumb_entity entity, char text[64])
+{
+    const char *name = plumb_replay_name(stage->replay, entity);
+    snprintf(text, 64, "%u:%u", (unsigned)entity.index, (unsigned)entity.generation);
+    if (name != NULL) {
+        snprintf(text, 64, "%s", name);
+    }
+    return text;
+}
+
+/// The colour number of a body: the next one when it is met first. -1: out of memory.
+static int hue_of(engine_stage *stage, plumb_body body)
+{
+    if (body.index >= stage->hue_count) {
+        uint32_t count = body.index + body.index / 2 + 64;
+        struct stage_hue *grown = realloc(stage->hues, count * sizeof *grown);
+        if (grown == NULL) {
+            return -1;
+        }
+        memset(grown + stage->hue_count, 0, (count - stage->hue_count) * sizeof *grown);
+        stage->hues = grown;
+        stage->hue_count = count;
+    }
+    struct stage_hue *hue = &stage->hues[body.index];
+    if (hue->generation != body.generation) {
+        *hue = (struct stage_hue){ body.generation, stage->next_palette++ };
+    }
+    return hue->palette;
+}
+
+/// Room for so many handles, names, bodies, joints.
+static bool make_room(engine_stage *stage, int bodies, int joints)
+{
+    int handles = bodies > joints ? bodies : joints;
+    plumb_entity *list =
+        pl_session_reserve(stage->handles, &stage->handle_room, handles, sizeof *list);
+    stage->handles = list != NULL ? list : stage->handles;
+    char(*names)[64] =
+        pl_session_reserve(stage->names, &stage->name_room, bodies + joints, sizeof *names);
+    stage->names = names != NULL ? names : stage->names;
+    scene_body *body_list =
+        pl_session_reserve(stage->bodies, &stage->body_room, bodies, sizeof *body_list);
+    stage->bodies = body_list != NULL ? body_list : stage->bodies;
+    scene_joint *joint_list =
+        pl_session_reserve(stage->joints, &stage->joint_room, joints, sizeof *joint_list);
+    stage->joints = joint_list != NULL ? joint_list : stage->joints;
+    return list != NULL && names != NULL && body_list != NULL && joint_list != NULL;
+}
+
+bool pl_stage_look(engine_stage *stage)
+{
+    stage->world = plumb_replay_world(stage->replay);
+    plumb_body_span span = plumb_world_bodies(stage->world);
+    int joints = plumb_world_joints(stage->world, NULL, 0);
+    if (!make_room(stage, span.count, joints)) {
+        return false;
+    }
+    stage->body_count = span.count;
+    stage->joint_count = joints;
+    if (span.count > 0) {
+        memcpy(stage->handles, span.entity, (size_t)span.count * sizeof *stage->handles);
+        qsort(stage->handles, (size_t)span.count, sizeof *stage->handles, by_index);
+    }
+    for (int i = 0; i < span.count; i++) {
+        plumb_body body = stage->handles[i];
+        const char *name = plumb_replay_name(stage->replay, body);
+        int hue = hue_of(stage, body);
+        if (hue < 0) {
+            return false;
+        }
+        stage->bodies[i] = (scene_body){ .entity = body,
+                                         .name = name_of(stage, body, stage->names[i]),
+                                         .is_named = name != NULL && !is_counted(name, "body"),
+                                         .label = "",
+                                         .palette = hue,
+                                         .hidden = !plumb_body_is_enabled(stage->world, body) };
+    }
+    plumb_world_joints(stage->world, stage->handles, joints);
+    for (int i = 0; i < joints; i++) {
+        plumb_joint joint = stage->handles[i];
+        stage->joints[i] =
+            (scene_joint){ .entity = joint,
+                           .name = name_of(stage, joint, stage->names[span.count + i]) };
+    }
+    return true;
+}
+
+void pl_stage_open_replay(engine_stage *stage, plumb_replay *replay, const char *path)
+{
+    plumb_replay_info from = { 0 };
+    plumb_replay_get_info(replay, &from);
+    const char *base = strrchr(path, '/');
+    base = base != NULL ? base + 1 : path;
+    *stage = (engine_stage){ .replay = replay, .world = plumb_replay_world(replay) };
+    plumb_world_desc world = plumb_world_settings(stage->world);
+    stage->info = (scene_info){
+        .title = from.title[0] != '\0' ? from.title : base,
+        .duration = from.end - from.start,
+        .dt = from.steps > 0 ? (from.end - from.start) / (double)from.steps : 0,
+        .y_axis = world.y_axis,
+        .solver = world.solver,
+        .substeps = world.substeps,
+        .iterations = world.iterations,
+    };
+}
+
+void pl_stage_close(engine_stage *stage)
+{
+    free(stage->bodies);
+    free(stage->joints);
+    free(stage->handles);
+    free(stage->names);
+    free(stage->hues);
+    free(stage->rows);
+    free(stage->contacts);
+    free(stage->shapes);
+    free(stage->cells);
+}
+
+// --------------------------------------------------------------------------------------- of both
+
+int pl_stage_body_count(const engine_stage *stage)
+{
+    return stage->scene != NULL ? scene_body_count(stage->scene) : stage->body_count;
+}
+
+scene_body pl_stage_body(const engine_stage *stage, int i)
+{
+    return stage->scene != NULL ? scene_body_get(stage->scene, i) : stage->bodies[i];
+}
+
+int pl_stage_joint_count(const engine_stage *stage)
+{
+    return stage->scene != NULL ? scene_joint_count(stage->scene) : stage->joint_count;
+}
+
+scene_joint pl_stage_joint(const engine_stage *stage, int i)
+{
+    return stage->scene != NULL ? scene_joint_get(stage->scene, i) : stage->joints[i];
+}
+
+double pl_stage_time(const engine_stage *stage)
+{
+    return stage->scene != NULL ? scene_time(stage->scene) : plumb_world_stats(stage->world).time;
+}
+
+const char *pl_stage_text(const engine_stage *stage)
+{
+    const char *text = stage->scene != NULL ? scene_get_text(stage->scene) : NULL;
+    return text != NULL ? text : "";
+}
+
+engine_info pl_stage_info(const engine_stage *stage)
+{
+    const scene_info *info = &stage->info;
+    const scene_camera *camera = &stage->camera;
+    plumb_world_desc world = plumb_world_settings(stage->world);
+    return (engine_info){
+        .name = info->title,
+        .duration = info->duration,
+        .dt = info->dt,
+        .substeps = info->substeps,
+        .iterations = info->iterations,
+        .solver = info->solver == PLUMB_SOLVER_PGS ? 1 : 0,
+        .width = plumb_world_stats(stage->world).simd_width,
+        .y_down = info->y_axis == PLUMB_Y_DOWN,
+        .wrap_x = (double)world.wrap_x,
+        .wrap_y = (double)world.wrap_y,
+        .exact_count = stage->scene != NULL ? scene_exact_count(stage->scene) : 0,
+        .camera = { .has_view = camera->has_view,
+                    .x = camera->center[0],
+                    .y = camera->center[1],
+                    .height = camera->height,
+                    .has_fit = camera->has_fit,
+                    .box = { camera->box[0], camera->box[1], camera->box[2], camera->box[3] },
+                    .follow = camera->follow != NULL ? camera->follow : "",
+                    .at = camera->has_at ? camera->at : -1,
+                    .trail = camera->trail },
+    };
+}
+
+int pl_stage_palette(const scene_body *body, int i)
+{
+    return body->palette >= 0 ? body->palette : i;
+}
+
+int pl_stage_rows(engine_stage *stage, const engine_row **rows)
+{
+    int count = pl_stage_body_count(stage);
+    engine_row *list =
+        pl_session_reserve(stage->rows, &stage->row_room, count, sizeof *stage->rows);
+    if (list == NULL) {
+        return -1;
+    }
+    stage->rows = list;
+    for (int i = 0; i < count; i++) {
+        scene_body body = pl_stage_body(stage, i);
+        plumb_vec2 p = plumb_body_position(stage->world, body.entity);
+        plumb_vec2 v = plumb_body_velocity(stage->world, body.entity);
+        list[i] = (engine_row){
+            .name = body.name,
+            .x = (double)p.x,
+            .y = (double)p.y,
+            .angle = (double)plumb_body_angle(stage->world, body.entity),
+            .vx = (double)v.x,
+            .vy = (double)v.y,
+            .w = (double)plumb_body_angular_velocity(stage->world, body.entity),
+            .moves = plumb_body_get_type(stage->world, body.entity) != PLUMB_STATIC,
+            .palette = pl_stage_palette(&body, i),
+        };
+    }
+    *rows = list;
+    return count;
+}
+
+engine_stats pl_stage_stats(const engine_stage *stage)
+{
+    plumb_stats s = plumb_world_stats(stage->world);
+    return (engine_stats){
+        .step_count = s.step_count,
+        .time = s.time,
+        .bodies = s.body_count,
+        .moving = s.dynamic_count + s.kinematic_count,
+        .asleep = s.asleep_count,
+        .islands = s.island_count,
+        .statics = s.static_count,
+        .shapes = s.shape_count,
+        .pieces = s.piece_count,
+        .pairs = s.pair_count,
+        .contacts = s.contact_count,
+        .points = s.point_count,
+        .colors = s.color_count,
+        .overflow = s.overflow_count,
+        .pair_rebuilds = s.pair_rebuilds,
+        .max_penetration = (double)s.max_penetration,
+        .mean_penetration = (double)s.mean_penetration,
+        .bytes = s.bytes,
+        .peak_bytes = s.peak_bytes,
+    };
+}
