@@ -151,7 +151,8 @@ WIDE_INLINE void sweep_bundle(const pl_joint_call *call, uint32_t k, const pl_jo
     scatter_velocity(&b, call, at.b);
 }
 
-// The pattern of bare hinges is known to the compiler, which makes a kernel of their own of it.
+// These patterns are known to the compiler, which makes a kernel of its own of each: bare hinges, and hinges with
+// limits and a motor, such as ragdolls have.
 static const pl_joint_pattern bare_pattern = {
     .count = 2,
     .block = 2,
@@ -160,12 +161,31 @@ static const pl_joint_pattern bare_pattern = {
              { .index = 1, .form = PL_FORM_POINT_Y, .type = PL_ROW_EQUAL } },
 };
 
+static const pl_joint_pattern limited_pattern = {
+    .count = 5,
+    .block = 2,
+    .row = { { .index = 0, .form = PL_FORM_POINT_X, .type = PL_ROW_EQUAL },
+             { .index = 1, .form = PL_FORM_POINT_Y, .type = PL_ROW_EQUAL },
+             { .index = 3, .form = PL_FORM_ANGLE, .type = PL_ROW_LEAST },
+             { .index = 4, .form = PL_FORM_ANGLE, .type = PL_ROW_LEAST },
+             { .index = 5, .form = PL_FORM_ANGLE, .type = PL_ROW_DRIVE } },
+};
+
+// Whether the kernels would do the same for both.
+WIDE_INLINE bool is_alike(const pl_joint_pattern *p, const pl_joint_pattern *q)
+{
+    return p->count == q->count && p->block == q->block && p->bare == q->bare &&
+           p->tempered == q->tempered && memcmp(p->row, q->row, sizeof p->row) == 0;
+}
+
 WIDE_INLINE void sweep(const pl_joint_call *call, const bool pull, const bool first)
 {
     for (uint32_t k = call->first; k < call->end; ++k) {
         const pl_joint_pattern *p = &call->patterns[call->bundles[k].pattern];
         if (p->bare) {
             sweep_bundle(call, k, &bare_pattern, pull, first);
+        } else if (is_alike(p, &limited_pattern)) {
+            sweep_bundle(call, k, &limited_pattern, pull, first);
         } else {
             sweep_bundle(call, k, p, pull, first);
         }
