@@ -53,7 +53,8 @@ static const pl_joint_end *hinge_of(const plumb_world *world, uint32_t row)
 
 bool pl_course_is_free(const plumb_world *world, uint32_t row)
 {
-    return hinge_of(world, row) == NULL;
+    const pl_joint_plan *plan = &world->joints.plan;
+    return (plan->made && plan->adrift) || hinge_of(world, row) == NULL;
 }
 
 // The pivot of a body in its frame: see pl_course_of_mover.

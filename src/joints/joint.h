@@ -99,6 +99,7 @@ typedef struct pl_joint_plan {
     uint32_t bundle_count, alone_count, pattern_count;
     pl_joint_pattern patterns[PL_JOINT_PATTERNS];
     bool made;
+    bool adrift; // no joint is off, or ties a body to what dynamics does not move
 } pl_joint_plan;
 
 typedef struct pl_joints {

@@ -151,7 +151,8 @@ WIDE_INLINE void sweep_bundle(const pl_joint_call *call, uint32_t k, const pl_jo
     scatter_velocity(&b, call, at.b);
 }
 
-// The pattern of bare hinges is known to the compiler, which makes a kernel of their own of it.
+// These patterns are known to the compiler, which makes a kernel of its own of each: bare hinges, and hinges with
+// limits and a motor, such as ragdolls have.
 static const pl_joint_pattern bare_pattern = {
     .count = 2,
     .block = 2,
@@ -160,12 +161,31 @@ static const pl_joint_pattern bare_pattern = {
              { .index = 1, .form = PL_FORM_POINT_Y, .type = PL_ROW_EQUAL } },
 };
 
+static const pl_joint_pattern limited_pattern = {
+    .count = 5,
+    .block = 2,
+    .row = { { .index = 0, .form = PL_FORM_POINT_X, .type = PL_ROW_EQUAL },
+             { .index = 1, .form = PL_FORM_POINT_Y, .type = PL_ROW_EQUAL },
+             { .index = 3, .form = PL_FORM_ANGLE, .type = PL_ROW_LEAST },
+             { .index = 4, .form = PL_FORM_ANGLE, .type = PL_ROW_LEAST },
+             { .index = 5, .form = PL_FORM_ANGLE, .type = PL_ROW_DRIVE } },
+};
+
+// Whether the kernels would do the same for both.
+WIDE_INLINE bool is_alike(const pl_joint_pattern *p, const pl_joint_pattern *q)
+{
+    return p->count == q->count && p->block == q->block && p->bare == q->bare &&
+           p->tempered == q->tempered && memcmp(p->row, q->row, sizeof p->row) == 0;
+}
+
 WIDE_INLINE void sweep(const pl_joint_call *call, const bool pull, const bool first)
 {
     for (uint32_t k = call->first; k < call->end; ++k) {
         const pl_joint_pattern *p = &call->patterns[call->bundles[k].pattern];
         if (p->bare) {
             sweep_bundle(call, k, &bare_pattern, pull, first);
+        } else if (is_alike(p, &limited_pattern)) {
+            sweep_bundle(call, k, &limited_pattern, pull, first);
         } else {
             sweep_bundle(call, k, p, pull, first);
         }
@@ -194,10 +214,10 @@ static void relax(const pl_joint_call *call)
 
 //---- joints <-> lanes ----------------------------------------------------------------------------
 
-static void fill_row(const parts *at, const pl_joint_pattern *p, int i, int lane, const pl_joint *j,
-                     plumb_vec2 apart, real h)
+static void fill_row(const parts *at, const pl_joint_pattern *p, int i, int lane,
+                     const pl_rows *rows, plumb_vec2 apart, real h)
 {
-    const pl_row *from = &j->rows.row[p->row[i].index];
+    const pl_row *from = &rows->row[p->row[i].index];
     const bool length = p->row[i].form == PL_FORM_LENGTH;
     row *r = &at->rows[i];
     source *s = &at->sources[i];
@@ -212,39 +232,41 @@ static void fill_row(const parts *at, const pl_joint_pattern *p, int i, int lane
         return;
     }
     single *e = &at->singles[i - p->block];
-    pl_joint_soft soft = pl_joint_spring(from, h);
     e->most[lane] = from->most * h;
     e->speed[lane] = from->speed;
-    e->velocity[lane] = soft.velocity;
-    e->error_rate[lane] = soft.error;
-    e->give[lane] = soft.impulse;
+    if (p->row[i].spring) {
+        pl_joint_soft soft = pl_joint_spring(from, h);
+        e->velocity[lane] = soft.velocity;
+        e->error_rate[lane] = soft.error;
+        e->give[lane] = soft.impulse;
+    }
 }
 
-static void fill_temper(temper *t, int lane, const pl_joint *j, real h)
+static void fill_temper(temper *t, int lane, const pl_rows *rows, real h)
 {
-    pl_joint_soft soft = pl_joint_spring(&j->rows.row[0], h);
+    pl_joint_soft soft = pl_joint_spring(&rows->row[0], h);
     t->velocity[lane] = soft.velocity;
     t->error_rate[lane] = soft.error;
     t->give[lane] = soft.impulse;
-    t->most[lane] = j->rows.block_most * h;
+    t->most[lane] = rows->block_most * h;
 }
 
 static void fill_lane(const parts *at, const pl_joint_pattern *p, int lane, const pl_joint *j,
-                      real h)
+                      const pl_rows *rows, real h)
 {
     const pl_joint_pose *a = &j->a.pose, *b = &j->b.pose;
     plumb_vec2 apart = pl_joint_apart(a, b);
     for (int i = 0; i < p->count; ++i) {
         at->rows[i].impulse[lane] = j->impulse[p->row[i].index];
-        fill_row(at, p, i, lane, j, apart, h);
+        fill_row(at, p, i, lane, rows, apart, h);
     }
     if (p->row[0].form == PL_FORM_POINT_X) {
         // What B's anchor is held to, seen from A: the anchor, or a target beside it.
-        at->c->ra_x[lane] = a->rx + apart.x - j->rows.row[0].error;
-        at->c->ra_y[lane] = a->ry + apart.y - j->rows.row[1].error;
+        at->c->ra_x[lane] = a->rx + apart.x - rows->row[0].error;
+        at->c->ra_y[lane] = a->ry + apart.y - rows->row[1].error;
     }
     if (p->tempered) {
-        fill_temper(at->temper, lane, j, h);
+        fill_temper(at->temper, lane, rows, h);
     }
 }
 
@@ -269,25 +291,24 @@ WIDE_INLINE void fill_start(const parts *at, const pl_joint_start *starts, const
 
 static void fill(const pl_joint_call *call)
 {
-    for (uint32_t k = call->first; k < call->end; ++k) {
-        const pl_joint_pattern *p = &call->patterns[call->bundles[k].pattern];
-        parts at = open(call, k, p);
-        const pl_joint_lane *lanes = &call->lanes[(size_t)k * PL_WIDTH];
-        memset(at.c, 0, record_size(p));
-        fill_start(&at, &call->starts[(size_t)k * PL_WIDTH], p->bare);
-        for (int i = 0; i < PL_WIDTH && !p->bare; ++i) {
-            if (lanes[i].joint != PL_NONE) {
-                fill_lane(&at, p, i, &call->joints[lanes[i].joint], call->h);
-            }
+    const uint32_t k = call->first;
+    const pl_joint_pattern *p = &call->patterns[call->bundles[k].pattern];
+    parts at = open(call, k, p);
+    const pl_joint_lane *lanes = &call->lanes[(size_t)k * PL_WIDTH];
+    memset(at.c, 0, record_size(p));
+    fill_start(&at, &call->starts[(size_t)k * PL_WIDTH], p->bare);
+    for (int i = 0; i < PL_WIDTH && !p->bare; ++i) {
+        if (lanes[i].joint != PL_NONE) {
+            fill_lane(&at, p, i, &call->joints[lanes[i].joint], &call->rows[i], call->h);
         }
-        body a, b;
-        gather_body(&a, call, at.a);
-        gather_body(&b, call, at.b);
-        at.c->inertia_a = a.inv_inertia;
-        at.c->inertia_b = b.inv_inertia;
-        make_rows(&at, p, &a, &b);
-        at.c->owed_x = at.c->owed_y = at.c->owed_a = at.c->owed_b = splat(0);
     }
+    body a, b;
+    gather_body(&a, call, at.a);
+    gather_body(&b, call, at.b);
+    at.c->inertia_a = a.inv_inertia;
+    at.c->inertia_b = b.inv_inertia;
+    make_rows(&at, p, &a, &b);
+    at.c->owed_x = at.c->owed_y = at.c->owed_a = at.c->owed_b = splat(0);
 }
 
 static void warm_start(const pl_joint_call *call)

@@ -109,12 +109,14 @@ static void mark_all(plumb_world *world)
     pl_joint_mark *marks = world->joints.plan.marks.data;
     const uint32_t *awake = world->joints.awake.data;
     memset(marks, 0, world->joints.count * sizeof *marks);
+    world->joints.plan.adrift = pl_joints_awake(world) == world->joints.live;
     for (uint32_t i = 0; i < pl_joints_awake(world); ++i) {
         const pl_joint *j = &pl_joint_items(&world->joints)[awake[i]];
         pl_joint_mark *mark = &marks[awake[i]];
         *mark =
             (pl_joint_mark){ .a = j->a.body, .b = j->b.body, .row_a = PL_NONE, .row_b = PL_NONE };
         mark->what = is_active(world, j) ? look(world, mark) : 0;
+        world->joints.plan.adrift &= (mark->what & MOVES_A) != 0 && (mark->what & MOVES_B) != 0;
     }
 }
 

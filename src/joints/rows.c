@@ -6,26 +6,29 @@
 
 #include "plumb/math.h"
 
-// A row that pushes A at arm_a, B at arm_b.
-static pl_row along(plumb_vec2 arm_a, plumb_vec2 arm_b, plumb_vec2 n, real error, pl_row_form form)
+// A row that pushes A at arm_a, B at arm_b. Member by member: a row that is put together and then copied is
+// read back in larger parts than it was written in, and waits for that.
+static void put_along(pl_row *row, plumb_vec2 arm_a, plumb_vec2 arm_b, plumb_vec2 n, real error,
+                      pl_row_form form)
 {
-    return (pl_row){ .ax = -n.x,
-                     .ay = -n.y,
-                     .aw = -plumb_vec2_cross(arm_a, n),
-                     .bx = n.x,
-                     .by = n.y,
-                     .bw = plumb_vec2_cross(arm_b, n),
-                     .error = error,
-                     .most = PL_UNBOUNDED,
-                     .type = PL_ROW_EQUAL,
-                     .form = form };
+    row->ax = -n.x, row->ay = -n.y;
+    row->aw = -plumb_vec2_cross(arm_a, n);
+    row->bx = n.x, row->by = n.y;
+    row->bw = plumb_vec2_cross(arm_b, n);
+    row->error = error;
+    row->speed = row->hertz = row->damping = 0;
+    row->most = PL_UNBOUNDED;
+    row->type = PL_ROW_EQUAL;
+    row->form = form;
 }
 
 pl_row pl_row_along_axis(const pl_joint_pose *a, const pl_joint_pose *b, plumb_vec2 n, real offset)
 {
+    pl_row row;
     plumb_vec2 d = pl_joint_apart(a, b);
-    return along(plumb_v2(a->rx + d.x, a->ry + d.y), plumb_v2(b->rx, b->ry), n,
-                 plumb_vec2_dot(d, n) - offset, PL_FORM_ALONG);
+    put_along(&row, plumb_v2(a->rx + d.x, a->ry + d.y), plumb_v2(b->rx, b->ry), n,
+              plumb_vec2_dot(d, n) - offset, PL_FORM_ALONG);
+    return row;
 }
 
 pl_row pl_row_angle(const pl_joint_pose *a, const pl_joint_pose *b, real offset)
@@ -41,10 +44,13 @@ pl_row pl_row_angle(const pl_joint_pose *a, const pl_joint_pose *b, real offset)
 // Without length there is no direction: any will do, the row pushes the points apart along it.
 pl_row pl_row_length(const pl_joint_pose *a, const pl_joint_pose *b, real length)
 {
+    pl_row row;
     real now;
     plumb_vec2 n = plumb_vec2_unit_and_magnitude(pl_joint_apart(a, b), &now);
     n = now > 0 ? n : plumb_v2(1, 0);
-    return along(plumb_v2(a->rx, a->ry), plumb_v2(b->rx, b->ry), n, now - length, PL_FORM_LENGTH);
+    put_along(&row, plumb_v2(a->rx, a->ry), plumb_v2(b->rx, b->ry), n, now - length,
+              PL_FORM_LENGTH);
+    return row;
 }
 
 pl_row pl_row_at_least(pl_row row, real lower)
@@ -75,8 +81,8 @@ void pl_rows_point(pl_rows *rows, const pl_joint_pose *a, const pl_joint_pose *b
     plumb_vec2 half = plumb_v2(error.x / 2, error.y / 2);
     plumb_vec2 arm_a = plumb_v2(a->rx + held.x + half.x, a->ry + held.y + half.y);
     plumb_vec2 arm_b = plumb_v2(b->rx - half.x, b->ry - half.y);
-    rows->row[0] = along(arm_a, arm_b, plumb_v2(1, 0), error.x, PL_FORM_POINT_X);
-    rows->row[1] = along(arm_a, arm_b, plumb_v2(0, 1), error.y, PL_FORM_POINT_Y);
+    put_along(&rows->row[0], arm_a, arm_b, plumb_v2(1, 0), error.x, PL_FORM_POINT_X);
+    put_along(&rows->row[1], arm_a, arm_b, plumb_v2(0, 1), error.y, PL_FORM_POINT_Y);
     rows->block = 2;
     rows->block_most = PL_UNBOUNDED;
 }

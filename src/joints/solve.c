@@ -339,20 +339,21 @@ static void begin(const plumb_world *world, pl_joint *j, real h)
 }
 
 // A joint in a lane, its rows as they are now.
-static void begin_wide(const plumb_world *world, pl_joint *j, pl_joint_start *start, real h)
+static void begin_wide(const plumb_world *world, pl_joint *j, pl_joint_start *start, pl_rows *rows,
+                       real h)
 {
     begin(world, j, h);
-    pl_joint_classes[j->desc.kind]->rows(j, &j->a.pose, &j->b.pose, &j->rows);
+    pl_joint_classes[j->desc.kind]->rows(j, &j->a.pose, &j->b.pose, rows);
     *start = (pl_joint_start){ .arm_a = { j->a.pose.rx, j->a.pose.ry },
                                .arm_b = { j->b.pose.rx, j->b.pose.ry },
                                .apart = { j->b.pose.x - j->a.pose.x, j->b.pose.y - j->a.pose.y } };
-    for (int k = 0; k < j->rows.count; ++k) {
-        j->impulse[k] = j->rows.row[k].type != PL_ROW_OFF ? j->impulse[k] : 0;
+    for (int k = 0; k < rows->count; ++k) {
+        j->impulse[k] = rows->row[k].type != PL_ROW_OFF ? j->impulse[k] : 0;
     }
 }
 
 // How the lanes of a bundle begin the step; slots as the kernels want them.
-static void begin_lanes(const plumb_world *world, uint32_t bundle, real h)
+static void begin_lanes(const plumb_world *world, uint32_t bundle, pl_rows *rows, real h)
 {
     const pl_joint_plan *plan = &world->joints.plan;
     const uint32_t width = (uint32_t)pl_joint_kernels_of(world)->width;
@@ -380,7 +381,7 @@ static void begin_lanes(const plumb_world *world, uint32_t bundle, real h)
         if (bare) {
             pl_joint_start_bare(world, &lanes[i], &starts[i], h);
         } else {
-            begin_wide(world, &pl_joint_items(&world->joints)[joint], &starts[i], h);
+            begin_wide(world, &pl_joint_items(&world->joints)[joint], &starts[i], &rows[i], h);
         }
     }
 }
@@ -394,11 +395,14 @@ static void begin_bundles(void *context, uint32_t first, uint32_t count)
 {
     const beginning *b = context;
     pl_joint_call call = b->call;
-    call.first = first, call.end = first + count;
-    for (uint32_t k = call.first; k < call.end; ++k) {
-        begin_lanes(b->world, k, call.h);
+    // Bundle by bundle: rows are made and go into lanes before memory sees them.
+    pl_rows rows[PL_JOINT_LANES];
+    call.rows = rows;
+    for (uint32_t k = first; k < first + count; ++k) {
+        begin_lanes(b->world, k, rows, call.h);
+        call.first = k, call.end = k + 1;
+        pl_joint_kernels_of(b->world)->fill(&call);
     }
-    pl_joint_kernels_of(b->world)->fill(&call);
 }
 
 void pl_joints_prepare(plumb_world *world, real h)

@@ -68,16 +68,19 @@ typedef struct pl_joint_call {
     const uint32_t *slots; // of a bundle: solver slots of all lanes' A, then of all B
     unsigned char *records;
     pl_joint *joints;
+    const pl_rows *rows; // for `fill`: of the lanes of its one bundle, unless that is bare
     real h;              // [s] substep
     pl_joint_soft rigid; // of rows that are no springs, where they pull
 } pl_joint_call;
+
+#define PL_JOINT_LANES 16 // of the widest kernel
 
 typedef void pl_joint_kernel(const pl_joint_call *call);
 
 typedef struct pl_joint_kernels {
     int width;
     size_t (*record_size)(const pl_joint_pattern *pattern); // [B]
-    pl_joint_kernel *fill;       // from poses, rows and impulses of the joints
+    pl_joint_kernel *fill;       // one bundle, from poses, rows and impulses of the joints
     pl_joint_kernel *warm_start; // the impulses that the step begins with
     // One sweep each. First of a substep: what J's turning owes is paid before pulling, rows are made
     // for the new poses before relaxing.
