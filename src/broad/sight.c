@@ -98,13 +98,14 @@ bool pl_sight_update(plumb_world *world)
     owns[PL_SIGHT_RESTING] = !resting_holds(world);
     owns[PL_SIGHT_FIXED] = !fixed_holds(world);
     bool any = owns[PL_SIGHT_MOVING] || owns[PL_SIGHT_RESTING] || owns[PL_SIGHT_FIXED];
-    sight->fresh = !any || (reserve(world) &&
-                            (!owns[PL_SIGHT_MOVING] ||
-                             file(world, PL_SIGHT_MOVING, pl_moving(world), world->moving_count)) &&
-                            (!owns[PL_SIGHT_RESTING] ||
-                             file(world, PL_SIGHT_RESTING, pl_resting(&world->sleep),
-                                  world->sleep.resting_count)) &&
-                            (!owns[PL_SIGHT_FIXED] || file_fixed(world)));
+    sight->fresh =
+        !any ||
+        (reserve(world) &&
+         (!owns[PL_SIGHT_MOVING] ||
+          file(world, PL_SIGHT_MOVING, pl_moving(world), world->moving_count)) &&
+         (!owns[PL_SIGHT_RESTING] ||
+          file(world, PL_SIGHT_RESTING, pl_resting(&world->sleep), world->sleep.resting_count)) &&
+         (!owns[PL_SIGHT_FIXED] || file_fixed(world)));
     return sight->fresh;
 }
 

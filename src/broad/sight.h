@@ -17,9 +17,9 @@ typedef enum pl_sight_grid {
 typedef struct pl_sight {
     bool fresh;                // nothing has moved, come or gone since it was brought up to date
     bool owns[PL_SIGHT_GRIDS]; // the step's grid does not hold: seen by one of its own
-    pl_buffer grids; // pl_grid [PL_SIGHT_GRIDS], made when the first one is needed
-    pl_buffer boxes; // pl_box a piece slot: tight boxes of what is in grids of its own
-    pl_buffer list;  // uint32_t pieces to file
+    pl_buffer grids;           // pl_grid [PL_SIGHT_GRIDS], made when the first one is needed
+    pl_buffer boxes;           // pl_box a piece slot: tight boxes of what is in grids of its own
+    pl_buffer list;            // uint32_t pieces to file
 } pl_sight;
 
 // Sees every piece where it is now. Free from the second time on, until something changes. False when out of

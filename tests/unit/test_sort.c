@@ -18,7 +18,8 @@ static void sorted_by_key_then_order(void **state)
         pl_keyed items[MOST];
         uint64_t sum = 0;
         for (uint32_t i = 0; i < count; ++i) {
-            items[i] = (pl_keyed){ pl_key(sim_random(&seed) % 4, sim_random(&seed) % 8), i, sim_random(&seed) };
+            items[i] = (pl_keyed){ pl_key(sim_random(&seed) % 4, sim_random(&seed) % 8), i,
+                                   sim_random(&seed) };
             sum += items[i].key * 31 + items[i].value;
         }
         pl_sort_keyed(items, count);

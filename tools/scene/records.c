@@ -3,9 +3,9 @@
 #include "internal.h"
 
 const sc_record_kind sc_bodies = { SC_META_BODY, "plumb.names", plumb_body_valid,
-                               plumb_body_user_data };
+                                   plumb_body_user_data };
 const sc_record_kind sc_joints = { SC_META_JOINT, "plumb.joints", plumb_joint_valid,
-                                plumb_joint_user_data };
+                                   plumb_joint_user_data };
 
 void sc_records_open(lua_State *L, const sc_record_kind *kind)
 {
