@@ -78,7 +78,8 @@
     LEFT(solver.bodies) LEFT(solver.motions) LEFT(solver.lows) LEFT(solver.struck)                 \
     LEFT(solver.rows) LEFT(solver.slots) LEFT(solver.ends) LEFT(solver.masks) LEFT(solver.colors)                    \
     LEFT(solver.lanes) LEFT(solver.bundles) LEFT(solver.extras) LEFT(solver.specials)              \
-    LEFT(solver.impacts) LEFT(solver.impact_heap) LEFT(solver.impact_heads) LEFT(solver.due_count)   \
+    LEFT(solver.impacts) LEFT(solver.outlook_fields) LEFT(solver.outlook_ends)                     \
+    LEFT(solver.outlook_open) LEFT(solver.outlook_lanes) LEFT(solver.impact_heap) LEFT(solver.impact_heads) LEFT(solver.due_count)   \
     LEFT(solver.lively_count)     LEFT(solver.classic) LEFT(solver.dynamic_slots) LEFT(solver.slot_count)   \
     LEFT(solver.color_first) LEFT(solver.bundle_count) LEFT(solver.impact_count) LEFT(solver.color_count)                 \
     LEFT(solver.overflow_count) LEFT(solver.bounce_count)

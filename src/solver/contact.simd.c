@@ -554,6 +554,8 @@ DEFINE_VARIANT(1, 1, 1, 1)
       { PL_WIDE_NAME(name##_1111), PL_WIDE_NAME(name##_1111) } }
 // clang-format on
 
+pl_outlook_kernel PL_WIDE_NAME(pl_outlook); // outlook.simd.c
+
 const pl_contact_kernels PL_WIDE_NAME(pl_contact_kernels) = {
     .width = PL_WIDTH,
     .bundle_size = sizeof(bundle),
@@ -568,6 +570,7 @@ const pl_contact_kernels PL_WIDE_NAME(pl_contact_kernels) = {
     .prepare_extras = prepare_extras,
     .special_size = sizeof(special),
     .prepare_specials = prepare_specials,
+    .outlook = PL_WIDE_NAME(pl_outlook),
     .tally = tally,
     .store_extras = store_extras,
 };

@@ -77,12 +77,17 @@ static bool reserve_lanes(plumb_world *world, const uint32_t counts[PL_COLORS + 
     size_t specials = pl_solver_specials(world) ? bundles : 0;
     size_t extras =
         world->narrow.any_surface || specials > 0 || pl_solver_tallies(world) ? bundles : 0;
+    size_t looked = impacts > 0 && world->desc.solver == PLUMB_SOLVER_SOFT ? bundles * width : 0;
     size_t classic = world->desc.solver == PLUMB_SOLVER_PGS ? contacts : 0;
     return pl_buffer_reserve(memory, &s->lanes, bundles * width * sizeof(uint32_t)) &&
            pl_buffer_reserve(memory, &s->bundles, bundles * k->bundle_size) &&
            pl_buffer_reserve(memory, &s->extras, extras * k->extra_size) &&
            pl_buffer_reserve(memory, &s->specials, specials * k->special_size) &&
            pl_buffer_reserve(memory, &s->impacts, impacts * sizeof(pl_impact)) &&
+           pl_buffer_reserve(memory, &s->outlook_fields,
+                             looked * PL_OUTLOOK_FIELDS * sizeof(real)) &&
+           pl_buffer_reserve(memory, &s->outlook_ends, looked * sizeof(pl_outlook_ends)) &&
+           pl_buffer_reserve(memory, &s->outlook_open, looked) &&
            pl_buffer_reserve(memory, &s->impact_heap, impacts * sizeof(uint32_t)) &&
            pl_buffer_reserve(memory, &s->impact_heads,
                              (impacts > 0 ? s->dynamic_slots : 0) * sizeof(uint32_t)) &&
@@ -357,7 +362,7 @@ void pl_solver_free(pl_memory *memory, pl_solver *s)
                              &s->ends,        &s->masks,   &s->colors,   &s->lanes,
                              &s->bundles,     &s->impacts, &s->classic,  &s->lows,
                              &s->struck,      &s->extras,  &s->specials, &s->impact_heap,
-                             &s->impact_heads };
+                             &s->impact_heads, &s->outlook_fields, &s->outlook_ends, &s->outlook_open };
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; ++i) {
         pl_buffer_free(memory, buffers[i]);
     }

@@ -21,6 +21,7 @@
 #include "world/state.h"
 
 #include <math.h>
+#include <string.h>
 
 // Impacts of one substep that are followed, of each elastic contact; what is left then is solved
 // without bounce. A light ball between two heavy ones strikes many times within a substep; but of a
@@ -28,6 +29,9 @@
 // below KEPT that is not worth following: a stirred heap of e = 0.1 strikes ten times a contact.
 #define CHAIN 64
 #define KEPT  0.02
+
+// So many bundles are worth a thread.
+#define LEAST 12
 
 typedef struct approach {
     bool due;     // an impact falls into this substep and bounces
@@ -96,6 +100,27 @@ static pl_impact impact_of(const plumb_world *world, const pl_manifold *m)
     return impact;
 }
 
+// What the outlook kernel needs of a lane; `impact` null: nothing.
+static void give_lane(pl_solver *s, size_t width, size_t lane, uint32_t index,
+                      const pl_impact *impact)
+{
+    real *field = (real *)s->outlook_fields.data + lane / width * width * PL_OUTLOOK_FIELDS +
+                  lane % width;
+    pl_outlook_ends *ends = (pl_outlook_ends *)s->outlook_ends.data + lane;
+    const uint32_t none = s->slot_count - 1;
+    *ends = impact != NULL ? (pl_outlook_ends){ impact->a, impact->b, index }
+                           : (pl_outlook_ends){ none, none, PL_NONE };
+    field[0] = impact != NULL ? impact->nx : 0;
+    field[width] = impact != NULL ? impact->ny : 0;
+    for (uint32_t j = 0; j < 2; ++j) {
+        bool present = impact != NULL && j < impact->count;
+        const pl_impact_point *p = present ? &impact->point[j] : NULL;
+        field[PL_OUTLOOK_SEPARATION(j) * width] = present ? p->separation : PL_APART;
+        field[PL_OUTLOOK_RAN(j) * width] = present ? p->ran : 0;
+        field[PL_OUTLOOK_RBN(j) * width] = present ? p->rbn : 0;
+    }
+}
+
 void pl_impacts_prepare(plumb_world *world)
 {
     pl_solver *s = &world->solver;
@@ -103,23 +128,28 @@ void pl_impacts_prepare(plumb_world *world)
     const uint32_t *lanes = s->lanes.data;
     pl_impact *impacts = s->impacts.data;
     s->impact_count = s->bounce_count = 0;
-    for (size_t lane = 0; lane < (size_t)s->bundle_count * (size_t)kernels->width; ++lane) {
-        if (lanes[lane] == PL_NONE) {
+    s->outlook_lanes = s->bundle_count * (uint32_t)kernels->width;
+    for (size_t lane = 0; lane < s->outlook_lanes; ++lane) {
+        const pl_manifold *m =
+            lanes[lane] != PL_NONE ? &pl_manifolds(&world->narrow)[lanes[lane]] : NULL;
+        if (m == NULL || !(m->restitution > 0) || m->adhesion > 0) { // what sticks does not bounce
+            give_lane(s, (size_t)kernels->width, lane, PL_NONE, NULL);
             continue;
         }
-        const pl_manifold *m = &pl_manifolds(&world->narrow)[lanes[lane]];
-        if (!(m->restitution > 0) || m->adhesion > 0) { // what sticks does not bounce
-            continue;
-        }
-        pl_impact *impact = &impacts[s->impact_count++];
+        pl_impact *impact = &impacts[s->impact_count];
         *impact = impact_of(world, m);
         for (uint32_t j = 0; j < m->count; ++j) {
             pl_impact_point *p = &impact->point[j];
             p->lane_separation = lane_value(s, kernels, lane, kernels->separation_offset[j]);
             p->lane_impulse = lane_value(s, kernels, lane, kernels->impulse_offset[j]);
         }
+        give_lane(s, (size_t)kernels->width, lane, s->impact_count++,
+                  impact->chain > 1 ? NULL : impact);
     }
     pl_impact_queue_link(s);
+    if (s->lively_count == s->impact_count) {
+        s->outlook_lanes = 0;
+    }
 }
 
 void pl_impacts_prepare_classic(plumb_world *world)
@@ -127,7 +157,7 @@ void pl_impacts_prepare_classic(plumb_world *world)
     pl_solver *s = &world->solver;
     pl_impact *impacts = s->impacts.data;
     pl_classic_contact *contacts = s->classic.data;
-    s->impact_count = s->bounce_count = 0;
+    s->impact_count = s->bounce_count = s->outlook_lanes = 0;
     for (uint32_t i = 0; i < world->narrow.manifold_count; ++i) {
         const pl_manifold *m = &pl_manifolds(&world->narrow)[i];
         if (!(m->restitution > 0) || m->adhesion > 0) { // what sticks does not bounce
@@ -469,24 +499,67 @@ static void run_lively(plumb_world *world, real h)
 }
 
 // Dull ones strike once, one after the other as they stand.
-static void run_dull(plumb_world *world, real h)
+static void take_turn(plumb_world *world, pl_impact *m, real h)
+{
+    approach at[2] = { { 0 }, { 0 } };
+    m->left = 1;
+    foresee_all(world, m, (double)h, at);
+    tell_kernel(m);
+    if (m->due) {
+        happen(world, m, at, (double)h);
+        empty_queue(world, (double)h);
+        foresee_all(world, m, (double)h, at);
+        tell_kernel(m);
+    }
+}
+
+static void run_outlook(void *context, uint32_t first, uint32_t count)
+{
+    const pl_outlook_call *call = context;
+    pl_solver_kernels(call->world)->outlook(call, first, count);
+}
+
+static void look_ahead(plumb_world *world, real h)
+{
+    pl_solver *s = &world->solver;
+    const pl_contact_kernels *k = pl_solver_kernels(world);
+    pl_outlook_call call = { .world = world,
+                             .bodies = pl_solver_bodies(s),
+                             .motions = pl_solver_motions(s),
+                             .fields = s->outlook_fields.data,
+                             .ends = s->outlook_ends.data,
+                             .open = s->outlook_open.data,
+                             .bundles = s->bundles.data,
+                             .bundle_size = k->bundle_size,
+                             .h = h };
+    memcpy(call.separation_offset, k->separation_offset, sizeof call.separation_offset);
+    memcpy(call.impulse_offset, k->impulse_offset, sizeof call.impulse_offset);
+    pl_tasks_ranges(world->tasks, s->bundle_count, LEAST, run_outlook, &call);
+}
+
+static void run_all_dull(plumb_world *world, real h)
+{
+    pl_impact *impacts = world->solver.impacts.data;
+    for (uint32_t i = 0; i < world->solver.impact_count; ++i) {
+        if (impacts[i].chain == 1) {
+            take_turn(world, &impacts[i], h);
+        }
+    }
+}
+
+// Those that the outlook leaves open, and those of which a body has been struck since.
+static void run_open(plumb_world *world, real h)
 {
     pl_solver *s = &world->solver;
     pl_impact *impacts = s->impacts.data;
-    for (uint32_t i = 0; i < s->impact_count; ++i) {
-        pl_impact *m = &impacts[i];
-        approach at[2] = { { 0 }, { 0 } };
-        if (m->chain > 1) {
-            continue;
-        }
-        m->left = 1;
-        foresee_all(world, m, (double)h, at);
-        tell_kernel(m);
-        if (m->due) {
-            happen(world, m, at, (double)h);
-            empty_queue(world, (double)h);
-            foresee_all(world, m, (double)h, at);
-            tell_kernel(m);
+    const pl_outlook_ends *ends = s->outlook_ends.data;
+    const uint8_t *open = s->outlook_open.data;
+    const real *struck = s->struck.data;
+    look_ahead(world, h);
+    for (uint32_t lane = 0; lane < s->outlook_lanes; ++lane) {
+        if (ends[lane].impact != PL_NONE &&
+            (open[lane] != 0 || struck[ends[lane].a] > -h || struck[ends[lane].b] > -h)) {
+            take_turn(world, &impacts[ends[lane].impact], h);
         }
     }
 }
@@ -503,7 +576,7 @@ void pl_impacts_run(plumb_world *world, real h)
         run_lively(world, h);
     }
     if (s->lively_count < s->impact_count) {
-        run_dull(world, h);
+        (s->outlook_lanes > 0 ? run_open : run_all_dull)(world, h);
     }
     for (uint32_t i = 0; i < s->impact_count && s->lively_count > 0; ++i) {
         approach at[2];
