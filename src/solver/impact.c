@@ -104,8 +104,8 @@ static pl_impact impact_of(const plumb_world *world, const pl_manifold *m)
 static void give_lane(pl_solver *s, size_t width, size_t lane, uint32_t index,
                       const pl_impact *impact)
 {
-    real *field = (real *)s->outlook_fields.data + lane / width * width * PL_OUTLOOK_FIELDS +
-                  lane % width;
+    real *field =
+        (real *)s->outlook_fields.data + lane / width * width * PL_OUTLOOK_FIELDS + lane % width;
     pl_outlook_ends *ends = (pl_outlook_ends *)s->outlook_ends.data + lane;
     const uint32_t none = s->slot_count - 1;
     *ends = impact != NULL ? (pl_outlook_ends){ impact->a, impact->b, index }

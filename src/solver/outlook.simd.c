@@ -58,7 +58,8 @@ WIDE_INLINE void look_out(outlook *o, const pl_outlook_call *call, const uint32_
         body[0][i] = &call->bodies[a[i]].vx, body[1][i] = &call->bodies[b[i]].vx;
         motion[0][i] = &call->motions[a[i]].ax, motion[1][i] = &call->motions[b[i]].ax;
     }
-    vf now[2][8], moved[2][8]; // vx vy w inv_mass dx dy da inv_inertia; ax ay aw none ux uy uw inv_mass
+    vf now[2][8],
+        moved[2][8]; // vx vy w inv_mass dx dy da inv_inertia; ax ay aw none ux uy uw inv_mass
     for (int k = 0; k < 2; ++k) {
         gather8(now[k], body[k]);
         gather8(moved[k], motion[k]);
