@@ -104,7 +104,9 @@ static plumb_world *make(const setting *s, int workers,
     plumb_material belt = plumb_material_create(
         w, &(plumb_material_desc){ .friction = R(0.7), .surface_speed = surfaces ? 2 : 0 });
     const plumb_material materials[] = {
-        plumb_material_create(w, &(plumb_material_desc){ .friction = R(0.5) }),
+        plumb_material_create(
+            w, &(plumb_material_desc){ .friction = R(0.5),
+                                       .restitution = (s->what & BOUNCY) != 0 ? R(0.1) : 0 }),
         plumb_material_create(
             w, &(plumb_material_desc){ .friction = R(0.3),
                                        .restitution = (s->what & BOUNCY) != 0 ? R(0.6) : 0,
