@@ -71,6 +71,9 @@ static const struct {
     { "run good.lua --solver sofd", "did you mean 'soft'?" },
     { "run good.lua --precision half", "'half' is not one of float,double" },
     { "run good.lua --width 5", "5 is not 0, 4, 8 or 16" },
+    { "run good.lua --workers 0", "--workers: 0 is outside 1 to 64" },
+    { "run good.lua --workers 65", "--workers: 65 is outside 1 to 64" },
+    { "run good.lua --set workers=x", "'workers' of scene{} must be an integer, not a string" },
     { "run good.lua --set friction", "'friction' is not of the form key=value" },
     { "run good.lua --set =1", "'=1' is not of the form key=value" },
     { "run good.lua --set frictoin=1", "frictoin" },
@@ -186,6 +189,7 @@ static void same_command_same_bytes(void **state)
         snprintf(line, sizeof line, "\"$P\" run good.lua --width %d >b; cmp a b", width);
         expect_code(line, 0);
     }
+    expect_code("\"$P\" run good.lua --workers 3 >b; cmp a b", 0);
     expect_code("\"$P\" run good.lua --precision double >b; ! cmp -s a b", 0);
     expect_code(
         "\"$P\" run good.lua -o d.jsonl; \"$P\" run good.lua --format jsonl | cmp - d.jsonl", 0);
