@@ -77,6 +77,7 @@ plumb_result pl_batch_for(plumb_batch *batch, pl_batch_run *run, const void *of,
         return PLUMB_OK;
     }
     pl_tasks_run(batch->tasks, run_chunk, &j, (count + j.chunk - 1) / j.chunk);
+    pl_tasks_rest(batch->tasks);
     uint32_t first = batch->desc.count, refused = 0;
     for (uint32_t i = 0; i < count; ++i) {
         uint32_t index = worlds == NULL ? i : worlds[i];

@@ -1,6 +1,9 @@
 // test_api_batch.c - many worlds: random numbers; the bits of each are those it has alone, whatever the workers;
 // reset, randomise, observe and act.
+#define _POSIX_C_SOURCE 199309L // nanosleep
 #include "batch_fixture.h"
+
+#include <time.h>
 
 //---- random numbers ------------------------------------------------------------------------------
 static void random_numbers_are_splitmix64(void **state)
@@ -270,6 +273,20 @@ static void worlds_live_on_many_threads(void **state)
     }
 }
 
+// Between two calls nobody waits in a loop: a tenth of a second costs next to no processor time.
+static void workers_sleep_between_calls(void **state)
+{
+    (void)state;
+    plumb_batch *batch = make((plumb_batch_desc){ .count = WORLDS, .workers = 4 });
+    assert_int_equal(plumb_batch_step(batch, DT, 3), PLUMB_OK);
+    const struct timespec pause = { 0, 100000000 };
+    nanosleep(&(struct timespec){ 0, 20000000 }, NULL);
+    clock_t before = clock();
+    nanosleep(&pause, NULL);
+    assert_true((double)(clock() - before) / CLOCKS_PER_SEC < 0.05);
+    plumb_batch_destroy(batch);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -283,6 +300,7 @@ int main(void)
         cmocka_unit_test(observe_gathers_every_field),
         cmocka_unit_test(act_sets_and_pushes),
         cmocka_unit_test(worlds_live_on_many_threads),
+        cmocka_unit_test(workers_sleep_between_calls),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
