@@ -223,19 +223,16 @@ static void carry(plumb_world *world, const pl_search *s, double time)
 typedef struct ending {
     plumb_world *world;
     real dt;
-    uint32_t shares;
-    uint32_t stopped[PLUMB_WORKERS_MAX];
 } ending;
 
-// Each body by itself: it looks at the ways of kinematic bodies only.
-static void finish_share(void *context, uint32_t share)
+// Each body by itself: it looks at the ways of kinematic bodies only. Returns how many were stopped.
+static uint32_t finish_some(void *context, uint32_t first, uint32_t count)
 {
-    ending *e = context;
+    const ending *e = context;
     plumb_world *world = e->world;
     const pl_mover *movers = pl_movers(&world->continuous);
-    const pl_share mine = pl_share_of(world->continuous.count, e->shares, share);
     uint32_t stopped = 0;
-    for (uint32_t i = mine.first; i < mine.end && pl_row_is_dynamic(world, movers[i].row); ++i) {
+    for (uint32_t i = first; i < first + count && pl_row_is_dynamic(world, movers[i].row); ++i) {
         if (!movers[i].beside && movers[i].stop >= 1) {
             continue;
         }
@@ -252,17 +249,13 @@ static void finish_share(void *context, uint32_t share)
             ++stopped;
         }
     }
-    e->stopped[share] = stopped;
+    return stopped;
 }
 
 static void finish(plumb_world *world, real dt)
 {
-    ending e = { .world = world, .dt = dt };
-    e.shares = pl_tasks_share_count(world->tasks, world->continuous.count, LEAST);
-    pl_tasks_run(world->tasks, finish_share, &e, e.shares);
-    for (uint32_t i = 0; i < e.shares; ++i) {
-        world->continuous.stopped_count += e.stopped[i];
-    }
+    world->continuous.stopped_count += pl_tasks_count(world->tasks, world->continuous.count, LEAST,
+                                                      finish_some, &(ending){ world, dt });
 }
 
 void pl_continuous_run(plumb_world *world, real dt)

@@ -168,21 +168,42 @@ static void run_share(void *context, uint32_t i)
     j->range(j->context, j->first + s.first, s.end - s.first);
 }
 
-static void run_shared(pl_tasks *t, job *j)
-{
-    if (j->shares == 1) {
-        j->range(j->context, j->first, j->count);
-    } else {
-        pl_tasks_run(t, run_share, j, j->shares);
-    }
-}
-
 void pl_tasks_ranges(pl_tasks *t, uint32_t count, uint32_t least, pl_range_fn *range, void *context)
 {
-    run_shared(t, &(job){ .range = range,
-                          .context = context,
-                          .count = count,
-                          .shares = pl_tasks_share_count(t, count, least) });
+    job j = { .range = range,
+              .context = context,
+              .count = count,
+              .shares = pl_tasks_share_count(t, count, least) };
+    pl_tasks_run(t, run_share, &j, j.shares);
+}
+
+typedef struct tally {
+    pl_count_fn *range;
+    void *context;
+    uint32_t count, shares;
+    uint32_t counted[PLUMB_WORKERS_MAX];
+} tally;
+
+static void count_share(void *context, uint32_t i)
+{
+    tally *all = context;
+    pl_share s = pl_share_of(all->count, all->shares, i);
+    all->counted[i] = all->range(all->context, s.first, s.end - s.first);
+}
+
+uint32_t pl_tasks_count(pl_tasks *t, uint32_t count, uint32_t least, pl_count_fn *range,
+                        void *context)
+{
+    tally all = { .range = range,
+                  .context = context,
+                  .count = count,
+                  .shares = pl_tasks_share_count(t, count, least) };
+    pl_tasks_run(t, count_share, &all, all.shares);
+    uint32_t sum = 0;
+    for (uint32_t i = 0; i < all.shares; ++i) {
+        sum += all.counted[i];
+    }
+    return sum;
 }
 
 void pl_tasks_phases(pl_tasks *t, const uint32_t *bounds, uint32_t phases, uint32_t least,
@@ -197,7 +218,7 @@ void pl_tasks_phases(pl_tasks *t, const uint32_t *bounds, uint32_t phases, uint3
         j.shares = share_count(workers, j.count, least);
         if (j.shares > 1) {
             range(context, done, j.first - done); // small ones before it, one after another
-            run_shared(t, &j);
+            pl_tasks_run(t, run_share, &j, j.shares);
             done = bounds[p + 1];
         }
     }

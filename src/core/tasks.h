@@ -48,13 +48,18 @@ typedef void pl_range_fn(void *context, uint32_t first, uint32_t count);
 void pl_tasks_ranges(pl_tasks *tasks, uint32_t count, uint32_t least, pl_range_fn *range,
                      void *context);
 
+// The same for what is counted on the way: the sum of what the ranges return.
+typedef uint32_t pl_count_fn(void *context, uint32_t first, uint32_t count);
+uint32_t pl_tasks_count(pl_tasks *tasks, uint32_t count, uint32_t least, pl_count_fn *range,
+                        void *context);
+
 // Items in phases: phase p is [bounds[p], bounds[p + 1]). Phases follow one another, the items of one are
 // shared out as above. A thread has the same share of a phase in every call.
-void pl_tasks_phases(pl_tasks *tasks, const uint32_t *bounds, uint32_t phases, uint32_t least,
-                     pl_range_fn *range, void *context);
+typedef void pl_share_fn(pl_tasks *tasks, const uint32_t *bounds, uint32_t phases, uint32_t least,
+                         pl_range_fn *range, void *context);
+pl_share_fn pl_tasks_phases;
 // The same shares, all at once: for what is to be in the cache of the thread that has it in the phases.
-void pl_tasks_shares(pl_tasks *tasks, const uint32_t *bounds, uint32_t phases, uint32_t least,
-                     pl_range_fn *range, void *context);
+pl_share_fn pl_tasks_shares;
 
 // Threads that take part, the caller included; 1 for null.
 int pl_tasks_workers(const pl_tasks *tasks);

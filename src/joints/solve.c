@@ -294,20 +294,23 @@ static void run_kernel(void *context, uint32_t first, uint32_t count)
     c->kernel(&call);
 }
 
+static void share_out(const plumb_world *world, real h, pl_joint_kernel *kernel,
+                      pl_share_fn *share)
+{
+    share(world->tasks, world->joints.plan.color_first, PL_JOINT_COLORS, LEAST, run_kernel,
+          &(kernel_call){ call_of(world, h), kernel });
+}
+
 // A kernel over all bundles, shared out among threads colour after colour.
 static void sweep_bundles(const plumb_world *world, real h, pl_joint_kernel *kernel)
 {
-    kernel_call c = { call_of(world, h), kernel };
-    pl_tasks_phases(world->tasks, world->joints.plan.color_first, PL_JOINT_COLORS, LEAST,
-                    run_kernel, &c);
+    share_out(world, h, kernel, pl_tasks_phases);
 }
 
 // The same for a kernel in which every bundle stands by itself.
 static void each_bundle(const plumb_world *world, real h, pl_joint_kernel *kernel)
 {
-    kernel_call c = { call_of(world, h), kernel };
-    pl_tasks_shares(world->tasks, world->joints.plan.color_first, PL_JOINT_COLORS, LEAST,
-                    run_kernel, &c);
+    share_out(world, h, kernel, pl_tasks_shares);
 }
 
 //---- all joints ----------------------------------------------------------------------------------

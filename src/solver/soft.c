@@ -83,23 +83,25 @@ static void run_kernel(void *context, uint32_t first, uint32_t count)
 
 // A kernel over all bundles. Those of one colour have no body in common that moves, so threads share
 // them; overflow contacts come last, one bundle after another.
-static void sweep(const plumb_world *world, const pl_contact_call *call, pl_contact_kernel *kernel)
+static void share_out(const plumb_world *world, const pl_contact_call *call,
+                      pl_contact_kernel *kernel, pl_share_fn *share)
 {
     const pl_solver *s = &world->solver;
     const uint32_t shared = s->color_first[PL_COLORS];
-    kernel_call c = { call, kernel };
-    pl_tasks_phases(world->tasks, s->color_first, PL_COLORS, LEAST, run_kernel, &c);
+    share(world->tasks, s->color_first, PL_COLORS, LEAST, run_kernel,
+          &(kernel_call){ call, kernel });
     kernel(call, shared, s->bundle_count - shared);
 }
 
-// The same for a kernel in which every bundle stands by itself.
+static void sweep(const plumb_world *world, const pl_contact_call *call, pl_contact_kernel *kernel)
+{
+    share_out(world, call, kernel, pl_tasks_phases);
+}
+
+// For a kernel in which every bundle stands by itself.
 static void each(const plumb_world *world, const pl_contact_call *call, pl_contact_kernel *kernel)
 {
-    const pl_solver *s = &world->solver;
-    const uint32_t shared = s->color_first[PL_COLORS];
-    kernel_call c = { call, kernel };
-    pl_tasks_shares(world->tasks, s->color_first, PL_COLORS, LEAST, run_kernel, &c);
-    kernel(call, shared, s->bundle_count - shared);
+    share_out(world, call, kernel, pl_tasks_shares);
 }
 
 void pl_solver_soft(plumb_world *world, real dt)

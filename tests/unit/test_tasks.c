@@ -144,6 +144,16 @@ static void visit_range(void *context, uint32_t first, uint32_t count)
     }
 }
 
+static uint32_t count_odd(void *context, uint32_t first, uint32_t count)
+{
+    (void)context;
+    uint32_t odd = 0;
+    for (uint32_t i = first; i < first + count; ++i) {
+        odd += i % 2;
+    }
+    return odd;
+}
+
 static void ranges_cover_all_once(void **state)
 {
     (void)state;
@@ -160,6 +170,7 @@ static void ranges_cover_all_once(void **state)
                 assert_int_equal(all.times[i], i < counts[c] ? 1 : 0);
             }
             uint32_t shares = pl_tasks_share_count(tasks, counts[c], 10);
+            assert_int_equal(pl_tasks_count(tasks, counts[c], 10, count_odd, NULL), counts[c] / 2);
             assert_int_equal(all.calls, shares);
             assert_true(shares >= 1 && shares <= (uint32_t)workers);
             assert_true(shares == 1 || counts[c] / shares >= 10);
