@@ -3,21 +3,29 @@
 #include "broad/pairs.h"
 #include "world/state.h"
 
+bool pl_broad_list_fixed(plumb_world *world, pl_buffer *list, uint32_t *count)
+{
+    const pl_pieces *pieces = &world->pieces;
+    if (!pl_buffer_reserve(&world->memory, list, pieces->table.count * sizeof(uint32_t))) {
+        return false;
+    }
+    uint32_t *to = list->data;
+    *count = 0;
+    for (uint32_t piece = 0; piece < pieces->table.count; ++piece) {
+        if (pieces->kind[piece] != PL_PIECE_FREE && pieces->moving[piece] == PL_NONE) {
+            to[(*count)++] = piece;
+        }
+    }
+    return true;
+}
+
 static bool file_fixed(plumb_world *world)
 {
     pl_broad *broad = &world->broad;
-    const pl_pieces *pieces = &world->pieces;
-    if (!pl_buffer_reserve(&world->memory, &broad->list, pieces->table.count * sizeof(uint32_t))) {
-        return false;
-    }
-    uint32_t *list = broad->list.data;
-    uint32_t count = 0;
-    for (uint32_t piece = 0; piece < pieces->table.count; ++piece) {
-        if (pieces->kind[piece] != PL_PIECE_FREE && pieces->moving[piece] == PL_NONE) {
-            list[count++] = piece;
-        }
-    }
-    return pl_grid_build(&world->memory, &broad->fixed, list, count, pieces->fat) &&
+    uint32_t count;
+    return pl_broad_list_fixed(world, &broad->list, &count) &&
+           pl_grid_build(&world->memory, &broad->fixed, broad->list.data, count,
+                         world->pieces.fat) &&
            pl_grid_make_maps(&world->memory, &broad->fixed);
 }
 

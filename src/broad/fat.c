@@ -88,12 +88,6 @@ static pl_box swept(pl_box box, real dx, real dy)
     return box;
 }
 
-static bool contains(const pl_box *outer, const pl_box *inner)
-{
-    return outer->min_x <= inner->min_x && outer->min_y <= inner->min_y &&
-           outer->max_x >= inner->max_x && outer->max_y >= inner->max_y;
-}
-
 // A speed that no step will accept must not make a box infinite either (see solver/finish.c).
 static real bounded(real v)
 {
@@ -177,23 +171,21 @@ static pl_box needed_box(const plumb_world *world, uint32_t piece, const pl_box 
 typedef struct refreshment {
     plumb_world *world;
     real dt;
-    uint32_t shares;
-    uint32_t left[PLUMB_WORKERS_MAX];
 } refreshment;
 
-static void refresh_share(void *context, uint32_t share)
+// Returns how many of these have left their boxes.
+static uint32_t refresh_some(void *context, uint32_t first, uint32_t count)
 {
-    refreshment *r = context;
+    const refreshment *r = context;
     const plumb_world *world = r->world;
     pl_box *fat = world->pieces.fat;
     uint8_t *marks = world->broad.left_marks.data;
-    const pl_share s = pl_share_of(world->moving_count, r->shares, share);
     uint32_t left = 0;
-    for (uint32_t i = s.first; i < s.end; ++i) {
+    for (uint32_t i = first; i < first + count; ++i) {
         uint32_t piece = pl_moving(world)[i];
         pl_box tight = pl_piece_filed_box(world, piece);
         pl_box needed = needed_box(world, piece, &tight, r->dt);
-        if (!contains(&fat[piece], &needed)) {
+        if (!pl_box_contains(&fat[piece], &needed)) {
             const pl_pose *pose = &pl_poses(world)[world->pieces.body[piece]];
             real way = (absolute(pose->vx) + absolute(pose->vy)) * r->dt;
             fat[piece] = fattened(needed, &tight, way);
@@ -201,19 +193,14 @@ static void refresh_share(void *context, uint32_t share)
             ++left;
         }
     }
-    r->left[share] = left;
+    return left;
 }
 
 void pl_broad_refresh_moving(plumb_world *world, real dt)
 {
-    refreshment r = { .world = world, .dt = dt };
-    r.shares = pl_tasks_share_count(world->tasks, world->moving_count, LEAST);
     refresh_pose_velocities(world);
-    pl_tasks_run(world->tasks, refresh_share, &r, r.shares);
-    uint32_t left = 0;
-    for (uint32_t i = 0; i < r.shares; ++i) {
-        left += r.left[i];
-    }
+    uint32_t left = pl_tasks_count(world->tasks, world->moving_count, LEAST, refresh_some,
+                                   &(refreshment){ world, dt });
     if (left > 0) {
         list_left(world);
     }
@@ -228,7 +215,7 @@ void pl_broad_refresh_resting(plumb_world *world)
         uint32_t piece = pl_resting(&world->sleep)[i];
         pl_box tight = pl_piece_filed_box(world, piece);
         pl_box needed = widened(tight, PL_SPECULATIVE / 2);
-        if (!contains(&world->pieces.fat[piece], &needed)) {
+        if (!pl_box_contains(&world->pieces.fat[piece], &needed)) {
             world->pieces.fat[piece] = fattened(needed, &tight, 0);
         }
     }

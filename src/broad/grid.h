@@ -78,6 +78,12 @@ static inline bool pl_boxes_overlap(const pl_box *a, const pl_box *b)
            b->min_y <= a->max_y;
 }
 
+static inline bool pl_box_contains(const pl_box *outer, const pl_box *inner)
+{
+    return outer->min_x <= inner->min_x && outer->min_y <= inner->min_y &&
+           outer->max_x >= inner->max_x && outer->max_y >= inner->max_y;
+}
+
 static inline const pl_grid_entry *pl_grid_entries(const pl_grid *grid)
 {
     return (const pl_grid_entry *)grid->entries.data;

@@ -411,11 +411,11 @@ static bool look(hunt *h, const uint8_t *left)
     h->senses = world->sensor_pieces > 0 && world->broad.resting.entry_count > 0;
     const bool together = world->sensor_pieces == 0 && !pl_is_wrapped(world);
     h->shares = together ? pl_tasks_share_count(world->tasks, h->count, LEAST) : 1;
+    // Never null, even where nothing comes to lie: parts of it are pointed to, also while pairs are merged.
+    if (!pl_buffer_reserve(&world->memory, &world->broad.found, sizeof(pl_found))) {
+        return false;
+    }
     for (;;) {
-        // Never null, even where nothing comes to lie: parts of it are pointed to.
-        if (!pl_buffer_reserve(&world->memory, &world->broad.found, sizeof(pl_found))) {
-            return false;
-        }
         set_out(h, left);
         pl_tasks_run(world->tasks, look_share, h, h->shares);
         if (bring_in(h)) {

@@ -62,8 +62,7 @@ typedef struct sorter {
     const pl_found *found;
     uint32_t count;
     pl_found *sorted;
-    uint32_t
-        *at; // of a piece slot: how many pairs it is the lower one of, then where the next goes
+    uint32_t *at; // a piece slot: of how many pairs it is the lower one; then where the next goes
     uint32_t slots, shares;
 } sorter;
 
@@ -330,8 +329,6 @@ bool pl_pairs_update(plumb_world *world)
     pl_pair_list *list = &broad->pairs;
     const bool whole = broad->stale;
     if (!(whole ? pl_pairs_find(world) : pl_pairs_find_left(world)) || !sort_found(world) ||
-        // Neither is null, even if both are empty: offsets are taken.
-        !pl_buffer_reserve(&world->memory, &broad->found, sizeof(pl_found)) ||
         !reserve_lists(world) || !pl_events_reserve_ends(world, list->count) ||
         !pl_parts_reserve(world, list->count)) {
         broad->stale = true; // what sensors see may have been taken out

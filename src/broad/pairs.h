@@ -29,6 +29,8 @@ pl_pair pl_pair_fresh(const plumb_world *world, pl_found found);
 // False for pieces of one body, those that filters, excluded pairs or joints keep apart, and sensors.
 bool pl_pair_is_solid(plumb_world *world, uint32_t p, uint32_t q);
 
+// All static pieces, into a list for which it makes room. False when out of memory.
+bool pl_broad_list_fixed(plumb_world *world, pl_buffer *list, uint32_t *count);
 // Fat boxes of pieces that do not move by themselves (fat.c).
 void pl_broad_refresh_fixed(plumb_world *world);
 void pl_broad_refresh_resting(plumb_world *world);

@@ -7,12 +7,6 @@
 
 #include <string.h>
 
-static bool contains(const pl_box *outer, const pl_box *inner)
-{
-    return outer->min_x <= inner->min_x && outer->min_y <= inner->min_y &&
-           outer->max_x >= inner->max_x && outer->max_y >= inner->max_y;
-}
-
 // All that moves is still in the boxes that it is filed by.
 static bool moving_holds(const plumb_world *world)
 {
@@ -23,7 +17,7 @@ static bool moving_holds(const plumb_world *world)
     const uint32_t *moving = pl_moving(world);
     for (uint32_t i = 0; i < world->moving_count; ++i) {
         pl_box tight = pl_piece_filed_box(world, moving[i]);
-        if (!contains(&world->pieces.fat[moving[i]], &tight)) {
+        if (!pl_box_contains(&world->pieces.fat[moving[i]], &tight)) {
             return false;
         }
     }
@@ -72,19 +66,10 @@ static bool file(plumb_world *world, pl_sight_grid which, const uint32_t *pieces
 
 static bool file_fixed(plumb_world *world)
 {
-    const pl_pieces *pieces = &world->pieces;
     pl_buffer *list = &world->sight.list;
-    if (!pl_buffer_reserve(&world->memory, list, pieces->table.count * sizeof(uint32_t))) {
-        return false;
-    }
-    uint32_t *to = list->data;
-    uint32_t count = 0;
-    for (uint32_t piece = 0; piece < pieces->table.count; ++piece) {
-        if (pieces->kind[piece] != PL_PIECE_FREE && pieces->moving[piece] == PL_NONE) {
-            to[count++] = piece;
-        }
-    }
-    return file(world, PL_SIGHT_FIXED, to, count);
+    uint32_t count;
+    return pl_broad_list_fixed(world, list, &count) &&
+           file(world, PL_SIGHT_FIXED, list->data, count);
 }
 
 bool pl_sight_update(plumb_world *world)

@@ -39,12 +39,6 @@ pl_course pl_mover_course(const plumb_world *world, uint32_t row, real dt, doubl
                          : pl_course_of_row(world, row, dt, ox, oy);
 }
 
-static bool contains(const pl_box *outer, const pl_box *inner)
-{
-    return outer->min_x <= inner->min_x && outer->min_y <= inner->min_y &&
-           outer->max_x >= inner->max_x && outer->max_y >= inner->max_y;
-}
-
 // Tells the movers whose way leaves the boxes in which the grid has them: no search of the grid
 // finds those. Where they began they were within; so is the way if the end is, but for the bulge of an arc.
 static void find_strays(void *context, uint32_t first, uint32_t count)
@@ -61,7 +55,7 @@ static void find_strays(void *context, uint32_t first, uint32_t count)
             pl_box end = pl_piece_tight_box(world, p);
             end = (pl_box){ end.min_x - bulge, end.min_y - bulge, end.max_x + bulge,
                             end.max_y + bulge };
-            m->stray = !contains(&pieces->fat[p], &end);
+            m->stray = !pl_box_contains(&pieces->fat[p], &end);
         }
     }
 }
