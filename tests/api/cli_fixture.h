@@ -101,6 +101,15 @@ static inline int count_lines(const char *text)
     return count;
 }
 
+// A command line that is refused: one line that tells why, and nothing else.
+static inline void expect_usage_error(const char *command, const char *message)
+{
+    expect_error(command, 2, message);
+    assert_int_equal(strncmp(err, "plumb: ", 7), 0);
+    assert_int_equal(count_lines(err), 1);
+    assert_string_equal(out, "");
+}
+
 static inline int set_up(void **state)
 {
     (void)state;

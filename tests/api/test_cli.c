@@ -113,10 +113,7 @@ static void usage_errors_tell_the_remedy(void **state)
     char line[256];
     for (size_t i = 0; i < sizeof usage_cases / sizeof usage_cases[0]; i++) {
         snprintf(line, sizeof line, "\"$P\" %s", usage_cases[i].arguments);
-        expect_error(line, 2, usage_cases[i].message);
-        assert_int_equal(strncmp(err, "plumb: ", 7), 0);
-        assert_int_equal(count_lines(err), 1);
-        assert_string_equal(out, "");
+        expect_usage_error(line, usage_cases[i].message);
     }
     assert_int_not_equal(access("a.png", F_OK), 0);
     assert_int_not_equal(access("a.gif", F_OK), 0);

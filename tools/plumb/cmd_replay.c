@@ -271,8 +271,7 @@ static int check_render(const cli_command *command, replay_args *args)
 
 static int check_args(const cli_command *command, const replay_args *args)
 {
-    if (args->width != 0 && args->width != 4 && args->width != 8 && args->width != 16) {
-        cli_message("%s: option --width: %d is not 0, 4, 8 or 16", command->name, args->width);
+    if (scene_width_check(command, args->width) != CLI_OK) {
         return CLI_USAGE;
     }
     if (args->step >= 0 && args->seek >= 0) {

@@ -6,10 +6,18 @@
 #include <math.h>
 #include <string.h>
 
+int scene_width_check(const cli_command *command, int width)
+{
+    if (width != 0 && width != 4 && width != 8 && width != 16) {
+        cli_message("%s: option --width: %d is not 0, 4, 8 or 16", command->name, width);
+        return CLI_USAGE;
+    }
+    return CLI_OK;
+}
+
 int scene_args_check(const cli_command *command, const scene_args *args)
 {
-    if (args->width != 0 && args->width != 4 && args->width != 8 && args->width != 16) {
-        cli_message("%s: option --width: %d is not 0, 4, 8 or 16", command->name, args->width);
+    if (scene_width_check(command, args->width) != CLI_OK) {
         return CLI_USAGE;
     }
     for (int i = 0; i < args->sets.count; i++) {

@@ -72,6 +72,9 @@ typedef struct scene_args {
     SCENE_OPTION_PRECISION(type, member), SCENE_OPTION_SET(type, member)
 // clang-format on
 
+/// Checks a --width. CLI_OK or CLI_USAGE after a message.
+int scene_width_check(const cli_command *command, int width);
+
 /// Checks what the table cannot (width, form of --set). CLI_OK or CLI_USAGE after a message.
 int scene_args_check(const cli_command *command, const scene_args *args);
 
