@@ -613,5 +613,5 @@ void pl_impacts_run(plumb_world *world, real h)
     for (uint32_t slot = 0; slot < s->slot_count; ++slot) {
         struck[slot] = -h; // none yet; an impact may lie one substep in the past
     }
-    (s->impact_count > 0 ? run_recorded : run_in_lanes)(world, h);
+    (s->impact_count == 0 && s->outlook_lanes > 0 ? run_in_lanes : run_recorded)(world, h);
 }
