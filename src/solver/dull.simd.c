@@ -335,23 +335,24 @@ WIDE_INLINE four friction_impulse(const contacts *c, const side *a, const side *
     return choose(impulse > bound, bound, choose(impulse < -bound, -bound, impulse));
 }
 
-// Tells pairs and manifolds of their impacts; the speed at which their surfaces run on comes back.
+// Tells pairs and manifolds of their impacts; the speed at which their surfaces run on comes back. Most are
+// not in the cache, so they are left alone where nothing is to be read or added.
 WIDE_INLINE four note_impacts(const contacts *c, const pl_dull_call *call, const four impulse[2])
 {
     plumb_real surface_speed[4] = { 0 };
     for (uint32_t i = 0; i < c->count; ++i) {
+        uint8_t *mark = &call->marks[c->lane[i]];
         if (!(impulse[0][i] > 0 || impulse[1][i] > 0)) {
             continue;
         }
-        pl_manifold *m = &call->manifolds[call->lanes[c->lane[i]]];
-        surface_speed[i] = m->surface_speed;
-        call->pairs[m->pair].flags |= PL_PAIR_HIT;
-        call->open[c->lane[i]] = 1;
-        for (int j = 0; j < 2; ++j) {
-            if (impulse[j][i] > 0) {
-                m->point[j].total += (plumb_real)impulse[j][i];
-            }
+        if ((*mark & PL_DULL_HIT) == 0 || call->looks_up) {
+            pl_manifold *m = &call->manifolds[call->lanes[c->lane[i]]];
+            surface_speed[i] = m->surface_speed;
+            call->pairs[m->pair].flags |= PL_PAIR_HIT;
+            m->point[0].total += call->looks_up ? (plumb_real)impulse[0][i] : 0;
+            m->point[1].total += call->looks_up ? (plumb_real)impulse[1][i] : 0;
         }
+        *mark = PL_DULL_HIT | PL_DULL_STRUCK;
     }
     return widen((row){ surface_speed[0], surface_speed[1], surface_speed[2], surface_speed[3] });
 }
@@ -466,6 +467,7 @@ uint32_t PL_WIDE_NAME(pl_dull_prepare)(const pl_dull_call *call, uint32_t first,
                 restitution[i] = pl_is_dull(e) ? e : 0;
             }
         }
+        memset(call->marks + (size_t)k * PL_WIDTH, 0, PL_WIDTH);
         vm dull = load(restitution) > splat(0);
         store(fields + PL_OUTLOOK_RESTITUTION * PL_WIDTH, load(restitution));
         for (int j = 0; j < 2; ++j) {
@@ -484,7 +486,7 @@ void PL_WIDE_NAME(pl_dull_look)(const pl_dull_call *call, uint32_t first, uint32
         if (is_live(fields)) {
             vm settled = look_at_bundle(call, fields, (bundle *)call->bundles + k);
             for (int i = 0; i < PL_WIDTH; ++i) {
-                call->open[(size_t)k * PL_WIDTH + (size_t)i] = settled[i] == 0;
+                call->marks[(size_t)k * PL_WIDTH + (size_t)i] = settled[i] == 0;
             }
         }
     }
@@ -514,7 +516,9 @@ void PL_WIDE_NAME(pl_dull_strike)(const pl_dull_call *call, uint32_t first, uint
     uint32_t waiting[PL_WIDTH + 4], held = 0, color = 0;
     for (uint32_t k = first; k < first + count; ++k) {
         const plumb_real *fields = call->fields + (size_t)k * PL_WIDTH * PL_OUTLOOK_FIELDS;
-        memset(call->open + (size_t)k * PL_WIDTH, 0, PL_WIDTH);
+        for (int i = 0; i < PL_WIDTH; ++i) {
+            call->marks[(size_t)k * PL_WIDTH + (size_t)i] &= PL_DULL_HIT;
+        }
         if (is_live(fields)) {
             vm settled = look_at_bundle(call, fields, (bundle *)call->bundles + k);
             for (uint32_t i = 0; i < PL_WIDTH; ++i) {

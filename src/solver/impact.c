@@ -112,7 +112,8 @@ static pl_dull_call dull_call(const plumb_world *world, real h)
                            .manifolds = pl_manifolds(&world->narrow),
                            .pairs = pl_pairs(&world->broad.pairs),
                            .fields = s->outlook_fields.data,
-                           .open = s->outlook_open.data,
+                           .marks = s->outlook_open.data,
+                           .looks_up = world->narrow.any_surface || pl_solver_tallies(world),
                            .h = h,
                            .restitution_speed = world->desc.restitution_speed };
 }
@@ -575,13 +576,13 @@ static void run_open(plumb_world *world, real h)
 static void run_in_lanes(plumb_world *world, real h)
 {
     pl_solver *s = &world->solver;
-    const uint8_t *struck = s->outlook_open.data;
+    const uint8_t *marks = s->outlook_open.data;
     const uint32_t shared = s->color_first[PL_COLORS];
     dull_job job = { pl_solver_kernels(world), dull_call(world, h) };
     pl_tasks_phases(world->tasks, s->color_first, PL_COLORS, LEAST, strike_dull, &job);
     strike_dull(&job, shared, s->bundle_count - shared);
     for (uint32_t lane = 0; lane < s->outlook_lanes; ++lane) {
-        s->bounce_count += struck[lane];
+        s->bounce_count += marks[lane] & PL_DULL_STRUCK;
     }
 }
 

@@ -72,6 +72,11 @@ typedef struct pl_outlook_ends {
     uint32_t impact; // PL_NONE: no dull one in this lane
 } pl_outlook_ends;
 
+enum {
+    PL_DULL_STRUCK = 1, // in this substep
+    PL_DULL_HIT = 2     // in this step: its pair has been told
+};
+
 typedef struct pl_dull_call {
     pl_solver_body *bodies;
     pl_solver_motion *motions;
@@ -82,7 +87,8 @@ typedef struct pl_dull_call {
     pl_manifold *manifolds;
     pl_pair *pairs;
     real *fields;
-    uint8_t *open;          // a lane: left open by the outlook; was struck
+    uint8_t *marks;         // a lane: after a look 1 where it is left open, else PL_DULL_...
+    bool looks_up;          // surfaces run, or impulses are added up
     real h;                 // [s]
     real restitution_speed; // [m/s]
 } pl_dull_call;

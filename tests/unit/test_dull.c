@@ -38,7 +38,9 @@ static void add_plank(plumb_world *w, plumb_material dull)
 static plumb_world *make_heap(int width, double belt)
 {
     plumb_world *w = NULL;
-    const plumb_world_desc desc = { .simd_width = width, .no_sleep = true };
+    const plumb_world_desc desc = { .simd_width = width,
+                                    .no_sleep = true,
+                                    .contact_impulses = true };
     assert_int_equal(plumb_world_create(&desc, &w), PLUMB_OK);
     plumb_material dull = plumb_material_create(
         w, &(plumb_material_desc){ .friction = R(0.4), .restitution = R(0.1) });
