@@ -107,7 +107,7 @@ static pl_dull_call dull_call(const plumb_world *world, real h)
                            .struck = s->struck.data,
                            .dynamic_slots = s->dynamic_slots,
                            .bundles = s->bundles.data,
-                           .color_first = s->color_first,
+                           .color_first = pl_clusters(s)->color_first,
                            .lanes = s->lanes.data,
                            .manifolds = pl_manifolds(&world->narrow),
                            .pairs = pl_pairs(&world->broad.pairs),
@@ -577,9 +577,9 @@ static void run_in_lanes(plumb_world *world, real h)
 {
     pl_solver *s = &world->solver;
     const uint8_t *marks = s->outlook_open.data;
-    const uint32_t shared = s->color_first[PL_COLORS];
     dull_job job = { pl_solver_kernels(world), dull_call(world, h) };
-    pl_tasks_phases(world->tasks, s->color_first, PL_COLORS, LEAST, strike_dull, &job);
+    const uint32_t shared = job.call.color_first[PL_OVERFLOW_COLOR];
+    pl_tasks_phases(world->tasks, job.call.color_first, PL_COLORS, LEAST, strike_dull, &job);
     strike_dull(&job, shared, s->bundle_count - shared);
     for (uint32_t lane = 0; lane < s->outlook_lanes; ++lane) {
         s->bounce_count += marks[lane] & PL_DULL_STRUCK;
