@@ -97,8 +97,7 @@ typedef struct side {
 // Contacts in the lanes of bundles; those from `count` on repeat the last one and change nothing.
 typedef struct contacts {
     uint32_t lane[4], count;
-    bundle *bundles[4];
-    uint32_t at[4]; // lane within the bundle
+    plumb_real *bundles[4]; // each from its lane on: its fields are whole bundles of lanes apart
     uint32_t slot_a[4], slot_b[4];
     mask taken;
     four nx, ny, restitution;
@@ -136,11 +135,12 @@ WIDE_INLINE void gather_side(side *s, const pl_dull_call *call, const uint32_t s
 }
 
 // A field of each contact's bundle.
+#define OF_BUNDLE(c, i, field) ((c)->bundles[i][offsetof(bundle, field) / sizeof(plumb_real)])
 #define OF_BUNDLES(c, field)                                                                       \
     (row)                                                                                          \
     {                                                                                              \
-        (c)->bundles[0]->field[(c)->at[0]], (c)->bundles[1]->field[(c)->at[1]],                    \
-            (c)->bundles[2]->field[(c)->at[2]], (c)->bundles[3]->field[(c)->at[3]]                 \
+        OF_BUNDLE(c, 0, field), OF_BUNDLE(c, 1, field), OF_BUNDLE(c, 2, field),                    \
+            OF_BUNDLE(c, 3, field)                                                                 \
     }
 
 // One of the fields that dull impacts have.
@@ -148,8 +148,8 @@ WIDE_INLINE row dull_field(const contacts *c, const pl_dull_call *call, size_t f
 {
     plumb_real r[4];
     for (int i = 0; i < 4; ++i) {
-        const size_t first = c->lane[i] - c->at[i];
-        r[i] = call->fields[first * PL_OUTLOOK_FIELDS + field * PL_WIDTH + c->at[i]];
+        const size_t at = c->lane[i] % PL_WIDTH, first = c->lane[i] - at;
+        r[i] = call->fields[first * PL_OUTLOOK_FIELDS + field * PL_WIDTH + at];
     }
     return (row){ r[0], r[1], r[2], r[3] };
 }
@@ -160,10 +160,11 @@ WIDE_INLINE void gather_contacts(contacts *c, const pl_dull_call *call, const ui
     c->count = count;
     for (uint32_t i = 0; i < 4; ++i) {
         c->lane[i] = lanes[i < count ? i : count - 1];
-        c->at[i] = c->lane[i] % PL_WIDTH;
-        c->bundles[i] = (bundle *)call->bundles + c->lane[i] / PL_WIDTH;
-        c->slot_a[i] = c->bundles[i]->a[c->at[i]];
-        c->slot_b[i] = c->bundles[i]->b[c->at[i]];
+        bundle *of = (bundle *)call->bundles + c->lane[i] / PL_WIDTH;
+        const uint32_t at = c->lane[i] % PL_WIDTH;
+        c->bundles[i] = (plumb_real *)(void *)of + at;
+        c->slot_a[i] = of->a[at];
+        c->slot_b[i] = of->b[at];
     }
     c->taken = (mask){ 0, 1, 2, 3 } < (mask){ 0 } + count;
     c->nx = widen(OF_BUNDLES(c, nx));
@@ -368,36 +369,33 @@ WIDE_INLINE void resolve(const contacts *c, side *a, side *b, const approach at[
     for (int j = 0; j < 2; ++j) {
         arm[j] = (lever){ .n = { c->ran[j], c->rbn[j] },
                           .t = { widen(OF_BUNDLES(c, p[j].rat)), widen(OF_BUNDLES(c, p[j].rbt)) } };
-        strike_both(c, a, b, impulse[j] > all(0), &arm[j], impulse[j], all(0), at[j].time);
+        if (any_of(impulse[j] > all(0))) {
+            strike_both(c, a, b, impulse[j] > all(0), &arm[j], impulse[j], all(0), at[j].time);
+        }
     }
     for (int j = 0; j < 2; ++j) {
-        four along = friction_impulse(c, a, b, &arm[j], surface_speed, mu * impulse[j]);
-        strike_both(c, a, b, (impulse[j] > all(0)) & (mu > all(0)), &arm[j], all(0), along,
-                    at[j].time);
-    }
-}
-
-WIDE_INLINE void scatter_rows(const row in[4], plumb_real *base, size_t stride,
-                              const uint32_t slot[4], mask which)
-{
-    row r[4] = { in[0], in[1], in[2], in[3] };
-    transpose_rows(r);
-    for (int i = 0; i < 4; ++i) {
-        if (which[i] != 0) {
-            *(row *)(void *)(base + stride * slot[i]) = r[i];
+        const mask rubs = (impulse[j] > all(0)) & (mu > all(0));
+        if (any_of(rubs)) {
+            four along = friction_impulse(c, a, b, &arm[j], surface_speed, mu * impulse[j]);
+            strike_both(c, a, b, rubs, &arm[j], all(0), along, at[j].time);
         }
     }
 }
 
-WIDE_INLINE void scatter_side(const side *s, const pl_dull_call *call)
+WIDE_INLINE void scatter_side(side *s, const pl_dull_call *call)
 {
-    scatter_rows(s->v, &call->bodies->vx, 8, s->slot, s->moves);
-    scatter_rows(s->d, &call->bodies->dx, 8, s->slot, s->moves);
-    scatter_rows(s->u, &call->motions->ux, 8, s->slot, s->moves);
-    scatter_rows(s->low, call->lows, 4, s->slot, s->moves);
+    transpose_rows(s->v);
+    transpose_rows(s->d);
+    transpose_rows(s->u);
+    transpose_rows(s->low);
     for (int i = 0; i < 4; ++i) {
         if (s->moves[i] != 0) {
-            call->struck[s->slot[i]] = s->struck[i];
+            const size_t slot = s->slot[i];
+            *(row *)(void *)&call->bodies[slot].vx = s->v[i];
+            *(row *)(void *)&call->bodies[slot].dx = s->d[i];
+            *(row *)(void *)&call->motions[slot].ux = s->u[i];
+            *(row *)(void *)&call->lows[slot * 4] = s->low[i];
+            call->struck[slot] = s->struck[i];
         }
     }
 }
@@ -406,13 +404,10 @@ WIDE_INLINE void scatter_side(const side *s, const pl_dull_call *call)
 WIDE_INLINE void tell_kernel(const contacts *c, const mask clear[2])
 {
     for (int j = 0; j < 2; ++j) {
-        four told = c->separation[j];
-        mask off = c->unloaded[j] & clear[j];
-        for (uint32_t i = 0; i < c->count; ++i) {
-            const plumb_real separation = (plumb_real)told[i];
-            if (c->present[j][i] != 0) {
-                c->bundles[i]->p[j].separation[c->at[i]] = separation + (off[i] ? PL_APART : 0);
-            }
+        row_mask off = mask_row(c->present[j] & c->unloaded[j] & clear[j]);
+        row told = narrow(c->separation[j]) + (row)(off & (row_mask)narrow(all(PL_APART)));
+        for (int i = 3; i >= 0; --i) { // repeated lanes first: they were not struck
+            OF_BUNDLE(c, i, p[j].separation) = told[i];
         }
     }
 }
@@ -434,12 +429,12 @@ static void take_four(const pl_dull_call *call, const uint32_t *lanes, uint32_t 
     mask clear[2] = { at[0].clear, at[1].clear };
     if (any_of(at[0].due | at[1].due)) {
         resolve(&c, &a, &b, at, call);
-        scatter_side(&a, call);
-        scatter_side(&b, call);
         view_contacts(&o, &c, &a, &b);
         for (int j = 0; j < 2; ++j) {
             clear[j] = run_course(&c, &o, j, all((double)call->h)).clear;
         }
+        scatter_side(&a, call);
+        scatter_side(&b, call);
     }
     tell_kernel(&c, clear);
 }
