@@ -229,10 +229,15 @@ static void differences_are_found(void **state)
                 "\"$P\" diff p.rec t.rec",
                 6);
     assert_string_equal(out, "the same for 32 steps; then only one goes on: 64 | 32 steps\n");
+    expect_code("\"$P\" diff --from 40 p.rec o.rec", 6);
+    assert_string_equal(out, "differ already behind step 40, 0.625 s\n"
+                             "first: body 'ball': x 0.375 | 0.5\n");
     expect_error("\"$P\" diff p.rec d.rec", 1,
                  "plumb: diff: 'p.rec' was recorded in float precision, 'd.rec' in double; nothing "
                  "in them is the same\n");
-    expect_error("\"$P\" diff p.rec", 2, "RECORDING");
+    expect_error("\"$P\" diff p.rec", 2,
+                 "plumb: diff: an operand is missing; usage: plumb diff RECORDING ");
+    expect_error("\"$P\" diff", 2, "plumb: diff: RECORDING RECORDING is missing; ");
     expect_error("\"$P\" diff --from 65 p.rec k.rec", 2,
                  "plumb: diff: option --from: 65 is beyond the last step, 64\n");
 }
@@ -244,12 +249,15 @@ static void bad_recordings_are_refused(void **state)
                  "plumb: cannot read 'nowhere.rec': No such file or directory\n");
     expect_error("\"$P\" replay push.lua", 1, "plumb: 'push.lua' is no recording\n");
     expect_error("\"$P\" diff p.rec push.lua", 1, "plumb: 'push.lua' is no recording\n");
+    expect_error("\"$P\" run p.rec", 3,
+                 "p.rec: is a recording, not a scene; 'plumb replay' plays it\n");
     expect_error("head -c 600 p.rec >c.rec; \"$P\" replay c.rec", 1,
                  "plumb: 'c.rec' is truncated before its first step\n");
     expect_error("{ head -c 3000 p.rec; printf x; tail -c +3002 p.rec; } >x.rec; "
                  "\"$P\" replay x.rec",
                  1, "plumb: 'x.rec' is damaged\n");
-    expect_code("head -c -100 p.rec >c.rec; \"$P\" replay c.rec --info", 0);
+    expect_error("head -c -100 p.rec >c.rec; \"$P\" replay c.rec --info", 0,
+                 "plumb: 'c.rec' breaks off after step 62: whatever wrote it did not end it\n");
     assert_non_null(strstr(out, "complete   no: it breaks off after its last step\n"));
     expect_error("\"$P\" run push.lua --record -", 2,
                  "plumb: run: option --record: a recording goes to a file, not to stdout\n");
