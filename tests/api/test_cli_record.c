@@ -109,7 +109,7 @@ static void a_replay_goes_anywhere(void **state)
     expect_error("\"$P\" replay k.rec --width 5", 2, "5 is not 0, 4, 8 or 16");
 }
 
-// Of a scene that gives no looks the pictures of a recording are those of the scene, to the byte.
+// The pictures of a recording are those of the scene, to the byte.
 static void a_recording_is_drawn(void **state)
 {
     (void)state;
@@ -146,6 +146,41 @@ static void a_recording_is_drawn(void **state)
     expect_code("\"$P\" run good.lua --precision double --record e.rec -o /dev/null && "
                 "\"$P\" render good.lua --precision double --size 64x64 -o s.png && "
                 "\"$P\" replay e.rec --size 64x64 --render r.png && cmp s.png r.png",
+                0);
+}
+
+// Colours, labels, what is hidden, counters, texts and the camera are those of the moment.
+static void a_recording_keeps_its_looks(void **state)
+{
+    (void)state;
+    write_text(
+        "looks.lua",
+        "scene { duration = 1 }\n"
+        "camera { fit = { { -4, -1 }, { 4, 3 } }, at = 0.6, trail = 0.2 }\n"
+        "body { type = 'static', box { 8, 1 }, at = { 0, -0.5 }, color = '#336699' }\n"
+        "local a = body { circle { 0.5 }, at = { -2, 2 }, label = 'one', color = 3 }\n"
+        "local b = body { name = 'b', box { 1, 1 }, at = { 2, 2 } }\n"
+        "local c = body { name = 'c', box { 1, 1 }, at = { 0, 2 }, hidden = true }\n"
+        "revolute { a = b, b = c, at = { 1, 2 }, hidden = true }\n"
+        "at(0.3, function() a:set_label('two') a:set_color('#aa0000') score('hits', 3) end)\n"
+        "at(0.5, function() body { circle { 0.2 }, at = { 0, 1 }, color = 5 } text('late') end)\n"
+        "at(0.7, function() text('') end)\n");
+    expect_code("\"$P\" run looks.lua --record looks.rec -o /dev/null", 0);
+    expect_code("for at in 0 0.25 0.4 0.6 0.9; do "
+                "\"$P\" render looks.lua --size 320x200 --at $at -o s.png && "
+                "\"$P\" replay looks.rec --size 320x200 --seek $at --render r$at.png && "
+                "cmp s.png r$at.png || exit; done",
+                0);
+    expect_code("cmp r0.25.png r0.4.png", 1);
+    // The scene's own moment, and a film that goes through all of it.
+    expect_code("\"$P\" replay looks.rec --size 320x200 --render r.png && cmp r0.6.png r.png", 0);
+    expect_code("\"$P\" replay looks.rec --size 64x64 --fps 9 --render r.gif && "
+                "\"$P\" render looks.lua --size 64x64 --fps 9 -o s.gif && cmp s.gif r.gif",
+                0);
+    // Beyond the end of a recording that is shorter than the scene.
+    expect_code("\"$P\" run looks.lua --time 0.2 --record short.rec -o /dev/null && "
+                "\"$P\" replay short.rec --size 64x64 --render r.png && "
+                "\"$P\" render looks.lua --size 64x64 --at 0.2 -o s.png && cmp s.png r.png",
                 0);
 }
 
@@ -277,6 +312,7 @@ int main(void)
         cmocka_unit_test(a_recording_is_replayed),
         cmocka_unit_test(a_replay_goes_anywhere),
         cmocka_unit_test(a_recording_is_drawn),
+        cmocka_unit_test(a_recording_keeps_its_looks),
         cmocka_unit_test(drawing_a_recording_tells_the_remedy),
         cmocka_unit_test(differences_are_found),
         cmocka_unit_test(bad_recordings_are_refused),
