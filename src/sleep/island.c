@@ -154,8 +154,8 @@ static void unlink_from_piece(plumb_world *world, const pl_dormant *c)
 // What pl_narrow_summarise does for the manifolds of a step.
 static void count_in(pl_island *i, const pl_manifold *m)
 {
-    real s0 = m->point[0].separation, s1 = m->point[1].separation;
-    real depth = s0 < s1 ? -s0 : -s1;
+    near_real s0 = m->point[0].separation, s1 = m->point[1].separation;
+    near_real depth = s0 < s1 ? -s0 : -s1;
     i->point_count += m->count;
     if (depth >= 0) {
         ++i->touching_count;
@@ -190,7 +190,7 @@ void pl_island_keep(plumb_world *world, uint32_t island, const pl_pair *pair,
         c->manifold = *manifold;
         c->manifold.disabled = c->manifold.bearer = 0; // of the step, and not always written
         for (int k = 0; k < 2; ++k) {                  // at rest, all substeps are alike
-            c->manifold.point[k].total = pair->normal[k] * (real)world->desc.substeps;
+            c->manifold.point[k].total = pair->normal[k] * (near_real)world->desc.substeps;
         }
         if ((pair->flags & PL_PAIR_BORNE) == 0) { // those are not among the manifolds of a step
             count_in(i, manifold);

@@ -32,7 +32,7 @@ typedef struct pl_island {
     uint64_t made_step;     // step count + 1 when it was made asleep; 0: it fell asleep
     // Summary of its manifolds, as pl_narrow has it.
     uint32_t contact_count, touching_count, point_count;
-    real max_penetration;   // [m]
+    near_real max_penetration; // [m]
     uint64_t sum_penetration; // [PL_DEPTH_UNIT]
 } pl_island;
 

@@ -13,7 +13,7 @@
 // What is left of a motion that contacts and joints have damped away halves and halves until it is
 // subnormal, and then costs hundreds of cycles wherever it is multiplied. Less than this counts as none:
 // a turn [rad] that moves no coordinate, and a speed [m/s, rad/s].
-#if defined(PLUMB_DOUBLE) && PLUMB_DOUBLE
+#if PL_NEAR_IS_DOUBLE
 #define NO_TURN  1e-100
 #define NO_SPEED 1e-150
 #else
@@ -103,7 +103,7 @@ typedef struct passage {
     real dt;
     bool collided; // the graph was made in this step
     bool noting;
-    const real *lows;
+    const near_real *lows;
     uint32_t shares;
     struct {
         uint32_t count; // movers, noted where the share's rows begin
@@ -165,7 +165,8 @@ static void tell_lost(plumb_world *world)
 }
 
 // The new state of a dynamic body in a contact.
-static void take_over(plumb_world *world, uint32_t row, const pl_solver_body *body, const real *low)
+static void take_over(plumb_world *world, uint32_t row, const pl_solver_body *body,
+                      const near_real *low)
 {
     pl_bodies *b = &world->bodies;
     add(&b->center_x[row], &b->low_x[row], body->dx);

@@ -7,27 +7,27 @@
 
 typedef struct passage {
     const pl_solver *solver;
-    real h; // [s]
+    near_real h; // [s]
 } passage;
 
 // Moves dynamic and kinematic bodies by the velocities with which the substep's contacts left them.
 static void move(void *context, uint32_t first, uint32_t count)
 {
     const passage *p = context;
-    const real h = p->h, half = h * h / 2;
+    const near_real h = p->h, half = h * h / 2;
     pl_solver_body *body = pl_solver_bodies(p->solver);
     const pl_solver_motion *motion = pl_solver_motions(p->solver);
     for (uint32_t i = first; i < first + count; ++i) {
         bool free =
             body[i].vx == motion[i].ux && body[i].vy == motion[i].uy && body[i].w == motion[i].uw;
-        real back = free ? half : 0;
+        near_real back = free ? half : 0;
         body[i].dx += h * body[i].vx - back * motion[i].ax;
         body[i].dy += h * body[i].vy - back * motion[i].ay;
         body[i].da += h * body[i].w - back * motion[i].aw;
     }
 }
 
-void pl_integrate_positions(const plumb_world *world, real h)
+void pl_integrate_positions(const plumb_world *world, near_real h)
 {
     const pl_solver *s = &world->solver;
     pl_tasks_ranges(world->tasks, s->slot_count - 1, PL_BODIES_SHARED, move, &(passage){ s, h });

@@ -16,13 +16,13 @@
 // Contact frequency as a share of the substep rate. Stiffer contacts sink less, as the square, but from
 // 3/16 on a pyramid of 100 rows takes long to come to rest and leans, and from 1/4 on one of 20 never
 // rests, at one sweep a substep (README.md has the table).
-#define STIFFEST ((real)(1.0 / 6))
+#define STIFFEST ((near_real)(1.0 / 6))
 
-typedef real quad __attribute__((vector_size(4 * sizeof(real)), may_alias));
+typedef near_real quad __attribute__((vector_size(4 * sizeof(near_real)), may_alias));
 
 typedef struct flight {
     const pl_solver *solver;
-    real h; // [s]
+    near_real h; // [s]
 } flight;
 
 // v = u + h a, plus what the contacts did in the substep before.
@@ -30,7 +30,7 @@ static void fly(void *context, uint32_t first, uint32_t count)
 {
     const flight *f = context;
     const pl_solver *s = f->solver;
-    const real h = f->h;
+    const near_real h = f->h;
     quad *body = (quad *)(void *)pl_solver_bodies(s);
     quad *motion = (quad *)(void *)pl_solver_motions(s);
     for (uint32_t i = first; i < first + count; ++i) {
@@ -49,14 +49,14 @@ static void fly_carefully(void *context, uint32_t first, uint32_t count)
 {
     const flight *f = context;
     const pl_solver *s = f->solver;
-    const real h = f->h;
+    const near_real h = f->h;
     quad *body = (quad *)(void *)pl_solver_bodies(s);
     quad *motion = (quad *)(void *)pl_solver_motions(s);
     quad *low = (quad *)s->lows.data;
     for (uint32_t i = first; i < first + count; ++i) {
         quad v = body[2 * i];
         quad pushed = v - motion[2 * i + 1];
-        real kept = low[i][3];
+        near_real kept = low[i][3];
         low[i][3] = 0;
         quad wanted = h * motion[2 * i] + low[i];
         quad u = v + wanted;
@@ -109,9 +109,9 @@ void pl_solver_soft(plumb_world *world, real dt)
     pl_solver *s = &world->solver;
     const pl_contact_kernels *kernels = pl_solver_kernels(world);
     const int substeps = world->desc.substeps;
-    const real h = dt / (real)substeps;
-    const real stiffest = STIFFEST / h;
-    const real asked = world->desc.contact_hertz;
+    const near_real h = (near_real)(dt / (real)substeps);
+    const near_real stiffest = STIFFEST / h;
+    const near_real asked = (near_real)world->desc.contact_hertz;
     pl_contact_call call = { .bodies = pl_solver_bodies(s),
                              .dynamic_slots = s->dynamic_slots,
                              .bundles = s->bundles.data,
@@ -124,8 +124,8 @@ void pl_solver_soft(plumb_world *world, real dt)
                              .h = h,
                              .inv_h = 1 / h,
                              .hertz = asked > 0 && asked < stiffest ? asked : stiffest,
-                             .damping = world->desc.contact_damping,
-                             .push_speed = world->desc.push_speed,
+                             .damping = (near_real)world->desc.contact_damping,
+                             .push_speed = (near_real)world->desc.push_speed,
                              .flags = world->bodies.flags };
     const bool special = pl_solver_specials(world);
     const bool running = world->narrow.any_surface || special;
