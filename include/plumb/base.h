@@ -56,11 +56,10 @@ PLUMB_BEGIN
 #if PLUMB_REAL_IS_DOUBLE
 typedef double plumb_real;
 #define PLUMB_REAL_EPSILON 2.2204460492503131e-16 ///< [-] spacing of reals at 1
+#define PLUMB_REAL_MAX     1.7976931348623157e+308
 #if PLUMB_IS_FAR
-#define PLUMB_REAL_MAX     3.4028234663852886e+38
 #define PLUMB_SYMBOL(name) name##_far
 #else
-#define PLUMB_REAL_MAX     1.7976931348623157e+308
 #define PLUMB_SYMBOL(name) name##_double
 #endif
 #else

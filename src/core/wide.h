@@ -187,7 +187,8 @@ WIDE_INLINE void gather8(vf out[8], const near_real *const *rows)
 
 // In the far build these become near as they are read.
 #if PLUMB_IS_FAR
-typedef plumb_real far_quad __attribute__((vector_size(4 * sizeof(plumb_real)), may_alias));
+typedef plumb_real far_quad
+    __attribute__((vector_size(4 * sizeof(plumb_real)), may_alias, aligned(sizeof(plumb_real))));
 
 WIDE_INLINE quad to_near(far_quad q)
 {

@@ -43,6 +43,8 @@ typedef vf place;
 #define EACH(x) splat(x)
 #endif
 
+#define POSE (PLUMB_IS_FAR ? 10 : 8) // reals of a pl_pose
+
 // Adding and taking it away rounds to whole numbers.
 #if PLUMB_REAL_IS_DOUBLE
 #define WHOLE ((plumb_real)6755399441055744) // 1.5 x 2^52
@@ -67,7 +69,7 @@ typedef struct centres {
     place oax, oay, obx, oby;
 } centres;
 
-// From x y c s dx dy of the poses, x y of the cores.
+// From x y c s dx dy (vx vy low_x low_y) of the poses, x y of the cores.
 WIDE_INLINE void centres_of(centres *o, const pl_narrow_input *in, const place *pa, const place *pb,
                             const place *ca, const place *cb)
 {
@@ -75,12 +77,17 @@ WIDE_INLINE void centres_of(centres *o, const pl_narrow_input *in, const place *
     place ay = pa[3] * ca[0] + pa[2] * ca[1];
     place bx = pb[2] * cb[0] - pb[3] * cb[1];
     place by = pb[3] * cb[0] + pb[2] * cb[1];
+    place arm_x = bx - ax, arm_y = by - ay;
+    if (PLUMB_IS_FAR) {
+        arm_x += pb[8] - pa[8];
+        arm_y += pb[9] - pa[9];
+    }
     if (in->wrapped) {
-        o->dx = nearest_image(pa[0], pb[0], bx - ax, in->wrap_x);
-        o->dy = nearest_image(pa[1], pb[1], by - ay, in->wrap_y);
+        o->dx = nearest_image(pa[0], pb[0], arm_x, in->wrap_x);
+        o->dy = nearest_image(pa[1], pb[1], arm_y, in->wrap_y);
     } else {
-        o->dx = (pb[0] - pa[0]) + (bx - ax);
-        o->dy = (pb[1] - pa[1]) + (by - ay);
+        o->dx = (pb[0] - pa[0]) + arm_x;
+        o->dy = (pb[1] - pa[1]) + arm_y;
     }
     o->oax = ax - pa[4], o->oay = ay - pa[5];
     o->obx = bx - pb[4], o->oby = by - pb[5];
@@ -119,8 +126,8 @@ WIDE_INLINE void lanes_gather(lanes *l, const pl_narrow_input *in, const uint32_
         const pl_pair *pair = &in->pairs[l->pair[i]];
         l->a[i] = pair->a;
         l->b[i] = pair->b;
-        pose_a[i] = in->poses + (size_t)pair->body_a * 8;
-        pose_b[i] = in->poses + (size_t)pair->body_b * 8;
+        pose_a[i] = in->poses + (size_t)pair->body_a * POSE;
+        pose_b[i] = in->poses + (size_t)pair->body_b * POSE;
         core_a[i] = (const plumb_real *)(const void *)&in->cores[pair->a];
         core_b[i] = (const plumb_real *)(const void *)&in->cores[pair->b];
     }

@@ -36,12 +36,20 @@ static void turn(pl_bodies *b, uint32_t row, real angle)
 }
 
 // Adds to a value and keeps what rounding takes away for the next time (compensated summation, in
-// double). Without it, an elastic ball drifts by 2e-7 of its energy a bounce in the float library.
+// double). Without it, an elastic ball drifts by 2e-7 of its energy a bounce in the float library. Places of
+// the far build, doubles themselves, keep the error of their own sum (Knuth's two-sum): what a body does then
+// does not depend on where it is.
 static void add(real *value, real *low, real change)
 {
+#if PLUMB_IS_FAR
+    real wanted = change + *low, sum = *value + wanted, part = sum - *value;
+    *low = (*value - (sum - part)) + (wanted - part);
+    *value = sum;
+#else
     double wanted = (double)*value + ((double)change + (double)*low);
     *value = (real)wanted;
     *low = (real)(wanted - (double)*value);
+#endif
 }
 
 // Returns the angle by which the body turned.
