@@ -9,9 +9,9 @@ typedef struct pl_pair {
     uint32_t a, b;           // piece slots: kind of a <= kind of b, equal kinds: a < b
     uint32_t body_a, body_b; // body rows
     uint32_t feature[2];     // of the manifold points that the impulses belong to; PL_NONE: none
-    near_real normal[2];          // [N s] impulses of the last substep
-    near_real tangent[2];         // [N s]
-    near_real rolling;            // [N m s] about the pair's contact as a whole
+    near_real normal[2];     // [N s] impulses of the last substep
+    near_real tangent[2];    // [N s]
+    near_real rolling;       // [N m s] about the pair's contact as a whole
     uint32_t manifold;       // index of this step's manifold; PL_NONE: apart
     uint32_t flags;          // PL_PAIR_...
 } pl_pair;

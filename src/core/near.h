@@ -12,16 +12,15 @@
 
 #if PLUMB_REAL_IS_DOUBLE && !PLUMB_IS_FAR
 typedef double near_real;
-#define NEAR_EPSILON DBL_EPSILON
+#define NEAR_EPSILON      DBL_EPSILON
 #define PL_NEAR_IS_DOUBLE 1
 #else
 typedef float near_real;
-#define NEAR_EPSILON FLT_EPSILON
+#define NEAR_EPSILON      FLT_EPSILON
 #define PL_NEAR_IS_DOUBLE 0
 #endif
 
 // What tells the builds apart in snapshots and recordings: 4 float, 8 double, 12 far (8 and 4).
-#define PL_PRECISION                                                                               \
-    ((uint32_t)(sizeof(plumb_real) + (PLUMB_IS_FAR ? sizeof(near_real) : 0)))
+#define PL_PRECISION ((uint32_t)(sizeof(plumb_real) + (PLUMB_IS_FAR ? sizeof(near_real) : 0)))
 
 #endif

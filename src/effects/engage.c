@@ -44,9 +44,8 @@ static void lock(plumb_world *world, uint32_t slot, uint32_t flags)
     pl_solver_body *body = &pl_solver_bodies(&world->solver)[slot];
     pl_solver_motion *motion = &pl_solver_motions(&world->solver)[slot];
     near_real unused[2];
-    near_real *low = world->narrow.any_bounce
-                         ? (near_real *)world->solver.lows.data + (size_t)slot * 4
-                         : unused;
+    near_real *low =
+        world->narrow.any_bounce ? (near_real *)world->solver.lows.data + (size_t)slot * 4 : unused;
     if ((flags & PL_BODY_LOCK_X) != 0) {
         body->vx = motion->ux = motion->ax = low[0] = 0;
     }

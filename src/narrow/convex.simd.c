@@ -174,8 +174,8 @@ static inline void round_corners(touch *t, const lanes *l, const pl_narrow_input
 {
     vf zero = splat(0);
     vm corner = (face_separation > splat((near_real)-1e-5)) &
-                (edge_distance(r, w) > vmax(face_separation, zero) * splat((near_real)1.000002) +
-                                           splat((near_real)4e-6));
+                (edge_distance(r, w) >
+                 vmax(face_separation, zero) * splat((near_real)1.000002) + splat((near_real)4e-6));
     if (!any(corner)) {
         return; // the result of a lane does not depend on the others: it would not be taken
     }

@@ -65,7 +65,7 @@ WIDE_INLINE place nearest_image(place a, place b, place arm, plumb_real period)
 }
 
 typedef struct centres {
-    place dx, dy;             // as in `lanes`
+    place dx, dy; // as in `lanes`
     place oax, oay, obx, oby;
 } centres;
 

@@ -26,7 +26,7 @@ typedef struct pl_manifold {
     near_real rolling;       // [m] lever arm of rolling resistance
     union {
         near_real adhesion; // [N] that the contact may pull, until events are made
-        near_real blow;     // [N s] impulse of the hit that is due, steps before included; then only
+        near_real blow; // [N s] impulse of the hit that is due, steps before included; then only
     };
     pl_manifold_point point[2]; // a point that is absent has separation PL_APART
     uint32_t body_a, body_b;    // body rows
@@ -59,7 +59,7 @@ typedef struct pl_narrow {
     bool any_adhesion;       // some manifold may pull
     uint32_t touching_count; // manifolds whose surfaces met
     uint32_t point_count;
-    near_real max_penetration;   // [m]
+    near_real max_penetration; // [m]
     uint64_t sum_penetration; // [PL_DEPTH_UNIT] of the deeper point of each touching manifold
 } pl_narrow;
 

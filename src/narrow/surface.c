@@ -90,8 +90,7 @@ static void mix(const plumb_world *world, pl_manifold *m, const pl_pair *pair, u
         m->friction = (near_real)mixed(friction_rule, s->friction[a], s->friction[b]);
     }
     if (restitution_rule != PLUMB_MIX_DEFAULT) {
-        m->restitution =
-            (near_real)mixed(restitution_rule, s->restitution[a], s->restitution[b]);
+        m->restitution = (near_real)mixed(restitution_rule, s->restitution[a], s->restitution[b]);
     }
     m->rolling = (near_real)(s->rolling[a] > s->rolling[b] ? s->rolling[a] : s->rolling[b]);
 }

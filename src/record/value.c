@@ -78,8 +78,8 @@ void pl_value_texts(plumb_difference *row, const char *a, const char *b, const p
 {
     const bool is_list = m->type == PL_TYPE_OTHER || m->type == PL_TYPE_FLOATS ||
                          m->type == PL_TYPE_DOUBLES; // other: a few reals
-    const bool is_float = m->type == PL_TYPE_FLOATS ||
-                          (m->type == PL_TYPE_OTHER && sizeof(real) == sizeof(float));
+    const bool is_float =
+        m->type == PL_TYPE_FLOATS || (m->type == PL_TYPE_OTHER && sizeof(real) == sizeof(float));
     const uint32_t one = is_float ? sizeof(float) : sizeof(double);
     if (m->type == PL_TYPE_POINTER || (is_list && m->size % one != 0)) {
         return;

@@ -40,7 +40,8 @@ typedef struct approach {
     double time;  // [s] since the start of the substep
 } approach;
 
-static near_real *lane_value(pl_solver *s, const pl_contact_kernels *kernels, size_t lane, size_t offset)
+static near_real *lane_value(pl_solver *s, const pl_contact_kernels *kernels, size_t lane,
+                             size_t offset)
 {
     size_t width = (size_t)kernels->width;
     char *bundle = (char *)s->bundles.data + lane / width * kernels->bundle_size;
@@ -104,8 +105,8 @@ static pl_impact impact_of(const plumb_world *world, const pl_manifold *m)
 static void give_lane(pl_solver *s, size_t width, size_t lane, uint32_t index,
                       const pl_impact *impact)
 {
-    near_real *field =
-        (near_real *)s->outlook_fields.data + lane / width * width * PL_OUTLOOK_FIELDS + lane % width;
+    near_real *field = (near_real *)s->outlook_fields.data +
+                       lane / width * width * PL_OUTLOOK_FIELDS + lane % width;
     pl_outlook_ends *ends = (pl_outlook_ends *)s->outlook_ends.data + lane;
     const uint32_t none = s->slot_count - 1;
     *ends = impact != NULL ? (pl_outlook_ends){ impact->a, impact->b, index }

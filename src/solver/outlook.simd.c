@@ -73,8 +73,8 @@ WIDE_INLINE void look_out(outlook *o, const pl_outlook_call *call, const uint32_
     o->calm = splat(4 * call->h * (1 - DOUBT)) * weight;
 }
 
-WIDE_INLINE vm look_at_point(const outlook *o, const pl_outlook_call *call,
-                             const near_real *fields, int j, char *bundle)
+WIDE_INLINE vm look_at_point(const outlook *o, const pl_outlook_call *call, const near_real *fields,
+                             int j, char *bundle)
 {
     const vf separation = load(fields + PL_OUTLOOK_SEPARATION(j) * PL_WIDTH);
     const vf ran = load(fields + PL_OUTLOOK_RAN(j) * PL_WIDTH);

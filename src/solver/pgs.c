@@ -23,13 +23,15 @@ typedef struct classic {
     near_real *lows; // a quad a slot; NULL: nothing bounces
 } classic;
 
-static near_real normal_speed(const classic *c, const pl_classic_contact *m, const pl_classic_point *p)
+static near_real normal_speed(const classic *c, const pl_classic_contact *m,
+                              const pl_classic_point *p)
 {
     const pl_solver_body *a = &c->bodies[m->a], *b = &c->bodies[m->b];
     return m->nx * (b->vx - a->vx) + m->ny * (b->vy - a->vy) + p->rbn * b->w - p->ran * a->w;
 }
 
-static near_real separation_now(const classic *c, const pl_classic_contact *m, const pl_classic_point *p)
+static near_real separation_now(const classic *c, const pl_classic_contact *m,
+                                const pl_classic_point *p)
 {
     const pl_solver_body *a = &c->bodies[m->a], *b = &c->bodies[m->b];
     return p->separation + m->nx * (b->dx - a->dx) + m->ny * (b->dy - a->dy) + p->rbn * b->da -
@@ -85,7 +87,8 @@ static near_real inverse_or_zero(near_real k)
 
 // What two bodies have against a push along (x, y), turning aside. [1/kg]
 static near_real inverse_mass(const plumb_world *world, const pl_classic_contact *m,
-                         const pl_solver_body *a, const pl_solver_body *b, near_real x, near_real y)
+                              const pl_solver_body *a, const pl_solver_body *b, near_real x,
+                              near_real y)
 {
     return world->locked_bodies == 0 ? a->inv_mass + b->inv_mass
                                      : (m->aix + m->bix) * x * x + (m->aiy + m->biy) * y * y;
@@ -179,8 +182,8 @@ static void warm_start(const classic *c)
 static void solve_velocity(const classic *c, pl_classic_contact *m, pl_classic_point *p)
 {
     const pl_solver_body *a = &c->bodies[m->a], *b = &c->bodies[m->b];
-    near_real slip = m->nx * (b->vy - a->vy) - m->ny * (b->vx - a->vx) + p->rbt * b->w - p->rat * a->w +
-                m->surface_speed;
+    near_real slip = m->nx * (b->vy - a->vy) - m->ny * (b->vx - a->vx) + p->rbt * b->w -
+                     p->rat * a->w + m->surface_speed;
     near_real s = separation_now(c, m, p);
     near_real pull = pull_of(m, s), load = p->ln + pull;
     near_real total = within(p->lt - p->mt * slip, m->friction * (load > 0 ? load : 0));
@@ -210,7 +213,8 @@ static void solve_position(const classic *c, const pl_classic_contact *m, const 
 
 static void solve_rolling(const classic *c, pl_classic_contact *m)
 {
-    near_real total = within(m->lr - m->mr * (c->bodies[m->b].w - c->bodies[m->a].w), rolling_bound(c, m));
+    near_real total =
+        within(m->lr - m->mr * (c->bodies[m->b].w - c->bodies[m->a].w), rolling_bound(c, m));
     turn(c, m, total - m->lr);
     m->lr = total;
 }
@@ -295,7 +299,7 @@ void pl_solver_pgs(plumb_world *world, real dt)
         if (world->joints.impulsive > 0) {
             pl_joints_tally(world);
         }
-        pl_integrate_positions(world, c.h);
+        pl_integrate_positions(&world->solver, pl_clusters(&world->solver), world->tasks, c.h);
         for (int i = 0; i < POSITION_SWEEPS; ++i) {
             if (joints) {
                 pl_joints_move(world, POSITION_RATE);

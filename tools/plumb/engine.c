@@ -187,7 +187,9 @@ static bool session_to_json(const engine_session *session, FILE *file)
 #endif
 
 const engine_api ENGINE_NAME = {
-    .precision = PLUMB_IS_FAR ? "far" : sizeof(plumb_real) == sizeof(float) ? "float" : "double",
+    .precision = PLUMB_IS_FAR                          ? "far"
+                 : sizeof(plumb_real) == sizeof(float) ? "float"
+                                                       : "double",
     .is_float = sizeof(plumb_real) == sizeof(float),
     .open = session_open,
     .close = session_close,
