@@ -192,7 +192,7 @@ typedef plumb_real far_quad
 
 WIDE_INLINE quad to_near(far_quad q)
 {
-    return (quad) __builtin_convertvector(q, quad);
+    return __builtin_convertvector(q, quad);
 }
 
 WIDE_INLINE void gather4_far(vf out[4], const plumb_real *const *rows, int offset)
