@@ -258,12 +258,17 @@ WIDE_INLINE void lanes_emit(const lanes *l, const touch *t, const pl_narrow_inpu
     }
     near_real limits[PL_WIDTH];
     store(limits, limit);
+    pl_ends *ends = out->ends.data;
+    uint32_t *fresh = out->fresh.data;
     for (uint32_t i = 0; i < count; ++i) {
         pl_pair *pair = &in->pairs[l->pair[i]];
         pl_manifold *m = &pl_manifolds(out)[out->manifold_count];
         uint32_t feature[2] = { (uint32_t)t->feature[0][i], (uint32_t)t->feature[1][i] };
         if (emit_lane(pair, m, rows[i], limits[i], feature)) {
             m->pair = l->pair[i];
+            fresh[out->fresh_count] = l->pair[i];
+            out->fresh_count += (pair->flags & PL_PAIR_TOUCHING) == 0;
+            ends[out->manifold_count] = (pl_ends){ pair->body_a, pair->body_b };
             out->any_friction |= m->friction > 0;
             out->any_bounce |= m->restitution > 0;
             pl_overlaps_count(&out->overlaps, m);

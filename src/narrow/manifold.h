@@ -85,9 +85,18 @@ static inline void pl_overlaps_add(pl_overlaps *sum, const pl_overlaps *more)
     }
 }
 
+// Body rows of a manifold, apart from it: all that the graph looks at.
+typedef struct pl_ends {
+    uint32_t a, b;
+} pl_ends;
+
 typedef struct pl_narrow {
     pl_buffer manifolds; // pl_manifold of this step, room for every pair
     pl_buffer staged;    // pl_manifold, with several threads: before they are put together
+    pl_buffer ends;      // pl_ends a manifold, as the kernels left them
+    pl_buffer fresh;     // uint32_t: pairs with a manifold that did not touch in the last step
+    uint32_t fresh_count;
+    bool ends_stale; // manifolds or rows have moved since
     uint32_t manifold_count;
     uint32_t borne_count; // more manifolds behind those, whose load others bear (seams/run.c)
     // Summary of this step's manifolds.
@@ -103,6 +112,8 @@ static inline pl_manifold *pl_manifolds(const pl_narrow *narrow)
     return (pl_manifold *)narrow->manifolds.data;
 }
 
+// Keeps the room, nothing else.
+void pl_narrow_clear(pl_narrow *narrow);
 void pl_narrow_free(pl_memory *memory, pl_narrow *narrow);
 
 #endif

@@ -112,10 +112,8 @@ void pl_surfaces_mix(plumb_world *world)
 void pl_narrow_summarise(pl_narrow *narrow)
 {
     const pl_manifold *m = pl_manifolds(narrow);
-    *narrow = (pl_narrow){ .manifolds = narrow->manifolds,
-                           .staged = narrow->staged,
-                           .manifold_count = narrow->manifold_count,
-                           .borne_count = narrow->borne_count };
+    narrow->any_friction = narrow->any_bounce = narrow->any_surface = narrow->any_adhesion = false;
+    narrow->overlaps = (pl_overlaps){ 0 };
     for (uint32_t i = 0; i < narrow->manifold_count; ++i) {
         narrow->any_friction |= m[i].friction > 0;
         narrow->any_bounce |= m[i].restitution > 0;

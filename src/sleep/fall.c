@@ -354,6 +354,7 @@ static void take_out_pairs(plumb_world *world, uint32_t pair_count)
     }
     list->count = kept;
     narrow->manifold_count = kept_manifolds;
+    narrow->ends_stale = true; // rows move next
     if (places != NULL) {
         pl_seams_follow(world, places, own);
     }

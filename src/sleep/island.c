@@ -34,13 +34,14 @@ void pl_sleep_free(pl_memory *memory, pl_sleep *s)
 {
     pl_buffer *buffers[] = {
         &s->islands,     &s->contacts,     &s->resting,           &s->near.items,
-        &s->probe.items, &s->found,        &s->touched.manifolds, &s->touched.staged,
+        &s->probe.items, &s->found,        
         &s->marked,      &s->woken,        &s->parents,           &s->held,
         &s->places,      &s->sleep_events, &s->wake_events
     };
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; ++i) {
         pl_buffer_free(memory, buffers[i]);
     }
+    pl_narrow_free(memory, &s->touched);
     *s = (pl_sleep){ 0 };
 }
 

@@ -54,8 +54,6 @@ static bool reserve_bodies(plumb_world *world)
            pl_buffer_reserve(memory, &s->struck, elastic_rows * sizeof(near_real)) &&
            pl_buffer_reserve(memory, &s->rows, rows * sizeof(uint32_t)) &&
            pl_buffer_reserve(memory, &s->slots, rows * sizeof(uint32_t)) &&
-           pl_buffer_reserve(memory, &s->ends,
-                             ((size_t)world->narrow.manifold_count + 1) * sizeof(pl_ends)) &&
            pl_buffer_reserve(memory, &s->masks, rows * sizeof(uint64_t)) &&
            pl_buffer_reserve(memory, &s->colors, (size_t)world->narrow.manifold_count + 1);
 }
@@ -119,7 +117,7 @@ static void note_ends(void *context, uint32_t first, uint32_t count)
 {
     const plumb_world *world = context;
     const pl_manifold *m = pl_manifolds(&world->narrow);
-    pl_ends *ends = world->solver.ends.data;
+    pl_ends *ends = world->narrow.ends.data;
     for (uint32_t i = first; i < first + count; ++i) {
         ends[i] = (pl_ends){ m[i].body_a, m[i].body_b };
     }
@@ -129,7 +127,7 @@ static void note_ends(void *context, uint32_t first, uint32_t count)
 static void mark_rows(plumb_world *world, uint32_t movable)
 {
     const pl_manifold *m = pl_manifolds(&world->narrow);
-    const pl_ends *ends = world->solver.ends.data;
+    const pl_ends *ends = world->narrow.ends.data;
     const uint32_t *first_joint = world->bodies.first_joint;
     uint32_t *slots = world->solver.slots.data;
     memset(slots, 0xff, movable * sizeof(uint32_t));
@@ -297,7 +295,7 @@ static void color_contacts(plumb_world *world)
 {
     pl_solver *s = &world->solver;
     const sorter by = sorter_of(world);
-    const pl_ends *ends = s->ends.data;
+    const pl_ends *ends = world->narrow.ends.data;
     const uint32_t *slots = s->slots.data, count = world->narrow.manifold_count;
     uint64_t *masks = s->masks.data;
     uint8_t *colors = s->colors.data;
@@ -359,7 +357,7 @@ static uint32_t divide_lanes(plumb_world *world, uint32_t width)
 // bundle ends where a body would be shared. None reaches the contacts that are still to be read.
 static void pack_overflow(plumb_world *world, pl_cluster *cluster, uint32_t count, uint32_t width)
 {
-    const pl_ends *ends = world->solver.ends.data;
+    const pl_ends *ends = world->narrow.ends.data;
     uint32_t *lanes = (uint32_t *)world->solver.lanes.data + cluster->first_lane;
     uint32_t *end = &cluster->color_first[PL_COLOR_SLOTS];
     const uint32_t *from = &lanes[(size_t)*end * width - count];
@@ -392,7 +390,7 @@ static void place_lanes(plumb_world *world)
     pl_solver *s = &world->solver;
     const uint32_t width = (uint32_t)pl_solver_kernels(world)->width;
     const uint32_t bundles = divide_lanes(world, width);
-    const pl_ends *ends = s->ends.data;
+    const pl_ends *ends = world->narrow.ends.data;
     const uint8_t *colors = s->colors.data;
     uint32_t *lanes = s->lanes.data;
     s->bundle_count = 0;
@@ -418,7 +416,9 @@ bool pl_solver_graph(plumb_world *world)
     if (!reserve_bodies(world)) {
         return false;
     }
-    pl_tasks_ranges(world->tasks, world->narrow.manifold_count, LEAST, note_ends, world);
+    if (world->narrow.ends_stale) {
+        pl_tasks_ranges(world->tasks, world->narrow.manifold_count, LEAST, note_ends, world);
+    }
     mark_rows(world, world->dynamic_count + world->kinematic_count);
     if (!pl_solver_cluster(world)) {
         return false;
@@ -438,7 +438,7 @@ bool pl_solver_graph(plumb_world *world)
 void pl_solver_free(pl_memory *memory, pl_solver *s)
 {
     pl_buffer *buffers[] = {
-        &s->bodies,      &s->motions,      &s->rows,           &s->slots,        &s->ends,
+        &s->bodies,      &s->motions,      &s->rows,           &s->slots, 
         &s->masks,       &s->colors,       &s->lanes,          &s->bundles,      &s->impacts,
         &s->classic,     &s->lows,         &s->struck,         &s->extras,       &s->specials,
         &s->impact_heap, &s->impact_heads, &s->outlook_fields, &s->outlook_ends, &s->outlook_open,

@@ -94,11 +94,6 @@ typedef struct pl_classic_contact {
     pl_classic_point point[2];
 } pl_classic_contact;
 
-// Body rows of a manifold: all that the graph looks at.
-typedef struct pl_ends {
-    uint32_t a, b;
-} pl_ends;
-
 // What a row is marked with in `slots` before it gets its slot. An elastic body, one in a contact with
 // restitution, keeps what rounding takes from its velocity; the others must not, or what one
 // island asks for would change the bits of the rest.
@@ -131,7 +126,6 @@ typedef struct pl_solver {
     pl_buffer struck; // likewise a real a slot: when in the substep an impact struck it last [s]
     pl_buffer rows;   // uint32_t: body row of a slot
     pl_buffer slots;  // uint32_t: slot of a dynamic or kinematic row; PL_NONE: not in a contact
-    pl_buffer ends;   // pl_ends a manifold
     pl_buffer masks;  // uint64_t a slot: colours taken
     pl_buffer colors; // uint8_t a manifold
     pl_buffer lanes;  // uint32_t a lane: its manifold; PL_NONE: empty
