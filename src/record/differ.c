@@ -33,9 +33,12 @@ static void add_products(pl_digest *digest, const plumb_world *world)
             pl_digest_add(digest, &m[i].point[k], offsetof(pl_manifold_point, total));
         }
     }
-    if (world->solver.slot_count > 0) {
-        pl_digest_add(digest, world->solver.bodies.data,
-                      world->solver.dynamic_slots * sizeof(pl_solver_body));
+    const pl_solver *s = &world->solver;
+    for (uint32_t row = 0; s->slot_count > 0 && row < world->dynamic_count; ++row) {
+        const uint32_t slot = ((const uint32_t *)s->slots.data)[row]; // their order means nothing
+        if (slot != PL_NONE) {
+            pl_digest_add(digest, &pl_solver_bodies(s)[slot], sizeof(pl_solver_body));
+        }
     }
 }
 

@@ -145,6 +145,13 @@ static void prepare(const pl_contact_call *call, uint32_t first, uint32_t count)
     for (uint32_t k = first; k < first + count; ++k) {
         bundle *c = &bundles[k];
         const plumb_real *row[3][PL_WIDTH];
+        for (int i = 0; i < PL_WIDTH && k + 2 < first + count; ++i) {
+            uint32_t at = call->lanes[(size_t)(k + 2) * PL_WIDTH + (size_t)i];
+            if (at != PL_NONE) {
+                __builtin_prefetch(&call->manifolds[at]);
+                __builtin_prefetch(&call->manifolds[at].point[1]);
+            }
+        }
         for (int i = 0; i < PL_WIDTH; ++i) {
             uint32_t at = call->lanes[(size_t)k * PL_WIDTH + (size_t)i];
             const pl_manifold *m = at == PL_NONE ? &empty_manifold : &call->manifolds[at];
@@ -482,6 +489,12 @@ static void store_impulses(const pl_contact_call *call, uint32_t first, uint32_t
     const bundle *bundles = call->bundles;
     for (uint32_t k = first; k < first + count; ++k) {
         const bundle *c = &bundles[k];
+        for (int i = 0; i < PL_WIDTH && k + 1 < first + count; ++i) {
+            uint32_t at = call->lanes[(size_t)(k + 1) * PL_WIDTH + (size_t)i];
+            if (at != PL_NONE) {
+                __builtin_prefetch(&call->pairs[call->manifolds[at].pair], 1);
+            }
+        }
         for (int i = 0; i < PL_WIDTH; ++i) {
             uint32_t at = call->lanes[(size_t)k * PL_WIDTH + (size_t)i];
             if (at != PL_NONE) {

@@ -174,8 +174,9 @@ static void take_over(plumb_world *world, uint32_t row, const pl_solver_body *bo
     b->vx[row] = noticed(body->vx);
     b->vy[row] = noticed(body->vy);
     b->w[row] = noticed(body->w);
-    b->low_vx[row] = low == NULL ? 0 : low[0];
-    b->low_vy[row] = low == NULL ? 0 : low[1];
+    const bool kept = low != NULL && low[3] != 0;
+    b->low_vx[row] = kept ? low[0] : 0;
+    b->low_vy[row] = kept ? low[1] : 0;
 }
 
 // Moves a dynamic body; returns the angle by which it turned.

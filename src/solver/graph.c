@@ -1,18 +1,17 @@
 // graph.c - which bodies take part, and in what order their contacts are solved.
 //
-// Bodies in a contact get a slot in the solver's own array: packed rows, in row order. Contacts get
-// colours so that no body has two contacts of one colour: each body keeps a mask of the colours it
-// has, and a contact takes the first that is free in both. Contacts of one colour fill the lanes of
-// bundles; their order does not matter, so the vector width cannot change a result. What finds no
-// colour goes one after another, several to a bundle only where no body is shared.
+// Bodies in a contact get a slot in the solver's own array: packed rows, cluster by cluster (cluster.c)
+// and in row order. Contacts get colours so that no body has two contacts of one colour: each body
+// keeps a mask of the colours it has, and a contact takes the first that is free in both. Contacts of
+// one cluster and colour fill the lanes of bundles; their order does not matter, so the vector width
+// cannot change a result. What finds no colour goes one after another, several to a bundle only where
+// no body is shared.
 //
 // Reads: manifolds, velocities, masses, forces. Writes: solver bodies, lanes. Cost: O(bodies +
 // contacts).
 #include "world/state.h"
 
 #include <string.h>
-
-#define OVERFLOW_COLOR PL_COLORS
 
 #define DYNAMIC_MASK ((UINT64_C(1) << PL_DYNAMIC_COLORS) - 1)
 
@@ -61,26 +60,45 @@ static bool reserve_bodies(plumb_world *world)
            pl_buffer_reserve(memory, &s->colors, (size_t)world->narrow.manifold_count + 1);
 }
 
-// Every colour can end in a partly filled bundle, and every overflow contact can be alone in one.
-static bool reserve_lanes(plumb_world *world, const uint32_t counts[PL_COLORS + 1])
+typedef struct needs {
+    size_t lanes, bundles; // of all clusters; that the threads need
+} needs;
+
+// Every colour of a cluster can end in a partly filled bundle, and every overflow contact can be alone in
+// one.
+static needs needs_of(plumb_world *world, uint32_t width)
+{
+    pl_solver *s = &world->solver;
+    const uint32_t *counts = s->cursors.data;
+    size_t sum = 0, most = 0;
+    for (uint32_t i = 0; i < s->cluster_count; ++i, counts += PL_COLOR_SLOTS) {
+        size_t bundles = counts[PL_OVERFLOW_COLOR];
+        for (int c = 0; c < PL_COLORS; ++c) {
+            bundles += (counts[c] + width - 1) / width;
+        }
+        sum += bundles;
+        most = bundles > most ? bundles : most;
+    }
+    s->bundle_room = (uint32_t)most;
+    const uint32_t threads = pl_tasks_share_count(world->tasks, s->cluster_count, 1);
+    return (needs){ sum * width, most * threads };
+}
+
+static bool reserve_lanes(plumb_world *world)
 {
     pl_solver *s = &world->solver;
     pl_memory *memory = &world->memory;
     const pl_contact_kernels *k = pl_solver_kernels(world);
-    size_t width = (size_t)k->width;
-    size_t bundles = counts[OVERFLOW_COLOR];
-    for (int c = 0; c < PL_COLORS; ++c) {
-        bundles += (counts[c] + width - 1) / width;
-    }
+    const needs need = needs_of(world, (uint32_t)k->width);
     size_t contacts = world->narrow.manifold_count;
     size_t impacts = world->narrow.any_bounce ? contacts : 0;
-    size_t specials = pl_solver_specials(world) ? bundles : 0;
+    size_t specials = pl_solver_specials(world) ? need.bundles : 0;
     size_t extras =
-        world->narrow.any_surface || specials > 0 || pl_solver_tallies(world) ? bundles : 0;
-    size_t looked = impacts > 0 && world->desc.solver == PLUMB_SOLVER_SOFT ? bundles * width : 0;
+        world->narrow.any_surface || specials > 0 || pl_solver_tallies(world) ? need.bundles : 0;
+    size_t looked = impacts > 0 && world->desc.solver == PLUMB_SOLVER_SOFT ? need.lanes : 0;
     size_t classic = world->desc.solver == PLUMB_SOLVER_PGS ? contacts : 0;
-    return pl_buffer_reserve(memory, &s->lanes, bundles * width * sizeof(uint32_t)) &&
-           pl_buffer_reserve(memory, &s->bundles, bundles * k->bundle_size) &&
+    return pl_buffer_reserve(memory, &s->lanes, need.lanes * sizeof(uint32_t)) &&
+           pl_buffer_reserve(memory, &s->bundles, need.bundles * k->bundle_size) &&
            pl_buffer_reserve(memory, &s->extras, extras * k->extra_size) &&
            pl_buffer_reserve(memory, &s->specials, specials * k->special_size) &&
            pl_buffer_reserve(memory, &s->impacts, impacts * sizeof(pl_impact)) &&
@@ -93,11 +111,6 @@ static bool reserve_lanes(plumb_world *world, const uint32_t counts[PL_COLORS + 
                              (impacts > 0 ? s->dynamic_slots : 0) * sizeof(uint32_t)) &&
            pl_buffer_reserve(memory, &s->classic, classic * sizeof(pl_classic_contact));
 }
-
-// What a row is marked with in `slots` before it gets its slot. An elastic body, one in a contact with
-// restitution, keeps what rounding takes from its velocity; the others must not, or what one
-// island asks for would change the bits of the rest.
-enum { ENGAGED, ELASTIC };
 
 // So many manifolds are worth a thread.
 #define LEAST 512
@@ -122,40 +135,86 @@ static void mark_rows(plumb_world *world, uint32_t movable)
     memset(slots, 0xff, movable * sizeof(uint32_t));
     for (uint32_t row = 0; world->joints.live > 0 && row < movable; ++row) {
         if (first_joint[row] != PL_NONE) {
-            slots[row] = ENGAGED;
+            slots[row] = PL_ENGAGED;
         }
     }
     for (uint32_t i = 0; i < world->narrow.manifold_count; ++i) {
         if (ends[i].a < movable) {
-            slots[ends[i].a] = ENGAGED;
+            slots[ends[i].a] = PL_ENGAGED;
         }
         if (ends[i].b < movable) {
-            slots[ends[i].b] = ENGAGED;
+            slots[ends[i].b] = PL_ENGAGED;
         }
     }
     for (uint32_t i = 0; world->narrow.any_bounce && i < world->narrow.manifold_count; ++i) {
         if (m[i].restitution > 0) {
-            slots[m[i].body_a < movable ? m[i].body_a : m[i].body_b] = ELASTIC;
-            slots[m[i].body_b < movable ? m[i].body_b : m[i].body_a] = ELASTIC;
+            slots[m[i].body_a < movable ? m[i].body_a : m[i].body_b] = PL_ELASTIC;
+            slots[m[i].body_b < movable ? m[i].body_b : m[i].body_a] = PL_ELASTIC;
         }
     }
 }
 
-// A quad: what rounding took from the velocity so far, and 1 where that is kept, 0 where it is not.
-static void start_low(real *low, const pl_bodies *b, uint32_t row, bool elastic)
+// Labels of rows; null: all are of one cluster.
+static const uint32_t *labels_of(const pl_solver *s)
 {
-    low[0] = elastic ? b->low_vx[row] : 0;
-    low[1] = elastic ? b->low_vy[row] : 0;
-    low[2] = 0;
-    low[3] = elastic;
+    return s->cluster_count == 1 ? NULL : s->labels.data;
 }
 
-// The slot of a row: its state, packed.
-static void engage_row(plumb_world *world, uint32_t row, uint32_t slot)
+// The cluster of a row that is engaged.
+static inline uint32_t cluster_of(const uint32_t *labels, uint32_t row)
+{
+    return labels == NULL || labels[row] == PL_NONE ? 0 : labels[row];
+}
+
+// Slots from `at` on for those rows that are engaged, cluster by cluster and in order; `kind` 0: they are
+// dynamic, 1: kinematic. Returns the slot behind the last.
+static uint32_t give_slots(plumb_world *world, pl_share rows, int kind, uint32_t at)
+{
+    pl_solver *s = &world->solver;
+    pl_cluster *clusters = pl_clusters(s);
+    const uint32_t *labels = labels_of(s);
+    uint32_t *slots = s->slots.data, *row_of = s->rows.data;
+    real *lows = world->narrow.any_bounce ? s->lows.data : NULL;
+    for (uint32_t row = rows.first; labels != NULL && row < rows.end; ++row) {
+        if (slots[row] != PL_NONE) {
+            ++clusters[cluster_of(labels, row)].slots[kind].count;
+        }
+    }
+    for (uint32_t i = 0; i < s->cluster_count; ++i) {
+        pl_slots *mine = &clusters[i].slots[kind];
+        mine->first = at;
+        at += mine->count;
+        mine->count = 0;
+    }
+    for (uint32_t row = rows.first; row < rows.end; ++row) {
+        if (slots[row] != PL_NONE) {
+            pl_slots *mine = &clusters[cluster_of(labels, row)].slots[kind];
+            const uint32_t slot = mine->first + mine->count++;
+            if (lows != NULL) {
+                lows[(size_t)slot * 4 + 3] = slots[row] == PL_ELASTIC;
+            }
+            slots[row] = slot;
+            row_of[slot] = row;
+        }
+    }
+    const pl_slots last = clusters[s->cluster_count - 1].slots[kind];
+    return last.first + last.count;
+}
+
+// A quad: what rounding took from the velocity so far, and 1 where that is kept, 0 where it is not.
+static void start_low(real *low, const pl_bodies *b, uint32_t row)
+{
+    low[0] = low[3] != 0 ? b->low_vx[row] : 0;
+    low[1] = low[3] != 0 ? b->low_vy[row] : 0;
+    low[2] = 0;
+}
+
+// The state of the row of a slot, packed.
+static void engage_slot(plumb_world *world, uint32_t slot)
 {
     pl_solver *s = &world->solver;
     const pl_bodies *b = &world->bodies;
-    uint32_t *slots = s->slots.data;
+    const uint32_t row = ((const uint32_t *)s->rows.data)[slot];
     real im = b->inv_mass[row], ii = b->inv_inertia[row];
     real gravity = row < world->dynamic_count ? b->gravity_scale[row] : 0;
     pl_solver_bodies(s)[slot] = (pl_solver_body){
@@ -170,43 +229,17 @@ static void engage_row(plumb_world *world, uint32_t row, uint32_t slot)
                             .uw = b->w[row],
                             .inv_mass = im };
     if (world->narrow.any_bounce) {
-        start_low((real *)s->lows.data + (size_t)slot * 4, b, row, slots[row] == ELASTIC);
+        start_low((real *)s->lows.data + (size_t)slot * 4, b, row);
     }
     if ((b->flags[row] & PL_BODY_ODD) != 0) {
         pl_effects_engage(world, row, slot);
     }
-    slots[row] = slot;
-    ((uint32_t *)s->rows.data)[slot] = row;
 }
 
-typedef struct engagement {
-    plumb_world *world;
-    uint32_t movable, shares;
-    uint32_t first[PLUMB_WORKERS_MAX + 1]; // slot of a share of the rows
-} engagement;
-
-static void count_share(void *context, uint32_t i)
+static void engage_slots(void *context, uint32_t first, uint32_t count)
 {
-    engagement *e = context;
-    const uint32_t *slots = e->world->solver.slots.data;
-    const pl_share rows = pl_share_of(e->movable, e->shares, i);
-    uint32_t count = 0;
-    for (uint32_t row = rows.first; row < rows.end; ++row) {
-        count += slots[row] != PL_NONE;
-    }
-    e->first[i + 1] = count;
-}
-
-static void engage_share(void *context, uint32_t i)
-{
-    const engagement *e = context;
-    const uint32_t *slots = e->world->solver.slots.data;
-    const pl_share rows = pl_share_of(e->movable, e->shares, i);
-    uint32_t slot = e->first[i];
-    for (uint32_t row = rows.first; row < rows.end; ++row) {
-        if (slots[row] != PL_NONE) {
-            engage_row(e->world, row, slot++);
-        }
+    for (uint32_t slot = first; slot < first + count; ++slot) {
+        engage_slot(context, slot);
     }
 }
 
@@ -214,22 +247,11 @@ static void engage_share(void *context, uint32_t i)
 static void engage(plumb_world *world)
 {
     pl_solver *s = &world->solver;
-    engagement e = { .world = world, .movable = world->dynamic_count + world->kinematic_count };
-    e.shares = pl_tasks_share_count(world->tasks, e.movable, PL_BODIES_SHARED);
-    pl_tasks_ranges(world->tasks, world->narrow.manifold_count, LEAST, note_ends, world);
-    mark_rows(world, e.movable);
-    pl_tasks_run(world->tasks, count_share, &e, e.shares);
-    for (uint32_t i = 0; i < e.shares; ++i) {
-        e.first[i + 1] += e.first[i];
-    }
-    const uint32_t count = e.first[e.shares];
-    pl_tasks_run(world->tasks, engage_share, &e, e.shares);
-    uint32_t kinematic = 0; // rows of those are the last
-    while (kinematic < count &&
-           ((const uint32_t *)s->rows.data)[count - 1 - kinematic] >= world->dynamic_count) {
-        ++kinematic;
-    }
-    s->dynamic_slots = count - kinematic;
+    const uint32_t dynamic = world->dynamic_count, movable = dynamic + world->kinematic_count;
+    memset(s->clusters.data, 0, s->cluster_count * sizeof(pl_cluster));
+    s->dynamic_slots = give_slots(world, (pl_share){ 0, dynamic }, 0, 0);
+    const uint32_t count = give_slots(world, (pl_share){ dynamic, movable }, 1, s->dynamic_slots);
+    pl_tasks_ranges(world->tasks, count, PL_BODIES_SHARED, engage_slots, world);
     if (world->narrow.any_bounce) {
         memset((real *)s->lows.data + (size_t)count * 4, 0, 4 * sizeof(real));
     }
@@ -242,26 +264,46 @@ static void engage(plumb_world *world)
 static uint32_t color_of(uint64_t taken, bool against_immovable)
 {
     uint64_t free = ~taken & (against_immovable ? ~DYNAMIC_MASK : DYNAMIC_MASK);
-    return free != 0 ? (uint32_t)__builtin_ctzll(free) : OVERFLOW_COLOR;
+    return free != 0 ? (uint32_t)__builtin_ctzll(free) : PL_OVERFLOW_COLOR;
 }
 
-static void color_contacts(plumb_world *world, uint32_t counts[PL_COLORS + 1])
+// What contacts are sorted by.
+typedef struct sorter {
+    uint32_t dynamic; // rows
+    const uint32_t *labels;
+    uint32_t *cursors;
+} sorter;
+
+static sorter sorter_of(const plumb_world *world)
+{
+    const pl_solver *s = &world->solver;
+    return (sorter){ world->dynamic_count, labels_of(s), s->cursors.data };
+}
+
+static inline uint32_t *cursor_of(sorter by, pl_ends ends, uint32_t color)
+{
+    const uint32_t cluster = cluster_of(by.labels, ends.a < by.dynamic ? ends.a : ends.b);
+    return &by.cursors[(size_t)cluster * PL_COLOR_SLOTS + color];
+}
+
+static void color_contacts(plumb_world *world)
 {
     pl_solver *s = &world->solver;
+    const sorter by = sorter_of(world);
     const pl_ends *ends = s->ends.data;
-    const uint32_t *slots = s->slots.data;
+    const uint32_t *slots = s->slots.data, count = world->narrow.manifold_count;
     uint64_t *masks = s->masks.data;
     uint8_t *colors = s->colors.data;
     memset(masks, 0, s->slot_count * sizeof(uint64_t));
-    memset(counts, 0, (PL_COLORS + 1) * sizeof(uint32_t));
-    for (uint32_t i = 0; i < world->narrow.manifold_count; ++i) {
-        bool a_moves = ends[i].a < world->dynamic_count;
-        bool b_moves = ends[i].b < world->dynamic_count;
+    memset(by.cursors, 0, s->cluster_count * PL_COLOR_SLOTS * sizeof(uint32_t));
+    for (uint32_t i = 0; i < count; ++i) {
+        bool a_moves = ends[i].a < by.dynamic;
+        bool b_moves = ends[i].b < by.dynamic;
         uint64_t *mask_a = a_moves ? &masks[slots[ends[i].a]] : NULL;
         uint64_t *mask_b = b_moves ? &masks[slots[ends[i].b]] : NULL;
         uint32_t color =
             color_of((a_moves ? *mask_a : 0) | (b_moves ? *mask_b : 0), !(a_moves && b_moves));
-        if (color < OVERFLOW_COLOR) {
+        if (color < PL_OVERFLOW_COLOR) {
             uint64_t bit = UINT64_C(1) << color;
             if (a_moves) {
                 *mask_a |= bit;
@@ -271,88 +313,118 @@ static void color_contacts(plumb_world *world, uint32_t counts[PL_COLORS + 1])
             }
         }
         colors[i] = (uint8_t)color;
-        ++counts[color];
+        ++*cursor_of(by, ends[i], color);
     }
-    s->overflow_count = counts[OVERFLOW_COLOR];
 }
 
-// Puts the overflow contacts into bundles in order; a bundle ends where a body would be shared.
-static uint32_t place_overflow(plumb_world *world, uint32_t *lanes, uint32_t at, uint32_t width)
+// Where the bundles of each cluster and colour begin; counts of contacts become places of their lanes.
+// Overflow contacts get a bundle each: they are put at the end of those first. Returns the bundles.
+static uint32_t divide_lanes(plumb_world *world, uint32_t width)
 {
     pl_solver *s = &world->solver;
-    const pl_ends *ends = s->ends.data;
-    const uint8_t *colors = s->colors.data;
-    uint32_t members[32]; // body rows of the open bundle, at most two a lane
-    uint32_t member_count = 0, filled = 0;
-    for (uint32_t i = 0; i < world->narrow.manifold_count; ++i) {
-        if (colors[i] != OVERFLOW_COLOR) {
-            continue;
+    uint32_t *cursors = s->cursors.data, all = 0;
+    uint64_t colors = 0;
+    s->overflow_count = 0;
+    for (uint32_t i = 0; i < s->cluster_count; ++i, cursors += PL_COLOR_SLOTS) {
+        pl_cluster *cluster = &pl_clusters(s)[i];
+        uint32_t *first = cluster->color_first, bundles = 0;
+        cluster->first_lane = (size_t)all * width;
+        for (uint32_t c = 0; c < PL_COLORS; ++c) {
+            first[c] = bundles;
+            colors |= (uint64_t)(cursors[c] > 0) << c;
+            bundles += (cursors[c] + width - 1) / width;
+            cursors[c] = (all + first[c]) * width;
         }
+        const uint32_t overflow = cursors[PL_OVERFLOW_COLOR];
+        first[PL_OVERFLOW_COLOR] = bundles;
+        first[PL_COLOR_SLOTS] = bundles += overflow;
+        all += bundles;
+        cursors[PL_OVERFLOW_COLOR] = all * width - overflow;
+        s->overflow_count += overflow;
+    }
+    for (s->color_count = 0; colors != 0; colors &= colors - 1) {
+        ++s->color_count;
+    }
+    return all;
+}
+
+// Puts the overflow contacts of a cluster, which are at the end of its lanes, into bundles in order; a
+// bundle ends where a body would be shared. None reaches the contacts that are still to be read.
+static void pack_overflow(plumb_world *world, pl_cluster *cluster, uint32_t count, uint32_t width)
+{
+    const pl_ends *ends = world->solver.ends.data;
+    uint32_t *lanes = (uint32_t *)world->solver.lanes.data + cluster->first_lane;
+    uint32_t *end = &cluster->color_first[PL_COLOR_SLOTS];
+    const uint32_t *from = &lanes[(size_t)*end * width - count];
+    uint32_t members[32]; // body rows of the open bundle, at most two a lane
+    uint32_t member_count = 0, filled = width;
+    *end = cluster->color_first[PL_OVERFLOW_COLOR];
+    for (uint32_t k = 0; k < count; ++k) {
+        const uint32_t contact = from[k];
+        const pl_ends e = ends[contact];
         bool shared = false;
-        for (uint32_t k = 0; k < member_count; ++k) {
-            shared |= members[k] == ends[i].a || members[k] == ends[i].b;
+        for (uint32_t m = 0; m < member_count; ++m) {
+            shared |= members[m] == e.a || members[m] == e.b;
         }
         if (shared || filled == width) {
-            at += width;
+            memset(&lanes[(size_t)(*end)++ * width], 0xff, width * sizeof(uint32_t));
             member_count = filled = 0;
         }
-        lanes[at + filled++] = i;
-        if (ends[i].a < world->dynamic_count) {
-            members[member_count++] = ends[i].a;
+        lanes[(size_t)(*end - 1) * width + filled++] = contact;
+        if (e.a < world->dynamic_count) {
+            members[member_count++] = e.a;
         }
-        if (ends[i].b < world->dynamic_count) {
-            members[member_count++] = ends[i].b;
+        if (e.b < world->dynamic_count) {
+            members[member_count++] = e.b;
         }
     }
-    return filled > 0 ? at + width : at;
 }
 
-static void place_lanes(plumb_world *world, const uint32_t counts[PL_COLORS + 1])
+static void place_lanes(plumb_world *world)
 {
     pl_solver *s = &world->solver;
-    uint32_t width = (uint32_t)pl_solver_kernels(world)->width;
-    uint32_t at[PL_COLORS];
-    uint32_t lane_count = 0;
-    s->color_count = 0;
-    for (uint32_t c = 0; c < PL_COLORS; ++c) {
-        at[c] = lane_count;
-        s->color_first[c] = lane_count / width;
-        lane_count += (counts[c] + width - 1) / width * width;
-        s->color_count += counts[c] > 0;
-    }
-    s->color_first[OVERFLOW_COLOR] = lane_count / width;
-    uint32_t *lanes = s->lanes.data;
-    if (lanes == NULL) {
-        s->bundle_count = 0; // no contact has ever been made
-        return;
-    }
-    memset(lanes, 0xff,
-           ((size_t)lane_count + (size_t)counts[OVERFLOW_COLOR] * width) * sizeof(uint32_t));
+    const uint32_t width = (uint32_t)pl_solver_kernels(world)->width;
+    const uint32_t bundles = divide_lanes(world, width);
+    const pl_ends *ends = s->ends.data;
     const uint8_t *colors = s->colors.data;
-    for (uint32_t i = 0; i < world->narrow.manifold_count; ++i) {
-        if (colors[i] != OVERFLOW_COLOR) {
-            lanes[at[colors[i]]++] = i;
-        }
+    uint32_t *lanes = s->lanes.data;
+    s->bundle_count = 0;
+    if (bundles == 0) {
+        return; // there may be no lanes
     }
-    lane_count = place_overflow(world, lanes, lane_count, width);
-    s->bundle_count = lane_count / width;
+    memset(lanes, 0xff, (size_t)bundles * width * sizeof(uint32_t));
+    const sorter by = sorter_of(world);
+    const uint32_t count = world->narrow.manifold_count;
+    for (uint32_t i = 0; i < count; ++i) {
+        lanes[(*cursor_of(by, ends[i], colors[i]))++] = i;
+    }
+    for (uint32_t i = 0; i < s->cluster_count && s->overflow_count > 0; ++i) {
+        pl_cluster *cluster = &pl_clusters(s)[i];
+        const uint32_t *first = cluster->color_first;
+        pack_overflow(world, cluster, first[PL_COLOR_SLOTS] - first[PL_OVERFLOW_COLOR], width);
+    }
+    s->bundle_count = pl_clusters(s)->color_first[PL_COLOR_SLOTS];
 }
 
 bool pl_solver_graph(plumb_world *world)
 {
-    uint32_t counts[PL_COLORS + 1];
     if (!reserve_bodies(world)) {
+        return false;
+    }
+    pl_tasks_ranges(world->tasks, world->narrow.manifold_count, LEAST, note_ends, world);
+    mark_rows(world, world->dynamic_count + world->kinematic_count);
+    if (!pl_solver_cluster(world)) {
         return false;
     }
     engage(world);
     if (world->joints.live > 0 && !pl_joints_plan(world)) {
         return false;
     }
-    color_contacts(world, counts);
-    if (!reserve_lanes(world, counts)) {
+    color_contacts(world);
+    if (!reserve_lanes(world)) {
         return false;
     }
-    place_lanes(world, counts);
+    place_lanes(world);
     return true;
 }
 
@@ -362,7 +434,8 @@ void pl_solver_free(pl_memory *memory, pl_solver *s)
         &s->bodies,      &s->motions,      &s->rows,           &s->slots,        &s->ends,
         &s->masks,       &s->colors,       &s->lanes,          &s->bundles,      &s->impacts,
         &s->classic,     &s->lows,         &s->struck,         &s->extras,       &s->specials,
-        &s->impact_heap, &s->impact_heads, &s->outlook_fields, &s->outlook_ends, &s->outlook_open
+        &s->impact_heap, &s->impact_heads, &s->outlook_fields, &s->outlook_ends, &s->outlook_open,
+        &s->clusters,    &s->labels,       &s->leaders,        &s->cursors
     };
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; ++i) {
         pl_buffer_free(memory, buffers[i]);

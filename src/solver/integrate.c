@@ -7,7 +7,8 @@
 
 typedef struct passage {
     const pl_solver *solver;
-    real h; // [s]
+    uint32_t first; // slot
+    real h;         // [s]
 } passage;
 
 // Moves dynamic and kinematic bodies by the velocities with which the substep's contacts left them.
@@ -15,8 +16,8 @@ static void move(void *context, uint32_t first, uint32_t count)
 {
     const passage *p = context;
     const real h = p->h, half = h * h / 2;
-    pl_solver_body *body = pl_solver_bodies(p->solver);
-    const pl_solver_motion *motion = pl_solver_motions(p->solver);
+    pl_solver_body *body = pl_solver_bodies(p->solver) + p->first;
+    const pl_solver_motion *motion = pl_solver_motions(p->solver) + p->first;
     for (uint32_t i = first; i < first + count; ++i) {
         bool free =
             body[i].vx == motion[i].ux && body[i].vy == motion[i].uy && body[i].w == motion[i].uw;
@@ -27,8 +28,10 @@ static void move(void *context, uint32_t first, uint32_t count)
     }
 }
 
-void pl_integrate_positions(const plumb_world *world, real h)
+void pl_integrate_positions(const pl_solver *s, const pl_cluster *cluster, pl_tasks *tasks, real h)
 {
-    const pl_solver *s = &world->solver;
-    pl_tasks_ranges(world->tasks, s->slot_count - 1, PL_BODIES_SHARED, move, &(passage){ s, h });
+    for (int i = 0; i < 2; ++i) {
+        pl_tasks_ranges(tasks, cluster->slots[i].count, PL_BODIES_SHARED, move,
+                        &(passage){ s, cluster->slots[i].first, h });
+    }
 }

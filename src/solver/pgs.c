@@ -295,7 +295,7 @@ void pl_solver_pgs(plumb_world *world, real dt)
         if (world->joints.impulsive > 0) {
             pl_joints_tally(world);
         }
-        pl_integrate_positions(world, c.h);
+        pl_integrate_positions(&world->solver, pl_clusters(&world->solver), world->tasks, c.h);
         for (int i = 0; i < POSITION_SWEEPS; ++i) {
             if (joints) {
                 pl_joints_move(world, POSITION_RATE);

@@ -9,6 +9,8 @@
 // Free flight is exact: a body that no contact pushed in the substep moves by h v - h^2 a / 2, the
 // parabola, instead of h v. A pushed body moves by h v; the parabola would make resting bodies hop.
 //
+// Clusters of islands go through all of it one after another, small ones in the hands of one thread each.
+//
 // Reads: solver bodies, lanes. Writes: solver bodies, impulses of pairs. Order: after the graph.
 // Cost: (2 substeps x iterations + 2) sweeps over the contacts, 2 substeps passes over the bodies.
 #include "world/state.h"
@@ -22,7 +24,8 @@ typedef real quad __attribute__((vector_size(4 * sizeof(real)), may_alias));
 
 typedef struct flight {
     const pl_solver *solver;
-    real h; // [s]
+    uint32_t first; // slot
+    real h;         // [s]
 } flight;
 
 // v = u + h a, plus what the contacts did in the substep before.
@@ -31,8 +34,8 @@ static void fly(void *context, uint32_t first, uint32_t count)
     const flight *f = context;
     const pl_solver *s = f->solver;
     const real h = f->h;
-    quad *body = (quad *)(void *)pl_solver_bodies(s);
-    quad *motion = (quad *)(void *)pl_solver_motions(s);
+    quad *body = (quad *)(void *)(pl_solver_bodies(s) + f->first);
+    quad *motion = (quad *)(void *)(pl_solver_motions(s) + f->first);
     for (uint32_t i = first; i < first + count; ++i) {
         quad v = body[2 * i];
         quad pushed = v - motion[2 * i + 1];
@@ -50,9 +53,9 @@ static void fly_carefully(void *context, uint32_t first, uint32_t count)
     const flight *f = context;
     const pl_solver *s = f->solver;
     const real h = f->h;
-    quad *body = (quad *)(void *)pl_solver_bodies(s);
-    quad *motion = (quad *)(void *)pl_solver_motions(s);
-    quad *low = (quad *)s->lows.data;
+    quad *body = (quad *)(void *)(pl_solver_bodies(s) + f->first);
+    quad *motion = (quad *)(void *)(pl_solver_motions(s) + f->first);
+    quad *low = (quad *)s->lows.data + f->first;
     for (uint32_t i = first; i < first + count; ++i) {
         quad v = body[2 * i];
         quad pushed = v - motion[2 * i + 1];
@@ -69,6 +72,28 @@ static void fly_carefully(void *context, uint32_t first, uint32_t count)
 
 // A share of fewer bundles than this is not worth a thread: about a microsecond of work.
 #define LEAST 12
+// A cluster of more bundles keeps all threads busy, one after another; smaller ones are a thread's each.
+#define LARGE 512
+
+// What all clusters of a step have in common.
+typedef struct soft_step {
+    plumb_world *world;
+    const pl_contact_kernels *kernels;
+    pl_contact_call call;
+    real h; // [s] substep
+    uint32_t threads;
+    pl_surface_variant surface;
+    bool rotation, extras, specials, tallies, joints, bounce, resist;
+} soft_step;
+
+// One cluster in the hands of some threads; null: of one.
+typedef struct course {
+    const soft_step *step;
+    const pl_cluster *cluster;
+    pl_tasks *tasks;
+    pl_contact_call call;        // the step's, for this cluster
+    bool joints, bounce, resist; // of the world: for cluster 0
+} course;
 
 typedef struct kernel_call {
     const pl_contact_call *call;
@@ -83,117 +108,204 @@ static void run_kernel(void *context, uint32_t first, uint32_t count)
 
 // A kernel over all bundles. Those of one colour have no body in common that moves, so threads share
 // them; overflow contacts come last, one bundle after another.
-static void share_out(const plumb_world *world, const pl_contact_call *call,
-                      pl_contact_kernel *kernel, pl_share_fn *share)
+static void share_out(const course *c, pl_contact_kernel *kernel, pl_share_fn *share)
 {
-    const pl_solver *s = &world->solver;
-    const uint32_t shared = s->color_first[PL_COLORS];
-    share(world->tasks, s->color_first, PL_COLORS, LEAST, run_kernel,
-          &(kernel_call){ call, kernel });
-    kernel(call, shared, s->bundle_count - shared);
+    const pl_contact_call *call = &c->call;
+    const uint32_t *first = c->cluster->color_first;
+    share(c->tasks, first, PL_COLORS, LEAST, run_kernel, &(kernel_call){ call, kernel });
+    kernel(call, first[PL_OVERFLOW_COLOR], first[PL_COLOR_SLOTS] - first[PL_OVERFLOW_COLOR]);
 }
 
-static void sweep(const plumb_world *world, const pl_contact_call *call, pl_contact_kernel *kernel)
+static void sweep(const course *c, pl_contact_kernel *kernel)
 {
-    share_out(world, call, kernel, pl_tasks_phases);
+    share_out(c, kernel, pl_tasks_phases);
 }
 
 // For a kernel in which every bundle stands by itself.
-static void each(const plumb_world *world, const pl_contact_call *call, pl_contact_kernel *kernel)
+static void each(const course *c, pl_contact_kernel *kernel)
 {
-    share_out(world, call, kernel, pl_tasks_shares);
+    share_out(c, kernel, pl_tasks_shares);
+}
+
+static soft_step open_step(plumb_world *world, real dt)
+{
+    pl_solver *s = &world->solver;
+    const real h = dt / (real)world->desc.substeps;
+    const real stiffest = STIFFEST / h;
+    const real asked = world->desc.contact_hertz;
+    const bool special = pl_solver_specials(world), tallies = pl_solver_tallies(world);
+    const bool running = world->narrow.any_surface || special;
+    return (soft_step){
+        .world = world,
+        .kernels = pl_solver_kernels(world),
+        .call = { .bodies = pl_solver_bodies(s),
+                  .dynamic_slots = s->dynamic_slots,
+                  .bundles = s->bundles.data,
+                  .lanes = s->lanes.data,
+                  .slots = s->slots.data,
+                  .movable_rows = world->dynamic_count + world->kinematic_count,
+                  .immovable_slot = s->slot_count - 1,
+                  .extras = running || tallies ? s->extras.data : NULL,
+                  .specials = special ? s->specials.data : NULL,
+                  .manifolds = pl_manifolds(&world->narrow),
+                  .pairs = pl_pairs(&world->broad.pairs),
+                  .h = h,
+                  .inv_h = 1 / h,
+                  .hertz = asked > 0 && asked < stiffest ? asked : stiffest,
+                  .damping = world->desc.contact_damping,
+                  .push_speed = world->desc.push_speed,
+                  .flags = world->bodies.flags },
+        .h = h,
+        .surface = special                      ? PL_SPECIAL
+                   : running                    ? PL_RUNNING
+                   : world->narrow.any_friction ? PL_ROUGH
+                                                : PL_SMOOTH,
+        .rotation = world->turning_bodies > 0,
+        .extras = running || tallies,
+        .specials = special,
+        .tallies = tallies,
+        .joints = pl_joints_awake(world) > 0,
+        .bounce = world->narrow.any_bounce,
+        .resist = pl_effects_resist(world),
+    };
+}
+
+static void prepare(const course *c)
+{
+    const soft_step *step = c->step;
+    each(c, step->kernels->prepare);
+    if (step->extras) {
+        each(c, step->kernels->prepare_extras);
+    }
+    if (step->specials) {
+        each(c, step->kernels->prepare_specials);
+    }
+    if (c->bounce) {
+        pl_impacts_prepare(step->world);
+    }
+    if (c->joints) {
+        pl_joints_prepare(step->world, step->h);
+    }
+}
+
+static void fly_all(const course *c)
+{
+    const pl_slots slots = c->cluster->slots[0];
+    pl_tasks_ranges(c->tasks, slots.count, PL_BODIES_SHARED, c->bounce ? fly_carefully : fly,
+                    &(flight){ &c->step->world->solver, slots.first, c->step->h });
+}
+
+static void run_substep(const course *c, bool first)
+{
+    const soft_step *step = c->step;
+    const pl_contact_kernels *kernels = step->kernels;
+    plumb_world *world = step->world;
+    const real h = step->h;
+    if (c->resist) {
+        pl_effects_substep(world, h);
+    }
+    fly_all(c);
+    if (c->joints && first) {
+        pl_joints_warm_start(world);
+    }
+    if (first) {
+        sweep(c, kernels->warm_start[step->surface][step->rotation]);
+    }
+    if (c->bounce) {
+        pl_impacts_run(world, h);
+    }
+    for (int i = 0; i < world->desc.iterations; ++i) {
+        if (c->joints) {
+            pl_joints_solve(world, h, PL_SWEEP_PULL, i == 0);
+        }
+        sweep(c, kernels->solve[step->surface][step->rotation]);
+    }
+    pl_integrate_positions(&world->solver, c->cluster, c->tasks, h);
+    for (int i = 0; i < world->desc.iterations; ++i) {
+        if (c->joints) {
+            pl_joints_solve(world, h, PL_SWEEP_RELAX, i == 0);
+        }
+        sweep(c, kernels->relax[step->surface][step->rotation]);
+    }
+    if (c->joints && world->joints.impulsive > 0) {
+        pl_joints_tally(world);
+    }
+    if (step->tallies) {
+        each(c, kernels->tally);
+    }
+}
+
+static void store(const course *c)
+{
+    const soft_step *step = c->step;
+    if (c->joints) {
+        pl_joints_store(step->world, step->h);
+    }
+    each(c, step->kernels->store);
+    if (step->extras) {
+        each(c, step->kernels->store_extras);
+    }
+}
+
+// All of a step for one cluster, in a thread's room for bundles.
+static void run_cluster(const soft_step *step, uint32_t i, pl_tasks *tasks, uint32_t thread)
+{
+    const pl_solver *s = &step->world->solver;
+    const size_t room = (size_t)thread * s->bundle_room;
+    course c = { .step = step,
+                 .cluster = &pl_clusters(s)[i],
+                 .tasks = tasks,
+                 .call = step->call,
+                 .joints = i == 0 && step->joints,
+                 .bounce = i == 0 && step->bounce,
+                 .resist = i == 0 && step->resist };
+    c.call.lanes += c.cluster->first_lane;
+    c.call.bundles = (char *)c.call.bundles + room * step->kernels->bundle_size;
+    if (step->extras) {
+        c.call.extras = (char *)c.call.extras + room * step->kernels->extra_size;
+    }
+    if (step->specials) {
+        c.call.specials = (char *)c.call.specials + room * step->kernels->special_size;
+    }
+    prepare(&c);
+    for (int k = 0; k < step->world->desc.substeps; ++k) {
+        run_substep(&c, k == 0);
+    }
+    store(&c);
+}
+
+// Solved by all threads together.
+static bool is_large(const soft_step *step, uint32_t i)
+{
+    const bool special = step->joints || step->bounce || step->resist;
+    return (i == 0 && special) ||
+           pl_clusters(&step->world->solver)[i].color_first[PL_COLOR_SLOTS] > LARGE;
+}
+
+static void run_small_ones(void *context, uint32_t thread)
+{
+    const soft_step *step = context;
+    const pl_share mine = pl_share_of(step->world->solver.cluster_count, step->threads, thread);
+    for (uint32_t i = mine.first; i < mine.end; ++i) {
+        if (!is_large(step, i)) {
+            run_cluster(step, i, NULL, thread);
+        }
+    }
 }
 
 void pl_solver_soft(plumb_world *world, real dt)
 {
-    pl_solver *s = &world->solver;
-    const pl_contact_kernels *kernels = pl_solver_kernels(world);
-    const int substeps = world->desc.substeps;
-    const real h = dt / (real)substeps;
-    const real stiffest = STIFFEST / h;
-    const real asked = world->desc.contact_hertz;
-    pl_contact_call call = { .bodies = pl_solver_bodies(s),
-                             .dynamic_slots = s->dynamic_slots,
-                             .bundles = s->bundles.data,
-                             .lanes = s->lanes.data,
-                             .slots = s->slots.data,
-                             .movable_rows = world->dynamic_count + world->kinematic_count,
-                             .immovable_slot = s->slot_count - 1,
-                             .manifolds = pl_manifolds(&world->narrow),
-                             .pairs = pl_pairs(&world->broad.pairs),
-                             .h = h,
-                             .inv_h = 1 / h,
-                             .hertz = asked > 0 && asked < stiffest ? asked : stiffest,
-                             .damping = world->desc.contact_damping,
-                             .push_speed = world->desc.push_speed,
-                             .flags = world->bodies.flags };
-    const bool special = pl_solver_specials(world);
-    const bool running = world->narrow.any_surface || special;
-    const bool tallies = pl_solver_tallies(world);
-    const pl_surface_variant surface = special                      ? PL_SPECIAL
-                                       : running                    ? PL_RUNNING
-                                       : world->narrow.any_friction ? PL_ROUGH
-                                                                    : PL_SMOOTH;
-    const bool rotation = world->turning_bodies > 0;
-    const bool joints = pl_joints_awake(world) > 0;
-    const bool bounce = world->narrow.any_bounce;
-    const bool resist = pl_effects_resist(world);
-
-    each(world, &call, kernels->prepare);
-    if (running || tallies) {
-        call.extras = s->extras.data;
-        each(world, &call, kernels->prepare_extras);
+    soft_step step = open_step(world, dt);
+    const uint32_t count = world->solver.cluster_count;
+    if (count == 1) {
+        run_cluster(&step, 0, world->tasks, 0);
+        return;
     }
-    if (special) {
-        call.specials = s->specials.data;
-        each(world, &call, kernels->prepare_specials);
-    }
-    if (bounce) {
-        pl_impacts_prepare(world);
-    }
-    if (joints) {
-        pl_joints_prepare(world, h);
-    }
-    for (int k = 0; k < substeps; ++k) {
-        if (resist) {
-            pl_effects_substep(world, h);
-        }
-        pl_tasks_ranges(world->tasks, s->dynamic_slots, PL_BODIES_SHARED,
-                        bounce ? fly_carefully : fly, &(flight){ s, h });
-        if (joints && k == 0) {
-            pl_joints_warm_start(world);
-        }
-        if (k == 0) {
-            sweep(world, &call, kernels->warm_start[surface][rotation]);
-        }
-        if (bounce) {
-            pl_impacts_run(world, h);
-        }
-        for (int i = 0; i < world->desc.iterations; ++i) {
-            if (joints) {
-                pl_joints_solve(world, h, PL_SWEEP_PULL, i == 0);
-            }
-            sweep(world, &call, kernels->solve[surface][rotation]);
-        }
-        pl_integrate_positions(world, h);
-        for (int i = 0; i < world->desc.iterations; ++i) {
-            if (joints) {
-                pl_joints_solve(world, h, PL_SWEEP_RELAX, i == 0);
-            }
-            sweep(world, &call, kernels->relax[surface][rotation]);
-        }
-        if (world->joints.impulsive > 0) {
-            pl_joints_tally(world);
-        }
-        if (tallies) {
-            each(world, &call, kernels->tally);
+    for (uint32_t i = 0; i < count; ++i) {
+        if (is_large(&step, i)) {
+            run_cluster(&step, i, world->tasks, 0);
         }
     }
-    if (joints) {
-        pl_joints_store(world, h);
-    }
-    each(world, &call, kernels->store);
-    if (running || tallies) {
-        each(world, &call, kernels->store_extras);
-    }
+    step.threads = pl_tasks_share_count(world->tasks, count, 1);
+    pl_tasks_run(world->tasks, run_small_ones, &step, step.threads);
 }

@@ -3,6 +3,7 @@
 #ifndef PL_SOLVER_H
 #define PL_SOLVER_H
 
+#include "core/tasks.h"
 #include "narrow/manifold.h"
 
 // A body that is in a contact, as the kernels gather it: one row of eight reals.
@@ -97,9 +98,31 @@ typedef struct pl_ends {
     uint32_t a, b;
 } pl_ends;
 
+// What a row is marked with in `slots` before it gets its slot. An elastic body, one in a contact with
+// restitution, keeps what rounding takes from its velocity; the others must not, or what one
+// island asks for would change the bits of the rest.
+enum { PL_ENGAGED, PL_ELASTIC };
+
 #define PL_COLORS 64
 #define PL_DYNAMIC_COLORS                                                                          \
     48 // contacts with immovable bodies have the last 16: they are solved last
+
+// Overflow contacts count as one more colour.
+#define PL_OVERFLOW_COLOR PL_COLORS
+#define PL_COLOR_SLOTS    (PL_COLORS + 1)
+
+// Slots [first, first + count).
+typedef struct pl_slots {
+    uint32_t first, count;
+} pl_slots;
+
+// Islands that are solved together (cluster.c): their bodies, and the bundles of their contacts. A thread
+// uses the same room for the bundles of all its clusters: they stay in its cache.
+typedef struct pl_cluster {
+    pl_slots slots[2]; // of dynamic, of kinematic bodies
+    size_t first_lane;
+    uint32_t color_first[PL_COLOR_SLOTS + 1]; // first bundle of a colour, of the overflow contacts; end
+} pl_cluster;
 
 typedef struct pl_solver {
     pl_buffer bodies, motions; // engaged dynamic bodies, engaged kinematic ones, one immovable body
@@ -121,8 +144,15 @@ typedef struct pl_solver {
     pl_buffer classic; // pl_classic_contact, for the classic solver alone
     uint32_t dynamic_slots,
         slot_count; // slots [0, dynamic_slots) move; the last is the immovable one
-    uint32_t color_first[PL_COLORS + 1]; // first bundle of a colour; of the overflow contacts
-    uint32_t bundle_count, impact_count, due_count, lively_count;
+    pl_buffer clusters; // pl_cluster
+    pl_buffer labels;   // uint32_t a movable row: its cluster, PL_NONE: not known; if there are several
+    pl_buffer leaders;  // uint32_t a row or cluster, while they are joined
+    pl_buffer cursors;  // uint32_t a cluster and colour: contacts, then the next lane
+    uint32_t cluster_count, cluster_age; // steps since islands were looked for
+    uint32_t labelled; // rows that have a label or are known to have none; 0: no labels
+    uint32_t bundle_room; // bundles of the largest cluster; of each thread's room, if there are several
+    uint32_t bundle_count; // of cluster 0: all that impacts look at
+    uint32_t impact_count, due_count, lively_count;
     uint32_t color_count, overflow_count, bounce_count;
 } pl_solver;
 
@@ -190,6 +220,8 @@ const pl_contact_kernels *pl_solver_kernels(const plumb_world *world);
 
 // Engaged bodies, colours, lanes (graph.c). False when out of memory; nothing has moved then.
 bool pl_solver_graph(plumb_world *world);
+// Which bodies are solved together (cluster.c). False when out of memory.
+bool pl_solver_cluster(plumb_world *world);
 // The soft step (soft.c) and the classic (pgs.c), over the whole step of dt [s].
 void pl_solver_soft(plumb_world *world, real dt);
 void pl_solver_pgs(plumb_world *world, real dt);
@@ -197,8 +229,9 @@ void pl_solver_pgs(plumb_world *world, real dt);
 bool pl_solver_tallies(const plumb_world *world);
 // Whether locked axes, adhesion or bodies whose time stands still are there to be solved.
 bool pl_solver_specials(const plumb_world *world);
-// Moves bodies over one substep of h [s] (integrate.c).
-void pl_integrate_positions(const plumb_world *world, real h);
+// Moves the bodies of a cluster over one substep of h [s] (integrate.c).
+void pl_integrate_positions(const pl_solver *solver, const pl_cluster *cluster, pl_tasks *tasks,
+                            real h);
 // Impacts with restitution: collects them; resolves those of one substep of h [s] (impact.c).
 void pl_impacts_prepare(plumb_world *world);
 void pl_impacts_prepare_classic(plumb_world *world);
@@ -215,6 +248,11 @@ static inline uint32_t pl_solver_slot(const pl_solver *solver, uint32_t row, uin
 
 // Results into the columns, free flight of bodies in no contact, kinematic motion (finish.c).
 void pl_solver_finish(plumb_world *world, real dt);
+
+static inline pl_cluster *pl_clusters(const pl_solver *solver)
+{
+    return (pl_cluster *)solver->clusters.data;
+}
 
 static inline pl_solver_body *pl_solver_bodies(const pl_solver *solver)
 {

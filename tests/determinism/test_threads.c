@@ -21,8 +21,12 @@ enum {
     SENSORS = 4,   // some see
     BULLETS = 8,   // some are fast, and some of these are swept against moving ones
     SURFACES = 16, // belts, what rolls hard and what sticks
-    ODD = 32       // locked axes, damping, a time of their own
+    ODD = 32,      // locked axes, damping, a time of their own
+    TOWERS = 64 // boxes stand on boxes, in islands of twenty; what else there is is among the first
 };
+
+// With towers: bodies that may be special.
+#define FIRST_ONES 60
 
 typedef struct setting {
     const char *name;
@@ -38,6 +42,8 @@ static const setting settings[] = {
     { "wrapped", { .wrap_x = 60 }, CHAINS | BULLETS },
     { "classic", { .solver = PLUMB_SOLVER_PGS }, CHAINS | BULLETS },
     { "wide", { .simd_width = 16, .no_sleep = true }, CHAINS | SURFACES },
+    { "towers", { .no_sleep = true }, TOWERS },
+    { "towers and all", { .no_sleep = true }, TOWERS | CHAINS | BOUNCY | SURFACES | ODD },
 };
 
 static uint32_t next(uint32_t *seed)
@@ -117,23 +123,28 @@ static plumb_world *make(const setting *s, int workers,
     uint32_t seed = 7;
     plumb_body before = PLUMB_NULL_INIT;
     for (int i = 0; i < BODIES; ++i) {
+        const bool towers = (s->what & TOWERS) != 0;
+        const unsigned what = towers && i >= FIRST_ONES ? 0 : s->what;
         plumb_vec2 at = { R(i % 60) * R(0.75) - 22 + R(next(&seed) % 100) / 1000,
                           R(0.4) + R(i / 60) * R(0.7) };
-        bool bullet = (s->what & BULLETS) != 0 && i % 16 == 5;
+        if (towers) {
+            at = (plumb_vec2){ R(i / 20) * R(1.4) - 38, R(0.3) + R(i % 20) * R(0.6) };
+        }
+        bool bullet = (what & BULLETS) != 0 && i % 16 == 5;
         plumb_body b = plumb_body_create(
             w, &(plumb_body_desc){ .position = at,
-                                   .angle = R(next(&seed) % 628) / 100,
+                                   .angle = towers ? 0 : R(next(&seed) % 628) / 100,
                                    .velocity = { bullet ? 80 : 0, bullet ? -30 : 0 },
                                    .continuous = i % 32 == 5 });
-        bool sensor = (s->what & SENSORS) != 0 && i % 50 == 7;
-        add_shape(w, b, next(&seed), materials[i % 8 == 0], sensor);
+        bool sensor = (what & SENSORS) != 0 && i % 50 == 7;
+        add_shape(w, b, towers ? 0 : next(&seed), materials[i % 8 == 0 && what != 0], sensor);
         if (sensor) {
             add_shape(w, b, next(&seed), materials[0], false);
         }
-        if ((s->what & ODD) != 0) {
+        if ((what & ODD) != 0) {
             tune(w, b, i);
         }
-        if ((s->what & CHAINS) != 0 && i % 5 != 0 && i % 60 != 0) {
+        if ((what & CHAINS) != 0 && i % 5 != 0 && i % 60 != 0) {
             plumb_joint_create(w, &(plumb_joint_desc){ .kind = PLUMB_REVOLUTE,
                                                        .body_a = before,
                                                        .body_b = b,
