@@ -189,7 +189,7 @@ static void note_approaches(void *context, uint32_t first, uint32_t count)
     const pl_pair *pairs = pl_pairs(&world->broad.pairs);
     for (uint32_t i = first; i < first + count; ++i) {
         if (all || (pairs[m[i].pair].flags & PL_PAIR_TOUCHING) == 0) {
-            m[i].approach = approach_speed(world, &m[i]);
+            m[i].approach = (near_real)approach_speed(world, &m[i]);
         }
     }
 }
@@ -327,7 +327,7 @@ static bool hit_is_due(plumb_world *world, pl_pair *pair)
     const pl_blow *pending =
         (pair->flags & PL_PAIR_PENDING) != 0 ? find_blow(&world->blows, pair) : NULL;
     bool struck = (pair->flags & PL_PAIR_STRUCK) != 0;
-    m->blow = impulse_of(m);
+    m->blow = (near_real)impulse_of(m);
     bool strikes = m->approach > world->desc.hit_speed && m->blow > 0;
     pair->flags &= ~(PL_PAIR_STRUCK | PL_PAIR_PENDING);
     pair->flags |= strikes ? PL_PAIR_STRUCK : 0;

@@ -258,10 +258,13 @@ void pl_joint_start_bare(const plumb_world *world, pl_joint_lane *lane, pl_joint
         bx += s.x / 2, by += s.y / 2;
     }
     real scale = j->h > 0 ? h / j->h : 0;
-    *start = (pl_joint_start){ .arm_a = arm_of(world, lane->local_a, mark->row_a),
-                               .arm_b = arm_of(world, lane->local_b, mark->row_b),
-                               .apart = plumb_v2((real)(bx - ax), (real)(by - ay)),
-                               .impulse = { scale * j->impulse[0], scale * j->impulse[1] } };
+    const plumb_vec2 arm_a = arm_of(world, lane->local_a, mark->row_a);
+    const plumb_vec2 arm_b = arm_of(world, lane->local_b, mark->row_b);
+    *start = (pl_joint_start){ .arm_a = { (near_real)arm_a.x, (near_real)arm_a.y },
+                               .arm_b = { (near_real)arm_b.x, (near_real)arm_b.y },
+                               .apart = { (near_real)(bx - ax), (near_real)(by - ay) },
+                               .impulse = { (near_real)(scale * j->impulse[0]),
+                                            (near_real)(scale * j->impulse[1]) } };
     look_at_turns(world, &j->a, mark->row_a, &lane->eighth_a);
     look_at_turns(world, &j->b, mark->row_b, &lane->eighth_b);
 }

@@ -144,7 +144,7 @@ void pl_narrow_run(plumb_world *world, const pl_pair_list *list, real dt, pl_nar
                                  .vertex_count = world->pieces.vertex_count,
                                  .friction = world->pieces.friction,
                                  .restitution = world->pieces.restitution,
-                                 .dt = dt,
+                                 .dt = (near_real)dt,
                                  .elastic_above = pl_restitution_is_mixed(world) ? -1 : 0,
                                  .pairs = pl_pairs(list),
                                  .wrapped = pl_is_wrapped(world),

@@ -61,8 +61,8 @@ static uint8_t later(uint8_t a, uint8_t b)
 // A point that is out of reach keeps no pull for the warm start.
 static void stick(pl_manifold *m, const pl_pair *pair, real adhesion)
 {
-    real reach = adhesion > 0 ? pl_adhesion_reach(pair->flags) : -PL_APART;
-    m->adhesion = adhesion;
+    near_real reach = adhesion > 0 ? pl_adhesion_reach(pair->flags) : -PL_APART;
+    m->adhesion = (near_real)adhesion;
     for (uint32_t k = 0; k < m->count; ++k) {
         bool pulls = m->point[k].normal < 0;
         m->point[k].normal = pulls && m->point[k].separation >= reach ? 0 : m->point[k].normal;
@@ -73,12 +73,12 @@ static void mix(const plumb_world *world, pl_manifold *m, const pl_pair *pair, u
                 uint32_t b)
 {
     const pl_materials *s = &world->materials;
-    m->surface_speed = s->surface_speed[a] + s->surface_speed[b];
+    m->surface_speed = (near_real)(s->surface_speed[a] + s->surface_speed[b]);
     const plumb_material_pair *set = pl_material_pair_of(world, a, b);
     if (set != NULL) {
-        m->friction = set->friction;
-        m->restitution = set->restitution;
-        m->rolling = set->rolling_resistance;
+        m->friction = (near_real)set->friction;
+        m->restitution = (near_real)set->restitution;
+        m->rolling = (near_real)set->rolling_resistance;
         stick(m, pair, set->adhesion);
         return;
     }
@@ -87,12 +87,12 @@ static void mix(const plumb_world *world, pl_manifold *m, const pl_pair *pair, u
     uint8_t friction_rule = later(s->friction_mix[a], s->friction_mix[b]);
     uint8_t restitution_rule = later(s->restitution_mix[a], s->restitution_mix[b]);
     if (friction_rule != PLUMB_MIX_DEFAULT) {
-        m->friction = mixed(friction_rule, s->friction[a], s->friction[b]);
+        m->friction = (near_real)mixed(friction_rule, s->friction[a], s->friction[b]);
     }
     if (restitution_rule != PLUMB_MIX_DEFAULT) {
-        m->restitution = mixed(restitution_rule, s->restitution[a], s->restitution[b]);
+        m->restitution = (near_real)mixed(restitution_rule, s->restitution[a], s->restitution[b]);
     }
-    m->rolling = s->rolling[a] > s->rolling[b] ? s->rolling[a] : s->rolling[b];
+    m->rolling = (near_real)(s->rolling[a] > s->rolling[b] ? s->rolling[a] : s->rolling[b]);
 }
 
 void pl_surfaces_mix(plumb_world *world)

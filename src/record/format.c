@@ -40,9 +40,10 @@ const char *pl_record_open(const void *bytes, size_t size, pl_record_header *hea
     if (header->version == 0 || header->version > PL_RECORD_VERSION) {
         return "is of another version of the format";
     }
-    if (header->real_bytes != sizeof(real)) {
-        return sizeof(real) == sizeof(float) ? "was recorded in double precision"
-                                             : "was recorded in float precision";
+    if (header->precision != PL_PRECISION) {
+        return header->precision == 4   ? "was recorded in float precision"
+               : header->precision == 8 ? "was recorded in double precision"
+                                        : "was recorded in far precision";
     }
     if (header->schema != pl_section_schema()) {
         return "was recorded by a build that stores other columns";

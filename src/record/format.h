@@ -19,7 +19,7 @@
 typedef struct pl_record_header {
     uint64_t magic;
     uint32_t version;
-    uint32_t real_bytes; // 4 or 8
+    uint32_t precision;  // PL_PRECISION
     uint64_t schema;     // of the columns: see pl_section_schema
     uint64_t keyframe_every;
     char title[PL_TITLE_MAX];

@@ -379,7 +379,7 @@ static void put_head(recorder *r, plumb_world *world, const plumb_recorder_desc 
 {
     pl_record_header header = { .magic = PL_RECORD_MAGIC,
                                 .version = PL_RECORD_VERSION,
-                                .real_bytes = sizeof(real),
+                                .precision = PL_PRECISION,
                                 .schema = pl_section_schema(),
                                 .keyframe_every = r->keyframe_every };
     snprintf(header.title, sizeof header.title, "%s", desc->title == NULL ? "" : desc->title);

@@ -177,7 +177,7 @@ void pl_island_keep(plumb_world *world, uint32_t island, const pl_pair *pair,
         c->manifold = *manifold;
         c->manifold.disabled = c->manifold.bearer = 0; // of the step, and not always written
         for (int k = 0; k < 2; ++k) {                  // at rest, all substeps are alike
-            c->manifold.point[k].total = pair->normal[k] * (real)world->desc.substeps;
+            c->manifold.point[k].total = pair->normal[k] * (near_real)world->desc.substeps;
         }
         if ((pair->flags & PL_PAIR_BORNE) == 0) { // those are not among the manifolds of a step
             pl_overlaps_count(&i->overlaps, manifold);

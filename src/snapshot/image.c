@@ -58,8 +58,8 @@ const char *pl_image_open(const void *buffer, size_t size, bool strict, pl_image
     if (h->version != PL_IMAGE_VERSION) {
         return "is of another version of the format";
     }
-    if (h->real_bytes != sizeof(real)) {
-        return "is of a world of the other precision";
+    if (h->precision != PL_PRECISION) {
+        return "is of a world of another precision";
     }
     if (h->schema != pl_section_schema()) {
         return "was made by a build that stores other columns";

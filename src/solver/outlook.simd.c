@@ -15,7 +15,7 @@
 #include "solver/solver.h"
 
 // A sum of products of reals is wrong by no more than this share of the sum of their magnitudes.
-#define DOUBT (16 * PLUMB_REAL_EPSILON)
+#define DOUBT (16 * NEAR_EPSILON)
 
 // Of both bodies of each lane: along the normal, its magnitude, and the turns.
 typedef struct relative {
@@ -53,7 +53,7 @@ WIDE_INLINE vf larger(vf x, vf y)
 WIDE_INLINE void look_out(outlook *o, const pl_outlook_call *call, const uint32_t *a,
                           const uint32_t *b, vf nx, vf ny)
 {
-    const plumb_real *body[2][PL_WIDTH], *motion[2][PL_WIDTH];
+    const near_real *body[2][PL_WIDTH], *motion[2][PL_WIDTH];
     for (int i = 0; i < PL_WIDTH; ++i) {
         body[0][i] = &call->bodies[a[i]].vx, body[1][i] = &call->bodies[b[i]].vx;
         motion[0][i] = &call->motions[a[i]].ax, motion[1][i] = &call->motions[b[i]].ax;
@@ -73,8 +73,8 @@ WIDE_INLINE void look_out(outlook *o, const pl_outlook_call *call, const uint32_
     o->calm = splat(4 * call->h * (1 - DOUBT)) * weight;
 }
 
-WIDE_INLINE vm look_at_point(const outlook *o, const pl_outlook_call *call,
-                             const plumb_real *fields, int j, char *bundle)
+WIDE_INLINE vm look_at_point(const outlook *o, const pl_outlook_call *call, const near_real *fields,
+                             int j, char *bundle)
 {
     const vf separation = load(fields + PL_OUTLOOK_SEPARATION(j) * PL_WIDTH);
     const vf ran = load(fields + PL_OUTLOOK_RAN(j) * PL_WIDTH);
@@ -87,7 +87,7 @@ WIDE_INLINE vm look_at_point(const outlook *o, const pl_outlook_call *call,
     estimate u = at_point(ran, rbn, &o->before), force = at_point(ran, rbn, &o->force);
     u.value -= h * force.value;
     u.doubt += h * force.doubt + vabs(u.value) * splat(DOUBT);
-    vf way = h * (u.value + v.value) * splat((plumb_real)0.5);
+    vf way = h * (u.value + v.value) * splat((near_real)0.5);
     vf end = separation + place.value + way;
     vf doubt = place.doubt + h * (u.doubt + v.doubt) +
                (vabs(separation) + vabs(place.value) + vabs(way)) * splat(DOUBT);
@@ -108,7 +108,7 @@ void PL_WIDE_NAME(pl_outlook)(const pl_outlook_call *call, uint32_t first, uint3
     for (uint32_t k = first; k < first + count; ++k) {
         const size_t lane = (size_t)k * PL_WIDTH;
         const pl_outlook_ends *ends = call->ends + lane;
-        const plumb_real *fields = call->fields + lane * PL_OUTLOOK_FIELDS;
+        const near_real *fields = call->fields + lane * PL_OUTLOOK_FIELDS;
         uint32_t a[PL_WIDTH], b[PL_WIDTH];
         bool live = false;
         for (int i = 0; i < PL_WIDTH; ++i) {

@@ -8,34 +8,35 @@
 
 // A body that is in a contact, as the kernels gather it: one row of eight reals.
 typedef struct pl_solver_body {
-    real vx, vy, w;   // [m/s], [rad/s] now
-    real inv_mass;    // [1/kg]
-    real dx, dy, da;  // [m], [rad] moved since the start of the step
-    real inv_inertia; // [1/(kg m^2)]
+    near_real vx, vy, w;   // [m/s], [rad/s] now
+    near_real inv_mass;    // [1/kg]
+    near_real dx, dy, da;  // [m], [rad] moved since the start of the step
+    near_real inv_inertia; // [1/(kg m^2)]
 } pl_solver_body;
 
 // What only the passes over bodies touch. Quads, so that they run as vectors.
 typedef struct pl_solver_motion {
-    real ax, ay, aw, none;     // [m/s^2], [rad/s^2] from gravity, forces, torque; 0
-    real ux, uy, uw, inv_mass; // velocity as integrated: before any contact impulse of the substep
+    near_real ax, ay, aw, none; // [m/s^2], [rad/s^2] from gravity, forces, torque; 0
+    near_real ux, uy, uw,
+        inv_mass; // velocity as integrated: before any contact impulse of the substep
 } pl_solver_motion;
 
 // A contact point that may bounce: handled by event, outside the wide kernels (impact.c).
 typedef struct pl_impact_point {
-    real ran, rbn, rat, rbt;  // [m] lever arms
-    real separation;          // [m] at the start of the step
-    real *lane_separation;    // where the contact kernel reads it
-    const real *lane_impulse; // the kernel's accumulated normal impulse
+    near_real ran, rbn, rat, rbt;  // [m] lever arms
+    near_real separation;          // [m] at the start of the step
+    near_real *lane_separation;    // where the contact kernel reads it
+    const near_real *lane_impulse; // the kernel's accumulated normal impulse
 } pl_impact_point;
 
 typedef struct pl_impact {
     uint32_t a, b; // solver slots
     uint32_t pair;
     uint32_t count;
-    real nx, ny, friction, restitution;
-    real surface_speed; // [m/s]
+    near_real nx, ny, friction, restitution;
+    near_real surface_speed; // [m/s]
     bool locked; // a body has a locked axis: then
-    real aix, aiy, bix, biy; // [1/kg] inverse masses along the axes
+    near_real aix, aiy, bix, biy; // [1/kg] inverse masses along the axes
     bool due;    // an impact falls into the present substep
     bool clear[2]; // the point stays apart in it
     uint32_t chain; // impacts of it that are followed in a substep
@@ -62,12 +63,12 @@ typedef struct pl_outlook_call {
     const plumb_world *world;
     const pl_solver_body *bodies;
     const pl_solver_motion *motions;
-    const real *fields;
+    const near_real *fields;
     const pl_outlook_ends *ends;
     uint8_t *open; // a lane: impact.c has to look at it
     void *bundles;
     size_t bundle_size, separation_offset[2], impulse_offset[2];
-    real h; // [s]
+    near_real h; // [s]
 } pl_outlook_call;
 
 // Looks at the lanes of bundles [first, first + count) (outlook.simd.c).
@@ -75,21 +76,21 @@ typedef void pl_outlook_kernel(const pl_outlook_call *call, uint32_t first, uint
 
 // A contact of the classic solver (pgs.c).
 typedef struct pl_classic_point {
-    real ran, rbn, rat, rbt; // [m] lever arms
-    real separation;         // [m] at the start of the step
-    real mn, mt;             // [kg] effective masses
-    real ln, lt;             // [N s]
+    near_real ran, rbn, rat, rbt; // [m] lever arms
+    near_real separation;         // [m] at the start of the step
+    near_real mn, mt;             // [kg] effective masses
+    near_real ln, lt;             // [N s]
 } pl_classic_point;
 
 typedef struct pl_classic_contact {
     uint32_t a, b; // solver slots
     uint32_t pair, manifold, count;
-    real aix, aiy, bix, biy; // [1/kg] inverse masses along the axes
-    real pull, reach;        // [N s] that a point may pull, [m] while it is nearer than this
-    real nx, ny, friction, restitution;
-    real surface_speed; // [m/s]
-    real rolling;       // [m]
-    real mr, lr;        // [kg m^2], [N m s] of rolling resistance
+    near_real aix, aiy, bix, biy; // [1/kg] inverse masses along the axes
+    near_real pull, reach;        // [N s] that a point may pull, [m] while it is nearer than this
+    near_real nx, ny, friction, restitution;
+    near_real surface_speed; // [m/s]
+    near_real rolling;       // [m]
+    near_real mr, lr;        // [kg m^2], [N m s] of rolling resistance
     pl_classic_point point[2];
 } pl_classic_contact;
 
@@ -170,9 +171,9 @@ typedef struct pl_contact_call {
     const uint16_t *flags;  // PL_BODY_... of a body row
     pl_manifold *manifolds;
     pl_pair *pairs;
-    real h, inv_h;       // [s] substep
-    real hertz, damping; // [1/s], [-] of soft contacts
-    real push_speed;     // [m/s]
+    near_real h, inv_h;       // [s] substep
+    near_real hertz, damping; // [1/s], [-] of soft contacts
+    near_real push_speed;     // [m/s]
 } pl_contact_call;
 
 typedef void pl_contact_kernel(const pl_contact_call *call, uint32_t first, uint32_t count);
@@ -231,11 +232,11 @@ bool pl_solver_tallies(const plumb_world *world);
 bool pl_solver_specials(const plumb_world *world);
 // Moves the bodies of a cluster over one substep of h [s] (integrate.c).
 void pl_integrate_positions(const pl_solver *solver, const pl_cluster *cluster, pl_tasks *tasks,
-                            real h);
+                            near_real h);
 // Impacts with restitution: collects them; resolves those of one substep of h [s] (impact.c).
 void pl_impacts_prepare(plumb_world *world);
 void pl_impacts_prepare_classic(plumb_world *world);
-void pl_impacts_run(plumb_world *world, real h);
+void pl_impacts_run(plumb_world *world, near_real h);
 // Solver slot of a body row.
 static inline uint32_t pl_solver_slot(const pl_solver *solver, uint32_t row, uint32_t movable_rows)
 {

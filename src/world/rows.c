@@ -214,8 +214,14 @@ uint32_t pl_row_transfer(plumb_world *world, uint32_t row, pl_partition partitio
 static void write_pose(plumb_world *world, uint32_t row, real dx, real dy)
 {
     const pl_bodies *b = &world->bodies;
-    pl_poses(world)[row] =
-        (pl_pose){ b->x[row], b->y[row], b->c[row], b->s[row], dx, dy, b->vx[row], b->vy[row] };
+    pl_poses(world)[row] = (pl_pose)
+    {
+        b->x[row], b->y[row], b->c[row], b->s[row], dx, dy, b->vx[row], b->vy[row],
+#if PLUMB_IS_FAR
+            (b->center_x[row] - b->x[row] - dx) + b->low_x[row],
+            (b->center_y[row] - b->y[row] - dy) + b->low_y[row]
+#endif
+    };
 }
 
 void pl_body_update_pose(plumb_world *world, uint32_t row)

@@ -70,7 +70,7 @@ static const struct {
       "--substeps: 99999999999999999999 is outside 1 to 64" },
     { "run good.lua --substeps ''", "'' is not a whole number" },
     { "run good.lua --solver sofd", "did you mean 'soft'?" },
-    { "run good.lua --precision half", "'half' is not one of float,double" },
+    { "run good.lua --precision half", "'half' is not one of float,double,far" },
     { "run good.lua --width 5", "5 is not 0, 4, 8 or 16" },
     { "run good.lua --workers 0", "--workers: 0 is outside 1 to 64" },
     { "run good.lua --workers 65", "--workers: 65 is outside 1 to 64" },
@@ -193,6 +193,7 @@ static void same_command_same_bytes(void **state)
     }
     expect_code("\"$P\" run good.lua --workers 3 >b; cmp a b", 0);
     expect_code("\"$P\" run good.lua --precision double >b; ! cmp -s a b", 0);
+    expect_code("\"$P\" run good.lua --precision far >c; ! cmp -s a c && ! cmp -s b c", 0);
     expect_code(
         "\"$P\" run good.lua -o d.jsonl; \"$P\" run good.lua --format jsonl | cmp - d.jsonl", 0);
     expect_code(

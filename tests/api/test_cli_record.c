@@ -75,6 +75,9 @@ static void a_recording_is_replayed(void **state)
     expect_code("\"$P\" run push.lua --precision double --record d.rec -o run.csv && "
                 "\"$P\" replay d.rec -o again.csv && cmp run.csv again.csv",
                 0);
+    expect_code("\"$P\" run push.lua --precision far --record f.rec -o run.csv && "
+                "\"$P\" replay f.rec -o again.csv && cmp run.csv again.csv",
+                0);
     expect_code("\"$P\" replay p.rec --info", 0);
     static const char head[] = "title      push\nprecision  float\nsteps      64, after 0 that are "
                                "not recorded\ntime       0 s to 1 s\nedited     1 steps\n"
@@ -269,6 +272,9 @@ static void differences_are_found(void **state)
                              "first: body 'ball': x 0.375 | 0.5\n");
     expect_error("\"$P\" diff p.rec d.rec", 1,
                  "plumb: diff: 'p.rec' was recorded in float precision, 'd.rec' in double; nothing "
+                 "in them is the same\n");
+    expect_error("\"$P\" diff f.rec d.rec", 1,
+                 "plumb: diff: 'f.rec' was recorded in far precision, 'd.rec' in double; nothing "
                  "in them is the same\n");
     expect_error("\"$P\" diff p.rec", 2,
                  "plumb: diff: an operand is missing; usage: plumb diff RECORDING ");

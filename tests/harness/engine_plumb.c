@@ -45,7 +45,10 @@ static void describe(char *text, size_t size)
         plumb_world_destroy(world);
     }
     snprintf(text, size, "Plumb %s (C, %s, %d lanes unless told otherwise)", PLUMB_VERSION,
-             sizeof(plumb_real) == sizeof(double) ? "double" : "float", lanes);
+             PLUMB_IS_FAR                           ? "far"
+             : sizeof(plumb_real) == sizeof(double) ? "double"
+                                                    : "float",
+             lanes);
 }
 
 static void tell(void *context, plumb_log_level level, const char *message)

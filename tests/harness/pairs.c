@@ -176,8 +176,8 @@ int pairs_add(pair_batch *b, const pair_shape *p, pair_pose at_p, const pair_sha
 
 void pairs_set_impulses(pair_batch *b, int i, double first, double second)
 {
-    b->pairs[i].normal[0] = (plumb_real)first;
-    b->pairs[i].normal[1] = (plumb_real)second;
+    b->pairs[i].normal[0] = (near_real)first;
+    b->pairs[i].normal[1] = (near_real)second;
 }
 
 int pairs_count(const pair_batch *b)
@@ -230,7 +230,7 @@ void pairs_run(pair_batch *b, int width)
                            .vertex_count = b->corners,
                            .friction = b->friction,
                            .restitution = b->restitution,
-                           .dt = (plumb_real)(1.0 / 60),
+                           .dt = (near_real)(1.0 / 60),
                            .pairs = b->pairs };
     b->out = (pl_narrow){ .manifolds = b->out.manifolds };
     memset(b->out.manifolds.data, 0, b->out.manifolds.size);

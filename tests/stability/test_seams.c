@@ -55,10 +55,11 @@ static disturbance slide(body_kind body, ground_kind ground, double speed, doubl
 }
 
 // [-] the promise; in float, the places of rotated tiles 200 m away are rounded to 15 um, over which
-// the body is lifted or falls: 2 mm/s whatever its speed.
+// the body is lifted or falls: 2 mm/s whatever its speed. In the far build the rounding of velocities along the
+// slope, always the same way, adds up to as much in 100 s.
 static double bound_of(ground_kind ground, double speed, plumb_solver solver)
 {
-    bool in_float = sizeof(plumb_real) == sizeof(float);
+    bool in_float = SIM_IS_FLOAT;
     if (ground == ONE_PIECE) {
         return 1; // the control: what the solver does where there are no seams
     }

@@ -48,13 +48,13 @@ static plumb_world *make_heap(int width)
 }
 
 // Looks at all lanes in the present state; returns how many were settled.
-static uint32_t check_lanes(plumb_world *w, real h)
+static uint32_t check_lanes(plumb_world *w, near_real h)
 {
     pl_solver *s = &w->solver;
     const pl_outlook_ends *ends = s->outlook_ends.data;
     const uint8_t *open = s->outlook_open.data;
     for (uint32_t slot = 0; slot < s->slot_count; ++slot) {
-        ((real *)s->struck.data)[slot] = -h;
+        ((near_real *)s->struck.data)[slot] = -h;
     }
     look_ahead(w, h);
     uint32_t settled = 0;
@@ -64,7 +64,7 @@ static uint32_t check_lanes(plumb_world *w, real h)
         }
         pl_impact *m = (pl_impact *)s->impacts.data + ends[lane].impact;
         approach unused[2];
-        real told[2] = { 0, 0 };
+        near_real told[2] = { 0, 0 };
         ++settled;
         m->left = 1;
         foresee_all(w, m, (double)h, unused);
@@ -92,7 +92,7 @@ static void what_is_settled_is_beyond_doubt(void **state)
             for (uint32_t lane = 0; lane < w->solver.outlook_lanes; ++lane) {
                 all += ends[lane].impact != PL_NONE;
             }
-            settled += check_lanes(w, R(1) / 240);
+            settled += check_lanes(w, (near_real)(R(1) / 240));
         }
         print_message("width %d: %u of %u settled in lanes\n", width, settled, all);
         assert_true(all > 10000 && settled > all / 2);

@@ -349,10 +349,10 @@ static void mark(plumb_world *world)
         uint32_t a = world->pieces.serial[p->a], b = world->pieces.serial[p->b];
         p->feature[0] = a;
         p->feature[1] = b;
-        p->normal[0] = (plumb_real)(a + 1);
-        p->normal[1] = (plumb_real)(b + 1);
-        p->tangent[0] = -(plumb_real)a;
-        p->tangent[1] = -(plumb_real)b;
+        p->normal[0] = (near_real)(a + 1);
+        p->normal[1] = (near_real)(b + 1);
+        p->tangent[0] = -(near_real)a;
+        p->tangent[1] = -(near_real)b;
     }
 }
 

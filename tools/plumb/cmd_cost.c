@@ -17,7 +17,7 @@ typedef struct cost_args {
     bool csv;
 } cost_args;
 
-enum { ROWS_MAX = 2 * 2 * CLI_INTS_MAX, COMPARED_MOMENTS = 200 };
+enum { ROWS_MAX = 2 * 3 * CLI_INTS_MAX, COMPARED_MOMENTS = 200 };
 
 static void name_of(const char *list, int index, char *out, size_t size)
 {
@@ -31,7 +31,7 @@ static int list_rows(const cost_args *args, cost_row *rows)
     int count = 0;
     for (int solver = 0; solver < 2; solver++) {
         for (int s = 0; s < args->substeps.count; s++) {
-            for (int precision = 0; precision < 2; precision++) {
+            for (int precision = 0; precision < 3; precision++) {
                 if ((args->solvers >> solver & 1u) != 0 &&
                     (args->precisions >> precision & 1u) != 0) {
                     rows[count++] = (cost_row){ .solver = solver,

@@ -1,5 +1,5 @@
-/// engine.c - engine.h over libplumb and the scene loader. Compiled once with PLUMB_DOUBLE=0 and
-/// once with 1; see README.md for how both get into one program.
+/// engine.c - engine.h over libplumb and the scene loader. Compiled once for each
+/// precision; see README.md for how both get into one program.
 ///
 /// Reads scene files through the loader; writes nothing but what it is asked for. A session's
 /// lists are kept from call to call: no allocation once they have grown.
@@ -178,14 +178,18 @@ static bool session_to_json(const engine_session *session, FILE *file)
     return scene_to_json(session->stage.scene, file);
 }
 
-#if defined(PLUMB_DOUBLE) && PLUMB_DOUBLE
+#if PLUMB_IS_FAR
+#define ENGINE_NAME engine_far
+#elif PLUMB_REAL_IS_DOUBLE
 #define ENGINE_NAME engine_double
 #else
 #define ENGINE_NAME engine_float
 #endif
 
 const engine_api ENGINE_NAME = {
-    .precision = sizeof(plumb_real) == sizeof(float) ? "float" : "double",
+    .precision = PLUMB_IS_FAR                          ? "far"
+                 : sizeof(plumb_real) == sizeof(float) ? "float"
+                                                       : "double",
     .is_float = sizeof(plumb_real) == sizeof(float),
     .open = session_open,
     .close = session_close,

@@ -63,7 +63,8 @@ int scene_run_open(const scene_args *args, const char *path, scene_run *run)
                                  .workers = args->workers };
     engine_error error = { 0 };
 
-    *run = (scene_run){ .engine = args->precision == 0 ? &engine_float : &engine_double };
+    const engine_api *const engines[] = { &engine_float, &engine_double, &engine_far };
+    *run = (scene_run){ .engine = engines[args->precision] };
     run->session = run->engine->open(&settings, &error);
     if (run->session == NULL) {
         return scene_report(&error);
