@@ -17,22 +17,13 @@ pl_chunk_header pl_chunk_seal(pl_chunk_kind kind, uint32_t number, const void *d
     return h;
 }
 
-static uint64_t reversed(uint64_t v)
-{
-    uint64_t out = 0;
-    for (int i = 0; i < 8; ++i) {
-        out = out << 8 | (v >> 8 * i & 0xff);
-    }
-    return out;
-}
-
 const char *pl_record_open(const void *bytes, size_t size, pl_record_header *header)
 {
     if (size < sizeof header->magic) {
         return "is no recording";
     }
     memcpy(&header->magic, bytes, sizeof header->magic);
-    if (header->magic == reversed(PL_RECORD_MAGIC)) {
+    if (header->magic == pl_reversed(PL_RECORD_MAGIC)) {
         return "was made on a machine of another byte order";
     }
     if (header->magic != PL_RECORD_MAGIC) {

@@ -32,13 +32,8 @@ typedef struct delta_header {
 
 static uint64_t checksum_of(const char *bytes, const delta_header *header)
 {
-    delta_header blank = *header;
-    blank.checksum = 0;
-    pl_digest digest;
-    pl_digest_begin(&digest);
-    pl_digest_add(&digest, &blank, sizeof blank);
-    pl_digest_add(&digest, bytes + sizeof blank, header->bytes - sizeof blank);
-    return pl_digest_end(&digest);
+    return pl_digest_sealed(header, sizeof *header, offsetof(delta_header, checksum),
+                            bytes + sizeof *header, header->bytes - sizeof *header);
 }
 
 //---- which element is compared with which --------------------------------------------------------

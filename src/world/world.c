@@ -21,8 +21,7 @@
 #define ITERATIONS_MOST    1000
 #define BOX_CORNERS        4 // reserved a shape
 
-//---- the descriptor
-//-------------------------------------------------------------------------------
+//---- the descriptor ------------------------------------------------------------------------------
 
 static plumb_result check_integers(const plumb_world *world, const char *fn,
                                    const plumb_world_desc *d)
@@ -96,8 +95,7 @@ static void resolve_defaults(plumb_world_desc *d)
     pl_sleep_resolve(d);
 }
 
-//---- create, destroy
-//------------------------------------------------------------------------------
+//---- create, destroy -----------------------------------------------------------------------------
 
 static void init_tables(plumb_world *world)
 {
@@ -246,8 +244,7 @@ void plumb_world_destroy(plumb_world *world)
     free_world(world);
 }
 
-//---- settings
-//-------------------------------------------------------------------------------------
+//---- settings ------------------------------------------------------------------------------------
 
 plumb_world_desc plumb_world_settings(const plumb_world *world)
 {
@@ -355,8 +352,7 @@ void *plumb_world_user_data(const plumb_world *world)
     return world == NULL ? NULL : world->desc.user_data;
 }
 
-//---- sums
-//-----------------------------------------------------------------------------------------
+//---- sums ----------------------------------------------------------------------------------------
 
 // The summary of contacts that sleep, as it was when they fell asleep.
 static void add_sleeping(const plumb_world *world, pl_overlaps *sum)

@@ -201,7 +201,7 @@ static const malformed table[] = {
       .file = "scene.lua",
       .text = "scene{ wrap_y = 8 }\n"
               "body{ box{4, 1} }\n",
-      .code = SCENE_E_WORLD,
+      .code = SCENE_E_RANGE,
       .message = "scene.lua:2:7: box{}: the shape is 4.12311 m across; in a world "
                  "that wraps every 8 m each convex piece must be below 4" },
     { .what = "dt of zero",

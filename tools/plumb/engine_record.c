@@ -233,15 +233,13 @@ int pl_replay_session_edits(engine_replay *replay, const engine_change **list)
                                           "contact systems", "end systems" };
     static const char *const only[2] = { "destroyed", "created" };
     int count = plumb_replay_edits(replay->replay, NULL, 0);
-    plumb_replay_edit *edits =
-        pl_session_reserve(replay->edits, &replay->edit_room, count, sizeof *edits);
-    replay->edits = edits != NULL ? edits : replay->edits;
-    engine_change *changes =
-        pl_session_reserve(replay->changes, &replay->change_room, count, sizeof *changes);
-    replay->changes = changes != NULL ? changes : replay->changes;
-    if (edits == NULL || changes == NULL) {
+    if (!pl_session_reserve(&replay->edits, &replay->edit_room, count, sizeof *replay->edits) ||
+        !pl_session_reserve(&replay->changes, &replay->change_room, count,
+                            sizeof *replay->changes)) {
         return -1;
     }
+    plumb_replay_edit *edits = replay->edits;
+    engine_change *changes = replay->changes;
     plumb_replay_edits(replay->replay, edits, count);
     for (int i = 0; i < count; i++) {
         write_change(replay, &edits[i].change, only, &changes[i]);
@@ -261,15 +259,12 @@ int pl_replay_session_settings(engine_replay *a, engine_replay *b, const engine_
     if (plumb_world_compare(wa, wb, NULL, 0, &count) != PLUMB_OK) {
         count = 0;
     }
-    plumb_difference *found =
-        pl_session_reserve(a->differences, &a->difference_room, count, sizeof *found);
-    a->differences = found != NULL ? found : a->differences;
-    engine_change *changes =
-        pl_session_reserve(a->changes, &a->change_room, count, sizeof *changes);
-    a->changes = changes != NULL ? changes : a->changes;
-    if (found == NULL || changes == NULL) {
+    if (!pl_session_reserve(&a->differences, &a->difference_room, count, sizeof *a->differences) ||
+        !pl_session_reserve(&a->changes, &a->change_room, count, sizeof *a->changes)) {
         return -1;
     }
+    plumb_difference *found = a->differences;
+    engine_change *changes = a->changes;
     if (count > 0) {
         plumb_world_compare(wa, wb, found, count, &count);
     }

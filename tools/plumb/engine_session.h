@@ -47,9 +47,9 @@ struct engine_session {
     char text[512];
 };
 
-/// `list` with room for `count` elements of `size` bytes, perhaps moved, not null even for none.
-/// Null: out of memory, `list` as it was.
-void *pl_session_reserve(void *list, size_t *room, int count, size_t size);
+/// Gives the list at `list`, a pointer to a pointer, room for `count` elements of `size` bytes; it is not null
+/// even for none. False: out of memory, all is as it was.
+bool pl_session_reserve(void *list, size_t *room, int count, size_t size);
 
 /// Fills `error`; answers `code`.
 #if defined(__GNUC__)

@@ -67,19 +67,12 @@ static int hue_of(engine_stage *stage, plumb_body body)
 static bool make_room(engine_stage *stage, int bodies, int joints)
 {
     int handles = bodies > joints ? bodies : joints;
-    plumb_entity *list =
-        pl_session_reserve(stage->handles, &stage->handle_room, handles, sizeof *list);
-    stage->handles = list != NULL ? list : stage->handles;
-    char(*names)[64] =
-        pl_session_reserve(stage->names, &stage->name_room, bodies + joints, sizeof *names);
-    stage->names = names != NULL ? names : stage->names;
-    scene_body *body_list =
-        pl_session_reserve(stage->bodies, &stage->body_room, bodies, sizeof *body_list);
-    stage->bodies = body_list != NULL ? body_list : stage->bodies;
-    scene_joint *joint_list =
-        pl_session_reserve(stage->joints, &stage->joint_room, joints, sizeof *joint_list);
-    stage->joints = joint_list != NULL ? joint_list : stage->joints;
-    return list != NULL && names != NULL && body_list != NULL && joint_list != NULL;
+    return pl_session_reserve(&stage->handles, &stage->handle_room, handles,
+                              sizeof *stage->handles) &&
+           pl_session_reserve(&stage->names, &stage->name_room, bodies + joints,
+                              sizeof *stage->names) &&
+           pl_session_reserve(&stage->bodies, &stage->body_room, bodies, sizeof *stage->bodies) &&
+           pl_session_reserve(&stage->joints, &stage->joint_room, joints, sizeof *stage->joints);
 }
 
 bool pl_stage_look(engine_stage *stage)
@@ -224,12 +217,10 @@ int pl_stage_palette(const scene_body *body, int i)
 int pl_stage_rows(engine_stage *stage, const engine_row **rows)
 {
     int count = pl_stage_body_count(stage);
-    engine_row *list =
-        pl_session_reserve(stage->rows, &stage->row_room, count, sizeof *stage->rows);
-    if (list == NULL) {
+    if (!pl_session_reserve(&stage->rows, &stage->row_room, count, sizeof *stage->rows)) {
         return -1;
     }
-    stage->rows = list;
+    engine_row *list = stage->rows;
     for (int i = 0; i < count; i++) {
         scene_body body = pl_stage_body(stage, i);
         plumb_vec2 p = plumb_body_position(stage->world, body.entity);

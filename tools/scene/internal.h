@@ -455,6 +455,26 @@ bool sc_name_matches(const char *pattern, const char *name);     ///< "brick*" o
 /// Raises unless the name (or pattern) fits a body that is alive.
 void sc_check_body_name(scene *s, const sc_site *site, const char *key, const char *name);
 
+/// What a method of a body needs: filled by sc_body_self.
+typedef struct sc_body_call {
+    scene *s;
+    plumb_world *world;
+    sc_body *body;
+    plumb_body entity;
+    const char *method;
+} sc_body_call;
+
+/// Whose method is called, argument 1. Raises unless it is a body that is there.
+sc_body_call sc_body_self(lua_State *L, const char *method);
+/// A finite number at `index`.
+double sc_finite_number(lua_State *L, int index);
+/// Two finite numbers, or a table {x, y}, at *index, which moves on.
+plumb_vec2 sc_vector(lua_State *L, int *index);
+/// Raises when the world has refused the call. Always 0, for methods that return nothing.
+int sc_body_check(const sc_body_call *c, plumb_result result);
+extern const char *const sc_body_types[]; ///< in the order of plumb_body_type, then null
+extern const luaL_Reg sc_body_acts[];     ///< body_act.c
+
 const char *sc_handler_name(sc_handler_kind kind);
 sc_handler *sc_handler_add(scene *s, sc_handler_kind kind, const sc_site *site);
 void sc_handlers_before(scene *s); ///< at, every, every_step
