@@ -209,21 +209,6 @@ static inline bool emit_lane(pl_pair *pair, pl_manifold *m, const near_real *row
     return true;
 }
 
-// Counts a manifold into the summary.
-static inline void summarise(pl_narrow *out, const pl_manifold *m)
-{
-    near_real s0 = m->point[0].separation, s1 = m->point[1].separation;
-    near_real depth = s0 < s1 ? -s0 : -s1;
-    out->any_friction |= m->friction > 0;
-    out->any_bounce |= m->restitution > 0;
-    out->point_count += m->count;
-    if (depth >= 0) {
-        ++out->touching_count;
-        out->sum_penetration += pl_depth_units(depth);
-        out->max_penetration = depth > out->max_penetration ? depth : out->max_penetration;
-    }
-}
-
 // Appends the manifolds of `count` lanes.
 WIDE_INLINE void lanes_emit(const lanes *l, const touch *t, const pl_narrow_input *in,
                             uint32_t count, pl_narrow *out)
@@ -279,7 +264,9 @@ WIDE_INLINE void lanes_emit(const lanes *l, const touch *t, const pl_narrow_inpu
         uint32_t feature[2] = { (uint32_t)t->feature[0][i], (uint32_t)t->feature[1][i] };
         if (emit_lane(pair, m, rows[i], limits[i], feature)) {
             m->pair = l->pair[i];
-            summarise(out, m);
+            out->any_friction |= m->friction > 0;
+            out->any_bounce |= m->restitution > 0;
+            pl_overlaps_count(&out->overlaps, m);
             pair->manifold = out->manifold_count++;
         }
     }

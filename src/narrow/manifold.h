@@ -47,6 +47,44 @@ static inline near_real pl_adhesion_reach(uint32_t pair_flags)
 // [m] separation of a point that is not there: no impulse can ever act on it.
 #define PL_APART ((near_real)1e6)
 
+// [m] sums of penetration are whole numbers of this, so that the order of adding makes no difference.
+#define PL_DEPTH_UNIT 0x1p-36
+
+static inline uint64_t pl_depth_units(near_real depth)
+{
+    return depth < 1000 ? (uint64_t)((double)depth / PL_DEPTH_UNIT) : (uint64_t)(1000 / PL_DEPTH_UNIT);
+}
+
+// How many manifolds touch, and how deep: of a step, of what sleeps, of all.
+typedef struct pl_overlaps {
+    uint32_t touching_count;  // manifolds whose surfaces met
+    uint32_t point_count;     // of all manifolds
+    near_real max_penetration; // [m]
+    uint64_t sum_penetration; // [PL_DEPTH_UNIT] of the deeper point of each touching manifold
+} pl_overlaps;
+
+static inline void pl_overlaps_count(pl_overlaps *o, const pl_manifold *m)
+{
+    near_real s0 = m->point[0].separation, s1 = m->point[1].separation;
+    near_real depth = s0 < s1 ? -s0 : -s1;
+    o->point_count += m->count;
+    if (depth >= 0) {
+        ++o->touching_count;
+        o->sum_penetration += pl_depth_units(depth);
+        o->max_penetration = depth > o->max_penetration ? depth : o->max_penetration;
+    }
+}
+
+static inline void pl_overlaps_add(pl_overlaps *sum, const pl_overlaps *more)
+{
+    sum->touching_count += more->touching_count;
+    sum->point_count += more->point_count;
+    sum->sum_penetration += more->sum_penetration;
+    if (more->max_penetration > sum->max_penetration) {
+        sum->max_penetration = more->max_penetration;
+    }
+}
+
 typedef struct pl_narrow {
     pl_buffer manifolds; // pl_manifold of this step, room for every pair
     pl_buffer staged;    // pl_manifold, with several threads: before they are put together
@@ -57,19 +95,8 @@ typedef struct pl_narrow {
     bool any_bounce;         // some manifold has restitution > 0
     bool any_surface;        // some manifold has surface speed or rolling resistance
     bool any_adhesion;       // some manifold may pull
-    uint32_t touching_count; // manifolds whose surfaces met
-    uint32_t point_count;
-    near_real max_penetration; // [m]
-    uint64_t sum_penetration; // [PL_DEPTH_UNIT] of the deeper point of each touching manifold
+    pl_overlaps overlaps;
 } pl_narrow;
-
-// [m] sums of penetration are whole numbers of this, so that the order of adding makes no difference.
-#define PL_DEPTH_UNIT 0x1p-36
-
-static inline uint64_t pl_depth_units(near_real depth)
-{
-    return depth < 1000 ? (uint64_t)((double)depth / PL_DEPTH_UNIT) : (uint64_t)(1000 / PL_DEPTH_UNIT);
-}
 
 static inline pl_manifold *pl_manifolds(const pl_narrow *narrow)
 {

@@ -106,11 +106,7 @@ static void add_share(pl_narrow *all, const pl_narrow *made)
     all->manifold_count += made->manifold_count;
     all->any_friction |= made->any_friction;
     all->any_bounce |= made->any_bounce;
-    all->touching_count += made->touching_count;
-    all->point_count += made->point_count;
-    all->sum_penetration += made->sum_penetration;
-    all->max_penetration =
-        made->max_penetration > all->max_penetration ? made->max_penetration : all->max_penetration;
+    pl_overlaps_add(&all->overlaps, &made->overlaps);
 }
 
 // The first share is made where it stays.

@@ -117,18 +117,10 @@ void pl_narrow_summarise(pl_narrow *narrow)
                            .manifold_count = narrow->manifold_count,
                            .borne_count = narrow->borne_count };
     for (uint32_t i = 0; i < narrow->manifold_count; ++i) {
-        near_real s0 = m[i].point[0].separation, s1 = m[i].point[1].separation;
-        near_real depth = s0 < s1 ? -s0 : -s1;
         narrow->any_friction |= m[i].friction > 0;
         narrow->any_bounce |= m[i].restitution > 0;
         narrow->any_surface |= m[i].surface_speed != 0 || m[i].rolling > 0;
         narrow->any_adhesion |= m[i].adhesion > 0;
-        narrow->point_count += m[i].count;
-        if (depth >= 0) {
-            ++narrow->touching_count;
-            narrow->sum_penetration += pl_depth_units(depth);
-            narrow->max_penetration =
-                depth > narrow->max_penetration ? depth : narrow->max_penetration;
-        }
+        pl_overlaps_count(&narrow->overlaps, &m[i]);
     }
 }

@@ -46,7 +46,7 @@ const char *pl_record_open(const void *bytes, size_t size, pl_record_header *hea
         memchr(header->title, '\0', sizeof header->title) == NULL) {
         return "is damaged";
     }
-    if (header->version != PL_RECORD_VERSION) {
+    if (header->version == 0 || header->version > PL_RECORD_VERSION) {
         return "is of another version of the format";
     }
     if (header->precision != PL_PRECISION) {

@@ -151,19 +151,6 @@ static void unlink_from_piece(plumb_world *world, const pl_dormant *c)
     }
 }
 
-// What pl_narrow_summarise does for the manifolds of a step.
-static void count_in(pl_island *i, const pl_manifold *m)
-{
-    near_real s0 = m->point[0].separation, s1 = m->point[1].separation;
-    near_real depth = s0 < s1 ? -s0 : -s1;
-    i->point_count += m->count;
-    if (depth >= 0) {
-        ++i->touching_count;
-        i->sum_penetration += pl_depth_units(depth);
-        i->max_penetration = depth > i->max_penetration ? depth : i->max_penetration;
-    }
-}
-
 void pl_island_keep(plumb_world *world, uint32_t island, const pl_pair *pair,
                     const pl_manifold *manifold)
 {
@@ -193,7 +180,7 @@ void pl_island_keep(plumb_world *world, uint32_t island, const pl_pair *pair,
             c->manifold.point[k].total = pair->normal[k] * (near_real)world->desc.substeps;
         }
         if ((pair->flags & PL_PAIR_BORNE) == 0) { // those are not among the manifolds of a step
-            count_in(i, manifold);
+            pl_overlaps_count(&i->overlaps, manifold);
         }
     }
     i->first_contact = slot;

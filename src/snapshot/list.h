@@ -71,8 +71,7 @@
 #define PL_STATE_NARROW(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                     \
     LEFT(narrow.manifolds) LEFT(narrow.staged) LEFT(narrow.manifold_count) LEFT(narrow.borne_count)                    \
     LEFT(narrow.any_adhesion) LEFT(narrow.any_friction)                                            \
-    LEFT(narrow.any_bounce) LEFT(narrow.any_surface) LEFT(narrow.touching_count)                   \
-    LEFT(narrow.point_count) LEFT(narrow.max_penetration) LEFT(narrow.sum_penetration)
+    LEFT(narrow.any_bounce) LEFT(narrow.any_surface) LEFT(narrow.overlaps)
 
 #define PL_STATE_SOLVER(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                     \
     LEFT(solver.bodies) LEFT(solver.motions) LEFT(solver.lows) LEFT(solver.struck)                 \

@@ -359,16 +359,10 @@ void *plumb_world_user_data(const plumb_world *world)
 //-----------------------------------------------------------------------------------------
 
 // The summary of contacts that sleep, as it was when they fell asleep.
-static void add_sleeping(const plumb_world *world, pl_narrow *sum)
+static void add_sleeping(const plumb_world *world, pl_overlaps *sum)
 {
     for (uint32_t k = 0; k < world->sleep.island_slots; ++k) {
-        const pl_island *i = &pl_islands(&world->sleep)[k]; // a free slot has no contacts
-        sum->touching_count += i->touching_count;
-        sum->point_count += i->point_count;
-        sum->sum_penetration += i->sum_penetration;
-        if (i->max_penetration > sum->max_penetration) {
-            sum->max_penetration = i->max_penetration;
-        }
+        pl_overlaps_add(sum, &pl_islands(&world->sleep)[k].overlaps); // a free slot has none
     }
 }
 
@@ -378,7 +372,7 @@ plumb_stats plumb_world_stats(const plumb_world *world)
         return (plumb_stats){ 0 };
     }
     uint32_t bodies = world->bodies.table.count;
-    pl_narrow all = world->narrow;
+    pl_overlaps all = world->narrow.overlaps;
     add_sleeping(world, &all);
     return (plumb_stats){
         .step_count = world->step_count,

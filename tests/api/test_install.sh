@@ -115,7 +115,7 @@ build_all_examples()
     for source in "$work"/*.c; do
         [ "${source##*/}" = alone.c ] && continue
         "$cc" -std=c17 $warnings "$source" -o "$work/program" \
-            $(pkg-config --cflags --libs plumb) -lm || return 1
+            $(pkg-config --cflags --libs plumb) || return 1
         LD_LIBRARY_PATH=$lib "$work/program" >"$work/out" && [ -s "$work/out" ] || return 1
     done
 }

@@ -129,8 +129,8 @@ static void print_csv(const cost_row *rows, int count)
 
 static void print_head(const cost_plan *plan, const scene_run *run, const cost_args *args)
 {
-    printf("%s: %.6g s in steps of %.6g s; times are the least of %d runs\n", run->info.name,
-           plan->time, plan->dt, args->repeat);
+    printf("%s: %.6g s in steps of %.6g s; times are the least of %d run%s\n", run->info.name,
+           plan->time, plan->dt, args->repeat, args->repeat == 1 ? "" : "s");
     if (plan->has_exact) {
         printf("error: largest distance of a body from the scene's closed form, at every step\n");
     } else {

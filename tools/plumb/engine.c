@@ -122,7 +122,7 @@ static void session_close(engine_session *session)
     free(session->expects);
     free(session->passes);
     free(session->pass_infos);
-    free(session->named);
+    free(session->kept);
     free(session);
 }
 
@@ -139,7 +139,7 @@ static int session_step(engine_session *session, engine_error *error)
     if (scene_step(session->stage.scene, &from) != SCENE_OK) {
         return pl_session_fail_scene(session, &from, error);
     }
-    return session->recording ? pl_session_name(session, error) : CLI_OK;
+    return session->recording ? pl_session_note_looks(session, error) : CLI_OK;
 }
 
 static int session_check(engine_session *session, engine_error *error)

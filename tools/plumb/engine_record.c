@@ -15,48 +15,6 @@ static bool to_file(void *context, const void *bytes, size_t size)
     return fwrite(bytes, 1, size, context) == size;
 }
 
-/// Names an entity that has none yet.
-static plumb_result name_entity(engine_session *session, plumb_entity entity, const char *name)
-{
-    if (entity.index >= session->named_count) {
-        uint32_t count = entity.index + entity.index / 2 + 64;
-        uint32_t *grown = realloc(session->named, count * sizeof *grown);
-        if (grown == NULL) {
-            return PLUMB_E_MEMORY;
-        }
-        memset(grown + session->named_count, 0, (count - session->named_count) * sizeof *grown);
-        session->named = grown;
-        session->named_count = count;
-    }
-    if (session->named[entity.index] == entity.generation) {
-        return PLUMB_OK;
-    }
-    char cut[64];
-    snprintf(cut, sizeof cut, "%.63s", name);
-    session->named[entity.index] = entity.generation;
-    plumb_result r = plumb_recorder_name(session->stage.world, entity, cut);
-    // The file takes no more: told when the recording ends.
-    return r == PLUMB_E_WRITE || r == PLUMB_E_MEMORY ? PLUMB_OK : r;
-}
-
-int pl_session_name(engine_session *session, engine_error *error)
-{
-    plumb_result r = PLUMB_OK;
-    for (int i = 0; r == PLUMB_OK && i < scene_body_count(session->stage.scene); i++) {
-        scene_body body = scene_body_get(session->stage.scene, i);
-        r = name_entity(session, body.entity, body.name);
-    }
-    for (int i = 0; r == PLUMB_OK && i < scene_joint_count(session->stage.scene); i++) {
-        scene_joint joint = scene_joint_get(session->stage.scene, i);
-        r = name_entity(session, joint.entity, joint.name);
-    }
-    return r == PLUMB_OK ? CLI_OK
-                         : pl_session_fail(error, CLI_FAILED, "--record: %s",
-                                           r == PLUMB_E_MEMORY
-                                               ? "out of memory"
-                                               : plumb_world_error(session->stage.world).message);
-}
-
 int pl_session_record(engine_session *session, FILE *file, int keyframes, engine_error *error)
 {
     char title[256];
@@ -69,7 +27,8 @@ int pl_session_record(engine_session *session, FILE *file, int keyframes, engine
                                plumb_world_error(session->stage.world).message);
     }
     session->recording = true;
-    return pl_session_name(session, error);
+    pl_session_note_camera(session);
+    return pl_session_note_looks(session, error);
 }
 
 int pl_session_record_end(engine_session *session, engine_error *error)

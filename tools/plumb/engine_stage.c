@@ -1,9 +1,9 @@
 /// engine_stage.c - what is to be seen of a world: bodies and joints with their names and looks, be it
 /// of a scene that runs or of a recording. Compiled once for each precision, as engine.c.
 ///
-/// Reads the world, the scene or the replay, changes none of them. A recording has names and no looks:
-/// colours go round in the order in which bodies are met, and a body keeps its own as long as the stage
-/// is open. Cost: O(bodies), of a recording once sorted for each step that is looked at.
+/// Reads the world, the scene or the replay, changes none of them. Where a recording says nothing of a body's
+/// looks (a program made it), colours go round in the order in which bodies are met, and a body keeps its
+/// own as long as the stage is open. Cost: O(bodies), of a recording once sorted for each step that is looked at.
 #include "engine_session.h"
 
 #include <ctype.h>
@@ -109,13 +109,16 @@ bool pl_stage_look(engine_stage *stage)
                                          .label = "",
                                          .palette = hue,
                                          .hidden = !plumb_body_is_enabled(stage->world, body) };
+        pl_stage_read_body(stage->replay, &stage->bodies[i]);
     }
+    pl_stage_read_camera(stage->replay, &stage->camera);
     plumb_world_joints(stage->world, stage->handles, joints);
     for (int i = 0; i < joints; i++) {
         plumb_joint joint = stage->handles[i];
         stage->joints[i] =
             (scene_joint){ .entity = joint,
                            .name = name_of(stage, joint, stage->names[span.count + i]) };
+        pl_stage_read_joint(stage->replay, &stage->joints[i]);
     }
     return true;
 }
@@ -181,8 +184,7 @@ double pl_stage_time(const engine_stage *stage)
 
 const char *pl_stage_text(const engine_stage *stage)
 {
-    const char *text = stage->scene != NULL ? scene_get_text(stage->scene) : NULL;
-    return text != NULL ? text : "";
+    return stage->scene != NULL ? scene_get_text(stage->scene) : pl_stage_read_text(stage->replay);
 }
 
 engine_info pl_stage_info(const engine_stage *stage)

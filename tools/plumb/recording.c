@@ -69,6 +69,11 @@ int recording_open(const char *path, int width, bool edits, recording *out)
         *out = (recording){ 0 };
         return scene_report(&error);
     }
+    engine_replay_info info = out->engine->replay_info(out->replay);
+    if (!info.complete) {
+        cli_message("'%s' breaks off after step %llu: whatever wrote it did not end it", path,
+                    info.steps);
+    }
     return CLI_OK;
 }
 

@@ -30,9 +30,11 @@ typedef struct scene_args {
 
 // clang-format off
 /// Rows of the option table for a struct `type` whose member `member` is a scene_args.
-#define SCENE_OPTION_TIME(type, member)                                                          \
+#define SCENE_OPTION_TIME_OR(type, member, otherwise)                                            \
     { "time", 't', CLI_REAL, offsetof(type, member.time), "S", 0, SCENE_TIME_MAX, NULL,          \
-      "simulate S seconds (default: the scene's duration)" }
+      "simulate S seconds (default: " otherwise ")" }
+#define SCENE_OPTION_TIME(type, member)                                                          \
+    SCENE_OPTION_TIME_OR(type, member, "the scene's duration")
 #define SCENE_OPTION_PRECISION(type, member)                                                     \
     { "precision", 0, CLI_CHOICE, offsetof(type, member.precision), "P", 0, 0, SCENE_PRECISIONS, \
       "float (default), double, or far: positions in double, the solver in float" }

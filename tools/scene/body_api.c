@@ -64,13 +64,7 @@ static int check(const call *c, plumb_result result)
 {
     if (result != PLUMB_OK) {
         sc_site site = sc_here(c->s, c->method);
-        scene_code code = result == PLUMB_E_STATE                                   ? SCENE_E_STATE
-                          : result == PLUMB_E_MEMORY                                ? SCENE_E_LIMIT
-                          : result == PLUMB_E_RANGE || result == PLUMB_E_NOT_FINITE ? SCENE_E_RANGE
-                                                                                    : SCENE_E_WORLD;
-        sc_raise(c->s, code, &site, NULL, 0, NULL, "%s() of '%s': %s", c->method, c->body->def.name,
-                 code == SCENE_E_STATE ? "the body's type does not allow it"
-                                       : plumb_result_text(result));
+        sc_refused(c->s, &site, NULL, result, "%s() of '%s'", c->method, c->body->def.name);
     }
     return 0;
 }

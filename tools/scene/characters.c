@@ -91,8 +91,7 @@ void sc_character_make(scene *s, const sc_site *site, const sc_body *b)
     plumb_character_desc desc = describe(d);
     plumb_result r = plumb_character_create(s->world, b->entity, &desc);
     if (r != PLUMB_OK) {
-        sc_raise(s, r == PLUMB_E_MEMORY ? SCENE_E_LIMIT : SCENE_E_WORLD, site, "character", 0, NULL,
-                 "character{}: %s", plumb_world_error(s->world).message);
+        sc_refused(s, site, "character", r, "character{}");
     }
     if (HAS(d, gravity_scale)) {
         plumb_body_set_gravity_scale(s->world, b->entity, (plumb_real)d->gravity_scale);
@@ -199,8 +198,10 @@ static hero character(lua_State *L, const char *method)
 static void check(const hero *h, plumb_result r)
 {
     if (r != PLUMB_OK) {
-        fail(h, r == PLUMB_E_STATE ? SCENE_E_STATE : SCENE_E_RANGE,
-             plumb_world_error(h->s->world).message);
+        sc_site site = sc_here(h->s, h->method);
+        const sc_body *b = sc_body_of(h->s, h->body);
+        sc_refused(h->s, &site, NULL, r, "%s() of '%s'", h->method,
+                   b != NULL ? b->def.name : "?");
     }
 }
 

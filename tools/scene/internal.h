@@ -51,8 +51,9 @@ typedef struct sc_site {
 _Noreturn void sc_raise(scene *s, scene_code code, const sc_site *site, const char *key, int index,
                         const char *suggestion, const char *format, ...)
     __attribute__((format(printf, 7, 8)));
-/// Why the world refused the last call, without the name of its function.
-const char *sc_world_message(const scene *s);
+/// Raises for a call that the world has refused with that result: "what: why". `key` as for sc_raise.
+_Noreturn void sc_refused(scene *s, const sc_site *site, const char *key, plumb_result result,
+                          const char *what, ...) __attribute__((format(printf, 5, 6)));
 /// The site of the function that the script is calling now.
 sc_site sc_here(scene *s, const char *construct);
 /// Room for so many more values on Lua's stack; raises when the budget is used up.
@@ -72,6 +73,8 @@ int sc_lua_column(const char *text, size_t size, int line, const char *word);
 int sc_lua_syntax_column(lua_State *L, const char *text, size_t size, int line, const char *near);
 /// First `^` that is not `^ 2`; false if there is none.
 bool sc_lua_find_power(const char *text, size_t size, int *line, int *column);
+/// What is wrong with a text that is not JSON, and where; NULL: nothing that is known here.
+const char *sc_json_wrong(const char *text, size_t size, const char **where);
 /// Position of a value (or of its key) in JSON text.
 void sc_json_position(const char *text, size_t size, const char *path, const char *key, int index,
                       int *line, int *column);
