@@ -185,7 +185,6 @@ WIDE_INLINE void gather8(vf out[8], const near_real *const *rows)
 
 //---- rows of plumb_reals --------------------------------------------------------------------------
 
-// In the far build these become near as they are read.
 #if PLUMB_IS_FAR
 typedef plumb_real far_quad
     __attribute__((vector_size(4 * sizeof(plumb_real)), may_alias, aligned(sizeof(plumb_real))));
@@ -194,15 +193,21 @@ WIDE_INLINE quad to_near(far_quad q)
 {
     return __builtin_convertvector(q, quad);
 }
+#endif
 
+// In the far build these become near as they are read.
 WIDE_INLINE void gather4_far(vf out[4], const plumb_real *const *rows, int offset)
 {
+#if PLUMB_IS_FAR
 #define QUAD(i) to_near(*(const far_quad *)(const void *)(rows[i] + offset))
     for (int k = 0; k < 4; ++k) {
         out[k] = JOIN(QUAD(k), QUAD(k + 4), QUAD(k + 8), QUAD(k + 12));
     }
 #undef QUAD
     transpose4(out);
+#else
+    gather4(out, rows, offset);
+#endif
 }
 
 WIDE_INLINE void gather8_far(vf out[8], const plumb_real *const *rows)
@@ -210,10 +215,6 @@ WIDE_INLINE void gather8_far(vf out[8], const plumb_real *const *rows)
     gather4_far(out, rows, 0);
     gather4_far(out + 4, rows, 4);
 }
-#else
-#define gather4_far gather4
-#define gather8_far gather8
-#endif
 
 // Quads x y .. .. with the places (x, y) seen from origins: (cx, cy) are the lanes' origins[i][0] and [1].
 WIDE_INLINE void gather4_from(vf out[4], const plumb_real *const *rows,
