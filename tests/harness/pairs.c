@@ -101,6 +101,8 @@ pair_batch *pairs_create(int capacity)
     b->pairs = room((size_t)capacity, sizeof *b->pairs);
     b->out.manifolds.size = ((size_t)capacity + 1) * sizeof(pl_manifold);
     b->out.manifolds.data = room((size_t)capacity + 1, sizeof(pl_manifold));
+    b->out.ends.data = room((size_t)capacity + 1, sizeof(pl_ends));
+    b->out.fresh.data = room((size_t)capacity + 1, sizeof(uint32_t));
     return b;
 }
 
@@ -116,6 +118,8 @@ void pairs_destroy(pair_batch *b)
     free(b->restitution);
     free(b->pairs);
     free(b->out.manifolds.data);
+    free(b->out.ends.data);
+    free(b->out.fresh.data);
     free(b);
 }
 
@@ -232,7 +236,7 @@ void pairs_run(pair_batch *b, int width)
                            .restitution = b->restitution,
                            .dt = (near_real)(1.0 / 60),
                            .pairs = b->pairs };
-    b->out = (pl_narrow){ .manifolds = b->out.manifolds };
+    pl_narrow_clear(&b->out);
     memset(b->out.manifolds.data, 0, b->out.manifolds.size);
     if (b->count > 0) {
         kernel_for(kernels, b->sides[0].shape.kind,
