@@ -66,8 +66,10 @@ COMMON   := -std=c17 $(WARN_C) $(MATHS) $(SANFLAGS) -MMD -MP -Iinclude
 LIB_FLAGS  = $(COMMON) $(SHARED) -Isrc $(CFLAGS) $(BASELINE)
 TOOL_FLAGS = $(COMMON) -Isrc -Itools -Itests $(CFLAGS) $(BASELINE) $(PKG_CFLAGS)
 CXX_FLAGS  = -std=c++20 $(WARN) $(MATHS) $(SANFLAGS) -MMD -MP -Iinclude $(CFLAGS)
+VARIANTS    := float double far
 DEFS_float  :=
 DEFS_double := -DPLUMB_DOUBLE=1
+DEFS_far    := -DPLUMB_FAR=1
 
 # Asked once, when the first recipe that needs it runs; where pkg-config knows nothing, Debian's places.
 DEBIAN_CFLAGS := -I/usr/include/lua5.4 -I/usr/include/cjson -I/usr/include/freetype2
@@ -86,7 +88,7 @@ $(file >$(O)/flags,$(FLAGS_LINE))
 endif
 endif
 
-# ---- sources and objects: build/float/... and build/double/... mirror the tree
+# ---- sources and objects: build/float/..., build/double/... and build/far/... mirror the tree
 
 LIB_SRC    := $(filter-out %.simd.c,$(wildcard src/*/*.c))
 SIMD_SRC   := $(wildcard src/*/*.simd.c)
@@ -112,7 +114,7 @@ CLI_OBJ    := $(call objects,float,$(CLI_SRC))
 
 # ---- goals
 
-LIBRARIES := $(O)/libplumb.a $(O)/libplumb_d.a $(O)/libplumb.so $(O)/libplumb_d.so
+LIBRARIES := $(foreach l,libplumb libplumb_d libplumb_far,$(O)/$l.a $(O)/$l.so)
 
 .PHONY: all lib help clean deps deps-dev demo examples amalgamation
 all: lib $(O)/plumb examples
@@ -127,7 +129,7 @@ help:
 #:   make deps demo    install what is missing, build, draw build/demo.png
 #:   make deps test    install what is missing, build, run every test
 #:
-#:   all (default)     build/plumb, build/libplumb.a, build/libplumb.so, _d in double, examples
+#:   all (default)     build/plumb, build/libplumb.a and .so, _d in double, _far with far places, examples
 #:   deps, deps-dev    Debian packages: for the two commands above; for fuzz, format, lint as well
 #:   test              every test; T="tests/unit/test_math.c ..." runs only these
 #:   stability         the hard-case tests and the expectations of every scene
@@ -183,8 +185,8 @@ $$(O)/$1/%.o: %.c $$(O)/flags | $$(DEPS_FIRST)
 $$(O)/$1/libscene.a: $$(call objects,$1,$$(SCENE_SRC))
 	$$(archive)
 
-# The command line holds both precisions: each is linked into one object of which only the table
-# of functions engine_float or engine_double can be seen from outside.
+# The command line holds all precisions: each is linked into one object of which only the table
+# of functions engine_float, engine_double or engine_far can be seen from outside.
 $$(O)/engine_$1.o: $$(call objects,$1,$$(ENGINE_SRC)) $$(O)/$1/libscene.a $$(O)/libplumb$2.a
 	@echo "  LD    $$@"
 	$$(Q)$$(LD) -r -o $$@.all $$(filter %.o,$$^) --start-group $$(filter %.a,$$^) --end-group
@@ -215,12 +217,13 @@ endef
 
 $(eval $(call variant_rules,float,))
 $(eval $(call variant_rules,double,_d))
-$(foreach w,$(WIDTHS),$(eval $(call width_rule,float,$w))$(eval $(call width_rule,double,$w)))
+$(eval $(call variant_rules,far,_far))
+$(foreach w,$(WIDTHS),$(foreach v,$(VARIANTS),$(eval $(call width_rule,$v,$w))))
 
 $(O)/librender.a: $(RENDER_OBJ)
 	$(archive)
 
-$(O)/plumb: $(CLI_OBJ) $(O)/engine_float.o $(O)/engine_double.o $(O)/librender.a
+$(O)/plumb: $(CLI_OBJ) $(VARIANTS:%=$(O)/engine_%.o) $(O)/librender.a
 	@echo "  LD    $@"
 	$(Q)$(CC) $(SANFLAGS) $(LDFLAGS) -o $@ $^ $(SCENE_LIBS) $(RENDER_LIBS) -lm -lpthread
 
@@ -243,8 +246,8 @@ $(O)/amalgamate: $(AMALGAMATE_OBJ)
 include tools/make/test.mk
 include tools/make/install.mk
 
-ALL_OBJ := $(AMALGAMATE_OBJ) $(call lib_objects,float) $(call lib_objects,double) $(CLI_OBJ) $(RENDER_OBJ) \
-	$(foreach v,float double,$(call objects,$v,$(SCENE_SRC) $(ENGINE_SRC))) $(TEST_OBJ) \
+ALL_OBJ := $(AMALGAMATE_OBJ) $(CLI_OBJ) $(RENDER_OBJ) \
+	$(foreach v,$(VARIANTS),$(call lib_objects,$v) $(call objects,$v,$(SCENE_SRC) $(ENGINE_SRC))) $(TEST_OBJ) \
 	$(EXAMPLES:$(O)/%=$(O)/float/tools/%.o)
 .SECONDARY: $(ALL_OBJ)
 -include $(ALL_OBJ:.o=.d)

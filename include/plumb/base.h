@@ -30,15 +30,38 @@
 
 PLUMB_BEGIN
 
-/// The scalar of the whole library: float by default, double when PLUMB_DOUBLE is defined to 1.
+/// The scalar of the whole library: float by default, double when PLUMB_DOUBLE or PLUMB_FAR is defined to 1.
+/// PLUMB_FAR is for worlds that reach far from the origin: places are doubles, to 1e8 m and beyond, but the solver
+/// and the narrow phase, which only know how bodies lie to one another, work in floats and cost little more than
+/// they do in the float build. Velocities, impulses and contacts are then good to a float's seven digits, and no
+/// number may be larger than a float's.
 /// The program and the library it links must agree; a mismatch is a link error ("undefined reference to
 /// plumb_world_create_double"): all functions that need no object of the library's to be called with, but take
 /// or give reals, have symbols with the precision in them.
+#if defined(PLUMB_FAR) && PLUMB_FAR
+#define PLUMB_IS_FAR         1
+#define PLUMB_REAL_IS_DOUBLE 1
 #if defined(PLUMB_DOUBLE) && PLUMB_DOUBLE
+#error "define PLUMB_DOUBLE or PLUMB_FAR, not both"
+#endif
+#else
+#define PLUMB_IS_FAR 0 ///< positions in double, all else in float
+#if defined(PLUMB_DOUBLE) && PLUMB_DOUBLE
+#define PLUMB_REAL_IS_DOUBLE 1
+#else
+#define PLUMB_REAL_IS_DOUBLE 0 ///< whether plumb_real is double
+#endif
+#endif
+
+#if PLUMB_REAL_IS_DOUBLE
 typedef double plumb_real;
 #define PLUMB_REAL_EPSILON 2.2204460492503131e-16 ///< [-] spacing of reals at 1
 #define PLUMB_REAL_MAX     1.7976931348623157e+308
+#if PLUMB_IS_FAR
+#define PLUMB_SYMBOL(name) name##_far
+#else
 #define PLUMB_SYMBOL(name) name##_double
+#endif
 #else
 typedef float plumb_real;
 #define PLUMB_REAL_EPSILON 1.1920929e-7f ///< [-] spacing of reals at 1

@@ -38,7 +38,7 @@ PLUMB_BEGIN
 /// Square root, correctly rounded; NaN for a negative argument.
 static inline plumb_real plumb_sqrt(plumb_real x)
 {
-#if defined(PLUMB_DOUBLE) && PLUMB_DOUBLE
+#if PLUMB_REAL_IS_DOUBLE
     return sqrt(x);
 #else
     return sqrtf(x);
@@ -367,7 +367,7 @@ static inline plumb_vec2 plumb_rot_inv_apply(plumb_rot q, plumb_vec2 v)
 
 /// [rad] up to here plumb_rot_integrate is exact to rounding by its series alone: the first term
 /// left out, 2 * 1382/155925 (d/2)^11, is below half a rounding of 1.
-#if defined(PLUMB_DOUBLE) && PLUMB_DOUBLE
+#if PLUMB_REAL_IS_DOUBLE
 #define PLUMB_ROT_SMALL_TURN PLUMB_REAL(0.0625)
 #else
 #define PLUMB_ROT_SMALL_TURN PLUMB_REAL(0.5)

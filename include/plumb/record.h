@@ -16,6 +16,9 @@
 /// the user's code, and every step of it ends in the bits of the run, whatever the SIMD width and the
 /// number of threads. Keyframes, whole images every so many steps, make it seek.
 ///
+/// What is not in the world but belongs to the run (colours, a score, the inputs) can be noted beside it:
+/// plumb_recorder_note.
+///
 /// Not in it: user data (null in the replay) and what pointers in components point to; where those are
 /// kept, keep them by entity. Components and systems are registered in the replay's world by the names
 /// they have in the recording; systems do nothing there.
@@ -65,6 +68,18 @@ PLUMB_API plumb_result plumb_recorder_stop(plumb_world *world);
 /// recording), E_WRITE, E_MEMORY.
 PLUMB_API plumb_result plumb_recorder_name(plumb_world *world, plumb_entity entity,
                                            const char *name);
+
+/// Longest note of plumb_recorder_note [B].
+#define PLUMB_NOTE_MAX ((size_t)1 << 20)
+
+/// Puts bytes of your own into the recording, which plumb_replay_note gives back: what a replay is to show that
+/// is not in the world (colours, a score, the camera), what it is to be checked by (inputs, the build). `key`
+/// is a number of your choosing. The note holds from the state on after the last step taken, or from the
+/// head on, until another one with its key takes its place; `size` 0 ends it. The bytes are copied; they do not
+/// influence the world, its hash, or where two recordings differ. May be called at any time. O(size).
+/// Errors: E_NULL, E_RANGE (size beyond PLUMB_NOTE_MAX), E_STATE (it is not recording), E_WRITE, E_MEMORY.
+PLUMB_API plumb_result plumb_recorder_note(plumb_world *world, uint64_t key, const void *bytes,
+                                           size_t size);
 
 typedef struct plumb_recorder_info {
     bool recording;     ///< false: the rest is 0
@@ -152,6 +167,10 @@ PLUMB_API uint64_t plumb_replay_find(const plumb_replay *replay, double time);
 
 /// The name that an entity was given, null if none.
 PLUMB_API const char *plumb_replay_name(const plumb_replay *replay, plumb_entity entity);
+
+/// The note of that key that holds where the replay stands, and its *size [B] (may be null); null and 0 if none.
+/// Valid as long as the replay is open; as aligned as the bytes it was opened with, up to 8. O(log notes).
+PLUMB_API const void *plumb_replay_note(const plumb_replay *replay, uint64_t key, size_t *size);
 
 //---- differences ---------------------------------------------------------------------------------
 

@@ -145,7 +145,8 @@ PLUMB_API plumb_aabb plumb_shape_aabb(const plumb_world *world, plumb_shape shap
 /// True when the world point [m] lies in the shape.
 PLUMB_API bool plumb_shape_contains(const plumb_world *world, plumb_shape shape, plumb_vec2 point);
 
-/// How many shapes the world has, and the i-th in storage order: for drawing and inspection.
+/// All shapes in storage order, for drawing and inspection: writes up to `capacity`, returns how many
+/// there are. O(shapes).
 PLUMB_API int plumb_world_shapes(const plumb_world *world, plumb_entity *shapes, int capacity);
 
 PLUMB_END

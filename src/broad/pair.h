@@ -9,9 +9,9 @@ typedef struct pl_pair {
     uint32_t a, b;           // piece slots: kind of a <= kind of b, equal kinds: a < b
     uint32_t body_a, body_b; // body rows
     uint32_t feature[2];     // of the manifold points that the impulses belong to; PL_NONE: none
-    real normal[2];          // [N s] impulses of the last substep
-    real tangent[2];         // [N s]
-    real rolling;            // [N m s] about the pair's contact as a whole
+    near_real normal[2];     // [N s] impulses of the last substep
+    near_real tangent[2];    // [N s]
+    near_real rolling;       // [N m s] about the pair's contact as a whole
     uint32_t manifold;       // index of this step's manifold; PL_NONE: apart
     uint32_t flags;          // PL_PAIR_...
 } pl_pair;
@@ -32,7 +32,7 @@ typedef struct pl_pair {
 #define PL_PAIR_FACE_MASK  (63u << PL_PAIR_FACE_SHIFT)
 
 // [m] manifolds are made for pieces closer than this: contacts are ready before they are needed.
-#define PL_SPECULATIVE ((real)0.02)
+#define PL_SPECULATIVE ((near_real)0.02)
 
 // Something for each two kinds of pieces, the lower kind first.
 typedef uint32_t pl_by_kinds[PL_PIECE_KIND_COUNT][PL_PIECE_KIND_COUNT];

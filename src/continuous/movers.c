@@ -177,7 +177,7 @@ void pl_movers_complete(plumb_world *world, real dt)
         pl_tasks_ranges(world->tasks, c->count, LEAST, find_strays, world);
         recruits = mark_swept(world, dt);
     }
-    if (world->narrow.max_penetration > c->least_slack * PRESSED_SHARE) {
+    if (world->narrow.overlaps.max_penetration > c->least_slack * PRESSED_SHARE) {
         recruits += mark_pressed(world);
     }
     join_recruits(world, dt, recruits);

@@ -69,3 +69,17 @@ uint64_t pl_digest_of(const void *data, size_t bytes)
     pl_digest_add(&digest, data, bytes);
     return pl_digest_end(&digest);
 }
+
+uint64_t pl_digest_sealed(const void *header, size_t size, size_t at, const void *behind,
+                          size_t bytes)
+{
+    static const uint64_t none = 0;
+    char blank[256];
+    pl_digest digest;
+    memcpy(blank, header, size);
+    memcpy(blank + at, &none, sizeof none);
+    pl_digest_begin(&digest);
+    pl_digest_add(&digest, blank, size);
+    pl_digest_add(&digest, behind, bytes);
+    return pl_digest_end(&digest);
+}

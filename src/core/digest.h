@@ -25,4 +25,18 @@ uint64_t pl_digest_end(const pl_digest *digest);
 // The digest of one run.
 uint64_t pl_digest_of(const void *data, size_t bytes);
 
+// Of a header, in which the checksum at `at` counts as 0, and what is behind it.
+uint64_t pl_digest_sealed(const void *header, size_t size, size_t at, const void *behind,
+                          size_t bytes);
+
+// The bytes of a number the other way round: how a magic number looks from a foreign byte order.
+static inline uint64_t pl_reversed(uint64_t v)
+{
+    uint64_t out = 0;
+    for (int i = 0; i < 8; ++i) {
+        out = out << 8 | (v >> 8 * i & 0xff);
+    }
+    return out;
+}
+
 #endif

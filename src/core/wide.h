@@ -1,4 +1,4 @@
-// wide.h - vectors of PL_WIDTH reals for files that are compiled once per width (*.simd.c), on the
+// wide.h - vectors of PL_WIDTH near_reals for files that are compiled once per width (*.simd.c), on the
 // vector extensions of GCC and Clang. Arithmetic is the language's own operators; lanes never mix,
 // so every width gives the same bits.
 //
@@ -7,7 +7,7 @@
 #ifndef PL_WIDE_H
 #define PL_WIDE_H
 
-#include "plumb/base.h"
+#include "core/near.h"
 
 #include <string.h>
 
@@ -22,7 +22,7 @@
 
 #define WIDE_INLINE static inline __attribute__((always_inline, unused))
 
-#if defined(PLUMB_DOUBLE) && PLUMB_DOUBLE
+#if PL_NEAR_IS_DOUBLE
 typedef int64_t pl_lane;
 #define LANE_SQRT __builtin_sqrt
 #else
@@ -30,23 +30,23 @@ typedef int32_t pl_lane;
 #define LANE_SQRT __builtin_sqrtf
 #endif
 
-typedef plumb_real vf __attribute__((vector_size(PL_WIDTH * sizeof(plumb_real))));
+typedef near_real vf __attribute__((vector_size(PL_WIDTH * sizeof(near_real))));
 typedef pl_lane vm __attribute__((vector_size(PL_WIDTH * sizeof(pl_lane)))); // masks: 0 or -1
-typedef plumb_real quad __attribute__((vector_size(4 * sizeof(plumb_real)), may_alias));
+typedef near_real quad __attribute__((vector_size(4 * sizeof(near_real)), may_alias));
 
-WIDE_INLINE vf splat(plumb_real v)
+WIDE_INLINE vf splat(near_real v)
 {
     return v - (vf){ 0 };
 }
 
-WIDE_INLINE vf load(const plumb_real *p)
+WIDE_INLINE vf load(const near_real *p)
 {
     vf v;
     memcpy(&v, p, sizeof v);
     return v;
 }
 
-WIDE_INLINE void store(plumb_real *p, vf v)
+WIDE_INLINE void store(near_real *p, vf v)
 {
     memcpy(p, &v, sizeof v);
 }
@@ -79,7 +79,7 @@ WIDE_INLINE vf vclamp(vf v, vf low, vf high)
 
 WIDE_INLINE vf vabs(vf v)
 {
-    return (vf)((vm)v & ~(vm)splat((plumb_real)-0.0));
+    return (vf)((vm)v & ~(vm)splat((near_real)-0.0));
 }
 
 WIDE_INLINE vf vsqrt(vf v)
@@ -132,24 +132,26 @@ WIDE_INLINE void transpose4(vf r[4])
     r[3] = PATTERN(t1, t3, 2, 3, B(2), B(3));
 }
 
-// Quads of the rows k, k + 4, k + 8, ... side by side.
-WIDE_INLINE vf join(const plumb_real *const *rows, int k, int offset)
+// Quads of every fourth row side by side.
+#if PL_WIDTH == 4
+#define JOIN(q0, q1, q2, q3) ((vf)(q0))
+#elif PL_WIDTH == 8
+#define JOIN(q0, q1, q2, q3) __builtin_shufflevector(q0, q1, 0, 1, 2, 3, 4, 5, 6, 7)
+#else
+#define JOIN(q0, q1, q2, q3)                                                                       \
+    __builtin_shufflevector(__builtin_shufflevector(q0, q1, 0, 1, 2, 3, 4, 5, 6, 7),               \
+                            __builtin_shufflevector(q2, q3, 0, 1, 2, 3, 4, 5, 6, 7), 0, 1, 2, 3,   \
+                            4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15)
+#endif
+
+WIDE_INLINE vf join(const near_real *const *rows, int k, int offset)
 {
 #define QUAD(i) (*(const quad *)(const void *)(rows[i] + offset))
-#if PL_WIDTH == 4
-    return (vf)QUAD(k);
-#elif PL_WIDTH == 8
-    return __builtin_shufflevector(QUAD(k), QUAD(k + 4), 0, 1, 2, 3, 4, 5, 6, 7);
-#else
-    typedef plumb_real oct __attribute__((vector_size(8 * sizeof(plumb_real))));
-    oct low = __builtin_shufflevector(QUAD(k), QUAD(k + 4), 0, 1, 2, 3, 4, 5, 6, 7);
-    oct high = __builtin_shufflevector(QUAD(k + 8), QUAD(k + 12), 0, 1, 2, 3, 4, 5, 6, 7);
-    return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
-#endif
+    return JOIN(QUAD(k), QUAD(k + 4), QUAD(k + 8), QUAD(k + 12));
 #undef QUAD
 }
 
-WIDE_INLINE void split(plumb_real *const *rows, int k, int offset, vf v)
+WIDE_INLINE void split(near_real *const *rows, int k, int offset, vf v)
 {
 #define QUAD(i) (*(quad *)(void *)(rows[i] + offset))
 #if PL_WIDTH == 4
@@ -167,7 +169,7 @@ WIDE_INLINE void split(plumb_real *const *rows, int k, int offset, vf v)
 }
 
 // out[j] lane i = rows[i][offset + j], j < 4. Rows are aligned to four reals.
-WIDE_INLINE void gather4(vf out[4], const plumb_real *const *rows, int offset)
+WIDE_INLINE void gather4(vf out[4], const near_real *const *rows, int offset)
 {
     for (int k = 0; k < 4; ++k) {
         out[k] = join(rows, k, offset);
@@ -175,14 +177,70 @@ WIDE_INLINE void gather4(vf out[4], const plumb_real *const *rows, int offset)
     transpose4(out);
 }
 
-WIDE_INLINE void gather8(vf out[8], const plumb_real *const *rows)
+WIDE_INLINE void gather8(vf out[8], const near_real *const *rows)
 {
     gather4(out, rows, 0);
     gather4(out + 4, rows, 4);
 }
 
+//---- rows of plumb_reals --------------------------------------------------------------------------
+
+#if PLUMB_IS_FAR
+typedef plumb_real far_quad
+    __attribute__((vector_size(4 * sizeof(plumb_real)), may_alias, aligned(sizeof(plumb_real))));
+
+WIDE_INLINE quad to_near(far_quad q)
+{
+    return __builtin_convertvector(q, quad);
+}
+#endif
+
+// In the far build these become near as they are read.
+WIDE_INLINE void gather4_far(vf out[4], const plumb_real *const *rows, int offset)
+{
+#if PLUMB_IS_FAR
+#define QUAD(i) to_near(*(const far_quad *)(const void *)(rows[i] + offset))
+    for (int k = 0; k < 4; ++k) {
+        out[k] = JOIN(QUAD(k), QUAD(k + 4), QUAD(k + 8), QUAD(k + 12));
+    }
+#undef QUAD
+    transpose4(out);
+#else
+    gather4(out, rows, offset);
+#endif
+}
+
+WIDE_INLINE void gather8_far(vf out[8], const plumb_real *const *rows)
+{
+    gather4_far(out, rows, 0);
+    gather4_far(out + 4, rows, 4);
+}
+
+// Quads x y .. .. with the places (x, y) seen from origins: (cx, cy) are the lanes' origins[i][0] and [1].
+WIDE_INLINE void gather4_from(vf out[4], const plumb_real *const *rows,
+                              const plumb_real *const *origins, vf cx, vf cy)
+{
+#if PLUMB_IS_FAR
+    (void)cx, (void)cy;
+#define QUAD(i)                                                                                    \
+    to_near(*(const far_quad *)(const void *)rows[i] - (far_quad){ origins[i][0], origins[i][1] })
+    for (int k = 0; k < 4; ++k) {
+        out[k] = JOIN(QUAD(k), QUAD(k + 4), QUAD(k + 8), QUAD(k + 12));
+    }
+#undef QUAD
+    transpose4(out);
+#else
+    (void)origins;
+    gather4(out, rows, 0);
+    out[0] -= cx;
+    out[1] -= cy;
+#endif
+}
+
+//---- lanes to rows -------------------------------------------------------------------------------
+
 // rows[i][offset + j] = in[j] lane i, j < 4.
-WIDE_INLINE void scatter4(plumb_real *const *rows, int offset, const vf in[4])
+WIDE_INLINE void scatter4(near_real *const *rows, int offset, const vf in[4])
 {
     vf r[4] = { in[0], in[1], in[2], in[3] };
     transpose4(r);
@@ -191,13 +249,14 @@ WIDE_INLINE void scatter4(plumb_real *const *rows, int offset, const vf in[4])
     }
 }
 
-WIDE_INLINE void scatter8(plumb_real *const *rows, const vf in[8])
+WIDE_INLINE void scatter8(near_real *const *rows, const vf in[8])
 {
     scatter4(rows, 0, in);
     scatter4(rows, 4, in + 4);
 }
 
 #undef PATTERN
+#undef JOIN
 #undef B
 
 #endif

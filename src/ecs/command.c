@@ -65,8 +65,7 @@ void pl_commands_free(pl_memory *memory, pl_commands *commands)
     *commands = (pl_commands){ 0 };
 }
 
-//---- giving
-//---------------------------------------------------------------------------------------
+//---- giving --------------------------------------------------------------------------------------
 
 // Makes room for a record and, with `claims`, for the handle that it reserves.
 static bool reserve_record(plumb_world *world, size_t payload, bool claims)
@@ -251,8 +250,7 @@ plumb_result plumb_command_component_remove(plumb_world *world, plumb_entity ent
     return r != PLUMB_OK ? r : give(world, __func__, remove, NULL, 0);
 }
 
-//---- carrying out
-//---------------------------------------------------------------------------------
+//---- carrying out --------------------------------------------------------------------------------
 
 // Dropped commands are no errors: the world went on while they waited.
 static void drop(plumb_world *world, const record *r, const char *why)

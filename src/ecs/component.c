@@ -15,8 +15,7 @@
 #define SIZE_MOST   65536u // [B] of a value, see plumb_component_desc
 #define FIELDS_MOST 64
 
-//---- lookup
-//---------------------------------------------------------------------------------------
+//---- lookup --------------------------------------------------------------------------------------
 
 static pl_component *find(const plumb_world *world, plumb_component component)
 {
@@ -56,8 +55,7 @@ bool pl_component_in_use(const plumb_world *world, plumb_component component)
     return c != NULL && c->count > 0;
 }
 
-//---- registration
-//---------------------------------------------------------------------------------
+//---- registration --------------------------------------------------------------------------------
 
 static plumb_result check_fields(const plumb_world *world, const char *fn,
                                  const plumb_component_desc *desc)
@@ -219,8 +217,7 @@ plumb_result plumb_component_info(const plumb_world *world, plumb_component comp
     return r;
 }
 
-//---- values
-//---------------------------------------------------------------------------------------
+//---- values --------------------------------------------------------------------------------------
 
 static void run_hook(plumb_world *world, const pl_component *c, plumb_component_hook *hook,
                      uint32_t row)

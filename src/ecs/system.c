@@ -12,8 +12,7 @@
 #include <string.h>
 #include <time.h>
 
-//---- registration
-//---------------------------------------------------------------------------------
+//---- registration --------------------------------------------------------------------------------
 
 static pl_system *find(const plumb_world *world, const char *name)
 {
@@ -165,8 +164,7 @@ void pl_systems_free(pl_memory *memory, pl_systems *systems)
     *systems = (pl_systems){ 0 };
 }
 
-//---- running
-//--------------------------------------------------------------------------------------
+//---- running -------------------------------------------------------------------------------------
 
 bool pl_system_wanted(const plumb_world *world, const pl_system *system, const char **reason)
 {

@@ -23,18 +23,18 @@ static pl_tuning *items(const plumb_world *world)
     return (pl_tuning *)world->tunings.items.data;
 }
 
-static void slow_down(plumb_world *world, uint32_t slot, real s)
+static void slow_down(plumb_world *world, uint32_t slot, near_real s)
 {
     pl_solver_body *body = &pl_solver_bodies(&world->solver)[slot];
     pl_solver_motion *motion = &pl_solver_motions(&world->solver)[slot];
-    real ss = s * s;
+    near_real ss = s * s;
     body->vx *= s, body->vy *= s, body->w *= s;
     body->inv_mass *= ss, body->inv_inertia *= ss;
     motion->ax *= ss, motion->ay *= ss, motion->aw *= ss;
     motion->ux = body->vx, motion->uy = body->vy, motion->uw = body->w;
     motion->inv_mass = body->inv_mass;
     if (world->narrow.any_bounce) {
-        real *low = (real *)world->solver.lows.data + (size_t)slot * 4;
+        near_real *low = (near_real *)world->solver.lows.data + (size_t)slot * 4;
         low[0] *= s, low[1] *= s;
     }
 }
@@ -43,9 +43,9 @@ static void lock(plumb_world *world, uint32_t slot, uint32_t flags)
 {
     pl_solver_body *body = &pl_solver_bodies(&world->solver)[slot];
     pl_solver_motion *motion = &pl_solver_motions(&world->solver)[slot];
-    real unused[2];
-    real *low =
-        world->narrow.any_bounce ? (real *)world->solver.lows.data + (size_t)slot * 4 : unused;
+    near_real unused[2];
+    near_real *low =
+        world->narrow.any_bounce ? (near_real *)world->solver.lows.data + (size_t)slot * 4 : unused;
     if ((flags & PL_BODY_LOCK_X) != 0) {
         body->vx = motion->ux = motion->ax = low[0] = 0;
     }
@@ -65,7 +65,7 @@ void pl_effects_engage(plumb_world *world, uint32_t row, uint32_t slot)
     }
     pl_tuning *t = &items(world)[world->bodies.tuning[row] - 1];
     if (t->time_scale != 1) {
-        slow_down(world, slot, t->time_scale);
+        slow_down(world, slot, (near_real)t->time_scale);
     }
     const pl_solver_motion *motion = &pl_solver_motions(&world->solver)[slot];
     t->ax = motion->ax, t->ay = motion->ay, t->aw = motion->aw;
@@ -77,16 +77,16 @@ bool pl_effects_resist(const plumb_world *world)
 }
 
 // [1/s^2] acceleration that leads from v to the damped velocity after h.
-static real damped(real v, real a, const pl_decay *decay, real h)
+static near_real damped(near_real v, near_real a, const pl_decay *decay, real h)
 {
     double wanted = (double)v * decay->left + (double)a * (double)h * decay->mean;
-    return (real)((wanted - (double)v) / (double)h);
+    return (near_real)((wanted - (double)v) / (double)h);
 }
 
 static void resist(const pl_tuning *t, const pl_solver_body *body, pl_solver_motion *motion, real h)
 {
     real s = t->time_scale;
-    motion->ax = t->ax, motion->ay = t->ay, motion->aw = t->aw;
+    motion->ax = (near_real)t->ax, motion->ay = (near_real)t->ay, motion->aw = (near_real)t->aw;
     if (t->damping > 0) {
         pl_decay decay = pl_decay_of((double)t->damping * (double)(s * h));
         motion->ax = damped(body->vx, motion->ax, &decay, h);
@@ -100,12 +100,12 @@ static void resist(const pl_tuning *t, const pl_solver_body *body, pl_solver_mot
     real speed = plumb_vec2_magnitude(v);
     if (t->max_speed > 0 && speed > s * t->max_speed) {
         real share = s * t->max_speed / speed;
-        motion->ax = (share * v.x - body->vx) / h;
-        motion->ay = (share * v.y - body->vy) / h;
+        motion->ax = (near_real)((share * v.x - body->vx) / h);
+        motion->ay = (near_real)((share * v.y - body->vy) / h);
     }
     real spin = body->w + h * motion->aw, most = s * t->max_spin;
     if (t->max_spin > 0 && plumb_abs(spin) > most) {
-        motion->aw = (plumb_clamp(spin, -most, most) - body->w) / h;
+        motion->aw = (near_real)((plumb_clamp(spin, -most, most) - body->w) / h);
     }
 }
 

@@ -44,8 +44,7 @@ typedef struct blast {
     uint32_t row;                    // of the body that is asked about
 } blast;
 
-//---- checks
-//---------------------------------------------------------------------------------------
+//---- checks --------------------------------------------------------------------------------------
 
 static plumb_result check(const plumb_world *world, const char *fn,
                           const plumb_explosion_desc *desc)
@@ -74,8 +73,7 @@ static plumb_result check(const plumb_world *world, const char *fn,
                          (int)desc->occlusion);
 }
 
-//---- rays
-//-----------------------------------------------------------------------------------------
+//---- rays ----------------------------------------------------------------------------------------
 
 static void place_rays(blast *b)
 {
@@ -143,8 +141,7 @@ static bool is_shielded(blast *b, plumb_vec2 way, real fraction)
     return plumb_world_ray(b->world, b->desc->position, to, &filter, &hit);
 }
 
-//---- one piece
-//------------------------------------------------------------------------------------
+//---- one piece -----------------------------------------------------------------------------------
 
 // The angle that a piece covers, seen from the blast: middle and half of it. False: it contains it.
 static bool covers(const blast *b, uint32_t piece, double *middle, double *half)
@@ -234,8 +231,7 @@ static void hit_piece(blast *b, uint32_t piece, impact *sum)
     }
 }
 
-//---- all of it
-//------------------------------------------------------------------------------------
+//---- all of it -----------------------------------------------------------------------------------
 
 static bool collect(void *context, const pl_grid_entry *entry)
 {

@@ -89,11 +89,11 @@ plumb_result plumb_contact_edit_set(plumb_world *world, int i, const plumb_conta
         return r;
     }
     pl_manifold *m = &pl_manifolds(&world->narrow)[i];
-    m->friction = edit->friction;
-    m->restitution = edit->restitution;
-    m->rolling = edit->rolling_resistance;
-    m->adhesion = edit->adhesion;
-    m->surface_speed = edit->surface_speed;
+    m->friction = (near_real)edit->friction;
+    m->restitution = (near_real)edit->restitution;
+    m->rolling = (near_real)edit->rolling_resistance;
+    m->adhesion = (near_real)edit->adhesion;
+    m->surface_speed = (near_real)edit->surface_speed;
     m->disabled = !edit->enabled;
     world->edited = true;
     return PLUMB_OK;

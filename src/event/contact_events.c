@@ -180,17 +180,28 @@ static real approach_speed(const plumb_world *world, const pl_manifold *m)
     return fastest;
 }
 
-// Approaches of the manifolds of new pairs, or of all where hits are told.
-static void note_approaches(void *context, uint32_t first, uint32_t count)
+// Approaches of pairs that did not touch.
+static void note_fresh(void *context, uint32_t first, uint32_t count)
 {
     const plumb_world *world = context;
-    const bool all = world->desc.hit_speed > 0;
-    pl_manifold *m = pl_manifolds(&world->narrow);
+    const uint32_t *fresh = world->narrow.fresh.data;
     const pl_pair *pairs = pl_pairs(&world->broad.pairs);
-    for (uint32_t i = first; i < first + count; ++i) {
-        if (all || (pairs[m[i].pair].flags & PL_PAIR_TOUCHING) == 0) {
-            m[i].approach = approach_speed(world, &m[i]);
+    pl_manifold *m = pl_manifolds(&world->narrow);
+    for (uint32_t k = first; k < first + count; ++k) {
+        const uint32_t i = pairs[fresh[k]].manifold;
+        if (i != PL_NONE) { // some have lost it since
+            m[i].approach = (near_real)approach_speed(world, &m[i]);
         }
+    }
+}
+
+// Of all, where hits are told.
+static void note_all(void *context, uint32_t first, uint32_t count)
+{
+    const plumb_world *world = context;
+    pl_manifold *m = pl_manifolds(&world->narrow);
+    for (uint32_t i = first; i < first + count; ++i) {
+        m[i].approach = (near_real)approach_speed(world, &m[i]);
     }
 }
 
@@ -211,7 +222,9 @@ bool pl_events_prepare(plumb_world *world)
          !pl_buffer_reserve(&world->memory, &world->blows.old, begins * sizeof(pl_blow)))) {
         return false;
     }
-    pl_tasks_ranges(world->tasks, begins, SHARED, note_approaches, world);
+    const bool hits = world->desc.hit_speed > 0;
+    pl_tasks_ranges(world->tasks, hits ? begins : world->narrow.fresh_count, SHARED,
+                    hits ? note_all : note_fresh, world);
     return true;
 }
 
@@ -327,7 +340,7 @@ static bool hit_is_due(plumb_world *world, pl_pair *pair)
     const pl_blow *pending =
         (pair->flags & PL_PAIR_PENDING) != 0 ? find_blow(&world->blows, pair) : NULL;
     bool struck = (pair->flags & PL_PAIR_STRUCK) != 0;
-    m->blow = impulse_of(m);
+    m->blow = (near_real)impulse_of(m);
     bool strikes = m->approach > world->desc.hit_speed && m->blow > 0;
     pair->flags &= ~(PL_PAIR_STRUCK | PL_PAIR_PENDING);
     pair->flags |= strikes ? PL_PAIR_STRUCK : 0;

@@ -17,9 +17,9 @@ typedef struct pl_parts {
 // A contact that is made in the last substep of a step is only slowed down there, to meet in the
 // next one: such a blow is told a step later, as a whole.
 typedef struct pl_blow {
-    uint32_t a, b; // pieces of the pair
-    real approach; // [m/s]
-    real impulse;  // [N s]
+    uint32_t a, b;      // pieces of the pair
+    near_real approach; // [m/s]
+    near_real impulse;  // [N s]
 } pl_blow;
 
 // Hits that began in a step and will be through in the next one.

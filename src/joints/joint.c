@@ -119,38 +119,63 @@ void pl_joint_disturb(plumb_world *world, const pl_joint *joint)
 //---- poses
 //----------------------------------------------------------------------------------------
 
-// [m] centre of the body at `row`; the world's is the anchor.
-static void center_of(const plumb_world *world, plumb_vec2 local, uint32_t row, double *x,
-                      double *y)
+// [m] where a body's centre is; in the far build, where a double does not hold all of it, in two parts.
+typedef struct spot {
+    double x, y, low_x, low_y;
+} spot;
+
+// [m] from a body's centre to a point of it, in world axes.
+static plumb_vec2 arm_to(const plumb_world *world, plumb_vec2 local, uint32_t row)
+{
+    const pl_bodies *b = &world->bodies;
+    return plumb_rot_apply((plumb_rot){ b->c[row], b->s[row] },
+                           plumb_v2(local.x - b->local_x[row], local.y - b->local_y[row]));
+}
+
+// What never moves is held at the anchor, as the world is: in the far build its centre may be too far away.
+static bool is_held_at_anchor(const plumb_world *world, uint32_t row)
+{
+    return row == PL_NONE || (PLUMB_IS_FAR && world->bodies.type[row] == PLUMB_STATIC);
+}
+
+// Centre of the body at `row`; the world's is the anchor.
+static spot center_of(const plumb_world *world, plumb_vec2 local, uint32_t row)
 {
     if (row == PL_NONE) {
-        *x = (double)local.x;
-        *y = (double)local.y;
-        return;
+        return (spot){ .x = (double)local.x, .y = (double)local.y };
     }
     const pl_bodies *b = &world->bodies;
-    *x = (double)b->center_x[row] + (double)b->low_x[row];
-    *y = (double)b->center_y[row] + (double)b->low_y[row];
+    const double x = (double)b->center_x[row], y = (double)b->center_y[row];
+    const double low_x = (double)b->low_x[row], low_y = (double)b->low_y[row];
+    if (is_held_at_anchor(world, row)) {
+        plumb_vec2 arm = arm_to(world, local, row);
+        return (spot){ .x = x + (double)arm.x, .y = y + (double)arm.y };
+    }
+    return PLUMB_IS_FAR ? (spot){ x, y, low_x, low_y } : (spot){ .x = x + low_x, .y = y + low_y };
+}
+
+static pl_shift way(const spot *from, const spot *to)
+{
+    pl_shift way = { to->x - from->x, to->y - from->y };
+    if (PLUMB_IS_FAR) {
+        way.x += to->low_x - from->low_x;
+        way.y += to->low_y - from->low_y;
+    }
+    return way;
 }
 
 // [m] from a body's centre to its anchor, in world axes.
 static plumb_vec2 arm_of(const plumb_world *world, plumb_vec2 local, uint32_t row)
 {
-    const pl_bodies *b = &world->bodies;
-    return row == PL_NONE
-               ? plumb_v2(0, 0)
-               : plumb_rot_apply((plumb_rot){ b->c[row], b->s[row] },
-                                 plumb_v2(local.x - b->local_x[row], local.y - b->local_y[row]));
+    return is_held_at_anchor(world, row) ? plumb_v2(0, 0) : arm_to(world, local, row);
 }
 
-// Relative to the point (from_x, from_y).
-static void pose_now(const plumb_world *world, pl_joint_end *end, uint32_t row, double from_x,
-                     double from_y)
+static void pose_now(const plumb_world *world, pl_joint_end *end, uint32_t row, const spot *from)
 {
-    double x, y;
-    center_of(world, end->local, row, &x, &y);
+    const spot center = center_of(world, end->local, row);
+    const pl_shift d = way(from, &center);
     pl_joint_pose *pose = &end->pose;
-    *pose = (pl_joint_pose){ .x = (real)(x - from_x), .y = (real)(y - from_y), .c = 1 };
+    *pose = (pl_joint_pose){ .x = (real)d.x, .y = (real)d.y, .c = 1 };
     if (row == PL_NONE) {
         return;
     }
@@ -182,41 +207,41 @@ static void count_turns(const plumb_world *world, pl_joint_end *end, uint32_t ro
 static pl_shift shift_of(const plumb_world *world, const pl_joint_end *end, uint32_t row,
                          double to_x, double to_y)
 {
-    double x, y;
-    center_of(world, end->local, row, &x, &y);
+    const spot center = center_of(world, end->local, row);
     plumb_vec2 arm = arm_of(world, end->local, row);
-    return pl_wrap_shift(world, x + (double)arm.x - to_x, y + (double)arm.y - to_y);
+    return pl_wrap_shift(world, center.x + (double)arm.x - to_x, center.y + (double)arm.y - to_y);
 }
 
 // Takes B's anchor by the image that is nearest to A's; those of a pulley by what is nearest to their wheels.
 static void place_images(const plumb_world *world, pl_joint *joint, uint32_t row_a, uint32_t row_b)
 {
-    double ax, ay, bx, by;
-    center_of(world, joint->a.local, row_a, &ax, &ay);
-    center_of(world, joint->b.local, row_b, &bx, &by);
+    spot from = center_of(world, joint->a.local, row_a),
+         to = center_of(world, joint->b.local, row_b);
     const plumb_vec2 arm = arm_of(world, joint->a.local, row_a);
     pl_shift a = { 0, 0 }, b;
     if (joint->desc.kind == PLUMB_PULLEY) {
         const plumb_vec2 wheel_a = joint->desc.ground_a, wheel_b = joint->desc.ground_b;
         a = shift_of(world, &joint->a, row_a, (double)wheel_a.x, (double)wheel_a.y);
         b = shift_of(world, &joint->b, row_b, (double)wheel_b.x, (double)wheel_b.y);
-        joint->origin = plumb_v2((real)(ax + a.x), (real)(ay + a.y));
+        joint->origin = plumb_v2((real)(from.x + a.x), (real)(from.y + a.y));
     } else {
-        b = shift_of(world, &joint->b, row_b, ax + (double)arm.x, ay + (double)arm.y);
+        b = shift_of(world, &joint->b, row_b, from.x + (double)arm.x, from.y + (double)arm.y);
     }
-    joint->b.pose.x = (real)((bx + b.x / 2) - (ax - b.x / 2) - a.x);
-    joint->b.pose.y = (real)((by + b.y / 2) - (ay - b.y / 2) - a.y);
+    from.x -= b.x / 2, from.y -= b.y / 2;
+    to.x += b.x / 2, to.y += b.y / 2;
+    const pl_shift d = way(&from, &to);
+    joint->b.pose.x = (real)(d.x - a.x);
+    joint->b.pose.y = (real)(d.y - a.y);
 }
 
 void pl_joint_place(const plumb_world *world, pl_joint *joint, uint32_t row_a, uint32_t row_b)
 {
-    double x, y;
     count_turns(world, &joint->a, row_a);
     count_turns(world, &joint->b, row_b);
-    center_of(world, joint->a.local, row_a, &x, &y);
-    joint->origin = plumb_v2((real)x, (real)y);
-    pose_now(world, &joint->a, row_a, x, y);
-    pose_now(world, &joint->b, row_b, x, y);
+    const spot origin = center_of(world, joint->a.local, row_a);
+    joint->origin = plumb_v2((real)origin.x, (real)origin.y);
+    pose_now(world, &joint->a, row_a, &origin);
+    pose_now(world, &joint->b, row_b, &origin);
     if (pl_is_wrapped(world)) {
         place_images(world, joint, row_a, row_b);
     }
@@ -246,22 +271,25 @@ void pl_joint_start_bare(const plumb_world *world, pl_joint_lane *lane, pl_joint
 {
     pl_joint *j = &pl_joint_items(&world->joints)[lane->joint];
     const pl_joint_mark *mark = &pl_joint_marks(&world->joints)[lane->joint];
-    double ax, ay, bx, by;
-    center_of(world, lane->local_a, mark->row_a, &ax, &ay);
-    center_of(world, lane->local_b, mark->row_b, &bx, &by);
+    spot from = center_of(world, lane->local_a, mark->row_a);
+    spot to = center_of(world, lane->local_b, mark->row_b);
     if (pl_is_wrapped(world)) {
         pl_joint_end a = { .local = lane->local_a }, b = { .local = lane->local_b };
         plumb_vec2 arm = arm_of(world, a.local, mark->row_a);
         pl_shift s =
-            shift_of(world, &b, mark->row_b, ax + (double)arm.x, ay + (double)arm.y);
-        ax -= s.x / 2, ay -= s.y / 2;
-        bx += s.x / 2, by += s.y / 2;
+            shift_of(world, &b, mark->row_b, from.x + (double)arm.x, from.y + (double)arm.y);
+        from.x -= s.x / 2, from.y -= s.y / 2;
+        to.x += s.x / 2, to.y += s.y / 2;
     }
+    const pl_shift d = way(&from, &to);
     real scale = j->h > 0 ? h / j->h : 0;
-    *start = (pl_joint_start){ .arm_a = arm_of(world, lane->local_a, mark->row_a),
-                               .arm_b = arm_of(world, lane->local_b, mark->row_b),
-                               .apart = plumb_v2((real)(bx - ax), (real)(by - ay)),
-                               .impulse = { scale * j->impulse[0], scale * j->impulse[1] } };
+    const plumb_vec2 arm_a = arm_of(world, lane->local_a, mark->row_a);
+    const plumb_vec2 arm_b = arm_of(world, lane->local_b, mark->row_b);
+    *start = (pl_joint_start){ .arm_a = { (near_real)arm_a.x, (near_real)arm_a.y },
+                               .arm_b = { (near_real)arm_b.x, (near_real)arm_b.y },
+                               .apart = { (near_real)d.x, (near_real)d.y },
+                               .impulse = { (near_real)(scale * j->impulse[0]),
+                                            (near_real)(scale * j->impulse[1]) } };
     look_at_turns(world, &j->a, mark->row_a, &lane->eighth_a);
     look_at_turns(world, &j->b, mark->row_b, &lane->eighth_b);
 }

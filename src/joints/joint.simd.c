@@ -20,14 +20,14 @@ WIDE_INLINE void solve_single(row *r, const single *s, const pl_pattern_row *kin
     } else if (kind->spring) {
         velocity = s->velocity, error_rate = s->error_rate, give = s->give;
     } else if (pull) {
-        velocity = splat(call->rigid.velocity);
-        error_rate = splat(call->rigid.error);
-        give = splat(call->rigid.impulse);
+        velocity = splat((near_real)call->rigid.velocity);
+        error_rate = splat((near_real)call->rigid.error);
+        give = splat((near_real)call->rigid.impulse);
     }
     if (kind->type == PL_ROW_LEAST) {
         vm apart = r->error > zero; // may close the gap
         velocity = sel(apart, one, velocity);
-        error_rate = sel(apart, splat(1 / call->h), error_rate);
+        error_rate = sel(apart, splat((near_real)(1 / call->h)), error_rate);
         give = sel(apart, zero, give);
         low = zero;
     }
@@ -55,17 +55,17 @@ WIDE_INLINE void solve_block(const parts *at, const pl_joint_pattern *p, const i
         error_rate = at->temper->error_rate;
         keep = splat(1) - at->temper->give;
     } else if (pull) {
-        velocity = splat(call->rigid.velocity);
-        error_rate = splat(call->rigid.error);
-        keep = splat(1 - call->rigid.impulse);
+        velocity = splat((near_real)call->rigid.velocity);
+        error_rate = splat((near_real)call->rigid.error);
+        keep = splat((near_real)(1 - call->rigid.impulse));
     }
     vf wrong[3], total[3];
     for (int i = 0; i < n; ++i) {
         wrong[i] = rate(&r[i], a, b);
     }
     if (n > 1 && pull && !first && !driven && p->row[0].form == PL_FORM_POINT_X) {
-        add_arc(wrong, a->w, splat(call->h), r[0].wa, r[1].wa);
-        add_arc(wrong, b->w, splat(call->h), r[0].wb, r[1].wb);
+        add_arc(wrong, a->w, splat((near_real)call->h), r[0].wa, r[1].wa);
+        add_arc(wrong, b->w, splat((near_real)call->h), r[0].wb, r[1].wb);
     }
     for (int i = 0; i < n; ++i) {
         if (pull) {
@@ -221,34 +221,35 @@ static void fill_row(const parts *at, const pl_joint_pattern *p, int i, int lane
     const bool length = p->row[i].form == PL_FORM_LENGTH;
     row *r = &at->rows[i];
     source *s = &at->sources[i];
-    r->nx[lane] = from->bx, r->ny[lane] = from->by;
-    r->wa[lane] = from->aw, r->wb[lane] = from->bw;
+    r->nx[lane] = (near_real)from->bx, r->ny[lane] = (near_real)from->by;
+    r->wa[lane] = (near_real)from->aw, r->wb[lane] = (near_real)from->bw;
     real along = apart.x * from->bx + apart.y * from->by;
     bool flipped = along < 0 || (along == 0 && from->bx < 0);
-    s->nx[lane] = !length ? from->bx : flipped ? (real)-1 : (real)1;
-    s->ny[lane] = from->by;
-    s->offset[lane] = p->row[i].form == PL_FORM_ANGLE ? from->error : from->error - along;
+    s->nx[lane] = !length ? (near_real)from->bx : flipped ? (near_real)-1 : (near_real)1;
+    s->ny[lane] = (near_real)from->by;
+    s->offset[lane] =
+        (near_real)(p->row[i].form == PL_FORM_ANGLE ? from->error : from->error - along);
     if (i < p->block) {
         return;
     }
     single *e = &at->singles[i - p->block];
-    e->most[lane] = from->most * h;
-    e->speed[lane] = from->speed;
+    e->most[lane] = (near_real)(from->most * h);
+    e->speed[lane] = (near_real)from->speed;
     if (p->row[i].spring) {
         pl_joint_soft soft = pl_joint_spring(from, h);
-        e->velocity[lane] = soft.velocity;
-        e->error_rate[lane] = soft.error;
-        e->give[lane] = soft.impulse;
+        e->velocity[lane] = (near_real)soft.velocity;
+        e->error_rate[lane] = (near_real)soft.error;
+        e->give[lane] = (near_real)soft.impulse;
     }
 }
 
 static void fill_temper(temper *t, int lane, const pl_rows *rows, real h)
 {
     pl_joint_soft soft = pl_joint_spring(&rows->row[0], h);
-    t->velocity[lane] = soft.velocity;
-    t->error_rate[lane] = soft.error;
-    t->give[lane] = soft.impulse;
-    t->most[lane] = rows->block_most * h;
+    t->velocity[lane] = (near_real)soft.velocity;
+    t->error_rate[lane] = (near_real)soft.error;
+    t->give[lane] = (near_real)soft.impulse;
+    t->most[lane] = (near_real)(rows->block_most * h);
 }
 
 static void fill_lane(const parts *at, const pl_joint_pattern *p, int lane, const pl_joint *j,
@@ -257,13 +258,13 @@ static void fill_lane(const parts *at, const pl_joint_pattern *p, int lane, cons
     const pl_joint_pose *a = &j->a.pose, *b = &j->b.pose;
     plumb_vec2 apart = pl_joint_apart(a, b);
     for (int i = 0; i < p->count; ++i) {
-        at->rows[i].impulse[lane] = j->impulse[p->row[i].index];
+        at->rows[i].impulse[lane] = (near_real)j->impulse[p->row[i].index];
         fill_row(at, p, i, lane, rows, apart, h);
     }
     if (p->row[0].form == PL_FORM_POINT_X) {
         // What B's anchor is held to, seen from A: the anchor, or a target beside it.
-        at->c->ra_x[lane] = a->rx + apart.x - rows->row[0].error;
-        at->c->ra_y[lane] = a->ry + apart.y - rows->row[1].error;
+        at->c->ra_x[lane] = (near_real)(a->rx + apart.x - rows->row[0].error);
+        at->c->ra_y[lane] = (near_real)(a->ry + apart.y - rows->row[1].error);
     }
     if (p->tempered) {
         fill_temper(at->temper, lane, rows, h);
@@ -273,10 +274,10 @@ static void fill_lane(const parts *at, const pl_joint_pattern *p, int lane, cons
 // What all joints have, and bare ones nothing besides.
 WIDE_INLINE void fill_start(const parts *at, const pl_joint_start *starts, const bool bare)
 {
-    const plumb_real *from[PL_WIDTH];
+    const near_real *from[PL_WIDTH];
     vf r[8];
     for (int i = 0; i < PL_WIDTH; ++i) {
-        from[i] = &starts[i].arm_a.x;
+        from[i] = starts[i].arm_a;
     }
     gather8(r, from);
     bundle *c = at->c;
@@ -332,7 +333,7 @@ static void warm_start(const pl_joint_call *call)
 // The reaction is J^T impulse on B; its torque is told about B's anchor.
 static void store_all(const pl_joint_call *call)
 {
-    const vf inv_h = splat(1 / call->h);
+    const vf inv_h = splat((near_real)(1 / call->h));
     for (uint32_t k = call->first; k < call->end; ++k) {
         const pl_joint_pattern *p = &call->patterns[call->bundles[k].pattern];
         const pl_joint_lane *lanes = &call->lanes[(size_t)k * PL_WIDTH];

@@ -90,7 +90,7 @@ WIDE_INLINE parts open(const pl_joint_call *call, uint32_t k, const pl_joint_pat
 
 WIDE_INLINE void gather_body(body *out, const pl_joint_call *call, const uint32_t *slot)
 {
-    const plumb_real *at[PL_WIDTH];
+    const near_real *at[PL_WIDTH];
     for (int i = 0; i < PL_WIDTH; ++i) {
         at[i] = &call->bodies[slot[i]].vx;
     }
@@ -102,7 +102,7 @@ WIDE_INLINE void gather_body(body *out, const pl_joint_call *call, const uint32_
 WIDE_INLINE void gather_velocity(body *out, const pl_joint_call *call, const uint32_t *slot,
                                  vf inv_inertia)
 {
-    const plumb_real *at[PL_WIDTH];
+    const near_real *at[PL_WIDTH];
     for (int i = 0; i < PL_WIDTH; ++i) {
         at[i] = &call->bodies[slot[i]].vx;
     }
@@ -115,8 +115,8 @@ WIDE_INLINE void gather_velocity(body *out, const pl_joint_call *call, const uin
 // Lanes of immovable bodies write to a sink, for others share those rows.
 WIDE_INLINE void scatter_velocity(const body *in, const pl_joint_call *call, const uint32_t *slot)
 {
-    plumb_real sink[4] __attribute__((aligned(32)));
-    plumb_real *at[PL_WIDTH];
+    near_real sink[4] __attribute__((aligned(32)));
+    near_real *at[PL_WIDTH];
     for (int i = 0; i < PL_WIDTH; ++i) {
         at[i] = slot[i] < call->dynamic_slots ? &call->bodies[slot[i]].vx : sink;
     }
@@ -141,9 +141,9 @@ WIDE_INLINE vf rate(const row *r, const body *a, const body *b)
 
 //---- rows where the bodies are now ---------------------------------------------------------------
 
-#define TAYLOR(n) splat((plumb_real)(1.0 / (n)))
+#define TAYLOR(n) splat((near_real)(1.0 / (n)))
 
-#define PL_TINY_TURN ((plumb_real)1e-10) // [rad]
+#define PL_TINY_TURN ((near_real)1e-10) // [rad]
 
 // Bodies turn little in a step: see turned_by in solve.c.
 WIDE_INLINE void turned_by(vf x, vf *c, vf *s)
@@ -152,16 +152,16 @@ WIDE_INLINE void turned_by(vf x, vf *c, vf *s)
     vf large = sel(vabs(x) > splat(PL_TINY_TURN), x, splat(0));
     vf xx = large * large;
     const vf one = splat(1);
-    *c = one - xx * splat((plumb_real)0.5) *
+    *c = one - xx * splat((near_real)0.5) *
                    (one - xx * TAYLOR(12) * (one - xx * TAYLOR(30) * (one - xx * TAYLOR(56))));
     *s = x * (one - xx * TAYLOR(6) * (one - xx * TAYLOR(20) * (one - xx * TAYLOR(42))));
-    vm far = vabs(x) > splat((plumb_real)0.1);
+    vm far = vabs(x) > splat((near_real)0.1);
     if (any(far)) {
         for (int i = 0; i < PL_WIDTH; ++i) {
             if (far[i]) {
                 plumb_rot q = plumb_rot_make(x[i]);
-                (*c)[i] = q.c;
-                (*s)[i] = q.s;
+                (*c)[i] = (near_real)q.c;
+                (*s)[i] = (near_real)q.s;
             }
         }
     }
@@ -174,7 +174,7 @@ WIDE_INLINE void add_arc(vf v[2], vf w, vf h, vf w0, vf w1)
     vf u = sel((turn > splat(PL_LEAST_ARC)) & (turn < splat(1)), w, splat(0));
     vf x = h * u, xx = x * x;
     u *= splat(1) - xx * xx;
-    vf c = x * u * splat((plumb_real)-0.5), s = xx * u * -TAYLOR(6);
+    vf c = x * u * splat((near_real)-0.5), s = xx * u * -TAYLOR(6);
     v[0] += c * w1 + s * w0;
     v[1] += s * w1 - c * w0;
 }
@@ -257,7 +257,7 @@ WIDE_INLINE place place_now(const bundle *c, const body *a, const body *b)
 WIDE_INLINE void make_row(row *r, const source *from, const uint8_t form, const place *p,
                           const body *a, const body *b)
 {
-    const vf zero = splat(0), half = splat((plumb_real)0.5);
+    const vf zero = splat(0), half = splat((near_real)0.5);
     switch (form) {
     case PL_FORM_POINT_X:
         r->nx = splat(1), r->ny = zero;

@@ -11,7 +11,8 @@
 #include "world/columns.h"
 
 #define PL_JOINT_ROWS 6
-#define PL_PIVOT      ((real)1e-6) // [-] of the diagonal: a smaller pivot is no direction of its own
+#define PL_PIVOT                                                                                   \
+    ((near_real)1e-6) // [-] of the diagonal: a smaller pivot is no direction of its own
 #define PL_UNBOUNDED  ((real)1e30) // [N] or [N m]
 
 // Where a body is, as rows see it.

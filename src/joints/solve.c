@@ -63,12 +63,12 @@ static real rate(const pl_row *r, const pl_solver_body *a, const pl_solver_body 
 
 static void push(const pl_row *r, pl_solver_body *a, pl_solver_body *b, real impulse)
 {
-    a->vx += a->inv_mass * r->ax * impulse;
-    a->vy += a->inv_mass * r->ay * impulse;
-    a->w += a->inv_inertia * r->aw * impulse;
-    b->vx += b->inv_mass * r->bx * impulse;
-    b->vy += b->inv_mass * r->by * impulse;
-    b->w += b->inv_inertia * r->bw * impulse;
+    a->vx = (near_real)(a->vx + a->inv_mass * r->ax * impulse);
+    a->vy = (near_real)(a->vy + a->inv_mass * r->ay * impulse);
+    a->w = (near_real)(a->w + a->inv_inertia * r->aw * impulse);
+    b->vx = (near_real)(b->vx + b->inv_mass * r->bx * impulse);
+    b->vy = (near_real)(b->vy + b->inv_mass * r->by * impulse);
+    b->w = (near_real)(b->w + b->inv_inertia * r->bw * impulse);
 }
 
 // J M^-1 K^T of two rows.
@@ -347,9 +347,10 @@ static void begin_wide(const plumb_world *world, pl_joint *j, pl_joint_start *st
 {
     begin(world, j, h);
     pl_joint_classes[j->desc.kind]->rows(j, &j->a.pose, &j->b.pose, rows);
-    *start = (pl_joint_start){ .arm_a = { j->a.pose.rx, j->a.pose.ry },
-                               .arm_b = { j->b.pose.rx, j->b.pose.ry },
-                               .apart = { j->b.pose.x - j->a.pose.x, j->b.pose.y - j->a.pose.y } };
+    *start = (pl_joint_start){ .arm_a = { (near_real)j->a.pose.rx, (near_real)j->a.pose.ry },
+                               .arm_b = { (near_real)j->b.pose.rx, (near_real)j->b.pose.ry },
+                               .apart = { (near_real)(j->b.pose.x - j->a.pose.x),
+                                          (near_real)(j->b.pose.y - j->a.pose.y) } };
     for (int k = 0; k < rows->count; ++k) {
         j->impulse[k] = rows->row[k].type != PL_ROW_OFF ? j->impulse[k] : 0;
     }
@@ -500,12 +501,12 @@ void pl_joints_store(plumb_world *world, real h)
 
 static void shift(const pl_row *r, pl_solver_body *a, pl_solver_body *b, real amount)
 {
-    a->dx += a->inv_mass * r->ax * amount;
-    a->dy += a->inv_mass * r->ay * amount;
-    a->da += a->inv_inertia * r->aw * amount;
-    b->dx += b->inv_mass * r->bx * amount;
-    b->dy += b->inv_mass * r->by * amount;
-    b->da += b->inv_inertia * r->bw * amount;
+    a->dx = (near_real)(a->dx + a->inv_mass * r->ax * amount);
+    a->dy = (near_real)(a->dy + a->inv_mass * r->ay * amount);
+    a->da = (near_real)(a->da + a->inv_inertia * r->aw * amount);
+    b->dx = (near_real)(b->dx + b->inv_mass * r->bx * amount);
+    b->dy = (near_real)(b->dy + b->inv_mass * r->by * amount);
+    b->da = (near_real)(b->da + b->inv_inertia * r->bw * amount);
 }
 
 static bool is_rigid(const pl_row *r)

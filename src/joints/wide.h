@@ -8,7 +8,7 @@
 
 #include "joints/rows.h"
 
-#define PL_LEAST_ARC ((real)1e-4) // [rad] less is straight: its cube may be subnormal
+#define PL_LEAST_ARC ((near_real)1e-4) // [rad] less is straight: its cube may be subnormal
 
 typedef struct pl_joint pl_joint;
 typedef struct pl_solver_body pl_solver_body;
@@ -46,9 +46,9 @@ typedef struct pl_joint_lane {
 
 // How a lane's joint begins a step: eight reals, gathered by the kernels as one row.
 typedef struct pl_joint_start {
-    plumb_vec2 arm_a, arm_b; // [m]
-    plumb_vec2 apart;        // [m] from A's centre to B's
-    plumb_real impulse[2];   // [N s] of the first rows
+    near_real arm_a[2], arm_b[2]; // [m]
+    near_real apart[2];           // [m] from A's centre to B's
+    near_real impulse[2];         // [N s] of the first rows
 } pl_joint_start;
 
 typedef struct pl_joint_bundle {

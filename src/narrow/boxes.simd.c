@@ -9,7 +9,7 @@
 #include "narrow/lanes.h"
 
 // The reference face changes side only for a gain of this much, so that it does not flicker. [m]
-#define PREFER_A ((plumb_real)5e-4)
+#define PREFER_A ((near_real)5e-4)
 
 typedef struct face_frame {
     vf c, s;     // rotation whose x axis is the face normal, world
@@ -75,7 +75,7 @@ WIDE_INLINE void box_box(touch *t, const lanes *l, const pl_narrow_input *in)
     (void)in;
     face_frame f;
     choose_face(&f, l);
-    vf zero = splat(0), one = splat(1), half = splat((plumb_real)0.5);
+    vf zero = splat(0), one = splat(1), half = splat((near_real)0.5);
     // Incident face: the normal most against +u is -+x = -+(ic, is) or -+y = -+(-is, ic).
     vm by_x = vabs(f.ic) >= vabs(f.is);
     vf dot = sel(by_x, f.ic, -f.is);

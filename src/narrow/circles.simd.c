@@ -9,7 +9,7 @@ WIDE_INLINE void touch_point(touch *t, const lanes *l, vf nx, vf ny, vf distance
     t->nx = nx;
     t->ny = ny;
     t->sep[0] = distance - l->ar - l->br;
-    vf along = l->ar + t->sep[0] * splat((plumb_real)0.5);
+    vf along = l->ar + t->sep[0] * splat((near_real)0.5);
     t->px[0] = nx * along;
     t->py[0] = ny * along;
     t->px[1] = t->py[1] = splat(0);
@@ -21,7 +21,7 @@ WIDE_INLINE void touch_point(touch *t, const lanes *l, vf nx, vf ny, vf distance
 WIDE_INLINE vf unit(vf x, vf y, vf fx, vf fy, vf *nx, vf *ny)
 {
     vf length = vsqrt(x * x + y * y);
-    vm ok = length > splat((plumb_real)1e-9);
+    vm ok = length > splat((near_real)1e-9);
     vf divisor = sel(ok, length, splat(1)); // division, not its inverse times: exact along the axes
     *nx = sel(ok, x / divisor, fx);
     *ny = sel(ok, y / divisor, fy);
@@ -65,7 +65,7 @@ WIDE_INLINE void circle_box(touch *t, const lanes *l, const pl_narrow_input *in)
     vf ux, uy;
     vf distance = unit(ex, ey, zero, one, &ux, &uy);
     vm inside = (depth_x > zero) & (depth_y > zero);
-    vm surface = ~inside & (distance <= splat((plumb_real)1e-9)); // exactly on a face
+    vm surface = ~inside & (distance <= splat((near_real)1e-9)); // exactly on a face
     vm face = inside | surface;
     ux = sel(face, sel(by_x, signx, zero), ux);
     uy = sel(face, sel(by_x, zero, signy), uy);

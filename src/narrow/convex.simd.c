@@ -12,7 +12,7 @@
 #define MAX_CORNERS PLUMB_POLYGON_MAX_VERTICES
 
 // A reference face changes sides only for a gain of this much, so that it does not flicker. [m]
-#define PREFER_A ((plumb_real)5e-4)
+#define PREFER_A ((near_real)5e-4)
 
 // Corners and edge normals of one side of W pairs, in world axes about A's core centre.
 typedef struct outline {
@@ -25,10 +25,12 @@ static inline void outline_gather(outline *o, const pl_narrow_input *in, const u
                                   vf c, vf s, vf cx, vf cy, vf ox, vf oy)
 {
     const pl_vertex *corner[PL_WIDTH];
+    const plumb_real *center[PL_WIDTH];
     uint32_t count[PL_WIDTH];
     o->count = 0;
     for (int i = 0; i < PL_WIDTH; ++i) {
         corner[i] = in->vertices + in->vertex_first[piece[i]];
+        center[i] = &in->cores[piece[i]].x;
         count[i] = in->vertex_count[piece[i]];
         o->count = (int)count[i] > o->count ? (int)count[i] : o->count;
     }
@@ -39,10 +41,9 @@ static inline void outline_gather(outline *o, const pl_narrow_input *in, const u
             row[i] = &corner[i][at].x;
         }
         vf v[4];
-        gather4(v, row, 0);
-        vf x = v[0] - cx, y = v[1] - cy;
-        o->x[k] = ox + (c * x - s * y);
-        o->y[k] = oy + (s * x + c * y);
+        gather4_from(v, row, center, cx, cy);
+        o->x[k] = ox + (c * v[0] - s * v[1]);
+        o->y[k] = oy + (s * v[0] + c * v[1]);
         o->nx[k] = c * v[2] - s * v[3];
         o->ny[k] = s * v[2] + c * v[3];
     }
@@ -78,16 +79,16 @@ static inline void edge_ends(const pl_narrow_input *in, const outline *a, const 
                              const uint32_t *piece_a, const uint32_t *piece_b, vm use_b, vm index,
                              vf end[4])
 {
-    plumb_real x0[PL_WIDTH], y0[PL_WIDTH], x1[PL_WIDTH], y1[PL_WIDTH];
+    near_real x0[PL_WIDTH], y0[PL_WIDTH], x1[PL_WIDTH], y1[PL_WIDTH];
     for (int i = 0; i < PL_WIDTH; ++i) {
         const outline *o = use_b[i] ? b : a;
         int count = in->vertex_count[use_b[i] ? piece_b[i] : piece_a[i]];
         int k = (int)index[i] < count ? (int)index[i] : count - 1;
         int next = k + 1 < count ? k + 1 : 0;
-        x0[i] = ((const plumb_real *)&o->x[k])[i];
-        y0[i] = ((const plumb_real *)&o->y[k])[i];
-        x1[i] = ((const plumb_real *)&o->x[next])[i];
-        y1[i] = ((const plumb_real *)&o->y[next])[i];
+        x0[i] = ((const near_real *)&o->x[k])[i];
+        y0[i] = ((const near_real *)&o->y[k])[i];
+        x1[i] = ((const near_real *)&o->x[next])[i];
+        y1[i] = ((const near_real *)&o->y[next])[i];
     }
     end[0] = load(x0), end[1] = load(y0), end[2] = load(x1), end[3] = load(y1);
 }
@@ -160,7 +161,7 @@ WIDE_INLINE vf edge_distance(const vf r[4], const vf w[4])
 }
 
 // Edges that lean less than this against the face lie on it: a hundredth of a radian and a little.
-#define FLAT_SLOPE ((plumb_real)0.02)
+#define FLAT_SLOPE ((near_real)0.02)
 
 // Where the cores are apart and two corners face each other, no face separates them by their distance:
 // one point along the connection of the nearest corners replaces the clip. Lines end to end, which have
@@ -172,9 +173,9 @@ static inline void round_corners(touch *t, const lanes *l, const pl_narrow_input
                                  vf face_separation, vm lies_flat, vm low_is_nearer)
 {
     vf zero = splat(0);
-    vm corner = (face_separation > splat((plumb_real)-1e-5)) &
-                (edge_distance(r, w) > vmax(face_separation, zero) * splat((plumb_real)1.000002) +
-                                           splat((plumb_real)4e-6));
+    vm corner = (face_separation > splat((near_real)-1e-5)) &
+                (edge_distance(r, w) >
+                 vmax(face_separation, zero) * splat((near_real)1.000002) + splat((near_real)4e-6));
     if (!any(corner)) {
         return; // the result of a lane does not depend on the others: it would not be taken
     }
@@ -185,7 +186,7 @@ static inline void round_corners(touch *t, const lanes *l, const pl_narrow_input
     vf divisor = sel(corner & (distance > zero), distance, splat(1));
     vf nx = (n.bx - n.ax) / divisor, ny = (n.by - n.ay) / divisor;
     vf sep = distance - l->ar - l->br;
-    vf out = l->ar + sep * splat((plumb_real)0.5); // from A's core: its radius and half the gap
+    vf out = l->ar + sep * splat((near_real)0.5); // from A's core: its radius and half the gap
     t->sep[0] = sel(corner & lies_flat & low_is_nearer, sep, t->sep[0]);
     t->sep[1] = sel(corner & lies_flat & ~low_is_nearer, sep, t->sep[1]);
     corner &= ~lies_flat;
@@ -203,7 +204,7 @@ static inline void convex_convex(touch *t, const lanes *l, const pl_narrow_input
                                  vm *face_out)
 {
     outline a, b;
-    vf zero = splat(0), half = splat((plumb_real)0.5);
+    vf zero = splat(0), half = splat((near_real)0.5);
     outline_gather(&a, in, l->a, l->pac, l->pas, l->acx, l->acy, zero, zero);
     outline_gather(&b, in, l->b, l->pbc, l->pbs, l->bcx, l->bcy, l->dx, l->dy);
     best_face fa = find_face(&a, &b);
@@ -223,7 +224,7 @@ static inline void convex_convex(touch *t, const lanes *l, const pl_narrow_input
     vf qu = (w[0] - r[0]) * nx + (w[1] - r[1]) * ny;
     vf qv = (w[1] - r[1]) * nx - (w[0] - r[0]) * ny;
     vf run = qv - pv;
-    vm flat = run > splat((plumb_real)1e-6);
+    vm flat = run > splat((near_real)1e-6);
     vf slope = sel(flat, (qu - pu) / sel(flat, run, splat(1)), zero);
     vf low = vmax(pv, zero);
     vf high = vmin(qv, face_v);
@@ -278,12 +279,12 @@ static inline void circle_convex(touch *t, const lanes *l, const pl_narrow_input
     vf e[4], qx, qy;
     edge_ends(in, &b, &b, l->b, l->b, (vm){ 0 }, best.index, e);
     vf distance = vsqrt(segment_distance(zero, zero, e, &qx, &qy));
-    vm apart = (best.separation > zero) & (distance > splat((plumb_real)1e-9));
+    vm apart = (best.separation > zero) & (distance > splat((near_real)1e-9));
     vf inv = splat(1) / sel(apart, distance, splat(1));
     t->nx = sel(apart, qx * inv, -best.nx);
     t->ny = sel(apart, qy * inv, -best.ny);
     t->sep[0] = sel(apart, distance, best.separation) - l->ar - l->br;
-    vf out = l->ar + t->sep[0] * splat((plumb_real)0.5);
+    vf out = l->ar + t->sep[0] * splat((near_real)0.5);
     t->px[0] = t->nx * out;
     t->py[0] = t->ny * out;
     t->px[1] = t->py[1] = zero;
@@ -315,7 +316,7 @@ static void remember_face(const lanes *l, const pl_narrow_input *in, uint32_t co
 static inline vm parted(const lanes *l, const pl_narrow_input *in)
 {
     const pl_vertex *corner[PL_WIDTH];
-    const plumb_real *row[PL_WIDTH];
+    const plumb_real *row[PL_WIDTH], *center[PL_WIDTH], *other_center[PL_WIDTH];
     uint32_t count[PL_WIDTH];
     uint32_t most = 0;
     vm of_b = (vm){ 0 };
@@ -326,7 +327,9 @@ static inline vm parted(const lanes *l, const pl_narrow_input *in)
         // A slot may hold another piece by now: any face of it will do.
         uint32_t edge = (code - 1) >> 1, edges = in->vertex_count[ref];
         row[i] = &in->vertices[in->vertex_first[ref] + (edge < edges ? edge : 0)].x;
+        center[i] = &in->cores[ref].x;
         corner[i] = in->vertices + in->vertex_first[other];
+        other_center[i] = &in->cores[other].x;
         count[i] = in->vertex_count[other];
         most = count[i] > most ? count[i] : most;
         of_b[i] = flip ? -1 : 0;
@@ -336,22 +339,27 @@ static inline vm parted(const lanes *l, const pl_narrow_input *in)
     vf rc = sel(of_b, l->pbc, l->pac), rs = sel(of_b, l->pbs, l->pas);
     vf oc = sel(of_b, l->pac, l->pbc), os = sel(of_b, l->pas, l->pbs);
     vf face[4];
-    gather4(face, row, 0);
-    vf x = face[0] - sel(of_b, l->bcx, l->acx), y = face[1] - sel(of_b, l->bcy, l->acy);
-    vf fx = sel(of_b, l->dx, zero) + (rc * x - rs * y);
-    vf fy = sel(of_b, l->dy, zero) + (rs * x + rc * y);
+    gather4_from(face, row, center, sel(of_b, l->bcx, l->acx), sel(of_b, l->bcy, l->acy));
+    vf fx = sel(of_b, l->dx, zero) + (rc * face[0] - rs * face[1]);
+    vf fy = sel(of_b, l->dy, zero) + (rs * face[0] + rc * face[1]);
     vf nx = rc * face[2] - rs * face[3], ny = rs * face[2] + rc * face[3];
     vf to_x = sel(of_b, zero, l->dx) - fx, to_y = sel(of_b, zero, l->dy) - fy;
     vf mx = oc * nx + os * ny, my = oc * ny - os * nx;
-    vf from =
-        to_x * nx + to_y * ny - (sel(of_b, l->acx, l->bcx) * mx + sel(of_b, l->acy, l->bcy) * my);
+    vf from = to_x * nx + to_y * ny;
+    if (!PLUMB_IS_FAR) { // corners are seen from the body's origin, which in the far build may be far away
+        from -= sel(of_b, l->acx, l->bcx) * mx + sel(of_b, l->acy, l->bcy) * my;
+    }
     vf least = splat(PL_APART);
     for (uint32_t k = 0; k < most; ++k) {
         for (int i = 0; i < PL_WIDTH; ++i) {
             row[i] = &corner[i][k < count[i] ? k : count[i] - 1].x;
         }
         vf v[4];
-        gather4(v, row, 0);
+        if (PLUMB_IS_FAR) {
+            gather4_from(v, row, other_center, zero, zero);
+        } else {
+            gather4_far(v, row, 0);
+        }
         least = vmin(least, v[0] * mx + v[1] * my);
     }
     vf speed = vsqrt(l->vx * l->vx + l->vy * l->vy) * splat(in->dt);

@@ -30,24 +30,91 @@ typedef struct touch {
     vm feature[2];
 } touch;
 
-// Adding and taking it away rounds to whole numbers.
-#if defined(PLUMB_DOUBLE) && PLUMB_DOUBLE
-#define LANE_WHOLE ((plumb_real)6755399441055744) // 1.5 x 2^52
+//---- where the cores are -----------------------------------------------------------------------------
+//
+// Places are plumb_reals. Where these are wider than lanes, in the far build, they are subtracted pair by
+// pair; else W pairs at a time.
+
+#if PLUMB_IS_FAR
+typedef plumb_real place;
+#define EACH(x) (x)
 #else
-#define LANE_WHOLE ((plumb_real)12582912) // 1.5 x 2^23
+typedef vf place;
+#define EACH(x) splat(x)
+#endif
+
+#define POSE (PLUMB_IS_FAR ? 10 : 8) // reals of a pl_pose
+
+// Adding and taking it away rounds to whole numbers.
+#if PLUMB_REAL_IS_DOUBLE
+#define WHOLE ((plumb_real)6755399441055744) // 1.5 x 2^52
+#else
+#define WHOLE ((plumb_real)12582912) // 1.5 x 2^23
 #endif
 
 // (b - a) + arm by the nearest image in a world of this period [m]. Half of the periods between is taken from
 // either side: near the edge that is exact, where it would not be to take them from one.
-WIDE_INLINE vf nearest_image(vf a, vf b, vf arm, plumb_real period)
+WIDE_INLINE place nearest_image(place a, place b, place arm, plumb_real period)
 {
     if (!(period > 0)) {
         return (b - a) + arm;
     }
-    vf whole = splat(LANE_WHOLE);
-    vf half = ((((b - a) + arm) / splat(period) + whole) - whole) * splat(period / 2);
+    place whole = EACH(WHOLE);
+    place half = ((((b - a) + arm) / EACH(period) + whole) - whole) * EACH(period / 2);
     return ((b - half) - (a + half)) + arm;
 }
+
+typedef struct centres {
+    place dx, dy; // as in `lanes`
+    place oax, oay, obx, oby;
+} centres;
+
+// From x y c s dx dy (vx vy low_x low_y) of the poses, x y of the cores.
+WIDE_INLINE void centres_of(centres *o, const pl_narrow_input *in, const place *pa, const place *pb,
+                            const place *ca, const place *cb)
+{
+    place ax = pa[2] * ca[0] - pa[3] * ca[1]; // from the body's origin to the core centre
+    place ay = pa[3] * ca[0] + pa[2] * ca[1];
+    place bx = pb[2] * cb[0] - pb[3] * cb[1];
+    place by = pb[3] * cb[0] + pb[2] * cb[1];
+    place arm_x = bx - ax, arm_y = by - ay;
+    if (PLUMB_IS_FAR) {
+        arm_x += pb[8] - pa[8];
+        arm_y += pb[9] - pa[9];
+    }
+    if (in->wrapped) {
+        o->dx = nearest_image(pa[0], pb[0], arm_x, in->wrap_x);
+        o->dy = nearest_image(pa[1], pb[1], arm_y, in->wrap_y);
+    } else {
+        o->dx = (pb[0] - pa[0]) + arm_x;
+        o->dy = (pb[1] - pa[1]) + arm_y;
+    }
+    o->oax = ax - pa[4], o->oay = ay - pa[5];
+    o->obx = bx - pb[4], o->oby = by - pb[5];
+}
+
+#if PLUMB_IS_FAR
+WIDE_INLINE void centres_gather(lanes *l, const pl_narrow_input *in, const place *const *pose_a,
+                                const place *const *pose_b, const place *const *core_a,
+                                const place *const *core_b)
+{
+    near_real rows[PL_WIDTH][8] __attribute__((aligned(64)));
+    const near_real *row[PL_WIDTH];
+    for (int i = 0; i < PL_WIDTH; ++i) {
+        centres o;
+        centres_of(&o, in, pose_a[i], pose_b[i], core_a[i], core_b[i]);
+        rows[i][0] = (near_real)o.dx, rows[i][1] = (near_real)o.dy;
+        rows[i][2] = (near_real)o.oax, rows[i][3] = (near_real)o.oay;
+        rows[i][4] = (near_real)o.obx, rows[i][5] = (near_real)o.oby;
+        rows[i][6] = rows[i][7] = 0;
+        row[i] = rows[i];
+    }
+    vf r[8];
+    gather8(r, row);
+    l->dx = r[0], l->dy = r[1];
+    l->oax = r[2], l->oay = r[3], l->obx = r[4], l->oby = r[5];
+}
+#endif
 
 // Gathers the `count` <= W pairs at these places; lanes beyond repeat the last one.
 WIDE_INLINE void lanes_gather(lanes *l, const pl_narrow_input *in, const uint32_t *places,
@@ -59,37 +126,32 @@ WIDE_INLINE void lanes_gather(lanes *l, const pl_narrow_input *in, const uint32_
         const pl_pair *pair = &in->pairs[l->pair[i]];
         l->a[i] = pair->a;
         l->b[i] = pair->b;
-        pose_a[i] = in->poses + (size_t)pair->body_a * 8;
-        pose_b[i] = in->poses + (size_t)pair->body_b * 8;
+        pose_a[i] = in->poses + (size_t)pair->body_a * POSE;
+        pose_b[i] = in->poses + (size_t)pair->body_b * POSE;
         core_a[i] = (const plumb_real *)(const void *)&in->cores[pair->a];
         core_b[i] = (const plumb_real *)(const void *)&in->cores[pair->b];
     }
     vf pa[8], pb[8], ca[8], cb[8]; // x y c s dx dy vx vy; x y c s hx hy radius reach
-    gather8(pa, pose_a);
-    gather8(pb, pose_b);
-    gather8(ca, core_a);
-    gather8(cb, core_b);
-    vf ax = pa[2] * ca[0] - pa[3] * ca[1]; // from the body's origin to the core centre
-    vf ay = pa[3] * ca[0] + pa[2] * ca[1];
-    vf bx = pb[2] * cb[0] - pb[3] * cb[1];
-    vf by = pb[3] * cb[0] + pb[2] * cb[1];
-    if (in->wrapped) {
-        l->dx = nearest_image(pa[0], pb[0], bx - ax, in->wrap_x);
-        l->dy = nearest_image(pa[1], pb[1], by - ay, in->wrap_y);
-    } else {
-        l->dx = (pb[0] - pa[0]) + (bx - ax);
-        l->dy = (pb[1] - pa[1]) + (by - ay);
-    }
+    gather8_far(pa, pose_a);
+    gather8_far(pb, pose_b);
+    gather8_far(ca, core_a);
+    gather8_far(cb, core_b);
+#if PLUMB_IS_FAR
+    centres_gather(l, in, pose_a, pose_b, core_a, core_b);
+#else
+    centres o;
+    centres_of(&o, in, pa, pb, ca, cb);
+    l->dx = o.dx, l->dy = o.dy;
+    l->oax = o.oax, l->oay = o.oay, l->obx = o.obx, l->oby = o.oby;
+#endif
+    l->acx = ca[0], l->acy = ca[1], l->bcx = cb[0], l->bcy = cb[1];
     l->ac = pa[2] * ca[2] - pa[3] * ca[3];
     l->as = pa[3] * ca[2] + pa[2] * ca[3];
     l->bc = pb[2] * cb[2] - pb[3] * cb[3];
     l->bs = pb[3] * cb[2] + pb[2] * cb[3];
     l->pac = pa[2], l->pas = pa[3], l->pbc = pb[2], l->pbs = pb[3];
-    l->acx = ca[0], l->acy = ca[1], l->bcx = cb[0], l->bcy = cb[1];
     l->ahx = ca[4], l->ahy = ca[5], l->bhx = cb[4], l->bhy = cb[5];
     l->ar = ca[6], l->br = cb[6];
-    l->oax = ax - pa[4], l->oay = ay - pa[5];
-    l->obx = bx - pb[4], l->oby = by - pb[5];
     l->vx = pb[6] - pa[6];
     l->vy = pb[7] - pa[7];
 }
@@ -107,7 +169,7 @@ static inline void part(pl_pair *pair)
 }
 
 // One lane's manifold: keeps the points nearer than `limit`, carries impulses over by feature.
-static inline bool emit_lane(pl_pair *pair, pl_manifold *m, const plumb_real *row, plumb_real limit,
+static inline bool emit_lane(pl_pair *pair, pl_manifold *m, const near_real *row, near_real limit,
                              const uint32_t feature[2])
 {
     const pl_manifold_point *point = (const pl_manifold_point *)(const void *)(row + 8);
@@ -116,7 +178,7 @@ static inline bool emit_lane(pl_pair *pair, pl_manifold *m, const plumb_real *ro
         return false;
     }
     const pl_pair old = *pair;
-    memcpy(m, row, 24 * sizeof(plumb_real));
+    memcpy(m, row, 24 * sizeof(near_real));
     uint32_t count = 0;
     for (int k = 0; k < 2; ++k) {
         if (!(m->point[k].separation < limit)) {
@@ -147,31 +209,16 @@ static inline bool emit_lane(pl_pair *pair, pl_manifold *m, const plumb_real *ro
     return true;
 }
 
-// Counts a manifold into the summary.
-static inline void summarise(pl_narrow *out, const pl_manifold *m)
-{
-    plumb_real s0 = m->point[0].separation, s1 = m->point[1].separation;
-    plumb_real depth = s0 < s1 ? -s0 : -s1;
-    out->any_friction |= m->friction > 0;
-    out->any_bounce |= m->restitution > 0;
-    out->point_count += m->count;
-    if (depth >= 0) {
-        ++out->touching_count;
-        out->sum_penetration += pl_depth_units(depth);
-        out->max_penetration = depth > out->max_penetration ? depth : out->max_penetration;
-    }
-}
-
 // Appends the manifolds of `count` lanes.
 WIDE_INLINE void lanes_emit(const lanes *l, const touch *t, const pl_narrow_input *in,
                             uint32_t count, pl_narrow *out)
 {
-    plumb_real friction_a[PL_WIDTH], friction_b[PL_WIDTH], bounce_a[PL_WIDTH], bounce_b[PL_WIDTH];
+    near_real friction_a[PL_WIDTH], friction_b[PL_WIDTH], bounce_a[PL_WIDTH], bounce_b[PL_WIDTH];
     for (int i = 0; i < PL_WIDTH; ++i) {
-        friction_a[i] = in->friction[l->a[i]];
-        friction_b[i] = in->friction[l->b[i]];
-        bounce_a[i] = in->restitution[l->a[i]];
-        bounce_b[i] = in->restitution[l->b[i]];
+        friction_a[i] = (near_real)in->friction[l->a[i]];
+        friction_b[i] = (near_real)in->friction[l->b[i]];
+        bounce_a[i] = (near_real)in->restitution[l->a[i]];
+        bounce_b[i] = (near_real)in->restitution[l->b[i]];
     }
     vf zero = splat(0);
     vf friction = vsqrt(load(friction_a) * load(friction_b));
@@ -191,8 +238,8 @@ WIDE_INLINE void lanes_emit(const lanes *l, const touch *t, const pl_narrow_inpu
         }
         return;
     }
-    plumb_real rows[PL_WIDTH][24] __attribute__((aligned(64)));
-    plumb_real *row[PL_WIDTH], *point0[PL_WIDTH], *point1[PL_WIDTH];
+    near_real rows[PL_WIDTH][24] __attribute__((aligned(64)));
+    near_real *row[PL_WIDTH], *point0[PL_WIDTH], *point1[PL_WIDTH];
     for (int i = 0; i < PL_WIDTH; ++i) {
         row[i] = rows[i];
         point0[i] = rows[i] + 8;
@@ -202,22 +249,29 @@ WIDE_INLINE void lanes_emit(const lanes *l, const touch *t, const pl_narrow_inpu
     // Anchors lie on the surfaces, half the separation to either side of the middle: an elastic
     // contact seen from afar has its true lever arms.
     for (int k = 0; k < 2; ++k) {
-        vf gap = t->sep[k] * splat((plumb_real)0.5);
+        vf gap = t->sep[k] * splat((near_real)0.5);
         vf gx = t->nx * gap, gy = t->ny * gap;
         scatter8(k == 0 ? point0 : point1,
                  (vf[8]){ t->px[k] - gx + l->oax, t->py[k] - gy + l->oay,
                           t->px[k] + gx - l->dx + l->obx, t->py[k] + gy - l->dy + l->oby, t->sep[k],
                           zero, zero, zero });
     }
-    plumb_real limits[PL_WIDTH];
+    near_real limits[PL_WIDTH];
     store(limits, limit);
+    pl_ends *ends = out->ends.data;
+    uint32_t *fresh = out->fresh.data;
     for (uint32_t i = 0; i < count; ++i) {
         pl_pair *pair = &in->pairs[l->pair[i]];
         pl_manifold *m = &pl_manifolds(out)[out->manifold_count];
         uint32_t feature[2] = { (uint32_t)t->feature[0][i], (uint32_t)t->feature[1][i] };
         if (emit_lane(pair, m, rows[i], limits[i], feature)) {
             m->pair = l->pair[i];
-            summarise(out, m);
+            fresh[out->fresh_count] = l->pair[i];
+            out->fresh_count += (pair->flags & PL_PAIR_TOUCHING) == 0;
+            ends[out->manifold_count] = (pl_ends){ pair->body_a, pair->body_b };
+            out->any_friction |= m->friction > 0;
+            out->any_bounce |= m->restitution > 0;
+            pl_overlaps_count(&out->overlaps, m);
             pair->manifold = out->manifold_count++;
         }
     }

@@ -7,26 +7,26 @@
 // A point of a manifold. Anchors lie on the surfaces, relative to the centres of mass, in world
 // axes.
 typedef struct pl_manifold_point {
-    real ax, ay;     // [m] from A's centre of mass
-    real bx, by;     // [m] from B's centre of mass
-    real separation; // [m] negative: overlap
-    real normal;     // [N s] impulse carried over from the last step
-    real tangent;    // [N s]
-    real total;      // [N s] along the normal over the step, where the world adds it up
+    near_real ax, ay;     // [m] from A's centre of mass
+    near_real bx, by;     // [m] from B's centre of mass
+    near_real separation; // [m] negative: overlap
+    near_real normal;     // [N s] impulse carried over from the last step
+    near_real tangent;    // [N s]
+    near_real total;      // [N s] along the normal over the step, where the world adds it up
 } pl_manifold_point;
 
 // A touching or nearly touching pair of this step: three rows of eight reals, which the kernels
 // read by transposes, and a row of indices.
 typedef struct pl_manifold {
-    real nx, ny;        // unit, from A to B
-    real friction;      // [-]
-    real restitution;   // [-]
-    real approach;      // [m/s] at the start of the step, for events; 0 for pairs that touched
-    real surface_speed; // [m/s] added to the slip: see surface.c
-    real rolling;       // [m] lever arm of rolling resistance
+    near_real nx, ny;        // unit, from A to B
+    near_real friction;      // [-]
+    near_real restitution;   // [-]
+    near_real approach;      // [m/s] at the start of the step, for events; 0 for pairs that touched
+    near_real surface_speed; // [m/s] added to the slip: see surface.c
+    near_real rolling;       // [m] lever arm of rolling resistance
     union {
-        real adhesion; // [N] that the contact may pull, until events are made
-        real blow;     // [N s] impulse of the hit that is due, steps before included; then only
+        near_real adhesion; // [N] that the contact may pull, until events are made
+        near_real blow; // [N s] impulse of the hit that is due, steps before included; then only
     };
     pl_manifold_point point[2]; // a point that is absent has separation PL_APART
     uint32_t body_a, body_b;    // body rows
@@ -39,17 +39,64 @@ typedef struct pl_manifold {
 
 // [m] within which surfaces that stick pull: those that touched in the step before hold while they are
 // pulled out of touch; others do not draw one another near.
-static inline real pl_adhesion_reach(uint32_t pair_flags)
+static inline near_real pl_adhesion_reach(uint32_t pair_flags)
 {
-    return (pair_flags & PL_PAIR_TOUCHING) != 0 ? (real)0.005 : (real)1e-4;
+    return (pair_flags & PL_PAIR_TOUCHING) != 0 ? (near_real)0.005 : (near_real)1e-4;
 }
 
 // [m] separation of a point that is not there: no impulse can ever act on it.
-#define PL_APART ((real)1e6)
+#define PL_APART ((near_real)1e6)
+
+// [m] sums of penetration are whole numbers of this, so that the order of adding makes no difference.
+#define PL_DEPTH_UNIT 0x1p-36
+
+static inline uint64_t pl_depth_units(near_real depth)
+{
+    return depth < 1000 ? (uint64_t)((double)depth / PL_DEPTH_UNIT) : (uint64_t)(1000 / PL_DEPTH_UNIT);
+}
+
+// How many manifolds touch, and how deep: of a step, of what sleeps, of all.
+typedef struct pl_overlaps {
+    uint32_t touching_count;  // manifolds whose surfaces met
+    uint32_t point_count;     // of all manifolds
+    near_real max_penetration; // [m]
+    uint64_t sum_penetration; // [PL_DEPTH_UNIT] of the deeper point of each touching manifold
+} pl_overlaps;
+
+static inline void pl_overlaps_count(pl_overlaps *o, const pl_manifold *m)
+{
+    near_real s0 = m->point[0].separation, s1 = m->point[1].separation;
+    near_real depth = s0 < s1 ? -s0 : -s1;
+    o->point_count += m->count;
+    if (depth >= 0) {
+        ++o->touching_count;
+        o->sum_penetration += pl_depth_units(depth);
+        o->max_penetration = depth > o->max_penetration ? depth : o->max_penetration;
+    }
+}
+
+static inline void pl_overlaps_add(pl_overlaps *sum, const pl_overlaps *more)
+{
+    sum->touching_count += more->touching_count;
+    sum->point_count += more->point_count;
+    sum->sum_penetration += more->sum_penetration;
+    if (more->max_penetration > sum->max_penetration) {
+        sum->max_penetration = more->max_penetration;
+    }
+}
+
+// Body rows of a manifold, apart from it: all that the graph looks at.
+typedef struct pl_ends {
+    uint32_t a, b;
+} pl_ends;
 
 typedef struct pl_narrow {
     pl_buffer manifolds; // pl_manifold of this step, room for every pair
     pl_buffer staged;    // pl_manifold, with several threads: before they are put together
+    pl_buffer ends;      // pl_ends a manifold, as the kernels left them
+    pl_buffer fresh;     // uint32_t: pairs with a manifold that did not touch in the last step
+    uint32_t fresh_count;
+    bool ends_stale; // manifolds or rows have moved since
     uint32_t manifold_count;
     uint32_t borne_count; // more manifolds behind those, whose load others bear (seams/run.c)
     // Summary of this step's manifolds.
@@ -57,25 +104,16 @@ typedef struct pl_narrow {
     bool any_bounce;         // some manifold has restitution > 0
     bool any_surface;        // some manifold has surface speed or rolling resistance
     bool any_adhesion;       // some manifold may pull
-    uint32_t touching_count; // manifolds whose surfaces met
-    uint32_t point_count;
-    real max_penetration;   // [m]
-    uint64_t sum_penetration; // [PL_DEPTH_UNIT] of the deeper point of each touching manifold
+    pl_overlaps overlaps;
 } pl_narrow;
-
-// [m] sums of penetration are whole numbers of this, so that the order of adding makes no difference.
-#define PL_DEPTH_UNIT 0x1p-36
-
-static inline uint64_t pl_depth_units(real depth)
-{
-    return depth < 1000 ? (uint64_t)((double)depth / PL_DEPTH_UNIT) : (uint64_t)(1000 / PL_DEPTH_UNIT);
-}
 
 static inline pl_manifold *pl_manifolds(const pl_narrow *narrow)
 {
     return (pl_manifold *)narrow->manifolds.data;
 }
 
+// Keeps the room, nothing else.
+void pl_narrow_clear(pl_narrow *narrow);
 void pl_narrow_free(pl_memory *memory, pl_narrow *narrow);
 
 #endif

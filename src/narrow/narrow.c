@@ -6,6 +6,8 @@
 #include "narrow/surface.h"
 #include "world/wrap.h"
 
+#include <string.h>
+
 static const pl_narrow_kernels *kernels_of(int width)
 {
     switch (width) {
@@ -35,8 +37,10 @@ static pl_narrow_kernel *kernel_for(const pl_narrow_kernels *k, int a, int b)
 
 bool pl_narrow_reserve(plumb_world *world, const pl_pair_list *list, pl_narrow *narrow)
 {
-    size_t size = ((size_t)list->count + 1) * sizeof(pl_manifold);
+    const size_t count = (size_t)list->count + 1, size = count * sizeof(pl_manifold);
     return pl_buffer_reserve(&world->memory, &narrow->manifolds, size) &&
+           pl_buffer_reserve(&world->memory, &narrow->ends, count * sizeof(pl_ends)) &&
+           pl_buffer_reserve(&world->memory, &narrow->fresh, count * sizeof(uint32_t)) &&
            (pl_tasks_workers(world->tasks) == 1 ||
             pl_buffer_reserve(&world->memory, &narrow->staged, size));
 }
@@ -59,6 +63,7 @@ typedef struct job {
     const pl_narrow_input *in;
     const pl_pair_list *list;
     pl_manifold *manifolds;
+    pl_ends *ends;
     uint32_t count;
     share shares[PLUMB_WORKERS_MAX];
 } job;
@@ -83,8 +88,8 @@ static void make_share(void *context, uint32_t i)
     s->made = made;
 }
 
-// Manifolds of these places, counted from the end of the first share, to where they belong; the pairs are
-// told.
+// Manifolds of these places, counted from the end of the first share, to where they belong, and their ends;
+// the pairs are told.
 static void place(void *context, uint32_t first, uint32_t count)
 {
     const job *j = context;
@@ -96,6 +101,7 @@ static void place(void *context, uint32_t first, uint32_t count)
         end = end < first + count ? end : first + count;
         for (uint32_t k = from; k < end; ++k) {
             j->manifolds[k] = pl_manifolds(&s->made)[k - s->at];
+            j->ends[k] = (pl_ends){ j->manifolds[k].body_a, j->manifolds[k].body_b };
             j->in->pairs[j->manifolds[k].pair].manifold = k;
         }
     }
@@ -103,14 +109,13 @@ static void place(void *context, uint32_t first, uint32_t count)
 
 static void add_share(pl_narrow *all, const pl_narrow *made)
 {
+    memmove((uint32_t *)all->fresh.data + all->fresh_count, made->fresh.data,
+            made->fresh_count * sizeof(uint32_t));
+    all->fresh_count += made->fresh_count;
     all->manifold_count += made->manifold_count;
     all->any_friction |= made->any_friction;
     all->any_bounce |= made->any_bounce;
-    all->touching_count += made->touching_count;
-    all->point_count += made->point_count;
-    all->sum_penetration += made->sum_penetration;
-    all->max_penetration =
-        made->max_penetration > all->max_penetration ? made->max_penetration : all->max_penetration;
+    pl_overlaps_add(&all->overlaps, &made->overlaps);
 }
 
 // The first share is made where it stays.
@@ -121,12 +126,15 @@ static void make_manifolds(plumb_world *world, const pl_narrow_input *in, const 
               .in = in,
               .list = list,
               .manifolds = pl_manifolds(narrow),
+              .ends = narrow->ends.data,
               .count = pl_tasks_share_count(world->tasks, list->count, LEAST) };
     for (uint32_t i = 0; i < j.count; ++i) {
         share *s = &j.shares[i];
         s->pairs = pl_share_of(list->count, j.count, i);
         s->made.manifolds.data =
             i == 0 ? j.manifolds : (pl_manifold *)narrow->staged.data + s->pairs.first;
+        s->made.ends.data = j.ends + s->pairs.first;
+        s->made.fresh.data = (uint32_t *)narrow->fresh.data + s->pairs.first;
     }
     pl_tasks_run(world->tasks, make_share, &j, j.count);
     for (uint32_t i = 0; i < j.count; ++i) {
@@ -148,13 +156,13 @@ void pl_narrow_run(plumb_world *world, const pl_pair_list *list, real dt, pl_nar
                                  .vertex_count = world->pieces.vertex_count,
                                  .friction = world->pieces.friction,
                                  .restitution = world->pieces.restitution,
-                                 .dt = dt,
+                                 .dt = (near_real)dt,
                                  .elastic_above = pl_restitution_is_mixed(world) ? -1 : 0,
                                  .pairs = pl_pairs(list),
                                  .wrapped = pl_is_wrapped(world),
                                  .wrap_x = world->desc.wrap_x,
                                  .wrap_y = world->desc.wrap_y };
-    *narrow = (pl_narrow){ .manifolds = narrow->manifolds, .staged = narrow->staged };
+    pl_narrow_clear(narrow);
     make_manifolds(world, &in, list, narrow);
 }
 
@@ -187,6 +195,7 @@ void pl_narrow_take_out_disabled(plumb_world *world, uint32_t flag)
         ++kept;
     }
     narrow->manifold_count = kept;
+    narrow->ends_stale = true;
     for (uint32_t i = 0; i < narrow->borne_count && kept != count; ++i) { // those behind close up
         m[kept + i] = m[count + i];
         pairs[m[kept + i].pair].manifold = kept + i;
@@ -194,9 +203,19 @@ void pl_narrow_take_out_disabled(plumb_world *world, uint32_t flag)
     pl_narrow_summarise(narrow);
 }
 
+void pl_narrow_clear(pl_narrow *narrow)
+{
+    *narrow = (pl_narrow){ .manifolds = narrow->manifolds,
+                           .staged = narrow->staged,
+                           .ends = narrow->ends,
+                           .fresh = narrow->fresh };
+}
+
 void pl_narrow_free(pl_memory *memory, pl_narrow *narrow)
 {
     pl_buffer_free(memory, &narrow->manifolds);
     pl_buffer_free(memory, &narrow->staged);
+    pl_buffer_free(memory, &narrow->ends);
+    pl_buffer_free(memory, &narrow->fresh);
     *narrow = (pl_narrow){ 0 };
 }

@@ -12,9 +12,8 @@ typedef struct pl_narrow_input {
     const uint32_t *vertex_first;             // by piece slot
     const uint8_t *vertex_count;              // by piece slot
     const plumb_real *friction, *restitution; // by piece slot
-    plumb_real dt;                            // [s] elastic pairs look ahead this long
-    plumb_real
-        elastic_above; // pairs of more restitution are elastic: 0; -1 where it may yet change
+    near_real dt;                             // [s] elastic pairs look ahead this long
+    near_real elastic_above; // pairs of more restitution are elastic: 0; -1 where it may yet change
     pl_pair *pairs;    // the whole list
     bool wrapped;                  // the world wraps around: the nearest images meet
     plumb_real wrap_x, wrap_y;     // [m] its periods; 0: none

@@ -61,8 +61,8 @@ static uint8_t later(uint8_t a, uint8_t b)
 // A point that is out of reach keeps no pull for the warm start.
 static void stick(pl_manifold *m, const pl_pair *pair, real adhesion)
 {
-    real reach = adhesion > 0 ? pl_adhesion_reach(pair->flags) : -PL_APART;
-    m->adhesion = adhesion;
+    near_real reach = adhesion > 0 ? pl_adhesion_reach(pair->flags) : -PL_APART;
+    m->adhesion = (near_real)adhesion;
     for (uint32_t k = 0; k < m->count; ++k) {
         bool pulls = m->point[k].normal < 0;
         m->point[k].normal = pulls && m->point[k].separation >= reach ? 0 : m->point[k].normal;
@@ -73,12 +73,12 @@ static void mix(const plumb_world *world, pl_manifold *m, const pl_pair *pair, u
                 uint32_t b)
 {
     const pl_materials *s = &world->materials;
-    m->surface_speed = s->surface_speed[a] + s->surface_speed[b];
+    m->surface_speed = (near_real)(s->surface_speed[a] + s->surface_speed[b]);
     const plumb_material_pair *set = pl_material_pair_of(world, a, b);
     if (set != NULL) {
-        m->friction = set->friction;
-        m->restitution = set->restitution;
-        m->rolling = set->rolling_resistance;
+        m->friction = (near_real)set->friction;
+        m->restitution = (near_real)set->restitution;
+        m->rolling = (near_real)set->rolling_resistance;
         stick(m, pair, set->adhesion);
         return;
     }
@@ -87,12 +87,12 @@ static void mix(const plumb_world *world, pl_manifold *m, const pl_pair *pair, u
     uint8_t friction_rule = later(s->friction_mix[a], s->friction_mix[b]);
     uint8_t restitution_rule = later(s->restitution_mix[a], s->restitution_mix[b]);
     if (friction_rule != PLUMB_MIX_DEFAULT) {
-        m->friction = mixed(friction_rule, s->friction[a], s->friction[b]);
+        m->friction = (near_real)mixed(friction_rule, s->friction[a], s->friction[b]);
     }
     if (restitution_rule != PLUMB_MIX_DEFAULT) {
-        m->restitution = mixed(restitution_rule, s->restitution[a], s->restitution[b]);
+        m->restitution = (near_real)mixed(restitution_rule, s->restitution[a], s->restitution[b]);
     }
-    m->rolling = s->rolling[a] > s->rolling[b] ? s->rolling[a] : s->rolling[b];
+    m->rolling = (near_real)(s->rolling[a] > s->rolling[b] ? s->rolling[a] : s->rolling[b]);
 }
 
 void pl_surfaces_mix(plumb_world *world)
@@ -112,23 +112,13 @@ void pl_surfaces_mix(plumb_world *world)
 void pl_narrow_summarise(pl_narrow *narrow)
 {
     const pl_manifold *m = pl_manifolds(narrow);
-    *narrow = (pl_narrow){ .manifolds = narrow->manifolds,
-                           .staged = narrow->staged,
-                           .manifold_count = narrow->manifold_count,
-                           .borne_count = narrow->borne_count };
+    narrow->any_friction = narrow->any_bounce = narrow->any_surface = narrow->any_adhesion = false;
+    narrow->overlaps = (pl_overlaps){ 0 };
     for (uint32_t i = 0; i < narrow->manifold_count; ++i) {
-        real s0 = m[i].point[0].separation, s1 = m[i].point[1].separation;
-        real depth = s0 < s1 ? -s0 : -s1;
         narrow->any_friction |= m[i].friction > 0;
         narrow->any_bounce |= m[i].restitution > 0;
         narrow->any_surface |= m[i].surface_speed != 0 || m[i].rolling > 0;
         narrow->any_adhesion |= m[i].adhesion > 0;
-        narrow->point_count += m[i].count;
-        if (depth >= 0) {
-            ++narrow->touching_count;
-            narrow->sum_penetration += pl_depth_units(depth);
-            narrow->max_penetration =
-                depth > narrow->max_penetration ? depth : narrow->max_penetration;
-        }
+        pl_overlaps_count(&narrow->overlaps, &m[i]);
     }
 }

@@ -17,22 +17,13 @@ pl_chunk_header pl_chunk_seal(pl_chunk_kind kind, uint32_t number, const void *d
     return h;
 }
 
-static uint64_t reversed(uint64_t v)
-{
-    uint64_t out = 0;
-    for (int i = 0; i < 8; ++i) {
-        out = out << 8 | (v >> 8 * i & 0xff);
-    }
-    return out;
-}
-
 const char *pl_record_open(const void *bytes, size_t size, pl_record_header *header)
 {
     if (size < sizeof header->magic) {
         return "is no recording";
     }
     memcpy(&header->magic, bytes, sizeof header->magic);
-    if (header->magic == reversed(PL_RECORD_MAGIC)) {
+    if (header->magic == pl_reversed(PL_RECORD_MAGIC)) {
         return "was made on a machine of another byte order";
     }
     if (header->magic != PL_RECORD_MAGIC) {
@@ -46,12 +37,13 @@ const char *pl_record_open(const void *bytes, size_t size, pl_record_header *hea
         memchr(header->title, '\0', sizeof header->title) == NULL) {
         return "is damaged";
     }
-    if (header->version != PL_RECORD_VERSION) {
+    if (header->version == 0 || header->version > PL_RECORD_VERSION) {
         return "is of another version of the format";
     }
-    if (header->real_bytes != sizeof(real)) {
-        return sizeof(real) == sizeof(float) ? "was recorded in double precision"
-                                             : "was recorded in float precision";
+    if (header->precision != PL_PRECISION) {
+        return header->precision == 4   ? "was recorded in float precision"
+               : header->precision == 8 ? "was recorded in double precision"
+                                        : "was recorded in far precision";
     }
     if (header->schema != pl_section_schema()) {
         return "was recorded by a build that stores other columns";

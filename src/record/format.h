@@ -6,20 +6,20 @@
 // Chunks are written whole and numbered, and each is verified by itself: one that is missing, swapped or
 // damaged is found; a file that ends within one ends before it. In order: CODE and KEY (the head), then
 // STEPs, with a KEY behind every so many; CODE and KEY again where components or systems were
-// registered meanwhile; NAMEs anywhere; END. All numbers are the machine's own.
+// registered meanwhile; NAMEs and NOTEs anywhere; END. All numbers are the machine's own.
 #ifndef PL_RECORD_FORMAT_H
 #define PL_RECORD_FORMAT_H
 
 #include "snapshot/image.h"
 
 #define PL_RECORD_MAGIC   UINT64_C(0x434552424d554c50) // "PLUMBREC" in a little-endian file
-#define PL_RECORD_VERSION 1u
+#define PL_RECORD_VERSION 2u                           // 1: without NOTEs; read as well
 #define PL_TITLE_MAX      256
 
 typedef struct pl_record_header {
     uint64_t magic;
     uint32_t version;
-    uint32_t real_bytes; // 4 or 8
+    uint32_t precision;  // PL_PRECISION
     uint64_t schema;     // of the columns: see pl_section_schema
     uint64_t keyframe_every;
     char title[PL_TITLE_MAX];
@@ -31,7 +31,8 @@ typedef enum pl_chunk_kind {
     PL_CHUNK_KEY,      // pl_key_head, image
     PL_CHUNK_STEP,     // pl_step_head, edits
     PL_CHUNK_NAME,     // plumb_entity, text padded with zeros
-    PL_CHUNK_END       // nothing
+    PL_CHUNK_END,      // nothing
+    PL_CHUNK_NOTE      // pl_note_head, bytes of the user padded with zeros
 } pl_chunk_kind;
 
 typedef struct pl_chunk_header {
@@ -73,6 +74,11 @@ typedef struct pl_step_head {
     uint64_t hash; // after it
     uint64_t edits;
 } pl_step_head;
+
+typedef struct pl_note_head {
+    uint64_t key;
+    uint64_t bytes; // before padding
+} pl_note_head;
 
 // An edit, padded to 8 bytes. What the state was and became, as a delta; or contacts.
 typedef struct pl_edit_head {

@@ -1,4 +1,6 @@
 // index.c - see index.h. Reads: the recording. Cost: O(bytes) digested; look-ups O(log entries).
+#include "plumb/record.h"
+
 #include "record/index.h"
 
 #include <string.h>
@@ -124,24 +126,40 @@ static bool add_step(scan *s, const pl_chunk *chunk)
     return true;
 }
 
+static bool keep(scan *s, pl_kept *kept, uint64_t key, const char *data, size_t bytes)
+{
+    const pl_kept_place place = { s->index->step_count, data, bytes };
+    const pl_keyed keyed = { key, kept->count, kept->count };
+    if (!append(s, &kept->places, kept->count, &place, sizeof place) ||
+        !append(s, &kept->keyed, kept->count, &keyed, sizeof keyed)) {
+        return false;
+    }
+    ++kept->count;
+    return true;
+}
+
 static bool add_name(scan *s, const pl_chunk *chunk)
 {
-    pl_index *index = s->index;
     plumb_entity entity;
     if (chunk->bytes != sizeof entity + PL_NAME_MAX) {
         return false;
     }
     memcpy(&entity, chunk->data, sizeof entity);
     const char *text = chunk->data + sizeof entity;
-    uint32_t i = index->name_count;
-    const pl_keyed key = { pl_key(entity.index, entity.generation), i, i };
-    if (memchr(text, '\0', PL_NAME_MAX) == NULL ||
-        !append(s, &index->names, i, &text, sizeof text) ||
-        !append(s, &index->named, i, &key, sizeof key)) {
+    return memchr(text, '\0', PL_NAME_MAX) != NULL &&
+           keep(s, &s->index->names, pl_key(entity.index, entity.generation), text, PL_NAME_MAX);
+}
+
+static bool add_note(scan *s, const pl_chunk *chunk)
+{
+    pl_note_head head;
+    if (chunk->bytes < sizeof head) {
         return false;
     }
-    ++index->name_count;
-    return true;
+    memcpy(&head, chunk->data, sizeof head);
+    return head.bytes <= PLUMB_NOTE_MAX &&
+           chunk->bytes - sizeof head == pl_image_padded((size_t)head.bytes) &&
+           keep(s, &s->index->notes, head.key, chunk->data + sizeof head, (size_t)head.bytes);
 }
 
 static bool add_chunk(scan *s, const pl_chunk *chunk)
@@ -155,6 +173,8 @@ static bool add_chunk(scan *s, const pl_chunk *chunk)
         return add_step(s, chunk);
     case PL_CHUNK_NAME:
         return add_name(s, chunk);
+    case PL_CHUNK_NOTE:
+        return add_note(s, chunk);
     case PL_CHUNK_END:
         s->index->complete = true;
         return true;
@@ -188,8 +208,11 @@ const char *pl_index_make(pl_memory *memory, const char *bytes, size_t size, pl_
         return "is truncated before its first step";
     }
     index->bytes = at;
-    if (index->name_count > 0) {
-        pl_sort_keyed(index->named.data, index->name_count);
+    pl_kept *const sorted[] = { &index->names, &index->notes };
+    for (size_t i = 0; i < sizeof sorted / sizeof sorted[0]; ++i) {
+        if (sorted[i]->count > 0) {
+            pl_sort_keyed(sorted[i]->keyed.data, sorted[i]->count);
+        }
     }
     return NULL;
 }
@@ -199,8 +222,11 @@ void pl_index_free(pl_memory *memory, pl_index *index)
     pl_buffer_free(memory, &index->steps);
     pl_buffer_free(memory, &index->keys);
     pl_buffer_free(memory, &index->codes);
-    pl_buffer_free(memory, &index->names);
-    pl_buffer_free(memory, &index->named);
+    pl_kept *const all[] = { &index->names, &index->notes };
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; ++i) {
+        pl_buffer_free(memory, &all[i]->places);
+        pl_buffer_free(memory, &all[i]->keyed);
+    }
 }
 
 //---- look-ups ------------------------------------------------------------------------------------
@@ -247,19 +273,17 @@ const pl_key_place *pl_index_key_of_edits(const pl_index *index, uint64_t i)
     return NULL;
 }
 
-const char *pl_index_name(const pl_index *index, plumb_entity entity)
+const pl_kept_place *pl_kept_find(const pl_kept *kept, uint64_t key, uint64_t step)
 {
-    const pl_keyed *named = index->named.data;
-    const char *const *names = index->names.data;
-    uint64_t word = pl_key(entity.index, entity.generation);
-    uint32_t low = 0, high = index->name_count; // the first beyond the entity
+    const pl_keyed *keyed = kept->keyed.data;
+    const pl_kept_place *places = kept->places.data;
+    uint32_t low = 0, high = kept->count; // the first beyond
     while (low < high) {
         uint32_t middle = low + (high - low) / 2;
-        if (named[middle].key <= word) {
-            low = middle + 1;
-        } else {
-            high = middle;
-        }
+        bool beyond = keyed[middle].key > key ||
+                      (keyed[middle].key == key && places[keyed[middle].value].step > step);
+        low = beyond ? low : middle + 1;
+        high = beyond ? middle : high;
     }
-    return low > 0 && named[low - 1].key == word ? names[named[low - 1].value] : NULL;
+    return low > 0 && keyed[low - 1].key == key ? &places[keyed[low - 1].value] : NULL;
 }

@@ -18,15 +18,28 @@ typedef struct pl_code_place {
     size_t bytes;
 } pl_code_place;
 
+// What is kept by a key from a step on: names by entity, notes by the user's key.
+typedef struct pl_kept_place {
+    uint64_t step; // steps taken there
+    const char *data;
+    size_t bytes;
+} pl_kept_place;
+
+typedef struct pl_kept {
+    pl_buffer places; // pl_kept_place, in order
+    pl_buffer keyed;  // pl_keyed: key, which place; sorted
+    uint32_t count;
+} pl_kept;
+
 typedef struct pl_index {
     pl_record_header header;
     pl_buffer steps; // pl_chunk each
     pl_buffer keys;  // pl_key_place, in order
     pl_buffer codes; // pl_code_place, in order
-    pl_buffer names; // const char * each, in order
-    pl_buffer named; // pl_keyed: entity, which name; sorted. The last one of an entity counts
+    pl_kept names;   // the last one of an entity counts
+    pl_kept notes;
     uint64_t step_count, edited, bytes;
-    uint32_t key_count, code_count, name_count;
+    uint32_t key_count, code_count;
     bool complete;
 } pl_index;
 
@@ -51,7 +64,7 @@ pl_step_head pl_index_step_head(const pl_index *index, uint64_t i);
 const pl_key_place *pl_index_key_before(const pl_index *index, uint64_t step);
 // The key that takes the place of the user's edits before step i; NULL: none.
 const pl_key_place *pl_index_key_of_edits(const pl_index *index, uint64_t i);
-// NULL: it has no name.
-const char *pl_index_name(const pl_index *index, plumb_entity entity);
+// The last place of a key up to `step`; NULL: none.
+const pl_kept_place *pl_kept_find(const pl_kept *kept, uint64_t key, uint64_t step);
 
 #endif

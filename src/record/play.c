@@ -153,11 +153,11 @@ static void play_contacts(plumb_replay *replay, const char *from, size_t bytes)
             return;
         }
         pl_manifold *m = &pl_manifolds(&world->narrow)[note.manifold];
-        m->friction = (real)note.friction;
-        m->restitution = (real)note.restitution;
-        m->rolling = (real)note.rolling;
-        m->adhesion = (real)note.adhesion;
-        m->surface_speed = (real)note.surface_speed;
+        m->friction = (near_real)note.friction;
+        m->restitution = (near_real)note.restitution;
+        m->rolling = (near_real)note.rolling;
+        m->adhesion = (near_real)note.adhesion;
+        m->surface_speed = (near_real)note.surface_speed;
         m->disabled = note.disabled;
     }
 }

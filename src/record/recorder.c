@@ -379,7 +379,7 @@ static void put_head(recorder *r, plumb_world *world, const plumb_recorder_desc 
 {
     pl_record_header header = { .magic = PL_RECORD_MAGIC,
                                 .version = PL_RECORD_VERSION,
-                                .real_bytes = sizeof(real),
+                                .precision = PL_PRECISION,
                                 .schema = pl_section_schema(),
                                 .keyframe_every = r->keyframe_every };
     snprintf(header.title, sizeof header.title, "%s", desc->title == NULL ? "" : desc->title);
@@ -474,6 +474,37 @@ plumb_result plumb_recorder_name(plumb_world *world, plumb_entity entity, const 
     recorder *r = (recorder *)world->tape;
     copy_name(note.text, name);
     put_chunk(r, PL_CHUNK_NAME, &note, sizeof note);
+    return r->info.ended == PLUMB_OK ? PLUMB_OK : fail_ended(world, __func__, r->info.ended);
+}
+
+plumb_result plumb_recorder_note(plumb_world *world, uint64_t key, const void *bytes, size_t size)
+{
+    if (world == NULL) {
+        return PLUMB_E_NULL;
+    }
+    plumb_result result = PLUMB_OK;
+    if (size > PLUMB_NOTE_MAX) {
+        result = pl_fail(world, PLUMB_E_RANGE, __func__, "size is %zu; it must be 0 to %zu", size,
+                         PLUMB_NOTE_MAX);
+    } else if (size > 0) {
+        result = pl_check_pointer(world, __func__, "bytes", bytes);
+    }
+    result = result != PLUMB_OK ? result : check_recording(world, __func__);
+    if (result != PLUMB_OK) {
+        return result;
+    }
+    recorder *r = (recorder *)world->tape;
+    const pl_note_head head = { key, size };
+    size_t padded = pl_image_padded(size);
+    if (r->info.ended == PLUMB_OK && room(r, world, &r->chunk, sizeof head + padded)) {
+        char *to = r->chunk.data;
+        memcpy(to, &head, sizeof head);
+        memset(to + sizeof head, 0, padded);
+        if (size > 0) {
+            memcpy(to + sizeof head, bytes, size);
+        }
+        put_chunk(r, PL_CHUNK_NOTE, to, sizeof head + padded);
+    }
     return r->info.ended == PLUMB_OK ? PLUMB_OK : fail_ended(world, __func__, r->info.ended);
 }
 

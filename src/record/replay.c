@@ -368,7 +368,22 @@ plumb_result plumb_replay_get_info(const plumb_replay *replay, plumb_replay_info
 
 const char *plumb_replay_name(const plumb_replay *replay, plumb_entity entity)
 {
-    return replay == NULL ? NULL : pl_index_name(&replay->index, entity);
+    const pl_kept_place *name =
+        replay == NULL ? NULL
+                       : pl_kept_find(&replay->index.names, pl_key(entity.index, entity.generation),
+                                      UINT64_MAX);
+    return name == NULL ? NULL : name->data;
+}
+
+const void *plumb_replay_note(const plumb_replay *replay, uint64_t key, size_t *size)
+{
+    const pl_kept_place *note =
+        replay == NULL ? NULL : pl_kept_find(&replay->index.notes, key, replay->step);
+    bool holds = note != NULL && note->bytes > 0;
+    if (size != NULL) {
+        *size = holds ? note->bytes : 0;
+    }
+    return holds ? note->data : NULL;
 }
 
 int plumb_replay_edits(const plumb_replay *replay, plumb_replay_edit *rows, int capacity)

@@ -76,18 +76,19 @@ static void write_value(char to[64], const char *from, pl_type type, uint32_t si
 
 void pl_value_texts(plumb_difference *row, const char *a, const char *b, const pl_member *m)
 {
-    if (m->type == PL_TYPE_POINTER || (m->type == PL_TYPE_OTHER && m->size % sizeof(real) != 0)) {
-        return;
-    }
-    if (m->type != PL_TYPE_OTHER) {
-        write_value(row->a, a, m->type, m->size);
-        write_value(row->b, b, m->type, m->size);
+    const bool is_list = m->type == PL_TYPE_OTHER || m->type == PL_TYPE_FLOATS ||
+                         m->type == PL_TYPE_DOUBLES; // other: a few reals
+    const bool is_float =
+        m->type == PL_TYPE_FLOATS || (m->type == PL_TYPE_OTHER && sizeof(real) == sizeof(float));
+    const uint32_t one = is_float ? sizeof(float) : sizeof(double);
+    if (m->type == PL_TYPE_POINTER || (is_list && m->size % one != 0)) {
         return;
     }
     size_t at = 0;
-    while (memcmp(a + at, b + at, sizeof(real)) == 0) {
-        at += sizeof(real);
+    while (is_list && memcmp(a + at, b + at, one) == 0) { // the first that differ
+        at += one;
     }
-    write_real(row->a, a + at);
-    write_real(row->b, b + at);
+    const pl_type type = !is_list ? m->type : is_float ? PL_TYPE_FLOAT : PL_TYPE_DOUBLE;
+    write_value(row->a, a + at, type, m->size);
+    write_value(row->b, b + at, type, m->size);
 }

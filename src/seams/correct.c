@@ -103,6 +103,7 @@ static void close_gaps(plumb_world *world)
         }
         ++kept;
     }
+    narrow->ends_stale |= kept != narrow->manifold_count;
     narrow->manifold_count = kept;
     narrow->borne_count = borne_count;
     for (uint32_t i = 0; i < borne_count; ++i) {

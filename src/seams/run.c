@@ -267,8 +267,8 @@ static void carry_load(plumb_world *world, const run_contact *r, pl_pair *pair, 
     const pl_seam_pair *kept = (const pl_seam_pair *)world->seams.pairs.data + r->index;
     const pl_run_load *load = load_of(world, r->mover, m);
     const uint32_t *feature = load != NULL ? load->feature : kept->feature;
-    const real *normal = load != NULL ? load->normal : kept->normal;
-    const real *tangent = load != NULL ? load->tangent : kept->tangent;
+    const near_real *normal = load != NULL ? load->normal : kept->normal;
+    const near_real *tangent = load != NULL ? load->tangent : kept->tangent;
     pair->rolling = load != NULL ? load->rolling : pair->rolling;
     for (uint32_t k = 0; k < 2; ++k) {
         for (int j = 0; j < 2 && k < m->count; ++j) {

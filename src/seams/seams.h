@@ -56,8 +56,8 @@ typedef struct pl_seam {
 typedef struct pl_seam_pair {
     uint32_t pair;
     uint32_t feature[2];
-    real normal[2], tangent[2];
-    real rolling;
+    near_real normal[2], tangent[2];
+    near_real rolling;
     uint32_t a, b;     // its pieces
     uint32_t manifold; // PL_NONE: it was apart
 } pl_seam_pair;
@@ -66,9 +66,9 @@ typedef struct pl_seam_pair {
 typedef struct pl_run_load {
     uint32_t mover, serial, next, pair;
     uint32_t feature[2];
-    real normal[2], tangent[2];
-    real rolling;
-    real nx, ny;
+    near_real normal[2], tangent[2];
+    near_real rolling;
+    near_real nx, ny;
 } pl_run_load;
 
 #define PL_SPAN_CLASSES 32 // runs of 1, 2, 4, ... spans

@@ -310,11 +310,11 @@ static void write_point(const pl_view *v, const pl_face *f, pl_seam_place p, pl_
     }
     double ox = anchor[0][0] - (double)own->dx, oy = anchor[0][1] - (double)own->dy;
     double tx = anchor[1][0] - dx - (double)other->dx, ty = anchor[1][1] - dy - (double)other->dy;
-    *out = (pl_manifold_point){ .ax = (real)(v->own_is_a ? ox : tx),
-                                .ay = (real)(v->own_is_a ? oy : ty),
-                                .bx = (real)(v->own_is_a ? tx : ox),
-                                .by = (real)(v->own_is_a ? ty : oy),
-                                .separation = (real)(p.u - v->radii) };
+    *out = (pl_manifold_point){ .ax = (near_real)(v->own_is_a ? ox : tx),
+                                .ay = (near_real)(v->own_is_a ? oy : ty),
+                                .bx = (near_real)(v->own_is_a ? tx : ox),
+                                .by = (near_real)(v->own_is_a ? ty : oy),
+                                .separation = (near_real)(p.u - v->radii) };
 }
 
 uint32_t pl_view_write(const pl_view *v, const pl_face *f, const pl_seam_place *points, int count,
@@ -334,8 +334,8 @@ uint32_t pl_view_write(const pl_view *v, const pl_face *f, const pl_seam_place *
     }
     double sign = v->own_is_a ? 1 : -1;
     double c = (double)v->own_pose->c, s = (double)v->own_pose->s;
-    m->nx = (real)(sign * (c * f->nx - s * f->ny));
-    m->ny = (real)(sign * (s * f->nx + c * f->ny));
+    m->nx = (near_real)(sign * (c * f->nx - s * f->ny));
+    m->ny = (near_real)(sign * (s * f->nx + c * f->ny));
     m->count = kept;
     return kept;
 }

@@ -78,7 +78,7 @@ static void look_at(plumb_world *world, uint32_t row)
 // Four rows at once: this is all that sleeping costs who is awake. What lies behind the last row is
 // in columns that are longer than that, and means nothing.
 typedef real quad __attribute__((vector_size(4 * sizeof(real)), may_alias));
-#if defined(PLUMB_DOUBLE) && PLUMB_DOUBLE
+#if PLUMB_REAL_IS_DOUBLE
 typedef int64_t quad_mask __attribute__((vector_size(4 * sizeof(real)), may_alias));
 #else
 typedef int32_t quad_mask __attribute__((vector_size(4 * sizeof(real)), may_alias));
@@ -354,6 +354,7 @@ static void take_out_pairs(plumb_world *world, uint32_t pair_count)
     }
     list->count = kept;
     narrow->manifold_count = kept_manifolds;
+    narrow->ends_stale = true; // rows move next
     if (places != NULL) {
         pl_seams_follow(world, places, own);
     }

@@ -34,13 +34,14 @@ void pl_sleep_free(pl_memory *memory, pl_sleep *s)
 {
     pl_buffer *buffers[] = {
         &s->islands,     &s->contacts,     &s->resting,           &s->near.items,
-        &s->probe.items, &s->found,        &s->touched.manifolds, &s->touched.staged,
+        &s->probe.items, &s->found,        
         &s->marked,      &s->woken,        &s->parents,           &s->held,
         &s->places,      &s->sleep_events, &s->wake_events
     };
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; ++i) {
         pl_buffer_free(memory, buffers[i]);
     }
+    pl_narrow_free(memory, &s->touched);
     *s = (pl_sleep){ 0 };
 }
 
@@ -151,19 +152,6 @@ static void unlink_from_piece(plumb_world *world, const pl_dormant *c)
     }
 }
 
-// What pl_narrow_summarise does for the manifolds of a step.
-static void count_in(pl_island *i, const pl_manifold *m)
-{
-    real s0 = m->point[0].separation, s1 = m->point[1].separation;
-    real depth = s0 < s1 ? -s0 : -s1;
-    i->point_count += m->count;
-    if (depth >= 0) {
-        ++i->touching_count;
-        i->sum_penetration += pl_depth_units(depth);
-        i->max_penetration = depth > i->max_penetration ? depth : i->max_penetration;
-    }
-}
-
 void pl_island_keep(plumb_world *world, uint32_t island, const pl_pair *pair,
                     const pl_manifold *manifold)
 {
@@ -190,10 +178,10 @@ void pl_island_keep(plumb_world *world, uint32_t island, const pl_pair *pair,
         c->manifold = *manifold;
         c->manifold.disabled = c->manifold.bearer = 0; // of the step, and not always written
         for (int k = 0; k < 2; ++k) {                  // at rest, all substeps are alike
-            c->manifold.point[k].total = pair->normal[k] * (real)world->desc.substeps;
+            c->manifold.point[k].total = pair->normal[k] * (near_real)world->desc.substeps;
         }
         if ((pair->flags & PL_PAIR_BORNE) == 0) { // those are not among the manifolds of a step
-            count_in(i, manifold);
+            pl_overlaps_count(&i->overlaps, manifold);
         }
     }
     i->first_contact = slot;

@@ -30,10 +30,8 @@ typedef struct pl_island {
     uint32_t next_due;      // list of those
     bool marked;            // it is to wake in this step
     uint64_t made_step;     // step count + 1 when it was made asleep; 0: it fell asleep
-    // Summary of its manifolds, as pl_narrow has it.
-    uint32_t contact_count, touching_count, point_count;
-    real max_penetration;   // [m]
-    uint64_t sum_penetration; // [PL_DEPTH_UNIT]
+    uint32_t contact_count;
+    pl_overlaps overlaps; // of its manifolds
 } pl_island;
 
 typedef struct pl_sleep {

@@ -1,11 +1,8 @@
 // delta.c - what turns one image into another, and back.
 //
 // Section by section, each element is compared with one of the image before: the one with the same
-// index or, where elements have a key (contacts: their two pieces), the one with the same key. Their
-// bitwise difference is written in groups of eight 32-bit words: a byte that says which words are
-// not 0, half a byte for each of those that says which of its bytes are not, those bytes; groups of
-// zeros as a count. Numbers that move a little keep their sign, exponent and first digits, so that
-// most words cost one to three and a half bytes.
+// index or, where elements have a key (contacts: their two pieces), the one with the same key. How
+// their differences are coded: sparse.h.
 //
 //     delta:   header | coded header and directory of `to` | a bit a section: changed | changed sections
 //     section: (skip, match, insert)* over the elements | coded differences
@@ -16,13 +13,13 @@
 #include "plumb/snapshot.h"
 
 #include "snapshot/image.h"
+#include "snapshot/sparse.h"
 
 #include <string.h>
 
 #define DELTA_MAGIC   UINT64_C(0x544c44424d554c50) // "PLUMBDLT" in a little-endian file
 #define DELTA_VERSION 1u
 #define SEARCH_MOST   256u // elements of `from` that are searched for a key
-#define GROUP         32u  // [B]
 
 typedef struct delta_header {
     uint64_t magic;
@@ -35,13 +32,8 @@ typedef struct delta_header {
 
 static uint64_t checksum_of(const char *bytes, const delta_header *header)
 {
-    delta_header blank = *header;
-    blank.checksum = 0;
-    pl_digest digest;
-    pl_digest_begin(&digest);
-    pl_digest_add(&digest, &blank, sizeof blank);
-    pl_digest_add(&digest, bytes + sizeof blank, header->bytes - sizeof blank);
-    return pl_digest_end(&digest);
+    return pl_digest_sealed(header, sizeof *header, offsetof(delta_header, checksum),
+                            bytes + sizeof *header, header->bytes - sizeof *header);
 }
 
 //---- which element is compared with which --------------------------------------------------------
@@ -94,124 +86,26 @@ static run next_run(const sides *s, uint32_t i, uint32_t j)
 
 //---- writing -------------------------------------------------------------------------------------
 
-typedef struct coder {
-    unsigned char *to;
-    size_t size, used; // used goes on counting when it does not fit
-    unsigned char group[GROUP];
-    uint32_t fill;
-    uint32_t zero_groups;
-} coder;
-
-static void put(coder *c, unsigned byte)
-{
-    if (c->used < c->size) {
-        c->to[c->used] = (unsigned char)byte;
-    }
-    ++c->used;
-}
-
-// Seven bits a byte, low ones first.
-static void put_number(coder *c, uint32_t v)
-{
-    for (; v >= 128; v >>= 7) {
-        put(c, (v & 127) | 128);
-    }
-    put(c, v);
-}
-
-static void put_zeros(coder *c)
-{
-    if (c->zero_groups > 0) {
-        put(c, 0);
-        put_number(c, c->zero_groups);
-        c->zero_groups = 0;
-    }
-}
-
-static void put_group(coder *c)
-{
-    unsigned words = 0, halves[8] = { 0 };
-    for (unsigned k = 0; k < GROUP; ++k) {
-        if (c->group[k] != 0) {
-            words |= 1u << k / 4;
-            halves[k / 4] |= 1u << k % 4;
-        }
-    }
-    c->fill = 0;
-    if (words == 0) {
-        ++c->zero_groups;
-        return;
-    }
-    put_zeros(c);
-    put(c, words);
-    unsigned pending = 0, have = 0;
-    for (unsigned k = 0; k < 8; ++k) {
-        if ((words >> k & 1) != 0) {
-            pending |= halves[k] << (have == 0 ? 0 : 4);
-            if (++have == 2) {
-                put(c, pending);
-                pending = have = 0;
-            }
-        }
-    }
-    if (have > 0) {
-        put(c, pending);
-    }
-    for (unsigned k = 0; k < GROUP; ++k) {
-        if (c->group[k] != 0) {
-            put(c, c->group[k]);
-        }
-    }
-}
-
-// Difference of `bytes` bytes to those at `from`; NULL: to zeros.
-static void put_difference(coder *c, const char *to, const char *from, size_t bytes)
-{
-    while (bytes > 0) {
-        size_t part = GROUP - c->fill < bytes ? GROUP - c->fill : bytes;
-        for (size_t k = 0; k < part; ++k) {
-            c->group[c->fill + k] = (unsigned char)((unsigned char)to[k] ^
-                                                    (from == NULL ? 0u : (unsigned char)from[k]));
-        }
-        c->fill += (uint32_t)part;
-        if (c->fill == GROUP) {
-            put_group(c);
-        }
-        to += part;
-        from = from == NULL ? NULL : from + part;
-        bytes -= part;
-    }
-}
-
-static void end_differences(coder *c)
-{
-    if (c->fill > 0) {
-        memset(c->group + c->fill, 0, GROUP - c->fill);
-        put_group(c);
-    }
-    put_zeros(c);
-}
-
-static void put_section(coder *c, const sides *s)
+static void put_section(pl_sparse_coder *c, const sides *s)
 {
     uint32_t i = 0, j = 0;
     while (i < s->to_count) {
         run r = next_run(s, i, j);
-        put_number(c, r.skip);
-        put_number(c, r.match);
-        put_number(c, r.insert);
+        pl_sparse_put_number(c, r.skip);
+        pl_sparse_put_number(c, r.match);
+        pl_sparse_put_number(c, r.insert);
         i += r.match + r.insert;
         j += r.skip + r.match;
     }
     for (i = j = 0; i < s->to_count;) {
         run r = next_run(s, i, j);
         size_t at = (size_t)i * s->stride, matched = (size_t)r.match * s->stride;
-        put_difference(c, s->to + at, s->from + (size_t)(j + r.skip) * s->stride, matched);
-        put_difference(c, s->to + at + matched, NULL, (size_t)r.insert * s->stride);
+        pl_sparse_put(c, s->to + at, s->from + (size_t)(j + r.skip) * s->stride, matched);
+        pl_sparse_put(c, s->to + at + matched, NULL, (size_t)r.insert * s->stride);
         i += r.match + r.insert;
         j += r.skip + r.match;
     }
-    end_differences(c);
+    pl_sparse_end(c);
 }
 
 // The section that both cursors are at. One that `from` leaves to its base counts as empty.
@@ -236,7 +130,7 @@ static size_t directory_bytes(const pl_image *image)
     return sizeof(pl_image_header) + image->header.section_count * sizeof(pl_image_entry);
 }
 
-static void put_sections(coder *c, const pl_image *from, const pl_image *to)
+static void put_sections(pl_sparse_coder *c, const pl_image *from, const pl_image *to)
 {
     uint64_t count = to->header.section_count;
     for (int pass = 0; pass < 2; ++pass) { // first the bits, then the sections
@@ -249,7 +143,7 @@ static void put_sections(coder *c, const pl_image *from, const pl_image *to)
             bool changed = is_changed(&s);
             bits |= (unsigned)changed << i % 8;
             if (pass == 0 && (i % 8 == 7 || i + 1 == count)) {
-                put(c, bits);
+                pl_sparse_put_byte(c, bits);
                 bits = 0;
             } else if (pass == 1 && changed) {
                 put_section(c, &s);
@@ -270,9 +164,9 @@ static bool open_both(const void *from, size_t from_size, const void *to, size_t
 
 size_t pl_delta_write(const pl_image *from, const pl_image *to, void *buffer, size_t size)
 {
-    coder c = { .to = buffer, .size = size, .used = sizeof(delta_header) };
-    put_difference(&c, to->bytes, from->bytes, directory_bytes(to));
-    end_differences(&c);
+    pl_sparse_coder c = { .to = buffer, .size = size, .used = sizeof(delta_header) };
+    pl_sparse_put(&c, to->bytes, from->bytes, directory_bytes(to));
+    pl_sparse_end(&c);
     put_sections(&c, from, to);
     if (c.used <= size) {
         delta_header h = { .magic = DELTA_MAGIC,
@@ -312,103 +206,15 @@ plumb_result plumb_snapshot_delta(const void *from, size_t from_size, const void
 
 //---- reading -------------------------------------------------------------------------------------
 
-typedef struct decoder {
-    const unsigned char *from;
-    size_t size, used;
-    bool damaged;
-    unsigned char group[GROUP];
-    uint32_t left; // bytes of the group not taken yet
-    uint32_t zero_groups;
-} decoder;
-
-static unsigned get(decoder *d)
-{
-    if (d->used == d->size) {
-        d->damaged = true;
-        return 0;
-    }
-    return d->from[d->used++];
-}
-
-static uint32_t get_number(decoder *d)
-{
-    uint32_t v = 0;
-    for (unsigned shift = 0; shift < 35; shift += 7) {
-        unsigned byte = get(d);
-        v |= (uint32_t)(byte & 127) << shift;
-        if (byte < 128) {
-            return v;
-        }
-    }
-    d->damaged = true;
-    return 0;
-}
-
-static void get_group(decoder *d)
-{
-    memset(d->group, 0, GROUP);
-    d->left = GROUP;
-    if (d->zero_groups > 0) {
-        --d->zero_groups;
-        return;
-    }
-    unsigned words = get(d);
-    if (words == 0) {
-        d->zero_groups = get_number(d) - 1;
-        return;
-    }
-    unsigned halves[8] = { 0 }, pending = 0, have = 0;
-    for (unsigned k = 0; k < 8; ++k) {
-        if ((words >> k & 1) != 0) {
-            if (have == 0) {
-                pending = get(d);
-                have = 2;
-            }
-            halves[k] = pending & 15;
-            pending >>= 4;
-            --have;
-        }
-    }
-    for (unsigned k = 0; k < GROUP; ++k) {
-        if ((halves[k / 4] >> k % 4 & 1) != 0) {
-            d->group[k] = (unsigned char)get(d);
-        }
-    }
-}
-
-static void get_difference(decoder *d, char *to, const char *from, size_t bytes)
-{
-    while (bytes > 0 && !d->damaged) {
-        if (d->left == 0) {
-            get_group(d);
-        }
-        size_t part = d->left < bytes ? d->left : bytes;
-        const unsigned char *group = d->group + (GROUP - d->left);
-        for (size_t k = 0; k < part; ++k) {
-            to[k] = (char)(group[k] ^ (from == NULL ? 0u : (unsigned char)from[k]));
-        }
-        d->left -= (uint32_t)part;
-        to += part;
-        from = from == NULL ? NULL : from + part;
-        bytes -= part;
-    }
-}
-
-// The rest of a group, and of the zeros behind, belongs to nothing.
-static void drop_group(decoder *d)
-{
-    d->left = d->zero_groups = 0;
-}
-
 // Goes through the runs twice: from the first to the last, to find where the differences begin, and
 // again with them.
-static void get_section(decoder *d, const sides *s)
+static void get_section(pl_sparse_decoder *d, const sides *s)
 {
-    decoder runs = *d;
+    pl_sparse_decoder runs = *d;
     uint32_t i = 0;
     while (i < s->to_count && !d->damaged) {
-        get_number(d);
-        uint32_t match = get_number(d), insert = get_number(d), left = s->to_count - i;
+        pl_sparse_get_number(d);
+        uint32_t match = pl_sparse_get_number(d), insert = pl_sparse_get_number(d), left = s->to_count - i;
         if (match > left || insert > left - match || match + insert == 0) {
             d->damaged = true;
             return;
@@ -417,9 +223,9 @@ static void get_section(decoder *d, const sides *s)
     }
     uint32_t j = 0;
     for (i = 0; i < s->to_count && !d->damaged;) {
-        run r = { .skip = get_number(&runs) };
-        r.match = get_number(&runs);
-        r.insert = get_number(&runs);
+        run r = { .skip = pl_sparse_get_number(&runs) };
+        r.match = pl_sparse_get_number(&runs);
+        r.insert = pl_sparse_get_number(&runs);
         uint32_t left = s->from_count - j;
         if (r.skip > left || r.match > left - r.skip) {
             d->damaged = true;
@@ -427,15 +233,15 @@ static void get_section(decoder *d, const sides *s)
         }
         j += r.skip;
         size_t at = (size_t)i * s->stride, matched = (size_t)r.match * s->stride;
-        get_difference(d, s->to + at, s->from + (size_t)j * s->stride, matched);
-        get_difference(d, s->to + at + matched, NULL, (size_t)r.insert * s->stride);
+        pl_sparse_get(d, s->to + at, s->from + (size_t)j * s->stride, matched);
+        pl_sparse_get(d, s->to + at + matched, NULL, (size_t)r.insert * s->stride);
         i += r.match + r.insert;
         j += r.match;
     }
-    drop_group(d);
+    pl_sparse_drop(d);
 }
 
-static void get_sections(decoder *d, const pl_image *from, const pl_image *to)
+static void get_sections(pl_sparse_decoder *d, const pl_image *from, const pl_image *to)
 {
     uint64_t count = to->header.section_count;
     const unsigned char *bits = d->from + d->used;
@@ -486,9 +292,9 @@ bool pl_delta_apply(const pl_image *from, const void *delta, size_t size, void *
         h.to_bytes < directory_bytes(from)) {
         return false;
     }
-    decoder d = { .from = delta, .size = h.bytes, .used = sizeof h };
-    get_difference(&d, buffer, from->bytes, directory_bytes(from));
-    drop_group(&d);
+    pl_sparse_decoder d = { .from = delta, .size = h.bytes, .used = sizeof h };
+    pl_sparse_get(&d, buffer, from->bytes, directory_bytes(from));
+    pl_sparse_drop(&d);
     // The sections are not there yet; that they fit is known once the directory is.
     if (d.damaged || !pl_image_view(buffer, h.to_bytes, to) ||
         to->header.bytes != h.to_bytes || to->header.section_count != from->header.section_count) {

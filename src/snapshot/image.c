@@ -6,22 +6,8 @@
 
 uint64_t pl_image_checksum(const char *bytes, const pl_image_header *header)
 {
-    pl_image_header blank = *header;
-    blank.checksum = 0;
-    pl_digest digest;
-    pl_digest_begin(&digest);
-    pl_digest_add(&digest, &blank, sizeof blank);
-    pl_digest_add(&digest, bytes + sizeof blank, header->bytes - sizeof blank);
-    return pl_digest_end(&digest);
-}
-
-static uint64_t reversed(uint64_t v)
-{
-    uint64_t out = 0;
-    for (int i = 0; i < 8; ++i) {
-        out = out << 8 | (v >> 8 * i & 0xff);
-    }
-    return out;
+    return pl_digest_sealed(header, sizeof *header, offsetof(pl_image_header, checksum),
+                            bytes + sizeof *header, header->bytes - sizeof *header);
 }
 
 // The directory agrees with the size.
@@ -63,7 +49,7 @@ const char *pl_image_open(const void *buffer, size_t size, bool strict, pl_image
         return "is truncated";
     }
     memcpy(h, buffer, sizeof *h);
-    if (h->magic == reversed(PL_IMAGE_MAGIC)) {
+    if (h->magic == pl_reversed(PL_IMAGE_MAGIC)) {
         return "was made on a machine of another byte order";
     }
     if (h->magic != PL_IMAGE_MAGIC) {
@@ -72,8 +58,8 @@ const char *pl_image_open(const void *buffer, size_t size, bool strict, pl_image
     if (h->version != PL_IMAGE_VERSION) {
         return "is of another version of the format";
     }
-    if (h->real_bytes != sizeof(real)) {
-        return "is of a world of the other precision";
+    if (h->precision != PL_PRECISION) {
+        return "is of a world of another precision";
     }
     if (h->schema != pl_section_schema()) {
         return "was made by a build that stores other columns";

@@ -15,7 +15,7 @@
 typedef struct pl_image_header {
     uint64_t magic;
     uint32_t version;
-    uint32_t real_bytes; // 4 or 8
+    uint32_t precision;  // PL_PRECISION
     uint64_t bytes;      // of the whole image
     uint64_t checksum;   // of the whole image with 0 here; names it, too
     uint64_t schema, user_schema;

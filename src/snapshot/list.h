@@ -69,14 +69,14 @@
     TALLY(broad.serial) TALLY(broad.rebuilds) TALLY(broad.stale)
 
 #define PL_STATE_NARROW(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                     \
-    LEFT(narrow.manifolds) LEFT(narrow.staged) LEFT(narrow.manifold_count) LEFT(narrow.borne_count)                    \
+    LEFT(narrow.manifolds) LEFT(narrow.staged) LEFT(narrow.ends) LEFT(narrow.fresh)               \
+    LEFT(narrow.fresh_count) LEFT(narrow.ends_stale) LEFT(narrow.manifold_count) LEFT(narrow.borne_count)                    \
     LEFT(narrow.any_adhesion) LEFT(narrow.any_friction)                                            \
-    LEFT(narrow.any_bounce) LEFT(narrow.any_surface) LEFT(narrow.touching_count)                   \
-    LEFT(narrow.point_count) LEFT(narrow.max_penetration) LEFT(narrow.sum_penetration)
+    LEFT(narrow.any_bounce) LEFT(narrow.any_surface) LEFT(narrow.overlaps)
 
 #define PL_STATE_SOLVER(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                     \
     LEFT(solver.bodies) LEFT(solver.motions) LEFT(solver.lows) LEFT(solver.struck)                 \
-    LEFT(solver.rows) LEFT(solver.slots) LEFT(solver.ends) LEFT(solver.masks) LEFT(solver.colors)                    \
+    LEFT(solver.rows) LEFT(solver.slots) LEFT(solver.masks) LEFT(solver.colors)                    \
     LEFT(solver.lanes) LEFT(solver.bundles) LEFT(solver.extras) LEFT(solver.specials)              \
     LEFT(solver.impacts) LEFT(solver.outlook_fields) LEFT(solver.outlook_ends)                     \
     LEFT(solver.outlook_open) LEFT(solver.outlook_lanes) LEFT(solver.impact_heap) LEFT(solver.impact_heads) LEFT(solver.due_count)   \

@@ -206,7 +206,7 @@ static void forget_last_step(plumb_world *world)
     world->sleep.events_told = false;
     world->joints.broken_count = 0;
     world->continuous.count = world->continuous.stopped_count = 0;
-    world->narrow = (pl_narrow){ .manifolds = world->narrow.manifolds, .staged = world->narrow.staged };
+    pl_narrow_clear(&world->narrow);
     world->solver.slot_count = world->solver.dynamic_slots = 0;
     world->solver.bundle_count = world->solver.impact_count = 0;
     world->solver.color_count = world->solver.overflow_count = world->solver.bounce_count = 0;

@@ -91,7 +91,7 @@ static size_t write_image(writer *w, const pl_image *base)
     }
     pl_image_header header = { .magic = PL_IMAGE_MAGIC,
                                .version = PL_IMAGE_VERSION,
-                               .real_bytes = sizeof(real),
+                               .precision = PL_PRECISION,
                                .bytes = w->offset,
                                .base = base == NULL ? 0 : base->header.checksum,
                                .section_count = count,

@@ -15,6 +15,8 @@
     _Generic((value),                                                                              \
         float: PL_TYPE_FLOAT,                                                                      \
         double: PL_TYPE_DOUBLE,                                                                    \
+        float *: PL_TYPE_FLOATS,                                                                   \
+        double *: PL_TYPE_DOUBLES,                                                                 \
         bool: PL_TYPE_BOOL,                                                                        \
         uint8_t: PL_TYPE_U8,                                                                       \
         uint16_t: PL_TYPE_U16,                                                                     \
@@ -38,7 +40,9 @@ typedef enum pl_type {
     PL_TYPE_U64,
     PL_TYPE_VEC2,
     PL_TYPE_ENTITY,
-    PL_TYPE_POINTER
+    PL_TYPE_POINTER,
+    PL_TYPE_FLOATS, // arrays
+    PL_TYPE_DOUBLES
 } pl_type;
 
 // A named number within an element.

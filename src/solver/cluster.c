@@ -131,7 +131,7 @@ static void label_islands(pl_solver *s, uint32_t movable, uint32_t special)
 static void look_for_islands(plumb_world *world, uint32_t movable)
 {
     pl_solver *s = &world->solver;
-    const pl_ends *ends = s->ends.data;
+    const pl_ends *ends = world->narrow.ends.data;
     uint32_t *leaders = s->leaders.data;
     for (uint32_t row = 0; row < movable; ++row) {
         leaders[row] = row;
@@ -153,7 +153,7 @@ static void look_for_islands(plumb_world *world, uint32_t movable)
 static uint32_t join_clusters(plumb_world *world, uint32_t movable)
 {
     pl_solver *s = &world->solver;
-    const pl_ends *ends = s->ends.data;
+    const pl_ends *ends = world->narrow.ends.data;
     uint32_t *leaders = s->leaders.data, *labels = s->labels.data;
     for (uint32_t i = 0; i < s->cluster_count; ++i) {
         leaders[i] = i;

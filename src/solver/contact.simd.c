@@ -46,7 +46,7 @@ typedef struct body {
 
 WIDE_INLINE void gather_body(body *out, const pl_contact_call *call, const uint32_t *slot)
 {
-    const plumb_real *row[PL_WIDTH];
+    const near_real *row[PL_WIDTH];
     for (int i = 0; i < PL_WIDTH; ++i) {
         row[i] = &call->bodies[slot[i]].vx;
     }
@@ -58,8 +58,8 @@ WIDE_INLINE void gather_body(body *out, const pl_contact_call *call, const uint3
 // Writes velocities back; lanes of immovable bodies write to a sink, for others share those rows.
 WIDE_INLINE void scatter_velocity(const body *in, const pl_contact_call *call, const uint32_t *slot)
 {
-    plumb_real sink[4] __attribute__((aligned(32)));
-    plumb_real *row[PL_WIDTH];
+    near_real sink[4] __attribute__((aligned(32)));
+    near_real *row[PL_WIDTH];
     for (int i = 0; i < PL_WIDTH; ++i) {
         row[i] = slot[i] < call->dynamic_slots ? &call->bodies[slot[i]].vx : sink;
     }
@@ -91,18 +91,18 @@ WIDE_INLINE void prepare_point(point *p, const vf row[8], const bundle *c, const
 
 // Contacts with immovable bodies are so many times stiffer: what carries a pile yields last, and no
 // mass ratio can make them unstable.
-#define STATIC_STIFFNESS ((plumb_real)2)
+#define STATIC_STIFFNESS ((near_real)2)
 
 typedef struct softness {
     vf bias_rate, give;
 } softness;
 
 // Numbers of a soft contact of `factor` times the call's frequency; formulas on top.
-WIDE_INLINE softness soften(const pl_contact_call *call, plumb_real factor)
+WIDE_INLINE softness soften(const pl_contact_call *call, near_real factor)
 {
-    plumb_real omega = (plumb_real)6.283185307179586 * call->hertz * factor;
-    plumb_real a1 = 2 * call->damping + call->h * omega;
-    plumb_real a2 = call->h * omega * a1;
+    near_real omega = (near_real)6.283185307179586 * call->hertz * factor;
+    near_real a1 = 2 * call->damping + call->h * omega;
+    near_real a2 = call->h * omega * a1;
     return (softness){ splat(omega / a1), splat(1 / a2) };
 }
 
@@ -125,7 +125,7 @@ static void prepare(const pl_contact_call *call, uint32_t first, uint32_t count)
     const softness pair = soften(call, 1), ground = soften(call, STATIC_STIFFNESS);
     for (uint32_t k = first; k < first + count; ++k) {
         bundle *c = &bundles[k];
-        const plumb_real *row[3][PL_WIDTH];
+        const near_real *row[3][PL_WIDTH];
         for (int i = 0; i < PL_WIDTH && k + 2 < first + count; ++i) {
             uint32_t at = call->lanes[(size_t)(k + 2) * PL_WIDTH + (size_t)i];
             if (at != PL_NONE) {
@@ -218,7 +218,7 @@ static void prepare_specials(const pl_contact_call *call, uint32_t first, uint32
             s->biy[i] = (fb & PL_BODY_LOCK_Y) != 0 ? 0 : s->biy[i];
             s->reach[i] = pl_adhesion_reach(call->pairs[m->pair].flags);
             for (uint32_t j = 0; j < m->count; ++j) {
-                s->pull[j][i] = m->adhesion * call->h / (plumb_real)m->count;
+                s->pull[j][i] = m->adhesion * call->h / (near_real)m->count;
             }
         }
         vf nxx = c->nx * c->nx, nyy = c->ny * c->ny;
@@ -378,7 +378,7 @@ WIDE_INLINE void solve_normals(const bundle *c, const special *s, point p[2], bo
     vf b0 = p[0].kn * old0 + k01 * old1 - lack0;
     vf b1 = k01 * old0 + p[1].kn * old1 - lack1;
     vf det = d0 * d1 - k01 * k01;
-    vm regular = det > splat((plumb_real)1e-3) * d0 * d1;
+    vm regular = det > splat((near_real)1e-3) * d0 * d1;
     vf inv = one / sel(regular, det, one);
     vf both0 = (d1 * b0 - k01 * b1) * inv;
     vf both1 = (d0 * b1 - k01 * b0) * inv;

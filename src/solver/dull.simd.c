@@ -12,7 +12,7 @@
 // which one strikes.
 #include "solver/outlook.h"
 
-typedef plumb_real row __attribute__((vector_size(4 * sizeof(plumb_real)), may_alias));
+typedef near_real row __attribute__((vector_size(4 * sizeof(near_real)), may_alias));
 typedef pl_lane row_mask __attribute__((vector_size(4 * sizeof(pl_lane))));
 typedef double four __attribute__((vector_size(32)));
 typedef int64_t mask __attribute__((vector_size(32)));
@@ -49,7 +49,7 @@ WIDE_INLINE row choose_row(row_mask m, row a, row b)
 
 WIDE_INLINE row_mask mask_row(mask m)
 {
-#if defined(PLUMB_DOUBLE) && PLUMB_DOUBLE
+#if PL_NEAR_IS_DOUBLE
     return m;
 #else
     typedef int32_t halves __attribute__((vector_size(32)));
@@ -97,7 +97,7 @@ typedef struct side {
 // Contacts in the lanes of bundles; those from `count` on repeat the last one and change nothing.
 typedef struct contacts {
     uint32_t lane[4], count;
-    plumb_real *bundles[4]; // each from its lane on: its fields are whole bundles of lanes apart
+    near_real *bundles[4]; // each from its lane on: its fields are whole bundles of lanes apart
     uint32_t slot_a[4], slot_b[4];
     mask taken;
     four nx, ny, restitution;
@@ -111,7 +111,7 @@ typedef struct approach {
     four speed, time; // [m/s], [s]
 } approach;
 
-WIDE_INLINE void gather_rows(row out[4], const plumb_real *base, size_t stride,
+WIDE_INLINE void gather_rows(row out[4], const near_real *base, size_t stride,
                              const uint32_t slot[4])
 {
     for (int i = 0; i < 4; ++i) {
@@ -135,7 +135,7 @@ WIDE_INLINE void gather_side(side *s, const pl_dull_call *call, const uint32_t s
 }
 
 // A field of each contact's bundle.
-#define OF_BUNDLE(c, i, field) ((c)->bundles[i][offsetof(bundle, field) / sizeof(plumb_real)])
+#define OF_BUNDLE(c, i, field) ((c)->bundles[i][offsetof(bundle, field) / sizeof(near_real)])
 #define OF_BUNDLES(c, field)                                                                       \
     (row)                                                                                          \
     {                                                                                              \
@@ -146,7 +146,7 @@ WIDE_INLINE void gather_side(side *s, const pl_dull_call *call, const uint32_t s
 // One of the fields that dull impacts have.
 WIDE_INLINE row dull_field(const contacts *c, const pl_dull_call *call, size_t field)
 {
-    plumb_real r[4];
+    near_real r[4];
     for (int i = 0; i < 4; ++i) {
         const size_t at = c->lane[i] % PL_WIDTH, first = c->lane[i] - at;
         r[i] = call->fields[first * PL_OUTLOOK_FIELDS + field * PL_WIDTH + at];
@@ -162,7 +162,7 @@ WIDE_INLINE void gather_contacts(contacts *c, const pl_dull_call *call, const ui
         c->lane[i] = lanes[i < count ? i : count - 1];
         bundle *of = (bundle *)call->bundles + c->lane[i] / PL_WIDTH;
         const uint32_t at = c->lane[i] % PL_WIDTH;
-        c->bundles[i] = (plumb_real *)(void *)of + at;
+        c->bundles[i] = (near_real *)(void *)of + at;
         c->slot_a[i] = of->a[at];
         c->slot_b[i] = of->b[at];
     }
@@ -251,7 +251,7 @@ WIDE_INLINE approach foresee(const contacts *c, const view *o, int j, const pl_d
     time = choose(old, choose(overlaps, zero, r.separation / fastest), time);
     out.speed = speed;
     out.time = choose(time < o->after, o->after, time);
-    mask gentle = (speed <= all((double)call->restitution_speed)) |
+    mask gentle = (speed <= all(call->restitution_speed)) |
                   (~c->unloaded[j] & (speed <= all(4) * c->weight * h));
     four rest = h - out.time;
     mask returns = c->restitution * speed + r.acceleration * rest / all(2) > zero;
@@ -340,7 +340,7 @@ WIDE_INLINE four friction_impulse(const contacts *c, const side *a, const side *
 // not in the cache, so they are left alone where nothing is to be read or added.
 WIDE_INLINE four note_impacts(const contacts *c, const pl_dull_call *call, const four impulse[2])
 {
-    plumb_real surface_speed[4] = { 0 };
+    near_real surface_speed[4] = { 0 };
     for (uint32_t i = 0; i < c->count; ++i) {
         uint8_t *mark = &call->marks[c->lane[i]];
         if (!(impulse[0][i] > 0 || impulse[1][i] > 0)) {
@@ -350,8 +350,8 @@ WIDE_INLINE four note_impacts(const contacts *c, const pl_dull_call *call, const
             pl_manifold *m = &call->manifolds[call->lanes[c->lane[i]]];
             surface_speed[i] = m->surface_speed;
             call->pairs[m->pair].flags |= PL_PAIR_HIT;
-            m->point[0].total += call->looks_up ? (plumb_real)impulse[0][i] : 0;
-            m->point[1].total += call->looks_up ? (plumb_real)impulse[1][i] : 0;
+            m->point[0].total += call->looks_up ? (near_real)impulse[0][i] : 0;
+            m->point[1].total += call->looks_up ? (near_real)impulse[1][i] : 0;
         }
         *mark = PL_DULL_HIT | PL_DULL_STRUCK;
     }
@@ -441,7 +441,7 @@ static void take_four(const pl_dull_call *call, const uint32_t *lanes, uint32_t 
 
 //---- kernels -------------------------------------------------------------------------------------
 
-WIDE_INLINE bool is_live(const plumb_real *fields)
+WIDE_INLINE bool is_live(const near_real *fields)
 {
     return any(load(fields + PL_OUTLOOK_RESTITUTION * PL_WIDTH) > splat(0));
 }
@@ -452,12 +452,12 @@ uint32_t PL_WIDE_NAME(pl_dull_prepare)(const pl_dull_call *call, uint32_t first,
     uint32_t lively = 0;
     for (uint32_t k = first; k < first + count; ++k) {
         const bundle *c = (const bundle *)call->bundles + k;
-        plumb_real *fields = call->fields + (size_t)k * PL_WIDTH * PL_OUTLOOK_FIELDS;
-        plumb_real restitution[PL_WIDTH] = { 0 };
+        near_real *fields = call->fields + (size_t)k * PL_WIDTH * PL_OUTLOOK_FIELDS;
+        near_real restitution[PL_WIDTH] = { 0 };
         for (int i = 0; i < PL_WIDTH; ++i) {
             const uint32_t at = call->lanes[(size_t)k * PL_WIDTH + (size_t)i];
             if (at != PL_NONE && pl_bounces(&call->manifolds[at])) {
-                const plumb_real e = call->manifolds[at].restitution;
+                const near_real e = call->manifolds[at].restitution;
                 lively += !pl_is_dull(e);
                 restitution[i] = pl_is_dull(e) ? e : 0;
             }
@@ -477,7 +477,7 @@ pl_dull_kernel PL_WIDE_NAME(pl_dull_look);
 void PL_WIDE_NAME(pl_dull_look)(const pl_dull_call *call, uint32_t first, uint32_t count)
 {
     for (uint32_t k = first; k < first + count; ++k) {
-        const plumb_real *fields = call->fields + (size_t)k * PL_WIDTH * PL_OUTLOOK_FIELDS;
+        const near_real *fields = call->fields + (size_t)k * PL_WIDTH * PL_OUTLOOK_FIELDS;
         if (is_live(fields)) {
             vm settled = look_at_bundle(call, fields, (bundle *)call->bundles + k);
             for (int i = 0; i < PL_WIDTH; ++i) {
@@ -510,7 +510,7 @@ void PL_WIDE_NAME(pl_dull_strike)(const pl_dull_call *call, uint32_t first, uint
 {
     uint32_t waiting[PL_WIDTH + 4], held = 0, color = 0;
     for (uint32_t k = first; k < first + count; ++k) {
-        const plumb_real *fields = call->fields + (size_t)k * PL_WIDTH * PL_OUTLOOK_FIELDS;
+        const near_real *fields = call->fields + (size_t)k * PL_WIDTH * PL_OUTLOOK_FIELDS;
         for (int i = 0; i < PL_WIDTH; ++i) {
             call->marks[(size_t)k * PL_WIDTH + (size_t)i] &= PL_DULL_HIT;
         }

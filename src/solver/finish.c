@@ -13,7 +13,7 @@
 // What is left of a motion that contacts and joints have damped away halves and halves until it is
 // subnormal, and then costs hundreds of cycles wherever it is multiplied. Less than this counts as none:
 // a turn [rad] that moves no coordinate, and a speed [m/s, rad/s].
-#if defined(PLUMB_DOUBLE) && PLUMB_DOUBLE
+#if PL_NEAR_IS_DOUBLE
 #define NO_TURN  1e-100
 #define NO_SPEED 1e-150
 #else
@@ -36,12 +36,20 @@ static void turn(pl_bodies *b, uint32_t row, real angle)
 }
 
 // Adds to a value and keeps what rounding takes away for the next time (compensated summation, in
-// double). Without it, an elastic ball drifts by 2e-7 of its energy a bounce in the float library.
+// double). Without it, an elastic ball drifts by 2e-7 of its energy a bounce in the float library. Places of
+// the far build, doubles themselves, keep the error of their own sum (Knuth's two-sum): what a body does then
+// does not depend on where it is.
 static void add(real *value, real *low, real change)
 {
+#if PLUMB_IS_FAR
+    real wanted = change + *low, sum = *value + wanted, part = sum - *value;
+    *low = (*value - (sum - part)) + (wanted - part);
+    *value = sum;
+#else
     double wanted = (double)*value + ((double)change + (double)*low);
     *value = (real)wanted;
     *low = (real)(wanted - (double)*value);
+#endif
 }
 
 // Returns the angle by which the body turned.
@@ -103,7 +111,7 @@ typedef struct passage {
     real dt;
     bool collided; // the graph was made in this step
     bool noting;
-    const real *lows;
+    const near_real *lows;
     uint32_t shares;
     struct {
         uint32_t count; // movers, noted where the share's rows begin
@@ -165,7 +173,8 @@ static void tell_lost(plumb_world *world)
 }
 
 // The new state of a dynamic body in a contact.
-static void take_over(plumb_world *world, uint32_t row, const pl_solver_body *body, const real *low)
+static void take_over(plumb_world *world, uint32_t row, const pl_solver_body *body,
+                      const near_real *low)
 {
     pl_bodies *b = &world->bodies;
     add(&b->center_x[row], &b->low_x[row], body->dx);

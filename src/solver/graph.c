@@ -50,12 +50,10 @@ static bool reserve_bodies(plumb_world *world)
     size_t elastic_rows = world->narrow.any_bounce ? rows : 0;
     return pl_buffer_reserve(memory, &s->bodies, rows * sizeof(pl_solver_body)) &&
            pl_buffer_reserve(memory, &s->motions, rows * sizeof(pl_solver_motion)) &&
-           pl_buffer_reserve(memory, &s->lows, elastic_rows * 4 * sizeof(real)) &&
-           pl_buffer_reserve(memory, &s->struck, elastic_rows * sizeof(real)) &&
+           pl_buffer_reserve(memory, &s->lows, elastic_rows * 4 * sizeof(near_real)) &&
+           pl_buffer_reserve(memory, &s->struck, elastic_rows * sizeof(near_real)) &&
            pl_buffer_reserve(memory, &s->rows, rows * sizeof(uint32_t)) &&
            pl_buffer_reserve(memory, &s->slots, rows * sizeof(uint32_t)) &&
-           pl_buffer_reserve(memory, &s->ends,
-                             ((size_t)world->narrow.manifold_count + 1) * sizeof(pl_ends)) &&
            pl_buffer_reserve(memory, &s->masks, rows * sizeof(uint64_t)) &&
            pl_buffer_reserve(memory, &s->colors, (size_t)world->narrow.manifold_count + 1);
 }
@@ -103,7 +101,7 @@ static bool reserve_lanes(plumb_world *world)
            pl_buffer_reserve(memory, &s->specials, specials * k->special_size) &&
            pl_buffer_reserve(memory, &s->impacts, impacts * sizeof(pl_impact)) &&
            pl_buffer_reserve(memory, &s->outlook_fields,
-                             looked * PL_OUTLOOK_FIELDS * sizeof(real)) &&
+                             looked * PL_OUTLOOK_FIELDS * sizeof(near_real)) &&
            pl_buffer_reserve(memory, &s->outlook_ends, looked * sizeof(pl_outlook_ends)) &&
            pl_buffer_reserve(memory, &s->outlook_open, looked) &&
            pl_buffer_reserve(memory, &s->impact_heap, impacts * sizeof(uint32_t)) &&
@@ -119,7 +117,7 @@ static void note_ends(void *context, uint32_t first, uint32_t count)
 {
     const plumb_world *world = context;
     const pl_manifold *m = pl_manifolds(&world->narrow);
-    pl_ends *ends = world->solver.ends.data;
+    pl_ends *ends = world->narrow.ends.data;
     for (uint32_t i = first; i < first + count; ++i) {
         ends[i] = (pl_ends){ m[i].body_a, m[i].body_b };
     }
@@ -129,7 +127,7 @@ static void note_ends(void *context, uint32_t first, uint32_t count)
 static void mark_rows(plumb_world *world, uint32_t movable)
 {
     const pl_manifold *m = pl_manifolds(&world->narrow);
-    const pl_ends *ends = world->solver.ends.data;
+    const pl_ends *ends = world->narrow.ends.data;
     const uint32_t *first_joint = world->bodies.first_joint;
     uint32_t *slots = world->solver.slots.data;
     memset(slots, 0xff, movable * sizeof(uint32_t));
@@ -174,7 +172,7 @@ static uint32_t give_slots(plumb_world *world, pl_share rows, int kind, uint32_t
     pl_cluster *clusters = pl_clusters(s);
     const uint32_t *labels = labels_of(s);
     uint32_t *slots = s->slots.data, *row_of = s->rows.data;
-    real *lows = world->narrow.any_bounce ? s->lows.data : NULL;
+    near_real *lows = world->narrow.any_bounce ? s->lows.data : NULL;
     for (uint32_t row = rows.first; labels != NULL && row < rows.end; ++row) {
         if (slots[row] != PL_NONE) {
             ++clusters[cluster_of(labels, row)].slots[kind].count;
@@ -202,10 +200,15 @@ static uint32_t give_slots(plumb_world *world, pl_share rows, int kind, uint32_t
 }
 
 // A quad: what rounding took from the velocity so far, and 1 where that is kept, 0 where it is not.
-static void start_low(real *low, const pl_bodies *b, uint32_t row)
+static void start_low(near_real *low, const pl_bodies *b, uint32_t row)
 {
-    low[0] = low[3] != 0 ? b->low_vx[row] : 0;
-    low[1] = low[3] != 0 ? b->low_vy[row] : 0;
+    real vx = b->low_vx[row], vy = b->low_vy[row];
+    if (PLUMB_IS_FAR) { // the solver's velocity is rounded, too
+        vx += b->vx[row] - (near_real)b->vx[row];
+        vy += b->vy[row] - (near_real)b->vy[row];
+    }
+    low[0] = low[3] != 0 ? (near_real)vx : 0;
+    low[1] = low[3] != 0 ? (near_real)vy : 0;
     low[2] = 0;
 }
 
@@ -215,21 +218,23 @@ static void engage_slot(plumb_world *world, uint32_t slot)
     pl_solver *s = &world->solver;
     const pl_bodies *b = &world->bodies;
     const uint32_t row = ((const uint32_t *)s->rows.data)[slot];
-    real im = b->inv_mass[row], ii = b->inv_inertia[row];
+    near_real im = (near_real)b->inv_mass[row], ii = (near_real)b->inv_inertia[row];
     real gravity = row < world->dynamic_count ? b->gravity_scale[row] : 0;
-    pl_solver_bodies(s)[slot] = (pl_solver_body){
-        .vx = b->vx[row], .vy = b->vy[row], .w = b->w[row], .inv_mass = im, .inv_inertia = ii
-    };
+    pl_solver_bodies(s)[slot] = (pl_solver_body){ .vx = (near_real)b->vx[row],
+                                                  .vy = (near_real)b->vy[row],
+                                                  .w = (near_real)b->w[row],
+                                                  .inv_mass = im,
+                                                  .inv_inertia = ii };
     pl_solver_motions(s)[slot] =
-        (pl_solver_motion){ .ax = world->gravity.x * gravity + b->fx[row] * im,
-                            .ay = world->gravity.y * gravity + b->fy[row] * im,
-                            .aw = b->torque[row] * ii,
-                            .ux = b->vx[row],
-                            .uy = b->vy[row],
-                            .uw = b->w[row],
+        (pl_solver_motion){ .ax = (near_real)(world->gravity.x * gravity + b->fx[row] * im),
+                            .ay = (near_real)(world->gravity.y * gravity + b->fy[row] * im),
+                            .aw = (near_real)(b->torque[row] * ii),
+                            .ux = (near_real)b->vx[row],
+                            .uy = (near_real)b->vy[row],
+                            .uw = (near_real)b->w[row],
                             .inv_mass = im };
     if (world->narrow.any_bounce) {
-        start_low((real *)s->lows.data + (size_t)slot * 4, b, row);
+        start_low((near_real *)s->lows.data + (size_t)slot * 4, b, row);
     }
     if ((b->flags[row] & PL_BODY_ODD) != 0) {
         pl_effects_engage(world, row, slot);
@@ -253,7 +258,7 @@ static void engage(plumb_world *world)
     const uint32_t count = give_slots(world, (pl_share){ dynamic, movable }, 1, s->dynamic_slots);
     pl_tasks_ranges(world->tasks, count, PL_BODIES_SHARED, engage_slots, world);
     if (world->narrow.any_bounce) {
-        memset((real *)s->lows.data + (size_t)count * 4, 0, 4 * sizeof(real));
+        memset((near_real *)s->lows.data + (size_t)count * 4, 0, 4 * sizeof(near_real));
     }
     pl_solver_bodies(s)[count] = (pl_solver_body){ 0 };
     pl_solver_motions(s)[count] = (pl_solver_motion){ 0 };
@@ -290,7 +295,7 @@ static void color_contacts(plumb_world *world)
 {
     pl_solver *s = &world->solver;
     const sorter by = sorter_of(world);
-    const pl_ends *ends = s->ends.data;
+    const pl_ends *ends = world->narrow.ends.data;
     const uint32_t *slots = s->slots.data, count = world->narrow.manifold_count;
     uint64_t *masks = s->masks.data;
     uint8_t *colors = s->colors.data;
@@ -352,7 +357,7 @@ static uint32_t divide_lanes(plumb_world *world, uint32_t width)
 // bundle ends where a body would be shared. None reaches the contacts that are still to be read.
 static void pack_overflow(plumb_world *world, pl_cluster *cluster, uint32_t count, uint32_t width)
 {
-    const pl_ends *ends = world->solver.ends.data;
+    const pl_ends *ends = world->narrow.ends.data;
     uint32_t *lanes = (uint32_t *)world->solver.lanes.data + cluster->first_lane;
     uint32_t *end = &cluster->color_first[PL_COLOR_SLOTS];
     const uint32_t *from = &lanes[(size_t)*end * width - count];
@@ -385,7 +390,7 @@ static void place_lanes(plumb_world *world)
     pl_solver *s = &world->solver;
     const uint32_t width = (uint32_t)pl_solver_kernels(world)->width;
     const uint32_t bundles = divide_lanes(world, width);
-    const pl_ends *ends = s->ends.data;
+    const pl_ends *ends = world->narrow.ends.data;
     const uint8_t *colors = s->colors.data;
     uint32_t *lanes = s->lanes.data;
     s->bundle_count = 0;
@@ -411,7 +416,9 @@ bool pl_solver_graph(plumb_world *world)
     if (!reserve_bodies(world)) {
         return false;
     }
-    pl_tasks_ranges(world->tasks, world->narrow.manifold_count, LEAST, note_ends, world);
+    if (world->narrow.ends_stale) {
+        pl_tasks_ranges(world->tasks, world->narrow.manifold_count, LEAST, note_ends, world);
+    }
     mark_rows(world, world->dynamic_count + world->kinematic_count);
     if (!pl_solver_cluster(world)) {
         return false;
@@ -431,7 +438,7 @@ bool pl_solver_graph(plumb_world *world)
 void pl_solver_free(pl_memory *memory, pl_solver *s)
 {
     pl_buffer *buffers[] = {
-        &s->bodies,      &s->motions,      &s->rows,           &s->slots,        &s->ends,
+        &s->bodies,      &s->motions,      &s->rows,           &s->slots, 
         &s->masks,       &s->colors,       &s->lanes,          &s->bundles,      &s->impacts,
         &s->classic,     &s->lows,         &s->struck,         &s->extras,       &s->specials,
         &s->impact_heap, &s->impact_heads, &s->outlook_fields, &s->outlook_ends, &s->outlook_open,

@@ -38,11 +38,12 @@ typedef struct approach {
     double time;  // [s] since the start of the substep
 } approach;
 
-static real *lane_value(pl_solver *s, const pl_contact_kernels *kernels, size_t lane, size_t offset)
+static near_real *lane_value(pl_solver *s, const pl_contact_kernels *kernels, size_t lane,
+                             size_t offset)
 {
     size_t width = (size_t)kernels->width;
     char *bundle = (char *)s->bundles.data + lane / width * kernels->bundle_size;
-    return (real *)(void *)(bundle + offset) + lane % width;
+    return (near_real *)(void *)(bundle + offset) + lane % width;
 }
 
 // Apart, for few worlds have a locked body and impact_of is worth inlining.
@@ -50,16 +51,16 @@ static __attribute__((noinline)) void note_locks(const plumb_world *world, const
                                                  pl_impact *impact)
 {
     const uint16_t *flags = world->bodies.flags;
-    real ima = pl_solver_bodies(&world->solver)[impact->a].inv_mass;
-    real imb = pl_solver_bodies(&world->solver)[impact->b].inv_mass;
+    near_real ima = pl_solver_bodies(&world->solver)[impact->a].inv_mass;
+    near_real imb = pl_solver_bodies(&world->solver)[impact->b].inv_mass;
     impact->locked = true;
-    impact->aix = pl_unlocked(flags[m->body_a], PL_BODY_LOCK_X, ima);
-    impact->aiy = pl_unlocked(flags[m->body_a], PL_BODY_LOCK_Y, ima);
-    impact->bix = pl_unlocked(flags[m->body_b], PL_BODY_LOCK_X, imb);
-    impact->biy = pl_unlocked(flags[m->body_b], PL_BODY_LOCK_Y, imb);
+    impact->aix = (near_real)pl_unlocked(flags[m->body_a], PL_BODY_LOCK_X, ima);
+    impact->aiy = (near_real)pl_unlocked(flags[m->body_a], PL_BODY_LOCK_Y, ima);
+    impact->bix = (near_real)pl_unlocked(flags[m->body_b], PL_BODY_LOCK_X, imb);
+    impact->biy = (near_real)pl_unlocked(flags[m->body_b], PL_BODY_LOCK_Y, imb);
 }
 
-static uint32_t chain_of(real restitution)
+static uint32_t chain_of(near_real restitution)
 {
     double square = (double)restitution * (double)restitution, left = square;
     uint32_t count = 1;
@@ -98,7 +99,7 @@ static pl_impact impact_of(const plumb_world *world, const pl_manifold *m)
     return impact;
 }
 
-static pl_dull_call dull_call(const plumb_world *world, real h)
+static pl_dull_call dull_call(const plumb_world *world, near_real h)
 {
     const pl_solver *s = &world->solver;
     return (pl_dull_call){ .bodies = pl_solver_bodies(s),
@@ -115,7 +116,7 @@ static pl_dull_call dull_call(const plumb_world *world, real h)
                            .marks = s->outlook_open.data,
                            .looks_up = world->narrow.any_surface || pl_solver_tallies(world),
                            .h = h,
-                           .restitution_speed = world->desc.restitution_speed };
+                           .restitution_speed = (double)world->desc.restitution_speed };
 }
 
 typedef struct dull_job {
@@ -204,9 +205,9 @@ void pl_impacts_prepare_classic(plumb_world *world)
     pl_impact_queue_link(s);
 }
 
-static const real *low_of(const pl_solver *s, uint32_t slot)
+static const near_real *low_of(const pl_solver *s, uint32_t slot)
 {
-    return (const real *)s->lows.data + (size_t)slot * 4;
+    return (const near_real *)s->lows.data + (size_t)slot * 4;
 }
 
 static double length(double x, double y)
@@ -217,7 +218,7 @@ static double length(double x, double y)
 // When in this substep a body was struck last. [s]
 static double struck_at(const pl_solver *s, uint32_t slot)
 {
-    return (double)((const real *)s->struck.data)[slot];
+    return (double)((const near_real *)s->struck.data)[slot];
 }
 
 // Of both bodies of a manifold: what is common to its points.
@@ -248,7 +249,7 @@ static outlook look_out(const plumb_world *world, const pl_impact *m)
     const pl_solver *s = &world->solver;
     const pl_solver_body *a = &pl_solver_bodies(s)[m->a], *b = &pl_solver_bodies(s)[m->b];
     const pl_solver_motion *ma = &pl_solver_motions(s)[m->a], *mb = &pl_solver_motions(s)[m->b];
-    const real *la = low_of(s, m->a), *lb = low_of(s, m->b);
+    const near_real *la = low_of(s, m->a), *lb = low_of(s, m->b);
     double after_a = struck_at(s, m->a), after_b = struck_at(s, m->b);
     return (outlook){ .place = relative_of(m, (double)a->dx, (double)a->dy, (double)a->da,
                                            (double)b->dx, (double)b->dy, (double)b->da),
@@ -314,13 +315,13 @@ static approach foresee(const plumb_world *world, const pl_impact *m, const outl
 }
 
 // Changes a velocity that has not been pushed by a contact (u = v) or has, and keeps the rounding.
-static void kick(real *v, real *u, real *low, double change)
+static void kick(near_real *v, near_real *u, near_real *low, double change)
 {
     bool free = *u == *v;
     double sum = (double)*v + (double)*low + change;
-    *v = (real)sum;
-    *low = (real)(sum - (double)*v);
-    *u = free ? *v : *u + (real)change;
+    *v = (near_real)sum;
+    *low = (near_real)(sum - (double)*v);
+    *u = free ? *v : *u + (near_real)change;
 }
 
 // Applies impulse (along n, along t) at a point, as of `time` into the substep.
@@ -338,21 +339,21 @@ static void strike(const plumb_world *world, const pl_impact *m, uint32_t j, dou
         }
         pl_solver_body *body = &pl_solver_bodies(s)[slot];
         pl_solver_motion *motion = &pl_solver_motions(s)[slot];
-        real *low = (real *)s->lows.data + (size_t)slot * 4;
+        near_real *low = (near_real *)s->lows.data + (size_t)slot * 4;
         double sign = side == 0 ? -1 : 1;
         double turn = side == 0 ? (double)p->ran * along_n + (double)p->rat * along_t
                                 : (double)p->rbn * along_n + (double)p->rbt * along_t;
-        real ix = side == 0 ? m->aix : m->bix, iy = side == 0 ? m->aiy : m->biy;
+        near_real ix = side == 0 ? m->aix : m->bix, iy = side == 0 ? m->aiy : m->biy;
         double dvx = sign * (double)(m->locked ? ix : body->inv_mass) * px;
         double dvy = sign * (double)(m->locked ? iy : body->inv_mass) * py;
         double dw = sign * (double)body->inv_inertia * turn;
         kick(&body->vx, &motion->ux, &low[0], dvx);
         kick(&body->vy, &motion->uy, &low[1], dvy);
         kick(&body->w, &motion->uw, &low[2], dw);
-        ((real *)s->struck.data)[slot] = (real)time;
-        body->dx -= (real)(time * dvx);
-        body->dy -= (real)(time * dvy);
-        body->da -= (real)(time * dw);
+        ((near_real *)s->struck.data)[slot] = (near_real)time;
+        body->dx -= (near_real)(time * dvx);
+        body->dy -= (near_real)(time * dvy);
+        body->da -= (near_real)(time * dw);
     }
 }
 
@@ -431,7 +432,7 @@ static bool resolve(plumb_world *world, const pl_impact *m, const approach at[2]
     for (uint32_t j = 0; j < m->count; ++j) {
         if (impulse[j] > 0) {
             strike(world, m, j, impulse[j], 0, at[j].time);
-            manifold->point[j].total += (real)impulse[j];
+            manifold->point[j].total += (near_real)impulse[j];
             struck = true;
         }
     }
@@ -498,9 +499,9 @@ static void empty_queue(plumb_world *world, double h)
 }
 
 // A body of it has been struck in this substep.
-static bool is_upset(const pl_solver *s, const pl_impact *m, real h)
+static bool is_upset(const pl_solver *s, const pl_impact *m, near_real h)
 {
-    const real *struck = s->struck.data;
+    const near_real *struck = s->struck.data;
     return struck[m->a] > -h || struck[m->b] > -h;
 }
 
@@ -514,7 +515,7 @@ static void tell_kernel(const pl_impact *m)
     }
 }
 
-static void run_lively(plumb_world *world, real h)
+static void run_lively(plumb_world *world, near_real h)
 {
     pl_solver *s = &world->solver;
     pl_impact *impacts = s->impacts.data;
@@ -530,7 +531,7 @@ static void run_lively(plumb_world *world, real h)
 }
 
 // Dull ones strike once, one after the other as they stand.
-static void take_turn(plumb_world *world, pl_impact *m, real h)
+static void take_turn(plumb_world *world, pl_impact *m, near_real h)
 {
     approach at[2] = { { 0 }, { 0 } };
     m->left = 1;
@@ -544,7 +545,7 @@ static void take_turn(plumb_world *world, pl_impact *m, real h)
     }
 }
 
-static void run_all_dull(plumb_world *world, real h)
+static void run_all_dull(plumb_world *world, near_real h)
 {
     pl_impact *impacts = world->solver.impacts.data;
     for (uint32_t i = 0; i < world->solver.impact_count; ++i) {
@@ -555,13 +556,13 @@ static void run_all_dull(plumb_world *world, real h)
 }
 
 // Those that the outlook leaves open, and those of which a body has been struck since.
-static void run_open(plumb_world *world, real h)
+static void run_open(plumb_world *world, near_real h)
 {
     pl_solver *s = &world->solver;
     pl_impact *impacts = s->impacts.data;
     const pl_outlook_ends *ends = s->outlook_ends.data;
     const uint8_t *open = s->outlook_open.data;
-    const real *struck = s->struck.data;
+    const near_real *struck = s->struck.data;
     dull_job job = { pl_solver_kernels(world), dull_call(world, h) };
     pl_tasks_ranges(world->tasks, s->bundle_count, LEAST, look_ahead, &job);
     for (uint32_t lane = 0; lane < s->outlook_lanes; ++lane) {
@@ -573,7 +574,7 @@ static void run_open(plumb_world *world, real h)
 }
 
 // Where nothing else bounces: colour by colour, as contacts are solved.
-static void run_in_lanes(plumb_world *world, real h)
+static void run_in_lanes(plumb_world *world, near_real h)
 {
     pl_solver *s = &world->solver;
     const uint8_t *marks = s->outlook_open.data;
@@ -586,7 +587,7 @@ static void run_in_lanes(plumb_world *world, real h)
     }
 }
 
-static void run_recorded(plumb_world *world, real h)
+static void run_recorded(plumb_world *world, near_real h)
 {
     pl_solver *s = &world->solver;
     pl_impact *impacts = s->impacts.data;
@@ -607,10 +608,10 @@ static void run_recorded(plumb_world *world, real h)
     }
 }
 
-void pl_impacts_run(plumb_world *world, real h)
+void pl_impacts_run(plumb_world *world, near_real h)
 {
     pl_solver *s = &world->solver;
-    real *struck = s->struck.data;
+    near_real *struck = s->struck.data;
     for (uint32_t slot = 0; slot < s->slot_count; ++slot) {
         struck[slot] = -h; // none yet; an impact may lie one substep in the past
     }

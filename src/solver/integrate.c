@@ -8,27 +8,28 @@
 typedef struct passage {
     const pl_solver *solver;
     uint32_t first; // slot
-    real h;         // [s]
+    near_real h;    // [s]
 } passage;
 
 // Moves dynamic and kinematic bodies by the velocities with which the substep's contacts left them.
 static void move(void *context, uint32_t first, uint32_t count)
 {
     const passage *p = context;
-    const real h = p->h, half = h * h / 2;
+    const near_real h = p->h, half = h * h / 2;
     pl_solver_body *body = pl_solver_bodies(p->solver) + p->first;
     const pl_solver_motion *motion = pl_solver_motions(p->solver) + p->first;
     for (uint32_t i = first; i < first + count; ++i) {
         bool free =
             body[i].vx == motion[i].ux && body[i].vy == motion[i].uy && body[i].w == motion[i].uw;
-        real back = free ? half : 0;
+        near_real back = free ? half : 0;
         body[i].dx += h * body[i].vx - back * motion[i].ax;
         body[i].dy += h * body[i].vy - back * motion[i].ay;
         body[i].da += h * body[i].w - back * motion[i].aw;
     }
 }
 
-void pl_integrate_positions(const pl_solver *s, const pl_cluster *cluster, pl_tasks *tasks, real h)
+void pl_integrate_positions(const pl_solver *s, const pl_cluster *cluster, pl_tasks *tasks,
+                            near_real h)
 {
     for (int i = 0; i < 2; ++i) {
         pl_tasks_ranges(tasks, cluster->slots[i].count, PL_BODIES_SHARED, move,

@@ -16,7 +16,7 @@
 #include "solver/bundle.h"
 
 // A sum of products of reals is wrong by no more than this share of the sum of their magnitudes.
-#define DOUBT (16 * PLUMB_REAL_EPSILON)
+#define DOUBT (16 * NEAR_EPSILON)
 
 // Of both bodies of each lane: along the normal, its magnitude, and the turns.
 typedef struct relative {
@@ -54,7 +54,7 @@ WIDE_INLINE vf larger(vf x, vf y)
 WIDE_INLINE void look_out(outlook *o, const pl_dull_call *call, const bundle *c)
 {
     const vf nx = c->nx, ny = c->ny;
-    const plumb_real *body[2][PL_WIDTH], *motion[2][PL_WIDTH];
+    const near_real *body[2][PL_WIDTH], *motion[2][PL_WIDTH];
     for (int i = 0; i < PL_WIDTH; ++i) {
         body[0][i] = &call->bodies[c->a[i]].vx, body[1][i] = &call->bodies[c->b[i]].vx;
         motion[0][i] = &call->motions[c->a[i]].ax, motion[1][i] = &call->motions[c->b[i]].ax;
@@ -82,7 +82,7 @@ WIDE_INLINE vm look_at_point(const outlook *o, const pl_dull_call *call, vf sepa
     estimate u = at_point(ran, rbn, &o->before), force = at_point(ran, rbn, &o->force);
     u.value -= h * force.value;
     u.doubt += h * force.doubt + vabs(u.value) * splat(DOUBT);
-    vf way = h * (u.value + v.value) * splat((plumb_real)0.5);
+    vf way = h * (u.value + v.value) * splat((near_real)0.5);
     vf end = separation + place.value + way;
     vf doubt = place.doubt + h * (u.doubt + v.doubt) +
                (vabs(separation) + vabs(place.value) + vabs(way)) * splat(DOUBT);
@@ -99,7 +99,7 @@ WIDE_INLINE vm look_at_point(const outlook *o, const pl_dull_call *call, vf sepa
 }
 
 // The lanes of a bundle in which nothing is left open.
-WIDE_INLINE vm look_at_bundle(const pl_dull_call *call, const plumb_real *fields, bundle *c)
+WIDE_INLINE vm look_at_bundle(const pl_dull_call *call, const near_real *fields, bundle *c)
 {
     outlook o;
     look_out(&o, call, c);

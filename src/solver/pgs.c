@@ -10,26 +10,28 @@
 #include "world/state.h"
 
 #define POSITION_SWEEPS 3
-#define SLOP            ((real)0.005) // [m] overlap that is left, so that contacts persist
-#define POSITION_RATE   ((real)0.2)   // [-] share of the rest corrected a sweep
-#define LARGEST_PUSH    ((real)0.2)   // [m] most corrected a sweep
+#define SLOP            ((near_real)0.005) // [m] overlap that is left, so that contacts persist
+#define POSITION_RATE   ((near_real)0.2)   // [-] share of the rest corrected a sweep
+#define LARGEST_PUSH    ((near_real)0.2)   // [m] most corrected a sweep
 
 typedef struct classic {
     pl_solver *solver;
     pl_solver_body *bodies;
     pl_classic_contact *contacts;
     uint32_t count;
-    real h;
-    real *lows; // a quad a slot; NULL: nothing bounces
+    near_real h;
+    near_real *lows; // a quad a slot; NULL: nothing bounces
 } classic;
 
-static real normal_speed(const classic *c, const pl_classic_contact *m, const pl_classic_point *p)
+static near_real normal_speed(const classic *c, const pl_classic_contact *m,
+                              const pl_classic_point *p)
 {
     const pl_solver_body *a = &c->bodies[m->a], *b = &c->bodies[m->b];
     return m->nx * (b->vx - a->vx) + m->ny * (b->vy - a->vy) + p->rbn * b->w - p->ran * a->w;
 }
 
-static real separation_now(const classic *c, const pl_classic_contact *m, const pl_classic_point *p)
+static near_real separation_now(const classic *c, const pl_classic_contact *m,
+                                const pl_classic_point *p)
 {
     const pl_solver_body *a = &c->bodies[m->a], *b = &c->bodies[m->b];
     return p->separation + m->nx * (b->dx - a->dx) + m->ny * (b->dy - a->dy) + p->rbn * b->da -
@@ -37,17 +39,17 @@ static real separation_now(const classic *c, const pl_classic_contact *m, const 
 }
 
 // [N s] that a point at this separation may pull.
-static real pull_of(const pl_classic_contact *m, real separation)
+static near_real pull_of(const pl_classic_contact *m, near_real separation)
 {
     return separation < m->reach ? m->pull : 0;
 }
 
 static void push(const classic *c, const pl_classic_contact *m, const pl_classic_point *p,
-                 real along_n, real along_t)
+                 near_real along_n, near_real along_t)
 {
     pl_solver_body *a = &c->bodies[m->a], *b = &c->bodies[m->b];
-    real px = m->nx * along_n - m->ny * along_t;
-    real py = m->ny * along_n + m->nx * along_t;
+    near_real px = m->nx * along_n - m->ny * along_t;
+    near_real py = m->ny * along_n + m->nx * along_t;
     a->vx -= m->aix * px;
     a->vy -= m->aiy * py;
     a->w -= a->inv_inertia * (p->ran * along_n + p->rat * along_t);
@@ -56,36 +58,37 @@ static void push(const classic *c, const pl_classic_contact *m, const pl_classic
     b->w += b->inv_inertia * (p->rbn * along_n + p->rbt * along_t);
 }
 
-static real within(real value, real bound)
+static near_real within(near_real value, near_real bound)
 {
     return value > bound ? bound : value < -bound ? -bound : value;
 }
 
 // [N m s] most that rolling resistance can do.
-static real rolling_bound(const classic *c, const pl_classic_contact *m)
+static near_real rolling_bound(const classic *c, const pl_classic_contact *m)
 {
-    real load = 0;
+    near_real load = 0;
     for (uint32_t j = 0; j < m->count; ++j) {
         load += m->point[j].ln + pull_of(m, separation_now(c, m, &m->point[j]));
     }
     return m->rolling * (load > 0 ? load : 0);
 }
 
-static void turn(const classic *c, const pl_classic_contact *m, real impulse)
+static void turn(const classic *c, const pl_classic_contact *m, near_real impulse)
 {
     pl_solver_body *a = &c->bodies[m->a], *b = &c->bodies[m->b];
     a->w -= a->inv_inertia * impulse;
     b->w += b->inv_inertia * impulse;
 }
 
-static real inverse_or_zero(real k)
+static near_real inverse_or_zero(near_real k)
 {
     return k > 0 ? 1 / k : 0;
 }
 
 // What two bodies have against a push along (x, y), turning aside. [1/kg]
-static real inverse_mass(const plumb_world *world, const pl_classic_contact *m,
-                         const pl_solver_body *a, const pl_solver_body *b, real x, real y)
+static near_real inverse_mass(const plumb_world *world, const pl_classic_contact *m,
+                              const pl_solver_body *a, const pl_solver_body *b, near_real x,
+                              near_real y)
 {
     return world->locked_bodies == 0 ? a->inv_mass + b->inv_mass
                                      : (m->aix + m->bix) * x * x + (m->aiy + m->biy) * y * y;
@@ -111,14 +114,14 @@ static void prepare(classic *c, const plumb_world *world)
                                      .rolling = m->rolling };
         const pl_solver_body *a = &c->bodies[out->a], *b = &c->bodies[out->b];
         const uint16_t *flags = world->bodies.flags;
-        out->aix = pl_unlocked(flags[m->body_a], PL_BODY_LOCK_X, a->inv_mass);
-        out->aiy = pl_unlocked(flags[m->body_a], PL_BODY_LOCK_Y, a->inv_mass);
-        out->bix = pl_unlocked(flags[m->body_b], PL_BODY_LOCK_X, b->inv_mass);
-        out->biy = pl_unlocked(flags[m->body_b], PL_BODY_LOCK_Y, b->inv_mass);
-        out->pull = m->adhesion * c->h / (real)m->count;
+        out->aix = (near_real)pl_unlocked(flags[m->body_a], PL_BODY_LOCK_X, a->inv_mass);
+        out->aiy = (near_real)pl_unlocked(flags[m->body_a], PL_BODY_LOCK_Y, a->inv_mass);
+        out->bix = (near_real)pl_unlocked(flags[m->body_b], PL_BODY_LOCK_X, b->inv_mass);
+        out->biy = (near_real)pl_unlocked(flags[m->body_b], PL_BODY_LOCK_Y, b->inv_mass);
+        out->pull = m->adhesion * c->h / (near_real)m->count;
         out->reach = pl_adhesion_reach(pl_pairs(&world->broad.pairs)[m->pair].flags);
-        real mass_n = inverse_mass(world, out, a, b, m->nx, m->ny);
-        real mass_t = inverse_mass(world, out, a, b, m->ny, m->nx);
+        near_real mass_n = inverse_mass(world, out, a, b, m->nx, m->ny);
+        near_real mass_t = inverse_mass(world, out, a, b, m->ny, m->nx);
         for (uint32_t j = 0; j < m->count; ++j) {
             const pl_manifold_point *from = &m->point[j];
             pl_classic_point *p = &out->point[j];
@@ -134,17 +137,17 @@ static void prepare(classic *c, const plumb_world *world)
             p->ln = from->normal;
             p->lt = from->tangent;
         }
-        real inertia = a->inv_inertia + b->inv_inertia;
+        near_real inertia = a->inv_inertia + b->inv_inertia;
         out->mr = inverse_or_zero(inertia);
-        real carried = pl_pairs(&world->broad.pairs)[m->pair].rolling;
+        near_real carried = pl_pairs(&world->broad.pairs)[m->pair].rolling;
         out->lr = m->rolling > 0 ? within(carried, rolling_bound(c, out)) : 0;
     }
 }
 
 // v = u + h a; what rounding takes from elastic bodies is added in the next substep, as in soft.c.
-static void add(real *v, real *u, real *low, real change)
+static void add(near_real *v, near_real *u, near_real *low, near_real change)
 {
-    real wanted = change + (low != NULL ? *low : 0);
+    near_real wanted = change + (low != NULL ? *low : 0);
     *u = *v + wanted;
     if (low != NULL) {
         *low = wanted - (*u - *v);
@@ -157,7 +160,7 @@ static void integrate_velocities(const classic *c)
     pl_solver_motion *motion = pl_solver_motions(c->solver);
     for (uint32_t i = 0; i < c->solver->dynamic_slots; ++i) {
         pl_solver_body *body = &c->bodies[i];
-        real *low =
+        near_real *low =
             c->lows != NULL && c->lows[(size_t)i * 4 + 3] > 0 ? c->lows + (size_t)i * 4 : NULL;
         add(&body->vx, &motion[i].ux, low, c->h * motion[i].ax);
         add(&body->vy, &motion[i].uy, low != NULL ? low + 1 : NULL, c->h * motion[i].ay);
@@ -179,15 +182,15 @@ static void warm_start(const classic *c)
 static void solve_velocity(const classic *c, pl_classic_contact *m, pl_classic_point *p)
 {
     const pl_solver_body *a = &c->bodies[m->a], *b = &c->bodies[m->b];
-    real slip = m->nx * (b->vy - a->vy) - m->ny * (b->vx - a->vx) + p->rbt * b->w - p->rat * a->w +
-                m->surface_speed;
-    real s = separation_now(c, m, p);
-    real pull = pull_of(m, s), load = p->ln + pull;
-    real total = within(p->lt - p->mt * slip, m->friction * (load > 0 ? load : 0));
+    near_real slip = m->nx * (b->vy - a->vy) - m->ny * (b->vx - a->vx) + p->rbt * b->w -
+                     p->rat * a->w + m->surface_speed;
+    near_real s = separation_now(c, m, p);
+    near_real pull = pull_of(m, s), load = p->ln + pull;
+    near_real total = within(p->lt - p->mt * slip, m->friction * (load > 0 ? load : 0));
     push(c, m, p, 0, total - p->lt);
     p->lt = total;
 
-    real slack = s > 0 ? s / c->h : 0; // may still approach so fast
+    near_real slack = s > 0 ? s / c->h : 0; // may still approach so fast
     total = p->ln - p->mn * (normal_speed(c, m, p) + slack);
     total = total > -pull ? total : -pull;
     push(c, m, p, total - p->ln, 0);
@@ -197,9 +200,9 @@ static void solve_velocity(const classic *c, pl_classic_contact *m, pl_classic_p
 static void solve_position(const classic *c, const pl_classic_contact *m, const pl_classic_point *p)
 {
     pl_solver_body *a = &c->bodies[m->a], *b = &c->bodies[m->b];
-    real error = POSITION_RATE * (separation_now(c, m, p) + SLOP);
+    near_real error = POSITION_RATE * (separation_now(c, m, p) + SLOP);
     error = error > 0 ? 0 : error < -LARGEST_PUSH ? -LARGEST_PUSH : error;
-    real impulse = -p->mn * error;
+    near_real impulse = -p->mn * error;
     a->dx -= m->aix * m->nx * impulse;
     a->dy -= m->aiy * m->ny * impulse;
     a->da -= a->inv_inertia * p->ran * impulse;
@@ -210,7 +213,8 @@ static void solve_position(const classic *c, const pl_classic_contact *m, const 
 
 static void solve_rolling(const classic *c, pl_classic_contact *m)
 {
-    real total = within(m->lr - m->mr * (c->bodies[m->b].w - c->bodies[m->a].w), rolling_bound(c, m));
+    near_real total =
+        within(m->lr - m->mr * (c->bodies[m->b].w - c->bodies[m->a].w), rolling_bound(c, m));
     turn(c, m, total - m->lr);
     m->lr = total;
 }
@@ -262,7 +266,7 @@ void pl_solver_pgs(plumb_world *world, real dt)
                   .bodies = pl_solver_bodies(s),
                   .contacts = s->classic.data,
                   .count = world->narrow.manifold_count,
-                  .h = dt / (real)world->desc.substeps };
+                  .h = (near_real)(dt / (real)world->desc.substeps) };
     const bool bounce = world->narrow.any_bounce;
     const bool joints = pl_joints_awake(world) > 0;
     const bool resist = pl_effects_resist(world);

@@ -18,14 +18,14 @@
 // Contact frequency as a share of the substep rate. Stiffer contacts sink less, as the square, but from
 // 3/16 on a pyramid of 100 rows takes long to come to rest and leans, and from 1/4 on one of 20 never
 // rests, at one sweep a substep (README.md has the table).
-#define STIFFEST ((real)(1.0 / 6))
+#define STIFFEST ((near_real)(1.0 / 6))
 
-typedef real quad __attribute__((vector_size(4 * sizeof(real)), may_alias));
+typedef near_real quad __attribute__((vector_size(4 * sizeof(near_real)), may_alias));
 
 typedef struct flight {
     const pl_solver *solver;
     uint32_t first; // slot
-    real h;         // [s]
+    near_real h;    // [s]
 } flight;
 
 // v = u + h a, plus what the contacts did in the substep before.
@@ -33,7 +33,7 @@ static void fly(void *context, uint32_t first, uint32_t count)
 {
     const flight *f = context;
     const pl_solver *s = f->solver;
-    const real h = f->h;
+    const near_real h = f->h;
     quad *body = (quad *)(void *)(pl_solver_bodies(s) + f->first);
     quad *motion = (quad *)(void *)(pl_solver_motions(s) + f->first);
     for (uint32_t i = first; i < first + count; ++i) {
@@ -52,14 +52,14 @@ static void fly_carefully(void *context, uint32_t first, uint32_t count)
 {
     const flight *f = context;
     const pl_solver *s = f->solver;
-    const real h = f->h;
+    const near_real h = f->h;
     quad *body = (quad *)(void *)(pl_solver_bodies(s) + f->first);
     quad *motion = (quad *)(void *)(pl_solver_motions(s) + f->first);
     quad *low = (quad *)s->lows.data + f->first;
     for (uint32_t i = first; i < first + count; ++i) {
         quad v = body[2 * i];
         quad pushed = v - motion[2 * i + 1];
-        real kept = low[i][3];
+        near_real kept = low[i][3];
         low[i][3] = 0;
         quad wanted = h * motion[2 * i] + low[i];
         quad u = v + wanted;
@@ -80,7 +80,7 @@ typedef struct soft_step {
     plumb_world *world;
     const pl_contact_kernels *kernels;
     pl_contact_call call;
-    real h; // [s] substep
+    near_real h; // [s] substep
     uint32_t threads;
     pl_surface_variant surface;
     bool rotation, extras, specials, tallies, joints, bounce, resist;
@@ -130,9 +130,9 @@ static void each(const course *c, pl_contact_kernel *kernel)
 static soft_step open_step(plumb_world *world, real dt)
 {
     pl_solver *s = &world->solver;
-    const real h = dt / (real)world->desc.substeps;
-    const real stiffest = STIFFEST / h;
-    const real asked = world->desc.contact_hertz;
+    const near_real h = (near_real)(dt / (real)world->desc.substeps);
+    const near_real stiffest = STIFFEST / h;
+    const near_real asked = (near_real)world->desc.contact_hertz;
     const bool special = pl_solver_specials(world), tallies = pl_solver_tallies(world);
     const bool running = world->narrow.any_surface || special;
     return (soft_step){
@@ -152,8 +152,8 @@ static soft_step open_step(plumb_world *world, real dt)
                   .h = h,
                   .inv_h = 1 / h,
                   .hertz = asked > 0 && asked < stiffest ? asked : stiffest,
-                  .damping = world->desc.contact_damping,
-                  .push_speed = world->desc.push_speed,
+                  .damping = (near_real)world->desc.contact_damping,
+                  .push_speed = (near_real)world->desc.push_speed,
                   .flags = world->bodies.flags },
         .h = h,
         .surface = special                      ? PL_SPECIAL
@@ -200,7 +200,7 @@ static void run_substep(const course *c, bool first)
     const soft_step *step = c->step;
     const pl_contact_kernels *kernels = step->kernels;
     plumb_world *world = step->world;
-    const real h = step->h;
+    const near_real h = step->h;
     if (c->resist) {
         pl_effects_substep(world, h);
     }

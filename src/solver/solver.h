@@ -8,34 +8,35 @@
 
 // A body that is in a contact, as the kernels gather it: one row of eight reals.
 typedef struct pl_solver_body {
-    real vx, vy, w;   // [m/s], [rad/s] now
-    real inv_mass;    // [1/kg]
-    real dx, dy, da;  // [m], [rad] moved since the start of the step
-    real inv_inertia; // [1/(kg m^2)]
+    near_real vx, vy, w;   // [m/s], [rad/s] now
+    near_real inv_mass;    // [1/kg]
+    near_real dx, dy, da;  // [m], [rad] moved since the start of the step
+    near_real inv_inertia; // [1/(kg m^2)]
 } pl_solver_body;
 
 // What only the passes over bodies touch. Quads, so that they run as vectors.
 typedef struct pl_solver_motion {
-    real ax, ay, aw, none;     // [m/s^2], [rad/s^2] from gravity, forces, torque; 0
-    real ux, uy, uw, inv_mass; // velocity as integrated: before any contact impulse of the substep
+    near_real ax, ay, aw, none; // [m/s^2], [rad/s^2] from gravity, forces, torque; 0
+    near_real ux, uy, uw,
+        inv_mass; // velocity as integrated: before any contact impulse of the substep
 } pl_solver_motion;
 
 // A contact point that may bounce: handled by event, outside the wide kernels (impact.c).
 typedef struct pl_impact_point {
-    real ran, rbn, rat, rbt;  // [m] lever arms
-    real separation;          // [m] at the start of the step
-    real *lane_separation;    // where the contact kernel reads it
-    const real *lane_impulse; // the kernel's accumulated normal impulse
+    near_real ran, rbn, rat, rbt;  // [m] lever arms
+    near_real separation;          // [m] at the start of the step
+    near_real *lane_separation;    // where the contact kernel reads it
+    const near_real *lane_impulse; // the kernel's accumulated normal impulse
 } pl_impact_point;
 
 typedef struct pl_impact {
     uint32_t a, b; // solver slots
     uint32_t pair;
     uint32_t count;
-    real nx, ny, friction, restitution;
-    real surface_speed; // [m/s]
+    near_real nx, ny, friction, restitution;
+    near_real surface_speed; // [m/s]
     bool locked; // a body has a locked axis: then
-    real aix, aiy, bix, biy; // [1/kg] inverse masses along the axes
+    near_real aix, aiy, bix, biy; // [1/kg] inverse masses along the axes
     bool due;    // an impact falls into the present substep
     bool clear[2]; // the point stays apart in it
     uint32_t chain; // impacts of it that are followed in a substep
@@ -57,12 +58,12 @@ static inline bool pl_bounces(const pl_manifold *m)
 #define PL_IMPACT_KEPT 0.02
 
 // Of so little restitution that one impact a substep is all that is followed.
-static inline bool pl_is_dull(real restitution)
+static inline bool pl_is_dull(near_real restitution)
 {
     return (double)restitution * (double)restitution <= PL_IMPACT_KEPT;
 }
 
-// Dull impacts, as the lanes of the contact kernels have them: of each bundle three fields, of a real a
+// Dull impacts, as the lanes of the contact kernels have them: of each bundle three fields, of a near_real a
 // lane. Separations are PL_APART and restitution 0 where no dull one is.
 #define PL_OUTLOOK_SEPARATION(j) ((size_t)(j)) // [m] at the start of the step
 #define PL_OUTLOOK_RESTITUTION   2
@@ -81,18 +82,18 @@ enum {
 typedef struct pl_dull_call {
     pl_solver_body *bodies;
     pl_solver_motion *motions;
-    real *lows, *struck;    // a quad, a real a slot
+    near_real *lows, *struck;    // a quad, a real a slot
     uint32_t dynamic_slots; // slots from here on do not move
     void *bundles;
     const uint32_t *color_first; // bundles of the colours: a kernel may be given several at once
     const uint32_t *lanes;
     pl_manifold *manifolds;
     pl_pair *pairs;
-    real *fields;
+    near_real *fields;
     uint8_t *marks;         // a lane: after a look 1 where it is left open, else PL_DULL_...
     bool looks_up;          // surfaces run, or impulses are added up
-    real h;                 // [s]
-    real restitution_speed; // [m/s]
+    near_real h;                 // [s]
+    double restitution_speed; // [m/s]
 } pl_dull_call;
 
 // Over the bundles [first, first + count) (dull.simd.c): fills in the fields and counts lively impacts;
@@ -102,28 +103,23 @@ typedef void pl_dull_kernel(const pl_dull_call *call, uint32_t first, uint32_t c
 
 // A contact of the classic solver (pgs.c).
 typedef struct pl_classic_point {
-    real ran, rbn, rat, rbt; // [m] lever arms
-    real separation;         // [m] at the start of the step
-    real mn, mt;             // [kg] effective masses
-    real ln, lt;             // [N s]
+    near_real ran, rbn, rat, rbt; // [m] lever arms
+    near_real separation;         // [m] at the start of the step
+    near_real mn, mt;             // [kg] effective masses
+    near_real ln, lt;             // [N s]
 } pl_classic_point;
 
 typedef struct pl_classic_contact {
     uint32_t a, b; // solver slots
     uint32_t pair, manifold, count;
-    real aix, aiy, bix, biy; // [1/kg] inverse masses along the axes
-    real pull, reach;        // [N s] that a point may pull, [m] while it is nearer than this
-    real nx, ny, friction, restitution;
-    real surface_speed; // [m/s]
-    real rolling;       // [m]
-    real mr, lr;        // [kg m^2], [N m s] of rolling resistance
+    near_real aix, aiy, bix, biy; // [1/kg] inverse masses along the axes
+    near_real pull, reach;        // [N s] that a point may pull, [m] while it is nearer than this
+    near_real nx, ny, friction, restitution;
+    near_real surface_speed; // [m/s]
+    near_real rolling;       // [m]
+    near_real mr, lr;        // [kg m^2], [N m s] of rolling resistance
     pl_classic_point point[2];
 } pl_classic_contact;
-
-// Body rows of a manifold: all that the graph looks at.
-typedef struct pl_ends {
-    uint32_t a, b;
-} pl_ends;
 
 // What a row is marked with in `slots` before it gets its slot. An elastic body, one in a contact with
 // restitution, keeps what rounding takes from its velocity; the others must not, or what one
@@ -154,10 +150,9 @@ typedef struct pl_cluster {
 typedef struct pl_solver {
     pl_buffer bodies, motions; // engaged dynamic bodies, engaged kinematic ones, one immovable body
     pl_buffer lows;   // if any contact bounces, a quad a slot: what rounding took from its velocity, if kept
-    pl_buffer struck; // likewise a real a slot: when in the substep an impact struck it last [s]
+    pl_buffer struck; // likewise a near_real a slot: when in the substep an impact struck it last [s]
     pl_buffer rows;   // uint32_t: body row of a slot
     pl_buffer slots;  // uint32_t: slot of a dynamic or kinematic row; PL_NONE: not in a contact
-    pl_buffer ends;   // pl_ends a manifold
     pl_buffer masks;  // uint64_t a slot: colours taken
     pl_buffer colors; // uint8_t a manifold
     pl_buffer lanes;  // uint32_t a lane: its manifold; PL_NONE: empty
@@ -197,9 +192,9 @@ typedef struct pl_contact_call {
     const uint16_t *flags;  // PL_BODY_... of a body row
     pl_manifold *manifolds;
     pl_pair *pairs;
-    real h, inv_h;       // [s] substep
-    real hertz, damping; // [1/s], [-] of soft contacts
-    real push_speed;     // [m/s]
+    near_real h, inv_h;       // [s] substep
+    near_real hertz, damping; // [1/s], [-] of soft contacts
+    near_real push_speed;     // [m/s]
 } pl_contact_call;
 
 typedef void pl_contact_kernel(const pl_contact_call *call, uint32_t first, uint32_t count);
@@ -259,11 +254,11 @@ bool pl_solver_tallies(const plumb_world *world);
 bool pl_solver_specials(const plumb_world *world);
 // Moves the bodies of a cluster over one substep of h [s] (integrate.c).
 void pl_integrate_positions(const pl_solver *solver, const pl_cluster *cluster, pl_tasks *tasks,
-                            real h);
+                            near_real h);
 // Impacts with restitution: collects them; resolves those of one substep of h [s] (impact.c).
 void pl_impacts_prepare(plumb_world *world);
 void pl_impacts_prepare_classic(plumb_world *world);
-void pl_impacts_run(plumb_world *world, real h);
+void pl_impacts_run(plumb_world *world, near_real h);
 // Solver slot of a body row.
 static inline uint32_t pl_solver_slot(const pl_solver *solver, uint32_t row, uint32_t movable_rows)
 {

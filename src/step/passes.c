@@ -87,7 +87,7 @@ static bool collision_wanted(const plumb_world *world, const char **reason)
     bool wanted = world->dynamic_count > 0 && world->moving_count > 0 && world->pieces.live > 1;
     wanted |= world->broad.pairs.count > 0 || world->parts.count > 0;
     return say(wanted, reason, "dynamic bodies have shapes that can meet others",
-               "no dynamic body has a shape that could meet another");
+               "no awake dynamic body has a shape that could meet another");
 }
 
 // A sensor that something could meet, or what it saw has to be forgotten.
@@ -100,7 +100,13 @@ static bool sensing_wanted(const plumb_world *world, const char **reason)
 
 static bool broad_wanted(const plumb_world *world, const char **reason)
 {
-    return collision_wanted(world, reason) || sensing_wanted(world, reason);
+    const char *seen;
+    if (collision_wanted(world, reason)) {
+        return true;
+    }
+    bool sensing = sensing_wanted(world, &seen);
+    *reason = sensing ? seen : *reason;
+    return sensing;
 }
 
 static bool surfaces_wanted(const plumb_world *world, const char **reason)

@@ -8,8 +8,7 @@
 
 #define POSITION_LIMIT ((real)1e9) // [m] see plumb_body_desc
 
-//---- create, destroy
-//------------------------------------------------------------------------------
+//---- create, destroy -----------------------------------------------------------------------------
 
 static plumb_result check_motion(const plumb_world *world, const char *fn,
                                  const plumb_body_desc *desc)
@@ -182,8 +181,7 @@ plumb_result plumb_body_destroy(plumb_world *world, plumb_body body)
     return r;
 }
 
-//---- place and velocity
-//---------------------------------------------------------------------------
+//---- place and velocity --------------------------------------------------------------------------
 
 void pl_body_place(plumb_world *world, uint32_t row, plumb_vec2 position, plumb_real angle)
 {
@@ -281,8 +279,7 @@ plumb_result plumb_body_set_angular_velocity(plumb_world *world, plumb_body body
     return r;
 }
 
-//---- mass
-//-----------------------------------------------------------------------------------------
+//---- mass ----------------------------------------------------------------------------------------
 
 plumb_result pl_check_dynamic(const plumb_world *world, const char *fn, plumb_body body,
                               uint32_t *row)
@@ -374,8 +371,7 @@ plumb_result plumb_body_set_continuous(plumb_world *world, plumb_body body, bool
     return r;
 }
 
-//---- the rest
-//-------------------------------------------------------------------------------------
+//---- the rest ------------------------------------------------------------------------------------
 
 plumb_result plumb_body_set_gravity_scale(plumb_world *world, plumb_body body, plumb_real scale)
 {

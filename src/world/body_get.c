@@ -16,8 +16,7 @@ plumb_body_type plumb_body_get_type(const plumb_world *world, plumb_body body)
     return row == PL_NONE ? PLUMB_DYNAMIC : (plumb_body_type)world->bodies.type[row];
 }
 
-//---- place and motion
-//-----------------------------------------------------------------------------
+//---- place and motion ----------------------------------------------------------------------------
 
 // All zeros, which is not a rotation, for a bad handle.
 plumb_transform plumb_body_transform(const plumb_world *world, plumb_body body)
@@ -74,8 +73,7 @@ plumb_vec2 plumb_body_velocity_at(const plumb_world *world, plumb_body body, plu
                                  plumb_body_angular_velocity(world, body), plumb_vec2_left(arm));
 }
 
-//---- properties
-//-----------------------------------------------------------------------------------
+//---- properties ----------------------------------------------------------------------------------
 
 plumb_real plumb_body_mass(const plumb_world *world, plumb_body body)
 {
@@ -186,8 +184,7 @@ plumb_aabb plumb_body_aabb(const plumb_world *world, plumb_body body)
     return box;
 }
 
-//---- frames
-//---------------------------------------------------------------------------------------
+//---- frames --------------------------------------------------------------------------------------
 
 plumb_vec2 plumb_body_world_point(const plumb_world *world, plumb_body body, plumb_vec2 local)
 {
@@ -210,8 +207,7 @@ plumb_vec2 plumb_body_local_vector(const plumb_world *world, plumb_body body, pl
     return plumb_rot_inv_apply(plumb_body_transform(world, body).q, vector);
 }
 
-//---- columns
-//--------------------------------------------------------------------------------------
+//---- columns -------------------------------------------------------------------------------------
 
 plumb_body_span plumb_world_bodies(plumb_world *world)
 {

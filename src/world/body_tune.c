@@ -95,8 +95,7 @@ plumb_result plumb_body_set_time_scale(plumb_world *world, plumb_body body, plum
     return PLUMB_OK;
 }
 
-//---- read
-//-----------------------------------------------------------------------------------------
+//---- read ----------------------------------------------------------------------------------------
 
 // Zeros for a bad handle.
 static pl_tuning look(const plumb_world *world, plumb_body body)

@@ -10,8 +10,7 @@
 
 #define CENTER_MOST ((real)1e7) // [m] as points of shapes: PLUMB_LENGTH_MAX
 
-//---- type, enabled
-//--------------------------------------------------------------------------------
+//---- type, enabled -------------------------------------------------------------------------------
 
 // Row and pieces where type and flags of the body want them. What it touched or held in its sleep wakes.
 static void relocate(plumb_world *world, uint32_t row)
@@ -128,8 +127,7 @@ plumb_result plumb_body_set_enabled(plumb_world *world, plumb_body body, bool en
     return r;
 }
 
-//---- locked axes
-//----------------------------------------------------------------------------------
+//---- locked axes ---------------------------------------------------------------------------------
 
 plumb_result plumb_body_set_locks(plumb_world *world, plumb_body body, plumb_axis_locks locks)
 {
@@ -153,8 +151,7 @@ plumb_result plumb_body_set_locks(plumb_world *world, plumb_body body, plumb_axi
     return PLUMB_OK;
 }
 
-//---- masses that are given
-//------------------------------------------------------------------------
+//---- masses that are given -----------------------------------------------------------------------
 
 plumb_result plumb_body_set_inertia(plumb_world *world, plumb_body body, plumb_real inertia)
 {
@@ -197,8 +194,7 @@ plumb_result plumb_body_set_local_center(plumb_world *world, plumb_body body, pl
     return PLUMB_OK;
 }
 
-//---- place, one half of it
-//------------------------------------------------------------------------
+//---- place, one half of it -----------------------------------------------------------------------
 
 plumb_result plumb_body_set_position(plumb_world *world, plumb_body body, plumb_vec2 position)
 {

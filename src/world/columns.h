@@ -3,6 +3,7 @@
 #ifndef PL_COLUMNS_H
 #define PL_COLUMNS_H
 
+#include "core/near.h"
 #include "core/table.h"
 #include "plumb/body.h"
 #include "plumb/material.h"

@@ -56,8 +56,7 @@ plumb_error plumb_world_error(const plumb_world *world)
     return world->error;
 }
 
-//---- locking
-//--------------------------------------------------------------------------------------
+//---- locking -------------------------------------------------------------------------------------
 
 // What to call instead while the world is locked. Others: wait until the step is over.
 static const char *const remedies[][2] = {
@@ -94,8 +93,7 @@ plumb_result pl_check_unlocked(const plumb_world *world, const char *function)
     return pl_fail(world, PLUMB_E_LOCKED, function, "%s", text);
 }
 
-//---- values
-//---------------------------------------------------------------------------------------
+//---- values --------------------------------------------------------------------------------------
 
 // "nan" whatever its sign bit, which printf would show.
 static double shown(plumb_real value)
@@ -177,8 +175,7 @@ plumb_result pl_check_name(const plumb_world *world, const char *function, const
     return PLUMB_OK;
 }
 
-//---- handles
-//--------------------------------------------------------------------------------------
+//---- handles -------------------------------------------------------------------------------------
 
 static const char *kind_text(uint32_t kind)
 {

@@ -81,7 +81,7 @@ static void tell_passes(listing *out, const plumb_world *w)
     PART(sleep, pl_sleep, w->sleep, pl_sleep_free(&dry, &copy));
     PART(swept, pl_continuous, w->continuous, pl_continuous_free(&dry, &copy));
     tell(out, "broad phase", broad, w->broad.pairs.count);
-    tell(out, "contacts", narrow, w->narrow.touching_count);
+    tell(out, "contacts", narrow, w->narrow.overlaps.touching_count);
     tell(out, "solver", solver, 0);
     tell(out, "joints", joints, 0);
     tell(out, "seams", seams, 0);

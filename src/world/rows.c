@@ -15,8 +15,7 @@
 #include "world/material_pair.h"
 #include "world/wrap.h"
 
-//---- lookup
-//---------------------------------------------------------------------------------------
+//---- lookup --------------------------------------------------------------------------------------
 
 static uint32_t row_of(const plumb_world *world, plumb_entity entity, plumb_entity_kind kind)
 {
@@ -42,8 +41,7 @@ uint32_t pl_material_row(const plumb_world *world, plumb_material material)
     return row_of(world, material, PLUMB_KIND_MATERIAL);
 }
 
-//---- partitions
-//-----------------------------------------------------------------------------------
+//---- partitions ----------------------------------------------------------------------------------
 
 uint32_t pl_partition_first(const plumb_world *world, pl_partition partition)
 {
@@ -211,14 +209,19 @@ uint32_t pl_row_transfer(plumb_world *world, uint32_t row, pl_partition partitio
     return to;
 }
 
-//---- poses
-//----------------------------------------------------------------------------------------
+//---- poses ---------------------------------------------------------------------------------------
 
 static void write_pose(plumb_world *world, uint32_t row, real dx, real dy)
 {
     const pl_bodies *b = &world->bodies;
-    pl_poses(world)[row] =
-        (pl_pose){ b->x[row], b->y[row], b->c[row], b->s[row], dx, dy, b->vx[row], b->vy[row] };
+    pl_poses(world)[row] = (pl_pose)
+    {
+        b->x[row], b->y[row], b->c[row], b->s[row], dx, dy, b->vx[row], b->vy[row],
+#if PLUMB_IS_FAR
+            (b->center_x[row] - b->x[row] - dx) + b->low_x[row],
+            (b->center_y[row] - b->y[row] - dy) + b->low_y[row]
+#endif
+    };
 }
 
 void pl_body_update_pose(plumb_world *world, uint32_t row)
@@ -253,8 +256,7 @@ void pl_body_update_center(plumb_world *world, uint32_t row)
     }
 }
 
-//---- destruction
-//----------------------------------------------------------------------------------
+//---- destruction ---------------------------------------------------------------------------------
 
 static void destroy_shape(plumb_world *world, plumb_entity shape)
 {

@@ -5,8 +5,7 @@
 
 #include "world/state.h"
 
-//---- body rows (rows.c)
-//---------------------------------------------------------------------------
+//---- body rows (rows.c) --------------------------------------------------------------------------
 
 // Partitions in the order in which they lie in the table.
 typedef enum pl_partition {
@@ -50,8 +49,7 @@ static inline bool pl_row_is_asleep(const plumb_world *world, uint32_t row)
     return row - (world->dynamic_count + world->kinematic_count) < world->asleep_count;
 }
 
-//---- vertex pool (pool.c)
-//-------------------------------------------------------------------------
+//---- vertex pool (pool.c) ------------------------------------------------------------------------
 
 // Size class of a run of `count` corners, 1..16, and the corners that a class holds.
 uint8_t pl_pool_class(int count);
@@ -63,8 +61,7 @@ void pl_pool_give(pl_vertex_pool *pool, uint8_t vertex_class, uint32_t first);
 void pl_pool_init(pl_vertex_pool *pool);
 void pl_pool_free(pl_memory *memory, pl_vertex_pool *pool);
 
-//---- pieces (piece.c)
-//-----------------------------------------------------------------------------
+//---- pieces (piece.c) ----------------------------------------------------------------------------
 
 // A piece as shape_make.c made it, in the frame of the body's origin.
 typedef struct pl_made_piece {
@@ -95,8 +92,7 @@ void pl_pieces_remove(plumb_world *world, uint32_t first);
 void pl_piece_rest(plumb_world *world, uint32_t piece);
 void pl_piece_move(plumb_world *world, uint32_t piece);
 
-//---- mass (mass.c)
-//--------------------------------------------------------------------------------
+//---- mass (mass.c) -------------------------------------------------------------------------------
 
 // [kg], [kg m^2]: masses and inertias beyond these have no inverse that a float could hold.
 #define PL_MASS_LEAST ((real)1e-36)
@@ -127,8 +123,7 @@ void pl_mass_apply(plumb_world *world, uint32_t row, const pl_body_mass *mass);
 // All of that for a body whose shapes have changed; static and kinematic ones have no mass.
 void pl_mass_revise(plumb_world *world, uint32_t row);
 
-//---- size (extent.c)
-//---------------------------------------------------------------------------------
+//---- size (extent.c) -----------------------------------------------------------------------------
 
 // [m] half the least width of a piece, rounding included; 0 for segments. Inner cuts of an outline
 // are no sides where `seams` says so; without any side, PLUMB_REAL_MAX.
@@ -136,15 +131,13 @@ real pl_piece_half_width(const plumb_world *world, uint32_t piece, bool seams);
 // Extent and slack of a dynamic or kinematic body whose shapes or centre have changed.
 void pl_extent_revise(plumb_world *world, uint32_t row);
 
-//---- making shapes (shape_make.c)
-//-----------------------------------------------------------------
+//---- making shapes (shape_make.c) ----------------------------------------------------------------
 
 // Checks a descriptor and makes its pieces in world->made. Errors: see plumb_shape_create.
 plumb_result pl_shape_make(plumb_world *world, const char *function, const plumb_shape_desc *desc,
                            pl_made *made);
 
-//---- API calls that commands share with the direct ones
-//-------------------------------------------
+//---- API calls that commands share with the direct ones ------------------------------------------
 
 // `reserved` null: a new handle; otherwise one that a command has reserved, which comes alive.
 plumb_entity pl_entity_claim(plumb_world *world, plumb_entity reserved, plumb_entity_kind kind,

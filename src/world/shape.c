@@ -7,8 +7,7 @@
 #include "world/filter.h"
 #include "world/rows.h"
 
-//---- create, destroy
-//------------------------------------------------------------------------------
+//---- create, destroy -----------------------------------------------------------------------------
 
 plumb_entity pl_entity_claim(plumb_world *world, plumb_entity reserved, plumb_entity_kind kind,
                              uint32_t row)
@@ -115,8 +114,7 @@ plumb_result plumb_shape_destroy(plumb_world *world, plumb_shape shape)
     return r;
 }
 
-//---- setters
-//--------------------------------------------------------------------------------------
+//---- setters -------------------------------------------------------------------------------------
 
 plumb_result plumb_shape_set_material(plumb_world *world, plumb_shape shape,
                                       plumb_material material)
@@ -207,8 +205,7 @@ plumb_result plumb_shape_set_user_data(plumb_world *world, plumb_shape shape, vo
     return r;
 }
 
-//---- getters
-//--------------------------------------------------------------------------------------
+//---- getters -------------------------------------------------------------------------------------
 
 bool plumb_shape_valid(const plumb_world *world, plumb_shape shape)
 {
@@ -260,8 +257,7 @@ void *plumb_shape_user_data(const plumb_world *world, plumb_shape shape)
     return first == PL_NONE ? NULL : world->pieces.user_data[first];
 }
 
-//---- geometry
-//-------------------------------------------------------------------------------------
+//---- geometry ------------------------------------------------------------------------------------
 
 int plumb_shape_piece_count(const plumb_world *world, plumb_shape shape)
 {

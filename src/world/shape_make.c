@@ -23,8 +23,7 @@ typedef struct maker {
     pl_made *made;
 } maker;
 
-//---- the fields of each kind
-//----------------------------------------------------------------------
+//---- the fields of each kind ---------------------------------------------------------------------
 
 enum {
     HAS_CENTER = 1,
@@ -176,8 +175,7 @@ static plumb_result refuse_geometry(const maker *m, plumb_result code)
     }
 }
 
-//---- pieces
-//---------------------------------------------------------------------------------------
+//---- pieces --------------------------------------------------------------------------------------
 
 static bool reserve_pieces(const maker *m, uint32_t count)
 {
@@ -286,8 +284,7 @@ static void finish_polygon(const maker *m, pl_made_piece *piece)
     count_corners(m, piece);
 }
 
-//---- kinds of one piece
-//---------------------------------------------------------------------------
+//---- kinds of one piece --------------------------------------------------------------------------
 
 static plumb_result make_convex(const plumb_shape_desc *d, plumb_convex *convex)
 {
@@ -336,8 +333,7 @@ static plumb_result make_single(const maker *m)
     return PLUMB_OK;
 }
 
-//---- lines
-//----------------------------------------------------------------------------------------
+//---- lines ---------------------------------------------------------------------------------------
 
 static plumb_result make_lines(const maker *m)
 {
@@ -358,8 +354,7 @@ static plumb_result make_lines(const maker *m)
     return PLUMB_OK;
 }
 
-//---- outlines
-//-------------------------------------------------------------------------------------
+//---- outlines ------------------------------------------------------------------------------------
 
 // True when the edge from p to q runs along some edge of the outline for more than a point.
 static bool on_outline(const plumb_shape_desc *d, plumb_vec2 p, plumb_vec2 q, real tolerance)
@@ -441,8 +436,7 @@ static plumb_result make_outline(const maker *m)
     return PLUMB_OK;
 }
 
-//---- all of it
-//------------------------------------------------------------------------------------
+//---- all of it -----------------------------------------------------------------------------------
 
 plumb_result pl_shape_make(plumb_world *world, const char *function, const plumb_shape_desc *desc,
                            pl_made *made)

@@ -37,12 +37,15 @@ typedef struct pl_vertex_pool {
     uint32_t free_head[PL_VERTEX_CLASSES]; // first corner of a free run; its x holds no value, see pool.c
 } pl_vertex_pool;
 
-// Body rows as the narrow phase gathers them: eight reals a row.
+// Body rows as the narrow phase gathers them: eight reals a row, in the far build ten.
 typedef struct pl_pose {
     real x, y;     // [m] origin
     real c, s;     // rotation
     real dx, dy;   // [m] centre of mass minus origin, in world axes
     real vx, vy;   // [m/s] velocity of the centre
+#if PLUMB_IS_FAR
+    real low_x, low_y; // [m] what rounding took from the origin
+#endif
 } pl_pose;
 
 struct plumb_world {

@@ -21,8 +21,7 @@
 #define ITERATIONS_MOST    1000
 #define BOX_CORNERS        4 // reserved a shape
 
-//---- the descriptor
-//-------------------------------------------------------------------------------
+//---- the descriptor ------------------------------------------------------------------------------
 
 static plumb_result check_integers(const plumb_world *world, const char *fn,
                                    const plumb_world_desc *d)
@@ -96,8 +95,7 @@ static void resolve_defaults(plumb_world_desc *d)
     pl_sleep_resolve(d);
 }
 
-//---- create, destroy
-//------------------------------------------------------------------------------
+//---- create, destroy -----------------------------------------------------------------------------
 
 static void init_tables(plumb_world *world)
 {
@@ -246,8 +244,7 @@ void plumb_world_destroy(plumb_world *world)
     free_world(world);
 }
 
-//---- settings
-//-------------------------------------------------------------------------------------
+//---- settings ------------------------------------------------------------------------------------
 
 plumb_world_desc plumb_world_settings(const plumb_world *world)
 {
@@ -355,20 +352,13 @@ void *plumb_world_user_data(const plumb_world *world)
     return world == NULL ? NULL : world->desc.user_data;
 }
 
-//---- sums
-//-----------------------------------------------------------------------------------------
+//---- sums ----------------------------------------------------------------------------------------
 
 // The summary of contacts that sleep, as it was when they fell asleep.
-static void add_sleeping(const plumb_world *world, pl_narrow *sum)
+static void add_sleeping(const plumb_world *world, pl_overlaps *sum)
 {
     for (uint32_t k = 0; k < world->sleep.island_slots; ++k) {
-        const pl_island *i = &pl_islands(&world->sleep)[k]; // a free slot has no contacts
-        sum->touching_count += i->touching_count;
-        sum->point_count += i->point_count;
-        sum->sum_penetration += i->sum_penetration;
-        if (i->max_penetration > sum->max_penetration) {
-            sum->max_penetration = i->max_penetration;
-        }
+        pl_overlaps_add(sum, &pl_islands(&world->sleep)[k].overlaps); // a free slot has none
     }
 }
 
@@ -378,7 +368,7 @@ plumb_stats plumb_world_stats(const plumb_world *world)
         return (plumb_stats){ 0 };
     }
     uint32_t bodies = world->bodies.table.count;
-    pl_narrow all = world->narrow;
+    pl_overlaps all = world->narrow.overlaps;
     add_sleeping(world, &all);
     return (plumb_stats){
         .step_count = world->step_count,

@@ -32,6 +32,7 @@ strict="-Wall -Wextra -Wpedantic -Werror"
 try "is written" make --no-print-directory amalgamation
 try "compiles in float" "$cc" -std=c17 -O1 $strict -c "$O/plumb.c" -o "$work/plumb.o"
 try "compiles in double" "$cc" -std=c17 -O1 $strict -DPLUMB_DOUBLE=1 -c "$O/plumb.c" -o "$work/plumb_d.o"
+try "compiles for far worlds" "$cc" -std=c17 -O1 $strict -DPLUMB_FAR=1 -c "$O/plumb.c" -o "$work/plumb_far.o"
 try "compiles for this machine, contraction allowed" \
     "$cc" -std=gnu17 -O1 -march=native -ffp-contract=fast -c "$O/plumb.c" -o "$work/native.o"
 try "is refused with -ffast-math" \
@@ -41,7 +42,7 @@ no_fused() # object
 {
     [ -s "$1" ] && ! objdump -d --no-show-raw-insn "$1" | grep -E '\s(vfn?m(add|sub)|fn?m(add|sub)|fml[as])'
 }
-for object in plumb plumb_d native; do
+for object in plumb plumb_d plumb_far native; do
     try "$object.o holds no fused multiply-add" no_fused "$work/$object.o"
 done
 exports() # object: only what has a prefix
@@ -57,12 +58,13 @@ hashes() # object variant
     "$cc" -o "$work/hashes" "$O/$2/tests/determinism/test_scene_hashes.o" "$O/$2/libscene.a" \
         "$1" $scenes && "$work/hashes"
 }
-for variant in float double; do
+for variant in float double far; do
     make --no-print-directory "$O/$variant/tests/determinism/test_scene_hashes.o" \
         "$O/$variant/libscene.a" >"$work/log" 2>&1 || sed 's/^/# /' "$work/log"
 done
 try "ends in the committed hashes in float" hashes "$work/plumb.o" float
 try "ends in the committed hashes in double" hashes "$work/plumb_d.o" double
+try "ends in the committed hashes in the far build" hashes "$work/plumb_far.o" far
 try "ends in the committed hashes when compiled for this machine" hashes "$work/native.o" float
 
 # ---- C++

@@ -4,8 +4,7 @@
 
 #define PI 3.14159265358979323846
 
-//---- making and asking
-//----------------------------------------------------------------------------
+//---- making and asking ---------------------------------------------------------------------------
 
 static void a_zero_descriptor_is_a_dynamic_body_at_the_origin(void **state)
 {
@@ -135,8 +134,7 @@ static void a_kinematic_body_moves_by_its_velocity_alone(void **state)
     assert_near(plumb_body_inertia(w, f->kinematic), 0, 0);
 }
 
-//---- pushing
-//--------------------------------------------------------------------------------------
+//---- pushing -------------------------------------------------------------------------------------
 
 static void forces_last_one_step(void **state)
 {
@@ -174,8 +172,7 @@ static void impulses_act_at_once(void **state)
     assert_near(plumb_body_angular_velocity(w, f->dynamic), 0, 1e-6);
 }
 
-//---- mass
-//-----------------------------------------------------------------------------------------
+//---- mass ----------------------------------------------------------------------------------------
 
 static void mass_and_centre_follow_the_shapes(void **state)
 {

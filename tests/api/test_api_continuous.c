@@ -82,7 +82,7 @@ static void the_schedule_tells_why(void **state)
 {
     (void)state;
     plumb_world *w = space((plumb_world_desc){ 0 });
-    expect_reason(w, false, "no dynamic body has a shape that could meet another");
+    expect_reason(w, false, "no awake dynamic body has a shape that could meet another");
     plumb_body a = add_disc(w, 0, 0, (plumb_shape_desc){ 0 }, NULL);
     add_disc(w, 3, 0, (plumb_shape_desc){ 0 }, NULL);
     expect_reason(w, false, "nothing is there that must not be passed through");

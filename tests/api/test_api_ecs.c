@@ -1,8 +1,7 @@
 // test_api_ecs.c - entities, systems at their phases, commands, the columns that a system works on.
 #include "world_fixture.h"
 
-//---- entities
-//-------------------------------------------------------------------------------------
+//---- entities ------------------------------------------------------------------------------------
 
 static void entities_of_every_kind_are_told_apart(void **state)
 {
@@ -53,8 +52,7 @@ static void components_go_to_any_kind_and_leave_with_it(void **state)
     assert_int_equal(plumb_world_column(NULL, f->health).count, 0);
 }
 
-//---- systems
-//--------------------------------------------------------------------------------------
+//---- systems -------------------------------------------------------------------------------------
 
 typedef struct trace {
     char order[64];
@@ -185,8 +183,7 @@ static void a_system_pushes_through_columns(void **state)
     assert_vec_near(plumb_body_velocity(w, f->dynamic), 0, 1, 1e-6); // 8 N / 4 kg * 0.5 s
 }
 
-//---- commands
-//-------------------------------------------------------------------------------------
+//---- commands ------------------------------------------------------------------------------------
 
 static void commands_are_carried_out_in_order(void **state)
 {

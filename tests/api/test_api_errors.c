@@ -445,8 +445,7 @@ static void commands_refuse(void **state)
             plumb_body_destroy(W, pending));
 }
 
-//---- a locked world
-//-------------------------------------------------------------------------------
+//---- a locked world ------------------------------------------------------------------------------
 
 static void try_everything(const plumb_system_call *call)
 {

@@ -13,8 +13,7 @@ static void steps(fixture *f, int count)
     }
 }
 
-//---- locked axes
-//----------------------------------------------------------------------------------
+//---- locked axes ---------------------------------------------------------------------------------
 
 static void locks_are_kept_and_told(void **state)
 {
@@ -94,8 +93,7 @@ static void locks_are_refused(void **state)
         made(w, plumb_body_create(w, &(plumb_body_desc){ .lock_y = true, .velocity = { 0, 2 } })));
 }
 
-//---- damping, caps, time scale
-//--------------------------------------------------------------------
+//---- damping, caps, time scale -------------------------------------------------------------------
 
 static void tunings_are_read_back(void **state)
 {
@@ -227,8 +225,7 @@ static void tunings_are_refused(void **state)
             made(w, plumb_body_create(w, &(plumb_body_desc){ .max_spin = NAN_ })));
 }
 
-//---- targets
-//--------------------------------------------------------------------------------------
+//---- targets -------------------------------------------------------------------------------------
 
 static void targets_are_given_up_for_other_orders(void **state)
 {
@@ -295,8 +292,7 @@ static void targets_are_refused(void **state)
             plumb_body_set_target(w, f->kinematic, plumb_v2(R(2e9), 0), 0, 1));
 }
 
-//---- given masses and the rest
-//--------------------------------------------------------------------
+//---- given masses and the rest -------------------------------------------------------------------
 
 static void inertia_and_centre_can_be_given(void **state)
 {

@@ -121,6 +121,87 @@ static void it_tells_of_itself(void **state)
     free_game(&g);
 }
 
+static void check_note(const plumb_replay *replay, uint64_t key, const char *text)
+{
+    size_t size = 77;
+    const char *note = plumb_replay_note(replay, key, &size);
+    assert_int_equal(size, strlen(text));
+    assert_true((note == NULL) == (size == 0));
+    if (note != NULL) {
+        assert_memory_equal(note, text, size);
+        assert_int_equal((uintptr_t)note % 8, 0);
+    }
+}
+
+static void notes_hold_from_their_step_on(void **state)
+{
+    (void)state;
+    game g;
+    make_game(&g, false);
+    const plumb_recorder_desc desc = { .write = to_recording,
+                                       .context = &g.tape,
+                                       .keyframe_every = 4 };
+    assert_int_equal(plumb_recorder_start(g.world, &desc), PLUMB_OK);
+    assert_int_equal(plumb_recorder_note(g.world, 7, "old", 3), PLUMB_OK);
+    assert_int_equal(plumb_recorder_note(g.world, 7, "head", 4), PLUMB_OK);
+    for (int i = 1; i <= 12; ++i) {
+        plumb_world_step(g.world, DT);
+        if (i == 3) {
+            assert_int_equal(plumb_recorder_note(g.world, UINT64_MAX, "score 3, level 1", 16),
+                             PLUMB_OK);
+            assert_int_equal(plumb_recorder_note(g.world, 0, "zero", 4), PLUMB_OK);
+        }
+        if (i == 5 || i == 9) {
+            assert_int_equal(
+                plumb_recorder_note(g.world, 7, i == 5 ? "five" : NULL, i == 5 ? 4 : 0), PLUMB_OK);
+        }
+    }
+    assert_int_equal(plumb_recorder_get_info(g.world).bytes, g.tape.size);
+    assert_int_equal(plumb_recorder_stop(g.world), PLUMB_OK);
+    plumb_replay *replay = open_tape(&g.tape, NULL);
+    static const int places[] = { 0, 12, 4, 5, 2, 3, 8, 9, 0 };
+    for (size_t i = 0; i < sizeof places / sizeof places[0]; ++i) {
+        int step = places[i];
+        assert_int_equal(plumb_replay_seek(replay, (uint64_t)step), PLUMB_OK);
+        check_note(replay, 7, step < 5 ? "head" : step < 9 ? "five" : "");
+        check_note(replay, UINT64_MAX, step < 3 ? "" : "score 3, level 1");
+        check_note(replay, 0, step < 3 ? "" : "zero");
+        check_note(replay, 8, "");
+    }
+    assert_non_null(plumb_replay_note(replay, 7, NULL));
+    check_note(NULL, 7, "");
+    plumb_replay_close(replay);
+    free_game(&g);
+}
+
+// What is noted is not part of what happened.
+static void notes_are_no_difference(void **state)
+{
+    (void)state;
+    game g[2];
+    plumb_replay *replays[2];
+    for (int k = 0; k < 2; ++k) {
+        make_game(&g[k], false);
+        const plumb_recorder_desc desc = { .write = to_recording, .context = &g[k].tape };
+        assert_int_equal(plumb_recorder_start(g[k].world, &desc), PLUMB_OK);
+        for (int i = 1; i <= 5; ++i) {
+            plumb_world_step(g[k].world, DT);
+            if (k == 1) {
+                assert_int_equal(plumb_recorder_note(g[k].world, 1, &i, sizeof i), PLUMB_OK);
+            }
+        }
+        assert_int_equal(plumb_recorder_stop(g[k].world), PLUMB_OK);
+        replays[k] = open_tape(&g[k].tape, NULL);
+    }
+    plumb_replay_difference d;
+    assert_int_equal(plumb_replay_compare(replays[0], replays[1], &d), PLUMB_OK);
+    assert_false(d.found);
+    for (int k = 0; k < 2; ++k) {
+        plumb_replay_close(replays[k]);
+        free_game(&g[k]);
+    }
+}
+
 static void names_and_times_are_found(void **state)
 {
     (void)state;
@@ -221,6 +302,8 @@ int main(void)
         cmocka_unit_test(contacts_and_events_are_those_of_the_step),
         cmocka_unit_test(it_tells_of_itself),
         cmocka_unit_test(names_and_times_are_found),
+        cmocka_unit_test(notes_hold_from_their_step_on),
+        cmocka_unit_test(notes_are_no_difference),
         cmocka_unit_test(edits_are_told),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -14,6 +14,7 @@ static void small_recording(recording *tape)
                                        .keyframe_every = 4 };
     assert_int_equal(plumb_recorder_start(w, &desc), PLUMB_OK);
     assert_int_equal(plumb_recorder_name(w, ball, "ball"), PLUMB_OK);
+    assert_int_equal(plumb_recorder_note(w, 1, "note", 4), PLUMB_OK);
     for (int i = 0; i < 6; ++i) {
         if (i == 2) {
             plumb_body_set_velocity(w, ball, (plumb_vec2){ 1, 1 });
@@ -160,6 +161,7 @@ static void the_recorder_refuses(void **state)
     assert_int_equal(plumb_recorder_start(NULL, &desc), PLUMB_E_NULL);
     assert_int_equal(plumb_recorder_stop(NULL), PLUMB_E_NULL);
     assert_int_equal(plumb_recorder_name(NULL, f->dynamic, "x"), PLUMB_E_NULL);
+    assert_int_equal(plumb_recorder_note(NULL, 1, "x", 1), PLUMB_E_NULL);
     assert_false(plumb_recorder_get_info(NULL).recording);
     assert_false(plumb_recorder_get_info(w).recording);
     REFUSED(E_NULL, "plumb_recorder_start: desc is null; it must be given",
@@ -183,6 +185,8 @@ static void the_recorder_refuses(void **state)
             plumb_recorder_stop(w));
     REFUSED(E_STATE, "plumb_recorder_name: the world is not recorded; start that first",
             plumb_recorder_name(w, f->dynamic, "x"));
+    REFUSED(E_STATE, "plumb_recorder_note: the world is not recorded; start that first",
+            plumb_recorder_note(w, 1, "x", 1));
     assert_int_equal(tape.size, 0);
     assert_int_equal(plumb_recorder_start(w, &desc), PLUMB_OK);
     REFUSED(E_STATE, "plumb_recorder_start: the world is recorded already; stop that first",
@@ -193,6 +197,10 @@ static void the_recorder_refuses(void **state)
             plumb_recorder_name(w, f->dynamic, NULL));
     REFUSED(E_HANDLE, "plumb_recorder_name: entity is null; it must be a live entity",
             plumb_recorder_name(w, (plumb_entity)PLUMB_NULL_INIT, "x"));
+    REFUSED(E_NULL, "plumb_recorder_note: bytes is null; it must be given",
+            plumb_recorder_note(w, 1, NULL, 1));
+    REFUSED(E_RANGE, "plumb_recorder_note: size is 1048577; it must be 0 to 1048576",
+            plumb_recorder_note(w, 1, title, PLUMB_NOTE_MAX + 1));
     assert_true(plumb_recorder_get_info(w).recording);
     assert_int_equal(plumb_recorder_stop(w), PLUMB_OK);
     recording_free(&tape);
@@ -256,6 +264,13 @@ static void a_full_disk_ends_the_recording_not_the_world(void **state)
             continue;
         }
         for (int i = 1; i <= 30; ++i) {
+            plumb_result noted = plumb_recorder_note(g.world, 1, &i, sizeof i);
+            assert_int_equal(noted, plumb_recorder_get_info(g.world).ended);
+            if (noted != PLUMB_OK) {
+                assert_string_equal(plumb_world_error(g.world).message,
+                                    "plumb_recorder_note: the recording ended early: a write "
+                                    "function took no more");
+            }
             assert_int_equal(plumb_world_step(g.world, DT), PLUMB_OK);
         }
         plumb_recorder_info info = plumb_recorder_get_info(g.world);
@@ -403,7 +418,10 @@ static void a_recorder_that_runs_out_of_memory_ends(void **state)
         plumb_result r = plumb_recorder_start(w, &desc);
         assert_true(r == PLUMB_OK || r == PLUMB_E_MEMORY);
         for (int i = 0; r == PLUMB_OK && i < 4; ++i) {
+            static const char bytes[5000];
             plumb_body_set_velocity(w, ball, (plumb_vec2){ (plumb_real)i, 1 });
+            plumb_result noted = plumb_recorder_note(w, 1, bytes, 1500 * (size_t)i);
+            assert_int_equal(noted, plumb_recorder_get_info(w).ended);
             assert_int_equal(plumb_world_step(w, DT), PLUMB_OK);
         }
         plumb_recorder_info info = plumb_recorder_get_info(w);

@@ -317,8 +317,7 @@ static void points_are_copied(void **state)
     assert_near(plumb_outline_area(piece.points, 3), 0.5, 1e-6);
 }
 
-//---- materials
-//------------------------------------------------------------------------------------
+//---- materials -----------------------------------------------------------------------------------
 
 static void materials_are_read_and_changed(void **state)
 {

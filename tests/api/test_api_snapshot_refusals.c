@@ -133,11 +133,10 @@ static void refusals_say_why(void **state)
             plumb_world_restore(w, i.bytes, i.size));
     i.bytes[8] ^= 1;
     i.bytes[12] ^= 12; // 4 <-> 8
-    REFUSED(
-        E_IMAGE,
-        "plumb_world_restore: buffer is of a world of the other precision; it must be as it was "
-        "saved",
-        plumb_world_restore(w, i.bytes, i.size));
+    REFUSED(E_IMAGE,
+            "plumb_world_restore: buffer is of a world of another precision; it must be as it was "
+            "saved",
+            plumb_world_restore(w, i.bytes, i.size));
     i.bytes[12] ^= 12;
     i.bytes[32] ^= 1;
     REFUSED(E_IMAGE,

@@ -20,8 +20,7 @@ static plumb_body crate(fixture *f, plumb_real x, plumb_real y)
     return b;
 }
 
-//---- type
-//-----------------------------------------------------------------------------------------
+//---- type ----------------------------------------------------------------------------------------
 
 static void type_changes_and_partitions_stay_whole(void **state)
 {
@@ -181,8 +180,7 @@ static void structure_is_locked_in_a_step(void **state)
     assert_int_equal(plumb_body_get_type(f->world, f->dynamic), PLUMB_DYNAMIC);
 }
 
-//---- enabling
-//-------------------------------------------------------------------------------------
+//---- enabling ------------------------------------------------------------------------------------
 
 static void a_disabled_body_is_out(void **state)
 {

@@ -4,8 +4,7 @@
 
 #include <stdlib.h>
 
-//---- creation
-//-------------------------------------------------------------------------------------
+//---- creation ------------------------------------------------------------------------------------
 
 static void a_zero_descriptor_means_the_documented_defaults(void **state)
 {
@@ -159,8 +158,7 @@ static void every_result_has_a_text(void **state)
     assert_string_equal(plumb_result_text((plumb_result)-1), "unknown result");
 }
 
-//---- sums
-//-----------------------------------------------------------------------------------------
+//---- sums ----------------------------------------------------------------------------------------
 
 static void statistics_count_what_is_there(void **state)
 {

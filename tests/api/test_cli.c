@@ -66,10 +66,11 @@ static const struct {
     { "run good.lua --substeps 0", "--substeps: 0 is outside 1 to 64" },
     { "run good.lua --substeps 65", "--substeps: 65 is outside 1 to 64" },
     { "run good.lua --substeps 4.5", "'4.5' is not a whole number" },
-    { "run good.lua --substeps 99999999999999999999", "is not a whole number" },
+    { "run good.lua --substeps 99999999999999999999",
+      "--substeps: 99999999999999999999 is outside 1 to 64" },
     { "run good.lua --substeps ''", "'' is not a whole number" },
     { "run good.lua --solver sofd", "did you mean 'soft'?" },
-    { "run good.lua --precision half", "'half' is not one of float,double" },
+    { "run good.lua --precision half", "'half' is not one of float,double,far" },
     { "run good.lua --width 5", "5 is not 0, 4, 8 or 16" },
     { "run good.lua --workers 0", "--workers: 0 is outside 1 to 64" },
     { "run good.lua --workers 65", "--workers: 65 is outside 1 to 64" },
@@ -86,6 +87,7 @@ static const struct {
     { "run good.lua --format cvs", "did you mean 'csv'?" },
     { "run good.lua -o a.json", "JSON lines are named .jsonl" },
     { "run good.lua -o a.txt", "'a.txt' does not end in .csv, .jsonl or .ndjson" },
+    { "run names.lua --body crat10", "is named 'crat10'; did you mean 'crate10'?" },
     { "run good.lua --body bal", "option --body: no body of 'drop' is named 'bal'; did you mean" },
     { "render good.lua", "-o FILE is missing" },
     { "render good.lua -o a.bmp", "'a.bmp'" },
@@ -111,6 +113,9 @@ static void usage_errors_tell_the_remedy(void **state)
 {
     (void)state;
     char line[256];
+    expect_code("\"$P\" --help", 0);
+    assert_non_null(strstr(out, "6 two recordings differ, or a replay gives other bits\n"));
+    write_text("names.lua", "for i = 1, 11 do body { name = 'crate' .. i, circle { 1 } } end\n");
     for (size_t i = 0; i < sizeof usage_cases / sizeof usage_cases[0]; i++) {
         snprintf(line, sizeof line, "\"$P\" %s", usage_cases[i].arguments);
         expect_usage_error(line, usage_cases[i].message);
@@ -188,6 +193,7 @@ static void same_command_same_bytes(void **state)
     }
     expect_code("\"$P\" run good.lua --workers 3 >b; cmp a b", 0);
     expect_code("\"$P\" run good.lua --precision double >b; ! cmp -s a b", 0);
+    expect_code("\"$P\" run good.lua --precision far >c; ! cmp -s a c && ! cmp -s b c", 0);
     expect_code(
         "\"$P\" run good.lua -o d.jsonl; \"$P\" run good.lua --format jsonl | cmp - d.jsonl", 0);
     expect_code(
@@ -225,6 +231,24 @@ static void the_scene_chooses_its_solver(void **state)
     assert_non_null(strstr(out, "pgs solver, 1 substep"));
     expect_code("\"$P\" explain good.lua --no-timing --set solver=pgs --solver soft", 0);
     assert_non_null(strstr(out, "soft solver, 4 substeps"));
+}
+
+// A pass that ran and runs no more, since all has fallen asleep, is not one that costs nothing.
+static void what_ran_is_explained(void **state)
+{
+    (void)state;
+    write_text("rest.lua", "body { type = 'static', box { 9, 1 } }\n"
+                           "body { box { 1, 1 }, at = { 0, 1 } }\n");
+    expect_code("\"$P\" explain rest.lua --no-timing", 0);
+    const char *left_out = strstr(out, "Left out"), *solver = strstr(out, "  soft step ");
+    assert_non_null(strstr(out, "(0 moving, 1 asleep in 1 island, 1 static)"));
+    assert_true(solver != NULL && left_out != NULL && solver < left_out);
+    assert_int_equal(strncmp(strchr(solver, '('), "(in ", 4), 0);
+    assert_non_null(strstr(left_out, "  the world asks for the soft step\n"));
+    assert_non_null(strstr(out, "waking  "));
+    expect_code("\"$P\" explain rest.lua --time 0", 0);
+    solver = strstr(out, "  soft step ");
+    assert_true(solver != NULL && solver < strstr(out, "Left out"));
 }
 
 static void what_a_scene_prints_is_no_data(void **state)
@@ -286,6 +310,7 @@ int main(void)
         cmocka_unit_test(same_command_same_bytes),
         cmocka_unit_test(overrides_reach_the_scene),
         cmocka_unit_test(the_scene_chooses_its_solver),
+        cmocka_unit_test(what_ran_is_explained),
         cmocka_unit_test(what_a_scene_prints_is_no_data),
         cmocka_unit_test(failed_expectations_are_code_4),
         cmocka_unit_test(cost_measures_and_judges),

@@ -75,6 +75,9 @@ static void a_recording_is_replayed(void **state)
     expect_code("\"$P\" run push.lua --precision double --record d.rec -o run.csv && "
                 "\"$P\" replay d.rec -o again.csv && cmp run.csv again.csv",
                 0);
+    expect_code("\"$P\" run push.lua --precision far --record f.rec -o run.csv && "
+                "\"$P\" replay f.rec -o again.csv && cmp run.csv again.csv",
+                0);
     expect_code("\"$P\" replay p.rec --info", 0);
     static const char head[] = "title      push\nprecision  float\nsteps      64, after 0 that are "
                                "not recorded\ntime       0 s to 1 s\nedited     1 steps\n"
@@ -109,7 +112,7 @@ static void a_replay_goes_anywhere(void **state)
     expect_error("\"$P\" replay k.rec --width 5", 2, "5 is not 0, 4, 8 or 16");
 }
 
-// Of a scene that gives no looks the pictures of a recording are those of the scene, to the byte.
+// The pictures of a recording are those of the scene, to the byte.
 static void a_recording_is_drawn(void **state)
 {
     (void)state;
@@ -146,6 +149,41 @@ static void a_recording_is_drawn(void **state)
     expect_code("\"$P\" run good.lua --precision double --record e.rec -o /dev/null && "
                 "\"$P\" render good.lua --precision double --size 64x64 -o s.png && "
                 "\"$P\" replay e.rec --size 64x64 --render r.png && cmp s.png r.png",
+                0);
+}
+
+// Colours, labels, what is hidden, counters, texts and the camera are those of the moment.
+static void a_recording_keeps_its_looks(void **state)
+{
+    (void)state;
+    write_text(
+        "looks.lua",
+        "scene { duration = 1 }\n"
+        "camera { fit = { { -4, -1 }, { 4, 3 } }, at = 0.6, trail = 0.2 }\n"
+        "body { type = 'static', box { 8, 1 }, at = { 0, -0.5 }, color = '#336699' }\n"
+        "local a = body { circle { 0.5 }, at = { -2, 2 }, label = 'one', color = 3 }\n"
+        "local b = body { name = 'b', box { 1, 1 }, at = { 2, 2 } }\n"
+        "local c = body { name = 'c', box { 1, 1 }, at = { 0, 2 }, hidden = true }\n"
+        "revolute { a = b, b = c, at = { 1, 2 }, hidden = true }\n"
+        "at(0.3, function() a:set_label('two') a:set_color('#aa0000') score('hits', 3) end)\n"
+        "at(0.5, function() body { circle { 0.2 }, at = { 0, 1 }, color = 5 } text('late') end)\n"
+        "at(0.7, function() text('') end)\n");
+    expect_code("\"$P\" run looks.lua --record looks.rec -o /dev/null", 0);
+    expect_code("for at in 0 0.25 0.4 0.6 0.9; do "
+                "\"$P\" render looks.lua --size 320x200 --at $at -o s.png && "
+                "\"$P\" replay looks.rec --size 320x200 --seek $at --render r$at.png && "
+                "cmp s.png r$at.png || exit; done",
+                0);
+    expect_code("cmp r0.25.png r0.4.png", 1);
+    // The scene's own moment, and a film that goes through all of it.
+    expect_code("\"$P\" replay looks.rec --size 320x200 --render r.png && cmp r0.6.png r.png", 0);
+    expect_code("\"$P\" replay looks.rec --size 64x64 --fps 9 --render r.gif && "
+                "\"$P\" render looks.lua --size 64x64 --fps 9 -o s.gif && cmp s.gif r.gif",
+                0);
+    // Beyond the end of a recording that is shorter than the scene.
+    expect_code("\"$P\" run looks.lua --time 0.2 --record short.rec -o /dev/null && "
+                "\"$P\" replay short.rec --size 64x64 --render r.png && "
+                "\"$P\" render looks.lua --size 64x64 --at 0.2 -o s.png && cmp s.png r.png",
                 0);
 }
 
@@ -229,10 +267,18 @@ static void differences_are_found(void **state)
                 "\"$P\" diff p.rec t.rec",
                 6);
     assert_string_equal(out, "the same for 32 steps; then only one goes on: 64 | 32 steps\n");
+    expect_code("\"$P\" diff --from 40 p.rec o.rec", 6);
+    assert_string_equal(out, "differ already behind step 40, 0.625 s\n"
+                             "first: body 'ball': x 0.375 | 0.5\n");
     expect_error("\"$P\" diff p.rec d.rec", 1,
                  "plumb: diff: 'p.rec' was recorded in float precision, 'd.rec' in double; nothing "
                  "in them is the same\n");
-    expect_error("\"$P\" diff p.rec", 2, "RECORDING");
+    expect_error("\"$P\" diff f.rec d.rec", 1,
+                 "plumb: diff: 'f.rec' was recorded in far precision, 'd.rec' in double; nothing "
+                 "in them is the same\n");
+    expect_error("\"$P\" diff p.rec", 2,
+                 "plumb: diff: an operand is missing; usage: plumb diff RECORDING ");
+    expect_error("\"$P\" diff", 2, "plumb: diff: RECORDING RECORDING is missing; ");
     expect_error("\"$P\" diff --from 65 p.rec k.rec", 2,
                  "plumb: diff: option --from: 65 is beyond the last step, 64\n");
 }
@@ -244,12 +290,15 @@ static void bad_recordings_are_refused(void **state)
                  "plumb: cannot read 'nowhere.rec': No such file or directory\n");
     expect_error("\"$P\" replay push.lua", 1, "plumb: 'push.lua' is no recording\n");
     expect_error("\"$P\" diff p.rec push.lua", 1, "plumb: 'push.lua' is no recording\n");
+    expect_error("\"$P\" run p.rec", 3,
+                 "p.rec: is a recording, not a scene; 'plumb replay' plays it\n");
     expect_error("head -c 600 p.rec >c.rec; \"$P\" replay c.rec", 1,
                  "plumb: 'c.rec' is truncated before its first step\n");
     expect_error("{ head -c 3000 p.rec; printf x; tail -c +3002 p.rec; } >x.rec; "
                  "\"$P\" replay x.rec",
                  1, "plumb: 'x.rec' is damaged\n");
-    expect_code("head -c -100 p.rec >c.rec; \"$P\" replay c.rec --info", 0);
+    expect_error("head -c -100 p.rec >c.rec; \"$P\" replay c.rec --info", 0,
+                 "plumb: 'c.rec' breaks off after step 62: whatever wrote it did not end it\n");
     assert_non_null(strstr(out, "complete   no: it breaks off after its last step\n"));
     expect_error("\"$P\" run push.lua --record -", 2,
                  "plumb: run: option --record: a recording goes to a file, not to stdout\n");
@@ -269,6 +318,7 @@ int main(void)
         cmocka_unit_test(a_recording_is_replayed),
         cmocka_unit_test(a_replay_goes_anywhere),
         cmocka_unit_test(a_recording_is_drawn),
+        cmocka_unit_test(a_recording_keeps_its_looks),
         cmocka_unit_test(drawing_a_recording_tells_the_remedy),
         cmocka_unit_test(differences_are_found),
         cmocka_unit_test(bad_recordings_are_refused),

@@ -1,6 +1,6 @@
 #!/bin/bash
 # test_install.sh - `make install` into an empty folder, then programs built against what is there:
-# through pkg-config and CMake, static and shared, float and double, in C and in C++.
+# through pkg-config and CMake, static and shared, in all three precisions, in C and in C++.
 set -u
 
 if [ -n "${SAN:-}" ]; then
@@ -102,7 +102,7 @@ build() # compiler standard source package static|shared
         $(pkg-config "${more[@]}" --cflags --libs "$4") &&
         LD_LIBRARY_PATH=$lib says_hello "$work/program"
 }
-for package in plumb plumb_d; do
+for package in plumb plumb_d plumb_far; do
     for kind in shared static; do
         try "pkg-config, $package, $kind, C" build "$cc" c17 "$work/hello.c" $package $kind
         try "pkg-config, $package, $kind, C++" build "$cxx" c++17 "$work/hello.cpp" $package $kind
@@ -115,13 +115,13 @@ build_all_examples()
     for source in "$work"/*.c; do
         [ "${source##*/}" = alone.c ] && continue
         "$cc" -std=c17 $warnings "$source" -o "$work/program" \
-            $(pkg-config --cflags --libs plumb) -lm || return 1
+            $(pkg-config --cflags --libs plumb) || return 1
         LD_LIBRARY_PATH=$lib "$work/program" >"$work/out" && [ -s "$work/out" ] || return 1
     done
 }
 try "every example builds and runs" build_all_examples
 
-# A program for one precision and the library of the other must not link, whatever it begins with, and the
+# A program for one precision and the library of another must not link, whatever it begins with, and the
 # linker must say which it is.
 declare -A begins=(
     [world]='plumb_world *w; return plumb_world_create(0, &w);'
@@ -132,24 +132,34 @@ declare -A begins=(
     [numbers]='plumb_random r = { 0 }; return plumb_random_range(&r, 0, 1) > 2;'
     [math]='return plumb_atan2(0, 1) > 1;'
 )
-links() # beginning library PLUMB_DOUBLE
+declare -A defines=([float]= [double]=-DPLUMB_DOUBLE=1 [far]=-DPLUMB_FAR=1)
+declare -A libraries=([float]=libplumb [double]=libplumb_d [far]=libplumb_far)
+links() # beginning library precision
 {
     printf '#include <plumb/plumb.h>\nint main(void)\n{\n    %s\n}\n' "${begins[$1]}" >"$work/mixed.c"
-    "$cc" -std=c17 $warnings -DPLUMB_DOUBLE="$3" -I"$root$prefix/include" "$work/mixed.c" \
+    "$cc" -std=c17 $warnings ${defines[$3]} -I"$root$prefix/include" "$work/mixed.c" \
         -o "$work/program" "$lib/$2" -lm -lpthread
 }
-refuses() # beginning library PLUMB_DOUBLE precision
+refuses() # beginning library precision
 {
-    ! links "$1" "$2" "$3" 2>"$work/said" && grep -q "undefined reference to .plumb_[a-z0-9_]*_$4'" "$work/said"
+    ! links "$1" "$2" "$3" 2>"$work/said" && grep -q "undefined reference to .plumb_[a-z0-9_]*_$3'" "$work/said"
 }
-both() # beginning static|shared suffix
+guarded() # beginning a|so
 {
-    links "$1" "libplumb.$2" 0 && links "$1" "libplumb_d.$2" 1 &&
-        refuses "$1" "libplumb_d.$2" 0 float && refuses "$1" "libplumb.$2" 1 double
+    local of in
+    for of in float double far; do
+        for in in float double far; do
+            if [ $of = $in ]; then
+                links "$1" "${libraries[$in]}.$2" $of || return 1
+            else
+                refuses "$1" "${libraries[$in]}.$2" $of || return 1
+            fi
+        done
+    done
 }
 for begin in world batch replay geometry convex numbers math; do
     for suffix in a so; do
-        try "$begin of one precision does not link with lib*.$suffix of the other" both $begin $suffix
+        try "$begin of one precision does not link with lib*.$suffix of another" guarded $begin $suffix
     done
 done
 
@@ -169,7 +179,7 @@ project(hello C CXX)
 set(CMAKE_C_STANDARD 17)
 set(CMAKE_CXX_STANDARD 17)
 find_package(plumb 0.1 REQUIRED)
-foreach(target plumb static shared static_double shared_double)
+foreach(target plumb static shared static_double shared_double static_far shared_far)
     add_executable(c_${target} hello.c)
     add_executable(cpp_${target} hello.cpp)
     target_link_libraries(c_${target} plumb::${target})

@@ -52,7 +52,7 @@ static const malformed table[] = {
       .file = "scene.lua",
       .text = "blast{ at = {0, 0}, impulse = 1, radius = 0 }",
       .code = SCENE_E_RANGE,
-      .message = "scene.lua:1:1: blast{}: plumb_world_explode: radius + falloff is 0; it must be above "
+      .message = "scene.lua:1:1: blast{}: radius + falloff is 0; it must be above "
                  "0 and at most 1e+07" },
     { .what = "blast that ignores nobody",
       .file = "scene.lua",
@@ -201,8 +201,8 @@ static const malformed table[] = {
       .file = "scene.lua",
       .text = "scene{ wrap_y = 8 }\n"
               "body{ box{4, 1} }\n",
-      .code = SCENE_E_WORLD,
-      .message = "scene.lua:2:7: box{}: plumb_shape_create: the shape is 4.12311 m across; in a world "
+      .code = SCENE_E_RANGE,
+      .message = "scene.lua:2:7: box{}: the shape is 4.12311 m across; in a world "
                  "that wraps every 8 m each convex piece must be below 4" },
     { .what = "dt of zero",
       .file = "scene.lua",

@@ -59,7 +59,7 @@ static const malformed table[] = {
     { .file = "scene.lua",
       .text = "local b = character{} b:walk(1/0)",
       .code = SCENE_E_RANGE,
-      .message = "scene.lua:1:25: walk() of 'body1': plumb_character_walk: speed is inf; it must be finite" },
+      .message = "scene.lua:1:25: walk() of 'body1': speed is inf; it must be finite" },
     { .file = "scene.lua",
       .text = "local b = character{} b:jmup(1)",
       .code = SCENE_E_NAME,

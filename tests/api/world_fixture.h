@@ -81,8 +81,7 @@ static inline int tear_down(void **state)
 
 #define API_TEST(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
 
-//---- digest
-//---------------------------------------------------------------------------------------
+//---- digest --------------------------------------------------------------------------------------
 
 // FNV-1a over bytes.
 static inline void digest_bytes(uint64_t *digest, const void *data, size_t bytes)
@@ -122,8 +121,7 @@ static inline uint64_t digest_world(plumb_world *w)
     return digest;
 }
 
-//---- refused calls
-//--------------------------------------------------------------------------------
+//---- refused calls -------------------------------------------------------------------------------
 
 // The code of a call that returns a handle: that of the last error when the handle is null.
 static inline plumb_result made(const plumb_world *w, plumb_entity handle)

@@ -111,15 +111,17 @@ static void timed_body(const struct scene_row *row, const struct scene *scene,
     struct scene_cursor cursor = { 0 };
     int steps = run_steps(row, settings);
     double total = 0.0;
-    for (int i = 0; i < steps; ++i) {
+    for (int i = 0; i < row->settle + steps; ++i) {
         if (!before_step(row, scene, engine, world, &cursor, i, result)) {
             return;
         }
         double from = now_ms(settings);
         engine->step(world, dt);
         double spent = now_ms(settings) - from;
-        total += spent;
-        result->worst_ms = fmax(result->worst_ms, spent);
+        if (i >= row->settle) {
+            total += spent;
+            result->worst_ms = fmax(result->worst_ms, spent);
+        }
     }
     result->mean_ms = total / steps;
     result->peak_bytes = peak_resident() - before;

@@ -58,7 +58,8 @@ struct scene_cursor {
 /// One row a scene.
 struct scene_row {
     const char *name;
-    int steps; ///< of 1/60 s
+    int settle; ///< steps before the clock runs
+    int steps;  ///< of 1/60 s
     void (*build)(struct scene *scene);
     /// Called before each step, not timed; may be null.
     void (*before_step)(const struct scene *scene, const struct engine *engine,

@@ -27,7 +27,7 @@
 
 static const char *precision(void)
 {
-    return sizeof(plumb_real) == sizeof(float) ? "float" : "double";
+    return PLUMB_IS_FAR ? "far" : sizeof(plumb_real) == sizeof(float) ? "float" : "double";
 }
 
 static const char *const solvers[] = { "soft", "pgs" };

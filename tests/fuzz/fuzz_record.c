@@ -39,6 +39,7 @@ static void record(tape *t)
     plumb_recorder_start(
         w, &(plumb_recorder_desc){ .write = to_tape, .context = t, .keyframe_every = 3 });
     plumb_recorder_name(w, ball, "ball");
+    plumb_recorder_note(w, 1, "noted", 5);
     for (int i = 0; i < STEPS; ++i) {
         plumb_body_apply_torque(w, ball, (plumb_real)(i % 2));
         plumb_world_step(w, (plumb_real)(1.0 / 60));
@@ -62,6 +63,13 @@ static void play(const unsigned char *bytes, size_t size, bool whole)
         return;
     }
     while ((r = plumb_replay_step(replay)) == PLUMB_OK) {
+        size_t length;
+        const char *note = plumb_replay_note(replay, 1, &length);
+        if ((note == NULL) != (length == 0)) {
+            abort();
+        }
+        volatile char last = length > 0 ? note[length - 1] : '\0'; // all of it can be read
+        (void)last;
     }
     plumb_replay_get_info(replay, &info);
     if (r == PLUMB_E_MISSING && info.steps > 0) {

@@ -185,6 +185,17 @@ struct engine {
     size_t (*bytes)(const struct engine_world *world);
 };
 
+// clang-format off
+/// The rows of an adapter whose functions have the names of the members.
+#define ENGINE_FUNCTIONS                                                                          \
+    .describe = describe, .create = create, .destroy = destroy, .add_body = add_body,             \
+    .destroy_body = destroy_body, .add_hinge = add_hinge, .add_circle = add_circle,               \
+    .add_capsule = add_capsule, .add_polygon = add_polygon, .add_segment = add_segment,           \
+    .add_chain = add_chain, .set_velocity = set_velocity, .apply_force = apply_force,             \
+    .step = step, .get_pose = get_pose, .get_velocity = get_velocity, .get_mass = get_mass,       \
+    .contacts = contacts, .counts = counts, .skin = skin, .bytes = bytes
+// clang-format on
+
 /// Gravity (0, -10), 4 substeps and 8/3 iterations, no sleep, continuous on, thresholds the
 /// engine's own.
 static inline struct engine_options engine_options_default(void)

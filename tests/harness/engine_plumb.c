@@ -45,7 +45,10 @@ static void describe(char *text, size_t size)
         plumb_world_destroy(world);
     }
     snprintf(text, size, "Plumb %s (C, %s, %d lanes unless told otherwise)", PLUMB_VERSION,
-             sizeof(plumb_real) == sizeof(double) ? "double" : "float", lanes);
+             PLUMB_IS_FAR                           ? "far"
+             : sizeof(plumb_real) == sizeof(double) ? "double"
+                                                    : "float",
+             lanes);
 }
 
 static void tell(void *context, plumb_log_level level, const char *message)
@@ -370,25 +373,5 @@ const struct engine engine_plumb = {
     .name = "plumb",
     .has_threads = true,
     .has_solver = true,
-    .describe = describe,
-    .create = create,
-    .destroy = destroy,
-    .add_body = add_body,
-    .destroy_body = destroy_body,
-    .add_hinge = add_hinge,
-    .add_circle = add_circle,
-    .add_capsule = add_capsule,
-    .add_polygon = add_polygon,
-    .add_segment = add_segment,
-    .add_chain = add_chain,
-    .set_velocity = set_velocity,
-    .apply_force = apply_force,
-    .step = step,
-    .get_pose = get_pose,
-    .get_velocity = get_velocity,
-    .get_mass = get_mass,
-    .contacts = contacts,
-    .counts = counts,
-    .skin = skin,
-    .bytes = bytes,
+    ENGINE_FUNCTIONS,
 };

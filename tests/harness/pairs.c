@@ -101,6 +101,8 @@ pair_batch *pairs_create(int capacity)
     b->pairs = room((size_t)capacity, sizeof *b->pairs);
     b->out.manifolds.size = ((size_t)capacity + 1) * sizeof(pl_manifold);
     b->out.manifolds.data = room((size_t)capacity + 1, sizeof(pl_manifold));
+    b->out.ends.data = room((size_t)capacity + 1, sizeof(pl_ends));
+    b->out.fresh.data = room((size_t)capacity + 1, sizeof(uint32_t));
     return b;
 }
 
@@ -116,6 +118,8 @@ void pairs_destroy(pair_batch *b)
     free(b->restitution);
     free(b->pairs);
     free(b->out.manifolds.data);
+    free(b->out.ends.data);
+    free(b->out.fresh.data);
     free(b);
 }
 
@@ -176,8 +180,8 @@ int pairs_add(pair_batch *b, const pair_shape *p, pair_pose at_p, const pair_sha
 
 void pairs_set_impulses(pair_batch *b, int i, double first, double second)
 {
-    b->pairs[i].normal[0] = (plumb_real)first;
-    b->pairs[i].normal[1] = (plumb_real)second;
+    b->pairs[i].normal[0] = (near_real)first;
+    b->pairs[i].normal[1] = (near_real)second;
 }
 
 int pairs_count(const pair_batch *b)
@@ -230,9 +234,9 @@ void pairs_run(pair_batch *b, int width)
                            .vertex_count = b->corners,
                            .friction = b->friction,
                            .restitution = b->restitution,
-                           .dt = (plumb_real)(1.0 / 60),
+                           .dt = (near_real)(1.0 / 60),
                            .pairs = b->pairs };
-    b->out = (pl_narrow){ .manifolds = b->out.manifolds };
+    pl_narrow_clear(&b->out);
     memset(b->out.manifolds.data, 0, b->out.manifolds.size);
     if (b->count > 0) {
         kernel_for(kernels, b->sides[0].shape.kind,

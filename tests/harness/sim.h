@@ -19,11 +19,14 @@
 /// [m/s^2] default gravity of a world
 #define SIM_G 9.81
 
-/// [-] spacing of the reals of this build at 1, as a double.
-#define SIM_EPSILON ((double)PLUMB_REAL_EPSILON)
+/// Whether what contacts and joints do is rounded to floats: so it is in the far build, too.
+#define SIM_IS_FLOAT (sizeof(plumb_real) == 4 || PLUMB_IS_FAR)
+
+/// [-] spacing of the solver's reals of this build at 1, as a double.
+#define SIM_EPSILON (SIM_IS_FLOAT ? 1.1920929e-7 : (double)PLUMB_REAL_EPSILON)
 
 /// The tolerance of this build's precision.
-#define SIM_TOLERANCE(in_float, in_double) (sizeof(plumb_real) == 4 ? (in_float) : (in_double))
+#define SIM_TOLERANCE(in_float, in_double) (SIM_IS_FLOAT ? (in_float) : (in_double))
 
 plumb_vec2 sim_vec(double x, double y);
 

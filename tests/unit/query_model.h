@@ -10,10 +10,10 @@
 #include <stdlib.h>
 #include <string.h>
 #include <cmocka.h>
-#include "harness/random.h"
 #include "plumb/plumb.h"
 #include "query/overlap.h"
 #include "query/query.h"
+#include "random_world.h"
 
 #define MOST    400
 #define R(x)    ((plumb_real)(x))
@@ -28,65 +28,10 @@ static inline void near_at(double a, double b, double tolerance, int line)
 
 #define NEAR(a, b, tolerance) near_at((double)(a), (double)(b), tolerance, __LINE__)
 
-static uint32_t random_state;
-
-static inline double uniform(double low, double high)
-{
-    return sim_uniform(&random_state, low, high);
-}
-
-static inline double spread(double low, double high)
-{
-    return exp(uniform(log(low), log(high)));
-}
-
-static inline plumb_vec2 place(double reach)
-{
-    return V(uniform(-reach, reach), uniform(-reach, reach));
-}
-
 //---- worlds --------------------------------------------------------------------------------------
-static inline plumb_world *make_world(uint32_t seed)
-{
-    random_state = seed * 2654435761u + 1;
-    plumb_world *world = NULL;
-    assert_int_equal(plumb_world_create(&(plumb_world_desc){ .zero_gravity = true }, &world),
-                     PLUMB_OK);
-    return world;
-}
-
 static inline plumb_shape add_shape(plumb_world *world, plumb_body body, int kind, double size)
 {
-    const double star[][2] = {
-        { -1, -1 }, { 0, -0.4 }, { 1, -1 }, { 0.9, 1 }, { 0, 0.3 }, { -1, 1 }
-    };
-    plumb_vec2 points[6];
-    for (int i = 0; i < 6; ++i) {
-        points[i] = V(size * star[i][0], size * star[i][1]);
-    }
-    plumb_shape_desc desc = { .kind = (plumb_shape_kind)kind };
-    if (kind == PLUMB_CIRCLE || kind == PLUMB_CAPSULE) {
-        desc.radius = R(size);
-    }
-    if (kind == PLUMB_BOX) {
-        desc.half = V(size, size / 3);
-        desc.angle = R(uniform(-3, 3));
-    }
-    if ((kind == PLUMB_BOX || kind == PLUMB_POLYGON) && uniform(0, 1) < 0.5) {
-        desc.radius = R(size / 5);
-    }
-    if (kind == PLUMB_POLYGON || kind == PLUMB_OUTLINE || kind == PLUMB_CHAIN) {
-        desc.points = points;
-        desc.count = 6;
-        desc.closed = kind == PLUMB_CHAIN && uniform(0, 1) < 0.5;
-    }
-    if (kind == PLUMB_CAPSULE || kind == PLUMB_SEGMENT) {
-        desc.points = points;
-        desc.count = 2;
-    }
-    plumb_shape shape = plumb_shape_create(world, body, &desc);
-    assert_true(plumb_shape_valid(world, shape));
-    return shape;
+    return random_shape(world, body, kind, size, (plumb_material)PLUMB_NULL_INIT);
 }
 
 static inline plumb_body add_body(plumb_world *world, plumb_body_type type, plumb_vec2 at,

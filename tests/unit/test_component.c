@@ -107,8 +107,7 @@ static void a_value_of_the_column_itself_may_be_given(void **state)
     plumb_world_destroy(w);
 }
 
-//---- hooks
-//----------------------------------------------------------------------------------------
+//---- hooks ---------------------------------------------------------------------------------------
 
 typedef struct record {
     char text[256];

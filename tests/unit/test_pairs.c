@@ -11,73 +11,14 @@
 
 #include <cmocka.h>
 
-#include "harness/random.h"
 #include "broad/pairs.h"
 #include "plumb/plumb.h"
+#include "random_world.h"
 #include "world/state.h"
 
 #define DT   ((plumb_real)(1.0 / 60))
 #define MOST 400
 #define R(x) ((plumb_real)(x))
-
-static uint32_t random_state;
-
-static double uniform(double low, double high)
-{
-    return sim_uniform(&random_state, low, high);
-}
-
-static double spread(double low, double high)
-{
-    return exp(uniform(log(low), log(high)));
-}
-
-static plumb_vec2 place(double reach)
-{
-    return plumb_v2((plumb_real)uniform(-reach, reach), (plumb_real)uniform(-reach, reach));
-}
-
-static plumb_world *make_world(uint32_t seed)
-{
-    random_state = seed * 2654435761u + 1;
-    plumb_world *world = NULL;
-    assert_int_equal(plumb_world_create(&(plumb_world_desc){ .zero_gravity = true }, &world),
-                     PLUMB_OK);
-    return world;
-}
-
-static plumb_shape add_shape(plumb_world *world, plumb_body body, int kind, double size,
-                             plumb_material material)
-{
-    const double star[][2] = {
-        { -1, -1 }, { 0, -0.4 }, { 1, -1 }, { 0.9, 1 }, { 0, 0.3 }, { -1, 1 }
-    };
-    plumb_vec2 points[6];
-    for (int i = 0; i < 6; ++i) {
-        points[i] = plumb_v2((plumb_real)(size * star[i][0]), (plumb_real)(size * star[i][1]));
-    }
-    plumb_shape_desc desc = { .kind = (plumb_shape_kind)kind, .material = material };
-    plumb_real s = (plumb_real)size;
-    if (kind == PLUMB_CIRCLE || kind == PLUMB_CAPSULE) {
-        desc.radius = s;
-    }
-    if (kind == PLUMB_BOX) {
-        desc.half = plumb_v2(s, s / 3);
-        desc.angle = (plumb_real)uniform(-3, 3);
-    }
-    if (kind == PLUMB_POLYGON || kind == PLUMB_OUTLINE || kind == PLUMB_CHAIN) {
-        desc.points = points;
-        desc.count = 6;
-        desc.closed = kind == PLUMB_CHAIN;
-    }
-    if (kind == PLUMB_CAPSULE || kind == PLUMB_SEGMENT) {
-        desc.points = points;
-        desc.count = 2;
-    }
-    plumb_shape shape = plumb_shape_create(world, body, &desc);
-    assert_true(plumb_shape_valid(world, shape));
-    return shape;
-}
 
 static plumb_body add_body(plumb_world *world, plumb_body_type type, double reach, double speed)
 {
@@ -99,8 +40,8 @@ static plumb_body add_random(plumb_world *world, double reach, double least, dou
     plumb_body body = add_body(world, types[(int)uniform(0, 4.999)], reach, 3);
     int shapes = uniform(0, 1) < 0.8 ? 1 : (int)uniform(0, 3.999);
     for (int i = 0; i < shapes; ++i) {
-        add_shape(world, body, (int)uniform(0, 6.999), spread(least, most),
-                  (plumb_material)PLUMB_NULL_INIT);
+        random_shape(world, body, (int)uniform(0, 6.999), spread(least, most),
+                     (plumb_material)PLUMB_NULL_INIT);
     }
     return body;
 }
@@ -247,7 +188,7 @@ static void test_pile_up(void **state)
     plumb_world *world = make_world(4);
     for (int i = 0; i < 100; ++i) {
         plumb_body body = add_body(world, (plumb_body_type)(i % 3), 0.01, 1);
-        add_shape(world, body, PLUMB_CIRCLE, 1, (plumb_material)PLUMB_NULL_INIT);
+        random_shape(world, body, PLUMB_CIRCLE, 1, (plumb_material)PLUMB_NULL_INIT);
     }
     update(world); // 34 dynamic, 66 others
     assert_int_equal(world->broad.pairs.count, 34 * 33 / 2 + 34 * 66);
@@ -261,7 +202,7 @@ static void test_nothing_dynamic(void **state)
     update(world);
     for (int i = 0; i < 50; ++i) {
         plumb_body body = add_body(world, i % 2 ? PLUMB_STATIC : PLUMB_KINEMATIC, 2, 1);
-        add_shape(world, body, i % 7, 1, (plumb_material)PLUMB_NULL_INIT);
+        random_shape(world, body, i % 7, 1, (plumb_material)PLUMB_NULL_INIT);
     }
     update(world);
     assert_int_equal(world->broad.pairs.count, 0);
@@ -332,8 +273,8 @@ static void test_structural_changes(void **state)
             } else if (dice < 0.75) {
                 assert_int_equal(plumb_body_teleport(world, bodies[chosen], place(4), 1), PLUMB_OK);
             } else if (dice < 0.9) {
-                add_shape(world, bodies[chosen], (int)uniform(0, 6.999), spread(0.1, 1),
-                          (plumb_material)PLUMB_NULL_INIT);
+                random_shape(world, bodies[chosen], (int)uniform(0, 6.999), spread(0.1, 1),
+                             (plumb_material)PLUMB_NULL_INIT);
             } else {
                 plumb_entity shapes[8];
                 int n = plumb_body_shapes(world, bodies[chosen], shapes, 8);
@@ -385,12 +326,12 @@ static void test_reach_of_a_step(void **state)
         plumb_material none = PLUMB_NULL_INIT;
         for (int i = 0; i < 2; ++i) {
             plumb_body_desc wall = { .type = PLUMB_STATIC, .position = { R(-6 * i), 0 } };
-            add_shape(world, plumb_body_create(world, &wall), PLUMB_CIRCLE, 1,
-                      elastic & 1 ? rubber : none);
+            random_shape(world, plumb_body_create(world, &wall), PLUMB_CIRCLE, 1,
+                         elastic & 1 ? rubber : none);
         }
         plumb_body ball = plumb_body_create(
             world, &(plumb_body_desc){ .position = { 4, 0 }, .velocity = { -300, 0 } });
-        add_shape(world, ball, PLUMB_CIRCLE, 1, elastic & 2 ? rubber : none);
+        random_shape(world, ball, PLUMB_CIRCLE, 1, elastic & 2 ? rubber : none);
         update(world); // 5 m to go, 2 m to one wall, 8 m to the other
         assert_int_equal(world->broad.pairs.count, 1);
         plumb_world_destroy(world);
@@ -408,10 +349,10 @@ static void mark(plumb_world *world)
         uint32_t a = world->pieces.serial[p->a], b = world->pieces.serial[p->b];
         p->feature[0] = a;
         p->feature[1] = b;
-        p->normal[0] = (plumb_real)(a + 1);
-        p->normal[1] = (plumb_real)(b + 1);
-        p->tangent[0] = -(plumb_real)a;
-        p->tangent[1] = -(plumb_real)b;
+        p->normal[0] = (near_real)(a + 1);
+        p->normal[1] = (near_real)(b + 1);
+        p->tangent[0] = -(near_real)a;
+        p->tangent[1] = -(near_real)b;
     }
 }
 
@@ -502,16 +443,16 @@ static void test_twins(void **state)
     (void)state;
     plumb_world *world = make_world(8);
     plumb_body ground = add_body(world, PLUMB_STATIC, 0, 0);
-    add_shape(world, ground, PLUMB_BOX, 1, (plumb_material)PLUMB_NULL_INIT);
+    random_shape(world, ground, PLUMB_BOX, 1, (plumb_material)PLUMB_NULL_INIT);
     plumb_body ball = add_body(world, PLUMB_DYNAMIC, 0, 0);
-    add_shape(world, ball, PLUMB_CIRCLE, 1, (plumb_material)PLUMB_NULL_INIT);
+    random_shape(world, ball, PLUMB_CIRCLE, 1, (plumb_material)PLUMB_NULL_INIT);
     update(world);
     assert_int_equal(world->broad.pairs.count, 1);
     mark(world);
     uint32_t slot = pl_pairs(&world->broad.pairs)[0].a;
     assert_int_equal(plumb_body_destroy(world, ball), PLUMB_OK);
     ball = add_body(world, PLUMB_DYNAMIC, 0, 0);
-    add_shape(world, ball, PLUMB_CIRCLE, 1, (plumb_material)PLUMB_NULL_INIT);
+    random_shape(world, ball, PLUMB_CIRCLE, 1, (plumb_material)PLUMB_NULL_INIT);
     update(world);
     assert_int_equal(world->broad.pairs.count, 1);
     assert_int_equal(pl_pairs(&world->broad.pairs)[0].a, slot);

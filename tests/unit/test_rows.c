@@ -37,8 +37,7 @@ static uint32_t choose(model *m, uint32_t below)
     return sim_random(&m->seed) % below;
 }
 
-//---- changes
-//--------------------------------------------------------------------------------------
+//---- changes -------------------------------------------------------------------------------------
 
 static void create_body(model *m)
 {
@@ -119,8 +118,7 @@ static void change(model *m)
     }
 }
 
-//---- agreement
-//------------------------------------------------------------------------------------
+//---- agreement -----------------------------------------------------------------------------------
 
 static void check_partitions(const model *m)
 {
@@ -270,8 +268,7 @@ static void rows_agree_with_a_plain_list(void **state)
     plumb_world_destroy(m.world);
 }
 
-//---- flags and slots
-//------------------------------------------------------------------------------
+//---- flags and slots -----------------------------------------------------------------------------
 
 static void clear_flags(plumb_world *w)
 {

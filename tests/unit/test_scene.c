@@ -1,64 +1,7 @@
 // test_scene.c - what the scene language does: constructors, handlers, expectations, determinism,
 // JSON. The messages of malformed scenes are in tests/api/test_scene_errors.c.
 #define _POSIX_C_SOURCE 200809L // open_memstream
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <cmocka.h>
-
-#include "scene/scene.h"
-
-// cmocka's assert_float_equal rounds to float and lets NaN pass.
-#define assert_near(value, expected, tolerance)                                                    \
-    assert_true(fabs((double)(value) - (double)(expected)) <= (double)(tolerance))
-
-static scene *load_as(const char *file, const char *text, size_t size, const char *set)
-{
-    scene *s = NULL;
-    scene_error e;
-    scene_load(
-        &(scene_options){
-            .path = file, .text = text, .text_size = size, .sets = &set, .set_count = set != NULL },
-        &s, &e);
-    if (s == NULL) {
-        printf("%s\n", e.text);
-    }
-    assert_non_null(s);
-    return s;
-}
-
-static scene *load(const char *text)
-{
-    return load_as("test.lua", text, strlen(text), NULL);
-}
-
-static void run(scene *s)
-{
-    scene_error e = { 0 };
-    while (!scene_done(s)) {
-        scene_step(s, &e);
-    }
-    scene_finish(s, &e);
-    if (e.code != SCENE_OK) {
-        printf("%s\n", e.text);
-    }
-    assert_int_equal(e.code, SCENE_OK);
-}
-
-static double score(const scene *s, const char *name)
-{
-    for (int i = 0; i < scene_score_count(s); i++) {
-        if (strcmp(scene_score_name(s, i), name) == 0) {
-            return scene_score_value(s, i);
-        }
-    }
-    return (double)NAN;
-}
+#include "scene_fixture.h"
 
 // ---------------------------------------------------------------------------------- constructors
 
@@ -378,16 +321,6 @@ static void test_random_is_fixed(void **state)
 }
 
 // -------------------------------------------------------------------------------------------- JSON
-
-static char *export_json(const scene *s, size_t *size)
-{
-    char *text = NULL;
-    FILE *file = open_memstream(&text, size);
-    assert_non_null(file);
-    assert_true(scene_to_json(s, file));
-    fclose(file);
-    return text;
-}
 
 static void check_round_trip(const scene *s)
 {

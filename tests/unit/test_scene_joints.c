@@ -1,82 +1,13 @@
 // test_scene_joints.c - joints, filters, sensors, materials and events in the scene language: what
 // they do, and that JSON keeps them. How they are misused is in tests/api/test_scene_joint_errors.c.
 #define _POSIX_C_SOURCE 200809L // open_memstream
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <cmocka.h>
-
-#include "scene/scene.h"
-
-static scene *load_as(const char *file, const char *text, size_t size)
-{
-    scene *s = NULL;
-    scene_error e;
-    scene_load(&(scene_options){ .path = file, .text = text, .text_size = size }, &s, &e);
-    if (s == NULL) {
-        printf("%s\n", e.text);
-    }
-    assert_non_null(s);
-    return s;
-}
-
-static scene *load(const char *text)
-{
-    return load_as("test.lua", text, strlen(text));
-}
-
-static void steps(scene *s, int count)
-{
-    scene_error e = { 0 };
-    for (int i = 0; i < count; i++) {
-        if (scene_step(s, &e) != SCENE_OK) {
-            printf("%s\n", e.text);
-        }
-        assert_int_equal(e.code, SCENE_OK);
-    }
-}
-
-// Runs to the end; every expectation must hold.
-static void run(scene *s)
-{
-    scene_error e = { 0 };
-    while (!scene_done(s)) {
-        scene_step(s, &e);
-    }
-    scene_finish(s, &e);
-    if (e.code != SCENE_OK) {
-        printf("%s\n", e.text);
-    }
-    assert_int_equal(e.code, SCENE_OK);
-    for (int i = 0; i < scene_expect_count(s); i++) {
-        scene_expect_result r = scene_expect_get(s, i);
-        if (!r.passed) {
-            printf("%s: %s\n", r.name, r.description);
-        }
-    }
-    assert_int_equal(scene_expect_failures(s), 0);
-}
+#include "scene_fixture.h"
 
 static void check(const char *text)
 {
     scene *s = load(text);
-    run(s);
+    run_and_hold(s);
     scene_destroy(s);
-}
-
-static double score(const scene *s, const char *name)
-{
-    for (int i = 0; i < scene_score_count(s); i++) {
-        if (strcmp(scene_score_name(s, i), name) == 0) {
-            return scene_score_value(s, i);
-        }
-    }
-    return (double)NAN;
 }
 
 // ----------------------------------------------------------------------------------------- joints
@@ -135,7 +66,7 @@ static void test_every_kind(void **state)
     assert_true(d.motor_speed == 2 && d.max_motor == 3 && d.hertz == 2 && d.break_force > 0);
     assert_true(plumb_is_null(plumb_joint_body_a(w, list[1]))); // one body hangs on the world
     assert_true(plumb_same(plumb_joint_body_b(w, list[1]), scene_body_find(s, "a1").entity));
-    run(s);
+    run_and_hold(s);
     scene_destroy(s);
 }
 
@@ -374,16 +305,6 @@ static void test_edit_errors(void **state)
 
 // ------------------------------------------------------------------------------------------- JSON
 
-static char *export_json(const scene *s, size_t *size)
-{
-    char *text = NULL;
-    FILE *file = open_memstream(&text, size);
-    assert_non_null(file);
-    assert_true(scene_to_json(s, file));
-    fclose(file);
-    return text;
-}
-
 // Both scenes are in the same state, to the bit.
 static void assert_same_state(const scene *a, const scene *b)
 {
@@ -405,7 +326,7 @@ static void check_json(const char *text)
     scene *s = load(text);
     size_t size, again_size;
     char *json = export_json(s, &size);
-    scene *copy = load_as("test.json", json, size);
+    scene *copy = load_as("test.json", json, size, NULL);
     char *again = export_json(copy, &again_size);
     assert_string_equal(again, json);
     steps(s, 90);
@@ -415,7 +336,7 @@ static void check_json(const char *text)
     free(again);
     scene_destroy(copy);
     json = export_json(s, &size); // in the middle of the run: what joints know of their past
-    copy = load_as("test.json", json, size);
+    copy = load_as("test.json", json, size, NULL);
     again = export_json(copy, &again_size);
     assert_string_equal(again, json);
     plumb_joint mine[64], theirs[64];

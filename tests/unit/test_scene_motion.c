@@ -1,58 +1,11 @@
 // test_scene_motion.c - how bodies of a scene move: locks, damping, caps, time scale, enabling, types,
 // targets, blast{}; and their JSON.
 #define _POSIX_C_SOURCE 200809L // open_memstream
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
-
-#include "scene/scene.h"
-
-static scene *load_text(const char *name, const char *text, size_t size)
-{
-    scene *s = NULL;
-    scene_error e;
-    if (scene_load(&(scene_options){ .path = name, .text = text, .text_size = size }, &s, &e) !=
-        SCENE_OK) {
-        fail_msg("%s", e.text);
-    }
-    return s;
-}
-
-static scene *load(const char *text)
-{
-    return load_text("test.lua", text, strlen(text));
-}
-
-static void run(scene *s, int steps)
-{
-    for (int i = 0; i < steps; i++) {
-        scene_error e;
-        if (scene_step(s, &e) != SCENE_OK) {
-            fail_msg("%s", e.text);
-        }
-    }
-}
+#include "scene_fixture.h"
 
 static plumb_body named(scene *s, const char *name)
 {
     return scene_body_find(s, name).entity;
-}
-
-static char *to_json(const scene *s)
-{
-    char *text = NULL;
-    size_t size = 0;
-    FILE *file = open_memstream(&text, &size);
-    assert_true(scene_to_json(s, file));
-    fclose(file);
-    return text;
 }
 
 #define EVERYTHING                                                                                 \
@@ -94,9 +47,10 @@ static void json_keeps_it(void **state)
     scene *s = load(EVERYTHING "find('f'):set_type('kinematic') find('b'):set_damping(3) "
                                "find('c'):set_lock('x', 'y') find('c'):set_time_scale(2) "
                                "find('d'):set_enabled(true) find('a'):set_enabled(false)\n");
-    char *text = to_json(s);
-    scene *t = load_text("test.json", text, strlen(text));
-    char *again = to_json(t);
+    size_t size;
+    char *text = export_json(s, &size);
+    scene *t = load_as("test.json", text, size, NULL);
+    char *again = export_json(t, &size);
     assert_string_equal(text, again);
     const plumb_world *w = scene_world(t);
     assert_int_equal(plumb_body_get_type(w, named(t, "f")), PLUMB_KINEMATIC);
@@ -123,12 +77,12 @@ static void handlers_move_bodies(void **state)
              "at(0.25, function() ball:set_type('static') assert(ball:type() == 'static') end)\n"
              "at(0.75, function() ball:set_type('dynamic') ball:set_enabled(false)\n"
              "  assert(not ball:enabled()) lift:move_to({1, 1}) end)\n");
-    run(s, 30);
+    steps(s, 30);
     const plumb_world *w = scene_world(s);
     plumb_vec2 p = plumb_body_position(w, named(s, "lift"));
     assert_true(p.x == 3 && p.y == 4);
     assert_int_equal(plumb_body_get_type(w, named(s, "ball")), PLUMB_STATIC);
-    run(s, 16);
+    steps(s, 16);
     p = plumb_body_position(w, named(s, "lift"));
     assert_true(p.x == 1 && p.y == 1);
     assert_false(plumb_body_is_enabled(w, named(s, "ball")));
@@ -148,12 +102,12 @@ static void a_blast_pushes(void **state)
              "  occlusion = 'walls', ignore = 'bomb' } end)\n"
              "at(0.5, function() blast{ at = {5, 1}, radius = 2, impulse = 7, per_body = true }"
              " end)\n");
-    run(s, 10);
+    steps(s, 10);
     const plumb_world *w = scene_world(s);
     assert_true(plumb_body_velocity(w, named(s, "open")).x < -3);
     assert_true(plumb_body_velocity(w, named(s, "hidden")).x == 0);
     assert_true(plumb_body_velocity(w, named(s, "bomb")).x == 0);
-    run(s, 25);
+    steps(s, 25);
     plumb_body hidden = named(s, "hidden");
     double impulse = (double)(plumb_body_velocity(w, hidden).y * plumb_body_mass(w, hidden));
     assert_true(fabs(impulse + 7) < 1e-4);

@@ -1,66 +1,21 @@
 // test_scene_play.c - characters, one-way platforms and queries in scenes: what keys and methods do,
 // and their JSON.
 #define _POSIX_C_SOURCE 200809L // open_memstream
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
-
-#include "scene/scene.h"
-
-static scene *load_text(const char *name, const char *text)
-{
-    scene *s = NULL;
-    scene_error e;
-    scene_options o = { .path = name, .text = text, .text_size = strlen(text) };
-    if (scene_load(&o, &s, &e) != SCENE_OK) {
-        fail_msg("%s", e.text);
-    }
-    return s;
-}
-
-static void run(scene *s, int steps)
-{
-    for (int i = 0; i < steps; i++) {
-        scene_error e;
-        if (scene_step(s, &e) != SCENE_OK) {
-            fail_msg("%s", e.text);
-        }
-    }
-}
+#include "scene_fixture.h"
 
 // Runs a script whose expectations say what must hold.
 static void holds(const char *text)
 {
-    scene_error e;
-    scene *s = load_text("test.lua", text);
-    while (!scene_done(s)) {
-        if (scene_step(s, &e) != SCENE_OK) {
-            fail_msg("%s", e.text);
-        }
-    }
-    assert_int_equal(scene_finish(s, &e), SCENE_OK);
+    scene *s = load(text);
+    run_and_hold(s);
     assert_true(scene_expect_count(s) > 0);
-    for (int i = 0; i < scene_expect_count(s); i++) {
-        scene_expect_result r = scene_expect_get(s, i);
-        if (!r.passed) {
-            fail_msg("%s: %s", r.name, r.description);
-        }
-    }
     scene_destroy(s);
 }
 
 static void every_key_reaches_the_world(void **state)
 {
     (void)state;
-    scene *s = load_text(
-        "test.lua",
+    scene *s = load(
         "character{ name = 'a', character = { max_slope = 0.5, skin = 0.01, step_height = 0.2,\n"
         "  step_width = 0.1, snap_distance = 0.3, acceleration = 7, air_acceleration = 8,\n"
         "  max_fall_speed = 9, mass = 50, push_force = 60, up = {0, 2}, gravity_scale = 0.5 } }\n"
@@ -177,23 +132,20 @@ static void json_keeps_settings(void **state)
     (void)state;
     char *text[2];
     size_t size;
-    scene *s = load_text(
-        "a.lua", "body{ type = 'static', box{9, 1}, one_way = {0, 1}, one_way_angle = 0.25 }\n"
-                 "local h = character{ name = 'hero', at = {0, 1.41},\n"
-                 "  character = { acceleration = 5, steps = false, up = {0, 1} } }\n"
-                 "h:walk(1)\n");
-    run(s, 30);
+    scene *s = load("body{ type = 'static', box{9, 1}, one_way = {0, 1}, one_way_angle = 0.25 }\n"
+                    "local h = character{ name = 'hero', at = {0, 1.41},\n"
+                    "  character = { acceleration = 5, steps = false, up = {0, 1} } }\n"
+                    "h:walk(1)\n");
+    steps(s, 30);
     for (int i = 0; i < 2; i++) {
-        FILE *file = open_memstream(&text[i], &size);
-        assert_true(scene_to_json(s, file));
-        fclose(file);
+        text[i] = export_json(s, &size);
         scene_destroy(s);
-        s = i == 0 ? load_text("a.json", text[0]) : NULL;
+        s = i == 0 ? load_as("a.json", text[0], size, NULL) : NULL;
     }
     assert_string_equal(text[0], text[1]);
     assert_non_null(strstr(text[0], "\"character\":{\"acceleration\":5,\"steps\":false,"));
     assert_non_null(strstr(text[0], "\"one_way\":[0,1],\"one_way_angle\":0.25"));
-    s = load_text("a.json", text[0]);
+    s = load_as("a.json", text[0], strlen(text[0]), NULL);
     assert_true(plumb_body_is_character(scene_world(s), scene_body_find(s, "hero").entity));
     scene_destroy(s);
     free(text[0]);

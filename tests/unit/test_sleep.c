@@ -81,7 +81,7 @@ static void check_contacts_of(const plumb_world *w, uint32_t island, uint32_t *c
         ++count;
     }
     assert_int_equal(count, i->contact_count);
-    assert_int_equal(touching, i->touching_count);
+    assert_int_equal(touching, i->overlaps.touching_count);
     *contacts += count;
 }
 

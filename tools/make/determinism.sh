@@ -36,7 +36,8 @@ for row in "${matrix[@]}"; do
     fi
     folder=$O/${name// /}
     programs=("$folder/tests/determinism/test_scene_hashes"
-        "$folder/tests-double/determinism/test_scene_hashes")
+        "$folder/tests-double/determinism/test_scene_hashes"
+        "$folder/tests-far/determinism/test_scene_hashes")
     if ! make -j"$jobs" O="$folder" CC="$cc" CFLAGS="$flags" SAN="$san" "${programs[@]}" \
         >"$folder.log" 2>&1; then
         tail -n 20 "$folder.log" >&2

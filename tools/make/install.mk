@@ -17,14 +17,15 @@ fill = sed -e 's|@PREFIX@|$(PREFIX)|g' -e 's|@VERSION@|$(VERSION)|g' -e 's|@SUFF
 install-lib: $(LIBRARIES)
 	install -d $(addprefix $(DESTDIR),$(INCLUDEDIR)/plumb $(PKGDIR) $(CMAKEDIR))
 	install -m 644 include/plumb/*.h $(DESTDIR)$(INCLUDEDIR)/plumb
-	install -m 644 $(O)/libplumb.a $(O)/libplumb_d.a $(DESTDIR)$(LIBDIR)
-	set -e; for lib in libplumb libplumb_d; do \
+	install -m 644 $(O)/libplumb.a $(O)/libplumb_d.a $(O)/libplumb_far.a $(DESTDIR)$(LIBDIR)
+	set -e; for lib in libplumb libplumb_d libplumb_far; do \
 		install -m 755 $(O)/$$lib.so $(DESTDIR)$(LIBDIR)/$$lib.so.$(VERSION); \
 		ln -sf $$lib.so.$(VERSION) $(DESTDIR)$(LIBDIR)/$$lib.so.0; \
 		ln -sf $$lib.so.0 $(DESTDIR)$(LIBDIR)/$$lib.so; \
 	done
 	$(call fill,,,float) tools/install/plumb.pc.in >$(DESTDIR)$(PKGDIR)/plumb.pc
 	$(call fill,_d,-DPLUMB_DOUBLE=1,double) tools/install/plumb.pc.in >$(DESTDIR)$(PKGDIR)/plumb_d.pc
+	$(call fill,_far,-DPLUMB_FAR=1,far) tools/install/plumb.pc.in >$(DESTDIR)$(PKGDIR)/plumb_far.pc
 	$(call fill) tools/install/plumb-config.cmake.in >$(DESTDIR)$(CMAKEDIR)/plumb-config.cmake
 	$(call fill) tools/install/plumb-config-version.cmake.in \
 		>$(DESTDIR)$(CMAKEDIR)/plumb-config-version.cmake
@@ -35,6 +36,5 @@ install: install-lib $(O)/plumb
 
 uninstall:
 	rm -rf $(addprefix $(DESTDIR),$(INCLUDEDIR)/plumb $(CMAKEDIR) $(PKGDIR)/plumb.pc \
-		$(PKGDIR)/plumb_d.pc $(BINDIR)/plumb)
-	rm -f $(DESTDIR)$(LIBDIR)/libplumb.a $(DESTDIR)$(LIBDIR)/libplumb_d.a \
-		$(DESTDIR)$(LIBDIR)/libplumb.so* $(DESTDIR)$(LIBDIR)/libplumb_d.so*
+		$(PKGDIR)/plumb_d.pc $(PKGDIR)/plumb_far.pc $(BINDIR)/plumb)
+	rm -f $(foreach l,libplumb libplumb_d libplumb_far,$(DESTDIR)$(LIBDIR)/$l.a $(DESTDIR)$(LIBDIR)/$l.so*)

@@ -17,7 +17,11 @@ ifneq ($(DOUBLE_SRC),)
 DOUBLE_SRC   := $(filter-out $(shell grep -l PLUMB_FLOAT_ONLY $(DOUBLE_SRC)),$(DOUBLE_SRC))
 endif
 
+# Built and run in the far build.
+FAR_SRC := $(DOUBLE_SRC)
+
 TEST_PROGRAMS := $(TEST_SRC:%.c=$(O)/%) $(DOUBLE_SRC:tests/%.c=$(O)/tests-double/%) \
+	$(FAR_SRC:tests/%.c=$(O)/tests-far/%) \
 	$(FUZZ_SRC:tests/fuzz/%.c=$(O)/tests/fuzz/replay_%)
 
 # ---- building
@@ -55,6 +59,7 @@ $(O)/$4/$(1:tests/%.c=%): $(call test_parts,$1,$2,$3)
 endef
 $(foreach t,$(TEST_SRC),$(eval $(call test_rule,$t,float,,tests)))
 $(foreach t,$(DOUBLE_SRC),$(eval $(call test_rule,$t,double,_d,tests-double)))
+$(foreach t,$(FAR_SRC),$(eval $(call test_rule,$t,far,_far,tests-far)))
 
 $(O)/box2d2.o: tests/harness/engine_box2d2.cpp $(O)/flags | $(DEPS_FIRST)
 	@mkdir -p $(@D)
@@ -93,6 +98,7 @@ $(foreach f,$(FUZZ_SRC),$(eval $(call fuzz_rule,$f,,$(notdir $(f:.c=)),-fsanitiz
 TEST_OBJ := $(sort $(call objects,float,$(TEST_SRC) $(FUZZ_SRC) $(BENCH_SRC) $(HARNESS_SRC)) \
 	$(foreach t,$(TEST_SRC),$(filter %.o,$(call test_parts,$t,float,))) \
 	$(foreach t,$(DOUBLE_SRC),$(filter %.o,$(call test_parts,$t,double,_d))) \
+	$(foreach t,$(FAR_SRC),$(filter %.o,$(call test_parts,$t,far,_far))) \
 	$(O)/float/tests/fuzz/replay_main.o $(O)/box2d2.o $(O)/box2d3.o)
 
 # ---- running
@@ -107,7 +113,7 @@ RUN_PROGRAMS := $(TEST_PROGRAMS)
 RUN_SH       := $(TEST_SH)
 else
 RUN_PROGRAMS := $(filter $(T:tests/%.c=$(O)/tests/%) $(T:tests/%.c=$(O)/tests-double/%) \
-	$(T:tests/fuzz/%.c=$(O)/tests/fuzz/replay_%),$(TEST_PROGRAMS))
+	$(T:tests/%.c=$(O)/tests-far/%) $(T:tests/fuzz/%.c=$(O)/tests/fuzz/replay_%),$(TEST_PROGRAMS))
 RUN_SH       := $(filter $(T),$(TEST_SH))
 endif
 
@@ -144,7 +150,7 @@ determinism:
 	@O=$(O) JOBS=$(JOBS) bash tools/make/determinism.sh
 
 # Writes the committed hashes anew: after every change that is meant to change what bodies do.
-HASH_PROGRAMS := $(O)/tests/determinism/test_scene_hashes $(O)/tests-double/determinism/test_scene_hashes
+HASH_PROGRAMS := $(foreach d,tests tests-double tests-far,$(O)/$d/determinism/test_scene_hashes)
 hashes: $(HASH_PROGRAMS)
 	$(Q)echo "# Written by \`make hashes\`: precision, solver, scene, steps, plumb_world_hash." >$(O)/hashes
 	$(Q)for p in $(HASH_PROGRAMS); do $$p --print >>$(O)/hashes || exit 1; done

@@ -93,6 +93,10 @@ int cli_parse(const cli_command *command, int argc, char **argv, void *values,
 /// Prints the help of a command to stdout.
 void cli_help(const cli_command *command);
 
+/// How many slips of the pen, and one more, may lie between `word` and what was meant.
+int cli_slips(const char *word);
+/// True when fewer than *slips lie between `word` and `name`; *slips, at first cli_slips(word), becomes their number.
+bool cli_nearer(const char *word, const char *name, int *slips);
 /// The name in the comma list `names` nearest to `word`, or -1 when none is near; its index.
 int cli_nearest(const char *word, const char *names);
 /// Copies member `index` of a comma list into `out`; false when there is no such member.

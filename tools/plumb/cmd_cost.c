@@ -17,7 +17,7 @@ typedef struct cost_args {
     bool csv;
 } cost_args;
 
-enum { ROWS_MAX = 2 * 2 * CLI_INTS_MAX, COMPARED_MOMENTS = 200 };
+enum { ROWS_MAX = 2 * 3 * CLI_INTS_MAX, COMPARED_MOMENTS = 200 };
 
 static void name_of(const char *list, int index, char *out, size_t size)
 {
@@ -31,7 +31,7 @@ static int list_rows(const cost_args *args, cost_row *rows)
     int count = 0;
     for (int solver = 0; solver < 2; solver++) {
         for (int s = 0; s < args->substeps.count; s++) {
-            for (int precision = 0; precision < 2; precision++) {
+            for (int precision = 0; precision < 3; precision++) {
                 if ((args->solvers >> solver & 1u) != 0 &&
                     (args->precisions >> precision & 1u) != 0) {
                     rows[count++] = (cost_row){ .solver = solver,
@@ -129,8 +129,8 @@ static void print_csv(const cost_row *rows, int count)
 
 static void print_head(const cost_plan *plan, const scene_run *run, const cost_args *args)
 {
-    printf("%s: %.6g s in steps of %.6g s; times are the least of %d runs\n", run->info.name,
-           plan->time, plan->dt, args->repeat);
+    printf("%s: %.6g s in steps of %.6g s; times are the least of %d run%s\n", run->info.name,
+           plan->time, plan->dt, args->repeat, args->repeat == 1 ? "" : "s");
     if (plan->has_exact) {
         printf("error: largest distance of a body from the scene's closed form, at every step\n");
     } else {

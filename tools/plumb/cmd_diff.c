@@ -41,7 +41,9 @@ static int print_difference(const engine_difference *d)
     if (d->step == 0) {
         printf("differ at the head, %.12g s", d->time[0]);
     } else {
-        printf("differ after step %llu, %.12g s", d->step, d->time[0]);
+        bool from_there = strcmp(d->pass, "head") == 0; // --from
+        printf("differ %s step %llu, %.12g s", from_there ? "already behind" : "after", d->step,
+               d->time[0]);
     }
     if (d->time[0] != d->time[1]) {
         printf(" | %.12g s", d->time[1]);
@@ -50,7 +52,7 @@ static int print_difference(const engine_difference *d)
         printf("; one of them is of another build, which gives other bits here");
     } else if (strcmp(d->pass, "edits") == 0) {
         printf(", in what was done before it");
-    } else if (d->step > 0) {
+    } else if (strcmp(d->pass, "head") != 0) {
         printf(", in pass '%s'", d->pass);
     }
     printf("\n");

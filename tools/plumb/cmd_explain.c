@@ -4,6 +4,7 @@
 /// --no-timing the text is the same on every run.
 #include "scene_args.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 typedef struct explain_args {
@@ -12,8 +13,68 @@ typedef struct explain_args {
     bool columns;
 } explain_args;
 
+/// In how many steps a pass ran, and why when it last did: what falls asleep leaves the schedule. Of one
+/// that never ran, why it did not in the first step.
+typedef struct pass_tally {
+    char name[64], reason[128];
+    long long steps;
+} pass_tally;
+
+typedef struct tally {
+    pass_tally *items;
+    int count, room;
+} tally;
+
 /// [s] simulated unless told otherwise: long enough for things to meet, short enough to wait for.
 static const double DEFAULT_TIME = 1;
+
+static pass_tally *find_tally(const tally *t, const engine_pass *pass)
+{
+    for (int i = 0; i < t->count; i++) {
+        if (strcmp(t->items[i].name, pass->name) == 0) {
+            return &t->items[i];
+        }
+    }
+    return NULL;
+}
+
+static bool grow(tally *t)
+{
+    int room = t->room + t->room / 2 + 64;
+    pass_tally *grown = realloc(t->items, (size_t)room * sizeof *grown);
+    t->items = grown != NULL ? grown : t->items;
+    t->room = grown != NULL ? room : t->room;
+    return grown != NULL;
+}
+
+/// The schedule of now, each pass with its tally, in which `steps` more are counted if it is in the schedule.
+/// -1 after a message.
+static int note_schedule(tally *t, const scene_run *run, int steps, const engine_pass **list)
+{
+    int count = run->engine->passes(run->session, list);
+    for (int i = 0; i < count; i++) {
+        const engine_pass *pass = &(*list)[i];
+        pass_tally *item = find_tally(t, pass);
+        bool is_new = item == NULL;
+        if (is_new && t->count == t->room && !grow(t)) {
+            count = -1;
+            break;
+        }
+        if (is_new) {
+            item = &t->items[t->count++];
+            *item = (pass_tally){ .steps = 0 };
+            snprintf(item->name, sizeof item->name, "%s", pass->name);
+        }
+        if (is_new || (pass->scheduled && steps > 0)) {
+            snprintf(item->reason, sizeof item->reason, "%s", pass->reason);
+        }
+        item->steps += pass->scheduled ? steps : 0;
+    }
+    if (count < 0) {
+        cli_message("out of memory");
+    }
+    return count;
+}
 
 static int longest(const engine_pass *list, int count)
 {
@@ -48,8 +109,8 @@ static void print_settings(const scene_run *run, const char *path)
 }
 
 /// One row of the table. `total` [ns]: of all passes; 0: no timing.
-static void print_pass(const engine_pass *pass, int width, double total, long long steps,
-                       bool columns)
+static void print_pass(const engine_pass *pass, const pass_tally *ran, int width, double total,
+                       long long steps, bool columns)
 {
     printf("  %-*s  %-8s", width, pass->name, pass->phase);
     if (total > 0) {
@@ -60,19 +121,23 @@ static void print_pass(const engine_pass *pass, int width, double total, long lo
             printf("  %7s  %12s", "-", "-"); // part of another pass, not timed apart
         }
     }
-    printf("  %s%s\n", pass->reason, pass->is_user ? " (registered by the scene)" : "");
+    printf("  %s%s", ran->reason, pass->is_user ? " (registered by the scene)" : "");
+    if (ran->steps > 0 && ran->steps < steps) {
+        printf(" (in %lld of %lld steps)", ran->steps, steps);
+    }
+    printf("\n");
     if (columns) {
         printf("  %*s  reads %s; writes %s\n", width, "", pass->reads[0] ? pass->reads : "nothing",
                pass->writes[0] ? pass->writes : "nothing");
     }
 }
 
-static int print_schedule(const explain_args *args, scene_run *run)
+static int print_schedule(const explain_args *args, const scene_run *run, tally *t)
 {
     const engine_pass *list;
-    int count = run->engine->passes(run->session, &list);
+    // Of no steps, what would run.
+    int count = note_schedule(t, run, run->steps == 0, &list);
     if (count < 0) {
-        cli_message("out of memory");
         return CLI_FAILED;
     }
     int width = longest(list, count);
@@ -81,7 +146,7 @@ static int print_schedule(const explain_args *args, scene_run *run)
 
     for (int i = 0; i < count; i++) {
         total += list[i].total_ns;
-        left_out += !list[i].scheduled;
+        left_out += find_tally(t, &list[i])->steps == 0;
     }
     if (args->no_timing || run->steps == 0) {
         total = 0;
@@ -90,16 +155,18 @@ static int print_schedule(const explain_args *args, scene_run *run)
     printf(total > 0 ? "  %-*s  phase      share      a step  why\n" : "  %-*s  phase     why\n",
            width, "pass");
     for (int i = 0; i < count; i++) {
-        if (list[i].scheduled) {
-            print_pass(&list[i], width, total, run->steps, args->columns);
+        const pass_tally *ran = find_tally(t, &list[i]);
+        if (ran->steps > 0) {
+            print_pass(&list[i], ran, width, total, run->steps, args->columns);
         }
     }
     if (left_out > 0) {
         printf("\nLeft out, costs nothing:\n");
     }
     for (int i = 0; i < count; i++) {
-        if (!list[i].scheduled) {
-            print_pass(&list[i], width, 0, run->steps, args->columns);
+        const pass_tally *ran = find_tally(t, &list[i]);
+        if (ran->steps == 0) {
+            print_pass(&list[i], ran, width, 0, run->steps, args->columns);
         }
     }
     if (total > 0) {
@@ -126,22 +193,25 @@ static int explain_command(const cli_command *command, int argc, char **argv)
         run.time = DEFAULT_TIME;
         run.steps = scene_step_count(run.time, run.info.dt);
     }
+    tally t = { 0 };
+    const engine_pass *list;
     progress_begin(&bar, run.info.name, (double)run.steps, args.scene.quiet);
     for (long long step = 0; code == CLI_OK && !scene_run_done(&run, step); step++) {
         progress_update(&bar, (double)step);
-        code = scene_run_step(&run, &bar);
+        code = note_schedule(&t, &run, 1, &list) >= 0 ? scene_run_step(&run, &bar) : CLI_FAILED;
     }
     progress_end(&bar);
     run.steps = (long long)run.engine->stats(run.stage).step_count; // the scene may end itself
     if (code == CLI_OK && !cli_interrupted()) {
         print_settings(&run, operands.items[0]);
-        code = print_schedule(&args, &run);
+        code = print_schedule(&args, &run, &t);
     }
+    free(t.items);
     return scene_run_close(&run, code);
 }
 
 static const cli_option options[] = {
-    SCENE_OPTION_TIME(explain_args, scene),
+    SCENE_OPTION_TIME_OR(explain_args, scene, "1, or the scene's duration if that is shorter"),
     { "no-timing", 0, CLI_FLAG, offsetof(explain_args, no_timing), NULL, 0, 0, NULL,
       "leave the times out: the text is then the same on every run" },
     { "columns", 'c', CLI_FLAG, offsetof(explain_args, columns), NULL, 0, 0, NULL,
@@ -162,8 +232,8 @@ const cli_command cmd_explain = {
     .summary = "tells which passes a scene runs, why, and what each costs",
     .operands = "SCENE",
     .text = "Simulates SCENE for a second (or its duration, if that is shorter; see --time) and "
-            "prints the schedule in order: which passes run and because of what, which were left "
-            "out, and what share of the time each took.",
+            "prints the schedule in order: which passes ran and because of what, which were left "
+            "out of all steps, and what share of the time each took.",
     .examples = "plumb explain assets/scenes/stack.lua\n"
                 "plumb explain stack.lua --no-timing --columns",
     .options = options,

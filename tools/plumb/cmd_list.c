@@ -56,7 +56,7 @@ static int print_passes(bool brief)
 static void print_word(const engine_word *word)
 {
     bool is_choice = strcmp(word->kind, "one of") == 0;
-    printf("    %-18s%s", word->name, word->kind);
+    printf("    %-17s %s", word->name, word->kind);
     if (word->min < word->max) {
         printf(", %g to %g", word->min, word->max);
     }

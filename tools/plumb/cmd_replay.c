@@ -158,6 +158,16 @@ static int go(film_source *source, long long to, progress *bar)
     return scene_report(&error);
 }
 
+/// The moment that the scene chose for its picture, if it was recorded; else `last`.
+static unsigned long long chosen_step(const recording *r, unsigned long long last)
+{
+    engine_replay_info info = r->engine->replay_info(r->replay);
+    engine_stage *stage = r->engine->replay_stage(r->replay);
+    double at = stage != NULL ? r->engine->info(stage).camera.at : -1;
+    bool recorded = at >= info.start && at <= info.end;
+    return recorded ? r->engine->replay_find(r->replay, at + half_step(r)) : last;
+}
+
 /// The picture of step `at`, or a film.
 static int render(const replay_args *args, recording *r, unsigned long long at)
 {
@@ -172,6 +182,9 @@ static int render(const replay_args *args, recording *r, unsigned long long at)
                            .go = go,
                            .find = find };
     bool is_film = film_is_film(args->film.output);
+    if (!is_film && args->seek < 0 && args->step < 0) {
+        at = chosen_step(r, at);
+    }
     source.step = is_film ? find(&source, from) : (long long)at;
     int code = r->engine->replay_seek(r->replay, (unsigned long long)source.step, &error);
     if (code != CLI_OK) {
@@ -353,8 +366,9 @@ static const cli_option options[] = {
       "SIMD lanes: 4, 8 or 16; 0 takes the best measured (default). Changes the speed, "
       "not a bit of the result" },
     { "render", 0, CLI_TEXT, offsetof(replay_args, film.output), "FILE", 0, 0, NULL,
-      "draw instead: picture.png (of the end, or of --seek or --step), frame%04d.png (one file a "
-      "picture), film.gif or film.mp4 (needs ffmpeg)" },
+      "draw instead: picture.png (of --seek or --step, else camera{at} of the scene, else the "
+      "end), "
+      "frame%04d.png (one file a picture), film.gif or film.mp4 (needs ffmpeg)" },
     FILM_OPTIONS(replay_args, film),
     SCENE_OPTION_QUIET(replay_args, scene),
 };
@@ -368,8 +382,8 @@ const cli_command cmd_replay = {
         "the scene, and verifies that every step gives the bits that were recorded (exit code 6 "
         "where one does not). Prints the table of `plumb run`, bodies in the order of their "
         "handles. Rows are the state right after a step; what handlers of the scene change then "
-        "is in the next one. With --render it draws as `plumb render` does; colours and the camera "
-        "of the scene are not in a recording, so the camera shows all that moves.",
+        "is in the next one. With --render it draws as `plumb render` does, with the colours, the "
+        "texts and the camera of the scene.",
     .examples = "plumb replay pong.rec --seek 12.5\n"
                 "plumb replay pong.rec --list --every 60\n"
                 "plumb replay pong.rec --body ball -o ball.csv\n"

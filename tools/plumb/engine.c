@@ -1,5 +1,5 @@
-/// engine.c - engine.h over libplumb and the scene loader. Compiled once with PLUMB_DOUBLE=0 and
-/// once with 1; see README.md for how both get into one program.
+/// engine.c - engine.h over libplumb and the scene loader. Compiled once for each
+/// precision; see README.md for how both get into one program.
 ///
 /// Reads scene files through the loader; writes nothing but what it is asked for. A session's
 /// lists are kept from call to call: no allocation once they have grown.
@@ -122,7 +122,7 @@ static void session_close(engine_session *session)
     free(session->expects);
     free(session->passes);
     free(session->pass_infos);
-    free(session->named);
+    free(session->kept);
     free(session);
 }
 
@@ -139,7 +139,7 @@ static int session_step(engine_session *session, engine_error *error)
     if (scene_step(session->stage.scene, &from) != SCENE_OK) {
         return pl_session_fail_scene(session, &from, error);
     }
-    return session->recording ? pl_session_name(session, error) : CLI_OK;
+    return session->recording ? pl_session_note_looks(session, error) : CLI_OK;
 }
 
 static int session_check(engine_session *session, engine_error *error)
@@ -178,14 +178,18 @@ static bool session_to_json(const engine_session *session, FILE *file)
     return scene_to_json(session->stage.scene, file);
 }
 
-#if defined(PLUMB_DOUBLE) && PLUMB_DOUBLE
+#if PLUMB_IS_FAR
+#define ENGINE_NAME engine_far
+#elif PLUMB_REAL_IS_DOUBLE
 #define ENGINE_NAME engine_double
 #else
 #define ENGINE_NAME engine_float
 #endif
 
 const engine_api ENGINE_NAME = {
-    .precision = sizeof(plumb_real) == sizeof(float) ? "float" : "double",
+    .precision = PLUMB_IS_FAR                          ? "far"
+                 : sizeof(plumb_real) == sizeof(float) ? "float"
+                                                       : "double",
     .is_float = sizeof(plumb_real) == sizeof(float),
     .open = session_open,
     .close = session_close,

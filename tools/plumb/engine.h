@@ -3,7 +3,7 @@
 ///
 /// Nothing here depends on plumb_real. The files engine*.c implement it; they are compiled
 /// twice, and each variant is linked with its own libplumb and scene loader into one object of
-/// which only engine_float or engine_double is visible (README.md, "Two precisions").
+/// which only engine_float, engine_double or engine_far is visible (README.md, "Three precisions").
 ///
 /// A function that can fail answers a cli_exit and fills `error` (never null).
 #ifndef PLUMB_ENGINE_H
@@ -158,7 +158,7 @@ typedef struct engine_stage engine_stage;
 /// One engine. All lists that it hands out are valid until the next call with the same session, stage
 /// or replay.
 typedef struct engine_api {
-    const char *precision; ///< "float" or "double"
+    const char *precision; ///< "float", "double" or "far"
     bool is_float;
 
     engine_session *(*open)(const engine_settings *settings, engine_error *error);
@@ -235,5 +235,6 @@ typedef struct engine_scenery {
 
 extern const engine_api engine_float;
 extern const engine_api engine_double;
+extern const engine_api engine_far;
 
 #endif

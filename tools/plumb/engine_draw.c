@@ -108,12 +108,10 @@ static void add_shape(const plumb_world *world, plumb_shape shape, plumb_transfo
 static int body_shapes(engine_stage *stage, plumb_body body)
 {
     int count = plumb_body_shapes(stage->world, body, NULL, 0);
-    plumb_entity *list = pl_session_reserve(stage->shapes, &stage->shape_room, count, sizeof *list);
-    if (list == NULL) {
+    if (!pl_session_reserve(&stage->shapes, &stage->shape_room, count, sizeof *stage->shapes)) {
         return -1;
     }
-    stage->shapes = list;
-    return plumb_body_shapes(stage->world, body, list, count);
+    return plumb_body_shapes(stage->world, body, stage->shapes, count);
 }
 
 static render_class class_of(plumb_body_type type)
@@ -225,11 +223,10 @@ static bool add_boxes(engine_stage *stage, render_frame *frame)
 static bool add_cells(engine_stage *stage, render_frame *frame)
 {
     int count = plumb_world_cells(stage->world, NULL, 0);
-    plumb_aabb *list = pl_session_reserve(stage->cells, &stage->cell_room, count, sizeof *list);
-    if (list == NULL) {
+    if (!pl_session_reserve(&stage->cells, &stage->cell_room, count, sizeof *stage->cells)) {
         return false;
     }
-    stage->cells = list;
+    plumb_aabb *list = stage->cells;
     count = plumb_world_cells(stage->world, list, count);
     for (int i = 0; i < count; i++) {
         render_add_cell(frame, (render_box){ { (double)list[i].min.x, (double)list[i].min.y },
@@ -254,12 +251,11 @@ static void add_impulse(const plumb_world *world, const plumb_contact *contact,
 static bool add_contacts(engine_stage *stage, render_frame *frame, unsigned show)
 {
     int count = plumb_world_contacts(stage->world, NULL, 0);
-    plumb_contact *list =
-        pl_session_reserve(stage->contacts, &stage->contact_room, count, sizeof *list);
-    if (list == NULL) {
+    if (!pl_session_reserve(&stage->contacts, &stage->contact_room, count,
+                            sizeof *stage->contacts)) {
         return false;
     }
-    stage->contacts = list;
+    plumb_contact *list = stage->contacts;
     plumb_world_contacts(stage->world, list, count);
     for (int i = 0; i < count; i++) {
         double nx = (double)list[i].normal.x, ny = (double)list[i].normal.y;

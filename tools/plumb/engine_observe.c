@@ -6,19 +6,24 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
-void *pl_session_reserve(void *list, size_t *room, int count, size_t size)
+bool pl_session_reserve(void *list, size_t *room, int count, size_t size)
 {
+    void *items;
     size_t wanted = ((size_t)count + 1) * size;
     if (wanted <= *room) {
-        return list;
+        return true;
     }
     wanted += wanted / 2; // bodies tend to come one by one
-    void *grown = realloc(list, wanted);
-    if (grown != NULL) {
-        *room = wanted;
+    memcpy(&items, list, sizeof items);
+    items = realloc(items, wanted);
+    if (items == NULL) {
+        return false;
     }
-    return grown;
+    memcpy(list, &items, sizeof items);
+    *room = wanted;
+    return true;
 }
 
 /// Distance of a body from its closed form `values`, of which `given` are there.
@@ -77,40 +82,34 @@ int pl_session_exact(engine_session *session, double *distance, engine_error *er
 int pl_session_expectations(engine_session *session, const engine_expect **list)
 {
     int count = scene_expect_count(session->stage.scene);
-    engine_expect *grown =
-        pl_session_reserve(session->expects, &session->expect_room, count, sizeof *grown);
-    if (grown == NULL) {
+    if (!pl_session_reserve(&session->expects, &session->expect_room, count,
+                            sizeof *session->expects)) {
         return -1;
     }
-    session->expects = grown;
     for (int i = 0; i < count; i++) {
         scene_expect_result r = scene_expect_get(session->stage.scene, i);
-        grown[i] = (engine_expect){
+        session->expects[i] = (engine_expect){
             .name = r.name,
             .passed = r.passed,
             .reached = r.status == SCENE_EXPECT_PASSED || r.status == SCENE_EXPECT_FAILED,
             .text = r.description,
         };
     }
-    *list = grown;
+    *list = session->expects;
     return count;
 }
 
 int pl_session_passes(engine_session *session, const engine_pass **list)
 {
     int count = plumb_world_schedule(session->stage.world, NULL, 0);
-    plumb_pass_info *infos =
-        pl_session_reserve(session->pass_infos, &session->info_room, count, sizeof *infos);
-    if (infos == NULL) {
+    if (!pl_session_reserve(&session->pass_infos, &session->info_room, count,
+                            sizeof *session->pass_infos) ||
+        !pl_session_reserve(&session->passes, &session->pass_room, count,
+                            sizeof *session->passes)) {
         return -1;
     }
-    session->pass_infos = infos;
-    engine_pass *passes =
-        pl_session_reserve(session->passes, &session->pass_room, count, sizeof *passes);
-    if (passes == NULL) {
-        return -1;
-    }
-    session->passes = passes;
+    plumb_pass_info *infos = session->pass_infos;
+    engine_pass *passes = session->passes;
     plumb_world_schedule(session->stage.world, infos, count);
     for (int i = 0; i < count; i++) {
         const plumb_pass_info *p = &infos[i];

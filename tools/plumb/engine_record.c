@@ -15,48 +15,6 @@ static bool to_file(void *context, const void *bytes, size_t size)
     return fwrite(bytes, 1, size, context) == size;
 }
 
-/// Names an entity that has none yet.
-static plumb_result name_entity(engine_session *session, plumb_entity entity, const char *name)
-{
-    if (entity.index >= session->named_count) {
-        uint32_t count = entity.index + entity.index / 2 + 64;
-        uint32_t *grown = realloc(session->named, count * sizeof *grown);
-        if (grown == NULL) {
-            return PLUMB_E_MEMORY;
-        }
-        memset(grown + session->named_count, 0, (count - session->named_count) * sizeof *grown);
-        session->named = grown;
-        session->named_count = count;
-    }
-    if (session->named[entity.index] == entity.generation) {
-        return PLUMB_OK;
-    }
-    char cut[64];
-    snprintf(cut, sizeof cut, "%.63s", name);
-    session->named[entity.index] = entity.generation;
-    plumb_result r = plumb_recorder_name(session->stage.world, entity, cut);
-    // The file takes no more: told when the recording ends.
-    return r == PLUMB_E_WRITE || r == PLUMB_E_MEMORY ? PLUMB_OK : r;
-}
-
-int pl_session_name(engine_session *session, engine_error *error)
-{
-    plumb_result r = PLUMB_OK;
-    for (int i = 0; r == PLUMB_OK && i < scene_body_count(session->stage.scene); i++) {
-        scene_body body = scene_body_get(session->stage.scene, i);
-        r = name_entity(session, body.entity, body.name);
-    }
-    for (int i = 0; r == PLUMB_OK && i < scene_joint_count(session->stage.scene); i++) {
-        scene_joint joint = scene_joint_get(session->stage.scene, i);
-        r = name_entity(session, joint.entity, joint.name);
-    }
-    return r == PLUMB_OK ? CLI_OK
-                         : pl_session_fail(error, CLI_FAILED, "--record: %s",
-                                           r == PLUMB_E_MEMORY
-                                               ? "out of memory"
-                                               : plumb_world_error(session->stage.world).message);
-}
-
 int pl_session_record(engine_session *session, FILE *file, int keyframes, engine_error *error)
 {
     char title[256];
@@ -69,7 +27,8 @@ int pl_session_record(engine_session *session, FILE *file, int keyframes, engine
                                plumb_world_error(session->stage.world).message);
     }
     session->recording = true;
-    return pl_session_name(session, error);
+    pl_session_note_camera(session);
+    return pl_session_note_looks(session, error);
 }
 
 int pl_session_record_end(engine_session *session, engine_error *error)
@@ -274,15 +233,13 @@ int pl_replay_session_edits(engine_replay *replay, const engine_change **list)
                                           "contact systems", "end systems" };
     static const char *const only[2] = { "destroyed", "created" };
     int count = plumb_replay_edits(replay->replay, NULL, 0);
-    plumb_replay_edit *edits =
-        pl_session_reserve(replay->edits, &replay->edit_room, count, sizeof *edits);
-    replay->edits = edits != NULL ? edits : replay->edits;
-    engine_change *changes =
-        pl_session_reserve(replay->changes, &replay->change_room, count, sizeof *changes);
-    replay->changes = changes != NULL ? changes : replay->changes;
-    if (edits == NULL || changes == NULL) {
+    if (!pl_session_reserve(&replay->edits, &replay->edit_room, count, sizeof *replay->edits) ||
+        !pl_session_reserve(&replay->changes, &replay->change_room, count,
+                            sizeof *replay->changes)) {
         return -1;
     }
+    plumb_replay_edit *edits = replay->edits;
+    engine_change *changes = replay->changes;
     plumb_replay_edits(replay->replay, edits, count);
     for (int i = 0; i < count; i++) {
         write_change(replay, &edits[i].change, only, &changes[i]);
@@ -302,15 +259,12 @@ int pl_replay_session_settings(engine_replay *a, engine_replay *b, const engine_
     if (plumb_world_compare(wa, wb, NULL, 0, &count) != PLUMB_OK) {
         count = 0;
     }
-    plumb_difference *found =
-        pl_session_reserve(a->differences, &a->difference_room, count, sizeof *found);
-    a->differences = found != NULL ? found : a->differences;
-    engine_change *changes =
-        pl_session_reserve(a->changes, &a->change_room, count, sizeof *changes);
-    a->changes = changes != NULL ? changes : a->changes;
-    if (found == NULL || changes == NULL) {
+    if (!pl_session_reserve(&a->differences, &a->difference_room, count, sizeof *a->differences) ||
+        !pl_session_reserve(&a->changes, &a->change_room, count, sizeof *a->changes)) {
         return -1;
     }
+    plumb_difference *found = a->differences;
+    engine_change *changes = a->changes;
     if (count > 0) {
         plumb_world_compare(wa, wb, found, count, &count);
     }

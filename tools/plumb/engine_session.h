@@ -6,7 +6,7 @@
 
 #include "../scene/scene.h"
 
-/// What can be seen of a world: of a scene that runs, or of a recording, which has no scene but names.
+/// What can be seen of a world: of a scene that runs, or of a recording, which has no scene but what was noted.
 struct engine_stage {
     plumb_world *world;
     scene *scene; ///< null: of a recording
@@ -40,15 +40,16 @@ struct engine_session {
     engine_pass *passes;
     plumb_pass_info *pass_infos;
     size_t expect_room, pass_room, info_room; ///< [B]
-    // While it is recorded: generation of the entities that were named, by their index.
+    // While it is recorded: what was last said of the looks of each entity, by its index; and the text.
     bool recording;
-    uint32_t *named;
-    uint32_t named_count;
+    struct session_kept *kept;
+    uint32_t kept_count;
+    char text[512];
 };
 
-/// `list` with room for `count` elements of `size` bytes, perhaps moved, not null even for none.
-/// Null: out of memory, `list` as it was.
-void *pl_session_reserve(void *list, size_t *room, int count, size_t size);
+/// Gives the list at `list`, a pointer to a pointer, room for `count` elements of `size` bytes; it is not null
+/// even for none. False: out of memory, all is as it was.
+bool pl_session_reserve(void *list, size_t *room, int count, size_t size);
 
 /// Fills `error`; answers `code`.
 #if defined(__GNUC__)
@@ -91,8 +92,14 @@ int pl_session_passes(engine_session *session, const engine_pass **list);
 bool pl_session_word(int constructor, int key, engine_word *word);
 int pl_session_record(engine_session *session, FILE *file, int keyframes, engine_error *error);
 int pl_session_record_end(engine_session *session, engine_error *error);
-/// Names what is new to the recording. CLI_FAILED: out of memory.
-int pl_session_name(engine_session *session, engine_error *error);
+/// Into the recording: names of what is new, looks that have changed. CLI_FAILED: out of memory.
+int pl_session_note_looks(engine_session *session, engine_error *error);
+void pl_session_note_camera(engine_session *session);
+/// Out of the recording, as it is where the replay stands; what it says nothing of stays as it was.
+void pl_stage_read_body(const plumb_replay *replay, scene_body *body);
+void pl_stage_read_joint(const plumb_replay *replay, scene_joint *joint);
+void pl_stage_read_camera(const plumb_replay *replay, scene_camera *camera);
+const char *pl_stage_read_text(const plumb_replay *replay); ///< "" if none
 
 engine_replay *pl_replay_session_open(const char *path, const void *bytes, size_t size, int width,
                                       bool edits, engine_error *error);

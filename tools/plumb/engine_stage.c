@@ -1,9 +1,9 @@
 /// engine_stage.c - what is to be seen of a world: bodies and joints with their names and looks, be it
 /// of a scene that runs or of a recording. Compiled once for each precision, as engine.c.
 ///
-/// Reads the world, the scene or the replay, changes none of them. A recording has names and no looks:
-/// colours go round in the order in which bodies are met, and a body keeps its own as long as the stage
-/// is open. Cost: O(bodies), of a recording once sorted for each step that is looked at.
+/// Reads the world, the scene or the replay, changes none of them. Where a recording says nothing of a body's
+/// looks (a program made it), colours go round in the order in which bodies are met, and a body keeps its
+/// own as long as the stage is open. Cost: O(bodies), of a recording once sorted for each step that is looked at.
 #include "engine_session.h"
 
 #include <ctype.h>
@@ -67,19 +67,12 @@ static int hue_of(engine_stage *stage, plumb_body body)
 static bool make_room(engine_stage *stage, int bodies, int joints)
 {
     int handles = bodies > joints ? bodies : joints;
-    plumb_entity *list =
-        pl_session_reserve(stage->handles, &stage->handle_room, handles, sizeof *list);
-    stage->handles = list != NULL ? list : stage->handles;
-    char(*names)[64] =
-        pl_session_reserve(stage->names, &stage->name_room, bodies + joints, sizeof *names);
-    stage->names = names != NULL ? names : stage->names;
-    scene_body *body_list =
-        pl_session_reserve(stage->bodies, &stage->body_room, bodies, sizeof *body_list);
-    stage->bodies = body_list != NULL ? body_list : stage->bodies;
-    scene_joint *joint_list =
-        pl_session_reserve(stage->joints, &stage->joint_room, joints, sizeof *joint_list);
-    stage->joints = joint_list != NULL ? joint_list : stage->joints;
-    return list != NULL && names != NULL && body_list != NULL && joint_list != NULL;
+    return pl_session_reserve(&stage->handles, &stage->handle_room, handles,
+                              sizeof *stage->handles) &&
+           pl_session_reserve(&stage->names, &stage->name_room, bodies + joints,
+                              sizeof *stage->names) &&
+           pl_session_reserve(&stage->bodies, &stage->body_room, bodies, sizeof *stage->bodies) &&
+           pl_session_reserve(&stage->joints, &stage->joint_room, joints, sizeof *stage->joints);
 }
 
 bool pl_stage_look(engine_stage *stage)
@@ -109,13 +102,16 @@ bool pl_stage_look(engine_stage *stage)
                                          .label = "",
                                          .palette = hue,
                                          .hidden = !plumb_body_is_enabled(stage->world, body) };
+        pl_stage_read_body(stage->replay, &stage->bodies[i]);
     }
+    pl_stage_read_camera(stage->replay, &stage->camera);
     plumb_world_joints(stage->world, stage->handles, joints);
     for (int i = 0; i < joints; i++) {
         plumb_joint joint = stage->handles[i];
         stage->joints[i] =
             (scene_joint){ .entity = joint,
                            .name = name_of(stage, joint, stage->names[span.count + i]) };
+        pl_stage_read_joint(stage->replay, &stage->joints[i]);
     }
     return true;
 }
@@ -181,8 +177,7 @@ double pl_stage_time(const engine_stage *stage)
 
 const char *pl_stage_text(const engine_stage *stage)
 {
-    const char *text = stage->scene != NULL ? scene_get_text(stage->scene) : NULL;
-    return text != NULL ? text : "";
+    return stage->scene != NULL ? scene_get_text(stage->scene) : pl_stage_read_text(stage->replay);
 }
 
 engine_info pl_stage_info(const engine_stage *stage)
@@ -222,12 +217,10 @@ int pl_stage_palette(const scene_body *body, int i)
 int pl_stage_rows(engine_stage *stage, const engine_row **rows)
 {
     int count = pl_stage_body_count(stage);
-    engine_row *list =
-        pl_session_reserve(stage->rows, &stage->row_room, count, sizeof *stage->rows);
-    if (list == NULL) {
+    if (!pl_session_reserve(&stage->rows, &stage->row_room, count, sizeof *stage->rows)) {
         return -1;
     }
-    stage->rows = list;
+    engine_row *list = stage->rows;
     for (int i = 0; i < count; i++) {
         scene_body body = pl_stage_body(stage, i);
         plumb_vec2 p = plumb_body_position(stage->world, body.entity);

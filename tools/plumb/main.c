@@ -72,7 +72,8 @@ static void print_usage(FILE *file)
     fprintf(file, "\n  --help     this text\n"
                   "  --version  the version\n\n"
                   "Exit codes: 0 ok, 1 failed at run time, 2 wrong usage, 3 wrong scene,\n"
-                  "            4 an expectation of the scene failed, 5 the simulation diverged\n");
+                  "            4 an expectation of the scene failed, 5 the simulation diverged,\n"
+                  "            6 two recordings differ, or a replay gives other bits\n");
 }
 
 static const cli_command *find_command(const char *name)

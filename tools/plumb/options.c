@@ -3,7 +3,6 @@
 /// Reads argv and a command's table, writes the command's struct. Cost: O(options x arguments).
 #include "cli.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -38,9 +37,9 @@ static bool read_real(const char *text, double *value)
 
 static bool read_int(const char *text, long *value, char **end)
 {
-    errno = 0;
-    *value = strtol(text, end, 10);
-    return *end != text && errno == 0;
+    *value =
+        strtol(text, end, 10); // too large a number becomes the largest, which is out of any range
+    return *end != text;
 }
 
 /// Stores `number` when it is in range, else tells the range.
@@ -292,7 +291,8 @@ static int check_operands(const cli_command *command, const cli_operands *operan
 {
     if (operands->count < command->operand_min) {
         cli_message("%s: %s is missing; usage: plumb %s %s [options]", command->name,
-                    command->operands, command->name, command->operands);
+                    operands->count == 0 ? command->operands : "an operand", command->name,
+                    command->operands);
         return CLI_USAGE;
     }
     if (operands->count > command->operand_max) {

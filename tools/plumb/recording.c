@@ -47,11 +47,11 @@ static char *read_file(const char *path, size_t *size)
 /// The precision stands in the header behind magic number and version: src/record/format.h.
 static const engine_api *engine_of(const char *bytes, size_t size)
 {
-    uint32_t real_bytes = 0;
+    uint32_t precision = 0;
     if (size >= 16) {
-        memcpy(&real_bytes, bytes + 12, sizeof real_bytes);
+        memcpy(&precision, bytes + 12, sizeof precision);
     }
-    return real_bytes == sizeof(double) ? &engine_double : &engine_float;
+    return precision == 8 ? &engine_double : precision == 12 ? &engine_far : &engine_float;
 }
 
 int recording_open(const char *path, int width, bool edits, recording *out)
@@ -68,6 +68,11 @@ int recording_open(const char *path, int width, bool edits, recording *out)
         free(out->bytes);
         *out = (recording){ 0 };
         return scene_report(&error);
+    }
+    engine_replay_info info = out->engine->replay_info(out->replay);
+    if (!info.complete) {
+        cli_message("'%s' breaks off after step %llu: whatever wrote it did not end it", path,
+                    info.steps);
     }
     return CLI_OK;
 }

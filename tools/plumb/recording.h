@@ -10,7 +10,7 @@ typedef struct recording {
     char *bytes;
 } recording;
 
-/// Reads `path` and opens it; on failure a message was printed and `out` holds nothing. CLI_OK or CLI_FAILED.
+/// Reads `path` and opens it; a message tells of one that breaks off. On failure a message was printed and `out` holds nothing. CLI_OK or CLI_FAILED.
 int recording_open(const char *path, int width, bool edits, recording *out);
 void recording_close(recording *r);
 

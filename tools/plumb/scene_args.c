@@ -63,7 +63,8 @@ int scene_run_open(const scene_args *args, const char *path, scene_run *run)
                                  .workers = args->workers };
     engine_error error = { 0 };
 
-    *run = (scene_run){ .engine = args->precision == 0 ? &engine_float : &engine_double };
+    const engine_api *const engines[] = { &engine_float, &engine_double, &engine_far };
+    *run = (scene_run){ .engine = engines[args->precision] };
     run->session = run->engine->open(&settings, &error);
     if (run->session == NULL) {
         return scene_report(&error);
@@ -92,16 +93,17 @@ int scene_run_step(scene_run *run, progress *bar)
 int scene_unknown_body(const engine_scenery *of, const char *option, const char *name)
 {
     const engine_row *rows;
-    int count = of->engine->rows(of->stage, &rows);
+    int count = of->engine->rows(of->stage, &rows), slips = cli_slips(name);
+    const char *near = NULL;
     for (int i = 0; i < count; i++) {
-        // The lists that cli_nearest searches are parted by commas: names with one are not offered.
-        if (strchr(rows[i].name, ',') == NULL && cli_nearest(name, rows[i].name) == 0) {
-            cli_message("option --%s: no body of '%s' is named '%.80s'; did you mean '%.80s'?",
-                        option, of->info.name, name, rows[i].name);
-            return CLI_USAGE;
-        }
+        near = cli_nearer(name, rows[i].name, &slips) ? rows[i].name : near;
     }
-    cli_message("option --%s: no body of '%s' is named '%.80s'", option, of->info.name, name);
+    if (near != NULL) {
+        cli_message("option --%s: no body of '%s' is named '%.80s'; did you mean '%.80s'?", option,
+                    of->info.name, name, near);
+    } else {
+        cli_message("option --%s: no body of '%s' is named '%.80s'", option, of->info.name, name);
+    }
     return CLI_USAGE;
 }
 

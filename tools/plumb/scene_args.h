@@ -23,19 +23,21 @@ typedef struct scene_args {
     {                                                                                              \
         .time = -1, .solver = -1                                                                   \
     }
-#define SCENE_PRECISIONS "float,double"
+#define SCENE_PRECISIONS "float,double,far"
 
 /// [s] the longest run: 2^53 steps are not reached with it at any step size.
 #define SCENE_TIME_MAX 1e9
 
 // clang-format off
 /// Rows of the option table for a struct `type` whose member `member` is a scene_args.
-#define SCENE_OPTION_TIME(type, member)                                                          \
+#define SCENE_OPTION_TIME_OR(type, member, otherwise)                                            \
     { "time", 't', CLI_REAL, offsetof(type, member.time), "S", 0, SCENE_TIME_MAX, NULL,          \
-      "simulate S seconds (default: the scene's duration)" }
+      "simulate S seconds (default: " otherwise ")" }
+#define SCENE_OPTION_TIME(type, member)                                                          \
+    SCENE_OPTION_TIME_OR(type, member, "the scene's duration")
 #define SCENE_OPTION_PRECISION(type, member)                                                     \
     { "precision", 0, CLI_CHOICE, offsetof(type, member.precision), "P", 0, 0, SCENE_PRECISIONS, \
-      "float (default) or double" }
+      "float (default), double, or far: positions in double, the solver in float" }
 #define SCENE_OPTION_WIDTH(type, member)                                                         \
     { "width", 0, CLI_INT, offsetof(type, member.width), "N", 0, 16, NULL,                       \
       "SIMD lanes: 4, 8 or 16; 0 takes the best measured (default). Changes the speed, "          \

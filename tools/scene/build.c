@@ -36,8 +36,7 @@ static void make_world(scene *s, const sc_site *site)
     };
     plumb_result result = plumb_world_create(&desc, &s->world);
     if (result != PLUMB_OK) {
-        sc_raise(s, result == PLUMB_E_MEMORY ? SCENE_E_LIMIT : SCENE_E_WORLD, site, NULL, 0, NULL,
-                 "the world could not be made: %s", plumb_result_text(result));
+        sc_refused(s, site, NULL, result, "the world could not be made");
     }
 }
 
@@ -192,9 +191,7 @@ static void create_body(scene *s, const sc_site *site, sc_body *b)
     sc_motion_describe(d, &desc);
     b->entity = plumb_body_create(s->world, &desc);
     if (plumb_is_null(b->entity)) {
-        plumb_error e = plumb_world_error(s->world);
-        sc_raise(s, e.code == PLUMB_E_MEMORY ? SCENE_E_LIMIT : SCENE_E_WORLD, site, NULL, 0, NULL,
-                 "body{}: %s", e.message);
+        sc_refused(s, site, NULL, plumb_world_error(s->world).code, "body{}");
     }
 }
 

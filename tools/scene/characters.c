@@ -91,8 +91,7 @@ void sc_character_make(scene *s, const sc_site *site, const sc_body *b)
     plumb_character_desc desc = describe(d);
     plumb_result r = plumb_character_create(s->world, b->entity, &desc);
     if (r != PLUMB_OK) {
-        sc_raise(s, r == PLUMB_E_MEMORY ? SCENE_E_LIMIT : SCENE_E_WORLD, site, "character", 0, NULL,
-                 "character{}: %s", plumb_world_error(s->world).message);
+        sc_refused(s, site, "character", r, "character{}");
     }
     if (HAS(d, gravity_scale)) {
         plumb_body_set_gravity_scale(s->world, b->entity, (plumb_real)d->gravity_scale);
@@ -156,139 +155,97 @@ static int lua_character(lua_State *L)
 
 // -------------------------------------------------------------------------------------- methods
 
-typedef struct hero {
-    scene *s;
-    plumb_body body;
-    const char *method;
-} hero;
-
-_Noreturn static void fail(const hero *h, scene_code code, const char *why)
+_Noreturn static void fail(const sc_body_call *c, scene_code code, const char *why)
 {
-    sc_site site = sc_here(h->s, h->method);
-    const sc_body *b = sc_body_of(h->s, h->body);
-    sc_raise(h->s, code, &site, NULL, 0, NULL, "%s() of '%s': %s", h->method,
-             b != NULL ? b->def.name : "?", why);
+    sc_site site = sc_here(c->s, c->method);
+    sc_raise(c->s, code, &site, NULL, 0, NULL, "%s() of '%s': %s", c->method, c->body->def.name,
+             why);
 }
 
-static hero self(lua_State *L, const char *method)
+static sc_body_call character(lua_State *L, const char *method)
 {
-    hero h = { .s = sc_of(L), .method = method };
-    const plumb_body *object = luaL_testudata(L, 1, SC_META_BODY);
-    sc_site site = sc_here(h.s, method);
-    if (object == NULL) {
-        sc_raise(h.s, SCENE_E_TYPE, &site, NULL, 0, NULL, "%s is a method: write body:%s(...)",
-                 method, method);
+    sc_body_call c = sc_body_self(L, method);
+    if (!plumb_body_is_character(c.world, c.entity)) {
+        fail(&c, SCENE_E_STATE, "it is no character");
     }
-    h.body = *object;
-    if (sc_body_of(h.s, h.body) == NULL) {
-        sc_raise(h.s, SCENE_E_STATE, &site, NULL, 0, NULL, "%s() of a body that was destroyed",
-                 method);
-    }
-    return h;
-}
-
-static hero character(lua_State *L, const char *method)
-{
-    hero h = self(L, method);
-    if (!plumb_body_is_character(h.s->world, h.body)) {
-        fail(&h, SCENE_E_STATE, "it is no character");
-    }
-    return h;
-}
-
-static void check(const hero *h, plumb_result r)
-{
-    if (r != PLUMB_OK) {
-        fail(h, r == PLUMB_E_STATE ? SCENE_E_STATE : SCENE_E_RANGE,
-             plumb_world_error(h->s->world).message);
-    }
-}
-
-static plumb_vec2 vector(lua_State *L)
-{
-    double v[2];
-    if (lua_istable(L, 2)) {
-        luaL_argcheck(L, sc_to_vec2(sc_of(L), 2, v), 2, "must be two numbers {x, y}");
-    } else {
-        v[0] = luaL_checknumber(L, 2);
-        v[1] = luaL_checknumber(L, 3);
-    }
-    return (plumb_vec2){ (plumb_real)v[0], (plumb_real)v[1] };
+    return c;
 }
 
 static int method_walk(lua_State *L)
 {
-    hero h = character(L, "walk");
-    check(&h, plumb_character_walk(h.s->world, h.body, (plumb_real)luaL_checknumber(L, 2)));
+    sc_body_call c = character(L, "walk");
+    sc_body_check(&c, plumb_character_walk(c.world, c.entity, (plumb_real)luaL_checknumber(L, 2)));
     return 0;
 }
 
 static int method_fly(lua_State *L)
 {
-    hero h = character(L, "fly");
-    check(&h, plumb_character_fly(h.s->world, h.body, vector(L)));
+    sc_body_call c = character(L, "fly");
+    int index = 2;
+    sc_body_check(&c, plumb_character_fly(c.world, c.entity, sc_vector(L, &index)));
     return 0;
 }
 
 // hero:jump(5): whether it did.
 static int method_jump(lua_State *L)
 {
-    hero h = character(L, "jump");
+    sc_body_call c = character(L, "jump");
     double speed = luaL_checknumber(L, 2);
     if (!(speed > 0 && speed <= 1e6)) {
-        fail(&h, SCENE_E_RANGE, "the speed must be above 0 and at most 1e+06 m/s");
+        fail(&c, SCENE_E_RANGE, "the speed must be above 0 and at most 1e+06 m/s");
     }
-    lua_pushboolean(L, plumb_character_jump(h.s->world, h.body, (plumb_real)speed));
+    lua_pushboolean(L, plumb_character_jump(c.world, c.entity, (plumb_real)speed));
     return 1;
 }
 
 static int method_throw(lua_State *L)
 {
-    hero h = character(L, "throw");
-    check(&h, plumb_character_set_velocity(h.s->world, h.body, vector(L)));
+    sc_body_call c = character(L, "throw");
+    int index = 2;
+    sc_body_check(&c, plumb_character_set_velocity(c.world, c.entity, sc_vector(L, &index)));
     return 0;
 }
 
 // Through the one-way shapes under it; of a character, whether there was one.
 static int method_drop(lua_State *L)
 {
-    hero h = self(L, "drop");
-    if (plumb_body_is_character(h.s->world, h.body)) {
-        lua_pushboolean(L, plumb_character_drop(h.s->world, h.body));
+    sc_body_call c = sc_body_self(L, "drop");
+    if (plumb_body_is_character(c.world, c.entity)) {
+        lua_pushboolean(L, plumb_character_drop(c.world, c.entity));
         return 1;
     }
-    plumb_result r = plumb_body_drop_through(h.s->world, h.body);
+    plumb_result r = plumb_body_drop_through(c.world, c.entity);
     if (r != PLUMB_OK) {
-        fail(&h, SCENE_E_STATE, "only dynamic bodies and characters drop");
+        fail(&c, SCENE_E_STATE, "only dynamic bodies and characters drop");
     }
     return 0;
 }
 
-static plumb_character_state state_of(const hero *h)
+static plumb_character_state state_of(const sc_body_call *c)
 {
     plumb_character_state state;
-    check(h, plumb_character_get(h->s->world, h->body, &state));
+    sc_body_check(c, plumb_character_get(c->world, c->entity, &state));
     return state;
 }
 
 static int method_on_ground(lua_State *L)
 {
-    hero h = character(L, "on_ground");
-    lua_pushboolean(L, state_of(&h).on_ground);
+    sc_body_call c = character(L, "on_ground");
+    lua_pushboolean(L, state_of(&c).on_ground);
     return 1;
 }
 
 // The body that it stands on, then the normal of the ground; nil in the air.
 static int method_ground(lua_State *L)
 {
-    hero h = character(L, "ground");
-    plumb_character_state state = state_of(&h);
-    const sc_body *b = sc_body_of(h.s, state.ground_body);
+    sc_body_call c = character(L, "ground");
+    plumb_character_state state = state_of(&c);
+    const sc_body *b = sc_body_of(c.s, state.ground_body);
     if (b == NULL) {
         lua_pushnil(L);
         return 1;
     }
-    sc_body_push(h.s, b);
+    sc_body_push(c.s, b);
     lua_pushnumber(L, (double)state.ground_normal.x);
     lua_pushnumber(L, (double)state.ground_normal.y);
     return 3;

@@ -73,11 +73,33 @@ void sc_raise(scene *s, scene_code code, const sc_site *site, const char *key, i
     abort(); // lua_error does not return
 }
 
-const char *sc_world_message(const scene *s)
+// Why the world refused the last call, without the name of its function.
+static const char *world_message(const scene *s)
 {
     const char *message = plumb_world_error(s->world).message;
     const char *after = strstr(message, ": ");
     return after != NULL ? after + 2 : message;
+}
+
+void sc_refused(scene *s, const sc_site *site, const char *key, plumb_result result,
+                const char *format, ...)
+{
+    if (result == PLUMB_E_MEMORY) {
+        sc_raise(s, SCENE_E_LIMIT, site, NULL, 0, NULL,
+                 "the scene needs more than %zu bytes of memory", s->budget.limit);
+    }
+    char what[160];
+    va_list list;
+    va_start(list, format);
+    vsnprintf(what, sizeof what, format, list);
+    va_end(list);
+    bool range = result == PLUMB_E_RANGE || result == PLUMB_E_NOT_FINITE;
+    scene_code code = range                        ? SCENE_E_RANGE
+                      : result == PLUMB_E_GEOMETRY ? SCENE_E_GEOMETRY
+                      : result == PLUMB_E_STATE    ? SCENE_E_STATE
+                                                   : SCENE_E_WORLD;
+    sc_raise(s, code, site, key, 0, NULL, "%s: %s", what,
+             s->world != NULL ? world_message(s) : plumb_result_text(result));
 }
 
 sc_site sc_here(scene *s, const char *construct)

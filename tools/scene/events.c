@@ -56,8 +56,9 @@ static void set_hit_speed(scene *s, const sc_site *site)
         const sc_handler *h = &s->handlers.items[i];
         least = h->kind == SC_ON_HIT ? fmin(least, h->contact.speed) : least;
     }
-    if (plumb_world_set_hit_speed(s->world, (plumb_real)least) != PLUMB_OK) {
-        sc_raise(s, SCENE_E_STATE, site, NULL, 0, NULL, "on_hit: %s", sc_world_message(s));
+    plumb_result r = plumb_world_set_hit_speed(s->world, (plumb_real)least);
+    if (r != PLUMB_OK) {
+        sc_refused(s, site, NULL, r, "on_hit");
     }
 }
 
@@ -370,9 +371,9 @@ static void edit_one(scene *s, int index)
         sc_call(s, 3, 0);
         pull_edit(s, &site, lua_gettop(L), &e);
         lua_pop(L, 1);
-        if (plumb_contact_edit_set(s->world, index, &e) != PLUMB_OK) {
-            sc_raise(s, SCENE_E_RANGE, &site, NULL, 0, NULL, "edit_contact: %s",
-                     sc_world_message(s));
+        plumb_result r = plumb_contact_edit_set(s->world, index, &e);
+        if (r != PLUMB_OK) {
+            sc_refused(s, &site, NULL, r, "edit_contact");
         }
     }
 }
@@ -414,8 +415,9 @@ static void open_edits(scene *s, const sc_site *site)
                                  .reads = "contacts",
                                  .writes = "contacts",
                                  .context = s };
-    if (plumb_system_create(s->world, &system) != PLUMB_OK) {
-        sc_raise(s, SCENE_E_LIMIT, site, NULL, 0, NULL, "edit_contact: %s", sc_world_message(s));
+    plumb_result r = plumb_system_create(s->world, &system);
+    if (r != PLUMB_OK) {
+        sc_refused(s, site, NULL, r, "edit_contact");
     }
     s->edits = true;
 }

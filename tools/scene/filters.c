@@ -254,8 +254,7 @@ static int lua_exclude(lua_State *L)
     }
     plumb_result r = sc_exclude(s, a, b, count < 3 || lua_toboolean(L, 3) != 0);
     if (r != PLUMB_OK) {
-        sc_raise(s, r == PLUMB_E_MEMORY ? SCENE_E_LIMIT : SCENE_E_WORLD, &site, NULL, 0, NULL,
-                 "exclude(): %s", plumb_result_text(r));
+        sc_refused(s, &site, NULL, r, "exclude()");
     }
     return 0;
 }

@@ -51,8 +51,9 @@ typedef struct sc_site {
 _Noreturn void sc_raise(scene *s, scene_code code, const sc_site *site, const char *key, int index,
                         const char *suggestion, const char *format, ...)
     __attribute__((format(printf, 7, 8)));
-/// Why the world refused the last call, without the name of its function.
-const char *sc_world_message(const scene *s);
+/// Raises for a call that the world has refused with that result: "what: why". `key` as for sc_raise.
+_Noreturn void sc_refused(scene *s, const sc_site *site, const char *key, plumb_result result,
+                          const char *what, ...) __attribute__((format(printf, 5, 6)));
 /// The site of the function that the script is calling now.
 sc_site sc_here(scene *s, const char *construct);
 /// Room for so many more values on Lua's stack; raises when the budget is used up.
@@ -72,6 +73,8 @@ int sc_lua_column(const char *text, size_t size, int line, const char *word);
 int sc_lua_syntax_column(lua_State *L, const char *text, size_t size, int line, const char *near);
 /// First `^` that is not `^ 2`; false if there is none.
 bool sc_lua_find_power(const char *text, size_t size, int *line, int *column);
+/// What is wrong with a text that is not JSON, and where; NULL: nothing that is known here.
+const char *sc_json_wrong(const char *text, size_t size, const char **where);
 /// Position of a value (or of its key) in JSON text.
 void sc_json_position(const char *text, size_t size, const char *path, const char *key, int index,
                       int *line, int *column);
@@ -451,6 +454,26 @@ void sc_body_release(scene *s, sc_body *body); ///< forgets it; the world's body
 bool sc_name_matches(const char *pattern, const char *name);     ///< "brick*" or exact
 /// Raises unless the name (or pattern) fits a body that is alive.
 void sc_check_body_name(scene *s, const sc_site *site, const char *key, const char *name);
+
+/// What a method of a body needs: filled by sc_body_self.
+typedef struct sc_body_call {
+    scene *s;
+    plumb_world *world;
+    sc_body *body;
+    plumb_body entity;
+    const char *method;
+} sc_body_call;
+
+/// Whose method is called, argument 1. Raises unless it is a body that is there.
+sc_body_call sc_body_self(lua_State *L, const char *method);
+/// A finite number at `index`.
+double sc_finite_number(lua_State *L, int index);
+/// Two finite numbers, or a table {x, y}, at *index, which moves on.
+plumb_vec2 sc_vector(lua_State *L, int *index);
+/// Raises when the world has refused the call. Always 0, for methods that return nothing.
+int sc_body_check(const sc_body_call *c, plumb_result result);
+extern const char *const sc_body_types[]; ///< in the order of plumb_body_type, then null
+extern const luaL_Reg sc_body_acts[];     ///< body_act.c
 
 const char *sc_handler_name(sc_handler_kind kind);
 sc_handler *sc_handler_add(scene *s, sc_handler_kind kind, const sc_site *site);

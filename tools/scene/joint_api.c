@@ -62,9 +62,7 @@ static int check(const call *c, plumb_result result, const char *what)
     }
     if (result != PLUMB_OK) {
         sc_site site = sc_here(c->s, c->method);
-        bool range = result == PLUMB_E_RANGE || result == PLUMB_E_NOT_FINITE;
-        sc_raise(c->s, range ? SCENE_E_RANGE : SCENE_E_WORLD, &site, NULL, 0, NULL,
-                 "%s() of '%s': %s", c->method, c->joint->def.name, sc_world_message(c->s));
+        sc_refused(c->s, &site, NULL, result, "%s() of '%s'", c->method, c->joint->def.name);
     }
     return 0;
 }

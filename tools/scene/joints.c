@@ -222,12 +222,7 @@ static plumb_joint_memory recall(const sc_joint_state *t)
 
 _Noreturn static void fail_world(scene *s, const sc_site *site)
 {
-    plumb_error e = plumb_world_error(s->world);
-    scene_code code = e.code == PLUMB_E_MEMORY     ? SCENE_E_LIMIT
-                      : e.code == PLUMB_E_GEOMETRY ? SCENE_E_GEOMETRY
-                      : e.code == PLUMB_E_RANGE    ? SCENE_E_RANGE
-                                                   : SCENE_E_WORLD;
-    sc_raise(s, code, site, NULL, 0, NULL, "%s{}: %s", site->construct, sc_world_message(s));
+    sc_refused(s, site, NULL, plumb_world_error(s->world).code, "%s{}", site->construct);
 }
 
 static void create(scene *s, const sc_site *site, sc_joint *j)

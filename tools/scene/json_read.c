@@ -263,7 +263,7 @@ static void make_excluded(scene *s, const cJSON *item, int number)
     }
     plumb_result r = sc_exclude(s, ends[0], ends[1], true);
     if (r != PLUMB_OK) {
-        sc_raise(s, SCENE_E_WORLD, &site, NULL, 0, NULL, "excluded: %s", plumb_result_text(r));
+        sc_refused(s, &site, NULL, r, "excluded");
     }
 }
 
@@ -281,6 +281,12 @@ static cJSON *parse(scene *s)
         end++;
     }
     if (!good || end != stop) {
+        const char *known = good ? "something follows the end of the scene" : NULL;
+        const char *where = end;
+        if (!good) {
+            known = sc_json_wrong(s->source, s->source_size, &where);
+            end = known != NULL ? where : end;
+        }
         int line = 1;
         int column = 1;
         for (const char *p = s->source; end != NULL && p < end && p < stop; p++) {
@@ -288,7 +294,7 @@ static cJSON *parse(scene *s)
             line += *p == '\n';
         }
         sc_set_error(s, SCENE_E_SYNTAX, line, column, NULL,
-                     good ? "something follows the end of the scene" : "this is not JSON");
+                     known != NULL ? known : "this is not JSON");
         lua_pushlightuserdata(L, s);
         lua_error(L);
     }

@@ -45,7 +45,7 @@ void sc_build_material(scene *s, const sc_site *site, int table)
     plumb_material_desc desc = describe(&def);
     m->handle = plumb_material_create(s->world, &desc);
     if (plumb_is_null(m->handle)) {
-        sc_raise(s, SCENE_E_WORLD, site, NULL, 0, NULL, "material{}: %s", sc_world_message(s));
+        sc_refused(s, site, NULL, plumb_world_error(s->world).code, "material{}");
     }
     sc_material **object = lua_newuserdatauv(L, sizeof *object, 0);
     *object = m;
@@ -86,7 +86,7 @@ static int material_set(lua_State *L)
     plumb_material_desc desc = describe(&def);
     plumb_result r = plumb_material_set(s->world, m->handle, &desc);
     if (r != PLUMB_OK) {
-        sc_raise(s, SCENE_E_WORLD, &site, NULL, 0, NULL, "set(): %s", sc_world_message(s));
+        sc_refused(s, &site, NULL, r, "set()");
     }
     m->def = def;
     return 0;
@@ -120,8 +120,7 @@ void sc_build_pair(scene *s, const sc_site *site, int table)
     *place = def;
     plumb_result r = plumb_material_pair_set(s->world, def.a->handle, def.b->handle, &pair);
     if (r != PLUMB_OK) {
-        sc_raise(s, r == PLUMB_E_MEMORY ? SCENE_E_LIMIT : SCENE_E_WORLD, site, NULL, 0, NULL,
-                 "material_pair{}: %s", sc_world_message(s));
+        sc_refused(s, site, NULL, r, "material_pair{}");
     }
 }
 

@@ -94,8 +94,7 @@ static int lua_blast(lua_State *L)
     }
     plumb_result r = plumb_world_explode(s->world, &blast);
     if (r != PLUMB_OK) {
-        sc_raise(s, r == PLUMB_E_MEMORY ? SCENE_E_LIMIT : SCENE_E_RANGE, &site, NULL, 0, NULL,
-                 "blast{}: %s", plumb_world_error(s->world).message);
+        sc_refused(s, &site, NULL, r, "blast{}");
     }
     return 0;
 }

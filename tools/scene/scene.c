@@ -86,10 +86,19 @@ static void load_json(scene *s)
     sc_expect_begin(s);
 }
 
+// What plumb_recorder_start writes begins so: the name is easily given to the wrong command.
+static bool is_recording(const scene *s)
+{
+    static const char magic[] = "PLUMBREC";
+    return s->source_size >= sizeof magic - 1 && memcmp(s->source, magic, sizeof magic - 1) == 0;
+}
+
 static bool read_file(scene *s, const char *path)
 {
+    errno = 0;
     FILE *file = fopen(path, "rb");
     long size = -1;
+    int reason = errno;
     errno = 0;
     // A folder opens like a file and only cannot be read.
     bool is_folder = file != NULL && fgetc(file) == EOF && errno == EISDIR;
@@ -105,14 +114,20 @@ static bool read_file(scene *s, const char *path)
     if (file != NULL) {
         fclose(file);
     }
-    if (!good) {
-        sc_set_error(s, SCENE_E_IO, 0, 0, NULL,
-                     file == NULL          ? "cannot be opened"
-                     : is_folder           ? "is a folder, not a scene"
-                     : size > LARGEST_FILE ? "is larger than 64 MiB"
-                                           : "cannot be read");
+    char text[160];
+    const char *wrong = is_folder             ? "is a folder, not a scene"
+                        : size > LARGEST_FILE ? "is larger than 64 MiB"
+                        : !good               ? "cannot be read"
+                        : is_recording(s) ? "is a recording, not a scene; 'plumb replay' plays it"
+                                          : NULL;
+    if (file == NULL) {
+        snprintf(text, sizeof text, "cannot be opened: %s", strerror(reason));
+        wrong = text;
     }
-    return good;
+    if (wrong != NULL) {
+        sc_set_error(s, SCENE_E_IO, 0, 0, NULL, wrong);
+    }
+    return wrong == NULL;
 }
 
 static bool take_source(scene *s)
@@ -249,9 +264,7 @@ static void step_inside(scene *s)
         lua_error(s->L);
     }
     if (result != PLUMB_OK) {
-        sc_raise(s, result == PLUMB_E_MEMORY ? SCENE_E_LIMIT : SCENE_E_WORLD, NULL, NULL, 0, NULL,
-                 "step %llu failed: %s", (unsigned long long)s->steps + 1,
-                 plumb_result_text(result));
+        sc_refused(s, NULL, NULL, result, "step %llu failed", (unsigned long long)s->steps + 1);
     }
     s->steps++;
     sc_events_after(s);

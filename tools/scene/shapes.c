@@ -229,11 +229,7 @@ void sc_shape_create(scene *s, const sc_site *site, int index, const sc_body *bo
         s, &shape->filter, SC_FILTER_GIVEN(&sc_list_shapes[shape->kind], shape, sc_shape_def),
         &body->def.filter, SC_FILTER_GIVEN(&sc_list_body, &body->def, sc_body_def));
     if (plumb_is_null(plumb_shape_create(s->world, body->entity, &desc))) {
-        plumb_error e = plumb_world_error(s->world);
-        scene_code code = e.code == PLUMB_E_MEMORY     ? SCENE_E_LIMIT
-                          : e.code == PLUMB_E_GEOMETRY ? SCENE_E_GEOMETRY
-                                                       : SCENE_E_WORLD;
-        sc_raise(s, code, &own, NULL, 0, NULL, "%s{}: %s", own.construct, e.message);
+        sc_refused(s, &own, NULL, plumb_world_error(s->world).code, "%s{}", own.construct);
     }
     lua_pop(s->L, 1);
 }

@@ -1,45 +1,10 @@
 // suggest.c - "did you mean": the known word that is fewest slips of the pen away.
-// Optimal string alignment distance (insert, delete, replace, swap neighbours), row by row.
-// Also what other engines call our words, which no distance finds. Cost: O(length of word * length of candidate) a candidate, only on the way to an error.
+// Also what other engines call our words, which no distance finds. Cost: O(length of word * length of
+// candidate) a candidate, only on the way to an error.
 #include <string.h>
 
 #include "internal.h"
-
-enum { LONGEST = SC_NAME_SIZE - 1 };
-
-static int min3(int a, int b, int c)
-{
-    int m = a < b ? a : b;
-    return m < c ? m : c;
-}
-
-static int edit_distance(const char *a, const char *b)
-{
-    int la = (int)strlen(a);
-    int lb = (int)strlen(b);
-    if (la > LONGEST || lb > LONGEST) {
-        return 2 * LONGEST;
-    }
-    int rows[3][LONGEST + 1];
-    for (int j = 0; j <= lb; j++) {
-        rows[0][j] = j;
-    }
-    for (int i = 1; i <= la; i++) {
-        int *now = rows[i % 3];
-        const int *last = rows[(i + 2) % 3];
-        const int *before = rows[(i + 1) % 3];
-        now[0] = i;
-        for (int j = 1; j <= lb; j++) {
-            int cost = a[i - 1] != b[j - 1];
-            now[j] = min3(last[j] + 1, now[j - 1] + 1, last[j - 1] + cost);
-            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] &&
-                before[j - 2] + 1 < now[j]) {
-                now[j] = before[j - 2] + 1;
-            }
-        }
-    }
-    return rows[la % 3][lb];
-}
+#include "slips.h"
 
 sc_suggest sc_suggest_start(const char *word)
 {
@@ -51,7 +16,7 @@ sc_suggest sc_suggest_start(const char *word)
 
 void sc_suggest_offer(sc_suggest *g, const char *candidate)
 {
-    int d = edit_distance(g->word, candidate);
+    int d = sc_slips(g->word, candidate);
     if (d >= (int)strlen(candidate) || d > g->distance || strlen(candidate) >= sizeof g->best) {
         return;
     }
