@@ -18,26 +18,7 @@
 //
 // Symbols: ran = r_A x n, rat = r_A x t; kn inverse effective mass; ln, lt accumulated impulses.
 // Cost: per bundle two gathers of W body rows, about 150 flops, one scatter.
-#include "core/wide.h"
-#include "solver/solver.h"
-
-typedef struct point {
-    vf ran, rbn, rat, rbt; // [m]
-    vf separation;         // [m] at the start of the step
-    vf kn;                 // [1/kg] inverse effective mass along the normal
-    vf give;               // [1/kg] softness: how much an impulse gives way
-    vf mt;                 // [kg] effective mass along the tangent
-    vf ln, lt;             // [N s]
-} point;
-
-typedef struct bundle {
-    uint32_t a[PL_WIDTH], b[PL_WIDTH]; // solver slots
-    vf nx, ny;
-    vf friction;
-    vf bias_rate; // [1/s] softness: the push for each metre of overlap
-    vf k01;       // [1/kg] what an impulse at one point does to the other
-    point p[2];
-} bundle;
+#include "solver/bundle.h"
 
 // What only running surfaces and counted impulses need, apart from the bundle, so that others do
 // not read it. Rolling resistance: a torque between the bodies that opposes their relative turning,
@@ -567,7 +548,9 @@ DEFINE_VARIANT(1, 1, 1, 1)
       { PL_WIDE_NAME(name##_1111), PL_WIDE_NAME(name##_1111) } }
 // clang-format on
 
-pl_outlook_kernel PL_WIDE_NAME(pl_outlook); // outlook.simd.c
+// dull.simd.c
+pl_dull_counter PL_WIDE_NAME(pl_dull_prepare);
+pl_dull_kernel PL_WIDE_NAME(pl_dull_look), PL_WIDE_NAME(pl_dull_strike);
 
 const pl_contact_kernels PL_WIDE_NAME(pl_contact_kernels) = {
     .width = PL_WIDTH,
@@ -583,7 +566,9 @@ const pl_contact_kernels PL_WIDE_NAME(pl_contact_kernels) = {
     .prepare_extras = prepare_extras,
     .special_size = sizeof(special),
     .prepare_specials = prepare_specials,
-    .outlook = PL_WIDE_NAME(pl_outlook),
+    .dull_prepare = PL_WIDE_NAME(pl_dull_prepare),
+    .dull_look = PL_WIDE_NAME(pl_dull_look),
+    .dull_strike = PL_WIDE_NAME(pl_dull_strike),
     .tally = tally,
     .store_extras = store_extras,
 };

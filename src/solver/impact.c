@@ -24,11 +24,9 @@
 #include <string.h>
 
 // Impacts of one substep that are followed, of each elastic contact; what is left then is solved
-// without bounce. A light ball between two heavy ones strikes many times within a substep; but of a
-// contact that has been struck n times no more than e^(2 n) of its energy is left to return, and
-// below KEPT that is not worth following: a stirred heap of e = 0.1 strikes ten times a contact.
+// without bounce. A light ball between two heavy ones strikes many times within a substep; but little of
+// the energy is left then (PL_IMPACT_KEPT): a stirred heap of e = 0.1 strikes ten times a contact.
 #define CHAIN 64
-#define KEPT  0.02
 
 // So many bundles are worth a thread.
 #define LEAST 12
@@ -66,7 +64,7 @@ static uint32_t chain_of(near_real restitution)
 {
     double square = (double)restitution * (double)restitution, left = square;
     uint32_t count = 1;
-    for (; count < CHAIN && left > KEPT; ++count) {
+    for (; count < CHAIN && left > PL_IMPACT_KEPT; ++count) {
         left *= square;
     }
     return count;
@@ -101,55 +99,88 @@ static pl_impact impact_of(const plumb_world *world, const pl_manifold *m)
     return impact;
 }
 
-// What the outlook kernel needs of a lane; `impact` null: nothing.
-static void give_lane(pl_solver *s, size_t width, size_t lane, uint32_t index,
-                      const pl_impact *impact)
+static pl_dull_call dull_call(const plumb_world *world, near_real h)
 {
-    near_real *field = (near_real *)s->outlook_fields.data +
-                       lane / width * width * PL_OUTLOOK_FIELDS + lane % width;
-    pl_outlook_ends *ends = (pl_outlook_ends *)s->outlook_ends.data + lane;
-    const uint32_t none = s->slot_count - 1;
-    *ends = impact != NULL ? (pl_outlook_ends){ impact->a, impact->b, index }
-                           : (pl_outlook_ends){ none, none, PL_NONE };
-    field[0] = impact != NULL ? impact->nx : 0;
-    field[width] = impact != NULL ? impact->ny : 0;
-    for (uint32_t j = 0; j < 2; ++j) {
-        bool present = impact != NULL && j < impact->count;
-        const pl_impact_point *p = present ? &impact->point[j] : NULL;
-        field[PL_OUTLOOK_SEPARATION(j) * width] = present ? p->separation : PL_APART;
-        field[PL_OUTLOOK_RAN(j) * width] = present ? p->ran : 0;
-        field[PL_OUTLOOK_RBN(j) * width] = present ? p->rbn : 0;
-    }
+    const pl_solver *s = &world->solver;
+    return (pl_dull_call){ .bodies = pl_solver_bodies(s),
+                           .motions = pl_solver_motions(s),
+                           .lows = s->lows.data,
+                           .struck = s->struck.data,
+                           .dynamic_slots = s->dynamic_slots,
+                           .bundles = s->bundles.data,
+                           .color_first = pl_clusters(s)->color_first,
+                           .lanes = s->lanes.data,
+                           .manifolds = pl_manifolds(&world->narrow),
+                           .pairs = pl_pairs(&world->broad.pairs),
+                           .fields = s->outlook_fields.data,
+                           .marks = s->outlook_open.data,
+                           .looks_up = world->narrow.any_surface || pl_solver_tallies(world),
+                           .h = h,
+                           .restitution_speed = (near_real)world->desc.restitution_speed };
 }
 
-void pl_impacts_prepare(plumb_world *world)
+typedef struct dull_job {
+    const pl_contact_kernels *kernels;
+    pl_dull_call call;
+} dull_job;
+
+static uint32_t prepare_dull(void *context, uint32_t first, uint32_t count)
+{
+    const dull_job *j = context;
+    return j->kernels->dull_prepare(&j->call, first, count);
+}
+
+static void look_ahead(void *context, uint32_t first, uint32_t count)
+{
+    const dull_job *j = context;
+    j->kernels->dull_look(&j->call, first, count);
+}
+
+static void strike_dull(void *context, uint32_t first, uint32_t count)
+{
+    const dull_job *j = context;
+    j->kernels->dull_strike(&j->call, first, count);
+}
+
+// Records of all that bounce.
+static void record_impacts(plumb_world *world)
 {
     pl_solver *s = &world->solver;
     const pl_contact_kernels *kernels = pl_solver_kernels(world);
     const uint32_t *lanes = s->lanes.data;
-    pl_impact *impacts = s->impacts.data;
-    s->impact_count = s->bounce_count = 0;
-    s->outlook_lanes = s->bundle_count * (uint32_t)kernels->width;
+    pl_outlook_ends *ends = s->outlook_ends.data;
     for (size_t lane = 0; lane < s->outlook_lanes; ++lane) {
         const pl_manifold *m =
             lanes[lane] != PL_NONE ? &pl_manifolds(&world->narrow)[lanes[lane]] : NULL;
-        if (m == NULL || !(m->restitution > 0) || m->adhesion > 0) { // what sticks does not bounce
-            give_lane(s, (size_t)kernels->width, lane, PL_NONE, NULL);
+        ends[lane].impact = PL_NONE;
+        if (m == NULL || !pl_bounces(m)) {
             continue;
         }
-        pl_impact *impact = &impacts[s->impact_count];
+        pl_impact *impact = (pl_impact *)s->impacts.data + s->impact_count;
         *impact = impact_of(world, m);
         for (uint32_t j = 0; j < m->count; ++j) {
             pl_impact_point *p = &impact->point[j];
             p->lane_separation = lane_value(s, kernels, lane, kernels->separation_offset[j]);
             p->lane_impulse = lane_value(s, kernels, lane, kernels->impulse_offset[j]);
         }
-        give_lane(s, (size_t)kernels->width, lane, s->impact_count++,
-                  impact->chain > 1 ? NULL : impact);
+        if (pl_is_dull(m->restitution)) {
+            ends[lane] = (pl_outlook_ends){ impact->a, impact->b, s->impact_count };
+        }
+        ++s->impact_count;
     }
     pl_impact_queue_link(s);
-    if (s->lively_count == s->impact_count) {
-        s->outlook_lanes = 0;
+}
+
+// Where all impacts are dull, and no axis is locked, the kernels need no record of them.
+void pl_impacts_prepare(plumb_world *world)
+{
+    pl_solver *s = &world->solver;
+    dull_job job = { pl_solver_kernels(world), dull_call(world, 0) };
+    s->impact_count = s->bounce_count = s->lively_count = 0;
+    s->outlook_lanes = s->bundle_count * (uint32_t)job.kernels->width;
+    if (pl_tasks_count(world->tasks, s->bundle_count, LEAST, prepare_dull, &job) > 0 ||
+        world->locked_bodies > 0) {
+        record_impacts(world);
     }
 }
 
@@ -161,7 +192,7 @@ void pl_impacts_prepare_classic(plumb_world *world)
     s->impact_count = s->bounce_count = s->outlook_lanes = 0;
     for (uint32_t i = 0; i < world->narrow.manifold_count; ++i) {
         const pl_manifold *m = &pl_manifolds(&world->narrow)[i];
-        if (!(m->restitution > 0) || m->adhesion > 0) { // what sticks does not bounce
+        if (!pl_bounces(m)) {
             continue;
         }
         pl_impact *impact = &impacts[s->impact_count++];
@@ -514,30 +545,6 @@ static void take_turn(plumb_world *world, pl_impact *m, near_real h)
     }
 }
 
-static void run_outlook(void *context, uint32_t first, uint32_t count)
-{
-    const pl_outlook_call *call = context;
-    pl_solver_kernels(call->world)->outlook(call, first, count);
-}
-
-static void look_ahead(plumb_world *world, near_real h)
-{
-    pl_solver *s = &world->solver;
-    const pl_contact_kernels *k = pl_solver_kernels(world);
-    pl_outlook_call call = { .world = world,
-                             .bodies = pl_solver_bodies(s),
-                             .motions = pl_solver_motions(s),
-                             .fields = s->outlook_fields.data,
-                             .ends = s->outlook_ends.data,
-                             .open = s->outlook_open.data,
-                             .bundles = s->bundles.data,
-                             .bundle_size = k->bundle_size,
-                             .h = h };
-    memcpy(call.separation_offset, k->separation_offset, sizeof call.separation_offset);
-    memcpy(call.impulse_offset, k->impulse_offset, sizeof call.impulse_offset);
-    pl_tasks_ranges(world->tasks, s->bundle_count, LEAST, run_outlook, &call);
-}
-
 static void run_all_dull(plumb_world *world, near_real h)
 {
     pl_impact *impacts = world->solver.impacts.data;
@@ -556,7 +563,8 @@ static void run_open(plumb_world *world, near_real h)
     const pl_outlook_ends *ends = s->outlook_ends.data;
     const uint8_t *open = s->outlook_open.data;
     const near_real *struck = s->struck.data;
-    look_ahead(world, h);
+    dull_job job = { pl_solver_kernels(world), dull_call(world, h) };
+    pl_tasks_ranges(world->tasks, s->bundle_count, LEAST, look_ahead, &job);
     for (uint32_t lane = 0; lane < s->outlook_lanes; ++lane) {
         if (ends[lane].impact != PL_NONE &&
             (open[lane] != 0 || struck[ends[lane].a] > -h || struck[ends[lane].b] > -h)) {
@@ -565,14 +573,24 @@ static void run_open(plumb_world *world, near_real h)
     }
 }
 
-void pl_impacts_run(plumb_world *world, near_real h)
+// Where nothing else bounces: colour by colour, as contacts are solved.
+static void run_in_lanes(plumb_world *world, near_real h)
+{
+    pl_solver *s = &world->solver;
+    const uint8_t *marks = s->outlook_open.data;
+    dull_job job = { pl_solver_kernels(world), dull_call(world, h) };
+    const uint32_t shared = job.call.color_first[PL_OVERFLOW_COLOR];
+    pl_tasks_phases(world->tasks, job.call.color_first, PL_COLORS, LEAST, strike_dull, &job);
+    strike_dull(&job, shared, s->bundle_count - shared);
+    for (uint32_t lane = 0; lane < s->outlook_lanes; ++lane) {
+        s->bounce_count += marks[lane] & PL_DULL_STRUCK;
+    }
+}
+
+static void run_recorded(plumb_world *world, near_real h)
 {
     pl_solver *s = &world->solver;
     pl_impact *impacts = s->impacts.data;
-    near_real *struck = s->struck.data;
-    for (uint32_t slot = 0; slot < s->slot_count; ++slot) {
-        struck[slot] = -h; // none yet; an impact may lie one substep in the past
-    }
     if (s->lively_count > 0) {
         run_lively(world, h);
     }
@@ -588,4 +606,14 @@ void pl_impacts_run(plumb_world *world, near_real h)
             tell_kernel(&impacts[i]);
         }
     }
+}
+
+void pl_impacts_run(plumb_world *world, near_real h)
+{
+    pl_solver *s = &world->solver;
+    near_real *struck = s->struck.data;
+    for (uint32_t slot = 0; slot < s->slot_count; ++slot) {
+        struck[slot] = -h; // none yet; an impact may lie one substep in the past
+    }
+    (s->impact_count == 0 && s->outlook_lanes > 0 ? run_in_lanes : run_recorded)(world, h);
 }

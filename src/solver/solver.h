@@ -47,32 +47,59 @@ typedef struct pl_impact {
     pl_impact_point point[2];
 } pl_impact;
 
-// Dull impacts, of so little restitution that they strike once in a substep, as the lanes of the contact
-// kernels have them: of each bundle eight fields, of a real a lane.
-#define PL_OUTLOOK_SEPARATION(j) (2 + 3 * (size_t)(j)) // behind nx, ny
-#define PL_OUTLOOK_RAN(j)        (3 + 3 * (size_t)(j))
-#define PL_OUTLOOK_RBN(j)        (4 + 3 * (size_t)(j))
-#define PL_OUTLOOK_FIELDS        8
+// Whether a manifold's surfaces part after an impact: what sticks does not.
+static inline bool pl_bounces(const pl_manifold *m)
+{
+    return m->restitution > 0 && !(m->adhesion > 0);
+}
+
+// A contact that was struck n times has no more than e^(2 n) of its energy left to return: below this it is
+// not worth following.
+#define PL_IMPACT_KEPT 0.02
+
+// Of so little restitution that one impact a substep is all that is followed.
+static inline bool pl_is_dull(near_real restitution)
+{
+    return (double)restitution * (double)restitution <= PL_IMPACT_KEPT;
+}
+
+// Dull impacts, as the lanes of the contact kernels have them: of each bundle three fields, of a real a
+// lane. Separations are PL_APART and restitution 0 where no dull one is.
+#define PL_OUTLOOK_SEPARATION(j) ((size_t)(j)) // [m] at the start of the step
+#define PL_OUTLOOK_RESTITUTION   2
+#define PL_OUTLOOK_FIELDS        3
 
 typedef struct pl_outlook_ends {
     uint32_t a, b;   // solver slots
     uint32_t impact; // PL_NONE: no dull one in this lane
 } pl_outlook_ends;
 
-typedef struct pl_outlook_call {
-    const plumb_world *world;
-    const pl_solver_body *bodies;
-    const pl_solver_motion *motions;
-    const near_real *fields;
-    const pl_outlook_ends *ends;
-    uint8_t *open; // a lane: impact.c has to look at it
-    void *bundles;
-    size_t bundle_size, separation_offset[2], impulse_offset[2];
-    near_real h; // [s]
-} pl_outlook_call;
+enum {
+    PL_DULL_STRUCK = 1, // in this substep
+    PL_DULL_HIT = 2     // in this step: its pair has been told
+};
 
-// Looks at the lanes of bundles [first, first + count) (outlook.simd.c).
-typedef void pl_outlook_kernel(const pl_outlook_call *call, uint32_t first, uint32_t count);
+typedef struct pl_dull_call {
+    pl_solver_body *bodies;
+    pl_solver_motion *motions;
+    near_real *lows, *struck;    // a quad, a real a slot
+    uint32_t dynamic_slots; // slots from here on do not move
+    void *bundles;
+    const uint32_t *color_first; // bundles of the colours: a kernel may be given several at once
+    const uint32_t *lanes;
+    pl_manifold *manifolds;
+    pl_pair *pairs;
+    near_real *fields;
+    uint8_t *marks;         // a lane: after a look 1 where it is left open, else PL_DULL_...
+    bool looks_up;          // surfaces run, or impulses are added up
+    near_real h;                // [s]
+    near_real restitution_speed; // [m/s]
+} pl_dull_call;
+
+// Over the bundles [first, first + count) (dull.simd.c): fills in the fields and counts lively impacts;
+// looks which lanes the outlook leaves open; lets impacts happen, of one colour after another.
+typedef uint32_t pl_dull_counter(const pl_dull_call *call, uint32_t first, uint32_t count);
+typedef void pl_dull_kernel(const pl_dull_call *call, uint32_t first, uint32_t count);
 
 // A contact of the classic solver (pgs.c).
 typedef struct pl_classic_point {
@@ -133,7 +160,7 @@ typedef struct pl_solver {
     pl_buffer extras;  // a record a bundle, where surfaces run or roll hard or impulses are added up
     pl_buffer specials; // a record a bundle, where bodies are locked or surfaces stick
     pl_buffer impacts; // pl_impact
-    pl_buffer outlook_fields, outlook_ends, outlook_open; // of dull impacts: see pl_outlook_call
+    pl_buffer outlook_fields, outlook_ends, outlook_open; // of dull impacts: see pl_dull_call
     uint32_t outlook_lanes; // 0: no impact is dull
     pl_buffer impact_heap, impact_heads; // uint32_t: due ones by time; the first one of a dynamic slot
     pl_buffer classic; // pl_classic_contact, for the classic solver alone
@@ -195,7 +222,8 @@ typedef struct pl_contact_kernels {
     pl_contact_kernel *prepare_extras;
     size_t special_size;
     pl_contact_kernel *prepare_specials; // after prepare_extras
-    pl_outlook_kernel *outlook;
+    pl_dull_counter *dull_prepare;
+    pl_dull_kernel *dull_look, *dull_strike;
     pl_contact_kernel *tally; // adds the substep's normal impulses to the totals
     pl_contact_kernel *store_extras; // rolling impulses to the pairs, totals to the manifolds' points
     pl_contact_kernel *store;        // impulses to the pairs

@@ -1,18 +1,19 @@
-// outlook.simd.c - which dull impacts (solver.h) can be passed over in a substep, W contacts at a time.
+// outlook.h - which dull impacts (solver.h) can be passed over in a substep, W contacts at a time. Included by
+// dull.simd.c only.
 //
 // In a stirred heap most contacts either stay apart, or lean without being struck. Where that is beyond
-// doubt, within the rounding of a real, this tells the contact kernel what impact.c would tell it; the
-// others are left to impact.c, and so must be those whose bodies were struck meanwhile. So the answers
-// are those of impact.c, whose doubles decide every close case.
+// doubt, within the rounding of a real, this tells the contact kernel what doubles would tell it; the
+// others are left open. So the answers are those of the doubles, which decide every close case.
 //
 // With u the velocity before the forces and pushes of the substep and v the present one, a point at
 // separation s ends the substep at s + h (u + v) / 2; a contact that carries load is struck only above
 // what the forces make of a substep.
 //
-// Reads: solver bodies, motions, what the lanes were given. Writes: the contact kernel's separations,
-// `open`. Cost: 250 instructions a bundle of 8.
-#include "core/wide.h"
-#include "solver/solver.h"
+// Cost: 250 instructions a bundle of 8.
+#ifndef PL_OUTLOOK_H
+#define PL_OUTLOOK_H
+
+#include "solver/bundle.h"
 
 // A sum of products of reals is wrong by no more than this share of the sum of their magnitudes.
 #define DOUBT (16 * NEAR_EPSILON)
@@ -50,13 +51,13 @@ WIDE_INLINE vf larger(vf x, vf y)
     return vmax(vabs(x), vabs(y));
 }
 
-WIDE_INLINE void look_out(outlook *o, const pl_outlook_call *call, const uint32_t *a,
-                          const uint32_t *b, vf nx, vf ny)
+WIDE_INLINE void look_out(outlook *o, const pl_dull_call *call, const bundle *c)
 {
+    const vf nx = c->nx, ny = c->ny;
     const near_real *body[2][PL_WIDTH], *motion[2][PL_WIDTH];
     for (int i = 0; i < PL_WIDTH; ++i) {
-        body[0][i] = &call->bodies[a[i]].vx, body[1][i] = &call->bodies[b[i]].vx;
-        motion[0][i] = &call->motions[a[i]].ax, motion[1][i] = &call->motions[b[i]].ax;
+        body[0][i] = &call->bodies[c->a[i]].vx, body[1][i] = &call->bodies[c->b[i]].vx;
+        motion[0][i] = &call->motions[c->a[i]].ax, motion[1][i] = &call->motions[c->b[i]].ax;
     }
     vf now[2][8],
         moved[2][8]; // vx vy w inv_mass dx dy da inv_inertia; ax ay aw none ux uy uw inv_mass
@@ -73,16 +74,10 @@ WIDE_INLINE void look_out(outlook *o, const pl_outlook_call *call, const uint32_
     o->calm = splat(4 * call->h * (1 - DOUBT)) * weight;
 }
 
-WIDE_INLINE vm look_at_point(const outlook *o, const pl_outlook_call *call, const near_real *fields,
-                             int j, char *bundle)
+// Whether a point is settled; then the contact kernel is told.
+WIDE_INLINE vm look_at_point(const outlook *o, const pl_dull_call *call, vf separation, point *p)
 {
-    const vf separation = load(fields + PL_OUTLOOK_SEPARATION(j) * PL_WIDTH);
-    const vf ran = load(fields + PL_OUTLOOK_RAN(j) * PL_WIDTH);
-    const vf rbn = load(fields + PL_OUTLOOK_RBN(j) * PL_WIDTH);
-    const vf h = splat(call->h), zero = splat(0);
-    vf *told = (vf *)(void *)(bundle + call->separation_offset[j]);
-    const vf impulse = *(const vf *)(const void *)(bundle + call->impulse_offset[j]);
-
+    const vf h = splat(call->h), zero = splat(0), ran = p->ran, rbn = p->rbn;
     estimate place = at_point(ran, rbn, &o->place), v = at_point(ran, rbn, &o->velocity);
     estimate u = at_point(ran, rbn, &o->before), force = at_point(ran, rbn, &o->force);
     u.value -= h * force.value;
@@ -93,38 +88,25 @@ WIDE_INLINE vm look_at_point(const outlook *o, const pl_outlook_call *call, cons
                (vabs(separation) + vabs(place.value) + vabs(way)) * splat(DOUBT);
     vm clear = end > doubt, crosses = end < -doubt;
     vf fastest = vmax(-v.value, -u.value) + (u.doubt + v.doubt);
-    vm leans = crosses & (impulse > zero) & (fastest <= o->calm);
+    vm leans = crosses & (p->ln > zero) & (fastest <= o->calm);
     vm parts = crosses & (u.value > u.doubt);
     vm present = separation < splat(PL_APART / 2);
-    vm off = (impulse <= zero) & clear;
+    vm off = (p->ln <= zero) & clear;
     vm settled = ~present | clear | leans | parts;
-    *told = sel(present & settled, separation + sel(off, splat(PL_APART), zero), *told);
+    p->separation =
+        sel(present & settled, separation + sel(off, splat(PL_APART), zero), p->separation);
     return settled;
 }
 
-pl_outlook_kernel PL_WIDE_NAME(pl_outlook);
-void PL_WIDE_NAME(pl_outlook)(const pl_outlook_call *call, uint32_t first, uint32_t count)
+// The lanes of a bundle in which nothing is left open.
+WIDE_INLINE vm look_at_bundle(const pl_dull_call *call, const near_real *fields, bundle *c)
 {
-    for (uint32_t k = first; k < first + count; ++k) {
-        const size_t lane = (size_t)k * PL_WIDTH;
-        const pl_outlook_ends *ends = call->ends + lane;
-        const near_real *fields = call->fields + lane * PL_OUTLOOK_FIELDS;
-        uint32_t a[PL_WIDTH], b[PL_WIDTH];
-        bool live = false;
-        for (int i = 0; i < PL_WIDTH; ++i) {
-            a[i] = ends[i].a, b[i] = ends[i].b;
-            live |= ends[i].impact != PL_NONE;
-        }
-        if (!live) {
-            continue;
-        }
-        char *bundle = (char *)call->bundles + (size_t)k * call->bundle_size;
-        outlook o;
-        look_out(&o, call, a, b, load(fields), load(fields + PL_WIDTH));
-        vm settled = look_at_point(&o, call, fields, 0, bundle);
-        settled &= look_at_point(&o, call, fields, 1, bundle);
-        for (int i = 0; i < PL_WIDTH; ++i) {
-            call->open[lane + (size_t)i] = settled[i] == 0;
-        }
-    }
+    outlook o;
+    look_out(&o, call, c);
+    vm settled =
+        look_at_point(&o, call, load(fields + PL_OUTLOOK_SEPARATION(0) * PL_WIDTH), &c->p[0]);
+    return settled &
+           look_at_point(&o, call, load(fields + PL_OUTLOOK_SEPARATION(1) * PL_WIDTH), &c->p[1]);
 }
+
+#endif
