@@ -204,7 +204,7 @@ static void check_heap(int width, double belt)
     for (int i = 0; i < 200; ++i) {
         assert_int_equal(plumb_world_step(w, R(1) / 60), PLUMB_OK);
         if (w->solver.bundle_count > 0) {
-            check_substep(w, R(1) / 240, &t);
+            check_substep(w, (near_real)R(1) / 240, &t);
             w->solver.impact_count = 0;
         }
     }
