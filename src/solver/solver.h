@@ -63,7 +63,7 @@ static inline bool pl_is_dull(near_real restitution)
     return (double)restitution * (double)restitution <= PL_IMPACT_KEPT;
 }
 
-// Dull impacts, as the lanes of the contact kernels have them: of each bundle three fields, of a near_real a
+// Dull impacts, as the lanes of the contact kernels have them: of each bundle three fields, of a real a
 // lane. Separations are PL_APART and restitution 0 where no dull one is.
 #define PL_OUTLOOK_SEPARATION(j) ((size_t)(j)) // [m] at the start of the step
 #define PL_OUTLOOK_RESTITUTION   2
@@ -92,7 +92,7 @@ typedef struct pl_dull_call {
     near_real *fields;
     uint8_t *marks;         // a lane: after a look 1 where it is left open, else PL_DULL_...
     bool looks_up;          // surfaces run, or impulses are added up
-    near_real h;                 // [s]
+    near_real h;              // [s]
     double restitution_speed; // [m/s]
 } pl_dull_call;
 
@@ -150,7 +150,7 @@ typedef struct pl_cluster {
 typedef struct pl_solver {
     pl_buffer bodies, motions; // engaged dynamic bodies, engaged kinematic ones, one immovable body
     pl_buffer lows;   // if any contact bounces, a quad a slot: what rounding took from its velocity, if kept
-    pl_buffer struck; // likewise a near_real a slot: when in the substep an impact struck it last [s]
+    pl_buffer struck; // likewise a real a slot: when in the substep an impact struck it last [s]
     pl_buffer rows;   // uint32_t: body row of a slot
     pl_buffer slots;  // uint32_t: slot of a dynamic or kinematic row; PL_NONE: not in a contact
     pl_buffer masks;  // uint64_t a slot: colours taken

@@ -97,8 +97,7 @@ static void parts_of(const plumb_world *w, void *part[5], size_t size[5])
     const pl_buffer *from[5] = { &s->bodies, &s->motions, &s->lows, &s->struck, &s->bundles };
     const size_t sizes[5] = { s->dynamic_slots * sizeof(pl_solver_body),
                               s->dynamic_slots * sizeof(pl_solver_motion),
-                              s->dynamic_slots * 4 * sizeof(near_real),
-                              s->dynamic_slots * sizeof(near_real),
+                              s->dynamic_slots * 4 * sizeof(near_real), s->dynamic_slots * sizeof(near_real),
                               s->bundle_count * pl_solver_kernels(w)->bundle_size };
     for (int i = 0; i < 5; ++i) {
         part[i] = from[i]->data;
@@ -205,7 +204,7 @@ static void check_heap(int width, double belt)
     for (int i = 0; i < 200; ++i) {
         assert_int_equal(plumb_world_step(w, R(1) / 60), PLUMB_OK);
         if (w->solver.bundle_count > 0) {
-            check_substep(w, (near_real)(R(1) / 240), &t);
+            check_substep(w, (near_real)R(1) / 240, &t);
             w->solver.impact_count = 0;
         }
     }
