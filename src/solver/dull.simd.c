@@ -1,11 +1,11 @@
-// dull.simd.c - restitution of dull impacts (solver.h), many at a time: the formulas of impact.c in lanes.
+// dull.simd.c - restitution of dull contacts (dull.h), many at a time: the formulas of bounce.c in lanes.
 //
 // A dull contact strikes once in a substep, so nothing that it does comes back to it, and contacts of one
 // colour have no moving body in common: whatever their order, they strike as if one after another. Of
 // each colour the outlook first settles most contacts, W at a time; those left open are looked at
 // in doubles, four at a time from whatever bundles they lie in, and struck where an impact is due.
 //
-// Each lane does what impact.c does to one contact, operation for operation: the bits are the same.
+// Each lane does what bounce.c does to one contact, operation for operation: the bits are the same.
 //
 // Reads: solver bodies, motions, bundles. Writes: those bodies, the contact kernel's separations, the pairs'
 // flags, totals of impulses. Cost: the outlook; 90 instructions an open contact, as many again in fours of
