@@ -195,7 +195,7 @@ void pl_narrow_take_out_disabled(plumb_world *world, uint32_t flag)
         ++kept;
     }
     narrow->manifold_count = kept;
-    narrow->ends_stale = true;
+    narrow->ends_stale |= kept != count;
     for (uint32_t i = 0; i < narrow->borne_count && kept != count; ++i) { // those behind close up
         m[kept + i] = m[count + i];
         pairs[m[kept + i].pair].manifold = kept + i;
