@@ -144,7 +144,8 @@ void pl_bounce_foresee(const plumb_world *world, pl_impact *m, double h, pl_appr
     }
 }
 
-// Changes a velocity that has not been pushed by a contact (u = v) or has, and keeps the rounding.
+// Changes a velocity that has not been pushed by a contact (u = v) or has, and keeps the rounding; where v is
+// double itself there is none to keep, and keeping that of the sum did not change the drift.
 static void kick(near_real *v, near_real *u, near_real *low, double change)
 {
     bool free = *u == *v;

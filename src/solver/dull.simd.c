@@ -291,7 +291,7 @@ WIDE_INLINE void find_impulses(four impulse[2], const contacts *c, const side *a
     impulse[1] = choose(both, i1, choose(second & (k11 > zero), r1 / k11, zero));
 }
 
-// See kick() and strike() in impact.c.
+// See kick() and strike() in bounce.c.
 WIDE_INLINE void strike_side(side *s, mask which, double sign, four px, four py, four turn,
                              four time)
 {
