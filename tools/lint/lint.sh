@@ -47,6 +47,9 @@ find src include tools tests -type f ! -path 'tests/fuzz/seeds/*' ! -path 'tests
         grep -qE "(^|[^A-Za-z0-9_])${stem%%.*}\b" "${file%/*}/README.md" 2>/dev/null ||
             echo "${file%/*}/README.md does not name ${file##*/}"
     done >"$work/out"
+for folder in src/*/ tests/*/; do
+    grep -qE "\b$(basename "$folder")\b" "${folder%%/*}/README.md" || echo "${folder%%/*}/README.md does not name $folder"
+done >>"$work/out"
 breach "readme" <"$work/out"
 
 sources src include tools tests | xargs wc -l | awk '
@@ -130,7 +133,7 @@ breach "include cycle" <"$work/out"
 
 # Public headers know nothing of src/, tools know the public headers only.
 grep -nE '#\s*include\s*"' include/plumb/*.h | grep -v '"plumb/' >"$work/out"
-grep -nE '#\s*include\s*"(core|math|ecs|geometry|world|broad|narrow|solver|query|event|step)/' \
+grep -nE "#\s*include\s*\"($(find src -mindepth 1 -maxdepth 1 -type d -printf '%f|' | sed 's/|$//'))/" \
     $(sources tools) /dev/null >>"$work/out"
 breach "include direction" <"$work/out"
 
