@@ -169,17 +169,6 @@ void pl_narrow_run(plumb_world *world, const pl_pair_list *list, real dt, pl_nar
     make_manifolds(world, &in, list, narrow);
 }
 
-static void take_out(pl_pair *pair, uint32_t flag)
-{
-    pair->manifold = PL_NONE;
-    pair->flags |= flag;
-    pair->rolling = 0;
-    for (int k = 0; k < 2; ++k) {
-        pair->feature[k] = PL_NONE;
-        pair->normal[k] = pair->tangent[k] = 0;
-    }
-}
-
 void pl_narrow_take_out_disabled(plumb_world *world, uint32_t flag)
 {
     pl_narrow *narrow = &world->narrow;
@@ -188,7 +177,10 @@ void pl_narrow_take_out_disabled(plumb_world *world, uint32_t flag)
     uint32_t kept = 0, count = narrow->manifold_count;
     for (uint32_t i = 0; i < count; ++i) {
         if (m[i].disabled) {
-            take_out(&pairs[m[i].pair], flag);
+            pl_pair *pair = &pairs[m[i].pair];
+            pair->manifold = PL_NONE;
+            pair->flags |= flag;
+            pl_pair_forget(pair);
             continue;
         }
         pairs[m[i].pair].manifold = kept;
