@@ -9,7 +9,7 @@
 // the arcs of the anchors make of a substep (add_arc). README.md says why not by all sweeps, and not by J.
 //
 // soft.c warm starts body by body, v += v - u, with the directions of the substep before. Where J
-// has turned since, pl_joints_turn adds the difference (J' - J)^T impulse, else a stale pull along
+// has turned since, pay() adds the difference (J' - J)^T impulse, else a stale pull along
 // the old direction would feed energy to whatever swings.
 //
 // Springs: b = 1 / (1 + 2 z x + 2 (z x)^2 + x^4 / (1 + x^2)), x = h w, and the impulse such that

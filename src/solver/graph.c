@@ -9,6 +9,7 @@
 //
 // Reads: manifolds, velocities, masses, forces. Writes: solver bodies, lanes. Cost: O(bodies +
 // contacts).
+#include "solver/dull.h"
 #include "world/state.h"
 
 #include <string.h>

@@ -63,41 +63,15 @@ static inline bool pl_is_dull(near_real restitution)
     return (double)restitution * (double)restitution <= PL_IMPACT_KEPT;
 }
 
-// Dull impacts, as the lanes of the contact kernels have them: of each bundle three fields, of a real a
-// lane. Separations are PL_APART and restitution 0 where no dull one is.
-#define PL_OUTLOOK_SEPARATION(j) ((size_t)(j)) // [m] at the start of the step
-#define PL_OUTLOOK_RESTITUTION   2
-#define PL_OUTLOOK_FIELDS        3
-
+// Where the record of a dull impact is, a lane (dull.h).
 typedef struct pl_outlook_ends {
     uint32_t a, b;   // solver slots
     uint32_t impact; // PL_NONE: no dull one in this lane
 } pl_outlook_ends;
 
-enum {
-    PL_DULL_STRUCK = 1, // in this substep
-    PL_DULL_HIT = 2     // in this step: its pair has been told
-};
-
-typedef struct pl_dull_call {
-    pl_solver_body *bodies;
-    pl_solver_motion *motions;
-    near_real *lows, *struck;    // a quad, a real a slot
-    uint32_t dynamic_slots; // slots from here on do not move
-    void *bundles;
-    const uint32_t *color_first; // bundles of the colours: a kernel may be given several at once
-    const uint32_t *lanes;
-    pl_manifold *manifolds;
-    pl_pair *pairs;
-    near_real *fields;
-    uint8_t *marks;         // a lane: after a look 1 where it is left open, else PL_DULL_...
-    bool looks_up;          // surfaces run, or impulses are added up
-    near_real h;              // [s]
-    double restitution_speed; // [m/s]
-} pl_dull_call;
-
 // Over the bundles [first, first + count) (dull.simd.c): fills in the fields and counts lively impacts;
 // looks which lanes the outlook leaves open; lets impacts happen, of one colour after another.
+typedef struct pl_dull_call pl_dull_call;
 typedef uint32_t pl_dull_counter(const pl_dull_call *call, uint32_t first, uint32_t count);
 typedef void pl_dull_kernel(const pl_dull_call *call, uint32_t first, uint32_t count);
 
@@ -160,7 +134,7 @@ typedef struct pl_solver {
     pl_buffer extras;  // a record a bundle, where surfaces run or roll hard or impulses are added up
     pl_buffer specials; // a record a bundle, where bodies are locked or surfaces stick
     pl_buffer impacts; // pl_impact
-    pl_buffer outlook_fields, outlook_ends, outlook_open; // of dull impacts: see pl_dull_call
+    pl_buffer outlook_fields, outlook_ends, outlook_open; // of dull impacts (dull.h)
     uint32_t outlook_lanes; // 0: no impact is dull
     pl_buffer impact_heap, impact_heads; // uint32_t: due ones by time; the first one of a dynamic slot
     pl_buffer classic; // pl_classic_contact, for the classic solver alone
