@@ -78,7 +78,8 @@ bool pl_broad_update_grids(plumb_world *world, real dt, bool *stale)
     }
     if (world->pairs_dirty || broad->unfiled || broad->moving_lost) {
         if (!pl_grid_build(&world->memory, &broad->moving, pl_moving(world), world->moving_count,
-                           world->pieces.fat)) {
+                           world->pieces.fat) ||
+            !pl_grid_make_lanes(&world->memory, &broad->moving)) {
             return false;
         }
         broad->stale = broad->stale || world->pairs_dirty;

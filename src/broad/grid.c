@@ -194,6 +194,40 @@ bool pl_grid_build(pl_memory *memory, pl_grid *grid, const uint32_t *pieces, uin
     return true;
 }
 
+// Room for one side of every box.
+static size_t lane_room(const pl_grid *grid)
+{
+    return (size_t)grid->entry_count + PL_GRID_SPARE;
+}
+
+bool pl_grid_make_lanes(pl_memory *memory, pl_grid *grid)
+{
+    const size_t room = lane_room(grid);
+    if (!pl_buffer_reserve(memory, &grid->sides, 4 * room * sizeof(real))) {
+        return false;
+    }
+    real *min_x = grid->sides.data, *min_y = min_x + room, *max_x = min_y + room;
+    real *max_y = max_x + room;
+    const pl_grid_entry *entries = pl_grid_entries(grid);
+    for (uint32_t i = 0; i < grid->entry_count; ++i) {
+        min_x[i] = entries[i].box.min_x;
+        min_y[i] = entries[i].box.min_y;
+        max_x[i] = entries[i].box.max_x;
+        max_y[i] = entries[i].box.max_y;
+    }
+    for (size_t i = grid->entry_count; i < room; ++i) {
+        min_x[i] = min_y[i] = max_x[i] = max_y[i] = 0;
+    }
+    return true;
+}
+
+pl_grid_lanes pl_grid_lanes_of(const pl_grid *grid)
+{
+    const size_t room = lane_room(grid);
+    const real *sides = grid->sides.data;
+    return (pl_grid_lanes){ sides, sides + room, sides + 2 * room, sides + 3 * room };
+}
+
 static double squares_per_metre(double length)
 {
     return length > 0 ? PL_GRID_MAP / length : 0;
@@ -242,6 +276,7 @@ void pl_grid_free(pl_memory *memory, pl_grid *grid)
     pl_buffer_free(memory, &grid->starts);
     pl_buffer_free(memory, &grid->buckets);
     pl_buffer_free(memory, &grid->maps);
+    pl_buffer_free(memory, &grid->sides);
     *grid = (pl_grid){ 0 };
 }
 

@@ -35,6 +35,13 @@ typedef struct pl_grid_level {
 // A map of a level: for each of its rows of squares in which of them a lower corner lies.
 #define PL_GRID_MAP 64
 
+// The sides of the entries' boxes, side by side, for what looks at several at a time (sift.h).
+typedef struct pl_grid_lanes {
+    const real *min_x, *min_y, *max_x, *max_y; // of as many as there are entries, and PL_GRID_SPARE more
+} pl_grid_lanes;
+
+#define PL_GRID_SPARE 8 // may be read beyond the last one
+
 typedef struct pl_grid {
     pl_grid_level levels[PL_GRID_LEVELS]; // used ones, finest first
     uint32_t level_count;
@@ -44,6 +51,7 @@ typedef struct pl_grid {
     pl_buffer buckets; // uint32_t, scratch of the build
     pl_buffer maps;    // uint64_t, PL_GRID_MAP rows a level
     bool mapped;
+    pl_buffer sides; // real, of pl_grid_lanes
 } pl_grid;
 
 // A range of cells, both ends included.
@@ -58,6 +66,9 @@ bool pl_grid_build(pl_memory *memory, pl_grid *grid, const uint32_t *pieces, uin
 // Makes a map of each level, until the grid is built again. Queries ask it first: worth it for a grid that is
 // built seldom, for the bounds of ground, walls and rings are mostly void. False when out of memory. O(count).
 bool pl_grid_make_maps(pl_memory *memory, pl_grid *grid);
+// Makes its lanes, until the grid is built again. False when out of memory. O(count).
+bool pl_grid_make_lanes(pl_memory *memory, pl_grid *grid);
+pl_grid_lanes pl_grid_lanes_of(const pl_grid *grid);
 void pl_grid_free(pl_memory *memory, pl_grid *grid);
 
 // Cells of a level in which boxes that overlap `box` can be filed.
