@@ -134,5 +134,6 @@ void pl_broad_free(pl_memory *memory, pl_broad *broad)
     pl_buffer_free(memory, &broad->sorted);
     pl_buffer_free(memory, &broad->sensed);
     pl_buffer_free(memory, &broad->counts);
+    pl_buffer_free(memory, &broad->lost);
     *broad = (pl_broad){ 0 };
 }

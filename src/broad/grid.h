@@ -37,7 +37,8 @@ typedef struct pl_grid_level {
 
 // The sides of the entries' boxes, side by side, for what looks at several at a time (sift.h).
 typedef struct pl_grid_lanes {
-    const real *min_x, *min_y, *max_x, *max_y; // of as many as there are entries, and PL_GRID_SPARE more
+    const real *min_x, *min_y, *max_x,
+        *max_y; // of as many as there are entries, and PL_GRID_SPARE more
 } pl_grid_lanes;
 
 #define PL_GRID_SPARE 8 // may be read beyond the last one

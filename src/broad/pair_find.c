@@ -126,7 +126,8 @@ static inline bool scan_run(finder *f, const pl_grid *grid, pl_grid_run run, int
 {
     const pl_grid_entry *entries = pl_grid_entries(grid);
     for (uint32_t first = run.begin; first < run.end; first += PL_SIFT) {
-        for (uint32_t bits = pl_sift(&f->lanes, first, run.end, sieve); bits != 0; bits &= bits - 1) {
+        for (uint32_t bits = pl_sift(&f->lanes, first, run.end, sieve); bits != 0;
+             bits &= bits - 1) {
             const pl_grid_entry *other = &entries[first + (uint32_t)__builtin_ctz(bits)];
             if (other->cell_y == y && (uint32_t)other->cell_x - (uint32_t)x0 <= width &&
                 !add_pair(f, piece, other->piece)) {
@@ -174,7 +175,8 @@ static bool find_in_level(finder *f, const pl_grid *grid, const pl_grid_level *l
         if (!scan_run(f, grid, runs[0], e->cell_x, 1, e->cell_y, e->piece, &sieve) ||
             (run_count > 1 &&
              !scan_run(f, grid, runs[1], e->cell_x, 1, e->cell_y, e->piece, &sieve)) ||
-            !scan_row(f, grid, level, e->cell_x - 1, e->cell_x + 1, e->cell_y + 1, e->piece, &sieve)) {
+            !scan_row(f, grid, level, e->cell_x - 1, e->cell_x + 1, e->cell_y + 1, e->piece,
+                      &sieve)) {
             return false;
         }
     }

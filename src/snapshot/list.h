@@ -63,7 +63,7 @@
     LEFT(broad.moving_lost) LEFT(broad.fixed_lost) LEFT(broad.resting_lost)                        \
     ARRAY(pl_pair, broad.pairs.items, broad.pairs.count, 0, 8)                                     \
     TALLY(broad.pairs.first) TALLY(broad.pairs.size) LEFT(broad.pairs.old_items)                   \
-    LEFT(broad.list) LEFT(broad.found) LEFT(broad.sorted) LEFT(broad.counts)                       \
+    LEFT(broad.list) LEFT(broad.found) LEFT(broad.sorted) LEFT(broad.counts) LEFT(broad.lost)      \
     LEFT(broad.found_count)                                                                        \
     ARRAY(pl_found, broad.sensed, broad.sensed_count, 0, 0)                                        \
     TALLY(broad.serial) TALLY(broad.rebuilds) TALLY(broad.stale)
