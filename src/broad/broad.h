@@ -20,8 +20,9 @@ typedef struct pl_broad {
     uint32_t found_count;
     uint32_t serial; // newest piece serial at the last rebuild: younger slots carry nothing over
     uint64_t rebuilds;
-    bool stale;          // the pair list must be made from nothing
-    bool unfiled;        // a box was left since the moving grid was filed
+    bool stale;     // the pair list must be made from nothing
+    bool emptied;   // so many boxes were left that it had better be
+    bool unfiled;   // a box was left since the moving grid was filed
     pl_buffer left; // uint32_t moving pieces whose box was made anew since the pair list was made
     pl_buffer left_marks; // uint8_t a piece slot: it is in `left`
     uint32_t left_count;

@@ -154,58 +154,98 @@ static uint32_t add_up(uint32_t *counts, uint32_t count, uint32_t sum)
     return sum;
 }
 
-// `single`: all are of one class, which need not be looked up.
-static inline __attribute__((always_inline)) void sort_high(sorter *s, uint32_t i, bool single)
-{
-    section *mine = &s->sections[i];
-    const uint32_t width = mine->low_end - mine->low_first;
-    uint32_t *high = s->by_high + (size_t)i * s->slots;
-    uint32_t *low = s->by_low + (size_t)mine->low_first * s->class_count;
-    memset(high, 0, s->slots * sizeof *high);
-    memset(low, 0, (size_t)width * s->class_count * sizeof *low);
-    for (uint32_t k = mine->first; k < mine->end; ++k) {
-        const pl_found pair = s->from[k];
-        ++high[pair.high];
-        ++low[(single ? 0 : class_of(s, pair) * width) + pair.low - mine->low_first];
-    }
-    add_up(high, s->slots, mine->first);
-    for (uint32_t c = 0; c < s->class_count; ++c) {
-        mine->count[c] = add_up(low + (size_t)c * width, width, 0);
-    }
-    for (uint32_t k = mine->first; k < mine->end; ++k) {
-        s->to[high[s->from[k].high]++] = s->from[k];
-    }
-}
+// What the loops of a section need, apart from what they write: else it would be read again for each pair.
+typedef struct reader {
+    const pl_found *pairs;
+    uint32_t count, low_first;
+    const uint8_t *kind;
+    uint32_t row[CLASSES]; // of two kinds: where the counters of their class begin
+} reader;
 
-static inline __attribute__((always_inline)) void sort_low(sorter *s, uint32_t i, bool single)
+static reader reader_of(const sorter *s, uint32_t i)
 {
     const section *mine = &s->sections[i];
-    const uint32_t width = mine->low_end - mine->low_first;
-    uint32_t *low = s->by_low + (size_t)mine->low_first * s->class_count;
-    for (uint32_t k = mine->first; k < mine->end; ++k) {
-        const pl_found pair = s->from[k];
-        const uint32_t c = single ? 0 : class_of(s, pair);
-        s->to[mine->at[c] + low[c * width + pair.low - mine->low_first]++] = pair;
+    reader r = { .pairs = s->from + mine->first,
+                 .count = mine->end - mine->first,
+                 .low_first = mine->low_first,
+                 .kind = s->kind };
+    for (uint32_t c = 0; c < CLASSES; ++c) {
+        r.row[c] = s->class_of[c] * (mine->low_end - mine->low_first);
+    }
+    return r;
+}
+
+// Counter of a pair. `single`: all are of one class, which need not be looked up.
+static inline uint32_t counter_of(const reader *r, pl_found pair, bool single)
+{
+    uint32_t row = single ? 0 : r->row[r->kind[pair.low] * KINDS + r->kind[pair.high]];
+    return row + pair.low - r->low_first;
+}
+
+static inline __attribute__((always_inline)) void count_section(const reader *r,
+                                                                uint32_t *restrict high,
+                                                                uint32_t *restrict low, bool single)
+{
+    for (uint32_t k = 0; k < r->count; ++k) {
+        const pl_found pair = r->pairs[k];
+        ++high[pair.high];
+        ++low[counter_of(r, pair, single)];
     }
 }
 
 static void sort_share_high(void *context, uint32_t i)
 {
     sorter *s = context;
+    section *mine = &s->sections[i];
+    const uint32_t width = mine->low_end - mine->low_first;
+    uint32_t *restrict high = s->by_high + (size_t)i * s->slots;
+    uint32_t *low = s->by_low + (size_t)mine->low_first * s->class_count;
+    const reader r = reader_of(s, i);
+    memset(high, 0, s->slots * sizeof *high);
+    memset(low, 0, (size_t)width * s->class_count * sizeof *low);
     if (s->class_count == 1) {
-        sort_high(s, i, true);
+        count_section(&r, high, low, true);
     } else {
-        sort_high(s, i, false);
+        count_section(&r, high, low, false);
+    }
+    add_up(high, s->slots, mine->first);
+    for (uint32_t c = 0; c < s->class_count; ++c) {
+        mine->count[c] = add_up(low + (size_t)c * width, width, 0);
+    }
+    pl_found *restrict to = s->to;
+    for (uint32_t k = 0; k < r.count; ++k) {
+        const pl_found pair = r.pairs[k];
+        to[high[pair.high]++] = pair;
     }
 }
 
+static inline __attribute__((always_inline)) void sort_section(const reader *r,
+                                                               uint32_t *restrict low,
+                                                               pl_found *restrict to, bool single)
+{
+    for (uint32_t k = 0; k < r->count; ++k) {
+        const pl_found pair = r->pairs[k];
+        to[low[counter_of(r, pair, single)]++] = pair;
+    }
+}
+
+// The counters of a class begin where it goes.
 static void sort_share_low(void *context, uint32_t i)
 {
     sorter *s = context;
+    const section *mine = &s->sections[i];
+    const uint32_t width = mine->low_end - mine->low_first;
+    uint32_t *low = s->by_low + (size_t)mine->low_first * s->class_count;
+    const reader r = reader_of(s, i);
+    for (uint32_t c = 0; c < s->class_count; ++c) {
+        for (uint32_t k = 0; k < width; ++k) {
+            low[(size_t)c * width + k] += mine->at[c];
+        }
+    }
     if (s->class_count == 1) {
-        sort_low(s, i, true);
+        sort_section(&r, low, s->to, true);
     } else {
-        sort_low(s, i, false);
+        sort_section(&r, low, s->to, false);
     }
 }
 

@@ -349,7 +349,7 @@ bool pl_pairs_update(plumb_world *world)
 {
     pl_broad *broad = &world->broad;
     pl_pair_list *list = &broad->pairs;
-    const bool whole = broad->stale;
+    const bool whole = broad->stale || broad->emptied;
     pl_sorted sorted;
     if (!(whole ? pl_pairs_find(world) : pl_pairs_find_left(world)) ||
         !pl_pairs_sort(world, &sorted) || !reserve_lists(world) ||
@@ -364,10 +364,10 @@ bool pl_pairs_update(plumb_world *world)
         list->old_items = items;
     }
     broad->rebuilds += changed || whole || world->sensor_pieces > 0; // or what sensors see
-    world->rows_moved |= whole; // contacts of what woke do not know their rows
+    world->rows_moved |= broad->stale; // contacts of what woke do not know their rows
     world->parts.buried = false;
     broad->serial = world->serial;
-    broad->stale = false;
+    broad->stale = broad->emptied = false;
     pl_broad_forget_left(broad);
     return true;
 }
