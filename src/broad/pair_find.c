@@ -183,6 +183,9 @@ static bool find_in_level(finder *f, const pl_grid *grid, const pl_grid_level *l
     return true;
 }
 
+// So few boxes of a level are gone through sooner than its cells are found.
+#define FEW 64
+
 // Partners of a box in a level of the grid, all about it.
 static bool find_about(finder *f, const pl_grid *grid, const pl_grid_level *level,
                        const pl_grid_entry *e)
@@ -192,8 +195,13 @@ static bool find_about(finder *f, const pl_grid *grid, const pl_grid_level *leve
         return true;
     }
     const pl_sieve sieve = pl_sieve_of(&e->box);
-    pl_cell_range range = pl_grid_range(level, e->box);
-    if (pl_grid_range_is_wide(level, range)) {
+    pl_cell_range range = { 0 };
+    bool all = level->count <= FEW;
+    if (!all) {
+        range = pl_grid_range(level, e->box);
+        all = pl_grid_range_is_wide(level, range);
+    }
+    if (all) {
         const uint32_t end = level->first + level->count;
         for (uint32_t j = level->first; j < end; j += PL_SIFT) {
             for (uint32_t bits = pl_sift(&f->lanes, j, end, &sieve); bits != 0; bits &= bits - 1) {
