@@ -60,10 +60,10 @@
 #define PL_STATE_BROAD(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                      \
     LEFT(broad.moving) LEFT(broad.fixed) LEFT(broad.resting) LEFT(broad.refreshed)                 \
     LEFT(broad.unfiled) LEFT(broad.left) LEFT(broad.left_marks) TALLY(broad.left_count)            \
-    LEFT(broad.moving_lost) LEFT(broad.fixed_lost) LEFT(broad.resting_lost)                        \
+    LEFT(broad.moving_lost) LEFT(broad.fixed_lost) LEFT(broad.resting_lost) LEFT(broad.emptied)    \
     ARRAY(pl_pair, broad.pairs.items, broad.pairs.count, 0, 8)                                     \
     TALLY(broad.pairs.first) TALLY(broad.pairs.size) LEFT(broad.pairs.old_items)                   \
-    LEFT(broad.list) LEFT(broad.found) LEFT(broad.sorted) LEFT(broad.counts)                       \
+    LEFT(broad.list) LEFT(broad.found) LEFT(broad.sorted) LEFT(broad.counts) LEFT(broad.lost)      \
     LEFT(broad.found_count)                                                                        \
     ARRAY(pl_found, broad.sensed, broad.sensed_count, 0, 0)                                        \
     TALLY(broad.serial) TALLY(broad.rebuilds) TALLY(broad.stale)
