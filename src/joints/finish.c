@@ -55,13 +55,13 @@ static void rest(pl_joint *j)
 }
 
 // Joints that break by impulse are solved one by one.
-void pl_joints_tally(plumb_world *world)
+void pl_joints_tally(const pl_joint_course *c)
 {
-    for (uint32_t i = 0; i < world->joints.plan.alone_count; ++i) {
-        pl_joint *j = pl_joint_alone(&world->joints, i);
+    for (uint32_t i = c->group->alone; i < c->group->end; ++i) {
+        pl_joint *j = pl_joint_grouped(&c->world->joints, i);
         pl_rows made;
         j->step_impulse =
-            plumb_vec2_add(j->step_impulse, impulse_on_b(j, whole_rows(world, j, &made)));
+            plumb_vec2_add(j->step_impulse, impulse_on_b(j, whole_rows(c->world, j, &made)));
     }
 }
 
@@ -103,7 +103,7 @@ void pl_joints_finish(plumb_world *world)
             rest(j);
             continue;
         }
-        if (!mark->wide) {
+        if (!pl_joint_is_wide(mark)) {
             react(world, j);
         }
         const pl_joint_class *kind = pl_joint_classes[j->desc.kind];
