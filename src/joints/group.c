@@ -7,7 +7,6 @@
 //
 // Reads: order, marks, labels of rows. Writes: groups, bundles, lanes. Cost: one read a joint and one of a
 // label; O(joints) where one of them is in another cluster than in the step before.
-#include "core/sort.h"
 #include "joints/joint.h"
 #include "world/state.h"
 
@@ -42,11 +41,11 @@ static void sort_by_cluster(plumb_world *world)
     pl_joint_plan *plan = &world->joints.plan;
     pl_joint_group *groups = plan->groups.data;
     const pl_joint_mark *marks = plan->marks.data;
-    const pl_keyed *order = plan->order.data;
+    const uint32_t *order = plan->order.data;
     uint32_t *grouped = plan->grouped.data, at = 0;
     memset(groups, 0, plan->group_count * sizeof *groups);
     for (uint32_t i = 0; i < plan->order_count; ++i) {
-        ++groups[marks[order[i].value].cluster].end;
+        ++groups[marks[order[i]].cluster].end;
     }
     for (uint32_t g = 0; g < plan->group_count; ++g) {
         const uint32_t count = groups[g].end;
@@ -54,9 +53,9 @@ static void sort_by_cluster(plumb_world *world)
         at += count;
     }
     for (uint32_t i = 0; i < plan->order_count; ++i) {
-        const pl_joint_mark *mark = &marks[order[i].value];
+        const pl_joint_mark *mark = &marks[order[i]];
         pl_joint_group *group = &groups[mark->cluster];
-        grouped[group->end++] = order[i].value;
+        grouped[group->end++] = order[i];
         group->alone += pl_joint_is_wide(mark);
     }
 }

@@ -105,7 +105,7 @@ typedef struct pl_joint_group {
 typedef struct pl_joint_plan {
     pl_buffer marks;   // pl_joint_mark a slot
     pl_buffer ends;    // pl_ends: rows of the bodies of each awake joint; PL_NONE where it is not solved
-    pl_buffer order;   // pl_keyed: joints that are solved, by colour and pattern
+    pl_buffer order;   // uint32_t: joints that are solved, by colour and pattern
     pl_buffer groups;  // pl_joint_group a cluster
     pl_buffer grouped; // uint32_t: joints group by group, by colour and pattern
     pl_buffer bundles; // pl_joint_bundle

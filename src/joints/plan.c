@@ -7,8 +7,7 @@
 // same bits, nor from the past, so that a plan can be kept until one of these changes. The colours of
 // an island's joints do not depend on other islands: nor does anything on which are solved together.
 //
-// Reads: joints, slots of bodies. Writes: marks, ends, order. Cost: O(joints); a new plan O(n log n).
-#include "core/sort.h"
+// Reads: joints, slots of bodies. Writes: marks, ends, order. Cost: O(joints).
 #include "joints/joint.h"
 #include "world/state.h"
 
@@ -78,19 +77,16 @@ static uint32_t row_of(const plumb_world *world, plumb_body body, uint32_t befor
     return same ? before : pl_body_row(world, body);
 }
 
-// Rows of a joint's bodies, and which of them move.
-static uint8_t look(const plumb_world *world, pl_joint_mark *mark)
+// Rows of a joint's bodies, into the mark and the ends, and which of them move.
+static uint8_t look(const plumb_world *world, pl_joint_mark *mark, pl_ends *ends)
 {
-    mark->row_a = row_of(world, mark->a, mark->row_a);
-    mark->row_b = row_of(world, mark->b, mark->row_b);
+    const uint32_t a = row_of(world, mark->a, mark->row_a);
+    const uint32_t b = row_of(world, mark->b, mark->row_b);
+    mark->row_a = ends->a = a;
+    mark->row_b = ends->b = b;
     return (uint8_t)(SOLVED | (world->desc.solver == PLUMB_SOLVER_SOFT ? WIDE : 0) |
-                     (mark->row_a < world->dynamic_count ? MOVES_A : 0) |
-                     (mark->row_b < world->dynamic_count ? MOVES_B : 0));
-}
-
-static pl_ends ends_of(const pl_joint_mark *mark)
-{
-    return mark->what == 0 ? (pl_ends){ PL_NONE, PL_NONE } : (pl_ends){ mark->row_a, mark->row_b };
+                     (a < world->dynamic_count ? MOVES_A : 0) |
+                     (b < world->dynamic_count ? MOVES_B : 0));
 }
 
 // True: all marks are as they were when the plan was made.
@@ -103,8 +99,7 @@ static bool still_holds(plumb_world *world)
     bool same = joints->plan.made && !joints->awake_stale;
     for (uint32_t i = 0; same && i < joints->awake_count; ++i) {
         pl_joint_mark *mark = &marks[awake[i]];
-        same = mark->what == 0 || mark->what == look(world, mark);
-        ends[i] = ends_of(mark);
+        same = mark->what == 0 || mark->what == look(world, mark, &ends[i]);
     }
     return same;
 }
@@ -121,8 +116,8 @@ static void mark_all(plumb_world *world)
         pl_joint_mark *mark = &marks[awake[i]];
         *mark =
             (pl_joint_mark){ .a = j->a.body, .b = j->b.body, .row_a = PL_NONE, .row_b = PL_NONE };
-        mark->what = is_active(world, j) ? look(world, mark) : 0;
-        ends[i] = ends_of(mark);
+        ends[i] = (pl_ends){ PL_NONE, PL_NONE };
+        mark->what = is_active(world, j) ? look(world, mark, &ends[i]) : 0;
         world->joints.plan.adrift &= (mark->what & MOVES_A) != 0 && (mark->what & MOVES_B) != 0;
     }
 }
@@ -204,14 +199,12 @@ static bool is_quiet(const pl_joint *j, const pl_joint_mark *mark)
            pl_joint_classes[j->desc.kind]->advance == NULL;
 }
 
-// Colours and patterns of all joints that are solved. Those that are solved one by one come last.
+// Colours and patterns of all joints that are solved.
 static void sort_out(plumb_world *world)
 {
     pl_joints *joints = &world->joints;
     pl_joint_plan *plan = &joints->plan;
-    pl_keyed *order = plan->order.data;
     pl_joint_mark *marks = plan->marks.data;
-    uint32_t count = 0;
     plan->alone_count = plan->pattern_count = 0;
     memset(world->solver.masks.data, 0, world->solver.slot_count * sizeof(uint64_t));
     for (uint32_t i = 0; i < joints->count; ++i) {
@@ -226,11 +219,35 @@ static void sort_out(plumb_world *world)
         mark->pattern = (uint8_t)(pl_joint_is_wide(mark) ? pattern : 0);
         mark->quiet = is_quiet(j, mark);
         plan->alone_count += !pl_joint_is_wide(mark);
-        order[count++] =
-            (pl_keyed){ .key = pl_key(mark->color, mark->pattern), .order = i, .value = i };
     }
-    pl_sort_keyed(order, count);
-    plan->order_count = count;
+}
+
+static inline uint32_t bin_of(const pl_joint_mark *mark)
+{
+    return (uint32_t)mark->color * PL_JOINT_PATTERNS + mark->pattern;
+}
+
+// Joints that are solved, by colour, pattern and slot. Those that are solved one by one come last.
+static void put_in_order(pl_joints *joints)
+{
+    uint32_t ends[(PL_JOINT_COLORS + 1) * PL_JOINT_PATTERNS] = { 0 }; // of bins
+    const uint32_t bins = sizeof ends / sizeof *ends;
+    const pl_joint_mark *marks = pl_joint_marks(joints);
+    uint32_t *order = joints->plan.order.data, at = 0;
+    for (uint32_t i = 0; i < joints->count; ++i) {
+        ends[bin_of(&marks[i])] += marks[i].what != 0;
+    }
+    for (uint32_t k = 0; k < bins; ++k) {
+        const uint32_t count = ends[k];
+        ends[k] = at;
+        at += count;
+    }
+    for (uint32_t i = 0; i < joints->count; ++i) {
+        if (marks[i].what != 0) {
+            order[ends[bin_of(&marks[i])]++] = i;
+        }
+    }
+    joints->plan.order_count = at;
 }
 
 bool pl_joints_look(plumb_world *world)
@@ -244,7 +261,7 @@ bool pl_joints_look(plumb_world *world)
     plan->made = false;
     if (!pl_buffer_reserve(&world->memory, &plan->marks, count * sizeof(pl_joint_mark)) ||
         !pl_buffer_reserve(&world->memory, &plan->ends, count * sizeof(pl_ends)) ||
-        !pl_buffer_reserve(&world->memory, &plan->order, count * sizeof(pl_keyed))) {
+        !pl_buffer_reserve(&world->memory, &plan->order, count * sizeof(uint32_t))) {
         return false;
     }
     mark_all(world);
@@ -260,6 +277,7 @@ bool pl_joints_plan(plumb_world *world)
     }
     if (!plan->made) {
         sort_out(world);
+        put_in_order(&world->joints);
         plan->group_count = 0;
     }
     plan->made = pl_joints_group(world);
