@@ -41,8 +41,8 @@ static bool is_enabled(const plumb_world *world, plumb_body body)
 
 static bool is_active(const plumb_world *world, const pl_joint *j)
 {
-    return !j->desc.disabled && (world->disabled_count == 0 || (is_enabled(world, j->a.body) &&
-                                                                is_enabled(world, j->b.body)));
+    return !j->desc.disabled && (world->disabled_count == 0 ||
+                                 (is_enabled(world, j->a.body) && is_enabled(world, j->b.body)));
 }
 
 static bool is_locked(const plumb_world *world, uint32_t row)
@@ -296,8 +296,9 @@ bool pl_joints_changed(const plumb_world *world)
 
 void pl_joints_plan_free(pl_memory *memory, pl_joint_plan *plan)
 {
-    pl_buffer *buffers[] = { &plan->marks,   &plan->ends,  &plan->order, &plan->groups, &plan->grouped,
-                             &plan->bundles, &plan->lanes, &plan->slots, &plan->records };
+    pl_buffer *buffers[] = { &plan->marks,  &plan->ends,    &plan->order,
+                             &plan->groups, &plan->grouped, &plan->bundles,
+                             &plan->lanes,  &plan->slots,   &plan->records };
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; ++i) {
         pl_buffer_free(memory, buffers[i]);
     }

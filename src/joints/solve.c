@@ -61,14 +61,19 @@ static real rate(const pl_row *r, const pl_solver_body *a, const pl_solver_body 
            (r->bx * b->vx + r->by * b->vy + r->bw * b->w);
 }
 
+// What an impulse does to the velocity (x, y, turn) of a body, or a shift to its place.
+static void give(const pl_solver_body *body, near_real *x, near_real *y, near_real *turn, real jx,
+                 real jy, real jw, real amount)
+{
+    *x = (near_real)(*x + body->inv_mass * jx * amount);
+    *y = (near_real)(*y + body->inv_mass * jy * amount);
+    *turn = (near_real)(*turn + body->inv_inertia * jw * amount);
+}
+
 static void push(const pl_row *r, pl_solver_body *a, pl_solver_body *b, real impulse)
 {
-    a->vx = (near_real)(a->vx + a->inv_mass * r->ax * impulse);
-    a->vy = (near_real)(a->vy + a->inv_mass * r->ay * impulse);
-    a->w = (near_real)(a->w + a->inv_inertia * r->aw * impulse);
-    b->vx = (near_real)(b->vx + b->inv_mass * r->bx * impulse);
-    b->vy = (near_real)(b->vy + b->inv_mass * r->by * impulse);
-    b->w = (near_real)(b->w + b->inv_inertia * r->bw * impulse);
+    give(a, &a->vx, &a->vy, &a->w, r->ax, r->ay, r->aw, impulse);
+    give(b, &b->vx, &b->vy, &b->w, r->bx, r->by, r->bw, impulse);
 }
 
 // J M^-1 K^T of two rows.
@@ -266,13 +271,13 @@ pl_joint_course pl_joint_course_of(plumb_world *world, uint32_t cluster, pl_task
 {
     const pl_joint_plan *plan = &world->joints.plan;
     const bool any = world->joints.live > 0 && cluster < plan->group_count;
-    return (pl_joint_course){ .world = world,
-                              .group = any ? &pl_joint_groups(&world->joints)[cluster] : NULL,
-                              .tasks = tasks,
-                              .records = any ? (unsigned char *)plan->records.data +
-                                                   thread * plan->room
-                                             : NULL,
-                              .h = h };
+    return (pl_joint_course){
+        .world = world,
+        .group = any ? &pl_joint_groups(&world->joints)[cluster] : NULL,
+        .tasks = tasks,
+        .records = any ? (unsigned char *)plan->records.data + thread * plan->room : NULL,
+        .h = h
+    };
 }
 
 static pl_joint_call call_of(const pl_joint_course *c)
@@ -537,12 +542,8 @@ void pl_joints_store(const pl_joint_course *c)
 
 static void shift(const pl_row *r, pl_solver_body *a, pl_solver_body *b, real amount)
 {
-    a->dx = (near_real)(a->dx + a->inv_mass * r->ax * amount);
-    a->dy = (near_real)(a->dy + a->inv_mass * r->ay * amount);
-    a->da = (near_real)(a->da + a->inv_inertia * r->aw * amount);
-    b->dx = (near_real)(b->dx + b->inv_mass * r->bx * amount);
-    b->dy = (near_real)(b->dy + b->inv_mass * r->by * amount);
-    b->da = (near_real)(b->da + b->inv_inertia * r->bw * amount);
+    give(a, &a->dx, &a->dy, &a->da, r->ax, r->ay, r->aw, amount);
+    give(b, &b->dx, &b->dy, &b->da, r->bx, r->by, r->bw, amount);
 }
 
 static bool is_rigid(const pl_row *r)

@@ -18,9 +18,7 @@
 
 // Bodies in a cluster at least, if there are as many: 600 bytes each with contacts and manifolds, so that
 // a cluster takes a part of a second-level cache. README.md has the table.
-#ifndef BODIES
 #define BODIES 500
-#endif
 // Fewer manifolds and joints than this are not worth dividing.
 #define LEAST 1000
 // Steps between two looks at most; and at least, while islands grow together or joints change.
@@ -85,8 +83,8 @@ static special_rows specials_of(const plumb_world *world)
 
 static inline bool is_special(const special_rows *s, uint32_t row)
 {
-    return s->marks[row] != PL_NONE && (s->marks[row] == PL_ELASTIC ||
-                                        (s->resist && (s->flags[row] & PL_BODY_TUNED) != 0));
+    return s->marks[row] != PL_NONE &&
+           (s->marks[row] == PL_ELASTIC || (s->resist && (s->flags[row] & PL_BODY_TUNED) != 0));
 }
 
 //---- looking for islands -------------------------------------------------------------------------
