@@ -19,7 +19,7 @@
 // Bodies in a cluster at least, if there are as many: 600 bytes each with contacts and manifolds, so that
 // a cluster takes a part of a second-level cache. README.md has the table.
 #define BODIES 500
-// Fewer manifolds and joints than this are not worth dividing.
+// Fewer manifolds than this are not worth dividing; a joint, swept twice as often, counts as two.
 #define LEAST 1000
 // Steps between two looks at most; and at least, while islands grow together or joints change.
 #define LOOK_AFTER       64
@@ -28,7 +28,7 @@
 static bool is_divisible(const plumb_world *world)
 {
     return world->desc.solver == PLUMB_SOLVER_SOFT &&
-           world->narrow.manifold_count + pl_joints_tied(world) >= LEAST;
+           world->narrow.manifold_count + 2 * pl_joints_tied(world) >= LEAST;
 }
 
 static bool reserve(plumb_world *world, uint32_t movable)
