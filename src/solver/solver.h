@@ -113,8 +113,9 @@ typedef struct pl_slots {
     uint32_t first, count;
 } pl_slots;
 
-// Islands that are solved together (cluster.c): their bodies, and the bundles of their contacts. A thread
-// uses the same room for the bundles of all its clusters: they stay in its cache.
+// Islands that are solved together (cluster.c): their bodies, and the bundles of their contacts; joints have
+// a group a cluster (joints/joint.h). A thread uses the same room for the bundles of all its clusters: they
+// stay in its cache.
 typedef struct pl_cluster {
     pl_slots slots[2]; // of dynamic, of kinematic bodies
     size_t first_lane;
@@ -141,11 +142,14 @@ typedef struct pl_solver {
     uint32_t dynamic_slots,
         slot_count; // slots [0, dynamic_slots) move; the last is the immovable one
     pl_buffer clusters; // pl_cluster
-    pl_buffer labels;   // uint32_t a movable row: its cluster, PL_NONE: not known; if there are several
-    pl_buffer leaders;  // uint32_t a row or cluster, while they are joined
+    pl_buffer labels;   // uint32_t a movable row: its cluster; if there are several
+    pl_buffer islands;  // uint32_t a movable row; PL_NONE: tied to nothing that moves, as far as is known
+    pl_buffer homes;    // uint32_t an island: its cluster
+    pl_buffer leaders;  // uint32_t a row or island, while they are joined
     pl_buffer cursors;  // uint32_t a cluster and colour: contacts, then the next lane
     uint32_t cluster_count, cluster_age; // steps since islands were looked for
-    uint32_t labelled; // rows that have a label or are known to have none; 0: no labels
+    uint32_t island_count;
+    uint32_t labelled; // rows whose islands are kept; 0: none
     uint32_t bundle_room; // bundles of the largest cluster; of each thread's room, if there are several
     uint32_t bundle_count; // of cluster 0: all that impacts look at
     uint32_t impact_count, due_count, lively_count;
@@ -238,6 +242,12 @@ static inline uint32_t pl_solver_slot(const pl_solver *solver, uint32_t row, uin
 {
     return row < movable_rows ? ((const uint32_t *)solver->slots.data)[row]
                               : solver->slot_count - 1;
+}
+
+// Clusters of rows; null: all are of one cluster.
+static inline const uint32_t *pl_solver_labels(const pl_solver *solver)
+{
+    return solver->cluster_count == 1 ? NULL : solver->labels.data;
 }
 
 // Fewer bodies than this are not worth another thread in a pass that goes over them once.

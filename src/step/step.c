@@ -89,6 +89,7 @@ plumb_result plumb_world_step(plumb_world *world, plumb_real dt)
     if (tape != NULL && tape->begin != NULL) {
         tape->begin(tape, world);
     }
+    pl_tasks_rouse(world->tasks);
     pl_events_clear(world);
     pl_edits_forget(world);
     forget_contacts(world);
