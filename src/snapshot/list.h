@@ -81,7 +81,7 @@
     LEFT(solver.impacts) LEFT(solver.outlook_fields) LEFT(solver.outlook_ends)                     \
     LEFT(solver.outlook_open) LEFT(solver.outlook_lanes) LEFT(solver.impact_heap) LEFT(solver.impact_heads) LEFT(solver.due_count)   \
     LEFT(solver.lively_count)     LEFT(solver.classic) LEFT(solver.dynamic_slots) LEFT(solver.slot_count)   \
-    LEFT(solver.clusters) LEFT(solver.labels) LEFT(solver.leaders) LEFT(solver.cursors)                 \
+    LEFT(solver.clusters) LEFT(solver.labels) LEFT(solver.islands) LEFT(solver.homes) LEFT(solver.island_count) LEFT(solver.leaders) LEFT(solver.cursors)                 \
     LEFT(solver.cluster_count) LEFT(solver.cluster_age) LEFT(solver.labelled) LEFT(solver.bundle_room) LEFT(solver.bundle_count) LEFT(solver.impact_count) LEFT(solver.color_count)                 \
     LEFT(solver.overflow_count) LEFT(solver.bounce_count)
 
