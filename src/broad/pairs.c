@@ -1,7 +1,7 @@
-// pairs.c - the pair list: sorted, so that its order depends on piece slots alone, and merged with
-// the list before it, so that contacts keep their impulses.
+// pairs.c - the pair list: what was found, merged with the list before it, so that contacts keep their
+// impulses.
 //
-// Cost: O(pairs + piece slots), three linear passes.
+// Threads cut both lists at the same keys and merge what lies between two cuts. Cost: O(pairs), linear.
 #include "broad/pairs.h"
 #include "core/sort.h"
 #include "world/state.h"

@@ -17,7 +17,7 @@
 
 #define DT ((plumb_real)(1.0 / 60))
 
-enum { bodies_count = 5000, most_threads = 8, pairs_a_thread = 4096 };
+enum { bodies_count = 3000, most_threads = 4, pairs_a_thread = 4096 };
 
 typedef struct crowd {
     plumb_world *world;
@@ -28,7 +28,7 @@ static void add(crowd *c, int i, bool one_kind)
 {
     const plumb_body_type types[] = { PLUMB_DYNAMIC, PLUMB_DYNAMIC, PLUMB_DYNAMIC, PLUMB_KINEMATIC,
                                       PLUMB_STATIC };
-    plumb_body_desc desc = { .type = types[(int)uniform(0, 4.999)], .position = place(20) };
+    plumb_body_desc desc = { .type = types[(int)uniform(0, 4.999)], .position = place(16) };
     c->bodies[i] = plumb_body_create(c->world, &desc);
     double size = i % 500 == 0 ? 15 : spread(0.5, 1.2); // some meet thousands
     random_shape(c->world, c->bodies[i], one_kind ? PLUMB_CIRCLE : (int)uniform(0, 6.999), size,
@@ -125,7 +125,7 @@ static void compare(int workers, bool one_kind)
     make(&one, 1, one_kind);
     make(&several, workers, one_kind);
     int ends = 0;
-    for (int step = 0; step < 9; ++step) {
+    for (int step = 0; step < 6; ++step) {
         assert_true(pl_broad_update(one.world, DT));
         assert_true(pl_broad_update(several.world, DT));
         pl_tasks_rest(several.world->tasks);
@@ -147,16 +147,14 @@ static void compare(int workers, bool one_kind)
 static void test_all_kinds(void **state)
 {
     (void)state;
-    for (int workers = 2; workers <= most_threads; workers += 3) {
-        compare(workers, false);
-    }
+    compare(2, false);
+    compare(most_threads, false);
 }
 
 static void test_one_kind(void **state)
 {
     (void)state;
     compare(3, true);
-    compare(most_threads, true);
 }
 
 int main(void)
