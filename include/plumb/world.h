@@ -159,8 +159,8 @@ typedef struct plumb_stats {
     uint32_t overflow_count;    ///< contacts that found no colour
     uint32_t pair_rebuilds;     ///< rebuilds of the pair list since the world was made
     uint32_t bounce_count;      ///< impacts resolved with restitution in the last step
-    uint32_t arrested_count;    ///< bodies stopped in all, because a step would have left them with a state
-                                ///< that is not finite or beyond 1e12 m or m/s; each is told to the log
+    uint32_t arrested_count;    ///< bodies taken out in all, because a step would have left them with a state
+                                ///< that is not finite or beyond 1e12 m or m/s: see plumb_quarantine
     uint32_t fast_count;        ///< bodies that moved so fast in the last step that their way was swept
     uint32_t stopped_count;     ///< of those, bodies put back to where they would have passed into something
     int simd_width;             ///< lanes in use

@@ -159,6 +159,7 @@ static void free_world(plumb_world *world)
     pl_joints_free(&memory, &world->joints);
     pl_characters_free(&memory, &world->characters);
     pl_continuous_free(&memory, &world->continuous);
+    pl_quarantine_free(&memory, &world->quarantine);
     pl_registry_free(&memory, &world->registry);
     pl_table_free(&memory, &world->bodies.table, pl_body_columns, pl_body_column_count);
     pl_table_free(&memory, &world->pieces.table, pl_piece_columns, pl_piece_column_count);
