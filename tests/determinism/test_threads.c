@@ -14,6 +14,7 @@
 
 #define BODIES 1100
 #define STEPS  45
+#define OTHERS 0 // as a number of workers
 
 enum {
     CHAINS = 1,    // every few bodies hang together
@@ -204,8 +205,11 @@ static trace look(const plumb_world *w)
 static void run(const setting *s, int workers,
                 void (*hook)(void *, plumb_task_fn *, void *, uint32_t), trace out[STEPS])
 {
-    plumb_world *w = make(s, workers, hook);
+    plumb_world *w = make(s, workers > 0 ? workers : 1, hook);
     for (int i = 0; i < STEPS; ++i) {
+        if (workers == OTHERS) { // others from step to step
+            assert_int_equal(plumb_world_set_workers(w, 1 + i % 3), PLUMB_OK);
+        }
         assert_int_equal(plumb_world_step(w, R(1) / 60), PLUMB_OK);
         out[i] = look(w);
     }
@@ -250,7 +254,7 @@ static void any_number_of_threads_gives_the_same_bits(void **state)
 {
     (void)state;
     static trace one[STEPS], several[STEPS];
-    const int workers[] = { 2, 3, 8 };
+    const int workers[] = { 2, 3, 8, OTHERS };
     for (size_t k = 0; k < sizeof settings / sizeof settings[0]; ++k) {
         run(&settings[k], 1, NULL, one);
         if (most_contacts(one) < 400) {
