@@ -169,7 +169,7 @@ static void solve_block(pl_joint *j, pl_solver_body *a, pl_solver_body *b, pl_jo
         return;
     }
     pl_joint_soft s = soften(&row[0], j->h, sweep);
-    real wrong[3], total[3];
+    real wrong[3] = { 0 }, total[3] = { 0 };
     for (int i = 0; i < n; ++i) {
         wrong[i] = rate(&row[i], a, b);
     }

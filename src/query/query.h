@@ -109,7 +109,7 @@ plumb_result pl_query_check_convex(const plumb_world *world, const char *functio
                                    const char *prefix, const plumb_convex *convex);
 plumb_result pl_query_check_transform(const plumb_world *world, const char *function,
                                       const char *prefix, plumb_transform t);
-#define PL_QUERY_FIELD 48 // characters of a field's name
+#define PL_QUERY_FIELD 64 // characters of a field's name
 const char *pl_query_field(char buffer[PL_QUERY_FIELD], const char *prefix, const char *name);
 plumb_result pl_query_check_output(const plumb_world *world, const char *function,
                                    const char *field, const void *output, int capacity);

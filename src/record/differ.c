@@ -125,7 +125,7 @@ static bool has_next(const plumb_replay *replay)
 
 static plumb_result fill(plumb_replay *a, plumb_replay *b, plumb_replay_difference *out)
 {
-    plumb_replay_info at_a, at_b;
+    plumb_replay_info at_a = { 0 }, at_b = { 0 };
     plumb_replay_get_info(a, &at_a);
     plumb_replay_get_info(b, &at_b);
     *out = (plumb_replay_difference){ .found = true,

@@ -39,7 +39,7 @@ static void found_where_it_stands_or_would(void **state)
 {
     (void)state;
     for (uint32_t count = 0; count < 40; ++count) {
-        pl_keyed items[40];
+        pl_keyed items[40] = { 0 };
         for (uint32_t i = 0; i < count; ++i) {
             items[i] = (pl_keyed){ .key = 2 * i + 1 };
         }

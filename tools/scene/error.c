@@ -189,7 +189,7 @@ static void take_limit(scene *s)
         snprintf(message, sizeof message, "the scene needs more than %zu bytes of memory",
                  b->limit);
     }
-    int line = s->is_json ? 0 : b->line;
+    int line = s->is_json ? 0 : sc_here(s, "").line;
     int column = line > 0 ? sc_lua_column(s->source, s->source_size, line, NULL) : 0;
     sc_set_error(s, SCENE_E_LIMIT, line, column, NULL, message);
 }

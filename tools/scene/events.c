@@ -396,12 +396,7 @@ static void run_edits(const plumb_system_call *call)
     if (s->edit_failed || !has_kind(s, SC_EDIT_CONTACT)) {
         return;
     }
-    lua_pushcfunction(s->L, edit_all);
-    int status = lua_pcall(s->L, 0, 0, 0);
-    if (status != LUA_OK) {
-        sc_take_error(s, status);
-        s->edit_failed = true;
-    }
+    s->edit_failed = !sc_protect(s, edit_all, NULL);
 }
 
 static void open_edits(scene *s, const sc_site *site)

@@ -66,12 +66,7 @@ scene_code scene_exact_eval(scene *s, int i, double t, double values[SCENE_EXACT
 {
     evaluation e = { s, i, t, values };
     if (s->error.code == SCENE_OK) {
-        lua_pushcfunction(s->L, evaluate);
-        lua_pushlightuserdata(s->L, &e);
-        int status = lua_pcall(s->L, 1, 0, 0);
-        if (status != LUA_OK) {
-            sc_take_error(s, status);
-        }
+        sc_protect(s, evaluate, &e);
     }
     if (err != NULL) {
         *err = s->error;

@@ -24,12 +24,11 @@ typedef struct sc_budget {
     uint64_t spend_limit; ///< see scene_options
     bool out_of_time;     ///< `spent` went past its limit
     bool long_string;     ///< a string longer than SC_STRING_MAX was asked for
-    int line;             ///< where the script stood when a limit was met
-    lua_State *L;
 } sc_budget;
 
-#define SC_HOOK_STEP  1000                ///< instructions between two looks at the budget
-#define SC_STRING_MAX ((size_t)64 * 1024) ///< [B] longest string a script may make
+#define SC_PROTECTED_DEPTH 2    ///< a step, and contact edits or a closed form within
+#define SC_HOOK_STEP       1000 ///< instructions between two looks at the budget
+#define SC_STRING_MAX      ((size_t)64 * 1024) ///< [B] longest string a script may make
 
 void *sc_resize(scene *s, void *p, size_t old_size, size_t new_size); ///< realloc within the budget
 void *sc_need(scene *s, void *p, size_t old_size, size_t new_size); ///< the same, raises on failure
@@ -208,7 +207,9 @@ bool sc_parse_color(const char *text, sc_color *out);
     }
 
 struct scene {
-    lua_State *L;
+    lua_State *L; ///< the thread that runs; outside sc_protect, the main one
+    lua_State *threads[SC_PROTECTED_DEPTH]; ///< what sc_protect runs in
+    int protected_depth;                    ///< of these, in use
     plumb_world *world;
     sc_budget budget;
     scene_options options;
@@ -326,21 +327,24 @@ void sc_shape_convex(scene *s, const sc_site *site, plumb_convex *convex);
 #define SC_META_WORLD    "plumb.world"
 
 lua_State *sc_sandbox_open(scene *s); ///< state with allow-listed environment; null: no memory
+/// Runs `run`, which finds `argument` as light userdata at index 1, where an error ends. True when it
+/// came to its end; else the error stands in the scene, of which no script runs any more.
+bool sc_protect(scene *s, lua_CFunction run, void *argument);
 void sc_count_hook(lua_State *L, lua_Debug *d);          ///< the hook of sc_sandbox_open
 void sc_sandbox_budget(scene *s, uint64_t instructions); ///< a fresh instruction budget
-void sc_open_build(lua_State *L);     ///< scene, material, body, camera, param, ...
-void sc_open_materials(lua_State *L); ///< material, material_pair
-void sc_open_shapes(lua_State *L);    ///< box, circle, ...
-void sc_open_body(lua_State *L);      ///< methods of bodies
-void sc_open_motion(lua_State *L);    ///< blast
+void sc_open_build(lua_State *L);      ///< scene, material, body, camera, param, ...
+void sc_open_materials(lua_State *L);  ///< material, material_pair
+void sc_open_shapes(lua_State *L);     ///< box, circle, ...
+void sc_open_body(lua_State *L);       ///< methods of bodies
+void sc_open_motion(lua_State *L);     ///< blast
 void sc_open_characters(lua_State *L); ///< character
-void sc_open_queries(lua_State *L);   ///< ray, cast, nearest, inside
-void sc_open_joints(lua_State *L);    ///< revolute, wheel, ..., exclude, world
-void sc_open_joint(lua_State *L);     ///< methods of joints
-void sc_open_handlers(lua_State *L);  ///< at, every, score, ...
-void sc_open_events(lua_State *L);    ///< on_contact, on_break, ...
-void sc_open_expect(lua_State *L);    ///< expect, exact
-void sc_open_math(lua_State *L);      ///< math, random
+void sc_open_queries(lua_State *L);    ///< ray, cast, nearest, inside
+void sc_open_joints(lua_State *L);     ///< revolute, wheel, ..., exclude, world
+void sc_open_joint(lua_State *L);      ///< methods of joints
+void sc_open_handlers(lua_State *L);   ///< at, every, score, ...
+void sc_open_events(lua_State *L);     ///< on_contact, on_break, ...
+void sc_open_expect(lua_State *L);     ///< expect, exact
+void sc_open_math(lua_State *L);       ///< math, random
 
 typedef void sc_constructor(scene *s, const sc_site *site, int table);
 /// What a constructor does that takes one table and leaves `results` values.
@@ -451,7 +455,7 @@ void sc_open_filters(lua_State *L); ///< exclude
 
 void sc_body_push(scene *s, const sc_body *body);
 void sc_body_release(scene *s, sc_body *body); ///< forgets it; the world's body is gone
-bool sc_name_matches(const char *pattern, const char *name);     ///< "brick*" or exact
+bool sc_name_matches(const char *pattern, const char *name); ///< "brick*" or exact
 /// Raises unless the name (or pattern) fits a body that is alive.
 void sc_check_body_name(scene *s, const sc_site *site, const char *key, const char *name);
 

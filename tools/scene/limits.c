@@ -16,18 +16,6 @@ enum {
 
 // -------------------------------------------------------------------------------------- memory
 
-static void note_line(sc_budget *b)
-{
-    lua_Debug d;
-    for (int level = 0; b->L != NULL && lua_getstack(b->L, level, &d); level++) {
-        lua_getinfo(b->L, "Sl", &d);
-        if (strcmp(d.source, "=" SC_CHUNK) == 0) {
-            b->line = d.currentline;
-            return;
-        }
-    }
-}
-
 // Room for the change? Counts it if so.
 static bool charge(sc_budget *b, size_t old_size, size_t new_size)
 {
@@ -100,6 +88,8 @@ void *sc_world_resize(void *context, void *p, size_t old_size, size_t new_size)
     return q;
 }
 
+// Lua is in the midst of something, so nothing here may call it: where the script stood is asked for
+// when the error has come to sc_protect.
 void *sc_lua_alloc(void *context, void *p, size_t old_size, size_t new_size)
 {
     scene *s = context;
@@ -107,22 +97,16 @@ void *sc_lua_alloc(void *context, void *p, size_t old_size, size_t new_size)
     size_t held = p == NULL ? 0 : old_size; // without a block, Lua tells the kind of object there
     if (p == NULL && old_size == LUA_TSTRING && new_size > SC_STRING_MAX + 64) {
         b->long_string = true;
-        note_line(b);
         return NULL;
     }
     if (new_size > held) {
         b->spent += (new_size - held) / BYTES_PER_INSTRUCTION;
         if (b->spent > b->spend_limit && new_size - held > BYTES_PER_INSTRUCTION) {
             b->out_of_time = true;
-            note_line(b);
             return NULL;
         }
     }
-    void *q = sc_resize(s, p, held, new_size);
-    if (q == NULL && new_size != 0) {
-        note_line(b);
-    }
-    return q;
+    return sc_resize(s, p, held, new_size);
 }
 
 // ---------------------------------------------------------------------------------- instructions

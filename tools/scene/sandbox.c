@@ -395,6 +395,11 @@ static int open_protected(lua_State *L)
     lua_pushglobaltable(L);
     make_strict(L, "");
     lua_settop(L, 0);
+    scene *s = sc_of(L);
+    for (int i = 0; i < SC_PROTECTED_DEPTH; i++) {
+        s->threads[i] = lua_newthread(L);
+        lua_rawsetp(L, LUA_REGISTRYINDEX, &s->threads[i]);
+    }
     return 0;
 }
 
@@ -405,13 +410,32 @@ lua_State *sc_sandbox_open(scene *s)
         return NULL;
     }
     *(scene **)lua_getextraspace(L) = s;
-    s->L = s->budget.L = L;
+    s->L = L;
+    lua_sethook(L, sc_count_hook, LUA_MASKCOUNT, SC_HOOK_STEP);
     lua_pushcfunction(L, open_protected);
     if (lua_pcall(L, 0, 0, 0) != LUA_OK) {
-        s->L = s->budget.L = NULL;
+        s->L = NULL;
         lua_close(L);
         return NULL;
     }
-    lua_sethook(L, sc_count_hook, LUA_MASKCOUNT, SC_HOOK_STEP);
     return L;
+}
+
+// A thread and not lua_pcall: an error leaves the calls on a thread's stack as they stood, so that the
+// line of one that has no message of its own (memory, limits) can still be told.
+bool sc_protect(scene *s, lua_CFunction run, void *argument)
+{
+    lua_State *from = s->L;
+    lua_State *thread = s->threads[s->protected_depth++];
+    s->L = thread;
+    lua_pushcfunction(thread, run);
+    lua_pushlightuserdata(thread, argument);
+    int results;
+    int status = lua_resume(thread, from, 1, &results);
+    if (status != LUA_OK) {
+        sc_take_error(s, status);
+    }
+    s->L = from;
+    s->protected_depth--;
+    return status == LUA_OK;
 }

@@ -1,5 +1,5 @@
 // scene.c - the life of a scene: load, step, finish, destroy, and what users may ask.
-// Everything that may raise runs inside sc_protected: an error or an exhausted limit ends there, is
+// Everything that may raise runs inside sc_protect: an error or an exhausted limit ends there, is
 // kept in s->error, and the scene stays failed.
 #include <errno.h>
 #include <math.h>
@@ -33,17 +33,10 @@ static int run_protected(lua_State *L)
     return 0;
 }
 
-// True when `run` came to its end.
-static bool sc_protected(scene *s, protected_fn *run)
+static bool protect(scene *s, protected_fn *run)
 {
     protected_call c = { run, s };
-    lua_pushcfunction(s->L, run_protected);
-    lua_pushlightuserdata(s->L, &c);
-    int status = lua_pcall(s->L, 1, 0, 0);
-    if (status != LUA_OK) {
-        sc_take_error(s, status);
-    }
-    return status == LUA_OK;
+    return sc_protect(s, run_protected, &c);
 }
 
 // --------------------------------------------------------------------------------------- loading
@@ -199,7 +192,7 @@ scene_code scene_load(const scene_options *opts, scene **out, scene_error *err)
     if (good) {
         s->building = true;
         sc_sandbox_budget(s, s->options.build_instructions);
-        good = sc_protected(s, s->is_json ? load_json : load_lua);
+        good = protect(s, s->is_json ? load_json : load_lua);
         s->building = false;
     }
     if (!good) {
@@ -221,7 +214,6 @@ void scene_destroy(scene *s)
         return;
     }
     if (s->L != NULL) {
-        s->budget.L = NULL;
         lua_close(s->L);
     }
     plumb_world_destroy(s->world);
@@ -282,7 +274,7 @@ static scene_code answer(const scene *s, scene_error *err)
 scene_code scene_step(scene *s, scene_error *err)
 {
     if (s->error.code == SCENE_OK) {
-        sc_protected(s, step_inside);
+        protect(s, step_inside);
     }
     return answer(s, err);
 }
@@ -295,7 +287,7 @@ static void finish_inside(scene *s)
 scene_code scene_finish(scene *s, scene_error *err)
 {
     if (s->error.code == SCENE_OK && !s->finished) {
-        s->finished = sc_protected(s, finish_inside);
+        s->finished = protect(s, finish_inside);
     }
     return answer(s, err);
 }
