@@ -24,7 +24,7 @@ static bool file_fixed(plumb_world *world)
     pl_broad *broad = &world->broad;
     uint32_t count;
     return pl_broad_list_fixed(world, &broad->list, &count) &&
-           pl_grid_build(&world->memory, &broad->fixed, broad->list.data, count,
+           pl_grid_build(&world->memory, world->tasks, &broad->fixed, broad->list.data, count,
                          world->pieces.fat) &&
            pl_grid_make_maps(&world->memory, &broad->fixed);
 }
@@ -42,7 +42,8 @@ bool pl_broad_update_resting(plumb_world *world)
     if (!s->grid_stale && !world->broad.resting_lost && s->gone <= grid->entry_count / 2) {
         return true;
     }
-    if (!pl_grid_build(&world->memory, grid, pl_resting(s), s->resting_count, world->pieces.fat) ||
+    if (!pl_grid_build(&world->memory, world->tasks, grid, pl_resting(s), s->resting_count,
+                       world->pieces.fat) ||
         !pl_grid_make_maps(&world->memory, grid)) {
         s->grid_stale = true;
         return false;
@@ -77,8 +78,9 @@ bool pl_broad_update_grids(plumb_world *world, real dt, bool *stale)
         pl_broad_refresh_moving(world, dt);
     }
     if (world->pairs_dirty || broad->unfiled || broad->moving_lost) {
-        if (!pl_grid_build(&world->memory, &broad->moving, pl_moving(world), world->moving_count,
-                           world->pieces.fat)) {
+        if (!pl_grid_build(&world->memory, world->tasks, &broad->moving, pl_moving(world),
+                           world->moving_count, world->pieces.fat) ||
+            !pl_grid_make_lanes(&world->memory, world->tasks, &broad->moving)) {
             return false;
         }
         broad->stale = broad->stale || world->pairs_dirty;
@@ -133,5 +135,6 @@ void pl_broad_free(pl_memory *memory, pl_broad *broad)
     pl_buffer_free(memory, &broad->sorted);
     pl_buffer_free(memory, &broad->sensed);
     pl_buffer_free(memory, &broad->counts);
+    pl_buffer_free(memory, &broad->lost);
     *broad = (pl_broad){ 0 };
 }

@@ -12,15 +12,17 @@ typedef struct pl_broad {
     pl_pair_list pairs;
     pl_buffer list;   // uint32_t pieces to file
     pl_buffer found;  // pl_found: pairs of a rebuild as they come
-    pl_buffer sorted; // pl_found, by lower piece
+    pl_buffer sorted; // pl_found: scratch of sorting
     pl_buffer sensed; // pl_found: sensor piece and what is near it
     uint32_t sensed_count;
-    pl_buffer counts; // uint32_t a piece slot + 1, or pl_keyed a pair: scratch of sorting
+    pl_buffer counts; // uint32_t, or pl_keyed a pair: scratch of sorting
+    pl_buffer lost;   // uint32_t places of pairs that are no more
     uint32_t found_count;
     uint32_t serial; // newest piece serial at the last rebuild: younger slots carry nothing over
     uint64_t rebuilds;
-    bool stale;          // the pair list must be made from nothing
-    bool unfiled;        // a box was left since the moving grid was filed
+    bool stale;     // the pair list must be made from nothing
+    bool emptied;   // so many boxes were left that it had better be
+    bool unfiled;   // a box was left since the moving grid was filed
     pl_buffer left; // uint32_t moving pieces whose box was made anew since the pair list was made
     pl_buffer left_marks; // uint8_t a piece slot: it is in `left`
     uint32_t left_count;

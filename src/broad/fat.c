@@ -205,7 +205,7 @@ void pl_broad_refresh_moving(plumb_world *world, real dt)
         list_left(world);
     }
     // Over an edge of a world that wraps around pairs are sought all at once.
-    world->broad.stale |= left > (pl_is_wrapped(world) ? 0 : world->moving_count / MANY);
+    world->broad.emptied |= left > (pl_is_wrapped(world) ? 0 : world->moving_count / MANY);
     world->broad.unfiled |= left > 0;
 }
 

@@ -44,6 +44,16 @@ static uint32_t octave_of(real extent)
     return exponent < PL_GRID_LEVELS ? (uint32_t)exponent : PL_GRID_LEVELS - 1;
 }
 
+static inline real smaller(real a, real b)
+{
+    return b < a ? b : a;
+}
+
+static inline real larger(real a, real b)
+{
+    return b > a ? b : a;
+}
+
 typedef struct survey {
     uint32_t count;
     real extent;                     // largest
@@ -51,25 +61,66 @@ typedef struct survey {
     real top_x, top_y;               // of the upper ones
 } survey;
 
-static void take_survey(survey *octaves, const uint32_t *pieces, uint32_t count, const pl_box *fat)
+// Of a level that has no box yet.
+static const survey NONE = { 0,
+                             -PLUMB_REAL_MAX,
+                             PLUMB_REAL_MAX,
+                             PLUMB_REAL_MAX,
+                             -PLUMB_REAL_MAX,
+                             -PLUMB_REAL_MAX,
+                             -PLUMB_REAL_MAX,
+                             -PLUMB_REAL_MAX };
+
+// Of two sets of boxes.
+static inline survey joined(survey a, survey b)
 {
-    for (uint32_t i = 0; i < count; ++i) {
-        const pl_box *box = &fat[pieces[i]];
-        real extent = extent_of(box);
-        survey *o = &octaves[octave_of(extent)];
-        if (o->count++ == 0) {
-            *o = (survey){ 1,          extent,     box->min_x, box->min_y,
-                           box->min_x, box->min_y, box->max_x, box->max_y };
-            continue;
-        }
-        o->extent = extent > o->extent ? extent : o->extent;
-        o->min_x = box->min_x < o->min_x ? box->min_x : o->min_x;
-        o->min_y = box->min_y < o->min_y ? box->min_y : o->min_y;
-        o->max_x = box->min_x > o->max_x ? box->min_x : o->max_x;
-        o->max_y = box->min_y > o->max_y ? box->min_y : o->max_y;
-        o->top_x = box->max_x > o->top_x ? box->max_x : o->top_x;
-        o->top_y = box->max_y > o->top_y ? box->max_y : o->top_y;
+    return (survey){ .count = a.count + b.count,
+                     .extent = larger(a.extent, b.extent),
+                     .min_x = smaller(a.min_x, b.min_x),
+                     .min_y = smaller(a.min_y, b.min_y),
+                     .max_x = larger(a.max_x, b.max_x),
+                     .max_y = larger(a.max_y, b.max_y),
+                     .top_x = larger(a.top_x, b.top_x),
+                     .top_y = larger(a.top_y, b.top_y) };
+}
+
+// So many boxes are worth a thread.
+#define LEAST 1024
+
+typedef struct filing {
+    pl_grid *grid;
+    const uint32_t *pieces;
+    const pl_box *fat;
+    uint32_t count, shares;
+    uint8_t level_of_octave[PL_GRID_LEVELS];
+    survey octaves[PLUMB_WORKERS_MAX][PL_GRID_LEVELS];
+} filing;
+
+// Of neighbours in the list most are of one size: its survey is at hand until another comes.
+static void survey_share(void *context, uint32_t i)
+{
+    filing *f = context;
+    const pl_share mine = pl_share_of(f->count, f->shares, i);
+    survey octaves[PL_GRID_LEVELS];
+    for (uint32_t k = 0; k < PL_GRID_LEVELS; ++k) {
+        octaves[k] = NONE;
     }
+    uint32_t at = 0;
+    survey here = NONE;
+    for (uint32_t k = mine.first; k < mine.end; ++k) {
+        const pl_box box = f->fat[f->pieces[k]];
+        const real extent = extent_of(&box);
+        const uint32_t octave = octave_of(extent);
+        if (octave != at) {
+            octaves[at] = here;
+            here = octaves[octave];
+            at = octave;
+        }
+        here = joined(here, (survey){ 1, extent, box.min_x, box.min_y, box.min_x, box.min_y,
+                                      box.max_x, box.max_y });
+    }
+    octaves[at] = here;
+    memcpy(f->octaves[i], octaves, sizeof octaves);
 }
 
 static uint32_t power_of_two_from(uint64_t least)
@@ -104,94 +155,153 @@ static void lay_out_level(pl_grid_level *level, const survey *o)
     }
 }
 
-// Counts the boxes of each bucket into starts[bucket + 1] and remembers every box's bucket.
-static void count_buckets(pl_grid *grid, const uint8_t *level_of_octave, const uint32_t *pieces,
-                          uint32_t count, const pl_box *fat)
+// The cell of a box, and its bucket; then its place among the entries.
+typedef struct place {
+    int32_t cell_x, cell_y;
+    uint32_t at;
+} place;
+
+static void find_places(void *context, uint32_t first, uint32_t count)
+{
+    const filing *f = context;
+    place *places = f->grid->places.data;
+    for (uint32_t i = first; i < first + count; ++i) {
+        const pl_box *box = &f->fat[f->pieces[i]];
+        const pl_grid_level *level =
+            &f->grid->levels[f->level_of_octave[octave_of(extent_of(box))]];
+        int32_t x = cell_of((double)box->min_x, level->inv_cell);
+        int32_t y = cell_of((double)box->min_y, level->inv_cell);
+        places[i] = (place){ x, y, level->starts + pl_grid_bucket(level, x, y) };
+    }
+}
+
+static void file_boxes(void *context, uint32_t first, uint32_t count)
+{
+    const filing *f = context;
+    const place *places = f->grid->places.data;
+    pl_grid_entry *entries = f->grid->entries.data;
+    for (uint32_t i = first; i < first + count; ++i) {
+        uint32_t piece = f->pieces[i];
+        entries[places[i].at] =
+            (pl_grid_entry){ places[i].cell_x, places[i].cell_y, piece, f->fat[piece] };
+    }
+}
+
+// Counting sort of the places by bucket.
+static void order_places(pl_grid *grid, uint32_t count, size_t start_count)
 {
     uint32_t *starts = grid->starts.data;
-    uint32_t *buckets = grid->buckets.data;
+    place *places = grid->places.data;
+    memset(starts, 0, start_count * sizeof *starts);
     for (uint32_t i = 0; i < count; ++i) {
-        const pl_box *box = &fat[pieces[i]];
-        const pl_grid_level *level = &grid->levels[level_of_octave[octave_of(extent_of(box))]];
-        uint32_t bucket =
-            level->starts + pl_grid_bucket(level, cell_of((double)box->min_x, level->inv_cell),
-                                           cell_of((double)box->min_y, level->inv_cell));
-        buckets[i] = bucket;
-        ++starts[bucket + 1];
+        ++starts[places[i].at];
     }
-}
-
-static void file_boxes(pl_grid *grid, const uint8_t *level_of_octave, const uint32_t *pieces,
-                       uint32_t count, const pl_box *fat)
-{
-    uint32_t *starts = grid->starts.data;
-    const uint32_t *buckets = grid->buckets.data;
-    pl_grid_entry *entries = grid->entries.data;
-    // Filing from the back makes the counting sort stable and leaves each start at its first entry.
+    // Each bucket's start becomes its end, and from the back, which makes the sort stable, its start again.
+    for (uint32_t k = 0; k < grid->level_count; ++k) {
+        const pl_grid_level *level = &grid->levels[k];
+        uint32_t sum = level->first;
+        for (uint32_t b = 0; b <= level->mask + 1; ++b) {
+            sum += starts[level->starts + b];
+            starts[level->starts + b] = sum;
+        }
+    }
     for (uint32_t i = count; i-- > 0;) {
-        const pl_box *box = &fat[pieces[i]];
-        const pl_grid_level *level = &grid->levels[level_of_octave[octave_of(extent_of(box))]];
-        entries[--starts[buckets[i] + 1]] =
-            (pl_grid_entry){ cell_of((double)box->min_x, level->inv_cell),
-                             cell_of((double)box->min_y, level->inv_cell), pieces[i], *box };
+        places[i].at = --starts[places[i].at];
     }
 }
 
-bool pl_grid_build(pl_memory *memory, pl_grid *grid, const uint32_t *pieces, uint32_t count,
-                   const pl_box *fat)
+// The levels of the octaves that have boxes; returns how many bucket starts they need.
+static size_t lay_out(filing *f)
 {
-    survey octaves[PL_GRID_LEVELS] = { 0 };
-    uint8_t level_of_octave[PL_GRID_LEVELS] = { 0 };
-    grid->level_count = 0;
-    grid->entry_count = 0;
-    grid->mapped = false;
-    take_survey(octaves, pieces, count, fat);
-
+    pl_grid *grid = f->grid;
     size_t start_count = 0;
-    uint32_t first = 0;
-    uint32_t used = 0;
+    uint32_t first = 0, used = 0;
     for (uint32_t k = 0; k < PL_GRID_LEVELS; ++k) {
-        if (octaves[k].count > 0) {
+        survey all = f->octaves[0][k];
+        for (uint32_t i = 1; i < f->shares; ++i) {
+            all = joined(all, f->octaves[i][k]);
+        }
+        if (all.count > 0) {
             pl_grid_level *level = &grid->levels[used];
-            level_of_octave[k] = (uint8_t)used++;
-            lay_out_level(level, &octaves[k]);
+            f->level_of_octave[k] = (uint8_t)used++;
+            lay_out_level(level, &all);
             level->first = first;
             level->starts = (uint32_t)start_count;
             first += level->count;
             start_count += (size_t)level->mask + 2;
         }
     }
+    grid->level_count = used;
+    return start_count;
+}
+
+bool pl_grid_build(pl_memory *memory, pl_tasks *tasks, pl_grid *grid, const uint32_t *pieces,
+                   uint32_t count, const pl_box *fat)
+{
+    filing f; // most of it is for threads, and written where there are some
+    f.grid = grid;
+    f.pieces = pieces;
+    f.fat = fat;
+    f.count = count;
+    f.shares = pl_tasks_share_count(tasks, count, LEAST);
+    pl_tasks_run(tasks, survey_share, &f, f.shares);
+    const size_t start_count = lay_out(&f);
+    grid->entry_count = 0;
+    grid->mapped = false;
     if (!pl_buffer_reserve(memory, &grid->entries, (count + 1) * sizeof(pl_grid_entry)) ||
-        !pl_buffer_reserve(memory, &grid->buckets, (count + 1) * sizeof(uint32_t)) ||
+        !pl_buffer_reserve(memory, &grid->places, (count + 1) * sizeof(place)) ||
         !pl_buffer_reserve(memory, &grid->starts, (start_count + 1) * sizeof(uint32_t))) {
+        grid->level_count = 0;
         return false;
     }
-    uint32_t *starts = grid->starts.data;
-    for (size_t i = 0; i < start_count; ++i) {
-        starts[i] = 0;
-    }
-    count_buckets(grid, level_of_octave, pieces, count, fat);
-    for (uint32_t k = 0; k < used; ++k) {
-        // starts[b + 1] becomes the end of bucket b; filing turns it into the start of b, so shift.
-        const pl_grid_level *level = &grid->levels[k];
-        uint32_t sum = level->first;
-        starts[level->starts] = sum;
-        for (uint32_t b = 1; b <= level->mask + 1; ++b) {
-            sum += starts[level->starts + b];
-            starts[level->starts + b] = sum;
-        }
-    }
-    file_boxes(grid, level_of_octave, pieces, count, fat);
-    for (uint32_t k = 0; k < used; ++k) {
-        const pl_grid_level *level = &grid->levels[k];
-        for (uint32_t b = 0; b <= level->mask; ++b) {
-            starts[level->starts + b] = starts[level->starts + b + 1];
-        }
-        starts[level->starts + level->mask + 1] = level->first + level->count;
-    }
-    grid->level_count = used;
+    pl_tasks_ranges(tasks, count, LEAST, find_places, &f);
+    order_places(grid, count, start_count);
+    pl_tasks_ranges(tasks, count, LEAST, file_boxes, &f);
     grid->entry_count = count;
     return true;
+}
+
+// Room for one side of every box.
+static size_t lane_room(const pl_grid *grid)
+{
+    return (size_t)grid->entry_count + PL_GRID_SPARE;
+}
+
+static void fill_lanes(void *context, uint32_t first, uint32_t count)
+{
+    const pl_grid *grid = context;
+    const pl_grid_entry *entries = pl_grid_entries(grid);
+    const size_t room = lane_room(grid);
+    real *min_x = grid->sides.data, *min_y = min_x + room, *max_x = min_y + room;
+    real *max_y = max_x + room;
+    for (uint32_t i = first; i < first + count; ++i) {
+        const pl_box box = entries[i].box;
+        min_x[i] = box.min_x;
+        min_y[i] = box.min_y;
+        max_x[i] = box.max_x;
+        max_y[i] = box.max_y;
+    }
+}
+
+bool pl_grid_make_lanes(pl_memory *memory, pl_tasks *tasks, pl_grid *grid)
+{
+    const size_t room = lane_room(grid);
+    if (!pl_buffer_reserve(memory, &grid->sides, 4 * room * sizeof(real))) {
+        return false;
+    }
+    pl_tasks_ranges(tasks, grid->entry_count, LEAST, fill_lanes, grid);
+    real *sides = grid->sides.data;
+    for (uint32_t side = 1; side <= 4; ++side) {
+        memset(sides + side * room - PL_GRID_SPARE, 0, PL_GRID_SPARE * sizeof(real));
+    }
+    return true;
+}
+
+pl_grid_lanes pl_grid_lanes_of(const pl_grid *grid)
+{
+    const size_t room = lane_room(grid);
+    const real *sides = grid->sides.data;
+    return (pl_grid_lanes){ sides, sides + room, sides + 2 * room, sides + 3 * room };
 }
 
 static double squares_per_metre(double length)
@@ -240,8 +350,9 @@ void pl_grid_free(pl_memory *memory, pl_grid *grid)
 {
     pl_buffer_free(memory, &grid->entries);
     pl_buffer_free(memory, &grid->starts);
-    pl_buffer_free(memory, &grid->buckets);
+    pl_buffer_free(memory, &grid->places);
     pl_buffer_free(memory, &grid->maps);
+    pl_buffer_free(memory, &grid->sides);
     *grid = (pl_grid){ 0 };
 }
 

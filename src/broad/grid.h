@@ -10,7 +10,7 @@
 #ifndef PL_GRID_H
 #define PL_GRID_H
 
-#include "core/memory.h"
+#include "core/tasks.h"
 #include "world/columns.h"
 
 #define PL_GRID_LEVELS 32 // octaves of sizes from 2^-16 m to 2^15 m; beyond: the outermost
@@ -35,15 +35,24 @@ typedef struct pl_grid_level {
 // A map of a level: for each of its rows of squares in which of them a lower corner lies.
 #define PL_GRID_MAP 64
 
+// The sides of the entries' boxes, side by side, for what looks at several at a time (sift.h).
+typedef struct pl_grid_lanes {
+    const real *min_x, *min_y, *max_x,
+        *max_y; // of as many as there are entries, and PL_GRID_SPARE more
+} pl_grid_lanes;
+
+#define PL_GRID_SPARE 8 // may be read beyond the last one
+
 typedef struct pl_grid {
     pl_grid_level levels[PL_GRID_LEVELS]; // used ones, finest first
     uint32_t level_count;
     uint32_t entry_count;
     pl_buffer entries; // pl_grid_entry
     pl_buffer starts;  // uint32_t
-    pl_buffer buckets; // uint32_t, scratch of the build
+    pl_buffer places;  // scratch of the build
     pl_buffer maps;    // uint64_t, PL_GRID_MAP rows a level
     bool mapped;
+    pl_buffer sides; // real, of pl_grid_lanes
 } pl_grid;
 
 // A range of cells, both ends included.
@@ -52,12 +61,15 @@ typedef struct pl_cell_range {
 } pl_cell_range;
 
 // Files `count` pieces by their fat boxes (indexed by piece slot). False when out of memory; the
-// grid is then empty. O(count).
-bool pl_grid_build(pl_memory *memory, pl_grid *grid, const uint32_t *pieces, uint32_t count,
-                   const pl_box *fat);
+// grid is then empty. O(count). `tasks`: null outside of a step, as nobody would send the threads to rest.
+bool pl_grid_build(pl_memory *memory, pl_tasks *tasks, pl_grid *grid, const uint32_t *pieces,
+                   uint32_t count, const pl_box *fat);
 // Makes a map of each level, until the grid is built again. Queries ask it first: worth it for a grid that is
 // built seldom, for the bounds of ground, walls and rings are mostly void. False when out of memory. O(count).
 bool pl_grid_make_maps(pl_memory *memory, pl_grid *grid);
+// Makes its lanes, until the grid is built again. False when out of memory. O(count).
+bool pl_grid_make_lanes(pl_memory *memory, pl_tasks *tasks, pl_grid *grid);
+pl_grid_lanes pl_grid_lanes_of(const pl_grid *grid);
 void pl_grid_free(pl_memory *memory, pl_grid *grid);
 
 // Cells of a level in which boxes that overlap `box` can be filed.

@@ -44,6 +44,16 @@ typedef struct pl_pair_list {
     pl_by_kinds first, size;
 } pl_pair_list;
 
+// Leaves it nothing to warm start from.
+static inline void pl_pair_forget(pl_pair *pair)
+{
+    pair->rolling = 0;
+    for (int k = 0; k < 2; ++k) {
+        pair->feature[k] = PL_NONE;
+        pair->normal[k] = pair->tangent[k] = 0;
+    }
+}
+
 static inline pl_pair *pl_pairs(const pl_pair_list *list)
 {
     return (pl_pair *)list->items.data;

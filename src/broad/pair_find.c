@@ -12,6 +12,7 @@
 // small all is done again with more room. What is found is sorted later: its order does not matter here.
 #include "broad/images.h"
 #include "broad/pairs.h"
+#include "broad/sift.h"
 #include "world/filter.h"
 
 #include <string.h>
@@ -21,6 +22,7 @@ typedef struct finder {
     const uint32_t *body;        // of a piece slot
     const uint32_t *first_joint; // of a body row
     uint32_t dynamic_count;
+    pl_grid_lanes lanes; // of the moving grid
     pl_found *found;
     uint32_t count, capacity;
     const uint8_t *left; // marks of the pieces around which is looked; NULL: everywhere
@@ -118,29 +120,31 @@ static bool add_visited(void *context, const pl_grid_entry *entry)
     return add_pair(f, f->piece, entry->piece);
 }
 
-// Entries of a run that lie in the cells x0..x1 of row y and overlap `e`.
-static inline bool scan_run(finder *f, const pl_grid_entry *entries, pl_grid_run run, int32_t x0,
-                            uint32_t width, int32_t y, const pl_grid_entry *e)
+// Entries of a run that lie in the cells x0..x0 + width of row y and overlap the box of `piece`.
+static inline bool scan_run(finder *f, const pl_grid *grid, pl_grid_run run, int32_t x0,
+                            uint32_t width, int32_t y, uint32_t piece, const pl_sieve *sieve)
 {
-    for (uint32_t i = run.begin; i < run.end; ++i) {
-        const pl_grid_entry *other = &entries[i];
-        if (pl_boxes_overlap(&e->box, &other->box) && other->cell_y == y &&
-            (uint32_t)other->cell_x - (uint32_t)x0 <= width &&
-            !add_pair(f, e->piece, other->piece)) {
-            return false;
+    const pl_grid_entry *entries = pl_grid_entries(grid);
+    for (uint32_t first = run.begin; first < run.end; first += PL_SIFT) {
+        for (uint32_t bits = pl_sift(&f->lanes, first, run.end, sieve); bits != 0;
+             bits &= bits - 1) {
+            const pl_grid_entry *other = &entries[first + (uint32_t)__builtin_ctz(bits)];
+            if (other->cell_y == y && (uint32_t)other->cell_x - (uint32_t)x0 <= width &&
+                !add_pair(f, piece, other->piece)) {
+                return false;
+            }
         }
     }
     return true;
 }
 
 static bool scan_row(finder *f, const pl_grid *grid, const pl_grid_level *level, int32_t x0,
-                     int32_t x1, int32_t y, const pl_grid_entry *e)
+                     int32_t x1, int32_t y, uint32_t piece, const pl_sieve *sieve)
 {
-    const pl_grid_entry *entries = pl_grid_entries(grid);
     pl_grid_run runs[2];
     int run_count = pl_grid_row(grid, level, x0, x1, y, runs);
     for (int r = 0; r < run_count; ++r) {
-        if (!scan_run(f, entries, runs[r], x0, (uint32_t)(x1 - x0), y, e)) {
+        if (!scan_run(f, grid, runs[r], x0, (uint32_t)(x1 - x0), y, piece, sieve)) {
             return false;
         }
     }
@@ -162,19 +166,25 @@ static bool find_in_level(finder *f, const pl_grid *grid, const pl_grid_level *l
     const pl_share part = part_of(level, share);
     for (uint32_t i = part.first; i < part.end; ++i) {
         const pl_grid_entry *e = &entries[i];
-        // Own cell: the entries filed behind this one. They are followed by those of other cells,
-        // in hashed levels perhaps of the same bucket, hence the comparison.
+        const pl_sieve sieve = pl_sieve_of(&e->box);
+        // Own cell: the entries filed behind this one, then those of the next. In hashed levels those of
+        // other cells may lie between.
         pl_grid_run runs[2];
-        pl_grid_row(grid, level, e->cell_x, e->cell_x, e->cell_y, runs);
+        int run_count = pl_grid_row(grid, level, e->cell_x, e->cell_x + 1, e->cell_y, runs);
         runs[0].begin = i + 1;
-        if (!scan_run(f, entries, runs[0], e->cell_x, 0, e->cell_y, e) ||
-            !scan_row(f, grid, level, e->cell_x + 1, e->cell_x + 1, e->cell_y, e) ||
-            !scan_row(f, grid, level, e->cell_x - 1, e->cell_x + 1, e->cell_y + 1, e)) {
+        if (!scan_run(f, grid, runs[0], e->cell_x, 1, e->cell_y, e->piece, &sieve) ||
+            (run_count > 1 &&
+             !scan_run(f, grid, runs[1], e->cell_x, 1, e->cell_y, e->piece, &sieve)) ||
+            !scan_row(f, grid, level, e->cell_x - 1, e->cell_x + 1, e->cell_y + 1, e->piece,
+                      &sieve)) {
             return false;
         }
     }
     return true;
 }
+
+// So few boxes of a level are gone through sooner than its cells are found.
+#define FEW 64
 
 // Partners of a box in a level of the grid, all about it.
 static bool find_about(finder *f, const pl_grid *grid, const pl_grid_level *level,
@@ -184,18 +194,26 @@ static bool find_about(finder *f, const pl_grid *grid, const pl_grid_level *leve
     if (!pl_boxes_overlap(&level->bounds, &e->box)) {
         return true;
     }
-    pl_cell_range range = pl_grid_range(level, e->box);
-    if (pl_grid_range_is_wide(level, range)) {
-        for (uint32_t j = level->first; j < level->first + level->count; ++j) {
-            if (pl_boxes_overlap(&e->box, &entries[j].box) &&
-                !add_pair(f, e->piece, entries[j].piece)) {
-                return false;
+    const pl_sieve sieve = pl_sieve_of(&e->box);
+    pl_cell_range range = { 0 };
+    bool all = level->count <= FEW;
+    if (!all) {
+        range = pl_grid_range(level, e->box);
+        all = pl_grid_range_is_wide(level, range);
+    }
+    if (all) {
+        const uint32_t end = level->first + level->count;
+        for (uint32_t j = level->first; j < end; j += PL_SIFT) {
+            for (uint32_t bits = pl_sift(&f->lanes, j, end, &sieve); bits != 0; bits &= bits - 1) {
+                if (!add_pair(f, e->piece, entries[j + (uint32_t)__builtin_ctz(bits)].piece)) {
+                    return false;
+                }
             }
         }
         return true;
     }
     for (int32_t y = range.y0; y <= range.y1; ++y) {
-        if (!scan_row(f, grid, level, range.x0, range.x1, y, e)) {
+        if (!scan_row(f, grid, level, range.x0, range.x1, y, e->piece, &sieve)) {
             return false;
         }
     }
@@ -378,6 +396,7 @@ static void set_out(hunt *h, const uint8_t *left)
                                   .body = h->world->pieces.body,
                                   .first_joint = h->world->bodies.first_joint,
                                   .dynamic_count = h->world->dynamic_count,
+                                  .lanes = pl_grid_lanes_of(&broad->moving),
                                   .selective = pl_world_is_selective(h->world),
                                   .left = left,
                                   .alone = h->shares == 1,

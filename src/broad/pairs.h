@@ -15,6 +15,16 @@ bool pl_pairs_update(plumb_world *world);
 // The pair of two pieces; NULL if their fat boxes do not overlap or they may not meet. O(log pairs).
 pl_pair *pl_pairs_find_one(const plumb_world *world, uint32_t p, uint32_t q);
 
+// broad->found in the order of the list.
+typedef struct pl_sorted {
+    const pl_found *pairs;
+    uint32_t count;
+    pl_by_kinds first, size;
+} pl_sorted;
+
+// False when out of memory (pair_sort.c).
+bool pl_pairs_sort(plumb_world *world, pl_sorted *sorted);
+
 // Fills broad->found with every pair of fat boxes that overlap and may collide, or with those of the
 // pieces that left their boxes; broad->sensed likewise (pair_find.c).
 bool pl_pairs_find(plumb_world *world);

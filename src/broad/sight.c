@@ -61,7 +61,7 @@ static bool file(plumb_world *world, pl_sight_grid which, const uint32_t *pieces
     for (uint32_t i = 0; i < count; ++i) {
         boxes[pieces[i]] = pl_piece_filed_box(world, pieces[i]);
     }
-    return pl_grid_build(&world->memory, &own_grids(sight)[which], pieces, count, boxes);
+    return pl_grid_build(&world->memory, NULL, &own_grids(sight)[which], pieces, count, boxes);
 }
 
 static bool file_fixed(plumb_world *world)

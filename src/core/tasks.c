@@ -33,6 +33,7 @@ struct pl_tasks {
     _Atomic bool busy; // a job was run, and more are to come soon
     pthread_mutex_t lock;
     pthread_cond_t wake;
+    bool used;   // since they were roused; the caller's own
     int threads; // that were started
     pthread_t thread[PLUMB_WORKERS_MAX];
 };
@@ -69,7 +70,8 @@ static void sleep_until_work(pl_tasks *t)
 {
     pthread_mutex_lock(&t->lock);
     atomic_fetch_add(&t->sleeping, 1);
-    while ((uint32_t)atomic_load(&t->ticket) == 0 && !atomic_load(&t->ending)) {
+    while ((uint32_t)atomic_load(&t->ticket) == 0 && !atomic_load(&t->busy) &&
+           !atomic_load(&t->ending)) {
         pthread_cond_wait(&t->wake, &t->lock);
     }
     atomic_fetch_sub(&t->sleeping, 1);
@@ -115,6 +117,7 @@ void pl_tasks_run(pl_tasks *t, plumb_task_fn *task, void *context, uint32_t chun
         }
         return;
     }
+    t->used = true;
     atomic_store_explicit(&t->busy, true, memory_order_relaxed);
     atomic_store_explicit(&t->task, task, memory_order_relaxed);
     atomic_store_explicit(&t->context, context, memory_order_relaxed);
@@ -132,6 +135,15 @@ void pl_tasks_run(pl_tasks *t, plumb_task_fn *task, void *context, uint32_t chun
         } else {
             sched_yield();
         }
+    }
+}
+
+void pl_tasks_rouse(pl_tasks *t)
+{
+    if (t != NULL && t->used) {
+        t->used = false;
+        atomic_store(&t->busy, true);
+        wake_sleepers(t);
     }
 }
 

@@ -23,6 +23,9 @@ void pl_tasks_destroy(pl_memory *memory, pl_tasks *tasks);
 // part. `tasks` null: one after another. Cost: half a microsecond while the threads are awake, 50 where
 // they have to be woken. They stay awake until pl_tasks_rest. Not to be called from a task.
 void pl_tasks_run(pl_tasks *tasks, plumb_task_fn *task, void *context, uint32_t chunks);
+// Jobs will follow soon, if there have been any since this was called the last time: threads are woken meanwhile.
+// Null is ignored.
+void pl_tasks_rouse(pl_tasks *tasks);
 // No job will follow soon: threads may go to sleep. Null is ignored.
 void pl_tasks_rest(pl_tasks *tasks);
 

@@ -183,7 +183,7 @@ WIDE_INLINE void gather8(vf out[8], const near_real *const *rows)
     gather4(out + 4, rows, 4);
 }
 
-//---- rows of plumb_reals --------------------------------------------------------------------------
+//---- rows of plumb_real ---------------------------------------------------------------------------
 
 #if PLUMB_IS_FAR
 typedef plumb_real far_quad

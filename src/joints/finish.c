@@ -8,12 +8,22 @@
 #include "plumb/math.h"
 #include "world/state.h"
 
-static plumb_vec2 impulse_on_b(const pl_joint *j, const pl_rows *rows)
+typedef struct momentum {
+    plumb_vec2 linear; // [N s]
+    real angular;      // [N m s]
+} momentum;
+
+// Sum of J^T impulse on B. Of a row that is off, nothing but that is written.
+static momentum push_on_b(const pl_joint *j, const pl_rows *rows)
 {
-    plumb_vec2 sum = { 0, 0 };
+    momentum sum = { { 0, 0 }, 0 };
     for (int i = 0; i < rows->count; ++i) {
-        sum.x += rows->row[i].bx * j->impulse[i];
-        sum.y += rows->row[i].by * j->impulse[i];
+        const pl_row *r = &rows->row[i];
+        if (r->type != PL_ROW_OFF) {
+            sum.linear.x += r->bx * j->impulse[i];
+            sum.linear.y += r->by * j->impulse[i];
+            sum.angular += r->bw * j->impulse[i];
+        }
     }
     return sum;
 }
@@ -35,13 +45,9 @@ static void react(const plumb_world *world, pl_joint *j)
 {
     pl_rows made;
     const pl_rows *rows = whole_rows(world, j, &made);
-    plumb_vec2 impulse = impulse_on_b(j, rows);
-    real w = 0;
-    for (int i = 0; i < rows->count; ++i) {
-        w += rows->row[i].bw * j->impulse[i];
-    }
-    j->force = plumb_v2(impulse.x / j->h, impulse.y / j->h);
-    j->torque = w / j->h - plumb_vec2_cross(j->arm_b, j->force);
+    const momentum sum = push_on_b(j, rows);
+    j->force = plumb_v2(sum.linear.x / j->h, sum.linear.y / j->h);
+    j->torque = sum.angular / j->h - plumb_vec2_cross(j->arm_b, j->force);
 }
 
 // It did nothing in this step, and has nothing to start the next one with.
@@ -55,13 +61,13 @@ static void rest(pl_joint *j)
 }
 
 // Joints that break by impulse are solved one by one.
-void pl_joints_tally(plumb_world *world)
+void pl_joints_tally(const pl_joint_course *c)
 {
-    for (uint32_t i = 0; i < world->joints.plan.alone_count; ++i) {
-        pl_joint *j = pl_joint_alone(&world->joints, i);
+    for (uint32_t i = c->group->alone; i < c->group->end; ++i) {
+        pl_joint *j = pl_joint_grouped(&c->world->joints, i);
         pl_rows made;
-        j->step_impulse =
-            plumb_vec2_add(j->step_impulse, impulse_on_b(j, whole_rows(world, j, &made)));
+        const momentum sum = push_on_b(j, whole_rows(c->world, j, &made));
+        j->step_impulse = plumb_vec2_add(j->step_impulse, sum.linear);
     }
 }
 
@@ -103,7 +109,7 @@ void pl_joints_finish(plumb_world *world)
             rest(j);
             continue;
         }
-        if (!mark->wide) {
+        if (!pl_joint_is_wide(mark)) {
             react(world, j);
         }
         const pl_joint_class *kind = pl_joint_classes[j->desc.kind];

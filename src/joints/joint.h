@@ -2,6 +2,7 @@
 #ifndef PL_JOINT_H
 #define PL_JOINT_H
 
+#include "core/tasks.h"
 #include "joints/rows.h"
 #include "joints/wide.h"
 #include "plumb/joint.h"
@@ -77,28 +78,44 @@ struct pl_joint {
 typedef struct pl_joint_mark {
     plumb_body a, b;
     uint32_t row_a, row_b; // of the bodies, as last found; PL_NONE: the world
-    uint32_t what;         // 0: not solved (off, or a body of it asleep or disabled); else see plan.c
-    bool wide;             // it is in a lane: the kernels tell its reaction
-    bool quiet;            // nothing but its reaction comes of it after the step
+    uint32_t cluster;      // of the bodies that it was grouped with
+    uint8_t what;          // 0: not solved (off, or a body of it asleep or disabled); else see plan.c
+    uint8_t color;         // PL_JOINT_COLORS: it is solved by itself
+    uint8_t pattern;
+    bool quiet; // nothing but its reaction comes of it after the step
 } pl_joint_mark;
 
 #define PL_JOINT_COLORS 64
 
-// Who is solved with whom (plan.c). It follows from the joints and bodies that there are, and is
-// kept from step to step as long as it does.
+// It is in a lane: the kernels tell its reaction.
+static inline bool pl_joint_is_wide(const pl_joint_mark *mark)
+{
+    return mark->color < PL_JOINT_COLORS;
+}
+
+// The joints of a cluster of bodies.
+typedef struct pl_joint_group {
+    uint32_t first, end;                       // in `grouped`: in lanes, then those solved one by one
+    uint32_t alone;                            // the first of these
+    uint32_t color_first[PL_JOINT_COLORS + 1]; // first bundle of a colour; then where the last ends
+} pl_joint_group;
+
+// Who is solved with whom: what follows from the joints and bodies that there are, and is kept from step to
+// step as long as it does (plan.c); which of them are in which cluster, and their lanes (group.c).
 typedef struct pl_joint_plan {
     pl_buffer marks;   // pl_joint_mark a slot
-    pl_buffer order;   // pl_keyed: joints to be solved wide
+    pl_buffer ends;    // pl_ends: rows of the bodies of each awake joint; PL_NONE where it is not solved
+    pl_buffer order;   // uint32_t: joints that are solved, by colour and pattern
+    pl_buffer groups;  // pl_joint_group a cluster
+    pl_buffer grouped; // uint32_t: joints group by group, by colour and pattern
     pl_buffer bundles; // pl_joint_bundle
     pl_buffer lanes;   // pl_joint_lane
-    pl_buffer starts;  // pl_joint_start a lane
     pl_buffer slots;   // uint32_t, two a lane: see pl_joint_call
-    pl_buffer records; // of the bundles, kept by the kernels
-    pl_buffer alone;   // uint32_t: joints solved one by one, behind the bundles
-    uint32_t color_first[PL_JOINT_COLORS + 1]; // first bundle of a colour; then where the last ends
-    uint32_t bundle_count, alone_count, pattern_count;
+    pl_buffer records; // of the bundles of a group, room for one group a thread; from step to step nothing is kept
+    size_t room;       // [B] of a thread
+    uint32_t order_count, group_count, bundle_count, alone_count, pattern_count;
     pl_joint_pattern patterns[PL_JOINT_PATTERNS];
-    bool made;
+    bool made, changed; // since the last step
     bool adrift; // no joint is off, or ties a body to what dynamics does not move
 } pl_joint_plan;
 
@@ -160,8 +177,14 @@ typedef enum pl_joint_sweep {
     PL_SWEEP_CLASSIC // springs, errors left: pl_joints_move undoes them
 } pl_joint_sweep;
 
-// Solver slots of bodies, and the plan, before anything moves (plan.c). False when out of memory.
+// Before anything moves, false when out of memory: rows of bodies, before clusters are made of these; the
+// plan, when bodies have their slots (plan.c); groups (group.c).
+bool pl_joints_look(plumb_world *world);
 bool pl_joints_plan(plumb_world *world);
+bool pl_joints_group(plumb_world *world);
+// How many `ends` there are after pl_joints_look; whether other joints are solved than in the last step.
+uint32_t pl_joints_tied(const plumb_world *world);
+bool pl_joints_changed(const plumb_world *world);
 // Those of the world's width.
 const pl_joint_kernels *pl_joint_kernels_of(const plumb_world *world);
 void pl_joints_plan_free(pl_memory *memory, pl_joint_plan *plan);
@@ -171,10 +194,15 @@ static inline const pl_joint_mark *pl_joint_marks(const pl_joints *joints)
     return (const pl_joint_mark *)joints->plan.marks.data;
 }
 
-// The i-th joint that is solved one by one.
-static inline pl_joint *pl_joint_alone(const pl_joints *joints, uint32_t i)
+static inline pl_joint_group *pl_joint_groups(const pl_joints *joints)
 {
-    return &pl_joint_items(joints)[((const uint32_t *)joints->plan.alone.data)[i]];
+    return (pl_joint_group *)joints->plan.groups.data;
+}
+
+// The i-th joint of all groups.
+static inline pl_joint *pl_joint_grouped(const pl_joints *joints, uint32_t i)
+{
+    return &pl_joint_items(joints)[((const uint32_t *)joints->plan.grouped.data)[i]];
 }
 
 static inline bool pl_joint_may_break(const plumb_joint_desc *d)
@@ -191,19 +219,36 @@ static inline void pl_joints_replan(pl_joints *joints)
     joints->plan.made = false;
 }
 
-// The solver's part (solve.c), over all joints of the plan. Prepare: poses and rows at the start of the
-// step of substeps h [s].
-void pl_joints_prepare(plumb_world *world, real h);
-void pl_joints_warm_start(plumb_world *world);
+// The joints of one cluster in the hands of some threads; of one, if null.
+typedef struct pl_joint_course {
+    plumb_world *world;
+    const pl_joint_group *group;
+    pl_tasks *tasks;
+    unsigned char *records; // a thread's
+    real h;                 // [s] substep
+} pl_joint_course;
+
+// `thread`: whose room for records it takes.
+pl_joint_course pl_joint_course_of(plumb_world *world, uint32_t cluster, pl_tasks *tasks,
+                                   uint32_t thread, real h);
+
+static inline bool pl_joints_any(const pl_joint_course *c)
+{
+    return c->group != NULL && c->group->end > c->group->first;
+}
+
+// The solver's part (solve.c). Prepare: poses and rows at the start of the step.
+void pl_joints_prepare(const pl_joint_course *course);
+void pl_joints_warm_start(const pl_joint_course *course);
 // Sweeps. The first of a substep that pulls pays what J's turning owes, the first that relaxes makes
 // rows at the moved poses.
-void pl_joints_solve(plumb_world *world, real h, pl_joint_sweep sweep, bool first);
+void pl_joints_solve(const pl_joint_course *course, pl_joint_sweep sweep, bool first);
 // Impulses and reactions of joints in lanes, into the joints.
-void pl_joints_store(plumb_world *world, real h);
+void pl_joints_store(const pl_joint_course *course);
 // Moves bodies against the errors that are left (classic solver).
-void pl_joints_move(plumb_world *world, real share);
+void pl_joints_move(const pl_joint_course *course, real share);
 // Adds the substep's reactions to those of the step, where some joint breaks by impulse (finish.c).
-void pl_joints_tally(plumb_world *world);
+void pl_joints_tally(const pl_joint_course *course);
 // Takes out of the rows what lies along locked axes of their bodies: infinite mass (lock.c).
 void pl_joint_lock_rows(const plumb_world *world, pl_joint *joint);
 // Reactions; breaks what is loaded too much (finish.c).

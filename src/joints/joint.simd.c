@@ -297,7 +297,7 @@ static void fill(const pl_joint_call *call)
     parts at = open(call, k, p);
     const pl_joint_lane *lanes = &call->lanes[(size_t)k * PL_WIDTH];
     memset(at.c, 0, record_size(p));
-    fill_start(&at, &call->starts[(size_t)k * PL_WIDTH], p->bare);
+    fill_start(&at, call->starts, p->bare);
     for (int i = 0; i < PL_WIDTH && !p->bare; ++i) {
         if (lanes[i].joint != PL_NONE) {
             fill_lane(&at, p, i, &call->joints[lanes[i].joint], &call->rows[i], call->h);

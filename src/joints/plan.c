@@ -1,14 +1,13 @@
 // plan.c - which joints are solved several at a time, and in what order.
 //
 // Joints get colours so that no body that moves has two of one colour, and within a colour those of
-// one pattern fill the lanes of bundles. Kinds with rows of their own form (gear, pulley), and what
-// finds no colour, are solved one by one. Both follow from the joints there are, in the order of
+// one pattern fill the lanes of bundles (group.c). Kinds with rows of their own form (gear, pulley), and
+// what finds no colour, are solved one by one. Both follow from the joints there are, in the order of
 // their slots, and from which of their bodies move: never from the width, so that widths give the
-// same bits, nor from the past, so that a plan can be kept until one of these changes.
+// same bits, nor from the past, so that a plan can be kept until one of these changes. The colours of
+// an island's joints do not depend on other islands: nor does anything on which are solved together.
 //
-// Reads: joints, slots of bodies. Writes: the plan, solver slots of joints. Cost: O(joints); a new
-// plan O(n log n).
-#include "core/sort.h"
+// Reads: joints, slots of bodies. Writes: marks, ends, order. Cost: O(joints).
 #include "joints/joint.h"
 #include "world/state.h"
 
@@ -19,8 +18,6 @@
 #define MOVES_A 2u
 #define MOVES_B 4u
 #define WIDE    8u // by the soft step
-
-#define NO_COLOR PL_JOINT_COLORS
 
 const pl_joint_kernels *pl_joint_kernels_of(const plumb_world *world)
 {
@@ -44,8 +41,8 @@ static bool is_enabled(const plumb_world *world, plumb_body body)
 
 static bool is_active(const plumb_world *world, const pl_joint *j)
 {
-    return !j->desc.disabled && (world->disabled_count == 0 || (is_enabled(world, j->a.body) &&
-                                                                is_enabled(world, j->b.body)));
+    return !j->desc.disabled && (world->disabled_count == 0 ||
+                                 (is_enabled(world, j->a.body) && is_enabled(world, j->b.body)));
 }
 
 static bool is_locked(const plumb_world *world, uint32_t row)
@@ -80,14 +77,16 @@ static uint32_t row_of(const plumb_world *world, plumb_body body, uint32_t befor
     return same ? before : pl_body_row(world, body);
 }
 
-// Rows of a joint's bodies, and which of them move.
-static uint32_t look(const plumb_world *world, pl_joint_mark *mark)
+// Rows of a joint's bodies, into the mark and the ends, and which of them move.
+static uint8_t look(const plumb_world *world, pl_joint_mark *mark, pl_ends *ends)
 {
-    mark->row_a = row_of(world, mark->a, mark->row_a);
-    mark->row_b = row_of(world, mark->b, mark->row_b);
-    return SOLVED | (world->desc.solver == PLUMB_SOLVER_SOFT ? WIDE : 0) |
-           (mark->row_a < world->dynamic_count ? MOVES_A : 0) |
-           (mark->row_b < world->dynamic_count ? MOVES_B : 0);
+    const uint32_t a = row_of(world, mark->a, mark->row_a);
+    const uint32_t b = row_of(world, mark->b, mark->row_b);
+    mark->row_a = ends->a = a;
+    mark->row_b = ends->b = b;
+    return (uint8_t)(SOLVED | (world->desc.solver == PLUMB_SOLVER_SOFT ? WIDE : 0) |
+                     (a < world->dynamic_count ? MOVES_A : 0) |
+                     (b < world->dynamic_count ? MOVES_B : 0));
 }
 
 // True: all marks are as they were when the plan was made.
@@ -95,11 +94,12 @@ static bool still_holds(plumb_world *world)
 {
     const pl_joints *joints = &world->joints;
     pl_joint_mark *marks = joints->plan.marks.data;
+    pl_ends *ends = joints->plan.ends.data;
     const uint32_t *awake = joints->awake.data;
     bool same = joints->plan.made && !joints->awake_stale;
     for (uint32_t i = 0; same && i < joints->awake_count; ++i) {
         pl_joint_mark *mark = &marks[awake[i]];
-        same = mark->what == 0 || mark->what == look(world, mark);
+        same = mark->what == 0 || mark->what == look(world, mark, &ends[i]);
     }
     return same;
 }
@@ -107,6 +107,7 @@ static bool still_holds(plumb_world *world)
 static void mark_all(plumb_world *world)
 {
     pl_joint_mark *marks = world->joints.plan.marks.data;
+    pl_ends *ends = world->joints.plan.ends.data;
     const uint32_t *awake = world->joints.awake.data;
     memset(marks, 0, world->joints.count * sizeof *marks);
     world->joints.plan.adrift = pl_joints_awake(world) == world->joints.live;
@@ -115,7 +116,8 @@ static void mark_all(plumb_world *world)
         pl_joint_mark *mark = &marks[awake[i]];
         *mark =
             (pl_joint_mark){ .a = j->a.body, .b = j->b.body, .row_a = PL_NONE, .row_b = PL_NONE };
-        mark->what = is_active(world, j) ? look(world, mark) : 0;
+        ends[i] = (pl_ends){ PL_NONE, PL_NONE };
+        mark->what = is_active(world, j) ? look(world, mark, &ends[i]) : 0;
         world->joints.plan.adrift &= (mark->what & MOVES_A) != 0 && (mark->what & MOVES_B) != 0;
     }
 }
@@ -177,7 +179,7 @@ static uint32_t color_of(plumb_world *world, const pl_joint_mark *mark)
     uint64_t *b = &masks[pl_solver_slot(&world->solver, mark->row_b, movable)];
     uint64_t taken = ((what & MOVES_A) != 0 ? *a : 0) | ((what & MOVES_B) != 0 ? *b : 0);
     if (taken == UINT64_MAX) {
-        return NO_COLOR;
+        return PL_JOINT_COLORS;
     }
     uint32_t color = (uint32_t)__builtin_ctzll(~taken);
     uint64_t bit = UINT64_C(1) << color;
@@ -190,14 +192,19 @@ static uint32_t color_of(plumb_world *world, const pl_joint_mark *mark)
     return color;
 }
 
-// Colours of all joints; those that are solved one by one into their list. Returns how many are not.
-static uint32_t sort_out(plumb_world *world)
+// A joint that is quiet can stay out of the cache after the step.
+static bool is_quiet(const pl_joint *j, const pl_joint_mark *mark)
+{
+    return pl_joint_is_wide(mark) && !pl_joint_may_break(&j->desc) &&
+           pl_joint_classes[j->desc.kind]->advance == NULL;
+}
+
+// Colours and patterns of all joints that are solved.
+static void sort_out(plumb_world *world)
 {
     pl_joints *joints = &world->joints;
     pl_joint_plan *plan = &joints->plan;
-    pl_keyed *order = plan->order.data;
     pl_joint_mark *marks = plan->marks.data;
-    uint32_t *alone = plan->alone.data, count = 0;
     plan->alone_count = plan->pattern_count = 0;
     memset(world->solver.masks.data, 0, world->solver.slot_count * sizeof(uint64_t));
     for (uint32_t i = 0; i < joints->count; ++i) {
@@ -208,105 +215,90 @@ static uint32_t sort_out(plumb_world *world)
         pl_joint *j = &pl_joint_items(joints)[i];
         bool wide = (mark->what & WIDE) != 0 && is_plain(world, j, mark);
         uint32_t pattern = wide ? pattern_of(world, j) : PL_NONE;
-        uint32_t color = pattern != PL_NONE ? color_of(world, mark) : NO_COLOR;
-        mark->wide = color != NO_COLOR;
-        mark->quiet = mark->wide && plan->patterns[pattern].bare && !pl_joint_may_break(&j->desc);
-        if (!mark->wide) {
-            alone[plan->alone_count++] = i;
-        } else {
-            order[count++] = (pl_keyed){ .key = pl_key(color, pattern), .order = i, .value = i };
+        mark->color = (uint8_t)(pattern != PL_NONE ? color_of(world, mark) : PL_JOINT_COLORS);
+        mark->pattern = (uint8_t)(pl_joint_is_wide(mark) ? pattern : 0);
+        mark->quiet = is_quiet(j, mark);
+        plan->alone_count += !pl_joint_is_wide(mark);
+    }
+}
+
+static inline uint32_t bin_of(const pl_joint_mark *mark)
+{
+    return (uint32_t)mark->color * PL_JOINT_PATTERNS + mark->pattern;
+}
+
+// Joints that are solved, by colour, pattern and slot. Those that are solved one by one come last.
+static void put_in_order(pl_joints *joints)
+{
+    uint32_t ends[(PL_JOINT_COLORS + 1) * PL_JOINT_PATTERNS] = { 0 }; // of bins
+    const uint32_t bins = sizeof ends / sizeof *ends;
+    const pl_joint_mark *marks = pl_joint_marks(joints);
+    uint32_t *order = joints->plan.order.data, at = 0;
+    for (uint32_t i = 0; i < joints->count; ++i) {
+        ends[bin_of(&marks[i])] += marks[i].what != 0;
+    }
+    for (uint32_t k = 0; k < bins; ++k) {
+        const uint32_t count = ends[k];
+        ends[k] = at;
+        at += count;
+    }
+    for (uint32_t i = 0; i < joints->count; ++i) {
+        if (marks[i].what != 0) {
+            order[ends[bin_of(&marks[i])]++] = i;
         }
     }
-    pl_sort_keyed(order, count);
-    return count;
+    joints->plan.order_count = at;
 }
 
-// Every lane may end up alone in its bundle.
-static bool reserve_lanes(plumb_world *world, uint32_t count)
+bool pl_joints_look(plumb_world *world)
 {
     pl_joint_plan *plan = &world->joints.plan;
-    const pl_keyed *order = plan->order.data;
-    size_t width = (size_t)pl_joint_kernels_of(world)->width, bundles = 0, filled = 0;
-    for (uint32_t i = 0; i < count; ++i) {
-        bool opens = i == 0 || order[i].key != order[i - 1].key || filled == width;
-        bundles += opens;
-        filled = opens ? 1 : filled + 1;
+    const size_t count = world->joints.count;
+    plan->changed = false;
+    if (world->joints.live == 0 || still_holds(world)) {
+        return true;
     }
-    return pl_buffer_reserve(&world->memory, &plan->bundles, bundles * sizeof(pl_joint_bundle)) &&
-           pl_buffer_reserve(&world->memory, &plan->lanes,
-                             bundles * width * sizeof(pl_joint_lane)) &&
-           pl_buffer_reserve(&world->memory, &plan->starts,
-                             bundles * width * sizeof(pl_joint_start)) &&
-           pl_buffer_reserve(&world->memory, &plan->slots, bundles * width * 2 * sizeof(uint32_t));
-}
-
-static pl_joint_lane lane_of(const plumb_world *world, uint32_t slot)
-{
-    const pl_joint *j = &pl_joint_items(&world->joints)[slot];
-    return (pl_joint_lane){ .joint = slot,
-                            .eighth_a = (uint8_t)pl_joint_eighth(j->a.seen),
-                            .eighth_b = (uint8_t)pl_joint_eighth(j->b.seen),
-                            .local_a = j->a.local,
-                            .local_b = j->b.local };
-}
-
-// Fills lanes; returns the bytes of all records.
-static size_t place_lanes(plumb_world *world, uint32_t count)
-{
-    pl_joint_plan *plan = &world->joints.plan;
-    const pl_joint_kernels *kernels = pl_joint_kernels_of(world);
-    const pl_keyed *order = plan->order.data;
-    pl_joint_bundle *bundles = plan->bundles.data;
-    pl_joint_lane *lanes = plan->lanes.data;
-    uint32_t width = (uint32_t)kernels->width, filled = 0;
-    size_t bytes = 0;
-    plan->bundle_count = 0;
-    uint32_t colors = 0; // whose first bundle is known
-    for (uint32_t i = 0; i < count; ++i) {
-        if (i == 0 || order[i].key != order[i - 1].key || filled == width) {
-            uint32_t pattern = (uint32_t)order[i].key;
-            while (colors <= order[i].key >> 32) {
-                plan->color_first[colors++] = plan->bundle_count;
-            }
-            memset(&lanes[(size_t)plan->bundle_count * width], 0xff, width * sizeof *lanes);
-            bundles[plan->bundle_count++] = (pl_joint_bundle){ .at = bytes, .pattern = pattern };
-            bytes += kernels->record_size(&plan->patterns[pattern]);
-            filled = 0;
-        }
-        lanes[(size_t)(plan->bundle_count - 1) * width + filled++] = lane_of(world, order[i].value);
-    }
-    while (colors <= PL_JOINT_COLORS) {
-        plan->color_first[colors++] = plan->bundle_count;
-    }
-    return bytes;
-}
-
-static bool make_plan(plumb_world *world)
-{
-    pl_joint_plan *plan = &world->joints.plan;
-    size_t count = world->joints.count;
     plan->made = false;
     if (!pl_buffer_reserve(&world->memory, &plan->marks, count * sizeof(pl_joint_mark)) ||
-        !pl_buffer_reserve(&world->memory, &plan->order, count * sizeof(pl_keyed)) ||
-        !pl_buffer_reserve(&world->memory, &plan->alone, count * sizeof(uint32_t))) {
+        !pl_buffer_reserve(&world->memory, &plan->ends, count * sizeof(pl_ends)) ||
+        !pl_buffer_reserve(&world->memory, &plan->order, count * sizeof(uint32_t))) {
         return false;
     }
     mark_all(world);
-    uint32_t wide = sort_out(world);
-    plan->made = reserve_lanes(world, wide) &&
-                 pl_buffer_reserve(&world->memory, &plan->records, place_lanes(world, wide));
-    return plan->made;
+    plan->changed = true;
+    return true;
 }
 
 bool pl_joints_plan(plumb_world *world)
 {
-    return still_holds(world) || make_plan(world);
+    pl_joint_plan *plan = &world->joints.plan;
+    if (world->joints.live == 0) {
+        return true;
+    }
+    if (!plan->made) {
+        sort_out(world);
+        put_in_order(&world->joints);
+        plan->group_count = 0;
+    }
+    plan->made = pl_joints_group(world);
+    return plan->made;
+}
+
+uint32_t pl_joints_tied(const plumb_world *world)
+{
+    return world->joints.live > 0 ? world->joints.awake_count : 0;
+}
+
+bool pl_joints_changed(const plumb_world *world)
+{
+    return world->joints.plan.changed;
 }
 
 void pl_joints_plan_free(pl_memory *memory, pl_joint_plan *plan)
 {
-    pl_buffer *buffers[] = { &plan->marks,  &plan->order, &plan->bundles, &plan->lanes,
-                             &plan->starts, &plan->slots, &plan->records, &plan->alone };
+    pl_buffer *buffers[] = { &plan->marks,  &plan->ends,    &plan->order,
+                             &plan->groups, &plan->grouped, &plan->bundles,
+                             &plan->lanes,  &plan->slots,   &plan->records };
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; ++i) {
         pl_buffer_free(memory, buffers[i]);
     }

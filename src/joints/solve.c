@@ -9,7 +9,7 @@
 // the arcs of the anchors make of a substep (add_arc). README.md says why not by all sweeps, and not by J.
 //
 // soft.c warm starts body by body, v += v - u, with the directions of the substep before. Where J
-// has turned since, pl_joints_turn adds the difference (J' - J)^T impulse, else a stale pull along
+// has turned since, pay() adds the difference (J' - J)^T impulse, else a stale pull along
 // the old direction would feed energy to whatever swings.
 //
 // Springs: b = 1 / (1 + 2 z x + 2 (z x)^2 + x^4 / (1 + x^2)), x = h w, and the impulse such that
@@ -61,14 +61,19 @@ static real rate(const pl_row *r, const pl_solver_body *a, const pl_solver_body 
            (r->bx * b->vx + r->by * b->vy + r->bw * b->w);
 }
 
+// What an impulse does to the velocity (x, y, turn) of a body, or a shift to its place.
+static void give(const pl_solver_body *body, near_real *x, near_real *y, near_real *turn, real jx,
+                 real jy, real jw, real amount)
+{
+    *x = (near_real)(*x + body->inv_mass * jx * amount);
+    *y = (near_real)(*y + body->inv_mass * jy * amount);
+    *turn = (near_real)(*turn + body->inv_inertia * jw * amount);
+}
+
 static void push(const pl_row *r, pl_solver_body *a, pl_solver_body *b, real impulse)
 {
-    a->vx = (near_real)(a->vx + a->inv_mass * r->ax * impulse);
-    a->vy = (near_real)(a->vy + a->inv_mass * r->ay * impulse);
-    a->w = (near_real)(a->w + a->inv_inertia * r->aw * impulse);
-    b->vx = (near_real)(b->vx + b->inv_mass * r->bx * impulse);
-    b->vy = (near_real)(b->vy + b->inv_mass * r->by * impulse);
-    b->w = (near_real)(b->w + b->inv_inertia * r->bw * impulse);
+    give(a, &a->vx, &a->vy, &a->w, r->ax, r->ay, r->aw, impulse);
+    give(b, &b->vx, &b->vy, &b->w, r->bx, r->by, r->bw, impulse);
 }
 
 // J M^-1 K^T of two rows.
@@ -261,8 +266,23 @@ static void make_rows(const plumb_world *world, pl_joint *j, const pl_solver_bod
 
 //---- joints in lanes ----------------------------------------------------------------------------------
 
-static pl_joint_call call_of(const plumb_world *world, real h)
+pl_joint_course pl_joint_course_of(plumb_world *world, uint32_t cluster, pl_tasks *tasks,
+                                   uint32_t thread, real h)
 {
+    const pl_joint_plan *plan = &world->joints.plan;
+    const bool any = world->joints.live > 0 && cluster < plan->group_count;
+    return (pl_joint_course){
+        .world = world,
+        .group = any ? &pl_joint_groups(&world->joints)[cluster] : NULL,
+        .tasks = tasks,
+        .records = any ? (unsigned char *)plan->records.data + thread * plan->room : NULL,
+        .h = h
+    };
+}
+
+static pl_joint_call call_of(const pl_joint_course *c)
+{
+    const plumb_world *world = c->world;
     const pl_joint_plan *plan = &world->joints.plan;
     return (pl_joint_call){ .bodies = pl_solver_bodies(&world->solver),
                             .dynamic_slots = world->solver.dynamic_slots,
@@ -270,12 +290,11 @@ static pl_joint_call call_of(const plumb_world *world, real h)
                             .bundles = plan->bundles.data,
                             .patterns = plan->patterns,
                             .lanes = plan->lanes.data,
-                            .starts = plan->starts.data,
                             .slots = plan->slots.data,
-                            .records = plan->records.data,
+                            .records = c->records,
                             .joints = pl_joint_items(&world->joints),
-                            .h = h,
-                            .rigid = rigid(h) };
+                            .h = c->h,
+                            .rigid = rigid(c->h) };
 }
 
 // A share of fewer bundles than this is not worth a thread.
@@ -294,23 +313,46 @@ static void run_kernel(void *context, uint32_t first, uint32_t count)
     c->kernel(&call);
 }
 
-static void share_out(const plumb_world *world, real h, pl_joint_kernel *kernel,
-                      pl_share_fn *share)
+static void share_out(const pl_joint_course *c, pl_joint_kernel *kernel, pl_share_fn *share)
 {
-    share(world->tasks, world->joints.plan.color_first, PL_JOINT_COLORS, LEAST, run_kernel,
-          &(kernel_call){ call_of(world, h), kernel });
+    share(c->tasks, c->group->color_first, PL_JOINT_COLORS, LEAST, run_kernel,
+          &(kernel_call){ call_of(c), kernel });
 }
 
 // A kernel over all bundles, shared out among threads colour after colour.
-static void sweep_bundles(const plumb_world *world, real h, pl_joint_kernel *kernel)
+static void sweep_bundles(const pl_joint_course *c, pl_joint_kernel *kernel)
 {
-    share_out(world, h, kernel, pl_tasks_phases);
+    share_out(c, kernel, pl_tasks_phases);
 }
 
 // The same for a kernel in which every bundle stands by itself.
-static void each_bundle(const plumb_world *world, real h, pl_joint_kernel *kernel)
+static void each_bundle(const pl_joint_course *c, pl_joint_kernel *kernel)
 {
-    share_out(world, h, kernel, pl_tasks_shares);
+    share_out(c, kernel, pl_tasks_shares);
+}
+
+//---- joints solved one by one ----------------------------------------------------------------------
+
+// One with its bodies. Clusters share the immovable body: each takes its own instead.
+typedef struct lone {
+    pl_joint *joint;
+    pl_solver_body *a, *b;
+    pl_solver_body immovable;
+} lone;
+
+static pl_solver_body *body_of(const pl_joint_course *c, uint32_t slot, pl_solver_body *immovable)
+{
+    const pl_solver *s = &c->world->solver;
+    return slot == s->slot_count - 1 ? immovable : &pl_solver_bodies(s)[slot];
+}
+
+static void take_lone(const pl_joint_course *c, uint32_t i, lone *out)
+{
+    pl_joint *j = pl_joint_grouped(&c->world->joints, i);
+    out->joint = j;
+    out->immovable = (pl_solver_body){ 0 };
+    out->a = body_of(c, j->a.slot, &out->immovable);
+    out->b = body_of(c, j->b.slot, &out->immovable);
 }
 
 //---- all joints ----------------------------------------------------------------------------------
@@ -357,14 +399,15 @@ static void begin_wide(const plumb_world *world, pl_joint *j, pl_joint_start *st
 }
 
 // How the lanes of a bundle begin the step; slots as the kernels want them.
-static void begin_lanes(const plumb_world *world, uint32_t bundle, pl_rows *rows, real h)
+static void begin_lanes(const pl_joint_course *c, uint32_t bundle, pl_joint_start *starts,
+                        pl_rows *rows)
 {
+    const plumb_world *world = c->world;
     const pl_joint_plan *plan = &world->joints.plan;
     const uint32_t width = (uint32_t)pl_joint_kernels_of(world)->width;
     const size_t first = (size_t)bundle * width;
     uint32_t *slots = (uint32_t *)plan->slots.data + 2 * first;
     pl_joint_lane *lanes = (pl_joint_lane *)plan->lanes.data + first;
-    pl_joint_start *starts = (pl_joint_start *)plan->starts.data + first;
     const bool bare =
         plan->patterns[((const pl_joint_bundle *)plan->bundles.data)[bundle].pattern].bare;
     for (uint32_t i = 0; i < width && bundle + 1 < plan->bundle_count; ++i) {
@@ -383,55 +426,53 @@ static void begin_lanes(const plumb_world *world, uint32_t bundle, pl_rows *rows
         slots[i] = slot_of(world, mark->row_a);
         slots[width + i] = slot_of(world, mark->row_b);
         if (bare) {
-            pl_joint_start_bare(world, &lanes[i], &starts[i], h);
+            pl_joint_start_bare(world, &lanes[i], &starts[i], c->h);
         } else {
-            begin_wide(world, &pl_joint_items(&world->joints)[joint], &starts[i], &rows[i], h);
+            begin_wide(world, &pl_joint_items(&world->joints)[joint], &starts[i], &rows[i], c->h);
         }
     }
 }
 
-typedef struct beginning {
-    const plumb_world *world;
-    pl_joint_call call;
-} beginning;
-
 static void begin_bundles(void *context, uint32_t first, uint32_t count)
 {
-    const beginning *b = context;
-    pl_joint_call call = b->call;
-    // Bundle by bundle: rows are made and go into lanes before memory sees them.
+    const pl_joint_course *c = context;
+    const pl_joint_kernels *kernels = pl_joint_kernels_of(c->world);
+    // Bundle by bundle: what lanes begin with is made and goes into them before memory sees it.
+    _Alignas(4 * sizeof(near_real)) pl_joint_start starts[PL_JOINT_LANES];
     pl_rows rows[PL_JOINT_LANES];
+    pl_joint_call call = call_of(c);
+    call.starts = starts;
     call.rows = rows;
     for (uint32_t k = first; k < first + count; ++k) {
-        begin_lanes(b->world, k, rows, call.h);
+        begin_lanes(c, k, starts, rows);
         call.first = k, call.end = k + 1;
-        pl_joint_kernels_of(b->world)->fill(&call);
+        kernels->fill(&call);
     }
 }
 
-void pl_joints_prepare(plumb_world *world, real h)
+void pl_joints_prepare(const pl_joint_course *c)
 {
-    pl_solver_body *bodies = pl_solver_bodies(&world->solver);
-    const pl_joint_plan *plan = &world->joints.plan;
-    pl_tasks_shares(world->tasks, plan->color_first, PL_JOINT_COLORS, LEAST, begin_bundles,
-                    &(beginning){ world, call_of(world, h) });
-    for (uint32_t i = 0; i < plan->alone_count; ++i) {
-        pl_joint *j = pl_joint_alone(&world->joints, i);
-        begin(world, j, h);
-        clear_debt(j);
-        make_rows(world, j, &bodies[j->a.slot], &bodies[j->b.slot]);
+    pl_tasks_shares(c->tasks, c->group->color_first, PL_JOINT_COLORS, LEAST, begin_bundles,
+                    (pl_joint_course[]){ *c });
+    for (uint32_t i = c->group->alone; i < c->group->end; ++i) {
+        lone one;
+        begin(c->world, pl_joint_grouped(&c->world->joints, i), c->h);
+        take_lone(c, i, &one);
+        clear_debt(one.joint);
+        make_rows(c->world, one.joint, one.a, one.b);
     }
 }
 
-void pl_joints_warm_start(plumb_world *world)
+void pl_joints_warm_start(const pl_joint_course *c)
 {
-    pl_solver_body *bodies = pl_solver_bodies(&world->solver);
-    sweep_bundles(world, 0, pl_joint_kernels_of(world)->warm_start);
-    for (uint32_t i = 0; i < world->joints.plan.alone_count; ++i) {
-        const pl_joint *j = pl_joint_alone(&world->joints, i);
+    sweep_bundles(c, pl_joint_kernels_of(c->world)->warm_start);
+    for (uint32_t i = c->group->alone; i < c->group->end; ++i) {
+        lone one;
+        take_lone(c, i, &one);
+        const pl_joint *j = one.joint;
         for (int k = 0; k < j->rows.count; ++k) {
             if (j->impulse[k] != 0) {
-                push(&j->rows.row[k], &bodies[j->a.slot], &bodies[j->b.slot], j->impulse[k]);
+                push(&j->rows.row[k], one.a, one.b, j->impulse[k]);
             }
         }
     }
@@ -454,59 +495,55 @@ static void refresh(const plumb_world *world, pl_joint *j, const pl_solver_body 
     add_momentum(j, 1);
 }
 
-static void sweep_lanes(const plumb_world *world, real h, pl_joint_sweep sweep, bool first)
+static void sweep_lanes(const pl_joint_course *c, pl_joint_sweep sweep, bool first)
 {
-    const pl_joint_kernels *kernels = pl_joint_kernels_of(world);
+    const pl_joint_kernels *kernels = pl_joint_kernels_of(c->world);
     if (sweep == PL_SWEEP_PULL) {
-        sweep_bundles(world, h, first ? kernels->pull_first : kernels->pull);
+        sweep_bundles(c, first ? kernels->pull_first : kernels->pull);
     } else if (sweep == PL_SWEEP_RELAX) {
-        sweep_bundles(world, h, first ? kernels->relax_first : kernels->relax);
+        sweep_bundles(c, first ? kernels->relax_first : kernels->relax);
     }
 }
 
-static void sweep_alone(plumb_world *world, pl_joint_sweep sweep, bool first)
+static void sweep_alone(const pl_joint_course *c, pl_joint_sweep sweep, bool first)
 {
-    pl_solver_body *bodies = pl_solver_bodies(&world->solver);
-    for (uint32_t i = 0; i < world->joints.plan.alone_count; ++i) {
-        pl_joint *j = pl_joint_alone(&world->joints, i);
-        pl_solver_body *a = &bodies[j->a.slot], *b = &bodies[j->b.slot];
+    for (uint32_t i = c->group->alone; i < c->group->end; ++i) {
+        lone one;
+        take_lone(c, i, &one);
+        pl_joint *j = one.joint;
         if (first && sweep == PL_SWEEP_PULL) {
-            pay(j, a, b);
+            pay(j, one.a, one.b);
         } else if (first && sweep == PL_SWEEP_RELAX) {
-            refresh(world, j, a, b);
+            refresh(c->world, j, one.a, one.b);
         }
         // Motors and springs first: what must hold has the last word.
         for (int k = j->rows.count - 1; k >= j->rows.block; --k) {
-            solve_row(j, k, a, b, sweep);
+            solve_row(j, k, one.a, one.b, sweep);
         }
-        solve_block(j, a, b, sweep, first);
+        solve_block(j, one.a, one.b, sweep, first);
     }
 }
 
-void pl_joints_solve(plumb_world *world, real h, pl_joint_sweep sweep, bool first)
+void pl_joints_solve(const pl_joint_course *c, pl_joint_sweep sweep, bool first)
 {
     const int sweeps = sweep == PL_SWEEP_CLASSIC ? 1 : SWEEPS;
     for (int i = 0; i < sweeps; ++i) {
-        sweep_lanes(world, h, sweep, first && i == 0);
-        sweep_alone(world, sweep, first && i == 0);
+        sweep_lanes(c, sweep, first && i == 0);
+        sweep_alone(c, sweep, first && i == 0);
     }
 }
 
-void pl_joints_store(plumb_world *world, real h)
+void pl_joints_store(const pl_joint_course *c)
 {
-    each_bundle(world, h, pl_joint_kernels_of(world)->store);
+    each_bundle(c, pl_joint_kernels_of(c->world)->store);
 }
 
 //---- positions, for the classic solver -----------------------------------------------------------
 
 static void shift(const pl_row *r, pl_solver_body *a, pl_solver_body *b, real amount)
 {
-    a->dx = (near_real)(a->dx + a->inv_mass * r->ax * amount);
-    a->dy = (near_real)(a->dy + a->inv_mass * r->ay * amount);
-    a->da = (near_real)(a->da + a->inv_inertia * r->aw * amount);
-    b->dx = (near_real)(b->dx + b->inv_mass * r->bx * amount);
-    b->dy = (near_real)(b->dy + b->inv_mass * r->by * amount);
-    b->da = (near_real)(b->da + b->inv_inertia * r->bw * amount);
+    give(a, &a->dx, &a->dy, &a->da, r->ax, r->ay, r->aw, amount);
+    give(b, &b->dx, &b->dy, &b->da, r->bx, r->by, r->bw, amount);
 }
 
 static bool is_rigid(const pl_row *r)
@@ -532,14 +569,13 @@ static void move_joint(const pl_joint *j, pl_solver_body *a, pl_solver_body *b, 
     }
 }
 
-void pl_joints_move(plumb_world *world, real share)
+void pl_joints_move(const pl_joint_course *c, real share)
 {
-    pl_solver_body *bodies = pl_solver_bodies(&world->solver);
-    for (uint32_t i = 0; i < world->joints.plan.alone_count; ++i) {
-        pl_joint *j = pl_joint_alone(&world->joints, i);
-        pl_solver_body *a = &bodies[j->a.slot], *b = &bodies[j->b.slot];
-        make_rows(world, j, a, b);
-        move_joint(j, a, b, share);
-        make_rows(world, j, a, b);
+    for (uint32_t i = c->group->alone; i < c->group->end; ++i) {
+        lone one;
+        take_lone(c, i, &one);
+        make_rows(c->world, one.joint, one.a, one.b);
+        move_joint(one.joint, one.a, one.b, share);
+        make_rows(c->world, one.joint, one.a, one.b);
     }
 }

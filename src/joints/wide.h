@@ -64,11 +64,11 @@ typedef struct pl_joint_call {
     const pl_joint_bundle *bundles;
     const pl_joint_pattern *patterns;
     const pl_joint_lane *lanes;
-    const pl_joint_start *starts;
     const uint32_t *slots; // of a bundle: solver slots of all lanes' A, then of all B
     unsigned char *records;
     pl_joint *joints;
-    const pl_rows *rows; // for `fill`: of the lanes of its one bundle, unless that is bare
+    const pl_joint_start *starts; // for `fill`: of the lanes of its one bundle
+    const pl_rows *rows;          // likewise, unless that is bare
     real h;              // [s] substep
     pl_joint_soft rigid; // of rows that are no springs, where they pull
 } pl_joint_call;

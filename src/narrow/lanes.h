@@ -32,7 +32,7 @@ typedef struct touch {
 
 //---- where the cores are -----------------------------------------------------------------------------
 //
-// Places are plumb_reals. Where these are wider than lanes, in the far build, they are subtracted pair by
+// Places are plumb_real. Where these are wider than lanes, in the far build, they are subtracted pair by
 // pair; else W pairs at a time.
 
 #if PLUMB_IS_FAR
@@ -64,6 +64,20 @@ WIDE_INLINE place nearest_image(place a, place b, place arm, plumb_real period)
     return ((b - half) - (a + half)) + arm;
 }
 
+// (x, y) turned by (c, s).
+WIDE_INLINE void turn(place out[2], place c, place s, place x, place y)
+{
+#if PLUMB_IS_FAR
+    // As vectors: of c x - s y beside s x + c y GCC 12 makes a fused vfmaddsub for AVX-512, whatever -ffp-contract
+    // says, and the bits would depend on the width.
+    typedef plumb_real two __attribute__((vector_size(2 * sizeof(plumb_real))));
+    const two turned = (two){ c, c } * (two){ x, y } + (two){ -s, s } * (two){ y, x };
+    out[0] = turned[0], out[1] = turned[1];
+#else
+    out[0] = c * x - s * y, out[1] = s * x + c * y;
+#endif
+}
+
 typedef struct centres {
     place dx, dy; // as in `lanes`
     place oax, oay, obx, oby;
@@ -73,11 +87,10 @@ typedef struct centres {
 WIDE_INLINE void centres_of(centres *o, const pl_narrow_input *in, const place *pa, const place *pb,
                             const place *ca, const place *cb)
 {
-    place ax = pa[2] * ca[0] - pa[3] * ca[1]; // from the body's origin to the core centre
-    place ay = pa[3] * ca[0] + pa[2] * ca[1];
-    place bx = pb[2] * cb[0] - pb[3] * cb[1];
-    place by = pb[3] * cb[0] + pb[2] * cb[1];
-    place arm_x = bx - ax, arm_y = by - ay;
+    place a[2], b[2]; // from the body's origin to the core centre
+    turn(a, pa[2], pa[3], ca[0], ca[1]);
+    turn(b, pb[2], pb[3], cb[0], cb[1]);
+    place arm_x = b[0] - a[0], arm_y = b[1] - a[1];
     if (PLUMB_IS_FAR) {
         arm_x += pb[8] - pa[8];
         arm_y += pb[9] - pa[9];
@@ -89,8 +102,8 @@ WIDE_INLINE void centres_of(centres *o, const pl_narrow_input *in, const place *
         o->dx = (pb[0] - pa[0]) + arm_x;
         o->dy = (pb[1] - pa[1]) + arm_y;
     }
-    o->oax = ax - pa[4], o->oay = ay - pa[5];
-    o->obx = bx - pb[4], o->oby = by - pb[5];
+    o->oax = a[0] - pa[4], o->oay = a[1] - pa[5];
+    o->obx = b[0] - pb[4], o->oby = b[1] - pb[5];
 }
 
 #if PLUMB_IS_FAR

@@ -65,7 +65,7 @@ typedef struct job {
     pl_manifold *manifolds;
     pl_ends *ends;
     uint32_t count;
-    share shares[PLUMB_WORKERS_MAX];
+    share *shares;
 } job;
 
 // Kind by kind, as the list has them. The counts are kept apart from those of other threads meanwhile:
@@ -118,19 +118,22 @@ static void add_share(pl_narrow *all, const pl_narrow *made)
     pl_overlaps_add(&all->overlaps, &made->overlaps);
 }
 
-// The first share is made where it stays.
+// The first share is made where it stays. Room for shares is not cleared: that would cost a small world more than
+// its pairs do.
 static void make_manifolds(plumb_world *world, const pl_narrow_input *in, const pl_pair_list *list,
                            pl_narrow *narrow)
 {
+    share shares[PLUMB_WORKERS_MAX];
     job j = { .kernels = kernels_of(world->desc.simd_width),
               .in = in,
               .list = list,
               .manifolds = pl_manifolds(narrow),
               .ends = narrow->ends.data,
-              .count = pl_tasks_share_count(world->tasks, list->count, LEAST) };
+              .count = pl_tasks_share_count(world->tasks, list->count, LEAST),
+              .shares = shares };
     for (uint32_t i = 0; i < j.count; ++i) {
-        share *s = &j.shares[i];
-        s->pairs = pl_share_of(list->count, j.count, i);
+        share *s = &shares[i];
+        *s = (share){ .pairs = pl_share_of(list->count, j.count, i) };
         s->made.manifolds.data =
             i == 0 ? j.manifolds : (pl_manifold *)narrow->staged.data + s->pairs.first;
         s->made.ends.data = j.ends + s->pairs.first;
@@ -138,10 +141,10 @@ static void make_manifolds(plumb_world *world, const pl_narrow_input *in, const 
     }
     pl_tasks_run(world->tasks, make_share, &j, j.count);
     for (uint32_t i = 0; i < j.count; ++i) {
-        j.shares[i].at = narrow->manifold_count;
-        add_share(narrow, &j.shares[i].made);
+        shares[i].at = narrow->manifold_count;
+        add_share(narrow, &shares[i].made);
     }
-    uint32_t staged = narrow->manifold_count - j.shares[0].made.manifold_count;
+    uint32_t staged = narrow->manifold_count - shares[0].made.manifold_count;
     if (staged > 0) {
         pl_tasks_ranges(world->tasks, staged, LEAST, place, &j);
     }
@@ -166,17 +169,6 @@ void pl_narrow_run(plumb_world *world, const pl_pair_list *list, real dt, pl_nar
     make_manifolds(world, &in, list, narrow);
 }
 
-static void take_out(pl_pair *pair, uint32_t flag)
-{
-    pair->manifold = PL_NONE;
-    pair->flags |= flag;
-    pair->rolling = 0;
-    for (int k = 0; k < 2; ++k) {
-        pair->feature[k] = PL_NONE;
-        pair->normal[k] = pair->tangent[k] = 0;
-    }
-}
-
 void pl_narrow_take_out_disabled(plumb_world *world, uint32_t flag)
 {
     pl_narrow *narrow = &world->narrow;
@@ -185,7 +177,10 @@ void pl_narrow_take_out_disabled(plumb_world *world, uint32_t flag)
     uint32_t kept = 0, count = narrow->manifold_count;
     for (uint32_t i = 0; i < count; ++i) {
         if (m[i].disabled) {
-            take_out(&pairs[m[i].pair], flag);
+            pl_pair *pair = &pairs[m[i].pair];
+            pair->manifold = PL_NONE;
+            pair->flags |= flag;
+            pl_pair_forget(pair);
             continue;
         }
         pairs[m[i].pair].manifold = kept;
@@ -195,7 +190,7 @@ void pl_narrow_take_out_disabled(plumb_world *world, uint32_t flag)
         ++kept;
     }
     narrow->manifold_count = kept;
-    narrow->ends_stale = true;
+    narrow->ends_stale |= kept != count;
     for (uint32_t i = 0; i < narrow->borne_count && kept != count; ++i) { // those behind close up
         m[kept + i] = m[count + i];
         pairs[m[kept + i].pair].manifold = kept + i;

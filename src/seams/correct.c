@@ -71,16 +71,6 @@ static void carry_over(const pl_seam_pair *old, pl_pair *pair, pl_manifold *m)
     }
 }
 
-static void take_out(pl_pair *pair)
-{
-    pair->manifold = PL_NONE;
-    pair->rolling = 0;
-    for (int k = 0; k < 2; ++k) {
-        pair->feature[k] = PL_NONE;
-        pair->normal[k] = pair->tangent[k] = 0;
-    }
-}
-
 // Closes the gaps that were left: manifolds without points go, those that another bears the load of
 // stand behind the rest, where the solver does not look.
 static void close_gaps(plumb_world *world)
@@ -158,7 +148,8 @@ bool pl_seams_correct(plumb_world *world, real dt)
         verdict v = judge(world, pair, m, (double)dt, views);
         if (v == FALSE_CONTACT) {
             m->count = 0;
-            take_out(pair);
+            pair->manifold = PL_NONE;
+            pl_pair_forget(pair);
         } else {
             carry_over(&list[i], pair, m);
         }

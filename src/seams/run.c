@@ -340,11 +340,7 @@ static void stand_back(plumb_world *world, const run_contact *r, const run_conta
     pl_pair *pair = &pl_pairs(&world->broad.pairs)[list[r->index].pair];
     pl_manifolds(&world->narrow)[pair->manifold].bearer = list[owner->index].pair;
     pair->flags |= PL_PAIR_BORNE;
-    for (int k = 0; k < 2; ++k) {
-        pair->feature[k] = PL_NONE;
-        pair->normal[k] = pair->tangent[k] = 0;
-    }
-    pair->rolling = 0;
+    pl_pair_forget(pair);
 }
 
 // Slots name nothing between steps.

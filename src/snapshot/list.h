@@ -60,10 +60,10 @@
 #define PL_STATE_BROAD(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                      \
     LEFT(broad.moving) LEFT(broad.fixed) LEFT(broad.resting) LEFT(broad.refreshed)                 \
     LEFT(broad.unfiled) LEFT(broad.left) LEFT(broad.left_marks) TALLY(broad.left_count)            \
-    LEFT(broad.moving_lost) LEFT(broad.fixed_lost) LEFT(broad.resting_lost)                        \
+    LEFT(broad.moving_lost) LEFT(broad.fixed_lost) LEFT(broad.resting_lost) LEFT(broad.emptied)    \
     ARRAY(pl_pair, broad.pairs.items, broad.pairs.count, 0, 8)                                     \
     TALLY(broad.pairs.first) TALLY(broad.pairs.size) LEFT(broad.pairs.old_items)                   \
-    LEFT(broad.list) LEFT(broad.found) LEFT(broad.sorted) LEFT(broad.counts)                       \
+    LEFT(broad.list) LEFT(broad.found) LEFT(broad.sorted) LEFT(broad.counts) LEFT(broad.lost)      \
     LEFT(broad.found_count)                                                                        \
     ARRAY(pl_found, broad.sensed, broad.sensed_count, 0, 0)                                        \
     TALLY(broad.serial) TALLY(broad.rebuilds) TALLY(broad.stale)
@@ -81,7 +81,7 @@
     LEFT(solver.impacts) LEFT(solver.outlook_fields) LEFT(solver.outlook_ends)                     \
     LEFT(solver.outlook_open) LEFT(solver.outlook_lanes) LEFT(solver.impact_heap) LEFT(solver.impact_heads) LEFT(solver.due_count)   \
     LEFT(solver.lively_count)     LEFT(solver.classic) LEFT(solver.dynamic_slots) LEFT(solver.slot_count)   \
-    LEFT(solver.clusters) LEFT(solver.labels) LEFT(solver.leaders) LEFT(solver.cursors)                 \
+    LEFT(solver.clusters) LEFT(solver.labels) LEFT(solver.islands) LEFT(solver.homes) LEFT(solver.island_count) LEFT(solver.leaders) LEFT(solver.cursors)                 \
     LEFT(solver.cluster_count) LEFT(solver.cluster_age) LEFT(solver.labelled) LEFT(solver.bundle_room) LEFT(solver.bundle_count) LEFT(solver.impact_count) LEFT(solver.color_count)                 \
     LEFT(solver.overflow_count) LEFT(solver.bounce_count)
 

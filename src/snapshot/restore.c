@@ -235,6 +235,7 @@ static void take_over(plumb_world *world, source s)
         world->sleep.resting_count > 0 || world->broad.resting.entry_count > 0;
     world->broad.stale |= world->broad.left_count > 0; // which they were is not saved
     world->broad.left_count = 0;
+    world->broad.emptied = false;
     world->broad.refreshed = world->broad.unfiled = world->sight.fresh = false;
     world->sleep.gone = 0;
     world->sleep.near.count = 0;

@@ -1,16 +1,17 @@
 // cluster.c - which bodies are solved together: islands, as many at a time as a cache holds.
 //
-// Islands do not know of one another: bodies joined by contacts, or by contacts with one kinematic body,
-// are one. A cluster of them goes through all sweeps of a step before the next one begins, and its contacts
-// stay in the cache meanwhile. In what order islands are solved changes no bit, so clusters may be too
-// large for a while: labels are kept from step to step, a contact between two clusters makes one of them,
-// and only now and then are the islands looked for anew (union-find with path halving, Tarjan 1983).
+// Islands do not know of one another: bodies tied by contacts or joints, or to one kinematic body, are one.
+// A cluster of them goes through all sweeps of a step before the next one begins, and its contacts and
+// joints stay in the cache meanwhile. In what order islands are solved changes no bit, so islands may be
+// too large for a while: they are kept from step to step, a tie between two makes them one, and only now
+// and then are they looked for anew (union-find with path halving, Tarjan 1983). An island stays in the
+// cluster it was put into: a few that meet do not make one cluster of many.
 //
-// What goes through the whole world in a substep (impacts, joints, damping) belongs to cluster 0: it has
-// all bodies concerned, with their islands. A world of few contacts is one cluster.
+// What goes through the whole world in a substep (impacts, damping) belongs to cluster 0: it has all
+// bodies concerned, with their islands. A world of few contacts and joints is one cluster.
 //
-// Reads: ends of manifolds, marks of rows. Writes: labels, leaders. Cost: two reads a contact; O(bodies +
-// contacts) when islands are looked for.
+// Reads: ends of manifolds and joints, marks of rows. Writes: islands, their homes, labels of rows. Cost:
+// two reads a contact or joint, one a body; O(bodies + contacts + joints) when islands are looked for.
 #include "world/state.h"
 
 #include <string.h>
@@ -18,21 +19,24 @@
 // Bodies in a cluster at least, if there are as many: 600 bytes each with contacts and manifolds, so that
 // a cluster takes a part of a second-level cache. README.md has the table.
 #define BODIES 500
-// Fewer manifolds than this are not worth dividing.
+// Fewer manifolds than this are not worth dividing; a joint, swept twice as often, counts as two.
 #define LEAST 1000
-// Steps between two looks at most; and at least, while clusters grow together.
+// Steps between two looks at most; and at least, while islands grow together or joints change.
 #define LOOK_AFTER       64
 #define LOOK_AGAIN_AFTER 8
 
 static bool is_divisible(const plumb_world *world)
 {
-    return world->desc.solver == PLUMB_SOLVER_SOFT && world->narrow.manifold_count >= LEAST;
+    return world->desc.solver == PLUMB_SOLVER_SOFT &&
+           world->narrow.manifold_count + 2 * pl_joints_tied(world) >= LEAST;
 }
 
 static bool reserve(plumb_world *world, uint32_t movable)
 {
     pl_solver *s = &world->solver;
     return pl_buffer_reserve(&world->memory, &s->labels, movable * sizeof(uint32_t)) &&
+           pl_buffer_reserve(&world->memory, &s->islands, movable * sizeof(uint32_t)) &&
+           pl_buffer_reserve(&world->memory, &s->homes, movable * sizeof(uint32_t)) &&
            pl_buffer_reserve(&world->memory, &s->leaders, movable * sizeof(uint32_t));
 }
 
@@ -54,146 +58,191 @@ static bool join(uint32_t *leaders, uint32_t a, uint32_t b)
     return a != b;
 }
 
+static void lead_themselves(uint32_t *leaders, uint32_t count)
+{
+    for (uint32_t i = 0; i < count; ++i) {
+        leaders[i] = i;
+    }
+}
+
 //---- what has to be in cluster 0 -----------------------------------------------------------------
 
-static bool has_special(const plumb_world *world)
+// Tells which rows have to be; `resist`: bodies are damped.
+typedef struct special_rows {
+    const uint32_t *marks;
+    const uint16_t *flags;
+    bool any, resist;
+} special_rows;
+
+static special_rows specials_of(const plumb_world *world)
 {
-    return world->narrow.any_bounce || world->joints.live > 0 || pl_effects_resist(world);
+    const bool resist = pl_effects_resist(world);
+    return (special_rows){ world->solver.slots.data, world->bodies.flags,
+                           world->narrow.any_bounce || resist, resist };
 }
 
-static bool is_special(const plumb_world *world, uint32_t row)
+static inline bool is_special(const special_rows *s, uint32_t row)
 {
-    const uint32_t mark = ((const uint32_t *)world->solver.slots.data)[row];
-    const pl_bodies *b = &world->bodies;
-    return mark != PL_NONE && (mark == PL_ELASTIC || b->first_joint[row] != PL_NONE ||
-                               ((b->flags[row] & PL_BODY_TUNED) != 0 && pl_effects_resist(world)));
+    return s->marks[row] != PL_NONE &&
+           (s->marks[row] == PL_ELASTIC || (s->resist && (s->flags[row] & PL_BODY_TUNED) != 0));
 }
 
-// Makes one island of all special bodies. Returns the first of them; PL_NONE: there is none.
-static uint32_t join_special(plumb_world *world, uint32_t movable)
+//---- looking for islands -------------------------------------------------------------------------
+
+static void join_rows(uint32_t *leaders, const pl_ends *ends, uint32_t count, uint32_t movable)
 {
-    uint32_t first = PL_NONE;
-    for (uint32_t row = 0; has_special(world) && row < movable; ++row) {
-        if (is_special(world, row)) {
-            first = first == PL_NONE ? row : first;
-            join(world->solver.leaders.data, first, row);
+    for (uint32_t i = 0; i < count; ++i) {
+        if (ends[i].a < movable && ends[i].b < movable) {
+            join(leaders, ends[i].a, ends[i].b);
         }
     }
-    return first;
 }
 
-// Special bodies that are in other clusters bring these into cluster 0. Returns how many.
-static uint32_t fetch_special(plumb_world *world, uint32_t movable)
-{
-    uint32_t *labels = world->solver.labels.data, joined = 0;
-    for (uint32_t row = 0; has_special(world) && row < movable; ++row) {
-        if (is_special(world, row)) {
-            labels[row] = labels[row] == PL_NONE ? 0 : labels[row];
-            joined += join(world->solver.leaders.data, 0, labels[row]);
-        }
-    }
-    return joined;
-}
-
-//---- islands -------------------------------------------------------------------------------------
-
-// Islands in the order of their first rows, but for the special one, a new cluster where one is full.
-static void label_islands(pl_solver *s, uint32_t movable, uint32_t special)
+// Numbers islands in the order of their first rows; `homes` counts their bodies meanwhile.
+static void number_islands(pl_solver *s, uint32_t movable)
 {
     const uint32_t *slots = s->slots.data;
-    uint32_t *leaders = s->leaders.data, *labels = s->labels.data;
-    memset(labels, 0, movable * sizeof *labels);
+    uint32_t *leaders = s->leaders.data, *islands = s->islands.data, *homes = s->homes.data;
+    s->island_count = 0;
     for (uint32_t row = 0; row < movable; ++row) { // a leader is lower than whom it leads
-        leaders[row] = leaders[leaders[row]];
-        ++labels[leaders[row]];
-    }
-    const uint32_t first = special == PL_NONE ? PL_NONE : leaders[special];
-    uint32_t label = first != PL_NONE, filled = 0;
-    for (uint32_t row = 0; row < movable; ++row) {
+        const uint32_t leader = leaders[row] = leaders[leaders[row]];
         if (slots[row] == PL_NONE) {
-            labels[row] = PL_NONE;
-        } else if (leaders[row] != row) {
-            labels[row] = labels[leaders[row]];
-        } else if (row == first) {
-            labels[row] = 0;
+            islands[row] = PL_NONE;
+        } else if (leader != row) {
+            ++homes[islands[row] = islands[leader]];
         } else {
-            if (filled >= BODIES) {
-                ++label;
-                filled = 0;
-            }
-            filled += labels[row];
-            labels[row] = label;
+            homes[islands[row] = s->island_count++] = 1;
         }
     }
-    s->cluster_count = label + (filled > 0);
+}
+
+// Islands in order, but for those with special bodies, a new cluster where one is full.
+static void give_homes(const plumb_world *world, pl_solver *s, uint32_t movable)
+{
+    const special_rows specials = specials_of(world);
+    const uint32_t *islands = s->islands.data;
+    uint32_t *homes = s->homes.data, home = 0, filled = 0;
+    for (uint32_t row = 0; specials.any && row < movable; ++row) {
+        if (is_special(&specials, row)) {
+            homes[islands[row]] = PL_NONE;
+            home = 1;
+        }
+    }
+    for (uint32_t i = 0; i < s->island_count; ++i) {
+        const uint32_t bodies = homes[i];
+        if (bodies == PL_NONE) {
+            homes[i] = 0;
+            continue;
+        }
+        if (filled >= BODIES) {
+            ++home;
+            filled = 0;
+        }
+        homes[i] = home;
+        filled += bodies;
+    }
+    s->cluster_count = home + (filled > 0 || home == 0);
 }
 
 static void look_for_islands(plumb_world *world, uint32_t movable)
 {
     pl_solver *s = &world->solver;
-    const pl_ends *ends = world->narrow.ends.data;
-    uint32_t *leaders = s->leaders.data;
-    for (uint32_t row = 0; row < movable; ++row) {
-        leaders[row] = row;
-    }
-    for (uint32_t i = 0; i < world->narrow.manifold_count; ++i) {
-        if (ends[i].a < movable && ends[i].b < movable) {
-            join(leaders, ends[i].a, ends[i].b);
-        }
-    }
-    label_islands(s, movable, join_special(world, movable));
+    lead_themselves(s->leaders.data, movable);
+    join_rows(s->leaders.data, world->narrow.ends.data, world->narrow.manifold_count, movable);
+    join_rows(s->leaders.data, world->joints.plan.ends.data, pl_joints_tied(world), movable);
+    number_islands(s, movable);
+    give_homes(world, s, movable);
     s->cluster_age = 0;
     s->labelled = movable;
 }
 
-//---- labels of the step before -------------------------------------------------------------------
+//---- islands of the step before ------------------------------------------------------------------
 
-// Rows without a label take that of what they touch, clusters that touch are joined. Returns how many
-// were.
-static uint32_t join_clusters(plumb_world *world, uint32_t movable)
+// Rows without an island take that of what they are tied to, two of them the first one; islands that are
+// tied are joined. Returns how often either happened to two rows or islands.
+static uint32_t join_islands(pl_solver *s, const pl_ends *ends, uint32_t count, uint32_t movable)
 {
-    pl_solver *s = &world->solver;
-    const pl_ends *ends = world->narrow.ends.data;
-    uint32_t *leaders = s->leaders.data, *labels = s->labels.data;
-    for (uint32_t i = 0; i < s->cluster_count; ++i) {
-        leaders[i] = i;
-    }
-    for (uint32_t row = s->labelled; row < movable; ++row) {
-        labels[row] = PL_NONE;
-    }
-    s->labelled = movable;
-    uint32_t joined = fetch_special(world, movable);
-    for (uint32_t i = 0; i < world->narrow.manifold_count; ++i) {
+    uint32_t *leaders = s->leaders.data, *islands = s->islands.data, joined = 0;
+    for (uint32_t i = 0; i < count; ++i) {
         const uint32_t row_a = ends[i].a, row_b = ends[i].b;
         if (row_a >= movable || row_b >= movable) {
             continue;
         }
-        if (labels[row_a] == labels[row_b]) {
-            if (labels[row_a] == PL_NONE) {
-                labels[row_a] = labels[row_b] = 0;
+        if (islands[row_a] == islands[row_b]) {
+            if (islands[row_a] == PL_NONE) {
+                islands[row_a] = islands[row_b] = 0;
+                ++joined;
             }
-        } else if (labels[row_a] == PL_NONE) {
-            labels[row_a] = labels[row_b];
-        } else if (labels[row_b] == PL_NONE) {
-            labels[row_b] = labels[row_a];
+        } else if (islands[row_a] == PL_NONE) {
+            islands[row_a] = islands[row_b];
+        } else if (islands[row_b] == PL_NONE) {
+            islands[row_b] = islands[row_a];
         } else {
-            joined += join(leaders, labels[row_a], labels[row_b]);
+            joined += join(leaders, islands[row_a], islands[row_b]);
         }
     }
     return joined;
 }
 
-// Numbers what is left of the clusters.
-static void renumber(pl_solver *s, uint32_t movable)
+// Islands with special bodies move into cluster 0.
+static void fetch_specials(const plumb_world *world, pl_solver *s, uint32_t movable)
 {
-    uint32_t *leaders = s->leaders.data, *labels = s->labels.data, count = 0;
-    for (uint32_t i = 0; i < s->cluster_count; ++i) { // a leader is lower than whom it leads
-        leaders[i] = leaders[i] == i ? count++ : leaders[leaders[i]];
+    const special_rows specials = specials_of(world);
+    const uint32_t *islands = s->islands.data;
+    uint32_t *homes = s->homes.data;
+    for (uint32_t row = 0; specials.any && row < movable; ++row) {
+        if (is_special(&specials, row) && islands[row] != PL_NONE) {
+            homes[leader_of(s->leaders.data, islands[row])] = 0;
+        }
     }
+}
+
+// Returns how much has changed.
+static uint32_t follow_islands(plumb_world *world, uint32_t movable)
+{
+    pl_solver *s = &world->solver;
+    uint32_t *leaders = s->leaders.data, *islands = s->islands.data;
+    for (uint32_t row = s->labelled; row < movable; ++row) {
+        islands[row] = PL_NONE;
+    }
+    s->labelled = movable;
+    lead_themselves(leaders, s->island_count);
+    const uint32_t joined =
+        join_islands(s, world->narrow.ends.data, world->narrow.manifold_count, movable) +
+        join_islands(s, world->joints.plan.ends.data, pl_joints_tied(world), movable);
+    fetch_specials(world, s, movable);
+    for (uint32_t row = 0; joined > 0 && row < movable; ++row) {
+        islands[row] = islands[row] == PL_NONE ? PL_NONE : leader_of(leaders, islands[row]);
+    }
+    return joined;
+}
+
+//---- labels --------------------------------------------------------------------------------------
+
+// Bodies that are tied to nothing that moves may be anywhere.
+static void label_rows(pl_solver *s, uint32_t movable)
+{
+    const uint32_t *islands = s->islands.data, *homes = s->homes.data;
+    uint32_t *labels = s->labels.data;
     for (uint32_t row = 0; row < movable; ++row) {
-        labels[row] = labels[row] == PL_NONE ? PL_NONE : leaders[labels[row]];
+        labels[row] = islands[row] == PL_NONE ? 0 : homes[islands[row]];
     }
-    s->cluster_count = count;
+}
+
+static void find_clusters(plumb_world *world, uint32_t movable)
+{
+    pl_solver *s = &world->solver;
+    if (s->labelled == 0 || ++s->cluster_age >= LOOK_AFTER) {
+        look_for_islands(world, movable);
+    } else {
+        const bool grown = s->cluster_count > 1 && follow_islands(world, movable) > 0;
+        if ((grown || pl_joints_changed(world)) && s->cluster_age >= LOOK_AGAIN_AFTER) {
+            look_for_islands(world, movable);
+        }
+    }
+    if (s->cluster_count > 1) {
+        label_rows(s, movable);
+    }
 }
 
 bool pl_solver_cluster(plumb_world *world)
@@ -205,14 +254,8 @@ bool pl_solver_cluster(plumb_world *world)
         s->labelled = 0;
     } else if (!reserve(world, movable)) {
         return false;
-    } else if (s->labelled == 0 || ++s->cluster_age >= LOOK_AFTER) {
-        look_for_islands(world, movable);
-    } else if (s->cluster_count > 1 && join_clusters(world, movable) > 0) {
-        if (s->cluster_age >= LOOK_AGAIN_AFTER) {
-            look_for_islands(world, movable);
-        } else {
-            renumber(s, movable);
-        }
+    } else {
+        find_clusters(world, movable);
     }
     return pl_buffer_reserve(&world->memory, &s->clusters, s->cluster_count * sizeof(pl_cluster)) &&
            pl_buffer_reserve(&world->memory, &s->cursors,

@@ -1,11 +1,11 @@
-// dull.simd.c - restitution of dull impacts (solver.h), many at a time: the formulas of impact.c in lanes.
+// dull.simd.c - restitution of dull contacts (dull.h), many at a time: the formulas of bounce.c in lanes.
 //
 // A dull contact strikes once in a substep, so nothing that it does comes back to it, and contacts of one
 // colour have no moving body in common: whatever their order, they strike as if one after another. Of
 // each colour the outlook first settles most contacts, W at a time; those left open are looked at
 // in doubles, four at a time from whatever bundles they lie in, and struck where an impact is due.
 //
-// Each lane does what impact.c does to one contact, operation for operation: the bits are the same.
+// Each lane does what bounce.c does to one contact, operation for operation: the bits are the same.
 //
 // Reads: solver bodies, motions, bundles. Writes: those bodies, the contact kernel's separations, the pairs'
 // flags, totals of impulses. Cost: the outlook; 90 instructions an open contact, as many again in fours of
@@ -291,7 +291,7 @@ WIDE_INLINE void find_impulses(four impulse[2], const contacts *c, const side *a
     impulse[1] = choose(both, i1, choose(second & (k11 > zero), r1 / k11, zero));
 }
 
-// See kick() and strike() in impact.c.
+// See kick() and strike() in bounce.c.
 WIDE_INLINE void strike_side(side *s, mask which, double sign, four px, four py, four turn,
                              four time)
 {

@@ -35,13 +35,13 @@ static void turn(pl_bodies *b, uint32_t row, real angle)
     }
 }
 
-// Adds to a value and keeps what rounding takes away for the next time (compensated summation, in
-// double). Without it, an elastic ball drifts by 2e-7 of its energy a bounce in the float library. Places of
-// the far build, doubles themselves, keep the error of their own sum (Knuth's two-sum): what a body does then
-// does not depend on where it is.
+// Adds to a value and keeps what rounding takes away for the next time (compensated summation). Without it,
+// an elastic ball drifts by 2e-7 of its energy a bounce in the float library, and what glides for 1e6 steps
+// is 0.04 um off in the double one (with it 1e-13 m). Floats are added in double; doubles keep the error of
+// their own sum (Knuth's two-sum), so that in the far build, too, what a body does does not depend on where it is.
 static void add(real *value, real *low, real change)
 {
-#if PLUMB_IS_FAR
+#if PLUMB_REAL_IS_DOUBLE
     real wanted = change + *low, sum = *value + wanted, part = sum - *value;
     *low = (*value - (sum - part)) + (wanted - part);
     *value = sum;

@@ -9,6 +9,7 @@
 //
 // Reads: manifolds, velocities, masses, forces. Writes: solver bodies, lanes. Cost: O(bodies +
 // contacts).
+#include "solver/dull.h"
 #include "world/state.h"
 
 #include <string.h>
@@ -152,16 +153,9 @@ static void mark_rows(plumb_world *world, uint32_t movable)
     }
 }
 
-// Labels of rows; null: all are of one cluster.
-static const uint32_t *labels_of(const pl_solver *s)
-{
-    return s->cluster_count == 1 ? NULL : s->labels.data;
-}
-
-// The cluster of a row that is engaged.
 static inline uint32_t cluster_of(const uint32_t *labels, uint32_t row)
 {
-    return labels == NULL || labels[row] == PL_NONE ? 0 : labels[row];
+    return labels == NULL ? 0 : labels[row];
 }
 
 // Slots from `at` on for those rows that are engaged, cluster by cluster and in order; `kind` 0: they are
@@ -170,7 +164,7 @@ static uint32_t give_slots(plumb_world *world, pl_share rows, int kind, uint32_t
 {
     pl_solver *s = &world->solver;
     pl_cluster *clusters = pl_clusters(s);
-    const uint32_t *labels = labels_of(s);
+    const uint32_t *labels = pl_solver_labels(s);
     uint32_t *slots = s->slots.data, *row_of = s->rows.data;
     near_real *lows = world->narrow.any_bounce ? s->lows.data : NULL;
     for (uint32_t row = rows.first; labels != NULL && row < rows.end; ++row) {
@@ -289,7 +283,7 @@ typedef struct sorter {
 static sorter sorter_of(const plumb_world *world)
 {
     const pl_solver *s = &world->solver;
-    return (sorter){ world->dynamic_count, labels_of(s), s->cursors.data };
+    return (sorter){ world->dynamic_count, pl_solver_labels(s), s->cursors.data };
 }
 
 static inline uint32_t *cursor_of(sorter by, pl_ends ends, uint32_t color)
@@ -427,11 +421,11 @@ bool pl_solver_graph(plumb_world *world)
         pl_tasks_ranges(world->tasks, world->narrow.manifold_count, LEAST, note_ends, world);
     }
     mark_rows(world, world->dynamic_count + world->kinematic_count);
-    if (!pl_solver_cluster(world)) {
+    if (!pl_joints_look(world) || !pl_solver_cluster(world)) {
         return false;
     }
     engage(world);
-    if (world->joints.live > 0 && !pl_joints_plan(world)) {
+    if (!pl_joints_plan(world)) {
         return false;
     }
     color_contacts(world);
@@ -449,7 +443,8 @@ void pl_solver_free(pl_memory *memory, pl_solver *s)
         &s->masks,       &s->colors,       &s->lanes,          &s->bundles,      &s->impacts,
         &s->classic,     &s->lows,         &s->struck,         &s->extras,       &s->specials,
         &s->impact_heap, &s->impact_heads, &s->outlook_fields, &s->outlook_ends, &s->outlook_open,
-        &s->clusters,    &s->labels,       &s->leaders,        &s->cursors
+        &s->clusters,    &s->labels,       &s->islands,        &s->homes,        &s->leaders,
+        &s->cursors
     };
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; ++i) {
         pl_buffer_free(memory, buffers[i]);

@@ -1,4 +1,4 @@
-// outlook.h - which dull impacts (solver.h) can be passed over in a substep, W contacts at a time. Included by
+// outlook.h - which dull impacts (dull.h) can be passed over in a substep, W contacts at a time. Included by
 // dull.simd.c only.
 //
 // In a stirred heap most contacts either stay apart, or lean without being struck. Where that is beyond
@@ -14,6 +14,7 @@
 #define PL_OUTLOOK_H
 
 #include "solver/bundle.h"
+#include "solver/dull.h"
 
 // A sum of products of reals is wrong by no more than this share of the sum of their magnitudes.
 #define DOUBT (16 * NEAR_EPSILON)

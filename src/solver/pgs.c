@@ -268,7 +268,8 @@ void pl_solver_pgs(plumb_world *world, real dt)
                   .count = world->narrow.manifold_count,
                   .h = (near_real)(dt / (real)world->desc.substeps) };
     const bool bounce = world->narrow.any_bounce;
-    const bool joints = pl_joints_awake(world) > 0;
+    const pl_joint_course course = pl_joint_course_of(world, 0, world->tasks, 0, c.h);
+    const bool joints = pl_joints_any(&course);
     const bool resist = pl_effects_resist(world);
     prepare(&c, world);
     if (bounce) {
@@ -276,7 +277,7 @@ void pl_solver_pgs(plumb_world *world, real dt)
         pl_impacts_prepare_classic(world);
     }
     if (joints) {
-        pl_joints_prepare(world, c.h);
+        pl_joints_prepare(&course);
     }
     for (int k = 0; k < world->desc.substeps; ++k) {
         if (resist) {
@@ -284,7 +285,7 @@ void pl_solver_pgs(plumb_world *world, real dt)
         }
         integrate_velocities(&c);
         if (joints) {
-            pl_joints_warm_start(world);
+            pl_joints_warm_start(&course);
         }
         warm_start(&c);
         if (bounce) {
@@ -292,17 +293,17 @@ void pl_solver_pgs(plumb_world *world, real dt)
         }
         for (int i = 0; i < world->desc.iterations; ++i) {
             if (joints) {
-                pl_joints_solve(world, c.h, PL_SWEEP_CLASSIC, false);
+                pl_joints_solve(&course, PL_SWEEP_CLASSIC, false);
             }
             sweep(&c, false);
         }
-        if (world->joints.impulsive > 0) {
-            pl_joints_tally(world);
+        if (joints && world->joints.impulsive > 0) {
+            pl_joints_tally(&course);
         }
         pl_integrate_positions(&world->solver, pl_clusters(&world->solver), world->tasks, c.h);
         for (int i = 0; i < POSITION_SWEEPS; ++i) {
             if (joints) {
-                pl_joints_move(world, POSITION_RATE);
+                pl_joints_move(&course, POSITION_RATE);
             }
             sweep(&c, true);
         }

@@ -80,10 +80,9 @@ typedef struct soft_step {
     plumb_world *world;
     const pl_contact_kernels *kernels;
     pl_contact_call call;
-    near_real h; // [s] substep
     uint32_t threads;
     pl_surface_variant surface;
-    bool rotation, extras, specials, tallies, joints, bounce, resist;
+    bool rotation, tallies, bounce, resist;
 } soft_step;
 
 // One cluster in the hands of some threads; null: of one.
@@ -91,8 +90,10 @@ typedef struct course {
     const soft_step *step;
     const pl_cluster *cluster;
     pl_tasks *tasks;
-    pl_contact_call call;        // the step's, for this cluster
-    bool joints, bounce, resist; // of the world: for cluster 0
+    pl_contact_call call; // the step's, for this cluster
+    pl_joint_course joints;
+    bool any_joints;
+    bool bounce, resist; // of the world: for cluster 0
 } course;
 
 typedef struct kernel_call {
@@ -155,16 +156,12 @@ static soft_step open_step(plumb_world *world, real dt)
                   .damping = (near_real)world->desc.contact_damping,
                   .push_speed = (near_real)world->desc.push_speed,
                   .flags = world->bodies.flags },
-        .h = h,
         .surface = special                      ? PL_SPECIAL
                    : running                    ? PL_RUNNING
                    : world->narrow.any_friction ? PL_ROUGH
                                                 : PL_SMOOTH,
         .rotation = world->turning_bodies > 0,
-        .extras = running || tallies,
-        .specials = special,
         .tallies = tallies,
-        .joints = pl_joints_awake(world) > 0,
         .bounce = world->narrow.any_bounce,
         .resist = pl_effects_resist(world),
     };
@@ -174,17 +171,17 @@ static void prepare(const course *c)
 {
     const soft_step *step = c->step;
     each(c, step->kernels->prepare);
-    if (step->extras) {
+    if (c->call.extras != NULL) {
         each(c, step->kernels->prepare_extras);
     }
-    if (step->specials) {
+    if (c->call.specials != NULL) {
         each(c, step->kernels->prepare_specials);
     }
     if (c->bounce) {
         pl_impacts_prepare(step->world);
     }
-    if (c->joints) {
-        pl_joints_prepare(step->world, step->h);
+    if (c->any_joints) {
+        pl_joints_prepare(&c->joints);
     }
 }
 
@@ -192,7 +189,7 @@ static void fly_all(const course *c)
 {
     const pl_slots slots = c->cluster->slots[0];
     pl_tasks_ranges(c->tasks, slots.count, PL_BODIES_SHARED, c->bounce ? fly_carefully : fly,
-                    &(flight){ &c->step->world->solver, slots.first, c->step->h });
+                    &(flight){ &c->step->world->solver, slots.first, c->call.h });
 }
 
 static void run_substep(const course *c, bool first)
@@ -200,13 +197,13 @@ static void run_substep(const course *c, bool first)
     const soft_step *step = c->step;
     const pl_contact_kernels *kernels = step->kernels;
     plumb_world *world = step->world;
-    const near_real h = step->h;
+    const near_real h = c->call.h;
     if (c->resist) {
         pl_effects_substep(world, h);
     }
     fly_all(c);
-    if (c->joints && first) {
-        pl_joints_warm_start(world);
+    if (c->any_joints && first) {
+        pl_joints_warm_start(&c->joints);
     }
     if (first) {
         sweep(c, kernels->warm_start[step->surface][step->rotation]);
@@ -215,20 +212,20 @@ static void run_substep(const course *c, bool first)
         pl_impacts_run(world, h);
     }
     for (int i = 0; i < world->desc.iterations; ++i) {
-        if (c->joints) {
-            pl_joints_solve(world, h, PL_SWEEP_PULL, i == 0);
+        if (c->any_joints) {
+            pl_joints_solve(&c->joints, PL_SWEEP_PULL, i == 0);
         }
         sweep(c, kernels->solve[step->surface][step->rotation]);
     }
     pl_integrate_positions(&world->solver, c->cluster, c->tasks, h);
     for (int i = 0; i < world->desc.iterations; ++i) {
-        if (c->joints) {
-            pl_joints_solve(world, h, PL_SWEEP_RELAX, i == 0);
+        if (c->any_joints) {
+            pl_joints_solve(&c->joints, PL_SWEEP_RELAX, i == 0);
         }
         sweep(c, kernels->relax[step->surface][step->rotation]);
     }
-    if (c->joints && world->joints.impulsive > 0) {
-        pl_joints_tally(world);
+    if (c->any_joints && world->joints.impulsive > 0) {
+        pl_joints_tally(&c->joints);
     }
     if (step->tallies) {
         each(c, kernels->tally);
@@ -238,11 +235,11 @@ static void run_substep(const course *c, bool first)
 static void store(const course *c)
 {
     const soft_step *step = c->step;
-    if (c->joints) {
-        pl_joints_store(step->world, step->h);
+    if (c->any_joints) {
+        pl_joints_store(&c->joints);
     }
     each(c, step->kernels->store);
-    if (step->extras) {
+    if (c->call.extras != NULL) {
         each(c, step->kernels->store_extras);
     }
 }
@@ -256,15 +253,16 @@ static void run_cluster(const soft_step *step, uint32_t i, pl_tasks *tasks, uint
                  .cluster = &pl_clusters(s)[i],
                  .tasks = tasks,
                  .call = step->call,
-                 .joints = i == 0 && step->joints,
+                 .joints = pl_joint_course_of(step->world, i, tasks, thread, step->call.h),
                  .bounce = i == 0 && step->bounce,
                  .resist = i == 0 && step->resist };
+    c.any_joints = pl_joints_any(&c.joints);
     c.call.lanes += c.cluster->first_lane;
     c.call.bundles = (char *)c.call.bundles + room * step->kernels->bundle_size;
-    if (step->extras) {
+    if (c.call.extras != NULL) {
         c.call.extras = (char *)c.call.extras + room * step->kernels->extra_size;
     }
-    if (step->specials) {
+    if (c.call.specials != NULL) {
         c.call.specials = (char *)c.call.specials + room * step->kernels->special_size;
     }
     prepare(&c);
@@ -274,12 +272,16 @@ static void run_cluster(const soft_step *step, uint32_t i, pl_tasks *tasks, uint
     store(&c);
 }
 
-// Solved by all threads together.
+// Solved by all threads together. Joints are swept twice as often as contacts.
 static bool is_large(const soft_step *step, uint32_t i)
 {
-    const bool special = step->joints || step->bounce || step->resist;
-    return (i == 0 && special) ||
-           pl_clusters(&step->world->solver)[i].color_first[PL_COLOR_SLOTS] > LARGE;
+    const plumb_world *world = step->world;
+    const pl_joint_course joints = pl_joint_course_of(step->world, i, NULL, 0, 0);
+    const uint32_t contacts = pl_clusters(&world->solver)[i].color_first[PL_COLOR_SLOTS];
+    const uint32_t tied = pl_joints_any(&joints) ? joints.group->color_first[PL_JOINT_COLORS] -
+                                                       joints.group->color_first[0]
+                                                 : 0;
+    return (i == 0 && (step->bounce || step->resist)) || contacts + 2 * tied > LARGE;
 }
 
 static void run_small_ones(void *context, uint32_t thread)

@@ -63,41 +63,15 @@ static inline bool pl_is_dull(near_real restitution)
     return (double)restitution * (double)restitution <= PL_IMPACT_KEPT;
 }
 
-// Dull impacts, as the lanes of the contact kernels have them: of each bundle three fields, of a real a
-// lane. Separations are PL_APART and restitution 0 where no dull one is.
-#define PL_OUTLOOK_SEPARATION(j) ((size_t)(j)) // [m] at the start of the step
-#define PL_OUTLOOK_RESTITUTION   2
-#define PL_OUTLOOK_FIELDS        3
-
+// Where the record of a dull impact is, a lane (dull.h).
 typedef struct pl_outlook_ends {
     uint32_t a, b;   // solver slots
     uint32_t impact; // PL_NONE: no dull one in this lane
 } pl_outlook_ends;
 
-enum {
-    PL_DULL_STRUCK = 1, // in this substep
-    PL_DULL_HIT = 2     // in this step: its pair has been told
-};
-
-typedef struct pl_dull_call {
-    pl_solver_body *bodies;
-    pl_solver_motion *motions;
-    near_real *lows, *struck;    // a quad, a real a slot
-    uint32_t dynamic_slots; // slots from here on do not move
-    void *bundles;
-    const uint32_t *color_first; // bundles of the colours: a kernel may be given several at once
-    const uint32_t *lanes;
-    pl_manifold *manifolds;
-    pl_pair *pairs;
-    near_real *fields;
-    uint8_t *marks;         // a lane: after a look 1 where it is left open, else PL_DULL_...
-    bool looks_up;          // surfaces run, or impulses are added up
-    near_real h;              // [s]
-    double restitution_speed; // [m/s]
-} pl_dull_call;
-
 // Over the bundles [first, first + count) (dull.simd.c): fills in the fields and counts lively impacts;
 // looks which lanes the outlook leaves open; lets impacts happen, of one colour after another.
+typedef struct pl_dull_call pl_dull_call;
 typedef uint32_t pl_dull_counter(const pl_dull_call *call, uint32_t first, uint32_t count);
 typedef void pl_dull_kernel(const pl_dull_call *call, uint32_t first, uint32_t count);
 
@@ -139,8 +113,9 @@ typedef struct pl_slots {
     uint32_t first, count;
 } pl_slots;
 
-// Islands that are solved together (cluster.c): their bodies, and the bundles of their contacts. A thread
-// uses the same room for the bundles of all its clusters: they stay in its cache.
+// Islands that are solved together (cluster.c): their bodies, and the bundles of their contacts; joints have
+// a group a cluster (joints/joint.h). A thread uses the same room for the bundles of all its clusters: they
+// stay in its cache.
 typedef struct pl_cluster {
     pl_slots slots[2]; // of dynamic, of kinematic bodies
     size_t first_lane;
@@ -160,18 +135,21 @@ typedef struct pl_solver {
     pl_buffer extras;  // a record a bundle, where surfaces run or roll hard or impulses are added up
     pl_buffer specials; // a record a bundle, where bodies are locked or surfaces stick
     pl_buffer impacts; // pl_impact
-    pl_buffer outlook_fields, outlook_ends, outlook_open; // of dull impacts: see pl_dull_call
+    pl_buffer outlook_fields, outlook_ends, outlook_open; // of dull impacts (dull.h)
     uint32_t outlook_lanes; // 0: no impact is dull
     pl_buffer impact_heap, impact_heads; // uint32_t: due ones by time; the first one of a dynamic slot
     pl_buffer classic; // pl_classic_contact, for the classic solver alone
     uint32_t dynamic_slots,
         slot_count; // slots [0, dynamic_slots) move; the last is the immovable one
     pl_buffer clusters; // pl_cluster
-    pl_buffer labels;   // uint32_t a movable row: its cluster, PL_NONE: not known; if there are several
-    pl_buffer leaders;  // uint32_t a row or cluster, while they are joined
+    pl_buffer labels;   // uint32_t a movable row: its cluster; if there are several
+    pl_buffer islands;  // uint32_t a movable row; PL_NONE: tied to nothing that moves, as far as is known
+    pl_buffer homes;    // uint32_t an island: its cluster
+    pl_buffer leaders;  // uint32_t a row or island, while they are joined
     pl_buffer cursors;  // uint32_t a cluster and colour: contacts, then the next lane
     uint32_t cluster_count, cluster_age; // steps since islands were looked for
-    uint32_t labelled; // rows that have a label or are known to have none; 0: no labels
+    uint32_t island_count;
+    uint32_t labelled; // rows whose islands are kept; 0: none
     uint32_t bundle_room; // bundles of the largest cluster; of each thread's room, if there are several
     uint32_t bundle_count; // of cluster 0: all that impacts look at
     uint32_t impact_count, due_count, lively_count;
@@ -264,6 +242,12 @@ static inline uint32_t pl_solver_slot(const pl_solver *solver, uint32_t row, uin
 {
     return row < movable_rows ? ((const uint32_t *)solver->slots.data)[row]
                               : solver->slot_count - 1;
+}
+
+// Clusters of rows; null: all are of one cluster.
+static inline const uint32_t *pl_solver_labels(const pl_solver *solver)
+{
+    return solver->cluster_count == 1 ? NULL : solver->labels.data;
 }
 
 // Fewer bodies than this are not worth another thread in a pass that goes over them once.

@@ -115,6 +115,7 @@ plumb_result plumb_world_step(plumb_world *world, plumb_real dt)
     if (tape != NULL && tape->begin != NULL) {
         tape->begin(tape, world);
     }
+    pl_tasks_rouse(world->tasks);
     pl_quarantine_begin(world);
     result = try_step(world, dt);
     while (result == PLUMB_OK && world->quarantine.again) {

@@ -32,7 +32,8 @@ pl_shift pl_wrap_piece(const plumb_world *world, uint32_t piece, double x, doubl
 pl_shift pl_wrap_arm(const plumb_world *world, uint32_t row, double x, double y);
 
 // From the origin of body p's frame to that of q's [m], such that two pieces of theirs are nearest. Exact
-// where that is less than half a period.
+// where that is less than half a period, but for what rounding took from the origins: 1e-8 m at 1e8 m, by which no
+// crate on tiles and no ball on a platform is elsewhere (tests/stability/test_far.c).
 pl_shift pl_wrap_between(const plumb_world *world, uint32_t p, uint32_t q);
 
 // A box by the image of which the middle lies in the period.

@@ -65,6 +65,28 @@ static void projectile_is_exact_to_rounding(void **state)
     }
 }
 
+// Each step rounds its way, dt v; adding the ways up loses nothing, as what rounding takes from a place is
+// carried on. So the error is a rounding of the whole way and of the place, whatever the number of steps.
+static void gliding_adds_up_without_loss(void **state)
+{
+    (void)state;
+    const double starts[] = { 0, 1000, -1e6 };
+    for (size_t k = 0; k < sizeof starts / sizeof starts[0]; ++k) {
+        plumb_world *w = sim_space();
+        plumb_body b = sim_ball(w, starts[k], 0, 0.5, (plumb_material)PLUMB_NULL_INIT);
+        const double dt = (double)(plumb_real)(1 / 60.0), v = (double)(plumb_real)0.1;
+        const int n = 100000;
+        sim_launch(w, b, v, 0, 0);
+        sim_run(w, n, dt);
+        const double way = n * dt * v, place = starts[k] + way;
+        const double bound = (double)PLUMB_REAL_EPSILON * (way + fabs(place));
+        const double error = fabs(sim_x(w, b) - place);
+        print_message("gliding from %g m: error %.3g m, bound %.3g m\n", starts[k], error, bound);
+        assert_true(error <= bound);
+        plumb_world_destroy(w);
+    }
+}
+
 // A disc with its shape off the origin, so that the frame turns about a centre that is elsewhere.
 static void spin_without_torque_is_exact(void **state)
 {
@@ -179,6 +201,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(projectile_is_exact_to_rounding),
+        cmocka_unit_test(gliding_adds_up_without_loss),
         cmocka_unit_test(spin_without_torque_is_exact),
         cmocka_unit_test(steady_force_and_torque_are_exact),
         cmocka_unit_test(melee_conserves_momentum),

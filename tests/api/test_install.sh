@@ -36,6 +36,16 @@ warnings="-Wall -Wextra -Wpedantic -Werror"
 try "installs" make --no-print-directory install DESTDIR="$root" PREFIX=$prefix
 try "leaves no file elsewhere" test "$(ls "$root")" = opt
 try "installs the command line" "$root$prefix/bin/plumb" --help
+# What a tab offers after these words, with the installed command line.
+complete()
+{
+    bash -c '. "$1"; shift; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _plumb; echo "${COMPREPLY[@]}"' \
+        complete "$root$prefix/share/bash-completion/completions/plumb" "$root$prefix/bin/plumb" "$@"
+}
+try "completes commands" test "$(complete re)" = "render replay"
+try "completes precisions" test "$(complete run --precision '')" = "float double far"
+try "completes solvers" test "$(complete run --solver '')" = "soft pgs"
+try "completes options" test "$(complete run --prec)" = "--precision"
 
 # ---- headers: each stands alone, in both languages
 alone() # compiler standard language header

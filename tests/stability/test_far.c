@@ -169,6 +169,68 @@ static void bridge_hangs_as_at_the_origin(void **state)
     }
 }
 
+// Where a crate without friction is that slides over a row of tiles, bodies of their own, and a ball that was shot
+// up through a platform of one way and fell on it, after 5 s, seen from `far`.
+static void slide(double far, double where[4])
+{
+    plumb_world *w;
+    assert_int_equal(plumb_world_create(&(plumb_world_desc){ .no_sleep = true }, &w), PLUMB_OK);
+    plumb_material ice = plumb_material_create(w, &(plumb_material_desc){ .density = 1 });
+    for (int i = 0; i < 24; ++i) {
+        plumb_body tile =
+            plumb_body_create(w, &(plumb_body_desc){ .type = PLUMB_STATIC,
+                                                     .position = { R(far + i), R(far - 0.5) } });
+        const bool passed = i == 20; // higher than the rest, and behind what slides
+        const plumb_shape_desc box = { .kind = PLUMB_BOX,
+                                       .half = { R(0.5), R(0.5) },
+                                       .center = { 0, passed ? 2 : 0 },
+                                       .one_way = { .direction = { 0, passed ? 1 : 0 } },
+                                       .material = ice };
+        assert_true(plumb_shape_valid(w, plumb_shape_create(w, tile, &box)));
+    }
+    const plumb_body bodies[2] = {
+        plumb_body_create(w, &(plumb_body_desc){ .position = { R(far + 0.3125), R(far + 0.25) },
+                                                 .velocity = { R(3.1), 0 } }),
+        plumb_body_create(w, &(plumb_body_desc){ .position = { R(far + 20.125), R(far + 0.25) },
+                                                 .velocity = { 0, R(8.3) } })
+    };
+    const plumb_shape_desc shapes[2] = {
+        { .kind = PLUMB_BOX, .half = { R(0.25), R(0.25) }, .material = ice },
+        { .kind = PLUMB_CIRCLE, .radius = R(0.2), .material = ice }
+    };
+    for (int i = 0; i < 2; ++i) {
+        assert_true(plumb_shape_valid(w, plumb_shape_create(w, bodies[i], &shapes[i])));
+    }
+    for (int step = 0; step < 300; ++step) {
+        assert_int_equal(plumb_world_step(w, R(1.0 / 60)), PLUMB_OK);
+    }
+    for (int i = 0; i < 2; ++i) {
+        plumb_vec2 p = plumb_body_position(w, bodies[i]);
+        where[2 * i] = (double)p.x - far;
+        where[2 * i + 1] = (double)p.y - far;
+    }
+    plumb_world_destroy(w);
+}
+
+static void seams_and_platforms_are_as_at_the_origin(void **state)
+{
+    (void)state;
+    double here[4], there[4];
+    const double allowed = PLUMB_IS_FAR ? 2e-8 : sizeof(plumb_real) > sizeof(float) ? 1e-6 : 5e-3;
+    slide(0, here);
+    assert_true(here[0] > 15 && here[3] > 2); // over the tiles; on the platform
+    for (size_t i = 0; i < tried(); ++i) {
+        double worst = 0;
+        slide(places[i], there);
+        for (int k = 0; k < 4; ++k) {
+            worst = fmax(worst, fabs(there[k] - here[k]));
+        }
+        print_message("tiles at %g m: %.2g m from where they are at the origin\n", places[i],
+                      worst);
+        assert_true(worst < allowed);
+    }
+}
+
 // In 20 rows the last bit decides early on which of two faces that lie flush carries a contact (at 1 m from the
 // origin as at 1e8 m): single boxes then end some micrometres apart.
 static void large_pyramid_drifts_as_at_the_origin(void **state)
@@ -193,6 +255,7 @@ int main(void)
         cmocka_unit_test(on_ground_of_the_origin),
         cmocka_unit_test(large_pyramid_drifts_as_at_the_origin),
         cmocka_unit_test(bridge_hangs_as_at_the_origin),
+        cmocka_unit_test(seams_and_platforms_are_as_at_the_origin),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

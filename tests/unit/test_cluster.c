@@ -1,6 +1,6 @@
 // test_cluster.c - islands solved a cluster at a time: every contact is in one lane of the cluster that
-// has both its bodies, what goes through the whole world is in cluster 0, and where clusters begin and
-// end changes no bit.
+// has both its bodies, every joint in its group, what goes through the whole world is in cluster 0, and
+// where clusters begin and end changes no bit.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -16,6 +16,8 @@
 #define STACKS 140
 #define HIGH   10
 #define STEPS  90
+#define CHAINS 70
+#define LINKS  8
 
 enum { JOINTS = 1, BOUNCE = 2, DAMPING = 4 };
 
@@ -26,6 +28,78 @@ static void add_table(plumb_world *w, double x, plumb_material m)
         sim_crate(w, x + 0.5 * i, 0.2, 0.2, 0.2, m);
     }
     sim_crate(w, x + 14.75, 0.6, 15, 0.2, m);
+}
+
+// The i-th chain's joints: of every sort, some solved in lanes and some one by one, some of which break.
+static plumb_joint_desc link_of(int i, double x, double y)
+{
+    plumb_joint_desc d = { .anchor = sim_vec(x, y) };
+    switch (i % 10) {
+    case 0:
+        d.enable_limit = d.enable_motor = true; // as in ragdolls
+        d.lower = (plumb_real)-0.5, d.upper = (plumb_real)0.5, d.max_motor = (plumb_real)0.1;
+        break;
+    case 1:
+        d.kind = PLUMB_DISTANCE;
+        d.anchor_b = sim_vec(x + 0.3, y);
+        d.hertz = 4, d.damping = (plumb_real)0.2;
+        break;
+    case 2:
+        d.break_force = 10;
+        break;
+    case 3:
+        d.break_impulse = (plumb_real)0.3;
+        break;
+    case 4:
+        d.kind = PLUMB_WELD;
+        d.hertz = 3;
+        break;
+    case 5:
+        d.kind = PLUMB_PRISMATIC;
+        d.enable_motor = true, d.motor_speed = (plumb_real)0.2, d.max_motor = 3;
+        break;
+    case 6:
+        d.kind = PLUMB_GEAR;
+        break;
+    case 7:
+        d.kind = PLUMB_PULLEY;
+        d.anchor_b = sim_vec(x + 0.3, y);
+        d.ground_a = sim_vec(x, y + 2), d.ground_b = sim_vec(x + 0.3, y + 2);
+        break;
+    case 8:
+        d.kind = PLUMB_WHEEL;
+        d.hertz = 5, d.damping = (plumb_real)0.7;
+        break;
+    default:
+        break;
+    }
+    return d;
+}
+
+// Chains that fall on the stacks and each other, some hung up in the world or on `moving`; bodies in some of
+// them are damped or locked.
+static void add_chain(plumb_world *w, int i, unsigned special, plumb_body moving)
+{
+    const double x = -112 + 3.1 * i, y = 6.5;
+    plumb_body last = i % 14 == 5 ? moving : (plumb_body)PLUMB_NULL_INIT;
+    for (int k = 0; k < LINKS; ++k) {
+        plumb_body b = sim_crate(w, x + 0.3 * k, y + 0.1 * (i % 3), 0.12, 0.08,
+                                 (plumb_material)PLUMB_NULL_INIT);
+        plumb_joint_desc d = link_of(i, x + 0.3 * k - 0.15, y);
+        d.kind = k == 0 ? PLUMB_REVOLUTE : d.kind;
+        d = k == 0 ? (plumb_joint_desc){ .anchor = d.anchor } : d;
+        d.body_a = last, d.body_b = b;
+        if (k > 0 || i % 7 == 5) {
+            assert_false(plumb_is_null(plumb_joint_create(w, &d)));
+        }
+        if ((special & DAMPING) != 0 && i % 30 == 11) {
+            plumb_body_set_damping(w, b, 1, 1);
+        }
+        if ((special & DAMPING) != 0 && i % 20 == 12 && k == 4) {
+            plumb_body_set_locks(w, b, (plumb_axis_locks){ .x = true });
+        }
+        last = b;
+    }
 }
 
 // Stacks side by side, two tables, a platform that moves under some, and what falls on all of it; with
@@ -62,6 +136,9 @@ static plumb_world *build(const plumb_world_desc *desc, unsigned special)
         }
     }
     add_table(w, 110, wood);
+    for (int i = 0; i < CHAINS && (special & JOINTS) != 0; ++i) {
+        add_chain(w, i, special, moving);
+    }
     uint32_t seed = 5;
     for (int i = 0; i < 60; ++i) {
         sim_crate(w, sim_uniform(&seed, -140, 130), 6 + 0.1 * i, 0.9, 0.1, wood);
@@ -122,6 +199,65 @@ static uint32_t check_lanes(const plumb_world *w, uint32_t i, uint32_t *met)
     return count;
 }
 
+// Of a colour, no dynamic body has two joints; joints of one bundle have one pattern.
+static void check_bundles(const plumb_world *w, uint32_t i, uint32_t *met)
+{
+    const pl_joint_plan *plan = &w->joints.plan;
+    const pl_joint_group *g = &pl_joint_groups(&w->joints)[i];
+    const pl_joint_bundle *bundles = plan->bundles.data;
+    const uint32_t width = (uint32_t)pl_joint_kernels_of(w)->width;
+    uint32_t count = 0;
+    for (uint32_t color = 0; color < PL_JOINT_COLORS; ++color) {
+        for (uint32_t k = g->color_first[color] * width; k < g->color_first[color + 1] * width;
+             ++k) {
+            const uint32_t joint = ((const pl_joint_lane *)plan->lanes.data)[k].joint;
+            if (joint == PL_NONE) {
+                continue;
+            }
+            const pl_joint_mark *mark = &pl_joint_marks(&w->joints)[joint];
+            assert_int_equal(mark->color, color);
+            assert_int_equal(mark->pattern, bundles[k / width].pattern);
+            const uint32_t rows[] = { mark->row_a, mark->row_b };
+            for (int end = 0; end < 2; ++end) {
+                if (rows[end] < w->dynamic_count) {
+                    assert_true(met[rows[end]] != i * 100 + color + 1);
+                    met[rows[end]] = i * 100 + color + 1;
+                }
+            }
+            ++count;
+        }
+    }
+    assert_int_equal(count, g->alone - g->first);
+}
+
+// Every joint that is solved is in one group, with both its bodies. Returns how many groups have any.
+static uint32_t check_joints(const plumb_world *w)
+{
+    static uint32_t met[4 * STACKS * HIGH];
+    static bool seen[2 * CHAINS * LINKS];
+    const pl_solver *s = &w->solver;
+    uint32_t count = 0, peopled = 0;
+    memset(met, 0, sizeof met);
+    memset(seen, 0, sizeof seen);
+    for (uint32_t i = 0; i < s->cluster_count; ++i) {
+        const pl_joint_group *g = &pl_joint_groups(&w->joints)[i];
+        for (uint32_t k = g->first; k < g->end; ++k) {
+            const uint32_t joint = ((const uint32_t *)w->joints.plan.grouped.data)[k];
+            const pl_joint_mark *mark = &pl_joint_marks(&w->joints)[joint];
+            assert_false(seen[joint]);
+            seen[joint] = true;
+            assert_int_equal(pl_joint_is_wide(mark), k < g->alone);
+            check_end(w, &pl_clusters(s)[i], mark->row_a);
+            check_end(w, &pl_clusters(s)[i], mark->row_b);
+            ++count;
+        }
+        peopled += g->end > g->first;
+        check_bundles(w, i, met);
+    }
+    assert_int_equal(count, w->joints.plan.order_count);
+    return peopled;
+}
+
 static void check_clusters(const plumb_world *w, bool special)
 {
     static uint32_t met[4 * STACKS * HIGH];
@@ -139,10 +275,9 @@ static void check_clusters(const plumb_world *w, bool special)
     assert_int_equal(slot[1], s->slot_count - 1);
     assert_int_equal(count, w->narrow.manifold_count);
     for (uint32_t row = 0; special && row < w->dynamic_count; ++row) {
-        const bool jointed = w->bodies.first_joint[row] != PL_NONE;
-        const bool damped = (w->bodies.flags[row] & PL_BODY_TUNED) != 0;
-        if (jointed || damped) {
-            assert_true(has(pl_clusters(s)->slots[0], ((const uint32_t *)s->slots.data)[row]));
+        const uint32_t slot_of = ((const uint32_t *)s->slots.data)[row];
+        if ((w->bodies.flags[row] & PL_BODY_TUNED) != 0 && slot_of != PL_NONE) {
+            assert_true(has(pl_clusters(s)->slots[0], slot_of));
         }
     }
     for (uint32_t i = 0; special && i < w->narrow.manifold_count; ++i) {
@@ -160,13 +295,16 @@ static void clusters_have_their_bodies_and_contacts(void **state)
     (void)state;
     for (unsigned special = 0; special < 8; ++special) {
         plumb_world *w = build(&(plumb_world_desc){ .no_sleep = true }, special);
-        uint32_t most = 0;
+        uint32_t most = 0, peopled = 0;
         for (int i = 0; i < STEPS; ++i) {
             assert_int_equal(plumb_world_step(w, DT), PLUMB_OK);
             check_clusters(w, special != 0);
             most = w->solver.cluster_count > most ? w->solver.cluster_count : most;
+            const uint32_t groups = w->joints.live > 0 ? check_joints(w) : 0;
+            peopled = groups > peopled ? groups : peopled;
         }
         assert_true(most > 2);
+        assert_true((special & JOINTS) == 0 || peopled > 2);
         assert_true(w->solver.overflow_count > 0);
         plumb_world_destroy(w);
     }
@@ -192,12 +330,42 @@ static void all_in_one(plumb_world *w, uint32_t *seed)
 static void mix_up(plumb_world *w, uint32_t *seed)
 {
     pl_solver *s = &w->solver;
-    uint32_t *labels = s->labels.data;
+    uint32_t *islands = s->islands.data, *homes = s->homes.data;
     for (uint32_t row = 0; row < s->labelled; ++row) {
         if (sim_random(seed) % 20 == 0) {
-            labels[row] = sim_random(seed) % (s->cluster_count + 1);
-            labels[row] = labels[row] == s->cluster_count ? PL_NONE : labels[row];
+            islands[row] = sim_random(seed) % (s->island_count + 1);
+            islands[row] = islands[row] == s->island_count ? PL_NONE : islands[row];
         }
+    }
+    for (uint32_t i = 0; i < s->island_count; ++i) {
+        homes[i] = sim_random(seed) % s->cluster_count;
+    }
+}
+
+// Bodies go, so that rows move; joints go, break, get other rows; a body no longer moves.
+static void meddle(plumb_world *w, int step)
+{
+    uint32_t seed = 7 + (uint32_t)step;
+    if (step % 6 == 4) {
+        plumb_body_destroy(w, w->bodies.entity[sim_random(&seed) % w->dynamic_count]);
+    }
+    const uint32_t slot = sim_random(&seed) % (w->joints.count + 1);
+    if (step % 3 != 1 || slot == w->joints.count) {
+        return;
+    }
+    const plumb_joint j = pl_joint_items(&w->joints)[slot].entity;
+    if (plumb_is_null(j)) {
+        return;
+    }
+    if (step % 4 == 0) {
+        plumb_joint_destroy(w, j);
+    } else if (step % 4 == 1) {
+        plumb_joint_set_enabled(w, j, false);
+    } else if (step % 4 == 2) {
+        plumb_joint_set_break(w, j, (plumb_real)0.5, 0);
+    } else {
+        plumb_body_set_type(w, plumb_joint_body_b(w, j), PLUMB_KINEMATIC);
+        plumb_body_set_velocity(w, plumb_joint_body_b(w, j), sim_vec(0, 0));
     }
 }
 
@@ -210,6 +378,7 @@ static void clusters_change_no_bit(void **state)
         static uint64_t hashes[STEPS];
         plumb_world *w = build(&(plumb_world_desc){ .no_sleep = true }, special);
         for (int i = 0; i < STEPS; ++i) {
+            meddle(w, i);
             plumb_world_step(w, DT);
             hashes[i] = plumb_world_hash(w);
         }
@@ -219,8 +388,12 @@ static void clusters_change_no_bit(void **state)
             w = build(&(plumb_world_desc){ .no_sleep = true, .workers = k, .simd_width = 4 << k },
                       special);
             for (int i = 0; i < STEPS; ++i) {
+                meddle(w, i);
                 plumb_world_step(w, DT);
                 check_clusters(w, special != 0);
+                if (special != 0) {
+                    check_joints(w);
+                }
                 if (plumb_world_hash(w) != hashes[i]) {
                     fail_msg("special %u, disturbance %d: step %d differs", special, k, i);
                 }

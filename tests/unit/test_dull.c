@@ -1,4 +1,4 @@
-// test_dull.c - impacts in lanes (dull.simd.c) are those of impact.c, bit for bit: what the outlook settles,
+// test_dull.c - impacts in lanes (dull.simd.c) are those of bounce.c, bit for bit: what the outlook settles,
 // which contacts strike, how hard, and what the contact kernel is told. Stirred heaps of every kind of
 // contact, at every width, looked at again in the state in which a step has left them.
 #include <setjmp.h>
@@ -8,7 +8,7 @@
 
 #include <cmocka.h>
 
-#include "solver/impact.c" // resolves one contact after another: static there
+#include "solver/impact.c" // record_impacts: static there
 
 #include "plumb/plumb.h"
 

@@ -67,7 +67,7 @@ static void add_box(boxes *b, double x, double y, double w, double h)
 
 static void build(boxes *b)
 {
-    assert_true(pl_grid_build(&b->memory, &b->grid, b->pieces, b->count, b->fat));
+    assert_true(pl_grid_build(&b->memory, NULL, &b->grid, b->pieces, b->count, b->fat));
     assert_int_equal(b->grid.entry_count, b->count);
     assert_false(b->grid.mapped);
     assert_true(pl_grid_make_maps(&b->memory, &b->grid));
@@ -416,7 +416,8 @@ static void test_no_memory(void **state)
     const plumb_allocator hooks = heap_allocator(&h);
     pl_memory_init(&b->memory, &hooks);
     int refused = 0;
-    for (; !pl_grid_build(&b->memory, &b->grid, b->pieces, b->count, b->fat); h.limit += 512) {
+    for (; !pl_grid_build(&b->memory, NULL, &b->grid, b->pieces, b->count, b->fat);
+         h.limit += 512) {
         ++refused;
         assert_int_equal(b->grid.level_count, 0);
         assert_int_equal(b->grid.entry_count, 0);

@@ -344,6 +344,36 @@ static void immovable_ends_are_harmless(void **state)
     }
 }
 
+// What lay on the stack before: every byte of a NaN.
+static __attribute__((noinline)) void leave_nans_on_the_stack(void)
+{
+    volatile unsigned char left[1 << 14];
+    for (size_t i = 0; i < sizeof left; ++i) {
+        left[i] = 0xff;
+    }
+}
+
+// Reactions of locked bodies come from rows made for them alone, of which those of parts that are switched
+// off are not filled in.
+static void reactions_of_locked_bodies_are_told(void **state)
+{
+    (void)state;
+    plumb_world *w = sim_world(&(plumb_world_desc){ 0 });
+    plumb_body b = sim_crate(w, 0, 0, 0.5, 0.5, (plumb_material)PLUMB_NULL_INIT);
+    assert_int_equal(plumb_body_set_locks(w, b, (plumb_axis_locks){ .x = true }), PLUMB_OK);
+    plumb_joint j = plumb_joint_create(w, &(plumb_joint_desc){ .body_b = b, .break_torque = 1 });
+    for (int i = 0; i < 60; ++i) {
+        leave_nans_on_the_stack();
+        assert_int_equal(plumb_world_step(w, DT), PLUMB_OK);
+        const plumb_vec2 force = plumb_joint_force(w, j);
+        assert_true(fabs((double)force.x) < 1e-6 && isfinite((double)force.y));
+        assert_true(fabs((double)plumb_joint_torque(w, j)) < 1e-3);
+    }
+    const double weight = SIM_G * (double)plumb_body_mass(w, b);
+    assert_true(fabs((double)plumb_joint_force(w, j).y - weight) < 1e-3 * weight);
+    plumb_world_destroy(w);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -354,6 +384,7 @@ int main(void)
         cmocka_unit_test(overloaded_joints_break_with_an_event),
         cmocka_unit_test(connected_bodies_do_not_collide),
         cmocka_unit_test(immovable_ends_are_harmless),
+        cmocka_unit_test(reactions_of_locked_bodies_are_told),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

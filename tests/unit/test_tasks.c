@@ -83,7 +83,7 @@ static void many_small_jobs(void **state)
     pl_tasks_destroy(&memory, tasks);
 }
 
-// Threads that went to sleep are woken.
+// Threads that went to sleep are woken: by the first job, or before it.
 static void jobs_after_pauses(void **state)
 {
     (void)state;
@@ -92,10 +92,18 @@ static void jobs_after_pauses(void **state)
     pl_memory_init(&memory, &(plumb_allocator){ 0 });
     pl_tasks *tasks = pl_tasks_create(&memory, 4, &no_hooks, NULL);
     for (int i = 0; i < 20; ++i) {
+        pl_tasks_rest(tasks);
         nanosleep(&(struct timespec){ 0, 2000000 }, NULL);
+        if (i % 3 > 0) {
+            pl_tasks_rouse(tasks);
+        }
+        if (i % 3 > 1) {
+            continue; // roused for nothing
+        }
         pl_tasks_run(tasks, count_chunk, &t, 100);
         expect_all_once(&t, 100);
     }
+    pl_tasks_rouse(NULL);
     pl_tasks_destroy(&memory, tasks);
 }
 

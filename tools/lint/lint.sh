@@ -40,6 +40,18 @@ find src include tools tests assets -type f ! -path 'tests/fuzz/seeds/*' -printf
     done >"$work/out"
 breach "readme" <"$work/out"
 
+# Each README names the files beside it. Tests of one unit or header are found by their names.
+find src include tools tests -type f ! -path 'tests/fuzz/seeds/*' ! -path 'tests/unit/*' ! -path 'tests/api/*' \
+    ! -name README.md | sort | while IFS= read -r file; do
+        stem=${file##*/}
+        grep -qE "(^|[^A-Za-z0-9_])${stem%%.*}\b" "${file%/*}/README.md" 2>/dev/null ||
+            echo "${file%/*}/README.md does not name ${file##*/}"
+    done >"$work/out"
+for folder in src/*/ tests/*/; do
+    grep -qE "\b$(basename "$folder")\b" "${folder%%/*}/README.md" || echo "${folder%%/*}/README.md does not name $folder"
+done >>"$work/out"
+breach "readme" <"$work/out"
+
 sources src include tools tests | xargs wc -l | awk '
     $2 != "total" && $1 > 600 { print "note: " $2 " has " $1 " lines; 150 to 500 read best" }'
 
@@ -62,6 +74,16 @@ breach "banned function" <"$work/out"
 grep -nE '^\s*#\s*(pragma\s+(STDC\s+FP_CONTRACT\s+ON|GCC\s+optimize)|include\s*<(complex|tgmath|fenv)\.h>)' \
     $(sources src include) /dev/null >"$work/out"
 breach "determinism" <"$work/out"
+
+# What comments and READMEs name is there.
+find . -name '.?*' -prune -o -path "./$O" -prune -o -path ./build -prune -o -type f -printf '%f\n' | sort -u >"$work/names"
+xargs sed 's|//.*||' <"$work/files" | cat - Makefile tools/make/* | grep -oE '[A-Za-z_][A-Za-z0-9_]*' | sort -u >"$work/words"
+{
+    find src include tools tests assets -name README.md
+    echo README.md
+    cat "$work/files"
+} | xargs awk -f $here/words.awk "$work/names" "$work/words" >"$work/out"
+breach "named but nowhere" <"$work/out"
 
 # ---- the public interface: each function is documented and called by a test of tests/api, each result code is
 # the outcome that one of them asks for
@@ -111,13 +133,13 @@ breach "include cycle" <"$work/out"
 
 # Public headers know nothing of src/, tools know the public headers only.
 grep -nE '#\s*include\s*"' include/plumb/*.h | grep -v '"plumb/' >"$work/out"
-grep -nE '#\s*include\s*"(core|math|ecs|geometry|world|broad|narrow|solver|query|event|step)/' \
+grep -nE "#\s*include\s*\"($(find src -mindepth 1 -maxdepth 1 -type d -printf '%f|' | sed 's/|$//'))/" \
     $(sources tools) /dev/null >>"$work/out"
 breach "include direction" <"$work/out"
 
 # ---- the libraries
 
-for lib in libplumb libplumb_d; do
+for lib in libplumb libplumb_d libplumb_far; do
     a=$O/$lib.a
     so=$O/$lib.so
     if [ ! -e "$a" ] || [ ! -e "$so" ]; then

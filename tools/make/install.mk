@@ -1,4 +1,4 @@
-# install.mk - `make install`: headers, libraries, plumb.pc, CMake package, command line.
+# install.mk - `make install`: headers, libraries, plumb.pc, CMake package, command line and its completion.
 # Included by the Makefile. Templates are in tools/install.
 
 VERSION := $(shell sed -n 's/^\#define PLUMB_VERSION  *"\(.*\)"/\1/p' include/plumb/base.h)
@@ -10,6 +10,7 @@ LIBDIR     := $(PREFIX)/lib
 INCLUDEDIR := $(PREFIX)/include
 PKGDIR     := $(LIBDIR)/pkgconfig
 CMAKEDIR   := $(LIBDIR)/cmake/plumb
+BASHDIR    := $(PREFIX)/share/bash-completion/completions
 
 fill = sed -e 's|@PREFIX@|$(PREFIX)|g' -e 's|@VERSION@|$(VERSION)|g' -e 's|@SUFFIX@|$1|g' \
 	-e 's|@DEFINES@|$2|g' -e 's|@PRECISION@|$3|g'
@@ -31,10 +32,11 @@ install-lib: $(LIBRARIES)
 		>$(DESTDIR)$(CMAKEDIR)/plumb-config-version.cmake
 
 install: install-lib $(O)/plumb
-	install -d $(DESTDIR)$(BINDIR)
+	install -d $(DESTDIR)$(BINDIR) $(DESTDIR)$(BASHDIR)
 	install -m 755 $(O)/plumb $(DESTDIR)$(BINDIR)/plumb
+	install -m 644 tools/plumb/plumb.bash-completion $(DESTDIR)$(BASHDIR)/plumb
 
 uninstall:
 	rm -rf $(addprefix $(DESTDIR),$(INCLUDEDIR)/plumb $(CMAKEDIR) $(PKGDIR)/plumb.pc \
-		$(PKGDIR)/plumb_d.pc $(PKGDIR)/plumb_far.pc $(BINDIR)/plumb)
+		$(PKGDIR)/plumb_d.pc $(PKGDIR)/plumb_far.pc $(BINDIR)/plumb $(BASHDIR)/plumb)
 	rm -f $(foreach l,libplumb libplumb_d libplumb_far,$(DESTDIR)$(LIBDIR)/$l.a $(DESTDIR)$(LIBDIR)/$l.so*)

@@ -1,5 +1,6 @@
 // body_act.c - methods of bodies that change them: settings, pushes, sleep, filters; and what their sensors see.
-// To add a method: one function, one row in `sc_body_acts`.
+// To add a method: one function, one row in `sc_body_acts`; one that sets a number or a flag: its name in NUMBERS
+// or FLAGS.
 #include <stdio.h>
 
 #include "internal.h"
@@ -33,47 +34,34 @@ static int method_teleport(lua_State *L)
     return 0;
 }
 
-static int method_set_mass(lua_State *L)
-{
-    sc_body_call c = sc_body_self(L, "set_mass");
-    double mass = sc_finite_number(L, 2);
-    sc_body_check(&c, plumb_body_set_mass(c.world, c.entity, (plumb_real)mass));
-    c.body->def.mass = mass;
-    SC_GIVE(&sc_list_body, &c.body->def, sc_body_def, mass);
-    return 0;
-}
+// What takes one number or one flag: body:set_mass(2). The world has it, or refuses; the record keeps it as given,
+// and whoever writes the scene out writes it.
+#define NUMBERS(X) X(gravity_scale) X(mass) X(time_scale)
+#define FLAGS(X)   X(continuous) X(enabled) X(fixed_rotation)
 
-static int method_set_gravity_scale(lua_State *L)
-{
-    sc_body_call c = sc_body_self(L, "set_gravity_scale");
-    double scale = sc_finite_number(L, 2);
-    sc_body_check(&c, plumb_body_set_gravity_scale(c.world, c.entity, (plumb_real)scale));
-    c.body->def.gravity_scale = scale;
-    SC_GIVE(&sc_list_body, &c.body->def, sc_body_def, gravity_scale);
-    return 0;
-}
-
-static int method_set_fixed_rotation(lua_State *L)
-{
-    sc_body_call c = sc_body_self(L, "set_fixed_rotation");
-    luaL_checktype(L, 2, LUA_TBOOLEAN);
-    bool fixed = lua_toboolean(L, 2) != 0;
-    sc_body_check(&c, plumb_body_set_fixed_rotation(c.world, c.entity, fixed));
-    c.body->def.fixed_rotation = fixed;
-    SC_GIVE(&sc_list_body, &c.body->def, sc_body_def, fixed_rotation);
-    return 0;
-}
-
-static int method_set_continuous(lua_State *L)
-{
-    sc_body_call c = sc_body_self(L, "set_continuous");
-    luaL_checktype(L, 2, LUA_TBOOLEAN);
-    bool continuous = lua_toboolean(L, 2) != 0;
-    sc_body_check(&c, plumb_body_set_continuous(c.world, c.entity, continuous));
-    c.body->def.continuous = continuous;
-    SC_GIVE(&sc_list_body, &c.body->def, sc_body_def, continuous);
-    return 0;
-}
+#define NUMBER_SETTER(field)                                                                       \
+    static int method_set_##field(lua_State *L)                                                    \
+    {                                                                                              \
+        sc_body_call c = sc_body_self(L, "set_" #field);                                           \
+        double value = sc_finite_number(L, 2);                                                     \
+        sc_body_check(&c, plumb_body_set_##field(c.world, c.entity, (plumb_real)value));           \
+        c.body->def.field = value;                                                                 \
+        SC_GIVE(&sc_list_body, &c.body->def, sc_body_def, field);                                  \
+        return 0;                                                                                  \
+    }
+#define FLAG_SETTER(field)                                                                         \
+    static int method_set_##field(lua_State *L)                                                    \
+    {                                                                                              \
+        sc_body_call c = sc_body_self(L, "set_" #field);                                           \
+        luaL_checktype(L, 2, LUA_TBOOLEAN);                                                        \
+        bool value = lua_toboolean(L, 2) != 0;                                                     \
+        sc_body_check(&c, plumb_body_set_##field(c.world, c.entity, value));                       \
+        c.body->def.field = value;                                                                 \
+        SC_GIVE(&sc_list_body, &c.body->def, sc_body_def, field);                                  \
+        return 0;                                                                                  \
+    }
+NUMBERS(NUMBER_SETTER)
+FLAGS(FLAG_SETTER)
 
 // ------------------------------------------------------------------------------ taking part
 
@@ -84,17 +72,6 @@ static int method_set_type(lua_State *L)
     int type = luaL_checkoption(L, 2, NULL, sc_body_types);
     sc_body_check(&c, plumb_body_set_type(c.world, c.entity, all[type]));
     c.body->def.type = type;
-    return 0;
-}
-
-static int method_set_enabled(lua_State *L)
-{
-    sc_body_call c = sc_body_self(L, "set_enabled");
-    luaL_checktype(L, 2, LUA_TBOOLEAN);
-    bool enabled = lua_toboolean(L, 2) != 0;
-    sc_body_check(&c, plumb_body_set_enabled(c.world, c.entity, enabled));
-    c.body->def.enabled = enabled;
-    SC_GIVE(&sc_list_body, &c.body->def, sc_body_def, enabled);
     return 0;
 }
 
@@ -137,16 +114,6 @@ static int method_set_damping(lua_State *L)
     c.body->def.angular_damping = angular;
     SC_GIVE(&sc_list_body, &c.body->def, sc_body_def, damping);
     SC_GIVE(&sc_list_body, &c.body->def, sc_body_def, angular_damping);
-    return 0;
-}
-
-static int method_set_time_scale(lua_State *L)
-{
-    sc_body_call c = sc_body_self(L, "set_time_scale");
-    double scale = sc_finite_number(L, 2);
-    sc_body_check(&c, plumb_body_set_time_scale(c.world, c.entity, (plumb_real)scale));
-    c.body->def.time_scale = scale;
-    SC_GIVE(&sc_list_body, &c.body->def, sc_body_def, time_scale);
     return 0;
 }
 
@@ -341,21 +308,16 @@ const luaL_Reg sc_body_acts[] = {
     { "move_to", method_move_to },
     { "overlaps", method_overlaps },
     { "set_color", method_set_color },
-    { "set_continuous", method_set_continuous },
     { "set_damping", method_set_damping },
-    { "set_enabled", method_set_enabled },
     { "set_filter", method_set_filter },
-    { "set_fixed_rotation", method_set_fixed_rotation },
-    { "set_gravity_scale", method_set_gravity_scale },
     { "set_label", method_set_label },
     { "set_lock", method_set_lock },
-    { "set_mass", method_set_mass },
     { "set_spin", method_set_spin },
-    { "set_time_scale", method_set_time_scale },
     { "set_type", method_set_type },
     { "set_velocity", method_set_velocity },
     { "sleep", method_sleep },
     { "teleport", method_teleport },
     { "wake", method_wake },
-    { NULL, NULL },
+#define SETTER_ROW(field) { "set_" #field, method_set_##field },
+    NUMBERS(SETTER_ROW) FLAGS(SETTER_ROW){ NULL, NULL },
 };

@@ -144,7 +144,6 @@ _Noreturn static void fail_member(lua_State *L, const char *name)
 // body.user, else a method (upvalue 1).
 static int body_index(lua_State *L)
 {
-    scene *s = sc_of(L);
     const char *name = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : "?";
     if (strcmp(name, "user") == 0) {
         sc_body *b = sc_body_self(L, "user").body;
@@ -155,7 +154,6 @@ static int body_index(lua_State *L)
         lua_rawgeti(L, LUA_REGISTRYINDEX, b->user);
         return 1;
     }
-    (void)s;
     lua_pushvalue(L, 2);
     if (lua_rawget(L, lua_upvalueindex(1)) == LUA_TNIL) {
         fail_member(L, name);

@@ -1,7 +1,6 @@
 // joint_api.c - joints as Lua objects: the methods that handlers and test functions call.
 // An object holds the world's handle only, so a joint that broke or went with its body is noticed;
 // its record hangs on the world's user data. To add a method: one function, one row in `methods`.
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -39,13 +38,6 @@ static call self(lua_State *L, const char *method)
         sc_raise(c.s, SCENE_E_STATE, &site, NULL, 0, NULL, "%s() of a joint that is gone", method);
     }
     return c;
-}
-
-static double finite_number(lua_State *L, int index)
-{
-    double v = luaL_checknumber(L, index);
-    luaL_argcheck(L, isfinite(v), index, "must be finite");
-    return v;
 }
 
 _Noreturn static void fail_state(const call *c, const char *what)
@@ -182,8 +174,8 @@ static int method_set_limits(lua_State *L)
 {
     call c = self(L, "set_limits");
     bool on = !lua_isnoneornil(L, 2);
-    plumb_real lower = on ? (plumb_real)finite_number(L, 2) : 0;
-    plumb_real upper = on ? (plumb_real)finite_number(L, 3) : 0;
+    plumb_real lower = on ? (plumb_real)sc_finite_number(L, 2) : 0;
+    plumb_real upper = on ? (plumb_real)sc_finite_number(L, 3) : 0;
     return check(&c, plumb_joint_set_limit(c.world, c.entity, on, lower, upper), "limits");
 }
 
@@ -192,8 +184,8 @@ static int method_set_motor(lua_State *L)
 {
     call c = self(L, "set_motor");
     bool on = !lua_isnoneornil(L, 2);
-    plumb_real speed = on ? (plumb_real)finite_number(L, 2) : 0;
-    plumb_real most = on ? (plumb_real)finite_number(L, 3) : 0;
+    plumb_real speed = on ? (plumb_real)sc_finite_number(L, 2) : 0;
+    plumb_real most = on ? (plumb_real)sc_finite_number(L, 3) : 0;
     return check(&c, plumb_joint_set_motor(c.world, c.entity, on, speed, most), "motor");
 }
 
@@ -205,7 +197,7 @@ static int method_set_motor_speed(lua_State *L)
         fail_state(&c, "motor that is on: call set_motor(speed, torque or force)");
     }
     return check(&c,
-                 plumb_joint_set_motor(c.world, c.entity, true, (plumb_real)finite_number(L, 2),
+                 plumb_joint_set_motor(c.world, c.entity, true, (plumb_real)sc_finite_number(L, 2),
                                        d.max_motor),
                  "motor");
 }
@@ -215,9 +207,9 @@ static int method_set_spring(lua_State *L)
 {
     call c = self(L, "set_spring");
     plumb_joint_desc d = settings(&c);
-    plumb_real hertz = lua_isnoneornil(L, 2) ? 0 : (plumb_real)finite_number(L, 2);
-    plumb_real damping = lua_isnoneornil(L, 3) ? 0 : (plumb_real)finite_number(L, 3);
-    plumb_real rest = lua_isnoneornil(L, 4) ? d.rest : (plumb_real)finite_number(L, 4);
+    plumb_real hertz = lua_isnoneornil(L, 2) ? 0 : (plumb_real)sc_finite_number(L, 2);
+    plumb_real damping = lua_isnoneornil(L, 3) ? 0 : (plumb_real)sc_finite_number(L, 3);
+    plumb_real rest = lua_isnoneornil(L, 4) ? d.rest : (plumb_real)sc_finite_number(L, 4);
     return check(&c, plumb_joint_set_spring(c.world, c.entity, hertz, damping, rest), "spring");
 }
 
@@ -226,22 +218,15 @@ static int method_set_rest(lua_State *L)
 {
     call c = self(L, "set_rest");
     plumb_joint_desc d = settings(&c);
-    plumb_real rest = (plumb_real)finite_number(L, 2);
+    plumb_real rest = (plumb_real)sc_finite_number(L, 2);
     return check(&c, plumb_joint_set_spring(c.world, c.entity, d.hertz, d.damping, rest), "spring");
 }
 
 static int method_set_target(lua_State *L)
 {
     call c = self(L, "set_target");
-    double v[2];
-    if (lua_istable(L, 2)) {
-        luaL_argcheck(L, sc_to_vec2(c.s, 2, v) && isfinite(v[0]) && isfinite(v[1]), 2,
-                      "must be two finite numbers {x, y}");
-    } else {
-        v[0] = finite_number(L, 2);
-        v[1] = finite_number(L, 3);
-    }
-    plumb_vec2 target = { (plumb_real)v[0], (plumb_real)v[1] };
+    int index = 2;
+    plumb_vec2 target = sc_vector(L, &index);
     return check(&c, plumb_joint_set_target(c.world, c.entity, target), "target");
 }
 
@@ -249,8 +234,8 @@ static int method_set_target(lua_State *L)
 static int method_set_break(lua_State *L)
 {
     call c = self(L, "set_break");
-    plumb_real force = lua_isnoneornil(L, 2) ? 0 : (plumb_real)finite_number(L, 2);
-    plumb_real torque = lua_isnoneornil(L, 3) ? 0 : (plumb_real)finite_number(L, 3);
+    plumb_real force = lua_isnoneornil(L, 2) ? 0 : (plumb_real)sc_finite_number(L, 2);
+    plumb_real torque = lua_isnoneornil(L, 3) ? 0 : (plumb_real)sc_finite_number(L, 3);
     return check(&c, plumb_joint_set_break(c.world, c.entity, force, torque), "break");
 }
 
