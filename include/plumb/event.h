@@ -50,6 +50,25 @@ PLUMB_API const plumb_contact_hit *plumb_world_hit_events(const plumb_world *wor
 /// Errors: E_RANGE, E_NOT_FINITE, E_LOCKED.
 PLUMB_API plumb_result plumb_world_set_hit_speed(plumb_world *world, plumb_real speed);
 
+/// A body that a step would have left without a finite state, or with one beyond 1e12 m, m/s or rad/s: it is
+/// taken out of the simulation; where contacts or joints overflow, as many of those concerned as it takes, the
+/// fastest first. It stays where it was before the step, at rest and disabled
+/// (plumb_body_set_enabled brings it back); to every other body it is as if it had been disabled before the step,
+/// bit for bit, unless `pass` is "motion" (it flew, or was carried, beyond the bounds: then what it touched in the
+/// step counts). Systems of PLUMB_PHASE_CONTACTS may be called more than once in such a step; what they
+/// did to contacts before does not count.
+typedef struct plumb_quarantine {
+    plumb_body body;
+    const char *pass; ///< that left it so: "calls" (before the step: a velocity, a force), "begin systems", "force
+                      ///< systems", "contact systems", "soft step", "classic solver", "motion"
+} plumb_quarantine;
+
+#define PLUMB_QUARANTINE_MAX 16 ///< most that are told of a step; plumb_stats.arrested_count counts all
+
+/// Bodies taken out in the last step, in the order in which they were found; *count is set. Null when there
+/// are none.
+PLUMB_API const plumb_quarantine *plumb_world_quarantine_events(const plumb_world *world, int *count);
+
 /// A shape began or ceased to overlap a sensor. Two sensors that meet tell it of each.
 typedef struct plumb_sensor_event {
     plumb_shape sensor, shape; ///< of an end event, either may be stale

@@ -93,6 +93,10 @@ PLUMB_API plumb_result plumb_world_set_gravity(plumb_world *world, plumb_vec2 gr
 /// Changes substeps (1..64) and iterations (1..1000), as in the descriptor; from the next step on.
 /// Errors: E_RANGE, E_LOCKED.
 PLUMB_API plumb_result plumb_world_set_substeps(plumb_world *world, int substeps, int iterations);
+/// Changes how many threads share the work of a step, 0..64, as in the descriptor (0: 1); with task hooks, how many
+/// there are to reckon with. Ends and starts threads, so it is nothing for every step; no bit depends on it.
+/// Errors: E_NULL, E_RANGE, E_LOCKED, E_MEMORY (memory or threads; those that there were stay).
+PLUMB_API plumb_result plumb_world_set_workers(plumb_world *world, int workers);
 /// Changes contact_hertz, contact_damping and push_speed; 0 means the default told in the descriptor.
 /// Errors: E_RANGE, E_NOT_FINITE, E_LOCKED.
 PLUMB_API plumb_result plumb_world_set_contact_tuning(plumb_world *world, plumb_real hertz,
@@ -159,8 +163,8 @@ typedef struct plumb_stats {
     uint32_t overflow_count;    ///< contacts that found no colour
     uint32_t pair_rebuilds;     ///< rebuilds of the pair list since the world was made
     uint32_t bounce_count;      ///< impacts resolved with restitution in the last step
-    uint32_t arrested_count;    ///< bodies stopped in all, because a step would have left them with a state
-                                ///< that is not finite or beyond 1e12 m or m/s; each is told to the log
+    uint32_t arrested_count;    ///< bodies taken out in all, because a step would have left them with a state
+                                ///< that is not finite or beyond 1e12 m or m/s: see plumb_quarantine
     uint32_t fast_count;        ///< bodies that moved so fast in the last step that their way was swept
     uint32_t stopped_count;     ///< of those, bodies put back to where they would have passed into something
     int simd_width;             ///< lanes in use

@@ -36,6 +36,11 @@ static bool is_on(const pl_character *c, const plumb_world *world)
     return c->on_ground && pl_body_row(world, c->ground.body) != PL_NONE;
 }
 
+static bool is_asleep_below(const pl_character *c, const plumb_world *world)
+{
+    return is_on(c, world) && pl_row_is_asleep(world, pl_body_row(world, c->ground.body));
+}
+
 // [m] by which what it stands on carries it in this step.
 static plumb_vec2 carry_of(const pl_walker *m)
 {
@@ -200,6 +205,9 @@ static bool move_one(plumb_world *world, pl_character *c, real dt)
     // Coming to rest again where it stood, off by a rounding, it has not moved.
     double rounding = 4 * (double)PLUMB_REAL_EPSILON *
                       (fabs((double)m.start.x) + fabs((double)m.start.y) + m.half_width);
+    if (is_asleep_below(c, world)) { // it fell asleep in a creep of the solver's rounding, larger in the far build
+        rounding += 4 * (double)NEAR_EPSILON * m.half_width;
+    }
     bool moved = fabs(m.x) + fabs(m.y) > rounding;
     b->vx[m.row] = moved ? (real)(m.x / m.dt) : 0;
     b->vy[m.row] = moved ? (real)(m.y / m.dt) : 0;

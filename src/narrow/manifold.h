@@ -34,7 +34,10 @@ typedef struct pl_manifold {
     uint32_t count;             // points, 1 or 2
     uint32_t feature[2];
     uint32_t disabled; // by a system; only while the contact systems run
-    uint32_t bearer;   // of manifolds behind manifold_count: pair that bears the load of this one
+    union {
+        uint32_t bearer; // of manifolds behind manifold_count: pair that bears the load of this one
+        uint32_t before; // of the others: pl_pair.manifold in the last step; PL_NONE: they were apart
+    };
 } pl_manifold;
 
 // [m] within which surfaces that stick pull: those that touched in the step before hold while they are

@@ -82,10 +82,22 @@ typedef struct pl_note_head {
 
 // An edit, padded to 8 bytes. What the state was and became, as a delta; or contacts.
 typedef struct pl_edit_head {
-    uint32_t phase; // 0: before the step, else 1 + plumb_phase
+    uint32_t phase; // 0: before the step, else a pl_edit_mark
     uint32_t kind;  // pl_edit_kind
     uint64_t bytes;
 } pl_edit_head;
+
+// What systems of a phase did in a step, taken anew so many times (step/quarantine.c): each time has its own.
+static inline uint32_t pl_edit_mark(plumb_phase phase, uint32_t attempt)
+{
+    return 1 + (uint32_t)phase + 16 * attempt;
+}
+
+// -1: before the step.
+static inline int pl_edit_phase(uint32_t mark)
+{
+    return (int)(mark % 16) - 1;
+}
 
 typedef enum pl_edit_kind { PL_EDIT_STATE, PL_EDIT_CONTACTS } pl_edit_kind;
 

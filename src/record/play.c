@@ -119,7 +119,7 @@ static void play_state(plumb_replay *replay, uint32_t phase, const char *delta, 
         pl_image_play(world, &before->image, &now->image);
     }
     if (replay->desc.list_edits) {
-        pl_replay_list(replay, (int)phase - 1, &before->image, &now->image);
+        pl_replay_list(replay, pl_edit_phase(phase), &before->image, &now->image);
     }
 }
 

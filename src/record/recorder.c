@@ -228,7 +228,7 @@ static bool is_note(const pl_manifold *a, const pl_manifold *b)
 }
 
 // What contact systems made of the manifolds.
-static void note_contacts(recorder *r, plumb_world *world)
+static void note_contacts(recorder *r, plumb_world *world, uint32_t mark)
 {
     const pl_manifold *now = pl_manifolds(&world->narrow), *then = r->manifolds.data;
     size_t bytes = 0;
@@ -236,7 +236,7 @@ static void note_contacts(recorder *r, plumb_world *world)
         bytes += is_note(&now[i], &then[i]) ? sizeof(pl_contact_note) : 0;
     }
     char *to =
-        bytes == 0 ? NULL : begin_edit(r, world, 1 + PLUMB_PHASE_CONTACTS, PL_EDIT_CONTACTS, bytes);
+        bytes == 0 ? NULL : begin_edit(r, world, mark, PL_EDIT_CONTACTS, bytes);
     for (uint32_t i = 0; to != NULL && i < world->narrow.manifold_count; ++i) {
         const pl_manifold *m = &now[i];
         if (is_note(m, &then[i])) {
@@ -301,9 +301,10 @@ static void after_systems(pl_tape *self, plumb_world *world, plumb_phase phase)
     if (r->info.ended != PLUMB_OK) {
         return;
     }
-    note_state(r, world, 1 + (uint32_t)phase, &r->before);
+    const uint32_t mark = pl_edit_mark(phase, world->quarantine.attempt);
+    note_state(r, world, mark, &r->before);
     if (phase == PLUMB_PHASE_CONTACTS && world->edited) {
-        note_contacts(r, world);
+        note_contacts(r, world, mark);
     }
 }
 

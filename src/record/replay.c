@@ -50,8 +50,7 @@ const char *plumb_replay_error(const plumb_replay *replay)
 
 static void after_systems(pl_tape *self, plumb_world *world, plumb_phase phase)
 {
-    (void)world;
-    pl_replay_play((plumb_replay *)self, 1 + (uint32_t)phase);
+    pl_replay_play((plumb_replay *)self, pl_edit_mark(phase, world->quarantine.attempt));
 }
 
 static void after_pass(pl_tape *self, plumb_world *world, int pass)

@@ -124,6 +124,24 @@ static void time_bodies(plumb_world *world, real passed)
     }
 }
 
+// In a step that is taken anew: those that began to rest anew when a body was taken out begin now, as they would
+// have, had it gone before the step.
+static void time_unsettled(plumb_world *world)
+{
+    pl_bodies *b = &world->bodies;
+    const real slow = square(world->desc.sleep_speed);
+    for (uint32_t row = 0; row < (world->dynamic_count + 3) / 4 * 4; ++row) { // as go_on does
+        const real tip = b->w[row] * b->extent[row];
+        if (b->looked[row] < 0 && square(b->vx[row]) + square(b->vy[row]) + square(tip) <= slow) {
+            b->looked[row] = 0;
+            if (row < world->dynamic_count) {
+                look_from_here(b, row);
+                b->looks[row] = 0;
+            }
+        }
+    }
+}
+
 //---- links ---------------------------------------------------------------------------------------
 
 // A contact of the last narrow phase, or one whose end event is still to come.
@@ -430,8 +448,11 @@ bool pl_sleep_fall(plumb_world *world, real dt)
         s->ripe_for -= s->passed;
         time_bodies(world, s->passed);
         s->passed = dt;
-        unsettle_around_changed(world, pair_count);
+        world->quarantine.since = s->since;
+    } else if (world->quarantine.attempt > 0) {
+        time_unsettled(world);
     }
+    unsettle_around_changed(world, pair_count);
     if (s->since * LOOKS < world->desc.sleep_time) {
         return true;
     }

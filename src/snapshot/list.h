@@ -145,6 +145,11 @@
     LEFT(continuous.movers) LEFT(continuous.count) VALUE(continuous.least_slack)                   \
     LEFT(continuous.noting) LEFT(continuous.stopped_count)
 
+#define PL_STATE_QUARANTINE(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                 \
+    LEFT(quarantine.events) LEFT(quarantine.event_count) LEFT(quarantine.again)                    \
+    LEFT(quarantine.lost) LEFT(quarantine.attempt) LEFT(quarantine.joints)                         \
+    LEFT(quarantine.rolling) LEFT(quarantine.kept) LEFT(quarantine.since)
+
 #define PL_STATE_EFFECTS(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                    \
     ARRAY(pl_tuning, tunings.items, tunings.count, offsetof(pl_tuning, ax), 8)                     \
     VALUE(tunings.damped) VALUE(tunings.capped) VALUE(tunings.scaled) VALUE(tunings.frozen)        \
@@ -177,7 +182,7 @@
     PL_STATE_JOINTS(__VA_ARGS__) PL_STATE_PARTS(__VA_ARGS__) PL_STATE_BLOWS(__VA_ARGS__)           \
     PL_STATE_SENSING(__VA_ARGS__) PL_STATE_SLEEP(__VA_ARGS__) PL_STATE_SEAMS(__VA_ARGS__)          \
     PL_STATE_CHARACTERS(__VA_ARGS__) PL_STATE_CONTINUOUS(__VA_ARGS__)                              \
-    PL_STATE_EFFECTS(__VA_ARGS__)
+    PL_STATE_QUARANTINE(__VA_ARGS__) PL_STATE_EFFECTS(__VA_ARGS__)
 
 // Members of a joint that decide later steps: what hash.c hashes of it. (When an angle was seen last is
 // the business of plan.c, and may differ after a restore.)

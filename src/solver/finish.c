@@ -161,14 +161,10 @@ static bool arrest_if_lost(plumb_world *world, uint32_t row, where before)
 
 static void tell_lost(plumb_world *world)
 {
-    pl_bodies *b = &world->bodies;
+    const pl_bodies *b = &world->bodies;
     for (uint32_t row = 0; row < world->dynamic_count + world->kinematic_count; ++row) {
         if ((b->flags[row] & PL_BODY_LOST) != 0) {
-            b->flags[row] &= (uint16_t)~PL_BODY_LOST;
-            ++world->arrested_count;
-            pl_warn(world,
-                    "body %u was stopped: the step would have left it without a finite state",
-                    b->entity[row].index);
+            pl_quarantine_note_lost(world, row);
         }
     }
 }

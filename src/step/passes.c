@@ -238,15 +238,30 @@ static void run_systems(plumb_world *world, plumb_phase phase, plumb_real dt)
     }
 }
 
+static plumb_result run_guard(plumb_world *world, plumb_real dt)
+{
+    pl_quarantine_guard(world, dt, "calls");
+    return PLUMB_OK;
+}
+
+// What they did holds when the step is taken anew (step/quarantine.c).
+static void run_once(plumb_world *world, plumb_phase phase, plumb_real dt, const char *pass)
+{
+    if (world->quarantine.attempt == 0) {
+        run_systems(world, phase, dt);
+        pl_quarantine_guard(world, dt, pass);
+    }
+}
+
 static plumb_result run_begin(plumb_world *world, plumb_real dt)
 {
-    run_systems(world, PLUMB_PHASE_BEGIN, dt);
+    run_once(world, PLUMB_PHASE_BEGIN, dt, "begin systems");
     return PLUMB_OK;
 }
 
 static plumb_result run_forces(plumb_world *world, plumb_real dt)
 {
-    run_systems(world, PLUMB_PHASE_FORCES, dt);
+    run_once(world, PLUMB_PHASE_FORCES, dt, "force systems");
     return PLUMB_OK;
 }
 
@@ -264,7 +279,14 @@ static plumb_result run_feet(plumb_world *world, plumb_real dt)
 
 static plumb_result run_waking(plumb_world *world, plumb_real dt)
 {
-    return pl_sleep_wake(world, dt) ? PLUMB_OK : PLUMB_E_MEMORY;
+    const uint32_t awake = world->dynamic_count;
+    if (!pl_sleep_wake(world, dt)) {
+        return PLUMB_E_MEMORY;
+    }
+    if (world->dynamic_count != awake) { // what slept may have been given any velocity
+        pl_quarantine_guard_late(world, dt, "calls");
+    }
+    return PLUMB_OK;
 }
 
 static plumb_result run_sleep(plumb_world *world, plumb_real dt)
@@ -329,6 +351,7 @@ static plumb_result run_contacts(plumb_world *world, plumb_real dt)
     pl_edits_open(world);
     run_systems(world, PLUMB_PHASE_CONTACTS, dt);
     pl_edits_close(world);
+    pl_quarantine_guard_late(world, dt, "contact systems");
     return PLUMB_OK;
 }
 
@@ -337,19 +360,22 @@ static plumb_result run_graph(plumb_world *world, plumb_real dt)
     (void)dt;
     const char *unused;
     bool room = pl_solver_graph(world) &&
-                (!continuous_wanted(world, &unused) || pl_continuous_reserve(world));
+                (!continuous_wanted(world, &unused) || pl_continuous_reserve(world)) &&
+                pl_quarantine_keep(world);
     return room ? PLUMB_OK : PLUMB_E_MEMORY;
 }
 
 static plumb_result run_soft(plumb_world *world, plumb_real dt)
 {
     pl_solver_soft(world, dt);
+    pl_quarantine_judge(world, dt, "soft step");
     return PLUMB_OK;
 }
 
 static plumb_result run_classic(plumb_world *world, plumb_real dt)
 {
     pl_solver_pgs(world, dt);
+    pl_quarantine_judge(world, dt, "classic solver");
     return PLUMB_OK;
 }
 
@@ -403,6 +429,7 @@ const char pl_user_phase[] = "user";
 // clang-format off
 const pl_pass pl_passes[] = {
     //name             phase       reads                              writes                       wanted            run
+    { "guard",         "commands", "velocities, forces",              "rows of what is not finite", NULL,              run_guard },
     { "begin systems", pl_user_phase, "declared by the systems",         "declared by the systems",   begin_wanted,     run_begin },
     { "force systems", pl_user_phase, "declared by the systems",         "declared by the systems",   forces_wanted,    run_forces },
     { "characters",    "forces",   "grids, poses, velocities",        "velocities, forces",        pl_characters_wanted, run_characters },

@@ -47,6 +47,9 @@ static plumb_result run_passes(plumb_world *world, plumb_real dt)
         if (result != PLUMB_OK) {
             return result;
         }
+        if (world->quarantine.again) {
+            return PLUMB_OK;
+        }
         if (world->tape != NULL && world->tape->passed != NULL) {
             world->tape->passed(world->tape, world, i);
         }
@@ -60,6 +63,29 @@ static plumb_result run_passes(plumb_world *world, plumb_real dt)
         start = end;
     }
     return PLUMB_OK;
+}
+
+// The passes, from the beginning.
+static plumb_result try_step(plumb_world *world, plumb_real dt)
+{
+    pl_events_clear(world);
+    pl_edits_forget(world);
+    forget_contacts(world);
+    // Systems with `needs` come and go with their component, which is no structural change of
+    // physics.
+    if (world->schedule_dirty || world->systems.count > 0) {
+        revise_schedule(world);
+    }
+    world->characters.moved = false;
+    return run_passes(world, dt);
+}
+
+// Nothing has moved; what passes did before motion does not count.
+static void undo_step(plumb_world *world)
+{
+    pl_characters_undo(world);
+    pl_seams_undo(world);
+    world->narrow.manifold_count = world->narrow.borne_count = 0; // pairs no longer name them
 }
 
 plumb_result plumb_world_step(plumb_world *world, plumb_real dt)
@@ -90,22 +116,21 @@ plumb_result plumb_world_step(plumb_world *world, plumb_real dt)
         tape->begin(tape, world);
     }
     pl_tasks_rouse(world->tasks);
-    pl_events_clear(world);
-    pl_edits_forget(world);
-    forget_contacts(world);
-    // Systems with `needs` come and go with their component, which is no structural change of
-    // physics.
-    if (world->schedule_dirty || world->systems.count > 0) {
-        revise_schedule(world);
+    pl_quarantine_begin(world);
+    result = try_step(world, dt);
+    while (result == PLUMB_OK && world->quarantine.again) {
+        pl_quarantine_undo(world);
+        undo_step(world);
+        pl_quarantine_finish(world);
+        result = try_step(world, dt);
     }
-    world->characters.moved = false;
-    result = run_passes(world, dt);
     pl_tasks_rest(world->tasks);
     if (result == PLUMB_E_MEMORY) {
-        pl_characters_undo(world);
-        pl_seams_undo(world);
-        world->narrow.manifold_count = world->narrow.borne_count = 0; // pairs no longer name them
+        undo_step(world);
         return pl_fail_memory(world, __func__);
+    }
+    if (world->quarantine.lost) {
+        pl_quarantine_finish(world);
     }
     world->sleep.events_told |= result == PLUMB_OK;
     if (tape != NULL && tape->end != NULL) {

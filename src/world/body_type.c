@@ -127,6 +127,16 @@ plumb_result plumb_body_set_enabled(plumb_world *world, plumb_body body, bool en
     return r;
 }
 
+void pl_body_take_out(plumb_world *world, uint32_t row)
+{
+    pl_bodies *b = &world->bodies;
+    stand_still(world, row);
+    b->low_vx[row] = b->low_vy[row] = 0;
+    b->fx[row] = b->fy[row] = b->torque[row] = 0;
+    b->flags[row] |= PL_BODY_DISABLED;
+    relocate(world, row);
+}
+
 //---- locked axes ---------------------------------------------------------------------------------
 
 plumb_result plumb_body_set_locks(plumb_world *world, plumb_body body, plumb_axis_locks locks)

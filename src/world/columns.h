@@ -66,7 +66,7 @@ typedef struct pl_hint {
 #define PL_BODY_DISABLED       0x800u // out of the simulation
 #define PL_BODY_TARGETED       0x1000u // has a record in world->targets
 #define PL_BODY_OWN_CENTER     0x2000u // its centre of mass was given, not taken from the shapes
-#define PL_BODY_LOST           0x4000u // its step had no finite end; only within the pass that moves it
+#define PL_BODY_LOST           0x4000u // the step has no finite end for it; only within the step
 #define PL_BODY_LOCKED         (PL_BODY_LOCK_X | PL_BODY_LOCK_Y)
 #define PL_BODY_ODD            (PL_BODY_LOCKED | PL_BODY_TUNED) // does not move as the rest do
 #define PL_BODY_EXCLUDING      128u // it is in the table of excluded pairs, or was once

@@ -38,6 +38,15 @@ const plumb_contact_hit *plumb_world_hit_events(const plumb_world *world, int *c
     return events == 0 ? NULL : world->hit_events.data;
 }
 
+const plumb_quarantine *plumb_world_quarantine_events(const plumb_world *world, int *count)
+{
+    int events = world == NULL ? 0 : world->quarantine.event_count;
+    if (count != NULL) {
+        *count = events;
+    }
+    return events == 0 ? NULL : world->quarantine.events;
+}
+
 plumb_result plumb_world_set_hit_speed(plumb_world *world, plumb_real speed)
 {
     if (world == NULL) {

@@ -76,6 +76,7 @@ static void tell_passes(listing *out, const plumb_world *w)
     PART(broad, pl_broad, w->broad, pl_broad_free(&dry, &copy));
     PART(narrow, pl_narrow, w->narrow, pl_narrow_free(&dry, &copy));
     PART(solver, pl_solver, w->solver, pl_solver_free(&dry, &copy));
+    PART(solver, pl_quarantine, w->quarantine, pl_quarantine_free(&dry, &copy));
     PART(joints, pl_joints, w->joints, pl_joints_free(&dry, &copy));
     PART(seams, pl_seams, w->seams, pl_seams_free(&dry, &copy));
     PART(sleep, pl_sleep, w->sleep, pl_sleep_free(&dry, &copy));

@@ -166,6 +166,9 @@ plumb_result pl_shape_insert(plumb_world *world, const char *function, uint32_t 
                              const plumb_shape_desc *desc, const pl_made *made, plumb_shape *shape);
 void pl_body_place(plumb_world *world, uint32_t row, plumb_vec2 position, plumb_real angle);
 void pl_body_place_at(plumb_world *world, uint32_t row, plumb_vec2 position, plumb_rot q);
+// Disables a body, at rest, also within a step. Rows move.
+void pl_body_take_out(plumb_world *world, uint32_t row);
+
 plumb_result pl_place_check(const plumb_world *world, const char *function, plumb_vec2 position,
                             plumb_real angle);
 

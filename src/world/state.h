@@ -24,6 +24,7 @@
 #include "solver/solver.h"
 #include "sleep/sleep.h"
 #include "step/pass.h"
+#include "step/quarantine.h"
 #include "world/columns.h"
 
 // A size class of the vertex pool holds runs of 4, 8 or 16 corners.
@@ -55,7 +56,7 @@ struct plumb_world {
     plumb_vec2 gravity;
     uint64_t step_count;
     double time;
-    uint32_t arrested_count; // bodies stopped because a step would have left them without a finite state
+    uint32_t arrested_count; // bodies taken out because a step would have left them without a finite state
 
     // Entities and rows.
     pl_registry registry;
@@ -110,6 +111,7 @@ struct plumb_world {
     pl_joints joints;
     pl_characters characters;
     pl_schedule schedule;
+    pl_quarantine quarantine;
 
     // Events of the last step.
     pl_buffer begin_events, end_events; // plumb_contact_begin, plumb_contact_end

@@ -159,6 +159,7 @@ static void free_world(plumb_world *world)
     pl_joints_free(&memory, &world->joints);
     pl_characters_free(&memory, &world->characters);
     pl_continuous_free(&memory, &world->continuous);
+    pl_quarantine_free(&memory, &world->quarantine);
     pl_registry_free(&memory, &world->registry);
     pl_table_free(&memory, &world->bodies.table, pl_body_columns, pl_body_column_count);
     pl_table_free(&memory, &world->pieces.table, pl_piece_columns, pl_piece_column_count);
@@ -291,6 +292,33 @@ plumb_result plumb_world_set_substeps(plumb_world *world, int substeps, int iter
         world->desc.iterations = iterations;
     }
     return r;
+}
+
+plumb_result plumb_world_set_workers(plumb_world *world, int workers)
+{
+    if (world == NULL) {
+        return PLUMB_E_NULL;
+    }
+    plumb_result r = pl_check_unlocked(world, __func__);
+    if (r == PLUMB_OK && (workers < 0 || workers > PLUMB_WORKERS_MAX)) {
+        r = pl_fail(world, PLUMB_E_RANGE, __func__, "workers is %d; it must be 0 to %d", workers,
+                    PLUMB_WORKERS_MAX);
+    }
+    workers = workers == 0 ? 1 : workers;
+    if (r != PLUMB_OK || workers == world->desc.workers) {
+        return r;
+    }
+    pl_tasks *old = world->tasks;
+    const int before = world->desc.workers;
+    world->tasks = NULL;
+    world->desc.workers = workers;
+    if (!start_workers(world)) {
+        world->tasks = old;
+        world->desc.workers = before;
+        return pl_fail_memory(world, __func__);
+    }
+    pl_tasks_destroy(&world->memory, old);
+    return PLUMB_OK;
 }
 
 plumb_result plumb_world_set_contact_tuning(plumb_world *world, plumb_real hertz,

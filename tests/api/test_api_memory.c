@@ -237,6 +237,7 @@ static bool play(run *r)
         }
         if (i == 25) {
             const plumb_explosion_desc blast = { .radius = 9, .impulse = 1, .occlusion = PLUMB_OCCLUDE_ALL };
+            TRY(r, plumb_world_set_workers(r->world, 3));
             TRY(r, plumb_world_explode(r->world, &blast));
             assert_int_equal(plumb_body_set_type(r->world, r->bodies[7], PLUMB_DYNAMIC), PLUMB_OK);
             assert_int_equal(plumb_body_set_enabled(r->world, r->bodies[12], true), PLUMB_OK);

@@ -254,7 +254,8 @@ static void worlds_share_nothing(void **state)
     plumb_world_destroy(other);
 }
 
-// A body whose next state would not be finite is stopped where it is; the others do not notice.
+// A body whose next state would not be finite is taken out where it is; the others do not notice. (In full:
+// tests/determinism/test_quarantine.c.)
 static void lost_body_is_stopped(void **state)
 {
     (void)state;
@@ -266,6 +267,12 @@ static void lost_body_is_stopped(void **state)
                      PLUMB_OK);
     assert_int_equal(plumb_world_step(world, (plumb_real)(1.0 / 60)), PLUMB_OK);
     assert_int_equal(plumb_world_stats(world).arrested_count, 1);
+    int count;
+    const plumb_quarantine *out = plumb_world_quarantine_events(world, &count);
+    assert_int_equal(count, 1);
+    assert_true(plumb_same(out->body, lost));
+    assert_string_equal(out->pass, "calls");
+    assert_false(plumb_body_is_enabled(world, lost));
     plumb_vec2 at = plumb_body_position(world, lost), v = plumb_body_velocity(world, lost);
     assert_true(at.x == 1 && at.y == 2 && v.x == 0 && v.y == 0);
     assert_true(plumb_body_velocity(world, other).y < 0);
@@ -307,6 +314,15 @@ static void settings_change(void **state)
             plumb_world_set_contact_tuning(w, 0, 0, R(NAN)));
     REFUSED(E_RANGE, "plumb_world_set_restitution_speed: speed is -1; it must be at least 0",
             plumb_world_set_restitution_speed(w, -1));
+    assert_int_equal(plumb_world_set_workers(w, 2), PLUMB_OK);
+    assert_int_equal(plumb_world_settings(w).workers, 2);
+    assert_int_equal(plumb_world_set_workers(w, 0), PLUMB_OK);
+    assert_int_equal(plumb_world_settings(w).workers, 1);
+    REFUSED(E_RANGE, "plumb_world_set_workers: workers is 65; it must be 0 to 64",
+            plumb_world_set_workers(w, 65));
+    REFUSED(E_RANGE, "plumb_world_set_workers: workers is -1; it must be 0 to 64",
+            plumb_world_set_workers(w, -1));
+    assert_int_equal(plumb_world_set_workers(NULL, 1), PLUMB_E_NULL);
     assert_int_equal(plumb_world_set_substeps(NULL, 1, 1), PLUMB_E_NULL);
     assert_int_equal(plumb_world_set_contact_tuning(NULL, 1, 1, 1), PLUMB_E_NULL);
     assert_int_equal(plumb_world_set_restitution_speed(NULL, 1), PLUMB_E_NULL);
@@ -316,6 +332,7 @@ static void settings_change(void **state)
 static void set_in_a_step(const plumb_system_call *call)
 {
     assert_int_equal(plumb_world_set_substeps(call->world, 1, 1), PLUMB_E_LOCKED);
+    assert_int_equal(plumb_world_set_workers(call->world, 2), PLUMB_E_LOCKED);
     assert_int_equal(plumb_world_set_contact_tuning(call->world, 1, 1, 1), PLUMB_E_LOCKED);
     assert_int_equal(plumb_world_set_restitution_speed(call->world, 1), PLUMB_E_LOCKED);
 }

@@ -14,6 +14,7 @@
 
 #define BODIES 1100
 #define STEPS  45
+#define OTHERS 0 // as a number of workers
 
 enum {
     CHAINS = 1,    // every few bodies hang together
@@ -204,8 +205,11 @@ static trace look(const plumb_world *w)
 static void run(const setting *s, int workers,
                 void (*hook)(void *, plumb_task_fn *, void *, uint32_t), trace out[STEPS])
 {
-    plumb_world *w = make(s, workers, hook);
+    plumb_world *w = make(s, workers > 0 ? workers : 1, hook);
     for (int i = 0; i < STEPS; ++i) {
+        if (workers == OTHERS) { // others from step to step
+            assert_int_equal(plumb_world_set_workers(w, 1 + i % 3), PLUMB_OK);
+        }
         assert_int_equal(plumb_world_step(w, R(1) / 60), PLUMB_OK);
         out[i] = look(w);
     }
@@ -259,6 +263,10 @@ static void any_number_of_threads_gives_the_same_bits(void **state)
         for (size_t i = 0; i < sizeof workers / sizeof workers[0]; ++i) {
             run(&settings[k], workers[i], NULL, several);
             expect_same(&settings[k], workers[i], one, several);
+        }
+        if ((settings[k].what & ODD) != 0) {
+            run(&settings[k], OTHERS, NULL, several);
+            expect_same(&settings[k], OTHERS, one, several);
         }
         largest_job = 0;
         run(&settings[k], 4, run_backwards, several);

@@ -238,6 +238,9 @@ void pairs_run(pair_batch *b, int width)
                            .pairs = b->pairs };
     pl_narrow_clear(&b->out);
     memset(b->out.manifolds.data, 0, b->out.manifolds.size);
+    for (int i = 0; i < b->count; ++i) {
+        b->pairs[i].manifold = PL_NONE; // as if they had been apart, whatever ran before
+    }
     if (b->count > 0) {
         kernel_for(kernels, b->sides[0].shape.kind,
                    b->sides[1].shape.kind)(&in, 0, (uint32_t)b->count, &b->out);

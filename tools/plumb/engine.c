@@ -148,10 +148,10 @@ static int session_check(engine_session *session, engine_error *error)
     if (stopped > 0) {
         return pl_session_fail(
             error, CLI_DIVERGED,
-            "%s: diverged at %.6g s: %u %s stopped, for the step would have left "
-            "it without a finite state",
+            "%s: diverged at %.6g s: %u %s taken out, for the step would have left "
+            "%s without a finite state",
             session->stage.info.title, scene_time(session->stage.scene), stopped,
-            stopped == 1 ? "body was" : "bodies were");
+            stopped == 1 ? "body was" : "bodies were", stopped == 1 ? "it" : "them");
     }
     return CLI_OK;
 }
