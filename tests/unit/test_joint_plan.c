@@ -222,8 +222,7 @@ static plumb_vec2 swing(plumb_joint_kind kind, unsigned parts, bool crowded)
         plumb_world_step(w, DT);
     }
     const pl_joint_mark *mark = &pl_joint_marks(&w->joints)[pl_joint_slot(w, hook)];
-    assert_true(pl_joint_is_wide(mark) ==
-                (!crowded && kind != PLUMB_GEAR && kind != PLUMB_PULLEY));
+    assert_true(pl_joint_is_wide(mark) == (!crowded && kind != PLUMB_GEAR && kind != PLUMB_PULLEY));
     plumb_vec2 place = plumb_body_center(w, b);
     plumb_vec2 force = plumb_joint_force(w, hook);
     plumb_world_destroy(w);
