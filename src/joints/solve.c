@@ -275,7 +275,9 @@ pl_joint_course pl_joint_course_of(plumb_world *world, uint32_t cluster, pl_task
         .world = world,
         .group = any ? &pl_joint_groups(&world->joints)[cluster] : NULL,
         .tasks = tasks,
-        .records = any ? (unsigned char *)plan->records.data + thread * plan->room : NULL,
+        // None while no joint has been solved in lanes.
+        .records = any && plan->room > 0 ? (unsigned char *)plan->records.data + thread * plan->room
+                                         : NULL,
         .h = h
     };
 }

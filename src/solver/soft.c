@@ -257,8 +257,10 @@ static void run_cluster(const soft_step *step, uint32_t i, pl_tasks *tasks, uint
                  .bounce = i == 0 && step->bounce,
                  .resist = i == 0 && step->resist };
     c.any_joints = pl_joints_any(&c.joints);
-    c.call.lanes += c.cluster->first_lane;
-    c.call.bundles = (char *)c.call.bundles + room * step->kernels->bundle_size;
+    if (c.call.lanes != NULL) { // else no step has had a contact yet
+        c.call.lanes += c.cluster->first_lane;
+        c.call.bundles = (char *)c.call.bundles + room * step->kernels->bundle_size;
+    }
     if (c.call.extras != NULL) {
         c.call.extras = (char *)c.call.extras + room * step->kernels->extra_size;
     }
