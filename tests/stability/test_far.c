@@ -216,7 +216,8 @@ static void seams_and_platforms_are_as_at_the_origin(void **state)
 {
     (void)state;
     double here[4], there[4];
-    const double allowed = PLUMB_IS_FAR ? 2e-8 : sizeof(plumb_real) > sizeof(float) ? 1e-6 : 5e-3;
+    // In double each of the 1,200 substeps may round a place by 7.5e-9 m at 1e8 m; the far build loses nothing there.
+    const double allowed = PLUMB_IS_FAR ? 2e-8 : sizeof(plumb_real) > sizeof(float) ? 1e-5 : 5e-3;
     slide(0, here);
     assert_true(here[0] > 15 && here[3] > 2); // over the tiles; on the platform
     for (size_t i = 0; i < tried(); ++i) {
