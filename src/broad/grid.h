@@ -116,7 +116,7 @@ typedef struct pl_grid_run {
 } pl_grid_run;
 
 // The runs of the cells x0..x1 of row y; x1 - x0 must be below the number of buckets. The caller
-// compares the entries' cells. Returns how many runs there are (1 or 2).
+// compares the entries' cells. Returns how many runs there are (1 or 2; a second one that is none is empty).
 static inline int pl_grid_row(const pl_grid *grid, const pl_grid_level *level, int32_t x0,
                               int32_t x1, int32_t y, pl_grid_run runs[2])
 {
@@ -125,6 +125,7 @@ static inline int pl_grid_row(const pl_grid *grid, const pl_grid_level *level, i
     uint32_t last = first + (uint32_t)(x1 - x0);
     if (last <= level->mask) {
         runs[0] = (pl_grid_run){ starts[first], starts[last + 1] };
+        runs[1] = (pl_grid_run){ 0, 0 };
         return 1;
     }
     runs[0] = (pl_grid_run){ starts[first], starts[level->mask + 1] };
