@@ -7,7 +7,7 @@
 #ifndef PL_WIDE_H
 #define PL_WIDE_H
 
-#include "core/near.h"
+#include "core/quad.h"
 
 #include <string.h>
 
@@ -32,7 +32,7 @@ typedef int32_t pl_lane;
 
 typedef near_real vf __attribute__((vector_size(PL_WIDTH * sizeof(near_real))));
 typedef pl_lane vm __attribute__((vector_size(PL_WIDTH * sizeof(pl_lane)))); // masks: 0 or -1
-typedef near_real quad __attribute__((vector_size(4 * sizeof(near_real)), may_alias));
+typedef pl_near_quad quad;
 
 WIDE_INLINE vf splat(near_real v)
 {

@@ -17,6 +17,7 @@
 // pairs, joints. Writes: times of rest; islands, rows, pairs, manifolds, sleep events. Order: after
 // the narrow phase, before anything has moved. Cost: a dozen instructions an awake body and step;
 // O(pairs + joints) when islands are looked for.
+#include "core/quad.h"
 #include "narrow/surface.h"
 #include "world/check.h"
 #include "world/rows.h"
@@ -77,28 +78,22 @@ static void look_at(plumb_world *world, uint32_t row)
 
 // Four rows at once: this is all that sleeping costs who is awake. What lies behind the last row is
 // in columns that are longer than that, and means nothing.
-typedef real quad __attribute__((vector_size(4 * sizeof(real)), may_alias));
-#if PLUMB_REAL_IS_DOUBLE
-typedef int64_t quad_mask __attribute__((vector_size(4 * sizeof(real)), may_alias));
-#else
-typedef int32_t quad_mask __attribute__((vector_size(4 * sizeof(real)), may_alias));
-#endif
-
-// `a` where the mask is set, else `b`. Not a function: how quads are passed depends on the machine.
-#define EITHER(mask, a, b) ((quad)(((mask) & (quad_mask)(a)) | (~(mask) & (quad_mask)(b))))
+// `a` where the mask is set, else `b`.
+#define EITHER(mask, a, b) ((pl_quad)(((mask) & (pl_quad_mask)(a)) | (~(mask) & (pl_quad_mask)(b))))
 
 // The time of each row goes on, begins (0) or is void. True when one begins, or a look is due.
 static bool go_on(const pl_bodies *b, uint32_t count, real slow, real half, real passed)
 {
-    const quad *vx = (const quad *)b->vx, *vy = (const quad *)b->vy, *w = (const quad *)b->w;
-    const quad *extent = (const quad *)b->extent;
-    quad *looked = (quad *)b->looked;
-    const quad zero = { 0 }, unseen = zero + PL_UNSEEN;
-    quad_mask due = { 0 };
+    const pl_quad *vx = (const pl_quad *)b->vx, *vy = (const pl_quad *)b->vy,
+                  *w = (const pl_quad *)b->w;
+    const pl_quad *extent = (const pl_quad *)b->extent;
+    pl_quad *looked = (pl_quad *)b->looked;
+    const pl_quad zero = { 0 }, unseen = zero + PL_UNSEEN;
+    pl_quad_mask due = { 0 };
     for (uint32_t i = 0; i < (count + 3) / 4; ++i) {
-        quad tip = w[i] * extent[i];
-        quad speed = vx[i] * vx[i] + vy[i] * vy[i] + tip * tip;
-        quad time = EITHER(looked[i] < zero, zero, looked[i] + passed);
+        pl_quad tip = w[i] * extent[i];
+        pl_quad speed = vx[i] * vx[i] + vy[i] * vy[i] + tip * tip;
+        pl_quad time = EITHER(looked[i] < zero, zero, looked[i] + passed);
         time = EITHER(speed <= zero + slow, time, unseen);
         looked[i] = time;
         due |= (time == zero) | (time >= zero + half);

@@ -12,8 +12,8 @@
 // which one strikes.
 #include "solver/outlook.h"
 
-typedef near_real row __attribute__((vector_size(4 * sizeof(near_real)), may_alias));
-typedef pl_lane row_mask __attribute__((vector_size(4 * sizeof(pl_lane))));
+typedef pl_near_quad row; // of a solver body
+typedef pl_near_mask row_mask;
 typedef double four __attribute__((vector_size(32)));
 typedef int64_t mask __attribute__((vector_size(32)));
 typedef uint32_t slots __attribute__((vector_size(16)));

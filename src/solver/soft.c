@@ -13,14 +13,13 @@
 //
 // Reads: solver bodies, lanes. Writes: solver bodies, impulses of pairs. Order: after the graph.
 // Cost: (2 substeps x iterations + 2) sweeps over the contacts, 2 substeps passes over the bodies.
+#include "core/quad.h"
 #include "world/state.h"
 
 // Contact frequency as a share of the substep rate. Stiffer contacts sink less, as the square, but from
 // 3/16 on a pyramid of 100 rows takes long to come to rest and leans, and from 1/4 on one of 20 never
 // rests, at one sweep a substep (README.md has the table).
 #define STIFFEST ((near_real)(1.0 / 6))
-
-typedef near_real quad __attribute__((vector_size(4 * sizeof(near_real)), may_alias));
 
 typedef struct flight {
     const pl_solver *solver;
@@ -34,12 +33,12 @@ static void fly(void *context, uint32_t first, uint32_t count)
     const flight *f = context;
     const pl_solver *s = f->solver;
     const near_real h = f->h;
-    quad *body = (quad *)(void *)(pl_solver_bodies(s) + f->first);
-    quad *motion = (quad *)(void *)(pl_solver_motions(s) + f->first);
+    pl_near_quad *body = (pl_near_quad *)(void *)(pl_solver_bodies(s) + f->first);
+    pl_near_quad *motion = (pl_near_quad *)(void *)(pl_solver_motions(s) + f->first);
     for (uint32_t i = first; i < first + count; ++i) {
-        quad v = body[2 * i];
-        quad pushed = v - motion[2 * i + 1];
-        quad u = v + h * motion[2 * i];
+        pl_near_quad v = body[2 * i];
+        pl_near_quad pushed = v - motion[2 * i + 1];
+        pl_near_quad u = v + h * motion[2 * i];
         motion[2 * i + 1] = u;
         body[2 * i] = u + pushed;
     }
@@ -53,16 +52,16 @@ static void fly_carefully(void *context, uint32_t first, uint32_t count)
     const flight *f = context;
     const pl_solver *s = f->solver;
     const near_real h = f->h;
-    quad *body = (quad *)(void *)(pl_solver_bodies(s) + f->first);
-    quad *motion = (quad *)(void *)(pl_solver_motions(s) + f->first);
-    quad *low = (quad *)s->lows.data + f->first;
+    pl_near_quad *body = (pl_near_quad *)(void *)(pl_solver_bodies(s) + f->first);
+    pl_near_quad *motion = (pl_near_quad *)(void *)(pl_solver_motions(s) + f->first);
+    pl_near_quad *low = (pl_near_quad *)s->lows.data + f->first;
     for (uint32_t i = first; i < first + count; ++i) {
-        quad v = body[2 * i];
-        quad pushed = v - motion[2 * i + 1];
+        pl_near_quad v = body[2 * i];
+        pl_near_quad pushed = v - motion[2 * i + 1];
         near_real kept = low[i][3];
         low[i][3] = 0;
-        quad wanted = h * motion[2 * i] + low[i];
-        quad u = v + wanted;
+        pl_near_quad wanted = h * motion[2 * i] + low[i];
+        pl_near_quad u = v + wanted;
         low[i] = kept * (wanted - (u - v));
         low[i][3] = kept;
         motion[2 * i + 1] = u;

@@ -16,6 +16,7 @@
 // instruction a number.
 #include "step/quarantine.h"
 
+#include "core/quad.h"
 #include "world/rows.h"
 #include "world/state.h"
 
@@ -69,61 +70,34 @@ static real haste(const plumb_world *world, uint32_t row, real dt)
                  plumb_abs(b->torque[row]) * b->inv_inertia[row]);
 }
 
-// Four columns, and four reals of a solver body; masks as wide.
-typedef real quad __attribute__((vector_size(4 * sizeof(real)), may_alias));
-typedef near_real near_quad __attribute__((vector_size(4 * sizeof(near_real)), may_alias));
-#if PLUMB_REAL_IS_DOUBLE
-typedef int64_t quad_mask __attribute__((vector_size(4 * sizeof(real)), may_alias));
-#else
-typedef int32_t quad_mask __attribute__((vector_size(4 * sizeof(real)), may_alias));
-#endif
-#if PLUMB_REAL_IS_DOUBLE && !PLUMB_IS_FAR
-typedef int64_t near_mask __attribute__((vector_size(4 * sizeof(near_real)), may_alias));
-#else
-typedef int32_t near_mask __attribute__((vector_size(4 * sizeof(near_real)), may_alias));
-#endif
-
-// Absolute values. Not functions: how quads are passed depends on the machine.
-#define SIZE(q)      ((quad)((quad_mask)(q) & ~(quad_mask)(-(quad){ 0 })))
-#define NEAR_SIZE(q) ((near_quad)((near_mask)(q) & ~(near_mask)(-(near_quad){ 0 })))
+// Absolute values.
+#define SIZE(q)      ((pl_quad)((pl_quad_mask)(q) & ~(pl_quad_mask)(-(pl_quad){ 0 })))
+#define NEAR_SIZE(q) ((pl_near_quad)((pl_near_mask)(q) & ~(pl_near_mask)(-(pl_near_quad){ 0 })))
 
 // The same of four rows at once, whether any is too much. What lies behind the last row may say so, too.
 static bool any_in_haste(const plumb_world *world, uint32_t count, real dt)
 {
     const pl_bodies *b = &world->bodies;
-    const quad *vx = (const quad *)b->vx, *vy = (const quad *)b->vy, *w = (const quad *)b->w;
-    const quad *fx = (const quad *)b->fx, *fy = (const quad *)b->fy;
-    const quad *torque = (const quad *)b->torque;
-    const quad *im = (const quad *)b->inv_mass, *ii = (const quad *)b->inv_inertia;
-    const quad most = (quad){ 0 } + PL_LARGEST;
-    quad_mask sound = (quad_mask){ 0 } - 1;
+    const pl_quad *vx = (const pl_quad *)b->vx, *vy = (const pl_quad *)b->vy,
+                  *w = (const pl_quad *)b->w;
+    const pl_quad *fx = (const pl_quad *)b->fx, *fy = (const pl_quad *)b->fy;
+    const pl_quad *torque = (const pl_quad *)b->torque;
+    const pl_quad *im = (const pl_quad *)b->inv_mass, *ii = (const pl_quad *)b->inv_inertia;
+    const pl_quad most = (pl_quad){ 0 } + PL_LARGEST;
+    pl_quad_mask sound = (pl_quad_mask){ 0 } - 1;
     for (uint32_t i = 0; i < (count + 3) / 4; ++i) {
-        quad sum = SIZE(vx[i]) + SIZE(vy[i]) + SIZE(w[i]) +
-                   dt * ((SIZE(fx[i]) + SIZE(fy[i])) * im[i] + SIZE(torque[i]) * ii[i]);
+        pl_quad sum = SIZE(vx[i]) + SIZE(vy[i]) + SIZE(w[i]) +
+                      dt * ((SIZE(fx[i]) + SIZE(fy[i])) * im[i] + SIZE(torque[i]) * ii[i]);
         sound &= sum <= most;
     }
     return !(sound[0] && sound[1] && sound[2] && sound[3]);
 }
 
-// How many there are. From the last row on: what fills a gap has been looked at.
-static uint32_t take_out_hasty(plumb_world *world, real dt, const char *pass)
+// It goes now.
+static void expel(plumb_world *world, uint32_t row, const char *pass)
 {
-    uint32_t found = 0;
-    for (uint32_t row = world->dynamic_count + world->kinematic_count; row-- > 0;) {
-        if (!(haste(world, row, dt) <= PL_LARGEST)) {
-            tell(world, row, pass);
-            pl_body_take_out(world, row);
-            ++found;
-        }
-    }
-    return found;
-}
-
-void pl_quarantine_guard(plumb_world *world, real dt, const char *pass)
-{
-    if (any_in_haste(world, world->dynamic_count + world->kinematic_count, dt)) {
-        take_out_hasty(world, dt, pass);
-    }
+    tell(world, row, pass);
+    pl_body_take_out(world, row);
 }
 
 // It goes when the step is taken anew.
@@ -134,16 +108,29 @@ static void sentence(plumb_world *world, uint32_t row, const char *pass)
     world->quarantine.again = true;
 }
 
-void pl_quarantine_guard_late(plumb_world *world, real dt, const char *pass)
+// From the last row on: what fills a gap has been looked at.
+static void guard(plumb_world *world, real dt, const char *pass,
+                  void (*act)(plumb_world *, uint32_t, const char *))
 {
-    if (!any_in_haste(world, world->dynamic_count + world->kinematic_count, dt)) {
+    const uint32_t count = world->dynamic_count + world->kinematic_count;
+    if (!any_in_haste(world, count, dt)) {
         return;
     }
-    for (uint32_t row = world->dynamic_count + world->kinematic_count; row-- > 0;) {
+    for (uint32_t row = count; row-- > 0;) {
         if (!(haste(world, row, dt) <= PL_LARGEST)) {
-            sentence(world, row, pass);
+            act(world, row, pass);
         }
     }
+}
+
+void pl_quarantine_guard(plumb_world *world, real dt, const char *pass)
+{
+    guard(world, dt, pass, expel);
+}
+
+void pl_quarantine_guard_late(plumb_world *world, real dt, const char *pass)
+{
+    guard(world, dt, pass, sentence);
 }
 
 //---- what the solver did -------------------------------------------------------------------------
@@ -257,9 +244,9 @@ void pl_quarantine_undo(plumb_world *world)
 // Speeds and ways of all slots are sound.
 static bool all_sound(const pl_solver *s)
 {
-    const near_quad *body = (const near_quad *)(const void *)pl_solver_bodies(s);
-    const near_quad most = (near_quad){ 0 } + (near_real)PL_LARGEST;
-    near_mask sound = (near_mask){ 0 } - 1;
+    const pl_near_quad *body = (const pl_near_quad *)(const void *)pl_solver_bodies(s);
+    const pl_near_quad most = (pl_near_quad){ 0 } + (near_real)PL_LARGEST;
+    pl_near_mask sound = (pl_near_mask){ 0 } - 1;
     for (uint32_t i = 0; i < s->dynamic_slots; ++i) {
         sound &= NEAR_SIZE(body[2 * i]) + NEAR_SIZE(body[2 * i + 1]) <= most;
     }
