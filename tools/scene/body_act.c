@@ -154,41 +154,46 @@ static int method_set_color(lua_State *L)
 
 // ------------------------------------------------------------------------------------- pushing
 
+typedef plumb_result push_fn(plumb_world *, plumb_body, plumb_vec2);
+typedef plumb_result push_at_fn(plumb_world *, plumb_body, plumb_vec2, plumb_vec2 point);
+typedef plumb_result turn_fn(plumb_world *, plumb_body, plumb_real);
+
 // body:apply_force(fx, fy [, px, py]): at the centre of mass when no point is given.
+static int push(lua_State *L, const char *method, push_fn *at_center, push_at_fn *at_point)
+{
+    sc_body_call c = sc_body_self(L, method);
+    int index = 2;
+    plumb_vec2 v = sc_vector(L, &index);
+    if (lua_isnoneornil(L, index)) {
+        return sc_body_check(&c, at_center(c.world, c.entity, v));
+    }
+    return sc_body_check(&c, at_point(c.world, c.entity, v, sc_vector(L, &index)));
+}
+
+static int turn(lua_State *L, const char *method, turn_fn *turn_body)
+{
+    sc_body_call c = sc_body_self(L, method);
+    return sc_body_check(&c, turn_body(c.world, c.entity, (plumb_real)sc_finite_number(L, 2)));
+}
+
 static int method_apply_force(lua_State *L)
 {
-    sc_body_call c = sc_body_self(L, "apply_force");
-    int index = 2;
-    plumb_vec2 f = sc_vector(L, &index);
-    if (lua_isnoneornil(L, index)) {
-        return sc_body_check(&c, plumb_body_apply_force_center(c.world, c.entity, f));
-    }
-    return sc_body_check(&c, plumb_body_apply_force(c.world, c.entity, f, sc_vector(L, &index)));
+    return push(L, "apply_force", plumb_body_apply_force_center, plumb_body_apply_force);
 }
 
 static int method_apply_impulse(lua_State *L)
 {
-    sc_body_call c = sc_body_self(L, "apply_impulse");
-    int index = 2;
-    plumb_vec2 j = sc_vector(L, &index);
-    if (lua_isnoneornil(L, index)) {
-        return sc_body_check(&c, plumb_body_apply_impulse_center(c.world, c.entity, j));
-    }
-    return sc_body_check(&c, plumb_body_apply_impulse(c.world, c.entity, j, sc_vector(L, &index)));
+    return push(L, "apply_impulse", plumb_body_apply_impulse_center, plumb_body_apply_impulse);
 }
 
 static int method_apply_torque(lua_State *L)
 {
-    sc_body_call c = sc_body_self(L, "apply_torque");
-    return sc_body_check(
-        &c, plumb_body_apply_torque(c.world, c.entity, (plumb_real)sc_finite_number(L, 2)));
+    return turn(L, "apply_torque", plumb_body_apply_torque);
 }
 
 static int method_apply_angular_impulse(lua_State *L)
 {
-    sc_body_call c = sc_body_self(L, "apply_angular_impulse");
-    return sc_body_check(&c, plumb_body_apply_angular_impulse(c.world, c.entity,
-                                                              (plumb_real)sc_finite_number(L, 2)));
+    return turn(L, "apply_angular_impulse", plumb_body_apply_angular_impulse);
 }
 
 static int method_awake(lua_State *L)

@@ -378,15 +378,13 @@ static void edit_one(scene *s, int index)
     }
 }
 
-static int edit_all(lua_State *L)
+static void edit_all(scene *s, void *unused)
 {
-    scene *s = sc_of(L);
-    sc_need_stack(s, 20);
+    (void)unused;
     int count = plumb_contact_edit_count(s->world);
     for (int i = 0; i < count; i++) {
         edit_one(s, i);
     }
-    return 0;
 }
 
 // The system. An error must not leave through the world's step: it is kept for scene.c to raise.

@@ -5,7 +5,6 @@
 
 /// One evaluation, handed into the protected call.
 typedef struct evaluation {
-    scene *s;
     int index;
     double t;
     double *values;
@@ -35,12 +34,13 @@ scene_exact scene_exact_get(const scene *s, int i)
     return out;
 }
 
-static int evaluate(lua_State *L)
+static void evaluate(scene *s, void *argument)
 {
-    const evaluation *e = lua_touserdata(L, 1);
-    const sc_exact_def *d = &e->s->exacts[e->index].def;
+    lua_State *L = s->L;
+    const evaluation *e = argument;
+    const sc_exact_def *d = &s->exacts[e->index].def;
     const int functions[SCENE_EXACT_COUNT] = { d->x, d->y, d->angle, d->vx, d->vy, d->spin };
-    unsigned given = scene_exact_get(e->s, e->index).given;
+    unsigned given = scene_exact_get(s, e->index).given;
     for (int q = 0; q < SCENE_EXACT_COUNT; q++) {
         e->values[q] = (double)NAN;
         if ((given >> q & 1u) == 0) {
@@ -48,23 +48,22 @@ static int evaluate(lua_State *L)
         }
         lua_rawgeti(L, LUA_REGISTRYINDEX, functions[q]);
         lua_pushnumber(L, e->t);
-        sc_call(e->s, 1, 1);
+        sc_call(s, 1, 1);
         if (lua_type(L, -1) != LUA_TNUMBER || !isfinite(lua_tonumber(L, -1))) {
-            sc_site site = { .construct = "exact", .line = e->s->exacts[e->index].line };
-            sc_raise(e->s, SCENE_E_TYPE, &site, NULL, 0, NULL,
+            sc_site site = { .construct = "exact", .line = s->exacts[e->index].line };
+            sc_raise(s, SCENE_E_TYPE, &site, NULL, 0, NULL,
                      "a function of exact{} must return a finite number, not %s at t = %.10g",
-                     sc_type_name(e->s, -1), e->t);
+                     sc_type_name(s, -1), e->t);
         }
         e->values[q] = lua_tonumber(L, -1);
         lua_pop(L, 1);
     }
-    return 0;
 }
 
 scene_code scene_exact_eval(scene *s, int i, double t, double values[SCENE_EXACT_COUNT],
                             scene_error *err)
 {
-    evaluation e = { s, i, t, values };
+    evaluation e = { i, t, values };
     if (s->error.code == SCENE_OK) {
         sc_protect(s, evaluate, &e);
     }

@@ -327,9 +327,10 @@ void sc_shape_convex(scene *s, const sc_site *site, plumb_convex *convex);
 #define SC_META_WORLD    "plumb.world"
 
 lua_State *sc_sandbox_open(scene *s); ///< state with allow-listed environment; null: no memory
-/// Runs `run`, which finds `argument` as light userdata at index 1, where an error ends. True when it
-/// came to its end; else the error stands in the scene, of which no script runs any more.
-bool sc_protect(scene *s, lua_CFunction run, void *argument);
+typedef void sc_protected_fn(scene *s, void *argument);
+/// Runs `run` where an error ends, on an empty stack with room for 100. True when it came to its end; else the
+/// error stands in the scene, of which no script runs any more.
+bool sc_protect(scene *s, sc_protected_fn *run, void *argument);
 void sc_count_hook(lua_State *L, lua_Debug *d);          ///< the hook of sc_sandbox_open
 void sc_sandbox_budget(scene *s, uint64_t instructions); ///< a fresh instruction budget
 void sc_open_build(lua_State *L);      ///< scene, material, body, camera, param, ...

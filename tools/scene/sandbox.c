@@ -421,15 +421,30 @@ lua_State *sc_sandbox_open(scene *s)
     return L;
 }
 
+typedef struct protected_call {
+    sc_protected_fn *run;
+    void *argument;
+} protected_call;
+
+static int run_protected(lua_State *L)
+{
+    const protected_call *call = lua_touserdata(L, 1);
+    lua_settop(L, 0);
+    sc_need_stack(sc_of(L), 100);
+    call->run(sc_of(L), call->argument);
+    return 0;
+}
+
 // A thread and not lua_pcall: an error leaves the calls on a thread's stack as they stood, so that the
 // line of one that has no message of its own (memory, limits) can still be told.
-bool sc_protect(scene *s, lua_CFunction run, void *argument)
+bool sc_protect(scene *s, sc_protected_fn *run, void *argument)
 {
+    protected_call call = { run, argument };
     lua_State *from = s->L;
     lua_State *thread = s->threads[s->protected_depth++];
     s->L = thread;
-    lua_pushcfunction(thread, run);
-    lua_pushlightuserdata(thread, argument);
+    lua_pushcfunction(thread, run_protected);
+    lua_pushlightuserdata(thread, &call);
     int results;
     int status = lua_resume(thread, from, 1, &results);
     if (status != LUA_OK) {

@@ -14,31 +14,6 @@
 #define DEFAULT_HANDLER UINT64_C(10000000)   // instructions: some hundredths of a second
 #define LARGEST_FILE    ((long)64 << 20)     // [B]
 
-// ---------------------------------------------------------------------------------- protection
-
-typedef void protected_fn(scene *s);
-
-/// A function to be called inside a pcall.
-typedef struct protected_call {
-    protected_fn *run;
-    scene *s;
-} protected_call;
-
-static int run_protected(lua_State *L)
-{
-    const protected_call *c = lua_touserdata(L, 1);
-    lua_settop(L, 0);
-    sc_need_stack(sc_of(L), 100);
-    c->run(c->s);
-    return 0;
-}
-
-static bool protect(scene *s, protected_fn *run)
-{
-    protected_call c = { run, s };
-    return sc_protect(s, run_protected, &c);
-}
-
 // --------------------------------------------------------------------------------------- loading
 
 static void refuse_powers(scene *s)
@@ -54,8 +29,9 @@ static void refuse_powers(scene *s)
     }
 }
 
-static void load_lua(scene *s)
+static void load_lua(scene *s, void *unused)
 {
+    (void)unused;
     sc_apply_sets(s);
     int status = luaL_loadbufferx(s->L, s->source, s->source_size, "=" SC_CHUNK, "t");
     if (status != LUA_OK) {
@@ -70,8 +46,9 @@ static void load_lua(scene *s)
     sc_expect_begin(s);
 }
 
-static void load_json(scene *s)
+static void load_json(scene *s, void *unused)
 {
+    (void)unused;
     sc_apply_sets(s);
     sc_json_load(s);
     lua_settop(s->L, 0);
@@ -192,7 +169,7 @@ scene_code scene_load(const scene_options *opts, scene **out, scene_error *err)
     if (good) {
         s->building = true;
         sc_sandbox_budget(s, s->options.build_instructions);
-        good = protect(s, s->is_json ? load_json : load_lua);
+        good = sc_protect(s, s->is_json ? load_json : load_lua, NULL);
         s->building = false;
     }
     if (!good) {
@@ -247,8 +224,9 @@ void scene_destroy(scene *s)
 
 // ---------------------------------------------------------------------------------------- running
 
-static void step_inside(scene *s)
+static void step_inside(scene *s, void *unused)
 {
+    (void)unused;
     sc_handlers_before(s);
     plumb_result result = plumb_world_step(s->world, (plumb_real)s->dt);
     if (s->edit_failed) { // s->error says why
@@ -274,20 +252,21 @@ static scene_code answer(const scene *s, scene_error *err)
 scene_code scene_step(scene *s, scene_error *err)
 {
     if (s->error.code == SCENE_OK) {
-        protect(s, step_inside);
+        sc_protect(s, step_inside, NULL);
     }
     return answer(s, err);
 }
 
-static void finish_inside(scene *s)
+static void finish_inside(scene *s, void *unused)
 {
+    (void)unused;
     sc_expect_finish(s);
 }
 
 scene_code scene_finish(scene *s, scene_error *err)
 {
     if (s->error.code == SCENE_OK && !s->finished) {
-        s->finished = protect(s, finish_inside);
+        s->finished = sc_protect(s, finish_inside, NULL);
     }
     return answer(s, err);
 }
