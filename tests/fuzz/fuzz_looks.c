@@ -7,9 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "fuzz/tape.h"
 #include "plumb/engine_looks.c" // its notes are nobody else's business
-
-enum { ROOM = 1 << 16 };
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
@@ -34,22 +33,6 @@ const char *pl_stage_text(const engine_stage *stage)
 }
 
 //---- a recording with one note -------------------------------------------------------------------
-
-typedef struct tape {
-    unsigned char bytes[ROOM];
-    size_t size;
-} tape;
-
-static bool to_tape(void *context, const void *bytes, size_t size)
-{
-    tape *t = context;
-    if (size > ROOM - t->size) {
-        return false;
-    }
-    memcpy(t->bytes + t->size, bytes, size);
-    t->size += size;
-    return true;
-}
 
 static size_t put_note(unsigned how, uint32_t tag, size_t bytes, const uint8_t *data, size_t size,
                        unsigned char *note)

@@ -2,6 +2,7 @@
 //
 // Input that begins with "PLUMBREC" is a recording as it stands. Any other says what is done to a good one:
 // two bytes, how much is cut off its end; then threes, each a place and what it is xor-ed with.
+#include "fuzz/tape.h"
 #include "plumb/plumb.h"
 
 #include <stdlib.h>
@@ -9,23 +10,7 @@
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
-enum { ROOM = 1 << 16, STEPS = 8 };
-
-typedef struct tape {
-    unsigned char bytes[ROOM];
-    size_t size;
-} tape;
-
-static bool to_tape(void *context, const void *bytes, size_t size)
-{
-    tape *t = context;
-    if (size > ROOM - t->size) {
-        return false;
-    }
-    memcpy(t->bytes + t->size, bytes, size);
-    t->size += size;
-    return true;
-}
+enum { STEPS = 8 };
 
 static void record(tape *t)
 {
