@@ -143,17 +143,6 @@ static void deal(plumb_world *world, sorter *s)
 
 //---- sorting a section ---------------------------------------------------------------------------
 
-// Counts become the places of the first of each.
-static uint32_t add_up(uint32_t *counts, uint32_t count, uint32_t sum)
-{
-    for (uint32_t k = 0; k < count; ++k) {
-        uint32_t here = counts[k];
-        counts[k] = sum;
-        sum += here;
-    }
-    return sum;
-}
-
 // What the loops of a section need, apart from what they write: else it would be read again for each pair.
 typedef struct reader {
     const pl_found *pairs;
@@ -208,9 +197,9 @@ static void sort_share_high(void *context, uint32_t i)
     } else {
         count_section(&r, high, low, false);
     }
-    add_up(high, s->slots, mine->first);
+    pl_counts_to_places(high, s->slots, mine->first);
     for (uint32_t c = 0; c < s->class_count; ++c) {
-        mine->count[c] = add_up(low + (size_t)c * width, width, 0);
+        mine->count[c] = pl_counts_to_places(low + (size_t)c * width, width, 0);
     }
     pl_found *restrict to = s->to;
     for (uint32_t k = 0; k < r.count; ++k) {

@@ -20,13 +20,26 @@ pl_pair pl_pair_fresh(const plumb_world *world, pl_found found)
     return pair;
 }
 
-// Place of the first pair that does not come before `key`, among these.
-static uint32_t seek_pair(const pl_pair *pairs, uint32_t low, uint32_t count, uint64_t key)
+static uint64_t key_of_pair(const void *pairs, uint32_t place)
+{
+    const pl_pair *pair = (const pl_pair *)pairs + place;
+    return pl_pair_key(pair->a, pair->b);
+}
+
+static uint64_t key_of_found(const void *found, uint32_t place)
+{
+    const pl_found *pair = (const pl_found *)found + place;
+    return pl_key(pair->low, pair->high);
+}
+
+// Place of the first of `count` from `low` on that does not come before `key`.
+static uint32_t seek(const void *items, uint64_t (*key_of)(const void *items, uint32_t place),
+                     uint32_t low, uint32_t count, uint64_t key)
 {
     uint32_t high = low + count;
     while (low < high) {
         uint32_t middle = low + (high - low) / 2;
-        if (pl_pair_key(pairs[middle].a, pairs[middle].b) < key) {
+        if (key_of(items, middle) < key) {
             low = middle + 1;
         } else {
             high = middle;
@@ -41,9 +54,9 @@ pl_pair *pl_pairs_find_one(const plumb_world *world, uint32_t p, uint32_t q)
     uint8_t kind_p = world->pieces.kind[p], kind_q = world->pieces.kind[q];
     uint8_t a = kind_p < kind_q ? kind_p : kind_q, b = kind_p < kind_q ? kind_q : kind_p;
     const uint32_t end = list->first[a][b] + list->size[a][b];
-    uint32_t at = seek_pair(pl_pairs(list), list->first[a][b], list->size[a][b], pl_pair_key(p, q));
-    pl_pair *pair = pl_pairs(list) + at;
-    return at < end && pl_pair_key(pair->a, pair->b) == pl_pair_key(p, q) ? pair : NULL;
+    const uint64_t key = pl_pair_key(p, q);
+    uint32_t at = seek(pl_pairs(list), key_of_pair, list->first[a][b], list->size[a][b], key);
+    return at < end && key_of_pair(pl_pairs(list), at) == key ? pl_pairs(list) + at : NULL;
 }
 
 //---- merging with the list before -----------------------------------------------------------------
@@ -189,21 +202,6 @@ static void merge_share(void *context, uint32_t i)
 
 //---- shares --------------------------------------------------------------------------------------
 
-// Place of the first pair found that does not come before `key`, among these.
-static uint32_t seek_found(const pl_found *found, uint32_t low, uint32_t count, uint64_t key)
-{
-    uint32_t high = low + count;
-    while (low < high) {
-        uint32_t middle = low + (high - low) / 2;
-        if (pl_key(found[middle].low, found[middle].high) < key) {
-            low = middle + 1;
-        } else {
-            high = middle;
-        }
-    }
-    return low;
-}
-
 // Cuts the longer list at `place`, the other where the same pair is or would be.
 static cut cut_at(const merging *g, uint32_t place)
 {
@@ -215,12 +213,12 @@ static cut cut_at(const merging *g, uint32_t place)
             uint32_t old = list->first[a][b], old_size = list->size[a][b];
             uint32_t found = sorted->first[a][b], found_size = sorted->size[a][b];
             if (by_old && place - old < old_size) {
-                uint64_t key = pl_pair_key(g->start.all[place].a, g->start.all[place].b);
-                return (cut){ place, seek_found(sorted->pairs, found, found_size, key), 0 };
+                uint64_t key = key_of_pair(g->start.all, place);
+                return (cut){ place, seek(sorted->pairs, key_of_found, found, found_size, key), 0 };
             }
             if (!by_old && place - found < found_size) {
-                uint64_t key = pl_key(sorted->pairs[place].low, sorted->pairs[place].high);
-                return (cut){ seek_pair(g->start.all, old, old_size, key), place, 0 };
+                uint64_t key = key_of_found(sorted->pairs, place);
+                return (cut){ seek(g->start.all, key_of_pair, old, old_size, key), place, 0 };
             }
         }
     }

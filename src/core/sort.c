@@ -59,3 +59,13 @@ uint32_t pl_find_key(const void *items, uint32_t count, uint32_t stride, uint64_
     }
     return low;
 }
+
+uint32_t pl_counts_to_places(uint32_t *counts, uint32_t kinds, uint32_t first)
+{
+    for (uint32_t k = 0; k < kinds; ++k) {
+        uint32_t here = counts[k];
+        counts[k] = first;
+        first += here;
+    }
+    return first;
+}

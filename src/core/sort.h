@@ -18,6 +18,10 @@ void pl_sort_keyed(pl_keyed *items, uint32_t count);
 // would be put. *found tells which.
 uint32_t pl_find_key(const void *items, uint32_t count, uint32_t stride, uint64_t key, bool *found);
 
+// How many there are of each kind becomes the place of the first of it, from `first` on, for sorting by
+// counting. Returns the place behind the last.
+uint32_t pl_counts_to_places(uint32_t *counts, uint32_t kinds, uint32_t first);
+
 // Two slots as one key.
 static inline uint64_t pl_key(uint32_t high, uint32_t low)
 {

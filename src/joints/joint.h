@@ -113,7 +113,7 @@ typedef struct pl_joint_plan {
     pl_buffer slots;   // uint32_t, two a lane: see pl_joint_call
     pl_buffer records; // of the bundles of a group, room for one group a thread; from step to step nothing is kept
     size_t room;       // [B] of a thread
-    uint32_t order_count, group_count, bundle_count, alone_count, pattern_count;
+    uint32_t order_count, group_count, bundle_count, pattern_count;
     pl_joint_pattern patterns[PL_JOINT_PATTERNS];
     bool made, changed; // since the last step
     bool adrift; // no joint is off, or ties a body to what dynamics does not move

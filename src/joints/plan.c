@@ -8,6 +8,7 @@
 // an island's joints do not depend on other islands: nor does anything on which are solved together.
 //
 // Reads: joints, slots of bodies. Writes: marks, ends, order. Cost: O(joints).
+#include "core/sort.h"
 #include "joints/joint.h"
 #include "world/state.h"
 
@@ -205,7 +206,7 @@ static void sort_out(plumb_world *world)
     pl_joints *joints = &world->joints;
     pl_joint_plan *plan = &joints->plan;
     pl_joint_mark *marks = plan->marks.data;
-    plan->alone_count = plan->pattern_count = 0;
+    plan->pattern_count = 0;
     memset(world->solver.masks.data, 0, world->solver.slot_count * sizeof(uint64_t));
     for (uint32_t i = 0; i < joints->count; ++i) {
         pl_joint_mark *mark = &marks[i];
@@ -218,7 +219,6 @@ static void sort_out(plumb_world *world)
         mark->color = (uint8_t)(pattern != PL_NONE ? color_of(world, mark) : PL_JOINT_COLORS);
         mark->pattern = (uint8_t)(pl_joint_is_wide(mark) ? pattern : 0);
         mark->quiet = is_quiet(j, mark);
-        plan->alone_count += !pl_joint_is_wide(mark);
     }
 }
 
@@ -233,21 +233,16 @@ static void put_in_order(pl_joints *joints)
     uint32_t ends[(PL_JOINT_COLORS + 1) * PL_JOINT_PATTERNS] = { 0 }; // of bins
     const uint32_t bins = sizeof ends / sizeof *ends;
     const pl_joint_mark *marks = pl_joint_marks(joints);
-    uint32_t *order = joints->plan.order.data, at = 0;
+    uint32_t *order = joints->plan.order.data;
     for (uint32_t i = 0; i < joints->count; ++i) {
         ends[bin_of(&marks[i])] += marks[i].what != 0;
     }
-    for (uint32_t k = 0; k < bins; ++k) {
-        const uint32_t count = ends[k];
-        ends[k] = at;
-        at += count;
-    }
+    joints->plan.order_count = pl_counts_to_places(ends, bins, 0);
     for (uint32_t i = 0; i < joints->count; ++i) {
         if (marks[i].what != 0) {
             order[ends[bin_of(&marks[i])]++] = i;
         }
     }
-    joints->plan.order_count = at;
 }
 
 bool pl_joints_look(plumb_world *world)

@@ -52,11 +52,22 @@ static void found_where_it_stands_or_would(void **state)
     }
 }
 
+static void counts_become_places(void **state)
+{
+    (void)state;
+    uint32_t counts[4] = { 3, 0, 2, 1 };
+    const uint32_t places[4] = { 10, 13, 13, 15 };
+    assert_int_equal(pl_counts_to_places(counts, 4, 10), 16);
+    assert_memory_equal(counts, places, sizeof places);
+    assert_int_equal(pl_counts_to_places(counts, 0, 7), 7);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sorted_by_key_then_order),
         cmocka_unit_test(found_where_it_stands_or_would),
+        cmocka_unit_test(counts_become_places),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
