@@ -16,29 +16,33 @@ static double bound_of(const pl_grid *grid, double period)
     return period / 2 + (cell < CELL_MOST && cell < period / 2 ? cell : period / 2);
 }
 
-// The k for which [low, high] - k period meets [-bound, bound].
-static void range_of(double low, double high, double period, double bound, double *first,
-                     double *last)
+// The k for which [low, high] - k period meets [-bound, bound]: the first of them, and how many.
+static int range_of(double low, double high, double period, double bound, double *first)
 {
-    *first = *last = 0;
-    if (period > 0) {
-        *first = ceil((low - bound) / period);
-        *last = floor((high + bound) / period);
-        if (*last - *first >= PL_IMAGES_MOST) {
-            double middle = floor((*first + *last) / 2);
-            *first = middle - PL_IMAGES_MOST / 2;
-            *last = middle + PL_IMAGES_MOST / 2;
-        }
+    *first = 0;
+    if (!(period > 0)) {
+        return 1;
     }
+    double from = ceil((low - bound) / period), to = floor((high + bound) / period);
+    if (!(to >= from)) {
+        return 0;
+    }
+    if (to - from < PL_IMAGES_MOST) {
+        *first = from;
+        return (int)(to - from) + 1;
+    }
+    const double half = PL_IMAGES_MOST / 2;
+    *first = from > -half ? from : to < half ? to - (PL_IMAGES_MOST - 1) : -half;
+    return PL_IMAGES_MOST;
 }
 
 pl_images pl_images_of(const plumb_world *world, const pl_grid *grid, pl_box box)
 {
     pl_images i = { .period = { (double)world->desc.wrap_x, (double)world->desc.wrap_y } };
-    range_of((double)box.min_x, (double)box.max_x, i.period.x, bound_of(grid, i.period.x), &i.x0,
-             &i.x1);
-    range_of((double)box.min_y, (double)box.max_y, i.period.y, bound_of(grid, i.period.y), &i.y0,
-             &i.y1);
+    i.columns = range_of((double)box.min_x, (double)box.max_x, i.period.x,
+                         bound_of(grid, i.period.x), &i.x0);
+    i.rows = range_of((double)box.min_y, (double)box.max_y, i.period.y, bound_of(grid, i.period.y),
+                      &i.y0);
     return i;
 }
 
@@ -71,13 +75,12 @@ bool pl_world_query(const plumb_world *world, const pl_grid *grid, pl_box box, p
         return pl_grid_query(grid, box, visit, context);
     }
     pl_images images = pl_images_of(world, grid, box);
-    for (double ky = images.y0; ky <= images.y1; ++ky) {
-        for (double kx = images.x0; kx <= images.x1; ++kx) {
-            image_visit v = { visit, context, kx * images.period.x, ky * images.period.y };
-            pl_box at = kx == 0 && ky == 0 ? box : shifted(box, -v.x, -v.y);
-            if (!pl_grid_query(grid, at, visit_image, &v)) {
-                return false;
-            }
+    for (int k = 0; k < images.columns * images.rows; ++k) {
+        pl_shift to = pl_image(&images, k);
+        image_visit v = { visit, context, to.x, to.y };
+        pl_box at = v.x == 0 && v.y == 0 ? box : shifted(box, -v.x, -v.y);
+        if (!pl_grid_query(grid, at, visit_image, &v)) {
+            return false;
         }
     }
     return true;

@@ -13,14 +13,23 @@
 bool pl_world_query(const plumb_world *world, const pl_grid *grid, pl_box box, pl_grid_visit *visit,
                     void *context);
 
-// Images of a box, or of what lies in it, that may meet something in a grid. The count is bounded: of a box
-// more than PL_IMAGES_MOST periods long, those in the middle.
-#define PL_IMAGES_MOST 16
+// Images of a box, or of what lies in it, that may meet something in a grid. Along an axis they are PL_IMAGES_MOST
+// at most, however long the box and however far it lies: of a longer one those nearest to the period, which hold
+// every image of everything along that axis. They are counted in integers, as a double of 1e17 periods and one
+// more is the same double.
+#define PL_IMAGES_MOST 17
 typedef struct pl_images {
     pl_shift period;
-    double x0, x1, y0, y1; // [-] whole periods, both ends included; none: x1 < x0 or y1 < y0
+    double x0, y0;     // [-] whole periods to the first one
+    int columns, rows; // how many there are
 } pl_images;
 pl_images pl_images_of(const plumb_world *world, const pl_grid *grid, pl_box box);
+// [m] to one of them: image k of columns * rows, row by row.
+static inline pl_shift pl_image(const pl_images *i, int k)
+{
+    return (pl_shift){ (i->x0 + k % i->columns) * i->period.x,
+                       (i->y0 + k / i->columns) * i->period.y };
+}
 
 // Pairs of entries whose boxes overlap over an edge and not without: found(context, piece, other) once for each,
 // `piece` of `from`. Both may be the same grid. O(entries), plus a query for each near an edge.

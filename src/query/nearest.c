@@ -88,7 +88,8 @@ static plumb_nearest_hit nearest_of_piece(const search *s, const pl_grid_entry *
     pl_query_hit names = pl_query_hit_of(world, piece);
     plumb_vec2 at = plumb_transform_apply(frame, near.point);
     if (pl_is_wrapped(world)) {
-        at = plumb_v2((plumb_real)((double)at.x + s->back.x), (plumb_real)((double)at.y + s->back.y));
+        at = plumb_v2((plumb_real)((double)at.x + s->back.x),
+                      (plumb_real)((double)at.y + s->back.y));
     }
     return (plumb_nearest_hit){ names.shape, names.body, at, near.distance };
 }
@@ -193,8 +194,9 @@ static void find(search *s, plumb_vec2 point, plumb_real max_distance)
         double x = order[i % 3] * wrap_x, y = order[i / 3] * wrap_y;
         if ((x != 0 || i % 3 == 0) && (y != 0 || i / 3 == 0)) {
             plumb_vec2 image = { (plumb_real)((double)at.x + x), (plumb_real)((double)at.y + y) };
-            find_at(s, image, (pl_shift){ (double)point.x - (double)image.x,
-                                          (double)point.y - (double)image.y });
+            find_at(
+                s, image,
+                (pl_shift){ (double)point.x - (double)image.x, (double)point.y - (double)image.y });
         }
     }
 }
@@ -221,11 +223,24 @@ static bool keep_near(void *context, const pl_grid_entry *entry)
         return true;
     }
     plumb_nearest_hit near = nearest_of_piece(s, entry);
-    pl_query_hit hit = { .shape = near.shape,
-                         .body = near.body,
-                         .fraction = near.distance,
-                         .point = near.point };
+    pl_query_hit hit = {
+        .shape = near.shape, .body = near.body, .fraction = near.distance, .point = near.point
+    };
     return near.distance > s->max_distance || pl_query_add(&s->q, &hit);
+}
+
+// What may be near enough. Of what wraps around, the nearest image is less than a period away.
+static pl_box box_of(const search *s)
+{
+    const plumb_world_desc *d = &s->q.world->desc;
+    const double most = pl_least((double)s->max_distance, PLUMB_REAL_MAX / 2);
+    const double slack = pl_query_slack(fabs((double)s->point.x) + fabs((double)s->point.y));
+    const double x = d->wrap_x > 0 ? pl_least(most, (double)d->wrap_x) : most;
+    const double y = d->wrap_y > 0 ? pl_least(most, (double)d->wrap_y) : most;
+    pl_box box = pl_query_box_at(s->point, x + slack), tall = pl_query_box_at(s->point, y + slack);
+    box.min_y = tall.min_y;
+    box.max_y = tall.max_y;
+    return box;
 }
 
 int plumb_world_nearest_all(plumb_world *world, plumb_vec2 point, plumb_real max_distance,
@@ -237,11 +252,10 @@ int plumb_world_nearest_all(plumb_world *world, plumb_vec2 point, plumb_real max
         begin(&s, world, __func__, point, max_distance, filter) != PLUMB_OK) {
         return -1;
     }
-    s.point = point;
-    s.back = (pl_shift){ 0, 0 };
+    s.point = plumb_world_wrapped(world, point);
+    s.back = (pl_shift){ (double)point.x - (double)s.point.x, (double)point.y - (double)s.point.y };
     s.max_distance = max_distance;
-    double slack = pl_query_slack(fabs((double)point.x) + fabs((double)point.y));
-    pl_box box = pl_query_box_at(point, pl_least((double)max_distance, PLUMB_REAL_MAX / 2) + slack);
+    pl_box box = box_of(&s);
     const pl_grid *grids[PL_QUERY_GRIDS];
     int grid_count = pl_query_grids(&s.q, grids);
     for (int i = 0; i < grid_count; ++i) {

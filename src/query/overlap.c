@@ -170,6 +170,24 @@ static bool tight_box_overlaps(const search *s, const pl_grid_entry *entry)
     return pl_boxes_overlap(&tight, &s->box);
 }
 
+// The same along an axis that wraps: a period or more is all there is, and what lies far out is brought to the
+// period, where coordinates still tell it from its neighbours.
+static void bring_near(real period, real *min, real *max)
+{
+    double low = (double)*min, width = (double)*max - low, wide = (double)period;
+    if (!(period > 0)) {
+        return;
+    }
+    if (width >= wide) {
+        *min = -period;
+        *max = period;
+    } else if (fabs(low) > PL_QUERY_PERIODS * wide) {
+        low = fmod(low, wide);
+        *min = (real)low;
+        *max = (real)(low + width);
+    }
+}
+
 int plumb_world_overlap_aabb(plumb_world *world, plumb_aabb box, const plumb_query_filter *filter,
                              plumb_shape *shapes, int capacity)
 {
@@ -185,6 +203,8 @@ int plumb_world_overlap_aabb(plumb_world *world, plumb_aabb box, const plumb_que
         return 0;
     }
     s.box = (pl_box){ box.min.x, box.min.y, box.max.x, box.max.y };
+    bring_near(world->desc.wrap_x, &s.box.min_x, &s.box.max_x);
+    bring_near(world->desc.wrap_y, &s.box.min_y, &s.box.max_y);
     return run(&s, tight_box_overlaps, shapes, capacity);
 }
 
@@ -206,7 +226,7 @@ int plumb_world_overlap_point(plumb_world *world, plumb_vec2 point,
         pl_query_begin(&s.q, world, __func__, filter) != PLUMB_OK) {
         return -1;
     }
-    s.point = point;
+    s.point = point = plumb_world_wrapped(world, point);
     s.box = pl_query_box_at(point, pl_query_slack(fabs((double)point.x) + fabs((double)point.y)));
     return run(&s, contains_point, shapes, capacity);
 }

@@ -184,7 +184,8 @@ plumb_transform pl_query_frame(const plumb_world *world, uint32_t piece, plumb_v
     plumb_transform frame = { { pose->x, pose->y }, { pose->c, pose->s } };
     if (pl_is_wrapped(world)) {
         pl_shift s = pl_wrap_piece(world, piece, (double)about.x, (double)about.y);
-        frame.p = plumb_v2((plumb_real)((double)pose->x + s.x), (plumb_real)((double)pose->y + s.y));
+        frame.p =
+            plumb_v2((plumb_real)((double)pose->x + s.x), (plumb_real)((double)pose->y + s.y));
     }
     return frame;
 }
@@ -227,16 +228,14 @@ bool pl_query_walk(const pl_query *q, const pl_grid *grid, pl_walk *walk, pl_gri
         return pl_walk_grid(grid, walk, visit, context);
     }
     pl_images images = pl_images_of(q->world, grid, pl_walk_box(walk));
-    for (double ky = images.y0; ky <= images.y1; ++ky) {
-        for (double kx = images.x0; kx <= images.x1; ++kx) {
-            pl_walk image = *walk;
-            image_walk w = { visit, context, kx * images.period.x, ky * images.period.y, walk,
-                             &image };
-            image.ox -= w.x;
-            image.oy -= w.y;
-            if (!pl_walk_grid(grid, &image, visit_image, &w)) {
-                return false;
-            }
+    for (int k = 0; k < images.columns * images.rows; ++k) {
+        pl_shift to = pl_image(&images, k);
+        pl_walk image = *walk;
+        image_walk w = { visit, context, to.x, to.y, walk, &image };
+        image.ox -= w.x;
+        image.oy -= w.y;
+        if (!pl_walk_grid(grid, &image, visit_image, &w)) {
+            return false;
         }
     }
     return true;
@@ -252,8 +251,8 @@ plumb_result pl_query_check_reach(const plumb_world *world, const char *function
         return PLUMB_OK;
     }
     return pl_fail(world, PLUMB_E_RANGE, function,
-                   "%s is %g m along %s; in a world that wraps every %g m it must be at most %g", what,
-                   far_x ? x : y, far_x ? "x" : "y", far_x ? wrap_x : wrap_y,
+                   "%s is %g m along %s; in a world that wraps every %g m it must be at most %g",
+                   what, far_x ? x : y, far_x ? "x" : "y", far_x ? wrap_x : wrap_y,
                    PL_QUERY_PERIODS * (far_x ? wrap_x : wrap_y));
 }
 

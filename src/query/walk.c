@@ -178,7 +178,9 @@ bool pl_walk_level(const pl_grid *grid, const pl_grid_level *level, pl_walk *wal
     pl_cell_range whole =
         clip_to_level(level, pl_grid_range(level, box_between(walk, 0, walk->limit)));
     double rows = (double)whole.y1 - whole.y0 + 1;
-    double blocks = ((double)whole.x1 - whole.x0 + 1) / BLOCK;
+    // Each row has the width of what is moved; the way adds its columns once.
+    double wide = pl_least((double)whole.x1 - whole.x0 + 1, 2 * slack_x(walk) * level->inv_cell);
+    double blocks = ((double)whole.x1 - whole.x0 + 1 + rows * wide) / BLOCK;
     double farthest = pl_most(pl_most(fabs(walk->ox), fabs(walk->ox + walk->dx)),
                               pl_most(fabs(walk->oy), fabs(walk->oy + walk->dy)));
     if ((farthest + walk->slack + walk->half_x + walk->half_y) * level->inv_cell > FAR_CELLS ||
