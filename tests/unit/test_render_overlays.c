@@ -3,6 +3,8 @@
 
 #include "render_fixture.h"
 
+#include <sys/resource.h>
+
 static size_t changed_pixels(const render_target *target)
 {
     size_t count = 0;
@@ -246,9 +248,41 @@ static void test_every_class_and_line_draws(void **state)
     render_frame_destroy(frame);
 }
 
+// As far out and as near as a camera goes: what is counted along the view (images, stripes, lines of the grid, dashes)
+// has an end. A loop that has none ends by SIGXCPU.
+static void test_cameras_far_out(void **state)
+{
+    (void)state;
+    const double far[] = { 0.0, 1.0, -1e9, 1e15, -1e30 };
+    const double heights[] = { 1e-30, 1e-3, 4.0, 1e9, 1e30 };
+    const double periods[] = { 0.0, 0.1, 4.0, 1e30 };
+    struct rlimit most;
+    assert_int_equal(getrlimit(RLIMIT_CPU, &most), 0);
+    most.rlim_cur = 240; // [s] some 100 times what all of it takes
+    assert_int_equal(setrlimit(RLIMIT_CPU, &most), 0);
+    render_frame *frame = new_frame();
+    render_target *target = new_target(160, 120);
+    for (int i = 0; i < 5 * 5 * 4 * 3; i++) {
+        const double x = far[i % 5], view = heights[i / 5 % 5], period = periods[i / 25 % 4];
+        const double size = i / 100 == 0 ? 1e-3 : i / 100 == 1 ? 1.0 : 1e12;
+        render_frame_clear(frame);
+        assert_int_equal(render_frame_set_period(frame, period, i % 2 ? period : 0.0), RENDER_OK);
+        for (int kind = 0; kind < RENDER_CLASS_COUNT; kind++) {
+            render_body_begin(frame, &(render_style){ .kind = (render_class)kind, .label = "n" });
+            render_add_box(frame, x, -x, size, size, 0.3, 0.0);
+            render_body_end(frame);
+        }
+        draw(target, frame, (render_camera){ .center = { x, -x }, .view_height = view },
+             (render_options){ 0 });
+    }
+    render_target_destroy(target);
+    render_frame_destroy(frame);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_cameras_far_out),
         cmocka_unit_test(test_every_overlay_is_switchable),
         cmocka_unit_test(test_joints_have_signs),
         cmocka_unit_test(test_surfaces_run),

@@ -63,7 +63,9 @@ void plr_hatch(plr_painter *painter, const plr_half_plane *planes, size_t count,
     // that they do not swim when the camera moves.
     const render_vec d = { sqrt(0.5), -sqrt(0.5) };
     const render_vec origin = plr_pixel(painter, (render_vec){ 0.0, 0.0 });
-    const double phase = (origin.x + origin.y) * sqrt(0.5);
+    // So far from the origin lines can no longer be counted.
+    const bool countable = fabs(origin.x) + fabs(origin.y) < 1e12;
+    const double phase = countable ? (origin.x + origin.y) * sqrt(0.5) : 0.0;
     const double low = (min.x + min.y) * sqrt(0.5), high = (max.x + max.y) * sqrt(0.5);
     const double first = phase + ceil((low - phase) / distance) * distance;
     for (double c = first; c <= high; c += distance) {

@@ -7,6 +7,7 @@
 #include <math.h>
 
 enum { MOST_IMAGES = 9 }; ///< along an axis; a view of more periods shows those in the middle
+static const double farthest = 1e6; ///< [-] periods: beyond, nothing is drawn
 
 static const double edge_width = 1.2; ///< [px] at ui_scale 1
 static const double edge_dash = 6.0;  ///< [px] at ui_scale 1
@@ -36,7 +37,11 @@ static void images_in(span view, double low, double high, double period, int *fi
     if (period > 0.0 && low <= high) {
         const double from = ceil((view.min - high) / period);
         const double to = floor((view.max - low) / period);
-        const double middle = fmin(fmax(floor(0.5 * (from + to)), -1e6), 1e6);
+        const double middle = floor(0.5 * (from + to));
+        if (!(fabs(middle) <= farthest)) {
+            *last = -1;
+            return;
+        }
         *first = (int)fmax(from, middle - MOST_IMAGES / 2);
         *last = (int)fmin(to, middle + MOST_IMAGES / 2);
     }
