@@ -394,12 +394,32 @@ static void get_up(plumb_world *world)
     world->broad.stale = true;
 }
 
+// By slots: they were marked in an order that depends on when the grids were filed, which a restored world does
+// not remember, and rows follow the order in which islands get up.
+static bool sort_marked(plumb_world *world)
+{
+    pl_sleep *s = &world->sleep;
+    uint32_t *marked = s->marked.data;
+    if (!pl_buffer_reserve(&world->memory, &s->woken, s->marked_count * sizeof(pl_keyed))) {
+        return false;
+    }
+    pl_keyed *order = s->woken.data;
+    for (uint32_t i = 0; i < s->marked_count; ++i) {
+        order[i] = (pl_keyed){ marked[i], 0, marked[i] };
+    }
+    pl_sort_keyed(order, s->marked_count);
+    for (uint32_t i = 0; i < s->marked_count; ++i) {
+        marked[i] = order[i].value;
+    }
+    return true;
+}
+
 static bool wake_marked(plumb_world *world)
 {
     pl_sleep *s = &world->sleep;
     pl_by_kinds first, size;
     uint32_t bodies;
-    if (!list_woken(world, first, size, &bodies)) {
+    if (!sort_marked(world) || !list_woken(world, first, size, &bodies)) {
         return false;
     }
     size_t contacts = 0;
