@@ -81,8 +81,16 @@ PLUMB_API void plumb_world_destroy(plumb_world *world);
 /// The descriptor in force, all defaults resolved.
 PLUMB_API plumb_world_desc plumb_world_settings(const plumb_world *world);
 
-/// Advances the world by dt [s], 0 < dt <= 1. Events, spans and contact views of the step before
+/// Advances the world by dt [s], 0 <= dt <= 1. Events, spans and contact views of the step before
 /// become invalid. Cost: see plumb_world_schedule.
+///
+/// dt 0 is for games that pause and for editors: it carries out commands and brings contacts, sensor overlaps,
+/// grids and events up to date with what was created, destroyed, moved, filtered or enabled since the last step;
+/// what that touches in its sleep wakes. Nothing moves, no velocity, force, impulse, clock or count of steps
+/// changes, nobody falls asleep, nothing hits or breaks. Of systems only those of PLUMB_PHASE_CONTACTS run (with
+/// dt 0), if something is to be looked at. Where nothing was edited, it costs nothing, contacts stay as the last
+/// step left them, and the next step gives the same bits as without it. A recording plays it back.
+///
 /// Errors: E_RANGE, E_NOT_FINITE, E_LOCKED (called from a system), E_MEMORY (no body has moved, but systems
 /// of the phases before may have run: forces they added are still there; bodies touched may have woken).
 PLUMB_API plumb_result plumb_world_step(plumb_world *world, plumb_real dt);

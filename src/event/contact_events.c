@@ -441,13 +441,14 @@ static void publish_parts(plumb_world *world)
 }
 
 // What happened to one pair, in a world of shapes of several pieces or of hits.
-static void publish_pair(plumb_world *world, pl_pair *pair, uint32_t index, bool was, bool is)
+static void publish_pair(plumb_world *world, pl_pair *pair, uint32_t index, bool was, bool is,
+                         bool refresh)
 {
-    bool hit = is && world->desc.hit_speed > 0 && hit_is_due(world, pair);
+    bool hit = is && !refresh && world->desc.hit_speed > 0 && hit_is_due(world, pair);
+    pair->flags &= is || refresh ? ~0u : ~(PL_PAIR_STRUCK | PL_PAIR_PENDING);
     if (!is && !was) {
         return;
     }
-    pair->flags &= is ? ~0u : ~(PL_PAIR_STRUCK | PL_PAIR_PENDING);
     if (is_part(world, pair)) {
         const plumb_shape *shape = world->pieces.shape;
         keep_part(world, shape[pair->a], shape[pair->b], index,
@@ -464,15 +465,17 @@ static void publish_pair(plumb_world *world, pl_pair *pair, uint32_t index, bool
     }
 }
 
-static void publish_all(plumb_world *world)
+static void publish_all(plumb_world *world, bool refresh)
 {
     pl_pair *pairs = pl_pairs(&world->broad.pairs);
-    begin_blows(&world->blows);
+    if (!refresh) {
+        begin_blows(&world->blows);
+    }
     for (uint32_t i = 0; i < world->broad.pairs.count; ++i) {
         pl_pair *pair = &pairs[i];
         bool was = (pair->flags & PL_PAIR_TOUCHING) != 0;
         bool is = pair->manifold != PL_NONE && touches(world, pair, manifold_of(world, pair));
-        publish_pair(world, pair, i, was, is);
+        publish_pair(world, pair, i, was, is, refresh);
         pair->flags ^= is != was ? PL_PAIR_TOUCHING : 0;
     }
     publish_parts(world);
@@ -524,11 +527,11 @@ static void publish_changes(plumb_world *world)
     }
 }
 
-void pl_events_publish(plumb_world *world)
+void pl_events_publish(plumb_world *world, bool refresh)
 {
     // Parts may have left the list together with the last shape that had any.
     if (world->part_pieces > 0 || world->parts.count > 0 || world->desc.hit_speed > 0) {
-        publish_all(world);
+        publish_all(world, refresh);
     } else {
         publish_changes(world);
     }

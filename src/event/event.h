@@ -72,8 +72,8 @@ bool pl_graves_reserve(plumb_world *world, uint32_t slots);
 void pl_grave_dig(plumb_world *world, uint32_t piece);
 // Before the solver: room for all events of this step, approach speeds of pairs that did not touch.
 bool pl_events_prepare(plumb_world *world);
-// After the solver: begin, end and hit events.
-void pl_events_publish(plumb_world *world);
+// After the solver: begin, end and hit events. A step that only refreshes makes no hits, and ends none.
+void pl_events_publish(plumb_world *world, bool refresh);
 
 // Room for `count` more pairs of pieces that are parts; nothing where there are none.
 bool pl_parts_reserve(plumb_world *world, uint32_t count);

@@ -431,7 +431,7 @@ static void revise_pairs(plumb_world *world, const pl_joint *joint)
 {
     if (!joint->desc.collide_connected && !plumb_is_null(joint->a.body) &&
         !plumb_is_null(joint->b.body)) {
-        world->pairs_dirty = true;
+        pl_rearranged(world);
         pl_seams_touch_static(world, pl_body_row(world, joint->a.body));
         pl_seams_touch_static(world, pl_body_row(world, joint->b.body));
     }

@@ -171,7 +171,9 @@ plumb_result plumb_joint_set_enabled(plumb_world *world, plumb_joint joint, bool
         j->desc.disabled = !enabled;
         pl_joint_disturb(world, j);
         pl_joints_replan(&world->joints);
-        world->pairs_dirty |= !j->desc.collide_connected;
+        if (!j->desc.collide_connected) {
+            pl_rearranged(world);
+        }
     }
     return r;
 }

@@ -60,7 +60,7 @@ static bool is_step(const pl_chunk *chunk, pl_step_head *head)
         return false;
     }
     memcpy(head, chunk->data, sizeof *head);
-    if (!(head->dt > 0 && head->dt <= 1)) {
+    if (!(head->dt >= 0 && head->dt <= 1)) {
         return false;
     }
     for (uint64_t i = 0; i < head->edits; ++i) {

@@ -300,7 +300,25 @@ static void give_back(pl_pair *pair, const pl_seam_pair *kept)
         pair->tangent[k] = kept->tangent[k];
     }
     pair->rolling = kept->rolling;
-    pair->manifold = kept->manifold; // pairs that part forget the above, those that are apart do not
+    pair->manifold =
+        kept->manifold; // pairs that part forget the above, those that are apart do not
+}
+
+// Setting contacts right twice would round twice what runs bear.
+void pl_seams_give_back(plumb_world *world)
+{
+    pl_seams *s = &world->seams;
+    const pl_seam_pair *kept = s->pairs.data;
+    for (uint32_t i = 0; s->noted && i < s->pair_count; ++i) {
+        pl_pair *pair = &pl_pairs(&world->broad.pairs)[kept[i].pair];
+        const uint32_t manifold = pair->manifold;
+        if (manifold != PL_NONE) {
+            give_back(pair, &kept[i]);
+            pair->manifold = manifold;
+        }
+    }
+    s->noted = false;
+    pl_runs_undo(s);
 }
 
 void pl_seams_undo(plumb_world *world)

@@ -126,6 +126,8 @@ bool pl_seams_wanted(const plumb_world *world, const char **reason);
 bool pl_seams_update(plumb_world *world);
 // Gives pairs and loads back what they had when a step began that is refused.
 void pl_seams_undo(plumb_world *world);
+// The same behind a step of dt 0, whose contacts stay: only their impulses are again as before.
+void pl_seams_give_back(plumb_world *world);
 // Sets manifolds right whose normals the ground does not admit (correct.c). After the narrow phase. False
 // when out of memory; the next step makes manifolds anew.
 bool pl_seams_correct(plumb_world *world, real dt);

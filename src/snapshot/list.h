@@ -165,7 +165,8 @@
     VALUE(shape_count) VALUE(serial) LEFT(made) LEFT(outline)                                      \
     TABLE(materials) OWN(components) OWN(systems)                                                  \
     ARRAY(uint32_t, moving, moving_count, sizeof(uint32_t), 0) LEFT(poses)                         \
-    TALLY(rows_moved) TALLY(pairs_dirty) TALLY(static_dirty) LEFT(schedule_dirty)                  \
+    TALLY(rows_moved) TALLY(pairs_dirty) TALLY(static_dirty) TALLY(rearranged)                     \
+    LEFT(schedule_dirty)                                                                           \
     VALUE(piece_kinds) VALUE(turning_bodies)                                                       \
     VALUE(sensor_pieces) VALUE(filtered_pieces) VALUE(part_pieces)                                 \
     ARRAY(uint64_t, excluded, excluded_count, sizeof(uint64_t), 8)                                 \

@@ -13,6 +13,7 @@ typedef struct pl_pass {
     bool (*wanted)(const plumb_world *world, const char **reason);
     // Does it. NULL: a part of the pass above, listed because it is left out on its own.
     plumb_result (*run)(plumb_world *world, plumb_real dt);
+    bool refreshes; // part of a step of dt 0 too: it moves nothing
 } pl_pass;
 
 extern const pl_pass pl_passes[];

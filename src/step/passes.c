@@ -409,11 +409,13 @@ static plumb_result run_reactions(plumb_world *world, plumb_real dt)
 
 static plumb_result run_events(plumb_world *world, plumb_real dt)
 {
-    (void)dt;
-    if (world->seams.load_count > 0) {
+    if (world->seams.load_count > 0 && dt > 0) {
         pl_seams_remember(world);
     }
-    pl_events_publish(world);
+    pl_events_publish(world, dt == 0);
+    if (dt == 0) {
+        pl_seams_give_back(world);
+    }
     return PLUMB_OK;
 }
 
@@ -428,41 +430,41 @@ const char pl_user_phase[] = "user";
 
 // clang-format off
 const pl_pass pl_passes[] = {
-    //name             phase       reads                              writes                       wanted            run
-    { "guard",         "commands", "velocities, forces",              "rows of what is not finite", NULL,              run_guard },
-    { "begin systems", pl_user_phase, "declared by the systems",         "declared by the systems",   begin_wanted,     run_begin },
-    { "force systems", pl_user_phase, "declared by the systems",         "declared by the systems",   forces_wanted,    run_forces },
-    { "characters",    "forces",   "grids, poses, velocities",        "velocities, forces",        pl_characters_wanted, run_characters },
-    { "waking",      "broad",    "islands, pieces, grids, joints",   "rows, pairs, fat boxes",     waking_wanted,    run_waking },
-    { "broad phase",   "broad",    "poses, pieces",                   "fat boxes, grids, pairs",   broad_wanted,     run_broad },
-    { "seams",         "broad",    "static pieces, grids, pairs",     "covered edges, corners",    seams_wanted,     run_seams },
-    { "narrow phase",  "narrow",   "pairs, poses, pieces, materials", "manifolds",                 collision_wanted, run_narrow },
-    { "- one-way",     "narrow",   "manifolds, pieces, rotations",    "manifolds, pairs",          one_way_wanted,   NULL },
-    { "surfaces",      "narrow",   "pairs, materials",                "manifolds",                 surfaces_wanted,  run_surfaces },
-    { "feet",          "narrow",   "manifolds, characters",           "manifolds",                 feet_wanted,      run_feet },
-    { "sleep",       "narrow",   "velocities, pairs, joints",        "islands, rows, pairs, manifolds", sleep_wanted, run_sleep },
-    { "sensor pairs",  "narrow",   "pairs with sensors",              "candidates of sensors",     sensing_wanted,   run_candidates },
-    { "contact systems", pl_user_phase, "declared by the systems",         "declared by the systems",   contacts_wanted,  run_contacts },
-    { "graph",         "solve",    "manifolds, velocities, forces",   "solver bodies, colours",    solver_wanted,    run_graph },
-    { "soft step",     "solve",    "manifolds, solver bodies",        "solver bodies, impulses",   soft_wanted,      run_soft },
-    { "classic solver", "solve",   "manifolds, solver bodies",        "solver bodies, impulses",   classic_wanted,   run_classic },
-    { "- friction",    "solve",    "materials",                       "solver bodies, impulses",   friction_wanted,  NULL },
-    { "- rotation",    "solve",    "inertias",                        "solver bodies",             rotation_wanted,  NULL },
-    { "- impacts",     "solve",    "materials, manifolds",            "solver bodies",             impacts_wanted,   NULL },
-    { "- adhesion",    "solve",    "materials, manifolds",            "solver bodies, impulses",   adhesion_wanted,  NULL },
-    { "- locked axes", "solve",    "bodies",                          "solver bodies, impulses",   locks_wanted,     NULL },
-    { "- damping",     "solve",    "tunings",                         "solver bodies, velocities", damping_wanted,   NULL },
-    { "- speed caps",  "solve",    "tunings",                         "solver bodies, velocities", caps_wanted,      NULL },
-    { "- own time",    "solve",    "tunings",                         "solver bodies, transforms", own_time_wanted,  NULL },
-    { "- joints",      "solve",    "joints, poses",                   "solver bodies, joints",     joints_wanted,    NULL },
-    { "motion",        "finish",   "solver bodies, forces, gravity",  "transforms, velocities",    NULL,             run_motion },
-    { "continuous",    "finish",   "bodies that moved fast, pieces",  "transforms",                continuous_wanted, run_continuous },
-    { "targets",       "finish",   "targets, poses",                  "kinematic poses, velocities", targets_wanted, run_arrive },
-    { "edges",         "finish",   "transforms",                      "transforms",                edges_wanted,     run_edges },
-    { "reactions",     "finish",   "joints, poses",                   "joints, break events",      joints_wanted,    run_reactions },
-    { "events",        "finish",   "pairs, manifolds",                "event arrays",              collision_wanted, run_events },
-    { "sensors",       "finish",   "candidates, poses, pieces",       "overlaps, sensor events",   sensing_wanted,   run_sensors },
-    { "end systems",   pl_user_phase, "declared by the systems",         "declared by the systems",   end_wanted,       run_end },
+    //name             phase       reads                              writes                       wanted            run             refreshes
+    { "guard",         "commands", "velocities, forces",              "rows of what is not finite", NULL,              run_guard,      true  },
+    { "begin systems", pl_user_phase, "declared by the systems",         "declared by the systems",   begin_wanted,     run_begin,      false },
+    { "force systems", pl_user_phase, "declared by the systems",         "declared by the systems",   forces_wanted,    run_forces,     false },
+    { "characters",    "forces",   "grids, poses, velocities",        "velocities, forces",        pl_characters_wanted, run_characters, false },
+    { "waking",      "broad",    "islands, pieces, grids, joints",   "rows, pairs, fat boxes",     waking_wanted,    run_waking,     true  },
+    { "broad phase",   "broad",    "poses, pieces",                   "fat boxes, grids, pairs",   broad_wanted,     run_broad,      true  },
+    { "seams",         "broad",    "static pieces, grids, pairs",     "covered edges, corners",    seams_wanted,     run_seams,      true  },
+    { "narrow phase",  "narrow",   "pairs, poses, pieces, materials", "manifolds",                 collision_wanted, run_narrow,     true  },
+    { "- one-way",     "narrow",   "manifolds, pieces, rotations",    "manifolds, pairs",          one_way_wanted,   NULL,           true  },
+    { "surfaces",      "narrow",   "pairs, materials",                "manifolds",                 surfaces_wanted,  run_surfaces,   true  },
+    { "feet",          "narrow",   "manifolds, characters",           "manifolds",                 feet_wanted,      run_feet,       false },
+    { "sleep",       "narrow",   "velocities, pairs, joints",        "islands, rows, pairs, manifolds", sleep_wanted, run_sleep,      false },
+    { "sensor pairs",  "narrow",   "pairs with sensors",              "candidates of sensors",     sensing_wanted,   run_candidates, true  },
+    { "contact systems", pl_user_phase, "declared by the systems",         "declared by the systems",   contacts_wanted,  run_contacts,   true  },
+    { "graph",         "solve",    "manifolds, velocities, forces",   "solver bodies, colours",    solver_wanted,    run_graph,      false },
+    { "soft step",     "solve",    "manifolds, solver bodies",        "solver bodies, impulses",   soft_wanted,      run_soft,       false },
+    { "classic solver", "solve",   "manifolds, solver bodies",        "solver bodies, impulses",   classic_wanted,   run_classic,    false },
+    { "- friction",    "solve",    "materials",                       "solver bodies, impulses",   friction_wanted,  NULL,           false },
+    { "- rotation",    "solve",    "inertias",                        "solver bodies",             rotation_wanted,  NULL,           false },
+    { "- impacts",     "solve",    "materials, manifolds",            "solver bodies",             impacts_wanted,   NULL,           false },
+    { "- adhesion",    "solve",    "materials, manifolds",            "solver bodies, impulses",   adhesion_wanted,  NULL,           false },
+    { "- locked axes", "solve",    "bodies",                          "solver bodies, impulses",   locks_wanted,     NULL,           false },
+    { "- damping",     "solve",    "tunings",                         "solver bodies, velocities", damping_wanted,   NULL,           false },
+    { "- speed caps",  "solve",    "tunings",                         "solver bodies, velocities", caps_wanted,      NULL,           false },
+    { "- own time",    "solve",    "tunings",                         "solver bodies, transforms", own_time_wanted,  NULL,           false },
+    { "- joints",      "solve",    "joints, poses",                   "solver bodies, joints",     joints_wanted,    NULL,           false },
+    { "motion",        "finish",   "solver bodies, forces, gravity",  "transforms, velocities",    NULL,             run_motion,     false },
+    { "continuous",    "finish",   "bodies that moved fast, pieces",  "transforms",                continuous_wanted, run_continuous, false },
+    { "targets",       "finish",   "targets, poses",                  "kinematic poses, velocities", targets_wanted, run_arrive,     false },
+    { "edges",         "finish",   "transforms",                      "transforms",                edges_wanted,     run_edges,      false },
+    { "reactions",     "finish",   "joints, poses",                   "joints, break events",      joints_wanted,    run_reactions,  false },
+    { "events",        "finish",   "pairs, manifolds",                "event arrays",              collision_wanted, run_events,     true  },
+    { "sensors",       "finish",   "candidates, poses, pieces",       "overlaps, sensor events",   sensing_wanted,   run_sensors,    true  },
+    { "end systems",   pl_user_phase, "declared by the systems",         "declared by the systems",   end_wanted,       run_end,        false },
 };
 // clang-format on
 

@@ -39,7 +39,8 @@ static plumb_result run_passes(plumb_world *world, plumb_real dt)
     pl_schedule *schedule = &world->schedule;
     double start = pl_now_ns();
     for (int i = 0; i < pl_pass_count; ++i) {
-        if (!schedule->scheduled[i] || pl_passes[i].run == NULL) {
+        if (!schedule->scheduled[i] || pl_passes[i].run == NULL ||
+            (dt == 0 && !pl_passes[i].refreshes)) {
             continue;
         }
         world->sight.fresh = false; // what systems ask about moves from pass to pass
@@ -65,11 +66,17 @@ static plumb_result run_passes(plumb_world *world, plumb_real dt)
     return PLUMB_OK;
 }
 
-// The passes, from the beginning.
+// The passes, from the beginning. Of a step of dt 0 only those that move nothing (pl_pass.refreshes), and those only
+// where something was rearranged since the last step: else contacts, overlaps and grids are as that step left
+// them, and to look again could only change what the next step starts from.
 static plumb_result try_step(plumb_world *world, plumb_real dt)
 {
     pl_events_clear(world);
     pl_edits_forget(world);
+    if (dt == 0 && !world->rearranged) {
+        world->joints.broken_count = 0; // that is an event; contacts are those of the last step
+        return PLUMB_OK;
+    }
     forget_contacts(world);
     // Systems with `needs` come and go with their component, which is no structural change of
     // physics.
@@ -101,10 +108,6 @@ plumb_result plumb_world_step(plumb_world *world, plumb_real dt)
     if (result != PLUMB_OK) {
         return result;
     }
-    if (!(dt > 0)) {
-        return pl_fail(world, PLUMB_E_RANGE, __func__, "dt is %g; it must be above 0 and at most 1",
-                       (double)dt);
-    }
     pl_tape *tape = world->tape;
     if (tape == NULL || !tape->replays) {
         result = pl_commands_run(world);
@@ -133,6 +136,7 @@ plumb_result plumb_world_step(plumb_world *world, plumb_real dt)
         pl_quarantine_finish(world);
     }
     world->sleep.events_told |= result == PLUMB_OK;
+    world->rearranged = false;
     if (tape != NULL && tape->end != NULL) {
         tape->end(tape, world, dt);
     }

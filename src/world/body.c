@@ -199,7 +199,7 @@ void pl_body_place_at(plumb_world *world, uint32_t row, plumb_vec2 position, plu
     pl_sleep_disturb(world, row);
     pl_target_forget(world, row);
     if (b->first_piece[row] != PL_NONE) {
-        world->pairs_dirty = true;
+        pl_rearranged(world);
         world->static_dirty |= b->type[row] == PLUMB_STATIC;
         world->sleep.boxes_stale |= b->island[row] != PL_NONE;
         pl_seams_move_static(world, row);

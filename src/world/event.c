@@ -63,7 +63,7 @@ plumb_result plumb_world_set_hit_speed(plumb_world *world, plumb_real speed)
 // [rad] by which a row turned in the last step, as the solver left it.
 static real turn_of(const plumb_world *world, uint32_t row)
 {
-    if (world->rows_moved || row >= world->dynamic_count) {
+    if (world->rows_moved || row >= world->dynamic_count || world->solver.slot_count == 0) {
         return 0;
     }
     uint32_t slot = ((const uint32_t *)world->solver.slots.data)[row];

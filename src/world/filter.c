@@ -99,7 +99,7 @@ plumb_result plumb_shape_set_filter(plumb_world *world, plumb_shape shape, plumb
         }
         pl_filter_apply(world, first, &filter);
         pl_seams_touch_shape(world, first);
-        world->pairs_dirty = true;
+        pl_rearranged(world);
     }
     return r;
 }
@@ -140,7 +140,7 @@ plumb_result plumb_shape_set_sensor(plumb_world *world, plumb_shape shape, bool 
         pl_sensor_apply(world, first, sensor);
         pl_mass_revise(world, world->pieces.body[first]);
         pl_seams_touch_shape(world, first);
-        world->pairs_dirty = true;
+        pl_rearranged(world);
         world->schedule_dirty = true;
     }
     return r;
@@ -243,7 +243,7 @@ plumb_result plumb_world_exclude_pair(plumb_world *world, plumb_body a, plumb_bo
     }
     pl_sleep_disturb(world, row_a);
     pl_sleep_disturb(world, row_b);
-    world->pairs_dirty = true;
+    pl_rearranged(world);
     return PLUMB_OK;
 }
 

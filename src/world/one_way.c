@@ -67,6 +67,7 @@ plumb_result plumb_shape_set_one_way(plumb_world *world, plumb_shape shape, plum
     if (r == PLUMB_OK) {
         pl_one_way_apply(world, first, &one_way);
         pl_sleep_disturb_piece(world, first);
+        world->rearranged = true;
     }
     return r;
 }

@@ -122,7 +122,7 @@ void pl_pieces_refile(plumb_world *world, uint32_t row)
     for (; p != PL_NONE; p = world->pieces.next_in_body[p]) {
         unfile(world, p);
         file(world, p, row);
-        world->pairs_dirty = true;
+        pl_rearranged(world);
     }
     world->schedule_dirty = true;
 }
@@ -204,7 +204,7 @@ uint32_t pl_pieces_add(plumb_world *world, uint32_t row, plumb_shape shape, cons
     pl_seams_touch_shape(world, first);
     ++world->shape_count;
     pl_sleep_disturb(world, row);
-    world->pairs_dirty = true;
+    pl_rearranged(world);
     world->schedule_dirty = true;
     return first;
 }
@@ -262,7 +262,7 @@ void pl_pieces_remove(plumb_world *world, uint32_t first)
         pl_seams_touch(world, *left); // one stale piece stands for the whole of a moving body
     }
     --world->shape_count;
-    world->pairs_dirty = true;
+    pl_rearranged(world);
     world->schedule_dirty = true;
 }
 

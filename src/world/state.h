@@ -81,6 +81,7 @@ struct plumb_world {
     bool pairs_dirty;      // pieces came, went or were teleported: grids and pair list must be rebuilt
     bool static_dirty;     // static pieces came, went or moved: the static grid must be rebuilt
     bool schedule_dirty;   // something structural changed: `wanted` is asked again
+    bool rearranged;       // since the last step pieces came, went or were moved, or others may meet
 
     // Counters behind `wanted`: how many pieces or bodies ask for an effect.
     uint32_t piece_kinds[PL_PIECE_KIND_COUNT]; // live pieces of each kind
@@ -181,6 +182,12 @@ static inline pl_pose *pl_poses(const plumb_world *world)
 static inline uint32_t *pl_moving(const plumb_world *world)
 {
     return (uint32_t *)world->moving.data;
+}
+
+// Pieces came, went or were moved, or others may meet: pairs are sought anew.
+static inline void pl_rearranged(plumb_world *world)
+{
+    world->pairs_dirty = world->rearranged = true;
 }
 
 #endif
