@@ -58,13 +58,20 @@ ifneq ($(filter x86_64 amd64,$(ARCH)),)
 BASELINE := -march=x86-64 -mno-fma
 endif
 
+# No function takes more of a stack than this: threads of games and of wasm have small ones. Sanitizers and -O0
+# keep every temporary.
+ifneq ($(filter -O2 -O3,$(CFLAGS)),)
+FRAME := $(if $(SAN),,$(if $(findstring clang,$(CC)),-Wframe-larger-than=16384 -Werror=frame-larger-than,\
+	-Werror=frame-larger-than=16384))
+endif
+
 # One set of objects serves the static and the shared library: hidden symbols are as fast as
 # local ones, and a static library that is position-independent can go into a user's plug-in.
 SHARED   := -fPIC -fvisibility=hidden -fno-semantic-interposition -DPLUMB_BUILD_SHARED
 
 COMMON   := -std=c17 $(WARN_C) $(MATHS) $(SANFLAGS) -MMD -MP -Iinclude
-LIB_FLAGS  = $(COMMON) $(SHARED) -Isrc $(CFLAGS) $(BASELINE)
-TOOL_FLAGS = $(COMMON) -Isrc -Itools -Itests $(CFLAGS) $(BASELINE) $(PKG_CFLAGS)
+LIB_FLAGS  = $(COMMON) $(FRAME) $(SHARED) -Isrc $(CFLAGS) $(BASELINE)
+TOOL_FLAGS = $(COMMON) $(if $(filter tests/%,$<),,$(FRAME)) -Isrc -Itools -Itests $(CFLAGS) $(BASELINE) $(PKG_CFLAGS)
 CXX_FLAGS  = -std=c++20 $(WARN) $(MATHS) $(SANFLAGS) -MMD -MP -Iinclude $(CFLAGS)
 VARIANTS    := float double far
 DEFS_float  :=
@@ -79,7 +86,7 @@ SCENE_LIBS  := -llua5.4 -lcjson
 RENDER_LIBS := -lOSMesa -lfreetype -lpng -lgif
 
 # Compiler or flags changed: everything is built again.
-FLAGS_LINE := $(CC) $(CXX) $(WARN_C) $(MATHS) $(BASELINE) $(SANFLAGS) $(SHARED) $(CFLAGS) $(LDFLAGS) $(BOX2D3)
+FLAGS_LINE := $(CC) $(CXX) $(WARN_C) $(FRAME) $(MATHS) $(BASELINE) $(SANFLAGS) $(SHARED) $(CFLAGS) $(LDFLAGS) $(BOX2D3)
 NO_BUILD   := help clean deps deps-dev format format-check
 ifneq ($(filter-out $(NO_BUILD),$(or $(MAKECMDGOALS),all)),)
 ifneq ($(file <$(O)/flags),$(FLAGS_LINE))

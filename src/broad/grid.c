@@ -84,7 +84,7 @@ typedef struct filing {
     const pl_box *fat;
     uint32_t count, shares;
     uint8_t level_of_octave[PL_GRID_LEVELS];
-    survey octaves[PLUMB_WORKERS_MAX][PL_GRID_LEVELS];
+    survey *octaves; // PL_GRID_LEVELS for each share
 } filing;
 
 // Of neighbours in the list most are of one size: its survey is at hand until another comes.
@@ -111,7 +111,7 @@ static void survey_share(void *context, uint32_t i)
                                       box.max_x, box.max_y });
     }
     octaves[at] = here;
-    memcpy(f->octaves[i], octaves, sizeof octaves);
+    memcpy(f->octaves + (size_t)i * PL_GRID_LEVELS, octaves, sizeof octaves);
 }
 
 static uint32_t power_of_two_from(uint64_t least)
@@ -208,9 +208,9 @@ static size_t lay_out(filing *f)
     size_t start_count = 0;
     uint32_t first = 0, used = 0;
     for (uint32_t k = 0; k < PL_GRID_LEVELS; ++k) {
-        survey all = f->octaves[0][k];
+        survey all = f->octaves[k];
         for (uint32_t i = 1; i < f->shares; ++i) {
-            all = joined(all, f->octaves[i][k]);
+            all = joined(all, f->octaves[(size_t)i * PL_GRID_LEVELS + k]);
         }
         if (all.count > 0) {
             pl_grid_level *level = &grid->levels[used];
@@ -229,19 +229,24 @@ static size_t lay_out(filing *f)
 bool pl_grid_build(pl_memory *memory, pl_tasks *tasks, pl_grid *grid, const uint32_t *pieces,
                    uint32_t count, const pl_box *fat)
 {
-    filing f; // most of it is for threads, and written where there are some
+    survey alone[PL_GRID_LEVELS]; // of one share; those of several lie where the places come to lie
+    filing f;
     f.grid = grid;
     f.pieces = pieces;
     f.fat = fat;
     f.count = count;
     f.shares = pl_tasks_share_count(tasks, count, LEAST);
+    grid->entry_count = grid->level_count = 0;
+    grid->mapped = false;
+    _Static_assert(LEAST * sizeof(place) >= sizeof alone, "the places of a share hold its survey");
+    if (!pl_buffer_reserve(memory, &grid->entries, (count + 1) * sizeof(pl_grid_entry)) ||
+        !pl_buffer_reserve(memory, &grid->places, (count + 1) * sizeof(place))) {
+        return false;
+    }
+    f.octaves = f.shares > 1 ? grid->places.data : alone;
     pl_tasks_run(tasks, survey_share, &f, f.shares);
     const size_t start_count = lay_out(&f);
-    grid->entry_count = 0;
-    grid->mapped = false;
-    if (!pl_buffer_reserve(memory, &grid->entries, (count + 1) * sizeof(pl_grid_entry)) ||
-        !pl_buffer_reserve(memory, &grid->places, (count + 1) * sizeof(place)) ||
-        !pl_buffer_reserve(memory, &grid->starts, (start_count + 1) * sizeof(uint32_t))) {
+    if (!pl_buffer_reserve(memory, &grid->starts, (start_count + 1) * sizeof(uint32_t))) {
         grid->level_count = 0;
         return false;
     }

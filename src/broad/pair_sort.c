@@ -38,8 +38,8 @@ typedef struct sorter {
     uint32_t *dealt;   // BUCKETS for each share
     uint32_t shift;    // of `low` to its bucket
     uint8_t share_of[BUCKETS];
-    uint32_t deal_at[PLUMB_WORKERS_MAX][PLUMB_WORKERS_MAX];
-    section sections[PLUMB_WORKERS_MAX];
+    uint32_t *deal_at; // shares for each share
+    section *sections; // one a share
 } sorter;
 
 // Numbers the classes that pieces of the kinds there are can make.
@@ -81,7 +81,7 @@ static void part_buckets(sorter *s)
         s->share_of[b] = (uint8_t)i;
         for (uint32_t t = 0; t < s->shares; ++t) {
             uint32_t here = s->dealt[t * BUCKETS + b];
-            s->deal_at[t][i] += here;
+            s->deal_at[t * s->shares + i] += here;
             sum += here;
         }
         while (i + 1 < s->shares && sum >= pl_share_of(s->count, s->shares, i).end) {
@@ -97,8 +97,8 @@ static void part_buckets(sorter *s)
     sum = 0;
     for (i = 0; i < s->shares; ++i) {
         for (uint32_t t = 0; t < s->shares; ++t) {
-            uint32_t here = s->deal_at[t][i];
-            s->deal_at[t][i] = sum;
+            uint32_t here = s->deal_at[t * s->shares + i];
+            s->deal_at[t * s->shares + i] = sum;
             sum += here;
         }
     }
@@ -109,7 +109,7 @@ static void deal_share(void *context, uint32_t i)
     sorter *s = context;
     const pl_share mine = pl_share_of(s->count, s->shares, i);
     uint32_t at[PLUMB_WORKERS_MAX];
-    memcpy(at, s->deal_at[i], s->shares * sizeof *at);
+    memcpy(at, s->deal_at + (size_t)i * s->shares, s->shares * sizeof *at);
     for (uint32_t k = mine.first; k < mine.end; ++k) {
         s->to[at[s->share_of[s->from[k].low >> s->shift]]++] = s->from[k];
     }
@@ -128,9 +128,7 @@ static void deal(plumb_world *world, sorter *s)
         s->sections[0] = (section){ .end = s->count, .low_end = s->slots };
         return;
     }
-    for (uint32_t t = 0; t < s->shares; ++t) {
-        memset(s->deal_at[t], 0, s->shares * sizeof(uint32_t));
-    }
+    memset(s->deal_at, 0, (size_t)s->shares * s->shares * sizeof *s->deal_at);
     s->shift = 0;
     while ((s->slots - 1) >> s->shift >= BUCKETS) {
         ++s->shift;
@@ -261,13 +259,18 @@ static bool sort_many(plumb_world *world, sorter *s, pl_sorted *sorted)
     const uint32_t least = s->slots > LEAST ? s->slots : LEAST;
     s->shares = pl_tasks_share_count(world->tasks, s->count, least);
     const size_t high = (size_t)s->shares * s->slots, low = (size_t)s->class_count * s->slots;
-    const size_t counts = high + low + (size_t)s->shares * BUCKETS;
+    const size_t dealt = (size_t)s->shares * BUCKETS, deal_at = (size_t)s->shares * s->shares;
+    const size_t sections = s->shares * (sizeof(section) / sizeof(uint32_t));
+    const size_t counts = high + low + dealt + deal_at + sections;
+    _Static_assert(sizeof(section) % sizeof(uint32_t) == 0, "a section is numbers alone");
     if (!pl_buffer_reserve(&world->memory, &broad->counts, counts * sizeof(uint32_t))) {
         return false;
     }
     s->by_high = broad->counts.data;
     s->by_low = s->by_high + high;
     s->dealt = s->by_low + low;
+    s->deal_at = s->dealt + dealt;
+    s->sections = (section *)(void *)(s->deal_at + deal_at);
     deal(world, s);
     pl_tasks_run(world->tasks, sort_share_high, s, s->shares);
     place_classes(s, sorted);
@@ -279,12 +282,11 @@ static bool sort_many(plumb_world *world, sorter *s, pl_sorted *sorted)
 
 static bool sort_few(plumb_world *world, sorter *s, pl_sorted *sorted)
 {
-    section *all = &s->sections[0];
+    section one = { 0 }, *all = s->sections = &one;
     if (!pl_buffer_reserve(&world->memory, &world->broad.counts,
                            ((size_t)s->count + 1) * sizeof(pl_keyed))) {
         return false;
     }
-    memset(all, 0, sizeof *all);
     pl_keyed *keyed = world->broad.counts.data;
     s->shares = 1;
     for (uint32_t i = 0; i < s->count; ++i) {
@@ -313,7 +315,7 @@ bool pl_pairs_sort(plumb_world *world, pl_sorted *sorted)
                            ((size_t)count + 1) * sizeof(pl_found))) {
         return false;
     }
-    sorter s; // most of it is for threads, and written where there are some
+    sorter s; // what is for threads is written where there are some
     s.from = broad->found.data;
     s.to = broad->sorted.data;
     s.count = sorted->count = count;

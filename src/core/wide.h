@@ -22,6 +22,14 @@
 
 #define WIDE_INLINE static inline __attribute__((always_inline, unused))
 
+// Parts of a kernel. Lanes of doubles that no register holds live in memory, each one ever written: all parts in one
+// function would have a stack frame of 32 kB.
+#if PL_NEAR_IS_DOUBLE && PL_WIDTH > 4
+#define WIDE_PART static __attribute__((noinline, unused))
+#else
+#define WIDE_PART WIDE_INLINE
+#endif
+
 #if PL_NEAR_IS_DOUBLE
 typedef int64_t pl_lane;
 #define LANE_SQRT __builtin_sqrt

@@ -129,8 +129,21 @@ WIDE_INLINE void solve_rows(const parts *at, const pl_joint_pattern *p, const pl
     }
 }
 
+// Eight doubles still leave room for all of it in one frame.
+#if PL_WIDTH > 8
+#define SWEEP_PART WIDE_PART
+#else
+#define SWEEP_PART WIDE_INLINE
+#endif
+
+SWEEP_PART void make_any_rows(const parts *at, const pl_joint_pattern *p, body *a, body *b)
+{
+    make_rows(at, p, a, b);
+}
+
+// `known`: the pattern is, to the compiler.
 WIDE_INLINE void sweep_bundle(const pl_joint_call *call, uint32_t k, const pl_joint_pattern *p,
-                              const bool pull, const bool first)
+                              const bool known, const bool pull, const bool first)
 {
     parts at = open(call, k, p);
     bundle *c = at.c;
@@ -138,7 +151,11 @@ WIDE_INLINE void sweep_bundle(const pl_joint_call *call, uint32_t k, const pl_jo
     if (first && !pull) {
         gather_body(&a, call, at.a);
         gather_body(&b, call, at.b);
-        make_rows(&at, p, &a, &b);
+        if (known) {
+            make_rows(&at, p, &a, &b);
+        } else {
+            make_any_rows(&at, p, &a, &b);
+        }
     } else {
         gather_velocity(&a, call, at.a, c->inertia_a);
         gather_velocity(&b, call, at.b, c->inertia_b);
@@ -178,16 +195,32 @@ WIDE_INLINE bool is_alike(const pl_joint_pattern *p, const pl_joint_pattern *q)
            p->tempered == q->tempered && memcmp(p->row, q->row, sizeof p->row) == 0;
 }
 
+SWEEP_PART void sweep_bare(const pl_joint_call *call, uint32_t k, const bool pull, const bool first)
+{
+    sweep_bundle(call, k, &bare_pattern, true, pull, first);
+}
+
+SWEEP_PART void sweep_limited(const pl_joint_call *call, uint32_t k, const bool pull,
+                              const bool first)
+{
+    sweep_bundle(call, k, &limited_pattern, true, pull, first);
+}
+
+SWEEP_PART void sweep_any(const pl_joint_call *call, uint32_t k, const bool pull, const bool first)
+{
+    sweep_bundle(call, k, &call->patterns[call->bundles[k].pattern], false, pull, first);
+}
+
 WIDE_INLINE void sweep(const pl_joint_call *call, const bool pull, const bool first)
 {
     for (uint32_t k = call->first; k < call->end; ++k) {
         const pl_joint_pattern *p = &call->patterns[call->bundles[k].pattern];
         if (p->bare) {
-            sweep_bundle(call, k, &bare_pattern, pull, first);
+            sweep_bare(call, k, pull, first);
         } else if (is_alike(p, &limited_pattern)) {
-            sweep_bundle(call, k, &limited_pattern, pull, first);
+            sweep_limited(call, k, pull, first);
         } else {
-            sweep_bundle(call, k, p, pull, first);
+            sweep_any(call, k, pull, first);
         }
     }
 }

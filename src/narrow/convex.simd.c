@@ -21,9 +21,13 @@ typedef struct outline {
     vf nx[MAX_CORNERS], ny[MAX_CORNERS];
 } outline;
 
-static inline void outline_gather(outline *o, const pl_narrow_input *in, const uint32_t *piece,
-                                  vf c, vf s, vf cx, vf cy, vf ox, vf oy)
+WIDE_PART void outline_gather(outline *o, const pl_narrow_input *in, const lanes *l,
+                              const bool of_b)
 {
+    const uint32_t *piece = of_b ? l->b : l->a;
+    const vf c = of_b ? l->pbc : l->pac, s = of_b ? l->pbs : l->pas;
+    const vf cx = of_b ? l->bcx : l->acx, cy = of_b ? l->bcy : l->acy;
+    const vf ox = of_b ? l->dx : splat(0), oy = of_b ? l->dy : splat(0);
     const pl_vertex *corner[PL_WIDTH];
     const plumb_real *center[PL_WIDTH];
     uint32_t count[PL_WIDTH];
@@ -75,9 +79,9 @@ static inline best_face find_face(const outline *a, const outline *b)
 }
 
 // Ends of edge `index` of each lane: corner index and the one after it.
-static inline void edge_ends(const pl_narrow_input *in, const outline *a, const outline *b,
-                             const uint32_t *piece_a, const uint32_t *piece_b, vm use_b, vm index,
-                             vf end[4])
+WIDE_PART void edge_ends(const pl_narrow_input *in, const outline *a, const outline *b,
+                         const uint32_t *piece_a, const uint32_t *piece_b, vm use_b, vm index,
+                         vf end[4])
 {
     near_real x0[PL_WIDTH], y0[PL_WIDTH], x1[PL_WIDTH], y1[PL_WIDTH];
     for (int i = 0; i < PL_WIDTH; ++i) {
@@ -130,8 +134,8 @@ typedef struct nearest {
 } nearest;
 
 // Every corner of `from` against every edge of `to`.
-static inline void nearest_corners(nearest *n, const pl_narrow_input *in, const outline *from,
-                                   const outline *to, const uint32_t *to_piece, bool from_a)
+WIDE_PART void nearest_corners(nearest *n, const pl_narrow_input *in, const outline *from,
+                               const outline *to, const uint32_t *to_piece, bool from_a)
 {
     for (int k = 0; k < to->count; ++k) {
         vf e[4];
@@ -168,9 +172,9 @@ WIDE_INLINE vf edge_distance(const vf r[4], const vf w[4])
 // no face across their direction, are such a case at face separation 0. Edges that all but lie on the
 // face keep both points, or a body that overhangs would lose its second support at the least tilt (a
 // stack of overhanging capsules then walks); only the depth beside the corner is set right.
-static inline void round_corners(touch *t, const lanes *l, const pl_narrow_input *in,
-                                 const outline *a, const outline *b, const vf r[4], const vf w[4],
-                                 vf face_separation, vm lies_flat, vm low_is_nearer)
+WIDE_PART void round_corners(touch *t, const lanes *l, const pl_narrow_input *in, const outline *a,
+                             const outline *b, const vf r[4], const vf w[4], vf face_separation,
+                             vm lies_flat, vm low_is_nearer)
 {
     vf zero = splat(0);
     vm corner = (face_separation > splat((near_real)-1e-5)) &
@@ -200,22 +204,19 @@ static inline void round_corners(touch *t, const lanes *l, const pl_narrow_input
 }
 
 // `flip_out` and `face_out`: which side has the reference face, and its edge.
-static inline void convex_convex(touch *t, const lanes *l, const pl_narrow_input *in, vm *flip_out,
-                                 vm *face_out)
+WIDE_PART void meet_outlines(touch *t, const lanes *l, const pl_narrow_input *in, const outline *a,
+                             const outline *b, vm *flip_out, vm *face_out)
 {
-    outline a, b;
     vf zero = splat(0), half = splat((near_real)0.5);
-    outline_gather(&a, in, l->a, l->pac, l->pas, l->acx, l->acy, zero, zero);
-    outline_gather(&b, in, l->b, l->pbc, l->pbs, l->bcx, l->bcy, l->dx, l->dy);
-    best_face fa = find_face(&a, &b);
-    best_face fb = find_face(&b, &a);
+    best_face fa = find_face(a, b);
+    best_face fb = find_face(b, a);
     vm flip = fb.separation > fa.separation + splat(PREFER_A);
     vf nx = sel(flip, fb.nx, fa.nx), ny = sel(flip, fb.ny, fa.ny);
     vm face = selm(flip, fb.index, fa.index);
-    vm edge = incident_edge(&a, &b, flip, nx, ny);
+    vm edge = incident_edge(a, b, flip, nx, ny);
     vf r[4], w[4];
-    edge_ends(in, &a, &b, l->a, l->b, flip, face, r);
-    edge_ends(in, &a, &b, l->a, l->b, ~flip, edge, w);
+    edge_ends(in, a, b, l->a, l->b, flip, face, r);
+    edge_ends(in, a, b, l->a, l->b, ~flip, edge, w);
 
     // Face frame: u along the normal from r0, v along the face; the incident edge runs against v.
     vf face_v = (r[3] - r[1]) * nx - (r[2] - r[0]) * ny; // length of the face
@@ -255,18 +256,26 @@ static inline void convex_convex(touch *t, const lanes *l, const pl_narrow_input
     t->feature[0] = code;
     t->feature[1] = code | 1;
     vm lies_flat = ~beside & (vabs(slope) < splat(FLAT_SLOPE));
-    round_corners(t, l, in, &a, &b, r, w, sel(flip, fb.separation, fa.separation), lies_flat,
+    round_corners(t, l, in, a, b, r, w, sel(flip, fb.separation, fa.separation), lies_flat,
                   p_deeper);
     *flip_out = flip;
     *face_out = face;
 }
 
+WIDE_PART void convex_convex(touch *t, const lanes *l, const pl_narrow_input *in, const outline *a,
+                             vm *flip, vm *face)
+{
+    outline b;
+    outline_gather(&b, in, l, true);
+    meet_outlines(t, l, in, a, &b, flip, face);
+}
+
 // The circle is a core of one corner: faces of B alone, then the corners of the best face.
-static inline void circle_convex(touch *t, const lanes *l, const pl_narrow_input *in)
+WIDE_PART void circle_convex(touch *t, const lanes *l, const pl_narrow_input *in)
 {
     outline b;
     vf zero = splat(0);
-    outline_gather(&b, in, l->b, l->pbc, l->pbs, l->bcx, l->bcy, l->dx, l->dy);
+    outline_gather(&b, in, l, true);
     best_face best = { splat(-PL_APART), zero, zero, (vm){ 0 } };
     for (int i = 0; i < b.count; ++i) {
         vf along = -(b.x[i] * b.nx[i] + b.y[i] * b.ny[i]);
@@ -388,14 +397,17 @@ static uint64_t find_parted(const pl_narrow_input *in, uint32_t first, uint32_t 
     return bits;
 }
 
-static void look_closely(const pl_narrow_input *in, const uint32_t *places, uint32_t count,
-                         pl_narrow *out)
+static __attribute__((noinline)) void look_closely(const pl_narrow_input *in,
+                                                   const uint32_t *places, uint32_t count,
+                                                   pl_narrow *out)
 {
     lanes l;
     touch t;
     vm flip, face;
+    outline a;
     lanes_gather(&l, in, places, count);
-    convex_convex(&t, &l, in, &flip, &face);
+    outline_gather(&a, in, &l, false);
+    convex_convex(&t, &l, in, &a, &flip, &face);
     lanes_emit(&l, &t, in, count, out);
     remember_face(&l, in, count, flip, face);
 }

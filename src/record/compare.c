@@ -18,7 +18,8 @@
 #define SEARCH_MOST   64u // contacts that are searched for the same pair
 
 typedef struct side {
-    const char *data[SECTIONS_MOST];
+    const char *bytes;             // of the image
+    uint32_t place[SECTIONS_MOST]; // of a section in it, in units of 8 bytes
     uint32_t count[SECTIONS_MOST];
     uint32_t sections;
 } side;
@@ -33,13 +34,19 @@ typedef struct comparison {
     bool second; // round: the rest is told, too
 } comparison;
 
+static const char *data_of(const side *s, uint32_t section)
+{
+    return s->bytes + (size_t)8 * s->place[section];
+}
+
 static void open_side(side *s, const pl_image *image)
 {
     pl_image_cursor at = pl_image_begin(image);
+    s->bytes = image->bytes;
     s->sections = (uint32_t)image->header.section_count;
     for (uint32_t i = 0; i < s->sections && i < SECTIONS_MOST; ++i) {
         pl_image_next(image, &at);
-        s->data[i] = at.data;
+        s->place[i] = (uint32_t)((size_t)(at.data - image->bytes) / 8);
         s->count[i] = at.entry.count;
     }
 }
@@ -107,7 +114,7 @@ static void add_columns(comparison *c, const plumb_difference *who, const char *
         if (strcmp(section.table, table) != 0 || a >= c->a.count[i] || b >= c->b.count[i]) {
             continue;
         }
-        const char *va = c->a.data[i] + a * stride, *vb = c->b.data[i] + b * stride;
+        const char *va = data_of(&c->a, i) + a * stride, *vb = data_of(&c->b, i) + b * stride;
         if (memcmp(va, vb, stride) != 0 && is_told(c, &section)) {
             const pl_member m = { section.name, 0, section.stride, section.type };
             add_member(c, who, va, vb, &m);
@@ -155,8 +162,9 @@ static const char *table_of(plumb_entity_kind kind)
 static void add_joint(comparison *c, const plumb_difference *who, uint32_t a, uint32_t b)
 {
     uint32_t i = find_section(c, "world", "joints.items");
-    add_members(c, who, c->a.data[i] + (size_t)a * sizeof(pl_joint),
-                c->b.data[i] + (size_t)b * sizeof(pl_joint), joint_members, COUNT(joint_members));
+    add_members(c, who, data_of(&c->a, i) + (size_t)a * sizeof(pl_joint),
+                data_of(&c->b, i) + (size_t)b * sizeof(pl_joint), joint_members,
+                COUNT(joint_members));
 }
 
 static bool is_kind(const pl_slot *slot, plumb_entity_kind kind)
@@ -199,10 +207,10 @@ static void add_kind(comparison *c, plumb_entity_kind kind)
     for (uint32_t i = 0; i < most; ++i) {
         pl_slot a = { 0 }, b = { 0 };
         if (i < c->a.count[section]) {
-            memcpy(&a, c->a.data[section] + i * sizeof a, sizeof a);
+            memcpy(&a, data_of(&c->a, section) + i * sizeof a, sizeof a);
         }
         if (i < c->b.count[section]) {
-            memcpy(&b, c->b.data[section] + i * sizeof b, sizeof b);
+            memcpy(&b, data_of(&c->b, section) + i * sizeof b, sizeof b);
         }
         add_slot(c, kind, i, &a, &b);
     }
@@ -223,7 +231,7 @@ static uint32_t find_key(const side *b, uint32_t i, size_t stride, const char *k
 {
     for (uint32_t k = 0; k < b->count[i] && k < most; ++k) {
         uint32_t at = (hint + k) % b->count[i];
-        if (memcmp(b->data[i] + at * stride, key, bytes) == 0) {
+        if (memcmp(data_of(b, i) + at * stride, key, bytes) == 0) {
             return at;
         }
     }
@@ -243,18 +251,19 @@ static void add_of_bodies(comparison *c, const body_list *list)
     uint32_t i = find_section(c, "world", list->section);
     size_t stride = list->stride;
     for (uint32_t k = 0; k < c->a.count[i]; ++k) {
-        const char *a = c->a.data[i] + k * stride;
+        const char *a = data_of(&c->a, i) + k * stride;
         uint32_t at = find_key(&c->b, i, stride, a, sizeof(plumb_entity), k, UINT32_MAX);
         plumb_difference who = thing(entity_at(a), PLUMB_KIND_BODY, list->table);
         if (at != UINT32_MAX) {
-            add_members(c, &who, a, c->b.data[i] + at * stride, list->members, list->member_count);
+            add_members(c, &who, a, data_of(&c->b, i) + at * stride, list->members,
+                        list->member_count);
         } else {
             who.kind = PLUMB_ONLY_A;
             add(c, &who);
         }
     }
     for (uint32_t k = 0; k < c->b.count[i]; ++k) {
-        const char *b = c->b.data[i] + k * stride;
+        const char *b = data_of(&c->b, i) + k * stride;
         if (find_key(&c->a, i, stride, b, sizeof(plumb_entity), k, UINT32_MAX) == UINT32_MAX) {
             plumb_difference who = thing(entity_at(b), PLUMB_KIND_BODY, list->table);
             who.kind = PLUMB_ONLY_B;
@@ -269,21 +278,22 @@ static void add_contacts(comparison *c)
     uint32_t shapes = find_section(c, "pieces", "shape");
     uint32_t hint = 0;
     for (uint32_t k = 0; k < c->a.count[i]; ++k) {
-        const char *a = c->a.data[i] + k * sizeof(pl_pair);
+        const char *a = data_of(&c->a, i) + k * sizeof(pl_pair);
         uint32_t at = find_key(&c->b, i, sizeof(pl_pair), a, 8, hint, SEARCH_MOST);
         if (at == UINT32_MAX) {
             continue; // which pairs are near is no news; what their contacts do is
         }
         pl_pair pa, pb;
         memcpy(&pa, a, sizeof pa);
-        memcpy(&pb, c->b.data[i] + at * sizeof pb, sizeof pb);
+        memcpy(&pb, data_of(&c->b, i) + at * sizeof pb, sizeof pb);
         pa.flags &= ~PL_PAIR_FACE_MASK;
         pb.flags &= ~PL_PAIR_FACE_MASK;
         hint = at + 1;
         if (pa.a < c->a.count[shapes] && pa.b < c->a.count[shapes]) {
-            plumb_difference who = thing(entity_at(c->a.data[shapes] + pa.a * sizeof(plumb_entity)),
-                                         PLUMB_KIND_SHAPE, "contacts");
-            who.other = entity_at(c->a.data[shapes] + pa.b * sizeof(plumb_entity));
+            plumb_difference who =
+                thing(entity_at(data_of(&c->a, shapes) + pa.a * sizeof(plumb_entity)),
+                      PLUMB_KIND_SHAPE, "contacts");
+            who.other = entity_at(data_of(&c->a, shapes) + pa.b * sizeof(plumb_entity));
             add_members(c, &who, (const char *)&pa, (const char *)&pb, pair_members,
                         COUNT(pair_members));
         }
@@ -320,7 +330,7 @@ static void add_owners(comparison *c, const pl_component *component, uint32_t i,
 {
     const side *has = in_a ? &c->a : &c->b, *lacks = in_a ? &c->b : &c->a;
     for (uint32_t k = 0; k < has->count[i]; ++k) {
-        const char *owner = has->data[i] + k * sizeof(plumb_entity);
+        const char *owner = data_of(has, i) + k * sizeof(plumb_entity);
         if (find_key(lacks, i, sizeof(plumb_entity), owner, sizeof(plumb_entity), k, UINT32_MAX) ==
             UINT32_MAX) {
             plumb_difference who = thing(entity_at(owner), PLUMB_KIND_NONE, "components");
@@ -338,12 +348,13 @@ static void add_components(comparison *c)
             &c->layout->components.items[(i - pl_section_fixed_count()) / 2];
         size_t size = component->desc.size;
         for (uint32_t k = 0; k < c->a.count[i]; ++k) {
-            const char *owner = c->a.data[i + 1] + k * sizeof(plumb_entity);
+            const char *owner = data_of(&c->a, i + 1) + k * sizeof(plumb_entity);
             uint32_t at = find_key(&c->b, i + 1, sizeof(plumb_entity), owner, sizeof(plumb_entity),
                                    k, UINT32_MAX);
             if (at != UINT32_MAX) {
                 plumb_difference who = thing(entity_at(owner), PLUMB_KIND_NONE, "components");
-                add_value(c, component, &who, c->a.data[i] + k * size, c->b.data[i] + at * size);
+                add_value(c, component, &who, data_of(&c->a, i) + k * size,
+                          data_of(&c->b, i) + at * size);
             }
         }
         add_owners(c, component, i + 1, true);
@@ -363,7 +374,7 @@ static void add_world(comparison *c)
                        strcmp(m.name, "time") == 0 || strcmp(m.name, "commands.count") == 0;
         m.name += is_setting ? 5 : 0;
         if (is_told || c->second) {
-            add_member(c, &who, c->a.data[0], c->b.data[0], &m);
+            add_member(c, &who, data_of(&c->a, 0), data_of(&c->b, 0), &m);
         }
     }
 }
@@ -378,8 +389,8 @@ static void add_rest(comparison *c)
             continue;
         }
         uint32_t least = c->a.count[i] < c->b.count[i] ? c->a.count[i] : c->b.count[i], k = 0;
-        while (k < least &&
-               memcmp(c->a.data[i] + k * stride, c->b.data[i] + k * stride, section.hashed) == 0) {
+        while (k < least && memcmp(data_of(&c->a, i) + k * stride, data_of(&c->b, i) + k * stride,
+                                   section.hashed) == 0) {
             ++k;
         }
         if (k < c->a.count[i] || k < c->b.count[i]) {

@@ -9,6 +9,8 @@
 #include "world/rows.h"
 #include "world/wrap.h"
 
+#include <string.h>
+
 #define STANDARD_GRAVITY ((real)9.81) // [m/s^2]
 #define CAPACITY_MOST                                                                              \
     (UINT32_C(1) << 24) // rows: more than any machine steps, less than wraps sizes
@@ -64,12 +66,9 @@ static plumb_result check_desc(const plumb_world *world, const char *fn, const p
         const char *name;
         real value;
     } fields[] = {
-        { "contact_hertz", d->contact_hertz },
-        { "contact_damping", d->contact_damping },
-        { "push_speed", d->push_speed },
-        { "restitution_speed", d->restitution_speed },
-        { "hit_speed", d->hit_speed },
-        { "sleep_speed", d->sleep_speed },
+        { "contact_hertz", d->contact_hertz }, { "contact_damping", d->contact_damping },
+        { "push_speed", d->push_speed },       { "restitution_speed", d->restitution_speed },
+        { "hit_speed", d->hit_speed },         { "sleep_speed", d->sleep_speed },
         { "sleep_time", d->sleep_time },
     };
     for (size_t i = 0; i < sizeof fields / sizeof fields[0] && r == PLUMB_OK; ++i) {
@@ -214,7 +213,9 @@ plumb_result plumb_world_create(const plumb_world_desc *desc, plumb_world **worl
         return refuse_world(desc, PLUMB_E_MEMORY,
                             "plumb_world_create: the allocator returned no memory");
     }
-    *made = (plumb_world){ .desc = *desc, .memory = memory };
+    memset(made, 0, sizeof *made); // a compound literal would be built on the stack
+    made->desc = *desc;
+    made->memory = memory;
     init_tables(made);
     plumb_result r = check_desc(made, "plumb_world_create", desc);
     if (r == PLUMB_OK) {
@@ -284,8 +285,7 @@ plumb_result plumb_world_set_substeps(plumb_world *world, int substeps, int iter
         return PLUMB_E_NULL;
     }
     plumb_result r = check_count(world, __func__, "substeps", substeps, SUBSTEPS_MOST);
-    r = r != PLUMB_OK ? r
-                      : check_count(world, __func__, "iterations", iterations, ITERATIONS_MOST);
+    r = r != PLUMB_OK ? r : check_count(world, __func__, "iterations", iterations, ITERATIONS_MOST);
     r = r != PLUMB_OK ? r : pl_check_unlocked(world, __func__);
     if (r == PLUMB_OK) {
         world->desc.substeps = substeps;
@@ -404,8 +404,7 @@ plumb_stats plumb_world_stats(const plumb_world *world)
         .body_count = bodies,
         .dynamic_count = world->dynamic_count,
         .kinematic_count = world->kinematic_count,
-        .static_count =
-            bodies - world->disabled_count - pl_partition_first(world, PL_PART_STATIC),
+        .static_count = bodies - world->disabled_count - pl_partition_first(world, PL_PART_STATIC),
         .asleep_count = world->asleep_count,
         .island_count = world->sleep.island_count,
         .disabled_count = world->disabled_count,
@@ -423,10 +422,9 @@ plumb_stats plumb_world_stats(const plumb_world *world)
         .stopped_count = world->continuous.stopped_count,
         .simd_width = world->desc.simd_width,
         .max_penetration = all.max_penetration,
-        .mean_penetration =
-            all.touching_count > 0
-                ? (real)((double)all.sum_penetration * PL_DEPTH_UNIT / all.touching_count)
-                : 0,
+        .mean_penetration = all.touching_count > 0 ? (real)((double)all.sum_penetration *
+                                                            PL_DEPTH_UNIT / all.touching_count)
+                                                   : 0,
         .bytes = world->memory.bytes,
         .peak_bytes = world->memory.peak,
     };

@@ -161,26 +161,16 @@ static bool find_place(const plr_painter *painter, const name *entry, double wid
     return false;
 }
 
-void plr_draw_labels(plr_painter *painter)
+// Each name in turn where there is room left. Apart from who sorts them, or both lists would be in one frame.
+static __attribute__((noinline)) void draw_names(plr_painter *painter, const name *names,
+                                                 size_t count)
 {
-    if (!plr_shows(painter, RENDER_SHOW_LABELS)) {
-        return;
-    }
-    name names[names_max];
     place taken[names_max];
-    const render_frame *frame = painter->frame;
-    size_t count = 0, placed = 0;
-    for (size_t i = 0; i < frame->body_count && count < names_max; i++) {
-        if (frame->bodies[i].label != PLR_NO_TEXT) {
-            names[count].body = &frame->bodies[i];
-            measure(painter, &names[count++]);
-        }
-    }
-    qsort(names, count, sizeof names[0], by_size);
+    size_t placed = 0;
     const int size = (int)lround(size_px * painter->ui);
     const double height = 1.15 * size;
     for (size_t i = 0; i < count; i++) {
-        const char *string = plr_frame_text(frame, names[i].body->label);
+        const char *string = plr_frame_text(painter->frame, names[i].body->label);
         const double width = plr_text_width(painter->text, PLR_FONT_REGULAR, size, string);
         place *spot = &taken[placed];
         if (!find_place(painter, &names[i], width, height, taken, placed, spot)) {
@@ -197,4 +187,22 @@ void plr_draw_labels(plr_painter *painter)
         const render_vec at = { spot->left, 0.5 * (spot->top + spot->bottom) + 0.36 * size };
         plr_text_draw(painter, PLR_FONT_REGULAR, size, at, string, plr_ink, halo);
     }
+}
+
+void plr_draw_labels(plr_painter *painter)
+{
+    if (!plr_shows(painter, RENDER_SHOW_LABELS)) {
+        return;
+    }
+    name names[names_max];
+    const render_frame *frame = painter->frame;
+    size_t count = 0;
+    for (size_t i = 0; i < frame->body_count && count < names_max; i++) {
+        if (frame->bodies[i].label != PLR_NO_TEXT) {
+            names[count].body = &frame->bodies[i];
+            measure(painter, &names[count++]);
+        }
+    }
+    qsort(names, count, sizeof names[0], by_size);
+    draw_names(painter, names, count);
 }
