@@ -106,23 +106,78 @@ typedef struct plumb_entity {
     uint32_t generation; ///< 0 only in the null handle
 } plumb_entity;
 
-typedef plumb_entity plumb_body;     ///< an entity that has a body row
-typedef plumb_entity plumb_shape;    ///< an entity that has a shape row
-typedef plumb_entity plumb_material; ///< an entity that has a material row; null = the default
+// Handles of kinds are types of their own, so that a shape in place of a body does not compile. `.entity` is
+// what functions for entities of any kind take, plumb_component_set(world, body.entity, ...); and back:
+// (plumb_body){ entity }.
 
-#define PLUMB_NULL_INIT { 0, 0 } ///< initialiser of the null handle
+typedef struct plumb_body {
+    plumb_entity entity; ///< has a body row
+} plumb_body;
 
-/// True when the handle is null. Says nothing about staleness: see plumb_entity_alive.
-static inline bool plumb_is_null(plumb_entity e)
+typedef struct plumb_shape {
+    plumb_entity entity; ///< has a shape row
+} plumb_shape;
+
+typedef struct plumb_material {
+    plumb_entity entity; ///< has a material row; null: the world's default material
+} plumb_material;
+
+typedef struct plumb_joint {
+    plumb_entity entity; ///< has a joint row
+} plumb_joint;
+
+// clang-format off
+#define PLUMB_NULL_INIT        { { 0, 0 } } ///< initialiser of the null handle of a body, shape, material or joint
+#define PLUMB_NULL_ENTITY_INIT { 0, 0 }     ///< of a plumb_entity
+// clang-format on
+
+/// True when a handle is null. Says nothing about staleness: see plumb_entity_alive.
+static inline bool plumb_entity_is_null(plumb_entity e)
 {
     return e.generation == 0;
 }
 
 /// True when both handles name the same entity.
-static inline bool plumb_same(plumb_entity a, plumb_entity b)
+static inline bool plumb_entity_same(plumb_entity a, plumb_entity b)
 {
     return a.index == b.index && a.generation == b.generation;
 }
+
+PLUMB_END
+
+// plumb_is_null(handle) and plumb_same(a, b) take handles of any type, plumb_same two of one type.
+// clang-format off
+#ifdef __cplusplus
+#define PLUMB_HANDLE_TESTS(type, part)                                                              \
+    static inline bool plumb_is_null(type handle) { return plumb_entity_is_null(handle part); }     \
+    static inline bool plumb_same(type a, type b) { return plumb_entity_same(a part, b part); }
+PLUMB_HANDLE_TESTS(plumb_entity, )
+PLUMB_HANDLE_TESTS(plumb_body, .entity)
+PLUMB_HANDLE_TESTS(plumb_shape, .entity)
+PLUMB_HANDLE_TESTS(plumb_material, .entity)
+PLUMB_HANDLE_TESTS(plumb_joint, .entity)
+#else
+#define PLUMB_HANDLE_TESTS(type)                                                                    \
+    static inline bool type##_is_null(type handle) { return plumb_entity_is_null(handle.entity); }  \
+    static inline bool type##_same(type a, type b) { return plumb_entity_same(a.entity, b.entity); }
+PLUMB_HANDLE_TESTS(plumb_body)
+PLUMB_HANDLE_TESTS(plumb_shape)
+PLUMB_HANDLE_TESTS(plumb_material)
+PLUMB_HANDLE_TESTS(plumb_joint)
+#define PLUMB_HANDLE_TEST(test, handle)                                                             \
+    _Generic((handle),                                                                              \
+        plumb_entity: plumb_entity_##test,                                                          \
+        plumb_body: plumb_body_##test,                                                              \
+        plumb_shape: plumb_shape_##test,                                                            \
+        plumb_material: plumb_material_##test,                                                      \
+        plumb_joint: plumb_joint_##test)
+#define plumb_is_null(handle) PLUMB_HANDLE_TEST(is_null, handle)(handle)
+#define plumb_same(a, b)      PLUMB_HANDLE_TEST(same, a)(a, b)
+#endif
+#undef PLUMB_HANDLE_TESTS
+// clang-format on
+
+PLUMB_BEGIN
 
 /// Memory hooks of one world. `resize` behaves like realloc with the old size told:
 /// (NULL, 0, n) allocates, (p, old, 0) frees and returns NULL, otherwise grows or shrinks.

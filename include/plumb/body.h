@@ -207,7 +207,7 @@ PLUMB_API plumb_result plumb_body_set_user_data(plumb_world *world, plumb_body b
 PLUMB_API void *plumb_body_user_data(const plumb_world *world, plumb_body body);
 
 /// Shapes of a body in order of creation: writes up to `capacity`, returns how many there are.
-PLUMB_API int plumb_body_shapes(const plumb_world *world, plumb_body body, plumb_entity *shapes,
+PLUMB_API int plumb_body_shapes(const plumb_world *world, plumb_body body, plumb_shape *shapes,
                                 int capacity);
 
 /// [J] of translation and rotation; 0 for static and kinematic bodies.
@@ -235,7 +235,7 @@ typedef struct plumb_body_span {
     int asleep_count;    ///< then so many sleeping rows
     int static_count;    ///< then so many static rows
     int disabled_count;  ///< then so many rows of disabled bodies, of any type
-    const plumb_entity *entity;
+    const plumb_body *body;
     const plumb_real *x, *y;           ///< [m] origin
     const plumb_real *center_x, *center_y; ///< [m] centre of mass
     const plumb_real *c, *s;           ///< cosine, sine of the angle

@@ -135,8 +135,8 @@ typedef struct plumb_contact {
 /// Separations are those of the narrow phase at the beginning of the step moved along with the bodies.
 PLUMB_API int plumb_world_contacts(const plumb_world *world, plumb_contact *contacts, int capacity);
 /// The same for one body. O(contacts of the world).
-PLUMB_API int plumb_body_contacts(const plumb_world *world, plumb_entity body, plumb_contact *contacts,
-                                  int capacity);
+PLUMB_API int plumb_body_contacts(const plumb_world *world, plumb_body body,
+                                  plumb_contact *contacts, int capacity);
 
 PLUMB_END
 

@@ -13,8 +13,6 @@
 
 PLUMB_BEGIN
 
-typedef plumb_entity plumb_joint; ///< an entity that has a joint row
-
 /// Every kind of joint: X(NAME, name, text). The one list: enum, table, scene words.
 // clang-format off
 #define PLUMB_JOINT_LIST(X)                                                                         \

@@ -147,7 +147,7 @@ PLUMB_API bool plumb_shape_contains(const plumb_world *world, plumb_shape shape,
 
 /// All shapes in storage order, for drawing and inspection: writes up to `capacity`, returns how many
 /// there are. O(shapes).
-PLUMB_API int plumb_world_shapes(const plumb_world *world, plumb_entity *shapes, int capacity);
+PLUMB_API int plumb_world_shapes(const plumb_world *world, plumb_shape *shapes, int capacity);
 
 PLUMB_END
 

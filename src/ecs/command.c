@@ -41,7 +41,7 @@ static const char *const command_names[] = {
 typedef struct record {
     size_t bytes;        // header and payload, a multiple of RECORD_ALIGN
     plumb_entity target; // what it acts on; the reserved handle for creations
-    plumb_entity body;   // of a new shape
+    plumb_body body;     // of a new shape
     plumb_vec2 position;
     plumb_real angle;
     plumb_component component;
@@ -103,10 +103,11 @@ static plumb_result check_expected(const plumb_world *world, const char *fn, plu
 
 static plumb_result check_expected_body(const plumb_world *world, const char *fn, plumb_body body)
 {
-    const pl_slot *slot = find_expected(world, body);
+    const pl_slot *slot = find_expected(world, body.entity);
     return slot != NULL && slot->kind == PLUMB_KIND_BODY
                ? PLUMB_OK
-               : pl_fail_handle(world, fn, "body", body, "a body or one that a command makes");
+               : pl_fail_handle(world, fn, "body", body.entity,
+                                "a body or one that a command makes");
 }
 
 static plumb_result check_component(const plumb_world *world, const char *fn,
@@ -134,8 +135,9 @@ plumb_body plumb_command_body_create(plumb_world *world, const plumb_body_desc *
         pl_fail_memory(world, __func__);
         return body;
     }
-    body = reserve_handle(world, PLUMB_KIND_BODY);
-    char *payload = append(world, (record){ .kind = CREATE_BODY, .target = body }, sizeof *desc);
+    body.entity = reserve_handle(world, PLUMB_KIND_BODY);
+    record r = { .kind = CREATE_BODY, .target = body.entity };
+    char *payload = append(world, r, sizeof *desc);
     memcpy(payload, desc, sizeof *desc);
     return body;
 }
@@ -155,8 +157,8 @@ plumb_shape plumb_command_shape_create(plumb_world *world, plumb_body body,
         pl_fail_memory(world, __func__);
         return shape;
     }
-    shape = reserve_handle(world, PLUMB_KIND_SHAPE);
-    record r = { .kind = CREATE_SHAPE, .target = shape, .body = body };
+    shape.entity = reserve_handle(world, PLUMB_KIND_SHAPE);
+    record r = { .kind = CREATE_SHAPE, .target = shape.entity, .body = body };
     char *at = append(world, r, payload);
     memcpy(at, desc, sizeof *desc);
     if (points > 0) {
@@ -167,7 +169,7 @@ plumb_shape plumb_command_shape_create(plumb_world *world, plumb_body body,
 
 plumb_entity plumb_command_entity_create(plumb_world *world)
 {
-    plumb_entity entity = PLUMB_NULL_INIT;
+    plumb_entity entity = PLUMB_NULL_ENTITY_INIT;
     if (world == NULL) {
         return entity;
     }
@@ -199,7 +201,7 @@ plumb_result plumb_command_destroy(plumb_world *world, plumb_entity entity)
         return PLUMB_E_NULL;
     }
     plumb_result r = check_expected(world, __func__, entity);
-    uint32_t material = pl_material_row(world, entity);
+    uint32_t material = pl_material_row(world, (plumb_material){ entity });
     if (r == PLUMB_OK && material != PL_NONE) {
         r = pl_check_unused(world, __func__, material);
     }
@@ -216,7 +218,7 @@ plumb_result plumb_command_teleport(plumb_world *world, plumb_body body, plumb_v
     }
     plumb_result r = check_expected_body(world, __func__, body);
     r = r != PLUMB_OK ? r : pl_place_check(world, __func__, position, angle);
-    record to = { .kind = TELEPORT, .target = body, .position = position, .angle = angle };
+    record to = { .kind = TELEPORT, .target = body.entity, .position = position, .angle = angle };
     return r != PLUMB_OK ? r : give(world, __func__, to, NULL, 0);
 }
 
@@ -266,7 +268,8 @@ static plumb_result run_body(plumb_world *world, record *r, const char *payload)
 {
     plumb_body_desc desc;
     memcpy(&desc, payload, sizeof desc);
-    return pl_body_insert(world, command_names[r->kind], &desc, &r->target);
+    plumb_body body = { r->target };
+    return pl_body_insert(world, command_names[r->kind], &desc, &body);
 }
 
 static plumb_result run_shape(plumb_world *world, record *r, const char *payload)
@@ -285,7 +288,8 @@ static plumb_result run_shape(plumb_world *world, record *r, const char *payload
     const char *fn = command_names[r->kind];
     plumb_result result = pl_shape_make(world, fn, &desc, &made);
     if (result == PLUMB_OK) {
-        result = pl_shape_insert(world, fn, row, &desc, &made, &r->target);
+        plumb_shape shape = { r->target };
+        result = pl_shape_insert(world, fn, row, &desc, &made, &shape);
     }
     if (result != PLUMB_OK && result != PLUMB_E_MEMORY) {
         drop(world, r, "its material is gone or the body's mass leaves its range");
@@ -296,7 +300,7 @@ static plumb_result run_shape(plumb_world *world, record *r, const char *payload
 
 static plumb_result run_destroy(plumb_world *world, const record *r)
 {
-    uint32_t material = pl_material_row(world, r->target);
+    uint32_t material = pl_material_row(world, (plumb_material){ r->target });
     if (material != PL_NONE && world->materials.users[material] > 0) {
         drop(world, r, "the material is in use by now");
     } else {
@@ -315,7 +319,7 @@ static plumb_result run_on_live(plumb_world *world, const record *r, const char 
     case DESTROY:
         return run_destroy(world, r);
     case TELEPORT:
-        pl_body_place(world, pl_body_row(world, r->target), r->position, r->angle);
+        pl_body_place(world, pl_body_row(world, (plumb_body){ r->target }), r->position, r->angle);
         return PLUMB_OK;
     case SET_COMPONENT:
         return pl_component_put(world, r->target, r->component, r->has_value ? payload : NULL)
@@ -373,8 +377,12 @@ void pl_commands_digest(const plumb_world *world, pl_digest *digest)
     for (size_t at = 0; at < commands->used;) {
         record r;
         memcpy(&r, (const char *)commands->bytes.data + at, sizeof r);
-        const uint32_t handles[] = { r.kind,       r.target.index,    r.target.generation,
-                                     r.body.index, r.body.generation, r.component.id };
+        const uint32_t handles[] = { r.kind,
+                                     r.target.index,
+                                     r.target.generation,
+                                     r.body.entity.index,
+                                     r.body.entity.generation,
+                                     r.component.id };
         const plumb_real place[] = { r.position.x, r.position.y, r.angle };
         pl_digest_add(digest, handles, sizeof handles);
         pl_digest_add(digest, place, sizeof place);

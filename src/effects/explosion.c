@@ -250,13 +250,13 @@ static bool is_hit(const pl_query *q, uint32_t slot)
     uint32_t low = 0, high = q->count;
     while (low < high) {
         uint32_t middle = low + (high - low) / 2;
-        if (q->hits[middle].shape.index < slot) {
+        if (q->hits[middle].shape.entity.index < slot) {
             low = middle + 1;
         } else {
             high = middle;
         }
     }
-    return low < q->count && q->hits[low].shape.index == slot;
+    return low < q->count && q->hits[low].shape.entity.index == slot;
 }
 
 static pl_push push_of(const blast *b, const impact *sum)
@@ -288,7 +288,7 @@ static uint32_t sum_up(blast *b, const pl_query *q, pushed *out)
         uint32_t first = PL_NONE; // slot of the body's first shape that the front meets
         uint32_t p = b->world->bodies.first_piece[b->row];
         for (; p != PL_NONE; p = pieces->next_in_body[p]) {
-            uint32_t slot = pieces->shape[p].index;
+            uint32_t slot = pieces->shape[p].entity.index;
             double before = sum.possible;
             if (is_hit(q, slot)) {
                 hit_piece(b, p, &sum);
@@ -296,7 +296,7 @@ static uint32_t sum_up(blast *b, const pl_query *q, pushed *out)
             }
         }
         pl_push push = push_of(b, &sum);
-        if (first == q->hits[i].shape.index && !is_nothing(&push)) {
+        if (first == q->hits[i].shape.entity.index && !is_nothing(&push)) {
             out[count++] = (pushed){ q->hits[i].body, push };
         }
     }

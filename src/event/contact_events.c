@@ -124,7 +124,7 @@ static bool is_part(const plumb_world *world, const pl_pair *pair)
 static void keep_part(plumb_world *world, plumb_shape shape_a, plumb_shape shape_b, uint32_t index,
                       uint32_t bits)
 {
-    uint32_t a = shape_a.index, b = shape_b.index, order = world->parts.count++;
+    uint32_t a = shape_a.entity.index, b = shape_b.entity.index, order = world->parts.count++;
     ((pl_keyed *)world->parts.items.data)[order] =
         (pl_keyed){ pl_pair_key(a, b), order, index << PART_BITS | bits };
 }

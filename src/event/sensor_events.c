@@ -40,11 +40,12 @@ static bool list_candidates(plumb_world *world)
         return false;
     }
     const pl_found *found = world->broad.sensed.data;
-    const plumb_entity *shape = world->pieces.shape;
+    const plumb_shape *shape = world->pieces.shape;
     pl_keyed *to = s->candidates.data;
     for (uint32_t i = 0; i < count; ++i) {
-        to[i] = (pl_keyed){ pl_key(shape[found[i].low].index, shape[found[i].high].index),
-                            found[i].low, found[i].high };
+        to[i] =
+            (pl_keyed){ pl_key(shape[found[i].low].entity.index, shape[found[i].high].entity.index),
+                        found[i].low, found[i].high };
     }
     pl_sort_keyed(to, count);
     s->candidate_count = count;
@@ -81,7 +82,8 @@ static bool add_at_rest(void *context, const pl_grid_entry *entry)
         return false;
     }
     ((pl_keyed *)s->rest_candidates.data)[s->rest_candidate_count++] =
-        (pl_keyed){ pl_key(p->shape[f->sensor].index, p->shape[q].index), f->sensor, q };
+        (pl_keyed){ pl_key(p->shape[f->sensor].entity.index, p->shape[q].entity.index), f->sensor,
+                    q };
     return true;
 }
 
@@ -304,7 +306,7 @@ static const pl_overlap *from_sensor(const pl_buffer *overlaps, uint32_t count, 
 {
     bool found;
     return overlap_at(overlaps, pl_find_key(overlaps->data, count, sizeof(pl_overlap),
-                                            pl_key(sensor.index, 0), &found));
+                                            pl_key(sensor.entity.index, 0), &found));
 }
 
 int plumb_shape_overlaps(const plumb_world *world, plumb_shape sensor, plumb_shape *shapes,
@@ -324,7 +326,8 @@ int plumb_shape_overlaps(const plumb_world *world, plumb_shape sensor, plumb_sha
                    from_sensor(&s->rest_overlaps, s->rest_count, sensor),
                    overlap_at(&s->rest_overlaps, s->rest_count) };
     int count = 0;
-    for (const pl_overlap *at = peek(&all); at != NULL && (uint32_t)(at->key >> 32) == sensor.index;
+    for (const pl_overlap *at = peek(&all);
+         at != NULL && (uint32_t)(at->key >> 32) == sensor.entity.index;
          advance(&all), at = peek(&all)) {
         // Since the step, either may have been destroyed.
         if (!plumb_same(at->who.sensor, sensor) || !plumb_shape_valid(world, at->who.shape)) {

@@ -93,7 +93,7 @@ static void snap(plumb_world *world, const pl_joint *j)
                              .torque = j->torque,
                              .impulse = j->step_impulse,
                              .user_data = j->desc.user_data };
-    pl_destroy_entity(world, j->entity);
+    pl_destroy_entity(world, j->entity.entity);
 }
 
 void pl_joints_finish(plumb_world *world)

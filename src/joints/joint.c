@@ -21,7 +21,7 @@ uint32_t pl_joint_slot(const plumb_world *world, plumb_joint joint)
     if (world == NULL) {
         return PL_NONE;
     }
-    const pl_slot *slot = pl_registry_find(&world->registry, joint);
+    const pl_slot *slot = pl_registry_find(&world->registry, joint.entity);
     return slot != NULL && slot->kind == PLUMB_KIND_JOINT ? slot->row : PL_NONE;
 }
 
@@ -310,7 +310,8 @@ static plumb_result check_ends(const plumb_world *world, const char *fn, const p
     } ends[] = { { "body_a", d->body_a }, { "body_b", d->body_b } };
     for (int i = 0; i < 2; ++i) {
         if (!plumb_is_null(ends[i].body) && pl_body_row(world, ends[i].body) == PL_NONE) {
-            return pl_fail_handle(world, fn, ends[i].name, ends[i].body, "a live body or null");
+            return pl_fail_handle(world, fn, ends[i].name, ends[i].body.entity,
+                                  "a live body or null");
         }
     }
     if (plumb_same(d->body_a, d->body_b)) {
@@ -451,7 +452,7 @@ static plumb_joint insert(plumb_world *world, const plumb_joint_desc *d)
     attach(world, slot, &j->b, d->body_b, two ? d->anchor_b : d->anchor);
     j->axis =
         plumb_is_null(d->body_a) ? d->axis : plumb_body_local_vector(world, d->body_a, d->axis);
-    j->entity = pl_entity_claim(world, none, PLUMB_KIND_JOINT, slot);
+    j->entity.entity = pl_entity_claim(world, none.entity, PLUMB_KIND_JOINT, slot);
     pl_joint_begin(world, j);
     if (pl_joint_classes[d->kind]->keep != NULL) {
         j->sum = pl_joint_classes[d->kind]->keep(j, &j->a.pose, &j->b.pose);
@@ -502,7 +503,7 @@ void pl_joint_remove(plumb_world *world, uint32_t slot)
     detach(world, slot, &j->b);
     pl_joint_disturb(world, j);
     revise_pairs(world, j);
-    pl_registry_release(&world->registry, j->entity);
+    pl_registry_release(&world->registry, j->entity.entity);
     world->joints.impulsive -= j->desc.break_impulse > 0;
     *j = (pl_joint){ .a.next = world->joints.free_head };
     world->joints.free_head = slot;
@@ -515,11 +516,11 @@ plumb_result plumb_joint_destroy(plumb_world *world, plumb_joint joint)
         return PLUMB_E_NULL;
     }
     if (pl_joint_slot(world, joint) == PL_NONE) {
-        return pl_fail_handle(world, __func__, "joint", joint, "a live joint");
+        return pl_fail_handle(world, __func__, "joint", joint.entity, "a live joint");
     }
     plumb_result r = pl_check_unlocked(world, __func__);
     if (r == PLUMB_OK) {
-        pl_destroy_entity(world, joint);
+        pl_destroy_entity(world, joint.entity);
     }
     return r;
 }

@@ -71,7 +71,7 @@ plumb_result plumb_joint_settings(const plumb_world *world, plumb_joint joint,
     }
     const pl_joint *j = find(world, joint);
     if (j == NULL) {
-        return pl_fail_handle(world, __func__, "joint", joint, "a live joint");
+        return pl_fail_handle(world, __func__, "joint", joint.entity, "a live joint");
     }
     plumb_result r = pl_check_pointer(world, __func__, "desc", desc);
     if (r == PLUMB_OK) {

@@ -22,8 +22,8 @@ static pl_joint *find(const plumb_world *world, const char *fn, plumb_joint join
         *result = PLUMB_OK;
         return &pl_joint_items(&world->joints)[slot];
     }
-    *result =
-        world == NULL ? PLUMB_E_NULL : pl_fail_handle(world, fn, "joint", joint, "a live joint");
+    *result = world == NULL ? PLUMB_E_NULL
+                            : pl_fail_handle(world, fn, "joint", joint.entity, "a live joint");
     return NULL;
 }
 

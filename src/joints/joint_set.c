@@ -14,7 +14,7 @@ static plumb_result find(plumb_world *world, const char *fn, plumb_joint joint, 
     }
     uint32_t slot = pl_joint_slot(world, joint);
     if (slot == PL_NONE) {
-        return pl_fail_handle(world, fn, "joint", joint, "a live joint");
+        return pl_fail_handle(world, fn, "joint", joint.entity, "a live joint");
     }
     *out = &pl_joint_items(&world->joints)[slot];
     const pl_joint_class *kind = pl_joint_classes[(*out)->desc.kind];

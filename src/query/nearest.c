@@ -100,7 +100,8 @@ static bool is_nearer(const search *s, const plumb_nearest_hit *hit)
         return hit->distance <= s->max_distance;
     }
     return hit->distance < s->best.distance ||
-           (hit->distance == s->best.distance && hit->shape.index < s->best.shape.index);
+           (hit->distance == s->best.distance &&
+            hit->shape.entity.index < s->best.shape.entity.index);
 }
 
 static bool visit(void *context, const pl_grid_entry *entry)

@@ -30,7 +30,7 @@ plumb_result pl_query_begin(pl_query *q, plumb_world *world, const char *functio
     q->buffer = (pl_buffer){ 0 };
     plumb_body ignored = q->filter.ignore_body;
     if (!plumb_is_null(ignored) && pl_body_row(world, ignored) == PL_NONE) {
-        return pl_fail_handle(world, function, "filter.ignore_body", ignored,
+        return pl_fail_handle(world, function, "filter.ignore_body", ignored.entity,
                               "a live body or null");
     }
     return pl_sight_update(world) ? PLUMB_OK : pl_fail_memory(world, function);
@@ -287,15 +287,16 @@ typedef bool before_fn(const pl_query_hit *a, const pl_query_hit *b);
 // By slot; hits of one shape by fraction, then the deepest first.
 static bool before_by_slot(const pl_query_hit *a, const pl_query_hit *b)
 {
-    if (a->shape.index != b->shape.index) {
-        return a->shape.index < b->shape.index;
+    if (a->shape.entity.index != b->shape.entity.index) {
+        return a->shape.entity.index < b->shape.entity.index;
     }
     return a->fraction != b->fraction ? a->fraction < b->fraction : a->depth > b->depth;
 }
 
 static bool before_along(const pl_query_hit *a, const pl_query_hit *b)
 {
-    return a->fraction != b->fraction ? a->fraction < b->fraction : a->shape.index < b->shape.index;
+    return a->fraction != b->fraction ? a->fraction < b->fraction
+                                      : a->shape.entity.index < b->shape.entity.index;
 }
 
 // Lets the hit at `root` sink to its place in the heap of the first `count` hits.
@@ -336,7 +337,7 @@ void pl_query_one_per_shape(pl_query *q)
     uint32_t kept = 0;
     uint32_t last = PL_NONE; // slot that was asked about last
     for (uint32_t i = 0; i < q->count; ++i) {
-        uint32_t slot = q->hits[i].shape.index;
+        uint32_t slot = q->hits[i].shape.entity.index;
         if (slot != last && pl_query_accepts(q, q->hits[i].shape)) {
             q->hits[kept++] = q->hits[i];
         }

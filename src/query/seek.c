@@ -11,7 +11,7 @@ static bool comes_first(const pl_seek *s, const pl_query_hit *hit)
         return !s->met || hit->fraction < first->fraction;
     }
     return hit->depth != first->depth ? hit->depth > first->depth
-                                      : hit->shape.index < first->shape.index;
+                                      : hit->shape.entity.index < first->shape.entity.index;
 }
 
 static bool keep_first(void *context, const pl_grid_entry *entry)

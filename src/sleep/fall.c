@@ -494,8 +494,8 @@ plumb_result pl_sleep_put_to_sleep(plumb_world *world, const char *function, uin
         if (member && (world->bodies.flags[r] & PL_BODY_NO_SLEEP) != 0) {
             return pl_fail(world, PLUMB_E_STATE, function,
                            "body is in an island with one that may not sleep (%u:%u)",
-                           (unsigned)world->bodies.entity[r].index,
-                           (unsigned)world->bodies.entity[r].generation);
+                           (unsigned)world->bodies.entity[r].entity.index,
+                           (unsigned)world->bodies.entity[r].entity.generation);
         }
     }
     for (uint32_t r = 0; r < world->dynamic_count; ++r) {

@@ -69,7 +69,7 @@ void pl_island_add(plumb_world *world, uint32_t island, uint32_t row)
 {
     pl_bodies *b = &world->bodies;
     pl_island *i = &pl_islands(&world->sleep)[island];
-    uint32_t slot = b->entity[row].index;
+    uint32_t slot = b->entity[row].entity.index;
     b->island[row] = island;
     b->next_asleep[row] = PL_NONE;
     b->previous_asleep[row] = i->last_body;

@@ -62,12 +62,12 @@ typedef struct column_row {
 // Not hashed: addresses, hints, and boxes of the grids.
 // clang-format off
 #define HASHED(type)                                                                                \
-    _Generic((type){ 0 }, void *: 0, pl_box: 0, pl_hint: 0, default: (uint32_t)sizeof(type))
+    _Generic(*(type *)NULL, void *: 0, pl_box: 0, pl_hint: 0, default: (uint32_t)sizeof(type))
 // clang-format on
 
 #define COLUMN_ROW(struct, type, name)                                                             \
     { #struct,      #name,        offsetof(plumb_world, struct.name),                              \
-      sizeof(type), HASHED(type), PL_TYPE((type){ 0 }) },
+      sizeof(type), HASHED(type), PL_TYPE(*(type *)NULL) },
 #define BODY_ROW(type, name)     COLUMN_ROW(bodies, type, name)
 #define PIECE_ROW(type, name)    COLUMN_ROW(pieces, type, name)
 #define MATERIAL_ROW(type, name) COLUMN_ROW(materials, type, name)

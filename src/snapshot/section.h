@@ -25,6 +25,10 @@
         uint64_t: PL_TYPE_U64,                                                                     \
         plumb_vec2: PL_TYPE_VEC2,                                                                  \
         plumb_entity: PL_TYPE_ENTITY,                                                              \
+        plumb_body: PL_TYPE_ENTITY,                                                                \
+        plumb_shape: PL_TYPE_ENTITY,                                                               \
+        plumb_material: PL_TYPE_ENTITY,                                                            \
+        plumb_joint: PL_TYPE_ENTITY,                                                               \
         void *: PL_TYPE_POINTER,                                                                   \
         default: PL_TYPE_OTHER)
 

@@ -58,7 +58,8 @@ static void tell(plumb_world *world, uint32_t row, const char *pass)
         q->events[q->event_count++] = (plumb_quarantine){ .body = b->entity[row], .pass = pass };
     }
     pl_warn(world, "body %u:%u was taken out: %s would have left it without a finite state",
-            (unsigned)b->entity[row].index, (unsigned)b->entity[row].generation, pass);
+            (unsigned)b->entity[row].entity.index, (unsigned)b->entity[row].entity.generation,
+            pass);
 }
 
 // [m/s] what velocity and forces come to in a step at the most; not finite where they have no finite end.

@@ -150,7 +150,7 @@ plumb_result pl_body_insert(plumb_world *world, const char *fn, const plumb_body
     uint32_t row = pl_row_open(world, desc->disabled ? PL_PART_DISABLED
                                       : asleep       ? PL_PART_ASLEEP
                                                      : pl_partition_of(desc->type));
-    *body = pl_entity_claim(world, *body, PLUMB_KIND_BODY, row);
+    body->entity = pl_entity_claim(world, body->entity, PLUMB_KIND_BODY, row);
     world->bodies.entity[row] = *body;
     fill_row(world, row, desc);
     if (asleep) {
@@ -176,7 +176,7 @@ plumb_result plumb_body_destroy(plumb_world *world, plumb_body body)
     plumb_result r = pl_check_body(world, __func__, body, &row);
     r = r != PLUMB_OK ? r : pl_check_unlocked(world, __func__);
     if (r == PLUMB_OK) {
-        pl_destroy_entity(world, body);
+        pl_destroy_entity(world, body.entity);
     }
     return r;
 }

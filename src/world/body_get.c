@@ -147,7 +147,7 @@ void *plumb_body_user_data(const plumb_world *world, plumb_body body)
 }
 
 // The list has the newest shape first: it is counted, then written from the end.
-int plumb_body_shapes(const plumb_world *world, plumb_body body, plumb_entity *shapes, int capacity)
+int plumb_body_shapes(const plumb_world *world, plumb_body body, plumb_shape *shapes, int capacity)
 {
     uint32_t row = pl_body_row(world, body);
     if (row == PL_NONE) {
@@ -159,7 +159,7 @@ int plumb_body_shapes(const plumb_world *world, plumb_body body, plumb_entity *s
         int at = count;
         uint32_t p = world->bodies.first_piece[row];
         for (; p != PL_NONE; p = pieces->next_in_body[p]) {
-            if (world->registry.slots[pieces->shape[p].index].row != p) {
+            if (world->registry.slots[pieces->shape[p].entity.index].row != p) {
                 continue; // not the first piece of its shape
             }
             if (pass == 0) {
@@ -223,7 +223,7 @@ plumb_body_span plumb_world_bodies(plumb_world *world)
         .asleep_count = (int)world->asleep_count,
         .static_count = (int)(b->table.count - world->disabled_count - first_static),
         .disabled_count = (int)world->disabled_count,
-        .entity = b->entity,
+        .body = b->entity,
         .x = b->x,
         .y = b->y,
         .center_x = b->center_x,

@@ -19,7 +19,7 @@ typedef struct pl_hint {
 // Body rows. Rows are dense and partitioned: [awake dynamic | kinematic | asleep | static].
 // clang-format off
 #define PL_BODY_COLUMNS(X)                                                                          \
-    X(plumb_entity, entity)        /* owner */                                                      \
+    X(plumb_body, entity)          /* owner */                                                      \
     X(real, x) X(real, y)          /* [m] origin of the body's frame, derived from the centre */    \
     X(real, center_x) X(real, center_y) /* [m] centre of mass: what the solver integrates */        \
     X(real, c) X(real, s)          /* rotation */                                                   \
@@ -74,7 +74,7 @@ typedef struct pl_hint {
 // Pieces: the convex parts of shapes, what the broad and narrow phase see. Slots are stable for the
 // life of the shape (contacts and grids name them); free slots have kind PL_PIECE_FREE.
 #define PL_PIECE_COLUMNS(X)                                                                         \
-    X(plumb_entity, shape)         /* the shape entity it belongs to */                             \
+    X(plumb_shape, shape)          /* the shape it belongs to */                                    \
     X(uint8_t, kind)               /* pl_piece_kind: which narrow-phase kernel */                   \
     X(uint8_t, shape_kind)         /* plumb_shape_kind */                                           \
     X(uint8_t, vertex_count)       /* corners in the vertex pool; 0 for circles */                  \
@@ -104,7 +104,7 @@ typedef struct pl_hint {
     X(uint32_t, first_dormant)     /* sleeping contacts with this static or kinematic piece */
 
 #define PL_MATERIAL_COLUMNS(X)                                                                      \
-    X(plumb_entity, entity)                                                                         \
+    X(plumb_material, entity)                                                                       \
     X(real, density) X(real, friction) X(real, restitution)                                         \
     X(real, rolling)               /* [m] */                                                        \
     X(real, surface_speed)         /* [m/s] */                                                      \

@@ -7,7 +7,7 @@
 
 plumb_entity plumb_entity_create(plumb_world *world)
 {
-    plumb_entity none = PLUMB_NULL_INIT;
+    plumb_entity none = PLUMB_NULL_ENTITY_INIT;
     if (world == NULL || pl_check_unlocked(world, __func__) != PLUMB_OK) {
         return none;
     }
@@ -25,7 +25,7 @@ plumb_result plumb_entity_destroy(plumb_world *world, plumb_entity entity)
     if (r != PLUMB_OK) {
         return r;
     }
-    uint32_t material = pl_material_row(world, entity);
+    uint32_t material = pl_material_row(world, (plumb_material){ entity });
     if (material != PL_NONE) {
         r = pl_check_unused(world, __func__, material);
     }

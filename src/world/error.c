@@ -215,7 +215,7 @@ plumb_result pl_check_body(const plumb_world *world, const char *function, plumb
     }
     *row = pl_body_row(world, body);
     return *row != PL_NONE ? PLUMB_OK
-                           : pl_fail_handle(world, function, "body", body, "a live body");
+                           : pl_fail_handle(world, function, "body", body.entity, "a live body");
 }
 
 plumb_result pl_check_shape(const plumb_world *world, const char *function, plumb_shape shape,
@@ -225,8 +225,9 @@ plumb_result pl_check_shape(const plumb_world *world, const char *function, plum
         return PLUMB_E_NULL;
     }
     *piece = pl_shape_piece(world, shape);
-    return *piece != PL_NONE ? PLUMB_OK
-                             : pl_fail_handle(world, function, "shape", shape, "a live shape");
+    return *piece != PL_NONE
+               ? PLUMB_OK
+               : pl_fail_handle(world, function, "shape", shape.entity, "a live shape");
 }
 
 plumb_result pl_check_material(const plumb_world *world, const char *function,
@@ -236,9 +237,9 @@ plumb_result pl_check_material(const plumb_world *world, const char *function,
         return PLUMB_E_NULL;
     }
     *row = plumb_is_null(material) ? 0 : pl_material_row(world, material);
-    return *row != PL_NONE
-               ? PLUMB_OK
-               : pl_fail_handle(world, function, "material", material, "a live material or null");
+    return *row != PL_NONE ? PLUMB_OK
+                           : pl_fail_handle(world, function, "material", material.entity,
+                                            "a live material or null");
 }
 
 plumb_result pl_check_entity(const plumb_world *world, const char *function, plumb_entity entity)

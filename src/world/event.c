@@ -190,7 +190,7 @@ int plumb_world_contacts(const plumb_world *world, plumb_contact *contacts, int 
     return world == NULL ? 0 : list_contacts(world, PL_NONE, contacts, capacity);
 }
 
-int plumb_body_contacts(const plumb_world *world, plumb_entity body, plumb_contact *contacts,
+int plumb_body_contacts(const plumb_world *world, plumb_body body, plumb_contact *contacts,
                         int capacity)
 {
     uint32_t row = pl_body_row(world, body);

@@ -150,7 +150,7 @@ plumb_result plumb_shape_set_sensor(plumb_world *world, plumb_shape shape, bool 
 
 static uint64_t key_of(plumb_body a, plumb_body b)
 {
-    return pl_pair_key(a.index, b.index);
+    return pl_pair_key(a.entity.index, b.entity.index);
 }
 
 static uint32_t find(const plumb_world *world, uint64_t key, bool *found)
@@ -174,7 +174,7 @@ void pl_exclusions_forget(plumb_world *world, uint32_t row)
     if ((world->bodies.flags[row] & PL_BODY_EXCLUDING) == 0) {
         return;
     }
-    uint32_t slot = world->bodies.entity[row].index;
+    uint32_t slot = world->bodies.entity[row].entity.index;
     uint64_t *keys = world->excluded.data;
     uint32_t kept = 0;
     for (uint32_t i = 0; i < world->excluded_count; ++i) {
@@ -204,10 +204,10 @@ static plumb_result check_two(const plumb_world *world, const char *function, pl
     *row_a = pl_body_row(world, a);
     *row_b = pl_body_row(world, b);
     if (*row_a == PL_NONE) {
-        return pl_fail_handle(world, function, "a", a, "a live body");
+        return pl_fail_handle(world, function, "a", a.entity, "a live body");
     }
     if (*row_b == PL_NONE) {
-        return pl_fail_handle(world, function, "b", b, "a live body");
+        return pl_fail_handle(world, function, "b", b.entity, "a live body");
     }
     return *row_a != *row_b ? PLUMB_OK
                             : pl_fail(world, PLUMB_E_RANGE, function,

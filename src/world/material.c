@@ -64,7 +64,7 @@ plumb_material plumb_material_create(plumb_world *world, const plumb_material_de
     }
     uint32_t row = materials->table.count++;
     pl_table_clear(&materials->table, pl_material_columns, pl_material_column_count, row);
-    materials->entity[row] = pl_entity_claim(world, none, PLUMB_KIND_MATERIAL, row);
+    materials->entity[row].entity = pl_entity_claim(world, none.entity, PLUMB_KIND_MATERIAL, row);
     fill_row(world, row, desc);
     return materials->entity[row];
 }
@@ -86,12 +86,12 @@ plumb_result plumb_material_destroy(plumb_world *world, plumb_material material)
     }
     uint32_t row = pl_material_row(world, material);
     if (row == PL_NONE) {
-        return pl_fail_handle(world, __func__, "material", material, "a live material");
+        return pl_fail_handle(world, __func__, "material", material.entity, "a live material");
     }
     plumb_result r = pl_check_unlocked(world, __func__);
     r = r != PLUMB_OK ? r : pl_check_unused(world, __func__, row);
     if (r == PLUMB_OK) {
-        pl_destroy_entity(world, material);
+        pl_destroy_entity(world, material.entity);
     }
     return r;
 }

@@ -15,9 +15,9 @@
 
 static uint64_t key_of(const plumb_world *world, uint32_t row_a, uint32_t row_b)
 {
-    const plumb_entity *entity = world->materials.entity;
-    uint32_t a = row_a == 0 ? 0 : entity[row_a].index + 1;
-    uint32_t b = row_b == 0 ? 0 : entity[row_b].index + 1;
+    const plumb_material *entity = world->materials.entity;
+    uint32_t a = row_a == 0 ? 0 : entity[row_a].entity.index + 1;
+    uint32_t b = row_b == 0 ? 0 : entity[row_b].entity.index + 1;
     return pl_pair_key(a, b);
 }
 
@@ -66,10 +66,11 @@ static plumb_result check(const plumb_world *world, const char *function, plumb_
     *row_a = plumb_is_null(a) ? 0 : pl_material_row(world, a);
     *row_b = plumb_is_null(b) ? 0 : pl_material_row(world, b);
     if (*row_a == PL_NONE) {
-        return pl_fail_handle(world, function, "a", a, "a live material or null");
+        return pl_fail_handle(world, function, "a", a.entity, "a live material or null");
     }
-    return *row_b != PL_NONE ? PLUMB_OK
-                             : pl_fail_handle(world, function, "b", b, "a live material or null");
+    return *row_b != PL_NONE
+               ? PLUMB_OK
+               : pl_fail_handle(world, function, "b", b.entity, "a live material or null");
 }
 
 static plumb_result check_value(const plumb_world *world, const char *function,

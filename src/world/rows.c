@@ -28,17 +28,17 @@ static uint32_t row_of(const plumb_world *world, plumb_entity entity, plumb_enti
 
 uint32_t pl_body_row(const plumb_world *world, plumb_body body)
 {
-    return row_of(world, body, PLUMB_KIND_BODY);
+    return row_of(world, body.entity, PLUMB_KIND_BODY);
 }
 
 uint32_t pl_shape_piece(const plumb_world *world, plumb_shape shape)
 {
-    return row_of(world, shape, PLUMB_KIND_SHAPE);
+    return row_of(world, shape.entity, PLUMB_KIND_SHAPE);
 }
 
 uint32_t pl_material_row(const plumb_world *world, plumb_material material)
 {
-    return row_of(world, material, PLUMB_KIND_MATERIAL);
+    return row_of(world, material.entity, PLUMB_KIND_MATERIAL);
 }
 
 //---- partitions ----------------------------------------------------------------------------------
@@ -72,7 +72,7 @@ static void count_row(plumb_world *world, pl_partition partition, bool opened)
 static void announce_row(plumb_world *world, uint32_t row)
 {
     const pl_bodies *bodies = &world->bodies;
-    world->registry.slots[bodies->entity[row].index].row = row;
+    world->registry.slots[bodies->entity[row].entity.index].row = row;
     for (uint32_t p = bodies->first_piece[row]; p != PL_NONE; p = world->pieces.next_in_body[p]) {
         world->pieces.body[p] = row;
     }
@@ -258,36 +258,36 @@ void pl_body_update_center(plumb_world *world, uint32_t row)
 
 //---- destruction ---------------------------------------------------------------------------------
 
-static void destroy_shape(plumb_world *world, plumb_entity shape)
+static void destroy_shape(plumb_world *world, plumb_shape shape)
 {
     uint32_t first = pl_shape_piece(world, shape);
     uint32_t row = world->pieces.body[first];
     pl_sleep_disturb(world, row);
     pl_pieces_remove(world, first);
-    pl_registry_release(&world->registry, shape);
+    pl_registry_release(&world->registry, shape.entity);
     pl_mass_revise(world, row);
 }
 
-static void destroy_body(plumb_world *world, plumb_entity body)
+static void destroy_body(plumb_world *world, plumb_body body)
 {
     uint32_t row = pl_body_row(world, body);
     pl_exclusions_forget(world, row);
     pl_character_forget(world, row);
     pl_sleep_forget(world, row);
     while (world->bodies.first_piece[row] != PL_NONE) {
-        plumb_entity shape = world->pieces.shape[world->bodies.first_piece[row]];
+        plumb_shape shape = world->pieces.shape[world->bodies.first_piece[row]];
         pl_pieces_remove(world, world->bodies.first_piece[row]);
-        pl_registry_release(&world->registry, shape);
+        pl_registry_release(&world->registry, shape.entity);
     }
     while (world->bodies.first_joint[row] != PL_NONE) {
         pl_joint_remove(world, world->bodies.first_joint[row]);
     }
     pl_row_close(world, row);
-    pl_registry_release(&world->registry, body);
+    pl_registry_release(&world->registry, body.entity);
 }
 
 // The last row fills the gap; the pieces that name it are told. Row 0 is the default and stays.
-static void destroy_material(plumb_world *world, plumb_entity material)
+static void destroy_material(plumb_world *world, plumb_material material)
 {
     pl_materials *materials = &world->materials;
     uint32_t row = pl_material_row(world, material);
@@ -295,35 +295,35 @@ static void destroy_material(plumb_world *world, plumb_entity material)
     uint32_t last = --materials->table.count;
     if (row != last) {
         pl_table_copy(&materials->table, pl_material_columns, pl_material_column_count, last, row);
-        world->registry.slots[materials->entity[row].index].row = row;
+        world->registry.slots[materials->entity[row].entity.index].row = row;
         for (uint32_t p = 0; p < world->pieces.table.count; ++p) {
             if (world->pieces.kind[p] != PL_PIECE_FREE && world->pieces.material[p] == last) {
                 world->pieces.material[p] = row;
             }
         }
     }
-    pl_registry_release(&world->registry, material);
+    pl_registry_release(&world->registry, material.entity);
 }
 
 // Removal hooks run while everything is still there: shapes of a body first, oldest last, then joints.
 static void drop_components(plumb_world *world, plumb_entity entity)
 {
-    uint32_t row = pl_body_row(world, entity);
+    uint32_t row = pl_body_row(world, (plumb_body){ entity });
     if (row != PL_NONE) {
-        plumb_entity last = PLUMB_NULL_INIT;
+        plumb_shape last = PLUMB_NULL_INIT;
         uint32_t p = world->bodies.first_piece[row];
         for (; p != PL_NONE; p = world->pieces.next_in_body[p]) {
             if (!plumb_same(world->pieces.shape[p], last)) {
                 last = world->pieces.shape[p];
-                pl_components_drop_all(world, last);
+                pl_components_drop_all(world, last.entity);
             }
         }
     }
     uint32_t joint = row == PL_NONE ? PL_NONE : world->bodies.first_joint[row];
     while (joint != PL_NONE) {
         const pl_joint *j = &pl_joint_items(&world->joints)[joint];
-        pl_components_drop_all(world, j->entity);
-        joint = pl_joint_next(j, entity);
+        pl_components_drop_all(world, j->entity.entity);
+        joint = pl_joint_next(j, (plumb_body){ entity });
     }
     pl_components_drop_all(world, entity);
 }
@@ -334,16 +334,16 @@ void pl_destroy_entity(plumb_world *world, plumb_entity entity)
     world->schedule_dirty = true;
     switch (world->registry.slots[entity.index].kind) {
     case PLUMB_KIND_BODY:
-        destroy_body(world, entity);
+        destroy_body(world, (plumb_body){ entity });
         break;
     case PLUMB_KIND_SHAPE:
-        destroy_shape(world, entity);
+        destroy_shape(world, (plumb_shape){ entity });
         break;
     case PLUMB_KIND_JOINT:
-        pl_joint_remove(world, pl_joint_slot(world, entity));
+        pl_joint_remove(world, pl_joint_slot(world, (plumb_joint){ entity }));
         break;
     case PLUMB_KIND_MATERIAL:
-        destroy_material(world, entity);
+        destroy_material(world, (plumb_material){ entity });
         break;
     default:
         pl_registry_release(&world->registry, entity);

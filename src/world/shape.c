@@ -69,9 +69,9 @@ plumb_result pl_shape_insert(plumb_world *world, const char *fn, uint32_t row,
         !pl_pool_reserve(&world->memory, &world->vertices, made->corners)) {
         return pl_fail_memory(world, fn);
     }
-    *shape = pl_entity_claim(world, *shape, PLUMB_KIND_SHAPE, PL_NONE);
+    shape->entity = pl_entity_claim(world, shape->entity, PLUMB_KIND_SHAPE, PL_NONE);
     uint32_t first = pl_pieces_add(world, row, *shape, made);
-    world->registry.slots[shape->index].row = first;
+    world->registry.slots[shape->entity.index].row = first;
     set_material(world, first, material);
     for (uint32_t p = first; p != PL_NONE; p = world->pieces.next_in_shape[p]) {
         world->pieces.shape_kind[p] = (uint8_t)desc->kind;
@@ -109,7 +109,7 @@ plumb_result plumb_shape_destroy(plumb_world *world, plumb_shape shape)
     plumb_result r = pl_check_shape(world, __func__, shape, &first);
     r = r != PLUMB_OK ? r : pl_check_unlocked(world, __func__);
     if (r == PLUMB_OK) {
-        pl_destroy_entity(world, shape);
+        pl_destroy_entity(world, shape.entity);
     }
     return r;
 }
@@ -317,7 +317,7 @@ bool plumb_shape_contains(const plumb_world *world, plumb_shape shape, plumb_vec
     return false;
 }
 
-int plumb_world_shapes(const plumb_world *world, plumb_entity *shapes, int capacity)
+int plumb_world_shapes(const plumb_world *world, plumb_shape *shapes, int capacity)
 {
     if (world == NULL) {
         return 0;
@@ -327,7 +327,7 @@ int plumb_world_shapes(const plumb_world *world, plumb_entity *shapes, int capac
     for (uint32_t p = 0; p < pieces->table.count; ++p) {
         // Only the first piece of a shape is the one that its entity names.
         if (pieces->kind[p] == PL_PIECE_FREE ||
-            world->registry.slots[pieces->shape[p].index].row != p) {
+            world->registry.slots[pieces->shape[p].entity.index].row != p) {
             continue;
         }
         if (shapes != NULL && count < capacity) {

@@ -152,9 +152,9 @@ plumb_result pl_check_unlocked(const plumb_world *world, const char *function);
 //---- rows (world/rows.c) --------------------------------------------------------------------------
 
 // The body row, piece slot (first of the shape) or material row of a live handle, PL_NONE otherwise.
-uint32_t pl_body_row(const plumb_world *world, plumb_entity body);
-uint32_t pl_shape_piece(const plumb_world *world, plumb_entity shape);
-uint32_t pl_material_row(const plumb_world *world, plumb_entity material);
+uint32_t pl_body_row(const plumb_world *world, plumb_body body);
+uint32_t pl_shape_piece(const plumb_world *world, plumb_shape shape);
+uint32_t pl_material_row(const plumb_world *world, plumb_material material);
 
 // Derives origin and pose of a row from its centre, rotation and local centre.
 void pl_body_update_origin(plumb_world *world, uint32_t row);

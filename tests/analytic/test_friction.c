@@ -259,7 +259,7 @@ static void oblique_impact_grips_or_slips(void **state)
         plumb_world *w = sim_space();
         plumb_material m = sim_material(w, c->mu, c->e);
         const double r = 0.5;
-        plumb_body other = { 0, 0 };
+        plumb_body other = PLUMB_NULL_INIT;
         if (c->two_discs) {
             // They meet with centres one above the other.
             other = sim_ball(w, 0, 0, r, m);

@@ -13,7 +13,7 @@
 
 //---- the worlds: a ground, a cart that is pushed, a pole that stands on it ------------------------
 enum { GROUND, CART, POLE, PEOPLE };
-static const plumb_body people[PEOPLE] = { { 0, 1 }, { 2, 1 }, { 4, 1 } };
+static const plumb_body people[PEOPLE] = { { { 0, 1 } }, { { 2, 1 } }, { { 4, 1 } } };
 
 static inline plumb_result build(plumb_world *world, uint32_t index, plumb_random *random,
                                  void *context)
@@ -29,7 +29,8 @@ static inline plumb_result build(plumb_world *world, uint32_t index, plumb_rando
         if (plumb_is_null(b) || plumb_is_null(plumb_shape_create(world, b, &box))) {
             return plumb_world_error(world).code;
         }
-        if (b.index != people[i].index || b.generation != people[i].generation) {
+        if (b.entity.index != people[i].entity.index ||
+            b.entity.generation != people[i].entity.generation) {
             return PLUMB_E_STATE;
         }
     }

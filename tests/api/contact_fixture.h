@@ -4,9 +4,8 @@
 
 #include "world_fixture.h"
 
-#define DT    R(0.015625) // 1/64 s
-#define NULL_ ((plumb_entity)PLUMB_NULL_INIT)
-#define W     f->world
+#define DT R(0.015625) // 1/64 s
+#define W  f->world
 
 static inline void steps(plumb_world *w, int count)
 {

@@ -38,8 +38,8 @@ static inline void on_add(plumb_world *world, plumb_entity entity, void *value, 
 {
     game *g = context;
     ((mark *)value)->heat += 1;
-    if (plumb_same(entity, g->spawned)) {
-        plumb_command_teleport(world, entity, (plumb_vec2){ 3, 9 }, R(0.5));
+    if (plumb_same(entity, g->spawned.entity)) {
+        plumb_command_teleport(world, (plumb_body){ entity }, (plumb_vec2){ 3, 9 }, R(0.5));
     }
 }
 
@@ -82,7 +82,7 @@ static inline void at_end(const plumb_system_call *call)
     game *g = call->context;
     plumb_world *w = call->world;
     uint64_t step = plumb_world_stats(w).step_count;
-    mark *m = plumb_component_get(w, g->boxes[0], g->mark);
+    mark *m = plumb_component_get(w, g->boxes[0].entity, g->mark);
     if (m != NULL) {
         ++m->hits;
     }
@@ -90,11 +90,11 @@ static inline void at_end(const plumb_system_call *call)
         g->spawned = plumb_command_body_create(w, &(plumb_body_desc){ .position = { 0, 8 } });
         plumb_command_shape_create(w, g->spawned,
                                    &(plumb_shape_desc){ .kind = PLUMB_CIRCLE, .radius = R(0.4) });
-        plumb_command_component_set(w, g->spawned, g->mark, &(mark){ 10, 0 });
+        plumb_command_component_set(w, g->spawned.entity, g->mark, &(mark){ 10, 0 });
     }
     if (step == 70) {
-        plumb_command_destroy(w, g->boxes[3]);
-        plumb_command_component_remove(w, g->boxes[0], g->mark);
+        plumb_command_destroy(w, g->boxes[3].entity);
+        plumb_command_component_remove(w, g->boxes[0].entity, g->mark);
     }
 }
 
@@ -153,7 +153,7 @@ static inline void make_game(game *g, bool systems)
                                                           .anchor = { R(-7.5), 4 },
                                                           .user_data = g });
     assert_false(plumb_is_null(g->hinge));
-    plumb_component_set(w, g->boxes[0], g->mark, &(mark){ 300, 1 });
+    plumb_component_set(w, g->boxes[0].entity, g->mark, &(mark){ 300, 1 });
     if (systems) {
         add_systems(g);
     }
@@ -178,7 +178,7 @@ static inline void interfere(game *g, int step)
     case 33: // registered in the midst of it
         g->later = plumb_component_create(
             w, &(plumb_component_desc){ .name = "later", .size = sizeof(double) });
-        plumb_component_set(w, g->ball, g->later, &(double){ 2.5 });
+        plumb_component_set(w, g->ball.entity, g->later, &(double){ 2.5 });
         break;
     case 50:
         plumb_body_destroy(w, g->boxes[4]);
@@ -218,7 +218,7 @@ static inline void record_game(game *g, bool systems)
     };
     assert_int_equal(plumb_recorder_start(g->world, &desc), PLUMB_OK);
     g->hashes[0] = plumb_world_hash(g->world);
-    assert_int_equal(plumb_recorder_name(g->world, g->ball, "the ball"), PLUMB_OK);
+    assert_int_equal(plumb_recorder_name(g->world, g->ball.entity, "the ball"), PLUMB_OK);
     play(g);
     assert_int_equal(plumb_recorder_stop(g->world), PLUMB_OK);
 }

@@ -47,7 +47,7 @@ static inline void make_pile(pile *p, plumb_world_desc desc, int steps)
         plumb_shape s = plumb_shape_create(w, p->bodies[i], &d);
         p->shape = i == 0 ? s : p->shape;
     }
-    plumb_component_set(w, p->bodies[3], p->tag, "1234567");
+    plumb_component_set(w, p->bodies[3].entity, p->tag, "1234567");
     for (int i = 0; i < steps; ++i) {
         assert_int_equal(plumb_world_step(w, R(1.0 / 60)), PLUMB_OK);
     }

@@ -67,7 +67,9 @@ static void bad_handles_are_answered_with_zeros_and_silence(void **state)
 {
     fixture *f = *state;
     plumb_world *w = f->world;
-    const plumb_body handles[] = { PLUMB_NULL_INIT, f->stale, f->box, f->wood };
+    const plumb_body handles[] = {
+        PLUMB_NULL_INIT, f->stale, { f->box.entity }, { f->wood.entity }
+    };
     for (int i = 0; i < 4; ++i) {
         plumb_body b = handles[i];
         assert_false(plumb_body_valid(w, b));
@@ -289,7 +291,7 @@ static void shapes_are_listed_in_order_of_creation(void **state)
         plumb_shape_create(w, f->dynamic, &(plumb_shape_desc){ .kind = PLUMB_CIRCLE, .radius = 1 });
     s[3] =
         plumb_shape_create(w, f->dynamic, &(plumb_shape_desc){ .kind = PLUMB_CIRCLE, .radius = 2 });
-    plumb_entity got[4];
+    plumb_shape got[4];
     assert_int_equal(plumb_body_shapes(w, f->dynamic, got, 4), 4);
     assert_memory_equal(got, s, sizeof s);
     memset(got, 0, sizeof got);

@@ -33,7 +33,7 @@ static plumb_world *edited_world(editor *e)
     plumb_system_create(
         w, &(plumb_system_desc){
                .name = "edit", .phase = PLUMB_PHASE_CONTACTS, .run = edit_all, .context = e });
-    add_floor(w, NULL_);
+    add_floor(w, NO_MATERIAL);
     return w;
 }
 
@@ -86,7 +86,7 @@ static void one_contact_of_many_is_taken_out(void **state)
 {
     (void)state;
     plumb_world *w = flat_world((plumb_world_desc){ 0 });
-    add_floor(w, NULL_);
+    add_floor(w, NO_MATERIAL);
     plumb_body discs[3];
     for (int i = 0; i < 3; ++i) {
         discs[i] = add_disc(w, 2 * i, 0.5, (plumb_shape_desc){ 0 }, NULL);
@@ -162,7 +162,7 @@ static void a_hit_tells_speed_point_and_impulse(void **state)
     for (int solver = 0; solver < 2; ++solver) {
         plumb_world *w =
             flat_world((plumb_world_desc){ .hit_speed = 3, .solver = (plumb_solver)solver });
-        plumb_shape floor = add_floor(w, NULL_), ball;
+        plumb_shape floor = add_floor(w, NO_MATERIAL), ball;
         plumb_body body = add_disc(w, 2, 2.5, (plumb_shape_desc){ 0 }, &ball);
         int hits = 0;
         for (int i = 0; i < 128; ++i) {
@@ -324,15 +324,15 @@ static void nothing_is_known_of_no_world(void **state)
     assert_int_equal(count, 0);
     assert_null(plumb_world_sensor_begin_events(NULL, &count));
     assert_null(plumb_world_sensor_end_events(NULL, NULL));
-    assert_int_equal(plumb_shape_overlaps(NULL, NULL_, NULL, 0), -1);
+    assert_int_equal(plumb_shape_overlaps(NULL, NO_SHAPE, NULL, 0), -1);
     assert_int_equal(plumb_contact_edit_count(NULL), -1);
     assert_int_equal(plumb_contact_edit_get(NULL, 0, NULL), PLUMB_E_NULL);
     assert_int_equal(plumb_contact_edit_set(NULL, 0, NULL), PLUMB_E_NULL);
-    assert_int_equal(plumb_world_exclude_pair(NULL, NULL_, NULL_, true), PLUMB_E_NULL);
-    assert_int_equal(plumb_material_pair_set(NULL, NULL_, NULL_, NULL), PLUMB_E_NULL);
-    assert_int_equal(plumb_material_pair_get(NULL, NULL_, NULL_, NULL), PLUMB_E_NULL);
+    assert_int_equal(plumb_world_exclude_pair(NULL, NO_BODY, NO_BODY, true), PLUMB_E_NULL);
+    assert_int_equal(plumb_material_pair_set(NULL, NO_MATERIAL, NO_MATERIAL, NULL), PLUMB_E_NULL);
+    assert_int_equal(plumb_material_pair_get(NULL, NO_MATERIAL, NO_MATERIAL, NULL), PLUMB_E_NULL);
     assert_int_equal(plumb_world_set_hit_speed(NULL, 0), PLUMB_E_NULL);
-    assert_int_equal(plumb_shape_set_sensor(NULL, NULL_, true), PLUMB_E_NULL);
+    assert_int_equal(plumb_shape_set_sensor(NULL, NO_SHAPE, true), PLUMB_E_NULL);
 }
 
 int main(void)

@@ -3,18 +3,38 @@
 
 //---- entities ------------------------------------------------------------------------------------
 
+// Does not compile if two of them are one type: then a shape could be handed over for a body.
+#define KIND_OF(handle)                                                                            \
+    _Generic((handle), plumb_entity : 1, plumb_body : 2, plumb_shape : 3, plumb_material : 4,      \
+             plumb_joint : 5)
+
+static void handles_of_every_kind_are_types_of_their_own(void **state)
+{
+    fixture *f = *state;
+    plumb_joint joint = PLUMB_NULL_INIT;
+    assert_int_equal(KIND_OF(f->dynamic.entity), 1);
+    assert_int_equal(KIND_OF(f->dynamic), 2);
+    assert_int_equal(KIND_OF(f->box), 3);
+    assert_int_equal(KIND_OF(f->wood), 4);
+    assert_int_equal(KIND_OF(joint), 5);
+    assert_true(plumb_is_null(joint) && plumb_is_null(joint.entity) && plumb_is_null(NO_MATERIAL));
+    assert_false(plumb_is_null(f->dynamic) || plumb_is_null(f->box) || plumb_is_null(f->wood));
+    assert_true(plumb_same(f->dynamic, (plumb_body){ f->dynamic.entity }));
+    assert_false(plumb_same(f->dynamic, f->fixed) || plumb_same(f->box.entity, f->wood.entity));
+}
+
 static void entities_of_every_kind_are_told_apart(void **state)
 {
     fixture *f = *state;
     plumb_world *w = f->world;
     plumb_entity bare = plumb_entity_create(w);
     assert_int_equal(plumb_entity_get_kind(w, bare), PLUMB_KIND_BARE);
-    assert_int_equal(plumb_entity_get_kind(w, f->dynamic), PLUMB_KIND_BODY);
-    assert_int_equal(plumb_entity_get_kind(w, f->box), PLUMB_KIND_SHAPE);
-    assert_int_equal(plumb_entity_get_kind(w, f->wood), PLUMB_KIND_MATERIAL);
-    assert_int_equal(plumb_entity_get_kind(w, f->stale), PLUMB_KIND_NONE);
-    assert_false(plumb_entity_alive(w, f->stale));
-    const plumb_entity all[] = { bare, f->box, f->dynamic, f->wood };
+    assert_int_equal(plumb_entity_get_kind(w, f->dynamic.entity), PLUMB_KIND_BODY);
+    assert_int_equal(plumb_entity_get_kind(w, f->box.entity), PLUMB_KIND_SHAPE);
+    assert_int_equal(plumb_entity_get_kind(w, f->wood.entity), PLUMB_KIND_MATERIAL);
+    assert_int_equal(plumb_entity_get_kind(w, f->stale.entity), PLUMB_KIND_NONE);
+    assert_false(plumb_entity_alive(w, f->stale.entity));
+    const plumb_entity all[] = { bare, f->box.entity, f->dynamic.entity, f->wood.entity };
     for (int i = 0; i < 4; ++i) {
         assert_true(plumb_entity_alive(w, all[i]));
         assert_int_equal(plumb_entity_destroy(w, all[i]), PLUMB_OK);
@@ -29,7 +49,8 @@ static void components_go_to_any_kind_and_leave_with_it(void **state)
 {
     fixture *f = *state;
     plumb_world *w = f->world;
-    const plumb_entity all[] = { plumb_entity_create(w), f->box, f->fixed, f->wood };
+    const plumb_entity all[] = { plumb_entity_create(w), f->box.entity, f->fixed.entity,
+                                 f->wood.entity };
     for (int i = 0; i < 4; ++i) {
         float value = (float)i;
         assert_int_equal(plumb_component_set(w, all[i], f->health, &value), PLUMB_OK);
@@ -44,10 +65,10 @@ static void components_go_to_any_kind_and_leave_with_it(void **state)
         assert_null(plumb_component_get(w, all[i], f->health));
         assert_int_equal(plumb_world_column(w, f->health).count, 3 - i);
     }
-    assert_int_equal(plumb_component_set(w, f->dynamic, f->health, NULL), PLUMB_OK);
-    assert_true(*(float *)plumb_component_get(w, f->dynamic, f->health) == 0);
+    assert_int_equal(plumb_component_set(w, f->dynamic.entity, f->health, NULL), PLUMB_OK);
+    assert_true(*(float *)plumb_component_get(w, f->dynamic.entity, f->health) == 0);
     const plumb_component none = { 0 };
-    assert_null(plumb_component_get(w, f->dynamic, none));
+    assert_null(plumb_component_get(w, f->dynamic.entity, none));
     assert_int_equal(plumb_world_column(w, none).count, 0);
     assert_int_equal(plumb_world_column(NULL, f->health).count, 0);
 }
@@ -105,7 +126,7 @@ static void systems_run_by_phase_then_registration(void **state)
     plumb_world_step(w, R(0.25));
     assert_string_equal(t.order, "bac"); // a2 is not wanted: nobody has "health"
     assert_true(t.time[0] == 0 && t.time[1] == 0 && t.time[2] == 0.25);
-    plumb_component_set(w, f->dynamic, f->health, NULL);
+    plumb_component_set(w, f->dynamic.entity, f->health, NULL);
     assert_int_equal(plumb_system_enable(w, "b", false), PLUMB_OK);
     t.order[0] = '\0';
     plumb_world_step(w, R(0.25));
@@ -149,7 +170,7 @@ static void systems_stand_in_the_schedule_with_reasons(void **state)
         }
         assert_int_equal(found, 1);
         if (round == 0) {
-            plumb_component_set(w, f->dynamic, f->health, NULL);
+            plumb_component_set(w, f->dynamic.entity, f->health, NULL);
         } else {
             plumb_system_enable(w, "wind", false);
         }
@@ -162,7 +183,7 @@ static void lift(const plumb_system_call *call)
     const trace *t = call->context;
     plumb_component_span span = plumb_world_column(call->world, t->health);
     for (int i = 0; i < span.count; ++i) {
-        plumb_body_apply_force_center(call->world, span.entity[i],
+        plumb_body_apply_force_center(call->world, (plumb_body){ span.entity[i] },
                                       plumb_v2(0, (plumb_real)((float *)span.values)[i]));
     }
 }
@@ -173,7 +194,7 @@ static void a_system_pushes_through_columns(void **state)
     plumb_world *w = f->world;
     trace t = { .health = f->health };
     plumb_world_set_gravity(w, plumb_v2(0, 0));
-    plumb_component_set(w, f->dynamic, f->health, &(float){ 8 });
+    plumb_component_set(w, f->dynamic.entity, f->health, &(float){ 8 });
     plumb_system_create(w, &(plumb_system_desc){ .name = "lift",
                                                  .phase = PLUMB_PHASE_FORCES,
                                                  .run = lift,
@@ -196,10 +217,10 @@ static void commands_are_carried_out_in_order(void **state)
     memset(points, 0, sizeof points); // copied
     plumb_entity bare = plumb_command_entity_create(w);
     assert_int_equal(plumb_command_component_set(w, bare, f->health, &(float){ 3 }), PLUMB_OK);
-    assert_int_equal(plumb_command_component_set(w, body, f->health, NULL), PLUMB_OK);
-    assert_int_equal(plumb_command_component_remove(w, body, f->health), PLUMB_OK);
+    assert_int_equal(plumb_command_component_set(w, body.entity, f->health, NULL), PLUMB_OK);
+    assert_int_equal(plumb_command_component_remove(w, body.entity, f->health), PLUMB_OK);
     assert_int_equal(plumb_command_teleport(w, body, plumb_v2(-1, -2), 0), PLUMB_OK);
-    assert_int_equal(plumb_command_destroy(w, f->kinematic), PLUMB_OK);
+    assert_int_equal(plumb_command_destroy(w, f->kinematic.entity), PLUMB_OK);
 
     assert_false(plumb_body_valid(w, body));
     assert_false(plumb_entity_alive(w, bare));
@@ -210,7 +231,7 @@ static void commands_are_carried_out_in_order(void **state)
     assert_true(plumb_same(plumb_shape_body(w, shape), body));
     assert_near(plumb_body_mass(w, body), 2, 1e-6);
     assert_true(*(float *)plumb_component_get(w, bare, f->health) == 3);
-    assert_null(plumb_component_get(w, body, f->health));
+    assert_null(plumb_component_get(w, body.entity, f->health));
     assert_false(plumb_body_valid(w, f->kinematic));
     assert_int_equal(f->errors + f->warnings, 0);
     uint64_t after = digest_world(w);
@@ -224,11 +245,11 @@ static void commands_on_the_dead_are_dropped_with_a_warning(void **state)
     plumb_world *w = f->world;
     const plumb_shape_desc circle = { .kind = PLUMB_CIRCLE, .radius = 1 };
     plumb_shape lost = plumb_command_shape_create(w, f->dynamic, &circle);
-    plumb_command_component_set(w, lost, f->health, NULL);
-    plumb_command_destroy(w, f->dynamic);
-    plumb_command_destroy(w, f->dynamic);
+    plumb_command_component_set(w, lost.entity, f->health, NULL);
+    plumb_command_destroy(w, f->dynamic.entity);
+    plumb_command_destroy(w, f->dynamic.entity);
     plumb_command_teleport(w, f->dynamic, plumb_v2(0, 0), 0);
-    plumb_command_component_remove(w, f->fixed, f->health);
+    plumb_command_component_remove(w, f->fixed.entity, f->health);
     plumb_body_destroy(w, f->dynamic);
     assert_int_equal(plumb_commands_apply(w), PLUMB_OK);
     assert_int_equal(f->warnings, 6);
@@ -236,7 +257,7 @@ static void commands_on_the_dead_are_dropped_with_a_warning(void **state)
     assert_string_equal(f->logged, "plumb_command_component_remove: dropped for entity 4:1; "
                                    "it does not have the component");
     assert_false(plumb_shape_valid(w, lost));
-    assert_int_equal(plumb_command_destroy(w, lost), PLUMB_E_HANDLE); // its handle is stale
+    assert_int_equal(plumb_command_destroy(w, lost.entity), PLUMB_E_HANDLE); // its handle is stale
 }
 
 static void a_command_whose_material_is_gone_is_dropped(void **state)
@@ -252,11 +273,11 @@ static void a_command_whose_material_is_gone_is_dropped(void **state)
     assert_false(plumb_shape_valid(w, lost));
     // Taken into use between the command and its time: kept.
     plumb_material m = plumb_material_create(w, &(plumb_material_desc){ 0 });
-    plumb_command_destroy(w, m);
+    plumb_command_destroy(w, m.entity);
     plumb_shape_set_material(w, f->box, m);
     plumb_commands_apply(w);
     assert_int_equal(f->warnings, 2);
-    assert_true(plumb_entity_alive(w, m));
+    assert_true(plumb_entity_alive(w, m.entity));
 }
 
 static void spawn(const plumb_system_call *call)
@@ -301,7 +322,7 @@ static void commands_of_hooks_wait_for_the_next_time(void **state)
         w,
         &(plumb_component_desc){ .name = "rabbit", .size = 16, .on_add = breed, .context = &id });
     id = c.id;
-    plumb_component_set(w, f->fixed, c, NULL);
+    plumb_component_set(w, f->fixed.entity, c, NULL);
     for (int i = 1; i <= 5; ++i) {
         assert_int_equal(plumb_world_column(w, c).count, i);
         assert_int_equal(plumb_commands_apply(w), PLUMB_OK);
@@ -311,6 +332,7 @@ static void commands_of_hooks_wait_for_the_next_time(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        API_TEST(handles_of_every_kind_are_types_of_their_own),
         API_TEST(entities_of_every_kind_are_told_apart),
         API_TEST(components_go_to_any_kind_and_leave_with_it),
         API_TEST(systems_run_by_phase_then_registration),

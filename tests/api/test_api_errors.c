@@ -12,7 +12,6 @@
 
 #define NAN_  ((plumb_real)NAN)
 #define INF_  ((plumb_real)INFINITY)
-#define NULL_ ((plumb_entity)PLUMB_NULL_INIT)
 #define LONG_ "a-name-of-more-than-sixty-three-characters-is-longer-than-any-name"
 
 static plumb_result component_code(const plumb_world *w, plumb_component c)
@@ -64,15 +63,15 @@ static void bodies_refuse(void **state)
             BODY(.gravity_scale = INF_));
 
     REFUSED(E_HANDLE, "plumb_body_destroy: body is null; it must be a live body",
-            plumb_body_destroy(W, NULL_));
+            plumb_body_destroy(W, NO_BODY));
     REFUSED(E_HANDLE, "plumb_body_destroy: body is stale (0:1); it must be a live body",
             plumb_body_destroy(W, f->stale));
     REFUSED(E_HANDLE, "plumb_body_destroy: body is a shape; it must be a live body",
-            plumb_body_destroy(W, f->box));
+            plumb_body_destroy(W, (plumb_body){ f->box.entity }));
     REFUSED(E_HANDLE, "plumb_body_destroy: body is a material; it must be a live body",
-            plumb_body_destroy(W, f->wood));
+            plumb_body_destroy(W, (plumb_body){ f->wood.entity }));
     REFUSED(E_HANDLE, "plumb_body_teleport: body is null; it must be a live body",
-            plumb_body_teleport(W, NULL_, plumb_v2(0, 0), 0));
+            plumb_body_teleport(W, NO_BODY, plumb_v2(0, 0), 0));
     REFUSED(E_RANGE,
             "plumb_body_teleport: position is (0, -1e+10); each component must be -1e+09 to 1e+09",
             plumb_body_teleport(W, f->dynamic, plumb_v2(0, R(-1e10)), 0));
@@ -85,13 +84,13 @@ static void motion_is_refused(void **state)
     fixture *f = *state;
     plumb_vec2 zero = { 0, 0 };
     REFUSED(E_HANDLE, "plumb_body_set_velocity: body is null; it must be a live body",
-            plumb_body_set_velocity(W, NULL_, zero));
+            plumb_body_set_velocity(W, NO_BODY, zero));
     REFUSED(E_NOT_FINITE, "plumb_body_set_velocity: velocity is (nan, 1); it must be finite",
             plumb_body_set_velocity(W, f->dynamic, plumb_v2(NAN_, 1)));
     REFUSED(E_STATE, "plumb_body_set_velocity: body is static; it must be dynamic or kinematic",
             plumb_body_set_velocity(W, f->fixed, zero));
     REFUSED(E_HANDLE, "plumb_body_set_angular_velocity: body is null; it must be a live body",
-            plumb_body_set_angular_velocity(W, NULL_, 0));
+            plumb_body_set_angular_velocity(W, NO_BODY, 0));
     REFUSED(E_NOT_FINITE, "plumb_body_set_angular_velocity: w is nan; it must be finite",
             plumb_body_set_angular_velocity(W, f->dynamic, NAN_));
     REFUSED(E_STATE,
@@ -119,7 +118,7 @@ static void motion_is_refused(void **state)
     REFUSED(E_STATE, "plumb_body_apply_torque: body is kinematic; it must be dynamic",
             plumb_body_apply_torque(W, f->kinematic, 1));
     REFUSED(E_HANDLE, "plumb_body_apply_impulse: body is null; it must be a live body",
-            plumb_body_apply_impulse(W, NULL_, zero, zero));
+            plumb_body_apply_impulse(W, NO_BODY, zero, zero));
     REFUSED(E_NOT_FINITE, "plumb_body_apply_impulse: point is (inf, 0); it must be finite",
             plumb_body_apply_impulse(W, f->dynamic, zero, plumb_v2(INF_, 0)));
     REFUSED(E_STATE, "plumb_body_apply_impulse_center: body is kinematic; it must be dynamic",
@@ -149,19 +148,19 @@ static void masses_are_refused(void **state)
     REFUSED(E_STATE, "plumb_body_reset_mass: body is static; it must be dynamic",
             plumb_body_reset_mass(W, f->fixed));
     REFUSED(E_HANDLE, "plumb_body_reset_mass: body is null; it must be a live body",
-            plumb_body_reset_mass(W, NULL_));
+            plumb_body_reset_mass(W, NO_BODY));
     REFUSED(E_STATE, "plumb_body_set_fixed_rotation: body is kinematic; it must be dynamic",
             plumb_body_set_fixed_rotation(W, f->kinematic, true));
     REFUSED(E_STATE, "plumb_body_set_continuous: body is kinematic; it must be dynamic",
             plumb_body_set_continuous(W, f->kinematic, true));
     REFUSED(E_HANDLE, "plumb_body_set_continuous: body is null; it must be a live body",
-            plumb_body_set_continuous(W, NULL_, true));
+            plumb_body_set_continuous(W, NO_BODY, true));
     REFUSED(E_NOT_FINITE, "plumb_body_set_gravity_scale: scale is inf; it must be finite",
             plumb_body_set_gravity_scale(W, f->dynamic, INF_));
     REFUSED(E_HANDLE, "plumb_body_set_gravity_scale: body is null; it must be a live body",
-            plumb_body_set_gravity_scale(W, NULL_, 1));
+            plumb_body_set_gravity_scale(W, NO_BODY, 1));
     REFUSED(E_HANDLE, "plumb_body_set_user_data: body is null; it must be a live body",
-            plumb_body_set_user_data(W, NULL_, NULL));
+            plumb_body_set_user_data(W, NO_BODY, NULL));
     REFUSED(E_NOT_FINITE, "plumb_world_set_gravity: gravity is (nan, 0); it must be finite",
             plumb_world_set_gravity(W, plumb_v2(NAN_, 0)));
     REFUSED(E_RANGE, "plumb_world_step: dt is 2; it must be 0 to 1", plumb_world_step(W, 2));
@@ -186,9 +185,10 @@ static void shapes_refuse(void **state)
     REFUSED(E_NULL, "plumb_shape_create: desc is null; it must be given",
             made(W, plumb_shape_create(W, f->dynamic, NULL)));
     REFUSED(E_HANDLE, "plumb_shape_create: body is null; it must be a live body",
-            made(W, plumb_shape_create(W, NULL_, &circle)));
-    REFUSED(E_HANDLE, "plumb_shape_create: material is a body; it must be a live material or null",
-            SHAPE(.kind = PLUMB_CIRCLE, .radius = 1, .material = f->fixed));
+            made(W, plumb_shape_create(W, NO_BODY, &circle)));
+    REFUSED(
+        E_HANDLE, "plumb_shape_create: material is a body; it must be a live material or null",
+        SHAPE(.kind = PLUMB_CIRCLE, .radius = 1, .material = (plumb_material){ f->fixed.entity }));
     REFUSED(E_RANGE, "plumb_shape_create: kind is 7; it must be a plumb_shape_kind",
             SHAPE(.kind = (plumb_shape_kind)7));
     REFUSED(E_RANGE, "plumb_shape_create: radius is 0; it must be 0.0001 to 1e+07",
@@ -266,16 +266,16 @@ static void shape_calls_are_refused(void **state)
     fixture *f = *state;
     plumb_convex piece;
     REFUSED(E_HANDLE, "plumb_shape_destroy: shape is a body; it must be a live shape",
-            plumb_shape_destroy(W, f->dynamic));
+            plumb_shape_destroy(W, (plumb_shape){ f->dynamic.entity }));
     REFUSED(E_HANDLE, "plumb_shape_set_material: shape is null; it must be a live shape",
-            plumb_shape_set_material(W, NULL_, f->wood));
+            plumb_shape_set_material(W, NO_SHAPE, f->wood));
     REFUSED(E_HANDLE,
             "plumb_shape_set_material: material is stale (0:1); it must be a live material or null",
-            plumb_shape_set_material(W, f->box, f->stale));
+            plumb_shape_set_material(W, f->box, (plumb_material){ f->stale.entity }));
     REFUSED(E_HANDLE, "plumb_shape_set_user_data: shape is null; it must be a live shape",
-            plumb_shape_set_user_data(W, NULL_, NULL));
+            plumb_shape_set_user_data(W, NO_SHAPE, NULL));
     REFUSED(E_HANDLE, "plumb_shape_piece: shape is null; it must be a live shape",
-            plumb_shape_piece(W, NULL_, 0, &piece, NULL));
+            plumb_shape_piece(W, NO_SHAPE, 0, &piece, NULL));
     REFUSED(E_NULL, "plumb_shape_piece: piece is null; it must be given",
             plumb_shape_piece(W, f->box, 0, NULL, NULL));
     REFUSED(E_RANGE, "plumb_shape_piece: i is 1; it must be 0 to 0",
@@ -297,17 +297,17 @@ static void materials_refuse(void **state)
     REFUSED(E_NOT_FINITE, "plumb_material_create: friction is nan; it must be finite",
             STUFF(.friction = NAN_));
     REFUSED(E_HANDLE, "plumb_material_destroy: material is null; it must be a live material",
-            plumb_material_destroy(W, NULL_));
+            plumb_material_destroy(W, NO_MATERIAL));
     REFUSED(E_STATE, "plumb_material_destroy: material is used by 1 piece; no shape may name it",
             plumb_material_destroy(W, f->used));
     REFUSED(E_HANDLE, "plumb_material_get: material is a body; it must be a live material or null",
-            plumb_material_get(W, f->dynamic, &desc));
+            plumb_material_get(W, (plumb_material){ f->dynamic.entity }, &desc));
     REFUSED(E_NULL, "plumb_material_get: desc is null; it must be given",
             plumb_material_get(W, f->wood, NULL));
     REFUSED(E_NULL, "plumb_material_set: desc is null; it must be given",
             plumb_material_set(W, f->wood, NULL));
     REFUSED(E_HANDLE, "plumb_material_set: material is a shape; it must be a live material or null",
-            plumb_material_set(W, f->box, &desc));
+            plumb_material_set(W, (plumb_material){ f->box.entity }, &desc));
     desc.restitution = -1;
     REFUSED(E_RANGE, "plumb_material_set: restitution is -1; it must be 0 to 1",
             plumb_material_set(W, f->wood, &desc));
@@ -322,9 +322,9 @@ static void entities_and_components_refuse(void **state)
     const plumb_field odd = { "hp", (plumb_field_type)9, 0, NULL };
     const plumb_field nameless = { NULL, PLUMB_FIELD_F32, 0, NULL };
     REFUSED(E_HANDLE, "plumb_entity_destroy: entity is null; it must be a live entity",
-            plumb_entity_destroy(W, NULL_));
+            plumb_entity_destroy(W, NO_ENTITY));
     REFUSED(E_STATE, "plumb_entity_destroy: material is used by 1 piece; no shape may name it",
-            plumb_entity_destroy(W, f->used));
+            plumb_entity_destroy(W, f->used.entity));
     REFUSED(E_NULL, "plumb_component_create: desc is null; it must be given",
             component_code(W, plumb_component_create(W, NULL)));
     REFUSED(E_NULL, "plumb_component_create: name is null; it must be given", KIND(.size = 4));
@@ -357,15 +357,15 @@ static void entities_and_components_refuse(void **state)
     REFUSED(E_NULL, "plumb_component_info: desc is null; it must be given",
             plumb_component_info(W, f->health, NULL));
     REFUSED(E_HANDLE, "plumb_component_set: entity is null; it must be a live entity",
-            plumb_component_set(W, NULL_, f->health, NULL));
+            plumb_component_set(W, NO_ENTITY, f->health, NULL));
     REFUSED(E_HANDLE, "plumb_component_set: component is 99; it must be a registered component",
-            plumb_component_set(W, f->dynamic, later, NULL));
+            plumb_component_set(W, f->dynamic.entity, later, NULL));
     REFUSED(E_HANDLE, "plumb_component_remove: entity is stale (0:1); it must be a live entity",
-            plumb_component_remove(W, f->stale, f->health));
+            plumb_component_remove(W, f->stale.entity, f->health));
     REFUSED(E_HANDLE, "plumb_component_remove: component is 0; it must be a registered component",
-            plumb_component_remove(W, f->dynamic, none));
+            plumb_component_remove(W, f->dynamic.entity, none));
     REFUSED(E_MISSING, "plumb_component_remove: entity has no 'health'; it must have it",
-            plumb_component_remove(W, f->dynamic, f->health));
+            plumb_component_remove(W, f->dynamic.entity, f->health));
 }
 
 static void systems_and_capacities_refuse(void **state)
@@ -419,26 +419,26 @@ static void commands_refuse(void **state)
     REFUSED(
         E_HANDLE,
         "plumb_command_shape_create: body is null; it must be a body or one that a command makes",
-        made(W, plumb_command_shape_create(W, NULL_, &nought)));
+        made(W, plumb_command_shape_create(W, NO_BODY, &nought)));
     REFUSED(E_HANDLE,
             "plumb_command_destroy: entity is stale (0:1); "
             "it must be an entity or one that a command makes",
-            plumb_command_destroy(W, f->stale));
+            plumb_command_destroy(W, f->stale.entity));
     REFUSED(E_STATE, "plumb_command_destroy: material is used by 1 piece; no shape may name it",
-            plumb_command_destroy(W, f->used));
+            plumb_command_destroy(W, f->used.entity));
     REFUSED(
         E_HANDLE,
         "plumb_command_teleport: body is a shape; it must be a body or one that a command makes",
-        plumb_command_teleport(W, f->box, plumb_v2(0, 0), 0));
+        plumb_command_teleport(W, (plumb_body){ f->box.entity }, plumb_v2(0, 0), 0));
     REFUSED(E_NOT_FINITE, "plumb_command_teleport: position is (nan, 0); it must be finite",
             plumb_command_teleport(W, f->dynamic, plumb_v2(NAN_, 0), 0));
     REFUSED(E_HANDLE,
             "plumb_command_component_set: component is 0; it must be a registered component",
-            plumb_command_component_set(W, f->dynamic, none, NULL));
+            plumb_command_component_set(W, f->dynamic.entity, none, NULL));
     REFUSED(E_HANDLE,
             "plumb_command_component_remove: entity is null; "
             "it must be an entity or one that a command makes",
-            plumb_command_component_remove(W, NULL_, f->health));
+            plumb_command_component_remove(W, NO_ENTITY, f->health));
     plumb_body pending = plumb_command_body_create(W, &(plumb_body_desc){ 0 });
     REFUSED(E_HANDLE,
             "plumb_body_destroy: body is not yet made by its command; it must be a live body",
@@ -469,26 +469,26 @@ static void try_everything(const plumb_system_call *call)
     REFUSED(E_LOCKED, STEPS(plumb_entity_create) "use plumb_command_entity_create",
             made(W, plumb_entity_create(W)));
     REFUSED(E_LOCKED, STEPS(plumb_entity_destroy) "use plumb_command_destroy",
-            plumb_entity_destroy(W, f->box));
+            plumb_entity_destroy(W, f->box.entity));
     REFUSED(E_LOCKED, STEPS(plumb_component_create) "call it between steps",
             KIND(.name = "b", .size = 1));
     REFUSED(E_LOCKED, STEPS(plumb_component_set) "use plumb_command_component_set",
-            plumb_component_set(W, f->fixed, f->health, NULL));
+            plumb_component_set(W, f->fixed.entity, f->health, NULL));
     REFUSED(E_LOCKED, STEPS(plumb_component_remove) "use plumb_command_component_remove",
-            plumb_component_remove(W, f->dynamic, f->health));
+            plumb_component_remove(W, f->dynamic.entity, f->health));
     REFUSED(E_LOCKED, STEPS(plumb_system_create) "call it between steps",
             SYSTEM(.name = "b", .run = nothing));
     REFUSED(E_LOCKED, STEPS(plumb_commands_apply) "call it between steps", plumb_commands_apply(W));
     REFUSED(E_LOCKED, STEPS(plumb_world_step) "call it between steps",
             plumb_world_step(W, R(0.01)));
     // Overwriting a value is no structural change.
-    assert_int_equal(plumb_component_set(W, f->dynamic, f->health, &(float){ 5 }), PLUMB_OK);
+    assert_int_equal(plumb_component_set(W, f->dynamic.entity, f->health, &(float){ 5 }), PLUMB_OK);
 }
 
 static void a_stepping_world_refuses_structural_changes(void **state)
 {
     fixture *f = *state;
-    plumb_component_set(W, f->dynamic, f->health, NULL);
+    plumb_component_set(W, f->dynamic.entity, f->health, NULL);
     for (int phase = PLUMB_PHASE_BEGIN; phase <= PLUMB_PHASE_END; ++phase) {
         static const char *const idle[] = { "w", "x", "y", "z" };
         assert_int_equal(SYSTEM(.name = idle[phase], .run = nothing), PLUMB_OK);
@@ -496,7 +496,7 @@ static void a_stepping_world_refuses_structural_changes(void **state)
     assert_int_equal(SYSTEM(.name = "spawner", .run = try_everything, .context = f), PLUMB_OK);
     assert_int_equal(plumb_world_step(W, R(0.01)), PLUMB_OK);
     assert_int_equal(f->errors, 15);
-    assert_int_equal(*(float *)plumb_component_get(W, f->dynamic, f->health) == 5, true);
+    assert_int_equal(*(float *)plumb_component_get(W, f->dynamic.entity, f->health) == 5, true);
     assert_false(plumb_is_null(plumb_body_create(W, &(plumb_body_desc){ 0 })));
 }
 
@@ -512,29 +512,29 @@ static void a_null_world_is_refused_everywhere(void **state)
     const plumb_result results[] = {
         plumb_world_step(NULL, 1),
         plumb_world_set_gravity(NULL, v),
-        plumb_body_destroy(NULL, e),
-        plumb_body_teleport(NULL, e, v, 0),
-        plumb_body_set_velocity(NULL, e, v),
-        plumb_body_set_angular_velocity(NULL, e, 0),
-        plumb_body_apply_force(NULL, e, v, v),
-        plumb_body_apply_force_center(NULL, e, v),
-        plumb_body_apply_torque(NULL, e, 0),
-        plumb_body_apply_impulse(NULL, e, v, v),
-        plumb_body_apply_impulse_center(NULL, e, v),
-        plumb_body_apply_angular_impulse(NULL, e, 0),
-        plumb_body_set_mass(NULL, e, 1),
-        plumb_body_reset_mass(NULL, e),
-        plumb_body_set_fixed_rotation(NULL, e, true),
-        plumb_body_set_continuous(NULL, e, true),
-        plumb_body_set_gravity_scale(NULL, e, 1),
-        plumb_body_set_user_data(NULL, e, NULL),
-        plumb_shape_destroy(NULL, e),
-        plumb_shape_set_material(NULL, e, e),
-        plumb_shape_set_user_data(NULL, e, NULL),
-        plumb_shape_piece(NULL, e, 0, &piece, NULL),
-        plumb_material_destroy(NULL, e),
-        plumb_material_get(NULL, e, &material),
-        plumb_material_set(NULL, e, &material),
+        plumb_body_destroy(NULL, (plumb_body){ e }),
+        plumb_body_teleport(NULL, (plumb_body){ e }, v, 0),
+        plumb_body_set_velocity(NULL, (plumb_body){ e }, v),
+        plumb_body_set_angular_velocity(NULL, (plumb_body){ e }, 0),
+        plumb_body_apply_force(NULL, (plumb_body){ e }, v, v),
+        plumb_body_apply_force_center(NULL, (plumb_body){ e }, v),
+        plumb_body_apply_torque(NULL, (plumb_body){ e }, 0),
+        plumb_body_apply_impulse(NULL, (plumb_body){ e }, v, v),
+        plumb_body_apply_impulse_center(NULL, (plumb_body){ e }, v),
+        plumb_body_apply_angular_impulse(NULL, (plumb_body){ e }, 0),
+        plumb_body_set_mass(NULL, (plumb_body){ e }, 1),
+        plumb_body_reset_mass(NULL, (plumb_body){ e }),
+        plumb_body_set_fixed_rotation(NULL, (plumb_body){ e }, true),
+        plumb_body_set_continuous(NULL, (plumb_body){ e }, true),
+        plumb_body_set_gravity_scale(NULL, (plumb_body){ e }, 1),
+        plumb_body_set_user_data(NULL, (plumb_body){ e }, NULL),
+        plumb_shape_destroy(NULL, (plumb_shape){ e }),
+        plumb_shape_set_material(NULL, (plumb_shape){ e }, (plumb_material){ e }),
+        plumb_shape_set_user_data(NULL, (plumb_shape){ e }, NULL),
+        plumb_shape_piece(NULL, (plumb_shape){ e }, 0, &piece, NULL),
+        plumb_material_destroy(NULL, (plumb_material){ e }),
+        plumb_material_get(NULL, (plumb_material){ e }, &material),
+        plumb_material_set(NULL, (plumb_material){ e }, &material),
         plumb_entity_destroy(NULL, e),
         plumb_component_info(NULL, c, &info),
         plumb_component_set(NULL, e, c, NULL),
@@ -542,7 +542,7 @@ static void a_null_world_is_refused_everywhere(void **state)
         plumb_system_create(NULL, NULL),
         plumb_system_enable(NULL, "a", true),
         plumb_command_destroy(NULL, e),
-        plumb_command_teleport(NULL, e, v, 0),
+        plumb_command_teleport(NULL, (plumb_body){ e }, v, 0),
         plumb_command_component_set(NULL, e, c, NULL),
         plumb_command_component_remove(NULL, e, c),
         plumb_commands_apply(NULL),
@@ -551,11 +551,12 @@ static void a_null_world_is_refused_everywhere(void **state)
         assert_int_equal(results[i], PLUMB_E_NULL);
     }
     assert_true(plumb_is_null(plumb_body_create(NULL, &(plumb_body_desc){ 0 })));
-    assert_true(plumb_is_null(plumb_shape_create(NULL, e, &(plumb_shape_desc){ 0 })));
+    assert_true(
+        plumb_is_null(plumb_shape_create(NULL, (plumb_body){ e }, &(plumb_shape_desc){ 0 })));
     assert_true(plumb_is_null(plumb_material_create(NULL, &(plumb_material_desc){ 0 })));
     assert_true(plumb_is_null(plumb_entity_create(NULL)));
     assert_true(plumb_is_null(plumb_command_body_create(NULL, NULL)));
-    assert_true(plumb_is_null(plumb_command_shape_create(NULL, e, NULL)));
+    assert_true(plumb_is_null(plumb_command_shape_create(NULL, (plumb_body){ e }, NULL)));
     assert_true(plumb_is_null(plumb_command_entity_create(NULL)));
     assert_int_equal(plumb_component_create(NULL, NULL).id, 0);
     assert_string_equal(plumb_world_error(NULL).message, "");

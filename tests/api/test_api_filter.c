@@ -29,7 +29,7 @@ static void the_rule_of_filters(void **state)
 static bool passes(plumb_filter floor, plumb_filter disc)
 {
     plumb_world *w = flat_world((plumb_world_desc){ 0 });
-    plumb_shape ground = add_floor(w, NULL_);
+    plumb_shape ground = add_floor(w, NO_MATERIAL);
     assert_int_equal(plumb_shape_set_filter(w, ground, floor), PLUMB_OK);
     plumb_body body = add_disc(w, 0, 0.6, (plumb_shape_desc){ .filter = disc }, NULL);
     steps(w, 64);
@@ -101,7 +101,7 @@ static void a_changed_filter_ends_the_touch(void **state)
 {
     (void)state;
     plumb_world *w = flat_world((plumb_world_desc){ 0 });
-    add_floor(w, NULL_);
+    add_floor(w, NO_MATERIAL);
     plumb_shape shape;
     plumb_body body = add_disc(w, 0, 0.5, (plumb_shape_desc){ 0 }, &shape);
     steps(w, 10);
@@ -214,7 +214,7 @@ static void a_ball_falls_through_a_static_sensor(void **state)
     for (int i = 0; i < 100; ++i) {
         steps(w, 1);
         plumb_real y = plumb_body_position(w, body).y;
-        plumb_shape seen = NULL_;
+        plumb_shape seen = PLUMB_NULL_INIT;
         bool inside = y < R(1.5) && y > R(-1.5);
         assert_int_equal(plumb_shape_overlaps(w, sensor, &seen, 1), inside);
         assert_true(!inside || plumb_same(seen, ball));
@@ -360,27 +360,28 @@ static void wrong_filters_and_sensors_are_refused(void **state)
     REFUSED(E_RANGE, "plumb_shape_set_filter: filter.mask is 0x12; it must be 0 with nothing",
             plumb_shape_set_filter(W, f->box, both));
     REFUSED(E_HANDLE, "plumb_shape_set_filter: shape is null; it must be a live shape",
-            plumb_shape_set_filter(W, NULL_, (plumb_filter){ 0 }));
+            plumb_shape_set_filter(W, NO_SHAPE, (plumb_filter){ 0 }));
     REFUSED(E_HANDLE, "plumb_shape_set_sensor: shape is a body; it must be a live shape",
-            plumb_shape_set_sensor(W, f->dynamic, true));
+            plumb_shape_set_sensor(W, (plumb_shape){ f->dynamic.entity }, true));
     REFUSED(E_HANDLE, "plumb_world_exclude_pair: a is stale (0:1); it must be a live body",
             plumb_world_exclude_pair(W, f->stale, f->fixed, true));
     REFUSED(E_HANDLE, "plumb_world_exclude_pair: b is a shape; it must be a live body",
-            plumb_world_exclude_pair(W, f->fixed, f->box, true));
+            plumb_world_exclude_pair(W, f->fixed, (plumb_body){ f->box.entity }, true));
     REFUSED(E_RANGE, "plumb_world_exclude_pair: b is the same body as a; it must be another",
             plumb_world_exclude_pair(W, f->fixed, f->fixed, true));
     REFUSED(E_STATE, "plumb_shape_overlaps: shape is no sensor; it must be one",
             overlaps_code(W, plumb_shape_overlaps(W, f->box, NULL, 0)));
     REFUSED(E_HANDLE, "plumb_shape_overlaps: shape is null; it must be a live shape",
-            overlaps_code(W, plumb_shape_overlaps(W, NULL_, NULL, 0)));
+            overlaps_code(W, plumb_shape_overlaps(W, NO_SHAPE, NULL, 0)));
     plumb_shape_set_sensor(W, f->box, true);
     REFUSED(E_RANGE, "plumb_shape_overlaps: capacity is -1; it must be at least 0",
             overlaps_code(W, plumb_shape_overlaps(W, f->box, NULL, -1)));
     REFUSED(E_NULL, "plumb_shape_overlaps: shapes is null; it must be given",
             overlaps_code(W, plumb_shape_overlaps(W, f->box, NULL, 1)));
-    plumb_filter none = plumb_shape_filter(W, NULL_);
+    plumb_filter none = plumb_shape_filter(W, NO_SHAPE);
     assert_true(none.category == 0 && none.mask == 0);
-    assert_false(plumb_shape_is_sensor(W, NULL_) || plumb_world_is_excluded(W, NULL_, NULL_));
+    assert_false(plumb_shape_is_sensor(W, NO_SHAPE) ||
+                 plumb_world_is_excluded(W, NO_BODY, NO_BODY));
 }
 
 int main(void)

@@ -37,7 +37,7 @@ static void a_destroyed_body_ends_its_touches(void **state)
 {
     (void)state;
     plumb_world *w = flat_world((plumb_world_desc){ 0 });
-    plumb_shape floor = add_floor(w, NULL_), discs[5];
+    plumb_shape floor = add_floor(w, NO_MATERIAL), discs[5];
     plumb_body bodies[5];
     for (int i = 0; i < 5; ++i) {
         bodies[i] = add_disc(w, 3 * i, 0.5, (plumb_shape_desc){ 0 }, &discs[i]);
@@ -74,7 +74,7 @@ static void the_last_touch_ends_too(void **state)
     (void)state;
     for (int which = 0; which < 4; ++which) {
         plumb_world *w = flat_world((plumb_world_desc){ 0 });
-        plumb_shape floor = add_floor(w, NULL_), disc;
+        plumb_shape floor = add_floor(w, NO_MATERIAL), disc;
         plumb_body body = add_disc(w, 0, 0.5, (plumb_shape_desc){ 0 }, &disc);
         steps(w, 30);
         if (which == 0) {
@@ -137,7 +137,7 @@ static void slots_taken_anew_do_not_confuse(void **state)
 {
     (void)state;
     plumb_world *w = flat_world((plumb_world_desc){ 0 });
-    plumb_shape floor = add_floor(w, NULL_), disc;
+    plumb_shape floor = add_floor(w, NO_MATERIAL), disc;
     plumb_body body = add_disc(w, 0, 0.5, (plumb_shape_desc){ 0 }, &disc);
     steps(w, 30);
     for (int round = 0; round < 20; ++round) {
@@ -159,7 +159,7 @@ static void a_new_form_touches_anew(void **state)
 {
     (void)state;
     plumb_world *w = flat_world((plumb_world_desc){ 0 });
-    plumb_shape floor = add_floor(w, NULL_), disc;
+    plumb_shape floor = add_floor(w, NO_MATERIAL), disc;
     int tag = 0;
     plumb_body body =
         add_disc(w, 0, 0.5, (plumb_shape_desc){ .user_data = &tag, .density = 3 }, &disc);
@@ -218,9 +218,9 @@ static void own_density_of_a_shape(void **state)
     assert_int_equal(plumb_shape_set_density(w, s, -1), PLUMB_E_RANGE);
     assert_string_equal(plumb_world_error(w).message,
                         "plumb_shape_set_density: density is -1; it must be at least 0");
-    assert_int_equal(plumb_shape_set_density(w, NULL_, 1), PLUMB_E_HANDLE);
-    assert_near(plumb_shape_density(w, NULL_), 0, 0);
-    assert_near(plumb_shape_mass(w, NULL_).mass, 0, 0);
+    assert_int_equal(plumb_shape_set_density(w, NO_SHAPE, 1), PLUMB_E_HANDLE);
+    assert_near(plumb_shape_density(w, NO_SHAPE), 0, 0);
+    assert_near(plumb_shape_mass(w, NO_SHAPE).mass, 0, 0);
     plumb_world_destroy(w);
 }
 
@@ -232,7 +232,7 @@ static void a_shape_of_several_pieces_made_anew(void **state)
     static const plumb_vec2 ell[] = { { 0, 0 }, { 2, 0 }, { 2, 1 }, { 1, 1 }, { 1, 2 }, { 0, 2 } };
     const plumb_shape_desc desc = { .kind = PLUMB_OUTLINE, .points = ell, .count = 6 };
     plumb_world *w = flat_world((plumb_world_desc){ 0 });
-    plumb_shape floor = add_floor(w, NULL_), old = PLUMB_NULL_INIT;
+    plumb_shape floor = add_floor(w, NO_MATERIAL), old = PLUMB_NULL_INIT;
     plumb_body body = plumb_body_create(w, &(plumb_body_desc){ .no_sleep = true });
     for (int i = 0; i < 3; ++i) {
         if (i > 0) {
@@ -246,7 +246,7 @@ static void a_shape_of_several_pieces_made_anew(void **state)
         assert_true(plumb_same(begun[0].shape_a, shape) || plumb_same(begun[0].shape_b, shape));
         assert_int_equal(e.count, i > 0);
         assert_true(i == 0 || names(&e, floor, old));
-        assert_true(i == 0 || old.index == shape.index);
+        assert_true(i == 0 || old.entity.index == shape.entity.index);
         old = shape;
     }
     plumb_world_destroy(w);

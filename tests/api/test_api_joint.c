@@ -1,7 +1,7 @@
 // test_api_joint.c - every function of joint.h: what it does, what it refuses and in which words.
 #include "world_fixture.h"
 
-#define NONE (plumb_entity) PLUMB_NULL_INIT
+#define NONE (plumb_joint) PLUMB_NULL_INIT
 
 static plumb_joint make(fixture *f, plumb_joint_kind kind)
 {
@@ -29,7 +29,7 @@ static void every_kind_is_made_and_named(void **state)
         assert_string_equal(plumb_joint_kind_name((plumb_joint_kind)kind), names[kind]);
         assert_true(plumb_joint_valid(f->world, j));
         assert_int_equal(plumb_joint_get_kind(f->world, j), kind);
-        assert_int_equal(plumb_entity_get_kind(f->world, j), PLUMB_KIND_JOINT);
+        assert_int_equal(plumb_entity_get_kind(f->world, j.entity), PLUMB_KIND_JOINT);
         assert_true(plumb_same(plumb_joint_body_a(f->world, j), f->fixed));
         assert_true(plumb_same(plumb_joint_body_b(f->world, j), f->dynamic));
     }
@@ -125,7 +125,7 @@ static void bad_handles_give_zeros(void **state)
 {
     fixture *f = *state;
     const plumb_world *w = f->world;
-    const plumb_joint bad[] = { NONE, f->dynamic, f->stale };
+    const plumb_joint bad[] = { NONE, { f->dynamic.entity }, { f->stale.entity } };
     for (int i = 0; i < 3; ++i) {
         assert_false(plumb_joint_valid(w, bad[i]));
         assert_int_equal(plumb_joint_get_kind(w, bad[i]), 0);
@@ -143,7 +143,7 @@ static void bad_handles_give_zeros(void **state)
     assert_null(plumb_world_joint_break_events(NULL, &count));
     assert_int_equal(count, 0);
     assert_int_equal(plumb_world_joints(NULL, NULL, 0), 0);
-    assert_int_equal(plumb_body_joints(NULL, NONE, NULL, 0), 0);
+    assert_int_equal(plumb_body_joints(NULL, NO_BODY, NULL, 0), 0);
     assert_true(plumb_is_null(plumb_joint_create(NULL, NULL)));
     assert_int_equal(plumb_joint_destroy(NULL, NONE), PLUMB_E_NULL);
     assert_int_equal(plumb_joint_settings(NULL, NONE, NULL), PLUMB_E_NULL);
@@ -168,7 +168,8 @@ static void descriptors_are_checked(void **state)
                   .kind = (plumb_joint_kind)99);
     REFUSED_JOINT(E_HANDLE, "body_b is null as body_a is; it must be another", .kind = PLUMB_WELD);
     REFUSED_JOINT(E_HANDLE, "body_b is body_a; it must be another", .body_a = b, .body_b = b);
-    REFUSED_JOINT(E_HANDLE, "body_a is a shape; it must be a live body or null", .body_a = f->box);
+    REFUSED_JOINT(E_HANDLE, "body_a is a shape; it must be a live body or null",
+                  .body_a = (plumb_body){ f->box.entity });
     REFUSED_JOINT(E_NOT_FINITE, "anchor is (nan, 0); it must be finite", .body_b = b,
                   .anchor = { (plumb_real)NAN, 0 });
     REFUSED_JOINT(E_RANGE, "anchor_b is (0, 2e+09); each component must be -1e+09 to 1e+09",
@@ -212,13 +213,13 @@ static void setters_refuse(void **state)
     REFUSED(E_HANDLE, "plumb_joint_destroy: joint is null; it must be a live joint",
             plumb_joint_destroy(w, NONE));
     REFUSED(E_HANDLE, "plumb_joint_set_break: joint is a body; it must be a live joint",
-            plumb_joint_set_break(w, f->dynamic, 0, 0));
+            plumb_joint_set_break(w, (plumb_joint){ f->dynamic.entity }, 0, 0));
     REFUSED(E_HANDLE, "plumb_joint_settings: joint is null; it must be a live joint",
             plumb_joint_settings(w, NONE, NULL));
     REFUSED(E_NULL, "plumb_joint_settings: desc is null; it must be given",
             plumb_joint_settings(w, weld, NULL));
     REFUSED(E_HANDLE, "plumb_body_set_gravity_scale: body is a joint; it must be a live body",
-            plumb_body_set_gravity_scale(w, weld, 1));
+            plumb_body_set_gravity_scale(w, (plumb_body){ weld.entity }, 1));
     REFUSED(E_STATE, "plumb_joint_set_limit: joint is a weld joint; it must be one with a limit",
             plumb_joint_set_limit(w, weld, true, 0, 1));
     REFUSED(E_STATE, "plumb_joint_set_motor: joint is a weld joint; it must be one with a motor",
@@ -266,7 +267,7 @@ static void try_in_a_step(const plumb_system_call *call)
                         "plumb_command_destroy");
     plumb_joint_memory memory = { .turns_a = 1 };
     assert_int_equal(plumb_joint_set_memory(call->world, joints[0], &memory), PLUMB_E_LOCKED);
-    assert_int_equal(plumb_command_destroy(call->world, joints[0]), PLUMB_OK);
+    assert_int_equal(plumb_command_destroy(call->world, joints[0].entity), PLUMB_OK);
 }
 
 static void joints_are_locked_in_a_step(void **state)
@@ -288,7 +289,7 @@ static void joints_go_with_their_bodies(void **state)
     int value = 1;
     plumb_component tag = plumb_component_create(
         f->world, &(plumb_component_desc){ .name = "tag", .size = sizeof value });
-    assert_int_equal(plumb_component_set(f->world, j, tag, &value), PLUMB_OK);
+    assert_int_equal(plumb_component_set(f->world, j.entity, tag, &value), PLUMB_OK);
     assert_int_equal(plumb_body_destroy(f->world, f->dynamic), PLUMB_OK);
     assert_false(plumb_joint_valid(f->world, j));
     assert_false(plumb_joint_valid(f->world, k));
@@ -391,7 +392,7 @@ static void impulse_and_enabling_are_refused(void **state)
     REFUSED(E_HANDLE, "plumb_joint_set_break_impulse: joint is null; it must be a live joint",
             plumb_joint_set_break_impulse(w, NONE, 1));
     REFUSED(E_HANDLE, "plumb_joint_set_enabled: joint is a body; it must be a live joint",
-            plumb_joint_set_enabled(w, f->dynamic, true));
+            plumb_joint_set_enabled(w, (plumb_joint){ f->dynamic.entity }, true));
     REFUSED(E_RANGE, "plumb_joint_create: break_impulse is -1; it must be at least 0",
             made(w, plumb_joint_create(w, &(plumb_joint_desc){ .body_b = f->dynamic,
                                                                .break_impulse = -1 })));
@@ -471,7 +472,8 @@ static void memory_refuses(void **state)
     assert_int_equal(plumb_joint_get_memory(w, NONE, &m), PLUMB_E_HANDLE);
     assert_int_equal(plumb_joint_set_memory(NULL, j, &good), PLUMB_E_NULL);
     assert_int_equal(plumb_joint_set_memory(w, j, NULL), PLUMB_E_NULL);
-    assert_int_equal(plumb_joint_set_memory(w, f->dynamic, &good), PLUMB_E_HANDLE);
+    assert_int_equal(plumb_joint_set_memory(w, (plumb_joint){ f->dynamic.entity }, &good),
+                     PLUMB_E_HANDLE);
     plumb_real *const numbers[] = { &m.anchor_a.x, &m.anchor_b.y, &m.axis.x,
                                     &m.offset.y,   &m.start_a,    &m.start_b,
                                     &m.kept,       &m.substep,    &m.impulses[5] };

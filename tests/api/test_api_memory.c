@@ -164,7 +164,7 @@ static bool extend_world(run *r)
     TRY(r, plumb_command_component_set(r->world, e, fuel, NULL));
     TRY(r, plumb_command_teleport(r->world, b, plumb_v2(1, 20), 1));
     TRY(r, plumb_command_component_remove(r->world, e, fuel));
-    TRY(r, plumb_command_destroy(r->world, r->bodies[3]));
+    TRY(r, plumb_command_destroy(r->world, r->bodies[3].entity));
     return true;
 }
 

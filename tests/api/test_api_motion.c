@@ -2,7 +2,7 @@
 // what each refuses and in which words.
 #include "world_fixture.h"
 
-#define NONE ((plumb_entity)PLUMB_NULL_INIT)
+#define NONE ((plumb_body)PLUMB_NULL_INIT)
 #define NAN_ ((plumb_real)NAN)
 #define STEP R(1.0 / 60)
 
@@ -210,7 +210,7 @@ static void tunings_are_refused(void **state)
     REFUSED(E_RANGE, "plumb_body_set_speed_cap: max_spin is -2; it must be at least 0",
             plumb_body_set_speed_cap(w, f->dynamic, 0, -2));
     REFUSED(E_HANDLE, "plumb_body_set_speed_cap: body is a shape; it must be a live body",
-            plumb_body_set_speed_cap(w, f->box, 0, 0));
+            plumb_body_set_speed_cap(w, (plumb_body){ f->box.entity }, 0, 0));
     REFUSED(E_RANGE, "plumb_body_set_time_scale: scale is 101; it must be 0 to 100",
             plumb_body_set_time_scale(w, f->dynamic, 101));
     REFUSED(E_RANGE, "plumb_body_set_time_scale: scale is -1; it must be 0 to 100",

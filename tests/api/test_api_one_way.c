@@ -111,7 +111,7 @@ static void wrong_handles_are_refused(void **state)
     fixture *f = *state;
     const plumb_one_way up = { { 0, 1 }, 0 };
     REFUSED(E_HANDLE, "plumb_shape_set_one_way: shape is stale (0:1); it must be a live shape",
-            plumb_shape_set_one_way(f->world, f->stale, up));
+            plumb_shape_set_one_way(f->world, (plumb_shape){ f->stale.entity }, up));
     REFUSED(E_HANDLE, "plumb_body_drop_through: body is stale (0:1); it must be a live body",
             plumb_body_drop_through(f->world, f->stale));
     REFUSED(E_STATE, "plumb_body_drop_through: body is static; it must be dynamic",

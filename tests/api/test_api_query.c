@@ -333,12 +333,12 @@ static void test_filter(void **state)
     char stale[100];
     snprintf(stale, sizeof stale,
              "filter.ignore_body is stale (%u:%u); it must be a live body or null",
-             (unsigned)f.stale.index, (unsigned)f.stale.generation);
+             (unsigned)f.stale.entity.index, (unsigned)f.stale.entity.generation);
     for (int q = 0; q < QUERY_COUNT; ++q) {
         plumb_query_filter filter = { .ignore_body = f.stale };
         args a = { .filter = &filter, .capacity = 1 };
         refuses(&f, q, &a, PLUMB_E_HANDLE, stale);
-        filter.ignore_body = f.shape;
+        filter.ignore_body = (plumb_body){ f.shape.entity };
         refuses(&f, q, &a, PLUMB_E_HANDLE,
                 "filter.ignore_body is a shape; it must be a live body or null");
         filter.ignore_body = f.ball;

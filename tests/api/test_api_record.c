@@ -208,10 +208,10 @@ static void names_and_times_are_found(void **state)
     game g;
     record_game(&g, false);
     plumb_replay *replay = open_tape(&g.tape, NULL);
-    assert_string_equal(plumb_replay_name(replay, g.ball), "the ball");
-    assert_null(plumb_replay_name(replay, g.floor));
-    assert_null(plumb_replay_name(replay, (plumb_entity)PLUMB_NULL_INIT));
-    assert_null(plumb_replay_name(NULL, g.ball));
+    assert_string_equal(plumb_replay_name(replay, g.ball.entity), "the ball");
+    assert_null(plumb_replay_name(replay, g.floor.entity));
+    assert_null(plumb_replay_name(replay, (plumb_entity)PLUMB_NULL_ENTITY_INIT));
+    assert_null(plumb_replay_name(NULL, g.ball.entity));
     assert_int_equal(plumb_replay_find(replay, -1), 0);
     assert_int_equal(plumb_replay_find(replay, 0), 0);
     assert_int_equal(plumb_replay_find(replay, 1e9), STEPS);
@@ -251,37 +251,37 @@ static void edits_are_told(void **state)
     assert_int_equal(plumb_replay_edits(replay, edits, 512), 0);
     assert_int_equal(plumb_replay_seek(replay, 5), PLUMB_OK);
     int count = plumb_replay_edits(replay, edits, 512);
-    const plumb_replay_edit *e = find_edit(edits, count, -1, g.ball, "vx");
+    const plumb_replay_edit *e = find_edit(edits, count, -1, g.ball.entity, "vx");
     assert_non_null(e);
     assert_int_equal(e->change.kind, PLUMB_DIFFERS);
     assert_string_equal(e->change.table, "bodies");
     assert_string_equal(e->change.b, "6");
-    assert_non_null(find_edit(edits, count, PLUMB_PHASE_FORCES, g.ball, "fx"));
-    assert_non_null(find_edit(edits, count, PLUMB_PHASE_BEGIN, g.boxes[0], "mark.heat"));
-    assert_non_null(find_edit(edits, count, PLUMB_PHASE_END, g.boxes[0], "mark.hits"));
-    assert_null(find_edit(edits, count, -1, g.ball, "user_data"));
+    assert_non_null(find_edit(edits, count, PLUMB_PHASE_FORCES, g.ball.entity, "fx"));
+    assert_non_null(find_edit(edits, count, PLUMB_PHASE_BEGIN, g.boxes[0].entity, "mark.heat"));
+    assert_non_null(find_edit(edits, count, PLUMB_PHASE_END, g.boxes[0].entity, "mark.hits"));
+    assert_null(find_edit(edits, count, -1, g.ball.entity, "user_data"));
 
     assert_int_equal(plumb_replay_seek(replay, 12), PLUMB_OK);
     count = plumb_replay_edits(replay, edits, 512);
-    assert_non_null(find_edit(edits, count, -1, g.hinge, "desc.motor_speed"));
-    e = find_edit(edits, count, -1, (plumb_entity)PLUMB_NULL_INIT, "gravity");
+    assert_non_null(find_edit(edits, count, -1, g.hinge.entity, "desc.motor_speed"));
+    e = find_edit(edits, count, -1, (plumb_entity)PLUMB_NULL_ENTITY_INIT, "gravity");
     assert_non_null(e);
     assert_string_equal(e->change.b, "(0.5, -9)");
 
     assert_int_equal(plumb_replay_seek(replay, 20), PLUMB_OK);
     count = plumb_replay_edits(replay, edits, 512);
-    e = find_edit(edits, count, -1, g.ball, "");
+    e = find_edit(edits, count, -1, g.ball.entity, "");
     assert_non_null(e);
     assert_string_equal(e->change.table, "tunings");
     assert_int_equal(e->change.kind, PLUMB_ONLY_B);
 
     assert_int_equal(plumb_replay_seek(replay, 50), PLUMB_OK);
     count = plumb_replay_edits(replay, edits, 512);
-    e = find_edit(edits, count, -1, g.boxes[4], "");
+    e = find_edit(edits, count, -1, g.boxes[4].entity, "");
     assert_non_null(e);
     assert_int_equal(e->change.kind, PLUMB_ONLY_A);
     assert_int_equal(e->change.entity_kind, PLUMB_KIND_BODY);
-    e = find_edit(edits, count, -1, g.boxes[1], "y");
+    e = find_edit(edits, count, -1, g.boxes[1].entity, "y");
     assert_non_null(e);
     assert_string_equal(e->change.b, "6");
     // A list that is too short is filled, and told to be.

@@ -34,7 +34,7 @@ static void differences_are_named(void **state)
 {
     (void)state;
     plumb_difference rows[8];
-    const plumb_entity none = PLUMB_NULL_INIT;
+    const plumb_entity none = PLUMB_NULL_ENTITY_INIT;
     game a, b;
     int count;
     make_game(&a, false);
@@ -42,26 +42,27 @@ static void differences_are_named(void **state)
     plumb_body_set_velocity(b.world, b.ball, (plumb_vec2){ R(0.5), 0 });
     assert_int_equal(plumb_world_compare(a.world, b.world, rows, 8, &count), PLUMB_OK);
     assert_int_equal(count, 1);
-    check_row(&rows[0], PLUMB_DIFFERS, a.ball, "bodies", "vx", "0", "0.5");
+    check_row(&rows[0], PLUMB_DIFFERS, a.ball.entity, "bodies", "vx", "0", "0.5");
     plumb_body_set_velocity(b.world, b.ball, (plumb_vec2){ 0, 0 });
 
-    ((mark *)plumb_component_get(b.world, b.boxes[0], b.mark))->hits = 7;
+    ((mark *)plumb_component_get(b.world, b.boxes[0].entity, b.mark))->hits = 7;
     plumb_world_set_gravity(b.world, (plumb_vec2){ 0, -1 });
     plumb_joint_set_motor(b.world, b.hinge, true, 2, 10);
     assert_int_equal(plumb_world_compare(a.world, b.world, rows, 8, &count), PLUMB_OK);
     assert_int_equal(count, 5);
-    check_row(&rows[0], PLUMB_DIFFERS, a.hinge, "joints", "desc.enable_motor", "false", "true");
-    check_row(&rows[1], PLUMB_DIFFERS, a.hinge, "joints", "desc.motor_speed", "0", "2");
-    check_row(&rows[2], PLUMB_DIFFERS, a.hinge, "joints", "desc.max_motor", "0", "10");
-    check_row(&rows[3], PLUMB_DIFFERS, a.boxes[0], "components", "mark.hits", "1", "7");
+    check_row(&rows[0], PLUMB_DIFFERS, a.hinge.entity, "joints", "desc.enable_motor", "false",
+              "true");
+    check_row(&rows[1], PLUMB_DIFFERS, a.hinge.entity, "joints", "desc.motor_speed", "0", "2");
+    check_row(&rows[2], PLUMB_DIFFERS, a.hinge.entity, "joints", "desc.max_motor", "0", "10");
+    check_row(&rows[3], PLUMB_DIFFERS, a.boxes[0].entity, "components", "mark.hits", "1", "7");
     check_row(&rows[4], PLUMB_DIFFERS, none, "world", "gravity",
               sizeof(plumb_real) == 4 ? "(0, -9.81000042)" : "(0, -9.8100000000000005)", "(0, -1)");
 
     plumb_body extra = plumb_body_create(b.world, &(plumb_body_desc){ 0 });
     plumb_body_destroy(b.world, b.boxes[1]);
     assert_int_equal(plumb_world_compare(a.world, b.world, rows, 8, &count), PLUMB_OK);
-    check_row(&rows[0], PLUMB_ONLY_A, a.boxes[1], "bodies", "", "", "");
-    check_row(&rows[1], PLUMB_ONLY_B, extra, "bodies", "", "", "");
+    check_row(&rows[0], PLUMB_ONLY_A, a.boxes[1].entity, "bodies", "", "", "");
+    check_row(&rows[1], PLUMB_ONLY_B, extra.entity, "bodies", "", "", "");
     free_game(&a);
     free_game(&b);
 }
@@ -159,7 +160,7 @@ static void check_difference(void (*change)(game *g), uint64_t step, const char 
     if (component != NULL) {
         assert_string_equal(d.first.table, "bodies");
         assert_string_equal(d.first.component, component);
-        assert_true(plumb_same(d.first.entity, names.ball));
+        assert_true(plumb_same(d.first.entity, names.ball.entity));
     }
     // Both stand behind the step.
     plumb_replay_info at;

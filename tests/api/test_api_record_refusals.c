@@ -13,7 +13,7 @@ static void small_recording(recording *tape)
                                        .context = tape,
                                        .keyframe_every = 4 };
     assert_int_equal(plumb_recorder_start(w, &desc), PLUMB_OK);
-    assert_int_equal(plumb_recorder_name(w, ball, "ball"), PLUMB_OK);
+    assert_int_equal(plumb_recorder_name(w, ball.entity, "ball"), PLUMB_OK);
     assert_int_equal(plumb_recorder_note(w, 1, "note", 4), PLUMB_OK);
     for (int i = 0; i < 6; ++i) {
         if (i == 2) {
@@ -160,7 +160,7 @@ static void the_recorder_refuses(void **state)
     plumb_recorder_desc desc = { .write = to_recording, .context = &tape };
     assert_int_equal(plumb_recorder_start(NULL, &desc), PLUMB_E_NULL);
     assert_int_equal(plumb_recorder_stop(NULL), PLUMB_E_NULL);
-    assert_int_equal(plumb_recorder_name(NULL, f->dynamic, "x"), PLUMB_E_NULL);
+    assert_int_equal(plumb_recorder_name(NULL, f->dynamic.entity, "x"), PLUMB_E_NULL);
     assert_int_equal(plumb_recorder_note(NULL, 1, "x", 1), PLUMB_E_NULL);
     assert_false(plumb_recorder_get_info(NULL).recording);
     assert_false(plumb_recorder_get_info(w).recording);
@@ -184,7 +184,7 @@ static void the_recorder_refuses(void **state)
     REFUSED(E_STATE, "plumb_recorder_stop: the world is not recorded; start that first",
             plumb_recorder_stop(w));
     REFUSED(E_STATE, "plumb_recorder_name: the world is not recorded; start that first",
-            plumb_recorder_name(w, f->dynamic, "x"));
+            plumb_recorder_name(w, f->dynamic.entity, "x"));
     REFUSED(E_STATE, "plumb_recorder_note: the world is not recorded; start that first",
             plumb_recorder_note(w, 1, "x", 1));
     assert_int_equal(tape.size, 0);
@@ -192,11 +192,11 @@ static void the_recorder_refuses(void **state)
     REFUSED(E_STATE, "plumb_recorder_start: the world is recorded already; stop that first",
             plumb_recorder_start(w, &desc));
     REFUSED(E_RANGE, "plumb_recorder_name: name is empty; it must have 1 to 63 characters",
-            plumb_recorder_name(w, f->dynamic, ""));
+            plumb_recorder_name(w, f->dynamic.entity, ""));
     REFUSED(E_NULL, "plumb_recorder_name: name is null; it must be given",
-            plumb_recorder_name(w, f->dynamic, NULL));
+            plumb_recorder_name(w, f->dynamic.entity, NULL));
     REFUSED(E_HANDLE, "plumb_recorder_name: entity is null; it must be a live entity",
-            plumb_recorder_name(w, (plumb_entity)PLUMB_NULL_INIT, "x"));
+            plumb_recorder_name(w, (plumb_entity)PLUMB_NULL_ENTITY_INIT, "x"));
     REFUSED(E_NULL, "plumb_recorder_note: bytes is null; it must be given",
             plumb_recorder_note(w, 1, NULL, 1));
     REFUSED(E_RANGE, "plumb_recorder_note: size is 1048577; it must be 0 to 1048576",

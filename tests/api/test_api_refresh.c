@@ -51,7 +51,7 @@ static void add_body(place *p, int i, uint32_t *seed, plumb_material rubber)
         .velocity = { R(sim_uniform(seed, -4, 4)), R(sim_uniform(seed, -4, 4)) },
     };
     p->bodies[i] = plumb_body_create(p->w, &desc);
-    plumb_shape_desc shape = { .material = i % 4 == 0 ? rubber : (plumb_material){ 0 } };
+    plumb_shape_desc shape = { .material = i % 4 == 0 ? rubber : NO_MATERIAL };
     switch (i % 5) {
     case 0:
         shape.kind = PLUMB_CIRCLE;
@@ -232,7 +232,8 @@ static void edit(place *p, uint32_t *seed)
 // the same come and go, whatever the order and whatever came and went in between.
 static uint64_t change_of(plumb_shape a, plumb_shape b)
 {
-    const uint32_t who[] = { a.index, a.generation, b.index, b.generation };
+    const uint32_t who[] = { a.entity.index, a.entity.generation, b.entity.index,
+                             b.entity.generation };
     uint64_t digest = UINT64_C(14695981039346656037);
     digest_bytes(&digest, who, sizeof who);
     return digest;
@@ -266,7 +267,7 @@ static double farthest(plumb_world *a, const plumb_world *b)
     const plumb_body_span p = plumb_world_bodies(a);
     double most = 0;
     for (int i = 0; i < p.count; ++i) {
-        const plumb_vec2 there = plumb_body_position(b, p.entity[i]);
+        const plumb_vec2 there = plumb_body_position(b, p.body[i]);
         const double way = hypot((double)(there.x - p.x[i]), (double)(there.y - p.y[i]));
         most = way > most ? way : most;
     }

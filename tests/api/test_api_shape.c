@@ -275,7 +275,7 @@ static void shapes_of_the_world_are_listed(void **state)
     plumb_world *w = f->world;
     plumb_shape chain = plumb_shape_create(
         w, f->fixed, &(plumb_shape_desc){ .kind = PLUMB_CHAIN, .points = triangle, .count = 3 });
-    plumb_entity shapes[8] = { PLUMB_NULL_INIT };
+    plumb_shape shapes[8] = { PLUMB_NULL_INIT };
     assert_int_equal(plumb_world_shapes(w, shapes, 8), 4);
     assert_true(plumb_same(shapes[0], f->box));
     assert_true(plumb_same(shapes[3], chain));
@@ -289,7 +289,9 @@ static void shapes_of_the_world_are_listed(void **state)
 static void bad_handles_are_answered_with_nothing(void **state)
 {
     fixture *f = *state;
-    const plumb_shape handles[] = { PLUMB_NULL_INIT, f->stale, f->dynamic, f->wood };
+    const plumb_shape handles[] = {
+        PLUMB_NULL_INIT, { f->stale.entity }, { f->dynamic.entity }, { f->wood.entity }
+    };
     for (int i = 0; i < 4; ++i) {
         plumb_shape s = handles[i];
         assert_false(plumb_shape_valid(f->world, s));

@@ -339,19 +339,19 @@ static void rows_are_partitioned_as_told(void **state)
     plumb_body_span s = plumb_world_bodies(p.w);
     assert_int_equal(s.dynamic_count, 0);
     assert_int_equal(s.asleep_count, 5);
-    assert_true(plumb_same(s.entity[0], p.ledge));
+    assert_true(plumb_same(s.body[0], p.ledge));
     plumb_body_wake(p.w, p.apart);
     steps(p.w, 1);
     plumb_body_wake(p.w, p.low);
     steps(p.w, 1);
     s = plumb_world_bodies(p.w);
     assert_int_equal(s.dynamic_count, 3);
-    assert_true(plumb_same(s.entity[0], p.apart)); // who wakes comes last
-    assert_true(plumb_same(s.entity[1], p.low) && plumb_same(s.entity[2], p.high));
-    assert_true(plumb_same(s.entity[3], p.ledge));
+    assert_true(plumb_same(s.body[0], p.apart)); // who wakes comes last
+    assert_true(plumb_same(s.body[1], p.low) && plumb_same(s.body[2], p.high));
+    assert_true(plumb_same(s.body[3], p.ledge));
     plumb_body_sleep(p.w, p.apart);
     s = plumb_world_bodies(p.w);
-    assert_true(plumb_same(s.entity[3], p.apart)); // who falls asleep comes first of them
+    assert_true(plumb_same(s.body[3], p.apart)); // who falls asleep comes first of them
     plumb_world_destroy(p.w);
 }
 
@@ -387,7 +387,7 @@ static void refusals(void **state)
     REFUSED(E_STATE, "plumb_body_sleep: body is kinematic; it must be dynamic",
             plumb_body_sleep(w, f->kinematic));
     REFUSED(E_HANDLE, "plumb_body_set_no_sleep: body is a shape; it must be a live body",
-            plumb_body_set_no_sleep(w, f->box, true));
+            plumb_body_set_no_sleep(w, (plumb_body){ f->box.entity }, true));
     REFUSED(E_RANGE, "plumb_world_set_sleep: speed is -1; it must be at least 0",
             plumb_world_set_sleep(w, true, -1, 0));
     REFUSED(E_NOT_FINITE, "plumb_world_set_sleep: time is nan; it must be finite",
@@ -404,7 +404,7 @@ static void refusals(void **state)
     char message[128];
     snprintf(message, sizeof message,
              "plumb_body_sleep: body is in an island with one that may not sleep (%u:%u)",
-             f->dynamic.index, f->dynamic.generation);
+             f->dynamic.entity.index, f->dynamic.entity.generation);
     REFUSED(E_STATE, message, plumb_body_sleep(w, f->dynamic));
     plumb_body_set_no_sleep(w, f->dynamic, false);
     plumb_world_set_sleep(w, false, 0, 0);

@@ -30,10 +30,10 @@ static void hash_sees_what_decides_motion(void **state)
     CHANGES(plumb_material_set(w, f->wood, &(plumb_material_desc){ .friction = R(0.25) }));
     CHANGES(plumb_material_pair_set(w, f->wood, f->used, &(plumb_material_pair){ .friction = 1 }));
     CHANGES(plumb_world_exclude_pair(w, f->dynamic, f->fixed, true));
-    CHANGES(plumb_component_set(w, f->dynamic, f->health, &(float){ 1 }));
-    CHANGES(plumb_component_set(w, f->dynamic, f->health, &(float){ 2 }));
+    CHANGES(plumb_component_set(w, f->dynamic.entity, f->health, &(float){ 1 }));
+    CHANGES(plumb_component_set(w, f->dynamic.entity, f->health, &(float){ 2 }));
     CHANGES(plumb_entity_create(w));
-    CHANGES(plumb_command_destroy(w, f->fixed));
+    CHANGES(plumb_command_destroy(w, f->fixed.entity));
     CHANGES(plumb_commands_apply(w));
     plumb_joint_desc hinge = { .body_a = f->dynamic, .body_b = f->kinematic };
     plumb_joint joint;
@@ -115,7 +115,7 @@ static void a_fresh_world_takes_an_image(void **state)
     (void)state;
     pile p, fresh;
     make_pile(&p, (plumb_world_desc){ .substeps = 3 }, 50);
-    plumb_command_destroy(p.world, p.bodies[7]);
+    plumb_command_destroy(p.world, p.bodies[7].entity);
     plumb_command_teleport(p.world, p.bodies[8], plumb_v2(0, 20), 1);
     image i = save(p.world);
     // Other settings, capacities and contents: all of it becomes the image's.
@@ -132,8 +132,8 @@ static void a_fresh_world_takes_an_image(void **state)
     assert_near(got.gravity.x, 0, 0);
     assert_ptr_equal(plumb_body_user_data(fresh.world, p.bodies[9]), &p.bodies[9]);
     assert_ptr_equal(plumb_shape_user_data(fresh.world, p.shape), &p);
-    assert_string_equal(plumb_component_get(fresh.world, p.bodies[3], p.tag), "1234567");
-    assert_null(plumb_component_get(fresh.world, p.bodies[4], p.tag));
+    assert_string_equal(plumb_component_get(fresh.world, p.bodies[3].entity, p.tag), "1234567");
+    assert_null(plumb_component_get(fresh.world, p.bodies[4].entity, p.tag));
     go_on_alike(p.world, fresh.world);
     assert_false(plumb_body_valid(fresh.world, p.bodies[7]));
     free(i.bytes);
@@ -150,8 +150,8 @@ static void what_came_after_the_image_is_gone(void **state)
     image i = save(p.world);
     plumb_body late = plumb_body_create(p.world, &(plumb_body_desc){ .position = { 0, 30 } });
     plumb_shape_create(p.world, late, &(plumb_shape_desc){ .kind = PLUMB_CIRCLE, .radius = 9 });
-    plumb_component_set(p.world, late, p.tag, NULL);
-    plumb_component_remove(p.world, p.bodies[3], p.tag);
+    plumb_component_set(p.world, late.entity, p.tag, NULL);
+    plumb_component_remove(p.world, p.bodies[3].entity, p.tag);
     plumb_body_destroy(p.world, p.bodies[0]);
     plumb_world_set_gravity(p.world, plumb_v2(5, 5));
     plumb_system_enable(p.world, "count", false);
@@ -160,7 +160,7 @@ static void what_came_after_the_image_is_gone(void **state)
     assert_false(plumb_body_valid(p.world, late));
     assert_true(plumb_body_valid(p.world, p.bodies[0]));
     assert_int_equal(plumb_world_column(p.world, p.tag).count, 1);
-    assert_non_null(plumb_component_get(p.world, p.bodies[3], p.tag));
+    assert_non_null(plumb_component_get(p.world, p.bodies[3].entity, p.tag));
     // The handle that the next body gets is the one that `late` had.
     plumb_body again = plumb_body_create(p.world, &(plumb_body_desc){ .position = { 0, 30 } });
     plumb_body other = plumb_body_create(twin.world, &(plumb_body_desc){ .position = { 0, 30 } });

@@ -109,11 +109,11 @@ static void the_pair_table_is_kept_up(void **state)
 {
     fixture *f = *state;
     plumb_material_pair p = { .friction = 1, .rolling_resistance = R(0.25) }, got = { 0 };
-    assert_int_equal(plumb_material_pair_set(W, f->wood, NULL_, &p), PLUMB_OK);
+    assert_int_equal(plumb_material_pair_set(W, f->wood, NO_MATERIAL, &p), PLUMB_OK);
     assert_int_equal(plumb_material_pair_set(W, f->used, f->used, &p), PLUMB_OK);
     p.friction = 3;
-    assert_int_equal(plumb_material_pair_set(W, NULL_, f->wood, &p), PLUMB_OK);
-    assert_int_equal(plumb_material_pair_get(W, f->wood, NULL_, &got), PLUMB_OK);
+    assert_int_equal(plumb_material_pair_set(W, NO_MATERIAL, f->wood, &p), PLUMB_OK);
+    assert_int_equal(plumb_material_pair_get(W, f->wood, NO_MATERIAL, &got), PLUMB_OK);
     assert_near(got.friction, 3, 0);
     assert_near(got.rolling_resistance, 0.25, 0);
     REFUSED(E_MISSING,
@@ -123,7 +123,7 @@ static void the_pair_table_is_kept_up(void **state)
     // theirs.
     assert_int_equal(plumb_material_destroy(W, f->wood), PLUMB_OK);
     plumb_material next = plumb_material_create(W, &(plumb_material_desc){ 0 });
-    assert_int_equal(plumb_material_pair_get(W, next, NULL_, &got), PLUMB_E_MISSING);
+    assert_int_equal(plumb_material_pair_get(W, next, NO_MATERIAL, &got), PLUMB_E_MISSING);
     assert_int_equal(plumb_material_pair_get(W, f->used, f->used, &got), PLUMB_OK);
     assert_near(got.friction, 1, 0);
     assert_int_equal(plumb_material_pair_set(W, f->used, f->used, NULL), PLUMB_OK);
@@ -135,10 +135,10 @@ static void a_pair_can_be_elastic_by_the_table(void **state)
 {
     (void)state;
     plumb_world *w = flat_world((plumb_world_desc){ 0 });
-    assert_int_equal(
-        plumb_material_pair_set(w, NULL_, NULL_, &(plumb_material_pair){ .restitution = 1 }),
-        PLUMB_OK);
-    add_floor(w, NULL_);
+    assert_int_equal(plumb_material_pair_set(w, NO_MATERIAL, NO_MATERIAL,
+                                             &(plumb_material_pair){ .restitution = 1 }),
+                     PLUMB_OK);
+    add_floor(w, NO_MATERIAL);
     plumb_body disc = add_disc(w, 0, 2.5, (plumb_shape_desc){ 0 }, NULL);
     double top = 0;
     for (int i = 0; i < 128; ++i) {
@@ -320,7 +320,7 @@ static void special_contacts_give_the_same_bits(void **state)
             w, &(plumb_material_desc){ .friction = R(0.4), .adhesion = 3, .rolling_resistance = R(0.01) });
         add_floor(w, tar);
         for (int i = 0; i < 60; ++i) {
-            plumb_shape_desc d = { .material = i % 2 == 0 ? tar : NULL_ };
+            plumb_shape_desc d = { .material = i % 2 == 0 ? tar : NO_MATERIAL };
             plumb_body b = add_disc(w, i % 10 * 0.9 + 0.03 * i, 0.6 + i / 10 * 0.95, d, NULL);
             plumb_body_set_locks(w, b, (plumb_axis_locks){ .x = i % 7 == 0, .rotation = i % 5 == 0 });
             plumb_body_set_time_scale(w, b, i % 11 == 0 ? R(0.5) : 1);
@@ -366,9 +366,9 @@ static void wrong_materials_and_speeds_are_refused(void **state)
     REFUSED(E_RANGE, "plumb_material_set: adhesion_mix is 9; it must be a plumb_mix",
             plumb_material_set(W, f->wood, &(plumb_material_desc){ .adhesion_mix = (plumb_mix)9 }));
     REFUSED(E_HANDLE, "plumb_material_pair_set: a is a body; it must be a live material or null",
-            plumb_material_pair_set(W, f->fixed, f->used, NULL));
+            plumb_material_pair_set(W, (plumb_material){ f->fixed.entity }, f->used, NULL));
     REFUSED(E_HANDLE, "plumb_material_pair_get: b is a body; it must be a live material or null",
-            plumb_material_pair_get(W, f->used, f->fixed, &p));
+            plumb_material_pair_get(W, f->used, (plumb_material){ f->fixed.entity }, &p));
     REFUSED(E_NULL, "plumb_material_pair_get: pair is null; it must be given",
             plumb_material_pair_get(W, f->used, f->used, NULL));
     REFUSED(E_RANGE, "plumb_world_set_hit_speed: speed is -1; it must be at least 0",

@@ -2,7 +2,7 @@
 // which words.
 #include "world_fixture.h"
 
-#define NONE ((plumb_entity)PLUMB_NULL_INIT)
+#define NONE ((plumb_body)PLUMB_NULL_INIT)
 #define STEP R(1.0 / 60)
 
 static void steps(fixture *f, int count)
@@ -39,8 +39,8 @@ static void type_changes_and_partitions_stay_whole(void **state)
         plumb_body_span s = plumb_world_bodies(w);
         int seen[4] = { 0 };
         for (int row = 0; row < s.count; ++row) {
-            plumb_body_type is = plumb_body_get_type(w, s.entity[row]);
-            int part = !plumb_body_is_enabled(w, s.entity[row]) ? 3 : (int)is;
+            plumb_body_type is = plumb_body_get_type(w, s.body[row]);
+            int part = !plumb_body_is_enabled(w, s.body[row]) ? 3 : (int)is;
             ++seen[part];
             int first[] = { 0, s.dynamic_count, s.dynamic_count + s.kinematic_count,
                             s.count - s.disabled_count };

@@ -228,9 +228,9 @@ static void body_columns_are_partitioned_and_writable(void **state)
     assert_int_equal(b.kinematic_count, 1);
     assert_int_equal(b.asleep_count, 0);
     assert_int_equal(b.static_count, 1);
-    assert_true(plumb_same(b.entity[0], f->dynamic));
-    assert_true(plumb_same(b.entity[1], f->kinematic));
-    assert_true(plumb_same(b.entity[2], f->fixed));
+    assert_true(plumb_same(b.body[0], f->dynamic));
+    assert_true(plumb_same(b.body[1], f->kinematic));
+    assert_true(plumb_same(b.body[2], f->fixed));
     assert_true(b.x[1] == 10 && b.y[0] == 5 && b.c[2] == 1 && b.s[2] == 0);
     assert_true(b.inv_mass[0] > 0 && b.inv_inertia[0] > 0 && b.inv_mass[1] == 0);
     b.vx[0] = 7;

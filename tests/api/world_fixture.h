@@ -79,6 +79,11 @@ static inline int tear_down(void **state)
     return 0;
 }
 
+#define NO_ENTITY   ((plumb_entity)PLUMB_NULL_ENTITY_INIT)
+#define NO_BODY     ((plumb_body)PLUMB_NULL_INIT)
+#define NO_SHAPE    ((plumb_shape)PLUMB_NULL_INIT)
+#define NO_MATERIAL ((plumb_material)PLUMB_NULL_INIT)
+
 #define API_TEST(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
 
 //---- digest --------------------------------------------------------------------------------------
@@ -100,11 +105,11 @@ static inline uint64_t digest_world(plumb_world *w)
     const plumb_real *columns[] = { b.x,  b.y,      b.center_x, b.center_y,   b.c,
                                     b.s,  b.vx,     b.vy,       b.w,          b.fx,
                                     b.fy, b.torque, b.inv_mass, b.inv_inertia };
-    digest_bytes(&digest, b.entity, (size_t)b.count * sizeof *b.entity);
+    digest_bytes(&digest, b.body, (size_t)b.count * sizeof *b.body);
     for (size_t i = 0; i < sizeof columns / sizeof columns[0] && b.count > 0; ++i) {
         digest_bytes(&digest, columns[i], (size_t)b.count * sizeof(plumb_real));
     }
-    plumb_entity shapes[256];
+    plumb_shape shapes[256];
     int count = plumb_world_shapes(w, shapes, 256);
     for (int i = 0; i < count && i < 256; ++i) {
         plumb_aabb box = plumb_shape_aabb(w, shapes[i]);
@@ -124,9 +129,10 @@ static inline uint64_t digest_world(plumb_world *w)
 //---- refused calls -------------------------------------------------------------------------------
 
 // The code of a call that returns a handle: that of the last error when the handle is null.
-static inline plumb_result made(const plumb_world *w, plumb_entity handle)
+#define made(w, handle) made_if(w, !plumb_is_null(handle))
+static inline plumb_result made_if(const plumb_world *w, bool is)
 {
-    return plumb_is_null(handle) ? plumb_world_error(w).code : PLUMB_OK;
+    return is ? PLUMB_OK : plumb_world_error(w).code;
 }
 
 // The call gave `code` and left `message`, in the record and in the log, once. `before` is the

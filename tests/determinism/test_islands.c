@@ -94,7 +94,7 @@ static void run(plumb_solver solver, int order, outcome *left, outcome *right)
     island c = { .x = 100,
                  .seed = 3,
                  .surface = { .friction = 1, .surface_speed = 1, .rolling_resistance = R(0.01) } };
-    plumb_body gone = { 0, 0 };
+    plumb_body gone = PLUMB_NULL_INIT;
     switch (order) {
     case ALONE:
         make(w, &a);

@@ -65,7 +65,7 @@ static void edit(const plumb_system_call *call)
     for (int i = 0; i < plumb_contact_edit_count(call->world); ++i) {
         plumb_contact_edit e;
         assert_int_equal(plumb_contact_edit_get(call->world, i, &e), PLUMB_OK);
-        const uint64_t salt = e.shape_a.index * 7u + e.shape_b.index * 3u + step / 20;
+        const uint64_t salt = e.shape_a.entity.index * 7u + e.shape_b.entity.index * 3u + step / 20;
         e.enabled = salt % 11 != 0;
         e.friction = salt % 3 == 0 ? (plumb_real)0.1 : e.friction;
         e.surface_speed = salt % 5 == 0 ? 1 : 0;
@@ -197,7 +197,7 @@ static void change(run *r)
     plumb_world *w = r->w;
     int i = (int)pick(r, BODIES);
     plumb_body b = r->body[i], other = r->body[pick(r, BODIES)];
-    plumb_entity shape[4];
+    plumb_shape shape[4];
     plumb_joint joint;
     int shapes = plumb_body_shapes(w, b, shape, 4);
     switch (pick(r, 21)) {

@@ -63,7 +63,7 @@ static void spoil(const plumb_system_call *call, trouble which)
     stage *s = call->context;
     plumb_body_span b = plumb_world_bodies(s->w);
     for (int i = 0; s->armed && s->trouble == which && i < b.dynamic_count; ++i) {
-        if (plumb_same(b.entity[i], s->body[CRATES / 2])) {
+        if (plumb_same(b.body[i], s->body[CRATES / 2])) {
             *(which == WRITTEN_FORCE      ? &b.fx[i]
               : which == WRITTEN_VELOCITY ? &b.w[i]
                                           : &b.vy[i]) =
@@ -88,8 +88,8 @@ static void in_contacts(const plumb_system_call *call)
     for (int i = 0; i < plumb_contact_edit_count(s->w); ++i) {
         plumb_contact_edit e;
         assert_int_equal(plumb_contact_edit_get(s->w, i, &e), PLUMB_OK);
-        e.friction = e.shape_a.index % 3 == 0 ? R(0.2) : e.friction;
-        e.surface_speed = e.shape_b.index % 4 == 0 ? R(0.5) : 0;
+        e.friction = e.shape_a.entity.index % 3 == 0 ? R(0.2) : e.friction;
+        e.surface_speed = e.shape_b.entity.index % 4 == 0 ? R(0.5) : 0;
         assert_int_equal(plumb_contact_edit_set(s->w, i, &e), PLUMB_OK);
         ++s->edits;
     }

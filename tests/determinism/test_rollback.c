@@ -61,7 +61,7 @@ static plumb_body row_body(const plumb_world *w, uint32_t number)
 {
     plumb_body_span b = plumb_world_bodies((plumb_world *)w);
     plumb_body none = PLUMB_NULL_INIT;
-    return b.dynamic_count == 0 ? none : b.entity[number % (uint32_t)b.dynamic_count];
+    return b.dynamic_count == 0 ? none : b.body[number % (uint32_t)b.dynamic_count];
 }
 
 // At the end of a step: what comes next is asked for by commands.
@@ -83,10 +83,10 @@ static void order(const plumb_system_call *call)
             { .kind = PLUMB_OUTLINE, .points = dart, .count = 4, .material = s->ice },
         };
         plumb_command_shape_create(w, b, &shapes[step / 6 % 3]);
-        plumb_command_component_set(w, b, s->counted, &(counted){ .heat = (float)step });
+        plumb_command_component_set(w, b.entity, s->counted, &(counted){ .heat = (float)step });
     }
     if (step % 9 == 4) {
-        plumb_command_destroy(w, row_body(w, step * 7));
+        plumb_command_destroy(w, row_body(w, step * 7).entity);
     }
     if (step % 31 == 3) {
         plumb_command_teleport(w, row_body(w, step), (plumb_vec2){ 0, 9 }, R(step) / 10);
@@ -323,7 +323,7 @@ static void act_on_motion(plumb_world *w, uint32_t step, plumb_body a, plumb_bod
     case 39: {
         plumb_body_span span = plumb_world_bodies(w);
         if (span.kinematic_count > 0) {
-            plumb_body_set_target(w, span.entity[span.dynamic_count], (plumb_vec2){ 1, 5 }, 0,
+            plumb_body_set_target(w, span.body[span.dynamic_count], (plumb_vec2){ 1, 5 }, 0,
                                   R(0.5));
         }
         break;
@@ -347,10 +347,10 @@ static void act_on_motion(plumb_world *w, uint32_t step, plumb_body a, plumb_bod
     case 46: {
         plumb_body_span span = plumb_world_bodies(w);
         for (int i = span.dynamic_count; i < span.dynamic_count + span.kinematic_count; ++i) {
-            if (plumb_body_is_character(w, span.entity[i])) {
-                plumb_character_walk(w, span.entity[i], step % 96 == 46 ? 2 : -2);
-                plumb_character_jump(w, span.entity[i], 6);
-                plumb_character_drop(w, span.entity[i]);
+            if (plumb_body_is_character(w, span.body[i])) {
+                plumb_character_walk(w, span.body[i], step % 96 == 46 ? 2 : -2);
+                plumb_character_jump(w, span.body[i], 6);
+                plumb_character_drop(w, span.body[i]);
             }
         }
         break;
@@ -379,7 +379,7 @@ static void act(plumb_world *w, const script *s)
         plumb_world_exclude_pair(w, a, b, step % 96 == 5);
         break;
     case 7:
-        plumb_component_set(w, a, s->marked, "ab");
+        plumb_component_set(w, a.entity, s->marked, "ab");
         break;
     case 9:
         plumb_world_set_gravity(w, (plumb_vec2){ R(step % 5) - 2, -9 });

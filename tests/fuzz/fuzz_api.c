@@ -95,26 +95,26 @@ static void order(plumb_world *w, script *s, plumb_entity body)
     d.up = byte_of(s) % 4 == 0 ? vec_of(s) : (plumb_vec2){ 0, 0 };
     switch (byte_of(s) % 6) {
     case 0:
-        plumb_character_create(w, body, byte_of(s) % 2 ? &d : NULL);
+        plumb_character_create(w, (plumb_body){ body }, byte_of(s) % 2 ? &d : NULL);
         break;
     case 1:
-        plumb_character_walk(w, body, real_of(s));
+        plumb_character_walk(w, (plumb_body){ body }, real_of(s));
         break;
     case 2:
-        plumb_character_jump(w, body, real_of(s));
+        plumb_character_jump(w, (plumb_body){ body }, real_of(s));
         break;
     case 3:
-        plumb_character_fly(w, body, vec_of(s));
+        plumb_character_fly(w, (plumb_body){ body }, vec_of(s));
         break;
     case 4:
-        plumb_character_drop(w, body);
-        plumb_body_drop_through(w, body);
+        plumb_character_drop(w, (plumb_body){ body });
+        plumb_body_drop_through(w, (plumb_body){ body });
         break;
     default:
-        plumb_character_set_velocity(w, body, vec_of(s));
+        plumb_character_set_velocity(w, (plumb_body){ body }, vec_of(s));
         break;
     }
-    if (plumb_character_get(w, body, &state) == PLUMB_OK &&
+    if (plumb_character_get(w, (plumb_body){ body }, &state) == PLUMB_OK &&
         !(isfinite(state.velocity.x) && isfinite(state.velocity.y))) {
         abort();
     }
@@ -128,75 +128,80 @@ static void call(plumb_world *w, script *s, plumb_entity e[HANDLES], unsigned ca
     plumb_material_desc m = { .friction = real_of(s), .restitution = real_of(s) };
     switch (byte_of(s) % calls) {
     case 12:
-        *slot = plumb_body_create(w, &(plumb_body_desc){ .position = vec_of(s), .asleep = true });
+        *slot = plumb_body_create(w, &(plumb_body_desc){ .position = vec_of(s), .asleep = true })
+                    .entity;
         break;
     case 13:
-        plumb_body_sleep(w, other);
+        plumb_body_sleep(w, (plumb_body){ other });
         break;
     case 14:
-        plumb_body_wake(w, other);
+        plumb_body_wake(w, (plumb_body){ other });
         break;
     case 15:
         *slot =
             plumb_joint_create(w, &(plumb_joint_desc){ .kind = (plumb_joint_kind)(byte_of(s) % 12),
-                                                       .body_a = other,
-                                                       .body_b = e[byte_of(s) % HANDLES],
-                                                       .anchor = vec_of(s) });
+                                                       .body_a = { other },
+                                                       .body_b = { e[byte_of(s) % HANDLES] },
+                                                       .anchor = vec_of(s) })
+                .entity;
         break;
     case 0:
         *slot = plumb_body_create(w, &(plumb_body_desc){ .type = (plumb_body_type)(byte_of(s) % 4),
-                                                         .position = vec_of(s) });
+                                                         .position = vec_of(s) })
+                    .entity;
         break;
     case 1:
-        *slot = shape_of(w, s, other);
+        *slot = shape_of(w, s, (plumb_body){ other }).entity;
         break;
     case 2:
         plumb_entity_destroy(w, other);
         break;
     case 3:
-        plumb_body_set_velocity(w, other, vec_of(s));
+        plumb_body_set_velocity(w, (plumb_body){ other }, vec_of(s));
         break;
     case 4:
-        plumb_body_teleport(w, other, vec_of(s), real_of(s));
+        plumb_body_teleport(w, (plumb_body){ other }, vec_of(s), real_of(s));
         break;
     case 5:
-        plumb_body_apply_force(w, other, vec_of(s), vec_of(s));
+        plumb_body_apply_force(w, (plumb_body){ other }, vec_of(s), vec_of(s));
         break;
     case 6:
-        plumb_body_set_mass(w, other, real_of(s));
+        plumb_body_set_mass(w, (plumb_body){ other }, real_of(s));
         break;
     case 7:
         plumb_world_ray(w, vec_of(s), vec_of(s), NULL, &hit);
         break;
     case 8:
-        *slot = plumb_command_body_create(w, &(plumb_body_desc){ .position = vec_of(s) });
+        *slot = plumb_command_body_create(w, &(plumb_body_desc){ .position = vec_of(s) }).entity;
         break;
     case 9:
         plumb_command_destroy(w, other);
         break;
     case 10:
-        *slot = plumb_material_create(w, &m);
+        *slot = plumb_material_create(w, &m).entity;
         break;
     case 16:
-        plumb_body_set_type(w, other, (plumb_body_type)(byte_of(s) % 4));
+        plumb_body_set_type(w, (plumb_body){ other }, (plumb_body_type)(byte_of(s) % 4));
         break;
     case 17:
-        plumb_body_set_enabled(w, other, byte_of(s) % 2 == 0);
+        plumb_body_set_enabled(w, (plumb_body){ other }, byte_of(s) % 2 == 0);
         break;
     case 18:
-        plumb_body_set_locks(w, other, (plumb_axis_locks){ .x = byte_of(s) % 2 == 0, .y = byte_of(s) % 3 == 0 });
+        plumb_body_set_locks(
+            w, (plumb_body){ other },
+            (plumb_axis_locks){ .x = byte_of(s) % 2 == 0, .y = byte_of(s) % 3 == 0 });
         break;
     case 19:
-        plumb_body_set_damping(w, other, real_of(s), real_of(s));
+        plumb_body_set_damping(w, (plumb_body){ other }, real_of(s), real_of(s));
         break;
     case 20:
-        plumb_body_set_speed_cap(w, other, real_of(s), real_of(s));
+        plumb_body_set_speed_cap(w, (plumb_body){ other }, real_of(s), real_of(s));
         break;
     case 21:
-        plumb_body_set_time_scale(w, other, real_of(s));
+        plumb_body_set_time_scale(w, (plumb_body){ other }, real_of(s));
         break;
     case 22:
-        plumb_body_set_target(w, other, vec_of(s), real_of(s), real_of(s));
+        plumb_body_set_target(w, (plumb_body){ other }, vec_of(s), real_of(s), real_of(s));
         break;
     case 23:
         plumb_world_explode(w, &(plumb_explosion_desc){ .position = vec_of(s),

@@ -59,9 +59,10 @@ static bool record(tape *t, plumb_body *body, const uint8_t *data, size_t size)
     }
     *body = plumb_body_create(w, &(plumb_body_desc){ 0 });
     plumb_recorder_start(w, &(plumb_recorder_desc){ .write = to_tape, .context = t });
-    const size_t bytes = put_note(data[1], who == 0 ? LOOK_TAG : CAMERA_TAG, sizes[who], data + 2,
-                                  size - 2, note);
-    const uint64_t keys[] = { key_of(body->index, body->generation), key_of(CAMERA, 0), key_of(TEXT, 0) };
+    const size_t bytes =
+        put_note(data[1], who == 0 ? LOOK_TAG : CAMERA_TAG, sizes[who], data + 2, size - 2, note);
+    const uint64_t keys[] = { key_of(body->entity.index, body->entity.generation),
+                              key_of(CAMERA, 0), key_of(TEXT, 0) };
     plumb_recorder_note(w, keys[who], note, bytes);
     plumb_world_step(w, (plumb_real)(1.0 / 60));
     const bool good = plumb_recorder_stop(w) == PLUMB_OK;
@@ -82,7 +83,7 @@ static void look_at_all(const plumb_replay *replay, plumb_body entity)
 {
     scene_camera camera;
     scene_body body = { .entity = entity, .label = "" };
-    scene_joint joint = { .entity = entity };
+    scene_joint joint = { .entity = { entity.entity } };
     pl_stage_read_body(replay, &body);
     pl_stage_read_joint(replay, &joint);
     must(strlen(body.label) < 64 && body.palette >= 0);

@@ -23,7 +23,7 @@ static void record(tape *t)
     plumb_shape_create(w, ball, &(plumb_shape_desc){ .kind = PLUMB_CIRCLE, .radius = 1 });
     plumb_recorder_start(
         w, &(plumb_recorder_desc){ .write = to_tape, .context = t, .keyframe_every = 3 });
-    plumb_recorder_name(w, ball, "ball");
+    plumb_recorder_name(w, ball.entity, "ball");
     plumb_recorder_note(w, 1, "noted", 5);
     for (int i = 0; i < STEPS; ++i) {
         plumb_body_apply_torque(w, ball, (plumb_real)(i % 2));

@@ -115,7 +115,9 @@ static inline int compare_hits(const void *a, const void *b)
     if (p->fraction != q->fraction) {
         return p->fraction < q->fraction ? -1 : 1;
     }
-    return p->shape.index < q->shape.index ? -1 : p->shape.index > q->shape.index;
+    return p->shape.entity.index < q->shape.entity.index
+               ? -1
+               : p->shape.entity.index > q->shape.entity.index;
 }
 
 // All hits in order, one for each shape.
@@ -149,7 +151,7 @@ typedef struct shape_set {
 static inline int compare_shapes(const void *a, const void *b)
 {
     const plumb_shape *p = a, *q = b;
-    return p->index < q->index ? -1 : p->index > q->index;
+    return p->entity.index < q->entity.index ? -1 : p->entity.index > q->entity.index;
 }
 
 static inline void include(shape_set *set, plumb_shape shape)
@@ -365,7 +367,7 @@ static inline int check_convex(plumb_world *world, const plumb_convex *convex, p
     plumb_shape shapes[8 * MOST];
     int count = plumb_world_overlap_convex(world, convex, t, f, shapes, 8 * MOST);
     for (int i = 1; i < count; ++i) {
-        assert_true(shapes[i - 1].index < shapes[i].index);
+        assert_true(shapes[i - 1].entity.index < shapes[i].entity.index);
     }
     static shape_set surely, maybe;
     surely.count = maybe.count = 0;
@@ -408,8 +410,9 @@ static inline bool brute_nearest(const plumb_world *world, plumb_vec2 point, plu
         pl_query_convex(world, p, &convex);
         plumb_convex_near near = plumb_convex_nearest(&convex, plumb_transform_inv_apply(t, point));
         plumb_shape shape = world->pieces.shape[p];
-        bool nearer = !met || near.distance < hit->distance ||
-                      (near.distance == hit->distance && shape.index < hit->shape.index);
+        bool nearer =
+            !met || near.distance < hit->distance ||
+            (near.distance == hit->distance && shape.entity.index < hit->shape.entity.index);
         if (near.distance <= most && nearer) {
             met = true;
             *hit = (plumb_nearest_hit){ shape, plumb_shape_body(world, shape),

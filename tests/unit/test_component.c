@@ -157,9 +157,9 @@ static void hooks_see_values_and_a_locked_world(void **state)
     assert_int_equal(plumb_entity_destroy(w, e), PLUMB_OK);
     plumb_body body = plumb_body_create(w, &(plumb_body_desc){ 0 });
     plumb_shape_desc circle = { .kind = PLUMB_CIRCLE, .radius = 1 };
-    plumb_component_set(w, body, c, "B");
-    plumb_component_set(w, plumb_shape_create(w, body, &circle), c, "1");
-    plumb_component_set(w, plumb_shape_create(w, body, &circle), c, "2");
+    plumb_component_set(w, body.entity, c, "B");
+    plumb_component_set(w, plumb_shape_create(w, body, &circle).entity, c, "1");
+    plumb_component_set(w, plumb_shape_create(w, body, &circle).entity, c, "2");
     assert_int_equal(plumb_body_destroy(w, body), PLUMB_OK);
     plumb_component_set(w, plumb_entity_create(w), c, "z");
     plumb_world_destroy(w);

@@ -198,7 +198,7 @@ static void a_plan_does_not_depend_on_the_past(void **state)
     (void)state;
     plumb_world *plain = zoo(8), *busy = zoo(8);
     plumb_body extra = sim_crate(busy, -20, 5, 0.5, 0.5, none);
-    plumb_joint j = add(busy, desc_of(PLUMB_REVOLUTE, 0, -20, 5), none, extra);
+    plumb_joint j = add(busy, desc_of(PLUMB_REVOLUTE, 0, -20, 5), (plumb_body){ 0 }, extra);
     plumb_world_step(plain, DT);
     plumb_world_step(busy, DT);
     plumb_joint_destroy(busy, j);

@@ -276,7 +276,7 @@ static void test_structural_changes(void **state)
                 random_shape(world, bodies[chosen], (int)uniform(0, 6.999), spread(0.1, 1),
                              (plumb_material)PLUMB_NULL_INIT);
             } else {
-                plumb_entity shapes[8];
+                plumb_shape shapes[8];
                 int n = plumb_body_shapes(world, bodies[chosen], shapes, 8);
                 if (n > 0) {
                     assert_int_equal(plumb_shape_destroy(world, shapes[0]), PLUMB_OK);

@@ -96,7 +96,8 @@ static void expect_same_pairs(const plumb_world *a, const plumb_world *b)
     for (int i = 0; i < a->end_count; ++i) {
         const plumb_contact_end *p = (const plumb_contact_end *)a->end_events.data + i;
         const plumb_contact_end *q = (const plumb_contact_end *)b->end_events.data + i;
-        assert_true(p->shape_a.index == q->shape_a.index && p->shape_b.index == q->shape_b.index);
+        assert_true(p->shape_a.entity.index == q->shape_a.entity.index &&
+                    p->shape_b.entity.index == q->shape_b.entity.index);
     }
 }
 

@@ -108,8 +108,8 @@ static void test_capacity(void **state)
             assert_true(plumb_same(shapes[i], made[i]));
         }
         if (room < 101) {
-            assert_int_equal(hits[room].shape.index, 0x4d4d4d4d);
-            assert_int_equal(shapes[room].index, 0x4d4d4d4d);
+            assert_int_equal(hits[room].shape.entity.index, 0x4d4d4d4d);
+            assert_int_equal(shapes[room].entity.index, 0x4d4d4d4d);
         }
     }
     assert_int_equal(plumb_world_ray_all(world, V(0, 0), V(200, 0), NULL, NULL, 0), 100);
@@ -122,18 +122,18 @@ static bool accept_third(void *context, plumb_shape shape)
 {
     int *calls = context;
     ++*calls;
-    return shape.index % 3 == 0;
+    return shape.entity.index % 3 == 0;
 }
 
 static void test_filters(void **state)
 {
     (void)state;
     plumb_world *world = random_world(5, 200, 15, 0.2, 1.5);
-    plumb_entity bodies[512];
+    plumb_body bodies[512];
     int calls = 0, count = 0;
     plumb_body_span span = plumb_world_bodies(world);
     for (; count < span.count && count < 512; ++count) {
-        bodies[count] = span.entity[count];
+        bodies[count] = span.body[count];
     }
     for (int i = 0; i < 64; ++i) {
         plumb_query_filter f = { .ignore_static = i & 1, .ignore_dynamic = (i >> 1) & 1 };
@@ -216,7 +216,7 @@ static void test_fast_bodies(void **state)
     plumb_world *world = random_world(7, 150, 20, 0.2, 1);
     plumb_body_span span = plumb_world_bodies(world);
     for (int i = 0; i < span.dynamic_count; ++i) {
-        plumb_body_set_velocity(world, span.entity[i], place(500));
+        plumb_body_set_velocity(world, span.body[i], place(500));
     }
     for (int step = 0; step < 30; ++step) {
         assert_int_equal(plumb_world_step(world, DT), PLUMB_OK);

@@ -102,7 +102,7 @@ static void two_builds_are_compared_by_what_they_recorded(void **state)
         assert_int_equal(d.step, PUSHED);
         assert_string_equal(d.pass, "");
         assert_int_equal(d.seen, 20);
-        assert_true(plumb_same(d.first.entity, ball));
+        assert_true(plumb_same(d.first.entity, ball.entity));
         assert_string_equal(d.first.component, "x");
         for (int i = 0; i < 2; ++i) {
             plumb_replay_close(replays[i]);

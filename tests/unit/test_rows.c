@@ -161,7 +161,7 @@ static void check_body(const model *m, const model_body *b, uint32_t *pieces, ui
     assert_true(w->bodies.x[row] == b->x);
     check_row(w, row);
 
-    plumb_entity shapes[MOST_SHAPES];
+    plumb_shape shapes[MOST_SHAPES];
     assert_int_equal(plumb_body_shapes(w, b->body, shapes, MOST_SHAPES), b->shape_count);
     uint32_t in_body = 0;
     for (int i = 0; i < b->shape_count; ++i) {
@@ -216,7 +216,7 @@ static void check_counters(const plumb_world *w, uint32_t pieces, uint32_t movin
 }
 
 // How many bodies that were there before have another row now.
-static int count_moves(const plumb_world *w, const plumb_entity *before, uint32_t rows)
+static int count_moves(const plumb_world *w, const plumb_body *before, uint32_t rows)
 {
     int moves = 0;
     for (uint32_t row = 0; row < rows; ++row) {
@@ -234,7 +234,7 @@ static void rows_agree_with_a_plain_list(void **state)
     m.seed = 2024;
     assert_int_equal(plumb_world_create(NULL, &m.world), PLUMB_OK);
     for (int round = 0; round < ROUNDS; ++round) {
-        plumb_entity before[MOST_BODIES];
+        plumb_body before[MOST_BODIES];
         uint32_t rows = m.world->bodies.table.count;
         if (rows > 0) {
             memcpy(before, m.world->bodies.entity, rows * sizeof before[0]);

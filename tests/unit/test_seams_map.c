@@ -195,7 +195,7 @@ static void changes_are_followed(void **state)
     for (int round = 0; round < 400; ++round) {
         int i = (int)(sim_random(&seed) % (unsigned)m.count);
         int x = 1 + (int)(sim_random(&seed) % SIDE), y = 1 + (int)(sim_random(&seed) % SIDE);
-        plumb_entity shape;
+        plumb_shape shape;
         assert_int_equal(plumb_body_shapes(m.w, m.body[i], &shape, 1), 1);
         const unsigned change = sim_random(&seed) % 7;
         switch (change) {

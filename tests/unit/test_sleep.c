@@ -92,7 +92,7 @@ static void check_rows(const plumb_world *w)
     uint32_t after = pl_partition_first(w, PL_PART_STATIC);
     for (uint32_t row = 0; row < b->table.count; ++row) {
         bool asleep = row >= first && row < after;
-        assert_int_equal(w->registry.slots[b->entity[row].index].row, row);
+        assert_int_equal(w->registry.slots[b->entity[row].entity.index].row, row);
         assert_int_equal(b->island[row] != PL_NONE, asleep);
         plumb_body_type type = row < w->dynamic_count || asleep ? PLUMB_DYNAMIC
                                : row < first                    ? PLUMB_KINEMATIC

@@ -214,7 +214,7 @@ static void add_surface(const plumb_world *world, plumb_shape shape, double run,
     }
 }
 
-void pl_stage_add_surfaces(const engine_stage *stage, const plumb_entity *shapes, int count,
+void pl_stage_add_surfaces(const engine_stage *stage, const plumb_shape *shapes, int count,
                            struct render_frame *frame)
 {
     const double moment = 1e-9; // [s] the sign of how far it has run tells the way even at time 0

@@ -100,14 +100,14 @@ static plumb_result keep_body(engine_session *session, int i)
                  .named = body.is_named,
                  .hidden = body.hidden };
     snprintf(now.label, sizeof now.label, "%s", body.label);
-    return keep(session, body.entity, body.name, &now);
+    return keep(session, body.entity.entity, body.name, &now);
 }
 
 static plumb_result keep_joint(engine_session *session, int i)
 {
     scene_joint joint = scene_joint_get(session->stage.scene, i);
     const look now = { .tag = LOOK_TAG, .named = joint.is_named, .hidden = joint.hidden };
-    return keep(session, joint.entity, joint.name, &now);
+    return keep(session, joint.entity.entity, joint.name, &now);
 }
 
 static plumb_result keep_text(engine_session *session)
@@ -179,7 +179,7 @@ static const look *find_look(const plumb_replay *replay, plumb_entity entity)
 
 void pl_stage_read_body(const plumb_replay *replay, scene_body *body)
 {
-    const look *note = find_look(replay, body->entity);
+    const look *note = find_look(replay, body->entity.entity);
     if (note != NULL) {
         body->is_named = note->named != 0;
         body->label = note->label;
@@ -192,7 +192,7 @@ void pl_stage_read_body(const plumb_replay *replay, scene_body *body)
 
 void pl_stage_read_joint(const plumb_replay *replay, scene_joint *joint)
 {
-    const look *note = find_look(replay, joint->entity);
+    const look *note = find_look(replay, joint->entity.entity);
     if (note != NULL) {
         joint->is_named = note->named != 0;
         joint->hidden = note->hidden != 0;

@@ -168,7 +168,7 @@ static void write_entity(const engine_replay *replay, plumb_entity entity, char 
 static plumb_body body_of(const plumb_world *world, plumb_entity entity)
 {
     return plumb_entity_get_kind(world, entity) == PLUMB_KIND_SHAPE
-               ? plumb_shape_body(world, entity)
+               ? plumb_shape_body(world, (plumb_shape){ entity })
                : (plumb_body)PLUMB_NULL_INIT;
 }
 
@@ -181,9 +181,9 @@ static void write_who(const engine_replay *replay, const plumb_difference *d, ch
         return;
     }
     plumb_body body = body_of(world, d->entity), other = body_of(world, d->other);
-    write_entity(replay, plumb_is_null(body) ? d->entity : body, first, sizeof first);
+    write_entity(replay, plumb_is_null(body) ? d->entity : body.entity, first, sizeof first);
     if (!plumb_is_null(d->other)) {
-        write_entity(replay, plumb_is_null(other) ? d->other : other, second, sizeof second);
+        write_entity(replay, plumb_is_null(other) ? d->other : other.entity, second, sizeof second);
         snprintf(to, size, "contact of %s and %s", first, second);
     } else if (!plumb_is_null(body)) {
         snprintf(to, size, "shape %u:%u of %s", (unsigned)d->entity.index,

@@ -17,7 +17,7 @@ struct engine_stage {
     scene_body *bodies;
     scene_joint *joints;
     int body_count, joint_count;
-    plumb_entity *handles;
+    void *handles; ///< those of bodies, then those of joints
     char (*names)[64];
     struct stage_hue {
         uint32_t generation;
@@ -28,7 +28,7 @@ struct engine_stage {
     // Lists handed out or drawn from; grown when too small, never shrunk.
     engine_row *rows;
     plumb_contact *contacts;
-    plumb_entity *shapes;
+    plumb_shape *shapes;
     plumb_aabb *cells;
     size_t body_room, joint_room, handle_room, name_room, row_room, contact_room, shape_room,
         cell_room; ///< [B]
@@ -77,7 +77,7 @@ scene_joint pl_stage_joint(const engine_stage *stage, int i);
 int pl_stage_palette(const scene_body *body, int i);
 /// Parts of pl_stage_draw: joints that are not hidden; of `shapes` those that run.
 void pl_stage_add_joints(const engine_stage *stage, struct render_frame *frame);
-void pl_stage_add_surfaces(const engine_stage *stage, const plumb_entity *shapes, int count,
+void pl_stage_add_surfaces(const engine_stage *stage, const plumb_shape *shapes, int count,
                            struct render_frame *frame);
 /// Of a recording: `path` names it where it has no title.
 void pl_stage_open_replay(engine_stage *stage, plumb_replay *replay, const char *path);

@@ -14,7 +14,7 @@
 
 static int by_index(const void *a, const void *b)
 {
-    uint32_t x = ((const plumb_entity *)a)->index, y = ((const plumb_entity *)b)->index;
+    uint32_t x = ((const plumb_body *)a)->entity.index, y = ((const plumb_body *)b)->entity.index;
     return x < y ? -1 : x > y;
 }
 
@@ -46,8 +46,8 @@ static const char *name_of(const engine_stage *stage, plumb_entity entity, char 
 /// The colour number of a body: the next one when it is met first. -1: out of memory.
 static int hue_of(engine_stage *stage, plumb_body body)
 {
-    if (body.index >= stage->hue_count) {
-        uint32_t count = body.index + body.index / 2 + 64;
+    if (body.entity.index >= stage->hue_count) {
+        uint32_t count = body.entity.index + body.entity.index / 2 + 64;
         struct stage_hue *grown = realloc(stage->hues, count * sizeof *grown);
         if (grown == NULL) {
             return -1;
@@ -56,9 +56,9 @@ static int hue_of(engine_stage *stage, plumb_body body)
         stage->hues = grown;
         stage->hue_count = count;
     }
-    struct stage_hue *hue = &stage->hues[body.index];
-    if (hue->generation != body.generation) {
-        *hue = (struct stage_hue){ body.generation, stage->next_palette++ };
+    struct stage_hue *hue = &stage->hues[body.entity.index];
+    if (hue->generation != body.entity.generation) {
+        *hue = (struct stage_hue){ body.entity.generation, stage->next_palette++ };
     }
     return hue->palette;
 }
@@ -68,7 +68,7 @@ static bool make_room(engine_stage *stage, int bodies, int joints)
 {
     int handles = bodies > joints ? bodies : joints;
     return pl_session_reserve(&stage->handles, &stage->handle_room, handles,
-                              sizeof *stage->handles) &&
+                              sizeof(plumb_entity)) &&
            pl_session_reserve(&stage->names, &stage->name_room, bodies + joints,
                               sizeof *stage->names) &&
            pl_session_reserve(&stage->bodies, &stage->body_room, bodies, sizeof *stage->bodies) &&
@@ -85,19 +85,20 @@ bool pl_stage_look(engine_stage *stage)
     }
     stage->body_count = span.count;
     stage->joint_count = joints;
+    plumb_body *bodies = stage->handles;
     if (span.count > 0) {
-        memcpy(stage->handles, span.entity, (size_t)span.count * sizeof *stage->handles);
-        qsort(stage->handles, (size_t)span.count, sizeof *stage->handles, by_index);
+        memcpy(bodies, span.body, (size_t)span.count * sizeof *bodies);
+        qsort(bodies, (size_t)span.count, sizeof *bodies, by_index);
     }
     for (int i = 0; i < span.count; i++) {
-        plumb_body body = stage->handles[i];
-        const char *name = plumb_replay_name(stage->replay, body);
+        plumb_body body = bodies[i];
+        const char *name = plumb_replay_name(stage->replay, body.entity);
         int hue = hue_of(stage, body);
         if (hue < 0) {
             return false;
         }
         stage->bodies[i] = (scene_body){ .entity = body,
-                                         .name = name_of(stage, body, stage->names[i]),
+                                         .name = name_of(stage, body.entity, stage->names[i]),
                                          .is_named = name != NULL && !is_counted(name, "body"),
                                          .label = "",
                                          .palette = hue,
@@ -105,12 +106,13 @@ bool pl_stage_look(engine_stage *stage)
         pl_stage_read_body(stage->replay, &stage->bodies[i]);
     }
     pl_stage_read_camera(stage->replay, &stage->camera);
-    plumb_world_joints(stage->world, stage->handles, joints);
+    plumb_joint *handles = stage->handles;
+    plumb_world_joints(stage->world, handles, joints);
     for (int i = 0; i < joints; i++) {
-        plumb_joint joint = stage->handles[i];
+        plumb_joint joint = handles[i];
         stage->joints[i] =
             (scene_joint){ .entity = joint,
-                           .name = name_of(stage, joint, stage->names[span.count + i]) };
+                           .name = name_of(stage, joint.entity, stage->names[span.count + i]) };
         pl_stage_read_joint(stage->replay, &stage->joints[i]);
     }
     return true;

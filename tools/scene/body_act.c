@@ -218,10 +218,10 @@ static int method_sleep(lua_State *L)
 // ------------------------------------------------------------------------- sensors and filters
 
 // The shapes of the body, in memory that Lua collects; *count is set.
-static plumb_entity *shapes_of(const sc_body_call *c, int *count)
+static plumb_shape *shapes_of(const sc_body_call *c, int *count)
 {
     *count = plumb_body_shapes(c->world, c->entity, NULL, 0);
-    plumb_entity *list = lua_newuserdatauv(c->s->L, (size_t)(*count + 1) * sizeof *list, 0);
+    plumb_shape *list = lua_newuserdatauv(c->s->L, (size_t)(*count + 1) * sizeof *list, 0);
     plumb_body_shapes(c->world, c->entity, list, *count);
     return list;
 }
@@ -235,7 +235,7 @@ int sc_body_overlaps(scene *s, plumb_body body)
     sc_need_stack(s, 10);
     lua_newtable(L);
     int result = lua_gettop(L);
-    const plumb_entity *shapes = shapes_of(&c, &count);
+    const plumb_shape *shapes = shapes_of(&c, &count);
     for (int i = 0; i < count; i++) {
         if (!plumb_shape_is_sensor(c.world, shapes[i])) {
             continue;
@@ -267,7 +267,7 @@ static int method_overlaps(lua_State *L)
 {
     sc_body_call c = sc_body_self(L, "overlaps");
     int count = 0, sensors = 0;
-    const plumb_entity *shapes = shapes_of(&c, &count);
+    const plumb_shape *shapes = shapes_of(&c, &count);
     for (int i = 0; i < count; i++) {
         sensors += plumb_shape_is_sensor(c.world, shapes[i]);
     }
@@ -295,7 +295,7 @@ static int method_set_filter(lua_State *L)
     sc_filter_check(c.s, &site, &g);
     plumb_filter f = sc_filter_resolve(c.s, &def.filter, g, &def.filter, g);
     int count;
-    const plumb_entity *shapes = shapes_of(&c, &count);
+    const plumb_shape *shapes = shapes_of(&c, &count);
     for (int i = 0; i < count; i++) {
         sc_body_check(&c, plumb_shape_set_filter(c.world, shapes[i], f));
     }

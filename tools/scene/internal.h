@@ -377,7 +377,7 @@ sc_material *sc_to_material(lua_State *L, int index);
 typedef struct sc_record_kind {
     const char *meta;  ///< metatable of its Lua objects, which hold the handle
     const char *names; ///< table of its records by name, in the registry
-    bool (*valid)(const plumb_world *world, plumb_entity entity);
+    plumb_entity_kind kind;
     void *(*user_data)(const plumb_world *world, plumb_entity entity);
 } sc_record_kind;
 extern const sc_record_kind sc_bodies, sc_joints;
@@ -392,11 +392,11 @@ bool sc_handle_at(lua_State *L, int index, const sc_record_kind *kind, plumb_ent
 /// Null if it is none of ours or dead.
 static inline sc_body *sc_body_of(const scene *s, plumb_body body)
 {
-    return sc_record_of(s, &sc_bodies, body);
+    return sc_record_of(s, &sc_bodies, body.entity);
 }
 static inline sc_joint *sc_joint_of(const scene *s, plumb_joint joint)
 {
-    return sc_record_of(s, &sc_joints, joint);
+    return sc_record_of(s, &sc_joints, joint.entity);
 }
 /// Null if there is none.
 static inline sc_body *sc_body_named(const scene *s, const char *name)
@@ -410,11 +410,11 @@ static inline sc_joint *sc_joint_named(const scene *s, const char *name)
 /// A Lua object of that kind?
 static inline bool sc_body_at_index(lua_State *L, int index, plumb_body *out)
 {
-    return sc_handle_at(L, index, &sc_bodies, out);
+    return sc_handle_at(L, index, &sc_bodies, &out->entity);
 }
 static inline bool sc_joint_at_index(lua_State *L, int index, plumb_joint *out)
 {
-    return sc_handle_at(L, index, &sc_joints, out);
+    return sc_handle_at(L, index, &sc_joints, &out->entity);
 }
 
 /// Values of methods: 2 numbers, 1.

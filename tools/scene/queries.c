@@ -26,7 +26,7 @@ static question ask(lua_State *L, sc_query kind)
     sc_read(q.s, &q.site, list, 1, &q.def);
     sc_check_body_name(q.s, &q.site, "ignore", q.def.ignore);
     const sc_body *ignored = q.def.ignore[0] != 0 ? sc_body_named(q.s, q.def.ignore) : NULL;
-    q.filter.ignore_body = ignored != NULL ? ignored->entity : (plumb_body){ 0, 0 };
+    q.filter.ignore_body = ignored != NULL ? ignored->entity : (plumb_body)PLUMB_NULL_INIT;
     q.filter.one_way = q.def.one_way;
     q.filter.sensors = q.def.sensors;
     return q;

@@ -2,10 +2,18 @@
 // user data of what it is of, and stands by its name in a table of the registry. Cost: O(1).
 #include "internal.h"
 
-const sc_record_kind sc_bodies = { SC_META_BODY, "plumb.names", plumb_body_valid,
-                                   plumb_body_user_data };
-const sc_record_kind sc_joints = { SC_META_JOINT, "plumb.joints", plumb_joint_valid,
-                                   plumb_joint_user_data };
+static void *body_data(const plumb_world *world, plumb_entity entity)
+{
+    return plumb_body_user_data(world, (plumb_body){ entity });
+}
+
+static void *joint_data(const plumb_world *world, plumb_entity entity)
+{
+    return plumb_joint_user_data(world, (plumb_joint){ entity });
+}
+
+const sc_record_kind sc_bodies = { SC_META_BODY, "plumb.names", PLUMB_KIND_BODY, body_data };
+const sc_record_kind sc_joints = { SC_META_JOINT, "plumb.joints", PLUMB_KIND_JOINT, joint_data };
 
 void sc_records_open(lua_State *L, const sc_record_kind *kind)
 {
@@ -15,7 +23,7 @@ void sc_records_open(lua_State *L, const sc_record_kind *kind)
 
 void *sc_record_of(const scene *s, const sc_record_kind *kind, plumb_entity entity)
 {
-    bool alive = s->world != NULL && kind->valid(s->world, entity);
+    bool alive = s->world != NULL && plumb_entity_get_kind(s->world, entity) == kind->kind;
     return alive ? kind->user_data(s->world, entity) : NULL;
 }
 

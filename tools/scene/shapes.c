@@ -218,7 +218,7 @@ void sc_shape_create(scene *s, const sc_site *site, int index, const sc_body *bo
     }
     plumb_shape_desc desc = describe(s, &own, shape);
     const sc_material *material = shape->material != NULL ? shape->material : body->def.material;
-    desc.material = material != NULL ? material->handle : (plumb_material){ 0, 0 };
+    desc.material = material != NULL ? material->handle : (plumb_material)PLUMB_NULL_INIT;
     bool line_like = shape->kind == SC_SEGMENT || shape->kind == SC_CHAIN;
     desc.density = line_like             ? 0
                    : shape->density != 0 ? (plumb_real)shape->density
