@@ -120,6 +120,14 @@ PLUMB_API plumb_result plumb_joint_settings(const plumb_world *world, plumb_join
 /// since the joint was made, full turns included. Prismatic, wheel: [m] travel along the axis.
 /// Distance, mouse: [m] length. Gear, pulley: the sum that is kept, less what it was.
 PLUMB_API plumb_real plumb_joint_value(const plumb_world *world, plumb_joint joint);
+/// Rate of that coordinate now, from the velocities of the bodies: [rad/s] or [m/s] as the value. O(1).
+PLUMB_API plumb_real plumb_joint_rate(const plumb_world *world, plumb_joint joint);
+/// [rad/s] at which B turns relative to A. 0 on an error: E_HANDLE, E_STATE (a kind that does not turn about a point:
+/// prismatic, distance, mouse, gear, pulley).
+PLUMB_API plumb_real plumb_joint_turn_rate(const plumb_world *world, plumb_joint joint);
+/// [m/s] along the axis (prismatic, wheel) or of the length (distance, mouse). 0 on an error: E_HANDLE,
+/// E_STATE (other kinds).
+PLUMB_API plumb_real plumb_joint_travel_rate(const plumb_world *world, plumb_joint joint);
 /// [m] by how far the rigid part is apart (angles count by the radian), 0 when it has none.
 PLUMB_API plumb_real plumb_joint_error(const plumb_world *world, plumb_joint joint);
 /// [N] on B at its anchor, [N m] on B about its anchor: mean of the last substep of the last step.

@@ -41,6 +41,13 @@ static real value(const pl_joint *j, const pl_joint_pose *a, const pl_joint_pose
     return made.row[0].error;
 }
 
+static pl_row slope(const pl_joint *j, const pl_joint_pose *a, const pl_joint_pose *b)
+{
+    pl_rows made;
+    rows(j, a, b, &made);
+    return made.row[0];
+}
+
 const pl_joint_class pl_joint_gear = {
-    .name = "gear", .check = check, .rows = rows, .keep = value, .value = value
+    .name = "gear", .check = check, .rows = rows, .keep = value, .value = value, .slope = slope
 };

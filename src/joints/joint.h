@@ -14,7 +14,9 @@ enum {
     PL_JOINT_SPRING = 4,
     PL_JOINT_TARGET = 8,
     PL_JOINT_TWO_ANCHORS = 16,
-    PL_JOINT_RADIANS = 32 // its value is an angle
+    PL_JOINT_RADIANS = 32, // its value is an angle
+    PL_JOINT_TRAVELS = 64, // its value is a way
+    PL_JOINT_SPINS = 128   // B turns about A besides
 };
 
 typedef struct pl_joint_class {
@@ -27,6 +29,8 @@ typedef struct pl_joint_class {
     void (*rows)(const pl_joint *joint, const pl_joint_pose *a, const pl_joint_pose *b,
                  pl_rows *rows);
     real (*value)(const pl_joint *joint, const pl_joint_pose *a, const pl_joint_pose *b);
+    // A row whose J is the slope of the value; null: that of the turn of B relative to A.
+    pl_row (*slope)(const pl_joint *joint, const pl_joint_pose *a, const pl_joint_pose *b);
     // What is kept (pl_joint.sum) of a new joint; null: 0.
     real (*keep)(const pl_joint *joint, const pl_joint_pose *a, const pl_joint_pose *b);
     // What changes from step to step, after the step; null: nothing.
@@ -154,6 +158,8 @@ uint32_t pl_joints_awake(plumb_world *world);
 bool pl_joints_any_awake(const plumb_world *world);
 // Both bodies of a joint are about to notice that it is another: see sleep.h.
 void pl_joint_disturb(plumb_world *world, const pl_joint *joint);
+// Rate of its value, in the value's unit a second (rate.c).
+real pl_joint_rate(const plumb_world *world, const pl_joint *joint);
 // The next joint of a body in its list.
 uint32_t pl_joint_next(const pl_joint *joint, plumb_body body);
 // Whether a joint forbids contacts of two body rows. O(joints of `row`).

@@ -31,8 +31,15 @@ static real value(const pl_joint *j, const pl_joint_pose *a, const pl_joint_pose
     return plumb_vec2_magnitude(pl_joint_apart(a, b));
 }
 
+static pl_row slope(const pl_joint *j, const pl_joint_pose *a, const pl_joint_pose *b)
+{
+    (void)j;
+    return pl_row_length(a, b, 0);
+}
+
 const pl_joint_class pl_joint_mouse = { .name = "mouse",
-                                        .has = PL_JOINT_SPRING | PL_JOINT_TARGET,
+                                        .has = PL_JOINT_SPRING | PL_JOINT_TARGET | PL_JOINT_TRAVELS,
                                         .check = check,
                                         .rows = rows,
-                                        .value = value };
+                                        .value = value,
+                                        .slope = slope };

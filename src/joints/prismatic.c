@@ -25,10 +25,16 @@ static real value(const pl_joint *j, const pl_joint_pose *a, const pl_joint_pose
     return plumb_vec2_dot(pl_joint_apart(a, b), pl_joint_axis(j, a));
 }
 
+static pl_row slope(const pl_joint *j, const pl_joint_pose *a, const pl_joint_pose *b)
+{
+    return pl_row_along_axis(a, b, pl_joint_axis(j, a), 0);
+}
+
 const pl_joint_class pl_joint_prismatic = {
     .name = "prismatic",
-    .has = PL_JOINT_LIMIT | PL_JOINT_MOTOR | PL_JOINT_SPRING,
+    .has = PL_JOINT_LIMIT | PL_JOINT_MOTOR | PL_JOINT_SPRING | PL_JOINT_TRAVELS,
     .check = check,
     .rows = rows,
     .value = value,
+    .slope = slope,
 };

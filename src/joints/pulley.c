@@ -57,9 +57,17 @@ static real value(const pl_joint *j, const pl_joint_pose *a, const pl_joint_pose
     return made.row[0].error;
 }
 
+static pl_row slope(const pl_joint *j, const pl_joint_pose *a, const pl_joint_pose *b)
+{
+    pl_rows made;
+    rows(j, a, b, &made);
+    return made.row[0];
+}
+
 const pl_joint_class pl_joint_pulley = { .name = "pulley",
                                          .has = PL_JOINT_TWO_ANCHORS,
                                          .check = check,
                                          .rows = rows,
                                          .keep = value,
-                                         .value = value };
+                                         .value = value,
+                                         .slope = slope };

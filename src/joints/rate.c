@@ -1,0 +1,85 @@
+// rate.c - how fast a joint's coordinate changes: J v, with the slope of the coordinate as J.
+//
+// Reads: one joint, poses and velocities of its bodies. Writes: nothing. Cost: O(1).
+#include "joints/joint.h"
+#include "joints/parts.h"
+#include "world/check.h"
+#include "world/state.h"
+
+// Of a body; 0 of the world.
+typedef struct motion {
+    real vx, vy, w;
+} motion;
+
+// What moves in a time of its own moves at its own share of its velocity.
+static motion motion_of(const plumb_world *world, plumb_body body)
+{
+    const uint32_t row = plumb_is_null(body) ? PL_NONE : pl_body_row(world, body);
+    if (row == PL_NONE) {
+        return (motion){ 0, 0, 0 };
+    }
+    const pl_bodies *b = &world->bodies;
+    const real time = world->tunings.scaled > 0 ? pl_time_scale(world, row) : 1;
+    return (motion){ time * b->vx[row], time * b->vy[row], time * b->w[row] };
+}
+
+static real along(const plumb_world *world, const pl_joint *joint, const pl_row *slope)
+{
+    const motion a = motion_of(world, joint->a.body), b = motion_of(world, joint->b.body);
+    return slope->ax * a.vx + slope->ay * a.vy + slope->aw * a.w + slope->bx * b.vx +
+           slope->by * b.vy + slope->bw * b.w;
+}
+
+static const pl_joint *find(const plumb_world *world, plumb_joint joint)
+{
+    const uint32_t slot = pl_joint_slot(world, joint);
+    return slot == PL_NONE ? NULL : &pl_joint_items(&world->joints)[slot];
+}
+
+real pl_joint_rate(const plumb_world *world, const pl_joint *joint)
+{
+    const pl_joint_class *kind = pl_joint_classes[joint->desc.kind];
+    pl_joint now = *joint;
+    pl_joint_begin(world, &now);
+    const pl_row slope = kind->slope != NULL ? kind->slope(&now, &now.a.pose, &now.b.pose)
+                                             : pl_row_angle(&now.a.pose, &now.b.pose, 0);
+    return along(world, joint, &slope);
+}
+
+plumb_real plumb_joint_rate(const plumb_world *world, plumb_joint joint)
+{
+    const pl_joint *j = find(world, joint);
+    return j == NULL ? 0 : pl_joint_rate(world, j);
+}
+
+// The joint, if its kind has one of these; else null, and the refusal is told.
+static const pl_joint *find_of(const plumb_world *world, const char *fn, plumb_joint joint,
+                               unsigned has, const char *what)
+{
+    const pl_joint *j = find(world, joint);
+    if (j == NULL) {
+        if (world != NULL) {
+            pl_fail_handle(world, fn, "joint", joint, "a live joint");
+        }
+        return NULL;
+    }
+    if ((pl_joint_classes[j->desc.kind]->has & has) == 0) {
+        pl_fail(world, PLUMB_E_STATE, fn, "joint is a %s joint; it must be of a kind that %s",
+                pl_joint_classes[j->desc.kind]->name, what);
+        return NULL;
+    }
+    return j;
+}
+
+plumb_real plumb_joint_turn_rate(const plumb_world *world, plumb_joint joint)
+{
+    const pl_joint *j = find_of(world, __func__, joint, PL_JOINT_RADIANS | PL_JOINT_SPINS, "turns");
+    const pl_row slope = { .aw = -1, .bw = 1 };
+    return j == NULL ? 0 : along(world, j, &slope);
+}
+
+plumb_real plumb_joint_travel_rate(const plumb_world *world, plumb_joint joint)
+{
+    const pl_joint *j = find_of(world, __func__, joint, PL_JOINT_TRAVELS, "travels");
+    return j == NULL ? 0 : pl_joint_rate(world, j);
+}
