@@ -398,6 +398,13 @@ static inline plumb_rot plumb_rot_integrate(plumb_rot q, plumb_real angle)
     return r;
 }
 
+/// From a (t = 0) to b (t = 1) at an even rate, the shorter way around (counter-clockwise of two equal ones).
+static inline plumb_rot plumb_rot_blend(plumb_rot a, plumb_rot b, plumb_real t)
+{
+    plumb_rot way = plumb_rot_inv_mul(a, b);
+    return plumb_rot_mul(a, plumb_rot_make(t * plumb_atan2(way.s, way.c)));
+}
+
 // --- Rigid transforms ----------------------------------------------------------------------------
 
 /// No movement.
@@ -443,6 +450,17 @@ static inline plumb_transform plumb_transform_inv_mul(plumb_transform a, plumb_t
     plumb_transform r;
     r.p = plumb_transform_inv_apply(a, b.p);
     r.q = plumb_rot_inv_mul(a.q, b.q);
+    return r;
+}
+
+/// From a (t = 0) to b (t = 1): the origin on a straight line, the rotation the shorter way around. For bodies
+/// between two steps see plumb/loop.h.
+static inline plumb_transform plumb_transform_blend(plumb_transform a, plumb_transform b,
+                                                    plumb_real t)
+{
+    plumb_transform r;
+    r.p = plumb_vec2_lerp(a.p, b.p, t);
+    r.q = plumb_rot_blend(a.q, b.q, t);
     return r;
 }
 

@@ -21,5 +21,6 @@
 #include "plumb/batch.h"
 #include "plumb/record.h"
 #include "plumb/effect.h"
+#include "plumb/loop.h"
 
 #endif
