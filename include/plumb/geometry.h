@@ -47,6 +47,9 @@ PLUMB_BEGIN
 #define plumb_convex_contains      PLUMB_SYMBOL(plumb_convex_contains)
 #define plumb_convex_nearest       PLUMB_SYMBOL(plumb_convex_nearest)
 #define plumb_convex_ray           PLUMB_SYMBOL(plumb_convex_ray)
+#define plumb_convex_distance      PLUMB_SYMBOL(plumb_convex_distance)
+#define plumb_convex_cast          PLUMB_SYMBOL(plumb_convex_cast)
+#define plumb_convex_impact        PLUMB_SYMBOL(plumb_convex_impact)
 
 /// Most vertices of one convex polygon.
 #define PLUMB_POLYGON_MAX_VERTICES 16
@@ -100,6 +103,21 @@ typedef struct plumb_convex_near {
     plumb_vec2 point;    ///< [m] on the surface
     plumb_vec2 normal;   ///< outward unit normal there: query = point + distance * normal
 } plumb_convex_near;
+
+/// How far two shapes are apart, and where they are nearest.
+typedef struct plumb_convex_gap {
+    plumb_real distance; ///< [m] between their surfaces; negative: how far they must be moved to part
+    plumb_vec2 point_a;  ///< [m] on the surface of A
+    plumb_vec2 point_b;  ///< [m] on the surface of B: point_a + distance * normal
+    plumb_vec2 normal;   ///< unit, from A to B
+} plumb_convex_gap;
+
+/// A shape on its way: its frame's origin moves on a straight line while the shape turns about it, both evenly.
+typedef struct plumb_convex_motion {
+    plumb_transform from;   ///< where it is at first
+    plumb_vec2 translation; ///< [m]
+    plumb_real angle;       ///< [rad] turned on the way, full turns included
+} plumb_convex_motion;
 
 // --- Makers --------------------------------------------------------------------------------------
 
@@ -239,6 +257,28 @@ PLUMB_API plumb_convex_near plumb_convex_nearest(const plumb_convex *shape, plum
 /// False, and *hit untouched, when there is none; a zero translation hits only from inside.
 PLUMB_API bool plumb_convex_ray(const plumb_convex *shape, plumb_vec2 origin,
                                 plumb_vec2 translation, plumb_convex_hit *hit);
+
+// --- Queries on two convex shapes ----------------------------------------------------------------
+
+/// The nearest places of two shapes, or how deep they overlap: exact to rounding, computed in double. Of faces that
+/// face each other evenly, the middle of what they share; of equal ways to part, one. O(corners).
+PLUMB_API plumb_convex_gap plumb_convex_distance(const plumb_convex *a, plumb_transform at_a,
+                                                 const plumb_convex *b, plumb_transform at_b);
+
+/// Where B first meets A when it is moved by `translation` [m] without turning: exact to rounding. hit->point is on
+/// the surface of A, hit->normal goes from A to B. Shapes that overlap at first meet at fraction 0, whatever the
+/// translation; those that touch, if they approach. False, and *hit untouched, when they do not meet. O(corners).
+PLUMB_API bool plumb_convex_cast(const plumb_convex *a, plumb_transform at_a, const plumb_convex *b,
+                                 plumb_transform at_b, plumb_vec2 translation,
+                                 plumb_convex_hit *hit);
+
+/// Where two shapes that move and turn first come within a ten-thousandth of a metre: never after they overlap, however
+/// fast they turn. Shapes that are so near at first meet at fraction 0. hit->point and normal as above, at that
+/// moment. False, and *hit untouched, when they do not meet. O(corners of A x corners of B) a round, 3 to 20
+/// rounds; conservative advancement (Mirtich 1996).
+PLUMB_API bool plumb_convex_impact(const plumb_convex *a, plumb_convex_motion motion_a,
+                                   const plumb_convex *b, plumb_convex_motion motion_b,
+                                   plumb_convex_hit *hit);
 
 PLUMB_END
 

@@ -304,7 +304,8 @@ bool pl_sum_cast(const pl_sum *s, double x, double y, double dx, double dy, doub
 
 // The stretch of a core that is farthest along (nx, ny), as a range along the tangent (-ny, nx); how
 // far that is. All relative to the shape's own frame.
-static double farthest_stretch(const pl_round *r, double nx, double ny, double range[2])
+static double farthest_stretch(const pl_round *r, double nx, double ny, double flat,
+                               double range[2])
 {
     int best = 0;
     double farthest = -HUGE_VAL;
@@ -323,7 +324,7 @@ static double farthest_stretch(const pl_round *r, double nx, double ny, double r
         int i = neighbours[k];
         double t = nx * r->y[i] - ny * r->x[i];
         double drop = farthest - (nx * r->x[i] + ny * r->y[i]);
-        if (drop <= FLAT * fabs(t - along)) {
+        if (drop <= flat * fabs(t - along)) {
             range[0] = t < range[0] ? t : range[0];
             range[1] = t > range[1] ? t : range[1];
         }
@@ -334,9 +335,15 @@ static double farthest_stretch(const pl_round *r, double nx, double ny, double r
 void pl_round_touch(const pl_round *fixed, const pl_round *mover, double dx, double dy, double nx,
                     double ny, double *x, double *y)
 {
+    pl_round_touch_within(fixed, mover, dx, dy, nx, ny, FLAT, x, y);
+}
+
+void pl_round_touch_within(const pl_round *fixed, const pl_round *mover, double dx, double dy,
+                           double nx, double ny, double flat, double *x, double *y)
+{
     double f[2], m[2], flipped[2];
-    double height = farthest_stretch(fixed, nx, ny, f) + fixed->radius;
-    farthest_stretch(mover, -nx, -ny, flipped);
+    double height = farthest_stretch(fixed, nx, ny, flat, f) + fixed->radius;
+    farthest_stretch(mover, -nx, -ny, flat, flipped);
     double moved = nx * dy - ny * dx;
     m[0] = moved - flipped[1];
     m[1] = moved - flipped[0];

@@ -48,5 +48,8 @@ bool pl_sum_cast(const pl_sum *sum, double x, double y, double dx, double dy, do
 // them, out of the fixed one: on the surface of that, midway where they share a stretch.
 void pl_round_touch(const pl_round *fixed, const pl_round *mover, double dx, double dy, double nx,
                     double ny, double *x, double *y);
+// The same where an edge counts as lying in the contact only if it leans less than `flat` [-].
+void pl_round_touch_within(const pl_round *fixed, const pl_round *mover, double dx, double dy,
+                           double nx, double ny, double flat, double *x, double *y);
 
 #endif
