@@ -76,7 +76,7 @@ bool pl_world_query(const plumb_world *world, const pl_grid *grid, pl_box box, p
     }
     pl_images images = pl_images_of(world, grid, box);
     for (int k = 0; k < images.columns * images.rows; ++k) {
-        pl_shift to = pl_image(&images, k);
+        pl_shift to = pl_images_shift(&images, k);
         image_visit v = { visit, context, to.x, to.y };
         pl_box at = v.x == 0 && v.y == 0 ? box : shifted(box, -v.x, -v.y);
         if (!pl_grid_query(grid, at, visit_image, &v)) {

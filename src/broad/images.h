@@ -25,7 +25,7 @@ typedef struct pl_images {
 } pl_images;
 pl_images pl_images_of(const plumb_world *world, const pl_grid *grid, pl_box box);
 // [m] to one of them: image k of columns * rows, row by row.
-static inline pl_shift pl_image(const pl_images *i, int k)
+static inline pl_shift pl_images_shift(const pl_images *i, int k)
 {
     return (pl_shift){ (i->x0 + k % i->columns) * i->period.x,
                        (i->y0 + k / i->columns) * i->period.y };

@@ -1,26 +1,48 @@
-// memory.c - allocator hooks with accounting, growable buffers. The default hook over-aligns
-// with aligned_alloc, so that every array of the library begins on a cache line.
+// memory.c - allocator hooks with accounting, growable buffers. The default hook over-aligns,
+// so that every array of the library begins on a cache line.
 #include "core/memory.h"
 
 #include <stdlib.h>
 #include <string.h>
+#if defined(_WIN32)
+#include <malloc.h>
+#endif
 
 static size_t rounded(size_t size)
 {
     return (size + (PL_ALIGN - 1)) & ~(size_t)(PL_ALIGN - 1);
 }
 
+// Windows has no aligned_alloc: its free could not tell such a block from others.
+static void *aligned_new(size_t size)
+{
+#if defined(_WIN32)
+    return _aligned_malloc(rounded(size), PL_ALIGN);
+#else
+    return aligned_alloc(PL_ALIGN, rounded(size));
+#endif
+}
+
+static void aligned_free(void *memory)
+{
+#if defined(_WIN32)
+    _aligned_free(memory);
+#else
+    free(memory);
+#endif
+}
+
 static void *libc_resize(void *context, void *memory, size_t old_size, size_t new_size)
 {
     (void)context;
     if (new_size == 0) {
-        free(memory);
+        aligned_free(memory);
         return NULL;
     }
-    void *fresh = aligned_alloc(PL_ALIGN, rounded(new_size));
+    void *fresh = aligned_new(new_size);
     if (fresh != NULL && memory != NULL) {
         memcpy(fresh, memory, old_size < new_size ? old_size : new_size);
-        free(memory);
+        aligned_free(memory);
     }
     return fresh;
 }

@@ -229,7 +229,7 @@ bool pl_query_walk(const pl_query *q, const pl_grid *grid, pl_walk *walk, pl_gri
     }
     pl_images images = pl_images_of(q->world, grid, pl_walk_box(walk));
     for (int k = 0; k < images.columns * images.rows; ++k) {
-        pl_shift to = pl_image(&images, k);
+        pl_shift to = pl_images_shift(&images, k);
         pl_walk image = *walk;
         image_walk w = { visit, context, to.x, to.y, walk, &image };
         image.ox -= w.x;
