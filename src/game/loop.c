@@ -126,7 +126,7 @@ static void note_before(plumb_loop *loop)
 {
     const pl_bodies *b = &loop->world->bodies;
     for (uint32_t row = 0; row < movable_rows(loop->world); ++row) {
-        const plumb_entity body = b->entity[row];
+        const plumb_entity body = b->entity[row].entity;
         note *n = (note *)loop->notes.data + body.index;
         n->generation = body.generation;
         n->tick = loop->tick;
@@ -140,7 +140,7 @@ static void note_after(plumb_loop *loop)
 {
     const pl_bodies *b = &loop->world->bodies;
     for (uint32_t row = 0; row < movable_rows(loop->world); ++row) {
-        const plumb_entity body = b->entity[row];
+        const plumb_entity body = b->entity[row].entity;
         if (body.index < loop->noted) {
             note *n = (note *)loop->notes.data + body.index;
             n->x = b->center_x[row], n->y = b->center_y[row];
@@ -181,8 +181,9 @@ plumb_transform plumb_loop_transform(const plumb_loop *loop, plumb_body body)
     const plumb_world *world = loop->world;
     const pl_bodies *b = &world->bodies;
     const plumb_transform now = { { b->x[row], b->y[row] }, { b->c[row], b->s[row] } };
-    const note *n = body.index < loop->noted ? (const note *)loop->notes.data + body.index : NULL;
-    const bool moved_on = n != NULL && n->generation == body.generation && n->tick == loop->tick &&
+    const plumb_entity e = body.entity;
+    const note *n = e.index < loop->noted ? (const note *)loop->notes.data + e.index : NULL;
+    const bool moved_on = n != NULL && n->generation == e.generation && n->tick == loop->tick &&
                           n->x == b->center_x[row] && n->y == b->center_y[row] &&
                           n->c == b->c[row] && n->s == b->s[row];
     if (!moved_on) {

@@ -59,7 +59,7 @@ static const pl_joint *find_of(const plumb_world *world, const char *fn, plumb_j
     const pl_joint *j = find(world, joint);
     if (j == NULL) {
         if (world != NULL) {
-            pl_fail_handle(world, fn, "joint", joint, "a live joint");
+            pl_fail_handle(world, fn, "joint", joint.entity, "a live joint");
         }
         return NULL;
     }
