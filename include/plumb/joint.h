@@ -64,6 +64,8 @@ typedef struct plumb_joint_desc {
     plumb_real break_force; ///< [N] >= 0 breaks where the reaction exceeds it; 0: never
     plumb_real break_torque; ///< [N m] likewise
     plumb_real break_impulse; ///< [N s] likewise of the reaction summed over a step: blows too short for a force
+    plumb_real event_force;  ///< [N] >= 0 a strain event where the reaction exceeds it; 0: none
+    plumb_real event_torque; ///< [N m] likewise
     bool disabled;           ///< it does nothing until plumb_joint_set_enabled
     bool collide_connected;  ///< the two bodies collide with one another; default: they do not
     void *user_data;
@@ -96,6 +98,9 @@ PLUMB_API plumb_result plumb_joint_set_break(plumb_world *world, plumb_joint joi
 /// E_RANGE.
 PLUMB_API plumb_result plumb_joint_set_break_impulse(plumb_world *world, plumb_joint joint,
                                                      plumb_real impulse);
+/// Sets the bounds beyond which it makes strain events; 0: none. Errors: E_HANDLE, E_NOT_FINITE, E_RANGE.
+PLUMB_API plumb_result plumb_joint_set_event(plumb_world *world, plumb_joint joint, plumb_real force,
+                                             plumb_real torque);
 /// Switches a joint off, or on again. Off, it exerts nothing, does not break, and keeps nobody apart; a
 /// rigid joint that is switched on pulls its bodies together. Errors: E_HANDLE, E_LOCKED.
 PLUMB_API plumb_result plumb_joint_set_enabled(plumb_world *world, plumb_joint joint, bool enabled);
@@ -174,6 +179,14 @@ typedef struct plumb_joint_break {
     plumb_vec2 impulse; ///< [N s] on B over the step; {0} unless some joint breaks by impulse
     void *user_data;
 } plumb_joint_break;
+
+/// A joint's reaction rose above event_force or event_torque in the last step: told once, and again only after a step
+/// in which it was below both. It holds on; where it breaks in that step, that is told instead.
+typedef plumb_joint_break plumb_joint_strain; // `force` and `torque`: the reaction
+
+/// Strain events of the last step in order of the joints' slots; *count is set. Null when there are none.
+PLUMB_API const plumb_joint_strain *plumb_world_joint_strain_events(const plumb_world *world,
+                                                                    int *count);
 
 /// Break events of the last step; *count is set. Null when there are none.
 PLUMB_API const plumb_joint_break *plumb_world_joint_break_events(const plumb_world *world, int *count);

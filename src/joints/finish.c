@@ -1,5 +1,5 @@
 // finish.c - after the step: reactions of joints, pawls that fall behind a tooth, joints that
-// break.
+// break or are strained.
 //
 // The reaction is the sum of J^T impulse on B over the last substep; its torque about B's anchor is
 // what the arm does not explain. Reads: impulses, bodies. Writes: reactions, break events; removes
@@ -58,6 +58,7 @@ static void rest(pl_joint *j)
     }
     j->force = plumb_v2(0, 0);
     j->torque = 0;
+    j->strained = 0;
 }
 
 // Joints that break by impulse are solved one by one.
@@ -79,25 +80,60 @@ static bool overloaded(const pl_joint *j)
            (d->break_torque > 0 && plumb_abs(j->torque) > d->break_torque);
 }
 
-// Room for an event of every joint was made with the joint.
+static bool is_strained(const pl_joint *j)
+{
+    const plumb_joint_desc *d = &j->desc;
+    return (d->event_force > 0 && plumb_vec2_magnitude(j->force) > d->event_force) ||
+           (d->event_torque > 0 && plumb_abs(j->torque) > d->event_torque);
+}
+
+static plumb_joint_break event_of(const plumb_world *world, const pl_joint *j)
+{
+    return (plumb_joint_break){ .joint = j->entity,
+                                .kind = j->desc.kind,
+                                .body_a = j->a.body,
+                                .body_b = j->b.body,
+                                .point = plumb_joint_anchor_b(world, j->entity),
+                                .force = j->force,
+                                .torque = j->torque,
+                                .impulse = j->step_impulse,
+                                .user_data = j->desc.user_data };
+}
+
+// Room for an event of every joint was made with the joint: of breaks from the front, of strain from the back.
 static void snap(plumb_world *world, const pl_joint *j)
 {
     plumb_joint_break *events = world->joints.broken.data;
-    events[world->joints.broken_count++] =
-        (plumb_joint_break){ .joint = j->entity,
-                             .kind = j->desc.kind,
-                             .body_a = j->a.body,
-                             .body_b = j->b.body,
-                             .point = plumb_joint_anchor_b(world, j->entity),
-                             .force = j->force,
-                             .torque = j->torque,
-                             .impulse = j->step_impulse,
-                             .user_data = j->desc.user_data };
+    events[world->joints.broken_count++] = event_of(world, j);
     pl_destroy_entity(world, j->entity.entity);
+}
+
+static void note_strain(plumb_world *world, pl_joint *j)
+{
+    pl_joints *joints = &world->joints;
+    const bool is = is_strained(j);
+    if (is && j->strained == 0) {
+        plumb_joint_strain *events = joints->broken.data;
+        events[--joints->strained_first] = event_of(world, j);
+        ++joints->strained_count;
+    }
+    j->strained = is;
+}
+
+// They were put down from the back; order of slots, please.
+static void turn_round(pl_joints *joints)
+{
+    plumb_joint_strain *events = joints->broken.data;
+    for (int i = 0, k = joints->strained_count - 1; i < k; ++i, --k) {
+        const plumb_joint_strain kept = events[joints->strained_first + (uint32_t)i];
+        events[joints->strained_first + (uint32_t)i] = events[joints->strained_first + (uint32_t)k];
+        events[joints->strained_first + (uint32_t)k] = kept;
+    }
 }
 
 void pl_joints_finish(plumb_world *world)
 {
+    world->joints.strained_first = world->joints.count;
     for (uint32_t i = 0; i < world->joints.awake_count; ++i) {
         uint32_t slot = ((const uint32_t *)world->joints.awake.data)[i];
         const pl_joint_mark *mark = &pl_joint_marks(&world->joints)[slot];
@@ -120,7 +156,9 @@ void pl_joints_finish(plumb_world *world)
         if (overloaded(j)) {
             snap(world, j);
         } else {
+            note_strain(world, j);
             j->step_impulse = plumb_v2(0, 0);
         }
     }
+    turn_round(&world->joints);
 }

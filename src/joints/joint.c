@@ -343,6 +343,8 @@ static plumb_result check_numbers(const plumb_world *world, const char *fn,
         { "break_force", d->break_force, 0 },
         { "break_torque", d->break_torque, 0 },
         { "break_impulse", d->break_impulse, 0 },
+        { "event_force", d->event_force, 0 },
+        { "event_torque", d->event_torque, 0 },
     };
     plumb_result r = pl_check_within(world, fn, "anchor", d->anchor, POINT_MOST);
     r = r != PLUMB_OK ? r : pl_check_within(world, fn, "anchor_b", d->anchor_b, POINT_MOST);

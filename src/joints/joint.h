@@ -76,6 +76,7 @@ struct pl_joint {
     pl_rows rows;
     plumb_vec2 arm_b; // [m] from B's centre to its anchor, at the rows
     plumb_vec2 step_impulse; // [N s] on B over the step, where it breaks by impulse
+    uint32_t strained;       // 1: its reaction was beyond its bounds for events when last seen
 };
 
 // A joint as the plan sees it, so that a step need not look at the joint itself.
@@ -131,6 +132,8 @@ typedef struct pl_joints {
     uint32_t impulsive; // those that break by impulse
     uint32_t free_head; // PL_NONE: none
     int broken_count;
+    uint32_t strained_first; // place in `broken` of the strain events: a joint makes one event a step at most
+    int strained_count;
     pl_buffer awake; // uint32_t: slots of joints of which no body sleeps, in order
     uint32_t awake_count;
     bool awake_stale; // joints came or went, or bodies fell asleep or woke
@@ -211,13 +214,15 @@ static inline pl_joint *pl_joint_grouped(const pl_joints *joints, uint32_t i)
     return &pl_joint_items(joints)[((const uint32_t *)joints->plan.grouped.data)[i]];
 }
 
-static inline bool pl_joint_may_break(const plumb_joint_desc *d)
+// Somebody looks at its reaction after every step.
+static inline bool pl_joint_is_watched(const plumb_joint_desc *d)
 {
-    return d->break_force > 0 || d->break_torque > 0 || d->break_impulse > 0;
+    return d->break_force > 0 || d->break_torque > 0 || d->break_impulse > 0 ||
+           d->event_force > 0 || d->event_torque > 0;
 }
 
 // What the pattern of a joint depends on. Who changes it, or where a joint is on its bodies, or whether
-// it can break, must call pl_joints_replan.
+// it is watched, must call pl_joints_replan.
 uint32_t pl_joint_variant(const plumb_joint_desc *desc);
 
 static inline void pl_joints_replan(pl_joints *joints)

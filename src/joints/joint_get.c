@@ -161,6 +161,17 @@ int plumb_body_joints(const plumb_world *world, plumb_body body, plumb_joint *jo
     return count;
 }
 
+const plumb_joint_strain *plumb_world_joint_strain_events(const plumb_world *world, int *count)
+{
+    int events = world == NULL ? 0 : world->joints.strained_count;
+    if (count != NULL) {
+        *count = events;
+    }
+    return events == 0 ? NULL
+                       : (const plumb_joint_strain *)world->joints.broken.data +
+                             world->joints.strained_first;
+}
+
 const plumb_joint_break *plumb_world_joint_break_events(const plumb_world *world, int *count)
 {
     int events = world == NULL ? 0 : world->joints.broken_count;

@@ -146,6 +146,22 @@ plumb_result plumb_joint_set_break(plumb_world *world, plumb_joint joint, plumb_
     return r;
 }
 
+plumb_result plumb_joint_set_event(plumb_world *world, plumb_joint joint, plumb_real force,
+                                   plumb_real torque)
+{
+    pl_joint *j = NULL;
+    plumb_result r = find(world, __func__, joint, 0, "", &j);
+    r = r != PLUMB_OK ? r : pl_check_range(world, __func__, "force", force, 0, PLUMB_REAL_MAX);
+    r = r != PLUMB_OK ? r : pl_check_range(world, __func__, "torque", torque, 0, PLUMB_REAL_MAX);
+    if (r == PLUMB_OK) {
+        plumb_joint_desc wanted = j->desc;
+        wanted.event_force = force;
+        wanted.event_torque = torque;
+        revise(world, j, wanted);
+    }
+    return r;
+}
+
 plumb_result plumb_joint_set_break_impulse(plumb_world *world, plumb_joint joint,
                                            plumb_real impulse)
 {

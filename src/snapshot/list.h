@@ -87,7 +87,7 @@
 
 #define PL_STATE_JOINTS(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                     \
     ARRAY(pl_joint, joints.items, joints.count, 0, 0)                                              \
-    LEFT(joints.broken) LEFT(joints.broken_count) VALUE(joints.live) VALUE(joints.free_head)       \
+    LEFT(joints.broken) LEFT(joints.broken_count) LEFT(joints.strained_first) LEFT(joints.strained_count) VALUE(joints.live) VALUE(joints.free_head)       \
     VALUE(joints.impulsive) LEFT(joints.awake) LEFT(joints.awake_count) LEFT(joints.awake_stale)   \
     LEFT(joints.plan)
 
@@ -192,6 +192,7 @@
     X(desc.motor_speed) X(desc.max_motor) X(desc.hertz) X(desc.damping) X(desc.rest)               \
     X(desc.length) X(desc.ratio) X(desc.pitch) X(desc.max_force) X(desc.max_torque)                \
     X(desc.break_force) X(desc.break_torque) X(desc.break_impulse) X(desc.disabled)                \
+    X(desc.event_force) X(desc.event_torque) X(strained)                                           \
     X(desc.collide_connected)                                                                      \
     X(a.body) X(a.next) X(a.local) X(a.start) X(a.turns)                                           \
     X(b.body) X(b.next) X(b.local) X(b.start) X(b.turns)                                           \

@@ -204,7 +204,7 @@ static void forget_last_step(plumb_world *world)
     world->seams.old_load_count = world->seams.contact_count = 0;
     world->sleep.sleep_event_count = world->sleep.wake_event_count = 0;
     world->sleep.events_told = false;
-    world->joints.broken_count = 0;
+    world->joints.broken_count = world->joints.strained_count = 0;
     world->quarantine.event_count = 0;
     world->continuous.count = world->continuous.stopped_count = 0;
     pl_narrow_clear(&world->narrow);

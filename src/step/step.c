@@ -27,7 +27,7 @@ static void forget_contacts(plumb_world *world)
     world->narrow.manifold_count = world->narrow.borne_count = 0;
     world->narrow.any_friction = world->narrow.any_bounce = false;
     world->solver.slot_count = 0;
-    world->joints.broken_count = 0;
+    world->joints.broken_count = world->joints.strained_count = 0;
     world->broad.refreshed = false;
     world->seams.noted = world->seams.opened = false;
     world->continuous.count = world->continuous.stopped_count = 0;
@@ -74,7 +74,7 @@ static plumb_result try_step(plumb_world *world, plumb_real dt)
     pl_events_clear(world);
     pl_edits_forget(world);
     if (dt == 0 && !world->rearranged) {
-        world->joints.broken_count = 0; // that is an event; contacts are those of the last step
+        world->joints.broken_count = world->joints.strained_count = 0; // that is an event; contacts are those of the last step
         return PLUMB_OK;
     }
     forget_contacts(world);
