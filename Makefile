@@ -103,7 +103,7 @@ SCENE_SRC  := $(wildcard tools/scene/*.c)
 RENDER_SRC := $(wildcard tools/render/*.c)
 ENGINE_SRC := $(wildcard tools/plumb/engine*.c)
 CLI_SRC    := $(filter-out $(ENGINE_SRC),$(wildcard tools/plumb/*.c))
-EXAMPLES   := $(patsubst tools/examples/%.c,$(O)/examples/%,$(wildcard tools/examples/*.c))
+EXAMPLES   := $(patsubst tools/examples/%.c,$(O)/examples/%,$(wildcard tools/examples/*.c)) $(O)/examples/show
 
 # A file X.simd.c is compiled once for every number of lanes.
 WIDTHS := 4 8 16
@@ -160,7 +160,7 @@ clean:
 # Packages of Debian 12: for building and testing, and what only developers need.
 DEPS := gcc g++ libc6-dev make binutils pkg-config cmake libbox2d-dev libccd-dev libosmesa6-dev \
 	libfreetype-dev fonts-dejavu-core liblua5.4-dev libcmocka-dev libpng-dev libgif-dev \
-	libcjson-dev ffmpeg gnuplot-nox
+	libcjson-dev libsdl2-dev ffmpeg gnuplot-nox
 DEPS_DEV := $(DEPS) clang clang-format libclang-rt-14-dev valgrind git
 
 deps:
@@ -234,6 +234,12 @@ $(O)/plumb: $(CLI_OBJ) $(VARIANTS:%=$(O)/engine_%.o) $(O)/librender.a
 	@echo "  LD    $@"
 	$(Q)$(CC) $(SANFLAGS) $(LDFLAGS) -o $@ $^ $(SCENE_LIBS) $(RENDER_LIBS) -lm -lpthread
 
+# The one example that wants a window.
+$(O)/examples/show: $(O)/float/tools/examples/sdl2/show.o $(O)/libplumb.a
+	@mkdir -p $(@D)
+	@echo "  LD    $@"
+	$(Q)$(CC) $(SANFLAGS) $(LDFLAGS) -o $@ $^ -lSDL2 -lm -lpthread
+
 $(O)/examples/%: $(O)/float/tools/examples/%.o $(O)/libplumb.a
 	@mkdir -p $(@D)
 	@echo "  LD    $@"
@@ -255,6 +261,6 @@ include tools/make/install.mk
 
 ALL_OBJ := $(AMALGAMATE_OBJ) $(CLI_OBJ) $(RENDER_OBJ) \
 	$(foreach v,$(VARIANTS),$(call lib_objects,$v) $(call objects,$v,$(SCENE_SRC) $(ENGINE_SRC))) $(TEST_OBJ) \
-	$(EXAMPLES:$(O)/%=$(O)/float/tools/%.o)
+	$(filter-out %/show.o,$(EXAMPLES:$(O)/%=$(O)/float/tools/%.o)) $(O)/float/tools/examples/sdl2/show.o
 .SECONDARY: $(ALL_OBJ)
 -include $(ALL_OBJ:.o=.d)

@@ -22,5 +22,6 @@
 #include "plumb/record.h"
 #include "plumb/effect.h"
 #include "plumb/loop.h"
+#include "plumb/draw.h"
 
 #endif

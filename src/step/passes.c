@@ -383,6 +383,7 @@ static plumb_result run_motion(plumb_world *world, plumb_real dt)
 {
     pl_solver_finish(world, dt);
     world->time += (double)dt;
+    world->last_dt = dt;
     ++world->step_count;
     return PLUMB_OK;
 }

@@ -56,6 +56,7 @@ struct plumb_world {
     plumb_vec2 gravity;
     uint64_t step_count;
     double time;
+    real last_dt; // [s] of the last step that moved anything
     uint32_t arrested_count; // bodies taken out because a step would have left them without a finite state
 
     // Entities and rows.
