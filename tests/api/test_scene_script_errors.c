@@ -87,8 +87,8 @@ static const malformed table[] = {
       .message = "scene.lua:1:1: stack overflow" },
     { .what = "memory",
       .file = "scene.lua",
-      .text = "local t = {}\n"
-              "for i = 1, 1e9 do t[i] = (\"x\"):rep(60000) .. i end",
+      .text = "local t, x = {}, (\"x\"):rep(60000)\n"
+              "for i = 1, 1e9 do t[i] = x .. i end",
       .code = SCENE_E_LIMIT,
       .message = "scene.lua:2:1: the scene needs more than 134217728 bytes of memory" },
     { .what = "string.rep",

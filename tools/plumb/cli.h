@@ -122,6 +122,7 @@ typedef struct cli_output {
     FILE *file;
     char *path; ///< NULL: stdout
     char *temp; ///< NULL: written in place (stdout, devices, pipes)
+    int guard;  ///< of cli_output_guard
 } cli_output;
 
 /// Opens `path` (NULL or "-": stdout). CLI_OK, or CLI_FAILED after a message.
@@ -131,6 +132,16 @@ bool cli_output_good(const cli_output *out);
 /// Closes. `keep` false throws an unfinished file away. Answers CLI_OK, or CLI_FAILED after a
 /// message (disk full, ...).
 int cli_output_close(cli_output *out, bool keep);
+
+/// Says that `temp` is being written, for the case that a signal ends the program in the midst: it is then removed,
+/// or renamed to `path` if that is not NULL. Both must stay where they are until cli_output_unguard. Answers a number
+/// for that, -1 when too many are being written.
+int cli_output_guard(const char *temp, const char *path);
+void cli_output_unguard(int guard);
+/// A file of which a beginning is worth keeping: a recording.
+void cli_output_keep_beginning(cli_output *out);
+/// Removes, or renames, what is guarded. Calls nothing that a signal handler may not.
+void cli_output_abandon(void);
 
 /// Prints a number in as few digits as give the same number back: of a float or of a double.
 void cli_print_number(FILE *file, double value, bool is_float);

@@ -313,7 +313,8 @@ static int print(const replay_args *args, const table_sampling *every, recording
     } else {
         code = play(args, every, r, first, last, out.file);
     }
-    int closed = cli_output_close(&out, code == CLI_OK || code == CLI_DIFFERS);
+    bool keep = (code == CLI_OK || code == CLI_DIFFERS) && !cli_interrupted();
+    int closed = cli_output_close(&out, keep);
     return code == CLI_OK ? closed : code;
 }
 

@@ -83,6 +83,7 @@ static int record_and_simulate(const run_args *args, const table_sampling *every
     if (code != CLI_OK) {
         return code;
     }
+    cli_output_keep_beginning(&recording);
     code = run->engine->record(run->session, recording.file, args->keyframes, &error);
     if (code != CLI_OK) {
         cli_output_close(&recording, false);

@@ -27,6 +27,8 @@ int pl_session_fail_scene(const engine_session *session, const scene_error *from
     // A value that scene{} refuses is the command line's fault, too, when --set gave it.
     if (from->code == SCENE_E_SET || strcmp(from->file, "--set") == 0) {
         code = CLI_USAGE;
+    } else if (from->code == SCENE_E_STOPPED) {
+        code = CLI_FAILED;
     } else if (from->code == SCENE_E_WORLD && session != NULL) {
         plumb_result why = plumb_world_error(session->stage.world).code;
         code = why == PLUMB_E_NOT_FINITE ? CLI_DIVERGED : why == PLUMB_E_MEMORY ? CLI_FAILED : code;
@@ -65,6 +67,12 @@ static int write_overrides(const engine_settings *settings, char texts[][OVERRID
     return count;
 }
 
+static bool is_stopped(void *unused)
+{
+    (void)unused;
+    return cli_interrupted();
+}
+
 static scene_code load(const engine_settings *settings, scene **out, scene_error *error)
 {
     char texts[OVERRIDE_COUNT][OVERRIDE_SIZE];
@@ -86,7 +94,8 @@ static scene_code load(const engine_settings *settings, scene **out, scene_error
                               .text = settings->text,
                               .text_size = settings->text != NULL ? strlen(settings->text) : 0,
                               .sets = sets,
-                              .set_count = count };
+                              .set_count = count,
+                              .stop = is_stopped };
     scene_code code = scene_load(&options, out, error);
     free(sets);
     return code;

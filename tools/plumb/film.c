@@ -49,6 +49,9 @@ typedef struct film {
     render_frame *frame;
     render_target *target;
     render_writer *writer;
+    unsigned pictures; ///< written
+    int guard;
+    char temporary[4096]; ///< what is being written
 } film;
 
 const char *film_overlay(int index)
@@ -146,6 +149,22 @@ static int fail_render(render_result result, const render_error *error)
     return is_usage ? CLI_USAGE : CLI_FAILED;
 }
 
+/// Names the file that the next picture is written to, for the case that a signal ends the program in the midst.
+static void guard(film *f)
+{
+    render_error error;
+    char name[sizeof f->temporary];
+    cli_output_unguard(f->guard);
+    bool named = !render_pattern_is(f->args->output);
+    snprintf(name, sizeof name, "%s", f->args->output);
+    if (!named) {
+        named = render_pattern_name(f->args->output, f->pictures++, name, sizeof name, &error) ==
+                RENDER_OK;
+    }
+    named = named && render_temporary_name(name, f->temporary, sizeof f->temporary);
+    f->guard = named ? cli_output_guard(f->temporary, NULL) : -1;
+}
+
 static bool is_at_end(const film_source *source)
 {
     return source->ended != NULL && source->ended(source);
@@ -201,6 +220,7 @@ static int draw(film *f)
     trail_draw(&f->trails, f->frame);
     render_result result = render_target_draw(f->target, f->frame, &camera, &options, &error);
     if (result == RENDER_OK) {
+        guard(f);
         result = render_writer_add(f->writer, render_target_pixels(f->target), &error);
     }
     return result == RENDER_OK ? CLI_OK : fail_render(result, &error);
@@ -287,6 +307,9 @@ static int film_open(film *f)
     if (result == RENDER_OK) {
         result = render_target_create(&f->target, width, height, NULL, &error);
     }
+    if (result == RENDER_OK && !render_pattern_is(f->args->output)) {
+        guard(f); // a film's file is there from now on
+    }
     return result == RENDER_OK ? CLI_OK : fail_render(result, &error);
 }
 
@@ -299,6 +322,7 @@ static int film_close(film *f, int code)
         render_result result = render_writer_close(f->writer, &error);
         code = result == RENDER_OK ? CLI_OK : fail_render(result, &error);
     }
+    cli_output_unguard(f->guard);
     trail_free(&f->trails);
     render_target_destroy(f->target);
     render_frame_destroy(f->frame);
@@ -310,7 +334,8 @@ int film_shoot(const film_args *args, film_source *source, double at)
     film f = { .args = args,
                .source = source,
                .size = args->size.width > 0 ? args->size : SIZE_DEFAULT,
-               .fps = args->fps > 0 ? args->fps : FPS_DEFAULT };
+               .fps = args->fps > 0 ? args->fps : FPS_DEFAULT,
+               .guard = -1 };
     f.trails.seconds = args->trail >= 0 ? args->trail : source->seen.info.camera.trail;
     view_wish wish = { args->follow, args->zoom > 0 ? args->zoom : 1, f.size.width, f.size.height };
     int code = view_begin(&f.view, &wish, &source->seen);

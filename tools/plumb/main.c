@@ -2,30 +2,46 @@
 ///
 /// Reads argv. SIGPIPE is ignored, so that a reader who leaves is seen as a write error and files
 /// half written can be removed; SIGINT and SIGTERM set a flag that the loops look at, for the same
-/// reason. A second SIGINT ends the program at once.
-#define _POSIX_C_SOURCE 200809L // sigaction, fcntl
+/// reason. What does not look in time (a step of a huge world, a replay that seeks) is ended by a timer; a second
+/// SIGINT ends the program at once.
+#define _XOPEN_SOURCE 700 // sigaction, fcntl, setitimer
 
 #include "commands.h"
 
 #include <fcntl.h>
 #include <signal.h>
 #include <string.h>
+#include <sys/time.h>
 #include <unistd.h>
 
 #include "plumb/base.h"
 
-static const cli_command *const commands[] = { &cmd_run,  &cmd_render,  &cmd_check, &cmd_explain,
-                                               &cmd_cost, &cmd_convert, &cmd_replay, &cmd_diff,
-                                               &cmd_list };
+static const cli_command *const commands[] = { &cmd_run,     &cmd_render, &cmd_check,
+                                               &cmd_explain, &cmd_cost,   &cmd_convert,
+                                               &cmd_replay,  &cmd_diff,   &cmd_list };
 
 enum { COMMAND_COUNT = (int)(sizeof commands / sizeof commands[0]) };
 
 // The one thing a signal handler may write.
 static volatile sig_atomic_t stop_signal;
 
+// [us] of processor time that remains to end in order. Not of the clock: a busy machine takes nothing from it.
+enum { GRACE = 100000 };
+
 static void on_stop(int number)
 {
+    const struct itimerval grace = { .it_value = { .tv_usec = GRACE } };
     stop_signal = number;
+    setitimer(ITIMER_PROF, &grace, NULL); // in Linux and the BSDs nothing but a system call
+}
+
+// Ends the program where it stands, as the signal would have.
+static void on_late(int number)
+{
+    (void)number;
+    cli_output_abandon();
+    signal(stop_signal, SIG_DFL);
+    raise(stop_signal);
 }
 
 bool cli_interrupted(void)
@@ -37,9 +53,12 @@ static void set_signals(void)
 {
     struct sigaction ignore = { .sa_handler = SIG_IGN };
     struct sigaction stop = { .sa_handler = on_stop, .sa_flags = (int)SA_RESETHAND };
+    struct sigaction late = { .sa_handler = on_late };
     sigemptyset(&ignore.sa_mask);
+    sigemptyset(&late.sa_mask);
     sigemptyset(&stop.sa_mask);
     sigaction(SIGPIPE, &ignore, NULL);
+    sigaction(SIGPROF, &late, NULL);
     // Who was started with a signal ignored (nohup, a shell's background) keeps ignoring it.
     struct sigaction before;
     if (sigaction(SIGINT, NULL, &before) == 0 && before.sa_handler != SIG_IGN) {

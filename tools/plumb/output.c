@@ -67,6 +67,51 @@ static int open_beside(cli_output *out)
     return file;
 }
 
+// Read by the handler of a signal, hence volatile; `temp` is written last and cleared first.
+static struct {
+    const char *volatile temp;
+    const char *volatile path;
+} guarded[8];
+enum { GUARDED_MAX = (int)(sizeof guarded / sizeof guarded[0]) };
+
+int cli_output_guard(const char *temp, const char *path)
+{
+    for (int i = 0; i < GUARDED_MAX; i++) {
+        if (guarded[i].temp == NULL) {
+            guarded[i].path = path;
+            guarded[i].temp = temp;
+            return i;
+        }
+    }
+    return -1;
+}
+
+void cli_output_unguard(int guard)
+{
+    if (guard >= 0) {
+        guarded[guard].temp = NULL;
+    }
+}
+
+void cli_output_keep_beginning(cli_output *out)
+{
+    if (out->temp != NULL && out->guard >= 0) {
+        guarded[out->guard].path = out->path;
+    }
+}
+
+void cli_output_abandon(void)
+{
+    for (int i = 0; i < GUARDED_MAX; i++) {
+        const char *temp = guarded[i].temp, *path = guarded[i].path;
+        if (temp != NULL && path != NULL) {
+            (void)rename(temp, path);
+        } else if (temp != NULL) {
+            (void)unlink(temp);
+        }
+    }
+}
+
 static void forget(cli_output *out)
 {
     free(out->path);
@@ -76,7 +121,7 @@ static void forget(cli_output *out)
 
 int cli_output_open(cli_output *out, const char *path)
 {
-    *out = (cli_output){ .file = stdout };
+    *out = (cli_output){ .file = stdout, .guard = -1 };
     if (path == NULL || strcmp(path, "-") == 0) {
         return CLI_OK;
     }
@@ -106,6 +151,7 @@ int cli_output_open(cli_output *out, const char *path)
         forget(out);
         return CLI_FAILED;
     }
+    out->guard = out->temp != NULL ? cli_output_guard(out->temp, NULL) : -1;
     return CLI_OK;
 }
 
@@ -127,6 +173,7 @@ int cli_output_close(cli_output *out, bool keep)
         failed = true;
         reason = errno;
     }
+    cli_output_unguard(out->guard);
     if (out->temp != NULL) {
         if (failed || !keep) {
             unlink(out->temp);

@@ -8,7 +8,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/// Reads a whole file. NULL after a message.
+static const char magic[] = "PLUMBREC"; // src/record/format.h
+enum { MAGIC_SIZE = (int)sizeof magic - 1, CHUNK = 1 << 20 };
+
+/// Reads a whole file, unless its beginning tells that it is no recording: a device need not end. NULL after a message.
 static char *read_file(const char *path, size_t *size)
 {
     errno = 0;
@@ -28,8 +31,12 @@ static char *read_file(const char *path, size_t *size)
             }
             bytes = grown;
         }
-        got = fread(bytes + *size, 1, room - *size, file);
+        size_t most = *size < MAGIC_SIZE ? MAGIC_SIZE - *size : CHUNK;
+        got = fread(bytes + *size, 1, room - *size < most ? room - *size : most, file);
         *size += got;
+        if ((*size == MAGIC_SIZE && memcmp(bytes, magic, MAGIC_SIZE) != 0) || cli_interrupted()) {
+            break; // what was read is refused like any other
+        }
     }
     bool failed = file == NULL || ferror(file) != 0;
     int reason = errno;
@@ -37,7 +44,9 @@ static char *read_file(const char *path, size_t *size)
         fclose(file);
     }
     if (failed) {
-        cli_message("cannot read '%s': %s", path, strerror(reason));
+        if (!cli_interrupted()) {
+            cli_message("cannot read '%s': %s", path, strerror(reason));
+        }
         free(bytes);
         return NULL;
     }
@@ -59,7 +68,9 @@ int recording_open(const char *path, int width, bool edits, recording *out)
     size_t size;
     engine_error error = { 0 };
     *out = (recording){ .bytes = read_file(path, &size) };
-    if (out->bytes == NULL) {
+    if (out->bytes == NULL || cli_interrupted()) {
+        free(out->bytes);
+        *out = (recording){ 0 };
         return CLI_FAILED;
     }
     out->engine = engine_of(out->bytes, size);

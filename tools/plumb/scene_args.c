@@ -34,6 +34,9 @@ int scene_args_check(const cli_command *command, const scene_args *args)
 
 int scene_report(const engine_error *error)
 {
+    if (cli_interrupted()) {
+        return error->code; // the user knows; main ends by the signal
+    }
     fflush(stdout);
     // A scene's message begins with its own place, "file:line:column:", as compilers print it.
     if (error->code == CLI_SCENE) {

@@ -109,7 +109,7 @@ render_result render_pattern_name(const char *text, unsigned index, char *out, s
 
 // ---- files
 
-bool plr_temporary_name(const char *path, char *out, size_t out_size)
+bool render_temporary_name(const char *path, char *out, size_t out_size)
 {
     const int length = snprintf(out, out_size, "%s.part%ld", path, (long)getpid());
     return length > 0 && (size_t)length < out_size;

@@ -23,6 +23,10 @@ bool render_pattern_is(const char *path);
 render_result render_pattern_name(const char *pattern, unsigned index, char *out, size_t out_size,
                                   render_error *error);
 
+/// The name under which a file is written until it is complete: beside `path`, with the process
+/// number, so that two programs do not meet. False when it does not fit.
+bool render_temporary_name(const char *path, char *out, size_t out_size);
+
 /// Something that takes one picture after another.
 typedef struct render_writer render_writer;
 

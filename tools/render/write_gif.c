@@ -99,7 +99,7 @@ static render_result gif_open(render_writer *writer, render_error *error)
         gif_abandon(writer);
         return plr_fail(error, RENDER_E_MEMORY, "out of memory");
     }
-    plr_temporary_name(writer->path, state->temporary, sizeof state->temporary);
+    render_temporary_name(writer->path, state->temporary, sizeof state->temporary);
     state->file = fopen(state->temporary, "wb");
     if (state->file == NULL) {
         const int reason = errno;

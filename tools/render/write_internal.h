@@ -30,8 +30,4 @@ extern const plr_writer_kind plr_writer_png;
 extern const plr_writer_kind plr_writer_gif;
 extern const plr_writer_kind plr_writer_mp4;
 
-/// The name under which a file is written until it is complete: beside `path`, with the process
-/// number, so that two programs do not meet. False when it does not fit.
-bool plr_temporary_name(const char *path, char *out, size_t out_size);
-
 #endif

@@ -200,7 +200,7 @@ static render_result mp4_open(render_writer *writer, render_error *error)
     } else {
         fcntl(fileno(state->messages), F_SETFD, FD_CLOEXEC);
         state->pipe = ends[1];
-        plr_temporary_name(writer->path, state->temporary, sizeof state->temporary);
+        render_temporary_name(writer->path, state->temporary, sizeof state->temporary);
         result = spawn(state, writer, ends, error);
         close(ends[0]);
     }

@@ -80,7 +80,7 @@ render_result render_write_png(const char *path, const uint8_t *pixels, int widt
     char temporary[PLR_PATH_MAX];
     if (path == NULL || path[0] == '\0' || pixels == NULL || width < 1 || height < 1 ||
         width > RENDER_SIZE_MAX || height > RENDER_SIZE_MAX ||
-        !plr_temporary_name(path, temporary, sizeof temporary)) {
+        !render_temporary_name(path, temporary, sizeof temporary)) {
         return plr_fail(error, RENDER_E_ARGUMENT,
                         "writing a PNG needs a file name, pixels and a size within 1..%d",
                         RENDER_SIZE_MAX);

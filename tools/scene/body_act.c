@@ -221,6 +221,7 @@ static int method_sleep(lua_State *L)
 static plumb_shape *shapes_of(const sc_body_call *c, int *count)
 {
     *count = plumb_body_shapes(c->world, c->entity, NULL, 0);
+    sc_work(c->s, 10 * (uint64_t)*count);
     plumb_shape *list = lua_newuserdatauv(c->s->L, (size_t)(*count + 1) * sizeof *list, 0);
     plumb_body_shapes(c->world, c->entity, list, *count);
     return list;
@@ -236,6 +237,7 @@ int sc_body_overlaps(scene *s, plumb_body body)
     lua_newtable(L);
     int result = lua_gettop(L);
     const plumb_shape *shapes = shapes_of(&c, &count);
+    s->list_number++;
     for (int i = 0; i < count; i++) {
         if (!plumb_shape_is_sensor(c.world, shapes[i])) {
             continue;
@@ -243,16 +245,11 @@ int sc_body_overlaps(scene *s, plumb_body body)
         int seen = plumb_shape_overlaps(c.world, shapes[i], NULL, 0);
         plumb_shape *list = lua_newuserdatauv(L, (size_t)(seen + 1) * sizeof *list, 0);
         plumb_shape_overlaps(c.world, shapes[i], list, seen);
+        sc_work(s, 10 * (uint64_t)seen);
         for (int k = 0; k < seen; k++) {
-            const sc_body *b = sc_body_of(s, plumb_shape_body(c.world, list[k]));
-            bool known = b == NULL;
-            for (int m = 1; m <= found && !known; m++) {
-                plumb_body other = PLUMB_NULL_INIT;
-                lua_rawgeti(L, result, m);
-                known = sc_body_at_index(L, -1, &other) && plumb_same(other, b->entity);
-                lua_pop(L, 1);
-            }
-            if (!known) {
+            sc_body *b = sc_body_of(s, plumb_shape_body(c.world, list[k]));
+            if (b != NULL && b->listed != s->list_number) {
+                b->listed = s->list_number;
                 sc_body_push(s, b);
                 lua_rawseti(L, result, ++found);
             }

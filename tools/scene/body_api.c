@@ -99,6 +99,10 @@ static plumb_result destroy_body(scene *s, plumb_body body)
 static int method_destroy(lua_State *L)
 {
     sc_body_call c = sc_body_self(L, "destroy");
+    // It is looked for in lists, which move up, and so is each of its joints.
+    int joints = plumb_body_joints(c.world, c.entity, NULL, 0);
+    sc_work(c.s, 100 + (uint64_t)c.s->bodies.count / 8 + (uint64_t)c.s->excluded.count +
+                     (uint64_t)joints * (100 + (uint64_t)c.s->joints.count / 8));
     sc_body_check(&c, destroy_body(c.s, c.entity));
     sc_body_release(c.s, c.body);
     return 0;

@@ -8,6 +8,7 @@ const char *const sc_body_types[] = { "dynamic", "kinematic", "static", NULL };
 sc_body_call sc_body_self(lua_State *L, const char *method)
 {
     sc_body_call c = { .s = sc_of(L), .method = method };
+    sc_work(c.s, 10);
     const plumb_body *object = luaL_testudata(L, 1, SC_META_BODY);
     sc_site site = sc_here(c.s, method);
     if (object == NULL) {

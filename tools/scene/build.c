@@ -231,6 +231,7 @@ void sc_build_body(scene *s, const sc_site *site, int table)
     if (SC_GIVEN(&sc_list_body, &def, sc_body_def, angle_deg)) {
         def.angle = def.angle_deg * (3.141592653589793 / 180);
     }
+    sc_work(s, 200 + 100 * (uint64_t)def.shape_count); // some microseconds
     sc_body *b = add_record(s, &def);
     b->line = site->line;
     create_body(s, site, b);
@@ -384,6 +385,7 @@ static int lua_param(lua_State *L)
                  "a param's name must have 1 to 63 characters");
     }
     snprintf(p.name, sizeof p.name, "%s", name);
+    sc_work(s, (uint64_t)s->params.count + 10);
     for (int i = 0; i < s->params.count; i++) {
         if (strcmp(s->params.items[i].name, name) == 0) {
             sc_raise(s, SCENE_E_DUPLICATE, &site, NULL, 1, NULL, "param '%s' is declared twice",

@@ -121,6 +121,7 @@ typedef struct sc_body {
     int user;          ///< registry reference of its user table
     plumb_rot set_rot; ///< rotation right after `def.angle` was given to the world
     int visits;        ///< how often something began to overlap its sensors
+    uint64_t listed;   ///< scene.list_number of the last list of bodies that it was put into
     sc_shape_def *shapes;
 } sc_body;
 
@@ -245,7 +246,7 @@ typedef enum sc_handler_kind {
 typedef struct sc_handler {
     sc_handler_kind kind;
     double time;   ///< [s] at: when; every: the period
-    uint64_t next; ///< every: number of the next call
+    double next; ///< every: number of the next call, whole; above 2^53 no whole number is left out
     bool spent;    ///< at: has been called
     int line;
     sc_contact_def contact;

@@ -52,6 +52,7 @@ static bool has_kind(const scene *s, sc_handler_kind kind)
 static void set_hit_speed(scene *s, const sc_site *site)
 {
     double least = HUGE_VAL;
+    sc_work(s, (uint64_t)s->handlers.count);
     for (int i = 0; i < s->handlers.count; i++) {
         const sc_handler *h = &s->handlers.items[i];
         least = h->kind == SC_ON_HIT ? fmin(least, h->contact.speed) : least;
@@ -152,6 +153,7 @@ static void dispatch(scene *s, sc_handler_kind kind, plumb_body body_a, plumb_bo
 {
     lua_State *L = s->L;
     int count = s->handlers.count; // those registered meanwhile start with the next event
+    sc_step_work(s, (uint64_t)count);
     for (int i = 0; i < count; i++) {
         const sc_handler *h = &s->handlers.items[i];
         const sc_body *a = sc_body_of(s, body_a);
@@ -247,6 +249,7 @@ static void dispatch_break(scene *s, const sc_name *name, const plumb_joint_brea
 {
     lua_State *L = s->L;
     int count = s->handlers.count;
+    sc_step_work(s, (uint64_t)count);
     for (int i = 0; i < count; i++) {
         const sc_handler *h = &s->handlers.items[i];
         if (h->kind != SC_ON_BREAK ||
@@ -356,6 +359,7 @@ static void edit_one(scene *s, int index)
     plumb_contact_edit e;
     plumb_contact_edit_get(s->world, index, &e);
     const sc_body *a = sc_body_of(s, e.body_a), *b = sc_body_of(s, e.body_b);
+    sc_step_work(s, (uint64_t)s->handlers.count);
     for (int i = 0; i < s->handlers.count; i++) {
         const sc_handler *h = &s->handlers.items[i];
         bool swapped;

@@ -65,6 +65,7 @@ scene_code scene_exact_eval(scene *s, int i, double t, double values[SCENE_EXACT
 {
     evaluation e = { i, t, values };
     if (s->error.code == SCENE_OK) {
+        sc_begin_handlers(s);
         sc_protect(s, evaluate, &e);
     }
     if (err != NULL) {

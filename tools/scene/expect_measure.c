@@ -275,6 +275,7 @@ static void measure_sensors(scene *s, sc_expect *e)
 void sc_measure(scene *s, sc_expect *e)
 {
     const sc_expect_def *d = &e->def;
+    sc_step_work(s, (uint64_t)s->bodies.count + (uint64_t)s->joints.count + 10);
     measure_bodies(s, e);
     measure_joints(s, e);
     measure_sensors(s, e);

@@ -442,9 +442,11 @@ static void check_keys(scene *s, const sc_site *site, const sc_list *list, int t
     const char *unknown = NULL;
     lua_Integer elements = 0;
     lua_Integer highest = 0;
+    uint64_t work = 20; // a table of four keys is read in a microsecond
     lua_pushnil(L);
     while (lua_next(L, table) != 0) {
         lua_pop(L, 1);
+        work += 10;
         if (lua_type(L, -1) == LUA_TSTRING) {
             const char *key = lua_tostring(L, -1);
             const sc_field *row = find_row(list, key);
@@ -460,6 +462,7 @@ static void check_keys(scene *s, const sc_site *site, const sc_list *list, int t
                      "a key of %s{} is neither a name nor a position", site->construct);
         }
     }
+    sc_work(s, work);
     if (unknown != NULL) {
         fail_key(s, site, list, unknown);
     }

@@ -67,6 +67,7 @@ uint64_t sc_read_names(const sc_context *c, int value)
     }
     uint64_t bits = 0;
     lua_Integer count = (lua_Integer)lua_rawlen(L, value);
+    sc_work(c->s, 20 * (uint64_t)count);
     for (lua_Integer i = 1; i <= count; i++) {
         if (lua_rawgeti(L, value, i) != LUA_TSTRING) {
             sc_raise(c->s, SCENE_E_TYPE, c->site, c->row->name, c->index, NULL,
@@ -97,6 +98,7 @@ void sc_filter_check(scene *s, const sc_site *site, const sc_filter_given *g)
 
 static int32_t group_number(scene *s, const char *word)
 {
+    sc_work(s, (uint64_t)s->groups.count);
     for (int i = 0; i < s->groups.count; i++) {
         if (strcmp(s->groups.items[i].text, word) == 0) {
             return i + 1;
@@ -179,6 +181,7 @@ void sc_check_categories(scene *s)
 plumb_result sc_exclude(scene *s, plumb_body a, plumb_body b, bool exclude)
 {
     int at = 0;
+    sc_work(s, (uint64_t)s->excluded.count);
     while (at < s->excluded.count) {
         const sc_excluded *e = &s->excluded.items[at];
         if ((plumb_same(e->a, a) && plumb_same(e->b, b)) ||

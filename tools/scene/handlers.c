@@ -9,7 +9,7 @@
 
 void sc_call(scene *s, int args, int results)
 {
-    sc_sandbox_budget(s, s->options.handler_instructions);
+    sc_budget_call(s);
     lua_call(s->L, args, results);
 }
 
@@ -55,7 +55,7 @@ static int register_timed(lua_State *L, const char *name, sc_handler_kind kind)
     sc_handler *h = sc_handler_add(s, kind, &site);
     h->time = time;
     h->contact.function = function;
-    h->next = kind == SC_EVERY ? (uint64_t)floor(scene_time(s) / time) + 1 : 0;
+    h->next = kind == SC_EVERY ? floor(scene_time(s) / time) + 1 : 0;
     return 0;
 }
 
@@ -94,13 +94,14 @@ void sc_handlers_before(scene *s)
 {
     double now = scene_time(s);
     double slack = 1e-9 * s->dt; // k * period and k * dt may differ in the last place
+    sc_step_work(s, (uint64_t)s->handlers.count);
     for (int i = 0; i < s->handlers.count; i++) {
         sc_handler *h = &s->handlers.items[i];
         if (h->kind == SC_AT && !h->spent && h->time <= now + slack) {
             h->spent = true;
             call_timed(s, h, now);
-        } else if (h->kind == SC_EVERY && (double)h->next * h->time <= now + slack) {
-            h->next = (uint64_t)floor((now + slack) / h->time) + 1;
+        } else if (h->kind == SC_EVERY && h->next * h->time <= now + slack) {
+            h->next = floor((now + slack) / h->time) + 1;
             call_timed(s, h, now);
         } else if (h->kind == SC_EVERY_STEP) {
             call_timed(s, h, now);
@@ -127,6 +128,7 @@ static int lua_score(lua_State *L)
     size_t length;
     const char *name = luaL_checklstring(L, 1, &length);
     luaL_argcheck(L, length > 0 && length < SC_NAME_SIZE, 1, "must have 1 to 63 characters");
+    sc_work(s, 10 + (uint64_t)s->scores.count);
     sc_score *score = sc_score_find(s, name);
     if (score == NULL) {
         score = SC_PUSH(s, s->scores);
@@ -190,6 +192,7 @@ static int lua_energy(lua_State *L)
 {
     scene *s = sc_of(L);
     sc_need_world(s);
+    sc_work(s, (uint64_t)s->bodies.count + 10);
     plumb_energy e = plumb_world_energy(s->world);
     lua_pushnumber(L, e.kinetic);
     lua_pushnumber(L, e.potential);
@@ -200,6 +203,7 @@ static int lua_momentum(lua_State *L)
 {
     scene *s = sc_of(L);
     sc_need_world(s);
+    sc_work(s, (uint64_t)s->bodies.count + 10);
     plumb_energy e = plumb_world_energy(s->world);
     lua_pushnumber(L, e.momentum_x);
     lua_pushnumber(L, e.momentum_y);
@@ -210,6 +214,7 @@ static int lua_penetration(lua_State *L)
 {
     scene *s = sc_of(L);
     sc_need_world(s);
+    sc_work(s, (uint64_t)s->bodies.count / 16 + 10); // every sleeping island is looked at
     lua_pushnumber(L, (double)plumb_world_stats(s->world).max_penetration);
     return 1;
 }
@@ -218,6 +223,7 @@ static int lua_set_gravity(lua_State *L)
 {
     scene *s = sc_of(L);
     sc_need_world(s);
+    sc_work(s, (uint64_t)s->bodies.count + 10); // who sleeps wakes
     double x = luaL_checknumber(L, 1);
     double y = luaL_checknumber(L, 2);
     luaL_argcheck(L, fabs(x) <= 1e6 && fabs(y) <= 1e6, 1, "must be at most 1e6 m/s^2");

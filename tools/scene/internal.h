@@ -16,12 +16,18 @@
 
 // ------------------------------------------------------------------------------------- memory
 
-/// Memory and instructions that the script, the loader and the world may use together.
+/// Memory, work and time that the script, the loader and the world may use together. Work is counted in Lua
+/// instructions; what C does for a script counts as many as take about the same time.
 typedef struct sc_budget {
     size_t used;          ///< [B] now
     size_t limit;         ///< [B]
-    uint64_t spent;       ///< Lua instructions since the start of the build pass or handler call
+    uint64_t spent;       ///< work since the start of the build pass or handler call
     uint64_t spend_limit; ///< see scene_options
+    uint64_t step_spent;  ///< work of all earlier handler calls of this step
+    uint64_t step_limit;
+    double seconds_limit; ///< [s] processor time of the build pass, or of all handlers of a step
+    double looked;        ///< [s] on the monotonic clock: when processor time was last asked for
+    double began;         ///< [s] processor time of this thread at the first look; < 0: none yet
     bool out_of_time;     ///< `spent` went past its limit
     bool long_string;     ///< a string longer than SC_STRING_MAX was asked for
 } sc_budget;
@@ -243,6 +249,7 @@ struct scene {
     SC_ARRAY(sc_material *) materials;
     SC_ARRAY(sc_made) made;
     int epoch;
+    uint64_t list_number; ///< of the last list of bodies, each once, that was made for a script
     SC_ARRAY(sc_handler) handlers;
     SC_ARRAY(sc_expect) expects;
     struct sc_exact_entry {
@@ -331,8 +338,18 @@ typedef void sc_protected_fn(scene *s, void *argument);
 /// Runs `run` where an error ends, on an empty stack with room for 100. True when it came to its end; else the
 /// error stands in the scene, of which no script runs any more.
 bool sc_protect(scene *s, sc_protected_fn *run, void *argument);
-void sc_count_hook(lua_State *L, lua_Debug *d);          ///< the hook of sc_sandbox_open
-void sc_sandbox_budget(scene *s, uint64_t instructions); ///< a fresh instruction budget
+void sc_count_hook(lua_State *L, lua_Debug *d); ///< the hook of sc_sandbox_open
+/// Begins the build pass, or what follows or precedes a step: `instructions` a call, `most` in all.
+void sc_budget_begin(scene *s, uint64_t instructions, uint64_t most, double seconds);
+void sc_budget_call(scene *s);    ///< begins a handler call
+void sc_begin_handlers(scene *s); ///< begins those of a step, of the end or of a closed form
+/// Counts what C has done or is about to do for the script. Raises when the limit is reached, or the caller
+/// asks to stop.
+void sc_work(scene *s, uint64_t work);
+/// The same for what is done on the way to handlers: it counts for the step, and for no call.
+void sc_step_work(scene *s, uint64_t work);
+/// Counts a question to the world: what it costs at least, and a share for every shape it may look at.
+void sc_query_work(scene *s);
 void sc_open_build(lua_State *L);      ///< scene, material, body, camera, param, ...
 void sc_open_materials(lua_State *L);  ///< material, material_pair
 void sc_open_shapes(lua_State *L);     ///< box, circle, ...
@@ -346,6 +363,11 @@ void sc_open_handlers(lua_State *L);   ///< at, every, score, ...
 void sc_open_events(lua_State *L);     ///< on_contact, on_break, ...
 void sc_open_expect(lua_State *L);     ///< expect, exact
 void sc_open_math(lua_State *L);       ///< math, random
+
+/// Copies the functions of a library that count their work (library.c) from the table below into the one on top.
+void sc_copy_counted(lua_State *L, const char *library);
+/// Makes the arithmetic of strings, in the metatable on top, count its work.
+void sc_count_arithmetic(lua_State *L);
 
 typedef void sc_constructor(scene *s, const sc_site *site, int table);
 /// What a constructor does that takes one table and leaves `results` values.

@@ -27,6 +27,7 @@ typedef struct call {
 static call self(lua_State *L, const char *method)
 {
     call c = { .s = sc_of(L), .method = method };
+    sc_work(c.s, 10);
     sc_site site = sc_here(c.s, method);
     if (!sc_joint_at_index(L, 1, &c.entity)) {
         sc_raise(c.s, SCENE_E_TYPE, &site, NULL, 0, NULL, "%s is a method: write joint:%s(...)",
@@ -242,6 +243,7 @@ static int method_set_break(lua_State *L)
 static int method_destroy(lua_State *L)
 {
     call c = self(L, "destroy");
+    sc_work(c.s, 100 + (uint64_t)c.s->joints.count / 8);
     check(&c, plumb_joint_destroy(c.world, c.entity), "end");
     sc_joint_release(c.s, c.joint);
     return 0;

@@ -27,6 +27,7 @@ void sc_build_material(scene *s, const sc_site *site, int table)
     sc_material_def def = { .density = 1,
                             .friction = 0.6 }; // those of the world's default material
     sc_read(s, site, &sc_list_material, table, &def);
+    sc_work(s, (uint64_t)s->materials.count);
     for (int i = 0; i < s->materials.count && def.name[0] != 0; i++) {
         if (strcmp(s->materials.items[i]->id, def.name) == 0) {
             sc_raise(s, SCENE_E_DUPLICATE, site, "name", 0, NULL, "two materials are called '%s'",
@@ -99,6 +100,7 @@ void sc_build_pair(scene *s, const sc_site *site, int table)
     sc_pair_def def = { 0 };
     sc_need_world(s);
     sc_read(s, site, &sc_list_pair, table, &def);
+    sc_work(s, (uint64_t)s->pairs.count);
     plumb_material_pair pair = {
         .friction = (plumb_real)def.friction,
         .restitution = (plumb_real)def.restitution,

@@ -68,6 +68,18 @@ void sc_motion_describe(const sc_body_def *d, plumb_body_desc *desc)
     desc->disabled = !d->enabled;
 }
 
+// What a blast costs: every shape in reach, and with occlusion every shape that may shield it. One of 10,000 bodies
+// took 2.6 s with "all", 30 ms without.
+static uint64_t blast_work(const scene *s, const plumb_explosion_desc *blast)
+{
+    plumb_real reach = blast->radius + blast->falloff;
+    plumb_vec2 p = blast->position;
+    plumb_aabb box = { { p.x - reach, p.y - reach }, { p.x + reach, p.y + reach } };
+    int found = plumb_world_overlap_aabb(s->world, box, NULL, NULL, 0);
+    uint64_t count = found > 0 ? (uint64_t)found : 0;
+    return 100 + count * (blast->occlusion == PLUMB_OCCLUDE_NOTHING ? 100 : 100 + count / 4);
+}
+
 // blast{at = {x, y}, radius = 5, impulse = 40}: at once.
 static int lua_blast(lua_State *L)
 {
@@ -92,6 +104,7 @@ static int lua_blast(lua_State *L)
     if (ignored != NULL) {
         blast.filter.ignore_body = ignored->entity;
     }
+    sc_work(s, blast_work(s, &blast));
     plumb_result r = plumb_world_explode(s->world, &blast);
     if (r != PLUMB_OK) {
         sc_refused(s, &site, NULL, r, "blast{}");

@@ -24,6 +24,7 @@ static question ask(lua_State *L, sc_query kind)
     }
     sc_need_world(q.s);
     sc_read(q.s, &q.site, list, 1, &q.def);
+    sc_query_work(q.s);
     sc_check_body_name(q.s, &q.site, "ignore", q.def.ignore);
     const sc_body *ignored = q.def.ignore[0] != 0 ? sc_body_named(q.s, q.def.ignore) : NULL;
     q.filter.ignore_body = ignored != NULL ? ignored->entity : (plumb_body)PLUMB_NULL_INIT;
@@ -104,14 +105,13 @@ static int lua_inside(lua_State *L)
     plumb_shape *shapes = lua_newuserdatauv(L, ((size_t)count + 1) * sizeof *shapes, 0);
     plumb_world_overlap_point(q.s->world, at, &q.filter, shapes, count);
     lua_newtable(L);
+    sc_work(q.s, 10 * (uint64_t)count);
+    q.s->list_number++;
     for (int i = 0; i < count; i++) {
-        plumb_body body = plumb_shape_body(q.s->world, shapes[i]);
-        bool known = sc_body_of(q.s, body) == NULL;
-        for (int k = 0; k < i && !known; k++) {
-            known = plumb_same(plumb_shape_body(q.s->world, shapes[k]), body);
-        }
-        if (!known) {
-            sc_body_push(q.s, sc_body_of(q.s, body));
+        sc_body *b = sc_body_of(q.s, plumb_shape_body(q.s->world, shapes[i]));
+        if (b != NULL && b->listed != q.s->list_number) {
+            b->listed = q.s->list_number;
+            sc_body_push(q.s, b);
             lua_rawseti(L, -2, ++found);
         }
     }

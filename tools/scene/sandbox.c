@@ -1,4 +1,5 @@
-// sandbox.c - the Lua state of a scene: an allow-list of names. The limits are in limits.c.
+// sandbox.c - the Lua state of a scene: an allow-list of names. The limits are in limits.c, the functions of Lua's
+// libraries that do work in C in library.c.
 //
 // Nothing that catches errors (pcall, coroutines) is offered: the first error ends the script.
 // Nothing that depends on addresses or hash seeds is offered: pairs is sorted, tostring of a table
@@ -41,6 +42,7 @@ static int lua_print(lua_State *L)
         luaL_addvalue(&buffer);
     }
     luaL_pushresult(&buffer);
+    sc_work(s, 100 + lua_rawlen(L, -1)); // a line takes a system call, and some microseconds
     if (s->options.print != NULL) {
         s->options.print(s->options.print_context, lua_tostring(L, -1));
     } else {
@@ -58,161 +60,6 @@ static int lua_assert_placed(lua_State *L)
     }
     const char *message = luaL_optstring(L, 2, "assertion failed");
     return luaL_error(L, "%s", message);
-}
-
-/// A key of a table while it is sorted.
-typedef struct sort_key {
-    const char *text; ///< null: a number
-    size_t length;
-    double number;
-} sort_key;
-
-static int compare_keys(const void *pa, const void *pb)
-{
-    const sort_key *a = pa;
-    const sort_key *b = pb;
-    if (a->text == NULL || b->text == NULL) {
-        return a->text != NULL   ? 1
-               : b->text != NULL ? -1
-                                 : (a->number > b->number) - (a->number < b->number);
-    }
-    size_t shorter = a->length < b->length ? a->length : b->length;
-    int order = memcmp(a->text, b->text, shorter);
-    return order != 0 ? order : (a->length > b->length) - (a->length < b->length);
-}
-
-// Upvalues: table, sorted keys, how many were handed out.
-static int pairs_next(lua_State *L)
-{
-    const sort_key *keys = lua_touserdata(L, lua_upvalueindex(2));
-    lua_Integer count = (lua_Integer)(lua_rawlen(L, lua_upvalueindex(2)) / sizeof *keys);
-    for (lua_Integer i = lua_tointeger(L, lua_upvalueindex(3)); i < count; i++) {
-        lua_pushinteger(L, i + 1);
-        lua_replace(L, lua_upvalueindex(3));
-        if (lua_rawgeti(L, lua_upvalueindex(4), i + 1) == LUA_TNIL) {
-            lua_pop(L, 1);
-            continue;
-        }
-        lua_pushvalue(L, -1);
-        if (lua_rawget(L, lua_upvalueindex(1)) != LUA_TNIL) { // else removed meanwhile
-            return 2;
-        }
-        lua_pop(L, 2);
-    }
-    return 0;
-}
-
-// Pushes a table of the keys of the table at 1 in the order of `keys`.
-static void push_sorted(lua_State *L, const sort_key *keys, size_t count)
-{
-    lua_createtable(L, (int)count, 0);
-    for (size_t i = 0; i < count; i++) {
-        if (keys[i].text != NULL) {
-            lua_pushlstring(L, keys[i].text, keys[i].length);
-        } else if (keys[i].number >= -0x1p53 && keys[i].number <= 0x1p53 &&
-                   keys[i].number == (double)(lua_Integer)keys[i].number) {
-            lua_pushinteger(L, (lua_Integer)keys[i].number);
-        } else {
-            lua_pushnumber(L, keys[i].number);
-        }
-        lua_rawseti(L, -2, (lua_Integer)i + 1);
-    }
-}
-
-static int lua_sorted_pairs(lua_State *L)
-{
-    luaL_checktype(L, 1, LUA_TTABLE);
-    size_t count = 0;
-    lua_settop(L, 1);
-    for (lua_pushnil(L); lua_next(L, 1) != 0; lua_pop(L, 1)) {
-        count++;
-    }
-    sc_of(L)->budget.spent += 8 * count; // a look at a key and its part of the sorting
-    sort_key *keys = lua_newuserdatauv(L, count * sizeof *keys, 0);
-    size_t i = 0;
-    for (lua_pushnil(L); lua_next(L, 1) != 0; lua_pop(L, 1)) {
-        keys[i] = (sort_key){ 0 };
-        if (lua_type(L, -2) == LUA_TSTRING) {
-            keys[i].text = lua_tolstring(L, -2, &keys[i].length);
-        } else if (lua_type(L, -2) == LUA_TNUMBER) {
-            keys[i].number = lua_tonumber(L, -2);
-        } else {
-            return luaL_error(L, "pairs needs keys that are numbers or strings, not %s",
-                              luaL_typename(L, -2));
-        }
-        i++;
-    }
-    if (count > 0) {
-        qsort(keys, count, sizeof *keys, compare_keys);
-    }
-    lua_pushvalue(L, 1);         // upvalue 1
-    lua_pushvalue(L, 2);         // upvalue 2
-    lua_pushinteger(L, 0);       // upvalue 3
-    push_sorted(L, keys, count); // upvalue 4
-    lua_pushcclosure(L, pairs_next, 4);
-    return 1;
-}
-
-static int lua_rep(lua_State *L)
-{
-    size_t length;
-    size_t gap = 0;
-    luaL_checklstring(L, 1, &length);
-    lua_Integer n = luaL_checkinteger(L, 2);
-    luaL_optlstring(L, 3, "", &gap);
-    if (n <= 0 || length + gap == 0) { // Lua's own would loop n times over nothing
-        lua_pushliteral(L, "");
-        return 1;
-    }
-    if ((uint64_t)n > SC_STRING_MAX / (length + gap)) {
-        return luaL_error(L, "a string of more than %d bytes was made", (int)SC_STRING_MAX);
-    }
-    lua_pushvalue(L, lua_upvalueindex(1));
-    lua_insert(L, 1);
-    lua_call(L, lua_gettop(L) - 1, 1);
-    return 1;
-}
-
-// string.format without %p, and without addresses of tables behind %s.
-static int lua_format(lua_State *L)
-{
-    int count = lua_gettop(L);
-    const char *format = luaL_checkstring(L, 1);
-    for (const char *p = strchr(format, '%'); p != NULL; p = strchr(p, '%')) {
-        p++;
-        p += strspn(p, "-+ #0123456789.");
-        if (*p == 'p') {
-            return luaL_error(L, "format does not offer %%p: addresses differ from run to run");
-        }
-        p += *p != 0;
-    }
-    for (int i = 2; i <= count; i++) {
-        if (lua_type(L, i) == LUA_TTABLE || lua_type(L, i) == LUA_TFUNCTION) {
-            lua_pushstring(L, luaL_typename(L, i));
-            lua_replace(L, i);
-        }
-    }
-    lua_pushvalue(L, lua_upvalueindex(1));
-    lua_insert(L, 1);
-    lua_call(L, count, 1);
-    return 1;
-}
-
-// string.find of plain text: Lua's patterns can take exponential time that no hook sees.
-static int lua_find(lua_State *L)
-{
-    luaL_checkstring(L, 1);
-    luaL_checkstring(L, 2);
-    lua_settop(L, 3);
-    if (lua_isnil(L, 3)) {
-        lua_pushinteger(L, 1);
-        lua_replace(L, 3);
-    }
-    lua_pushboolean(L, 1);
-    lua_pushvalue(L, lua_upvalueindex(1));
-    lua_insert(L, 1);
-    lua_call(L, 4, 2);
-    return 2;
 }
 
 // A name that the allow-list (or the script) does not have. Upvalue: what to call the table.
@@ -314,27 +161,38 @@ static void make_strict(lua_State *L, const char *owner)
     lua_setmetatable(L, -2);
 }
 
-// Wraps the function `name` of the original library at `from` into `wrapper`, in the table on top.
-static void wrap(lua_State *L, int from, const char *name, lua_CFunction wrapper)
+static void open_base(lua_State *L)
 {
-    lua_getfield(L, from, name);
-    lua_pushcclosure(L, wrapper, 1);
-    lua_setfield(L, -2, name);
+    static const char *const base[] = { "error", "ipairs", "type", NULL };
+    luaL_requiref(L, LUA_GNAME, luaopen_base, 0);
+    copy_allowed(L, base);
+    sc_copy_counted(L, "base");
+    lua_pushvalue(L, -1); // this is the global table from now on
+    lua_rawseti(L, LUA_REGISTRYINDEX, LUA_RIDX_GLOBALS);
+    lua_pushcfunction(L, lua_assert_placed);
+    lua_setfield(L, -2, "assert");
+    lua_pushcfunction(L, lua_print);
+    lua_setfield(L, -2, "print");
+    lua_pushcfunction(L, lua_tostring_plain);
+    lua_setfield(L, -2, "tostring");
+    lua_pop(L, 2);
+    luaL_requiref(L, LUA_TABLIBNAME, luaopen_table, 0);
+    lua_newtable(L);
+    sc_copy_counted(L, "table");
+    lua_setglobal(L, "table");
+    lua_pop(L, 1);
 }
 
 static void open_string(lua_State *L)
 {
-    static const char *const names[] = { "byte",    "char", "len",   "lower",
-                                         "reverse", "sub",  "upper", NULL };
+    static const char *const names[] = { "len", "sub", NULL };
     luaL_requiref(L, LUA_STRLIBNAME, luaopen_string, 0);
     copy_allowed(L, names);
-    int original = lua_gettop(L) - 1;
-    wrap(L, original, "rep", lua_rep);
-    wrap(L, original, "format", lua_format);
-    wrap(L, original, "find", lua_find);
+    sc_copy_counted(L, "string");
     make_strict(L, "string");
     lua_pushliteral(L, ""); // methods of strings come from the same table
     lua_getmetatable(L, -1);
+    sc_count_arithmetic(L);
     lua_pushvalue(L, -3);
     lua_setfield(L, -2, "__index");
     lua_pop(L, 2);
@@ -342,33 +200,10 @@ static void open_string(lua_State *L)
     lua_pop(L, 1);
 }
 
-static void open_base(lua_State *L)
-{
-    static const char *const base[] = { "error", "ipairs", "select", "tonumber", "type", NULL };
-    luaL_requiref(L, LUA_GNAME, luaopen_base, 0);
-    copy_allowed(L, base);
-    lua_pushvalue(L, -1); // this is the global table from now on
-    lua_rawseti(L, LUA_REGISTRYINDEX, LUA_RIDX_GLOBALS);
-    lua_pushcfunction(L, lua_assert_placed);
-    lua_setfield(L, -2, "assert");
-    lua_pushcfunction(L, lua_sorted_pairs);
-    lua_setfield(L, -2, "pairs");
-    lua_pushcfunction(L, lua_print);
-    lua_setfield(L, -2, "print");
-    lua_pushcfunction(L, lua_tostring_plain);
-    lua_setfield(L, -2, "tostring");
-    lua_pop(L, 2);
-    static const char *const table[] = { "concat", "pack", "unpack", NULL };
-    luaL_requiref(L, LUA_TABLIBNAME, luaopen_table, 0);
-    copy_allowed(L, table);
-    lua_setglobal(L, "table");
-    lua_pop(L, 1);
-    open_string(L);
-}
-
 static int open_protected(lua_State *L)
 {
     open_base(L);
+    open_string(L);
     sc_open_math(L);
     if (luaL_loadbufferx(L, prelude, sizeof prelude - 1, "=prelude", "t") != LUA_OK) {
         return lua_error(L);

@@ -12,6 +12,9 @@
 #define DEFAULT_MEMORY  ((size_t)256 << 20)  // [B]
 #define DEFAULT_BUILD   UINT64_C(1000000000) // instructions: some seconds
 #define DEFAULT_HANDLER UINT64_C(10000000)   // instructions: some hundredths of a second
+#define HANDLERS_A_STEP 10                   // so many times as much for all handlers of a step
+#define BUILD_SECONDS   60.0                 // [s] ten times what the instructions take, and more
+#define HANDLER_SECONDS 10.0                 // [s]
 #define LARGEST_FILE    ((long)64 << 20)     // [B]
 
 // --------------------------------------------------------------------------------------- loading
@@ -124,7 +127,10 @@ static void take_options(scene *s, const scene_options *opts)
     o->build_instructions = o->build_instructions != 0 ? o->build_instructions : DEFAULT_BUILD;
     o->handler_instructions =
         o->handler_instructions != 0 ? o->handler_instructions : DEFAULT_HANDLER;
-    s->budget = (sc_budget){ .limit = o->memory_limit, .spend_limit = UINT64_MAX };
+    o->build_seconds = o->build_seconds > 0 ? o->build_seconds : BUILD_SECONDS;
+    o->handler_seconds = o->handler_seconds > 0 ? o->handler_seconds : HANDLER_SECONDS;
+    s->budget.limit = o->memory_limit;
+    sc_budget_begin(s, UINT64_MAX / 4, UINT64_MAX / 2, o->build_seconds);
     snprintf(s->path, sizeof s->path, "%s", o->path != NULL ? o->path : "scene");
     size_t length = strlen(s->path);
     s->is_json = length >= 5 && strcmp(s->path + length - 5, ".json") == 0;
@@ -168,7 +174,7 @@ scene_code scene_load(const scene_options *opts, scene **out, scene_error *err)
     }
     if (good) {
         s->building = true;
-        sc_sandbox_budget(s, s->options.build_instructions);
+        sc_budget_begin(s, s->options.build_instructions, UINT64_MAX / 2, s->options.build_seconds);
         good = sc_protect(s, s->is_json ? load_json : load_lua, NULL);
         s->building = false;
     }
@@ -224,9 +230,18 @@ void scene_destroy(scene *s)
 
 // ---------------------------------------------------------------------------------------- running
 
+// What a step, an end or a closed form asks of scripts has a budget of its own.
+void sc_begin_handlers(scene *s)
+{
+    uint64_t most = s->options.handler_instructions;
+    sc_budget_begin(s, most, most < UINT64_MAX / 100 ? HANDLERS_A_STEP * most : UINT64_MAX / 2,
+                    s->options.handler_seconds);
+}
+
 static void step_inside(scene *s, void *unused)
 {
     (void)unused;
+    sc_begin_handlers(s);
     sc_handlers_before(s);
     plumb_result result = plumb_world_step(s->world, (plumb_real)s->dt);
     if (s->edit_failed) { // s->error says why
@@ -260,6 +275,7 @@ scene_code scene_step(scene *s, scene_error *err)
 static void finish_inside(scene *s, void *unused)
 {
     (void)unused;
+    sc_begin_handlers(s);
     sc_expect_finish(s);
 }
 

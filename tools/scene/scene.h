@@ -48,9 +48,10 @@ extern "C" {
     X(E_CONFLICT,   12, "two things exclude each other")                                        \
     X(E_GEOMETRY,   13, "an outline is degenerate or crosses itself")                           \
     X(E_STATE,      14, "a call at the wrong time, or on something destroyed")                  \
-    X(E_LIMIT,      15, "the memory or instruction limit was reached")                          \
+    X(E_LIMIT,      15, "the limit of memory, instructions or time was reached")                          \
     X(E_SET,        16, "--set names something that the scene does not have")                   \
-    X(E_WORLD,      17, "the world refused a call")
+    X(E_WORLD,      17, "the world refused a call")                                             \
+    X(E_STOPPED,    18, "the caller asked to stop")
 // clang-format on
 
 typedef enum scene_code {
@@ -83,7 +84,11 @@ typedef struct scene_options {
     int set_count;
     size_t memory_limit;           ///< [B] of script, world and loader together; 0: 256 MiB
     uint64_t build_instructions;   ///< Lua instructions of the build pass; 0: 1e9
-    uint64_t handler_instructions; ///< Lua instructions of one handler call; 0: 1e7
+    uint64_t handler_instructions; ///< of one handler call; ten times as many of a step; 0: 1e7
+    double build_seconds;          ///< [s] processor time of the build pass; 0: 60
+    double handler_seconds;        ///< [s] processor time of all handlers of a step; 0: 10
+    bool (*stop)(void *context);   ///< true ends the script with E_STOPPED; asked every 1000 instructions; null: none
+    void *stop_context;
     void (*print)(void *context, const char *line); ///< for print(); null: stderr
     void *print_context;
 } scene_options;

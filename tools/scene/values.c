@@ -69,16 +69,18 @@ void sc_give(const sc_list *list, void *def, size_t offset)
 bool sc_to_vec2(scene *s, int index, double v[2])
 {
     lua_State *L = s->L;
+    int top = lua_gettop(L);
     if (lua_type(L, index) != LUA_TTABLE || lua_rawlen(L, index) != 2) {
         return false;
     }
     int count = 0;
     lua_pushnil(L);
     int at = index < 0 ? index - 1 : index;
-    while (lua_next(L, at) != 0) {
+    while (count <= 2 && lua_next(L, at) != 0) { // a third key is enough to know
         count++;
         lua_pop(L, 1);
     }
+    lua_settop(L, top);
     for (int i = 0; i < 2; i++) {
         if (lua_rawgeti(L, index, i + 1) != LUA_TNUMBER) {
             lua_pop(L, 1);
