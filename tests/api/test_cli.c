@@ -300,6 +300,48 @@ static void cost_measures_and_judges(void **state)
     assert_non_null(strstr(out, "no setting stays within 0 m"));
 }
 
+// --set takes a value as a scene would write it, and is held by the bounds of the scene.
+static void set_takes_what_scenes_say(void **state)
+{
+    (void)state;
+    static const char *const same[][2] = {
+        { "gravity={0,-5}", "gravity=0,-5" },      { "gravity={ 0, -5 }", "gravity=0,-5" },
+        { "dt=1/120", "dt=0.008333333333333333" }, { "solver=\"pgs\"", "solver=pgs" },
+        { "gravity={0,-10/2}", "gravity=0,-5" },
+    };
+    for (size_t i = 0; i < sizeof same / sizeof *same; i++) {
+        char line[256];
+        snprintf(
+            line, sizeof line,
+            "\"$P\" run good.lua --set '%s' >a && \"$P\" run good.lua --set '%s' >b && cmp a b",
+            same[i][0], same[i][1]);
+        expect_code(line, 0);
+    }
+    expect_usage_error("\"$P\" run good.lua --set 'gravity={0,x}'",
+                       "must be two numbers {x, y}, not a string");
+    expect_usage_error("\"$P\" run good.lua --set 'gravity=0,-5,x'",
+                       "must be two numbers {x, y}, not a string");
+    expect_usage_error("\"$P\" run good.lua --set 'gravity={0}'", "must be two numbers {x, y}");
+    static const char *const tiny[] = { "run good.lua --set dt=1e-30",
+                                        "cost good.lua --set dt=1e-30",
+                                        "render good.lua -o a.png --set dt=1e-300",
+                                        "convert good.lua --set dt=1e-30",
+                                        "explain good.lua --set dt=0" };
+    for (size_t i = 0; i < sizeof tiny / sizeof *tiny; i++) {
+        char line[256];
+        snprintf(line, sizeof line, "\"$P\" %s", tiny[i]);
+        expect_usage_error(line, "'dt' of scene{} must be at least 1e-06 and at most 1 s");
+    }
+    expect_error("\"$P\" check good.lua --set dt=1e-7", 2, "must be at least 1e-06");
+    expect_code("\"$P\" list materials", 0);
+    assert_null(strstr(out, "[1]"));
+    write_text(
+        "score.lua",
+        "body { circle { 1 } }\nscore('n', 2)\nexpect { 's', score = 'n', value = {0, 1} }\n");
+    expect_code("\"$P\" check score.lua --time 0", 4);
+    assert_non_null(strstr(out, "n.score 2 (breaks limit 1) at 0 s"));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -309,6 +351,7 @@ int main(void)
         cmocka_unit_test(run_prints_every_body_and_step),
         cmocka_unit_test(same_command_same_bytes),
         cmocka_unit_test(overrides_reach_the_scene),
+        cmocka_unit_test(set_takes_what_scenes_say),
         cmocka_unit_test(the_scene_chooses_its_solver),
         cmocka_unit_test(what_ran_is_explained),
         cmocka_unit_test(what_a_scene_prints_is_no_data),

@@ -310,6 +310,31 @@ static void bad_recordings_are_refused(void **state)
     }
 }
 
+// What broke is gone, and was a joint all the same; times are those that the run printed.
+static void a_replay_speaks_as_the_run_did(void **state)
+{
+    (void)state;
+    write_text("break.lua",
+               "scene { duration = 1, dt = 1/60 }\nbody { name = 'hook', type = 'static', circle { "
+               "0.1 } }\n"
+               "body { name = 'load', circle { 1 }, at = {0, -3}, density = 100 }\n"
+               "distance { 'hook', 'load', name = 'cord' }\n"
+               "at(0.5, function() find_joint('cord'):destroy() find('hook'):destroy() end)\n");
+    expect_code("\"$P\" run break.lua --record break.rec >a && \"$P\" replay break.rec --list", 0);
+    assert_non_null(strstr(out, "joint 'cord': destroyed"));
+    assert_non_null(strstr(out, "body 'hook': destroyed"));
+    assert_null(strstr(out, "body 'cord'"));
+    expect_code("cut -d, -f1 a | sort -u >t1; \"$P\" replay break.rec | cut -d, -f1 | sort -u >t2; "
+                "cmp t1 t2",
+                0);
+    expect_code(
+        "\"$P\" run break.lua --dt 1/7 --time 3 --record b.rec | cut -d, -f1 | sort -u >t1; "
+        "\"$P\" replay b.rec | cut -d, -f1 | sort -u >t2; cmp t1 t2",
+        0);
+    expect_usage_error("\"$P\" replay break.rec --step 1.5", "1.5 is not a whole number");
+    expect_usage_error("\"$P\" diff break.rec break.rec --from 0.5", "0.5 is not a whole number");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -322,6 +347,7 @@ int main(void)
         cmocka_unit_test(drawing_a_recording_tells_the_remedy),
         cmocka_unit_test(differences_are_found),
         cmocka_unit_test(bad_recordings_are_refused),
+        cmocka_unit_test(a_replay_speaks_as_the_run_did),
     };
     return cmocka_run_group_tests(tests, set_up, clean_up);
 }

@@ -113,7 +113,7 @@ static const malformed table[] = {
       .text = "local d = body{ name = 'door', box{1, 1} }\n"
               "weld{ d, motor = { speed = 1, torque = 2 } }",
       .code = SCENE_E_KEY,
-      .message = "scene.lua:2:10: unknown key 'motor' in weld{}" },
+      .message = "scene.lua:2:10: unknown key 'motor' in weld{}; it belongs to revolute{}, prismatic{} or wheel{}" },
     { .what = "spring's range",
       .file = "scene.lua",
       .text = "local d = body{ name = 'door', box{1, 1} }\n"

@@ -107,7 +107,7 @@ static const malformed table[] = {
     { .file = "scene.lua",
       .text = "body{ box{1, 1} } inside{ {0, 0}, one_way = true }",
       .code = SCENE_E_KEY,
-      .message = "scene.lua:1:35: unknown key 'one_way' in inside{}" },
+      .message = "scene.lua:1:35: unknown key 'one_way' in inside{}; it belongs to body{}" },
     { .file = "scene.lua",
       .text = "character{ character = { push = false, push_force = 1 } }",
       .code = SCENE_E_CONFLICT,

@@ -13,12 +13,24 @@ static const malformed table[] = {
       .file = "scene.lua",
       .text = "io.open(\"x\")",
       .code = SCENE_E_NAME,
-      .message = "scene.lua:1:1: unknown name 'io'" },
+      .message = "scene.lua:1:1: unknown name 'io'; a scene reads and writes no files" },
     { .what = "math.sine",
       .file = "scene.lua",
       .text = "body{ box{1, math.sine(1)} }",
       .code = SCENE_E_NAME,
       .message = "scene.lua:1:19: math has no 'sine' (did you mean 'sin'?)" },
+    { .what = "math.random",
+      .file = "scene.lua",
+      .text = "body{ box{1, 1}, at = {math.random(), 2} }",
+      .code = SCENE_E_NAME,
+      .message = "scene.lua:1:29: math has no 'random'; random(a, b) and random_int(a, b) follow scene{seed}" },
+    { .what = "table.unpack of too much",
+      .file = "scene.lua",
+      .text = "local t = {}\n"
+              "for i = 1, 10001 do t[i] = i end\n"
+              "print(table.unpack(t))",
+      .code = SCENE_E_RUNTIME,
+      .message = "scene.lua:3:13: bad argument #1 to 'unpack' (has more than the 10000 values that unpack gives)" },
     { .what = "string.dump",
       .file = "scene.lua",
       .text = "print(string.dump(print))",
@@ -392,7 +404,7 @@ static const malformed table[] = {
       .file = "scene.json",
       .text = "{\"format\":\"plumb-scene-1\", \"time\":-1}",
       .code = SCENE_E_TYPE,
-      .message = "scene.json:1:28: 'time' must be a number of at least 0 [s]" },
+      .message = "scene.json:1:28: 'time' must be a number from 0 to 1e9 [s]" },
 };
 // clang-format on
 

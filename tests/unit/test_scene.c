@@ -34,7 +34,8 @@ static void test_settings(void **state)
     s = load("scene{ wrap_x = 20, wrap_y = 12.5 }\nbody{ name = 'b', circle{1}, at = {19, 0} }");
     assert_true(plumb_world_settings(scene_world(s)).wrap_x == (plumb_real)20);
     assert_true(plumb_world_settings(scene_world(s)).wrap_y == (plumb_real)12.5);
-    assert_true(plumb_body_position(scene_world(s), scene_body_get(s, 0).entity).x == (plumb_real)-1);
+    assert_true(plumb_body_position(scene_world(s), scene_body_get(s, 0).entity).x ==
+                (plumb_real)-1);
     scene_destroy(s);
 }
 
@@ -394,6 +395,61 @@ static void test_runs_are_identical(void **state)
     scene_destroy(s[1]);
 }
 
+// Keys that no double holds; floats beyond all integers; what is removed on the way.
+static void test_pairs_keeps_every_key(void **state)
+{
+    (void)state;
+    scene *s = load(
+        "body{ box{1, 1} }\n"
+        "local big = 1 << 53\n"
+        "local t = { [big] = 'a', [big + 1] = 'b', [big + 2] = 'c', [-big - 1] = 'd', [-big] = "
+        "'e',\n"
+        "  [math.maxinteger] = 'f', [math.maxinteger - 1] = 'g', [math.mininteger] = 'h',\n"
+        "  [0x1p63] = 'i', [1e300] = 'j', [1/0] = 'k', [-1/0] = 'l', [0.5] = 'm', [-1e300] = 'n',\n"
+        "  [1] = 'o', x = 'p' }\n"
+        "local order = ''\n"
+        "for k, v in pairs(t) do assert(t[k] == v) order = order .. v end\n"
+        "assert(order == 'lnhdemoabcgfijkp', order)\n"
+        "local n = 0\n"
+        "for i = 0, 999 do t[big + 7 * i] = i end\n"
+        "for k, v in pairs(t) do n = n + 1 t[k] = nil end\n"
+        "assert(n == 1015, n)\n");
+    scene_destroy(s);
+}
+
+// string.find is our own: where it finds what.
+static void test_find_is_plain(void **state)
+{
+    (void)state;
+    scene *s = load(
+        "body{ box{1, 1} }\n"
+        "local function is(a, b, x, y) assert(a == x and b == y, tostring(a) .. ' ' .. "
+        "tostring(b)) end\n"
+        "local function at(x, y, ...) local a, b = string.find(...) is(a, b, x, y) end\n"
+        "at(1, 1, 'abc', 'a') at(3, 3, 'abc', 'c') at(2, 3, 'abcbc', 'bc') at(4, 5, 'abcbc', 'bc', "
+        "3)\n"
+        "at(nil, nil, 'abc', 'd') at(nil, nil, 'abc', 'abcd') at(1, 3, 'abc', 'abc')\n"
+        "at(1, 0, 'abc', '') at(4, 3, 'abc', '', 4) at(nil, nil, 'abc', '', 5) at(1, 0, '', '')\n"
+        "at(3, 3, 'abc', 'c', -1) at(nil, nil, 'abc', 'a', -2) at(1, 1, 'abc', 'a', -9)\n"
+        "at(1, 1, 'abc', 'a', 0) at(2, 2, 'a.c', '.') at(2, 3, 'a%d', '%d') at(4, 6, 'aabaab', "
+        "'aab', 2)\n");
+    scene_destroy(s);
+}
+
+// Periods below the step, and times far away, are no numbers that an integer must hold.
+static void test_any_period_is_a_period(void **state)
+{
+    (void)state;
+    scene *s = load("scene{ duration = 1 }\nbody{ box{1, 1} }\n"
+                    "score('tiny', 0) score('huge', 0)\n"
+                    "every(1e-300, function() score('tiny', score('tiny') + 1) end)\n"
+                    "every(1e300, function() score('huge', 1) end)\n");
+    run(s);
+    assert_true(score(s, "tiny") >= 59); // each step, but perhaps the first, which begins at 0
+    assert_near(score(s, "huge"), 0, 0);
+    scene_destroy(s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -404,7 +460,8 @@ int main(void)
         cmocka_unit_test(test_not_reached),        cmocka_unit_test(test_exact),
         cmocka_unit_test(test_environment),        cmocka_unit_test(test_maths_agrees_with_libm),
         cmocka_unit_test(test_random_is_fixed),    cmocka_unit_test(test_json_round_trip),
-        cmocka_unit_test(test_runs_are_identical),
+        cmocka_unit_test(test_runs_are_identical), cmocka_unit_test(test_pairs_keeps_every_key),
+        cmocka_unit_test(test_find_is_plain),      cmocka_unit_test(test_any_period_is_a_period),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -123,7 +123,23 @@ typedef struct cli_output {
     char *path; ///< NULL: stdout
     char *temp; ///< NULL: written in place (stdout, devices, pipes)
     int guard;  ///< of cli_output_guard
+    int reason; ///< errno of a write that failed, 0: none, or unknown
 } cli_output;
+
+/// A file that a command line names.
+typedef struct cli_file {
+    const char *what; ///< for messages: "SCENE", "--output"
+    const char *path; ///< NULL: not given; "-" of what is written: stdout
+    bool is_written;
+} cli_file;
+
+/// No file is written that is read or written under another name, however it is spelled: links are followed.
+/// Devices and pipes may be named twice. CLI_OK, or CLI_USAGE after a message.
+int cli_files_check(const cli_command *command, const cli_file *files, int count);
+/// The name of a file without links, also of one that is not there yet. To be freed; NULL: errno says why.
+char *cli_resolve(const char *path);
+/// True when the name is that of a symbolic link.
+bool cli_is_link(const char *path);
 
 /// Opens `path` (NULL or "-": stdout). CLI_OK, or CLI_FAILED after a message.
 int cli_output_open(cli_output *out, const char *path);

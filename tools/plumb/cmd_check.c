@@ -20,7 +20,7 @@ typedef struct tally {
 /// and that one an expectation missed.
 static int worse(int a, int b)
 {
-    static const int order[] = { CLI_SCENE, CLI_FAILED, CLI_DIVERGED, CLI_EXPECT };
+    static const int order[] = { CLI_USAGE, CLI_SCENE, CLI_FAILED, CLI_DIVERGED, CLI_EXPECT };
     for (int i = 0; i < (int)(sizeof order / sizeof order[0]); i++) {
         if (a == order[i] || b == order[i]) {
             return order[i];
@@ -115,6 +115,7 @@ static void check_one(const check_args *args, const char *path, tally *sum)
     if (!cli_interrupted()) {
         printf("FAIL  %s: %s\n", base_name(path),
                code == CLI_SCENE      ? "the scene is wrong"
+               : code == CLI_USAGE    ? "the command line does not fit the scene"
                : code == CLI_DIVERGED ? "the simulation diverged"
                                       : "the run failed");
     }

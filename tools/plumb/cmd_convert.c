@@ -29,6 +29,11 @@ static int convert_command(const cli_command *command, int argc, char **argv)
             return CLI_USAGE;
         }
     }
+    if (code == CLI_OK) {
+        const cli_file files[] = { { "SCENE", operands.items[0], false },
+                                   { "OUT.json", target, true } };
+        code = cli_files_check(command, files, 2);
+    }
     code = code == CLI_OK ? scene_run_open(&args.scene, operands.items[0], &run) : code;
     if (code != CLI_OK) {
         return code;
@@ -44,6 +49,11 @@ static int convert_command(const cli_command *command, int argc, char **argv)
         if (!written && cli_output_good(&out)) {
             cli_message("%s: out of memory", command->name);
             code = CLI_FAILED;
+        }
+        const char *lacks = run.engine->json_lacks(run.session);
+        if (code == CLI_OK && lacks[0] != '\0') {
+            cli_message("%s: %s of '%s' have no JSON form and are left out", command->name, lacks,
+                        operands.items[0]);
         }
         int closed = cli_output_close(&out, code == CLI_OK && !cli_interrupted());
         code = code == CLI_OK ? closed : code;
@@ -65,7 +75,7 @@ const cli_command cmd_convert = {
     .text = "Loads SCENE (.lua or .json) and writes it as JSON, to stdout without a second name. "
             "Keys are sorted and numbers have as many digits as give the same number back, so "
             "that equal scenes are equal files. Handlers, closed forms and test functions of a Lua "
-            "scene have no JSON form and are left out.",
+            "scene have no JSON form and are left out; a message tells of them.",
     .examples = "plumb convert stack.lua stack.json\n"
                 "plumb convert stack.lua --time 2 | diff - after.json",
     .options = options,

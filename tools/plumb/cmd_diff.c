@@ -4,6 +4,7 @@
 #include "recording.h"
 #include "scene_args.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -113,6 +114,10 @@ static int diff_command(const cli_command *command, int argc, char **argv)
     recording a, b;
 
     int code = cli_parse(command, argc, argv, &args, &operands);
+    if (code == CLI_OK && args.from != floor(args.from)) {
+        cli_message("%s: option --from: %.10g is not a whole number", command->name, args.from);
+        return CLI_USAGE;
+    }
     code = code == CLI_OK ? recording_open(operands.items[0], 0, false, &a) : code;
     if (code != CLI_OK) {
         return code;

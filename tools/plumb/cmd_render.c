@@ -94,6 +94,12 @@ static int render_command(const cli_command *command, int argc, char **argv)
     if (code != CLI_OK) {
         return code;
     }
+    const cli_file files[] = { { "SCENE", operands.items[0], false },
+                               { "--output", args.film.output, true } };
+    code = cli_files_check(command, files, 2);
+    if (code != CLI_OK) {
+        return code;
+    }
     reel.path = operands.items[0];
     code = scene_run_open(&args.scene, reel.path, &reel.run);
     if (code != CLI_OK) {

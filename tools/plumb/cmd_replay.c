@@ -152,7 +152,7 @@ static int go(film_source *source, long long to, progress *bar)
             source->step = to;
             return CLI_OK;
         }
-        error = (engine_error){ CLI_FAILED, "out of memory" };
+        error = (engine_error){ .code = CLI_FAILED, .text = "out of memory" };
     }
     progress_end(bar);
     return scene_report(&error);
@@ -287,6 +287,10 @@ static int check_args(const cli_command *command, const replay_args *args)
     if (scene_width_check(command, args->width) != CLI_OK) {
         return CLI_USAGE;
     }
+    if (args->step >= 0 && args->step != floor(args->step)) {
+        cli_message("%s: option --step: %.10g is not a whole number", command->name, args->step);
+        return CLI_USAGE;
+    }
     if (args->step >= 0 && args->seek >= 0) {
         cli_message("%s: option --step: --seek names a moment already", command->name);
         return CLI_USAGE;
@@ -333,6 +337,12 @@ static int replay_command(const cli_command *command, int argc, char **argv)
         code = table_read_format(command, args.output, &args.format);
     }
     code = code == CLI_OK ? table_read_every(command, args.every, &every) : code;
+    if (code == CLI_OK) {
+        const cli_file files[] = { { "RECORDING", operands.items[0], false },
+                                   { "--output", args.output, true },
+                                   { "--render", args.film.output, true } };
+        code = cli_files_check(command, files, 3);
+    }
     code = code == CLI_OK ? recording_open(operands.items[0], args.width, args.list, &r) : code;
     if (code != CLI_OK) {
         return code;

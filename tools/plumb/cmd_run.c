@@ -86,11 +86,12 @@ static int record_and_simulate(const run_args *args, const table_sampling *every
     cli_output_keep_beginning(&recording);
     code = run->engine->record(run->session, recording.file, args->keyframes, &error);
     if (code != CLI_OK) {
-        cli_output_close(&recording, false);
-        return scene_report(&error);
+        recording.reason = error.reason;
+        return cli_output_close(&recording, false) != CLI_OK ? CLI_FAILED : scene_report(&error);
     }
     code = simulate(args, every, run, out);
     int ended = run->engine->record_end(run->session, &error);
+    recording.reason = error.reason;
     int closed = cli_output_close(&recording, true);
     if (closed == CLI_OK && ended != CLI_OK) {
         closed = scene_report(&error);
@@ -125,6 +126,10 @@ static int run_command(const cli_command *command, int argc, char **argv)
     code = code == CLI_OK ? table_read_format(command, args.output, &args.format) : code;
     code = code == CLI_OK ? table_read_every(command, args.every, &every) : code;
     code = code == CLI_OK ? check_record(command, &args) : code;
+    const cli_file files[] = { { "SCENE", code == CLI_OK ? operands.items[0] : NULL, false },
+                               { "--output", args.output != NULL ? args.output : "-", true },
+                               { "--record", args.record, true } };
+    code = code == CLI_OK ? cli_files_check(command, files, 3) : code;
     code = code == CLI_OK ? scene_run_open(&args.scene, operands.items[0], &run) : code;
     if (code != CLI_OK) {
         return code;

@@ -27,7 +27,7 @@ int pl_session_fail_scene(const engine_session *session, const scene_error *from
     // A value that scene{} refuses is the command line's fault, too, when --set gave it.
     if (from->code == SCENE_E_SET || strcmp(from->file, "--set") == 0) {
         code = CLI_USAGE;
-    } else if (from->code == SCENE_E_STOPPED) {
+    } else if (from->code == SCENE_E_STOPPED || from->code == SCENE_E_IO) {
         code = CLI_FAILED;
     } else if (from->code == SCENE_E_WORLD && session != NULL) {
         plumb_result why = plumb_world_error(session->stage.world).code;
@@ -182,6 +182,12 @@ static int session_finish(engine_session *session, engine_error *error)
     return CLI_OK;
 }
 
+static const char *session_json_lacks(engine_session *session)
+{
+    (void)scene_json_lacks(session->stage.scene, session->text, sizeof session->text);
+    return session->text;
+}
+
 static bool session_to_json(const engine_session *session, FILE *file)
 {
     return scene_to_json(session->stage.scene, file);
@@ -211,6 +217,7 @@ const engine_api ENGINE_NAME = {
     .expectations = pl_session_expectations,
     .passes = pl_session_passes,
     .word = pl_session_word,
+    .json_lacks = session_json_lacks,
     .to_json = session_to_json,
     .record = pl_session_record,
     .record_end = pl_session_record_end,

@@ -16,6 +16,7 @@ struct render_frame;
 /// What went wrong: an exit code and complete text for the user, possibly several lines.
 typedef struct engine_error {
     int code; ///< cli_exit
+    int reason; ///< errno of a write that failed, else 0
     char text[2048];
 } engine_error;
 
@@ -183,6 +184,8 @@ typedef struct engine_api {
     /// Key `key` of constructor `constructor` of the scene language; key -1: the constructor
     /// itself. False past the end.
     bool (*word)(int constructor, int key, engine_word *word);
+    /// What of it has no JSON form, in words, "" if nothing; until the next call.
+    const char *(*json_lacks)(engine_session *session);
     /// Writes the scene as canonical JSON. False when writing failed.
     bool (*to_json)(const engine_session *session, FILE *file);
 

@@ -12,10 +12,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { CAMERA = 1, TEXT = 2 }; ///< keys: slots of generation 0
+enum { CAMERA = 1, TEXT = 2, CLOCK = 3 }; ///< keys: slots of generation 0
 
 #define LOOK_TAG   UINT32_C(0x4b4f4f4c) // "LOOK"
 #define CAMERA_TAG UINT32_C(0x454d4143) // "CAME"
+#define CLOCK_TAG  UINT32_C(0x434f4c43) // "CLOC"
 
 /// Of a body or joint. No padding: it is compared and written as bytes.
 typedef struct look {
@@ -32,6 +33,13 @@ typedef struct camera_note {
     double center[2], height, box[4], at, trail;
     char follow[64];
 } camera_note;
+
+/// The scene's time, start + steps * dt in double. The world's is a sum of steps in its own precision, and differs
+/// from it in the ninth digit.
+typedef struct clock_note {
+    uint32_t tag, unused;
+    double start, dt; ///< [s]
+} clock_note;
 
 struct session_kept {
     uint32_t generation; ///< 0: never met
@@ -155,6 +163,14 @@ void pl_session_note_camera(engine_session *session)
     (void)plumb_recorder_note(session->stage.world, key_of(CAMERA, 0), &note, sizeof note);
 }
 
+void pl_session_note_clock(engine_session *session)
+{
+    const clock_note note = { .tag = CLOCK_TAG,
+                              .start = scene_time(session->stage.scene),
+                              .dt = session->stage.info.dt };
+    (void)plumb_recorder_note(session->stage.world, key_of(CLOCK, 0), &note, sizeof note);
+}
+
 // ------------------------------------------------------------------------------------- replaying
 
 /// A note of our own, of that size; null: none.
@@ -228,6 +244,16 @@ void pl_stage_read_camera(const plumb_replay *replay, scene_camera *camera)
                                   .at = note->at,
                                   .trail = note->trail };
     }
+}
+
+double pl_stage_read_time(const plumb_replay *replay, uint64_t steps, double otherwise)
+{
+    const clock_note *note = find_note(replay, key_of(CLOCK, 0), CLOCK_TAG, sizeof *note);
+    if (note == NULL) {
+        return otherwise;
+    }
+    double time = note->start + (double)steps * note->dt;
+    return fabs(time - otherwise) <= 1e-6 * fabs(otherwise) ? time : otherwise;
 }
 
 const char *pl_stage_read_text(const plumb_replay *replay)

@@ -5,6 +5,7 @@
 /// and are reused.
 #include "engine_session.h"
 
+#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -12,7 +13,11 @@
 
 static bool to_file(void *context, const void *bytes, size_t size)
 {
-    return fwrite(bytes, 1, size, context) == size;
+    engine_session *session = context;
+    errno = 0;
+    bool written = fwrite(bytes, 1, size, session->record_file) == size;
+    session->record_reason = written ? session->record_reason : errno;
+    return written;
 }
 
 int pl_session_record(engine_session *session, FILE *file, int keyframes, engine_error *error)
@@ -20,20 +25,24 @@ int pl_session_record(engine_session *session, FILE *file, int keyframes, engine
     char title[256];
     snprintf(title, sizeof title, "%.255s", session->stage.info.title);
     const plumb_recorder_desc desc = {
-        .write = to_file, .context = file, .keyframe_every = keyframes, .title = title
+        .write = to_file, .context = session, .keyframe_every = keyframes, .title = title
     };
+    session->record_file = file;
     if (plumb_recorder_start(session->stage.world, &desc) != PLUMB_OK) {
+        error->reason = session->record_reason;
         return pl_session_fail(error, CLI_FAILED, "--record: %s",
                                plumb_world_error(session->stage.world).message);
     }
     session->recording = true;
     pl_session_note_camera(session);
+    pl_session_note_clock(session);
     return pl_session_note_looks(session, error);
 }
 
 int pl_session_record_end(engine_session *session, engine_error *error)
 {
     session->recording = false;
+    error->reason = session->record_reason;
     if (plumb_recorder_stop(session->stage.world) != PLUMB_OK) {
         return pl_session_fail(error, CLI_FAILED, "--record: %s",
                                plumb_world_error(session->stage.world).message);
@@ -123,9 +132,9 @@ engine_replay_info pl_replay_session_info(const engine_replay *replay)
                                  .edited = from.edited,
                                  .bytes = from.bytes,
                                  .first = from.step_count,
-                                 .start = from.start,
-                                 .end = from.end,
-                                 .time = from.time,
+                                 .start = pl_stage_read_time(replay->replay, 0, from.start),
+                                 .end = pl_stage_read_time(replay->replay, from.steps, from.end),
+                                 .time = pl_stage_read_time(replay->replay, from.step, from.time),
                                  .dt = from.dt,
                                  .hash = from.hash,
                                  .complete = from.complete };
@@ -149,15 +158,18 @@ unsigned long long pl_replay_session_find(const engine_replay *replay, double ti
 
 // ---------------------------------------------------------------------------------------- in words
 
-/// "body 'ball'", or "body 7:1" where it has no name.
-static void write_entity(const engine_replay *replay, plumb_entity entity, char *to, size_t size)
+/// "body 'ball'", or "body 7:1" where it has no name. `table`: where it is, or was, stored.
+static void write_entity(const engine_replay *replay, plumb_entity entity, const char *table,
+                         char *to, size_t size)
 {
     static const char *const kinds[] = { "entity", "entity", "body", "shape", "material", "joint" };
     plumb_entity_kind kind = plumb_entity_get_kind(plumb_replay_world(replay->replay), entity);
     const char *name = plumb_replay_name(replay->replay, entity);
     if (name != NULL) {
         // Only bodies and joints are given names; what is gone by now has no kind any more.
-        snprintf(to, size, "%s '%s'", kind == PLUMB_KIND_JOINT ? "joint" : "body", name);
+        bool joint =
+            kind == PLUMB_KIND_JOINT || (kind == PLUMB_KIND_NONE && strcmp(table, "joints") == 0);
+        snprintf(to, size, "%s '%s'", joint ? "joint" : "body", name);
     } else {
         snprintf(to, size, "%s %u:%u", kinds[kind], (unsigned)entity.index,
                  (unsigned)entity.generation);
@@ -181,9 +193,11 @@ static void write_who(const engine_replay *replay, const plumb_difference *d, ch
         return;
     }
     plumb_body body = body_of(world, d->entity), other = body_of(world, d->other);
-    write_entity(replay, plumb_is_null(body) ? d->entity : body.entity, first, sizeof first);
+    write_entity(replay, plumb_is_null(body) ? d->entity : body.entity, d->table, first,
+                 sizeof first);
     if (!plumb_is_null(d->other)) {
-        write_entity(replay, plumb_is_null(other) ? d->other : other.entity, second, sizeof second);
+        write_entity(replay, plumb_is_null(other) ? d->other : other.entity, d->table, second,
+                     sizeof second);
         snprintf(to, size, "contact of %s and %s", first, second);
     } else if (!plumb_is_null(body)) {
         snprintf(to, size, "shape %u:%u of %s", (unsigned)d->entity.index,

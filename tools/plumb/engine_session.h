@@ -42,6 +42,8 @@ struct engine_session {
     size_t expect_room, pass_room, info_room; ///< [B]
     // While it is recorded: what was last said of the looks of each entity, by its index; and the text.
     bool recording;
+    FILE *record_file;
+    int record_reason; ///< errno of a write that failed
     struct session_kept *kept;
     uint32_t kept_count;
     char text[512];
@@ -95,10 +97,13 @@ int pl_session_record_end(engine_session *session, engine_error *error);
 /// Into the recording: names of what is new, looks that have changed. CLI_FAILED: out of memory.
 int pl_session_note_looks(engine_session *session, engine_error *error);
 void pl_session_note_camera(engine_session *session);
+void pl_session_note_clock(engine_session *session);
 /// Out of the recording, as it is where the replay stands; what it says nothing of stays as it was.
 void pl_stage_read_body(const plumb_replay *replay, scene_body *body);
 void pl_stage_read_joint(const plumb_replay *replay, scene_joint *joint);
 void pl_stage_read_camera(const plumb_replay *replay, scene_camera *camera);
+/// [s] of the scene after so many recorded steps, if the recording is a scene's; else `otherwise`, the world's.
+double pl_stage_read_time(const plumb_replay *replay, uint64_t steps, double otherwise);
 const char *pl_stage_read_text(const plumb_replay *replay); ///< "" if none
 
 engine_replay *pl_replay_session_open(const char *path, const void *bytes, size_t size, int width,

@@ -174,7 +174,12 @@ scene_joint pl_stage_joint(const engine_stage *stage, int i)
 
 double pl_stage_time(const engine_stage *stage)
 {
-    return stage->scene != NULL ? scene_time(stage->scene) : plumb_world_stats(stage->world).time;
+    if (stage->scene != NULL) {
+        return scene_time(stage->scene);
+    }
+    plumb_replay_info info = { 0 };
+    plumb_replay_get_info(stage->replay, &info);
+    return pl_stage_read_time(stage->replay, info.step, info.time);
 }
 
 const char *pl_stage_text(const engine_stage *stage)

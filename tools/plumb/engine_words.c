@@ -118,7 +118,7 @@ bool pl_session_word(int constructor, int key, engine_word *word)
         return true;
     }
     const sc_field *row = &list->rows[key];
-    bool has_unit = row->detail != NULL && row->kind != SC_RECORD;
+    bool has_unit = row->detail != NULL && row->kind != SC_RECORD && strcmp(row->detail, "1") != 0;
     *word = (engine_word){ .name = row->name,
                            .topic = word->topic,
                            .kind = kind_name(row->kind),

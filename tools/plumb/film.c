@@ -6,6 +6,7 @@
 #include "film.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "trail.h"
@@ -51,6 +52,8 @@ typedef struct film {
     render_writer *writer;
     unsigned pictures; ///< written
     int guard;
+    const char *path;     ///< of the file, through links to what they stand for
+    char *resolved;       ///< owned
     char temporary[4096]; ///< what is being written
 } film;
 
@@ -155,11 +158,10 @@ static void guard(film *f)
     render_error error;
     char name[sizeof f->temporary];
     cli_output_unguard(f->guard);
-    bool named = !render_pattern_is(f->args->output);
-    snprintf(name, sizeof name, "%s", f->args->output);
+    bool named = !render_pattern_is(f->path);
+    snprintf(name, sizeof name, "%s", f->path);
     if (!named) {
-        named = render_pattern_name(f->args->output, f->pictures++, name, sizeof name, &error) ==
-                RENDER_OK;
+        named = render_pattern_name(f->path, f->pictures++, name, sizeof name, &error) == RENDER_OK;
     }
     named = named && render_temporary_name(name, f->temporary, sizeof f->temporary);
     f->guard = named ? cli_output_guard(f->temporary, NULL) : -1;
@@ -258,7 +260,7 @@ static int shoot_film(film *f)
     }
     progress_begin(&bar, "drawing", (double)source->find(source, to), source->quiet);
     // A thousandth of a picture of slack: times are sums of steps.
-    long long pictures = (long long)floor((to - from) * f->fps + 1e-3) + 1;
+    long long pictures = (long long)fmin(floor((to - from) * f->fps + 1e-3), 0x1p53) + 1;
     for (long long i = 0; i < pictures && code == CLI_OK && !cli_interrupted(); i++) {
         double time = from + (double)i / f->fps;
         code = advance(f, source->find(source, time), false, &bar);
@@ -293,6 +295,13 @@ static int shoot_picture(film *f, double time)
     return code == CLI_OK && !cli_interrupted() ? draw(f) : code;
 }
 
+/// What follows the last dot.
+static const char *ending(const char *path)
+{
+    const char *dot = strrchr(path, '.');
+    return dot != NULL ? dot : "";
+}
+
 static int film_open(film *f)
 {
     render_error error = { { 0 } };
@@ -302,12 +311,16 @@ static int film_open(film *f)
         return CLI_FAILED;
     }
     int width = f->size.width, height = f->size.height;
-    render_result result =
-        render_writer_open(&f->writer, f->args->output, width, height, f->fps, &error);
+    f->resolved = cli_is_link(f->args->output) ? cli_resolve(f->args->output) : NULL;
+    // A link may stand for a name without an ending, which says what is written, or with a %.
+    bool usable = f->resolved != NULL && !render_pattern_is(f->resolved) &&
+                  strcmp(ending(f->resolved), ending(f->args->output)) == 0;
+    f->path = usable ? f->resolved : f->args->output;
+    render_result result = render_writer_open(&f->writer, f->path, width, height, f->fps, &error);
     if (result == RENDER_OK) {
         result = render_target_create(&f->target, width, height, NULL, &error);
     }
-    if (result == RENDER_OK && !render_pattern_is(f->args->output)) {
+    if (result == RENDER_OK && !render_pattern_is(f->path)) {
         guard(f); // a film's file is there from now on
     }
     return result == RENDER_OK ? CLI_OK : fail_render(result, &error);
@@ -326,6 +339,7 @@ static int film_close(film *f, int code)
     trail_free(&f->trails);
     render_target_destroy(f->target);
     render_frame_destroy(f->frame);
+    free(f->resolved);
     return code;
 }
 

@@ -33,11 +33,19 @@ static bool reader_gone(FILE *file)
     return poll(&end, 1, 0) > 0 && (end.revents & (POLLERR | POLLHUP)) != 0;
 }
 
+/// Why writing to `file` has failed before: what is still in its buffer fails again. 0: it does not.
+static int reason_of(FILE *file)
+{
+    clearerr(file);
+    errno = 0;
+    return fflush(file) != 0 ? errno : 0;
+}
+
 int cli_finish(int code)
 {
     errno = 0;
     bool failed = fflush(stdout) != 0 || ferror(stdout) != 0;
-    int reason = errno;
+    int reason = errno != 0 || !failed ? errno : reason_of(stdout);
     if (failed && !reader_gone(stdout)) {
         cli_message("cannot write to standard output: %s",
                     reason != 0 ? strerror(reason) : "an earlier write failed");
@@ -128,7 +136,7 @@ int cli_output_open(cli_output *out, const char *path)
     // Through a link to its file, so that the link stays one.
     struct stat info;
     bool exists = stat(path, &info) == 0;
-    out->path = exists ? realpath(path, NULL) : strdup(path);
+    out->path = cli_resolve(path);
     int file = -1;
     if (out->path != NULL) {
         bool is_plain = !exists || S_ISREG(info.st_mode);
@@ -167,7 +175,8 @@ int cli_output_close(cli_output *out, bool keep)
     }
     errno = 0;
     bool failed = fflush(out->file) != 0 || ferror(out->file) != 0;
-    int reason = errno;
+    int reason = errno != 0 || !failed ? errno : reason_of(out->file);
+    reason = reason != 0 ? reason : out->reason;
     bool gone = failed && reader_gone(out->file);
     if (fclose(out->file) != 0 && !failed) {
         failed = true;

@@ -22,6 +22,7 @@ static const double fps_max = 50.0;
 typedef struct gif_state {
     GifFileType *gif;
     FILE *file; // giflib's own files could be read by their owner only
+    int reason; // errno of a write that failed
     char temporary[PLR_PATH_MAX];
     uint8_t *previous;    // RGBA of the picture before
     GifByteType *channel; // three planes: changed pixels, red, green, blue
@@ -35,7 +36,9 @@ typedef struct region {
 
 static render_result gif_error(const render_writer *writer, int code, render_error *error)
 {
-    const char *reason = GifErrorString(code);
+    const gif_state *state = writer->state;
+    const char *reason =
+        state != NULL && state->reason != 0 ? strerror(state->reason) : GifErrorString(code);
     return plr_fail(error, RENDER_E_IO, "cannot write '%s': %s", writer->path,
                     reason != NULL ? reason : "giflib gives no reason");
 }
@@ -60,7 +63,11 @@ static void gif_abandon(render_writer *writer)
 
 static int put_bytes(GifFileType *gif, const GifByteType *bytes, int count)
 {
-    return (int)fwrite(bytes, 1, (size_t)count, gif->UserData);
+    gif_state *state = gif->UserData;
+    errno = 0;
+    const size_t written = fwrite(bytes, 1, (size_t)count, state->file);
+    state->reason = written < (size_t)count ? errno : state->reason;
+    return (int)written;
 }
 
 // The screen size, and the block by which Netscape made animations repeat for ever.
@@ -108,7 +115,7 @@ static render_result gif_open(render_writer *writer, render_error *error)
                         strerror(reason));
     }
     int code = 0;
-    state->gif = EGifOpen(state->file, put_bytes, &code);
+    state->gif = EGifOpen(state, put_bytes, &code);
     if (state->gif == NULL) {
         gif_abandon(writer);
         return gif_error(writer, code, error);

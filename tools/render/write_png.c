@@ -22,7 +22,9 @@ typedef struct png_job {
 static void on_error(png_structp png, png_const_charp message)
 {
     const png_job *job = png_get_error_ptr(png);
-    plr_fail(job->error, RENDER_E_IO, "cannot write '%s': %s", job->path, message);
+    plr_fail(job->error, RENDER_E_IO, "cannot write '%s': %s", job->path,
+             errno != 0 ? strerror(errno)
+                        : message); // a full disk says so, libpng only "Write Error"
     longjmp(png_jmpbuf(png), 1);
 }
 
@@ -37,6 +39,7 @@ static bool encode(png_job *job, const uint8_t *pixels, int width, int height)
     if (setjmp(png_jmpbuf(job->png)) != 0) {
         return false;
     }
+    errno = 0;
     png_init_io(job->png, job->file);
     png_set_IHDR(job->png, job->info, (png_uint_32)width, (png_uint_32)height, 8,
                  PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,

@@ -28,11 +28,52 @@ void sc_apply_sets(scene *s)
     }
 }
 
-// Text as a Lua value: true, false, a number, numbers with commas as a table, else a string.
+// A number, or a fraction such as 1/60; *rest is what follows it, `text` where there is none.
+static double read_real(const char *text, char **rest)
+{
+    double v = strtod(text, rest);
+    if (*rest != text && **rest == '/') {
+        char *behind;
+        double divisor = strtod(*rest + 1, &behind);
+        v = behind != *rest + 1 ? v / divisor : v;
+        *rest = behind != *rest + 1 ? behind : *rest;
+    }
+    return v;
+}
+
+// "0,-5" as a table. False, and nothing pushed, when that is not all there is.
+static bool push_numbers(lua_State *L, const char *text)
+{
+    lua_newtable(L);
+    for (int i = 1;; i++) {
+        char *rest;
+        double v = read_real(text, &rest);
+        rest += strspn(rest, " ");
+        if (rest == text || (*rest != ',' && *rest != 0)) {
+            lua_pop(L, 1);
+            return false;
+        }
+        lua_pushnumber(L, v);
+        lua_rawseti(L, -2, i);
+        if (*rest == 0) {
+            return true;
+        }
+        text = rest + 1;
+    }
+}
+
+// Text as a Lua value: true, false, a number, numbers with commas (in braces, as in a scene, or without) as a table,
+// else a string, in quotes or without.
 static void push_parsed(lua_State *L, const char *text)
 {
+    char inner[sizeof((sc_set *)0)->value];
+    size_t length = strlen(text);
     char *rest;
-    double v = strtod(text, &rest);
+    double v = read_real(text, &rest);
+    bool in_braces = length >= 2 && text[0] == '{' && text[length - 1] == '}';
+    bool in_quotes =
+        length >= 2 && (text[0] == '"' || text[0] == '\'') && text[length - 1] == text[0];
+    snprintf(inner, sizeof inner, "%.*s", in_braces || in_quotes ? (int)length - 2 : 0, text + 1);
     if (strcmp(text, "true") == 0 || strcmp(text, "false") == 0) {
         lua_pushboolean(L, text[0] == 't');
     } else if (rest != text && *rest == 0) {
@@ -41,15 +82,9 @@ static void push_parsed(lua_State *L, const char *text)
         } else {
             lua_pushnumber(L, v);
         }
-    } else if (rest != text && *rest == ',') {
-        lua_newtable(L);
-        for (int i = 1; rest != text; i++) {
-            lua_pushnumber(L, v);
-            lua_rawseti(L, -2, i);
-            text = *rest == ',' ? rest + 1 : rest;
-            v = strtod(text, &rest);
-        }
-    } else {
+    } else if (in_quotes) {
+        lua_pushstring(L, inner);
+    } else if (!(in_braces ? push_numbers(L, inner) : push_numbers(L, text))) {
         lua_pushstring(L, text);
     }
 }

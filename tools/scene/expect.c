@@ -133,8 +133,10 @@ void sc_open_expect(lua_State *L)
 static void describe(sc_expect *e)
 {
     const char *relation = e->status == SCENE_EXPECT_PASSED ? "ok, limit" : "breaks limit";
-    snprintf(e->description, sizeof e->description, "%s %.6g %s (%s %.6g %s) at %.6g s",
-             e->quantity, e->measured, e->unit, relation, e->limit, e->unit, e->time);
+    bool plain = strcmp(e->unit, "1") == 0; // a number without a unit
+    const char *gap = plain ? "" : " ", *unit = plain ? "" : e->unit;
+    snprintf(e->description, sizeof e->description, "%s %.6g%s%s (%s %.6g%s%s) at %.6g s",
+             e->quantity, e->measured, gap, unit, relation, e->limit, gap, unit, e->time);
 }
 
 static void evaluate(scene *s, sc_expect *e)

@@ -416,6 +416,31 @@ static int positions(const sc_list *list)
     return most;
 }
 
+// "; it belongs to material{}", or nothing: whose the key is, when it is none of this list.
+static void name_owners(const char *key, char *out, size_t size)
+{
+    enum { MOST = 3 };
+    const sc_list *owners[MOST];
+    int count = 0;
+    for (int i = 0; sc_list_at(i) != NULL; i++) {
+        if (find_row(sc_list_at(i), key) != NULL) {
+            if (count < MOST) {
+                owners[count] = sc_list_at(i);
+            }
+            count++;
+        }
+    }
+    size_t used = 0;
+    for (int i = 0; i < count && i < MOST && used < size; i++) {
+        bool last = i == count - 1;
+        const char *before = i == 0 ? "; it belongs to " : last ? " or " : ", ";
+        used += (size_t)snprintf(out + used, size - used, "%s%s{}", before, owners[i]->name);
+    }
+    if (count > MOST && used < size) {
+        snprintf(out + used, size - used, " and others");
+    }
+}
+
 _Noreturn static void fail_key(scene *s, const sc_site *site, const sc_list *list, const char *key)
 {
     sc_suggest g = sc_suggest_start(key);
@@ -429,8 +454,12 @@ _Noreturn static void fail_key(scene *s, const sc_site *site, const sc_list *lis
             sc_suggest_force(&g, sc_synonyms[i].here);
         }
     }
-    sc_raise(s, SCENE_E_KEY, site, key, 0, sc_suggest_best(&g), "unknown key '%.63s' in %s{}", key,
-             site->construct);
+    char owners[160] = "";
+    if (sc_suggest_best(&g) == NULL) {
+        name_owners(key, owners, sizeof owners);
+    }
+    sc_raise(s, SCENE_E_KEY, site, key, 0, sc_suggest_best(&g), "unknown key '%.63s' in %s{}%s",
+             key, site->construct, owners);
 }
 
 // Checks that the table has no keys but those of the list. lua_next's order depends on string

@@ -104,6 +104,8 @@ typedef struct sc_synonym {
 } sc_synonym;
 
 extern const sc_synonym sc_synonyms[], sc_other_names[];
+/// Names that Lua or other engines have and scenes do not, each with what to do instead.
+extern const sc_synonym sc_absent_names[];
 
 // ------------------------------------------------------------------------------------- fields
 
@@ -297,6 +299,8 @@ extern const sc_list sc_list_shapes[SC_SHAPE_KINDS];
 enum { SC_JOINT_KINDS = 0 PLUMB_JOINT_LIST(SC_COUNT_JOINT) };
 #undef SC_COUNT_JOINT
 extern const sc_list sc_list_joints[SC_JOINT_KINDS]; ///< by plumb_joint_kind
+/// A list of which a key may be meant; null past the end.
+const sc_list *sc_list_at(int i);
 /// The list of a SC_RECORD.
 const sc_list *sc_list_named(const char *name);
 

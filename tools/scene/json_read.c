@@ -200,9 +200,9 @@ static void check_root(scene *s, const cJSON *root)
     }
     const cJSON *time = cJSON_GetObjectItemCaseSensitive(root, "time");
     if (time != NULL &&
-        (!cJSON_IsNumber(time) || !isfinite(time->valuedouble) || time->valuedouble < 0)) {
+        (!cJSON_IsNumber(time) || !(time->valuedouble >= 0 && time->valuedouble <= 1e9))) {
         sc_raise(s, SCENE_E_TYPE, &site, "time", 0, NULL,
-                 "'time' must be a number of at least 0 [s]");
+                 "'time' must be a number from 0 to 1e9 [s]");
     }
     s->start_time = time != NULL ? time->valuedouble : 0;
 }

@@ -212,7 +212,7 @@ static int lua_format(lua_State *L)
     return lua_counted(L);
 }
 
-// Where `word` begins in text[0..n), n + 1: nowhere. Counts as it goes: a text of one letter and a word that ends in
+// Where `word` begins in text[0..n), SIZE_MAX: nowhere. Counts as it goes: a text of one letter and a word that ends in
 // another are compared in full at every place.
 static size_t find_word(scene *s, const char *text, size_t n, const char *word, size_t m)
 {
@@ -236,7 +236,7 @@ static size_t find_word(scene *s, const char *text, size_t n, const char *word, 
         at = next + 1;
     }
     sc_work(s, work);
-    return n + 1;
+    return SIZE_MAX;
 }
 
 // string.find of plain text: Lua's patterns can take exponential time that no hook sees.
@@ -248,8 +248,8 @@ static int lua_find(lua_State *L)
     lua_Integer from = luaL_optinteger(L, 3, 1);
     from = from < 0 && from >= -(lua_Integer)n ? (lua_Integer)n + from + 1 : from < 1 ? 1 : from;
     size_t skip = (size_t)from - 1;
-    size_t at = skip <= n ? find_word(sc_of(L), text + skip, n - skip, word, m) : n + 1;
-    if (at > n) {
+    size_t at = skip <= n ? find_word(sc_of(L), text + skip, n - skip, word, m) : SIZE_MAX;
+    if (at == SIZE_MAX) {
         lua_pushnil(L);
         lua_pushnil(L);
         return 2;

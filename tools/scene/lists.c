@@ -11,7 +11,7 @@ static const sc_field scene_rows[] = {
     { "contact_hertz",     SC_NUMBER,  AT(T, contact_hertz),     0, 1e6, "1/s", 0, 0 },
     { "continuous",        SC_BOOL,    AT(T, continuous),        0, 0, NULL, 0, 0 },
     { "description",       SC_STRING,  AT(T, description),       0, 0, NULL, 0, 0 },
-    { "dt",                SC_NUMBER,  AT(T, dt),                0, 1, "s", 0, SC_ABOVE },
+    { "dt",                SC_NUMBER,  AT(T, dt),                1e-6, 1, "s", 0, 0 },
     { "duration",          SC_NUMBER,  AT(T, duration),          0, 1e7, "s", 0, SC_ABOVE },
     { "gravity",           SC_VEC2,    AT(T, gravity),           -1e6, 1e6, "m/s^2", 0, 0 },
     { "iterations",        SC_INTEGER, AT(T, iterations),        1, 1000, "1", 0, 0 },

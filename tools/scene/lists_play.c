@@ -58,3 +58,18 @@ const sc_list sc_list_queries[SC_QUERIES] = {
 };
 #undef T
 // clang-format on
+
+// In the order in which they are thought of when a key stands in the wrong place.
+const sc_list *sc_list_at(int i)
+{
+    static const sc_list *const single[] = { &sc_list_material, &sc_list_body,   &sc_list_scene,
+                                             &sc_list_camera,   &sc_list_pair,   &sc_list_character,
+                                             &sc_list_motor,    &sc_list_spring, &sc_list_expect,
+                                             &sc_list_blast };
+    const int count = (int)(sizeof single / sizeof *single);
+    return i < count                    ? single[i]
+           : i < count + SC_JOINT_KINDS ? &sc_list_joints[i - count]
+           : i < count + SC_JOINT_KINDS + SC_SHAPE_KINDS
+               ? &sc_list_shapes[i - count - SC_JOINT_KINDS]
+               : NULL;
+}

@@ -85,13 +85,21 @@ static int lua_strict_index(lua_State *L)
     }
     sc_site site = sc_here(s, name);
     int column = sc_lua_column(s->source, s->source_size, site.line, name);
-    char message[200];
-    if (owner[0] == 0) {
-        snprintf(message, sizeof message, "unknown name '%.63s'", name);
-    } else {
-        snprintf(message, sizeof message, "%s has no '%.63s'", owner, name);
+    char full[160], message[300];
+    snprintf(full, sizeof full, "%s%s%.63s", owner, owner[0] != 0 ? "." : "", name);
+    const char *instead = NULL;
+    for (int i = 0; sc_absent_names[i].elsewhere != NULL; i++) {
+        instead =
+            strcmp(full, sc_absent_names[i].elsewhere) == 0 ? sc_absent_names[i].here : instead;
     }
-    sc_set_error(s, SCENE_E_NAME, site.line, column, sc_suggest_best(&g), message);
+    const char *gap = instead != NULL ? "; " : "", *rest = instead != NULL ? instead : "";
+    if (owner[0] == 0) {
+        snprintf(message, sizeof message, "unknown name '%.63s'%s%s", name, gap, rest);
+    } else {
+        snprintf(message, sizeof message, "%s has no '%.63s'%s%s", owner, name, gap, rest);
+    }
+    sc_set_error(s, SCENE_E_NAME, site.line, column, instead == NULL ? sc_suggest_best(&g) : NULL,
+                 message);
     lua_settop(L, 0);
     lua_pushlightuserdata(L, s);
     return lua_error(L);

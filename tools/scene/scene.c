@@ -98,7 +98,8 @@ static bool read_file(scene *s, const char *path)
         wrong = text;
     }
     if (wrong != NULL) {
-        sc_set_error(s, SCENE_E_IO, 0, 0, NULL, wrong);
+        bool readable = good && is_recording(s);
+        sc_set_error(s, readable ? SCENE_E_SYNTAX : SCENE_E_IO, 0, 0, NULL, wrong);
     }
     return wrong == NULL;
 }

@@ -256,6 +256,9 @@ typedef struct scene_param {
 int scene_param_count(const scene *s);
 scene_param scene_param_get(const scene *s, int i);
 
+/// What of the scene has no JSON form, in words: "2 handlers (at, on_contact), 1 closed form"; "" if nothing. Returns
+/// how many characters that takes, as snprintf.
+int scene_json_lacks(const scene *s, char *text, size_t size);
 /// Writes the state now as canonical JSON: sorted keys, one body a line, shortest numbers that read
 /// back exactly. Handlers, exact{} and test functions have no JSON form and are left out.
 /// False when writing failed.

@@ -73,6 +73,31 @@ const sc_synonym sc_synonyms[] = {
     { NULL, NULL },
 };
 
+const sc_synonym sc_absent_names[] = {
+    { "math.random", "random(a, b) and random_int(a, b) follow scene{seed}" },
+    { "math.randomseed", "scene{seed = 1} begins random(a, b) and random_int(a, b)" },
+    { "string.match", "string.find(text, word) finds plain text" },
+    { "string.gmatch", "string.find(text, word) finds plain text" },
+    { "string.gsub", "string.find(text, word) finds plain text" },
+    { "table.move", "a loop copies as well" },
+    { "pcall", "a script ends with its first error" },
+    { "xpcall", "a script ends with its first error" },
+    { "os", "a scene knows no clock but time()" },
+    { "io", "a scene reads and writes no files" },
+    { "require", "a scene is one file" },
+    { "dofile", "a scene is one file" },
+    { "load", "a scene is one file" },
+    { "setmetatable", "a scene has plain tables" },
+    { "coroutine", "at(), every() and every_step() come back later" },
+    { "next", "pairs(t) goes in sorted order" },
+    { "rawget", "a scene has plain tables" },
+    { "friction", "it is a key: material{ friction = 0.5 }" },
+    { "restitution", "it is a key: material{ restitution = 0.5 }" },
+    { "density", "it is a key: material{ density = 2 }" },
+    { "gravity", "it is a key: scene{ gravity = {0, -9.81} }" },
+    { NULL, NULL },
+};
+
 const sc_synonym sc_other_names[] = {
     { "rope", "distance" },
     { "rod", "distance" },
