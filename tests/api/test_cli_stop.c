@@ -87,7 +87,7 @@ static void set_scenes(void)
     write_text("steps.lua", "scene { duration = 1e7 }\nbody { circle { 1 }, sleep = false }\n"
                             "every_step(function() end)\n");
     // One step takes seconds: everything is in one place.
-    write_text("pile.lua", "scene { duration = 1e7 }\nfor i = 1, 1200 do body { circle { 1 }, "
+    write_text("pile.lua", "scene { duration = 1e7 }\nfor i = 1, 700 do body { circle { 1 }, "
                            "at = { 1e-3 * i, 0 } } end\n");
     write_text("blast.lua",
                "for i = 1, 4000 do body { circle { 1 }, at = { i % 60 * 3, i // 60 * 3 } } end\n"
