@@ -32,12 +32,12 @@ end
 for i = 1, 4 do -- bananas: two capsules at an angle
     body {
         name = "banana" .. i, capsule { 0.45, 0.1, at = {-0.2, 0}, angle_deg = 20 },
-        capsule { 0.45, 0.1, at = {0.2, 0}, angle_deg = -20 }, at = {random(-1, 1), 6 + 0.6 * i},
+        capsule { 0.45, 0.1, at = {0.2, 0}, angle_deg = -20 }, at = {random(-1, 1), 6 + 0.7 * i},
         angle = random(-1, 1), material = peel, color = "#f2c230",
     }
 end
 for i = 1, 5 do -- plums, with corners rounded
-    body { name = "plum" .. i, regular { 6, 0.12, round = 0.08 }, at = {random(-1, 1), 8.5 + 0.5 * i},
+    body { name = "plum" .. i, regular { 6, 0.12, round = 0.08 }, at = {random(-1, 1), 9 + 0.5 * i},
            material = peel, color = "#7b3f83" }
 end
 

@@ -115,7 +115,9 @@ static void usage_errors_tell_the_remedy(void **state)
     char line[256];
     expect_code("\"$P\" --help", 0);
     assert_non_null(strstr(out, "6 two recordings differ, or a replay gives other bits\n"));
-    write_text("names.lua", "for i = 1, 11 do body { name = 'crate' .. i, circle { 1 } } end\n");
+    write_text(
+        "names.lua",
+        "for i = 1, 11 do body { name = 'crate' .. i, circle { 1 }, at = { 3 * i, 0 } } end\n");
     for (size_t i = 0; i < sizeof usage_cases / sizeof usage_cases[0]; i++) {
         snprintf(line, sizeof line, "\"$P\" %s", usage_cases[i].arguments);
         expect_usage_error(line, usage_cases[i].message);
@@ -342,6 +344,82 @@ static void set_takes_what_scenes_say(void **state)
     assert_non_null(strstr(out, "n.score 2 (breaks limit 1) at 0 s"));
 }
 
+// Two boxes of one size that overlap more or less, at every scale and to every side.
+static void overlaps_at_the_start_are_told(void **state)
+{
+    (void)state;
+    static const double sizes[] = { 0.05, 1, 40 }, shares[] = { -0.5, 0, 0.03, 0.08, 0.4, 0.9 };
+    for (int i = 0; i < 18; i++) {
+        double size = sizes[i / 6], share = shares[i % 6], d = size * (1 - share);
+        char text[512];
+        snprintf(text, sizeof text,
+                 "scene { gravity = {0, 0} }\nbody { name = 'a', box { %g, %g } }\n"
+                 "body { name = 'b', type = '%s', box { %g, %g }, at = { %g, %g } }\n",
+                 size, size, i % 2 == 0 ? "dynamic" : "static", size, size, i % 3 == 0 ? d : 0,
+                 i % 3 == 0   ? 0
+                 : i % 3 == 1 ? -d
+                              : d);
+        write_text("two.lua", text);
+        expect_code("\"$P\" run two.lua --time 0 -o /dev/null", 0);
+        if (share < 0.05) {
+            assert_string_equal(err, "");
+        } else {
+            assert_non_null(strstr(err, "plumb: warning: two.lua: '"));
+            assert_non_null(strstr(err, " m inside one another\n"));
+            assert_int_equal(count_lines(err), 1);
+        }
+    }
+    write_text("row.lua",
+               "for i = 1, 9 do body { name = 'b' .. i, circle { 1 }, at = { 2 * i - i * i / 20, 0 "
+               "} } end\n"
+               "body { name = 'ground', type = 'static', segment { {-9, -0.8}, {40, -0.8} } }\n");
+    static const char *const lines[] = { "run row.lua --time 0 -o /dev/null",
+                                         "check row.lua --time 0",
+                                         "render row.lua --time 0 -o row.png" };
+    for (int i = 0; i < 3; i++) {
+        char line[128];
+        snprintf(line, sizeof line, "\"$P\" %s", lines[i]);
+        expect_code(line, 0);
+        assert_int_equal(
+            strncmp(err, "plumb: warning: row.lua: 'b8' and 'b9' begin 0.85 m inside one another\n",
+                    70),
+            0);
+        assert_non_null(strstr(err, "plumb: warning: row.lua: and "));
+        assert_int_equal(count_lines(err), 4);
+    }
+}
+
+// Whoever never meets is not told of, nor what only sees.
+static void overlaps_that_are_meant_are_not(void **state)
+{
+    (void)state;
+    static const char *const meant[] = {
+        "body { box { 1, 1 }, collides = {} } body { box { 1, 1 } }",
+        "body { box { 1, 1 }, apart = 'doll' } body { box { 1, 1 }, apart = 'doll' }",
+        "body { name = 'a', box { 1, 1 } } body { name = 'b', box { 1, 1 } } revolute { 'a', 'b' }",
+        "local a, b = body { box { 1, 1 } }, body { box { 1, 1 } } exclude(a, b)",
+        "body { box { 1, 1 } } body { box { 9, 9 }, sensor = true, type = 'static' }",
+        "body { type = 'static', box { 1, 1 } } body { type = 'static', box { 1, 1 } }",
+        "body { type = 'kinematic', box { 1, 1 } } body { type = 'static', box { 1, 1 } }",
+        "body { box { 1, 1 }, enabled = false } body { box { 1, 1 } }",
+        "body { box { 1, 1 }, box { 1, 1, at = { 0.5, 0 } } }",
+    };
+    for (size_t i = 0; i < sizeof meant / sizeof *meant; i++) {
+        write_text("meant.lua", meant[i]);
+        expect_code("\"$P\" run meant.lua --time 0 -o /dev/null", 0);
+        if (err[0] != '\0') {
+            fail_msg("%s: %s", meant[i], err);
+        }
+    }
+    write_text("joined.lua", "body { name = 'a', box { 1, 1 } } body { name = 'b', box { 1, 1 } }\n"
+                             "revolute { 'a', 'b', collide = true }\n");
+    expect_error("\"$P\" run joined.lua --time 0 -o /dev/null", 0, "'a' and 'b' begin 1 m inside");
+    write_text("asleep.lua",
+               "for i = 1, 2 do body { name = 'a' .. i, box { 1, 1 }, asleep = true } end\n");
+    expect_error("\"$P\" run asleep.lua --time 0 -o /dev/null", 0,
+                 "'a1' and 'a2' begin 1 m inside");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -352,6 +430,8 @@ int main(void)
         cmocka_unit_test(same_command_same_bytes),
         cmocka_unit_test(overrides_reach_the_scene),
         cmocka_unit_test(set_takes_what_scenes_say),
+        cmocka_unit_test(overlaps_at_the_start_are_told),
+        cmocka_unit_test(overlaps_that_are_meant_are_not),
         cmocka_unit_test(the_scene_chooses_its_solver),
         cmocka_unit_test(what_ran_is_explained),
         cmocka_unit_test(what_a_scene_prints_is_no_data),

@@ -86,9 +86,12 @@ static void set_scenes(void)
                "at(0, function() while true do local c = a < b end end)\n");
     write_text("steps.lua", "scene { duration = 1e7 }\nbody { circle { 1 }, sleep = false }\n"
                             "every_step(function() end)\n");
-    // One step takes seconds: everything is in one place.
-    write_text("pile.lua", "scene { duration = 1e7 }\nfor i = 1, 700 do body { circle { 1 }, "
-                           "at = { 1e-3 * i, 0 } } end\n");
+    // One step takes half a second.
+    write_text("pile.lua",
+               "scene { duration = 1e7, solver = 'pgs', substeps = 64, iterations = 1000 }\n"
+               "body { type = 'static', box { 99, 1 }, at = { 0, -1.5 } }\n"
+               "for i = 0, 299 do body { circle { 1 }, sleep = false, "
+               "at = { i % 20 * 2, i // 20 * 2 } } end\n");
     write_text("blast.lua",
                "for i = 1, 4000 do body { circle { 1 }, at = { i % 60 * 3, i // 60 * 3 } } end\n"
                "every_step(function() blast { at = { 80, 80 }, radius = 500, impulse = 1, "

@@ -97,6 +97,7 @@ static void check_one(const check_args *args, const char *path, tally *sum)
     int code = scene_run_open(&args->scene, path, &run);
     if (code == CLI_OK) {
         progress bar;
+        scene_run_warn(&run, path);
         progress_begin(&bar, base_name(path), (double)run.steps, args->scene.quiet);
         code = simulate(&run, &bar);
         progress_end(&bar);

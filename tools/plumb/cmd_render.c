@@ -105,6 +105,7 @@ static int render_command(const cli_command *command, int argc, char **argv)
     if (code != CLI_OK) {
         return code;
     }
+    scene_run_warn(&reel.run, reel.path);
     film_source source = { .end = reel.run.time,
                            .verb = "simulating",
                            .quiet = args.scene.quiet,

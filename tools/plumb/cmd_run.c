@@ -134,6 +134,7 @@ static int run_command(const cli_command *command, int argc, char **argv)
     if (code != CLI_OK) {
         return code;
     }
+    scene_run_warn(&run, operands.items[0]);
     code = cli_output_open(&out, args.output);
     if (code == CLI_OK) {
         code = record_and_simulate(&args, &every, &run, &out);

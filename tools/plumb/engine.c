@@ -129,6 +129,7 @@ static void session_close(engine_session *session)
     scene_destroy(session->stage.scene);
     pl_stage_close(&session->stage);
     free(session->expects);
+    free(session->overlaps);
     free(session->passes);
     free(session->pass_infos);
     free(session->kept);
@@ -211,6 +212,7 @@ const engine_api ENGINE_NAME = {
     .stage = session_stage,
     .step = session_step,
     .check = session_check,
+    .overlaps = pl_session_overlaps,
     .ended = session_ended,
     .finish = session_finish,
     .exact = pl_session_exact,

@@ -153,6 +153,12 @@ typedef struct engine_difference {
 
 typedef struct engine_replay engine_replay;
 typedef struct engine_session engine_session;
+/// Two bodies that begin inside one another.
+typedef struct engine_overlap {
+    const char *a, *b; ///< names
+    double depth;      ///< [m]
+} engine_overlap;
+
 /// What is to be seen now: of a scene that runs, or of a recording.
 typedef struct engine_stage engine_stage;
 
@@ -170,6 +176,9 @@ typedef struct engine_api {
     int (*step)(engine_session *session, engine_error *error);
     /// CLI_DIVERGED when a body's state is NaN or infinite. O(bodies).
     int (*check)(engine_session *session, engine_error *error);
+    /// Pairs of bodies that are inside one another now, by more than a twentieth of the smaller one's thickness, and
+    /// will be pushed apart; deepest first. -1: out of memory.
+    int (*overlaps)(engine_session *session, const engine_overlap **list);
     /// True when the scene's code has ended the run.
     bool (*ended)(const engine_session *session);
     /// The end of the run, for what only then can be judged.

@@ -39,7 +39,8 @@ struct engine_session {
     engine_expect *expects;
     engine_pass *passes;
     plumb_pass_info *pass_infos;
-    size_t expect_room, pass_room, info_room; ///< [B]
+    engine_overlap *overlaps;
+    size_t expect_room, pass_room, info_room, overlap_room; ///< [B]
     // While it is recorded: what was last said of the looks of each entity, by its index; and the text.
     bool recording;
     FILE *record_file;
@@ -90,6 +91,7 @@ void pl_stage_close(engine_stage *stage);
 /// The functions of engine_api that are not in engine.c, by the names they have there.
 int pl_session_exact(engine_session *session, double *distance, engine_error *error);
 int pl_session_expectations(engine_session *session, const engine_expect **list);
+int pl_session_overlaps(engine_session *session, const engine_overlap **list);
 int pl_session_passes(engine_session *session, const engine_pass **list);
 bool pl_session_word(int constructor, int key, engine_word *word);
 int pl_session_record(engine_session *session, FILE *file, int keyframes, engine_error *error);

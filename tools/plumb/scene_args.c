@@ -79,6 +79,21 @@ int scene_run_open(const scene_args *args, const char *path, scene_run *run)
     return CLI_OK;
 }
 
+void scene_run_warn(const scene_run *run, const char *path)
+{
+    enum { TOLD = 3 };
+    const engine_overlap *list;
+    int count = run->engine->overlaps(run->session, &list);
+    for (int i = 0; i < count && i < TOLD; i++) {
+        cli_message("warning: %s: '%s' and '%s' begin %.3g m inside one another", path, list[i].a,
+                    list[i].b, list[i].depth);
+    }
+    if (count > TOLD) {
+        cli_message("warning: %s: and %d more pair%s of bodies", path, count - TOLD,
+                    count - TOLD == 1 ? "" : "s");
+    }
+}
+
 int scene_run_step(scene_run *run, progress *bar)
 {
     engine_error error = { 0 };

@@ -92,6 +92,8 @@ typedef struct scene_run {
 
 /// Opens the scene. On failure a message was printed and `run` holds nothing.
 int scene_run_open(const scene_args *args, const char *path, scene_run *run);
+/// Tells on stderr of bodies that begin inside one another: they will fly apart, which authors seldom mean.
+void scene_run_warn(const scene_run *run, const char *path);
 /// Takes one step and looks whether all is finite. On failure the bar (may be null) is taken away
 /// and the message printed.
 int scene_run_step(scene_run *run, progress *bar);
