@@ -335,6 +335,42 @@ static void a_replay_speaks_as_the_run_did(void **state)
     expect_usage_error("\"$P\" diff break.rec break.rec --from 0.5", "0.5 is not a whole number");
 }
 
+// A body that fell off the level is not looked for: the picture is the one that there is when it cannot be seen.
+static void who_fell_off_is_let_go(void **state)
+{
+    (void)state;
+    static const char level[] = "scene { title = 'level', duration = 6 }\n"
+                                "body { type = 'static', box { 12, 0.5 }, at = {0, -0.25} }\n"
+                                "for i = 1, 4 do body { box { 0.8, 0.8 }, at = {i - 4, 0.4} } end\n"
+                                "body { name = 'ball', circle { 0.5 }, at = {4.5, 0.5}, velocity = "
+                                "{3, 0}, label = 'b', hidden = %s }\n";
+    char text[1024];
+    snprintf(text, sizeof text, level, "false");
+    write_text("seen.lua", text);
+    snprintf(text, sizeof text, level, "true");
+    write_text("unseen.lua", text);
+    expect_code("\"$P\" render seen.lua --at 6 -o seen.png && \"$P\" render unseen.lua --at 6 -o "
+                "unseen.png && "
+                "cmp seen.png unseen.png",
+                0);
+    expect_code("\"$P\" run seen.lua -o /dev/null --record seen.rec && "
+                "\"$P\" replay seen.rec --render again.png && cmp seen.png again.png",
+                0);
+    // While it is there it is seen, and where all leave they are followed.
+    expect_code("\"$P\" render seen.lua --at 0 -o seen.png && \"$P\" render unseen.lua --at 0 -o "
+                "unseen.png && "
+                "! cmp -s seen.png unseen.png",
+                0);
+    write_text("flown.lua", "body { circle { 1 }, velocity = {30, 40}, label = 'up' }\n"
+                            "body { type = 'static', box { 9, 1 }, at = {0, -2} }\n");
+    write_text("gone.lua",
+               "body { circle { 1 }, velocity = {30, 40}, label = 'up', hidden = true }\n"
+               "body { type = 'static', box { 9, 1 }, at = {0, -2} }\n");
+    expect_code("\"$P\" render flown.lua --at 3 --overlay none -o a.png && "
+                "\"$P\" render gone.lua --at 3 --overlay none -o b.png && ! cmp -s a.png b.png",
+                0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -348,6 +384,7 @@ int main(void)
         cmocka_unit_test(differences_are_found),
         cmocka_unit_test(bad_recordings_are_refused),
         cmocka_unit_test(a_replay_speaks_as_the_run_did),
+        cmocka_unit_test(who_fell_off_is_let_go),
     };
     return cmocka_run_group_tests(tests, set_up, clean_up);
 }

@@ -134,7 +134,8 @@ const cli_command cmd_render = {
     .summary = "draws a scene: a picture, a sequence, a GIF or an MP4",
     .operands = "SCENE",
     .text = "Simulates SCENE and draws it; what is written depends on the name of FILE. The camera "
-            "is where the scene puts it, else it shows all that moves throughout the run.",
+            "is where the scene puts it, else it shows all that moves throughout the run, except "
+            "what flies or falls away while others stay.",
     .examples = "plumb render assets/scenes/stack.lua -o stack.png --at 2\n"
                 "plumb render pong.lua -o pong.gif --to 5 --fps 25 --size 640x360\n"
                 "plumb render cradle.lua -o cradle.mp4 --overlay contacts,velocities,legend\n"

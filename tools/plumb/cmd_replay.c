@@ -187,6 +187,11 @@ static int render(const replay_args *args, recording *r, unsigned long long at)
     }
     source.step = is_film ? find(&source, from) : (long long)at;
     int code = r->engine->replay_seek(r->replay, (unsigned long long)source.step, &error);
+    double time = r->engine->replay_info(r->replay).time;
+    if (code == CLI_OK && !is_film) { // the camera wants to know where all began
+        source.step = 0;
+        code = r->engine->replay_seek(r->replay, 0, &error);
+    }
     if (code != CLI_OK) {
         return scene_report(&error);
     }
@@ -196,7 +201,7 @@ static int render(const replay_args *args, recording *r, unsigned long long at)
         return CLI_FAILED;
     }
     source.seen = (engine_scenery){ r->engine, stage, r->engine->info(stage) };
-    return film_shoot(&args->film, &source, r->engine->time(stage));
+    return film_shoot(&args->film, &source, time);
 }
 
 // --------------------------------------------------------------------------------- what is asked

@@ -317,19 +317,38 @@ static void add_to_box(engine_box *box, plumb_aabb b)
     box->max_y = fmax(box->max_y, (double)b.max.y);
 }
 
-void pl_stage_bounds(const engine_stage *stage, engine_box *moving, engine_box *fixed)
+static bool is_middle_in(const engine_box *box, plumb_aabb b)
+{
+    double x = ((double)b.min.x + (double)b.max.x) / 2, y = ((double)b.min.y + (double)b.max.y) / 2;
+    return x >= box->min_x && x <= box->max_x && y >= box->min_y && y <= box->max_y;
+}
+
+void pl_stage_bounds(const engine_stage *stage, const engine_box *home, engine_box *moving,
+                     engine_box *fixed)
 {
     const engine_box empty = { DBL_MAX, DBL_MAX, -DBL_MAX, -DBL_MAX };
-    int count = pl_stage_body_count(stage);
+    int count = pl_stage_body_count(stage), movers = 0, stayed = 0;
+    engine_box near_home = empty;
 
     *moving = *fixed = empty;
     for (int i = 0; i < count; i++) {
         scene_body body = pl_stage_body(stage, i);
         plumb_aabb b = plumb_body_aabb(stage->world, body.entity);
         bool is_static = plumb_body_get_type(stage->world, body.entity) == PLUMB_STATIC;
-        if (!body.hidden && b.min.x <= b.max.x) {
-            add_to_box(is_static ? fixed : moving, b);
+        if (body.hidden || !(b.min.x <= b.max.x)) {
+            continue;
         }
+        add_to_box(is_static ? fixed : moving, b);
+        if (!is_static && home != NULL) {
+            movers++;
+            if (is_middle_in(home, b)) {
+                add_to_box(&near_home, b);
+                stayed++;
+            }
+        }
+    }
+    if (stayed > 0 && 3 * stayed >= movers) {
+        *moving = near_home;
     }
     // Of a world that wraps around all is worth seeing, and nothing twice.
     plumb_world_desc world = plumb_world_settings(stage->world);

@@ -69,7 +69,8 @@ double pl_stage_time(const engine_stage *stage);
 engine_stats pl_stage_stats(const engine_stage *stage);
 const char *pl_stage_text(const engine_stage *stage);
 int pl_stage_rows(engine_stage *stage, const engine_row **rows);
-void pl_stage_bounds(const engine_stage *stage, engine_box *moving, engine_box *fixed);
+void pl_stage_bounds(const engine_stage *stage, const engine_box *home, engine_box *moving,
+                     engine_box *fixed);
 int pl_stage_draw(engine_stage *stage, struct render_frame *frame, unsigned show);
 /// Bodies and joints as scene.h tells them.
 int pl_stage_body_count(const engine_stage *stage);

@@ -1,8 +1,8 @@
 /// view.c - aims the camera: as the scene says, else so that all that moves stays visible.
 ///
 /// Reads positions and boxes of what is drawn. What does not move is shown as far as it is near what
-/// does: a ground of a kilometre must not make a stack of boxes a dot. What flies away is let go
-/// once it is a picture's size away from where all began.
+/// does: a ground of a kilometre must not make a stack of boxes a dot. What flies away or falls
+/// off is let go once it is a picture's size away from where all began, as long as a third stays.
 #include "view.h"
 
 #include "scene_args.h"
@@ -45,10 +45,10 @@ static engine_box grow(engine_box b, double by)
 }
 
 /// What is worth seeing of a state: what moves, and the surroundings near it.
-static engine_box interest(const engine_scenery *of)
+static engine_box interest(const engine_scenery *of, const engine_box *home)
 {
     engine_box moving, fixed;
-    of->engine->bounds(of->stage, &moving, &fixed);
+    of->engine->bounds(of->stage, home, &moving, &fixed);
     if (is_empty(moving)) {
         return fixed;
     }
@@ -76,7 +76,8 @@ int view_begin(view *v, const view_wish *wish, const engine_scenery *of)
     *v = (view){ .wish = *wish, .y_down = of->info.y_down, .hint = of->info.camera };
     const char *follow = wish->follow != NULL ? wish->follow : v->hint.follow;
     snprintf(v->follow, sizeof v->follow, "%s", follow);
-    v->start = v->seen = interest(of);
+    v->start = v->seen = interest(of, NULL);
+    v->home = grow(v->start, STRAY * size_of(v->start));
     if (v->follow[0] == '\0') {
         return CLI_OK;
     }
@@ -91,7 +92,7 @@ bool view_needs_run(const view *v)
 
 void view_feed(view *v, const engine_scenery *of)
 {
-    engine_box now = interest(of);
+    engine_box now = interest(of, &v->home);
     if (is_empty(v->start)) {
         v->start = v->seen = now;
         return;

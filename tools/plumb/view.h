@@ -18,6 +18,7 @@ typedef struct view {
     bool y_down;
     engine_camera hint;
     char follow[256]; ///< "" = none
+    engine_box home;  ///< who leaves it has fallen off, or flown away
     engine_box start; ///< of the first state fed: how far things may stray is measured by it
     engine_box seen;  ///< of all
     bool has_center;  ///< it has been seen; if it vanishes the camera stays
