@@ -142,6 +142,38 @@ PLUMB_API plumb_result plumb_batch_observe(plumb_batch *batch, const plumb_batch
 PLUMB_API plumb_result plumb_batch_act(plumb_batch *batch, const plumb_batch_view *view,
                                        const plumb_real *numbers, size_t capacity);
 
+/// What can be read and written of joints.
+typedef enum plumb_batch_joint_field {
+    PLUMB_JOINT_FIELD_VALUE,       ///< [rad] or [m] plumb_joint_value; read only, as are those up to torque
+    PLUMB_JOINT_FIELD_RATE,        ///< [rad/s] or [m/s] plumb_joint_rate
+    PLUMB_JOINT_FIELD_FORCE_X,     ///< [N] plumb_joint_force
+    PLUMB_JOINT_FIELD_FORCE_Y,     ///< [N]
+    PLUMB_JOINT_FIELD_TORQUE,      ///< [N m] plumb_joint_torque
+    PLUMB_JOINT_FIELD_MOTOR_SPEED, ///< [rad/s] or [m/s] of the motor; writing it switches the motor on
+    PLUMB_JOINT_FIELD_MAX_MOTOR,   ///< [N m] or [N]; likewise
+    PLUMB_JOINT_FIELD_REST         ///< [rad] or [m] at which the spring is at rest: where a servo is to go
+} plumb_batch_joint_field;
+
+/// Joints and fields of every world: number j, f of world w is at (w * joint_count + j) * field_count + f.
+typedef struct plumb_batch_joint_view {
+    const plumb_joint *joints;             ///< handles that hold in every world
+    uint32_t joint_count;                  ///< 0..2^20
+    const plumb_batch_joint_field *fields; ///< each at most once where they are written
+    uint32_t field_count;                  ///< 0..64
+} plumb_batch_joint_view;
+
+/// Gathers fields of joints into one array, as plumb_batch_observe does those of bodies; the same errors.
+PLUMB_API plumb_result plumb_batch_observe_joints(plumb_batch *batch,
+                                                  const plumb_batch_joint_view *view,
+                                                  plumb_real *numbers, size_t capacity);
+
+/// Sets motors and springs from one array. What does not change wakes nobody. A world with a number that is
+/// refused keeps what was before it; the others go on. Errors: as plumb_batch_act, and those of
+/// plumb_joint_set_motor and plumb_joint_set_spring.
+PLUMB_API plumb_result plumb_batch_drive_joints(plumb_batch *batch,
+                                                const plumb_batch_joint_view *view,
+                                                const plumb_real *numbers, size_t capacity);
+
 /// What the last call that was refused said.
 typedef struct plumb_batch_trouble {
     plumb_result code;
@@ -153,7 +185,7 @@ typedef struct plumb_batch_trouble {
 /// The last refused call of the batch. Calls that succeed leave it as it is.
 PLUMB_API plumb_batch_trouble plumb_batch_error(const plumb_batch *batch);
 
-/// How world `index` took the last step, reset, observe or act; E_RANGE when there is none such.
+/// How world `index` took the last step, reset, observe, act or drive; E_RANGE when there is none such.
 PLUMB_API plumb_result plumb_batch_result(const plumb_batch *batch, uint32_t index);
 
 PLUMB_END
