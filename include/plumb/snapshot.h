@@ -82,12 +82,17 @@ typedef struct plumb_snapshot_info {
 PLUMB_API plumb_result plumb_snapshot_read_info(const void *image, size_t size,
                                                 plumb_snapshot_info *info);
 
-/// [B] that a delta to an image of so many bytes takes at the most.
+/// [B] that a delta to an image of so many bytes takes at the most, whatever the image from which: the rule for slots.
+/// A slot of plumb_snapshot_delta_bound(plumb_world_snapshot_size(world)) bytes, asked when the world is as large as it
+/// gets (bodies and shapes made, contacts at their most), takes every delta between images of that world. A
+/// slot for the usual delta may be much smaller: plumb_snapshot_delta tells how much one that does not fit wants, and
+/// the image itself never needs more than the bound.
 PLUMB_API size_t plumb_snapshot_delta_bound(size_t image_size);
 
 /// Writes what turns the image `from` into the image `to`: both complete, or frames of one base. Small
 /// where little changed: some 60 to 90 bytes a moving body in the float library. O(bytes).
-/// Errors: E_NULL, E_RANGE (size), E_IMAGE (either is damaged, or they are not of the same world).
+/// Errors: E_NULL, E_RANGE (size: *bytes tells how much it takes), E_IMAGE (either is damaged, or they are not of the
+/// same world).
 PLUMB_API plumb_result plumb_snapshot_delta(const void *from, size_t from_size, const void *to,
                                             size_t to_size, void *buffer, size_t size, size_t *bytes);
 

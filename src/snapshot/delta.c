@@ -181,6 +181,8 @@ size_t pl_delta_write(const pl_image *from, const pl_image *to, void *buffer, si
     return c.used;
 }
 
+// Coded differences take at most 9 bytes in 8 and a few a section, of which the directory has more bytes than that; a
+// run is a keyed element of 8 bytes or more at the least, and its numbers 4 bytes (of long runs, more).
 size_t plumb_snapshot_delta_bound(size_t image_size)
 {
     return sizeof(delta_header) + 2 * image_size + 64;
@@ -196,12 +198,8 @@ plumb_result plumb_snapshot_delta(const void *from, size_t from_size, const void
     if (!open_both(from, from_size, to, to_size, &a, &b)) {
         return PLUMB_E_IMAGE;
     }
-    size_t needed = pl_delta_write(&a, &b, buffer, size);
-    if (needed > size) {
-        return PLUMB_E_RANGE;
-    }
-    *bytes = needed;
-    return PLUMB_OK;
+    *bytes = pl_delta_write(&a, &b, buffer, size);
+    return *bytes > size ? PLUMB_E_RANGE : PLUMB_OK;
 }
 
 //---- reading -------------------------------------------------------------------------------------

@@ -379,6 +379,55 @@ static void a_delta_rebuilds_the_image(void **state)
     plumb_world_destroy(p.world);
 }
 
+// Between any two states of worlds that have nothing in common, too; and a slot that is too small is told how small.
+static void a_slot_of_the_bound_takes_every_delta(void **state)
+{
+    (void)state;
+    enum { IMAGES = 7 };
+    image images[IMAGES];
+    size_t largest = 0;
+    for (int i = 0; i < IMAGES; ++i) {
+        pile p;
+        make_pile(&p, (plumb_world_desc){ .solver = i % 2 == 0 ? PLUMB_SOLVER_SOFT : PLUMB_SOLVER_PGS },
+                  3 * i * i);
+        for (int k = 0; k < 20 * i; ++k) {
+            step(p.world, k);
+        }
+        for (int k = 0; k < 3 * i; k += 2) { // pairs come and go all over the list
+            plumb_body_destroy(p.world, p.bodies[k]);
+        }
+        images[i] = save(p.world);
+        largest = images[i].size > largest ? images[i].size : largest;
+        plumb_world_destroy(p.world);
+    }
+    const size_t slot = plumb_snapshot_delta_bound(largest);
+    char *delta = malloc(slot), *rebuilt = malloc(largest);
+    for (int i = 0; i < IMAGES * IMAGES; ++i) {
+        const image *from = &images[i / IMAGES], *to = &images[i % IMAGES];
+        size_t size = 0, wanted = 0, back = 0;
+        assert_int_equal(plumb_snapshot_delta(from->bytes, from->size, to->bytes, to->size, delta,
+                                              slot, &size),
+                         PLUMB_OK);
+        assert_true(size <= plumb_snapshot_delta_bound(to->size));
+        assert_int_equal(plumb_snapshot_delta(from->bytes, from->size, to->bytes, to->size, delta,
+                                              size - 1, &wanted),
+                         PLUMB_E_RANGE);
+        assert_int_equal(wanted, size);
+        assert_int_equal(plumb_snapshot_delta(from->bytes, from->size, to->bytes, to->size, delta,
+                                              wanted, &size),
+                         PLUMB_OK);
+        assert_int_equal(plumb_snapshot_apply(from->bytes, from->size, delta, size, rebuilt, largest,
+                                              &back),
+                         PLUMB_OK);
+        assert_memory_equal(rebuilt, to->bytes, to->size);
+    }
+    for (int i = 0; i < IMAGES; ++i) {
+        free(images[i].bytes);
+    }
+    free(delta);
+    free(rebuilt);
+}
+
 static void frames_of_one_base_have_deltas_too(void **state)
 {
     (void)state;
@@ -424,6 +473,7 @@ int main(void)
         cmocka_unit_test(a_frame_leaves_out_what_the_base_has),
         cmocka_unit_test(a_frame_holds_changed_structure),
         cmocka_unit_test(a_delta_rebuilds_the_image),
+        cmocka_unit_test(a_slot_of_the_bound_takes_every_delta),
         cmocka_unit_test(frames_of_one_base_have_deltas_too),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
