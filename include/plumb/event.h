@@ -1,6 +1,15 @@
 /// event.h - what happened in the last step: arrays, valid until the next step or structural change.
 /// There are no callbacks inside the solver.
 ///
+/// What outlives what. Events are told of what was there in the step; whatever is destroyed afterwards, they stay as
+/// they are until the next step (ask for an array again after a structural change: it may have moved). A handle in an
+/// event may be stale: plumb_same still tells which one it is, for slots that are used again have other handles,
+/// and every call catches it. After a destruction the next step (of dt 0, too) tells
+/// - the end of each contact that was touching, unless it slept: with the handles of before;
+/// - the end of each overlap with a sensor, or of a sensor, asleep or not: likewise;
+/// - nothing of joints: only what breaks by itself tells that it broke, its handle being stale by then.
+/// Sleep, wake, hit, begin and strain events and quarantines are of what was alive when they were told.
+///
 /// A body that lies on several flush tiles of one material touches each of them, and events tell so; what
 /// they bear together is told as impulses of one of those contacts, the others have none.
 #ifndef PLUMB_EVENT_H
