@@ -98,6 +98,17 @@ static void one_file_is_not_written_twice(void **state)
         snprintf(line, sizeof line, "\"$P\" %s", lines[i]);
         expect_usage_error(line, " are one file, '");
     }
+    static const char *const nameless[] = {
+        "run '' ",     "run s.lua -o ''", "run s.lua --record ''", "render s.lua -o ''",
+        "convert '' ", "replay '' "
+    };
+    for (size_t i = 0; i < sizeof nameless / sizeof *nameless; i++) {
+        char line[256];
+        snprintf(line, sizeof line, "\"$P\" %s", nameless[i]);
+        expect_usage_error(line, "the name of the file is empty");
+    }
+    expect_usage_error("\"$P\" render s.lua -o a.png --at 2 --time 1",
+                       "--at 2 lies behind --time 1");
     expect_code("cmp s.lua keep.lua && cmp r.rec k.rec && cmp j.json k.json && ! test -e new.csv",
                 0);
     // What is no file may be named twice, and files that are two are two.

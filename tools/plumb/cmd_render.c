@@ -69,6 +69,10 @@ static int check_args(const cli_command *command, const render_args *args)
         cli_message("%s: --at is for one picture; a film has --from and --to", command->name);
         return CLI_USAGE;
     }
+    if (args->scene.time >= 0 && args->at > args->scene.time) {
+        cli_message("%s: --at %g lies behind --time %g", command->name, args->at, args->scene.time);
+        return CLI_USAGE;
+    }
     return CLI_OK;
 }
 

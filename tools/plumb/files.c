@@ -97,6 +97,10 @@ static bool is_same_file(const cli_file *a, const cli_file *b)
 int cli_files_check(const cli_command *command, const cli_file *files, int count)
 {
     for (int i = 0; i < count; i++) {
+        if (files[i].path != NULL && files[i].path[0] == '\0') {
+            cli_message("%s: %s: the name of the file is empty", command->name, files[i].what);
+            return CLI_USAGE;
+        }
         for (int k = 0; k < i; k++) {
             const cli_file *a = &files[k], *b = &files[i];
             if (a->path != NULL && b->path != NULL && (a->is_written || b->is_written) &&

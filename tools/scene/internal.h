@@ -26,6 +26,7 @@ typedef struct sc_budget {
     uint64_t step_spent;  ///< work of all earlier handler calls of this step
     uint64_t step_limit;
     double seconds_limit; ///< [s] processor time of the build pass, or of all handlers of a step
+    uint64_t since_look;  ///< work since a stop and the time were last asked for
     double looked;        ///< [s] on the monotonic clock: when processor time was last asked for
     double began;         ///< [s] processor time of this thread at the first look; < 0: none yet
     bool out_of_time;     ///< `spent` went past its limit

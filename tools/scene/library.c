@@ -142,7 +142,8 @@ static int lua_sorted_pairs(lua_State *L)
     for (lua_pushnil(L); lua_next(L, 1) != 0; lua_pop(L, 1)) {
         count++;
     }
-    sc_work(sc_of(L), 8 * count + 2); // a look at a key and its part of the sorting
+    // A look at a key and its part of the sorting; and the empty places of a table that was large, which nobody counts.
+    sc_work(sc_of(L), 8 * count + 100);
     sort_key *keys = lua_newuserdatauv(L, count * sizeof *keys, 0);
     size_t i = 0;
     for (lua_pushnil(L); lua_next(L, 1) != 0; lua_pop(L, 1)) {

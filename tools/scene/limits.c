@@ -153,6 +153,18 @@ static void check_time(scene *s)
     }
 }
 
+// Asks for a stop and for the time, but not at every call of a getter.
+static void look_around(scene *s, uint64_t work)
+{
+    sc_budget *b = &s->budget;
+    b->since_look += work < SC_HOOK_STEP ? work : SC_HOOK_STEP;
+    if (b->since_look >= SC_HOOK_STEP) {
+        b->since_look = 0;
+        check_stop(s);
+        check_time(s);
+    }
+}
+
 static void check_work(scene *s)
 {
     const sc_budget *b = &s->budget;
@@ -170,17 +182,15 @@ static void check_work(scene *s)
 void sc_work(scene *s, uint64_t work)
 {
     s->budget.spent += work < UINT64_MAX / 4 - s->budget.spent ? work : UINT64_MAX / 4;
-    check_stop(s);
     check_work(s);
-    check_time(s);
+    look_around(s, work);
 }
 
 void sc_step_work(scene *s, uint64_t work)
 {
     s->budget.step_spent += work;
-    check_stop(s);
     check_work(s);
-    check_time(s);
+    look_around(s, work);
 }
 
 void sc_query_work(scene *s)
