@@ -5,6 +5,13 @@
 
 #include "plumb/base.h"
 
+// Formats as C has them: the runtime of Windows knows others, and mingw-w64 brings those of C.
+#if defined(__MINGW32__)
+#define PL_PRINTF(format_at, first) __attribute__((format(gnu_printf, format_at, first)))
+#else
+#define PL_PRINTF(format_at, first) __attribute__((format(printf, format_at, first)))
+#endif
+
 #define PL_ALIGN 64 // a cache line and the widest vector
 
 typedef struct pl_memory {

@@ -38,8 +38,10 @@ typedef int32_t pl_lane;
 #define LANE_SQRT __builtin_sqrtf
 #endif
 
-typedef near_real vf __attribute__((vector_size(PL_WIDTH * sizeof(near_real))));
-typedef pl_lane vm __attribute__((vector_size(PL_WIDTH * sizeof(pl_lane)))); // masks: 0 or -1
+typedef near_real vf
+    __attribute__((vector_size(PL_WIDTH * sizeof(near_real)), PL_REGISTER(PL_WIDTH * 4)));
+typedef pl_lane vm // masks: 0 or -1
+    __attribute__((vector_size(PL_WIDTH * sizeof(pl_lane)), PL_REGISTER(PL_WIDTH * 4)));
 typedef pl_near_quad quad;
 
 WIDE_INLINE vf splat(near_real v)
@@ -195,7 +197,7 @@ WIDE_INLINE void gather8(vf out[8], const near_real *const *rows)
 
 #if PLUMB_IS_FAR
 typedef plumb_real far_quad
-    __attribute__((vector_size(4 * sizeof(plumb_real)), may_alias, aligned(sizeof(plumb_real))));
+    __attribute__((vector_size(4 * sizeof(plumb_real)), aligned(sizeof(plumb_real)), may_alias));
 
 WIDE_INLINE quad to_near(far_quad q)
 {

@@ -35,7 +35,7 @@ struct plumb_replay {
 
 // Keeps the message and sends it to the log; answers `code`.
 plumb_result pl_replay_fail(plumb_replay *replay, plumb_result code, const char *function,
-                            const char *format, ...) __attribute__((format(printf, 4, 5)));
+                            const char *format, ...) PL_PRINTF(4, 5);
 // The image of the world now. False when out of memory.
 bool pl_replay_keep(plumb_replay *replay, pl_played_image *kept);
 // Plays the edits of one phase (0: before the step, else 1 + plumb_phase) of the step under way.

@@ -394,8 +394,8 @@ WIDE_INLINE void solve_normals(const bundle *c, const special *s, point p[2], bo
     }
     vf impulse0 = total0 - old0;
     vf impulse1 = total1 - old1;
-    p[0].ln = s != NULL ? total0 - s->pull[0] : total0;
-    p[1].ln = s != NULL ? total1 - s->pull[1] : total1;
+    p[0].ln = s != NULL ? (vf)(total0 - s->pull[0]) : total0;
+    p[1].ln = s != NULL ? (vf)(total1 - s->pull[1]) : total1;
     vf px = c->nx * (impulse0 + impulse1);
     vf py = c->ny * (impulse0 + impulse1);
     shove(a, b, s, px, py);
@@ -428,7 +428,7 @@ WIDE_INLINE void solve_tangent(const bundle *c, const special *s, const extra *e
     if (rotation) {
         vt += p->rbt * b->w - p->rat * a->w;
     }
-    vf bound = c->friction * (s != NULL ? p->ln + s->pull[j] : p->ln);
+    vf bound = c->friction * (s != NULL ? (vf)(p->ln + s->pull[j]) : p->ln);
     vf total = vclamp(p->lt - p->mt * vt, -bound, bound);
     vf impulse = total - p->lt;
     p->lt = total;

@@ -14,8 +14,8 @@
 
 typedef pl_near_quad row; // of a solver body
 typedef pl_near_mask row_mask;
-typedef double four __attribute__((vector_size(32)));
-typedef int64_t mask __attribute__((vector_size(32)));
+typedef double four __attribute__((vector_size(32), PL_REGISTER(16)));
+typedef int64_t mask __attribute__((vector_size(32), PL_REGISTER(16)));
 typedef uint32_t slots __attribute__((vector_size(16)));
 
 //---- four doubles --------------------------------------------------------------------------------

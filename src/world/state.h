@@ -141,11 +141,11 @@ struct plumb_world {
 
 // Records a refused call, sends it to the log, returns `code`.
 plumb_result pl_fail(const plumb_world *world, plumb_result code, const char *function,
-                     const char *format, ...) __attribute__((format(printf, 4, 5)));
+                     const char *format, ...) PL_PRINTF(4, 5);
 
 // Sends a warning to the log hook.
 void pl_warn(const plumb_world *world, const char *format, ...)
-    __attribute__((format(printf, 2, 3)));
+    PL_PRINTF(2, 3);
 
 // E_LOCKED with the name of the system and the remedy when the world is stepping.
 plumb_result pl_check_unlocked(const plumb_world *world, const char *function);

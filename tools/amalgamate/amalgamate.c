@@ -389,6 +389,9 @@ static const char prologue[] =
     "#if defined(__clang__)\n"
     "#pragma STDC FP_CONTRACT OFF\n"
     "#pragma clang diagnostic ignored \"-Wunused-function\"\n"
+    "#if __has_warning(\"-Wpsabi\")\n"
+    "#pragma clang diagnostic ignored \"-Wpsabi\"\n"
+    "#endif\n"
     "#elif defined(__GNUC__)\n"
     "#pragma GCC optimize(\"fp-contract=off\", \"no-math-errno\", \"no-trapping-math\")\n"
     "#pragma GCC diagnostic ignored \"-Wpsabi\"\n"
@@ -401,6 +404,10 @@ static const char prologue[] =
     "#error \"Plumb needs GCC or Clang (vector extensions)\"\n"
     "#endif\n"
     "#define _POSIX_C_SOURCE 200809L\n"
+    "#define PL_AMALGAMATED\n"
+    "#if defined(_WIN32)\n"
+    "#define __USE_MINGW_ANSI_STDIO 1 // %zu\n"
+    "#endif\n"
     "#include \"plumb.h\"\n";
 
 // The flags that the Makefile gives to files of a width.
