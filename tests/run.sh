@@ -1,22 +1,25 @@
 #!/bin/bash
 # run.sh - runs test programs and sums up.
 #
-#   tests/run.sh [-j jobs] [-t seconds] [-l log-folder] program-or-script ...
+#   tests/run.sh [-j jobs] [-t cpu-seconds] [-i idle-seconds] [-l log-folder] program-or-script ...
 #
 # Understands what cmocka prints and, from scripts (*.sh), TAP lines "ok ..." and "not ok ...".
-# replay_fuzz_X gets the files of tests/fuzz/seeds/X. A program that is not there, crashes, takes too
-# long, fails without saying which test, or holds no test at all counts as one failed test. What
-# fails is printed in full. The last line is "N passed, N failed"; exit status 1 if any failed.
+# replay_fuzz_X gets the files of tests/fuzz/seeds/X. A program that is not there, crashes, never
+# ends, fails without saying which test, or holds no test at all counts as one failed test. What
+# fails is printed in full. No clock stops a test, for a machine may be slow: a process has -t seconds of
+# processor time, and what takes none for -i seconds, with all its children, hangs. The last line is "N passed, N failed"; exit status 1 if any failed.
 set -u
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 jobs=2
-seconds=300
+seconds=3600
+idle=300
 logs=${O:-build}/test-logs
-while getopts j:t:l: option; do
+while getopts j:t:i:l: option; do
     case $option in
     j) jobs=$OPTARG ;;
     t) seconds=$OPTARG ;;
+    i) idle=$OPTARG ;;
     l) logs=$OPTARG ;;
     *) exit 2 ;;
     esac
@@ -49,6 +52,40 @@ count() # log program
         END { print passed + 0, failed + 0 }' "$1"
 }
 
+# Processor time of a process and all that it began, in ticks: "time pid pid ...".
+family() # pid
+{
+    cat /proc/[0-9]*/stat 2>/dev/null | awk -v first="$1" '
+        { pid = $1; sub(/^.*\) /, ""); parent[pid] = $2; time[pid] = $12 + $13 + $14 + $15 }
+        END {
+            for (p in parent) {
+                for (a = p; a != first && a in parent; a = parent[a]) { }
+                if (a == first) { sum += time[p]; all = all " " p }
+            }
+            print sum + 0 all
+        }'
+}
+
+# Ends a process that takes no processor time any more. Asked ten times while it may be idle.
+watch_over() # pid file-that-says-so
+{
+    local before=-1 still=0 now pids rest=
+    trap 'kill $rest 2>/dev/null; exit' TERM
+    while true; do
+        sleep "$(awk "BEGIN { print $idle / 10 }")" &
+        rest=$!
+        wait $rest
+        read -r now pids < <(family "$1")
+        if [ "$now" = "$before" ]; then still=$((still + 1)); else still=0; fi
+        before=$now
+        if [ $still -ge 10 ]; then
+            : >"$2"
+            kill -KILL $pids 2>/dev/null
+            exit
+        fi
+    done
+}
+
 # Runs one, writes "passed failed" to <log>.sum and prints its line, all at once.
 run_one() # program
 {
@@ -72,13 +109,22 @@ run_one() # program
         passed=0 failed=1 note="not built"
     else
         # The shell's own remark about a crash is of no use.
-        { timeout -k 10 "$seconds" "${command[@]}" >"$log" 2>&1 </dev/null; } 2>/dev/null || status=$?
+        {
+            (ulimit -St "$seconds" && exec "${command[@]}") >"$log" 2>&1 </dev/null &
+            local pid=$!
+            watch_over $pid "$log.hangs" >/dev/null 2>&1 </dev/null &
+            local watcher=$!
+            wait $pid || status=$?
+            kill $watcher && wait $watcher
+        } 2>/dev/null
         read -r passed failed < <(count "$log" "$program")
         case $program in
         */replay_fuzz_*) [ $((passed + failed)) -eq 0 ] && [ $status -eq 0 ] && passed=1 ;;
         esac
-        if [ $status -eq 124 ] || [ $status -eq 137 ]; then
-            failed=$((failed + 1)) note="stopped after $seconds s"
+        if [ -e "$log.hangs" ]; then
+            failed=$((failed + 1)) note="hung: no processor time for $idle s"
+        elif [ $status -eq 152 ]; then
+            failed=$((failed + 1)) note="took more than $seconds s of processor time"
         elif [ $status -gt 128 ]; then
             failed=$((failed + 1)) note="killed by signal $((status - 128))"
         elif [ $status -ne 0 ] && [ "$failed" -eq 0 ]; then
@@ -116,6 +162,7 @@ wait
 passed=0
 failed=0
 count=0
+shopt -s dotglob # a program of another folder
 for sum in "$logs"/*.sum; do
     [ -e "$sum" ] || continue
     read -r p f <"$sum"
