@@ -77,6 +77,9 @@ VARIANTS    := float double far
 DEFS_float  :=
 DEFS_double := -DPLUMB_DOUBLE=1
 DEFS_far    := -DPLUMB_FAR=1
+SUFFIX_float  :=
+SUFFIX_double := _d
+SUFFIX_far    := _far
 
 # Asked once, when the first recipe that needs it runs; where pkg-config knows nothing, Debian's places.
 DEBIAN_CFLAGS := -I/usr/include/lua5.4 -I/usr/include/cjson -I/usr/include/freetype2
@@ -121,9 +124,15 @@ CLI_OBJ    := $(call objects,float,$(CLI_SRC))
 
 # ---- goals
 
-LIBRARIES := $(foreach l,libplumb libplumb_d libplumb_far,$(O)/$l.a $(O)/$l.so)
+# The precisions that are asked for; all, if none is.
+PRECISION ?= $(VARIANTS)
+WANTED    := $(if $(filter all,$(PRECISION)),$(VARIANTS),$(PRECISION))
+ifneq ($(or $(if $(strip $(WANTED)),,none),$(filter-out $(VARIANTS),$(WANTED))),)
+$(error PRECISION is '$(PRECISION)'; it must be some of: $(VARIANTS))
+endif
+LIBRARIES := $(foreach v,$(WANTED),$(O)/libplumb$(SUFFIX_$v).a $(O)/libplumb$(SUFFIX_$v).so)
 
-.PHONY: all lib help clean deps deps-dev demo examples amalgamation
+.PHONY: all lib help clean deps deps-dev demo examples amalgamation windows
 all: lib $(O)/plumb examples
 lib: $(LIBRARIES)
 examples: $(EXAMPLES)
@@ -138,6 +147,7 @@ help:
 #:
 #:   all (default)     build/plumb, build/libplumb.a and .so, _d in double, _far with far places, examples
 #:   deps, deps-dev    Debian packages: for the two commands above; for fuzz, format, lint as well
+#:   lib               the libraries alone: PRECISION=float (double, far; all without)
 #:   test              every test; T="tests/unit/test_math.c ..." runs only these
 #:   stability         the hard-case tests and the expectations of every scene
 #:   shots             what gets through thin walls, beside Box2D 2.4.1; SHOTS=100000
@@ -149,7 +159,9 @@ help:
 #:   asan, ubsan, tsan every test again under a sanitizer
 #:   fuzz              each fuzz harness for FUZZ_TIME=60 seconds
 #:   format, lint      clang-format in place; the rules of tools/lint
-#:   install           PREFIX=/usr/local DESTDIR= (install-lib leaves out the command line)
+#:   install           PREFIX=/usr/local DESTDIR= (install-lib leaves out the command line; PRECISION= as for lib)
+#:   uninstall         takes away what install brought, of all precisions
+#:   windows           build/windows/hello.exe: the amalgamation by mingw-w64, for Windows
 #:   clean             remove build/
 #:
 #:   CC=clang  CFLAGS="-O2 -g"  WERROR=1  JOBS=1  O=elsewhere
@@ -160,8 +172,8 @@ clean:
 # Packages of Debian 12: for building and testing, and what only developers need.
 DEPS := gcc g++ libc6-dev make binutils pkg-config cmake libbox2d-dev libccd-dev libosmesa6-dev \
 	libfreetype-dev fonts-dejavu-core liblua5.4-dev libcmocka-dev libpng-dev libgif-dev \
-	libcjson-dev libsdl2-dev ffmpeg gnuplot-nox
-DEPS_DEV := $(DEPS) clang clang-format libclang-rt-14-dev valgrind git
+	libcjson-dev libsdl2-dev ffmpeg gnuplot-nox mandoc
+DEPS_DEV := $(DEPS) clang clang-format libclang-rt-14-dev valgrind git gcc-mingw-w64-x86-64-posix
 
 deps:
 	@tools/make/deps.sh $(DEPS)
@@ -255,6 +267,16 @@ $(O)/plumb.c: $(O)/amalgamate LICENSE $(wildcard include/plumb/*.h src/*/*.h) $(
 $(O)/amalgamate: $(AMALGAMATE_OBJ)
 	@echo "  LD    $@"
 	$(Q)$(CC) $(SANFLAGS) $(LDFLAGS) -o $@ $^
+
+# For Windows, on Debian: apt-get install gcc-mingw-w64-x86-64-posix. MSVC has no vector extensions.
+MINGW ?= x86_64-w64-mingw32-gcc
+windows: $(O)/windows/hello.exe
+$(O)/windows/hello.exe: $(O)/plumb.c tools/examples/hello.c
+	@mkdir -p $(O)/windows/plumb
+	$(Q)cp $(O)/plumb.h $(O)/windows/plumb
+	$(Q)$(MINGW) -std=c17 -O2 $(WARN) -Wno-conversion -Wno-shadow -static -I$(O)/windows \
+		$(O)/plumb.c tools/examples/hello.c -o $@ -lpthread
+	@echo "windows: $(abspath $@)"
 
 include tools/make/test.mk
 include tools/make/install.mk

@@ -34,6 +34,30 @@ lib=$root$prefix/lib
 warnings="-Wall -Wextra -Wpedantic -Werror"
 
 try "installs" make --no-print-directory install DESTDIR="$root" PREFIX=$prefix
+share=$root$prefix/share
+for file in doc/plumb/README.md doc/plumb/scenes.md doc/plumb/library.md doc/plumb/command-line.md \
+    doc/plumb/LICENSE man/man1/plumb.1 plumb/scenes/stack.lua plumb/examples/hello.c; do
+    try "brings share/$file" test -s "$share/$file"
+done
+try "the installed scenes run" bash -c "'$root$prefix/bin/plumb' check -q '$share/plumb/scenes/stack.lua'"
+try "all of them are there" diff -r assets/scenes "$share/plumb/scenes"
+lint_man()
+{
+    ! mandoc -T lint -W warning "$share/man/man1/plumb.1" | grep .
+}
+try "the manual page has no slip" lint_man
+man_tells() # of every command and its options
+{
+    local command option text
+    text=$(mandoc -T utf8 "$share/man/man1/plumb.1" | sed 's/.\x08//g')
+    for command in run render check explain cost convert replay diff list; do
+        grep -q "plumb $command" <<<"$text" || return 1
+        while read -r option; do
+            grep -qe "$option" <<<"$text" || { echo "$command $option"; return 1; }
+        done < <("$root$prefix/bin/plumb" help "$command" | grep -oE '^  (-.,)? *--[a-z-]+' | grep -oE -e '--[a-z-]+' | grep -v -e --help)
+    done
+}
+try "the manual page tells of every command and option" man_tells
 try "leaves no file elsewhere" test "$(ls "$root")" = opt
 try "installs the command line" "$root$prefix/bin/plumb" --help
 # What a tab offers after these words, with the installed command line.
@@ -215,5 +239,31 @@ try "CMake refuses a version that is not there" bash -c "! cmake -S '$work/proje
     -DCMAKE_PREFIX_PATH='$root$prefix'"
 
 try "uninstalls" make --no-print-directory uninstall DESTDIR="$root" PREFIX=$prefix
-try "leaves nothing behind" test -z "$(find "$root" -type f -o -type l)"
+try "leaves nothing behind" test ! -e "$root"
+
+# ---- one precision alone, and what others had there stays
+one=$work/one
+mkdir -p "$one/usr/share/doc/other"
+for precision in float double far; do
+    declare suffix=${libraries[$precision]#libplumb}
+    try "install-lib of $precision alone" make --no-print-directory install-lib DESTDIR="$one" PREFIX=/usr \
+        PRECISION=$precision
+    try "brings libplumb$suffix and no other" \
+        test "$(cd "$one/usr/lib" && ls ./*.a pkgconfig | tr '\n' ' ')" = "./libplumb$suffix.a  pkgconfig: plumb$suffix.pc "
+    try "uninstalls it" make --no-print-directory uninstall DESTDIR="$one" PREFIX=/usr
+    try "and nothing else" test "$(cd "$one" && find . -type d | sort | tr '\n' ' ')" = \
+        ". ./usr ./usr/share ./usr/share/doc ./usr/share/doc/other "
+done
+lists() # precision, pattern that is there, pattern that is not
+{
+    make -n -B --no-print-directory lib PRECISION="$1" O="$work/none" >"$work/plan" 2>&1
+    grep -q "$2" "$work/plan" && ! grep -q "$3" "$work/plan"
+}
+try "make lib builds float alone" lists float none/float/src none/double/src
+try "make lib builds double alone" lists double none/double/src none/far/src
+try "an unknown precision is refused" bash -c "! make -n lib PRECISION=half 2>'$work/said' &&
+    grep -q 'must be some of: float double far' '$work/said'"
+for goal in lib uninstall install windows; do
+    try "make help knows $goal" bash -c "make -s help | grep -qE '^  $goal( |\$)'"
+done
 [ $failures -eq 0 ]

@@ -93,6 +93,18 @@ int cli_parse(const cli_command *command, int argc, char **argv, void *values,
 /// Prints the help of a command to stdout.
 void cli_help(const cli_command *command);
 
+/// A status with which the program ends.
+typedef struct cli_exit_text {
+    int code;
+    const char *text;
+} cli_exit_text;
+
+/// Prints the manual page of all commands to stdout, in the macros of man(7). CLI_MAN_DATE: of the last change of
+/// the command line.
+#define CLI_MAN_DATE "2026-11-22"
+void cli_man(const cli_command *const *commands, int count, const char *summary,
+             const cli_exit_text *exits, int exit_count);
+
 /// How many slips of the pen, and one more, may lie between `word` and what was meant.
 int cli_slips(const char *word);
 /// True when fewer than *slips lie between `word` and `name`; *slips, at first cli_slips(word), becomes their number.

@@ -78,21 +78,39 @@ static void fill_standard_files(void)
     }
 }
 
+static const char summary[] =
+    "Plumb simulates rigid bodies in two dimensions from scene files in Lua or JSON.";
+
+static const cli_exit_text exits[] = {
+    { CLI_OK, "ok" },
+    { CLI_FAILED, "failed at run time" },
+    { CLI_USAGE, "wrong usage" },
+    { CLI_SCENE, "wrong scene" },
+    { CLI_EXPECT, "an expectation of the scene failed" },
+    { CLI_DIVERGED, "the simulation diverged" },
+    { CLI_DIFFERS, "two recordings differ, or a replay gives other bits" },
+};
+enum { EXIT_COUNT = sizeof exits / sizeof exits[0] };
+
 static void print_usage(FILE *file)
 {
-    fprintf(file,
-            "usage: plumb COMMAND [operands] [options]\n\n"
-            "Plumb simulates rigid bodies in two dimensions from scene files in Lua or JSON.\n\n"
-            "Commands:\n");
+    fprintf(file, "usage: plumb COMMAND [operands] [options]\n\n%s\n\nCommands:\n", summary);
     for (int i = 0; i < COMMAND_COUNT; i++) {
         fprintf(file, "  %-9s %s\n", commands[i]->name, commands[i]->summary);
     }
     fprintf(file, "  %-9s %s\n", "help", "tells how to use a command: plumb help run");
     fprintf(file, "\n  --help     this text\n"
                   "  --version  the version\n\n"
-                  "Exit codes: 0 ok, 1 failed at run time, 2 wrong usage, 3 wrong scene,\n"
-                  "            4 an expectation of the scene failed, 5 the simulation diverged,\n"
-                  "            6 two recordings differ, or a replay gives other bits\n");
+                  "Exit codes:");
+    for (int i = 0, column = 11; i < EXIT_COUNT; i++) {
+        const int length = (int)strlen(exits[i].text) + 4;
+        if (column + length > 77) {
+            fprintf(file, "\n           ");
+            column = 11;
+        }
+        fprintf(file, " %d %s%s", exits[i].code, exits[i].text, i + 1 < EXIT_COUNT ? "," : "\n");
+        column += length;
+    }
 }
 
 static const cli_command *find_command(const char *name)
@@ -135,6 +153,10 @@ static int help(int argc, char **argv)
     if (argc > 3) {
         cli_message("help: '%.80s' is one operand too many; usage: plumb help COMMAND", argv[3]);
         return CLI_USAGE;
+    }
+    if (strcmp(argv[2], "--man") == 0) {
+        cli_man(commands, COMMAND_COUNT, summary, exits, EXIT_COUNT);
+        return CLI_OK;
     }
     const cli_command *command = find_command(argv[2]);
     if (command == NULL) {
