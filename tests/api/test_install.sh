@@ -36,7 +36,8 @@ warnings="-Wall -Wextra -Wpedantic -Werror"
 try "installs" make --no-print-directory install DESTDIR="$root" PREFIX=$prefix
 share=$root$prefix/share
 for file in doc/plumb/README.md doc/plumb/scenes.md doc/plumb/library.md doc/plumb/command-line.md \
-    doc/plumb/LICENSE man/man1/plumb.1 plumb/scenes/stack.lua plumb/examples/hello.c; do
+    doc/plumb/LICENSE man/man1/plumb.1 plumb/scenes/stack.lua plumb/examples/hello.c \
+    plumb/examples/sdl2/show.c; do
     try "brings share/$file" test -s "$share/$file"
 done
 try "the installed scenes run" bash -c "'$root$prefix/bin/plumb' check -q '$share/plumb/scenes/stack.lua'"

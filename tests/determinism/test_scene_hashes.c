@@ -167,7 +167,8 @@ int main(int argc, char **argv)
         return 0;
     }
     if (argc == 3 && strcmp(argv[1], "--every") == 0) {
-        every = atoi(argv[2]) > 0 ? atoi(argv[2]) : 1;
+        long wanted = strtol(argv[2], NULL, 10);
+        every = wanted > 0 && wanted < 1000 ? (int)wanted : 1;
     }
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(committed_hashes_hold_at_every_speed),

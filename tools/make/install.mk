@@ -19,7 +19,7 @@ SHAREDIR   := $(PREFIX)/share/plumb
 fill = sed -e 's|@PREFIX@|$(PREFIX)|g' -e 's|@VERSION@|$(VERSION)|g' -e 's|@SUFFIX@|$1|g' \
 	-e 's|@DEFINES@|$2|g' -e 's|@PRECISION@|$3|g'
 
-# $(call install_one,float,,defines): library and plumb.pc of one precision.
+# $(call install_one,float,,defines): library and package (plumb, plumb_d, plumb_far) of one precision.
 define install_one
 install -m 644 $(O)/libplumb$2.a $(DESTDIR)$(LIBDIR)
 install -m 755 $(O)/libplumb$2.so $(DESTDIR)$(LIBDIR)/libplumb$2.so.$(VERSION)
@@ -45,7 +45,7 @@ $(O)/plumb.1: $(O)/plumb
 	$(Q)$(O)/plumb help --man >$@
 
 install: install-lib $(O)/plumb $(O)/plumb.1
-	install -d $(addprefix $(DESTDIR),$(BINDIR) $(BASHDIR) $(MANDIR) $(SHAREDIR)/scenes $(SHAREDIR)/examples)
+	install -d $(addprefix $(DESTDIR),$(BINDIR) $(BASHDIR) $(MANDIR) $(SHAREDIR)/scenes $(SHAREDIR)/examples/sdl2)
 	install -m 755 $(O)/plumb $(DESTDIR)$(BINDIR)/plumb
 	install -m 644 tools/plumb/plumb.bash-completion $(DESTDIR)$(BASHDIR)/plumb
 	install -m 644 $(O)/plumb.1 $(DESTDIR)$(MANDIR)
@@ -54,6 +54,7 @@ install: install-lib $(O)/plumb $(O)/plumb.1
 	install -m 644 tools/scene/README.md $(DESTDIR)$(DOCDIR)/scenes.md
 	install -m 644 assets/scenes/* $(DESTDIR)$(SHAREDIR)/scenes
 	install -m 644 tools/examples/*.c $(DESTDIR)$(SHAREDIR)/examples
+	install -m 644 tools/examples/sdl2/*.c $(DESTDIR)$(SHAREDIR)/examples/sdl2
 
 # All precisions, whichever were installed; below DESTDIR also folders that are left empty.
 UNINSTALLED = $(addprefix $(DESTDIR),$(BINDIR) $(PKGDIR) $(LIBDIR)/cmake $(INCLUDEDIR) $(BASHDIR) $(MANDIR) \
