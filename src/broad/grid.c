@@ -201,6 +201,31 @@ static void order_places(pl_grid *grid, uint32_t count, size_t start_count)
     }
 }
 
+// The octaves of all shares, in the place of the first; returns how many have boxes.
+static uint32_t join_shares(filing *f)
+{
+    uint32_t used = 0;
+    for (uint32_t k = 0; k < PL_GRID_LEVELS; ++k) {
+        for (uint32_t i = 1; i < f->shares; ++i) {
+            f->octaves[k] = joined(f->octaves[k], f->octaves[(size_t)i * PL_GRID_LEVELS + k]);
+        }
+        used += f->octaves[k].count > 0;
+    }
+    return used;
+}
+
+// Room for so many levels, and for a few that may come while things move.
+static bool reserve_levels(pl_memory *memory, pl_grid *grid, uint32_t count)
+{
+    const uint32_t least = 4;
+    count = count > least ? count : least;
+    if (!pl_buffer_reserve(memory, &grid->level_room, count * sizeof(pl_grid_level))) {
+        return false;
+    }
+    grid->levels = grid->level_room.data;
+    return true;
+}
+
 // The levels of the octaves that have boxes; returns how many bucket starts they need.
 static size_t lay_out(filing *f)
 {
@@ -208,14 +233,10 @@ static size_t lay_out(filing *f)
     size_t start_count = 0;
     uint32_t first = 0, used = 0;
     for (uint32_t k = 0; k < PL_GRID_LEVELS; ++k) {
-        survey all = f->octaves[k];
-        for (uint32_t i = 1; i < f->shares; ++i) {
-            all = joined(all, f->octaves[(size_t)i * PL_GRID_LEVELS + k]);
-        }
-        if (all.count > 0) {
+        if (f->octaves[k].count > 0) {
             pl_grid_level *level = &grid->levels[used];
             f->level_of_octave[k] = (uint8_t)used++;
-            lay_out_level(level, &all);
+            lay_out_level(level, &f->octaves[k]);
             level->first = first;
             level->starts = (uint32_t)start_count;
             first += level->count;
@@ -245,6 +266,9 @@ bool pl_grid_build(pl_memory *memory, pl_tasks *tasks, pl_grid *grid, const uint
     }
     f.octaves = f.shares > 1 ? grid->places.data : alone;
     pl_tasks_run(tasks, survey_share, &f, f.shares);
+    if (!reserve_levels(memory, grid, join_shares(&f))) {
+        return false;
+    }
     const size_t start_count = lay_out(&f);
     if (!pl_buffer_reserve(memory, &grid->starts, (start_count + 1) * sizeof(uint32_t))) {
         grid->level_count = 0;
@@ -318,8 +342,14 @@ static uint64_t *map_of(const pl_grid *grid, uint32_t level)
     return (uint64_t *)grid->maps.data + (size_t)level * PL_GRID_MAP;
 }
 
+// So few boxes are looked at sooner than a map of them.
+#define MAPPED_LEAST 8
+
 bool pl_grid_make_maps(pl_memory *memory, pl_grid *grid)
 {
+    if (grid->entry_count < MAPPED_LEAST) {
+        return true;
+    }
     size_t size = (size_t)grid->level_count * PL_GRID_MAP * sizeof(uint64_t);
     if (!pl_buffer_reserve(memory, &grid->maps, size + 1)) {
         return false;
@@ -344,6 +374,7 @@ bool pl_grid_make_maps(pl_memory *memory, pl_grid *grid)
 
 void pl_grid_free(pl_memory *memory, pl_grid *grid)
 {
+    pl_buffer_free(memory, &grid->level_room);
     pl_buffer_free(memory, &grid->entries);
     pl_buffer_free(memory, &grid->starts);
     pl_buffer_free(memory, &grid->places);

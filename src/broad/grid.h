@@ -44,10 +44,11 @@ typedef struct pl_grid_lanes {
 #define PL_GRID_SPARE 8 // may be read beyond the last one
 
 typedef struct pl_grid {
-    pl_grid_level levels[PL_GRID_LEVELS]; // used ones, finest first
+    pl_grid_level *levels; // used ones, finest first; in `level_room`
     uint32_t level_count;
     uint32_t entry_count;
-    pl_buffer entries; // pl_grid_entry
+    pl_buffer level_room; // few worlds have sizes of more than three octaves, none of all
+    pl_buffer entries;    // pl_grid_entry
     pl_buffer starts;  // uint32_t
     pl_buffer places;  // scratch of the build
     pl_buffer maps;    // uint64_t, PL_GRID_MAP rows a level

@@ -4,7 +4,7 @@
 
 #include "plumb/world.h"
 
-#define PL_PASS_MAX 48
+#define PL_PASS_MAX 36
 
 typedef struct pl_pass {
     const char *name, *phase, *reads, *writes;

@@ -208,7 +208,7 @@ static bool sleep_and_wake(run *r)
         uint64_t before = digest_places(r);
         while (plumb_world_step(r->world, R(1.0 / 60)) == PLUMB_E_MEMORY) {
             ++r->refused;
-                assert_true(digest_places(r) == before);
+            assert_true(digest_places(r) == before);
             if (!r->keep_trying) {
                 return false;
             }
@@ -236,7 +236,9 @@ static bool play(run *r)
             assert_int_equal(plumb_body_set_enabled(r->world, r->bodies[12], false), PLUMB_OK);
         }
         if (i == 25) {
-            const plumb_explosion_desc blast = { .radius = 9, .impulse = 1, .occlusion = PLUMB_OCCLUDE_ALL };
+            const plumb_explosion_desc blast = { .radius = 9,
+                                                 .impulse = 1,
+                                                 .occlusion = PLUMB_OCCLUDE_ALL };
             TRY(r, plumb_world_set_workers(r->world, 3));
             TRY(r, plumb_world_explode(r->world, &blast));
             assert_int_equal(plumb_body_set_type(r->world, r->bodies[7], PLUMB_DYNAMIC), PLUMB_OK);
@@ -311,9 +313,32 @@ static void a_steady_state_step_allocates_nothing(void **state)
     plumb_world_destroy(r.world);
 }
 
+// A ground and two crates on it, stepped: what a batch holds of each of thousands of worlds.
+static void a_small_world_is_small(void **state)
+{
+    (void)state;
+    plumb_world *w;
+    assert_int_equal(plumb_world_create(NULL, &w), PLUMB_OK);
+    for (int i = 0; i < 3; ++i) {
+        const plumb_body body =
+            plumb_body_create(w, &(plumb_body_desc){ .type = i == 0 ? PLUMB_STATIC : PLUMB_DYNAMIC,
+                                                     .position = { 0, R(1.5 * i) } });
+        plumb_shape_create(
+            w, body,
+            &(plumb_shape_desc){ .kind = PLUMB_BOX, .half = { i == 0 ? 10 : R(0.5), R(0.5) } });
+    }
+    for (int i = 0; i < 120; ++i) {
+        plumb_world_step(w, R(1.0 / 60));
+    }
+    // Measured: 26,600 B in the float library, of which 7,900 are the world itself; 35,200 in the double one.
+    assert_in_range(plumb_world_stats(w).peak_bytes, 1, PLUMB_REAL_IS_DOUBLE ? 36000 : 28000);
+    plumb_world_destroy(w);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_small_world_is_small),
         cmocka_unit_test(any_single_allocation_may_fail),
         cmocka_unit_test(memory_may_run_out_for_good_at_any_time),
         cmocka_unit_test(a_steady_state_step_allocates_nothing),
