@@ -136,26 +136,28 @@ WIDE_INLINE void solve_rows(const parts *at, const pl_joint_pattern *p, const pl
 #define SWEEP_PART WIDE_INLINE
 #endif
 
-SWEEP_PART void make_any_rows(const parts *at, const pl_joint_pattern *p, body *a, body *b)
+SWEEP_PART void begin_bundle(const parts *at, const pl_joint_pattern *p, const pl_joint_call *call,
+                             body *a, body *b)
 {
+    gather_body(a, call, at->a);
+    gather_body(b, call, at->b);
     make_rows(at, p, a, b);
 }
 
-// `known`: the pattern is, to the compiler.
+SWEEP_PART void solve_bundle(const parts *at, const pl_joint_pattern *p, const pl_joint_call *call,
+                             const bool pull, const bool first, body *a, body *b)
+{
+    solve_rows(at, p, call, pull, first, a, b);
+}
+
 WIDE_INLINE void sweep_bundle(const pl_joint_call *call, uint32_t k, const pl_joint_pattern *p,
-                              const bool known, const bool pull, const bool first)
+                              const bool pull, const bool first)
 {
     parts at = open(call, k, p);
     bundle *c = at.c;
     body a, b;
     if (first && !pull) {
-        gather_body(&a, call, at.a);
-        gather_body(&b, call, at.b);
-        if (known) {
-            make_rows(&at, p, &a, &b);
-        } else {
-            make_any_rows(&at, p, &a, &b);
-        }
+        begin_bundle(&at, p, call, &a, &b);
     } else {
         gather_velocity(&a, call, at.a, c->inertia_a);
         gather_velocity(&b, call, at.b, c->inertia_b);
@@ -163,7 +165,7 @@ WIDE_INLINE void sweep_bundle(const pl_joint_call *call, uint32_t k, const pl_jo
     if (first && pull) {
         push(&a, &b, c->owed_x, c->owed_y, c->owed_a, c->owed_b);
     }
-    solve_rows(&at, p, call, pull, first, &a, &b);
+    solve_bundle(&at, p, call, pull, first, &a, &b);
     scatter_velocity(&a, call, at.a);
     scatter_velocity(&b, call, at.b);
 }
@@ -197,18 +199,18 @@ WIDE_INLINE bool is_alike(const pl_joint_pattern *p, const pl_joint_pattern *q)
 
 SWEEP_PART void sweep_bare(const pl_joint_call *call, uint32_t k, const bool pull, const bool first)
 {
-    sweep_bundle(call, k, &bare_pattern, true, pull, first);
+    sweep_bundle(call, k, &bare_pattern, pull, first);
 }
 
 SWEEP_PART void sweep_limited(const pl_joint_call *call, uint32_t k, const bool pull,
                               const bool first)
 {
-    sweep_bundle(call, k, &limited_pattern, true, pull, first);
+    sweep_bundle(call, k, &limited_pattern, pull, first);
 }
 
 SWEEP_PART void sweep_any(const pl_joint_call *call, uint32_t k, const bool pull, const bool first)
 {
-    sweep_bundle(call, k, &call->patterns[call->bundles[k].pattern], false, pull, first);
+    sweep_bundle(call, k, &call->patterns[call->bundles[k].pattern], pull, first);
 }
 
 WIDE_INLINE void sweep(const pl_joint_call *call, const bool pull, const bool first)
