@@ -45,7 +45,7 @@ expect { "it falls as a pendulum does", from = 0.1, till = 1.1, test = function(
     return off < 0.02, off, 0.02
 end }
 expect { "the chain does not give", till = 1.1, max_joint_error = 0.02 }
-expect { "the ball struck the wall", score = "hits", value = {3, 1000} }
+expect { "the ball struck the wall", score = "hits", value = {2, 1000} }
 expect { "the wall's top course is gone", test = function()
     local down = 0
     for column = 1, columns do

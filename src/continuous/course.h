@@ -2,7 +2,7 @@
 #ifndef PL_COURSE_H
 #define PL_COURSE_H
 
-#include "continuous/sweep.h"
+#include "geometry/sweep.h"
 #include "world/wrap.h"
 
 // A point of the body, its pivot, moves in a straight line at a constant rate while the body turns

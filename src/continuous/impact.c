@@ -1,7 +1,7 @@
 // impact.c - when two convex shapes that move and turn first meet, without a world: see plumb/geometry.h.
 //
 // Reads, writes: arguments. Cost: that of pl_sweep_first.
-#include "continuous/sweep.h"
+#include "geometry/sweep.h"
 
 // [m] so near they have met: half is how far apart they are to be, half how exactly that is found.
 #define NEAR 1e-4

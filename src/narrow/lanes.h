@@ -272,6 +272,8 @@ WIDE_PART void lanes_emit(const lanes *l, const touch *t, const pl_narrow_input 
     }
     near_real limits[PL_WIDTH];
     store(limits, limit);
+    const vm ahead = (t->sep[0] > splat(PL_AHEAD)) & (t->sep[1] > splat(PL_AHEAD));
+    uint32_t *candidates = out->candidates.data;
     pl_ends *ends = out->ends.data;
     uint32_t *fresh = out->fresh.data;
     for (uint32_t i = 0; i < count; ++i) {
@@ -283,6 +285,8 @@ WIDE_PART void lanes_emit(const lanes *l, const touch *t, const pl_narrow_input 
             fresh[out->fresh_count] = l->pair[i];
             out->fresh_count += (pair->flags & PL_PAIR_TOUCHING) == 0;
             ends[out->manifold_count] = (pl_ends){ pair->body_a, pair->body_b };
+            candidates[out->candidate_count] = out->manifold_count;
+            out->candidate_count += ahead[i] != 0;
             out->any_friction |= m->friction > 0;
             out->any_bounce |= m->restitution > 0;
             pl_overlaps_count(&out->overlaps, m);

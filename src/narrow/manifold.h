@@ -36,7 +36,9 @@ typedef struct pl_manifold {
     uint32_t disabled; // by a system; only while the contact systems run
     union {
         uint32_t bearer; // of manifolds behind manifold_count: pair that bears the load of this one
-        uint32_t before; // of the others: pl_pair.manifold in the last step; PL_NONE: they were apart
+        uint32_t
+            before; // of the others: pl_pair.manifold in the last step; PL_NONE: they were apart
+        uint32_t ahead; // of those whose pair is PL_PAIR_AHEAD: the record
     };
 } pl_manifold;
 
@@ -47,6 +49,9 @@ static inline near_real pl_adhesion_reach(uint32_t pair_flags)
     return (pair_flags & PL_PAIR_TOUCHING) != 0 ? (near_real)0.005 : (near_real)1e-4;
 }
 
+// [m] contacts that are farther apart lie ahead: whether they will meet is asked (ahead.c).
+#define PL_AHEAD ((near_real)5e-4)
+
 // [m] separation of a point that is not there: no impulse can ever act on it.
 #define PL_APART ((near_real)1e6)
 
@@ -55,15 +60,16 @@ static inline near_real pl_adhesion_reach(uint32_t pair_flags)
 
 static inline uint64_t pl_depth_units(near_real depth)
 {
-    return depth < 1000 ? (uint64_t)((double)depth / PL_DEPTH_UNIT) : (uint64_t)(1000 / PL_DEPTH_UNIT);
+    return depth < 1000 ? (uint64_t)((double)depth / PL_DEPTH_UNIT)
+                        : (uint64_t)(1000 / PL_DEPTH_UNIT);
 }
 
 // How many manifolds touch, and how deep: of a step, of what sleeps, of all.
 typedef struct pl_overlaps {
-    uint32_t touching_count;  // manifolds whose surfaces met
-    uint32_t point_count;     // of all manifolds
+    uint32_t touching_count;   // manifolds whose surfaces met
+    uint32_t point_count;      // of all manifolds
     near_real max_penetration; // [m]
-    uint64_t sum_penetration; // [PL_DEPTH_UNIT] of the deeper point of each touching manifold
+    uint64_t sum_penetration;  // [PL_DEPTH_UNIT] of the deeper point of each touching manifold
 } pl_overlaps;
 
 static inline void pl_overlaps_count(pl_overlaps *o, const pl_manifold *m)
@@ -93,20 +99,33 @@ typedef struct pl_ends {
     uint32_t a, b;
 } pl_ends;
 
+// Contacts that lie ahead and are looked at closely (meeting.h).
+typedef struct pl_lookahead {
+    pl_buffer items; // pl_meeting
+    uint32_t count;
+    pl_buffer list;         // uint32_t: items of which kernels make manifolds
+    pl_buffer poses;        // pl_pose: of both bodies of each
+    pl_buffer pairs;        // pl_pair: copies, whose bodies are these poses
+    pl_buffer made;         // pl_manifold
+    pl_buffer unread;       // what else a kernel writes
+    pl_buffer map, paths;   // of bodies that have such contacts
+} pl_lookahead;
+
 typedef struct pl_narrow {
-    pl_buffer manifolds; // pl_manifold of this step, room for every pair
-    pl_buffer staged;    // pl_manifold, with several threads: before they are put together
-    pl_buffer ends;      // pl_ends a manifold, as the kernels left them
-    pl_buffer fresh;     // uint32_t: pairs with a manifold that did not touch in the last step
-    uint32_t fresh_count;
+    pl_buffer manifolds;  // pl_manifold of this step, room for every pair
+    pl_buffer staged;     // pl_manifold, with several threads: before they are put together
+    pl_buffer ends;       // pl_ends a manifold, as the kernels left them
+    pl_buffer fresh;      // uint32_t: pairs with a manifold that did not touch in the last step
+    pl_buffer candidates; // uint32_t: manifolds all of whose points are apart by PL_AHEAD or more
+    uint32_t fresh_count, candidate_count;
     bool ends_stale; // manifolds or rows have moved since
     uint32_t manifold_count;
     uint32_t borne_count; // more manifolds behind those, whose load others bear (seams/run.c)
     // Summary of this step's manifolds.
-    bool any_friction;       // some manifold has friction > 0
-    bool any_bounce;         // some manifold has restitution > 0
-    bool any_surface;        // some manifold has surface speed or rolling resistance
-    bool any_adhesion;       // some manifold may pull
+    bool any_friction; // some manifold has friction > 0
+    bool any_bounce;   // some manifold has restitution > 0
+    bool any_surface;  // some manifold has surface speed or rolling resistance
+    bool any_adhesion; // some manifold may pull
     pl_overlaps overlaps;
 } pl_narrow;
 
@@ -118,5 +137,6 @@ static inline pl_manifold *pl_manifolds(const pl_narrow *narrow)
 // Keeps the room, nothing else.
 void pl_narrow_clear(pl_narrow *narrow);
 void pl_narrow_free(pl_memory *memory, pl_narrow *narrow);
+void pl_ahead_free(pl_memory *memory, pl_lookahead *ahead);
 
 #endif

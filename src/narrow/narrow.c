@@ -2,7 +2,7 @@
 //
 // Reads: pairs, poses, geometry, materials. Writes: manifolds, the pairs' features and flags.
 // Order: after the broad phase, before the solver. Cost: O(pairs).
-#include "narrow/narrow.h"
+#include "narrow/ahead.h"
 #include "narrow/surface.h"
 #include "world/wrap.h"
 
@@ -35,12 +35,18 @@ static pl_narrow_kernel *kernel_for(const pl_narrow_kernels *k, int a, int b)
     return matrix[a][b];
 }
 
+pl_narrow_kernel *pl_narrow_kernel_for(const plumb_world *world, int a, int b)
+{
+    return kernel_for(kernels_of(world->desc.simd_width), a, b);
+}
+
 bool pl_narrow_reserve(plumb_world *world, const pl_pair_list *list, pl_narrow *narrow)
 {
     const size_t count = (size_t)list->count + 1, size = count * sizeof(pl_manifold);
     return pl_buffer_reserve(&world->memory, &narrow->manifolds, size) &&
            pl_buffer_reserve(&world->memory, &narrow->ends, count * sizeof(pl_ends)) &&
            pl_buffer_reserve(&world->memory, &narrow->fresh, count * sizeof(uint32_t)) &&
+           pl_buffer_reserve(&world->memory, &narrow->candidates, count * sizeof(uint32_t)) &&
            (pl_tasks_workers(world->tasks) == 1 ||
             pl_buffer_reserve(&world->memory, &narrow->staged, size));
 }
@@ -109,6 +115,11 @@ static void place(void *context, uint32_t first, uint32_t count)
 
 static void add_share(pl_narrow *all, const pl_narrow *made)
 {
+    for (uint32_t i = 0; i < made->candidate_count; ++i) {
+        ((uint32_t *)all->candidates.data)[all->candidate_count + i] =
+            ((const uint32_t *)made->candidates.data)[i] + all->manifold_count;
+    }
+    all->candidate_count += made->candidate_count;
     memmove((uint32_t *)all->fresh.data + all->fresh_count, made->fresh.data,
             made->fresh_count * sizeof(uint32_t));
     all->fresh_count += made->fresh_count;
@@ -138,6 +149,7 @@ static void make_manifolds(plumb_world *world, const pl_narrow_input *in, const 
             i == 0 ? j.manifolds : (pl_manifold *)narrow->staged.data + s->pairs.first;
         s->made.ends.data = j.ends + s->pairs.first;
         s->made.fresh.data = (uint32_t *)narrow->fresh.data + s->pairs.first;
+        s->made.candidates.data = (uint32_t *)narrow->candidates.data + s->pairs.first;
     }
     pl_tasks_run(world->tasks, make_share, &j, j.count);
     for (uint32_t i = 0; i < j.count; ++i) {
@@ -150,7 +162,7 @@ static void make_manifolds(plumb_world *world, const pl_narrow_input *in, const 
     }
 }
 
-void pl_narrow_run(plumb_world *world, const pl_pair_list *list, real dt, pl_narrow *narrow)
+bool pl_narrow_run(plumb_world *world, const pl_pair_list *list, real dt, pl_narrow *narrow)
 {
     const pl_narrow_input in = { .poses = (const real *)world->poses.data,
                                  .cores = world->pieces.core,
@@ -167,6 +179,7 @@ void pl_narrow_run(plumb_world *world, const pl_pair_list *list, real dt, pl_nar
                                  .wrap_y = world->desc.wrap_y };
     pl_narrow_clear(narrow);
     make_manifolds(world, &in, list, narrow);
+    return pl_ahead_look(world, &in, dt, narrow);
 }
 
 void pl_narrow_take_out_disabled(plumb_world *world, uint32_t flag)
@@ -203,7 +216,8 @@ void pl_narrow_clear(pl_narrow *narrow)
     *narrow = (pl_narrow){ .manifolds = narrow->manifolds,
                            .staged = narrow->staged,
                            .ends = narrow->ends,
-                           .fresh = narrow->fresh };
+                           .fresh = narrow->fresh,
+                           .candidates = narrow->candidates };
 }
 
 void pl_narrow_free(pl_memory *memory, pl_narrow *narrow)
@@ -212,5 +226,6 @@ void pl_narrow_free(pl_memory *memory, pl_narrow *narrow)
     pl_buffer_free(memory, &narrow->staged);
     pl_buffer_free(memory, &narrow->ends);
     pl_buffer_free(memory, &narrow->fresh);
+    pl_buffer_free(memory, &narrow->candidates);
     *narrow = (pl_narrow){ 0 };
 }

@@ -14,9 +14,9 @@ typedef struct pl_narrow_input {
     const plumb_real *friction, *restitution; // by piece slot
     near_real dt;                             // [s] elastic pairs look ahead this long
     near_real elastic_above; // pairs of more restitution are elastic: 0; -1 where it may yet change
-    pl_pair *pairs;    // the whole list
-    bool wrapped;                  // the world wraps around: the nearest images meet
-    plumb_real wrap_x, wrap_y;     // [m] its periods; 0: none
+    pl_pair *pairs;          // the whole list
+    bool wrapped;            // the world wraps around: the nearest images meet
+    plumb_real wrap_x, wrap_y; // [m] its periods; 0: none
 } pl_narrow_input;
 
 // Appends the manifolds of pairs [first, first + count) to the narrow phase's list and keeps up its
@@ -40,7 +40,11 @@ extern const pl_narrow_kernels pl_narrow_kernels_w16;
 
 // Makes the manifolds of all pairs of a list. Room for them; false when out of memory.
 bool pl_narrow_reserve(plumb_world *world, const pl_pair_list *list, pl_narrow *narrow);
-void pl_narrow_run(plumb_world *world, const pl_pair_list *list, plumb_real dt, pl_narrow *narrow);
+// Contacts that lie ahead are told for the moment at which they happen, until pl_ahead_settle (ahead.h). False when
+// out of memory.
+bool pl_narrow_run(plumb_world *world, const pl_pair_list *list, plumb_real dt, pl_narrow *narrow);
+// The kernel of pairs of these kinds (pl_piece_kind, the lower one first).
+pl_narrow_kernel *pl_narrow_kernel_for(const plumb_world *world, int a, int b);
 // Takes the manifolds that are `disabled` out of the world's list; their pairs forget their impulses and
 // get a flag (0: none).
 void pl_narrow_take_out_disabled(plumb_world *world, uint32_t flag);

@@ -4,6 +4,8 @@
 
 #include <stdbool.h>
 
+#include "math/compare.h"
+
 typedef enum pl_cone_form {
     PL_CONE_NONE, // no normal
     PL_CONE_ARC,  // from lo counter-clockwise to hi, at most half a turn; lo = hi: one normal
@@ -15,17 +17,6 @@ typedef struct pl_cone {
     double lo_x, lo_y, hi_x, hi_y;
     pl_cone_form form;
 } pl_cone;
-
-// The lesser and the greater of two: the same in every C library, zeros of either sign included.
-static inline double pl_lesser(double a, double b)
-{
-    return a < b ? a : b;
-}
-
-static inline double pl_greater(double a, double b)
-{
-    return a > b ? a : b;
-}
 
 // True when the angle between two unit vectors is at most `angle` [rad], which is small.
 static inline bool pl_directions_agree(double ax, double ay, double bx, double by, double angle)

@@ -7,6 +7,7 @@
 //
 // Reads: pairs, poses, pieces, seams. Writes: manifolds, pairs, summary. Order: after the narrow
 // phase, before anything else looks at manifolds. Cost: README.md has the counts.
+#include "narrow/ahead.h"
 #include "narrow/surface.h"
 #include "seams/run.h"
 #include "seams/view.h"
@@ -146,6 +147,9 @@ bool pl_seams_correct(plumb_world *world, real dt)
         pl_manifold *m = &pl_manifolds(&world->narrow)[pair->manifold];
         pl_view views[2];
         verdict v = judge(world, pair, m, (double)dt, views);
+        if (v == SET_RIGHT && (pair->flags & PL_PAIR_AHEAD) == 0) {
+            pl_ahead_hold_back(world, pair, dt, m);
+        }
         if (v == FALSE_CONTACT) {
             m->count = 0;
             pair->manifold = PL_NONE;
@@ -153,7 +157,7 @@ bool pl_seams_correct(plumb_world *world, real dt)
         } else {
             carry_over(&list[i], pair, m);
         }
-        if (v != FALSE_CONTACT) {
+        if (v != FALSE_CONTACT && (pair->flags & PL_PAIR_AHEAD) == 0) {
             pl_runs_add(world, i, views);
         }
         changed |= v != RIGHT;

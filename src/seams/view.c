@@ -10,6 +10,7 @@
 // origin costs nothing. Cost: O(corners) a question, O(corners x corners) to rebuild.
 #include "seams/view.h"
 
+#include "narrow/ahead.h"
 #include "narrow/surface.h"
 #include "world/wrap.h"
 
@@ -27,6 +28,13 @@ void pl_view_open(pl_view *v, const plumb_world *world, const pl_pair *pair, con
     v->own_is_a = own_is_a;
     v->own_pose = &pl_poses(world)[pieces->body[v->own]];
     v->other_pose = &pl_poses(world)[pieces->body[v->other]];
+    v->ahead = (pair->flags & PL_PAIR_AHEAD) != 0;
+    if (v->ahead) { // both are where they meet, and have nowhere to go
+        const pl_pose *poses = pl_ahead_poses(world, m);
+        v->own_pose = &poses[own_is_a ? 0 : 1];
+        v->other_pose = &poses[own_is_a ? 1 : 0];
+        dt = 0;
+    }
     v->side = pl_side_of(world, v->own);
     double sign = own_is_a ? 1 : -1;
     double c = (double)v->own_pose->c, s = (double)v->own_pose->s;
@@ -40,13 +48,23 @@ void pl_view_open(pl_view *v, const plumb_world *world, const pl_pair *pair, con
     v->vy = c * wy - s * wx;
 }
 
+// [m] from the own origin to the other's.
+static pl_shift way_to_other(const pl_view *v)
+{
+    if (!v->ahead) {
+        return pl_wrap_between(v->world, v->own, v->other);
+    }
+    return (pl_shift){ (double)v->other_pose->x - (double)v->own_pose->x,
+                       (double)v->other_pose->y - (double)v->own_pose->y };
+}
+
 // Corners of the other, only for contacts that need a closer look.
 void pl_view_bring_other(pl_view *v)
 {
     const pl_pieces *pieces = &v->world->pieces;
     const pl_pose *f = v->own_pose, *p = v->other_pose;
     double fc = (double)f->c, fs = (double)f->s, pc = (double)p->c, ps = (double)p->s;
-    pl_shift way = pl_wrap_between(v->world, v->own, v->other);
+    pl_shift way = way_to_other(v);
     double dx = way.x, dy = way.y;
     double c = fc * pc + fs * ps, s = fc * ps - fs * pc;
     double ox = fc * dx + fs * dy, oy = fc * dy - fs * dx;
@@ -299,7 +317,7 @@ static void write_point(const pl_view *v, const pl_face *f, pl_seam_place p, pl_
     double c = (double)own->c, s = (double)own->s;
     double own_radius = (double)v->world->pieces.core[v->own].radius;
     double other_radius = v->radii - own_radius;
-    pl_shift way = pl_wrap_between(v->world, v->own, v->other);
+    pl_shift way = way_to_other(v);
     double dx = way.x, dy = way.y;
     double anchor[2][2]; // on the own surface, on the other's; world axes, from the own origin
     for (int side = 0; side < 2; ++side) {
@@ -347,6 +365,9 @@ bool pl_view_rebuild(pl_view *v, pl_manifold *m)
     pl_strip best = { .separation = -INFINITY };
     pl_seam_place points[2];
     int count = 0, feature = 0;
+    // What is apart from the piece is behind none of its faces: it flies by.
+    const bool apart =
+        (double)plumb_min(m->point[0].separation, m->point[1].separation) > PL_SEAM_SLOP;
     for (int k = 0; k < v->side.count; ++k) {
         if (v->side.edge_bits & PL_SEAM_COVERED(k)) {
             continue;
@@ -354,7 +375,8 @@ bool pl_view_rebuild(pl_view *v, pl_manifold *m)
         pl_strip s = pl_view_strip(v, k);
         pl_seam_place found[2];
         int from = 0;
-        bool better = s.separation > best.separation && s.separation >= -depth_of(v, &s.f);
+        double depth = apart ? PL_SEAM_SLOP : depth_of(v, &s.f);
+        bool better = s.separation > best.separation && s.separation >= -depth;
         int n = better ? pl_view_points(v, &s, found, &from) : 0;
         if (n > 0) {
             best = s;

@@ -14,6 +14,7 @@ typedef struct pl_view {
     uint32_t own, other;
     const pl_pose *own_pose, *other_pose;
     bool own_is_a;
+    bool ahead; // at the moment of a contact that lies ahead
     pl_side side;
     double nx, ny; // outward normal of the ground
     int feature;   // what of the ground lies farthest that way: edge or corner

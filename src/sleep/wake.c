@@ -125,7 +125,9 @@ static bool mark_touched(plumb_world *world, const pl_pair_list *list, real dt)
         pairs[i].body_a = world->pieces.body[pairs[i].a];
         pairs[i].body_b = world->pieces.body[pairs[i].b];
     }
-    pl_narrow_run(world, list, dt, &s->touched);
+    if (!pl_narrow_run(world, list, dt, &s->touched)) {
+        return false;
+    }
     const pl_manifold *m = pl_manifolds(&s->touched);
     for (uint32_t i = 0; i < s->touched.manifold_count; ++i) {
         mark(s, world->bodies.island[m[i].body_a]);

@@ -70,7 +70,7 @@
 
 #define PL_STATE_NARROW(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                     \
     LEFT(narrow.manifolds) LEFT(narrow.staged) LEFT(narrow.ends) LEFT(narrow.fresh)               \
-    LEFT(narrow.fresh_count) LEFT(narrow.ends_stale) LEFT(narrow.manifold_count) LEFT(narrow.borne_count)                    \
+    LEFT(narrow.fresh_count) LEFT(narrow.candidates) LEFT(narrow.candidate_count) LEFT(narrow.ends_stale) LEFT(narrow.manifold_count) LEFT(narrow.borne_count)                    \
     LEFT(narrow.any_adhesion) LEFT(narrow.any_friction)                                            \
     LEFT(narrow.any_bounce) LEFT(narrow.any_surface) LEFT(narrow.overlaps)
 
@@ -157,7 +157,7 @@
 
 // What lies in struct plumb_world itself.
 #define PL_STATE_WORLD(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                      \
-    LEFT(memory) LEFT(sight) VALUE(gravity) VALUE(step_count) VALUE(time) TALLY(last_dt) TALLY(arrested_count)                \
+    LEFT(memory) LEFT(sight) LEFT(lookahead) VALUE(gravity) VALUE(step_count) VALUE(time) TALLY(last_dt) TALLY(arrested_count)                \
     TABLE(bodies) VALUE(dynamic_count) VALUE(kinematic_count) VALUE(asleep_count)                  \
     VALUE(disabled_count) VALUE(continuous_bodies) VALUE(locked_bodies)                            \
     VALUE(one_way_pieces) VALUE(dropping_bodies)                                                   \

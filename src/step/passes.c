@@ -6,6 +6,7 @@
 // changes nothing.
 #include "continuous/continuous.h"
 #include "event/event.h"
+#include "narrow/ahead.h"
 #include "narrow/narrow.h"
 #include "narrow/one_way.h"
 #include "narrow/surface.h"
@@ -310,13 +311,16 @@ static plumb_result run_narrow(plumb_world *world, plumb_real dt)
     if (!pl_narrow_reserve(world, &world->broad.pairs, &world->narrow)) {
         return PLUMB_E_MEMORY;
     }
-    pl_narrow_run(world, &world->broad.pairs, dt, &world->narrow);
+    if (!pl_narrow_run(world, &world->broad.pairs, dt, &world->narrow)) {
+        return PLUMB_E_MEMORY;
+    }
     if (world->one_way_pieces > 0 || world->dropping_bodies > 0) {
         pl_one_way_run(world);
     }
     if (world->seams.pair_count > 0 && !pl_seams_correct(world, dt)) {
         return PLUMB_E_MEMORY;
     }
+    pl_ahead_settle(world);
     return pl_events_prepare(world) ? PLUMB_OK : PLUMB_E_MEMORY;
 }
 

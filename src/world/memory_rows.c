@@ -75,6 +75,7 @@ static void tell_passes(listing *out, const plumb_world *w)
     size_t broad = 0, narrow = 0, solver = 0, joints = 0, seams = 0, sleep = 0, swept = 0;
     PART(broad, pl_broad, w->broad, pl_broad_free(&dry, &copy));
     PART(narrow, pl_narrow, w->narrow, pl_narrow_free(&dry, &copy));
+    PART(narrow, pl_lookahead, w->lookahead, pl_ahead_free(&dry, &copy));
     PART(solver, pl_solver, w->solver, pl_solver_free(&dry, &copy));
     PART(solver, pl_quarantine, w->quarantine, pl_quarantine_free(&dry, &copy));
     PART(joints, pl_joints, w->joints, pl_joints_free(&dry, &copy));

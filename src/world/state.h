@@ -107,6 +107,7 @@ struct plumb_world {
     pl_broad broad;
     pl_sight sight;
     pl_narrow narrow;
+    pl_lookahead lookahead; // contacts ahead, of the narrow phase that ran last
     pl_solver solver;
     pl_continuous continuous;
     pl_seams seams;

@@ -153,6 +153,7 @@ static void free_world(plumb_world *world)
     pl_broad_free(&memory, &world->broad);
     pl_sight_free(&memory, &world->sight);
     pl_narrow_free(&memory, &world->narrow);
+    pl_ahead_free(&memory, &world->lookahead);
     pl_seams_free(&memory, &world->seams);
     pl_solver_free(&memory, &world->solver);
     pl_joints_free(&memory, &world->joints);

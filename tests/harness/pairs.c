@@ -103,6 +103,7 @@ pair_batch *pairs_create(int capacity)
     b->out.manifolds.data = room((size_t)capacity + 1, sizeof(pl_manifold));
     b->out.ends.data = room((size_t)capacity + 1, sizeof(pl_ends));
     b->out.fresh.data = room((size_t)capacity + 1, sizeof(uint32_t));
+    b->out.candidates.data = room((size_t)capacity + 1, sizeof(uint32_t));
     return b;
 }
 
@@ -120,6 +121,7 @@ void pairs_destroy(pair_batch *b)
     free(b->out.manifolds.data);
     free(b->out.ends.data);
     free(b->out.fresh.data);
+    free(b->out.candidates.data);
     free(b);
 }
 

@@ -17,10 +17,11 @@
 // n, so rounding in its choice costs time but never a hit.
 //
 // Reads: arguments. Writes: the answer. Cost: O(corners of A x corners of B) a round.
-#include "continuous/sweep.h"
+#include "geometry/sweep.h"
 
 #include <math.h>
 
+#include "math/compare.h"
 #include "math/trig.h"
 
 #define CORNERS PLUMB_POLYGON_MAX_VERTICES
@@ -167,6 +168,45 @@ void pl_sweep_point(const pl_swept *piece, double time, double nx, double ny, do
     }
     *x = at.x[best] + nx * piece->radius;
     *y = at.y[best] + ny * piece->radius;
+}
+
+// [m] corners that reach as far but for this along a normal are an edge across it.
+#define LEVEL 1e-7
+
+// How far a core reaches along n, and from where to where across it do the points that reach so far.
+typedef struct brink {
+    double at, from, to;
+} brink;
+
+static brink brink_of(const core *c, double nx, double ny)
+{
+    brink b = { -HUGE_VAL, HUGE_VAL, -HUGE_VAL };
+    for (int i = 0; i < c->count; ++i) {
+        b.at = pl_greater(b.at, nx * c->x[i] + ny * c->y[i]);
+    }
+    for (int i = 0; i < c->count; ++i) {
+        if (nx * c->x[i] + ny * c->y[i] >= b.at - LEVEL) {
+            double across = nx * c->y[i] - ny * c->x[i];
+            b.from = pl_lesser(b.from, across);
+            b.to = pl_greater(b.to, across);
+        }
+    }
+    return b;
+}
+
+pl_gap pl_sweep_nearest(const pl_swept *a, const pl_swept *b, double time, double *x, double *y)
+{
+    core at_a, at_b;
+    place(a, time, &at_a);
+    place(b, time, &at_b);
+    axis n = find_axis(&at_a, &at_b);
+    brink of_a = brink_of(&at_a, -n.nx, -n.ny), of_b = brink_of(&at_b, n.nx, n.ny);
+    // Across it, seen along B's normal; A's runs the other way.
+    double across = (pl_greater(-of_a.to, of_b.from) + pl_lesser(-of_a.from, of_b.to)) / 2;
+    double along = (of_b.at + b->radius - (of_a.at + a->radius)) / 2;
+    *x = n.nx * along - n.ny * across;
+    *y = n.ny * along + n.nx * across;
+    return (pl_gap){ n.distance - a->radius - b->radius, n.nx, n.ny };
 }
 
 //---- how far time may run -----------------------------------------------------------------------

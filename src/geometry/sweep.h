@@ -1,7 +1,7 @@
 // sweep.h - two convex pieces that move and turn: how far apart they are, and when they first come
 // too near. Plain geometry in double; no world.
-#ifndef PL_CONTINUOUS_SWEEP_H
-#define PL_CONTINUOUS_SWEEP_H
+#ifndef PL_GEOMETRY_SWEEP_H
+#define PL_GEOMETRY_SWEEP_H
 
 #include <stdbool.h>
 
@@ -30,6 +30,10 @@ pl_gap pl_sweep_gap(const pl_swept *a, const pl_swept *b, double time);
 
 // The point of a piece's surface farthest along a unit vector.
 void pl_sweep_point(const pl_swept *piece, double time, double nx, double ny, double *x, double *y);
+
+// Where two pieces are nearest at one time: the gap, and the middle between the nearest points, from the common
+// origin. Of edges side by side, the middle of what lies before one another.
+pl_gap pl_sweep_nearest(const pl_swept *a, const pl_swept *b, double time, double *x, double *y);
 
 // The first time in [from, to] at which the pieces are nearer than `target` [m], found at a moment
 // at which they are at most `tolerance` [m] > 0 farther apart than that and not yet nearer; above

@@ -1,0 +1,29 @@
+// ahead.h - contacts that lie ahead: a manifold is made for the moment at which the pieces meet, or pass.
+#ifndef PL_NARROW_AHEAD_H
+#define PL_NARROW_AHEAD_H
+
+#include "narrow/narrow.h"
+#include "narrow/meeting.h"
+
+// pl_manifold.feature of the nearest points of a later moment.
+#define PL_AHEAD_FEATURE 0x80000000u
+
+// Looks at the candidates of `narrow`. Contacts of pieces that will not meet within the step, nor come near one
+// another, are taken out; others that doubt is about are made for the moment at which the pieces meet or are nearest. False
+// when out of memory. Cost: O(candidates); a sweep for each that closes its gap while it moves aside or turns.
+bool pl_ahead_look(plumb_world *world, const pl_narrow_input *in, real dt, pl_narrow *narrow);
+
+// Holds back the plane of a contact ahead so that it does not reach what passes: for what the ground makes anew from the
+// places of the start of the step (seams/correct.c).
+void pl_ahead_hold_back(const plumb_world *world, const pl_pair *pair, real dt, pl_manifold *m);
+
+// Counts separations from the start of the step again: after this no manifold is `ahead`.
+void pl_ahead_settle(plumb_world *world);
+
+// The two poses of a manifold that is `ahead`; the origin is A's centre of mass at the start of the step.
+static inline const pl_pose *pl_ahead_poses(const plumb_world *world, const pl_manifold *m)
+{
+    return ((const pl_meeting *)world->lookahead.items.data)[m->ahead].poses;
+}
+
+#endif

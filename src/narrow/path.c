@@ -1,0 +1,188 @@
+// path.c - see path.h. All in double, from A's centre of mass, so that distance from the origin costs no precision.
+//
+// Reads: poses, velocities, forces, piece geometry. Writes: the answer. Cost: a sweep a leg.
+#include "narrow/path.h"
+
+#include "math/compare.h"
+#include "math/trig.h"
+#include "world/wrap.h"
+
+#include <math.h>
+
+// Steps of the search for the time at which two pieces are nearest: 1 / 1.618^14 of a leg.
+#define NARROWINGS 14
+#define GOLDEN     0.6180339887498949
+
+pl_motion pl_flight_of(const plumb_world *world, uint32_t row, double horizon)
+{
+    const pl_bodies *b = &world->bodies;
+    if (row >= world->dynamic_count + world->kinematic_count) {
+        return (pl_motion){ 0, 0, 0 };
+    }
+    const pl_pose *pose = &pl_poses(world)[row];
+    const double own = (b->flags[row] & PL_BODY_TUNED) != 0 ? (double)pl_time_scale(world, row) : 1;
+    pl_motion f = { (double)pose->vx * horizon, (double)pose->vy * horizon,
+                    (double)b->w[row] * own * horizon };
+    if (row < world->dynamic_count) {
+        const double half = own * own * horizon * horizon / 2;
+        const double scale = (double)b->gravity_scale[row], im = (double)b->inv_mass[row];
+        f.x += half * ((double)world->gravity.x * scale + (double)b->fx[row] * im);
+        f.y += half * ((double)world->gravity.y * scale + (double)b->fy[row] * im);
+        f.turn += half * (double)b->torque[row] * (double)b->inv_inertia[row];
+    }
+    return f;
+}
+
+pl_paths pl_paths_of(pl_path a, pl_path b)
+{
+    pl_paths p = { .of = { a, b } };
+    const double first = pl_lesser(a.impact, b.impact), second = pl_greater(a.impact, b.impact);
+    if (first > 0 && first < 1) {
+        p.breaks[++p.legs] = first;
+    }
+    if (second > p.breaks[p.legs] && second < 1) {
+        p.breaks[++p.legs] = second;
+    }
+    p.breaks[++p.legs] = 1;
+    return p;
+}
+
+double pl_paths_closed(const pl_paths *p, const pl_manifold_point *point, double nx, double ny,
+                       double time)
+{
+    return pl_motions_closed(pl_path_at(&p->of[0], time), pl_path_at(&p->of[1], time), point, nx,
+                             ny);
+}
+
+pl_encounter pl_encounter_of(const plumb_world *world, const pl_pair *pair, const pl_paths *paths)
+{
+    const pl_pose *a = &pl_poses(world)[world->pieces.body[pair->a]];
+    const pl_pose *b = &pl_poses(world)[world->pieces.body[pair->b]];
+    const pl_shift between = pl_wrap_between(world, pair->a, pair->b);
+    return (pl_encounter){ .world = world,
+                           .paths = paths,
+                           .piece = { pair->a, pair->b },
+                           .px = { 0, between.x + ((double)b->dx - (double)a->dx) },
+                           .py = { 0, between.y + ((double)b->dy - (double)a->dy) } };
+}
+
+// A side's piece where it is at `from`, on its way until `to`. Filled in place: a pl_swept is large.
+static void put_leg(pl_swept *out, const pl_encounter *e, int side, double from, double to)
+{
+    const uint32_t piece = e->piece[side];
+    const pl_pieces *pieces = &e->world->pieces;
+    const pl_pose *pose = &pl_poses(e->world)[pieces->body[piece]];
+    const pl_core *core = &pieces->core[piece];
+    const pl_vertex *corner = e->world->vertices.items + pieces->vertices[piece];
+    const pl_motion start = pl_path_at(&e->paths->of[side], from);
+    const pl_motion end = pl_path_at(&e->paths->of[side], to);
+    double c = 1, s = 0;
+    if (start.turn != 0) {
+        pl_sincos(start.turn, &s, &c);
+    }
+    // Turned about the centre of mass, after the pose.
+    const double tc = c * (double)pose->c - s * (double)pose->s;
+    const double ts = s * (double)pose->c + c * (double)pose->s;
+    const double dx = c * (double)pose->dx - s * (double)pose->dy;
+    const double dy = s * (double)pose->dx + c * (double)pose->dy;
+    const bool round = pieces->vertex_count[piece] == 0;
+    out->count = round ? 1 : pieces->vertex_count[piece];
+    out->radius = (double)core->radius;
+    out->px = e->px[side] + start.x, out->py = e->py[side] + start.y;
+    out->dx = end.x - start.x, out->dy = end.y - start.y;
+    out->angle = end.turn - start.turn;
+    for (int i = 0; i < out->count; ++i) {
+        const double x = (double)(round ? core->x : corner[i].x);
+        const double y = (double)(round ? core->y : corner[i].y);
+        out->x[i] = tc * x - ts * y - dx;
+        out->y[i] = ts * x + tc * y - dy;
+    }
+}
+
+pl_gap pl_encounter_gap(const pl_encounter *e, double time)
+{
+    pl_swept a, b;
+    put_leg(&a, e, 0, time, time);
+    put_leg(&b, e, 1, time, time);
+    return pl_sweep_gap(&a, &b, 0);
+}
+
+pl_gap pl_encounter_nearest(const pl_encounter *e, double time, double *x, double *y)
+{
+    pl_swept a, b;
+    put_leg(&a, e, 0, time, time);
+    put_leg(&b, e, 1, time, time);
+    return pl_sweep_nearest(&a, &b, 0, x, y);
+}
+
+double pl_encounter_meeting(const pl_encounter *e, double target)
+{
+    for (int i = 0; i < e->paths->legs; ++i) {
+        const double from = e->paths->breaks[i], to = e->paths->breaks[i + 1];
+        pl_swept a, b;
+        put_leg(&a, e, 0, from, to);
+        put_leg(&b, e, 1, from, to);
+        const double time = pl_sweep_first(&a, &b, 0, 1, target, PL_MEETING_TOLERANCE);
+        if (time <= 1) {
+            return from + time * (to - from);
+        }
+    }
+    return PL_SWEEP_NEVER;
+}
+
+// The time in [0, 1] of a leg: the gap of convex pieces that do not turn is a convex function of it, for others this
+// is a good guess.
+static double nearest_on_leg(const pl_swept *a, const pl_swept *b, double *gap)
+{
+    double low = 0, high = 1, s = 1 - GOLDEN, t = GOLDEN;
+    double at_s = pl_sweep_gap(a, b, s).distance, at_t = pl_sweep_gap(a, b, t).distance;
+    for (int i = 0; i < NARROWINGS; ++i) {
+        if (at_s < at_t) {
+            high = t, t = s, at_t = at_s;
+            s = high - GOLDEN * (high - low);
+            at_s = pl_sweep_gap(a, b, s).distance;
+        } else {
+            low = s, s = t, at_s = at_t;
+            t = low + GOLDEN * (high - low);
+            at_t = pl_sweep_gap(a, b, t).distance;
+        }
+    }
+    *gap = at_s < at_t ? at_s : at_t;
+    return at_s < at_t ? s : t;
+}
+
+double pl_encounter_passing(const pl_encounter *e)
+{
+    double best = HUGE_VAL, time = 0;
+    for (int i = 0; i < e->paths->legs; ++i) {
+        const double from = e->paths->breaks[i], to = e->paths->breaks[i + 1];
+        pl_swept a, b;
+        put_leg(&a, e, 0, from, to);
+        put_leg(&b, e, 1, from, to);
+        double gap;
+        const double at = nearest_on_leg(&a, &b, &gap);
+        if (gap < best) {
+            best = gap;
+            time = from + at * (to - from);
+        }
+    }
+    return time;
+}
+
+pl_pose pl_encounter_pose(const pl_encounter *e, int side, double time)
+{
+    const pl_pose *now = &pl_poses(e->world)[e->world->pieces.body[e->piece[side]]];
+    const pl_motion m = pl_path_at(&e->paths->of[side], time);
+    double c, s;
+    pl_sincos(m.turn, &s, &c);
+    const double dx = c * (double)now->dx - s * (double)now->dy;
+    const double dy = s * (double)now->dx + c * (double)now->dy;
+    return (pl_pose){ .x = (real)(e->px[side] + m.x - dx),
+                      .y = (real)(e->py[side] + m.y - dy),
+                      .c = (real)((double)now->c * c - (double)now->s * s),
+                      .s = (real)((double)now->s * c + (double)now->c * s),
+                      .dx = (real)dx,
+                      .dy = (real)dy,
+                      .vx = now->vx,
+                      .vy = now->vy };
+}

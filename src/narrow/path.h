@@ -1,0 +1,77 @@
+// path.h - where bodies will be within the step, as far as its start can tell: they fly on, and their first impact
+// turns them aside.
+#ifndef PL_NARROW_PATH_H
+#define PL_NARROW_PATH_H
+
+#include "geometry/sweep.h"
+#include "world/state.h"
+
+// [m] that a sweep may end before the pieces meet: less than PL_AHEAD.
+#define PL_MEETING_TOLERANCE 1e-4
+
+// A way of the centre of mass [m] and a turn [rad].
+typedef struct pl_motion {
+    double x, y, turn;
+} pl_motion;
+
+// A body's way; times are shares of the horizon, the span that is looked ahead.
+typedef struct pl_path {
+    pl_motion flight; // over the horizon, if nothing is in the way
+    double impact;    // when its first impact comes; PL_SWEEP_NEVER: not within the horizon
+    pl_motion change; // what that adds to the flight, over a horizon
+} pl_path;
+
+// Free flight over `horizon` [s]: v t + a t^2 / 2 by gravity and forces, no damping.
+pl_motion pl_flight_of(const plumb_world *world, uint32_t row, double horizon);
+
+static inline pl_motion pl_path_at(const pl_path *p, double time)
+{
+    const double after = time > p->impact ? time - p->impact : 0;
+    return (pl_motion){ p->flight.x * time + p->change.x * after,
+                        p->flight.y * time + p->change.y * after,
+                        p->flight.turn * time + p->change.turn * after };
+}
+
+// The ways of A and B, and what happens when.
+typedef struct pl_paths {
+    pl_path of[2];
+    double breaks[4]; // 0, the impacts of both in order, 1
+    int legs;         // spans between these; breaks[legs] is 1
+} pl_paths;
+
+pl_paths pl_paths_of(pl_path a, pl_path b);
+
+// [m] that a contact point with these anchors closes along (nx, ny) until a time, with arms that stay as they are:
+// as the solver counts it.
+double pl_paths_closed(const pl_paths *p, const pl_manifold_point *point, double nx, double ny,
+                       double time);
+static inline double pl_motions_closed(pl_motion a, pl_motion b, const pl_manifold_point *point,
+                                       double nx, double ny)
+{
+    const double ran = (double)point->ax * ny - (double)point->ay * nx;
+    const double rbn = (double)point->bx * ny - (double)point->by * nx;
+    return nx * (a.x - b.x) + ny * (a.y - b.y) + ran * a.turn - rbn * b.turn;
+}
+
+// Two pieces of bodies that move, seen from A's centre of mass at the start of the step.
+typedef struct pl_encounter {
+    const plumb_world *world;
+    const pl_paths *paths;
+    uint32_t piece[2];
+    double px[2], py[2]; // [m] centres of mass at the start
+} pl_encounter;
+
+pl_encounter pl_encounter_of(const plumb_world *world, const pl_pair *pair, const pl_paths *paths);
+
+// Distance and nearest points at a time (geometry/sweep.h).
+pl_gap pl_encounter_gap(const pl_encounter *e, double time);
+pl_gap pl_encounter_nearest(const pl_encounter *e, double time, double *x, double *y);
+// The first time at which the pieces are nearer than `target` [m], or at most PL_MEETING_TOLERANCE farther apart;
+// PL_SWEEP_NEVER: they never are. They must be farther apart at the start.
+double pl_encounter_meeting(const pl_encounter *e, double target);
+// About the time at which they are nearest.
+double pl_encounter_passing(const pl_encounter *e);
+// The pose of the body of side 0 (A) or 1 (B) at a time.
+pl_pose pl_encounter_pose(const pl_encounter *e, int side, double time);
+
+#endif
