@@ -25,7 +25,8 @@
 ///
 /// A recording is of one build, as images are (snapshot.h): another build of the same columns may replay
 /// it, and each step tells whether it gives the same bits. Each part has a checksum; what is damaged is
-/// refused, and a recording that ends early (the program crashed) is read as far as it goes.
+/// refused, and a recording that ends early (the program crashed) is read as far as it goes. Recordings may come
+/// from strangers: keyframes and changes are checked as images are.
 #ifndef PLUMB_RECORD_H
 #define PLUMB_RECORD_H
 
@@ -201,7 +202,8 @@ PLUMB_API plumb_result plumb_world_compare(const plumb_world *a, const plumb_wor
 
 /// A change that the user made, in the step that led here.
 typedef struct plumb_replay_edit {
-    int phase; ///< -1: before the step (calls, commands); else the plumb_phase whose systems made it
+    int phase; ///< -1: before the step (calls, commands); else the plumb_phase whose systems made it;
+               ///< PLUMB_PHASE_END also: a hook of a component, of a joint that broke in the step
     plumb_difference change; ///< A before, B after
 } plumb_replay_edit;
 

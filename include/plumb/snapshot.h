@@ -17,12 +17,18 @@
 ///
 /// An image is of one build: format version, precision, byte order and columns must agree, and the world
 /// must have the same components registered in the same order. Anything else, and every damage, is
-/// refused whole: E_IMAGE, the state unchanged. A checksum guards against accidents, not against forgery:
-/// do not restore images from strangers.
+/// refused whole: E_IMAGE, the state unchanged. A checksum guards against accidents; against forgery the
+/// content is checked: handles, lists, counts, numbers and shapes are some that a world can have. What a
+/// component holds is the user's to check (but that fields of bool are 0 or 1). So images may come from
+/// strangers: the worst they can do is a strange world. A program that rolls back to images of its own can
+/// leave the check out: plumb_world_restore_trusted.
+///
+/// No byte depends on capacities, addresses, threads, or on whether the world was restored meanwhile: worlds
+/// with equal hashes and equal user data have equal images.
 ///
 /// Rolling back: keep one image of the world as it was built (the base) and save frames against it: a
 /// frame holds what is not as in the base. Restoring in a world that has held as much before allocates
-/// nothing, nor does the next step. For a network: plumb_snapshot_delta.
+/// nothing, nor does the next step; plumb_world_restore_frame_trusted is the quickest way back. For a network: plumb_snapshot_delta.
 #ifndef PLUMB_SNAPSHOT_H
 #define PLUMB_SNAPSHOT_H
 
@@ -36,8 +42,8 @@ PLUMB_BEGIN
 /// machine, compiler and SIMD width of one precision; worlds that differ have different ones but for one
 /// chance in 2^64. Not in it: user data, capacities, timers, the last error, events and contacts of
 /// the last step. A component counts by its fields, or by its bytes when it was registered without
-/// (padding and pointers in those would make it differ). A pending command counts by its kind, what
-/// it acts on, and where to; the rest of it when it is carried out. Not cryptographic. 0 for null.
+/// (padding and pointers in those would make it differ). A pending command counts but for user data. Not
+/// cryptographic. 0 for null.
 /// O(state): see src/snapshot/README.md.
 PLUMB_API uint64_t plumb_world_hash(const plumb_world *world);
 
@@ -51,9 +57,17 @@ PLUMB_API size_t plumb_world_snapshot_size(const plumb_world *world);
 PLUMB_API plumb_result plumb_world_save(const plumb_world *world, void *buffer, size_t size);
 
 /// Makes the world what it was when the image was saved, here or in another world: all handles mean
-/// what they meant then. `size` may be larger than the image. O(state).
+/// what they meant then. `size` may be larger than the image. The image may come from anybody: it is checked
+/// whole before anything changes. O(state).
 /// Errors: E_NULL, E_IMAGE, E_LOCKED, E_MEMORY.
 PLUMB_API plumb_result plumb_world_restore(plumb_world *world, const void *buffer, size_t size);
+
+/// The same for an image that this program has saved itself and that nobody else can have written to, as when
+/// it rolls back: its checksum is verified, its content is taken as it is, and nothing is allocated where the
+/// world has held as much before. With an image from anywhere else the behaviour is undefined.
+/// Errors: E_NULL, E_IMAGE, E_LOCKED, E_MEMORY.
+PLUMB_API plumb_result plumb_world_restore_trusted(plumb_world *world, const void *buffer,
+                                                   size_t size);
 
 /// Writes a frame: the columns and lists that differ from those of the image `base`; never more than
 /// plumb_world_snapshot_size. *bytes tells how much. `base` is compared, not verified. O(state).
@@ -67,6 +81,12 @@ PLUMB_API plumb_result plumb_world_save_frame(const plumb_world *world, const vo
 PLUMB_API plumb_result plumb_world_restore_frame(plumb_world *world, const void *base,
                                                  size_t base_size, const void *frame,
                                                  size_t frame_size);
+
+/// The same for a frame and a base that this program has saved itself: see plumb_world_restore_trusted.
+/// Errors: E_NULL, E_IMAGE, E_LOCKED, E_MEMORY.
+PLUMB_API plumb_result plumb_world_restore_frame_trusted(plumb_world *world, const void *base,
+                                                         size_t base_size, const void *frame,
+                                                         size_t frame_size);
 
 /// What an image tells of itself.
 typedef struct plumb_snapshot_info {
@@ -94,7 +114,8 @@ PLUMB_API size_t plumb_snapshot_delta_bound(size_t image_size);
 /// Errors: E_NULL, E_RANGE (size: *bytes tells how much it takes), E_IMAGE (either is damaged, or they are not of the
 /// same world).
 PLUMB_API plumb_result plumb_snapshot_delta(const void *from, size_t from_size, const void *to,
-                                            size_t to_size, void *buffer, size_t size, size_t *bytes);
+                                            size_t to_size, void *buffer, size_t size,
+                                            size_t *bytes);
 
 /// Rebuilds `to`, bit for bit, in `buffer` of `size` bytes. O(bytes).
 /// Errors: E_NULL, E_RANGE (size), E_IMAGE (either is damaged, or `from` is not the one of the delta).

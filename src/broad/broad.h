@@ -41,6 +41,8 @@ bool pl_broad_update(plumb_world *world, real dt);
 void pl_broad_refresh_moving(plumb_world *world, real dt);
 // Room for `slots` pieces that leave their boxes. False when out of memory.
 bool pl_broad_reserve_left(plumb_world *world, uint32_t slots);
+// Marks those in `left`, after a restore.
+void pl_broad_mark_left(pl_broad *broad);
 // No piece has left its box.
 void pl_broad_forget_left(pl_broad *broad);
 // The pair list no longer covers all that may touch.

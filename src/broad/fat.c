@@ -145,6 +145,15 @@ void pl_broad_forget_left(pl_broad *broad)
 // Marks of a piece: it is in `left`, or is to be put there.
 enum { IN_LIST = 1, JUST_LEFT = 2 };
 
+void pl_broad_mark_left(pl_broad *broad)
+{
+    const uint32_t *left = broad->left.data;
+    uint8_t *marks = broad->left_marks.data;
+    for (uint32_t i = 0; i < broad->left_count; ++i) {
+        marks[left[i]] = IN_LIST;
+    }
+}
+
 static void list_left(plumb_world *world)
 {
     pl_broad *broad = &world->broad;

@@ -6,7 +6,10 @@
 
 #include "plumb/math.h"
 #include "world/check.h"
+#include "world/desc_list.h"
 #include "world/state.h"
+
+#include <string.h>
 
 #define SLOPE_MOST ((real)1.5) // [rad]
 #define SPEED_MOST ((real)1e6) // [m/s]
@@ -124,6 +127,11 @@ static plumb_result check_body(const plumb_world *world, const char *fn, plumb_b
     return r;
 }
 
+static void copy_desc(plumb_character_desc *to, const plumb_character_desc *from)
+{
+    PL_CHARACTER_DESC(PL_COPY_MEMBER)
+}
+
 plumb_result plumb_character_create(plumb_world *world, plumb_body body,
                                     const plumb_character_desc *desc)
 {
@@ -141,8 +149,11 @@ plumb_result plumb_character_create(plumb_world *world, plumb_body body,
         return pl_fail_memory(world, __func__);
     }
     const pl_bodies *b = &world->bodies;
-    pl_character_items(all)[all->count] =
-        (pl_character){ .body = body, .desc = *desc, .velocity = { b->vx[row], b->vy[row] } };
+    pl_character *made = &pl_character_items(all)[all->count];
+    memset(made, 0, sizeof *made); // padding, too: it is saved
+    made->body = body;
+    copy_desc(&made->desc, desc);
+    made->velocity = plumb_v2(b->vx[row], b->vy[row]);
     world->bodies.character[row] = ++all->count;
     if (b->type[row] == PLUMB_DYNAMIC) {
         plumb_body_set_fixed_rotation(world, body, true);
@@ -208,7 +219,7 @@ plumb_result plumb_character_set(plumb_world *world, plumb_body body,
     desc = desc == NULL ? &zero : desc;
     r = r != PLUMB_OK ? r : check_desc(world, __func__, pl_body_row(world, body), desc);
     if (r == PLUMB_OK) {
-        c->desc = *desc;
+        copy_desc(&c->desc, desc);
     }
     return r;
 }

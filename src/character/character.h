@@ -11,7 +11,7 @@
 // A one-way shape that does not hold it.
 typedef struct pl_passing {
     plumb_shape shape;
-    bool dropping; // it was asked to: until it is inside, or far
+    uint32_t dropping; // it was asked to: until it is inside, or far
 } pl_passing;
 
 // What it stands on.

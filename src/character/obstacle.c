@@ -179,7 +179,7 @@ static bool is_under_way(const pl_character *c, plumb_shape shape, bool *droppin
 {
     for (int i = 0; i < c->passing_count; ++i) {
         if (plumb_same(c->passing[i].shape, shape)) {
-            *dropping = c->passing[i].dropping;
+            *dropping = c->passing[i].dropping != 0;
             return true;
         }
     }

@@ -5,7 +5,9 @@
 
 static bool comes_before(const pl_keyed *a, const pl_keyed *b)
 {
-    return a->key != b->key ? a->key < b->key : a->order < b->order;
+    return a->key != b->key       ? a->key < b->key
+           : a->order != b->order ? a->order < b->order
+                                  : a->value < b->value;
 }
 
 // Lets the item at `root` sink to its place in the heap of the first `count`.

@@ -8,10 +8,10 @@
 typedef struct pl_keyed {
     uint64_t key;
     uint32_t order; // ties: lower first
-    uint32_t value; // what comes along
+    uint32_t value; // what comes along; ties of both: lower first
 } pl_keyed;
 
-// By key, then order. Heap sort (Williams 1964): O(n log n) whatever the input.
+// By key, then order, then value: what the order was before decides nothing. Heap sort (Williams 1964): O(n log n) whatever the input.
 void pl_sort_keyed(pl_keyed *items, uint32_t count);
 
 // Where in a sorted array of records of `stride` bytes, each with its key first, a key stands or

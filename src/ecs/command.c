@@ -11,6 +11,7 @@
 #include "ecs/command.h"
 
 #include "world/check.h"
+#include "world/desc_list.h"
 #include "world/rows.h"
 
 #include <string.h>
@@ -38,16 +39,56 @@ static const char *const command_names[] = {
     [REMOVE_COMPONENT] = "plumb_command_component_remove",
 };
 
+// Records are saved: the bytes of equal ones are equal, so they have no padding.
 typedef struct record {
-    size_t bytes;        // header and payload, a multiple of RECORD_ALIGN
+    uint64_t bytes;      // header and payload, a multiple of RECORD_ALIGN
     plumb_entity target; // what it acts on; the reserved handle for creations
     plumb_body body;     // of a new shape
-    plumb_vec2 position;
-    plumb_real angle;
+    double x, y, angle;  // [m], [rad] of a teleport
     plumb_component component;
-    bool has_value;
-    uint8_t kind;
+    uint16_t kind;
+    uint16_t has_more; // points of a shape, value of a component
 } record;
+
+_Static_assert(sizeof(record) == 8 * 6 + sizeof(plumb_component) + 2 * sizeof(uint16_t),
+               "a record has padding");
+
+// Descriptors as they are kept: member after member.
+#define BODY_SIZE(path)  +sizeof(((plumb_body_desc *)0)->path)
+#define SHAPE_SIZE(path) +sizeof(((plumb_shape_desc *)0)->path)
+#define BODY_BYTES       (0 PL_BODY_DESC(BODY_SIZE))
+#define SHAPE_BYTES      (0 PL_SHAPE_DESC(SHAPE_SIZE))
+
+#define PUT(path)                                                                                  \
+    memcpy(to, &desc->path, sizeof desc->path);                                                    \
+    to += sizeof desc->path;
+#define GET(path)                                                                                  \
+    memcpy(&desc.path, from, sizeof desc.path);                                                    \
+    from += sizeof desc.path;
+
+static void put_body(char *to, const plumb_body_desc *desc)
+{
+    PL_BODY_DESC(PUT)
+}
+
+static plumb_body_desc get_body(const char *from)
+{
+    plumb_body_desc desc = { 0 };
+    PL_BODY_DESC(GET)
+    return desc;
+}
+
+static void put_shape(char *to, const plumb_shape_desc *desc)
+{
+    PL_SHAPE_DESC(PUT)
+}
+
+static plumb_shape_desc get_shape(const char *from)
+{
+    plumb_shape_desc desc = { 0 };
+    PL_SHAPE_DESC(GET)
+    return desc;
+}
 
 static size_t rounded(size_t bytes)
 {
@@ -75,13 +116,14 @@ static bool reserve_record(plumb_world *world, size_t payload, bool claims)
            pl_buffer_reserve(&world->memory, &world->commands.bytes, world->commands.used + bytes);
 }
 
-// Appends a record (room must be reserved); returns its payload.
+// Appends a record (room must be reserved); returns its payload, which is 0.
 static char *append(plumb_world *world, record r, size_t payload)
 {
     size_t at = world->commands.used;
     r.bytes = rounded(sizeof(record)) + rounded(payload);
+    memset((char *)world->commands.bytes.data + at, 0, (size_t)r.bytes);
     memcpy((char *)world->commands.bytes.data + at, &r, sizeof r);
-    world->commands.used += r.bytes;
+    world->commands.used += (size_t)r.bytes;
     ++world->commands.count;
     return payload_of(world, at);
 }
@@ -131,14 +173,13 @@ plumb_body plumb_command_body_create(plumb_world *world, const plumb_body_desc *
     if (world == NULL || pl_body_check(world, __func__, desc) != PLUMB_OK) {
         return body;
     }
-    if (!reserve_record(world, sizeof *desc, true)) {
+    if (!reserve_record(world, BODY_BYTES, true)) {
         pl_fail_memory(world, __func__);
         return body;
     }
     body.entity = reserve_handle(world, PLUMB_KIND_BODY);
-    record r = { .kind = CREATE_BODY, .target = body.entity };
-    char *payload = append(world, r, sizeof *desc);
-    memcpy(payload, desc, sizeof *desc);
+    put_body(append(world, (record){ .kind = CREATE_BODY, .target = body.entity }, BODY_BYTES),
+             desc);
     return body;
 }
 
@@ -152,17 +193,19 @@ plumb_shape plumb_command_shape_create(plumb_world *world, plumb_body body,
         return shape;
     }
     size_t points = desc->points == NULL ? 0 : (size_t)desc->count * sizeof(plumb_vec2);
-    size_t payload = rounded(sizeof *desc) + points;
+    size_t payload = rounded(SHAPE_BYTES) + points;
     if (!reserve_record(world, payload, true)) {
         pl_fail_memory(world, __func__);
         return shape;
     }
     shape.entity = reserve_handle(world, PLUMB_KIND_SHAPE);
-    record r = { .kind = CREATE_SHAPE, .target = shape.entity, .body = body };
+    record r = {
+        .kind = CREATE_SHAPE, .target = shape.entity, .body = body, .has_more = points > 0
+    };
     char *at = append(world, r, payload);
-    memcpy(at, desc, sizeof *desc);
+    put_shape(at, desc);
     if (points > 0) {
-        memcpy(at + rounded(sizeof *desc), desc->points, points);
+        memcpy(at + rounded(SHAPE_BYTES), desc->points, points);
     }
     return shape;
 }
@@ -218,7 +261,11 @@ plumb_result plumb_command_teleport(plumb_world *world, plumb_body body, plumb_v
     }
     plumb_result r = check_expected_body(world, __func__, body);
     r = r != PLUMB_OK ? r : pl_place_check(world, __func__, position, angle);
-    record to = { .kind = TELEPORT, .target = body.entity, .position = position, .angle = angle };
+    record to = { .kind = TELEPORT,
+                  .target = body.entity,
+                  .x = (double)position.x,
+                  .y = (double)position.y,
+                  .angle = (double)angle };
     return r != PLUMB_OK ? r : give(world, __func__, to, NULL, 0);
 }
 
@@ -234,7 +281,7 @@ plumb_result plumb_command_component_set(plumb_world *world, plumb_entity entity
         return r;
     }
     record set = {
-        .kind = SET_COMPONENT, .target = entity, .component = component, .has_value = value != NULL
+        .kind = SET_COMPONENT, .target = entity, .component = component, .has_more = value != NULL
     };
     size_t bytes = value == NULL ? 0 : world->components.items[component.id - 1].desc.size;
     return give(world, __func__, set, value, bytes);
@@ -266,8 +313,7 @@ static void drop(plumb_world *world, const record *r, const char *why)
 
 static plumb_result run_body(plumb_world *world, record *r, const char *payload)
 {
-    plumb_body_desc desc;
-    memcpy(&desc, payload, sizeof desc);
+    const plumb_body_desc desc = get_body(payload);
     plumb_body body = { r->target };
     return pl_body_insert(world, command_names[r->kind], &desc, &body);
 }
@@ -279,10 +325,9 @@ static plumb_result run_shape(plumb_world *world, record *r, const char *payload
         drop(world, r, "its body is gone");
         return PLUMB_OK;
     }
-    plumb_shape_desc desc;
-    memcpy(&desc, payload, sizeof desc);
-    if (desc.points != NULL) {
-        desc.points = (const plumb_vec2 *)(const void *)(payload + rounded(sizeof desc));
+    plumb_shape_desc desc = get_shape(payload);
+    if (r->has_more) {
+        desc.points = (const plumb_vec2 *)(const void *)(payload + rounded(SHAPE_BYTES));
     }
     pl_made made;
     const char *fn = command_names[r->kind];
@@ -319,10 +364,11 @@ static plumb_result run_on_live(plumb_world *world, const record *r, const char 
     case DESTROY:
         return run_destroy(world, r);
     case TELEPORT:
-        pl_body_place(world, pl_body_row(world, (plumb_body){ r->target }), r->position, r->angle);
+        pl_body_place(world, pl_body_row(world, (plumb_body){ r->target }),
+                      plumb_v2((plumb_real)r->x, (plumb_real)r->y), (plumb_real)r->angle);
         return PLUMB_OK;
     case SET_COMPONENT:
-        return pl_component_put(world, r->target, r->component, r->has_value ? payload : NULL)
+        return pl_component_put(world, r->target, r->component, r->has_more ? payload : NULL)
                    ? PLUMB_OK
                    : pl_fail_memory(world, command_names[r->kind]);
     default:
@@ -361,7 +407,7 @@ plumb_result pl_commands_run(plumb_world *world)
         if (result != PLUMB_OK) {
             break;
         }
-        at += r.bytes;
+        at += (size_t)r.bytes;
         --commands->count;
     }
     if (at > 0) {
@@ -371,23 +417,140 @@ plumb_result pl_commands_run(plumb_world *world)
     return result;
 }
 
+//---- saved ---------------------------------------------------------------------------------------
+
+// [B] of the payload that count for the hash: not the user's data at the end of a descriptor.
+static size_t digested_bytes(const record *r)
+{
+    switch (r->kind) {
+    case CREATE_BODY:
+        return BODY_BYTES - sizeof(void *);
+    case CREATE_SHAPE:
+        return SHAPE_BYTES - sizeof(void *);
+    default:
+        return 0;
+    }
+}
+
 void pl_commands_digest(const plumb_world *world, pl_digest *digest)
 {
     const pl_commands *commands = &world->commands;
     for (size_t at = 0; at < commands->used;) {
         record r;
         memcpy(&r, (const char *)commands->bytes.data + at, sizeof r);
-        const uint32_t handles[] = { r.kind,
-                                     r.target.index,
-                                     r.target.generation,
-                                     r.body.entity.index,
-                                     r.body.entity.generation,
-                                     r.component.id };
-        const plumb_real place[] = { r.position.x, r.position.y, r.angle };
-        pl_digest_add(digest, handles, sizeof handles);
-        pl_digest_add(digest, place, sizeof place);
-        at += r.bytes;
+        const char *payload = payload_of(world, at);
+        pl_digest_add(digest, &r, sizeof r);
+        pl_digest_add(digest, payload, digested_bytes(&r));
+        if (r.kind == CREATE_SHAPE) {
+            size_t points = rounded(SHAPE_BYTES);
+            pl_digest_add(digest, payload + points,
+                          (size_t)r.bytes - rounded(sizeof r) - points);
+        } else if (r.kind == SET_COMPONENT && r.has_more) {
+            pl_component_digest(&world->components.items[r.component.id - 1], payload, digest);
+        }
+        at += (size_t)r.bytes;
     }
+}
+
+void pl_commands_strip(char *bytes, size_t used)
+{
+    for (size_t at = 0; at < used;) {
+        record r;
+        memcpy(&r, bytes + at, sizeof r);
+        const size_t behind = digested_bytes(&r);
+        if (behind > 0) {
+            memset(bytes + at + rounded(sizeof r) + behind, 0, sizeof(void *));
+        }
+        at += (size_t)r.bytes;
+    }
+}
+
+// Bytes that are read as bool.
+#define IS_BOOL(path) && *(const unsigned char *)(const void *)&desc.path <= 1
+#define BODY_BOOLS(X)                                                                              \
+    X(no_gravity) X(fixed_rotation) X(no_sleep) X(asleep) X(continuous) X(lock_x) X(lock_y)        \
+    X(disabled)
+#define SHAPE_BOOLS(X) X(closed) X(filter.nothing) X(sensor)
+
+// A descriptor that the call itself would take, whatever else is in the world.
+static bool is_body(const char *payload)
+{
+    const plumb_body_desc desc = get_body(payload);
+    return true BODY_BOOLS(IS_BOOL) && pl_body_check(NULL, "", &desc) == PLUMB_OK;
+}
+
+static bool is_shape(const record *r, const char *payload, size_t bytes)
+{
+    const plumb_shape_desc desc = get_shape(payload);
+    const size_t points = bytes - rounded(SHAPE_BYTES);
+    return true SHAPE_BOOLS(IS_BOOL) &&
+           (r->has_more ? desc.count > 0 && (size_t)desc.count <= points / sizeof(plumb_vec2)
+                        : desc.count >= 0);
+}
+
+static size_t least_payload(const plumb_world *world, const record *r)
+{
+    switch (r->kind) {
+    case CREATE_BODY:
+        return rounded(BODY_BYTES);
+    case CREATE_SHAPE:
+        return rounded(SHAPE_BYTES);
+    case SET_COMPONENT:
+        return r->has_more ? rounded(world->components.items[r->component.id - 1].desc.size) : 0;
+    default:
+        return 0;
+    }
+}
+
+static bool is_record(const plumb_world *world, const pl_registry *registry, const record *r,
+                      const char *payload, size_t bytes)
+{
+    static const uint32_t made[] = { [CREATE_BODY] = PLUMB_KIND_BODY,
+                                     [CREATE_SHAPE] = PLUMB_KIND_SHAPE,
+                                     [CREATE_ENTITY] = PLUMB_KIND_BARE };
+    const bool components = r->kind == SET_COMPONENT || r->kind == REMOVE_COMPONENT;
+    if (r->kind > REMOVE_COMPONENT || r->has_more > 1 ||
+        (components && (r->component.id == 0 || r->component.id > world->components.count)) ||
+        bytes < least_payload(world, r)) {
+        return false;
+    }
+    if (r->kind <= CREATE_ENTITY) {
+        const pl_slot *slot = pl_registry_find_pending(registry, r->target);
+        if (slot == NULL || slot->kind != made[r->kind]) {
+            return false;
+        }
+    }
+    switch (r->kind) {
+    case CREATE_BODY:
+        return is_body(payload);
+    case CREATE_SHAPE:
+        return is_shape(r, payload, bytes);
+    case TELEPORT:
+        return r->x >= -1e9 && r->x <= 1e9 && r->y >= -1e9 && r->y <= 1e9 &&
+               r->angle - r->angle == 0;
+    default:
+        return true;
+    }
+}
+
+bool pl_commands_are_sound(const plumb_world *world, const pl_registry *registry,
+                           const char *bytes, size_t used, uint32_t count)
+{
+    const size_t head = rounded(sizeof(record));
+    uint32_t seen = 0;
+    for (size_t at = 0; at < used; ++seen) {
+        record r;
+        if (used - at < head) {
+            return false;
+        }
+        memcpy(&r, bytes + at, sizeof r);
+        if (r.bytes < head || r.bytes % RECORD_ALIGN != 0 || r.bytes > used - at ||
+            !is_record(world, registry, &r, bytes + at + head, (size_t)r.bytes - head)) {
+            return false;
+        }
+        at += (size_t)r.bytes;
+    }
+    return seen == count;
 }
 
 plumb_result plumb_commands_apply(plumb_world *world)

@@ -4,6 +4,7 @@
 
 #include "core/digest.h"
 #include "core/memory.h"
+#include "ecs/registry.h"
 #include "plumb/ecs.h"
 
 typedef struct pl_commands {
@@ -18,7 +19,12 @@ void pl_commands_free(pl_memory *memory, pl_commands *commands);
 // the next time. On E_MEMORY the command that failed and those after it stay.
 plumb_result pl_commands_run(plumb_world *world);
 
-// Adds what is pending to the world hash: kinds, handles, places.
+// Adds what is pending to the world hash: all but the user's data.
 void pl_commands_digest(const plumb_world *world, pl_digest *digest);
+// Whether saved records are some that a world with such a registry may have; components as in `world`.
+bool pl_commands_are_sound(const plumb_world *world, const pl_registry *registry,
+                           const char *bytes, size_t used, uint32_t count);
+// Takes the user's data out of saved records.
+void pl_commands_strip(char *bytes, size_t used);
 
 #endif

@@ -7,6 +7,7 @@
 // Reads, writes: the component's set. Cost: O(1) a value; O(components) to drop all of an entity.
 #include "ecs/component.h"
 
+#include "step/tape.h"
 #include "world/check.h"
 #include "world/state.h"
 
@@ -281,6 +282,20 @@ bool pl_component_put(plumb_world *world, plumb_entity entity, plumb_component c
     return true;
 }
 
+// What it does within a step is recorded there, and replayed without it: see step/tape.h.
+static void run_drop_hook(plumb_world *world, const pl_component *c, uint32_t row)
+{
+    pl_tape *tape = world->tape;
+    bool told = tape != NULL && tape->steps;
+    if (told && tape->dropping != NULL) {
+        tape->dropping(tape, world);
+    }
+    run_hook(world, c, c->desc.on_remove, row);
+    if (told && tape->dropped != NULL) {
+        tape->dropped(tape, world);
+    }
+}
+
 bool pl_component_drop(plumb_world *world, plumb_entity entity, plumb_component component)
 {
     pl_component *c = find(world, component);
@@ -288,7 +303,7 @@ bool pl_component_drop(plumb_world *world, plumb_entity entity, plumb_component 
     if (row == PL_NONE) {
         return false;
     }
-    run_hook(world, c, c->desc.on_remove, row);
+    run_drop_hook(world, c, row);
     plumb_entity *owners = c->owners.data;
     uint32_t *rows = c->rows.data;
     uint32_t last = --c->count;
@@ -306,6 +321,17 @@ void pl_components_drop_all(plumb_world *world, plumb_entity entity)
 {
     for (uint32_t id = 1; id <= world->components.count; ++id) {
         pl_component_drop(world, entity, (plumb_component){ id });
+    }
+}
+
+void pl_component_digest(const pl_component *c, const char *value, pl_digest *digest)
+{
+    static const uint8_t sizes[] = { 4, 8, 4, 8, 4, 8, sizeof(bool) };
+    for (int k = 0; k < c->desc.field_count; ++k) {
+        pl_digest_add(digest, value + c->fields[k].offset, sizes[c->fields[k].type]);
+    }
+    if (c->desc.field_count == 0) {
+        pl_digest_add(digest, value, c->desc.size);
     }
 }
 

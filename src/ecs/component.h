@@ -2,6 +2,7 @@
 #ifndef PL_COMPONENT_H
 #define PL_COMPONENT_H
 
+#include "core/digest.h"
 #include "core/memory.h"
 #include "plumb/ecs.h"
 
@@ -37,6 +38,8 @@ bool pl_component_put(plumb_world *world, plumb_entity entity, plumb_component c
 bool pl_component_drop(plumb_world *world, plumb_entity entity, plumb_component component);
 // Takes all components of an entity away, in order of registration.
 void pl_components_drop_all(plumb_world *world, plumb_entity entity);
+// Adds a value to the world hash: its fields, or its bytes where none were told.
+void pl_component_digest(const pl_component *component, const char *value, pl_digest *digest);
 // Runs the removal hooks of everything that is left, at the end of a world.
 void pl_components_bury(plumb_world *world);
 

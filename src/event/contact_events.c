@@ -147,7 +147,7 @@ void pl_pair_lost(plumb_world *world, const pl_pair *pair)
     if ((pair->flags & PL_PAIR_TOUCHING) == 0) {
         return;
     }
-    uint8_t flags = who(world, pair->a, epoch).flags | who(world, pair->b, epoch).flags;
+    uint32_t flags = who(world, pair->a, epoch).flags | who(world, pair->b, epoch).flags;
     if ((flags & PL_PIECE_PART) != 0) {
         pl_parts *parts = &world->parts;
         plumb_contact_end end = end_of(world, pair, epoch);

@@ -39,7 +39,7 @@ typedef struct pl_grave {
     plumb_shape shape;
     plumb_body body;
     uint32_t epoch; // 1 + rebuilds of the pair list when it went; 0: never
-    uint8_t flags;  // PL_PIECE_...
+    uint32_t flags; // PL_PIECE_...
 } pl_grave;
 
 // What sensors see (sensor_events.c).

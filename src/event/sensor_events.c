@@ -39,7 +39,7 @@ static bool list_candidates(plumb_world *world)
     if (!pl_buffer_reserve(&world->memory, &s->candidates, count * sizeof(pl_keyed))) {
         return false;
     }
-    const pl_found *found = world->broad.sensed.data;
+    pl_found *found = world->broad.sensed.data;
     const plumb_shape *shape = world->pieces.shape;
     pl_keyed *to = s->candidates.data;
     for (uint32_t i = 0; i < count; ++i) {
@@ -48,6 +48,9 @@ static bool list_candidates(plumb_world *world)
                         found[i].low, found[i].high };
     }
     pl_sort_keyed(to, count);
+    for (uint32_t i = 0; i < count; ++i) { // in an order that no grid decides: it is saved
+        found[i] = (pl_found){ to[i].order, to[i].value };
+    }
     s->candidate_count = count;
     s->rebuilds = world->broad.rebuilds;
     return true;
@@ -267,6 +270,7 @@ void pl_sensing_run(plumb_world *world)
     exchange(&s->overlaps, &s->old);
     s->old_count = s->count;
     s->count = test_candidates(world, &s->candidates, s->candidate_count, false, &s->overlaps);
+    world->schedule_dirty |= (s->count > 0) != (s->old_count > 0);
     if (s->rest_stale) {
         exchange(&s->rest_overlaps, &s->rest_old);
         rest_old_count = s->rest_count;

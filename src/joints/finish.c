@@ -37,7 +37,7 @@ static const pl_rows *whole_rows(const plumb_world *world, const pl_joint *j, pl
     }
     pl_joint now = *j;
     pl_joint_begin(world, &now);
-    pl_joint_classes[j->desc.kind]->rows(&now, &now.a.pose, &now.b.pose, made);
+    pl_joint_classes[j->desc.kind]->rows(&now, &now.pose_a, &now.pose_b, made);
     return made;
 }
 
@@ -151,7 +151,7 @@ void pl_joints_finish(plumb_world *world)
         const pl_joint_class *kind = pl_joint_classes[j->desc.kind];
         if (kind->advance != NULL) {
             pl_joint_begin(world, j);
-            kind->advance(j, &j->a.pose, &j->b.pose);
+            kind->advance(j, &j->pose_a, &j->pose_b);
         }
         if (overloaded(j)) {
             snap(world, j);

@@ -114,8 +114,8 @@ static pl_joint_lane lane_of(const plumb_world *world, uint32_t slot, bool bare)
     }
     const pl_joint *j = &pl_joint_items(&world->joints)[slot];
     return (pl_joint_lane){ .joint = slot,
-                            .eighth_a = (uint8_t)pl_joint_eighth(j->a.seen),
-                            .eighth_b = (uint8_t)pl_joint_eighth(j->b.seen),
+                            .eighth_a = (uint8_t)j->a.eighth,
+                            .eighth_b = (uint8_t)j->b.eighth,
                             .local_a = j->a.local,
                             .local_b = j->b.local };
 }

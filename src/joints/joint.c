@@ -7,8 +7,11 @@
 
 #include "plumb/math.h"
 #include "world/check.h"
+#include "world/desc_list.h"
 #include "world/rows.h"
 #include "world/wrap.h"
+
+#include <string.h>
 
 #define TURN       6.283185307179586476925
 #define POINT_MOST ((real)1e9) // [m] as positions of bodies
@@ -170,37 +173,46 @@ static plumb_vec2 arm_of(const plumb_world *world, plumb_vec2 local, uint32_t ro
     return is_held_at_anchor(world, row) ? plumb_v2(0, 0) : arm_to(world, local, row);
 }
 
-static void pose_now(const plumb_world *world, pl_joint_end *end, uint32_t row, const spot *from)
+// `angle` [rad] of the body now, in (-pi, pi].
+static pl_joint_pose pose_now(const plumb_world *world, const pl_joint_end *end, uint32_t row,
+                              const spot *from, double angle)
 {
     const spot center = center_of(world, end->local, row);
     const pl_shift d = way(from, &center);
-    pl_joint_pose *pose = &end->pose;
-    *pose = (pl_joint_pose){ .x = (real)d.x, .y = (real)d.y, .c = 1 };
     if (row == PL_NONE) {
-        return;
+        return (pl_joint_pose){ .x = (real)d.x, .y = (real)d.y, .c = 1 };
     }
     plumb_vec2 arm = arm_of(world, end->local, row);
-    pose->c = world->bodies.c[row], pose->s = world->bodies.s[row];
-    pose->rx = arm.x, pose->ry = arm.y;
-    pose->angle = (end->seen - end->start) + TURN * (double)end->turns;
+    return (pl_joint_pose){ .x = (real)d.x,
+                            .y = (real)d.y,
+                            .angle = (angle - end->start) + TURN * (double)end->turns,
+                            .c = world->bodies.c[row],
+                            .s = world->bodies.s[row],
+                            .rx = arm.x,
+                            .ry = arm.y };
 }
 
-int pl_joint_eighth(double angle)
+uint32_t pl_joint_eighth(const plumb_world *world, uint32_t row)
 {
-    return (int)((angle + TURN / 2) * (8 / TURN)) & 7;
+    real c = world->bodies.c[row], s = world->bodies.s[row];
+    real along = s < 0 ? -c : c, across = s < 0 ? -s : s; // half a turn back into the upper half
+    uint32_t eighth = along > 0 ? (across > along) : 2 + (across < -along);
+    return s < 0 ? eighth : 4 + eighth;
 }
 
 // From the middle of the eighth in which it was last seen: whether somebody looks while it stays in there, as
-// plans do differently after a restore, decides nothing.
-static void count_turns(const plumb_world *world, pl_joint_end *end, uint32_t row)
+// plans do differently after a restore, decides nothing. Returns the angle of the body now.
+static double count_turns(const plumb_world *world, pl_joint_end *end, uint32_t row)
 {
-    if (row != PL_NONE) {
-        plumb_rot q = { world->bodies.c[row], world->bodies.s[row] };
-        double from = (pl_joint_eighth(end->seen) + 0.5) * (TURN / 8) - TURN / 2;
-        double now = (double)plumb_rot_angle(q), jump = now - from;
-        end->turns += jump > TURN / 2 ? -1 : jump < -TURN / 2 ? 1 : 0;
-        end->seen = now;
+    if (row == PL_NONE) {
+        return 0;
     }
+    plumb_rot q = { world->bodies.c[row], world->bodies.s[row] };
+    double from = ((double)end->eighth + 0.5) * (TURN / 8) - TURN / 2;
+    double now = (double)plumb_rot_angle(q), jump = now - from;
+    end->turns += jump > TURN / 2 ? -1 : jump < -TURN / 2 ? 1 : 0;
+    end->eighth = pl_joint_eighth(world, row);
+    return now;
 }
 
 // In a world that wraps around: how much nearer an image of an anchor is to a place.
@@ -230,39 +242,30 @@ static void place_images(const plumb_world *world, pl_joint *joint, uint32_t row
     from.x -= b.x / 2, from.y -= b.y / 2;
     to.x += b.x / 2, to.y += b.y / 2;
     const pl_shift d = way(&from, &to);
-    joint->b.pose.x = (real)(d.x - a.x);
-    joint->b.pose.y = (real)(d.y - a.y);
+    joint->pose_b.x = (real)(d.x - a.x);
+    joint->pose_b.y = (real)(d.y - a.y);
 }
 
 void pl_joint_place(const plumb_world *world, pl_joint *joint, uint32_t row_a, uint32_t row_b)
 {
-    count_turns(world, &joint->a, row_a);
-    count_turns(world, &joint->b, row_b);
+    const double angle_a = count_turns(world, &joint->a, row_a);
+    const double angle_b = count_turns(world, &joint->b, row_b);
     const spot origin = center_of(world, joint->a.local, row_a);
     joint->origin = plumb_v2((real)origin.x, (real)origin.y);
-    pose_now(world, &joint->a, row_a, &origin);
-    pose_now(world, &joint->b, row_b, &origin);
+    joint->pose_a = pose_now(world, &joint->a, row_a, &origin, angle_a);
+    joint->pose_b = pose_now(world, &joint->b, row_b, &origin, angle_b);
     if (pl_is_wrapped(world)) {
         place_images(world, joint, row_a, row_b);
     }
-}
-
-// The eighth of a turn that a rotation is in.
-static int eighth_now(const plumb_world *world, uint32_t row)
-{
-    real c = world->bodies.c[row], s = world->bodies.s[row];
-    real along = s < 0 ? -c : c, across = s < 0 ? -s : s; // half a turn back into the upper half
-    int eighth = along > 0 ? (across > along) : 2 + (across < -along);
-    return s < 0 ? eighth : 4 + eighth;
 }
 
 // Turns are told apart as long as a body does not pass three eighths of a turn in a step.
 static void look_at_turns(const plumb_world *world, pl_joint_end *end, uint32_t row,
                           uint8_t *eighth)
 {
-    if (row != PL_NONE && eighth_now(world, row) != *eighth) {
+    if (row != PL_NONE && pl_joint_eighth(world, row) != *eighth) {
         count_turns(world, end, row);
-        *eighth = (uint8_t)pl_joint_eighth(end->seen);
+        *eighth = (uint8_t)end->eighth;
     }
 }
 
@@ -418,13 +421,16 @@ static uint32_t take_slot(pl_joints *joints)
 static void attach(plumb_world *world, uint32_t slot, pl_joint_end *end, plumb_body body,
                    plumb_vec2 anchor)
 {
-    *end = (pl_joint_end){ .body = body, .local = anchor, .next = PL_NONE };
+    end->body = body; // of a joint that is all 0
+    end->local = anchor;
+    end->next = PL_NONE;
     if (plumb_is_null(body)) {
         return;
     }
     uint32_t row = pl_body_row(world, body);
     end->local = plumb_body_local_point(world, body, anchor);
-    end->start = end->seen = (double)plumb_body_angle(world, body);
+    end->start = (double)plumb_body_angle(world, body);
+    end->eighth = pl_joint_eighth(world, row);
     end->next = world->bodies.first_joint[row];
     world->bodies.first_joint[row] = slot;
 }
@@ -443,13 +449,19 @@ static void revise_pairs(plumb_world *world, const pl_joint *joint)
     pl_joints_replan(&world->joints);
 }
 
+void pl_joint_copy_desc(plumb_joint_desc *to, const plumb_joint_desc *from)
+{
+    PL_JOINT_DESC(PL_COPY_MEMBER)
+}
+
 static plumb_joint insert(plumb_world *world, const plumb_joint_desc *d)
 {
     const plumb_joint none = PLUMB_NULL_INIT;
     uint32_t slot = take_slot(&world->joints);
     pl_joint *j = &pl_joint_items(&world->joints)[slot];
     bool two = (pl_joint_classes[d->kind]->has & PL_JOINT_TWO_ANCHORS) != 0;
-    *j = (pl_joint){ .desc = *d };
+    memset(j, 0, sizeof *j); // padding, too: it is saved
+    pl_joint_copy_desc(&j->desc, d);
     attach(world, slot, &j->a, d->body_a, d->anchor);
     attach(world, slot, &j->b, d->body_b, two ? d->anchor_b : d->anchor);
     j->axis =
@@ -457,7 +469,7 @@ static plumb_joint insert(plumb_world *world, const plumb_joint_desc *d)
     j->entity.entity = pl_entity_claim(world, none.entity, PLUMB_KIND_JOINT, slot);
     pl_joint_begin(world, j);
     if (pl_joint_classes[d->kind]->keep != NULL) {
-        j->sum = pl_joint_classes[d->kind]->keep(j, &j->a.pose, &j->b.pose);
+        j->sum = pl_joint_classes[d->kind]->keep(j, &j->pose_a, &j->pose_b);
     }
     ++world->joints.live;
     pl_joint_disturb(world, j);
@@ -507,7 +519,8 @@ void pl_joint_remove(plumb_world *world, uint32_t slot)
     revise_pairs(world, j);
     pl_registry_release(&world->registry, j->entity.entity);
     world->joints.impulsive -= j->desc.break_impulse > 0;
-    *j = (pl_joint){ .a.next = world->joints.free_head };
+    memset(j, 0, sizeof *j);
+    j->a.next = world->joints.free_head;
     world->joints.free_head = slot;
     --world->joints.live;
 }

@@ -50,10 +50,8 @@ typedef struct pl_joint_end {
     uint32_t next;      // next joint of the body: see pl_joint_next
     plumb_vec2 local;   // [m] anchor in the body's frame; the world's: in the world
     double start;       // [rad] angle of the body when the joint was made
-    double seen;        // [rad] angle when last looked, in (-pi, pi]
     int32_t turns;      // full turns since
-    uint32_t slot;      // solver slot in this step
-    pl_joint_pose pose; // at the start of the step
+    uint32_t eighth;    // of a turn in which the body was seen last: see pl_joint_eighth
 } pl_joint_end;
 
 struct pl_joint {
@@ -67,8 +65,12 @@ struct pl_joint {
     pl_joint_end a, b;
     plumb_vec2 axis;   // unit, in A's frame (the world's without A)
     plumb_vec2 target; // mouse: world [m]; motor: in A's frame [m]
-    plumb_vec2 origin; // [m] from where poses are told: A's centre at the start of the step
     real sum;          // gear, pulley: what is kept; ratchet: the tooth behind the pawl [rad]
+    uint32_t strained; // 1: its reaction was beyond its bounds for events when last seen
+    // What is behind here is of one step, and not saved (snapshot/list.h).
+    pl_joint_pose pose_a, pose_b; // at the start of the step; first: aligned as the whole
+    uint32_t slot_a, slot_b;      // solver slots
+    plumb_vec2 origin; // [m] from where poses are told: A's centre at the start of the step
     // Solver: of joints solved one by one.
     real mass[PL_JOINT_ROWS]; // [kg] effective, of rows outside the block
     real inverse[3][3];       // of the block's K = J M^-1 J^T
@@ -76,7 +78,6 @@ struct pl_joint {
     pl_rows rows;
     plumb_vec2 arm_b; // [m] from B's centre to its anchor, at the rows
     plumb_vec2 step_impulse; // [N s] on B over the step, where it breaks by impulse
-    uint32_t strained;       // 1: its reaction was beyond its bounds for events when last seen
 };
 
 // A joint as the plan sees it, so that a step need not look at the joint itself.
@@ -153,6 +154,8 @@ static inline pl_joint *pl_joint_awake(const pl_joints *joints, uint32_t i)
 
 // The slot of a live joint or PL_NONE.
 uint32_t pl_joint_slot(const plumb_world *world, plumb_joint joint);
+// Descriptors of joints are copied by it alone.
+void pl_joint_copy_desc(plumb_joint_desc *to, const plumb_joint_desc *from);
 // Unlinks a joint, gives its slot back and releases its handle.
 void pl_joint_remove(plumb_world *world, uint32_t slot);
 void pl_joints_free(pl_memory *memory, pl_joints *joints);
@@ -171,8 +174,8 @@ bool pl_joints_forbid(const plumb_world *world, uint32_t row, uint32_t other);
 bool pl_joints_part(const plumb_world *world, uint32_t row);
 // Full turns, origin and poses up to date.
 void pl_joint_begin(const plumb_world *world, pl_joint *joint);
-// Eighth of a turn, 0 to 7, in which an angle in (-pi, pi] [rad] lies.
-int pl_joint_eighth(double angle);
+// Eighth of a turn, 0 to 7 from -pi on, in which the rotation of a body row lies.
+uint32_t pl_joint_eighth(const plumb_world *world, uint32_t row);
 // The same as pl_joint_begin with the rows of its bodies known (PL_NONE: the world).
 void pl_joint_place(const plumb_world *world, pl_joint *joint, uint32_t row_a, uint32_t row_b);
 // How a lane of a bare hinge begins a step: of the joint itself, impulses are read, and turns counted

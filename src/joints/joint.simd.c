@@ -290,7 +290,7 @@ static void fill_temper(temper *t, int lane, const pl_rows *rows, real h)
 static void fill_lane(const parts *at, const pl_joint_pattern *p, int lane, const pl_joint *j,
                       const pl_rows *rows, real h)
 {
-    const pl_joint_pose *a = &j->a.pose, *b = &j->b.pose;
+    const pl_joint_pose *a = &j->pose_a, *b = &j->pose_b;
     plumb_vec2 apart = pl_joint_apart(a, b);
     for (int i = 0; i < p->count; ++i) {
         at->rows[i].impulse[lane] = (near_real)j->impulse[p->row[i].index];

@@ -88,7 +88,7 @@ plumb_real plumb_joint_value(const plumb_world *world, plumb_joint joint)
     }
     pl_joint now = *j;
     pl_joint_begin(world, &now);
-    return pl_joint_classes[j->desc.kind]->value(&now, &now.a.pose, &now.b.pose);
+    return pl_joint_classes[j->desc.kind]->value(&now, &now.pose_a, &now.pose_b);
 }
 
 plumb_real plumb_joint_error(const plumb_world *world, plumb_joint joint)
@@ -100,7 +100,7 @@ plumb_real plumb_joint_error(const plumb_world *world, plumb_joint joint)
     pl_joint now = *j;
     pl_rows rows = { .count = 0 };
     pl_joint_begin(world, &now);
-    pl_joint_classes[j->desc.kind]->rows(&now, &now.a.pose, &now.b.pose, &rows);
+    pl_joint_classes[j->desc.kind]->rows(&now, &now.pose_a, &now.pose_b, &rows);
     real sum = 0;
     for (int i = 0; i < rows.count; ++i) {
         const pl_row *r = &rows.row[i];

@@ -83,7 +83,7 @@ static void recall(const plumb_world *world, pl_joint_end *end, plumb_vec2 ancho
     end->local = anchor;
     if (!plumb_is_null(end->body)) {
         end->start = (double)start;
-        end->seen = (double)plumb_body_angle(world, end->body);
+        end->eighth = pl_joint_eighth(world, pl_body_row(world, end->body));
         end->turns = turns;
     }
 }

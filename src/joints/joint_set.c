@@ -39,7 +39,7 @@ static void revise(plumb_world *world, pl_joint *joint, plumb_joint_desc wanted)
     if (pl_joint_variant(&joint->desc) != pl_joint_variant(&wanted)) {
         pl_joints_replan(&world->joints);
     }
-    joint->desc = wanted;
+    pl_joint_copy_desc(&joint->desc, &wanted);
 }
 
 plumb_result plumb_joint_set_limit(plumb_world *world, plumb_joint joint, bool enabled,

@@ -130,7 +130,7 @@ static bool describe(const plumb_world *world, pl_joint *j, pl_joint_pattern *ou
 {
     pl_rows *rows = &j->rows;
     pl_joint_begin(world, j);
-    pl_joint_classes[j->desc.kind]->rows(j, &j->a.pose, &j->b.pose, rows);
+    pl_joint_classes[j->desc.kind]->rows(j, &j->pose_a, &j->pose_b, rows);
     *out = (pl_joint_pattern){ .variant = pl_joint_variant(&j->desc),
                                .rows_of_all = (uint32_t)rows->count,
                                .block = (uint8_t)rows->block };

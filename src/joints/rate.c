@@ -41,8 +41,8 @@ real pl_joint_rate(const plumb_world *world, const pl_joint *joint)
     const pl_joint_class *kind = pl_joint_classes[joint->desc.kind];
     pl_joint now = *joint;
     pl_joint_begin(world, &now);
-    const pl_row slope = kind->slope != NULL ? kind->slope(&now, &now.a.pose, &now.b.pose)
-                                             : pl_row_angle(&now.a.pose, &now.b.pose, 0);
+    const pl_row slope = kind->slope != NULL ? kind->slope(&now, &now.pose_a, &now.pose_b)
+                                             : pl_row_angle(&now.pose_a, &now.pose_b, 0);
     return along(world, joint, &slope);
 }
 

@@ -214,10 +214,9 @@ static plumb_rot turned_by(real x)
                         x * (1 - xx / 6 * (1 - xx / 20 * (1 - xx / 42))) };
 }
 
-static pl_joint_pose moved(const pl_joint_end *end, const pl_solver_body *body)
+static pl_joint_pose moved(pl_joint_pose pose, plumb_body of, const pl_solver_body *body)
 {
-    pl_joint_pose pose = end->pose;
-    if (plumb_is_null(end->body)) {
+    if (plumb_is_null(of)) {
         return pose;
     }
     pose.x += body->dx;
@@ -249,7 +248,7 @@ static void add_momentum(pl_joint *j, real sign)
 static void make_rows(const plumb_world *world, pl_joint *j, const pl_solver_body *a,
                       const pl_solver_body *b)
 {
-    pl_joint_pose pa = moved(&j->a, a), pb = moved(&j->b, b);
+    pl_joint_pose pa = moved(j->pose_a, j->a.body, a), pb = moved(j->pose_b, j->b.body, b);
     pl_joint_classes[j->desc.kind]->rows(j, &pa, &pb, &j->rows);
     j->arm_b = plumb_v2(pb.rx, pb.ry);
     if (world->locked_bodies > 0) {
@@ -353,8 +352,8 @@ static void take_lone(const pl_joint_course *c, uint32_t i, lone *out)
     pl_joint *j = pl_joint_grouped(&c->world->joints, i);
     out->joint = j;
     out->immovable = (pl_solver_body){ 0 };
-    out->a = body_of(c, j->a.slot, &out->immovable);
-    out->b = body_of(c, j->b.slot, &out->immovable);
+    out->a = body_of(c, j->slot_a, &out->immovable);
+    out->b = body_of(c, j->slot_b, &out->immovable);
 }
 
 //---- all joints ----------------------------------------------------------------------------------
@@ -376,8 +375,8 @@ static void begin(const plumb_world *world, pl_joint *j, real h)
 {
     const pl_joint_mark *mark = &pl_joint_marks(&world->joints)[j - pl_joint_items(&world->joints)];
     pl_joint_place(world, j, mark->row_a, mark->row_b);
-    j->a.slot = slot_of(world, mark->row_a);
-    j->b.slot = slot_of(world, mark->row_b);
+    j->slot_a = slot_of(world, mark->row_a);
+    j->slot_b = slot_of(world, mark->row_b);
     real scale = j->h > 0 ? h / j->h : 0;
     for (int k = 0; k < PL_JOINT_ROWS; ++k) {
         j->impulse[k] *= scale;
@@ -390,11 +389,11 @@ static void begin_wide(const plumb_world *world, pl_joint *j, pl_joint_start *st
                        real h)
 {
     begin(world, j, h);
-    pl_joint_classes[j->desc.kind]->rows(j, &j->a.pose, &j->b.pose, rows);
-    *start = (pl_joint_start){ .arm_a = { (near_real)j->a.pose.rx, (near_real)j->a.pose.ry },
-                               .arm_b = { (near_real)j->b.pose.rx, (near_real)j->b.pose.ry },
-                               .apart = { (near_real)(j->b.pose.x - j->a.pose.x),
-                                          (near_real)(j->b.pose.y - j->a.pose.y) } };
+    pl_joint_classes[j->desc.kind]->rows(j, &j->pose_a, &j->pose_b, rows);
+    *start = (pl_joint_start){ .arm_a = { (near_real)j->pose_a.rx, (near_real)j->pose_a.ry },
+                               .arm_b = { (near_real)j->pose_b.rx, (near_real)j->pose_b.ry },
+                               .apart = { (near_real)(j->pose_b.x - j->pose_a.x),
+                                          (near_real)(j->pose_b.y - j->pose_a.y) } };
     for (int k = 0; k < rows->count; ++k) {
         j->impulse[k] = rows->row[k].type != PL_ROW_OFF ? j->impulse[k] : 0;
     }

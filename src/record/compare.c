@@ -162,8 +162,8 @@ static const char *table_of(plumb_entity_kind kind)
 static void add_joint(comparison *c, const plumb_difference *who, uint32_t a, uint32_t b)
 {
     uint32_t i = find_section(c, "world", "joints.items");
-    add_members(c, who, data_of(&c->a, i) + (size_t)a * sizeof(pl_joint),
-                data_of(&c->b, i) + (size_t)b * sizeof(pl_joint), joint_members,
+    const size_t stride = PL_SAVED_BYTES(pl_joint);
+    add_members(c, who, data_of(&c->a, i) + a * stride, data_of(&c->b, i) + b * stride, joint_members,
                 COUNT(joint_members));
 }
 

@@ -83,7 +83,7 @@ typedef struct pl_note_head {
 // An edit, padded to 8 bytes. What the state was and became, as a delta; or contacts.
 typedef struct pl_edit_head {
     uint32_t phase; // 0: before the step, else a pl_edit_mark
-    uint32_t kind;  // pl_edit_kind
+    uint32_t kind;  // pl_edit_kind; of PL_EDIT_HOOK: + 256 times which of the step, from 0
     uint64_t bytes;
 } pl_edit_head;
 
@@ -99,7 +99,14 @@ static inline int pl_edit_phase(uint32_t mark)
     return (int)(mark % 16) - 1;
 }
 
-typedef enum pl_edit_kind { PL_EDIT_STATE, PL_EDIT_CONTACTS } pl_edit_kind;
+typedef enum pl_edit_kind {
+    PL_EDIT_STATE,
+    PL_EDIT_CONTACTS,
+    PL_EDIT_HOOK // PL_EDIT_STATE by a hook of a component that the step took from something
+} pl_edit_kind;
+
+#define PL_EDIT_KINDS 256u // a hook's number counts by it
+#define PL_HOOKS_MOST (UINT32_MAX / PL_EDIT_KINDS)
 
 // What a contact system made of a manifold.
 typedef struct pl_contact_note {

@@ -261,16 +261,15 @@ const pl_key_place *pl_index_key_before(const pl_index *index, uint64_t step)
 
 const pl_key_place *pl_index_key_of_edits(const pl_index *index, uint64_t i)
 {
+    const pl_key_place *last = NULL; // steps that were refused leave theirs before it
     for (uint32_t k = keys_below(index, i); k < index->key_count; ++k) {
         const pl_key_place *key = pl_index_key(index, k);
         if (key->step != i) {
             break;
         }
-        if (key->edits) {
-            return key;
-        }
+        last = key->edits ? key : last;
     }
-    return NULL;
+    return last;
 }
 
 const pl_kept_place *pl_kept_find(const pl_kept *kept, uint64_t key, uint64_t step)

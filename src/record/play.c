@@ -79,6 +79,9 @@ plumb_result pl_replay_register(plumb_replay *replay, uint32_t code)
 
 //---- edits ---------------------------------------------------------------------------------------
 
+// What is new in a world has bytes that are not 0: a delta gives at most so many for each of its own.
+#define DELTA_YIELD 4096u
+
 static bool reserve(plumb_replay *replay, pl_buffer *buffer, size_t bytes)
 {
     if (!pl_buffer_reserve(&replay->memory, buffer, bytes)) {
@@ -101,12 +104,24 @@ static void play_state(plumb_replay *replay, uint32_t phase, const char *delta, 
     plumb_world *world = replay->world;
     pl_played_image *before = &replay->before, *now = &replay->now;
     size_t bytes = pl_delta_result_bytes(delta, size);
-    if (!pl_replay_keep(replay, before) || !reserve(replay, &now->buffer, bytes)) {
+    if (!pl_replay_keep(replay, before)) {
+        return;
+    }
+    if (bytes > before->image.header.bytes + size * DELTA_YIELD) {
+        replay->failed = PLUMB_E_IMAGE;
+        return;
+    }
+    if (!reserve(replay, &now->buffer, bytes)) {
         return;
     }
     pl_image_strip(&before->image);
-    if (!pl_delta_apply(&before->image, delta, size, now->buffer.data, &now->image)) {
-        replay->failed = PLUMB_E_IMAGE;
+    bool starved = false;
+    bool sound = pl_delta_apply(&before->image, delta, size, now->buffer.data, &now->image) &&
+                 pl_image_has_sections_of(world, &now->image) &&
+                 pl_image_is_sound(world, &now->image, NULL, &starved) &&
+                 (phase == 0 || pl_image_may_play(world, &before->image, &now->image));
+    if (!sound) {
+        replay->failed = starved ? PLUMB_E_MEMORY : PLUMB_E_IMAGE;
         return;
     }
     bool done =
@@ -142,6 +157,15 @@ void pl_replay_list(plumb_replay *replay, int phase, const pl_image *a, const pl
     pl_buffer_free(&replay->memory, &found);
 }
 
+// As plumb_contact_edit_set takes it.
+static bool is_contact(const pl_contact_note *n)
+{
+    const double most = (double)PLUMB_REAL_MAX;
+    return n->disabled <= 1 && n->friction >= 0 && n->friction <= most && n->restitution >= 0 &&
+           n->restitution <= 1 && n->rolling >= 0 && n->rolling <= most && n->adhesion >= 0 &&
+           n->adhesion <= most && n->surface_speed >= -most && n->surface_speed <= most;
+}
+
 static void play_contacts(plumb_replay *replay, const char *from, size_t bytes)
 {
     plumb_world *world = replay->world;
@@ -149,6 +173,10 @@ static void play_contacts(plumb_replay *replay, const char *from, size_t bytes)
         pl_contact_note note;
         memcpy(&note, from + at, sizeof note);
         if (note.manifold >= world->narrow.manifold_count) {
+            replay->failed = PLUMB_E_IMAGE;
+            return;
+        }
+        if (!is_contact(&note)) {
             replay->failed = PLUMB_E_IMAGE;
             return;
         }
@@ -162,7 +190,7 @@ static void play_contacts(plumb_replay *replay, const char *from, size_t bytes)
     }
 }
 
-void pl_replay_play(plumb_replay *replay, uint32_t phase)
+void pl_replay_play(plumb_replay *replay, uint32_t phase, int64_t hook)
 {
     const pl_chunk *chunk = replay->playing;
     if (chunk == NULL) { // a step of the user's own
@@ -175,9 +203,11 @@ void pl_replay_play(plumb_replay *replay, uint32_t phase)
         pl_edit_head edit;
         memcpy(&edit, chunk->data + at, sizeof edit);
         at += sizeof edit;
-        if (edit.phase == phase && edit.kind == PL_EDIT_STATE) {
+        const bool is_hooks = edit.kind % PL_EDIT_KINDS == PL_EDIT_HOOK;
+        const bool due = is_hooks ? edit.kind / PL_EDIT_KINDS == hook : hook < 0;
+        if (due && edit.phase == phase && edit.kind != PL_EDIT_CONTACTS) {
             play_state(replay, phase, chunk->data + at, (size_t)edit.bytes);
-        } else if (edit.phase == phase && edit.kind == PL_EDIT_CONTACTS) {
+        } else if (due && edit.phase == phase) {
             play_contacts(replay, chunk->data + at, (size_t)edit.bytes);
         }
         at += pl_image_padded((size_t)edit.bytes);

@@ -39,6 +39,8 @@ typedef struct recorder {
     pl_buffer manifolds;          // before contact systems
     pl_buffer step;               // pl_step_head, edits
     size_t step_bytes;
+    bool keyed;     // the edits before the step are in a keyframe; also of one that is refused, until one is not
+    uint32_t hooks; // components dropped within the step so far
     pl_buffer chunk; // others than steps
 } recorder;
 
@@ -170,7 +172,7 @@ static bool are_same(const pl_image *a, const pl_image *b)
 }
 
 // Appends an edit to the step: `bytes` of it are written, or will be, behind the head.
-static char *begin_edit(recorder *r, plumb_world *world, uint32_t phase, pl_edit_kind kind,
+static char *begin_edit(recorder *r, plumb_world *world, uint32_t phase, uint32_t kind,
                         size_t bytes)
 {
     size_t padded = pl_image_padded(bytes);
@@ -195,7 +197,8 @@ static void end_edit(recorder *r, size_t bytes)
 }
 
 // What the state has become since `base`, which loses its user data.
-static void note_state(recorder *r, plumb_world *world, uint32_t phase, kept_image *base)
+static void note_state(recorder *r, plumb_world *world, uint32_t phase, uint32_t kind,
+                       kept_image *base)
 {
     if (pl_image_is_current(world, &base->image) || !keep(r, world, &r->now)) {
         return;
@@ -210,7 +213,7 @@ static void note_state(recorder *r, plumb_world *world, uint32_t phase, kept_ima
     char *to = (char *)r->step.data + used;
     size_t needed = pl_delta_write(&base->image, &r->now.image, spare > 0 ? to : NULL, spare);
     bool fits = pl_image_padded(needed) <= spare;
-    to = begin_edit(r, world, phase, PL_EDIT_STATE, needed);
+    to = begin_edit(r, world, phase, kind, needed);
     if (to == NULL) {
         return;
     }
@@ -266,6 +269,7 @@ static bool begin_step(recorder *r, plumb_world *world)
     }
     memcpy(r->step.data, &none, sizeof none);
     r->step_bytes = sizeof none;
+    r->hooks = 0;
     return true;
 }
 
@@ -277,9 +281,12 @@ static void at_begin(pl_tape *self, plumb_world *world)
     }
     if (r->components != world->components.count || r->systems != world->systems.count) {
         put_code(r, world);
+        r->keyed = true;
+    }
+    if (r->keyed) {
         put_key(r, world, true);
     } else {
-        note_state(r, world, 0, &r->last);
+        note_state(r, world, 0, PL_EDIT_STATE, &r->last);
     }
 }
 
@@ -302,9 +309,27 @@ static void after_systems(pl_tape *self, plumb_world *world, plumb_phase phase)
         return;
     }
     const uint32_t mark = pl_edit_mark(phase, world->quarantine.attempt);
-    note_state(r, world, mark, &r->before);
+    note_state(r, world, mark, PL_EDIT_STATE, &r->before);
     if (phase == PLUMB_PHASE_CONTACTS && world->edited) {
         note_contacts(r, world, mark);
+    }
+}
+
+static void before_hook(pl_tape *self, plumb_world *world)
+{
+    recorder *r = (recorder *)self;
+    if (r->info.ended == PLUMB_OK) {
+        keep(r, world, &r->before);
+    }
+}
+
+static void after_hook(pl_tape *self, plumb_world *world)
+{
+    recorder *r = (recorder *)self;
+    if (r->info.ended == PLUMB_OK) {
+        const uint32_t mark = pl_edit_mark(PLUMB_PHASE_END, world->quarantine.attempt);
+        note_state(r, world, mark, PL_EDIT_HOOK + PL_EDIT_KINDS * r->hooks, &r->before);
+        r->hooks += r->hooks < PL_HOOKS_MOST;
     }
 }
 
@@ -321,6 +346,7 @@ static void at_end(pl_tape *self, plumb_world *world, plumb_real dt)
     head.hash = r->info.hash = plumb_world_hash(world);
     memcpy(r->step.data, &head, sizeof head);
     put_chunk(r, PL_CHUNK_STEP, r->step.data, r->step_bytes);
+    r->keyed = false;
     if (r->info.ended == PLUMB_OK) {
         ++r->info.steps;
         r->info.edited += head.edits > 0;
@@ -407,6 +433,8 @@ plumb_result plumb_recorder_start(plumb_world *world, const plumb_recorder_desc 
     *r = (recorder){ .tape = { .begin = at_begin,
                                .before = before_systems,
                                .after = after_systems,
+                               .dropping = before_hook,
+                               .dropped = after_hook,
                                .end = at_end,
                                .gone = at_gone },
                      .write = desc->write,

@@ -50,7 +50,14 @@ const char *plumb_replay_error(const plumb_replay *replay)
 
 static void after_systems(pl_tape *self, plumb_world *world, plumb_phase phase)
 {
-    pl_replay_play((plumb_replay *)self, pl_edit_mark(phase, world->quarantine.attempt));
+    pl_replay_play((plumb_replay *)self, pl_edit_mark(phase, world->quarantine.attempt), -1);
+}
+
+static void after_hook(pl_tape *self, plumb_world *world)
+{
+    plumb_replay *replay = (plumb_replay *)self;
+    pl_replay_play(replay, pl_edit_mark(PLUMB_PHASE_END, world->quarantine.attempt), replay->hooks);
+    replay->hooks += replay->hooks < PL_HOOKS_MOST;
 }
 
 static void after_pass(pl_tape *self, plumb_world *world, int pass)
@@ -71,7 +78,9 @@ static plumb_result make_world(plumb_replay *replay)
                                     .hook_context = d->hook_context };
     plumb_result r = plumb_world_create(&desc, &replay->world);
     if (r == PLUMB_OK) {
-        replay->tape = (pl_tape){ .replays = true, .after = after_systems, .passed = after_pass };
+        replay->tape = (pl_tape){
+            .replays = true, .after = after_systems, .dropped = after_hook, .passed = after_pass
+        };
         replay->world->tape = &replay->tape;
         replay->code = UINT32_MAX;
     }
@@ -190,7 +199,7 @@ static plumb_result play_head(plumb_replay *replay, const char *fn)
 {
     const pl_key_place *key = pl_index_key_of_edits(&replay->index, replay->step);
     if (key == NULL) {
-        pl_replay_play(replay, 0);
+        pl_replay_play(replay, 0, -1);
         return replay->failed;
     }
     bool listed = replay->desc.list_edits;
@@ -233,6 +242,7 @@ static plumb_result take_step(plumb_replay *replay, const char *fn)
     }
     pl_step_head head = pl_index_step_head(&replay->index, replay->step);
     replay->edit_count = 0;
+    replay->hooks = 0;
     replay->failed = PLUMB_OK;
     replay->playing = pl_index_step(&replay->index, replay->step);
     plumb_result r = play_head(replay, fn);

@@ -24,6 +24,7 @@ struct plumb_replay {
     pl_played_image before, now; // around an edit
     const pl_chunk *playing;     // the step under way; NULL: none
     plumb_result failed;         // an edit could not be played
+    uint32_t hooks;              // components dropped within the step so far
     bool differs;                // the last step gave other bits than were recorded
     pl_buffer edits;             // plumb_replay_edit of the last step
     int edit_count;
@@ -38,8 +39,9 @@ plumb_result pl_replay_fail(plumb_replay *replay, plumb_result code, const char 
                             const char *format, ...) PL_PRINTF(4, 5);
 // The image of the world now. False when out of memory.
 bool pl_replay_keep(plumb_replay *replay, pl_played_image *kept);
-// Plays the edits of one phase (0: before the step, else 1 + plumb_phase) of the step under way.
-void pl_replay_play(plumb_replay *replay, uint32_t phase);
+// Plays the edits of one phase (0: before the step, else a pl_edit_mark) of the step under way: of its systems,
+// or of the hook of that number in the step; -1: of no hook.
+void pl_replay_play(plumb_replay *replay, uint32_t phase, int64_t hook);
 // Registers components and systems of pl_index.codes[code] that the world has not got.
 plumb_result pl_replay_register(plumb_replay *replay, uint32_t code);
 // Adds what is not alike in two images to the edits of the step.

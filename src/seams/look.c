@@ -9,6 +9,8 @@
 #include "seams/span.h"
 #include "world/state.h"
 
+#include <string.h>
+
 #include <math.h>
 
 bool pl_piece_is_static(const plumb_world *world, uint32_t piece)
@@ -228,13 +230,14 @@ static bool store(plumb_world *world, uint32_t piece, look *l)
     for (int k = 0; k < l->own.count && ok; ++k) {
         pl_seam *seam = &pl_seam_items(&world->seams)[pieces->vertices[piece] + (uint32_t)k];
         const pl_cone *cone = &l->cones[k];
-        *seam = (pl_seam){ .lo_x = (real)cone->lo_x,
-                           .lo_y = (real)cone->lo_y,
-                           .hi_x = (real)cone->hi_x,
-                           .hi_y = (real)cone->hi_y,
-                           .slop = (real)l->slops[k],
-                           .form = (uint8_t)cone->form,
-                           .flat = pl_cone_is_flat(cone) };
+        memset(seam, 0, sizeof *seam); // padding, too: it is saved
+        seam->lo_x = (real)cone->lo_x;
+        seam->lo_y = (real)cone->lo_y;
+        seam->hi_x = (real)cone->hi_x;
+        seam->hi_y = (real)cone->hi_y;
+        seam->slop = (real)l->slops[k];
+        seam->form = (uint8_t)cone->form;
+        seam->flat = pl_cone_is_flat(cone);
         for (int i = 0; i < 2; ++i) {
             int edge = edge_at(&l->own, k, i);
             seam->ends[i] = (uint8_t)end_of(cone, l->own.nx[edge], l->own.ny[edge]);

@@ -216,21 +216,31 @@ static void unmark(plumb_world *world, bool done)
     s->chosen_count = 0;
 }
 
+// As many as the pool has; images hold those without seams, too.
+static bool make_corners(plumb_world *world)
+{
+    pl_seams *s = &world->seams;
+    const uint32_t needed = world->vertices.count;
+    if (!pl_buffer_reserve(&world->memory, &s->corners, needed * sizeof(pl_seam))) {
+        return false;
+    }
+    if (needed > s->corner_count) {
+        memset(pl_seam_items(s) + s->corner_count, 0, (needed - s->corner_count) * sizeof(pl_seam));
+        s->corner_count = needed;
+    }
+    return true;
+}
+
 static bool refresh(plumb_world *world)
 {
     pl_seams *s = &world->seams;
-    const pl_vertex_pool *pool = &world->vertices;
-    size_t known = s->corners.size;
-    bool room = pl_buffer_reserve(&world->memory, &s->corners, pool->count * sizeof(pl_seam));
-    if (s->corners.size > known) { // images hold corners without seams, too
-        memset((char *)s->corners.data + known, 0, s->corners.size - known);
-    }
-    bool done = room && choose_stale(world) && look_at_chosen(world);
+    bool done = make_corners(world) && choose_stale(world) && look_at_chosen(world);
     unmark(world, done);
     if (done) {
         s->dirty = s->all = false;
         s->region_count = 0;
         s->relist = true;
+        s->corner_count = s->count > 0 ? s->corner_count : 0;
         world->schedule_dirty |= s->count == 0;
     }
     return done;
@@ -284,7 +294,7 @@ bool pl_seams_update(plumb_world *world)
             kept[i].tangent[k] = pair->tangent[k];
         }
         kept[i].rolling = pair->rolling;
-        kept[i].manifold = pair->manifold;
+        kept[i].manifold = pair->manifold != PL_NONE ? 0 : PL_NONE; // of a step that is over
         kept[i].a = pair->a;
         kept[i].b = pair->b;
     }

@@ -78,7 +78,8 @@ typedef struct pl_seams {
     bool dirty;                          // some piece is stale, or a region changed
     bool all;                            // everything must be looked at again
     bool relist;                         // the list of pairs is out of date
-    pl_buffer corners;                   // pl_seam
+    pl_buffer corners;                   // pl_seam a corner of the pool
+    uint32_t corner_count;               // of those made so far; 0 where no piece has seams
     pl_buffer spans;                     // pl_span
     uint32_t span_used;                  // handed out, free runs included
     uint32_t span_free[PL_SPAN_CLASSES]; // first span of a free run + 1, whose bytes hold the next

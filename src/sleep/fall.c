@@ -325,7 +325,7 @@ static bool reserve_islands(plumb_world *world, uint32_t pair_count, uint32_t bo
 
 // Takes the pairs of sleepers out of the list, and their manifolds; those that are contacts are
 // kept.
-static void take_out_pairs(plumb_world *world, uint32_t pair_count)
+static void take_out_pairs(plumb_world *world, uint32_t pair_count, bool steps)
 {
     pl_pair_list *list = &world->broad.pairs;
     pl_pair *pairs = pl_pairs(list);
@@ -345,7 +345,7 @@ static void take_out_pairs(plumb_world *world, uint32_t pair_count)
         }
         if (root != PL_NONE) {
             if (is_linked(pair)) {
-                pl_island_keep(world, world->bodies.island[root], pair, its);
+                pl_island_keep(world, world->bodies.island[root], pair, its, steps);
             }
             ++taken[kind[pair->a]][kind[pair->b]];
             continue;
@@ -389,8 +389,8 @@ static void look_up_rows(plumb_world *world)
     }
 }
 
-// Puts everybody to sleep who has a parent. Room must be reserved.
-static void lie_down(plumb_world *world, uint32_t pair_count)
+// Puts everybody to sleep who has a parent; `steps`: in a step, not by a call. Room must be reserved.
+static void lie_down(plumb_world *world, uint32_t pair_count, bool steps)
 {
     pl_sleep *s = &world->sleep;
     const uint32_t *parents = s->parents.data;
@@ -403,7 +403,7 @@ static void lie_down(plumb_world *world, uint32_t pair_count)
         }
     }
     if (pair_count > 0) {
-        take_out_pairs(world, pair_count);
+        take_out_pairs(world, pair_count, steps);
     }
     // From the last on: what fills a gap stays awake.
     for (uint32_t row = rows; row-- > 0;) {
@@ -464,7 +464,7 @@ bool pl_sleep_fall(plumb_world *world, real dt)
             return false;
         }
         tell_sleepers(world);
-        lie_down(world, pair_count);
+        lie_down(world, pair_count, true);
         world->rows_moved = false; // pairs and manifolds know
     }
     s->since = 0;
@@ -504,6 +504,6 @@ plumb_result pl_sleep_put_to_sleep(plumb_world *world, const char *function, uin
     if (!reserve_islands(world, pair_count, count)) {
         return pl_fail_memory(world, function);
     }
-    lie_down(world, pair_count);
+    lie_down(world, pair_count, false);
     return PLUMB_OK;
 }

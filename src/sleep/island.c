@@ -153,7 +153,7 @@ static void unlink_from_piece(plumb_world *world, const pl_dormant *c)
 }
 
 void pl_island_keep(plumb_world *world, uint32_t island, const pl_pair *pair,
-                    const pl_manifold *manifold)
+                    const pl_manifold *manifold, bool steps)
 {
     pl_sleep *s = &world->sleep;
     pl_island *i = &pl_islands(s)[island];
@@ -168,20 +168,23 @@ void pl_island_keep(plumb_world *world, uint32_t island, const pl_pair *pair,
     pl_dormant *c = &pl_dormants(s)[slot];
     memset(c, 0, sizeof *c); // padding, too: images of equal worlds have equal bytes
     c->pair = *pair;
-    c->whole = manifold != NULL;
+    c->pair.manifold = pair->manifold != PL_NONE ? 0 : PL_NONE; // of a step that is over
+    c->whole = manifold != NULL && steps;
+    c->recalled = manifold != NULL && !steps;
     c->island = island;
     c->next = i->first_contact;
     c->fixed = fixed_piece(world, pair);
     // A blow that lasted is over.
     c->pair.flags &= PL_PAIR_TOUCHING;
     if (manifold != NULL) {
-        c->manifold = *manifold;
-        c->manifold.disabled = c->manifold.bearer = 0; // of the step, and not always written
-        for (int k = 0; k < 2; ++k) {                  // at rest, all substeps are alike
-            c->manifold.point[k].total = pair->normal[k] * (near_real)world->desc.substeps;
+        pl_manifold *m = steps ? &c->manifold : &c->last;
+        *m = *manifold;
+        m->disabled = m->bearer = 0;  // of the step, and not always written
+        for (int k = 0; k < 2; ++k) { // at rest, all substeps are alike
+            m->point[k].total = pair->normal[k] * (near_real)world->desc.substeps;
         }
         if ((pair->flags & PL_PAIR_BORNE) == 0) { // those are not among the manifolds of a step
-            pl_overlaps_count(&i->overlaps, manifold);
+            pl_overlaps_count(steps ? &i->overlaps : &i->recalled, manifold);
         }
     }
     i->first_contact = slot;
@@ -223,7 +226,8 @@ void pl_island_close(plumb_world *world, uint32_t island)
     if (i->due) {
         take_off_due(s, island);
     }
-    *i = (pl_island){ .first_body = s->free_island };
+    memset(i, 0, sizeof *i);
+    i->first_body = s->free_island;
     s->free_island = island;
     --s->island_count;
 }

@@ -17,6 +17,9 @@ typedef struct pl_dormant {
     uint32_t next;  // in the island's list, or the list of free ones
     uint32_t fixed; // the static or kinematic piece of the pair; PL_NONE: none, or gone
     uint32_t fixed_next, fixed_previous; // others of that piece
+    // Put to sleep by a call: as of the step before, until the world is restored. Not saved.
+    pl_manifold last;
+    bool recalled;
 } pl_dormant;
 
 // Bodies that sleep together: whatever wakes one wakes all.
@@ -32,6 +35,7 @@ typedef struct pl_island {
     uint64_t made_step;     // step count + 1 when it was made asleep; 0: it fell asleep
     uint32_t contact_count;
     pl_overlaps overlaps; // of its manifolds
+    pl_overlaps recalled; // of those that a call put to sleep; not saved
 } pl_island;
 
 typedef struct pl_sleep {
@@ -137,9 +141,10 @@ uint32_t pl_island_open(plumb_world *world);
 // Adds the body of a row to the end of its list.
 void pl_island_add(plumb_world *world, uint32_t island, uint32_t row);
 void pl_island_remove(plumb_world *world, uint32_t row);
-// Keeps a pair as a contact of an island (room must be reserved); manifold NULL: it has none.
+// Keeps a pair as a contact of an island (room must be reserved); manifold NULL: it has none. `steps`: a
+// step runs, and the manifold is its own; else that of the step before, which a restore forgets.
 void pl_island_keep(plumb_world *world, uint32_t island, const pl_pair *pair,
-                    const pl_manifold *manifold);
+                    const pl_manifold *manifold, bool steps);
 // Gives contacts and slot back; its bodies have been taken out.
 void pl_island_close(plumb_world *world, uint32_t island);
 // It is not due any more, and nothing pushes its bodies.

@@ -339,9 +339,7 @@ static bool list_woken(plumb_world *world, pl_by_kinds first, pl_by_kinds size, 
 static pl_pair woken_pair(const pl_sleep *s, const pl_keyed *woken)
 {
     const pl_dormant *c = &pl_dormants(s)[woken->value];
-    pl_pair pair = c->pair;
-    pair.manifold = pair.manifold != PL_NONE ? 0 : PL_NONE; // not that of this step, but it had one
-    return pair;
+    return c->pair; // its manifold is not one of this step, but tells whether it had one
 }
 
 // Merges the woken contacts into the pair list, kind by kind. Room must be reserved.
@@ -350,17 +348,19 @@ static void merge_pairs(plumb_world *world, pl_by_kinds first, pl_by_kinds size)
     pl_sleep *s = &world->sleep;
     pl_pair_list *list = &world->broad.pairs;
     const pl_pair *old = list->items.data;
+    const pl_keyed *woken = s->woken.data;
     pl_pair *out = list->old_items.data;
     uint32_t count = 0;
     for (int a = 0; a < PL_PIECE_KIND_COUNT; ++a) {
         for (int b = 0; b < PL_PIECE_KIND_COUNT; ++b) {
-            const pl_pair *o = old + list->first[a][b], *o_end = o + list->size[a][b];
-            const pl_keyed *w = (const pl_keyed *)s->woken.data + first[a][b];
-            const pl_keyed *w_end = w + size[a][b];
+            uint32_t o = list->first[a][b], w = first[a][b];
+            const uint32_t o_end = o + list->size[a][b], w_end = w + size[a][b];
             list->first[a][b] = count;
             while (o < o_end || w < w_end) {
-                bool takes_old = w == w_end || (o < o_end && pl_pair_key(o->a, o->b) < w->key);
-                out[count++] = takes_old ? *o++ : woken_pair(s, w++);
+                bool takes_old =
+                    w == w_end ||
+                    (o < o_end && pl_pair_key(old[o].a, old[o].b) < woken[w].key);
+                out[count++] = takes_old ? old[o++] : woken_pair(s, &woken[w++]);
             }
             list->size[a][b] = count - list->first[a][b];
         }

@@ -9,6 +9,7 @@
 
 #pragma pack(push, 1)
 #include "snapshot/list.h"
+#include "world/desc_list.h"
 #pragma pack(pop)
 
 #define SIZE(path)                                   +sizeof PL_STATE_OF(path)
@@ -44,3 +45,17 @@ COMPLETE(PL_STATE_CHARACTERS, characters);
 COMPLETE(PL_STATE_CONTINUOUS, continuous);
 _Static_assert(LISTED(PL_STATE) == sizeof(plumb_world),
                "a member of plumb_world is not in snapshot/list.h: add its row");
+
+// Members of descriptors; the points of a shape are kept elsewhere.
+#define MEMBER_SIZE(desc, path)    +sizeof(((desc *)0)->path)
+#define BODY_DESC_SIZE(path)       MEMBER_SIZE(plumb_body_desc, path)
+#define SHAPE_DESC_SIZE(path)      MEMBER_SIZE(plumb_shape_desc, path)
+#define JOINT_DESC_SIZE(path)      MEMBER_SIZE(plumb_joint_desc, path)
+#define CHARACTER_DESC_SIZE(path)  MEMBER_SIZE(plumb_character_desc, path)
+#define COMPLETE_DESC(sizes, desc)                                                                 \
+    _Static_assert((sizes) == sizeof(desc), "a member of " #desc " is not in world/desc_list.h")
+
+COMPLETE_DESC(0 PL_BODY_DESC(BODY_DESC_SIZE), plumb_body_desc);
+COMPLETE_DESC(sizeof(void *) PL_SHAPE_DESC(SHAPE_DESC_SIZE), plumb_shape_desc);
+COMPLETE_DESC(0 PL_JOINT_DESC(JOINT_DESC_SIZE), plumb_joint_desc);
+COMPLETE_DESC(0 PL_CHARACTER_DESC(CHARACTER_DESC_SIZE), plumb_character_desc);

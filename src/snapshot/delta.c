@@ -255,6 +255,10 @@ static void get_sections(pl_sparse_decoder *d, const pl_image *from, const pl_im
         pl_image_next(to, &at_to);
         sides s = sides_at(&at_from, &at_to);
         size_t bytes = (size_t)s.to_count * s.stride;
+        if (s.from_count > 0 && at_from.entry.stride != s.stride) {
+            d->damaged = true;
+            return;
+        }
         memset(s.to + bytes, 0, pl_image_padded(bytes) - bytes);
         if ((bits[i / 8] >> i % 8 & 1) != 0) {
             get_section(d, &s);

@@ -123,14 +123,6 @@ static void add_characters(pl_digest *digest, const plumb_world *world)
     }
 }
 
-static void add_fields(pl_digest *digest, const pl_component *c, const char *value)
-{
-    static const uint8_t sizes[] = { 4, 8, 4, 8, 4, 8, sizeof(bool) };
-    for (int k = 0; k < c->desc.field_count; ++k) {
-        pl_digest_add(digest, value + c->fields[k].offset, sizes[c->fields[k].type]);
-    }
-}
-
 // A component that tells its fields counts by them, any other by its bytes.
 static void add_component(pl_digest *digest, const pl_component *c)
 {
@@ -144,7 +136,7 @@ static void add_component(pl_digest *digest, const pl_component *c)
         return;
     }
     for (uint32_t row = 0; row < c->count; ++row) {
-        add_fields(digest, c, (const char *)c->values.data + row * c->desc.size);
+        pl_component_digest(c, (const char *)c->values.data + row * c->desc.size, digest);
     }
 }
 

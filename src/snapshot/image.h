@@ -10,7 +10,7 @@
 #include "snapshot/section.h"
 
 #define PL_IMAGE_MAGIC   UINT64_C(0x474d49424d554c50) // "PLUMBIMG" in a little-endian file
-#define PL_IMAGE_VERSION 1u
+#define PL_IMAGE_VERSION 2u
 
 typedef struct pl_image_header {
     uint64_t magic;
@@ -45,6 +45,19 @@ plumb_result pl_image_fit(const plumb_world *world, const char *function, const 
 
 uint64_t pl_image_checksum(const char *bytes, const pl_image_header *header);
 
+// A section of an image, or of a frame and its base.
+typedef struct pl_image_part {
+    const char *data; // 8-byte aligned
+    uint32_t count;
+} pl_image_part;
+
+// Whether an image that fits the world (or a frame with its base) holds what a world can be; as below.
+bool pl_image_is_sound(plumb_world *world, const pl_image *image, const pl_image *base,
+                       bool *starved);
+// Whether sections, as many as the world has, may become the world: see check.h. *starved: false, for lack of
+// memory.
+bool pl_parts_are_sound(plumb_world *world, const pl_image_part *parts, bool *starved);
+
 // Images that do not leave the library need no schema and no checksum.
 // The image of the world as it is, without; false when it does not fit.
 bool pl_image_write(const plumb_world *world, void *buffer, size_t size);
@@ -60,6 +73,10 @@ void pl_image_strip(const pl_image *image);
 bool pl_image_restore(plumb_world *world, const pl_image *image);
 // Makes room for what the image holds. False when out of memory.
 bool pl_image_reserve(plumb_world *world, const pl_image *image);
+// A complete image whose sections have elements of this world's sizes.
+bool pl_image_has_sections_of(const plumb_world *world, const pl_image *image);
+// Whether one may become the other in the midst of a step: the passes hold on to what is alike in both.
+bool pl_image_may_play(const plumb_world *world, const pl_image *before, const pl_image *after);
 // In the midst of a step: takes over the sections of `after` that are not as in `before`; room is
 // reserved. What the passes of this step have found out so far stays.
 void pl_image_play(plumb_world *world, const pl_image *before, const pl_image *after);

@@ -8,7 +8,7 @@
 //   TALLY(path)                a number that changes no motion (when the grids were filed, ...): saved. A
 //                              ray that files them early must not change the hash
 //   ARRAY(type, buffer, count, hashed, key)
-//                              the first `count` elements of a pl_buffer: saved. `hashed` bytes at the
+//                              the first `count` elements of a pl_buffer: saved, each up to PL_SAVED_BYTES. `hashed` bytes at the
 //                              start of each element are hashed: 0 where padding or addresses are in
 //                              it, or where only part decides motion, and hash.c does that part by
 //                              hand. `key` bytes at the start name an
@@ -59,8 +59,8 @@
 // The grids follow from the fat boxes and the list of moving pieces.
 #define PL_STATE_BROAD(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                      \
     LEFT(broad.moving) LEFT(broad.fixed) LEFT(broad.resting) LEFT(broad.refreshed)                 \
-    LEFT(broad.unfiled) LEFT(broad.left) LEFT(broad.left_marks) TALLY(broad.left_count)            \
-    LEFT(broad.moving_lost) LEFT(broad.fixed_lost) LEFT(broad.resting_lost) LEFT(broad.emptied)    \
+    LEFT(broad.unfiled) ARRAY(uint32_t, broad.left, broad.left_count, 0, 0) LEFT(broad.left_marks) \
+    LEFT(broad.moving_lost) LEFT(broad.fixed_lost) LEFT(broad.resting_lost) TALLY(broad.emptied)   \
     ARRAY(pl_pair, broad.pairs.items, broad.pairs.count, 0, 8)                                     \
     TALLY(broad.pairs.first) TALLY(broad.pairs.size) LEFT(broad.pairs.old_items)                   \
     LEFT(broad.list) LEFT(broad.found) LEFT(broad.sorted) LEFT(broad.counts) LEFT(broad.lost)      \
@@ -125,7 +125,8 @@
 
 // Corners and stretches follow from where the ground lies, but not at once: they are kept up.
 #define PL_STATE_SEAMS(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                      \
-    VALUE(seams.count) TALLY(seams.dirty) TALLY(seams.all) TALLY(seams.relist) OWN(seams.corners)  \
+    VALUE(seams.count) TALLY(seams.dirty) TALLY(seams.all) TALLY(seams.relist)  \
+    ARRAY(pl_seam, seams.corners, seams.corner_count, 0, 0)                                        \
     ARRAY(pl_span, seams.spans, seams.span_used, 0, 0) TALLY(seams.span_free)                      \
     ARRAY(pl_box, seams.regions, seams.region_count, 0, 0)                                         \
     LEFT(seams.chosen) LEFT(seams.chosen_count) LEFT(seams.around) LEFT(seams.around_count)        \
@@ -174,7 +175,7 @@
           sizeof(uint64_t) + sizeof(plumb_material_pair), 8)                                       \
     LEFT(schedule) LEFT(begin_events) LEFT(end_events) LEFT(changed_pairs) LEFT(hit_events)                            \
     LEFT(begin_count) LEFT(end_count) LEFT(hit_count)                                              \
-    LEFT(tape) LEFT(locked_by) LEFT(editing) VALUE(edited) LEFT(in_hook) LEFT(error) LEFT(error_text)
+    LEFT(checking) LEFT(checked) LEFT(tape) LEFT(locked_by) LEFT(editing) VALUE(edited) LEFT(in_hook) LEFT(error) LEFT(error_text)
 
 #define PL_STATE(...)                                                                              \
     PL_STATE_WORLD(__VA_ARGS__) PL_STATE_DESC(__VA_ARGS__) PL_STATE_REGISTRY(__VA_ARGS__)          \
@@ -185,8 +186,16 @@
     PL_STATE_CHARACTERS(__VA_ARGS__) PL_STATE_CONTINUOUS(__VA_ARGS__)                              \
     PL_STATE_QUARANTINE(__VA_ARGS__) PL_STATE_EFFECTS(__VA_ARGS__)
 
-// Members of a joint that decide later steps: what hash.c hashes of it. (When an angle was seen last is
-// the business of plan.c, and may differ after a restore.)
+// [B] at the start of an element that are saved. Behind it lies what every step fills before reading.
+#define PL_SAVED_BYTES(type)                                                                       \
+    _Generic((type *)0, pl_joint *: offsetof(pl_joint, pose_a),                             \
+             pl_dormant *: offsetof(pl_dormant, last),                                         \
+             pl_island *: offsetof(pl_island, recalled), default: sizeof(type))
+// [B] from its start to an index into what the last step made; -1: none. It is saved as 0, or PL_NONE.
+#define PL_PASSING_INDEX(type)                                                                     \
+    _Generic((type *)0, pl_pair *: (int)offsetof(pl_pair, manifold), default: -1)
+
+// Members of a joint that decide later steps: what hash.c hashes of it. (Eighths follow from rotations.)
 #define PL_STATE_JOINT(X)                                                                          \
     X(entity) X(desc.kind) X(desc.enable_limit) X(desc.lower) X(desc.upper) X(desc.enable_motor)   \
     X(desc.motor_speed) X(desc.max_motor) X(desc.hertz) X(desc.damping) X(desc.rest)               \

@@ -225,6 +225,7 @@ static void take_over(plumb_world *world, source s)
         pl_section_read(world, i, s.data, s.count);
     }
     fill_rows(world);
+    pl_broad_mark_left(&world->broad);
     for (uint32_t row = 0; row < world->bodies.table.count; ++row) {
         pl_body_update_pose(world, row);
     }
@@ -233,9 +234,6 @@ static void take_over(plumb_world *world, source s)
     world->broad.moving_lost = !keeps_moving;
     world->broad.resting_lost =
         world->sleep.resting_count > 0 || world->broad.resting.entry_count > 0;
-    world->broad.stale |= world->broad.left_count > 0; // which they were is not saved
-    world->broad.left_count = 0;
-    world->broad.emptied = false;
     world->broad.refreshed = world->broad.unfiled = world->sight.fresh = false;
     world->sleep.gone = 0;
     world->sleep.near.count = 0;
@@ -257,6 +255,94 @@ bool pl_image_restore(plumb_world *world, const pl_image *image)
         return false;
     }
     take_over(world, source_begin(image, NULL));
+    return true;
+}
+
+bool pl_image_has_sections_of(const plumb_world *world, const pl_image *image)
+{
+    pl_image_cursor at = pl_image_begin(image);
+    bool fits = image->header.base == 0 && image->header.section_count == pl_section_count(world);
+    for (uint32_t i = 0; fits && i < pl_section_count(world); ++i) {
+        pl_image_next(image, &at);
+        fits = at.entry.stride == pl_section_at(world, i).stride;
+    }
+    return fits;
+}
+
+// What systems and hooks cannot change.
+static bool is_held(const pl_section *section)
+{
+    static const char *const held[][2] = {
+        { "bodies", "entity" },          { "bodies", "type" },
+        { "bodies", "island" },          { "bodies", "next_asleep" },
+        { "bodies", "previous_asleep" }, { "bodies", "first_piece" },
+        { "bodies", "first_joint" },     { "pieces", "shape" },
+        { "pieces", "kind" },            { "pieces", "vertex_count" },
+        { "pieces", "vertex_class" },    { "pieces", "vertices" },
+        { "pieces", "body" },            { "pieces", "next_in_body" },
+        { "pieces", "next_in_shape" },   { "pieces", "serial" },
+        { "pieces", "core" },            { "pieces", "moving" },
+        { "pieces", "seam_edges" },      { "materials", "entity" },
+        { "vertices", "items" },         { "world", "broad.pairs.items" },
+        { "world", "broad.left" },       { "world", "broad.sensed" },
+        { "world", "moving" },           { "world", "sleep.resting" },
+        { "world", "seams.corners" },    { "world", "seams.spans" },
+        { "world", "seams.pairs" },      { "world", "seams.loads" },
+        { "world", "blows.items" },      { "world", "sensing.candidates" },
+        { "world", "sensing.overlaps" }, { "world", "sensing.rest_candidates" },
+        { "world", "sensing.rest_overlaps" },
+    };
+    for (size_t i = 0; i < sizeof held / sizeof held[0]; ++i) {
+        if (strcmp(section->table, held[i][0]) == 0 && strcmp(section->name, held[i][1]) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// Of these not even how many there are.
+static bool is_counted(const pl_section *section)
+{
+    static const char *const counted[] = { "joints.items", "sleep.islands", "sleep.contacts",
+                                           "characters.items" };
+    for (size_t i = 0; i < sizeof counted / sizeof counted[0]; ++i) {
+        if (strcmp(section->name, counted[i]) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// Settings that decide which scratch the passes have.
+static bool are_settings_held(const char *before, const char *after)
+{
+    pl_member m;
+    bool same = true;
+    for (uint32_t i = 0; pl_section_value(i, &m); ++i) {
+        const bool held = strncmp(m.name, "desc.", 5) == 0 && strncmp(m.name, "desc.sleep", 10) != 0 &&
+                          strcmp(m.name, "desc.no_sleep") != 0;
+        same &= !held || memcmp(before + m.offset, after + m.offset, m.size) == 0;
+    }
+    return same;
+}
+
+bool pl_image_may_play(const plumb_world *world, const pl_image *before, const pl_image *after)
+{
+    pl_image_cursor a = pl_image_begin(before), b = pl_image_begin(after);
+    for (uint32_t i = 0; i < pl_section_fixed_count(); ++i) {
+        const pl_section section = pl_section_at(world, i);
+        pl_image_next(before, &a);
+        pl_image_next(after, &b);
+        const size_t bytes = (size_t)b.entry.count * b.entry.stride;
+        const bool alike = a.entry.count == b.entry.count;
+        if ((is_held(&section) && (!alike || memcmp(a.data, b.data, bytes) != 0)) ||
+            (is_counted(&section) && !alike)) {
+            return false;
+        }
+        if (i == 0 && !are_settings_held(a.data, b.data)) {
+            return false;
+        }
+    }
     return true;
 }
 
@@ -289,49 +375,122 @@ void pl_image_play(plumb_world *world, const pl_image *before, const pl_image *a
     world->schedule_dirty = true;
 }
 
-static plumb_result restore(plumb_world *world, const char *function, const pl_image *image,
-                            const pl_image *base)
+//---- images of others ----------------------------------------------------------------------------
+
+// A buffer at an odd address is copied: what is checked is read as it stands.
+static bool align(plumb_world *world, pl_buffer *room, pl_image *image)
 {
+    if ((uintptr_t)image->bytes % sizeof(uint64_t) == 0) {
+        return true;
+    }
+    if (!pl_buffer_reserve(&world->memory, room, (size_t)image->header.bytes)) {
+        return false;
+    }
+    memcpy(room->data, image->bytes, (size_t)image->header.bytes);
+    image->bytes = room->data;
+    return true;
+}
+
+bool pl_image_is_sound(plumb_world *world, const pl_image *image, const pl_image *base,
+                       bool *starved)
+{
+    pl_buffer copies[2] = { { 0 }, { 0 } }, *list = &world->checked;
+    pl_image aligned[2] = { *image, base == NULL ? *image : *base };
+    const uint32_t count = pl_section_count(world);
+    bool sound = false;
+    *starved = !align(world, &copies[0], &aligned[0]) ||
+               (base != NULL && !align(world, &copies[1], &aligned[1])) ||
+               !pl_buffer_reserve(&world->memory, list, count * sizeof(pl_image_part));
+    if (!*starved) {
+        source s = source_begin(&aligned[0], base == NULL ? NULL : &aligned[1]);
+        pl_image_part *parts = list->data;
+        for (uint32_t i = 0; i < count; ++i) {
+            source_next(&s);
+            parts[i] = (pl_image_part){ s.data, s.count };
+        }
+        sound = pl_parts_are_sound(world, parts, starved);
+    }
+    pl_buffer_free(&world->memory, &copies[0]);
+    pl_buffer_free(&world->memory, &copies[1]);
+    return sound;
+}
+
+//---- public --------------------------------------------------------------------------------------
+
+static plumb_result restore(plumb_world *world, const char *function, const pl_image *image,
+                            const pl_image *base, bool trusted)
+{
+    bool starved = false;
+    if (!trusted && !pl_image_is_sound(world, image, base, &starved) && !starved) {
+        return pl_fail(world, PLUMB_E_IMAGE, function,
+                       "the image holds what no world can be; it must be as it was saved");
+    }
     source s = source_begin(image, base);
-    if (!reserve_all(world, s)) {
+    if (starved || !reserve_all(world, s)) {
         return pl_fail_memory(world, function);
     }
     take_over(world, s);
     return PLUMB_OK;
 }
 
-plumb_result plumb_world_restore(plumb_world *world, const void *buffer, size_t size)
+static plumb_result restore_image(plumb_world *world, const char *function, const void *buffer,
+                                  size_t size, bool trusted)
 {
     if (world == NULL) {
         return PLUMB_E_NULL;
     }
     pl_image image;
-    plumb_result r = pl_check_unlocked(world, __func__);
-    r = r != PLUMB_OK ? r : pl_check_pointer(world, __func__, "buffer", buffer);
-    r = r != PLUMB_OK ? r : pl_image_fit(world, __func__, "buffer", buffer, size, true, &image);
+    plumb_result r = pl_check_unlocked(world, function);
+    r = r != PLUMB_OK ? r : pl_check_pointer(world, function, "buffer", buffer);
+    r = r != PLUMB_OK ? r : pl_image_fit(world, function, "buffer", buffer, size, true, &image);
     if (r == PLUMB_OK && image.header.base != 0) {
-        r = pl_fail(world, PLUMB_E_IMAGE, __func__,
+        r = pl_fail(world, PLUMB_E_IMAGE, function,
                     "buffer is a frame; plumb_world_restore_frame takes it with its base");
     }
-    return r != PLUMB_OK ? r : restore(world, __func__, &image, NULL);
+    return r != PLUMB_OK ? r : restore(world, function, &image, NULL, trusted);
 }
 
-plumb_result plumb_world_restore_frame(plumb_world *world, const void *base, size_t base_size,
-                                       const void *frame, size_t frame_size)
+static plumb_result restore_frame(plumb_world *world, const char *function, const void *base,
+                                  size_t base_size, const void *frame, size_t frame_size,
+                                  bool trusted)
 {
     if (world == NULL) {
         return PLUMB_E_NULL;
     }
     pl_image image, base_image;
-    plumb_result r = pl_check_unlocked(world, __func__);
-    r = r != PLUMB_OK ? r : pl_check_pointer(world, __func__, "base", base);
-    r = r != PLUMB_OK ? r : pl_check_pointer(world, __func__, "frame", frame);
+    plumb_result r = pl_check_unlocked(world, function);
+    r = r != PLUMB_OK ? r : pl_check_pointer(world, function, "base", base);
+    r = r != PLUMB_OK ? r : pl_check_pointer(world, function, "frame", frame);
     r = r != PLUMB_OK ? r
-                      : pl_image_fit(world, __func__, "base", base, base_size, true, &base_image);
-    r = r != PLUMB_OK ? r : pl_image_fit(world, __func__, "frame", frame, frame_size, true, &image);
-    if (r == PLUMB_OK && image.header.base != base_image.header.checksum) {
-        r = pl_fail(world, PLUMB_E_IMAGE, __func__,
+                      : pl_image_fit(world, function, "base", base, base_size, true, &base_image);
+    r = r != PLUMB_OK ? r : pl_image_fit(world, function, "frame", frame, frame_size, true, &image);
+    if (r == PLUMB_OK &&
+        (base_image.header.base != 0 || image.header.base != base_image.header.checksum)) {
+        r = pl_fail(world, PLUMB_E_IMAGE, function,
                     "base is not the one that the frame was made with");
     }
-    return r != PLUMB_OK ? r : restore(world, __func__, &image, &base_image);
+    return r != PLUMB_OK ? r : restore(world, function, &image, &base_image, trusted);
+}
+
+plumb_result plumb_world_restore(plumb_world *world, const void *buffer, size_t size)
+{
+    return restore_image(world, __func__, buffer, size, false);
+}
+
+plumb_result plumb_world_restore_trusted(plumb_world *world, const void *buffer, size_t size)
+{
+    return restore_image(world, __func__, buffer, size, true);
+}
+
+plumb_result plumb_world_restore_frame(plumb_world *world, const void *base, size_t base_size,
+                                       const void *frame, size_t frame_size)
+{
+    return restore_frame(world, __func__, base, base_size, frame, frame_size, false);
+}
+
+plumb_result plumb_world_restore_frame_trusted(plumb_world *world, const void *base,
+                                               size_t base_size, const void *frame,
+                                               size_t frame_size)
+{
+    return restore_frame(world, __func__, base, base_size, frame, frame_size, true);
 }

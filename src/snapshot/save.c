@@ -42,16 +42,8 @@ size_t plumb_world_snapshot_size(const plumb_world *world)
 static bool is_same(const plumb_world *world, uint32_t i, const pl_section *section,
                     const pl_image_cursor *base)
 {
-    char gathered[PL_GATHERED_MOST];
-    const char *now = section->data;
-    if (base->entry.count != section->count || base->entry.stride != section->stride) {
-        return false;
-    }
-    if (now == NULL && section->count > 0) {
-        pl_section_write(world, i, section, gathered);
-        now = gathered;
-    }
-    return section->count == 0 || memcmp(base->data, now, pl_section_bytes(section)) == 0;
+    return base->entry.count == section->count && base->entry.stride == section->stride &&
+           pl_section_equals(world, i, section, base->data);
 }
 
 static void write_section(writer *w, uint32_t i, const pl_section *section)

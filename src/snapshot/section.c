@@ -57,6 +57,7 @@ typedef struct column_row {
     size_t offset; // of the column pointer in the world
     uint32_t stride, hashed;
     pl_type type;
+    pl_rule rule;
 } column_row;
 
 // Not hashed: addresses, hints, and boxes of the grids.
@@ -67,7 +68,8 @@ typedef struct column_row {
 
 #define COLUMN_ROW(struct, type, name)                                                             \
     { #struct,      #name,        offsetof(plumb_world, struct.name),                              \
-      sizeof(type), HASHED(type), PL_TYPE(*(type *)NULL) },
+      sizeof(type), HASHED(type), PL_TYPE(*(type *)NULL),                                          \
+      PL_RULE_##struct##_##name },
 #define BODY_ROW(type, name)     COLUMN_ROW(bodies, type, name)
 #define PIECE_ROW(type, name)    COLUMN_ROW(pieces, type, name)
 #define MATERIAL_ROW(type, name) COLUMN_ROW(materials, type, name)
@@ -114,7 +116,9 @@ static bool reserve_table(plumb_world *world, const column_row *column, uint32_t
 typedef struct array_row {
     const char *name;
     size_t buffer, count, count_size; // offsets in the world; bytes of the count
-    uint32_t stride, hashed, key;
+    uint32_t stride, pitch;
+    int passing;
+    uint32_t hashed, key;
 } array_row;
 
 #define ARRAY_ROW(type, buffer, count, hashed, key)                                                \
@@ -122,7 +126,9 @@ typedef struct array_row {
       offsetof(plumb_world, buffer),                                                               \
       offsetof(plumb_world, count),                                                                \
       sizeof PL_STATE_OF(count),                                                                   \
+      PL_SAVED_BYTES(type),                                                                        \
       sizeof(type),                                                                                \
+      PL_PASSING_INDEX(type),                                                                      \
       hashed,                                                                                      \
       key },
 
@@ -158,7 +164,7 @@ static bool reserve_array(plumb_world *world, const array_row *row, uint32_t cou
          !pl_buffer_reserve(memory, &joints->broken, count * sizeof(plumb_joint_break)))) {
         return false;
     }
-    return pl_buffer_reserve(memory, buffer_of(world, row), (size_t)count * row->stride);
+    return pl_buffer_reserve(memory, buffer_of(world, row), (size_t)count * row->pitch);
 }
 
 static void set_array_count(plumb_world *world, const array_row *row, uint32_t count)
@@ -204,18 +210,21 @@ bool pl_section_value(uint32_t i, pl_member *member)
     return true;
 }
 
+static bool is_array(uint32_t i, size_t buffer)
+{
+    return i >= FIRST_ARRAY && i < FIRST_OWN && arrays[i - FIRST_ARRAY].buffer == buffer;
+}
+
 void pl_section_strip(uint32_t i, char *data, uint32_t count)
 {
-    uint32_t joints = FIRST_ARRAY;
-    while (arrays[joints - FIRST_ARRAY].buffer != offsetof(plumb_world, joints.items)) {
-        ++joints;
-    }
     if (i >= FIRST_COLUMN && i < FIRST_ARRAY &&
         columns[i - FIRST_COLUMN].type == PL_TYPE_POINTER) {
         memset(data, 0, (size_t)count * sizeof(void *));
-    } else if (i == joints) {
+    } else if (is_array(i, offsetof(plumb_world, commands.bytes))) {
+        pl_commands_strip(data, count);
+    } else if (is_array(i, offsetof(plumb_world, joints.items))) {
         for (uint32_t k = 0; k < count; ++k) {
-            char *item = data + (size_t)k * sizeof(pl_joint);
+            char *item = data + (size_t)k * PL_SAVED_BYTES(pl_joint);
             memset(item + offsetof(pl_joint, desc.user_data), 0, sizeof(void *));
         }
     }
@@ -253,6 +262,8 @@ pl_section pl_section_at(const plumb_world *world, uint32_t i)
                              .data = data,
                              .count = table_of(world, c)->count,
                              .stride = c->stride,
+                             .pitch = c->stride,
+                             .passing = -1,
                              .hashed = c->hashed,
                              .type = c->type };
     }
@@ -263,11 +274,54 @@ pl_section pl_section_at(const plumb_world *world, uint32_t i)
                              .data = buffer_of(world, a)->data,
                              .count = array_count(world, a),
                              .stride = a->stride,
+                             .pitch = a->pitch,
+                             .passing = a->passing,
                              .hashed = a->hashed,
                              .key = a->key };
     }
     return i < FIXED_COUNT ? pl_own_section(world, i - FIRST_OWN)
                            : pl_own_component(world, i - FIXED_COUNT);
+}
+
+// Elements are saved as they are, one behind the other.
+static bool is_block(const pl_section *section)
+{
+    return section->pitch == section->stride && section->passing < 0;
+}
+
+// Element k as it is saved.
+static void write_element(const pl_section *section, size_t k, char *to)
+{
+    memcpy(to, section->data + k * section->pitch, section->stride);
+    if (section->passing >= 0) {
+        uint32_t index;
+        memcpy(&index, to + section->passing, sizeof index);
+        index = index != PL_NONE ? 0 : PL_NONE;
+        memcpy(to + section->passing, &index, sizeof index);
+    }
+}
+
+bool pl_section_equals(const plumb_world *world, uint32_t i, const pl_section *section,
+                       const char *bytes)
+{
+    char gathered[PL_GATHERED_MOST];
+    if (section->count == 0) {
+        return true;
+    }
+    if (section->data == NULL) {
+        pl_section_write(world, i, section, gathered);
+        return memcmp(gathered, bytes, pl_section_bytes(section)) == 0;
+    }
+    if (is_block(section)) {
+        return memcmp(section->data, bytes, pl_section_bytes(section)) == 0;
+    }
+    for (size_t k = 0; k < section->count; ++k) {
+        write_element(section, k, gathered);
+        if (memcmp(gathered, bytes + k * section->stride, section->stride) != 0) {
+            return false;
+        }
+    }
+    return true;
 }
 
 void pl_section_write(const plumb_world *world, uint32_t i, const pl_section *section, char *to)
@@ -278,8 +332,12 @@ void pl_section_write(const plumb_world *world, uint32_t i, const pl_section *se
         write_values(world, tallies, COUNT(tallies), to);
     } else if (i == FIRST_OWN + PL_OWN_SWITCHES) {
         pl_own_write_switches(world, to);
-    } else if (section->count > 0) {
+    } else if (section->count > 0 && is_block(section)) {
         memcpy(to, section->data, pl_section_bytes(section));
+    } else {
+        for (size_t k = 0; k < section->count; ++k) {
+            write_element(section, k, to + k * section->stride);
+        }
     }
 }
 
@@ -321,10 +379,84 @@ void pl_section_read(plumb_world *world, uint32_t i, const char *from, uint32_t 
     } else {
         set_array_count(world, &arrays[i - FIRST_ARRAY], count);
     }
-    if (count > 0) {
-        pl_section section = pl_section_at(world, i);
+    const pl_section section = pl_section_at(world, i);
+    if (count > 0 && is_block(&section)) {
         memcpy(section.data, from, pl_section_bytes(&section));
+        return;
     }
+    for (size_t k = 0; k < count; ++k) {
+        char *to = section.data + k * section.pitch;
+        memcpy(to, from + k * section.stride, section.stride);
+        memset(to + section.stride, 0, section.pitch - section.stride);
+    }
+}
+
+//---- of an image ---------------------------------------------------------------------------------
+
+pl_rule pl_section_rule(uint32_t i)
+{
+    return i >= FIRST_COLUMN && i < FIRST_ARRAY ? columns[i - FIRST_COLUMN].rule
+                                                : (pl_rule){ PL_RULE_IS_ANY, 0 };
+}
+
+static bool is_sound(pl_type type, const char *from)
+{
+    float f = 0;
+    double d = 0;
+    real v[2] = { 0 };
+    switch (type) {
+    case PL_TYPE_FLOAT:
+        memcpy(&f, from, sizeof f);
+        return f - f == 0;
+    case PL_TYPE_DOUBLE:
+        memcpy(&d, from, sizeof d);
+        return d - d == 0;
+    case PL_TYPE_VEC2:
+        memcpy(v, from, sizeof v);
+        return v[0] - v[0] == 0 && v[1] - v[1] == 0;
+    case PL_TYPE_BOOL:
+        return *(const unsigned char *)from <= 1;
+    default:
+        return true;
+    }
+}
+
+static bool are_sound(const value_row *rows, size_t count, const char *from)
+{
+    for (size_t i = 0; i < count; ++i) {
+        if (!is_sound(rows[i].type, from)) {
+            return false;
+        }
+        from += rows[i].size;
+    }
+    return true;
+}
+
+bool pl_section_lend(plumb_world *world, uint32_t i, const char *data, uint32_t count)
+{
+    void *lent = (void *)(uintptr_t)data; // nobody writes to it
+    if (i < FIRST_COLUMN) {
+        const value_row *rows = i == VALUES ? values : tallies;
+        const size_t number = i == VALUES ? COUNT(values) : COUNT(tallies);
+        if (count != 1 || !are_sound(rows, number, data)) {
+            return false;
+        }
+        read_values(world, rows, number, data);
+    } else if (i < FIRST_ARRAY) {
+        pl_table *table = table_of(world, &columns[i - FIRST_COLUMN]);
+        const bool first = i == FIRST_COLUMN || table != table_of(world, &columns[i - 1 - FIRST_COLUMN]);
+        memcpy((char *)world + columns[i - FIRST_COLUMN].offset, &lent, sizeof lent);
+        if (!first && table->count != count) {
+            return false;
+        }
+        table->count = count;
+    } else if (i < FIRST_OWN) {
+        buffer_of(world, &arrays[i - FIRST_ARRAY])->data = lent;
+        set_array_count(world, &arrays[i - FIRST_ARRAY], count);
+    } else {
+        return pl_own_lend(world, i - FIRST_OWN, lent, count);
+    }
+    return true;
 }
 
 //---- schema --------------------------------------------------------------------------------------

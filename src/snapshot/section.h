@@ -8,6 +8,7 @@
 
 #include "core/digest.h"
 #include "snapshot/list.h"
+#include "snapshot/rules.h"
 #include "world/rows.h"
 
 // What a number of the state is, for those who print it: a letter.
@@ -60,7 +61,9 @@ typedef struct pl_section {
     const char *table, *name; // "bodies", "vx"
     char *data;               // in the world; NULL: gathered from several places (pl_section_write)
     uint32_t count;           // elements
-    uint32_t stride;          // [B] of an element
+    uint32_t stride;          // [B] of an element in an image
+    uint32_t pitch;           // [B] from element to element in the world; the rest is not saved
+    int passing;              // [B] to an index that is saved as 0 or PL_NONE; -1: none; see list.h
     uint32_t hashed;          // [B] of each that count for the world hash; see list.h
     uint32_t key;             // [B] of each that name it; see list.h
     pl_type type;             // of the elements of a column
@@ -87,6 +90,14 @@ static inline size_t pl_section_bytes(const pl_section *section)
     return (size_t)section->count * section->stride;
 }
 
+// Whether the section is in the world as it is at `bytes`, of as many elements.
+bool pl_section_equals(const plumb_world *world, uint32_t i, const pl_section *section,
+                       const char *bytes);
+// What the numbers of section i must be like: rules.h.
+pl_rule pl_section_rule(uint32_t i);
+// Makes a section that lies somewhere else, 8-byte aligned, that of a world which is only read. False: it
+// holds a bool that is none, or a number that is not finite (of the sections of single numbers).
+bool pl_section_lend(plumb_world *world, uint32_t i, const char *data, uint32_t count);
 // Copies a section out.
 void pl_section_write(const plumb_world *world, uint32_t i, const pl_section *section, char *to);
 // Copies `count` elements in; room must be reserved. Sets the count.

@@ -1,6 +1,6 @@
 // section_own.c - see section_own.h: what list.h calls OWN, and the components that users register.
 //
-// Reads and writes the world's registry, pool of corners, seams, graves, switches of systems, components.
+// Reads and writes the world's registry, pool of corners, graves, switches of systems, components.
 #include "snapshot/section_own.h"
 
 #include <string.h>
@@ -38,15 +38,6 @@ static void read_switches(plumb_world *world, const char *from, uint32_t count)
     }
 }
 
-// Corners with seams lie as the corners of the pool do, as far as there have ever been any.
-static uint32_t seam_count(const plumb_world *world)
-{
-    size_t room = world->seams.corners.size / sizeof(pl_seam);
-    return world->seams.count == 0        ? 0
-           : room < world->vertices.count ? (uint32_t)room
-                                          : world->vertices.count;
-}
-
 pl_section pl_own_section(const plumb_world *world, uint32_t which)
 {
     switch (which) {
@@ -56,6 +47,8 @@ pl_section pl_own_section(const plumb_world *world, uint32_t which)
                              .data = (char *)world->registry.slots,
                              .count = world->registry.count,
                              .stride = sizeof(pl_slot),
+                             .pitch = sizeof(pl_slot),
+                             .passing = -1,
                              .hashed = sizeof(pl_slot) };
     case PL_OWN_CORNERS:
         return (pl_section){ .table = "vertices",
@@ -63,24 +56,24 @@ pl_section pl_own_section(const plumb_world *world, uint32_t which)
                              .data = (char *)world->vertices.items,
                              .count = world->vertices.count,
                              .stride = sizeof(pl_vertex),
+                             .pitch = sizeof(pl_vertex),
+                             .passing = -1,
                              .hashed = sizeof(pl_vertex) };
-    case PL_OWN_SEAMS:
-        return (pl_section){ .table = "seams",
-                             .name = "corners",
-                             .data = world->seams.corners.data,
-                             .count = seam_count(world),
-                             .stride = sizeof(pl_seam) };
     case PL_OWN_GRAVES:
         return (pl_section){ .table = "world",
                              .name = "graves",
                              .data = world->graves.data,
                              .count = world->pieces.table.count,
-                             .stride = sizeof(pl_grave) };
+                             .stride = sizeof(pl_grave),
+                             .pitch = sizeof(pl_grave),
+                             .passing = -1 };
     default:
         return (pl_section){ .table = "systems",
                              .name = "enabled",
                              .count = world->systems.count,
-                             .stride = sizeof(system_switch) };
+                             .stride = sizeof(system_switch),
+                             .pitch = sizeof(system_switch),
+                             .passing = -1 };
     }
 }
 
@@ -94,8 +87,6 @@ bool pl_own_reserve(plumb_world *world, uint32_t which, uint32_t count)
     case PL_OWN_CORNERS:
         return count <= corners ||
                pl_pool_reserve(&world->memory, &world->vertices, count - corners);
-    case PL_OWN_SEAMS:
-        return pl_buffer_reserve(&world->memory, &world->seams.corners, count * sizeof(pl_seam));
     default: // graves: with the pieces
         return true;
     }
@@ -116,10 +107,6 @@ void pl_own_read(plumb_world *world, uint32_t which, const char *from, uint32_t 
         to = world->vertices.items;
         bytes = count * sizeof(pl_vertex);
         break;
-    case PL_OWN_SEAMS:
-        to = world->seams.corners.data;
-        bytes = count * sizeof(pl_seam);
-        break;
     case PL_OWN_GRAVES:
         to = world->graves.data;
         bytes = count * sizeof(pl_grave);
@@ -136,18 +123,39 @@ void pl_own_read(plumb_world *world, uint32_t which, const char *from, uint32_t 
     }
 }
 
+bool pl_own_lend(plumb_world *world, uint32_t which, void *data, uint32_t count)
+{
+    switch (which) {
+    case PL_OWN_REGISTRY:
+        world->registry.slots = data;
+        world->registry.count = count;
+        return true;
+    case PL_OWN_CORNERS:
+        world->vertices.items = data;
+        world->vertices.count = count;
+        return true;
+    case PL_OWN_GRAVES:
+        world->graves.data = data;
+        return count == world->pieces.table.count;
+    default:
+        return true; // switches of systems that are not there are passed over
+    }
+}
+
 //---- components: two sections each ---------------------------------------------------------------
 
 pl_section pl_own_component(const plumb_world *world, uint32_t which)
 {
     const pl_component *c = &world->components.items[which / 2];
     bool owners = which % 2 == 1;
+    const uint32_t size = owners ? (uint32_t)sizeof(plumb_entity) : (uint32_t)c->desc.size;
     return (pl_section){ .table = c->name,
                          .name = owners ? "owner" : "value",
                          .data = owners ? c->owners.data : c->values.data,
                          .count = c->count,
-                         .stride =
-                             owners ? (uint32_t)sizeof(plumb_entity) : (uint32_t)c->desc.size };
+                         .stride = size,
+                         .pitch = size,
+                         .passing = -1 };
 }
 
 void pl_own_read_component(plumb_world *world, uint32_t which, const char *from, uint32_t count)

@@ -8,7 +8,6 @@
 enum {
     PL_OWN_REGISTRY,
     PL_OWN_CORNERS,
-    PL_OWN_SEAMS,
     PL_OWN_GRAVES,
     PL_OWN_SWITCHES,
     PL_OWN_COUNT
@@ -18,6 +17,8 @@ enum {
 pl_section pl_own_section(const plumb_world *world, uint32_t which);
 bool pl_own_reserve(plumb_world *world, uint32_t which, uint32_t count);
 void pl_own_read(plumb_world *world, uint32_t which, const char *from, uint32_t count);
+// As pl_section_lend.
+bool pl_own_lend(plumb_world *world, uint32_t which, void *data, uint32_t count);
 // Which systems are switched off.
 void pl_own_write_switches(const plumb_world *world, char *to);
 

@@ -118,6 +118,9 @@ plumb_result plumb_world_step(plumb_world *world, plumb_real dt)
     if (tape != NULL && tape->begin != NULL) {
         tape->begin(tape, world);
     }
+    if (tape != NULL) {
+        tape->steps = true;
+    }
     pl_tasks_rouse(world->tasks);
     pl_quarantine_begin(world);
     result = try_step(world, dt);
@@ -128,6 +131,9 @@ plumb_result plumb_world_step(plumb_world *world, plumb_real dt)
         result = try_step(world, dt);
     }
     pl_tasks_rest(world->tasks);
+    if (tape != NULL) {
+        tape->steps = false;
+    }
     if (result == PLUMB_E_MEMORY) {
         undo_step(world);
         return pl_fail_memory(world, __func__);

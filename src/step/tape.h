@@ -2,7 +2,8 @@
 //
 // A step of a world without a tape asks once a phase whether there is one. Within a step the order is:
 // `begin` once commands were carried out, `before` and `after` around the systems of each phase that
-// runs, `passed` after each pass, `end` (not of a step that is refused). Where `replays` is set, neither commands nor systems run: what
+// runs, `dropping` and `dropped` around each component that is taken from what the step destroys (joints that
+// break): its hook runs in between; `passed` after each pass, `end` (not of a step that is refused). Where `replays` is set, neither commands nor systems run: what
 // they did is put in their place by `begin` and `after`.
 #ifndef PL_TAPE_H
 #define PL_TAPE_H
@@ -11,10 +12,13 @@
 
 typedef struct pl_tape {
     bool replays;
+    bool steps; // between `begin` and the end of the step
     // Members may be NULL. `self` is the tape.
     void (*begin)(struct pl_tape *self, plumb_world *world);
     void (*before)(struct pl_tape *self, plumb_world *world, plumb_phase phase);
     void (*after)(struct pl_tape *self, plumb_world *world, plumb_phase phase);
+    void (*dropping)(struct pl_tape *self, plumb_world *world);
+    void (*dropped)(struct pl_tape *self, plumb_world *world);
     void (*passed)(struct pl_tape *self, plumb_world *world, int pass);
     void (*end)(struct pl_tape *self, plumb_world *world, plumb_real dt);
     // The world is about to be destroyed.

@@ -139,14 +139,14 @@ static int list_dormant(const plumb_world *world, uint32_t island, uint32_t row,
     uint32_t i = pl_islands(&world->sleep)[island].first_contact;
     for (; i != PL_NONE; i = all[i].next) {
         const pl_pair *pair = &all[i].pair;
-        if (!(pair->flags & PL_PAIR_TOUCHING) || !all[i].whole ||
+        if (!(pair->flags & PL_PAIR_TOUCHING) || !(all[i].whole || all[i].recalled) ||
             !pl_dormant_is_intact(world, &all[i]) ||
             (row != PL_NONE && world->pieces.body[pair->a] != row &&
              world->pieces.body[pair->b] != row)) {
             continue;
         }
         if (contacts != NULL && count < capacity) {
-            contacts[count] = view_contact(world, pair, &all[i].manifold);
+            contacts[count] = view_contact(world, pair, all[i].whole ? &all[i].manifold : &all[i].last);
         }
         ++count;
     }

@@ -127,6 +127,7 @@ struct plumb_world {
     pl_sensing sensing;
     pl_sleep sleep;
 
+    pl_buffer checking, checked; // scratch of images that are checked (snapshot/check.c, restore.c)
     struct pl_tape *tape; // who records or replays this world (step/tape.h); NULL: nobody
 
     // Locking and errors.

@@ -179,6 +179,8 @@ static void free_world(plumb_world *world)
     pl_buffer_free(&memory, &world->excluded);
     pl_buffer_free(&memory, &world->material_pairs);
     pl_buffer_free(&memory, &world->graves);
+    pl_buffer_free(&memory, &world->checking);
+    pl_buffer_free(&memory, &world->checked);
     pl_buffer_free(&memory, &world->tunings.items);
     pl_buffer_free(&memory, &world->targets.items);
     pl_parts_free(&memory, &world->parts);
@@ -387,7 +389,9 @@ void *plumb_world_user_data(const plumb_world *world)
 static void add_sleeping(const plumb_world *world, pl_overlaps *sum)
 {
     for (uint32_t k = 0; k < world->sleep.island_slots; ++k) {
-        pl_overlaps_add(sum, &pl_islands(&world->sleep)[k].overlaps); // a free slot has none
+        const pl_island *island = &pl_islands(&world->sleep)[k]; // a free slot has none
+        pl_overlaps_add(sum, &island->overlaps);
+        pl_overlaps_add(sum, &island->recalled);
     }
 }
 

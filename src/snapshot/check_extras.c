@@ -1,0 +1,238 @@
+// check_extras.c - see check.h: ground of many pieces, and what few bodies have.
+//
+// Reads: the image. Writes: marks. Cost: O(state).
+#include "snapshot/check.h"
+#include "broad/pairs.h"
+#include "seams/cone.h"
+#include "seams/seams.h"
+#include "world/rows.h"
+
+#include <string.h>
+
+#define CHECK_REALS(path) pl_are_reals(&(path), sizeof(path) / (sizeof(real)))
+#define CHECK_NEAR(path)  pl_are_near_reals(&(path), sizeof(path) / (sizeof(near_real)))
+#define CHECK_BOOL(path)  pl_are_bools(&(path), 1)
+
+//---- seams ---------------------------------------------------------------------------------------
+
+static bool check_seam(const pl_seams *s, const pl_seam *c, bool partly)
+{
+    return CHECK_BOOL(c->flat) && CHECK_REALS(c->lo_x) && CHECK_REALS(c->lo_y) &&
+           CHECK_REALS(c->hi_x) && CHECK_REALS(c->hi_y) && CHECK_REALS(c->walls) &&
+           CHECK_REALS(c->slop) && c->form <= PL_CONE_ENDS && c->ends[0] <= PL_END_INNER &&
+           c->ends[1] <= PL_END_INNER &&
+           (!partly || (c->span_count > 0 && c->spans < s->span_used &&
+                        c->span_count <= s->span_used - c->spans &&
+                        pl_are_reals(pl_seam_spans(s) + c->spans, (size_t)c->span_count * 2)));
+}
+
+static bool check_piece_seams(const plumb_world *w, uint32_t p)
+{
+    const pl_pieces *pieces = &w->pieces;
+    const pl_seams *s = &w->seams;
+    const uint32_t corners = pieces->seam_corners[p], edges = pieces->seam_edges[p];
+    const uint32_t count = pieces->vertex_count[p], known = (UINT32_C(1) << count) - 1;
+    const bool has = (corners & PL_SEAM_HAS) != 0;
+    if ((corners & PL_SEAM_CHOSEN) != 0 || (corners & PL_SEAM_CORNERS & ~known) != 0 ||
+        (edges & ~(known | known << 16)) != 0 || (!has && edges != 0) ||
+        (!has && (corners & PL_SEAM_CORNERS) != 0)) {
+        return false;
+    }
+    if (has &&
+        (pieces->vertices[p] > s->corner_count || count > s->corner_count - pieces->vertices[p])) {
+        return false;
+    }
+    for (uint32_t k = 0; has && k < count; ++k) {
+        if (!check_seam(s, &pl_seam_items(s)[pieces->vertices[p] + k],
+                        (edges & PL_SEAM_PARTLY(k)) != 0)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// Free runs of spans; the link to the next lies in the bytes of the first one.
+static bool check_spans(const pl_seams *s)
+{
+    for (uint32_t c = 0; c < PL_SPAN_CLASSES; ++c) {
+        uint32_t steps = 0;
+        for (uint32_t i = s->span_free[c]; i != 0;) {
+            const uint64_t end = (uint64_t)(i - 1) + (UINT64_C(1) << c);
+            if (end > s->span_used || steps++ == s->span_used) {
+                return false;
+            }
+            memcpy(&i, pl_seam_spans(s) + (i - 1), sizeof i);
+        }
+    }
+    return true;
+}
+
+static bool check_seam_lists(const plumb_world *w)
+{
+    const pl_seams *s = &w->seams;
+    const pl_seam_pair *pairs = s->pairs.data;
+    const pl_run_load *loads = s->loads.data;
+    // Else they are listed anew before anyone looks, and pairs as well.
+    const bool fresh =
+        !s->relist && s->listed == w->broad.rebuilds && !w->pairs_dirty && !w->broad.stale;
+    if (s->listed > w->broad.rebuilds) {
+        return false;
+    }
+    for (uint32_t i = 0; i < s->pair_count; ++i) {
+        if ((fresh && pairs[i].pair >= w->broad.pairs.count) || !CHECK_NEAR(pairs[i].normal) ||
+            !CHECK_NEAR(pairs[i].tangent) || !CHECK_NEAR(pairs[i].rolling) ||
+            (i > 0 && pairs[i].pair <= pairs[i - 1].pair)) {
+            return false;
+        }
+    }
+    for (uint32_t i = 0; i < s->load_count; ++i) {
+        if (loads[i].mover >= w->pieces.table.count || !CHECK_NEAR(loads[i].normal) ||
+            !CHECK_NEAR(loads[i].tangent) || !CHECK_NEAR(loads[i].rolling) ||
+            !CHECK_NEAR(loads[i].nx) || !CHECK_NEAR(loads[i].ny)) {
+            return false;
+        }
+    }
+    return pl_are_reals(s->regions.data, (size_t)s->region_count * 4);
+}
+
+bool pl_check_seams(pl_suspect *s)
+{
+    const plumb_world *w = &s->world;
+    uint32_t have = 0;
+    for (uint32_t p = 0; p < w->pieces.table.count; ++p) {
+        const bool is_free = w->pieces.kind[p] == PL_PIECE_FREE;
+        if (is_free ? w->pieces.seam_corners[p] != 0 : !check_piece_seams(w, p)) {
+            return false;
+        }
+        have += (w->pieces.seam_corners[p] & PL_SEAM_HAS) != 0;
+    }
+    return have == w->seams.count && check_spans(&w->seams) && check_seam_lists(w);
+}
+
+//---- characters ----------------------------------------------------------------------------------
+
+static bool check_walk(const pl_character *c)
+{
+    const real positive[] = {
+        c->desc.skin,           c->desc.step_height,  c->desc.step_width,
+        c->desc.snap_distance,  c->desc.acceleration, c->desc.air_acceleration,
+        c->desc.max_fall_speed, c->desc.mass,         c->desc.push_force,
+        c->desc.max_slope,      c->air_time,          c->push
+    };
+    for (size_t i = 0; i < sizeof positive / sizeof positive[0]; ++i) {
+        if (!(positive[i] >= 0) || positive[i] - positive[i] != 0) {
+            return false;
+        }
+    }
+    return c->desc.max_slope <= (real)1.5 && CHECK_REALS(c->desc.up) && CHECK_REALS(c->walk) &&
+           CHECK_REALS(c->fly) && CHECK_REALS(c->jump) && CHECK_REALS(c->velocity) &&
+           CHECK_REALS(c->speed) && c->rise - c->rise == 0 && c->step_top - c->step_top == 0 &&
+           CHECK_REALS(c->push_speed) && CHECK_REALS(c->body_velocity);
+}
+
+static bool check_character(const pl_suspect *s, const pl_character *c, uint32_t i)
+{
+    const uint32_t row = pl_suspect_row(s, c->body);
+    const bool bools = CHECK_BOOL(c->flies) && CHECK_BOOL(c->thrown) && CHECK_BOOL(c->on_ground) &&
+                       CHECK_BOOL(c->climbs) && CHECK_BOOL(c->on_slope) && CHECK_BOOL(c->at_wall) &&
+                       CHECK_BOOL(c->at_ceiling) && CHECK_BOOL(c->crushed) &&
+                       CHECK_BOOL(c->desc.no_steps) && CHECK_BOOL(c->desc.no_snap) &&
+                       CHECK_BOOL(c->desc.no_push) && CHECK_BOOL(c->desc.no_air_control);
+    if (!bools || row == PL_NONE || s->world.bodies.character[row] != i + 1 || !check_walk(c) ||
+        c->slope_side < -1 || c->slope_side > 1 || c->passing_count < 0 ||
+        c->passing_count > PL_CHARACTER_PASSING || c->hit_count < 0 ||
+        c->hit_count > PLUMB_CHARACTER_HITS) {
+        return false;
+    }
+    const pl_ground *g = &c->ground;
+    return CHECK_REALS(g->point) && CHECK_REALS(g->local) && CHECK_REALS(g->normal) &&
+           CHECK_REALS(g->velocity) && CHECK_REALS(g->spin);
+}
+
+//---- the rest ------------------------------------------------------------------------------------
+
+static bool check_tuning(const pl_suspect *s, const pl_tuning *t, uint32_t i)
+{
+    const uint32_t row = pl_suspect_row(s, t->body);
+    return row != PL_NONE && s->world.bodies.tuning[row] == i + 1 && t->damping >= 0 &&
+           t->angular_damping >= 0 && t->max_speed >= 0 && t->max_spin >= 0 && t->time_scale >= 0 &&
+           t->time_scale <= 100 && CHECK_REALS(t->damping) && CHECK_REALS(t->angular_damping) &&
+           CHECK_REALS(t->max_speed) && CHECK_REALS(t->max_spin) && CHECK_REALS(t->ax) &&
+           CHECK_REALS(t->ay) && CHECK_REALS(t->aw);
+}
+
+static bool check_tunings(const pl_suspect *s)
+{
+    const pl_tunings *all = &s->world.tunings;
+    const pl_tuning *items = all->items.data;
+    uint32_t damped = 0, capped = 0, scaled = 0, frozen = 0;
+    for (uint32_t i = 0; i < all->count; ++i) {
+        if (!check_tuning(s, &items[i], i)) {
+            return false;
+        }
+        damped += items[i].damping > 0 || items[i].angular_damping > 0;
+        capped += items[i].max_speed > 0 || items[i].max_spin > 0;
+        scaled += items[i].time_scale != 1;
+        frozen += items[i].time_scale == 0;
+    }
+    return damped == all->damped && capped == all->capped && scaled == all->scaled &&
+           frozen == all->frozen;
+}
+
+static bool check_targets(const pl_suspect *s)
+{
+    const plumb_world *w = &s->world;
+    const pl_target *items = w->targets.items.data;
+    uint32_t flagged = 0;
+    for (uint32_t i = 0; i < w->targets.count; ++i) {
+        const uint32_t row = pl_suspect_row(s, items[i].body);
+        if (row == PL_NONE || (w->bodies.flags[row] & PL_BODY_TARGETED) == 0 ||
+            !CHECK_REALS(items[i].x) || !CHECK_REALS(items[i].y) || !CHECK_REALS(items[i].turn) ||
+            !CHECK_REALS(items[i].left) || items[i].left < 0) {
+            return false;
+        }
+    }
+    for (uint32_t row = 0; row < w->bodies.table.count; ++row) {
+        flagged += (w->bodies.flags[row] & PL_BODY_TARGETED) != 0;
+    }
+    return flagged == w->targets.count;
+}
+
+// Bodies that say that they have a record have one: as many as there are records.
+static bool check_records(const plumb_world *w)
+{
+    uint32_t characters = 0, tuned = 0;
+    for (uint32_t row = 0; row < w->bodies.table.count; ++row) {
+        characters += w->bodies.character[row] != 0;
+        tuned += w->bodies.tuning[row] != 0;
+        if (((w->bodies.flags[row] & PL_BODY_TUNED) != 0) != (w->bodies.tuning[row] != 0)) {
+            return false;
+        }
+    }
+    return characters == w->characters.count && tuned == w->tunings.count;
+}
+
+static bool check_excluded(const plumb_world *w)
+{
+    const uint64_t *keys = w->excluded.data;
+    for (uint32_t i = 1; i < w->excluded_count; ++i) {
+        if (keys[i - 1] >= keys[i]) {
+            return false;
+        }
+    }
+    return true;
+}
+
+bool pl_check_extras(pl_suspect *s)
+{
+    const plumb_world *w = &s->world;
+    const pl_character *items = w->characters.items.data;
+    for (uint32_t i = 0; i < w->characters.count; ++i) {
+        if (!check_character(s, &items[i], i)) {
+            return false;
+        }
+    }
+    return check_records(w) && check_tunings(s) && check_targets(s) && check_excluded(w) &&
+           pl_commands_are_sound(s->like, &w->registry, w->commands.bytes.data, w->commands.used,
+                                 w->commands.count);
+}

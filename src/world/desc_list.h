@@ -1,0 +1,37 @@
+// desc_list.h - the members of the descriptors that a world keeps, so that they are kept one by one: without
+// the user's padding between them, which images of equal worlds would not have in common. A member that is
+// missing here fails to compile in snapshot/complete.c.
+//
+// user_data comes last: it is the one member that means something in this process only.
+#ifndef PL_DESC_LIST_H
+#define PL_DESC_LIST_H
+
+// clang-format off
+#define PL_BODY_DESC(X)                                                                            \
+    X(type) X(position) X(angle) X(velocity) X(angular_velocity) X(mass) X(inertia)                \
+    X(gravity_scale) X(no_gravity) X(fixed_rotation) X(no_sleep) X(asleep) X(continuous)           \
+    X(lock_x) X(lock_y) X(damping) X(angular_damping) X(max_speed) X(max_spin) X(time_scale)       \
+    X(disabled) X(user_data)
+
+// Points lie behind it.
+#define PL_SHAPE_DESC(X)                                                                           \
+    X(kind) X(center) X(radius) X(half) X(angle) X(count) X(closed) X(density) X(material)         \
+    X(filter.category) X(filter.mask) X(filter.group) X(filter.nothing)                            \
+    X(one_way.direction) X(one_way.angle) X(sensor) X(user_data)
+
+#define PL_JOINT_DESC(X)                                                                           \
+    X(kind) X(body_a) X(body_b) X(anchor) X(anchor_b) X(ground_a) X(ground_b) X(axis)              \
+    X(enable_limit) X(lower) X(upper) X(enable_motor) X(motor_speed) X(max_motor) X(hertz)         \
+    X(damping) X(rest) X(length) X(ratio) X(pitch) X(max_force) X(max_torque) X(break_force)       \
+    X(break_torque) X(break_impulse) X(event_force) X(event_torque) X(disabled) X(collide_connected) X(user_data)
+
+#define PL_CHARACTER_DESC(X)                                                                       \
+    X(up) X(max_slope) X(skin) X(step_height) X(step_width) X(snap_distance) X(acceleration)       \
+    X(air_acceleration) X(max_fall_speed) X(mass) X(push_force) X(no_steps) X(no_snap) X(no_push)  \
+    X(no_air_control)
+// clang-format on
+
+// A statement of `LIST(PL_COPY_MEMBER)`: *to becomes *from, and keeps its own padding.
+#define PL_COPY_MEMBER(path) to->path = from->path;
+
+#endif
