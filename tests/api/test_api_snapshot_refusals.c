@@ -232,6 +232,26 @@ static void a_stepping_world_is_locked(void **state)
     free(i.bytes);
 }
 
+// What is trusted is the content: the rest is refused as ever.
+static void trusted_images_are_verified_too(void **state)
+{
+    (void)state;
+    pile p;
+    make_pile(&p, (plumb_world_desc){ 0 }, 3);
+    image base = save(p.world);
+    assert_int_equal(plumb_world_restore_trusted(NULL, base.bytes, base.size), PLUMB_E_NULL);
+    assert_int_equal(plumb_world_restore_trusted(p.world, NULL, 0), PLUMB_E_NULL);
+    assert_int_equal(plumb_world_restore_frame_trusted(p.world, base.bytes, base.size, NULL, 0),
+                     PLUMB_E_NULL);
+    base.bytes[base.size / 2] ^= 1;
+    assert_int_equal(plumb_world_restore_trusted(p.world, base.bytes, base.size), PLUMB_E_IMAGE);
+    assert_int_equal(plumb_world_restore_frame_trusted(p.world, base.bytes, base.size, base.bytes,
+                                                       base.size),
+                     PLUMB_E_IMAGE);
+    free(base.bytes);
+    plumb_world_destroy(p.world);
+}
+
 //---- memory --------------------------------------------------------------------------------------
 static void rolling_back_allocates_nothing(void **state)
 {
@@ -257,10 +277,11 @@ static void rolling_back_allocates_nothing(void **state)
                                                    kept[to].size),
                          PLUMB_OK);
         step(p.world, 12 - to);
-        assert_int_equal(
-            plumb_world_restore_frame(p.world, base.bytes, base.size, kept[0].bytes, kept[0].size),
-            PLUMB_OK);
+        assert_int_equal(plumb_world_restore_frame_trusted(p.world, base.bytes, base.size,
+                                                           kept[0].bytes, kept[0].size),
+                         PLUMB_OK);
     }
+    assert_int_equal(plumb_world_restore_trusted(p.world, base.bytes, base.size), PLUMB_OK);
     assert_int_equal(h.calls, warm);
     for (int i = 0; i < 12; ++i) {
         free(kept[i].bytes);
@@ -315,6 +336,7 @@ int main(void)
         cmocka_unit_test(damaged_deltas_are_refused),
         API_TEST(refusals_say_why),
         API_TEST(a_stepping_world_is_locked),
+        cmocka_unit_test(trusted_images_are_verified_too),
         cmocka_unit_test(rolling_back_allocates_nothing),
         cmocka_unit_test(out_of_memory_leaves_the_world_as_it_was),
     };

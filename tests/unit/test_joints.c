@@ -73,7 +73,7 @@ static double jacobian_error(const pl_joint *j)
 {
     const double e = SIM_TOLERANCE(2e-3, 1e-5);
     const pl_joint_class *kind = pl_joint_classes[j->desc.kind];
-    const pl_joint_pose a = j->a.pose, b = j->b.pose;
+    const pl_joint_pose a = j->pose_a, b = j->pose_b;
     pl_rows rows, up, down;
     double worst = 0;
     kind->rows(j, &a, &b, &rows);
