@@ -6,7 +6,7 @@
 #include <stddef.h>
 #include <string.h>
 
-enum { ROOM = 1 << 16 };
+enum { ROOM = 1 << 18 };
 
 typedef struct tape {
     unsigned char bytes[ROOM];
