@@ -41,9 +41,12 @@ try "compiles in double" silent "$cc" -std=c17 -O1 $strict -DPLUMB_DOUBLE=1 -c "
 try "compiles for far worlds" silent "$cc" -std=c17 -O1 $strict -DPLUMB_FAR=1 -c "$O/plumb.c" -o "$work/plumb_far.o"
 try "compiles for this machine, contraction allowed" \
     silent "$cc" -std=gnu17 -O1 -march=native -ffp-contract=fast -c "$O/plumb.c" -o "$work/native.o"
-# The other compilers that are here, as far as their front ends have something to say.
+# The other compilers that are here, each once, as far as their front ends have something to say.
+asked=$("$cc" --version)
 for other in gcc-12 gcc-13 gcc-14 clang clang-14 clang-19; do
     command -v $other >/dev/null || continue
+    grep -qF "$($other -dumpfullversion 2>/dev/null || $other -dumpversion)" <<<"$asked" && continue
+    asked+=$($other --version)
     for precision in PLUMB_DOUBLE=0 PLUMB_DOUBLE=1 PLUMB_FAR=1; do
         try "$other has nothing to say, $precision" \
             silent $other -std=c17 $strict -D$precision -fsyntax-only "$O/plumb.c"
