@@ -75,6 +75,7 @@ watch_over() # pid file-that-says-so
         sleep "$(awk "BEGIN { print $idle / 10 }")" &
         rest=$!
         wait $rest
+        rest= # its number may be that of another by now
         read -r now pids < <(family "$1")
         if [ "$now" = "$before" ]; then still=$((still + 1)); else still=0; fi
         before=$now
