@@ -312,7 +312,7 @@ static void list_acting(looking *l)
     const uint32_t *candidates = l->narrow->candidates.data;
     for (uint32_t i = 0; i < l->narrow->candidate_count; ++i) {
         const pl_manifold *m = &pl_manifolds(l->narrow)[candidates[i]];
-        if (l->narrow->any_bounce) {
+        if (m->restitution > 0) {
             claim_bodies(l, m);
         }
         if (reaches(m, flight_of(l, m->body_a), flight_of(l, m->body_b))) {
