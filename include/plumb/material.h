@@ -18,10 +18,13 @@ typedef enum plumb_mix {
     PLUMB_MIX_MAX        ///< the larger
 } plumb_mix;
 
-/// {0} is valid: no friction, no restitution, density 1.
+/// {0} is valid and is the world's default material: a member that is left out has the default told beside it, as in
+/// every descriptor, and what is to be 0 all the same has a member of its own.
 typedef struct plumb_material_desc {
     plumb_real density;     ///< [kg/m^2] > 0; 0 means 1
-    plumb_real friction;    ///< [-] Coulomb coefficient, 0..10. A pair uses sqrt(a b)
+    plumb_real
+        friction; ///< [-] Coulomb coefficient, 0..10; 0 means 0.6 (see frictionless). A pair uses sqrt(a b)
+    bool frictionless;      ///< no friction at all; `friction` must then be 0
     plumb_real restitution; ///< [-] 0..1. A pair uses max(a, b); 1 conserves energy
     /// [m] >= 0, lever arm of rolling resistance: the torque against rolling is at most this times the
     /// normal force. The coefficient of text books, c = f / radius, means radius times c here. A pair

@@ -5,7 +5,8 @@
 #include "world/check.h"
 #include "world/rows.h"
 
-#define FRICTION_MOST ((real)10) // [-] see plumb_material_desc
+#define FRICTION_MOST    ((real)10) // [-] see plumb_material_desc
+#define DEFAULT_FRICTION ((real)0.6)
 
 static plumb_result check_mix(const plumb_world *world, const char *fn, const char *field,
                               plumb_mix mix)
@@ -22,6 +23,11 @@ static plumb_result check_desc(const plumb_world *world, const char *fn,
     plumb_result r = pl_check_pointer(world, fn, "desc", desc);
     r = r != PLUMB_OK ? r : pl_check_range(world, fn, "density", desc->density, 0, PLUMB_REAL_MAX);
     r = r != PLUMB_OK ? r : pl_check_range(world, fn, "friction", desc->friction, 0, FRICTION_MOST);
+    if (r == PLUMB_OK && desc->frictionless && desc->friction != 0) {
+        r = pl_fail(world, PLUMB_E_RANGE, fn,
+                    "friction is %g; it must be 0 together with frictionless",
+                    (double)desc->friction);
+    }
     r = r != PLUMB_OK ? r : pl_check_range(world, fn, "restitution", desc->restitution, 0, 1);
     r = r != PLUMB_OK ? r
                       : pl_check_range(world, fn, "rolling_resistance", desc->rolling_resistance, 0,
@@ -35,10 +41,11 @@ static plumb_result check_desc(const plumb_world *world, const char *fn,
     return r != PLUMB_OK ? r : check_mix(world, fn, "restitution_mix", desc->restitution_mix);
 }
 
-static void fill_row(plumb_world *world, uint32_t row, const plumb_material_desc *desc)
+void pl_material_fill(plumb_world *world, uint32_t row, const plumb_material_desc *desc)
 {
+    real friction = desc->friction > 0 ? desc->friction : DEFAULT_FRICTION;
     world->materials.density[row] = desc->density > 0 ? desc->density : 1;
-    world->materials.friction[row] = desc->friction;
+    world->materials.friction[row] = desc->frictionless ? 0 : friction;
     world->materials.restitution[row] = desc->restitution;
     world->materials.rolling[row] = desc->rolling_resistance;
     world->materials.surface_speed[row] = desc->surface_speed;
@@ -65,7 +72,7 @@ plumb_material plumb_material_create(plumb_world *world, const plumb_material_de
     uint32_t row = materials->table.count++;
     pl_table_clear(&materials->table, pl_material_columns, pl_material_column_count, row);
     materials->entity[row].entity = pl_entity_claim(world, none.entity, PLUMB_KIND_MATERIAL, row);
-    fill_row(world, row, desc);
+    pl_material_fill(world, row, desc);
     return materials->entity[row];
 }
 
@@ -106,6 +113,7 @@ plumb_result plumb_material_get(const plumb_world *world, plumb_material materia
         const pl_materials *m = &world->materials;
         *desc = (plumb_material_desc){ .density = m->density[row],
                                        .friction = m->friction[row],
+                                       .frictionless = m->friction[row] == 0,
                                        .restitution = m->restitution[row],
                                        .rolling_resistance = m->rolling[row],
                                        .surface_speed = m->surface_speed[row],
@@ -126,12 +134,12 @@ plumb_result plumb_material_set(plumb_world *world, plumb_material material,
     if (r != PLUMB_OK) {
         return r;
     }
-    fill_row(world, row, desc);
+    pl_material_fill(world, row, desc);
     pl_pieces *pieces = &world->pieces;
     for (uint32_t p = 0; p < pieces->table.count; ++p) {
         if (pieces->kind[p] != PL_PIECE_FREE && pieces->material[p] == row) {
             pl_sleep_disturb_piece(world, p);
-            pieces->friction[p] = desc->friction;
+            pieces->friction[p] = world->materials.friction[row];
             pieces->restitution[p] = desc->restitution;
         }
     }

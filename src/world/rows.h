@@ -140,6 +140,9 @@ plumb_result pl_shape_make(plumb_world *world, const char *function, const plumb
 //---- API calls that commands share with the direct ones ------------------------------------------
 
 // `reserved` null: a new handle; otherwise one that a command has reserved, which comes alive.
+// Writes a checked descriptor to a row of materials, defaults resolved.
+void pl_material_fill(plumb_world *world, uint32_t row, const plumb_material_desc *desc);
+
 plumb_entity pl_entity_claim(plumb_world *world, plumb_entity reserved, plumb_entity_kind kind,
                              uint32_t row);
 

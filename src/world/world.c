@@ -14,7 +14,6 @@
 #define STANDARD_GRAVITY ((real)9.81) // [m/s^2]
 #define CAPACITY_MOST                                                                              \
     (UINT32_C(1) << 24) // rows: more than any machine steps, less than wraps sizes
-#define DEFAULT_FRICTION   ((real)0.6)
 #define SOFT_SUBSTEPS      4
 #define SOFT_DAMPING       ((real)3)
 #define SOFT_PUSH_SPEED    ((real)6) // [m/s]
@@ -115,8 +114,7 @@ static bool make_default_material(plumb_world *world)
         return false;
     }
     m->table.count = 1;
-    m->density[0] = 1;
-    m->friction[0] = DEFAULT_FRICTION;
+    pl_material_fill(world, 0, &(plumb_material_desc){ 0 });
     return true;
 }
 

@@ -200,7 +200,8 @@ static void impacts_count_as_impulses(void **state)
 {
     (void)state;
     plumb_world *w = flat_world((plumb_world_desc){ .hit_speed = 1, .zero_gravity = true });
-    plumb_material ivory = plumb_material_create(w, &(plumb_material_desc){ .restitution = 1 });
+    plumb_material ivory =
+        plumb_material_create(w, &(plumb_material_desc){ .frictionless = true, .restitution = 1 });
     plumb_body a = add_disc(w, 0, 0, (plumb_shape_desc){ .material = ivory }, NULL);
     add_disc(w, 3, 0, (plumb_shape_desc){ .material = ivory }, NULL);
     plumb_body_set_velocity(w, a, plumb_v2(5, 0));

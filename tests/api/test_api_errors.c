@@ -292,6 +292,9 @@ static void materials_refuse(void **state)
             STUFF(.density = -1));
     REFUSED(E_RANGE, "plumb_material_create: friction is 11; it must be 0 to 10",
             STUFF(.friction = 11));
+    REFUSED(E_RANGE,
+            "plumb_material_create: friction is 1; it must be 0 together with frictionless",
+            STUFF(.friction = 1, .frictionless = true));
     REFUSED(E_RANGE, "plumb_material_create: restitution is 1.5; it must be 0 to 1",
             STUFF(.restitution = R(1.5)));
     REFUSED(E_NOT_FINITE, "plumb_material_create: friction is nan; it must be finite",

@@ -335,7 +335,13 @@ static void materials_are_read_and_changed(void **state)
     assert_near(d.density, 2, 0);
     plumb_material zero = plumb_material_create(w, &(plumb_material_desc){ 0 });
     assert_int_equal(plumb_material_get(w, zero, &d), PLUMB_OK);
-    assert_true(d.density == 1 && d.friction == 0 && d.restitution == 0);
+    assert_true(d.density == 1 && d.restitution == 0 && !d.frictionless);
+    assert_near(d.friction, 0.6, 1e-7); // as a shape without material
+    d = (plumb_material_desc){ .frictionless = true };
+    assert_int_equal(plumb_material_set(w, zero, &d), PLUMB_OK);
+    assert_int_equal(plumb_material_get(w, zero, &d), PLUMB_OK);
+    assert_true(d.friction == 0 && d.frictionless); // what was read can be given back
+    assert_int_equal(plumb_material_set(w, zero, &d), PLUMB_OK);
     d = (plumb_material_desc){ .density = 3, .friction = 10, .restitution = 1 };
     assert_int_equal(plumb_material_set(w, none, &d), PLUMB_OK);
     assert_int_equal(plumb_material_get(w, none, &d), PLUMB_OK);

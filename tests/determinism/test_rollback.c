@@ -267,7 +267,8 @@ static plumb_world *make_world(script *s, plumb_solver solver)
     plumb_world *w = make_empty(s, &desc);
     s->rubber =
         plumb_material_create(w, &(plumb_material_desc){ .friction = 1, .restitution = R(0.75) });
-    s->ice = plumb_material_create(w, &(plumb_material_desc){ .rolling_resistance = R(0.01) });
+    s->ice = plumb_material_create(
+        w, &(plumb_material_desc){ .frictionless = true, .rolling_resistance = R(0.01) });
     s->belt =
         plumb_material_create(w, &(plumb_material_desc){ .friction = R(0.8), .surface_speed = 2 });
     plumb_material_pair_set(w, s->rubber, s->ice, &(plumb_material_pair){ .friction = R(0.1) });

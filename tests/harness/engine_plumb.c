@@ -177,6 +177,7 @@ static plumb_material shared(struct engine_world *w, const struct engine_materia
     }
     plumb_material_desc desc = { 0 };
     desc.friction = (plumb_real)material->friction;
+    desc.frictionless = desc.friction == 0;
     desc.restitution = (plumb_real)material->restitution;
     plumb_material handle = plumb_material_create(w->world, &desc);
     if (!plumb_is_null(handle)) {

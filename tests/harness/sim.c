@@ -47,6 +47,7 @@ plumb_material sim_material(plumb_world *w, double friction, double restitution)
 {
     plumb_material m =
         plumb_material_create(w, &(plumb_material_desc){ .friction = (plumb_real)friction,
+                                                         .frictionless = friction == 0,
                                                          .restitution = (plumb_real)restitution });
     need(!plumb_is_null(m), "the material");
     return m;

@@ -120,7 +120,8 @@ static void action_and_reaction(void **state)
 {
     (void)state;
     plumb_world *world = make_world();
-    plumb_material ice = plumb_material_create(world, &(plumb_material_desc){ .density = 20 });
+    plumb_material ice =
+        plumb_material_create(world, &(plumb_material_desc){ .density = 20, .frictionless = true });
     plumb_body ground = add_body(world, PLUMB_STATIC, V(0, -2));
     plumb_body raft = add_body(world, PLUMB_DYNAMIC, V(0, -0.5));
     plumb_shape_create(

@@ -175,7 +175,7 @@ static void slide(double far, double where[4])
 {
     plumb_world *w;
     assert_int_equal(plumb_world_create(&(plumb_world_desc){ .no_sleep = true }, &w), PLUMB_OK);
-    plumb_material ice = plumb_material_create(w, &(plumb_material_desc){ .density = 1 });
+    plumb_material ice = plumb_material_create(w, &(plumb_material_desc){ .frictionless = true });
     for (int i = 0; i < 24; ++i) {
         plumb_body tile =
             plumb_body_create(w, &(plumb_body_desc){ .type = PLUMB_STATIC,

@@ -272,7 +272,8 @@ static void flanks_let_pass(void **state)
     (void)state;
     plumb_world *world = make_world(PLUMB_SOLVER_SOFT);
     plumb_body ground = plumb_body_create(world, &(plumb_body_desc){ .type = PLUMB_STATIC });
-    plumb_material ice = plumb_material_create(world, &(plumb_material_desc){ 0 });
+    plumb_material ice =
+        plumb_material_create(world, &(plumb_material_desc){ .frictionless = true });
     plumb_shape_create(
         world, ground,
         &(plumb_shape_desc){
@@ -322,7 +323,8 @@ static void tiles_in_a_row(void **state)
                 plumb_world *world = make_world(solver);
                 plumb_body ground =
                     plumb_body_create(world, &(plumb_body_desc){ .type = PLUMB_STATIC });
-                plumb_material ice = plumb_material_create(world, &(plumb_material_desc){ 0 });
+                plumb_material ice =
+                    plumb_material_create(world, &(plumb_material_desc){ .frictionless = true });
                 for (int i = -4; i < 120; ++i) {
                     plumb_shape_create(world, ground,
                                        &(plumb_shape_desc){ .kind = PLUMB_BOX,

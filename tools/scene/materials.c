@@ -11,6 +11,7 @@ static plumb_material_desc describe(const sc_material_def *def)
     return (plumb_material_desc){
         .density = (plumb_real)def->density,
         .friction = (plumb_real)def->friction,
+        .frictionless = (plumb_real)def->friction == 0, // a script that says 0 means it
         .restitution = (plumb_real)def->restitution,
         .rolling_resistance = (plumb_real)def->rolling_resistance,
         .surface_speed = (plumb_real)def->surface_speed,
