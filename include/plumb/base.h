@@ -100,7 +100,9 @@ PLUMB_API const char *plumb_result_text(plumb_result code);
 
 /// A value handle of anything that lives in a world: a body, a shape, a material, a joint or
 /// a bare entity of the user's. {0, 0} is null. A handle of something destroyed is stale and is
-/// caught by every call, in release builds too.
+/// caught by every call, in release builds too. No world is in it: worlds that come from the same calls, or from
+/// one image (rollback, replay, batches, two ends of a network), have the same handles, and one kept from one of
+/// them is good in all. So a handle of an unrelated world is only caught where it names nothing of that kind.
 typedef struct plumb_entity {
     uint32_t index;      ///< slot in the world's registry
     uint32_t generation; ///< 0 only in the null handle
@@ -195,6 +197,10 @@ typedef enum plumb_log_level {
 
 /// Called with one complete line, without newline. Null: nothing is printed.
 typedef void plumb_log_fn(void *context, plumb_log_level level, const char *message);
+
+/// A ready-made log function: one line to stderr, "plumb error: <message>". `context` is not used.
+///     plumb_world_create(&(plumb_world_desc){ .log = plumb_log_stderr }, &world);
+PLUMB_API void plumb_log_stderr(void *context, plumb_log_level level, const char *message);
 
 /// Called when an internal invariant is broken (debug builds). Return to go on.
 /// Null: the message goes to the log hook.

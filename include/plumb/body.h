@@ -1,8 +1,8 @@
 /// body.h - rigid bodies: made, moved, pushed, asked.
 ///
 /// A body's frame has its origin where the user put it; the solver works at the centre of mass.
-/// Getters take a const world; on a bad handle they return zeros and leave an error behind only
-/// where they return plumb_result.
+/// Getters take a const world; on a bad handle they return zeros, and plumb_world_error and the log tell so, as of
+/// any refused call. plumb_body_valid, plumb_entity_alive and the like ask about the handle and tell nothing.
 #ifndef PLUMB_BODY_H
 #define PLUMB_BODY_H
 

@@ -81,7 +81,7 @@ PLUMB_API plumb_result plumb_component_info(const plumb_world *world, plumb_comp
 /// Errors: E_HANDLE, E_MEMORY; E_LOCKED when it would add a row during a step.
 PLUMB_API plumb_result plumb_component_set(plumb_world *world, plumb_entity entity,
                                            plumb_component component, const void *value);
-/// The entity's value, or null. Valid until the next structural change. O(1).
+/// The entity's value, or null; a dead entity is a refused call. Valid until the next structural change. O(1).
 PLUMB_API void *plumb_component_get(plumb_world *world, plumb_entity entity, plumb_component component);
 /// Takes the component away. Errors: E_HANDLE, E_MISSING, E_LOCKED.
 PLUMB_API plumb_result plumb_component_remove(plumb_world *world, plumb_entity entity,

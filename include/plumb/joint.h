@@ -36,12 +36,13 @@ typedef enum plumb_joint_kind {
 } plumb_joint_kind;
 
 /// {0} with one body is a hinge at the world's origin. "Value" is the joint's coordinate: see
-/// plumb_joint_value. Members that a kind does not have must be 0.
+/// plumb_joint_value. Members that a kind does not have must be 0 (E_RANGE). Bounds without enable_limit, motor
+/// members without enable_motor and a motor with max_motor 0 are allowed, do nothing, and are a warning in the log.
 typedef struct plumb_joint_desc {
     plumb_joint_kind kind;
     plumb_body body_a, body_b; ///< not both null, not the same; null: the world
     plumb_vec2 anchor;   ///< [m] the common point; distance, pulley: on A; mouse: the point of B
-    plumb_vec2 anchor_b; ///< [m] distance, pulley: on B; else unused
+    plumb_vec2 anchor_b; ///< [m] distance, pulley: on B
     plumb_vec2 ground_a; ///< [m] pulley: the wheel of A's rope, on the world
     plumb_vec2 ground_b; ///< [m] pulley: the wheel of B's rope, on the world
     plumb_vec2 axis;     ///< prismatic, wheel: direction of the value, any length; {0}: x (wheel: up).
@@ -108,7 +109,7 @@ PLUMB_API plumb_result plumb_joint_set_enabled(plumb_world *world, plumb_joint j
 PLUMB_API bool plumb_joint_is_enabled(const plumb_world *world, plumb_joint joint);
 PLUMB_API plumb_result plumb_joint_set_user_data(plumb_world *world, plumb_joint joint, void *user_data);
 
-/// Questions. On a bad handle: zeros.
+/// Questions. On a bad handle: zeros, and the refusal is told (but by plumb_joint_valid).
 PLUMB_API bool plumb_joint_valid(const plumb_world *world, plumb_joint joint);
 PLUMB_API plumb_joint_kind plumb_joint_get_kind(const plumb_world *world, plumb_joint joint);
 /// "revolute", ...; null for what is no kind.

@@ -64,7 +64,7 @@ typedef struct plumb_world_desc {
                               ///< Pays from some thousand bodies on; no more than there are idle cores
     plumb_task_hooks tasks;   ///< threads of your own instead: `workers` tells how many there are to reckon with
     plumb_allocator allocator;///< null members: the C library
-    plumb_log_fn *log;        ///< null: silent
+    plumb_log_fn *log;        ///< null: silent; plumb_log_stderr: to stderr
     plumb_assert_fn *assert_failed; ///< null: broken invariants go to `log`
     void *hook_context;       ///< handed to `log`, `assert_failed` and `tasks`
     void *user_data;          ///< see plumb_world_user_data
@@ -150,6 +150,8 @@ typedef struct plumb_error {
 
 /// The last refused call. Never null members. Successful calls leave it as it is.
 PLUMB_API plumb_error plumb_world_error(const plumb_world *world);
+/// Forgets it, so that one look after several calls tells whether any of them was refused. Null is ignored.
+PLUMB_API void plumb_world_clear_error(plumb_world *world);
 
 /// Counts and self-measured error of the last step.
 typedef struct plumb_stats {

@@ -38,7 +38,7 @@ static plumb_result find(const plumb_world *world, const char *function, plumb_b
 
 bool plumb_body_is_character(const plumb_world *world, plumb_body body)
 {
-    uint32_t row = pl_body_row(world, body);
+    uint32_t row = pl_ask_body(world, __func__, body);
     return row != PL_NONE && world->bodies.character[row] != 0;
 }
 

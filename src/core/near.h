@@ -23,4 +23,11 @@ typedef float near_real;
 // What tells the builds apart in snapshots and recordings: 4 float, 8 double, 12 far (8 and 4).
 #define PL_PRECISION ((uint32_t)(sizeof(plumb_real) + (PLUMB_IS_FAR ? sizeof(near_real) : 0)))
 
+// The nearest real; of what is beyond all of them the largest, and 0 of what is no number.
+static inline plumb_real pl_held(double value)
+{
+    const double most = (double)PLUMB_REAL_MAX;
+    return value != value ? 0 : (plumb_real)(value > most ? most : value < -most ? -most : value);
+}
+
 #endif

@@ -374,7 +374,7 @@ plumb_result plumb_component_set(plumb_world *world, plumb_entity entity, plumb_
 
 void *plumb_component_get(plumb_world *world, plumb_entity entity, plumb_component component)
 {
-    if (!plumb_entity_alive(world, entity)) {
+    if (world == NULL || pl_check_entity(world, __func__, entity) != PLUMB_OK) {
         return NULL;
     }
     const pl_component *c = find(world, component);

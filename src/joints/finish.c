@@ -41,6 +41,24 @@ static const pl_rows *whole_rows(const plumb_world *world, const pl_joint *j, pl
     return made;
 }
 
+// The reaction in double, and no more than a real holds: impulses of which each is in the range of a real may have a sum
+// that is not, and the difference of two such torques would be no number, at which no joint breaks.
+static void react_beyond(pl_joint *j, const pl_rows *rows)
+{
+    double x = 0, y = 0, turn = 0;
+    for (int i = 0; i < rows->count; ++i) {
+        const pl_row *r = &rows->row[i];
+        if (r->type != PL_ROW_OFF) {
+            const double push = (double)pl_held((double)j->impulse[i]) / (double)j->h;
+            x += (double)r->bx * push;
+            y += (double)r->by * push;
+            turn += (double)r->bw * push;
+        }
+    }
+    j->force = plumb_v2(pl_held(x), pl_held(y));
+    j->torque = pl_held(turn - ((double)j->arm_b.x * y - (double)j->arm_b.y * x));
+}
+
 static void react(const plumb_world *world, pl_joint *j)
 {
     pl_rows made;
@@ -48,6 +66,9 @@ static void react(const plumb_world *world, pl_joint *j)
     const momentum sum = push_on_b(j, rows);
     j->force = plumb_v2(sum.linear.x / j->h, sum.linear.y / j->h);
     j->torque = sum.angular / j->h - plumb_vec2_cross(j->arm_b, j->force);
+    if (!plumb_vec2_is_finite(j->force) || !plumb_is_finite(j->torque)) {
+        react_beyond(j, rows);
+    }
 }
 
 // It did nothing in this step, and has nothing to start the next one with.

@@ -24,6 +24,8 @@ static real value(const pl_joint *j, const pl_joint_pose *a, const pl_joint_pose
     return pl_joint_turn(a, b);
 }
 
-const pl_joint_class pl_joint_friction = {
-    .name = "friction", .has = PL_JOINT_RADIANS, .rows = rows, .value = value
-};
+const pl_joint_class pl_joint_friction = { .name = "friction",
+                                           .has =
+                                               PL_JOINT_FORCE | PL_JOINT_TORQUE | PL_JOINT_RADIANS,
+                                           .rows = rows,
+                                           .value = value };

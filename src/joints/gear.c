@@ -49,5 +49,11 @@ static pl_row slope(const pl_joint *j, const pl_joint_pose *a, const pl_joint_po
 }
 
 const pl_joint_class pl_joint_gear = {
-    .name = "gear", .check = check, .rows = rows, .keep = value, .value = value, .slope = slope
+    .name = "gear",
+    .has = PL_JOINT_AXIS | PL_JOINT_RATIO,
+    .check = check,
+    .rows = rows,
+    .keep = value,
+    .value = value,
+    .slope = slope,
 };

@@ -358,6 +358,12 @@ static plumb_result check_numbers(const plumb_world *world, const char *fn,
     return r;
 }
 
+static bool is_set(plumb_vec2 v)
+{
+    return v.x != 0 || v.y != 0;
+}
+
+// What a kind does not have would be left out in silence: it is refused.
 static plumb_result check_members(const plumb_world *world, const char *fn,
                                   const plumb_joint_desc *d)
 {
@@ -367,9 +373,24 @@ static plumb_result check_members(const plumb_world *world, const char *fn,
         bool used;
         unsigned needs;
     } members[] = {
+        { "anchor_b", is_set(d->anchor_b), PL_JOINT_TWO_ANCHORS },
+        { "ground_a", is_set(d->ground_a), PL_JOINT_GROUNDS },
+        { "ground_b", is_set(d->ground_b), PL_JOINT_GROUNDS },
+        { "axis", is_set(d->axis), PL_JOINT_AXIS },
         { "enable_limit", d->enable_limit, PL_JOINT_LIMIT },
+        { "lower", d->lower != 0, PL_JOINT_LIMIT },
+        { "upper", d->upper != 0, PL_JOINT_LIMIT },
         { "enable_motor", d->enable_motor, PL_JOINT_MOTOR },
+        { "motor_speed", d->motor_speed != 0, PL_JOINT_MOTOR },
+        { "max_motor", d->max_motor != 0, PL_JOINT_MOTOR },
         { "hertz", d->hertz != 0, PL_JOINT_SPRING },
+        { "damping", d->damping != 0, PL_JOINT_SPRING },
+        { "rest", d->rest != 0, PL_JOINT_REST },
+        { "length", d->length != 0, PL_JOINT_LENGTH },
+        { "ratio", d->ratio != 0, PL_JOINT_RATIO },
+        { "pitch", d->pitch != 0, PL_JOINT_PITCH },
+        { "max_force", d->max_force != 0, PL_JOINT_FORCE },
+        { "max_torque", d->max_torque != 0, PL_JOINT_TORQUE },
     };
     for (size_t i = 0; i < sizeof members / sizeof members[0]; ++i) {
         if (members[i].used && (kind->has & members[i].needs) == 0) {
@@ -378,6 +399,26 @@ static plumb_result check_members(const plumb_world *world, const char *fn,
         }
     }
     return PLUMB_OK;
+}
+
+void pl_joint_warn_of_motor(const plumb_world *world, const char *fn, const plumb_joint_desc *d)
+{
+    if (d->enable_motor && d->max_motor == 0) {
+        pl_warn(world, "%s: max_motor is 0; the motor does nothing", fn);
+    }
+}
+
+// Members that do nothing as the others are: allowed, as they may be switched on later, but seldom meant.
+static void warn_of_idle(const plumb_world *world, const char *fn, const plumb_joint_desc *d)
+{
+    if (!d->enable_limit && (d->lower != 0 || d->upper != 0)) {
+        pl_warn(world, "%s: lower or upper is set without enable_limit; there is no limit", fn);
+    }
+    if (!d->enable_motor && (d->motor_speed != 0 || d->max_motor != 0)) {
+        pl_warn(world,
+                "%s: motor_speed or max_motor is set without enable_motor; there is no motor", fn);
+    }
+    pl_joint_warn_of_motor(world, fn, d);
 }
 
 // Checks a descriptor and resolves its defaults in place.
@@ -493,6 +534,7 @@ plumb_joint plumb_joint_create(plumb_world *world, const plumb_joint_desc *desc)
         pl_fail_memory(world, __func__);
         return joint;
     }
+    warn_of_idle(world, __func__, desc);
     return insert(world, &resolved);
 }
 

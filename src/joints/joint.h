@@ -16,7 +16,15 @@ enum {
     PL_JOINT_TWO_ANCHORS = 16,
     PL_JOINT_RADIANS = 32, // its value is an angle
     PL_JOINT_TRAVELS = 64, // its value is a way
-    PL_JOINT_SPINS = 128   // B turns about A besides
+    PL_JOINT_SPINS = 128,  // B turns about A besides
+    PL_JOINT_GROUNDS = 256,
+    PL_JOINT_AXIS = 512,
+    PL_JOINT_LENGTH = 1024,
+    PL_JOINT_RATIO = 2048,
+    PL_JOINT_PITCH = 4096,
+    PL_JOINT_FORCE = 8192,
+    PL_JOINT_TORQUE = 16384,
+    PL_JOINT_REST = 32768
 };
 
 typedef struct pl_joint_class {
@@ -227,6 +235,9 @@ static inline bool pl_joint_is_watched(const plumb_joint_desc *d)
 // What the pattern of a joint depends on. Who changes it, or where a joint is on its bodies, or whether
 // it is watched, must call pl_joints_replan.
 uint32_t pl_joint_variant(const plumb_joint_desc *desc);
+
+// Warns of a motor that is on and may exert nothing.
+void pl_joint_warn_of_motor(const plumb_world *world, const char *fn, const plumb_joint_desc *d);
 
 static inline void pl_joints_replan(pl_joints *joints)
 {

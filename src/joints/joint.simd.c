@@ -366,6 +366,21 @@ static void warm_start(const pl_joint_call *call)
 }
 
 // The reaction is J^T impulse on B; its torque is told about B's anchor.
+// The reaction of one lane in double, and no more than a real holds: see react_beyond in finish.c.
+static void hold_reaction(const parts *at, int count, int i, const place *now, pl_joint *j)
+{
+    double x = 0, y = 0, turn = 0;
+    for (int m = 0; m < count; ++m) {
+        const row *r = &at->rows[m];
+        double push = (double)pl_held((double)r->impulse[i]) / (double)j->h;
+        x += (double)r->nx[i] * push;
+        y += (double)r->ny[i] * push;
+        turn += (double)r->wb[i] * push;
+    }
+    j->force = plumb_v2(pl_held(x), pl_held(y));
+    j->torque = pl_held(turn - ((double)now->rb_x[i] * y - (double)now->rb_y[i] * x));
+}
+
 static void store_all(const pl_joint_call *call)
 {
     const vf inv_h = splat((near_real)(1 / call->h));
@@ -403,6 +418,9 @@ static void store_all(const pl_joint_call *call)
             j->h = call->h;
             j->force = plumb_v2(x[i], y[i]);
             j->torque = w[i];
+            if (!plumb_vec2_is_finite(j->force) || !plumb_is_finite(j->torque)) {
+                hold_reaction(&at, p->count, i, &now, j);
+            }
         }
     }
 }

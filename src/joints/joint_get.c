@@ -1,30 +1,39 @@
-// joint_get.c - questions to joints. On a bad handle: zeros. Reads: one joint and its bodies. Cost:
+// joint_get.c - questions to joints. On a bad handle: zeros, and a refusal in the log. Reads: one joint and its bodies. Cost:
 // O(1), lists O(joints).
 #include "joints/joint.h"
 #include "plumb/math.h"
 #include "world/check.h"
 #include "world/state.h"
 
-static const pl_joint *find(const plumb_world *world, plumb_joint joint)
+#include <math.h>
+
+// Null, and a refusal in the log, for a bad handle.
+static const pl_joint *find(const plumb_world *world, const char *fn, plumb_joint joint)
 {
     uint32_t slot = pl_joint_slot(world, joint);
-    return slot == PL_NONE ? NULL : &pl_joint_items(&world->joints)[slot];
+    if (slot != PL_NONE) {
+        return &pl_joint_items(&world->joints)[slot];
+    }
+    if (world != NULL) {
+        pl_fail_handle(world, fn, "joint", joint.entity, "a live joint");
+    }
+    return NULL;
 }
 
 bool plumb_joint_valid(const plumb_world *world, plumb_joint joint)
 {
-    return find(world, joint) != NULL;
+    return pl_joint_slot(world, joint) != PL_NONE;
 }
 
 bool plumb_joint_is_enabled(const plumb_world *world, plumb_joint joint)
 {
-    uint32_t slot = pl_joint_slot(world, joint);
-    return slot != PL_NONE && !pl_joint_items(&world->joints)[slot].desc.disabled;
+    const pl_joint *j = find(world, __func__, joint);
+    return j != NULL && !j->desc.disabled;
 }
 
 plumb_joint_kind plumb_joint_get_kind(const plumb_world *world, plumb_joint joint)
 {
-    const pl_joint *j = find(world, joint);
+    const pl_joint *j = find(world, __func__, joint);
     return j == NULL ? PLUMB_REVOLUTE : j->desc.kind;
 }
 
@@ -35,13 +44,13 @@ const char *plumb_joint_kind_name(plumb_joint_kind kind)
 
 plumb_body plumb_joint_body_a(const plumb_world *world, plumb_joint joint)
 {
-    const pl_joint *j = find(world, joint);
+    const pl_joint *j = find(world, __func__, joint);
     return j == NULL ? (plumb_body)PLUMB_NULL_INIT : j->a.body;
 }
 
 plumb_body plumb_joint_body_b(const plumb_world *world, plumb_joint joint)
 {
-    const pl_joint *j = find(world, joint);
+    const pl_joint *j = find(world, __func__, joint);
     return j == NULL ? (plumb_body)PLUMB_NULL_INIT : j->b.body;
 }
 
@@ -53,13 +62,13 @@ static plumb_vec2 anchor(const plumb_world *world, const pl_joint_end *end)
 
 plumb_vec2 plumb_joint_anchor_a(const plumb_world *world, plumb_joint joint)
 {
-    const pl_joint *j = find(world, joint);
+    const pl_joint *j = find(world, __func__, joint);
     return j == NULL ? plumb_v2(0, 0) : anchor(world, &j->a);
 }
 
 plumb_vec2 plumb_joint_anchor_b(const plumb_world *world, plumb_joint joint)
 {
-    const pl_joint *j = find(world, joint);
+    const pl_joint *j = find(world, __func__, joint);
     return j == NULL ? plumb_v2(0, 0) : anchor(world, &j->b);
 }
 
@@ -69,9 +78,9 @@ plumb_result plumb_joint_settings(const plumb_world *world, plumb_joint joint,
     if (world == NULL) {
         return PLUMB_E_NULL;
     }
-    const pl_joint *j = find(world, joint);
+    const pl_joint *j = find(world, __func__, joint);
     if (j == NULL) {
-        return pl_fail_handle(world, __func__, "joint", joint.entity, "a live joint");
+        return PLUMB_E_HANDLE;
     }
     plumb_result r = pl_check_pointer(world, __func__, "desc", desc);
     if (r == PLUMB_OK) {
@@ -82,18 +91,23 @@ plumb_result plumb_joint_settings(const plumb_world *world, plumb_joint joint,
 
 plumb_real plumb_joint_value(const plumb_world *world, plumb_joint joint)
 {
-    const pl_joint *j = find(world, joint);
+    const pl_joint *j = find(world, __func__, joint);
     if (j == NULL) {
         return 0;
     }
     pl_joint now = *j;
     pl_joint_begin(world, &now);
-    return pl_joint_classes[j->desc.kind]->value(&now, &now.pose_a, &now.pose_b);
+    return pl_held((double)pl_joint_classes[j->desc.kind]->value(&now, &now.pose_a, &now.pose_b));
+}
+
+static bool is_rigid(const pl_row *r)
+{
+    return r->hertz == 0 && (r->type == PL_ROW_EQUAL || (r->type == PL_ROW_LEAST && r->error < 0));
 }
 
 plumb_real plumb_joint_error(const plumb_world *world, plumb_joint joint)
 {
-    const pl_joint *j = find(world, joint);
+    const pl_joint *j = find(world, __func__, joint);
     if (j == NULL) {
         return 0;
     }
@@ -101,31 +115,37 @@ plumb_real plumb_joint_error(const plumb_world *world, plumb_joint joint)
     pl_rows rows = { .count = 0 };
     pl_joint_begin(world, &now);
     pl_joint_classes[j->desc.kind]->rows(&now, &now.pose_a, &now.pose_b, &rows);
-    real sum = 0;
-    for (int i = 0; i < rows.count; ++i) {
-        const pl_row *r = &rows.row[i];
-        bool rigid =
-            r->hertz == 0 && (r->type == PL_ROW_EQUAL || (r->type == PL_ROW_LEAST && r->error < 0));
-        sum += rigid ? r->error * r->error : 0;
+    // Squares of shares of the largest one: those of the errors themselves may overflow.
+    double most = 0, sum = 0;
+    for (int pass = 0; pass < 2; ++pass) {
+        for (int i = 0; i < rows.count; ++i) {
+            double error =
+                is_rigid(&rows.row[i]) ? fabs((double)pl_held((double)rows.row[i].error)) : 0;
+            if (pass == 0) {
+                most = error > most ? error : most;
+            } else if (most > 0) {
+                sum += (error / most) * (error / most);
+            }
+        }
     }
-    return plumb_sqrt(sum);
+    return pl_held(most * sqrt(sum));
 }
 
 plumb_vec2 plumb_joint_force(const plumb_world *world, plumb_joint joint)
 {
-    const pl_joint *j = find(world, joint);
+    const pl_joint *j = find(world, __func__, joint);
     return j == NULL ? plumb_v2(0, 0) : j->force;
 }
 
 plumb_real plumb_joint_torque(const plumb_world *world, plumb_joint joint)
 {
-    const pl_joint *j = find(world, joint);
+    const pl_joint *j = find(world, __func__, joint);
     return j == NULL ? 0 : j->torque;
 }
 
 void *plumb_joint_user_data(const plumb_world *world, plumb_joint joint)
 {
-    const pl_joint *j = find(world, joint);
+    const pl_joint *j = find(world, __func__, joint);
     return j == NULL ? NULL : j->desc.user_data;
 }
 
@@ -147,7 +167,7 @@ int plumb_world_joints(const plumb_world *world, plumb_joint *joints, int capaci
 
 int plumb_body_joints(const plumb_world *world, plumb_body body, plumb_joint *joints, int capacity)
 {
-    uint32_t row = pl_body_row(world, body);
+    uint32_t row = pl_ask_body(world, __func__, body);
     int count = 0;
     uint32_t i = row == PL_NONE ? PL_NONE : world->bodies.first_joint[row];
     while (i != PL_NONE) {

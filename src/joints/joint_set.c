@@ -79,6 +79,7 @@ plumb_result plumb_joint_set_motor(plumb_world *world, plumb_joint joint, bool e
         wanted.enable_motor = enabled;
         wanted.motor_speed = speed;
         wanted.max_motor = max_motor;
+        pl_joint_warn_of_motor(world, __func__, &wanted);
         disturb_if(world, j,
                    j->desc.enable_motor != enabled || j->desc.motor_speed != speed ||
                        j->desc.max_motor != max_motor);

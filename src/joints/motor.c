@@ -22,6 +22,7 @@ static real value(const pl_joint *j, const pl_joint_pose *a, const pl_joint_pose
 }
 
 const pl_joint_class pl_joint_motor = { .name = "motor",
-                                        .has = PL_JOINT_SPRING | PL_JOINT_TARGET | PL_JOINT_RADIANS,
+                                        .has = PL_JOINT_SPRING | PL_JOINT_REST | PL_JOINT_TARGET |
+                                               PL_JOINT_FORCE | PL_JOINT_TORQUE | PL_JOINT_RADIANS,
                                         .rows = rows,
                                         .value = value };

@@ -32,7 +32,8 @@ static pl_row slope(const pl_joint *j, const pl_joint_pose *a, const pl_joint_po
 
 const pl_joint_class pl_joint_prismatic = {
     .name = "prismatic",
-    .has = PL_JOINT_LIMIT | PL_JOINT_MOTOR | PL_JOINT_SPRING | PL_JOINT_TRAVELS,
+    .has = PL_JOINT_LIMIT | PL_JOINT_MOTOR | PL_JOINT_SPRING | PL_JOINT_TRAVELS | PL_JOINT_REST |
+           PL_JOINT_AXIS,
     .check = check,
     .rows = rows,
     .value = value,

@@ -65,7 +65,8 @@ static pl_row slope(const pl_joint *j, const pl_joint_pose *a, const pl_joint_po
 }
 
 const pl_joint_class pl_joint_pulley = { .name = "pulley",
-                                         .has = PL_JOINT_TWO_ANCHORS,
+                                         .has = PL_JOINT_TWO_ANCHORS | PL_JOINT_GROUNDS |
+                                                PL_JOINT_RATIO,
                                          .check = check,
                                          .rows = rows,
                                          .keep = value,

@@ -39,7 +39,7 @@ static void advance(pl_joint *j, const pl_joint_pose *a, const pl_joint_pose *b)
 }
 
 const pl_joint_class pl_joint_ratchet = { .name = "ratchet",
-                                          .has = PL_JOINT_RADIANS,
+                                          .has = PL_JOINT_PITCH | PL_JOINT_RADIANS,
                                           .check = check,
                                           .rows = rows,
                                           .value = value,

@@ -26,14 +26,22 @@ static motion motion_of(const plumb_world *world, plumb_body body)
 static real along(const plumb_world *world, const pl_joint *joint, const pl_row *slope)
 {
     const motion a = motion_of(world, joint->a.body), b = motion_of(world, joint->b.body);
-    return slope->ax * a.vx + slope->ay * a.vy + slope->aw * a.w + slope->bx * b.vx +
-           slope->by * b.vy + slope->bw * b.w;
+    const real rate = slope->ax * a.vx + slope->ay * a.vy + slope->aw * a.w + slope->bx * b.vx +
+                      slope->by * b.vy + slope->bw * b.w;
+    return pl_held((double)rate);
 }
 
-static const pl_joint *find(const plumb_world *world, plumb_joint joint)
+// Null, and the refusal told, for a bad handle.
+static const pl_joint *find(const plumb_world *world, const char *fn, plumb_joint joint)
 {
     const uint32_t slot = pl_joint_slot(world, joint);
-    return slot == PL_NONE ? NULL : &pl_joint_items(&world->joints)[slot];
+    if (slot != PL_NONE) {
+        return &pl_joint_items(&world->joints)[slot];
+    }
+    if (world != NULL) {
+        pl_fail_handle(world, fn, "joint", joint.entity, "a live joint");
+    }
+    return NULL;
 }
 
 real pl_joint_rate(const plumb_world *world, const pl_joint *joint)
@@ -48,7 +56,7 @@ real pl_joint_rate(const plumb_world *world, const pl_joint *joint)
 
 plumb_real plumb_joint_rate(const plumb_world *world, plumb_joint joint)
 {
-    const pl_joint *j = find(world, joint);
+    const pl_joint *j = find(world, __func__, joint);
     return j == NULL ? 0 : pl_joint_rate(world, j);
 }
 
@@ -56,11 +64,8 @@ plumb_real plumb_joint_rate(const plumb_world *world, plumb_joint joint)
 static const pl_joint *find_of(const plumb_world *world, const char *fn, plumb_joint joint,
                                unsigned has, const char *what)
 {
-    const pl_joint *j = find(world, joint);
+    const pl_joint *j = find(world, fn, joint);
     if (j == NULL) {
-        if (world != NULL) {
-            pl_fail_handle(world, fn, "joint", joint.entity, "a live joint");
-        }
         return NULL;
     }
     if ((pl_joint_classes[j->desc.kind]->has & has) == 0) {

@@ -18,7 +18,7 @@ static real value(const pl_joint *j, const pl_joint_pose *a, const pl_joint_pose
 
 const pl_joint_class pl_joint_revolute = {
     .name = "revolute",
-    .has = PL_JOINT_LIMIT | PL_JOINT_MOTOR | PL_JOINT_SPRING | PL_JOINT_RADIANS,
+    .has = PL_JOINT_LIMIT | PL_JOINT_MOTOR | PL_JOINT_SPRING | PL_JOINT_REST | PL_JOINT_RADIANS,
     .rows = rows,
     .value = value,
 };

@@ -18,6 +18,7 @@ static real value(const pl_joint *j, const pl_joint_pose *a, const pl_joint_pose
     return pl_joint_turn(a, b);
 }
 
-const pl_joint_class pl_joint_weld = {
-    .name = "weld", .has = PL_JOINT_SPRING | PL_JOINT_RADIANS, .rows = rows, .value = value
-};
+const pl_joint_class pl_joint_weld = { .name = "weld",
+                                       .has = PL_JOINT_SPRING | PL_JOINT_REST | PL_JOINT_RADIANS,
+                                       .rows = rows,
+                                       .value = value };

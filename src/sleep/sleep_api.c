@@ -28,7 +28,7 @@ void pl_sleep_events_clear(plumb_world *world)
 
 bool plumb_body_is_awake(const plumb_world *world, plumb_body body)
 {
-    uint32_t row = pl_body_row(world, body);
+    uint32_t row = pl_ask_body(world, __func__, body);
     if (row == PL_NONE) {
         return false;
     }
@@ -85,7 +85,7 @@ plumb_result plumb_body_set_no_sleep(plumb_world *world, plumb_body body, bool n
 
 bool plumb_body_no_sleep(const plumb_world *world, plumb_body body)
 {
-    uint32_t row = pl_body_row(world, body);
+    uint32_t row = pl_ask_body(world, __func__, body);
     return row != PL_NONE && (world->bodies.flags[row] & PL_BODY_NO_SLEEP) != 0;
 }
 

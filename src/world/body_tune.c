@@ -98,33 +98,33 @@ plumb_result plumb_body_set_time_scale(plumb_world *world, plumb_body body, plum
 //---- read ----------------------------------------------------------------------------------------
 
 // Zeros for a bad handle.
-static pl_tuning look(const plumb_world *world, plumb_body body)
+static pl_tuning look(const plumb_world *world, const char *fn, plumb_body body)
 {
-    uint32_t row = pl_body_row(world, body);
+    uint32_t row = pl_ask_body(world, fn, body);
     return row == PL_NONE ? (pl_tuning){ .time_scale = 0 } : pl_tuning_get(world, row);
 }
 
 plumb_real plumb_body_damping(const plumb_world *world, plumb_body body)
 {
-    return look(world, body).damping;
+    return look(world, __func__, body).damping;
 }
 
 plumb_real plumb_body_angular_damping(const plumb_world *world, plumb_body body)
 {
-    return look(world, body).angular_damping;
+    return look(world, __func__, body).angular_damping;
 }
 
 plumb_real plumb_body_max_speed(const plumb_world *world, plumb_body body)
 {
-    return look(world, body).max_speed;
+    return look(world, __func__, body).max_speed;
 }
 
 plumb_real plumb_body_max_spin(const plumb_world *world, plumb_body body)
 {
-    return look(world, body).max_spin;
+    return look(world, __func__, body).max_spin;
 }
 
 plumb_real plumb_body_time_scale(const plumb_world *world, plumb_body body)
 {
-    return look(world, body).time_scale;
+    return look(world, __func__, body).time_scale;
 }

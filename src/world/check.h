@@ -44,6 +44,11 @@ plumb_result pl_check_unused(const plumb_world *world, const char *function, uin
 // A live entity of any kind. E_HANDLE.
 plumb_result pl_check_entity(const plumb_world *world, const char *function, plumb_entity entity);
 
+// The body row, or first piece, for a getter that returns no result: PL_NONE, and the refusal told, for a bad
+// handle. Nothing is told of a null world.
+uint32_t pl_ask_body(const plumb_world *world, const char *function, plumb_body body);
+uint32_t pl_ask_shape(const plumb_world *world, const char *function, plumb_shape shape);
+
 // Records that a handle is not `wanted` ("a live body"): what it is instead is found out here.
 plumb_result pl_fail_handle(const plumb_world *world, const char *function, const char *field,
                             plumb_entity entity, const char *wanted);

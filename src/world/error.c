@@ -56,6 +56,21 @@ plumb_error plumb_world_error(const plumb_world *world)
     return world->error;
 }
 
+void plumb_world_clear_error(plumb_world *world)
+{
+    if (world != NULL) {
+        world->error = (plumb_error){ PLUMB_OK, NULL, NULL };
+    }
+}
+
+void plumb_log_stderr(void *context, plumb_log_level level, const char *message)
+{
+    static const char *const levels[] = { "error", "warning", "info" };
+    (void)context;
+    fprintf(stderr, "plumb %s: %s\n", levels[(unsigned)level <= PLUMB_LOG_INFO ? level : 0],
+            message);
+}
+
 //---- locking -------------------------------------------------------------------------------------
 
 // What to call instead while the world is locked. Others: wait until the step is over.
@@ -216,6 +231,18 @@ plumb_result pl_check_body(const plumb_world *world, const char *function, plumb
     *row = pl_body_row(world, body);
     return *row != PL_NONE ? PLUMB_OK
                            : pl_fail_handle(world, function, "body", body.entity, "a live body");
+}
+
+uint32_t pl_ask_body(const plumb_world *world, const char *function, plumb_body body)
+{
+    uint32_t row = PL_NONE;
+    return pl_check_body(world, function, body, &row) == PLUMB_OK ? row : PL_NONE;
+}
+
+uint32_t pl_ask_shape(const plumb_world *world, const char *function, plumb_shape shape)
+{
+    uint32_t piece = PL_NONE;
+    return pl_check_shape(world, function, shape, &piece) == PLUMB_OK ? piece : PL_NONE;
 }
 
 plumb_result pl_check_shape(const plumb_world *world, const char *function, plumb_shape shape,

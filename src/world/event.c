@@ -193,6 +193,6 @@ int plumb_world_contacts(const plumb_world *world, plumb_contact *contacts, int 
 int plumb_body_contacts(const plumb_world *world, plumb_body body, plumb_contact *contacts,
                         int capacity)
 {
-    uint32_t row = pl_body_row(world, body);
+    uint32_t row = pl_ask_body(world, __func__, body);
     return row == PL_NONE ? 0 : list_contacts(world, row, contacts, capacity);
 }

@@ -79,7 +79,7 @@ void pl_filter_apply(plumb_world *world, uint32_t first, const plumb_filter *fil
 
 plumb_filter plumb_shape_filter(const plumb_world *world, plumb_shape shape)
 {
-    uint32_t p = pl_shape_piece(world, shape);
+    uint32_t p = pl_ask_shape(world, __func__, shape);
     if (p == PL_NONE) {
         return (plumb_filter){ 0 };
     }
@@ -124,7 +124,7 @@ void pl_sensor_apply(plumb_world *world, uint32_t first, bool sensor)
 
 bool plumb_shape_is_sensor(const plumb_world *world, plumb_shape shape)
 {
-    uint32_t p = pl_shape_piece(world, shape);
+    uint32_t p = pl_ask_shape(world, __func__, shape);
     return p != PL_NONE && (world->pieces.flags[p] & PL_PIECE_SENSOR) != 0;
 }
 
@@ -249,6 +249,7 @@ plumb_result plumb_world_exclude_pair(plumb_world *world, plumb_body a, plumb_bo
 
 bool plumb_world_is_excluded(const plumb_world *world, plumb_body a, plumb_body b)
 {
-    uint32_t row_a = pl_body_row(world, a), row_b = pl_body_row(world, b);
-    return row_a != PL_NONE && row_b != PL_NONE && pl_rows_excluded(world, row_a, row_b);
+    uint32_t row_a = pl_ask_body(world, __func__, a);
+    uint32_t row_b = row_a == PL_NONE ? PL_NONE : pl_ask_body(world, __func__, b);
+    return row_b != PL_NONE && pl_rows_excluded(world, row_a, row_b);
 }

@@ -50,7 +50,7 @@ void pl_one_way_apply(plumb_world *world, uint32_t first, const plumb_one_way *o
 
 plumb_one_way plumb_shape_one_way(const plumb_world *world, plumb_shape shape)
 {
-    uint32_t p = pl_shape_piece(world, shape);
+    uint32_t p = pl_ask_shape(world, __func__, shape);
     if (p == PL_NONE) {
         return (plumb_one_way){ 0 };
     }

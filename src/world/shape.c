@@ -214,13 +214,13 @@ bool plumb_shape_valid(const plumb_world *world, plumb_shape shape)
 
 plumb_shape_kind plumb_shape_get_kind(const plumb_world *world, plumb_shape shape)
 {
-    uint32_t first = pl_shape_piece(world, shape);
+    uint32_t first = pl_ask_shape(world, __func__, shape);
     return first == PL_NONE ? PLUMB_CIRCLE : (plumb_shape_kind)world->pieces.shape_kind[first];
 }
 
 plumb_body plumb_shape_body(const plumb_world *world, plumb_shape shape)
 {
-    uint32_t first = pl_shape_piece(world, shape);
+    uint32_t first = pl_ask_shape(world, __func__, shape);
     plumb_body none = PLUMB_NULL_INIT;
     return first == PL_NONE ? none : world->bodies.entity[world->pieces.body[first]];
 }
@@ -228,20 +228,20 @@ plumb_body plumb_shape_body(const plumb_world *world, plumb_shape shape)
 // The default material has no handle: null.
 plumb_material plumb_shape_material(const plumb_world *world, plumb_shape shape)
 {
-    uint32_t first = pl_shape_piece(world, shape);
+    uint32_t first = pl_ask_shape(world, __func__, shape);
     plumb_material none = PLUMB_NULL_INIT;
     return first == PL_NONE ? none : world->materials.entity[world->pieces.material[first]];
 }
 
 plumb_real plumb_shape_density(const plumb_world *world, plumb_shape shape)
 {
-    uint32_t first = pl_shape_piece(world, shape);
+    uint32_t first = pl_ask_shape(world, __func__, shape);
     return first == PL_NONE ? 0 : world->pieces.density[first];
 }
 
 plumb_mass_properties plumb_shape_mass(const plumb_world *world, plumb_shape shape)
 {
-    uint32_t first = pl_shape_piece(world, shape);
+    uint32_t first = pl_ask_shape(world, __func__, shape);
     if (first == PL_NONE) {
         return (plumb_mass_properties){ 0 };
     }
@@ -253,7 +253,7 @@ plumb_mass_properties plumb_shape_mass(const plumb_world *world, plumb_shape sha
 
 void *plumb_shape_user_data(const plumb_world *world, plumb_shape shape)
 {
-    uint32_t first = pl_shape_piece(world, shape);
+    uint32_t first = pl_ask_shape(world, __func__, shape);
     return first == PL_NONE ? NULL : world->pieces.user_data[first];
 }
 
@@ -262,7 +262,7 @@ void *plumb_shape_user_data(const plumb_world *world, plumb_shape shape)
 int plumb_shape_piece_count(const plumb_world *world, plumb_shape shape)
 {
     int count = 0;
-    uint32_t p = pl_shape_piece(world, shape);
+    uint32_t p = pl_ask_shape(world, __func__, shape);
     for (; p != PL_NONE; p = world->pieces.next_in_shape[p]) {
         ++count;
     }
@@ -295,7 +295,7 @@ plumb_result plumb_shape_piece(const plumb_world *world, plumb_shape shape, int 
 plumb_aabb plumb_shape_aabb(const plumb_world *world, plumb_shape shape)
 {
     plumb_aabb box = plumb_aabb_empty();
-    uint32_t p = pl_shape_piece(world, shape);
+    uint32_t p = pl_ask_shape(world, __func__, shape);
     for (; p != PL_NONE; p = world->pieces.next_in_shape[p]) {
         pl_box t = pl_piece_tight_box(world, p);
         box = plumb_aabb_union(box, (plumb_aabb){ { t.min_x, t.min_y }, { t.max_x, t.max_y } });
@@ -305,8 +305,11 @@ plumb_aabb plumb_shape_aabb(const plumb_world *world, plumb_shape shape)
 
 bool plumb_shape_contains(const plumb_world *world, plumb_shape shape, plumb_vec2 point)
 {
+    uint32_t p = pl_ask_shape(world, __func__, shape);
+    if (p == PL_NONE) {
+        return false;
+    }
     plumb_vec2 local = plumb_body_local_point(world, plumb_shape_body(world, shape), point);
-    uint32_t p = pl_shape_piece(world, shape);
     for (; p != PL_NONE; p = world->pieces.next_in_shape[p]) {
         plumb_convex convex;
         pl_piece_convex(world, p, &convex);

@@ -300,6 +300,32 @@ static plumb_result make_convex(const plumb_shape_desc *d, plumb_convex *convex)
     }
 }
 
+// Points that lie in the hull, by more than what rounding and welding may do to those of a straight edge: an
+// outline that was drawn concave.
+static void warn_of_inner_points(const maker *m, const plumb_convex *hull)
+{
+    const plumb_shape_desc *d = m->desc;
+    real most = 0;
+    for (int i = 0; i < hull->count; ++i) {
+        most = plumb_max(most, plumb_vec2_distance(hull->points[0], hull->points[i]));
+    }
+    int inner = 0;
+    for (int i = 0; i < d->count; ++i) {
+        real depth = PLUMB_REAL_MAX;
+        for (int k = 0; k < hull->count; ++k) {
+            plumb_vec2 way = plumb_vec2_sub(hull->points[k], d->points[i]);
+            depth = plumb_min(depth, plumb_vec2_dot(hull->normals[k], way));
+        }
+        inner += depth > plumb_max(2 * PLUMB_WELD_DISTANCE, (real)1e-3 * most);
+    }
+    if (inner > 0) {
+        pl_warn(m->world,
+                "%s: %d of %d points lie within the convex hull and are left out; "
+                "PLUMB_OUTLINE may be concave",
+                m->fn, inner, d->count);
+    }
+}
+
 static plumb_result make_single(const maker *m)
 {
     const plumb_shape_desc *d = m->desc;
@@ -326,6 +352,7 @@ static plumb_result make_single(const maker *m)
         }
         break;
     default:
+        warn_of_inner_points(m, &piece->convex);
         finish_polygon(m, piece);
         break;
     }

@@ -65,6 +65,9 @@
     X(plumb_joint_anchor_b, plumb_joint_anchor_b(w, h))                                             \
     X(plumb_joint_value, plumb_joint_value(w, h))                                                   \
     X(plumb_joint_error, plumb_joint_error(w, h))                                                   \
+    X(plumb_joint_rate, plumb_joint_rate(w, h))                                                     \
+    X(plumb_joint_turn_rate, plumb_joint_turn_rate(w, h))                                           \
+    X(plumb_joint_travel_rate, plumb_joint_travel_rate(w, h))                                       \
     X(plumb_joint_force, plumb_joint_force(w, h))                                                   \
     X(plumb_joint_torque, plumb_joint_torque(w, h))                                                 \
     X(plumb_joint_user_data, plumb_joint_user_data(w, h))

@@ -1,14 +1,20 @@
 // test_api_joint.c - every function of joint.h: what it does, what it refuses and in which words.
 #include "world_fixture.h"
 
+#include <stdio.h>
+
 #define NONE (plumb_joint) PLUMB_NULL_INIT
 
 static plumb_joint make(fixture *f, plumb_joint_kind kind)
 {
     plumb_joint_desc d = { .kind = kind, .body_a = f->fixed, .body_b = f->dynamic };
-    d.anchor_b = plumb_v2(0, 5);
-    d.ground_a = plumb_v2(0, 8);
-    d.ground_b = plumb_v2(0, 9);
+    if (kind == PLUMB_DISTANCE || kind == PLUMB_PULLEY) {
+        d.anchor_b = plumb_v2(0, 5);
+    }
+    if (kind == PLUMB_PULLEY) {
+        d.ground_a = plumb_v2(0, 8);
+        d.ground_b = plumb_v2(0, 9);
+    }
     d.pitch = kind == PLUMB_RATCHET ? 1 : 0;
     plumb_joint j = plumb_joint_create(f->world, &d);
     assert_false(plumb_is_null(j));
@@ -148,7 +154,6 @@ static void bad_handles_give_zeros(void **state)
     assert_int_equal(plumb_joint_destroy(NULL, NONE), PLUMB_E_NULL);
     assert_int_equal(plumb_joint_settings(NULL, NONE, NULL), PLUMB_E_NULL);
     assert_int_equal(plumb_joint_set_limit(NULL, NONE, false, 0, 0), PLUMB_E_NULL);
-    assert_int_equal(f->errors, 0);
 }
 
 #define REFUSED_JOINT(code, message, ...)                                                          \
@@ -203,6 +208,92 @@ static void descriptors_are_checked(void **state)
                   PLUMB_PULLEY, .body_b = b, .ground_a = { 0, 1 });
     REFUSED_JOINT(E_RANGE, "pitch is 0; a ratchet must have teeth", PLUMB_RATCHET, .body_b = b);
     assert_int_equal(plumb_world_joints(f->world, NULL, 0), 0);
+}
+
+// Sets the member of one of a descriptor's numbers, points or switches.
+typedef struct member {
+    const char *name;
+    size_t offset;
+    bool is_switch;
+    const char *kinds; // that have it, by their first letters below
+} member;
+
+#define MEMBER(name, kinds)                                                                        \
+    {                                                                                              \
+#name, offsetof(plumb_joint_desc, name), false, kinds                                      \
+    }
+#define SWITCH(name, kinds)                                                                        \
+    {                                                                                              \
+#name, offsetof(plumb_joint_desc, name), true, kinds                                       \
+    }
+
+// What joint.h says of each member, kind by kind.
+static void members_that_a_kind_does_not_have_are_refused(void **state)
+{
+    fixture *f = *state;
+    // revolute prismatic weld wheel distance mouse motor gear pulley ratchet friction
+    static const char letters[] = "rpwhdmogyaf";
+    static const member members[] = {
+        MEMBER(anchor_b, "dy"),      MEMBER(ground_a, "y"),        MEMBER(ground_b, "y"),
+        MEMBER(axis, "phg"),         SWITCH(enable_limit, "rphd"), MEMBER(upper, "rphd"),
+        SWITCH(enable_motor, "rph"), MEMBER(motor_speed, "rph"),   MEMBER(max_motor, "rph"),
+        MEMBER(hertz, "rpwhdmo"),    MEMBER(damping, "rpwhdmo"),   MEMBER(rest, "rpwho"),
+        MEMBER(length, "d"),         MEMBER(ratio, "gy"),          MEMBER(pitch, "a"),
+        MEMBER(max_force, "mof"),    MEMBER(max_torque, "of"),
+    };
+    for (int kind = 0; kind <= PLUMB_FRICTION; ++kind) {
+        for (size_t i = 0; i < sizeof members / sizeof members[0]; ++i) {
+            plumb_joint_desc d = { .kind = (plumb_joint_kind)kind, .body_b = f->dynamic };
+            d.anchor = plumb_v2(0, 5);
+            d.ground_a = d.ground_b = kind == PLUMB_PULLEY ? plumb_v2(0, 9) : plumb_v2(0, 0);
+            d.pitch = kind == PLUMB_RATCHET ? 1 : 0;
+            const plumb_real one = 1;
+            if (members[i].is_switch) {
+                *(bool *)((char *)&d + members[i].offset) = true;
+            } else {
+                memcpy((char *)&d + members[i].offset, &one, sizeof one);
+            }
+            char wanted[128];
+            snprintf(wanted, sizeof wanted,
+                     "plumb_joint_create: %s is set; it must be 0 for a %s joint", members[i].name,
+                     plumb_joint_kind_name((plumb_joint_kind)kind));
+            plumb_joint j = plumb_joint_create(f->world, &d);
+            bool has = strchr(members[i].kinds, letters[kind]) != NULL;
+            if (plumb_is_null(j) == has || (!has && strcmp(f->logged, wanted) != 0)) {
+                fail_msg("%s: %s", wanted, f->logged);
+            }
+        }
+    }
+}
+
+static void members_that_do_nothing_are_warned_of(void **state)
+{
+    fixture *f = *state;
+    const plumb_joint_desc cases[] = {
+        { .upper = 1 },
+        { .lower = -1 },
+        { .motor_speed = 1 },
+        { .max_motor = 1 },
+        { .enable_motor = true, .motor_speed = 1 },
+    };
+    for (int i = 0; i < 5; ++i) {
+        plumb_joint_desc d = cases[i];
+        d.body_b = f->dynamic;
+        assert_false(plumb_is_null(plumb_joint_create(f->world, &d)));
+        assert_int_equal(f->warnings, i + 1);
+    }
+    plumb_joint_desc meant = { .body_b = f->dynamic, .enable_limit = true, .upper = 1 };
+    meant.enable_motor = true;
+    meant.max_motor = 1;
+    plumb_joint j = plumb_joint_create(f->world, &meant);
+    assert_int_equal(f->warnings, 5);
+    assert_int_equal(plumb_joint_set_motor(f->world, j, true, 1, 0), PLUMB_OK);
+    assert_int_equal(f->warnings, 6);
+    assert_string_equal(f->logged, "plumb_joint_set_motor: max_motor is 0; the motor does nothing");
+    assert_int_equal(plumb_joint_set_motor(f->world, j, false, 1, 0), PLUMB_OK);
+    assert_int_equal(plumb_joint_set_limit(f->world, j, false, 0, 1), PLUMB_OK);
+    assert_int_equal(f->warnings, 6);
+    assert_int_equal(f->errors, 0);
 }
 
 static void setters_refuse(void **state)
@@ -503,6 +594,8 @@ int main(void)
         API_TEST(mouse_and_motor_go_where_they_are_sent),
         API_TEST(bad_handles_give_zeros),
         API_TEST(descriptors_are_checked),
+        API_TEST(members_that_a_kind_does_not_have_are_refused),
+        API_TEST(members_that_do_nothing_are_warned_of),
         API_TEST(setters_refuse),
         API_TEST(joints_are_locked_in_a_step),
         API_TEST(joints_go_with_their_bodies),

@@ -32,9 +32,14 @@ static plumb_joint_desc random_joint(int kind, uint32_t *seed)
 {
     plumb_joint_desc d = { .kind = (plumb_joint_kind)kind, .disabled = true };
     d.anchor = plumb_v2(R(sim_uniform(seed, -4, 4)), R(sim_uniform(seed, -4, 4)));
-    d.anchor_b = plumb_v2(R(sim_uniform(seed, -4, 4)), R(sim_uniform(seed, -4, 4)));
-    d.ground_a = plumb_v2(-2, 9);
-    d.ground_b = plumb_v2(2, 9);
+    const plumb_vec2 far = { R(sim_uniform(seed, -4, 4)), R(sim_uniform(seed, -4, 4)) };
+    if (kind == PLUMB_DISTANCE || kind == PLUMB_PULLEY) {
+        d.anchor_b = far;
+    }
+    if (kind == PLUMB_PULLEY) {
+        d.ground_a = plumb_v2(-2, 9);
+        d.ground_b = plumb_v2(2, 9);
+    }
     d.pitch = kind == PLUMB_RATCHET ? 1 : 0;
     d.ratio = kind == PLUMB_GEAR ? R(-2) : kind == PLUMB_PULLEY ? R(1.5) : 0;
     if (kind == PLUMB_PRISMATIC || kind == PLUMB_WHEEL || kind == PLUMB_GEAR) {
@@ -83,13 +88,15 @@ static void rates_are_those_of_the_values(void **state)
 
 static plumb_joint make(fixture *f, plumb_joint_kind kind)
 {
+    const bool two = kind == PLUMB_DISTANCE || kind == PLUMB_PULLEY;
+    const plumb_real high = kind == PLUMB_PULLEY ? 8 : 0;
     const plumb_joint_desc d = { .kind = kind,
                                  .body_a = f->kinematic,
                                  .body_b = f->dynamic,
                                  .anchor = { 10, 0 },
-                                 .anchor_b = { 10, 5 },
-                                 .ground_a = { 0, 8 },
-                                 .ground_b = { 0, 9 },
+                                 .anchor_b = { two ? R(10) : 0, two ? R(5) : 0 },
+                                 .ground_a = { 0, high },
+                                 .ground_b = { 0, high },
                                  .axis = { 0, kind == PLUMB_WHEEL ? R(1) : 0 },
                                  .pitch = kind == PLUMB_RATCHET ? R(1) : 0 };
     const plumb_joint j = plumb_joint_create(f->world, &d);

@@ -24,8 +24,8 @@ static rack make_rack(plumb_world_desc desc, plumb_joint_desc joint)
                            &(plumb_shape_desc){ .kind = PLUMB_BOX, .half = { R(0.5), R(0.5) } });
         joint.body_b = r.weights[i];
         joint.anchor = at;
-        joint.anchor_b = at;
         if (joint.kind == PLUMB_DISTANCE) {
+            joint.anchor_b = at;
             joint.anchor = plumb_v2(at.x, 2);
         }
         r.hooks[i] = plumb_joint_create(r.w, &joint);

@@ -95,7 +95,9 @@ static place make_place(plumb_world_desc desc, uint32_t seed)
                                    .body_b = p.bodies[i + 1],
                                    .break_force = i % 3 == 0 ? R(20) : 0 };
         joint.anchor = plumb_body_position(p.w, p.bodies[i]);
-        joint.anchor_b = plumb_body_position(p.w, p.bodies[i + 1]);
+        if (joint.kind == PLUMB_DISTANCE) {
+            joint.anchor_b = plumb_body_position(p.w, p.bodies[i + 1]);
+        }
         p.hinge = plumb_joint_create(p.w, &joint);
         assert_true(plumb_joint_valid(p.w, p.hinge));
     }

@@ -303,7 +303,6 @@ static void bad_handles_are_answered_with_nothing(void **state)
         assert_true(plumb_aabb_is_empty(plumb_shape_aabb(f->world, s)));
         assert_false(plumb_shape_contains(f->world, s, plumb_v2(0, 0)));
     }
-    assert_int_equal(f->errors, 0);
 }
 
 static void points_are_copied(void **state)
@@ -366,9 +365,39 @@ static void a_destroyed_material_leaves_the_others_as_they_were(void **state)
     assert_int_equal(plumb_material_get(w, last, &d), PLUMB_E_HANDLE);
 }
 
+// Turned, scaled and in any order: what counts is that points lie within the hull.
+static void points_within_the_hull_of_a_polygon_are_warned_of(void **state)
+{
+    fixture *f = *state;
+    const plumb_vec2 star[] = { { 0, 3 },  { R(0.5), R(0.5) },   { 3, 0 },  { R(0.5), R(-0.5) },
+                                { 0, -3 }, { R(-0.5), R(-0.5) }, { -3, 0 }, { R(-0.5), R(0.5) } };
+    const plumb_vec2 square[] = { { 1, 1 }, { 1, 0 }, { -1, -1 }, { 1, -1 }, { -1, 1 }, { 0, 1 } };
+    for (int turn = 0; turn < 12; ++turn) {
+        plumb_rot q = plumb_rot_make(R(0.5) * R(turn));
+        plumb_vec2 a[8], b[6];
+        for (int i = 0; i < 8; ++i) {
+            a[i] = plumb_vec2_scale(R(turn + 1) / 4, plumb_rot_apply(q, star[i]));
+        }
+        for (int i = 0; i < 6; ++i) {
+            b[i] = plumb_vec2_scale(R(turn + 1) / 4, plumb_rot_apply(q, square[i]));
+        }
+        const plumb_shape_desc convex = { .kind = PLUMB_POLYGON, .points = b, .count = 6 };
+        const plumb_shape_desc concave = { .kind = PLUMB_POLYGON, .points = a, .count = 8 };
+        assert_false(plumb_is_null(plumb_shape_create(f->world, f->dynamic, &convex)));
+        assert_int_equal(f->warnings, turn);
+        assert_false(plumb_is_null(plumb_shape_create(f->world, f->dynamic, &concave)));
+        assert_int_equal(f->warnings, turn + 1);
+        assert_string_equal(f->logged,
+                            "plumb_shape_create: 4 of 8 points lie within the convex hull "
+                            "and are left out; PLUMB_OUTLINE may be concave");
+    }
+    assert_int_equal(f->errors, 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        API_TEST(points_within_the_hull_of_a_polygon_are_warned_of),
         API_TEST(every_kind_has_its_pieces_mass_and_box),
         API_TEST(pieces_are_what_the_geometry_functions_make),
         API_TEST(seams_are_the_edges_that_are_not_of_the_outline),

@@ -1,8 +1,11 @@
 // test_api_world.c - worlds: defaults, refused descriptors, gravity, axes, statistics, energy,
 // bodies as columns, two worlds side by side, result texts.
+#define _POSIX_C_SOURCE 200809L // dup, fileno
 #include "world_fixture.h"
 
+#include <stdio.h>
 #include <stdlib.h>
+#include <unistd.h>
 
 //---- creation ------------------------------------------------------------------------------------
 
@@ -389,9 +392,53 @@ static void cells_hold_what_is_there(void **state)
     plumb_world_destroy(w);
 }
 
+static void an_error_is_forgotten_when_asked(void **state)
+{
+    fixture *f = *state;
+    plumb_body_destroy(f->world, f->stale);
+    assert_int_equal(plumb_world_error(f->world).code, PLUMB_E_HANDLE);
+    plumb_world_clear_error(f->world);
+    assert_int_equal(plumb_world_error(f->world).code, PLUMB_OK);
+    assert_string_equal(plumb_world_error(f->world).function, "");
+    assert_string_equal(plumb_world_error(f->world).message, "");
+    plumb_world_clear_error(NULL);
+    plumb_body_destroy(f->world, f->stale);
+    assert_int_equal(plumb_world_error(f->world).code, PLUMB_E_HANDLE);
+}
+
+// The line is read back from a file in stderr's place.
+static void the_ready_made_log_writes_to_stderr(void **state)
+{
+    (void)state;
+    plumb_world *w;
+    FILE *file = tmpfile();
+    char lines[256] = "";
+    fflush(stderr);
+    int kept = dup(STDERR_FILENO);
+    assert_true(file != NULL && dup2(fileno(file), STDERR_FILENO) >= 0);
+    plumb_result made = plumb_world_create(&(plumb_world_desc){ .log = plumb_log_stderr }, &w);
+    plumb_body_position(w, NO_BODY);
+    plumb_log_stderr(NULL, PLUMB_LOG_WARN, "odd");
+    plumb_log_stderr(NULL, PLUMB_LOG_INFO, "so");
+    fflush(stderr);
+    dup2(kept, STDERR_FILENO);
+    close(kept);
+    plumb_world_destroy(w);
+    rewind(file);
+    size_t size = fread(lines, 1, sizeof lines - 1, file);
+    fclose(file);
+    assert_int_equal(made, PLUMB_OK);
+    assert_true(size > 0);
+    assert_string_equal(lines,
+                        "plumb error: plumb_body_position: body is null; it must be a live body\n"
+                        "plumb warning: odd\nplumb info: so\n");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        API_TEST(an_error_is_forgotten_when_asked),
+        cmocka_unit_test(the_ready_made_log_writes_to_stderr),
         cmocka_unit_test(cells_hold_what_is_there),
         cmocka_unit_test(lost_body_is_stopped),
         cmocka_unit_test(a_zero_descriptor_means_the_documented_defaults),

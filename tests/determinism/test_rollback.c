@@ -138,13 +138,14 @@ static void make_joints(plumb_world *w)
                                .body_a = pair[0],
                                .body_b = pair[1],
                                .anchor = { x, R(7.5) },
-                               .anchor_b = { x, 8 },
                                .break_force = kind % 3 == 1 ? R(400) : 0 };
         switch (kind) {
         case PLUMB_DISTANCE:
+            d.anchor_b = (plumb_vec2){ x, 8 };
             d.hertz = 2;
             break;
         case PLUMB_PULLEY:
+            d.anchor_b = (plumb_vec2){ x, 8 };
             d.ground_a = (plumb_vec2){ x, 10 };
             d.ground_b = (plumb_vec2){ x + 1, 10 };
             break;

@@ -200,3 +200,48 @@ double sim_order(const double *error, int count)
     }
     return (count * sxy - sx * sy) / (count * sxx - sx * sx);
 }
+
+void sim_fit_joint(plumb_joint_desc *desc)
+{
+    const plumb_joint_kind k = desc->kind;
+    const plumb_joint_desc given = *desc;
+    const bool slides = k == PLUMB_PRISMATIC || k == PLUMB_WHEEL;
+    const bool drives = slides || k == PLUMB_REVOLUTE;
+    const bool pulls = k == PLUMB_MOTOR || k == PLUMB_FRICTION;
+    *desc = (plumb_joint_desc){ .kind = k,
+                                .body_a = given.body_a,
+                                .body_b = given.body_b,
+                                .anchor = given.anchor,
+                                .break_force = given.break_force,
+                                .break_torque = given.break_torque,
+                                .break_impulse = given.break_impulse,
+                                .event_force = given.event_force,
+                                .event_torque = given.event_torque,
+                                .disabled = given.disabled,
+                                .collide_connected = given.collide_connected,
+                                .user_data = given.user_data };
+    desc->anchor_b = k == PLUMB_DISTANCE || k == PLUMB_PULLEY ? given.anchor_b : desc->anchor_b;
+    desc->ground_a = k == PLUMB_PULLEY ? given.ground_a : desc->ground_a;
+    desc->ground_b = k == PLUMB_PULLEY ? given.ground_b : desc->ground_b;
+    desc->axis = slides || k == PLUMB_GEAR ? given.axis : desc->axis;
+    desc->length = k == PLUMB_DISTANCE ? given.length : 0;
+    desc->ratio = k == PLUMB_GEAR || k == PLUMB_PULLEY ? given.ratio : 0;
+    desc->pitch = k == PLUMB_RATCHET ? given.pitch : 0;
+    desc->max_force = pulls || k == PLUMB_MOUSE ? given.max_force : 0;
+    desc->max_torque = pulls ? given.max_torque : 0;
+    if (drives || k == PLUMB_DISTANCE) {
+        desc->enable_limit = given.enable_limit;
+        desc->lower = given.lower;
+        desc->upper = given.upper;
+    }
+    if (drives) {
+        desc->enable_motor = given.enable_motor;
+        desc->motor_speed = given.motor_speed;
+        desc->max_motor = given.max_motor;
+    }
+    if (drives || k == PLUMB_WELD || k == PLUMB_DISTANCE || k == PLUMB_MOUSE || k == PLUMB_MOTOR) {
+        desc->hertz = given.hertz;
+        desc->damping = given.damping;
+        desc->rest = k == PLUMB_DISTANCE || k == PLUMB_MOUSE ? 0 : given.rest;
+    }
+}

@@ -72,4 +72,7 @@ double sim_normal_force(const plumb_world *w, plumb_body a, plumb_body b, double
 /// row to the next.
 double sim_order(const double *error, int count);
 
+/// Makes 0 of a joint's members that its kind does not have, and would be refused for.
+void sim_fit_joint(plumb_joint_desc *desc);
+
 #endif

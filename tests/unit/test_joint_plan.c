@@ -35,6 +35,7 @@ static plumb_joint_desc desc_of(plumb_joint_kind kind, unsigned parts, double x,
     d.max_torque = 3;
     d.break_force = (plumb_real)(parts & 16 ? 1e6 : 0);
     d.pitch = kind == PLUMB_RATCHET ? (plumb_real)0.3 : 0;
+    sim_fit_joint(&d);
     return d;
 }
 
@@ -218,9 +219,12 @@ static plumb_vec2 swing(plumb_joint_kind kind, unsigned parts, bool crowded)
 {
     plumb_world *w = sim_world(&(plumb_world_desc){ 0 });
     plumb_body s = sim_body(w, PLUMB_STATIC, 50, 0, 0), t = sim_body(w, PLUMB_STATIC, 51, 0, 0);
-    plumb_joint_kind filler = kind == PLUMB_REVOLUTE ? PLUMB_PRISMATIC : PLUMB_REVOLUTE;
-    for (unsigned i = 0; crowded && i < PL_JOINT_PATTERNS; ++i) {
-        add(w, desc_of(filler, i, 50, 0), s, t);
+    // Each has a limit, a motor, a spring, and may break, or not: 16 patterns of each of two other kinds.
+    static const plumb_joint_kind fillers[] = { PLUMB_REVOLUTE, PLUMB_PRISMATIC, PLUMB_WHEEL };
+    for (unsigned i = 0; crowded && i < 16 * 3; ++i) {
+        if (fillers[i / 16] != kind) {
+            add(w, desc_of(fillers[i / 16], (i & 7u) | (i & 8u) << 1, 50, 0), s, t);
+        }
     }
     plumb_body a = sim_crate(w, 0.5, 0, 0.4, 0.2, none), b = sim_crate(w, 1.5, 0.2, 0.4, 0.2, none);
     plumb_joint hook = add(w, desc_of(kind, parts, 1, 0), a, b);

@@ -37,6 +37,7 @@ static plumb_joint_desc busy(plumb_joint_kind kind, unsigned *seed)
     d.max_motor = 3;
     d.max_force = 10;
     d.max_torque = 10;
+    sim_fit_joint(&d);
     return d;
 }
 
@@ -144,6 +145,7 @@ static void joints_between_bodies_conserve_momentum(void **state)
         d.anchor = sim_vec(0, 0.25);
         d.anchor_b = sim_vec(1, 0.5);
         d.axis = d.axis.x != 0 ? sim_vec(1, 1) : sim_vec(0, 0);
+        sim_fit_joint(&d);
         assert_false(plumb_is_null(plumb_joint_create(w, &d)));
         sim_launch(w, a, 1, 2, 1);
         sim_launch(w, b, -1, 0.5, -2);
