@@ -407,6 +407,8 @@ static void store_all(const pl_joint_call *call)
         w = (w - (now.rb_x * y - now.rb_y * x)) * inv_h;
         x *= inv_h;
         y *= inv_h;
+        const vf odd =
+            (x - x) + (y - y) + (w - w); // 0, or no number where one of them is not finite
         for (int i = 0; i < PL_WIDTH; ++i) {
             if (lanes[i].joint == PL_NONE) {
                 continue;
@@ -418,7 +420,7 @@ static void store_all(const pl_joint_call *call)
             j->h = call->h;
             j->force = plumb_v2(x[i], y[i]);
             j->torque = w[i];
-            if (!plumb_vec2_is_finite(j->force) || !plumb_is_finite(j->torque)) {
+            if (odd[i] != 0) {
                 hold_reaction(&at, p->count, i, &now, j);
             }
         }

@@ -115,20 +115,15 @@ plumb_real plumb_joint_error(const plumb_world *world, plumb_joint joint)
     pl_rows rows = { .count = 0 };
     pl_joint_begin(world, &now);
     pl_joint_classes[j->desc.kind]->rows(&now, &now.pose_a, &now.pose_b, &rows);
-    // Squares of shares of the largest one: those of the errors themselves may overflow.
     double most = 0, sum = 0;
-    for (int pass = 0; pass < 2; ++pass) {
-        for (int i = 0; i < rows.count; ++i) {
-            double error =
-                is_rigid(&rows.row[i]) ? fabs((double)pl_held((double)rows.row[i].error)) : 0;
-            if (pass == 0) {
-                most = error > most ? error : most;
-            } else if (most > 0) {
-                sum += (error / most) * (error / most);
-            }
+    for (int i = 0; i < rows.count; ++i) {
+        if (is_rigid(&rows.row[i])) {
+            const double error = fabs((double)pl_held((double)rows.row[i].error));
+            most = error > most ? error : most;
+            sum += error * error;
         }
     }
-    return pl_held(most * sqrt(sum));
+    return pl_held(sum - sum == 0 ? sqrt(sum) : most); // squares beyond all doubles: beyond 1e154
 }
 
 plumb_vec2 plumb_joint_force(const plumb_world *world, plumb_joint joint)

@@ -235,14 +235,20 @@ plumb_result pl_check_body(const plumb_world *world, const char *function, plumb
 
 uint32_t pl_ask_body(const plumb_world *world, const char *function, plumb_body body)
 {
-    uint32_t row = PL_NONE;
-    return pl_check_body(world, function, body, &row) == PLUMB_OK ? row : PL_NONE;
+    uint32_t row = pl_body_row(world, body);
+    if (row == PL_NONE && world != NULL) {
+        pl_fail_handle(world, function, "body", body.entity, "a live body");
+    }
+    return row;
 }
 
 uint32_t pl_ask_shape(const plumb_world *world, const char *function, plumb_shape shape)
 {
-    uint32_t piece = PL_NONE;
-    return pl_check_shape(world, function, shape, &piece) == PLUMB_OK ? piece : PL_NONE;
+    uint32_t piece = pl_shape_piece(world, shape);
+    if (piece == PL_NONE && world != NULL) {
+        pl_fail_handle(world, function, "shape", shape.entity, "a live shape");
+    }
+    return piece;
 }
 
 plumb_result pl_check_shape(const plumb_world *world, const char *function, plumb_shape shape,
