@@ -166,20 +166,24 @@ WIDE_INLINE vf edge_distance(const vf r[4], const vf w[4])
 
 // Edges that lean less than this against the face lie on it: a hundredth of a radian and a little.
 #define FLAT_SLOPE ((near_real)0.02)
+#define MOST_CUT   ((near_real)1e-4) // [m]
 
 // Where the cores are apart and two corners face each other, no face separates them by their distance:
 // one point along the connection of the nearest corners replaces the clip. Lines end to end, which have
 // no face across their direction, are such a case at face separation 0. Edges that all but lie on the
 // face keep both points, or a body that overhangs would lose its second support at the least tilt (a
 // stack of overhanging capsules then walks); only the depth beside the corner is set right.
+// `cut` [m]: by so much the clip has raised the deeper end. Of an edge that is steep it may raise it out of reach, while
+// its corner is hardly beside the face.
 WIDE_PART void round_corners(touch *t, const lanes *l, const pl_narrow_input *in, const outline *a,
-                             const outline *b, const vf r[4], const vf w[4], vf face_separation,
+                             const outline *b, const vf r[4], const vf w[4], vf face_separation, vf cut,
                              vm lies_flat, vm low_is_nearer)
 {
     vf zero = splat(0);
     vm corner = (face_separation > splat((near_real)-1e-5)) &
-                (edge_distance(r, w) >
-                 vmax(face_separation, zero) * splat((near_real)1.000002) + splat((near_real)4e-6));
+                ((edge_distance(r, w) >
+                  vmax(face_separation, zero) * splat((near_real)1.000002) + splat((near_real)4e-6)) |
+                 ((cut > splat(MOST_CUT)) & ~lies_flat));
     if (!any(corner)) {
         return; // the result of a lane does not depend on the others: it would not be taken
     }
@@ -234,6 +238,7 @@ WIDE_PART void meet_outlines(touch *t, const lanes *l, const pl_narrow_input *in
     // No common stretch, or an edge that stands on its corner: the deepest corner alone.
     vm beside = (low > high) | ~flat;
     vm p_deeper = pu < qu;
+    vf cut = sel(beside, zero, sel(p_deeper, low_u - pu, high_u - qu));
     vf corner_v = sel(p_deeper, pv, qv);
     vf corner_u = sel(p_deeper, pu, qu);
     low = sel(beside, corner_v, low);
@@ -256,7 +261,7 @@ WIDE_PART void meet_outlines(touch *t, const lanes *l, const pl_narrow_input *in
     t->feature[0] = code;
     t->feature[1] = code | 1;
     vm lies_flat = ~beside & (vabs(slope) < splat(FLAT_SLOPE));
-    round_corners(t, l, in, a, b, r, w, sel(flip, fb.separation, fa.separation), lies_flat,
+    round_corners(t, l, in, a, b, r, w, sel(flip, fb.separation, fa.separation), cut, lies_flat,
                   p_deeper);
     *flip_out = flip;
     *face_out = face;
