@@ -62,10 +62,10 @@ typedef struct plumb_joint_desc {
     plumb_real pitch;   ///< [rad] ratchet: a tooth, not 0; negative: B turns clockwise only
     plumb_real max_force;   ///< [N] >= 0; mouse, motor: 0 is unbounded; friction: as given
     plumb_real max_torque;  ///< [N m] likewise
-    plumb_real break_force; ///< [N] >= 0 breaks where the reaction exceeds it; 0: never
+    plumb_real break_force; ///< [N] >= 0 breaks where the mean of the reaction over a step exceeds it; 0: never
     plumb_real break_torque; ///< [N m] likewise
-    plumb_real break_impulse; ///< [N s] likewise of the reaction summed over a step: blows too short for a force
-    plumb_real event_force;  ///< [N] >= 0 a strain event where the reaction exceeds it; 0: none
+    plumb_real break_impulse; ///< [N s] likewise of the reaction summed over a step, whatever its length
+    plumb_real event_force;  ///< [N] >= 0 a strain event where that mean exceeds it; 0: none
     plumb_real event_torque; ///< [N m] likewise
     bool disabled;           ///< it does nothing until plumb_joint_set_enabled
     bool collide_connected;  ///< the two bodies collide with one another; default: they do not
@@ -175,9 +175,9 @@ typedef struct plumb_joint_break {
     plumb_joint_kind kind;
     plumb_body body_a, body_b;
     plumb_vec2 point;  ///< [m] anchor on B
-    plumb_vec2 force;  ///< [N] that broke it
-    plumb_real torque; ///< [N m]
-    plumb_vec2 impulse; ///< [N s] on B over the step; {0} unless some joint breaks by impulse
+    plumb_vec2 force;  ///< [N] on B, mean over the step
+    plumb_real torque; ///< [N m] about B's anchor, likewise
+    plumb_vec2 impulse; ///< [N s] on B over the step
     void *user_data;
 } plumb_joint_break;
 

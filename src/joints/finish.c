@@ -2,8 +2,8 @@
 // break or are strained.
 //
 // The reaction is the sum of J^T impulse on B over the last substep; its torque about B's anchor is
-// what the arm does not explain. Reads: impulses, bodies. Writes: reactions, break events; removes
-// what broke. Cost: O(joints).
+// what the arm does not explain. What breaks or strains a joint is that of the whole step: its mean, or its sum.
+// Reads: impulses, bodies. Writes: reactions, break events; removes what broke. Cost: O(joints).
 #include "joints/joint.h"
 #include "plumb/math.h"
 #include "world/state.h"
@@ -82,60 +82,78 @@ static void rest(pl_joint *j)
     j->strained = 0;
 }
 
-// Joints that break by impulse are solved one by one.
 void pl_joints_tally(const pl_joint_course *c)
 {
+    pl_joints_tally_lanes(c);
     for (uint32_t i = c->group->alone; i < c->group->end; ++i) {
         pl_joint *j = pl_joint_grouped(&c->world->joints, i);
         pl_rows made;
         const momentum sum = push_on_b(j, whole_rows(c->world, j, &made));
         j->step_impulse = plumb_vec2_add(j->step_impulse, sum.linear);
+        j->step_turn += sum.angular - plumb_vec2_cross(j->arm_b, sum.linear);
     }
 }
 
-static bool overloaded(const pl_joint *j)
+// Reactions of which each is in the range of a real may have a sum that is not: then that of the last substep counts,
+// which is held within it.
+static void hold_sums(pl_joint *j, real dt)
 {
-    const plumb_joint_desc *d = &j->desc;
-    return (d->break_impulse > 0 && plumb_vec2_magnitude(j->step_impulse) > d->break_impulse) ||
-           (d->break_force > 0 && plumb_vec2_magnitude(j->force) > d->break_force) ||
-           (d->break_torque > 0 && plumb_abs(j->torque) > d->break_torque);
+    if (!plumb_vec2_is_finite(j->step_impulse) || !plumb_is_finite(j->step_turn)) {
+        j->step_impulse = plumb_vec2_scale(dt, j->force);
+        j->step_turn = dt * j->torque;
+    }
 }
 
-static bool is_strained(const pl_joint *j)
+// A bound of 0 is none.
+static bool exceeds(real value, real bound)
 {
-    const plumb_joint_desc *d = &j->desc;
-    return (d->event_force > 0 && plumb_vec2_magnitude(j->force) > d->event_force) ||
-           (d->event_torque > 0 && plumb_abs(j->torque) > d->event_torque);
+    return bound > 0 && value > bound;
 }
 
-static plumb_joint_break event_of(const plumb_world *world, const pl_joint *j)
+static bool overloaded(const pl_joint *j, real dt)
+{
+    const plumb_joint_desc *d = &j->desc;
+    const real impulse = plumb_vec2_magnitude(j->step_impulse);
+    return exceeds(impulse, d->break_impulse) || exceeds(impulse, d->break_force * dt) ||
+           exceeds(plumb_abs(j->step_turn), d->break_torque * dt);
+}
+
+static bool is_strained(const pl_joint *j, real dt)
+{
+    const plumb_joint_desc *d = &j->desc;
+    return exceeds(plumb_vec2_magnitude(j->step_impulse), d->event_force * dt) ||
+           exceeds(plumb_abs(j->step_turn), d->event_torque * dt);
+}
+
+static plumb_joint_break event_of(const plumb_world *world, const pl_joint *j, real dt)
 {
     return (plumb_joint_break){ .joint = j->entity,
                                 .kind = j->desc.kind,
                                 .body_a = j->a.body,
                                 .body_b = j->b.body,
                                 .point = plumb_joint_anchor_b(world, j->entity),
-                                .force = j->force,
-                                .torque = j->torque,
+                                .force = plumb_v2(pl_held((double)j->step_impulse.x / (double)dt),
+                                                  pl_held((double)j->step_impulse.y / (double)dt)),
+                                .torque = pl_held((double)j->step_turn / (double)dt),
                                 .impulse = j->step_impulse,
                                 .user_data = j->desc.user_data };
 }
 
 // Room for an event of every joint was made with the joint: of breaks from the front, of strain from the back.
-static void snap(plumb_world *world, const pl_joint *j)
+static void snap(plumb_world *world, const pl_joint *j, real dt)
 {
     plumb_joint_break *events = world->joints.broken.data;
-    events[world->joints.broken_count++] = event_of(world, j);
+    events[world->joints.broken_count++] = event_of(world, j, dt);
     pl_destroy_entity(world, j->entity.entity);
 }
 
-static void note_strain(plumb_world *world, pl_joint *j)
+static void note_strain(plumb_world *world, pl_joint *j, real dt)
 {
     pl_joints *joints = &world->joints;
-    const bool is = is_strained(j);
+    const bool is = is_strained(j, dt);
     if (is && j->strained == 0) {
         plumb_joint_strain *events = joints->broken.data;
-        events[--joints->strained_first] = event_of(world, j);
+        events[--joints->strained_first] = event_of(world, j, dt);
         ++joints->strained_count;
     }
     j->strained = is;
@@ -152,7 +170,7 @@ static void turn_round(pl_joints *joints)
     }
 }
 
-void pl_joints_finish(plumb_world *world)
+void pl_joints_finish(plumb_world *world, real dt)
 {
     world->joints.strained_first = world->joints.count;
     for (uint32_t i = 0; i < world->joints.awake_count; ++i) {
@@ -174,11 +192,13 @@ void pl_joints_finish(plumb_world *world)
             pl_joint_begin(world, j);
             kind->advance(j, &j->pose_a, &j->pose_b);
         }
-        if (overloaded(j)) {
-            snap(world, j);
+        hold_sums(j, dt);
+        if (overloaded(j, dt)) {
+            snap(world, j, dt);
         } else {
-            note_strain(world, j);
+            note_strain(world, j, dt);
             j->step_impulse = plumb_v2(0, 0);
+            j->step_turn = 0;
         }
     }
     turn_round(&world->joints);

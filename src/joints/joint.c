@@ -514,7 +514,7 @@ static plumb_joint insert(plumb_world *world, const plumb_joint_desc *d)
     }
     ++world->joints.live;
     pl_joint_disturb(world, j);
-    world->joints.impulsive += d->break_impulse > 0;
+    world->joints.watched += pl_joint_is_watched(d);
     revise_pairs(world, j);
     return j->entity;
 }
@@ -560,7 +560,7 @@ void pl_joint_remove(plumb_world *world, uint32_t slot)
     pl_joint_disturb(world, j);
     revise_pairs(world, j);
     pl_registry_release(&world->registry, j->entity.entity);
-    world->joints.impulsive -= j->desc.break_impulse > 0;
+    world->joints.watched -= pl_joint_is_watched(&j->desc);
     memset(j, 0, sizeof *j);
     j->a.next = world->joints.free_head;
     world->joints.free_head = slot;

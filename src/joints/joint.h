@@ -85,7 +85,8 @@ struct pl_joint {
     real turn[6];             // change of momentum owed because J has turned: see solve.c
     pl_rows rows;
     plumb_vec2 arm_b; // [m] from B's centre to its anchor, at the rows
-    plumb_vec2 step_impulse; // [N s] on B over the step, where it breaks by impulse
+    plumb_vec2 step_impulse; // [N s] on B over the step, where it is watched; 0 between steps
+    real step_turn;          // [N m s] likewise, about B's anchor
 };
 
 // A joint as the plan sees it, so that a step need not look at the joint itself.
@@ -138,7 +139,7 @@ typedef struct pl_joints {
     pl_buffer broken; // plumb_joint_break of the last step, room for every joint
     uint32_t count;   // slots ever used
     uint32_t live;
-    uint32_t impulsive; // those that break by impulse
+    uint32_t watched;   // pl_joint_is_watched
     uint32_t free_head; // PL_NONE: none
     int broken_count;
     uint32_t strained_first; // place in `broken` of the strain events: a joint makes one event a step at most
@@ -235,6 +236,7 @@ static inline bool pl_joint_is_watched(const plumb_joint_desc *d)
 // What the pattern of a joint depends on. Who changes it, or where a joint is on its bodies, or whether
 // it is watched, must call pl_joints_replan.
 uint32_t pl_joint_variant(const plumb_joint_desc *desc);
+#define PL_JOINT_WATCHED 0x1000u // bit of it
 
 // Warns of a motor that is on and may exert nothing.
 void pl_joint_warn_of_motor(const plumb_world *world, const char *fn, const plumb_joint_desc *d);
@@ -272,11 +274,12 @@ void pl_joints_solve(const pl_joint_course *course, pl_joint_sweep sweep, bool f
 void pl_joints_store(const pl_joint_course *course);
 // Moves bodies against the errors that are left (classic solver).
 void pl_joints_move(const pl_joint_course *course, real share);
-// Adds the substep's reactions to those of the step, where some joint breaks by impulse (finish.c).
+// Adds the substep's reactions to those of the step, where some joint is watched.
 void pl_joints_tally(const pl_joint_course *course);
+void pl_joints_tally_lanes(const pl_joint_course *course);
 // Takes out of the rows what lies along locked axes of their bodies: infinite mass (lock.c).
 void pl_joint_lock_rows(const plumb_world *world, pl_joint *joint);
 // Reactions; breaks what is loaded too much (finish.c).
-void pl_joints_finish(plumb_world *world);
+void pl_joints_finish(plumb_world *world, real dt);
 
 #endif

@@ -365,7 +365,6 @@ static void warm_start(const pl_joint_call *call)
     }
 }
 
-// The reaction is J^T impulse on B; its torque is told about B's anchor.
 // The reaction of one lane in double, and no more than a real holds: see react_beyond in finish.c.
 static void hold_reaction(const parts *at, int count, int i, const place *now, pl_joint *j)
 {
@@ -381,6 +380,41 @@ static void hold_reaction(const parts *at, int count, int i, const place *now, p
     j->torque = pl_held(turn - ((double)now->rb_x[i] * y - (double)now->rb_y[i] * x));
 }
 
+// J^T impulse on B; what turns is told about B's anchor. [N s], [N m s]
+WIDE_INLINE void react(const parts *at, const pl_joint_pattern *p, const pl_joint_call *call,
+                       place *now, vf sum[3])
+{
+    body a, b;
+    gather_body(&a, call, at->a);
+    gather_body(&b, call, at->b);
+    *now = place_now(at->c, &a, &b);
+    vf x = splat(0), y = splat(0), w = splat(0);
+    for (int i = 0; i < p->count; ++i) {
+        const row *r = &at->rows[i];
+        x += r->nx * r->impulse;
+        y += r->ny * r->impulse;
+        w += r->wb * r->impulse;
+    }
+    sum[0] = x, sum[1] = y;
+    sum[2] = w - (now->rb_x * y - now->rb_y * x);
+}
+
+static void tally(const pl_joint_call *call)
+{
+    for (uint32_t k = call->first; k < call->end; ++k) {
+        const pl_joint_pattern *p = &call->patterns[call->bundles[k].pattern];
+        if ((p->variant & PL_JOINT_WATCHED) != 0) {
+            parts at = open(call, k, p);
+            place now;
+            vf sum[3];
+            react(&at, p, call, &now, sum);
+            at.c->sum_x += sum[0];
+            at.c->sum_y += sum[1];
+            at.c->sum_w += sum[2];
+        }
+    }
+}
+
 static void store_all(const pl_joint_call *call)
 {
     const vf inv_h = splat((near_real)(1 / call->h));
@@ -393,20 +427,10 @@ static void store_all(const pl_joint_call *call)
                 __builtin_prefetch(&call->joints[lanes[PL_WIDTH + i].joint], 1);
             }
         }
-        body a, b;
-        gather_body(&a, call, at.a);
-        gather_body(&b, call, at.b);
-        const place now = place_now(at.c, &a, &b);
-        vf x = splat(0), y = splat(0), w = splat(0);
-        for (int i = 0; i < p->count; ++i) {
-            const row *r = &at.rows[i];
-            x += r->nx * r->impulse;
-            y += r->ny * r->impulse;
-            w += r->wb * r->impulse;
-        }
-        w = (w - (now.rb_x * y - now.rb_y * x)) * inv_h;
-        x *= inv_h;
-        y *= inv_h;
+        place now;
+        vf sum[3];
+        react(&at, p, call, &now, sum);
+        vf x = sum[0] * inv_h, y = sum[1] * inv_h, w = sum[2] * inv_h;
         const vf odd =
             (x - x) + (y - y) + (w - w); // 0, or no number where one of them is not finite
         for (int i = 0; i < PL_WIDTH; ++i) {
@@ -423,6 +447,10 @@ static void store_all(const pl_joint_call *call)
             if (odd[i] != 0) {
                 hold_reaction(&at, p->count, i, &now, j);
             }
+            if ((p->variant & PL_JOINT_WATCHED) != 0) {
+                j->step_impulse = plumb_v2(at.c->sum_x[i], at.c->sum_y[i]);
+                j->step_turn = at.c->sum_w[i];
+            }
         }
     }
 }
@@ -436,5 +464,6 @@ const pl_joint_kernels PL_WIDE_NAME(pl_joint_kernels) = {
     .pull = pull,
     .relax_first = relax_first,
     .relax = relax,
+    .tally = tally,
     .store = store_all,
 };

@@ -39,7 +39,9 @@ static void revise(plumb_world *world, pl_joint *joint, plumb_joint_desc wanted)
     if (pl_joint_variant(&joint->desc) != pl_joint_variant(&wanted)) {
         pl_joints_replan(&world->joints);
     }
+    world->joints.watched -= pl_joint_is_watched(&joint->desc);
     pl_joint_copy_desc(&joint->desc, &wanted);
+    world->joints.watched += pl_joint_is_watched(&joint->desc);
 }
 
 plumb_result plumb_joint_set_limit(plumb_world *world, plumb_joint joint, bool enabled,
@@ -171,10 +173,10 @@ plumb_result plumb_joint_set_break_impulse(plumb_world *world, plumb_joint joint
     r = r != PLUMB_OK ? r
                       : pl_check_range(world, __func__, "impulse", impulse, 0, PLUMB_REAL_MAX);
     if (r == PLUMB_OK) {
-        world->joints.impulsive +=
-            (impulse > 0 ? 1u : 0u) - (j->desc.break_impulse > 0 ? 1u : 0u);
-        j->desc.break_impulse = impulse;
-        pl_joints_replan(&world->joints);
+        plumb_joint_desc wanted = j->desc;
+        wanted.break_impulse = impulse;
+        revise(world, j, wanted);
+        pl_joints_replan(&world->joints); // perhaps it is solved by itself from now on
     }
     return r;
 }

@@ -50,6 +50,7 @@ typedef struct bundle {
     vf inverse[6];                     // of the block's K: 00, 01, 11, 02, 12, 22
     vf ra_x, ra_y, rb_x, rb_y;         // [m] arms at the start of the step
     vf apart_x, apart_y;               // [m] from A's centre to B's at the start of the step
+    vf sum_x, sum_y, sum_w;            // [N s], [N m s] as pl_joint.step_impulse, step_turn
 } bundle;
 
 typedef struct parts {

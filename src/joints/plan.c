@@ -65,7 +65,7 @@ uint32_t pl_joint_variant(const plumb_joint_desc *d)
 {
     return (uint32_t)d->kind | (d->enable_limit ? 0x100u : 0) | (d->enable_motor ? 0x200u : 0) |
            (d->hertz > 0 ? 0x400u : 0) | (d->max_force > 0 ? 0x800u : 0) |
-           (pl_joint_is_watched(d) ? 0x1000u : 0);
+           (pl_joint_is_watched(d) ? PL_JOINT_WATCHED : 0);
 }
 
 static uint32_t row_of(const plumb_world *world, plumb_body body, uint32_t before)

@@ -534,6 +534,11 @@ void pl_joints_solve(const pl_joint_course *c, pl_joint_sweep sweep, bool first)
     }
 }
 
+void pl_joints_tally_lanes(const pl_joint_course *c)
+{
+    each_bundle(c, pl_joint_kernels_of(c->world)->tally);
+}
+
 void pl_joints_store(const pl_joint_course *c)
 {
     each_bundle(c, pl_joint_kernels_of(c->world)->store);

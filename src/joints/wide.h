@@ -85,7 +85,8 @@ typedef struct pl_joint_kernels {
     // One sweep each. First of a substep: what J's turning owes is paid before pulling, rows are made
     // for the new poses before relaxing.
     pl_joint_kernel *pull_first, *pull, *relax_first, *relax;
-    pl_joint_kernel *store; // impulses and rows into the joints
+    pl_joint_kernel *tally; // adds the substep's reactions to those of the step, of what is watched
+    pl_joint_kernel *store; // impulses and reactions into the joints
 } pl_joint_kernels;
 
 extern const pl_joint_kernels pl_joint_kernels_w4;

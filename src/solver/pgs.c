@@ -297,7 +297,7 @@ void pl_solver_pgs(plumb_world *world, real dt)
             }
             sweep(&c, false);
         }
-        if (joints && world->joints.impulsive > 0) {
+        if (joints && world->joints.watched > 0) {
             pl_joints_tally(&course);
         }
         pl_integrate_positions(&world->solver, pl_clusters(&world->solver), world->tasks, c.h);

@@ -223,7 +223,7 @@ static void run_substep(const course *c, bool first)
         }
         sweep(c, kernels->relax[step->surface][step->rotation]);
     }
-    if (c->any_joints && world->joints.impulsive > 0) {
+    if (c->any_joints && world->joints.watched > 0) {
         pl_joints_tally(&c->joints);
     }
     if (step->tallies) {

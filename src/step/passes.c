@@ -407,8 +407,7 @@ static plumb_result run_edges(plumb_world *world, plumb_real dt)
 
 static plumb_result run_reactions(plumb_world *world, plumb_real dt)
 {
-    (void)dt;
-    pl_joints_finish(world);
+    pl_joints_finish(world, dt);
     return PLUMB_OK;
 }
 

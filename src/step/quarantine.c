@@ -30,6 +30,7 @@ typedef struct pl_kept_joint {
     plumb_vec2 force;
     real torque;
     plumb_vec2 step_impulse;
+    real step_turn;
 } pl_kept_joint;
 
 void pl_quarantine_free(pl_memory *memory, pl_quarantine *q)
@@ -151,6 +152,7 @@ static bool keep_joints(plumb_world *world)
         kept[i].force = j->force;
         kept[i].torque = j->torque;
         kept[i].step_impulse = j->step_impulse;
+        kept[i].step_turn = j->step_turn;
     }
     return true;
 }
@@ -209,6 +211,7 @@ static void undo_joints(plumb_world *world)
         j->force = kept[i].force;
         j->torque = kept[i].torque;
         j->step_impulse = kept[i].step_impulse;
+        j->step_turn = kept[i].step_turn;
     }
 }
 
