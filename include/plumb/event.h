@@ -8,10 +8,19 @@
 /// - the end of each contact that was touching, unless it slept: with the handles of before;
 /// - the end of each overlap with a sensor, or of a sensor, asleep or not: likewise;
 /// - nothing of joints: only what breaks by itself tells that it broke, its handle being stale by then.
-/// Sleep, wake, hit, begin and strain events and quarantines are of what was alive when they were told.
+/// Sleep, wake, begin and strain events and quarantines are of what was alive when they were told; so are hits, but
+/// for that of a blow which went on beyond the step that has its begin event.
+///
+/// Two shapes touch in a step when an impulse passed between them in any of its substeps, or their surfaces
+/// overlapped at its beginning. What touched goes on to touch while it is nearer than 1 mm: what lies against a wall
+/// without being pressed there neither ends nor begins. So an impact is told whatever the speed, restitution, solver
+/// and number of substeps, and once: a ball that bounces within a step begins in it, and ends in the next one that
+/// finds it away. Of one pair a step tells a begin or an end, not both; what parts and meets again between two
+/// steps in a row touches on.
 ///
 /// A body that lies on several flush tiles of one material touches each of them, and events tell so; what
-/// they bear together is told as impulses of one of those contacts, the others have none.
+/// they bear together is told as impulses of one of those contacts, the others have none. Which of the tiles are
+/// told follows from the ground as a whole: one beside which the body lies by a few centimetres may be among them.
 #ifndef PLUMB_EVENT_H
 #define PLUMB_EVENT_H
 
@@ -24,12 +33,15 @@ PLUMB_BEGIN
 typedef struct plumb_contact_begin {
     plumb_shape shape_a, shape_b;
     plumb_body body_a, body_b;
-    plumb_vec2 point;          ///< [m] world
+    plumb_vec2 point;          ///< [m] world: on the surface that no contact moves; of two dynamic bodies,
+                               ///< midway between them at the start of the step
     plumb_vec2 normal;         ///< unit, from A to B
-    plumb_real approach_speed; ///< [m/s] along the normal just before, >= 0
+    plumb_real approach_speed; ///< [m/s] along the normal just before, >= 0: at the moment where there is
+                               ///< restitution or hit_speed is set, else at the start of the step
 } plumb_contact_begin;
 
-/// Two shapes ceased to touch, or one of them was removed (its handle and perhaps that of its body are
+/// Two shapes ceased to touch: they were apart at the beginning of the step and nothing passed between them in it.
+/// Or one of them was removed (its handle and perhaps that of its body are
 /// then stale), disabled with its body, or is kept apart from now on. Contacts of bodies that sleep when one
 /// of the shapes goes end without an event.
 typedef struct plumb_contact_end {
@@ -43,14 +55,16 @@ PLUMB_API const plumb_contact_begin *plumb_world_begin_events(const plumb_world 
 PLUMB_API const plumb_contact_end *plumb_world_end_events(const plumb_world *world, int *count);
 
 /// Two shapes struck each other faster than plumb_world_desc.hit_speed, touching before or not; not told
-/// again while the blow lasts. One a pair of shapes, at their fastest point. Order as of begin events.
+/// again while the blow lasts. One a pair of shapes and step, at their fastest point. A blow of which the last
+/// substep of a step sees only the beginning is told a step after its begin event, as a whole. Order as of begin
+/// events.
 typedef struct plumb_contact_hit {
     plumb_shape shape_a, shape_b;
     plumb_body body_a, body_b;
-    plumb_vec2 point;          ///< [m] world, where they were at the start of the step
+    plumb_vec2 point;          ///< [m] world, as of plumb_contact_begin
     plumb_vec2 normal;         ///< unit, from A to B
-    plumb_real approach_speed; ///< [m/s] along the normal just before
-    plumb_real impulse;        ///< [N s] of the whole contact along the normal over the step
+    plumb_real approach_speed; ///< [m/s] along the normal just before the fastest blow of the step
+    plumb_real impulse;        ///< [N s] of the whole contact along the normal over the step, or the two
 } plumb_contact_hit;
 
 /// Hit events of the last step; *count is set. Null when there are none.

@@ -13,10 +13,12 @@
 #if PLUMB_REAL_IS_DOUBLE && !PLUMB_IS_FAR
 typedef double near_real;
 #define NEAR_EPSILON      DBL_EPSILON
+#define NEAR_MAX          DBL_MAX
 #define PL_NEAR_IS_DOUBLE 1
 #else
 typedef float near_real;
 #define NEAR_EPSILON      FLT_EPSILON
+#define NEAR_MAX          FLT_MAX
 #define PL_NEAR_IS_DOUBLE 0
 #endif
 

@@ -1,8 +1,8 @@
 // contact_events.c - who began and who ceased to touch in this step, and who struck whom.
 //
-// A pair touches when its surfaces met at the start of the step, when its contact carried an
-// impulse in the last substep, or when an impact was resolved. A hit is a contact that approached
-// faster than the world's hit speed and carried an impulse in the step.
+// A pair touches when its surfaces overlapped at the start of the step, or an impulse passed between them in
+// any substep or impact. It touches on while they are nearer than PL_TOUCH_HOLD, so that what lies against something
+// without being pressed there, or hops by less, neither ends nor begins. Hits: hit_events.c.
 //
 // Pairs of shapes of several pieces tell each event once: what happens to their pairs of pieces is
 // kept, sorted by shapes, and summed up at the end. They touch while any pair of pieces does, so a
@@ -19,10 +19,10 @@
 
 void pl_events_clear(plumb_world *world)
 {
-    world->begin_count = world->hit_count = 0;
+    world->begin_count = 0;
     // What was found to have ended by a step that was refused is still to be told.
     if (world->sleep.events_told) {
-        world->end_count = 0;
+        world->end_count = world->hit_count = 0;
         world->parts.count = world->parts.lost_count = 0;
     }
     world->sensing.begin_count = world->sensing.end_count = 0;
@@ -32,7 +32,7 @@ void pl_events_clear(plumb_world *world)
 bool pl_events_reserve_ends(plumb_world *world, uint32_t count)
 {
     size_t room = ((size_t)world->end_count + count) * sizeof(plumb_contact_end);
-    return pl_buffer_reserve(&world->memory, &world->end_events, room);
+    return pl_buffer_reserve(&world->memory, &world->end_events, room) && pl_hits_reserve(world, 0);
 }
 
 // So many contacts are worth a thread.
@@ -92,11 +92,12 @@ static void append_end(plumb_world *world, plumb_contact_end end)
 
 //---- shapes of several pieces --------------------------------------------------------------------
 
-#define PART_WAS  1u // the pair of pieces touched before
-#define PART_IS   2u // it touches now
-#define PART_HIT  4u // a hit is due
-#define PART_LOST 8u // it has left the list of pairs: its index is that of parts.lost
-#define PART_BITS 4
+#define PART_WAS  1u  // the pair of pieces touched before
+#define PART_IS   2u  // it touches now
+#define PART_HIT  4u  // a hit is due
+#define PART_LOST 8u  // it has left the list of pairs: its index is that of parts.lost
+#define PART_NEAR 16u // it would touch on if it had touched before
+#define PART_BITS 5
 
 bool pl_parts_reserve(plumb_world *world, uint32_t count)
 {
@@ -129,7 +130,7 @@ static void keep_part(plumb_world *world, plumb_shape shape_a, plumb_shape shape
         (pl_keyed){ pl_pair_key(a, b), order, index << PART_BITS | bits };
 }
 
-static const pl_pair *part_pair(const plumb_world *world, const pl_keyed *part)
+static pl_pair *part_pair(const plumb_world *world, const pl_keyed *part)
 {
     return pl_pairs(&world->broad.pairs) + (part->value >> PART_BITS);
 }
@@ -147,6 +148,7 @@ void pl_pair_lost(plumb_world *world, const pl_pair *pair)
     if ((pair->flags & PL_PAIR_TOUCHING) == 0) {
         return;
     }
+    pl_hit_lost(world, pair, end_of(world, pair, epoch));
     uint32_t flags = who(world, pair->a, epoch).flags | who(world, pair->b, epoch).flags;
     if ((flags & PL_PIECE_PART) != 0) {
         pl_parts *parts = &world->parts;
@@ -158,8 +160,7 @@ void pl_pair_lost(plumb_world *world, const pl_pair *pair)
     }
 }
 
-// Fastest approach of a manifold's points, from the velocities before the step. [m/s]
-static real approach_speed(const plumb_world *world, const pl_manifold *m)
+real pl_approach_speed(const plumb_world *world, const pl_manifold *m)
 {
     const pl_bodies *b = &world->bodies;
     real sa = 1, sb = 1; // what moves in slow motion strikes in slow motion
@@ -190,18 +191,8 @@ static void note_fresh(void *context, uint32_t first, uint32_t count)
     for (uint32_t k = first; k < first + count; ++k) {
         const uint32_t i = pairs[fresh[k]].manifold;
         if (i != PL_NONE) { // some have lost it since
-            m[i].approach = (near_real)approach_speed(world, &m[i]);
+            m[i].approach = (near_real)pl_approach_speed(world, &m[i]);
         }
-    }
-}
-
-// Of all, where hits are told.
-static void note_all(void *context, uint32_t first, uint32_t count)
-{
-    const plumb_world *world = context;
-    pl_manifold *m = pl_manifolds(&world->narrow);
-    for (uint32_t i = first; i < first + count; ++i) {
-        m[i].approach = (near_real)approach_speed(world, &m[i]);
     }
 }
 
@@ -216,15 +207,10 @@ bool pl_events_prepare(plumb_world *world)
         !pl_parts_reserve(world, world->broad.pairs.count)) {
         return false;
     }
-    if (world->desc.hit_speed > 0 &&
-        (!pl_buffer_reserve(&world->memory, &world->hit_events,
-                            begins * sizeof(plumb_contact_hit)) ||
-         !pl_buffer_reserve(&world->memory, &world->blows.old, begins * sizeof(pl_blow)))) {
+    if (world->desc.hit_speed > 0 && !pl_hits_reserve(world, begins)) {
         return false;
     }
-    const bool hits = world->desc.hit_speed > 0;
-    pl_tasks_ranges(world->tasks, hits ? begins : world->narrow.fresh_count, SHARED,
-                    hits ? note_all : note_fresh, world);
+    pl_tasks_ranges(world->tasks, world->narrow.fresh_count, SHARED, note_fresh, world);
     return true;
 }
 
@@ -240,9 +226,8 @@ static bool holds(const pl_pair *pair, const pl_manifold *m)
 
 static bool touches(const plumb_world *world, const pl_pair *pair, const pl_manifold *m)
 {
-    return (pair->flags & PL_PAIR_HIT) != 0 || pair->normal[0] != 0 || pair->normal[1] != 0 ||
-           m->point[0].separation <= 0 || m->point[1].separation <= 0 ||
-           (m->adhesion > 0 && holds(pair, m)) ||
+    const near_real near = (pair->flags & PL_PAIR_TOUCHING) != 0 ? PL_TOUCH_HOLD : 0;
+    return pl_is_near(m, near) || pl_has_met(pair, m) || (m->adhesion > 0 && holds(pair, m)) ||
            ((pair->flags & PL_PAIR_BORNE) != 0 && pl_seams_borne_touches(world, m));
 }
 
@@ -255,110 +240,15 @@ static void append_begin(plumb_world *world, const pl_pair *pair)
 {
     const pl_bodies *b = &world->bodies;
     const pl_manifold *m = manifold_of(world, pair);
-    const pl_manifold_point *p = &m->point[0];
+    const uint32_t nearest = m->point[1].separation < m->point[0].separation ? 1 : 0;
     ((plumb_contact_begin *)world->begin_events.data)[world->begin_count++] =
         (plumb_contact_begin){ .shape_a = world->pieces.shape[pair->a],
                                .shape_b = world->pieces.shape[pair->b],
                                .body_a = b->entity[m->body_a],
                                .body_b = b->entity[m->body_b],
-                               .point = { b->center_x[m->body_a] + p->ax,
-                                          b->center_y[m->body_a] + p->ay },
+                               .point = pl_contact_place(world, m, nearest),
                                .normal = { m->nx, m->ny },
                                .approach_speed = m->approach };
-}
-
-static real impulse_of(const pl_manifold *m)
-{
-    return m->point[0].total + m->point[1].total;
-}
-
-// The bodies have moved meanwhile: where they were is what the solver counts from.
-static plumb_vec2 place_of_hit(const plumb_world *world, const pl_manifold *m)
-{
-    const pl_manifold_point *p = &m->point[m->point[1].total > m->point[0].total ? 1 : 0];
-    plumb_vec2 at = { world->bodies.center_x[m->body_a] + p->ax,
-                      world->bodies.center_y[m->body_a] + p->ay };
-    uint32_t movable = world->dynamic_count + world->kinematic_count;
-    if (m->body_a < movable) {
-        uint32_t slot = pl_solver_slot(&world->solver, m->body_a, movable);
-        at.x -= pl_solver_bodies(&world->solver)[slot].dx;
-        at.y -= pl_solver_bodies(&world->solver)[slot].dy;
-    }
-    return at;
-}
-
-static void append_hit(plumb_world *world, const pl_pair *pair, real impulse)
-{
-    const pl_manifold *m = manifold_of(world, pair);
-    ((plumb_contact_hit *)world->hit_events.data)[world->hit_count++] =
-        (plumb_contact_hit){ .shape_a = world->pieces.shape[pair->a],
-                             .shape_b = world->pieces.shape[pair->b],
-                             .body_a = world->bodies.entity[m->body_a],
-                             .body_b = world->bodies.entity[m->body_b],
-                             .point = place_of_hit(world, m),
-                             .normal = { m->nx, m->ny },
-                             .approach_speed = m->approach,
-                             .impulse = impulse };
-}
-
-#define STILL_CLOSING                                                                              \
-    ((real)0.01) // [-] share of the approach that is left of a contact not yet made
-
-void pl_blows_free(pl_memory *memory, pl_blows *blows)
-{
-    pl_buffer_free(memory, &blows->items);
-    pl_buffer_free(memory, &blows->old);
-}
-
-// What the step before kept of a pair. Both lists are in order of pairs: it is mostly the next one.
-static const pl_blow *find_blow(pl_blows *blows, const pl_pair *pair)
-{
-    const pl_blow *old = blows->old.data;
-    for (uint32_t tries = 0; tries < blows->old_count; ++tries) {
-        blows->next = blows->next < blows->old_count ? blows->next : 0;
-        const pl_blow *blow = &old[blows->next++];
-        if (blow->a == pair->a && blow->b == pair->b) {
-            return blow;
-        }
-    }
-    return NULL;
-}
-
-static void begin_blows(pl_blows *blows)
-{
-    pl_buffer items = blows->items;
-    blows->items = blows->old;
-    blows->old = items;
-    blows->old_count = blows->count;
-    blows->count = blows->next = 0;
-}
-
-// Whether a touching pair's hit is to be told, with the manifold's `approach` and `blow`.
-static bool hit_is_due(plumb_world *world, pl_pair *pair)
-{
-    pl_manifold *m = &pl_manifolds(&world->narrow)[pair->manifold];
-    const pl_blow *pending =
-        (pair->flags & PL_PAIR_PENDING) != 0 ? find_blow(&world->blows, pair) : NULL;
-    bool struck = (pair->flags & PL_PAIR_STRUCK) != 0;
-    m->blow = (near_real)impulse_of(m);
-    bool strikes = m->approach > world->desc.hit_speed && m->blow > 0;
-    pair->flags &= ~(PL_PAIR_STRUCK | PL_PAIR_PENDING);
-    pair->flags |= strikes ? PL_PAIR_STRUCK : 0;
-    if (pending != NULL) {
-        m->approach = pending->approach > m->approach ? pending->approach : m->approach;
-        m->blow += pending->impulse;
-        return true;
-    }
-    if (!strikes || struck) {
-        return false;
-    }
-    if (approach_speed(world, m) > STILL_CLOSING * m->approach) {
-        pair->flags |= PL_PAIR_PENDING;
-        ((pl_blow *)world->blows.items.data)[world->blows.count++] =
-            (pl_blow){ pair->a, pair->b, m->approach, m->blow };
-        return false;
-    }
-    return true;
 }
 
 static bool is_gone(const plumb_world *world, const plumb_contact_end *end)
@@ -392,11 +282,13 @@ static void publish_group(plumb_world *world, const pl_keyed *first, const pl_ke
     bool was = lost != NULL;
     real impulse = 0, fastest = -1, fastest_hit = -1;
     const pl_pair *touching = NULL, *struck = NULL, *parted = NULL;
+    pl_pair *near = NULL;
     for (const pl_keyed *part = first; part < last; ++part) {
         if ((part->value & PART_LOST) != 0) {
             continue;
         }
-        const pl_pair *pair = part_pair(world, part);
+        pl_pair *pair = part_pair(world, part);
+        near = (part->value & PART_NEAR) != 0 ? pair : near;
         if ((part->value & PART_WAS) != 0) {
             was = true;
             parted = pair;
@@ -414,11 +306,13 @@ static void publish_group(plumb_world *world, const pl_keyed *first, const pl_ke
     }
     if (!was && touching != NULL) {
         append_begin(world, touching);
+    } else if (was && touching == NULL && near != NULL) {
+        near->flags |= PL_PAIR_TOUCHING; // the next piece has the contact now
     } else if (was && touching == NULL) {
         append_end(world, lost != NULL ? *lost : end_of(world, parted, 0));
     }
     if (struck != NULL) {
-        append_hit(world, struck, impulse);
+        pl_hit_append(world, struck, impulse);
     }
 }
 
@@ -444,15 +338,20 @@ static void publish_parts(plumb_world *world)
 static void publish_pair(plumb_world *world, pl_pair *pair, uint32_t index, bool was, bool is,
                          bool refresh)
 {
-    bool hit = is && !refresh && world->desc.hit_speed > 0 && hit_is_due(world, pair);
-    pair->flags &= is || refresh ? ~0u : ~(PL_PAIR_STRUCK | PL_PAIR_PENDING);
-    if (!is && !was) {
+    const bool part = is_part(world, pair);
+    const bool near =
+        part && !is &&
+        (pair->manifold == PL_NONE ? (pair->flags & PL_PAIR_COVERED) != 0
+                                   : pl_is_near(manifold_of(world, pair), PL_TOUCH_HOLD));
+    if (!is && !was && !near) {
         return;
     }
-    if (is_part(world, pair)) {
+    bool hit = (is || was) && !refresh && pl_hit_is_due(world, pair, is);
+    if (part) {
         const plumb_shape *shape = world->pieces.shape;
         keep_part(world, shape[pair->a], shape[pair->b], index,
-                  (was ? PART_WAS : 0) | (is ? PART_IS : 0) | (hit ? PART_HIT : 0));
+                  (was ? PART_WAS : 0) | (is ? PART_IS : 0) | (hit ? PART_HIT : 0) |
+                      (near ? PART_NEAR : 0));
         return;
     }
     if (is && !was) {
@@ -461,7 +360,7 @@ static void publish_pair(plumb_world *world, pl_pair *pair, uint32_t index, bool
         append_end(world, end_of(world, pair, 0));
     }
     if (hit) {
-        append_hit(world, pair, manifold_of(world, pair)->blow);
+        pl_hit_append(world, pair, manifold_of(world, pair)->blow);
     }
 }
 
@@ -469,14 +368,14 @@ static void publish_all(plumb_world *world, bool refresh)
 {
     pl_pair *pairs = pl_pairs(&world->broad.pairs);
     if (!refresh) {
-        begin_blows(&world->blows);
+        pl_hits_begin(world);
     }
     for (uint32_t i = 0; i < world->broad.pairs.count; ++i) {
         pl_pair *pair = &pairs[i];
         bool was = (pair->flags & PL_PAIR_TOUCHING) != 0;
         bool is = pair->manifold != PL_NONE && touches(world, pair, manifold_of(world, pair));
         publish_pair(world, pair, i, was, is, refresh);
-        pair->flags ^= is != was ? PL_PAIR_TOUCHING : 0;
+        pair->flags = (pair->flags & ~PL_PAIR_COVERED) ^ (is != was ? PL_PAIR_TOUCHING : 0);
     }
     publish_parts(world);
 }

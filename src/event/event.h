@@ -2,7 +2,7 @@
 #ifndef PL_EVENT_H
 #define PL_EVENT_H
 
-#include "broad/pair.h"
+#include "narrow/manifold.h"
 #include "plumb/event.h"
 
 // Touches of pairs of which a piece is only a part of its shape: told once a pair of shapes.
@@ -11,15 +11,17 @@ typedef struct pl_parts {
     uint32_t count;
     pl_buffer lost; // plumb_contact_end: who they were, of pairs that have left the list
     uint32_t lost_count;
-    bool buried;     // a piece that was a part went since the pair list was made
+    bool buried; // a piece that was a part went since the pair list was made
 } pl_parts;
 
-// A contact that is made in the last substep of a step is only slowed down there, to meet in the
+// A contact that is made in the last substep of a step may only be slowed down there, to meet in the
 // next one: such a blow is told a step later, as a whole.
 typedef struct pl_blow {
     uint32_t a, b;      // pieces of the pair
     near_real approach; // [m/s]
     near_real impulse;  // [N s]
+    near_real nx, ny;   // unit, from A to B
+    plumb_vec2 at;      // [m]
 } pl_blow;
 
 // Hits that began in a step and will be through in the next one.
@@ -74,6 +76,22 @@ void pl_grave_dig(plumb_world *world, uint32_t piece);
 bool pl_events_prepare(plumb_world *world);
 // After the solver: begin, end and hit events. A step that only refreshes makes no hits, and ends none.
 void pl_events_publish(plumb_world *world, bool refresh);
+
+// [m/s] at which the points of a manifold approach each other, the fastest; by velocities as they are now.
+real pl_approach_speed(const plumb_world *world, const pl_manifold *m);
+// Where point j of a manifold meets: on the surface that no contact moves, or midway between the two as they were
+// at the start of the step. [m]
+plumb_vec2 pl_contact_place(const plumb_world *world, const pl_manifold *m, uint32_t j);
+
+// Hits (hit_events.c). Room for `count` more, and for the blows that lasted beyond the step before.
+bool pl_hits_reserve(plumb_world *world, uint32_t count);
+// Before the pairs of a step are gone through, in their order.
+void pl_hits_begin(plumb_world *world);
+// Whether the hit of a pair that touches, or did, is to be told, with the manifold's `approach` and `blow`.
+bool pl_hit_is_due(plumb_world *world, pl_pair *pair, bool touches);
+void pl_hit_append(plumb_world *world, const pl_pair *pair, real impulse);
+// A pair left the list: tells the blow that lasted. Room must be reserved.
+void pl_hit_lost(plumb_world *world, const pl_pair *pair, plumb_contact_end who);
 
 // Room for `count` more pairs of pieces that are parts; nothing where there are none.
 bool pl_parts_reserve(plumb_world *world, uint32_t count);

@@ -216,6 +216,7 @@ static inline bool emit_lane(pl_pair *pair, pl_manifold *m, const near_real *row
         pair->normal[k] = pair->tangent[k] = 0;
     }
     m->count = count;
+    m->disabled = m->met = 0;
     m->before = old.manifold;
     m->body_a = pair->body_a;
     m->body_b = pair->body_b;

@@ -21,7 +21,7 @@ typedef struct pl_manifold {
     near_real nx, ny;        // unit, from A to B
     near_real friction;      // [-]
     near_real restitution;   // [-]
-    near_real approach;      // [m/s] at the start of the step, for events; 0 for pairs that touched
+    near_real approach;      // [m/s] for events: see pl_manifold_strike; 0 for pairs that touched
     near_real surface_speed; // [m/s] added to the slip: see surface.c
     near_real rolling;       // [m] lever arm of rolling resistance
     union {
@@ -33,7 +33,8 @@ typedef struct pl_manifold {
     uint32_t pair;              // index in the pair list
     uint32_t count;             // points, 1 or 2
     uint32_t feature[2];
-    uint32_t disabled; // by a system; only while the contact systems run
+    uint16_t disabled; // by a system; only while the contact systems run
+    uint16_t met;      // PL_MET_...: what events want to know
     union {
         uint32_t bearer; // of manifolds behind manifold_count: pair that bears the load of this one
         uint32_t
@@ -41,6 +42,37 @@ typedef struct pl_manifold {
         uint32_t ahead; // of those whose pair is PL_PAIR_AHEAD: the record
     };
 } pl_manifold;
+
+#define PL_MET_ACTED    1u // it pushed in some substep, though not in the last one
+#define PL_MET_MEASURED 2u // `approach` is the fastest at which a point of it was struck in this step
+#define PL_MET_ASIDE    4u // it is deep along a face of the ground, but the pieces are clear of one another
+
+// [m] what touched goes on to touch while it is nearer than this.
+#define PL_TOUCH_HOLD ((near_real)1e-3)
+
+// Whether the surfaces of a manifold met, or are nearer than `reach` [m], at the start of the step.
+static inline bool pl_is_near(const pl_manifold *m, near_real reach)
+{
+    return (m->point[0].separation <= reach || m->point[1].separation <= reach) &&
+           (m->met & PL_MET_ASIDE) == 0;
+}
+
+// A point was struck at this speed [m/s]. Before, `approach` is what velocities at the start of the step make of
+// it, of pairs that did not touch.
+static inline void pl_manifold_strike(pl_manifold *m, near_real speed)
+{
+    if ((m->met & PL_MET_MEASURED) == 0 || speed > m->approach) {
+        m->approach = speed;
+        m->met |= PL_MET_MEASURED;
+    }
+}
+
+// Whether an impulse passed between the surfaces in this step, of the solver or of an impact.
+static inline bool pl_has_met(const pl_pair *pair, const pl_manifold *m)
+{
+    return (pair->flags & PL_PAIR_HIT) != 0 || pair->normal[0] != 0 || pair->normal[1] != 0 ||
+           (m->met & PL_MET_ACTED) != 0;
+}
 
 // [m] within which surfaces that stick pull: those that touched in the step before hold while they are
 // pulled out of touch; others do not draw one another near.

@@ -186,7 +186,7 @@ static void play_contacts(plumb_replay *replay, const char *from, size_t bytes)
         m->rolling = (near_real)note.rolling;
         m->adhesion = (near_real)note.adhesion;
         m->surface_speed = (near_real)note.surface_speed;
-        m->disabled = note.disabled;
+        m->disabled = note.disabled != 0;
     }
 }
 

@@ -72,6 +72,12 @@ static void carry_over(const pl_seam_pair *old, pl_pair *pair, pl_manifold *m)
     }
 }
 
+static near_real nearest(const pl_manifold *m)
+{
+    const near_real s0 = m->point[0].separation, s1 = m->point[1].separation;
+    return s0 < s1 ? s0 : s1;
+}
+
 // Closes the gaps that were left: manifolds without points go, those that another bears the load of
 // stand behind the rest, where the solver does not look.
 static void close_gaps(plumb_world *world)
@@ -128,6 +134,7 @@ bool pl_seams_correct(plumb_world *world, real dt)
     pl_seams *s = &world->seams;
     pl_pair *pairs = pl_pairs(&world->broad.pairs);
     const pl_seam_pair *list = s->pairs.data;
+    const bool parts = world->part_pieces > 0;
     bool changed = false;
     uint32_t contacts = 0;
     const uint32_t *bits = world->pieces.seam_corners;
@@ -140,12 +147,13 @@ bool pl_seams_correct(plumb_world *world, real dt)
     }
     for (uint32_t i = 0; i < s->pair_count; ++i) {
         pl_pair *pair = &pairs[list[i].pair];
-        pair->flags &= ~PL_PAIR_BORNE;
+        pair->flags &= ~(PL_PAIR_BORNE | PL_PAIR_COVERED);
         if (pair->manifold == PL_NONE) {
             continue;
         }
         pl_manifold *m = &pl_manifolds(&world->narrow)[pair->manifold];
         pl_view views[2];
+        const near_real gap = nearest(m);
         verdict v = judge(world, pair, m, (double)dt, views);
         if (v == SET_RIGHT && (pair->flags & PL_PAIR_AHEAD) == 0) {
             pl_ahead_hold_back(world, pair, dt, m);
@@ -153,9 +161,11 @@ bool pl_seams_correct(plumb_world *world, real dt)
         if (v == FALSE_CONTACT) {
             m->count = 0;
             pair->manifold = PL_NONE;
+            pair->flags |= gap <= PL_TOUCH_HOLD && parts ? PL_PAIR_COVERED : 0;
             pl_pair_forget(pair);
         } else {
             carry_over(&list[i], pair, m);
+            m->met |= gap > PL_TOUCH_HOLD && nearest(m) <= PL_TOUCH_HOLD ? PL_MET_ASIDE : 0;
         }
         if (v != FALSE_CONTACT && (pair->flags & PL_PAIR_AHEAD) == 0) {
             pl_runs_add(world, i, views);

@@ -425,7 +425,13 @@ void pl_seams_remember(plumb_world *world)
 
 bool pl_seams_borne_touches(const plumb_world *world, const pl_manifold *m)
 {
-    const pl_pair *bearer = &pl_pairs(&world->broad.pairs)[m->bearer];
-    real depth = plumb_min(m->point[0].separation, m->point[1].separation);
-    return (bearer->normal[0] > 0 || bearer->normal[1] > 0) && depth <= (real)PL_SEAM_SLOP;
+    const pl_pair *pair = &pl_pairs(&world->broad.pairs)[m->bearer];
+    if (pair->manifold == PL_NONE) {
+        return false;
+    }
+    const pl_manifold *bearer = &pl_manifolds(&world->narrow)[pair->manifold];
+    real gap = plumb_min(bearer->point[0].separation, bearer->point[1].separation);
+    real own = plumb_min(m->point[0].separation, m->point[1].separation);
+    return pl_has_met(pair, bearer) && (m->met & PL_MET_ASIDE) == 0 &&
+           own - plumb_max(gap, 0) <= (real)PL_SEAM_SLOP;
 }

@@ -179,7 +179,8 @@ void pl_island_keep(plumb_world *world, uint32_t island, const pl_pair *pair,
     if (manifold != NULL) {
         pl_manifold *m = steps ? &c->manifold : &c->last;
         *m = *manifold;
-        m->disabled = m->bearer = 0;  // of the step, and not always written
+        m->disabled = m->met = 0;
+        m->bearer = 0;                // of the step, and not always written
         for (int k = 0; k < 2; ++k) { // at rest, all substeps are alike
             m->point[k].total = pair->normal[k] * (near_real)world->desc.substeps;
         }

@@ -21,6 +21,7 @@ typedef struct bundle {
     vf friction;
     vf bias_rate; // [1/s] softness: the push for each metre of overlap
     vf k01;       // [1/kg] what an impulse at one point does to the other
+    vf pushed;    // [N s] most of a point after any substep so far
     point p[2];
 } bundle;
 

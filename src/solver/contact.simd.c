@@ -29,6 +29,7 @@ typedef struct extra {
     vf mr;            // [kg m^2] effective inertia
     vf lr;            // [N m s]
     vf total[2];      // [N s] normal impulses of the substeps so far
+    vf struck;        // [m/s] fastest at which a point was struck in this step
 } extra;
 
 // What only locked axes, bodies whose time stands still and surfaces that stick need. A body locked along an axis has infinite mass
@@ -152,6 +153,7 @@ static void prepare(const pl_contact_call *call, uint32_t first, uint32_t count)
         gather_body(&b, call, c->b);
         vf r[8];
         gather4(r, row[0], 0);
+        c->pushed = splat(0);
         c->nx = r[0], c->ny = r[1], c->friction = r[2];
         vm fixed = (a.inv_mass == splat(0)) | (b.inv_mass == splat(0));
         c->bias_rate = sel(fixed, ground.bias_rate, pair.bias_rate);
@@ -341,9 +343,11 @@ WIDE_INLINE special special_now(const special *s, const bundle *c, const body *a
     return now;
 }
 
-// The speed that point p lacks to be where it should be, and its diagonal with the spring's give.
+// The speed that point p lacks to be where it should be, its diagonal with the spring's give, and the speed that
+// it has.
 WIDE_INLINE vf shortfall(const bundle *c, const point *p, const body *a, const body *b,
-                         const pl_contact_call *call, bool soft, bool rotation, vf *diagonal)
+                         const pl_contact_call *call, bool soft, bool rotation, vf *diagonal,
+                         vf *speed)
 {
     vf zero = splat(0);
     vf s = p->separation + c->nx * (b->dx - a->dx) + c->ny * (b->dy - a->dy);
@@ -353,6 +357,7 @@ WIDE_INLINE vf shortfall(const bundle *c, const point *p, const body *a, const b
         vn += p->rbn * b->w - p->ran * a->w;
     }
     vm apart = s > zero;
+    *speed = vn;
     *diagonal = p->kn;
     if (soft) {
         *diagonal += sel(apart, zero, p->give);
@@ -362,13 +367,22 @@ WIDE_INLINE vf shortfall(const bundle *c, const point *p, const body *a, const b
     return vn + sel(apart, s * splat(call->inv_h), zero);
 }
 
-WIDE_INLINE void solve_normals(const bundle *c, const special *s, point p[2], body *a, body *b,
-                               const pl_contact_call *call, bool soft, bool rotation)
+// A point that bore nothing and pushes now has been struck, at the speed v [m/s] that it had; so has, in the first
+// sweep of a step, one that bears more than in the step before.
+WIDE_INLINE void note_strike(extra *e, const pl_contact_call *call, vf load, vf impulse, vf v)
+{
+    vm struck = (load <= splat(call->unloaded)) & (impulse > splat(0));
+    e->struck = vmax(e->struck, sel(struck, -v, splat(0)));
+}
+
+// `e` not null: notes who is struck.
+WIDE_INLINE void solve_normals(const bundle *c, const special *s, extra *e, point p[2], body *a,
+                               body *b, const pl_contact_call *call, bool soft, bool rotation)
 {
     vf zero = splat(0), one = splat(1);
-    vf d0, d1;
-    vf lack0 = shortfall(c, &p[0], a, b, call, soft, rotation, &d0);
-    vf lack1 = shortfall(c, &p[1], a, b, call, soft, rotation, &d1);
+    vf d0, d1, v0, v1;
+    vf lack0 = shortfall(c, &p[0], a, b, call, soft, rotation, &d0, &v0);
+    vf lack1 = shortfall(c, &p[1], a, b, call, soft, rotation, &d1, &v1);
     vf k01 = c->k01;
     vf old0 = p[0].ln, old1 = p[1].ln;
     if (s != NULL) {
@@ -394,6 +408,10 @@ WIDE_INLINE void solve_normals(const bundle *c, const special *s, point p[2], bo
     }
     vf impulse0 = total0 - old0;
     vf impulse1 = total1 - old1;
+    if (e != NULL) {
+        note_strike(e, call, p[0].ln, impulse0, v0);
+        note_strike(e, call, p[1].ln, impulse1, v1);
+    }
     p[0].ln = s != NULL ? (vf)(total0 - s->pull[0]) : total0;
     p[1].ln = s != NULL ? (vf)(total1 - s->pull[1]) : total1;
     vf px = c->nx * (impulse0 + impulse1);
@@ -436,7 +454,7 @@ WIDE_INLINE void solve_tangent(const bundle *c, const special *s, const extra *e
 }
 
 WIDE_INLINE void sweep(const pl_contact_call *call, uint32_t first, uint32_t count, bool soft,
-                       bool friction, bool rotation, bool running, bool special_ones)
+                       bool friction, bool rotation, bool running, bool special_ones, bool telling)
 {
     bundle *bundles = call->bundles;
     extra *extras = call->extras;
@@ -451,7 +469,10 @@ WIDE_INLINE void sweep(const pl_contact_call *call, uint32_t first, uint32_t cou
             now = special_now(&specials[k], c, &a, &b);
         }
         const special *s = special_ones ? &now : NULL;
-        solve_normals(c, s, c->p, &a, &b, call, soft, rotation);
+        solve_normals(c, s, telling ? &extras[k] : NULL, c->p, &a, &b, call, soft, rotation);
+        if (!soft) {
+            c->pushed = vmax(c->pushed, vmax(c->p[0].ln, c->p[1].ln));
+        }
         if (friction) {
             extra *e = running ? &extras[k] : NULL;
             if (running && rotation) {
@@ -465,11 +486,24 @@ WIDE_INLINE void sweep(const pl_contact_call *call, uint32_t first, uint32_t cou
     }
 }
 
+// Events have to know of what pushed in an earlier substep alone; the others are told by their impulses.
+WIDE_INLINE void note_early(const pl_contact_call *call, const bundle *c, const uint32_t *lanes)
+{
+    const vf zero = splat(0);
+    vm early = (c->pushed > zero) & (c->p[0].ln <= zero) & (c->p[1].ln <= zero);
+    for (int i = 0; i < PL_WIDTH && any(early); ++i) {
+        if (early[i] && lanes[i] != PL_NONE) {
+            call->manifolds[lanes[i]].met |= PL_MET_ACTED;
+        }
+    }
+}
+
 static void store_impulses(const pl_contact_call *call, uint32_t first, uint32_t count)
 {
     const bundle *bundles = call->bundles;
     for (uint32_t k = first; k < first + count; ++k) {
         const bundle *c = &bundles[k];
+        note_early(call, c, &call->lanes[(size_t)k * PL_WIDTH]);
         for (int i = 0; i < PL_WIDTH && k + 1 < first + count; ++i) {
             uint32_t at = call->lanes[(size_t)(k + 1) * PL_WIDTH + (size_t)i];
             if (at != PL_NONE) {
@@ -510,42 +544,58 @@ static void store_extras(const pl_contact_call *call, uint32_t first, uint32_t c
                 call->pairs[m->pair].rolling = extras[k].lr[i];
                 m->point[0].total += extras[k].total[0][i];
                 m->point[1].total += extras[k].total[1][i];
+                if (extras[k].struck[i] > 0) {
+                    pl_manifold_strike(m, extras[k].struck[i]);
+                }
             }
         }
     }
 }
 
-// The variants: friction F, rotation R, running surfaces S, locked axes and adhesion X. Names that are
+// The variants: friction F, rotation R, running surfaces S, locked axes and adhesion X, hits told T. Names that are
 // put together carry the width (tools/amalgamate cannot see them).
-#define DEFINE_VARIANT(F, R, S, X)                                                                 \
+#define DEFINE_SWEEPS(F, R, S, X, T)                                                               \
+    static void PL_WIDE_NAME(solve_##F##R##S##X##T)(const pl_contact_call *call, uint32_t first,   \
+                                                    uint32_t count)                                \
+    {                                                                                              \
+        sweep(call, first, count, true, F, R, S, X, T);                                            \
+    }                                                                                              \
+    static void PL_WIDE_NAME(relax_##F##R##S##X##T)(const pl_contact_call *call, uint32_t first,   \
+                                                    uint32_t count)                                \
+    {                                                                                              \
+        sweep(call, first, count, false, F, R, S, X, T);                                           \
+    }
+
+#define DEFINE_WARM_START(F, R, S, X)                                                              \
     static void PL_WIDE_NAME(warm_start_##F##R##S##X)(const pl_contact_call *call, uint32_t first, \
                                                       uint32_t count)                              \
     {                                                                                              \
         warm_start_all(call, first, count, F, R, S, X);                                            \
-    }                                                                                              \
-    static void PL_WIDE_NAME(solve_##F##R##S##X)(const pl_contact_call *call, uint32_t first,      \
-                                                 uint32_t count)                                   \
-    {                                                                                              \
-        sweep(call, first, count, true, F, R, S, X);                                               \
-    }                                                                                              \
-    static void PL_WIDE_NAME(relax_##F##R##S##X)(const pl_contact_call *call, uint32_t first,      \
-                                                 uint32_t count)                                   \
-    {                                                                                              \
-        sweep(call, first, count, false, F, R, S, X);                                              \
     }
 
-DEFINE_VARIANT(0, 0, 0, 0)
-DEFINE_VARIANT(0, 1, 0, 0)
-DEFINE_VARIANT(1, 0, 0, 0)
-DEFINE_VARIANT(1, 1, 0, 0)
-DEFINE_VARIANT(1, 0, 1, 0)
-DEFINE_VARIANT(1, 1, 1, 0)
-DEFINE_VARIANT(1, 1, 1, 1)
-
 // clang-format off
-#define VARIANTS(name)                                                                             \
-    { { PL_WIDE_NAME(name##_0000), PL_WIDE_NAME(name##_0100) }, { PL_WIDE_NAME(name##_1000), PL_WIDE_NAME(name##_1100) }, { PL_WIDE_NAME(name##_1010), PL_WIDE_NAME(name##_1110) },    \
-      { PL_WIDE_NAME(name##_1111), PL_WIDE_NAME(name##_1111) } }
+#define DEFINE_STRAIGHT(F, S)   DEFINE_WARM_START(F, 0, S, 0) DEFINE_SWEEPS(F, 0, S, 0, 0)
+#define DEFINE_TURNING(F, S, X) DEFINE_WARM_START(F, 1, S, X) DEFINE_SWEEPS(F, 1, S, X, 0) DEFINE_SWEEPS(F, 1, S, X, 1)
+
+DEFINE_STRAIGHT(0, 0)
+DEFINE_STRAIGHT(1, 0)
+DEFINE_STRAIGHT(1, 1)
+DEFINE_TURNING(0, 0, 0)
+DEFINE_TURNING(1, 0, 0)
+DEFINE_TURNING(1, 1, 0)
+DEFINE_TURNING(1, 1, 1)
+
+// In the order of pl_motion_variant.
+#define SWEEPS(name)                                                                               \
+    { { PL_WIDE_NAME(name##_00000), PL_WIDE_NAME(name##_01000), PL_WIDE_NAME(name##_01001) },      \
+      { PL_WIDE_NAME(name##_10000), PL_WIDE_NAME(name##_11000), PL_WIDE_NAME(name##_11001) },      \
+      { PL_WIDE_NAME(name##_10100), PL_WIDE_NAME(name##_11100), PL_WIDE_NAME(name##_11101) },      \
+      { PL_WIDE_NAME(name##_11110), PL_WIDE_NAME(name##_11110), PL_WIDE_NAME(name##_11111) } }
+#define WARM_STARTS                                                                                \
+    { { PL_WIDE_NAME(warm_start_0000), PL_WIDE_NAME(warm_start_0100), PL_WIDE_NAME(warm_start_0100) }, \
+      { PL_WIDE_NAME(warm_start_1000), PL_WIDE_NAME(warm_start_1100), PL_WIDE_NAME(warm_start_1100) }, \
+      { PL_WIDE_NAME(warm_start_1010), PL_WIDE_NAME(warm_start_1110), PL_WIDE_NAME(warm_start_1110) }, \
+      { PL_WIDE_NAME(warm_start_1111), PL_WIDE_NAME(warm_start_1111), PL_WIDE_NAME(warm_start_1111) } }
 // clang-format on
 
 // dull.simd.c
@@ -558,9 +608,9 @@ const pl_contact_kernels PL_WIDE_NAME(pl_contact_kernels) = {
     .separation_offset = { offsetof(bundle, p[0].separation), offsetof(bundle, p[1].separation) },
     .impulse_offset = { offsetof(bundle, p[0].ln), offsetof(bundle, p[1].ln) },
     .prepare = prepare,
-    .warm_start = VARIANTS(warm_start),
-    .solve = VARIANTS(solve),
-    .relax = VARIANTS(relax),
+    .warm_start = WARM_STARTS,
+    .solve = SWEEPS(solve),
+    .relax = SWEEPS(relax),
     .store = store_impulses,
     .extra_size = sizeof(extra),
     .prepare_extras = prepare_extras,

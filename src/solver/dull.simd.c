@@ -338,7 +338,8 @@ WIDE_INLINE four friction_impulse(const contacts *c, const side *a, const side *
 
 // Tells pairs and manifolds of their impacts; the speed at which their surfaces run on comes back. Most are
 // not in the cache, so they are left alone where nothing is to be read or added.
-WIDE_INLINE four note_impacts(const contacts *c, const pl_dull_call *call, const four impulse[2])
+WIDE_INLINE four note_impacts(const contacts *c, const pl_dull_call *call, const four impulse[2],
+                              const approach at[2])
 {
     near_real surface_speed[4] = { 0 };
     for (uint32_t i = 0; i < c->count; ++i) {
@@ -350,6 +351,11 @@ WIDE_INLINE four note_impacts(const contacts *c, const pl_dull_call *call, const
             pl_manifold *m = &call->manifolds[call->lanes[c->lane[i]]];
             surface_speed[i] = m->surface_speed;
             call->pairs[m->pair].flags |= PL_PAIR_HIT;
+            for (int j = 0; j < 2; ++j) {
+                if (impulse[j][i] > 0) {
+                    pl_manifold_strike(m, (near_real)at[j].speed[i]);
+                }
+            }
             m->point[0].total += call->looks_up ? (near_real)impulse[0][i] : 0;
             m->point[1].total += call->looks_up ? (near_real)impulse[1][i] : 0;
         }
@@ -364,7 +370,7 @@ WIDE_INLINE void resolve(const contacts *c, side *a, side *b, const approach at[
     four impulse[2];
     lever arm[2];
     find_impulses(impulse, c, a, b, at);
-    const four surface_speed = note_impacts(c, call, impulse);
+    const four surface_speed = note_impacts(c, call, impulse, at);
     const four mu = widen(OF_BUNDLES(c, friction));
     for (int j = 0; j < 2; ++j) {
         arm[j] = (lever){ .n = { c->ran[j], c->rbn[j] },

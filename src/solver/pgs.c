@@ -20,6 +20,7 @@ typedef struct classic {
     pl_classic_contact *contacts;
     uint32_t count;
     near_real h;
+    near_real unloaded; // [N s] a point that bears no more and pushes has been struck
     near_real *lows; // a quad a slot; NULL: nothing bounces
 } classic;
 
@@ -191,8 +192,12 @@ static void solve_velocity(const classic *c, pl_classic_contact *m, pl_classic_p
     p->lt = total;
 
     near_real slack = s > 0 ? s / c->h : 0; // may still approach so fast
-    total = p->ln - p->mn * (normal_speed(c, m, p) + slack);
+    near_real speed = normal_speed(c, m, p);
+    total = p->ln - p->mn * (speed + slack);
     total = total > -pull ? total : -pull;
+    if (total > p->ln && p->ln <= c->unloaded && -speed > m->struck) {
+        m->struck = -speed;
+    }
     push(c, m, p, total - p->ln, 0);
     p->ln = total;
 }
@@ -240,17 +245,23 @@ static void sweep(const classic *c, bool positions)
 static void tally(const classic *c, pl_manifold *manifolds)
 {
     for (uint32_t i = 0; i < c->count; ++i) {
-        const pl_classic_contact *m = &c->contacts[i];
+        pl_classic_contact *m = &c->contacts[i];
         for (uint32_t j = 0; j < m->count; ++j) {
             manifolds[m->manifold].point[j].total += m->point[j].ln;
+            m->pushed |= m->point[j].ln > 0;
         }
     }
 }
 
-static void store(const classic *c, pl_pair *pairs)
+static void store(const classic *c, pl_manifold *manifolds, pl_pair *pairs)
 {
     for (uint32_t i = 0; i < c->count; ++i) {
         pl_pair *pair = &pairs[c->contacts[i].pair];
+        pl_manifold *m = &manifolds[c->contacts[i].manifold];
+        m->met |= c->contacts[i].pushed ? PL_MET_ACTED : 0;
+        if (c->contacts[i].struck > 0) {
+            pl_manifold_strike(m, c->contacts[i].struck);
+        }
         pair->rolling = c->contacts[i].lr;
         for (uint32_t j = 0; j < c->contacts[i].count; ++j) {
             pair->normal[j] = c->contacts[i].point[j].ln;
@@ -295,6 +306,7 @@ void pl_solver_pgs(plumb_world *world, real dt)
             if (joints) {
                 pl_joints_solve(&course, PL_SWEEP_CLASSIC, false);
             }
+            c.unloaded = k == 0 && i == 0 ? NEAR_MAX : 0;
             sweep(&c, false);
         }
         if (joints && world->joints.watched > 0) {
@@ -307,9 +319,7 @@ void pl_solver_pgs(plumb_world *world, real dt)
             }
             sweep(&c, true);
         }
-        if (pl_solver_tallies(world)) {
-            tally(&c, pl_manifolds(&world->narrow));
-        }
+        tally(&c, pl_manifolds(&world->narrow));
     }
-    store(&c, pl_pairs(&world->broad.pairs));
+    store(&c, pl_manifolds(&world->narrow), pl_pairs(&world->broad.pairs));
 }

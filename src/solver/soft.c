@@ -81,7 +81,8 @@ typedef struct soft_step {
     pl_contact_call call;
     uint32_t threads;
     pl_surface_variant surface;
-    bool rotation, tallies, bounce, resist;
+    pl_motion_variant motion;
+    bool tallies, bounce, resist;
 } soft_step;
 
 // One cluster in the hands of some threads; null: of one.
@@ -159,7 +160,9 @@ static soft_step open_step(plumb_world *world, real dt)
                    : running                    ? PL_RUNNING
                    : world->narrow.any_friction ? PL_ROUGH
                                                 : PL_SMOOTH,
-        .rotation = world->turning_bodies > 0,
+        .motion = world->desc.hit_speed > 0     ? PL_TELLING
+                  : world->turning_bodies > 0 ? PL_TURNING
+                                              : PL_STRAIGHT,
         .tallies = tallies,
         .bounce = world->narrow.any_bounce,
         .resist = pl_effects_resist(world),
@@ -191,7 +194,7 @@ static void fly_all(const course *c)
                     &(flight){ &c->step->world->solver, slots.first, c->call.h });
 }
 
-static void run_substep(const course *c, bool first)
+static void run_substep(course *c, bool first)
 {
     const soft_step *step = c->step;
     const pl_contact_kernels *kernels = step->kernels;
@@ -205,7 +208,7 @@ static void run_substep(const course *c, bool first)
         pl_joints_warm_start(&c->joints);
     }
     if (first) {
-        sweep(c, kernels->warm_start[step->surface][step->rotation]);
+        sweep(c, kernels->warm_start[step->surface][step->motion]);
     }
     if (c->bounce) {
         pl_impacts_run(world, h);
@@ -214,14 +217,16 @@ static void run_substep(const course *c, bool first)
         if (c->any_joints) {
             pl_joints_solve(&c->joints, PL_SWEEP_PULL, i == 0);
         }
-        sweep(c, kernels->solve[step->surface][step->rotation]);
+        c->call.unloaded = first && i == 0 ? NEAR_MAX : 0;
+        sweep(c, kernels->solve[step->surface][step->motion]);
     }
+    c->call.unloaded = 0;
     pl_integrate_positions(&world->solver, c->cluster, c->tasks, h);
     for (int i = 0; i < world->desc.iterations; ++i) {
         if (c->any_joints) {
             pl_joints_solve(&c->joints, PL_SWEEP_RELAX, i == 0);
         }
-        sweep(c, kernels->relax[step->surface][step->rotation]);
+        sweep(c, kernels->relax[step->surface][step->motion]);
     }
     if (c->any_joints && world->joints.watched > 0) {
         pl_joints_tally(&c->joints);

@@ -92,6 +92,8 @@ typedef struct pl_classic_contact {
     near_real surface_speed; // [m/s]
     near_real rolling;       // [m]
     near_real mr, lr;        // [kg m^2], [N m s] of rolling resistance
+    near_real struck;        // [m/s] fastest at which a point was struck in this step
+    bool pushed;             // in some substep so far
     pl_classic_point point[2];
 } pl_classic_contact;
 
@@ -173,11 +175,12 @@ typedef struct pl_contact_call {
     near_real h, inv_h;       // [s] substep
     near_real hertz, damping; // [1/s], [-] of soft contacts
     near_real push_speed;     // [m/s]
+    near_real unloaded; // [N s] a point that bears no more and pushes has been struck
 } pl_contact_call;
 
 typedef void pl_contact_kernel(const pl_contact_call *call, uint32_t first, uint32_t count);
 
-// Variants of the sweeps: what surfaces do, times rotation. Scenes pay only for what they have.
+// Variants of the sweeps: what surfaces do, times motion. Scenes pay only for what they have.
 typedef enum pl_surface_variant {
     PL_SMOOTH,  // no friction
     PL_ROUGH,   // friction
@@ -186,6 +189,13 @@ typedef enum pl_surface_variant {
     PL_SURFACE_VARIANTS
 } pl_surface_variant;
 
+typedef enum pl_motion_variant {
+    PL_STRAIGHT, // nothing turns
+    PL_TURNING,
+    PL_TELLING, // it does, or might, and the speeds of hits are noted: needs `extras`
+    PL_MOTION_VARIANTS
+} pl_motion_variant;
+
 // One set a width.
 typedef struct pl_contact_kernels {
     int width;
@@ -193,9 +203,9 @@ typedef struct pl_contact_kernels {
     size_t separation_offset[2]; // of the lanes' separations and impulses in a bundle
     size_t impulse_offset[2];
     pl_contact_kernel *prepare;
-    pl_contact_kernel *warm_start[PL_SURFACE_VARIANTS][2];
-    pl_contact_kernel *solve[PL_SURFACE_VARIANTS][2];
-    pl_contact_kernel *relax[PL_SURFACE_VARIANTS][2];
+    pl_contact_kernel *warm_start[PL_SURFACE_VARIANTS][PL_MOTION_VARIANTS];
+    pl_contact_kernel *solve[PL_SURFACE_VARIANTS][PL_MOTION_VARIANTS];
+    pl_contact_kernel *relax[PL_SURFACE_VARIANTS][PL_MOTION_VARIANTS];
     size_t extra_size;
     pl_contact_kernel *prepare_extras;
     size_t special_size;
@@ -203,7 +213,7 @@ typedef struct pl_contact_kernels {
     pl_dull_counter *dull_prepare;
     pl_dull_kernel *dull_look, *dull_strike;
     pl_contact_kernel *tally; // adds the substep's normal impulses to the totals
-    pl_contact_kernel *store_extras; // rolling impulses to the pairs, totals to the manifolds' points
+    pl_contact_kernel *store_extras; // rolling impulses to the pairs; totals, speeds of hits to the manifolds
     pl_contact_kernel *store;        // impulses to the pairs
 } pl_contact_kernels;
 

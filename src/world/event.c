@@ -56,6 +56,7 @@ plumb_result plumb_world_set_hit_speed(plumb_world *world, plumb_real speed)
     r = r != PLUMB_OK ? r : pl_check_range(world, __func__, "speed", speed, 0, PLUMB_REAL_MAX);
     if (r == PLUMB_OK) {
         world->desc.hit_speed = speed;
+        world->blows.count = speed > 0 ? world->blows.count : 0; // nobody asks for them any more
     }
     return r;
 }

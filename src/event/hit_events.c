@@ -1,0 +1,196 @@
+// hit_events.c - who struck whom in this step, how fast, how hard, and where.
+//
+// The speed is that of the moment: the contact kernels note how fast a point came that bore nothing and pushes now
+// (contact.simd.c, pgs.c), and impacts how fast they were (bounce.c). A hit is a pair that was struck faster than
+// the world's hit speed. While a blow lasts it is not told again: a pair that was struck in the step before as
+// well, and has not been apart since.
+//
+// A contact that is made in the last substep of a step may only be slowed down there, to meet in the next step: its
+// hit waits for that (pl_blow), so that speed and impulse are those of the whole blow. It is told in the next step
+// whatever becomes of the pair.
+//
+// Reads: pairs, manifolds, places. Writes: hit events, blows, the pairs' flags. Order: within contact_events.c.
+// Cost: O(1) a touching pair, where hits are told.
+#include "event/event.h"
+#include "world/state.h"
+
+#define STILL_CLOSING                                                                              \
+    ((real)0.01) // [-] share of the approach that is left of a contact not yet made
+
+void pl_blows_free(pl_memory *memory, pl_blows *blows)
+{
+    pl_buffer_free(memory, &blows->items);
+    pl_buffer_free(memory, &blows->old);
+}
+
+bool pl_hits_reserve(plumb_world *world, uint32_t count)
+{
+    pl_blows *blows = &world->blows;
+    const size_t waiting = blows->count;
+    if (count + waiting == 0) {
+        return true;
+    }
+    return pl_buffer_reserve(&world->memory, &world->hit_events,
+                             ((size_t)world->hit_count + count + waiting) *
+                                 sizeof(plumb_contact_hit)) &&
+           pl_buffer_reserve(&world->memory, &blows->old, count * sizeof(pl_blow));
+}
+
+void pl_hits_begin(plumb_world *world)
+{
+    pl_blows *blows = &world->blows;
+    pl_buffer items = blows->items;
+    blows->items = blows->old;
+    blows->old = items;
+    blows->old_count = blows->count;
+    blows->count = blows->next = 0;
+}
+
+//---- where ---------------------------------------------------------------------------------------
+
+// Where a row's centre was at the start of the step: what the solver counts from.
+static plumb_vec2 start_of(const plumb_world *world, uint32_t row)
+{
+    plumb_vec2 at = { world->bodies.center_x[row], world->bodies.center_y[row] };
+    const uint32_t movable = world->dynamic_count + world->kinematic_count;
+    if (row < movable) {
+        const uint32_t slot = pl_solver_slot(&world->solver, row, movable);
+        at.x -= pl_solver_bodies(&world->solver)[slot].dx;
+        at.y -= pl_solver_bodies(&world->solver)[slot].dy;
+    }
+    return at;
+}
+
+plumb_vec2 pl_contact_place(const plumb_world *world, const pl_manifold *m, uint32_t j)
+{
+    const pl_manifold_point *p = &m->point[j];
+    const plumb_vec2 a = start_of(world, m->body_a), b = start_of(world, m->body_b);
+    const bool fixed_a = m->body_a >= world->dynamic_count;
+    if (!fixed_a && m->body_b >= world->dynamic_count) {
+        return plumb_v2(b.x + p->bx, b.y + p->by);
+    }
+    const real half = fixed_a ? 0 : p->separation / 2;
+    return plumb_v2(a.x + p->ax + m->nx * half, a.y + p->ay + m->ny * half);
+}
+
+//---- blows that last -----------------------------------------------------------------------------
+
+// What the step before kept of a pair. Both lists are in order of pairs: it is mostly the next one.
+static const pl_blow *find_blow(pl_blows *blows, const pl_pair *pair)
+{
+    const pl_blow *old = blows->old.data;
+    for (uint32_t tries = 0; tries < blows->old_count; ++tries) {
+        blows->next = blows->next < blows->old_count ? blows->next : 0;
+        const pl_blow *blow = &old[blows->next++];
+        if (blow->a == pair->a && blow->b == pair->b) {
+            return blow;
+        }
+    }
+    return NULL;
+}
+
+static void keep_blow(plumb_world *world, const pl_pair *pair, const pl_manifold *m, plumb_vec2 at)
+{
+    ((pl_blow *)world->blows.items.data)[world->blows.count++] =
+        (pl_blow){ pair->a, pair->b, m->approach, m->blow, m->nx, m->ny, at };
+}
+
+// `who`: shapes and bodies.
+static void append_blow(plumb_world *world, const pl_blow *blow, plumb_contact_end who)
+{
+    ((plumb_contact_hit *)world->hit_events.data)[world->hit_count++] =
+        (plumb_contact_hit){ .shape_a = who.shape_a,
+                             .shape_b = who.shape_b,
+                             .body_a = who.body_a,
+                             .body_b = who.body_b,
+                             .point = blow->at,
+                             .normal = { blow->nx, blow->ny },
+                             .approach_speed = blow->approach,
+                             .impulse = blow->impulse };
+}
+
+void pl_hit_lost(plumb_world *world, const pl_pair *pair, plumb_contact_end who)
+{
+    const pl_blow *blows = world->blows.items.data;
+    for (uint32_t i = 0; i < world->blows.count && (pair->flags & PL_PAIR_PENDING) != 0; ++i) {
+        if (blows[i].a == pair->a && blows[i].b == pair->b) {
+            append_blow(world, &blows[i], who);
+        }
+    }
+}
+
+//---- hits ----------------------------------------------------------------------------------------
+
+// Of the two points, the one that was pushed more.
+static plumb_vec2 place_of_hit(const plumb_world *world, const pl_manifold *m)
+{
+    return pl_contact_place(world, m, m->point[1].total > m->point[0].total ? 1 : 0);
+}
+
+void pl_hit_append(plumb_world *world, const pl_pair *pair, real impulse)
+{
+    const pl_manifold *m = &pl_manifolds(&world->narrow)[pair->manifold];
+    ((plumb_contact_hit *)world->hit_events.data)[world->hit_count++] =
+        (plumb_contact_hit){ .shape_a = world->pieces.shape[pair->a],
+                             .shape_b = world->pieces.shape[pair->b],
+                             .body_a = world->bodies.entity[m->body_a],
+                             .body_b = world->bodies.entity[m->body_b],
+                             .point = place_of_hit(world, m),
+                             .normal = { m->nx, m->ny },
+                             .approach_speed = m->approach,
+                             .impulse = impulse };
+}
+
+// It was only slowed down in the last substep.
+static bool is_unfinished(const plumb_world *world, const pl_pair *pair, const pl_manifold *m)
+{
+    return (pair->normal[0] > 0 || pair->normal[1] > 0) &&
+           pl_approach_speed(world, m) > STILL_CLOSING * m->approach;
+}
+
+// The pair no longer touches: nothing is to be added to what was kept of it.
+static void tell_as_it_was(plumb_world *world, const pl_pair *pair, const pl_blow *blow)
+{
+    const pl_pieces *p = &world->pieces;
+    append_blow(world, blow,
+                (plumb_contact_end){ p->shape[pair->a], p->shape[pair->b],
+                                     world->bodies.entity[p->body[pair->a]],
+                                     world->bodies.entity[p->body[pair->b]] });
+}
+
+bool pl_hit_is_due(plumb_world *world, pl_pair *pair, bool touches)
+{
+    const real least = world->desc.hit_speed;
+    const pl_blow *pending =
+        (pair->flags & PL_PAIR_PENDING) != 0 ? find_blow(&world->blows, pair) : NULL;
+    const bool struck = (pair->flags & PL_PAIR_STRUCK) != 0;
+    pair->flags &= ~(PL_PAIR_STRUCK | PL_PAIR_PENDING);
+    if (!touches) {
+        if (pending != NULL) {
+            tell_as_it_was(world, pair, pending);
+        }
+        return false;
+    }
+    if (!(least > 0)) {
+        return false;
+    }
+    pl_manifold *m = &pl_manifolds(&world->narrow)[pair->manifold];
+    m->blow = m->point[0].total + m->point[1].total;
+    const bool strikes = (m->met & PL_MET_MEASURED) != 0 && m->approach > least && m->blow > 0;
+    pair->flags |= strikes || pending != NULL ? PL_PAIR_STRUCK : 0;
+    if (pending != NULL) {
+        m->approach = pending->approach > m->approach ? pending->approach : m->approach;
+        m->blow += pending->impulse;
+        return true;
+    }
+    const bool lasts = struck && pl_is_near(m, PL_TOUCH_HOLD);
+    if (!strikes || lasts) {
+        return false;
+    }
+    if (is_unfinished(world, pair, m)) {
+        pair->flags |= PL_PAIR_PENDING;
+        keep_blow(world, pair, m, place_of_hit(world, m));
+        return false;
+    }
+    return true;
+}

@@ -1,0 +1,181 @@
+// test_impact_events.c - every impact is told once, and nothing else is: begin, end and hit events, breaking joints
+// and sensors, judged by an observer who knows of velocities and poses alone (impact_throw.h).
+//
+// PLUMB_IMPACTS="100000 1" throws so many bodies, the first by this seed.
+#include <math.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#include "harness/sim.h"
+#include "impact_gap.h"
+#include "impact_throw.h"
+
+static int lines;
+
+static void tell(const char *line)
+{
+    if (lines++ < 40) {
+        print_message("%s\n", line);
+    }
+}
+
+static void every_impact_is_told_once(void **state)
+{
+    (void)state;
+    unsigned count = 4000, first = 1;
+    const char *asked = getenv("PLUMB_IMPACTS");
+    if (asked != NULL && sscanf(asked, "%u %u", &count, &first) < 1) {
+        fail_msg("PLUMB_IMPACTS is '%s'; it must be a count, or count and first seed", asked);
+    }
+    impact_tally t = { 0 };
+    for (unsigned i = 0; i < count; ++i) {
+        impact_throw(first + i, &t, tell);
+    }
+    print_message("%ld thrown, %ld touches, %ld hits: missed %ld, phantom %ld, doubled %ld, "
+                  "lingering %ld, mute %ld, "
+                  "false hits %ld, askew %ld\n",
+                  t.thrown, t.touches, t.hits, t.missed, t.phantom, t.doubled, t.lingering, t.mute,
+                  t.false_hits, t.askew);
+    assert_true(t.touches > t.thrown / 3);
+    assert_int_equal(impact_wrong(&t), 0);
+}
+
+// The first settings of 1,000 boxes that a wall stops: defaults, no force that presses them there.
+static void a_wall_is_hit_by_all(void **state)
+{
+    (void)state;
+    plumb_world *w = sim_world(&(plumb_world_desc){ .zero_gravity = true, .hit_speed = 1 });
+    plumb_material m = sim_material(w, 0, 0);
+    plumb_body wall = sim_body(w, PLUMB_STATIC, 0.5, 0, 0);
+    sim_add_box(w, wall, 0.5, 2000, m);
+    uint32_t seed = 5;
+    for (int i = 0; i < 1000; ++i) {
+        plumb_body b = sim_crate(w, -sim_uniform(&seed, 2, 6), 2 * (i - 500), 0.5, 0.5, m);
+        sim_launch(w, b, sim_uniform(&seed, 20, 60), 0, 0);
+    }
+    int begins = 0, ends = 0, hits = 0, count;
+    for (int step = 0; step < 60; ++step) {
+        sim_step(w, 1.0 / 60);
+        plumb_world_begin_events(w, &count);
+        begins += count;
+        plumb_world_end_events(w, &count);
+        ends += count;
+        plumb_world_hit_events(w, &count);
+        hits += count;
+    }
+    assert_int_equal(begins, 1000);
+    assert_int_equal(ends, 0);
+    assert_int_equal(hits, 1000);
+    plumb_world_destroy(w);
+}
+
+// A ball strikes a box that a weld holds. What the weld bore over the step is what the two bodies have lost; it
+// breaks by more than it can bear, in whichever substep the ball came, and by nothing less.
+static void joints_break_by_what_they_bore(void **state)
+{
+    (void)state;
+    uint32_t seed = 3;
+    int broken = 0, whole = 0;
+    for (int i = 0; i < 600; ++i) {
+        const double dt = 1.0 / 60, speed = sim_uniform(&seed, 2, 100);
+        const bool by_force = i % 2 == 0, pgs = i % 3 == 0;
+        plumb_world *w =
+            sim_world(&(plumb_world_desc){ .zero_gravity = true,
+                                           .solver = pgs ? PLUMB_SOLVER_PGS : PLUMB_SOLVER_SOFT,
+                                           .substeps = 1 + i % 8 });
+        plumb_material m = sim_material(w, 0, i % 5 == 0 ? sim_uniform(&seed, 0.1, 1) : 0);
+        plumb_body box = sim_crate(w, 0, 0, 0.5, 0.5, m);
+        plumb_body ball = sim_ball(w, -1 - speed * dt * sim_uniform(&seed, 0.05, 2.5), 0, 0.5, m);
+        sim_launch(w, ball, speed, 0, 0);
+        const double bound = (double)plumb_body_mass(w, ball) * speed * sim_uniform(&seed, 0.1, 2);
+        plumb_joint joint = plumb_joint_create(
+            w, &(plumb_joint_desc){ .kind = PLUMB_WELD,
+                                    .body_b = box,
+                                    .break_force = (plumb_real)(by_force ? bound / dt : 0),
+                                    .break_impulse = (plumb_real)(by_force ? 0 : bound) });
+        for (int step = 0; step < 6 && plumb_joint_valid(w, joint); ++step) {
+            const double before = sim_vx(w, ball) * (double)plumb_body_mass(w, ball) +
+                                  sim_vx(w, box) * (double)plumb_body_mass(w, box);
+            sim_step(w, dt);
+            const double after = sim_vx(w, ball) * (double)plumb_body_mass(w, ball) +
+                                 sim_vx(w, box) * (double)plumb_body_mass(w, box);
+            const double bore = fabs(after - before);
+            if (fabs(bore - bound) > 0.02 * bound + 1e-4 * speed) {
+                assert_int_equal(plumb_joint_valid(w, joint), bore < bound);
+                broken += bore > bound;
+                whole += bore < bound && bore > 0.1 * bound;
+            }
+        }
+        plumb_world_destroy(w);
+    }
+    print_message("%d joints broken, %d blows borne\n", broken, whole);
+    assert_true(broken > 100 && whole > 100);
+}
+
+// What flies through a sensor, or into it and bounces off what is behind, is told as often as its pose says.
+static void sensors_tell_what_poses_say(void **state)
+{
+    (void)state;
+    uint32_t seed = 9;
+    int begins = 0, ends = 0, wrong = 0;
+    for (int i = 0; i < 1500; ++i) {
+        const double dt = 1.0 / (30 << i % 4), speed = sim_uniform(&seed, 1, 60),
+                     turn = sim_uniform(&seed, -3, 3);
+        plumb_world *w = sim_world(
+            &(plumb_world_desc){ .zero_gravity = true, .substeps = 1 + i % 8, .no_sleep = true });
+        plumb_material m = sim_material(w, 0, sim_uniform(&seed, 0, 1));
+        plumb_body post = sim_body(w, PLUMB_STATIC, 3, 0, turn);
+        plumb_shape sensor = plumb_shape_create(
+            w, post,
+            &(plumb_shape_desc){
+                .kind = PLUMB_BOX, .half = { 1, (plumb_real)(0.7) }, .sensor = true });
+        plumb_body wall = sim_body(w, PLUMB_STATIC, 6, 0, sim_uniform(&seed, -1, 1));
+        sim_add_box(w, wall, 0.2, 5, m);
+        plumb_body ball = plumb_body_create(
+            w, &(plumb_body_desc){ .position = sim_vec(0, sim_uniform(&seed, -1, 1)) });
+        plumb_shape shape =
+            plumb_shape_create(w, ball,
+                               &(plumb_shape_desc){ .kind = i % 2 == 0 ? PLUMB_CIRCLE : PLUMB_BOX,
+                                                    .radius = (plumb_real)(0.1),
+                                                    .half = { i % 2 == 0 ? 0 : (plumb_real)(0.3),
+                                                              i % 2 == 0 ? 0 : (plumb_real)(0.1) },
+                                                    .material = m });
+        sim_launch(w, ball, speed, 0, sim_uniform(&seed, -5, 5));
+        bool inside = false;
+        double last = 1; // [m]
+        for (int step = 0; step < 40; ++step) {
+            sim_step(w, dt);
+            int began, ended;
+            plumb_world_sensor_begin_events(w, &began);
+            plumb_world_sensor_end_events(w, &ended);
+            const double gap = impact_gap(w, sensor, shape);
+            wrong += (began > 0 && inside) || (ended > 0 && !inside) || began + ended > 1;
+            inside = began > 0 || (inside && ended == 0);
+            wrong += gap == 0 && !inside && last == 0;
+            wrong += gap > 1e-4 && inside;
+            begins += began, ends += ended;
+            last = gap;
+        }
+        plumb_world_destroy(w);
+    }
+    print_message("%d begins, %d ends at sensors, %d wrong\n", begins, ends, wrong);
+    assert_true(begins > 500);
+    assert_int_equal(wrong, 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_impact_is_told_once),
+        cmocka_unit_test(a_wall_is_hit_by_all),
+        cmocka_unit_test(joints_break_by_what_they_bore),
+        cmocka_unit_test(sensors_tell_what_poses_say),
+    };
+    return cmocka_run_group_tests_name("impact_events", tests, NULL, NULL);
+}
