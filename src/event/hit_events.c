@@ -48,12 +48,13 @@ void pl_hits_begin(plumb_world *world)
 
 //---- where ---------------------------------------------------------------------------------------
 
-// Where a row's centre was at the start of the step: what the solver counts from.
+// Where a row's centre was at the start of the step: what the solver counts from. Where no graph was made, in a step
+// that only refreshes, nothing has moved.
 static plumb_vec2 start_of(const plumb_world *world, uint32_t row)
 {
     plumb_vec2 at = { world->bodies.center_x[row], world->bodies.center_y[row] };
     const uint32_t movable = world->dynamic_count + world->kinematic_count;
-    if (row < movable) {
+    if (row < movable && world->solver.slot_count > 0) {
         const uint32_t slot = pl_solver_slot(&world->solver, row, movable);
         at.x -= pl_solver_bodies(&world->solver)[slot].dx;
         at.y -= pl_solver_bodies(&world->solver)[slot].dy;

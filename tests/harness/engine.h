@@ -128,6 +128,11 @@ struct engine_counts {
     int joints;
 };
 
+/// Touches of pairs of shapes that the last step told of, those of all its inner steps together.
+struct engine_touches {
+    int begins, ends;
+};
+
 /// One engine. Every pointer is set in every engine.
 struct engine {
     const char *name; ///< short: column title and --engines key
@@ -178,6 +183,7 @@ struct engine {
     /// Calls `visit` once for each manifold point, in an order of the engine's own.
     void (*contacts)(const struct engine_world *world, engine_contact_fn *visit, void *context);
     struct engine_counts (*counts)(const struct engine_world *world);
+    struct engine_touches (*touches)(const struct engine_world *world);
 
     /// [m] the engine keeps its polygons, edges and chains this much thicker than they were given.
     double (*skin)(const struct engine_world *world);
@@ -193,7 +199,7 @@ struct engine {
     .add_capsule = add_capsule, .add_polygon = add_polygon, .add_segment = add_segment,           \
     .add_chain = add_chain, .set_velocity = set_velocity, .apply_force = apply_force,             \
     .step = step, .get_pose = get_pose, .get_velocity = get_velocity, .get_mass = get_mass,       \
-    .contacts = contacts, .counts = counts, .skin = skin, .bytes = bytes
+    .contacts = contacts, .counts = counts, .touches = touches, .skin = skin, .bytes = bytes
 // clang-format on
 
 /// Gravity (0, -10), 4 substeps and 8/3 iterations, no sleep, continuous on, thresholds the

@@ -18,9 +18,21 @@
 static const int default_velocity_iterations = 8;
 static const int default_position_iterations = 3;
 
-struct engine_world {
-    explicit engine_world(const b2Vec2 &gravity) : world(gravity) {}
+// Counts what a step tells of touches.
+struct touch_listener : b2ContactListener {
+    engine_touches told = { 0, 0 };
 
+    void BeginContact(b2Contact *) override { ++told.begins; }
+    void EndContact(b2Contact *) override { ++told.ends; }
+};
+
+struct engine_world {
+    explicit engine_world(const b2Vec2 &gravity) : world(gravity)
+    {
+        world.SetContactListener(&listener);
+    }
+
+    touch_listener listener; // before the world, which tells it of its end
     b2World world;
     std::vector<b2Body *> bodies; // null: destroyed
     std::vector<int> groups;      // of the bodies
@@ -209,6 +221,7 @@ void apply_force(engine_world *w, int body, double fx, double fy, double torque)
 void step(engine_world *w, double dt)
 {
     const float h = static_cast<float>(dt / w->substeps);
+    w->listener.told = { 0, 0 };
     for (int i = 0; i < w->substeps; ++i) {
         w->world.Step(h, w->velocity_iterations, w->position_iterations);
     }
@@ -277,6 +290,11 @@ engine_counts counts(const engine_world *w)
         n.contacts += c->IsTouching() ? 1 : 0;
     }
     return n;
+}
+
+engine_touches touches(const engine_world *w)
+{
+    return w->listener.told;
 }
 
 double skin(const engine_world *w)

@@ -339,6 +339,12 @@ static struct engine_counts counts(const struct engine_world *w)
     return (struct engine_counts){ c.bodyCount, touching, c.jointCount };
 }
 
+static struct engine_touches touches(const struct engine_world *w)
+{
+    const b2ContactEvents e = b2World_GetContactEvents(w->id);
+    return (struct engine_touches){ e.beginCount, e.endCount };
+}
+
 static double skin(const struct engine_world *w)
 {
     (void)w;

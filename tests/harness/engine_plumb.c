@@ -359,6 +359,14 @@ static struct engine_counts counts(const struct engine_world *w)
                                    plumb_world_joints(w->world, NULL, 0) };
 }
 
+static struct engine_touches touches(const struct engine_world *w)
+{
+    struct engine_touches t;
+    plumb_world_begin_events(w->world, &t.begins);
+    plumb_world_end_events(w->world, &t.ends);
+    return t;
+}
+
 static double skin(const struct engine_world *w)
 {
     (void)w;
