@@ -373,7 +373,7 @@ static void an_editor_sees_where_a_crate_lies(void **state)
     assert_near(contacts[0].points[0].separation, -0.01, 1e-4);
     assert_true(begins(p.w, crate));
     // Into the sensor, and out of it.
-    plumb_body_teleport(p.w, crate, plumb_v2(0, R(1.5)), 0);
+    plumb_body_teleport(p.w, crate, plumb_v2(0, R(2.3)), 0);
     step(p.w, 0);
     assert_false(begins(p.w, crate));
     assert_int_equal(plumb_shape_overlaps(p.w, p.sensor, NULL, 0), overlaps + 1);

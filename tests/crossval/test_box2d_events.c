@@ -64,7 +64,7 @@ static void add_form(const struct engine *e, engine_world *w, int body, form f, 
     assert_int_equal(status, ENGINE_OK);
 }
 
-static void fire(const struct engine *e, const char *solver, const throw *t, tally *tally)
+static void fire(const struct engine *e, const char *solver, const throw *t, tally *of)
 {
     struct engine_options o = engine_options_default();
     o.gravity_y = 0;
@@ -101,12 +101,12 @@ static void fire(const struct engine *e, const char *solver, const throw *t, tal
         v = now;
     }
     e->destroy(w);
-    tally->struck += struck;
-    tally->touched += begins > 0;
-    tally->begins += begins;
-    tally->missed += missed;
-    tally->twice += begins > 1;
-    tally->odd += odd;
+    of->struck += struck;
+    of->touched += begins > 0;
+    of->begins += begins;
+    of->missed += missed;
+    of->twice += begins > 1;
+    of->odd += odd;
 }
 
 static void events_equal_those_of_box2d(void **state)
