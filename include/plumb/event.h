@@ -12,7 +12,7 @@
 /// for that of a blow which went on beyond the step that has its begin event.
 ///
 /// Two shapes touch in a step when an impulse passed between them in any of its substeps, or their surfaces
-/// overlapped at its beginning. What touched goes on to touch while it is nearer than 1 mm: what lies against a wall
+/// overlapped at its beginning. What touched goes on to touch while it is nearer than half a millimetre: what lies against a wall
 /// without being pressed there neither ends nor begins. So an impact is told whatever the speed, restitution, solver
 /// and number of substeps, and once: a ball that bounces within a step begins in it, and ends in the next one that
 /// finds it away. Of one pair a step tells a begin or an end, not both; what parts and meets again between two

@@ -568,6 +568,7 @@ void pl_ahead_settle(plumb_world *world)
             p->separation = (near_real)s;
         }
         m->before = item->before;
+        m->met |= PL_MET_ASIDE; // the pieces were apart, wherever the plane of that moment lies
     }
 }
 

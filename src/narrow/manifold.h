@@ -45,10 +45,13 @@ typedef struct pl_manifold {
 
 #define PL_MET_ACTED    1u // it pushed in some substep, though not in the last one
 #define PL_MET_MEASURED 2u // `approach` is the fastest at which a point of it was struck in this step
-#define PL_MET_ASIDE    4u // it is deep along a face of the ground, but the pieces are clear of one another
+#define PL_MET_ASIDE    4u // its plane is that of a later moment or of the ground: the pieces are clear of one another
+
+// [m] contacts that are farther apart lie ahead: whether they will meet is asked (ahead.c).
+#define PL_AHEAD ((near_real)5e-4)
 
 // [m] what touched goes on to touch while it is nearer than this.
-#define PL_TOUCH_HOLD ((near_real)1e-3)
+#define PL_TOUCH_HOLD PL_AHEAD
 
 // Whether the surfaces of a manifold met, or are nearer than `reach` [m], at the start of the step.
 static inline bool pl_is_near(const pl_manifold *m, near_real reach)
@@ -81,8 +84,6 @@ static inline near_real pl_adhesion_reach(uint32_t pair_flags)
     return (pair_flags & PL_PAIR_TOUCHING) != 0 ? (near_real)0.005 : (near_real)1e-4;
 }
 
-// [m] contacts that are farther apart lie ahead: whether they will meet is asked (ahead.c).
-#define PL_AHEAD ((near_real)5e-4)
 
 // [m] separation of a point that is not there: no impulse can ever act on it.
 #define PL_APART ((near_real)1e6)

@@ -161,7 +161,8 @@ bool pl_seams_correct(plumb_world *world, real dt)
         if (v == FALSE_CONTACT) {
             m->count = 0;
             pair->manifold = PL_NONE;
-            pair->flags |= gap <= PL_TOUCH_HOLD && parts ? PL_PAIR_COVERED : 0;
+            const bool met = gap <= PL_TOUCH_HOLD && (pair->flags & PL_PAIR_AHEAD) == 0;
+            pair->flags |= met && parts ? PL_PAIR_COVERED : 0;
             pl_pair_forget(pair);
         } else {
             carry_over(&list[i], pair, m);

@@ -343,7 +343,8 @@ static bool check_sensed(const plumb_world *w)
     }
     const pl_blow *blow = w->blows.items.data;
     for (uint32_t i = 0; i < w->blows.count; ++i) {
-        if (!CHECK_NEAR(blow[i].approach) || !CHECK_NEAR(blow[i].impulse)) {
+        if (!CHECK_NEAR(blow[i].approach) || !CHECK_NEAR(blow[i].impulse) ||
+            !CHECK_NEAR(blow[i].nx) || !CHECK_NEAR(blow[i].ny) || !CHECK_REALS(blow[i].at)) {
             return false;
         }
     }

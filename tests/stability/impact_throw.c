@@ -346,12 +346,17 @@ static double approach(const throw *t, const motion *a, const motion *b, plumb_v
                        plumb_vec2 normal, bool flipped, double gap)
 {
     const double s = flipped ? 1 : -1, nx = (double)normal.x, ny = (double)normal.y;
-    // The event's point lies on the target, or midway: that of the thrown body is off it by up to the gap.
-    const double at_x = (double)point.x + s * nx * gap, at_y = (double)point.y + s * ny * gap;
-    const plumb_vec2 ra = plumb_world_way(t->w, a->c, sim_vec(at_x, at_y)),
-                     rb = plumb_world_way(t->w, b->c, point);
-    const double vx = (double)a->v.x - a->w * (double)ra.y - (double)b->v.x + b->w * (double)rb.y;
-    const double vy = (double)a->v.y + a->w * (double)ra.x - (double)b->v.y - b->w * (double)rb.x;
+    // Arms are those of the moment at which they meet; the surface of a circle turns along itself.
+    const double straight = -s * (nx * (double)(a->v.x - b->v.x) + ny * (double)(a->v.y - b->v.y));
+    const double time = straight > 0 ? fmin(gap / straight, t->dt) : 0;
+    const double spin = t->thrown_form == CIRCLE ? 0 : a->w;
+    const plumb_vec2 at =
+        sim_vec((double)a->c.x + time * (double)a->v.x, (double)a->c.y + time * (double)a->v.y);
+    const plumb_vec2 bt =
+        sim_vec((double)b->c.x + time * (double)b->v.x, (double)b->c.y + time * (double)b->v.y);
+    const plumb_vec2 ra = plumb_world_way(t->w, at, point), rb = plumb_world_way(t->w, bt, point);
+    const double vx = (double)a->v.x - spin * (double)ra.y - (double)b->v.x + b->w * (double)rb.y;
+    const double vy = (double)a->v.y + spin * (double)ra.x - (double)b->v.y - b->w * (double)rb.x;
     if ((fabs(a->w) * t->dt > 0.03 && t->thrown_form != CIRCLE) || fabs(b->w) * t->dt > 0.03) {
         return -1;
     }
@@ -419,7 +424,7 @@ static void read_ends(throw *t, int step, bool struck)
         }
         const bool lone = t->shape_count == 1 && t->other_count == 1;
         // At the joint of flush tiles it follows from the ground as a whole which of them a body touches.
-        if ((struck && lone) || (t->target_form != TILES && t->pair[i][j].before < 5e-4)) {
+        if ((struck && lone) || (t->target_form != TILES && t->pair[i][j].before < 4e-4)) {
             tell(t, &t->tally->doubled, step, "ended while they met, %.3g m apart%s",
                  t->pair[i][j].before, struck ? ", struck" : "");
         }
@@ -445,7 +450,7 @@ static void read_hits(throw *t, int step)
         }
         if (t->pair[i][j].hits > 0 && t->pair[i][j].hit_step == step - 1 &&
             t->thrown_form == CIRCLE && is_plain(t) && t->role <= KINEMATIC &&
-            t->pair[i][j].before < 5e-4) {
+            t->pair[i][j].before < 4e-4) {
             tell(t, &t->tally->false_hits, step, "hit told twice");
         }
         ++t->pair[i][j].hits;
