@@ -371,7 +371,7 @@ static bool is_plain(const throw *t)
 
 static double slack(const throw *t, double speed)
 {
-    return 0.12 * speed + 1.1 * SIM_G * t->dt + 0.02;
+    return 0.12 * speed + 0.02 * t->speed + 1.1 * SIM_G * t->dt + 0.02;
 }
 
 static void read_begins(throw *t, int step, const motion *a, const motion *b, bool struck)
@@ -517,10 +517,11 @@ void impact_throw(uint32_t seed, impact_tally *tally, void (*told)(const char *l
                      dy = (double)now.v.y - (double)a.v.y - t.gy * t.dt;
         // What rounding takes from the speed of one step may come with the next.
         fastest = fmax(fastest, hypot((double)a.v.x, (double)a.v.y) + fabs(a.w) * t.size);
-        const double noise = 8 * SIM_EPSILON * (fastest + 1);
-        const bool struck = hypot(dx, dy) > noise || fabs(now.w - a.w) * t.size > noise;
+        const double noise = SIM_EPSILON * (fastest + 1);
+        const double change = fmax(hypot(dx, dy), fabs(now.w - a.w) * t.size);
+        const bool struck = change > 16 * noise; // beyond doubt
         read_ends(&t, step, struck);
-        read_begins(&t, step, &a, &b, struck);
+        read_begins(&t, step, &a, &b, change > noise);
         read_hits(&t, step);
         judge_touches(&t, step, struck);
         judge_hits(&t, step);
