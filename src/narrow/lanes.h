@@ -178,7 +178,7 @@ static inline void part(pl_pair *pair)
         pair->tangent[0] = pair->tangent[1] = 0;
         pair->manifold = PL_NONE;
     }
-    pair->flags &= ~PL_PAIR_HIT;
+    pair->flags &= ~(PL_PAIR_HIT | PL_PAIR_AHEAD);
 }
 
 // One lane's manifold: keeps the points nearer than `limit`, carries impulses over by feature.
@@ -220,7 +220,7 @@ static inline bool emit_lane(pl_pair *pair, pl_manifold *m, const near_real *row
     m->before = old.manifold;
     m->body_a = pair->body_a;
     m->body_b = pair->body_b;
-    pair->flags &= ~PL_PAIR_HIT;
+    pair->flags &= ~(PL_PAIR_HIT | PL_PAIR_AHEAD);
     return true;
 }
 

@@ -82,7 +82,7 @@ static uint32_t count_of(const plumb_world *w, uint32_t of)
 
 static bool keeps_rule(const plumb_world *w, pl_rule rule, const pl_section *section)
 {
-    if (rule.kind == PL_RULE_IS_ANY) {
+    if (rule.kind == PL_RULE_IS_ANY || rule.kind == PL_RULE_IS_GUARDED) {
         return true;
     }
     if (rule.kind == PL_RULE_IS_POSITIVE) {
@@ -150,8 +150,10 @@ static bool check_sections(const pl_suspect *s)
 {
     for (uint32_t i = 0; i < pl_section_fixed_count(); ++i) {
         const pl_section section = pl_section_at(&s->world, i);
-        if (!fits_type(section.type, section.data, pl_section_bytes(&section)) ||
-            !keeps_rule(&s->world, pl_section_rule(i), &section)) {
+        const pl_rule rule = pl_section_rule(i);
+        const bool guarded = rule.kind == PL_RULE_IS_GUARDED;
+        if ((!guarded && !fits_type(section.type, section.data, pl_section_bytes(&section))) ||
+            !keeps_rule(&s->world, rule, &section)) {
             return false;
         }
     }

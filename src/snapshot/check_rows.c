@@ -88,13 +88,19 @@ static bool is_within(real v, double most)
     return v <= (real)most && v >= (real)-most;
 }
 
-// Where it is and how fast: as far as a step lets bodies get.
-static bool check_motion(const pl_bodies *b, uint32_t i)
+// Where it is and how fast: as far as a step lets bodies get. How fast an awake dynamic body is judges the guard of the
+// next step: a system may have written anything.
+static bool check_motion(const pl_bodies *b, uint32_t i, bool guarded)
 {
-    const real places[] = { b->x[i],  b->y[i],  b->center_x[i], b->center_y[i],
-                            b->vx[i], b->vy[i], b->w[i] };
+    const real places[] = { b->x[i], b->y[i], b->center_x[i], b->center_y[i] };
+    const real rates[] = { b->vx[i], b->vy[i], b->w[i], b->fx[i], b->fy[i], b->torque[i] };
     for (size_t k = 0; k < sizeof places / sizeof places[0]; ++k) {
         if (!is_within(places[k], 2 * (double)PL_LARGEST)) {
+            return false;
+        }
+    }
+    for (size_t k = 0; k < sizeof rates / sizeof rates[0] && !guarded; ++k) {
+        if (!is_within(rates[k], k < 3 ? 2 * (double)PL_LARGEST : (double)PLUMB_REAL_MAX)) {
             return false;
         }
     }
@@ -124,7 +130,8 @@ bool pl_check_bodies(pl_suspect *s)
         return false;
     }
     for (uint32_t i = 0; i < b->table.count; ++i) {
-        if (pl_suspect_row(s, b->entity[i]) != i || !check_motion(b, i) || !check_partition(w, i)) {
+        if (pl_suspect_row(s, b->entity[i]) != i || !check_motion(b, i, i < w->dynamic_count) ||
+            !check_partition(w, i)) {
             return false;
         }
         turning += b->inv_inertia[i] > 0;

@@ -3,6 +3,7 @@
 // a row saying so; how rows hang together is the business of check.c.
 //
 //   ANY           nothing more
+//   GUARDED       any number at all: the guard of a step takes out what would not stay finite (step/quarantine.c)
 //   POSITIVE      not below 0
 //   UP_TO(n)      at most n
 //   PLACE(what)   below the count of it;  OR_NONE: or PL_NONE;  ONE_MORE: 1 + such a place, or 0
@@ -15,6 +16,7 @@
 
 typedef enum pl_rule_kind {
     PL_RULE_IS_ANY,
+    PL_RULE_IS_GUARDED,
     PL_RULE_IS_POSITIVE,
     PL_RULE_IS_UP_TO,
     PL_RULE_IS_PLACE,
@@ -42,6 +44,10 @@ typedef struct pl_rule {
 #define ANY                                                                                        \
     {                                                                                              \
         PL_RULE_IS_ANY, 0                                                                          \
+    }
+#define GUARDED                                                                                    \
+    {                                                                                              \
+        PL_RULE_IS_GUARDED, 0                                                                      \
     }
 #define POSITIVE                                                                                   \
     {                                                                                              \
@@ -71,16 +77,16 @@ typedef struct pl_rule {
 #define PL_RULE_bodies_center_y        ANY
 #define PL_RULE_bodies_c               ANY
 #define PL_RULE_bodies_s               ANY
-#define PL_RULE_bodies_vx              ANY
-#define PL_RULE_bodies_vy              ANY
-#define PL_RULE_bodies_w               ANY
+#define PL_RULE_bodies_vx              GUARDED
+#define PL_RULE_bodies_vy              GUARDED
+#define PL_RULE_bodies_w               GUARDED
 #define PL_RULE_bodies_low_x           ANY
 #define PL_RULE_bodies_low_y           ANY
 #define PL_RULE_bodies_low_vx          ANY
 #define PL_RULE_bodies_low_vy          ANY
-#define PL_RULE_bodies_fx              ANY
-#define PL_RULE_bodies_fy              ANY
-#define PL_RULE_bodies_torque          ANY
+#define PL_RULE_bodies_fx              GUARDED
+#define PL_RULE_bodies_fy              GUARDED
+#define PL_RULE_bodies_torque          GUARDED
 #define PL_RULE_bodies_inv_mass        POSITIVE
 #define PL_RULE_bodies_inv_inertia     POSITIVE
 #define PL_RULE_bodies_local_x         ANY

@@ -317,10 +317,11 @@ static plumb_result run_narrow(plumb_world *world, plumb_real dt)
     if (world->one_way_pieces > 0 || world->dropping_bodies > 0) {
         pl_one_way_run(world);
     }
-    if (world->seams.pair_count > 0 && !pl_seams_correct(world, dt)) {
+    const bool corrected = world->seams.pair_count == 0 || pl_seams_correct(world, dt);
+    pl_ahead_settle(world);
+    if (!corrected) {
         return PLUMB_E_MEMORY;
     }
-    pl_ahead_settle(world);
     return pl_events_prepare(world) ? PLUMB_OK : PLUMB_E_MEMORY;
 }
 

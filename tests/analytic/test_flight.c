@@ -159,7 +159,7 @@ static void melee_conserves_momentum(void **state)
     const melee_case cases[] = { { 0.5, 0, 0 }, { 0.5, 0.5, 0 }, { 0.5, 1, 0 }, { 0, 1, 0.98 } };
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; ++k) {
         const melee_case *c = &cases[k];
-        plumb_world *w = sim_space();
+        plumb_world *w = sim_world(&(plumb_world_desc){ .zero_gravity = true, .no_sleep = true });
         plumb_material m = sim_material(w, c->friction, c->restitution);
         unsigned seed = 12345;
         double scale = 0, spin = 0;

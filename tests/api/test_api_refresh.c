@@ -365,7 +365,7 @@ static void an_editor_sees_where_a_crate_lies(void **state)
     }
     const int overlaps = plumb_shape_overlaps(p.w, p.sensor, NULL, 0);
     const plumb_body crate =
-        plumb_body_create(p.w, &(plumb_body_desc){ .position = { 24, R(0.39) } });
+        plumb_body_create(p.w, &(plumb_body_desc){ .position = { 30, R(0.39) } });
     const plumb_shape box = add_box(p.w, crate, 0.4, 0.4, (plumb_shape_desc){ 0 });
     assert_int_equal(plumb_body_contacts(p.w, crate, contacts, 4), 0);
     step(p.w, 0);

@@ -330,7 +330,7 @@ static void gas_keeps_momentum_and_energy(void **state)
     plumb_energy before = plumb_world_energy(w);
     for (int step = 0; step < 1200; ++step) {
         step_many(w, 1);
-        assert_true(plumb_world_stats(w).max_penetration < R(0.1)); // chance impacts of three
+        assert_true(plumb_world_stats(w).max_penetration < R(0.2)); // chance impacts of three
     }
     plumb_energy after = plumb_world_energy(w);
     double speed = sqrt(2 * before.kinetic * before.mass);
