@@ -47,8 +47,11 @@ count() # log program
         { gsub(/\033\[[0-9;]*m/, "") }
         script == "sh" && /^ok( |$)/     { passed++ }
         script == "sh" && /^not ok( |$)/ { failed++ }
-        script != "sh" && /^\[  PASSED  \] [0-9]+ test\(s\)/ { passed += $4 }
-        script != "sh" && /^\[  FAILED  \] [0-9]+ test\(s\)/ { failed += $4 }
+        # cmocka 1.1.7 puts the name of the group in front of the number.
+        script != "sh" && /^\[  (PASSED|FAILED)  \] ([a-z]+: )?[0-9]+ test\(s\)/ {
+            number = $4 ~ /:$/ ? $5 : $4
+            if ($2 == "PASSED") passed += number; else failed += number
+        }
         END { print passed + 0, failed + 0 }' "$1"
 }
 

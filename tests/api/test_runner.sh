@@ -5,6 +5,18 @@ set -u
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
+# What cmocka prints, before 1.1.7 and since.
+for group in "" "tests: "; do
+    printf '#!/bin/bash\nprintf "[  PASSED  ] %s3 test(s).\\n[  FAILED  ] %s2 test(s), listed below:\\n"; exit 2\n' \
+        "$group" "$group" >"$work/program"
+    chmod +x "$work/program"
+    if bash tests/run.sh -l "$work/logs" "$work/program" | grep -q "^3 passed, 2 failed"; then
+        echo "ok - counts what cmocka prints with '$group'"
+    else
+        echo "not ok - counts what cmocka prints with '$group'"
+    fi
+done
+
 # says "what it shows" "words of the runner" script [options]: runs the script as a test.
 says()
 {
