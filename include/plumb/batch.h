@@ -60,8 +60,8 @@ typedef plumb_result plumb_batch_fn(plumb_world *world, uint32_t index, plumb_ra
 
 /// {0} is not a batch: it needs a count.
 typedef struct plumb_batch_desc {
-    uint32_t count;      ///< worlds, 1..PLUMB_BATCH_MAX
-    int workers;         ///< threads that share the worlds, 0..64, the caller included; default 1
+    uint32_t count;                ///< worlds, 1..PLUMB_BATCH_MAX
+    int workers;                   ///< threads that share the worlds, 0..64, the caller included; default 1
     plumb_task_hooks tasks;        ///< threads of your own instead, as in the world's descriptor
     void *hook_context;            ///< handed to `tasks`
     const plumb_world_desc *world; ///< of every world; its workers and tasks must be 0. Null: {0}

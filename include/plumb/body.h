@@ -106,7 +106,8 @@ PLUMB_API plumb_result plumb_body_set_angle(plumb_world *world, plumb_body body,
 /// Sends a kinematic body to a pose [m], [rad], to be there after dt [s], turning the shorter way. Steps
 /// move it straight and evenly, so that what it meets is pushed and carried; in the step in which the time
 /// is up it arrives, its pose is the target exactly, and it stands still from then on. With dt the step of
-/// the world, that is the next one; a shorter dt makes it push as if it were as fast as that says. A new target, velocity, teleport or type takes the place of this one.
+/// the world, that is the next one; a shorter dt makes it push as if it were as fast as that says. A new target,
+/// velocity, teleport or type takes the place of this one.
 /// O(1). Errors: E_HANDLE, E_RANGE, E_NOT_FINITE, E_STATE (not kinematic), E_MEMORY.
 PLUMB_API plumb_result plumb_body_set_target(plumb_world *world, plumb_body body, plumb_vec2 position,
                                              plumb_real angle, plumb_real dt);
@@ -236,15 +237,15 @@ typedef struct plumb_body_span {
     int static_count;    ///< then so many static rows
     int disabled_count;  ///< then so many rows of disabled bodies, of any type
     const plumb_body *body;
-    const plumb_real *x, *y;           ///< [m] origin
+    const plumb_real *x, *y;               ///< [m] origin
     const plumb_real *center_x, *center_y; ///< [m] centre of mass
-    const plumb_real *c, *s;           ///< cosine, sine of the angle
-    plumb_real *vx, *vy;               ///< [m/s]
-    plumb_real *w;                     ///< [rad/s]
-    plumb_real *fx, *fy;               ///< [N] summed for the next step
-    plumb_real *torque;                ///< [N m] summed for the next step
-    const plumb_real *inv_mass;        ///< [1/kg]
-    const plumb_real *inv_inertia;     ///< [1/(kg m^2)]
+    const plumb_real *c, *s;               ///< cosine, sine of the angle
+    plumb_real *vx, *vy;                   ///< [m/s]
+    plumb_real *w;                         ///< [rad/s]
+    plumb_real *fx, *fy;                   ///< [N] summed for the next step
+    plumb_real *torque;                    ///< [N m] summed for the next step
+    const plumb_real *inv_mass;            ///< [1/kg]
+    const plumb_real *inv_inertia;         ///< [1/(kg m^2)]
 } plumb_body_span;
 
 /// The span of now; all zero for null. O(1).

@@ -32,25 +32,25 @@ PLUMB_BEGIN
 typedef struct plumb_character_desc {
     plumb_vec2 up; ///< direction, any length; {0, 0}: against gravity, or plumb_world_up without.
                    ///< Walking to the right is walking to `up` turned clockwise
-    plumb_real
-        max_slope;   ///< [rad] 0..1.5, steepest ground to stand and walk on; 0 means 50 degrees
-    plumb_real skin; ///< k [m] distance kept from everything; 0: 1/50 of its half width
+    /// [rad] 0..1.5, steepest ground to stand and walk on; 0 means 50 degrees
+    plumb_real max_slope;
+    plumb_real skin;        ///< k [m] distance kept from everything; 0: 1/50 of its half width
     plumb_real step_height; ///< k [m] highest step that is walked up; 0: a quarter of its height
-    plumb_real
-        step_width; ///< k [m] narrowest tread that counts as one; 0: a quarter of its half width
-    plumb_real
-        snap_distance; ///< k [m] largest drop of the ground that it follows; 0: as step_height
-    plumb_real
-        acceleration; ///< [m/s^2] of walking and flying; 0: the wanted velocity is reached at once
-                      ///< (dynamic: 40)
+    /// k [m] narrowest tread that counts as one; 0: a quarter of its half width
+    plumb_real step_width;
+    /// k [m] largest drop of the ground that it follows; 0: as step_height
+    plumb_real snap_distance;
+    /// [m/s^2] of walking and flying; 0: the wanted velocity is reached at once
+    /// (dynamic: 40)
+    plumb_real acceleration;
     plumb_real air_acceleration; ///< [m/s^2] sideways in the air; 0: as `acceleration`
     plumb_real max_fall_speed;   ///< k [m/s] 0: no limit
     plumb_real mass;             ///< k [kg] weight on dynamic bodies it stands on; 0 means 70
-    plumb_real
-        push_force; ///< k [N] most force on dynamic bodies in its way; 0: 10 m/s^2 times `mass`
-    bool no_steps;  ///< k it does not climb steps
-    bool no_snap;   ///< k it does not follow the ground downwards
-    bool no_push;   ///< k dynamic bodies in its way are walls to it
+    /// k [N] most force on dynamic bodies in its way; 0: 10 m/s^2 times `mass`
+    plumb_real push_force;
+    bool no_steps;       ///< k it does not climb steps
+    bool no_snap;        ///< k it does not follow the ground downwards
+    bool no_push;        ///< k dynamic bodies in its way are walls to it
     bool no_air_control; ///< in the air its velocity is left alone
 } plumb_character_desc;
 

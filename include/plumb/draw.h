@@ -23,11 +23,11 @@ typedef struct plumb_color {
 
 /// What to draw: bits for plumb_draw_desc.parts.
 typedef enum plumb_draw_part {
-    PLUMB_DRAW_SHAPES = 1,   ///< filled, with their outlines
-    PLUMB_DRAW_JOINTS = 2,   ///< from centres over anchors to centres; axes, ropes
-    PLUMB_DRAW_CONTACTS = 4, ///< points that touch, with their normals
-    PLUMB_DRAW_FORCES = 8, ///< what contacts and joints bear, mean of the last substep: force_scale
-    PLUMB_DRAW_BOXES = 16, ///< boxes around convex pieces
+    PLUMB_DRAW_SHAPES = 1,      ///< filled, with their outlines
+    PLUMB_DRAW_JOINTS = 2,      ///< from centres over anchors to centres; axes, ropes
+    PLUMB_DRAW_CONTACTS = 4,    ///< points that touch, with their normals
+    PLUMB_DRAW_FORCES = 8,      ///< what contacts and joints bear, mean of the last substep: force_scale
+    PLUMB_DRAW_BOXES = 16,      ///< boxes around convex pieces
     PLUMB_DRAW_CENTERS = 32,    ///< centres of mass with the axes of the body
     PLUMB_DRAW_VELOCITIES = 64, ///< of centres of mass: velocity_scale
     PLUMB_DRAW_NAMES = 128,     ///< what plumb_draw_desc.name tells of bodies
@@ -78,18 +78,18 @@ typedef struct plumb_draw_calls {
 /// What to draw and how. {0} is valid: every zero means the default told beside the field.
 typedef struct plumb_draw_desc {
     unsigned parts; ///< bits of plumb_draw_part; default shapes and joints
-    plumb_aabb
-        view; ///< [m] what lies outside is left out, by the grid; default {0}: all there is. A world that
-        ///< wraps around is drawn by every image that is in view, up to 17 along an axis; default one
-    plumb_real
-        pixel; ///< [m] > 0 of a pixel: sizes of dots, smoothness of curves; default: a thousandth of the view's
-        ///< width, or 0.02
+    /// [m] what lies outside is left out, by the grid; default {0}: all there is. A world that
+    /// wraps around is drawn by every image that is in view, up to 17 along an axis; default one
+    plumb_aabb view;
+    /// [m] > 0 of a pixel: sizes of dots, smoothness of curves; default: a thousandth of the view's
+    /// width, or 0.02
+    plumb_real pixel;
     plumb_real force_scale;     ///< [m/N] >= 0 length of forces; default 0.02
     plumb_real velocity_scale;  ///< [s] >= 0 length of velocities; default 0.1
     const plumb_color *palette; ///< PLUMB_PAINT_COUNT colours; default: plumb_draw_palette
-    const plumb_loop
-        *loop; ///< of this world: bodies are where it shows them; default: where they are
+    /// of this world: bodies are where it shows them; default: where they are
     /// Colour of a shape instead of `by_state`. Null: that one.
+    const plumb_loop *loop;
     plumb_color (*color)(void *context, plumb_shape shape, plumb_color by_state);
     /// Name of a body, null for none. Null: no names.
     const char *(*name)(void *context, plumb_body body);

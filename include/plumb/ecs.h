@@ -17,8 +17,8 @@
 PLUMB_BEGIN
 
 typedef enum plumb_entity_kind {
-    PLUMB_KIND_NONE,     ///< stale or null
-    PLUMB_KIND_BARE,     ///< made by plumb_entity_create
+    PLUMB_KIND_NONE, ///< stale or null
+    PLUMB_KIND_BARE, ///< made by plumb_entity_create
     PLUMB_KIND_BODY,
     PLUMB_KIND_SHAPE,
     PLUMB_KIND_MATERIAL,
@@ -60,10 +60,10 @@ typedef struct plumb_field {
 typedef void plumb_component_hook(plumb_world *world, plumb_entity entity, void *value, void *context);
 
 typedef struct plumb_component_desc {
-    const char *name; ///< 1..63 characters, unique in the world; copied
-    size_t size;      ///< [B] of one value, 1..65536
-    const plumb_field *fields; ///< may be null; copied, names too
-    int field_count;           ///< 0..64
+    const char *name;                ///< 1..63 characters, unique in the world; copied
+    size_t size;                     ///< [B] of one value, 1..65536
+    const plumb_field *fields;       ///< may be null; copied, names too
+    int field_count;                 ///< 0..64
     plumb_component_hook *on_add;    ///< may be null
     plumb_component_hook *on_remove; ///< may be null
     void *context;                   ///< for the hooks
@@ -101,10 +101,10 @@ PLUMB_API plumb_component_span plumb_world_column(plumb_world *world, plumb_comp
 
 /// When a user system runs. Built-in passes lie between the phases.
 typedef enum plumb_phase {
-    PLUMB_PHASE_BEGIN,  ///< at the start of the step, after commands were applied
-    PLUMB_PHASE_FORCES, ///< before forces are integrated: add to the force columns here
+    PLUMB_PHASE_BEGIN,    ///< at the start of the step, after commands were applied
+    PLUMB_PHASE_FORCES,   ///< before forces are integrated: add to the force columns here
     PLUMB_PHASE_CONTACTS, ///< after the narrow phase, before the solver
-    PLUMB_PHASE_END     ///< after everything: events and transforms are those of this step
+    PLUMB_PHASE_END       ///< after everything: events and transforms are those of this step
 } plumb_phase;
 
 /// What a system is called with.

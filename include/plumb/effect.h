@@ -25,8 +25,8 @@ typedef struct plumb_explosion_desc {
     /// [N s/m] per metre of its front, away from `position`: a surface gets it as far as it faces the
     /// blast, where it is hit. Negative draws bodies in.
     plumb_real impulse;
-    bool per_body; ///< `impulse` is [N s] a body instead, away from `position` through its centre of mass,
-                   ///< times the share of the body that the blast reaches
+    bool per_body;             ///< `impulse` is [N s] a body instead, away from `position` through its centre of mass,
+                               ///< times the share of the body that the blast reaches
     plumb_occlusion occlusion; ///< default: nothing shields
     plumb_query_filter filter; ///< which shapes are hit; {0}: all but sensors
 } plumb_explosion_desc;

@@ -41,34 +41,34 @@ typedef enum plumb_joint_kind {
 typedef struct plumb_joint_desc {
     plumb_joint_kind kind;
     plumb_body body_a, body_b; ///< not both null, not the same; null: the world
-    plumb_vec2 anchor;   ///< [m] the common point; distance, pulley: on A; mouse: the point of B
-    plumb_vec2 anchor_b; ///< [m] distance, pulley: on B
-    plumb_vec2 ground_a; ///< [m] pulley: the wheel of A's rope, on the world
-    plumb_vec2 ground_b; ///< [m] pulley: the wheel of B's rope, on the world
-    plumb_vec2 axis;     ///< prismatic, wheel: direction of the value, any length; {0}: x (wheel: up).
-                         ///< gear: {0}: turns of both; else B's travel along it (rack)
-    bool enable_limit;       ///< lower <= value <= upper; distance: instead of the rod
-    plumb_real lower, upper; ///< [rad] or [m] lower <= upper; distance: >= 0
-    bool enable_motor;       ///< revolute, prismatic, wheel: drives the value's rate
-    plumb_real motor_speed;  ///< [rad/s] or [m/s]; wheel: [rad/s] of B
-    plumb_real max_motor;    ///< [N m] or [N] >= 0; wheel: [N m]
-    plumb_real hertz;   ///< [1/s] >= 0 of the spring with the joint's own effective mass; 0: none.
-                        ///< Weld, distance, motor: 0 is rigid. Mouse: 0 means 5
-    plumb_real damping; ///< [-] >= 0 damping ratio of the spring. Mouse: 0 means 1
-    plumb_real rest;    ///< [rad] or [m] value at which the spring is at rest; motor: wanted angle
-    plumb_real length;  ///< [m] distance: of rod or spring; 0 means as things are
-    plumb_real ratio;   ///< [-] gear: turn of A + ratio * turn or travel [m] of B is constant; pulley,
-                        ///< > 0; 0 means 1
-    plumb_real pitch;   ///< [rad] ratchet: a tooth, not 0; negative: B turns clockwise only
-    plumb_real max_force;   ///< [N] >= 0; mouse, motor: 0 is unbounded; friction: as given
-    plumb_real max_torque;  ///< [N m] likewise
-    plumb_real break_force; ///< [N] >= 0 breaks where the mean of the reaction over a step exceeds it; 0: never
-    plumb_real break_torque; ///< [N m] likewise
-    plumb_real break_impulse; ///< [N s] likewise of the reaction summed over a step, whatever its length
-    plumb_real event_force;  ///< [N] >= 0 a strain event where that mean exceeds it; 0: none
-    plumb_real event_torque; ///< [N m] likewise
-    bool disabled;           ///< it does nothing until plumb_joint_set_enabled
-    bool collide_connected;  ///< the two bodies collide with one another; default: they do not
+    plumb_vec2 anchor;         ///< [m] the common point; distance, pulley: on A; mouse: the point of B
+    plumb_vec2 anchor_b;       ///< [m] distance, pulley: on B
+    plumb_vec2 ground_a;       ///< [m] pulley: the wheel of A's rope, on the world
+    plumb_vec2 ground_b;       ///< [m] pulley: the wheel of B's rope, on the world
+    plumb_vec2 axis;           ///< prismatic, wheel: direction of the value, any length; {0}: x (wheel: up).
+                               ///< gear: {0}: turns of both; else B's travel along it (rack)
+    bool enable_limit;         ///< lower <= value <= upper; distance: instead of the rod
+    plumb_real lower, upper;   ///< [rad] or [m] lower <= upper; distance: >= 0
+    bool enable_motor;         ///< revolute, prismatic, wheel: drives the value's rate
+    plumb_real motor_speed;    ///< [rad/s] or [m/s]; wheel: [rad/s] of B
+    plumb_real max_motor;      ///< [N m] or [N] >= 0; wheel: [N m]
+    plumb_real hertz;          ///< [1/s] >= 0 of the spring with the joint's own effective mass; 0: none.
+                               ///< Weld, distance, motor: 0 is rigid. Mouse: 0 means 5
+    plumb_real damping;        ///< [-] >= 0 damping ratio of the spring. Mouse: 0 means 1
+    plumb_real rest;           ///< [rad] or [m] value at which the spring is at rest; motor: wanted angle
+    plumb_real length;         ///< [m] distance: of rod or spring; 0 means as things are
+    plumb_real ratio;          ///< [-] gear: turn of A + ratio * turn or travel [m] of B is constant; pulley,
+                               ///< > 0; 0 means 1
+    plumb_real pitch;          ///< [rad] ratchet: a tooth, not 0; negative: B turns clockwise only
+    plumb_real max_force;      ///< [N] >= 0; mouse, motor: 0 is unbounded; friction: as given
+    plumb_real max_torque;     ///< [N m] likewise
+    plumb_real break_force;    ///< [N] >= 0 breaks where the mean of the reaction over a step exceeds it; 0: never
+    plumb_real break_torque;   ///< [N m] likewise
+    plumb_real break_impulse;  ///< [N s] likewise of the reaction summed over a step, whatever its length
+    plumb_real event_force;    ///< [N] >= 0 a strain event where that mean exceeds it; 0: none
+    plumb_real event_torque;   ///< [N m] likewise
+    bool disabled;             ///< it does nothing until plumb_joint_set_enabled
+    bool collide_connected;    ///< the two bodies collide with one another; default: they do not
     void *user_data;
 } plumb_joint_desc;
 
@@ -174,9 +174,9 @@ typedef struct plumb_joint_break {
     plumb_joint joint;
     plumb_joint_kind kind;
     plumb_body body_a, body_b;
-    plumb_vec2 point;  ///< [m] anchor on B
-    plumb_vec2 force;  ///< [N] on B, mean over the step
-    plumb_real torque; ///< [N m] about B's anchor, likewise
+    plumb_vec2 point;   ///< [m] anchor on B
+    plumb_vec2 force;   ///< [N] on B, mean over the step
+    plumb_real torque;  ///< [N m] about B's anchor, likewise
     plumb_vec2 impulse; ///< [N s] on B over the step
     void *user_data;
 } plumb_joint_break;

@@ -21,9 +21,9 @@ typedef enum plumb_mix {
 /// {0} is valid and is the world's default material: a member that is left out has the default told beside it, as in
 /// every descriptor, and what is to be 0 all the same has a member of its own.
 typedef struct plumb_material_desc {
-    plumb_real density;     ///< [kg/m^2] > 0; 0 means 1
-    plumb_real
-        friction; ///< [-] Coulomb coefficient, 0..10; 0 means 0.6 (see frictionless). A pair uses sqrt(a b)
+    plumb_real density; ///< [kg/m^2] > 0; 0 means 1
+    /// [-] Coulomb coefficient, 0..10; 0 means 0.6 (see frictionless). A pair uses sqrt(a b)
+    plumb_real friction;
     bool frictionless;      ///< no friction at all; `friction` must then be 0
     plumb_real restitution; ///< [-] 0..1. A pair uses max(a, b); 1 conserves energy
     /// [m] >= 0, lever arm of rolling resistance: the torque against rolling is at most this times the
@@ -40,7 +40,7 @@ typedef struct plumb_material_desc {
     /// Friction goes by the normal force plus it, and what sticks does not bounce. They have parted, with
     /// an end event, when their nearest points are 5 mm apart. A pair uses the larger.
     plumb_real adhesion;
-    plumb_mix adhesion_mix;    ///< how pairs mix adhesion; default: the larger
+    plumb_mix adhesion_mix; ///< how pairs mix adhesion; default: the larger
 } plumb_material_desc;
 
 /// Makes a material. Null handle on error (see plumb_world_error): E_NULL, E_RANGE, E_NOT_FINITE,

@@ -549,5 +549,4 @@ static inline plumb_vec2 plumb_aabb_extent(plumb_aabb box)
 
 PLUMB_END
 
-
 #endif

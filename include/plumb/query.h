@@ -14,14 +14,14 @@ PLUMB_BEGIN
 
 /// Which shapes a query sees. {0} (or null where a pointer is taken): all but sensors.
 typedef struct plumb_query_filter {
-    plumb_body ignore_body; ///< null: none. Shapes of this body are not seen
-    bool ignore_static;     ///< skip shapes of static bodies
-    bool ignore_dynamic;    ///< skip shapes of dynamic and kinematic bodies
-    uint64_t category;      ///< bits that a shape's own mask must have one of; 0: its mask is not asked
-    uint64_t mask;          ///< bits that a shape's category must have one of; 0: all
-    bool sensors;           ///< see sensors too
-    bool one_way;           ///< rays and casts pass one-way shapes (plumb_one_way) in the direction in which
-                            ///< those let things pass; false: they meet them from all sides
+    plumb_body ignore_body;                           ///< null: none. Shapes of this body are not seen
+    bool ignore_static;                               ///< skip shapes of static bodies
+    bool ignore_dynamic;                              ///< skip shapes of dynamic and kinematic bodies
+    uint64_t category;                                ///< bits that a shape's own mask must have one of; 0: its mask is not asked
+    uint64_t mask;                                    ///< bits that a shape's category must have one of; 0: all
+    bool sensors;                                     ///< see sensors too
+    bool one_way;                                     ///< rays and casts pass one-way shapes (plumb_one_way) in the direction in which
+                                                      ///< those let things pass; false: they meet them from all sides
     bool (*accept)(void *context, plumb_shape shape); ///< null: accept all
     void *context;
 } plumb_query_filter;

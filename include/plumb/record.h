@@ -100,10 +100,10 @@ PLUMB_API plumb_recorder_info plumb_recorder_get_info(const plumb_world *world);
 typedef struct plumb_replay plumb_replay;
 
 typedef struct plumb_replay_desc {
-    int simd_width; ///< as plumb_world_desc
-    int workers;    ///< as plumb_world_desc
-    bool list_edits;///< keep what was changed in each step for plumb_replay_edits: costs two images a step
-                    ///< with edits
+    int simd_width;            ///< as plumb_world_desc
+    int workers;               ///< as plumb_world_desc
+    bool list_edits;           ///< keep what was changed in each step for plumb_replay_edits: costs two images a step
+                               ///< with edits
     plumb_allocator allocator; ///< null members: the C library
     plumb_log_fn *log;         ///< null: silent
     void *hook_context;        ///< handed to `log`
@@ -187,9 +187,9 @@ typedef struct plumb_difference {
     plumb_entity entity; ///< body, shape, material, joint, bare entity; null: the world itself
     plumb_entity other;  ///< of a contact: its second shape
     plumb_entity_kind entity_kind;
-    char table[32];      ///< "bodies", "joints", "contacts", "components", "world", ...
-    char component[64];  ///< column, member, name of a user component and its field: "x", "health.points"
-    char a[64], b[64];   ///< values, with as many digits as give the same number when read; "" if none
+    char table[32];     ///< "bodies", "joints", "contacts", "components", "world", ...
+    char component[64]; ///< column, member, name of a user component and its field: "x", "health.points"
+    char a[64], b[64];  ///< values, with as many digits as give the same number when read; "" if none
 } plumb_difference;
 
 /// How two worlds differ: bodies first, each with its columns in their order, then shapes, joints,
@@ -202,8 +202,8 @@ PLUMB_API plumb_result plumb_world_compare(const plumb_world *a, const plumb_wor
 
 /// A change that the user made, in the step that led here.
 typedef struct plumb_replay_edit {
-    int phase; ///< -1: before the step (calls, commands); else the plumb_phase whose systems made it;
-               ///< PLUMB_PHASE_END also: a hook of a component, of a joint that broke in the step
+    int phase;               ///< -1: before the step (calls, commands); else the plumb_phase whose systems made it;
+                             ///< PLUMB_PHASE_END also: a hook of a component, of a joint that broke in the step
     plumb_difference change; ///< A before, B after
 } plumb_replay_edit;
 
@@ -213,13 +213,13 @@ PLUMB_API int plumb_replay_edits(const plumb_replay *replay, plumb_replay_edit *
 
 /// The first step of two recordings after which the worlds differ in more than their settings.
 typedef struct plumb_replay_difference {
-    bool found;       ///< false: all steps that both have are the same
-    uint64_t step;    ///< after so many steps (of B) they differ; 0: at the head already
-    double time[2];   ///< [s] then
-    const char *pass; ///< "head", "edits" (what the user did before the step), or the first pass of the
-                      ///< schedule after which they differ; "" where that cannot be found out: see `seen`
-    uint64_t seen;    ///< steps at which `first` was seen: `step`, but where one does not give its bits in this
-                      ///< build, the next keyframe that both have; 0: there is none
+    bool found;             ///< false: all steps that both have are the same
+    uint64_t step;          ///< after so many steps (of B) they differ; 0: at the head already
+    double time[2];         ///< [s] then
+    const char *pass;       ///< "head", "edits" (what the user did before the step), or the first pass of the
+                            ///< schedule after which they differ; "" where that cannot be found out: see `seen`
+    uint64_t seen;          ///< steps at which `first` was seen: `step`, but where one does not give its bits in this
+                            ///< build, the next keyframe that both have; 0: there is none
     plumb_difference first; ///< what differs then
 } plumb_replay_difference;
 

@@ -22,7 +22,7 @@ typedef enum plumb_shape_kind {
     ///< the hull do nothing, and are a warning in the log: PLUMB_OUTLINE may be concave
     PLUMB_OUTLINE, ///< points[3..256]: a simple closed outline, concave or not, either orientation
     PLUMB_SEGMENT, ///< points[2]: a line without mass that collides on both sides
-    PLUMB_CHAIN ///< points[2..]: joined segments, `closed` joins last to first; two-sided, no mass
+    PLUMB_CHAIN    ///< points[2..]: joined segments, `closed` joins last to first; two-sided, no mass
 } plumb_shape_kind;
 
 /// Which shapes may meet. {0} is category 1 that meets everything. Two shapes whose groups are equal and

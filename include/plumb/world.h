@@ -31,43 +31,43 @@ typedef enum plumb_solver {
 
 /// How a world is made. {0} is valid: every zero means the default told beside the field.
 typedef struct plumb_world_desc {
-    plumb_vec2 gravity;       ///< [m/s^2] finite; {0, 0}: 9.81 downwards as y_axis says
-    bool zero_gravity;        ///< true: no gravity at all; `gravity` must then be {0, 0}
-    plumb_y_axis y_axis;      ///< default PLUMB_Y_UP
-    plumb_solver solver;      ///< default PLUMB_SOLVER_SOFT
-    int substeps;             ///< [-] 1..64, default 4. PGS: sub-steps of the whole step, default 1
-    int iterations;           ///< [-] 1..1000. PGS: sweeps a step, default 10. Soft: sweeps a substep, default 1
-    plumb_real contact_hertz; ///< [1/s] >= 0. Contact stiffness; default: a sixth of the substep rate,
-                              ///< which is also the largest that is used
-    plumb_real contact_damping;   ///< [-] >= 0, damping ratio of contacts, default 3
-    plumb_real push_speed;        ///< [m/s] >= 0, fastest recovery from overlap, default 6
-    plumb_real restitution_speed; ///< [m/s] >= 0; approach slower than this does not bounce. Default 0:
-                                  ///< only a bounce that would end within the substep is swallowed
-    plumb_real hit_speed;     ///< [m/s] >= 0; contacts that approach faster make hit events. Default 0: none
-    bool contact_impulses;    ///< add up the impulses of each contact over the step (plumb_contact_point);
-                              ///< done anyway where hit_speed is set
-    bool no_sleep;            ///< bodies at rest stay awake: see plumb/sleep.h
-    plumb_real sleep_speed;   ///< [m/s] >= 0; bodies slower than this rest, default 0.05: of v and w times
-                              ///< the farthest point of the body, the root of the sum of squares
-    plumb_real sleep_time;    ///< [s] >= 0; how long bodies must have rested to fall asleep, default 0.5
-    plumb_real wrap_x, wrap_y;///< [m] 0.1..2e9: the world is so long along the axis and closes in on itself,
-                              ///< see plumb_world_wrapped. Default 0: it has no end
-    bool no_continuous;       ///< bodies that move fast may pass through thin things: no sweeps. For worlds
-                              ///< in which it does not matter; bodies that move slowly cost nothing anyway
-    int simd_width;           ///< lanes of the contact kernels: 4, 8 or 16; default 0 = best measured.
-                              ///< A pure speed setting: every width gives the same bits
-    uint32_t body_capacity;   ///< rows to reserve; 0: grow as needed
-    uint32_t shape_capacity;  ///< likewise for shapes, of 4 corners
-    uint32_t contact_capacity;///< likewise for contacts
-    int workers;              ///< threads that share the work of a step, 0..64, the caller included; default
-                              ///< 1: no thread is made. A pure speed setting: any number gives the same bits.
-                              ///< Pays from some thousand bodies on; no more than there are idle cores
-    plumb_task_hooks tasks;   ///< threads of your own instead: `workers` tells how many there are to reckon with
-    plumb_allocator allocator;///< null members: the C library
-    plumb_log_fn *log;        ///< null: silent; plumb_log_stderr: to stderr
+    plumb_vec2 gravity;             ///< [m/s^2] finite; {0, 0}: 9.81 downwards as y_axis says
+    bool zero_gravity;              ///< true: no gravity at all; `gravity` must then be {0, 0}
+    plumb_y_axis y_axis;            ///< default PLUMB_Y_UP
+    plumb_solver solver;            ///< default PLUMB_SOLVER_SOFT
+    int substeps;                   ///< [-] 1..64, default 4. PGS: sub-steps of the whole step, default 1
+    int iterations;                 ///< [-] 1..1000. PGS: sweeps a step, default 10. Soft: sweeps a substep, default 1
+    plumb_real contact_hertz;       ///< [1/s] >= 0. Contact stiffness; default: a sixth of the substep rate,
+                                    ///< which is also the largest that is used
+    plumb_real contact_damping;     ///< [-] >= 0, damping ratio of contacts, default 3
+    plumb_real push_speed;          ///< [m/s] >= 0, fastest recovery from overlap, default 6
+    plumb_real restitution_speed;   ///< [m/s] >= 0; approach slower than this does not bounce. Default 0:
+                                    ///< only a bounce that would end within the substep is swallowed
+    plumb_real hit_speed;           ///< [m/s] >= 0; contacts that approach faster make hit events. Default 0: none
+    bool contact_impulses;          ///< add up the impulses of each contact over the step (plumb_contact_point);
+                                    ///< done anyway where hit_speed is set
+    bool no_sleep;                  ///< bodies at rest stay awake: see plumb/sleep.h
+    plumb_real sleep_speed;         ///< [m/s] >= 0; bodies slower than this rest, default 0.05: of v and w times
+                                    ///< the farthest point of the body, the root of the sum of squares
+    plumb_real sleep_time;          ///< [s] >= 0; how long bodies must have rested to fall asleep, default 0.5
+    plumb_real wrap_x, wrap_y;      ///< [m] 0.1..2e9: the world is so long along the axis and closes in on itself,
+                                    ///< see plumb_world_wrapped. Default 0: it has no end
+    bool no_continuous;             ///< bodies that move fast may pass through thin things: no sweeps. For worlds
+                                    ///< in which it does not matter; bodies that move slowly cost nothing anyway
+    int simd_width;                 ///< lanes of the contact kernels: 4, 8 or 16; default 0 = best measured.
+                                    ///< A pure speed setting: every width gives the same bits
+    uint32_t body_capacity;         ///< rows to reserve; 0: grow as needed
+    uint32_t shape_capacity;        ///< likewise for shapes, of 4 corners
+    uint32_t contact_capacity;      ///< likewise for contacts
+    int workers;                    ///< threads that share the work of a step, 0..64, the caller included; default
+                                    ///< 1: no thread is made. A pure speed setting: any number gives the same bits.
+                                    ///< Pays from some thousand bodies on; no more than there are idle cores
+    plumb_task_hooks tasks;         ///< threads of your own instead: `workers` tells how many there are to reckon with
+    plumb_allocator allocator;      ///< null members: the C library
+    plumb_log_fn *log;              ///< null: silent; plumb_log_stderr: to stderr
     plumb_assert_fn *assert_failed; ///< null: broken invariants go to `log`
-    void *hook_context;       ///< handed to `log`, `assert_failed` and `tasks`
-    void *user_data;          ///< see plumb_world_user_data
+    void *hook_context;             ///< handed to `log`, `assert_failed` and `tasks`
+    void *user_data;                ///< see plumb_world_user_data
 } plumb_world_desc;
 
 /// Makes a world. `desc` may be null (= {0}). On error *world is null and, when the descriptor has
@@ -155,33 +155,33 @@ PLUMB_API void plumb_world_clear_error(plumb_world *world);
 
 /// Counts and self-measured error of the last step.
 typedef struct plumb_stats {
-    uint64_t step_count;        ///< steps taken
-    double time;                ///< [s] simulated
-    uint32_t body_count;        ///< all bodies
-    uint32_t dynamic_count;     ///< awake dynamic bodies
-    uint32_t kinematic_count;   ///< kinematic bodies
-    uint32_t static_count;      ///< static bodies
-    uint32_t asleep_count;      ///< sleeping dynamic bodies
-    uint32_t island_count;      ///< islands that sleep
-    uint32_t disabled_count;    ///< bodies out of the simulation, of any type
-    uint32_t shape_count;       ///< shapes as the user made them
-    uint32_t piece_count;       ///< convex pieces of all shapes
-    uint32_t pair_count;        ///< pairs whose fat boxes overlap, and contacts of sleeping bodies
-    uint32_t contact_count;     ///< pairs that touch (a manifold with at least one point), asleep or not
-    uint32_t point_count;       ///< manifold points of those
-    uint32_t color_count;       ///< colours of the constraint graph
-    uint32_t overflow_count;    ///< contacts that found no colour
-    uint32_t pair_rebuilds;     ///< rebuilds of the pair list since the world was made
-    uint32_t bounce_count;      ///< impacts resolved with restitution in the last step
-    uint32_t arrested_count;    ///< bodies taken out in all, because a step would have left them with a state
-                                ///< that is not finite or beyond 1e12 m or m/s: see plumb_quarantine
-    uint32_t fast_count;        ///< bodies that moved so fast in the last step that their way was swept
-    uint32_t stopped_count;     ///< of those, bodies put back to where they would have passed into something
-    int simd_width;             ///< lanes in use
-    plumb_real max_penetration; ///< [m] deepest overlap after the last step's narrow phase, >= 0
-    plumb_real mean_penetration;///< [m] mean over touching contacts of the deeper point, 0 if apart
-    size_t bytes;               ///< [B] memory held by the world
-    size_t peak_bytes;          ///< [B] most memory ever held
+    uint64_t step_count;         ///< steps taken
+    double time;                 ///< [s] simulated
+    uint32_t body_count;         ///< all bodies
+    uint32_t dynamic_count;      ///< awake dynamic bodies
+    uint32_t kinematic_count;    ///< kinematic bodies
+    uint32_t static_count;       ///< static bodies
+    uint32_t asleep_count;       ///< sleeping dynamic bodies
+    uint32_t island_count;       ///< islands that sleep
+    uint32_t disabled_count;     ///< bodies out of the simulation, of any type
+    uint32_t shape_count;        ///< shapes as the user made them
+    uint32_t piece_count;        ///< convex pieces of all shapes
+    uint32_t pair_count;         ///< pairs whose fat boxes overlap, and contacts of sleeping bodies
+    uint32_t contact_count;      ///< pairs that touch (a manifold with at least one point), asleep or not
+    uint32_t point_count;        ///< manifold points of those
+    uint32_t color_count;        ///< colours of the constraint graph
+    uint32_t overflow_count;     ///< contacts that found no colour
+    uint32_t pair_rebuilds;      ///< rebuilds of the pair list since the world was made
+    uint32_t bounce_count;       ///< impacts resolved with restitution in the last step
+    uint32_t arrested_count;     ///< bodies taken out in all, because a step would have left them with a state
+                                 ///< that is not finite or beyond 1e12 m or m/s: see plumb_quarantine
+    uint32_t fast_count;         ///< bodies that moved so fast in the last step that their way was swept
+    uint32_t stopped_count;      ///< of those, bodies put back to where they would have passed into something
+    int simd_width;              ///< lanes in use
+    plumb_real max_penetration;  ///< [m] deepest overlap after the last step's narrow phase, >= 0
+    plumb_real mean_penetration; ///< [m] mean over touching contacts of the deeper point, 0 if apart
+    size_t bytes;                ///< [B] memory held by the world
+    size_t peak_bytes;           ///< [B] most memory ever held
 } plumb_stats;
 
 /// Counters of the last step; of sleeping bodies, as they were when they fell asleep. O(sleeping islands).
@@ -219,14 +219,14 @@ PLUMB_API plumb_energy plumb_world_energy(const plumb_world *world);
 /// One line of the schedule: a pass of the step, built in or the user's.
 typedef struct plumb_pass_info {
     const char *name;
-    const char *phase;   ///< "commands", "forces", "broad", "narrow", "solve", "finish", or a user phase
-    const char *reads;   ///< columns read
-    const char *writes;  ///< columns written
-    const char *reason;  ///< why it runs, or why it was left out
-    bool scheduled;      ///< false: wanted by nothing in this world, costs nothing
-    bool is_user;        ///< registered by plumb_system_create
-    double last_ns;      ///< [ns] wall time in the last step
-    double total_ns;     ///< [ns] since the world was made
+    const char *phase;  ///< "commands", "forces", "broad", "narrow", "solve", "finish", or a user phase
+    const char *reads;  ///< columns read
+    const char *writes; ///< columns written
+    const char *reason; ///< why it runs, or why it was left out
+    bool scheduled;     ///< false: wanted by nothing in this world, costs nothing
+    bool is_user;       ///< registered by plumb_system_create
+    double last_ns;     ///< [ns] wall time in the last step
+    double total_ns;    ///< [ns] since the world was made
 } plumb_pass_info;
 
 /// The schedule in order, passes left out included. Writes up to `capacity` rows, returns how many

@@ -49,9 +49,9 @@ typedef struct pl_grid {
     uint32_t entry_count;
     pl_buffer level_room; // few worlds have sizes of more than three octaves, none of all
     pl_buffer entries;    // pl_grid_entry
-    pl_buffer starts;  // uint32_t
-    pl_buffer places;  // scratch of the build
-    pl_buffer maps;    // uint64_t, PL_GRID_MAP rows a level
+    pl_buffer starts;     // uint32_t
+    pl_buffer places;     // scratch of the build
+    pl_buffer maps;       // uint64_t, PL_GRID_MAP rows a level
     bool mapped;
     pl_buffer sides; // real, of pl_grid_lanes
 } pl_grid;

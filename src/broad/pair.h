@@ -25,8 +25,10 @@ typedef struct pl_pair {
 #define PL_PAIR_HELD     64u    // of a one-way piece: it holds
 #define PL_PAIR_PASSING  128u   // it is under way through it
 #define PL_PAIR_DROPPING 16384u // it was held and asked to drop through
-#define PL_PAIR_AHEAD    32768u // its manifold is that of a later moment; only within the narrow phase (narrow/ahead.h)
-#define PL_PAIR_COVERED  65536u // parts only, until events are made: its surfaces met, but a neighbour has the contact
+#define PL_PAIR_AHEAD                                                                              \
+    32768u // its manifold is that of a later moment; only within the narrow phase (narrow/ahead.h)
+#define PL_PAIR_COVERED                                                                            \
+    65536u // parts only, until events are made: its surfaces met, but a neighbour has the contact
 
 // The face that parted the pieces when they were last looked at, in bits of the flags: 0 none, else
 // 1 + 2 x edge, + 1 when it is an edge of b. Tried first; see narrow/convex.simd.c.

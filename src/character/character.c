@@ -127,13 +127,11 @@ static plumb_result check_body(const plumb_world *world, const char *fn, plumb_b
     return r;
 }
 
-static void copy_desc(plumb_character_desc *to, const plumb_character_desc *from)
-{
-    PL_CHARACTER_DESC(PL_COPY_MEMBER)
-}
+static void copy_desc(plumb_character_desc *to,
+                      const plumb_character_desc *from){ PL_CHARACTER_DESC(PL_COPY_MEMBER) }
 
-plumb_result plumb_character_create(plumb_world *world, plumb_body body,
-                                    const plumb_character_desc *desc)
+plumb_result
+    plumb_character_create(plumb_world *world, plumb_body body, const plumb_character_desc *desc)
 {
     const plumb_character_desc zero = { 0 };
     uint32_t row;

@@ -66,10 +66,10 @@ typedef struct pl_characters {
     pl_buffer saved; // the same, as before the step
     uint32_t count;
     uint32_t turn;
-    bool moved;          // in this step: it can be undone
-    bool walks;          // some dynamic one was driven in this step
-    bool treads;         // some kinematic one stands on a dynamic body
-    double farthest;     // [m] that a kinematic one moves in this step, of those that had their turn
+    bool moved;      // in this step: it can be undone
+    bool walks;      // some dynamic one was driven in this step
+    bool treads;     // some kinematic one stands on a dynamic body
+    double farthest; // [m] that a kinematic one moves in this step, of those that had their turn
     pl_buffer obstacles; // pl_obstacle, scratch of one character
     pl_buffer near;      // uint32_t, pieces near it
     pl_buffer pushes;    // pl_shove of this step

@@ -85,7 +85,7 @@ static void jump(pl_walker *m)
     if (row != PL_NONE && b->type[row] == PLUMB_DYNAMIC) {
         double force = -gain * (double)b->mass[m->row] / m->dt;
         pl_shove_add(m->world, row, force * m->ux, force * m->uy, (double)c->ground.point.x,
-                    (double)c->ground.point.y);
+                     (double)c->ground.point.y);
     }
     c->on_ground = false;
     c->ground = (pl_ground){ 0 };

@@ -266,7 +266,8 @@ bool pl_walker_look(pl_walker *m, double reach)
     plumb_world *world = m->world;
     search s = { .m = m };
     pl_box box = pl_piece_tight_box(world, m->piece);
-    real wide = (real)pl_least(reach + reach_of_others(world, m->step) + m->skin, (double)PL_LARGEST);
+    real wide =
+        (real)pl_least(reach + reach_of_others(world, m->step) + m->skin, (double)PL_LARGEST);
     box.min_x -= wide, box.min_y -= wide, box.max_x += wide, box.max_y += wide;
     if (!pl_world_query(world, &world->broad.moving, box, list_piece, &s) ||
         !pl_world_query(world, &world->broad.resting, box, list_resting, &s) ||

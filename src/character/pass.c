@@ -205,7 +205,9 @@ static bool move_one(plumb_world *world, pl_character *c, real dt)
     // Coming to rest again where it stood, off by a rounding, it has not moved.
     double rounding = 4 * (double)PLUMB_REAL_EPSILON *
                       (fabs((double)m.start.x) + fabs((double)m.start.y) + m.half_width);
-    if (is_asleep_below(c, world)) { // it fell asleep in a creep of the solver's rounding, larger in the far build
+    if (is_asleep_below(
+            c,
+            world)) { // it fell asleep in a creep of the solver's rounding, larger in the far build
         rounding += 4 * (double)NEAR_EPSILON * m.half_width;
     }
     bool moved = fabs(m.x) + fabs(m.y) > rounding;

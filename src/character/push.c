@@ -77,6 +77,6 @@ void pl_walker_weigh(pl_walker *m)
     bool rests = b->island[row] != PL_NONE && c->speed == 0 && !m->landed;
     if (!rests) {
         pl_shove_add(m->world, row, m->mass * m->gravity_x, m->mass * m->gravity_y,
-                    (double)c->ground.point.x, (double)c->ground.point.y);
+                     (double)c->ground.point.x, (double)c->ground.point.y);
     }
 }

@@ -205,8 +205,8 @@ pl_swept pl_course_piece(const plumb_world *world, uint32_t piece, const pl_cour
     return out;
 }
 
-pl_shift pl_course_image(const plumb_world *world, const pl_course *course, uint32_t piece, double x,
-                         double y)
+pl_shift pl_course_image(const plumb_world *world, const pl_course *course, uint32_t piece,
+                         double x, double y)
 {
     if (!pl_is_wrapped(world)) {
         return (pl_shift){ 0, 0 };

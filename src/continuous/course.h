@@ -41,8 +41,8 @@ pl_course pl_course_stopped(const pl_course *course, double time);
 pl_swept pl_course_piece(const plumb_world *world, uint32_t piece, const pl_course *course);
 // In a world that wraps around: by what to shift a course so that a piece of the body begins nearest to a place
 // [m, world].
-pl_shift pl_course_image(const plumb_world *world, const pl_course *course, uint32_t piece, double x,
-                         double y);
+pl_shift pl_course_image(const plumb_world *world, const pl_course *course, uint32_t piece,
+                         double x, double y);
 // A box around all places of a piece on its way, in world coordinates.
 pl_box pl_course_box(const pl_course *course, const pl_swept *piece);
 

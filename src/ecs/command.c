@@ -443,8 +443,7 @@ void pl_commands_digest(const plumb_world *world, pl_digest *digest)
         pl_digest_add(digest, payload, digested_bytes(&r));
         if (r.kind == CREATE_SHAPE) {
             size_t points = rounded(SHAPE_BYTES);
-            pl_digest_add(digest, payload + points,
-                          (size_t)r.bytes - rounded(sizeof r) - points);
+            pl_digest_add(digest, payload + points, (size_t)r.bytes - rounded(sizeof r) - points);
         } else if (r.kind == SET_COMPONENT && r.has_more) {
             pl_component_digest(&world->components.items[r.component.id - 1], payload, digest);
         }
@@ -466,10 +465,10 @@ void pl_commands_strip(char *bytes, size_t used)
 }
 
 // Bytes that are read as bool.
-#define IS_BOOL(path) && *(const unsigned char *)(const void *)&desc.path <= 1
+#define IS_BOOL(path) &&*(const unsigned char *)(const void *)&desc.path <= 1
 #define BODY_BOOLS(X)                                                                              \
-    X(no_gravity) X(fixed_rotation) X(no_sleep) X(asleep) X(continuous) X(lock_x) X(lock_y)        \
-    X(disabled)
+    X(no_gravity)                                                                                  \
+    X(fixed_rotation) X(no_sleep) X(asleep) X(continuous) X(lock_x) X(lock_y) X(disabled)
 #define SHAPE_BOOLS(X) X(closed) X(filter.nothing) X(sensor)
 
 // A descriptor that the call itself would take, whatever else is in the world.
@@ -533,8 +532,8 @@ static bool is_record(const plumb_world *world, const pl_registry *registry, con
     }
 }
 
-bool pl_commands_are_sound(const plumb_world *world, const pl_registry *registry,
-                           const char *bytes, size_t used, uint32_t count)
+bool pl_commands_are_sound(const plumb_world *world, const pl_registry *registry, const char *bytes,
+                           size_t used, uint32_t count)
 {
     const size_t head = rounded(sizeof(record));
     uint32_t seen = 0;

@@ -18,11 +18,11 @@ enum { PL_SLOT_FREE, PL_SLOT_LIVE, PL_SLOT_PENDING };
 typedef struct pl_registry {
     pl_slot *slots;
     size_t bytes;
-    uint32_t count;     // slots ever used
+    uint32_t count; // slots ever used
     uint32_t capacity;
     uint32_t free_head; // UINT32_MAX: none
     uint32_t free_tail;
-    uint32_t live;      // slots taken, reserved ones included
+    uint32_t live; // slots taken, reserved ones included
 } pl_registry;
 
 void pl_registry_init(pl_registry *registry);
@@ -31,7 +31,8 @@ void pl_registry_free(pl_memory *memory, pl_registry *registry);
 // Makes sure that the next `extra` acquisitions cannot fail.
 bool pl_registry_reserve(pl_memory *memory, pl_registry *registry, uint32_t extra);
 // Takes a slot (room must be reserved).
-plumb_entity pl_registry_acquire(pl_registry *registry, uint32_t kind, uint32_t row, uint32_t state);
+plumb_entity pl_registry_acquire(pl_registry *registry, uint32_t kind, uint32_t row,
+                                 uint32_t state);
 void pl_registry_release(pl_registry *registry, plumb_entity entity);
 // The slot of a handle when it is live, else NULL. O(1).
 pl_slot *pl_registry_find(const pl_registry *registry, plumb_entity entity);

@@ -13,8 +13,7 @@ static plumb_result check(const plumb_world *world, const char *fn, plumb_joint_
         return r;
     }
     if (desc->length == 0) {
-        desc->length =
-            plumb_vec2_magnitude(plumb_world_way(world, desc->anchor, desc->anchor_b));
+        desc->length = plumb_vec2_magnitude(plumb_world_way(world, desc->anchor, desc->anchor_b));
     }
     if (desc->length == 0 && desc->hertz == 0 && !desc->enable_limit) {
         return pl_fail(world, PLUMB_E_GEOMETRY, fn,

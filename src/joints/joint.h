@@ -54,12 +54,12 @@ extern const int pl_joint_class_count;
 
 // What a joint knows of one of its bodies.
 typedef struct pl_joint_end {
-    plumb_body body;    // null: the world
-    uint32_t next;      // next joint of the body: see pl_joint_next
-    plumb_vec2 local;   // [m] anchor in the body's frame; the world's: in the world
-    double start;       // [rad] angle of the body when the joint was made
-    int32_t turns;      // full turns since
-    uint32_t eighth;    // of a turn in which the body was seen last: see pl_joint_eighth
+    plumb_body body;  // null: the world
+    uint32_t next;    // next joint of the body: see pl_joint_next
+    plumb_vec2 local; // [m] anchor in the body's frame; the world's: in the world
+    double start;     // [rad] angle of the body when the joint was made
+    int32_t turns;    // full turns since
+    uint32_t eighth;  // of a turn in which the body was seen last: see pl_joint_eighth
 } pl_joint_end;
 
 struct pl_joint {
@@ -84,7 +84,7 @@ struct pl_joint {
     real inverse[3][3];       // of the block's K = J M^-1 J^T
     real turn[6];             // change of momentum owed because J has turned: see solve.c
     pl_rows rows;
-    plumb_vec2 arm_b; // [m] from B's centre to its anchor, at the rows
+    plumb_vec2 arm_b;        // [m] from B's centre to its anchor, at the rows
     plumb_vec2 step_impulse; // [N s] on B over the step, where it is watched; 0 between steps
     real step_turn;          // [N m s] likewise, about B's anchor
 };
@@ -94,8 +94,8 @@ typedef struct pl_joint_mark {
     plumb_body a, b;
     uint32_t row_a, row_b; // of the bodies, as last found; PL_NONE: the world
     uint32_t cluster;      // of the bodies that it was grouped with
-    uint8_t what;          // 0: not solved (off, or a body of it asleep or disabled); else see plan.c
-    uint8_t color;         // PL_JOINT_COLORS: it is solved by itself
+    uint8_t what;  // 0: not solved (off, or a body of it asleep or disabled); else see plan.c
+    uint8_t color; // PL_JOINT_COLORS: it is solved by itself
     uint8_t pattern;
     bool quiet; // nothing but its reaction comes of it after the step
 } pl_joint_mark;
@@ -110,28 +110,30 @@ static inline bool pl_joint_is_wide(const pl_joint_mark *mark)
 
 // The joints of a cluster of bodies.
 typedef struct pl_joint_group {
-    uint32_t first, end;                       // in `grouped`: in lanes, then those solved one by one
-    uint32_t alone;                            // the first of these
+    uint32_t first, end; // in `grouped`: in lanes, then those solved one by one
+    uint32_t alone;      // the first of these
     uint32_t color_first[PL_JOINT_COLORS + 1]; // first bundle of a colour; then where the last ends
 } pl_joint_group;
 
 // Who is solved with whom: what follows from the joints and bodies that there are, and is kept from step to
 // step as long as it does (plan.c); which of them are in which cluster, and their lanes (group.c).
 typedef struct pl_joint_plan {
-    pl_buffer marks;   // pl_joint_mark a slot
-    pl_buffer ends;    // pl_ends: rows of the bodies of each awake joint; PL_NONE where it is not solved
+    pl_buffer marks; // pl_joint_mark a slot
+    // pl_ends: rows of the bodies of each awake joint; PL_NONE where it is not solved
+    pl_buffer ends;
     pl_buffer order;   // uint32_t: joints that are solved, by colour and pattern
     pl_buffer groups;  // pl_joint_group a cluster
     pl_buffer grouped; // uint32_t: joints group by group, by colour and pattern
     pl_buffer bundles; // pl_joint_bundle
     pl_buffer lanes;   // pl_joint_lane
     pl_buffer slots;   // uint32_t, two a lane: see pl_joint_call
-    pl_buffer records; // of the bundles of a group, room for one group a thread; from step to step nothing is kept
-    size_t room;       // [B] of a thread
+    // of the bundles of a group, room for one group a thread; from step to step nothing is kept
+    pl_buffer records;
+    size_t room; // [B] of a thread
     uint32_t order_count, group_count, bundle_count, pattern_count;
     pl_joint_pattern patterns[PL_JOINT_PATTERNS];
     bool made, changed; // since the last step
-    bool adrift; // no joint is off, or ties a body to what dynamics does not move
+    bool adrift;        // no joint is off, or ties a body to what dynamics does not move
 } pl_joint_plan;
 
 typedef struct pl_joints {
@@ -142,7 +144,8 @@ typedef struct pl_joints {
     uint32_t watched;   // pl_joint_is_watched
     uint32_t free_head; // PL_NONE: none
     int broken_count;
-    uint32_t strained_first; // place in `broken` of the strain events: a joint makes one event a step at most
+    // place in `broken` of the strain events: a joint makes one event a step at most
+    uint32_t strained_first;
     int strained_count;
     pl_buffer awake; // uint32_t: slots of joints of which no body sleeps, in order
     uint32_t awake_count;

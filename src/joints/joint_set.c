@@ -170,8 +170,7 @@ plumb_result plumb_joint_set_break_impulse(plumb_world *world, plumb_joint joint
 {
     pl_joint *j = NULL;
     plumb_result r = find(world, __func__, joint, 0, "", &j);
-    r = r != PLUMB_OK ? r
-                      : pl_check_range(world, __func__, "impulse", impulse, 0, PLUMB_REAL_MAX);
+    r = r != PLUMB_OK ? r : pl_check_range(world, __func__, "impulse", impulse, 0, PLUMB_REAL_MAX);
     if (r == PLUMB_OK) {
         plumb_joint_desc wanted = j->desc;
         wanted.break_impulse = impulse;

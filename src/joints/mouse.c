@@ -38,8 +38,8 @@ static pl_row slope(const pl_joint *j, const pl_joint_pose *a, const pl_joint_po
 }
 
 const pl_joint_class pl_joint_mouse = { .name = "mouse",
-                                        .has = PL_JOINT_SPRING | PL_JOINT_TARGET | PL_JOINT_TRAVELS |
-                                               PL_JOINT_FORCE,
+                                        .has = PL_JOINT_SPRING | PL_JOINT_TARGET |
+                                               PL_JOINT_TRAVELS | PL_JOINT_FORCE,
                                         .check = check,
                                         .rows = rows,
                                         .value = value,

@@ -12,8 +12,8 @@
 
 #define PL_JOINT_ROWS 6
 #define PL_PIVOT                                                                                   \
-    ((near_real)1e-6) // [-] of the diagonal: a smaller pivot is no direction of its own
-#define PL_UNBOUNDED  ((real)1e30) // [N] or [N m]
+    ((near_real)1e-6)             // [-] of the diagonal: a smaller pivot is no direction of its own
+#define PL_UNBOUNDED ((real)1e30) // [N] or [N m]
 
 // Where a body is, as rows see it.
 typedef struct pl_joint_pose {

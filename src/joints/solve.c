@@ -270,15 +270,15 @@ pl_joint_course pl_joint_course_of(plumb_world *world, uint32_t cluster, pl_task
 {
     const pl_joint_plan *plan = &world->joints.plan;
     const bool any = world->joints.live > 0 && cluster < plan->group_count;
-    return (pl_joint_course){
-        .world = world,
-        .group = any ? &pl_joint_groups(&world->joints)[cluster] : NULL,
-        .tasks = tasks,
-        // None while no joint has been solved in lanes.
-        .records = any && plan->room > 0 ? (unsigned char *)plan->records.data + thread * plan->room
-                                         : NULL,
-        .h = h
-    };
+    return (pl_joint_course){ .world = world,
+                              .group = any ? &pl_joint_groups(&world->joints)[cluster] : NULL,
+                              .tasks = tasks,
+                              // None while no joint has been solved in lanes.
+                              .records =
+                                  any && plan->room > 0
+                                      ? (unsigned char *)plan->records.data + thread * plan->room
+                                      : NULL,
+                              .h = h };
 }
 
 static pl_joint_call call_of(const pl_joint_course *c)

@@ -69,8 +69,8 @@ typedef struct pl_joint_call {
     pl_joint *joints;
     const pl_joint_start *starts; // for `fill`: of the lanes of its one bundle
     const pl_rows *rows;          // likewise, unless that is bare
-    real h;              // [s] substep
-    pl_joint_soft rigid; // of rows that are no springs, where they pull
+    real h;                       // [s] substep
+    pl_joint_soft rigid;          // of rows that are no springs, where they pull
 } pl_joint_call;
 
 #define PL_JOINT_LANES 16 // of the widest kernel

@@ -176,13 +176,13 @@ WIDE_INLINE vf edge_distance(const vf r[4], const vf w[4])
 // `cut` [m]: by so much the clip has raised the deeper end. Of an edge that is steep it may raise it out of reach, while
 // its corner is hardly beside the face.
 WIDE_PART void round_corners(touch *t, const lanes *l, const pl_narrow_input *in, const outline *a,
-                             const outline *b, const vf r[4], const vf w[4], vf face_separation, vf cut,
-                             vm lies_flat, vm low_is_nearer)
+                             const outline *b, const vf r[4], const vf w[4], vf face_separation,
+                             vf cut, vm lies_flat, vm low_is_nearer)
 {
     vf zero = splat(0);
     vm corner = (face_separation > splat((near_real)-1e-5)) &
-                ((edge_distance(r, w) >
-                  vmax(face_separation, zero) * splat((near_real)1.000002) + splat((near_real)4e-6)) |
+                ((edge_distance(r, w) > vmax(face_separation, zero) * splat((near_real)1.000002) +
+                                            splat((near_real)4e-6)) |
                  ((cut > splat(MOST_CUT)) & ~lies_flat));
     if (!any(corner)) {
         return; // the result of a lane does not depend on the others: it would not be taken

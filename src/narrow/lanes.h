@@ -131,7 +131,7 @@ WIDE_INLINE void centres_gather(lanes *l, const pl_narrow_input *in, const place
 
 // Gathers the `count` <= W pairs at these places; lanes beyond repeat the last one.
 WIDE_PART void lanes_gather(lanes *l, const pl_narrow_input *in, const uint32_t *places,
-                              uint32_t count)
+                            uint32_t count)
 {
     const plumb_real *pose_a[PL_WIDTH], *pose_b[PL_WIDTH], *core_a[PL_WIDTH], *core_b[PL_WIDTH];
     for (uint32_t i = 0; i < PL_WIDTH; ++i) {
@@ -225,8 +225,8 @@ static inline bool emit_lane(pl_pair *pair, pl_manifold *m, const near_real *row
 }
 
 // Appends the manifolds of `count` lanes.
-WIDE_PART void lanes_emit(const lanes *l, const touch *t, const pl_narrow_input *in,
-                            uint32_t count, pl_narrow *out)
+WIDE_PART void lanes_emit(const lanes *l, const touch *t, const pl_narrow_input *in, uint32_t count,
+                          pl_narrow *out)
 {
     near_real friction_a[PL_WIDTH], friction_b[PL_WIDTH], bounce_a[PL_WIDTH], bounce_b[PL_WIDTH];
     for (int i = 0; i < PL_WIDTH; ++i) {

@@ -37,15 +37,17 @@ typedef struct pl_manifold {
     uint16_t met;      // PL_MET_...: what events want to know
     union {
         uint32_t bearer; // of manifolds behind manifold_count: pair that bears the load of this one
-        uint32_t
-            before; // of the others: pl_pair.manifold in the last step; PL_NONE: they were apart
+        // of the others: pl_pair.manifold in the last step; PL_NONE: they were apart
+        uint32_t before;
         uint32_t ahead; // of those whose pair is PL_PAIR_AHEAD: the record
     };
 } pl_manifold;
 
-#define PL_MET_ACTED    1u // it pushed in some substep, though not in the last one
-#define PL_MET_MEASURED 2u // `approach` is the fastest at which a point of it was struck in this step
-#define PL_MET_ASIDE    4u // its plane is that of a later moment or of the ground: the pieces are clear of one another
+#define PL_MET_ACTED 1u // it pushed in some substep, though not in the last one
+#define PL_MET_MEASURED                                                                            \
+    2u // `approach` is the fastest at which a point of it was struck in this step
+#define PL_MET_ASIDE                                                                               \
+    4u // its plane is that of a later moment or of the ground: the pieces are clear of one another
 
 // [m] contacts that are farther apart lie ahead: whether they will meet is asked (ahead.c).
 #define PL_AHEAD ((near_real)5e-4)
@@ -83,7 +85,6 @@ static inline near_real pl_adhesion_reach(uint32_t pair_flags)
 {
     return (pair_flags & PL_PAIR_TOUCHING) != 0 ? (near_real)0.005 : (near_real)1e-4;
 }
-
 
 // [m] separation of a point that is not there: no impulse can ever act on it.
 #define PL_APART ((near_real)1e6)
@@ -136,12 +137,12 @@ typedef struct pl_ends {
 typedef struct pl_lookahead {
     pl_buffer items; // pl_meeting
     uint32_t count;
-    pl_buffer list;         // uint32_t: items of which kernels make manifolds
-    pl_buffer poses;        // pl_pose: of both bodies of each
-    pl_buffer pairs;        // pl_pair: copies, whose bodies are these poses
-    pl_buffer made;         // pl_manifold
-    pl_buffer unread;       // what else a kernel writes
-    pl_buffer map, paths;   // of bodies that have such contacts
+    pl_buffer list;       // uint32_t: items of which kernels make manifolds
+    pl_buffer poses;      // pl_pose: of both bodies of each
+    pl_buffer pairs;      // pl_pair: copies, whose bodies are these poses
+    pl_buffer made;       // pl_manifold
+    pl_buffer unread;     // what else a kernel writes
+    pl_buffer map, paths; // of bodies that have such contacts
 } pl_lookahead;
 
 typedef struct pl_narrow {

@@ -106,7 +106,8 @@ static bool is_on_top(const plumb_world *world, uint32_t piece, uint32_t other)
         if (!pl_one_way_blocks(world, piece, n, 0)) {
             continue;
         }
-        if (reach_against(world, other, n, piece, at) - (double)convex.radius >= -(double)FOUND_HELD) {
+        if (reach_against(world, other, n, piece, at) - (double)convex.radius >=
+            -(double)FOUND_HELD) {
             return true;
         }
     }

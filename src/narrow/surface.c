@@ -18,10 +18,10 @@ bool pl_surfaces_wanted(const plumb_world *world, const char **reason)
     const pl_materials *m = &world->materials;
     bool wanted = world->material_pair_count > 0;
     for (uint32_t row = 0; row < m->table.count && !wanted; ++row) {
-        wanted = m->users[row] > 0 && (m->rolling[row] > 0 || m->surface_speed[row] != 0 ||
-                                       m->adhesion[row] > 0 ||
-                                       m->friction_mix[row] != PLUMB_MIX_DEFAULT ||
-                                       m->restitution_mix[row] != PLUMB_MIX_DEFAULT);
+        wanted = m->users[row] > 0 &&
+                 (m->rolling[row] > 0 || m->surface_speed[row] != 0 || m->adhesion[row] > 0 ||
+                  m->friction_mix[row] != PLUMB_MIX_DEFAULT ||
+                  m->restitution_mix[row] != PLUMB_MIX_DEFAULT);
     }
     *reason = wanted ? "some material rolls hard, runs like a belt, sticks or has a mix of its own"
                      : "all materials in use are mixed by default";

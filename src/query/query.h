@@ -21,7 +21,7 @@ typedef struct pl_query_hit {
     plumb_real fraction; // [-] along the way; nearest: the distance [m]
     plumb_vec2 point;    // [m]
     plumb_vec2 normal;
-    plumb_real depth;    // [m] casts: of the overlap at the start
+    plumb_real depth; // [m] casts: of the overlap at the start
 } pl_query_hit;
 
 // So many hits are held on the stack: queries that find fewer allocate nothing.

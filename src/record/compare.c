@@ -163,8 +163,8 @@ static void add_joint(comparison *c, const plumb_difference *who, uint32_t a, ui
 {
     uint32_t i = find_section(c, "world", "joints.items");
     const size_t stride = PL_SAVED_BYTES(pl_joint);
-    add_members(c, who, data_of(&c->a, i) + a * stride, data_of(&c->b, i) + b * stride, joint_members,
-                COUNT(joint_members));
+    add_members(c, who, data_of(&c->a, i) + a * stride, data_of(&c->b, i) + b * stride,
+                joint_members, COUNT(joint_members));
 }
 
 static bool is_kind(const pl_slot *slot, plumb_entity_kind kind)

@@ -19,8 +19,8 @@
 typedef struct pl_record_header {
     uint64_t magic;
     uint32_t version;
-    uint32_t precision;  // PL_PRECISION
-    uint64_t schema;     // of the columns: see pl_section_schema
+    uint32_t precision; // PL_PRECISION
+    uint64_t schema;    // of the columns: see pl_section_schema
     uint64_t keyframe_every;
     char title[PL_TITLE_MAX];
     uint64_t checksum; // of what is before

@@ -39,8 +39,9 @@ typedef struct recorder {
     pl_buffer manifolds;          // before contact systems
     pl_buffer step;               // pl_step_head, edits
     size_t step_bytes;
-    bool keyed;     // the edits before the step are in a keyframe; also of one that is refused, until one is not
-    uint32_t hooks; // components dropped within the step so far
+    // the edits before the step are in a keyframe; also of one that is refused, until one is not
+    bool keyed;
+    uint32_t hooks;  // components dropped within the step so far
     pl_buffer chunk; // others than steps
 } recorder;
 
@@ -238,8 +239,7 @@ static void note_contacts(recorder *r, plumb_world *world, uint32_t mark)
     for (uint32_t i = 0; i < world->narrow.manifold_count; ++i) {
         bytes += is_note(&now[i], &then[i]) ? sizeof(pl_contact_note) : 0;
     }
-    char *to =
-        bytes == 0 ? NULL : begin_edit(r, world, mark, PL_EDIT_CONTACTS, bytes);
+    char *to = bytes == 0 ? NULL : begin_edit(r, world, mark, PL_EDIT_CONTACTS, bytes);
     for (uint32_t i = 0; to != NULL && i < world->narrow.manifold_count; ++i) {
         const pl_manifold *m = &now[i];
         if (is_note(m, &then[i])) {

@@ -35,8 +35,7 @@ static bool hold_alike(const plumb_world *world, uint32_t p, uint32_t q)
     double py = (double)a->s * (double)s->one_way_x[p] + (double)a->c * (double)s->one_way_y[p];
     double qx = (double)b->c * (double)s->one_way_x[q] - (double)b->s * (double)s->one_way_y[q];
     double qy = (double)b->s * (double)s->one_way_x[q] + (double)b->c * (double)s->one_way_y[q];
-    return s->one_way_cos[p] == s->one_way_cos[q] &&
-           fabs(px - qx) + fabs(py - qy) < PL_SEAM_ANGLE;
+    return s->one_way_cos[p] == s->one_way_cos[q] && fabs(px - qx) + fabs(py - qy) < PL_SEAM_ANGLE;
 }
 
 // Whether two pieces are one ground to all that meets them.
@@ -89,8 +88,8 @@ static bool gather_around(plumb_world *world, uint32_t piece)
     world->seams.around_count = 0;
     return pl_world_query(world, &world->broad.fixed, box, gather, &g) &&
            (pl_piece_is_static(world, piece) ||
-            pl_world_query(world, asleep ? &world->broad.resting : &world->broad.moving, box, gather,
-                           &g));
+            pl_world_query(world, asleep ? &world->broad.resting : &world->broad.moving, box,
+                           gather, &g));
 }
 
 //---- what they do --------------------------------------------------------------------------------

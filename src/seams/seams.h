@@ -95,8 +95,8 @@ typedef struct pl_seams {
     // Runs of flush faces (run.c): contacts of the step, and what the owners bore in the last one.
     pl_buffer contacts, runs, order, loads, old_loads, slots, borne;
     uint32_t contact_count, load_count, old_load_count, slot_count;
-    bool noted;  // in this step: what the pairs had is in `pairs`
-    bool opened; // in this step: loads were swapped
+    bool noted;       // in this step: what the pairs had is in `pairs`
+    bool opened;      // in this step: loads were swapped
     bool apart;       // each tile keeps its own contact: systems look at them
     uint64_t listed;  // broad->rebuilds when the pairs were listed
     uint64_t updated; // pieces looked at so far: what changes cost

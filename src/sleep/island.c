@@ -32,12 +32,10 @@ bool pl_islands_reserve(plumb_world *world, uint32_t islands, uint32_t contacts)
 
 void pl_sleep_free(pl_memory *memory, pl_sleep *s)
 {
-    pl_buffer *buffers[] = {
-        &s->islands,     &s->contacts,     &s->resting,           &s->near.items,
-        &s->probe.items, &s->found,        
-        &s->marked,      &s->woken,        &s->parents,           &s->held,
-        &s->places,      &s->sleep_events, &s->wake_events
-    };
+    pl_buffer *buffers[] = { &s->islands,     &s->contacts, &s->resting, &s->near.items,
+                             &s->probe.items, &s->found,    &s->marked,  &s->woken,
+                             &s->parents,     &s->held,     &s->places,  &s->sleep_events,
+                             &s->wake_events };
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; ++i) {
         pl_buffer_free(memory, buffers[i]);
     }

@@ -76,7 +76,8 @@ plumb_result plumb_body_set_no_sleep(plumb_world *world, plumb_body body, bool n
         return r;
     }
     uint16_t *flags = &world->bodies.flags[row];
-    *flags = (uint16_t)(no_sleep ? *flags | PL_BODY_NO_SLEEP : *flags & (uint16_t)~PL_BODY_NO_SLEEP);
+    *flags =
+        (uint16_t)(no_sleep ? *flags | PL_BODY_NO_SLEEP : *flags & (uint16_t)~PL_BODY_NO_SLEEP);
     if (no_sleep && world->bodies.island[row] != PL_NONE) {
         pl_sleep_stir(world, row);
     }

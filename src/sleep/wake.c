@@ -358,8 +358,7 @@ static void merge_pairs(plumb_world *world, pl_by_kinds first, pl_by_kinds size)
             list->first[a][b] = count;
             while (o < o_end || w < w_end) {
                 bool takes_old =
-                    w == w_end ||
-                    (o < o_end && pl_pair_key(old[o].a, old[o].b) < woken[w].key);
+                    w == w_end || (o < o_end && pl_pair_key(old[o].a, old[o].b) < woken[w].key);
                 out[count++] = takes_old ? old[o++] : woken_pair(s, &woken[w++]);
             }
             list->size[a][b] = count - list->first[a][b];

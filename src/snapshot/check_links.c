@@ -101,8 +101,8 @@ bool pl_check_joints(pl_suspect *s)
             return false;
         }
     }
-    return live == joints->live && steps == joints->count - live &&
-           watched == joints->watched && check_joint_lists(s, ends);
+    return live == joints->live && steps == joints->count - live && watched == joints->watched &&
+           check_joint_lists(s, ends);
 }
 
 //---- sleep ---------------------------------------------------------------------------------------

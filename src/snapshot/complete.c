@@ -47,11 +47,11 @@ _Static_assert(LISTED(PL_STATE) == sizeof(plumb_world),
                "a member of plumb_world is not in snapshot/list.h: add its row");
 
 // Members of descriptors; the points of a shape are kept elsewhere.
-#define MEMBER_SIZE(desc, path)    +sizeof(((desc *)0)->path)
-#define BODY_DESC_SIZE(path)       MEMBER_SIZE(plumb_body_desc, path)
-#define SHAPE_DESC_SIZE(path)      MEMBER_SIZE(plumb_shape_desc, path)
-#define JOINT_DESC_SIZE(path)      MEMBER_SIZE(plumb_joint_desc, path)
-#define CHARACTER_DESC_SIZE(path)  MEMBER_SIZE(plumb_character_desc, path)
+#define MEMBER_SIZE(desc, path)   +sizeof(((desc *)0)->path)
+#define BODY_DESC_SIZE(path)      MEMBER_SIZE(plumb_body_desc, path)
+#define SHAPE_DESC_SIZE(path)     MEMBER_SIZE(plumb_shape_desc, path)
+#define JOINT_DESC_SIZE(path)     MEMBER_SIZE(plumb_joint_desc, path)
+#define CHARACTER_DESC_SIZE(path) MEMBER_SIZE(plumb_character_desc, path)
 #define COMPLETE_DESC(sizes, desc)                                                                 \
     _Static_assert((sizes) == sizeof(desc), "a member of " #desc " is not in world/desc_list.h")
 

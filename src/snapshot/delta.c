@@ -212,7 +212,8 @@ static void get_section(pl_sparse_decoder *d, const sides *s)
     uint32_t i = 0;
     while (i < s->to_count && !d->damaged) {
         pl_sparse_get_number(d);
-        uint32_t match = pl_sparse_get_number(d), insert = pl_sparse_get_number(d), left = s->to_count - i;
+        uint32_t match = pl_sparse_get_number(d), insert = pl_sparse_get_number(d),
+                 left = s->to_count - i;
         if (match > left || insert > left - match || match + insert == 0) {
             d->damaged = true;
             return;
@@ -298,8 +299,8 @@ bool pl_delta_apply(const pl_image *from, const void *delta, size_t size, void *
     pl_sparse_get(&d, buffer, from->bytes, directory_bytes(from));
     pl_sparse_drop(&d);
     // The sections are not there yet; that they fit is known once the directory is.
-    if (d.damaged || !pl_image_view(buffer, h.to_bytes, to) ||
-        to->header.bytes != h.to_bytes || to->header.section_count != from->header.section_count) {
+    if (d.damaged || !pl_image_view(buffer, h.to_bytes, to) || to->header.bytes != h.to_bytes ||
+        to->header.section_count != from->header.section_count) {
         return false;
     }
     get_sections(&d, from, to);

@@ -15,9 +15,9 @@
 typedef struct pl_image_header {
     uint64_t magic;
     uint32_t version;
-    uint32_t precision;  // PL_PRECISION
-    uint64_t bytes;      // of the whole image
-    uint64_t checksum;   // of the whole image with 0 here; names it, too
+    uint32_t precision; // PL_PRECISION
+    uint64_t bytes;     // of the whole image
+    uint64_t checksum;  // of the whole image with 0 here; names it, too
     uint64_t schema, user_schema;
     uint64_t base; // checksum of the image that a frame belongs to; 0: complete
     uint64_t section_count;

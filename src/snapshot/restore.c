@@ -273,23 +273,40 @@ bool pl_image_has_sections_of(const plumb_world *world, const pl_image *image)
 static bool is_held(const pl_section *section)
 {
     static const char *const held[][2] = {
-        { "bodies", "entity" },          { "bodies", "type" },
-        { "bodies", "island" },          { "bodies", "next_asleep" },
-        { "bodies", "previous_asleep" }, { "bodies", "first_piece" },
-        { "bodies", "first_joint" },     { "pieces", "shape" },
-        { "pieces", "kind" },            { "pieces", "vertex_count" },
-        { "pieces", "vertex_class" },    { "pieces", "vertices" },
-        { "pieces", "body" },            { "pieces", "next_in_body" },
-        { "pieces", "next_in_shape" },   { "pieces", "serial" },
-        { "pieces", "core" },            { "pieces", "moving" },
-        { "pieces", "seam_edges" },      { "materials", "entity" },
-        { "vertices", "items" },         { "world", "broad.pairs.items" },
-        { "world", "broad.left" },       { "world", "broad.sensed" },
-        { "world", "moving" },           { "world", "sleep.resting" },
-        { "world", "seams.corners" },    { "world", "seams.spans" },
-        { "world", "seams.pairs" },      { "world", "seams.loads" },
-        { "world", "blows.items" },      { "world", "sensing.candidates" },
-        { "world", "sensing.overlaps" }, { "world", "sensing.rest_candidates" },
+        { "bodies", "entity" },
+        { "bodies", "type" },
+        { "bodies", "island" },
+        { "bodies", "next_asleep" },
+        { "bodies", "previous_asleep" },
+        { "bodies", "first_piece" },
+        { "bodies", "first_joint" },
+        { "pieces", "shape" },
+        { "pieces", "kind" },
+        { "pieces", "vertex_count" },
+        { "pieces", "vertex_class" },
+        { "pieces", "vertices" },
+        { "pieces", "body" },
+        { "pieces", "next_in_body" },
+        { "pieces", "next_in_shape" },
+        { "pieces", "serial" },
+        { "pieces", "core" },
+        { "pieces", "moving" },
+        { "pieces", "seam_edges" },
+        { "materials", "entity" },
+        { "vertices", "items" },
+        { "world", "broad.pairs.items" },
+        { "world", "broad.left" },
+        { "world", "broad.sensed" },
+        { "world", "moving" },
+        { "world", "sleep.resting" },
+        { "world", "seams.corners" },
+        { "world", "seams.spans" },
+        { "world", "seams.pairs" },
+        { "world", "seams.loads" },
+        { "world", "blows.items" },
+        { "world", "sensing.candidates" },
+        { "world", "sensing.overlaps" },
+        { "world", "sensing.rest_candidates" },
         { "world", "sensing.rest_overlaps" },
     };
     for (size_t i = 0; i < sizeof held / sizeof held[0]; ++i) {
@@ -319,7 +336,8 @@ static bool are_settings_held(const char *before, const char *after)
     pl_member m;
     bool same = true;
     for (uint32_t i = 0; pl_section_value(i, &m); ++i) {
-        const bool held = strncmp(m.name, "desc.", 5) == 0 && strncmp(m.name, "desc.sleep", 10) != 0 &&
+        const bool held = strncmp(m.name, "desc.", 5) == 0 &&
+                          strncmp(m.name, "desc.sleep", 10) != 0 &&
                           strcmp(m.name, "desc.no_sleep") != 0;
         same &= !held || memcmp(before + m.offset, after + m.offset, m.size) == 0;
     }

@@ -67,8 +67,12 @@ typedef struct column_row {
 // clang-format on
 
 #define COLUMN_ROW(struct, type, name)                                                             \
-    { #struct,      #name,        offsetof(plumb_world, struct.name),                              \
-      sizeof(type), HASHED(type), PL_TYPE(*(type *)NULL),                                          \
+    { #struct,                                                                                     \
+      #name,                                                                                       \
+      offsetof(plumb_world, struct.name),                                                          \
+      sizeof(type),                                                                                \
+      HASHED(type),                                                                                \
+      PL_TYPE(*(type *)NULL),                                                                      \
       PL_RULE_##struct##_##name },
 #define BODY_ROW(type, name)     COLUMN_ROW(bodies, type, name)
 #define PIECE_ROW(type, name)    COLUMN_ROW(pieces, type, name)
@@ -217,8 +221,7 @@ static bool is_array(uint32_t i, size_t buffer)
 
 void pl_section_strip(uint32_t i, char *data, uint32_t count)
 {
-    if (i >= FIRST_COLUMN && i < FIRST_ARRAY &&
-        columns[i - FIRST_COLUMN].type == PL_TYPE_POINTER) {
+    if (i >= FIRST_COLUMN && i < FIRST_ARRAY && columns[i - FIRST_COLUMN].type == PL_TYPE_POINTER) {
         memset(data, 0, (size_t)count * sizeof(void *));
     } else if (is_array(i, offsetof(plumb_world, commands.bytes))) {
         pl_commands_strip(data, count);
@@ -444,7 +447,8 @@ bool pl_section_lend(plumb_world *world, uint32_t i, const char *data, uint32_t 
         read_values(world, rows, number, data);
     } else if (i < FIRST_ARRAY) {
         pl_table *table = table_of(world, &columns[i - FIRST_COLUMN]);
-        const bool first = i == FIRST_COLUMN || table != table_of(world, &columns[i - 1 - FIRST_COLUMN]);
+        const bool first =
+            i == FIRST_COLUMN || table != table_of(world, &columns[i - 1 - FIRST_COLUMN]);
         memcpy((char *)world + columns[i - FIRST_COLUMN].offset, &lent, sizeof lent);
         if (!first && table->count != count) {
             return false;

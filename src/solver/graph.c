@@ -439,12 +439,11 @@ bool pl_solver_graph(plumb_world *world)
 void pl_solver_free(pl_memory *memory, pl_solver *s)
 {
     pl_buffer *buffers[] = {
-        &s->bodies,      &s->motions,      &s->rows,           &s->slots, 
-        &s->masks,       &s->colors,       &s->lanes,          &s->bundles,      &s->impacts,
-        &s->classic,     &s->lows,         &s->struck,         &s->extras,       &s->specials,
-        &s->impact_heap, &s->impact_heads, &s->outlook_fields, &s->outlook_ends, &s->outlook_open,
-        &s->clusters,    &s->labels,       &s->islands,        &s->homes,        &s->leaders,
-        &s->cursors
+        &s->bodies,       &s->motions,        &s->rows,         &s->slots,        &s->masks,
+        &s->colors,       &s->lanes,          &s->bundles,      &s->impacts,      &s->classic,
+        &s->lows,         &s->struck,         &s->extras,       &s->specials,     &s->impact_heap,
+        &s->impact_heads, &s->outlook_fields, &s->outlook_ends, &s->outlook_open, &s->clusters,
+        &s->labels,       &s->islands,        &s->homes,        &s->leaders,      &s->cursors
     };
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; ++i) {
         pl_buffer_free(memory, buffers[i]);

@@ -21,7 +21,7 @@ typedef struct classic {
     uint32_t count;
     near_real h;
     near_real unloaded; // [N s] a point that bears no more and pushes has been struck
-    near_real *lows; // a quad a slot; NULL: nothing bounces
+    near_real *lows;    // a quad a slot; NULL: nothing bounces
 } classic;
 
 static near_real normal_speed(const classic *c, const pl_classic_contact *m,

@@ -160,7 +160,7 @@ static soft_step open_step(plumb_world *world, real dt)
                    : running                    ? PL_RUNNING
                    : world->narrow.any_friction ? PL_ROUGH
                                                 : PL_SMOOTH,
-        .motion = world->desc.hit_speed > 0     ? PL_TELLING
+        .motion = world->desc.hit_speed > 0   ? PL_TELLING
                   : world->turning_bodies > 0 ? PL_TURNING
                                               : PL_STRAIGHT,
         .tallies = tallies,

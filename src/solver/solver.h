@@ -34,16 +34,16 @@ typedef struct pl_impact {
     uint32_t pair;
     uint32_t count;
     near_real nx, ny, friction, restitution;
-    near_real surface_speed; // [m/s]
-    bool locked; // a body has a locked axis: then
+    near_real surface_speed;      // [m/s]
+    bool locked;                  // a body has a locked axis: then
     near_real aix, aiy, bix, biy; // [1/kg] inverse masses along the axes
-    bool due;    // an impact falls into the present substep
-    bool clear[2]; // the point stays apart in it
-    uint32_t chain; // impacts of it that are followed in a substep
-    uint32_t left; // impacts that are still followed in the present substep
-    double time; // [s] of the first one, since the start of the substep
-    uint32_t place;   // in the queue (impact_queue.h); PL_NONE: not in it
-    uint32_t next[2]; // impact of a, and of b; PL_NONE: no more
+    bool due;                     // an impact falls into the present substep
+    bool clear[2];                // the point stays apart in it
+    uint32_t chain;               // impacts of it that are followed in a substep
+    uint32_t left;                // impacts that are still followed in the present substep
+    double time;                  // [s] of the first one, since the start of the substep
+    uint32_t place;               // in the queue (impact_queue.h); PL_NONE: not in it
+    uint32_t next[2];             // impact of a, and of b; PL_NONE: no more
     pl_impact_point point[2];
 } pl_impact;
 
@@ -121,38 +121,43 @@ typedef struct pl_slots {
 typedef struct pl_cluster {
     pl_slots slots[2]; // of dynamic, of kinematic bodies
     size_t first_lane;
-    uint32_t color_first[PL_COLOR_SLOTS + 1]; // first bundle of a colour, of the overflow contacts; end
+    // first bundle of a colour, of the overflow contacts; end
+    uint32_t color_first[PL_COLOR_SLOTS + 1];
 } pl_cluster;
 
 typedef struct pl_solver {
     pl_buffer bodies, motions; // engaged dynamic bodies, engaged kinematic ones, one immovable body
-    pl_buffer lows;   // if any contact bounces, a quad a slot: what rounding took from its velocity, if kept
-    pl_buffer struck; // likewise a real a slot: when in the substep an impact struck it last [s]
-    pl_buffer rows;   // uint32_t: body row of a slot
-    pl_buffer slots;  // uint32_t: slot of a dynamic or kinematic row; PL_NONE: not in a contact
-    pl_buffer masks;  // uint64_t a slot: colours taken
-    pl_buffer colors; // uint8_t a manifold
-    pl_buffer lanes;  // uint32_t a lane: its manifold; PL_NONE: empty
+    // if any contact bounces, a quad a slot: what rounding took from its velocity, if kept
+    pl_buffer lows;
+    pl_buffer struck;  // likewise a real a slot: when in the substep an impact struck it last [s]
+    pl_buffer rows;    // uint32_t: body row of a slot
+    pl_buffer slots;   // uint32_t: slot of a dynamic or kinematic row; PL_NONE: not in a contact
+    pl_buffer masks;   // uint64_t a slot: colours taken
+    pl_buffer colors;  // uint8_t a manifold
+    pl_buffer lanes;   // uint32_t a lane: its manifold; PL_NONE: empty
     pl_buffer bundles; // constraints of `width` contacts each
-    pl_buffer extras;  // a record a bundle, where surfaces run or roll hard or impulses are added up
+    pl_buffer extras; // a record a bundle, where surfaces run or roll hard or impulses are added up
     pl_buffer specials; // a record a bundle, where bodies are locked or surfaces stick
-    pl_buffer impacts; // pl_impact
+    pl_buffer impacts;  // pl_impact
     pl_buffer outlook_fields, outlook_ends, outlook_open; // of dull impacts (dull.h)
-    uint32_t outlook_lanes; // 0: no impact is dull
-    pl_buffer impact_heap, impact_heads; // uint32_t: due ones by time; the first one of a dynamic slot
+    uint32_t outlook_lanes;                               // 0: no impact is dull
+    pl_buffer impact_heap,
+        impact_heads;  // uint32_t: due ones by time; the first one of a dynamic slot
     pl_buffer classic; // pl_classic_contact, for the classic solver alone
     uint32_t dynamic_slots,
-        slot_count; // slots [0, dynamic_slots) move; the last is the immovable one
+        slot_count;     // slots [0, dynamic_slots) move; the last is the immovable one
     pl_buffer clusters; // pl_cluster
     pl_buffer labels;   // uint32_t a movable row: its cluster; if there are several
-    pl_buffer islands;  // uint32_t a movable row; PL_NONE: tied to nothing that moves, as far as is known
-    pl_buffer homes;    // uint32_t an island: its cluster
-    pl_buffer leaders;  // uint32_t a row or island, while they are joined
-    pl_buffer cursors;  // uint32_t a cluster and colour: contacts, then the next lane
+    // uint32_t a movable row; PL_NONE: tied to nothing that moves, as far as is known
+    pl_buffer islands;
+    pl_buffer homes;   // uint32_t an island: its cluster
+    pl_buffer leaders; // uint32_t a row or island, while they are joined
+    pl_buffer cursors; // uint32_t a cluster and colour: contacts, then the next lane
     uint32_t cluster_count, cluster_age; // steps since islands were looked for
     uint32_t island_count;
     uint32_t labelled; // rows whose islands are kept; 0: none
-    uint32_t bundle_room; // bundles of the largest cluster; of each thread's room, if there are several
+    // bundles of the largest cluster; of each thread's room, if there are several
+    uint32_t bundle_room;
     uint32_t bundle_count; // of cluster 0: all that impacts look at
     uint32_t impact_count, due_count, lively_count;
     uint32_t color_count, overflow_count, bounce_count;
@@ -167,15 +172,15 @@ typedef struct pl_contact_call {
     const uint32_t *slots; // slot of a body row
     uint32_t movable_rows; // rows from here on are static
     uint32_t immovable_slot;
-    void *extras; // NULL: none
-    void *specials;         // NULL: none
-    const uint16_t *flags;  // PL_BODY_... of a body row
+    void *extras;          // NULL: none
+    void *specials;        // NULL: none
+    const uint16_t *flags; // PL_BODY_... of a body row
     pl_manifold *manifolds;
     pl_pair *pairs;
     near_real h, inv_h;       // [s] substep
     near_real hertz, damping; // [1/s], [-] of soft contacts
     near_real push_speed;     // [m/s]
-    near_real unloaded; // [N s] a point that bears no more and pushes has been struck
+    near_real unloaded;       // [N s] a point that bears no more and pushes has been struck
 } pl_contact_call;
 
 typedef void pl_contact_kernel(const pl_contact_call *call, uint32_t first, uint32_t count);
@@ -213,8 +218,9 @@ typedef struct pl_contact_kernels {
     pl_dull_counter *dull_prepare;
     pl_dull_kernel *dull_look, *dull_strike;
     pl_contact_kernel *tally; // adds the substep's normal impulses to the totals
-    pl_contact_kernel *store_extras; // rolling impulses to the pairs; totals, speeds of hits to the manifolds
-    pl_contact_kernel *store;        // impulses to the pairs
+    // rolling impulses to the pairs; totals, speeds of hits to the manifolds
+    pl_contact_kernel *store_extras;
+    pl_contact_kernel *store; // impulses to the pairs
 } pl_contact_kernels;
 
 extern const pl_contact_kernels pl_contact_kernels_w4;

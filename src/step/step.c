@@ -74,7 +74,8 @@ static plumb_result try_step(plumb_world *world, plumb_real dt)
     pl_events_clear(world);
     pl_edits_forget(world);
     if (dt == 0 && !world->rearranged) {
-        world->joints.broken_count = world->joints.strained_count = 0; // that is an event; contacts are those of the last step
+        world->joints.broken_count = world->joints.strained_count =
+            0; // that is an event; contacts are those of the last step
         return PLUMB_OK;
     }
     forget_contacts(world);

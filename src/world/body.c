@@ -34,10 +34,11 @@ static plumb_result check_motion(const plumb_world *world, const char *fn,
     const char *along = desc->lock_x && desc->velocity.x != 0   ? "x"
                         : desc->lock_y && desc->velocity.y != 0 ? "y"
                                                                 : NULL;
-    return along == NULL ? PLUMB_OK
-                         : pl_fail(world, PLUMB_E_RANGE, fn,
-                                   "velocity is (%g, %g); its %s must be 0 with lock_%s",
-                                   (double)desc->velocity.x, (double)desc->velocity.y, along, along);
+    return along == NULL
+               ? PLUMB_OK
+               : pl_fail(world, PLUMB_E_RANGE, fn,
+                         "velocity is (%g, %g); its %s must be 0 with lock_%s",
+                         (double)desc->velocity.x, (double)desc->velocity.y, along, along);
 }
 
 static plumb_result check_sleep(const plumb_world *world, const char *fn,
@@ -110,19 +111,19 @@ static void fill_row(plumb_world *world, uint32_t row, const plumb_body_desc *de
 {
     pl_bodies *b = &world->bodies;
     b->type[row] = (uint8_t)desc->type;
-    b->flags[row] = (uint16_t)((desc->fixed_rotation ? PL_BODY_FIXED_ROTATION : 0) |
-                               (desc->lock_x ? PL_BODY_LOCK_X : 0) |
-                               (desc->lock_y ? PL_BODY_LOCK_Y : 0) |
-                               (desc->disabled ? PL_BODY_DISABLED : 0) |
-                               (desc->no_sleep ? PL_BODY_NO_SLEEP : 0));
+    b->flags[row] =
+        (uint16_t)((desc->fixed_rotation ? PL_BODY_FIXED_ROTATION : 0) |
+                   (desc->lock_x ? PL_BODY_LOCK_X : 0) | (desc->lock_y ? PL_BODY_LOCK_Y : 0) |
+                   (desc->disabled ? PL_BODY_DISABLED : 0) |
+                   (desc->no_sleep ? PL_BODY_NO_SLEEP : 0));
     set_continuous(world, row, desc->continuous);
     world->locked_bodies += desc->lock_x || desc->lock_y;
-    pl_tuning_set(world, row, &(pl_tuning){ .damping = desc->damping,
-                                            .angular_damping = desc->angular_damping,
-                                            .max_speed = desc->max_speed,
-                                            .max_spin = desc->max_spin,
-                                            .time_scale =
-                                                desc->time_scale > 0 ? desc->time_scale : 1 });
+    pl_tuning_set(world, row,
+                  &(pl_tuning){ .damping = desc->damping,
+                                .angular_damping = desc->angular_damping,
+                                .max_speed = desc->max_speed,
+                                .max_spin = desc->max_spin,
+                                .time_scale = desc->time_scale > 0 ? desc->time_scale : 1 });
     b->vx[row] = desc->velocity.x;
     b->vy[row] = desc->velocity.y;
     b->w[row] = desc->angular_velocity;

@@ -135,8 +135,9 @@ plumb_result plumb_body_apply_impulse(plumb_world *world, plumb_body body, plumb
     uint32_t row;
     plumb_result r = check_push(world, __func__, body, "impulse", impulse, &row);
     r = r != PLUMB_OK ? r : pl_check_finite_vec(world, __func__, "point", point);
-    return r != PLUMB_OK ? r
-                         : pl_impulse_add(world, __func__, row, push_at(world, row, impulse, point));
+    return r != PLUMB_OK
+               ? r
+               : pl_impulse_add(world, __func__, row, push_at(world, row, impulse, point));
 }
 
 plumb_result plumb_body_apply_impulse_center(plumb_world *world, plumb_body body,

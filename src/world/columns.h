@@ -115,11 +115,11 @@ typedef struct pl_hint {
     X(uint32_t, users)             /* pieces that name it */
 // clang-format on
 
-#define PL_PIECE_SENSOR   1u // of a sensor
-#define PL_PIECE_PART     2u // of a shape of several pieces
-#define PL_PIECE_FILTERED 4u // its filter is not {0}
+#define PL_PIECE_SENSOR   1u  // of a sensor
+#define PL_PIECE_PART     2u  // of a shape of several pieces
+#define PL_PIECE_FILTERED 4u  // its filter is not {0}
 #define PL_PIECE_ONE_WAY  32u // it holds on one side only
-#define PL_PIECE_ASLEEP   8u // of a sleeping body: it is in the list and grid of resting pieces
+#define PL_PIECE_ASLEEP   8u  // of a sleeping body: it is in the list and grid of resting pieces
 #define PL_PIECE_PLACED   16u // static, and new to what sleeps here
 
 #define PL_NONE UINT32_MAX
@@ -130,7 +130,7 @@ typedef struct pl_hint {
 
 typedef enum pl_piece_kind {
     PL_PIECE_FREE,
-    PL_PIECE_CIRCLE,  // core: centre, radius
+    PL_PIECE_CIRCLE, // core: centre, radius
     PL_PIECE_CAPSULE, // core: centre, direction (c, s), half length hx, radius; segments have radius 0
     PL_PIECE_BOX,     // core: centre, rotation, half extents; no rounding; also in the vertex pool
     PL_PIECE_POLYGON, // corners in the vertex pool; core: centre of the box around it, radius

@@ -194,8 +194,8 @@ plumb_result pl_check_name(const plumb_world *world, const char *function, const
 
 static const char *kind_text(uint32_t kind)
 {
-    static const char *const texts[] = { "nothing", "a bare entity", "a body", "a shape",
-                                         "a material",    "a joint" };
+    static const char *const texts[] = { "nothing", "a bare entity", "a body",
+                                         "a shape", "a material",    "a joint" };
     return texts[kind];
 }
 

@@ -147,7 +147,8 @@ static int list_dormant(const plumb_world *world, uint32_t island, uint32_t row,
             continue;
         }
         if (contacts != NULL && count < capacity) {
-            contacts[count] = view_contact(world, pair, all[i].whole ? &all[i].manifold : &all[i].last);
+            contacts[count] =
+                view_contact(world, pair, all[i].whole ? &all[i].manifold : &all[i].last);
         }
         ++count;
     }

@@ -33,9 +33,8 @@ static plumb_result check_desc(const plumb_world *world, const char *fn,
                       : pl_check_range(world, fn, "rolling_resistance", desc->rolling_resistance, 0,
                                        PLUMB_REAL_MAX);
     r = r != PLUMB_OK ? r : pl_check_finite(world, fn, "surface_speed", desc->surface_speed);
-    r = r != PLUMB_OK
-            ? r
-            : pl_check_range(world, fn, "adhesion", desc->adhesion, 0, PLUMB_REAL_MAX);
+    r = r != PLUMB_OK ? r
+                      : pl_check_range(world, fn, "adhesion", desc->adhesion, 0, PLUMB_REAL_MAX);
     r = r != PLUMB_OK ? r : check_mix(world, fn, "friction_mix", desc->friction_mix);
     r = r != PLUMB_OK ? r : check_mix(world, fn, "adhesion_mix", desc->adhesion_mix);
     return r != PLUMB_OK ? r : check_mix(world, fn, "restitution_mix", desc->restitution_mix);

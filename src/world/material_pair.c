@@ -84,10 +84,9 @@ static plumb_result check_value(const plumb_world *world, const char *function,
     r = r != PLUMB_OK ? r
                       : pl_check_range(world, function, "pair.rolling_resistance",
                                        pair->rolling_resistance, 0, PLUMB_REAL_MAX);
-    return r != PLUMB_OK
-               ? r
-               : pl_check_range(world, function, "pair.adhesion", pair->adhesion, 0,
-                                PLUMB_REAL_MAX);
+    return r != PLUMB_OK ? r
+                         : pl_check_range(world, function, "pair.adhesion", pair->adhesion, 0,
+                                          PLUMB_REAL_MAX);
 }
 
 // What is made of either may slide now.

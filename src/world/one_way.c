@@ -79,8 +79,7 @@ plumb_result plumb_body_drop_through(plumb_world *world, plumb_body body)
     if (r == PLUMB_OK) {
         pl_sleep_stir(world, row);
         // Else nobody would take the request back.
-        bool any =
-            world->one_way_pieces > 0 && (world->bodies.flags[row] & PL_BODY_DISABLED) == 0;
+        bool any = world->one_way_pieces > 0 && (world->bodies.flags[row] & PL_BODY_DISABLED) == 0;
         world->bodies.flags[row] |= any ? PL_BODY_DROPPING : 0;
         world->dropping_bodies += any;
     }

@@ -33,17 +33,18 @@
 typedef struct pl_vertex_pool {
     pl_vertex *items;
     size_t bytes;
-    uint32_t count;                        // corners handed out, free runs included
+    uint32_t count; // corners handed out, free runs included
     uint32_t capacity;
-    uint32_t free_head[PL_VERTEX_CLASSES]; // first corner of a free run; its x holds no value, see pool.c
+    uint32_t free_head
+        [PL_VERTEX_CLASSES]; // first corner of a free run; its x holds no value, see pool.c
 } pl_vertex_pool;
 
 // Body rows as the narrow phase gathers them: eight reals a row, in the far build ten.
 typedef struct pl_pose {
-    real x, y;     // [m] origin
-    real c, s;     // rotation
-    real dx, dy;   // [m] centre of mass minus origin, in world axes
-    real vx, vy;   // [m/s] velocity of the centre
+    real x, y;   // [m] origin
+    real c, s;   // rotation
+    real dx, dy; // [m] centre of mass minus origin, in world axes
+    real vx, vy; // [m/s] velocity of the centre
 #if PLUMB_IS_FAR
     real low_x, low_y; // [m] what rounding took from the origin
 #endif
@@ -52,12 +53,13 @@ typedef struct pl_pose {
 struct plumb_world {
     plumb_world_desc desc; // defaults resolved
     pl_memory memory;
-    pl_tasks *tasks;       // null: one thread
+    pl_tasks *tasks; // null: one thread
     plumb_vec2 gravity;
     uint64_t step_count;
     double time;
     real last_dt; // [s] of the last step that moved anything
-    uint32_t arrested_count; // bodies taken out because a step would have left them without a finite state
+    // bodies taken out because a step would have left them without a finite state
+    uint32_t arrested_count;
 
     // Entities and rows.
     pl_registry registry;
@@ -65,9 +67,9 @@ struct plumb_world {
     uint32_t dynamic_count, kinematic_count, asleep_count, disabled_count; // the rest is static
     pl_pieces pieces;
     uint32_t shape_count;
-    uint32_t serial;       // counts the pieces ever made
-    pl_buffer made;        // pl_made_piece: pieces of a shape between check and commit
-    pl_buffer outline;     // plumb_convex_piece: scratch of the decomposition
+    uint32_t serial;   // counts the pieces ever made
+    pl_buffer made;    // pl_made_piece: pieces of a shape between check and commit
+    pl_buffer outline; // plumb_convex_piece: scratch of the decomposition
     pl_vertex_pool vertices;
     pl_materials materials;
     pl_components components;
@@ -75,25 +77,25 @@ struct plumb_world {
     pl_commands commands;
 
     // Lists and flags that structural changes keep up.
-    pl_buffer moving;      // uint32_t: pieces of awake dynamic and of kinematic bodies, unordered
+    pl_buffer moving; // uint32_t: pieces of awake dynamic and of kinematic bodies, unordered
     uint32_t moving_count;
-    pl_buffer poses;       // pl_pose a body row
-    bool rows_moved;       // body rows changed place: pairs must look their rows up again
-    bool pairs_dirty;      // pieces came, went or were teleported: grids and pair list must be rebuilt
-    bool static_dirty;     // static pieces came, went or moved: the static grid must be rebuilt
-    bool schedule_dirty;   // something structural changed: `wanted` is asked again
-    bool rearranged;       // since the last step pieces came, went or were moved, or others may meet
+    pl_buffer poses;   // pl_pose a body row
+    bool rows_moved;   // body rows changed place: pairs must look their rows up again
+    bool pairs_dirty;  // pieces came, went or were teleported: grids and pair list must be rebuilt
+    bool static_dirty; // static pieces came, went or moved: the static grid must be rebuilt
+    bool schedule_dirty; // something structural changed: `wanted` is asked again
+    bool rearranged;     // since the last step pieces came, went or were moved, or others may meet
 
     // Counters behind `wanted`: how many pieces or bodies ask for an effect.
     uint32_t piece_kinds[PL_PIECE_KIND_COUNT]; // live pieces of each kind
-    uint32_t turning_bodies;                   // dynamic bodies with inverse inertia > 0, asleep or not
+    uint32_t turning_bodies; // dynamic bodies with inverse inertia > 0, asleep or not
 
-    uint32_t continuous_bodies;                // dynamic bodies with PL_BODY_CONTINUOUS
+    uint32_t continuous_bodies; // dynamic bodies with PL_BODY_CONTINUOUS
 
     uint32_t sensor_pieces, filtered_pieces, part_pieces; // live pieces with the flag
     uint32_t one_way_pieces;
     uint32_t dropping_bodies; // requests to drop through since the last step
-    uint32_t locked_bodies; // bodies locked in x or y
+    uint32_t locked_bodies;   // bodies locked in x or y
     pl_tunings tunings;
     pl_targets targets;
 
@@ -128,7 +130,7 @@ struct plumb_world {
     pl_sleep sleep;
 
     pl_buffer checking, checked; // scratch of images that are checked (snapshot/check.c, restore.c)
-    struct pl_tape *tape; // who records or replays this world (step/tape.h); NULL: nobody
+    struct pl_tape *tape;        // who records or replays this world (step/tape.h); NULL: nobody
 
     // Locking and errors.
     const char *locked_by; // name of the system or hook that runs; NULL: structural changes allowed
@@ -146,8 +148,7 @@ plumb_result pl_fail(const plumb_world *world, plumb_result code, const char *fu
                      const char *format, ...) PL_PRINTF(4, 5);
 
 // Sends a warning to the log hook.
-void pl_warn(const plumb_world *world, const char *format, ...)
-    PL_PRINTF(2, 3);
+void pl_warn(const plumb_world *world, const char *format, ...) PL_PRINTF(2, 3);
 
 // E_LOCKED with the name of the system and the remedy when the world is stepping.
 plumb_result pl_check_unlocked(const plumb_world *world, const char *function);

@@ -48,11 +48,9 @@ static void bodies_refuse(void **state)
             BODY(.type = PLUMB_STATIC, .angular_velocity = 2));
     REFUSED(E_RANGE, "plumb_body_create: angular_velocity is 2; it must be 0 with fixed_rotation",
             BODY(.fixed_rotation = true, .angular_velocity = 2));
-    REFUSED(E_RANGE,
-            "plumb_body_create: continuous is true; it must be false for a static body",
+    REFUSED(E_RANGE, "plumb_body_create: continuous is true; it must be false for a static body",
             BODY(.type = PLUMB_STATIC, .continuous = true));
-    REFUSED(E_RANGE,
-            "plumb_body_create: continuous is true; it must be false for a kinematic body",
+    REFUSED(E_RANGE, "plumb_body_create: continuous is true; it must be false for a kinematic body",
             BODY(.type = PLUMB_KINEMATIC, .continuous = true));
     REFUSED(E_RANGE, "plumb_body_create: mass is -1; it must be 0 to 1e+36", BODY(.mass = -1));
     REFUSED(E_RANGE, "plumb_body_create: mass is 1e-37; it must be 1e-36 to 1e+36",

@@ -48,7 +48,6 @@ static bool one_way_is_finite(plumb_one_way o)
     return plumb_vec2_is_finite(o.direction) && plumb_is_finite(o.angle);
 }
 
-
 #define IS_FINITE(value)                                                                           \
     _Generic((value), plumb_real                                                                   \
              : real_is_finite, bool                                                                \
@@ -88,8 +87,9 @@ static void bad_handles_are_told_by_every_getter(void **state)
     fixture *f = *state;
     const plumb_world *w = f->world;
     const plumb_vec2 point = { 1, 2 };
-    const plumb_entity bad[] = { PLUMB_NULL_ENTITY_INIT, f->stale.entity, f->wood.entity,
-                                 { 9999, 1 } };
+    const plumb_entity bad[] = {
+        PLUMB_NULL_ENTITY_INIT, f->stale.entity, f->wood.entity, { 9999, 1 }
+    };
     for (int i = 0; i < 4; ++i) {
         {
             plumb_body h = { bad[i] };
@@ -142,7 +142,9 @@ static bool is_listed(const char *declaration)
 static void every_getter_of_the_headers_is_tested(void **state)
 {
     (void)state;
-    static const char *const headers[] = { "body", "shape", "joint", "sleep", "character", "event" };
+    static const char *const headers[] = {
+        "body", "shape", "joint", "sleep", "character", "event"
+    };
     int count = 0;
     for (size_t i = 0; i < sizeof headers / sizeof headers[0]; ++i) {
         char path[64], line[512];

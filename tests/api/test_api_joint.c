@@ -396,8 +396,8 @@ static void joints_break_by_impulse(void **state)
     const plumb_solver solvers[] = { PLUMB_SOLVER_SOFT, PLUMB_SOLVER_PGS };
     for (int k = 0; k < 4; ++k) {
         plumb_world *w = NULL;
-        plumb_world_create(
-            &(plumb_world_desc){ .zero_gravity = true, .solver = solvers[k / 2] }, &w);
+        plumb_world_create(&(plumb_world_desc){ .zero_gravity = true, .solver = solvers[k / 2] },
+                           &w);
         plumb_body b = plumb_body_create(w, &(plumb_body_desc){ .mass = 2, .inertia = 1 });
         plumb_joint j = plumb_joint_create(w, &(plumb_joint_desc){ .body_b = b });
         plumb_real bound = k % 2 == 0 ? 10 : 15;
@@ -458,9 +458,8 @@ static void a_joint_that_is_off_keeps_nobody_apart(void **state)
     fixture *f = *state;
     plumb_world *w = f->world;
     plumb_body_teleport(w, f->dynamic, plumb_v2(0, 2), 0);
-    plumb_joint j = plumb_joint_create(w, &(plumb_joint_desc){ .kind = PLUMB_FRICTION,
-                                                               .body_a = f->fixed,
-                                                               .body_b = f->dynamic });
+    plumb_joint j = plumb_joint_create(
+        w, &(plumb_joint_desc){ .kind = PLUMB_FRICTION, .body_a = f->fixed, .body_b = f->dynamic });
     plumb_joint_set_enabled(w, j, false);
     for (int i = 0; i < 60; ++i) {
         plumb_world_step(w, R(1.0 / 60));
@@ -485,8 +484,8 @@ static void impulse_and_enabling_are_refused(void **state)
     REFUSED(E_HANDLE, "plumb_joint_set_enabled: joint is a body; it must be a live joint",
             plumb_joint_set_enabled(w, (plumb_joint){ f->dynamic.entity }, true));
     REFUSED(E_RANGE, "plumb_joint_create: break_impulse is -1; it must be at least 0",
-            made(w, plumb_joint_create(w, &(plumb_joint_desc){ .body_b = f->dynamic,
-                                                               .break_impulse = -1 })));
+            made(w, plumb_joint_create(
+                        w, &(plumb_joint_desc){ .body_b = f->dynamic, .break_impulse = -1 })));
 }
 
 // A world with joints and no shapes has a solver; without joints it has none.

@@ -388,7 +388,8 @@ static void a_slot_of_the_bound_takes_every_delta(void **state)
     size_t largest = 0;
     for (int i = 0; i < IMAGES; ++i) {
         pile p;
-        make_pile(&p, (plumb_world_desc){ .solver = i % 2 == 0 ? PLUMB_SOLVER_SOFT : PLUMB_SOLVER_PGS },
+        make_pile(&p,
+                  (plumb_world_desc){ .solver = i % 2 == 0 ? PLUMB_SOLVER_SOFT : PLUMB_SOLVER_PGS },
                   3 * i * i);
         for (int k = 0; k < 20 * i; ++k) {
             step(p.world, k);
@@ -405,9 +406,9 @@ static void a_slot_of_the_bound_takes_every_delta(void **state)
     for (int i = 0; i < IMAGES * IMAGES; ++i) {
         const image *from = &images[i / IMAGES], *to = &images[i % IMAGES];
         size_t size = 0, wanted = 0, back = 0;
-        assert_int_equal(plumb_snapshot_delta(from->bytes, from->size, to->bytes, to->size, delta,
-                                              slot, &size),
-                         PLUMB_OK);
+        assert_int_equal(
+            plumb_snapshot_delta(from->bytes, from->size, to->bytes, to->size, delta, slot, &size),
+            PLUMB_OK);
         assert_true(size <= plumb_snapshot_delta_bound(to->size));
         assert_int_equal(plumb_snapshot_delta(from->bytes, from->size, to->bytes, to->size, delta,
                                               size - 1, &wanted),
@@ -416,9 +417,9 @@ static void a_slot_of_the_bound_takes_every_delta(void **state)
         assert_int_equal(plumb_snapshot_delta(from->bytes, from->size, to->bytes, to->size, delta,
                                               wanted, &size),
                          PLUMB_OK);
-        assert_int_equal(plumb_snapshot_apply(from->bytes, from->size, delta, size, rebuilt, largest,
-                                              &back),
-                         PLUMB_OK);
+        assert_int_equal(
+            plumb_snapshot_apply(from->bytes, from->size, delta, size, rebuilt, largest, &back),
+            PLUMB_OK);
         assert_memory_equal(rebuilt, to->bytes, to->size);
     }
     for (int i = 0; i < IMAGES; ++i) {

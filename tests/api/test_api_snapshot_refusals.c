@@ -245,9 +245,9 @@ static void trusted_images_are_verified_too(void **state)
                      PLUMB_E_NULL);
     base.bytes[base.size / 2] ^= 1;
     assert_int_equal(plumb_world_restore_trusted(p.world, base.bytes, base.size), PLUMB_E_IMAGE);
-    assert_int_equal(plumb_world_restore_frame_trusted(p.world, base.bytes, base.size, base.bytes,
-                                                       base.size),
-                     PLUMB_E_IMAGE);
+    assert_int_equal(
+        plumb_world_restore_frame_trusted(p.world, base.bytes, base.size, base.bytes, base.size),
+        PLUMB_E_IMAGE);
     free(base.bytes);
     plumb_world_destroy(p.world);
 }

@@ -193,11 +193,10 @@ static plumb_world *hang(plumb_material_desc disc, plumb_material_desc ceiling, 
     made[0] = plumb_material_create(w, &disc);
     made[1] = plumb_material_create(w, &ceiling);
     plumb_body top = plumb_body_create(w, &(plumb_body_desc){ .type = PLUMB_STATIC });
-    plumb_shape_create(w, top,
-                       &(plumb_shape_desc){ .kind = PLUMB_BOX,
-                                            .half = { 5, 1 },
-                                            .center = { 0, R(1.499) },
-                                            .material = made[1] });
+    plumb_shape_create(
+        w, top,
+        &(plumb_shape_desc){
+            .kind = PLUMB_BOX, .half = { 5, 1 }, .center = { 0, R(1.499) }, .material = made[1] });
     *body = add_disc(w, 0, 0, (plumb_shape_desc){ .material = made[0] }, NULL);
     plumb_body_set_mass(w, *body, 1);
     return w;
@@ -222,18 +221,19 @@ static void adhesion_is_mixed(void **state)
         plumb_real disc, ceiling;
         plumb_mix mix;
         bool holds;
-    } cases[] = { { 0, 20, PLUMB_MIX_DEFAULT, true },  { 20, 0, PLUMB_MIX_DEFAULT, true },
-                  { 5, 9, PLUMB_MIX_DEFAULT, false },  { 20, 0, PLUMB_MIX_MIN, false },
-                  { 20, 2, PLUMB_MIX_AVERAGE, true },  { 20, 1, PLUMB_MIX_GEOMETRIC, false },
+    } cases[] = { { 0, 20, PLUMB_MIX_DEFAULT, true }, { 20, 0, PLUMB_MIX_DEFAULT, true },
+                  { 5, 9, PLUMB_MIX_DEFAULT, false }, { 20, 0, PLUMB_MIX_MIN, false },
+                  { 20, 2, PLUMB_MIX_AVERAGE, true }, { 20, 1, PLUMB_MIX_GEOMETRIC, false },
                   { 4, 4, PLUMB_MIX_MULTIPLY, true } };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
-        plumb_world *w = hang((plumb_material_desc){ .adhesion = cases[i].disc,
-                                                     .adhesion_mix = cases[i].mix },
-                              (plumb_material_desc){ .adhesion = cases[i].ceiling }, &b, m);
+        plumb_world *w =
+            hang((plumb_material_desc){ .adhesion = cases[i].disc, .adhesion_mix = cases[i].mix },
+                 (plumb_material_desc){ .adhesion = cases[i].ceiling }, &b, m);
         assert_int_equal(holds(w, b), cases[i].holds);
         plumb_world_destroy(w);
     }
-    plumb_world *w = hang((plumb_material_desc){ .adhesion = 20 }, (plumb_material_desc){ 0 }, &b, m);
+    plumb_world *w =
+        hang((plumb_material_desc){ .adhesion = 20 }, (plumb_material_desc){ 0 }, &b, m);
     plumb_material_desc d;
     plumb_material_get(w, m[0], &d);
     assert_near(d.adhesion, 20, 0);
@@ -300,10 +300,9 @@ static void a_system_can_glue(void **state)
         plumb_material m[2];
         plumb_world *w = hang((plumb_material_desc){ 0 }, (plumb_material_desc){ 0 }, &b, m);
         plumb_real force = i == 0 ? 12 : 8;
-        plumb_system_create(w, &(plumb_system_desc){ .name = "glue",
-                                                     .phase = PLUMB_PHASE_CONTACTS,
-                                                     .run = glue,
-                                                     .context = &force });
+        plumb_system_create(
+            w, &(plumb_system_desc){
+                   .name = "glue", .phase = PLUMB_PHASE_CONTACTS, .run = glue, .context = &force });
         assert_int_equal(holds(w, b), i == 0);
         plumb_world_destroy(w);
     }
@@ -317,12 +316,14 @@ static void special_contacts_give_the_same_bits(void **state)
     for (int k = 0; k < 3; ++k) {
         plumb_world *w = flat_world((plumb_world_desc){ .simd_width = 4 << k });
         plumb_material tar = plumb_material_create(
-            w, &(plumb_material_desc){ .friction = R(0.4), .adhesion = 3, .rolling_resistance = R(0.01) });
+            w, &(plumb_material_desc){
+                   .friction = R(0.4), .adhesion = 3, .rolling_resistance = R(0.01) });
         add_floor(w, tar);
         for (int i = 0; i < 60; ++i) {
             plumb_shape_desc d = { .material = i % 2 == 0 ? tar : NO_MATERIAL };
             plumb_body b = add_disc(w, i % 10 * 0.9 + 0.03 * i, 0.6 + i / 10 * 0.95, d, NULL);
-            plumb_body_set_locks(w, b, (plumb_axis_locks){ .x = i % 7 == 0, .rotation = i % 5 == 0 });
+            plumb_body_set_locks(w, b,
+                                 (plumb_axis_locks){ .x = i % 7 == 0, .rotation = i % 5 == 0 });
             plumb_body_set_time_scale(w, b, i % 11 == 0 ? R(0.5) : 1);
             plumb_body_set_damping(w, b, i % 3 == 0 ? R(0.2) : 0, 0);
         }

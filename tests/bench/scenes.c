@@ -224,7 +224,8 @@ static void build_compounds(struct scene *scene)
 
 enum {
     FIELDS = 4, // rows at the end that run only when they are named
-    SETTLE = 10 // steps of those that build what lasts: grids, the pair list, memory that is first touched
+    SETTLE =
+        10 // steps of those that build what lasts: grids, the pair list, memory that is first touched
 };
 
 const struct scene_row scene_rows[] = {

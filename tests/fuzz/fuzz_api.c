@@ -204,10 +204,11 @@ static void call(plumb_world *w, script *s, plumb_entity e[HANDLES], unsigned ca
         plumb_body_set_target(w, (plumb_body){ other }, vec_of(s), real_of(s), real_of(s));
         break;
     case 23:
-        plumb_world_explode(w, &(plumb_explosion_desc){ .position = vec_of(s),
-                                                        .radius = real_of(s),
-                                                        .impulse = real_of(s),
-                                                        .occlusion = (plumb_occlusion)(byte_of(s) % 3) });
+        plumb_world_explode(
+            w, &(plumb_explosion_desc){ .position = vec_of(s),
+                                        .radius = real_of(s),
+                                        .impulse = real_of(s),
+                                        .occlusion = (plumb_occlusion)(byte_of(s) % 3) });
         break;
     case 26:
         ask(w, s);

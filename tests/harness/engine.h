@@ -207,8 +207,7 @@ struct engine {
 static inline struct engine_options engine_options_default(void)
 {
     // In order: engine_box2d2.cpp is C++17.
-    struct engine_options options = { 0.0,  -10.0, 0,    0, 0, false,
-                                      true, -1.0,  -1.0, 0, 0, NULL };
+    struct engine_options options = { 0.0, -10.0, 0, 0, 0, false, true, -1.0, -1.0, 0, 0, NULL };
     return options;
 }
 

@@ -260,10 +260,13 @@ static void stirred_heap_strikes_each_contact_once(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(overlap_is_undone_gently),    cmocka_unit_test(resting_bodies_do_not_hop),
-        cmocka_unit_test(deep_pile_settles),           cmocka_unit_test(jammed_discs_come_to_rest),
+        cmocka_unit_test(overlap_is_undone_gently),
+        cmocka_unit_test(resting_bodies_do_not_hop),
+        cmocka_unit_test(deep_pile_settles),
+        cmocka_unit_test(jammed_discs_come_to_rest),
         cmocka_unit_test(stirred_heap_strikes_each_contact_once),
-        cmocka_unit_test(elastic_pile_wins_no_energy), cmocka_unit_test(deep_overlap_bears_its_load),
+        cmocka_unit_test(elastic_pile_wins_no_energy),
+        cmocka_unit_test(deep_overlap_bears_its_load),
     };
     return cmocka_run_group_tests_name("hard", tests, NULL, NULL);
 }

@@ -65,7 +65,8 @@ static void walls_stop(void **state)
             sim_launch(w, b, speeds[k], 0, 0);
             for (int i = 0; i < 60 * 8; ++i) {
                 sim_step(w, HZ60);
-                assert_true(sim_x(w, b) < 11.75 || sim_y(w, b) > 3); // a triangle may be thrown over it
+                assert_true(sim_x(w, b) < 11.75 ||
+                            sim_y(w, b) > 3); // a triangle may be thrown over it
             }
             double reach = sim_x(w, b), off = sim_y(w, b) - height_of((body_kind)body);
             if (body == TRIANGLE) { // struck at its foot it tips over

@@ -319,9 +319,8 @@ static void gas_keeps_momentum_and_energy(void **state)
     for (int i = 0; i < 60; ++i) {
         double vx = sim_uniform(&seed, -3, 7), vy = sim_uniform(&seed, -6, 4);
         plumb_body body = plumb_body_create(
-            w, &(plumb_body_desc){
-                   .position = { R(1.2 * (i % 10)), R(1.5 * (i / 10)) },
-                   .velocity = { R(vx), R(vy) } });
+            w, &(plumb_body_desc){ .position = { R(1.2 * (i % 10)), R(1.5 * (i / 10)) },
+                                   .velocity = { R(vx), R(vy) } });
         plumb_shape_create(w, body,
                            &(plumb_shape_desc){ .kind = PLUMB_CIRCLE,
                                                 .radius = R(0.1 + 0.05 * (i % 5)),

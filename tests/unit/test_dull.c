@@ -97,7 +97,8 @@ static void parts_of(const plumb_world *w, void *part[5], size_t size[5])
     const pl_buffer *from[5] = { &s->bodies, &s->motions, &s->lows, &s->struck, &s->bundles };
     const size_t sizes[5] = { s->dynamic_slots * sizeof(pl_solver_body),
                               s->dynamic_slots * sizeof(pl_solver_motion),
-                              s->dynamic_slots * 4 * sizeof(near_real), s->dynamic_slots * sizeof(near_real),
+                              s->dynamic_slots * 4 * sizeof(near_real),
+                              s->dynamic_slots * sizeof(near_real),
                               s->bundle_count * pl_solver_kernels(w)->bundle_size };
     for (int i = 0; i < 5; ++i) {
         part[i] = from[i]->data;

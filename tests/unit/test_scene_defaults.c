@@ -59,11 +59,11 @@ static answers of_joint(const plumb_world *w, plumb_joint h)
     plumb_joint_desc d;
     assert_int_equal(plumb_joint_settings(w, h, &d), PLUMB_OK);
     JOINT_GETTERS(KEEP)
-    const plumb_real numbers[] = { d.lower,  d.upper,      d.motor_speed, d.max_motor,
-                                   d.hertz,  d.damping,    d.rest,        d.length,
-                                   d.ratio,  d.pitch,      d.max_force,   d.max_torque,
-                                   d.axis.x, d.axis.y,     d.anchor.x,    d.anchor.y,
-                                   d.break_force,          d.break_torque, d.break_impulse };
+    const plumb_real numbers[] = { d.lower,       d.upper,        d.motor_speed,  d.max_motor,
+                                   d.hertz,       d.damping,      d.rest,         d.length,
+                                   d.ratio,       d.pitch,        d.max_force,    d.max_torque,
+                                   d.axis.x,      d.axis.y,       d.anchor.x,     d.anchor.y,
+                                   d.break_force, d.break_torque, d.break_impulse };
     for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; ++i) {
         keep(&a, "a number of plumb_joint_settings", &numbers[i], sizeof numbers[i]);
     }
@@ -77,8 +77,8 @@ static answers of_material(const plumb_world *w, plumb_material m)
     answers a = { .count = 0 };
     plumb_material_desc d;
     assert_int_equal(plumb_material_get(w, m, &d), PLUMB_OK);
-    const plumb_real numbers[] = { d.density,            d.friction,      d.restitution,
-                                   d.rolling_resistance, d.surface_speed, d.adhesion };
+    const plumb_real numbers[] = { d.density,       d.friction, d.restitution, d.rolling_resistance,
+                                   d.surface_speed, d.adhesion };
     const int rules[] = { (int)d.friction_mix, (int)d.restitution_mix, (int)d.adhesion_mix,
                           d.frictionless };
     for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; ++i) {
@@ -92,12 +92,12 @@ static answers of_world(const plumb_world *w)
 {
     answers a = { .count = 0 };
     const plumb_world_desc d = plumb_world_settings(w);
-    const plumb_real numbers[] = { d.gravity.x,       d.gravity.y,   d.contact_hertz,
-                                   d.contact_damping, d.push_speed,  d.restitution_speed,
-                                   d.sleep_speed,     d.sleep_time,  d.wrap_x,
+    const plumb_real numbers[] = { d.gravity.x,       d.gravity.y,  d.contact_hertz,
+                                   d.contact_damping, d.push_speed, d.restitution_speed,
+                                   d.sleep_speed,     d.sleep_time, d.wrap_x,
                                    d.wrap_y };
-    const int choices[] = { (int)d.y_axis, (int)d.solver, d.substeps, d.iterations, d.no_sleep,
-                            d.no_continuous };
+    const int choices[] = { (int)d.y_axis, (int)d.solver, d.substeps,
+                            d.iterations,  d.no_sleep,    d.no_continuous };
     for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; ++i) {
         keep(&a, "a number of plumb_world_settings", &numbers[i], sizeof numbers[i]);
     }

@@ -125,7 +125,8 @@ static void each_way(void (*check)(pair_of_worlds *p, uint32_t *seed))
 static void check_ray(pair_of_worlds *p, uint32_t *seed)
 {
     plumb_vec2 from = some_point(seed);
-    plumb_vec2 to = { from.x + R(sim_uniform(seed, -20, 20)), from.y + R(sim_uniform(seed, -12, 12)) };
+    plumb_vec2 to = { from.x + R(sim_uniform(seed, -20, 20)),
+                      from.y + R(sim_uniform(seed, -12, 12)) };
     plumb_ray_hit a, b;
     bool met_a = plumb_world_ray(p->wrapped, from, to, NULL, &a);
     bool met_b = plumb_world_ray(p->plain, from, to, NULL, &b);
@@ -278,10 +279,10 @@ static void every_pair_over_the_edge_once(void **state)
             plumb_vec2 points[4];
             plumb_shape_desc shape = some_shape(&seed, points);
             plumb_body body = plumb_body_create(
-                w, &(plumb_body_desc){
-                       .type = (plumb_body_type)(i % 3),
-                       .position = some_point(&seed),
-                       .velocity = { R(sim_uniform(&seed, -5, 5)), R(sim_uniform(&seed, -5, 5)) } });
+                w, &(plumb_body_desc){ .type = (plumb_body_type)(i % 3),
+                                       .position = some_point(&seed),
+                                       .velocity = { R(sim_uniform(&seed, -5, 5)),
+                                                     R(sim_uniform(&seed, -5, 5)) } });
             if (i % 3 == (int)PLUMB_STATIC) {
                 plumb_body_set_velocity(w, body, plumb_v2(0, 0));
             }

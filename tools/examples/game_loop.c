@@ -98,8 +98,7 @@ static pose game_pose(const game *g, int i)
     double alpha = g->ahead / dt;
     pose a = g->before[i], b = g->now[i];
     double angle = a.angle + alpha * remainder(b.angle - a.angle, two_pi);
-    return (pose){ a.x + alpha * (b.x - a.x), a.y + alpha * (b.y - a.y),
-                   remainder(angle, two_pi) };
+    return (pose){ a.x + alpha * (b.x - a.x), a.y + alpha * (b.y - a.y), remainder(angle, two_pi) };
 }
 
 int main(void)

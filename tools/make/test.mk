@@ -180,8 +180,8 @@ fuzz-run: $(FUZZ_BIN)
 
 FORMATTED := $(wildcard include/plumb/*.h src/*/*.[ch] tools/*/*.[ch] tests/*/*.[ch] tests/*/*.cpp)
 format:
-	clang-format -i $(FORMATTED)
+	@clang-format -i $(FORMATTED)
 format-check:
-	clang-format --dry-run -Werror $(FORMATTED)
+	@clang-format --dry-run -Werror $(FORMATTED)
 lint: lib
 	@O=$(O) bash tools/lint/lint.sh

@@ -15,7 +15,7 @@ struct render_frame;
 
 /// What went wrong: an exit code and complete text for the user, possibly several lines.
 typedef struct engine_error {
-    int code; ///< cli_exit
+    int code;   ///< cli_exit
     int reason; ///< errno of a write that failed, else 0
     char text[2048];
 } engine_error;
@@ -51,16 +51,16 @@ typedef struct engine_camera {
 
 /// What was opened, with all defaults resolved.
 typedef struct engine_info {
-    const char *name; ///< the scene's title, or its file's name
-    double duration;  ///< [s] the scene's, the recording's
-    double dt;        ///< [s] of a recording the mean
-    int substeps;     ///< [-]
-    int iterations;   ///< [-]
-    int solver;       ///< index into ENGINE_SOLVERS
-    int width;        ///< SIMD lanes in use
-    bool y_down;      ///< the scene's y axis points down
+    const char *name;      ///< the scene's title, or its file's name
+    double duration;       ///< [s] the scene's, the recording's
+    double dt;             ///< [s] of a recording the mean
+    int substeps;          ///< [-]
+    int iterations;        ///< [-]
+    int solver;            ///< index into ENGINE_SOLVERS
+    int width;             ///< SIMD lanes in use
+    bool y_down;           ///< the scene's y axis points down
     double wrap_x, wrap_y; ///< [m] the world wraps around every so many; 0: not along that axis
-    int exact_count;  ///< closed forms declared
+    int exact_count;       ///< closed forms declared
     engine_camera camera;
 } engine_info;
 
@@ -105,10 +105,10 @@ typedef struct engine_stats {
 typedef struct engine_word {
     const char *name;
     const char *topic; ///< "shapes", "joints", ...: what the constructor belongs to
-    const char *kind; ///< what is expected: "number", "true or false", "one of up|down"
-    const char *unit; ///< "" if none
-    double min, max;  ///< range of numbers, equal if there is none
-    int position;     ///< may also be given as the n-th element; 0: by name only
+    const char *kind;  ///< what is expected: "number", "true or false", "one of up|down"
+    const char *unit;  ///< "" if none
+    double min, max;   ///< range of numbers, equal if there is none
+    int position;      ///< may also be given as the n-th element; 0: by name only
     bool required;
 } engine_word;
 
@@ -135,9 +135,9 @@ typedef struct engine_replay_info {
 
 /// Something that a user changed, or that differs between two worlds, in words.
 typedef struct engine_change {
-    char when[24];  ///< "before the step", "begin systems", ...
-    char who[160];  ///< "body 'ball'", "shape 7:1 of body 'ball'", "world"
-    char what[96];  ///< "vx", "created", ...
+    char when[24];         ///< "before the step", "begin systems", ...
+    char who[160];         ///< "body 'ball'", "shape 7:1 of body 'ball'", "world"
+    char what[96];         ///< "vx", "created", ...
     char from[64], to[64]; ///< values, "" if none
 } engine_change;
 
@@ -145,7 +145,7 @@ typedef struct engine_change {
 typedef struct engine_difference {
     bool found;
     unsigned long long step;
-    double time[2]; ///< [s]
+    double time[2];          ///< [s]
     char pass[64];           ///< "": unknown, one of them is of another build
     unsigned long long seen; ///< steps at which `first` was seen; 0: nowhere
     engine_change first;

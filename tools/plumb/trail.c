@@ -88,8 +88,7 @@ bool trail_record(trail_set *set, const engine_scenery *of)
             continue;
         }
         struct trail *t = find_trail(set, &rows[i], moving++);
-        if (t == NULL ||
-            !add_point(t, time, oldest, (render_vec){ rows[i].x, rows[i].y })) {
+        if (t == NULL || !add_point(t, time, oldest, (render_vec){ rows[i].x, rows[i].y })) {
             return false;
         }
         t->seen = true;
@@ -104,7 +103,8 @@ static size_t end_of_part(const trail_set *set, const struct trail *t, size_t fr
     for (; k < t->count; k++) {
         double dx = fabs(t->points[k].x - t->points[k - 1].x);
         double dy = fabs(t->points[k].y - t->points[k - 1].y);
-        if ((set->wrap_x > 0 && dx > set->wrap_x / 2) || (set->wrap_y > 0 && dy > set->wrap_y / 2)) {
+        if ((set->wrap_x > 0 && dx > set->wrap_x / 2) ||
+            (set->wrap_y > 0 && dy > set->wrap_y / 2)) {
             break;
         }
     }

@@ -245,9 +245,9 @@ typedef enum sc_handler_kind {
 
 typedef struct sc_handler {
     sc_handler_kind kind;
-    double time;   ///< [s] at: when; every: the period
+    double time; ///< [s] at: when; every: the period
     double next; ///< every: number of the next call, whole; above 2^53 no whole number is left out
-    bool spent;    ///< at: has been called
+    bool spent;  ///< at: has been called
     int line;
     sc_contact_def contact;
 } sc_handler;

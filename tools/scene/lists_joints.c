@@ -115,7 +115,7 @@ const sc_list sc_list_joints[SC_JOINT_KINDS] = {
 const sc_list *sc_list_named(const char *name)
 {
     static const sc_list *const lists[] = { &sc_list_motor, &sc_list_spring, &sc_list_state,
-                                           &sc_list_character };
+                                            &sc_list_character };
     for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) {
         if (strcmp(lists[i]->name, name) == 0) {
             return lists[i];

@@ -87,7 +87,8 @@ typedef struct scene_options {
     uint64_t handler_instructions; ///< of one handler call; ten times as many of a step; 0: 1e7
     double build_seconds;          ///< [s] processor time of the build pass; 0: 60
     double handler_seconds;        ///< [s] processor time of all handlers of a step; 0: 10
-    bool (*stop)(void *context);   ///< true ends the script with E_STOPPED; asked every 1000 instructions; null: none
+    /// True ends the script with E_STOPPED; asked every 1000 instructions; null: none.
+    bool (*stop)(void *context);
     void *stop_context;
     void (*print)(void *context, const char *line); ///< for print(); null: stderr
     void *print_context;
@@ -143,9 +144,9 @@ typedef struct scene_body {
     plumb_body entity;
     const char *name; ///< never empty: unnamed bodies are body1, body2, ... by order of making
     bool is_named;    ///< the author gave the name
-    const char
-        *label;  ///< "" when none is wanted; the renderer may fall back on the name if is_named
-    int palette; ///< colour number, -1 when the author gave none
+    /// "" when none is wanted; the renderer may fall back on the name if is_named
+    const char *label;
+    int palette;      ///< colour number, -1 when the author gave none
     scene_rgba color; ///< replaces the palette colour when a > 0
     bool hidden;      ///< not to be drawn: said so, or disabled
 } scene_body;
