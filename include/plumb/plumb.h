@@ -8,6 +8,7 @@
 #include "plumb/matrix.h"
 #include "plumb/geometry.h"
 #include "plumb/world.h"
+#include "plumb/schema.h"
 #include "plumb/material.h"
 #include "plumb/body.h"
 #include "plumb/shape.h"

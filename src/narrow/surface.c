@@ -19,8 +19,8 @@ bool pl_surfaces_wanted(const plumb_world *world, const char **reason)
     bool wanted = world->material_pair_count > 0;
     for (uint32_t row = 0; row < m->table.count && !wanted; ++row) {
         wanted = m->users[row] > 0 &&
-                 (m->rolling[row] > 0 || m->surface_speed[row] != 0 || m->adhesion[row] > 0 ||
-                  m->friction_mix[row] != PLUMB_MIX_DEFAULT ||
+                 (m->rolling_resistance[row] > 0 || m->surface_speed[row] != 0 ||
+                  m->adhesion[row] > 0 || m->friction_mix[row] != PLUMB_MIX_DEFAULT ||
                   m->restitution_mix[row] != PLUMB_MIX_DEFAULT);
     }
     *reason = wanted ? "some material rolls hard, runs like a belt, sticks or has a mix of its own"
@@ -92,7 +92,9 @@ static void mix(const plumb_world *world, pl_manifold *m, const pl_pair *pair, u
     if (restitution_rule != PLUMB_MIX_DEFAULT) {
         m->restitution = (near_real)mixed(restitution_rule, s->restitution[a], s->restitution[b]);
     }
-    m->rolling = (near_real)(s->rolling[a] > s->rolling[b] ? s->rolling[a] : s->rolling[b]);
+    m->rolling =
+        (near_real)(s->rolling_resistance[a] > s->rolling_resistance[b] ? s->rolling_resistance[a]
+                                                                        : s->rolling_resistance[b]);
 }
 
 void pl_surfaces_mix(plumb_world *world)

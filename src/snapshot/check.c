@@ -85,10 +85,11 @@ static bool keeps_rule(const plumb_world *w, pl_rule rule, const pl_section *sec
     if (rule.kind == PL_RULE_IS_ANY || rule.kind == PL_RULE_IS_GUARDED) {
         return true;
     }
-    if (rule.kind == PL_RULE_IS_POSITIVE) {
+    if (rule.kind == PL_RULE_IS_WITHIN) {
         const real *v = (const real *)(const void *)section->data;
+        const real low = (real)rule.low, high = (real)rule.high;
         for (uint32_t i = 0; i < section->count; ++i) {
-            if (!(v[i] >= 0)) {
+            if (!(v[i] >= low && v[i] <= high)) {
                 return false;
             }
         }

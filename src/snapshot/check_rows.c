@@ -4,6 +4,7 @@
 // Reads: the image. Writes: marks. Cost: O(rows), each list walked once: a walk that takes more steps than
 // there are elements is a circle.
 #include "snapshot/check.h"
+#include "world/check.h"
 #include "world/material_pair.h"
 #include "world/rows.h"
 
@@ -358,8 +359,7 @@ static bool check_material_pairs(const plumb_world *w)
         const uint32_t a = (uint32_t)(items[i].key >> 32), b = (uint32_t)items[i].key;
         const plumb_material_pair *v = &items[i].value;
         if ((i > 0 && items[i - 1].key >= items[i].key) || a > b || !names_material(w, a) ||
-            !names_material(w, b) || !pl_are_reals(v, sizeof *v / sizeof(real)) ||
-            v->friction < 0 || v->restitution < 0 || v->rolling_resistance < 0 || v->adhesion < 0) {
+            !names_material(w, b) || !pl_desc_is_sound(PLUMB_TABLE_MATERIAL_PAIR, v)) {
             return false;
         }
     }
@@ -402,7 +402,7 @@ bool pl_check_materials(pl_suspect *s)
     for (uint32_t m = 0; m < w->materials.table.count; ++m) {
         const pl_slot *slot = pl_registry_find(&w->registry, w->materials.entity[m].entity);
         const bool named = slot != NULL && slot->kind == PLUMB_KIND_MATERIAL && slot->row == m;
-        if ((m > 0) != named || w->materials.friction[m] > 1000) {
+        if ((m > 0) != named) {
             return false;
         }
     }

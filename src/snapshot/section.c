@@ -66,17 +66,13 @@ typedef struct column_row {
     _Generic(*(type *)NULL, void *: 0, pl_box: 0, pl_hint: 0, default: (uint32_t)sizeof(type))
 // clang-format on
 
-#define COLUMN_ROW(struct, type, name)                                                             \
-    { #struct,                                                                                     \
-      #name,                                                                                       \
-      offsetof(plumb_world, struct.name),                                                          \
-      sizeof(type),                                                                                \
-      HASHED(type),                                                                                \
-      PL_TYPE(*(type *)NULL),                                                                      \
-      PL_RULE_##struct##_##name },
-#define BODY_ROW(type, name)     COLUMN_ROW(bodies, type, name)
-#define PIECE_ROW(type, name)    COLUMN_ROW(pieces, type, name)
-#define MATERIAL_ROW(type, name) COLUMN_ROW(materials, type, name)
+#define COLUMN_ROW(struct, type, name, ...)                                                        \
+    { #struct,      #name,        offsetof(plumb_world, struct.name),                              \
+      sizeof(type), HASHED(type), PL_TYPE(*(type *)NULL),                                          \
+      __VA_ARGS__ },
+#define BODY_ROW(type, name, ...)     COLUMN_ROW(bodies, type, name, __VA_ARGS__)
+#define PIECE_ROW(type, name, ...)    COLUMN_ROW(pieces, type, name, __VA_ARGS__)
+#define MATERIAL_ROW(type, name, ...) COLUMN_ROW(materials, type, name, __VA_ARGS__)
 
 static const column_row columns[] = { PL_BODY_COLUMNS(BODY_ROW) PL_PIECE_COLUMNS(PIECE_ROW)
                                           PL_MATERIAL_COLUMNS(MATERIAL_ROW) };
@@ -399,7 +395,7 @@ void pl_section_read(plumb_world *world, uint32_t i, const char *from, uint32_t 
 pl_rule pl_section_rule(uint32_t i)
 {
     return i >= FIRST_COLUMN && i < FIRST_ARRAY ? columns[i - FIRST_COLUMN].rule
-                                                : (pl_rule){ PL_RULE_IS_ANY, 0 };
+                                                : (pl_rule){ .kind = PL_RULE_IS_ANY };
 }
 
 static bool is_sound(pl_type type, const char *from)

@@ -4,6 +4,7 @@
 #ifndef PL_CHECK_H
 #define PL_CHECK_H
 
+#include "plumb/schema.h"
 #include "plumb/shape.h"
 
 // Finite. E_NOT_FINITE.
@@ -19,6 +20,13 @@ plumb_result pl_check_range(const plumb_world *world, const char *function, cons
 // Both components finite and within +-limit. E_NOT_FINITE, E_RANGE.
 plumb_result pl_check_within(const plumb_world *world, const char *function, const char *field,
                              plumb_vec2 value, plumb_real limit);
+
+// Every property of a descriptor in its range, by the rows of src/schema; fields are told with `prefix`, "pair." or
+// "". E_NOT_FINITE, E_RANGE.
+plumb_result pl_check_desc(const plumb_world *world, const char *function, const char *prefix,
+                           plumb_property_table table, const void *desc);
+// The same of one that lies in an image.
+bool pl_desc_is_sound(plumb_property_table table, const void *desc);
 
 // Pointer given. E_NULL.
 plumb_result pl_check_pointer(const plumb_world *world, const char *function, const char *field,

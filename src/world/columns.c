@@ -3,9 +3,9 @@
 
 #define COUNT(array) (sizeof(array) / sizeof((array)[0]))
 
-#define BODY_COLUMN(type, name)     { offsetof(pl_bodies, name), sizeof(type) },
-#define PIECE_COLUMN(type, name)    { offsetof(pl_pieces, name), sizeof(type) },
-#define MATERIAL_COLUMN(type, name) { offsetof(pl_materials, name), sizeof(type) },
+#define BODY_COLUMN(type, name, ...)     { offsetof(pl_bodies, name), sizeof(type) },
+#define PIECE_COLUMN(type, name, ...)    { offsetof(pl_pieces, name), sizeof(type) },
+#define MATERIAL_COLUMN(type, name, ...) { offsetof(pl_materials, name), sizeof(type) },
 
 const pl_column pl_body_columns[] = { PL_BODY_COLUMNS(BODY_COLUMN) };
 const size_t pl_body_column_count = COUNT(pl_body_columns);

@@ -1,5 +1,9 @@
 // columns.h - the built-in tables of a world: one X-macro list a table, from which the struct, the
-// column descriptors, growth, row moves and clearing follow. Adding a column is one row here.
+// column descriptors, growth, row moves and clearing follow, snapshots, and what their images are checked for.
+//
+//     X(type, name, rule)    rule: what numbers an image may have there, see snapshot/rules.h
+//
+// What users set are rows of src/schema. Adding a column is one row, here or there.
 #ifndef PL_COLUMNS_H
 #define PL_COLUMNS_H
 
@@ -8,6 +12,8 @@
 #include "plumb/body.h"
 #include "plumb/material.h"
 #include "plumb/shape.h"
+
+#include "schema/material.h"
 
 typedef plumb_real real;
 
@@ -19,41 +25,41 @@ typedef struct pl_hint {
 // Body rows. Rows are dense and partitioned: [awake dynamic | kinematic | asleep | static].
 // clang-format off
 #define PL_BODY_COLUMNS(X)                                                                          \
-    X(plumb_body, entity)          /* owner */                                                      \
-    X(real, x) X(real, y)          /* [m] origin of the body's frame, derived from the centre */    \
-    X(real, center_x) X(real, center_y) /* [m] centre of mass: what the solver integrates */        \
-    X(real, c) X(real, s)          /* rotation */                                                   \
-    X(real, vx) X(real, vy)        /* [m/s] */                                                      \
-    X(real, w)                     /* [rad/s] */                                                    \
-    X(real, low_x) X(real, low_y)  /* [m] what rounding took from the centre: carried to the next step */ \
-    X(real, low_vx) X(real, low_vy) /* [m/s] the same of the velocity, in free flight */            \
-    X(real, fx) X(real, fy)        /* [N] for the next step */                                      \
-    X(real, torque)                /* [N m] for the next step */                                    \
-    X(real, inv_mass)              /* [1/kg] 0: immovable */                                        \
-    X(real, inv_inertia)           /* [1/(kg m^2)] 0: does not turn */                              \
-    X(real, local_x) X(real, local_y) /* [m] centre of mass in the body's frame */                  \
-    X(real, gravity_scale)         /* [-] */                                                        \
-    X(real, mass) X(real, inertia) /* [kg], [kg m^2]; kept also where the inverses are 0 */         \
-    X(real, set_mass) X(real, set_inertia) /* given by the user; 0: from the shapes */              \
-    X(real, extent)                /* [m] farthest point of a solid shape from the centre of mass; at least the radius of gyration */ \
-    X(real, slack)                 /* [m] motion in a step that lets it pass nothing: see extent.c */ \
-    X(void *, user_data)                                                                            \
-    X(uint32_t, first_piece)       /* pieces of the body, newest shape first; PL_NONE ends */       \
-    X(uint32_t, first_joint)       /* joints of the body, newest first; PL_NONE ends */             \
-    X(uint32_t, character)         /* 1 + its place among the characters; 0: none */                \
-    X(real, looked)                /* [s] of rest since the last look at where it is (src/sleep) */ \
-    X(real, look_x) X(real, look_y) /* [m] its centre at that look */                               \
-    X(real, look_c) X(real, look_s) /* its rotation then */                                         \
-    X(real, way_x) X(real, way_y)  /* [m] between the last two looks */                             \
-    X(real, way_turn)              /* [rad] the same */                                             \
-    X(uint8_t, looks)              /* in this rest, up to 2 */                                      \
-    X(uint32_t, island)            /* of a sleeping body; PL_NONE: awake */                         \
-    X(uint32_t, next_asleep) X(uint32_t, previous_asleep) /* registry slots: bodies of the island */ \
-    X(uint32_t, changed_step)      /* step count + 1 when an immovable body was last changed */     \
-    X(uint32_t, tuning)            /* 1 + its record in world->tunings; 0: none */                  \
-    X(pl_hint, stirring)           /* kinematic: it moves, or was changed, and wakes what it touches */ \
-    X(uint8_t, type)               /* plumb_body_type */                                            \
-    X(uint16_t, flags)             /* PL_BODY_... */
+    X(plumb_body, entity, ANY) /* owner */                                                          \
+    X(real, x, ANY) X(real, y, ANY) /* [m] origin of the body's frame, derived from the centre */   \
+    X(real, center_x, ANY) X(real, center_y, ANY) /* [m] centre of mass: what the solver integrates */ \
+    X(real, c, ANY) X(real, s, ANY) /* rotation */                                                  \
+    X(real, vx, GUARDED) X(real, vy, GUARDED) /* [m/s] */                                           \
+    X(real, w, GUARDED) /* [rad/s] */                                                               \
+    X(real, low_x, ANY) X(real, low_y, ANY) /* [m] what rounding took from the centre: carried to the next step */ \
+    X(real, low_vx, ANY) X(real, low_vy, ANY) /* [m/s] the same of the velocity, in free flight */  \
+    X(real, fx, GUARDED) X(real, fy, GUARDED) /* [N] for the next step */                           \
+    X(real, torque, GUARDED) /* [N m] for the next step */                                          \
+    X(real, inv_mass, POSITIVE) /* [1/kg] 0: immovable */                                           \
+    X(real, inv_inertia, POSITIVE) /* [1/(kg m^2)] 0: does not turn */                              \
+    X(real, local_x, ANY) X(real, local_y, ANY) /* [m] centre of mass in the body's frame */        \
+    X(real, gravity_scale, ANY) /* [-] */                                                           \
+    X(real, mass, POSITIVE) X(real, inertia, POSITIVE) /* [kg], [kg m^2]; kept also where the inverses are 0 */ \
+    X(real, set_mass, POSITIVE) X(real, set_inertia, POSITIVE) /* given by the user; 0: from the shapes */ \
+    X(real, extent, POSITIVE) /* [m] farthest point of a solid shape from the centre of mass; at least the radius of gyration */ \
+    X(real, slack, ANY) /* [m] motion in a step that lets it pass nothing: see extent.c */          \
+    X(void *, user_data, ANY)                                                                       \
+    X(uint32_t, first_piece, OR_NONE(PIECES)) /* pieces of the body, newest shape first; PL_NONE ends */ \
+    X(uint32_t, first_joint, OR_NONE(JOINTS)) /* joints of the body, newest first; PL_NONE ends */  \
+    X(uint32_t, character, ONE_MORE(CHARACTERS)) /* 1 + its place among the characters; 0: none */  \
+    X(real, looked, ANY) /* [s] of rest since the last look at where it is (src/sleep) */           \
+    X(real, look_x, ANY) X(real, look_y, ANY) /* [m] its centre at that look */                     \
+    X(real, look_c, ANY) X(real, look_s, ANY) /* its rotation then */                               \
+    X(real, way_x, ANY) X(real, way_y, ANY) /* [m] between the last two looks */                    \
+    X(real, way_turn, ANY) /* [rad] the same */                                                     \
+    X(uint8_t, looks, UP_TO(2)) /* in this rest, up to 2 */                                         \
+    X(uint32_t, island, OR_NONE(ISLANDS)) /* of a sleeping body; PL_NONE: awake */                  \
+    X(uint32_t, next_asleep, ANY) X(uint32_t, previous_asleep, ANY) /* registry slots: bodies of the island */ \
+    X(uint32_t, changed_step, ANY) /* step count + 1 when an immovable body was last changed */     \
+    X(uint32_t, tuning, ONE_MORE(TUNINGS)) /* 1 + its record in world->tunings; 0: none */          \
+    X(pl_hint, stirring, ANY) /* kinematic: it moves, or was changed, and wakes what it touches */  \
+    X(uint8_t, type, UP_TO(PLUMB_STATIC)) /* plumb_body_type */                                     \
+    X(uint16_t, flags, UP_TO(0x3fff)) /* PL_BODY_..., but PL_BODY_LOST */
 
 #define PL_BODY_FIXED_ROTATION 1u
 #define PL_BODY_DROPPING       2u // it asks to drop through one-way shapes in the next step
@@ -74,45 +80,40 @@ typedef struct pl_hint {
 // Pieces: the convex parts of shapes, what the broad and narrow phase see. Slots are stable for the
 // life of the shape (contacts and grids name them); free slots have kind PL_PIECE_FREE.
 #define PL_PIECE_COLUMNS(X)                                                                         \
-    X(plumb_shape, shape)          /* the shape it belongs to */                                    \
-    X(uint8_t, kind)               /* pl_piece_kind: which narrow-phase kernel */                   \
-    X(uint8_t, shape_kind)         /* plumb_shape_kind */                                           \
-    X(uint8_t, vertex_count)       /* corners in the vertex pool; 0 for circles */                  \
-    X(uint8_t, vertex_class)       /* size class of its run in the pool */                          \
-    X(uint32_t, vertices)          /* first corner in the vertex pool */                            \
-    X(uint32_t, seams)             /* bit k: edge k is an inner cut */                              \
-    X(uint32_t, seam_corners)      /* PL_SEAM_...: corners that neighbours narrow (seams/seams.h) */ \
-    X(uint32_t, seam_edges)        /* PL_SEAM_...: edges that neighbours cover */                   \
-    X(uint32_t, body)              /* body row; follows the row when it moves */                    \
-    X(uint32_t, next_in_body)      /* next piece of the body, PL_NONE ends */                       \
-    X(uint32_t, next_in_shape)     /* next piece of the shape, PL_NONE ends; also the free list */  \
-    X(uint32_t, material)          /* material row */                                               \
-    X(uint64_t, category) X(uint64_t, mask) /* filter, resolved: mask 0 meets nothing */            \
-    X(int32_t, group)                                                                               \
-    X(uint8_t, flags)              /* PL_PIECE_... */                                               \
-    X(real, friction) X(real, restitution) /* copied from the material */                           \
-    X(real, one_way_x) X(real, one_way_y) /* unit, in the body's frame; 0: solid from all sides */  \
-    X(real, one_way_cos) X(real, one_way_angle) /* of normals that hold, about the direction */     \
-    X(real, density)               /* [kg/m^2] in force; 0 for lines */                             \
-    X(real, own_density)           /* [kg/m^2] given with the shape; 0: the material's */           \
-    X(plumb_mass_properties, area) /* the whole shape at density 1, on its first piece; else 0 */   \
-    X(uint32_t, serial)            /* world->serial when the slot was taken: tells reused slots */  \
-    X(void *, user_data)                                                                            \
-    X(pl_core, core)               /* geometry in the body's frame, one gatherable record */        \
-    X(pl_box, fat)                 /* [m] fat box in the grid */                                    \
-    X(uint32_t, moving)            /* place in the list of moving or resting pieces; PL_NONE: static; PL_OUT */ \
-    X(uint32_t, first_dormant)     /* sleeping contacts with this static or kinematic piece */
+    X(plumb_shape, shape, ANY) /* the shape it belongs to */                                        \
+    X(uint8_t, kind, UP_TO(PL_PIECE_KIND_COUNT - 1)) /* pl_piece_kind: which narrow-phase kernel */ \
+    X(uint8_t, shape_kind, UP_TO(PLUMB_CHAIN)) /* plumb_shape_kind */                               \
+    X(uint8_t, vertex_count, UP_TO(16)) /* corners in the vertex pool; 0 for circles */             \
+    X(uint8_t, vertex_class, UP_TO(PL_VERTEX_CLASSES - 1)) /* size class of its run in the pool */  \
+    X(uint32_t, vertices, ANY) /* first corner in the vertex pool */                                \
+    X(uint32_t, seams, ANY) /* bit k: edge k is an inner cut */                                     \
+    X(uint32_t, seam_corners, ANY) /* PL_SEAM_...: corners that neighbours narrow (seams/seams.h) */ \
+    X(uint32_t, seam_edges, ANY) /* PL_SEAM_...: edges that neighbours cover */                     \
+    X(uint32_t, body, ANY) /* body row; follows the row when it moves */                            \
+    X(uint32_t, next_in_body, OR_NONE(PIECES)) /* next piece of the body, PL_NONE ends */           \
+    X(uint32_t, next_in_shape, OR_NONE(PIECES)) /* next piece of the shape, PL_NONE ends; also the free list */ \
+    X(uint32_t, material, ANY) /* material row */                                                   \
+    X(uint64_t, category, ANY) X(uint64_t, mask, ANY) /* filter, resolved: mask 0 meets nothing */  \
+    X(int32_t, group, ANY)                                                                          \
+    X(uint8_t, flags, UP_TO(63)) /* PL_PIECE_... */                                                 \
+    X(real, friction, POSITIVE) X(real, restitution, POSITIVE) /* copied from the material */       \
+    X(real, one_way_x, ANY) X(real, one_way_y, ANY) /* unit, in the body's frame; 0: solid from all sides */ \
+    X(real, one_way_cos, ANY) X(real, one_way_angle, ANY) /* of normals that hold, about the direction */ \
+    X(real, density, POSITIVE) /* [kg/m^2] in force; 0 for lines */                                 \
+    X(real, own_density, POSITIVE) /* [kg/m^2] given with the shape; 0: the material's */           \
+    X(plumb_mass_properties, area, ANY) /* the whole shape at density 1, on its first piece; else 0 */ \
+    X(uint32_t, serial, ANY) /* world->serial when the slot was taken: tells reused slots */        \
+    X(void *, user_data, ANY)                                                                       \
+    X(pl_core, core, ANY) /* geometry in the body's frame, one gatherable record */                 \
+    X(pl_box, fat, ANY) /* [m] fat box in the grid */                                               \
+    X(uint32_t, moving, ANY) /* place in the list of moving or resting pieces; PL_NONE: static; PL_OUT */ \
+    X(uint32_t, first_dormant, OR_NONE(DORMANTS)) /* sleeping contacts with this static or kinematic piece */
 
 #define PL_MATERIAL_COLUMNS(X)                                                                      \
-    X(plumb_material, entity)                                                                       \
-    X(real, density) X(real, friction) X(real, restitution)                                         \
-    X(real, rolling)               /* [m] */                                                        \
-    X(real, surface_speed)         /* [m/s] */                                                      \
-    X(real, adhesion)              /* [N] */                                                        \
-    X(uint8_t, friction_mix) X(uint8_t, restitution_mix) /* plumb_mix */                            \
-    X(uint8_t, adhesion_mix)                                                                        \
-    X(uint32_t, pairs)             /* entries of the pair table that name it */                     \
-    X(uint32_t, users)             /* pieces that name it */
+    X(plumb_material, entity, ANY)                                                                  \
+    PL_MATERIAL_ROWS(PL_ROW_COLUMN, X)                                                              \
+    X(uint32_t, pairs, ANY) /* entries of the pair table that name it */                            \
+    X(uint32_t, users, ANY) /* pieces that name it */
 // clang-format on
 
 #define PL_PIECE_SENSOR   1u  // of a sensor
@@ -157,7 +158,7 @@ typedef struct pl_vertex {
     real nx, ny; // unit
 } pl_vertex;
 
-#define PL_DECLARE_COLUMN(type, name) type *name;
+#define PL_DECLARE_COLUMN(type, name, ...) type *name;
 
 typedef struct pl_bodies {
     pl_table table;

@@ -5,53 +5,23 @@
 #include "world/check.h"
 #include "world/rows.h"
 
-#define FRICTION_MOST    ((real)10) // [-] see plumb_material_desc
-#define DEFAULT_FRICTION ((real)0.6)
-
-static plumb_result check_mix(const plumb_world *world, const char *fn, const char *field,
-                              plumb_mix mix)
-{
-    return (unsigned)mix <= PLUMB_MIX_MAX
-               ? PLUMB_OK
-               : pl_fail(world, PLUMB_E_RANGE, fn, "%s is %d; it must be a plumb_mix", field,
-                         (int)mix);
-}
-
 static plumb_result check_desc(const plumb_world *world, const char *fn,
                                const plumb_material_desc *desc)
 {
     plumb_result r = pl_check_pointer(world, fn, "desc", desc);
-    r = r != PLUMB_OK ? r : pl_check_range(world, fn, "density", desc->density, 0, PLUMB_REAL_MAX);
-    r = r != PLUMB_OK ? r : pl_check_range(world, fn, "friction", desc->friction, 0, FRICTION_MOST);
+    r = r != PLUMB_OK ? r : pl_check_desc(world, fn, "", PLUMB_TABLE_MATERIAL, desc);
     if (r == PLUMB_OK && desc->frictionless && desc->friction != 0) {
         r = pl_fail(world, PLUMB_E_RANGE, fn,
                     "friction is %g; it must be 0 together with frictionless",
                     (double)desc->friction);
     }
-    r = r != PLUMB_OK ? r : pl_check_range(world, fn, "restitution", desc->restitution, 0, 1);
-    r = r != PLUMB_OK ? r
-                      : pl_check_range(world, fn, "rolling_resistance", desc->rolling_resistance, 0,
-                                       PLUMB_REAL_MAX);
-    r = r != PLUMB_OK ? r : pl_check_finite(world, fn, "surface_speed", desc->surface_speed);
-    r = r != PLUMB_OK ? r
-                      : pl_check_range(world, fn, "adhesion", desc->adhesion, 0, PLUMB_REAL_MAX);
-    r = r != PLUMB_OK ? r : check_mix(world, fn, "friction_mix", desc->friction_mix);
-    r = r != PLUMB_OK ? r : check_mix(world, fn, "adhesion_mix", desc->adhesion_mix);
-    return r != PLUMB_OK ? r : check_mix(world, fn, "restitution_mix", desc->restitution_mix);
+    return r;
 }
 
 void pl_material_fill(plumb_world *world, uint32_t row, const plumb_material_desc *desc)
 {
-    real friction = desc->friction > 0 ? desc->friction : DEFAULT_FRICTION;
-    world->materials.density[row] = desc->density > 0 ? desc->density : 1;
-    world->materials.friction[row] = desc->frictionless ? 0 : friction;
-    world->materials.restitution[row] = desc->restitution;
-    world->materials.rolling[row] = desc->rolling_resistance;
-    world->materials.surface_speed[row] = desc->surface_speed;
-    world->materials.adhesion[row] = desc->adhesion;
-    world->materials.adhesion_mix[row] = (uint8_t)desc->adhesion_mix;
-    world->materials.friction_mix[row] = (uint8_t)desc->friction_mix;
-    world->materials.restitution_mix[row] = (uint8_t)desc->restitution_mix;
+    pl_materials *materials = &world->materials;
+    PL_MATERIAL_ROWS(PL_ROW_FILL, materials)
 }
 
 plumb_material plumb_material_create(plumb_world *world, const plumb_material_desc *desc)
@@ -110,16 +80,8 @@ plumb_result plumb_material_get(const plumb_world *world, plumb_material materia
     r = r != PLUMB_OK ? r : pl_check_pointer(world, __func__, "desc", desc);
     if (r == PLUMB_OK) {
         const pl_materials *m = &world->materials;
-        *desc = (plumb_material_desc){ .density = m->density[row],
-                                       .friction = m->friction[row],
-                                       .frictionless = m->friction[row] == 0,
-                                       .restitution = m->restitution[row],
-                                       .rolling_resistance = m->rolling[row],
-                                       .surface_speed = m->surface_speed[row],
-                                       .friction_mix = (plumb_mix)m->friction_mix[row],
-                                       .restitution_mix = (plumb_mix)m->restitution_mix[row],
-                                       .adhesion = m->adhesion[row],
-                                       .adhesion_mix = (plumb_mix)m->adhesion_mix[row] };
+        *desc = (plumb_material_desc){ .frictionless = m->friction[row] == 0 };
+        PL_MATERIAL_ROWS(PL_ROW_GET, m)
     }
     return r;
 }
@@ -139,7 +101,7 @@ plumb_result plumb_material_set(plumb_world *world, plumb_material material,
         if (pieces->kind[p] != PL_PIECE_FREE && pieces->material[p] == row) {
             pl_sleep_disturb_piece(world, p);
             pieces->friction[p] = world->materials.friction[row];
-            pieces->restitution[p] = desc->restitution;
+            pieces->restitution[p] = world->materials.restitution[row];
         }
     }
     world->schedule_dirty = true;

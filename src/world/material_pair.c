@@ -11,8 +11,6 @@
 
 #include <string.h>
 
-#define FRICTION_MOST ((real)10) // [-] see plumb_material_desc
-
 static uint64_t key_of(const plumb_world *world, uint32_t row_a, uint32_t row_b)
 {
     const plumb_material *entity = world->materials.entity;
@@ -73,22 +71,6 @@ static plumb_result check(const plumb_world *world, const char *function, plumb_
                : pl_fail_handle(world, function, "b", b.entity, "a live material or null");
 }
 
-static plumb_result check_value(const plumb_world *world, const char *function,
-                                const plumb_material_pair *pair)
-{
-    plumb_result r =
-        pl_check_range(world, function, "pair.friction", pair->friction, 0, FRICTION_MOST);
-    r = r != PLUMB_OK
-            ? r
-            : pl_check_range(world, function, "pair.restitution", pair->restitution, 0, 1);
-    r = r != PLUMB_OK ? r
-                      : pl_check_range(world, function, "pair.rolling_resistance",
-                                       pair->rolling_resistance, 0, PLUMB_REAL_MAX);
-    return r != PLUMB_OK ? r
-                         : pl_check_range(world, function, "pair.adhesion", pair->adhesion, 0,
-                                          PLUMB_REAL_MAX);
-}
-
 // What is made of either may slide now.
 static void disturb_users(plumb_world *world, uint32_t row_a, uint32_t row_b)
 {
@@ -109,7 +91,9 @@ plumb_result plumb_material_pair_set(plumb_world *world, plumb_material a, plumb
     }
     uint32_t row_a, row_b, at;
     plumb_result r = check(world, __func__, a, b, &row_a, &row_b);
-    r = r != PLUMB_OK || pair == NULL ? r : check_value(world, __func__, pair);
+    if (r == PLUMB_OK && pair != NULL) {
+        r = pl_check_desc(world, __func__, "pair.", PLUMB_TABLE_MATERIAL_PAIR, pair);
+    }
     if (r != PLUMB_OK) {
         return r;
     }

@@ -344,10 +344,14 @@ static void wrong_materials_and_speeds_are_refused(void **state)
     REFUSED(E_NOT_FINITE, "plumb_material_set: surface_speed is inf; it must be finite",
             plumb_material_set(W, f->wood, &d));
     d = (plumb_material_desc){ .friction_mix = (plumb_mix)9 };
-    REFUSED(E_RANGE, "plumb_material_set: friction_mix is 9; it must be a plumb_mix",
+    REFUSED(E_RANGE,
+            "plumb_material_set: friction_mix is 9; it must be one of "
+            "default|average|geometric|multiply|min|max",
             plumb_material_set(W, f->wood, &d));
     d = (plumb_material_desc){ .restitution_mix = (plumb_mix)6 };
-    REFUSED(E_RANGE, "plumb_material_set: restitution_mix is 6; it must be a plumb_mix",
+    REFUSED(E_RANGE,
+            "plumb_material_set: restitution_mix is 6; it must be one of "
+            "default|average|geometric|multiply|min|max",
             plumb_material_set(W, f->wood, &d));
     plumb_material_pair p = { .friction = 11 };
     REFUSED(E_RANGE, "plumb_material_pair_set: pair.friction is 11; it must be 0 to 10",
@@ -364,7 +368,9 @@ static void wrong_materials_and_speeds_are_refused(void **state)
             plumb_material_pair_set(W, f->wood, f->used, &p));
     REFUSED(E_RANGE, "plumb_material_set: adhesion is -1; it must be at least 0",
             plumb_material_set(W, f->wood, &(plumb_material_desc){ .adhesion = -1 }));
-    REFUSED(E_RANGE, "plumb_material_set: adhesion_mix is 9; it must be a plumb_mix",
+    REFUSED(E_RANGE,
+            "plumb_material_set: adhesion_mix is 9; it must be one of "
+            "default|average|geometric|multiply|min|max",
             plumb_material_set(W, f->wood, &(plumb_material_desc){ .adhesion_mix = (plumb_mix)9 }));
     REFUSED(E_HANDLE, "plumb_material_pair_set: a is a body; it must be a live material or null",
             plumb_material_pair_set(W, (plumb_material){ f->fixed.entity }, f->used, NULL));

@@ -266,7 +266,7 @@ static const malformed table[] = {
       .text = "local m = material{ density = 0 }\n"
               "body{ box{1, 1}, material = m }",
       .code = SCENE_E_RANGE,
-      .message = "scene.lua:1:21: 'density' of material{} must be above 0 and at most 1000000000 kg/m^2, not 0" },
+      .message = "scene.lua:1:21: 'density' of material{} must be above 0 and at most 1e+12 kg/m^2, not 0" },
     { .what = "radius negative",
       .file = "scene.lua",
       .text = "body{ circle{-1} }",

@@ -476,7 +476,7 @@ static const malformed table[] = {
               "local m = material{ rolling_resistance = -1 }\n"
               "body{ box{1, 1}, material = m }",
       .code = SCENE_E_RANGE,
-      .message = "scene.lua:2:21: 'rolling_resistance' of material{} must be at least 0 and at most 10000000 m, not -1" },
+      .message = "scene.lua:2:21: 'rolling_resistance' of material{} must be at least 0 and at most 1e+12 m, not -1" },
     { .what = "pair of no materials",
       .file = "scene.lua",
       .text = "local d = body{ name = 'door', box{1, 1} }\n"

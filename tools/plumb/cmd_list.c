@@ -66,7 +66,11 @@ static void print_word(const engine_word *word)
     if (word->position > 0) {
         printf(", also element %d", word->position);
     }
-    printf("%s\n", word->required ? ", required" : "");
+    if (word->text[0] != '\0' && word->min < word->max && !word->required) {
+        printf(", default %g", word->initial);
+    }
+    printf("%s%s%s\n", word->required ? ", required" : "", word->text[0] != '\0' ? ": " : "",
+           word->text);
 }
 
 /// Constructors of one topic, or of all (null).

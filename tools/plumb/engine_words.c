@@ -11,30 +11,32 @@ typedef struct word_run {
     const char *topic, *name;
     const sc_list *lists;
     int count;
+    plumb_property_table table; ///< which properties keys are; PLUMB_TABLE_COUNT: none
 } word_run;
 
 /// Constructors in the order in which an author meets them.
 static const word_run runs[] = {
-    { "settings", NULL, &sc_list_scene, 1 },
-    { "materials", NULL, &sc_list_material, 1 },
-    { "materials", NULL, &sc_list_pair, 1 },
-    { "bodies", NULL, &sc_list_body, 1 },
-    { "bodies", "the table 'character' of a body", &sc_list_character, 1 },
-    { "shapes", NULL, sc_list_shapes, SC_SHAPE_KINDS },
-    { "joints", NULL, sc_list_joints, SC_JOINT_KINDS },
-    { "joints", "the table 'motor' of a joint", &sc_list_motor, 1 },
-    { "joints", "the table 'spring' of a joint", &sc_list_spring, 1 },
-    { "camera", NULL, &sc_list_camera, 1 },
-    { "events", "on_contact, on_end, on_enter, on_leave, edit_contact", &sc_list_contact, 1 },
-    { "events", NULL, &sc_list_hit, 1 },
-    { "events", NULL, &sc_list_break, 1 },
-    { "effects", NULL, &sc_list_blast, 1 },
-    { "queries", NULL, sc_list_queries, SC_QUERIES },
-    { "expectations", NULL, &sc_list_expect, 1 },
-    { "expectations", NULL, &sc_list_exact, 1 },
+    { "settings", NULL, &sc_list_scene, 1, PLUMB_TABLE_COUNT },
+    { "materials", NULL, &sc_list_material, 1, PLUMB_TABLE_MATERIAL },
+    { "materials", NULL, &sc_list_pair, 1, PLUMB_TABLE_MATERIAL_PAIR },
+    { "bodies", NULL, &sc_list_body, 1, PLUMB_TABLE_COUNT },
+    { "bodies", "the table 'character' of a body", &sc_list_character, 1, PLUMB_TABLE_COUNT },
+    { "shapes", NULL, sc_list_shapes, SC_SHAPE_KINDS, PLUMB_TABLE_COUNT },
+    { "joints", NULL, sc_list_joints, SC_JOINT_KINDS, PLUMB_TABLE_COUNT },
+    { "joints", "the table 'motor' of a joint", &sc_list_motor, 1, PLUMB_TABLE_COUNT },
+    { "joints", "the table 'spring' of a joint", &sc_list_spring, 1, PLUMB_TABLE_COUNT },
+    { "camera", NULL, &sc_list_camera, 1, PLUMB_TABLE_COUNT },
+    { "events", "on_contact, on_end, on_enter, on_leave, edit_contact", &sc_list_contact, 1,
+      PLUMB_TABLE_COUNT },
+    { "events", NULL, &sc_list_hit, 1, PLUMB_TABLE_COUNT },
+    { "events", NULL, &sc_list_break, 1, PLUMB_TABLE_COUNT },
+    { "effects", NULL, &sc_list_blast, 1, PLUMB_TABLE_COUNT },
+    { "queries", NULL, sc_list_queries, SC_QUERIES, PLUMB_TABLE_COUNT },
+    { "expectations", NULL, &sc_list_expect, 1, PLUMB_TABLE_COUNT },
+    { "expectations", NULL, &sc_list_exact, 1, PLUMB_TABLE_COUNT },
 };
 
-static const sc_list *list_at(int index, engine_word *word)
+static const sc_list *list_at(int index, engine_word *word, plumb_property_table *table)
 {
     for (size_t i = 0; index >= 0 && i < sizeof runs / sizeof *runs; i++) {
         const word_run *r = &runs[i];
@@ -43,7 +45,9 @@ static const sc_list *list_at(int index, engine_word *word)
             *word = (engine_word){ .name = r->name != NULL ? r->name : list->name,
                                    .topic = r->topic,
                                    .kind = "",
-                                   .unit = "" };
+                                   .unit = "",
+                                   .text = "" };
+            *table = r->table;
             return list;
         }
         index -= r->count;
@@ -108,9 +112,22 @@ static bool is_bounded(sc_kind kind)
            kind == SC_RANGE || kind == SC_BOX || kind == SC_LIMITS;
 }
 
+static const plumb_property *property_of(plumb_property_table table, const char *word)
+{
+    int count;
+    const plumb_property *rows = plumb_properties(table, &count);
+    for (int i = 0; i < count; i++) {
+        if (strcmp(rows[i].word, word) == 0) {
+            return &rows[i];
+        }
+    }
+    return NULL;
+}
+
 bool pl_session_word(int constructor, int key, engine_word *word)
 {
-    const sc_list *list = list_at(constructor, word);
+    plumb_property_table table;
+    const sc_list *list = list_at(constructor, word, &table);
     if (list == NULL || key >= list->count) {
         return false;
     }
@@ -126,6 +143,12 @@ bool pl_session_word(int constructor, int key, engine_word *word)
                            .min = is_bounded(row->kind) ? row->min : 0,
                            .max = is_bounded(row->kind) ? row->max : 0,
                            .position = row->position > 0 ? row->position : 0,
-                           .required = (row->flags & SC_REQUIRED) != 0 };
+                           .required = (row->flags & SC_REQUIRED) != 0,
+                           .text = "" };
+    const plumb_property *property = property_of(table, row->name);
+    if (property != NULL) {
+        word->initial = property->initial;
+        word->text = property->text;
+    }
     return true;
 }

@@ -22,8 +22,7 @@ typedef struct sc_settings {
 typedef struct sc_material_def {
     uint64_t present;
     char name[SC_NAME_SIZE];
-    double density, friction, restitution, rolling_resistance, surface_speed, adhesion;
-    int friction_mix, restitution_mix;
+    PL_MATERIAL_ROWS(SC_MEMBER, )
 } sc_material_def;
 
 typedef struct sc_material {
@@ -38,7 +37,7 @@ typedef struct sc_material {
 typedef struct sc_pair_def {
     uint64_t present;
     sc_material *a, *b;
-    double friction, restitution, rolling_resistance;
+    PL_MATERIAL_PAIR_ROWS(SC_MEMBER, )
 } sc_pair_def;
 
 /// Which shapes may meet, by names; a body's is for those of its shapes that say nothing.

@@ -154,7 +154,9 @@ typedef struct sc_field {
     unsigned flags;
 } sc_field;
 
-/// All keys of a constructor, sorted by name. Every struct filled by a list begins with
+#define SC_ROWS_MOST 64 ///< keys of a constructor: bits of `present`
+
+/// All keys of a constructor. Every struct filled by a list begins with
 /// `uint64_t present`: bit i says that rows[i] was given.
 typedef struct sc_list {
     const char *name;
@@ -203,6 +205,8 @@ typedef struct sc_color {
 } sc_color;
 
 bool sc_parse_color(const char *text, sc_color *out);
+
+#include "rows.h"
 
 #include "defs.h"
 

@@ -256,22 +256,36 @@ static void write_value(writer *w, const sc_field *row, const void *def, const o
     }
 }
 
+// Rows of a list in the order of their names.
+static void sort_rows(const sc_list *list, const sc_field *sorted[SC_ROWS_MOST])
+{
+    for (int i = 0; i < list->count; i++) {
+        int k = i;
+        for (; k > 0 && strcmp(sorted[k - 1]->name, list->rows[i].name) > 0; k--) {
+            sorted[k] = sorted[k - 1];
+        }
+        sorted[k] = &list->rows[i];
+    }
+}
+
 // {"a":1,...}: the given fields of a construct; `kind` (may be null) is woven in at its place.
 static void write_object(writer *w, const sc_list *list, const void *def, const char *kind,
                          const origin *from)
 {
+    const sc_field *sorted[SC_ROWS_MOST];
     uint64_t present;
     memcpy(&present, def, sizeof present);
+    sort_rows(list, sorted);
     fputc('{', w->file);
     w->first = true;
     for (int i = 0; i < list->count; i++) {
-        const sc_field *row = &list->rows[i];
+        const sc_field *row = sorted[i];
         if (kind != NULL && strcmp(row->name, "kind") > 0) {
             write_key(w, "kind");
             write_string(w, kind);
             kind = NULL;
         }
-        if ((present >> i & 1) != 0 && has_json_form(row)) {
+        if ((present >> (row - list->rows) & 1) != 0 && has_json_form(row)) {
             write_key(w, row->name);
             write_value(w, row, def, from);
         }
@@ -406,6 +420,13 @@ static void write_joints(writer *w)
     fputs(s->joints.count > 0 ? "\n],\n" : "", w->file);
 }
 
+// A default that is not 0 is written out.
+#define WRITE_DEFAULT(X, store, kind, name, word, unit, range, initial, zero, text)                \
+    if ((initial) != 0 && !SC_GIVEN(&sc_list_material, &d, sc_material_def, word)) {               \
+        d.word = initial;                                                                          \
+        SC_GIVE(&sc_list_material, &d, sc_material_def, word);                                     \
+    }
+
 static void write_materials(writer *w)
 {
     const scene *s = w->s;
@@ -414,8 +435,7 @@ static void write_materials(writer *w)
         sc_material_def d = s->materials.items[i]->def;
         snprintf(d.name, sizeof d.name, "%s", s->materials.items[i]->id);
         SC_GIVE(&sc_list_material, &d, sc_material_def, name);
-        SC_GIVE(&sc_list_material, &d, sc_material_def, friction);
-        SC_GIVE(&sc_list_material, &d, sc_material_def, density);
+        PL_MATERIAL_ROWS(WRITE_DEFAULT, )
         fputs(i > 0 ? ",\n" : "", w->file);
         write_object(w, &sc_list_material, &d, NULL, &as_said);
     }

@@ -1,7 +1,7 @@
 // lists.c - one list a constructor: every key of the scene language with its kind, range and unit.
 // Reading (fields.c), the JSON form (json_write.c, json_read.c) and "did you mean" follow from the
-// rows. To add a key: one member in the struct of defs.h, one row here, its use in the constructor.
-// Rows are sorted by name: that is also the order of the keys in canonical JSON.
+// rows. What the library's schema says of a property is not said again: see rows.h. To add a key of the language
+// alone: one member in the struct of defs.h, one row here, its use in the constructor.
 #include "lists.h"
 
 // clang-format off
@@ -31,18 +31,10 @@ static const sc_field scene_rows[] = {
 const sc_list sc_list_scene = { "scene", scene_rows, COUNT(scene_rows) };
 #undef T
 
-#define MIX "default|average|geometric|multiply|min|max" // in the order of plumb_mix
 #define T sc_material_def
 static const sc_field material_rows[] = {
-    { "adhesion",           SC_NUMBER, AT(T, adhesion),           0, BIG, "N", 0, 0 },
-    { "density",            SC_NUMBER, AT(T, density),            0, 1e9, "kg/m^2", 0, SC_ABOVE },
-    { "friction",           SC_NUMBER, AT(T, friction),           0, 10, "1", 0, 0 },
-    { "friction_mix",       SC_CHOICE, AT(T, friction_mix),       0, 0, MIX, 0, 0 },
-    { "name",               SC_STRING, AT(T, name),               0, 0, NULL, 0, 0 },
-    { "restitution",        SC_NUMBER, AT(T, restitution),        0, 1, "1", 0, 0 },
-    { "restitution_mix",    SC_CHOICE, AT(T, restitution_mix),    0, 0, MIX, 0, 0 },
-    { "rolling_resistance", SC_NUMBER, AT(T, rolling_resistance), 0, SIZE, "m", 0, 0 },
-    { "surface_speed",      SC_NUMBER, AT(T, surface_speed),      -1e6, 1e6, "m/s", 0, 0 },
+    { "name", SC_STRING, AT(T, name), 0, 0, NULL, 0, 0 },
+    PL_MATERIAL_ROWS(SC_ROW, )
 };
 const sc_list sc_list_material = { "material", material_rows, COUNT(material_rows) };
 #undef T
@@ -51,9 +43,7 @@ const sc_list sc_list_material = { "material", material_rows, COUNT(material_row
 static const sc_field pair_rows[] = {
     { "a",                  SC_MATERIAL, AT(T, a),                  0, 0, NULL, 1, SC_REQUIRED | SC_MENTION },
     { "b",                  SC_MATERIAL, AT(T, b),                  0, 0, NULL, 2, SC_REQUIRED | SC_MENTION },
-    { "friction",           SC_NUMBER,   AT(T, friction),           0, 10, "1", 0, SC_REQUIRED },
-    { "restitution",        SC_NUMBER,   AT(T, restitution),        0, 1, "1", 0, 0 },
-    { "rolling_resistance", SC_NUMBER,   AT(T, rolling_resistance), 0, SIZE, "m", 0, 0 },
+    PL_MATERIAL_PAIR_ROWS(SC_ROW, )
 };
 const sc_list sc_list_pair = { "material_pair", pair_rows, COUNT(pair_rows) };
 #undef T

@@ -8,25 +8,18 @@
 
 static plumb_material_desc describe(const sc_material_def *def)
 {
-    return (plumb_material_desc){
-        .density = (plumb_real)def->density,
-        .friction = (plumb_real)def->friction,
-        .frictionless = (plumb_real)def->friction == 0, // a script that says 0 means it
-        .restitution = (plumb_real)def->restitution,
-        .rolling_resistance = (plumb_real)def->rolling_resistance,
-        .surface_speed = (plumb_real)def->surface_speed,
-        .adhesion = (plumb_real)def->adhesion,
-        .friction_mix = (plumb_mix)def->friction_mix,
-        .restitution_mix = (plumb_mix)def->restitution_mix,
-    };
+    plumb_material_desc desc = { 0 };
+#define GIVEN(word) SC_GIVEN(&sc_list_material, def, sc_material_def, word)
+    PL_MATERIAL_ROWS(SC_DESCRIBE, GIVEN)
+#undef GIVEN
+    return desc;
 }
 
 void sc_build_material(scene *s, const sc_site *site, int table)
 {
     lua_State *L = s->L;
     sc_need_world(s);
-    sc_material_def def = { .density = 1,
-                            .friction = 0.6 }; // those of the world's default material
+    sc_material_def def = { 0 };
     sc_read(s, site, &sc_list_material, table, &def);
     sc_work(s, (uint64_t)s->materials.count);
     for (int i = 0; i < s->materials.count && def.name[0] != 0; i++) {
@@ -96,17 +89,22 @@ static int material_set(lua_State *L)
 
 // ----------------------------------------------------------------------------- material_pair{}
 
+static plumb_material_pair describe_pair(const sc_pair_def *def)
+{
+    plumb_material_pair desc = { 0 };
+    PL_MATERIAL_PAIR_ROWS(SC_DESCRIBE, )
+    return desc;
+}
+
 void sc_build_pair(scene *s, const sc_site *site, int table)
 {
     sc_pair_def def = { 0 };
     sc_need_world(s);
     sc_read(s, site, &sc_list_pair, table, &def);
+    if (!SC_GIVEN(&sc_list_pair, &def, sc_pair_def, friction)) {
+        sc_raise(s, SCENE_E_MISSING, site, NULL, 0, NULL, "material_pair{} needs 'friction'");
+    }
     sc_work(s, (uint64_t)s->pairs.count);
-    plumb_material_pair pair = {
-        .friction = (plumb_real)def.friction,
-        .restitution = (plumb_real)def.restitution,
-        .rolling_resistance = (plumb_real)def.rolling_resistance,
-    };
     sc_pair_def *place = NULL;
     for (int i = 0; i < s->pairs.count; i++) {
         sc_pair_def *p = &s->pairs.items[i];
@@ -121,6 +119,7 @@ void sc_build_pair(scene *s, const sc_site *site, int table)
     }
     place = place != NULL ? place : SC_PUSH(s, s->pairs);
     *place = def;
+    const plumb_material_pair pair = describe_pair(&def);
     plumb_result r = plumb_material_pair_set(s->world, def.a->handle, def.b->handle, &pair);
     if (r != PLUMB_OK) {
         sc_refused(s, site, NULL, r, "material_pair{}");

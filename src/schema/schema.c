@@ -1,0 +1,99 @@
+// schema.c - the rows as constant tables, and one property of a descriptor read and written: see plumb/schema.h.
+//
+// Reads: the rows, descriptors. Writes: descriptors. Cost: O(1); O(rows) to find one by its name.
+#include "schema/schema.h"
+#include "schema/material.h"
+
+#include <string.h>
+
+#define COUNT(array) (sizeof(array) / sizeof((array)[0]))
+
+// Of the descriptor OF.
+#define PROPERTY(X, store, kind, member, key, what, range, from, none, sentence)                   \
+    { .name = #member,                                                                             \
+      .word = #key,                                                                                \
+      .unit = what,                                                                                \
+      .text = sentence,                                                                            \
+      .type = PL_KIND_##kind,                                                                      \
+      PL_RANGE_##range,                                                                            \
+      .initial = (double)(from),                                                                   \
+      .offset = offsetof(OF, member),                                                              \
+      .zero = AT_##none },
+#define AT_ZERO(member) offsetof(OF, member)
+#define AT_NO_ZERO      PLUMB_NO_MEMBER
+
+#define OF plumb_material_desc
+static const plumb_property materials[] = { PL_MATERIAL_ROWS(PROPERTY, ) };
+#undef OF
+
+#define OF plumb_material_pair
+static const plumb_property pairs[] = { PL_MATERIAL_PAIR_ROWS(PROPERTY, ) };
+#undef OF
+
+static const struct {
+    const plumb_property *rows;
+    size_t count;
+} tables[PLUMB_TABLE_COUNT] = {
+    [PLUMB_TABLE_MATERIAL] = { materials, COUNT(materials) },
+    [PLUMB_TABLE_MATERIAL_PAIR] = { pairs, COUNT(pairs) },
+};
+
+_Static_assert(sizeof(plumb_mix) == sizeof(int), "choices are read as int");
+
+const plumb_property *plumb_properties(plumb_property_table table, int *count)
+{
+    const bool known = (unsigned)table < PLUMB_TABLE_COUNT;
+    if (count != NULL) {
+        *count = known ? (int)tables[table].count : 0;
+    }
+    return known ? tables[table].rows : NULL;
+}
+
+const plumb_property *plumb_property_find(plumb_property_table table, const char *name)
+{
+    int count;
+    const plumb_property *rows = plumb_properties(table, &count);
+    for (int i = 0; name != NULL && i < count; ++i) {
+        if (strcmp(rows[i].name, name) == 0) {
+            return &rows[i];
+        }
+    }
+    return NULL;
+}
+
+double pl_property_member(const plumb_property *property, const void *desc)
+{
+    const char *member = (const char *)desc + property->offset;
+    plumb_real number;
+    int choice;
+    if (property->type == PLUMB_PROPERTY_REAL) {
+        memcpy(&number, member, sizeof number);
+        return (double)number;
+    }
+    memcpy(&choice, member, sizeof choice);
+    return choice;
+}
+
+double plumb_property_read(const plumb_property *property, const void *desc)
+{
+    if (property->zero != PLUMB_NO_MEMBER && ((const bool *)desc)[property->zero]) {
+        return 0;
+    }
+    const double value = pl_property_member(property, desc);
+    return value != 0 ? value : property->initial;
+}
+
+void plumb_property_write(const plumb_property *property, void *desc, double value)
+{
+    char *member = (char *)desc + property->offset;
+    const plumb_real number = (plumb_real)value;
+    const int choice = property->type == PLUMB_PROPERTY_CHOICE ? (int)value : 0;
+    if (property->type == PLUMB_PROPERTY_REAL) {
+        memcpy(member, &number, sizeof number);
+    } else {
+        memcpy(member, &choice, sizeof choice);
+    }
+    if (property->zero != PLUMB_NO_MEMBER) {
+        ((bool *)desc)[property->zero] = value == 0;
+    }
+}
