@@ -78,7 +78,8 @@ scenes="-llua5.4 -lcjson -lcmocka -lm -lpthread"
 # Every fourth line of the file is enough: what is compared is not the scenes but two ways to compile.
 hashes() # object variant
 {
-    "$cc" -o "$work/hashes" "$O/$2/tests/determinism/test_scene_hashes.o" "$O/$2/libscene.a" \
+    "$cc" -o "$work/hashes" -Itests "-DTESTS=TEST(test_scene_hashes)" tests/harness/main.c \
+        "$O/$2/tests/determinism/test_scene_hashes.o" "$O/$2/libscene.a" \
         "$1" $scenes && "$work/hashes" --every 4
 }
 for variant in float double far; do

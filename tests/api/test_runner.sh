@@ -51,3 +51,25 @@ if grep -al "[s]leep.$nap" /proc/[0-9]*/cmdline 2>/dev/null | grep -q .; then
 else
     echo "ok - no child is left"
 fi
+
+# A program that holds several tests: each has its own name and process, and what crashes is one of them.
+for name in test_good test_bad; do
+    printf '#include <stdio.h>\n#include <stdlib.h>\nint %s(void);\nint %s(void)\n{\n    %s\n    return 0;\n}\n' $name $name \
+        "$([ $name = test_bad ] && echo 'abort();') puts(\"[  PASSED  ] 3 test(s).\");" >"$work/$name.c"
+done
+if ${CC:-gcc} -std=c17 -Itests "-DTESTS=TEST(test_good) TEST(test_bad)" tests/harness/main.c "$work"/test_*.c -o "$work/all" &&
+    ln -s all "$work/test_good" && ln -s all "$work/test_bad" && ln -s all "$work/test_none"; then
+    echo "ok - several tests are one program"
+else
+    echo "not ok - several tests are one program"
+fi
+bash tests/run.sh -l "$work/logs" "$work/test_bad" "$work/test_good" "$work/test_none" >"$work/said" 2>&1
+for words in "^FAIL .*test_bad .*killed by signal 6" "^ok .*test_good .*3 passed" "^FAIL .*test_none .*exit status 2" \
+    "^3 passed, 2 failed"; do
+    if grep -q "$words" "$work/said"; then
+        echo "ok - the runner says $words"
+    else
+        echo "not ok - the runner says $words"
+        sed 's/^/# /' "$work/said"
+    fi
+done

@@ -5,6 +5,7 @@
 // argument --print the program writes such lines for its precision instead (`make hashes`), with
 // --table what `make determinism` compares.
 #include "plumb/plumb.h"
+#include "harness/main.h"
 #include "scene/scene.h"
 
 #include <glob.h>
@@ -156,8 +157,10 @@ static void print_lines(bool table)
     globfree(&found);
 }
 
-int main(int argc, char **argv)
+int main(void)
 {
+    const int argc = test_argument_count;
+    char **argv = test_arguments;
     if (argc == 2 && strcmp(argv[1], "--print") == 0) {
         print_lines(false);
         return 0;

@@ -17,14 +17,6 @@
 #include <png.h>
 #include "../../tools/render/write.h"
 
-// Read by LeakSanitizer where it is linked in: Mesa keeps a few hundred bytes for every context.
-const char *__lsan_default_suppressions(void);
-
-const char *__lsan_default_suppressions(void)
-{
-    return "leak:libOSMesa.so\n";
-}
-
 static const render_rgba red = { 0xe0, 0x00, 0x00, 0xff };
 static const render_rgba white = { 0xff, 0xff, 0xff, 0xff };
 

@@ -1,14 +1,17 @@
 # test.mk - tests, benchmark, fuzzing, sanitizers. Included by the Makefile.
 #
-# A test is tests/<kind>/test_<name>.c (a program of its own) or tests/<kind>/test_<name>.sh. What a
-# program is linked with follows from its name and folder; tests/README.md has the table. Other .c
-# files of the folder are helpers of all its programs.
+# A test is tests/<kind>/test_<name>.c or tests/<kind>/test_<name>.sh. What it is linked with follows from
+# its name and folder; tests/README.md has the table. Other .c files of the folder are helpers of all its
+# tests. `make test` links the tests of a folder into one program, build/tests/unit/all; the runner starts it
+# once for every test under that test's name, build/tests/unit/test_<name>, so that a crash is the failure of
+# one test. `make test T=...` links the tests that it names alone, and so does what follows a folder that
+# could not be linked.
 
 TEST_SRC    := $(sort $(wildcard tests/*/test_*.c))
 TEST_SH     := $(sort $(wildcard tests/*/test_*.sh))
 FUZZ_SRC    := $(sort $(wildcard tests/fuzz/fuzz_*.c))
 BENCH_SRC   := $(wildcard tests/bench/*.c)
-HARNESS_SRC := $(filter-out tests/harness/engine_%,$(wildcard tests/harness/*.c))
+HARNESS_SRC := $(filter-out tests/harness/engine_% tests/harness/main.c,$(wildcard tests/harness/*.c))
 
 # Built and run in double precision as well, unless the file says PLUMB_FLOAT_ONLY.
 DOUBLE_KINDS := unit analytic stability api determinism
@@ -47,19 +50,51 @@ test_parts = $(call objects,$2,$1 $(call helpers,$1)) \
 test_libs = $(if $(filter tests/crossval/%,$1),-lbox2d -lccd) \
 	$(if $(call needs_scene,$1),$(SCENE_LIBS)) $(if $(call needs_render,$1),$(RENDER_LIBS)) \
 	-lcmocka -lm -lpthread
-# C++ libraries are linked by the C++ compiler.
-test_link = $(if $(filter tests/crossval/%,$1),$$(CXX),$$(CC))
+# Every test has a main; compiled, it bears the name of its file, and is declared. tests/harness/main.c calls it.
+OWN_MAIN = '-Dmain(...)=$(notdir $*)(__VA_ARGS__);int $(notdir $*)(__VA_ARGS__)'
+$(foreach v,$(VARIANTS),$(call objects,$v,$(TEST_SRC))): OWN_FLAGS = $(OWN_MAIN)
+$(foreach v,$(VARIANTS),$(call objects,$v,$(TEST_SRC))): tests/harness/main.c
+
+# $(call link_tests,sources,main's flags): tests/harness/main.c with their names, and what they need.
+define link_tests
+@mkdir -p $(@D)
+@echo "  LD    $@"
+$(Q)$(CC) $(COMMON) -Itests $(CFLAGS) '-DTESTS=$(patsubst %.c,TEST(%),$(notdir $1))' -c tests/harness/main.c \
+	-o $@.main.o -MF /dev/null
+$(Q)rm -f $@
+$(Q)$(if $(filter tests/crossval/%,$1),$(CXX),$(CC)) $(SANFLAGS) $(LDFLAGS) -o $@ $@.main.o $(filter-out %/main.c,$^) \
+	$(call test_libs,$1)
+$(Q)rm -f $@.main.o
+endef
+
+# Tests that are linked with the same things are one program: unit/all, unit/all_scene, unit/all_render.
+ONE_EACH ?= $(if $(T),1,$(if $(filter test-programs,$(MAKECMDGOALS)),,1))
+group_of  = $(dir $1)all$(if $(call needs_render,$1),_render,$(if $(call needs_scene,$1),_scene))
+
+# $(call parts_of,sources,float,): objects before archives, each once
+parts_of = $(call in_order,$(sort $(foreach t,$1,$(call test_parts,$t,$2,$3))))
+in_order = $(filter %.o,$1) $(filter %/libscene.a,$1) $(filter %/librender.a,$1) $(filter $(O)/libplumb%.a,$1)
 
 # $(call test_rule,source,float,,tests)
 define test_rule
-$(O)/$4/$(1:tests/%.c=%): $(call test_parts,$1,$2,$3)
-	@mkdir -p $$(@D)
-	@echo "  LD    $$@"
-	$$(Q)$(call test_link,$1) $$(SANFLAGS) $$(LDFLAGS) -o $$@ $$^ $(call test_libs,$1)
+$(O)/$4/$(1:tests/%.c=%): $(call parts_of,$1,$2,$3) tests/harness/main.c
+	$$(call link_tests,$1)
+
 endef
-$(foreach t,$(TEST_SRC),$(eval $(call test_rule,$t,float,,tests)))
-$(foreach t,$(DOUBLE_SRC),$(eval $(call test_rule,$t,double,_d,tests-double)))
-$(foreach t,$(FAR_SRC),$(eval $(call test_rule,$t,far,_far,tests-far)))
+# $(call group_rule,all,float,,tests,sources)
+define group_rule
+$(O)/$4/$(1:tests/%=%): $(call parts_of,$5,$2,$3) tests/harness/main.c
+	$$(call link_tests,$5)
+$(5:tests/%.c=$(O)/$4/%): $(O)/$4/$(1:tests/%=%)
+	@ln -sf $$(<F) $$@
+
+endef
+# $(call test_rules,sources,float,,tests)
+test_rules = $(if $(ONE_EACH),$(foreach t,$1,$(call test_rule,$t,$2,$3,$4)),$(foreach g,$(sort $(foreach t,$1,$(call \
+	group_of,$t))),$(call group_rule,$g,$2,$3,$4,$(strip $(foreach t,$1,$(if $(filter $g,$(call group_of,$t)),$t))))))
+$(eval $(call test_rules,$(TEST_SRC),float,,tests))
+$(eval $(call test_rules,$(DOUBLE_SRC),double,_d,tests-double))
+$(eval $(call test_rules,$(FAR_SRC),far,_far,tests-far))
 
 $(O)/box2d2.o: tests/harness/engine_box2d2.cpp $(O)/flags | $(DEPS_FIRST)
 	@mkdir -p $(@D)
@@ -122,7 +157,8 @@ test-programs: $(RUN_PROGRAMS) $(O)/plumb lib examples
 # What does not build must not hide what does: every test is still run, those that have no up to date
 # program count as failed, and the last line is the sum of the whole run.
 test: | $(DEPS_FIRST)
-	@$(MAKE) --no-print-directory -k test-programs || { \
+	@$(MAKE) --no-print-directory -k test-programs || \
+		$(MAKE) --no-print-directory -k ONE_EACH=1 test-programs || { \
 		echo "test: the build failed; what could not be built counts as failed" >&2; \
 		for p in $(RUN_PROGRAMS) $(O)/plumb; do \
 			$(MAKE) -q $$p >/dev/null 2>&1 || rm -f $$p; \
