@@ -1,13 +1,24 @@
 // component.h - user components: a sparse set each (dense values and owners, entity slot -> dense row).
+//
+// Knows no physics: where a body row is, it asks the registry; who runs hooks is the world's business
+// (world/component.c).
 #ifndef PL_COMPONENT_H
 #define PL_COMPONENT_H
 
 #include "core/digest.h"
-#include "core/memory.h"
+#include "core/sort.h"
+#include "ecs/registry.h"
 #include "plumb/ecs.h"
 
 #define PL_COMPONENT_MAX 256
 #define PL_NAME_MAX      64
+#define PL_ABSENT        UINT32_MAX // no value; no row
+
+// When something was derived from the order of values and of rows.
+typedef struct pl_seen {
+    uint64_t version; // of the component, + 1; 0: never
+    uint64_t moves;   // of the registry
+} pl_seen;
 
 typedef struct pl_component {
     char name[PL_NAME_MAX];
@@ -18,6 +29,14 @@ typedef struct pl_component {
     pl_buffer values; // count * stride bytes
     pl_buffer owners; // count entities
     pl_buffer rows;   // entity slot -> dense row + 1, 0: absent
+
+    // Scratch: what follows from values, owners and registry.
+    uint64_t version; // counts the changes of which value lies where
+    pl_seen aligned;  // when values were put in the order of rows
+    pl_buffer order;  // uint32_t: permutation of the values
+    pl_seen viewed;   // when the runs were made
+    pl_buffer runs;   // pl_keyed: see view.h
+    uint32_t run_count;
 } pl_component;
 
 typedef struct pl_components {
@@ -28,19 +47,61 @@ typedef struct pl_components {
 
 void pl_components_free(pl_memory *memory, pl_components *components);
 
-// True when some entity has the component (a null one: false).
-bool pl_component_in_use(const plumb_world *world, plumb_component component);
+// NULL for a handle that is none.
+pl_component *pl_component_find(const pl_components *components, plumb_component component);
+// Stores a checked descriptor. Null when out of memory.
+plumb_component pl_component_register(pl_memory *memory, pl_components *components,
+                                      const plumb_component_desc *desc);
 
-// Gives or overwrites; the handles were checked. False when out of memory (nothing changed).
-bool pl_component_put(plumb_world *world, plumb_entity entity, plumb_component component,
-                      const void *value);
-// Takes the component away, its hook first. False when the entity does not have it.
-bool pl_component_drop(plumb_world *world, plumb_entity entity, plumb_component component);
-// Takes all components of an entity away, in order of registration.
-void pl_components_drop_all(plumb_world *world, plumb_entity entity);
+// Place of an entity slot's value, PL_ABSENT without. O(1).
+uint32_t pl_component_place(const pl_component *component, uint32_t slot);
+
+static inline char *pl_component_value(const pl_component *component, uint32_t place)
+{
+    return (char *)component->values.data + (size_t)place * component->desc.size;
+}
+
+static inline plumb_entity *pl_component_owners(const pl_component *component)
+{
+    return (plumb_entity *)component->owners.data;
+}
+
+// Gives a value to an entity that has none, zeros for NULL; it may be one of this very column. Returns its
+// place, PL_ABSENT when out of memory (nothing changed).
+uint32_t pl_component_append(pl_memory *memory, pl_component *component, plumb_entity entity,
+                             const void *value);
+void pl_component_write(const pl_component *component, uint32_t place, const void *value);
+// Takes the value at a place away; the last one fills the gap.
+void pl_component_erase(pl_component *component, uint32_t place);
+
+// Puts values in the order of the rows that their owners have in the registry, if they are of that kind;
+// the others lie behind them, as they lay. False when out of memory (nothing changed). O(1) where nothing
+// moved since the last time, else O(values + rows).
+bool pl_component_align(pl_memory *memory, pl_component *component, const pl_registry *registry,
+                        uint32_t kind);
+bool pl_components_align(pl_memory *memory, pl_components *components, const pl_registry *registry,
+                         uint32_t kind);
+
 // Adds a value to the world hash: its fields, or its bytes where none were told.
 void pl_component_digest(const pl_component *component, const char *value, pl_digest *digest);
-// Runs the removal hooks of everything that is left, at the end of a world.
-void pl_components_bury(plumb_world *world);
+
+// Row of an owner, PL_ABSENT where it is of another kind.
+static inline uint32_t pl_row_of_kind(const pl_registry *registry, plumb_entity owner,
+                                      uint32_t kind)
+{
+    const pl_slot *slot = &registry->slots[owner.index];
+    return slot->kind == kind ? slot->row : PL_ABSENT;
+}
+
+static inline bool pl_is_seen(pl_seen seen, const pl_component *component,
+                              const pl_registry *registry)
+{
+    return seen.version == component->version + 1 && seen.moves == registry->moves;
+}
+
+static inline pl_seen pl_see(const pl_component *component, const pl_registry *registry)
+{
+    return (pl_seen){ component->version + 1, registry->moves };
+}
 
 #endif

@@ -22,7 +22,8 @@ typedef struct pl_registry {
     uint32_t capacity;
     uint32_t free_head; // UINT32_MAX: none
     uint32_t free_tail;
-    uint32_t live; // slots taken, reserved ones included
+    uint32_t live;  // slots taken, reserved ones included
+    uint64_t moves; // counts the rows that changed place; not saved
 } pl_registry;
 
 void pl_registry_init(pl_registry *registry);
@@ -33,6 +34,12 @@ bool pl_registry_reserve(pl_memory *memory, pl_registry *registry, uint32_t extr
 // Takes a slot (room must be reserved).
 plumb_entity pl_registry_acquire(pl_registry *registry, uint32_t kind, uint32_t row,
                                  uint32_t state);
+// The row of a live slot has changed.
+static inline void pl_registry_move(pl_registry *registry, uint32_t slot, uint32_t row)
+{
+    registry->slots[slot].row = row;
+    ++registry->moves;
+}
 void pl_registry_release(pl_registry *registry, plumb_entity entity);
 // The slot of a handle when it is live, else NULL. O(1).
 pl_slot *pl_registry_find(const pl_registry *registry, plumb_entity entity);

@@ -44,6 +44,7 @@
 
 #define PL_STATE_REGISTRY(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                   \
     OWN(registry.slots) OWN(registry.count) LEFT(registry.bytes) LEFT(registry.capacity)           \
+    LEFT(registry.moves) /* what was derived from rows is derived anew */                          \
     VALUE(registry.free_head) VALUE(registry.free_tail) VALUE(registry.live)
 
 #define PL_STATE_PIECES(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                     \

@@ -99,6 +99,7 @@ void pl_own_read(plumb_world *world, uint32_t which, const char *from, uint32_t 
     switch (which) {
     case PL_OWN_REGISTRY:
         world->registry.count = count;
+        ++world->registry.moves;
         to = world->registry.slots;
         bytes = count * sizeof(pl_slot);
         break;
@@ -162,6 +163,7 @@ void pl_own_read_component(plumb_world *world, uint32_t which, const char *from,
 {
     pl_component *c = &world->components.items[which / 2];
     c->count = count;
+    ++c->version;
     pl_section section = pl_own_component(world, which);
     if (count > 0) {
         memcpy(section.data, from, pl_section_bytes(&section));

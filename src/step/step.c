@@ -119,6 +119,11 @@ plumb_result plumb_world_step(plumb_world *world, plumb_real dt)
     if (tape != NULL && tape->begin != NULL) {
         tape->begin(tape, world);
     }
+    // Systems walk values beside rows.
+    if (!pl_components_align(&world->memory, &world->components, &world->registry,
+                             PLUMB_KIND_BODY)) {
+        return pl_fail_memory(world, __func__);
+    }
     if (tape != NULL) {
         tape->steps = true;
     }

@@ -96,7 +96,7 @@ static size_t component_bytes(const pl_components *all)
     size_t bytes = all->bytes;
     for (uint32_t i = 0; i < all->count; ++i) {
         const pl_component *c = &all->items[i];
-        bytes += c->fields_bytes + BUFFERS(&c->values, &c->owners, &c->rows);
+        bytes += c->fields_bytes + BUFFERS(&c->values, &c->owners, &c->rows, &c->order, &c->runs);
     }
     return bytes;
 }

@@ -72,7 +72,7 @@ static void count_row(plumb_world *world, pl_partition partition, bool opened)
 static void announce_row(plumb_world *world, uint32_t row)
 {
     const pl_bodies *bodies = &world->bodies;
-    world->registry.slots[bodies->entity[row].entity.index].row = row;
+    pl_registry_move(&world->registry, bodies->entity[row].entity.index, row);
     for (uint32_t p = bodies->first_piece[row]; p != PL_NONE; p = world->pieces.next_in_body[p]) {
         world->pieces.body[p] = row;
     }

@@ -10,8 +10,7 @@
 #include "character/character.h"
 #include "core/tasks.h"
 #include "continuous/continuous.h"
-#include "ecs/command.h"
-#include "ecs/component.h"
+#include "world/command.h"
 #include "ecs/registry.h"
 #include "ecs/system.h"
 #include "effects/effects.h"
@@ -26,6 +25,7 @@
 #include "step/pass.h"
 #include "step/quarantine.h"
 #include "world/columns.h"
+#include "world/component.h"
 
 // A size class of the vertex pool holds runs of 4, 8 or 16 corners.
 #define PL_VERTEX_CLASSES 3

@@ -369,6 +369,32 @@ static void entities_and_components_refuse(void **state)
             plumb_component_remove(W, f->dynamic.entity, f->health));
 }
 
+#define VIEW(...) plumb_body_view_open(W, &(plumb_body_view_desc){ __VA_ARGS__ }, &view)
+
+static void views_refuse(void **state)
+{
+    fixture *f = *state;
+    plumb_body_view view = { .components = 1 };
+    REFUSED(E_NULL, "plumb_body_view_open: view is null; it must be given",
+            plumb_body_view_open(W, &(plumb_body_view_desc){ .with = { f->health } }, NULL));
+    REFUSED(E_NULL, "plumb_body_view_open: desc is null; it must be given",
+            plumb_body_view_open(W, NULL, &view));
+    assert_false(plumb_body_view_next(&view));
+    REFUSED(E_HANDLE, "plumb_body_view_open: with[0] is 0; it must be a registered component",
+            VIEW(.rows = PLUMB_VIEW_ALL));
+    REFUSED(E_HANDLE, "plumb_body_view_open: with[1] is 99; it must be a registered component",
+            VIEW(.with = { f->health, { 99 } }));
+    REFUSED(E_RANGE, "plumb_body_view_open: rows is 4; it must be a plumb_view_rows",
+            VIEW(.with = { f->health }, .rows = (plumb_view_rows)4));
+    assert_int_equal(plumb_body_view_open(NULL, NULL, &view), PLUMB_E_NULL);
+    assert_false(plumb_body_view_next(&view));
+    assert_false(plumb_body_view_next(NULL));
+    plumb_body_view none = plumb_body_view_part(NULL, 0, 10);
+    assert_false(plumb_body_view_next(&none));
+    assert_int_equal(VIEW(.with = { f->health }), PLUMB_OK); // nobody has it
+    assert_false(plumb_body_view_next(&view));
+}
+
 static void systems_and_capacities_refuse(void **state)
 {
     fixture *f = *state;
@@ -573,6 +599,7 @@ int main(void)
         API_TEST(shape_calls_are_refused),
         API_TEST(materials_refuse),
         API_TEST(entities_and_components_refuse),
+        API_TEST(views_refuse),
         API_TEST(systems_and_capacities_refuse),
         API_TEST(commands_refuse),
         API_TEST(a_stepping_world_refuses_structural_changes),

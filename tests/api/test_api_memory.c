@@ -152,6 +152,11 @@ static bool extend_world(run *r)
         TRY_MAKE(r, e, plumb_entity_create(r->world));
         TRY(r, plumb_component_set(r->world, e, fuel, NULL));
     }
+    for (int i = 24; i-- > 0;) { // against the order of rows, which the next step makes
+        TRY(r, plumb_component_set(r->world, r->bodies[i].entity, fuel, NULL));
+    }
+    plumb_body_view view;
+    TRY(r, plumb_body_view_open(r->world, &(plumb_body_view_desc){ .with = { fuel } }, &view));
     plumb_body b;
     plumb_shape s;
     TRY_MAKE(r, b,
