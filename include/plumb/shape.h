@@ -136,11 +136,11 @@ PLUMB_API int plumb_shape_overlaps(const plumb_world *world, plumb_shape sensor,
 
 /// Number of convex pieces.
 PLUMB_API int plumb_shape_piece_count(const plumb_world *world, plumb_shape shape);
-/// Piece i in the frame of the body's origin. *seams (may be null) gets a bit per edge (bit k: the edge
+/// Piece i in the frame of the body's origin. *cuts (may be null) gets a bit per edge (bit k: the edge
 /// from corner k to k+1) that is an inner cut and not part of the outline.
 /// Errors: E_HANDLE, E_NULL, E_RANGE (i).
 PLUMB_API plumb_result plumb_shape_piece(const plumb_world *world, plumb_shape shape, int i,
-                                         plumb_convex *piece, uint32_t *seams);
+                                         plumb_convex *piece, uint32_t *cuts);
 /// Tight box [m] around the shape where it is now.
 PLUMB_API plumb_aabb plumb_shape_aabb(const plumb_world *world, plumb_shape shape);
 /// True when the world point [m] lies in the shape.

@@ -103,7 +103,7 @@ static void refresh_pose_velocities(plumb_world *world)
         poses[row].vx = bounded(b->vx[row]);
         poses[row].vy = bounded(b->vy[row]);
     }
-    if (world->tunings.scaled > 0) {
+    if (world->settings.scaled > 0) {
         pl_effects_poses(world);
     }
 }

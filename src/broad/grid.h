@@ -35,7 +35,7 @@ typedef struct pl_grid_level {
 // A map of a level: for each of its rows of squares in which of them a lower corner lies.
 #define PL_GRID_MAP 64
 
-// The sides of the entries' boxes, side by side, for what looks at several at a time (sift.h).
+// The sides of the entries' boxes, side by side, for what looks at several at a time (box_overlap.h).
 typedef struct pl_grid_lanes {
     const real *min_x, *min_y, *max_x,
         *max_y; // of as many as there are entries, and PL_GRID_SPARE more

@@ -12,7 +12,7 @@
 // small all is done again with more room. What is found is sorted later: its order does not matter here.
 #include "broad/images.h"
 #include "broad/pairs.h"
-#include "broad/sift.h"
+#include "broad/box_overlap.h"
 #include "world/filter.h"
 
 #include <string.h>
@@ -122,11 +122,11 @@ static bool add_visited(void *context, const pl_grid_entry *entry)
 
 // Entries of a run that lie in the cells x0..x0 + width of row y and overlap the box of `piece`.
 static inline bool scan_run(finder *f, const pl_grid *grid, pl_grid_run run, int32_t x0,
-                            uint32_t width, int32_t y, uint32_t piece, const pl_sieve *sieve)
+                            uint32_t width, int32_t y, uint32_t piece, const pl_box_wide *wide)
 {
     const pl_grid_entry *entries = pl_grid_entries(grid);
-    for (uint32_t first = run.begin; first < run.end; first += PL_SIFT) {
-        for (uint32_t bits = pl_sift(&f->lanes, first, run.end, sieve); bits != 0;
+    for (uint32_t first = run.begin; first < run.end; first += PL_BOX_LANES) {
+        for (uint32_t bits = pl_box_overlaps(&f->lanes, first, run.end, wide); bits != 0;
              bits &= bits - 1) {
             const pl_grid_entry *other = &entries[first + (uint32_t)__builtin_ctz(bits)];
             if (other->cell_y == y && (uint32_t)other->cell_x - (uint32_t)x0 <= width &&
@@ -139,12 +139,12 @@ static inline bool scan_run(finder *f, const pl_grid *grid, pl_grid_run run, int
 }
 
 static bool scan_row(finder *f, const pl_grid *grid, const pl_grid_level *level, int32_t x0,
-                     int32_t x1, int32_t y, uint32_t piece, const pl_sieve *sieve)
+                     int32_t x1, int32_t y, uint32_t piece, const pl_box_wide *wide)
 {
     pl_grid_run runs[2];
     int run_count = pl_grid_row(grid, level, x0, x1, y, runs);
     for (int r = 0; r < run_count; ++r) {
-        if (!scan_run(f, grid, runs[r], x0, (uint32_t)(x1 - x0), y, piece, sieve)) {
+        if (!scan_run(f, grid, runs[r], x0, (uint32_t)(x1 - x0), y, piece, wide)) {
             return false;
         }
     }
@@ -166,17 +166,17 @@ static bool find_in_level(finder *f, const pl_grid *grid, const pl_grid_level *l
     const pl_share part = part_of(level, share);
     for (uint32_t i = part.first; i < part.end; ++i) {
         const pl_grid_entry *e = &entries[i];
-        const pl_sieve sieve = pl_sieve_of(&e->box);
+        const pl_box_wide wide = pl_box_wide_of(&e->box);
         // Own cell: the entries filed behind this one, then those of the next. In hashed levels those of
         // other cells may lie between.
         pl_grid_run runs[2];
         int run_count = pl_grid_row(grid, level, e->cell_x, e->cell_x + 1, e->cell_y, runs);
         runs[0].begin = i + 1;
-        if (!scan_run(f, grid, runs[0], e->cell_x, 1, e->cell_y, e->piece, &sieve) ||
+        if (!scan_run(f, grid, runs[0], e->cell_x, 1, e->cell_y, e->piece, &wide) ||
             (run_count > 1 &&
-             !scan_run(f, grid, runs[1], e->cell_x, 1, e->cell_y, e->piece, &sieve)) ||
+             !scan_run(f, grid, runs[1], e->cell_x, 1, e->cell_y, e->piece, &wide)) ||
             !scan_row(f, grid, level, e->cell_x - 1, e->cell_x + 1, e->cell_y + 1, e->piece,
-                      &sieve)) {
+                      &wide)) {
             return false;
         }
     }
@@ -194,7 +194,7 @@ static bool find_about(finder *f, const pl_grid *grid, const pl_grid_level *leve
     if (!pl_boxes_overlap(&level->bounds, &e->box)) {
         return true;
     }
-    const pl_sieve sieve = pl_sieve_of(&e->box);
+    const pl_box_wide wide = pl_box_wide_of(&e->box);
     pl_cell_range range = { 0 };
     bool all = level->count <= FEW;
     if (!all) {
@@ -203,8 +203,9 @@ static bool find_about(finder *f, const pl_grid *grid, const pl_grid_level *leve
     }
     if (all) {
         const uint32_t end = level->first + level->count;
-        for (uint32_t j = level->first; j < end; j += PL_SIFT) {
-            for (uint32_t bits = pl_sift(&f->lanes, j, end, &sieve); bits != 0; bits &= bits - 1) {
+        for (uint32_t j = level->first; j < end; j += PL_BOX_LANES) {
+            for (uint32_t bits = pl_box_overlaps(&f->lanes, j, end, &wide); bits != 0;
+                 bits &= bits - 1) {
                 if (!add_pair(f, e->piece, entries[j + (uint32_t)__builtin_ctz(bits)].piece)) {
                     return false;
                 }
@@ -213,7 +214,7 @@ static bool find_about(finder *f, const pl_grid *grid, const pl_grid_level *leve
         return true;
     }
     for (int32_t y = range.y0; y <= range.y1; ++y) {
-        if (!scan_row(f, grid, level, range.x0, range.x1, y, e->piece, &sieve)) {
+        if (!scan_row(f, grid, level, range.x0, range.x1, y, e->piece, &wide)) {
             return false;
         }
     }
@@ -426,7 +427,7 @@ static bool bring_in(hunt *h)
 static bool look(hunt *h, const uint8_t *left)
 {
     plumb_world *world = h->world;
-    pl_crowds_judge(world, &h->meet, &h->grounded);
+    pl_filters_may_meet(world, &h->meet, &h->grounded);
     h->senses = world->sensor_pieces > 0 && world->broad.resting.entry_count > 0;
     const bool together = world->sensor_pieces == 0 && !pl_is_wrapped(world);
     h->shares = together ? pl_tasks_share_count(world->tasks, h->count, LEAST) : 1;

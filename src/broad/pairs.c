@@ -269,7 +269,7 @@ static void lose_pair(plumb_world *world, const pl_pair *pair)
     const uint32_t ends[2] = { pair->a, pair->b };
     for (int i = 0; i < 2 && pair->manifold != PL_NONE; ++i) {
         if (pieces->kind[ends[i]] != PL_PIECE_FREE) {
-            world->bodies.looked[pieces->body[ends[i]]] = PL_UNSEEN;
+            world->bodies.rest_time[pieces->body[ends[i]]] = PL_NOT_RESTING;
         }
     }
     pl_pair_lost(world, pair);

@@ -30,8 +30,8 @@ bool pl_pairs_sort(plumb_world *world, pl_sorted *sorted);
 bool pl_pairs_find(plumb_world *world);
 bool pl_pairs_find_left(plumb_world *world);
 
-// Whether moving pieces may meet one another, and static ones, as far as filters tell (crowd.c).
-void pl_crowds_judge(const plumb_world *world, bool *meet, bool *grounded);
+// Whether moving pieces may meet one another, and static ones, as far as filters tell (filter_union.c).
+void pl_filters_may_meet(const plumb_world *world, bool *meet, bool *grounded);
 
 // A pair without a past, its rows looked up.
 pl_pair pl_pair_fresh(const plumb_world *world, pl_found found);

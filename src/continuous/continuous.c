@@ -74,7 +74,7 @@ static bool is_in_the_open(const plumb_world *world, const pl_mover *m)
                    m->y > y ? m->y : y };
     box = (pl_box){ box.min_x - reach, box.min_y - reach, box.max_x + reach, box.max_y + reach };
     return pl_world_query(world, &world->broad.fixed, box, visit_any, NULL) &&
-           pl_course_is_free(world, m->row);
+           pl_swept_motion_is_free(world, m->row);
 }
 
 // So many fast bodies are worth a thread.
@@ -193,8 +193,8 @@ static void put(plumb_world *world, uint32_t row, pl_place at)
     pl_bodies *b = &world->bodies;
     b->center_x[row] = (real)at.x;
     b->center_y[row] = (real)at.y;
-    b->low_x[row] = (real)(at.x - (double)b->center_x[row]);
-    b->low_y[row] = (real)(at.y - (double)b->center_y[row]);
+    b->residual_x[row] = (real)(at.x - (double)b->center_x[row]);
+    b->residual_y[row] = (real)(at.y - (double)b->center_y[row]);
     b->c[row] = (real)at.c;
     b->s[row] = (real)at.s;
     pl_body_update_origin(world, row);
@@ -204,20 +204,20 @@ static void put(plumb_world *world, uint32_t row, pl_place at)
 static void carry(plumb_world *world, const pl_search *s, double time)
 {
     uint32_t row = s->mover->row;
-    pl_course by = pl_mover_course(world, s->partner, s->dt, s->course.ox, s->course.oy);
+    pl_swept_motion by = pl_mover_motion(world, s->partner, s->dt, s->motion.ox, s->motion.oy);
     by.px += s->partner_shift.x, by.py += s->partner_shift.y;
     double stop = time < s->mover->stop ? time : s->mover->stop;
-    pl_place from = pl_course_place(world, row, &s->course, stop);
-    pl_place by_from = pl_course_place(world, s->partner, &by, time);
-    pl_place by_to = pl_course_place(world, s->partner, &by, 1);
+    pl_place from = pl_swept_motion_place(world, row, &s->motion, stop);
+    pl_place by_from = pl_swept_motion_place(world, s->partner, &by, time);
+    pl_place by_to = pl_swept_motion_place(world, s->partner, &by, 1);
     double angle = by.angle * (1 - time), c = by_from.c * by_to.c + by_from.s * by_to.s,
            sine = by_from.c * by_to.s - by_from.s * by_to.c;
     double rx = from.x - by_from.x, ry = from.y - by_from.y;
     pl_place to = { by_to.x + c * rx - sine * ry, by_to.y + sine * rx + c * ry,
                     c * from.c - sine * from.s, c * from.s + sine * from.c };
     pl_search leg = pl_search_of(world, s->mover);
-    leg.course = pl_course_between(world, row, from, to, angle);
-    put(world, row, pl_course_place(world, row, &leg.course, pl_search_still(&leg)));
+    leg.motion = pl_swept_motion_between(world, row, from, to, angle);
+    put(world, row, pl_swept_motion_place(world, row, &leg.motion, pl_search_still(&leg)));
 }
 
 typedef struct ending {
@@ -245,7 +245,7 @@ static uint32_t finish_some(void *context, uint32_t first, uint32_t count)
             ++stopped;
         } else if (movers[i].stop < 1) {
             put(world, movers[i].row,
-                pl_course_place(world, movers[i].row, &s.course, movers[i].stop));
+                pl_swept_motion_place(world, movers[i].row, &s.motion, movers[i].stop));
             ++stopped;
         }
     }

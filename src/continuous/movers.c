@@ -32,11 +32,12 @@ pl_mover *pl_mover_find(const plumb_world *world, uint32_t row)
     return low < count && movers[low].row == row ? &movers[low] : NULL;
 }
 
-pl_course pl_mover_course(const plumb_world *world, uint32_t row, real dt, double ox, double oy)
+pl_swept_motion pl_mover_motion(const plumb_world *world, uint32_t row, real dt, double ox,
+                                double oy)
 {
     const pl_mover *mover = pl_mover_find(world, row);
-    return mover != NULL ? pl_course_of_mover(world, mover, ox, oy)
-                         : pl_course_of_row(world, row, dt, ox, oy);
+    return mover != NULL ? pl_swept_motion_of_mover(world, mover, ox, oy)
+                         : pl_swept_motion_of_row(world, row, dt, ox, oy);
 }
 
 // Tells the movers whose way leaves the boxes in which the grid has them: no search of the grid
@@ -105,13 +106,14 @@ static uint32_t mark_swept(plumb_world *world, real dt)
         if (few && s.fast == NULL) {
             continue;
         }
-        pl_course course = pl_mover_course(world, s.row, dt, (double)world->bodies.center_x[s.row],
-                                           (double)world->bodies.center_y[s.row]);
+        pl_swept_motion motion =
+            pl_mover_motion(world, s.row, dt, (double)world->bodies.center_x[s.row],
+                            (double)world->bodies.center_y[s.row]);
         for (uint32_t p = world->bodies.first_piece[s.row]; p != PL_NONE;
              p = world->pieces.next_in_body[p]) {
-            pl_swept swept = pl_course_piece(world, p, &course);
-            pl_world_query(world, &world->broad.moving, pl_course_box(&course, &swept), visit_swept,
-                           &s);
+            pl_swept swept = pl_swept_motion_piece(world, p, &motion);
+            pl_world_query(world, &world->broad.moving, pl_swept_motion_box(&motion, &swept),
+                           visit_swept, &s);
         }
     }
     return s.recruits;
@@ -140,15 +142,15 @@ static uint32_t mark_pressed(plumb_world *world)
 
 static pl_mover recruit(plumb_world *world, uint32_t row, real dt)
 {
-    pl_course course = pl_course_of_row(world, row, dt, 0, 0);
-    pl_place start = pl_course_place(world, row, &course, 0);
+    pl_swept_motion motion = pl_swept_motion_of_row(world, row, dt, 0, 0);
+    pl_place start = pl_swept_motion_place(world, row, &motion, 0);
     world->bodies.flags[row] &= (uint16_t)~PL_BODY_RECRUITED;
     return (pl_mover){ .row = row,
                        .x = (real)start.x,
                        .y = (real)start.y,
                        .c = (real)start.c,
                        .s = (real)start.s,
-                       .angle = (real)course.angle,
+                       .angle = (real)motion.angle,
                        .beside = true,
                        .stop = 1 };
 }

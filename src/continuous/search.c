@@ -68,15 +68,15 @@ bool pl_impact_stops(const plumb_world *world, const pl_impact_place *place)
 pl_search pl_search_of(const plumb_world *world, const pl_mover *mover)
 {
     pl_search s = { .world = world, .mover = mover, .sunk = -1, .first = 1 };
-    s.course = pl_course_of_mover(world, mover, (double)mover->x, (double)mover->y);
+    s.motion = pl_swept_motion_of_mover(world, mover, (double)mover->x, (double)mover->y);
     return s;
 }
 
 static void take_piece(pl_search *s, uint32_t piece)
 {
     s->piece = piece;
-    s->swept = pl_course_piece(s->world, piece, &s->course);
-    s->box = pl_course_box(&s->course, &s->swept);
+    s->swept = pl_swept_motion_piece(s->world, piece, &s->motion);
+    s->box = pl_swept_motion_box(&s->motion, &s->swept);
     s->half_width = pl_piece_half_width(s->world, piece, false);
     double reach_sq = 0;
     for (int i = 0; i < s->swept.count; ++i) {
@@ -92,18 +92,18 @@ static bool goes_by(const pl_search *s, const pl_box *box)
     double dx = s->swept.dx, dy = s->swept.dy;
     double hx = ((double)box->max_x - (double)box->min_x) / 2;
     double hy = ((double)box->max_y - (double)box->min_y) / 2;
-    double x = (double)box->min_x + hx - s->course.ox - s->swept.px;
-    double y = (double)box->min_y + hy - s->course.oy - s->swept.py;
+    double x = (double)box->min_x + hx - s->motion.ox - s->swept.px;
+    double y = (double)box->min_y + hy - s->motion.oy - s->swept.py;
     double aside = fabs(dx * y - dy * x) - fabs(dx) * hy - fabs(dy) * hx;
     return aside > 0 && aside * aside > s->reach * s->reach * (dx * dx + dy * dy);
 }
 
-// Takes a course by the image of the piece that is where the grid has found it.
-static pl_shift take_image(const pl_search *s, pl_course *course, uint32_t piece)
+// Takes a motion by the image of the piece that is where the grid has found it.
+static pl_shift take_image(const pl_search *s, pl_swept_motion *motion, uint32_t piece)
 {
-    pl_shift by = pl_course_image(s->world, course, piece, s->at_x, s->at_y);
-    course->px += by.x;
-    course->py += by.y;
+    pl_shift by = pl_swept_motion_image(s->world, motion, piece, s->at_x, s->at_y);
+    motion->px += by.x;
+    motion->py += by.y;
     return by;
 }
 
@@ -116,11 +116,11 @@ static void look_at(pl_search *s, const pl_box *box)
 static pl_swept still_piece(pl_search *s, const pl_grid_entry *entry)
 {
     const uint32_t piece = entry->piece;
-    pl_course course =
-        pl_course_of_row(s->world, s->world->pieces.body[piece], 0, s->course.ox, s->course.oy);
+    pl_swept_motion motion = pl_swept_motion_of_row(s->world, s->world->pieces.body[piece], 0,
+                                                    s->motion.ox, s->motion.oy);
     look_at(s, &entry->box);
-    take_image(s, &course, piece);
-    return pl_course_piece(s->world, piece, &course);
+    take_image(s, &motion, piece);
+    return pl_swept_motion_piece(s->world, piece, &motion);
 }
 
 static double thickness(const pl_search *s, uint32_t other)
@@ -145,7 +145,7 @@ static bool visit_depth(void *context, const pl_grid_entry *entry)
 static double depth_at_start(const pl_search *s)
 {
     pl_search at = *s;
-    at.course = pl_course_stopped(&s->course, 0);
+    at.motion = pl_swept_motion_stopped(&s->motion, 0);
     at.sunk = 0;
     for (uint32_t p = s->world->bodies.first_piece[s->mover->row]; p != PL_NONE;
          p = s->world->pieces.next_in_body[p]) {
@@ -174,8 +174,8 @@ static bool stops(const pl_search *s, uint32_t other, const pl_swept *other_swep
     pl_sweep_point(&s->swept, time, -gap.nx, -gap.ny, &x, &y);
     return pl_impact_stops(s->world, &(pl_impact_place){ .piece = s->piece,
                                                          .other = other,
-                                                         .x = s->course.ox + x,
-                                                         .y = s->course.oy + y,
+                                                         .x = s->motion.ox + x,
+                                                         .y = s->motion.oy + y,
                                                          .nx = gap.nx,
                                                          .ny = gap.ny });
 }
@@ -236,12 +236,13 @@ double pl_search_still(pl_search *s)
 
 // When the piece at hand goes too deep into one of another moving body, each on its way until it
 // stops. First while both move, then while one does.
-static double time_among(const pl_search *s, uint32_t piece, const pl_course *course, double stop)
+static double time_among(const pl_search *s, uint32_t piece, const pl_swept_motion *motion,
+                         double stop)
 {
     double thick = thickness(s, piece);
     double low = stop < s->mover->stop ? stop : s->mover->stop;
     double high = stop > s->mover->stop ? stop : s->mover->stop;
-    pl_swept other = pl_course_piece(s->world, piece, course);
+    pl_swept other = pl_swept_motion_piece(s->world, piece, motion);
     double time = time_of_hit(&s->swept, &other, 0, low, thick, 0);
     if (time < low - TINY_TIME) {
         return time;
@@ -249,8 +250,8 @@ static double time_among(const pl_search *s, uint32_t piece, const pl_course *co
     if (high <= low) {
         return PL_SWEEP_NEVER;
     }
-    pl_course stopped = pl_course_stopped(stop < high ? course : &s->course, low);
-    pl_swept still = pl_course_piece(s->world, stop < high ? piece : s->piece, &stopped);
+    pl_swept_motion stopped = pl_swept_motion_stopped(stop < high ? motion : &s->motion, low);
+    pl_swept still = pl_swept_motion_piece(s->world, stop < high ? piece : s->piece, &stopped);
     time = stop < high ? time_of_hit(&s->swept, &still, low, high, thick, 0)
                        : time_of_hit(&still, &other, low, high, thick, 0);
     return time < high - TINY_TIME ? time : PL_SWEEP_NEVER;
@@ -271,10 +272,10 @@ static void meet(pl_search *s, uint32_t piece)
         return;
     }
     const pl_mover *other = pl_mover_find(s->world, row);
-    pl_course course = pl_mover_course(s->world, row, s->dt, s->course.ox, s->course.oy);
-    pl_shift by = take_image(s, &course, piece);
-    double time = time_among(s, piece, &course, other != NULL ? other->stop : 1);
-    pl_swept swept = pl_course_piece(s->world, piece, &course);
+    pl_swept_motion motion = pl_mover_motion(s->world, row, s->dt, s->motion.ox, s->motion.oy);
+    pl_shift by = take_image(s, &motion, piece);
+    double time = time_among(s, piece, &motion, other != NULL ? other->stop : 1);
+    pl_swept swept = pl_swept_motion_piece(s->world, piece, &motion);
     if (time < s->first && stops(s, piece, &swept, time)) {
         s->first = time;
         s->partner = row;
@@ -310,13 +311,13 @@ static void meet_stray(pl_search *s, const pl_mover *stray)
     if (!is_partner(s, stray->row) || dx * dx + dy * dy > near * near) {
         return;
     }
-    pl_course course = pl_course_of_mover(s->world, stray, s->course.ox, s->course.oy);
+    pl_swept_motion motion = pl_swept_motion_of_mover(s->world, stray, s->motion.ox, s->motion.oy);
     s->at_x = (double)s->mover->x, s->at_y = (double)s->mover->y;
     for (uint32_t p = b->first_piece[stray->row]; p != PL_NONE;
          p = s->world->pieces.next_in_body[p]) {
-        take_image(s, &course, p);
-        pl_swept swept = pl_course_piece(s->world, p, &course);
-        pl_box box = pl_course_box(&course, &swept);
+        take_image(s, &motion, p);
+        pl_swept swept = pl_swept_motion_piece(s->world, p, &motion);
+        pl_box box = pl_swept_motion_box(&motion, &swept);
         if (pl_boxes_overlap(&box, &s->box)) {
             meet(s, p);
         }

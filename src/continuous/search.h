@@ -8,7 +8,7 @@
 typedef struct pl_search {
     const plumb_world *world;
     const pl_mover *mover;
-    pl_course course;
+    pl_swept_motion motion;
     uint32_t piece; // the one whose turn it is
     pl_swept swept;
     pl_box box;      // of its way

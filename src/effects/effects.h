@@ -2,7 +2,7 @@
 // caps, a time of their own, a target.
 //
 // Locked axes are flags of the body. The rest lies in two lists of records that exist only for the
-// bodies that ask for it. Passes over bodies look at one flag (PL_BODY_ODD) and call in here.
+// bodies that ask for it. Passes over bodies look at one flag (PL_BODY_HAS_EFFECTS) and call in here.
 #ifndef PL_EFFECTS_H
 #define PL_EFFECTS_H
 
@@ -10,20 +10,20 @@
 #include "world/columns.h"
 
 // Damping, caps and time scale of a body. All defaults: it has no record.
-typedef struct pl_tuning {
+typedef struct pl_body_settings {
     plumb_body body;
     real damping, angular_damping; // [1/s]
     real max_speed, max_spin;      // [m/s], [rad/s]; 0: none
     real time_scale;               // [-]
     real ax, ay,
         aw; // in a step: acceleration by forces in the world's time, before damping and caps
-} pl_tuning;
+} pl_body_settings;
 
-typedef struct pl_tunings {
-    pl_buffer items; // pl_tuning, no order
+typedef struct pl_body_settings_list {
+    pl_buffer items; // pl_body_settings, no order
     uint32_t count;
     uint32_t damped, capped, scaled, frozen; // records that ask for it; frozen: time scale 0
-} pl_tunings;
+} pl_body_settings_list;
 
 // Where a kinematic body is to be in a while.
 typedef struct pl_target {
@@ -38,14 +38,14 @@ typedef struct pl_targets {
     uint32_t count;
 } pl_targets;
 
-//---- records (tuning.c, target.c) -----------------------------------------------------------------
+//---- records (body_settings.c, target.c) -----------------------------------------------------------------
 
 // The body's record as it is, or all defaults.
-pl_tuning pl_tuning_get(const plumb_world *world, uint32_t row);
+pl_body_settings pl_body_settings_get(const plumb_world *world, uint32_t row);
 // Room for one more record.
-bool pl_tuning_reserve(plumb_world *world);
+bool pl_body_settings_reserve(plumb_world *world);
 // Gives the body these values; all defaults: takes its record away. Room must be reserved.
-void pl_tuning_set(plumb_world *world, uint32_t row, const pl_tuning *values);
+void pl_body_settings_set(plumb_world *world, uint32_t row, const pl_body_settings *values);
 // The body has no target any more.
 void pl_target_forget(plumb_world *world, uint32_t row);
 // Its time scale has changed: it heads for its target, if it has one, as fast as it takes now.
@@ -59,12 +59,12 @@ void pl_body_forget(plumb_world *world, uint32_t row);
 real pl_time_scale(const plumb_world *world, uint32_t row);
 // Pose velocities of bodies with a time of their own become those of the world's time.
 void pl_effects_poses(plumb_world *world);
-// A body of PL_BODY_ODD has just got its solver slot: locks and its own time (engage.c).
-void pl_effects_engage(plumb_world *world, uint32_t row, uint32_t slot);
+// A body of PL_BODY_HAS_EFFECTS has just got its solver slot: locks and its own time (gather.c).
+void pl_effects_gather(plumb_world *world, uint32_t row, uint32_t slot);
 // Before each substep of h [s], where there is damping or a cap: accelerations that include them.
 bool pl_effects_resist(const plumb_world *world);
 void pl_effects_substep(plumb_world *world, real h);
-// A body of PL_BODY_ODD has taken over what the solver made of it.
+// A body of PL_BODY_HAS_EFFECTS has taken over what the solver made of it.
 void pl_effects_take_over(plumb_world *world, uint32_t row);
 
 // The way and the change of velocity of a body in free flight over a step.
@@ -73,7 +73,7 @@ typedef struct pl_flight {
     double vx, vy, w;   // [m/s], [rad/s] change
 } pl_flight;
 
-// The same as free flight in solver/finish.c for a body of PL_BODY_ODD (flight.c).
+// The same as free flight in solver/finish.c for a body of PL_BODY_HAS_EFFECTS (flight.c).
 pl_flight pl_effects_fly(const plumb_world *world, uint32_t row, real dt);
 
 // After motion: who has arrived, and where to from here.

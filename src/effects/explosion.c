@@ -338,8 +338,8 @@ plumb_result plumb_world_explode(plumb_world *world, const plumb_explosion_desc 
                 .reach = (double)desc->radius + (double)desc->falloff };
     place_rays(&b);
     const pl_box near = pl_query_box_at(desc->position, b.reach);
-    pl_world_query(world, pl_sight_of(world, PL_SIGHT_MOVING), near, collect, &q);
-    const pl_grid *resting = pl_sight_of(world, PL_SIGHT_RESTING);
+    pl_world_query(world, pl_query_grid_of(world, PL_QUERY_MOVING), near, collect, &q);
+    const pl_grid *resting = pl_query_grid_of(world, PL_QUERY_RESTING);
     if (resting->entry_count > 0) {
         pl_world_query(world, resting, near, collect, &q);
     }

@@ -42,7 +42,7 @@ pl_flight pl_effects_fly(const plumb_world *world, uint32_t row, real dt)
 {
     const pl_bodies *b = &world->bodies;
     const uint32_t flags = b->flags[row];
-    const pl_tuning t = pl_tuning_get(world, row);
+    const pl_body_settings t = pl_body_settings_get(world, row);
     const double time = (double)t.time_scale * (double)dt;
     const pl_decay d = pl_decay_of((double)t.damping * time);
     const pl_decay dw = pl_decay_of((double)t.angular_damping * time);
@@ -51,8 +51,8 @@ pl_flight pl_effects_fly(const plumb_world *world, uint32_t row, real dt)
     double ax = free_x * ((double)world->gravity.x * gravity + (double)b->fx[row] * im);
     double ay = free_y * ((double)world->gravity.y * gravity + (double)b->fy[row] * im);
     double aw = (double)b->torque[row] * (double)b->inv_inertia[row];
-    double vx = free_x * ((double)b->vx[row] + (double)b->low_vx[row]);
-    double vy = free_y * ((double)b->vy[row] + (double)b->low_vy[row]);
+    double vx = free_x * ((double)b->vx[row] + (double)b->residual_vx[row]);
+    double vy = free_y * ((double)b->vy[row] + (double)b->residual_vy[row]);
     double w = (double)b->w[row];
     const double cap = (double)t.max_speed, most = (double)t.max_spin;
     if (cap > 0) {
@@ -75,7 +75,7 @@ pl_flight pl_effects_fly(const plumb_world *world, uint32_t row, real dt)
     return (pl_flight){ x.way,
                         y.way,
                         turn.way,
-                        x.after - (double)b->vx[row] - (double)b->low_vx[row],
-                        y.after - (double)b->vy[row] - (double)b->low_vy[row],
+                        x.after - (double)b->vx[row] - (double)b->residual_vx[row],
+                        y.after - (double)b->vy[row] - (double)b->residual_vy[row],
                         turn.after - (double)b->w[row] };
 }

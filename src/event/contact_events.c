@@ -41,47 +41,47 @@ bool pl_events_reserve_ends(plumb_world *world, uint32_t count)
 //---- pieces that went ----------------------------------------------------------------------------
 
 // One a slot is enough: a piece that is younger than the pair list is in no pair.
-bool pl_graves_reserve(plumb_world *world, uint32_t slots)
+bool pl_tombstones_reserve(plumb_world *world, uint32_t slots)
 {
-    size_t old = world->graves.size;
-    if (!pl_buffer_reserve(&world->memory, &world->graves, slots * sizeof(pl_grave))) {
+    size_t old = world->tombstones.size;
+    if (!pl_buffer_reserve(&world->memory, &world->tombstones, slots * sizeof(pl_tombstone))) {
         return false;
     }
-    if (world->graves.size > old) {
-        memset((char *)world->graves.data + old, 0, world->graves.size - old);
+    if (world->tombstones.size > old) {
+        memset((char *)world->tombstones.data + old, 0, world->tombstones.size - old);
     }
     return true;
 }
 
-void pl_grave_dig(plumb_world *world, uint32_t piece)
+void pl_tombstone_set(plumb_world *world, uint32_t piece)
 {
     const pl_pieces *p = &world->pieces;
     if (p->serial[piece] <= world->broad.serial) {
-        ((pl_grave *)world->graves.data)[piece] =
-            (pl_grave){ .shape = p->shape[piece],
-                        .body = world->bodies.entity[p->body[piece]],
-                        .epoch = (uint32_t)world->broad.rebuilds + 1,
-                        .flags = p->flags[piece] };
+        ((pl_tombstone *)world->tombstones.data)[piece] =
+            (pl_tombstone){ .shape = p->shape[piece],
+                            .body = world->bodies.entity[p->body[piece]],
+                            .epoch = (uint32_t)world->broad.rebuilds + 1,
+                            .flags = p->flags[piece] };
         world->parts.buried |= (p->flags[piece] & PL_PIECE_PART) != 0;
     }
 }
 
 // Who a piece is, or was for pairs that have left the list. `epoch` 0: the pair is in the list;
 // else 1 + the rebuilds before the one that found it gone.
-static pl_grave who(const plumb_world *world, uint32_t piece, uint32_t epoch)
+static pl_tombstone who(const plumb_world *world, uint32_t piece, uint32_t epoch)
 {
-    const pl_grave *grave = &((const pl_grave *)world->graves.data)[piece];
+    const pl_tombstone *tombstone = &((const pl_tombstone *)world->tombstones.data)[piece];
     const pl_pieces *p = &world->pieces;
-    return epoch != 0 && grave->epoch == epoch
-               ? *grave
-               : (pl_grave){ .shape = p->shape[piece],
-                             .body = world->bodies.entity[p->body[piece]],
-                             .flags = p->flags[piece] };
+    return epoch != 0 && tombstone->epoch == epoch
+               ? *tombstone
+               : (pl_tombstone){ .shape = p->shape[piece],
+                                 .body = world->bodies.entity[p->body[piece]],
+                                 .flags = p->flags[piece] };
 }
 
 static plumb_contact_end end_of(const plumb_world *world, const pl_pair *pair, uint32_t epoch)
 {
-    pl_grave a = who(world, pair->a, epoch), b = who(world, pair->b, epoch);
+    pl_tombstone a = who(world, pair->a, epoch), b = who(world, pair->b, epoch);
     return (plumb_contact_end){ a.shape, b.shape, a.body, b.body };
 }
 
@@ -164,7 +164,7 @@ real pl_approach_speed(const plumb_world *world, const pl_manifold *m)
 {
     const pl_bodies *b = &world->bodies;
     real sa = 1, sb = 1; // what moves in slow motion strikes in slow motion
-    if (world->tunings.scaled > 0) {
+    if (world->settings.scaled > 0) {
         sa = pl_time_scale(world, m->body_a), sb = pl_time_scale(world, m->body_b);
     }
     real dvx = sb * b->vx[m->body_b] - sa * b->vx[m->body_a];
@@ -228,7 +228,7 @@ static bool touches(const plumb_world *world, const pl_pair *pair, const pl_mani
 {
     const near_real near = (pair->flags & PL_PAIR_TOUCHING) != 0 ? PL_TOUCH_HOLD : 0;
     return pl_is_near(m, near) || pl_has_met(pair, m) || (m->adhesion > 0 && holds(pair, m)) ||
-           ((pair->flags & PL_PAIR_BORNE) != 0 && pl_seams_borne_touches(world, m));
+           ((pair->flags & PL_PAIR_BORNE) != 0 && pl_internal_edges_borne_touches(world, m));
 }
 
 static const pl_manifold *manifold_of(const plumb_world *world, const pl_pair *pair)
@@ -299,7 +299,7 @@ static void publish_group(plumb_world *world, const pl_keyed *first, const pl_ke
         }
         if ((part->value & PART_HIT) != 0) {
             const pl_manifold *m = manifold_of(world, pair);
-            impulse += m->blow;
+            impulse += m->hit_impulse;
             struck = m->approach > fastest_hit ? pair : struck;
             fastest_hit = m->approach > fastest_hit ? m->approach : fastest_hit;
         }
@@ -360,7 +360,7 @@ static void publish_pair(plumb_world *world, pl_pair *pair, uint32_t index, bool
         append_end(world, end_of(world, pair, 0));
     }
     if (hit) {
-        pl_hit_append(world, pair, manifold_of(world, pair)->blow);
+        pl_hit_append(world, pair, manifold_of(world, pair)->hit_impulse);
     }
 }
 

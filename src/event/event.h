@@ -15,21 +15,21 @@ typedef struct pl_parts {
 } pl_parts;
 
 // A contact that is made in the last substep of a step may only be slowed down there, to meet in the
-// next one: such a blow is told a step later, as a whole.
-typedef struct pl_blow {
+// next one: such a hit is told a step later, as a whole.
+typedef struct pl_pending_hit {
     uint32_t a, b;      // pieces of the pair
     near_real approach; // [m/s]
     near_real impulse;  // [N s]
     near_real nx, ny;   // unit, from A to B
     plumb_vec2 at;      // [m]
-} pl_blow;
+} pl_pending_hit;
 
 // Hits that began in a step and will be through in the next one.
-typedef struct pl_blows {
-    pl_buffer items, old; // pl_blow, in order of pairs: of this step, of the one before
+typedef struct pl_pending_hits {
+    pl_buffer items, old; // pl_pending_hit, in order of pairs: of this step, of the one before
     uint32_t count, old_count;
     uint32_t next; // where in `old` to look first
-} pl_blows;
+} pl_pending_hits;
 
 typedef struct pl_overlap {
     uint64_t key; // slots of sensor and shape
@@ -37,12 +37,12 @@ typedef struct pl_overlap {
 } pl_overlap;
 
 // Who a piece was that went since the pair list was made: what touched it still has to be told.
-typedef struct pl_grave {
+typedef struct pl_tombstone {
     plumb_shape shape;
     plumb_body body;
     uint32_t epoch; // 1 + rebuilds of the pair list when it went; 0: never
     uint32_t flags; // PL_PIECE_...
-} pl_grave;
+} pl_tombstone;
 
 // What sensors see (sensor_events.c).
 typedef struct pl_sensing {
@@ -68,10 +68,10 @@ void pl_events_clear(plumb_world *world);
 bool pl_events_reserve_ends(plumb_world *world, uint32_t count);
 // A pair left the list: ends its touch. Room must be reserved.
 void pl_pair_lost(plumb_world *world, const pl_pair *pair);
-// Room for the graves of `slots` piece slots.
-bool pl_graves_reserve(plumb_world *world, uint32_t slots);
+// Room for the tombstones of `slots` piece slots.
+bool pl_tombstones_reserve(plumb_world *world, uint32_t slots);
 // A piece goes: keeps who it was if a pair may name it. Its slot and body are still as they were.
-void pl_grave_dig(plumb_world *world, uint32_t piece);
+void pl_tombstone_set(plumb_world *world, uint32_t piece);
 // Before the solver: room for all events of this step, approach speeds of pairs that did not touch.
 bool pl_events_prepare(plumb_world *world);
 // After the solver: begin, end and hit events. A step that only refreshes makes no hits, and ends none.
@@ -83,20 +83,20 @@ real pl_approach_speed(const plumb_world *world, const pl_manifold *m);
 // at the start of the step. [m]
 plumb_vec2 pl_contact_place(const plumb_world *world, const pl_manifold *m, uint32_t j);
 
-// Hits (hit_events.c). Room for `count` more, and for the blows that lasted beyond the step before.
+// Hits (hit_events.c). Room for `count` more, and for the hits that lasted beyond the step before.
 bool pl_hits_reserve(plumb_world *world, uint32_t count);
 // Before the pairs of a step are gone through, in their order.
 void pl_hits_begin(plumb_world *world);
-// Whether the hit of a pair that touches, or did, is to be told, with the manifold's `approach` and `blow`.
+// Whether the hit of a pair that touches, or did, is to be told, with the manifold's `approach` and `hit_impulse`.
 bool pl_hit_is_due(plumb_world *world, pl_pair *pair, bool touches);
 void pl_hit_append(plumb_world *world, const pl_pair *pair, real impulse);
-// A pair left the list: tells the blow that lasted. Room must be reserved.
+// A pair left the list: tells the hit that lasted. Room must be reserved.
 void pl_hit_lost(plumb_world *world, const pl_pair *pair, plumb_contact_end who);
 
 // Room for `count` more pairs of pieces that are parts; nothing where there are none.
 bool pl_parts_reserve(plumb_world *world, uint32_t count);
 void pl_parts_free(pl_memory *memory, pl_parts *parts);
-void pl_blows_free(pl_memory *memory, pl_blows *blows);
+void pl_pending_hits_free(pl_memory *memory, pl_pending_hits *hits);
 
 // Before anything has moved: candidates and room for what may come. False when out of memory.
 bool pl_sensing_prepare(plumb_world *world);

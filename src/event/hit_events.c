@@ -2,14 +2,14 @@
 //
 // The speed is that of the moment: the contact kernels note how fast a point came that bore nothing and pushes now
 // (contact.simd.c, pgs.c), and impacts how fast they were (bounce.c). A hit is a pair that was struck faster than
-// the world's hit speed. While a blow lasts it is not told again: a pair that was struck in the step before as
+// the world's hit speed. While a hit lasts it is not told again: a pair that was struck in the step before as
 // well, and has not been apart since.
 //
 // A contact that is made in the last substep of a step may only be slowed down there, to meet in the next step: its
-// hit waits for that (pl_blow), so that speed and impulse are those of the whole blow. It is told in the next step
+// hit waits for that (pl_pending_hit), so that speed and impulse are those of the whole hit. It is told in the next step
 // whatever becomes of the pair.
 //
-// Reads: pairs, manifolds, places. Writes: hit events, blows, the pairs' flags. Order: within contact_events.c.
+// Reads: pairs, manifolds, places. Writes: hit events, hits, the pairs' flags. Order: within contact_events.c.
 // Cost: O(1) a touching pair, where hits are told.
 #include "event/event.h"
 #include "world/state.h"
@@ -17,33 +17,33 @@
 #define STILL_CLOSING                                                                              \
     ((real)0.01) // [-] share of the approach that is left of a contact not yet made
 
-void pl_blows_free(pl_memory *memory, pl_blows *blows)
+void pl_pending_hits_free(pl_memory *memory, pl_pending_hits *hits)
 {
-    pl_buffer_free(memory, &blows->items);
-    pl_buffer_free(memory, &blows->old);
+    pl_buffer_free(memory, &hits->items);
+    pl_buffer_free(memory, &hits->old);
 }
 
 bool pl_hits_reserve(plumb_world *world, uint32_t count)
 {
-    pl_blows *blows = &world->blows;
-    const size_t waiting = blows->count;
+    pl_pending_hits *hits = &world->pending_hits;
+    const size_t waiting = hits->count;
     if (count + waiting == 0) {
         return true;
     }
     return pl_buffer_reserve(&world->memory, &world->hit_events,
                              ((size_t)world->hit_count + count + waiting) *
                                  sizeof(plumb_contact_hit)) &&
-           pl_buffer_reserve(&world->memory, &blows->old, count * sizeof(pl_blow));
+           pl_buffer_reserve(&world->memory, &hits->old, count * sizeof(pl_pending_hit));
 }
 
 void pl_hits_begin(plumb_world *world)
 {
-    pl_blows *blows = &world->blows;
-    pl_buffer items = blows->items;
-    blows->items = blows->old;
-    blows->old = items;
-    blows->old_count = blows->count;
-    blows->count = blows->next = 0;
+    pl_pending_hits *hits = &world->pending_hits;
+    pl_buffer items = hits->items;
+    hits->items = hits->old;
+    hits->old = items;
+    hits->old_count = hits->count;
+    hits->count = hits->next = 0;
 }
 
 //---- where ---------------------------------------------------------------------------------------
@@ -74,48 +74,50 @@ plumb_vec2 pl_contact_place(const plumb_world *world, const pl_manifold *m, uint
     return plumb_v2(a.x + p->ax + m->nx * half, a.y + p->ay + m->ny * half);
 }
 
-//---- blows that last -----------------------------------------------------------------------------
+//---- hits that last -----------------------------------------------------------------------------
 
 // What the step before kept of a pair. Both lists are in order of pairs: it is mostly the next one.
-static const pl_blow *find_blow(pl_blows *blows, const pl_pair *pair)
+static const pl_pending_hit *find_pending(pl_pending_hits *hits, const pl_pair *pair)
 {
-    const pl_blow *old = blows->old.data;
-    for (uint32_t tries = 0; tries < blows->old_count; ++tries) {
-        blows->next = blows->next < blows->old_count ? blows->next : 0;
-        const pl_blow *blow = &old[blows->next++];
-        if (blow->a == pair->a && blow->b == pair->b) {
-            return blow;
+    const pl_pending_hit *old = hits->old.data;
+    for (uint32_t tries = 0; tries < hits->old_count; ++tries) {
+        hits->next = hits->next < hits->old_count ? hits->next : 0;
+        const pl_pending_hit *hit = &old[hits->next++];
+        if (hit->a == pair->a && hit->b == pair->b) {
+            return hit;
         }
     }
     return NULL;
 }
 
-static void keep_blow(plumb_world *world, const pl_pair *pair, const pl_manifold *m, plumb_vec2 at)
+static void keep_pending(plumb_world *world, const pl_pair *pair, const pl_manifold *m,
+                         plumb_vec2 at)
 {
-    ((pl_blow *)world->blows.items.data)[world->blows.count++] =
-        (pl_blow){ pair->a, pair->b, m->approach, m->blow, m->nx, m->ny, at };
+    ((pl_pending_hit *)world->pending_hits.items.data)[world->pending_hits.count++] =
+        (pl_pending_hit){ pair->a, pair->b, m->approach, m->hit_impulse, m->nx, m->ny, at };
 }
 
 // `who`: shapes and bodies.
-static void append_blow(plumb_world *world, const pl_blow *blow, plumb_contact_end who)
+static void append_pending(plumb_world *world, const pl_pending_hit *hit, plumb_contact_end who)
 {
     ((plumb_contact_hit *)world->hit_events.data)[world->hit_count++] =
         (plumb_contact_hit){ .shape_a = who.shape_a,
                              .shape_b = who.shape_b,
                              .body_a = who.body_a,
                              .body_b = who.body_b,
-                             .point = blow->at,
-                             .normal = { blow->nx, blow->ny },
-                             .approach_speed = blow->approach,
-                             .impulse = blow->impulse };
+                             .point = hit->at,
+                             .normal = { hit->nx, hit->ny },
+                             .approach_speed = hit->approach,
+                             .impulse = hit->impulse };
 }
 
 void pl_hit_lost(plumb_world *world, const pl_pair *pair, plumb_contact_end who)
 {
-    const pl_blow *blows = world->blows.items.data;
-    for (uint32_t i = 0; i < world->blows.count && (pair->flags & PL_PAIR_PENDING) != 0; ++i) {
-        if (blows[i].a == pair->a && blows[i].b == pair->b) {
-            append_blow(world, &blows[i], who);
+    const pl_pending_hit *hits = world->pending_hits.items.data;
+    for (uint32_t i = 0; i < world->pending_hits.count && (pair->flags & PL_PAIR_PENDING) != 0;
+         ++i) {
+        if (hits[i].a == pair->a && hits[i].b == pair->b) {
+            append_pending(world, &hits[i], who);
         }
     }
 }
@@ -150,20 +152,20 @@ static bool is_unfinished(const plumb_world *world, const pl_pair *pair, const p
 }
 
 // The pair no longer touches: nothing is to be added to what was kept of it.
-static void tell_as_it_was(plumb_world *world, const pl_pair *pair, const pl_blow *blow)
+static void tell_as_it_was(plumb_world *world, const pl_pair *pair, const pl_pending_hit *hit)
 {
     const pl_pieces *p = &world->pieces;
-    append_blow(world, blow,
-                (plumb_contact_end){ p->shape[pair->a], p->shape[pair->b],
-                                     world->bodies.entity[p->body[pair->a]],
-                                     world->bodies.entity[p->body[pair->b]] });
+    append_pending(world, hit,
+                   (plumb_contact_end){ p->shape[pair->a], p->shape[pair->b],
+                                        world->bodies.entity[p->body[pair->a]],
+                                        world->bodies.entity[p->body[pair->b]] });
 }
 
 bool pl_hit_is_due(plumb_world *world, pl_pair *pair, bool touches)
 {
     const real least = world->desc.hit_speed;
-    const pl_blow *pending =
-        (pair->flags & PL_PAIR_PENDING) != 0 ? find_blow(&world->blows, pair) : NULL;
+    const pl_pending_hit *pending =
+        (pair->flags & PL_PAIR_PENDING) != 0 ? find_pending(&world->pending_hits, pair) : NULL;
     const bool struck = (pair->flags & PL_PAIR_STRUCK) != 0;
     pair->flags &= ~(PL_PAIR_STRUCK | PL_PAIR_PENDING);
     if (!touches) {
@@ -176,12 +178,13 @@ bool pl_hit_is_due(plumb_world *world, pl_pair *pair, bool touches)
         return false;
     }
     pl_manifold *m = &pl_manifolds(&world->narrow)[pair->manifold];
-    m->blow = m->point[0].total + m->point[1].total;
-    const bool strikes = (m->met & PL_MET_MEASURED) != 0 && m->approach > least && m->blow > 0;
+    m->hit_impulse = m->point[0].total + m->point[1].total;
+    const bool strikes =
+        (m->met & PL_MET_MEASURED) != 0 && m->approach > least && m->hit_impulse > 0;
     pair->flags |= strikes || pending != NULL ? PL_PAIR_STRUCK : 0;
     if (pending != NULL) {
         m->approach = pending->approach > m->approach ? pending->approach : m->approach;
-        m->blow += pending->impulse;
+        m->hit_impulse += pending->impulse;
         return true;
     }
     const bool lasts = struck && pl_is_near(m, PL_TOUCH_HOLD);
@@ -190,7 +193,7 @@ bool pl_hit_is_due(plumb_world *world, pl_pair *pair, bool touches)
     }
     if (is_unfinished(world, pair, m)) {
         pair->flags |= PL_PAIR_PENDING;
-        keep_blow(world, pair, m, place_of_hit(world, m));
+        keep_pending(world, pair, m, place_of_hit(world, m));
         return false;
     }
     return true;

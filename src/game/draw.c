@@ -8,7 +8,7 @@
 #include "plumb/draw.h"
 
 #include "broad/images.h"
-#include "broad/sight.h"
+#include "broad/query_grids.h"
 #include "game/draw.h"
 #include "plumb/event.h"
 #include "query/query.h"
@@ -118,7 +118,7 @@ static int outline_of(const pl_drawing *d, const plumb_convex *s, plumb_vec2 *ou
 }
 
 static void draw_convex(const pl_drawing *d, const plumb_convex *s, plumb_transform at,
-                        uint32_t seams, plumb_color color)
+                        uint32_t cuts, plumb_color color)
 {
     plumb_vec2 points[CURVE_MOST];
     int edge[CURVE_MOST];
@@ -132,7 +132,7 @@ static void draw_convex(const pl_drawing *d, const plumb_convex *s, plumb_transf
     }
     const plumb_color line = filled ? darker(color) : color;
     for (int i = 0; i < (count > 2 ? count : 1); ++i) {
-        if (edge[i] < 0 || (seams >> edge[i] & 1u) == 0) {
+        if (edge[i] < 0 || (cuts >> edge[i] & 1u) == 0) {
             d->calls.line(d->calls.context, points[i], points[i + 1 < count ? i + 1 : 0], line);
         }
     }
@@ -171,7 +171,7 @@ static bool draw_piece(void *context, const pl_grid_entry *entry)
     }
     plumb_convex convex;
     pl_piece_convex(world, piece, &convex);
-    draw_convex(d, &convex, shown(d, entry), world->pieces.seams[piece], color);
+    draw_convex(d, &convex, shown(d, entry), world->pieces.cuts[piece], color);
     return true;
 }
 
@@ -193,9 +193,9 @@ static bool draw_box(void *context, const pl_grid_entry *entry)
 
 static void each_piece(pl_drawing *d, pl_grid_visit *visit)
 {
-    const pl_sight_grid order[] = { PL_SIGHT_FIXED, PL_SIGHT_RESTING, PL_SIGHT_MOVING };
-    for (int i = 0; i < PL_SIGHT_GRIDS; ++i) {
-        const pl_grid *grid = pl_sight_of(d->world, order[i]);
+    const pl_query_grid order[] = { PL_QUERY_FIXED, PL_QUERY_RESTING, PL_QUERY_MOVING };
+    for (int i = 0; i < PL_QUERY_GRID_COUNT; ++i) {
+        const pl_grid *grid = pl_query_grid_of(d->world, order[i]);
         pl_world_query(d->world, grid, d->view, visit, d);
     }
 }
@@ -353,7 +353,7 @@ plumb_result plumb_draw(plumb_world *world, const plumb_draw_calls *calls,
     }
     pl_drawing d = { .world = world, .calls = *calls, .desc = *desc };
     resolve(&d);
-    if (!pl_sight_update(world)) {
+    if (!pl_query_grids_update(world)) {
         return pl_fail_memory(world, __func__);
     }
     r = draw_all(&d);

@@ -82,9 +82,9 @@ void pl_draw_joints(const pl_drawing *d)
             continue;
         }
         const ends e = ends_of(d, j);
-        const bool odd = j->strained != 0 || j->desc.disabled;
+        const bool marked = j->strained != 0 || j->desc.disabled;
         if (pl_draw_sees(d, e.center_a, e.center_b) || pl_draw_sees(d, e.a, e.b)) {
-            draw_ends(d, j, &e, odd ? PLUMB_PAINT_STRAINED : PLUMB_PAINT_JOINT);
+            draw_ends(d, j, &e, marked ? PLUMB_PAINT_STRAINED : PLUMB_PAINT_JOINT);
         }
     }
 }

@@ -1,25 +1,25 @@
 // loop.c - fixed steps, and poses between them: see plumb/loop.h.
 //
-// Commands are carried out before poses are noted, so a teleport by command is no motion; and a body whose pose
-// is not the one that the step left has been moved since. Static bodies need no note; those that sleep may wake in the step.
+// Commands are carried out before poses are kept, so a teleport by command is no motion; and a body whose pose
+// is not the one that the step left has been moved since. Static bodies need none; those that sleep may wake in the step.
 //
-// Reads: poses. Writes: its own notes; steps the world. Cost: O(bodies that are not static) a step.
+// Reads: poses. Writes: its own last_poses; steps the world. Cost: O(bodies that are not static) a step.
 #include "plumb/loop.h"
 
 #include "plumb/math.h"
-#include "step/tape.h"
+#include "step/observer.h"
 #include "world/check.h"
 #include "world/state.h"
 
 #include <float.h>
 
 // Where a body was before the last step and behind it: a place in the world's own terms, so centre and rotation.
-typedef struct note {
+typedef struct last_pose {
     uint32_t generation;
-    uint32_t tick; // of the loop, when it was noted
+    uint32_t tick; // of the loop, when it was kept
     real from_x, from_y, from_c, from_s;
     real x, y, c, s;
-} note;
+} last_pose;
 
 struct plumb_loop {
     plumb_world *world;
@@ -27,8 +27,8 @@ struct plumb_loop {
     plumb_loop_desc desc; // defaults resolved
     double owed;          // [s] < dt between frames
     uint32_t tick;
-    pl_buffer notes; // note by slot of the registry
-    uint32_t noted;  // slots that the buffer is made for
+    pl_buffer last_poses; // last_pose by slot of the registry
+    uint32_t kept;        // slots that the buffer is made for
 };
 
 #define STEPS_MOST 1000
@@ -67,7 +67,7 @@ void plumb_loop_destroy(plumb_loop *loop)
 {
     if (loop != NULL) {
         pl_memory memory = loop->memory;
-        pl_buffer_free(&memory, &loop->notes);
+        pl_buffer_free(&memory, &loop->last_poses);
         pl_resize(&memory, loop, sizeof *loop, 0);
     }
 }
@@ -107,11 +107,11 @@ plumb_real plumb_loop_alpha(const plumb_loop *loop)
 static bool reserve(plumb_loop *loop)
 {
     const uint32_t slots = loop->world->registry.count;
-    if (!pl_buffer_reserve(&loop->memory, &loop->notes, (size_t)slots * sizeof(note))) {
+    if (!pl_buffer_reserve(&loop->memory, &loop->last_poses, (size_t)slots * sizeof(last_pose))) {
         return false;
     }
-    for (; loop->noted < slots; ++loop->noted) {
-        ((note *)loop->notes.data)[loop->noted] = (note){ .generation = 0 };
+    for (; loop->kept < slots; ++loop->kept) {
+        ((last_pose *)loop->last_poses.data)[loop->kept] = (last_pose){ .generation = 0 };
     }
     return true;
 }
@@ -122,12 +122,12 @@ static uint32_t movable_rows(const plumb_world *world)
     return world->dynamic_count + world->kinematic_count + world->asleep_count;
 }
 
-static void note_before(plumb_loop *loop)
+static void keep_before(plumb_loop *loop)
 {
     const pl_bodies *b = &loop->world->bodies;
     for (uint32_t row = 0; row < movable_rows(loop->world); ++row) {
         const plumb_entity body = b->entity[row].entity;
-        note *n = (note *)loop->notes.data + body.index;
+        last_pose *n = (last_pose *)loop->last_poses.data + body.index;
         n->generation = body.generation;
         n->tick = loop->tick;
         n->from_x = b->center_x[row], n->from_y = b->center_y[row];
@@ -135,14 +135,14 @@ static void note_before(plumb_loop *loop)
     }
 }
 
-// What was noted before the step; rows may have moved.
-static void note_after(plumb_loop *loop)
+// What was kept before the step; rows may have moved.
+static void keep_after(plumb_loop *loop)
 {
     const pl_bodies *b = &loop->world->bodies;
     for (uint32_t row = 0; row < movable_rows(loop->world); ++row) {
         const plumb_entity body = b->entity[row].entity;
-        if (body.index < loop->noted) {
-            note *n = (note *)loop->notes.data + body.index;
+        if (body.index < loop->kept) {
+            last_pose *n = (last_pose *)loop->last_poses.data + body.index;
             n->x = b->center_x[row], n->y = b->center_y[row];
             n->c = b->c[row], n->s = b->s[row];
         }
@@ -156,7 +156,9 @@ plumb_result plumb_loop_step(plumb_loop *loop)
     }
     plumb_world *world = loop->world;
     plumb_result r = pl_check_unlocked(world, __func__);
-    r = r != PLUMB_OK || (world->tape != NULL && world->tape->replays) ? r : pl_commands_run(world);
+    r = r != PLUMB_OK || (world->observer != NULL && world->observer->replays)
+            ? r
+            : pl_commands_run(world);
     if (r != PLUMB_OK) {
         return r;
     }
@@ -164,10 +166,10 @@ plumb_result plumb_loop_step(plumb_loop *loop)
         return pl_fail_memory(world, __func__);
     }
     ++loop->tick;
-    note_before(loop);
+    keep_before(loop);
     r = plumb_world_step(world, (real)loop->desc.dt);
     if (r == PLUMB_OK) {
-        note_after(loop);
+        keep_after(loop);
     }
     return r;
 }
@@ -182,7 +184,8 @@ plumb_transform plumb_loop_transform(const plumb_loop *loop, plumb_body body)
     const pl_bodies *b = &world->bodies;
     const plumb_transform now = { { b->x[row], b->y[row] }, { b->c[row], b->s[row] } };
     const plumb_entity e = body.entity;
-    const note *n = e.index < loop->noted ? (const note *)loop->notes.data + e.index : NULL;
+    const last_pose *n =
+        e.index < loop->kept ? (const last_pose *)loop->last_poses.data + e.index : NULL;
     const bool moved_on = n != NULL && n->generation == e.generation && n->tick == loop->tick &&
                           n->x == b->center_x[row] && n->y == b->center_y[row] &&
                           n->c == b->c[row] && n->s == b->s[row];

@@ -82,7 +82,7 @@ static void rest(pl_joint *j)
     j->strained = 0;
 }
 
-void pl_joints_tally(const pl_joint_course *c)
+void pl_joints_tally(const pl_joint_context *c)
 {
     pl_joints_tally_lanes(c);
     for (uint32_t i = c->group->alone; i < c->group->end; ++i) {

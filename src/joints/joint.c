@@ -124,7 +124,7 @@ void pl_joint_disturb(plumb_world *world, const pl_joint *joint)
 
 // [m] where a body's centre is; in the far build, where a double does not hold all of it, in two parts.
 typedef struct spot {
-    double x, y, low_x, low_y;
+    double x, y, residual_x, residual_y;
 } spot;
 
 // [m] from a body's centre to a point of it, in world axes.
@@ -149,20 +149,21 @@ static spot center_of(const plumb_world *world, plumb_vec2 local, uint32_t row)
     }
     const pl_bodies *b = &world->bodies;
     const double x = (double)b->center_x[row], y = (double)b->center_y[row];
-    const double low_x = (double)b->low_x[row], low_y = (double)b->low_y[row];
+    const double residual_x = (double)b->residual_x[row], residual_y = (double)b->residual_y[row];
     if (is_held_at_anchor(world, row)) {
         plumb_vec2 arm = arm_to(world, local, row);
         return (spot){ .x = x + (double)arm.x, .y = y + (double)arm.y };
     }
-    return PLUMB_IS_FAR ? (spot){ x, y, low_x, low_y } : (spot){ .x = x + low_x, .y = y + low_y };
+    return PLUMB_IS_FAR ? (spot){ x, y, residual_x, residual_y }
+                        : (spot){ .x = x + residual_x, .y = y + residual_y };
 }
 
 static pl_shift way(const spot *from, const spot *to)
 {
     pl_shift way = { to->x - from->x, to->y - from->y };
     if (PLUMB_IS_FAR) {
-        way.x += to->low_x - from->low_x;
-        way.y += to->low_y - from->low_y;
+        way.x += to->residual_x - from->residual_x;
+        way.y += to->residual_y - from->residual_y;
     }
     return way;
 }
@@ -482,8 +483,8 @@ static void revise_pairs(plumb_world *world, const pl_joint *joint)
     if (!joint->desc.collide_connected && !plumb_is_null(joint->a.body) &&
         !plumb_is_null(joint->b.body)) {
         pl_rearranged(world);
-        pl_seams_touch_static(world, pl_body_row(world, joint->a.body));
-        pl_seams_touch_static(world, pl_body_row(world, joint->b.body));
+        pl_internal_edges_touch_static(world, pl_body_row(world, joint->a.body));
+        pl_internal_edges_touch_static(world, pl_body_row(world, joint->b.body));
     }
     world->joints.awake_stale = true;
     world->schedule_dirty = true;

@@ -250,36 +250,36 @@ static inline void pl_joints_replan(pl_joints *joints)
 }
 
 // The joints of one cluster in the hands of some threads; of one, if null.
-typedef struct pl_joint_course {
+typedef struct pl_joint_context {
     plumb_world *world;
     const pl_joint_group *group;
     pl_tasks *tasks;
     unsigned char *records; // a thread's
     real h;                 // [s] substep
-} pl_joint_course;
+} pl_joint_context;
 
 // `thread`: whose room for records it takes.
-pl_joint_course pl_joint_course_of(plumb_world *world, uint32_t cluster, pl_tasks *tasks,
-                                   uint32_t thread, real h);
+pl_joint_context pl_joint_context_of(plumb_world *world, uint32_t cluster, pl_tasks *tasks,
+                                     uint32_t thread, real h);
 
-static inline bool pl_joints_any(const pl_joint_course *c)
+static inline bool pl_joints_any(const pl_joint_context *c)
 {
     return c->group != NULL && c->group->end > c->group->first;
 }
 
 // The solver's part (solve.c). Prepare: poses and rows at the start of the step.
-void pl_joints_prepare(const pl_joint_course *course);
-void pl_joints_warm_start(const pl_joint_course *course);
+void pl_joints_prepare(const pl_joint_context *context);
+void pl_joints_warm_start(const pl_joint_context *context);
 // Sweeps. The first of a substep that pulls pays what J's turning owes, the first that relaxes makes
 // rows at the moved poses.
-void pl_joints_solve(const pl_joint_course *course, pl_joint_sweep sweep, bool first);
+void pl_joints_solve(const pl_joint_context *context, pl_joint_sweep sweep, bool first);
 // Impulses and reactions of joints in lanes, into the joints.
-void pl_joints_store(const pl_joint_course *course);
+void pl_joints_store(const pl_joint_context *context);
 // Moves bodies against the errors that are left (classic solver).
-void pl_joints_move(const pl_joint_course *course, real share);
+void pl_joints_move(const pl_joint_context *context, real share);
 // Adds the substep's reactions to those of the step, where some joint is watched.
-void pl_joints_tally(const pl_joint_course *course);
-void pl_joints_tally_lanes(const pl_joint_course *course);
+void pl_joints_tally(const pl_joint_context *context);
+void pl_joints_tally_lanes(const pl_joint_context *context);
 // Takes out of the rows what lies along locked axes of their bodies: infinite mass (lock.c).
 void pl_joint_lock_rows(const plumb_world *world, pl_joint *joint);
 // Reactions; breaks what is loaded too much (finish.c).

@@ -431,7 +431,7 @@ static void store_all(const pl_joint_call *call)
         vf sum[3];
         react(&at, p, call, &now, sum);
         vf x = sum[0] * inv_h, y = sum[1] * inv_h, w = sum[2] * inv_h;
-        const vf odd =
+        const vf marked =
             (x - x) + (y - y) + (w - w); // 0, or no number where one of them is not finite
         for (int i = 0; i < PL_WIDTH; ++i) {
             if (lanes[i].joint == PL_NONE) {
@@ -444,7 +444,7 @@ static void store_all(const pl_joint_call *call)
             j->h = call->h;
             j->force = plumb_v2(x[i], y[i]);
             j->torque = w[i];
-            if (odd[i] != 0) {
+            if (marked[i] != 0) {
                 hold_reaction(&at, p->count, i, &now, j);
             }
             if ((p->variant & PL_JOINT_WATCHED) != 0) {

@@ -19,7 +19,7 @@ static motion motion_of(const plumb_world *world, plumb_body body)
         return (motion){ 0, 0, 0 };
     }
     const pl_bodies *b = &world->bodies;
-    const real time = world->tunings.scaled > 0 ? pl_time_scale(world, row) : 1;
+    const real time = world->settings.scaled > 0 ? pl_time_scale(world, row) : 1;
     return (motion){ time * b->vx[row], time * b->vy[row], time * b->w[row] };
 }
 

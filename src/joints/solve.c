@@ -265,23 +265,23 @@ static void make_rows(const plumb_world *world, pl_joint *j, const pl_solver_bod
 
 //---- joints in lanes ----------------------------------------------------------------------------------
 
-pl_joint_course pl_joint_course_of(plumb_world *world, uint32_t cluster, pl_tasks *tasks,
-                                   uint32_t thread, real h)
+pl_joint_context pl_joint_context_of(plumb_world *world, uint32_t cluster, pl_tasks *tasks,
+                                     uint32_t thread, real h)
 {
     const pl_joint_plan *plan = &world->joints.plan;
     const bool any = world->joints.live > 0 && cluster < plan->group_count;
-    return (pl_joint_course){ .world = world,
-                              .group = any ? &pl_joint_groups(&world->joints)[cluster] : NULL,
-                              .tasks = tasks,
-                              // None while no joint has been solved in lanes.
-                              .records =
-                                  any && plan->room > 0
-                                      ? (unsigned char *)plan->records.data + thread * plan->room
-                                      : NULL,
-                              .h = h };
+    return (pl_joint_context){ .world = world,
+                               .group = any ? &pl_joint_groups(&world->joints)[cluster] : NULL,
+                               .tasks = tasks,
+                               // None while no joint has been solved in lanes.
+                               .records =
+                                   any && plan->room > 0
+                                       ? (unsigned char *)plan->records.data + thread * plan->room
+                                       : NULL,
+                               .h = h };
 }
 
-static pl_joint_call call_of(const pl_joint_course *c)
+static pl_joint_call call_of(const pl_joint_context *c)
 {
     const plumb_world *world = c->world;
     const pl_joint_plan *plan = &world->joints.plan;
@@ -314,20 +314,20 @@ static void run_kernel(void *context, uint32_t first, uint32_t count)
     c->kernel(&call);
 }
 
-static void share_out(const pl_joint_course *c, pl_joint_kernel *kernel, pl_share_fn *share)
+static void share_out(const pl_joint_context *c, pl_joint_kernel *kernel, pl_share_fn *share)
 {
     share(c->tasks, c->group->color_first, PL_JOINT_COLORS, LEAST, run_kernel,
           &(kernel_call){ call_of(c), kernel });
 }
 
 // A kernel over all bundles, shared out among threads colour after colour.
-static void sweep_bundles(const pl_joint_course *c, pl_joint_kernel *kernel)
+static void sweep_bundles(const pl_joint_context *c, pl_joint_kernel *kernel)
 {
     share_out(c, kernel, pl_tasks_phases);
 }
 
 // The same for a kernel in which every bundle stands by itself.
-static void each_bundle(const pl_joint_course *c, pl_joint_kernel *kernel)
+static void each_bundle(const pl_joint_context *c, pl_joint_kernel *kernel)
 {
     share_out(c, kernel, pl_tasks_shares);
 }
@@ -341,13 +341,13 @@ typedef struct lone {
     pl_solver_body immovable;
 } lone;
 
-static pl_solver_body *body_of(const pl_joint_course *c, uint32_t slot, pl_solver_body *immovable)
+static pl_solver_body *body_of(const pl_joint_context *c, uint32_t slot, pl_solver_body *immovable)
 {
     const pl_solver *s = &c->world->solver;
     return slot == s->slot_count - 1 ? immovable : &pl_solver_bodies(s)[slot];
 }
 
-static void take_lone(const pl_joint_course *c, uint32_t i, lone *out)
+static void take_lone(const pl_joint_context *c, uint32_t i, lone *out)
 {
     pl_joint *j = pl_joint_grouped(&c->world->joints, i);
     out->joint = j;
@@ -400,7 +400,7 @@ static void begin_wide(const plumb_world *world, pl_joint *j, pl_joint_start *st
 }
 
 // How the lanes of a bundle begin the step; slots as the kernels want them.
-static void begin_lanes(const pl_joint_course *c, uint32_t bundle, pl_joint_start *starts,
+static void begin_lanes(const pl_joint_context *c, uint32_t bundle, pl_joint_start *starts,
                         pl_rows *rows)
 {
     const plumb_world *world = c->world;
@@ -436,7 +436,7 @@ static void begin_lanes(const pl_joint_course *c, uint32_t bundle, pl_joint_star
 
 static void begin_bundles(void *context, uint32_t first, uint32_t count)
 {
-    const pl_joint_course *c = context;
+    const pl_joint_context *c = context;
     const pl_joint_kernels *kernels = pl_joint_kernels_of(c->world);
     // Bundle by bundle: what lanes begin with is made and goes into them before memory sees it.
     _Alignas(4 * sizeof(near_real)) pl_joint_start starts[PL_JOINT_LANES];
@@ -451,10 +451,10 @@ static void begin_bundles(void *context, uint32_t first, uint32_t count)
     }
 }
 
-void pl_joints_prepare(const pl_joint_course *c)
+void pl_joints_prepare(const pl_joint_context *c)
 {
     pl_tasks_shares(c->tasks, c->group->color_first, PL_JOINT_COLORS, LEAST, begin_bundles,
-                    (pl_joint_course[]){ *c });
+                    (pl_joint_context[]){ *c });
     for (uint32_t i = c->group->alone; i < c->group->end; ++i) {
         lone one;
         begin(c->world, pl_joint_grouped(&c->world->joints, i), c->h);
@@ -464,7 +464,7 @@ void pl_joints_prepare(const pl_joint_course *c)
     }
 }
 
-void pl_joints_warm_start(const pl_joint_course *c)
+void pl_joints_warm_start(const pl_joint_context *c)
 {
     sweep_bundles(c, pl_joint_kernels_of(c->world)->warm_start);
     for (uint32_t i = c->group->alone; i < c->group->end; ++i) {
@@ -496,7 +496,7 @@ static void refresh(const plumb_world *world, pl_joint *j, const pl_solver_body 
     add_momentum(j, 1);
 }
 
-static void sweep_lanes(const pl_joint_course *c, pl_joint_sweep sweep, bool first)
+static void sweep_lanes(const pl_joint_context *c, pl_joint_sweep sweep, bool first)
 {
     const pl_joint_kernels *kernels = pl_joint_kernels_of(c->world);
     if (sweep == PL_SWEEP_PULL) {
@@ -506,7 +506,7 @@ static void sweep_lanes(const pl_joint_course *c, pl_joint_sweep sweep, bool fir
     }
 }
 
-static void sweep_alone(const pl_joint_course *c, pl_joint_sweep sweep, bool first)
+static void sweep_alone(const pl_joint_context *c, pl_joint_sweep sweep, bool first)
 {
     for (uint32_t i = c->group->alone; i < c->group->end; ++i) {
         lone one;
@@ -525,7 +525,7 @@ static void sweep_alone(const pl_joint_course *c, pl_joint_sweep sweep, bool fir
     }
 }
 
-void pl_joints_solve(const pl_joint_course *c, pl_joint_sweep sweep, bool first)
+void pl_joints_solve(const pl_joint_context *c, pl_joint_sweep sweep, bool first)
 {
     const int sweeps = sweep == PL_SWEEP_CLASSIC ? 1 : SWEEPS;
     for (int i = 0; i < sweeps; ++i) {
@@ -534,12 +534,12 @@ void pl_joints_solve(const pl_joint_course *c, pl_joint_sweep sweep, bool first)
     }
 }
 
-void pl_joints_tally_lanes(const pl_joint_course *c)
+void pl_joints_tally_lanes(const pl_joint_context *c)
 {
     each_bundle(c, pl_joint_kernels_of(c->world)->tally);
 }
 
-void pl_joints_store(const pl_joint_course *c)
+void pl_joints_store(const pl_joint_context *c)
 {
     each_bundle(c, pl_joint_kernels_of(c->world)->store);
 }
@@ -575,7 +575,7 @@ static void move_joint(const pl_joint *j, pl_solver_body *a, pl_solver_body *b, 
     }
 }
 
-void pl_joints_move(const pl_joint_course *c, real share)
+void pl_joints_move(const pl_joint_context *c, real share)
 {
     for (uint32_t i = c->group->alone; i < c->group->end; ++i) {
         lone one;

@@ -16,7 +16,7 @@
 // The first impact of a body turns it aside: what it would meet later is looked at once more, along the way that it
 // takes from there. Friction, and what is third on its way, are left to the solver and the sweeps of continuous/.
 //
-// The ground's seams judge the manifold of that moment before it is counted back (seams/correct.c).
+// The ground's internal edges judge the manifold of that moment before it is counted back (internal_edges/correct.c).
 //
 // Reads: candidates, poses, velocities, forces, piece geometry. Writes: manifolds, pairs. Order: after the kernels.
 // Cost: 60 flops a candidate; a sweep for each that is looked at.
@@ -62,16 +62,16 @@ void pl_ahead_hold_back(const plumb_world *world, const pl_pair *pair, real dt, 
         return;
     }
     const double horizon = horizon_of(world, dt);
-    pl_meeting item = { .paths = pl_paths_of(free_path(pl_flight_of(world, m->body_a, horizon)),
-                                             free_path(pl_flight_of(world, m->body_b, horizon))) };
-    pl_meeting_open(&item, m);
-    if (item.verdict == PL_MEETING_OPEN) {
-        pl_meeting_sweep(&item, world, m, pair);
+    pl_toi item = { .paths = pl_paths_of(free_path(pl_flight_of(world, m->body_a, horizon)),
+                                         free_path(pl_flight_of(world, m->body_b, horizon))) };
+    pl_toi_open(&item, m);
+    if (item.verdict == PL_TOI_OPEN) {
+        pl_toi_sweep(&item, world, m, pair);
     }
-    if (item.verdict != PL_MEETING_NEAR && item.verdict != PL_MEETING_PASSES) {
+    if (item.verdict != PL_TOI_NEAR && item.verdict != PL_TOI_PASSES) {
         return;
     }
-    pl_meeting_hold_back(m, &item.paths);
+    pl_toi_hold_back(m, &item.paths);
 }
 
 //---- impacts -------------------------------------------------------------------------------------
@@ -89,9 +89,9 @@ typedef struct looking {
     uint32_t path_count;
 } looking;
 
-static pl_meeting *items_of(const pl_lookahead *ahead)
+static pl_toi *items_of(const pl_lookahead *ahead)
 {
-    return (pl_meeting *)ahead->items.data;
+    return (pl_toi *)ahead->items.data;
 }
 
 static pl_path *path_of(const looking *l, uint32_t row)
@@ -165,11 +165,11 @@ static void note_impacts(const looking *l)
 {
     const pl_narrow *narrow = l->narrow;
     for (uint32_t i = 0; i < l->ahead->count; ++i) {
-        const pl_meeting *item = &items_of(l->ahead)[i];
+        const pl_toi *item = &items_of(l->ahead)[i];
         const pl_manifold *m = &pl_manifolds(narrow)[item->manifold];
-        if (item->verdict == PL_MEETING_MEETS) {
+        if (item->verdict == PL_TOI_HIT) {
             note_impact(l, m, &item->point, (double)item->nx, (double)item->ny, item->time);
-        } else if (item->verdict == PL_MEETING_KEEPS && item->time <= 1) {
+        } else if (item->verdict == PL_TOI_KEEPS && item->time <= 1) {
             note_impact(l, m, first_point(m), (double)m->nx, (double)m->ny, item->time);
         }
     }
@@ -195,9 +195,9 @@ static void make_manifolds(const looking *l, uint32_t count)
     pl_pose *poses = ahead->poses.data;
     pl_pair *copies = ahead->pairs.data;
     for (uint32_t i = 0; i < count; ++i) {
-        pl_meeting *item = &items_of(ahead)[listed[i]];
+        pl_toi *item = &items_of(ahead)[listed[i]];
         copies[i] = l->in->pairs[item->pair];
-        pl_meeting_pose(item, l->world, &copies[i]);
+        pl_toi_pose(item, l->world, &copies[i]);
         copies[i].body_a = 2 * i;
         copies[i].body_b = 2 * i + 1;
         copies[i].flags &= ~PL_PAIR_FACE_MASK;
@@ -220,7 +220,7 @@ static void make_manifolds(const looking *l, uint32_t count)
         pl_narrow_kernel_for(l->world, a, b)(&then, first, end - first, &made);
     }
     for (uint32_t i = 0; i < count; ++i) {
-        pl_meeting *item = &items_of(ahead)[listed[i]];
+        pl_toi *item = &items_of(ahead)[listed[i]];
         item->then.count = 0;
         if (copies[i].manifold != PL_NONE) {
             item->then = pl_manifolds(&made)[copies[i].manifold];
@@ -233,9 +233,9 @@ static void sweep_some(void *context, uint32_t first, uint32_t count)
     const looking *l = context;
     const uint32_t *listed = l->ahead->list.data;
     for (uint32_t i = first; i < first + count; ++i) {
-        pl_meeting *item = &items_of(l->ahead)[listed[i]];
-        pl_meeting_sweep(item, l->world, &pl_manifolds(l->narrow)[item->manifold],
-                         &l->in->pairs[item->pair]);
+        pl_toi *item = &items_of(l->ahead)[listed[i]];
+        pl_toi_sweep(item, l->world, &pl_manifolds(l->narrow)[item->manifold],
+                     &l->in->pairs[item->pair]);
     }
 }
 
@@ -244,9 +244,9 @@ static uint32_t refine(const looking *l, uint32_t count)
 {
     uint32_t *listed = l->ahead->list.data, kept = 0;
     for (uint32_t i = 0; i < count; ++i) {
-        pl_meeting *item = &items_of(l->ahead)[listed[i]];
-        if (pl_meeting_refine(item, &pl_manifolds(l->narrow)[item->manifold]) &&
-            item->verdict == PL_MEETING_OPEN) {
+        pl_toi *item = &items_of(l->ahead)[listed[i]];
+        if (pl_toi_refine(item, &pl_manifolds(l->narrow)[item->manifold]) &&
+            item->verdict == PL_TOI_OPEN) {
             listed[kept++] = listed[i];
         }
     }
@@ -254,11 +254,11 @@ static uint32_t refine(const looking *l, uint32_t count)
 }
 
 // Lists items by verdict.
-static uint32_t list_items(const looking *l, pl_meeting_verdict verdict, bool without_manifold)
+static uint32_t list_items(const looking *l, pl_toi_state verdict, bool without_manifold)
 {
     uint32_t *listed = l->ahead->list.data, count = 0;
     for (uint32_t i = 0; i < l->ahead->count; ++i) {
-        const pl_meeting *item = &items_of(l->ahead)[i];
+        const pl_toi *item = &items_of(l->ahead)[i];
         if (item->verdict == verdict && !(without_manifold && item->then.count > 0)) {
             listed[count++] = i;
         }
@@ -270,23 +270,23 @@ static uint32_t list_items(const looking *l, pl_meeting_verdict verdict, bool wi
 static void look_at_open(looking *l)
 {
     for (uint32_t i = 0; i < l->ahead->count; ++i) {
-        pl_meeting *item = &items_of(l->ahead)[i];
-        if (item->verdict == PL_MEETING_OPEN) {
+        pl_toi *item = &items_of(l->ahead)[i];
+        if (item->verdict == PL_TOI_OPEN) {
             item->then.count = 0;
-            pl_meeting_open(item, &pl_manifolds(l->narrow)[item->manifold]);
+            pl_toi_open(item, &pl_manifolds(l->narrow)[item->manifold]);
         }
     }
-    uint32_t count = list_items(l, PL_MEETING_OPEN, false);
+    uint32_t count = list_items(l, PL_TOI_OPEN, false);
     for (int round = 0; round < ROUNDS && count > 0; ++round) {
         make_manifolds(l, count);
         count = refine(l, count);
     }
-    count = list_items(l, PL_MEETING_OPEN, false);
+    count = list_items(l, PL_TOI_OPEN, false);
     for (uint32_t i = 0; i < count; ++i) {
         items_of(l->ahead)[((uint32_t *)l->ahead->list.data)[i]].then.count = 0;
     }
     pl_tasks_ranges(l->world->tasks, count, LEAST, sweep_some, l);
-    count = list_items(l, PL_MEETING_MEETS, true);
+    count = list_items(l, PL_TOI_HIT, true);
     if (count > 0) {
         make_manifolds(l, count);
     }
@@ -294,7 +294,7 @@ static void look_at_open(looking *l)
 
 static void list(looking *l, uint32_t manifold, const pl_paths *paths)
 {
-    items_of(l->ahead)[l->ahead->count++] = (pl_meeting){
+    items_of(l->ahead)[l->ahead->count++] = (pl_toi){
         .pair = pl_manifolds(l->narrow)[manifold].pair, .manifold = manifold, .paths = *paths
     };
 }
@@ -333,19 +333,19 @@ static bool is_upset(const looking *l, const pl_manifold *m, double before)
 static void look_again(looking *l)
 {
     const uint32_t *candidates = l->narrow->candidates.data;
-    pl_meeting *items = items_of(l->ahead);
+    pl_toi *items = items_of(l->ahead);
     const uint32_t listed = l->ahead->count;
     uint32_t next = 0; // of those that are listed: they are candidates, in order
     for (uint32_t i = 0; i < l->narrow->candidate_count; ++i) {
         const pl_manifold *m = &pl_manifolds(l->narrow)[candidates[i]];
         if (next < listed && items[next].manifold == candidates[i]) {
-            pl_meeting *item = &items[next++];
-            double time = item->verdict == PL_MEETING_MEETS || item->verdict == PL_MEETING_KEEPS
+            pl_toi *item = &items[next++];
+            double time = item->verdict == PL_TOI_HIT || item->verdict == PL_TOI_KEEPS
                               ? item->time
                               : PL_SWEEP_NEVER;
             if (is_upset(l, m, time)) {
                 item->paths = paths_of(l, m);
-                item->verdict = PL_MEETING_OPEN;
+                item->verdict = PL_TOI_OPEN;
             }
         } else if (is_upset(l, m, PL_SWEEP_NEVER)) {
             const pl_paths paths = paths_of(l, m);
@@ -375,17 +375,17 @@ static void take_out(pl_pair *pair, pl_manifold *m)
 static bool sort_out(const looking *l)
 {
     pl_manifold *m = pl_manifolds(l->narrow);
-    pl_meeting *items = items_of(l->ahead);
+    pl_toi *items = items_of(l->ahead);
     uint32_t kept = 0;
     bool out = false;
     for (uint32_t i = 0; i < l->ahead->count; ++i) {
-        const pl_meeting_verdict verdict = items[i].verdict;
-        if (verdict == PL_MEETING_PASSES) {
+        const pl_toi_state verdict = items[i].verdict;
+        if (verdict == PL_TOI_PASSES) {
             take_out(&l->in->pairs[items[i].pair], &m[items[i].manifold]);
             out = true;
-        } else if (verdict == PL_MEETING_HELD) {
-            pl_meeting_hold_back(&m[items[i].manifold], &items[i].paths);
-        } else if (verdict == PL_MEETING_MEETS || verdict == PL_MEETING_NEAR) {
+        } else if (verdict == PL_TOI_HELD) {
+            pl_toi_hold_back(&m[items[i].manifold], &items[i].paths);
+        } else if (verdict == PL_TOI_HIT || verdict == PL_TOI_NEAR) {
             items[kept++] = items[i];
         }
     }
@@ -394,14 +394,14 @@ static bool sort_out(const looking *l)
 }
 
 // [m] the separation of a point at the start of the step, from that of its moment.
-static double counted_back(const pl_meeting *item, const pl_manifold_point *p, double nx, double ny)
+static double counted_back(const pl_toi *item, const pl_manifold_point *p, double nx, double ny)
 {
     return (double)p->separation + pl_paths_closed(&item->paths, p, nx, ny, item->time);
 }
 
 // Whether all points of it were apart when the step began: a face that the other piece comes to lie behind as it
 // passes is none that it strikes.
-static bool was_apart(const pl_meeting *item, const pl_manifold *m)
+static bool was_apart(const pl_toi *item, const pl_manifold *m)
 {
     bool apart = m->count > 0;
     for (uint32_t k = 0; k < m->count; ++k) {
@@ -425,7 +425,7 @@ static void replace(pl_manifold *m, pl_pair *pair, const pl_manifold *then)
 }
 
 // The nearest points instead: corners that meet have no face, and none of a kernel's normals.
-static void replace_by_nearest(pl_manifold *m, pl_pair *pair, const pl_meeting *item)
+static void replace_by_nearest(pl_manifold *m, pl_pair *pair, const pl_toi *item)
 {
     pl_pair_forget(pair);
     m->nx = item->nx, m->ny = item->ny;
@@ -439,13 +439,13 @@ static void replace_by_nearest(pl_manifold *m, pl_pair *pair, const pl_meeting *
 static void replace_all(const looking *l)
 {
     for (uint32_t i = 0; i < l->ahead->count; ++i) {
-        pl_meeting *item = &items_of(l->ahead)[i];
+        pl_toi *item = &items_of(l->ahead)[i];
         pl_pair *pair = &l->in->pairs[item->pair];
         pl_manifold *m = &pl_manifolds(l->narrow)[item->manifold];
-        if (item->verdict == PL_MEETING_MEETS && was_apart(item, &item->then)) {
+        if (item->verdict == PL_TOI_HIT && was_apart(item, &item->then)) {
             replace(m, pair, &item->then);
         } else {
-            pl_meeting_pose(item, l->world, pair);
+            pl_toi_pose(item, l->world, pair);
             replace_by_nearest(m, pair, item);
         }
         item->before = m->before;
@@ -480,7 +480,7 @@ static bool reserve(plumb_world *world, pl_lookahead *ahead, uint32_t count)
 {
     pl_memory *memory = &world->memory;
     const size_t movable = (size_t)world->dynamic_count + world->kinematic_count;
-    return pl_buffer_reserve(memory, &ahead->items, count * sizeof(pl_meeting)) &&
+    return pl_buffer_reserve(memory, &ahead->items, count * sizeof(pl_toi)) &&
            pl_buffer_reserve(memory, &ahead->poses, 2 * (size_t)count * sizeof(pl_pose)) &&
            pl_buffer_reserve(memory, &ahead->pairs, count * sizeof(pl_pair)) &&
            pl_buffer_reserve(memory, &ahead->made, count * sizeof(pl_manifold)) &&
@@ -534,8 +534,8 @@ bool pl_ahead_look(plumb_world *world, const pl_narrow_input *in, real dt, pl_na
 }
 
 // Whether the way reaches the plane of a point before the pieces meet.
-static bool is_reached_before(const pl_meeting *item, const pl_manifold_point *p, double nx,
-                              double ny, double separation)
+static bool is_reached_before(const pl_toi *item, const pl_manifold_point *p, double nx, double ny,
+                              double separation)
 {
     const pl_paths *paths = &item->paths;
     bool reached = !(separation > 0);
@@ -549,7 +549,7 @@ void pl_ahead_settle(plumb_world *world)
 {
     pl_pair *pairs = pl_pairs(&world->broad.pairs);
     for (uint32_t i = 0; i < world->lookahead.count; ++i) {
-        const pl_meeting *item = &items_of(&world->lookahead)[i];
+        const pl_toi *item = &items_of(&world->lookahead)[i];
         const uint32_t at = pairs[item->pair].manifold;
         pairs[item->pair].flags &= ~PL_PAIR_AHEAD;
         if (at == PL_NONE) {
@@ -561,9 +561,9 @@ void pl_ahead_settle(plumb_world *world)
             pl_manifold_point *p = &m->point[k];
             double s = counted_back(item, p, nx, ny);
             // A plane does not reach what passes it; nor one of the ground's faces what was behind that before.
-            if (item->verdict == PL_MEETING_NEAR || is_reached_before(item, p, nx, ny, s)) {
-                s = pl_greater(pl_meeting_beyond(&item->paths, p, nx, ny),
-                               pl_greater(s, PL_MEETING_TOLERANCE));
+            if (item->verdict == PL_TOI_NEAR || is_reached_before(item, p, nx, ny, s)) {
+                s = pl_greater(pl_toi_beyond(&item->paths, p, nx, ny),
+                               pl_greater(s, PL_TOI_TOLERANCE));
             }
             p->separation = (near_real)s;
         }

@@ -3,7 +3,7 @@
 #define PL_NARROW_AHEAD_H
 
 #include "narrow/narrow.h"
-#include "narrow/meeting.h"
+#include "narrow/toi.h"
 
 // pl_manifold.feature of the nearest points of a later moment.
 #define PL_AHEAD_FEATURE 0x80000000u
@@ -14,7 +14,7 @@
 bool pl_ahead_look(plumb_world *world, const pl_narrow_input *in, real dt, pl_narrow *narrow);
 
 // Holds back the plane of a contact ahead so that it does not reach what passes: for what the ground makes anew from the
-// places of the start of the step (seams/correct.c).
+// places of the start of the step (internal_edges/correct.c).
 void pl_ahead_hold_back(const plumb_world *world, const pl_pair *pair, real dt, pl_manifold *m);
 
 // Counts separations from the start of the step again: after this no manifold is `ahead`.
@@ -23,7 +23,7 @@ void pl_ahead_settle(plumb_world *world);
 // The two poses of a manifold that is `ahead`; the origin is A's centre of mass at the start of the step.
 static inline const pl_pose *pl_ahead_poses(const plumb_world *world, const pl_manifold *m)
 {
-    return ((const pl_meeting *)world->lookahead.items.data)[m->ahead].poses;
+    return ((const pl_toi *)world->lookahead.items.data)[m->ahead].poses;
 }
 
 #endif

@@ -83,7 +83,7 @@ typedef struct centres {
     place oax, oay, obx, oby;
 } centres;
 
-// From x y c s dx dy (vx vy low_x low_y) of the poses, x y of the cores.
+// From x y c s dx dy (vx vy residual_x residual_y) of the poses, x y of the cores.
 WIDE_INLINE void centres_of(centres *o, const pl_narrow_input *in, const place *pa, const place *pb,
                             const place *ca, const place *cb)
 {

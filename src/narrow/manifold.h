@@ -26,7 +26,8 @@ typedef struct pl_manifold {
     near_real rolling;       // [m] lever arm of rolling resistance
     union {
         near_real adhesion; // [N] that the contact may pull, until events are made
-        near_real blow; // [N s] impulse of the hit that is due, steps before included; then only
+        near_real
+            hit_impulse; // [N s] impulse of the hit that is due, steps before included; then only
     };
     pl_manifold_point point[2]; // a point that is absent has separation PL_APART
     uint32_t body_a, body_b;    // body rows
@@ -133,9 +134,9 @@ typedef struct pl_ends {
     uint32_t a, b;
 } pl_ends;
 
-// Contacts that lie ahead and are looked at closely (meeting.h).
+// Contacts that lie ahead and are looked at closely (toi.h).
 typedef struct pl_lookahead {
-    pl_buffer items; // pl_meeting
+    pl_buffer items; // pl_toi
     uint32_t count;
     pl_buffer list;       // uint32_t: items of which kernels make manifolds
     pl_buffer poses;      // pl_pose: of both bodies of each
@@ -154,7 +155,8 @@ typedef struct pl_narrow {
     uint32_t fresh_count, candidate_count;
     bool ends_stale; // manifolds or rows have moved since
     uint32_t manifold_count;
-    uint32_t borne_count; // more manifolds behind those, whose load others bear (seams/run.c)
+    uint32_t
+        borne_count; // more manifolds behind those, whose load others bear (internal_edges/run.c)
     // Summary of this step's manifolds.
     bool any_friction; // some manifold has friction > 0
     bool any_bounce;   // some manifold has restitution > 0

@@ -19,7 +19,7 @@
 // exactly as on a solid one.
 //
 // Reads: manifolds, pieces, rotations. Writes: manifolds, the pairs' flags. Order: after the kernels,
-// before seams, which see only what holds. Cost: O(pairs) in worlds that have one-way shapes, nothing in others.
+// before internal edges, which see only what holds. Cost: O(pairs) in worlds that have one-way shapes, nothing in others.
 // Running it twice on the same manifolds changes nothing the second time (a step may be refused).
 #include "narrow/one_way.h"
 

@@ -20,7 +20,8 @@ pl_motion pl_flight_of(const plumb_world *world, uint32_t row, double horizon)
         return (pl_motion){ 0, 0, 0 };
     }
     const pl_pose *pose = &pl_poses(world)[row];
-    const double own = (b->flags[row] & PL_BODY_TUNED) != 0 ? (double)pl_time_scale(world, row) : 1;
+    const double own =
+        (b->flags[row] & PL_BODY_HAS_SETTINGS) != 0 ? (double)pl_time_scale(world, row) : 1;
     pl_motion f = { (double)pose->vx * horizon, (double)pose->vy * horizon,
                     (double)b->w[row] * own * horizon };
     if (row < world->dynamic_count) {
@@ -54,20 +55,21 @@ double pl_paths_closed(const pl_paths *p, const pl_manifold_point *point, double
                              ny);
 }
 
-pl_encounter pl_encounter_of(const plumb_world *world, const pl_pair *pair, const pl_paths *paths)
+pl_moving_pair pl_moving_pair_of(const plumb_world *world, const pl_pair *pair,
+                                 const pl_paths *paths)
 {
     const pl_pose *a = &pl_poses(world)[world->pieces.body[pair->a]];
     const pl_pose *b = &pl_poses(world)[world->pieces.body[pair->b]];
     const pl_shift between = pl_wrap_between(world, pair->a, pair->b);
-    return (pl_encounter){ .world = world,
-                           .paths = paths,
-                           .piece = { pair->a, pair->b },
-                           .px = { 0, between.x + ((double)b->dx - (double)a->dx) },
-                           .py = { 0, between.y + ((double)b->dy - (double)a->dy) } };
+    return (pl_moving_pair){ .world = world,
+                             .paths = paths,
+                             .piece = { pair->a, pair->b },
+                             .px = { 0, between.x + ((double)b->dx - (double)a->dx) },
+                             .py = { 0, between.y + ((double)b->dy - (double)a->dy) } };
 }
 
 // A side's piece where it is at `from`, on its way until `to`. Filled in place: a pl_swept is large.
-static void put_leg(pl_swept *out, const pl_encounter *e, int side, double from, double to)
+static void put_leg(pl_swept *out, const pl_moving_pair *e, int side, double from, double to)
 {
     const uint32_t piece = e->piece[side];
     const pl_pieces *pieces = &e->world->pieces;
@@ -99,7 +101,7 @@ static void put_leg(pl_swept *out, const pl_encounter *e, int side, double from,
     }
 }
 
-pl_gap pl_encounter_gap(const pl_encounter *e, double time)
+pl_gap pl_moving_pair_gap(const pl_moving_pair *e, double time)
 {
     pl_swept a, b;
     put_leg(&a, e, 0, time, time);
@@ -107,7 +109,7 @@ pl_gap pl_encounter_gap(const pl_encounter *e, double time)
     return pl_sweep_gap(&a, &b, 0);
 }
 
-pl_gap pl_encounter_nearest(const pl_encounter *e, double time, double *x, double *y)
+pl_gap pl_moving_pair_nearest(const pl_moving_pair *e, double time, double *x, double *y)
 {
     pl_swept a, b;
     put_leg(&a, e, 0, time, time);
@@ -115,14 +117,14 @@ pl_gap pl_encounter_nearest(const pl_encounter *e, double time, double *x, doubl
     return pl_sweep_nearest(&a, &b, 0, x, y);
 }
 
-double pl_encounter_meeting(const pl_encounter *e, double target)
+double pl_moving_pair_toi(const pl_moving_pair *e, double target)
 {
     for (int i = 0; i < e->paths->legs; ++i) {
         const double from = e->paths->breaks[i], to = e->paths->breaks[i + 1];
         pl_swept a, b;
         put_leg(&a, e, 0, from, to);
         put_leg(&b, e, 1, from, to);
-        const double time = pl_sweep_first(&a, &b, 0, 1, target, PL_MEETING_TOLERANCE);
+        const double time = pl_sweep_first(&a, &b, 0, 1, target, PL_TOI_TOLERANCE);
         if (time <= 1) {
             return from + time * (to - from);
         }
@@ -151,7 +153,7 @@ static double nearest_on_leg(const pl_swept *a, const pl_swept *b, double *gap)
     return at_s < at_t ? s : t;
 }
 
-double pl_encounter_passing(const pl_encounter *e)
+double pl_moving_pair_closest(const pl_moving_pair *e)
 {
     double best = HUGE_VAL, time = 0;
     for (int i = 0; i < e->paths->legs; ++i) {
@@ -169,7 +171,7 @@ double pl_encounter_passing(const pl_encounter *e)
     return time;
 }
 
-pl_pose pl_encounter_pose(const pl_encounter *e, int side, double time)
+pl_pose pl_moving_pair_pose(const pl_moving_pair *e, int side, double time)
 {
     const pl_pose *now = &pl_poses(e->world)[e->world->pieces.body[e->piece[side]]];
     const pl_motion m = pl_path_at(&e->paths->of[side], time);

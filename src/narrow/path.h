@@ -7,7 +7,7 @@
 #include "world/state.h"
 
 // [m] that a sweep may end before the pieces meet: less than PL_AHEAD.
-#define PL_MEETING_TOLERANCE 1e-4
+#define PL_TOI_TOLERANCE 1e-4
 
 // A way of the centre of mass [m] and a turn [rad].
 typedef struct pl_motion {
@@ -54,24 +54,25 @@ static inline double pl_motions_closed(pl_motion a, pl_motion b, const pl_manifo
 }
 
 // Two pieces of bodies that move, seen from A's centre of mass at the start of the step.
-typedef struct pl_encounter {
+typedef struct pl_moving_pair {
     const plumb_world *world;
     const pl_paths *paths;
     uint32_t piece[2];
     double px[2], py[2]; // [m] centres of mass at the start
-} pl_encounter;
+} pl_moving_pair;
 
-pl_encounter pl_encounter_of(const plumb_world *world, const pl_pair *pair, const pl_paths *paths);
+pl_moving_pair pl_moving_pair_of(const plumb_world *world, const pl_pair *pair,
+                                 const pl_paths *paths);
 
 // Distance and nearest points at a time (geometry/sweep.h).
-pl_gap pl_encounter_gap(const pl_encounter *e, double time);
-pl_gap pl_encounter_nearest(const pl_encounter *e, double time, double *x, double *y);
-// The first time at which the pieces are nearer than `target` [m], or at most PL_MEETING_TOLERANCE farther apart;
+pl_gap pl_moving_pair_gap(const pl_moving_pair *e, double time);
+pl_gap pl_moving_pair_nearest(const pl_moving_pair *e, double time, double *x, double *y);
+// The first time at which the pieces are nearer than `target` [m], or at most PL_TOI_TOLERANCE farther apart;
 // PL_SWEEP_NEVER: they never are. They must be farther apart at the start.
-double pl_encounter_meeting(const pl_encounter *e, double target);
+double pl_moving_pair_toi(const pl_moving_pair *e, double target);
 // About the time at which they are nearest.
-double pl_encounter_passing(const pl_encounter *e);
+double pl_moving_pair_closest(const pl_moving_pair *e);
 // The pose of the body of side 0 (A) or 1 (B) at a time.
-pl_pose pl_encounter_pose(const pl_encounter *e, int side, double time);
+pl_pose pl_moving_pair_pose(const pl_moving_pair *e, int side, double time);
 
 #endif

@@ -64,7 +64,7 @@ static plumb_convex_near nearest_of_outline(const plumb_world *world, uint32_t p
         plumb_convex convex;
         pl_piece_convex(world, p, &convex);
         for (int k = 0; k < convex.count; ++k) {
-            if ((world->pieces.seams[p] >> k & 1u) == 0) {
+            if ((world->pieces.cuts[p] >> k & 1u) == 0) {
                 plumb_convex_near near = nearest_on_edge(&convex, k, local);
                 best = near.distance > best.distance ? near : best;
             }
@@ -82,7 +82,7 @@ static plumb_nearest_hit nearest_of_piece(const search *s, const pl_grid_entry *
     plumb_vec2 local = plumb_transform_inv_apply(frame, s->point);
     pl_query_convex(world, piece, &convex);
     plumb_convex_near near = plumb_convex_nearest(&convex, local);
-    if (near.distance <= 0 && world->pieces.seams[piece] != 0) {
+    if (near.distance <= 0 && world->pieces.cuts[piece] != 0) {
         near = nearest_of_outline(world, piece, local);
     }
     pl_query_hit names = pl_query_hit_of(world, piece);

@@ -3,7 +3,7 @@
 // A query goes through the grids with a box or a ray, asks plumb_convex_* about every piece that it
 // meets there, and keeps a hit for each piece that answers. Shapes of several pieces come out once.
 //
-// Reads: grids, pieces, poses, the filter. Writes: grids of the queries' own (broad/sight.h), the
+// Reads: grids, pieces, poses, the filter. Writes: grids of the queries' own (broad/query_grids.h), the
 // query's own list. Cost: sorting is O(hits log hits); no allocation for PL_QUERY_NEAR_HITS or
 // fewer.
 #include "query/query.h"
@@ -33,7 +33,7 @@ plumb_result pl_query_begin(pl_query *q, plumb_world *world, const char *functio
         return pl_fail_handle(world, function, "filter.ignore_body", ignored.entity,
                               "a live body or null");
     }
-    return pl_sight_update(world) ? PLUMB_OK : pl_fail_memory(world, function);
+    return pl_query_grids_update(world) ? PLUMB_OK : pl_fail_memory(world, function);
 }
 
 plumb_result pl_query_check_output(const plumb_world *world, const char *function,
@@ -114,14 +114,14 @@ int pl_query_grids(const pl_query *q, const pl_grid *grids[static PL_QUERY_GRIDS
 {
     int count = 0;
     if (!q->filter.ignore_dynamic) {
-        grids[count++] = pl_sight_of(q->world, PL_SIGHT_MOVING);
-        const pl_grid *resting = pl_sight_of(q->world, PL_SIGHT_RESTING);
+        grids[count++] = pl_query_grid_of(q->world, PL_QUERY_MOVING);
+        const pl_grid *resting = pl_query_grid_of(q->world, PL_QUERY_RESTING);
         if (resting->entry_count > 0) {
             grids[count++] = resting;
         }
     }
     if (!q->filter.ignore_static) {
-        grids[count++] = pl_sight_of(q->world, PL_SIGHT_FIXED);
+        grids[count++] = pl_query_grid_of(q->world, PL_QUERY_FIXED);
     }
     return count;
 }
@@ -164,12 +164,12 @@ bool pl_query_accepts(const pl_query *q, plumb_shape shape)
 void pl_query_convex(const plumb_world *world, uint32_t piece, plumb_convex *out)
 {
     pl_piece_convex(world, piece, out);
-    uint32_t seams = world->pieces.seams[piece];
+    uint32_t cuts = world->pieces.cuts[piece];
     // The pieces on both sides of a cut see a point in the same place; their distances from it
     // differ by the rounding of two dot products and of the normals.
     plumb_real margin = 4 * PLUMB_REAL_EPSILON * world->pieces.core[piece].reach;
-    for (int k = 0; seams != 0; ++k, seams >>= 1) {
-        if (seams & 1u) {
+    for (int k = 0; cuts != 0; ++k, cuts >>= 1) {
+        if (cuts & 1u) {
             plumb_vec2 *a = &out->points[k];
             plumb_vec2 *b = &out->points[k + 1 == out->count ? 0 : k + 1];
             *a = plumb_vec2_add_scaled(*a, margin, out->normals[k]);

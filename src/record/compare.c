@@ -94,8 +94,9 @@ static plumb_difference thing(plumb_entity entity, plumb_entity_kind kind, const
 // What a user knows of: not what links rows, names pieces, or times rest.
 static bool is_told(const comparison *c, const pl_section *section)
 {
-    static const char *const rest[] = { "looked", "look_x", "look_y", "look_c",   "look_s", "way_x",
-                                        "way_y",  "looks",  "slack",  "way_turn", "fat" };
+    static const char *const rest[] = { "rest_time", "rest_x",    "rest_y",  "rest_c",
+                                        "rest_s",    "rest_dx",   "rest_dy", "rest_samples",
+                                        "slack",     "rest_turn", "fat" };
     bool told = section->type != PL_TYPE_U32 && section->type != PL_TYPE_POINTER &&
                 section->type != PL_TYPE_ENTITY;
     for (size_t i = 0; told && i < sizeof rest / sizeof rest[0]; ++i) {
@@ -143,9 +144,10 @@ static uint32_t find_section(const comparison *c, const char *table, const char 
 
 static const pl_member joint_members[] = { PL_STATE_JOINT(JOINT_MEMBER) };
 static const pl_member character_members[] = { PL_STATE_CHARACTER(CHARACTER_MEMBER) };
-static const pl_member tuning_members[] = { MEMBER(pl_tuning, damping) MEMBER(
-    pl_tuning, angular_damping) MEMBER(pl_tuning, max_speed) MEMBER(pl_tuning, max_spin)
-                                                MEMBER(pl_tuning, time_scale) };
+static const pl_member settings_members[] = { MEMBER(pl_body_settings, damping) MEMBER(
+    pl_body_settings, angular_damping) MEMBER(pl_body_settings, max_speed)
+                                                  MEMBER(pl_body_settings, max_spin)
+                                                      MEMBER(pl_body_settings, time_scale) };
 static const pl_member target_members[] = { MEMBER(pl_target, x) MEMBER(pl_target, y)
                                                 MEMBER(pl_target, turn) MEMBER(pl_target, left) };
 static const pl_member pair_members[] = { MEMBER(pl_pair, normal) MEMBER(pl_pair, tangent)
@@ -403,14 +405,14 @@ static void add_rest(comparison *c)
 
 static void compare(comparison *c)
 {
-    const body_list tunings = { "tunings.items", "tunings", sizeof(pl_tuning), tuning_members,
-                                COUNT(tuning_members) };
+    const body_list settings = { "settings.items", "settings", sizeof(pl_body_settings),
+                                 settings_members, COUNT(settings_members) };
     const body_list targets = { "targets.items", "targets", sizeof(pl_target), target_members,
                                 COUNT(target_members) };
     const body_list characters = { "characters.items", "characters", sizeof(pl_character),
                                    character_members, COUNT(character_members) };
     add_kind(c, PLUMB_KIND_BODY);
-    add_of_bodies(c, &tunings);
+    add_of_bodies(c, &settings);
     add_of_bodies(c, &targets);
     add_kind(c, PLUMB_KIND_SHAPE);
     add_kind(c, PLUMB_KIND_JOINT);

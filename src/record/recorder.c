@@ -5,14 +5,14 @@
 // nothing has to be told to the recorder, and nothing can be forgotten. A step that is refused leaves the
 // kept image as it is: what it did, or systems in it, is in the edits of the next one.
 //
-// Reads: the world. Writes: the stream. Order: between the passes, see step/tape.h. Cost: a step one
+// Reads: the world. Writes: the stream. Order: between the passes, see step/observer.h. Cost: a step one
 // comparison, one copy, one hash of the state (O(state)); the same for each phase with systems; where
 // something was edited, what differs is coded. No allocation once all has been as large before.
 #include "plumb/record.h"
 #include "plumb/snapshot.h"
 
 #include "record/format.h"
-#include "step/tape.h"
+#include "step/observer.h"
 #include "world/check.h"
 
 #include <stdio.h>
@@ -27,7 +27,7 @@ typedef struct kept_image {
 } kept_image;
 
 typedef struct recorder {
-    pl_tape tape; // first: the world knows the recorder by it
+    pl_step_observer observer; // first: the world knows the recorder by it
     plumb_write_fn *write;
     void *context;
     uint64_t keyframe_every;
@@ -273,7 +273,7 @@ static bool begin_step(recorder *r, plumb_world *world)
     return true;
 }
 
-static void at_begin(pl_tape *self, plumb_world *world)
+static void at_begin(pl_step_observer *self, plumb_world *world)
 {
     recorder *r = (recorder *)self;
     if (r->info.ended != PLUMB_OK || !begin_step(r, world)) {
@@ -290,7 +290,7 @@ static void at_begin(pl_tape *self, plumb_world *world)
     }
 }
 
-static void before_systems(pl_tape *self, plumb_world *world, plumb_phase phase)
+static void before_systems(pl_step_observer *self, plumb_world *world, plumb_phase phase)
 {
     recorder *r = (recorder *)self;
     if (r->info.ended != PLUMB_OK || !keep(r, world, &r->before)) {
@@ -302,7 +302,7 @@ static void before_systems(pl_tape *self, plumb_world *world, plumb_phase phase)
     }
 }
 
-static void after_systems(pl_tape *self, plumb_world *world, plumb_phase phase)
+static void after_systems(pl_step_observer *self, plumb_world *world, plumb_phase phase)
 {
     recorder *r = (recorder *)self;
     if (r->info.ended != PLUMB_OK) {
@@ -315,7 +315,7 @@ static void after_systems(pl_tape *self, plumb_world *world, plumb_phase phase)
     }
 }
 
-static void before_hook(pl_tape *self, plumb_world *world)
+static void before_hook(pl_step_observer *self, plumb_world *world)
 {
     recorder *r = (recorder *)self;
     if (r->info.ended == PLUMB_OK) {
@@ -323,7 +323,7 @@ static void before_hook(pl_tape *self, plumb_world *world)
     }
 }
 
-static void after_hook(pl_tape *self, plumb_world *world)
+static void after_hook(pl_step_observer *self, plumb_world *world)
 {
     recorder *r = (recorder *)self;
     if (r->info.ended == PLUMB_OK) {
@@ -333,7 +333,7 @@ static void after_hook(pl_tape *self, plumb_world *world)
     }
 }
 
-static void at_end(pl_tape *self, plumb_world *world, plumb_real dt)
+static void at_end(pl_step_observer *self, plumb_world *world, plumb_real dt)
 {
     recorder *r = (recorder *)self;
     pl_step_head head;
@@ -366,11 +366,11 @@ static void free_recorder(plumb_world *world, recorder *r)
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; ++i) {
         pl_buffer_free(memory, buffers[i]);
     }
-    world->tape = NULL;
+    world->observer = NULL;
     pl_resize(memory, r, sizeof *r, 0);
 }
 
-static void at_gone(pl_tape *self, plumb_world *world)
+static void at_gone(pl_step_observer *self, plumb_world *world)
 {
     recorder *r = (recorder *)self;
     put_chunk(r, PL_CHUNK_END, NULL, 0);
@@ -394,10 +394,10 @@ static plumb_result check_desc(const plumb_world *world, const char *fn,
                     "title is '%.16s...'; it must have at most %d characters", desc->title,
                     PL_TITLE_MAX - 1);
     }
-    if (r == PLUMB_OK && world->tape != NULL) {
+    if (r == PLUMB_OK && world->observer != NULL) {
         r = pl_fail(world, PLUMB_E_STATE, fn,
-                    world->tape->replays ? "the world is that of a replay; it must not be"
-                                         : "the world is recorded already; stop that first");
+                    world->observer->replays ? "the world is that of a replay; it must not be"
+                                             : "the world is recorded already; stop that first");
     }
     return r;
 }
@@ -430,13 +430,13 @@ plumb_result plumb_recorder_start(plumb_world *world, const plumb_recorder_desc 
         return pl_fail_memory(world, __func__);
     }
     int every = desc->keyframe_every > 0 ? desc->keyframe_every : KEYFRAME_EVERY;
-    *r = (recorder){ .tape = { .begin = at_begin,
-                               .before = before_systems,
-                               .after = after_systems,
-                               .dropping = before_hook,
-                               .dropped = after_hook,
-                               .end = at_end,
-                               .gone = at_gone },
+    *r = (recorder){ .observer = { .begin = at_begin,
+                                   .before = before_systems,
+                                   .after = after_systems,
+                                   .dropping = before_hook,
+                                   .dropped = after_hook,
+                                   .end = at_end,
+                                   .gone = at_gone },
                      .write = desc->write,
                      .context = desc->context,
                      .keyframe_every = (uint64_t)every,
@@ -452,13 +452,13 @@ plumb_result plumb_recorder_start(plumb_world *world, const plumb_recorder_desc 
                    ? pl_fail_memory(world, __func__)
                    : pl_fail(world, result, __func__, "the write function took no more");
     }
-    world->tape = &r->tape;
+    world->observer = &r->observer;
     return PLUMB_OK;
 }
 
 static plumb_result check_recording(const plumb_world *world, const char *fn)
 {
-    return world->tape != NULL && !world->tape->replays
+    return world->observer != NULL && !world->observer->replays
                ? PLUMB_OK
                : pl_fail(world, PLUMB_E_STATE, fn, "the world is not recorded; start that first");
 }
@@ -478,7 +478,7 @@ plumb_result plumb_recorder_stop(plumb_world *world)
     if (result != PLUMB_OK) {
         return result;
     }
-    recorder *r = (recorder *)world->tape;
+    recorder *r = (recorder *)world->observer;
     put_chunk(r, PL_CHUNK_END, NULL, 0);
     result = r->info.ended;
     free_recorder(world, r);
@@ -500,7 +500,7 @@ plumb_result plumb_recorder_name(plumb_world *world, plumb_entity entity, const 
     if (result != PLUMB_OK) {
         return result;
     }
-    recorder *r = (recorder *)world->tape;
+    recorder *r = (recorder *)world->observer;
     copy_name(note.text, name);
     put_chunk(r, PL_CHUNK_NAME, &note, sizeof note);
     return r->info.ended == PLUMB_OK ? PLUMB_OK : fail_ended(world, __func__, r->info.ended);
@@ -522,7 +522,7 @@ plumb_result plumb_recorder_note(plumb_world *world, uint64_t key, const void *b
     if (result != PLUMB_OK) {
         return result;
     }
-    recorder *r = (recorder *)world->tape;
+    recorder *r = (recorder *)world->observer;
     const pl_note_head head = { key, size };
     size_t padded = pl_image_padded(size);
     if (r->info.ended == PLUMB_OK && room(r, world, &r->chunk, sizeof head + padded)) {
@@ -539,8 +539,8 @@ plumb_result plumb_recorder_note(plumb_world *world, uint64_t key, const void *b
 
 plumb_recorder_info plumb_recorder_get_info(const plumb_world *world)
 {
-    if (world == NULL || world->tape == NULL || world->tape->replays) {
+    if (world == NULL || world->observer == NULL || world->observer->replays) {
         return (plumb_recorder_info){ 0 };
     }
-    return ((const recorder *)world->tape)->info;
+    return ((const recorder *)world->observer)->info;
 }

@@ -48,19 +48,19 @@ const char *plumb_replay_error(const plumb_replay *replay)
 
 //---- keyframes -----------------------------------------------------------------------------------
 
-static void after_systems(pl_tape *self, plumb_world *world, plumb_phase phase)
+static void after_systems(pl_step_observer *self, plumb_world *world, plumb_phase phase)
 {
     pl_replay_play((plumb_replay *)self, pl_edit_mark(phase, world->quarantine.attempt), -1);
 }
 
-static void after_hook(pl_tape *self, plumb_world *world)
+static void after_hook(pl_step_observer *self, plumb_world *world)
 {
     plumb_replay *replay = (plumb_replay *)self;
     pl_replay_play(replay, pl_edit_mark(PLUMB_PHASE_END, world->quarantine.attempt), replay->hooks);
     replay->hooks += replay->hooks < PL_HOOKS_MOST;
 }
 
-static void after_pass(pl_tape *self, plumb_world *world, int pass)
+static void after_pass(pl_step_observer *self, plumb_world *world, int pass)
 {
     plumb_replay *replay = (plumb_replay *)self;
     if (replay->look != NULL) {
@@ -78,10 +78,10 @@ static plumb_result make_world(plumb_replay *replay)
                                     .hook_context = d->hook_context };
     plumb_result r = plumb_world_create(&desc, &replay->world);
     if (r == PLUMB_OK) {
-        replay->tape = (pl_tape){
+        replay->observer = (pl_step_observer){
             .replays = true, .after = after_systems, .dropped = after_hook, .passed = after_pass
         };
-        replay->world->tape = &replay->tape;
+        replay->world->observer = &replay->observer;
         replay->code = UINT32_MAX;
     }
     return r;
@@ -247,7 +247,7 @@ static plumb_result take_step(plumb_replay *replay, const char *fn)
     replay->playing = pl_index_step(&replay->index, replay->step);
     plumb_result r = play_head(replay, fn);
     if (r == PLUMB_OK) {
-        after_pass(&replay->tape, replay->world, -1);
+        after_pass(&replay->observer, replay->world, -1);
         r = plumb_world_step(replay->world, (plumb_real)head.dt);
         r = r != PLUMB_OK ? r : replay->failed;
     }

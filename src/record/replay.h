@@ -6,7 +6,7 @@
 #include "plumb/snapshot.h"
 
 #include "record/index.h"
-#include "step/tape.h"
+#include "step/observer.h"
 
 typedef struct pl_played_image {
     pl_buffer buffer;
@@ -14,7 +14,7 @@ typedef struct pl_played_image {
 } pl_played_image;
 
 struct plumb_replay {
-    pl_tape tape; // first: its world knows it by that
+    pl_step_observer observer; // first: its world knows it by that
     plumb_replay_desc desc;
     pl_memory memory;
     pl_index index;

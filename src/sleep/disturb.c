@@ -22,8 +22,8 @@ static void make_due(plumb_world *world, uint32_t island)
 
 static void wake_contacts(plumb_world *world, uint32_t piece)
 {
-    const pl_dormant *all = pl_dormants(&world->sleep);
-    for (uint32_t c = world->pieces.first_dormant[piece]; c != PL_NONE; c = all[c].fixed_next) {
+    const pl_sleeping_contact *all = pl_sleeping_contacts(&world->sleep);
+    for (uint32_t c = world->pieces.first_sleeping[piece]; c != PL_NONE; c = all[c].fixed_next) {
         make_due(world, all[c].island);
     }
 }
@@ -37,7 +37,7 @@ static void note_immovable(plumb_world *world, uint32_t row)
 void pl_sleep_stir(plumb_world *world, uint32_t row)
 {
     pl_bodies *b = &world->bodies;
-    b->looked[row] = PL_UNSEEN;
+    b->rest_time[row] = PL_NOT_RESTING;
     if (b->island[row] != PL_NONE) {
         make_due(world, b->island[row]);
     }
@@ -83,18 +83,18 @@ void pl_sleep_disturb_all(plumb_world *world)
         }
     }
     for (uint32_t row = 0; row < world->dynamic_count; ++row) {
-        world->bodies.looked[row] = PL_UNSEEN;
+        world->bodies.rest_time[row] = PL_NOT_RESTING;
     }
 }
 
 void pl_sleep_void_contacts(plumb_world *world, uint32_t piece)
 {
     wake_contacts(world, piece);
-    pl_dormant *all = pl_dormants(&world->sleep);
-    for (uint32_t c = world->pieces.first_dormant[piece]; c != PL_NONE; c = all[c].fixed_next) {
+    pl_sleeping_contact *all = pl_sleeping_contacts(&world->sleep);
+    for (uint32_t c = world->pieces.first_sleeping[piece]; c != PL_NONE; c = all[c].fixed_next) {
         all[c].fixed = PL_NONE;
     }
-    world->pieces.first_dormant[piece] = PL_NONE;
+    world->pieces.first_sleeping[piece] = PL_NONE;
 }
 
 // Its fat box is emptied: whoever files it will find that it was moved.

@@ -8,8 +8,8 @@
 //
 // Islands are looked for eight times in sleep_time, by the world's clock, so that none falls
 // asleep sooner or later for what others do, and only when some body has rested for sleep_time:
-// union-find with path halving (Tarjan 1983) over the bodies that are ripe, by the contacts of
-// this step and the joints. A contact or joint of a ripe body with one that is not, or with a
+// union-find with path halving (Tarjan 1983) over the bodies that are candidates, by the contacts of
+// this step and the joints. A contact or joint of a candidate with one that is not, or with a
 // kinematic one that moves, holds its island awake.
 //
 // What falls asleep is taken out of pair list and manifolds, of which it is the last to see this
@@ -32,11 +32,12 @@ static real square(real v)
     return v * v;
 }
 
-// Rested for two looks, half of sleep_time each.
-static bool is_ripe(const plumb_world *world, uint32_t row)
+// Rested for two samples, half of sleep_time each.
+static bool is_candidate(const plumb_world *world, uint32_t row)
 {
     const pl_bodies *b = &world->bodies;
-    return b->looks[row] >= 2 && b->looked[row] >= 0 && (b->flags[row] & PL_BODY_NO_SLEEP) == 0;
+    return b->rest_samples[row] >= 2 && b->rest_time[row] >= 0 &&
+           (b->flags[row] & PL_BODY_NO_SLEEP) == 0;
 }
 
 // A system may have written a force of which nothing is to be seen yet.
@@ -46,33 +47,33 @@ static bool is_pushed(const plumb_world *world, uint32_t row)
     return b->fx[row] != 0 || b->fy[row] != 0 || b->torque[row] != 0;
 }
 
-static void look_from_here(pl_bodies *b, uint32_t row)
+static void begin_sample(pl_bodies *b, uint32_t row)
 {
-    b->looked[row] = 0;
-    b->look_x[row] = b->center_x[row];
-    b->look_y[row] = b->center_y[row];
-    b->look_c[row] = b->c[row];
-    b->look_s[row] = b->s[row];
+    b->rest_time[row] = 0;
+    b->rest_x[row] = b->center_x[row];
+    b->rest_y[row] = b->center_y[row];
+    b->rest_c[row] = b->c[row];
+    b->rest_s[row] = b->s[row];
 }
 
-// Half of sleep_time after the last look: compares the way since with the one before.
-static void look_at(plumb_world *world, uint32_t row)
+// Half of sleep_time after the last sample: compares the way since with the one before.
+static void take_sample(plumb_world *world, uint32_t row)
 {
     pl_bodies *b = &world->bodies;
-    real x = b->center_x[row] - b->look_x[row], y = b->center_y[row] - b->look_y[row];
-    real turn = b->s[row] * b->look_c[row] - b->c[row] * b->look_s[row];
-    real change = square(x - b->way_x[row]) + square(y - b->way_y[row]) +
-                  square((turn - b->way_turn[row]) * b->extent[row]);
+    real x = b->center_x[row] - b->rest_x[row], y = b->center_y[row] - b->rest_y[row];
+    real turn = b->s[row] * b->rest_c[row] - b->c[row] * b->rest_s[row];
+    real change = square(x - b->rest_dx[row]) + square(y - b->rest_dy[row]) +
+                  square((turn - b->rest_turn[row]) * b->extent[row]);
     real even = EVEN * world->desc.sleep_speed * world->desc.sleep_time;
-    bool first = b->looks[row] == 0;
-    b->looks[row] = first || change > square(even) ? 1 : 2;
-    b->way_x[row] = x;
-    b->way_y[row] = y;
-    b->way_turn[row] = turn;
-    look_from_here(b, row);
-    if (is_ripe(world, row)) {
+    bool first = b->rest_samples[row] == 0;
+    b->rest_samples[row] = first || change > square(even) ? 1 : 2;
+    b->rest_dx[row] = x;
+    b->rest_dy[row] = y;
+    b->rest_turn[row] = turn;
+    begin_sample(b, row);
+    if (is_candidate(world, row)) {
         // Until it has been looked at again, and more.
-        world->sleep.ripe_for = world->desc.sleep_time;
+        world->sleep.candidate_in = world->desc.sleep_time;
     }
 }
 
@@ -81,21 +82,21 @@ static void look_at(plumb_world *world, uint32_t row)
 // `a` where the mask is set, else `b`.
 #define EITHER(mask, a, b) ((pl_quad)(((mask) & (pl_quad_mask)(a)) | (~(mask) & (pl_quad_mask)(b))))
 
-// The time of each row goes on, begins (0) or is void. True when one begins, or a look is due.
+// The time of each row goes on, begins (0) or is void. True when one begins, or a sample is due.
 static bool go_on(const pl_bodies *b, uint32_t count, real slow, real half, real passed)
 {
     const pl_quad *vx = (const pl_quad *)b->vx, *vy = (const pl_quad *)b->vy,
                   *w = (const pl_quad *)b->w;
     const pl_quad *extent = (const pl_quad *)b->extent;
-    pl_quad *looked = (pl_quad *)b->looked;
-    const pl_quad zero = { 0 }, unseen = zero + PL_UNSEEN;
+    pl_quad *rest_time = (pl_quad *)b->rest_time;
+    const pl_quad zero = { 0 }, not_resting = zero + PL_NOT_RESTING;
     pl_quad_mask due = { 0 };
     for (uint32_t i = 0; i < (count + 3) / 4; ++i) {
         pl_quad tip = w[i] * extent[i];
         pl_quad speed = vx[i] * vx[i] + vy[i] * vy[i] + tip * tip;
-        pl_quad time = EITHER(looked[i] < zero, zero, looked[i] + passed);
-        time = EITHER(speed <= zero + slow, time, unseen);
-        looked[i] = time;
+        pl_quad time = EITHER(rest_time[i] < zero, zero, rest_time[i] + passed);
+        time = EITHER(speed <= zero + slow, time, not_resting);
+        rest_time[i] = time;
         due |= (time == zero) | (time >= zero + half);
     }
     return (due[0] | due[1] | due[2] | due[3]) != 0;
@@ -110,11 +111,11 @@ static void time_bodies(plumb_world *world, real passed)
         return;
     }
     for (uint32_t row = 0; row < world->dynamic_count; ++row) {
-        if (b->looked[row] >= half) {
-            look_at(world, row);
-        } else if (b->looked[row] == 0) {
-            look_from_here(b, row);
-            b->looks[row] = 0;
+        if (b->rest_time[row] >= half) {
+            take_sample(world, row);
+        } else if (b->rest_time[row] == 0) {
+            begin_sample(b, row);
+            b->rest_samples[row] = 0;
         }
     }
 }
@@ -127,11 +128,12 @@ static void time_unsettled(plumb_world *world)
     const real slow = square(world->desc.sleep_speed);
     for (uint32_t row = 0; row < (world->dynamic_count + 3) / 4 * 4; ++row) { // as go_on does
         const real tip = b->w[row] * b->extent[row];
-        if (b->looked[row] < 0 && square(b->vx[row]) + square(b->vy[row]) + square(tip) <= slow) {
-            b->looked[row] = 0;
+        if (b->rest_time[row] < 0 &&
+            square(b->vx[row]) + square(b->vy[row]) + square(tip) <= slow) {
+            b->rest_time[row] = 0;
             if (row < world->dynamic_count) {
-                look_from_here(b, row);
-                b->looks[row] = 0;
+                begin_sample(b, row);
+                b->rest_samples[row] = 0;
             }
         }
     }
@@ -167,7 +169,7 @@ static void unsettle_around_changed(plumb_world *world, uint32_t pair_count)
     for (uint32_t i = 0; i < pair_count; ++i) {
         uint32_t r = pairs[i].body_a, q = pairs[i].body_b;
         if (is_linked(&pairs[i]) && (b->changed_step[r] == now || b->changed_step[q] == now)) {
-            b->looked[r] = b->looked[q] = PL_UNSEEN;
+            b->rest_time[r] = b->rest_time[q] = PL_NOT_RESTING;
         }
     }
 }
@@ -265,7 +267,7 @@ static uint32_t find_sleepers(plumb_world *world, uint32_t pair_count)
     uint32_t *parents = world->sleep.parents.data, count = 0;
     uint8_t *held = world->sleep.held.data;
     for (uint32_t row = 0; row < world->dynamic_count; ++row) {
-        parents[row] = is_ripe(world, row) && !is_pushed(world, row) ? row : PL_NONE;
+        parents[row] = is_candidate(world, row) && !is_pushed(world, row) ? row : PL_NONE;
         held[row] = 0;
         count += parents[row] != PL_NONE;
     }
@@ -317,7 +319,7 @@ static bool reserve_islands(plumb_world *world, uint32_t pair_count, uint32_t bo
         contacts += is_linked(&pairs[i]) && island_of(world, &pairs[i]) != PL_NONE;
     }
     size_t events = ((size_t)s->sleep_event_count + bodies) * sizeof(plumb_body);
-    size_t places = world->seams.pair_count > 0 ? pair_count * sizeof(uint32_t) : 0;
+    size_t places = world->internal_edges.pair_count > 0 ? pair_count * sizeof(uint32_t) : 0;
     return pl_islands_reserve(world, islands, contacts) &&
            pl_buffer_reserve(&world->memory, &s->places, places) &&
            pl_buffer_reserve(&world->memory, &s->sleep_events, events);
@@ -333,7 +335,7 @@ static void take_out_pairs(plumb_world *world, uint32_t pair_count, bool steps)
     pl_manifold *m = pl_manifolds(narrow);
     const uint8_t *kind = world->pieces.kind;
     const uint32_t own = narrow->manifold_count, all = own + narrow->borne_count;
-    uint32_t *places = world->seams.pair_count > 0 ? world->sleep.places.data : NULL;
+    uint32_t *places = world->internal_edges.pair_count > 0 ? world->sleep.places.data : NULL;
     uint32_t kept = 0, kept_manifolds = 0, taken[PL_PIECE_KIND_COUNT][PL_PIECE_KIND_COUNT] = { 0 };
     for (uint32_t i = 0; i < pair_count; ++i) {
         pl_pair *pair = &pairs[i];
@@ -369,7 +371,7 @@ static void take_out_pairs(plumb_world *world, uint32_t pair_count, bool steps)
     narrow->manifold_count = kept_manifolds;
     narrow->ends_stale = true; // rows move next
     if (places != NULL) {
-        pl_seams_follow(world, places, own);
+        pl_internal_edges_follow(world, places, own);
     }
     pl_narrow_summarise(narrow);
 }
@@ -440,7 +442,7 @@ bool pl_sleep_fall(plumb_world *world, real dt)
     if (s->timed_step != step) {
         s->timed_step = step;
         s->since += s->passed;
-        s->ripe_for -= s->passed;
+        s->candidate_in -= s->passed;
         time_bodies(world, s->passed);
         s->passed = dt;
         world->quarantine.since = s->since;
@@ -451,7 +453,7 @@ bool pl_sleep_fall(plumb_world *world, real dt)
     if (s->since * LOOKS < world->desc.sleep_time) {
         return true;
     }
-    if (s->ripe_for <= 0) {
+    if (s->candidate_in <= 0) {
         s->since = 0;
         return true;
     }

@@ -27,7 +27,7 @@ bool pl_islands_reserve(plumb_world *world, uint32_t islands, uint32_t contacts)
     return reserve_slots(&world->memory, &s->islands, s->island_slots, s->island_count, islands,
                          sizeof(pl_island)) &&
            reserve_slots(&world->memory, &s->contacts, s->contact_slots, s->contact_count, contacts,
-                         sizeof(pl_dormant));
+                         sizeof(pl_sleeping_contact));
 }
 
 void pl_sleep_free(pl_memory *memory, pl_sleep *s)
@@ -102,7 +102,7 @@ void pl_island_remove(plumb_world *world, uint32_t row)
 
 //---- contacts ------------------------------------------------------------------------------------
 
-bool pl_dormant_is_intact(const plumb_world *world, const pl_dormant *c)
+bool pl_sleeping_contact_is_intact(const plumb_world *world, const pl_sleeping_contact *c)
 {
     const pl_pieces *p = &world->pieces;
     uint32_t serial = pl_islands(&world->sleep)[c->island].serial;
@@ -122,9 +122,9 @@ static uint32_t fixed_piece(const plumb_world *world, const pl_pair *pair)
 
 static void link_to_piece(plumb_world *world, uint32_t slot)
 {
-    pl_dormant *all = pl_dormants(&world->sleep), *c = &all[slot];
+    pl_sleeping_contact *all = pl_sleeping_contacts(&world->sleep), *c = &all[slot];
     if (c->fixed != PL_NONE) {
-        uint32_t *first = &world->pieces.first_dormant[c->fixed];
+        uint32_t *first = &world->pieces.first_sleeping[c->fixed];
         c->fixed_previous = PL_NONE;
         c->fixed_next = *first;
         if (*first != PL_NONE) {
@@ -134,14 +134,14 @@ static void link_to_piece(plumb_world *world, uint32_t slot)
     }
 }
 
-static void unlink_from_piece(plumb_world *world, const pl_dormant *c)
+static void unlink_from_piece(plumb_world *world, const pl_sleeping_contact *c)
 {
-    pl_dormant *all = pl_dormants(&world->sleep);
+    pl_sleeping_contact *all = pl_sleeping_contacts(&world->sleep);
     if (c->fixed == PL_NONE) {
         return;
     }
     if (c->fixed_previous == PL_NONE) {
-        world->pieces.first_dormant[c->fixed] = c->fixed_next;
+        world->pieces.first_sleeping[c->fixed] = c->fixed_next;
     } else {
         all[c->fixed_previous].fixed_next = c->fixed_next;
     }
@@ -158,12 +158,12 @@ void pl_island_keep(plumb_world *world, uint32_t island, const pl_pair *pair,
     uint32_t slot = s->contact_slots;
     if (s->contact_count < s->contact_slots) {
         slot = s->free_contact;
-        s->free_contact = pl_dormants(s)[slot].next;
+        s->free_contact = pl_sleeping_contacts(s)[slot].next;
     } else {
         ++s->contact_slots;
     }
     ++s->contact_count;
-    pl_dormant *c = &pl_dormants(s)[slot];
+    pl_sleeping_contact *c = &pl_sleeping_contacts(s)[slot];
     memset(c, 0, sizeof *c); // padding, too: images of equal worlds have equal bytes
     c->pair = *pair;
     c->pair.manifold = pair->manifold != PL_NONE ? 0 : PL_NONE; // of a step that is over
@@ -172,7 +172,7 @@ void pl_island_keep(plumb_world *world, uint32_t island, const pl_pair *pair,
     c->island = island;
     c->next = i->first_contact;
     c->fixed = fixed_piece(world, pair);
-    // A blow that lasted is over.
+    // A hit that lasted is over.
     c->pair.flags &= PL_PAIR_TOUCHING;
     if (manifold != NULL) {
         pl_manifold *m = steps ? &c->manifold : &c->last;
@@ -195,7 +195,7 @@ static void still_row(plumb_world *world, uint32_t row)
 {
     pl_bodies *b = &world->bodies;
     b->vx[row] = b->vy[row] = b->w[row] = 0;
-    b->low_vx[row] = b->low_vy[row] = 0;
+    b->residual_vx[row] = b->residual_vy[row] = 0;
     b->fx[row] = b->fy[row] = b->torque[row] = 0;
     pl_poses(world)[row].vx = pl_poses(world)[row].vy = 0;
 }
@@ -213,7 +213,7 @@ void pl_island_close(plumb_world *world, uint32_t island)
 {
     pl_sleep *s = &world->sleep;
     pl_island *i = &pl_islands(s)[island];
-    pl_dormant *all = pl_dormants(s);
+    pl_sleeping_contact *all = pl_sleeping_contacts(s);
     for (uint32_t slot = i->first_contact; slot != PL_NONE;) {
         uint32_t next = all[slot].next;
         unlink_from_piece(world, &all[slot]);
@@ -261,7 +261,7 @@ uint32_t pl_sleep_put_down(plumb_world *world, uint32_t row)
 uint32_t pl_sleep_take_up(plumb_world *world, uint32_t row)
 {
     pl_bodies *b = &world->bodies;
-    b->looked[row] = PL_UNSEEN;
+    b->rest_time[row] = PL_NOT_RESTING;
     for (uint32_t p = b->first_piece[row]; p != PL_NONE; p = world->pieces.next_in_body[p]) {
         pl_piece_move(world, p);
     }

@@ -5,11 +5,11 @@
 #include "narrow/manifold.h"
 #include "plumb/sleep.h"
 
-#define PL_UNSEEN                                                                                  \
-    ((real)-1) // pl_bodies.looked of a body that moves or was changed: it rests from anew
+#define PL_NOT_RESTING                                                                             \
+    ((real)-1) // pl_bodies.rest_time of a body that moves or was changed: it rests from anew
 
 // A contact of a sleeping body, kept for when it wakes and for those who ask meanwhile.
-typedef struct pl_dormant {
+typedef struct pl_sleeping_contact {
     pl_pair pair;         // with impulses, features and flags; its rows mean nothing
     pl_manifold manifold; // as of when it fell asleep, if `whole`
     bool whole;           // it had a manifold; else only its end event is still due
@@ -20,14 +20,14 @@ typedef struct pl_dormant {
     // Put to sleep by a call: as of the step before, until the world is restored. Not saved.
     pl_manifold last;
     bool recalled;
-} pl_dormant;
+} pl_sleeping_contact;
 
 // Bodies that sleep together: whatever wakes one wakes all.
 typedef struct pl_island {
     uint32_t first_body; // registry slot; the list runs through the body rows
     uint32_t last_body;
     uint32_t body_count;    // 0: a free slot, whose first_body is the next one
-    uint32_t first_contact; // dormant contacts
+    uint32_t first_contact; // sleeping contacts
     uint32_t serial;        // newest piece when it fell asleep: contacts of younger ones are void
     bool due;               // it wakes in the next step
     uint32_t next_due;      // list of those
@@ -42,7 +42,7 @@ typedef struct pl_sleep {
     // Islands asleep and their contacts, in slots.
     pl_buffer islands; // pl_island
     uint32_t island_slots, island_count, free_island;
-    pl_buffer contacts; // pl_dormant
+    pl_buffer contacts; // pl_sleeping_contact
     uint32_t contact_slots, contact_count, free_contact;
     uint32_t first_due; // islands that are due; PL_NONE: none
 
@@ -69,9 +69,9 @@ typedef struct pl_sleep {
     uint64_t timed_step;   // step count + 1 when bodies were last timed: a step may be tried again
     uint64_t changed_step; // likewise: something immovable was changed
     uint64_t tested_step;  // likewise: pairs were made or looked up
-    real since;            // [s] since islands were last looked for, or nobody was ripe
+    real since;            // [s] since islands were last looked for, or nobody was a candidate
     real passed;           // [s] the last step
-    real ripe_for;         // [s] for so long, some body may have rested long enough
+    real candidate_in;     // [s] for so long, some body may have rested long enough
     pl_buffer parents;     // uint32_t a row
     pl_buffer held;        // uint8_t a row: something keeps its island awake
     pl_buffer places;      // uint32_t a pair: where in the list it is afterwards; PL_NONE: asleep
@@ -87,9 +87,9 @@ static inline pl_island *pl_islands(const pl_sleep *sleep)
     return (pl_island *)sleep->islands.data;
 }
 
-static inline pl_dormant *pl_dormants(const pl_sleep *sleep)
+static inline pl_sleeping_contact *pl_sleeping_contacts(const pl_sleep *sleep)
 {
-    return (pl_dormant *)sleep->contacts.data;
+    return (pl_sleeping_contact *)sleep->contacts.data;
 }
 
 static inline uint32_t *pl_resting(const pl_sleep *sleep)
@@ -150,7 +150,7 @@ void pl_island_close(plumb_world *world, uint32_t island);
 // It is not due any more, and nothing pushes its bodies.
 void pl_island_calm(plumb_world *world, uint32_t island);
 // Both pieces of a contact are those that it was made for.
-bool pl_dormant_is_intact(const plumb_world *world, const pl_dormant *contact);
+bool pl_sleeping_contact_is_intact(const plumb_world *world, const pl_sleeping_contact *contact);
 
 // Moves the body of a row between the partitions, and its pieces between lists. At most two other
 // rows move. Returns the new row.

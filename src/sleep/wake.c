@@ -292,7 +292,7 @@ static bool mark_neighbours(plumb_world *world, real dt)
 static bool list_woken(plumb_world *world, pl_by_kinds first, pl_by_kinds size, uint32_t *bodies)
 {
     pl_sleep *s = &world->sleep;
-    const pl_dormant *all = pl_dormants(s);
+    const pl_sleeping_contact *all = pl_sleeping_contacts(s);
     const uint8_t *kind = world->pieces.kind;
     const uint32_t *marked = s->marked.data;
     pl_by_kinds at;
@@ -303,7 +303,7 @@ static bool list_woken(plumb_world *world, pl_by_kinds first, pl_by_kinds size, 
         const pl_island *island = &pl_islands(s)[marked[i]];
         *bodies += island->body_count;
         for (uint32_t c = island->first_contact; c != PL_NONE; c = all[c].next) {
-            if (pl_dormant_is_intact(world, &all[c])) {
+            if (pl_sleeping_contact_is_intact(world, &all[c])) {
                 ++size[kind[all[c].pair.a]][kind[all[c].pair.b]];
             }
         }
@@ -320,7 +320,7 @@ static bool list_woken(plumb_world *world, pl_by_kinds first, pl_by_kinds size, 
     pl_keyed *woken = s->woken.data;
     for (uint32_t i = 0; i < s->marked_count; ++i) {
         for (uint32_t c = pl_islands(s)[marked[i]].first_contact; c != PL_NONE; c = all[c].next) {
-            if (pl_dormant_is_intact(world, &all[c])) {
+            if (pl_sleeping_contact_is_intact(world, &all[c])) {
                 uint32_t *to = &at[kind[all[c].pair.a]][kind[all[c].pair.b]];
                 woken[(*to)++] = (pl_keyed){ pl_pair_key(all[c].pair.a, all[c].pair.b), 0, c };
             }
@@ -338,7 +338,7 @@ static bool list_woken(plumb_world *world, pl_by_kinds first, pl_by_kinds size, 
 
 static pl_pair woken_pair(const pl_sleep *s, const pl_keyed *woken)
 {
-    const pl_dormant *c = &pl_dormants(s)[woken->value];
+    const pl_sleeping_contact *c = &pl_sleeping_contacts(s)[woken->value];
     return c->pair; // its manifold is not one of this step, but tells whether it had one
 }
 

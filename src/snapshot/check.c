@@ -74,8 +74,8 @@ static uint32_t count_of(const plumb_world *w, uint32_t of)
     const uint32_t counts[] = {
         [PL_OF_BODIES] = w->bodies.table.count,       [PL_OF_PIECES] = w->pieces.table.count,
         [PL_OF_MATERIALS] = w->materials.table.count, [PL_OF_JOINTS] = w->joints.count,
-        [PL_OF_CHARACTERS] = w->characters.count,     [PL_OF_TUNINGS] = w->tunings.count,
-        [PL_OF_ISLANDS] = w->sleep.island_slots,      [PL_OF_DORMANTS] = w->sleep.contact_slots
+        [PL_OF_CHARACTERS] = w->characters.count,     [PL_OF_SETTINGS] = w->settings.count,
+        [PL_OF_ISLANDS] = w->sleep.island_slots,      [PL_OF_SLEEPING] = w->sleep.contact_slots
     };
     return counts[of];
 }
@@ -247,6 +247,6 @@ bool pl_parts_are_sound(plumb_world *world, const pl_image_part *parts, bool *st
     memset(s->marks, 0, room);
     return check_sections(s) && check_values(s) && pl_check_registry(s) && pl_check_bodies(s) &&
            pl_check_pieces(s) && pl_check_materials(s) && pl_check_joints(s) && pl_check_sleep(s) &&
-           pl_check_contacts(s) && pl_check_seams(s) && pl_check_extras(s) &&
+           pl_check_contacts(s) && pl_check_internal_edges(s) && pl_check_extras(s) &&
            check_components(s, parts + fixed);
 }

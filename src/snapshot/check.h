@@ -25,10 +25,10 @@ static inline const pl_island *pl_suspect_island(const pl_suspect *s, uint32_t i
                                              i * PL_SAVED_BYTES(pl_island));
 }
 
-static inline const pl_dormant *pl_suspect_dormant(const pl_suspect *s, uint32_t i)
+static inline const pl_sleeping_contact *pl_suspect_sleeping(const pl_suspect *s, uint32_t i)
 {
-    return (const pl_dormant *)(const void *)((const char *)s->world.sleep.contacts.data +
-                                              i * PL_SAVED_BYTES(pl_dormant));
+    return (const pl_sleeping_contact *)(const void *)((const char *)s->world.sleep.contacts.data +
+                                                       i * PL_SAVED_BYTES(pl_sleeping_contact));
 }
 
 // The body row of a live handle, PL_NONE: it is none.
@@ -52,7 +52,7 @@ bool pl_check_materials(pl_suspect *s);
 bool pl_check_joints(pl_suspect *s);
 bool pl_check_sleep(pl_suspect *s);
 bool pl_check_contacts(pl_suspect *s);
-bool pl_check_seams(pl_suspect *s);
-bool pl_check_extras(pl_suspect *s); // characters, tunings, targets, tables, counters
+bool pl_check_internal_edges(pl_suspect *s);
+bool pl_check_extras(pl_suspect *s); // characters, settings, targets, tables, counters
 
 #endif

@@ -3,8 +3,8 @@
 // Reads: the image. Writes: marks. Cost: O(state).
 #include "snapshot/check.h"
 #include "broad/pairs.h"
-#include "seams/cone.h"
-#include "seams/seams.h"
+#include "internal_edges/cone.h"
+#include "internal_edges/internal_edges.h"
 #include "world/rows.h"
 
 #include <string.h>
@@ -13,29 +13,30 @@
 #define CHECK_NEAR(path)  pl_are_near_reals(&(path), sizeof(path) / (sizeof(near_real)))
 #define CHECK_BOOL(path)  pl_are_bools(&(path), 1)
 
-//---- seams ---------------------------------------------------------------------------------------
+//---- internal edges ---------------------------------------------------------------------------------------
 
-static bool check_seam(const pl_seams *s, const pl_seam *c, bool partly)
+static bool check_internal_edge(const pl_internal_edges *s, const pl_edge *c, bool partly)
 {
     return CHECK_BOOL(c->flat) && CHECK_REALS(c->lo_x) && CHECK_REALS(c->lo_y) &&
            CHECK_REALS(c->hi_x) && CHECK_REALS(c->hi_y) && CHECK_REALS(c->walls) &&
            CHECK_REALS(c->slop) && c->form <= PL_CONE_ENDS && c->ends[0] <= PL_END_INNER &&
            c->ends[1] <= PL_END_INNER &&
-           (!partly || (c->span_count > 0 && c->spans < s->span_used &&
-                        c->span_count <= s->span_used - c->spans &&
-                        pl_are_reals(pl_seam_spans(s) + c->spans, (size_t)c->span_count * 2)));
+           (!partly ||
+            (c->interval_count > 0 && c->intervals < s->interval_used &&
+             c->interval_count <= s->interval_used - c->intervals &&
+             pl_are_reals(pl_edge_intervals(s) + c->intervals, (size_t)c->interval_count * 2)));
 }
 
-static bool check_piece_seams(const plumb_world *w, uint32_t p)
+static bool check_piece_internal_edges(const plumb_world *w, uint32_t p)
 {
     const pl_pieces *pieces = &w->pieces;
-    const pl_seams *s = &w->seams;
-    const uint32_t corners = pieces->seam_corners[p], edges = pieces->seam_edges[p];
+    const pl_internal_edges *s = &w->internal_edges;
+    const uint32_t corners = pieces->internal_corners[p], edges = pieces->internal_edges[p];
     const uint32_t count = pieces->vertex_count[p], known = (UINT32_C(1) << count) - 1;
-    const bool has = (corners & PL_SEAM_HAS) != 0;
-    if ((corners & PL_SEAM_CHOSEN) != 0 || (corners & PL_SEAM_CORNERS & ~known) != 0 ||
+    const bool has = (corners & PL_EDGE_ANY) != 0;
+    if ((corners & PL_EDGE_CHOSEN) != 0 || (corners & PL_EDGE_CORNERS & ~known) != 0 ||
         (edges & ~(known | known << 16)) != 0 || (!has && edges != 0) ||
-        (!has && (corners & PL_SEAM_CORNERS) != 0)) {
+        (!has && (corners & PL_EDGE_CORNERS) != 0)) {
         return false;
     }
     if (has &&
@@ -43,34 +44,34 @@ static bool check_piece_seams(const plumb_world *w, uint32_t p)
         return false;
     }
     for (uint32_t k = 0; has && k < count; ++k) {
-        if (!check_seam(s, &pl_seam_items(s)[pieces->vertices[p] + k],
-                        (edges & PL_SEAM_PARTLY(k)) != 0)) {
+        if (!check_internal_edge(s, &pl_edge_items(s)[pieces->vertices[p] + k],
+                                 (edges & PL_EDGE_PARTLY(k)) != 0)) {
             return false;
         }
     }
     return true;
 }
 
-// Free runs of spans; the link to the next lies in the bytes of the first one.
-static bool check_spans(const pl_seams *s)
+// Free runs of intervals; the link to the next lies in the bytes of the first one.
+static bool check_intervals(const pl_internal_edges *s)
 {
-    for (uint32_t c = 0; c < PL_SPAN_CLASSES; ++c) {
+    for (uint32_t c = 0; c < PL_INTERVAL_CLASSES; ++c) {
         uint32_t steps = 0;
-        for (uint32_t i = s->span_free[c]; i != 0;) {
+        for (uint32_t i = s->interval_free[c]; i != 0;) {
             const uint64_t end = (uint64_t)(i - 1) + (UINT64_C(1) << c);
-            if (end > s->span_used || steps++ == s->span_used) {
+            if (end > s->interval_used || steps++ == s->interval_used) {
                 return false;
             }
-            memcpy(&i, pl_seam_spans(s) + (i - 1), sizeof i);
+            memcpy(&i, pl_edge_intervals(s) + (i - 1), sizeof i);
         }
     }
     return true;
 }
 
-static bool check_seam_lists(const plumb_world *w)
+static bool check_internal_edge_lists(const plumb_world *w)
 {
-    const pl_seams *s = &w->seams;
-    const pl_seam_pair *pairs = s->pairs.data;
+    const pl_internal_edges *s = &w->internal_edges;
+    const pl_edge_pair *pairs = s->pairs.data;
     const pl_run_load *loads = s->loads.data;
     // Else they are listed anew before anyone looks, and pairs as well.
     const bool fresh =
@@ -95,18 +96,19 @@ static bool check_seam_lists(const plumb_world *w)
     return pl_are_reals(s->regions.data, (size_t)s->region_count * 4);
 }
 
-bool pl_check_seams(pl_suspect *s)
+bool pl_check_internal_edges(pl_suspect *s)
 {
     const plumb_world *w = &s->world;
     uint32_t have = 0;
     for (uint32_t p = 0; p < w->pieces.table.count; ++p) {
         const bool is_free = w->pieces.kind[p] == PL_PIECE_FREE;
-        if (is_free ? w->pieces.seam_corners[p] != 0 : !check_piece_seams(w, p)) {
+        if (is_free ? w->pieces.internal_corners[p] != 0 : !check_piece_internal_edges(w, p)) {
             return false;
         }
-        have += (w->pieces.seam_corners[p] & PL_SEAM_HAS) != 0;
+        have += (w->pieces.internal_corners[p] & PL_EDGE_ANY) != 0;
     }
-    return have == w->seams.count && check_spans(&w->seams) && check_seam_lists(w);
+    return have == w->internal_edges.count && check_intervals(&w->internal_edges) &&
+           check_internal_edge_lists(w);
 }
 
 //---- characters ----------------------------------------------------------------------------------
@@ -151,23 +153,23 @@ static bool check_character(const pl_suspect *s, const pl_character *c, uint32_t
 
 //---- the rest ------------------------------------------------------------------------------------
 
-static bool check_tuning(const pl_suspect *s, const pl_tuning *t, uint32_t i)
+static bool check_settings_of(const pl_suspect *s, const pl_body_settings *t, uint32_t i)
 {
     const uint32_t row = pl_suspect_row(s, t->body);
-    return row != PL_NONE && s->world.bodies.tuning[row] == i + 1 && t->damping >= 0 &&
+    return row != PL_NONE && s->world.bodies.settings[row] == i + 1 && t->damping >= 0 &&
            t->angular_damping >= 0 && t->max_speed >= 0 && t->max_spin >= 0 && t->time_scale >= 0 &&
            t->time_scale <= 100 && CHECK_REALS(t->damping) && CHECK_REALS(t->angular_damping) &&
            CHECK_REALS(t->max_speed) && CHECK_REALS(t->max_spin) && CHECK_REALS(t->ax) &&
            CHECK_REALS(t->ay) && CHECK_REALS(t->aw);
 }
 
-static bool check_tunings(const pl_suspect *s)
+static bool check_settings(const pl_suspect *s)
 {
-    const pl_tunings *all = &s->world.tunings;
-    const pl_tuning *items = all->items.data;
+    const pl_body_settings_list *all = &s->world.settings;
+    const pl_body_settings *items = all->items.data;
     uint32_t damped = 0, capped = 0, scaled = 0, frozen = 0;
     for (uint32_t i = 0; i < all->count; ++i) {
-        if (!check_tuning(s, &items[i], i)) {
+        if (!check_settings_of(s, &items[i], i)) {
             return false;
         }
         damped += items[i].damping > 0 || items[i].angular_damping > 0;
@@ -201,15 +203,16 @@ static bool check_targets(const pl_suspect *s)
 // Bodies that say that they have a record have one: as many as there are records.
 static bool check_records(const plumb_world *w)
 {
-    uint32_t characters = 0, tuned = 0;
+    uint32_t characters = 0, has_settings = 0;
     for (uint32_t row = 0; row < w->bodies.table.count; ++row) {
         characters += w->bodies.character[row] != 0;
-        tuned += w->bodies.tuning[row] != 0;
-        if (((w->bodies.flags[row] & PL_BODY_TUNED) != 0) != (w->bodies.tuning[row] != 0)) {
+        has_settings += w->bodies.settings[row] != 0;
+        if (((w->bodies.flags[row] & PL_BODY_HAS_SETTINGS) != 0) !=
+            (w->bodies.settings[row] != 0)) {
             return false;
         }
     }
-    return characters == w->characters.count && tuned == w->tunings.count;
+    return characters == w->characters.count && has_settings == w->settings.count;
 }
 
 static bool check_excluded(const plumb_world *w)
@@ -232,7 +235,7 @@ bool pl_check_extras(pl_suspect *s)
             return false;
         }
     }
-    return check_records(w) && check_tunings(s) && check_targets(s) && check_excluded(w) &&
+    return check_records(w) && check_settings(s) && check_targets(s) && check_excluded(w) &&
            pl_commands_are_sound(s->like, &w->registry, w->commands.bytes.data, w->commands.used,
                                  w->commands.count);
 }

@@ -1,11 +1,11 @@
-// check_links.c - see check.h: what ties rows together: joints, islands asleep, contacts, seams, and the lists of
+// check_links.c - see check.h: what ties rows together: joints, islands asleep, contacts, internal edges, and the lists of
 // what few bodies have.
 //
 // Reads: the image. Writes: marks. Cost: O(state), each list walked once.
 #include "snapshot/check.h"
 #include "broad/pairs.h"
 #include "core/sort.h"
-#include "seams/cone.h"
+#include "internal_edges/cone.h"
 #include "world/rows.h"
 
 #include <string.h>
@@ -144,7 +144,7 @@ static bool check_pair_numbers(const plumb_world *w, const pl_pair *p)
            (p->manifold == 0 || p->manifold == PL_NONE);
 }
 
-static bool check_dormant(const pl_suspect *s, const pl_dormant *c, uint32_t island)
+static bool check_sleeping(const pl_suspect *s, const pl_sleeping_contact *c, uint32_t island)
 {
     const plumb_world *w = &s->world;
     const uint32_t most = w->sleep.contact_slots;
@@ -156,13 +156,13 @@ static bool check_dormant(const pl_suspect *s, const pl_dormant *c, uint32_t isl
            (c->fixed_previous == PL_NONE || c->fixed_previous < most);
 }
 
-static bool check_dormants(const pl_suspect *s, uint32_t island, uint32_t *seen)
+static bool check_all_sleeping(const pl_suspect *s, uint32_t island, uint32_t *seen)
 {
     const pl_island *i = pl_suspect_island(s, island);
     uint32_t count = 0;
-    for (uint32_t c = i->first_contact; c != PL_NONE; c = pl_suspect_dormant(s, c)->next) {
+    for (uint32_t c = i->first_contact; c != PL_NONE; c = pl_suspect_sleeping(s, c)->next) {
         if (c >= s->world.sleep.contact_slots || count++ == i->contact_count ||
-            !check_dormant(s, pl_suspect_dormant(s, c), island)) {
+            !check_sleeping(s, pl_suspect_sleeping(s, c), island)) {
             return false;
         }
     }
@@ -178,15 +178,15 @@ static bool check_fixed_lists(const pl_suspect *s)
     for (uint32_t i = 0; i < w->sleep.island_slots; ++i) {
         const pl_island *island = pl_suspect_island(s, i);
         for (uint32_t c = island->body_count > 0 ? island->first_contact : PL_NONE; c != PL_NONE;
-             c = pl_suspect_dormant(s, c)->next) {
-            expected += pl_suspect_dormant(s, c)->fixed != PL_NONE;
+             c = pl_suspect_sleeping(s, c)->next) {
+            expected += pl_suspect_sleeping(s, c)->fixed != PL_NONE;
         }
     }
     for (uint32_t p = 0; p < w->pieces.table.count; ++p) {
         uint32_t before = PL_NONE;
-        uint32_t c = w->pieces.kind[p] == PL_PIECE_FREE ? PL_NONE : w->pieces.first_dormant[p];
-        for (; c != PL_NONE; c = pl_suspect_dormant(s, c)->fixed_next) {
-            const pl_dormant *d = pl_suspect_dormant(s, c);
+        uint32_t c = w->pieces.kind[p] == PL_PIECE_FREE ? PL_NONE : w->pieces.first_sleeping[p];
+        for (; c != PL_NONE; c = pl_suspect_sleeping(s, c)->fixed_next) {
+            const pl_sleeping_contact *d = pl_suspect_sleeping(s, c);
             const uint32_t island = d->island;
             if (island >= w->sleep.island_slots || pl_suspect_island(s, island)->body_count == 0 ||
                 d->fixed != p || d->fixed_previous != before || d->fixed_next == c ||
@@ -217,7 +217,7 @@ static bool check_free_islands(const pl_suspect *s)
         if (i >= sleep->contact_slots || s->marks[i]++ != 0) {
             return false;
         }
-        i = pl_suspect_dormant(s, i)->next;
+        i = pl_suspect_sleeping(s, i)->next;
     }
     for (uint32_t i = 0; i < sleep->island_slots; ++i) {
         due += pl_suspect_island(s, i)->body_count > 0 && pl_suspect_island(s, i)->due;
@@ -248,7 +248,7 @@ bool pl_check_sleep(pl_suspect *s)
         }
         ++islands;
         if (island->marked || !CHECK_NEAR(island->overlaps.max_penetration) ||
-            !check_sleepers(s, i, &bodies) || !check_dormants(s, i, &contacts)) {
+            !check_sleepers(s, i, &bodies) || !check_all_sleeping(s, i, &contacts)) {
             return false;
         }
     }
@@ -341,10 +341,10 @@ static bool check_sensed(const plumb_world *w)
             return false;
         }
     }
-    const pl_blow *blow = w->blows.items.data;
-    for (uint32_t i = 0; i < w->blows.count; ++i) {
-        if (!CHECK_NEAR(blow[i].approach) || !CHECK_NEAR(blow[i].impulse) ||
-            !CHECK_NEAR(blow[i].nx) || !CHECK_NEAR(blow[i].ny) || !CHECK_REALS(blow[i].at)) {
+    const pl_pending_hit *hit = w->pending_hits.items.data;
+    for (uint32_t i = 0; i < w->pending_hits.count; ++i) {
+        if (!CHECK_NEAR(hit[i].approach) || !CHECK_NEAR(hit[i].impulse) || !CHECK_NEAR(hit[i].nx) ||
+            !CHECK_NEAR(hit[i].ny) || !CHECK_REALS(hit[i].at)) {
             return false;
         }
     }

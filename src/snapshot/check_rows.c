@@ -196,7 +196,7 @@ static bool check_geometry(const plumb_world *w, uint32_t p)
     const uint32_t kind = pieces->kind[p], count = pieces->vertex_count[p];
     const uint8_t class = pieces->vertex_class[p];
     const uint32_t edges = (UINT32_C(1) << count) - 1;
-    if (count < least[kind] || count > most[kind] || (pieces->seams[p] & ~edges) != 0 ||
+    if (count < least[kind] || count > most[kind] || (pieces->cuts[p] & ~edges) != 0 ||
         !check_core(&pieces->core[p])) {
         return false;
     }

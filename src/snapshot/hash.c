@@ -71,8 +71,9 @@ static void add_sleepers(pl_digest *digest, const plumb_world *world)
         }
         const uint32_t kept[] = { i, island->first_body, island->body_count, island->due };
         pl_digest_add(digest, kept, sizeof kept);
-        for (uint32_t c = island->first_contact; c != PL_NONE; c = pl_dormants(s)[c].next) {
-            add_pair(digest, &pl_dormants(s)[c].pair);
+        for (uint32_t c = island->first_contact; c != PL_NONE;
+             c = pl_sleeping_contacts(s)[c].next) {
+            add_pair(digest, &pl_sleeping_contacts(s)[c].pair);
         }
     }
 }
@@ -80,8 +81,8 @@ static void add_sleepers(pl_digest *digest, const plumb_world *world)
 // What the owners of runs of flush faces bore.
 static void add_loads(pl_digest *digest, const plumb_world *world)
 {
-    const pl_run_load *loads = world->seams.loads.data;
-    for (uint32_t i = 0; i < world->seams.load_count; ++i) {
+    const pl_run_load *loads = world->internal_edges.loads.data;
+    for (uint32_t i = 0; i < world->internal_edges.load_count; ++i) {
         const pl_run_load *l = &loads[i];
         struct {
             uint32_t mover, serial, feature[2];

@@ -76,11 +76,11 @@
     LEFT(narrow.any_bounce) LEFT(narrow.any_surface) LEFT(narrow.overlaps)
 
 #define PL_STATE_SOLVER(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                     \
-    LEFT(solver.bodies) LEFT(solver.motions) LEFT(solver.lows) LEFT(solver.struck)                 \
+    LEFT(solver.bodies) LEFT(solver.motions) LEFT(solver.residuals) LEFT(solver.struck)                 \
     LEFT(solver.rows) LEFT(solver.slots) LEFT(solver.masks) LEFT(solver.colors)                    \
     LEFT(solver.lanes) LEFT(solver.bundles) LEFT(solver.extras) LEFT(solver.specials)              \
-    LEFT(solver.impacts) LEFT(solver.outlook_fields) LEFT(solver.outlook_ends)                     \
-    LEFT(solver.outlook_open) LEFT(solver.outlook_lanes) LEFT(solver.impact_heap) LEFT(solver.impact_heads) LEFT(solver.due_count)   \
+    LEFT(solver.impacts) LEFT(solver.predicted_fields) LEFT(solver.predicted_ends)                     \
+    LEFT(solver.predicted_open) LEFT(solver.predicted_lanes) LEFT(solver.impact_heap) LEFT(solver.impact_heads) LEFT(solver.due_count)   \
     LEFT(solver.lively_count)     LEFT(solver.classic) LEFT(solver.dynamic_slots) LEFT(solver.slot_count)   \
     LEFT(solver.clusters) LEFT(solver.labels) LEFT(solver.islands) LEFT(solver.homes) LEFT(solver.island_count) LEFT(solver.leaders) LEFT(solver.cursors)                 \
     LEFT(solver.cluster_count) LEFT(solver.cluster_age) LEFT(solver.labelled) LEFT(solver.bundle_room) LEFT(solver.bundle_count) LEFT(solver.impact_count) LEFT(solver.color_count)                 \
@@ -95,9 +95,9 @@
 #define PL_STATE_PARTS(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                      \
     LEFT(parts.items) LEFT(parts.count) LEFT(parts.lost) LEFT(parts.lost_count) TALLY(parts.buried)
 
-#define PL_STATE_BLOWS(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                      \
-    ARRAY(pl_blow, blows.items, blows.count, sizeof(pl_blow), 8)                                   \
-    LEFT(blows.old) LEFT(blows.old_count) LEFT(blows.next)
+#define PL_STATE_PENDING_HITS(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                      \
+    ARRAY(pl_pending_hit, pending_hits.items, pending_hits.count, sizeof(pl_pending_hit), 8)                                   \
+    LEFT(pending_hits.old) LEFT(pending_hits.old_count) LEFT(pending_hits.next)
 
 #define PL_STATE_SENSING(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                    \
     ARRAY(pl_keyed, sensing.candidates, sensing.candidate_count, 0, 8)                             \
@@ -112,7 +112,7 @@
 // The grid of what sleeps and the list of what moves near it are made anew.
 #define PL_STATE_SLEEP(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                      \
     ARRAY(pl_island, sleep.islands, sleep.island_slots, 0, 0)                                      \
-    ARRAY(pl_dormant, sleep.contacts, sleep.contact_slots, 0, 0)                                   \
+    ARRAY(pl_sleeping_contact, sleep.contacts, sleep.contact_slots, 0, 0)                                   \
     VALUE(sleep.island_count) VALUE(sleep.free_island) VALUE(sleep.contact_count)                  \
     VALUE(sleep.free_contact) VALUE(sleep.first_due)                                               \
     ARRAY(uint32_t, sleep.resting, sleep.resting_count, sizeof(uint32_t), 0)                       \
@@ -120,22 +120,22 @@
     LEFT(sleep.near) LEFT(sleep.near_stale) LEFT(sleep.probe) LEFT(sleep.found)                    \
     LEFT(sleep.found_count) LEFT(sleep.touched) LEFT(sleep.marked) LEFT(sleep.marked_count)        \
     LEFT(sleep.woken) VALUE(sleep.timed_step) VALUE(sleep.changed_step) VALUE(sleep.tested_step)   \
-    VALUE(sleep.since) VALUE(sleep.passed) VALUE(sleep.ripe_for) LEFT(sleep.parents)               \
+    VALUE(sleep.since) VALUE(sleep.passed) VALUE(sleep.candidate_in) LEFT(sleep.parents)               \
     LEFT(sleep.held) LEFT(sleep.places) LEFT(sleep.sleep_events) LEFT(sleep.wake_events)           \
     LEFT(sleep.sleep_event_count) LEFT(sleep.wake_event_count) LEFT(sleep.events_told)
 
 // Corners and stretches follow from where the ground lies, but not at once: they are kept up.
-#define PL_STATE_SEAMS(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                      \
-    VALUE(seams.count) TALLY(seams.dirty) TALLY(seams.all) TALLY(seams.relist)  \
-    ARRAY(pl_seam, seams.corners, seams.corner_count, 0, 0)                                        \
-    ARRAY(pl_span, seams.spans, seams.span_used, 0, 0) TALLY(seams.span_free)                      \
-    ARRAY(pl_box, seams.regions, seams.region_count, 0, 0)                                         \
-    LEFT(seams.chosen) LEFT(seams.chosen_count) LEFT(seams.around) LEFT(seams.around_count)        \
-    LEFT(seams.scratch) ARRAY(pl_seam_pair, seams.pairs, seams.pair_count, 0, 0)                   \
-    LEFT(seams.contacts) LEFT(seams.contact_count) LEFT(seams.runs) LEFT(seams.order)              \
-    ARRAY(pl_run_load, seams.loads, seams.load_count, 0, 0)                                        \
-    LEFT(seams.old_loads) LEFT(seams.old_load_count) LEFT(seams.slots) LEFT(seams.slot_count)      \
-    LEFT(seams.borne) LEFT(seams.apart) LEFT(seams.noted) LEFT(seams.opened) TALLY(seams.listed) TALLY(seams.updated)
+#define PL_STATE_INTERNAL_EDGES(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                      \
+    VALUE(internal_edges.count) TALLY(internal_edges.dirty) TALLY(internal_edges.all) TALLY(internal_edges.relist)  \
+    ARRAY(pl_edge, internal_edges.corners, internal_edges.corner_count, 0, 0)                                        \
+    ARRAY(pl_interval, internal_edges.intervals, internal_edges.interval_used, 0, 0) TALLY(internal_edges.interval_free)                      \
+    ARRAY(pl_box, internal_edges.regions, internal_edges.region_count, 0, 0)                                         \
+    LEFT(internal_edges.chosen) LEFT(internal_edges.chosen_count) LEFT(internal_edges.around) LEFT(internal_edges.around_count)        \
+    LEFT(internal_edges.scratch) ARRAY(pl_edge_pair, internal_edges.pairs, internal_edges.pair_count, 0, 0)                   \
+    LEFT(internal_edges.contacts) LEFT(internal_edges.contact_count) LEFT(internal_edges.runs) LEFT(internal_edges.order)              \
+    ARRAY(pl_run_load, internal_edges.loads, internal_edges.load_count, 0, 0)                                        \
+    LEFT(internal_edges.old_loads) LEFT(internal_edges.old_load_count) LEFT(internal_edges.slots) LEFT(internal_edges.slot_count)      \
+    LEFT(internal_edges.borne) LEFT(internal_edges.apart) LEFT(internal_edges.noted) LEFT(internal_edges.opened) TALLY(internal_edges.listed) TALLY(internal_edges.updated)
 
 #define PL_STATE_CHARACTERS(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                 \
     ARRAY(pl_character, characters.items, characters.count, 0, 8) LEFT(characters.saved)           \
@@ -153,17 +153,17 @@
     LEFT(quarantine.rolling) LEFT(quarantine.kept) LEFT(quarantine.since)
 
 #define PL_STATE_EFFECTS(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                    \
-    ARRAY(pl_tuning, tunings.items, tunings.count, offsetof(pl_tuning, ax), 8)                     \
-    VALUE(tunings.damped) VALUE(tunings.capped) VALUE(tunings.scaled) VALUE(tunings.frozen)        \
+    ARRAY(pl_body_settings, settings.items, settings.count, offsetof(pl_body_settings, ax), 8)                     \
+    VALUE(settings.damped) VALUE(settings.capped) VALUE(settings.scaled) VALUE(settings.frozen)        \
     ARRAY(pl_target, targets.items, targets.count, sizeof(pl_target), 8)
 
 // What lies in struct plumb_world itself.
 #define PL_STATE_WORLD(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                      \
-    LEFT(memory) LEFT(sight) LEFT(lookahead) VALUE(gravity) VALUE(step_count) VALUE(time) TALLY(last_dt) TALLY(arrested_count)                \
+    LEFT(memory) LEFT(query_grids) LEFT(lookahead) VALUE(gravity) VALUE(step_count) VALUE(time) TALLY(last_dt) TALLY(arrested_count)                \
     TABLE(bodies) VALUE(dynamic_count) VALUE(kinematic_count) VALUE(asleep_count)                  \
     VALUE(disabled_count) VALUE(continuous_bodies) VALUE(locked_bodies)                            \
     VALUE(one_way_pieces) VALUE(dropping_bodies)                                                   \
-    OWN(graves) LEFT(tasks)                                                                        \
+    OWN(tombstones) LEFT(tasks)                                                                        \
     VALUE(shape_count) VALUE(serial) LEFT(made) LEFT(outline)                                      \
     TABLE(materials) OWN(components) OWN(systems)                                                  \
     ARRAY(uint32_t, moving, moving_count, sizeof(uint32_t), 0) LEFT(poses)                         \
@@ -176,21 +176,21 @@
           sizeof(uint64_t) + sizeof(plumb_material_pair), 8)                                       \
     LEFT(schedule) LEFT(begin_events) LEFT(end_events) LEFT(changed_pairs) LEFT(hit_events)                            \
     LEFT(begin_count) LEFT(end_count) LEFT(hit_count)                                              \
-    LEFT(checking) LEFT(checked) LEFT(tape) LEFT(locked_by) LEFT(editing) VALUE(edited) LEFT(in_hook) LEFT(error) LEFT(error_text)
+    LEFT(checking) LEFT(checked) LEFT(observer) LEFT(locked_by) LEFT(editing) VALUE(edited) LEFT(in_hook) LEFT(error) LEFT(error_text)
 
 #define PL_STATE(...)                                                                              \
     PL_STATE_WORLD(__VA_ARGS__) PL_STATE_DESC(__VA_ARGS__) PL_STATE_REGISTRY(__VA_ARGS__)          \
     PL_STATE_PIECES(__VA_ARGS__) PL_STATE_VERTICES(__VA_ARGS__) PL_STATE_COMMANDS(__VA_ARGS__)     \
     PL_STATE_BROAD(__VA_ARGS__) PL_STATE_NARROW(__VA_ARGS__) PL_STATE_SOLVER(__VA_ARGS__)          \
-    PL_STATE_JOINTS(__VA_ARGS__) PL_STATE_PARTS(__VA_ARGS__) PL_STATE_BLOWS(__VA_ARGS__)           \
-    PL_STATE_SENSING(__VA_ARGS__) PL_STATE_SLEEP(__VA_ARGS__) PL_STATE_SEAMS(__VA_ARGS__)          \
+    PL_STATE_JOINTS(__VA_ARGS__) PL_STATE_PARTS(__VA_ARGS__) PL_STATE_PENDING_HITS(__VA_ARGS__)           \
+    PL_STATE_SENSING(__VA_ARGS__) PL_STATE_SLEEP(__VA_ARGS__) PL_STATE_INTERNAL_EDGES(__VA_ARGS__)          \
     PL_STATE_CHARACTERS(__VA_ARGS__) PL_STATE_CONTINUOUS(__VA_ARGS__)                              \
     PL_STATE_QUARANTINE(__VA_ARGS__) PL_STATE_EFFECTS(__VA_ARGS__)
 
 // [B] at the start of an element that are saved. Behind it lies what every step fills before reading.
 #define PL_SAVED_BYTES(type)                                                                       \
     _Generic((type *)0, pl_joint *: offsetof(pl_joint, pose_a),                             \
-             pl_dormant *: offsetof(pl_dormant, last),                                         \
+             pl_sleeping_contact *: offsetof(pl_sleeping_contact, last),                                         \
              pl_island *: offsetof(pl_island, recalled), default: sizeof(type))
 // [B] from its start to an index into what the last step made; -1: none. It is saved as 0, or PL_NONE.
 #define PL_PASSING_INDEX(type)                                                                     \

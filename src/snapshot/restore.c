@@ -199,9 +199,9 @@ static void forget_last_step(plumb_world *world)
 {
     world->sleep.events_told = true; // those of a refused step too
     pl_events_clear(world);
-    world->blows.old_count = 0;
+    world->pending_hits.old_count = 0;
     world->sensing.old_count = world->sensing.rest_old_count = 0;
-    world->seams.old_load_count = world->seams.contact_count = 0;
+    world->internal_edges.old_load_count = world->internal_edges.contact_count = 0;
     world->sleep.sleep_event_count = world->sleep.wake_event_count = 0;
     world->sleep.events_told = false;
     world->joints.broken_count = world->joints.strained_count = 0;
@@ -234,7 +234,7 @@ static void take_over(plumb_world *world, source s)
     world->broad.moving_lost = !keeps_moving;
     world->broad.resting_lost =
         world->sleep.resting_count > 0 || world->broad.resting.entry_count > 0;
-    world->broad.refreshed = world->broad.unfiled = world->sight.fresh = false;
+    world->broad.refreshed = world->broad.unfiled = world->query_grids.fresh = false;
     world->sleep.gone = 0;
     world->sleep.near.count = 0;
     world->sleep.near_stale = true;
@@ -291,7 +291,7 @@ static bool is_held(const pl_section *section)
         { "pieces", "serial" },
         { "pieces", "core" },
         { "pieces", "moving" },
-        { "pieces", "seam_edges" },
+        { "pieces", "internal_edges" },
         { "materials", "entity" },
         { "vertices", "items" },
         { "world", "broad.pairs.items" },
@@ -299,11 +299,11 @@ static bool is_held(const pl_section *section)
         { "world", "broad.sensed" },
         { "world", "moving" },
         { "world", "sleep.resting" },
-        { "world", "seams.corners" },
-        { "world", "seams.spans" },
-        { "world", "seams.pairs" },
-        { "world", "seams.loads" },
-        { "world", "blows.items" },
+        { "world", "internal_edges.corners" },
+        { "world", "internal_edges.intervals" },
+        { "world", "internal_edges.pairs" },
+        { "world", "internal_edges.loads" },
+        { "world", "pending_hits.items" },
         { "world", "sensing.candidates" },
         { "world", "sensing.overlaps" },
         { "world", "sensing.rest_candidates" },
@@ -386,7 +386,7 @@ void pl_image_play(plumb_world *world, const pl_image *before, const pl_image *a
     // No structural change happens within a step; what is due to be filed anew is marked as such.
     world->broad.fixed_lost |= !keeps_fixed && !world->static_dirty && f.pieces > 0;
     world->broad.moving_lost |= !keeps_moving && !world->pairs_dirty && f.listed > 0;
-    world->sight.fresh = false;
+    world->query_grids.fresh = false;
     world->sleep.near_stale = true;
     world->joints.awake_stale = true;
     pl_joints_replan(&world->joints);

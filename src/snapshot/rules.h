@@ -33,9 +33,9 @@ enum {
     PL_OF_MATERIALS,
     PL_OF_JOINTS,
     PL_OF_CHARACTERS,
-    PL_OF_TUNINGS,
+    PL_OF_SETTINGS,
     PL_OF_ISLANDS,
-    PL_OF_DORMANTS
+    PL_OF_SLEEPING
 };
 
 typedef struct pl_rule {

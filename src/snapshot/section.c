@@ -104,7 +104,7 @@ static bool reserve_table(plumb_world *world, const column_row *column, uint32_t
                                 pl_piece_column_count, count) &&
                pl_buffer_reserve(memory, &world->moving, count * sizeof(uint32_t)) &&
                pl_buffer_reserve(memory, &world->sleep.resting, count * sizeof(uint32_t)) &&
-               pl_broad_reserve_left(world, (uint32_t)count) && pl_graves_reserve(world, count);
+               pl_broad_reserve_left(world, (uint32_t)count) && pl_tombstones_reserve(world, count);
     default:
         return pl_table_reserve(memory, &world->materials.table, pl_material_columns,
                                 pl_material_column_count, count);

@@ -1,6 +1,6 @@
 // section_own.c - see section_own.h: what list.h calls OWN, and the components that users register.
 //
-// Reads and writes the world's registry, pool of corners, graves, switches of systems, components.
+// Reads and writes the world's registry, pool of corners, tombstones, switches of systems, components.
 #include "snapshot/section_own.h"
 
 #include <string.h>
@@ -59,13 +59,13 @@ pl_section pl_own_section(const plumb_world *world, uint32_t which)
                              .pitch = sizeof(pl_vertex),
                              .passing = -1,
                              .hashed = sizeof(pl_vertex) };
-    case PL_OWN_GRAVES:
+    case PL_OWN_TOMBSTONES:
         return (pl_section){ .table = "world",
-                             .name = "graves",
-                             .data = world->graves.data,
+                             .name = "tombstones",
+                             .data = world->tombstones.data,
                              .count = world->pieces.table.count,
-                             .stride = sizeof(pl_grave),
-                             .pitch = sizeof(pl_grave),
+                             .stride = sizeof(pl_tombstone),
+                             .pitch = sizeof(pl_tombstone),
                              .passing = -1 };
     default:
         return (pl_section){ .table = "systems",
@@ -87,7 +87,7 @@ bool pl_own_reserve(plumb_world *world, uint32_t which, uint32_t count)
     case PL_OWN_CORNERS:
         return count <= corners ||
                pl_pool_reserve(&world->memory, &world->vertices, count - corners);
-    default: // graves: with the pieces
+    default: // tombstones: with the pieces
         return true;
     }
 }
@@ -108,11 +108,11 @@ void pl_own_read(plumb_world *world, uint32_t which, const char *from, uint32_t 
         to = world->vertices.items;
         bytes = count * sizeof(pl_vertex);
         break;
-    case PL_OWN_GRAVES:
-        to = world->graves.data;
-        bytes = count * sizeof(pl_grave);
+    case PL_OWN_TOMBSTONES:
+        to = world->tombstones.data;
+        bytes = count * sizeof(pl_tombstone);
         if (to != NULL) {
-            memset((char *)to + bytes, 0, world->graves.size - bytes);
+            memset((char *)to + bytes, 0, world->tombstones.size - bytes);
         }
         break;
     default:
@@ -135,8 +135,8 @@ bool pl_own_lend(plumb_world *world, uint32_t which, void *data, uint32_t count)
         world->vertices.items = data;
         world->vertices.count = count;
         return true;
-    case PL_OWN_GRAVES:
-        world->graves.data = data;
+    case PL_OWN_TOMBSTONES:
+        world->tombstones.data = data;
         return count == world->pieces.table.count;
     default:
         return true; // switches of systems that are not there are passed over

@@ -5,7 +5,7 @@
 #include "snapshot/section.h"
 
 // What list.h calls OWN, in order.
-enum { PL_OWN_REGISTRY, PL_OWN_CORNERS, PL_OWN_GRAVES, PL_OWN_SWITCHES, PL_OWN_COUNT };
+enum { PL_OWN_REGISTRY, PL_OWN_CORNERS, PL_OWN_TOMBSTONES, PL_OWN_SWITCHES, PL_OWN_COUNT };
 
 // As pl_section_at, pl_section_reserve, pl_section_read of one of them.
 pl_section pl_own_section(const plumb_world *world, uint32_t which);

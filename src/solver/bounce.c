@@ -23,7 +23,7 @@
 
 static const near_real *low_of(const pl_solver *s, uint32_t slot)
 {
-    return (const near_real *)s->lows.data + (size_t)slot * 4;
+    return (const near_real *)s->residuals.data + (size_t)slot * 4;
 }
 
 static double length(double x, double y)
@@ -43,11 +43,11 @@ typedef struct relative {
     double a, b;  // the angular ones
 } relative;
 
-typedef struct outlook {
+typedef struct prediction {
     relative place, velocity; // [m], [m/s], [rad], [rad/s]
     relative force, push;     // [m/s^2] from forces; [m/s] by contacts in this substep so far
     double after;             // [s] when either body was struck last
-} outlook;
+} prediction;
 
 static relative relative_of(const pl_impact *m, double ax, double ay, double aw, double bx,
                             double by, double bw)
@@ -60,25 +60,25 @@ static double at_point(const pl_impact_point *p, relative r)
     return r.along + (double)p->rbn * r.b - (double)p->ran * r.a;
 }
 
-static outlook look_out(const plumb_world *world, const pl_impact *m)
+static prediction look_out(const plumb_world *world, const pl_impact *m)
 {
     const pl_solver *s = &world->solver;
     const pl_solver_body *a = &pl_solver_bodies(s)[m->a], *b = &pl_solver_bodies(s)[m->b];
     const pl_solver_motion *ma = &pl_solver_motions(s)[m->a], *mb = &pl_solver_motions(s)[m->b];
     const near_real *la = low_of(s, m->a), *lb = low_of(s, m->b);
     double after_a = struck_at(s, m->a), after_b = struck_at(s, m->b);
-    return (outlook){ .place = relative_of(m, (double)a->dx, (double)a->dy, (double)a->da,
-                                           (double)b->dx, (double)b->dy, (double)b->da),
-                      .velocity = relative_of(
-                          m, (double)a->vx + (double)la[0], (double)a->vy + (double)la[1],
-                          (double)a->w + (double)la[2], (double)b->vx + (double)lb[0],
-                          (double)b->vy + (double)lb[1], (double)b->w + (double)lb[2]),
-                      .force = relative_of(m, (double)ma->ax, (double)ma->ay, (double)ma->aw,
-                                           (double)mb->ax, (double)mb->ay, (double)mb->aw),
-                      .push = relative_of(m, (double)(a->vx - ma->ux), (double)(a->vy - ma->uy),
-                                          (double)(a->w - ma->uw), (double)(b->vx - mb->ux),
-                                          (double)(b->vy - mb->uy), (double)(b->w - mb->uw)),
-                      .after = after_a > after_b ? after_a : after_b };
+    return (prediction){ .place = relative_of(m, (double)a->dx, (double)a->dy, (double)a->da,
+                                              (double)b->dx, (double)b->dy, (double)b->da),
+                         .velocity = relative_of(
+                             m, (double)a->vx + (double)la[0], (double)a->vy + (double)la[1],
+                             (double)a->w + (double)la[2], (double)b->vx + (double)lb[0],
+                             (double)b->vy + (double)lb[1], (double)b->w + (double)lb[2]),
+                         .force = relative_of(m, (double)ma->ax, (double)ma->ay, (double)ma->aw,
+                                              (double)mb->ax, (double)mb->ay, (double)mb->aw),
+                         .push = relative_of(m, (double)(a->vx - ma->ux), (double)(a->vy - ma->uy),
+                                             (double)(a->w - ma->uw), (double)(b->vx - mb->ux),
+                                             (double)(b->vy - mb->uy), (double)(b->w - mb->uw)),
+                         .after = after_a > after_b ? after_a : after_b };
 }
 
 // [m/s^2] of the forces on both bodies.
@@ -90,7 +90,7 @@ static double weight_on(const plumb_world *world, const pl_impact *m)
 }
 
 // What happens to point j in the substep if nothing else does.
-static pl_approach foresee(const plumb_world *world, const pl_impact *m, const outlook *o,
+static pl_approach foresee(const plumb_world *world, const pl_impact *m, const prediction *o,
                            uint32_t j, double h)
 {
     const pl_impact_point *p = &m->point[j];
@@ -119,7 +119,7 @@ static pl_approach foresee(const plumb_world *world, const pl_impact *m, const o
     }
     // Neither body's present path reaches back before the impact that put it there.
     out.time = out.time < o->after ? o->after : out.time;
-    // What forces alone make of a substep is not a blow to a contact that carries load.
+    // What forces alone make of a substep is not a hit to a contact that carries load.
     bool loaded = *p->lane_impulse > 0;
     if (out.speed <= (double)world->desc.restitution_speed ||
         (loaded && out.speed <= 4 * weight_on(world, m) * h)) {
@@ -132,7 +132,7 @@ static pl_approach foresee(const plumb_world *world, const pl_impact *m, const o
 
 void pl_bounce_foresee(const plumb_world *world, pl_impact *m, double h, pl_approach at[2])
 {
-    outlook o = look_out(world, m);
+    prediction o = look_out(world, m);
     m->due = false;
     for (uint32_t j = 0; j < m->count; ++j) {
         at[j] = foresee(world, m, &o, j, h);
@@ -170,7 +170,7 @@ static void strike(const plumb_world *world, const pl_impact *m, uint32_t j, dou
         }
         pl_solver_body *body = &pl_solver_bodies(s)[slot];
         pl_solver_motion *motion = &pl_solver_motions(s)[slot];
-        near_real *low = (near_real *)s->lows.data + (size_t)slot * 4;
+        near_real *low = (near_real *)s->residuals.data + (size_t)slot * 4;
         double sign = side == 0 ? -1 : 1;
         double turn = side == 0 ? (double)p->ran * along_n + (double)p->rat * along_t
                                 : (double)p->rbn * along_n + (double)p->rbt * along_t;

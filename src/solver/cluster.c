@@ -83,8 +83,8 @@ static special_rows specials_of(const plumb_world *world)
 
 static inline bool is_special(const special_rows *s, uint32_t row)
 {
-    return s->marks[row] != PL_NONE &&
-           (s->marks[row] == PL_ELASTIC || (s->resist && (s->flags[row] & PL_BODY_TUNED) != 0));
+    return s->marks[row] != PL_NONE && (s->marks[row] == PL_ELASTIC ||
+                                        (s->resist && (s->flags[row] & PL_BODY_HAS_SETTINGS) != 0));
 }
 
 //---- looking for islands -------------------------------------------------------------------------

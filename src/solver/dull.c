@@ -1,7 +1,7 @@
 // dull.c - runs the kernels for impacts of dull contacts (dull.simd.c) over the bundles of a world.
 //
 // Reads, writes: what pl_dull_call lists. Order: instead of the records of impact.c where nothing livelier
-// bounces, or for its outlook. Cost: that of the kernels; with several threads, bundles are shared out.
+// bounces, or for its prediction. Cost: that of the kernels; with several threads, bundles are shared out.
 #include "solver/dull.h"
 #include "world/state.h"
 
@@ -19,7 +19,7 @@ static dull_job job_of(const plumb_world *world, near_real h)
     return (dull_job){ .kernels = pl_solver_kernels(world),
                        .call = { .bodies = pl_solver_bodies(s),
                                  .motions = pl_solver_motions(s),
-                                 .lows = s->lows.data,
+                                 .residuals = s->residuals.data,
                                  .struck = s->struck.data,
                                  .dynamic_slots = s->dynamic_slots,
                                  .bundles = s->bundles.data,
@@ -27,8 +27,8 @@ static dull_job job_of(const plumb_world *world, near_real h)
                                  .lanes = s->lanes.data,
                                  .manifolds = pl_manifolds(&world->narrow),
                                  .pairs = pl_pairs(&world->broad.pairs),
-                                 .fields = s->outlook_fields.data,
-                                 .marks = s->outlook_open.data,
+                                 .fields = s->predicted_fields.data,
+                                 .marks = s->predicted_open.data,
                                  .looks_up = world->narrow.any_surface || pl_solver_tallies(world),
                                  .h = h,
                                  .restitution_speed = (double)world->desc.restitution_speed } };
@@ -68,12 +68,12 @@ void pl_dull_impacts_look(const plumb_world *world, near_real h)
 void pl_dull_impacts_run(plumb_world *world, near_real h)
 {
     pl_solver *s = &world->solver;
-    const uint8_t *marks = s->outlook_open.data;
+    const uint8_t *marks = s->predicted_open.data;
     dull_job job = job_of(world, h);
     const uint32_t shared = job.call.color_first[PL_OVERFLOW_COLOR];
     pl_tasks_phases(world->tasks, job.call.color_first, PL_COLORS, LEAST, strike_bundles, &job);
     strike_bundles(&job, shared, s->bundle_count - shared);
-    for (uint32_t lane = 0; lane < s->outlook_lanes; ++lane) {
+    for (uint32_t lane = 0; lane < s->predicted_lanes; ++lane) {
         s->bounce_count += marks[lane] & PL_DULL_STRUCK;
     }
 }

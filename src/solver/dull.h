@@ -7,9 +7,9 @@
 
 // Of each bundle three fields, of a real a lane. Separations are PL_APART and restitution 0 where no dull
 // contact is.
-#define PL_OUTLOOK_SEPARATION(j) ((size_t)(j)) // [m] at the start of the step
-#define PL_OUTLOOK_RESTITUTION   2
-#define PL_OUTLOOK_FIELDS        3
+#define PL_PREDICTED_SEPARATION(j) ((size_t)(j)) // [m] at the start of the step
+#define PL_PREDICTED_RESTITUTION   2
+#define PL_PREDICTED_FIELDS        3
 
 enum {
     PL_DULL_STRUCK = 1, // in this substep
@@ -19,8 +19,8 @@ enum {
 struct pl_dull_call {
     pl_solver_body *bodies;
     pl_solver_motion *motions;
-    near_real *lows, *struck; // a quad, a real a slot
-    uint32_t dynamic_slots;   // slots from here on do not move
+    near_real *residuals, *struck; // a quad, a real a slot
+    uint32_t dynamic_slots;        // slots from here on do not move
     void *bundles;
     const uint32_t *color_first; // bundles of the colours: a kernel may be given several at once
     const uint32_t *lanes;
@@ -36,7 +36,7 @@ struct pl_dull_call {
 // Once a step: fills in the fields; returns how many contacts are lively, not dull.
 uint32_t pl_dull_impacts_prepare(const plumb_world *world);
 
-// Marks the lanes that the outlook for a substep of h [s] leaves open (outlook.h).
+// Marks the lanes that the prediction for a substep of h [s] leaves open (prediction.h).
 void pl_dull_impacts_look(const plumb_world *world, near_real h);
 
 // The impacts of a substep of h [s] where all that bounces is dull and no axis is locked.

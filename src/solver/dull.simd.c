@@ -2,15 +2,15 @@
 //
 // A dull contact strikes once in a substep, so nothing that it does comes back to it, and contacts of one
 // colour have no moving body in common: whatever their order, they strike as if one after another. Of
-// each colour the outlook first settles most contacts, W at a time; those left open are looked at
+// each colour the prediction first settles most contacts, W at a time; those left open are looked at
 // in doubles, four at a time from whatever bundles they lie in, and struck where an impact is due.
 //
 // Each lane does what bounce.c does to one contact, operation for operation: the bits are the same.
 //
 // Reads: solver bodies, motions, bundles. Writes: those bodies, the contact kernel's separations, the pairs'
-// flags, totals of impulses. Cost: the outlook; 90 instructions an open contact, as many again in fours of
+// flags, totals of impulses. Cost: the prediction; 90 instructions an open contact, as many again in fours of
 // which one strikes.
-#include "solver/outlook.h"
+#include "solver/prediction.h"
 
 typedef pl_near_quad row; // of a solver body
 typedef pl_near_mask row_mask;
@@ -131,7 +131,7 @@ WIDE_INLINE void gather_side(side *s, const pl_dull_call *call, const uint32_t s
     gather_rows(s->d, &call->bodies->dx, 8, slot);
     gather_rows(s->a, &call->motions->ax, 8, slot);
     gather_rows(s->u, &call->motions->ux, 8, slot);
-    gather_rows(s->low, call->lows, 4, slot);
+    gather_rows(s->low, call->residuals, 4, slot);
 }
 
 // A field of each contact's bundle.
@@ -149,7 +149,7 @@ WIDE_INLINE row dull_field(const contacts *c, const pl_dull_call *call, size_t f
     near_real r[4];
     for (int i = 0; i < 4; ++i) {
         const size_t at = c->lane[i] % PL_WIDTH, first = c->lane[i] - at;
-        r[i] = call->fields[first * PL_OUTLOOK_FIELDS + field * PL_WIDTH + at];
+        r[i] = call->fields[first * PL_PREDICTED_FIELDS + field * PL_WIDTH + at];
     }
     return (row){ r[0], r[1], r[2], r[3] };
 }
@@ -169,11 +169,11 @@ WIDE_INLINE void gather_contacts(contacts *c, const pl_dull_call *call, const ui
     c->taken = (mask){ 0, 1, 2, 3 } < (mask){ 0 } + count;
     c->nx = widen(OF_BUNDLES(c, nx));
     c->ny = widen(OF_BUNDLES(c, ny));
-    c->restitution = widen(dull_field(c, call, PL_OUTLOOK_RESTITUTION));
+    c->restitution = widen(dull_field(c, call, PL_PREDICTED_RESTITUTION));
     for (int j = 0; j < 2; ++j) {
         c->ran[j] = widen(OF_BUNDLES(c, p[j].ran));
         c->rbn[j] = widen(OF_BUNDLES(c, p[j].rbn));
-        c->separation[j] = widen(dull_field(c, call, PL_OUTLOOK_SEPARATION(j)));
+        c->separation[j] = widen(dull_field(c, call, PL_PREDICTED_SEPARATION(j)));
         c->present[j] = c->separation[j] < all(PL_APART / 2);
         c->unloaded[j] = widen(OF_BUNDLES(c, p[j].ln)) <= all(0);
     }
@@ -219,15 +219,15 @@ WIDE_INLINE void view_contacts(view *o, const contacts *c, const side *a, const 
     o->after = choose(after_a > after_b, after_a, after_b);
 }
 
-typedef struct course {
+typedef struct travel {
     four separation, v, u, acceleration;
     mask clear;
-} course;
+} travel;
 
 // Over the substep, if nothing happens.
-WIDE_INLINE course run_course(const contacts *c, const view *o, int j, four h)
+WIDE_INLINE travel run_travel(const contacts *c, const view *o, int j, four h)
 {
-    course r;
+    travel r;
     r.separation = c->separation[j] + at_contact(c, j, &o->place);
     r.v = at_contact(c, j, &o->velocity);
     r.acceleration = at_contact(c, j, &o->force) + at_contact(c, j, &o->push) / h;
@@ -239,7 +239,7 @@ WIDE_INLINE course run_course(const contacts *c, const view *o, int j, four h)
 WIDE_INLINE approach foresee(const contacts *c, const view *o, int j, const pl_dull_call *call)
 {
     const four zero = all(0), h = all((double)call->h);
-    const course r = run_course(c, o, j, h);
+    const travel r = run_travel(c, o, j, h);
     approach out = { .clear = r.clear };
     four square = r.u * r.u - all(2) * r.acceleration * r.separation;
     mask real_root = square > zero, overlaps = r.separation < zero;
@@ -400,7 +400,7 @@ WIDE_INLINE void scatter_side(side *s, const pl_dull_call *call)
             *(row *)(void *)&call->bodies[slot].vx = s->v[i];
             *(row *)(void *)&call->bodies[slot].dx = s->d[i];
             *(row *)(void *)&call->motions[slot].ux = s->u[i];
-            *(row *)(void *)&call->lows[slot * 4] = s->low[i];
+            *(row *)(void *)&call->residuals[slot * 4] = s->low[i];
             call->struck[slot] = s->struck[i];
         }
     }
@@ -437,7 +437,7 @@ static void take_four(const pl_dull_call *call, const uint32_t *lanes, uint32_t 
         resolve(&c, &a, &b, at, call);
         view_contacts(&o, &c, &a, &b);
         for (int j = 0; j < 2; ++j) {
-            clear[j] = run_course(&c, &o, j, all((double)call->h)).clear;
+            clear[j] = run_travel(&c, &o, j, all((double)call->h)).clear;
         }
         scatter_side(&a, call);
         scatter_side(&b, call);
@@ -449,7 +449,7 @@ static void take_four(const pl_dull_call *call, const uint32_t *lanes, uint32_t 
 
 WIDE_INLINE bool is_live(const near_real *fields)
 {
-    return any(load(fields + PL_OUTLOOK_RESTITUTION * PL_WIDTH) > splat(0));
+    return any(load(fields + PL_PREDICTED_RESTITUTION * PL_WIDTH) > splat(0));
 }
 
 pl_dull_counter PL_WIDE_NAME(pl_dull_prepare);
@@ -458,7 +458,7 @@ uint32_t PL_WIDE_NAME(pl_dull_prepare)(const pl_dull_call *call, uint32_t first,
     uint32_t lively = 0;
     for (uint32_t k = first; k < first + count; ++k) {
         const bundle *c = (const bundle *)call->bundles + k;
-        near_real *fields = call->fields + (size_t)k * PL_WIDTH * PL_OUTLOOK_FIELDS;
+        near_real *fields = call->fields + (size_t)k * PL_WIDTH * PL_PREDICTED_FIELDS;
         near_real restitution[PL_WIDTH] = { 0 };
         for (int i = 0; i < PL_WIDTH; ++i) {
             const uint32_t at = call->lanes[(size_t)k * PL_WIDTH + (size_t)i];
@@ -470,9 +470,9 @@ uint32_t PL_WIDE_NAME(pl_dull_prepare)(const pl_dull_call *call, uint32_t first,
         }
         memset(call->marks + (size_t)k * PL_WIDTH, 0, PL_WIDTH);
         vm dull = load(restitution) > splat(0);
-        store(fields + PL_OUTLOOK_RESTITUTION * PL_WIDTH, load(restitution));
+        store(fields + PL_PREDICTED_RESTITUTION * PL_WIDTH, load(restitution));
         for (int j = 0; j < 2; ++j) {
-            store(fields + PL_OUTLOOK_SEPARATION(j) * PL_WIDTH,
+            store(fields + PL_PREDICTED_SEPARATION(j) * PL_WIDTH,
                   sel(dull, c->p[j].separation, splat(PL_APART)));
         }
     }
@@ -483,7 +483,7 @@ pl_dull_kernel PL_WIDE_NAME(pl_dull_look);
 void PL_WIDE_NAME(pl_dull_look)(const pl_dull_call *call, uint32_t first, uint32_t count)
 {
     for (uint32_t k = first; k < first + count; ++k) {
-        const near_real *fields = call->fields + (size_t)k * PL_WIDTH * PL_OUTLOOK_FIELDS;
+        const near_real *fields = call->fields + (size_t)k * PL_WIDTH * PL_PREDICTED_FIELDS;
         if (is_live(fields)) {
             vm settled = look_at_bundle(call, fields, (bundle *)call->bundles + k);
             for (int i = 0; i < PL_WIDTH; ++i) {
@@ -516,7 +516,7 @@ void PL_WIDE_NAME(pl_dull_strike)(const pl_dull_call *call, uint32_t first, uint
 {
     uint32_t waiting[PL_WIDTH + 4], held = 0, color = 0;
     for (uint32_t k = first; k < first + count; ++k) {
-        const near_real *fields = call->fields + (size_t)k * PL_WIDTH * PL_OUTLOOK_FIELDS;
+        const near_real *fields = call->fields + (size_t)k * PL_WIDTH * PL_PREDICTED_FIELDS;
         for (int i = 0; i < PL_WIDTH; ++i) {
             call->marks[(size_t)k * PL_WIDTH + (size_t)i] &= PL_DULL_HIT;
         }

@@ -63,14 +63,14 @@ static real fly(plumb_world *world, uint32_t row, real dt)
     real aw = b->torque[row] * b->inv_inertia[row];
     // The large and the small part of the way apart: v + a dt / 2 would round the same way every
     // step.
-    add(&b->center_x[row], &b->low_x[row], dt * (b->low_vx[row] + ax * dt / 2));
-    add(&b->center_y[row], &b->low_y[row], dt * (b->low_vy[row] + ay * dt / 2));
-    add(&b->center_x[row], &b->low_x[row], dt * b->vx[row]);
-    add(&b->center_y[row], &b->low_y[row], dt * b->vy[row]);
+    add(&b->center_x[row], &b->residual_x[row], dt * (b->residual_vx[row] + ax * dt / 2));
+    add(&b->center_y[row], &b->residual_y[row], dt * (b->residual_vy[row] + ay * dt / 2));
+    add(&b->center_x[row], &b->residual_x[row], dt * b->vx[row]);
+    add(&b->center_y[row], &b->residual_y[row], dt * b->vy[row]);
     real angle = dt * (b->w[row] + aw * dt / 2);
     turn(b, row, angle);
-    add(&b->vx[row], &b->low_vx[row], ax * dt);
-    add(&b->vy[row], &b->low_vy[row], ay * dt);
+    add(&b->vx[row], &b->residual_vx[row], ax * dt);
+    add(&b->vy[row], &b->residual_vy[row], ay * dt);
     b->w[row] += aw * dt;
     return angle;
 }
@@ -84,15 +84,15 @@ static void add_exactly(real *value, real *low, double change)
 }
 
 // The same for a body that has locked axes, damping, caps or a time of its own.
-static real fly_oddly(plumb_world *world, uint32_t row, real dt)
+static real fly_with_effects(plumb_world *world, uint32_t row, real dt)
 {
     pl_bodies *b = &world->bodies;
     pl_flight f = pl_effects_fly(world, row, dt);
-    add_exactly(&b->center_x[row], &b->low_x[row], f.x);
-    add_exactly(&b->center_y[row], &b->low_y[row], f.y);
+    add_exactly(&b->center_x[row], &b->residual_x[row], f.x);
+    add_exactly(&b->center_y[row], &b->residual_y[row], f.y);
     turn(b, row, (real)f.angle);
-    add_exactly(&b->vx[row], &b->low_vx[row], f.vx);
-    add_exactly(&b->vy[row], &b->low_vy[row], f.vy);
+    add_exactly(&b->vx[row], &b->residual_vx[row], f.vx);
+    add_exactly(&b->vy[row], &b->residual_vy[row], f.vy);
     b->w[row] = (real)((double)b->w[row] + f.w);
     return (real)f.angle;
 }
@@ -112,7 +112,7 @@ typedef struct passage {
     real dt;
     bool collided; // the graph was made in this step
     bool noting;
-    const near_real *lows;
+    const near_real *residuals;
     uint32_t shares;
     struct {
         uint32_t count; // movers, noted where the share's rows begin
@@ -154,7 +154,7 @@ static bool arrest_if_lost(plumb_world *world, uint32_t row, where before)
     b->center_x[row] = before.x, b->center_y[row] = before.y;
     b->c[row] = before.c, b->s[row] = before.s;
     b->vx[row] = b->vy[row] = b->w[row] = 0;
-    b->low_x[row] = b->low_y[row] = b->low_vx[row] = b->low_vy[row] = 0;
+    b->residual_x[row] = b->residual_y[row] = b->residual_vx[row] = b->residual_vy[row] = 0;
     b->flags[row] |= PL_BODY_LOST;
     return true;
 }
@@ -174,32 +174,32 @@ static void take_over(plumb_world *world, uint32_t row, const pl_solver_body *bo
                       const near_real *low)
 {
     pl_bodies *b = &world->bodies;
-    add(&b->center_x[row], &b->low_x[row], body->dx);
-    add(&b->center_y[row], &b->low_y[row], body->dy);
+    add(&b->center_x[row], &b->residual_x[row], body->dx);
+    add(&b->center_y[row], &b->residual_y[row], body->dy);
     turn(b, row, body->da);
     b->vx[row] = noticed(body->vx);
     b->vy[row] = noticed(body->vy);
     b->w[row] = noticed(body->w);
     const bool kept = low != NULL && low[3] != 0;
-    b->low_vx[row] = kept ? low[0] : 0;
-    b->low_vy[row] = kept ? low[1] : 0;
+    b->residual_vx[row] = kept ? low[0] : 0;
+    b->residual_vy[row] = kept ? low[1] : 0;
 }
 
 // Moves a dynamic body; returns the angle by which it turned.
 static real move_dynamic(const passage *p, uint32_t row)
 {
     plumb_world *world = p->world;
-    const bool odd = (world->bodies.flags[row] & PL_BODY_ODD) != 0;
+    const bool has_effects = (world->bodies.flags[row] & PL_BODY_HAS_EFFECTS) != 0;
     const uint32_t slot = p->collided ? ((const uint32_t *)world->solver.slots.data)[row] : PL_NONE;
     if (slot == PL_NONE) {
-        return odd ? fly_oddly(world, row, p->dt) : fly(world, row, p->dt);
+        return has_effects ? fly_with_effects(world, row, p->dt) : fly(world, row, p->dt);
     }
-    if (odd && !(pl_time_scale(world, row) > 0)) {
+    if (has_effects && !(pl_time_scale(world, row) > 0)) {
         return 0;
     }
     const pl_solver_body *body = &pl_solver_bodies(&world->solver)[slot];
-    take_over(world, row, body, p->lows == NULL ? NULL : &p->lows[(size_t)slot * 4]);
-    if (odd) {
+    take_over(world, row, body, p->residuals == NULL ? NULL : &p->residuals[(size_t)slot * 4]);
+    if (has_effects) {
         pl_effects_take_over(world, row);
     }
     return body->da;
@@ -208,10 +208,10 @@ static real move_dynamic(const passage *p, uint32_t row)
 static real move_kinematic(const passage *p, uint32_t row)
 {
     pl_bodies *b = &p->world->bodies;
-    bool tuned = (b->flags[row] & PL_BODY_TUNED) != 0;
-    real time = tuned ? p->dt * pl_time_scale(p->world, row) : p->dt;
-    add(&b->center_x[row], &b->low_x[row], time * b->vx[row]);
-    add(&b->center_y[row], &b->low_y[row], time * b->vy[row]);
+    bool has_settings = (b->flags[row] & PL_BODY_HAS_SETTINGS) != 0;
+    real time = has_settings ? p->dt * pl_time_scale(p->world, row) : p->dt;
+    add(&b->center_x[row], &b->residual_x[row], time * b->vx[row]);
+    add(&b->center_y[row], &b->residual_y[row], time * b->vy[row]);
     turn(b, row, time * b->w[row]);
     return time * b->w[row];
 }
@@ -266,7 +266,7 @@ void pl_solver_finish(plumb_world *world, real dt)
                   .dt = dt,
                   .collided = world->solver.slot_count > 0,
                   .noting = world->continuous.noting,
-                  .lows = world->narrow.any_bounce ? world->solver.lows.data : NULL,
+                  .residuals = world->narrow.any_bounce ? world->solver.residuals.data : NULL,
                   .shares = pl_tasks_share_count(world->tasks, rows, PL_BODIES_SHARED) };
     pl_tasks_run(world->tasks, move_share, &p, p.shares);
     bool lost = false;

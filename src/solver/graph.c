@@ -40,7 +40,7 @@ bool pl_solver_tallies(const plumb_world *world)
 
 bool pl_solver_specials(const plumb_world *world)
 {
-    return world->locked_bodies > 0 || world->tunings.frozen > 0 || world->narrow.any_adhesion;
+    return world->locked_bodies > 0 || world->settings.frozen > 0 || world->narrow.any_adhesion;
 }
 
 static bool reserve_bodies(plumb_world *world)
@@ -51,7 +51,7 @@ static bool reserve_bodies(plumb_world *world)
     size_t elastic_rows = world->narrow.any_bounce ? rows : 0;
     return pl_buffer_reserve(memory, &s->bodies, rows * sizeof(pl_solver_body)) &&
            pl_buffer_reserve(memory, &s->motions, rows * sizeof(pl_solver_motion)) &&
-           pl_buffer_reserve(memory, &s->lows, elastic_rows * 4 * sizeof(near_real)) &&
+           pl_buffer_reserve(memory, &s->residuals, elastic_rows * 4 * sizeof(near_real)) &&
            pl_buffer_reserve(memory, &s->struck, elastic_rows * sizeof(near_real)) &&
            pl_buffer_reserve(memory, &s->rows, rows * sizeof(uint32_t)) &&
            pl_buffer_reserve(memory, &s->slots, rows * sizeof(uint32_t)) &&
@@ -101,10 +101,10 @@ static bool reserve_lanes(plumb_world *world)
            pl_buffer_reserve(memory, &s->extras, extras * k->extra_size) &&
            pl_buffer_reserve(memory, &s->specials, specials * k->special_size) &&
            pl_buffer_reserve(memory, &s->impacts, impacts * sizeof(pl_impact)) &&
-           pl_buffer_reserve(memory, &s->outlook_fields,
-                             looked * PL_OUTLOOK_FIELDS * sizeof(near_real)) &&
-           pl_buffer_reserve(memory, &s->outlook_ends, looked * sizeof(pl_outlook_ends)) &&
-           pl_buffer_reserve(memory, &s->outlook_open, looked) &&
+           pl_buffer_reserve(memory, &s->predicted_fields,
+                             looked * PL_PREDICTED_FIELDS * sizeof(near_real)) &&
+           pl_buffer_reserve(memory, &s->predicted_ends, looked * sizeof(pl_predicted_ends)) &&
+           pl_buffer_reserve(memory, &s->predicted_open, looked) &&
            pl_buffer_reserve(memory, &s->impact_heap, impacts * sizeof(uint32_t)) &&
            pl_buffer_reserve(memory, &s->impact_heads,
                              (impacts > 0 ? s->dynamic_slots : 0) * sizeof(uint32_t)) &&
@@ -134,15 +134,15 @@ static void mark_rows(plumb_world *world, uint32_t movable)
     memset(slots, 0xff, movable * sizeof(uint32_t));
     for (uint32_t row = 0; world->joints.live > 0 && row < movable; ++row) {
         if (first_joint[row] != PL_NONE) {
-            slots[row] = PL_ENGAGED;
+            slots[row] = PL_ACTIVE;
         }
     }
     for (uint32_t i = 0; i < world->narrow.manifold_count; ++i) {
         if (ends[i].a < movable) {
-            slots[ends[i].a] = PL_ENGAGED;
+            slots[ends[i].a] = PL_ACTIVE;
         }
         if (ends[i].b < movable) {
-            slots[ends[i].b] = PL_ENGAGED;
+            slots[ends[i].b] = PL_ACTIVE;
         }
     }
     for (uint32_t i = 0; world->narrow.any_bounce && i < world->narrow.manifold_count; ++i) {
@@ -158,7 +158,7 @@ static inline uint32_t cluster_of(const uint32_t *labels, uint32_t row)
     return labels == NULL ? 0 : labels[row];
 }
 
-// Slots from `at` on for those rows that are engaged, cluster by cluster and in order; `kind` 0: they are
+// Slots from `at` on for those rows that are active, cluster by cluster and in order; `kind` 0: they are
 // dynamic, 1: kinematic. Returns the slot behind the last.
 static uint32_t give_slots(plumb_world *world, pl_share rows, int kind, uint32_t at)
 {
@@ -166,7 +166,7 @@ static uint32_t give_slots(plumb_world *world, pl_share rows, int kind, uint32_t
     pl_cluster *clusters = pl_clusters(s);
     const uint32_t *labels = pl_solver_labels(s);
     uint32_t *slots = s->slots.data, *row_of = s->rows.data;
-    near_real *lows = world->narrow.any_bounce ? s->lows.data : NULL;
+    near_real *residuals = world->narrow.any_bounce ? s->residuals.data : NULL;
     for (uint32_t row = rows.first; labels != NULL && row < rows.end; ++row) {
         if (slots[row] != PL_NONE) {
             ++clusters[cluster_of(labels, row)].slots[kind].count;
@@ -182,8 +182,8 @@ static uint32_t give_slots(plumb_world *world, pl_share rows, int kind, uint32_t
         if (slots[row] != PL_NONE) {
             pl_slots *mine = &clusters[cluster_of(labels, row)].slots[kind];
             const uint32_t slot = mine->first + mine->count++;
-            if (lows != NULL) {
-                lows[(size_t)slot * 4 + 3] = slots[row] == PL_ELASTIC;
+            if (residuals != NULL) {
+                residuals[(size_t)slot * 4 + 3] = slots[row] == PL_ELASTIC;
             }
             slots[row] = slot;
             row_of[slot] = row;
@@ -203,7 +203,7 @@ static __attribute__((noinline, unused)) real rounded_off(real v)
 // A quad: what rounding took from the velocity so far, and 1 where that is kept, 0 where it is not.
 static void start_low(near_real *low, const pl_bodies *b, uint32_t row)
 {
-    real vx = b->low_vx[row], vy = b->low_vy[row];
+    real vx = b->residual_vx[row], vy = b->residual_vy[row];
     if (PLUMB_IS_FAR) { // the solver's velocity is rounded, too
         vx += rounded_off(b->vx[row]);
         vy += rounded_off(b->vy[row]);
@@ -214,7 +214,7 @@ static void start_low(near_real *low, const pl_bodies *b, uint32_t row)
 }
 
 // The state of the row of a slot, packed.
-static void engage_slot(plumb_world *world, uint32_t slot)
+static void fill_slot(plumb_world *world, uint32_t slot)
 {
     pl_solver *s = &world->solver;
     const pl_bodies *b = &world->bodies;
@@ -235,31 +235,31 @@ static void engage_slot(plumb_world *world, uint32_t slot)
                             .uw = (near_real)b->w[row],
                             .inv_mass = im };
     if (world->narrow.any_bounce) {
-        start_low((near_real *)s->lows.data + (size_t)slot * 4, b, row);
+        start_low((near_real *)s->residuals.data + (size_t)slot * 4, b, row);
     }
-    if ((b->flags[row] & PL_BODY_ODD) != 0) {
-        pl_effects_engage(world, row, slot);
+    if ((b->flags[row] & PL_BODY_HAS_EFFECTS) != 0) {
+        pl_effects_gather(world, row, slot);
     }
 }
 
-static void engage_slots(void *context, uint32_t first, uint32_t count)
+static void fill_slots(void *context, uint32_t first, uint32_t count)
 {
     for (uint32_t slot = first; slot < first + count; ++slot) {
-        engage_slot(context, slot);
+        fill_slot(context, slot);
     }
 }
 
 // Gives every dynamic and kinematic row that is in a contact or has a joint its slot and packs its state.
-static void engage(plumb_world *world)
+static void fill_bodies(plumb_world *world)
 {
     pl_solver *s = &world->solver;
     const uint32_t dynamic = world->dynamic_count, movable = dynamic + world->kinematic_count;
     memset(s->clusters.data, 0, s->cluster_count * sizeof(pl_cluster));
     s->dynamic_slots = give_slots(world, (pl_share){ 0, dynamic }, 0, 0);
     const uint32_t count = give_slots(world, (pl_share){ dynamic, movable }, 1, s->dynamic_slots);
-    pl_tasks_ranges(world->tasks, count, PL_BODIES_SHARED, engage_slots, world);
+    pl_tasks_ranges(world->tasks, count, PL_BODIES_SHARED, fill_slots, world);
     if (world->narrow.any_bounce) {
-        memset((near_real *)s->lows.data + (size_t)count * 4, 0, 4 * sizeof(near_real));
+        memset((near_real *)s->residuals.data + (size_t)count * 4, 0, 4 * sizeof(near_real));
     }
     pl_solver_bodies(s)[count] = (pl_solver_body){ 0 };
     pl_solver_motions(s)[count] = (pl_solver_motion){ 0 };
@@ -424,7 +424,7 @@ bool pl_solver_graph(plumb_world *world)
     if (!pl_joints_look(world) || !pl_solver_cluster(world)) {
         return false;
     }
-    engage(world);
+    fill_bodies(world);
     if (!pl_joints_plan(world)) {
         return false;
     }
@@ -438,13 +438,31 @@ bool pl_solver_graph(plumb_world *world)
 
 void pl_solver_free(pl_memory *memory, pl_solver *s)
 {
-    pl_buffer *buffers[] = {
-        &s->bodies,       &s->motions,        &s->rows,         &s->slots,        &s->masks,
-        &s->colors,       &s->lanes,          &s->bundles,      &s->impacts,      &s->classic,
-        &s->lows,         &s->struck,         &s->extras,       &s->specials,     &s->impact_heap,
-        &s->impact_heads, &s->outlook_fields, &s->outlook_ends, &s->outlook_open, &s->clusters,
-        &s->labels,       &s->islands,        &s->homes,        &s->leaders,      &s->cursors
-    };
+    pl_buffer *buffers[] = { &s->bodies,
+                             &s->motions,
+                             &s->rows,
+                             &s->slots,
+                             &s->masks,
+                             &s->colors,
+                             &s->lanes,
+                             &s->bundles,
+                             &s->impacts,
+                             &s->classic,
+                             &s->residuals,
+                             &s->struck,
+                             &s->extras,
+                             &s->specials,
+                             &s->impact_heap,
+                             &s->impact_heads,
+                             &s->predicted_fields,
+                             &s->predicted_ends,
+                             &s->predicted_open,
+                             &s->clusters,
+                             &s->labels,
+                             &s->islands,
+                             &s->homes,
+                             &s->leaders,
+                             &s->cursors };
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; ++i) {
         pl_buffer_free(memory, buffers[i]);
     }

@@ -85,8 +85,8 @@ static void record_impacts(plumb_world *world)
     pl_solver *s = &world->solver;
     const pl_contact_kernels *kernels = pl_solver_kernels(world);
     const uint32_t *lanes = s->lanes.data;
-    pl_outlook_ends *ends = s->outlook_ends.data;
-    for (size_t lane = 0; lane < s->outlook_lanes; ++lane) {
+    pl_predicted_ends *ends = s->predicted_ends.data;
+    for (size_t lane = 0; lane < s->predicted_lanes; ++lane) {
         const pl_manifold *m =
             lanes[lane] != PL_NONE ? &pl_manifolds(&world->narrow)[lanes[lane]] : NULL;
         ends[lane].impact = PL_NONE;
@@ -101,7 +101,7 @@ static void record_impacts(plumb_world *world)
             p->lane_impulse = lane_value(s, kernels, lane, kernels->impulse_offset[j]);
         }
         if (pl_is_dull(m->restitution)) {
-            ends[lane] = (pl_outlook_ends){ impact->a, impact->b, s->impact_count };
+            ends[lane] = (pl_predicted_ends){ impact->a, impact->b, s->impact_count };
         }
         ++s->impact_count;
     }
@@ -113,7 +113,7 @@ void pl_impacts_prepare(plumb_world *world)
 {
     pl_solver *s = &world->solver;
     s->impact_count = s->bounce_count = s->lively_count = 0;
-    s->outlook_lanes = s->bundle_count * (uint32_t)pl_solver_kernels(world)->width;
+    s->predicted_lanes = s->bundle_count * (uint32_t)pl_solver_kernels(world)->width;
     if (pl_dull_impacts_prepare(world) > 0 || world->locked_bodies > 0) {
         record_impacts(world);
     }
@@ -124,7 +124,7 @@ void pl_impacts_prepare_classic(plumb_world *world)
     pl_solver *s = &world->solver;
     pl_impact *impacts = s->impacts.data;
     pl_classic_contact *contacts = s->classic.data;
-    s->impact_count = s->bounce_count = s->outlook_lanes = 0;
+    s->impact_count = s->bounce_count = s->predicted_lanes = 0;
     for (uint32_t i = 0; i < world->narrow.manifold_count; ++i) {
         const pl_manifold *m = &pl_manifolds(&world->narrow)[i];
         if (!pl_bounces(m)) {
@@ -236,16 +236,16 @@ static void run_all_dull(plumb_world *world, near_real h)
     }
 }
 
-// Those that the outlook leaves open, and those of which a body has been struck since.
+// Those that the prediction leaves open, and those of which a body has been struck since.
 static void run_open(plumb_world *world, near_real h)
 {
     pl_solver *s = &world->solver;
     pl_impact *impacts = s->impacts.data;
-    const pl_outlook_ends *ends = s->outlook_ends.data;
-    const uint8_t *open = s->outlook_open.data;
+    const pl_predicted_ends *ends = s->predicted_ends.data;
+    const uint8_t *open = s->predicted_open.data;
     const near_real *struck = s->struck.data;
     pl_dull_impacts_look(world, h);
-    for (uint32_t lane = 0; lane < s->outlook_lanes; ++lane) {
+    for (uint32_t lane = 0; lane < s->predicted_lanes; ++lane) {
         if (ends[lane].impact != PL_NONE &&
             (open[lane] != 0 || struck[ends[lane].a] > -h || struck[ends[lane].b] > -h)) {
             take_turn(world, &impacts[ends[lane].impact], h);
@@ -261,7 +261,7 @@ static void run_recorded(plumb_world *world, near_real h)
         run_lively(world, h);
     }
     if (s->lively_count < s->impact_count) {
-        (s->outlook_lanes > 0 ? run_open : run_all_dull)(world, h);
+        (s->predicted_lanes > 0 ? run_open : run_all_dull)(world, h);
     }
     for (uint32_t i = 0; i < s->impact_count && s->lively_count > 0; ++i) {
         pl_approach at[2];
@@ -281,5 +281,5 @@ void pl_impacts_run(plumb_world *world, near_real h)
     for (uint32_t slot = 0; slot < s->slot_count; ++slot) {
         struck[slot] = -h; // none yet; an impact may lie one substep in the past
     }
-    (s->impact_count == 0 && s->outlook_lanes > 0 ? pl_dull_impacts_run : run_recorded)(world, h);
+    (s->impact_count == 0 && s->predicted_lanes > 0 ? pl_dull_impacts_run : run_recorded)(world, h);
 }

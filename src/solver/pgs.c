@@ -20,8 +20,8 @@ typedef struct classic {
     pl_classic_contact *contacts;
     uint32_t count;
     near_real h;
-    near_real unloaded; // [N s] a point that bears no more and pushes has been struck
-    near_real *lows;    // a quad a slot; NULL: nothing bounces
+    near_real unloaded;   // [N s] a point that bears no more and pushes has been struck
+    near_real *residuals; // a quad a slot; NULL: nothing bounces
 } classic;
 
 static near_real normal_speed(const classic *c, const pl_classic_contact *m,
@@ -161,8 +161,9 @@ static void integrate_velocities(const classic *c)
     pl_solver_motion *motion = pl_solver_motions(c->solver);
     for (uint32_t i = 0; i < c->solver->dynamic_slots; ++i) {
         pl_solver_body *body = &c->bodies[i];
-        near_real *low =
-            c->lows != NULL && c->lows[(size_t)i * 4 + 3] > 0 ? c->lows + (size_t)i * 4 : NULL;
+        near_real *low = c->residuals != NULL && c->residuals[(size_t)i * 4 + 3] > 0
+                             ? c->residuals + (size_t)i * 4
+                             : NULL;
         add(&body->vx, &motion[i].ux, low, c->h * motion[i].ax);
         add(&body->vy, &motion[i].uy, low != NULL ? low + 1 : NULL, c->h * motion[i].ay);
         add(&body->w, &motion[i].uw, low != NULL ? low + 2 : NULL, c->h * motion[i].aw);
@@ -279,16 +280,16 @@ void pl_solver_pgs(plumb_world *world, real dt)
                   .count = world->narrow.manifold_count,
                   .h = (near_real)(dt / (real)world->desc.substeps) };
     const bool bounce = world->narrow.any_bounce;
-    const pl_joint_course course = pl_joint_course_of(world, 0, world->tasks, 0, c.h);
-    const bool joints = pl_joints_any(&course);
+    const pl_joint_context context = pl_joint_context_of(world, 0, world->tasks, 0, c.h);
+    const bool joints = pl_joints_any(&context);
     const bool resist = pl_effects_resist(world);
     prepare(&c, world);
     if (bounce) {
-        c.lows = s->lows.data;
+        c.residuals = s->residuals.data;
         pl_impacts_prepare_classic(world);
     }
     if (joints) {
-        pl_joints_prepare(&course);
+        pl_joints_prepare(&context);
     }
     for (int k = 0; k < world->desc.substeps; ++k) {
         if (resist) {
@@ -296,7 +297,7 @@ void pl_solver_pgs(plumb_world *world, real dt)
         }
         integrate_velocities(&c);
         if (joints) {
-            pl_joints_warm_start(&course);
+            pl_joints_warm_start(&context);
         }
         warm_start(&c);
         if (bounce) {
@@ -304,18 +305,18 @@ void pl_solver_pgs(plumb_world *world, real dt)
         }
         for (int i = 0; i < world->desc.iterations; ++i) {
             if (joints) {
-                pl_joints_solve(&course, PL_SWEEP_CLASSIC, false);
+                pl_joints_solve(&context, PL_SWEEP_CLASSIC, false);
             }
             c.unloaded = k == 0 && i == 0 ? NEAR_MAX : 0;
             sweep(&c, false);
         }
         if (joints && world->joints.watched > 0) {
-            pl_joints_tally(&course);
+            pl_joints_tally(&context);
         }
         pl_integrate_positions(&world->solver, pl_clusters(&world->solver), world->tasks, c.h);
         for (int i = 0; i < POSITION_SWEEPS; ++i) {
             if (joints) {
-                pl_joints_move(&course, POSITION_RATE);
+                pl_joints_move(&context, POSITION_RATE);
             }
             sweep(&c, true);
         }

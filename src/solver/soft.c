@@ -54,7 +54,7 @@ static void fly_carefully(void *context, uint32_t first, uint32_t count)
     const near_real h = f->h;
     pl_near_quad *body = (pl_near_quad *)(void *)(pl_solver_bodies(s) + f->first);
     pl_near_quad *motion = (pl_near_quad *)(void *)(pl_solver_motions(s) + f->first);
-    pl_near_quad *low = (pl_near_quad *)s->lows.data + f->first;
+    pl_near_quad *low = (pl_near_quad *)s->residuals.data + f->first;
     for (uint32_t i = first; i < first + count; ++i) {
         pl_near_quad v = body[2 * i];
         pl_near_quad pushed = v - motion[2 * i + 1];
@@ -86,15 +86,15 @@ typedef struct soft_step {
 } soft_step;
 
 // One cluster in the hands of some threads; null: of one.
-typedef struct course {
+typedef struct solve_context {
     const soft_step *step;
     const pl_cluster *cluster;
     pl_tasks *tasks;
     pl_contact_call call; // the step's, for this cluster
-    pl_joint_course joints;
+    pl_joint_context joints;
     bool any_joints;
     bool bounce, resist; // of the world: for cluster 0
-} course;
+} solve_context;
 
 typedef struct kernel_call {
     const pl_contact_call *call;
@@ -109,7 +109,7 @@ static void run_kernel(void *context, uint32_t first, uint32_t count)
 
 // A kernel over all bundles. Those of one colour have no body in common that moves, so threads share
 // them; overflow contacts come last, one bundle after another.
-static void share_out(const course *c, pl_contact_kernel *kernel, pl_share_fn *share)
+static void share_out(const solve_context *c, pl_contact_kernel *kernel, pl_share_fn *share)
 {
     const pl_contact_call *call = &c->call;
     const uint32_t *first = c->cluster->color_first;
@@ -117,13 +117,13 @@ static void share_out(const course *c, pl_contact_kernel *kernel, pl_share_fn *s
     kernel(call, first[PL_OVERFLOW_COLOR], first[PL_COLOR_SLOTS] - first[PL_OVERFLOW_COLOR]);
 }
 
-static void sweep(const course *c, pl_contact_kernel *kernel)
+static void sweep(const solve_context *c, pl_contact_kernel *kernel)
 {
     share_out(c, kernel, pl_tasks_phases);
 }
 
 // For a kernel in which every bundle stands by itself.
-static void each(const course *c, pl_contact_kernel *kernel)
+static void each(const solve_context *c, pl_contact_kernel *kernel)
 {
     share_out(c, kernel, pl_tasks_shares);
 }
@@ -169,7 +169,7 @@ static soft_step open_step(plumb_world *world, real dt)
     };
 }
 
-static void prepare(const course *c)
+static void prepare(const solve_context *c)
 {
     const soft_step *step = c->step;
     each(c, step->kernels->prepare);
@@ -187,14 +187,14 @@ static void prepare(const course *c)
     }
 }
 
-static void fly_all(const course *c)
+static void fly_all(const solve_context *c)
 {
     const pl_slots slots = c->cluster->slots[0];
     pl_tasks_ranges(c->tasks, slots.count, PL_BODIES_SHARED, c->bounce ? fly_carefully : fly,
                     &(flight){ &c->step->world->solver, slots.first, c->call.h });
 }
 
-static void run_substep(course *c, bool first)
+static void run_substep(solve_context *c, bool first)
 {
     const soft_step *step = c->step;
     const pl_contact_kernels *kernels = step->kernels;
@@ -236,7 +236,7 @@ static void run_substep(course *c, bool first)
     }
 }
 
-static void store(const course *c)
+static void store(const solve_context *c)
 {
     const soft_step *step = c->step;
     if (c->any_joints) {
@@ -253,13 +253,13 @@ static void run_cluster(const soft_step *step, uint32_t i, pl_tasks *tasks, uint
 {
     const pl_solver *s = &step->world->solver;
     const size_t room = (size_t)thread * s->bundle_room;
-    course c = { .step = step,
-                 .cluster = &pl_clusters(s)[i],
-                 .tasks = tasks,
-                 .call = step->call,
-                 .joints = pl_joint_course_of(step->world, i, tasks, thread, step->call.h),
-                 .bounce = i == 0 && step->bounce,
-                 .resist = i == 0 && step->resist };
+    solve_context c = { .step = step,
+                        .cluster = &pl_clusters(s)[i],
+                        .tasks = tasks,
+                        .call = step->call,
+                        .joints = pl_joint_context_of(step->world, i, tasks, thread, step->call.h),
+                        .bounce = i == 0 && step->bounce,
+                        .resist = i == 0 && step->resist };
     c.any_joints = pl_joints_any(&c.joints);
     if (c.call.lanes != NULL) { // else no step has had a contact yet
         c.call.lanes += c.cluster->first_lane;
@@ -282,7 +282,7 @@ static void run_cluster(const soft_step *step, uint32_t i, pl_tasks *tasks, uint
 static bool is_large(const soft_step *step, uint32_t i)
 {
     const plumb_world *world = step->world;
-    const pl_joint_course joints = pl_joint_course_of(step->world, i, NULL, 0, 0);
+    const pl_joint_context joints = pl_joint_context_of(step->world, i, NULL, 0, 0);
     const uint32_t contacts = pl_clusters(&world->solver)[i].color_first[PL_COLOR_SLOTS];
     const uint32_t tied = pl_joints_any(&joints) ? joints.group->color_first[PL_JOINT_COLORS] -
                                                        joints.group->color_first[0]

@@ -64,13 +64,13 @@ static inline bool pl_is_dull(near_real restitution)
 }
 
 // Where the record of a dull impact is, a lane (dull.h).
-typedef struct pl_outlook_ends {
+typedef struct pl_predicted_ends {
     uint32_t a, b;   // solver slots
     uint32_t impact; // PL_NONE: no dull one in this lane
-} pl_outlook_ends;
+} pl_predicted_ends;
 
 // Over the bundles [first, first + count) (dull.simd.c): fills in the fields and counts lively impacts;
-// looks which lanes the outlook leaves open; lets impacts happen, of one colour after another.
+// looks which lanes the prediction leaves open; lets impacts happen, of one colour after another.
 typedef struct pl_dull_call pl_dull_call;
 typedef uint32_t pl_dull_counter(const pl_dull_call *call, uint32_t first, uint32_t count);
 typedef void pl_dull_kernel(const pl_dull_call *call, uint32_t first, uint32_t count);
@@ -100,7 +100,7 @@ typedef struct pl_classic_contact {
 // What a row is marked with in `slots` before it gets its slot. An elastic body, one in a contact with
 // restitution, keeps what rounding takes from its velocity; the others must not, or what one
 // island asks for would change the bits of the rest.
-enum { PL_ENGAGED, PL_ELASTIC };
+enum { PL_ACTIVE, PL_ELASTIC };
 
 #define PL_COLORS 64
 #define PL_DYNAMIC_COLORS                                                                          \
@@ -126,9 +126,9 @@ typedef struct pl_cluster {
 } pl_cluster;
 
 typedef struct pl_solver {
-    pl_buffer bodies, motions; // engaged dynamic bodies, engaged kinematic ones, one immovable body
+    pl_buffer bodies, motions; // active dynamic bodies, active kinematic ones, one immovable body
     // if any contact bounces, a quad a slot: what rounding took from its velocity, if kept
-    pl_buffer lows;
+    pl_buffer residuals;
     pl_buffer struck;  // likewise a real a slot: when in the substep an impact struck it last [s]
     pl_buffer rows;    // uint32_t: body row of a slot
     pl_buffer slots;   // uint32_t: slot of a dynamic or kinematic row; PL_NONE: not in a contact
@@ -139,8 +139,8 @@ typedef struct pl_solver {
     pl_buffer extras; // a record a bundle, where surfaces run or roll hard or impulses are added up
     pl_buffer specials; // a record a bundle, where bodies are locked or surfaces stick
     pl_buffer impacts;  // pl_impact
-    pl_buffer outlook_fields, outlook_ends, outlook_open; // of dull impacts (dull.h)
-    uint32_t outlook_lanes;                               // 0: no impact is dull
+    pl_buffer predicted_fields, predicted_ends, predicted_open; // of dull impacts (dull.h)
+    uint32_t predicted_lanes;                                   // 0: no impact is dull
     pl_buffer impact_heap,
         impact_heads;  // uint32_t: due ones by time; the first one of a dynamic slot
     pl_buffer classic; // pl_classic_contact, for the classic solver alone
@@ -235,7 +235,7 @@ void pl_solver_free(pl_memory *memory, pl_solver *solver);
 // The kernels of the world's width.
 const pl_contact_kernels *pl_solver_kernels(const plumb_world *world);
 
-// Engaged bodies, colours, lanes (graph.c). False when out of memory; nothing has moved then.
+// Active bodies, colours, lanes (graph.c). False when out of memory; nothing has moved then.
 bool pl_solver_graph(plumb_world *world);
 // Which bodies are solved together (cluster.c). False when out of memory.
 bool pl_solver_cluster(plumb_world *world);

@@ -10,7 +10,7 @@
 #include "narrow/narrow.h"
 #include "narrow/one_way.h"
 #include "narrow/surface.h"
-#include "step/tape.h"
+#include "step/observer.h"
 #include "world/wrap.h"
 
 //---- what is wanted ------------------------------------------------------------------------------
@@ -61,18 +61,18 @@ static bool targets_wanted(const plumb_world *world, const char **reason)
 
 static bool damping_wanted(const plumb_world *world, const char **reason)
 {
-    return say(world->tunings.damped > 0, reason, "some body is damped", "no body is damped");
+    return say(world->settings.damped > 0, reason, "some body is damped", "no body is damped");
 }
 
 static bool caps_wanted(const plumb_world *world, const char **reason)
 {
-    return say(world->tunings.capped > 0, reason, "some body has a speed cap",
+    return say(world->settings.capped > 0, reason, "some body has a speed cap",
                "no body has a speed cap");
 }
 
 static bool own_time_wanted(const plumb_world *world, const char **reason)
 {
-    return say(world->tunings.scaled > 0, reason, "some body has a time scale of its own",
+    return say(world->settings.scaled > 0, reason, "some body has a time scale of its own",
                "all bodies move in the world's time");
 }
 
@@ -125,9 +125,9 @@ static bool feet_wanted(const plumb_world *world, const char **reason)
     return collision_wanted(world, reason) && pl_characters_wanted(world, reason);
 }
 
-static bool seams_wanted(const plumb_world *world, const char **reason)
+static bool internal_edges_wanted(const plumb_world *world, const char **reason)
 {
-    return collision_wanted(world, reason) && pl_seams_wanted(world, reason);
+    return collision_wanted(world, reason) && pl_internal_edges_wanted(world, reason);
 }
 
 static bool joints_wanted(const plumb_world *world, const char **reason)
@@ -224,18 +224,18 @@ static bool impacts_wanted(const plumb_world *world, const char **reason)
 
 //---- what is done --------------------------------------------------------------------------------
 
-// What the user does in a step, or what is on the tape of it.
+// What the user does in a step, or what is on the recording of it.
 static void run_systems(plumb_world *world, plumb_phase phase, plumb_real dt)
 {
-    pl_tape *tape = world->tape;
-    if (tape != NULL && tape->before != NULL) {
-        tape->before(tape, world, phase);
+    pl_step_observer *observer = world->observer;
+    if (observer != NULL && observer->before != NULL) {
+        observer->before(observer, world, phase);
     }
-    if (tape == NULL || !tape->replays) {
+    if (observer == NULL || !observer->replays) {
         pl_systems_run(world, phase, dt, world->time);
     }
-    if (tape != NULL && tape->after != NULL) {
-        tape->after(tape, world, phase);
+    if (observer != NULL && observer->after != NULL) {
+        observer->after(observer, world, phase);
     }
 }
 
@@ -317,7 +317,8 @@ static plumb_result run_narrow(plumb_world *world, plumb_real dt)
     if (world->one_way_pieces > 0 || world->dropping_bodies > 0) {
         pl_one_way_run(world);
     }
-    const bool corrected = world->seams.pair_count == 0 || pl_seams_correct(world, dt);
+    const bool corrected =
+        world->internal_edges.pair_count == 0 || pl_internal_edges_correct(world, dt);
     pl_ahead_settle(world);
     if (!corrected) {
         return PLUMB_E_MEMORY;
@@ -325,10 +326,10 @@ static plumb_result run_narrow(plumb_world *world, plumb_real dt)
     return pl_events_prepare(world) ? PLUMB_OK : PLUMB_E_MEMORY;
 }
 
-static plumb_result run_seams(plumb_world *world, plumb_real dt)
+static plumb_result run_internal_edges(plumb_world *world, plumb_real dt)
 {
     (void)dt;
-    return pl_seams_update(world) ? PLUMB_OK : PLUMB_E_MEMORY;
+    return pl_internal_edges_update(world) ? PLUMB_OK : PLUMB_E_MEMORY;
 }
 
 static plumb_result run_candidates(plumb_world *world, plumb_real dt)
@@ -414,12 +415,12 @@ static plumb_result run_reactions(plumb_world *world, plumb_real dt)
 
 static plumb_result run_events(plumb_world *world, plumb_real dt)
 {
-    if (world->seams.load_count > 0 && dt > 0) {
-        pl_seams_remember(world);
+    if (world->internal_edges.load_count > 0 && dt > 0) {
+        pl_internal_edges_remember(world);
     }
     pl_events_publish(world, dt == 0);
     if (dt == 0) {
-        pl_seams_give_back(world);
+        pl_internal_edges_give_back(world);
     }
     return PLUMB_OK;
 }
@@ -442,7 +443,7 @@ const pl_pass pl_passes[] = {
     { "characters",    "forces",   "grids, poses, velocities",        "velocities, forces",        pl_characters_wanted, run_characters, false },
     { "waking",      "broad",    "islands, pieces, grids, joints",   "rows, pairs, fat boxes",     waking_wanted,    run_waking,     true  },
     { "broad phase",   "broad",    "poses, pieces",                   "fat boxes, grids, pairs",   broad_wanted,     run_broad,      true  },
-    { "seams",         "broad",    "static pieces, grids, pairs",     "covered edges, corners",    seams_wanted,     run_seams,      true  },
+    { "internal edges", "broad",    "static pieces, grids, pairs",     "covered edges, corners",    internal_edges_wanted,     run_internal_edges,      true  },
     { "narrow phase",  "narrow",   "pairs, poses, pieces, materials", "manifolds",                 collision_wanted, run_narrow,     true  },
     { "- one-way",     "narrow",   "manifolds, pieces, rotations",    "manifolds, pairs",          one_way_wanted,   NULL,           true  },
     { "surfaces",      "narrow",   "pairs, materials",                "manifolds",                 surfaces_wanted,  run_surfaces,   true  },
@@ -458,9 +459,9 @@ const pl_pass pl_passes[] = {
     { "- impacts",     "solve",    "materials, manifolds",            "solver bodies",             impacts_wanted,   NULL,           false },
     { "- adhesion",    "solve",    "materials, manifolds",            "solver bodies, impulses",   adhesion_wanted,  NULL,           false },
     { "- locked axes", "solve",    "bodies",                          "solver bodies, impulses",   locks_wanted,     NULL,           false },
-    { "- damping",     "solve",    "tunings",                         "solver bodies, velocities", damping_wanted,   NULL,           false },
-    { "- speed caps",  "solve",    "tunings",                         "solver bodies, velocities", caps_wanted,      NULL,           false },
-    { "- own time",    "solve",    "tunings",                         "solver bodies, transforms", own_time_wanted,  NULL,           false },
+    { "- damping",     "solve",    "settings",                         "solver bodies, velocities", damping_wanted,   NULL,           false },
+    { "- speed caps",  "solve",    "settings",                         "solver bodies, velocities", caps_wanted,      NULL,           false },
+    { "- own time",    "solve",    "settings",                         "solver bodies, transforms", own_time_wanted,  NULL,           false },
     { "- joints",      "solve",    "joints, poses",                   "solver bodies, joints",     joints_wanted,    NULL,           false },
     { "motion",        "finish",   "solver bodies, forces, gravity",  "transforms, velocities",    NULL,             run_motion,     false },
     { "continuous",    "finish",   "bodies that moved fast, pieces",  "transforms",                continuous_wanted, run_continuous, false },

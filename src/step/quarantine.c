@@ -216,7 +216,7 @@ static void undo_joints(plumb_world *world)
 }
 
 // Whom a culprit came near in this step alone has lost nothing that it stood on when their pair goes.
-static void forget_encounters(plumb_world *world)
+static void forget_moving_pairs(plumb_world *world)
 {
     pl_pair *pairs = pl_pairs(&world->broad.pairs);
     const uint16_t *flags = world->bodies.flags;
@@ -232,7 +232,7 @@ static void forget_encounters(plumb_world *world)
 void pl_quarantine_undo(plumb_world *world)
 {
     pl_quarantine *q = &world->quarantine;
-    forget_encounters(world);
+    forget_moving_pairs(world);
     if (q->kept) {
         undo_impulses(world);
         undo_joints(world);

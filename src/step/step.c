@@ -2,7 +2,7 @@
 // view.
 #include "core/clock.h"
 #include "event/event.h"
-#include "step/tape.h"
+#include "step/observer.h"
 #include "world/check.h"
 #include "world/state.h"
 
@@ -29,7 +29,7 @@ static void forget_contacts(plumb_world *world)
     world->solver.slot_count = 0;
     world->joints.broken_count = world->joints.strained_count = 0;
     world->broad.refreshed = false;
-    world->seams.noted = world->seams.opened = false;
+    world->internal_edges.noted = world->internal_edges.opened = false;
     world->continuous.count = world->continuous.stopped_count = 0;
     world->continuous.noting = false;
 }
@@ -43,7 +43,7 @@ static plumb_result run_passes(plumb_world *world, plumb_real dt)
             (dt == 0 && !pl_passes[i].refreshes)) {
             continue;
         }
-        world->sight.fresh = false; // what systems ask about moves from pass to pass
+        world->query_grids.fresh = false; // what systems ask about moves from pass to pass
         plumb_result result = pl_passes[i].run(world, dt);
         if (result != PLUMB_OK) {
             return result;
@@ -51,8 +51,8 @@ static plumb_result run_passes(plumb_world *world, plumb_real dt)
         if (world->quarantine.again) {
             return PLUMB_OK;
         }
-        if (world->tape != NULL && world->tape->passed != NULL) {
-            world->tape->passed(world->tape, world, i);
+        if (world->observer != NULL && world->observer->passed != NULL) {
+            world->observer->passed(world->observer, world, i);
         }
         // Bodies that fell asleep or woke may leave passes without anything to do, or give them some.
         if (world->schedule_dirty) {
@@ -92,7 +92,7 @@ static plumb_result try_step(plumb_world *world, plumb_real dt)
 static void undo_step(plumb_world *world)
 {
     pl_characters_undo(world);
-    pl_seams_undo(world);
+    pl_internal_edges_undo(world);
     world->narrow.manifold_count = world->narrow.borne_count = 0; // pairs no longer name them
 }
 
@@ -109,23 +109,23 @@ plumb_result plumb_world_step(plumb_world *world, plumb_real dt)
     if (result != PLUMB_OK) {
         return result;
     }
-    pl_tape *tape = world->tape;
-    if (tape == NULL || !tape->replays) {
+    pl_step_observer *observer = world->observer;
+    if (observer == NULL || !observer->replays) {
         result = pl_commands_run(world);
     }
     if (result != PLUMB_OK) {
         return result;
     }
-    if (tape != NULL && tape->begin != NULL) {
-        tape->begin(tape, world);
+    if (observer != NULL && observer->begin != NULL) {
+        observer->begin(observer, world);
     }
     // Systems walk values beside rows.
     if (!pl_components_align(&world->memory, &world->components, &world->registry,
                              PLUMB_KIND_BODY)) {
         return pl_fail_memory(world, __func__);
     }
-    if (tape != NULL) {
-        tape->steps = true;
+    if (observer != NULL) {
+        observer->steps = true;
     }
     pl_tasks_rouse(world->tasks);
     pl_quarantine_begin(world);
@@ -137,8 +137,8 @@ plumb_result plumb_world_step(plumb_world *world, plumb_real dt)
         result = try_step(world, dt);
     }
     pl_tasks_rest(world->tasks);
-    if (tape != NULL) {
-        tape->steps = false;
+    if (observer != NULL) {
+        observer->steps = false;
     }
     if (result == PLUMB_E_MEMORY) {
         undo_step(world);
@@ -149,8 +149,8 @@ plumb_result plumb_world_step(plumb_world *world, plumb_real dt)
     }
     world->sleep.events_told |= result == PLUMB_OK;
     world->rearranged = false;
-    if (tape != NULL && tape->end != NULL) {
-        tape->end(tape, world, dt);
+    if (observer != NULL && observer->end != NULL) {
+        observer->end(observer, world, dt);
     }
     return result;
 }

@@ -94,7 +94,7 @@ plumb_result pl_body_check(const plumb_world *world, const char *fn, const plumb
     r = r != PLUMB_OK ? r : check_mass(world, fn, "mass", desc->mass);
     r = r != PLUMB_OK ? r : check_mass(world, fn, "inertia", desc->inertia);
     r = r != PLUMB_OK ? r : pl_check_finite(world, fn, "gravity_scale", desc->gravity_scale);
-    return r != PLUMB_OK ? r : pl_tuning_check(world, fn, desc);
+    return r != PLUMB_OK ? r : pl_body_settings_check(world, fn, desc);
 }
 
 static void set_continuous(plumb_world *world, uint32_t row, bool continuous)
@@ -118,12 +118,13 @@ static void fill_row(plumb_world *world, uint32_t row, const plumb_body_desc *de
                    (desc->no_sleep ? PL_BODY_NO_SLEEP : 0));
     set_continuous(world, row, desc->continuous);
     world->locked_bodies += desc->lock_x || desc->lock_y;
-    pl_tuning_set(world, row,
-                  &(pl_tuning){ .damping = desc->damping,
-                                .angular_damping = desc->angular_damping,
-                                .max_speed = desc->max_speed,
-                                .max_spin = desc->max_spin,
-                                .time_scale = desc->time_scale > 0 ? desc->time_scale : 1 });
+    pl_body_settings_set(
+        world, row,
+        &(pl_body_settings){ .damping = desc->damping,
+                             .angular_damping = desc->angular_damping,
+                             .max_speed = desc->max_speed,
+                             .max_spin = desc->max_spin,
+                             .time_scale = desc->time_scale > 0 ? desc->time_scale : 1 });
     b->vx[row] = desc->velocity.x;
     b->vy[row] = desc->velocity.y;
     b->w[row] = desc->angular_velocity;
@@ -141,7 +142,7 @@ plumb_result pl_body_insert(plumb_world *world, const char *fn, const plumb_body
                             plumb_body *body)
 {
     if (!pl_registry_reserve(&world->memory, &world->registry, 1) || !pl_rows_reserve(world, 1) ||
-        !pl_tuning_reserve(world)) {
+        !pl_body_settings_reserve(world)) {
         return pl_fail_memory(world, fn);
     }
     const bool asleep = desc->asleep && !desc->disabled && !world->desc.no_sleep;
@@ -203,7 +204,7 @@ void pl_body_place_at(plumb_world *world, uint32_t row, plumb_vec2 position, plu
         pl_rearranged(world);
         world->static_dirty |= b->type[row] == PLUMB_STATIC;
         world->sleep.boxes_stale |= b->island[row] != PL_NONE;
-        pl_seams_move_static(world, row);
+        pl_internal_edges_move_static(world, row);
     }
 }
 
@@ -255,7 +256,7 @@ plumb_result plumb_body_set_velocity(plumb_world *world, plumb_body body, plumb_
         pl_target_forget(world, row);
         world->bodies.vx[row] = pl_poses(world)[row].vx = velocity.x;
         world->bodies.vy[row] = pl_poses(world)[row].vy = velocity.y;
-        world->bodies.low_vx[row] = world->bodies.low_vy[row] = 0;
+        world->bodies.residual_vx[row] = world->bodies.residual_vy[row] = 0;
     }
     return r;
 }

@@ -21,7 +21,7 @@ static void relocate(plumb_world *world, uint32_t row)
     pl_sleep_forget(world, row);
     for (uint32_t p = b->first_piece[row]; p != PL_NONE; p = world->pieces.next_in_body[p]) {
         pl_sleep_void_contacts(world, p);
-        pl_seams_forget(world, p);
+        pl_internal_edges_forget(world, p);
     }
     plumb_body body = b->entity[row];
     for (uint32_t k = b->first_joint[row]; k != PL_NONE;) {
@@ -38,7 +38,7 @@ static void relocate(plumb_world *world, uint32_t row)
     pl_pieces_refile(world, row);
     for (uint32_t p = b->first_piece[row]; p != PL_NONE && !disabled;
          p = world->pieces.next_in_body[p]) {
-        pl_seams_touch(world, p);
+        pl_internal_edges_touch(world, p);
     }
     world->schedule_dirty = true;
 }
@@ -51,7 +51,7 @@ static void lose_mass(plumb_world *world, uint32_t row)
     pl_mass_apply(world, row, &(pl_body_mass){ .mass = 1 });
     b->mass[row] = b->inv_mass[row] = 0;
     b->fx[row] = b->fy[row] = b->torque[row] = 0;
-    b->low_vx[row] = b->low_vy[row] = 0;
+    b->residual_vx[row] = b->residual_vy[row] = 0;
 }
 
 static void stand_still(plumb_world *world, uint32_t row)
@@ -131,7 +131,7 @@ void pl_body_take_out(plumb_world *world, uint32_t row)
 {
     pl_bodies *b = &world->bodies;
     stand_still(world, row);
-    b->low_vx[row] = b->low_vy[row] = 0;
+    b->residual_vx[row] = b->residual_vy[row] = 0;
     b->fx[row] = b->fy[row] = b->torque[row] = 0;
     b->flags[row] |= PL_BODY_DISABLED;
     relocate(world, row);
@@ -153,7 +153,7 @@ plumb_result plumb_body_set_locks(plumb_world *world, plumb_body body, plumb_axi
                         (locks.rotation ? PL_BODY_FIXED_ROTATION : 0));
     world->locked_bodies += (locks.x || locks.y ? 1u : 0u) - (was ? 1u : 0u);
     pl_joints_replan(&world->joints);
-    world->bodies.low_vx[row] = world->bodies.low_vy[row] = 0;
+    world->bodies.residual_vx[row] = world->bodies.residual_vy[row] = 0;
     hold(world, row);
     pl_mass_revise(world, row);
     pl_sleep_disturb(world, row);

@@ -31,8 +31,8 @@ typedef struct pl_hint {
     X(real, c, ANY) X(real, s, ANY) /* rotation */                                                  \
     X(real, vx, GUARDED) X(real, vy, GUARDED) /* [m/s] */                                           \
     X(real, w, GUARDED) /* [rad/s] */                                                               \
-    X(real, low_x, ANY) X(real, low_y, ANY) /* [m] what rounding took from the centre: carried to the next step */ \
-    X(real, low_vx, ANY) X(real, low_vy, ANY) /* [m/s] the same of the velocity, in free flight */  \
+    X(real, residual_x, ANY) X(real, residual_y, ANY) /* [m] what rounding took from the centre: carried to the next step */ \
+    X(real, residual_vx, ANY) X(real, residual_vy, ANY) /* [m/s] the same of the velocity, in free flight */ \
     X(real, fx, GUARDED) X(real, fy, GUARDED) /* [N] for the next step */                           \
     X(real, torque, GUARDED) /* [N m] for the next step */                                          \
     X(real, inv_mass, POSITIVE) /* [1/kg] 0: immovable */                                           \
@@ -47,16 +47,16 @@ typedef struct pl_hint {
     X(uint32_t, first_piece, OR_NONE(PIECES)) /* pieces of the body, newest shape first; PL_NONE ends */ \
     X(uint32_t, first_joint, OR_NONE(JOINTS)) /* joints of the body, newest first; PL_NONE ends */  \
     X(uint32_t, character, ONE_MORE(CHARACTERS)) /* 1 + its place among the characters; 0: none */  \
-    X(real, looked, ANY) /* [s] of rest since the last look at where it is (src/sleep) */           \
-    X(real, look_x, ANY) X(real, look_y, ANY) /* [m] its centre at that look */                     \
-    X(real, look_c, ANY) X(real, look_s, ANY) /* its rotation then */                               \
-    X(real, way_x, ANY) X(real, way_y, ANY) /* [m] between the last two looks */                    \
-    X(real, way_turn, ANY) /* [rad] the same */                                                     \
-    X(uint8_t, looks, UP_TO(2)) /* in this rest, up to 2 */                                         \
+    X(real, rest_time, ANY) /* [s] of rest since the last sample of its pose (src/sleep) */         \
+    X(real, rest_x, ANY) X(real, rest_y, ANY) /* [m] its centre in that sample */                   \
+    X(real, rest_c, ANY) X(real, rest_s, ANY) /* its rotation then */                               \
+    X(real, rest_dx, ANY) X(real, rest_dy, ANY) /* [m] between the last two samples */              \
+    X(real, rest_turn, ANY) /* [rad] the same */                                                    \
+    X(uint8_t, rest_samples, UP_TO(2)) /* in this rest, up to 2 */                                  \
     X(uint32_t, island, OR_NONE(ISLANDS)) /* of a sleeping body; PL_NONE: awake */                  \
     X(uint32_t, next_asleep, ANY) X(uint32_t, previous_asleep, ANY) /* registry slots: bodies of the island */ \
     X(uint32_t, changed_step, ANY) /* step count + 1 when an immovable body was last changed */     \
-    X(uint32_t, tuning, ONE_MORE(TUNINGS)) /* 1 + its record in world->tunings; 0: none */          \
+    X(uint32_t, settings, ONE_MORE(SETTINGS)) /* 1 + its record in world->settings; 0: none */      \
     X(pl_hint, stirring, ANY) /* kinematic: it moves, or was changed, and wakes what it touches */  \
     X(uint8_t, type, UP_TO(PLUMB_STATIC)) /* plumb_body_type */                                     \
     X(uint16_t, flags, UP_TO(0x3fff)) /* PL_BODY_..., but PL_BODY_LOST */
@@ -68,13 +68,13 @@ typedef struct pl_hint {
 #define PL_BODY_CONTINUOUS     16u  // never passes through moving bodies either
 #define PL_BODY_LOCK_X         0x100u // never moves along x: infinite mass that way
 #define PL_BODY_LOCK_Y         0x200u
-#define PL_BODY_TUNED          0x400u // has a record in world->tunings
+#define PL_BODY_HAS_SETTINGS   0x400u // has a record in world->settings
 #define PL_BODY_DISABLED       0x800u // out of the simulation
 #define PL_BODY_TARGETED       0x1000u // has a record in world->targets
 #define PL_BODY_OWN_CENTER     0x2000u // its centre of mass was given, not taken from the shapes
 #define PL_BODY_LOST           0x4000u // the step has no finite end for it; only within the step
 #define PL_BODY_LOCKED         (PL_BODY_LOCK_X | PL_BODY_LOCK_Y)
-#define PL_BODY_ODD            (PL_BODY_LOCKED | PL_BODY_TUNED) // does not move as the rest do
+#define PL_BODY_HAS_EFFECTS    (PL_BODY_LOCKED | PL_BODY_HAS_SETTINGS) // does not move as the rest do
 #define PL_BODY_EXCLUDING      128u // it is in the table of excluded pairs, or was once
 
 // Pieces: the convex parts of shapes, what the broad and narrow phase see. Slots are stable for the
@@ -86,9 +86,9 @@ typedef struct pl_hint {
     X(uint8_t, vertex_count, UP_TO(16)) /* corners in the vertex pool; 0 for circles */             \
     X(uint8_t, vertex_class, UP_TO(PL_VERTEX_CLASSES - 1)) /* size class of its run in the pool */  \
     X(uint32_t, vertices, ANY) /* first corner in the vertex pool */                                \
-    X(uint32_t, seams, ANY) /* bit k: edge k is an inner cut */                                     \
-    X(uint32_t, seam_corners, ANY) /* PL_SEAM_...: corners that neighbours narrow (seams/seams.h) */ \
-    X(uint32_t, seam_edges, ANY) /* PL_SEAM_...: edges that neighbours cover */                     \
+    X(uint32_t, cuts, ANY) /* bit k: edge k is an inner cut */                                      \
+    X(uint32_t, internal_corners, ANY) /* PL_EDGE_...: corners that neighbours narrow (internal_edges/internal_edges.h) */ \
+    X(uint32_t, internal_edges, ANY) /* PL_EDGE_...: edges that neighbours cover */                 \
     X(uint32_t, body, ANY) /* body row; follows the row when it moves */                            \
     X(uint32_t, next_in_body, OR_NONE(PIECES)) /* next piece of the body, PL_NONE ends */           \
     X(uint32_t, next_in_shape, OR_NONE(PIECES)) /* next piece of the shape, PL_NONE ends; also the free list */ \
@@ -107,7 +107,7 @@ typedef struct pl_hint {
     X(pl_core, core, ANY) /* geometry in the body's frame, one gatherable record */                 \
     X(pl_box, fat, ANY) /* [m] fat box in the grid */                                               \
     X(uint32_t, moving, ANY) /* place in the list of moving or resting pieces; PL_NONE: static; PL_OUT */ \
-    X(uint32_t, first_dormant, OR_NONE(DORMANTS)) /* sleeping contacts with this static or kinematic piece */
+    X(uint32_t, first_sleeping, OR_NONE(SLEEPING)) /* sleeping contacts with this static or kinematic piece */
 
 #define PL_MATERIAL_COLUMNS(X)                                                                      \
     X(plumb_material, entity, ANY)                                                                  \

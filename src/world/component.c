@@ -6,7 +6,7 @@
 #include "world/component.h"
 
 #include "ecs/view.h"
-#include "step/tape.h"
+#include "step/observer.h"
 #include "world/check.h"
 #include "world/rows.h"
 
@@ -165,17 +165,17 @@ bool pl_component_put(plumb_world *world, plumb_entity entity, plumb_component c
     return true;
 }
 
-// What it does within a step is recorded there, and replayed without it: see step/tape.h.
+// What it does within a step is recorded there, and replayed without it: see step/observer.h.
 static void run_drop_hook(plumb_world *world, const pl_component *c, uint32_t place)
 {
-    pl_tape *tape = world->tape;
-    bool told = tape != NULL && tape->steps;
-    if (told && tape->dropping != NULL) {
-        tape->dropping(tape, world);
+    pl_step_observer *observer = world->observer;
+    bool told = observer != NULL && observer->steps;
+    if (told && observer->dropping != NULL) {
+        observer->dropping(observer, world);
     }
     run_hook(world, c, c->desc.on_remove, place);
-    if (told && tape->dropped != NULL) {
-        tape->dropped(tape, world);
+    if (told && observer->dropped != NULL) {
+        observer->dropped(observer, world);
     }
 }
 

@@ -56,7 +56,8 @@ plumb_result plumb_world_set_hit_speed(plumb_world *world, plumb_real speed)
     r = r != PLUMB_OK ? r : pl_check_range(world, __func__, "speed", speed, 0, PLUMB_REAL_MAX);
     if (r == PLUMB_OK) {
         world->desc.hit_speed = speed;
-        world->blows.count = speed > 0 ? world->blows.count : 0; // nobody asks for them any more
+        world->pending_hits.count =
+            speed > 0 ? world->pending_hits.count : 0; // nobody asks for them any more
     }
     return r;
 }
@@ -133,15 +134,15 @@ static plumb_contact view_contact(const plumb_world *world, const pl_pair *pair,
 }
 
 // The contacts of an island that sleeps: nothing has moved since.
-static int list_dormant(const plumb_world *world, uint32_t island, uint32_t row,
-                        plumb_contact *contacts, int capacity, int count)
+static int list_sleeping(const plumb_world *world, uint32_t island, uint32_t row,
+                         plumb_contact *contacts, int capacity, int count)
 {
-    const pl_dormant *all = pl_dormants(&world->sleep);
+    const pl_sleeping_contact *all = pl_sleeping_contacts(&world->sleep);
     uint32_t i = pl_islands(&world->sleep)[island].first_contact;
     for (; i != PL_NONE; i = all[i].next) {
         const pl_pair *pair = &all[i].pair;
         if (!(pair->flags & PL_PAIR_TOUCHING) || !(all[i].whole || all[i].recalled) ||
-            !pl_dormant_is_intact(world, &all[i]) ||
+            !pl_sleeping_contact_is_intact(world, &all[i]) ||
             (row != PL_NONE && world->pieces.body[pair->a] != row &&
              world->pieces.body[pair->b] != row)) {
             continue;
@@ -181,7 +182,7 @@ static int list_contacts(const plumb_world *world, uint32_t row, plumb_contact *
     }
     for (uint32_t i = 0; i < world->sleep.island_slots; ++i) {
         if (pl_islands(&world->sleep)[i].body_count > 0) {
-            count = list_dormant(world, i, row, contacts, capacity, count);
+            count = list_sleeping(world, i, row, contacts, capacity, count);
         }
     }
     return count;

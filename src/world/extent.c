@@ -15,13 +15,13 @@
 #define LINE_HALF_WIDTH ((real)0.005)
 
 // Half of the least width of a polygon's core across an edge that is a side.
-static real polygon_half_width(const plumb_world *world, uint32_t piece, bool seams)
+static real polygon_half_width(const plumb_world *world, uint32_t piece, bool cuts)
 {
     const pl_vertex *v = world->vertices.items + world->pieces.vertices[piece];
     int count = world->pieces.vertex_count[piece];
     real least = PLUMB_REAL_MAX;
     for (int i = 0; i < count; ++i) {
-        if (seams && (world->pieces.seams[piece] >> i & 1u) != 0) {
+        if (cuts && (world->pieces.cuts[piece] >> i & 1u) != 0) {
             continue;
         }
         real width = 0;
@@ -34,14 +34,14 @@ static real polygon_half_width(const plumb_world *world, uint32_t piece, bool se
     return least;
 }
 
-real pl_piece_half_width(const plumb_world *world, uint32_t piece, bool seams)
+real pl_piece_half_width(const plumb_world *world, uint32_t piece, bool cuts)
 {
     const pl_core *core = &world->pieces.core[piece];
     switch (world->pieces.kind[piece]) {
     case PL_PIECE_BOX:
         return core->hx < core->hy ? core->hx : core->hy;
     case PL_PIECE_POLYGON: {
-        real half = polygon_half_width(world, piece, seams);
+        real half = polygon_half_width(world, piece, cuts);
         return half < PLUMB_REAL_MAX ? half + core->radius : half;
     }
     default:

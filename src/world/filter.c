@@ -98,7 +98,7 @@ plumb_result plumb_shape_set_filter(plumb_world *world, plumb_shape shape, plumb
             pl_sleep_see_anew(world, p);
         }
         pl_filter_apply(world, first, &filter);
-        pl_seams_touch_shape(world, first);
+        pl_internal_edges_touch_shape(world, first);
         pl_rearranged(world);
     }
     return r;
@@ -139,7 +139,7 @@ plumb_result plumb_shape_set_sensor(plumb_world *world, plumb_shape shape, bool 
         }
         pl_sensor_apply(world, first, sensor);
         pl_mass_revise(world, world->pieces.body[first]);
-        pl_seams_touch_shape(world, first);
+        pl_internal_edges_touch_shape(world, first);
         pl_rearranged(world);
         world->schedule_dirty = true;
     }
@@ -234,8 +234,8 @@ plumb_result plumb_world_exclude_pair(plumb_world *world, plumb_body a, plumb_bo
         }
         world->bodies.flags[row_a] |= PL_BODY_EXCLUDING;
         world->bodies.flags[row_b] |= PL_BODY_EXCLUDING;
-        pl_seams_touch_static(world, row_a);
-        pl_seams_touch_static(world, row_b);
+        pl_internal_edges_touch_static(world, row_a);
+        pl_internal_edges_touch_static(world, row_b);
     } else {
         uint64_t *keys = world->excluded.data;
         --world->excluded_count;

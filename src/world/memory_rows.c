@@ -55,7 +55,8 @@ static size_t buffer_bytes(const pl_buffer *const *buffers, size_t count)
 static void tell_tables(listing *out, const plumb_world *w)
 {
     size_t bodies = BUFFERS(&w->poses), shapes = BUFFERS(&w->made, &w->outline, &w->moving);
-    size_t materials = BUFFERS(&w->material_pairs), entities = BUFFERS(&w->graves, &w->excluded);
+    size_t materials = BUFFERS(&w->material_pairs),
+           entities = BUFFERS(&w->tombstones, &w->excluded);
     PART(bodies, pl_bodies, w->bodies,
          pl_table_free(&dry, &copy.table, pl_body_columns, pl_body_column_count));
     PART(shapes, pl_pieces, w->pieces,
@@ -72,21 +73,21 @@ static void tell_tables(listing *out, const plumb_world *w)
 
 static void tell_passes(listing *out, const plumb_world *w)
 {
-    size_t broad = 0, narrow = 0, solver = 0, joints = 0, seams = 0, sleep = 0, swept = 0;
+    size_t broad = 0, narrow = 0, solver = 0, joints = 0, internal_edges = 0, sleep = 0, swept = 0;
     PART(broad, pl_broad, w->broad, pl_broad_free(&dry, &copy));
     PART(narrow, pl_narrow, w->narrow, pl_narrow_free(&dry, &copy));
     PART(narrow, pl_lookahead, w->lookahead, pl_ahead_free(&dry, &copy));
     PART(solver, pl_solver, w->solver, pl_solver_free(&dry, &copy));
     PART(solver, pl_quarantine, w->quarantine, pl_quarantine_free(&dry, &copy));
     PART(joints, pl_joints, w->joints, pl_joints_free(&dry, &copy));
-    PART(seams, pl_seams, w->seams, pl_seams_free(&dry, &copy));
+    PART(internal_edges, pl_internal_edges, w->internal_edges, pl_internal_edges_free(&dry, &copy));
     PART(sleep, pl_sleep, w->sleep, pl_sleep_free(&dry, &copy));
     PART(swept, pl_continuous, w->continuous, pl_continuous_free(&dry, &copy));
     tell(out, "broad phase", broad, w->broad.pairs.count);
     tell(out, "contacts", narrow, w->narrow.overlaps.touching_count);
     tell(out, "solver", solver, 0);
     tell(out, "joints", joints, 0);
-    tell(out, "seams", seams, 0);
+    tell(out, "internal edges", internal_edges, 0);
     tell(out, "sleep", sleep, w->asleep_count);
     tell(out, "continuous", swept, 0);
 }
@@ -101,11 +102,11 @@ static size_t component_bytes(const pl_components *all)
     return bytes;
 }
 
-static size_t sight_bytes(const pl_sight *sight)
+static size_t query_grid_bytes(const pl_query_grid_set *set)
 {
-    const pl_grid *grids = sight->grids.data;
-    size_t bytes = BUFFERS(&sight->grids, &sight->boxes, &sight->list);
-    for (int i = 0; grids != NULL && i < PL_SIGHT_GRIDS; ++i) {
+    const pl_grid *grids = set->grids.data;
+    size_t bytes = BUFFERS(&set->grids, &set->boxes, &set->list);
+    for (int i = 0; grids != NULL && i < PL_QUERY_GRID_COUNT; ++i) {
         PART(bytes, pl_grid, grids[i], pl_grid_free(&dry, &copy));
     }
     return bytes;
@@ -114,15 +115,15 @@ static size_t sight_bytes(const pl_sight *sight)
 static void tell_rest(listing *out, const plumb_world *w)
 {
     size_t characters = 0, systems = 0;
-    size_t effects = BUFFERS(&w->tunings.items, &w->targets.items);
+    size_t effects = BUFFERS(&w->settings.items, &w->targets.items);
     size_t events = BUFFERS(&w->begin_events, &w->end_events, &w->changed_pairs, &w->hit_events);
     PART(characters, pl_characters, w->characters, pl_characters_free(&dry, &copy));
     PART(systems, pl_systems, w->systems, pl_systems_free(&dry, &copy));
     PART(systems, pl_commands, w->commands, pl_commands_free(&dry, &copy));
     PART(events, pl_parts, w->parts, pl_parts_free(&dry, &copy));
-    PART(events, pl_blows, w->blows, pl_blows_free(&dry, &copy));
+    PART(events, pl_pending_hits, w->pending_hits, pl_pending_hits_free(&dry, &copy));
     PART(events, pl_sensing, w->sensing, pl_sensing_free(&dry, &copy));
-    tell(out, "queries", sight_bytes(&w->sight), 0);
+    tell(out, "queries", query_grid_bytes(&w->query_grids), 0);
     tell(out, "characters", characters, 0);
     tell(out, "effects", effects, 0);
     tell(out, "events", events, 0);

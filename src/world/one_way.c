@@ -44,7 +44,7 @@ void pl_one_way_apply(plumb_world *world, uint32_t first, const plumb_one_way *o
         pieces->one_way_angle[p] = one_way->angle;
         pl_piece_flag(world, p, PL_PIECE_ONE_WAY, on, &world->one_way_pieces);
     }
-    pl_seams_touch_shape(world, first);
+    pl_internal_edges_touch_shape(world, first);
     world->schedule_dirty = true;
 }
 

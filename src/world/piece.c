@@ -30,7 +30,7 @@ bool pl_pieces_reserve(plumb_world *world, uint32_t extra)
                             pieces->table.count + fresh) &&
            reserve_lists(world, extra) &&
            pl_broad_reserve_left(world, pieces->table.count + fresh) &&
-           pl_graves_reserve(world, pieces->table.count + fresh);
+           pl_tombstones_reserve(world, pieces->table.count + fresh);
 }
 
 static uint32_t take_slot(plumb_world *world)
@@ -52,7 +52,7 @@ static void enlist(plumb_world *world, uint32_t *list, uint32_t *count, uint32_t
 {
     list[*count] = slot;
     world->pieces.moving[slot] = (*count)++;
-    world->sight.fresh = false;
+    world->query_grids.fresh = false;
 }
 
 // The last of the list fills the gap.
@@ -63,7 +63,7 @@ static void delist(plumb_world *world, uint32_t *list, uint32_t *count, uint32_t
     list[place] = last;
     world->pieces.moving[last] = place;
     world->pieces.moving[slot] = PL_OUT;
-    world->sight.fresh = false;
+    world->query_grids.fresh = false;
 }
 
 static void enlist_resting(plumb_world *world, uint32_t slot)
@@ -94,7 +94,7 @@ static void file(plumb_world *world, uint32_t slot, uint32_t row)
     } else if (world->bodies.type[row] == PLUMB_STATIC) {
         pieces->moving[slot] = PL_NONE;
         world->static_dirty = true;
-        world->sight.fresh = false;
+        world->query_grids.fresh = false;
     } else if (pl_row_is_asleep(world, row)) {
         enlist_resting(world, slot);
         world->sleep.boxes_stale = true;
@@ -107,7 +107,7 @@ static void unfile(plumb_world *world, uint32_t slot)
 {
     if (world->pieces.moving[slot] == PL_NONE) {
         world->static_dirty = true;
-        world->sight.fresh = false;
+        world->query_grids.fresh = false;
     } else if ((world->pieces.flags[slot] & PL_PIECE_ASLEEP) != 0) {
         delist_resting(world, slot);
         pl_sensing_note_rest(world);
@@ -167,9 +167,9 @@ static void fill_slot(plumb_world *world, uint32_t slot, uint32_t row, const pl_
     pl_pieces *pieces = &world->pieces;
     pieces->kind[slot] = made->kind;
     pieces->core[slot] = made->core;
-    pieces->seams[slot] = made->seams;
+    pieces->cuts[slot] = made->cuts;
     pieces->body[slot] = row;
-    pieces->first_dormant[slot] = PL_NONE;
+    pieces->first_sleeping[slot] = PL_NONE;
     store_corners(world, slot, &made->convex);
     ++world->piece_kinds[made->kind];
     file(world, slot, row);
@@ -201,7 +201,7 @@ uint32_t pl_pieces_add(plumb_world *world, uint32_t row, plumb_shape shape, cons
         pieces->flags[p] |= PL_PIECE_PART;
         ++world->part_pieces;
     }
-    pl_seams_touch_shape(world, first);
+    pl_internal_edges_touch_shape(world, first);
     ++world->shape_count;
     pl_sleep_disturb(world, row);
     pl_rearranged(world);
@@ -227,11 +227,11 @@ static void unlink_from_body(plumb_world *world, uint32_t first)
 static void free_slot(plumb_world *world, uint32_t slot)
 {
     pl_pieces *pieces = &world->pieces;
-    pl_seams_forget(world, slot);
+    pl_internal_edges_forget(world, slot);
     unfile(world, slot);
     pl_sleep_void_contacts(world, slot);
     world->sleep.placed_pieces -= (pieces->flags[slot] & PL_PIECE_PLACED) != 0;
-    pl_grave_dig(world, slot);
+    pl_tombstone_set(world, slot);
     if (pieces->vertex_count[slot] > 0) {
         pl_pool_give(&world->vertices, pieces->vertex_class[slot], pieces->vertices[slot]);
     }
@@ -259,7 +259,8 @@ void pl_pieces_remove(plumb_world *world, uint32_t first)
         slot = next;
     }
     if (*left != PL_NONE && !pl_piece_is_static(world, *left)) {
-        pl_seams_touch(world, *left); // one stale piece stands for the whole of a moving body
+        pl_internal_edges_touch(world,
+                                *left); // one stale piece stands for the whole of a moving body
     }
     --world->shape_count;
     pl_rearranged(world);

@@ -158,7 +158,7 @@ uint32_t pl_row_open(plumb_world *world, pl_partition partition)
     world->bodies.first_piece[hole] = PL_NONE;
     world->bodies.first_joint[hole] = PL_NONE;
     world->bodies.island[hole] = PL_NONE;
-    world->bodies.looked[hole] = PL_UNSEEN;
+    world->bodies.rest_time[hole] = PL_NOT_RESTING;
     world->schedule_dirty = true;
     return hole;
 }
@@ -218,8 +218,8 @@ static void write_pose(plumb_world *world, uint32_t row, real dx, real dy)
     {
         b->x[row], b->y[row], b->c[row], b->s[row], dx, dy, b->vx[row], b->vy[row],
 #if PLUMB_IS_FAR
-            (b->center_x[row] - b->x[row] - dx) + b->low_x[row],
-            (b->center_y[row] - b->y[row] - dy) + b->low_y[row]
+            (b->center_x[row] - b->x[row] - dx) + b->residual_x[row],
+            (b->center_y[row] - b->y[row] - dy) + b->residual_y[row]
 #endif
     };
 }
@@ -248,9 +248,9 @@ void pl_body_update_center(plumb_world *world, uint32_t row)
     real dy = b->s[row] * b->local_x[row] + b->c[row] * b->local_y[row];
     b->center_x[row] = b->x[row] + dx;
     b->center_y[row] = b->y[row] + dy;
-    b->low_x[row] = b->low_y[row] = 0;
+    b->residual_x[row] = b->residual_y[row] = 0;
     write_pose(world, row, dx, dy);
-    world->sight.fresh = false;
+    world->query_grids.fresh = false;
     if (pl_is_wrapped(world)) {
         pl_wrap_row(world, row);
     }

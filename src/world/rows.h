@@ -67,7 +67,7 @@ void pl_pool_free(pl_memory *memory, pl_vertex_pool *pool);
 typedef struct pl_made_piece {
     plumb_convex convex;
     pl_core core;
-    uint32_t seams;
+    uint32_t cuts;
     uint8_t kind; // pl_piece_kind
 } pl_made_piece;
 
@@ -126,8 +126,8 @@ void pl_mass_revise(plumb_world *world, uint32_t row);
 //---- size (extent.c) -----------------------------------------------------------------------------
 
 // [m] half the least width of a piece, rounding included; 0 for segments. Inner cuts of an outline
-// are no sides where `seams` says so; without any side, PLUMB_REAL_MAX.
-real pl_piece_half_width(const plumb_world *world, uint32_t piece, bool seams);
+// are no sides where `cuts` says so; without any side, PLUMB_REAL_MAX.
+real pl_piece_half_width(const plumb_world *world, uint32_t piece, bool cuts);
 // Extent and slack of a dynamic or kinematic body whose shapes or centre have changed.
 void pl_extent_revise(plumb_world *world, uint32_t row);
 
@@ -149,9 +149,9 @@ plumb_entity pl_entity_claim(plumb_world *world, plumb_entity reserved, plumb_en
 // The descriptor was checked (pl_body_check, pl_shape_make). Errors: E_MEMORY, E_RANGE (mass).
 plumb_result pl_body_check(const plumb_world *world, const char *function,
                            const plumb_body_desc *desc);
-// Damping, caps and time scale of a descriptor (body_tune.c).
-plumb_result pl_tuning_check(const plumb_world *world, const char *function,
-                             const plumb_body_desc *desc);
+// Damping, caps and time scale of a descriptor (body_settings.c).
+plumb_result pl_body_settings_check(const plumb_world *world, const char *function,
+                                    const plumb_body_desc *desc);
 // What is added to a row: force and torque, or impulse and angular impulse (body_force.c).
 typedef struct pl_push {
     plumb_vec2 linear;

@@ -270,7 +270,7 @@ int plumb_shape_piece_count(const plumb_world *world, plumb_shape shape)
 }
 
 plumb_result plumb_shape_piece(const plumb_world *world, plumb_shape shape, int i,
-                               plumb_convex *piece, uint32_t *seams)
+                               plumb_convex *piece, uint32_t *cuts)
 {
     uint32_t p;
     plumb_result r = pl_check_shape(world, __func__, shape, &p);
@@ -286,8 +286,8 @@ plumb_result plumb_shape_piece(const plumb_world *world, plumb_shape shape, int 
         p = world->pieces.next_in_shape[p];
     }
     pl_piece_convex(world, p, piece);
-    if (seams != NULL) {
-        *seams = world->pieces.seams[p];
+    if (cuts != NULL) {
+        *cuts = world->pieces.cuts[p];
     }
     return PLUMB_OK;
 }

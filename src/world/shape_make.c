@@ -3,7 +3,7 @@
 //
 // Reads: the descriptor. Writes: world->made, world->outline (scratch of the decomposition).
 // Cost: O(points); outlines as plumb_outline_decompose, and O(corners of pieces x points) for the
-// seams.
+// cuts.
 #include "narrow/one_way.h"
 #include "world/filter.h"
 #include "world/check.h"
@@ -266,8 +266,8 @@ static bool try_box(const maker *m, pl_made_piece *piece)
 
 static void finish_polygon(const maker *m, pl_made_piece *piece)
 {
-    // Seams and round corners are the polygon kernel's: a piece that has them stays a polygon.
-    if (piece->seams == 0 && piece->convex.radius <= 0 && try_box(m, piece)) {
+    // Cuts and round corners are the polygon kernel's: a piece that has them stays a polygon.
+    if (piece->cuts == 0 && piece->convex.radius <= 0 && try_box(m, piece)) {
         return;
     }
     const plumb_convex *c = &piece->convex;
@@ -405,18 +405,18 @@ static bool on_outline(const plumb_shape_desc *d, plumb_vec2 p, plumb_vec2 q, re
     return false;
 }
 
-// Pieces use the outline's own corners, so a seam is an edge that no edge of the outline runs
+// Pieces use the outline's own corners, so a cut is an edge that no edge of the outline runs
 // along.
-static uint32_t seams_of(const plumb_shape_desc *d, const plumb_convex *convex, real tolerance)
+static uint32_t cuts_of(const plumb_shape_desc *d, const plumb_convex *convex, real tolerance)
 {
-    uint32_t seams = 0;
+    uint32_t cuts = 0;
     for (int k = 0; k < convex->count; ++k) {
         plumb_vec2 q = convex->points[k + 1 == convex->count ? 0 : k + 1];
         if (!on_outline(d, convex->points[k], q, tolerance)) {
-            seams |= 1u << k;
+            cuts |= 1u << k;
         }
     }
-    return seams;
+    return cuts;
 }
 
 static void copy_polygon(const plumb_convex_piece *piece, plumb_convex *convex)
@@ -456,7 +456,7 @@ static plumb_result make_outline(const maker *m)
     for (int i = 0; i < count; ++i) {
         pl_made_piece *piece = add_piece(m);
         copy_polygon(&parts[i], &piece->convex);
-        piece->seams = seams_of(d, &piece->convex, tolerance);
+        piece->cuts = cuts_of(d, &piece->convex, tolerance);
         finish_polygon(m, piece);
     }
     m->made->area = plumb_outline_mass(d->points, d->count, 1);

@@ -6,7 +6,7 @@
 #define PL_STATE_H
 
 #include "broad/broad.h"
-#include "broad/sight.h"
+#include "broad/query_grids.h"
 #include "character/character.h"
 #include "core/tasks.h"
 #include "continuous/continuous.h"
@@ -19,7 +19,7 @@
 #include "narrow/manifold.h"
 #include "plumb/event.h"
 #include "plumb/query.h"
-#include "seams/seams.h"
+#include "internal_edges/internal_edges.h"
 #include "solver/solver.h"
 #include "sleep/sleep.h"
 #include "step/pass.h"
@@ -46,7 +46,7 @@ typedef struct pl_pose {
     real dx, dy; // [m] centre of mass minus origin, in world axes
     real vx, vy; // [m/s] velocity of the centre
 #if PLUMB_IS_FAR
-    real low_x, low_y; // [m] what rounding took from the origin
+    real residual_x, residual_y; // [m] what rounding took from the origin
 #endif
 } pl_pose;
 
@@ -96,7 +96,7 @@ struct plumb_world {
     uint32_t one_way_pieces;
     uint32_t dropping_bodies; // requests to drop through since the last step
     uint32_t locked_bodies;   // bodies locked in x or y
-    pl_tunings tunings;
+    pl_body_settings_list settings;
     pl_targets targets;
 
     // Tables that few worlds have, sorted by key.
@@ -107,12 +107,12 @@ struct plumb_world {
 
     // Broad phase, narrow phase, solver: each owns its struct.
     pl_broad broad;
-    pl_sight sight;
+    pl_query_grid_set query_grids;
     pl_narrow narrow;
     pl_lookahead lookahead; // contacts ahead, of the narrow phase that ran last
     pl_solver solver;
     pl_continuous continuous;
-    pl_seams seams;
+    pl_internal_edges internal_edges;
     pl_joints joints;
     pl_characters characters;
     pl_schedule schedule;
@@ -123,14 +123,15 @@ struct plumb_world {
     pl_buffer changed_pairs;            // uint32_t: pairs that began or ceased to touch
     pl_buffer hit_events;               // plumb_contact_hit
     int begin_count, end_count, hit_count;
-    pl_buffer graves; // pl_grave by piece slot
+    pl_buffer tombstones; // pl_tombstone by piece slot
     pl_parts parts;
-    pl_blows blows;
+    pl_pending_hits pending_hits;
     pl_sensing sensing;
     pl_sleep sleep;
 
     pl_buffer checking, checked; // scratch of images that are checked (snapshot/check.c, restore.c)
-    struct pl_tape *tape;        // who records or replays this world (step/tape.h); NULL: nobody
+    struct pl_step_observer
+        *observer; // who records or replays this world (step/observer.h); NULL: nobody
 
     // Locking and errors.
     const char *locked_by; // name of the system or hook that runs; NULL: structural changes allowed

@@ -4,7 +4,7 @@
 // Cost: O(1), plumb_world_destroy O(components), plumb_world_energy O(dynamic bodies).
 #include "plumb/world.h"
 
-#include "step/tape.h"
+#include "step/observer.h"
 #include "world/check.h"
 #include "world/rows.h"
 #include "world/wrap.h"
@@ -149,10 +149,10 @@ static void free_world(plumb_world *world)
     pl_memory memory = world->memory;
     pl_tasks_destroy(&memory, world->tasks);
     pl_broad_free(&memory, &world->broad);
-    pl_sight_free(&memory, &world->sight);
+    pl_query_grids_free(&memory, &world->query_grids);
     pl_narrow_free(&memory, &world->narrow);
     pl_ahead_free(&memory, &world->lookahead);
-    pl_seams_free(&memory, &world->seams);
+    pl_internal_edges_free(&memory, &world->internal_edges);
     pl_solver_free(&memory, &world->solver);
     pl_joints_free(&memory, &world->joints);
     pl_characters_free(&memory, &world->characters);
@@ -176,13 +176,13 @@ static void free_world(plumb_world *world)
     pl_buffer_free(&memory, &world->hit_events);
     pl_buffer_free(&memory, &world->excluded);
     pl_buffer_free(&memory, &world->material_pairs);
-    pl_buffer_free(&memory, &world->graves);
+    pl_buffer_free(&memory, &world->tombstones);
     pl_buffer_free(&memory, &world->checking);
     pl_buffer_free(&memory, &world->checked);
-    pl_buffer_free(&memory, &world->tunings.items);
+    pl_buffer_free(&memory, &world->settings.items);
     pl_buffer_free(&memory, &world->targets.items);
     pl_parts_free(&memory, &world->parts);
-    pl_blows_free(&memory, &world->blows);
+    pl_pending_hits_free(&memory, &world->pending_hits);
     pl_sensing_free(&memory, &world->sensing);
     pl_sleep_free(&memory, &world->sleep);
     pl_resize(&memory, world, sizeof *world, 0);
@@ -240,8 +240,8 @@ void plumb_world_destroy(plumb_world *world)
     if (world == NULL) {
         return;
     }
-    if (world->tape != NULL && world->tape->gone != NULL) {
-        world->tape->gone(world->tape, world);
+    if (world->observer != NULL && world->observer->gone != NULL) {
+        world->observer->gone(world->observer, world);
     }
     pl_components_bury(world);
     free_world(world);

@@ -163,8 +163,10 @@ static bool bring_back(real *center, real *low, real *look, real period)
 void pl_wrap_row(plumb_world *world, uint32_t row)
 {
     pl_bodies *b = &world->bodies;
-    bool x = bring_back(&b->center_x[row], &b->low_x[row], &b->look_x[row], world->desc.wrap_x);
-    bool y = bring_back(&b->center_y[row], &b->low_y[row], &b->look_y[row], world->desc.wrap_y);
+    bool x =
+        bring_back(&b->center_x[row], &b->residual_x[row], &b->rest_x[row], world->desc.wrap_x);
+    bool y =
+        bring_back(&b->center_y[row], &b->residual_y[row], &b->rest_y[row], world->desc.wrap_y);
     if (x || y) {
         pl_body_update_origin(world, row);
     }

@@ -53,7 +53,7 @@ static void filtered_shapes_pass_through_each_other(void **state)
 
 // Pair finding passes over whole crowds whose filters keep them apart: the pairs that are left are those
 // of the rule. Discs on one spot, the last of them of the floor's body type.
-static void crowds_are_kept_apart_by_the_rule(void **state)
+static void many_are_kept_apart_by_the_rule(void **state)
 {
     (void)state;
     enum { DISCS = 5 };
@@ -389,7 +389,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_rule_of_filters),
         cmocka_unit_test(filtered_shapes_pass_through_each_other),
-        cmocka_unit_test(crowds_are_kept_apart_by_the_rule),
+        cmocka_unit_test(many_are_kept_apart_by_the_rule),
         cmocka_unit_test(a_changed_filter_ends_the_touch),
         cmocka_unit_test(excluded_bodies_pass_through_each_other),
         cmocka_unit_test(queries_ask_the_filter),

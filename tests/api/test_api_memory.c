@@ -31,7 +31,7 @@ typedef struct run {
 #define TRY_MAKE(r, handle, call) TRY(r, made((r)->world, handle = (call)))
 
 static const plumb_vec2 ell[] = { { 0, 0 }, { 2, 0 }, { 2, 1 }, { 1, 1 }, { 1, 2 }, { 0, 2 } };
-// The second half is two links in a line: bodies on them rest on a run (src/seams).
+// The second half is two links in a line: bodies on them rest on a run (src/internal_edges).
 static const plumb_vec2 ground[] = { { -40, 0 }, { 0, -1 }, { R(2), R(-0.95) }, { 40, 0 } };
 
 // As if there were threads: what they need is reserved, too.

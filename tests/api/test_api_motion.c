@@ -95,7 +95,7 @@ static void locks_are_refused(void **state)
 
 //---- damping, caps, time scale -------------------------------------------------------------------
 
-static void tunings_are_read_back(void **state)
+static void settings_are_read_back(void **state)
 {
     fixture *f = *state;
     plumb_world *w = f->world;
@@ -196,7 +196,7 @@ static void kinematic_bodies_have_their_time(void **state)
     assert_near(plumb_body_velocity(w, f->kinematic).x, 8, 1e-4);
 }
 
-static void tunings_are_refused(void **state)
+static void settings_are_refused(void **state)
 {
     fixture *f = *state;
     plumb_world *w = f->world;
@@ -379,10 +379,10 @@ int main(void)
         API_TEST(locks_are_kept_and_told),
         API_TEST(a_body_locked_altogether_is_immovable),
         API_TEST(locks_are_refused),
-        API_TEST(tunings_are_read_back),
+        API_TEST(settings_are_read_back),
         API_TEST(only_what_is_asked_for_is_scheduled),
         API_TEST(kinematic_bodies_have_their_time),
-        API_TEST(tunings_are_refused),
+        API_TEST(settings_are_refused),
         API_TEST(targets_are_given_up_for_other_orders),
         API_TEST(a_disabled_body_waits_on_its_way),
         API_TEST(targets_are_refused),

@@ -272,7 +272,7 @@ static void edits_are_told(void **state)
     count = plumb_replay_edits(replay, edits, 512);
     e = find_edit(edits, count, -1, g.ball.entity, "");
     assert_non_null(e);
-    assert_string_equal(e->change.table, "tunings");
+    assert_string_equal(e->change.table, "settings");
     assert_int_equal(e->change.kind, PLUMB_ONLY_B);
 
     assert_int_equal(plumb_replay_seek(replay, 50), PLUMB_OK);

@@ -1,5 +1,5 @@
 // test_api_shape.c - shapes: every kind with its pieces, mass, box and containment; materials of
-// shapes; outlines and their seams.
+// shapes; outlines and their cuts.
 #include "world_fixture.h"
 
 #define PI 3.14159265358979323846
@@ -154,17 +154,17 @@ static double area_of_pieces(const plumb_world *w, plumb_shape s)
     return area;
 }
 
-// Length of all edges that are not seams.
+// Length of all edges that are not cuts.
 static double rim_of_pieces(const plumb_world *w, plumb_shape s)
 {
     double rim = 0;
     for (int i = 0; i < plumb_shape_piece_count(w, s); ++i) {
         plumb_convex piece;
-        uint32_t seams;
-        plumb_shape_piece(w, s, i, &piece, &seams);
-        assert_true(seams >> piece.count == 0);
+        uint32_t inner;
+        plumb_shape_piece(w, s, i, &piece, &inner);
+        assert_true(inner >> piece.count == 0);
         for (int k = 0; k < piece.count; ++k) {
-            if (!(seams >> k & 1)) {
+            if (!(inner >> k & 1)) {
                 rim += (double)plumb_vec2_distance(piece.points[k],
                                                    piece.points[(k + 1) % piece.count]);
             }
@@ -173,7 +173,7 @@ static double rim_of_pieces(const plumb_world *w, plumb_shape s)
     return rim;
 }
 
-static void seams_are_the_edges_that_are_not_of_the_outline(void **state)
+static void cuts_are_the_edges_that_are_not_of_the_outline(void **state)
 {
     fixture *f = *state;
     plumb_world *w = f->world;
@@ -210,7 +210,7 @@ static void seams_are_the_edges_that_are_not_of_the_outline(void **state)
 
 // The foot of a T: its cut lies in line with edges of the outline on both sides of it, and touches
 // them.
-static void a_cut_in_line_with_the_outline_is_a_seam(void **state)
+static void a_cut_in_line_with_the_outline_is_a_cut(void **state)
 {
     fixture *f = *state;
     static const plumb_vec2 tee[] = { { 0, 0 }, { 3, 0 }, { 3, 1 }, { 2, 1 },
@@ -221,31 +221,31 @@ static void a_cut_in_line_with_the_outline_is_a_seam(void **state)
     int cuts = 0;
     for (int i = 0; i < plumb_shape_piece_count(f->world, s); ++i) {
         plumb_convex piece;
-        uint32_t seams;
-        plumb_shape_piece(f->world, s, i, &piece, &seams);
+        uint32_t inner;
+        plumb_shape_piece(f->world, s, i, &piece, &inner);
         for (int k = 0; k < piece.count; ++k) {
             plumb_vec2 p = piece.points[k];
             plumb_vec2 q = piece.points[(k + 1) % piece.count];
             if (p.y == 1 && q.y == 1 && plumb_abs(p.x - q.x) == 1 && p.x + q.x == 3) {
                 ++cuts;
-                assert_true(seams >> k & 1);
+                assert_true(inner >> k & 1);
             }
         }
     }
     assert_in_range(cuts, 1, 2);
 }
 
-static void a_convex_outline_has_one_piece_without_seams(void **state)
+static void a_convex_outline_has_one_piece_without_cuts(void **state)
 {
     fixture *f = *state;
     plumb_world *w = f->world;
     plumb_shape s = plumb_shape_create(
         w, f->dynamic, &(plumb_shape_desc){ .kind = PLUMB_OUTLINE, .points = tilted, .count = 4 });
     plumb_convex piece;
-    uint32_t seams = 99;
+    uint32_t inner = 99;
     assert_int_equal(plumb_shape_piece_count(w, s), 1);
-    assert_int_equal(plumb_shape_piece(w, s, 0, &piece, &seams), PLUMB_OK);
-    assert_int_equal(seams, 0);
+    assert_int_equal(plumb_shape_piece(w, s, 0, &piece, &inner), PLUMB_OK);
+    assert_int_equal(inner, 0);
 }
 
 static void shapes_carry_material_and_user_data(void **state)
@@ -400,9 +400,9 @@ int main(void)
         API_TEST(points_within_the_hull_of_a_polygon_are_warned_of),
         API_TEST(every_kind_has_its_pieces_mass_and_box),
         API_TEST(pieces_are_what_the_geometry_functions_make),
-        API_TEST(seams_are_the_edges_that_are_not_of_the_outline),
-        API_TEST(a_cut_in_line_with_the_outline_is_a_seam),
-        API_TEST(a_convex_outline_has_one_piece_without_seams),
+        API_TEST(cuts_are_the_edges_that_are_not_of_the_outline),
+        API_TEST(a_cut_in_line_with_the_outline_is_a_cut),
+        API_TEST(a_convex_outline_has_one_piece_without_cuts),
         API_TEST(shapes_carry_material_and_user_data),
         API_TEST(shapes_of_the_world_are_listed),
         API_TEST(bad_handles_are_answered_with_nothing),

@@ -1,4 +1,4 @@
-// test_mixed.c - random worlds of everything at once: tiles with seams, slabs and outlines, one-way
+// test_mixed.c - random worlds of everything at once: tiles with internal edges, slabs and outlines, one-way
 // platforms, sleeping bodies, characters, joints, sensors, filters, contacts edited by a system, bodies
 // made, destroyed, disabled, retyped and teleported at any time. Nobody knows what such a world should
 // do; but it must do the same, to the last bit, in steps that run out of memory anywhere and are tried

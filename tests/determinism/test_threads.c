@@ -22,7 +22,7 @@ enum {
     SENSORS = 4,   // some see
     BULLETS = 8,   // some are fast, and some of these are swept against moving ones
     SURFACES = 16, // belts, what rolls hard and what sticks
-    ODD = 32,      // locked axes, damping, a time of their own
+    EFFECTS = 32,  // locked axes, damping, a time of their own
     TOWERS = 64 // boxes stand on boxes, in islands of twenty; what else there is is among the first
 };
 
@@ -39,12 +39,12 @@ static const setting settings[] = {
     { "heap", { .simd_width = 4 }, 0 },
     { "chains", { .substeps = 4 }, CHAINS },
     { "bouncy", { .simd_width = 8 }, BOUNCY | BULLETS },
-    { "everything", { .hit_speed = 2 }, CHAINS | BOUNCY | SENSORS | BULLETS | SURFACES | ODD },
+    { "everything", { .hit_speed = 2 }, CHAINS | BOUNCY | SENSORS | BULLETS | SURFACES | EFFECTS },
     { "wrapped", { .wrap_x = 60 }, CHAINS | BULLETS },
     { "classic", { .solver = PLUMB_SOLVER_PGS }, CHAINS | BULLETS },
     { "wide", { .simd_width = 16, .no_sleep = true }, CHAINS | SURFACES },
     { "towers", { .no_sleep = true }, TOWERS },
-    { "towers and all", { .no_sleep = true }, TOWERS | CHAINS | BOUNCY | SURFACES | ODD },
+    { "towers and all", { .no_sleep = true }, TOWERS | CHAINS | BOUNCY | SURFACES | EFFECTS },
 };
 
 static uint32_t next(uint32_t *seed)
@@ -142,7 +142,7 @@ static plumb_world *make(const setting *s, int workers,
         if (sensor) {
             add_shape(w, b, next(&seed), materials[0], false);
         }
-        if ((what & ODD) != 0) {
+        if ((what & EFFECTS) != 0) {
             tune(w, b, i);
         }
         if ((what & CHAINS) != 0 && i % 5 != 0 && i % 60 != 0) {
@@ -264,7 +264,7 @@ static void any_number_of_threads_gives_the_same_bits(void **state)
             run(&settings[k], workers[i], NULL, several);
             expect_same(&settings[k], workers[i], one, several);
         }
-        if ((settings[k].what & ODD) != 0) {
+        if ((settings[k].what & EFFECTS) != 0) {
             run(&settings[k], OTHERS, NULL, several);
             expect_same(&settings[k], OTHERS, one, several);
         }

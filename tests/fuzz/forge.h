@@ -82,7 +82,7 @@ static inline void add_joints(plumb_world *w, plumb_body a, plumb_body b, int fi
     }
 }
 
-// World 0: bodies in contact, joints. 1: ground of many pieces, sleepers, sensors. 2: a character, targets, tunings,
+// World 0: bodies in contact, joints. 1: ground of many pieces, sleepers, sensors. 2: a character, targets, settings of bodies,
 // commands, materials. 3: a world that wraps around, solved the classic way.
 static inline void fill(plumb_world *w, int which)
 {

@@ -178,7 +178,7 @@ static void between_two_slopes_it_stands(void **state)
 //---- ground of many pieces ------------------------------------------------------------------------
 
 // Tiles in a row, some a few micrometres high or low: every step is as long as the one before.
-static void seams(void **state)
+static void internal_edges(void **state)
 {
     (void)state;
     for (int is_box = 0; is_box < 2; ++is_box) {
@@ -258,7 +258,7 @@ int main(void)
         cmocka_unit_test(a_course),        cmocka_unit_test(jumps_are_exact),
         cmocka_unit_test(a_tour_of_jumps), cmocka_unit_test(slopes),
         cmocka_unit_test(too_steep),       cmocka_unit_test(between_two_slopes_it_stands),
-        cmocka_unit_test(seams),           cmocka_unit_test(uphill_over_corners),
+        cmocka_unit_test(internal_edges),  cmocka_unit_test(uphill_over_corners),
         cmocka_unit_test(edges),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

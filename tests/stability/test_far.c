@@ -212,7 +212,7 @@ static void slide(double far, double where[4])
     plumb_world_destroy(w);
 }
 
-static void seams_and_platforms_are_as_at_the_origin(void **state)
+static void internal_edges_and_platforms_are_as_at_the_origin(void **state)
 {
     (void)state;
     double here[4], there[4];
@@ -256,7 +256,7 @@ int main(void)
         cmocka_unit_test(on_ground_of_the_origin),
         cmocka_unit_test(large_pyramid_drifts_as_at_the_origin),
         cmocka_unit_test(bridge_hangs_as_at_the_origin),
-        cmocka_unit_test(seams_and_platforms_are_as_at_the_origin),
+        cmocka_unit_test(internal_edges_and_platforms_are_as_at_the_origin),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -276,7 +276,7 @@ static void check_clusters(const plumb_world *w, bool special)
     assert_int_equal(count, w->narrow.manifold_count);
     for (uint32_t row = 0; special && row < w->dynamic_count; ++row) {
         const uint32_t slot_of = ((const uint32_t *)s->slots.data)[row];
-        if ((w->bodies.flags[row] & PL_BODY_TUNED) != 0 && slot_of != PL_NONE) {
+        if ((w->bodies.flags[row] & PL_BODY_HAS_SETTINGS) != 0 && slot_of != PL_NONE) {
             assert_true(has(pl_clusters(s)->slots[0], slot_of));
         }
     }

@@ -1,4 +1,4 @@
-// test_dull.c - impacts in lanes (dull.simd.c) are those of bounce.c, bit for bit: what the outlook settles,
+// test_dull.c - impacts in lanes (dull.simd.c) are those of bounce.c, bit for bit: what the prediction settles,
 // which contacts strike, how hard, and what the contact kernel is told. Stirred heaps of every kind of
 // contact, at every width, looked at again in the state in which a step has left them.
 #include <setjmp.h>
@@ -94,7 +94,7 @@ static void *copy_of(const void *data, size_t size)
 static void parts_of(const plumb_world *w, void *part[5], size_t size[5])
 {
     const pl_solver *s = &w->solver;
-    const pl_buffer *from[5] = { &s->bodies, &s->motions, &s->lows, &s->struck, &s->bundles };
+    const pl_buffer *from[5] = { &s->bodies, &s->motions, &s->residuals, &s->struck, &s->bundles };
     const size_t sizes[5] = { s->dynamic_slots * sizeof(pl_solver_body),
                               s->dynamic_slots * sizeof(pl_solver_motion),
                               s->dynamic_slots * 4 * sizeof(near_real),
@@ -162,7 +162,7 @@ typedef struct tally {
 } tally;
 
 // Impacts of a substep from the present state: in lanes, one after another, and those alone that the
-// outlook leaves open.
+// prediction leaves open.
 static void check_substep(plumb_world *w, near_real h, tally *t)
 {
     pl_solver *s = &w->solver;
@@ -176,14 +176,14 @@ static void check_substep(plumb_world *w, near_real h, tally *t)
     assert_int_equal(s->lively_count, 0);
     pl_impacts_run(w, h);
     check_same(w, &after);
-    for (uint32_t lane = 0; lane < s->outlook_lanes; ++lane) {
-        if (((const pl_outlook_ends *)s->outlook_ends.data)[lane].impact != PL_NONE) {
-            t->open += ((const uint8_t *)s->outlook_open.data)[lane];
+    for (uint32_t lane = 0; lane < s->predicted_lanes; ++lane) {
+        if (((const pl_predicted_ends *)s->predicted_ends.data)[lane].impact != PL_NONE) {
+            t->open += ((const uint8_t *)s->predicted_open.data)[lane];
         }
     }
 
     bring_back(w, &before);
-    s->outlook_lanes = 0;
+    s->predicted_lanes = 0;
     pl_impacts_run(w, h);
     check_same(w, &after);
 

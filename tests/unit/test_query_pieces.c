@@ -66,11 +66,11 @@ static void test_inner_cuts(void **state)
         plumb_transform t = plumb_body_transform(world, body);
         for (int piece = 0; piece < plumb_shape_piece_count(world, shape); ++piece) {
             plumb_convex convex;
-            uint32_t seams;
-            assert_int_equal(plumb_shape_piece(world, shape, piece, &convex, &seams), PLUMB_OK);
+            uint32_t cuts;
+            assert_int_equal(plumb_shape_piece(world, shape, piece, &convex, &cuts), PLUMB_OK);
             for (int k = 0; k < convex.count; ++k) {
                 plumb_vec2 a = convex.points[k], b = convex.points[(k + 1) % convex.count];
-                for (int i = 1; i < 40 && (seams >> k & 1u); ++i) {
+                for (int i = 1; i < 40 && (cuts >> k & 1u); ++i) {
                     plumb_vec2 local = plumb_vec2_lerp(a, b, R(i / 40.0));
                     plumb_vec2 at = plumb_transform_apply(t, local);
                     plumb_ray_hit hit;
@@ -81,7 +81,7 @@ static void test_inner_cuts(void **state)
                     assert_true(plumb_world_nearest(world, at, 1, NULL, &near));
                     NEAR(near.distance, distance_to_bowl(local), 2e-4);
                 }
-                if (seams >> k & 1u) { // along the cut, from outside
+                if (cuts >> k & 1u) { // along the cut, from outside
                     plumb_vec2 from = plumb_vec2_lerp(a, b, -20), to = plumb_vec2_lerp(a, b, 20);
                     plumb_ray_hit hit;
                     assert_true(plumb_world_ray(world, plumb_transform_apply(t, from),

@@ -40,7 +40,7 @@ static void check(const plumb_world *world)
     assert_int_equal(bytes_of(rows, count, "world"), sizeof(plumb_world));
 }
 
-// Scenes with contacts, joints, sensors, characters, effects, sleepers, seams.
+// Scenes with contacts, joints, sensors, characters, effects, sleepers, internal edges.
 static void nothing_is_left_out(void **state)
 {
     (void)state;

@@ -61,7 +61,7 @@ static void check_bodies_of(const plumb_world *w, uint32_t island, uint32_t *bod
 static void check_contacts_of(const plumb_world *w, uint32_t island, uint32_t *contacts)
 {
     const pl_island *i = &pl_islands(&w->sleep)[island];
-    const pl_dormant *all = pl_dormants(&w->sleep);
+    const pl_sleeping_contact *all = pl_sleeping_contacts(&w->sleep);
     uint32_t count = 0, touching = 0;
     for (uint32_t c = i->first_contact; c != PL_NONE; c = all[c].next) {
         assert_int_equal(all[c].island, island);
@@ -69,12 +69,12 @@ static void check_contacts_of(const plumb_world *w, uint32_t island, uint32_t *c
         touching += all[c].whole && (all[c].manifold.point[0].separation <= 0 ||
                                      all[c].manifold.point[1].separation <= 0);
         if (all[c].fixed != PL_NONE) { // it is in the list of that piece
-            uint32_t at = w->pieces.first_dormant[all[c].fixed];
+            uint32_t at = w->pieces.first_sleeping[all[c].fixed];
             while (at != c) {
                 assert_int_not_equal(at, PL_NONE);
                 at = all[at].fixed_next;
             }
-        } else if (pl_dormant_is_intact(w, &all[c])) { // both ends are in the island
+        } else if (pl_sleeping_contact_is_intact(w, &all[c])) { // both ends are in the island
             assert_int_equal(w->bodies.island[w->pieces.body[all[c].pair.a]], island);
             assert_int_equal(w->bodies.island[w->pieces.body[all[c].pair.b]], island);
         }
@@ -104,7 +104,7 @@ static void check_rows(const plumb_world *w)
             assert_int_equal((w->pieces.flags[p] & PL_PIECE_ASLEEP) != 0, asleep);
             assert_int_equal(w->pieces.moving[p] == PL_NONE, type == PLUMB_STATIC);
             assert_true(type == PLUMB_STATIC || list[w->pieces.moving[p]] == p);
-            assert_true(type != PLUMB_DYNAMIC || w->pieces.first_dormant[p] == PL_NONE);
+            assert_true(type != PLUMB_DYNAMIC || w->pieces.first_sleeping[p] == PL_NONE);
         }
     }
 }
@@ -118,7 +118,7 @@ static void check_free(const plumb_world *w)
         slot = pl_islands(s)[slot].first_body;
     }
     for (count = 0, slot = s->free_contact; count < s->contact_slots - s->contact_count; ++count) {
-        slot = pl_dormants(s)[slot].next;
+        slot = pl_sleeping_contacts(s)[slot].next;
     }
 }
 

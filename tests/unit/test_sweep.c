@@ -8,7 +8,7 @@
 
 #include <cmocka.h>
 
-#include "continuous/course.h"
+#include "continuous/swept_motion.h"
 #include "continuous/target.h"
 #include "harness/sim.h"
 
@@ -218,21 +218,21 @@ static void a_way_joins_its_ends_within_its_box(void **state)
         pl_place from = { sim_uniform(&seed, -9, 9), sim_uniform(&seed, -9, 9), cos(a0), sin(a0) };
         pl_place to = { sim_uniform(&seed, -9, 9), sim_uniform(&seed, -9, 9), cos(a0 + angle),
                         sin(a0 + angle) };
-        pl_course course = pl_course_between(w, row, from, to, angle);
-        pl_place at = pl_course_place(w, row, &course, 0);
+        pl_swept_motion motion = pl_swept_motion_between(w, row, from, to, angle);
+        pl_place at = pl_swept_motion_place(w, row, &motion, 0);
         worst = fmax(
             worst, fmax(hypot(at.x - from.x, at.y - from.y), hypot(at.c - from.c, at.s - from.s)));
-        at = pl_course_place(w, row, &course, 1);
+        at = pl_swept_motion_place(w, row, &motion, 1);
         worst = fmax(worst, fmax(hypot(at.x - to.x, at.y - to.y), hypot(at.c - to.c, at.s - to.s)));
-        pl_swept swept = pl_course_piece(w, piece, &course);
-        pl_box box = pl_course_box(&course, &swept);
+        pl_swept swept = pl_swept_motion_piece(w, piece, &motion);
+        pl_box box = pl_swept_motion_box(&motion, &swept);
         for (int n = 0; n <= 50; ++n) {
             double t = n / 50.0, x[16], y[16];
             place(&swept, t, x, y);
-            pl_course stopped = pl_course_stopped(&course, t);
-            pl_swept still = pl_course_piece(w, piece, &stopped);
+            pl_swept_motion stopped = pl_swept_motion_stopped(&motion, t);
+            pl_swept still = pl_swept_motion_piece(w, piece, &stopped);
             for (int k = 0; k < swept.count; ++k) {
-                double px = x[k] + course.ox, py = y[k] + course.oy, r = swept.radius;
+                double px = x[k] + motion.ox, py = y[k] + motion.oy, r = swept.radius;
                 assert_true((double)box.min_x <= px - r && px + r <= (double)box.max_x);
                 assert_true((double)box.min_y <= py - r && py + r <= (double)box.max_y);
                 worst =
@@ -266,9 +266,9 @@ static void a_hinged_body_turns_about_its_hinge(void **state)
                                .s = (plumb_real)-sin(1),
                                .angle = (plumb_real)(angle * 1.001),
                                .stop = 1 };
-            pl_course course = pl_course_of_mover(w, &mover, 0, 0);
-            assert_true(fabs(course.angle - angle) < SIM_TOLERANCE(1e-6, 1e-14));
-            pl_place half = pl_course_place(w, row, &course, 0.5);
+            pl_swept_motion motion = pl_swept_motion_of_mover(w, &mover, 0, 0);
+            assert_true(fabs(motion.angle - angle) < SIM_TOLERANCE(1e-6, 1e-14));
+            pl_place half = pl_swept_motion_place(w, row, &motion, 0.5);
             double x = hinged ? 2 * cos(angle / 2) : (2 * cos(1) + 2) / 2;
             double y = hinged ? -2 * sin(angle / 2) : -2 * sin(1) / 2;
             assert_true(hypot(half.x - x, half.y - y) < SIM_TOLERANCE(1e-5, 1e-13));

@@ -181,7 +181,7 @@ static void wrapped_angles_are_the_same_direction(void **state)
         long double turn = 6.28318530717958647693L;
         long double want = (long double)a - turn * roundl((long double)a / turn);
         long double off = fabsl((long double)w - want);
-        off = off > 3 ? fabsl(off - turn) : off; // on the seam
+        off = off > 3 ? fabsl(off - turn) : off; // on the internal edge
         // The reference itself is only as good as the 64 bits of pi that it subtracts.
         assert_true(off <= spacing(want) + 2e-19L * fabsl((long double)a));
     }

@@ -85,6 +85,36 @@ xargs sed 's|//.*||' <"$work/files" | cat - Makefile tools/make/* | grep -oE '[A
 } | xargs awk -f $here/words.awk "$work/names" "$work/words" >"$work/out"
 breach "named but nowhere" <"$work/out"
 
+# Private words (private_words.txt), as a part of an identifier of the library or as the name of a file.
+sources src | xargs awk '
+    NR == FNR { if (!/^#/ && NF > 1) { word = $1; sub(/^[^ ]+ +/, ""); instead[word] = $0 } next }
+    FNR == 1 {
+        name = FILENAME
+        sub(/.*\//, "", name)
+        sub(/[.].*/, "", name)
+        check(name)
+    }
+    {
+        sub(/\/\/.*/, "")
+        while (match($0, /[A-Za-z_][A-Za-z0-9_]*/)) {
+            check(substr($0, RSTART, RLENGTH))
+            $0 = substr($0, RSTART + RLENGTH)
+        }
+    }
+    function check(identifier,    i, n, part) {
+        if (identifier ~ /^plumb_/ || identifier in seen) {
+            return
+        }
+        seen[identifier]
+        n = split(tolower(identifier), part, "_")
+        for (i = 1; i <= n; ++i) {
+            if (part[i] in instead) {
+                print FILENAME ":" FNR ": " identifier ": say " instead[part[i]]
+            }
+        }
+    }' $here/private_words.txt >"$work/out"
+breach "private word" <"$work/out"
+
 # ---- the public interface: each function is documented and called by a test of tests/api, each result code is
 # the outcome that one of them asks for
 

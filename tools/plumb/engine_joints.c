@@ -175,11 +175,11 @@ static size_t outline_of(const plumb_convex *piece, plumb_transform where, rende
 }
 
 /// Edges that are the outline's, one by one: of a piece of a concave shape.
-static void add_edges(const render_vec *points, size_t count, uint32_t seams, double travel,
+static void add_edges(const render_vec *points, size_t count, uint32_t cuts, double travel,
                       render_frame *frame)
 {
     for (size_t i = 0; i < count; i++) {
-        if ((seams >> i & 1) == 0) {
+        if ((cuts >> i & 1) == 0) {
             const render_vec edge[2] = { points[i], points[(i + 1) % count] };
             render_add_surface(frame, edge, 2, false, travel);
         }
@@ -195,9 +195,9 @@ static void add_surface(const plumb_world *world, plumb_shape shape, double run,
     plumb_vec2 up = plumb_world_up(world);
     for (int i = 0; i < plumb_shape_piece_count(world, shape); i++) {
         plumb_convex piece;
-        uint32_t seams = 0;
+        uint32_t cuts = 0;
         render_vec points[PATH_MAX];
-        if (plumb_shape_piece(world, shape, i, &piece, &seams) != PLUMB_OK) {
+        if (plumb_shape_piece(world, shape, i, &piece, &cuts) != PLUMB_OK) {
             continue;
         }
         // Positive speed runs clockwise, the outline counter-clockwise.
@@ -207,7 +207,7 @@ static void add_surface(const plumb_world *world, plumb_shape shape, double run,
                          (points[1].y - points[0].y) * (double)up.x;
             render_add_surface(frame, points, 2, false, way > 0 ? run : -run);
         } else if (kind == PLUMB_OUTLINE) {
-            add_edges(points, count, seams, -run, frame);
+            add_edges(points, count, cuts, -run, frame);
         } else {
             render_add_surface(frame, points, count, true, -run);
         }

@@ -1,0 +1,87 @@
+// body_settings.c - records of damping, speed caps and time scale: kept dense, one for each body that asks.
+//
+// The body's column `settings` names its record, the record names the body; when one goes, the last
+// one fills the gap. The order means nothing: a record concerns its body alone. Reads, writes: the
+// list, the body's column and flag. Cost: O(1).
+#include "world/state.h"
+
+static pl_body_settings *items(const plumb_world *world)
+{
+    return (pl_body_settings *)world->settings.items.data;
+}
+
+pl_body_settings pl_body_settings_get(const plumb_world *world, uint32_t row)
+{
+    uint32_t at = world->bodies.settings[row];
+    return at != 0 ? items(world)[at - 1]
+                   : (pl_body_settings){ .body = world->bodies.entity[row], .time_scale = 1 };
+}
+
+real pl_time_scale(const plumb_world *world, uint32_t row)
+{
+    uint32_t at = world->bodies.settings[row];
+    return at != 0 ? items(world)[at - 1].time_scale : 1;
+}
+
+bool pl_body_settings_reserve(plumb_world *world)
+{
+    return pl_buffer_reserve(&world->memory, &world->settings.items,
+                             ((size_t)world->settings.count + 1) * sizeof(pl_body_settings));
+}
+
+static bool is_damped(const pl_body_settings *t)
+{
+    return t->damping > 0 || t->angular_damping > 0;
+}
+
+static bool is_capped(const pl_body_settings *t)
+{
+    return t->max_speed > 0 || t->max_spin > 0;
+}
+
+static void count(pl_body_settings_list *settings, const pl_body_settings *t, uint32_t by)
+{
+    settings->damped += is_damped(t) ? by : 0;
+    settings->capped += is_capped(t) ? by : 0;
+    settings->scaled += t->time_scale != 1 ? by : 0;
+    settings->frozen += t->time_scale == 0 ? by : 0;
+}
+
+static void take_away(plumb_world *world, uint32_t row)
+{
+    uint32_t at = world->bodies.settings[row];
+    if (at == 0) {
+        return;
+    }
+    pl_body_settings_list *settings = &world->settings;
+    count(settings, &items(world)[at - 1], UINT32_MAX);
+    pl_body_settings last = items(world)[--settings->count];
+    if (at - 1 != settings->count) {
+        items(world)[at - 1] = last;
+        world->bodies.settings[pl_body_row(world, last.body)] = at;
+    }
+    world->bodies.settings[row] = 0;
+    world->bodies.flags[row] &= (uint16_t)~PL_BODY_HAS_SETTINGS;
+}
+
+void pl_body_settings_set(plumb_world *world, uint32_t row, const pl_body_settings *values)
+{
+    take_away(world, row);
+    world->schedule_dirty = true;
+    if (!is_damped(values) && !is_capped(values) && values->time_scale == 1) {
+        return;
+    }
+    pl_body_settings_list *settings = &world->settings;
+    items(world)[settings->count] = *values;
+    items(world)[settings->count].body = world->bodies.entity[row];
+    count(settings, values, 1);
+    world->bodies.settings[row] = ++settings->count;
+    world->bodies.flags[row] |= PL_BODY_HAS_SETTINGS;
+}
+
+void pl_body_forget(plumb_world *world, uint32_t row)
+{
+    take_away(world, row);
+    pl_target_forget(world, row);
+    world->locked_bodies -= (world->bodies.flags[row] & PL_BODY_LOCKED) != 0;
+}
