@@ -90,6 +90,14 @@ static bool add_at_rest(void *context, const pl_grid_entry *entry)
     return true;
 }
 
+// The grid of what sleeps may name pieces that sleep no more; some of those are static now.
+static bool add_asleep(void *context, const pl_grid_entry *entry)
+{
+    const rest_finder *f = context;
+    return (f->world->pieces.flags[entry->piece] & PL_PIECE_ASLEEP) == 0 ||
+           add_at_rest(context, entry);
+}
+
 // What sleeps near a sensor at rest, and what is static near a sensor that sleeps.
 static bool list_rest_candidates(plumb_world *world)
 {
@@ -102,7 +110,7 @@ static bool list_rest_candidates(plumb_world *world)
         if (!is_at_rest(world, piece) || (p->flags[piece] & PL_PIECE_SENSOR) == 0) {
             continue;
         }
-        if (!pl_world_query(world, &world->broad.resting, p->fat[piece], add_at_rest, &f) ||
+        if (!pl_world_query(world, &world->broad.resting, p->fat[piece], add_asleep, &f) ||
             (asleep &&
              !pl_world_query(world, &world->broad.fixed, p->fat[piece], add_at_rest, &f))) {
             return false;

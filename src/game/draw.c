@@ -162,9 +162,6 @@ static bool draw_piece(void *context, const pl_grid_entry *entry)
     const pl_drawing *d = context;
     const plumb_world *world = d->world;
     const uint32_t piece = entry->piece;
-    if (world->pieces.kind[piece] == PL_PIECE_FREE || world->pieces.moving[piece] == PL_OUT) {
-        return true;
-    }
     plumb_color color = d->palette[paint_of(world, piece)];
     if (d->desc.color != NULL) {
         color = d->desc.color(d->calls.context, world->pieces.shape[piece], color);
@@ -178,9 +175,6 @@ static bool draw_piece(void *context, const pl_grid_entry *entry)
 static bool draw_box(void *context, const pl_grid_entry *entry)
 {
     const pl_drawing *d = context;
-    if (d->world->pieces.kind[entry->piece] == PL_PIECE_FREE) {
-        return true;
-    }
     plumb_convex convex;
     pl_piece_convex(d->world, entry->piece, &convex);
     const plumb_aabb box = plumb_convex_aabb(&convex, shown(d, entry));
@@ -191,13 +185,26 @@ static bool draw_box(void *context, const pl_grid_entry *entry)
     return true;
 }
 
+typedef struct pl_asleep {
+    pl_drawing *drawing;
+    pl_grid_visit *visit;
+} pl_asleep;
+
+// The grid of what sleeps may name pieces that sleep no more: another grid has them, or none.
+static bool visit_asleep(void *context, const pl_grid_entry *entry)
+{
+    const pl_asleep *a = context;
+    return (a->drawing->world->pieces.flags[entry->piece] & PL_PIECE_ASLEEP) == 0 ||
+           a->visit(a->drawing, entry);
+}
+
 static void each_piece(pl_drawing *d, pl_grid_visit *visit)
 {
-    const pl_query_grid order[] = { PL_QUERY_FIXED, PL_QUERY_RESTING, PL_QUERY_MOVING };
-    for (int i = 0; i < PL_QUERY_GRID_COUNT; ++i) {
-        const pl_grid *grid = pl_query_grid_of(d->world, order[i]);
-        pl_world_query(d->world, grid, d->view, visit, d);
-    }
+    pl_asleep asleep = { d, visit };
+    pl_world_query(d->world, pl_query_grid_of(d->world, PL_QUERY_FIXED), d->view, visit, d);
+    pl_world_query(d->world, pl_query_grid_of(d->world, PL_QUERY_RESTING), d->view, visit_asleep,
+                   &asleep);
+    pl_world_query(d->world, pl_query_grid_of(d->world, PL_QUERY_MOVING), d->view, visit, d);
 }
 
 //---- bodies --------------------------------------------------------------------------------------

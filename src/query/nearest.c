@@ -24,7 +24,8 @@ typedef struct search {
     plumb_real max_distance; // [m]
     bool met;
     plumb_nearest_hit best;
-    double done; // [m] half of the last square: what overlaps it was looked at
+    uint32_t best_piece; // of its shape
+    double done;         // [m] half of the last square: what overlaps it was looked at
 } search;
 
 // [m] nothing farther than this can be nearer than the best.
@@ -94,14 +95,17 @@ static plumb_nearest_hit nearest_of_piece(const search *s, const pl_grid_entry *
     return (plumb_nearest_hit){ names.shape, names.body, at, near.distance };
 }
 
-static bool is_nearer(const search *s, const plumb_nearest_hit *hit)
+// Of pieces that are as near, the same one whatever the grid.
+static bool is_nearer(const search *s, const plumb_nearest_hit *hit, uint32_t piece)
 {
     if (!s->met) {
         return hit->distance <= s->max_distance;
     }
-    return hit->distance < s->best.distance ||
-           (hit->distance == s->best.distance &&
-            hit->shape.entity.index < s->best.shape.entity.index);
+    if (hit->distance != s->best.distance) {
+        return hit->distance < s->best.distance;
+    }
+    const uint32_t slot = hit->shape.entity.index, best = s->best.shape.entity.index;
+    return slot != best ? slot < best : piece < s->best_piece;
 }
 
 static bool visit(void *context, const pl_grid_entry *entry)
@@ -114,9 +118,10 @@ static bool visit(void *context, const pl_grid_entry *entry)
         return true;
     }
     plumb_nearest_hit hit = nearest_of_piece(s, entry);
-    if (is_nearer(s, &hit) && pl_query_accepts(&s->q, hit.shape)) {
+    if (is_nearer(s, &hit, entry->piece) && pl_query_accepts(&s->q, hit.shape)) {
         s->met = true;
         s->best = hit;
+        s->best_piece = entry->piece;
     }
     return true;
 }
@@ -224,9 +229,11 @@ static bool keep_near(void *context, const pl_grid_entry *entry)
         return true;
     }
     plumb_nearest_hit near = nearest_of_piece(s, entry);
-    pl_query_hit hit = {
-        .shape = near.shape, .body = near.body, .fraction = near.distance, .point = near.point
-    };
+    pl_query_hit hit = { .shape = near.shape,
+                         .body = near.body,
+                         .piece = entry->piece,
+                         .fraction = near.distance,
+                         .point = near.point };
     return near.distance > s->max_distance || pl_query_add(&s->q, &hit);
 }
 

@@ -126,12 +126,20 @@ int pl_query_grids(const pl_query *q, const pl_grid *grids[static PL_QUERY_GRIDS
     return count;
 }
 
+// The grid of sleeping pieces may name one that woke, which another grid has, or that is gone, out of the simulation or
+// static by now.
+static bool is_there(const plumb_world *world, uint32_t piece, bool ignore_static)
+{
+    const uint32_t place = world->pieces.moving[piece];
+    return world->pieces.kind[piece] != PL_PIECE_FREE && place != PL_OUT &&
+           !(place == PL_NONE && ignore_static);
+}
+
 bool pl_query_sees(const pl_query *q, uint32_t piece)
 {
     const plumb_world *world = q->world;
     const plumb_query_filter *f = &q->filter;
-    // The grid of sleeping pieces may name one that woke, which the other grid has, or that is gone.
-    if (world->sleep.gone > 0 && world->pieces.kind[piece] == PL_PIECE_FREE) {
+    if (world->sleep.gone > 0 && !is_there(world, piece, f->ignore_static)) {
         return false;
     }
     if (world->sensor_pieces + world->filtered_pieces > 0 || f->mask != 0) {
@@ -259,7 +267,8 @@ plumb_result pl_query_check_reach(const plumb_world *world, const char *function
 pl_query_hit pl_query_hit_of(const plumb_world *world, uint32_t piece)
 {
     return (pl_query_hit){ .shape = world->pieces.shape[piece],
-                           .body = world->bodies.entity[world->pieces.body[piece]] };
+                           .body = world->bodies.entity[world->pieces.body[piece]],
+                           .piece = piece };
 }
 
 //---- hits --------------------------------------------------------------------------------------
@@ -284,13 +293,17 @@ bool pl_query_add(pl_query *q, const pl_query_hit *hit)
 
 typedef bool before_fn(const pl_query_hit *a, const pl_query_hit *b);
 
-// By slot; hits of one shape by fraction, then the deepest first.
+// By slot; hits of one shape by fraction, then the deepest first, then by piece: in no case in the order of a grid,
+// which is another one after an image was restored.
 static bool before_by_slot(const pl_query_hit *a, const pl_query_hit *b)
 {
     if (a->shape.entity.index != b->shape.entity.index) {
         return a->shape.entity.index < b->shape.entity.index;
     }
-    return a->fraction != b->fraction ? a->fraction < b->fraction : a->depth > b->depth;
+    if (a->fraction != b->fraction) {
+        return a->fraction < b->fraction;
+    }
+    return a->depth != b->depth ? a->depth > b->depth : a->piece < b->piece;
 }
 
 static bool before_along(const pl_query_hit *a, const pl_query_hit *b)

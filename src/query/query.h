@@ -18,6 +18,7 @@ struct pl_walk;
 typedef struct pl_query_hit {
     plumb_shape shape;
     plumb_body body;
+    uint32_t piece;      // the shape's that was met
     plumb_real fraction; // [-] along the way; nearest: the distance [m]
     plumb_vec2 point;    // [m]
     plumb_vec2 normal;

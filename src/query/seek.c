@@ -10,8 +10,11 @@ static bool comes_first(const pl_seek *s, const pl_query_hit *hit)
     if (!s->met || hit->fraction != first->fraction) {
         return !s->met || hit->fraction < first->fraction;
     }
-    return hit->depth != first->depth ? hit->depth > first->depth
-                                      : hit->shape.entity.index < first->shape.entity.index;
+    if (hit->depth != first->depth) {
+        return hit->depth > first->depth;
+    }
+    const uint32_t slot = hit->shape.entity.index, best = first->shape.entity.index;
+    return slot != best ? slot < best : hit->piece < first->piece;
 }
 
 static bool keep_first(void *context, const pl_grid_entry *entry)

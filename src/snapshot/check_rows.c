@@ -172,10 +172,13 @@ static bool check_corners(const pl_vertex *v, uint32_t count)
     return true;
 }
 
+// It reaches as far as it is large, but for rounding.
 static bool check_core(const pl_core *c)
 {
+    const double most = 1.001 * (double)c->reach;
     return c->hx >= 0 && c->hy >= 0 && c->radius >= 0 && c->reach >= 0 && is_unit(c->c, c->s) &&
-           is_within(c->x, 1e9) && is_within(c->y, 1e9) && c->reach <= (real)4e9;
+           is_within(c->x, 1e9) && is_within(c->y, 1e9) && c->reach <= (real)4e9 &&
+           (double)c->hx <= most && (double)c->hy <= most && (double)c->radius <= most;
 }
 
 // As far as bodies get; or empty, of a piece that was not boxed yet.

@@ -286,9 +286,66 @@ static void enabling_is_refused(void **state)
             plumb_body_apply_torque(w, f->dynamic, 1));
 }
 
+//---- what slept ----------------------------------------------------------------------------------
+
+enum { SLEEPERS = 8 };
+
+// A row of sleeping balls that a step has filed, a static sensor over each.
+static void lay_to_rest(fixture *f, plumb_body *ball, plumb_shape *sensor)
+{
+    for (int i = 0; i < SLEEPERS; ++i) {
+        const plumb_vec2 at = { R(3 * i - 40), 30 };
+        plumb_body eye =
+            plumb_body_create(f->world, &(plumb_body_desc){ .type = PLUMB_STATIC, .position = at });
+        ball[i] = plumb_body_create(f->world, &(plumb_body_desc){ .position = at, .asleep = true });
+        const plumb_shape_desc round = { .kind = PLUMB_CIRCLE, .radius = R(0.5) };
+        plumb_shape_create(f->world, ball[i], &round);
+        plumb_shape_desc sees = round;
+        sees.sensor = true;
+        sensor[i] = plumb_shape_create(f->world, eye, &sees);
+    }
+    steps(f, 2);
+    for (int i = 0; i < SLEEPERS; ++i) {
+        assert_int_equal(plumb_shape_overlaps(f->world, sensor[i], NULL, 0), 1);
+    }
+}
+
+static int met(plumb_world *w, int i, const plumb_query_filter *filter)
+{
+    plumb_ray_hit hits[4];
+    const plumb_vec2 low = { R(3 * i - 40), 28 }, high = { R(3 * i - 40), 32 };
+    return plumb_world_ray_all(w, low, high, filter, hits, 4);
+}
+
+static void what_slept_is_what_it_became(void **state)
+{
+    fixture *f = *state;
+    plumb_world *w = f->world;
+    plumb_body ball[SLEEPERS];
+    plumb_shape sensor[SLEEPERS];
+    lay_to_rest(f, ball, sensor);
+    assert_int_equal(plumb_body_set_type(w, ball[0], PLUMB_STATIC), PLUMB_OK);
+    assert_int_equal(plumb_body_set_enabled(w, ball[1], false), PLUMB_OK);
+    for (int i = 0; i < 2; ++i) { // before and after a step
+        const plumb_query_filter moving = { .ignore_static = true },
+                                 still = { .ignore_dynamic = true };
+        assert_int_equal(met(w, 0, NULL), 1);
+        assert_int_equal(met(w, 0, &moving), 0);
+        assert_int_equal(met(w, 0, &still), 1);
+        assert_int_equal(met(w, 1, NULL), 0);
+        assert_int_equal(met(w, 2, &moving), 1);
+        assert_int_equal(met(w, 2, &still), 0);
+        steps(f, 1);
+    }
+    assert_int_equal(plumb_shape_overlaps(w, sensor[0], NULL, 0), 0);
+    assert_int_equal(plumb_shape_overlaps(w, sensor[1], NULL, 0), 0);
+    assert_int_equal(plumb_shape_overlaps(w, sensor[2], NULL, 0), 1);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        API_TEST(what_slept_is_what_it_became),
         API_TEST(type_changes_and_partitions_stay_whole),
         API_TEST(a_type_brings_its_mass_and_centre),
         API_TEST(contacts_follow_the_type),

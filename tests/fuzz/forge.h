@@ -194,7 +194,7 @@ static inline void live(plumb_world *w)
     plumb_ray_hit hit;
     plumb_nearest_hit near;
     plumb_joint joints[4];
-    for (int i = 0; i < 3; ++i) {
+    for (int i = 0; i < 2; ++i) {
         plumb_world_ray(w, (plumb_vec2){ -3, 1 }, (plumb_vec2){ 3, R(0.2) }, NULL, &hit);
         plumb_world_nearest(w, (plumb_vec2){ 0, 1 }, 3, NULL, &near);
         plumb_world_overlap_aabb(w, (plumb_aabb){ { -1, -1 }, { 1, 1 } }, NULL, shapes, 4);
