@@ -6,7 +6,7 @@
 # `make help` lists the rest. Everything is made below $(O). Nothing here needs a compiler or
 # pkg-config before a recipe runs, so that `deps` can install them first.
 #
-# Reading order: this file (library, command line), tools/make/test.mk (tests, benchmark, fuzzing,
+# Reading order: this file (library, command line), tools/make/flags.mk, tools/make/test.mk (tests, benchmark, fuzzing,
 # sanitizers), tools/make/install.mk, tools/make/deps.sh.
 
 .DEFAULT_GOAL := all
@@ -47,16 +47,11 @@ WARN_C   := $(WARN) -Wmissing-prototypes -Wstrict-prototypes
 SANFLAGS := $(if $(SAN),-fsanitize=$(SAN) -fno-sanitize-recover=all -fno-omit-frame-pointer -g)
 SANFLAGS += $(if $(FUZZ),-fsanitize=fuzzer-no-link)
 
-# Results must not depend on compiler or optimisation level: no contraction to fused
-# multiply-add. The last two only give up errno and floating-point flags; values stay IEEE 754.
-MATHS    := -ffp-contract=off -fno-math-errno -fno-trapping-math
-
-# The plain files are compiled for any machine of the kind, whatever -march CFLAGS ask for: the kernels
-# choose their width when a world is made, and GCC 12 makes vfmaddsub of products and sums even when told
-# not to contract.
+include tools/make/flags.mk
 ifneq ($(filter x86_64 amd64,$(ARCH)),)
-BASELINE := -march=x86-64 -mno-fma
+MACHINE := X86_64
 endif
+BASELINE := $(BASELINE_$(MACHINE))
 
 # No function takes more of a stack than this: threads of games and of wasm have small ones. Sanitizers and -O0
 # keep every temporary.
@@ -73,13 +68,6 @@ COMMON   := -std=c17 $(WARN_C) $(MATHS) $(SANFLAGS) -MMD -MP -Iinclude
 LIB_FLAGS  = $(COMMON) $(FRAME) $(SHARED) -Isrc $(CFLAGS) $(BASELINE)
 TOOL_FLAGS = $(COMMON) $(if $(filter tests/%,$<),,$(FRAME)) -Isrc -Itools -Itests $(CFLAGS) $(BASELINE) $(PKG_CFLAGS)
 CXX_FLAGS  = -std=c++20 $(WARN) $(MATHS) $(SANFLAGS) -MMD -MP -Iinclude $(CFLAGS)
-VARIANTS    := float double far
-DEFS_float  :=
-DEFS_double := -DPLUMB_DOUBLE=1
-DEFS_far    := -DPLUMB_FAR=1
-SUFFIX_float  :=
-SUFFIX_double := _d
-SUFFIX_far    := _far
 
 # Asked once, when the first recipe that needs it runs; where pkg-config knows nothing, Debian's places.
 DEBIAN_CFLAGS := -I/usr/include/lua5.4 -I/usr/include/cjson -I/usr/include/freetype2
@@ -107,13 +95,6 @@ RENDER_SRC := $(wildcard tools/render/*.c)
 ENGINE_SRC := $(wildcard tools/plumb/engine*.c)
 CLI_SRC    := $(filter-out $(ENGINE_SRC),$(wildcard tools/plumb/*.c))
 EXAMPLES   := $(patsubst tools/examples/%.c,$(O)/examples/%,$(wildcard tools/examples/*.c)) $(O)/examples/show
-
-# A file X.simd.c is compiled once for every number of lanes.
-WIDTHS := 4 8 16
-ifneq ($(filter x86_64 amd64,$(ARCH)),)
-WIDTH_FLAGS_8  := -mavx2
-WIDTH_FLAGS_16 := -mavx512f -mavx512vl -mavx512dq -mavx512bw
-endif
 
 # $(call objects,float,sources)
 objects = $(patsubst %.c,$(O)/$1/%.o,$2)
@@ -225,7 +206,7 @@ define width_rule
 $$(O)/$1/src/%.w$2.o: src/%.simd.c $$(O)/flags | $$(DEPS_FIRST)
 	@mkdir -p $$(@D)
 	@echo "  CC    $$@"
-	$$(Q)$$(CC) $$(LIB_FLAGS) $$(DEFS_$1) -DPL_WIDTH=$2 $$(WIDTH_FLAGS_$2) -Wno-psabi -c $$< -o $$@
+	$$(Q)$$(CC) $$(LIB_FLAGS) $$(DEFS_$1) -DPL_WIDTH=$2 $$(WIDTH_$2_$$(MACHINE)) -Wno-psabi -c $$< -o $$@
 endef
 
 define archive
