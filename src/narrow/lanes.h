@@ -289,7 +289,7 @@ WIDE_PART void lanes_emit(const lanes *l, const touch *t, const pl_narrow_input 
             candidates[out->candidate_count] = out->manifold_count;
             out->candidate_count += ahead[i] != 0;
             out->any_friction |= m->friction > 0;
-            out->any_bounce |= m->restitution > 0;
+            pl_narrow_note_restitution(out, m->restitution);
             pl_overlaps_count(&out->overlaps, m);
             pair->manifold = out->manifold_count++;
         }

@@ -73,6 +73,16 @@ static inline void pl_manifold_strike(pl_manifold *m, near_real speed)
     }
 }
 
+// A contact that was struck n times has no more than e^(2 n) of its energy left to return: below this it is
+// not worth following.
+#define PL_IMPACT_KEPT ((near_real)0.02)
+
+// Whether more than one impact a substep is worth following. Others are of low restitution.
+static inline bool pl_is_elastic(near_real restitution)
+{
+    return restitution * restitution > PL_IMPACT_KEPT;
+}
+
 // Whether an impulse passed between the surfaces in this step, of the solver or of an impact.
 static inline bool pl_has_met(const pl_pair *pair, const pl_manifold *m)
 {
@@ -159,11 +169,19 @@ typedef struct pl_narrow {
         borne_count; // more manifolds behind those, whose load others bear (internal_edges/run.c)
     // Summary of this step's manifolds.
     bool any_friction; // some manifold has friction > 0
-    bool any_bounce;   // some manifold has restitution > 0
+    bool any_elastic;  // some manifold's impacts are worth following
+    bool any_low;      // some manifold has a restitution, a low one
     bool any_surface;  // some manifold has surface speed or rolling resistance
     bool any_adhesion; // some manifold may pull
     pl_overlaps overlaps;
 } pl_narrow;
+
+static inline void pl_narrow_note_restitution(pl_narrow *narrow, near_real restitution)
+{
+    const bool elastic = pl_is_elastic(restitution);
+    narrow->any_elastic |= elastic;
+    narrow->any_low |= !elastic && restitution > 0;
+}
 
 static inline pl_manifold *pl_manifolds(const pl_narrow *narrow)
 {

@@ -125,7 +125,8 @@ static void add_share(pl_narrow *all, const pl_narrow *made)
     all->fresh_count += made->fresh_count;
     all->manifold_count += made->manifold_count;
     all->any_friction |= made->any_friction;
-    all->any_bounce |= made->any_bounce;
+    all->any_elastic |= made->any_elastic;
+    all->any_low |= made->any_low;
     pl_overlaps_add(&all->overlaps, &made->overlaps);
 }
 

@@ -114,11 +114,12 @@ void pl_surfaces_mix(plumb_world *world)
 void pl_narrow_summarise(pl_narrow *narrow)
 {
     const pl_manifold *m = pl_manifolds(narrow);
-    narrow->any_friction = narrow->any_bounce = narrow->any_surface = narrow->any_adhesion = false;
+    narrow->any_friction = narrow->any_surface = narrow->any_adhesion = false;
+    narrow->any_elastic = narrow->any_low = false;
     narrow->overlaps = (pl_overlaps){ 0 };
     for (uint32_t i = 0; i < narrow->manifold_count; ++i) {
         narrow->any_friction |= m[i].friction > 0;
-        narrow->any_bounce |= m[i].restitution > 0;
+        pl_narrow_note_restitution(narrow, m[i].restitution);
         narrow->any_surface |= m[i].surface_speed != 0 || m[i].rolling > 0;
         narrow->any_adhesion |= m[i].adhesion > 0;
         pl_overlaps_count(&narrow->overlaps, &m[i]);

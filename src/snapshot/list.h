@@ -73,15 +73,15 @@
     LEFT(narrow.manifolds) LEFT(narrow.staged) LEFT(narrow.ends) LEFT(narrow.fresh)               \
     LEFT(narrow.fresh_count) LEFT(narrow.candidates) LEFT(narrow.candidate_count) LEFT(narrow.ends_stale) LEFT(narrow.manifold_count) LEFT(narrow.borne_count)                    \
     LEFT(narrow.any_adhesion) LEFT(narrow.any_friction)                                            \
-    LEFT(narrow.any_bounce) LEFT(narrow.any_surface) LEFT(narrow.overlaps)
+    LEFT(narrow.any_elastic) LEFT(narrow.any_low) LEFT(narrow.any_surface) LEFT(narrow.overlaps)
 
 #define PL_STATE_SOLVER(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                     \
     LEFT(solver.bodies) LEFT(solver.motions) LEFT(solver.residuals) LEFT(solver.struck)                 \
     LEFT(solver.rows) LEFT(solver.slots) LEFT(solver.masks) LEFT(solver.colors)                    \
     LEFT(solver.lanes) LEFT(solver.bundles) LEFT(solver.extras) LEFT(solver.specials)              \
-    LEFT(solver.impacts) LEFT(solver.predicted_fields) LEFT(solver.predicted_ends)                     \
-    LEFT(solver.predicted_open) LEFT(solver.predicted_lanes) LEFT(solver.impact_heap) LEFT(solver.impact_heads) LEFT(solver.due_count)   \
-    LEFT(solver.lively_count)     LEFT(solver.classic) LEFT(solver.dynamic_slots) LEFT(solver.slot_count)   \
+    LEFT(solver.impacts) LEFT(solver.bounces)                     \
+    LEFT(solver.impact_heap) LEFT(solver.impact_heads) LEFT(solver.due_count)   \
+    LEFT(solver.classic) LEFT(solver.dynamic_slots) LEFT(solver.slot_count)   \
     LEFT(solver.clusters) LEFT(solver.labels) LEFT(solver.islands) LEFT(solver.homes) LEFT(solver.island_count) LEFT(solver.leaders) LEFT(solver.cursors)                 \
     LEFT(solver.cluster_count) LEFT(solver.cluster_age) LEFT(solver.labelled) LEFT(solver.bundle_room) LEFT(solver.bundle_count) LEFT(solver.impact_count) LEFT(solver.color_count)                 \
     LEFT(solver.overflow_count) LEFT(solver.bounce_count)

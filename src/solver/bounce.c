@@ -14,7 +14,7 @@
 // what gravity makes of the substep. The two points of one manifold are resolved together, so that a
 // flat landing does not turn.
 //
-// Which contacts, and in what order: impact.c. The same in lanes, for those that strike once: dull.simd.c.
+// Which contacts, and in what order: impact.c. The same in lanes, for those of low restitution: restitution.simd.c.
 // Reads, writes: the two solver bodies, the manifold's totals of impulses. Cost: O(1) a contact.
 #include "solver/bounce.h"
 #include "world/state.h"

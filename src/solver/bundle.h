@@ -1,5 +1,5 @@
-// bundle.h - the constraints of W contacts, as the kernels keep them over a step (contact.simd.c; symbols
-// there). Included by *.simd.c only.
+// bundle.h - the constraints of W contacts, as the kernels keep them over a step (symbols in contact.simd.c), and
+// the bodies of such a bundle. Included by *.simd.c only.
 #ifndef PL_BUNDLE_H
 #define PL_BUNDLE_H
 
@@ -24,5 +24,119 @@ typedef struct bundle {
     vf pushed;    // [N s] most of a point after any substep so far
     point p[2];
 } bundle;
+
+// What only running surfaces and counted impulses need, apart from the bundle, so that others do
+// not read it. Rolling resistance: a torque between the bodies that opposes their relative turning,
+// at most f times the normal impulse of the contact; like friction it acts in the relaxing sweeps.
+typedef struct extra {
+    vf surface_speed; // [m/s]
+    vf rolling;       // [m]
+    vf mr;            // [kg m^2] effective inertia
+    vf lr;            // [N m s]
+    vf total[2];      // [N s] normal impulses of the substeps so far
+    vf struck;        // [m/s] fastest at which a point was struck in this step
+} extra;
+
+// What only locked axes, bodies whose time stands still and surfaces that stick need. A body locked along an axis has infinite mass
+// that way. A point that sticks may pull while it is nearer than its reach: its impulse is at least
+// -pull, and so l + pull is what is never negative, what friction goes by, and what the springs carry.
+typedef struct special {
+    vf aix, aiy, bix, biy; // [1/kg] inverse masses along the axes
+    vf pull[2];            // [N s]
+    vf reach;              // [m]
+} special;
+
+// What only contacts of low restitution need (restitution.simd.c).
+typedef struct bounce {
+    vf restitution; // 0: none here, or an impact that is followed as an event (impact.c)
+    vf separation
+        [2]; // [m] at the start of the step; the point's own may say that the point is out of reach
+    vf speed;   // [m/s] of the fastest impact in this step
+    vf impacts; // in this step
+} bounce;
+
+//---- bodies of the lanes ------------------------------------------------------------------------
+
+typedef struct body {
+    vf vx, vy, w, inv_mass, dx, dy, da, inv_inertia;
+} body;
+
+WIDE_INLINE void gather_body(body *out, const pl_contact_call *call, const uint32_t *slot)
+{
+    const near_real *row[PL_WIDTH];
+    for (int i = 0; i < PL_WIDTH; ++i) {
+        row[i] = &call->bodies[slot[i]].vx;
+    }
+    vf r[8];
+    gather8(r, row);
+    *out = (body){ r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7] };
+}
+
+// Writes velocities back; lanes of immovable bodies write to a sink, for others share those rows.
+WIDE_INLINE void scatter_velocity(const body *in, const pl_contact_call *call, const uint32_t *slot)
+{
+    near_real sink[4] __attribute__((aligned(32)));
+    near_real *row[PL_WIDTH];
+    for (int i = 0; i < PL_WIDTH; ++i) {
+        row[i] = slot[i] < call->dynamic_slots ? &call->bodies[slot[i]].vx : sink;
+    }
+    scatter4(row, 0, (vf[4]){ in->vx, in->vy, in->w, in->inv_mass });
+}
+
+WIDE_INLINE vf inverse_or_zero(vf k)
+{
+    vm positive = k > splat(0);
+    return sel(positive, splat(1) / sel(positive, k, splat(1)), splat(0));
+}
+
+// Adds an impulse (px, py) to B and takes it from A; `s` null: no axis is locked.
+WIDE_INLINE void shove(body *a, body *b, const special *s, vf px, vf py)
+{
+    a->vx -= (s != NULL ? s->aix : a->inv_mass) * px;
+    a->vy -= (s != NULL ? s->aiy : a->inv_mass) * py;
+    b->vx += (s != NULL ? s->bix : b->inv_mass) * px;
+    b->vy += (s != NULL ? s->biy : b->inv_mass) * py;
+}
+
+WIDE_INLINE void push_turn(body *a, body *b, vf impulse)
+{
+    a->w -= a->inv_inertia * impulse;
+    b->w += b->inv_inertia * impulse;
+}
+
+// Adds the impulses (along n and t) of a point to both bodies.
+WIDE_INLINE void push(const bundle *c, const special *s, const point *p, body *a, body *b,
+                      vf along_n, vf along_t, bool rotation)
+{
+    vf px = c->nx * along_n - c->ny * along_t;
+    vf py = c->ny * along_n + c->nx * along_t;
+    shove(a, b, s, px, py);
+    if (rotation) {
+        a->w -= a->inv_inertia * (p->ran * along_n + p->rat * along_t);
+        b->w += b->inv_inertia * (p->rbn * along_n + p->rbt * along_t);
+    }
+}
+
+// [m/s] at which the surfaces slide at a point; `e` null: they move with their bodies.
+WIDE_INLINE vf slip_at(const bundle *c, const extra *e, const point *p, const body *a,
+                       const body *b, bool rotation)
+{
+    vf slip = c->nx * (b->vy - a->vy) - c->ny * (b->vx - a->vx);
+    if (e != NULL) {
+        slip += e->surface_speed;
+    }
+    if (rotation) {
+        slip += p->rbt * b->w - p->rat * a->w;
+    }
+    return slip;
+}
+
+//---- kernels that contact.simd.c puts into the table of its width ---------------------------------
+
+pl_contact_kernel PL_WIDE_NAME(pl_contact_prepare), PL_WIDE_NAME(pl_contact_prepare_extras),
+    PL_WIDE_NAME(pl_contact_prepare_specials), PL_WIDE_NAME(pl_contact_prepare_bounces);
+pl_contact_kernel PL_WIDE_NAME(pl_contact_bounce), PL_WIDE_NAME(pl_contact_bounce_special);
+pl_contact_kernel PL_WIDE_NAME(pl_contact_tally), PL_WIDE_NAME(pl_contact_store),
+    PL_WIDE_NAME(pl_contact_store_extras), PL_WIDE_NAME(pl_contact_store_bounces);
 
 #endif

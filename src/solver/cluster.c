@@ -17,7 +17,7 @@
 #include <string.h>
 
 // Bodies in a cluster at least, if there are as many: 600 bytes each with contacts and manifolds, so that
-// a cluster takes a part of a second-level cache. README.md has the table.
+// a cluster takes a part of a second-level cache. DECISIONS.md has the table.
 #define BODIES 500
 // Fewer manifolds than this are not worth dividing; a joint, swept twice as often, counts as two.
 #define LEAST 1000
@@ -78,7 +78,7 @@ static special_rows specials_of(const plumb_world *world)
 {
     const bool resist = pl_effects_resist(world);
     return (special_rows){ world->solver.slots.data, world->bodies.flags,
-                           world->narrow.any_bounce || resist, resist };
+                           pl_impacts_any(world) || resist, resist };
 }
 
 static inline bool is_special(const special_rows *s, uint32_t row)

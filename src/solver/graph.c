@@ -9,7 +9,7 @@
 //
 // Reads: manifolds, velocities, masses, forces. Writes: solver bodies, lanes. Cost: O(bodies +
 // contacts).
-#include "solver/dull.h"
+#include "solver/solver.h"
 #include "world/state.h"
 
 #include <string.h>
@@ -48,7 +48,7 @@ static bool reserve_bodies(plumb_world *world)
     pl_solver *s = &world->solver;
     pl_memory *memory = &world->memory;
     size_t rows = (size_t)world->dynamic_count + world->kinematic_count + 1;
-    size_t elastic_rows = world->narrow.any_bounce ? rows : 0;
+    size_t elastic_rows = pl_impacts_any(world) ? rows : 0;
     return pl_buffer_reserve(memory, &s->bodies, rows * sizeof(pl_solver_body)) &&
            pl_buffer_reserve(memory, &s->motions, rows * sizeof(pl_solver_motion)) &&
            pl_buffer_reserve(memory, &s->residuals, elastic_rows * 4 * sizeof(near_real)) &&
@@ -90,21 +90,18 @@ static bool reserve_lanes(plumb_world *world)
     const pl_contact_kernels *k = pl_solver_kernels(world);
     const needs need = needs_of(world, (uint32_t)k->width);
     size_t contacts = world->narrow.manifold_count;
-    size_t impacts = world->narrow.any_bounce ? contacts : 0;
+    size_t impacts = pl_impacts_any(world) ? contacts : 0;
+    size_t bounces = world->narrow.any_low ? need.bundles : 0;
     size_t specials = pl_solver_specials(world) ? need.bundles : 0;
     size_t extras =
         world->narrow.any_surface || specials > 0 || pl_solver_tallies(world) ? need.bundles : 0;
-    size_t looked = impacts > 0 && world->desc.solver == PLUMB_SOLVER_SOFT ? need.lanes : 0;
     size_t classic = world->desc.solver == PLUMB_SOLVER_PGS ? contacts : 0;
     return pl_buffer_reserve(memory, &s->lanes, need.lanes * sizeof(uint32_t)) &&
            pl_buffer_reserve(memory, &s->bundles, need.bundles * k->bundle_size) &&
            pl_buffer_reserve(memory, &s->extras, extras * k->extra_size) &&
            pl_buffer_reserve(memory, &s->specials, specials * k->special_size) &&
            pl_buffer_reserve(memory, &s->impacts, impacts * sizeof(pl_impact)) &&
-           pl_buffer_reserve(memory, &s->predicted_fields,
-                             looked * PL_PREDICTED_FIELDS * sizeof(near_real)) &&
-           pl_buffer_reserve(memory, &s->predicted_ends, looked * sizeof(pl_predicted_ends)) &&
-           pl_buffer_reserve(memory, &s->predicted_open, looked) &&
+           pl_buffer_reserve(memory, &s->bounces, bounces * k->bounce_size) &&
            pl_buffer_reserve(memory, &s->impact_heap, impacts * sizeof(uint32_t)) &&
            pl_buffer_reserve(memory, &s->impact_heads,
                              (impacts > 0 ? s->dynamic_slots : 0) * sizeof(uint32_t)) &&
@@ -145,8 +142,8 @@ static void mark_rows(plumb_world *world, uint32_t movable)
             slots[ends[i].b] = PL_ACTIVE;
         }
     }
-    for (uint32_t i = 0; world->narrow.any_bounce && i < world->narrow.manifold_count; ++i) {
-        if (m[i].restitution > 0) {
+    for (uint32_t i = 0; pl_impacts_any(world) && i < world->narrow.manifold_count; ++i) {
+        if (pl_impacts_follow(world, m[i].restitution)) {
             slots[m[i].body_a < movable ? m[i].body_a : m[i].body_b] = PL_ELASTIC;
             slots[m[i].body_b < movable ? m[i].body_b : m[i].body_a] = PL_ELASTIC;
         }
@@ -166,7 +163,7 @@ static uint32_t give_slots(plumb_world *world, pl_share rows, int kind, uint32_t
     pl_cluster *clusters = pl_clusters(s);
     const uint32_t *labels = pl_solver_labels(s);
     uint32_t *slots = s->slots.data, *row_of = s->rows.data;
-    near_real *residuals = world->narrow.any_bounce ? s->residuals.data : NULL;
+    near_real *residuals = pl_impacts_any(world) ? s->residuals.data : NULL;
     for (uint32_t row = rows.first; labels != NULL && row < rows.end; ++row) {
         if (slots[row] != PL_NONE) {
             ++clusters[cluster_of(labels, row)].slots[kind].count;
@@ -234,7 +231,7 @@ static void fill_slot(plumb_world *world, uint32_t slot)
                             .uy = (near_real)b->vy[row],
                             .uw = (near_real)b->w[row],
                             .inv_mass = im };
-    if (world->narrow.any_bounce) {
+    if (pl_impacts_any(world)) {
         start_low((near_real *)s->residuals.data + (size_t)slot * 4, b, row);
     }
     if ((b->flags[row] & PL_BODY_HAS_EFFECTS) != 0) {
@@ -258,7 +255,7 @@ static void fill_bodies(plumb_world *world)
     s->dynamic_slots = give_slots(world, (pl_share){ 0, dynamic }, 0, 0);
     const uint32_t count = give_slots(world, (pl_share){ dynamic, movable }, 1, s->dynamic_slots);
     pl_tasks_ranges(world->tasks, count, PL_BODIES_SHARED, fill_slots, world);
-    if (world->narrow.any_bounce) {
+    if (pl_impacts_any(world)) {
         memset((near_real *)s->residuals.data + (size_t)count * 4, 0, 4 * sizeof(near_real));
     }
     pl_solver_bodies(s)[count] = (pl_solver_body){ 0 };
@@ -394,7 +391,7 @@ static void place_lanes(plumb_world *world)
     const pl_ends *ends = world->narrow.ends.data;
     const uint8_t *colors = s->colors.data;
     uint32_t *lanes = s->lanes.data;
-    s->bundle_count = 0;
+    s->bundle_count = s->bounce_count = 0;
     if (bundles == 0) {
         return; // there may be no lanes
     }
@@ -438,31 +435,12 @@ bool pl_solver_graph(plumb_world *world)
 
 void pl_solver_free(pl_memory *memory, pl_solver *s)
 {
-    pl_buffer *buffers[] = { &s->bodies,
-                             &s->motions,
-                             &s->rows,
-                             &s->slots,
-                             &s->masks,
-                             &s->colors,
-                             &s->lanes,
-                             &s->bundles,
-                             &s->impacts,
-                             &s->classic,
-                             &s->residuals,
-                             &s->struck,
-                             &s->extras,
-                             &s->specials,
-                             &s->impact_heap,
-                             &s->impact_heads,
-                             &s->predicted_fields,
-                             &s->predicted_ends,
-                             &s->predicted_open,
-                             &s->clusters,
-                             &s->labels,
-                             &s->islands,
-                             &s->homes,
-                             &s->leaders,
-                             &s->cursors };
+    pl_buffer *buffers[] = { &s->bodies,  &s->motions,  &s->rows,        &s->slots,
+                             &s->masks,   &s->colors,   &s->lanes,       &s->bundles,
+                             &s->impacts, &s->classic,  &s->residuals,   &s->struck,
+                             &s->extras,  &s->specials, &s->impact_heap, &s->impact_heads,
+                             &s->bounces, &s->clusters, &s->labels,      &s->islands,
+                             &s->homes,   &s->leaders,  &s->cursors };
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; ++i) {
         pl_buffer_free(memory, buffers[i]);
     }

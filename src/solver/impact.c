@@ -1,15 +1,14 @@
 // impact.c - restitution by events: which contacts bounce in a substep, and in what order.
 //
-// Every contact with restitution has a record. Impacts are resolved one after the other, by their moments
+// Every elastic contact has a record. Impacts are resolved one after the other, by their moments
 // (impact_queue.h), until none is left, so that a row of touching balls passes momentum on (Newton's
-// cradle); whatever meets a struck body is foreseen anew. Contacts of little restitution, the dull ones, strike
-// once, as they stand, after the lively ones. Where all are dull, there are no records: dull.h.
-// When a contact is struck and what that does: bounce.c.
+// cradle); whatever meets a struck body is foreseen anew. When a contact is struck and what that does: bounce.c.
+// Contacts of low restitution strike once a substep, in lanes (restitution.simd.c); but the classic solver has no
+// lanes, so there they have records, too.
 //
 // Reads, writes: solver bodies. Order: after velocities are integrated, before contacts are solved.
 // Cost: O(elastic contacts) a substep, and O(log) for each impact and each contact of the bodies struck.
 #include "solver/bounce.h"
-#include "solver/dull.h"
 #include "solver/impact_queue.h"
 #include "world/state.h"
 
@@ -17,6 +16,18 @@
 // without bounce. A light ball between two heavy ones strikes many times within a substep; but little of
 // the energy is left then (PL_IMPACT_KEPT): a stirred heap of e = 0.1 strikes ten times a contact.
 #define CHAIN 64
+
+bool pl_impacts_any(const plumb_world *world)
+{
+    return world->narrow.any_elastic ||
+           (world->narrow.any_low && world->desc.solver == PLUMB_SOLVER_PGS);
+}
+
+bool pl_impacts_follow(const plumb_world *world, near_real restitution)
+{
+    return pl_is_elastic(restitution) ||
+           (restitution > 0 && world->desc.solver == PLUMB_SOLVER_PGS);
+}
 
 static near_real *lane_value(pl_solver *s, const pl_contact_kernels *kernels, size_t lane,
                              size_t offset)
@@ -79,44 +90,29 @@ static pl_impact impact_of(const plumb_world *world, const pl_manifold *m)
     return impact;
 }
 
-// Records of all that bounce.
-static void record_impacts(plumb_world *world)
+// Records of all elastic contacts.
+void pl_impacts_prepare(plumb_world *world)
 {
     pl_solver *s = &world->solver;
     const pl_contact_kernels *kernels = pl_solver_kernels(world);
     const uint32_t *lanes = s->lanes.data;
-    pl_predicted_ends *ends = s->predicted_ends.data;
-    for (size_t lane = 0; lane < s->predicted_lanes; ++lane) {
+    const size_t count = (size_t)s->bundle_count * (size_t)kernels->width;
+    s->impact_count = 0;
+    for (size_t lane = 0; lane < count; ++lane) {
         const pl_manifold *m =
             lanes[lane] != PL_NONE ? &pl_manifolds(&world->narrow)[lanes[lane]] : NULL;
-        ends[lane].impact = PL_NONE;
-        if (m == NULL || !pl_bounces(m)) {
+        if (m == NULL || !pl_bounces(m) || !pl_is_elastic(m->restitution)) {
             continue;
         }
-        pl_impact *impact = (pl_impact *)s->impacts.data + s->impact_count;
+        pl_impact *impact = (pl_impact *)s->impacts.data + s->impact_count++;
         *impact = impact_of(world, m);
         for (uint32_t j = 0; j < m->count; ++j) {
             pl_impact_point *p = &impact->point[j];
             p->lane_separation = lane_value(s, kernels, lane, kernels->separation_offset[j]);
             p->lane_impulse = lane_value(s, kernels, lane, kernels->impulse_offset[j]);
         }
-        if (pl_is_dull(m->restitution)) {
-            ends[lane] = (pl_predicted_ends){ impact->a, impact->b, s->impact_count };
-        }
-        ++s->impact_count;
     }
     pl_impact_queue_link(s);
-}
-
-// Where all impacts are dull, and no axis is locked, the kernels need no record of them.
-void pl_impacts_prepare(plumb_world *world)
-{
-    pl_solver *s = &world->solver;
-    s->impact_count = s->bounce_count = s->lively_count = 0;
-    s->predicted_lanes = s->bundle_count * (uint32_t)pl_solver_kernels(world)->width;
-    if (pl_dull_impacts_prepare(world) > 0 || world->locked_bodies > 0) {
-        record_impacts(world);
-    }
 }
 
 void pl_impacts_prepare_classic(plumb_world *world)
@@ -124,7 +120,7 @@ void pl_impacts_prepare_classic(plumb_world *world)
     pl_solver *s = &world->solver;
     pl_impact *impacts = s->impacts.data;
     pl_classic_contact *contacts = s->classic.data;
-    s->impact_count = s->bounce_count = s->predicted_lanes = 0;
+    s->impact_count = 0;
     for (uint32_t i = 0; i < world->narrow.manifold_count; ++i) {
         const pl_manifold *m = &pl_manifolds(&world->narrow)[i];
         if (!pl_bounces(m)) {
@@ -186,24 +182,30 @@ static bool is_upset(const pl_solver *s, const pl_impact *m, near_real h)
     return struck[m->a] > -h || struck[m->b] > -h;
 }
 
-// Points that stay clear of their own accord are none of the contact kernel's business.
-static void tell_kernel(const pl_impact *m)
+void pl_impacts_run(plumb_world *world, near_real h)
 {
-    for (uint32_t j = 0; j < m->count; ++j) {
-        const pl_impact_point *p = &m->point[j];
-        bool off = *p->lane_impulse <= 0 && m->clear[j];
-        *p->lane_separation = p->separation + (off ? PL_APART : 0);
+    pl_solver *s = &world->solver;
+    pl_impact *impacts = s->impacts.data;
+    near_real *struck = s->struck.data;
+    pl_approach at[2];
+    for (uint32_t slot = 0; slot < s->slot_count; ++slot) {
+        struck[slot] = -h; // none yet; an impact may lie one substep in the past
     }
+    for (uint32_t i = 0; i < s->impact_count; ++i) {
+        impacts[i].left = impacts[i].chain;
+        pl_bounce_foresee(world, &impacts[i], (double)h, at);
+        pl_impact_queue_put(s, i);
+    }
+    empty_queue(world, (double)h);
 }
 
-static void run_lively(plumb_world *world, near_real h)
+void pl_impacts_run_on(plumb_world *world, near_real h)
 {
     pl_solver *s = &world->solver;
     pl_impact *impacts = s->impacts.data;
     pl_approach at[2];
     for (uint32_t i = 0; i < s->impact_count; ++i) {
-        if (impacts[i].chain > 1) {
-            impacts[i].left = impacts[i].chain;
+        if (is_upset(s, &impacts[i], h)) {
             pl_bounce_foresee(world, &impacts[i], (double)h, at);
             pl_impact_queue_put(s, i);
         }
@@ -211,75 +213,21 @@ static void run_lively(plumb_world *world, near_real h)
     empty_queue(world, (double)h);
 }
 
-// Dull ones strike once, one after the other as they stand.
-static void take_turn(plumb_world *world, pl_impact *m, near_real h)
-{
-    pl_approach at[2] = { { 0 }, { 0 } };
-    m->left = 1;
-    pl_bounce_foresee(world, m, (double)h, at);
-    tell_kernel(m);
-    if (m->due) {
-        happen(world, m, at, (double)h);
-        empty_queue(world, (double)h);
-        pl_bounce_foresee(world, m, (double)h, at);
-        tell_kernel(m);
-    }
-}
-
-static void run_all_dull(plumb_world *world, near_real h)
-{
-    pl_impact *impacts = world->solver.impacts.data;
-    for (uint32_t i = 0; i < world->solver.impact_count; ++i) {
-        if (impacts[i].chain == 1) {
-            take_turn(world, &impacts[i], h);
-        }
-    }
-}
-
-// Those that the prediction leaves open, and those of which a body has been struck since.
-static void run_open(plumb_world *world, near_real h)
+// Points that stay clear of their own accord are none of the sweep's business.
+void pl_impacts_tell(plumb_world *world, near_real h)
 {
     pl_solver *s = &world->solver;
     pl_impact *impacts = s->impacts.data;
-    const pl_predicted_ends *ends = s->predicted_ends.data;
-    const uint8_t *open = s->predicted_open.data;
-    const near_real *struck = s->struck.data;
-    pl_dull_impacts_look(world, h);
-    for (uint32_t lane = 0; lane < s->predicted_lanes; ++lane) {
-        if (ends[lane].impact != PL_NONE &&
-            (open[lane] != 0 || struck[ends[lane].a] > -h || struck[ends[lane].b] > -h)) {
-            take_turn(world, &impacts[ends[lane].impact], h);
+    pl_approach at[2];
+    for (uint32_t i = 0; i < s->impact_count; ++i) {
+        pl_impact *m = &impacts[i];
+        if (is_upset(s, m, h)) {
+            pl_bounce_foresee(world, m, (double)h, at);
+        }
+        for (uint32_t j = 0; j < m->count; ++j) {
+            const pl_impact_point *p = &m->point[j];
+            const bool off = *p->lane_impulse <= 0 && m->clear[j];
+            *p->lane_separation = p->separation + (off ? PL_APART : 0);
         }
     }
-}
-
-static void run_recorded(plumb_world *world, near_real h)
-{
-    pl_solver *s = &world->solver;
-    pl_impact *impacts = s->impacts.data;
-    if (s->lively_count > 0) {
-        run_lively(world, h);
-    }
-    if (s->lively_count < s->impact_count) {
-        (s->predicted_lanes > 0 ? run_open : run_all_dull)(world, h);
-    }
-    for (uint32_t i = 0; i < s->impact_count && s->lively_count > 0; ++i) {
-        pl_approach at[2];
-        if (impacts[i].chain > 1) {
-            if (is_upset(s, &impacts[i], h)) {
-                pl_bounce_foresee(world, &impacts[i], (double)h, at);
-            }
-            tell_kernel(&impacts[i]);
-        }
-    }
-}
-
-void pl_impacts_run(plumb_world *world, near_real h)
-{
-    pl_solver *s = &world->solver;
-    near_real *struck = s->struck.data;
-    for (uint32_t slot = 0; slot < s->slot_count; ++slot) {
-        struck[slot] = -h; // none yet; an impact may lie one substep in the past
-    }
-    (s->impact_count == 0 && s->predicted_lanes > 0 ? pl_dull_impacts_run : run_recorded)(world, h);
 }

@@ -76,15 +76,14 @@ void pl_impact_queue_link(pl_solver *s)
 {
     uint32_t *heads = s->impact_heads.data;
     memset(heads, 0xff, s->dynamic_slots * sizeof *heads);
-    s->due_count = s->lively_count = 0;
+    s->due_count = 0;
     for (uint32_t i = s->impact_count; i-- > 0;) {
         pl_impact *m = impact_at(s, i);
         uint32_t slots[2] = { m->a, m->b };
         m->place = PL_NONE;
-        s->lively_count += m->chain > 1;
         for (int side = 0; side < 2; ++side) {
             m->next[side] = PL_NONE;
-            if (slots[side] < s->dynamic_slots && m->chain > 1) {
+            if (slots[side] < s->dynamic_slots) {
                 m->next[side] = heads[slots[side]];
                 heads[slots[side]] = i;
             }

@@ -8,7 +8,7 @@
 
 #include "solver/solver.h"
 
-// An empty queue; links the lively impacts (chain > 1) of every dynamic slot. Once a step. O(impacts + slots).
+// An empty queue; links the impacts of every dynamic slot. Once a step. O(impacts + slots).
 void pl_impact_queue_link(pl_solver *solver);
 
 // Puts an impact where its `due` and `time` say: in, elsewhere, or out. O(log impacts).
@@ -17,7 +17,7 @@ void pl_impact_queue_put(pl_solver *solver, uint32_t impact);
 // The impact that comes first; NULL: none is due.
 pl_impact *pl_impact_queue_first(const pl_solver *solver);
 
-// Lively impacts of a dynamic slot, from the lowest: the first one, and the one after `impact`; PL_NONE: no more.
+// Impacts of a dynamic slot, from the lowest: the first one, and the one after `impact`; PL_NONE: no more.
 uint32_t pl_impact_of_slot(const pl_solver *solver, uint32_t slot);
 uint32_t pl_impact_after(const pl_solver *solver, uint32_t slot, uint32_t impact);
 

@@ -279,7 +279,7 @@ void pl_solver_pgs(plumb_world *world, real dt)
                   .contacts = s->classic.data,
                   .count = world->narrow.manifold_count,
                   .h = (near_real)(dt / (real)world->desc.substeps) };
-    const bool bounce = world->narrow.any_bounce;
+    const bool bounce = pl_impacts_any(world);
     const pl_joint_context context = pl_joint_context_of(world, 0, world->tasks, 0, c.h);
     const bool joints = pl_joints_any(&context);
     const bool resist = pl_effects_resist(world);
@@ -302,6 +302,7 @@ void pl_solver_pgs(plumb_world *world, real dt)
         warm_start(&c);
         if (bounce) {
             pl_impacts_run(world, c.h);
+            pl_impacts_tell(world, c.h);
         }
         for (int i = 0; i < world->desc.iterations; ++i) {
             if (joints) {

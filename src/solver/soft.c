@@ -18,7 +18,7 @@
 
 // Contact frequency as a share of the substep rate. Stiffer contacts sink less, as the square, but from
 // 3/16 on a pyramid of 100 rows takes long to come to rest and leans, and from 1/4 on one of 20 never
-// rests, at one sweep a substep (README.md has the table).
+// rests, at one sweep a substep (DECISIONS.md has the table).
 #define STIFFEST ((near_real)(1.0 / 6))
 
 typedef struct flight {
@@ -82,7 +82,7 @@ typedef struct soft_step {
     uint32_t threads;
     pl_surface_variant surface;
     pl_motion_variant motion;
-    bool tallies, bounce, resist;
+    bool tallies, elastic, resist;
 } soft_step;
 
 // One cluster in the hands of some threads; null: of one.
@@ -93,7 +93,7 @@ typedef struct solve_context {
     pl_contact_call call; // the step's, for this cluster
     pl_joint_context joints;
     bool any_joints;
-    bool bounce, resist; // of the world: for cluster 0
+    bool elastic, resist; // of the world: for cluster 0
 } solve_context;
 
 typedef struct kernel_call {
@@ -148,6 +148,11 @@ static soft_step open_step(plumb_world *world, real dt)
                   .immovable_slot = s->slot_count - 1,
                   .extras = running || tallies ? s->extras.data : NULL,
                   .specials = special ? s->specials.data : NULL,
+                  .bounces = world->narrow.any_low ? s->bounces.data : NULL,
+                  .motions = pl_solver_motions(s),
+                  .restitution_speed = (near_real)world->desc.restitution_speed,
+                  .struck = pl_impacts_any(world) ? s->struck.data : NULL,
+                  .bounce_count = &s->bounce_count,
                   .manifolds = pl_manifolds(&world->narrow),
                   .pairs = pl_pairs(&world->broad.pairs),
                   .h = h,
@@ -164,7 +169,7 @@ static soft_step open_step(plumb_world *world, real dt)
                   : world->turning_bodies > 0 ? PL_TURNING
                                               : PL_STRAIGHT,
         .tallies = tallies,
-        .bounce = world->narrow.any_bounce,
+        .elastic = pl_impacts_any(world),
         .resist = pl_effects_resist(world),
     };
 }
@@ -179,7 +184,10 @@ static void prepare(const solve_context *c)
     if (c->call.specials != NULL) {
         each(c, step->kernels->prepare_specials);
     }
-    if (c->bounce) {
+    if (c->call.bounces != NULL) {
+        each(c, step->kernels->prepare_bounces);
+    }
+    if (c->elastic) {
         pl_impacts_prepare(step->world);
     }
     if (c->any_joints) {
@@ -190,8 +198,28 @@ static void prepare(const solve_context *c)
 static void fly_all(const solve_context *c)
 {
     const pl_slots slots = c->cluster->slots[0];
-    pl_tasks_ranges(c->tasks, slots.count, PL_BODIES_SHARED, c->bounce ? fly_carefully : fly,
+    pl_tasks_ranges(c->tasks, slots.count, PL_BODIES_SHARED, c->elastic ? fly_carefully : fly,
                     &(flight){ &c->step->world->solver, slots.first, c->call.h });
+}
+
+// Impacts with restitution: those that are followed one by one, then of all others what is due. These may set off
+// some of the former again.
+static void bounce(const solve_context *c)
+{
+    const soft_step *step = c->step;
+    const pl_contact_kernels *kernels = step->kernels;
+    if (c->elastic) {
+        pl_impacts_run(step->world, c->call.h);
+    }
+    if (c->call.bounces != NULL) {
+        sweep(c, step->surface == PL_SPECIAL ? kernels->bounce_special : kernels->bounce);
+    }
+    if (c->elastic) {
+        if (c->call.bounces != NULL) {
+            pl_impacts_run_on(step->world, c->call.h);
+        }
+        pl_impacts_tell(step->world, c->call.h);
+    }
 }
 
 static void run_substep(solve_context *c, bool first)
@@ -210,9 +238,7 @@ static void run_substep(solve_context *c, bool first)
     if (first) {
         sweep(c, kernels->warm_start[step->surface][step->motion]);
     }
-    if (c->bounce) {
-        pl_impacts_run(world, h);
-    }
+    bounce(c);
     for (int i = 0; i < world->desc.iterations; ++i) {
         if (c->any_joints) {
             pl_joints_solve(&c->joints, PL_SWEEP_PULL, i == 0);
@@ -246,6 +272,9 @@ static void store(const solve_context *c)
     if (c->call.extras != NULL) {
         each(c, step->kernels->store_extras);
     }
+    if (c->call.bounces != NULL) {
+        each(c, step->kernels->store_bounces);
+    }
 }
 
 // All of a step for one cluster, in a thread's room for bundles.
@@ -258,7 +287,7 @@ static void run_cluster(const soft_step *step, uint32_t i, pl_tasks *tasks, uint
                         .tasks = tasks,
                         .call = step->call,
                         .joints = pl_joint_context_of(step->world, i, tasks, thread, step->call.h),
-                        .bounce = i == 0 && step->bounce,
+                        .elastic = i == 0 && step->elastic,
                         .resist = i == 0 && step->resist };
     c.any_joints = pl_joints_any(&c.joints);
     if (c.call.lanes != NULL) { // else no step has had a contact yet
@@ -270,6 +299,9 @@ static void run_cluster(const soft_step *step, uint32_t i, pl_tasks *tasks, uint
     }
     if (c.call.specials != NULL) {
         c.call.specials = (char *)c.call.specials + room * step->kernels->special_size;
+    }
+    if (c.call.bounces != NULL) {
+        c.call.bounces = (char *)c.call.bounces + room * step->kernels->bounce_size;
     }
     prepare(&c);
     for (int k = 0; k < step->world->desc.substeps; ++k) {
@@ -287,7 +319,7 @@ static bool is_large(const soft_step *step, uint32_t i)
     const uint32_t tied = pl_joints_any(&joints) ? joints.group->color_first[PL_JOINT_COLORS] -
                                                        joints.group->color_first[0]
                                                  : 0;
-    return (i == 0 && (step->bounce || step->resist)) || contacts + 2 * tied > LARGE;
+    return (i == 0 && (step->elastic || step->resist)) || contacts + 2 * tied > LARGE;
 }
 
 static void run_small_ones(void *context, uint32_t thread)

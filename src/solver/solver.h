@@ -21,7 +21,7 @@ typedef struct pl_solver_motion {
         inv_mass; // velocity as integrated: before any contact impulse of the substep
 } pl_solver_motion;
 
-// A contact point that may bounce: handled by event, outside the wide kernels (impact.c).
+// A point of an elastic contact: its impacts are events, outside the wide kernels (impact.c).
 typedef struct pl_impact_point {
     near_real ran, rbn, rat, rbt;  // [m] lever arms
     near_real separation;          // [m] at the start of the step
@@ -53,28 +53,6 @@ static inline bool pl_bounces(const pl_manifold *m)
     return m->restitution > 0 && !(m->adhesion > 0);
 }
 
-// A contact that was struck n times has no more than e^(2 n) of its energy left to return: below this it is
-// not worth following.
-#define PL_IMPACT_KEPT 0.02
-
-// Of so little restitution that one impact a substep is all that is followed.
-static inline bool pl_is_dull(near_real restitution)
-{
-    return (double)restitution * (double)restitution <= PL_IMPACT_KEPT;
-}
-
-// Where the record of a dull impact is, a lane (dull.h).
-typedef struct pl_predicted_ends {
-    uint32_t a, b;   // solver slots
-    uint32_t impact; // PL_NONE: no dull one in this lane
-} pl_predicted_ends;
-
-// Over the bundles [first, first + count) (dull.simd.c): fills in the fields and counts lively impacts;
-// looks which lanes the prediction leaves open; lets impacts happen, of one colour after another.
-typedef struct pl_dull_call pl_dull_call;
-typedef uint32_t pl_dull_counter(const pl_dull_call *call, uint32_t first, uint32_t count);
-typedef void pl_dull_kernel(const pl_dull_call *call, uint32_t first, uint32_t count);
-
 // A contact of the classic solver (pgs.c).
 typedef struct pl_classic_point {
     near_real ran, rbn, rat, rbt; // [m] lever arms
@@ -97,8 +75,8 @@ typedef struct pl_classic_contact {
     pl_classic_point point[2];
 } pl_classic_contact;
 
-// What a row is marked with in `slots` before it gets its slot. An elastic body, one in a contact with
-// restitution, keeps what rounding takes from its velocity; the others must not, or what one
+// What a row is marked with in `slots` before it gets its slot. An elastic body, one in a contact whose impacts are
+// events, keeps what rounding takes from its velocity; the others must not, or what one
 // island asks for would change the bits of the rest.
 enum { PL_ACTIVE, PL_ELASTIC };
 
@@ -127,7 +105,7 @@ typedef struct pl_cluster {
 
 typedef struct pl_solver {
     pl_buffer bodies, motions; // active dynamic bodies, active kinematic ones, one immovable body
-    // if any contact bounces, a quad a slot: what rounding took from its velocity, if kept
+    // if impacts are events, a quad a slot: what rounding took from its velocity, if kept
     pl_buffer residuals;
     pl_buffer struck;  // likewise a real a slot: when in the substep an impact struck it last [s]
     pl_buffer rows;    // uint32_t: body row of a slot
@@ -138,9 +116,8 @@ typedef struct pl_solver {
     pl_buffer bundles; // constraints of `width` contacts each
     pl_buffer extras; // a record a bundle, where surfaces run or roll hard or impulses are added up
     pl_buffer specials; // a record a bundle, where bodies are locked or surfaces stick
+    pl_buffer bounces;  // a record a bundle, where contacts are of low restitution
     pl_buffer impacts;  // pl_impact
-    pl_buffer predicted_fields, predicted_ends, predicted_open; // of dull impacts (dull.h)
-    uint32_t predicted_lanes;                                   // 0: no impact is dull
     pl_buffer impact_heap,
         impact_heads;  // uint32_t: due ones by time; the first one of a dynamic slot
     pl_buffer classic; // pl_classic_contact, for the classic solver alone
@@ -158,14 +135,15 @@ typedef struct pl_solver {
     uint32_t labelled; // rows whose islands are kept; 0: none
     // bundles of the largest cluster; of each thread's room, if there are several
     uint32_t bundle_room;
-    uint32_t bundle_count; // of cluster 0: all that impacts look at
-    uint32_t impact_count, due_count, lively_count;
+    uint32_t bundle_count; // of cluster 0: all that impacts as events look at
+    uint32_t impact_count, due_count;
     uint32_t color_count, overflow_count, bounce_count;
 } pl_solver;
 
 // Numbers of a contact sweep; see contact.simd.c for the formulas.
 typedef struct pl_contact_call {
     pl_solver_body *bodies;
+    pl_solver_motion *motions;
     uint32_t dynamic_slots; // slots from here on are read but never written
     void *bundles;
     const uint32_t *lanes;
@@ -174,13 +152,17 @@ typedef struct pl_contact_call {
     uint32_t immovable_slot;
     void *extras;          // NULL: none
     void *specials;        // NULL: none
+    void *bounces;         // NULL: none
     const uint16_t *flags; // PL_BODY_... of a body row
     pl_manifold *manifolds;
     pl_pair *pairs;
-    near_real h, inv_h;       // [s] substep
-    near_real hertz, damping; // [1/s], [-] of soft contacts
-    near_real push_speed;     // [m/s]
-    near_real unloaded;       // [N s] a point that bears no more and pushes has been struck
+    near_real h, inv_h;          // [s] substep
+    near_real hertz, damping;    // [1/s], [-] of soft contacts
+    near_real push_speed;        // [m/s]
+    near_real unloaded;          // [N s] a point that bears no more and pushes has been struck
+    near_real restitution_speed; // [m/s] nothing slower bounces
+    near_real *struck;           // [s] a slot, for impacts that are events; NULL: there are none
+    uint32_t *bounce_count;
 } pl_contact_call;
 
 typedef void pl_contact_kernel(const pl_contact_call *call, uint32_t first, uint32_t count);
@@ -215,9 +197,11 @@ typedef struct pl_contact_kernels {
     pl_contact_kernel *prepare_extras;
     size_t special_size;
     pl_contact_kernel *prepare_specials; // after prepare_extras
-    pl_dull_counter *dull_prepare;
-    pl_dull_kernel *dull_look, *dull_strike;
-    pl_contact_kernel *tally; // adds the substep's normal impulses to the totals
+    size_t bounce_size;
+    pl_contact_kernel *prepare_bounces;
+    pl_contact_kernel *bounce, *bounce_special; // without `specials` and with them
+    pl_contact_kernel *store_bounces;           // impacts to pairs and manifolds
+    pl_contact_kernel *tally;                   // adds the substep's normal impulses to the totals
     // rolling impulses to the pairs; totals, speeds of hits to the manifolds
     pl_contact_kernel *store_extras;
     pl_contact_kernel *store; // impulses to the pairs
@@ -249,10 +233,15 @@ bool pl_solver_specials(const plumb_world *world);
 // Moves the bodies of a cluster over one substep of h [s] (integrate.c).
 void pl_integrate_positions(const pl_solver *solver, const pl_cluster *cluster, pl_tasks *tasks,
                             near_real h);
-// Impacts with restitution: collects them; resolves those of one substep of h [s] (impact.c).
+// Impacts as events (impact.c): whether there may be any; collects them; resolves those of one substep of h [s];
+// those that other impacts of the substep made; and tells the sweeps which points stay clear.
+bool pl_impacts_any(const plumb_world *world);
+bool pl_impacts_follow(const plumb_world *world, near_real restitution); // those of a contact
 void pl_impacts_prepare(plumb_world *world);
 void pl_impacts_prepare_classic(plumb_world *world);
 void pl_impacts_run(plumb_world *world, near_real h);
+void pl_impacts_run_on(plumb_world *world, near_real h);
+void pl_impacts_tell(plumb_world *world, near_real h);
 // Solver slot of a body row.
 static inline uint32_t pl_solver_slot(const pl_solver *solver, uint32_t row, uint32_t movable_rows)
 {

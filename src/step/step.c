@@ -25,7 +25,7 @@ static void revise_schedule(plumb_world *world)
 static void forget_contacts(plumb_world *world)
 {
     world->narrow.manifold_count = world->narrow.borne_count = 0;
-    world->narrow.any_friction = world->narrow.any_bounce = false;
+    world->narrow.any_friction = world->narrow.any_elastic = world->narrow.any_low = false;
     world->solver.slot_count = 0;
     world->joints.broken_count = world->joints.strained_count = 0;
     world->broad.refreshed = false;

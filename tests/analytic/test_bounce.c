@@ -33,9 +33,11 @@ static void apexes_follow_the_restitution(void **state)
     (void)state;
     const double h = 5, r = 0.5;
     // The last bounce of e = 0.5 still flies for seven steps of 60 Hz.
-    const apex_case cases[] = { { 0.5, 60, 4, 1e-4 },  { 0.8, 60, 12, 1e-4 }, { 1.0, 60, 50, 1e-4 },
-                                { 0.9, 60, 20, 1e-4 }, { 0.5, 240, 5, 1e-4 }, { 0.8, 30, 8, 1e-4 },
-                                { 0.3, 60, 2, 1e-4 } };
+    const apex_case cases[] = { { 0.5, 60, 4, 1e-4 },   { 0.8, 60, 12, 1e-4 },
+                                { 1.0, 60, 50, 1e-4 },  { 0.9, 60, 20, 1e-4 },
+                                { 0.5, 240, 5, 1e-4 },  { 0.8, 30, 8, 1e-4 },
+                                { 0.3, 60, 2, 1e-4 },   { 0.1, 60, 1, 1e-4 },
+                                { 0.14, 240, 2, 1e-4 }, { 0.05, 1000, 1, 1e-4 } };
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; ++k) {
         const apex_case *c = &cases[k];
         plumb_world *w = sim_world(&(plumb_world_desc){ 0 });
@@ -54,7 +56,7 @@ static void apexes_follow_the_restitution(void **state)
             }
             before = v;
         }
-        print_message("apexes e = %.1f at %3.0f Hz, %2d bounces: worst %.2g relative\n", c->e,
+        print_message("apexes e = %.2f at %4.0f Hz, %2d bounces: worst %.2g relative\n", c->e,
                       c->rate, bounce, worst);
         assert_int_equal(bounce, c->bounces);
         assert_true(worst <= c->tolerance);
@@ -155,10 +157,11 @@ static void pair_leaves_as_the_impact_law_says(void **state)
 {
     (void)state;
     const pair_case cases[] = {
-        { 1, 1, 5, 0, 1, false },     { 1, 1, 5, 0, 1, true },    { 1, 1, 5, -3, 0.5, false },
-        { 2, 1, 5, -3, 1, true },     { 1, 10, 8, 0, 1, false },  { 10, 1, 8, -1, 0.25, true },
-        { 1000, 1, 3, -3, 1, false }, { 1, 1000, 9, 1, 1, true }, { 3, 2, 6, 1, 0, false },
-        { 1e6, 1, 2, 0, 1, false },
+        { 1, 1, 5, 0, 1, false },     { 1, 1, 5, 0, 1, true },     { 1, 1, 5, -3, 0.5, false },
+        { 2, 1, 5, -3, 1, true },     { 1, 10, 8, 0, 1, false },   { 10, 1, 8, -1, 0.25, true },
+        { 1000, 1, 3, -3, 1, false }, { 1, 1000, 9, 1, 1, true },  { 3, 2, 6, 1, 0, false },
+        { 1e6, 1, 2, 0, 1, false },   { 1, 1, 5, -3, 0.1, false }, { 10, 1, 8, -1, 0.14, true },
+        { 1, 1000, 9, 1, 0.1, true },
     };
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; ++k) {
         const pair_case *c = &cases[k];
@@ -288,8 +291,8 @@ typedef struct rod_case {
 static void rod_turns_when_its_end_strikes(void **state)
 {
     (void)state;
-    const rod_case cases[] = { { 30, 1 },   { 30, 0.5 }, { 60, 1 },
-                               { 45, 0.8 }, { 10, 0.5 }, { 80, 1 } };
+    const rod_case cases[] = { { 30, 1 },   { 30, 0.5 }, { 60, 1 },   { 45, 0.8 },
+                               { 10, 0.5 }, { 80, 1 },   { 30, 0.1 }, { 75, 0.14 } };
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; ++k) {
         const rod_case *c = &cases[k];
         plumb_world *w = sim_space();
@@ -308,9 +311,32 @@ static void rod_turns_when_its_end_strikes(void **state)
         double j = (1 + c->e) * speed / (1 / mass + x * x / inertia);
         double dv = fabs(sim_vy(w, rod) - (j / mass - speed)) / speed;
         double dw = fabs(sim_w(w, rod) - x * j / inertia) * hx / speed;
-        print_message("rod at %2.0f degrees, e = %.1f: error %.2g of v, %.2g of spin\n", c->degrees,
+        print_message("rod at %2.0f degrees, e = %.2f: error %.2g of v, %.2g of spin\n", c->degrees,
                       c->e, dv, dw);
         assert_true(dv <= SIM_TOLERANCE(1e-5, 1e-12) && dw <= SIM_TOLERANCE(1e-5, 1e-12));
+        plumb_world_destroy(w);
+    }
+}
+
+// The count of impacts is the last step's: in free flight there are none.
+static void impacts_are_counted_where_they_happen(void **state)
+{
+    (void)state;
+    const double bounces[] = { 0.8, 0.1 };
+    for (int k = 0; k < 2; ++k) {
+        plumb_world *w = sim_world(&(plumb_world_desc){ 0 });
+        plumb_material m = sim_material(w, 0, bounces[k]);
+        sim_floor(w, m);
+        plumb_body b = sim_ball(w, 0, 2.5, 0.5, m);
+        int counted = 0;
+        for (int i = 0; i < 40; ++i) {
+            const double before = sim_vy(w, b);
+            sim_step(w, HZ60);
+            const int count = (int)plumb_world_stats(w).bounce_count;
+            assert_int_equal(count, before < 0 && sim_vy(w, b) > 0);
+            counted += count;
+        }
+        assert_int_equal(counted, 1);
         plumb_world_destroy(w);
     }
 }
@@ -325,6 +351,7 @@ int main(void)
         cmocka_unit_test(cradle_passes_on_what_arrives),
         cmocka_unit_test(collisions_count_out_pi),
         cmocka_unit_test(rod_turns_when_its_end_strikes),
+        cmocka_unit_test(impacts_are_counted_where_they_happen),
     };
     return cmocka_run_group_tests_name("bounce", tests, NULL, NULL);
 }

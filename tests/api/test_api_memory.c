@@ -323,7 +323,7 @@ static void a_small_world_is_small(void **state)
 {
     (void)state;
     plumb_world *w;
-    assert_int_equal(plumb_world_create(NULL, &w), PLUMB_OK);
+    assert_int_equal(plumb_world_create(&(plumb_world_desc){ .simd_width = 8 }, &w), PLUMB_OK);
     for (int i = 0; i < 3; ++i) {
         const plumb_body body =
             plumb_body_create(w, &(plumb_body_desc){ .type = i == 0 ? PLUMB_STATIC : PLUMB_DYNAMIC,
@@ -335,7 +335,8 @@ static void a_small_world_is_small(void **state)
     for (int i = 0; i < 120; ++i) {
         plumb_world_step(w, R(1.0 / 60));
     }
-    // Measured: 28,100 B in the float library, of which 8,000 are the world itself; 37,000 in the double one.
+    // Measured: 28,100 B in the float library, of which 8,000 are the world itself; 37,000 in the double one. 16 lanes,
+    // the choice of some machines, take 2,200 more.
     assert_in_range(plumb_world_stats(w).peak_bytes, 1, PLUMB_REAL_IS_DOUBLE ? 38000 : 29000);
     plumb_world_destroy(w);
 }
