@@ -50,6 +50,10 @@ typedef struct plumb_body_desc {
 /// Null handle on error: E_NULL, E_RANGE, E_NOT_FINITE, E_MEMORY, E_LOCKED. O(1) amortised.
 PLUMB_API plumb_body plumb_body_create(plumb_world *world, const plumb_body_desc *desc);
 
+/// Reads what the body is now, as a descriptor that would make another like it, without its shapes: `mass` and `inertia`
+/// only where they were given. A time scale of 0 cannot be told so: there 0 means 1. O(1). Errors: E_HANDLE, E_NULL.
+PLUMB_API plumb_result plumb_body_get(const plumb_world *world, plumb_body body, plumb_body_desc *desc);
+
 /// Destroys a body, its shapes and its contacts (their end is told after the next step). Errors: E_HANDLE,
 /// E_LOCKED.
 PLUMB_API plumb_result plumb_body_destroy(plumb_world *world, plumb_body body);
@@ -200,7 +204,8 @@ PLUMB_API plumb_result plumb_body_set_time_scale(plumb_world *world, plumb_body 
 PLUMB_API plumb_real plumb_body_time_scale(const plumb_world *world, plumb_body body);
 
 /// Sets the factor on gravity [-], finite; 0 is none. Errors: E_HANDLE, E_NOT_FINITE.
-PLUMB_API plumb_result plumb_body_set_gravity_scale(plumb_world *world, plumb_body body, plumb_real scale);
+PLUMB_API plumb_result plumb_body_set_gravity_scale(plumb_world *world, plumb_body body,
+                                                     plumb_real gravity_scale);
 PLUMB_API plumb_real plumb_body_gravity_scale(const plumb_world *world, plumb_body body);
 
 /// A pointer of your own, null until set; the library only keeps it. Errors: E_HANDLE.

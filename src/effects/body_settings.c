@@ -10,11 +10,14 @@ static pl_body_settings *items(const plumb_world *world)
     return (pl_body_settings *)world->settings.items.data;
 }
 
+#define DEFAULT(name, initial) .name = initial,
+
 pl_body_settings pl_body_settings_get(const plumb_world *world, uint32_t row)
 {
     uint32_t at = world->bodies.settings[row];
     return at != 0 ? items(world)[at - 1]
-                   : (pl_body_settings){ .body = world->bodies.entity[row], .time_scale = 1 };
+                   : (pl_body_settings){ .body = world->bodies.entity[row],
+                                         PL_BODY_ROWS(PL_ROW_RECORD, DEFAULT) };
 }
 
 real pl_time_scale(const plumb_world *world, uint32_t row)
@@ -47,6 +50,14 @@ static void count(pl_body_settings_list *settings, const pl_body_settings *t, ui
     settings->frozen += t->time_scale == 0 ? by : 0;
 }
 
+// Whether any of them is not the default.
+static bool is_any(const pl_body_settings *t)
+{
+#define IS_SET(name, initial) || t->name != (initial)
+    return false PL_BODY_ROWS(PL_ROW_RECORD, IS_SET);
+#undef IS_SET
+}
+
 static void take_away(plumb_world *world, uint32_t row)
 {
     uint32_t at = world->bodies.settings[row];
@@ -68,7 +79,7 @@ void pl_body_settings_set(plumb_world *world, uint32_t row, const pl_body_settin
 {
     take_away(world, row);
     world->schedule_dirty = true;
-    if (!is_damped(values) && !is_capped(values) && values->time_scale == 1) {
+    if (!is_any(values)) {
         return;
     }
     pl_body_settings_list *settings = &world->settings;

@@ -9,12 +9,12 @@
 #include "core/memory.h"
 #include "world/columns.h"
 
-// Damping, caps and time scale of a body. All defaults: it has no record.
+// Damping, caps and time scale of a body, and whatever else a row of src/schema stores here. All defaults: it has no
+// record.
+#define PL_TUNING_MEMBER(name, initial) real name;
 typedef struct pl_body_settings {
     plumb_body body;
-    real damping, angular_damping; // [1/s]
-    real max_speed, max_spin;      // [m/s], [rad/s]; 0: none
-    real time_scale;               // [-]
+    PL_BODY_ROWS(PL_ROW_RECORD, PL_TUNING_MEMBER)
     real ax, ay,
         aw; // in a step: acceleration by forces in the world's time, before damping and caps
 } pl_body_settings;

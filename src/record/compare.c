@@ -139,15 +139,13 @@ static uint32_t find_section(const comparison *c, const char *table, const char 
 
 #define MEMBER(struct, path)                                                                       \
     { #path, offsetof(struct, path), sizeof(((struct *)0)->path), PL_TYPE(((struct *)0)->path) },
-#define JOINT_MEMBER(path)     MEMBER(pl_joint, path)
-#define CHARACTER_MEMBER(path) MEMBER(pl_character, path)
+#define JOINT_MEMBER(path)           MEMBER(pl_joint, path)
+#define TUNING_MEMBER(name, initial) MEMBER(pl_body_settings, name)
+#define CHARACTER_MEMBER(path)       MEMBER(pl_character, path)
 
 static const pl_member joint_members[] = { PL_STATE_JOINT(JOINT_MEMBER) };
 static const pl_member character_members[] = { PL_STATE_CHARACTER(CHARACTER_MEMBER) };
-static const pl_member settings_members[] = { MEMBER(pl_body_settings, damping) MEMBER(
-    pl_body_settings, angular_damping) MEMBER(pl_body_settings, max_speed)
-                                                  MEMBER(pl_body_settings, max_spin)
-                                                      MEMBER(pl_body_settings, time_scale) };
+static const pl_member settings_members[] = { PL_BODY_ROWS(PL_ROW_RECORD, TUNING_MEMBER) };
 static const pl_member target_members[] = { MEMBER(pl_target, x) MEMBER(pl_target, y)
                                                 MEMBER(pl_target, turn) MEMBER(pl_target, left) };
 static const pl_member pair_members[] = { MEMBER(pl_pair, normal) MEMBER(pl_pair, tangent)

@@ -3,13 +3,14 @@
 //     R(X, store, kind, name, word, unit, range, initial, zero, text)
 //
 //   X        handed through to R, so that a list of rows can be part of another list
-//   store    COLUMN: a column of that name; OWN: code of its own keeps it
-//   kind     REAL, or an enum: MIX
+//   store    COLUMN: a column of that name; RECORD: a member of the record of bodies that few have
+//            (effects/effects.h); OWN: code of its own keeps it
+//   kind     REAL, VEC2, BOOL, or an enum: MIX, BODY_TYPE
 //   name     of the descriptor's member
-//   word     key in scene files
-//   unit     "m/s"; "1" for a ratio; of an enum its values
+//   word     SAID(key) in scene files; NOT(key), which says the opposite; UNSAID
+//   unit     "m/s"; "1" for a ratio and a bool; of an enum its values
 //   range    FROM(low, high), ABOVE(low, high) without low itself, ANY finite number, CHOICES(last);
-//            high may be NO_END
+//            high may be NO_END. Of a vector, that of each component
 //   initial  what 0 in the descriptor means
 //   zero     ZERO(member), the bool that says that 0 is meant; NO_ZERO
 //   text     one sentence
@@ -23,14 +24,23 @@
 #include <math.h>
 
 // What a kind is: in a column, in a descriptor, for a user.
-#define PL_COLUMN_REAL plumb_real
-#define PL_COLUMN_MIX  uint8_t
-#define PL_MEMBER_REAL plumb_real
-#define PL_MEMBER_MIX  plumb_mix
-#define PL_KIND_REAL   PLUMB_PROPERTY_REAL
-#define PL_KIND_MIX    PLUMB_PROPERTY_CHOICE
+#define PL_COLUMN_REAL      plumb_real
+#define PL_COLUMN_BOOL      bool
+#define PL_COLUMN_MIX       uint8_t
+#define PL_MEMBER_REAL      plumb_real
+#define PL_MEMBER_VEC2      plumb_vec2
+#define PL_MEMBER_BOOL      bool
+#define PL_MEMBER_MIX       plumb_mix
+#define PL_MEMBER_BODY_TYPE plumb_body_type
+#define PL_KIND_REAL        PLUMB_PROPERTY_REAL
+#define PL_KIND_VEC2        PLUMB_PROPERTY_VEC2
+#define PL_KIND_BOOL        PLUMB_PROPERTY_BOOL
+#define PL_KIND_MIX         PLUMB_PROPERTY_CHOICE
+#define PL_KIND_BODY_TYPE   PLUMB_PROPERTY_CHOICE
 
-#define PL_MIX_CHOICES "default|average|geometric|multiply|min|max" // in the order of plumb_mix
+// In the order of their enums.
+#define PL_MIX_CHOICES       "default|average|geometric|multiply|min|max"
+#define PL_BODY_TYPE_CHOICES "dynamic|kinematic|static"
 
 // What a range is: low, high, whether low is left out.
 #define NO_END                 ((double)INFINITY)
@@ -39,25 +49,61 @@
 #define PL_RANGE_ANY           .low = -NO_END, .high = NO_END
 #define PL_RANGE_CHOICES(last) .low = 0, .high = last
 
+// The parts of `word` and `zero` as arguments: what it is, and the name.
+#define PL_CALL(macro, ...)       macro(__VA_ARGS__)
+#define PL_WORD_SAID(key)         SAID, key
+#define PL_WORD_NOT(key)          NOT, key
+#define PL_WORD_UNSAID            UNSAID, unsaid
+#define PL_ZERO_ARGS_ZERO(member) ZERO, member
+#define PL_ZERO_ARGS_NO_ZERO      NO_ZERO, none
+
 // Whether a descriptor `desc` says that 0 is meant.
 #define PL_IS_ZERO(member) desc->member
 #define PL_IS_NO_ZERO      false
 
-// A column of a table, for the lists of world/columns.h. The rule of its numbers in an image follows
-// from the range: snapshot/rules.h.
-#define PL_ROW_COLUMN(X, store, kind, name, word, unit, range, ...)                                \
-    PL_ROW_STORE_##store(X, PL_COLUMN_##kind, name, WITHIN_##range)
-#define PL_ROW_STORE_COLUMN(X, type, name, ...) X(type, name, __VA_ARGS__)
-#define PL_ROW_STORE_OWN(...)
+// X(member) of each member of the descriptor.
+#define PL_ROW_MEMBERS(X, store, kind, name, word, unit, range, initial, zero, text)               \
+    X(name) PL_CALL(PL_ROW_ZERO_MEMBER, X, PL_ZERO_ARGS_##zero)
+#define PL_ROW_ZERO_MEMBER(X, how, member) PL_ROW_MEMBER_##how(X, member)
+#define PL_ROW_MEMBER_ZERO(X, member)      X(member)
+#define PL_ROW_MEMBER_NO_ZERO(X, member)
 
-// What row `row` of `table` becomes by the member of `desc`, and back.
+// X(type, name, rule) of a row that is a column, for the lists of world/columns.h. The rule of its numbers in an
+// image follows from the range: snapshot/rules.h.
+#define PL_ROW_COLUMN(X, store, kind, name, word, unit, range, ...)                                \
+    PL_ROW_COLUMN_##store(X, PL_COLUMN_##kind, name, WITHIN_##range)
+#define PL_ROW_COLUMN_COLUMN(X, type, name, ...) X(type, name, __VA_ARGS__)
+#define PL_ROW_COLUMN_RECORD(...)
+#define PL_ROW_COLUMN_OWN(...)
+
+// X(name, initial) of a row that is a member of the record.
+#define PL_ROW_RECORD(X, store, kind, name, word, unit, range, initial, ...)                       \
+    PL_ROW_RECORD_##store(X, name, initial)
+#define PL_ROW_RECORD_RECORD(X, name, initial) X(name, initial)
+#define PL_ROW_RECORD_COLUMN(...)
+#define PL_ROW_RECORD_OWN(...)
+
+// What the member of `desc` means.
+#define PL_MEANS(type, name, initial, zero)                                                        \
+    ((type)(PL_IS_##zero ? 0 : desc->name != 0 ? desc->name : (type)(initial)))
+
+// Row `row` of `table` becomes what `desc` says; and back.
 #define PL_ROW_FILL(table, store, kind, name, word, unit, range, initial, zero, text)              \
-    PL_FILL_##store(table, PL_COLUMN_##kind, name, initial, PL_IS_##zero)
-#define PL_FILL_COLUMN(table, type, name, initial, is_zero)                                        \
-    (table)->name[row] = (type)(is_zero ? 0 : desc->name != 0 ? desc->name : (type)(initial));
-#define PL_FILL_OWN(...)
-#define PL_ROW_GET(table, store, kind, name, ...) PL_GET_##store(table, PL_MEMBER_##kind, name)
-#define PL_GET_COLUMN(table, type, name)          desc->name = (type)(table)->name[row];
-#define PL_GET_OWN(...)
+    PL_ROW_FILL_##store(table, PL_COLUMN_##kind, name, initial, zero)
+#define PL_ROW_FILL_COLUMN(table, type, name, initial, zero)                                       \
+    (table)->name[row] = PL_MEANS(type, name, initial, zero);
+#define PL_ROW_FILL_RECORD(...)
+#define PL_ROW_FILL_OWN(...)
+#define PL_ROW_GET(table, store, kind, name, word, unit, range, initial, zero, text)               \
+    PL_ROW_GET_##store(table, PL_MEMBER_##kind, name, zero)
+#define PL_ROW_GET_COLUMN(table, type, name, zero)                                                 \
+    desc->name = (type)(table)->name[row];                                                         \
+    PL_GET_##zero(desc->name == 0)
+#define PL_ROW_GET_RECORD(...)
+#define PL_ROW_GET_OWN(...)
+#define PL_GET_ZERO(member) desc->member = PL_GET_IS
+#define PL_GET_NO_ZERO      PL_GET_NOTHING
+#define PL_GET_IS(is)       (is);
+#define PL_GET_NOTHING(is)
 
 #endif

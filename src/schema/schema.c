@@ -2,6 +2,7 @@
 //
 // Reads: the rows, descriptors. Writes: descriptors. Cost: O(1); O(rows) to find one by its name.
 #include "schema/schema.h"
+#include "schema/body.h"
 #include "schema/material.h"
 
 #include <string.h>
@@ -11,7 +12,7 @@
 // Of the descriptor OF.
 #define PROPERTY(X, store, kind, member, key, what, range, from, none, sentence)                   \
     { .name = #member,                                                                             \
-      .word = #key,                                                                                \
+      PL_CALL(WORD, PL_WORD_##key),                                                                \
       .unit = what,                                                                                \
       .text = sentence,                                                                            \
       .type = PL_KIND_##kind,                                                                      \
@@ -19,8 +20,16 @@
       .initial = (double)(from),                                                                   \
       .offset = offsetof(OF, member),                                                              \
       .zero = AT_##none },
-#define AT_ZERO(member) offsetof(OF, member)
-#define AT_NO_ZERO      PLUMB_NO_MEMBER
+#define AT_ZERO(member)  offsetof(OF, member)
+#define AT_NO_ZERO       PLUMB_NO_MEMBER
+#define WORD(how, key)   WORD_##how(key)
+#define WORD_SAID(key)   .word = #key
+#define WORD_NOT(key)    .word = #key, .opposite = true
+#define WORD_UNSAID(key) .word = ""
+
+#define OF plumb_body_desc
+static const plumb_property bodies[] = { PL_BODY_ROWS(PROPERTY, ) };
+#undef OF
 
 #define OF plumb_material_desc
 static const plumb_property materials[] = { PL_MATERIAL_ROWS(PROPERTY, ) };
@@ -34,11 +43,13 @@ static const struct {
     const plumb_property *rows;
     size_t count;
 } tables[PLUMB_TABLE_COUNT] = {
+    [PLUMB_TABLE_BODY] = { bodies, COUNT(bodies) },
     [PLUMB_TABLE_MATERIAL] = { materials, COUNT(materials) },
     [PLUMB_TABLE_MATERIAL_PAIR] = { pairs, COUNT(pairs) },
 };
 
-_Static_assert(sizeof(plumb_mix) == sizeof(int), "choices are read as int");
+_Static_assert(sizeof(plumb_mix) == sizeof(int) && sizeof(plumb_body_type) == sizeof(int),
+               "choices are read as int");
 
 const plumb_property *plumb_properties(plumb_property_table table, int *count)
 {
@@ -61,37 +72,53 @@ const plumb_property *plumb_property_find(plumb_property_table table, const char
     return NULL;
 }
 
-double pl_property_member(const plumb_property *property, const void *desc)
+// The member, or a component of it.
+static size_t offset_of(const plumb_property *property, int axis)
 {
-    const char *member = (const char *)desc + property->offset;
+    const bool second = axis == 1 && property->type == PLUMB_PROPERTY_VEC2;
+    return property->offset + (second ? offsetof(plumb_vec2, y) : 0);
+}
+
+double pl_property_member(const plumb_property *property, const void *desc, int axis)
+{
+    const char *member = (const char *)desc + offset_of(property, axis);
     plumb_real number;
     int choice;
-    if (property->type == PLUMB_PROPERTY_REAL) {
+    switch (property->type) {
+    case PLUMB_PROPERTY_BOOL:
+        return *(const bool *)(const void *)member ? 1 : 0;
+    case PLUMB_PROPERTY_CHOICE:
+        memcpy(&choice, member, sizeof choice);
+        return choice;
+    default:
         memcpy(&number, member, sizeof number);
         return (double)number;
     }
-    memcpy(&choice, member, sizeof choice);
-    return choice;
 }
 
-double plumb_property_read(const plumb_property *property, const void *desc)
+double plumb_property_read(const plumb_property *property, const void *desc, int axis)
 {
     if (property->zero != PLUMB_NO_MEMBER && ((const bool *)desc)[property->zero]) {
         return 0;
     }
-    const double value = pl_property_member(property, desc);
+    const double value = pl_property_member(property, desc, axis);
     return value != 0 ? value : property->initial;
 }
 
-void plumb_property_write(const plumb_property *property, void *desc, double value)
+void plumb_property_write(const plumb_property *property, void *desc, int axis, double value)
 {
-    char *member = (char *)desc + property->offset;
+    char *member = (char *)desc + offset_of(property, axis);
     const plumb_real number = (plumb_real)value;
     const int choice = property->type == PLUMB_PROPERTY_CHOICE ? (int)value : 0;
-    if (property->type == PLUMB_PROPERTY_REAL) {
-        memcpy(member, &number, sizeof number);
-    } else {
+    switch (property->type) {
+    case PLUMB_PROPERTY_BOOL:
+        *(bool *)(void *)member = value != 0;
+        break;
+    case PLUMB_PROPERTY_CHOICE:
         memcpy(member, &choice, sizeof choice);
+        break;
+    default:
+        memcpy(member, &number, sizeof number);
     }
     if (property->zero != PLUMB_NO_MEMBER) {
         ((bool *)desc)[property->zero] = value == 0;

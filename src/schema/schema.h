@@ -4,7 +4,7 @@
 
 #include "plumb/schema.h"
 
-// What the member holds: 0 where the default is meant.
-double pl_property_member(const plumb_property *property, const void *desc);
+// What the member holds: 0 where the default is meant. Of a vector, along an axis: 0, 1.
+double pl_property_member(const plumb_property *property, const void *desc, int axis);
 
 #endif

@@ -2,6 +2,7 @@
 //
 // Reads: the image. Writes: marks. Cost: O(state).
 #include "snapshot/check.h"
+#include "world/check.h"
 #include "broad/pairs.h"
 #include "internal_edges/cone.h"
 #include "internal_edges/internal_edges.h"
@@ -156,11 +157,13 @@ static bool check_character(const pl_suspect *s, const pl_character *c, uint32_t
 static bool check_settings_of(const pl_suspect *s, const pl_body_settings *t, uint32_t i)
 {
     const uint32_t row = pl_suspect_row(s, t->body);
-    return row != PL_NONE && s->world.bodies.settings[row] == i + 1 && t->damping >= 0 &&
-           t->angular_damping >= 0 && t->max_speed >= 0 && t->max_spin >= 0 && t->time_scale >= 0 &&
-           t->time_scale <= 100 && CHECK_REALS(t->damping) && CHECK_REALS(t->angular_damping) &&
-           CHECK_REALS(t->max_speed) && CHECK_REALS(t->max_spin) && CHECK_REALS(t->ax) &&
-           CHECK_REALS(t->ay) && CHECK_REALS(t->aw);
+    plumb_body_desc desc = { 0 };
+#define TAKE(name, initial) desc.name = t->name;
+    PL_BODY_ROWS(PL_ROW_RECORD, TAKE)
+#undef TAKE
+    return row != PL_NONE && s->world.bodies.settings[row] == i + 1 &&
+           pl_desc_is_sound(PLUMB_TABLE_BODY, &desc) && CHECK_REALS(t->ax) && CHECK_REALS(t->ay) &&
+           CHECK_REALS(t->aw);
 }
 
 static bool check_settings(const pl_suspect *s)

@@ -52,17 +52,14 @@ _Static_assert(LISTED(PL_STATE) == sizeof(plumb_world),
 #define SHAPE_DESC_SIZE(path)     MEMBER_SIZE(plumb_shape_desc, path)
 #define JOINT_DESC_SIZE(path)     MEMBER_SIZE(plumb_joint_desc, path)
 #define CHARACTER_DESC_SIZE(path) MEMBER_SIZE(plumb_character_desc, path)
-// Of a descriptor whose properties are rows of src/schema: members of rows, and those that say that 0 is meant.
-#define ROW_SIZE(desc, store, kind, name, word, unit, range, initial, zero, text)                  \
-    MEMBER_SIZE(desc, name) SIZE_OF_##zero
-#define SIZE_OF_ZERO(member) +sizeof(bool)
-#define SIZE_OF_NO_ZERO
+#define MATERIAL_DESC_SIZE(path)  MEMBER_SIZE(plumb_material_desc, path)
+#define PAIR_DESC_SIZE(path)      MEMBER_SIZE(plumb_material_pair, path)
 #define COMPLETE_DESC(sizes, desc)                                                                 \
     _Static_assert((sizes) == sizeof(desc),                                                        \
                    "a member of " #desc " is not in world/desc_list.h or src/schema")
 
-COMPLETE_DESC(0 PL_MATERIAL_ROWS(ROW_SIZE, plumb_material_desc), plumb_material_desc);
-COMPLETE_DESC(0 PL_MATERIAL_PAIR_ROWS(ROW_SIZE, plumb_material_pair), plumb_material_pair);
+COMPLETE_DESC(0 PL_MATERIAL_ROWS(PL_ROW_MEMBERS, MATERIAL_DESC_SIZE), plumb_material_desc);
+COMPLETE_DESC(0 PL_MATERIAL_PAIR_ROWS(PL_ROW_MEMBERS, PAIR_DESC_SIZE), plumb_material_pair);
 COMPLETE_DESC(0 PL_BODY_DESC(BODY_DESC_SIZE), plumb_body_desc);
 COMPLETE_DESC(sizeof(void *) PL_SHAPE_DESC(SHAPE_DESC_SIZE), plumb_shape_desc);
 COMPLETE_DESC(0 PL_JOINT_DESC(JOINT_DESC_SIZE), plumb_joint_desc);

@@ -13,13 +13,6 @@
 static plumb_result check_motion(const plumb_world *world, const char *fn,
                                  const plumb_body_desc *desc)
 {
-    plumb_result r = pl_check_finite_vec(world, fn, "velocity", desc->velocity);
-    if (r == PLUMB_OK) {
-        r = pl_check_finite(world, fn, "angular_velocity", desc->angular_velocity);
-    }
-    if (r != PLUMB_OK) {
-        return r;
-    }
     bool is_static = desc->type == PLUMB_STATIC;
     if (is_static && (desc->velocity.x != 0 || desc->velocity.y != 0)) {
         return pl_fail(world, PLUMB_E_RANGE, fn,
@@ -56,17 +49,6 @@ static plumb_result check_sleep(const plumb_world *world, const char *fn,
                : pl_fail(world, PLUMB_E_RANGE, fn, "asleep is true; it must be false %s", why);
 }
 
-// 0 or within the range of masses.
-static plumb_result check_mass(const plumb_world *world, const char *fn, const char *field,
-                               real value)
-{
-    plumb_result r = pl_check_range(world, fn, field, value, 0, PL_MASS_MOST);
-    if (r == PLUMB_OK && value != 0 && value < PL_MASS_LEAST) {
-        r = pl_check_range(world, fn, field, value, PL_MASS_LEAST, PL_MASS_MOST);
-    }
-    return r;
-}
-
 plumb_result pl_place_check(const plumb_world *world, const char *fn, plumb_vec2 position,
                             plumb_real angle)
 {
@@ -80,21 +62,14 @@ plumb_result pl_body_check(const plumb_world *world, const char *fn, const plumb
     if (r != PLUMB_OK) {
         return r;
     }
-    if ((unsigned)desc->type > PLUMB_STATIC) {
-        return pl_fail(world, PLUMB_E_RANGE, fn, "type is %d; it must be a plumb_body_type",
-                       (int)desc->type);
-    }
-    r = pl_place_check(world, fn, desc->position, desc->angle);
+    r = pl_check_desc(world, fn, "", PLUMB_TABLE_BODY, desc);
     r = r != PLUMB_OK ? r : check_motion(world, fn, desc);
     r = r != PLUMB_OK ? r : check_sleep(world, fn, desc);
     if (r == PLUMB_OK && desc->continuous && desc->type != PLUMB_DYNAMIC) {
         r = pl_fail(world, PLUMB_E_RANGE, fn, "continuous is true; it must be false for a %s body",
                     desc->type == PLUMB_STATIC ? "static" : "kinematic");
     }
-    r = r != PLUMB_OK ? r : check_mass(world, fn, "mass", desc->mass);
-    r = r != PLUMB_OK ? r : check_mass(world, fn, "inertia", desc->inertia);
-    r = r != PLUMB_OK ? r : pl_check_finite(world, fn, "gravity_scale", desc->gravity_scale);
-    return r != PLUMB_OK ? r : pl_body_settings_check(world, fn, desc);
+    return r;
 }
 
 static void set_continuous(plumb_world *world, uint32_t row, bool continuous)
@@ -118,22 +93,16 @@ static void fill_row(plumb_world *world, uint32_t row, const plumb_body_desc *de
                    (desc->no_sleep ? PL_BODY_NO_SLEEP : 0));
     set_continuous(world, row, desc->continuous);
     world->locked_bodies += desc->lock_x || desc->lock_y;
-    pl_body_settings_set(
-        world, row,
-        &(pl_body_settings){ .damping = desc->damping,
-                             .angular_damping = desc->angular_damping,
-                             .max_speed = desc->max_speed,
-                             .max_spin = desc->max_spin,
-                             .time_scale = desc->time_scale > 0 ? desc->time_scale : 1 });
+#define MEANT(name, initial) .name = desc->name != 0 ? desc->name : (real)(initial),
+    pl_body_settings_set(world, row, &(pl_body_settings){ PL_BODY_ROWS(PL_ROW_RECORD, MEANT) });
+#undef MEANT
+    PL_BODY_ROWS(PL_ROW_FILL, b)
     b->vx[row] = desc->velocity.x;
     b->vy[row] = desc->velocity.y;
     b->w[row] = desc->angular_velocity;
     b->set_mass[row] = desc->mass;
     b->set_inertia[row] = desc->inertia;
     b->user_data[row] = desc->user_data;
-    b->gravity_scale[row] = desc->no_gravity           ? 0
-                            : desc->gravity_scale != 0 ? desc->gravity_scale
-                                                       : 1;
     pl_mass_revise(world, row);
     pl_body_place(world, row, desc->position, desc->angle);
 }
@@ -374,21 +343,6 @@ plumb_result plumb_body_set_continuous(plumb_world *world, plumb_body body, bool
 }
 
 //---- the rest ------------------------------------------------------------------------------------
-
-plumb_result plumb_body_set_gravity_scale(plumb_world *world, plumb_body body, plumb_real scale)
-{
-    uint32_t row;
-    plumb_result r = pl_check_body(world, __func__, body, &row);
-    r = r != PLUMB_OK ? r : pl_check_finite(world, __func__, "scale", scale);
-    if (r == PLUMB_OK && scale != world->bodies.gravity_scale[row]) {
-        pl_sleep_disturb(world, row);
-    }
-    if (r == PLUMB_OK) {
-        world->bodies.gravity_scale[row] = scale;
-        world->schedule_dirty = true;
-    }
-    return r;
-}
 
 plumb_result plumb_body_set_user_data(plumb_world *world, plumb_body body, void *user_data)
 {

@@ -105,12 +105,6 @@ bool plumb_body_is_continuous(const plumb_world *world, plumb_body body)
     return row != PL_NONE && (world->bodies.flags[row] & PL_BODY_CONTINUOUS) != 0;
 }
 
-plumb_real plumb_body_gravity_scale(const plumb_world *world, plumb_body body)
-{
-    uint32_t row = pl_ask_body(world, __func__, body);
-    return row == PL_NONE ? 0 : world->bodies.gravity_scale[row];
-}
-
 bool plumb_body_is_enabled(const plumb_world *world, plumb_body body)
 {
     uint32_t row = pl_ask_body(world, __func__, body);

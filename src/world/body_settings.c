@@ -1,30 +1,15 @@
-// body_settings.c - damping, speed caps and time scale of bodies, set and read.
+// body_settings.c - properties of bodies set and read: what follows from the rows of the schema, damping, speed caps and
+// time scale.
 //
-// Reads: arguments, checked first. Writes: the body's record (effects/body_settings.c). Cost: O(1).
+// Reads: arguments, checked first. Writes: columns, the body's record (effects/body_settings.c). Cost: O(1).
 #include "effects/effects.h"
 #include "world/check.h"
 #include "world/rows.h"
 
-#define TIME_SCALE_MOST ((real)100)
-
-plumb_result pl_body_settings_check(const plumb_world *world, const char *fn,
-                                    const plumb_body_desc *desc)
+static plumb_result check(const plumb_world *world, const char *fn, const char *field,
+                          const char *property, plumb_real value)
 {
-    const struct {
-        const char *name;
-        real value, most;
-    } fields[] = {
-        { "damping", desc->damping, PLUMB_REAL_MAX },
-        { "angular_damping", desc->angular_damping, PLUMB_REAL_MAX },
-        { "max_speed", desc->max_speed, PLUMB_REAL_MAX },
-        { "max_spin", desc->max_spin, PLUMB_REAL_MAX },
-        { "time_scale", desc->time_scale, TIME_SCALE_MOST },
-    };
-    plumb_result r = PLUMB_OK;
-    for (size_t i = 0; i < sizeof fields / sizeof fields[0] && r == PLUMB_OK; ++i) {
-        r = pl_check_range(world, fn, fields[i].name, fields[i].value, 0, fields[i].most);
-    }
-    return r;
+    return pl_check_property(world, fn, field, PLUMB_TABLE_BODY, property, value);
 }
 
 // The body's record, to be changed and given back with `store`.
@@ -50,8 +35,8 @@ plumb_result plumb_body_set_damping(plumb_world *world, plumb_body body, plumb_r
     uint32_t row;
     pl_body_settings t;
     plumb_result r = pl_check_body(world, __func__, body, &row);
-    r = r != PLUMB_OK ? r : pl_check_range(world, __func__, "linear", linear, 0, PLUMB_REAL_MAX);
-    r = r != PLUMB_OK ? r : pl_check_range(world, __func__, "angular", angular, 0, PLUMB_REAL_MAX);
+    r = r != PLUMB_OK ? r : check(world, __func__, "linear", "damping", linear);
+    r = r != PLUMB_OK ? r : check(world, __func__, "angular", "angular_damping", angular);
     r = r != PLUMB_OK ? r : open(world, __func__, row, &t);
     if (r != PLUMB_OK) {
         return r;
@@ -67,10 +52,8 @@ plumb_result plumb_body_set_speed_cap(plumb_world *world, plumb_body body, plumb
     uint32_t row;
     pl_body_settings t;
     plumb_result r = pl_check_body(world, __func__, body, &row);
-    r = r != PLUMB_OK ? r
-                      : pl_check_range(world, __func__, "max_speed", max_speed, 0, PLUMB_REAL_MAX);
-    r = r != PLUMB_OK ? r
-                      : pl_check_range(world, __func__, "max_spin", max_spin, 0, PLUMB_REAL_MAX);
+    r = r != PLUMB_OK ? r : check(world, __func__, "max_speed", "max_speed", max_speed);
+    r = r != PLUMB_OK ? r : check(world, __func__, "max_spin", "max_spin", max_spin);
     r = r != PLUMB_OK ? r : open(world, __func__, row, &t);
     if (r != PLUMB_OK) {
         return r;
@@ -85,7 +68,7 @@ plumb_result plumb_body_set_time_scale(plumb_world *world, plumb_body body, plum
     uint32_t row;
     pl_body_settings t;
     plumb_result r = pl_check_body(world, __func__, body, &row);
-    r = r != PLUMB_OK ? r : pl_check_range(world, __func__, "scale", scale, 0, TIME_SCALE_MOST);
+    r = r != PLUMB_OK ? r : check(world, __func__, "scale", "time_scale", scale);
     r = r != PLUMB_OK ? r : open(world, __func__, row, &t);
     if (r != PLUMB_OK) {
         return r;
@@ -96,37 +79,87 @@ plumb_result plumb_body_set_time_scale(plumb_world *world, plumb_body body, plum
     return PLUMB_OK;
 }
 
+//---- columns ------------------------------------------------------------------------------------
+
+// plumb_body_set_<name>, plumb_body_<name> of each row of the schema that is a column.
+#define SETTER(X, store, kind, name, ...) SETTER_##store(PL_MEMBER_##kind, name)
+#define SETTER_COLUMN(type, name)                                                                  \
+    plumb_result plumb_body_set_##name(plumb_world *world, plumb_body body, type name)             \
+    {                                                                                              \
+        uint32_t row;                                                                              \
+        plumb_result r = pl_check_body(world, __func__, body, &row);                               \
+        r = r != PLUMB_OK                                                                          \
+                ? r                                                                                \
+                : pl_check_property(world, __func__, #name, PLUMB_TABLE_BODY, #name, (real)name);  \
+        if (r == PLUMB_OK && name != world->bodies.name[row]) {                                    \
+            pl_sleep_disturb(world, row);                                                          \
+        }                                                                                          \
+        if (r == PLUMB_OK) {                                                                       \
+            world->bodies.name[row] = name;                                                        \
+            world->schedule_dirty = true;                                                          \
+        }                                                                                          \
+        return r;                                                                                  \
+    }
+#define SETTER_RECORD(...)
+#define SETTER_OWN(...)
+PL_BODY_ROWS(SETTER, )
+
+#define GETTER(X, store, kind, name, ...) GETTER_##store(PL_MEMBER_##kind, name)
+#define GETTER_COLUMN(type, name)                                                                  \
+    type plumb_body_##name(const plumb_world *world, plumb_body body)                              \
+    {                                                                                              \
+        uint32_t row = pl_ask_body(world, __func__, body);                                         \
+        return row == PL_NONE ? (type)0 : (type)world->bodies.name[row];                           \
+    }
+#define GETTER_RECORD(...)
+#define GETTER_OWN(...)
+PL_BODY_ROWS(GETTER, )
+
 //---- read ----------------------------------------------------------------------------------------
 
 // Zeros for a bad handle.
 static pl_body_settings look(const plumb_world *world, const char *fn, plumb_body body)
 {
     uint32_t row = pl_ask_body(world, fn, body);
-    return row == PL_NONE ? (pl_body_settings){ .time_scale = 0 }
-                          : pl_body_settings_get(world, row);
+    return row == PL_NONE ? (pl_body_settings){ .damping = 0 } : pl_body_settings_get(world, row);
 }
 
-plumb_real plumb_body_damping(const plumb_world *world, plumb_body body)
-{
-    return look(world, __func__, body).damping;
-}
+#define RECORD_GETTER(name, initial)                                                               \
+    plumb_real plumb_body_##name(const plumb_world *world, plumb_body body)                        \
+    {                                                                                              \
+        return look(world, __func__, body).name;                                                   \
+    }
+PL_BODY_ROWS(PL_ROW_RECORD, RECORD_GETTER)
 
-plumb_real plumb_body_angular_damping(const plumb_world *world, plumb_body body)
+plumb_result plumb_body_get(const plumb_world *world, plumb_body body, plumb_body_desc *desc)
 {
-    return look(world, __func__, body).angular_damping;
-}
-
-plumb_real plumb_body_max_speed(const plumb_world *world, plumb_body body)
-{
-    return look(world, __func__, body).max_speed;
-}
-
-plumb_real plumb_body_max_spin(const plumb_world *world, plumb_body body)
-{
-    return look(world, __func__, body).max_spin;
-}
-
-plumb_real plumb_body_time_scale(const plumb_world *world, plumb_body body)
-{
-    return look(world, __func__, body).time_scale;
+    uint32_t row;
+    plumb_result r = pl_check_body(world, __func__, body, &row);
+    r = r != PLUMB_OK ? r : pl_check_pointer(world, __func__, "desc", desc);
+    if (r != PLUMB_OK) {
+        return r;
+    }
+    const pl_bodies *b = &world->bodies;
+    const pl_body_settings t = pl_body_settings_get(world, row);
+    const uint32_t flags = b->flags[row];
+    *desc = (plumb_body_desc){ .type = (plumb_body_type)b->type[row],
+                               .position = { b->x[row], b->y[row] },
+                               .angle = plumb_body_angle(world, body),
+                               .velocity = { b->vx[row], b->vy[row] },
+                               .angular_velocity = b->w[row],
+                               .mass = b->set_mass[row],
+                               .inertia = b->set_inertia[row],
+                               .fixed_rotation = (flags & PL_BODY_FIXED_ROTATION) != 0,
+                               .no_sleep = (flags & PL_BODY_NO_SLEEP) != 0,
+                               .asleep = b->island[row] != PL_NONE,
+                               .continuous = (flags & PL_BODY_CONTINUOUS) != 0,
+                               .lock_x = (flags & PL_BODY_LOCK_X) != 0,
+                               .lock_y = (flags & PL_BODY_LOCK_Y) != 0,
+                               .disabled = (flags & PL_BODY_DISABLED) != 0,
+                               .user_data = b->user_data[row] };
+    PL_BODY_ROWS(PL_ROW_GET, b)
+#define GET(name, initial) desc->name = t.name;
+    PL_BODY_ROWS(PL_ROW_RECORD, GET)
+#undef GET
+    return PLUMB_OK;
 }

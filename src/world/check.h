@@ -25,6 +25,9 @@ plumb_result pl_check_within(const plumb_world *world, const char *function, con
 // "". E_NOT_FINITE, E_RANGE.
 plumb_result pl_check_desc(const plumb_world *world, const char *function, const char *prefix,
                            plumb_property_table table, const void *desc);
+// One value of a setter; a 0 that means the default is not one of them. E_NOT_FINITE, E_RANGE.
+plumb_result pl_check_property(const plumb_world *world, const char *function, const char *field,
+                               plumb_property_table table, const char *name, plumb_real value);
 // The same of one that lies in an image.
 bool pl_desc_is_sound(plumb_property_table table, const void *desc);
 

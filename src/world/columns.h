@@ -13,6 +13,7 @@
 #include "plumb/material.h"
 #include "plumb/shape.h"
 
+#include "schema/body.h"
 #include "schema/material.h"
 
 typedef plumb_real real;
@@ -38,7 +39,7 @@ typedef struct pl_hint {
     X(real, inv_mass, POSITIVE) /* [1/kg] 0: immovable */                                           \
     X(real, inv_inertia, POSITIVE) /* [1/(kg m^2)] 0: does not turn */                              \
     X(real, local_x, ANY) X(real, local_y, ANY) /* [m] centre of mass in the body's frame */        \
-    X(real, gravity_scale, ANY) /* [-] */                                                           \
+    PL_BODY_ROWS(PL_ROW_COLUMN, X)                                                                 \
     X(real, mass, POSITIVE) X(real, inertia, POSITIVE) /* [kg], [kg m^2]; kept also where the inverses are 0 */ \
     X(real, set_mass, POSITIVE) X(real, set_inertia, POSITIVE) /* given by the user; 0: from the shapes */ \
     X(real, extent, POSITIVE) /* [m] farthest point of a solid shape from the centre of mass; at least the radius of gyration */ \

@@ -20,32 +20,48 @@ static bool is_in_range(const plumb_property *p, double value)
     return value == 0 || (value >= p->low && value <= p->high);
 }
 
-static plumb_result check(const plumb_world *world, const char *function, const char *prefix,
-                          const plumb_property *p, const void *desc)
+static plumb_result fail(const plumb_world *world, const char *function, const char *field,
+                         const plumb_property *p, const void *desc)
 {
-    char field[64];
-    const double value = pl_property_member(p, desc);
-    if (plumb_is_finite((plumb_real)value) && is_in_range(p, value)) {
-        return PLUMB_OK;
+    const plumb_real x = (plumb_real)pl_property_member(p, desc, 0);
+    const plumb_real y = (plumb_real)pl_property_member(p, desc, 1);
+    switch (p->type) {
+    case PLUMB_PROPERTY_CHOICE:
+        return pl_fail(world, PLUMB_E_RANGE, function, "%s is %d; it must be one of %s", field,
+                       (int)x, p->unit);
+    case PLUMB_PROPERTY_VEC2:
+        return pl_check_within(world, function, field, (plumb_vec2){ x, y }, bound(p->high));
+    default:
+        return pl_check_range(world, function, field, x, bound(p->low), bound(p->high));
     }
-    snprintf(field, sizeof field, "%s%s", prefix, p->name);
-    return p->type == PLUMB_PROPERTY_CHOICE
-               ? pl_fail(world, PLUMB_E_RANGE, function, "%s is %d; it must be one of %s", field,
-                         (int)value, p->unit)
-               : pl_check_range(world, function, field, (plumb_real)value, bound(p->low),
-                                bound(p->high));
+}
+
+static bool is_sound(const plumb_property *p, const void *desc)
+{
+    const double x = pl_property_member(p, desc, 0), y = pl_property_member(p, desc, 1);
+    return x - x == 0 && y - y == 0 && is_in_range(p, x) && is_in_range(p, y);
+}
+
+plumb_result pl_check_property(const plumb_world *world, const char *function, const char *field,
+                               plumb_property_table table, const char *name, plumb_real value)
+{
+    const plumb_property *p = plumb_property_find(table, name);
+    return pl_check_range(world, function, field, value, bound(p->low), bound(p->high));
 }
 
 plumb_result pl_check_desc(const plumb_world *world, const char *function, const char *prefix,
                            plumb_property_table table, const void *desc)
 {
     int count;
+    char field[64];
     const plumb_property *rows = plumb_properties(table, &count);
-    plumb_result r = PLUMB_OK;
-    for (int i = 0; i < count && r == PLUMB_OK; ++i) {
-        r = check(world, function, prefix, &rows[i], desc);
+    for (int i = 0; i < count; ++i) {
+        if (!is_sound(&rows[i], desc)) {
+            snprintf(field, sizeof field, "%s%s", prefix, rows[i].name);
+            return fail(world, function, field, &rows[i], desc);
+        }
     }
-    return r;
+    return PLUMB_OK;
 }
 
 bool pl_desc_is_sound(plumb_property_table table, const void *desc)
@@ -54,8 +70,7 @@ bool pl_desc_is_sound(plumb_property_table table, const void *desc)
     const plumb_property *rows = plumb_properties(table, &count);
     bool sound = true;
     for (int i = 0; i < count && sound; ++i) {
-        const double value = pl_property_member(&rows[i], desc);
-        sound = value - value == 0 && is_in_range(&rows[i], value);
+        sound = is_sound(&rows[i], desc);
     }
     return sound;
 }

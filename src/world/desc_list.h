@@ -6,12 +6,10 @@
 #ifndef PL_DESC_LIST_H
 #define PL_DESC_LIST_H
 
+#include "schema/body.h"
+
 // clang-format off
-#define PL_BODY_DESC(X)                                                                            \
-    X(type) X(position) X(angle) X(velocity) X(angular_velocity) X(mass) X(inertia)                \
-    X(gravity_scale) X(no_gravity) X(fixed_rotation) X(no_sleep) X(asleep) X(continuous)           \
-    X(lock_x) X(lock_y) X(damping) X(angular_damping) X(max_speed) X(max_spin) X(time_scale)       \
-    X(disabled) X(user_data)
+#define PL_BODY_DESC(X) PL_BODY_ROWS(PL_ROW_MEMBERS, X) X(user_data)
 
 // Points lie behind it.
 #define PL_SHAPE_DESC(X)                                                                           \

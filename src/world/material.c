@@ -80,7 +80,7 @@ plumb_result plumb_material_get(const plumb_world *world, plumb_material materia
     r = r != PLUMB_OK ? r : pl_check_pointer(world, __func__, "desc", desc);
     if (r == PLUMB_OK) {
         const pl_materials *m = &world->materials;
-        *desc = (plumb_material_desc){ .frictionless = m->friction[row] == 0 };
+        *desc = (plumb_material_desc){ .density = 0 };
         PL_MATERIAL_ROWS(PL_ROW_GET, m)
     }
     return r;

@@ -94,10 +94,6 @@ void pl_piece_move(plumb_world *world, uint32_t piece);
 
 //---- mass (mass.c) -------------------------------------------------------------------------------
 
-// [kg], [kg m^2]: masses and inertias beyond these have no inverse that a float could hold.
-#define PL_MASS_LEAST ((real)1e-36)
-#define PL_MASS_MOST  ((real)1e36)
-
 typedef struct pl_mass_sum {
     double mass, x, y; // [kg], [m] centre in the body's frame
     double inertia;    // [kg m^2] about the centre
@@ -149,9 +145,6 @@ plumb_entity pl_entity_claim(plumb_world *world, plumb_entity reserved, plumb_en
 // The descriptor was checked (pl_body_check, pl_shape_make). Errors: E_MEMORY, E_RANGE (mass).
 plumb_result pl_body_check(const plumb_world *world, const char *function,
                            const plumb_body_desc *desc);
-// Damping, caps and time scale of a descriptor (body_settings.c).
-plumb_result pl_body_settings_check(const plumb_world *world, const char *function,
-                                    const plumb_body_desc *desc);
 // What is added to a row: force and torque, or impulse and angular impulse (body_force.c).
 typedef struct pl_push {
     plumb_vec2 linear;

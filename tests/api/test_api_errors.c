@@ -29,7 +29,7 @@ static void bodies_refuse(void **state)
     fixture *f = *state;
     REFUSED(E_NULL, "plumb_body_create: desc is null; it must be given",
             made(W, plumb_body_create(W, NULL)));
-    REFUSED(E_RANGE, "plumb_body_create: type is 3; it must be a plumb_body_type",
+    REFUSED(E_RANGE, "plumb_body_create: type is 3; it must be one of dynamic|kinematic|static",
             BODY(.type = (plumb_body_type)3));
     REFUSED(E_NOT_FINITE, "plumb_body_create: position is (nan, 0); it must be finite",
             BODY(.position = { NAN_, 0 }));
@@ -52,7 +52,7 @@ static void bodies_refuse(void **state)
             BODY(.type = PLUMB_STATIC, .continuous = true));
     REFUSED(E_RANGE, "plumb_body_create: continuous is true; it must be false for a kinematic body",
             BODY(.type = PLUMB_KINEMATIC, .continuous = true));
-    REFUSED(E_RANGE, "plumb_body_create: mass is -1; it must be 0 to 1e+36", BODY(.mass = -1));
+    REFUSED(E_RANGE, "plumb_body_create: mass is -1; it must be 1e-36 to 1e+36", BODY(.mass = -1));
     REFUSED(E_RANGE, "plumb_body_create: mass is 1e-37; it must be 1e-36 to 1e+36",
             BODY(.mass = R(1e-37)));
     REFUSED(E_NOT_FINITE, "plumb_body_create: inertia is nan; it must be finite",
@@ -153,7 +153,7 @@ static void masses_are_refused(void **state)
             plumb_body_set_continuous(W, f->kinematic, true));
     REFUSED(E_HANDLE, "plumb_body_set_continuous: body is null; it must be a live body",
             plumb_body_set_continuous(W, NO_BODY, true));
-    REFUSED(E_NOT_FINITE, "plumb_body_set_gravity_scale: scale is inf; it must be finite",
+    REFUSED(E_NOT_FINITE, "plumb_body_set_gravity_scale: gravity_scale is inf; it must be finite",
             plumb_body_set_gravity_scale(W, f->dynamic, INF_));
     REFUSED(E_HANDLE, "plumb_body_set_gravity_scale: body is null; it must be a live body",
             plumb_body_set_gravity_scale(W, NO_BODY, 1));

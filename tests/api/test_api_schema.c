@@ -28,17 +28,17 @@ static void zero_is_said_by_a_member_of_its_own(void **state)
     (void)state;
     plumb_material_desc desc = { 0 };
     const plumb_property *friction = plumb_property_find(PLUMB_TABLE_MATERIAL, "friction");
-    assert_near(plumb_property_read(friction, &desc), 0.6, 0);
-    plumb_property_write(friction, &desc, 0);
+    assert_near(plumb_property_read(friction, &desc, 0), 0.6, 0);
+    plumb_property_write(friction, &desc, 0, 0);
     assert_true(desc.frictionless && desc.friction == 0);
-    assert_near(plumb_property_read(friction, &desc), 0, 0);
-    plumb_property_write(friction, &desc, 0.5);
+    assert_near(plumb_property_read(friction, &desc, 0), 0, 0);
+    plumb_property_write(friction, &desc, 0, 0.5);
     assert_true(!desc.frictionless && desc.friction == R(0.5));
-    assert_near(plumb_property_read(friction, &desc), 0.5, 0);
+    assert_near(plumb_property_read(friction, &desc, 0), 0.5, 0);
     const plumb_property *mix = plumb_property_find(PLUMB_TABLE_MATERIAL, "friction_mix");
-    plumb_property_write(mix, &desc, PLUMB_MIX_MIN);
+    plumb_property_write(mix, &desc, 0, PLUMB_MIX_MIN);
     assert_int_equal(desc.friction_mix, PLUMB_MIX_MIN);
-    assert_near(plumb_property_read(mix, &desc), PLUMB_MIX_MIN, 0);
+    assert_near(plumb_property_read(mix, &desc, 0), PLUMB_MIX_MIN, 0);
 }
 
 int main(void)

@@ -58,7 +58,7 @@ static void print_word(const engine_word *word)
     bool is_choice = strcmp(word->kind, "one of") == 0;
     printf("    %-17s %s", word->name, word->kind);
     if (word->min < word->max) {
-        printf(", %g to %g", word->min, word->max);
+        printf(", %s%g to %g", word->above ? "above " : "", word->min, word->max);
     }
     if (word->unit[0] != '\0') {
         printf(is_choice ? " %s" : " [%s]", word->unit);
@@ -67,7 +67,8 @@ static void print_word(const engine_word *word)
         printf(", also element %d", word->position);
     }
     if (word->text[0] != '\0' && word->min < word->max && !word->required) {
-        printf(", default %g", word->initial);
+        const bool is_none = word->initial < word->min || (word->above && word->initial == 0);
+        printf(is_none ? ", default none" : ", default %g", word->initial);
     }
     printf("%s%s%s\n", word->required ? ", required" : "", word->text[0] != '\0' ? ": " : "",
            word->text);

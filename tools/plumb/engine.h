@@ -110,6 +110,7 @@ typedef struct engine_word {
     double min, max;   ///< range of numbers, equal if there is none
     int position;      ///< may also be given as the n-th element; 0: by name only
     bool required;
+    bool above;       ///< `min` itself is not allowed
     double initial;   ///< the default, where `text` is not ""
     const char *text; ///< one sentence; "" for a word of the language alone
 } engine_word;

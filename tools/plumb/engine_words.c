@@ -19,7 +19,7 @@ static const word_run runs[] = {
     { "settings", NULL, &sc_list_scene, 1, PLUMB_TABLE_COUNT },
     { "materials", NULL, &sc_list_material, 1, PLUMB_TABLE_MATERIAL },
     { "materials", NULL, &sc_list_pair, 1, PLUMB_TABLE_MATERIAL_PAIR },
-    { "bodies", NULL, &sc_list_body, 1, PLUMB_TABLE_COUNT },
+    { "bodies", NULL, &sc_list_body, 1, PLUMB_TABLE_BODY },
     { "bodies", "the table 'character' of a body", &sc_list_character, 1, PLUMB_TABLE_COUNT },
     { "shapes", NULL, sc_list_shapes, SC_SHAPE_KINDS, PLUMB_TABLE_COUNT },
     { "joints", NULL, sc_list_joints, SC_JOINT_KINDS, PLUMB_TABLE_COUNT },
@@ -144,6 +144,7 @@ bool pl_session_word(int constructor, int key, engine_word *word)
                            .max = is_bounded(row->kind) ? row->max : 0,
                            .position = row->position > 0 ? row->position : 0,
                            .required = (row->flags & SC_REQUIRED) != 0,
+                           .above = (row->flags & SC_ABOVE) != 0,
                            .text = "" };
     const plumb_property *property = property_of(table, row->name);
     if (property != NULL) {

@@ -172,23 +172,14 @@ static sc_body *add_record(scene *s, const sc_body_def *def)
 
 static void create_body(scene *s, const sc_site *site, sc_body *b)
 {
-    static const plumb_body_type types[] = { PLUMB_DYNAMIC, PLUMB_KINEMATIC, PLUMB_STATIC };
-    const sc_body_def *d = &b->def;
-    plumb_body_desc desc = {
-        .type = types[d->type],
-        .position = { (plumb_real)d->at[0], (plumb_real)d->at[1] },
-        .angle = (plumb_real)d->angle,
-        .mass = (plumb_real)d->mass,
-        .gravity_scale = (plumb_real)d->gravity_scale,
-        .no_gravity =
-            SC_GIVEN(&sc_list_body, d, sc_body_def, gravity_scale) && d->gravity_scale == 0,
-        .fixed_rotation = d->fixed_rotation,
-        .no_sleep = !d->sleep,
-        .asleep = d->asleep,
-        .continuous = d->continuous,
-        .user_data = b,
-    };
-    sc_motion_describe(d, &desc);
+    const sc_body_def *def = &b->def;
+    plumb_body_desc desc = { .user_data = b };
+#define GIVEN(word) SC_GIVEN(&sc_list_body, def, sc_body_def, word)
+    PL_BODY_ROWS(SC_DESCRIBE, GIVEN)
+#undef GIVEN
+    desc.velocity = (plumb_vec2){ 0, 0 }; // when the shapes are there
+    desc.angular_velocity = 0;
+    sc_motion_describe(def, &desc);
     b->entity = plumb_body_create(s->world, &desc);
     if (plumb_is_null(b->entity)) {
         sc_refused(s, site, NULL, plumb_world_error(s->world).code, "body{}");
@@ -221,11 +212,8 @@ void sc_build_body(scene *s, const sc_site *site, int table)
     sc_need_stack(s, 20);
     table = lua_absindex(L, table);
     sc_need_world(s);
-    sc_body_def def = { .gravity_scale = 1,
-                        .time_scale = 1,
-                        .enabled = true,
-                        .sleep = true,
-                        .color = { .palette = -1 } };
+    sc_body_def def = { .color = { .palette = -1 } };
+    PL_BODY_ROWS(SC_DEFAULT, )
     sc_read(s, site, &sc_list_body, table, &def);
     check_body(s, site, &def);
     if (SC_GIVEN(&sc_list_body, &def, sc_body_def, angle_deg)) {
@@ -265,7 +253,7 @@ void sc_build_body(scene *s, const sc_site *site, int table)
             (plumb_vec2){ (plumb_real)def.velocity[0], (plumb_real)def.velocity[1] });
         plumb_body_set_angular_velocity(s->world, b->entity, (plumb_real)def.spin);
     }
-    if (SC_GIVEN(&sc_list_body, &def, sc_body_def, time_scale)) { // 0 is none to the descriptor
+    if ((plumb_real)def.time_scale == 0) { // which is 1 to the descriptor
         plumb_body_set_time_scale(s->world, b->entity, (plumb_real)def.time_scale);
     }
     if (SC_GIVEN(&sc_list_body, &def, sc_body_def, character)) {

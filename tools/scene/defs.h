@@ -94,14 +94,12 @@ typedef struct sc_query_def {
 
 typedef struct sc_body_def {
     uint64_t present;
-    int type;
-    double at[2], angle, angle_deg, velocity[2], spin;
-    double mass, gravity_scale, density;
-    double damping, angular_damping, max_speed, max_spin, time_scale;
+    PL_BODY_ROWS(SC_MEMBER, )
+    double angle_deg, density;
     double one_way[2], one_way_angle;
     sc_character_def character;
     int lock; ///< bits: SC_LOCK_X, ...
-    bool enabled, fixed_rotation, hidden, user, sensor, sleep, asleep, continuous;
+    bool hidden, user, sensor;
     sc_filter filter;
     char name[SC_NAME_SIZE];
     char label[SC_NAME_SIZE];

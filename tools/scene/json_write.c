@@ -421,9 +421,10 @@ static void write_joints(writer *w)
 }
 
 // A default that is not 0 is written out.
-#define WRITE_DEFAULT(X, store, kind, name, word, unit, range, initial, zero, text)                \
-    if ((initial) != 0 && !SC_GIVEN(&sc_list_material, &d, sc_material_def, word)) {               \
-        d.word = initial;                                                                          \
+#define GIVE_DEFAULT(X, store, kind, name, word, unit, range, initial, ...)                        \
+    PL_CALL(GIVE_DEFAULT_OF, initial, PL_WORD_##word)
+#define GIVE_DEFAULT_OF(initial, how, word)                                                        \
+    if ((initial) != 0) {                                                                          \
         SC_GIVE(&sc_list_material, &d, sc_material_def, word);                                     \
     }
 
@@ -435,7 +436,7 @@ static void write_materials(writer *w)
         sc_material_def d = s->materials.items[i]->def;
         snprintf(d.name, sizeof d.name, "%s", s->materials.items[i]->id);
         SC_GIVE(&sc_list_material, &d, sc_material_def, name);
-        PL_MATERIAL_ROWS(WRITE_DEFAULT, )
+        PL_MATERIAL_ROWS(GIVE_DEFAULT, )
         fputs(i > 0 ? ",\n" : "", w->file);
         write_object(w, &sc_list_material, &d, NULL, &as_said);
     }

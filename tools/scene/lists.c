@@ -65,42 +65,26 @@ const sc_list sc_list_filter = { "set_filter", filter_rows, COUNT(filter_rows) }
 
 #define T sc_body_def
 static const sc_field body_rows[] = {
-    { "angle",          SC_NUMBER,   AT(T, angle),         -BIG, BIG, "rad", 0, 0 },
     { "angle_deg",      SC_NUMBER,   AT(T, angle_deg),     -BIG, BIG, "deg", 0, 0 },
-    { "angular_damping", SC_NUMBER,  AT(T, angular_damping), 0, 1e6, "1/s", 0, 0 },
     ROW_APART,
-    { "asleep",         SC_BOOL,     AT(T, asleep),        0, 0, NULL, 0, 0 },
-    { "at",             SC_VEC2,     AT(T, at),            -FAR, FAR, "m", 0, 0 },
     ROW_CATEGORY,
     { "character",      SC_RECORD,   AT(T, character),     0, 0, "character", 0, 0 },
     ROW_COLLIDES,
     { "color",          SC_COLOR,    AT(T, color),         0, 0, NULL, 0, 0 },
-    { "continuous",     SC_BOOL,     AT(T, continuous),    0, 0, NULL, 0, 0 },
-    { "damping",        SC_NUMBER,   AT(T, damping),       0, 1e6, "1/s", 0, 0 },
     { "density",        SC_NUMBER,   AT(T, density),       0, 1e9, "kg/m^2", 0, SC_ABOVE },
-    { "enabled",        SC_BOOL,     AT(T, enabled),       0, 0, NULL, 0, 0 },
-    { "fixed_rotation", SC_BOOL,     AT(T, fixed_rotation), 0, 0, NULL, 0, 0 },
-    { "gravity_scale",  SC_NUMBER,   AT(T, gravity_scale), -1e6, 1e6, "1", 0, 0 },
     { "hidden",         SC_BOOL,     AT(T, hidden),        0, 0, NULL, 0, 0 },
     ROW_IGNORES,
     { "label",          SC_STRING,   AT(T, label),         0, 0, NULL, 0, 0 },
     { "lock",           SC_AXES,     AT(T, lock),          0, 0, NULL, 0, 0 },
-    { "mass",           SC_NUMBER,   AT(T, mass),          0, BIG, "kg", 0, SC_ABOVE },
     { "material",       SC_MATERIAL, AT(T, material),      0, 0, NULL, 0, 0 },
-    { "max_speed",      SC_NUMBER,   AT(T, max_speed),     0, BIG, "m/s", 0, SC_ABOVE },
-    { "max_spin",       SC_NUMBER,   AT(T, max_spin),      0, BIG, "rad/s", 0, SC_ABOVE },
     { "name",           SC_STRING,   AT(T, name),          0, 0, NULL, 0, 0 },
     { "one_way",        SC_VEC2,     AT(T, one_way),       -FAR, FAR, "1", 0, 0 },
     { "one_way_angle",  SC_NUMBER,   AT(T, one_way_angle), 0, 1.5707963, "rad", 0, SC_ABOVE },
     ROW_SENSOR,
     { "shapes",         SC_SHAPES,   AT(T, shape_count),   0, 0, NULL, SC_REST, 0 },
-    { "sleep",          SC_BOOL,     AT(T, sleep),         0, 0, NULL, 0, 0 },
-    { "spin",           SC_NUMBER,   AT(T, spin),          -1e6, 1e6, "rad/s", 0, 0 },
-    { "time_scale",     SC_NUMBER,   AT(T, time_scale),    0, 100, "1", 0, 0 },
     ROW_TOGETHER,
-    { "type",           SC_CHOICE,   AT(T, type),          0, 0, "dynamic|kinematic|static", 0, 0 },
     { "user",           SC_TABLE,    AT(T, user),          0, 0, NULL, 0, 0 },
-    { "velocity",       SC_VEC2,     AT(T, velocity),      -FAR, FAR, "m/s", 0, 0 },
+    PL_BODY_ROWS(SC_ROW, )
 };
 const sc_list sc_list_body = { "body", body_rows, COUNT(body_rows) };
 #undef T

@@ -20,6 +20,7 @@ void sc_build_material(scene *s, const sc_site *site, int table)
     lua_State *L = s->L;
     sc_need_world(s);
     sc_material_def def = { 0 };
+    PL_MATERIAL_ROWS(SC_DEFAULT, )
     sc_read(s, site, &sc_list_material, table, &def);
     sc_work(s, (uint64_t)s->materials.count);
     for (int i = 0; i < s->materials.count && def.name[0] != 0; i++) {

@@ -1,6 +1,4 @@
-// motion.c - what bodies say of the way they move (locks, damping, caps, time scale, enabled), and
-// blast{}. To add a key of that kind: a member in internal.h, a row in lists.c, a line in
-// sc_motion_describe.
+// motion.c - what bodies may say together of the way they move, locked axes, and blast{}.
 #include <string.h>
 
 #include "internal.h"
@@ -16,9 +14,10 @@ int sc_axis_bit(const char *name)
     return 0;
 }
 
-static const char *const dynamic_rows[] = { "angular_damping", "damping", "fixed_rotation",
-                                            "gravity_scale",   "lock",    "mass",
-                                            "max_speed",       "max_spin" };
+static const char *const dynamic_rows[] = {
+    "angular_damping", "damping", "fixed_rotation", "gravity_scale", "inertia", "lock", "mass",
+    "max_speed",       "max_spin"
+};
 
 bool sc_motion_is_dynamic(const char *row)
 {
@@ -61,11 +60,6 @@ void sc_motion_describe(const sc_body_def *d, plumb_body_desc *desc)
     desc->lock_x = (d->lock & SC_LOCK_X) != 0;
     desc->lock_y = (d->lock & SC_LOCK_Y) != 0;
     desc->fixed_rotation |= (d->lock & SC_LOCK_ROTATION) != 0;
-    desc->damping = (plumb_real)d->damping;
-    desc->angular_damping = (plumb_real)d->angular_damping;
-    desc->max_speed = (plumb_real)d->max_speed;
-    desc->max_spin = (plumb_real)d->max_spin;
-    desc->disabled = !d->enabled;
 }
 
 // What a blast costs: every shape in reach, and with occlusion every shape that may shield it. One of 10,000 bodies

@@ -3,21 +3,38 @@
 #ifndef SCENE_ROWS_H
 #define SCENE_ROWS_H
 
+#include "schema/body.h"
 #include "schema/material.h"
 
 // Numbers are kept as their author wrote them: one scene serves all precisions.
-#define SC_TYPE_REAL double
-#define SC_TYPE_MIX  int
+#define SC_MEMBER_REAL(word)      double word;
+#define SC_MEMBER_VEC2(word)      double word[2];
+#define SC_MEMBER_BOOL(word)      bool word;
+#define SC_MEMBER_MIX(word)       int word;
+#define SC_MEMBER_BODY_TYPE(word) int word;
 
-#define SC_KIND_REAL SC_NUMBER
-#define SC_KIND_MIX  SC_CHOICE
+#define SC_KIND_REAL      SC_NUMBER
+#define SC_KIND_VEC2      SC_VEC2
+#define SC_KIND_BOOL      SC_BOOL
+#define SC_KIND_MIX       SC_CHOICE
+#define SC_KIND_BODY_TYPE SC_CHOICE
 
 /// A member of the struct.
-#define SC_MEMBER(X, store, kind, name, word, ...) SC_TYPE_##kind word;
+#define SC_MEMBER(X, store, kind, name, word, ...) PL_CALL(SC_MEMBER_OF, kind, PL_WORD_##word)
+#define SC_MEMBER_OF(kind, how, word)              SC_MEMBER_##how(kind, word)
+#define SC_MEMBER_SAID(kind, word)                 SC_MEMBER_##kind(word)
+#define SC_MEMBER_NOT(kind, word)                  SC_MEMBER_##kind(word)
+#define SC_MEMBER_UNSAID(kind, word)
 
 /// A key of the list; struct T. What has no end ends at BIG.
 #define SC_ROW(X, store, kind, name, word, unit, range, initial, zero, text)                       \
-    { #word, SC_KIND_##kind, AT(T, word), SC_SPAN_##range, unit, 0, SC_FLAGS_##range },
+    PL_CALL(SC_ROW_OF, SC_KIND_##kind, unit, SC_FLAGS_##range, SC_SPAN_##range, PL_WORD_##word)
+#define SC_ROW_OF(kind, unit, flags, lo, hi, how, word)                                            \
+    SC_ROW_##how(kind, unit, flags, lo, hi, word)
+#define SC_ROW_SAID(kind, unit, flags, lo, hi, word)                                               \
+    { #word, kind, AT(T, word), lo, hi, kind == SC_BOOL ? NULL : unit, 0, flags },
+#define SC_ROW_NOT(kind, unit, flags, lo, hi, word) SC_ROW_SAID(kind, unit, flags, lo, hi, word)
+#define SC_ROW_UNSAID(kind, unit, flags, lo, hi, word)
 #define SC_SPAN_FROM(lo, hi)   lo, ((hi) > BIG ? BIG : (hi))
 #define SC_SPAN_ABOVE(lo, hi)  SC_SPAN_FROM(lo, hi)
 #define SC_SPAN_ANY            -BIG, BIG
@@ -27,13 +44,35 @@
 #define SC_FLAGS_ANY           0
 #define SC_FLAGS_CHOICES(last) 0
 
+/// `def` means the defaults: statements.
+#define SC_DEFAULT(X, store, kind, name, word, unit, range, initial, ...)                          \
+    PL_CALL(SC_DEFAULT_OF, kind, initial, PL_WORD_##word)
+#define SC_DEFAULT_OF(kind, initial, how, word) SC_DEFAULT_##how(kind, initial, word)
+#define SC_DEFAULT_SAID(kind, initial, word)    SC_DEFAULT_##kind(word, initial)
+#define SC_DEFAULT_NOT(kind, initial, word)     def.word = !(initial);
+#define SC_DEFAULT_UNSAID(kind, initial, word)
+#define SC_DEFAULT_REAL(word, initial)      def.word = initial;
+#define SC_DEFAULT_VEC2(word, initial)      def.word[0] = def.word[1] = initial;
+#define SC_DEFAULT_BOOL(word, initial)      def.word = initial;
+#define SC_DEFAULT_MIX(word, initial)       def.word = initial;
+#define SC_DEFAULT_BODY_TYPE(word, initial) def.word = initial;
+
 /// `desc` becomes what `def` says: statements. Whoever writes 0 means it: X(word), whether it was given.
 #define SC_DESCRIBE(X, store, kind, name, word, unit, range, initial, zero, text)                  \
-    desc.name = (PL_MEMBER_##kind)def->word;                                                       \
-    SC_DESCRIBE_##zero(X(word) && desc.name == 0)
-#define SC_DESCRIBE_ZERO(member) desc.member = SC_IS
-#define SC_DESCRIBE_NO_ZERO      SC_IS_NOTHING
-#define SC_IS(condition)         (condition);
-#define SC_IS_NOTHING(condition)
+    PL_CALL(SC_DESCRIBE_OF, kind, name, PL_WORD_##word)                                            \
+    PL_CALL(SC_ZERO_OF, X, name, PL_WORD_##word, PL_ZERO_ARGS_##zero)
+#define SC_DESCRIBE_OF(kind, name, how, word) SC_DESCRIBE_##how(kind, name, word)
+#define SC_DESCRIBE_SAID(kind, name, word)    SC_DESCRIBE_##kind(name, word)
+#define SC_DESCRIBE_NOT(kind, name, word)     desc.name = !def->word;
+#define SC_DESCRIBE_UNSAID(kind, name, word)
+#define SC_DESCRIBE_REAL(name, word)      desc.name = (plumb_real)def->word;
+#define SC_DESCRIBE_BOOL(name, word)      desc.name = def->word;
+#define SC_DESCRIBE_MIX(name, word)       desc.name = (plumb_mix)def->word;
+#define SC_DESCRIBE_BODY_TYPE(name, word) desc.name = (plumb_body_type)def->word;
+#define SC_DESCRIBE_VEC2(name, word)                                                               \
+    desc.name = (plumb_vec2){ (plumb_real)def->word[0], (plumb_real)def->word[1] };
+#define SC_ZERO_OF(X, name, how_said, word, how, member) SC_ZERO_##how(X, name, word, member)
+#define SC_ZERO_ZERO(X, name, word, member)              desc.member = X(word) && desc.name == 0;
+#define SC_ZERO_NO_ZERO(X, name, word, member)
 
 #endif

@@ -1,0 +1,50 @@
+// body.h - the properties of bodies. See row.h.
+#ifndef PL_SCHEMA_BODY_H
+#define PL_SCHEMA_BODY_H
+
+#include "plumb/body.h"
+#include "schema/row.h"
+
+// [kg], [kg m^2]: masses and inertias beyond these have no inverse that a float could hold.
+#define PL_MASS_LEAST ((plumb_real)1e-36)
+#define PL_MASS_MOST  ((plumb_real)1e36)
+
+// clang-format off
+#define PL_BODY_ROWS(R, X)                                                                          \
+    R(X, OWN, BODY_TYPE, type, SAID(type), PL_BODY_TYPE_CHOICES, CHOICES(PLUMB_STATIC),             \
+      PLUMB_DYNAMIC, NO_ZERO, "what moves it: forces and contacts, its velocity alone, nothing")    \
+    R(X, OWN, VEC2, position, SAID(at), "m", FROM(-1e9, 1e9), 0, NO_ZERO, "origin of its frame")    \
+    R(X, OWN, REAL, angle, SAID(angle), "rad", ANY, 0, NO_ZERO, "of its frame")                     \
+    R(X, OWN, VEC2, velocity, SAID(velocity), "m/s", ANY, 0, NO_ZERO,                               \
+      "of the centre of mass; not for static bodies")                                               \
+    R(X, OWN, REAL, angular_velocity, SAID(spin), "rad/s", ANY, 0, NO_ZERO, "not for static bodies") \
+    R(X, OWN, REAL, mass, SAID(mass), "kg", FROM(PL_MASS_LEAST, PL_MASS_MOST), 0, NO_ZERO,          \
+      "in place of that of its shapes; dynamic bodies")                                             \
+    R(X, OWN, REAL, inertia, SAID(inertia), "kg m^2", FROM(PL_MASS_LEAST, PL_MASS_MOST), 0, NO_ZERO, \
+      "about the centre of mass, in place of that of its shapes; dynamic bodies")                   \
+    R(X, COLUMN, REAL, gravity_scale, SAID(gravity_scale), "1", ANY, 1, ZERO(no_gravity),           \
+      "factor on gravity; dynamic bodies")                                                          \
+    R(X, OWN, BOOL, fixed_rotation, SAID(fixed_rotation), "1", CHOICES(1), 0, NO_ZERO,              \
+      "never turns; dynamic bodies")                                                                \
+    R(X, OWN, BOOL, no_sleep, NOT(sleep), "1", CHOICES(1), 0, NO_ZERO,                              \
+      "whether it falls asleep at rest; dynamic bodies")                                            \
+    R(X, OWN, BOOL, asleep, SAID(asleep), "1", CHOICES(1), 0, NO_ZERO,                              \
+      "starts asleep, without velocity; dynamic bodies")                                            \
+    R(X, OWN, BOOL, continuous, SAID(continuous), "1", CHOICES(1), 0, NO_ZERO,                      \
+      "it and moving bodies, however fast, do not pass through each other; dynamic bodies")         \
+    R(X, OWN, BOOL, lock_x, UNSAID, "1", CHOICES(1), 0, NO_ZERO, "never moves along x; dynamic bodies") \
+    R(X, OWN, BOOL, lock_y, UNSAID, "1", CHOICES(1), 0, NO_ZERO, "never moves along y; dynamic bodies") \
+    R(X, RECORD, REAL, damping, SAID(damping), "1/s", FROM(0, NO_END), 0, NO_ZERO,                  \
+      "dv/dt = a - damping v; dynamic bodies")                                                      \
+    R(X, RECORD, REAL, angular_damping, SAID(angular_damping), "1/s", FROM(0, NO_END), 0, NO_ZERO,  \
+      "dw/dt = a - angular_damping w; dynamic bodies")                                              \
+    R(X, RECORD, REAL, max_speed, SAID(max_speed), "m/s", ABOVE(0, NO_END), 0, NO_ZERO,             \
+      "speed that it never exceeds; dynamic bodies")                                                \
+    R(X, RECORD, REAL, max_spin, SAID(max_spin), "rad/s", ABOVE(0, NO_END), 0, NO_ZERO,             \
+      "angular speed that it never exceeds; dynamic bodies")                                        \
+    R(X, RECORD, REAL, time_scale, SAID(time_scale), "1", FROM(0, 100), 1, NO_ZERO,                 \
+      "below 1 it moves in slow motion, through the same path; not for static bodies")              \
+    R(X, OWN, BOOL, disabled, NOT(enabled), "1", CHOICES(1), 0, NO_ZERO, "whether it is in the simulation")
+// clang-format on
+
+#endif
