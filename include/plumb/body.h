@@ -205,7 +205,7 @@ PLUMB_API plumb_real plumb_body_time_scale(const plumb_world *world, plumb_body 
 
 /// Sets the factor on gravity [-], finite; 0 is none. Errors: E_HANDLE, E_NOT_FINITE.
 PLUMB_API plumb_result plumb_body_set_gravity_scale(plumb_world *world, plumb_body body,
-                                                     plumb_real gravity_scale);
+                                                    plumb_real gravity_scale);
 PLUMB_API plumb_real plumb_body_gravity_scale(const plumb_world *world, plumb_body body);
 
 /// A pointer of your own, null until set; the library only keeps it. Errors: E_HANDLE.

@@ -11,10 +11,10 @@
 
 // Damping, caps and time scale of a body, and whatever else a row of src/schema stores here. All defaults: it has no
 // record.
-#define PL_TUNING_MEMBER(name, initial) real name;
+#define PL_SETTINGS_MEMBER(name, initial) real name;
 typedef struct pl_body_settings {
     plumb_body body;
-    PL_BODY_ROWS(PL_ROW_RECORD, PL_TUNING_MEMBER)
+    PL_BODY_ROWS(PL_ROW_RECORD, PL_SETTINGS_MEMBER)
     real ax, ay,
         aw; // in a step: acceleration by forces in the world's time, before damping and caps
 } pl_body_settings;

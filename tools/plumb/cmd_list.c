@@ -12,7 +12,8 @@ typedef struct list_args {
     bool brief;
 } list_args;
 
-#define TOPICS "solvers,precisions,passes,scene,shapes,joints,materials,events,overlays"
+#define TOPICS                                                                                     \
+    "solvers,precisions,passes,scene,settings,materials,bodies,shapes,joints,events,overlays"
 
 static void print_members(const char *title, const char *list)
 {
@@ -119,7 +120,8 @@ static int print_topic(const char *topic, bool brief)
 /// The constructors of these are among those of the scene: not told twice.
 static bool is_part(const char *topic)
 {
-    static const char *const parts[] = { "shapes", "joints", "materials", "events" };
+    static const char *const parts[] = { "settings", "materials", "bodies",
+                                         "shapes",   "joints",    "events" };
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
         if (strcmp(topic, parts[i]) == 0) {
             return true;
