@@ -41,11 +41,39 @@ static void zero_is_said_by_a_member_of_its_own(void **state)
     assert_near(plumb_property_read(mix, &desc, 0), PLUMB_MIX_MIN, 0);
 }
 
+static void a_body_is_read_as_a_descriptor(void **state)
+{
+    fixture *f = *state;
+    plumb_body_desc desc, want = { .type = PLUMB_KINEMATIC,
+                                   .position = { 3, 4 },
+                                   .velocity = { 1, 2 },
+                                   .gravity_scale = R(0.5),
+                                   .time_scale = R(0.25),
+                                   .user_data = f };
+    plumb_body made = plumb_body_create(f->world, &want);
+    assert_int_equal(plumb_body_get(f->world, made, &desc), PLUMB_OK);
+    assert_int_equal(desc.type, PLUMB_KINEMATIC);
+    assert_vec_near(desc.position, 3, 4, 0);
+    assert_vec_near(desc.velocity, 1, 2, 0);
+    assert_near(desc.gravity_scale, 0.5, 0);
+    assert_near(desc.time_scale, 0.25, 0);
+    assert_ptr_equal(desc.user_data, f);
+    assert_int_equal(plumb_body_set_gravity_scale(f->world, made, 0), PLUMB_OK);
+    assert_int_equal(plumb_body_get(f->world, made, &desc), PLUMB_OK);
+    assert_true(desc.no_gravity);
+    REFUSED(E_HANDLE, "plumb_body_get: body is null; it must be a live body",
+            plumb_body_get(f->world, NO_BODY, &desc));
+    REFUSED(E_NULL, "plumb_body_get: desc is null; it must be given",
+            plumb_body_get(f->world, made, NULL));
+    assert_int_equal(plumb_body_get(NULL, made, &desc), PLUMB_E_NULL);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(tables_have_rows),
         cmocka_unit_test(zero_is_said_by_a_member_of_its_own),
+        API_TEST(a_body_is_read_as_a_descriptor),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
