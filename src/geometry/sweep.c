@@ -67,17 +67,26 @@ static double lowest(const core *a, double nx, double ny)
     return low;
 }
 
+// Where the best axis comes from: the edge of `of` from this corner on, its unit normal; -1: the end of a line.
+typedef struct origin {
+    const core *of, *other;
+    int edge;
+    double nx, ny;
+} origin;
+
 // Tries the unit normal n out of `a` at its value `edge`; `sign` makes it point from B to A.
-static void try_axis(axis *best, const core *other, double edge, double nx, double ny, double sign)
+static bool try_axis(axis *best, const core *other, double edge, double nx, double ny, double sign)
 {
     double distance = lowest(other, nx, ny) - edge;
     if (distance > best->distance) {
         *best = (axis){ distance, sign * nx, sign * ny };
+        return true;
     }
+    return false;
 }
 
 // The normals of a's edges, and the ends of a line.
-static void try_edges(axis *best, const core *a, const core *other, double sign)
+static void try_edges(axis *best, const core *a, const core *other, double sign, origin *from)
 {
     for (int i = 0; i < a->count && a->count > 1; ++i) {
         int next = i + 1 == a->count ? 0 : i + 1;
@@ -89,11 +98,33 @@ static void try_edges(axis *best, const core *a, const core *other, double sign)
         }
         ex /= length;
         ey /= length;
-        try_axis(best, other, ey * a->x[i] - ex * a->y[i], ey, -ex, sign);
-        if (a->count == 2) {
-            try_axis(best, other, ex * a->x[next] + ey * a->y[next], ex, ey, sign);
+        if (try_axis(best, other, ey * a->x[i] - ex * a->y[i], ey, -ex, sign)) {
+            *from = (origin){ a, other, i, ey, -ex };
+        }
+        if (a->count == 2 &&
+            try_axis(best, other, ex * a->x[next] + ey * a->y[next], ex, ey, sign)) {
+            *from = (origin){ a, other, -1, ex, ey };
         }
     }
+}
+
+// Whether the nearest corner of the other lies before the edge of the best axis: then that axis tells the distance.
+static bool is_before_edge(const origin *o)
+{
+    if (o->edge < 0) {
+        return false;
+    }
+    const core *a = o->of, *b = o->other;
+    const int i = o->edge, next = i + 1 == a->count ? 0 : i + 1;
+    int low = 0;
+    for (int k = 1; k < b->count; ++k) {
+        if (o->nx * (b->x[k] - b->x[low]) + o->ny * (b->y[k] - b->y[low]) < 0) {
+            low = k;
+        }
+    }
+    const double ex = a->x[next] - a->x[i], ey = a->y[next] - a->y[i];
+    return ex * (b->x[low] - a->x[i]) + ey * (b->y[low] - a->y[i]) >= 0 &&
+           ex * (b->x[low] - a->x[next]) + ey * (b->y[low] - a->y[next]) <= 0;
 }
 
 typedef struct nearest {
@@ -130,10 +161,11 @@ static void try_corners(nearest *best, const core *a, const core *b, double sign
 static axis find_axis(const core *a, const core *b)
 {
     axis best = { -HUGE_VAL, 1, 0 };
-    try_edges(&best, a, b, -1);
-    try_edges(&best, b, a, 1);
+    origin from = { .edge = -1 };
+    try_edges(&best, a, b, -1, &from);
+    try_edges(&best, b, a, 1, &from);
     bool points = a->count == 1 && b->count == 1;
-    if (best.distance > 0 || points) {
+    if (points || (best.distance > 0 && !is_before_edge(&from))) {
         nearest n = { HUGE_VAL, 1, 0 };
         try_corners(&n, a, b, 1);
         try_corners(&n, b, a, -1);
@@ -194,7 +226,14 @@ static brink brink_of(const core *c, double nx, double ny)
     return b;
 }
 
-pl_gap pl_sweep_nearest(const pl_swept *a, const pl_swept *b, double time, double *x, double *y)
+// [m] a whole step by which a point of a piece moves along n.
+static double rate_of(const pl_swept *piece, double time, double x, double y, double nx, double ny)
+{
+    const double rx = x - (piece->px + piece->dx * time), ry = y - (piece->py + piece->dy * time);
+    return nx * (piece->dx - piece->angle * ry) + ny * (piece->dy + piece->angle * rx);
+}
+
+pl_nearest pl_sweep_nearest(const pl_swept *a, const pl_swept *b, double time)
 {
     core at_a, at_b;
     place(a, time, &at_a);
@@ -204,9 +243,12 @@ pl_gap pl_sweep_nearest(const pl_swept *a, const pl_swept *b, double time, doubl
     // Across it, seen along B's normal; A's runs the other way.
     double across = (pl_greater(-of_a.to, of_b.from) + pl_lesser(-of_a.from, of_b.to)) / 2;
     double along = (of_b.at + b->radius - (of_a.at + a->radius)) / 2;
-    *x = n.nx * along - n.ny * across;
-    *y = n.ny * along + n.nx * across;
-    return (pl_gap){ n.distance - a->radius - b->radius, n.nx, n.ny };
+    const double x = n.nx * along - n.ny * across, y = n.ny * along + n.nx * across;
+    return (pl_nearest){ .gap = { n.distance - a->radius - b->radius, n.nx, n.ny },
+                         .x = x,
+                         .y = y,
+                         .opens = rate_of(a, time, x, y, n.nx, n.ny) -
+                                  rate_of(b, time, x, y, n.nx, n.ny) };
 }
 
 //---- how far time may run -----------------------------------------------------------------------
@@ -265,6 +307,24 @@ static double time_free(const pl_swept *a, const core *at_a, const pl_swept *b, 
     return first;
 }
 
+// Whether the pieces go by one another to one side of their way, as far as can be told at once.
+static bool goes_by(const pl_swept *a, const core *at_a, const pl_swept *b, const core *at_b,
+                    double apart, double left)
+{
+    const double dx = a->dx - b->dx, dy = a->dy - b->dy, way = sqrt(dx * dx + dy * dy);
+    if (!(way > 0)) {
+        return false;
+    }
+    for (int side = -1; side <= 1; side += 2) {
+        const axis n = { 0, side * -dy / way, side * dx / way };
+        const double gap = lowest(at_a, n.nx, n.ny) + lowest(at_b, -n.nx, -n.ny);
+        if (gap > apart) {
+            return !(time_free(a, at_a, b, at_b, &n, apart) < left);
+        }
+    }
+    return false;
+}
+
 double pl_sweep_first(const pl_swept *a, const pl_swept *b, double from, double to, double target,
                       double tolerance)
 {
@@ -279,7 +339,7 @@ double pl_sweep_first(const pl_swept *a, const pl_swept *b, double from, double 
             return time;
         }
         time += time_free(a, &at_a, b, &at_b, &n, apart);
-        if (!(time < to)) {
+        if (!(time < to) || (round == 0 && goes_by(a, &at_a, b, &at_b, apart, to - from))) {
             return PL_SWEEP_NEVER;
         }
     }

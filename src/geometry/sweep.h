@@ -31,9 +31,16 @@ pl_gap pl_sweep_gap(const pl_swept *a, const pl_swept *b, double time);
 // The point of a piece's surface farthest along a unit vector.
 void pl_sweep_point(const pl_swept *piece, double time, double nx, double ny, double *x, double *y);
 
-// Where two pieces are nearest at one time: the gap, and the middle between the nearest points, from the common
-// origin. Of edges side by side, the middle of what lies before one another.
-pl_gap pl_sweep_nearest(const pl_swept *a, const pl_swept *b, double time, double *x, double *y);
+// Where two pieces are nearest at one time.
+typedef struct pl_nearest {
+    pl_gap gap;
+    double x,
+        y; // [m] the middle between the nearest points, from the common origin; of edges side by side, that of
+        // what lies before one another
+    double opens; // [m] a whole step by which the gap grows there
+} pl_nearest;
+
+pl_nearest pl_sweep_nearest(const pl_swept *a, const pl_swept *b, double time);
 
 // The first time in [from, to] at which the pieces are nearer than `target` [m], found at a moment
 // at which they are at most `tolerance` [m] > 0 farther apart than that and not yet nearer; above

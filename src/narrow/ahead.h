@@ -8,6 +8,9 @@
 // pl_manifold.feature of the nearest points of a later moment.
 #define PL_AHEAD_FEATURE 0x80000000u
 
+// [s] from the start of the step within which a contact may act.
+double pl_ahead_horizon(const plumb_world *world, real dt);
+
 // Looks at the candidates of `narrow`. Contacts of pieces that will not meet within the step, nor come near one
 // another, are taken out; others that doubt is about are made for the moment at which the pieces meet or are nearest. False
 // when out of memory. Cost: O(candidates); a sweep for each that closes its gap while it moves aside or turns.

@@ -224,6 +224,42 @@ static inline bool emit_lane(pl_pair *pair, pl_manifold *m, const near_real *row
     return true;
 }
 
+// [m] sum of what two points close by until the horizon.
+WIDE_INLINE vf closed(const touch *t, const vf arm[4], const vf way[2], const vf turned[2])
+{
+    return (t->nx * way[0] + t->ny * way[1]) + ((arm[0] * t->ny - arm[1] * t->nx) * turned[0] -
+                                                (arm[2] * t->ny - arm[3] * t->nx) * turned[1]);
+}
+
+// Which contacts that lie ahead may reach their plane while the bodies fly on, and which of the others close. More
+// than do: ahead.c looks closely.
+WIDE_INLINE vm lanes_act(const lanes *l, const touch *t, const pl_narrow_input *in,
+                         const vf arms[2][4], vm ahead)
+{
+    if (!in->plain) {
+        return ~(vm){ 0 };
+    }
+    near_real wa[PL_WIDTH], wb[PL_WIDTH], falls[PL_WIDTH];
+    for (int i = 0; i < PL_WIDTH; ++i) {
+        const pl_pair *pair = &in->pairs[l->pair[i]];
+        wa[i] = (near_real)in->w[pair->body_a];
+        wb[i] = (near_real)in->w[pair->body_b];
+        falls[i] =
+            (near_real)((pair->body_a < in->dynamic_count) - (pair->body_b < in->dynamic_count));
+    }
+    const vf horizon = splat(in->horizon), fall = load(falls);
+    const vf way[2] = { splat(in->fall_x) * fall - l->vx * horizon,
+                        splat(in->fall_y) * fall - l->vy * horizon };
+    const vf turned[2] = { load(wa) * horizon, load(wb) * horizon };
+    vm acts = { 0 };
+    for (int k = 0; k < 2; ++k) {
+        const vf most = closed(t, arms[k], way, turned);
+        const vf rounding = splat((near_real)1e-5) + vabs(most) * splat((near_real)1e-4);
+        acts |= most + rounding > sel(ahead, t->sep[k], splat(PL_TURNED));
+    }
+    return acts;
+}
+
 // Appends the manifolds of `count` lanes.
 WIDE_PART void lanes_emit(const lanes *l, const touch *t, const pl_narrow_input *in, uint32_t count,
                           pl_narrow *out)
@@ -263,17 +299,23 @@ WIDE_PART void lanes_emit(const lanes *l, const touch *t, const pl_narrow_input 
     scatter8(row, (vf[8]){ t->nx, t->ny, friction, restitution, zero, zero, zero, zero });
     // Anchors lie on the surfaces, half the separation to either side of the middle: an elastic
     // contact seen from afar has its true lever arms.
+    vf arms[2][4];
     for (int k = 0; k < 2; ++k) {
         vf gap = t->sep[k] * splat((near_real)0.5);
         vf gx = t->nx * gap, gy = t->ny * gap;
-        scatter8(k == 0 ? point0 : point1,
-                 (vf[8]){ t->px[k] - gx + l->oax, t->py[k] - gy + l->oay,
-                          t->px[k] + gx - l->dx + l->obx, t->py[k] + gy - l->dy + l->oby, t->sep[k],
-                          zero, zero, zero });
+        arms[k][0] = t->px[k] - gx + l->oax, arms[k][1] = t->py[k] - gy + l->oay;
+        arms[k][2] = t->px[k] + gx - l->dx + l->obx, arms[k][3] = t->py[k] + gy - l->dy + l->oby;
+        scatter8(k == 0 ? point0 : point1, (vf[8]){ arms[k][0], arms[k][1], arms[k][2], arms[k][3],
+                                                    t->sep[k], zero, zero, zero });
     }
     near_real limits[PL_WIDTH];
     store(limits, limit);
     const vm ahead = (t->sep[0] > splat(PL_AHEAD)) & (t->sep[1] > splat(PL_AHEAD));
+    const vm acts = lanes_act(l, t, in, (const vf(*)[4])arms, ahead);
+    const vm notes = (~ahead & (pl_lane)PL_CANDIDATE_STRIKES) |
+                     (acts & (pl_lane)PL_CANDIDATE_ACTS) |
+                     ((restitution > zero) & (pl_lane)PL_CANDIDATE_BOUNCES);
+    const vm noted = ahead | acts;
     uint32_t *candidates = out->candidates.data;
     pl_ends *ends = out->ends.data;
     uint32_t *fresh = out->fresh.data;
@@ -286,8 +328,8 @@ WIDE_PART void lanes_emit(const lanes *l, const touch *t, const pl_narrow_input 
             fresh[out->fresh_count] = l->pair[i];
             out->fresh_count += (pair->flags & PL_PAIR_TOUCHING) == 0;
             ends[out->manifold_count] = (pl_ends){ pair->body_a, pair->body_b };
-            candidates[out->candidate_count] = out->manifold_count;
-            out->candidate_count += ahead[i] != 0;
+            candidates[out->candidate_count] = out->manifold_count | (uint32_t)notes[i];
+            out->candidate_count += noted[i] != 0;
             out->any_friction |= m->friction > 0;
             pl_narrow_note_restitution(out, m->restitution);
             pl_overlaps_count(&out->overlaps, m);

@@ -53,6 +53,16 @@ typedef struct pl_manifold {
 // [m] contacts that are farther apart lie ahead: whether they will meet is asked (ahead.c).
 #define PL_AHEAD ((near_real)5e-4)
 
+// [m] an impact that moves a body by less until the horizon is none: it would meet what it would have met.
+#define PL_TURNED ((near_real)2e-3)
+
+// pl_narrow.candidates: the place of a manifold, and what is known of it while the bodies fly on.
+#define PL_CANDIDATE_STRIKES                                                                       \
+    0x40000000u // it is there already, and may close by PL_TURNED; others lie ahead
+#define PL_CANDIDATE_ACTS    0x20000000u // it may reach its plane
+#define PL_CANDIDATE_BOUNCES 0x10000000u // its restitution is above 0
+#define PL_CANDIDATE_PLACE   0x0fffffffu
+
 // [m] what touched goes on to touch while it is nearer than this.
 #define PL_TOUCH_HOLD PL_AHEAD
 
@@ -157,11 +167,12 @@ typedef struct pl_lookahead {
 } pl_lookahead;
 
 typedef struct pl_narrow {
-    pl_buffer manifolds;  // pl_manifold of this step, room for every pair
-    pl_buffer staged;     // pl_manifold, with several threads: before they are put together
-    pl_buffer ends;       // pl_ends a manifold, as the kernels left them
-    pl_buffer fresh;      // uint32_t: pairs with a manifold that did not touch in the last step
-    pl_buffer candidates; // uint32_t: manifolds all of whose points are apart by PL_AHEAD or more
+    pl_buffer manifolds; // pl_manifold of this step, room for every pair
+    pl_buffer staged;    // pl_manifold, with several threads: before they are put together
+    pl_buffer ends;      // pl_ends a manifold, as the kernels left them
+    pl_buffer fresh;     // uint32_t: pairs with a manifold that did not touch in the last step
+    pl_buffer
+        candidates; // uint32_t: manifolds all of whose points are apart by PL_AHEAD or more, and strikes
     uint32_t fresh_count, candidate_count;
     bool ends_stale; // manifolds or rows have moved since
     uint32_t manifold_count;

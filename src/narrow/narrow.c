@@ -2,6 +2,7 @@
 //
 // Reads: pairs, poses, geometry, materials. Writes: manifolds, the pairs' features and flags.
 // Order: after the broad phase, before the solver. Cost: O(pairs).
+#include "core/quad.h"
 #include "narrow/ahead.h"
 #include "narrow/surface.h"
 #include "world/wrap.h"
@@ -163,8 +164,30 @@ static void make_manifolds(plumb_world *world, const pl_narrow_input *in, const 
     }
 }
 
+// Whether gravity, the same for all, is all that acts on the bodies.
+static bool flies_plainly(const plumb_world *world)
+{
+    const pl_bodies *b = &world->bodies;
+    const pl_quad *fx = (const pl_quad *)b->fx, *fy = (const pl_quad *)b->fy;
+    const pl_quad *torque = (const pl_quad *)b->torque;
+    const pl_quad *gravity = (const pl_quad *)b->gravity_scale;
+    const pl_quad zero = { 0 }, one = zero + 1;
+    pl_quad_mask plain = (pl_quad_mask){ 0 } - 1;
+    const uint32_t count = world->dynamic_count;
+    for (uint32_t i = 0; i < count / 4; ++i) {
+        plain &= (fx[i] == zero) & (fy[i] == zero) & (torque[i] == zero) & (gravity[i] == one);
+    }
+    bool all = world->settings.scaled == 0 && plain[0] && plain[1] && plain[2] && plain[3];
+    for (uint32_t row = count - count % 4; row < count; ++row) {
+        all = all && b->fx[row] == 0 && b->fy[row] == 0 && b->torque[row] == 0 &&
+              b->gravity_scale[row] == 1;
+    }
+    return all;
+}
+
 bool pl_narrow_run(plumb_world *world, const pl_pair_list *list, real dt, pl_narrow *narrow)
 {
+    const double horizon = pl_ahead_horizon(world, dt), half = horizon * horizon / 2;
     const pl_narrow_input in = { .poses = (const real *)world->poses.data,
                                  .cores = world->pieces.core,
                                  .vertices = world->vertices.items,
@@ -177,7 +200,13 @@ bool pl_narrow_run(plumb_world *world, const pl_pair_list *list, real dt, pl_nar
                                  .pairs = pl_pairs(list),
                                  .wrapped = pl_is_wrapped(world),
                                  .wrap_x = world->desc.wrap_x,
-                                 .wrap_y = world->desc.wrap_y };
+                                 .wrap_y = world->desc.wrap_y,
+                                 .plain = flies_plainly(world),
+                                 .dynamic_count = world->dynamic_count,
+                                 .w = world->bodies.w,
+                                 .horizon = (near_real)horizon,
+                                 .fall_x = (near_real)(half * (double)world->gravity.x),
+                                 .fall_y = (near_real)(half * (double)world->gravity.y) };
     pl_narrow_clear(narrow);
     make_manifolds(world, &in, list, narrow);
     return pl_ahead_look(world, &in, dt, narrow);

@@ -17,6 +17,13 @@ typedef struct pl_narrow_input {
     pl_pair *pairs;          // the whole list
     bool wrapped;            // the world wraps around: the nearest images meet
     plumb_real wrap_x, wrap_y; // [m] its periods; 0: none
+    // What the bodies do until the horizon, where gravity is all that acts on them (else `plain` is false, and every
+    // contact may do anything).
+    bool plain;
+    uint32_t dynamic_count;   // body rows that fall
+    const plumb_real *w;      // [rad/s] by body row
+    near_real horizon;        // [s]
+    near_real fall_x, fall_y; // [m] by gravity until then
 } pl_narrow_input;
 
 // Appends the manifolds of pairs [first, first + count) to the narrow phase's list and keeps up its

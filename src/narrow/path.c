@@ -9,9 +9,8 @@
 
 #include <math.h>
 
-// Steps of the search for the time at which two pieces are nearest: 1 / 1.618^14 of a leg.
-#define NARROWINGS 14
-#define GOLDEN     0.6180339887498949
+// Steps of the search for the time at which two pieces are nearest, at the most.
+#define SECANTS 8
 
 pl_motion pl_flight_of(const plumb_world *world, uint32_t row, double horizon)
 {
@@ -101,74 +100,66 @@ static void put_leg(pl_swept *out, const pl_moving_pair *e, int side, double fro
     }
 }
 
-pl_gap pl_moving_pair_gap(const pl_moving_pair *e, double time)
+// The time in [from, 1] of a leg at which the pieces are nearest, where they close at `from`: the gap of convex pieces
+// that do not turn is a convex function of it, for others this is a good guess. By secants of the rate, which changes its
+// sign there.
+static double nearest_on_leg(const pl_swept *a, const pl_swept *b, double from, pl_nearest *out)
 {
-    pl_swept a, b;
-    put_leg(&a, e, 0, time, time);
-    put_leg(&b, e, 1, time, time);
-    return pl_sweep_gap(&a, &b, 0);
-}
-
-pl_gap pl_moving_pair_nearest(const pl_moving_pair *e, double time, double *x, double *y)
-{
-    pl_swept a, b;
-    put_leg(&a, e, 0, time, time);
-    put_leg(&b, e, 1, time, time);
-    return pl_sweep_nearest(&a, &b, 0, x, y);
-}
-
-double pl_moving_pair_toi(const pl_moving_pair *e, double target)
-{
-    for (int i = 0; i < e->paths->legs; ++i) {
-        const double from = e->paths->breaks[i], to = e->paths->breaks[i + 1];
-        pl_swept a, b;
-        put_leg(&a, e, 0, from, to);
-        put_leg(&b, e, 1, from, to);
-        const double time = pl_sweep_first(&a, &b, 0, 1, target, PL_TOI_TOLERANCE);
-        if (time <= 1) {
-            return from + time * (to - from);
-        }
+    double low = from, high = 1;
+    *out = pl_sweep_nearest(a, b, low);
+    double closes = -out->opens;
+    if (!(closes > 0)) {
+        return low;
     }
-    return PL_SWEEP_NEVER;
-}
-
-// The time in [0, 1] of a leg: the gap of convex pieces that do not turn is a convex function of it, for others this
-// is a good guess.
-static double nearest_on_leg(const pl_swept *a, const pl_swept *b, double *gap)
-{
-    double low = 0, high = 1, s = 1 - GOLDEN, t = GOLDEN;
-    double at_s = pl_sweep_gap(a, b, s).distance, at_t = pl_sweep_gap(a, b, t).distance;
-    for (int i = 0; i < NARROWINGS; ++i) {
-        if (at_s < at_t) {
-            high = t, t = s, at_t = at_s;
-            s = high - GOLDEN * (high - low);
-            at_s = pl_sweep_gap(a, b, s).distance;
+    *out = pl_sweep_nearest(a, b, high);
+    double opens = out->opens, at = high;
+    int side = 0; // of the last secants: one that stays is worth half
+    for (int i = 0; i < SECANTS && opens > 0; ++i) {
+        at = low + (high - low) * closes / (closes + opens);
+        *out = pl_sweep_nearest(a, b, at);
+        if (fabs(out->opens) * (high - low) < PL_TOI_TOLERANCE) {
+            break;
+        }
+        if (out->opens > 0) {
+            high = at, opens = out->opens;
+            closes = side == 1 ? closes / 2 : closes;
+            side = 1;
         } else {
-            low = s, s = t, at_s = at_t;
-            t = low + GOLDEN * (high - low);
-            at_t = pl_sweep_gap(a, b, t).distance;
+            low = at, closes = -out->opens;
+            opens = side == -1 ? opens / 2 : opens;
+            side = -1;
         }
     }
-    *gap = at_s < at_t ? at_s : at_t;
-    return at_s < at_t ? s : t;
+    return at;
 }
 
-double pl_moving_pair_closest(const pl_moving_pair *e)
+pl_approach pl_moving_pair_approach(const pl_moving_pair *e, double near)
 {
-    double best = HUGE_VAL, time = 0;
+    pl_approach best = { .kind = PL_APPROACH_NONE, .time = PL_SWEEP_NEVER };
     for (int i = 0; i < e->paths->legs; ++i) {
         const double from = e->paths->breaks[i], to = e->paths->breaks[i + 1];
         pl_swept a, b;
         put_leg(&a, e, 0, from, to);
         put_leg(&b, e, 1, from, to);
-        double gap;
-        const double at = nearest_on_leg(&a, &b, &gap);
-        if (gap < best) {
-            best = gap;
-            time = from + at * (to - from);
+        double first = 0;
+        if (best.kind == PL_APPROACH_NONE) {
+            first = pl_sweep_first(&a, &b, 0, 1, near, PL_TOI_TOLERANCE);
+            if (first > 1) {
+                continue;
+            }
+        }
+        const double time = pl_sweep_first(&a, &b, first, 1, 0, PL_TOI_TOLERANCE);
+        if (time <= 1) {
+            return (pl_approach){ PL_APPROACH_MEETS, from + time * (to - from),
+                                  pl_sweep_nearest(&a, &b, time) };
+        }
+        pl_nearest nearest;
+        const double at = nearest_on_leg(&a, &b, first, &nearest);
+        if (best.kind == PL_APPROACH_NONE || nearest.gap.distance < best.nearest.gap.distance) {
+            best = (pl_approach){ PL_APPROACH_NEAR, from + at * (to - from), nearest };
         }
     }
-    return time;
+    return best;
 }
 
 pl_pose pl_moving_pair_pose(const pl_moving_pair *e, int side, double time)

@@ -64,14 +64,19 @@ typedef struct pl_moving_pair {
 pl_moving_pair pl_moving_pair_of(const plumb_world *world, const pl_pair *pair,
                                  const pl_paths *paths);
 
-// Distance and nearest points at a time (geometry/sweep.h).
-pl_gap pl_moving_pair_gap(const pl_moving_pair *e, double time);
-pl_gap pl_moving_pair_nearest(const pl_moving_pair *e, double time, double *x, double *y);
-// The first time at which the pieces are nearer than `target` [m], or at most PL_TOI_TOLERANCE farther apart;
-// PL_SWEEP_NEVER: they never are. They must be farther apart at the start.
-double pl_moving_pair_toi(const pl_moving_pair *e, double target);
-// About the time at which they are nearest.
-double pl_moving_pair_closest(const pl_moving_pair *e);
+// How near two pieces come.
+typedef struct pl_approach {
+    enum {
+        PL_APPROACH_NONE, // never within the distance that is asked for
+        PL_APPROACH_NEAR, // about so near, at this time
+        PL_APPROACH_MEETS // this is the first time at which they are PL_TOI_TOLERANCE apart or less
+    } kind;
+    double time;
+    pl_nearest nearest; // of then
+} pl_approach;
+
+// Sweeps the pieces; what stays farther apart than `near` [m] is let go.
+pl_approach pl_moving_pair_approach(const pl_moving_pair *e, double near);
 // The pose of the body of side 0 (A) or 1 (B) at a time.
 pl_pose pl_moving_pair_pose(const pl_moving_pair *e, int side, double time);
 

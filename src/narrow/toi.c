@@ -130,45 +130,36 @@ bool pl_toi_refine(pl_toi *item, const pl_manifold *m)
     return item->time >= 0 && item->time <= 1;
 }
 
-// The nearest points at a time.
-static void note_nearest(pl_toi *out, const pl_moving_pair *e, double time)
+// The nearest points of an approach.
+static void note_nearest(pl_toi *out, const pl_moving_pair *e, const pl_approach *approach)
 {
-    double x, y;
-    const pl_gap gap = pl_moving_pair_nearest(e, time, &x, &y); // its normal points from B to A
+    const pl_nearest *at = &approach->nearest;
+    const pl_gap gap = at->gap; // its normal points from B to A
     const double half_x = gap.nx * gap.distance / 2, half_y = gap.ny * gap.distance / 2;
-    const pl_motion a = pl_path_at(&e->paths->of[0], time), b = pl_path_at(&e->paths->of[1], time);
+    const pl_motion a = pl_path_at(&e->paths->of[0], approach->time);
+    const pl_motion b = pl_path_at(&e->paths->of[1], approach->time);
     out->nx = (near_real)-gap.nx, out->ny = (near_real)-gap.ny;
-    out->point = (pl_manifold_point){ .ax = (near_real)(x + half_x - (e->px[0] + a.x)),
-                                      .ay = (near_real)(y + half_y - (e->py[0] + a.y)),
-                                      .bx = (near_real)(x - half_x - (e->px[1] + b.x)),
-                                      .by = (near_real)(y - half_y - (e->py[1] + b.y)),
+    out->point = (pl_manifold_point){ .ax = (near_real)(at->x + half_x - (e->px[0] + a.x)),
+                                      .ay = (near_real)(at->y + half_y - (e->py[0] + a.y)),
+                                      .bx = (near_real)(at->x - half_x - (e->px[1] + b.x)),
+                                      .by = (near_real)(at->y - half_y - (e->py[1] + b.y)),
                                       .separation = (near_real)gap.distance };
 }
 
 void pl_toi_sweep(pl_toi *item, const plumb_world *world, const pl_manifold *m, const pl_pair *pair)
 {
     const pl_moving_pair e = pl_moving_pair_of(world, pair, &item->paths);
-    const double gap = pl_moving_pair_gap(&e, 0).distance, near = (double)PL_SPECULATIVE;
-    if (gap <= PL_TOI_TOLERANCE) {
-        item->time = 0;
-        item->verdict = PL_TOI_KEEPS;
-        return;
-    }
-    if (gap > near + PL_TOI_TOLERANCE && pl_moving_pair_toi(&e, near) > 1) {
-        item->time = PL_SWEEP_NEVER;
+    const pl_approach approach = pl_moving_pair_approach(&e, (double)PL_SPECULATIVE);
+    item->time = approach.time;
+    if (approach.kind == PL_APPROACH_NONE) {
         item->verdict = PL_TOI_PASSES;
         return;
     }
-    item->time = pl_moving_pair_toi(&e, 0);
-    item->verdict = PL_TOI_HIT;
-    if (item->time > 1) {
-        item->time = pl_moving_pair_closest(&e);
-        item->verdict = PL_TOI_NEAR;
-    }
-    note_nearest(item, &e, item->time);
-    if (item->verdict == PL_TOI_HIT && is_that_plane(item, m)) {
-        item->verdict = PL_TOI_KEEPS;
-    }
+    note_nearest(item, &e, &approach);
+    const bool meets = approach.kind == PL_APPROACH_MEETS;
+    item->verdict = meets && (item->time == 0 || is_that_plane(item, m)) ? PL_TOI_KEEPS
+                    : meets                                              ? PL_TOI_HIT
+                                                                         : PL_TOI_NEAR;
 }
 
 // [m] the least separation of a plane that the point does not reach, whatever is rounded off: on its way, nor on that

@@ -1,0 +1,187 @@
+// settle.c - what becomes of the manifolds of contacts ahead, by the verdicts of the pass (ahead.c).
+//
+// Contacts of pieces that pass are taken out. Those that meet or pass nearby get the geometry of that moment, for the
+// ground's internal edges to judge (internal_edges/correct.c); then separations are counted back to the start of the step: by what the
+// points close until then. The solver adds that motion again.
+//
+// Reads: verdicts, ways. Writes: manifolds, pairs. Cost: O(verdicts), and the manifolds behind what is taken out move up.
+#include "narrow/looking.h"
+#include "narrow/surface.h"
+
+#include "math/compare.h"
+
+#include <string.h>
+
+static void take_out(pl_pair *pair, pl_manifold *m)
+{
+    m->count = 0;
+    pair->manifold = PL_NONE;
+    pl_pair_forget(pair);
+}
+
+// Takes out the contacts of pieces that pass; the records of those that meet or pass nearby close up. Returns how many
+// are out, and lists their places: `first` in order, those that were listed later in order behind these.
+static uint32_t sort_out(const pl_looking *l, uint32_t *gaps, uint32_t *first)
+{
+    pl_manifold *m = pl_manifolds(l->narrow);
+    pl_toi *items = pl_looking_items(l->ahead);
+    uint32_t kept = 0, out = 0;
+    for (uint32_t i = 0; i < l->ahead->count; ++i) {
+        const pl_toi_state verdict = items[i].verdict;
+        if (verdict == PL_TOI_PASSES) {
+            l->narrow->overlaps.point_count -= m[items[i].manifold].count;
+            take_out(&l->in->pairs[items[i].pair], &m[items[i].manifold]);
+            gaps[out++] = items[i].manifold;
+            *first += i < l->listed_first;
+        } else if (verdict == PL_TOI_HELD) {
+            pl_toi_hold_back(&m[items[i].manifold], &items[i].paths);
+        } else if (verdict == PL_TOI_HIT || verdict == PL_TOI_NEAR) {
+            items[kept++] = items[i];
+        }
+    }
+    l->ahead->count = kept;
+    return out;
+}
+
+// [m] the separation of a point at the start of the step, from that of its moment.
+static double counted_back(const pl_toi *item, const pl_manifold_point *p, double nx, double ny)
+{
+    return (double)p->separation + pl_paths_closed(&item->paths, p, nx, ny, item->time);
+}
+
+// Whether all points of it were apart when the step began: a face that the other piece comes to lie behind as it
+// passes is none that it strikes.
+static bool was_apart(const pl_toi *item, const pl_manifold *m)
+{
+    bool apart = m->count > 0;
+    for (uint32_t k = 0; k < m->count; ++k) {
+        const pl_manifold_point *p = &m->point[k];
+        apart = apart && counted_back(item, p, (double)m->nx, (double)m->ny) > 0;
+    }
+    return apart;
+}
+
+// Puts the geometry of that moment into the manifold of the step.
+static void replace(pl_manifold *m, pl_pair *pair, const pl_manifold *then)
+{
+    m->nx = then->nx, m->ny = then->ny;
+    m->count = then->count;
+    for (int k = 0; k < 2; ++k) {
+        m->point[k] = then->point[k];
+        m->feature[k] = pair->feature[k] = then->feature[k];
+        pair->normal[k] = then->point[k].normal;
+        pair->tangent[k] = then->point[k].tangent;
+    }
+}
+
+// The nearest points instead: corners that meet have no face, and none of a kernel's normals.
+static void replace_by_nearest(pl_manifold *m, pl_pair *pair, const pl_toi *item)
+{
+    pl_pair_forget(pair);
+    m->nx = item->nx, m->ny = item->ny;
+    m->count = 1;
+    m->point[0] = item->point;
+    m->point[1] = (pl_manifold_point){ .separation = PL_APART };
+    m->feature[0] = pair->feature[0] = PL_AHEAD_FEATURE;
+    m->feature[1] = PL_NONE;
+}
+
+static void replace_all(const pl_looking *l)
+{
+    for (uint32_t i = 0; i < l->ahead->count; ++i) {
+        pl_toi *item = &pl_looking_items(l->ahead)[i];
+        pl_pair *pair = &l->in->pairs[item->pair];
+        pl_manifold *m = pl_looking_manifold(l, item);
+        const uint32_t before = m->count;
+        if (item->verdict == PL_TOI_HIT && was_apart(item, &item->then)) {
+            replace(m, pair, &item->then);
+        } else {
+            pl_toi_pose(item, l->world, pair);
+            replace_by_nearest(m, pair, item);
+        }
+        l->narrow->overlaps.point_count += m->count - before;
+        item->before = m->before;
+        m->ahead = i;
+        pair->flags |= PL_PAIR_AHEAD;
+    }
+}
+
+// Moves manifolds [from, end) up to `to`.
+static void move_up(pl_narrow *narrow, pl_pair *pairs, uint32_t to, uint32_t from, uint32_t end)
+{
+    pl_manifold *m = pl_manifolds(narrow);
+    pl_ends *ends = narrow->ends.data;
+    memmove(&m[to], &m[from], (end - from) * sizeof *m);
+    memmove(&ends[to], &ends[from], (end - from) * sizeof *ends);
+    for (uint32_t i = to; i < to + (end - from); ++i) {
+        pairs[m[i].pair].manifold = i;
+    }
+}
+
+// Closes the gaps that contacts leave which were taken out: two lists of places, each in order.
+static void close_gaps(pl_narrow *narrow, pl_pair *pairs, const uint32_t *gaps, uint32_t first,
+                       uint32_t count)
+{
+    if (count == 0) {
+        return;
+    }
+    uint32_t i = 0, k = first, kept = 0, from = 0; // from: behind the last gap
+    while (i < first || k < count) {
+        const bool lower = k == count || (i < first && gaps[i] < gaps[k]);
+        const uint32_t gap = lower ? gaps[i++] : gaps[k++];
+        if (kept != from) {
+            move_up(narrow, pairs, kept, from, gap);
+        }
+        kept += gap - from;
+        from = gap + 1;
+    }
+    move_up(narrow, pairs, kept, from, narrow->manifold_count);
+    narrow->manifold_count -= count;
+}
+
+void pl_looking_settle(const pl_looking *l)
+{
+    uint32_t *gaps = l->ahead->list.data, first = 0;
+    const uint32_t count = sort_out(l, gaps, &first);
+    replace_all(l);
+    close_gaps(l->narrow, l->in->pairs, gaps, first, count);
+}
+
+// Whether the way reaches the plane of a point before the pieces meet.
+static bool is_reached_before(const pl_toi *item, const pl_manifold_point *p, double nx, double ny,
+                              double separation)
+{
+    const pl_paths *paths = &item->paths;
+    bool reached = !(separation > 0);
+    for (int i = 1; i < paths->legs && paths->breaks[i] < item->time; ++i) {
+        reached = reached || pl_paths_closed(paths, p, nx, ny, paths->breaks[i]) > separation;
+    }
+    return reached;
+}
+
+void pl_ahead_settle(plumb_world *world)
+{
+    pl_pair *pairs = pl_pairs(&world->broad.pairs);
+    for (uint32_t i = 0; i < world->lookahead.count; ++i) {
+        const pl_toi *item = &pl_looking_items(&world->lookahead)[i];
+        const uint32_t at = pairs[item->pair].manifold;
+        pairs[item->pair].flags &= ~PL_PAIR_AHEAD;
+        if (at == PL_NONE) {
+            continue; // the ground has taken it out
+        }
+        pl_manifold *m = &pl_manifolds(&world->narrow)[at];
+        const double nx = (double)m->nx, ny = (double)m->ny;
+        for (uint32_t k = 0; k < m->count; ++k) {
+            pl_manifold_point *p = &m->point[k];
+            double s = counted_back(item, p, nx, ny);
+            // A plane does not reach what passes it; nor one of the ground's faces what was behind that before.
+            if (item->verdict == PL_TOI_NEAR || is_reached_before(item, p, nx, ny, s)) {
+                s = pl_greater(pl_toi_beyond(&item->paths, p, nx, ny),
+                               pl_greater(s, PL_TOI_TOLERANCE));
+            }
+            p->separation = (near_real)s;
+        }
+        m->before = item->before;
+        m->met |= PL_MET_ASIDE; // the pieces were apart, wherever the plane of that moment lies
+    }
+}
