@@ -31,12 +31,11 @@ pl_gap pl_sweep_gap(const pl_swept *a, const pl_swept *b, double time);
 // The point of a piece's surface farthest along a unit vector.
 void pl_sweep_point(const pl_swept *piece, double time, double nx, double ny, double *x, double *y);
 
-// Where two pieces are nearest at one time.
+// Where two pieces are nearest at one time. (x, y) is the middle between the nearest points; of edges side by side, that
+// of what lies before one another.
 typedef struct pl_nearest {
     pl_gap gap;
-    double x,
-        y; // [m] the middle between the nearest points, from the common origin; of edges side by side, that of
-        // what lies before one another
+    double x, y;  // [m] from the common origin
     double opens; // [m] a whole step by which the gap grows there
 } pl_nearest;
 
