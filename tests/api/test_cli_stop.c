@@ -48,6 +48,7 @@ static void expect_stop(const char *command, int number)
         dup2(null, 0);
         dup2(null, 1);
         dup2(open("err.txt", O_WRONLY | O_CREAT | O_TRUNC, 0666), 2);
+        signal(SIGINT, SIG_DFL); // a shell lets what it runs in the background ignore it
         execl("/bin/sh", "sh", "-c", line, (char *)NULL);
         _exit(127);
     }
