@@ -240,5 +240,5 @@ bool pl_check_extras(pl_suspect *s)
     }
     return check_records(w) && check_settings(s) && check_targets(s) && check_excluded(w) &&
            pl_commands_are_sound(s->like, &w->registry, w->commands.bytes.data, w->commands.used,
-                                 w->commands.count);
+                                 w->commands.count, s->marks);
 }

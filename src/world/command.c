@@ -501,29 +501,48 @@ static size_t least_payload(const plumb_world *world, const record *r)
     }
 }
 
-static bool is_record(const plumb_world *world, const pl_registry *registry, const record *r,
-                      const char *payload, size_t bytes)
+// Fields that are read as bool hold one.
+static bool is_value(const pl_component *c, const char *payload)
+{
+    for (int k = 0; k < c->desc.field_count; ++k) {
+        if (c->fields[k].type == PLUMB_FIELD_BOOL &&
+            ((const unsigned char *)payload)[c->fields[k].offset] > 1) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// Who is pending is made by one command, and named by later ones; who is teleported is, or was, a body.
+static bool has_target(const pl_registry *registry, const record *r, uint32_t *marks)
 {
     static const uint32_t made[] = { [CREATE_BODY] = PLUMB_KIND_BODY,
                                      [CREATE_SHAPE] = PLUMB_KIND_SHAPE,
                                      [CREATE_ENTITY] = PLUMB_KIND_BARE };
+    const pl_slot *pending = pl_registry_find_pending(registry, r->target);
+    if (r->kind <= CREATE_ENTITY) {
+        return pending != NULL && pending->kind == made[r->kind] && marks[r->target.index]++ == 0;
+    }
+    const pl_slot *slot = pending != NULL ? pending : pl_registry_find(registry, r->target);
+    return (pending == NULL || marks[r->target.index] == 1) &&
+           (r->kind != TELEPORT || slot == NULL || slot->kind == PLUMB_KIND_BODY);
+}
+
+static bool is_record(const plumb_world *world, const record *r, const char *payload, size_t bytes)
+{
     const bool components = r->kind == SET_COMPONENT || r->kind == REMOVE_COMPONENT;
     if (r->kind > REMOVE_COMPONENT || r->has_more > 1 ||
         (components && (r->component.id == 0 || r->component.id > world->components.count)) ||
         bytes < least_payload(world, r)) {
         return false;
     }
-    if (r->kind <= CREATE_ENTITY) {
-        const pl_slot *slot = pl_registry_find_pending(registry, r->target);
-        if (slot == NULL || slot->kind != made[r->kind]) {
-            return false;
-        }
-    }
     switch (r->kind) {
     case CREATE_BODY:
         return is_body(payload);
     case CREATE_SHAPE:
         return is_shape(r, payload, bytes);
+    case SET_COMPONENT:
+        return !r->has_more || is_value(&world->components.items[r->component.id - 1], payload);
     case TELEPORT:
         return r->x >= -1e9 && r->x <= 1e9 && r->y >= -1e9 && r->y <= 1e9 &&
                r->angle - r->angle == 0;
@@ -533,23 +552,25 @@ static bool is_record(const plumb_world *world, const pl_registry *registry, con
 }
 
 bool pl_commands_are_sound(const plumb_world *world, const pl_registry *registry, const char *bytes,
-                           size_t used, uint32_t count)
+                           size_t used, uint32_t count, uint32_t *marks)
 {
     const size_t head = rounded(sizeof(record));
     uint32_t seen = 0;
-    for (size_t at = 0; at < used; ++seen) {
+    bool sound = true;
+    for (size_t at = 0; sound && at < used; ++seen) {
         record r;
         if (used - at < head) {
-            return false;
+            sound = false;
+            break;
         }
         memcpy(&r, bytes + at, sizeof r);
-        if (r.bytes < head || r.bytes % RECORD_ALIGN != 0 || r.bytes > used - at ||
-            !is_record(world, registry, &r, bytes + at + head, (size_t)r.bytes - head)) {
-            return false;
-        }
+        sound = r.bytes >= head && r.bytes % RECORD_ALIGN == 0 && r.bytes <= used - at &&
+                is_record(world, &r, bytes + at + head, (size_t)r.bytes - head) &&
+                has_target(registry, &r, marks);
         at += (size_t)r.bytes;
     }
-    return seen == count;
+    memset(marks, 0, registry->count * sizeof *marks);
+    return sound && seen == count;
 }
 
 plumb_result plumb_commands_apply(plumb_world *world)
