@@ -8,6 +8,7 @@
 
 #include <cmocka.h>
 
+#include "harness/near.h"
 #include "harness/sim.h"
 
 // What rounding alone can do to n steps of x += dt (v + a dt / 2), v += a dt: half a spacing of the
@@ -113,11 +114,11 @@ static void spin_without_torque_is_exact(void **state)
         plumb_vec2 center = plumb_body_center(w, b);
         print_message("spin %6.1f rad/s: angle off by %.3g rad in 10 s, bound %.3g\n", spins[k],
                       error, bound);
-        assert_true(fabs(sim_w(w, b) - spins[k]) <= 0);
+        assert_near(sim_w(w, b), spins[k], 0);
         assert_true(error <= bound);
         // The centre of mass flies straight.
-        assert_true(fabs((double)center.x - (1 + n * dt)) <= n * SIM_EPSILON * 11);
-        assert_true(fabs((double)center.y) <= n * SIM_EPSILON * 2);
+        assert_near((double)center.x - (1 + n * dt), 0, n * SIM_EPSILON * 11);
+        assert_near(center.y, 0, n * SIM_EPSILON * 2);
         plumb_world_destroy(w);
     }
 }
@@ -137,10 +138,10 @@ static void steady_force_and_torque_are_exact(void **state)
     }
     double t = n * dt;
     double bound = flight_bound(n, dt, 6, 6);
-    assert_true(fabs(sim_x(w, b) - 3 / mass * t * t / 2) <= bound);
-    assert_true(fabs(sim_y(w, b) + 2 / mass * t * t / 2) <= bound);
+    assert_near(sim_x(w, b), 3 / mass * t * t / 2, bound);
+    assert_near(sim_y(w, b) + 2 / mass * t * t / 2, 0, bound);
     double angle = remainder(sim_angle(w, b) - 0.25 / inertia * t * t / 2, 2 * SIM_PI);
-    assert_true(fabs(angle) <= bound + 4 * SIM_EPSILON * n);
+    assert_near(angle, 0, bound + 4 * SIM_EPSILON * n);
     plumb_world_destroy(w);
 }
 

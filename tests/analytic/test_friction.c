@@ -9,6 +9,7 @@
 
 #include <cmocka.h>
 
+#include "harness/near.h"
 #include "harness/sim.h"
 
 #define HZ60 (1 / 60.0)
@@ -41,7 +42,7 @@ static double slide_error(const slide_case *c, double rate, double *distance)
     double lasts = c->speed / (c->friction * SIM_G);
     sim_run(w, (int)(lasts * rate + rate / 2), 1 / rate);
     *distance = sim_x(w, b) - from;
-    assert_true(fabs(sim_vx(w, b)) <= 1e-5);
+    assert_near(sim_vx(w, b), 0, ROUNDED(1e-5));
     plumb_world_destroy(w);
     double expected = c->speed * c->speed / (2 * c->friction * SIM_G);
     return fabs(*distance / expected - 1);
@@ -120,8 +121,8 @@ static void block_sticks_without_creep(void **state)
             print_message("incline %2.0f degrees, mu = %.2f tan: settles by %.2g m, "
                           "creeps %.2g m in 60 s\n",
                           degrees[i], reserve[k], from, creep);
-            assert_true(fabs(from) <= 2e-3);
-            assert_true(fabs(creep) <= 1e-4);
+            assert_near(from, 0, 2e-3);
+            assert_near(creep, 0, ROUNDED(1e-4));
             plumb_world_destroy(w);
         }
     }
@@ -155,7 +156,7 @@ static void block_slides_down(void **state)
                           degrees[i], share[k], a, error_v, error_x, v - a);
             assert_true(error_v <= 0.005 && error_x <= 0.005);
             // Friction may be late by one substep, no more, when the block is let go.
-            assert_true(fabs(v - a) <= SIM_G * sin(angle) * HZ60 / 4 * 1.1);
+            assert_near(v, a, SIM_G * sin(angle) * HZ60 / 4 * 1.1);
             plumb_world_destroy(w);
         }
     }
@@ -227,7 +228,7 @@ static void sliding_disc_starts_to_roll(void **state)
         print_message("rolling %3.0f Hz: from %.4f s (%.4f), speed off by %.2g, spin by %.2g, "
                       "way by %.2g\n",
                       rates[i], rolls, expected_t, error_v, error_w, error[i]);
-        assert_true(fabs(rolls - expected_t) <= 2 / rates[i]);
+        assert_near(rolls, expected_t, 2 / rates[i]);
         assert_true(error_v <= 0.005 && error_w <= 0.005);
         assert_true(error[i] <= 0.01);
         plumb_world_destroy(w);

@@ -8,6 +8,7 @@
 
 #include <cmocka.h>
 
+#include "harness/near.h"
 #include "harness/sim.h"
 
 #define DT (1 / 60.0)
@@ -98,8 +99,8 @@ static void pendulum_keeps_period_and_amplitude(void **state)
                           kind == 0 ? "rod" : "hinge", amplitudes[k], measured, wanted,
                           100 * (measured / wanted - 1), kept * 180 / SIM_PI,
                           (double)plumb_joint_error(w, j));
-            assert_true(fabs(measured / wanted - 1) < (kind == 0 ? 0.002 : 1e-4));
-            assert_true(fabs(kept / a - 1) < (kind == 0 ? 0.006 : 4e-4));
+            assert_near(measured / wanted, 1, kind == 0 ? 0.002 : 1e-4);
+            assert_near(kept / a, 1, kind == 0 ? 0.006 : 4e-4);
             plumb_world_destroy(w);
         }
     }
@@ -122,7 +123,7 @@ static void rod_pulls_at_its_hinge(void **state)
     double wanted = 2.5 * kg * SIM_G;
     print_message("rod on a hinge: largest pull %.3f N, exact %.3f (%+.2f %%)\n", largest, wanted,
                   100 * (largest / wanted - 1));
-    assert_true(fabs(largest / wanted - 1) < 0.02);
+    assert_near(largest / wanted, 1, 0.02);
     plumb_world_destroy(w);
 }
 
@@ -205,9 +206,9 @@ static void reactions_at_rest_are_the_weight(void **state)
             "%-10s at rest: %.5f N, weight %.5f; torque %.5f N m, exact %.5f; error %.2g\n",
             plumb_joint_kind_name(d.kind), (double)f.y, 2 * SIM_G, torque, 2 * SIM_G * arm,
             (double)plumb_joint_error(w, j));
-        assert_true(fabs((double)f.y - 2 * SIM_G) < 0.02);
-        assert_true(fabs((double)f.x) < 0.01);
-        assert_true(fabs(torque - 2 * SIM_G * arm) < 0.02);
+        assert_near(f.y, 2 * SIM_G, 0.02);
+        assert_near(f.x, 0, ROUNDED(0.01));
+        assert_near(torque, 2 * SIM_G * arm, 0.02);
         assert_true((double)plumb_joint_error(w, j) < 0.001);
         plumb_world_destroy(w);
     }
@@ -247,8 +248,8 @@ static void springs_keep_time(void **state)
             "spring %g Hz, damping %g: period %.6f s, exact %.6f (%+.3f %%); energy %.4g of "
             "%.4g J, exact %.4g\n",
             hertz, zeta, period, exact, 100 * (period / exact - 1), energy, start, damped);
-        assert_true(fabs(period / exact - 1) < 0.01);
-        assert_true(fabs(energy - damped) < 0.05 * start);
+        assert_near(period / exact, 1, 0.01);
+        assert_near(energy, damped, 0.05 * start);
         plumb_world_destroy(w);
     }
     plumb_world *w = sim_world(&(plumb_world_desc){ 0 });
@@ -261,7 +262,7 @@ static void springs_keep_time(void **state)
     sim_run(w, 900, DT);
     double sag = value(w, j) - 2, wanted = SIM_G / (4 * SIM_PI * SIM_PI);
     print_message("spring under a weight: gives %.6f m, exact %.6f\n", sag, wanted);
-    assert_true(fabs(sag / wanted - 1) < 1e-3);
+    assert_near(sag / wanted, 1, 1e-3);
     plumb_world_destroy(w);
 }
 
@@ -286,7 +287,7 @@ static void rotary_spring_keeps_time(void **state)
     }
     double period = (at - first) / 9;
     print_message("rotary spring 2 Hz: period %.5f s\n", period);
-    assert_true(fabs(period / 0.5 - 1) < 0.01);
+    assert_near(period / 0.5, 1, 0.01);
     plumb_world_destroy(w);
 }
 
@@ -308,9 +309,9 @@ static void pulley_falls_as_atwood_says(void **state)
     double pull = (double)plumb_joint_force(w, j).y, tension = 2 * 3 * 1 * SIM_G / 4;
     print_message("pulley: %.5f m/s^2, exact %.5f; rope %.4f N, exact %.4f; length off by %.2g m\n",
                   accel, wanted, pull, tension, value(w, j));
-    assert_true(fabs(accel / wanted - 1) < 1e-3);
-    assert_true(fabs(pull / tension - 1) < 1e-3);
-    assert_true(fabs(value(w, j)) < 5e-4);
+    assert_near(accel / wanted, 1, ROUNDED(1e-3));
+    assert_near(pull / tension, 1, ROUNDED(1e-3));
+    assert_near(value(w, j), 0, 5e-4);
     plumb_world_destroy(w);
 }
 
@@ -327,10 +328,10 @@ static void gears_keep_their_ratio(void **state)
     sim_run(w, 1200, DT);
     print_message("gear 3:1 after 20 s: speeds %.5f and %.5f rad/s, off by %.2g rad\n", sim_w(w, a),
                   sim_w(w, b), value(w, gear));
-    assert_true(fabs(sim_w(w, a) + 3 * sim_w(w, b)) < 1e-3);
-    assert_true(fabs(value(w, gear)) < 1e-3);
+    assert_near(sim_w(w, a) + 3 * sim_w(w, b), 0, ROUNDED(1e-3));
+    assert_near(value(w, gear), 0, ROUNDED(1e-3));
     // w_a = 9 / (1 + I_b / (I_a n^2)), the energy that the jerk of engaging leaves.
-    assert_true(fabs(sim_w(w, a) - 9 / (1 + 2.0 / 9)) < 0.01);
+    assert_near(sim_w(w, a) - 9 / (1 + 2.0 / 9), 0, ROUNDED(0.01));
     plumb_world_destroy(w);
 
     w = sim_space();
@@ -345,8 +346,8 @@ static void gears_keep_their_ratio(void **state)
     sim_run(w, 300, DT);
     print_message("rack: %.5f rad/s, %.5f m/s, off by %.2g\n", sim_w(w, a), sim_vx(w, b),
                   value(w, gear));
-    assert_true(fabs(sim_w(w, a) - 2 * sim_vx(w, b)) < 1e-3);
-    assert_true(fabs(value(w, gear)) < 1e-3);
+    assert_near(sim_w(w, a), 2 * sim_vx(w, b), ROUNDED(1e-3));
+    assert_near(value(w, gear), 0, ROUNDED(1e-3));
     plumb_world_destroy(w);
 }
 
@@ -364,9 +365,9 @@ static void slider_on_an_incline(void **state)
     double push = hypot((double)plumb_joint_force(w, j).x, (double)plumb_joint_force(w, j).y);
     print_message("slider: %.5f m/s, exact %.5f; travel %.4f m; pushed by %.4f N, exact %.4f\n",
                   speed, wanted, value(w, j), push, SIM_G * cos(slope));
-    assert_true(fabs(speed / wanted - 1) < 1e-3);
-    assert_true(fabs(push / (SIM_G * cos(slope)) - 1) < 1e-3);
-    assert_true(fabs(value(w, j) / (wanted * t / 2) - 1) < 0.01);
+    assert_near(speed / wanted, 1, ROUNDED(1e-3));
+    assert_near(push / (SIM_G * cos(slope)), 1, ROUNDED(1e-3));
+    assert_near(value(w, j) / (wanted * t / 2), 1, 0.01);
     plumb_world_destroy(w);
 }
 
@@ -386,9 +387,9 @@ static void motor_gets_up_to_speed(void **state)
     sim_run(w, 120, DT);
     print_message("motor: %.5f rad/s after 1 s, exact 2, by %.4f N m; %.5f after 3 s, wanted 5\n",
                   half_way, torque, sim_w(w, b));
-    assert_true(fabs(half_way - 2) < 0.01);
-    assert_true(fabs(torque - 4) < 0.01);
-    assert_true(fabs(sim_w(w, b) - 5) < 1e-4);
+    assert_near(half_way, 2, ROUNDED(0.01));
+    assert_near(torque, 4, ROUNDED(0.01));
+    assert_near(sim_w(w, b), 5, ROUNDED(1e-4));
     plumb_world_destroy(w);
 }
 
@@ -418,7 +419,7 @@ static void limits_and_ropes_stop(void **state)
                   farthest);
     assert_true(longest < 2.01 && fabs(value(w, rope) - 2) < 1e-3);
     assert_true(farthest > -0.51 && fabs(value(w, door) + 0.5) < 1e-3);
-    assert_true(fabs((double)plumb_joint_force(w, rope).y - SIM_G) < 0.01);
+    assert_near((double)plumb_joint_force(w, rope).y, SIM_G, ROUNDED(0.01));
     plumb_world_destroy(w);
 }
 
@@ -438,7 +439,7 @@ static void ratchet_turns_one_way(void **state)
     sim_run(w, 120, DT);
     print_message("ratchet: forward to %.4f rad, back to %.4f, tooth at 3.5\n", forward,
                   value(w, j));
-    assert_true(fabs(forward - 3.5) < 0.01);
+    assert_near(forward, 3.5, ROUNDED(0.01));
     assert_true(fabs(remainder(value(w, j), 0.5)) < 1e-3 && value(w, j) > 2.99);
     plumb_world_destroy(w);
 }
@@ -455,8 +456,8 @@ static void friction_joint_brakes(void **state)
     sim_run(w, 60, DT);
     print_message("friction: %.5f m/s, exact 4; %.5f rad/s, exact 1\n",
                   hypot(sim_vx(w, b), sim_vy(w, b)), sim_w(w, b));
-    assert_true(fabs(hypot(sim_vx(w, b), sim_vy(w, b)) - 4) < 0.01);
-    assert_true(fabs(sim_w(w, b) - 1) < 0.01);
+    assert_near(hypot(sim_vx(w, b), sim_vy(w, b)), 4, ROUNDED(0.01));
+    assert_near(sim_w(w, b), 1, ROUNDED(0.01));
     plumb_world_destroy(w);
 }
 
@@ -473,8 +474,8 @@ static void wheel_rests_on_its_spring(void **state)
     double wanted = -SIM_G / pow(4 * SIM_PI, 2);
     print_message("wheel: gives %.6f m, exact %.6f; turns at %.6f rad/s\n", value(w, j), wanted,
                   sim_w(w, b));
-    assert_true(fabs(value(w, j) / wanted - 1) < 1e-3);
-    assert_true(fabs(sim_w(w, b) - 3) < 1e-4);
+    assert_near(value(w, j) / wanted, 1, ROUNDED(1e-3));
+    assert_near(sim_w(w, b), 3, ROUNDED(1e-4));
     plumb_world_destroy(w);
 }
 

@@ -7,6 +7,7 @@
 
 #include <cmocka.h>
 
+#include "harness/near.h"
 #include "harness/sim.h"
 
 #define HZ60 (1 / 60.0)
@@ -63,8 +64,8 @@ static void stack_of_different_times_rests(void **state)
             double force = sim_normal_force(w, i == 0 ? ground : box[i - 1], box[i], HZ60);
             worst = fmax(worst, fabs(force / ((4 - i) * SIM_G) - 1));
             assert_true(hypot(sim_vx(w, box[i]), sim_vy(w, box[i])) < 0.01);
-            assert_true(fabs(sim_x(w, box[i])) < 0.01);
-            assert_true(fabs(sim_y(w, box[i]) - (0.5 + i)) < 0.03);
+            assert_near(sim_x(w, box[i]), 0, 0.01);
+            assert_near(sim_y(w, box[i]) - (0.5 + i), 0, 0.03);
         }
         print_message("stack of times 0.5, 1, 0.25, 2: forces within %.2g\n", worst);
         assert_true(worst < 0.01);
@@ -101,7 +102,7 @@ static void slow_pendulum(void **state)
         double period = last / 2.25, want = 2 * SIM_PI / sqrt(SIM_G) / scales[k];
         print_message("pendulum at %.2f of the world's time: %.4f s, exactly %.4f s\n", scales[k],
                       period, want);
-        assert_true(fabs(period / want - 1) < 5e-3);
+        assert_near(period / want, 1, 5e-3);
         plumb_world_destroy(w);
     }
 }
@@ -125,7 +126,7 @@ static void a_frozen_stack_goes_on(void **state)
         plumb_body_set_time_scale(w, box[1], 0);
         sim_run(w, 120, HZ60);
         assert_true(sim_y(w, box[0]) == low);
-        assert_true(fabs(sim_y(w, box[3]) - top) < 0.01);
+        assert_near(sim_y(w, box[3]), top, 0.01);
         plumb_body_set_time_scale(w, box[0], 1);
         plumb_body_set_time_scale(w, box[1], 1);
         double fastest = 0;
@@ -136,7 +137,7 @@ static void a_frozen_stack_goes_on(void **state)
         print_message("stack thawed: fastest %.3g m/s, top off by %.2g m\n", fastest,
                       sim_y(w, box[3]) - top);
         assert_true(fastest < 0.1);
-        assert_true(fabs(sim_y(w, box[3]) - top) < 0.01);
+        assert_near(sim_y(w, box[3]), top, 0.01);
         plumb_world_destroy(w);
     }
 }
@@ -152,8 +153,8 @@ static void different_times_collide_elastically(void **state)
     sim_launch(w, a, 4, 0, 0);
     sim_run(w, 120, HZ60);
     // b counts four times its mass: V_a' = 4 (1 - 4) / (1 + 4), V_b' = 8 / 5, and v_b = V_b / s.
-    assert_float_equal((float)sim_vx(w, a), -2.4f, 1e-5f);
-    assert_float_equal((float)sim_vx(w, b), 3.2f, 1e-5f);
+    assert_near(sim_vx(w, a), -2.4, ROUNDED(1e-5));
+    assert_near(sim_vx(w, b), 3.2, ROUNDED(1e-5));
     plumb_world_destroy(w);
 }
 

@@ -72,7 +72,7 @@ static void is_on_surface(const plumb_convex *s, plumb_transform t, plumb_vec2 p
 {
     const plumb_convex dot = { .count = 1, .points = { point } };
     const core a = place(s, t), b = place(&dot, plumb_transform_identity());
-    NEAR(separation(&a, &b), 0, NEAR_ENOUGH);
+    assert_near(separation(&a, &b), 0, NEAR_ENOUGH);
 }
 
 static void distances_are_those_of_brute_force(void **state)
@@ -85,21 +85,22 @@ static void distances_are_those_of_brute_force(void **state)
         const core ca = place(&a, at_a), cb = place(&b, at_b);
         const plumb_convex_gap gap = plumb_convex_distance(&a, at_a, &b, at_b);
         const double d = (double)gap.distance, exact = separation(&ca, &cb);
-        NEAR(d, exact, NEAR_ENOUGH);
-        NEAR(beyond(&ca, &cb, (double)gap.normal.x, (double)gap.normal.y), exact, NEAR_ENOUGH);
-        NEAR((double)plumb_vec2_magnitude(gap.normal), 1, 1e-6);
+        assert_near(d, exact, NEAR_ENOUGH);
+        assert_near(beyond(&ca, &cb, (double)gap.normal.x, (double)gap.normal.y), exact,
+                    NEAR_ENOUGH);
+        assert_near((double)plumb_vec2_magnitude(gap.normal), 1, ROUNDED(1e-6));
         const plumb_vec2 other = plumb_vec2_add_scaled(gap.point_a, gap.distance, gap.normal);
-        NEAR((double)plumb_vec2_distance(other, gap.point_b), 0, NEAR_ENOUGH);
+        assert_near((double)plumb_vec2_distance(other, gap.point_b), 0, NEAR_ENOUGH);
         if (d > 0) { // inside one another, points that far apart need not lie on either surface
             is_on_surface(&a, at_a, gap.point_a);
             is_on_surface(&b, at_b, gap.point_b);
         }
         // The other way round, and pushed apart by so much they just touch.
         const plumb_convex_gap back = plumb_convex_distance(&b, at_b, &a, at_a);
-        NEAR((double)back.distance, exact, NEAR_ENOUGH);
+        assert_near(back.distance, exact, NEAR_ENOUGH);
         const plumb_transform parted = { plumb_vec2_add_scaled(at_b.p, -gap.distance, gap.normal),
                                          at_b.q };
-        NEAR((double)plumb_convex_distance(&a, at_a, &b, parted).distance, 0, NEAR_ENOUGH);
+        assert_near((double)plumb_convex_distance(&a, at_a, &b, parted).distance, 0, NEAR_ENOUGH);
         apart += d > 0;
         deep += d < -0.1;
     }
@@ -115,18 +116,18 @@ static void faces_meet_in_the_middle_of_what_they_share(void **state)
     const plumb_transform here = plumb_transform_identity();
     plumb_convex_gap gap =
         plumb_convex_distance(&box, here, &box, plumb_transform_make(plumb_v2(3, 1), 0));
-    NEAR((double)gap.distance, 1, 1e-6);
-    NEAR((double)gap.point_a.x, 1, 1e-6);
-    NEAR((double)gap.point_a.y, 0.5, 1e-6);
-    NEAR((double)gap.point_b.x, 2, 1e-6);
-    NEAR((double)gap.normal.x, 1, 1e-6);
+    assert_near(gap.distance, 1, ROUNDED(1e-6));
+    assert_near(gap.point_a.x, 1, ROUNDED(1e-6));
+    assert_near(gap.point_a.y, 0.5, ROUNDED(1e-6));
+    assert_near(gap.point_b.x, 2, ROUNDED(1e-6));
+    assert_near(gap.normal.x, 1, ROUNDED(1e-6));
     gap = plumb_convex_distance(&box, here, &disc, plumb_transform_make(plumb_v2(0, R(1.2)), 0));
-    NEAR((double)gap.distance, -0.3, 1e-6);
-    NEAR((double)gap.point_a.y, 1, 1e-6);
-    NEAR((double)gap.point_b.y, 0.7, 1e-6);
+    assert_near(gap.distance, -0.3, ROUNDED(1e-6));
+    assert_near(gap.point_a.y, 1, ROUNDED(1e-6));
+    assert_near(gap.point_b.y, 0.7, ROUNDED(1e-6));
     gap = plumb_convex_distance(&disc, here, &disc, here); // one in the other: some normal
-    NEAR((double)gap.distance, -1, 1e-6);
-    NEAR((double)plumb_vec2_magnitude(gap.normal), 1, 1e-6);
+    assert_near(gap.distance, -1, ROUNDED(1e-6));
+    assert_near((double)plumb_vec2_magnitude(gap.normal), 1, ROUNDED(1e-6));
 }
 
 static void casts_stop_where_shapes_touch(void **state)
@@ -153,8 +154,9 @@ static void casts_stop_where_shapes_touch(void **state)
             const double gap = separation(&ca, &moved);
             assert_true(gap > -slack);
             if (meets && k == 20) {
-                NEAR(gap, 0, slack);
-                NEAR(beyond(&ca, &moved, (double)hit.normal.x, (double)hit.normal.y), 0, slack);
+                assert_near(gap, 0, slack);
+                assert_near(beyond(&ca, &moved, (double)hit.normal.x, (double)hit.normal.y), 0,
+                            slack);
                 is_on_surface(&a, at_a, hit.point);
             }
         }
@@ -189,7 +191,7 @@ static void turning_shapes_stop_before_they_overlap(void **state)
             const double gap = (double)plumb_convex_distance(&a, ta, &b, tb).distance;
             assert_true(gap > -2e-5);
             if (meets && k == 64) {
-                NEAR(gap, 0, 1.2e-4);
+                assert_near(gap, 0, 1.2e-4);
                 is_on_surface(&a, ta, hit.point);
             }
         }

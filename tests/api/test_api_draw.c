@@ -132,7 +132,7 @@ static void shapes_are_where_they_are(void **state)
                 perimeter += (double)plumb_vec2_distance(corners[k], corners[(k + 1) % 5]);
             }
             assert_true(c->fill_count > 1);
-            assert_near(length, perimeter, 1e-3);
+            assert_near(length, perimeter, ROUNDED(1e-3));
         }
         plumb_world_destroy(w);
     }
@@ -142,7 +142,7 @@ static void shapes_are_where_they_are(void **state)
     const canvas *c = draw(w, (plumb_draw_desc){ 0 });
     assert_int_equal(c->fill_count, 0);
     assert_int_equal(c->line_count, 1);
-    assert_near(plumb_vec2_distance(c->lines[0].a, c->lines[0].b), 2, 1e-5);
+    assert_near(plumb_vec2_distance(c->lines[0].a, c->lines[0].b), 2, ROUNDED(1e-5));
     plumb_world_destroy(w);
 }
 
@@ -235,7 +235,7 @@ static void worlds_that_wrap_are_drawn_by_every_image(void **state)
     add(w, plumb_v2(R(9.8), 0), (plumb_shape_desc){ .kind = PLUMB_CIRCLE, .radius = 1 });
     const canvas *c = draw(w, (plumb_draw_desc){ .view = { { -10, -5 }, { 10, 5 } } });
     assert_int_equal(c->fill_count, 2); // at both edges
-    assert_near(fabs((double)(c->fills[0].a.x - c->fills[1].a.x)), 20, 1e-4);
+    assert_near(fabs((double)(c->fills[0].a.x - c->fills[1].a.x)), 20, ROUNDED(1e-4));
     c = draw(w, (plumb_draw_desc){ .view = { { -50, -5 }, { 50, 5 } } });
     assert_in_range(c->fill_count, 5, 6);
     c = draw(w, (plumb_draw_desc){ .view = { { R(105), -5 }, { R(114), 5 } } });
@@ -275,7 +275,7 @@ static void the_other_parts(void **state)
     const canvas *c = draw(w, (plumb_draw_desc){ .parts = PLUMB_DRAW_JOINTS });
     assert_int_equal(c->fill_count, 0);
     assert_int_equal(c->line_count, 1);
-    assert_vec_near(c->lines[0].a, 5, 6, 1e-3);
+    assert_vec_near(c->lines[0].a, 5, 6, ROUNDED(1e-3));
     assert_vec_near(c->lines[0].b, 5, 3, 1e-2);
     assert_int_equal(c->point_count, 2);
     c = draw(w, (plumb_draw_desc){ .parts = PLUMB_DRAW_CONTACTS });
@@ -327,7 +327,7 @@ static void a_loop_shows_bodies_between_steps(void **state)
     plumb_loop_frame(loop, 0.05);
     const uint64_t hash = plumb_world_hash(w);
     const canvas *c = draw(w, (plumb_draw_desc){ .loop = loop });
-    assert_near((c->fills[0].a.x + c->fills[0].b.x) / 2, 0.5, 0.01);
+    assert_near((c->fills[0].a.x + c->fills[0].b.x) / 2, 0.5, ROUNDED(0.01));
     assert_true(plumb_world_hash(w) == hash);
     plumb_loop_destroy(loop);
     plumb_world_destroy(w);

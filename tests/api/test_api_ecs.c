@@ -229,7 +229,7 @@ static void commands_are_carried_out_in_order(void **state)
     assert_true(plumb_body_valid(w, body));
     assert_vec_near(plumb_body_position(w, body), -1, -2, 0);
     assert_true(plumb_same(plumb_shape_body(w, shape), body));
-    assert_near(plumb_body_mass(w, body), 2, 1e-6);
+    assert_near(plumb_body_mass(w, body), 2, ROUNDED(1e-6));
     assert_true(*(float *)plumb_component_get(w, bare, f->health) == 3);
     assert_null(plumb_component_get(w, body.entity, f->health));
     assert_false(plumb_body_valid(w, f->kinematic));

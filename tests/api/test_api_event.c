@@ -66,8 +66,8 @@ static void a_touch_begins_once_and_ends_once(void **state)
     assert_true(pair_is(e->shape_a, e->shape_b, s.circle, s.floor));
     assert_true(pair_is(e->body_a, e->body_b, s.ball, s.ground));
     double up = plumb_same(e->body_b, s.ball) ? 1 : -1; // the normal points from A to B
-    assert_near(e->normal.y, up, 1e-6);
-    assert_near(e->point.y, 0, 0.1);
+    assert_near(e->normal.y, up, ROUNDED(1e-6));
+    assert_near(e->point.y, 0, ROUNDED(0.1));
     assert_near(e->approach_speed, sqrt(2 * 9.81), 0.4);
     for (int i = 0; i < 20; ++i) {
         plumb_world_step(s.world, DT);
@@ -100,14 +100,14 @@ static void contacts_of_a_resting_body_hold_its_weight(void **state)
     assert_true(pair_is(c.shape_a, c.shape_b, s.circle, s.floor));
     assert_true(pair_is(c.body_a, c.body_b, s.ball, s.ground));
     assert_int_equal(c.point_count, 1);
-    assert_near(c.friction, 0.6, 1e-6);
+    assert_near(c.friction, 0.6, ROUNDED(1e-6));
     assert_near(c.restitution, 0, 0);
-    assert_near(plumb_abs(c.normal.y), 1, 1e-6);
+    assert_near(plumb_abs(c.normal.y), 1, ROUNDED(1e-6));
     const plumb_contact_point *p = &c.points[0];
-    assert_near(p->point.x, 0, 1e-3);
+    assert_near(p->point.x, 0, ROUNDED(1e-3));
     // Midway between the surfaces: half of the separation above the floor.
-    assert_near(p->separation, plumb_body_position(s.world, s.ball).y - R(0.5), 1e-5);
-    assert_near(p->point.y, p->separation / 2, 1e-5);
+    assert_near(p->separation, plumb_body_position(s.world, s.ball).y - R(0.5), ROUNDED(1e-5));
+    assert_near(p->point.y, p->separation / 2, ROUNDED(1e-5));
     plumb_real weight = plumb_body_mass(s.world, s.ball) * R(9.81);
     int substeps = plumb_world_settings(s.world).substeps;
     assert_near(p->normal_impulse, weight * DT / (plumb_real)substeps, 1e-3 * weight * DT);
@@ -129,7 +129,7 @@ static void a_changed_material_holds_from_the_next_step(void **state)
     plumb_contact c;
     plumb_world_step(s.world, DT);
     assert_int_equal(plumb_world_contacts(s.world, &c, 1), 1);
-    assert_near(c.friction, 0.25, 1e-6);
+    assert_near(c.friction, 0.25, ROUNDED(1e-6));
     plumb_material rough = plumb_material_create(s.world, &(plumb_material_desc){ .friction = 1 });
     plumb_shape_set_material(s.world, s.circle, rough);
     plumb_world_step(s.world, DT);

@@ -18,11 +18,11 @@ static void angles(void **state)
     plumb_rot q;
     plumb_sincos(R(PI / 6), &q);
     assert_near(q.c, 0.8660254, 1e-6);
-    assert_near(q.s, 0.5, 1e-6);
-    assert_near(plumb_atan2(1, -1), 3 * PI / 4, 1e-6);
-    assert_near(plumb_atan2(-2, 0), -PI / 2, 1e-6);
-    assert_near(plumb_angle_wrap(R(3 * PI / 2)), -PI / 2, 1e-5);
-    assert_near(plumb_angle_wrap(R(-5)), -5 + 2 * PI, 1e-5);
+    assert_near(q.s, 0.5, ROUNDED(1e-6));
+    assert_near(plumb_atan2(1, -1), 3 * PI / 4, ROUNDED(1e-6));
+    assert_near(plumb_atan2(-2, 0), -PI / 2, ROUNDED(1e-6));
+    assert_near(plumb_angle_wrap(R(3 * PI / 2)), -PI / 2, ROUNDED(1e-5));
+    assert_near(plumb_angle_wrap(R(-5)), -5 + 2 * PI, ROUNDED(1e-5));
 }
 
 static void makers(void **state)
@@ -56,22 +56,22 @@ static void masses(void **state)
     (void)state;
     plumb_convex box = unit_box();
     plumb_mass_properties disc = plumb_circle_mass(plumb_v2(4, 0), 1, 2);
-    assert_near(disc.mass, 2 * PI, 1e-5);
-    assert_near(disc.inertia, PI, 1e-5);
+    assert_near(disc.mass, 2 * PI, ROUNDED(1e-5));
+    assert_near(disc.inertia, PI, ROUNDED(1e-5));
     plumb_mass_properties rod = plumb_capsule_mass(plumb_v2(-1, 0), plumb_v2(1, 0), 1, 1);
-    assert_near(rod.mass, 4 + PI, 1e-5);
-    assert_vec_near(rod.center, 0, 0, 1e-6);
+    assert_near(rod.mass, 4 + PI, ROUNDED(1e-5));
+    assert_vec_near(rod.center, 0, 0, ROUNDED(1e-6));
     plumb_mass_properties m = plumb_convex_mass(&box, 3);
-    assert_near(m.mass, 12, 1e-5);
+    assert_near(m.mass, 12, ROUNDED(1e-5));
     assert_near(m.inertia, 12 * 8.0 / 12, 1e-4); // m (w^2 + h^2) / 12
-    assert_near(plumb_mass_inertia_about(m, plumb_v2(0, 2)), 8 + 12 * 4, 1e-4);
+    assert_near(plumb_mass_inertia_about(m, plumb_v2(0, 2)), 8 + 12 * 4, ROUNDED(1e-4));
     plumb_mass_properties heavy = plumb_mass_with_total(m, 24);
-    assert_near(heavy.inertia, 16, 1e-4);
+    assert_near(heavy.inertia, 16, ROUNDED(1e-4));
     const plumb_mass_properties two[] = { { 1, { -1, 0 }, 0 }, { 3, { 1, 0 }, 0 } };
     plumb_mass_properties sum = plumb_mass_combine(two, 2);
-    assert_near(sum.mass, 4, 1e-6);
-    assert_vec_near(sum.center, 0.5, 0, 1e-6);
-    assert_near(sum.inertia, 1 * 2.25 + 3 * 0.25, 1e-5);
+    assert_near(sum.mass, 4, ROUNDED(1e-6));
+    assert_vec_near(sum.center, 0.5, 0, ROUNDED(1e-6));
+    assert_near(sum.inertia, 1 * 2.25 + 3 * 0.25, ROUNDED(1e-5));
 }
 
 static const plumb_vec2 ell[] = { { 0, 0 }, { 2, 0 }, { 2, 1 }, { 1, 1 }, { 1, 2 }, { 0, 2 } };
@@ -81,14 +81,14 @@ static void outlines(void **state)
 {
     (void)state;
     assert_int_equal(plumb_outline_check(ell, 6), PLUMB_OK);
-    assert_near(plumb_outline_area(ell, 6), 3, 1e-6);
+    assert_near(plumb_outline_area(ell, 6), 3, ROUNDED(1e-6));
     assert_false(plumb_outline_is_convex(ell, 6));
     assert_true(plumb_outline_is_convex(ell, 3));
     assert_true(plumb_outline_contains(ell, 6, plumb_v2(R(0.5), R(1.5))));
     assert_false(plumb_outline_contains(ell, 6, plumb_v2(R(1.5), R(1.5))));
     plumb_mass_properties m = plumb_outline_mass(ell, 6, 2);
-    assert_near(m.mass, 6, 1e-5);
-    assert_vec_near(m.center, 2.5 / 3, 2.5 / 3, 1e-5);
+    assert_near(m.mass, 6, ROUNDED(1e-5));
+    assert_vec_near(m.center, 2.5 / 3, 2.5 / 3, ROUNDED(1e-5));
     plumb_convex_piece pieces[4];
     int count = 0;
     assert_int_equal(plumb_outline_decompose(ell, 6, pieces, 4, &count), PLUMB_OK);
@@ -97,7 +97,7 @@ static void outlines(void **state)
     for (int i = 0; i < count; ++i) {
         area += (double)plumb_outline_area(pieces[i].vertices, pieces[i].count);
     }
-    assert_near(area, 3, 1e-6);
+    assert_near(area, 3, ROUNDED(1e-6));
 }
 
 static void questions(void **state)
@@ -105,20 +105,20 @@ static void questions(void **state)
     (void)state;
     plumb_convex box = unit_box();
     plumb_aabb around = plumb_convex_aabb(&box, (plumb_transform){ { 5, 0 }, { 1, 0 } });
-    assert_vec_near(around.min, 4, -1, 1e-6);
-    assert_vec_near(around.max, 6, 1, 1e-6);
+    assert_vec_near(around.min, 4, -1, ROUNDED(1e-6));
+    assert_vec_near(around.max, 6, 1, ROUNDED(1e-6));
     int far = plumb_convex_support_index(&box, plumb_v2(1, 2));
-    assert_vec_near(box.points[far], 1, 1, 1e-6);
-    assert_vec_near(plumb_convex_support(&box, plumb_v2(-1, 2)), -1, 1, 1e-6);
+    assert_vec_near(box.points[far], 1, 1, ROUNDED(1e-6));
+    assert_vec_near(plumb_convex_support(&box, plumb_v2(-1, 2)), -1, 1, ROUNDED(1e-6));
     assert_true(plumb_convex_contains(&box, plumb_v2(R(0.9), R(-0.9))));
     assert_false(plumb_convex_contains(&box, plumb_v2(R(1.1), 0)));
     plumb_convex_near near = plumb_convex_nearest(&box, plumb_v2(3, R(0.5)));
-    assert_near(near.distance, 2, 1e-6);
-    assert_vec_near(near.normal, 1, 0, 1e-6);
+    assert_near(near.distance, 2, ROUNDED(1e-6));
+    assert_vec_near(near.normal, 1, 0, ROUNDED(1e-6));
     plumb_convex_hit hit;
     assert_true(plumb_convex_ray(&box, plumb_v2(-5, 0), plumb_v2(8, 0), &hit));
-    assert_near(hit.fraction, 0.5, 1e-6);
-    assert_vec_near(hit.normal, -1, 0, 1e-6);
+    assert_near(hit.fraction, 0.5, ROUNDED(1e-6));
+    assert_vec_near(hit.normal, -1, 0, ROUNDED(1e-6));
     assert_false(plumb_convex_ray(&box, plumb_v2(-5, 2), plumb_v2(8, 0), &hit));
 }
 

@@ -60,11 +60,11 @@ static void getters_tell_what_was_set(void **state)
     plumb_joint j = make(f, PLUMB_DISTANCE);
     plumb_joint_desc d;
     assert_int_equal(plumb_joint_settings(w, j, &d), PLUMB_OK);
-    assert_near(d.length, 5, 1e-6);
-    assert_near(plumb_joint_value(w, j), 5, 1e-6);
-    assert_near(plumb_joint_error(w, j), 0, 1e-6);
-    assert_vec_near(plumb_joint_anchor_a(w, j), 0, 0, 1e-6);
-    assert_vec_near(plumb_joint_anchor_b(w, j), 0, 5, 1e-6);
+    assert_near(d.length, 5, ROUNDED(1e-6));
+    assert_near(plumb_joint_value(w, j), 5, ROUNDED(1e-6));
+    assert_near(plumb_joint_error(w, j), 0, ROUNDED(1e-6));
+    assert_vec_near(plumb_joint_anchor_a(w, j), 0, 0, ROUNDED(1e-6));
+    assert_vec_near(plumb_joint_anchor_b(w, j), 0, 5, ROUNDED(1e-6));
     assert_int_equal(plumb_joint_set_limit(w, j, true, 1, 7), PLUMB_OK);
     assert_int_equal(plumb_joint_set_spring(w, j, 2, R(0.5), 0), PLUMB_OK);
     assert_int_equal(plumb_joint_set_break(w, j, 100, 200), PLUMB_OK);
@@ -80,14 +80,14 @@ static void getters_tell_what_was_set(void **state)
     assert_int_equal(plumb_joint_settings(w, j, &d), PLUMB_OK);
     assert_true(d.enable_motor && d.motor_speed == 3 && d.max_motor == 4);
     plumb_body_teleport(w, f->dynamic, plumb_v2(0, 5), 1);
-    assert_near(plumb_joint_value(w, j), 1, 1e-6);
+    assert_near(plumb_joint_value(w, j), 1, ROUNDED(1e-6));
     assert_int_equal(plumb_joint_destroy(w, j), PLUMB_OK);
 
     j = make(f, PLUMB_MOUSE);
     assert_int_equal(plumb_joint_settings(w, j, &d), PLUMB_OK);
     assert_true(d.hertz == 5 && d.damping == 1);
     assert_int_equal(plumb_joint_set_target(w, j, plumb_v2(3, 4)), PLUMB_OK);
-    assert_vec_near(plumb_joint_anchor_a(w, j), 3, 4, 1e-6);
+    assert_vec_near(plumb_joint_anchor_a(w, j), 3, 4, ROUNDED(1e-6));
     assert_int_equal(plumb_joint_set_spring(w, j, 0, 0, 0), PLUMB_OK);
     assert_int_equal(plumb_joint_settings(w, j, &d), PLUMB_OK);
     assert_true(d.hertz == 5 && d.damping == 1);
@@ -95,7 +95,7 @@ static void getters_tell_what_was_set(void **state)
 
     j = make(f, PLUMB_MOTOR);
     assert_int_equal(plumb_joint_set_target(w, j, plumb_v2(1, 0)), PLUMB_OK);
-    assert_near(plumb_joint_error(w, j), 1, 1e-5);
+    assert_near(plumb_joint_error(w, j), 1, ROUNDED(1e-5));
     assert_int_equal(f->errors, 0);
 }
 
@@ -444,7 +444,7 @@ static void a_joint_that_is_off_does_nothing(void **state)
         plumb_world_step(w, R(0.01));
     }
     assert_near(plumb_body_position(w, f->dynamic).y, 5, 0.01);
-    assert_near(plumb_joint_force(w, j).y, 4 * 9.81, 0.1);
+    assert_near(plumb_joint_force(w, j).y, 4 * 9.81, ROUNDED(0.1));
     assert_int_equal(plumb_joint_set_enabled(w, j, false), PLUMB_OK);
     plumb_world_step(w, R(0.01));
     assert_vec_near(plumb_joint_force(w, j), 0, 0, 0);
@@ -540,14 +540,14 @@ static void memory_carries_a_joint_over(void **state)
     plumb_real value = plumb_joint_value(w, j);
     assert_int_equal(plumb_joint_destroy(w, j), PLUMB_OK);
     plumb_joint again = plumb_joint_create(w, &d);
-    assert_near(plumb_joint_value(w, again), 0, 1e-6);
+    assert_near(plumb_joint_value(w, again), 0, ROUNDED(1e-6));
     assert_int_equal(plumb_joint_set_memory(w, again, &m), PLUMB_OK);
     assert_true(plumb_joint_value(w, again) == value);
     plumb_joint_memory n;
     assert_int_equal(plumb_joint_get_memory(w, again, &n), PLUMB_OK);
     assert_memory_equal(&n, &m, sizeof m);
     assert_int_equal(plumb_world_step(w, R(1.0 / 60)), PLUMB_OK);
-    assert_near(plumb_joint_value(w, again), (double)value + 9.0 / 60, 1e-3);
+    assert_near(plumb_joint_value(w, again), (double)value + 9.0 / 60, ROUNDED(1e-3));
 }
 
 static void memory_refuses(void **state)

@@ -111,10 +111,10 @@ static void turns_and_travels_are_told_apart(void **state)
     plumb_body_set_velocity(f->world, f->dynamic, plumb_v2(0, 3));
     plumb_body_set_angular_velocity(f->world, f->dynamic, 7);
     plumb_body_set_angular_velocity(f->world, f->kinematic, 2);
-    assert_near(plumb_joint_turn_rate(f->world, wheel), 5, 1e-6);
+    assert_near(plumb_joint_turn_rate(f->world, wheel), 5, ROUNDED(1e-6));
     // Up with B's anchor, 10 m to the right of B's centre; A's own turn carries no point on its axis.
-    assert_near(plumb_joint_travel_rate(f->world, wheel), 3 + 7 * 10, 1e-4);
-    assert_near(plumb_joint_rate(f->world, wheel), 3 + 7 * 10, 1e-4);
+    assert_near(plumb_joint_travel_rate(f->world, wheel), 3 + 7 * 10, ROUNDED(1e-4));
+    assert_near(plumb_joint_rate(f->world, wheel), 3 + 7 * 10, ROUNDED(1e-4));
     for (int kind = 0; kind < KINDS; ++kind) {
         const bool turns = kind == PLUMB_REVOLUTE || kind == PLUMB_WELD || kind == PLUMB_WHEEL ||
                            kind == PLUMB_MOTOR || kind == PLUMB_FRICTION || kind == PLUMB_RATCHET;
@@ -123,7 +123,7 @@ static void turns_and_travels_are_told_apart(void **state)
         const plumb_joint j = make(f, (plumb_joint_kind)kind);
         const int errors = f->errors;
         const plumb_real turn = plumb_joint_turn_rate(f->world, j);
-        assert_near(turn, turns ? 5 : 0, 1e-6);
+        assert_near(turn, turns ? 5 : 0, ROUNDED(1e-6));
         assert_int_equal(f->errors, errors + !turns);
         plumb_joint_travel_rate(f->world, j);
         assert_int_equal(f->errors, errors + !turns + !travels);

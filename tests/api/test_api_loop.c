@@ -15,15 +15,15 @@ static void blends_go_the_shorter_way(void **state)
         const double t = sim_uniform(&seed, 0, 1);
         const plumb_rot from = plumb_rot_make(R(a)), to = plumb_rot_make(R(a + turn));
         const plumb_rot q = plumb_rot_blend(from, to, R(t));
-        assert_near(cos(a + t * turn), q.c, 3e-6);
-        assert_near(sin(a + t * turn), q.s, 3e-6);
+        assert_near(cos(a + t * turn), q.c, ROUNDED(3e-6));
+        assert_near(sin(a + t * turn), q.s, ROUNDED(3e-6));
     }
     const plumb_transform a = plumb_transform_make(plumb_v2(1, 2), 1);
     const plumb_transform b = plumb_transform_make(plumb_v2(3, -2), -1);
     const plumb_transform middle = plumb_transform_blend(a, b, R(0.5));
-    assert_vec_near(middle.p, 2, 0, 1e-6);
-    assert_near(plumb_rot_angle(middle.q), 0, 1e-6);
-    assert_near(plumb_rot_angle(plumb_transform_blend(a, b, 1).q), -1, 1e-6);
+    assert_vec_near(middle.p, 2, 0, ROUNDED(1e-6));
+    assert_near(plumb_rot_angle(middle.q), 0, ROUNDED(1e-6));
+    assert_near(plumb_rot_angle(plumb_transform_blend(a, b, 1).q), -1, ROUNDED(1e-6));
 }
 
 static plumb_loop *make_loop(plumb_world *w, plumb_loop_desc desc)
@@ -56,7 +56,7 @@ static void frames_make_steps(void **state)
     }
     assert_int_equal(plumb_loop_frame(loop, 0), 0);
     assert_int_equal(plumb_loop_frame(loop, 0.032), 3);
-    assert_near(plumb_loop_alpha(loop), 0.2, 1e-5);
+    assert_near(plumb_loop_alpha(loop), 0.2, ROUNDED(1e-5));
     assert_int_equal(plumb_loop_frame(loop, 1e300),
                      3); // what a breakpoint took is not caught up with
     assert_true(plumb_loop_alpha(loop) == 0);
@@ -82,12 +82,12 @@ static void bodies_are_shown_on_their_way(void **state)
         assert_int_equal(plumb_loop_step(loop), PLUMB_OK);
     }
     assert_int_equal(plumb_loop_frame(loop, 0.03125), 0);
-    assert_near(plumb_loop_alpha(loop), 0.25, 1e-6);
+    assert_near(plumb_loop_alpha(loop), 0.25, ROUNDED(1e-6));
     const double then = 6.25 * 0.125;
     const plumb_transform seen = plumb_loop_transform(loop, f->dynamic);
-    assert_vec_near(plumb_transform_apply(seen, plumb_v2(2, 0)), 2 + 8 * then, 5, 1e-4);
-    assert_near(cos(then * TAU), seen.q.c, 1e-4);
-    assert_near(sin(then * TAU), seen.q.s, 1e-4);
+    assert_vec_near(plumb_transform_apply(seen, plumb_v2(2, 0)), 2 + 8 * then, 5, ROUNDED(1e-4));
+    assert_near(cos(then * TAU), seen.q.c, ROUNDED(1e-4));
+    assert_near(sin(then * TAU), seen.q.s, ROUNDED(1e-4));
     const plumb_transform still = plumb_loop_transform(loop, f->fixed);
     assert_vec_near(still.p, 0, 0, 0);
     plumb_loop_destroy(loop);
@@ -109,15 +109,15 @@ static void nothing_smears(void **state)
         plumb_loop_step(loop);
     }
     plumb_loop_frame(loop, 0.03125); // half a step
-    assert_vec_near(shown(loop, f->dynamic), 1 - 0.125, 5, 1e-5);
+    assert_vec_near(shown(loop, f->dynamic), 1 - 0.125, 5, ROUNDED(1e-5));
     // Behind the step, before it, and by a command that the step carries out.
     plumb_body_teleport(w, f->dynamic, plumb_v2(-50, 5), 0);
     assert_vec_near(shown(loop, f->dynamic), -50, 5, 0);
     plumb_loop_step(loop);
-    assert_vec_near(shown(loop, f->dynamic), -50 + 0.125, 5, 1e-4);
+    assert_vec_near(shown(loop, f->dynamic), -50 + 0.125, 5, ROUNDED(1e-4));
     plumb_command_teleport(w, f->dynamic, plumb_v2(70, 5), 0);
     plumb_loop_step(loop);
-    assert_vec_near(shown(loop, f->dynamic), 70 + 0.125, 5, 1e-4);
+    assert_vec_near(shown(loop, f->dynamic), 70 + 0.125, 5, ROUNDED(1e-4));
     // Just made, and made in the slot of another.
     plumb_body fresh = plumb_body_create(w, &(plumb_body_desc){ .position = { 9, 9 } });
     assert_vec_near(shown(loop, fresh), 9, 9, 0);
@@ -145,7 +145,7 @@ static void sleepers_wake_smoothly(void **state)
     plumb_body_set_velocity(w, f->dynamic, plumb_v2(16, 0));
     plumb_loop_step(loop);
     plumb_loop_frame(loop, 0.03125);
-    assert_vec_near(shown(loop, f->dynamic), 0.5, 5, 1e-5);
+    assert_vec_near(shown(loop, f->dynamic), 0.5, 5, ROUNDED(1e-5));
     plumb_loop_destroy(loop);
 }
 
@@ -160,8 +160,8 @@ static void over_the_edge_it_is_the_shorter_way(void **state)
     plumb_loop *loop = make_loop(w, (plumb_loop_desc){ .dt = 0.0625 });
     plumb_loop_step(loop);
     plumb_loop_frame(loop, 0.03125 / 2); // a quarter
-    assert_vec_near(plumb_body_position(w, body), -9.5, 0, 1e-5);
-    assert_vec_near(shown(loop, body), -9.5 - 0.75, 0, 1e-5);
+    assert_vec_near(plumb_body_position(w, body), -9.5, 0, ROUNDED(1e-5));
+    assert_vec_near(shown(loop, body), -9.5 - 0.75, 0, ROUNDED(1e-5));
     plumb_loop_destroy(loop);
     plumb_world_destroy(w);
 }

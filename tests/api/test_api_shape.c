@@ -108,10 +108,10 @@ static void every_kind_has_its_pieces_mass_and_box(void **state)
         assert_int_equal(plumb_shape_piece(w, s, 0, &piece, NULL), PLUMB_OK);
         assert_int_equal(piece.count, e->corners);
         assert_near(piece.radius, e->desc.radius, 0);
-        assert_near(plumb_body_mass(w, b), e->mass > 0 ? e->mass : 1, 1e-5);
+        assert_near(plumb_body_mass(w, b), e->mass > 0 ? e->mass : 1, ROUNDED(1e-5));
         plumb_aabb box = plumb_shape_aabb(w, s);
-        assert_vec_near(box.min, 100 + e->box.min.x, 50 + e->box.min.y, 1e-4);
-        assert_vec_near(box.max, 100 + e->box.max.x, 50 + e->box.max.y, 1e-4);
+        assert_vec_near(box.min, 100 + e->box.min.x, 50 + e->box.min.y, ROUNDED(1e-4));
+        assert_vec_near(box.max, 100 + e->box.max.x, 50 + e->box.max.y, ROUNDED(1e-4));
         plumb_vec2 at = { 100, 50 };
         if (e->desc.kind != PLUMB_CHAIN) { // a slanted line contains what rounding lets it
             assert_true(plumb_shape_contains(w, s, plumb_vec2_add(at, e->inside)));
@@ -203,8 +203,9 @@ static void cuts_are_the_edges_that_are_not_of_the_outline(void **state)
             w, f->dynamic,
             &(plumb_shape_desc){ .kind = PLUMB_OUTLINE, .points = points, .count = count });
         assert_in_range(plumb_shape_piece_count(w, s), 2, count - 2);
-        assert_near(area_of_pieces(w, s), fabs((double)plumb_outline_area(points, count)), 1e-4);
-        assert_near(rim_of_pieces(w, s), rim, 1e-3);
+        assert_near(area_of_pieces(w, s), fabs((double)plumb_outline_area(points, count)),
+                    ROUNDED(1e-4));
+        assert_near(rim_of_pieces(w, s), rim, ROUNDED(1e-3));
     }
 }
 
@@ -259,7 +260,7 @@ static void shapes_carry_material_and_user_data(void **state)
             .kind = PLUMB_CIRCLE, .radius = 1, .material = f->wood, .user_data = &mine });
     assert_true(plumb_same(plumb_shape_material(w, s), f->wood));
     assert_ptr_equal(plumb_shape_user_data(w, s), &mine);
-    assert_near(plumb_body_mass(w, f->dynamic), 4 + 2 * PI, 1e-5);
+    assert_near(plumb_body_mass(w, f->dynamic), 4 + 2 * PI, ROUNDED(1e-5));
     assert_int_equal(plumb_shape_set_user_data(w, s, NULL), PLUMB_OK);
     assert_null(plumb_shape_user_data(w, s));
     const plumb_material none = PLUMB_NULL_INIT;
@@ -315,7 +316,7 @@ static void points_are_copied(void **state)
     memset(points, 0xff, sizeof points);
     plumb_convex piece;
     plumb_shape_piece(f->world, s, 0, &piece, NULL);
-    assert_near(plumb_outline_area(piece.points, 3), 0.5, 1e-6);
+    assert_near(plumb_outline_area(piece.points, 3), 0.5, ROUNDED(1e-6));
 }
 
 //---- materials -----------------------------------------------------------------------------------
@@ -328,7 +329,7 @@ static void materials_are_read_and_changed(void **state)
     const plumb_material none = PLUMB_NULL_INIT;
     assert_int_equal(plumb_material_get(w, none, &d), PLUMB_OK);
     assert_near(d.density, 1, 0);
-    assert_near(d.friction, 0.6, 1e-7);
+    assert_near(d.friction, 0.6, ROUNDED(1e-7));
     assert_near(d.restitution, 0, 0);
     assert_int_equal(plumb_material_get(w, f->wood, &d), PLUMB_OK);
     assert_near(d.density, 2, 0);

@@ -274,7 +274,7 @@ static void images_of_one_state_are_equal(void **state)
     assert_int_equal(plumb_snapshot_read_info(a.bytes, a.size, &info), PLUMB_OK);
     assert_int_equal(info.bytes, a.size);
     assert_int_equal(info.step_count, 25);
-    assert_near(info.time, 25.0 / 60, 1e-6);
+    assert_near(info.time, 25.0 / 60, ROUNDED(1e-6));
     assert_false(info.is_frame);
     assert_int_equal(info.base_id, 0);
     free(a.bytes);

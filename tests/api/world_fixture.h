@@ -3,6 +3,7 @@
 #ifndef WORLD_FIXTURE_H
 #define WORLD_FIXTURE_H
 
+#include "harness/near.h"
 #include "plumb/plumb.h"
 
 #include <math.h>
@@ -14,14 +15,6 @@
 #include <cmocka.h>
 
 #define R(x) ((plumb_real)(x))
-
-// Approximate equality, told in the failure as numbers.
-#define assert_near(a, b, tolerance) assert_float_equal((float)(a), (float)(b), (float)(tolerance))
-#define assert_vec_near(v, vx, vy, tolerance)                                                      \
-    do {                                                                                           \
-        assert_near((v).x, (vx), (tolerance));                                                     \
-        assert_near((v).y, (vy), (tolerance));                                                     \
-    } while (0)
 
 typedef struct fixture {
     plumb_world *world;

@@ -21,7 +21,7 @@ static void a_course(void **state)
         run(world, step_rates[k], 13);
         plumb_character_state s = state_of(world, hero);
         assert_true(s.on_ground && !s.at_wall);
-        NEAR(feet_of(world, hero), 3, 1e-5);
+        assert_near(feet_of(world, hero), 3, ROUNDED(1e-5));
         least = fmin(least, x_of(world, hero));
         most = fmax(most, x_of(world, hero));
         plumb_world_destroy(world);
@@ -40,24 +40,24 @@ static void jumps_are_exact(void **state)
         plumb_body hero = add_hero(world, -5, 0, NULL);
         plumb_character_walk(world, hero, 3);
         run(world, step_rates[k], 0.5);
-        NEAR(x_of(world, hero), -3.5, 1e-5);
+        assert_near(x_of(world, hero), -3.5, ROUNDED(1e-5));
         assert_true(plumb_character_jump(world, hero, 6));
         double landing = 2 * 6 / 9.81, highest = 0;
         int steps = (int)(landing * step_rates[k]);
         for (int i = 1; i <= steps; ++i) {
             double t = i / step_rates[k];
             run(world, step_rates[k], 1 / step_rates[k]);
-            NEAR(feet_of(world, hero), 6 * t - 9.81 / 2 * t * t, 5e-5);
-            NEAR(x_of(world, hero), -3.5 + 3 * t, 5e-5);
+            assert_near(feet_of(world, hero), 6 * t - 9.81 / 2 * t * t, ROUNDED(5e-5));
+            assert_near(x_of(world, hero), -3.5 + 3 * t, ROUNDED(5e-5));
             highest = fmax(highest, feet_of(world, hero));
             assert_false(state_of(world, hero).on_ground);
             assert_false(plumb_character_jump(world, hero, 6)); // not in the air
         }
-        NEAR(highest, 6 * 6 / (2 * 9.81), 9.81 / (8 * step_rates[k] * step_rates[k]) + 1e-4);
+        assert_near(highest, 6 * 6 / (2 * 9.81), 9.81 / (8 * step_rates[k] * step_rates[k]) + 1e-4);
         run(world, step_rates[k], 1.5 - steps / step_rates[k]);
         assert_true(state_of(world, hero).on_ground);
-        NEAR(x_of(world, hero), -3.5 + 4.5, 1e-4);
-        NEAR(feet_of(world, hero), 0, 1e-5);
+        assert_near(x_of(world, hero), -3.5 + 4.5, ROUNDED(1e-4));
+        assert_near(feet_of(world, hero), 0, ROUNDED(1e-5));
         plumb_world_destroy(world);
     }
 }
@@ -84,11 +84,11 @@ static void a_tour_of_jumps(void **state)
         run(world, step_rates[k], 1.5); // over the gap, x = 8
         assert_true(plumb_character_jump(world, hero, 7));
         run(world, step_rates[k], 1.5); // x = 14, up on the plank
-        NEAR(feet_of(world, hero), 1.6, 1e-4);
+        assert_near(feet_of(world, hero), 1.6, ROUNDED(1e-4));
         plumb_character_walk(world, hero, 1);
         assert_true(plumb_character_drop(world, hero));
         run(world, step_rates[k], 1.5);
-        NEAR(feet_of(world, hero), 0, 1e-4);
+        assert_near(feet_of(world, hero), 0, ROUNDED(1e-4));
         least = fmin(least, x_of(world, hero));
         most = fmax(most, x_of(world, hero));
         plumb_world_destroy(world);
@@ -111,13 +111,13 @@ static void slopes(void **state)
         run(world, 60, 0.5);
         plumb_vec2 p = plumb_body_position(world, hero);
         run(world, 60, 5); // it stands: not a micrometre downhill
-        NEAR(plumb_vec2_distance(p, plumb_body_position(world, hero)), 0, 1e-6);
+        assert_near(plumb_vec2_distance(p, plumb_body_position(world, hero)), 0, ROUNDED(1e-6));
         plumb_character_walk(world, hero, 3); // 3 m/s along the slope, up and down
         run(world, 60, 2);
-        NEAR(plumb_vec2_distance(p, plumb_body_position(world, hero)), 6, 1e-3);
+        assert_near(plumb_vec2_distance(p, plumb_body_position(world, hero)), 6, ROUNDED(1e-3));
         plumb_character_walk(world, hero, -3);
         run(world, 60, 2);
-        NEAR(plumb_vec2_distance(p, plumb_body_position(world, hero)), 0, 2e-3);
+        assert_near(plumb_vec2_distance(p, plumb_body_position(world, hero)), 0, ROUNDED(2e-3));
         assert_true(state_of(world, hero).on_ground);
         plumb_world_destroy(world);
     }
@@ -141,7 +141,8 @@ static void too_steep(void **state)
     double v0 = (double)plumb_vec2_magnitude(s.velocity);
     assert_true(!s.on_ground && s.on_slope);
     run(world, 240, 0.25);
-    NEAR(plumb_vec2_magnitude(state_of(world, hero).velocity) - R(v0), 9.81 * sin(a) * 0.25, 1e-2);
+    assert_near(plumb_vec2_magnitude(state_of(world, hero).velocity) - R(v0), 9.81 * sin(a) * 0.25,
+                ROUNDED(1e-2));
     plumb_world_destroy(world);
     for (int k = 0; k < STEP_RATES; ++k) {
         world = make_world();
@@ -203,7 +204,7 @@ static void internal_edges(void **state)
                 for (int i = 0; i < 400; ++i) {
                     double x = x_of(world, hero);
                     run(world, 60, 1.0 / 60);
-                    NEAR(x_of(world, hero) - x, side * 0.05, 1e-5);
+                    assert_near(x_of(world, hero) - x, side * 0.05, 1e-5);
                     assert_true(state_of(world, hero).on_ground);
                     assert_false(state_of(world, hero).at_wall);
                 }
@@ -247,8 +248,8 @@ static void edges(void **state)
     plumb_character_walk(world, hero, 4);
     run(world, 60, 0.5); // a quarter of a second past the edge
     double t = 0.25;
-    NEAR(x_of(world, hero), 1, 1e-4);
-    NEAR(feet_of(world, hero), -9.81 / 2 * t * t, 2e-3);
+    assert_near(x_of(world, hero), 1, 1e-4);
+    assert_near(feet_of(world, hero), -9.81 / 2 * t * t, 2e-3);
     plumb_world_destroy(world);
 }
 

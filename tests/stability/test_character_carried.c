@@ -17,12 +17,12 @@ static void moving_platforms(void **state)
             plumb_body_set_velocity(world, lift, V(5 * cos(3 * t), 3 * sin(2 * t)));
             run(world, step_rates[k], 1 / step_rates[k]);
             plumb_vec2 at = plumb_body_local_point(world, lift, plumb_body_position(world, hero));
-            NEAR(at.x, 0.5, 1e-4);
-            NEAR(at.y, 0.2 + STANDS + SKIN, 1e-4);
+            assert_near(at.x, 0.5, ROUNDED(1e-4));
+            assert_near(at.y, 0.2 + STANDS + SKIN, ROUNDED(1e-4));
         }
         plumb_character_state s = state_of(world, hero);
         assert_true(plumb_same(s.ground_body, lift));
-        NEAR(s.ground_velocity.x, plumb_body_velocity(world, lift).x, 1e-4);
+        assert_near(s.ground_velocity.x, plumb_body_velocity(world, lift).x, ROUNDED(1e-4));
         plumb_world_destroy(world);
     }
 }
@@ -44,9 +44,9 @@ static void turning_platforms(void **state)
         plumb_character_state s = state_of(world, hero);
         plumb_vec2 foot = plumb_body_local_point(world, plate, s.ground_point);
         // As the plate tilts, the place where a round foot touches it rolls to and fro by R sin a.
-        NEAR(foot.x, 2, (RADIUS + SKIN) * sin(0.31));
-        NEAR(foot.y, 0.2, 1e-4);
-        NEAR(s.ground_spin, 0.6 * cos(2 * (5 - 1 / step_rates[k])), 1e-3);
+        assert_near(foot.x, 2, (RADIUS + SKIN) * sin(0.31));
+        assert_near(foot.y, 0.2, ROUNDED(1e-4));
+        assert_near(s.ground_spin, 0.6 * cos(2 * (5 - 1 / step_rates[k])), ROUNDED(1e-3));
         plumb_world_destroy(world);
         // A gondola at the end of an arm that turns at 1 rad/s: round and round with it.
         world = make_world();
@@ -60,8 +60,8 @@ static void turning_platforms(void **state)
         foot = plumb_body_local_point(world, wheel, s.ground_point);
         assert_true(s.on_ground);
         // The foot itself does not turn: carried without slip, it goes round by w R / (R + r).
-        NEAR(atan2((double)s.ground_point.x, (double)s.ground_point.y),
-             0.4 * 4 / (4 + RADIUS + SKIN), 1e-3);
+        assert_near(atan2((double)s.ground_point.x, (double)s.ground_point.y),
+                    0.4 * 4 / (4 + RADIUS + SKIN), 1e-3);
         plumb_world_destroy(world);
     }
 }
@@ -79,12 +79,12 @@ static void off_a_platform(void **state)
         run(world, step_rates[k], 0.5);
         plumb_character_walk(world, hero, 1);
         run(world, step_rates[k], 0.5);
-        NEAR(x_of(world, hero), 2 + 0.5, 1e-4);
+        assert_near(x_of(world, hero), 2 + 0.5, ROUNDED(1e-4));
         assert_true(plumb_character_jump(world, hero, 5));
         double x = x_of(world, hero), y = y_of(world, hero);
         run(world, step_rates[k], 0.5);
-        NEAR(x_of(world, hero) - x, 1.5, 1e-4);
-        NEAR(y_of(world, hero) - y, 6 * 0.5 - 9.81 / 8, 1e-4);
+        assert_near(x_of(world, hero) - x, 1.5, ROUNDED(1e-4));
+        assert_near(y_of(world, hero) - y, 6 * 0.5 - 9.81 / 8, ROUNDED(1e-4));
         plumb_world_destroy(world);
     }
 }
@@ -119,10 +119,10 @@ static void one_way_from_below(void **state)
             for (int i = 1; i <= steps; ++i) {
                 double t = i / step_rates[k];
                 run(world, step_rates[k], 1 / step_rates[k]);
-                NEAR(feet_of(world, hero), v * t - 9.81 / 2 * t * t, 1e-4);
+                assert_near(feet_of(world, hero), v * t - 9.81 / 2 * t * t, ROUNDED(1e-4));
             }
             run(world, step_rates[k], 0.5);
-            NEAR(feet_of(world, hero), top > 1.5 ? 1.5 : 0, 1e-4);
+            assert_near(feet_of(world, hero), top > 1.5 ? 1.5 : 0, ROUNDED(1e-4));
             assert_true(state_of(world, hero).on_ground);
             plumb_world_destroy(world);
         }
@@ -141,16 +141,16 @@ static void one_way_carries_and_drops(void **state)
         plumb_body_set_velocity(world, plank, V(0.5, 0.5));
         run(world, step_rates[k], 1);
         plumb_vec2 at = plumb_body_local_point(world, plank, plumb_body_position(world, hero));
-        NEAR(at.y, STANDS + SKIN, 1e-4);
+        assert_near(at.y, STANDS + SKIN, ROUNDED(1e-4));
         assert_true(plumb_same(state_of(world, hero).ground_body, plank));
         assert_true(plumb_character_drop(world, hero));
         assert_false(plumb_character_drop(world, hero)); // in the air by now
         run(world, step_rates[k], 1.5);
         assert_true(plumb_same(state_of(world, hero).ground_body, other));
-        NEAR(feet_of(world, hero), 1, 1e-4);
+        assert_near(feet_of(world, hero), 1, ROUNDED(1e-4));
         assert_true(plumb_character_drop(world, hero));
         run(world, step_rates[k], 1.5);
-        NEAR(feet_of(world, hero), 0, 1e-4);
+        assert_near(feet_of(world, hero), 0, ROUNDED(1e-4));
         assert_false(plumb_character_drop(world, hero)); // the floor is solid
         plumb_world_destroy(world);
     }
@@ -166,8 +166,8 @@ static void one_way_from_the_side(void **state)
     plumb_body hero = add_hero(world, -4, 0, NULL);
     plumb_character_walk(world, hero, 3);
     run(world, 60, 3);
-    NEAR(x_of(world, hero), 5, 1e-3);
-    NEAR(feet_of(world, hero), 0, 1e-5);
+    assert_near(x_of(world, hero), 5, ROUNDED(1e-3));
+    assert_near(feet_of(world, hero), 0, ROUNDED(1e-5));
     plumb_world_destroy(world);
 }
 
@@ -192,8 +192,8 @@ static void pushes_crates(void **state)
         run(world, step_rates[k], 2);
         double x = x_of(world, crate);
         run(world, step_rates[k], 2);
-        NEAR(x_of(world, crate) - x, 4, 1e-3);
-        NEAR(x_of(world, crate) - x_of(world, hero), 0.5 + RADIUS, 0.08);
+        assert_near(x_of(world, crate) - x, 4, ROUNDED(1e-3));
+        assert_near(x_of(world, crate) - x_of(world, hero), 0.5 + RADIUS, 0.08);
         assert_true(state_of(world, hero).at_wall);
         plumb_world_destroy(world);
     }
@@ -210,7 +210,7 @@ static void is_pushed(void **state)
         plumb_body hero = add_hero(world, 0, 0, NULL);
         plumb_body_set_velocity(world, wall, V(3, 0));
         run(world, step_rates[k], 2);
-        NEAR(x_of(world, hero) - x_of(world, wall), 0.5 + RADIUS + SKIN, 1e-3);
+        assert_near(x_of(world, hero) - x_of(world, wall), 0.5 + RADIUS + SKIN, ROUNDED(1e-3));
         assert_true(state_of(world, hero).on_ground);
         assert_false(state_of(world, hero).crushed);
         add_box(world, PLUMB_STATIC, V(x_of(world, hero) + 2, 1.1), V(0.5, 1));
@@ -233,8 +233,8 @@ static void characters_meet(void **state)
     plumb_character_walk(world, a, 3);
     plumb_character_walk(world, b, -3);
     run(world, 60, 2);
-    NEAR(x_of(world, b) - x_of(world, a), 2 * RADIUS + SKIN, 0.02);
-    NEAR(x_of(world, a) + x_of(world, b), 0, 0.1);
+    assert_near(x_of(world, b) - x_of(world, a), 2 * RADIUS + SKIN, ROUNDED(0.02));
+    assert_near(x_of(world, a) + x_of(world, b), 0, 0.1);
     // One on the head of the other is carried along, whichever was made first.
     for (int first = 0; first < 2; ++first) {
         plumb_body low = first ? a : b, high = first ? b : a;
@@ -246,8 +246,8 @@ static void characters_meet(void **state)
         assert_true(plumb_same(state_of(world, high).ground_body, low));
         plumb_character_walk(world, low, 2);
         run(world, 60, 1);
-        NEAR(x_of(world, low), 7, 1e-3);
-        NEAR(x_of(world, high), 7, 1e-3);
+        assert_near(x_of(world, low), 7, ROUNDED(1e-3));
+        assert_near(x_of(world, high), 7, ROUNDED(1e-3));
     }
     plumb_world_destroy(world);
 }

@@ -19,14 +19,14 @@ static void walks_at_its_speed(void **state)
         run(world, rates[k], 1);
         plumb_character_walk(world, hero, 3);
         run(world, rates[k], 2); // 0.3 s to reach it: 0.45 m, then 1.7 s
-        NEAR(x_of(world, hero), 0.45 + 5.1, 0.06);
-        NEAR(state_of(world, hero).velocity.x, 3, 1e-3);
+        assert_near(x_of(world, hero), 0.45 + 5.1, 0.06);
+        assert_near(state_of(world, hero).velocity.x, 3, ROUNDED(1e-3));
         plumb_character_walk(world, hero, 0);
         run(world, rates[k], 1);
-        NEAR(state_of(world, hero).velocity.x, 0, 1e-3);
-        NEAR(x_of(world, hero), 0.45 + 5.1 + 0.45, 0.1);
+        assert_near(state_of(world, hero).velocity.x, 0, ROUNDED(1e-3));
+        assert_near(x_of(world, hero), 0.45 + 5.1 + 0.45, ROUNDED(0.1));
         assert_true(state_of(world, hero).on_ground);
-        NEAR(plumb_body_angle(world, hero), 0, 1e-6);
+        assert_near(plumb_body_angle(world, hero), 0, ROUNDED(1e-6));
         plumb_world_destroy(world);
     }
 }
@@ -42,17 +42,17 @@ static void slopes(void **state)
         run(world, rates[k], 2);
         plumb_vec2 p = plumb_body_position(world, hero);
         run(world, rates[k], 5); // it stands: creep below 0.1 mm/s
-        NEAR(plumb_vec2_distance(p, plumb_body_position(world, hero)), 0, 5e-4);
+        assert_near(plumb_vec2_distance(p, plumb_body_position(world, hero)), 0, ROUNDED(5e-4));
         plumb_character_walk(world, hero, 2);
         run(world, rates[k], 2);
-        NEAR(plumb_vec2_distance(p, plumb_body_position(world, hero)), 4, 0.1);
+        assert_near(plumb_vec2_distance(p, plumb_body_position(world, hero)), 4, 0.1);
         plumb_character_walk(world, hero, 0);
         run(world, rates[k], 0.5);
         plumb_character_set(world, hero, &(plumb_character_desc){ .max_slope = R(0.4) });
         p = plumb_body_position(world, hero);
         run(world, rates[k], 1);
         assert_true(state_of(world, hero).on_slope && !state_of(world, hero).on_ground);
-        NEAR(y_of(world, hero) - (double)p.y, -9.81 / 2 * 0.2647, 0.1); // g sin^2 a / 2 t^2
+        assert_near(y_of(world, hero) - (double)p.y, -9.81 / 2 * 0.2647, 0.1); // g sin^2 a / 2 t^2
         plumb_world_destroy(world);
     }
 }
@@ -72,8 +72,8 @@ static void jumps(void **state)
         for (int i = 1; i < (int)(rates[k]); ++i) {
             double t = i / rates[k];
             run(world, rates[k], 1 / rates[k]);
-            NEAR(y_of(world, hero) - y, 6 * t - 9.81 / 2 * t * t, 2e-3);
-            NEAR(x_of(world, hero) - x, 2 * t, 2e-3);
+            assert_near(y_of(world, hero) - y, 6 * t - 9.81 / 2 * t * t, ROUNDED(2e-3));
+            assert_near(x_of(world, hero) - x, 2 * t, ROUNDED(2e-3));
             assert_false(plumb_character_jump(world, hero, 6));
         }
         plumb_world_destroy(world);
@@ -90,8 +90,8 @@ static void in_the_air(void **state)
     plumb_character_walk(world, a, 3);
     plumb_character_walk(world, b, 3);
     run(world, 60, 1);
-    NEAR(x_of(world, a), 1, 1e-3);
-    NEAR(x_of(world, b), 5, 1e-6);
+    assert_near(x_of(world, a), 1, ROUNDED(1e-3));
+    assert_near(x_of(world, b), 5, ROUNDED(1e-6));
     assert_true(state_of(world, a).air_time > 0.99f);
     plumb_world_destroy(world);
 }
@@ -109,8 +109,8 @@ static void platforms(void **state)
             run(world, rates[k], 1 / rates[k]);
         }
         plumb_vec2 at = plumb_body_local_point(world, lift, plumb_body_position(world, hero));
-        NEAR(at.x, 0, 0.12); // it follows one step behind
-        NEAR(at.y, 0.2 + STANDS, 0.02);
+        assert_near(at.x, 0, 0.12); // it follows one step behind
+        assert_near(at.y, 0.2 + STANDS, 0.02);
         plumb_world_destroy(world);
     }
 }
@@ -136,8 +136,9 @@ static void action_and_reaction(void **state)
     run(world, 60, 1);
     double p = (double)(plumb_body_mass(world, hero) * plumb_body_velocity(world, hero).x +
                         plumb_body_mass(world, raft) * plumb_body_velocity(world, raft).x);
-    NEAR(p, 0, 1.5);
-    NEAR(plumb_body_velocity(world, hero).x - plumb_body_velocity(world, raft).x, 1.5, 0.02);
+    assert_near(p, 0, 1.5);
+    assert_near(plumb_body_velocity(world, hero).x - plumb_body_velocity(world, raft).x, 1.5,
+                ROUNDED(0.02));
     assert_true((double)plumb_body_velocity(world, raft).x < -0.1);
     plumb_world_destroy(world);
 }
@@ -153,17 +154,17 @@ static void drops_and_flies(void **state)
                            .kind = PLUMB_BOX, .half = { 2, R(0.1) }, .one_way = { { 0, 1 }, 0 } });
     plumb_body hero = add_walker(world, 0, 2.1, NULL);
     run(world, 60, 0.5);
-    NEAR(y_of(world, hero), 2.1 + STANDS, 2e-3);
+    assert_near(y_of(world, hero), 2.1 + STANDS, 2e-3);
     assert_true(plumb_character_drop(world, hero));
     run(world, 60, 1.5);
-    NEAR(y_of(world, hero), STANDS, 2e-3);
+    assert_near(y_of(world, hero), STANDS, 2e-3);
     assert_false(plumb_character_drop(world, hero));
     plumb_character_fly(world, hero, V(1, 2));
     run(world, 60, 2);
-    NEAR(x_of(world, hero), 2, 0.05);
-    NEAR(y_of(world, hero), STANDS + 4, 0.1);
+    assert_near(x_of(world, hero), 2, 0.05);
+    assert_near(y_of(world, hero), STANDS + 4, 0.1);
     plumb_character_set_velocity(world, hero, V(-3, 0));
-    NEAR(plumb_body_velocity(world, hero).x, -3, 1e-6);
+    assert_near(plumb_body_velocity(world, hero).x, -3, ROUNDED(1e-6));
     plumb_world_destroy(world);
 }
 

@@ -84,7 +84,7 @@ static int steps_in_the_air(const plumb_character_desc *desc)
         run(world, 60, 1.0 / 60);
         count += !state_of(world, hero).on_ground;
     }
-    NEAR(feet_of(world, hero), 0, 1e-4);
+    assert_near(feet_of(world, hero), 0, ROUNDED(1e-4));
     plumb_world_destroy(world);
     return count;
 }
@@ -113,8 +113,8 @@ static void skin(void **state)
         hero = add_hero(world, 0, 0.2, &desc);
         plumb_character_walk(world, hero, 2);
         run(world, 60, 2);
-        NEAR(y_of(world, hero) - STANDS, wanted, 1e-5);
-        NEAR(2 - RADIUS - x_of(world, hero), wanted, 1e-5);
+        assert_near(y_of(world, hero) - STANDS, wanted, ROUNDED(1e-5));
+        assert_near(2 - RADIUS - x_of(world, hero), wanted, ROUNDED(1e-5));
         plumb_world_destroy(world);
     }
 }
@@ -130,12 +130,12 @@ static void acceleration(void **state)
         run(world, step_rates[k], 0.5);
         plumb_character_walk(world, hero, 4);
         run(world, step_rates[k], 0.5);
-        NEAR(x_of(world, hero), 5 * 0.25 / 2, 1e-4);
+        assert_near(x_of(world, hero), 5 * 0.25 / 2, ROUNDED(1e-4));
         run(world, step_rates[k], 1);
-        NEAR(x_of(world, hero), 4 * 0.8 / 2 + 4 * 0.7, 1e-4);
+        assert_near(x_of(world, hero), 4 * 0.8 / 2 + 4 * 0.7, ROUNDED(1e-4));
         plumb_character_walk(world, hero, 0);
         run(world, step_rates[k], 1);
-        NEAR(x_of(world, hero), 4 * 0.8 / 2 + 4 * 0.7 + 4 * 0.8 / 2, 2e-4);
+        assert_near(x_of(world, hero), 4 * 0.8 / 2 + 4 * 0.7 + 4 * 0.8 / 2, ROUNDED(2e-4));
         plumb_world_destroy(world);
     }
 }
@@ -157,10 +157,12 @@ static double turned_jump(const plumb_character_desc *desc)
 static void in_the_air(void **state)
 {
     (void)state;
-    NEAR(turned_jump(NULL), -1.5, 1e-4);
-    NEAR(turned_jump(&(plumb_character_desc){ .air_acceleration = 4 }), 1.5 - 4 * 0.125, 1e-4);
-    NEAR(turned_jump(&(plumb_character_desc){ .acceleration = 8 }), 1.5 - 8 * 0.125, 1e-4);
-    NEAR(turned_jump(&(plumb_character_desc){ .no_air_control = true }), 1.5, 1e-4);
+    assert_near(turned_jump(NULL), -1.5, ROUNDED(1e-4));
+    assert_near(turned_jump(&(plumb_character_desc){ .air_acceleration = 4 }), 1.5 - 4 * 0.125,
+                ROUNDED(1e-4));
+    assert_near(turned_jump(&(plumb_character_desc){ .acceleration = 8 }), 1.5 - 8 * 0.125,
+                ROUNDED(1e-4));
+    assert_near(turned_jump(&(plumb_character_desc){ .no_air_control = true }), 1.5, ROUNDED(1e-4));
 }
 
 static void max_fall_speed(void **state)
@@ -172,8 +174,8 @@ static void max_fall_speed(void **state)
         plumb_body hero = add_hero(world, 0, 0, &desc);
         run(world, 60, 1);
         double v = 9.81, t = 2 / 9.81;
-        NEAR(state_of(world, hero).velocity.y, k ? -2 : -v, 1e-4);
-        NEAR(feet_of(world, hero), k ? -t * 2 / 2 - (1 - t) * 2 : -v / 2, 1e-4);
+        assert_near(state_of(world, hero).velocity.y, k ? -2 : -v, ROUNDED(1e-4));
+        assert_near(feet_of(world, hero), k ? -t * 2 / 2 - (1 - t) * 2 : -v / 2, ROUNDED(1e-4));
         plumb_world_destroy(world);
     }
 }
@@ -230,8 +232,8 @@ static void up(void **state)
     plumb_body hero = add_hero(world, 0, 0, &tilted);
     run(world, 60, 0.5);
     plumb_character_state s = state_of(world, hero);
-    NEAR(s.up.x, -0.6, 1e-6);
-    NEAR(s.up.y, 0.8, 1e-6);
+    assert_near(s.up.x, -0.6, ROUNDED(1e-6));
+    assert_near(s.up.y, 0.8, ROUNDED(1e-6));
     assert_true(s.on_ground); // the floor is a slope of 37 degrees to it
     assert_int_equal(
         plumb_character_set(
@@ -253,13 +255,13 @@ static void flying(void **state)
     double y = y_of(world, hero);
     plumb_character_fly(world, hero, V(0, 0));
     run(world, 60, 1); // no gravity
-    NEAR(y_of(world, hero), y, 1e-6);
+    assert_near(y_of(world, hero), y, ROUNDED(1e-6));
     plumb_character_fly(world, hero, V(0, 2));
     run(world, 60, 1);
-    NEAR(y_of(world, hero), y + 0.5 + 1, 1e-4);
+    assert_near(y_of(world, hero), y + 0.5 + 1, ROUNDED(1e-4));
     plumb_character_fly(world, hero, V(3, 2));
     run(world, 60, 4); // along the wall
-    NEAR(x_of(world, hero), 4 - RADIUS - SKIN, 1e-4);
+    assert_near(x_of(world, hero), 4 - RADIUS - SKIN, ROUNDED(1e-4));
     assert_true(y_of(world, hero) > y + 8 && state_of(world, hero).at_wall);
     assert_false(plumb_character_jump(world, hero, 3));
     plumb_character_walk(world, hero, 0);
@@ -277,14 +279,14 @@ static void thrown(void **state)
     run(world, 60, 0.2);
     assert_int_equal(plumb_character_set_velocity(world, hero, V(2, 4)), PLUMB_OK);
     run(world, 60, 0.5);
-    NEAR(x_of(world, hero), 1, 1e-4);
-    NEAR(feet_of(world, hero), 2 - 9.81 / 8, 1e-4);
+    assert_near(x_of(world, hero), 1, ROUNDED(1e-4));
+    assert_near(feet_of(world, hero), 2 - 9.81 / 8, ROUNDED(1e-4));
     run(world, 60, 1);
     plumb_character_set(world, hero, &(plumb_character_desc){ .acceleration = 2 });
     double x = x_of(world, hero);
     plumb_character_set_velocity(world, hero, V(2, -1)); // along the ground it slows down
     run(world, 60, 2);
-    NEAR(x_of(world, hero) - x, 1, 1e-3);
+    assert_near(x_of(world, hero) - x, 1, ROUNDED(1e-3));
     assert_true(state_of(world, hero).on_ground);
     plumb_world_destroy(world);
 }
@@ -305,14 +307,14 @@ static void hits(void **state)
         for (int k = 0; k < count; ++k) {
             if (plumb_same(list[k].body, floor)) {
                 assert_false(landed); // once, with the speed of a fall from 1 m
-                NEAR(list[k].speed, sqrt(2 * 9.81), 0.17);
-                NEAR(list[k].normal.y, 1, 1e-6);
-                NEAR(list[k].point.y, 0, 1e-5);
+                assert_near(list[k].speed, sqrt(2 * 9.81), 0.17);
+                assert_near(list[k].normal.y, 1, ROUNDED(1e-6));
+                assert_near(list[k].point.y, 0, ROUNDED(1e-5));
                 landed = true;
             } else {
                 assert_true(plumb_same(list[k].body, wall));
-                NEAR(list[k].normal.x, -1, 1e-6);
-                NEAR(list[k].point.x, 2, 1e-5);
+                assert_near(list[k].normal.x, -1, ROUNDED(1e-6));
+                assert_near(list[k].point.x, 2, ROUNDED(1e-5));
                 stopped = true;
             }
         }
@@ -332,7 +334,7 @@ static void air_time(void **state)
     assert_true(state_of(world, hero).air_time == 0);
     plumb_character_jump(world, hero, 5);
     run(world, 60, 0.5);
-    NEAR(state_of(world, hero).air_time, 0.5, 1e-5);
+    assert_near(state_of(world, hero).air_time, 0.5, ROUNDED(1e-5));
     run(world, 60, 1);
     assert_true(state_of(world, hero).air_time == 0);
     plumb_world_destroy(world);
@@ -353,7 +355,7 @@ static void filters_hold(void **state)
     assert_true(x_of(world, hero) < 1.3);
     plumb_shape_set_filter(world, shape, (plumb_filter){ .nothing = true });
     run(world, 60, 1);
-    NEAR(x_of(world, hero), 1.5 - RADIUS - SKIN + 3, 1e-3);
+    assert_near(x_of(world, hero), 1.5 - RADIUS - SKIN + 3, ROUNDED(1e-3));
     plumb_world_destroy(world);
 }
 

@@ -19,8 +19,8 @@ static void ceilings(void **state)
         at_ceiling |= state_of(world, hero).at_ceiling;
     }
     assert_true(at_ceiling);
-    NEAR(highest, 2.5 - 2 * STANDS - 2 * SKIN, 1e-3);
-    NEAR(feet_of(world, hero), 0, 1e-4);
+    assert_near(highest, 2.5 - 2 * STANDS - 2 * SKIN, ROUNDED(1e-3));
+    assert_near(feet_of(world, hero), 0, ROUNDED(1e-4));
     plumb_world_destroy(world);
 }
 
@@ -45,13 +45,13 @@ static void which_way_is_up(void **state)
         plumb_character_walk(world, hero, 3);
         run(world, 60, 1);
         plumb_vec2 p = plumb_body_position(world, hero);
-        NEAR(plumb_vec2_dot(p, right[k]), 3, 1e-4);
-        NEAR(plumb_vec2_dot(p, up[k]), STANDS + SKIN, 1e-4);
+        assert_near(plumb_vec2_dot(p, right[k]), 3, ROUNDED(1e-4));
+        assert_near(plumb_vec2_dot(p, up[k]), STANDS + SKIN, ROUNDED(1e-4));
         assert_true(plumb_character_jump(world, hero, 5));
         run(world, 60, 0.5);
         p = plumb_body_position(world, hero);
-        NEAR(plumb_vec2_dot(p, right[k]), 4.5, 1e-4);
-        NEAR(plumb_vec2_dot(p, up[k]) - R(STANDS + SKIN), 2.5 - 9.81 / 8, 1e-4);
+        assert_near(plumb_vec2_dot(p, right[k]), 4.5, ROUNDED(1e-4));
+        assert_near(plumb_vec2_dot(p, up[k]) - R(STANDS + SKIN), 2.5 - 9.81 / 8, ROUNDED(1e-4));
         plumb_world_destroy(world);
     }
 }
@@ -67,8 +67,8 @@ static void comes_out_of_what_it_was_put_in(void **state)
     run(world, 60, 0.05);
     assert_true(feet_of(world, hero) < -0.2); // not at once: no faster than contacts push
     run(world, 60, 0.5);
-    NEAR(feet_of(world, hero), 0, 1e-4);
-    NEAR(x_of(world, other), 2.5 - RADIUS - SKIN, 1e-4);
+    assert_near(feet_of(world, hero), 0, ROUNDED(1e-4));
+    assert_near(x_of(world, other), 2.5 - RADIUS - SKIN, ROUNDED(1e-4));
     plumb_world_destroy(world);
 }
 
@@ -84,8 +84,8 @@ static void is_a_body_to_others(void **state)
     plumb_body hero = add_hero(world, 0, 0, NULL);
     plumb_body crate = add_box(world, PLUMB_DYNAMIC, V(0, 3), V(0.3, 0.3));
     run(world, 60, 2);
-    NEAR(y_of(world, crate), 2 * STANDS + SKIN + 0.3, 0.01);
-    NEAR(feet_of(world, hero), 0, 1e-5);
+    assert_near(y_of(world, crate), 2 * STANDS + SKIN + 0.3, 0.01);
+    assert_near(feet_of(world, hero), 0, ROUNDED(1e-5));
     plumb_character_walk(world, hero, 3);
     int seen = 0;
     for (int i = 0; i < 90; ++i) {
@@ -111,12 +111,12 @@ static void ground_may_go(void **state)
     run(world, 60, 0.1);
     assert_false(state_of(world, hero).on_ground);
     run(world, 60, 1);
-    NEAR(feet_of(world, hero), 0, 1e-4);
+    assert_near(feet_of(world, hero), 0, ROUNDED(1e-4));
     plumb_shape shape;
     plumb_body_shapes(world, hero, &shape, 1);
     plumb_shape_destroy(world, shape); // nothing to stand with: it stays where it is
     run(world, 60, 1);
-    NEAR(feet_of(world, hero), 0, 1e-4);
+    assert_near(feet_of(world, hero), 0, ROUNDED(1e-4));
     assert_false(state_of(world, hero).on_ground);
     plumb_world_destroy(world);
 }
@@ -168,10 +168,10 @@ static void own_time(void **state)
     double x = x_of(world, slow);
     assert_true(plumb_character_jump(world, slow, 6));
     run(world, 60, 1);
-    NEAR(feet_of(world, slow), 6 * 0.5 - 9.81 / 8, 1e-4);
-    NEAR(x_of(world, slow) - x, 1, 1e-4);
-    NEAR(x_of(world, rider), 20.5, 1e-3);
-    NEAR(feet_of(world, rider), 1.5, 1e-3);
+    assert_near(feet_of(world, slow), 6 * 0.5 - 9.81 / 8, ROUNDED(1e-4));
+    assert_near(x_of(world, slow) - x, 1, ROUNDED(1e-4));
+    assert_near(x_of(world, rider), 20.5, ROUNDED(1e-3));
+    assert_near(feet_of(world, rider), 1.5, ROUNDED(1e-3));
     plumb_world_destroy(world);
 }
 
@@ -186,17 +186,17 @@ static void other_types(void **state)
     assert_int_equal(plumb_body_set_type(world, hero, PLUMB_DYNAMIC), PLUMB_OK);
     plumb_body_set_fixed_rotation(world, hero, true);
     run(world, 60, 1);
-    NEAR(x_of(world, hero), 3, 0.1);
+    assert_near(x_of(world, hero), 3, ROUNDED(0.1));
     plumb_body_set_type(world, hero, PLUMB_STATIC);
     run(world, 60, 0.5);
-    NEAR(x_of(world, hero), 3, 0.1);
+    assert_near(x_of(world, hero), 3, ROUNDED(0.1));
     plumb_body_set_type(world, hero, PLUMB_KINEMATIC);
     plumb_body_set_enabled(world, hero, false);
     run(world, 60, 0.5);
-    NEAR(x_of(world, hero), 3, 0.1);
+    assert_near(x_of(world, hero), 3, ROUNDED(0.1));
     plumb_body_set_enabled(world, hero, true);
     run(world, 60, 1);
-    NEAR(x_of(world, hero), 5, 0.1);
+    assert_near(x_of(world, hero), 5, ROUNDED(0.1));
     assert_true(state_of(world, hero).on_ground);
     plumb_world_destroy(world);
 }
@@ -216,10 +216,10 @@ static void far_from_the_origin(void **state)
         plumb_character_walk(world, hero, 3);
         run(world, 60, 4);
         end[k] = x_of(world, hero) - x0;
-        NEAR(feet_of(world, hero), 0, 1e-3);
+        assert_near(feet_of(world, hero), 0, ROUNDED(1e-3));
         plumb_world_destroy(world);
     }
-    NEAR(end[0], end[1], 0.02);
+    assert_near(end[0], end[1], ROUNDED(0.02));
     assert_true(end[0] > 11);
 }
 

@@ -9,6 +9,7 @@
 
 #include <cmocka.h>
 
+#include "harness/near.h"
 #include "internal_edges_ground.h"
 
 //---- what stands out ---------------------------------------------------------------------------------
@@ -194,7 +195,7 @@ static void every_tile_is_told(void **state)
             }
         }
         assert_true(count >= 2 && count <= 4);
-        assert_true(fabs(force / weight - 1) < 1e-3);
+        assert_near(force / weight, 1, ROUNDED(1e-3));
     }
     print_message("8 m: %d tiles begun, %d ended\n", begun, ended);
     assert_true(begun == 16 && ended == 16);

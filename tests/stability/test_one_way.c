@@ -11,6 +11,7 @@
 
 #include <cmocka.h>
 
+#include "harness/near.h"
 #include "plumb/plumb.h"
 
 #define R(x)    ((plumb_real)(x))
@@ -113,7 +114,7 @@ static void through_and_onto(void **state)
                     assert_free(world, body, 10, -3, i / 60.0);
                 }
                 run(world, 3);
-                assert_true(fabs(y_of(world, body) - 0.5) < 2e-3);
+                assert_near(y_of(world, body), 0.5, 2e-3);
                 plumb_world_destroy(world);
             }
         }
@@ -160,7 +161,7 @@ static void stacks_do_not_sink(void **state)
             plumb_vec2 a = plumb_body_position(worlds[0], boxes[0][i]);
             plumb_vec2 b = plumb_body_position(worlds[1], boxes[1][i]);
             assert_memory_equal(&a, &b, sizeof a);
-            assert_true(fabs((double)a.y - (0.5 + i)) < 0.15);
+            assert_near((double)a.y - (0.5 + i), 0, 0.15);
         }
         plumb_world_destroy(worlds[0]);
         plumb_world_destroy(worlds[1]);
@@ -202,8 +203,8 @@ static void fast_bodies(void **state)
             plumb_body up = add_ball(world, V(1.5, -20), V(0, 200));
             run(world, 0.5);
             double t = 0.5;
-            assert_true(fabs(y_of(world, down) - 0.5) < 0.02);
-            assert_true(fabs(y_of(world, up) - (-20 + 200 * t - 9.81 / 2 * t * t)) < 1e-3);
+            assert_near(y_of(world, down), 0.5, 0.02);
+            assert_near(y_of(world, up) - (-20 + 200 * t - 9.81 / 2 * t * t), 0, ROUNDED(1e-3));
             plumb_world_destroy(world);
         }
     }
@@ -223,7 +224,7 @@ static void moving_platforms(void **state)
             plumb_body_set_velocity(world, lift, V(velocities[k][0], velocities[k][1]));
             run(world, 3);
             plumb_vec2 at = plumb_body_local_point(world, lift, plumb_body_position(world, box));
-            assert_true(fabs((double)at.y - 0.5) < 5e-3);
+            assert_near(at.y, 0.5, 5e-3);
             assert_true(fabs((double)at.x) < 0.3); // it slides until it has the platform's speed
             plumb_world_destroy(world);
         }
@@ -233,10 +234,10 @@ static void moving_platforms(void **state)
         plumb_body box = add_box(world, V(0, 0.5), V(0, 0));
         plumb_body_set_velocity(world, press, V(0, -1));
         run(world, 1.2); // through the box, down to its lower half
-        assert_true(fabs(y_of(world, box) - 0.5) < 2e-3);
+        assert_near(y_of(world, box), 0.5, 2e-3);
         plumb_body_set_velocity(world, press, V(0, 1));
         run(world, 2); // and out of it again
-        assert_true(fabs(y_of(world, box) - 0.5) < 2e-3);
+        assert_near(y_of(world, box), 0.5, 2e-3);
         plumb_world_destroy(world);
     }
 }
@@ -252,7 +253,7 @@ static void turning_platforms(void **state)
         plumb_body_set_angular_velocity(world, plate, R(0.4 * cos(i / 60.0))); // 0.4 sin t
         plumb_world_step(world, DT);
         plumb_vec2 at = plumb_body_local_point(world, plate, plumb_body_position(world, box));
-        assert_true(fabs((double)at.y - 0.5) < 0.01);
+        assert_near(at.y, 0.5, 0.01);
     }
     plumb_world_destroy(world);
     for (int over = 0; over < 2; ++over) {
@@ -303,8 +304,8 @@ static void dropping_through(void **state)
             run(world, 1);
             assert_int_equal(plumb_body_drop_through(world, drops), PLUMB_OK);
             run(world, 3);
-            assert_true(fabs(y_of(world, stays) - 0.5) < 2e-3);
-            assert_true(fabs(y_of(world, drops) + 2.5) < 2e-3);
+            assert_near(y_of(world, stays), 0.5, 2e-3);
+            assert_near(y_of(world, drops) + 2.5, 0, 2e-3);
             assert_int_equal(plumb_body_drop_through(world, drops), PLUMB_OK);
             run(world, 2);
             assert_true(y_of(world, drops) < -5);
@@ -338,9 +339,9 @@ static void tiles_in_a_row(void **state)
                 plumb_body_set_fixed_rotation(world, body, !ball);
                 double seconds = fmin(50 / speed, 6);
                 run(world, seconds);
-                assert_true(fabs(y_of(world, body) - 0.5) < 5e-3);
+                assert_near(y_of(world, body), 0.5, 5e-3);
                 plumb_vec2 v = plumb_body_velocity(world, body);
-                assert_true(fabs((double)v.x - speed) < 0.01 * speed);
+                assert_near(v.x, speed, 0.01 * speed);
                 plumb_world_destroy(world);
             }
         }

@@ -9,6 +9,7 @@
 
 #include <cmocka.h>
 
+#include "harness/near.h"
 #include "harness/shots.h"
 #include "space.h"
 
@@ -440,7 +441,7 @@ static void spinning_beside_a_post_is_not_stopped(void **state)
             sim_step(w, HZ60);
             assert_int_equal(plumb_world_stats(w).stopped_count, 0);
         }
-        assert_true(fabs(sim_w(w, rod) - 1000) < 1e-3);
+        assert_near(sim_w(w, rod), 1000, ROUNDED(1e-3));
         plumb_world_destroy(w);
     }
 }

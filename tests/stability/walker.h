@@ -11,6 +11,7 @@
 
 #include <cmocka.h>
 
+#include "harness/near.h"
 #include "plumb/plumb.h"
 
 #define R(x)    ((plumb_real)(x))
@@ -110,14 +111,6 @@ static inline plumb_character_state state_of(plumb_world *world, plumb_body body
     assert_int_equal(plumb_character_get(world, body, &state), PLUMB_OK);
     return state;
 }
-
-static inline void near_at(double a, double b, double tolerance, const char *file, int line)
-{
-    if (!(fabs(a - b) <= tolerance)) {
-        fail_msg("%s:%d: %.9g is not %.9g within %g", file, line, a, b, tolerance);
-    }
-}
-#define NEAR(a, b, tolerance) near_at((double)(a), (double)(b), tolerance, __FILE__, __LINE__)
 
 // [1/s] steps of which a way must not depend
 static const double step_rates[] = { 30, 60, 144, 1000 };

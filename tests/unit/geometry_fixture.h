@@ -10,6 +10,7 @@
 
 #include <cmocka.h>
 
+#include "harness/near.h"
 #include "harness/random.h"
 #include "plumb/geometry.h"
 
@@ -18,15 +19,7 @@
 #define R(x)         PLUMB_REAL(x)
 #define COUNT(array) ((int)(sizeof(array) / sizeof *(array)))
 
-static inline void near_at(double a, double b, double tolerance, int line)
-{
-    double d = a - b;
-    if (!(d <= tolerance && -d <= tolerance)) {
-        fail_msg("line %d: %.17g is not %.17g within %g", line, a, b, tolerance);
-    }
-}
-#define NEAR(a, b, tolerance) near_at((double)(a), (double)(b), tolerance, __LINE__)
-#define SAYS(call, code)      assert_int_equal(call, PLUMB_##code)
+#define SAYS(call, code) assert_int_equal(call, PLUMB_##code)
 
 static uint32_t random_state;
 

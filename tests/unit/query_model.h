@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <cmocka.h>
+#include "harness/near.h"
 #include "plumb/plumb.h"
 #include "query/overlap.h"
 #include "query/query.h"
@@ -18,15 +19,6 @@
 #define MOST    400
 #define R(x)    ((plumb_real)(x))
 #define V(x, y) plumb_v2(R(x), R(y))
-
-static inline void near_at(double a, double b, double tolerance, int line)
-{
-    if (!(fabs(a - b) <= tolerance)) {
-        fail_msg("line %d: %.17g is not %.17g within %g", line, a, b, tolerance);
-    }
-}
-
-#define NEAR(a, b, tolerance) near_at((double)(a), (double)(b), tolerance, __LINE__)
 
 //---- worlds --------------------------------------------------------------------------------------
 static inline plumb_shape add_shape(plumb_world *world, plumb_body body, int kind, double size)

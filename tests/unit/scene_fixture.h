@@ -13,11 +13,8 @@
 #include <string.h>
 #include <cmocka.h>
 
+#include "harness/near.h"
 #include "scene/scene.h"
-
-// cmocka's assert_float_equal rounds to float and lets NaN pass.
-#define assert_near(value, expected, tolerance)                                                    \
-    assert_true(fabs((double)(value) - (double)(expected)) <= (double)(tolerance))
 
 static inline scene *load_as(const char *file, const char *text, size_t size, const char *set)
 {

@@ -11,6 +11,7 @@
 
 #include <cmocka.h>
 
+#include "harness/near.h"
 #include "harness/random.h"
 #include "plumb/plumb.h"
 #include "query/sweep.h"
@@ -139,7 +140,7 @@ static void test_sum_against_sampling(void **state)
             ++misses;
             continue;
         }
-        assert_true(fabs(hypot(hit.nx, hit.ny) - 1) < 1e-12);
+        assert_near(hypot(hit.nx, hit.ny), 1, 1e-12);
         assert_true(overlap_at(&fixed, &mover, 0, 0) == (hit.depth > 0));
         if (hit.depth > 0) {
             assert_true(hit.fraction == 0);
@@ -221,7 +222,7 @@ static void test_no_way(void **state)
     pl_sum_make(&fixed, &away, &sum);
     assert_false(pl_sum_cast(&sum, 0, 0, 0, 0, 1e-9, &hit));
     assert_true(pl_sum_cast(&sum, 0, 0, -1e12, 0, 1e-9, &hit));
-    assert_true(fabs(hit.fraction * 1e12 - 3) < 1e-3);
+    assert_near(hit.fraction * 1e12, 3, ROUNDED(1e-3));
 }
 
 // Points, lines and coincident cores have sums without area.
@@ -332,7 +333,7 @@ static int check_cast(plumb_world *world, const plumb_cast *cast, double toleran
         const plumb_cast_hit *e = find_hit(expected, expected_count, hits[i].shape);
         assert_non_null(e);
         assert_true(fabs((double)(e->fraction - hits[i].fraction)) * length <= tolerance);
-        assert_true(fabs((double)(e->depth - hits[i].depth)) <= tolerance);
+        assert_near((double)(e->depth - hits[i].depth), 0, tolerance);
         assert_true(plumb_same(e->body, hits[i].body));
         assert_true(i == 0 || hits[i - 1].fraction <= hits[i].fraction);
     }
@@ -347,7 +348,7 @@ static int check_cast(plumb_world *world, const plumb_cast *cast, double toleran
         const plumb_cast_hit *same = find_hit(hits, count, first.shape);
         assert_non_null(same);
         assert_true(first.depth >= hits[0].depth);
-        assert_true(fabs((double)plumb_vec2_magnitude(first.normal) - 1) < 1e-6);
+        assert_near((double)plumb_vec2_magnitude(first.normal), 1, ROUNDED(1e-6));
         double reach = fabs((double)cast->transform.p.x) + fabs((double)cast->transform.p.y) + 10;
         plumb_nearest_hit near; // the point lies on what was hit
         assert_true(plumb_world_nearest(world, first.point, 1, NULL, &near));

@@ -13,6 +13,7 @@
 
 #include <cmocka.h>
 
+#include "harness/near.h"
 #include "harness/random.h"
 #include "plumb/geometry.h"
 
@@ -424,8 +425,8 @@ static void pieces_become_shapes(void **state)
     }
     plumb_mass_properties got = plumb_mass_combine(parts, count);
     plumb_mass_properties want = plumb_outline_mass(o.points, o.count, 600);
-    assert_true(fabs((double)(got.mass - want.mass)) <= 1e-6 * (double)want.mass);
-    assert_true(fabs((double)(got.inertia - want.inertia)) <= 1e-6 * (double)want.inertia);
+    assert_near((double)(got.mass - want.mass), 0, 1e-6 * (double)want.mass);
+    assert_near((double)(got.inertia - want.inertia), 0, 1e-6 * (double)want.inertia);
     assert_true(plumb_vec2_distance(got.center, want.center) <= R(1e-6));
 }
 

@@ -87,7 +87,7 @@ static void hulls_drop_duplicates_and_points_in_line(void **state)
     int n;
     SAYS(plumb_hull(cloud, COUNT(cloud), hull, 16, &n), OK);
     assert_int_equal(n, 4);
-    NEAR(plumb_outline_area(hull, n), 1, 1e-5);
+    assert_near(plumb_outline_area(hull, n), 1, ROUNDED(1e-5));
     assert_true(hull[0].x == 0 && hull[0].y == 0 && hull[1].x == 1 && hull[1].y == 0);
     // Next to a corner, and out of an edge by less than the coordinates' rounding.
     plumb_vec2 noisy[] = { { 0, 0 }, { R(0.5), R(-2 * EPS) },
@@ -145,8 +145,8 @@ static void makers_give_outward_unit_normals(void **state)
         plumb_convex s = random_shape(trial);
         for (int i = 0; s.count > 1 && i < s.count; i++) {
             plumb_vec2 edge = plumb_vec2_sub(s.points[(i + 1) % s.count], s.points[i]);
-            NEAR(plumb_vec2_magnitude(s.normals[i]), 1, 4 * EPS);
-            NEAR(plumb_vec2_dot(s.normals[i], plumb_vec2_unit(edge)), 0, 1e3 * EPS);
+            assert_near(plumb_vec2_magnitude(s.normals[i]), 1, 4 * EPS);
+            assert_near(plumb_vec2_dot(s.normals[i], plumb_vec2_unit(edge)), 0, 1e3 * EPS);
             assert_true(plumb_vec2_cross(s.normals[i], edge) > 0); // outward is to the right
         }
         for (int i = s.count; i < PLUMB_POLYGON_MAX_VERTICES; i++) {
@@ -156,10 +156,10 @@ static void makers_give_outward_unit_normals(void **state)
     plumb_convex box;
     SAYS(plumb_convex_box(plumb_v2(2, 1), plumb_v2(5, 6), R(PI / 2), R(0.1), &box), OK);
     assert_int_equal(box.count, 4);
-    NEAR(box.points[0].x, 6, 1e-6); // the corner (-2, -1), turned left
-    NEAR(box.points[0].y, 4, 1e-6);
-    NEAR(box.normals[0].x, 1, 1e-6);
-    NEAR(box.radius, 0.1, 1e-6);
+    assert_near(box.points[0].x, 6, 1e-6); // the corner (-2, -1), turned left
+    assert_near(box.points[0].y, 4, ROUNDED(1e-6));
+    assert_near(box.normals[0].x, 1, ROUNDED(1e-6));
+    assert_near(box.radius, 0.1, ROUNDED(1e-6));
 }
 
 static void outlines_are_checked(void **state)
@@ -197,10 +197,10 @@ static void outlines_are_checked(void **state)
     assert_false(plumb_outline_is_convex(dart, 4) || plumb_outline_is_convex(bow_tie, 4));
     assert_false(plumb_outline_is_convex(star, 5) || plumb_outline_is_convex(line, 3));
     assert_false(plumb_outline_is_convex(spike, 5) || plumb_outline_is_convex(square, 2));
-    NEAR(plumb_outline_area(square, 4), 1, 0);
-    NEAR(plumb_outline_area(clockwise, 4), -1, 0);
-    NEAR(plumb_outline_area(dart, 4), 1.5, 0);
-    NEAR(plumb_outline_area(line, 3), 0, 0);
+    assert_near(plumb_outline_area(square, 4), 1, 0);
+    assert_near(plumb_outline_area(clockwise, 4), -1, 0);
+    assert_near(plumb_outline_area(dart, 4), 1.5, 0);
+    assert_near(plumb_outline_area(line, 3), 0, 0);
     assert_true(plumb_outline_contains(dart, 4, plumb_v2(1, 1)));
     assert_false(plumb_outline_contains(dart, 4, plumb_v2(R(0.2), 1)));
 }
@@ -230,14 +230,14 @@ static void boxes_and_supports_touch_the_shape(void **state)
         plumb_transform t = plumb_transform_make(random_point(5), R(uniform(-3, 3)));
         plumb_convex_transform(&s, t, &moved);
         plumb_aabb box = plumb_convex_aabb(&s, t);
-        NEAR(plumb_convex_support(&moved, plumb_v2(1, 0)).x, box.max.x, 40 * EPS);
-        NEAR(plumb_convex_support(&moved, plumb_v2(-3, 0)).x, box.min.x, 40 * EPS);
-        NEAR(plumb_convex_support(&moved, plumb_v2(0, 2)).y, box.max.y, 40 * EPS);
-        NEAR(plumb_convex_support(&moved, plumb_v2(0, -1)).y, box.min.y, 40 * EPS);
+        assert_near(plumb_convex_support(&moved, plumb_v2(1, 0)).x, box.max.x, 40 * EPS);
+        assert_near(plumb_convex_support(&moved, plumb_v2(-3, 0)).x, box.min.x, 40 * EPS);
+        assert_near(plumb_convex_support(&moved, plumb_v2(0, 2)).y, box.max.y, 40 * EPS);
+        assert_near(plumb_convex_support(&moved, plumb_v2(0, -1)).y, box.min.y, 40 * EPS);
         plumb_vec2 d = random_point(1);
         plumb_vec2 far = plumb_convex_support(&s, d);
         int index = plumb_convex_support_index(&s, d);
-        NEAR(plumb_convex_nearest(&s, far).distance, 0, 100 * EPS);
+        assert_near(plumb_convex_nearest(&s, far).distance, 0, 100 * EPS);
         for (int i = 0; i < s.count; i++) {
             assert_true(plumb_vec2_dot(s.points[i], d) <= plumb_vec2_dot(s.points[index], d));
         }
@@ -267,30 +267,30 @@ static void nearest_points_match_brute_force(void **state)
         plumb_convex s = random_shape(trial);
         plumb_vec2 p = random_point(3);
         plumb_convex_near near = plumb_convex_nearest(&s, p);
-        NEAR(near.distance, brute_distance(&s, p), 2e-4);
-        NEAR(plumb_vec2_magnitude(near.normal), 1, 8 * EPS);
+        assert_near(near.distance, brute_distance(&s, p), 2e-4);
+        assert_near(plumb_vec2_magnitude(near.normal), 1, 8 * EPS);
         plumb_vec2 again = plumb_vec2_add_scaled(near.point, near.distance, near.normal);
-        NEAR(again.x, p.x, 40 * EPS);
-        NEAR(again.y, p.y, 40 * EPS);
-        NEAR(plumb_convex_nearest(&s, near.point).distance, 0, 40 * EPS);
+        assert_near(again.x, p.x, 40 * EPS);
+        assert_near(again.y, p.y, 40 * EPS);
+        assert_near(plumb_convex_nearest(&s, near.point).distance, 0, 40 * EPS);
         assert_int_equal(plumb_convex_contains(&s, p), near.distance <= 0);
     }
     plumb_convex c, seg;
     SAYS(plumb_convex_circle(plumb_v2(1, 2), 3, &c), OK);
     plumb_convex_near near = plumb_convex_nearest(&c, plumb_v2(1, 2));
-    NEAR(near.distance, -3, 0);
-    NEAR(near.normal.x, 1, 0);
-    NEAR(near.point.x, 4, 0);
+    assert_near(near.distance, -3, 0);
+    assert_near(near.normal.x, 1, 0);
+    assert_near(near.point.x, 4, 0);
     SAYS(plumb_convex_segment(plumb_v2(0, 0), plumb_v2(2, 0), &seg), OK);
     near = plumb_convex_nearest(&seg, plumb_v2(1, 0)); // on it
-    NEAR(near.distance, 0, 0);
-    NEAR(plumb_abs(near.normal.y), 1, 0);
+    assert_near(near.distance, 0, 0);
+    assert_near(plumb_abs(near.normal.y), 1, 0);
     near = plumb_convex_nearest(&seg, plumb_v2(5, 0)); // in line with it
-    NEAR(near.distance, 3, 0);
-    NEAR(near.normal.x, 1, 0);
+    assert_near(near.distance, 3, 0);
+    assert_near(near.normal.x, 1, 0);
     near = plumb_convex_nearest(&seg, plumb_v2(2, 0)); // its very end
-    NEAR(near.distance, 0, 0);
-    NEAR(plumb_vec2_magnitude(near.normal), 1, 0);
+    assert_near(near.distance, 0, 0);
+    assert_near(plumb_vec2_magnitude(near.normal), 1, 0);
 }
 
 static void rays_stop_at_the_surface(void **state)
@@ -319,8 +319,8 @@ static void rays_stop_at_the_surface(void **state)
             continue;
         }
         plumb_convex_near near = plumb_convex_nearest(&s, hit.point);
-        NEAR(near.distance, 0, 300 * EPS);
-        NEAR(plumb_vec2_magnitude(hit.normal), 1, 20 * EPS);
+        assert_near(near.distance, 0, 300 * EPS);
+        assert_near(plumb_vec2_magnitude(hit.normal), 1, 20 * EPS);
         assert_true(plumb_vec2_dot(hit.normal, d) <= 0);
     }
     print_message("%d rays of 4000 hit\n", hits);
@@ -337,8 +337,8 @@ static void rays_meet_known_places(void **state)
     SAYS(plumb_convex_box(plumb_v2(1, 1), plumb_v2(0, 0), 0, 0, &box), OK);
     SAYS(plumb_convex_box(plumb_v2(1, 1), plumb_v2(0, 0), 0, R(0.5), &round_box), OK);
     assert_true(plumb_convex_ray(&c, plumb_v2(-3, 0), plumb_v2(4, 0), &hit));
-    NEAR(hit.fraction, 0.5, EPS);
-    NEAR(hit.normal.x, -1, EPS);
+    assert_near(hit.fraction, 0.5, EPS);
+    assert_near(hit.normal.x, -1, EPS);
     hit.fraction = -1;
     assert_false(plumb_convex_ray(&c, plumb_v2(-3, 0), plumb_v2(R(1.9), 0), &hit)); // too short
     assert_false(plumb_convex_ray(&c, plumb_v2(-3, 0), plumb_v2(-4, 0), &hit));     // away
@@ -347,25 +347,25 @@ static void rays_meet_known_places(void **state)
     assert_true(hit.fraction == -1);
     // From far away, where a quadratic formula would have lost all digits: 1e5 squared * eps > 1.
     assert_true(plumb_convex_ray(&c, plumb_v2(R(-1e5), R(0.5)), plumb_v2(R(2e5), 0), &hit));
-    NEAR(hit.normal.y, 0.5, 1e-5);
+    assert_near(hit.normal.y, 0.5, ROUNDED(1e-5));
     // A segment from both sides and along it.
     assert_true(plumb_convex_ray(&seg, plumb_v2(-1, 0), plumb_v2(2, 0), &hit));
-    NEAR(hit.normal.x, -1, 0);
+    assert_near(hit.normal.x, -1, 0);
     assert_true(plumb_convex_ray(&seg, plumb_v2(1, 0), plumb_v2(-2, 0), &hit));
-    NEAR(hit.normal.x, 1, 0);
-    NEAR(hit.fraction, 0.5, 0);
+    assert_near(hit.normal.x, 1, 0);
+    assert_near(hit.fraction, 0.5, 0);
     assert_true(plumb_convex_ray(&seg, plumb_v2(0, 5), plumb_v2(0, -8), &hit));
-    NEAR(hit.fraction, 0.5, EPS);
-    NEAR(hit.normal.y, 1, 0);
+    assert_near(hit.fraction, 0.5, EPS);
+    assert_near(hit.normal.y, 1, 0);
     assert_false(plumb_convex_ray(&seg, plumb_v2(R(0.1), 5), plumb_v2(0, -8), &hit));
     // A corner head on, and a ray along an edge's line.
     assert_true(plumb_convex_ray(&box, plumb_v2(-2, -2), plumb_v2(4, 4), &hit));
-    NEAR(hit.fraction, 0.25, EPS);
+    assert_near(hit.fraction, 0.25, EPS);
     assert_true(plumb_convex_ray(&box, plumb_v2(-3, 1), plumb_v2(4, 0), &hit));
-    NEAR(hit.fraction, 0.5, EPS);
+    assert_near(hit.fraction, 0.5, EPS);
     assert_true(plumb_convex_ray(&round_box, plumb_v2(-3, -3), plumb_v2(4, 4), &hit));
-    NEAR(hit.fraction, (2 - 0.5 / sqrt(2)) / 4, 4 * EPS);
-    NEAR(hit.normal.x, -sqrt(0.5), 8 * EPS);
+    assert_near(hit.fraction, (2 - 0.5 / sqrt(2)) / 4, 4 * EPS);
+    assert_near(hit.normal.x, -sqrt(0.5), 8 * EPS);
 }
 
 int main(void)

@@ -5,52 +5,52 @@ static void near_mass(plumb_mass_properties a, plumb_mass_properties b, double r
 {
     double mass = (double)b.mass, inertia = (double)b.inertia;
     double length = sqrt(inertia / mass);
-    NEAR(a.mass, mass, relative * mass);
-    NEAR(a.center.x, b.center.x, relative * length);
-    NEAR(a.center.y, b.center.y, relative * length);
-    NEAR(a.inertia, inertia, relative * inertia);
+    assert_near(a.mass, mass, relative * mass);
+    assert_near(a.center.x, b.center.x, relative * length);
+    assert_near(a.center.y, b.center.y, relative * length);
+    assert_near(a.inertia, inertia, relative * inertia);
 }
 
 static void masses_match_closed_forms(void **state)
 {
     (void)state;
     plumb_mass_properties m = plumb_circle_mass(plumb_v2(3, 4), 2, 5);
-    NEAR(m.mass, 20 * PI, 1e2 * EPS);
-    NEAR(m.inertia, 40 * PI, 2e2 * EPS);
+    assert_near(m.mass, 20 * PI, 1e2 * EPS);
+    assert_near(m.inertia, 40 * PI, 2e2 * EPS);
     plumb_convex s;
     SAYS(plumb_convex_box(plumb_v2(2, 1), plumb_v2(7, -3), R(0.4), 0, &s), OK);
     m = plumb_convex_mass(&s, 3);
-    NEAR(m.mass, 24, 24 * 20 * EPS);
-    NEAR(m.center.x, 7, 20 * EPS);
-    NEAR(m.center.y, -3, 20 * EPS);
-    NEAR(m.inertia, 24 * (16 + 4) / 12.0, 40 * 20 * EPS);
+    assert_near(m.mass, 24, 24 * 20 * EPS);
+    assert_near(m.center.x, 7, 20 * EPS);
+    assert_near(m.center.y, -3, 20 * EPS);
+    assert_near(m.inertia, 24 * (16 + 4) / 12.0, 40 * 20 * EPS);
     // A capsule is a thin disc when its ends meet, and a bar when its radius vanishes.
     near_mass(plumb_capsule_mass(plumb_v2(1, 1), plumb_v2(1, 1), 2, 5),
               plumb_circle_mass(plumb_v2(1, 1), 2, 5), 10 * EPS);
     m = plumb_capsule_mass(plumb_v2(-3, 0), plumb_v2(3, 0), R(1e-3), 1);
-    NEAR((double)m.inertia / (double)m.mass, 36 / 12.0, 2e-3);
+    assert_near((double)m.inertia / (double)m.mass, 36 / 12.0, 2e-3);
     SAYS(plumb_convex_segment(plumb_v2(0, 0), plumb_v2(2, 4), &s), OK);
     m = plumb_convex_mass(&s, 3);
-    NEAR(m.mass, 0, 0);
-    NEAR(m.inertia, 0, 0);
-    NEAR(m.center.y, 2, 0);
+    assert_near(m.mass, 0, 0);
+    assert_near(m.inertia, 0, 0);
+    assert_near(m.center.y, 2, 0);
     // A right triangle: centre at a third, I = m (a^2 + b^2) / 18. Far away, too.
     plumb_vec2 triangle[3] = { { 4096, 4096 }, { 4096, 4099 }, { 4102, 4096 } };
     m = plumb_outline_mass(triangle, 3, 2);
-    NEAR(m.mass, 18, 1e2 * EPS);
-    NEAR(m.center.x, 4098, 4096 * EPS);
-    NEAR(m.center.y, 4097, 4096 * EPS);
-    NEAR(m.inertia, 18 * (36 + 9) / 18.0, 1e2 * EPS);
+    assert_near(m.mass, 18, 1e2 * EPS);
+    assert_near(m.center.x, 4098, 4096 * EPS);
+    assert_near(m.center.y, 4097, 4096 * EPS);
+    assert_near(m.inertia, 18 * (36 + 9) / 18.0, 1e2 * EPS);
     plumb_vec2 line[3] = { { 0, 0 }, { 1, 0 }, { 2, 3 } };
     line[2].y = 0;
     m = plumb_outline_mass(line, 3, 2);
-    NEAR(m.mass, 0, 0);
-    NEAR(m.center.x, 1, 0);
-    NEAR(plumb_mass_inertia_about(plumb_circle_mass(plumb_v2(1, 0), 1, 1), plumb_v2(3, 0)),
-         PI / 2 + 4 * PI, 1e2 * EPS);
+    assert_near(m.mass, 0, 0);
+    assert_near(m.center.x, 1, 0);
+    assert_near(plumb_mass_inertia_about(plumb_circle_mass(plumb_v2(1, 0), 1, 1), plumb_v2(3, 0)),
+                PI / 2 + 4 * PI, 1e2 * EPS);
     m = plumb_mass_with_total(plumb_circle_mass(plumb_v2(1, 0), 2, 7), 3);
-    NEAR(m.mass, 3, 0);
-    NEAR(m.inertia, 6, 1e2 * EPS);
+    assert_near(m.mass, 3, 0);
+    assert_near(m.inertia, 6, 1e2 * EPS);
 }
 
 // A box rounded outside has a closed form of its own: three rectangles and a disc in quarters,
@@ -125,10 +125,10 @@ static void masses_combine_to_the_whole(void **state)
     near_mass(plumb_mass_combine(parts, 2), plumb_outline_mass(back, 6, 2), 50 * EPS);
     plumb_mass_properties none[2] = { { 0, { 1, 2 }, 0 }, { 0, { 3, 4 }, 0 } };
     plumb_mass_properties m = plumb_mass_combine(none, 2);
-    NEAR(m.mass, 0, 0);
-    NEAR(m.center.x, 2, 0);
+    assert_near(m.mass, 0, 0);
+    assert_near(m.center.x, 2, 0);
     m = plumb_mass_combine(none, 0);
-    NEAR(m.mass + m.center.x + m.center.y + m.inertia, 0, 0);
+    assert_near(m.mass + m.center.x + m.center.y + m.inertia, 0, 0);
     // A rounded polygon is the sharp one plus strips plus sectors; its mass does not move with it.
     for (int trial = 0; trial < 100; trial++) {
         plumb_convex s = random_shape(4 + 5 * trial), moved;

@@ -9,6 +9,7 @@
 
 #include <cmocka.h>
 
+#include "harness/near.h"
 #include "harness/sim.h"
 #include "plumb/math.h"
 #include "world/state.h"
@@ -180,7 +181,7 @@ static void impulses_are_kept_from_step_to_step(void **state)
     pl_joint *joints = pl_joint_items(&w->joints);
     for (int i = 0; i < LINKS; ++i) {
         double pull = (LINKS - i) * 0.25 * SIM_G;
-        assert_true(fabs((double)plumb_joint_force(w, joints[i].entity).y / pull - 1) < 0.01);
+        assert_near((double)plumb_joint_force(w, joints[i].entity).y / pull, 1, ROUNDED(0.01));
     }
     double y = sim_y(w, last);
     plumb_world_step(w, DT);
@@ -339,9 +340,9 @@ static void immovable_ends_are_harmless(void **state)
         plumb_body_set_velocity(w, k, sim_vec(1, 0));
         sim_run(w, 60, 1 / 60.0);
         assert_true(isfinite(sim_x(w, b)) && isfinite(sim_y(w, b)));
-        assert_true(fabs(sim_angle(w, b)) <= 0);
+        assert_near(sim_angle(w, b), 0, 0);
         assert_true(fabs(sim_x(w, k) - 4) < 1e-4 && fabs(sim_y(w, k)) <= 0);
-        assert_true(fabs(sim_x(w, s)) <= 0);
+        assert_near(sim_x(w, s), 0, 0);
         plumb_world_destroy(w);
     }
 }
@@ -369,10 +370,10 @@ static void reactions_of_locked_bodies_are_told(void **state)
         assert_int_equal(plumb_world_step(w, DT), PLUMB_OK);
         const plumb_vec2 force = plumb_joint_force(w, j);
         assert_true(fabs((double)force.x) < 1e-6 && isfinite((double)force.y));
-        assert_true(fabs((double)plumb_joint_torque(w, j)) < 1e-3);
+        assert_near((double)plumb_joint_torque(w, j), 0, ROUNDED(1e-3));
     }
     const double weight = SIM_G * (double)plumb_body_mass(w, b);
-    assert_true(fabs((double)plumb_joint_force(w, j).y - weight) < 1e-3 * weight);
+    assert_near((double)plumb_joint_force(w, j).y, weight, 1e-3 * weight);
     plumb_world_destroy(w);
 }
 

@@ -8,6 +8,7 @@
 
 #include <cmocka.h>
 
+#include "harness/near.h"
 #include "harness/random.h"
 #include "plumb/math.h"
 #include "plumb/matrix.h"
@@ -17,20 +18,11 @@
 // Tolerance for values near 1, after a handful of roundings.
 #define TIGHT (16 * (double)PLUMB_REAL_EPSILON)
 
-static void near_at(double a, double b, double tolerance, int line)
-{
-    double d = a - b;
-    if (!(d <= tolerance && -d <= tolerance)) {
-        fail_msg("line %d: %.17g is not %.17g within %g", line, a, b, tolerance);
-    }
-}
-#define NEAR(a, b, tolerance) near_at((double)(a), (double)(b), tolerance, __LINE__)
-
 #define NEAR_V(a, b, tolerance)                                                                    \
     do {                                                                                           \
         plumb_vec2 va = (a), vb = (b);                                                             \
-        NEAR(va.x, vb.x, tolerance);                                                               \
-        NEAR(va.y, vb.y, tolerance);                                                               \
+        assert_near(va.x, vb.x, tolerance);                                                        \
+        assert_near(va.y, vb.y, tolerance);                                                        \
     } while (0)
 
 static uint32_t random_state;
@@ -62,18 +54,18 @@ static void vectors_follow_the_textbook(void **state)
     NEAR_V(plumb_vec2_neg(a), plumb_v2(-3, -4), 0);
     NEAR_V(plumb_vec2_scale(2, a), plumb_v2(6, 8), 0);
     NEAR_V(plumb_vec2_add_scaled(a, 2, b), plumb_v2(1, 8), 0);
-    NEAR(plumb_vec2_dot(a, b), 5, 0);
-    NEAR(plumb_vec2_cross(a, b), 10, 0);
-    NEAR(plumb_vec2_magnitude(a), 5, 0);
-    NEAR(plumb_vec2_magnitude_sq(a), 25, 0);
-    NEAR(plumb_vec2_distance(a, plumb_v2(0, 0)), 5, 0);
-    NEAR(plumb_vec2_distance_sq(a, b), 20, 0);
+    assert_near(plumb_vec2_dot(a, b), 5, 0);
+    assert_near(plumb_vec2_cross(a, b), 10, 0);
+    assert_near(plumb_vec2_magnitude(a), 5, 0);
+    assert_near(plumb_vec2_magnitude_sq(a), 25, 0);
+    assert_near(plumb_vec2_distance(a, plumb_v2(0, 0)), 5, 0);
+    assert_near(plumb_vec2_distance_sq(a, b), 20, 0);
     NEAR_V(plumb_vec2_left(a), plumb_v2(-4, 3), 0);
     NEAR_V(plumb_vec2_right(a), plumb_v2(4, -3), 0);
     NEAR_V(plumb_vec2_unit(a), plumb_v2(PLUMB_REAL(0.6), PLUMB_REAL(0.8)), TIGHT);
     NEAR_V(plumb_vec2_min(a, b), plumb_v2(-1, 2), 0);
     NEAR_V(plumb_vec2_max(a, b), plumb_v2(3, 4), 0);
-    NEAR(plumb_vec2_component(a, plumb_v2(0, 7)), 4, TIGHT);
+    assert_near(plumb_vec2_component(a, plumb_v2(0, 7)), 4, TIGHT);
     NEAR_V(plumb_vec2_project(a, plumb_v2(0, -7)), plumb_v2(0, 4), TIGHT);
     NEAR_V(plumb_vec2_reject(a, plumb_v2(0, -7)), plumb_v2(3, 0), TIGHT);
     NEAR_V(plumb_vec2_reflect(a, plumb_v2(0, 1)), plumb_v2(3, -4), 0);
@@ -86,21 +78,22 @@ static void angles_and_components_are_inverse(void **state)
 {
     (void)state;
     double quarter = (double)PLUMB_PI / 2;
-    NEAR(plumb_vec2_angle(plumb_v2(0, 2)), quarter, TIGHT);
-    NEAR(plumb_vec2_angle(plumb_v2(-2, 0)), 2 * quarter, TIGHT);
-    NEAR(plumb_vec2_angle(plumb_v2(0, -2)), -quarter, TIGHT);
-    NEAR(plumb_vec2_angle_between(plumb_v2(1, 0), plumb_v2(0, -3)), quarter, TIGHT);
-    NEAR(plumb_vec2_turn(plumb_v2(1, 0), plumb_v2(0, -3)), -quarter, TIGHT);
-    NEAR(plumb_vec2_angle_between(plumb_v2(2, 1), plumb_v2(-2, -1)), 2 * quarter, TIGHT);
+    assert_near(plumb_vec2_angle(plumb_v2(0, 2)), quarter, TIGHT);
+    assert_near(plumb_vec2_angle(plumb_v2(-2, 0)), 2 * quarter, TIGHT);
+    assert_near(plumb_vec2_angle(plumb_v2(0, -2)), -quarter, TIGHT);
+    assert_near(plumb_vec2_angle_between(plumb_v2(1, 0), plumb_v2(0, -3)), quarter, TIGHT);
+    assert_near(plumb_vec2_turn(plumb_v2(1, 0), plumb_v2(0, -3)), -quarter, TIGHT);
+    assert_near(plumb_vec2_angle_between(plumb_v2(2, 1), plumb_v2(-2, -1)), 2 * quarter, TIGHT);
     // Far below what an arc cosine could tell from 0: cos(1e-5) is 1 in float.
-    NEAR(plumb_vec2_angle_between(plumb_v2(1, 0), plumb_v2(1, PLUMB_REAL(1e-5))), 1e-5, 1e-11);
+    assert_near(plumb_vec2_angle_between(plumb_v2(1, 0), plumb_v2(1, PLUMB_REAL(1e-5))), 1e-5,
+                1e-11);
     for (int i = 0; i < TRIALS; i++) {
         plumb_vec2 v = random_vector();
         plumb_real m = plumb_vec2_magnitude(v);
         NEAR_V(plumb_vec2_polar(m, plumb_vec2_angle(v)), v, 20 * TIGHT);
         plumb_real turn = uniform(-3, 3);
         plumb_vec2 w = plumb_rot_apply(plumb_rot_make(turn), v);
-        NEAR(plumb_vec2_turn(v, w), turn, 4 * TIGHT);
+        assert_near(plumb_vec2_turn(v, w), turn, 4 * TIGHT);
     }
 }
 
@@ -110,18 +103,18 @@ static void vectors_without_direction_have_unit_zero(void **state)
     plumb_real m = 7;
     NEAR_V(plumb_vec2_unit(plumb_v2(0, 0)), plumb_v2(0, 0), 0);
     NEAR_V(plumb_vec2_unit_and_magnitude(plumb_v2(0, PLUMB_REAL(1e-19)), &m), plumb_v2(0, 0), 0);
-    NEAR(m, 0, 0);
+    assert_near(m, 0, 0);
     NEAR_V(plumb_vec2_unit_and_magnitude(plumb_v2(0, PLUMB_REAL(2e-18)), &m), plumb_v2(0, 1),
            TIGHT);
-    NEAR(m, 2e-18, 1e-23);
-    NEAR(plumb_vec2_component(plumb_v2(1, 2), plumb_v2(0, 0)), 0, 0);
+    assert_near(m, 2e-18, 1e-23);
+    assert_near(plumb_vec2_component(plumb_v2(1, 2), plumb_v2(0, 0)), 0, 0);
     NEAR_V(plumb_vec2_project(plumb_v2(1, 2), plumb_v2(0, 0)), plumb_v2(0, 0), 0);
     NEAR_V(plumb_vec2_reject(plumb_v2(1, 2), plumb_v2(0, 0)), plumb_v2(1, 2), 0);
-    NEAR(plumb_vec2_angle(plumb_v2(0, 0)), 0, 0);
-    NEAR(plumb_vec2_angle_between(plumb_v2(0, 0), plumb_v2(1, 0)), 0, 0);
+    assert_near(plumb_vec2_angle(plumb_v2(0, 0)), 0, 0);
+    assert_near(plumb_vec2_angle_between(plumb_v2(0, 0), plumb_v2(1, 0)), 0, 0);
     plumb_rot none = plumb_rot_normalize((plumb_rot){ 0, 0 });
-    NEAR(none.c, 1, 0);
-    NEAR(none.s, 0, 0);
+    assert_near(none.c, 1, 0);
+    assert_near(none.s, 0, 0);
 }
 
 static void projection_splits_a_vector(void **state)
@@ -131,12 +124,13 @@ static void projection_splits_a_vector(void **state)
         plumb_vec2 v = random_vector(), d = random_vector();
         plumb_vec2 along = plumb_vec2_project(v, d), across = plumb_vec2_reject(v, d);
         NEAR_V(plumb_vec2_add(along, across), v, 20 * TIGHT);
-        NEAR(plumb_vec2_cross(along, plumb_vec2_unit(d)), 0, 20 * TIGHT);
-        NEAR(plumb_vec2_dot(across, plumb_vec2_unit(d)), 0, 20 * TIGHT);
-        NEAR(plumb_vec2_magnitude(plumb_vec2_unit(v)), 1, TIGHT);
-        NEAR(plumb_vec2_component(v, d), plumb_vec2_dot(along, plumb_vec2_unit(d)), 20 * TIGHT);
+        assert_near(plumb_vec2_cross(along, plumb_vec2_unit(d)), 0, 20 * TIGHT);
+        assert_near(plumb_vec2_dot(across, plumb_vec2_unit(d)), 0, 20 * TIGHT);
+        assert_near(plumb_vec2_magnitude(plumb_vec2_unit(v)), 1, TIGHT);
+        assert_near(plumb_vec2_component(v, d), plumb_vec2_dot(along, plumb_vec2_unit(d)),
+                    20 * TIGHT);
         plumb_vec2 mirrored = plumb_vec2_reflect(v, plumb_vec2_unit(d));
-        NEAR(plumb_vec2_magnitude(mirrored), plumb_vec2_magnitude(v), 40 * TIGHT);
+        assert_near(plumb_vec2_magnitude(mirrored), plumb_vec2_magnitude(v), 40 * TIGHT);
     }
 }
 
@@ -151,19 +145,19 @@ static void scalars_keep_their_promises(void **state)
     assert_false(plumb_vec2_is_finite(plumb_v2(0, infinite)));
     assert_false(plumb_vec2_is_finite(plumb_v2(not_a_number, 0)));
     assert_true(plumb_vec2_is_finite(plumb_v2(1, 2)));
-    NEAR(plumb_clamp(5, 1, 3), 3, 0);
-    NEAR(plumb_clamp(-5, 1, 3), 1, 0);
-    NEAR(plumb_clamp(2, 1, 3), 2, 0);
-    NEAR(plumb_clamp(not_a_number, 1, 3), 1, 0);
-    NEAR(plumb_min(not_a_number, 3), 3, 0);
-    NEAR(plumb_max(not_a_number, 3), 3, 0);
-    NEAR(plumb_abs(-3), 3, 0);
-    NEAR(plumb_sqrt(2), 1.4142135623730951, TIGHT);
-    NEAR(plumb_radians(180), PLUMB_PI, TIGHT);
-    NEAR(plumb_degrees(PLUMB_PI / 2), 90, 100 * TIGHT);
+    assert_near(plumb_clamp(5, 1, 3), 3, 0);
+    assert_near(plumb_clamp(-5, 1, 3), 1, 0);
+    assert_near(plumb_clamp(2, 1, 3), 2, 0);
+    assert_near(plumb_clamp(not_a_number, 1, 3), 1, 0);
+    assert_near(plumb_min(not_a_number, 3), 3, 0);
+    assert_near(plumb_max(not_a_number, 3), 3, 0);
+    assert_near(plumb_abs(-3), 3, 0);
+    assert_near(plumb_sqrt(2), 1.4142135623730951, TIGHT);
+    assert_near(plumb_radians(180), PLUMB_PI, TIGHT);
+    assert_near(plumb_degrees(PLUMB_PI / 2), 90, 100 * TIGHT);
     for (int i = 0; i < TRIALS; i++) {
         plumb_real d = uniform(-720, 720);
-        NEAR(plumb_degrees(plumb_radians(d)), d, 720 * TIGHT);
+        assert_near(plumb_degrees(plumb_radians(d)), d, 720 * TIGHT);
     }
 }
 
@@ -178,12 +172,12 @@ static void matrices_multiply_and_invert(void **state)
     (void)state;
     plumb_mat2 a = plumb_mat2_rows(1, 2, 3, 4), b = plumb_mat2_rows(5, 6, 7, 8);
     plumb_mat2 p = plumb_mat2_mul(a, b);
-    NEAR(p.m[0][0], 19, 0);
-    NEAR(p.m[0][1], 22, 0);
-    NEAR(p.m[1][0], 43, 0);
-    NEAR(p.m[1][1], 50, 0);
-    NEAR(plumb_mat2_determinant(a), -2, 0);
-    NEAR(plumb_mat2_transpose(a).m[0][1], 3, 0);
+    assert_near(p.m[0][0], 19, 0);
+    assert_near(p.m[0][1], 22, 0);
+    assert_near(p.m[1][0], 43, 0);
+    assert_near(p.m[1][1], 50, 0);
+    assert_near(plumb_mat2_determinant(a), -2, 0);
+    assert_near(plumb_mat2_transpose(a).m[0][1], 3, 0);
     plumb_mat2 untouched = b;
     assert_false(plumb_mat2_inverse(plumb_mat2_rows(1, 2, 2, 4), &untouched));
     assert_memory_equal(&untouched, &b, sizeof b);
@@ -216,7 +210,7 @@ static void homogeneous_transforms_and_inverses(void **state)
            plumb_v2(1, 1), 0);
     plumb_mat3 untouched = plumb_mat3_identity();
     assert_false(plumb_mat3_affine_inverse(plumb_mat3_scale(0, 1), &untouched));
-    NEAR(untouched.m[0][0], 1, 0);
+    assert_near(untouched.m[0][0], 1, 0);
     for (int i = 0; i < TRIALS; i++) {
         plumb_vec2 c = random_vector(), t = random_vector(), v = random_vector();
         plumb_real angle = uniform(-7, 7);
@@ -246,19 +240,19 @@ static void rotations_form_a_group(void **state)
         plumb_real a = uniform(-3.14159, 3.14159), b = uniform(-3.14159, 3.14159);
         plumb_rot qa = plumb_rot_make(a), qb = plumb_rot_make(b);
         plumb_vec2 v = random_vector();
-        NEAR(plumb_rot_angle(qa), a, TIGHT);
+        assert_near(plumb_rot_angle(qa), a, TIGHT);
         plumb_rot sum = plumb_rot_mul(qa, qb), difference = plumb_rot_inv_mul(qa, qb);
         plumb_rot want = plumb_rot_make(a + b);
-        NEAR(sum.c, want.c, TIGHT);
-        NEAR(sum.s, want.s, TIGHT);
+        assert_near(sum.c, want.c, TIGHT);
+        assert_near(sum.s, want.s, TIGHT);
         want = plumb_rot_make(b - a);
-        NEAR(difference.c, want.c, TIGHT);
-        NEAR(difference.s, want.s, TIGHT);
+        assert_near(difference.c, want.c, TIGHT);
+        assert_near(difference.s, want.s, TIGHT);
         NEAR_V(plumb_rot_inv_apply(qa, plumb_rot_apply(qa, v)), v, 10 * TIGHT);
         NEAR_V(plumb_rot_apply(plumb_rot_inverse(qa), v), plumb_rot_inv_apply(qa, v), 0);
         NEAR_V(plumb_rot_apply(qa, v), plumb_mat2_apply(plumb_mat2_rotation(a), v), 0);
         plumb_rot q = plumb_rot_from_direction(v);
-        NEAR(plumb_rot_angle(q), plumb_vec2_angle(v), TIGHT);
+        assert_near(plumb_rot_angle(q), plumb_vec2_angle(v), TIGHT);
         assert_true(plumb_rot_is_unit(q));
     }
     assert_false(plumb_rot_is_unit((plumb_rot){ 1, PLUMB_REAL(0.1) }));
@@ -271,14 +265,14 @@ static void integration_is_exact_and_stays_unit(void **state)
         plumb_real a = uniform(-3, 3), d = i % 2 == 0 ? uniform(-0.6, 0.6) : uniform(-9, 9);
         plumb_rot q = plumb_rot_integrate(plumb_rot_make(a), d);
         plumb_rot want = plumb_rot_mul(plumb_rot_make(a), plumb_rot_make(d));
-        NEAR(q.c, want.c, TIGHT);
-        NEAR(q.s, want.s, TIGHT);
+        assert_near(q.c, want.c, TIGHT);
+        assert_near(q.s, want.s, TIGHT);
     }
     for (int i = 0; i < TRIALS; i++) {
         plumb_real d = PLUMB_ROT_SMALL_TURN * uniform(-1, 1);
         plumb_rot q = plumb_rot_integrate(plumb_rot_identity(), d), want = plumb_rot_make(d);
-        NEAR(q.c, want.c, 2 * (double)PLUMB_REAL_EPSILON);
-        NEAR(q.s, want.s, 2 * (double)PLUMB_REAL_EPSILON);
+        assert_near(q.c, want.c, 2 * (double)PLUMB_REAL_EPSILON);
+        assert_near(q.s, want.s, 2 * (double)PLUMB_REAL_EPSILON);
     }
     // A million substeps: a wheel at 8 rad/s, h = 1/240 s; dyadic, so that the sum is exact.
     plumb_rot q = plumb_rot_identity();
@@ -286,10 +280,10 @@ static void integration_is_exact_and_stays_unit(void **state)
     for (int i = 0; i < 1000000; i++) {
         q = plumb_rot_integrate(q, d);
     }
-    NEAR(q.c * q.c + q.s * q.s, 1, TIGHT);
+    assert_near(q.c * q.c + q.s * q.s, 1, TIGHT);
     plumb_rot want = plumb_rot_make(plumb_angle_wrap(31250));
     // Each step may be off by a rounding: at most a million of them, in practice their root.
-    NEAR(plumb_rot_angle(plumb_rot_inv_mul(want, q)), 0, 1e5 * (double)PLUMB_REAL_EPSILON);
+    assert_near(plumb_rot_angle(plumb_rot_inv_mul(want, q)), 0, 1e5 * (double)PLUMB_REAL_EPSILON);
 }
 
 static void transforms_compose(void **state)
@@ -355,7 +349,7 @@ static void the_screen_is_upside_down(void **state)
         NEAR_V(plumb_mat3_apply(plumb_mat3_view(view), p), s, 0);
         plumb_vec2 v = plumb_view_vector_to_screen(view, p);
         NEAR_V(plumb_view_vector_to_world(view, v), p, 20 * TIGHT);
-        NEAR(plumb_vec2_angle(v), plumb_view_angle(plumb_vec2_angle(p)), TIGHT);
+        assert_near(plumb_vec2_angle(v), plumb_view_angle(plumb_vec2_angle(p)), TIGHT);
     }
 }
 

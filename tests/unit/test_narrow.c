@@ -10,6 +10,7 @@
 
 #include <cmocka.h>
 
+#include "harness/near.h"
 #include "harness/pairs.h"
 #include "harness/sim.h"
 #include "world/state.h"
@@ -233,7 +234,7 @@ static void coincident_shapes_get_some_contact(void **state)
         pairs_run(batch, 4);
         pl_manifold m;
         assert_true(pairs_manifold(batch, 0, &m));
-        assert_true(fabs(hypot((double)m.nx, (double)m.ny) - 1) <= slack());
+        assert_near(hypot((double)m.nx, (double)m.ny), 1, slack());
         for (uint32_t j = 0; j < m.count; ++j) {
             double s = (double)m.point[j].separation;
             assert_true(s <= slack() && s >= -8);
@@ -291,8 +292,8 @@ static void features_stay_and_carry_impulses(void **state)
                               first.feature[1], m.feature[0], m.feature[1]);
                 fail();
             }
-            assert_true(fabs((double)m.point[0].normal - 3) <= 0);
-            assert_true(fabs((double)m.point[1].normal - 4) <= 0);
+            assert_near((double)m.point[0].normal, 3, 0);
+            assert_near((double)m.point[1].normal, 4, 0);
         }
     }
     pairs_destroy(batch);

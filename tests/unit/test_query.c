@@ -42,14 +42,14 @@ static void test_ray_hit(void **state)
     plumb_ray_hit hit;
     assert_true(plumb_world_ray(world, V(0, 2), V(20, 2), NULL, &hit));
     assert_true(plumb_same(hit.shape, circle) && plumb_same(hit.body, ball));
-    NEAR(hit.fraction, 0.4, 1e-6);
-    NEAR(hit.point.x, 8, 1e-5);
-    NEAR(hit.point.y, 2, 1e-5);
-    NEAR(hit.normal.x, -1, 1e-6);
+    assert_near(hit.fraction, 0.4, ROUNDED(1e-6));
+    assert_near(hit.point.x, 8, ROUNDED(1e-5));
+    assert_near(hit.point.y, 2, ROUNDED(1e-5));
+    assert_near(hit.normal.x, -1, ROUNDED(1e-6));
     assert_true(plumb_world_ray(world, V(3, 6), V(3, -14), NULL, &hit));
     assert_true(plumb_same(hit.shape, floor) && plumb_same(hit.body, ground));
-    NEAR(hit.fraction, 0.5, 1e-6);
-    NEAR(hit.normal.y, 1, 1e-6);
+    assert_near(hit.fraction, 0.5, ROUNDED(1e-6));
+    assert_near(hit.normal.y, 1, ROUNDED(1e-6));
     assert_true(plumb_world_ray(world, V(10.5, 2), V(40, 2), NULL, &hit)); // from inside
     assert_true(plumb_same(hit.shape, circle));
     assert_true(hit.fraction == 0 && hit.normal.x == 0 && hit.normal.y == 0);

@@ -154,7 +154,7 @@ static void check_all_near(plumb_world *world, plumb_vec2 at, plumb_real most)
     double size = fabs((double)at.x) + fabs((double)at.y) + (double)world->desc.wrap_x +
                   (double)world->desc.wrap_y + (count > 0 ? fabs((double)best.distance) : 0);
     if (count > 0) {
-        NEAR(hits[0].distance, best.distance, 16 * (double)PLUMB_REAL_EPSILON * size);
+        assert_near(hits[0].distance, best.distance, 16 * (double)PLUMB_REAL_EPSILON * size);
     }
     for (int i = 1; i < count; ++i) {
         assert_true(hits[i].distance >= hits[i - 1].distance);

@@ -41,15 +41,15 @@ static void test_nearest(void **state)
     plumb_shape circle = add_shape(world, ball, PLUMB_CIRCLE, 2);
     assert_true(plumb_world_nearest(world, V(0, 0), PLUMB_REAL_MAX, NULL, &hit));
     assert_true(plumb_same(hit.shape, circle) && plumb_same(hit.body, ball));
-    NEAR(hit.distance, 8, 1e-5);
-    NEAR(hit.point.x, 8, 1e-5);
+    assert_near(hit.distance, 8, ROUNDED(1e-5));
+    assert_near(hit.point.x, 8, ROUNDED(1e-5));
     assert_false(plumb_world_nearest(world, V(0, 0), R(7.99), NULL, &hit));
     assert_true(plumb_world_nearest(world, V(0, 0), R(8.01), NULL, &hit));
     assert_true(plumb_world_nearest(world, V(10, 0.5), R(0.001), NULL, &hit)); // inside
-    NEAR(hit.distance, -1.5, 1e-5);
-    NEAR(hit.point.y, 2, 1e-5);
+    assert_near(hit.distance, -1.5, ROUNDED(1e-5));
+    assert_near(hit.point.y, 2, ROUNDED(1e-5));
     assert_true(plumb_world_nearest(world, V(1e8, 1e8), PLUMB_REAL_MAX, NULL, &hit));
-    NEAR((double)hit.distance / 1.414e8, 1, 1e-3);
+    assert_near((double)hit.distance / 1.414e8, 1, 1e-3);
     // Far more boxes than cells are looked at, and the nearest is in the last.
     for (int i = 0; i < 300; ++i) {
         add_random(world, 3, 0.05, 0.2);

@@ -36,14 +36,14 @@ static void test_outline(void **state)
             plumb_nearest_hit near;
             assert_true(plumb_world_nearest(world, at, 99, NULL, &near));
             plumb_real expected = distance_to_bowl(local);
-            NEAR(near.distance, expected, 2e-4);
-            NEAR(plumb_vec2_distance(near.point, at), plumb_abs(expected), 2e-4);
+            assert_near(near.distance, expected, ROUNDED(2e-4));
+            assert_near(plumb_vec2_distance(near.point, at), plumb_abs(expected), ROUNDED(2e-4));
             plumb_ray_hit hit;
             plumb_vec2 to = plumb_transform_apply(t, V(0, 0.5));
             assert_true(plumb_world_ray(world, at, to, NULL, &hit));
             if (expected > R(0.001)) { // from outside: the surface, facing the ray
                 plumb_vec2 met = plumb_transform_inv_apply(t, hit.point);
-                NEAR(distance_to_bowl(met), 0, 2e-4);
+                assert_near(distance_to_bowl(met), 0, ROUNDED(2e-4));
                 assert_true(plumb_vec2_dot(hit.normal, plumb_vec2_sub(to, at)) < 0);
             } else if (expected < R(-0.001)) {
                 assert_true(hit.fraction == 0);
@@ -79,7 +79,7 @@ static void test_inner_cuts(void **state)
                     assert_true(plumb_world_ray(world, at, V(99, 99), NULL, &hit));
                     assert_true(hit.fraction == 0);
                     assert_true(plumb_world_nearest(world, at, 1, NULL, &near));
-                    NEAR(near.distance, distance_to_bowl(local), 2e-4);
+                    assert_near(near.distance, distance_to_bowl(local), ROUNDED(2e-4));
                 }
                 if (cuts >> k & 1u) { // along the cut, from outside
                     plumb_vec2 from = plumb_vec2_lerp(a, b, -20), to = plumb_vec2_lerp(a, b, 20);
@@ -112,7 +112,7 @@ static void test_chain(void **state)
         1);
     assert_true(plumb_same(shapes[0], chain));
     assert_int_equal(plumb_world_ray_all(world, V(-1, 0.5), V(300, 0.5), NULL, hits, 4), 1);
-    NEAR(hits[0].point.x, 0.5, 1e-3);
+    assert_near(hits[0].point.x, 0.5, ROUNDED(1e-3));
     // Through every corner from above and below: nothing slips through.
     for (int i = 0; i < 200; ++i) {
         assert_int_equal(plumb_world_ray_all(world, V(i, 5), V(i, -5), NULL, hits, 4), 1);

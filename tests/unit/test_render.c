@@ -2,6 +2,7 @@
 // that runs out.
 #define _POSIX_C_SOURCE 200809L // mkdtemp, setenv
 
+#include "harness/near.h"
 #include "render_fixture.h"
 
 static void assert_color(const render_target *target, int x, int y, render_rgba color)
@@ -46,7 +47,7 @@ static void test_period_is_drawn_at_both_sides(void **state)
     add_disc(frame, 1.9, 1.4, 0.3);
     add_disc(frame, 0.0, 0.0, 0.3);
     draw(target, frame, camera, flat());
-    assert_true(fabs(coverage(target, 0, 300) - 2.0 * whole) < 0.02 * whole);
+    assert_near(coverage(target, 0, 300), 2.0 * whole, 0.02 * whole);
     assert_color(target, 390, 10, red);
     assert_color(target, 3, 10, red);
     assert_color(target, 390, 297, red);
@@ -60,7 +61,7 @@ static void test_period_is_drawn_at_both_sides(void **state)
     assert_int_equal(render_frame_set_period(frame, 4.0, 3.0), RENDER_OK);
     const render_camera aside = { .center = { 9.9, -4.6 }, .view_height = 3.0 };
     draw(target, frame, aside, flat());
-    assert_true(fabs(coverage(target, 0, 300) - 2.0 * whole) < 0.02 * whole);
+    assert_near(coverage(target, 0, 300), 2.0 * whole, 0.02 * whole);
     assert_color(target, 200, 150, red);
     // With the grid on, what lies outside the period is faded.
     const render_camera wide = { .view_height = 6.0 }; // 50 px a unit
@@ -91,7 +92,7 @@ static void test_areas(void **state)
         add_disc(frame, 0.013, -0.027, radii[i]);
         draw(target, frame, camera, flat());
         const double expected = pi * radii[i] * radii[i] * 1e4;
-        assert_true(fabs(coverage(target, 0, 300) - expected) < 0.01 * expected);
+        assert_near(coverage(target, 0, 300), expected, 0.01 * expected);
     }
     render_frame_clear(frame);
     begin_red(frame);
@@ -99,14 +100,14 @@ static void test_areas(void **state)
     render_body_end(frame);
     draw(target, frame, camera, flat());
     double expected = (pi * 0.25 * 0.25 + 0.5 * hypot(1.1, 0.5)) * 1e4;
-    assert_true(fabs(coverage(target, 0, 300) - expected) < 0.01 * expected);
+    assert_near(coverage(target, 0, 300), expected, 0.01 * expected);
     render_frame_clear(frame);
     begin_red(frame);
     render_add_box(frame, 0.1, 0.1, 0.7, 0.4, 0.5, 0.1);
     render_body_end(frame);
     draw(target, frame, camera, flat());
     expected = (1.4 * 0.8 + 2.0 * 0.1 * (1.4 + 0.8) + pi * 0.01) * 1e4;
-    assert_true(fabs(coverage(target, 0, 300) - expected) < 0.01 * expected);
+    assert_near(coverage(target, 0, 300), expected, 0.01 * expected);
     render_target_destroy(target);
     render_frame_destroy(frame);
 }
@@ -127,8 +128,8 @@ static void test_polygon_orientation_does_not_matter(void **state)
         draw(target, frame, (render_camera){ .view_height = 4.0 }, flat());
         areas[i] = coverage(target, 0, 100);
     }
-    assert_true(fabs(areas[0] - 1250.0) < 12.5);
-    assert_true(fabs(areas[0] - areas[1]) < 1.0);
+    assert_near(areas[0], 1250, 12.5);
+    assert_near(areas[0], areas[1], 1.0);
     render_target_destroy(target);
     render_frame_destroy(frame);
 }

@@ -54,12 +54,12 @@ static void test_bodies_and_shapes(void **state)
     scene_body a = scene_body_find(s, "a");
     plumb_world *w = scene_world(s);
     assert_true(a.is_named);
-    assert_near((double)plumb_body_mass(w, a.entity), 12, 1e-5);
+    assert_near((double)plumb_body_mass(w, a.entity), 12, ROUNDED(1e-5));
     assert_near((double)plumb_body_angle(w, a.entity), 1.5707963, 1e-6);
     scene_body b = scene_body_get(s, 1);
     assert_string_equal(b.name, "body2");
     assert_false(b.is_named);
-    assert_near((double)plumb_body_mass(w, b.entity), 7, 1e-5);
+    assert_near((double)plumb_body_mass(w, b.entity), 7, ROUNDED(1e-5));
     assert_int_equal(plumb_body_shapes(w, b.entity, NULL, 0), 3);
     scene_body k = scene_body_get(s, 3);
     assert_true(k.hidden);
@@ -217,7 +217,7 @@ static void test_expectations(void **state)
     }
     scene_expect_result r = scene_expect_get(s, 1);
     assert_string_equal(r.quantity, "b.distance from position");
-    assert_near(r.measured, 2, 1e-3);
+    assert_near(r.measured, 2, ROUNDED(1e-3));
     assert_near(r.limit, 0.5, 0);
     assert_int_equal(r.line, 4);
     r = scene_expect_get(s, 3); // reported where it first broke

@@ -154,7 +154,7 @@ static void test_expectations(void **state)
         assert_int_equal(scene_expect_get(s, i).passed, expected[i]);
     }
     assert_string_equal(scene_expect_get(s, 2).quantity, "w.reaction");
-    assert_true(fabs(scene_expect_get(s, 2).measured - 2 * 9.81) < 1e-2);
+    assert_near(scene_expect_get(s, 2).measured, 2 * 9.81, ROUNDED(1e-2));
     scene_destroy(s);
     s = load("scene{ duration = 0.2 }\nweld{ body{ box{1, 1} }, world, name = 'w' }\n"
              "expect{ 'gone', joint = 'w', joint_value = 0 }\n"
@@ -345,7 +345,7 @@ static void check_json(const char *text)
     for (int i = 0; i < count; i++) { // full turns included
         double v = (double)plumb_joint_value(scene_world(s), mine[i]);
         double w = (double)plumb_joint_value(scene_world(copy), theirs[i]);
-        assert_true(fabs(v - w) < 2e-5 * (1 + fabs(v)));
+        assert_near(v, w, 2e-5 * (1 + fabs(v)));
     }
     free(json);
     free(again);

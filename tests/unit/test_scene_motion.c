@@ -110,7 +110,7 @@ static void a_blast_pushes(void **state)
     steps(s, 25);
     plumb_body hidden = named(s, "hidden");
     double impulse = (double)(plumb_body_velocity(w, hidden).y * plumb_body_mass(w, hidden));
-    assert_true(fabs(impulse + 7) < 1e-4);
+    assert_near(impulse + 7, 0, ROUNDED(1e-4));
     scene_destroy(s);
 }
 

@@ -48,7 +48,7 @@ static void every_key_reaches_the_world(void **state)
     assert_int_equal(plumb_body_get_type(w, a), PLUMB_KINEMATIC);
     assert_int_equal(plumb_character_settings(w, b, &d), PLUMB_OK);
     assert_true(d.no_steps && d.no_snap && d.no_push && d.no_air_control);
-    assert_true(fabs((double)d.max_slope - 0.7853981633974483) < 1e-6);
+    assert_near(d.max_slope, 0.7853981633974483, ROUNDED(1e-6));
     assert_true(plumb_body_is_character(w, scene_body_find(s, "c").entity));
     plumb_shape shape;
     plumb_body_shapes(w, scene_body_find(s, "p").entity, &shape, 1);

@@ -8,6 +8,7 @@
 
 #include <cmocka.h>
 
+#include "harness/near.h"
 #include "continuous/swept_motion.h"
 #include "continuous/target.h"
 #include "harness/sim.h"
@@ -88,9 +89,9 @@ static void the_gap_is_the_largest_of_all_directions(void **state)
         worst_over = fmax(worst_over, best - gap.distance);
         assert_true(best <= gap.distance + 1e-12);
         assert_true(gap.distance <= best + bound);
-        assert_true(fabs(hypot(gap.nx, gap.ny) - 1) < 1e-12);
+        assert_near(hypot(gap.nx, gap.ny), 1, 1e-12);
         // The normal is one along which the gap is what it says.
-        assert_true(fabs(gap_along(&a, &b, time, gap.nx, gap.ny) - gap.distance) < 1e-12);
+        assert_near(gap_along(&a, &b, time, gap.nx, gap.ny), gap.distance, 1e-12);
         apart += gap.distance > 0;
     }
     print_message("gaps of 3000 pairs, %d apart: never below brute force by more than %.1g m\n",
@@ -267,7 +268,7 @@ static void a_hinged_body_turns_about_its_hinge(void **state)
                                .angle = (plumb_real)(angle * 1.001),
                                .stop = 1 };
             pl_swept_motion motion = pl_swept_motion_of_mover(w, &mover, 0, 0);
-            assert_true(fabs(motion.angle - angle) < SIM_TOLERANCE(1e-6, 1e-14));
+            assert_near(motion.angle, angle, SIM_TOLERANCE(1e-6, 1e-14));
             pl_place half = pl_swept_motion_place(w, row, &motion, 0.5);
             double x = hinged ? 2 * cos(angle / 2) : (2 * cos(1) + 2) / 2;
             double y = hinged ? -2 * sin(angle / 2) : -2 * sin(1) / 2;

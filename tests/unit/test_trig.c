@@ -12,6 +12,7 @@
 
 #include <cmocka.h>
 
+#include "harness/near.h"
 #include "harness/random.h"
 #include "plumb/math.h"
 
@@ -97,7 +98,7 @@ static void sine_and_cosine_are_symmetric_and_unit(void **state)
         plumb_sincos(-a, &n);
         assert_true(p.c == n.c && p.s == -n.s);
         double square = (double)p.c * (double)p.c + (double)p.s * (double)p.s;
-        assert_true(fabs(square - 1) <= 2 * (double)PLUMB_REAL_EPSILON);
+        assert_near(square, 1, 2 * (double)PLUMB_REAL_EPSILON);
     }
     plumb_rot q;
     plumb_sincos(0, &q);
@@ -116,11 +117,11 @@ static void huge_angles_are_still_rotations(void **state)
         plumb_rot q;
         plumb_sincos(a, &q);
         double square = (double)q.c * (double)q.c + (double)q.s * (double)q.s;
-        assert_true(fabs(square - 1) <= 2 * (double)PLUMB_REAL_EPSILON);
+        assert_near(square, 1, 2 * (double)PLUMB_REAL_EPSILON);
         double slack = sizes[i] <= 1e6 ? 0 : 2.5e-16 * sizes[i];
         if (slack < 1) {
             double want = (double)sinl((long double)a);
-            assert_true(fabs((double)q.s - want) <= slack + (double)PLUMB_REAL_EPSILON);
+            assert_near(q.s, want, slack + (double)PLUMB_REAL_EPSILON);
         }
     }
     plumb_real zero = 0;

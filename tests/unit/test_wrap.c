@@ -1,5 +1,6 @@
 // test_wrap.c - a world that wraps around against one without an end in which everything stands many times: pairs,
 // rays, casts, overlaps, nearest shapes; and shifts by whole periods.
+#include "harness/near.h"
 #include "harness/random.h"
 #include "plumb/plumb.h"
 #include "world/wrap.h"
@@ -133,9 +134,9 @@ static void check_ray(pair_of_worlds *p, uint32_t *seed)
     assert_int_equal(met_a, met_b);
     assert_int_equal(plumb_world_ray_any(p->wrapped, from, to, NULL), met_b);
     if (met_a) {
-        assert_float_equal((float)a.fraction, (float)b.fraction, NEAR);
-        assert_float_equal((float)a.point.x, (float)b.point.x, NEAR * 20);
-        assert_float_equal((float)a.point.y, (float)b.point.y, NEAR * 20);
+        assert_near(a.fraction, b.fraction, NEAR);
+        assert_near(a.point.x, b.point.x, NEAR * 20);
+        assert_near(a.point.y, b.point.y, NEAR * 20);
     }
     plumb_ray_hit all[SHAPES], many[SHAPES * 25];
     int count = plumb_world_ray_all(p->wrapped, from, to, NULL, all, SHAPES);
@@ -170,9 +171,9 @@ static void check_cast(pair_of_worlds *p, uint32_t *seed)
     bool met_b = plumb_world_cast(p->plain, &cast, NULL, &b);
     assert_int_equal(met_a, met_b);
     if (met_a) {
-        assert_float_equal((float)a.fraction, (float)b.fraction, NEAR);
-        assert_float_equal((float)a.point.x, (float)b.point.x, 0.05);
-        assert_float_equal((float)a.point.y, (float)b.point.y, 0.05);
+        assert_near(a.fraction, b.fraction, NEAR);
+        assert_near(a.point.x, b.point.x, ROUNDED(0.05));
+        assert_near(a.point.y, b.point.y, ROUNDED(0.05));
     }
 }
 
@@ -227,9 +228,9 @@ static void check_nearest(pair_of_worlds *p, uint32_t *seed)
     plumb_nearest_hit a, b;
     assert_true(plumb_world_nearest(p->wrapped, far, 100, NULL, &a));
     assert_true(plumb_world_nearest(p->plain, at, 100, NULL, &b));
-    assert_float_equal((float)a.distance, (float)b.distance, NEAR);
+    assert_near(a.distance, b.distance, NEAR);
     double dx = (double)(a.point.x - far.x), dy = (double)(a.point.y - far.y);
-    assert_float_equal((float)sqrt(dx * dx + dy * dy), (float)fabs((double)b.distance), NEAR);
+    assert_near(sqrt(dx * dx + dy * dy), fabs((double)b.distance), NEAR);
     plumb_nearest_hit some[SHAPES], many[SHAPES * 25];
     plumb_real reach = R(sim_uniform(seed, 0.1, 4));
     int count = plumb_world_nearest_all(p->wrapped, at, reach, NULL, some, SHAPES);
