@@ -78,7 +78,7 @@ RENDER_LIBS := -lOSMesa -lfreetype -lpng -lgif
 
 # Compiler or flags changed: everything is built again.
 FLAGS_LINE := $(CC) $(CXX) $(WARN_C) $(FRAME) $(MATHS) $(BASELINE) $(SANFLAGS) $(SHARED) $(CFLAGS) $(LDFLAGS) $(BOX2D3)
-NO_BUILD   := help clean deps deps-dev format format-check
+NO_BUILD   := help clean deps deps-ci deps-dev format format-check
 ifneq ($(filter-out $(NO_BUILD),$(or $(MAKECMDGOALS),all)),)
 ifneq ($(file <$(O)/flags),$(FLAGS_LINE))
 $(shell mkdir -p $(O))
@@ -105,15 +105,15 @@ CLI_OBJ    := $(call objects,float,$(CLI_SRC))
 
 # ---- goals
 
-# The precisions that are asked for; all, if none is.
-PRECISION ?= $(VARIANTS)
+# The precisions that are asked for; all, if none is. The demo needs one.
+PRECISION ?= $(if $(filter-out deps deps-ci deps-dev demo,$(or $(MAKECMDGOALS),all)),$(VARIANTS),float)
 WANTED    := $(if $(filter all,$(PRECISION)),$(VARIANTS),$(PRECISION))
 ifneq ($(or $(if $(strip $(WANTED)),,none),$(filter-out $(VARIANTS),$(WANTED))),)
 $(error PRECISION is '$(PRECISION)'; it must be some of: $(VARIANTS))
 endif
 LIBRARIES := $(foreach v,$(WANTED),$(O)/libplumb$(SUFFIX_$v).a $(O)/libplumb$(SUFFIX_$v).so)
 
-.PHONY: all lib help clean deps deps-dev demo examples amalgamation windows
+.PHONY: all lib help clean deps deps-ci deps-dev demo examples amalgamation windows
 all: lib $(O)/plumb examples
 lib: $(LIBRARIES)
 examples: $(EXAMPLES)
@@ -123,11 +123,12 @@ help:
 
 #: Plumb: what make can do (all of it below O=build; V=1 shows the commands)
 #:
-#:   make deps demo    install what is missing, build, draw build/demo.png
+#:   make deps demo    install what is missing, build (float alone), draw build/demo.png
 #:   make deps test    install what is missing, build, run every test
 #:
 #:   all (default)     build/plumb, build/libplumb.a and .so, _d in double, _far with far places, examples
 #:   deps, deps-dev    Debian packages: for the two commands above; for fuzz, format, lint as well
+#:   deps-ci           those of deps, and what checks the formatting
 #:   lib               the libraries alone: PRECISION=float (double, far; all without)
 #:   test              every test; T="tests/unit/test_math.c ..." runs only these
 #:   stability         the hard-case tests and the expectations of every scene
@@ -158,11 +159,13 @@ DEPS_DEV := $(DEPS) clang clang-format libclang-rt-14-dev valgrind git gcc-mingw
 
 deps:
 	@tools/make/deps.sh $(DEPS)
+deps-ci:
+	@tools/make/deps.sh $(DEPS) clang-format
 deps-dev:
 	@tools/make/deps.sh $(DEPS_DEV)
 
 # When packages are asked for in the same command, they come before anything is compiled.
-DEPS_FIRST := $(filter deps deps-dev,$(MAKECMDGOALS))
+DEPS_FIRST := $(filter deps deps-ci deps-dev,$(MAKECMDGOALS))
 
 DEMO := assets/scenes/fruit_bowl.lua
 demo: $(O)/plumb
@@ -223,7 +226,9 @@ $(foreach w,$(WIDTHS),$(foreach v,$(VARIANTS),$(eval $(call width_rule,$v,$w))))
 $(O)/librender.a: $(RENDER_OBJ)
 	$(archive)
 
-$(O)/plumb: $(CLI_OBJ) $(VARIANTS:%=$(O)/engine_%.o) $(O)/librender.a
+# Float alone for `make demo` and PRECISION=float; what was once built stays in.
+ENGINES := $(filter $(WANTED) float $(patsubst $(O)/engine_%.o,%,$(wildcard $(O)/engine_*.o)),$(VARIANTS))
+$(O)/plumb: $(CLI_OBJ) $(ENGINES:%=$(O)/engine_%.o) $(O)/librender.a
 	@echo "  LD    $@"
 	$(Q)$(CC) $(SANFLAGS) $(LDFLAGS) -o $@ $^ $(SCENE_LIBS) $(RENDER_LIBS) -lm -lpthread
 

@@ -216,9 +216,14 @@ fuzz-run: $(FUZZ_BIN)
 # ---- the text itself
 
 FORMATTED := $(wildcard include/plumb/*.h src/*/*.[ch] tools/*/*.[ch] tests/*/*.[ch] tests/*/*.cpp)
+# Other versions lay some lines out otherwise: Debian 13 has 19.
+FORMATTER := 14
+find_formatter = f=$$(command -v clang-format-$(FORMATTER) || command -v clang-format); \
+	v=$$($${f:-false} --version 2>/dev/null | sed 's/.*version \([0-9]*\).*/\1/'); \
+	if [ "$$v" != $(FORMATTER) ]; then echo "$@: skipped: needs clang-format $(FORMATTER), here is $${v:-none}"; exit 0; fi
 format:
-	@clang-format -i $(FORMATTED)
+	@$(find_formatter); $$f -i $(FORMATTED)
 format-check:
-	@clang-format --dry-run -Werror $(FORMATTED)
+	@$(find_formatter); $$f --dry-run -Werror $(FORMATTED)
 lint: lib
 	@O=$(O) bash tools/lint/lint.sh

@@ -250,8 +250,10 @@ typedef struct engine_scenery {
     engine_info info;
 } engine_scenery;
 
-extern const engine_api engine_float;
-extern const engine_api engine_double;
-extern const engine_api engine_far;
+// Those that the program was linked with: `make demo` leaves out double and far.
+extern const engine_api engine_float __attribute__((weak));
+extern const engine_api engine_double __attribute__((weak));
+extern const engine_api engine_far __attribute__((weak));
+#define CLI_LACKS_PRECISION "this program was built without that precision; `make` builds all"
 
 #endif

@@ -74,6 +74,12 @@ int recording_open(const char *path, int width, bool edits, recording *out)
         return CLI_FAILED;
     }
     out->engine = engine_of(out->bytes, size);
+    if (out->engine == NULL) {
+        cli_message(CLI_LACKS_PRECISION);
+        free(out->bytes);
+        *out = (recording){ 0 };
+        return CLI_FAILED;
+    }
     out->replay = out->engine->replay_open(path, out->bytes, size, width, edits, &error);
     if (out->replay == NULL) {
         free(out->bytes);

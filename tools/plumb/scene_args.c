@@ -68,6 +68,10 @@ int scene_run_open(const scene_args *args, const char *path, scene_run *run)
 
     const engine_api *const engines[] = { &engine_float, &engine_double, &engine_far };
     *run = (scene_run){ .engine = engines[args->precision] };
+    if (run->engine == NULL) {
+        cli_message(CLI_LACKS_PRECISION);
+        return CLI_FAILED;
+    }
     run->session = run->engine->open(&settings, &error);
     if (run->session == NULL) {
         return scene_report(&error);
