@@ -141,6 +141,7 @@ help:
 #:   asan, ubsan, tsan every test again under a sanitizer
 #:   fuzz              each fuzz harness for FUZZ_TIME=60 seconds
 #:   format, lint      clang-format in place; the rules of tools/lint
+#:   headers           what a change of the ten headers most included compiles anew
 #:   install           PREFIX=/usr/local DESTDIR= (install-lib leaves out the command line; PRECISION= as for lib)
 #:   uninstall         takes away what install brought, of all precisions
 #:   windows           build/windows/hello.exe: the amalgamation by mingw-w64, for Windows

@@ -138,7 +138,7 @@ TEST_OBJ := $(sort $(call objects,float,$(TEST_SRC) $(FUZZ_SRC) $(BENCH_SRC) $(H
 
 # ---- running
 
-.PHONY: test test-programs stability bench cost determinism hashes asan ubsan tsan sanitized fuzz fuzz-run lint \
+.PHONY: test test-programs stability bench cost determinism hashes asan ubsan tsan sanitized fuzz fuzz-run lint headers \
 	format format-check
 
 # T names the tests to run by their sources; without it, all of them.
@@ -227,3 +227,5 @@ format-check:
 	@$(find_formatter); $$f --dry-run -Werror $(FORMATTED)
 lint: lib
 	@O=$(O) bash tools/lint/lint.sh
+headers: $(O)/libplumb.a
+	@O=$(O) bash tools/lint/headers.sh
