@@ -262,6 +262,12 @@ lists() # precision, pattern that is there, pattern that is not
 }
 try "make lib builds float alone" lists float none/float/src none/double/src
 try "make lib builds double alone" lists double none/double/src none/far/src
+demo_plan()
+{
+    make -n -B --no-print-directory demo O="$work/none" >"$work/plan" 2>&1
+    grep -q none/float/src "$work/plan" && ! grep -qE 'none/(double|far|tests)' "$work/plan"
+}
+try "make demo builds float alone" demo_plan
 try "an unknown precision is refused" bash -c "! make -n lib PRECISION=half 2>'$work/said' &&
     grep -q 'must be some of: float double far' '$work/said'"
 for goal in lib uninstall install windows; do
