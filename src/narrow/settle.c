@@ -122,9 +122,6 @@ static void move_up(pl_narrow *narrow, pl_pair *pairs, uint32_t to, uint32_t fro
 static void close_gaps(pl_narrow *narrow, pl_pair *pairs, const uint32_t *gaps, uint32_t first,
                        uint32_t count)
 {
-    if (count == 0) {
-        return;
-    }
     uint32_t i = 0, k = first, kept = 0, from = 0; // from: behind the last gap
     while (i < first || k < count) {
         const bool lower = k == count || (i < first && gaps[i] < gaps[k]);
@@ -139,12 +136,31 @@ static void close_gaps(pl_narrow *narrow, pl_pair *pairs, const uint32_t *gaps, 
     narrow->manifold_count -= count;
 }
 
+// What the solver prepares for must still be there. The search ends with the first that is.
+static void recheck_summary(pl_narrow *narrow)
+{
+    const pl_manifold *m = pl_manifolds(narrow);
+    const bool friction = narrow->any_friction, elastic = narrow->any_elastic,
+               low = narrow->any_low;
+    narrow->any_friction = narrow->any_elastic = narrow->any_low = false;
+    for (uint32_t i = 0;
+         i < narrow->manifold_count && (narrow->any_friction != friction ||
+                                        narrow->any_elastic != elastic || narrow->any_low != low);
+         ++i) {
+        narrow->any_friction |= m[i].friction > 0;
+        pl_narrow_note_restitution(narrow, m[i].restitution);
+    }
+}
+
 void pl_looking_settle(const pl_looking *l)
 {
     uint32_t *gaps = l->ahead->list.data, first = 0;
     const uint32_t count = sort_out(l, gaps, &first);
     replace_all(l);
-    close_gaps(l->narrow, l->in->pairs, gaps, first, count);
+    if (count > 0) {
+        close_gaps(l->narrow, l->in->pairs, gaps, first, count);
+        recheck_summary(l->narrow);
+    }
 }
 
 // Whether the way reaches the plane of a point before the pieces meet.
