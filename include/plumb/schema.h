@@ -19,14 +19,17 @@ PLUMB_BEGIN
 
 /// Whose properties.
 typedef enum plumb_property_table {
+    PLUMB_TABLE_WORLD,         ///< plumb_world_desc, but capacities and hooks
     PLUMB_TABLE_BODY,          ///< plumb_body_desc
     PLUMB_TABLE_MATERIAL,      ///< plumb_material_desc
     PLUMB_TABLE_MATERIAL_PAIR, ///< plumb_material_pair
+    PLUMB_TABLE_JOINT,         ///< plumb_joint_desc, but its bodies
     PLUMB_TABLE_COUNT
 } plumb_property_table;
 
 typedef enum plumb_property_type {
     PLUMB_PROPERTY_REAL,  ///< plumb_real
+    PLUMB_PROPERTY_INT,   ///< int
     PLUMB_PROPERTY_VEC2,  ///< plumb_vec2
     PLUMB_PROPERTY_BOOL,  ///< bool
     PLUMB_PROPERTY_CHOICE ///< an enum; `unit` names its values in order: "up|down"
@@ -42,6 +45,7 @@ typedef struct plumb_property {
     const char *unit; ///< "m/s"; "1" for a ratio and a bool; of a choice its values
     const char *text; ///< one sentence
     plumb_property_type type;
+    bool saved;       ///< part of the state: of snapshots, hash and recordings. False: of this machine
     bool opposite;    ///< the word says the opposite of the member: sleep, no_sleep
     bool above;       ///< `low` is not allowed itself; where the member is 0 it means `initial` all the same
     double low, high; ///< range of what it can mean; -INFINITY, INFINITY: any finite number. Of each component

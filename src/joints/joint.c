@@ -13,8 +13,7 @@
 
 #include <string.h>
 
-#define TURN       6.283185307179586476925
-#define POINT_MOST ((real)1e9) // [m] as positions of bodies
+#define TURN 6.283185307179586476925
 
 //---- lookup
 //---------------------------------------------------------------------------------------
@@ -328,35 +327,9 @@ static plumb_result check_ends(const plumb_world *world, const char *fn, const p
 static plumb_result check_numbers(const plumb_world *world, const char *fn,
                                   const plumb_joint_desc *d)
 {
-    const struct {
-        const char *name;
-        real value, low;
-    } fields[] = {
-        { "lower", d->lower, -PLUMB_REAL_MAX },
-        { "upper", d->upper, d->lower },
-        { "motor_speed", d->motor_speed, -PLUMB_REAL_MAX },
-        { "max_motor", d->max_motor, 0 },
-        { "hertz", d->hertz, 0 },
-        { "damping", d->damping, 0 },
-        { "rest", d->rest, -PLUMB_REAL_MAX },
-        { "length", d->length, 0 },
-        { "ratio", d->ratio, -PLUMB_REAL_MAX },
-        { "pitch", d->pitch, -PLUMB_REAL_MAX },
-        { "max_force", d->max_force, 0 },
-        { "max_torque", d->max_torque, 0 },
-        { "break_force", d->break_force, 0 },
-        { "break_torque", d->break_torque, 0 },
-        { "break_impulse", d->break_impulse, 0 },
-        { "event_force", d->event_force, 0 },
-        { "event_torque", d->event_torque, 0 },
-    };
-    plumb_result r = pl_check_within(world, fn, "anchor", d->anchor, POINT_MOST);
-    r = r != PLUMB_OK ? r : pl_check_within(world, fn, "anchor_b", d->anchor_b, POINT_MOST);
-    for (size_t i = 0; i < sizeof fields / sizeof fields[0] && r == PLUMB_OK; ++i) {
-        r = pl_check_range(world, fn, fields[i].name, fields[i].value, fields[i].low,
-                           PLUMB_REAL_MAX);
-    }
-    return r;
+    plumb_result r = pl_check_desc(world, fn, "", PLUMB_TABLE_JOINT, d);
+    return r != PLUMB_OK ? r
+                         : pl_check_range(world, fn, "upper", d->upper, d->lower, PLUMB_REAL_MAX);
 }
 
 static bool is_set(plumb_vec2 v)

@@ -4,8 +4,9 @@
 //
 //   X        handed through to R, so that a list of rows can be part of another list
 //   store    COLUMN: a column of that name; RECORD: a member of the record of bodies that few have
-//            (effects/effects.h); OWN: code of its own keeps it
-//   kind     REAL, VEC2, BOOL, or an enum: MIX, BODY_TYPE
+//            (effects/effects.h); STATE: the descriptor is kept, and this member is saved and hashed; HERE: it is
+//            kept and no state; OWN: code of its own keeps it
+//   kind     REAL, INT, VEC2, BOOL, or an enum: MIX, BODY_TYPE, Y_AXIS, SOLVER, JOINT_KIND
 //   name     of the descriptor's member
 //   word     SAID(key) in scene files; NOT(key), which says the opposite; UNSAID
 //   unit     "m/s"; "1" for a ratio and a bool; of an enum its values
@@ -32,15 +33,26 @@
 #define PL_MEMBER_BOOL      bool
 #define PL_MEMBER_MIX       plumb_mix
 #define PL_MEMBER_BODY_TYPE plumb_body_type
+#define PL_MEMBER_INT       int
+#define PL_MEMBER_Y_AXIS    plumb_y_axis
+#define PL_MEMBER_SOLVER    plumb_solver
 #define PL_KIND_REAL        PLUMB_PROPERTY_REAL
 #define PL_KIND_VEC2        PLUMB_PROPERTY_VEC2
 #define PL_KIND_BOOL        PLUMB_PROPERTY_BOOL
 #define PL_KIND_MIX         PLUMB_PROPERTY_CHOICE
 #define PL_KIND_BODY_TYPE   PLUMB_PROPERTY_CHOICE
+#define PL_KIND_INT         PLUMB_PROPERTY_INT
+#define PL_KIND_Y_AXIS      PLUMB_PROPERTY_CHOICE
+#define PL_KIND_SOLVER      PLUMB_PROPERTY_CHOICE
+#define PL_KIND_JOINT_KIND  PLUMB_PROPERTY_CHOICE
 
 // In the order of their enums.
 #define PL_MIX_CHOICES       "default|average|geometric|multiply|min|max"
 #define PL_BODY_TYPE_CHOICES "dynamic|kinematic|static"
+#define PL_Y_AXIS_CHOICES    "up|down"
+#define PL_SOLVER_CHOICES    "soft|pgs"
+#define PL_JOINT_KIND_CHOICES                                                                      \
+    "revolute|prismatic|weld|wheel|distance|mouse|motor|gear|pulley|ratchet|friction"
 
 // What a range is: low, high, whether low is left out.
 #define NO_END                 ((double)INFINITY)
@@ -75,6 +87,16 @@
 #define PL_ROW_COLUMN_COLUMN(X, type, name, ...) X(type, name, __VA_ARGS__)
 #define PL_ROW_COLUMN_RECORD(...)
 #define PL_ROW_COLUMN_OWN(...)
+
+// X(desc.member) of a row that is state in a descriptor that is kept.
+#define PL_ROW_STATE(X, store, kind, name, word, unit, range, initial, zero, text)                 \
+    PL_ROW_STATE_##store(X, name, PL_ZERO_ARGS_##zero)
+#define PL_ROW_STATE_STATE(X, name, ...) X(desc.name) PL_CALL(PL_STATE_ZERO_OF, X, __VA_ARGS__)
+#define PL_STATE_ZERO_OF(X, how, member) PL_STATE_ZERO_##how(X, member)
+#define PL_STATE_ZERO_ZERO(X, member)    X(desc.member)
+#define PL_STATE_ZERO_NO_ZERO(X, member)
+#define PL_ROW_STATE_HERE(...)
+#define PL_ROW_STATE_OWN(...)
 
 // X(name, initial) of a row that is a member of the record.
 #define PL_ROW_RECORD(X, store, kind, name, word, unit, range, initial, ...)                       \

@@ -3,7 +3,9 @@
 // Reads: the rows, descriptors. Writes: descriptors. Cost: O(1); O(rows) to find one by its name.
 #include "schema/schema.h"
 #include "schema/body.h"
+#include "schema/joint.h"
 #include "schema/material.h"
+#include "schema/world.h"
 
 #include <string.h>
 
@@ -15,11 +17,17 @@
       PL_CALL(WORD, PL_WORD_##key),                                                                \
       .unit = what,                                                                                \
       .text = sentence,                                                                            \
+      .saved = SAVED_##store,                                                                      \
       .type = PL_KIND_##kind,                                                                      \
       PL_RANGE_##range,                                                                            \
       .initial = (double)(from),                                                                   \
       .offset = offsetof(OF, member),                                                              \
       .zero = AT_##none },
+#define SAVED_COLUMN     true
+#define SAVED_RECORD     true
+#define SAVED_STATE      true
+#define SAVED_OWN        true
+#define SAVED_HERE       false
 #define AT_ZERO(member)  offsetof(OF, member)
 #define AT_NO_ZERO       PLUMB_NO_MEMBER
 #define WORD(how, key)   WORD_##how(key)
@@ -29,6 +37,14 @@
 
 #define OF plumb_body_desc
 static const plumb_property bodies[] = { PL_BODY_ROWS(PROPERTY, ) };
+#undef OF
+
+#define OF plumb_world_desc
+static const plumb_property worlds[] = { PL_WORLD_ROWS(PROPERTY, ) };
+#undef OF
+
+#define OF plumb_joint_desc
+static const plumb_property joints[] = { PL_JOINT_DESC_ROWS(PROPERTY, ) };
 #undef OF
 
 #define OF plumb_material_desc
@@ -43,12 +59,16 @@ static const struct {
     const plumb_property *rows;
     size_t count;
 } tables[PLUMB_TABLE_COUNT] = {
+    [PLUMB_TABLE_WORLD] = { worlds, COUNT(worlds) },
+    [PLUMB_TABLE_JOINT] = { joints, COUNT(joints) },
     [PLUMB_TABLE_BODY] = { bodies, COUNT(bodies) },
     [PLUMB_TABLE_MATERIAL] = { materials, COUNT(materials) },
     [PLUMB_TABLE_MATERIAL_PAIR] = { pairs, COUNT(pairs) },
 };
 
-_Static_assert(sizeof(plumb_mix) == sizeof(int) && sizeof(plumb_body_type) == sizeof(int),
+_Static_assert(sizeof(plumb_mix) == sizeof(int) && sizeof(plumb_body_type) == sizeof(int) &&
+                   sizeof(plumb_y_axis) == sizeof(int) && sizeof(plumb_solver) == sizeof(int) &&
+                   sizeof(plumb_joint_kind) == sizeof(int),
                "choices are read as int");
 
 const plumb_property *plumb_properties(plumb_property_table table, int *count)
@@ -86,7 +106,8 @@ double pl_property_member(const plumb_property *property, const void *desc, int 
     int choice;
     switch (property->type) {
     case PLUMB_PROPERTY_BOOL:
-        return *(const bool *)(const void *)member ? 1 : 0;
+        return *(const unsigned char *)member != 0 ? 1 : 0; // whatever is in an image
+    case PLUMB_PROPERTY_INT:
     case PLUMB_PROPERTY_CHOICE:
         memcpy(&choice, member, sizeof choice);
         return choice;
@@ -109,11 +130,14 @@ void plumb_property_write(const plumb_property *property, void *desc, int axis, 
 {
     char *member = (char *)desc + offset_of(property, axis);
     const plumb_real number = (plumb_real)value;
-    const int choice = property->type == PLUMB_PROPERTY_CHOICE ? (int)value : 0;
+    const bool is_whole =
+        property->type == PLUMB_PROPERTY_CHOICE || property->type == PLUMB_PROPERTY_INT;
+    const int choice = is_whole ? (int)value : 0;
     switch (property->type) {
     case PLUMB_PROPERTY_BOOL:
         *(bool *)(void *)member = value != 0;
         break;
+    case PLUMB_PROPERTY_INT:
     case PLUMB_PROPERTY_CHOICE:
         memcpy(member, &choice, sizeof choice);
         break;
@@ -121,6 +145,7 @@ void plumb_property_write(const plumb_property *property, void *desc, int axis, 
         memcpy(member, &number, sizeof number);
     }
     if (property->zero != PLUMB_NO_MEMBER) {
-        ((bool *)desc)[property->zero] = value == 0;
+        ((bool *)desc)[property->zero] = pl_property_member(property, desc, 0) == 0 &&
+                                         pl_property_member(property, desc, 1) == 0;
     }
 }

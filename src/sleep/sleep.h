@@ -110,7 +110,6 @@ void pl_sleep_events_clear(plumb_world *world);
 plumb_result pl_sleep_put_to_sleep(plumb_world *world, const char *function, uint32_t row);
 // Makes the new body of a row of the sleeping partition an island (room must be reserved).
 void pl_sleep_make(plumb_world *world, uint32_t row);
-void pl_sleep_resolve(plumb_world_desc *desc); // defaults of the thresholds
 
 //---- changes that wake (disturb.c) ---------------------------------------------------------------
 //

@@ -7,15 +7,6 @@
 #include "world/check.h"
 #include "world/rows.h"
 
-#define SLEEP_SPEED ((real)0.05) // [m/s]
-#define SLEEP_TIME  ((real)0.5)  // [s]
-
-void pl_sleep_resolve(plumb_world_desc *desc)
-{
-    desc->sleep_speed = desc->sleep_speed > 0 ? desc->sleep_speed : SLEEP_SPEED;
-    desc->sleep_time = desc->sleep_time > 0 ? desc->sleep_time : SLEEP_TIME;
-}
-
 // A step that ran out of memory may have woken bodies: they are still to be told.
 void pl_sleep_events_clear(plumb_world *world)
 {
@@ -107,7 +98,7 @@ plumb_result plumb_world_set_sleep(plumb_world *world, bool allowed, plumb_real 
     world->desc.no_sleep = !allowed;
     world->desc.sleep_speed = speed;
     world->desc.sleep_time = time;
-    pl_sleep_resolve(&world->desc);
+    pl_world_resolve(&world->desc);
     world->schedule_dirty = true;
     return PLUMB_OK;
 }

@@ -5,6 +5,7 @@
 #include "snapshot/check.h"
 #include "snapshot/image.h"
 #include "snapshot/rules.h"
+#include "world/check.h"
 
 #include <string.h>
 
@@ -113,36 +114,12 @@ static bool keeps_rule(const plumb_world *w, pl_rule rule, const pl_section *sec
 
 //---- values --------------------------------------------------------------------------------------
 
-static bool is_between(real v, real least, real most)
-{
-    return v >= least && v <= most;
-}
-
-static bool is_wrap(real v)
-{
-    return v == 0 || is_between(v, (real)0.1, (real)2e9);
-}
-
-static bool check_desc(const plumb_world_desc *d)
-{
-    const real positive[] = { d->contact_hertz,     d->contact_damping, d->push_speed,
-                              d->restitution_speed, d->hit_speed,       d->sleep_speed,
-                              d->sleep_time };
-    for (size_t i = 0; i < sizeof positive / sizeof positive[0]; ++i) {
-        if (!(positive[i] >= 0)) {
-            return false;
-        }
-    }
-    return (unsigned)d->y_axis <= PLUMB_Y_DOWN && (unsigned)d->solver <= PLUMB_SOLVER_PGS &&
-           d->substeps >= 1 && d->substeps <= 64 && d->iterations >= 1 && d->iterations <= 1000 &&
-           is_wrap(d->wrap_x) && is_wrap(d->wrap_y);
-}
-
 static bool check_values(const pl_suspect *s)
 {
     const plumb_world *w = &s->world;
-    return check_desc(&w->desc) && w->time - w->time == 0 && w->time >= 0 && w->sleep.since >= 0 &&
-           w->sleep.passed >= 0 && w->continuous.least_slack >= 0;
+    return pl_desc_is_sound(PLUMB_TABLE_WORLD, &w->desc) && w->desc.substeps > 0 &&
+           w->desc.iterations > 0 && w->time - w->time == 0 && w->time >= 0 &&
+           w->sleep.since >= 0 && w->sleep.passed >= 0 && w->continuous.least_slack >= 0;
 }
 
 //---- all -----------------------------------------------------------------------------------------

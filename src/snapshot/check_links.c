@@ -3,6 +3,7 @@
 //
 // Reads: the image. Writes: marks. Cost: O(state), each list walked once.
 #include "snapshot/check.h"
+#include "world/check.h"
 #include "broad/pairs.h"
 #include "core/sort.h"
 #include "internal_edges/cone.h"
@@ -29,20 +30,7 @@ static bool is_end(const pl_suspect *s, const pl_joint_end *e)
 
 static bool check_joint_desc(const plumb_joint_desc *d)
 {
-    const real positive[] = { d->max_motor,  d->hertz,       d->damping,      d->max_force,
-                              d->max_torque, d->break_force, d->break_torque, d->break_impulse,
-                              d->length,     d->event_force, d->event_torque };
-    const real others[] = { d->lower,      d->upper,      d->motor_speed, d->rest,
-                            d->ratio,      d->pitch,      d->anchor.x,    d->anchor.y,
-                            d->anchor_b.x, d->anchor_b.y, d->ground_a.x,  d->ground_a.y,
-                            d->ground_b.x, d->ground_b.y, d->axis.x,      d->axis.y };
-    for (size_t i = 0; i < sizeof positive / sizeof positive[0]; ++i) {
-        if (!(positive[i] >= 0)) {
-            return false;
-        }
-    }
-    return CHECK_REALS(positive) && CHECK_REALS(others) &&
-           (!d->enable_limit || d->lower <= d->upper) &&
+    return pl_desc_is_sound(PLUMB_TABLE_JOINT, d) && (!d->enable_limit || d->lower <= d->upper) &&
            (d->kind != PLUMB_RATCHET || d->pitch != 0) && (d->kind != PLUMB_PULLEY || d->ratio > 0);
 }
 

@@ -25,17 +25,14 @@
 
 #include "broad/pairs.h"
 #include "core/sort.h"
+#include "schema/joint.h"
+#include "schema/world.h"
 #include "world/material_pair.h"
 #include "world/state.h"
 
 // clang-format off
 #define PL_STATE_DESC(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                       \
-    VALUE(desc.gravity) VALUE(desc.zero_gravity) VALUE(desc.y_axis) VALUE(desc.solver)             \
-    VALUE(desc.substeps) VALUE(desc.iterations) VALUE(desc.contact_hertz)                          \
-    VALUE(desc.contact_damping) VALUE(desc.push_speed) VALUE(desc.restitution_speed)               \
-    VALUE(desc.hit_speed) VALUE(desc.contact_impulses) VALUE(desc.no_sleep)                        \
-    VALUE(desc.sleep_speed) VALUE(desc.sleep_time) VALUE(desc.no_continuous)                       \
-    VALUE(desc.wrap_x) VALUE(desc.wrap_y)                                                          \
+    PL_WORLD_ROWS(PL_ROW_STATE, VALUE)                                                            \
     LEFT(desc.workers) LEFT(desc.tasks)                                                            \
     LEFT(desc.simd_width) /* of this machine; every width gives the same bits */                   \
     LEFT(desc.body_capacity) LEFT(desc.shape_capacity) LEFT(desc.contact_capacity)                 \
@@ -198,12 +195,7 @@
 
 // Members of a joint that decide later steps: what hash.c hashes of it. (Eighths follow from rotations.)
 #define PL_STATE_JOINT(X)                                                                          \
-    X(entity) X(desc.kind) X(desc.enable_limit) X(desc.lower) X(desc.upper) X(desc.enable_motor)   \
-    X(desc.motor_speed) X(desc.max_motor) X(desc.hertz) X(desc.damping) X(desc.rest)               \
-    X(desc.length) X(desc.ratio) X(desc.pitch) X(desc.max_force) X(desc.max_torque)                \
-    X(desc.break_force) X(desc.break_torque) X(desc.break_impulse) X(desc.disabled)                \
-    X(desc.event_force) X(desc.event_torque) X(strained)                                           \
-    X(desc.collide_connected)                                                                      \
+    X(entity) PL_JOINT_DESC_ROWS(PL_ROW_STATE, X) X(strained) X(desc.collide_connected)                 \
     X(a.body) X(a.next) X(a.local) X(a.start) X(a.turns)                                           \
     X(b.body) X(b.next) X(b.local) X(b.start) X(b.turns)                                           \
     X(axis) X(target) X(sum) X(impulse) X(h)

@@ -31,6 +31,9 @@ plumb_result pl_check_property(const plumb_world *world, const char *function, c
 // The same of one that lies in an image.
 bool pl_desc_is_sound(plumb_property_table table, const void *desc);
 
+// Defaults of a world's settings (world.c).
+void pl_world_resolve(plumb_world_desc *desc);
+
 // Pointer given. E_NULL.
 plumb_result pl_check_pointer(const plumb_world *world, const char *function, const char *field,
                               const void *pointer);

@@ -25,6 +25,10 @@ static plumb_result fail(const plumb_world *world, const char *function, const c
 {
     const plumb_real x = (plumb_real)pl_property_member(p, desc, 0);
     const plumb_real y = (plumb_real)pl_property_member(p, desc, 1);
+    if (p->low > 0 && x - x == 0) { // so 0, the default, lies outside
+        return pl_fail(world, PLUMB_E_RANGE, function, "%s is %g; it must be 0, or %g to %g", field,
+                       (double)x, p->low, p->high);
+    }
     switch (p->type) {
     case PLUMB_PROPERTY_CHOICE:
         return pl_fail(world, PLUMB_E_RANGE, function, "%s is %d; it must be one of %s", field,

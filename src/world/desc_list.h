@@ -7,6 +7,7 @@
 #define PL_DESC_LIST_H
 
 #include "schema/body.h"
+#include "schema/joint.h"
 
 // clang-format off
 #define PL_BODY_DESC(X) PL_BODY_ROWS(PL_ROW_MEMBERS, X) X(user_data)
@@ -17,11 +18,7 @@
     X(filter.category) X(filter.mask) X(filter.group) X(filter.nothing)                            \
     X(one_way.direction) X(one_way.angle) X(sensor) X(user_data)
 
-#define PL_JOINT_DESC(X)                                                                           \
-    X(kind) X(body_a) X(body_b) X(anchor) X(anchor_b) X(ground_a) X(ground_b) X(axis)              \
-    X(enable_limit) X(lower) X(upper) X(enable_motor) X(motor_speed) X(max_motor) X(hertz)         \
-    X(damping) X(rest) X(length) X(ratio) X(pitch) X(max_force) X(max_torque) X(break_force)       \
-    X(break_torque) X(break_impulse) X(event_force) X(event_torque) X(disabled) X(collide_connected) X(user_data)
+#define PL_JOINT_DESC(X) X(body_a) X(body_b) PL_JOINT_DESC_ROWS(PL_ROW_MEMBERS, X) X(user_data)
 
 #define PL_CHARACTER_DESC(X)                                                                       \
     X(up) X(max_slope) X(skin) X(step_height) X(step_width) X(snap_distance) X(acceleration)       \

@@ -4,6 +4,7 @@
 // Cost: O(1), plumb_world_destroy O(components), plumb_world_energy O(dynamic bodies).
 #include "plumb/world.h"
 
+#include "schema/world.h"
 #include "step/observer.h"
 #include "world/check.h"
 #include "world/rows.h"
@@ -14,9 +15,6 @@
 #define STANDARD_GRAVITY ((real)9.81) // [m/s^2]
 #define CAPACITY_MOST                                                                              \
     (UINT32_C(1) << 24) // rows: more than any machine steps, less than wraps sizes
-#define SOFT_SUBSTEPS      4
-#define SOFT_DAMPING       ((real)3)
-#define SOFT_PUSH_SPEED    ((real)6) // [m/s]
 #define CLASSIC_ITERATIONS 10
 #define SUBSTEPS_MOST      64
 #define ITERATIONS_MOST    1000
@@ -31,11 +29,6 @@ static plumb_result check_integers(const plumb_world *world, const char *fn,
         const char *name;
         int64_t value, high;
     } fields[] = {
-        { "y_axis", (int64_t)d->y_axis, PLUMB_Y_DOWN },
-        { "solver", (int64_t)d->solver, PLUMB_SOLVER_PGS },
-        { "substeps", d->substeps, SUBSTEPS_MOST },
-        { "iterations", d->iterations, ITERATIONS_MOST },
-        { "workers", d->workers, PLUMB_WORKERS_MAX },
         { "body_capacity", d->body_capacity, CAPACITY_MOST },
         { "shape_capacity", d->shape_capacity, CAPACITY_MOST },
         { "contact_capacity", d->contact_capacity, CAPACITY_MOST },
@@ -55,42 +48,35 @@ static plumb_result check_integers(const plumb_world *world, const char *fn,
 
 static plumb_result check_desc(const plumb_world *world, const char *fn, const plumb_world_desc *d)
 {
-    plumb_result r = pl_check_finite_vec(world, fn, "gravity", d->gravity);
+    plumb_result r = pl_check_desc(world, fn, "", PLUMB_TABLE_WORLD, d);
     if (r == PLUMB_OK && d->zero_gravity && (d->gravity.x != 0 || d->gravity.y != 0)) {
         r = pl_fail(world, PLUMB_E_RANGE, fn,
                     "gravity is (%g, %g); it must be (0, 0) with zero_gravity",
                     (double)d->gravity.x, (double)d->gravity.y);
     }
-    const struct {
-        const char *name;
-        real value;
-    } fields[] = {
-        { "contact_hertz", d->contact_hertz }, { "contact_damping", d->contact_damping },
-        { "push_speed", d->push_speed },       { "restitution_speed", d->restitution_speed },
-        { "hit_speed", d->hit_speed },         { "sleep_speed", d->sleep_speed },
-        { "sleep_time", d->sleep_time },
-    };
-    for (size_t i = 0; i < sizeof fields / sizeof fields[0] && r == PLUMB_OK; ++i) {
-        r = pl_check_range(world, fn, fields[i].name, fields[i].value, 0, PLUMB_REAL_MAX);
-    }
-    r = r != PLUMB_OK ? r : pl_wrap_check(world, fn, d);
     return r != PLUMB_OK ? r : check_integers(world, fn, d);
 }
 
+#define RESOLVE(X, store, kind, name, word, unit, range, initial, ...) RESOLVE_##kind(name, initial)
+#define RESOLVE_REAL(name, initial)                                    desc->name = desc->name != 0 ? desc->name : (real)(initial);
+#define RESOLVE_INT(name, initial)                                     desc->name = desc->name != 0 ? desc->name : (initial);
+#define RESOLVE_VEC2(name, initial)
+#define RESOLVE_BOOL(name, initial)
+#define RESOLVE_Y_AXIS(name, initial)
+#define RESOLVE_SOLVER(name, initial)
+
 // contact_hertz stays 0: "a sixth of the substep rate", which is known only when a step is taken.
-static void resolve_defaults(plumb_world_desc *d)
+void pl_world_resolve(plumb_world_desc *desc)
 {
-    bool soft = d->solver == PLUMB_SOLVER_SOFT;
-    if (!d->zero_gravity && d->gravity.x == 0 && d->gravity.y == 0) {
-        d->gravity.y = d->y_axis == PLUMB_Y_UP ? -STANDARD_GRAVITY : STANDARD_GRAVITY;
+    if (!desc->zero_gravity && desc->gravity.x == 0 && desc->gravity.y == 0) {
+        desc->gravity.y = desc->y_axis == PLUMB_Y_UP ? -STANDARD_GRAVITY : STANDARD_GRAVITY;
     }
-    d->substeps = d->substeps != 0 ? d->substeps : soft ? SOFT_SUBSTEPS : 1;
-    d->iterations = d->iterations != 0 ? d->iterations : soft ? 1 : CLASSIC_ITERATIONS;
-    d->contact_damping = d->contact_damping > 0 ? d->contact_damping : SOFT_DAMPING;
-    d->push_speed = d->push_speed > 0 ? d->push_speed : SOFT_PUSH_SPEED;
-    d->simd_width = pl_solver_best_width(d->simd_width);
-    d->workers = d->workers != 0 ? d->workers : 1;
-    pl_sleep_resolve(d);
+    if (desc->solver == PLUMB_SOLVER_PGS) {
+        desc->substeps = desc->substeps != 0 ? desc->substeps : 1;
+        desc->iterations = desc->iterations != 0 ? desc->iterations : CLASSIC_ITERATIONS;
+    }
+    PL_WORLD_ROWS(RESOLVE, )
+    desc->simd_width = pl_solver_best_width(desc->simd_width);
 }
 
 //---- create, destroy -----------------------------------------------------------------------------
@@ -220,7 +206,7 @@ plumb_result plumb_world_create(const plumb_world_desc *desc, plumb_world **worl
     init_tables(made);
     plumb_result r = check_desc(made, "plumb_world_create", desc);
     if (r == PLUMB_OK) {
-        resolve_defaults(&made->desc);
+        pl_world_resolve(&made->desc);
         made->desc.allocator = memory.hooks;
         made->gravity = made->desc.gravity;
         if (!make_default_material(made) || !reserve_rows(made) || !start_workers(made)) {
@@ -338,7 +324,7 @@ plumb_result plumb_world_set_contact_tuning(plumb_world *world, plumb_real hertz
         world->desc.contact_hertz = hertz;
         world->desc.contact_damping = damping;
         world->desc.push_speed = push_speed;
-        resolve_defaults(&world->desc);
+        pl_world_resolve(&world->desc);
     }
     return r;
 }

@@ -10,28 +10,7 @@
 
 #include "world/check.h"
 
-#define PERIOD_LEAST ((real)0.1) // [m] some times the distance at which contacts are made ready
-#define PERIOD_MOST  ((real)2e9) // [m] bodies are made within 1e9 m of the origin
-
 //---- checks --------------------------------------------------------------------------------------
-
-static plumb_result check_period(const plumb_world *world, const char *function, const char *field,
-                                 real period)
-{
-    plumb_result r = pl_check_finite(world, function, field, period);
-    if (r == PLUMB_OK && period != 0 && !(period >= PERIOD_LEAST && period <= PERIOD_MOST)) {
-        r = pl_fail(world, PLUMB_E_RANGE, function, "%s is %g; it must be 0, or %g to %g", field,
-                    (double)period, (double)PERIOD_LEAST, (double)PERIOD_MOST);
-    }
-    return r;
-}
-
-plumb_result pl_wrap_check(const plumb_world *world, const char *function,
-                           const plumb_world_desc *desc)
-{
-    plumb_result r = check_period(world, function, "wrap_x", desc->wrap_x);
-    return r != PLUMB_OK ? r : check_period(world, function, "wrap_y", desc->wrap_y);
-}
 
 plumb_result pl_wrap_check_piece(const plumb_world *world, const char *function,
                                  const pl_core *core)

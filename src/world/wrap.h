@@ -45,9 +45,7 @@ void pl_wrap_row(plumb_world *world, uint32_t row);
 // The pass: all that moves.
 void pl_wrap_bodies(plumb_world *world);
 
-// Checks of the descriptor; of the size of a piece, `of` the shape that is made. E_RANGE, E_NOT_FINITE.
-plumb_result pl_wrap_check(const plumb_world *world, const char *function,
-                           const plumb_world_desc *desc);
+// Of the size of a piece of the shape that is made. E_RANGE.
 plumb_result pl_wrap_check_piece(const plumb_world *world, const char *function,
                                  const pl_core *core);
 

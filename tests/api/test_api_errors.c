@@ -52,8 +52,9 @@ static void bodies_refuse(void **state)
             BODY(.type = PLUMB_STATIC, .continuous = true));
     REFUSED(E_RANGE, "plumb_body_create: continuous is true; it must be false for a kinematic body",
             BODY(.type = PLUMB_KINEMATIC, .continuous = true));
-    REFUSED(E_RANGE, "plumb_body_create: mass is -1; it must be 1e-36 to 1e+36", BODY(.mass = -1));
-    REFUSED(E_RANGE, "plumb_body_create: mass is 1e-37; it must be 1e-36 to 1e+36",
+    REFUSED(E_RANGE, "plumb_body_create: mass is -1; it must be 0, or 1e-36 to 1e+36",
+            BODY(.mass = -1));
+    REFUSED(E_RANGE, "plumb_body_create: mass is 1e-37; it must be 0, or 1e-36 to 1e+36",
             BODY(.mass = R(1e-37)));
     REFUSED(E_NOT_FINITE, "plumb_body_create: inertia is nan; it must be finite",
             BODY(.inertia = NAN_));

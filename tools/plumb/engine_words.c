@@ -16,13 +16,13 @@ typedef struct word_run {
 
 /// Constructors in the order in which an author meets them.
 static const word_run runs[] = {
-    { "settings", NULL, &sc_list_scene, 1, PLUMB_TABLE_COUNT },
+    { "settings", NULL, &sc_list_scene, 1, PLUMB_TABLE_WORLD },
     { "materials", NULL, &sc_list_material, 1, PLUMB_TABLE_MATERIAL },
     { "materials", NULL, &sc_list_pair, 1, PLUMB_TABLE_MATERIAL_PAIR },
     { "bodies", NULL, &sc_list_body, 1, PLUMB_TABLE_BODY },
     { "bodies", "the table 'character' of a body", &sc_list_character, 1, PLUMB_TABLE_COUNT },
     { "shapes", NULL, sc_list_shapes, SC_SHAPE_KINDS, PLUMB_TABLE_COUNT },
-    { "joints", NULL, sc_list_joints, SC_JOINT_KINDS, PLUMB_TABLE_COUNT },
+    { "joints", NULL, sc_list_joints, SC_JOINT_KINDS, PLUMB_TABLE_JOINT },
     { "joints", "the table 'motor' of a joint", &sc_list_motor, 1, PLUMB_TABLE_COUNT },
     { "joints", "the table 'spring' of a joint", &sc_list_spring, 1, PLUMB_TABLE_COUNT },
     { "camera", NULL, &sc_list_camera, 1, PLUMB_TABLE_COUNT },

@@ -12,28 +12,11 @@
 
 static void make_world(scene *s, const sc_site *site)
 {
-    const sc_settings *d = &s->settings;
-    bool zero = SC_GIVEN(&sc_list_scene, d, sc_settings, gravity) && d->gravity[0] == 0 &&
-                d->gravity[1] == 0;
-    plumb_world_desc desc = {
-        .gravity = { (plumb_real)d->gravity[0], (plumb_real)d->gravity[1] },
-        .zero_gravity = zero,
-        .y_axis = d->y == 0 ? PLUMB_Y_UP : PLUMB_Y_DOWN,
-        .solver = d->solver == 0 ? PLUMB_SOLVER_SOFT : PLUMB_SOLVER_PGS,
-        .substeps = (int)d->substeps,
-        .iterations = (int)d->iterations,
-        .contact_hertz = (plumb_real)d->contact_hertz,
-        .contact_damping = (plumb_real)d->contact_damping,
-        .push_speed = (plumb_real)d->push_speed,
-        .restitution_speed = (plumb_real)d->restitution_speed,
-        .simd_width = (int)d->simd_width,
-        .workers = (int)d->workers,
-        .wrap_x = (plumb_real)d->wrap_x,
-        .wrap_y = (plumb_real)d->wrap_y,
-        .no_sleep = SC_GIVEN(&sc_list_scene, d, sc_settings, sleep) && !d->sleep,
-        .no_continuous = SC_GIVEN(&sc_list_scene, d, sc_settings, continuous) && !d->continuous,
-        .allocator = { sc_world_resize, s },
-    };
+    const sc_settings *def = &s->settings;
+    plumb_world_desc desc = { .allocator = { sc_world_resize, s } };
+#define GIVEN(word) SC_GIVEN(&sc_list_scene, def, sc_settings, word)
+    PL_WORLD_ROWS(SC_DESCRIBE, GIVEN)
+#undef GIVEN
     plumb_result result = plumb_world_create(&desc, &s->world);
     if (result != PLUMB_OK) {
         sc_refused(s, site, NULL, result, "the world could not be made");
@@ -218,6 +201,7 @@ void sc_build_body(scene *s, const sc_site *site, int table)
     check_body(s, site, &def);
     if (SC_GIVEN(&sc_list_body, &def, sc_body_def, angle_deg)) {
         def.angle = def.angle_deg * (3.141592653589793 / 180);
+        SC_GIVE(&sc_list_body, &def, sc_body_def, angle);
     }
     sc_work(s, 200 + 100 * (uint64_t)def.shape_count); // some microseconds
     sc_body *b = add_record(s, &def);

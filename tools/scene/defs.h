@@ -11,12 +11,8 @@ typedef struct sc_settings {
     uint64_t present;
     char title[128];
     char description[512];
-    double gravity[2];
-    int y, solver;
-    double dt, duration, seed, substeps, iterations;
-    double contact_hertz, contact_damping, push_speed, restitution_speed, simd_width, workers;
-    double wrap_x, wrap_y;
-    bool sleep, continuous; ///< read only where they were given
+    double dt, duration, seed;
+    PL_WORLD_ROWS(SC_MEMBER, )
 } sc_settings;
 
 typedef struct sc_material_def {
@@ -153,7 +149,8 @@ typedef struct sc_joint_def {
     sc_end a, b;
     double at[2], at_a[2], at_b[2], wheel_a[2], wheel_b[2], axis[2], target[2], offset[2];
     double limits[2], angle, length, ratio, pitch;
-    double max_force, max_torque, break_force, break_torque;
+    double max_force, max_torque;
+    PL_JOINT_BOUND_ROWS(SC_MEMBER, )
     bool collide, hidden;
     sc_motor motor;
     sc_spring spring;

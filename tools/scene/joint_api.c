@@ -240,6 +240,20 @@ static int method_set_break(lua_State *L)
     return check(&c, plumb_joint_set_break(c.world, c.entity, force, torque), "break");
 }
 
+// set_break_impulse(impulse); 0 or nothing: no impulse breaks it.
+static int method_set_break_impulse(lua_State *L)
+{
+    call c = self(L, "set_break_impulse");
+    plumb_real impulse = lua_isnoneornil(L, 2) ? 0 : (plumb_real)sc_finite_number(L, 2);
+    return check(&c, plumb_joint_set_break_impulse(c.world, c.entity, impulse), "break");
+}
+
+static int method_rate(lua_State *L)
+{
+    call c = self(L, "rate");
+    return sc_push_real(L, plumb_joint_rate(c.world, c.entity));
+}
+
 static int method_destroy(lua_State *L)
 {
     call c = self(L, "destroy");
@@ -263,8 +277,10 @@ static const luaL_Reg methods[] = {
     { "force", method_force },
     { "kind", method_kind },
     { "name", method_name },
+    { "rate", method_rate },
     { "reaction", method_reaction },
     { "set_break", method_set_break },
+    { "set_break_impulse", method_set_break_impulse },
     { "set_limits", method_set_limits },
     { "set_motor", method_set_motor },
     { "set_motor_speed", method_set_motor_speed },

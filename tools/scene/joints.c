@@ -170,7 +170,7 @@ static plumb_joint_desc describe(const sc_joint_def *d, sc_joint *record)
 {
     bool two = d->kind == PLUMB_DISTANCE || d->kind == PLUMB_PULLEY;
     bool slides = d->kind == PLUMB_PRISMATIC;
-    return (plumb_joint_desc){
+    plumb_joint_desc desc = {
         .kind = d->kind,
         .body_a = d->a.body,
         .body_b = d->b.body,
@@ -193,11 +193,14 @@ static plumb_joint_desc describe(const sc_joint_def *d, sc_joint *record)
         .pitch = (plumb_real)d->pitch,
         .max_force = (plumb_real)d->max_force,
         .max_torque = (plumb_real)d->max_torque,
-        .break_force = (plumb_real)d->break_force,
-        .break_torque = (plumb_real)d->break_torque,
         .collide_connected = d->collide,
         .user_data = record,
     };
+    const sc_joint_def *def = d;
+#define BOUND_GIVEN(word) GIVEN(def, word)
+    PL_JOINT_BOUND_ROWS(SC_DESCRIBE, BOUND_GIVEN)
+#undef BOUND_GIVEN
+    return desc;
 }
 
 static plumb_joint_memory recall(const sc_joint_state *t)
@@ -349,6 +352,14 @@ static void remember(const scene *s, const sc_joint *j, sc_joint_state *t)
 #define MARK(d, member, given)                                                                     \
     SC_MARK(&sc_list_joints[(d)->kind], (d), sc_joint_def, member, (given))
 
+// A bound of the reaction as setters left it.
+#define REMEMBER(X, store, kind, name, word, ...) PL_CALL(REMEMBER_OF, name, PL_WORD_##word)
+#define REMEMBER_OF(name, how, word)              REMEMBER_##how(name, word)
+#define REMEMBER_SAID(name, word)                                                                  \
+    d->word = (double)now->name;                                                                   \
+    MARK(d, word, now->name > 0);
+#define REMEMBER_UNSAID(name, word)
+
 // Limits, motor and spring as setters left them.
 static void read_parts(sc_joint_def *d, const plumb_joint_desc *now)
 {
@@ -373,10 +384,7 @@ static void read_parts(sc_joint_def *d, const plumb_joint_desc *now)
         SC_GIVE(&sc_list_spring, &d->spring, sc_spring, rest);
     }
     MARK(d, spring, now->hertz > 0);
-    d->break_force = (double)now->break_force;
-    d->break_torque = (double)now->break_torque;
-    MARK(d, break_force, now->break_force > 0);
-    MARK(d, break_torque, now->break_torque > 0);
+    PL_JOINT_BOUND_ROWS(REMEMBER, )
 }
 
 sc_joint_def sc_joint_now(const scene *s, const sc_joint *joint)

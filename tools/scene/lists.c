@@ -7,26 +7,12 @@
 // clang-format off
 #define T sc_settings
 static const sc_field scene_rows[] = {
-    { "contact_damping",   SC_NUMBER,  AT(T, contact_damping),   0, 1e6, "1", 0, 0 },
-    { "contact_hertz",     SC_NUMBER,  AT(T, contact_hertz),     0, 1e6, "1/s", 0, 0 },
-    { "continuous",        SC_BOOL,    AT(T, continuous),        0, 0, NULL, 0, 0 },
-    { "description",       SC_STRING,  AT(T, description),       0, 0, NULL, 0, 0 },
-    { "dt",                SC_NUMBER,  AT(T, dt),                1e-6, 1, "s", 0, 0 },
-    { "duration",          SC_NUMBER,  AT(T, duration),          0, 1e7, "s", 0, SC_ABOVE },
-    { "gravity",           SC_VEC2,    AT(T, gravity),           -1e6, 1e6, "m/s^2", 0, 0 },
-    { "iterations",        SC_INTEGER, AT(T, iterations),        1, 1000, "1", 0, 0 },
-    { "push_speed",        SC_NUMBER,  AT(T, push_speed),        0, 1e6, "m/s", 0, 0 },
-    { "restitution_speed", SC_NUMBER,  AT(T, restitution_speed), 0, 1e6, "m/s", 0, 0 },
-    { "seed",              SC_INTEGER, AT(T, seed),              0, 9007199254740991.0, "1", 0, 0 },
-    { "simd_width",        SC_INTEGER, AT(T, simd_width),        0, 16, "1", 0, 0 },
-    { "sleep",             SC_BOOL,    AT(T, sleep),             0, 0, NULL, 0, 0 },
-    { "solver",            SC_CHOICE,  AT(T, solver),            0, 0, "soft|pgs", 0, 0 },
-    { "substeps",          SC_INTEGER, AT(T, substeps),          1, 64, "1", 0, 0 },
-    { "title",             SC_STRING,  AT(T, title),             0, 0, NULL, 0, 0 },
-    { "workers",           SC_INTEGER, AT(T, workers),           0, 64, "1", 0, 0 },
-    { "wrap_x",            SC_NUMBER,  AT(T, wrap_x),            0.1, 2e9, "m", 0, 0 },
-    { "wrap_y",            SC_NUMBER,  AT(T, wrap_y),            0.1, 2e9, "m", 0, 0 },
-    { "y",                 SC_CHOICE,  AT(T, y),                 0, 0, "up|down", 0, 0 },
+    { "description", SC_STRING, AT(T, description), 0, 0, NULL, 0, 0 },
+    { "dt", SC_NUMBER, AT(T, dt), 1e-6, 1, "s", 0, 0 },
+    { "duration", SC_NUMBER, AT(T, duration), 0, 1e7, "s", 0, SC_ABOVE },
+    { "seed", SC_INTEGER, AT(T, seed), 0, 9007199254740991.0, "1", 0, 0 },
+    { "title", SC_STRING, AT(T, title), 0, 0, NULL, 0, 0 },
+    PL_WORLD_ROWS(SC_ROW, )
 };
 const sc_list sc_list_scene = { "scene", scene_rows, COUNT(scene_rows) };
 #undef T

@@ -1,6 +1,6 @@
 // lists_joints.c - the keys of the joint constructors, one array of rows a kind. PLUMB_JOINT_LIST
 // is the list of kinds: a kind added there needs <name>_rows here, and joints.c only where it has a
-// key that no other kind has. Rows are sorted by name, as in lists.c.
+// key that no other kind has. What all kinds have is said by the schema.
 #include <string.h>
 
 #include "lists.h"
@@ -46,8 +46,6 @@ const sc_list sc_list_state = { "state", state_rows, COUNT(state_rows) };
 #define ROW_AT_B         { "at_b",    SC_VEC2,   AT(T, at_b),    -FAR, FAR, "m", 0, 0 }
 #define ROW_AXIS         { "axis",    SC_VEC2,   AT(T, axis),    -FAR, FAR, "1", 0, 0 }
 #define ROW_B            { "b",       SC_END,    AT(T, b),       0, 0, NULL, 2, 0 }
-#define ROW_BREAK_FORCE  { "break_force",  SC_NUMBER, AT(T, break_force),  0, BIG, "N", 0, SC_ABOVE }
-#define ROW_BREAK_TORQUE { "break_torque", SC_NUMBER, AT(T, break_torque), 0, BIG, "N m", 0, SC_ABOVE }
 #define ROW_COLLIDE      { "collide", SC_BOOL,   AT(T, collide), 0, 0, NULL, 0, 0 }
 #define ROW_HIDDEN       { "hidden",  SC_BOOL,   AT(T, hidden),  0, 0, NULL, 0, 0 }
 #define ROW_LIMITS(low, unit) { "limits", SC_LIMITS, AT(T, limits), low, BIG, unit, 0, 0 }
@@ -60,7 +58,7 @@ const sc_list sc_list_state = { "state", state_rows, COUNT(state_rows) };
 #define ROW_STATE        { "state",   SC_RECORD, AT(T, state),   0, 0, "state", 0, 0 }
 
 // What begins and what ends the rows of nearly every kind.
-#define ROWS_BREAK ROW_BREAK_FORCE, ROW_BREAK_TORQUE, ROW_COLLIDE, ROW_HIDDEN
+#define ROWS_BREAK PL_JOINT_BOUND_ROWS(SC_ROW, ) ROW_COLLIDE, ROW_HIDDEN
 #define ROWS_SLIDER                                                                                 \
     ROW_A, ROW_AT, ROW_AXIS, ROW_B, ROWS_BREAK, ROW_LIMITS(-BIG, "m"), ROW_MOTOR, ROW_NAME,          \
         ROW_SPRING, ROW_STATE

@@ -93,7 +93,9 @@ static int material_set(lua_State *L)
 static plumb_material_pair describe_pair(const sc_pair_def *def)
 {
     plumb_material_pair desc = { 0 };
-    PL_MATERIAL_PAIR_ROWS(SC_DESCRIBE, )
+#define GIVEN(word) SC_GIVEN(&sc_list_pair, def, sc_pair_def, word)
+    PL_MATERIAL_PAIR_ROWS(SC_DESCRIBE, GIVEN)
+#undef GIVEN
     return desc;
 }
 

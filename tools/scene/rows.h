@@ -4,7 +4,9 @@
 #define SCENE_ROWS_H
 
 #include "schema/body.h"
+#include "schema/joint.h"
 #include "schema/material.h"
+#include "schema/world.h"
 
 // Numbers are kept as their author wrote them: one scene serves all precisions.
 #define SC_MEMBER_REAL(word)      double word;
@@ -12,12 +14,18 @@
 #define SC_MEMBER_BOOL(word)      bool word;
 #define SC_MEMBER_MIX(word)       int word;
 #define SC_MEMBER_BODY_TYPE(word) int word;
+#define SC_MEMBER_INT(word)       double word;
+#define SC_MEMBER_Y_AXIS(word)    int word;
+#define SC_MEMBER_SOLVER(word)    int word;
 
 #define SC_KIND_REAL      SC_NUMBER
 #define SC_KIND_VEC2      SC_VEC2
 #define SC_KIND_BOOL      SC_BOOL
 #define SC_KIND_MIX       SC_CHOICE
 #define SC_KIND_BODY_TYPE SC_CHOICE
+#define SC_KIND_INT       SC_INTEGER
+#define SC_KIND_Y_AXIS    SC_CHOICE
+#define SC_KIND_SOLVER    SC_CHOICE
 
 /// A member of the struct.
 #define SC_MEMBER(X, store, kind, name, word, ...) PL_CALL(SC_MEMBER_OF, kind, PL_WORD_##word)
@@ -57,22 +65,32 @@
 #define SC_DEFAULT_MIX(word, initial)       def.word = initial;
 #define SC_DEFAULT_BODY_TYPE(word, initial) def.word = initial;
 
-/// `desc` becomes what `def` says: statements. Whoever writes 0 means it: X(word), whether it was given.
+/// `desc` becomes what `def` says: statements. X(word): whether it was given. Whoever writes 0 means it.
 #define SC_DESCRIBE(X, store, kind, name, word, unit, range, initial, zero, text)                  \
-    PL_CALL(SC_DESCRIBE_OF, kind, name, PL_WORD_##word)                                            \
-    PL_CALL(SC_ZERO_OF, X, name, PL_WORD_##word, PL_ZERO_ARGS_##zero)
-#define SC_DESCRIBE_OF(kind, name, how, word) SC_DESCRIBE_##how(kind, name, word)
-#define SC_DESCRIBE_SAID(kind, name, word)    SC_DESCRIBE_##kind(name, word)
-#define SC_DESCRIBE_NOT(kind, name, word)     desc.name = !def->word;
-#define SC_DESCRIBE_UNSAID(kind, name, word)
+    PL_CALL(SC_DESCRIBE_OF, X, kind, name, PL_ZERO_ARGS_##zero, PL_WORD_##word)
+#define SC_DESCRIBE_OF(X, kind, name, zero, member, how, word)                                     \
+    SC_DESCRIBE_##how(X, kind, name, zero, member, word)
+#define SC_DESCRIBE_SAID(X, kind, name, zero, member, word)                                        \
+    if (X(word)) {                                                                                 \
+        SC_DESCRIBE_##kind(name, word) SC_DESCRIBE_##zero(kind, name, member)                      \
+    }
+#define SC_DESCRIBE_NOT(X, kind, name, zero, member, word)                                         \
+    if (X(word)) {                                                                                 \
+        desc.name = !def->word;                                                                    \
+    }
+#define SC_DESCRIBE_UNSAID(X, kind, name, zero, member, word)
 #define SC_DESCRIBE_REAL(name, word)      desc.name = (plumb_real)def->word;
+#define SC_DESCRIBE_INT(name, word)       desc.name = (int)def->word;
 #define SC_DESCRIBE_BOOL(name, word)      desc.name = def->word;
 #define SC_DESCRIBE_MIX(name, word)       desc.name = (plumb_mix)def->word;
 #define SC_DESCRIBE_BODY_TYPE(name, word) desc.name = (plumb_body_type)def->word;
+#define SC_DESCRIBE_Y_AXIS(name, word)    desc.name = (plumb_y_axis)def->word;
+#define SC_DESCRIBE_SOLVER(name, word)    desc.name = (plumb_solver)def->word;
 #define SC_DESCRIBE_VEC2(name, word)                                                               \
     desc.name = (plumb_vec2){ (plumb_real)def->word[0], (plumb_real)def->word[1] };
-#define SC_ZERO_OF(X, name, how_said, word, how, member) SC_ZERO_##how(X, name, word, member)
-#define SC_ZERO_ZERO(X, name, word, member)              desc.member = X(word) && desc.name == 0;
-#define SC_ZERO_NO_ZERO(X, name, word, member)
+#define SC_DESCRIBE_ZERO(kind, name, member) desc.member = SC_IS_ZERO_##kind(desc.name);
+#define SC_DESCRIBE_NO_ZERO(kind, name, member)
+#define SC_IS_ZERO_REAL(value) (value) == 0
+#define SC_IS_ZERO_VEC2(value) (value).x == 0 && (value).y == 0
 
 #endif
