@@ -33,14 +33,6 @@ typedef struct pl_impact_place {
     double nx, ny;         // unit, out of other
 } pl_impact_place;
 
-// Whether the pieces may be solid to one another: of different bodies, no sensors, kept apart by
-// neither filter, excluded pair nor joint. Asked before any geometry.
-bool pl_pieces_collide(const plumb_world *world, uint32_t piece, uint32_t other);
-// Whether the body stops at this impact, or goes on as if `other` were not there: it does where a
-// system disabled the contact in this step, and where a one-way shape lets it pass. The only question of
-// its kind in the pass.
-bool pl_impact_stops(const plumb_world *world, const pl_impact_place *place);
-
 bool pl_continuous_wanted(const plumb_world *world, const char **reason);
 // Room for the movers; the last thing of a step that can run out of memory.
 bool pl_continuous_reserve(plumb_world *world);

@@ -23,7 +23,9 @@ static bool is_solid(const plumb_world *world, uint32_t piece)
     return (world->pieces.flags[piece] & PL_PIECE_SENSOR) == 0;
 }
 
-bool pl_pieces_collide(const plumb_world *world, uint32_t piece, uint32_t other)
+// Whether the pieces may be solid to one another: of different bodies, no sensors, kept apart by
+// neither filter, excluded pair nor joint. Asked before any geometry.
+static bool may_collide(const plumb_world *world, uint32_t piece, uint32_t other)
 {
     const uint8_t *flags = world->pieces.flags;
     uint32_t row = world->pieces.body[piece], other_row = world->pieces.body[other];
@@ -49,7 +51,10 @@ static bool one_way_holds(const plumb_world *world, const pl_impact_place *place
             pl_one_way_blocks(world, place->piece, plumb_vec2_neg(n), 0));
 }
 
-bool pl_impact_stops(const plumb_world *world, const pl_impact_place *place)
+// Whether the body stops at this impact, or goes on as if `other` were not there: it does where a
+// system disabled the contact in this step, and where a one-way shape lets it pass. The only question of
+// its kind in the pass.
+static bool stops_at(const plumb_world *world, const pl_impact_place *place)
 {
     const uint8_t *flags = world->pieces.flags;
     uint8_t one_way = (flags[place->piece] | flags[place->other]) & PL_PIECE_ONE_WAY;
@@ -131,7 +136,7 @@ static double thickness(const pl_search *s, uint32_t other)
 static bool visit_depth(void *context, const pl_grid_entry *entry)
 {
     pl_search *s = context;
-    if (pl_pieces_collide(s->world, s->piece, entry->piece)) {
+    if (may_collide(s->world, s->piece, entry->piece)) {
         pl_swept other = still_piece(s, entry);
         double depth = -pl_sweep_gap(&s->swept, &other, 0).distance;
         if (depth > s->sunk && !pl_target_is_lost(thickness(s, entry->piece), depth)) {
@@ -172,18 +177,18 @@ static bool stops(const pl_search *s, uint32_t other, const pl_swept *other_swep
     pl_gap gap = pl_sweep_gap(&s->swept, other_swept, time);
     double x, y;
     pl_sweep_point(&s->swept, time, -gap.nx, -gap.ny, &x, &y);
-    return pl_impact_stops(s->world, &(pl_impact_place){ .piece = s->piece,
-                                                         .other = other,
-                                                         .x = s->motion.ox + x,
-                                                         .y = s->motion.oy + y,
-                                                         .nx = gap.nx,
-                                                         .ny = gap.ny });
+    return stops_at(s->world, &(pl_impact_place){ .piece = s->piece,
+                                                  .other = other,
+                                                  .x = s->motion.ox + x,
+                                                  .y = s->motion.oy + y,
+                                                  .nx = gap.nx,
+                                                  .ny = gap.ny });
 }
 
 static bool visit_still(void *context, const pl_grid_entry *entry)
 {
     pl_search *s = context;
-    if (goes_by(s, &entry->box) || !pl_pieces_collide(s->world, s->piece, entry->piece)) {
+    if (goes_by(s, &entry->box) || !may_collide(s->world, s->piece, entry->piece)) {
         return true;
     }
     pl_swept other = still_piece(s, entry);
@@ -268,7 +273,7 @@ static bool is_partner(const pl_search *s, uint32_t row)
 static void meet(pl_search *s, uint32_t piece)
 {
     uint32_t row = s->world->pieces.body[piece];
-    if (!pl_pieces_collide(s->world, s->piece, piece)) {
+    if (!may_collide(s->world, s->piece, piece)) {
         return;
     }
     const pl_mover *other = pl_mover_find(s->world, row);

@@ -266,8 +266,10 @@ static void put_in_order(const pl_component *c, uint32_t *order)
     }
 }
 
-bool pl_component_align(pl_memory *memory, pl_component *c, const pl_registry *registry,
-                        uint32_t kind)
+// Puts values in the order of the rows that their owners have in the registry, if they are of that kind;
+// the others lie behind them, as they lay. False when out of memory (nothing changed). O(1) where nothing
+// moved since the last time, else O(values + rows).
+static bool align(pl_memory *memory, pl_component *c, const pl_registry *registry, uint32_t kind)
 {
     uint32_t rows;
     if (pl_is_seen(c->aligned, c, registry)) {
@@ -291,7 +293,7 @@ bool pl_components_align(pl_memory *memory, pl_components *components, const pl_
                          uint32_t kind)
 {
     for (uint32_t i = 0; i < components->count; ++i) {
-        if (!pl_component_align(memory, &components->items[i], registry, kind)) {
+        if (!align(memory, &components->items[i], registry, kind)) {
             return false;
         }
     }

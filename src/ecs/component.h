@@ -74,11 +74,6 @@ void pl_component_write(const pl_component *component, uint32_t place, const voi
 // Takes the value at a place away; the last one fills the gap.
 void pl_component_erase(pl_component *component, uint32_t place);
 
-// Puts values in the order of the rows that their owners have in the registry, if they are of that kind;
-// the others lie behind them, as they lay. False when out of memory (nothing changed). O(1) where nothing
-// moved since the last time, else O(values + rows).
-bool pl_component_align(pl_memory *memory, pl_component *component, const pl_registry *registry,
-                        uint32_t kind);
 bool pl_components_align(pl_memory *memory, pl_components *components, const pl_registry *registry,
                          uint32_t kind);
 

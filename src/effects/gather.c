@@ -33,7 +33,7 @@ static void slow_down(plumb_world *world, uint32_t slot, near_real s)
     motion->ax *= ss, motion->ay *= ss, motion->aw *= ss;
     motion->ux = body->vx, motion->uy = body->vy, motion->uw = body->w;
     motion->inv_mass = body->inv_mass;
-    if (pl_impacts_any(world)) {
+    if (world->solver.follows_impacts) {
         near_real *low = (near_real *)world->solver.residuals.data + (size_t)slot * 4;
         low[0] *= s, low[1] *= s;
     }
@@ -44,7 +44,7 @@ static void lock(plumb_world *world, uint32_t slot, uint32_t flags)
     pl_solver_body *body = &pl_solver_bodies(&world->solver)[slot];
     pl_solver_motion *motion = &pl_solver_motions(&world->solver)[slot];
     near_real unused[2];
-    near_real *low = pl_impacts_any(world)
+    near_real *low = world->solver.follows_impacts
                          ? (near_real *)world->solver.residuals.data + (size_t)slot * 4
                          : unused;
     if ((flags & PL_BODY_LOCK_X) != 0) {

@@ -71,8 +71,9 @@ void pl_internal_edges_touch_static(plumb_world *world, uint32_t row)
     }
 }
 
+// The piece is about to go or to be moved from where it lies.
 // Without room for the region everything is looked at again.
-void pl_internal_edges_leave(plumb_world *world, uint32_t piece)
+static void leave(plumb_world *world, uint32_t piece)
 {
     pl_internal_edges *s = &world->internal_edges;
     // As it is filed: its body may have another type by now.
@@ -93,7 +94,7 @@ void pl_internal_edges_move_static(plumb_world *world, uint32_t row)
 {
     uint32_t p = world->bodies.first_piece[row];
     for (; p != PL_NONE && pl_piece_is_static(world, p); p = world->pieces.next_in_body[p]) {
-        pl_internal_edges_leave(world, p);
+        leave(world, p);
         pl_internal_edges_touch(world, p);
     }
 }
@@ -118,7 +119,7 @@ void pl_internal_edges_clear(plumb_world *world, uint32_t piece)
 
 void pl_internal_edges_forget(plumb_world *world, uint32_t piece)
 {
-    pl_internal_edges_leave(world, piece);
+    leave(world, piece);
     if (pl_piece_has_internal_edges(&world->pieces, piece)) {
         mark_dirty(world); // what is noted of its pairs is out of date, even if it was the last one
     }

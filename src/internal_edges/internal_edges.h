@@ -110,8 +110,6 @@ void pl_internal_edges_touch(plumb_world *world, uint32_t piece);
 // The same of every piece of a shape, and of a body if it is static.
 void pl_internal_edges_touch_shape(plumb_world *world, uint32_t first);
 void pl_internal_edges_touch_static(plumb_world *world, uint32_t row);
-// The piece is about to go or to be moved from where it lies.
-void pl_internal_edges_leave(plumb_world *world, uint32_t piece);
 // The same of every piece of a body that has been moved, if it is static; its boxes still tell where
 // it lay.
 void pl_internal_edges_move_static(plumb_world *world, uint32_t row);

@@ -83,7 +83,7 @@ void pl_view_bring_other(pl_view *v)
 
 //---- is it right ---------------------------------------------------------------------------------
 
-pl_face pl_view_face(const pl_view *v, int k)
+static pl_face face_of(const pl_view *v, int k)
 {
     const pl_vertex *p = &v->side.corners[k], *q = &v->side.corners[pl_side_next(&v->side, k)];
     double nx = (double)p->nx, ny = (double)p->ny;
@@ -127,7 +127,7 @@ static bool faces_open_part(pl_view *v, int k)
         return pl_side_edge_is_open(&v->side, k, 0, 0);
     }
     pl_view_bring_other(v);
-    pl_face f = pl_view_face(v, k);
+    pl_face f = face_of(v, k);
     double low = INFINITY, high = -INFINITY, nearest = INFINITY;
     for (int i = 0; i < v->count; ++i) {
         double at = along(&f, v->x[i], v->y[i]);
@@ -191,7 +191,7 @@ static void open_stretch(const pl_view *v, int k, double length, double *low, do
 
 pl_strip pl_view_strip(const pl_view *v, int k)
 {
-    pl_strip s = { .f = pl_view_face(v, k), .edge = k, .separation = INFINITY };
+    pl_strip s = { .f = face_of(v, k), .edge = k, .separation = INFINITY };
     for (int i = 0; i < v->count; ++i) {
         s.separation = pl_lesser(s.separation, ahead(&s.f, v->x[i], v->y[i]) - v->radii);
     }

@@ -55,7 +55,6 @@ void pl_view_open(pl_view *v, const plumb_world *world, const pl_pair *pair, con
 // Brings the corners of the other piece into the frame, for contacts that need a closer look.
 void pl_view_bring_other(pl_view *v);
 
-pl_face pl_view_face(const pl_view *v, int k);
 // True when the ground allows the normal where the other piece is, or comes within the step.
 bool pl_view_is_allowed(pl_view *v);
 

@@ -176,8 +176,6 @@ uint32_t pl_joints_awake(plumb_world *world);
 bool pl_joints_any_awake(const plumb_world *world);
 // Both bodies of a joint are about to notice that it is another: see sleep.h.
 void pl_joint_disturb(plumb_world *world, const pl_joint *joint);
-// Rate of its value, in the value's unit a second (rate.c).
-real pl_joint_rate(const plumb_world *world, const pl_joint *joint);
 // The next joint of a body in its list.
 uint32_t pl_joint_next(const pl_joint *joint, plumb_body body);
 // Whether a joint forbids contacts of two body rows. O(joints of `row`).

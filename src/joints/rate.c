@@ -44,7 +44,8 @@ static const pl_joint *find(const plumb_world *world, const char *fn, plumb_join
     return NULL;
 }
 
-real pl_joint_rate(const plumb_world *world, const pl_joint *joint)
+// Rate of its value, in the value's unit a second (rate.c).
+static real rate_of(const plumb_world *world, const pl_joint *joint)
 {
     const pl_joint_class *kind = pl_joint_classes[joint->desc.kind];
     pl_joint now = *joint;
@@ -57,7 +58,7 @@ real pl_joint_rate(const plumb_world *world, const pl_joint *joint)
 plumb_real plumb_joint_rate(const plumb_world *world, plumb_joint joint)
 {
     const pl_joint *j = find(world, __func__, joint);
-    return j == NULL ? 0 : pl_joint_rate(world, j);
+    return j == NULL ? 0 : rate_of(world, j);
 }
 
 // The joint, if its kind has one of these; else null, and the refusal is told.
@@ -86,5 +87,5 @@ plumb_real plumb_joint_turn_rate(const plumb_world *world, plumb_joint joint)
 plumb_real plumb_joint_travel_rate(const plumb_world *world, plumb_joint joint)
 {
     const pl_joint *j = find_of(world, __func__, joint, PL_JOINT_TRAVELS, "travels");
-    return j == NULL ? 0 : pl_joint_rate(world, j);
+    return j == NULL ? 0 : rate_of(world, j);
 }

@@ -331,7 +331,9 @@ WIDE_PART void lanes_emit(const lanes *l, const touch *t, const pl_narrow_input 
             candidates[out->candidate_count] = out->manifold_count | (uint32_t)notes[i];
             out->candidate_count += noted[i] != 0;
             out->any_friction |= m->friction > 0;
-            pl_narrow_note_restitution(out, m->restitution);
+            if (m->restitution > 0) {
+                pl_narrow_note_restitution(out, m->restitution);
+            }
             pl_overlaps_count(&out->overlaps, m);
             pair->manifold = out->manifold_count++;
         }

@@ -78,7 +78,7 @@ static special_rows specials_of(const plumb_world *world)
 {
     const bool resist = pl_effects_resist(world);
     return (special_rows){ world->solver.slots.data, world->bodies.flags,
-                           pl_impacts_any(world) || resist, resist };
+                           world->solver.follows_impacts || resist, resist };
 }
 
 static inline bool is_special(const special_rows *s, uint32_t row)

@@ -266,7 +266,7 @@ void pl_solver_finish(plumb_world *world, real dt)
                   .dt = dt,
                   .collided = world->solver.slot_count > 0,
                   .noting = world->continuous.noting,
-                  .residuals = pl_impacts_any(world) ? world->solver.residuals.data : NULL,
+                  .residuals = world->solver.follows_impacts ? world->solver.residuals.data : NULL,
                   .shares = pl_tasks_share_count(world->tasks, rows, PL_BODIES_SHARED) };
     pl_tasks_run(world->tasks, move_share, &p, p.shares);
     bool lost = false;

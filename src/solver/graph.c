@@ -48,7 +48,7 @@ static bool reserve_bodies(plumb_world *world)
     pl_solver *s = &world->solver;
     pl_memory *memory = &world->memory;
     size_t rows = (size_t)world->dynamic_count + world->kinematic_count + 1;
-    size_t elastic_rows = pl_impacts_any(world) ? rows : 0;
+    size_t elastic_rows = s->follows_impacts ? rows : 0;
     return pl_buffer_reserve(memory, &s->bodies, rows * sizeof(pl_solver_body)) &&
            pl_buffer_reserve(memory, &s->motions, rows * sizeof(pl_solver_motion)) &&
            pl_buffer_reserve(memory, &s->residuals, elastic_rows * 4 * sizeof(near_real)) &&
@@ -90,7 +90,7 @@ static bool reserve_lanes(plumb_world *world)
     const pl_contact_kernels *k = pl_solver_kernels(world);
     const needs need = needs_of(world, (uint32_t)k->width);
     size_t contacts = world->narrow.manifold_count;
-    size_t impacts = pl_impacts_any(world) ? contacts : 0;
+    size_t impacts = s->follows_impacts ? contacts : 0;
     size_t bounces = world->narrow.any_low ? need.bundles : 0;
     size_t specials = pl_solver_specials(world) ? need.bundles : 0;
     size_t extras =
@@ -121,13 +121,21 @@ static void note_ends(void *context, uint32_t first, uint32_t count)
     }
 }
 
+// Whether impacts of a contact are followed as events. The classic solver has no lanes in which the others strike.
+static bool is_followed(const plumb_world *world, near_real restitution)
+{
+    return pl_is_elastic(restitution) ||
+           (restitution > 0 && world->desc.solver == PLUMB_SOLVER_PGS);
+}
+
 // Marks the rows that have a contact or a joint.
 static void mark_rows(plumb_world *world, uint32_t movable)
 {
     const pl_manifold *m = pl_manifolds(&world->narrow);
     const pl_ends *ends = world->narrow.ends.data;
     const uint32_t *first_joint = world->bodies.first_joint;
-    uint32_t *slots = world->solver.slots.data;
+    const pl_solver *s = &world->solver;
+    uint32_t *slots = s->slots.data;
     memset(slots, 0xff, movable * sizeof(uint32_t));
     for (uint32_t row = 0; world->joints.live > 0 && row < movable; ++row) {
         if (first_joint[row] != PL_NONE) {
@@ -142,8 +150,8 @@ static void mark_rows(plumb_world *world, uint32_t movable)
             slots[ends[i].b] = PL_ACTIVE;
         }
     }
-    for (uint32_t i = 0; pl_impacts_any(world) && i < world->narrow.manifold_count; ++i) {
-        if (pl_impacts_follow(world, m[i].restitution)) {
+    for (uint32_t i = 0; s->follows_impacts && i < world->narrow.manifold_count; ++i) {
+        if (is_followed(world, m[i].restitution)) {
             slots[m[i].body_a < movable ? m[i].body_a : m[i].body_b] = PL_ELASTIC;
             slots[m[i].body_b < movable ? m[i].body_b : m[i].body_a] = PL_ELASTIC;
         }
@@ -163,7 +171,7 @@ static uint32_t give_slots(plumb_world *world, pl_share rows, int kind, uint32_t
     pl_cluster *clusters = pl_clusters(s);
     const uint32_t *labels = pl_solver_labels(s);
     uint32_t *slots = s->slots.data, *row_of = s->rows.data;
-    near_real *residuals = pl_impacts_any(world) ? s->residuals.data : NULL;
+    near_real *residuals = s->follows_impacts ? s->residuals.data : NULL;
     for (uint32_t row = rows.first; labels != NULL && row < rows.end; ++row) {
         if (slots[row] != PL_NONE) {
             ++clusters[cluster_of(labels, row)].slots[kind].count;
@@ -231,7 +239,7 @@ static void fill_slot(plumb_world *world, uint32_t slot)
                             .uy = (near_real)b->vy[row],
                             .uw = (near_real)b->w[row],
                             .inv_mass = im };
-    if (pl_impacts_any(world)) {
+    if (s->follows_impacts) {
         start_low((near_real *)s->residuals.data + (size_t)slot * 4, b, row);
     }
     if ((b->flags[row] & PL_BODY_HAS_EFFECTS) != 0) {
@@ -255,7 +263,7 @@ static void fill_bodies(plumb_world *world)
     s->dynamic_slots = give_slots(world, (pl_share){ 0, dynamic }, 0, 0);
     const uint32_t count = give_slots(world, (pl_share){ dynamic, movable }, 1, s->dynamic_slots);
     pl_tasks_ranges(world->tasks, count, PL_BODIES_SHARED, fill_slots, world);
-    if (pl_impacts_any(world)) {
+    if (s->follows_impacts) {
         memset((near_real *)s->residuals.data + (size_t)count * 4, 0, 4 * sizeof(near_real));
     }
     pl_solver_bodies(s)[count] = (pl_solver_body){ 0 };
@@ -411,6 +419,9 @@ static void place_lanes(plumb_world *world)
 
 bool pl_solver_graph(plumb_world *world)
 {
+    const pl_narrow *narrow = &world->narrow;
+    world->solver.follows_impacts =
+        narrow->any_elastic || (narrow->any_low && world->desc.solver == PLUMB_SOLVER_PGS);
     if (!reserve_bodies(world)) {
         return false;
     }

@@ -17,18 +17,6 @@
 // the energy is left then (PL_IMPACT_KEPT): a stirred heap of e = 0.1 strikes ten times a contact.
 #define CHAIN 64
 
-bool pl_impacts_any(const plumb_world *world)
-{
-    return world->narrow.any_elastic ||
-           (world->narrow.any_low && world->desc.solver == PLUMB_SOLVER_PGS);
-}
-
-bool pl_impacts_follow(const plumb_world *world, near_real restitution)
-{
-    return pl_is_elastic(restitution) ||
-           (restitution > 0 && world->desc.solver == PLUMB_SOLVER_PGS);
-}
-
 static near_real *lane_value(pl_solver *s, const pl_contact_kernels *kernels, size_t lane,
                              size_t offset)
 {

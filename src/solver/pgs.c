@@ -279,7 +279,7 @@ void pl_solver_pgs(plumb_world *world, real dt)
                   .contacts = s->classic.data,
                   .count = world->narrow.manifold_count,
                   .h = (near_real)(dt / (real)world->desc.substeps) };
-    const bool bounce = pl_impacts_any(world);
+    const bool bounce = world->solver.follows_impacts;
     const pl_joint_context context = pl_joint_context_of(world, 0, world->tasks, 0, c.h);
     const bool joints = pl_joints_any(&context);
     const bool resist = pl_effects_resist(world);

@@ -151,7 +151,7 @@ static soft_step open_step(plumb_world *world, real dt)
                   .bounces = world->narrow.any_low ? s->bounces.data : NULL,
                   .motions = pl_solver_motions(s),
                   .restitution_speed = (near_real)world->desc.restitution_speed,
-                  .struck = pl_impacts_any(world) ? s->struck.data : NULL,
+                  .struck = s->follows_impacts ? s->struck.data : NULL,
                   .bounce_count = &s->bounce_count,
                   .manifolds = pl_manifolds(&world->narrow),
                   .pairs = pl_pairs(&world->broad.pairs),
@@ -169,7 +169,7 @@ static soft_step open_step(plumb_world *world, real dt)
                   : world->turning_bodies > 0 ? PL_TURNING
                                               : PL_STRAIGHT,
         .tallies = tallies,
-        .elastic = pl_impacts_any(world),
+        .elastic = s->follows_impacts,
         .resist = pl_effects_resist(world),
     };
 }

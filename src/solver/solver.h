@@ -137,6 +137,7 @@ typedef struct pl_solver {
     uint32_t bundle_room;
     uint32_t bundle_count; // of cluster 0: all that impacts as events look at
     uint32_t impact_count, due_count;
+    bool follows_impacts; // of this step: some are events
     uint32_t color_count, overflow_count, bounce_count;
 } pl_solver;
 
@@ -233,10 +234,8 @@ bool pl_solver_specials(const plumb_world *world);
 // Moves the bodies of a cluster over one substep of h [s] (integrate.c).
 void pl_integrate_positions(const pl_solver *solver, const pl_cluster *cluster, pl_tasks *tasks,
                             near_real h);
-// Impacts as events (impact.c): whether there may be any; collects them; resolves those of one substep of h [s];
+// Impacts as events (impact.c): collects them; resolves those of one substep of h [s];
 // those that other impacts of the substep made; and tells the sweeps which points stay clear.
-bool pl_impacts_any(const plumb_world *world);
-bool pl_impacts_follow(const plumb_world *world, near_real restitution); // those of a contact
 void pl_impacts_prepare(plumb_world *world);
 void pl_impacts_prepare_classic(plumb_world *world);
 void pl_impacts_run(plumb_world *world, near_real h);

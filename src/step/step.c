@@ -27,6 +27,7 @@ static void forget_contacts(plumb_world *world)
     world->narrow.manifold_count = world->narrow.borne_count = 0;
     world->narrow.any_friction = world->narrow.any_elastic = world->narrow.any_low = false;
     world->solver.slot_count = 0;
+    world->solver.follows_impacts = false;
     world->joints.broken_count = world->joints.strained_count = 0;
     world->broad.refreshed = false;
     world->internal_edges.noted = world->internal_edges.opened = false;

@@ -188,7 +188,8 @@ static void close_hole(plumb_world *world, uint32_t row)
     world->schedule_dirty = true;
 }
 
-void pl_row_close(plumb_world *world, uint32_t row)
+// Closes a row; at most one row of its own and of each later partition moves.
+static void close_row(plumb_world *world, uint32_t row)
 {
     if (world->bodies.inv_inertia[row] > 0) {
         --world->turning_bodies;
@@ -282,7 +283,7 @@ static void destroy_body(plumb_world *world, plumb_body body)
     while (world->bodies.first_joint[row] != PL_NONE) {
         pl_joint_remove(world, world->bodies.first_joint[row]);
     }
-    pl_row_close(world, row);
+    close_row(world, row);
     pl_registry_release(&world->registry, body.entity);
 }
 

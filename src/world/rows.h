@@ -31,8 +31,6 @@ bool pl_rows_reserve(plumb_world *world, uint32_t extra);
 // Opens a zeroed row at the end of a partition (room must be reserved); at most one row of each
 // later partition moves.
 uint32_t pl_row_open(plumb_world *world, pl_partition partition);
-// Closes a row; at most one row of its own and of each later partition moves.
-void pl_row_close(plumb_world *world, uint32_t row);
 // Moves a row to another partition; at most one row of each partition from one to the other moves
 // along. Needs no memory. Returns the new row.
 uint32_t pl_row_transfer(plumb_world *world, uint32_t row, pl_partition partition);

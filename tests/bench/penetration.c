@@ -61,7 +61,8 @@ static double corner_distance(const struct convex *a, const struct convex *b)
     return least;
 }
 
-double convex_depth(const struct convex *a, const struct convex *b)
+// [m] How far two shapes must be moved to part them (> 0), or minus their distance. Exact.
+static double convex_depth(const struct convex *a, const struct convex *b)
 {
     double rounding = a->radius + b->radius;
     double gap = fmax(largest_gap(a, b), largest_gap(b, a));

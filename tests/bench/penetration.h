@@ -13,9 +13,6 @@ struct convex {
     double radius;                                   ///< [m]
 };
 
-/// [m] How far two shapes must be moved to part them (> 0), or minus their distance. Exact.
-double convex_depth(const struct convex *a, const struct convex *b);
-
 /// Overlaps at one moment. A pair of shapes counts when its depth is greater than zero.
 struct penetration {
     double sum;  ///< [m] of the depths

@@ -25,7 +25,7 @@ typedef void body_fn(const struct scene_row *row, const struct scene *scene,
                      const struct contender *contender, const struct run_settings *settings,
                      struct run_result *result);
 
-int run_steps(const struct scene_row *row, const struct run_settings *settings)
+static int run_steps(const struct scene_row *row, const struct run_settings *settings)
 {
     double steps = round(row->steps * settings->steps_scale);
     return steps < 1.0 ? 1 : (int)steps;

@@ -67,8 +67,6 @@ struct run_result {
     struct apart apart;          ///< of hinges
 };
 
-int run_steps(const struct scene_row *row, const struct run_settings *settings);
-
 /// Runs and times; poses are not looked at.
 struct run_result run_timed(const struct scene_row *row, const struct scene *scene,
                             const struct contender *contender, const struct run_settings *settings);

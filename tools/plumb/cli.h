@@ -195,7 +195,5 @@ void progress_begin(progress *bar, const char *label, double total, bool quiet);
 void progress_update(progress *bar, double done);
 /// Removes the bar from the screen.
 void progress_end(progress *bar);
-/// [s] on a monotonic clock.
-double progress_now(void);
 
 #endif

@@ -15,7 +15,8 @@ enum { BAR_WIDTH = 28 };
 static const double QUIET_TIME = 0.3;  // [s] before the bar appears
 static const double REDRAW_TIME = 0.1; // [s] between two drawings
 
-double progress_now(void)
+// [s] on a monotonic clock.
+static double monotonic_now(void)
 {
     struct timespec t;
     clock_gettime(CLOCK_MONOTONIC, &t);
@@ -26,7 +27,7 @@ void progress_begin(progress *bar, const char *label, double total, bool quiet)
 {
     *bar = (progress){ .total = total, .on = !quiet && total > 0 && isatty(fileno(stderr)) };
     snprintf(bar->label, sizeof bar->label, "%s", label);
-    bar->started = progress_now();
+    bar->started = monotonic_now();
 }
 
 static void print_time(double seconds)
@@ -44,7 +45,7 @@ void progress_update(progress *bar, double done)
     if (!bar->on) {
         return;
     }
-    double now = progress_now();
+    double now = monotonic_now();
     if (now - bar->started < QUIET_TIME || now - bar->shown < REDRAW_TIME) {
         return;
     }

@@ -138,7 +138,8 @@ static size_t clip_view(const plr_painter *painter, render_vec *points, size_t c
     return clip_axis(other, count, points, true, 1.0, painter->height + border);
 }
 
-bool plr_shape_contour(plr_painter *painter, const plr_shape *shape)
+// Makes `painter->contour` from a filled shape. False when it is degenerate or out of view.
+static bool make_contour(plr_painter *painter, const plr_shape *shape)
 {
     render_vec points[PLR_CLIPPED_MAX];
     const double radius = shape->radius * painter->scale;
@@ -261,7 +262,7 @@ static void draw_polyline(plr_painter *painter, const plr_shape *shape, const pl
 static void draw_filled(plr_painter *painter, const plr_body *body, const plr_shape *shape,
                         const plr_paint *paint, plr_group_pass pass)
 {
-    if (!plr_shape_contour(painter, shape)) {
+    if (!make_contour(painter, shape)) {
         return;
     }
     const double width = plr_outline_width(painter);

@@ -399,8 +399,8 @@ render_result render_add_surface(render_frame *frame, const render_vec *points, 
     return add_path(frame, mark, points, count);
 }
 
-static render_result add_text(render_frame *frame, plr_mark_kind kind, double x, double y,
-                              render_anchor anchor, const char *text)
+render_result render_add_text(render_frame *frame, double x, double y, render_anchor anchor,
+                              const char *text)
 {
     if (text == NULL || (int)anchor < 0 || anchor > RENDER_ANCHOR_BELOW) {
         return note(frame, RENDER_E_ARGUMENT);
@@ -408,19 +408,8 @@ static render_result add_text(render_frame *frame, plr_mark_kind kind, double x,
     if (text[0] == '\0') {
         return RENDER_OK;
     }
-    return add_mark(frame, (plr_mark){ .kind = kind, .variant = (int)anchor, .a = { x, y } }, text);
-}
-
-render_result render_add_text(render_frame *frame, double x, double y, render_anchor anchor,
-                              const char *text)
-{
-    return add_text(frame, PLR_TEXT, x, y, anchor, text);
-}
-
-render_result render_add_screen_text(render_frame *frame, double u, double v, render_anchor anchor,
-                                     const char *text)
-{
-    return add_text(frame, PLR_SCREEN_TEXT, u, v, anchor, text);
+    const plr_mark mark = { .kind = PLR_TEXT, .variant = (int)anchor, .a = { x, y } };
+    return add_mark(frame, mark, text);
 }
 
 render_result render_frame_set_period(render_frame *frame, double x, double y)

@@ -65,7 +65,6 @@ typedef enum plr_mark_kind {
     PLR_TRAIL,
     PLR_SURFACE,
     PLR_TEXT,
-    PLR_SCREEN_TEXT,
     PLR_MARK_KINDS
 } plr_mark_kind;
 
@@ -252,8 +251,6 @@ void plr_hatch(plr_painter *painter, const plr_half_plane *planes, size_t count,
                render_vec max, const plr_body *body, render_rgba color);
 /// Outline width of bodies [px], 0 = none.
 double plr_outline_width(const plr_painter *painter);
-/// Makes `painter->contour` from a filled shape. False when it is degenerate or out of view.
-bool plr_shape_contour(plr_painter *painter, const plr_shape *shape);
 
 /// What a pass over the pieces of a body draws.
 typedef enum plr_group_pass {

@@ -260,7 +260,6 @@ void plr_overlay_sample(plr_painter *painter, plr_mark_kind kind, render_vec mid
                 surface_color);
         break;
     case PLR_TEXT:
-    case PLR_SCREEN_TEXT:
     case PLR_MARK_KINDS:
         break;
     }
@@ -277,13 +276,11 @@ void plr_draw_texts(plr_painter *painter)
     const render_rgba halo = painter->options.background;
     for (size_t i = 0; i < frame->mark_count; i++) {
         const plr_mark *mark = &frame->marks[i];
-        if (mark->kind != PLR_TEXT && mark->kind != PLR_SCREEN_TEXT) {
+        if (mark->kind != PLR_TEXT) {
             continue;
         }
         const char *string = plr_frame_text(frame, mark->text);
-        render_vec at = mark->kind == PLR_TEXT ? plr_pixel(painter, mark->a)
-                                               : (render_vec){ mark->a.x * painter->width,
-                                                               mark->a.y * painter->height };
+        render_vec at = plr_pixel(painter, mark->a);
         const double width = plr_text_width(painter->text, PLR_FONT_REGULAR, size, string);
         const render_anchor anchor = (render_anchor)mark->variant;
         at.x += anchor == RENDER_ANCHOR_LEFT    ? gap

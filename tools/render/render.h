@@ -212,9 +212,6 @@ typedef enum render_anchor {
 /// A text at a world point.
 render_result render_add_text(render_frame *frame, double x, double y, render_anchor anchor,
                               const char *text);
-/// A text at a point of the picture: 0..1 from left to right and from top to bottom.
-render_result render_add_screen_text(render_frame *frame, double u, double v, render_anchor anchor,
-                                     const char *text);
 /// The world wraps around every x, y units (0: not along that axis): all that was added, but for texts, is
 /// drawn at each of its images in view. With RENDER_SHOW_GRID the edges, half a period to either side of the
 /// origin, are marked, and where the whole period is in view, what lies outside is faded.

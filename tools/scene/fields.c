@@ -26,7 +26,7 @@ void sc_fail_type(const sc_context *c, const char *expected, int value)
              sc_type_name(c->s, value));
 }
 
-void sc_check_number(const sc_context *c, double v)
+static void check_number(const sc_context *c, double v)
 {
     const sc_field *row = c->row;
     bool low = (row->flags & SC_ABOVE) != 0 ? v <= row->min : v < row->min;
@@ -53,7 +53,7 @@ static void read_number(const sc_context *c, int value, double *out)
         sc_fail_type(c, c->row->kind == SC_INTEGER ? "an integer" : "a number", value);
     }
     double v = lua_tonumber(L, value);
-    sc_check_number(c, v);
+    check_number(c, v);
     if (c->row->kind == SC_INTEGER && v != floor(v)) {
         sc_raise(c->s, SCENE_E_TYPE, c->site, c->row->name, c->index, NULL,
                  "'%s' of %s{} must be an integer, not %.10g", c->row->name, c->site->construct, v);
@@ -70,15 +70,15 @@ static void read_vec2(const sc_context *c, int value, double out[2])
         }
         sc_fail_type(c, "two numbers {x, y}", value);
     }
-    sc_check_number(c, out[0]);
-    sc_check_number(c, out[1]);
+    check_number(c, out[0]);
+    check_number(c, out[1]);
 }
 
 static void read_range(const sc_context *c, int value, double out[2])
 {
     if (lua_type(c->s->L, value) == LUA_TNUMBER) {
         out[0] = out[1] = lua_tonumber(c->s->L, value);
-        sc_check_number(c, out[0]);
+        check_number(c, out[0]);
         return;
     }
     if (!sc_to_vec2(c->s, value, out) || isnan(out[0]) || isnan(out[1])) {
@@ -169,7 +169,7 @@ static void read_box(const sc_context *c, int value, double out[4])
                  c->site->construct);
     }
     for (int i = 0; i < 4; i++) {
-        sc_check_number(c, out[i]);
+        check_number(c, out[i]);
     }
     for (int i = 0; i < 2; i++) {
         double low = fmin(out[i], out[i + 2]);
@@ -271,8 +271,8 @@ static void read_limits(const sc_context *c, int value, double out[2])
     if (!sc_to_vec2(c->s, value, out)) {
         sc_fail_type(c, "two numbers {lower, upper}", value);
     }
-    sc_check_number(c, out[0]);
-    sc_check_number(c, out[1]);
+    check_number(c, out[0]);
+    check_number(c, out[1]);
     if (out[0] > out[1]) {
         sc_raise(c->s, SCENE_E_RANGE, c->site, c->row->name, c->index, NULL,
                  "'%s' of %s{} is empty: lower %.10g is above upper %.10g", c->row->name,
@@ -295,7 +295,7 @@ static void read_numbers(const sc_context *c, int value, double *out)
                  "'%s' of %s{} must be %d numbers", c->row->name, c->site->construct, (int)count);
     }
     for (size_t i = 0; i < count; i++) {
-        sc_check_number(c, out[i]);
+        check_number(c, out[i]);
     }
 }
 

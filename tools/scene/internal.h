@@ -173,7 +173,6 @@ typedef struct sc_context {
 } sc_context;
 
 _Noreturn void sc_fail_type(const sc_context *c, const char *expected, int value);
-void sc_check_number(const sc_context *c, double v);
 void sc_read_string(const sc_context *c, int value, char *out, size_t size);
 /// Readers of what refers to something else (refs.c, filters.c).
 void sc_read_body(const sc_context *c, int value, char out[SC_NAME_SIZE]);

@@ -293,11 +293,6 @@ double scene_time(const scene *s)
     return s->start_time + (double)s->steps * s->dt;
 }
 
-uint64_t scene_steps(const scene *s)
-{
-    return s->steps;
-}
-
 bool scene_done(const scene *s)
 {
     return s->stop || s->error.code != SCENE_OK ||

@@ -112,8 +112,6 @@ scene_code scene_finish(scene *s, scene_error *err);
 
 /// [s] simulated time, exactly start + steps * dt in double.
 double scene_time(const scene *s);
-/// Steps taken since loading.
-uint64_t scene_steps(const scene *s);
 /// True when the duration has been reached, or the script called finish().
 bool scene_done(const scene *s);
 /// The world. Bodies' user data belong to the scene.
