@@ -124,7 +124,8 @@ PLUMB_API plumb_result plumb_body_set_velocity(plumb_world *world, plumb_body bo
 /// Sets the angular velocity [rad/s]. Errors: E_HANDLE, E_NOT_FINITE, E_STATE (static).
 PLUMB_API plumb_result plumb_body_set_angular_velocity(plumb_world *world, plumb_body body, plumb_real w);
 
-/// Adds a force [N] at a world point [m] for the next step. Errors: E_HANDLE, E_NOT_FINITE, E_STATE
+/// Adds a force [N] at a world point [m] for the next step. The same force in each step lets a body at rest
+/// sleep; another wakes it: see plumb/sleep.h. Errors: E_HANDLE, E_NOT_FINITE, E_STATE
 /// (not dynamic, or disabled).
 PLUMB_API plumb_result plumb_body_apply_force(plumb_world *world, plumb_body body, plumb_vec2 force,
                                               plumb_vec2 point);
@@ -232,8 +233,9 @@ PLUMB_API plumb_vec2 plumb_body_local_vector(const plumb_world *world, plumb_bod
 /// first, then kinematic, then asleep, then static, then disabled. Valid until the next step or structural change.
 /// Rows keep their order but for these moves: a body that falls asleep becomes the first sleeping row, one
 /// that wakes the last awake one; the last row of each partition that lost one fills its gap.
-/// Velocities and forces may be written (rows below dynamic_count; kinematic velocities too). Those of
-/// sleeping rows must not be: nothing would wake the body, see plumb_body_wake and the setters.
+/// Velocities and forces may be written (rows below dynamic_count; kinematic velocities too). Of sleeping rows
+/// forces may be, and wake where they differ from those that the body fell asleep under (plumb/sleep.h);
+/// velocities must not be: nothing would wake the body, see plumb_body_wake and the setters.
 typedef struct plumb_body_span {
     int count;           ///< all rows
     int dynamic_count;   ///< rows [0, dynamic_count) are awake dynamic

@@ -108,7 +108,7 @@ PLUMB_API plumb_component_span plumb_world_column(plumb_world *world, plumb_comp
 typedef enum plumb_view_rows {
     PLUMB_VIEW_AWAKE,   ///< awake dynamic ones
     PLUMB_VIEW_MOVING,  ///< those, and kinematic ones
-    PLUMB_VIEW_DYNAMIC, ///< awake dynamic ones, then sleeping ones
+    PLUMB_VIEW_DYNAMIC, ///< awake dynamic ones, then sleeping ones: for forces that may change, see plumb/sleep.h
     PLUMB_VIEW_ALL
 } plumb_view_rows;
 

@@ -3,7 +3,7 @@
 /// A dynamic body rests when it has been slower than plumb_world_desc.sleep_speed for sleep_time
 /// and was neither speeding up nor slowing down: from one half of that time to the next, its way
 /// changed by less than a fiftieth of sleep_speed * sleep_time (by default, what accelerates by 8
-/// mm/s^2 stays awake). A force that a system left in the columns keeps awake too. Bodies that
+/// mm/s^2 stays awake), under a force that stayed the same meanwhile (see below). Bodies that
 /// touch one another, come within 2 cm, or are joined make an island; static and kinematic bodies
 /// do not connect. When all bodies of an island rest and none touches a kinematic body that moves,
 /// they fall asleep together: their velocity is 0, their rows go to the partition of sleeping rows,
@@ -18,6 +18,18 @@
 /// - gravity is changed, or a system of PLUMB_PHASE_CONTACTS is registered or switched (such systems
 ///   see no sleeping contacts).
 /// What sets a value that is already there does not wake.
+///
+/// Forces. A steady force lets a body at rest fall asleep, whether calls (plumb_body_apply_force) or systems that
+/// write force columns give it anew each step. While it goes on, the body sleeps; when it ends, or becomes
+/// another, the body wakes in that step and feels the new one. It is another when the difference would accelerate
+/// the body by more than 4 * 0.02 * sleep_speed / sleep_time, 8 mm/s^2 by default (a torque: its farthest point).
+/// The force is compared with the one that the body fell asleep under, so changes that creep add up.
+/// A body that sleeps under no force wakes by any that a call gives it, at once.
+///
+/// A system that pushes bodies for longer than a moment writes the sleeping rows, too (plumb_body_span,
+/// PLUMB_VIEW_DYNAMIC): then its changes wake. What it pushes when it leaves them alone wakes once, in the step
+/// after it fell asleep, to see whether the force is still there; falls asleep again; and then sleeps until
+/// something else wakes it or a system is switched off or on (plumb_system_enable).
 #ifndef PLUMB_SLEEP_H
 #define PLUMB_SLEEP_H
 

@@ -8,7 +8,7 @@
 #include <string.h>
 
 #define NO_SLOT        UINT32_MAX
-#define FIRST_CAPACITY 64 // slots; below that growing costs more than it saves
+#define FIRST_CAPACITY 16 // slots
 
 void pl_registry_init(pl_registry *registry)
 {

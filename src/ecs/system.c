@@ -152,6 +152,7 @@ plumb_result plumb_system_enable(plumb_world *world, const char *name, bool enab
     }
     if (system->enabled != enabled) {
         wake_for(world, system->desc.phase);
+        pl_sleep_wake_untold(world);
     }
     system->enabled = enabled;
     world->schedule_dirty = true;

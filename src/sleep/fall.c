@@ -22,8 +22,7 @@
 #include "world/check.h"
 #include "world/rows.h"
 
-#define EVEN  ((real)0.02) // [-] of sleep_speed * sleep_time, by which ways may differ
-#define LOOKS 8            // [-] for islands, in sleep_time
+#define LOOKS 8 // [-] for islands, in sleep_time
 
 //---- rest ----------------------------------------------------------------------------------------
 
@@ -40,13 +39,6 @@ static bool is_candidate(const plumb_world *world, uint32_t row)
            (b->flags[row] & PL_BODY_NO_SLEEP) == 0;
 }
 
-// A system may have written a force of which nothing is to be seen yet.
-static bool is_pushed(const plumb_world *world, uint32_t row)
-{
-    const pl_bodies *b = &world->bodies;
-    return b->fx[row] != 0 || b->fy[row] != 0 || b->torque[row] != 0;
-}
-
 static void begin_sample(pl_bodies *b, uint32_t row)
 {
     b->rest_time[row] = 0;
@@ -54,6 +46,7 @@ static void begin_sample(pl_bodies *b, uint32_t row)
     b->rest_y[row] = b->center_y[row];
     b->rest_c[row] = b->c[row];
     b->rest_s[row] = b->s[row];
+    pl_push_keep(b, row);
 }
 
 // Half of sleep_time after the last sample: compares the way since with the one before.
@@ -64,9 +57,11 @@ static void take_sample(plumb_world *world, uint32_t row)
     real turn = b->s[row] * b->rest_c[row] - b->c[row] * b->rest_s[row];
     real change = square(x - b->rest_dx[row]) + square(y - b->rest_dy[row]) +
                   square((turn - b->rest_turn[row]) * b->extent[row]);
-    real even = EVEN * world->desc.sleep_speed * world->desc.sleep_time;
-    bool first = b->rest_samples[row] == 0;
-    b->rest_samples[row] = first || change > square(even) ? 1 : 2;
+    real even = PL_EVEN * world->desc.sleep_speed * world->desc.sleep_time;
+    pl_push_sample(world, row);
+    bool goes_on =
+        b->rest_samples[row] > 0 && !pl_push_differs(world, row, pl_push_tolerance(world));
+    b->rest_samples[row] = goes_on && change <= square(even) ? 2 : 1;
     b->rest_dx[row] = x;
     b->rest_dy[row] = y;
     b->rest_turn[row] = turn;
@@ -261,16 +256,35 @@ static bool reserve_members(plumb_world *world)
            pl_buffer_reserve(&world->memory, &s->held, world->dynamic_count);
 }
 
+// Whom a character pushes or weighs on is up with it. Returns how many members that were.
+static uint32_t leave_out_pushed_by_characters(plumb_world *world)
+{
+    uint32_t *parents = world->sleep.parents.data, count = 0;
+    const pl_shove *pushes = world->characters.pushes.data;
+    for (uint32_t i = 0; world->characters.moved && i < world->characters.push_count; ++i) {
+        const uint32_t row = pl_body_row(world, pushes[i].body);
+        if (row < world->dynamic_count && parents[row] != PL_NONE && pl_is_pushed(world, row)) {
+            parents[row] = PL_NONE;
+            ++count;
+        }
+    }
+    return count;
+}
+
 // Leaves parents only to the bodies that fall asleep; returns how many they are.
 static uint32_t find_sleepers(plumb_world *world, uint32_t pair_count)
 {
     uint32_t *parents = world->sleep.parents.data, count = 0;
     uint8_t *held = world->sleep.held.data;
+    const real tolerance = pl_push_tolerance(world);
     for (uint32_t row = 0; row < world->dynamic_count; ++row) {
-        parents[row] = is_candidate(world, row) && !is_pushed(world, row) ? row : PL_NONE;
+        // Of a force that has come since nothing is to be seen yet.
+        const bool rests = is_candidate(world, row) && !pl_push_differs(world, row, tolerance);
+        parents[row] = rests ? row : PL_NONE;
         held[row] = 0;
-        count += parents[row] != PL_NONE;
+        count += rests;
     }
+    count -= leave_out_pushed_by_characters(world);
     if (count == 0) {
         return 0;
     }
@@ -410,6 +424,7 @@ static void lie_down(plumb_world *world, uint32_t pair_count, bool steps)
     // From the last on: what fills a gap stays awake.
     for (uint32_t row = rows; row-- > 0;) {
         if (parents[row] != PL_NONE) {
+            pl_push_begin_sleep(world, row, steps);
             pl_sleep_put_down(world, row);
         }
     }

@@ -262,6 +262,7 @@ uint32_t pl_sleep_take_up(plumb_world *world, uint32_t row)
 {
     pl_bodies *b = &world->bodies;
     b->rest_time[row] = PL_NOT_RESTING;
+    pl_push_wake(world, row);
     for (uint32_t p = b->first_piece[row]; p != PL_NONE; p = world->pieces.next_in_body[p]) {
         pl_piece_move(world, p);
     }

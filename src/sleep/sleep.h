@@ -8,6 +8,8 @@
 #define PL_NOT_RESTING                                                                             \
     ((real)-1) // pl_bodies.rest_time of a body that moves or was changed: it rests from anew
 
+#define PL_EVEN ((real)0.02) // [-] of sleep_speed * sleep_time, by which ways may differ
+
 // A contact of a sleeping body, kept for when it wakes and for those who ask meanwhile.
 typedef struct pl_sleeping_contact {
     pl_pair pair;         // with impulses, features and flags; its rows mean nothing
@@ -76,6 +78,12 @@ typedef struct pl_sleep {
     pl_buffer held;        // uint8_t a row: something keeps its island awake
     pl_buffer places;      // uint32_t a pair: where in the list it is afterwards; PL_NONE: asleep
 
+    // Forces on what sleeps (push.c): whether there is anything to look at.
+    uint64_t lent_step; // step count + 1 when force columns were handed out last
+    bool holds;         // some body may sleep under a force
+    bool holds_new;     // some has fallen asleep so since the last step
+    bool pushed;        // some sleeping row has a force to be cleared
+
     // Events of the last step.
     pl_buffer sleep_events, wake_events; // plumb_body
     int sleep_event_count, wake_event_count;
@@ -130,6 +138,36 @@ void pl_sleep_void_contacts(plumb_world *world, uint32_t piece);
 void pl_sleep_see_anew(plumb_world *world, uint32_t piece);
 // A body is about to be destroyed.
 void pl_sleep_forget(plumb_world *world, uint32_t row);
+
+//---- forces (push.c) -----------------------------------------------------------------------------
+
+// A call is about to push the awake or sleeping body of a row.
+void pl_sleep_push(plumb_world *world, uint32_t row);
+// Force columns are handed out: they may be written until the next step is over.
+void pl_sleep_heed(plumb_world *world);
+// They were written over, and what is asleep may be another.
+void pl_sleep_heed_all(plumb_world *world);
+// A system was switched: who is not told what pushes him asks.
+void pl_sleep_wake_untold(plumb_world *world);
+// Forces of sleeping rows were for the step that is over.
+void pl_sleep_clear_forces(plumb_world *world);
+
+// [m/s^2] by which accelerations of forces that count as the same may differ.
+real pl_push_tolerance(const plumb_world *world);
+// The force on a row is not the one that was taken down.
+bool pl_push_differs(const plumb_world *world, uint32_t row, real tolerance);
+bool pl_is_pushed(const plumb_world *world, uint32_t row);
+// A body wakes; it is looked at in its rest: whether its pusher tells sleeping rows.
+void pl_push_wake(plumb_world *world, uint32_t row);
+void pl_push_sample(plumb_world *world, uint32_t row);
+void pl_push_keep(pl_bodies *bodies, uint32_t row);
+// A body falls asleep; `steps`: in a step, not by a call.
+void pl_push_begin_sleep(plumb_world *world, uint32_t row, bool steps);
+// Whether some sleeping row may be pushed otherwise than before; marks the islands of those that are; then, when
+// nothing can fail any more, takes down the force on those that sleep on.
+bool pl_push_matters(const plumb_world *world);
+void pl_push_mark(plumb_world *world, void (*mark)(pl_sleep *, uint32_t));
+void pl_push_settle(plumb_world *world);
 
 //---- islands (island.c) --------------------------------------------------------------------------
 

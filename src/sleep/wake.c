@@ -451,10 +451,18 @@ bool pl_sleep_wake(plumb_world *world, real dt)
         return false;
     }
     mark_due(s);
+    // A step that is taken anew has heard already, and forces have no part in one that moves nothing.
+    const bool hears = dt > 0 && world->quarantine.attempt == 0 && pl_push_matters(world);
+    if (hears) {
+        pl_push_mark(world, mark);
+    }
     bool done = mark_near(world, dt) && mark_placed(world, dt) && mark_neighbours(world, dt) &&
                 (s->marked_count == 0 || wake_marked(world));
     if (done) {
         forget_placed(world);
+        if (hears) {
+            pl_push_settle(world);
+        }
     } else {
         unmark_all(s);
         s->near_stale = true; // what was marked is not in it

@@ -238,6 +238,7 @@ static void take_over(plumb_world *world, source s)
     world->sleep.gone = 0;
     world->sleep.near.count = 0;
     world->sleep.near_stale = true;
+    pl_sleep_heed_all(world);
     world->joints.awake_stale = true;
     pl_joints_replan(&world->joints);
     world->characters.moved = false;
@@ -388,6 +389,7 @@ void pl_image_play(plumb_world *world, const pl_image *before, const pl_image *a
     world->broad.moving_lost |= !keeps_moving && !world->pairs_dirty && f.listed > 0;
     world->query_grids.fresh = false;
     world->sleep.near_stale = true;
+    pl_sleep_heed_all(world);
     world->joints.awake_stale = true;
     pl_joints_replan(&world->joints);
     world->schedule_dirty = true;

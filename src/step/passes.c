@@ -388,6 +388,7 @@ static plumb_result run_classic(plumb_world *world, plumb_real dt)
 static plumb_result run_motion(plumb_world *world, plumb_real dt)
 {
     pl_solver_finish(world, dt);
+    pl_sleep_clear_forces(world);
     world->time += (double)dt;
     world->last_dt = dt;
     ++world->step_count;

@@ -32,7 +32,7 @@ static plumb_result add_force(plumb_world *world, const char *fn, const char *fi
         return refuse_sum(world, fn, field);
     }
     if (p.linear.x != 0 || p.linear.y != 0 || p.angular != 0) {
-        pl_sleep_stir(world, row);
+        pl_sleep_push(world, row);
     }
     b->fx[row] = force.x;
     b->fy[row] = force.y;

@@ -228,6 +228,7 @@ plumb_body_span plumb_world_bodies(plumb_world *world)
     }
     const pl_bodies *b = &world->bodies;
     uint32_t first_static = pl_partition_first(world, PL_PART_STATIC);
+    pl_sleep_heed(world);
     return (plumb_body_span){
         .count = (int)b->table.count,
         .dynamic_count = (int)world->dynamic_count,

@@ -53,6 +53,8 @@ typedef struct pl_hint {
     X(real, rest_c, ANY) X(real, rest_s, ANY) /* its rotation then */                               \
     X(real, rest_dx, ANY) X(real, rest_dy, ANY) /* [m] between the last two samples */              \
     X(real, rest_turn, ANY) /* [rad] the same */                                                    \
+    X(real, rest_fx, ANY) X(real, rest_fy, ANY) /* [N] on it at the last one; what it sleeps under */ \
+    X(real, rest_torque, ANY) /* [N m] the same */                                                  \
     X(uint8_t, rest_samples, UP_TO(2)) /* in this rest, up to 2 */                                  \
     X(uint32_t, island, OR_NONE(ISLANDS)) /* of a sleeping body; PL_NONE: awake */                  \
     X(uint32_t, next_asleep, ANY) X(uint32_t, previous_asleep, ANY) /* registry slots: bodies of the island */ \
@@ -64,6 +66,8 @@ typedef struct pl_hint {
 
 #define PL_BODY_FIXED_ROTATION 1u
 #define PL_BODY_DROPPING       2u // it asks to drop through one-way shapes in the next step
+#define PL_BODY_UNTOLD         4u   // who pushes it leaves sleeping rows alone (sleep/push.c)
+#define PL_BODY_NEW_SLEEPER    64u  // pushed as it fell asleep, in the step before
 #define PL_BODY_NO_SLEEP       32u  // it never falls asleep
 #define PL_BODY_RECRUITED      8u   // on its way into the list of movers; only within the continuous pass
 #define PL_BODY_CONTINUOUS     16u  // never passes through moving bodies either

@@ -291,18 +291,55 @@ static void lean(const plumb_system_call *call)
     }
 }
 
-static void a_force_in_the_columns_keeps_awake(void **state)
+static void a_steady_force_lets_sleep(void **state)
 {
     (void)state;
     place p = make_place();
     plumb_system_create(
         p.w, &(plumb_system_desc){ .name = "lean", .phase = PLUMB_PHASE_FORCES, .run = lean });
-    plumb_body_wake(p.w, p.apart);
+    const plumb_body all[] = { p.low, p.apart, p.on_ledge, p.hung };
+    for (int i = 0; i < 4; ++i) {
+        plumb_body_wake(p.w, all[i]);
+    }
     steps(p.w, 300);
-    assert_true(plumb_body_is_awake(p.w, p.apart));
+    assert_int_equal(plumb_world_stats(p.w).asleep_count, 5);
     plumb_system_enable(p.w, "lean", false);
+    steps(p.w, 1);
+    assert_true(plumb_body_is_awake(p.w, p.apart));
     steps(p.w, 60);
     assert_false(plumb_body_is_awake(p.w, p.apart));
+    // Of who sleeps under no force, a call says at once that it wakes; else the step does, by the sum of all.
+    plumb_body_apply_force_center(p.w, p.apart, plumb_v2(2, 0));
+    assert_true(plumb_body_is_awake(p.w, p.apart));
+    for (int i = 0; i < 100; ++i) {
+        steps(p.w, 1);
+        plumb_body_apply_force_center(p.w, p.apart, plumb_v2(2, 0));
+    }
+    assert_false(plumb_body_is_awake(p.w, p.apart));
+    plumb_body_apply_force_center(p.w, p.apart, plumb_v2(0, 1));
+    assert_false(plumb_body_is_awake(p.w, p.apart));
+    assert_vec_near(plumb_body_force(p.w, p.apart), 2, 1, 0);
+    steps(p.w, 1);
+    assert_true(plumb_body_is_awake(p.w, p.apart));
+    assert_vec_near(plumb_body_force(p.w, p.apart), 0, 0, 0);
+    plumb_world_destroy(p.w);
+}
+
+// Forces of sleeping rows are for one step, as those of others are.
+static void forces_of_sleeping_rows_do_not_add_up(void **state)
+{
+    (void)state;
+    place p = make_place();
+    for (int i = 0; i < 100; ++i) {
+        plumb_body_span s = plumb_world_bodies(p.w);
+        for (int row = s.count - s.static_count - s.asleep_count; row < s.count - s.static_count;
+             ++row) {
+            s.fx[row] += R(0.001); // too little to matter
+        }
+        steps(p.w, 1);
+        assert_int_equal(plumb_world_stats(p.w).asleep_count, 5);
+        assert_vec_near(plumb_body_force(p.w, p.apart), 0, 0, 0);
+    }
     plumb_world_destroy(p.w);
 }
 
@@ -466,7 +503,8 @@ int main(void)
         cmocka_unit_test(bodies_are_put_to_sleep),
         cmocka_unit_test(bodies_may_start_asleep),
         cmocka_unit_test(sleeping_is_optional),
-        cmocka_unit_test(a_force_in_the_columns_keeps_awake),
+        cmocka_unit_test(a_steady_force_lets_sleep),
+        cmocka_unit_test(forces_of_sleeping_rows_do_not_add_up),
         cmocka_unit_test(events_tell_who_slept_and_who_woke),
         cmocka_unit_test(rows_are_partitioned_as_told),
         API_TEST(refusals),
