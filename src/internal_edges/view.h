@@ -1,7 +1,7 @@
 // view.h - a contact seen from its ground: faces, the strips in front of them, what of the other piece
 // lies there.
-#ifndef PL_VIEW_H
-#define PL_VIEW_H
+#ifndef PL_EDGE_VIEW_H
+#define PL_EDGE_VIEW_H
 
 #include "internal_edges/side.h"
 #include "world/state.h"

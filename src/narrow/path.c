@@ -133,9 +133,9 @@ static double nearest_on_leg(const pl_swept *a, const pl_swept *b, double from, 
     return at;
 }
 
-pl_approach pl_moving_pair_approach(const pl_moving_pair *e, double near)
+pl_pair_approach pl_moving_pair_approach(const pl_moving_pair *e, double near)
 {
-    pl_approach best = { .kind = PL_APPROACH_NONE, .time = PL_SWEEP_NEVER };
+    pl_pair_approach best = { .kind = PL_APPROACH_NONE, .time = PL_SWEEP_NEVER };
     for (int i = 0; i < e->paths->legs; ++i) {
         const double from = e->paths->breaks[i], to = e->paths->breaks[i + 1];
         pl_swept a, b;
@@ -150,13 +150,13 @@ pl_approach pl_moving_pair_approach(const pl_moving_pair *e, double near)
         }
         const double time = pl_sweep_first(&a, &b, first, 1, 0, PL_TOI_TOLERANCE);
         if (time <= 1) {
-            return (pl_approach){ PL_APPROACH_MEETS, from + time * (to - from),
-                                  pl_sweep_nearest(&a, &b, time) };
+            return (pl_pair_approach){ PL_APPROACH_MEETS, from + time * (to - from),
+                                       pl_sweep_nearest(&a, &b, time) };
         }
         pl_nearest nearest;
         const double at = nearest_on_leg(&a, &b, first, &nearest);
         if (best.kind == PL_APPROACH_NONE || nearest.gap.distance < best.nearest.gap.distance) {
-            best = (pl_approach){ PL_APPROACH_NEAR, from + at * (to - from), nearest };
+            best = (pl_pair_approach){ PL_APPROACH_NEAR, from + at * (to - from), nearest };
         }
     }
     return best;

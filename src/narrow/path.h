@@ -65,7 +65,7 @@ pl_moving_pair pl_moving_pair_of(const plumb_world *world, const pl_pair *pair,
                                  const pl_paths *paths);
 
 // How near two pieces come.
-typedef struct pl_approach {
+typedef struct pl_pair_approach {
     enum {
         PL_APPROACH_NONE, // never within the distance that is asked for
         PL_APPROACH_NEAR, // about so near, at this time
@@ -73,10 +73,10 @@ typedef struct pl_approach {
     } kind;
     double time;
     pl_nearest nearest; // of then
-} pl_approach;
+} pl_pair_approach;
 
 // Sweeps the pieces; what stays farther apart than `near` [m] is let go.
-pl_approach pl_moving_pair_approach(const pl_moving_pair *e, double near);
+pl_pair_approach pl_moving_pair_approach(const pl_moving_pair *e, double near);
 // The pose of the body of side 0 (A) or 1 (B) at a time.
 pl_pose pl_moving_pair_pose(const pl_moving_pair *e, int side, double time);
 

@@ -131,7 +131,7 @@ bool pl_toi_refine(pl_toi *item, const pl_manifold *m)
 }
 
 // The nearest points of an approach.
-static void note_nearest(pl_toi *out, const pl_moving_pair *e, const pl_approach *approach)
+static void note_nearest(pl_toi *out, const pl_moving_pair *e, const pl_pair_approach *approach)
 {
     const pl_nearest *at = &approach->nearest;
     const pl_gap gap = at->gap; // its normal points from B to A
@@ -149,7 +149,7 @@ static void note_nearest(pl_toi *out, const pl_moving_pair *e, const pl_approach
 void pl_toi_sweep(pl_toi *item, const plumb_world *world, const pl_manifold *m, const pl_pair *pair)
 {
     const pl_moving_pair e = pl_moving_pair_of(world, pair, &item->paths);
-    const pl_approach approach = pl_moving_pair_approach(&e, (double)PL_SPECULATIVE);
+    const pl_pair_approach approach = pl_moving_pair_approach(&e, (double)PL_SPECULATIVE);
     item->time = approach.time;
     if (approach.kind == PL_APPROACH_NONE) {
         item->verdict = PL_TOI_PASSES;
