@@ -80,7 +80,7 @@ hashes() # object variant
 {
     "$cc" -o "$work/hashes" -Itests "-DTESTS=TEST(test_scene_hashes)" tests/harness/main.c \
         "$O/$2/tests/determinism/test_scene_hashes.o" "$O/$2/libscene.a" \
-        "$1" $scenes && "$work/hashes" --every 4
+        "$1" $scenes && "$work/hashes" test_scene_hashes --every 4
 }
 for variant in float double far; do
     make --no-print-directory "$O/$variant/tests/determinism/test_scene_hashes.o" \
