@@ -13,8 +13,8 @@
 // 3. Separations are counted back to the start of the step: by what the points close until then. The solver adds that
 //    motion again, so that the impact falls into the right substep, with the normal and arms of its moment.
 //
-// The first impact of a body turns it aside: what it would meet later is looked at once more, along the way that it
-// takes from there. Friction, and what is third on its way, are left to the solver and the sweeps of continuous/.
+// The first impact of a body turns it aside: by those that are there as the step begins its way is known, and what it
+// would meet after one that lies ahead is looked at once more, along the way that it takes from there. Friction, and what is third on its way, are left to the solver and the sweeps of continuous/.
 //
 // The ground's internal edges judge the manifold of that moment before it is counted back (internal_edges/correct.c).
 //
@@ -193,32 +193,31 @@ static bool list(pl_looking *l, uint32_t manifold)
     return true;
 }
 
-// Lists the candidates whose planes act while their bodies fly on. Bodies whose impacts are looked for are those of
-// contacts that act, and of those that bounce: what comes back may meet anything.
-static bool list_acting(pl_looking *l)
+// Leaves the mark of those that act to the candidates whose planes do while their bodies fly on. Bodies whose impacts are
+// looked for are those of contacts that act, and of those that bounce: what comes back may meet anything.
+static bool claim_bodies(pl_looking *l)
 {
-    const uint32_t *candidates = l->narrow->candidates.data;
+    uint32_t *candidates = l->narrow->candidates.data;
     const pl_ends *ends = l->narrow->ends.data;
+    bool any = false;
     for (uint32_t i = 0; i < l->narrow->candidate_count; ++i) {
         const uint32_t place = candidates[i] & PL_CANDIDATE_PLACE;
         if ((candidates[i] & PL_CANDIDATE_STRIKES) != 0) {
             continue;
         }
-        bool acts = false;
         if ((candidates[i] & PL_CANDIDATE_ACTS) != 0) {
             const pl_manifold *m = &pl_manifolds(l->narrow)[place];
-            acts = reaches(m, pl_looking_flight(l, m->body_a), pl_looking_flight(l, m->body_b));
-            if (acts && !list(l, place)) {
-                return false;
+            if (!reaches(m, pl_looking_flight(l, m->body_a), pl_looking_flight(l, m->body_b))) {
+                candidates[i] &= ~PL_CANDIDATE_ACTS;
             }
         }
-        if (acts || (candidates[i] & PL_CANDIDATE_BOUNCES) != 0) {
+        if ((candidates[i] & (PL_CANDIDATE_ACTS | PL_CANDIDATE_BOUNCES)) != 0) {
             pl_looking_claim(l, ends[place].a);
             pl_looking_claim(l, ends[place].b);
-            l->any_claimed = true;
+            any = true;
         }
     }
-    return true;
+    return any;
 }
 
 static bool reaches_turned(const pl_looking *l, const pl_manifold *m)
@@ -232,12 +231,34 @@ static bool reaches_turned(const pl_looking *l, const pl_manifold *m)
     return acts;
 }
 
+// Lists the candidates whose planes act, in free flight or where a strike turns it.
+static bool list_acting(pl_looking *l)
+{
+    const uint32_t *candidates = l->narrow->candidates.data;
+    const pl_ends *ends = l->narrow->ends.data;
+    for (uint32_t i = 0; i < l->narrow->candidate_count; ++i) {
+        const uint32_t place = candidates[i] & PL_CANDIDATE_PLACE;
+        if ((candidates[i] & PL_CANDIDATE_STRIKES) != 0) {
+            continue;
+        }
+        const bool struck =
+            pl_looking_is_struck(l, ends[place].a) || pl_looking_is_struck(l, ends[place].b);
+        if (((candidates[i] & PL_CANDIDATE_ACTS) != 0 ||
+             (struck && reaches_turned(l, &pl_manifolds(l->narrow)[place]))) &&
+            !list(l, place)) {
+            return false;
+        }
+    }
+    l->listed_first = l->ahead->count;
+    return true;
+}
+
 // What comes after the first impact of a body is due again, by the way that the body takes from there.
 static bool list_again(pl_looking *l)
 {
     const uint32_t *candidates = l->narrow->candidates.data;
     const pl_ends *ends = l->narrow->ends.data;
-    const uint32_t listed = l->ahead->count;
+    const uint32_t listed = l->listed_first;
     uint32_t next = 0; // of those that are listed: they are candidates, in order
     for (uint32_t i = 0; i < l->narrow->candidate_count; ++i) {
         if ((candidates[i] & PL_CANDIDATE_STRIKES) != 0) {
@@ -314,16 +335,16 @@ bool pl_ahead_look(plumb_world *world, const pl_narrow_input *in, real dt, pl_na
         return false;
     }
     pl_looking l = open_look(world, in, dt, narrow);
+    if (!claim_bodies(&l)) {
+        return true;
+    }
+    pl_looking_note_strikes(&l);
     if (!list_acting(&l) || !reserve_lists(world, ahead)) {
         return false;
     }
-    if (!l.any_claimed) {
-        return true;
-    }
-    l.listed_first = ahead->count;
     look_at_open(&l);
-    pl_looking_note_impacts(&l);
-    if (l.turned_count > 0) {
+    pl_looking_note_meetings(&l);
+    if (l.path_count > l.struck_count) {
         if (!list_again(&l) || !reserve_lists(world, ahead)) {
             return false;
         }

@@ -55,7 +55,6 @@ static void note_change(pl_looking *l, uint32_t row, double time, pl_motion chan
     if (moves * (1 - time) > (double)PL_TURNED) {
         pl_path *path = make_path(l, row);
         if (time < path->impact) {
-            l->turned_count += path->impact == PL_SWEEP_NEVER;
             path->impact = time;
             path->change = change;
         }
@@ -92,17 +91,8 @@ static const pl_manifold_point *first_point(const pl_manifold *m)
     return &m->point[m->point[1].separation < m->point[0].separation];
 }
 
-void pl_looking_note_impacts(pl_looking *l)
+void pl_looking_note_strikes(pl_looking *l)
 {
-    for (uint32_t i = 0; i < l->ahead->count; ++i) {
-        const pl_toi *item = &pl_looking_items(l->ahead)[i];
-        const pl_manifold *m = pl_looking_manifold(l, item);
-        if (item->verdict == PL_TOI_HIT) {
-            note_impact(l, m, &item->point, (double)item->nx, (double)item->ny, item->time);
-        } else if (item->verdict == PL_TOI_KEEPS && item->time <= 1) {
-            note_impact(l, m, first_point(m), (double)m->nx, (double)m->ny, item->time);
-        }
-    }
     const pl_ends *ends = l->narrow->ends.data;
     const uint32_t *candidates = l->narrow->candidates.data;
     for (uint32_t i = 0; i < l->narrow->candidate_count; ++i) {
@@ -111,6 +101,20 @@ void pl_looking_note_impacts(pl_looking *l)
             (pl_looking_is_claimed(l, ends[place].a) || pl_looking_is_claimed(l, ends[place].b))) {
             const pl_manifold *m = &pl_manifolds(l->narrow)[place];
             note_impact(l, m, first_point(m), (double)m->nx, (double)m->ny, 0);
+        }
+    }
+    l->struck_count = l->path_count;
+}
+
+void pl_looking_note_meetings(pl_looking *l)
+{
+    for (uint32_t i = 0; i < l->ahead->count; ++i) {
+        const pl_toi *item = &pl_looking_items(l->ahead)[i];
+        const pl_manifold *m = pl_looking_manifold(l, item);
+        if (item->verdict == PL_TOI_HIT) {
+            note_impact(l, m, &item->point, (double)item->nx, (double)item->ny, item->time);
+        } else if (item->verdict == PL_TOI_KEEPS && item->time <= 1) {
+            note_impact(l, m, first_point(m), (double)m->nx, (double)m->ny, item->time);
         }
     }
 }

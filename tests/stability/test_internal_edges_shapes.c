@@ -135,8 +135,7 @@ static void bends_are_followed(void **state)
                 }
                 print_message("%-9s bend %3.0f at %2.0f m/s: %.1e m deep\n", body_names[body],
                               bends[c], speeds[k], deepest);
-                // Beyond 20 m/s a body turns by a tenth of a radian in the step that throws it up.
-                assert_true(deepest < (speeds[k] > 20 ? 0.08 : 0.015));
+                assert_true(deepest < 0.012);
                 plumb_world_destroy(w);
             }
         }
