@@ -1,8 +1,8 @@
 /// ecs.h - entities, user components, user systems, commands.
 ///
 /// Bodies, shapes, materials and joints are entities; so are things of the user's own. A component is a value
-/// of fixed size that any entity may have; a system is a function called once a step, at a named
-/// phase, with whole columns. A system whose component nobody has is not in the schedule.
+/// of fixed size that any entity may have; a system is a function called in each step or substep, at a named
+/// phase, with whole columns. A system whose component nobody has is not in the schedule (plumb_world_schedule).
 ///
 ///     plumb_component health = plumb_component_create(world, &(plumb_component_desc){
 ///         .name = "health", .size = sizeof(float) });
@@ -168,29 +168,92 @@ typedef enum plumb_phase {
     PLUMB_PHASE_BEGIN,    ///< at the start of the step, after commands were applied
     PLUMB_PHASE_FORCES,   ///< before forces are integrated: add to the force columns here
     PLUMB_PHASE_CONTACTS, ///< after the narrow phase, before the solver
-    PLUMB_PHASE_END       ///< after everything: events and transforms are those of this step
+    PLUMB_PHASE_END,      ///< after everything: events and transforms are those of this step
+    PLUMB_PHASE_SUBSTEP   ///< in each substep, before velocities are integrated: accelerations of the moment
 } plumb_phase;
+
+#if PLUMB_REAL_IS_DOUBLE && !PLUMB_IS_FAR
+typedef double plumb_near; ///< the scalar of the solver: plumb_real, but float where places are far (PLUMB_FAR)
+#else
+typedef float plumb_near; ///< the scalar of the solver: plumb_real, but float where places are far (PLUMB_FAR)
+#endif
+
+/// A body as the solver has it within a step.
+typedef struct plumb_substep_body {
+    plumb_near vx, vy, w;   ///< [m/s], [rad/s] of the moment
+    plumb_near inv_mass;    ///< [1/kg]
+    plumb_near dx, dy, da;  ///< [m], [rad] moved since the start of the step, where the columns are
+    plumb_near inv_inertia; ///< [1/(kg m^2)]
+} plumb_substep_body;
+
+/// What moves it in this substep.
+typedef struct plumb_substep_motion {
+    plumb_near ax, ay, aw; ///< [m/s^2], [rad/s^2] of gravity, forces and systems before: to be added to
+    plumb_near none;       ///< 0
+    plumb_near ux, uy, uw; ///< [m/s], [rad/s] the solver's own
+    plumb_near inv_mass;   ///< [1/kg]
+} plumb_substep_motion;
+
+#define PLUMB_NEEDS_MOST 4 ///< components that a system needs
+
+/// The bodies that a call of a system of phase SUBSTEP is for: awake dynamic ones that have all components it needs (of
+/// none: all). They are moved by the solver, substep by substep, even where nothing touches them.
+///
+///     for (int i = 0; i < s->count; ++i) {
+///         const drag *d = (const drag *)s->values[0] + s->at[0][i];
+///         const plumb_substep_body *b = &s->bodies[s->slot[i]];
+///         s->motions[s->slot[i]].ax -= d->k * b->vx * b->inv_mass;
+///     }
+typedef struct plumb_substep {
+    int count;
+    int number;           ///< of the substep, from 0
+    const uint32_t *slot; ///< of each in `bodies` and `motions`
+    const uint32_t *row;  ///< of each in plumb_world_bodies: there are poses of the start of the step
+    plumb_substep_body *bodies;
+    plumb_substep_motion *motions;
+    void *values[PLUMB_NEEDS_MOST];       ///< columns of the components
+    const uint32_t *at[PLUMB_NEEDS_MOST]; ///< place of each in these
+} plumb_substep;
 
 /// What a system is called with.
 typedef struct plumb_system_call {
     plumb_world *world;
-    plumb_real dt; ///< [s] of the step
-    double time;   ///< [s] simulated before the step (phase END: after it)
+    plumb_real dt; ///< [s] of the step; of the substep
+    double time;   ///< [s] simulated before the step or substep (phase END: after it)
     void *context;
+    int first, end;               ///< body rows [first, end) are this call's: all, unless the system is parallel
+    const plumb_substep *substep; ///< phase SUBSTEP; else null
 } plumb_system_call;
 
 typedef struct plumb_system_desc {
-    const char *name; ///< 1..63 characters, unique in the world; copied
+    const char *name; ///< 1..63 characters, unique in the world, also among its passes; copied
     plumb_phase phase;
     void (*run)(const plumb_system_call *call);
-    plumb_component needs; ///< not null: runs only while some entity has it
-    const char *reads;     ///< for the schedule; may be null; copied
-    const char *writes;    ///< likewise
+    plumb_component needs[PLUMB_NEEDS_MOST]; ///< runs only while each has a value; a null one ends the list
+    const char *reads;                       ///< data read: names of plumb_data_name or components, with commas between
+                                             ///< them ("velocities, drag"); may be null; copied
+    const char *writes;                      ///< data written, likewise; held by PLUMB_WATCH_WRITES, unless null
     void *context;
+    /// Whether `run` may be called on several threads at once, each time for bodies or rows of its own: it writes
+    /// nothing else, allocates nothing, and calls no function that takes a plumb_world but plumb_world_bodies and
+    /// plumb_world_column. What it does must not depend on how rows are divided. Phase SUBSTEP: once a cluster of
+    /// islands; a system that is not parallel has all its bodies in one cluster, and is slower.
+    bool parallel;
+    const char *before;  ///< name of a pass or system right before which it stands; may be null; copied
+    const char *after;   ///< name of one behind which it stands (and behind systems that named it before); likewise
+    const char *instead; ///< name of a pass that does not run while this system is switched on: "damping",
+                         ///< "speed caps", "gravity", "targets". Stands at its place, or at that of the phase
 } plumb_system_desc;
 
-/// Registers a system after those already in its phase. Errors: E_NULL, E_RANGE, E_HANDLE (needs),
-/// E_DUPLICATE, E_CAPACITY (256), E_MEMORY, E_LOCKED.
+/// Registers a system after those already in its phase, or where `before`, `after`, `instead` say. Of phase BEGIN and
+/// FORCES it may stand before the pass "gravity", of CONTACTS among others of that phase, of END behind "motion", of
+/// SUBSTEP among the rows of the substep from "forces of now" to "sum impulses"; beside a row of the stage
+/// "constraints" or "relax" it runs in each sweep. While the world is recorded, systems can stand only at the place of
+/// their phase: others are refused, and so is the recorder of a world that has them. Errors: E_NULL, E_RANGE (phase,
+/// texts too long), E_HANDLE (needs), E_MISSING (`reads`, `writes`, `before`, `after`, `instead` name nothing that is
+/// there), E_STATE (a system of this phase cannot stand there; `after` does not stand before `before`; the pass
+/// cannot be replaced; the world is recorded), E_DUPLICATE (name; two in place of one pass), E_CAPACITY (256),
+/// E_MEMORY, E_LOCKED.
 PLUMB_API plumb_result plumb_system_create(plumb_world *world, const plumb_system_desc *desc);
 /// Switches a system off or on. Errors: E_NULL, E_MISSING.
 PLUMB_API plumb_result plumb_system_enable(plumb_world *world, const char *name, bool enabled);

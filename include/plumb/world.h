@@ -216,22 +216,48 @@ typedef struct plumb_energy {
 /// Energy and momentum of now; all zero for null. O(dynamic bodies).
 PLUMB_API plumb_energy plumb_world_energy(const plumb_world *world);
 
+#define PLUMB_VARIANTS_MAX 8 ///< of a pass
+
 /// One line of the schedule: a pass of the step, built in or the user's.
 typedef struct plumb_pass_info {
     const char *name;
-    const char *phase;  ///< "commands", "forces", "broad", "narrow", "solve", "finish", or a user phase
-    const char *reads;  ///< columns read
-    const char *writes; ///< columns written
+    const char *phase;  ///< stage: "commands", "begin", "forces", "pairs", "contacts", "edits", "graph", "solve";
+                        ///< of the substeps "prepare", "moment", "velocities", "constraints", "positions", "relax",
+                        ///< "sums", "store"; "finish", "events", "end"
+    const char *reads;  ///< data read: names of plumb_data_name or of components, with commas between them
+    const char *writes; ///< data written
     const char *reason; ///< why it runs, or why it was left out
     bool scheduled;     ///< false: wanted by nothing in this world, costs nothing
+    bool in_substeps;   ///< runs inside of the solver's pass, in each substep and cluster of islands
     bool is_user;       ///< registered by plumb_system_create
-    double last_ns;     ///< [ns] wall time in the last step
-    double total_ns;    ///< [ns] since the world was made
+    double last_ns;     ///< [ns] wall time in the last step, without that of rows inside of it; 0 unless watched
+    double total_ns;    ///< [ns] while times were watched
+    int variant_count;
+    const char *variants[PLUMB_VARIANTS_MAX]; ///< which variants of its kernels run: "friction", "rotation", ...
 } plumb_pass_info;
 
 /// The schedule in order, passes left out included. Writes up to `capacity` rows, returns how many
 /// there are. Reasons are valid until the next step.
 PLUMB_API int plumb_world_schedule(const plumb_world *world, plumb_pass_info *rows, int capacity);
+
+/// What a world notes of its own steps.
+typedef enum plumb_watch {
+    PLUMB_WATCH_NOTHING = 0,
+    PLUMB_WATCH_TIMES = 1, ///< the time that each row of the schedule takes: a look at the clock before and behind it
+    PLUMB_WATCH_WRITES = 2 ///< whether each row changes only what it declares to write: digests of all data before and
+                           ///< behind it, and substeps on one thread. What changes else is an error in the log
+                           ///< (E_STATE, "plumb_world_step"); the step goes on. For tests of systems: some 100
+                           ///< times slower
+} plumb_watch;
+
+/// Sets what is watched from the next step on: a sum of plumb_watch; nothing by default. Changes no bit of what
+/// the world does. With several threads, rows of the substeps have shares of the time that the substeps took.
+/// Errors: E_NULL, E_RANGE, E_LOCKED, E_MEMORY.
+PLUMB_API plumb_result plumb_world_watch(plumb_world *world, unsigned what);
+
+/// Names of data that rows of the schedule read and write: "velocities", "manifolds", ...; null from the last
+/// on.
+PLUMB_API const char *plumb_data_name(int index);
 
 PLUMB_END
 

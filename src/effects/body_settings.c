@@ -20,12 +20,6 @@ pl_body_settings pl_body_settings_get(const plumb_world *world, uint32_t row)
                                          PL_BODY_ROWS(PL_ROW_RECORD, DEFAULT) };
 }
 
-real pl_time_scale(const plumb_world *world, uint32_t row)
-{
-    uint32_t at = world->bodies.settings[row];
-    return at != 0 ? items(world)[at - 1].time_scale : 1;
-}
-
 bool pl_body_settings_reserve(plumb_world *world)
 {
     return pl_buffer_reserve(&world->memory, &world->settings.items,

@@ -2,11 +2,13 @@
 // caps, a time of their own, a target.
 //
 // Locked axes are flags of the body. The rest lies in two lists of records that exist only for the
-// bodies that ask for it. Passes over bodies look at one flag (PL_BODY_HAS_EFFECTS) and call in here.
+// bodies that ask for it. Where the solver moves a body, an effect is a row of the substep that acts on a packed list
+// of slots; in free flight it is a closed form over the step (flight.c).
 #ifndef PL_EFFECTS_H
 #define PL_EFFECTS_H
 
 #include "core/memory.h"
+#include "math/decay.h"
 #include "world/columns.h"
 
 // Damping, caps and time scale of a body, and whatever else a row of src/schema stores here. All defaults: it has no
@@ -15,9 +17,9 @@
 typedef struct pl_body_settings {
     plumb_body body;
     PL_BODY_ROWS(PL_ROW_RECORD, PL_SETTINGS_MEMBER)
-    real ax, ay,
-        aw; // in a step: acceleration by forces in the world's time, before damping and caps
 } pl_body_settings;
+
+#define PL_SETTINGS_SAVED sizeof(pl_body_settings)
 
 typedef struct pl_body_settings_list {
     pl_buffer items; // pl_body_settings, no order
@@ -55,17 +57,43 @@ void pl_body_forget(plumb_world *world, uint32_t row);
 
 //---- in a step ------------------------------------------------------------------------------------
 
+// What a step needs of effects, and forgets.
+typedef struct pl_effects {
+    plumb_vec2 gravity; // [m/s^2] that acts in this step: 0 where the row of gravity does not run
+    uint32_t gathered;  // flags of bodies that pl_effects_gather has to look at
+    bool taken;         // pl_effects_take_over changes what some bodies take over
+    // uint8_t a dynamic row: PL_CALLED_... if systems of the substep act on it, else 0
+    pl_buffer called;
+    bool any_called, any_alone;
+    pl_buffer bases; // a quad a solver slot: its acceleration before effects of the substep
+    pl_buffer decays, factors;  // pl_damping_decay, pl_damping_factors a record
+    pl_buffer dampers, cappers; // pl_damper, pl_capper, by rising slot
+    uint32_t decay_count, damper_count, capper_count;
+    bool decays_stale; // records may have changed: set where the schedule is revised
+    bool resets;       // accelerations are those of the step again as a substep begins
+    bool damps, caps;  // their rows are in the schedule: nothing runs in place of them
+} pl_effects;
+
+// By systems that may run on several threads at once, each with ranges of its own; by others.
+enum { PL_CALLED_SHARED = 1, PL_CALLED_ALONE = 2 };
+
+void pl_effects_free(pl_memory *memory, pl_effects *effects);
+
+// Pose velocities of bodies with a time of their own become those of the world's time (time_scale.c).
+void pl_effects_poses(plumb_world *world);
 // Factor on the speed at which a body of this row moves.
 real pl_time_scale(const plumb_world *world, uint32_t row);
-// Pose velocities of bodies with a time of their own become those of the world's time.
-void pl_effects_poses(plumb_world *world);
-// A body of PL_BODY_HAS_EFFECTS has just got its solver slot: locks and its own time (gather.c).
+// Before bodies get their slots: which of those of PL_BODY_HAS_EFFECTS have to be looked at.
+void pl_effects_open(plumb_world *world);
+// One of them has just got its solver slot: locks and its own time.
 void pl_effects_gather(plumb_world *world, uint32_t row, uint32_t slot);
-// Before each substep of h [s], where there is damping or a cap: accelerations that include them.
-bool pl_effects_resist(const plumb_world *world);
-void pl_effects_substep(plumb_world *world, real h);
-// A body of PL_BODY_HAS_EFFECTS has taken over what the solver made of it.
+// A body of PL_BODY_HAS_SETTINGS has taken over what the solver made of it.
 void pl_effects_take_over(plumb_world *world, uint32_t row);
+
+// Before motion, where bodies are damped or capped: decays over a substep and the step of dt [s], and lists of
+// whom the rows of the substep act on. False when out of memory.
+bool pl_damping_find(plumb_world *world, real dt);
+bool pl_caps_find(plumb_world *world);
 
 // The way and the change of velocity of a body in free flight over a step.
 typedef struct pl_flight {
@@ -78,6 +106,48 @@ pl_flight pl_effects_fly(const plumb_world *world, uint32_t row, real dt);
 
 // After motion: who has arrived, and where to from here.
 void pl_targets_arrive(plumb_world *world, real dt);
+
+// Of a velocity over a step, in a body's own time T: what is left of it is v - v drop + a way, its way
+// v (way + way_low) + a way_of_a.
+typedef struct pl_decay_step {
+    real way, way_low; // [s] T M, and what rounding took from it
+    real way_of_a;     // [s^2] T^2 K
+    real drop;         // [-] 1 - E
+} pl_decay_step;
+
+// Of the record of the same place. Kept from step to step: an exponential costs more than all the rest.
+typedef struct pl_damping_decay {
+    real damping, angular_damping, time_scale, dt, h; // what it was made of
+    bool alone;                                       // nothing but damping acts on the body
+    pl_decay_step step, turn;                         // then: its free flight
+    pl_decay flight, flight_turn;                     // over the step
+    near_real drop, drop_turn;                        // [1/s] (1 - exp(-c h)) / h, in a substep
+    near_real mean, mean_turn;                        // [-] mean of exp(-c t) over it
+} pl_damping_decay;
+
+static inline const pl_damping_decay *pl_damping_decays(const pl_effects *effects)
+{
+    return (const pl_damping_decay *)effects->decays.data;
+}
+
+// The decay of a body of PL_BODY_HAS_EFFECTS by its record, if nothing but damping makes it odd; else NULL.
+static inline const pl_damping_decay *pl_damping_alone(const pl_effects *effects,
+                                                       const pl_bodies *b, uint32_t row)
+{
+    if ((b->flags[row] & PL_BODY_HAS_EFFECTS) != PL_BODY_HAS_SETTINGS || !effects->damps) {
+        return NULL;
+    }
+    const pl_damping_decay *d = pl_damping_decays(effects) + b->settings[row] - 1;
+    return d->alone ? d : NULL;
+}
+
+// Free flight of such a body over the step; returns the angle by which it turned.
+real pl_damping_fly(plumb_world *world, uint32_t row, const pl_damping_decay *decay);
+
+// Rows of the substep (solver/substep.h).
+struct pl_substep;
+void pl_damping_row(struct pl_substep *substep);
+void pl_caps_row(struct pl_substep *substep);
 
 // [1/kg] along an axis (PL_BODY_LOCK_X or _Y): 0 if it is locked.
 static inline real pl_unlocked(uint32_t flags, uint32_t lock, real inv_mass)

@@ -6,8 +6,7 @@
 // which without damping (E = M = 1, K = 1/2) is the parabola: exact for any step. A speed that ends
 // above the cap is shortened to it, and the way is then that of the mean of both velocities.
 //
-// Reads: one body row, its record. Writes: nothing. Cost: O(1).
-#include "math/decay.h"
+// Reads: one body row, its record, its decay (damping.c). Writes: nothing. Cost: O(1).
 #include "plumb/math.h"
 #include "world/state.h"
 
@@ -38,23 +37,29 @@ static void shorten(double *x, double *y, double most)
     }
 }
 
+static const pl_decay undamped = { 1, 1, 0.5 };
+
 pl_flight pl_effects_fly(const plumb_world *world, uint32_t row, real dt)
 {
     const pl_bodies *b = &world->bodies;
     const uint32_t flags = b->flags[row];
+    const uint32_t record = b->settings[row];
     const pl_body_settings t = pl_body_settings_get(world, row);
     const double time = (double)t.time_scale * (double)dt;
-    const pl_decay d = pl_decay_of((double)t.damping * time);
-    const pl_decay dw = pl_decay_of((double)t.angular_damping * time);
+    const bool damped = record != 0 && world->effects.damps;
+    const pl_damping_decay *decay = damped ? &pl_damping_decays(&world->effects)[record - 1] : NULL;
+    const pl_decay d = damped ? decay->flight : undamped,
+                   dw = damped ? decay->flight_turn : undamped;
     double free_x = (flags & PL_BODY_LOCK_X) == 0, free_y = (flags & PL_BODY_LOCK_Y) == 0;
     double gravity = (double)b->gravity_scale[row], im = (double)b->inv_mass[row];
-    double ax = free_x * ((double)world->gravity.x * gravity + (double)b->fx[row] * im);
-    double ay = free_y * ((double)world->gravity.y * gravity + (double)b->fy[row] * im);
+    double ax = free_x * ((double)world->effects.gravity.x * gravity + (double)b->fx[row] * im);
+    double ay = free_y * ((double)world->effects.gravity.y * gravity + (double)b->fy[row] * im);
     double aw = (double)b->torque[row] * (double)b->inv_inertia[row];
     double vx = free_x * ((double)b->vx[row] + (double)b->residual_vx[row]);
     double vy = free_y * ((double)b->vy[row] + (double)b->residual_vy[row]);
     double w = (double)b->w[row];
-    const double cap = (double)t.max_speed, most = (double)t.max_spin;
+    const bool caps = world->effects.caps;
+    const double cap = caps ? (double)t.max_speed : 0, most = caps ? (double)t.max_spin : 0;
     if (cap > 0) {
         shorten(&vx, &vy, cap);
     }

@@ -42,6 +42,7 @@ static void revise(plumb_world *world, pl_joint *joint, plumb_joint_desc wanted)
     world->joints.watched -= pl_joint_is_watched(&joint->desc);
     pl_joint_copy_desc(&joint->desc, &wanted);
     world->joints.watched += pl_joint_is_watched(&joint->desc);
+    world->schedule_dirty = true; // sums of reactions are wanted, or no more
 }
 
 plumb_result plumb_joint_set_limit(plumb_world *world, plumb_joint joint, bool enabled,

@@ -7,11 +7,12 @@
 #define PL_JOINTS_WIDE_H
 
 #include "joints/rows.h"
+#include "plumb/ecs.h"
 
 #define PL_LEAST_ARC ((near_real)1e-4) // [rad] less is straight: its cube may be subnormal
 
 typedef struct pl_joint pl_joint;
-typedef struct pl_solver_body pl_solver_body;
+typedef plumb_substep_body pl_solver_body;
 
 #define PL_JOINT_PATTERNS 32 // joints of further patterns are solved one by one
 

@@ -54,7 +54,7 @@ static plumb_result register_system(plumb_replay *replay, const char **from)
         }
     }
     const plumb_system_desc desc = {
-        .name = s.name, .phase = (plumb_phase)s.phase, .run = rest, .needs = { s.needs }
+        .name = s.name, .phase = (plumb_phase)s.phase, .run = rest, .needs = { { s.needs } }
     };
     return plumb_system_create(replay->world, &desc);
 }

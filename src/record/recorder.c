@@ -12,6 +12,7 @@
 #include "plumb/snapshot.h"
 
 #include "record/format.h"
+#include "step/place.h"
 #include "step/observer.h"
 #include "world/check.h"
 
@@ -128,7 +129,7 @@ static void put_code(recorder *r, plumb_world *world)
     }
     for (uint32_t i = 0; i < head.systems; ++i) {
         const pl_system *s = &world->systems.items[i];
-        pl_code_system item = { .phase = s->desc.phase, .needs = s->desc.needs.id };
+        pl_code_system item = { .phase = s->desc.phase, .needs = s->desc.needs[0].id };
         copy_name(item.name, s->name);
         memcpy(to, &item, sizeof item);
         to += sizeof item;
@@ -398,6 +399,14 @@ static plumb_result check_desc(const plumb_world *world, const char *fn,
         r = pl_fail(world, PLUMB_E_STATE, fn,
                     world->observer->replays ? "the world is that of a replay; it must not be"
                                              : "the world is recorded already; stop that first");
+    }
+    for (uint32_t i = 0; r == PLUMB_OK && i < world->systems.count; ++i) {
+        if (pl_system_is_placed(&world->systems.items[i].desc)) {
+            r = pl_fail(world, PLUMB_E_STATE, fn,
+                        "the system '%s' runs in the substep or at a place of its own; a recording "
+                        "does not hold what such a system does",
+                        world->systems.items[i].name);
+        }
     }
     return r;
 }

@@ -162,8 +162,7 @@ static bool check_settings_of(const pl_suspect *s, const pl_body_settings *t, ui
     PL_BODY_ROWS(PL_ROW_RECORD, TAKE)
 #undef TAKE
     return row != PL_NONE && s->world.bodies.settings[row] == i + 1 &&
-           pl_desc_is_sound(PLUMB_TABLE_BODY, &desc) && CHECK_REALS(t->ax) && CHECK_REALS(t->ay) &&
-           CHECK_REALS(t->aw);
+           pl_desc_is_sound(PLUMB_TABLE_BODY, &desc);
 }
 
 static bool check_settings(const pl_suspect *s)

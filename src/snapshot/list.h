@@ -151,7 +151,7 @@
     LEFT(quarantine.rolling) LEFT(quarantine.kept) LEFT(quarantine.since)
 
 #define PL_STATE_EFFECTS(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                    \
-    ARRAY(pl_body_settings, settings.items, settings.count, offsetof(pl_body_settings, ax), 8)                     \
+    ARRAY(pl_body_settings, settings.items, settings.count, sizeof(pl_body_settings), 8)                     \
     VALUE(settings.damped) VALUE(settings.capped) VALUE(settings.scaled) VALUE(settings.frozen)        \
     ARRAY(pl_target, targets.items, targets.count, sizeof(pl_target), 8)
 
@@ -172,7 +172,7 @@
     ARRAY(uint64_t, excluded, excluded_count, sizeof(uint64_t), 8)                                 \
     ARRAY(pl_material_pair, material_pairs, material_pair_count,                                   \
           sizeof(uint64_t) + sizeof(plumb_material_pair), 8)                                       \
-    LEFT(schedule) LEFT(begin_events) LEFT(end_events) LEFT(changed_pairs) LEFT(hit_events)                            \
+    LEFT(schedule) LEFT(effects) LEFT(begin_events) LEFT(end_events) LEFT(changed_pairs) LEFT(hit_events)                            \
     LEFT(begin_count) LEFT(end_count) LEFT(hit_count)                                              \
     LEFT(checking) LEFT(checked) LEFT(observer) LEFT(locked_by) LEFT(editing) VALUE(edited) LEFT(in_hook) LEFT(error) LEFT(error_text)
 

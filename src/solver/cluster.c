@@ -67,24 +67,26 @@ static void lead_themselves(uint32_t *leaders, uint32_t count)
 
 //---- what has to be in cluster 0 -----------------------------------------------------------------
 
-// Tells which rows have to be; `resist`: bodies are damped.
+// Tells which rows have to be: of elastic bodies, and of those that a system acts on alone (step/acting.c).
 typedef struct special_rows {
     const uint32_t *marks;
-    const uint16_t *flags;
-    bool any, resist;
+    const uint8_t *called; // NULL: no system acts alone
+    uint32_t dynamic;
+    bool any;
 } special_rows;
 
 static special_rows specials_of(const plumb_world *world)
 {
-    const bool resist = pl_effects_resist(world);
-    return (special_rows){ world->solver.slots.data, world->bodies.flags,
-                           world->solver.follows_impacts || resist, resist };
+    const bool alone = world->effects.any_alone;
+    return (special_rows){ world->solver.slots.data, alone ? world->effects.called.data : NULL,
+                           world->dynamic_count, world->solver.follows_impacts || alone };
 }
 
 static inline bool is_special(const special_rows *s, uint32_t row)
 {
-    return s->marks[row] != PL_NONE && (s->marks[row] == PL_ELASTIC ||
-                                        (s->resist && (s->flags[row] & PL_BODY_HAS_SETTINGS) != 0));
+    return s->marks[row] != PL_NONE &&
+           (s->marks[row] == PL_ELASTIC ||
+            (s->called != NULL && row < s->dynamic && (s->called[row] & PL_CALLED_ALONE) != 0));
 }
 
 //---- looking for islands -------------------------------------------------------------------------

@@ -6,18 +6,15 @@
 // continuous pass, with where they came from. Reads: solver bodies, forces. Writes: transforms,
 // velocities, poses, movers; clears forces. Cost: O(dynamic and kinematic bodies).
 #include "plumb/math.h"
+#include "solver/flight.h"
 #include "world/state.h"
 
 #include <string.h>
 
-// What is left of a motion that contacts and joints have damped away halves and halves until it is
-// subnormal, and then costs hundreds of cycles wherever it is multiplied. Less than this counts as none:
-// a turn [rad] that moves no coordinate, and a speed [m/s, rad/s].
+// A speed [m/s, rad/s] below this counts as none: see flight.h.
 #if PL_NEAR_IS_DOUBLE
-#define NO_TURN  1e-100
 #define NO_SPEED 1e-150
 #else
-#define NO_TURN  1e-12f
 #define NO_SPEED 1e-20f
 #endif
 
@@ -26,51 +23,24 @@ static real noticed(real speed)
     return plumb_abs(speed) > NO_SPEED ? speed : 0;
 }
 
-static void turn(pl_bodies *b, uint32_t row, real angle)
-{
-    if (plumb_abs(angle) > NO_TURN) {
-        plumb_rot q = plumb_rot_integrate((plumb_rot){ b->c[row], b->s[row] }, angle);
-        b->c[row] = q.c;
-        b->s[row] = q.s;
-    }
-}
-
-// Adds to a value and keeps what rounding takes away for the next time (compensated summation, in
-// double). Without it, an elastic ball drifts by 2e-7 of its energy a bounce in the float library. Places of
-// the far build, doubles themselves, keep the error of their own sum (Knuth's two-sum): what a body does then
-// does not depend on where it is. The double build keeps none: what glides for 1e6 steps is 4e-8 m off, and whatever
-// looks at a place would have to look at both parts of it.
-static void add(real *value, real *low, real change)
-{
-#if PLUMB_IS_FAR
-    real wanted = change + *low, sum = *value + wanted, part = sum - *value;
-    *low = (*value - (sum - part)) + (wanted - part);
-    *value = sum;
-#else
-    double wanted = (double)*value + ((double)change + (double)*low);
-    *value = (real)wanted;
-    *low = (real)(wanted - (double)*value);
-#endif
-}
-
 // Returns the angle by which the body turned.
 static real fly(plumb_world *world, uint32_t row, real dt)
 {
     pl_bodies *b = &world->bodies;
     real gravity = b->gravity_scale[row];
-    real ax = world->gravity.x * gravity + b->fx[row] * b->inv_mass[row];
-    real ay = world->gravity.y * gravity + b->fy[row] * b->inv_mass[row];
+    real ax = world->effects.gravity.x * gravity + b->fx[row] * b->inv_mass[row];
+    real ay = world->effects.gravity.y * gravity + b->fy[row] * b->inv_mass[row];
     real aw = b->torque[row] * b->inv_inertia[row];
     // The large and the small part of the way apart: v + a dt / 2 would round the same way every
     // step.
-    add(&b->center_x[row], &b->residual_x[row], dt * (b->residual_vx[row] + ax * dt / 2));
-    add(&b->center_y[row], &b->residual_y[row], dt * (b->residual_vy[row] + ay * dt / 2));
-    add(&b->center_x[row], &b->residual_x[row], dt * b->vx[row]);
-    add(&b->center_y[row], &b->residual_y[row], dt * b->vy[row]);
+    pl_add(&b->center_x[row], &b->residual_x[row], dt * (b->residual_vx[row] + ax * dt / 2));
+    pl_add(&b->center_y[row], &b->residual_y[row], dt * (b->residual_vy[row] + ay * dt / 2));
+    pl_add(&b->center_x[row], &b->residual_x[row], dt * b->vx[row]);
+    pl_add(&b->center_y[row], &b->residual_y[row], dt * b->vy[row]);
     real angle = dt * (b->w[row] + aw * dt / 2);
-    turn(b, row, angle);
-    add(&b->vx[row], &b->residual_vx[row], ax * dt);
-    add(&b->vy[row], &b->residual_vy[row], ay * dt);
+    pl_turn(b, row, angle);
+    pl_add(&b->vx[row], &b->residual_vx[row], ax * dt);
+    pl_add(&b->vy[row], &b->residual_vy[row], ay * dt);
     b->w[row] += aw * dt;
     return angle;
 }
@@ -79,8 +49,8 @@ static real fly(plumb_world *world, uint32_t row, real dt)
 static void add_exactly(real *value, real *low, double change)
 {
     real large = (real)change;
-    add(value, low, (real)(change - (double)large));
-    add(value, low, large);
+    pl_add(value, low, (real)(change - (double)large));
+    pl_add(value, low, large);
 }
 
 // The same for a body that has locked axes, damping, caps or a time of its own.
@@ -90,7 +60,7 @@ static real fly_with_effects(plumb_world *world, uint32_t row, real dt)
     pl_flight f = pl_effects_fly(world, row, dt);
     add_exactly(&b->center_x[row], &b->residual_x[row], f.x);
     add_exactly(&b->center_y[row], &b->residual_y[row], f.y);
-    turn(b, row, (real)f.angle);
+    pl_turn(b, row, (real)f.angle);
     add_exactly(&b->vx[row], &b->residual_vx[row], f.vx);
     add_exactly(&b->vy[row], &b->residual_vy[row], f.vy);
     b->w[row] = (real)((double)b->w[row] + f.w);
@@ -174,9 +144,9 @@ static void take_over(plumb_world *world, uint32_t row, const pl_solver_body *bo
                       const near_real *low)
 {
     pl_bodies *b = &world->bodies;
-    add(&b->center_x[row], &b->residual_x[row], body->dx);
-    add(&b->center_y[row], &b->residual_y[row], body->dy);
-    turn(b, row, body->da);
+    pl_add(&b->center_x[row], &b->residual_x[row], body->dx);
+    pl_add(&b->center_y[row], &b->residual_y[row], body->dy);
+    pl_turn(b, row, body->da);
     b->vx[row] = noticed(body->vx);
     b->vy[row] = noticed(body->vy);
     b->w[row] = noticed(body->w);
@@ -192,14 +162,19 @@ static real move_dynamic(const passage *p, uint32_t row)
     const bool has_effects = (world->bodies.flags[row] & PL_BODY_HAS_EFFECTS) != 0;
     const uint32_t slot = p->collided ? ((const uint32_t *)world->solver.slots.data)[row] : PL_NONE;
     if (slot == PL_NONE) {
-        return has_effects ? fly_with_effects(world, row, p->dt) : fly(world, row, p->dt);
+        const pl_damping_decay *decay =
+            has_effects ? pl_damping_alone(&world->effects, &world->bodies, row) : NULL;
+        return decay != NULL ? pl_damping_fly(world, row, decay)
+               : has_effects ? fly_with_effects(world, row, p->dt)
+                             : fly(world, row, p->dt);
     }
-    if (has_effects && !(pl_time_scale(world, row) > 0)) {
+    const bool taken = has_effects && world->effects.taken;
+    if (taken && !(pl_time_scale(world, row) > 0)) {
         return 0;
     }
     const pl_solver_body *body = &pl_solver_bodies(&world->solver)[slot];
     take_over(world, row, body, p->residuals == NULL ? NULL : &p->residuals[(size_t)slot * 4]);
-    if (has_effects) {
+    if (taken) {
         pl_effects_take_over(world, row);
     }
     return body->da;
@@ -210,9 +185,9 @@ static real move_kinematic(const passage *p, uint32_t row)
     pl_bodies *b = &p->world->bodies;
     bool has_settings = (b->flags[row] & PL_BODY_HAS_SETTINGS) != 0;
     real time = has_settings ? p->dt * pl_time_scale(p->world, row) : p->dt;
-    add(&b->center_x[row], &b->residual_x[row], time * b->vx[row]);
-    add(&b->center_y[row], &b->residual_y[row], time * b->vy[row]);
-    turn(b, row, time * b->w[row]);
+    pl_add(&b->center_x[row], &b->residual_x[row], time * b->vx[row]);
+    pl_add(&b->center_y[row], &b->residual_y[row], time * b->vy[row]);
+    pl_turn(b, row, time * b->w[row]);
     return time * b->w[row];
 }
 

@@ -142,6 +142,12 @@ static void mark_rows(plumb_world *world, uint32_t movable)
             slots[row] = PL_ACTIVE;
         }
     }
+    const uint8_t *called = world->effects.called.data;
+    for (uint32_t row = 0; world->effects.any_called && row < world->dynamic_count; ++row) {
+        if (called[row] != 0) {
+            slots[row] = PL_ACTIVE;
+        }
+    }
     for (uint32_t i = 0; i < world->narrow.manifold_count; ++i) {
         if (ends[i].a < movable) {
             slots[ends[i].a] = PL_ACTIVE;
@@ -232,8 +238,8 @@ static void fill_slot(plumb_world *world, uint32_t slot)
                                                   .inv_mass = im,
                                                   .inv_inertia = ii };
     pl_solver_motions(s)[slot] =
-        (pl_solver_motion){ .ax = (near_real)(world->gravity.x * gravity + b->fx[row] * im),
-                            .ay = (near_real)(world->gravity.y * gravity + b->fy[row] * im),
+        (pl_solver_motion){ .ax = (near_real)(world->effects.gravity.x * gravity + b->fx[row] * im),
+                            .ay = (near_real)(world->effects.gravity.y * gravity + b->fy[row] * im),
                             .aw = (near_real)(b->torque[row] * ii),
                             .ux = (near_real)b->vx[row],
                             .uy = (near_real)b->vy[row],
@@ -242,7 +248,7 @@ static void fill_slot(plumb_world *world, uint32_t slot)
     if (s->follows_impacts) {
         start_low((near_real *)s->residuals.data + (size_t)slot * 4, b, row);
     }
-    if ((b->flags[row] & PL_BODY_HAS_EFFECTS) != 0) {
+    if ((b->flags[row] & world->effects.gathered) != 0) {
         pl_effects_gather(world, row, slot);
     }
 }
@@ -257,6 +263,7 @@ static void fill_slots(void *context, uint32_t first, uint32_t count)
 // Gives every dynamic and kinematic row that is in a contact or has a joint its slot and packs its state.
 static void fill_bodies(plumb_world *world)
 {
+    pl_effects_open(world);
     pl_solver *s = &world->solver;
     const uint32_t dynamic = world->dynamic_count, movable = dynamic + world->kinematic_count;
     memset(s->clusters.data, 0, s->cluster_count * sizeof(pl_cluster));

@@ -3,6 +3,7 @@
 // Free flight is exact: a body that no contact pushed in the substep (its velocity is the one that was
 // integrated, bit for bit) moves by h v - h^2 a / 2, the parabola. A pushed body moves by h v; the parabola
 // would make resting bodies hop. Cost: O(bodies in contacts) a substep.
+#include "solver/substep.h"
 #include "world/state.h"
 
 typedef struct passage {
@@ -28,11 +29,18 @@ static void move(void *context, uint32_t first, uint32_t count)
     }
 }
 
-void pl_integrate_positions(const pl_solver *s, const pl_cluster *cluster, pl_tasks *tasks,
-                            near_real h)
+void pl_move_bodies(pl_substep *s)
 {
     for (int i = 0; i < 2; ++i) {
-        pl_tasks_ranges(tasks, cluster->slots[i].count, PL_BODIES_SHARED, move,
-                        &(passage){ s, cluster->slots[i].first, h });
+        const pl_slots slots = s->cluster->slots[i];
+        pl_tasks_ranges(s->tasks, slots.count, PL_BODIES_SHARED, move,
+                        &(passage){ &s->step->world->solver, slots.first, s->call.h });
     }
+}
+
+// Rows that a joint's reaction is summed along turn when the classic solver moves it: summed before.
+void pl_classic_move(pl_substep *s)
+{
+    pl_joints_row_sum(s);
+    pl_move_bodies(s);
 }

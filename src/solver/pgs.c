@@ -7,15 +7,15 @@
 // stack's height: 0.93 N^2 for N equal boxes.
 //
 // Reads, writes: solver bodies, impulses of pairs. Cost: (iterations + 5) sweeps a substep.
+#include "solver/substep.h"
 #include "world/state.h"
 
-#define POSITION_SWEEPS 3
-#define SLOP            ((near_real)0.005) // [m] overlap that is left, so that contacts persist
-#define POSITION_RATE   ((near_real)0.2)   // [-] share of the rest corrected a sweep
-#define LARGEST_PUSH    ((near_real)0.2)   // [m] most corrected a sweep
+#define SLOP          ((near_real)0.005) // [m] overlap that is left, so that contacts persist
+#define POSITION_RATE ((near_real)0.2)   // [-] share of the rest corrected a sweep
+#define LARGEST_PUSH  ((near_real)0.2)   // [m] most corrected a sweep
 
 typedef struct classic {
-    pl_solver *solver;
+    const pl_solver *solver;
     pl_solver_body *bodies;
     pl_classic_contact *contacts;
     uint32_t count;
@@ -271,57 +271,74 @@ static void store(const classic *c, pl_manifold *manifolds, pl_pair *pairs)
     }
 }
 
-void pl_solver_pgs(plumb_world *world, real dt)
+//---- rows of the substep ----------------------------------------------------------------------------
+
+static classic classic_of(const pl_substep *s)
 {
-    pl_solver *s = &world->solver;
-    classic c = { .solver = s,
-                  .bodies = pl_solver_bodies(s),
-                  .contacts = s->classic.data,
-                  .count = world->narrow.manifold_count,
-                  .h = (near_real)(dt / (real)world->desc.substeps) };
-    const bool bounce = world->solver.follows_impacts;
-    const pl_joint_context context = pl_joint_context_of(world, 0, world->tasks, 0, c.h);
-    const bool joints = pl_joints_any(&context);
-    const bool resist = pl_effects_resist(world);
-    prepare(&c, world);
-    if (bounce) {
-        c.residuals = s->residuals.data;
-        pl_impacts_prepare_classic(world);
+    const plumb_world *world = s->step->world;
+    const pl_solver *solver = &world->solver;
+    return (classic){ .solver = solver,
+                      .bodies = pl_solver_bodies(solver),
+                      .contacts = solver->classic.data,
+                      .count = world->narrow.manifold_count,
+                      .h = s->call.h,
+                      .residuals = s->elastic ? solver->residuals.data : NULL };
+}
+
+void pl_classic_prepare(pl_substep *s)
+{
+    classic c = classic_of(s);
+    prepare(&c, s->step->world);
+}
+
+void pl_classic_integrate(pl_substep *s)
+{
+    const classic c = classic_of(s);
+    integrate_velocities(&c);
+}
+
+void pl_classic_warm_start(pl_substep *s)
+{
+    const classic c = classic_of(s);
+    warm_start(&c);
+}
+
+void pl_classic_impacts(pl_substep *s)
+{
+    if (s->elastic) {
+        pl_impacts_run(s->step->world, s->call.h);
+        pl_impacts_tell(s->step->world, s->call.h);
     }
-    if (joints) {
-        pl_joints_prepare(&context);
+}
+
+void pl_classic_contacts(pl_substep *s)
+{
+    classic c = classic_of(s);
+    c.unloaded = s->first && s->first_sweep ? NEAR_MAX : 0;
+    sweep(&c, false);
+}
+
+void pl_joints_row_correct(pl_substep *s)
+{
+    if (s->any_joints) {
+        pl_joints_move(s->joints, POSITION_RATE);
     }
-    for (int k = 0; k < world->desc.substeps; ++k) {
-        if (resist) {
-            pl_effects_substep(world, c.h);
-        }
-        integrate_velocities(&c);
-        if (joints) {
-            pl_joints_warm_start(&context);
-        }
-        warm_start(&c);
-        if (bounce) {
-            pl_impacts_run(world, c.h);
-            pl_impacts_tell(world, c.h);
-        }
-        for (int i = 0; i < world->desc.iterations; ++i) {
-            if (joints) {
-                pl_joints_solve(&context, PL_SWEEP_CLASSIC, false);
-            }
-            c.unloaded = k == 0 && i == 0 ? NEAR_MAX : 0;
-            sweep(&c, false);
-        }
-        if (joints && world->joints.watched > 0) {
-            pl_joints_tally(&context);
-        }
-        pl_integrate_positions(&world->solver, pl_clusters(&world->solver), world->tasks, c.h);
-        for (int i = 0; i < POSITION_SWEEPS; ++i) {
-            if (joints) {
-                pl_joints_move(&context, POSITION_RATE);
-            }
-            sweep(&c, true);
-        }
-        tally(&c, pl_manifolds(&world->narrow));
-    }
-    store(&c, pl_manifolds(&world->narrow), pl_pairs(&world->broad.pairs));
+}
+
+void pl_classic_correct(pl_substep *s)
+{
+    const classic c = classic_of(s);
+    sweep(&c, true);
+}
+
+void pl_classic_sum(pl_substep *s)
+{
+    const classic c = classic_of(s);
+    tally(&c, s->call.manifolds);
+}
+
+void pl_classic_store(pl_substep *s)
+{
+    const classic c = classic_of(s);
+    store(&c, s->call.manifolds, s->call.pairs);
 }

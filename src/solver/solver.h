@@ -5,21 +5,16 @@
 
 #include "core/tasks.h"
 #include "narrow/manifold.h"
+#include "plumb/ecs.h"
 
 // A body that is in a contact, as the kernels gather it: one row of eight reals.
-typedef struct pl_solver_body {
-    near_real vx, vy, w;   // [m/s], [rad/s] now
-    near_real inv_mass;    // [1/kg]
-    near_real dx, dy, da;  // [m], [rad] moved since the start of the step
-    near_real inv_inertia; // [1/(kg m^2)]
-} pl_solver_body;
+typedef plumb_substep_body pl_solver_body;
 
-// What only the passes over bodies touch. Quads, so that they run as vectors.
-typedef struct pl_solver_motion {
-    near_real ax, ay, aw, none; // [m/s^2], [rad/s^2] from gravity, forces, torque; 0
-    near_real ux, uy, uw,
-        inv_mass; // velocity as integrated: before any contact impulse of the substep
-} pl_solver_motion;
+// What only the passes over bodies touch. Quads, so that they run as vectors. ux, uy, uw: velocity as integrated,
+// before any contact impulse of the substep.
+typedef plumb_substep_motion pl_solver_motion;
+
+_Static_assert(sizeof(plumb_near) == sizeof(near_real), "the user's scalar of the solver is ours");
 
 // A point of an elastic contact: its impacts are events, outside the wide kernels (impact.c).
 typedef struct pl_impact_point {
@@ -224,16 +219,10 @@ const pl_contact_kernels *pl_solver_kernels(const plumb_world *world);
 bool pl_solver_graph(plumb_world *world);
 // Which bodies are solved together (cluster.c). False when out of memory.
 bool pl_solver_cluster(plumb_world *world);
-// The soft step (soft.c) and the classic (pgs.c), over the whole step of dt [s].
-void pl_solver_soft(plumb_world *world, real dt);
-void pl_solver_pgs(plumb_world *world, real dt);
 // Whether the impulses of contacts are added up over the step.
 bool pl_solver_tallies(const plumb_world *world);
 // Whether locked axes, adhesion or bodies whose time stands still are there to be solved.
 bool pl_solver_specials(const plumb_world *world);
-// Moves the bodies of a cluster over one substep of h [s] (integrate.c).
-void pl_integrate_positions(const pl_solver *solver, const pl_cluster *cluster, pl_tasks *tasks,
-                            near_real h);
 // Impacts as events (impact.c): collects them; resolves those of one substep of h [s];
 // those that other impacts of the substep made; and tells the sweeps which points stay clear.
 void pl_impacts_prepare(plumb_world *world);

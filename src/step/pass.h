@@ -1,32 +1,128 @@
-// pass.h - a pass of the step, and the schedule: which passes this world wants.
+// pass.h - a row of the step: a pass of ours or a system of the user's. The schedule: which rows this world wants, in
+// what order.
 #ifndef PL_PASS_H
 #define PL_PASS_H
 
+#include "core/memory.h"
 #include "plumb/world.h"
+#include "step/data.h"
 
-#define PL_PASS_MAX 36
+#define PL_PASS_MAX     64
+#define PL_VARIANTS_MAX PLUMB_VARIANTS_MAX
+
+// In order. Those from PREPARE to STORE are inside of the substeps: solver/substep.h.
+typedef enum pl_stage {
+    PL_STAGE_COMMANDS,
+    PL_STAGE_BEGIN,
+    PL_STAGE_FORCES,
+    PL_STAGE_PAIRS,
+    PL_STAGE_CONTACTS,
+    PL_STAGE_EDITS,
+    PL_STAGE_GRAPH,
+    PL_STAGE_SOLVE,
+    PL_STAGE_PREPARE,
+    PL_STAGE_MOMENT,
+    PL_STAGE_VELOCITIES,
+    PL_STAGE_CONSTRAINTS,
+    PL_STAGE_POSITIONS,
+    PL_STAGE_RELAX,
+    PL_STAGE_SUMS,
+    PL_STAGE_STORE,
+    PL_STAGE_FINISH,
+    PL_STAGE_EVENTS,
+    PL_STAGE_END,
+    PL_STAGES
+} pl_stage;
+
+struct pl_substep;
+
+typedef enum pl_pass_kind {
+    PL_ONCE = 0,       // a step
+    PL_REFRESHES = 1,  // and in a step of dt 0: it moves nothing
+    PL_REPLACEABLE = 2 // a system may take its place: nothing behind it relies on what it leaves
+} pl_pass_kind;
 
 typedef struct pl_pass {
-    const char *name, *phase, *reads, *writes;
-    // Whether this world needs the pass; *reason (a static string) says why or why not. NULL:
-    // always.
+    const char *name;
+    pl_stage stage;
+    const char *reads, *writes; // names of data.h
+    // Whether this world needs the pass; *reason (a static string) says why or why not. NULL: always.
     bool (*wanted)(const plumb_world *world, const char **reason);
-    // Does it. NULL: a part of the pass above, listed because it is left out on its own.
+    // Does it, once a step; of the stages of the substep one for each solver, NULL where that has no such row.
+    // All NULL: the place of the user's systems of a phase.
     plumb_result (*run)(plumb_world *world, plumb_real dt);
-    bool refreshes; // part of a step of dt 0 too: it moves nothing
+    void (*soft)(struct pl_substep *s), (*classic)(struct pl_substep *s);
+    unsigned kind; // pl_pass_kind
+    // Says which variants of its kernels run: writes static strings, returns how many. NULL: there is but one.
+    int (*variants)(const plumb_world *world, const char *out[PL_VARIANTS_MAX]);
 } pl_pass;
 
 extern const pl_pass pl_passes[];
 extern const int pl_pass_count;
 
-// The phase of the passes that run the user's systems; compared by address.
-extern const char pl_user_phase[];
+static inline bool pl_is_substep_stage(pl_stage stage)
+{
+    return stage >= PL_STAGE_PREPARE && stage <= PL_STAGE_STORE;
+}
 
-// Revised when something structural changed (world->schedule_dirty).
+static inline bool pl_is_home(const pl_pass *pass)
+{
+    return pass->run == NULL && pass->soft == NULL && pass->classic == NULL;
+}
+
+#define PL_NO_SYSTEM UINT32_MAX
+
+// A line of the schedule.
+typedef struct pl_line {
+    uint32_t pass;   // place of it in pl_passes; of a system that of a row of its stage
+    uint32_t system; // PL_NO_SYSTEM: it is the pass itself
+} pl_line;
+
+typedef struct pl_time {
+    double last_ns, total_ns;
+} pl_time;
+
 typedef struct pl_schedule {
-    bool scheduled[PL_PASS_MAX];
-    const char *reason[PL_PASS_MAX];
-    double last_ns[PL_PASS_MAX], total_ns[PL_PASS_MAX];
+    bool scheduled
+        [PL_PASS_MAX]; // passes; revised when something structural changed (schedule_dirty)
+    pl_buffer places;  // pl_line, in order
+    uint32_t count;    // 0: passes as they are in the table, no systems
+    pl_buffer rows;    // pl_substep_row: what runs in the substeps
+    uint32_t ends[8];  // behind the last row of each of their stages
+    unsigned watched;  // plumb_watch
+    pl_buffer times;   // pl_time a pass, if times were ever watched
+    pl_buffer shares;  // double a thread and row of the substeps: [ns]
+    double inner_ns;   // of the rows of the last substeps
+    pl_buffer digests; // uint64_t a kind of data, before the row that runs
+    uint32_t breaches; // how often a row wrote what it does not declare
 } pl_schedule;
+
+void pl_schedule_free(pl_memory *memory, pl_schedule *schedule);
+
+// How many lines there are; one of them (place.c).
+uint32_t pl_schedule_count(const plumb_world *world);
+pl_line pl_schedule_place(const plumb_world *world, uint32_t i);
+// Place in pl_passes of a name; -1: none has it.
+int pl_pass_find(const char *name);
+
+// Room for what a step keeps of the schedule. False when out of memory.
+bool pl_schedule_reserve(plumb_world *world);
+// Asks every pass whether it is wanted.
+void pl_schedule_revise(plumb_world *world);
+// Whether the pass is wanted by this world, and nothing runs in its place.
+bool pl_pass_wanted(const plumb_world *world, int pass, const char **reason);
+// A step begins: no row has taken any time.
+void pl_schedule_begin(plumb_world *world);
+// Adds to the time of a line.
+void pl_schedule_note(plumb_world *world, pl_line place, double ns);
+// Runs the rows of the substeps, with times and checks if somebody watches.
+void pl_schedule_substeps(plumb_world *world, plumb_real dt);
+// Behind the row of a line that was run after pl_check_before: whether it wrote what it declares.
+void pl_schedule_check(plumb_world *world, uint32_t line);
+
+// What rows write (check.c): digests of all data before a row, and behind it.
+bool pl_check_reserve(plumb_world *world);
+void pl_check_before(plumb_world *world);
+void pl_check_after(plumb_world *world, const char *name, uint32_t writes);
 
 #endif

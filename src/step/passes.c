@@ -1,268 +1,25 @@
-// passes.c - the step as a table: every pass in order, what it reads and writes, and what wants it.
+// passes.c - the step as a table: every row of ours in order, what it reads and writes, what wants it, what runs it.
 //
-// This array is the architecture. It drives the step (step.c), the timers and `plumb explain`; a
-// pass that nothing in the world wants is not in the schedule and costs nothing. A pass that
-// changes the world's motion comes after the last one that can run out of memory, so a refused step
-// changes nothing.
+// This array is the architecture. It drives the step (step.c) and the substeps (solver/substep.c), the timers, the
+// check of what is written (check.c) and `plumb explain`. A row that nothing in the world wants is not in the schedule
+// and costs nothing. Systems of the user stand between these rows (schedule.c). A pass that changes the world's motion
+// comes after the last one that can run out of memory, so a refused step changes nothing.
 #include "continuous/continuous.h"
 #include "event/event.h"
 #include "narrow/ahead.h"
 #include "narrow/narrow.h"
 #include "narrow/one_way.h"
 #include "narrow/surface.h"
-#include "step/observer.h"
+#include "solver/substep.h"
+#include "step/acting.h"
+#include "step/wanted.h"
 #include "world/wrap.h"
 
-//---- what is wanted ------------------------------------------------------------------------------
-
-static bool say(bool wanted, const char **reason, const char *because, const char *because_not)
-{
-    *reason = wanted ? because : because_not;
-    return wanted;
-}
-
-static bool any_system(const plumb_world *world, plumb_phase phase, const char **reason)
-{
-    const char *unused;
-    bool wanted = false;
-    for (uint32_t i = 0; i < world->systems.count; ++i) {
-        const pl_system *system = &world->systems.items[i];
-        wanted |= system->desc.phase == phase && pl_system_wanted(world, system, &unused);
-    }
-    return say(wanted, reason, "a system of the user's runs here",
-               "no system of the user's runs here");
-}
-
-static bool begin_wanted(const plumb_world *world, const char **reason)
-{
-    return any_system(world, PLUMB_PHASE_BEGIN, reason);
-}
-
-static bool forces_wanted(const plumb_world *world, const char **reason)
-{
-    return any_system(world, PLUMB_PHASE_FORCES, reason);
-}
-
-static bool contacts_wanted(const plumb_world *world, const char **reason)
-{
-    return any_system(world, PLUMB_PHASE_CONTACTS, reason);
-}
-
-static bool end_wanted(const plumb_world *world, const char **reason)
-{
-    return any_system(world, PLUMB_PHASE_END, reason);
-}
-
-static bool targets_wanted(const plumb_world *world, const char **reason)
-{
-    return say(world->targets.count > 0, reason, "kinematic bodies are on their way to a target",
-               "no kinematic body has a target");
-}
-
-static bool damping_wanted(const plumb_world *world, const char **reason)
-{
-    return say(world->settings.damped > 0, reason, "some body is damped", "no body is damped");
-}
-
-static bool caps_wanted(const plumb_world *world, const char **reason)
-{
-    return say(world->settings.capped > 0, reason, "some body has a speed cap",
-               "no body has a speed cap");
-}
-
-static bool own_time_wanted(const plumb_world *world, const char **reason)
-{
-    return say(world->settings.scaled > 0, reason, "some body has a time scale of its own",
-               "all bodies move in the world's time");
-}
-
-static bool locks_wanted(const plumb_world *world, const char **reason)
-{
-    return say(world->locked_bodies > 0, reason, "some body has a locked axis",
-               "no body has a locked axis");
-}
-
-// Something dynamic has a shape, and there is something to meet; or pairs are left that have to end.
-static bool collision_wanted(const plumb_world *world, const char **reason)
-{
-    bool wanted = world->dynamic_count > 0 && world->moving_count > 0 && world->pieces.live > 1;
-    wanted |= world->broad.pairs.count > 0 || world->parts.count > 0;
-    return say(wanted, reason, "dynamic bodies have shapes that can meet others",
-               "no awake dynamic body has a shape that could meet another");
-}
-
-// A sensor that something could meet, or what it saw has to be forgotten.
-static bool sensing_wanted(const plumb_world *world, const char **reason)
-{
-    bool wanted = world->sensor_pieces > 0 && world->moving_count > 0 && world->pieces.live > 1;
-    return say(wanted || world->sensing.count > 0 || world->sensing.rest_stale, reason,
-               "there are sensors", "no shape is a sensor that could meet another");
-}
-
-static bool broad_wanted(const plumb_world *world, const char **reason)
-{
-    const char *seen;
-    if (collision_wanted(world, reason)) {
-        return true;
-    }
-    bool sensing = sensing_wanted(world, &seen);
-    *reason = sensing ? seen : *reason;
-    return sensing;
-}
-
-static bool surfaces_wanted(const plumb_world *world, const char **reason)
-{
-    return collision_wanted(world, reason) && pl_surfaces_wanted(world, reason);
-}
-
-static bool one_way_wanted(const plumb_world *world, const char **reason)
-{
-    return collision_wanted(world, reason) && pl_one_way_wanted(world, reason);
-}
-
-static bool feet_wanted(const plumb_world *world, const char **reason)
-{
-    return collision_wanted(world, reason) && pl_characters_wanted(world, reason);
-}
-
-static bool internal_edges_wanted(const plumb_world *world, const char **reason)
-{
-    return collision_wanted(world, reason) && pl_internal_edges_wanted(world, reason);
-}
-
-static bool joints_wanted(const plumb_world *world, const char **reason)
-{
-    if (world->joints.live > 0 && !pl_joints_any_awake(world)) {
-        return say(false, reason, "", "all that is joined sleeps");
-    }
-    return say(world->joints.live > 0, reason, "there are joints", "there are no joints");
-}
-
-static bool waking_wanted(const plumb_world *world, const char **reason)
-{
-    return say(world->asleep_count > 0, reason, "some bodies sleep: what touches them wakes them",
-               "no body sleeps");
-}
-
-static bool sleep_wanted(const plumb_world *world, const char **reason)
-{
-    if (world->desc.no_sleep) {
-        return say(false, reason, "", "the world does not let bodies sleep");
-    }
-    return say(world->dynamic_count > 0, reason, "what rests long enough falls asleep",
-               "no dynamic body is awake");
-}
-
-static bool edges_wanted(const plumb_world *world, const char **reason)
-{
-    return say(pl_is_wrapped(world), reason, "the world wraps around", "the world does not wrap");
-}
-
-// Contacts or joints.
-static bool solver_wanted(const plumb_world *world, const char **reason)
-{
-    return joints_wanted(world, reason) || collision_wanted(world, reason);
-}
-
-static bool soft_wanted(const plumb_world *world, const char **reason)
-{
-    if (!solver_wanted(world, reason)) {
-        return false;
-    }
-    return say(world->desc.solver == PLUMB_SOLVER_SOFT, reason, "the world asks for the soft step",
-               "the world asks for the classic solver");
-}
-
-static bool classic_wanted(const plumb_world *world, const char **reason)
-{
-    if (!solver_wanted(world, reason)) {
-        return false;
-    }
-    return say(world->desc.solver == PLUMB_SOLVER_PGS, reason,
-               "the world asks for the classic solver", "the world asks for the soft step");
-}
-
-static bool rotation_wanted(const plumb_world *world, const char **reason)
-{
-    return say(world->turning_bodies > 0, reason, "some dynamic body can turn",
-               "no dynamic body can turn");
-}
-
-static bool continuous_wanted(const plumb_world *world, const char **reason)
-{
-    return collision_wanted(world, reason) && pl_continuous_wanted(world, reason);
-}
-
-// A material that some shape is made of.
-static bool any_material(const plumb_world *world, const real *column)
-{
-    for (uint32_t row = 0; row < world->materials.table.count; ++row) {
-        if (world->materials.users[row] > 0 && column[row] > 0) {
-            return true;
-        }
-    }
-    return false;
-}
-
-static bool adhesion_wanted(const plumb_world *world, const char **reason)
-{
-    return say(any_material(world, world->materials.adhesion) || world->material_pair_count > 0,
-               reason, "some shape's material may stick", "no shape's material sticks");
-}
-
-static bool friction_wanted(const plumb_world *world, const char **reason)
-{
-    return say(any_material(world, world->materials.friction), reason,
-               "some shape's material has friction", "no shape's material has friction");
-}
-
-static bool impacts_wanted(const plumb_world *world, const char **reason)
-{
-    return say(any_material(world, world->materials.restitution), reason,
-               "some shape's material has restitution", "no shape's material has restitution");
-}
-
-//---- what is done --------------------------------------------------------------------------------
-
-// What the user does in a step, or what is on the recording of it.
-static void run_systems(plumb_world *world, plumb_phase phase, plumb_real dt)
-{
-    pl_step_observer *observer = world->observer;
-    if (observer != NULL && observer->before != NULL) {
-        observer->before(observer, world, phase);
-    }
-    if (observer == NULL || !observer->replays) {
-        pl_systems_run(world, phase, dt, world->time);
-    }
-    if (observer != NULL && observer->after != NULL) {
-        observer->after(observer, world, phase);
-    }
-}
+//---- what is done once a step --------------------------------------------------------------------
 
 static plumb_result run_guard(plumb_world *world, plumb_real dt)
 {
     pl_quarantine_guard(world, dt, "calls");
-    return PLUMB_OK;
-}
-
-// What they did holds when the step is taken anew (step/quarantine.c).
-static void run_once(plumb_world *world, plumb_phase phase, plumb_real dt, const char *pass)
-{
-    if (world->quarantine.attempt == 0) {
-        run_systems(world, phase, dt);
-        pl_quarantine_guard(world, dt, pass);
-    }
-}
-
-static plumb_result run_begin(plumb_world *world, plumb_real dt)
-{
-    run_once(world, PLUMB_PHASE_BEGIN, dt, "begin systems");
-    return PLUMB_OK;
-}
-
-static plumb_result run_forces(plumb_world *world, plumb_real dt)
-{
-    run_once(world, PLUMB_PHASE_FORCES, dt, "force systems");
     return PLUMB_OK;
 }
 
@@ -352,35 +109,44 @@ static plumb_result run_sensors(plumb_world *world, plumb_real dt)
     return PLUMB_OK;
 }
 
-static plumb_result run_contacts(plumb_world *world, plumb_real dt)
-{
-    pl_edits_open(world);
-    run_systems(world, PLUMB_PHASE_CONTACTS, dt);
-    pl_edits_close(world);
-    pl_quarantine_guard_late(world, dt, "contact systems");
-    return PLUMB_OK;
-}
-
 static plumb_result run_graph(plumb_world *world, plumb_real dt)
 {
     (void)dt;
     const char *unused;
     bool room = pl_solver_graph(world) &&
-                (!continuous_wanted(world, &unused) || pl_continuous_reserve(world)) &&
+                (!pl_want_continuous(world, &unused) || pl_continuous_reserve(world)) &&
                 pl_quarantine_keep(world);
     return room ? PLUMB_OK : PLUMB_E_MEMORY;
 }
 
+static plumb_result run_gravity(plumb_world *world, plumb_real dt)
+{
+    (void)dt;
+    world->effects.gravity = world->gravity;
+    return PLUMB_OK;
+}
+
+static plumb_result run_called(plumb_world *world, plumb_real dt)
+{
+    (void)dt;
+    return pl_acting_call(world) ? PLUMB_OK : PLUMB_E_MEMORY;
+}
+
+static plumb_result run_acting(plumb_world *world, plumb_real dt)
+{
+    return pl_acting_find(world, dt) ? PLUMB_OK : PLUMB_E_MEMORY;
+}
+
 static plumb_result run_soft(plumb_world *world, plumb_real dt)
 {
-    pl_solver_soft(world, dt);
+    pl_schedule_substeps(world, dt);
     pl_quarantine_judge(world, dt, "soft step");
     return PLUMB_OK;
 }
 
 static plumb_result run_classic(plumb_world *world, plumb_real dt)
 {
-    pl_solver_pgs(world, dt);
+    pl_schedule_substeps(world, dt);
     pl_quarantine_judge(world, dt, "classic solver");
     return PLUMB_OK;
 }
@@ -426,52 +192,67 @@ static plumb_result run_events(plumb_world *world, plumb_real dt)
     return PLUMB_OK;
 }
 
-static plumb_result run_end(plumb_world *world, plumb_real dt)
-{
-    run_systems(world, PLUMB_PHASE_END, dt);
-    return PLUMB_OK;
-}
+//---- the table -----------------------------------------------------------------------------------
 
-// Phase of the passes that run the user's systems, in the order of plumb_phase.
-const char pl_user_phase[] = "user";
+// Names of data are those of data.h. A row without a function is where systems of a phase stand.
+#define ONCE(run)           run, NULL, NULL
+#define EACH(row)           NULL, row, row
+#define BOTH(soft, classic) NULL, soft, classic
+#define HOME                NULL, NULL, NULL
 
 // clang-format off
 const pl_pass pl_passes[] = {
-    //name             phase       reads                              writes                       wanted            run             refreshes
-    { "guard",         "commands", "velocities, forces",              "rows of what is not finite", NULL,              run_guard,      true  },
-    { "begin systems", pl_user_phase, "declared by the systems",         "declared by the systems",   begin_wanted,     run_begin,      false },
-    { "force systems", pl_user_phase, "declared by the systems",         "declared by the systems",   forces_wanted,    run_forces,     false },
-    { "characters",    "forces",   "grids, poses, velocities",        "velocities, forces",        pl_characters_wanted, run_characters, false },
-    { "waking",      "broad",    "islands, pieces, grids, joints",   "rows, pairs, fat boxes",     waking_wanted,    run_waking,     true  },
-    { "broad phase",   "broad",    "poses, pieces",                   "fat boxes, grids, pairs",   broad_wanted,     run_broad,      true  },
-    { "internal edges", "broad",    "static pieces, grids, pairs",     "covered edges, corners",    internal_edges_wanted,     run_internal_edges,      true  },
-    { "narrow phase",  "narrow",   "pairs, poses, pieces, materials", "manifolds",                 collision_wanted, run_narrow,     true  },
-    { "- one-way",     "narrow",   "manifolds, pieces, rotations",    "manifolds, pairs",          one_way_wanted,   NULL,           true  },
-    { "surfaces",      "narrow",   "pairs, materials",                "manifolds",                 surfaces_wanted,  run_surfaces,   true  },
-    { "feet",          "narrow",   "manifolds, characters",           "manifolds",                 feet_wanted,      run_feet,       false },
-    { "sleep",       "narrow",   "velocities, pairs, joints",        "islands, rows, pairs, manifolds", sleep_wanted, run_sleep,      false },
-    { "sensor pairs",  "narrow",   "pairs with sensors",              "candidates of sensors",     sensing_wanted,   run_candidates, true  },
-    { "contact systems", pl_user_phase, "declared by the systems",         "declared by the systems",   contacts_wanted,  run_contacts,   true  },
-    { "graph",         "solve",    "manifolds, velocities, forces",   "solver bodies, colours",    solver_wanted,    run_graph,      false },
-    { "soft step",     "solve",    "manifolds, solver bodies",        "solver bodies, impulses",   soft_wanted,      run_soft,       false },
-    { "classic solver", "solve",   "manifolds, solver bodies",        "solver bodies, impulses",   classic_wanted,   run_classic,    false },
-    { "- friction",    "solve",    "materials",                       "solver bodies, impulses",   friction_wanted,  NULL,           false },
-    { "- rotation",    "solve",    "inertias",                        "solver bodies",             rotation_wanted,  NULL,           false },
-    { "- impacts",     "solve",    "materials, manifolds",            "solver bodies",             impacts_wanted,   NULL,           false },
-    { "- adhesion",    "solve",    "materials, manifolds",            "solver bodies, impulses",   adhesion_wanted,  NULL,           false },
-    { "- locked axes", "solve",    "bodies",                          "solver bodies, impulses",   locks_wanted,     NULL,           false },
-    { "- damping",     "solve",    "settings",                         "solver bodies, velocities", damping_wanted,   NULL,           false },
-    { "- speed caps",  "solve",    "settings",                         "solver bodies, velocities", caps_wanted,      NULL,           false },
-    { "- own time",    "solve",    "settings",                         "solver bodies, transforms", own_time_wanted,  NULL,           false },
-    { "- joints",      "solve",    "joints, poses",                   "solver bodies, joints",     joints_wanted,    NULL,           false },
-    { "motion",        "finish",   "solver bodies, forces, gravity",  "transforms, velocities",    NULL,             run_motion,     false },
-    { "continuous",    "finish",   "bodies that moved fast, pieces",  "transforms",                continuous_wanted, run_continuous, false },
-    { "targets",       "finish",   "targets, poses",                  "kinematic poses, velocities", targets_wanted, run_arrive,     false },
-    { "edges",         "finish",   "transforms",                      "transforms",                edges_wanted,     run_edges,      false },
-    { "reactions",     "finish",   "joints, poses",                   "joints, break events",      joints_wanted,    run_reactions,  false },
-    { "events",        "finish",   "pairs, manifolds",                "event arrays",              collision_wanted, run_events,     true  },
-    { "sensors",       "finish",   "candidates, poses, pieces",       "overlaps, sensor events",   sensing_wanted,   run_sensors,    true  },
-    { "end systems",   pl_user_phase, "declared by the systems",         "declared by the systems",   end_wanted,       run_end,        false },
+    //name                 stage                 reads                                        writes                                       wanted                  run                                                   kind            variants
+    { "guard",             PL_STAGE_COMMANDS,    "velocities, forces",                        "rows",                                      NULL,                   ONCE(run_guard),                                      PL_REFRESHES,   NULL },
+    { "begin systems",     PL_STAGE_BEGIN,       "",                                          "",                                          NULL,                   HOME,                                                 PL_ONCE,        NULL },
+    { "force systems",     PL_STAGE_FORCES,      "",                                          "",                                          NULL,                   HOME,                                                 PL_ONCE,        NULL },
+    { "characters",        PL_STAGE_FORCES,      "grids, poses, velocities",                  "velocities, forces, characters, poses, rows, islands", pl_characters_wanted,   ONCE(run_characters),                                 PL_ONCE,        NULL },
+    { "waking",            PL_STAGE_PAIRS,       "islands, pieces, grids, joints",            "rows, pairs, grids, islands",               pl_want_waking,         ONCE(run_waking),                                     PL_REFRESHES,   NULL },
+    { "broad phase",       PL_STAGE_PAIRS,       "poses, pieces",                             "grids, pairs, events",                      pl_want_broad,          ONCE(run_broad),                                      PL_REFRESHES,   NULL },
+    { "internal edges",    PL_STAGE_PAIRS,       "pieces, grids, pairs",                      "internal edges",                            pl_want_internal_edges, ONCE(run_internal_edges),                             PL_REFRESHES,   NULL },
+    { "narrow phase",      PL_STAGE_CONTACTS,    "pairs, poses, pieces, materials",           "manifolds, pairs, internal edges",          pl_want_collision,      ONCE(run_narrow),                                     PL_REFRESHES,   pl_narrow_variants },
+    { "surfaces",          PL_STAGE_CONTACTS,    "pairs, materials",                          "manifolds",                                 pl_want_surfaces,       ONCE(run_surfaces),                                   PL_REFRESHES,   NULL },
+    { "feet",              PL_STAGE_CONTACTS,    "manifolds, characters",                     "manifolds, characters",                     pl_want_feet,           ONCE(run_feet),                                       PL_ONCE,        NULL },
+    { "sleep",             PL_STAGE_CONTACTS,    "velocities, pairs, joints",                 "islands, rows, pairs, manifolds, velocities", pl_want_sleep,          ONCE(run_sleep),                                      PL_ONCE,        NULL },
+    { "sensor pairs",      PL_STAGE_CONTACTS,    "pairs",                                     "sensors",                                   pl_want_sensing,        ONCE(run_candidates),                                 PL_REFRESHES,   NULL },
+    { "contact systems",   PL_STAGE_EDITS,       "",                                          "",                                          NULL,                   HOME,                                                 PL_REFRESHES,   NULL },
+    { "gravity",           PL_STAGE_GRAPH,       "settings",                                  "accelerations",                             pl_want_gravity,        ONCE(run_gravity),                                    PL_REPLACEABLE, NULL },
+    { "called",            PL_STAGE_GRAPH,       "components, rows",                          "constraints",                               pl_want_called,         ONCE(run_called),                                     PL_ONCE,        NULL },
+    { "graph",             PL_STAGE_GRAPH,       "manifolds, velocities, forces, masses, joints", "solver bodies, accelerations, constraints, joints, movers", pl_want_solver,         ONCE(run_graph),                                      PL_ONCE,        pl_gather_variants },
+    { "acting",            PL_STAGE_GRAPH,       "body settings, components, solver bodies",       "constraints",                     pl_want_acting,         ONCE(run_acting),                                     PL_ONCE,        NULL },
+
+    // The substeps: rows up to "store contacts" run inside of one of these two, cluster by cluster of islands.
+    { "soft step",         PL_STAGE_SOLVE,       "manifolds",                                 "manifolds, pairs, joints, solver bodies, accelerations, constraints, rows", pl_want_soft,           ONCE(run_soft),                                       PL_ONCE,        NULL },
+    { "classic solver",    PL_STAGE_SOLVE,       "manifolds",                                 "manifolds, pairs, joints, solver bodies, accelerations, constraints, rows", pl_want_classic,        ONCE(run_classic),                                    PL_ONCE,        NULL },
+    { "prepare contacts",  PL_STAGE_PREPARE,     "manifolds, solver bodies",                  "constraints",                               pl_want_collision,      BOTH(pl_soft_prepare, pl_classic_prepare),            PL_ONCE,        pl_contact_variants },
+    { "prepare impacts",   PL_STAGE_PREPARE,     "manifolds, constraints",                    "constraints",                               pl_want_impacts,        BOTH(pl_impacts_row_prepare, pl_impacts_row_classic), PL_ONCE,        NULL },
+    { "prepare joints",    PL_STAGE_PREPARE,     "joints, poses, solver bodies",              "joints, constraints",                       pl_want_joints,         EACH(pl_joints_row_prepare),                          PL_ONCE,        NULL },
+    { "forces of now",     PL_STAGE_MOMENT,      "accelerations",                             "accelerations",                             pl_want_reset,          EACH(pl_acting_reset),                                PL_ONCE,        NULL },
+    { "substep systems",   PL_STAGE_MOMENT,      "",                                          "",                                          NULL,                   HOME,                                                 PL_ONCE,        NULL },
+    { "damping",           PL_STAGE_MOMENT,      "solver bodies, body settings",                   "accelerations",                             pl_want_damping,        EACH(pl_damping_row),                                 PL_REPLACEABLE, NULL },
+    { "speed caps",        PL_STAGE_MOMENT,      "solver bodies, body settings",                   "accelerations",                             pl_want_caps,           EACH(pl_caps_row),                                    PL_REPLACEABLE, NULL },
+    { "integrate",         PL_STAGE_VELOCITIES,  "accelerations",                             "solver bodies, accelerations",              pl_want_solver,         BOTH(pl_soft_integrate, pl_classic_integrate),        PL_ONCE,        NULL },
+    { "warm start joints", PL_STAGE_VELOCITIES,  "joints",                                    "solver bodies, joints",                     pl_want_joints,         EACH(pl_joints_row_warm_start),                       PL_ONCE,        NULL },
+    { "warm start",        PL_STAGE_VELOCITIES,  "constraints",                               "solver bodies, constraints",                pl_want_collision,      BOTH(pl_soft_warm_start, pl_classic_warm_start),      PL_ONCE,        NULL },
+    { "impacts",           PL_STAGE_VELOCITIES,  "constraints",                               "solver bodies, constraints, pairs, manifolds", pl_want_impacts,        BOTH(pl_soft_impacts, pl_classic_impacts),             PL_ONCE,        NULL },
+    { "joints",            PL_STAGE_CONSTRAINTS, "joints, constraints",                       "solver bodies, joints, constraints",        pl_want_joints,         BOTH(pl_joints_row_solve, pl_joints_row_classic),     PL_ONCE,        NULL },
+    { "contacts",          PL_STAGE_CONSTRAINTS, "constraints",                               "solver bodies, constraints",                pl_want_collision,      BOTH(pl_soft_contacts, pl_classic_contacts),          PL_ONCE,        pl_contact_variants },
+    { "positions",         PL_STAGE_POSITIONS,   "solver bodies, accelerations",              "solver bodies, joints",                     pl_want_solver,         BOTH(pl_move_bodies, pl_classic_move),                PL_ONCE,        NULL },
+    { "relax joints",      PL_STAGE_RELAX,       "joints, constraints",                       "solver bodies, joints, constraints",        pl_want_joints,         BOTH(pl_joints_row_relax, pl_joints_row_correct),     PL_ONCE,        NULL },
+    { "relax contacts",    PL_STAGE_RELAX,       "constraints",                               "solver bodies, constraints",                pl_want_collision,      BOTH(pl_soft_relax, pl_classic_correct),              PL_ONCE,        pl_contact_variants },
+    { "sum reactions",     PL_STAGE_SUMS,        "joints, constraints",                       "joints, constraints",                       pl_want_reactions,      BOTH(pl_joints_row_sum, NULL),                        PL_ONCE,        NULL },
+    { "sum impulses",      PL_STAGE_SUMS,        "constraints",                               "constraints, manifolds",                    pl_want_sums,           BOTH(pl_soft_sum, pl_classic_sum),                    PL_ONCE,        NULL },
+    { "store joints",      PL_STAGE_STORE,       "constraints",                               "joints",                                    pl_want_joints,         BOTH(pl_joints_row_store, NULL),                      PL_ONCE,        NULL },
+    { "store contacts",    PL_STAGE_STORE,       "constraints",                               "pairs, manifolds",                          pl_want_collision,      BOTH(pl_soft_store, pl_classic_store),                PL_ONCE,        NULL },
+
+    { "motion",            PL_STAGE_FINISH,      "solver bodies, forces, masses",             "poses, velocities, forces, movers, time", NULL,                   ONCE(run_motion),                                     PL_ONCE,        pl_motion_variants },
+    { "continuous",        PL_STAGE_FINISH,      "movers, pieces, grids",                     "poses, velocities, movers, manifolds, pairs, joints, events", pl_want_continuous,     ONCE(run_continuous),                                 PL_ONCE,        NULL },
+    { "targets",           PL_STAGE_FINISH,      "targets, poses",                            "poses, velocities, targets",                pl_want_targets,        ONCE(run_arrive),                                     PL_REPLACEABLE, NULL },
+    { "edges",             PL_STAGE_FINISH,      "poses",                                     "poses",                                     pl_want_edges,          ONCE(run_edges),                                      PL_ONCE,        NULL },
+    { "reactions",         PL_STAGE_FINISH,      "joints, poses",                             "joints, rows, events, islands, components, pairs", pl_want_joints,         ONCE(run_reactions),                                  PL_ONCE,        NULL },
+    { "events",            PL_STAGE_EVENTS,      "pairs, manifolds",                          "events, pairs, internal edges, manifolds",  pl_want_collision,      ONCE(run_events),                                     PL_REFRESHES,   NULL },
+    { "sensors",           PL_STAGE_EVENTS,      "sensors, poses, pieces",                    "sensors, events",                           pl_want_sensing,        ONCE(run_sensors),                                    PL_REFRESHES,   NULL },
+    { "end systems",       PL_STAGE_END,         "",                                          "",                                          NULL,                   HOME,                                                 PL_ONCE,        NULL },
 };
 // clang-format on
 

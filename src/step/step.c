@@ -1,25 +1,12 @@
-// step.c - drives the pass table: the schedule, the step, the timers, and the schedule's public
-// view.
+// step.c - drives the schedule: the step, row by row, and the user's systems between our rows.
+//
+// Reads, writes: what the rows do. The clock is read, and data is digested, only where somebody watches.
 #include "core/clock.h"
 #include "event/event.h"
+#include "step/place.h"
 #include "step/observer.h"
 #include "world/check.h"
 #include "world/state.h"
-
-// Asks every pass whether it is wanted.
-static void revise_schedule(plumb_world *world)
-{
-    pl_schedule *schedule = &world->schedule;
-    for (int i = 0; i < pl_pass_count; ++i) {
-        schedule->reason[i] = "part of every step";
-        schedule->scheduled[i] =
-            pl_passes[i].wanted == NULL || pl_passes[i].wanted(world, &schedule->reason[i]);
-        if (!schedule->scheduled[i]) {
-            schedule->last_ns[i] = 0;
-        }
-    }
-    world->schedule_dirty = false;
-}
 
 // Nothing is left from a step in which there was collision.
 static void forget_contacts(plumb_world *world)
@@ -28,6 +15,8 @@ static void forget_contacts(plumb_world *world)
     world->narrow.any_friction = world->narrow.any_elastic = world->narrow.any_low = false;
     world->solver.slot_count = 0;
     world->solver.follows_impacts = false;
+    world->effects.gravity = plumb_v2(0, 0);
+    world->effects.any_called = world->effects.any_alone = false;
     world->joints.broken_count = world->joints.strained_count = 0;
     world->broad.refreshed = false;
     world->internal_edges.noted = world->internal_edges.opened = false;
@@ -35,39 +24,185 @@ static void forget_contacts(plumb_world *world)
     world->continuous.noting = false;
 }
 
-static plumb_result run_passes(plumb_world *world, plumb_real dt)
+//---- rows ----------------------------------------------------------------------------------------
+
+// How a row is run: with times and checks, if somebody watches.
+typedef struct row_start {
+    double ns;
+} row_start;
+
+static row_start open_row(plumb_world *world)
 {
-    pl_schedule *schedule = &world->schedule;
-    double start = pl_now_ns();
-    for (int i = 0; i < pl_pass_count; ++i) {
-        if (!schedule->scheduled[i] || pl_passes[i].run == NULL ||
-            (dt == 0 && !pl_passes[i].refreshes)) {
+    const unsigned watched = world->schedule.watched;
+    if ((watched & PLUMB_WATCH_WRITES) != 0) {
+        pl_check_before(world);
+    }
+    world->schedule.inner_ns = 0;
+    return (row_start){ (watched & PLUMB_WATCH_TIMES) != 0 ? pl_now_ns() : 0 };
+}
+
+static void close_row(plumb_world *world, uint32_t line, row_start start)
+{
+    const unsigned watched = world->schedule.watched;
+    if ((watched & PLUMB_WATCH_TIMES) != 0) {
+        const double ns = pl_now_ns() - start.ns - world->schedule.inner_ns;
+        pl_schedule_note(world, pl_schedule_place(world, line), ns);
+    }
+    if ((watched & PLUMB_WATCH_WRITES) != 0) {
+        pl_schedule_check(world, line);
+    }
+}
+
+static plumb_result run_pass(plumb_world *world, uint32_t line, real dt)
+{
+    const uint32_t i = pl_schedule_place(world, line).pass;
+    const pl_pass *pass = &pl_passes[i];
+    if (!world->schedule.scheduled[i] || pass->run == NULL ||
+        (dt == 0 && (pass->kind & PL_REFRESHES) == 0)) {
+        return PLUMB_OK;
+    }
+    const bool watched = world->schedule.watched != 0;
+    const row_start start = watched ? open_row(world) : (row_start){ 0 };
+    world->query_grids.fresh = false; // what systems ask about moves from pass to pass
+    const plumb_result result = pass->run(world, dt);
+    if (watched) {
+        close_row(world, line, start);
+    }
+    if (result == PLUMB_OK && !world->quarantine.again && world->observer != NULL &&
+        world->observer->passed != NULL) {
+        world->observer->passed(world->observer, world, (int)i);
+    }
+    return result;
+}
+
+//---- systems -------------------------------------------------------------------------------------
+
+// Systems that follow one another: lines [first, end).
+typedef struct group {
+    uint32_t first, end;
+} group;
+
+static pl_system *system_at(plumb_world *world, uint32_t line)
+{
+    return &world->systems.items[pl_schedule_place(world, line).system];
+}
+
+// Whether the system is to run now. What one did to columns holds when the step is taken anew (quarantine.c);
+// contacts are found anew.
+static bool runs_now(const plumb_world *world, const pl_system *system, real dt)
+{
+    const char *unused;
+    const bool edits = system->desc.phase == PLUMB_PHASE_CONTACTS;
+    return (dt > 0 || edits) && (!system->ran || edits) && pl_system_wanted(world, system, &unused);
+}
+
+static void run_systems(plumb_world *world, group g, real dt)
+{
+    for (uint32_t line = g.first; line < g.end; ++line) {
+        pl_system *system = system_at(world, line);
+        if (!runs_now(world, system, dt)) {
             continue;
         }
-        world->query_grids.fresh = false; // what systems ask about moves from pass to pass
-        plumb_result result = pl_passes[i].run(world, dt);
-        if (result != PLUMB_OK) {
-            return result;
+        const bool watched = world->schedule.watched != 0;
+        const row_start start = watched ? open_row(world) : (row_start){ 0 };
+        pl_system_run(world, system, dt);
+        if (watched) {
+            close_row(world, line, start);
+        }
+    }
+}
+
+// What the user does in a step, or what is on the recording of it.
+static void run_observed(plumb_world *world, group g, plumb_phase phase, real dt)
+{
+    pl_step_observer *observer = world->observer;
+    if (observer != NULL && observer->before != NULL) {
+        observer->before(observer, world, phase);
+    }
+    if (observer == NULL || !observer->replays) {
+        run_systems(world, g, dt);
+    }
+    for (uint32_t line = g.first; line < g.end; ++line) {
+        system_at(world, line)->ran |= runs_now(world, system_at(world, line), dt);
+    }
+    if (observer != NULL && observer->after != NULL) {
+        observer->after(observer, world, phase);
+    }
+}
+
+static const char *const homes[] = {
+    [PLUMB_PHASE_BEGIN] = "begin systems",
+    [PLUMB_PHASE_FORCES] = "force systems",
+    [PLUMB_PHASE_CONTACTS] = "contact systems",
+    [PLUMB_PHASE_END] = "end systems",
+};
+
+// What systems leave without a finite state is taken out: at once where nothing of the step has been found out yet.
+static void run_group(plumb_world *world, group g, real dt)
+{
+    const plumb_phase phase = system_at(world, g.first)->desc.phase;
+    const pl_stage stage = pl_passes[pl_schedule_place(world, g.first).pass].stage;
+    world->query_grids.fresh = false;
+    if (phase == PLUMB_PHASE_CONTACTS) {
+        pl_edits_open(world);
+    }
+    run_observed(world, g, phase, dt);
+    if (phase == PLUMB_PHASE_CONTACTS) {
+        pl_edits_close(world);
+    }
+    if (stage < PL_STAGE_PAIRS) {
+        pl_quarantine_guard(world, dt, homes[phase]);
+    } else if (stage < PL_STAGE_GRAPH) {
+        pl_quarantine_guard_late(world, dt, homes[phase]);
+    }
+    if (!world->quarantine.again && world->observer != NULL && world->observer->passed != NULL) {
+        world->observer->passed(world->observer, world, pl_pass_find(homes[phase]));
+    }
+}
+
+// The group that begins at a line: of one phase. Runs it if one of it is to run; returns the line behind it.
+static uint32_t run_group_at(plumb_world *world, uint32_t line, real dt)
+{
+    const uint32_t count = pl_schedule_count(world);
+    const plumb_phase phase = system_at(world, line)->desc.phase;
+    group g = { line, line };
+    bool any = false;
+    while (g.end < count && pl_schedule_place(world, g.end).system != PL_NO_SYSTEM &&
+           system_at(world, g.end)->desc.phase == phase) {
+        any |= runs_now(world, system_at(world, g.end), dt);
+        ++g.end;
+    }
+    if (any && phase != PLUMB_PHASE_SUBSTEP) {
+        run_group(world, g, dt);
+    }
+    return g.end;
+}
+
+static plumb_result run_passes(plumb_world *world, real dt)
+{
+    for (uint32_t line = 0; line < pl_schedule_count(world);) {
+        if (pl_schedule_place(world, line).system != PL_NO_SYSTEM) {
+            line = run_group_at(world, line, dt);
+        } else {
+            const plumb_result result = run_pass(world, line++, dt);
+            if (result != PLUMB_OK) {
+                return result;
+            }
         }
         if (world->quarantine.again) {
             return PLUMB_OK;
         }
-        if (world->observer != NULL && world->observer->passed != NULL) {
-            world->observer->passed(world->observer, world, i);
-        }
         // Bodies that fell asleep or woke may leave passes without anything to do, or give them some.
         if (world->schedule_dirty) {
-            revise_schedule(world);
+            pl_schedule_revise(world);
         }
-        double end = pl_now_ns();
-        schedule->last_ns[i] = end - start;
-        schedule->total_ns[i] += end - start;
-        start = end;
     }
     return PLUMB_OK;
 }
 
-// The passes, from the beginning. Of a step of dt 0 only those that move nothing (pl_pass.refreshes), and those only
+//---- the step ------------------------------------------------------------------------------------
+
+// The passes, from the beginning. Of a step of dt 0 only those that move nothing (PL_REFRESHES), and those only
 // where something was rearranged since the last step: else contacts, overlaps and grids are as that step left
 // them, and to look again could only change what the next step starts from.
 static plumb_result try_step(plumb_world *world, plumb_real dt)
@@ -80,10 +215,13 @@ static plumb_result try_step(plumb_world *world, plumb_real dt)
         return PLUMB_OK;
     }
     forget_contacts(world);
+    if (!pl_schedule_reserve(world)) {
+        return PLUMB_E_MEMORY;
+    }
     // Systems with `needs` come and go with their component, which is no structural change of
     // physics.
     if (world->schedule_dirty || world->systems.count > 0) {
-        revise_schedule(world);
+        pl_schedule_revise(world);
     }
     world->characters.moved = false;
     return run_passes(world, dt);
@@ -130,6 +268,7 @@ plumb_result plumb_world_step(plumb_world *world, plumb_real dt)
     }
     pl_tasks_rouse(world->tasks);
     pl_quarantine_begin(world);
+    pl_schedule_begin(world);
     result = try_step(world, dt);
     while (result == PLUMB_OK && world->quarantine.again) {
         pl_quarantine_undo(world);
@@ -154,63 +293,4 @@ plumb_result plumb_world_step(plumb_world *world, plumb_real dt)
         observer->end(observer, world, dt);
     }
     return result;
-}
-
-typedef struct listing {
-    plumb_pass_info *rows;
-    int capacity, count;
-} listing;
-
-static void list_row(listing *out, plumb_pass_info row)
-{
-    if (out->count < out->capacity) {
-        out->rows[out->count] = row;
-    }
-    ++out->count;
-}
-
-static void list_systems(listing *out, const plumb_world *world, plumb_phase phase)
-{
-    static const char *const phase_names[] = { "begin", "forces", "contacts", "end" };
-    for (uint32_t i = 0; i < world->systems.count; ++i) {
-        const pl_system *system = &world->systems.items[i];
-        if (system->desc.phase != phase) {
-            continue;
-        }
-        plumb_pass_info row = { .name = system->name,
-                                .phase = phase_names[phase],
-                                .reads = system->reads,
-                                .writes = system->writes,
-                                .is_user = true,
-                                .last_ns = system->last_ns,
-                                .total_ns = system->total_ns };
-        row.scheduled = pl_system_wanted(world, system, &row.reason);
-        list_row(out, row);
-    }
-}
-
-int plumb_world_schedule(const plumb_world *world, plumb_pass_info *rows, int capacity)
-{
-    if (world == NULL) {
-        return 0;
-    }
-    listing out = { rows, rows == NULL ? 0 : capacity, 0 };
-    int phase = PLUMB_PHASE_BEGIN;
-    for (int i = 0; i < pl_pass_count; ++i) {
-        const pl_pass *pass = &pl_passes[i];
-        if (pass->phase == pl_user_phase) {
-            list_systems(&out, world, (plumb_phase)phase++);
-            continue;
-        }
-        plumb_pass_info row = { .name = pass->name,
-                                .phase = pass->phase,
-                                .reads = pass->reads,
-                                .writes = pass->writes,
-                                .reason = "part of every step",
-                                .last_ns = world->schedule.last_ns[i],
-                                .total_ns = world->schedule.total_ns[i] };
-        row.scheduled = pass->wanted == NULL || pass->wanted(world, &row.reason);
-        list_row(&out, row);
-    }
-    return out.count;
 }

@@ -119,6 +119,8 @@ static void tell_rest(listing *out, const plumb_world *w)
     size_t events = BUFFERS(&w->begin_events, &w->end_events, &w->changed_pairs, &w->hit_events);
     PART(characters, pl_characters, w->characters, pl_characters_free(&dry, &copy));
     PART(systems, pl_systems, w->systems, pl_systems_free(&dry, &copy));
+    PART(systems, pl_schedule, w->schedule, pl_schedule_free(&dry, &copy));
+    PART(effects, pl_effects, w->effects, pl_effects_free(&dry, &copy));
     PART(systems, pl_commands, w->commands, pl_commands_free(&dry, &copy));
     PART(events, pl_parts, w->parts, pl_parts_free(&dry, &copy));
     PART(events, pl_pending_hits, w->pending_hits, pl_pending_hits_free(&dry, &copy));

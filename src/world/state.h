@@ -12,7 +12,7 @@
 #include "continuous/continuous.h"
 #include "world/command.h"
 #include "ecs/registry.h"
-#include "ecs/system.h"
+#include "step/system.h"
 #include "effects/effects.h"
 #include "event/event.h"
 #include "joints/joint.h"
@@ -98,6 +98,7 @@ struct plumb_world {
     uint32_t locked_bodies;   // bodies locked in x or y
     pl_body_settings_list settings;
     pl_targets targets;
+    pl_effects effects;
 
     // Tables that few worlds have, sorted by key.
     pl_buffer excluded; // uint64_t: slots of two bodies (filter.c)

@@ -151,6 +151,8 @@ static void free_world(plumb_world *world)
     pl_pool_free(&memory, &world->vertices);
     pl_components_free(&memory, &world->components);
     pl_systems_free(&memory, &world->systems);
+    pl_schedule_free(&memory, &world->schedule);
+    pl_effects_free(&memory, &world->effects);
     pl_commands_free(&memory, &world->commands);
     pl_buffer_free(&memory, &world->made);
     pl_buffer_free(&memory, &world->outline);

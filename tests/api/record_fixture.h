@@ -109,7 +109,7 @@ static inline plumb_body add_box(plumb_world *w, plumb_body_type type, plumb_vec
 static inline void add_systems(game *g)
 {
     const plumb_system_desc systems[] = {
-        { .name = "cool", .phase = PLUMB_PHASE_BEGIN, .run = at_begin, .needs = g->mark },
+        { .name = "cool", .phase = PLUMB_PHASE_BEGIN, .run = at_begin, .needs = { g->mark } },
         { .name = "wind", .phase = PLUMB_PHASE_FORCES, .run = at_forces },
         { .name = "ice", .phase = PLUMB_PHASE_CONTACTS, .run = at_contacts },
         { .name = "rules", .phase = PLUMB_PHASE_END, .run = at_end },

@@ -118,7 +118,7 @@ static void systems_run_by_phase_then_registration(void **state)
           .phase = PLUMB_PHASE_BEGIN,
           .run = run_a,
           .context = &t,
-          .needs = f->health },
+          .needs = { f->health } },
     };
     for (int i = 0; i < 4; ++i) {
         assert_int_equal(plumb_system_create(w, &descs[i]), PLUMB_OK);
@@ -146,9 +146,9 @@ static void systems_stand_in_the_schedule_with_reasons(void **state)
     plumb_system_create(w, &(plumb_system_desc){ .name = name,
                                                  .phase = PLUMB_PHASE_FORCES,
                                                  .run = run_a,
-                                                 .needs = f->health,
+                                                 .needs = { f->health },
                                                  .reads = "health",
-                                                 .writes = "force",
+                                                 .writes = "forces",
                                                  .context = &t });
     memset(name, '?', 4); // copied
     plumb_pass_info rows[64];
@@ -165,7 +165,7 @@ static void systems_stand_in_the_schedule_with_reasons(void **state)
                 assert_string_equal(rows[i].reason, reasons[round]);
                 assert_int_equal(rows[i].scheduled, round == 1);
                 assert_string_equal(rows[i].reads, "health");
-                assert_string_equal(rows[i].writes, "force");
+                assert_string_equal(rows[i].writes, "forces");
             }
         }
         assert_int_equal(found, 1);
@@ -198,7 +198,7 @@ static void a_system_pushes_through_columns(void **state)
     plumb_system_create(w, &(plumb_system_desc){ .name = "lift",
                                                  .phase = PLUMB_PHASE_FORCES,
                                                  .run = lift,
-                                                 .needs = f->health,
+                                                 .needs = { f->health },
                                                  .context = &t });
     plumb_world_step(w, R(0.5));
     assert_vec_near(plumb_body_velocity(w, f->dynamic), 0, 1, 1e-6); // 8 N / 4 kg * 0.5 s

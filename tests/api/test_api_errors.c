@@ -405,14 +405,15 @@ static void systems_and_capacities_refuse(void **state)
             plumb_system_create(W, NULL));
     REFUSED(E_NULL, "plumb_system_create: name is null; it must be given", SYSTEM(.run = nothing));
     REFUSED(E_NULL, "plumb_system_create: run is null; it must be given", SYSTEM(.name = "a"));
-    REFUSED(E_RANGE, "plumb_system_create: phase is 4; it must be a plumb_phase",
-            SYSTEM(.name = "a", .run = nothing, .phase = (plumb_phase)4));
+    REFUSED(E_RANGE, "plumb_system_create: phase is 5; it must be a plumb_phase",
+            SYSTEM(.name = "a", .run = nothing, .phase = (plumb_phase)5));
     REFUSED(
         E_RANGE,
         "plumb_system_create: reads is 'xxxxxxxxxxxxxxxx...'; it must have at most 127 characters",
         SYSTEM(.name = "a", .run = nothing, .reads = wide));
-    REFUSED(E_HANDLE, "plumb_system_create: needs is 7; it must be a registered component or null",
-            SYSTEM(.name = "a", .run = nothing, .needs = { 7 }));
+    REFUSED(E_HANDLE,
+            "plumb_system_create: needs[0] is 7; it must be a registered component or null",
+            SYSTEM(.name = "a", .run = nothing, .needs = { { 7 } }));
     REFUSED(E_MISSING, "plumb_system_enable: name is 'a'; it must be that of a system",
             plumb_system_enable(W, "a", true));
     REFUSED(E_NULL, "plumb_system_enable: name is null; it must be given",

@@ -147,7 +147,7 @@ static bool extend_world(run *r)
     TRY(r, plumb_system_create(r->world, &(plumb_system_desc){ .name = "push",
                                                                .phase = PLUMB_PHASE_END,
                                                                .run = push,
-                                                               .needs = fuel }));
+                                                               .needs = { fuel } }));
     for (int i = 0; i < 10; ++i) {
         TRY_MAKE(r, e, plumb_entity_create(r->world));
         TRY(r, plumb_component_set(r->world, e, fuel, NULL));

@@ -29,8 +29,11 @@ static bool scheduled(plumb_world *world)
     plumb_pass_info rows[64];
     int count = plumb_world_schedule(world, rows, 64);
     for (int i = 0; i < count; ++i) {
-        if (strcmp(rows[i].name, "- one-way") == 0) {
-            return rows[i].scheduled;
+        for (int k = 0; strcmp(rows[i].name, "narrow phase") == 0 && k < rows[i].variant_count;
+             ++k) {
+            if (strcmp(rows[i].variants[k], "one-way") == 0) {
+                return true;
+            }
         }
     }
     return false;

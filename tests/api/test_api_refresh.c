@@ -424,7 +424,7 @@ static void only_contact_systems_run(void **state)
 {
     (void)state;
     place p = make_place((plumb_world_desc){ 0 }, 3);
-    static const char *const names[] = { "begin", "forces", "contacts", "end" };
+    static const char *const names[] = { "in begin", "in forces", "in contacts", "in end" };
     static const plumb_phase phases[] = { PLUMB_PHASE_BEGIN, PLUMB_PHASE_FORCES,
                                           PLUMB_PHASE_CONTACTS, PLUMB_PHASE_END };
     int calls[4] = { 0 };

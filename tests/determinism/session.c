@@ -192,7 +192,7 @@ static void register_all(session *s)
     s->mark = plumb_component_create(s->world, &components[0]);
     s->tag = plumb_component_create(s->world, &components[1]);
     const plumb_system_desc systems[] = {
-        { .name = "cool", .phase = PLUMB_PHASE_BEGIN, .run = at_begin, .needs = s->mark },
+        { .name = "cool", .phase = PLUMB_PHASE_BEGIN, .run = at_begin, .needs = { s->mark } },
         { .name = "wind", .phase = PLUMB_PHASE_FORCES, .run = at_forces },
         { .name = "ice", .phase = PLUMB_PHASE_CONTACTS, .run = at_contacts },
         { .name = "rules", .phase = PLUMB_PHASE_END, .run = at_end },

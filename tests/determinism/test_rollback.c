@@ -190,7 +190,7 @@ static plumb_world *make_empty(script *s, const plumb_world_desc *desc)
         { .name = "heat",
           .phase = PLUMB_PHASE_END,
           .run = heat,
-          .needs = s->counted,
+          .needs = { s->counted },
           .context = s },
         { .name = "order", .phase = PLUMB_PHASE_END, .run = order, .context = s },
     };

@@ -274,12 +274,6 @@ static void check_clusters(const plumb_world *w, bool special)
     assert_int_equal(slot[0], s->dynamic_slots);
     assert_int_equal(slot[1], s->slot_count - 1);
     assert_int_equal(count, w->narrow.manifold_count);
-    for (uint32_t row = 0; special && row < w->dynamic_count; ++row) {
-        const uint32_t slot_of = ((const uint32_t *)s->slots.data)[row];
-        if ((w->bodies.flags[row] & PL_BODY_HAS_SETTINGS) != 0 && slot_of != PL_NONE) {
-            assert_true(has(pl_clusters(s)->slots[0], slot_of));
-        }
-    }
     for (uint32_t i = 0; special && i < w->narrow.manifold_count; ++i) {
         const pl_manifold *m = &pl_manifolds(&w->narrow)[i];
         if (m->restitution > 0) {

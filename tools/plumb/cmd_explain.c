@@ -76,14 +76,27 @@ static int note_schedule(tally *t, const scene_run *run, int steps, const engine
     return count;
 }
 
-static int longest(const engine_pass *list, int count)
+/// How wide the columns of names and stages are.
+typedef struct widths {
+    int name, phase;
+} widths;
+
+/// Rows of the substeps stand below the pass that they are inside of.
+static int indent_of(const engine_pass *pass)
 {
-    int width = 4;
+    return pass->in_substeps ? 2 : 0;
+}
+
+static widths longest(const engine_pass *list, int count)
+{
+    widths most = { 4, 5 };
     for (int i = 0; i < count; i++) {
-        int length = (int)strlen(list[i].name);
-        width = length > width ? length : width;
+        int name = (int)strlen(list[i].name) + indent_of(&list[i]);
+        int phase = (int)strlen(list[i].phase);
+        most.name = name > most.name ? name : most.name;
+        most.phase = phase > most.phase ? phase : most.phase;
     }
-    return width;
+    return most;
 }
 
 static void print_settings(const scene_run *run, const char *path)
@@ -109,25 +122,27 @@ static void print_settings(const scene_run *run, const char *path)
 }
 
 /// One row of the table. `total` [ns]: of all passes; 0: no timing.
-static void print_pass(const engine_pass *pass, const pass_tally *ran, int width, double total,
+static void print_pass(const engine_pass *pass, const pass_tally *ran, widths width, double total,
                        long long steps, bool columns)
 {
-    printf("  %-*s  %-8s", width, pass->name, pass->phase);
+    const int indent = indent_of(pass);
+    printf("  %*s%-*s  %-*s", indent, "", width.name - indent, pass->name, width.phase,
+           pass->phase);
     if (total > 0) {
-        if (pass->total_ns > 0) {
-            printf("  %5.1f %%  %9.2f us", 100 * pass->total_ns / total,
-                   1e-3 * pass->total_ns / (double)steps);
-        } else {
-            printf("  %7s  %12s", "-", "-"); // part of another pass, not timed apart
-        }
+        printf("  %5.1f %%  %9.2f us", 100 * pass->total_ns / total,
+               1e-3 * pass->total_ns / (double)steps);
     }
     printf("  %s%s", ran->reason, pass->is_user ? " (registered by the scene)" : "");
+    for (int i = 0; i < pass->variant_count && ran->steps > 0; i++) {
+        printf("%s%s", i == 0 ? "; with " : ", ", pass->variants[i]);
+    }
     if (ran->steps > 0 && ran->steps < steps) {
         printf(" (in %lld of %lld steps)", ran->steps, steps);
     }
     printf("\n");
     if (columns) {
-        printf("  %*s  reads %s; writes %s\n", width, "", pass->reads[0] ? pass->reads : "nothing",
+        printf("  %*s  reads %s; writes %s\n", width.name, "",
+               pass->reads[0] ? pass->reads : "nothing",
                pass->writes[0] ? pass->writes : "nothing");
     }
 }
@@ -140,7 +155,7 @@ static int print_schedule(const explain_args *args, const scene_run *run, tally 
     if (count < 0) {
         return CLI_FAILED;
     }
-    int width = longest(list, count);
+    const widths width = longest(list, count);
     int left_out = 0;
     double total = 0;
 
@@ -152,8 +167,8 @@ static int print_schedule(const explain_args *args, const scene_run *run, tally 
         total = 0;
     }
     printf("\nRuns, in this order:\n");
-    printf(total > 0 ? "  %-*s  phase      share      a step  why\n" : "  %-*s  phase     why\n",
-           width, "pass");
+    printf("  %-*s  %-*s  %swhy\n", width.name, "pass", width.phase, "stage",
+           total > 0 ? "  share        a step  " : "");
     for (int i = 0; i < count; i++) {
         const pass_tally *ran = find_tally(t, &list[i]);
         if (ran->steps > 0) {
@@ -233,7 +248,9 @@ const cli_command cmd_explain = {
     .operands = "SCENE",
     .text = "Simulates SCENE for a second (or its duration, if that is shorter; see --time) and "
             "prints the schedule in order: which passes ran and because of what, which were left "
-            "out of all steps, and what share of the time each took.",
+            "out of all steps, and what share of the time each took. Rows that are set in run "
+            "inside of "
+            "the row above them; with several threads they have shares of the time that it took.",
     .examples = "plumb explain assets/scenes/stack.lua\n"
                 "plumb explain stack.lua --no-timing --columns",
     .options = options,

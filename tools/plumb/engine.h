@@ -86,8 +86,11 @@ typedef struct engine_expect {
 /// One pass of the schedule.
 typedef struct engine_pass {
     const char *name, *phase, *reads, *writes, *reason;
+    const char *variants[8]; ///< of its kernels that run
+    int variant_count;
     bool scheduled, is_user;
-    double total_ns; ///< [ns] since the session was opened
+    bool in_substeps; ///< runs inside of the solver's pass
+    double total_ns;  ///< [ns] since passes were first asked for
 } engine_pass;
 
 /// Counts of the last step, as in plumb_stats.

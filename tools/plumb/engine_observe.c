@@ -101,6 +101,8 @@ int pl_session_expectations(engine_session *session, const engine_expect **list)
 
 int pl_session_passes(engine_session *session, const engine_pass **list)
 {
+    // From the first look at the passes on their times are taken.
+    (void)plumb_world_watch(session->stage.world, PLUMB_WATCH_TIMES);
     int count = plumb_world_schedule(session->stage.world, NULL, 0);
     if (!pl_session_reserve(&session->pass_infos, &session->info_room, count,
                             sizeof *session->pass_infos) ||
@@ -120,9 +122,12 @@ int pl_session_passes(engine_session *session, const engine_pass **list)
             .writes = p->writes != NULL ? p->writes : "",
             .reason = p->reason != NULL ? p->reason : "",
             .scheduled = p->scheduled,
+            .variant_count = p->variant_count,
             .is_user = p->is_user,
+            .in_substeps = p->in_substeps,
             .total_ns = p->total_ns,
         };
+        memcpy(passes[i].variants, p->variants, sizeof p->variants);
     }
     *list = passes;
     return count;

@@ -409,8 +409,8 @@ static void open_edits(scene *s, const sc_site *site)
     plumb_system_desc system = { .name = "edit_contact",
                                  .phase = PLUMB_PHASE_CONTACTS,
                                  .run = run_edits,
-                                 .reads = "contacts",
-                                 .writes = "contacts",
+                                 .reads = "manifolds",
+                                 .writes = "manifolds",
                                  .context = s };
     plumb_result r = plumb_system_create(s->world, &system);
     if (r != PLUMB_OK) {

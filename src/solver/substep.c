@@ -1,0 +1,266 @@
+// substep.c - clusters of islands through the substeps of a step, row by row.
+//
+// A large cluster is solved by all threads together, one after another; small ones are in the hands of one thread
+// each. What a row is and where it stands is the schedule's: here they are only run. The clock is read around a
+// row where somebody asked for times; what threads take is added up a thread, in places of its own.
+//
+// Reads, writes: what the rows do. Order: after the graph. Cost: the rows', and 5 ns a row, cluster and substep.
+#include "solver/substep.h"
+
+#include "core/clock.h"
+#include "world/state.h"
+
+#include <string.h>
+
+// A cluster of more bundles keeps all threads busy, one after another; smaller ones are a thread's each.
+#define LARGE 512
+
+static void run_row(pl_substep *s)
+{
+    const pl_substep_rows *rows = s->step->rows;
+    const uint32_t i = (uint32_t)(s->row - rows->items);
+    if (rows->before != NULL) {
+        rows->before(s->step->world, s->row->place);
+    }
+    const double start = rows->ns == NULL ? 0 : pl_now_ns();
+    s->row->run(s);
+    if (rows->ns != NULL) {
+        rows->ns[(size_t)s->thread * rows->count + i] += pl_now_ns() - start;
+    }
+    if (rows->after != NULL) {
+        rows->after(s->step->world, s->row->place);
+    }
+}
+
+static void run_stage(pl_substep *s, pl_substep_stage stage, int times)
+{
+    const pl_substep_rows *rows = s->step->rows;
+    const pl_substep_row *first = rows->items + (stage == 0 ? 0 : rows->end[stage - 1]);
+    const pl_substep_row *end = rows->items + rows->end[stage];
+    const bool plain = rows->ns == NULL && rows->before == NULL;
+    for (int i = 0; i < times; ++i) {
+        s->first_sweep = i == 0;
+        for (s->row = first; s->row < end; ++s->row) {
+            if (plain) {
+                s->row->run(s);
+            } else {
+                run_row(s);
+            }
+        }
+    }
+}
+
+static void run_substep(pl_substep *s)
+{
+    const plumb_world_desc *d = &s->step->world->desc;
+    run_stage(s, PL_SUBSTEP_FORCES, 1);
+    run_stage(s, PL_SUBSTEP_VELOCITIES, 1);
+    run_stage(s, PL_SUBSTEP_CONSTRAINTS, d->iterations);
+    run_stage(s, PL_SUBSTEP_POSITIONS, 1);
+    run_stage(s, PL_SUBSTEP_RELAX,
+              d->solver == PLUMB_SOLVER_SOFT ? d->iterations : PL_CLASSIC_CORRECTIONS);
+    run_stage(s, PL_SUBSTEP_SUMS, 1);
+}
+
+// All of a step for one cluster, in a thread's room for bundles.
+static void run_cluster(const pl_solving *step, uint32_t i, pl_tasks *tasks, uint32_t thread)
+{
+    const pl_solver *solver = &step->world->solver;
+    const size_t room = (size_t)thread * solver->bundle_room;
+    const pl_joint_context joints =
+        pl_joint_context_of(step->world, i, tasks, thread, (real)step->call.h);
+    pl_substep s = { .step = step,
+                     .cluster = &pl_clusters(solver)[i],
+                     .tasks = tasks,
+                     .thread = thread,
+                     .call = step->call,
+                     .joints = &joints,
+                     .elastic = i == 0 && step->elastic };
+    s.any_joints = pl_joints_any(s.joints);
+    if (s.call.lanes != NULL) { // else no step has had a contact yet
+        s.call.lanes += s.cluster->first_lane;
+        s.call.bundles = (char *)s.call.bundles + room * step->kernels->bundle_size;
+    }
+    if (s.call.extras != NULL) {
+        s.call.extras = (char *)s.call.extras + room * step->kernels->extra_size;
+    }
+    if (s.call.specials != NULL) {
+        s.call.specials = (char *)s.call.specials + room * step->kernels->special_size;
+    }
+    if (s.call.bounces != NULL) {
+        s.call.bounces = (char *)s.call.bounces + room * step->kernels->bounce_size;
+    }
+    run_stage(&s, PL_SUBSTEP_PREPARE, 1);
+    for (int k = 0; k < step->world->desc.substeps; ++k) {
+        s.number = k;
+        s.first = k == 0;
+        run_substep(&s);
+    }
+    run_stage(&s, PL_SUBSTEP_STORE, 1);
+}
+
+// Solved by all threads together. Joints are swept twice as often as contacts.
+static bool is_large(const pl_solving *step, uint32_t i)
+{
+    const plumb_world *world = step->world;
+    const pl_joint_context joints = pl_joint_context_of(step->world, i, NULL, 0, 0);
+    const uint32_t contacts = pl_clusters(&world->solver)[i].color_first[PL_COLOR_SLOTS];
+    const uint32_t tied = pl_joints_any(&joints) ? joints.group->color_first[PL_JOINT_COLORS] -
+                                                       joints.group->color_first[0]
+                                                 : 0;
+    return (i == 0 && step->together) || contacts + 2 * tied > LARGE;
+}
+
+static void run_small_ones(void *context, uint32_t thread)
+{
+    const pl_solving *step = context;
+    const pl_share mine = pl_share_of(step->world->solver.cluster_count, step->threads, thread);
+    for (uint32_t i = mine.first; i < mine.end; ++i) {
+        if (!is_large(step, i)) {
+            run_cluster(step, i, NULL, thread);
+        }
+    }
+}
+
+static pl_solving open_step(plumb_world *world, const pl_substep_rows *rows, real dt)
+{
+    pl_solver *s = &world->solver;
+    const near_real h = (near_real)(dt / (real)world->desc.substeps);
+    return (pl_solving){
+        .world = world,
+        .kernels = pl_solver_kernels(world),
+        .call = { .bodies = pl_solver_bodies(s),
+                  .dynamic_slots = s->dynamic_slots,
+                  .slots = s->slots.data,
+                  .movable_rows = world->dynamic_count + world->kinematic_count,
+                  .immovable_slot = s->slot_count - 1,
+                  .manifolds = pl_manifolds(&world->narrow),
+                  .pairs = pl_pairs(&world->broad.pairs),
+                  .h = h,
+                  .inv_h = 1 / h,
+                  .flags = world->bodies.flags },
+        .elastic = world->solver.follows_impacts,
+        .together = world->solver.follows_impacts || world->effects.any_alone,
+        .rows = rows,
+    };
+}
+
+void pl_substeps_run(plumb_world *world, const pl_substep_rows *rows, real dt)
+{
+    pl_solving step = open_step(world, rows, dt);
+    pl_tasks *tasks = rows->before == NULL ? world->tasks : NULL;
+    if (world->desc.solver == PLUMB_SOLVER_SOFT) {
+        pl_soft_open(world, &step);
+    }
+    const uint32_t count = world->solver.cluster_count;
+    if (count == 1) {
+        run_cluster(&step, 0, tasks, 0);
+        return;
+    }
+    for (uint32_t i = 0; i < count; ++i) {
+        if (is_large(&step, i)) {
+            run_cluster(&step, i, tasks, 0);
+        }
+    }
+    step.threads = pl_tasks_share_count(tasks, count, 1);
+    pl_tasks_run(tasks, run_small_ones, &step, step.threads);
+}
+
+//---- shares of lists ----------------------------------------------------------------------------
+
+static uint32_t slot_at(const void *records, size_t size, size_t offset, uint32_t i)
+{
+    uint32_t slot;
+    memcpy(&slot, (const char *)records + size * i + offset, sizeof slot);
+    return slot;
+}
+
+// The first record whose slot is not below.
+static uint32_t first_at(const void *records, size_t size, size_t offset, uint32_t count,
+                         uint32_t slot)
+{
+    uint32_t low = 0, high = count;
+    while (low < high) {
+        const uint32_t middle = low + (high - low) / 2;
+        if (slot_at(records, size, offset, middle) < slot) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    return low;
+}
+
+pl_share pl_substep_share(const void *records, size_t size, size_t offset, uint32_t count,
+                          const pl_substep *s)
+{
+    const pl_slots slots = s->cluster->slots[0];
+    return (pl_share){ first_at(records, size, offset, count, slots.first),
+                       first_at(records, size, offset, count, slots.first + slots.count) };
+}
+
+//---- rows of joints and impacts ------------------------------------------------------------------
+
+void pl_joints_row_prepare(pl_substep *s)
+{
+    if (s->any_joints) {
+        pl_joints_prepare(s->joints);
+    }
+}
+
+void pl_joints_row_warm_start(pl_substep *s)
+{
+    // The soft step does that once: see soft.c.
+    if (s->any_joints && (s->first || s->step->world->desc.solver == PLUMB_SOLVER_PGS)) {
+        pl_joints_warm_start(s->joints);
+    }
+}
+
+void pl_joints_row_solve(pl_substep *s)
+{
+    if (s->any_joints) {
+        pl_joints_solve(s->joints, PL_SWEEP_PULL, s->first_sweep);
+    }
+}
+
+void pl_joints_row_relax(pl_substep *s)
+{
+    if (s->any_joints) {
+        pl_joints_solve(s->joints, PL_SWEEP_RELAX, s->first_sweep);
+    }
+}
+
+void pl_joints_row_classic(pl_substep *s)
+{
+    if (s->any_joints) {
+        pl_joints_solve(s->joints, PL_SWEEP_CLASSIC, false);
+    }
+}
+
+void pl_joints_row_sum(pl_substep *s)
+{
+    if (s->any_joints && s->step->world->joints.watched > 0) {
+        pl_joints_tally(s->joints);
+    }
+}
+
+void pl_joints_row_store(pl_substep *s)
+{
+    if (s->any_joints) {
+        pl_joints_store(s->joints);
+    }
+}
+
+void pl_impacts_row_prepare(pl_substep *s)
+{
+    if (s->elastic) {
+        pl_impacts_prepare(s->step->world);
+    }
+}
+
+void pl_impacts_row_classic(pl_substep *s)
+{
+    if (s->elastic) {
+        pl_impacts_prepare_classic(s->step->world);
+    }
+}

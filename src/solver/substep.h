@@ -1,0 +1,96 @@
+// substep.h - what the rows of the substep are called with: one cluster of islands, in the hands of some threads.
+//
+// A cluster goes through all substeps of a step before the next one does (substep.c): its bodies and bundles stay in
+// the cache. Which rows there are, and in what order, is the schedule's (step/passes.c).
+#ifndef PL_SUBSTEP_H
+#define PL_SUBSTEP_H
+
+#include "solver/solver.h"
+
+// In order. Preparing and storing are done once a step, the rest in each substep.
+typedef enum pl_substep_stage {
+    PL_SUBSTEP_PREPARE,
+    PL_SUBSTEP_FORCES,      // of the moment
+    PL_SUBSTEP_VELOCITIES,  // v += h a, warm starting, impacts
+    PL_SUBSTEP_CONSTRAINTS, // as many times as there are iterations
+    PL_SUBSTEP_POSITIONS,
+    PL_SUBSTEP_RELAX, // as many times; by the classic solver as often as it corrects positions
+    PL_SUBSTEP_SUMS,  // over the step: impulses, reactions
+    PL_SUBSTEP_STORE,
+    PL_SUBSTEP_STAGES
+} pl_substep_stage;
+
+// What all clusters of a step have in common.
+typedef struct pl_solving {
+    plumb_world *world;
+    const pl_contact_kernels *kernels;
+    pl_contact_call call;
+    uint32_t threads;
+    pl_surface_variant surface;
+    pl_motion_variant motion;
+    bool tallies, elastic;
+    bool together; // something of cluster 0 is not to be shared out: it is solved by itself
+    const struct pl_substep_rows *rows;
+} pl_solving;
+
+typedef struct pl_substep pl_substep;
+typedef struct pl_substep_row pl_substep_row;
+typedef void pl_substep_fn(pl_substep *s);
+
+struct pl_substep {
+    const pl_solving *step;
+    const pl_cluster *cluster;
+    pl_tasks *tasks;      // null: one thread
+    uint32_t thread;      // whose room the cluster has
+    pl_contact_call call; // the step's, for this cluster
+    const struct pl_joint_context *joints;
+    bool any_joints;
+    bool elastic;              // cluster 0 alone has impacts that are followed one by one
+    int number;                // of the substep
+    bool first, first_sweep;   // substep; sweep of a stage
+    const pl_substep_row *row; // that runs
+};
+
+// A row of the substep as the schedule has it.
+struct pl_substep_row {
+    pl_substep_fn *run;
+    uint32_t place;  // in the schedule: whose time it is
+    uint32_t system; // of the user's; else PL_NO_SYSTEM
+};
+
+typedef struct pl_substep_rows {
+    const pl_substep_row *items;
+    uint32_t end[PL_SUBSTEP_STAGES]; // behind the last row of each stage
+    uint32_t count;
+    double *ns; // [ns] a thread and row: time is added here; null: nobody asked
+    // Around each row, where somebody watches what it writes; then clusters are solved by one thread. Null: nobody.
+    void (*before)(plumb_world *world, uint32_t place),
+        (*after)(plumb_world *world, uint32_t place);
+} pl_substep_rows;
+
+// All clusters through all rows (substep.c).
+void pl_substeps_run(plumb_world *world, const pl_substep_rows *rows, plumb_real dt);
+
+// Which of `count` records, by rising slot, are of a substep's cluster: [B] of a record and to its slot.
+pl_share pl_substep_share(const void *records, size_t size, size_t offset, uint32_t count,
+                          const pl_substep *s);
+
+//---- rows ----------------------------------------------------------------------------------------
+
+// soft.c. Before all rows: what kernels are called with, and which of them.
+void pl_soft_open(plumb_world *world, pl_solving *out);
+pl_substep_fn pl_soft_prepare, pl_soft_integrate, pl_soft_warm_start, pl_soft_impacts,
+    pl_soft_contacts, pl_soft_relax, pl_soft_sum, pl_soft_store;
+// pgs.c
+pl_substep_fn pl_classic_prepare, pl_classic_integrate, pl_classic_warm_start, pl_classic_impacts,
+    pl_classic_contacts, pl_classic_correct, pl_classic_sum, pl_classic_store;
+#define PL_CLASSIC_CORRECTIONS 3 // sweeps over positions
+// integrate.c
+pl_substep_fn pl_move_bodies, pl_classic_move;
+// substep.c: joints and impacts, for both solvers
+pl_substep_fn pl_joints_row_prepare, pl_joints_row_warm_start, pl_joints_row_solve,
+    pl_joints_row_relax, pl_joints_row_classic, pl_joints_row_correct, pl_joints_row_sum,
+    pl_joints_row_store;
+pl_substep_fn pl_impacts_row_prepare, pl_impacts_row_classic;
+
+#endif

@@ -1,0 +1,281 @@
+// wanted.c - which passes a world wants, and why.
+//
+// Asked only when something structural changed (world->schedule_dirty). Reads: counters that structural changes keep
+// up. Writes: nothing. Cost: O(materials) a pass at most.
+#include "step/wanted.h"
+
+#include "character/character.h"
+#include "continuous/continuous.h"
+#include "event/event.h"
+#include "narrow/one_way.h"
+#include "narrow/surface.h"
+#include "step/acting.h"
+#include "world/wrap.h"
+
+static bool say(bool wanted, const char **reason, const char *because, const char *because_not)
+{
+    *reason = wanted ? because : because_not;
+    return wanted;
+}
+
+bool pl_want_targets(const plumb_world *world, const char **reason)
+{
+    return say(world->targets.count > 0, reason, "kinematic bodies are on their way to a target",
+               "no kinematic body has a target");
+}
+
+bool pl_want_damping(const plumb_world *world, const char **reason)
+{
+    return say(world->settings.damped > 0, reason, "some body is damped", "no body is damped");
+}
+
+bool pl_want_caps(const plumb_world *world, const char **reason)
+{
+    return say(world->settings.capped > 0, reason, "some body has a speed cap",
+               "no body has a speed cap");
+}
+
+bool pl_want_own_time(const plumb_world *world, const char **reason)
+{
+    return say(world->settings.scaled > 0, reason, "some body has a time scale of its own",
+               "all bodies move in the world's time");
+}
+
+bool pl_want_locks(const plumb_world *world, const char **reason)
+{
+    return say(world->locked_bodies > 0, reason, "some body has a locked axis",
+               "no body has a locked axis");
+}
+
+// Something dynamic has a shape, and there is something to meet; or pairs are left that have to end.
+bool pl_want_collision(const plumb_world *world, const char **reason)
+{
+    bool wanted = world->dynamic_count > 0 && world->moving_count > 0 && world->pieces.live > 1;
+    wanted |= world->broad.pairs.count > 0 || world->parts.count > 0;
+    return say(wanted, reason, "dynamic bodies have shapes that can meet others",
+               "no awake dynamic body has a shape that could meet another");
+}
+
+// A sensor that something could meet, or what it saw has to be forgotten.
+bool pl_want_sensing(const plumb_world *world, const char **reason)
+{
+    bool wanted = world->sensor_pieces > 0 && world->moving_count > 0 && world->pieces.live > 1;
+    return say(wanted || world->sensing.count > 0 || world->sensing.rest_stale, reason,
+               "there are sensors", "no shape is a sensor that could meet another");
+}
+
+bool pl_want_broad(const plumb_world *world, const char **reason)
+{
+    const char *seen;
+    if (pl_want_collision(world, reason)) {
+        return true;
+    }
+    bool sensing = pl_want_sensing(world, &seen);
+    *reason = sensing ? seen : *reason;
+    return sensing;
+}
+
+bool pl_want_surfaces(const plumb_world *world, const char **reason)
+{
+    return pl_want_collision(world, reason) && pl_surfaces_wanted(world, reason);
+}
+
+bool pl_want_one_way(const plumb_world *world, const char **reason)
+{
+    return pl_want_collision(world, reason) && pl_one_way_wanted(world, reason);
+}
+
+bool pl_want_feet(const plumb_world *world, const char **reason)
+{
+    return pl_want_collision(world, reason) && pl_characters_wanted(world, reason);
+}
+
+bool pl_want_internal_edges(const plumb_world *world, const char **reason)
+{
+    return pl_want_collision(world, reason) && pl_internal_edges_wanted(world, reason);
+}
+
+bool pl_want_joints(const plumb_world *world, const char **reason)
+{
+    if (world->joints.live > 0 && !pl_joints_any_awake(world)) {
+        return say(false, reason, "", "all that is joined sleeps");
+    }
+    return say(world->joints.live > 0, reason, "there are joints", "there are no joints");
+}
+
+bool pl_want_waking(const plumb_world *world, const char **reason)
+{
+    return say(world->asleep_count > 0, reason, "some bodies sleep: what touches them wakes them",
+               "no body sleeps");
+}
+
+bool pl_want_sleep(const plumb_world *world, const char **reason)
+{
+    if (world->desc.no_sleep) {
+        return say(false, reason, "", "the world does not let bodies sleep");
+    }
+    return say(world->dynamic_count > 0, reason, "what rests long enough falls asleep",
+               "no dynamic body is awake");
+}
+
+static bool any_contact_system(const plumb_world *world)
+{
+    for (uint32_t i = 0; i < world->systems.count; ++i) {
+        if (world->systems.items[i].desc.phase == PLUMB_PHASE_CONTACTS) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool pl_want_edges(const plumb_world *world, const char **reason)
+{
+    return say(pl_is_wrapped(world), reason, "the world wraps around", "the world does not wrap");
+}
+
+// Contacts, joints, or systems that act on bodies in the substeps.
+bool pl_want_solver(const plumb_world *world, const char **reason)
+{
+    const char *unused;
+    return pl_want_joints(world, reason) || pl_want_collision(world, reason) ||
+           (pl_want_called(world, &unused) && pl_want_called(world, reason));
+}
+
+bool pl_want_soft(const plumb_world *world, const char **reason)
+{
+    if (!pl_want_solver(world, reason)) {
+        return false;
+    }
+    return say(world->desc.solver == PLUMB_SOLVER_SOFT, reason, "the world asks for the soft step",
+               "the world asks for the classic solver");
+}
+
+bool pl_want_classic(const plumb_world *world, const char **reason)
+{
+    if (!pl_want_solver(world, reason)) {
+        return false;
+    }
+    return say(world->desc.solver == PLUMB_SOLVER_PGS, reason,
+               "the world asks for the classic solver", "the world asks for the soft step");
+}
+
+bool pl_want_rotation(const plumb_world *world, const char **reason)
+{
+    return say(world->turning_bodies > 0, reason, "some dynamic body can turn",
+               "no dynamic body can turn");
+}
+
+bool pl_want_continuous(const plumb_world *world, const char **reason)
+{
+    return pl_want_collision(world, reason) && pl_continuous_wanted(world, reason);
+}
+
+// A material that some shape is made of.
+static bool any_material(const plumb_world *world, const real *column)
+{
+    for (uint32_t row = 0; row < world->materials.table.count; ++row) {
+        if (world->materials.users[row] > 0 && column[row] != 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool pl_want_adhesion(const plumb_world *world, const char **reason)
+{
+    return say(any_material(world, world->materials.adhesion) || world->material_pair_count > 0,
+               reason, "some shape's material may stick", "no shape's material sticks");
+}
+
+bool pl_want_friction(const plumb_world *world, const char **reason)
+{
+    return say(any_material(world, world->materials.friction), reason,
+               "some shape's material has friction", "no shape's material has friction");
+}
+
+// Systems that edit contacts, and pairs of materials, may ask for it as well.
+bool pl_want_impacts(const plumb_world *world, const char **reason)
+{
+    if (!pl_want_collision(world, reason)) {
+        return false;
+    }
+    return say(any_material(world, world->materials.restitution) ||
+                   world->material_pair_count > 0 || any_contact_system(world),
+               reason, "some shape's material has restitution",
+               "no shape's material has restitution");
+}
+
+bool pl_want_gravity(const plumb_world *world, const char **reason)
+{
+    return say(world->gravity.x != 0 || world->gravity.y != 0, reason, "the world has gravity",
+               "the world has no gravity");
+}
+
+bool pl_want_reactions(const plumb_world *world, const char **reason)
+{
+    if (!pl_want_joints(world, reason)) {
+        return false;
+    }
+    return say(world->joints.watched > 0, reason, "some joint breaks or tells of its strain",
+               "no joint breaks or tells of its strain");
+}
+
+bool pl_want_sums(const plumb_world *world, const char **reason)
+{
+    if (!pl_want_collision(world, reason)) {
+        return false;
+    }
+    return say(pl_solver_tallies(world) || world->desc.solver == PLUMB_SOLVER_PGS, reason,
+               "impulses are added up over the step",
+               "nobody asked for impulses of contacts or for hits");
+}
+
+//---- variants -----------------------------------------------------------------------------------
+
+static int add_variant(const char *out[PL_VARIANTS_MAX], int count, bool is, const char *name)
+{
+    if (is && count < PL_VARIANTS_MAX) {
+        out[count++] = name;
+    }
+    return count;
+}
+
+int pl_contact_variants(const plumb_world *world, const char *out[PL_VARIANTS_MAX])
+{
+    const char *unused;
+    const bool soft = world->desc.solver == PLUMB_SOLVER_SOFT;
+    const pl_materials *m = &world->materials;
+    int n = add_variant(out, 0, pl_want_friction(world, &unused), "friction");
+    n = add_variant(out, n, world->turning_bodies > 0 || !soft, "rotation");
+    n = add_variant(out, n, any_material(world, m->rolling_resistance), "rolling resistance");
+    n = add_variant(out, n, any_material(world, m->surface_speed), "surface speed");
+    n = add_variant(out, n, pl_want_adhesion(world, &unused), "adhesion");
+    n = add_variant(out, n, pl_want_locks(world, &unused), "locked axes");
+    return add_variant(out, n, soft && world->desc.hit_speed > 0, "speeds of hits");
+}
+
+int pl_narrow_variants(const plumb_world *world, const char *out[PL_VARIANTS_MAX])
+{
+    const uint32_t *kinds = world->piece_kinds;
+    const char *unused;
+    int n = add_variant(out, 0, kinds[PL_PIECE_CIRCLE] > 0, "circles");
+    n = add_variant(out, n, kinds[PL_PIECE_CAPSULE] > 0, "capsules");
+    n = add_variant(out, n, kinds[PL_PIECE_BOX] > 0, "boxes");
+    n = add_variant(out, n, kinds[PL_PIECE_POLYGON] > 0, "polygons");
+    return add_variant(out, n, pl_want_one_way(world, &unused), "one-way");
+}
+
+int pl_gather_variants(const plumb_world *world, const char *out[PL_VARIANTS_MAX])
+{
+    const char *unused;
+    int n = add_variant(out, 0, pl_want_locks(world, &unused), "locked axes");
+    return add_variant(out, n, pl_want_own_time(world, &unused), "own time");
+}
+
+int pl_motion_variants(const plumb_world *world, const char *out[PL_VARIANTS_MAX])
+{
+    const char *unused;
+    int n = pl_gather_variants(world, out);
+    n = add_variant(out, n, pl_want_damping(world, &unused), "damping");
+    return add_variant(out, n, pl_want_caps(world, &unused), "speed caps");
+}
