@@ -1,4 +1,5 @@
 // broad.c - the broad phase as a whole: fat boxes, grids, and when to rebuild the pair list.
+#include "world/marks.h"
 #include "broad/broad.h"
 #include "broad/pairs.h"
 #include "world/state.h"
@@ -104,13 +105,13 @@ static void refresh_rows(void *context, uint32_t first, uint32_t count)
     }
 }
 
-bool pl_broad_update(plumb_world *world, real dt)
+bool pl_broad_update(plumb_world *world, real dt, const pl_pair_listener *listener)
 {
     bool stale;
     if (!pl_broad_update_grids(world, dt, &stale)) {
         return false;
     }
-    if (stale && !pl_pairs_update(world)) {
+    if (stale && !pl_pairs_update(world, listener)) {
         return false;
     }
     if (world->rows_moved) {

@@ -2,6 +2,7 @@
 //
 // Reads: poses, piece geometry, velocities. Writes: fat boxes, which pieces left theirs. Order: first of the broad phase.
 // Cost: O(moving pieces); O(all pieces) when static ones changed.
+#include "world/body_settings.h"
 #include "broad/pairs.h"
 #include "world/wrap.h"
 
@@ -104,7 +105,7 @@ static void refresh_pose_velocities(plumb_world *world)
         poses[row].vy = bounded(b->vy[row]);
     }
     if (world->settings.scaled > 0) {
-        pl_effects_poses(world);
+        pl_settings_of_poses(world);
     }
 }
 
@@ -116,20 +117,6 @@ static pl_box fattened(pl_box needed, const pl_box *tight, real way)
     real margin = FAT_FRACTION * (w > h ? w : h);
     margin = margin < FAT_LIMIT ? margin : FAT_LIMIT;
     return widened(needed, way > margin ? margin / FAST_SHARE : margin);
-}
-
-bool pl_broad_reserve_left(plumb_world *world, uint32_t slots)
-{
-    pl_broad *broad = &world->broad;
-    size_t old = broad->left_marks.size;
-    if (!pl_buffer_reserve(&world->memory, &broad->left, slots * sizeof(uint32_t)) ||
-        !pl_buffer_reserve(&world->memory, &broad->left_marks, slots)) {
-        return false;
-    }
-    if (broad->left_marks.size > old) {
-        memset((char *)broad->left_marks.data + old, 0, broad->left_marks.size - old);
-    }
-    return true;
 }
 
 void pl_broad_forget_left(pl_broad *broad)

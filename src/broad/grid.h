@@ -10,8 +10,8 @@
 #ifndef PL_GRID_H
 #define PL_GRID_H
 
+#include "world/tables/broad.h"
 #include "core/tasks.h"
-#include "world/columns.h"
 
 #define PL_GRID_LEVELS 32 // octaves of sizes from 2^-16 m to 2^15 m; beyond: the outermost
 
@@ -20,17 +20,6 @@ typedef struct pl_grid_entry {
     uint32_t piece;
     pl_box box;
 } pl_grid_entry;
-
-typedef struct pl_grid_level {
-    double cell, inv_cell; // [m], [1/m]
-    uint32_t first, count; // entries [first, first + count)
-    uint32_t starts;       // its bucket starts begin here; mask + 2 of them
-    uint32_t mask;         // buckets - 1
-    uint32_t stride;       // buckets between rows of cells
-    int32_t origin_x, origin_y;
-    pl_box bounds; // of its boxes: most of a pile does not reach down to the tiles of the ground
-    double map_per_x, map_per_y; // [1/m] squares of its map, which begins where the bounds do
-} pl_grid_level;
 
 // A map of a level: for each of its rows of squares in which of them a lower corner lies.
 #define PL_GRID_MAP 64
@@ -42,19 +31,6 @@ typedef struct pl_grid_lanes {
 } pl_grid_lanes;
 
 #define PL_GRID_SPARE 8 // may be read beyond the last one
-
-typedef struct pl_grid {
-    pl_grid_level *levels; // used ones, finest first; in `level_room`
-    uint32_t level_count;
-    uint32_t entry_count;
-    pl_buffer level_room; // few worlds have sizes of more than three octaves, none of all
-    pl_buffer entries;    // pl_grid_entry
-    pl_buffer starts;     // uint32_t
-    pl_buffer places;     // scratch of the build
-    pl_buffer maps;       // uint64_t, PL_GRID_MAP rows a level
-    bool mapped;
-    pl_buffer sides; // real, of pl_grid_lanes
-} pl_grid;
 
 // A range of cells, both ends included.
 typedef struct pl_cell_range {

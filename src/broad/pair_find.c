@@ -10,6 +10,7 @@
 //
 // Threads share the boxes from which is looked; each has a part of `found`, and when one of these is too
 // small all is done again with more room. What is found is sorted later: its order does not matter here.
+#include "world/joint_list.h"
 #include "broad/images.h"
 #include "broad/pairs.h"
 #include "broad/box_overlap.h"

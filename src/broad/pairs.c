@@ -84,6 +84,7 @@ typedef struct merger {
 
 typedef struct merging {
     plumb_world *world;
+    const pl_pair_listener *listener;
     const pl_sorted *sorted;
     merger start;
     pl_pair *made; // the new list
@@ -263,7 +264,7 @@ static void cut_up(merging *g)
 //---- all -----------------------------------------------------------------------------------------
 
 // What ceases to be touched rests anew: it may have lost what it stood on.
-static void lose_pair(plumb_world *world, const pl_pair *pair)
+static void lose_pair(plumb_world *world, const pl_pair_listener *listener, const pl_pair *pair)
 {
     const pl_pieces *pieces = &world->pieces;
     const uint32_t ends[2] = { pair->a, pair->b };
@@ -272,7 +273,7 @@ static void lose_pair(plumb_world *world, const pl_pair *pair)
             world->bodies.rest_time[pieces->body[ends[i]]] = PL_NOT_RESTING;
         }
     }
-    pl_pair_lost(world, pair);
+    listener->lost(world, pair);
 }
 
 static void lose(const merging *g)
@@ -282,9 +283,9 @@ static void lose(const merging *g)
         for (uint32_t k = 0; k < g->lost_count[i]; ++k) {
             const pl_pair *pair = g->start.all + (lost[k] & ~REPLACED);
             if ((lost[k] & REPLACED) == 0) {
-                lose_pair(g->world, pair);
+                lose_pair(g->world, g->listener, pair);
             } else {
-                pl_pair_lost(g->world, pair);
+                g->listener->lost(g->world, pair);
             }
         }
     }
@@ -307,11 +308,13 @@ static void note_sizes(const merging *g, pl_pair_list *list)
 }
 
 // The old list and what was found, to a new list in old_items. False: nothing has changed.
-static bool merge(plumb_world *world, const pl_sorted *sorted, const uint8_t *left)
+static bool merge(plumb_world *world, const pl_pair_listener *listener, const pl_sorted *sorted,
+                  const uint8_t *left)
 {
     pl_broad *broad = &world->broad;
     merging g; // most of it is for threads, and written where there are some
     g.world = world;
+    g.listener = listener;
     g.sorted = sorted;
     g.start = (merger){ .world = world,
                         .left = left,
@@ -343,7 +346,7 @@ static bool reserve_lists(plumb_world *world)
                              ((size_t)list->count + 1) * sizeof(uint32_t));
 }
 
-bool pl_pairs_update(plumb_world *world)
+bool pl_pairs_update(plumb_world *world, const pl_pair_listener *listener)
 {
     pl_broad *broad = &world->broad;
     pl_pair_list *list = &broad->pairs;
@@ -351,11 +354,11 @@ bool pl_pairs_update(plumb_world *world)
     pl_sorted sorted;
     if (!(whole ? pl_pairs_find(world) : pl_pairs_find_left(world)) ||
         !pl_pairs_sort(world, &sorted) || !reserve_lists(world) ||
-        !pl_events_reserve_ends(world, list->count) || !pl_parts_reserve(world, list->count)) {
+        !listener->reserve(world, list->count)) {
         broad->stale = true; // what sensors see may have been taken out
         return false;
     }
-    bool changed = merge(world, &sorted, whole ? NULL : broad->left_marks.data);
+    bool changed = merge(world, listener, &sorted, whole ? NULL : broad->left_marks.data);
     if (changed) {
         pl_buffer items = list->items;
         list->items = list->old_items;

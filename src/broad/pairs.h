@@ -10,7 +10,7 @@ typedef struct pl_found {
 
 // Brings the pair list up to date with the grids: around the pieces that left their boxes, or from
 // nothing when the list is stale. False when out of memory; the old list then stands.
-bool pl_pairs_update(plumb_world *world);
+bool pl_pairs_update(plumb_world *world, const pl_pair_listener *listener);
 
 // The pair of two pieces; NULL if their fat boxes do not overlap or they may not meet. O(log pairs).
 pl_pair *pl_pairs_find_one(const plumb_world *world, uint32_t p, uint32_t q);

@@ -12,6 +12,7 @@
 //   v^2 <= g R cos a, as on any hump; faster, it flies off at the tangent.
 //
 // Reads: obstacles. Writes: place, ground. Cost: O(obstacles) a piece of an eighth of the half width.
+#include "world/island.h"
 #include "query/query.h"
 #include "character/walker.h"
 

@@ -6,10 +6,10 @@
 //
 // Reads: grids, pieces, poses, velocities. Writes: scratch of world->characters.
 // Cost: cells near the character, O(corners) an obstacle.
+#include "world/body_settings.h"
 #include "broad/images.h"
 #include "character/walker.h"
 #include "math/trig.h"
-#include "narrow/one_way.h"
 #include "query/query.h"
 #include "world/check.h"
 #include "world/filter.h"
@@ -45,7 +45,7 @@ plumb_vec2 pl_character_up(const plumb_world *world, const pl_character *c, uint
         real scale = world->bodies.gravity_scale[row];
         up = plumb_vec2_scale(scale < 0 ? 1 : -1, world->gravity);
     }
-    up = up.x == 0 && up.y == 0 ? plumb_world_up(world) : up;
+    up = up.x == 0 && up.y == 0 ? pl_world_up(world) : up;
     return plumb_vec2_unit(up);
 }
 

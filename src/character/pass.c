@@ -9,6 +9,8 @@
 //
 // Reads: grids, poses, velocities. Writes: velocities of characters, forces on dynamic bodies.
 // Order: first of the built-in passes. Cost: see walker.h, a character.
+#include "world/destroy.h"
+#include "broad/broad.h"
 #include "character/walker.h"
 #include "narrow/narrow.h"
 #include "narrow/surface.h"

@@ -10,6 +10,7 @@
 //
 // Reads: body columns. Writes: forces, with what they were, so that a refused step can be undone.
 // Cost: O(1) a push.
+#include "world/island.h"
 #include "query/query.h"
 #include "character/walker.h"
 #include "world/wrap.h"

@@ -3,6 +3,8 @@
 //
 // Reads: movers, poses, pieces, grids, filters, joints. Writes: the search. Cost: entries of the grids
 // in the box around the way; a gap and a few rounds of sweep.c for each that the way does not miss.
+#include "world/joint_list.h"
+#include "continuous/continuous.h"
 #include "continuous/search.h"
 
 #include <math.h>

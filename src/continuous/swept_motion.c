@@ -5,6 +5,7 @@
 //
 // Reads: movers, poses, joints, piece geometry. Writes: nothing. Cost: O(joints of the body); O(corners)
 // a piece.
+#include "world/joint_list.h"
 #include "continuous/swept_motion.h"
 
 #include <math.h>

@@ -42,18 +42,8 @@ typedef struct pl_targets {
 
 //---- records (body_settings.c, target.c) -----------------------------------------------------------------
 
-// The body's record as it is, or all defaults.
-pl_body_settings pl_body_settings_get(const plumb_world *world, uint32_t row);
-// Room for one more record.
-bool pl_body_settings_reserve(plumb_world *world);
-// Gives the body these values; all defaults: takes its record away. Room must be reserved.
-void pl_body_settings_set(plumb_world *world, uint32_t row, const pl_body_settings *values);
-// The body has no target any more.
-void pl_target_forget(plumb_world *world, uint32_t row);
 // Its time scale has changed: it heads for its target, if it has one, as fast as it takes now.
 void pl_target_reaim(plumb_world *world, uint32_t row);
-// The body goes: its records too.
-void pl_body_forget(plumb_world *world, uint32_t row);
 
 //---- in a step ------------------------------------------------------------------------------------
 
@@ -79,10 +69,6 @@ enum { PL_CALLED_SHARED = 1, PL_CALLED_ALONE = 2 };
 
 void pl_effects_free(pl_memory *memory, pl_effects *effects);
 
-// Pose velocities of bodies with a time of their own become those of the world's time (time_scale.c).
-void pl_effects_poses(plumb_world *world);
-// Factor on the speed at which a body of this row moves.
-real pl_time_scale(const plumb_world *world, uint32_t row);
 // Before bodies get their slots: which of those of PL_BODY_HAS_EFFECTS have to be looked at.
 void pl_effects_open(plumb_world *world);
 // One of them has just got its solver slot: locks and its own time.
@@ -148,11 +134,5 @@ real pl_damping_fly(plumb_world *world, uint32_t row, const pl_damping_decay *de
 struct pl_substep;
 void pl_damping_row(struct pl_substep *substep);
 void pl_caps_row(struct pl_substep *substep);
-
-// [1/kg] along an axis (PL_BODY_LOCK_X or _Y): 0 if it is locked.
-static inline real pl_unlocked(uint32_t flags, uint32_t lock, real inv_mass)
-{
-    return (flags & lock) != 0 ? 0 : inv_mass;
-}
 
 #endif

@@ -5,6 +5,7 @@
 // bit for bit, and the body stands still. All of it happens after motion: a step that runs out of
 // memory must find velocities as they were. Reads: targets, poses. Writes: velocities and poses of
 // their bodies. Cost: O(targets).
+#include "world/body_settings.h"
 #include "plumb/math.h"
 #include "world/check.h"
 #include "world/rows.h"
@@ -16,23 +17,6 @@
 static pl_target *items(const plumb_world *world)
 {
     return (pl_target *)world->targets.items.data;
-}
-
-void pl_target_forget(plumb_world *world, uint32_t row)
-{
-    if ((world->bodies.flags[row] & PL_BODY_TARGETED) == 0) {
-        return;
-    }
-    world->bodies.flags[row] &= (uint16_t)~PL_BODY_TARGETED;
-    plumb_body body = world->bodies.entity[row];
-    uint32_t kept = 0;
-    for (uint32_t i = 0; i < world->targets.count; ++i) {
-        if (!plumb_same(items(world)[i].body, body)) {
-            items(world)[kept++] = items(world)[i];
-        }
-    }
-    world->targets.count = kept;
-    world->schedule_dirty = true;
 }
 
 // Heads for the target, to be there after `time` [s].

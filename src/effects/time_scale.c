@@ -12,17 +12,6 @@
 #include "effects/gather.h"
 #include "world/state.h"
 
-static pl_body_settings *items(const plumb_world *world)
-{
-    return (pl_body_settings *)world->settings.items.data;
-}
-
-real pl_time_scale(const plumb_world *world, uint32_t row)
-{
-    uint32_t at = world->bodies.settings[row];
-    return at != 0 ? items(world)[at - 1].time_scale : 1;
-}
-
 void pl_time_scale_gather(plumb_world *world, uint32_t slot, near_real s)
 {
     pl_solver_body *body = &pl_solver_bodies(&world->solver)[slot];
@@ -45,16 +34,4 @@ void pl_time_scale_take_over(plumb_world *world, uint32_t row, real scale)
     const real inverse = 1 / scale;
     b->vx[row] *= inverse, b->vy[row] *= inverse, b->w[row] *= inverse;
     b->residual_vx[row] *= inverse, b->residual_vy[row] *= inverse;
-}
-
-void pl_effects_poses(plumb_world *world)
-{
-    uint32_t movable = world->dynamic_count + world->kinematic_count;
-    for (uint32_t i = 0; i < world->settings.count; ++i) {
-        uint32_t row = pl_body_row(world, items(world)[i].body);
-        if (row < movable) {
-            pl_poses(world)[row].vx *= items(world)[i].time_scale;
-            pl_poses(world)[row].vy *= items(world)[i].time_scale;
-        }
-    }
 }

@@ -10,6 +10,9 @@
 //
 // Reads: pairs, manifolds. Writes: event arrays, the pairs' flags. Order: last of the built-in
 // passes. Cost: O(pairs), and O(n log n) for the n touching pairs of shapes of several pieces.
+#include "world/body_settings.h"
+#include "internal_edges/internal_edges.h"
+#include "sleep/sleep.h"
 #include "event/event.h"
 
 #include "core/sort.h"
@@ -29,7 +32,7 @@ void pl_events_clear(plumb_world *world)
     pl_sleep_events_clear(world);
 }
 
-bool pl_events_reserve_ends(plumb_world *world, uint32_t count)
+static bool reserve_ends(plumb_world *world, uint32_t count)
 {
     size_t room = ((size_t)world->end_count + count) * sizeof(plumb_contact_end);
     return pl_buffer_reserve(&world->memory, &world->end_events, room) && pl_hits_reserve(world, 0);
@@ -39,32 +42,6 @@ bool pl_events_reserve_ends(plumb_world *world, uint32_t count)
 #define SHARED 256
 
 //---- pieces that went ----------------------------------------------------------------------------
-
-// One a slot is enough: a piece that is younger than the pair list is in no pair.
-bool pl_tombstones_reserve(plumb_world *world, uint32_t slots)
-{
-    size_t old = world->tombstones.size;
-    if (!pl_buffer_reserve(&world->memory, &world->tombstones, slots * sizeof(pl_tombstone))) {
-        return false;
-    }
-    if (world->tombstones.size > old) {
-        memset((char *)world->tombstones.data + old, 0, world->tombstones.size - old);
-    }
-    return true;
-}
-
-void pl_tombstone_set(plumb_world *world, uint32_t piece)
-{
-    const pl_pieces *p = &world->pieces;
-    if (p->serial[piece] <= world->broad.serial) {
-        ((pl_tombstone *)world->tombstones.data)[piece] =
-            (pl_tombstone){ .shape = p->shape[piece],
-                            .body = world->bodies.entity[p->body[piece]],
-                            .epoch = (uint32_t)world->broad.rebuilds + 1,
-                            .flags = p->flags[piece] };
-        world->parts.buried |= (p->flags[piece] & PL_PIECE_PART) != 0;
-    }
-}
 
 // Who a piece is, or was for pairs that have left the list. `epoch` 0: the pair is in the list;
 // else 1 + the rebuilds before the one that found it gone.
@@ -142,7 +119,7 @@ static const plumb_contact_end *part_lost(const plumb_world *world, const pl_key
 
 //---- before the solver ---------------------------------------------------------------------------
 
-void pl_pair_lost(plumb_world *world, const pl_pair *pair)
+static void lose_pair(plumb_world *world, const pl_pair *pair)
 {
     const uint32_t epoch = (uint32_t)world->broad.rebuilds + 1;
     if ((pair->flags & PL_PAIR_TOUCHING) == 0) {
@@ -159,6 +136,13 @@ void pl_pair_lost(plumb_world *world, const pl_pair *pair)
         append_end(world, end_of(world, pair, epoch));
     }
 }
+
+static bool reserve_losses(plumb_world *world, uint32_t count)
+{
+    return reserve_ends(world, count) && pl_parts_reserve(world, count);
+}
+
+const pl_pair_listener pl_end_listener = { .reserve = reserve_losses, .lost = lose_pair };
 
 real pl_approach_speed(const plumb_world *world, const pl_manifold *m)
 {
@@ -203,7 +187,7 @@ bool pl_events_prepare(plumb_world *world)
                            begins * sizeof(plumb_contact_begin)) ||
         !pl_buffer_reserve(&world->memory, &world->changed_pairs,
                            ((size_t)world->broad.pairs.count + 1) * sizeof(uint32_t)) ||
-        !pl_events_reserve_ends(world, world->broad.pairs.count + world->parts.count) ||
+        !reserve_ends(world, world->broad.pairs.count + world->parts.count) ||
         !pl_parts_reserve(world, world->broad.pairs.count)) {
         return false;
     }
@@ -253,7 +237,8 @@ static void append_begin(plumb_world *world, const pl_pair *pair)
 
 static bool is_gone(const plumb_world *world, const plumb_contact_end *end)
 {
-    return !plumb_shape_valid(world, end->shape_a) || !plumb_shape_valid(world, end->shape_b);
+    return pl_shape_piece(world, end->shape_a) == PL_NONE ||
+           pl_shape_piece(world, end->shape_b) == PL_NONE;
 }
 
 // What has ended of the parts [first, last): told once of those whose shapes are gone, whose slots

@@ -120,15 +120,6 @@ static bool list_rest_candidates(plumb_world *world)
     return true;
 }
 
-void pl_sensing_note_rest(plumb_world *world)
-{
-    pl_sensing *s = &world->sensing;
-    if (!s->rest_stale && (world->sensor_pieces > 0 || s->rest_count > 0)) {
-        s->rest_stale = true;
-        world->schedule_dirty = true;
-    }
-}
-
 bool pl_sensing_prepare(plumb_world *world)
 {
     pl_sensing *s = &world->sensing;
@@ -342,7 +333,8 @@ int plumb_shape_overlaps(const plumb_world *world, plumb_shape sensor, plumb_sha
          at != NULL && (uint32_t)(at->key >> 32) == sensor.entity.index;
          advance(&all), at = peek(&all)) {
         // Since the step, either may have been destroyed.
-        if (!plumb_same(at->who.sensor, sensor) || !plumb_shape_valid(world, at->who.shape)) {
+        if (!plumb_same(at->who.sensor, sensor) ||
+            pl_shape_piece(world, at->who.shape) == PL_NONE) {
             continue;
         }
         if (count < capacity) {

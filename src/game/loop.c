@@ -7,7 +7,7 @@
 #include "plumb/loop.h"
 
 #include "plumb/math.h"
-#include "step/observer.h"
+#include "world/observer.h"
 #include "world/check.h"
 #include "world/state.h"
 

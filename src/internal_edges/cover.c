@@ -3,20 +3,17 @@
 // Reads: the piece, pieces around it, poses. Writes: its internal edge columns, corners and intervals. Order: part
 // of an update. Cost: O(neighbours x corners x corners of theirs), about 19,000 instructions for a
 // square tile among eight others.
+#include "world/joint_list.h"
+#include "world/stale_edges.h"
 #include "internal_edges/cover.h"
 #include "broad/images.h"
 #include "internal_edges/neighbour.h"
-#include "internal_edges/interval.h"
+#include "world/interval.h"
 #include "world/state.h"
 
 #include <string.h>
 
 #include <math.h>
-
-bool pl_piece_is_static(const plumb_world *world, uint32_t piece)
-{
-    return world->bodies.type[world->pieces.body[piece]] == PLUMB_STATIC;
-}
 
 //---- who is a neighbour --------------------------------------------------------------------------
 

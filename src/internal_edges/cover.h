@@ -9,7 +9,4 @@
 // has no internal edges.
 bool pl_internal_edges_find(plumb_world *world, uint32_t piece);
 
-// Takes the internal edges of a piece away.
-void pl_internal_edges_clear(plumb_world *world, uint32_t piece);
-
 #endif

@@ -2,7 +2,7 @@
 //
 // Reads: pieces, internal edges. Cost: O(corners), O(log stretches) where an edge is covered in part.
 #include "internal_edges/side.h"
-#include "internal_edges/interval.h"
+#include "world/interval.h"
 #include "world/state.h"
 
 pl_side pl_side_of(const plumb_world *world, uint32_t piece)

@@ -4,6 +4,7 @@
 // The reaction is the sum of J^T impulse on B over the last substep; its torque about B's anchor is
 // what the arm does not explain. What breaks or strains a joint is that of the whole step: its mean, or its sum.
 // Reads: impulses, bodies. Writes: reactions, break events; removes what broke. Cost: O(joints).
+#include "world/destroy.h"
 #include "joints/joint.h"
 #include "plumb/math.h"
 #include "world/state.h"
@@ -131,7 +132,7 @@ static plumb_joint_break event_of(const plumb_world *world, const pl_joint *j, r
                                 .kind = j->desc.kind,
                                 .body_a = j->a.body,
                                 .body_b = j->b.body,
-                                .point = plumb_joint_anchor_b(world, j->entity),
+                                .point = pl_joint_anchor(world, &j->b),
                                 .force = plumb_v2(pl_held((double)j->step_impulse.x / (double)dt),
                                                   pl_held((double)j->step_impulse.y / (double)dt)),
                                 .torque = pl_held((double)j->step_turn / (double)dt),

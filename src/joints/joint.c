@@ -1,8 +1,8 @@
-// joint.c - joints are made, checked, destroyed, and found.
+// joint.c - where the bodies of joints are: poses from A's centre, full turns; who is awake.
 //
-// Joints lie in slots that stay for their life; each body has a list of its joints through them, so
-// that neither rows that move nor other joints that go concern a joint. Reads: descriptor, bodies.
-// Writes: joint slots, body lists. Cost: O(1); destruction O(joints of the two bodies).
+// Reads: bodies, joints. Writes: poses and turns of joints, the list of those that are awake. Cost: O(1) a joint.
+#include "world/destroy.h"
+#include "world/joint_list.h"
 #include "joints/joint.h"
 
 #include "plumb/math.h"
@@ -18,60 +18,14 @@
 //---- lookup
 //---------------------------------------------------------------------------------------
 
-uint32_t pl_joint_slot(const plumb_world *world, plumb_joint joint)
-{
-    if (world == NULL) {
-        return PL_NONE;
-    }
-    const pl_slot *slot = pl_registry_find(&world->registry, joint.entity);
-    return slot != NULL && slot->kind == PLUMB_KIND_JOINT ? slot->row : PL_NONE;
-}
-
-uint32_t pl_joint_next(const pl_joint *joint, plumb_body body)
-{
-    return plumb_same(joint->a.body, body) ? joint->a.next : joint->b.next;
-}
-
-bool pl_joints_forbid(const plumb_world *world, uint32_t row, uint32_t other)
-{
-    const pl_joint *items = pl_joint_items(&world->joints);
-    plumb_body body = world->bodies.entity[row], partner = world->bodies.entity[other];
-    for (uint32_t i = world->bodies.first_joint[row]; i != PL_NONE;
-         i = pl_joint_next(&items[i], body)) {
-        if (!items[i].desc.collide_connected && !items[i].desc.disabled &&
-            (plumb_same(items[i].a.body, partner) || plumb_same(items[i].b.body, partner))) {
-            return true;
-        }
-    }
-    return false;
-}
-
-bool pl_joints_part(const plumb_world *world, uint32_t row)
-{
-    const pl_joint *items = pl_joint_items(&world->joints);
-    plumb_body body = world->bodies.entity[row];
-    for (uint32_t i = world->bodies.first_joint[row]; i != PL_NONE;
-         i = pl_joint_next(&items[i], body)) {
-        if (!items[i].desc.collide_connected && !plumb_is_null(items[i].a.body) &&
-            !plumb_is_null(items[i].b.body)) {
-            return true;
-        }
-    }
-    return false;
-}
-
 //---- sleep
 //----------------------------------------------------------------------------------------
 
-static uint32_t row_of(const plumb_world *world, const pl_joint_end *end)
-{
-    return plumb_is_null(end->body) ? PL_NONE : pl_body_row(world, end->body);
-}
-
 static bool is_awake(const plumb_world *world, const pl_joint *joint)
 {
-    return !plumb_is_null(joint->entity) && !pl_row_is_asleep(world, row_of(world, &joint->a)) &&
-           !pl_row_is_asleep(world, row_of(world, &joint->b));
+    return !plumb_is_null(joint->entity) &&
+           !pl_row_is_asleep(world, pl_joint_row(world, &joint->a)) &&
+           !pl_row_is_asleep(world, pl_joint_row(world, &joint->b));
 }
 
 bool pl_joints_any_awake(const plumb_world *world)
@@ -100,22 +54,6 @@ uint32_t pl_joints_awake(plumb_world *world)
         }
     }
     return joints->awake_count;
-}
-
-// A joint made awake between a body that is and one that sleeps wakes it, even a furnished one.
-void pl_joint_disturb(plumb_world *world, const pl_joint *joint)
-{
-    uint32_t a = row_of(world, &joint->a), b = row_of(world, &joint->b);
-    bool mixed =
-        a != PL_NONE && b != PL_NONE && (a < world->dynamic_count) != (b < world->dynamic_count);
-    const uint32_t rows[2] = { a, b };
-    for (int i = 0; i < 2; ++i) {
-        if (rows[i] != PL_NONE && mixed && pl_row_is_asleep(world, rows[i])) {
-            pl_sleep_stir(world, rows[i]);
-        } else if (rows[i] != PL_NONE) {
-            pl_sleep_disturb(world, rows[i]);
-        }
-    }
 }
 
 //---- poses
@@ -299,261 +237,7 @@ void pl_joint_start_bare(const plumb_world *world, pl_joint_lane *lane, pl_joint
 
 void pl_joint_begin(const plumb_world *world, pl_joint *joint)
 {
-    pl_joint_place(world, joint, row_of(world, &joint->a), row_of(world, &joint->b));
-}
-
-//---- checks
-//---------------------------------------------------------------------------------------
-
-static plumb_result check_ends(const plumb_world *world, const char *fn, const plumb_joint_desc *d)
-{
-    const struct {
-        const char *name;
-        plumb_body body;
-    } ends[] = { { "body_a", d->body_a }, { "body_b", d->body_b } };
-    for (int i = 0; i < 2; ++i) {
-        if (!plumb_is_null(ends[i].body) && pl_body_row(world, ends[i].body) == PL_NONE) {
-            return pl_fail_handle(world, fn, ends[i].name, ends[i].body.entity,
-                                  "a live body or null");
-        }
-    }
-    if (plumb_same(d->body_a, d->body_b)) {
-        return pl_fail(world, PLUMB_E_HANDLE, fn, "body_b is %s; it must be another",
-                       plumb_is_null(d->body_b) ? "null as body_a is" : "body_a");
-    }
-    return PLUMB_OK;
-}
-
-static plumb_result check_numbers(const plumb_world *world, const char *fn,
-                                  const plumb_joint_desc *d)
-{
-    plumb_result r = pl_check_desc(world, fn, "", PLUMB_TABLE_JOINT, d);
-    return r != PLUMB_OK ? r
-                         : pl_check_range(world, fn, "upper", d->upper, d->lower, PLUMB_REAL_MAX);
-}
-
-static bool is_set(plumb_vec2 v)
-{
-    return v.x != 0 || v.y != 0;
-}
-
-// What a kind does not have would be left out in silence: it is refused.
-static plumb_result check_members(const plumb_world *world, const char *fn,
-                                  const plumb_joint_desc *d)
-{
-    const pl_joint_class *kind = pl_joint_classes[d->kind];
-    const struct {
-        const char *name;
-        bool used;
-        unsigned needs;
-    } members[] = {
-        { "anchor_b", is_set(d->anchor_b), PL_JOINT_TWO_ANCHORS },
-        { "ground_a", is_set(d->ground_a), PL_JOINT_GROUNDS },
-        { "ground_b", is_set(d->ground_b), PL_JOINT_GROUNDS },
-        { "axis", is_set(d->axis), PL_JOINT_AXIS },
-        { "enable_limit", d->enable_limit, PL_JOINT_LIMIT },
-        { "lower", d->lower != 0, PL_JOINT_LIMIT },
-        { "upper", d->upper != 0, PL_JOINT_LIMIT },
-        { "enable_motor", d->enable_motor, PL_JOINT_MOTOR },
-        { "motor_speed", d->motor_speed != 0, PL_JOINT_MOTOR },
-        { "max_motor", d->max_motor != 0, PL_JOINT_MOTOR },
-        { "hertz", d->hertz != 0, PL_JOINT_SPRING },
-        { "damping", d->damping != 0, PL_JOINT_SPRING },
-        { "rest", d->rest != 0, PL_JOINT_REST },
-        { "length", d->length != 0, PL_JOINT_LENGTH },
-        { "ratio", d->ratio != 0, PL_JOINT_RATIO },
-        { "pitch", d->pitch != 0, PL_JOINT_PITCH },
-        { "max_force", d->max_force != 0, PL_JOINT_FORCE },
-        { "max_torque", d->max_torque != 0, PL_JOINT_TORQUE },
-    };
-    for (size_t i = 0; i < sizeof members / sizeof members[0]; ++i) {
-        if (members[i].used && (kind->has & members[i].needs) == 0) {
-            return pl_fail(world, PLUMB_E_RANGE, fn, "%s is set; it must be 0 for a %s joint",
-                           members[i].name, kind->name);
-        }
-    }
-    return PLUMB_OK;
-}
-
-void pl_joint_warn_of_motor(const plumb_world *world, const char *fn, const plumb_joint_desc *d)
-{
-    if (d->enable_motor && d->max_motor == 0) {
-        pl_warn(world, "%s: max_motor is 0; the motor does nothing", fn);
-    }
-}
-
-// Members that do nothing as the others are: allowed, as they may be switched on later, but seldom meant.
-static void warn_of_idle(const plumb_world *world, const char *fn, const plumb_joint_desc *d)
-{
-    if (!d->enable_limit && (d->lower != 0 || d->upper != 0)) {
-        pl_warn(world, "%s: lower or upper is set without enable_limit; there is no limit", fn);
-    }
-    if (!d->enable_motor && (d->motor_speed != 0 || d->max_motor != 0)) {
-        pl_warn(world,
-                "%s: motor_speed or max_motor is set without enable_motor; there is no motor", fn);
-    }
-    pl_joint_warn_of_motor(world, fn, d);
-}
-
-// Checks a descriptor and resolves its defaults in place.
-static plumb_result check_desc(const plumb_world *world, const char *fn, plumb_joint_desc *d)
-{
-    if ((unsigned)d->kind >= (unsigned)pl_joint_class_count) {
-        return pl_fail(world, PLUMB_E_RANGE, fn, "kind is %d; it must be a plumb_joint_kind",
-                       (int)d->kind);
-    }
-    plumb_result r = check_ends(world, fn, d);
-    r = r != PLUMB_OK ? r : check_numbers(world, fn, d);
-    r = r != PLUMB_OK ? r : check_members(world, fn, d);
-    const pl_joint_class *kind = pl_joint_classes[d->kind];
-    return r == PLUMB_OK && kind->check != NULL ? kind->check(world, fn, d) : r;
-}
-
-//---- create, destroy
-//------------------------------------------------------------------------------
-
-static bool reserve(plumb_world *world)
-{
-    pl_joints *joints = &world->joints;
-    size_t slots = (size_t)joints->count + 1;
-    return pl_registry_reserve(&world->memory, &world->registry, 1) &&
-           pl_buffer_reserve(&world->memory, &joints->items, slots * sizeof(pl_joint)) &&
-           pl_buffer_reserve(&world->memory, &joints->awake, slots * sizeof(uint32_t)) &&
-           pl_buffer_reserve(&world->memory, &joints->broken, slots * sizeof(plumb_joint_break));
-}
-
-// Room must be reserved.
-static uint32_t take_slot(pl_joints *joints)
-{
-    uint32_t slot = joints->free_head;
-    if (slot == PL_NONE) {
-        return joints->count++;
-    }
-    joints->free_head = pl_joint_items(joints)[slot].a.next;
-    return slot;
-}
-
-static void attach(plumb_world *world, uint32_t slot, pl_joint_end *end, plumb_body body,
-                   plumb_vec2 anchor)
-{
-    end->body = body; // of a joint that is all 0
-    end->local = anchor;
-    end->next = PL_NONE;
-    if (plumb_is_null(body)) {
-        return;
-    }
-    uint32_t row = pl_body_row(world, body);
-    end->local = plumb_body_local_point(world, body, anchor);
-    end->start = (double)plumb_body_angle(world, body);
-    end->eighth = pl_joint_eighth(world, row);
-    end->next = world->bodies.first_joint[row];
-    world->bodies.first_joint[row] = slot;
-}
-
-// Pairs of the two bodies come or go with the joint.
-static void revise_pairs(plumb_world *world, const pl_joint *joint)
-{
-    if (!joint->desc.collide_connected && !plumb_is_null(joint->a.body) &&
-        !plumb_is_null(joint->b.body)) {
-        pl_rearranged(world);
-        pl_internal_edges_touch_static(world, pl_body_row(world, joint->a.body));
-        pl_internal_edges_touch_static(world, pl_body_row(world, joint->b.body));
-    }
-    world->joints.awake_stale = true;
-    world->schedule_dirty = true;
-    pl_joints_replan(&world->joints);
-}
-
-void pl_joint_copy_desc(plumb_joint_desc *to, const plumb_joint_desc *from)
-{
-    PL_JOINT_DESC(PL_COPY_MEMBER)
-}
-
-static plumb_joint insert(plumb_world *world, const plumb_joint_desc *d)
-{
-    const plumb_joint none = PLUMB_NULL_INIT;
-    uint32_t slot = take_slot(&world->joints);
-    pl_joint *j = &pl_joint_items(&world->joints)[slot];
-    bool two = (pl_joint_classes[d->kind]->has & PL_JOINT_TWO_ANCHORS) != 0;
-    memset(j, 0, sizeof *j); // padding, too: it is saved
-    pl_joint_copy_desc(&j->desc, d);
-    attach(world, slot, &j->a, d->body_a, d->anchor);
-    attach(world, slot, &j->b, d->body_b, two ? d->anchor_b : d->anchor);
-    j->axis =
-        plumb_is_null(d->body_a) ? d->axis : plumb_body_local_vector(world, d->body_a, d->axis);
-    j->entity.entity = pl_entity_claim(world, none.entity, PLUMB_KIND_JOINT, slot);
-    pl_joint_begin(world, j);
-    if (pl_joint_classes[d->kind]->keep != NULL) {
-        j->sum = pl_joint_classes[d->kind]->keep(j, &j->pose_a, &j->pose_b);
-    }
-    ++world->joints.live;
-    pl_joint_disturb(world, j);
-    world->joints.watched += pl_joint_is_watched(d);
-    revise_pairs(world, j);
-    return j->entity;
-}
-
-plumb_joint plumb_joint_create(plumb_world *world, const plumb_joint_desc *desc)
-{
-    plumb_joint joint = PLUMB_NULL_INIT;
-    if (world == NULL || pl_check_unlocked(world, __func__) != PLUMB_OK ||
-        pl_check_pointer(world, __func__, "desc", desc) != PLUMB_OK) {
-        return joint;
-    }
-    plumb_joint_desc resolved = *desc;
-    if (check_desc(world, __func__, &resolved) != PLUMB_OK) {
-        return joint;
-    }
-    if (!reserve(world)) {
-        pl_fail_memory(world, __func__);
-        return joint;
-    }
-    warn_of_idle(world, __func__, desc);
-    return insert(world, &resolved);
-}
-
-static void detach(plumb_world *world, uint32_t slot, const pl_joint_end *end)
-{
-    if (plumb_is_null(end->body)) {
-        return;
-    }
-    pl_joint *items = pl_joint_items(&world->joints);
-    uint32_t *link = &world->bodies.first_joint[pl_body_row(world, end->body)];
-    while (*link != slot) {
-        pl_joint *j = &items[*link];
-        link = plumb_same(j->a.body, end->body) ? &j->a.next : &j->b.next;
-    }
-    *link = end->next;
-}
-
-void pl_joint_remove(plumb_world *world, uint32_t slot)
-{
-    pl_joint *j = &pl_joint_items(&world->joints)[slot];
-    detach(world, slot, &j->a);
-    detach(world, slot, &j->b);
-    pl_joint_disturb(world, j);
-    revise_pairs(world, j);
-    pl_registry_release(&world->registry, j->entity.entity);
-    world->joints.watched -= pl_joint_is_watched(&j->desc);
-    memset(j, 0, sizeof *j);
-    j->a.next = world->joints.free_head;
-    world->joints.free_head = slot;
-    --world->joints.live;
-}
-
-plumb_result plumb_joint_destroy(plumb_world *world, plumb_joint joint)
-{
-    if (world == NULL) {
-        return PLUMB_E_NULL;
-    }
-    if (pl_joint_slot(world, joint) == PL_NONE) {
-        return pl_fail_handle(world, __func__, "joint", joint.entity, "a live joint");
-    }
-    plumb_result r = pl_check_unlocked(world, __func__);
-    if (r == PLUMB_OK) {
-        pl_destroy_entity(world, joint.entity);
-    }
-    return r;
+    pl_joint_place(world, joint, pl_joint_row(world, &joint->a), pl_joint_row(world, &joint->b));
 }
 
 void pl_joints_free(pl_memory *memory, pl_joints *joints)
@@ -562,4 +246,15 @@ void pl_joints_free(pl_memory *memory, pl_joints *joints)
     pl_buffer_free(memory, &joints->broken);
     pl_buffer_free(memory, &joints->awake);
     pl_joints_plan_free(memory, &joints->plan);
+}
+
+plumb_vec2 pl_joint_anchor(const plumb_world *world, const pl_joint_end *end)
+{
+    const uint32_t row = pl_joint_row(world, end);
+    if (row == PL_NONE) {
+        return end->local;
+    }
+    const pl_bodies *b = &world->bodies;
+    const plumb_transform at = { plumb_v2(b->x[row], b->y[row]), { b->c[row], b->s[row] } };
+    return plumb_transform_apply(at, end->local);
 }

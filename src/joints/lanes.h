@@ -13,9 +13,9 @@
 #ifndef PL_JOINT_LANES_H
 #define PL_JOINT_LANES_H
 
+#include "solver/solver.h"
 #include "core/wide.h"
 #include "joints/joint.h"
-#include "solver/solver.h"
 
 typedef struct row {
     vf nx, ny, wa, wb; // J

@@ -5,6 +5,7 @@
 // impulse and effective mass alike. Reactions are told from rows that still have them (finish.c).
 //
 // Reads: flags of bodies. Writes: rows. Cost: O(rows), in worlds that have a locked body.
+#include "world/body_settings.h"
 #include "joints/joint.h"
 #include "world/state.h"
 

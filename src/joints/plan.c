@@ -8,6 +8,7 @@
 // an island's joints do not depend on other islands: nor does anything on which are solved together.
 //
 // Reads: joints, slots of bodies. Writes: marks, ends, order. Cost: O(joints).
+#include "world/joint_list.h"
 #include "core/sort.h"
 #include "joints/joint.h"
 #include "world/state.h"

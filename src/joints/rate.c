@@ -1,6 +1,8 @@
 // rate.c - how fast a joint's coordinate changes: J v, with the slope of the coordinate as J.
 //
 // Reads: one joint, poses and velocities of its bodies. Writes: nothing. Cost: O(1).
+#include "world/body_settings.h"
+#include "world/joint_list.h"
 #include "joints/joint.h"
 #include "joints/parts.h"
 #include "world/check.h"

@@ -7,55 +7,11 @@
 #ifndef PL_ROWS_OF_JOINTS_H
 #define PL_ROWS_OF_JOINTS_H
 
-#include "plumb/types.h"
-#include "world/columns.h"
+#include "world/tables/joint.h"
 
-#define PL_JOINT_ROWS 6
 #define PL_PIVOT                                                                                   \
     ((near_real)1e-6)             // [-] of the diagonal: a smaller pivot is no direction of its own
 #define PL_UNBOUNDED ((real)1e30) // [N] or [N m]
-
-// Where a body is, as rows see it.
-typedef struct pl_joint_pose {
-    real x, y;    // [m] centre, from A's centre at the start of the step
-    double angle; // [rad] turned since the joint was made, full turns included
-    real c, s;    // rotation
-    real rx, ry;  // [m] centre to anchor, in world axes
-} pl_joint_pose;
-
-typedef enum pl_row_type {
-    PL_ROW_OFF,   // not in force
-    PL_ROW_EQUAL, // C = 0; with hertz > 0 a spring
-    PL_ROW_LEAST, // C >= 0
-    PL_ROW_DRIVE  // J v = speed; C is the coordinate driven
-} pl_row_type;
-
-// How a row follows from where the bodies are: what the wide kernels (joint.simd.c) go by.
-typedef enum pl_row_form {
-    PL_FORM_OWN,     // only its kind knows
-    PL_FORM_POINT_X, // pl_rows_point, always both
-    PL_FORM_POINT_Y,
-    PL_FORM_ALONG, // pl_row_along_axis, the axis turning with A
-    PL_FORM_ANGLE, // pl_row_angle
-    PL_FORM_LENGTH // pl_row_length
-} pl_row_form;
-
-typedef struct pl_row {
-    real ax, ay, aw, bx, by, bw; // J
-    real error;                  // C
-    real speed;                  // [m/s] or [rad/s] of DRIVE
-    real hertz, damping;         // of the spring
-    real most;                   // [N] or [N m] largest force either way
-    pl_row_type type;
-    pl_row_form form;
-} pl_row;
-
-typedef struct pl_rows {
-    int count;       // rows; the same for all life of a joint
-    int block;       // so many of the first are solved as one system; 0: none. All are of one type
-    real block_most; // [N] bound of the block's force as a vector (two rows)
-    pl_row row[PL_JOINT_ROWS];
-} pl_rows;
 
 // d = anchor of B - anchor of A.
 static inline plumb_vec2 pl_joint_apart(const pl_joint_pose *a, const pl_joint_pose *b)

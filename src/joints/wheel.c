@@ -1,10 +1,11 @@
 // wheel.c - B's anchor stays on a line through A's anchor that turns with A, sprung along it, and B
 // turns freely or by the motor. Value: travel along the line [m].
+#include "world/state.h"
 #include "joints/parts.h"
 
 static plumb_result check(const plumb_world *world, const char *fn, plumb_joint_desc *desc)
 {
-    return pl_joint_check_axis(world, fn, desc, plumb_world_up(world));
+    return pl_joint_check_axis(world, fn, desc, pl_world_up(world));
 }
 
 static void rows(const pl_joint *j, const pl_joint_pose *a, const pl_joint_pose *b, pl_rows *out)

@@ -14,25 +14,6 @@
 typedef struct pl_joint pl_joint;
 typedef plumb_substep_body pl_solver_body;
 
-#define PL_JOINT_PATTERNS 32 // joints of further patterns are solved one by one
-
-typedef struct pl_pattern_row {
-    uint8_t index; // in pl_joint.impulse
-    uint8_t form;  // pl_row_form
-    uint8_t type;  // pl_row_type
-    bool spring;
-} pl_pattern_row;
-
-typedef struct pl_joint_pattern {
-    uint32_t variant;     // what joints of the pattern have in common: see plan.c
-    uint32_t rows_of_all; // rows of the joint, those that are off included
-    uint8_t count;        // rows in force
-    uint8_t block;        // so many of the first are solved as one system
-    bool bare;            // nothing but the point of a rigid hinge
-    bool tempered;        // the block is a spring, or of bounded force
-    pl_pattern_row row[PL_JOINT_ROWS];
-} pl_joint_pattern;
-
 // Factors of J v, C and the impulse so far: see solve.c.
 typedef struct pl_joint_soft {
     real velocity, error, impulse;

@@ -2,7 +2,7 @@
 #ifndef PL_NARROW_H
 #define PL_NARROW_H
 
-#include "narrow/manifold.h"
+#include "world/tables/manifold.h"
 
 // Everything a batch of equal pairs needs; plain arrays, no world.
 typedef struct pl_narrow_input {
@@ -55,5 +55,10 @@ pl_narrow_kernel *pl_narrow_kernel_for(const plumb_world *world, int a, int b);
 // Takes the manifolds that are `disabled` out of the world's list; their pairs forget their impulses and
 // get a flag (0: none).
 void pl_narrow_take_out_disabled(plumb_world *world, uint32_t flag);
+
+// Keeps the room, nothing else.
+void pl_narrow_clear(pl_narrow *narrow);
+void pl_narrow_free(pl_memory *memory, pl_narrow *narrow);
+void pl_ahead_free(pl_memory *memory, pl_lookahead *ahead);
 
 #endif

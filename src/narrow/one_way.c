@@ -21,6 +21,7 @@
 // Reads: manifolds, pieces, rotations. Writes: manifolds, the pairs' flags. Order: after the kernels,
 // before internal edges, which see only what holds. Cost: O(pairs) in worlds that have one-way shapes, nothing in others.
 // Running it twice on the same manifolds changes nothing the second time (a step may be refused).
+#include "world/filter.h"
 #include "narrow/one_way.h"
 
 #include "narrow/narrow.h"
@@ -30,21 +31,9 @@
 
 #define STATES (PL_PAIR_HELD | PL_PAIR_PASSING | PL_PAIR_DROPPING)
 
-// [m] a body that is found this deep in a platform, but on the side that holds, was put there.
-#define FOUND_HELD PL_SPECULATIVE
-
 static bool is_one_way(const plumb_world *world, uint32_t piece)
 {
     return (world->pieces.flags[piece] & PL_PIECE_ONE_WAY) != 0;
-}
-
-bool pl_one_way_blocks(const plumb_world *world, uint32_t piece, plumb_vec2 out, real separation)
-{
-    const pl_pieces *p = &world->pieces;
-    const pl_pose *pose = &pl_poses(world)[p->body[piece]];
-    plumb_vec2 d = plumb_rot_apply((plumb_rot){ pose->c, pose->s },
-                                   plumb_v2(p->one_way_x[piece], p->one_way_y[piece]));
-    return separation >= -FOUND_HELD && plumb_vec2_dot(out, d) >= p->one_way_cos[piece];
 }
 
 bool pl_one_way_wanted(const plumb_world *world, const char **reason)
@@ -107,7 +96,7 @@ static bool is_on_top(const plumb_world *world, uint32_t piece, uint32_t other)
             continue;
         }
         if (reach_against(world, other, n, piece, at) - (double)convex.radius >=
-            -(double)FOUND_HELD) {
+            -(double)PL_ONE_WAY_FOUND) {
             return true;
         }
     }
@@ -142,7 +131,7 @@ static uint32_t next_state(const plumb_world *world, const pl_pair *pair, const 
     case PL_PAIR_HELD:
         return first_state(world, pair, faces, true);
     default:
-        return first_state(world, pair, faces, separation >= -FOUND_HELD);
+        return first_state(world, pair, faces, separation >= -PL_ONE_WAY_FOUND);
     }
 }
 

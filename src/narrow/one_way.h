@@ -2,14 +2,7 @@
 #ifndef PL_ONE_WAY_H
 #define PL_ONE_WAY_H
 
-#include "broad/pair.h"
-
-// Whether a one-way piece holds what comes to it where its outward unit normal, in world axes, is
-// `out`, at a distance of `separation` [m] (negative: it overlaps already). Zero `out`: from inside.
-// The one rule that contacts, characters, queries and continuous collision share; what a pair has
-// been doing so far is in its flags, see pl_pair_passes.
-bool pl_one_way_blocks(const plumb_world *world, uint32_t piece, plumb_vec2 out,
-                       plumb_real separation);
+#include "world/tables/pair.h"
 
 // The pair is under way through a one-way piece: nothing may stop it until it is out.
 static inline bool pl_pair_passes(const pl_pair *pair)

@@ -2,7 +2,7 @@
 #ifndef PL_SURFACE_H
 #define PL_SURFACE_H
 
-#include "narrow/manifold.h"
+#include "world/tables/manifold.h"
 
 // Some material in use asks for more than the default mix; *reason says so or not.
 bool pl_surfaces_wanted(const plumb_world *world, const char **reason);

@@ -2,6 +2,7 @@
 #ifndef PL_QUERY_H
 #define PL_QUERY_H
 
+#include "broad/grid.h"
 #include "plumb/math.h"
 #include "world/wrap.h"
 

@@ -5,7 +5,7 @@
 // nothing has to be told to the recorder, and nothing can be forgotten. A step that is refused leaves the
 // kept image as it is: what it did, or systems in it, is in the edits of the next one.
 //
-// Reads: the world. Writes: the stream. Order: between the passes, see step/observer.h. Cost: a step one
+// Reads: the world. Writes: the stream. Order: between the passes, see world/observer.h. Cost: a step one
 // comparison, one copy, one hash of the state (O(state)); the same for each phase with systems; where
 // something was edited, what differs is coded. No allocation once all has been as large before.
 #include "plumb/record.h"
@@ -13,7 +13,7 @@
 
 #include "record/format.h"
 #include "step/place.h"
-#include "step/observer.h"
+#include "world/observer.h"
 #include "world/check.h"
 
 #include <stdio.h>

@@ -6,7 +6,7 @@
 #include "plumb/snapshot.h"
 
 #include "record/index.h"
-#include "step/observer.h"
+#include "world/observer.h"
 
 typedef struct pl_played_image {
     pl_buffer buffer;

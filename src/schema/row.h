@@ -16,7 +16,7 @@
 //   zero     ZERO(member), the bool that says that 0 is meant; NO_ZERO
 //   text     one sentence
 //
-// What needs more than this is a function: of a check (world/material.c), of a setter.
+// What needs more than this is a function: of a check (api/material.c), of a setter.
 #ifndef PL_SCHEMA_ROW_H
 #define PL_SCHEMA_ROW_H
 

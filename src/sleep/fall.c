@@ -17,6 +17,12 @@
 // pairs, joints. Writes: times of rest; islands, rows, pairs, manifolds, sleep events. Order: after
 // the narrow phase, before anything has moved. Cost: a dozen instructions an awake body and step;
 // O(pairs + joints) when islands are looked for.
+#include "world/push.h"
+#include "world/marks.h"
+#include "world/island.h"
+#include "joints/joint.h"
+#include "internal_edges/internal_edges.h"
+#include "sleep/sleep.h"
 #include "core/quad.h"
 #include "narrow/surface.h"
 #include "world/check.h"

@@ -15,6 +15,11 @@
 // before the broad phase, whose refreshing of boxes it does. Cost: O(1) when nothing moves;
 // O(moving pieces) when a box was left; O(what wakes), and one pass over the pair list, in steps in
 // which something does.
+#include "world/push.h"
+#include "world/joint_list.h"
+#include "world/island.h"
+#include "world/marks.h"
+#include "sleep/sleep.h"
 #include "broad/images.h"
 #include "broad/pairs.h"
 #include "core/sort.h"
@@ -468,4 +473,27 @@ bool pl_sleep_wake(plumb_world *world, real dt)
         s->near_stale = true; // what was marked is not in it
     }
     return done;
+}
+
+void pl_sleep_free(pl_memory *memory, pl_sleep *s)
+{
+    pl_buffer *buffers[] = { &s->islands,     &s->contacts, &s->resting, &s->near.items,
+                             &s->probe.items, &s->found,    &s->marked,  &s->woken,
+                             &s->parents,     &s->held,     &s->places,  &s->sleep_events,
+                             &s->wake_events };
+    for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; ++i) {
+        pl_buffer_free(memory, buffers[i]);
+    }
+    pl_narrow_free(memory, &s->touched);
+    *s = (pl_sleep){ 0 };
+}
+
+// A step that ran out of memory may have woken bodies: they are still to be told.
+void pl_sleep_events_clear(plumb_world *world)
+{
+    pl_sleep *s = &world->sleep;
+    if (s->events_told) {
+        s->sleep_event_count = s->wake_event_count = 0;
+        s->events_told = false;
+    }
 }

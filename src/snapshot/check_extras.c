@@ -5,7 +5,6 @@
 #include "world/check.h"
 #include "broad/pairs.h"
 #include "internal_edges/cone.h"
-#include "internal_edges/internal_edges.h"
 #include "world/rows.h"
 
 #include <string.h>

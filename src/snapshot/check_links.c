@@ -2,6 +2,8 @@
 // what few bodies have.
 //
 // Reads: the image. Writes: marks. Cost: O(state), each list walked once.
+#include "joints/joint.h"
+#include "world/joint_list.h"
 #include "snapshot/check.h"
 #include "world/check.h"
 #include "broad/pairs.h"

@@ -12,6 +12,7 @@
 //
 // Reads: ends of manifolds and joints, marks of rows. Writes: islands, their homes, labels of rows. Cost:
 // two reads a contact or joint, one a body; O(bodies + contacts + joints) when islands are looked for.
+#include "joints/joint.h"
 #include "world/state.h"
 
 #include <string.h>

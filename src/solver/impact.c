@@ -8,6 +8,7 @@
 //
 // Reads, writes: solver bodies. Order: after velocities are integrated, before contacts are solved.
 // Cost: O(elastic contacts) a substep, and O(log) for each impact and each contact of the bodies struck.
+#include "world/body_settings.h"
 #include "solver/bounce.h"
 #include "solver/impact_queue.h"
 #include "world/state.h"

@@ -7,6 +7,8 @@
 // stack's height: 0.93 N^2 for N equal boxes.
 //
 // Reads, writes: solver bodies, impulses of pairs. Cost: (iterations + 5) sweeps a substep.
+#include "joints/joint.h"
+#include "world/body_settings.h"
 #include "solver/substep.h"
 #include "world/state.h"
 

@@ -4,7 +4,7 @@
 #define PL_SOLVER_H
 
 #include "core/tasks.h"
-#include "narrow/manifold.h"
+#include "world/tables/manifold.h"
 #include "plumb/ecs.h"
 
 // A body that is in a contact, as the kernels gather it: one row of eight reals.

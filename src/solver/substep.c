@@ -5,6 +5,7 @@
 // row where somebody asked for times; what threads take is added up a thread, in places of its own.
 //
 // Reads, writes: what the rows do. Order: after the graph. Cost: the rows', and 5 ns a row, cluster and substep.
+#include "joints/joint.h"
 #include "solver/substep.h"
 
 #include "core/clock.h"

@@ -4,6 +4,11 @@
 // check of what is written (check.c) and `plumb explain`. A row that nothing in the world wants is not in the schedule
 // and costs nothing. Systems of the user stand between these rows (schedule.c). A pass that changes the world's motion
 // comes after the last one that can run out of memory, so a refused step changes nothing.
+#include "world/push.h"
+#include "joints/joint.h"
+#include "character/character.h"
+#include "internal_edges/internal_edges.h"
+#include "sleep/sleep.h"
 #include "continuous/continuous.h"
 #include "event/event.h"
 #include "narrow/ahead.h"
@@ -60,7 +65,7 @@ static plumb_result run_arrive(plumb_world *world, plumb_real dt)
 
 static plumb_result run_broad(plumb_world *world, plumb_real dt)
 {
-    return pl_broad_update(world, dt) ? PLUMB_OK : PLUMB_E_MEMORY;
+    return pl_broad_update(world, dt, &pl_end_listener) ? PLUMB_OK : PLUMB_E_MEMORY;
 }
 
 static plumb_result run_narrow(plumb_world *world, plumb_real dt)

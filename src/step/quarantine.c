@@ -14,6 +14,7 @@
 //
 // Reads: velocities, forces, solver bodies. Writes: rows of those taken out, events. Cost: a third of an
 // instruction a number.
+#include "joints/joint.h"
 #include "step/quarantine.h"
 
 #include "core/quad.h"

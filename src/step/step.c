@@ -1,10 +1,12 @@
 // step.c - drives the schedule: the step, row by row, and the user's systems between our rows.
 //
 // Reads, writes: what the rows do. The clock is read, and data is digested, only where somebody watches.
+#include "internal_edges/internal_edges.h"
+#include "character/character.h"
 #include "core/clock.h"
 #include "event/event.h"
 #include "step/place.h"
-#include "step/observer.h"
+#include "world/observer.h"
 #include "world/check.h"
 #include "world/state.h"
 

@@ -2,11 +2,12 @@
 //
 // Asked only when something structural changed (world->schedule_dirty). Reads: counters that structural changes keep
 // up. Writes: nothing. Cost: O(materials) a pass at most.
+#include "internal_edges/internal_edges.h"
+#include "joints/joint.h"
 #include "step/wanted.h"
 
 #include "character/character.h"
 #include "continuous/continuous.h"
-#include "event/event.h"
 #include "narrow/one_way.h"
 #include "narrow/surface.h"
 #include "step/acting.h"

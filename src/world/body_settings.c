@@ -1,165 +1,133 @@
-// body_settings.c - properties of bodies set and read: what follows from the rows of the schema, damping, speed caps and
-// time scale.
+// body_settings.c - records of damping, speed caps and time scale: kept dense, one for each body that asks.
 //
-// Reads: arguments, checked first. Writes: columns, the body's record (effects/body_settings.c). Cost: O(1).
-#include "effects/effects.h"
-#include "world/check.h"
-#include "world/rows.h"
+// The body's column `settings` names its record, the record names the body; when one goes, the last
+// one fills the gap. The order means nothing: a record concerns its body alone. Reads, writes: the
+// list, the body's column and flag. Cost: O(1).
+#include "world/body_settings.h"
+#include "world/state.h"
 
-static plumb_result check(const plumb_world *world, const char *fn, const char *field,
-                          const char *property, plumb_real value)
+static pl_body_settings *items(const plumb_world *world)
 {
-    return pl_check_property(world, fn, field, PLUMB_TABLE_BODY, property, value);
+    return (pl_body_settings *)world->settings.items.data;
 }
 
-// The body's record, to be changed and given back with `store`.
-static plumb_result open(plumb_world *world, const char *fn, uint32_t row, pl_body_settings *t)
+#define DEFAULT(name, initial) .name = initial,
+
+pl_body_settings pl_body_settings_get(const plumb_world *world, uint32_t row)
 {
-    if (!pl_body_settings_reserve(world)) {
-        return pl_fail_memory(world, fn);
-    }
-    *t = pl_body_settings_get(world, row);
-    return PLUMB_OK;
+    uint32_t at = world->bodies.settings[row];
+    return at != 0 ? items(world)[at - 1]
+                   : (pl_body_settings){ .body = world->bodies.entity[row],
+                                         PL_BODY_ROWS(PL_ROW_RECORD, DEFAULT) };
 }
 
-static plumb_result store(plumb_world *world, uint32_t row, const pl_body_settings *t)
+real pl_time_scale(const plumb_world *world, uint32_t row)
 {
-    pl_body_settings_set(world, row, t);
-    pl_sleep_disturb(world, row);
-    return PLUMB_OK;
+    uint32_t at = world->bodies.settings[row];
+    return at != 0 ? items(world)[at - 1].time_scale : 1;
 }
 
-plumb_result plumb_body_set_damping(plumb_world *world, plumb_body body, plumb_real linear,
-                                    plumb_real angular)
+bool pl_body_settings_reserve(plumb_world *world)
 {
-    uint32_t row;
-    pl_body_settings t;
-    plumb_result r = pl_check_body(world, __func__, body, &row);
-    r = r != PLUMB_OK ? r : check(world, __func__, "linear", "damping", linear);
-    r = r != PLUMB_OK ? r : check(world, __func__, "angular", "angular_damping", angular);
-    r = r != PLUMB_OK ? r : open(world, __func__, row, &t);
-    if (r != PLUMB_OK) {
-        return r;
-    }
-    t.damping = linear;
-    t.angular_damping = angular;
-    return store(world, row, &t);
+    return pl_buffer_reserve(&world->memory, &world->settings.items,
+                             ((size_t)world->settings.count + 1) * sizeof(pl_body_settings));
 }
 
-plumb_result plumb_body_set_speed_cap(plumb_world *world, plumb_body body, plumb_real max_speed,
-                                      plumb_real max_spin)
+static bool is_damped(const pl_body_settings *t)
 {
-    uint32_t row;
-    pl_body_settings t;
-    plumb_result r = pl_check_body(world, __func__, body, &row);
-    r = r != PLUMB_OK ? r : check(world, __func__, "max_speed", "max_speed", max_speed);
-    r = r != PLUMB_OK ? r : check(world, __func__, "max_spin", "max_spin", max_spin);
-    r = r != PLUMB_OK ? r : open(world, __func__, row, &t);
-    if (r != PLUMB_OK) {
-        return r;
-    }
-    t.max_speed = max_speed;
-    t.max_spin = max_spin;
-    return store(world, row, &t);
+    return t->damping > 0 || t->angular_damping > 0;
 }
 
-plumb_result plumb_body_set_time_scale(plumb_world *world, plumb_body body, plumb_real scale)
+static bool is_capped(const pl_body_settings *t)
 {
-    uint32_t row;
-    pl_body_settings t;
-    plumb_result r = pl_check_body(world, __func__, body, &row);
-    r = r != PLUMB_OK ? r : check(world, __func__, "scale", "time_scale", scale);
-    r = r != PLUMB_OK ? r : open(world, __func__, row, &t);
-    if (r != PLUMB_OK) {
-        return r;
-    }
-    t.time_scale = scale;
-    store(world, row, &t);
-    pl_target_reaim(world, row);
-    return PLUMB_OK;
+    return t->max_speed > 0 || t->max_spin > 0;
 }
 
-//---- columns ------------------------------------------------------------------------------------
-
-// plumb_body_set_<name>, plumb_body_<name> of each row of the schema that is a column.
-#define SETTER(X, store, kind, name, ...) SETTER_##store(PL_MEMBER_##kind, name)
-#define SETTER_COLUMN(type, name)                                                                  \
-    plumb_result plumb_body_set_##name(plumb_world *world, plumb_body body, type name)             \
-    {                                                                                              \
-        uint32_t row;                                                                              \
-        plumb_result r = pl_check_body(world, __func__, body, &row);                               \
-        r = r != PLUMB_OK                                                                          \
-                ? r                                                                                \
-                : pl_check_property(world, __func__, #name, PLUMB_TABLE_BODY, #name, (real)name);  \
-        if (r == PLUMB_OK && name != world->bodies.name[row]) {                                    \
-            pl_sleep_disturb(world, row);                                                          \
-        }                                                                                          \
-        if (r == PLUMB_OK) {                                                                       \
-            world->bodies.name[row] = name;                                                        \
-            world->schedule_dirty = true;                                                          \
-        }                                                                                          \
-        return r;                                                                                  \
-    }
-#define SETTER_RECORD(...)
-#define SETTER_OWN(...)
-PL_BODY_ROWS(SETTER, )
-
-#define GETTER(X, store, kind, name, ...) GETTER_##store(PL_MEMBER_##kind, name)
-#define GETTER_COLUMN(type, name)                                                                  \
-    type plumb_body_##name(const plumb_world *world, plumb_body body)                              \
-    {                                                                                              \
-        uint32_t row = pl_ask_body(world, __func__, body);                                         \
-        return row == PL_NONE ? (type)0 : (type)world->bodies.name[row];                           \
-    }
-#define GETTER_RECORD(...)
-#define GETTER_OWN(...)
-PL_BODY_ROWS(GETTER, )
-
-//---- read ----------------------------------------------------------------------------------------
-
-// Zeros for a bad handle.
-static pl_body_settings look(const plumb_world *world, const char *fn, plumb_body body)
+static void count(pl_body_settings_list *settings, const pl_body_settings *t, uint32_t by)
 {
-    uint32_t row = pl_ask_body(world, fn, body);
-    return row == PL_NONE ? (pl_body_settings){ .damping = 0 } : pl_body_settings_get(world, row);
+    settings->damped += is_damped(t) ? by : 0;
+    settings->capped += is_capped(t) ? by : 0;
+    settings->scaled += t->time_scale != 1 ? by : 0;
+    settings->frozen += t->time_scale == 0 ? by : 0;
 }
 
-#define RECORD_GETTER(name, initial)                                                               \
-    plumb_real plumb_body_##name(const plumb_world *world, plumb_body body)                        \
-    {                                                                                              \
-        return look(world, __func__, body).name;                                                   \
-    }
-PL_BODY_ROWS(PL_ROW_RECORD, RECORD_GETTER)
-
-plumb_result plumb_body_get(const plumb_world *world, plumb_body body, plumb_body_desc *desc)
+// Whether any of them is not the default.
+static bool is_any(const pl_body_settings *t)
 {
-    uint32_t row;
-    plumb_result r = pl_check_body(world, __func__, body, &row);
-    r = r != PLUMB_OK ? r : pl_check_pointer(world, __func__, "desc", desc);
-    if (r != PLUMB_OK) {
-        return r;
+#define IS_SET(name, initial) || t->name != (initial)
+    return false PL_BODY_ROWS(PL_ROW_RECORD, IS_SET);
+#undef IS_SET
+}
+
+static void take_away(plumb_world *world, uint32_t row)
+{
+    uint32_t at = world->bodies.settings[row];
+    if (at == 0) {
+        return;
     }
-    const pl_bodies *b = &world->bodies;
-    const pl_body_settings t = pl_body_settings_get(world, row);
-    const uint32_t flags = b->flags[row];
-    *desc = (plumb_body_desc){ .type = (plumb_body_type)b->type[row],
-                               .position = { b->x[row], b->y[row] },
-                               .angle = plumb_body_angle(world, body),
-                               .velocity = { b->vx[row], b->vy[row] },
-                               .angular_velocity = b->w[row],
-                               .mass = b->set_mass[row],
-                               .inertia = b->set_inertia[row],
-                               .fixed_rotation = (flags & PL_BODY_FIXED_ROTATION) != 0,
-                               .no_sleep = (flags & PL_BODY_NO_SLEEP) != 0,
-                               .asleep = b->island[row] != PL_NONE,
-                               .continuous = (flags & PL_BODY_CONTINUOUS) != 0,
-                               .lock_x = (flags & PL_BODY_LOCK_X) != 0,
-                               .lock_y = (flags & PL_BODY_LOCK_Y) != 0,
-                               .disabled = (flags & PL_BODY_DISABLED) != 0,
-                               .user_data = b->user_data[row] };
-    PL_BODY_ROWS(PL_ROW_GET, b)
-#define GET(name, initial) desc->name = t.name;
-    PL_BODY_ROWS(PL_ROW_RECORD, GET)
-#undef GET
-    return PLUMB_OK;
+    pl_body_settings_list *settings = &world->settings;
+    count(settings, &items(world)[at - 1], UINT32_MAX);
+    pl_body_settings last = items(world)[--settings->count];
+    if (at - 1 != settings->count) {
+        items(world)[at - 1] = last;
+        world->bodies.settings[pl_body_row(world, last.body)] = at;
+    }
+    world->bodies.settings[row] = 0;
+    world->bodies.flags[row] &= (uint16_t)~PL_BODY_HAS_SETTINGS;
+}
+
+void pl_body_settings_set(plumb_world *world, uint32_t row, const pl_body_settings *values)
+{
+    take_away(world, row);
+    world->schedule_dirty = true;
+    if (!is_any(values)) {
+        return;
+    }
+    pl_body_settings_list *settings = &world->settings;
+    items(world)[settings->count] = *values;
+    items(world)[settings->count].body = world->bodies.entity[row];
+    count(settings, values, 1);
+    world->bodies.settings[row] = ++settings->count;
+    world->bodies.flags[row] |= PL_BODY_HAS_SETTINGS;
+}
+
+static pl_target *targets(const plumb_world *world)
+{
+    return (pl_target *)world->targets.items.data;
+}
+
+void pl_target_forget(plumb_world *world, uint32_t row)
+{
+    if ((world->bodies.flags[row] & PL_BODY_TARGETED) == 0) {
+        return;
+    }
+    world->bodies.flags[row] &= (uint16_t)~PL_BODY_TARGETED;
+    plumb_body body = world->bodies.entity[row];
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < world->targets.count; ++i) {
+        if (!plumb_same(targets(world)[i].body, body)) {
+            targets(world)[kept++] = targets(world)[i];
+        }
+    }
+    world->targets.count = kept;
+    world->schedule_dirty = true;
+}
+
+void pl_settings_of_poses(plumb_world *world)
+{
+    uint32_t movable = world->dynamic_count + world->kinematic_count;
+    for (uint32_t i = 0; i < world->settings.count; ++i) {
+        uint32_t row = pl_body_row(world, items(world)[i].body);
+        if (row < movable) {
+            pl_poses(world)[row].vx *= items(world)[i].time_scale;
+            pl_poses(world)[row].vy *= items(world)[i].time_scale;
+        }
+    }
+}
+
+void pl_body_forget(plumb_world *world, uint32_t row)
+{
+    take_away(world, row);
+    pl_target_forget(world, row);
+    world->locked_bodies -= (world->bodies.flags[row] & PL_BODY_LOCKED) != 0;
 }

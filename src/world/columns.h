@@ -66,7 +66,7 @@ typedef struct pl_hint {
 
 #define PL_BODY_FIXED_ROTATION 1u
 #define PL_BODY_DROPPING       2u // it asks to drop through one-way shapes in the next step
-#define PL_BODY_UNTOLD         4u   // who pushes it leaves sleeping rows alone (sleep/push.c)
+#define PL_BODY_UNTOLD         4u   // who pushes it leaves sleeping rows alone (world/push.c)
 #define PL_BODY_NEW_SLEEPER    64u  // pushed as it fell asleep, in the step before
 #define PL_BODY_NO_SLEEP       32u  // it never falls asleep
 #define PL_BODY_RECRUITED      8u   // on its way into the list of movers; only within the continuous pass

@@ -6,7 +6,7 @@
 #include "world/component.h"
 
 #include "ecs/view.h"
-#include "step/observer.h"
+#include "world/observer.h"
 #include "world/check.h"
 #include "world/rows.h"
 
@@ -165,7 +165,7 @@ bool pl_component_put(plumb_world *world, plumb_entity entity, plumb_component c
     return true;
 }
 
-// What it does within a step is recorded there, and replayed without it: see step/observer.h.
+// What it does within a step is recorded there, and replayed without it: see world/observer.h.
 static void run_drop_hook(plumb_world *world, const pl_component *c, uint32_t place)
 {
     pl_step_observer *observer = world->observer;

@@ -3,6 +3,7 @@
 // Reads: arguments, handles. Writes: world->error, which is bookkeeping and not state, and
 // therefore is written through const worlds too. Cost: O(1); nothing is formatted unless a call is
 // refused.
+#include "world/rows.h"
 #include "ecs/component.h"
 #include "world/check.h"
 #include "world/state.h"
@@ -283,4 +284,11 @@ plumb_result pl_check_entity(const plumb_world *world, const char *function, plu
     return pl_registry_find(&world->registry, entity) != NULL
                ? PLUMB_OK
                : pl_fail_handle(world, function, "entity", entity, "a live entity");
+}
+
+plumb_result pl_place_check(const plumb_world *world, const char *fn, plumb_vec2 position,
+                            plumb_real angle)
+{
+    plumb_result r = pl_check_within(world, fn, "position", position, (real)1e9);
+    return r != PLUMB_OK ? r : pl_check_finite(world, fn, "angle", angle);
 }

@@ -7,6 +7,8 @@
 // Excluded pairs are a sorted array of keys, made of the registry slots of two bodies; a flag of
 // the body tells whether it is worth looking. Reads: pieces, body entities. Writes: filter columns,
 // flags, counters, the table. Cost: O(1) a pair, O(log table) where both bodies have the flag.
+#include "world/stale_edges.h"
+#include "world/island.h"
 #include "world/filter.h"
 
 #include "core/sort.h"
@@ -252,4 +254,13 @@ bool plumb_world_is_excluded(const plumb_world *world, plumb_body a, plumb_body 
     uint32_t row_a = pl_ask_body(world, __func__, a);
     uint32_t row_b = row_a == PL_NONE ? PL_NONE : pl_ask_body(world, __func__, b);
     return row_b != PL_NONE && pl_rows_excluded(world, row_a, row_b);
+}
+
+bool pl_one_way_blocks(const plumb_world *world, uint32_t piece, plumb_vec2 out, real separation)
+{
+    const pl_pieces *p = &world->pieces;
+    const pl_pose *pose = &pl_poses(world)[p->body[piece]];
+    plumb_vec2 d = plumb_rot_apply((plumb_rot){ pose->c, pose->s },
+                                   plumb_v2(p->one_way_x[piece], p->one_way_y[piece]));
+    return separation >= -PL_ONE_WAY_FOUND && plumb_vec2_dot(out, d) >= p->one_way_cos[piece];
 }

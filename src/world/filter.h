@@ -27,4 +27,13 @@ bool pl_rows_excluded(const plumb_world *world, uint32_t row_a, uint32_t row_b);
 // A body is about to be destroyed.
 void pl_exclusions_forget(plumb_world *world, uint32_t row);
 
+// [m] a body that is found this deep in a platform, but on the side that holds, was put there.
+#define PL_ONE_WAY_FOUND PL_SPECULATIVE
+// Whether a one-way piece holds what comes to it where its outward unit normal, in world axes, is
+// `out`, at a distance of `separation` [m] (negative: it overlaps already). Zero `out`: from inside.
+// The one rule that contacts, characters, queries and continuous collision share; what a pair has
+// been doing so far is in its flags, see pl_pair_passes.
+bool pl_one_way_blocks(const plumb_world *world, uint32_t piece, plumb_vec2 out,
+                       plumb_real separation);
+
 #endif

@@ -5,6 +5,9 @@
 //
 // Reads: world->made. Writes: piece table, vertex pool, moving list, counters and flags.
 // Cost: O(pieces of the shape + pieces of the body).
+#include "world/island.h"
+#include "world/marks.h"
+#include "world/stale_edges.h"
 #include "world/rows.h"
 
 #include <string.h>

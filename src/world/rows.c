@@ -8,9 +8,9 @@
 //
 // Reads, writes: body table, registry rows, pieces.body, poses. Cost: O(1) + pieces of the rows
 // moved.
+#include "world/body_settings.h"
 #include "world/rows.h"
 
-#include "effects/effects.h"
 #include "world/filter.h"
 #include "world/material_pair.h"
 #include "world/wrap.h"
@@ -188,8 +188,7 @@ static void close_hole(plumb_world *world, uint32_t row)
     world->schedule_dirty = true;
 }
 
-// Closes a row; at most one row of its own and of each later partition moves.
-static void close_row(plumb_world *world, uint32_t row)
+void pl_row_close(plumb_world *world, uint32_t row)
 {
     if (world->bodies.inv_inertia[row] > 0) {
         --world->turning_bodies;
@@ -257,97 +256,15 @@ void pl_body_update_center(plumb_world *world, uint32_t row)
     }
 }
 
-//---- destruction ---------------------------------------------------------------------------------
-
-static void destroy_shape(plumb_world *world, plumb_shape shape)
+plumb_entity pl_entity_claim(plumb_world *world, plumb_entity reserved, plumb_entity_kind kind,
+                             uint32_t row)
 {
-    uint32_t first = pl_shape_piece(world, shape);
-    uint32_t row = world->pieces.body[first];
-    pl_sleep_disturb(world, row);
-    pl_pieces_remove(world, first);
-    pl_registry_release(&world->registry, shape.entity);
-    pl_mass_revise(world, row);
-}
-
-static void destroy_body(plumb_world *world, plumb_body body)
-{
-    uint32_t row = pl_body_row(world, body);
-    pl_exclusions_forget(world, row);
-    pl_character_forget(world, row);
-    pl_sleep_forget(world, row);
-    while (world->bodies.first_piece[row] != PL_NONE) {
-        plumb_shape shape = world->pieces.shape[world->bodies.first_piece[row]];
-        pl_pieces_remove(world, world->bodies.first_piece[row]);
-        pl_registry_release(&world->registry, shape.entity);
+    if (plumb_is_null(reserved)) {
+        return pl_registry_acquire(&world->registry, (uint32_t)kind, row, PL_SLOT_LIVE);
     }
-    while (world->bodies.first_joint[row] != PL_NONE) {
-        pl_joint_remove(world, world->bodies.first_joint[row]);
-    }
-    close_row(world, row);
-    pl_registry_release(&world->registry, body.entity);
-}
-
-// The last row fills the gap; the pieces that name it are told. Row 0 is the default and stays.
-static void destroy_material(plumb_world *world, plumb_material material)
-{
-    pl_materials *materials = &world->materials;
-    uint32_t row = pl_material_row(world, material);
-    pl_material_pairs_forget(world, row);
-    uint32_t last = --materials->table.count;
-    if (row != last) {
-        pl_table_copy(&materials->table, pl_material_columns, pl_material_column_count, last, row);
-        world->registry.slots[materials->entity[row].entity.index].row = row;
-        for (uint32_t p = 0; p < world->pieces.table.count; ++p) {
-            if (world->pieces.kind[p] != PL_PIECE_FREE && world->pieces.material[p] == last) {
-                world->pieces.material[p] = row;
-            }
-        }
-    }
-    pl_registry_release(&world->registry, material.entity);
-}
-
-// Removal hooks run while everything is still there: shapes of a body first, oldest last, then joints.
-static void drop_components(plumb_world *world, plumb_entity entity)
-{
-    uint32_t row = pl_body_row(world, (plumb_body){ entity });
-    if (row != PL_NONE) {
-        plumb_shape last = PLUMB_NULL_INIT;
-        uint32_t p = world->bodies.first_piece[row];
-        for (; p != PL_NONE; p = world->pieces.next_in_body[p]) {
-            if (!plumb_same(world->pieces.shape[p], last)) {
-                last = world->pieces.shape[p];
-                pl_components_drop_all(world, last.entity);
-            }
-        }
-    }
-    uint32_t joint = row == PL_NONE ? PL_NONE : world->bodies.first_joint[row];
-    while (joint != PL_NONE) {
-        const pl_joint *j = &pl_joint_items(&world->joints)[joint];
-        pl_components_drop_all(world, j->entity.entity);
-        joint = pl_joint_next(j, (plumb_body){ entity });
-    }
-    pl_components_drop_all(world, entity);
-}
-
-void pl_destroy_entity(plumb_world *world, plumb_entity entity)
-{
-    drop_components(world, entity);
-    world->schedule_dirty = true;
-    switch (world->registry.slots[entity.index].kind) {
-    case PLUMB_KIND_BODY:
-        destroy_body(world, (plumb_body){ entity });
-        break;
-    case PLUMB_KIND_SHAPE:
-        destroy_shape(world, (plumb_shape){ entity });
-        break;
-    case PLUMB_KIND_JOINT:
-        pl_joint_remove(world, pl_joint_slot(world, (plumb_joint){ entity }));
-        break;
-    case PLUMB_KIND_MATERIAL:
-        destroy_material(world, (plumb_material){ entity });
-        break;
-    default:
-        pl_registry_release(&world->registry, entity);
-        break;
-    }
+    pl_slot *slot = &world->registry.slots[reserved.index];
+    slot->kind = (uint32_t)kind;
+    slot->row = row;
+    slot->state = PL_SLOT_LIVE;
+    return reserved;
 }

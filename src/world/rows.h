@@ -162,8 +162,14 @@ void pl_body_place(plumb_world *world, uint32_t row, plumb_vec2 position, plumb_
 void pl_body_place_at(plumb_world *world, uint32_t row, plumb_vec2 position, plumb_rot q);
 // Disables a body, at rest, also within a step. Rows move.
 void pl_body_take_out(plumb_world *world, uint32_t row);
+// Row, pieces and joints of a body whose type or flags have changed, to where they belong (relocate.c).
+void pl_body_relocate(plumb_world *world, uint32_t row);
+void pl_body_stand_still(plumb_world *world, uint32_t row);
 
 plumb_result pl_place_check(const plumb_world *world, const char *function, plumb_vec2 position,
                             plumb_real angle);
+
+// Closes a row; at most one row of its own and of each later partition moves.
+void pl_row_close(plumb_world *world, uint32_t row);
 
 #endif

@@ -5,26 +5,25 @@
 #ifndef PL_STATE_H
 #define PL_STATE_H
 
-#include "broad/broad.h"
-#include "broad/query_grids.h"
-#include "character/character.h"
 #include "core/tasks.h"
-#include "continuous/continuous.h"
 #include "world/command.h"
 #include "ecs/registry.h"
 #include "step/system.h"
 #include "effects/effects.h"
-#include "event/event.h"
-#include "joints/joint.h"
-#include "narrow/manifold.h"
 #include "plumb/event.h"
 #include "plumb/query.h"
-#include "internal_edges/internal_edges.h"
 #include "solver/solver.h"
-#include "sleep/sleep.h"
 #include "step/pass.h"
 #include "step/quarantine.h"
 #include "world/columns.h"
+#include "world/tables/broad.h"
+#include "world/tables/character.h"
+#include "world/tables/continuous.h"
+#include "world/tables/event.h"
+#include "world/tables/internal_edges.h"
+#include "world/tables/joint.h"
+#include "world/tables/manifold.h"
+#include "world/tables/sleep.h"
 #include "world/component.h"
 
 // A size class of the vertex pool holds runs of 4, 8 or 16 corners.
@@ -132,7 +131,7 @@ struct plumb_world {
 
     pl_buffer checking, checked; // scratch of images that are checked (snapshot/check.c, restore.c)
     struct pl_step_observer
-        *observer; // who records or replays this world (step/observer.h); NULL: nobody
+        *observer; // who records or replays this world (world/observer.h); NULL: nobody
 
     // Locking and errors.
     const char *locked_by; // name of the system or hook that runs; NULL: structural changes allowed
@@ -170,9 +169,6 @@ void pl_body_update_center(plumb_world *world, uint32_t row);
 // Derives the pose of a row alone (after a restore, which brings origin and centre).
 void pl_body_update_pose(plumb_world *world, uint32_t row);
 
-// Destroys pieces, rows and components of an entity of any kind; the handle was checked.
-void pl_destroy_entity(plumb_world *world, plumb_entity entity);
-
 // Fills `out` with the piece as the user gave it.
 void pl_piece_convex(const plumb_world *world, uint32_t piece, plumb_convex *out);
 // Tight box of a piece at its body's pose.
@@ -188,6 +184,12 @@ static inline pl_pose *pl_poses(const plumb_world *world)
 static inline uint32_t *pl_moving(const plumb_world *world)
 {
     return (uint32_t *)world->moving.data;
+}
+
+// Unit, away from the ground.
+static inline plumb_vec2 pl_world_up(const plumb_world *world)
+{
+    return (plumb_vec2){ 0, world->desc.y_axis == PLUMB_Y_DOWN ? -1 : 1 };
 }
 
 // Pieces came, went or were moved, or others may meet: pairs are sought anew.

@@ -1,4 +1,5 @@
 // pairs.c - the arrays that a narrow-phase kernel reads, filled by hand. Reads, writes: the batch.
+#include "narrow/narrow.h"
 #include "harness/pairs.h"
 #include "world/rows.h"
 

@@ -12,7 +12,7 @@
 #include "harness/sim.h"
 #include "internal_edges/side.h"
 #include "internal_edges/neighbour.h"
-#include "internal_edges/interval.h"
+#include "world/interval.h"
 #include "world/state.h"
 
 #define HZ60 (1 / 60.0)

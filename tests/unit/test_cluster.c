@@ -9,6 +9,8 @@
 
 #include <cmocka.h>
 
+#include "joints/wide.h"
+#include "joints/joint.h"
 #include "harness/sim.h"
 #include "world/state.h"
 

@@ -9,6 +9,9 @@
 
 #include <cmocka.h>
 
+#include "world/joint_list.h"
+#include "joints/wide.h"
+#include "joints/joint.h"
 #include "harness/sim.h"
 #include "plumb/math.h"
 #include "world/state.h"

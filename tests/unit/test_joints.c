@@ -10,6 +10,8 @@
 #include <cmocka.h>
 
 #include "harness/near.h"
+#include "world/joint_list.h"
+#include "joints/joint.h"
 #include "harness/sim.h"
 #include "plumb/math.h"
 #include "world/state.h"

@@ -11,6 +11,7 @@
 
 #include <cmocka.h>
 
+#include "event/event.h"
 #include "broad/pairs.h"
 #include "plumb/plumb.h"
 #include "random_world.h"
@@ -126,7 +127,7 @@ static void check_pairs(const plumb_world *world)
 
 static void update(plumb_world *world)
 {
-    assert_true(pl_broad_update(world, DT));
+    assert_true(pl_broad_update(world, DT, &pl_end_listener));
     check_pairs(world);
 }
 
@@ -475,7 +476,7 @@ static void test_history_does_not_matter(void **state)
         for (int i = 0; w == 1 && i < 60; ++i) { // there and back, with updates in between
             plumb_transform t = plumb_body_transform(worlds[w], bodies[i]);
             plumb_body_teleport(worlds[w], bodies[i], plumb_v2(100, 100), 0);
-            assert_true(pl_broad_update(worlds[w], DT));
+            assert_true(pl_broad_update(worlds[w], DT, &pl_end_listener));
             uint32_t row = pl_body_row(worlds[w], bodies[i]);
             worlds[w]->bodies.x[row] = t.p.x;
             worlds[w]->bodies.y[row] = t.p.y;

@@ -10,6 +10,7 @@
 
 #include <cmocka.h>
 
+#include "event/event.h"
 #include "broad/pairs.h"
 #include "plumb/plumb.h"
 #include "random_world.h"
@@ -127,8 +128,8 @@ static void compare(int workers, bool one_kind)
     make(&several, workers, one_kind);
     int ends = 0;
     for (int step = 0; step < 6; ++step) {
-        assert_true(pl_broad_update(one.world, DT));
-        assert_true(pl_broad_update(several.world, DT));
+        assert_true(pl_broad_update(one.world, DT, &pl_end_listener));
+        assert_true(pl_broad_update(several.world, DT, &pl_end_listener));
         pl_tasks_rest(several.world->tasks);
         assert_true(one.world->broad.pairs.count > most_threads * pairs_a_thread);
         expect_same_pairs(one.world, several.world);

@@ -1,5 +1,7 @@
 // test_sleep.c - islands against brute force on random graphs; the books of sleeping (rows, lists,
 // islands, contacts, grid) under random changes; and that no pass visits what sleeps.
+#include "world/island.h"
+#include "sleep/sleep.h"
 #include "harness/random.h"
 #include "plumb/plumb.h"
 #include "world/rows.h"

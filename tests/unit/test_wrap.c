@@ -1,6 +1,9 @@
 // test_wrap.c - a world that wraps around against one without an end in which everything stands many times: pairs,
 // rays, casts, overlaps, nearest shapes; and shifts by whole periods.
 #include "harness/near.h"
+#include "event/event.h"
+#include "broad/broad.h"
+#include "broad/grid.h"
 #include "harness/random.h"
 #include "plumb/plumb.h"
 #include "world/wrap.h"
@@ -290,7 +293,7 @@ static void every_pair_over_the_edge_once(void **state)
             plumb_shape_create(w, body, &shape);
         }
         for (int step = 0; step < 20; ++step) {
-            assert_true(pl_broad_update(w, R(1.0 / 60)));
+            assert_true(pl_broad_update(w, R(1.0 / 60), &pl_end_listener));
             uint32_t expected = 0, count = w->broad.pairs.count;
             for (uint32_t p = 0; p < w->pieces.table.count; ++p) {
                 for (uint32_t q = p + 1; q < w->pieces.table.count; ++q) {

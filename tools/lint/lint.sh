@@ -133,26 +133,29 @@ sed -n 's/^    X(\([A-Z_]*\),.*/\1/p' include/plumb/base.h | while IFS= read -r 
 done >"$work/out"
 breach "untested" <"$work/out"
 
-# ---- include direction: layers.txt says which folder may include which
+# ---- layers: a folder knows those below it (layers.txt), by include and by call
 
-while IFS= read -r file; do
-    folder=${file#src/}
-    folder=${folder%%/*}
-    allowed=$(sed -n "s/^$folder *: *//p" $here/layers.txt)
-    if ! grep -q "^$folder *:" $here/layers.txt; then
-        echo "$file: the folder is not in $here/layers.txt"
-        continue
-    fi
+sources src | while IFS= read -r file; do
     sed -n 's/^[[:space:]]*#[[:space:]]*include[[:space:]]*"\([^"]*\)".*/\1/p' "$file" | while IFS= read -r name; do
-        target=${name%%/*}
         case $name in
-        plumb/* | "$folder"/*) ;;
-        */*) [[ " $allowed " == *" $target "* ]] || echo "$file includes $name; $folder may include: $allowed" ;;
-        *) echo "$file includes $name without its folder" ;;
+        plumb/*) ;;
+        */*) echo "include $file src/$name" ;;
+        *) echo "$file includes $name without its folder" >>"$work/bare" ;;
         esac
     done
-done < <(sources src) >"$work/out"
-breach "include direction" <"$work/out"
+done >"$work/arrows"
+[ ! -e "$work/bare" ] || breach "include direction" <"$work/bare"
+# Of each symbol the object that defines it; then who calls it from elsewhere.
+find "$O/float/src" -name '*.o' | sort | while IFS= read -r object; do
+    source=${object#"$O/float/"}
+    source=$(sed -E 's/(\.w[0-9]+)?\.o$/.c/' <<<"$source")
+    [ ! -e "$source" ] || nm "$object" | awk -v source="$source" '{ print source, $(NF - 1), $NF }'
+done >"$work/symbols"
+awk 'NR == FNR { if ($2 ~ /^[TDBRC]$/) defined[$3] = $1; next }
+    $2 == "U" && ($3 in defined) && defined[$3] != $1 { print "call", $1, defined[$3], $3 }' \
+    "$work/symbols" "$work/symbols" >>"$work/arrows"
+awk -f $here/layers.awk $here/layers.txt $here/upward.txt "$work/arrows" | sort -u >"$work/out"
+breach "layers" <"$work/out"
 
 # No header may include itself by a detour.
 for file in $(sources src include | grep '\.h$'); do

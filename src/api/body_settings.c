@@ -1,0 +1,167 @@
+// body_settings.c - properties of bodies set and read: what follows from the rows of the schema, damping, speed caps and
+// time scale.
+//
+// Reads: arguments, checked first. Writes: columns, the body's record (world/body_settings.c). Cost: O(1).
+#include "world/body_settings.h"
+#include "world/island.h"
+#include "effects/effects.h"
+#include "world/check.h"
+#include "world/rows.h"
+
+static plumb_result check(const plumb_world *world, const char *fn, const char *field,
+                          const char *property, plumb_real value)
+{
+    return pl_check_property(world, fn, field, PLUMB_TABLE_BODY, property, value);
+}
+
+// The body's record, to be changed and given back with `store`.
+static plumb_result open(plumb_world *world, const char *fn, uint32_t row, pl_body_settings *t)
+{
+    if (!pl_body_settings_reserve(world)) {
+        return pl_fail_memory(world, fn);
+    }
+    *t = pl_body_settings_get(world, row);
+    return PLUMB_OK;
+}
+
+static plumb_result store(plumb_world *world, uint32_t row, const pl_body_settings *t)
+{
+    pl_body_settings_set(world, row, t);
+    pl_sleep_disturb(world, row);
+    return PLUMB_OK;
+}
+
+plumb_result plumb_body_set_damping(plumb_world *world, plumb_body body, plumb_real linear,
+                                    plumb_real angular)
+{
+    uint32_t row;
+    pl_body_settings t;
+    plumb_result r = pl_check_body(world, __func__, body, &row);
+    r = r != PLUMB_OK ? r : check(world, __func__, "linear", "damping", linear);
+    r = r != PLUMB_OK ? r : check(world, __func__, "angular", "angular_damping", angular);
+    r = r != PLUMB_OK ? r : open(world, __func__, row, &t);
+    if (r != PLUMB_OK) {
+        return r;
+    }
+    t.damping = linear;
+    t.angular_damping = angular;
+    return store(world, row, &t);
+}
+
+plumb_result plumb_body_set_speed_cap(plumb_world *world, plumb_body body, plumb_real max_speed,
+                                      plumb_real max_spin)
+{
+    uint32_t row;
+    pl_body_settings t;
+    plumb_result r = pl_check_body(world, __func__, body, &row);
+    r = r != PLUMB_OK ? r : check(world, __func__, "max_speed", "max_speed", max_speed);
+    r = r != PLUMB_OK ? r : check(world, __func__, "max_spin", "max_spin", max_spin);
+    r = r != PLUMB_OK ? r : open(world, __func__, row, &t);
+    if (r != PLUMB_OK) {
+        return r;
+    }
+    t.max_speed = max_speed;
+    t.max_spin = max_spin;
+    return store(world, row, &t);
+}
+
+plumb_result plumb_body_set_time_scale(plumb_world *world, plumb_body body, plumb_real scale)
+{
+    uint32_t row;
+    pl_body_settings t;
+    plumb_result r = pl_check_body(world, __func__, body, &row);
+    r = r != PLUMB_OK ? r : check(world, __func__, "scale", "time_scale", scale);
+    r = r != PLUMB_OK ? r : open(world, __func__, row, &t);
+    if (r != PLUMB_OK) {
+        return r;
+    }
+    t.time_scale = scale;
+    store(world, row, &t);
+    pl_target_reaim(world, row);
+    return PLUMB_OK;
+}
+
+//---- columns ------------------------------------------------------------------------------------
+
+// plumb_body_set_<name>, plumb_body_<name> of each row of the schema that is a column.
+#define SETTER(X, store, kind, name, ...) SETTER_##store(PL_MEMBER_##kind, name)
+#define SETTER_COLUMN(type, name)                                                                  \
+    plumb_result plumb_body_set_##name(plumb_world *world, plumb_body body, type name)             \
+    {                                                                                              \
+        uint32_t row;                                                                              \
+        plumb_result r = pl_check_body(world, __func__, body, &row);                               \
+        r = r != PLUMB_OK                                                                          \
+                ? r                                                                                \
+                : pl_check_property(world, __func__, #name, PLUMB_TABLE_BODY, #name, (real)name);  \
+        if (r == PLUMB_OK && name != world->bodies.name[row]) {                                    \
+            pl_sleep_disturb(world, row);                                                          \
+        }                                                                                          \
+        if (r == PLUMB_OK) {                                                                       \
+            world->bodies.name[row] = name;                                                        \
+            world->schedule_dirty = true;                                                          \
+        }                                                                                          \
+        return r;                                                                                  \
+    }
+#define SETTER_RECORD(...)
+#define SETTER_OWN(...)
+PL_BODY_ROWS(SETTER, )
+
+#define GETTER(X, store, kind, name, ...) GETTER_##store(PL_MEMBER_##kind, name)
+#define GETTER_COLUMN(type, name)                                                                  \
+    type plumb_body_##name(const plumb_world *world, plumb_body body)                              \
+    {                                                                                              \
+        uint32_t row = pl_ask_body(world, __func__, body);                                         \
+        return row == PL_NONE ? (type)0 : (type)world->bodies.name[row];                           \
+    }
+#define GETTER_RECORD(...)
+#define GETTER_OWN(...)
+PL_BODY_ROWS(GETTER, )
+
+//---- read ----------------------------------------------------------------------------------------
+
+// Zeros for a bad handle.
+static pl_body_settings look(const plumb_world *world, const char *fn, plumb_body body)
+{
+    uint32_t row = pl_ask_body(world, fn, body);
+    return row == PL_NONE ? (pl_body_settings){ .damping = 0 } : pl_body_settings_get(world, row);
+}
+
+#define RECORD_GETTER(name, initial)                                                               \
+    plumb_real plumb_body_##name(const plumb_world *world, plumb_body body)                        \
+    {                                                                                              \
+        return look(world, __func__, body).name;                                                   \
+    }
+PL_BODY_ROWS(PL_ROW_RECORD, RECORD_GETTER)
+
+plumb_result plumb_body_get(const plumb_world *world, plumb_body body, plumb_body_desc *desc)
+{
+    uint32_t row;
+    plumb_result r = pl_check_body(world, __func__, body, &row);
+    r = r != PLUMB_OK ? r : pl_check_pointer(world, __func__, "desc", desc);
+    if (r != PLUMB_OK) {
+        return r;
+    }
+    const pl_bodies *b = &world->bodies;
+    const pl_body_settings t = pl_body_settings_get(world, row);
+    const uint32_t flags = b->flags[row];
+    *desc = (plumb_body_desc){ .type = (plumb_body_type)b->type[row],
+                               .position = { b->x[row], b->y[row] },
+                               .angle = plumb_body_angle(world, body),
+                               .velocity = { b->vx[row], b->vy[row] },
+                               .angular_velocity = b->w[row],
+                               .mass = b->set_mass[row],
+                               .inertia = b->set_inertia[row],
+                               .fixed_rotation = (flags & PL_BODY_FIXED_ROTATION) != 0,
+                               .no_sleep = (flags & PL_BODY_NO_SLEEP) != 0,
+                               .asleep = b->island[row] != PL_NONE,
+                               .continuous = (flags & PL_BODY_CONTINUOUS) != 0,
+                               .lock_x = (flags & PL_BODY_LOCK_X) != 0,
+                               .lock_y = (flags & PL_BODY_LOCK_Y) != 0,
+                               .disabled = (flags & PL_BODY_DISABLED) != 0,
+                               .user_data = b->user_data[row] };
+    PL_BODY_ROWS(PL_ROW_GET, b)
+#define GET(name, initial) desc->name = t.name;
+    PL_BODY_ROWS(PL_ROW_RECORD, GET)
+#undef GET
+    return PLUMB_OK;
+}

@@ -1,0 +1,202 @@
+// event.c - the last step's events and contacts, read.
+//
+// Contacts are kept as manifolds of the narrow phase, made before the bodies moved: their points
+// and separations are carried along with the bodies here, when somebody asks. Pieces may have been
+// destroyed since the step; pairs of such pieces, or of slots taken anew, are passed over.
+//
+// Reads: pairs, manifolds, centres, solver bodies (how far each turned in the step). Writes:
+// nothing. Cost: events O(1); contacts O(pairs).
+#include "world/island.h"
+#include "plumb/event.h"
+#include "world/check.h"
+#include "world/rows.h"
+#include "world/wrap.h"
+
+const plumb_contact_begin *plumb_world_begin_events(const plumb_world *world, int *count)
+{
+    int events = world == NULL ? 0 : world->begin_count;
+    if (count != NULL) {
+        *count = events;
+    }
+    return events == 0 ? NULL : world->begin_events.data;
+}
+
+const plumb_contact_end *plumb_world_end_events(const plumb_world *world, int *count)
+{
+    int events = world == NULL ? 0 : world->end_count;
+    if (count != NULL) {
+        *count = events;
+    }
+    return events == 0 ? NULL : world->end_events.data;
+}
+
+const plumb_contact_hit *plumb_world_hit_events(const plumb_world *world, int *count)
+{
+    int events = world == NULL ? 0 : world->hit_count;
+    if (count != NULL) {
+        *count = events;
+    }
+    return events == 0 ? NULL : world->hit_events.data;
+}
+
+const plumb_quarantine *plumb_world_quarantine_events(const plumb_world *world, int *count)
+{
+    int events = world == NULL ? 0 : world->quarantine.event_count;
+    if (count != NULL) {
+        *count = events;
+    }
+    return events == 0 ? NULL : world->quarantine.events;
+}
+
+plumb_result plumb_world_set_hit_speed(plumb_world *world, plumb_real speed)
+{
+    if (world == NULL) {
+        return PLUMB_E_NULL;
+    }
+    plumb_result r = pl_check_unlocked(world, __func__);
+    r = r != PLUMB_OK ? r : pl_check_range(world, __func__, "speed", speed, 0, PLUMB_REAL_MAX);
+    if (r == PLUMB_OK) {
+        world->desc.hit_speed = speed;
+        world->pending_hits.count =
+            speed > 0 ? world->pending_hits.count : 0; // nobody asks for them any more
+    }
+    return r;
+}
+
+// [rad] by which a row turned in the last step, as the solver left it.
+static real turn_of(const plumb_world *world, uint32_t row)
+{
+    if (world->rows_moved || row >= world->dynamic_count || world->solver.slot_count == 0) {
+        return 0;
+    }
+    uint32_t slot = ((const uint32_t *)world->solver.slots.data)[row];
+    return slot == PL_NONE ? 0 : pl_solver_bodies(&world->solver)[slot].da;
+}
+
+// Where a body's side of a point is now, its lever arm having turned with the body.
+static plumb_vec2 carried(const plumb_world *world, uint32_t row, real ax, real ay)
+{
+    plumb_vec2 arm = { ax, ay };
+    real turn = turn_of(world, row);
+    if (turn != 0) {
+        arm = plumb_rot_apply(plumb_rot_make(turn), arm);
+    }
+    return plumb_v2(world->bodies.center_x[row] + arm.x, world->bodies.center_y[row] + arm.y);
+}
+
+static plumb_contact_point view_point(const plumb_world *world, const pl_manifold *m,
+                                      const pl_pair *pair, uint32_t k, uint32_t row_a,
+                                      uint32_t row_b)
+{
+    const pl_manifold_point *p = &m->point[k];
+    plumb_vec2 a = carried(world, row_a, p->ax, p->ay);
+    plumb_vec2 b = pl_wrap_point(world, carried(world, row_b, p->bx, p->by), a);
+    // Each lies on its surface: the way from one to the other, along the normal, is the separation.
+    plumb_vec2 gap = plumb_vec2_sub(b, a);
+    return (plumb_contact_point){
+        .point = plumb_vec2_lerp(a, b, (plumb_real)0.5),
+        .separation = m->nx * gap.x + m->ny * gap.y,
+        .normal_impulse = pair->normal[k],
+        .tangent_impulse = pair->tangent[k],
+        .step_impulse = pl_solver_tallies(world) ? p->total : 0,
+        .feature = m->feature[k],
+    };
+}
+
+// True while both pieces are those that the pair was made for, and enabled.
+static bool is_intact(const plumb_world *world, const pl_pair *pair)
+{
+    const pl_pieces *p = &world->pieces;
+    return p->kind[pair->a] != PL_PIECE_FREE && p->serial[pair->a] <= world->broad.serial &&
+           p->kind[pair->b] != PL_PIECE_FREE && p->serial[pair->b] <= world->broad.serial &&
+           p->moving[pair->a] != PL_OUT && p->moving[pair->b] != PL_OUT;
+}
+
+static plumb_contact view_contact(const plumb_world *world, const pl_pair *pair,
+                                  const pl_manifold *m)
+{
+    const pl_pieces *pieces = &world->pieces;
+    uint32_t row_a = pieces->body[pair->a];
+    uint32_t row_b = pieces->body[pair->b];
+    plumb_contact contact = {
+        .shape_a = pieces->shape[pair->a],
+        .shape_b = pieces->shape[pair->b],
+        .body_a = world->bodies.entity[row_a],
+        .body_b = world->bodies.entity[row_b],
+        .normal = { m->nx, m->ny },
+        .friction = m->friction,
+        .restitution = m->restitution,
+        .point_count = (int)m->count,
+    };
+    for (uint32_t k = 0; k < m->count; ++k) {
+        contact.points[k] = view_point(world, m, pair, k, row_a, row_b);
+    }
+    return contact;
+}
+
+// The contacts of an island that sleeps: nothing has moved since.
+static int list_sleeping(const plumb_world *world, uint32_t island, uint32_t row,
+                         plumb_contact *contacts, int capacity, int count)
+{
+    const pl_sleeping_contact *all = pl_sleeping_contacts(&world->sleep);
+    uint32_t i = pl_islands(&world->sleep)[island].first_contact;
+    for (; i != PL_NONE; i = all[i].next) {
+        const pl_pair *pair = &all[i].pair;
+        if (!(pair->flags & PL_PAIR_TOUCHING) || !(all[i].whole || all[i].recalled) ||
+            !pl_sleeping_contact_is_intact(world, &all[i]) ||
+            (row != PL_NONE && world->pieces.body[pair->a] != row &&
+             world->pieces.body[pair->b] != row)) {
+            continue;
+        }
+        if (contacts != NULL && count < capacity) {
+            contacts[count] =
+                view_contact(world, pair, all[i].whole ? &all[i].manifold : &all[i].last);
+        }
+        ++count;
+    }
+    return count;
+}
+
+// `row` PL_NONE: contacts of all bodies.
+static int list_contacts(const plumb_world *world, uint32_t row, plumb_contact *contacts,
+                         int capacity)
+{
+    int count = 0;
+    const pl_pair *pairs = pl_pairs(&world->broad.pairs);
+    const uint32_t made = world->narrow.manifold_count + world->narrow.borne_count;
+    for (uint32_t i = 0; i < world->broad.pairs.count; ++i) {
+        const pl_pair *pair = &pairs[i];
+        // Pairs of a step without collision still name manifolds that are gone.
+        if (!(pair->flags & PL_PAIR_TOUCHING) || pair->manifold >= made ||
+            !is_intact(world, pair)) {
+            continue;
+        }
+        if (row != PL_NONE && world->pieces.body[pair->a] != row &&
+            world->pieces.body[pair->b] != row) {
+            continue;
+        }
+        if (contacts != NULL && count < capacity) {
+            contacts[count] =
+                view_contact(world, pair, &pl_manifolds(&world->narrow)[pair->manifold]);
+        }
+        ++count;
+    }
+    for (uint32_t i = 0; i < world->sleep.island_slots; ++i) {
+        if (pl_islands(&world->sleep)[i].body_count > 0) {
+            count = list_sleeping(world, i, row, contacts, capacity, count);
+        }
+    }
+    return count;
+}
+
+int plumb_world_contacts(const plumb_world *world, plumb_contact *contacts, int capacity)
+{
+    return world == NULL ? 0 : list_contacts(world, PL_NONE, contacts, capacity);
+}
+
+int plumb_body_contacts(const plumb_world *world, plumb_body body, plumb_contact *contacts,
+                        int capacity)
+{
+    uint32_t row = pl_ask_body(world, __func__, body);
+    return row == PL_NONE ? 0 : list_contacts(world, row, contacts, capacity);
+}

@@ -1,0 +1,217 @@
+// joint.c - joints are made and destroyed: checks of the descriptor, its defaults, the links to the bodies.
+//
+// Reads: arguments, checked first. Writes: a joint, its links, room for its events. Cost: O(1).
+#include "joints/joint.h"
+#include "world/check.h"
+#include "world/desc_list.h"
+#include "world/destroy.h"
+#include "world/joint_list.h"
+#include "world/rows.h"
+#include "world/wrap.h"
+
+#include <string.h>
+
+static plumb_result check_ends(const plumb_world *world, const char *fn, const plumb_joint_desc *d)
+{
+    const struct {
+        const char *name;
+        plumb_body body;
+    } ends[] = { { "body_a", d->body_a }, { "body_b", d->body_b } };
+    for (int i = 0; i < 2; ++i) {
+        if (!plumb_is_null(ends[i].body) && pl_body_row(world, ends[i].body) == PL_NONE) {
+            return pl_fail_handle(world, fn, ends[i].name, ends[i].body.entity,
+                                  "a live body or null");
+        }
+    }
+    if (plumb_same(d->body_a, d->body_b)) {
+        return pl_fail(world, PLUMB_E_HANDLE, fn, "body_b is %s; it must be another",
+                       plumb_is_null(d->body_b) ? "null as body_a is" : "body_a");
+    }
+    return PLUMB_OK;
+}
+
+static plumb_result check_numbers(const plumb_world *world, const char *fn,
+                                  const plumb_joint_desc *d)
+{
+    plumb_result r = pl_check_desc(world, fn, "", PLUMB_TABLE_JOINT, d);
+    return r != PLUMB_OK ? r
+                         : pl_check_range(world, fn, "upper", d->upper, d->lower, PLUMB_REAL_MAX);
+}
+
+static bool is_set(plumb_vec2 v)
+{
+    return v.x != 0 || v.y != 0;
+}
+
+// What a kind does not have would be left out in silence: it is refused.
+static plumb_result check_members(const plumb_world *world, const char *fn,
+                                  const plumb_joint_desc *d)
+{
+    const pl_joint_class *kind = pl_joint_classes[d->kind];
+    const struct {
+        const char *name;
+        bool used;
+        unsigned needs;
+    } members[] = {
+        { "anchor_b", is_set(d->anchor_b), PL_JOINT_TWO_ANCHORS },
+        { "ground_a", is_set(d->ground_a), PL_JOINT_GROUNDS },
+        { "ground_b", is_set(d->ground_b), PL_JOINT_GROUNDS },
+        { "axis", is_set(d->axis), PL_JOINT_AXIS },
+        { "enable_limit", d->enable_limit, PL_JOINT_LIMIT },
+        { "lower", d->lower != 0, PL_JOINT_LIMIT },
+        { "upper", d->upper != 0, PL_JOINT_LIMIT },
+        { "enable_motor", d->enable_motor, PL_JOINT_MOTOR },
+        { "motor_speed", d->motor_speed != 0, PL_JOINT_MOTOR },
+        { "max_motor", d->max_motor != 0, PL_JOINT_MOTOR },
+        { "hertz", d->hertz != 0, PL_JOINT_SPRING },
+        { "damping", d->damping != 0, PL_JOINT_SPRING },
+        { "rest", d->rest != 0, PL_JOINT_REST },
+        { "length", d->length != 0, PL_JOINT_LENGTH },
+        { "ratio", d->ratio != 0, PL_JOINT_RATIO },
+        { "pitch", d->pitch != 0, PL_JOINT_PITCH },
+        { "max_force", d->max_force != 0, PL_JOINT_FORCE },
+        { "max_torque", d->max_torque != 0, PL_JOINT_TORQUE },
+    };
+    for (size_t i = 0; i < sizeof members / sizeof members[0]; ++i) {
+        if (members[i].used && (kind->has & members[i].needs) == 0) {
+            return pl_fail(world, PLUMB_E_RANGE, fn, "%s is set; it must be 0 for a %s joint",
+                           members[i].name, kind->name);
+        }
+    }
+    return PLUMB_OK;
+}
+
+void pl_joint_warn_of_motor(const plumb_world *world, const char *fn, const plumb_joint_desc *d)
+{
+    if (d->enable_motor && d->max_motor == 0) {
+        pl_warn(world, "%s: max_motor is 0; the motor does nothing", fn);
+    }
+}
+
+// Members that do nothing as the others are: allowed, as they may be switched on later, but seldom meant.
+static void warn_of_idle(const plumb_world *world, const char *fn, const plumb_joint_desc *d)
+{
+    if (!d->enable_limit && (d->lower != 0 || d->upper != 0)) {
+        pl_warn(world, "%s: lower or upper is set without enable_limit; there is no limit", fn);
+    }
+    if (!d->enable_motor && (d->motor_speed != 0 || d->max_motor != 0)) {
+        pl_warn(world,
+                "%s: motor_speed or max_motor is set without enable_motor; there is no motor", fn);
+    }
+    pl_joint_warn_of_motor(world, fn, d);
+}
+
+// Checks a descriptor and resolves its defaults in place.
+static plumb_result check_desc(const plumb_world *world, const char *fn, plumb_joint_desc *d)
+{
+    if ((unsigned)d->kind >= (unsigned)pl_joint_class_count) {
+        return pl_fail(world, PLUMB_E_RANGE, fn, "kind is %d; it must be a plumb_joint_kind",
+                       (int)d->kind);
+    }
+    plumb_result r = check_ends(world, fn, d);
+    r = r != PLUMB_OK ? r : check_numbers(world, fn, d);
+    r = r != PLUMB_OK ? r : check_members(world, fn, d);
+    const pl_joint_class *kind = pl_joint_classes[d->kind];
+    return r == PLUMB_OK && kind->check != NULL ? kind->check(world, fn, d) : r;
+}
+
+static bool reserve(plumb_world *world)
+{
+    pl_joints *joints = &world->joints;
+    size_t slots = (size_t)joints->count + 1;
+    return pl_registry_reserve(&world->memory, &world->registry, 1) &&
+           pl_buffer_reserve(&world->memory, &joints->items, slots * sizeof(pl_joint)) &&
+           pl_buffer_reserve(&world->memory, &joints->awake, slots * sizeof(uint32_t)) &&
+           pl_buffer_reserve(&world->memory, &joints->broken, slots * sizeof(plumb_joint_break));
+}
+
+// Room must be reserved.
+static uint32_t take_slot(pl_joints *joints)
+{
+    uint32_t slot = joints->free_head;
+    if (slot == PL_NONE) {
+        return joints->count++;
+    }
+    joints->free_head = pl_joint_items(joints)[slot].a.next;
+    return slot;
+}
+
+static void attach(plumb_world *world, uint32_t slot, pl_joint_end *end, plumb_body body,
+                   plumb_vec2 anchor)
+{
+    end->body = body; // of a joint that is all 0
+    end->local = anchor;
+    end->next = PL_NONE;
+    if (plumb_is_null(body)) {
+        return;
+    }
+    uint32_t row = pl_body_row(world, body);
+    end->local = plumb_body_local_point(world, body, anchor);
+    end->start = (double)plumb_body_angle(world, body);
+    end->eighth = pl_joint_eighth(world, row);
+    end->next = world->bodies.first_joint[row];
+    world->bodies.first_joint[row] = slot;
+}
+
+void pl_joint_copy_desc(plumb_joint_desc *to, const plumb_joint_desc *from)
+{
+    PL_JOINT_DESC(PL_COPY_MEMBER)
+}
+
+static plumb_joint insert(plumb_world *world, const plumb_joint_desc *d)
+{
+    const plumb_joint none = PLUMB_NULL_INIT;
+    uint32_t slot = take_slot(&world->joints);
+    pl_joint *j = &pl_joint_items(&world->joints)[slot];
+    bool two = (pl_joint_classes[d->kind]->has & PL_JOINT_TWO_ANCHORS) != 0;
+    memset(j, 0, sizeof *j); // padding, too: it is saved
+    pl_joint_copy_desc(&j->desc, d);
+    attach(world, slot, &j->a, d->body_a, d->anchor);
+    attach(world, slot, &j->b, d->body_b, two ? d->anchor_b : d->anchor);
+    j->axis =
+        plumb_is_null(d->body_a) ? d->axis : plumb_body_local_vector(world, d->body_a, d->axis);
+    j->entity.entity = pl_entity_claim(world, none.entity, PLUMB_KIND_JOINT, slot);
+    pl_joint_begin(world, j);
+    if (pl_joint_classes[d->kind]->keep != NULL) {
+        j->sum = pl_joint_classes[d->kind]->keep(j, &j->pose_a, &j->pose_b);
+    }
+    ++world->joints.live;
+    pl_joint_disturb(world, j);
+    world->joints.watched += pl_joint_is_watched(d);
+    pl_joint_revise(world, j);
+    return j->entity;
+}
+
+plumb_joint plumb_joint_create(plumb_world *world, const plumb_joint_desc *desc)
+{
+    plumb_joint joint = PLUMB_NULL_INIT;
+    if (world == NULL || pl_check_unlocked(world, __func__) != PLUMB_OK ||
+        pl_check_pointer(world, __func__, "desc", desc) != PLUMB_OK) {
+        return joint;
+    }
+    plumb_joint_desc resolved = *desc;
+    if (check_desc(world, __func__, &resolved) != PLUMB_OK) {
+        return joint;
+    }
+    if (!reserve(world)) {
+        pl_fail_memory(world, __func__);
+        return joint;
+    }
+    warn_of_idle(world, __func__, desc);
+    return insert(world, &resolved);
+}
+
+plumb_result plumb_joint_destroy(plumb_world *world, plumb_joint joint)
+{
+    if (world == NULL) {
+        return PLUMB_E_NULL;
+    }
+    if (pl_joint_slot(world, joint) == PL_NONE) {
+        return pl_fail_handle(world, __func__, "joint", joint.entity, "a live joint");
+    }
+    plumb_result r = pl_check_unlocked(world, __func__);
+    if (r == PLUMB_OK) {
+        pl_destroy_entity(world, joint.entity);
+    }
+    return r;
+}

@@ -1,0 +1,192 @@
+// joint_get.c - questions to joints. On a bad handle: zeros, and a refusal in the log. Reads: one joint and its bodies. Cost:
+// O(1), lists O(joints).
+#include "world/joint_list.h"
+#include "joints/joint.h"
+#include "plumb/math.h"
+#include "world/check.h"
+#include "world/state.h"
+
+#include <math.h>
+
+// Null, and a refusal in the log, for a bad handle.
+static const pl_joint *find(const plumb_world *world, const char *fn, plumb_joint joint)
+{
+    uint32_t slot = pl_joint_slot(world, joint);
+    if (slot != PL_NONE) {
+        return &pl_joint_items(&world->joints)[slot];
+    }
+    if (world != NULL) {
+        pl_fail_handle(world, fn, "joint", joint.entity, "a live joint");
+    }
+    return NULL;
+}
+
+bool plumb_joint_valid(const plumb_world *world, plumb_joint joint)
+{
+    return pl_joint_slot(world, joint) != PL_NONE;
+}
+
+bool plumb_joint_is_enabled(const plumb_world *world, plumb_joint joint)
+{
+    const pl_joint *j = find(world, __func__, joint);
+    return j != NULL && !j->desc.disabled;
+}
+
+plumb_joint_kind plumb_joint_get_kind(const plumb_world *world, plumb_joint joint)
+{
+    const pl_joint *j = find(world, __func__, joint);
+    return j == NULL ? PLUMB_REVOLUTE : j->desc.kind;
+}
+
+const char *plumb_joint_kind_name(plumb_joint_kind kind)
+{
+    return (unsigned)kind < (unsigned)pl_joint_class_count ? pl_joint_classes[kind]->name : NULL;
+}
+
+plumb_body plumb_joint_body_a(const plumb_world *world, plumb_joint joint)
+{
+    const pl_joint *j = find(world, __func__, joint);
+    return j == NULL ? (plumb_body)PLUMB_NULL_INIT : j->a.body;
+}
+
+plumb_body plumb_joint_body_b(const plumb_world *world, plumb_joint joint)
+{
+    const pl_joint *j = find(world, __func__, joint);
+    return j == NULL ? (plumb_body)PLUMB_NULL_INIT : j->b.body;
+}
+
+plumb_vec2 plumb_joint_anchor_a(const plumb_world *world, plumb_joint joint)
+{
+    const pl_joint *j = find(world, __func__, joint);
+    return j == NULL ? plumb_v2(0, 0) : pl_joint_anchor(world, &j->a);
+}
+
+plumb_vec2 plumb_joint_anchor_b(const plumb_world *world, plumb_joint joint)
+{
+    const pl_joint *j = find(world, __func__, joint);
+    return j == NULL ? plumb_v2(0, 0) : pl_joint_anchor(world, &j->b);
+}
+
+plumb_result plumb_joint_settings(const plumb_world *world, plumb_joint joint,
+                                  plumb_joint_desc *desc)
+{
+    if (world == NULL) {
+        return PLUMB_E_NULL;
+    }
+    const pl_joint *j = find(world, __func__, joint);
+    if (j == NULL) {
+        return PLUMB_E_HANDLE;
+    }
+    plumb_result r = pl_check_pointer(world, __func__, "desc", desc);
+    if (r == PLUMB_OK) {
+        *desc = j->desc;
+    }
+    return r;
+}
+
+plumb_real plumb_joint_value(const plumb_world *world, plumb_joint joint)
+{
+    const pl_joint *j = find(world, __func__, joint);
+    if (j == NULL) {
+        return 0;
+    }
+    pl_joint now = *j;
+    pl_joint_begin(world, &now);
+    return pl_held((double)pl_joint_classes[j->desc.kind]->value(&now, &now.pose_a, &now.pose_b));
+}
+
+static bool is_rigid(const pl_row *r)
+{
+    return r->hertz == 0 && (r->type == PL_ROW_EQUAL || (r->type == PL_ROW_LEAST && r->error < 0));
+}
+
+plumb_real plumb_joint_error(const plumb_world *world, plumb_joint joint)
+{
+    const pl_joint *j = find(world, __func__, joint);
+    if (j == NULL) {
+        return 0;
+    }
+    pl_joint now = *j;
+    pl_rows rows = { .count = 0 };
+    pl_joint_begin(world, &now);
+    pl_joint_classes[j->desc.kind]->rows(&now, &now.pose_a, &now.pose_b, &rows);
+    double most = 0, sum = 0;
+    for (int i = 0; i < rows.count; ++i) {
+        if (is_rigid(&rows.row[i])) {
+            const double error = fabs((double)pl_held((double)rows.row[i].error));
+            most = error > most ? error : most;
+            sum += error * error;
+        }
+    }
+    return pl_held(sum - sum == 0 ? sqrt(sum) : most); // squares beyond all doubles: beyond 1e154
+}
+
+plumb_vec2 plumb_joint_force(const plumb_world *world, plumb_joint joint)
+{
+    const pl_joint *j = find(world, __func__, joint);
+    return j == NULL ? plumb_v2(0, 0) : j->force;
+}
+
+plumb_real plumb_joint_torque(const plumb_world *world, plumb_joint joint)
+{
+    const pl_joint *j = find(world, __func__, joint);
+    return j == NULL ? 0 : j->torque;
+}
+
+void *plumb_joint_user_data(const plumb_world *world, plumb_joint joint)
+{
+    const pl_joint *j = find(world, __func__, joint);
+    return j == NULL ? NULL : j->desc.user_data;
+}
+
+int plumb_world_joints(const plumb_world *world, plumb_joint *joints, int capacity)
+{
+    int count = 0;
+    for (uint32_t i = 0; world != NULL && i < world->joints.count; ++i) {
+        const pl_joint *j = &pl_joint_items(&world->joints)[i];
+        if (plumb_is_null(j->entity)) {
+            continue;
+        }
+        if (joints != NULL && count < capacity) {
+            joints[count] = j->entity;
+        }
+        ++count;
+    }
+    return count;
+}
+
+int plumb_body_joints(const plumb_world *world, plumb_body body, plumb_joint *joints, int capacity)
+{
+    uint32_t row = pl_ask_body(world, __func__, body);
+    int count = 0;
+    uint32_t i = row == PL_NONE ? PL_NONE : world->bodies.first_joint[row];
+    while (i != PL_NONE) {
+        const pl_joint *j = &pl_joint_items(&world->joints)[i];
+        if (joints != NULL && count < capacity) {
+            joints[count] = j->entity;
+        }
+        ++count;
+        i = pl_joint_next(j, body);
+    }
+    return count;
+}
+
+const plumb_joint_strain *plumb_world_joint_strain_events(const plumb_world *world, int *count)
+{
+    int events = world == NULL ? 0 : world->joints.strained_count;
+    if (count != NULL) {
+        *count = events;
+    }
+    return events == 0 ? NULL
+                       : (const plumb_joint_strain *)world->joints.broken.data +
+                             world->joints.strained_first;
+}
+
+const plumb_joint_break *plumb_world_joint_break_events(const plumb_world *world, int *count)
+{
+    int events = world == NULL ? 0 : world->joints.broken_count;
+    if (count != NULL) {
+        *count = events;
+    }
+    return events == 0 ? NULL : world->joints.broken.data;
+}

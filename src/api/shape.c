@@ -1,0 +1,331 @@
+// shape.c - shapes are added to bodies, removed and asked. A shape's entity names its first piece.
+//
+// Reads: arguments, pieces. Writes: piece rows through piece.c, mass through mass.c.
+// Cost: O(pieces of the body) to add or remove, O(pieces of the shape) to ask.
+#include "world/destroy.h"
+#include "world/island.h"
+#include "narrow/one_way.h"
+#include "world/check.h"
+#include "world/filter.h"
+#include "world/rows.h"
+
+//---- create, destroy -----------------------------------------------------------------------------
+
+static bool is_line(const plumb_shape_desc *desc)
+{
+    return desc->kind == PLUMB_SEGMENT || desc->kind == PLUMB_CHAIN;
+}
+
+static plumb_result check_mass(const plumb_world *world, const char *fn, uint32_t row,
+                               const pl_made *made, real density)
+{
+    const pl_bodies *b = &world->bodies;
+    pl_mass_sum sum = pl_mass_of_shapes(world, row);
+    pl_mass_add(&sum, made->area, density);
+    pl_body_mass mass;
+    if (b->type[row] != PLUMB_DYNAMIC ||
+        pl_mass_resolve(&sum, b->set_mass[row], b->set_inertia[row], &mass)) {
+        return PLUMB_OK;
+    }
+    return pl_fail(world, PLUMB_E_RANGE, fn,
+                   "density is %g; mass and inertia of the body must be %g to %g", (double)density,
+                   (double)PL_MASS_LEAST, (double)PL_MASS_MOST);
+}
+
+static void set_material(plumb_world *world, uint32_t first, uint32_t row)
+{
+    pl_pieces *pieces = &world->pieces;
+    for (uint32_t p = first; p != PL_NONE; p = pieces->next_in_shape[p]) {
+        pieces->material[p] = row;
+        pieces->friction[p] = world->materials.friction[row];
+        pieces->restitution[p] = world->materials.restitution[row];
+        ++world->materials.users[row];
+    }
+}
+
+plumb_result pl_shape_insert(plumb_world *world, const char *fn, uint32_t row,
+                             const plumb_shape_desc *desc, const pl_made *made, plumb_shape *shape)
+{
+    uint32_t material = plumb_is_null(desc->material) ? 0 : pl_material_row(world, desc->material);
+    real density = desc->density > 0 ? desc->density : world->materials.density[material];
+    density = is_line(desc) || desc->sensor ? 0 : density;
+    plumb_result r = check_mass(world, fn, row, made, density);
+    if (r != PLUMB_OK) {
+        return r;
+    }
+    if (!pl_registry_reserve(&world->memory, &world->registry, 1) ||
+        !pl_pieces_reserve(world, made->count) ||
+        !pl_pool_reserve(&world->memory, &world->vertices, made->corners)) {
+        return pl_fail_memory(world, fn);
+    }
+    shape->entity = pl_entity_claim(world, shape->entity, PLUMB_KIND_SHAPE, PL_NONE);
+    uint32_t first = pl_pieces_add(world, row, *shape, made);
+    world->registry.slots[shape->entity.index].row = first;
+    set_material(world, first, material);
+    for (uint32_t p = first; p != PL_NONE; p = world->pieces.next_in_shape[p]) {
+        world->pieces.shape_kind[p] = (uint8_t)desc->kind;
+        world->pieces.density[p] = density;
+        world->pieces.own_density[p] = desc->density;
+        world->pieces.user_data[p] = desc->user_data;
+    }
+    pl_filter_apply(world, first, &desc->filter);
+    if (desc->sensor) {
+        pl_sensor_apply(world, first, true);
+    }
+    if (desc->one_way.direction.x != 0 || desc->one_way.direction.y != 0) {
+        pl_one_way_apply(world, first, &desc->one_way);
+    }
+    pl_mass_revise(world, row);
+    return PLUMB_OK;
+}
+
+plumb_shape plumb_shape_create(plumb_world *world, plumb_body body, const plumb_shape_desc *desc)
+{
+    plumb_shape shape = PLUMB_NULL_INIT;
+    uint32_t row;
+    pl_made made;
+    if (pl_check_body(world, __func__, body, &row) == PLUMB_OK &&
+        pl_check_unlocked(world, __func__) == PLUMB_OK &&
+        pl_shape_make(world, __func__, desc, &made) == PLUMB_OK) {
+        pl_shape_insert(world, __func__, row, desc, &made, &shape);
+    }
+    return shape;
+}
+
+plumb_result plumb_shape_destroy(plumb_world *world, plumb_shape shape)
+{
+    uint32_t first;
+    plumb_result r = pl_check_shape(world, __func__, shape, &first);
+    r = r != PLUMB_OK ? r : pl_check_unlocked(world, __func__);
+    if (r == PLUMB_OK) {
+        pl_destroy_entity(world, shape.entity);
+    }
+    return r;
+}
+
+//---- setters -------------------------------------------------------------------------------------
+
+plumb_result plumb_shape_set_material(plumb_world *world, plumb_shape shape,
+                                      plumb_material material)
+{
+    uint32_t first;
+    uint32_t row;
+    plumb_result r = pl_check_shape(world, __func__, shape, &first);
+    r = r != PLUMB_OK ? r : pl_check_material(world, __func__, material, &row);
+    if (r != PLUMB_OK) {
+        return r;
+    }
+    for (uint32_t p = first; p != PL_NONE; p = world->pieces.next_in_shape[p]) {
+        --world->materials.users[world->pieces.material[p]];
+        if (world->pieces.material[p] != row) {
+            pl_sleep_disturb_piece(world, p);
+        }
+    }
+    set_material(world, first, row);
+    world->schedule_dirty = true;
+    return PLUMB_OK;
+}
+
+plumb_result plumb_shape_set_density(plumb_world *world, plumb_shape shape, plumb_real density)
+{
+    uint32_t first;
+    plumb_result r = pl_check_shape(world, __func__, shape, &first);
+    r = r != PLUMB_OK ? r : pl_check_range(world, __func__, "density", density, 0, PLUMB_REAL_MAX);
+    if (r != PLUMB_OK) {
+        return r;
+    }
+    pl_pieces *pieces = &world->pieces;
+    uint32_t row = pieces->body[first];
+    real own = pieces->own_density[first], old = pieces->density[first];
+    for (uint32_t p = first; p != PL_NONE; p = pieces->next_in_shape[p]) {
+        pieces->own_density[p] = density;
+        pieces->density[p] = pl_density_of(world, p);
+    }
+    r = check_mass(world, __func__, row, &(pl_made){ 0 }, density);
+    for (uint32_t p = first; r != PLUMB_OK && p != PL_NONE; p = pieces->next_in_shape[p]) {
+        pieces->own_density[p] = own;
+        pieces->density[p] = old;
+    }
+    if (r == PLUMB_OK) {
+        pl_mass_revise(world, row);
+        pl_sleep_disturb(world, row);
+    }
+    return r;
+}
+
+plumb_result plumb_shape_set_geometry(plumb_world *world, plumb_shape shape,
+                                      const plumb_shape_desc *desc)
+{
+    uint32_t first;
+    plumb_result r = pl_check_shape(world, __func__, shape, &first);
+    r = r != PLUMB_OK ? r : pl_check_pointer(world, __func__, "desc", desc);
+    r = r != PLUMB_OK ? r : pl_check_unlocked(world, __func__);
+    if (r != PLUMB_OK) {
+        return r;
+    }
+    const pl_pieces *pieces = &world->pieces;
+    uint32_t row = pieces->body[first];
+    plumb_shape_desc wanted = *desc;
+    wanted.material = plumb_shape_material(world, shape);
+    wanted.density = pieces->own_density[first];
+    wanted.filter = plumb_shape_filter(world, shape);
+    wanted.filter.mask = wanted.filter.nothing ? 0 : wanted.filter.mask;
+    wanted.sensor = plumb_shape_is_sensor(world, shape);
+    wanted.user_data = pieces->user_data[first];
+    pl_made made;
+    r = pl_shape_make(world, __func__, &wanted, &made);
+    // The new pieces take the handle over while the old ones are there: only then can nothing fail.
+    r = r != PLUMB_OK ? r : pl_shape_insert(world, __func__, row, &wanted, &made, &shape);
+    if (r == PLUMB_OK) {
+        pl_pieces_remove(world, first);
+        pl_mass_revise(world, row);
+        pl_sleep_disturb(world, row);
+    }
+    return r;
+}
+
+plumb_result plumb_shape_set_user_data(plumb_world *world, plumb_shape shape, void *user_data)
+{
+    uint32_t first;
+    plumb_result r = pl_check_shape(world, __func__, shape, &first);
+    if (r == PLUMB_OK) {
+        world->pieces.user_data[first] = user_data;
+    }
+    return r;
+}
+
+//---- getters -------------------------------------------------------------------------------------
+
+bool plumb_shape_valid(const plumb_world *world, plumb_shape shape)
+{
+    return pl_shape_piece(world, shape) != PL_NONE;
+}
+
+plumb_shape_kind plumb_shape_get_kind(const plumb_world *world, plumb_shape shape)
+{
+    uint32_t first = pl_ask_shape(world, __func__, shape);
+    return first == PL_NONE ? PLUMB_CIRCLE : (plumb_shape_kind)world->pieces.shape_kind[first];
+}
+
+plumb_body plumb_shape_body(const plumb_world *world, plumb_shape shape)
+{
+    uint32_t first = pl_ask_shape(world, __func__, shape);
+    plumb_body none = PLUMB_NULL_INIT;
+    return first == PL_NONE ? none : world->bodies.entity[world->pieces.body[first]];
+}
+
+// The default material has no handle: null.
+plumb_material plumb_shape_material(const plumb_world *world, plumb_shape shape)
+{
+    uint32_t first = pl_ask_shape(world, __func__, shape);
+    plumb_material none = PLUMB_NULL_INIT;
+    return first == PL_NONE ? none : world->materials.entity[world->pieces.material[first]];
+}
+
+plumb_real plumb_shape_density(const plumb_world *world, plumb_shape shape)
+{
+    uint32_t first = pl_ask_shape(world, __func__, shape);
+    return first == PL_NONE ? 0 : world->pieces.density[first];
+}
+
+plumb_mass_properties plumb_shape_mass(const plumb_world *world, plumb_shape shape)
+{
+    uint32_t first = pl_ask_shape(world, __func__, shape);
+    if (first == PL_NONE) {
+        return (plumb_mass_properties){ 0 };
+    }
+    plumb_mass_properties m = world->pieces.area[first];
+    m.mass *= world->pieces.density[first];
+    m.inertia *= world->pieces.density[first];
+    return m;
+}
+
+void *plumb_shape_user_data(const plumb_world *world, plumb_shape shape)
+{
+    uint32_t first = pl_ask_shape(world, __func__, shape);
+    return first == PL_NONE ? NULL : world->pieces.user_data[first];
+}
+
+//---- geometry ------------------------------------------------------------------------------------
+
+int plumb_shape_piece_count(const plumb_world *world, plumb_shape shape)
+{
+    int count = 0;
+    uint32_t p = pl_ask_shape(world, __func__, shape);
+    for (; p != PL_NONE; p = world->pieces.next_in_shape[p]) {
+        ++count;
+    }
+    return count;
+}
+
+plumb_result plumb_shape_piece(const plumb_world *world, plumb_shape shape, int i,
+                               plumb_convex *piece, uint32_t *cuts)
+{
+    uint32_t p;
+    plumb_result r = pl_check_shape(world, __func__, shape, &p);
+    r = r != PLUMB_OK ? r : pl_check_pointer(world, __func__, "piece", piece);
+    if (r != PLUMB_OK) {
+        return r;
+    }
+    int count = plumb_shape_piece_count(world, shape);
+    if (i < 0 || i >= count) {
+        return pl_fail(world, PLUMB_E_RANGE, __func__, "i is %d; it must be 0 to %d", i, count - 1);
+    }
+    for (int k = 0; k < i; ++k) {
+        p = world->pieces.next_in_shape[p];
+    }
+    pl_piece_convex(world, p, piece);
+    if (cuts != NULL) {
+        *cuts = world->pieces.cuts[p];
+    }
+    return PLUMB_OK;
+}
+
+plumb_aabb plumb_shape_aabb(const plumb_world *world, plumb_shape shape)
+{
+    plumb_aabb box = plumb_aabb_empty();
+    uint32_t p = pl_ask_shape(world, __func__, shape);
+    for (; p != PL_NONE; p = world->pieces.next_in_shape[p]) {
+        pl_box t = pl_piece_tight_box(world, p);
+        box = plumb_aabb_union(box, (plumb_aabb){ { t.min_x, t.min_y }, { t.max_x, t.max_y } });
+    }
+    return box;
+}
+
+bool plumb_shape_contains(const plumb_world *world, plumb_shape shape, plumb_vec2 point)
+{
+    uint32_t p = pl_ask_shape(world, __func__, shape);
+    if (p == PL_NONE) {
+        return false;
+    }
+    plumb_vec2 local = plumb_body_local_point(world, plumb_shape_body(world, shape), point);
+    for (; p != PL_NONE; p = world->pieces.next_in_shape[p]) {
+        plumb_convex convex;
+        pl_piece_convex(world, p, &convex);
+        if (plumb_convex_contains(&convex, local)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+int plumb_world_shapes(const plumb_world *world, plumb_shape *shapes, int capacity)
+{
+    if (world == NULL) {
+        return 0;
+    }
+    const pl_pieces *pieces = &world->pieces;
+    int count = 0;
+    for (uint32_t p = 0; p < pieces->table.count; ++p) {
+        // Only the first piece of a shape is the one that its entity names.
+        if (pieces->kind[p] == PL_PIECE_FREE ||
+            world->registry.slots[pieces->shape[p].entity.index].row != p) {
+            continue;
+        }
+        if (shapes != NULL && count < capacity) {
+            shapes[count] = pieces->shape[p];
+        }
+        ++count;
+    }
+    return count;
+}

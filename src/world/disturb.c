@@ -1,0 +1,128 @@
+// disturb.c - changes between steps, and by systems: what they make wake in the next one.
+//
+// Every setter that changes something calls one of these with the body or piece concerned. Nothing
+// moves here: an island is taken down as due, and the waking pass does the rest, so that setters
+// neither invalidate spans nor need memory. Bodies that are awake begin to rest anew, and so do,
+// at the next step, those that touch an immovable body that was changed (fall.c).
+//
+// Reads: rows, contacts at pieces. Writes: islands, times of rest. Cost: O(1) for dynamic bodies,
+// O(sleeping contacts of the body) for others; pl_sleep_disturb_all O(bodies).
+#include "world/island.h"
+#include "world/rows.h"
+
+static void make_due(plumb_world *world, uint32_t island)
+{
+    pl_sleep *s = &world->sleep;
+    pl_island *i = &pl_islands(s)[island];
+    if (!i->due) {
+        i->due = true;
+        i->next_due = s->first_due;
+        s->first_due = island;
+    }
+}
+
+static void wake_contacts(plumb_world *world, uint32_t piece)
+{
+    const pl_sleeping_contact *all = pl_sleeping_contacts(&world->sleep);
+    for (uint32_t c = world->pieces.first_sleeping[piece]; c != PL_NONE; c = all[c].fixed_next) {
+        make_due(world, all[c].island);
+    }
+}
+
+static void note_immovable(plumb_world *world, uint32_t row)
+{
+    world->sleep.changed_step = world->step_count + 1;
+    world->bodies.changed_step[row] = (uint32_t)(world->step_count + 1);
+}
+
+void pl_sleep_stir(plumb_world *world, uint32_t row)
+{
+    pl_bodies *b = &world->bodies;
+    b->rest_time[row] = PL_NOT_RESTING;
+    if (b->island[row] != PL_NONE) {
+        make_due(world, b->island[row]);
+    }
+    if (b->type[row] != PLUMB_DYNAMIC) {
+        note_immovable(world, row);
+        for (uint32_t p = b->first_piece[row]; p != PL_NONE; p = world->pieces.next_in_body[p]) {
+            wake_contacts(world, p);
+        }
+    }
+}
+
+// True for a body that was made asleep and that no step has seen yet.
+static bool is_furnished(const plumb_world *world, uint32_t row)
+{
+    uint32_t island = world->bodies.island[row];
+    return island != PL_NONE &&
+           pl_islands(&world->sleep)[island].made_step == world->step_count + 1;
+}
+
+void pl_sleep_disturb(plumb_world *world, uint32_t row)
+{
+    if (!is_furnished(world, row)) {
+        pl_sleep_stir(world, row);
+    }
+}
+
+void pl_sleep_disturb_piece(plumb_world *world, uint32_t piece)
+{
+    uint32_t row = world->pieces.body[piece];
+    if (world->bodies.type[row] == PLUMB_DYNAMIC) {
+        pl_sleep_disturb(world, row);
+    } else {
+        note_immovable(world, row);
+        wake_contacts(world, piece);
+    }
+}
+
+void pl_sleep_disturb_all(plumb_world *world)
+{
+    for (uint32_t i = 0; i < world->sleep.island_slots; ++i) {
+        if (pl_islands(&world->sleep)[i].body_count > 0) {
+            make_due(world, i);
+        }
+    }
+    for (uint32_t row = 0; row < world->dynamic_count; ++row) {
+        world->bodies.rest_time[row] = PL_NOT_RESTING;
+    }
+}
+
+void pl_sleep_void_contacts(plumb_world *world, uint32_t piece)
+{
+    wake_contacts(world, piece);
+    pl_sleeping_contact *all = pl_sleeping_contacts(&world->sleep);
+    for (uint32_t c = world->pieces.first_sleeping[piece]; c != PL_NONE; c = all[c].fixed_next) {
+        all[c].fixed = PL_NONE;
+    }
+    world->pieces.first_sleeping[piece] = PL_NONE;
+}
+
+// Its fat box is emptied: whoever files it will find that it was moved.
+void pl_sleep_see_anew(plumb_world *world, uint32_t piece)
+{
+    pl_pieces *pieces = &world->pieces;
+    uint32_t row = pieces->body[piece];
+    pl_sleep_disturb_piece(world, piece);
+    if (world->asleep_count == 0 || world->bodies.type[row] == PLUMB_DYNAMIC) {
+        return;
+    }
+    if (world->bodies.type[row] == PLUMB_STATIC) {
+        pieces->fat[piece] =
+            (pl_box){ PLUMB_REAL_MAX, PLUMB_REAL_MAX, -PLUMB_REAL_MAX, -PLUMB_REAL_MAX };
+        world->static_dirty = true;
+    }
+}
+
+void pl_sleep_forget(plumb_world *world, uint32_t row)
+{
+    uint32_t island = world->bodies.island[row];
+    if (island == PL_NONE) {
+        return;
+    }
+    make_due(world, island);
+    pl_island_remove(world, row);
+    if (pl_islands(&world->sleep)[island].body_count == 0) {
+        pl_island_close(world, island);
+    }
+}

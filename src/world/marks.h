@@ -1,0 +1,16 @@
+// marks.h - what a change of pieces leaves for the next step to see.
+#ifndef PL_MARKS_H
+#define PL_MARKS_H
+
+#include "world/state.h"
+
+// Room for the tombstones of `slots` piece slots.
+bool pl_tombstones_reserve(plumb_world *world, uint32_t slots);
+// A piece goes: keeps who it was if a pair may name it. Its slot and body are still as they were.
+void pl_tombstone_set(plumb_world *world, uint32_t piece);
+// Something static or asleep came, went or moved.
+void pl_sensing_note_rest(plumb_world *world);
+// Room for `slots` pieces that leave their boxes. False when out of memory.
+bool pl_broad_reserve_left(plumb_world *world, uint32_t slots);
+
+#endif

@@ -1,0 +1,201 @@
+// joint.h - joints as they are stored, the rows that they are made of, the plan of who is solved with whom.
+#ifndef PL_TABLE_JOINT_H
+#define PL_TABLE_JOINT_H
+
+#include "core/memory.h"
+#include "plumb/joint.h"
+#include "world/columns.h"
+
+#define PL_JOINT_ROWS 6
+
+// Where a body is, as rows see it.
+typedef struct pl_joint_pose {
+    real x, y;    // [m] centre, from A's centre at the start of the step
+    double angle; // [rad] turned since the joint was made, full turns included
+    real c, s;    // rotation
+    real rx, ry;  // [m] centre to anchor, in world axes
+} pl_joint_pose;
+
+typedef enum pl_row_type {
+    PL_ROW_OFF,   // not in force
+    PL_ROW_EQUAL, // C = 0; with hertz > 0 a spring
+    PL_ROW_LEAST, // C >= 0
+    PL_ROW_DRIVE  // J v = speed; C is the coordinate driven
+} pl_row_type;
+
+// How a row follows from where the bodies are: what the wide kernels (joint.simd.c) go by.
+typedef enum pl_row_form {
+    PL_FORM_OWN,     // only its kind knows
+    PL_FORM_POINT_X, // pl_rows_point, always both
+    PL_FORM_POINT_Y,
+    PL_FORM_ALONG, // pl_row_along_axis, the axis turning with A
+    PL_FORM_ANGLE, // pl_row_angle
+    PL_FORM_LENGTH // pl_row_length
+} pl_row_form;
+
+typedef struct pl_row {
+    real ax, ay, aw, bx, by, bw; // J
+    real error;                  // C
+    real speed;                  // [m/s] or [rad/s] of DRIVE
+    real hertz, damping;         // of the spring
+    real most;                   // [N] or [N m] largest force either way
+    pl_row_type type;
+    pl_row_form form;
+} pl_row;
+
+typedef struct pl_rows {
+    int count;       // rows; the same for all life of a joint
+    int block;       // so many of the first are solved as one system; 0: none. All are of one type
+    real block_most; // [N] bound of the block's force as a vector (two rows)
+    pl_row row[PL_JOINT_ROWS];
+} pl_rows;
+
+#define PL_JOINT_PATTERNS 32 // joints of further patterns are solved one by one
+
+typedef struct pl_pattern_row {
+    uint8_t index; // in pl_joint.impulse
+    uint8_t form;  // pl_row_form
+    uint8_t type;  // pl_row_type
+    bool spring;
+} pl_pattern_row;
+
+typedef struct pl_joint_pattern {
+    uint32_t variant;     // what joints of the pattern have in common: see plan.c
+    uint32_t rows_of_all; // rows of the joint, those that are off included
+    uint8_t count;        // rows in force
+    uint8_t block;        // so many of the first are solved as one system
+    bool bare;            // nothing but the point of a rigid hinge
+    bool tempered;        // the block is a spring, or of bounded force
+    pl_pattern_row row[PL_JOINT_ROWS];
+} pl_joint_pattern;
+
+typedef struct pl_joint pl_joint;
+
+// What a joint knows of one of its bodies.
+typedef struct pl_joint_end {
+    plumb_body body;  // null: the world
+    uint32_t next;    // next joint of the body: see pl_joint_next
+    plumb_vec2 local; // [m] anchor in the body's frame; the world's: in the world
+    double start;     // [rad] angle of the body when the joint was made
+    int32_t turns;    // full turns since
+    uint32_t eighth;  // of a turn in which the body was seen last: see pl_joint_eighth
+} pl_joint_end;
+
+struct pl_joint {
+    // What every step reads and writes of every joint comes first, on one cache line.
+    real impulse[PL_JOINT_ROWS]; // [N s] of a substep
+    real h;                      // [s] substep that the impulses belong to
+    plumb_vec2 force;            // [N] reaction
+    real torque;                 // [N m]
+    plumb_joint entity;          // null: a free slot, whose a.next is the next one
+    plumb_joint_desc desc;
+    pl_joint_end a, b;
+    plumb_vec2 axis;   // unit, in A's frame (the world's without A)
+    plumb_vec2 target; // mouse: world [m]; motor: in A's frame [m]
+    real sum;          // gear, pulley: what is kept; ratchet: the tooth behind the pawl [rad]
+    uint32_t strained; // 1: its reaction was beyond its bounds for events when last seen
+    // What is behind here is of one step, and not saved (snapshot/list.h).
+    pl_joint_pose pose_a, pose_b; // at the start of the step; first: aligned as the whole
+    uint32_t slot_a, slot_b;      // solver slots
+    plumb_vec2 origin; // [m] from where poses are told: A's centre at the start of the step
+    // Solver: of joints solved one by one.
+    real mass[PL_JOINT_ROWS]; // [kg] effective, of rows outside the block
+    real inverse[3][3];       // of the block's K = J M^-1 J^T
+    real turn[6];             // change of momentum owed because J has turned: see solve.c
+    pl_rows rows;
+    plumb_vec2 arm_b;        // [m] from B's centre to its anchor, at the rows
+    plumb_vec2 step_impulse; // [N s] on B over the step, where it is watched; 0 between steps
+    real step_turn;          // [N m s] likewise, about B's anchor
+};
+
+// A joint as the plan sees it, so that a step need not look at the joint itself.
+typedef struct pl_joint_mark {
+    plumb_body a, b;
+    uint32_t row_a, row_b; // of the bodies, as last found; PL_NONE: the world
+    uint32_t cluster;      // of the bodies that it was grouped with
+    uint8_t what;  // 0: not solved (off, or a body of it asleep or disabled); else see plan.c
+    uint8_t color; // PL_JOINT_COLORS: it is solved by itself
+    uint8_t pattern;
+    bool quiet; // nothing but its reaction comes of it after the step
+} pl_joint_mark;
+
+#define PL_JOINT_COLORS 64
+
+// The joints of a cluster of bodies.
+typedef struct pl_joint_group {
+    uint32_t first, end; // in `grouped`: in lanes, then those solved one by one
+    uint32_t alone;      // the first of these
+    uint32_t color_first[PL_JOINT_COLORS + 1]; // first bundle of a colour; then where the last ends
+} pl_joint_group;
+
+// Who is solved with whom: what follows from the joints and bodies that there are, and is kept from step to
+// step as long as it does (plan.c); which of them are in which cluster, and their lanes (group.c).
+typedef struct pl_joint_plan {
+    pl_buffer marks; // pl_joint_mark a slot
+    // pl_ends: rows of the bodies of each awake joint; PL_NONE where it is not solved
+    pl_buffer ends;
+    pl_buffer order;   // uint32_t: joints that are solved, by colour and pattern
+    pl_buffer groups;  // pl_joint_group a cluster
+    pl_buffer grouped; // uint32_t: joints group by group, by colour and pattern
+    pl_buffer bundles; // pl_joint_bundle
+    pl_buffer lanes;   // pl_joint_lane
+    pl_buffer slots;   // uint32_t, two a lane: see pl_joint_call
+    // of the bundles of a group, room for one group a thread; from step to step nothing is kept
+    pl_buffer records;
+    size_t room; // [B] of a thread
+    uint32_t order_count, group_count, bundle_count, pattern_count;
+    pl_joint_pattern patterns[PL_JOINT_PATTERNS];
+    bool made, changed; // since the last step
+    bool adrift;        // no joint is off, or ties a body to what dynamics does not move
+} pl_joint_plan;
+
+typedef struct pl_joints {
+    pl_buffer items;  // pl_joint; slots are stable
+    pl_buffer broken; // plumb_joint_break of the last step, room for every joint
+    uint32_t count;   // slots ever used
+    uint32_t live;
+    uint32_t watched;   // pl_joint_is_watched
+    uint32_t free_head; // PL_NONE: none
+    int broken_count;
+    // place in `broken` of the strain events: a joint makes one event a step at most
+    uint32_t strained_first;
+    int strained_count;
+    pl_buffer awake; // uint32_t: slots of joints of which no body sleeps, in order
+    uint32_t awake_count;
+    bool awake_stale; // joints came or went, or bodies fell asleep or woke
+    pl_joint_plan plan;
+} pl_joints;
+
+static inline pl_joint *pl_joint_items(const pl_joints *joints)
+{
+    return (pl_joint *)joints->items.data;
+}
+
+// The i-th joint that is awake, after pl_joints_awake.
+static inline pl_joint *pl_joint_awake(const pl_joints *joints, uint32_t i)
+{
+    return &pl_joint_items(joints)[((const uint32_t *)joints->awake.data)[i]];
+}
+
+static inline const pl_joint_mark *pl_joint_marks(const pl_joints *joints)
+{
+    return (const pl_joint_mark *)joints->plan.marks.data;
+}
+
+static inline pl_joint_group *pl_joint_groups(const pl_joints *joints)
+{
+    return (pl_joint_group *)joints->plan.groups.data;
+}
+
+// The i-th joint of all groups.
+static inline pl_joint *pl_joint_grouped(const pl_joints *joints, uint32_t i)
+{
+    return &pl_joint_items(joints)[((const uint32_t *)joints->plan.grouped.data)[i]];
+}
+
+static inline void pl_joints_replan(pl_joints *joints)
+{
+    joints->plan.made = false;
+}
+
+#endif
