@@ -8,8 +8,8 @@
 
 #include <cmocka.h>
 
-#include "solver/impact.c" // impact_of: static there
-#include "solver/soft.c"   // open_step: static there
+#include "solver/impact.c"  // impact_of: static there
+#include "solver/substep.c" // open_step: static there
 
 #include "plumb/plumb.h"
 
@@ -191,7 +191,7 @@ static void check_contact(plumb_world *w, contact *c, near_real h, tally *t)
 }
 
 // Contacts of one bundle have no body in common.
-static void check_bundle(plumb_world *w, const soft_step *step, uint32_t k, tally *t)
+static void check_bundle(plumb_world *w, const pl_solving *step, uint32_t k, tally *t)
 {
     const uint32_t width = (uint32_t)step->kernels->width, *lanes = step->call.lanes;
     contact contacts[16];
@@ -225,7 +225,8 @@ static void check_heap(int width, double belt, bool locked)
     for (int i = 0; i < 200; ++i) {
         assert_int_equal(plumb_world_step(w, R(1) / 60), PLUMB_OK);
         make_room(w);
-        const soft_step step = open_step(w, R(1) / 60);
+        pl_solving step = open_step(w, NULL, R(1) / 60);
+        pl_soft_open(w, &step);
         for (uint32_t k = 0; k < w->solver.bundle_count; ++k) {
             memset(w->solver.residuals.data, 0, w->solver.slot_count * 4 * sizeof(near_real));
             check_bundle(w, &step, k, &t);
