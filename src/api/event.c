@@ -6,6 +6,7 @@
 //
 // Reads: pairs, manifolds, centres, solver bodies (how far each turned in the step). Writes:
 // nothing. Cost: events O(1); contacts O(pairs).
+#include "solver/solver.h"
 #include "world/island.h"
 #include "plumb/event.h"
 #include "world/check.h"

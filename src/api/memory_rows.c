@@ -5,6 +5,11 @@
 // keep. Only components and the queries' grids are counted by hand, for theirs are reached through pointers.
 //
 // Reads: sizes. Writes: nothing. Cost: O(buffers).
+#include "step/pass.h"
+#include "solver/solver.h"
+#include "step/quarantine.h"
+#include "effects/effects.h"
+#include "step/system.h"
 #include "joints/joint.h"
 #include "broad/broad.h"
 #include "broad/grid.h"

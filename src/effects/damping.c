@@ -12,6 +12,8 @@
 // Reads: settings, solver bodies. Writes: accelerations. Order: behind other effects, whose accelerations are damped
 // too. Cost: O(damped bodies) a substep.
 
+#include "math/decay.h"
+#include "effects/effects.h"
 #include "core/quad.h"
 #include "solver/flight.h"
 #include "solver/substep.h"

@@ -7,38 +7,8 @@
 #ifndef PL_EFFECTS_H
 #define PL_EFFECTS_H
 
-#include "core/memory.h"
+#include "world/tables/effects.h"
 #include "math/decay.h"
-#include "world/columns.h"
-
-// Damping, caps and time scale of a body, and whatever else a row of src/schema stores here. All defaults: it has no
-// record.
-#define PL_SETTINGS_MEMBER(name, initial) real name;
-typedef struct pl_body_settings {
-    plumb_body body;
-    PL_BODY_ROWS(PL_ROW_RECORD, PL_SETTINGS_MEMBER)
-} pl_body_settings;
-
-#define PL_SETTINGS_SAVED sizeof(pl_body_settings)
-
-typedef struct pl_body_settings_list {
-    pl_buffer items; // pl_body_settings, no order
-    uint32_t count;
-    uint32_t damped, capped, scaled, frozen; // records that ask for it; frozen: time scale 0
-} pl_body_settings_list;
-
-// Where a kinematic body is to be in a while.
-typedef struct pl_target {
-    plumb_body body;
-    real x, y;      // [m] origin
-    plumb_rot turn; // rotation
-    real left;      // [s] until then
-} pl_target;
-
-typedef struct pl_targets {
-    pl_buffer items; // pl_target, in the order in which they were set
-    uint32_t count;
-} pl_targets;
 
 //---- records (body_settings.c, target.c) -----------------------------------------------------------------
 
@@ -46,23 +16,6 @@ typedef struct pl_targets {
 void pl_target_reaim(plumb_world *world, uint32_t row);
 
 //---- in a step ------------------------------------------------------------------------------------
-
-// What a step needs of effects, and forgets.
-typedef struct pl_effects {
-    plumb_vec2 gravity; // [m/s^2] that acts in this step: 0 where the row of gravity does not run
-    uint32_t gathered;  // flags of bodies that pl_effects_gather has to look at
-    bool taken;         // pl_effects_take_over changes what some bodies take over
-    // uint8_t a dynamic row: PL_CALLED_... if systems of the substep act on it, else 0
-    pl_buffer called;
-    bool any_called, any_alone;
-    pl_buffer bases; // a quad a solver slot: its acceleration before effects of the substep
-    pl_buffer decays, factors;  // pl_damping_decay, pl_damping_factors a record
-    pl_buffer dampers, cappers; // pl_damper, pl_capper, by rising slot
-    uint32_t decay_count, damper_count, capper_count;
-    bool decays_stale; // records may have changed: set where the schedule is revised
-    bool resets;       // accelerations are those of the step again as a substep begins
-    bool damps, caps;  // their rows are in the schedule: nothing runs in place of them
-} pl_effects;
 
 // By systems that may run on several threads at once, each with ranges of its own; by others.
 enum { PL_CALLED_SHARED = 1, PL_CALLED_ALONE = 2 };

@@ -7,6 +7,8 @@
 // above the cap is shortened to it, and the way is then that of the mean of both velocities.
 //
 // Reads: one body row, its record, its decay (damping.c). Writes: nothing. Cost: O(1).
+#include "math/decay.h"
+#include "effects/effects.h"
 #include "world/body_settings.h"
 #include "plumb/math.h"
 #include "world/state.h"

@@ -5,6 +5,7 @@
 // bit for bit, and the body stands still. All of it happens after motion: a step that runs out of
 // memory must find velocities as they were. Reads: targets, poses. Writes: velocities and poses of
 // their bodies. Cost: O(targets).
+#include "effects/effects.h"
 #include "world/body_settings.h"
 #include "plumb/math.h"
 #include "world/check.h"

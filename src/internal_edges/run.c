@@ -72,19 +72,6 @@ static bool reserve_runs(plumb_world *world)
            pl_buffer_reserve(memory, &s->borne, contacts * sizeof(pl_manifold));
 }
 
-static bool shown_to_systems(const plumb_world *world)
-{
-    const char *reason;
-    for (uint32_t i = 0; i < world->systems.count; ++i) {
-        const pl_system *system = &world->systems.items[i];
-        if (system->desc.phase == PLUMB_PHASE_CONTACTS &&
-            pl_system_wanted(world, system, &reason)) {
-            return true;
-        }
-    }
-    return false;
-}
-
 static void swap_loads(pl_internal_edges *s)
 {
     pl_buffer loads = s->loads;
@@ -105,7 +92,6 @@ bool pl_runs_open(plumb_world *world, uint32_t contacts)
     swap_loads(s);
     s->opened = true;
     s->load_count = s->contact_count = 0;
-    s->apart = shown_to_systems(world);
     pl_run_load *old = s->old_loads.data;
     run_slot *slots = s->slots.data;
     for (uint32_t i = 0; i < s->old_load_count; ++i) {

@@ -13,7 +13,7 @@
 #ifndef PL_JOINT_LANES_H
 #define PL_JOINT_LANES_H
 
-#include "solver/solver.h"
+#include "world/tables/solver.h"
 #include "core/wide.h"
 #include "joints/joint.h"
 

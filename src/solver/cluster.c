@@ -12,6 +12,8 @@
 //
 // Reads: ends of manifolds and joints, marks of rows. Writes: islands, their homes, labels of rows. Cost:
 // two reads a contact or joint, one a body; O(bodies + contacts + joints) when islands are looked for.
+#include "solver/solver.h"
+#include "effects/effects.h"
 #include "joints/joint.h"
 #include "world/state.h"
 

@@ -5,6 +5,9 @@
 // step. Rotations turn by the exact angle. Bodies that moved farther than their slack are noted for the
 // continuous pass, with where they came from. Reads: solver bodies, forces. Writes: transforms,
 // velocities, poses, movers; clears forces. Cost: O(dynamic and kinematic bodies).
+#include "world/marks.h"
+#include "solver/solver.h"
+#include "effects/effects.h"
 #include "world/body_settings.h"
 #include "plumb/math.h"
 #include "solver/flight.h"

@@ -9,6 +9,7 @@
 //
 // Reads: manifolds, velocities, masses, forces. Writes: solver bodies, lanes. Cost: O(bodies +
 // contacts).
+#include "effects/effects.h"
 #include "joints/joint.h"
 #include "solver/solver.h"
 #include "world/state.h"

@@ -4,6 +4,8 @@
 // row: what changed must be among what the row declares. A row that moves rows moves all columns of bodies.
 //
 // Reads: the world. Writes: digests. Cost: O(world) a row.
+#include "step/pass.h"
+#include "step/data.h"
 #include "core/digest.h"
 #include "core/sort.h"
 #include "world/state.h"

@@ -3,11 +3,11 @@
 #ifndef PL_PASS_H
 #define PL_PASS_H
 
+#include "world/tables/step.h"
 #include "core/memory.h"
 #include "plumb/world.h"
 #include "step/data.h"
 
-#define PL_PASS_MAX     64
 #define PL_VARIANTS_MAX PLUMB_VARIANTS_MAX
 
 // In order. Those from PREPARE to STORE are inside of the substeps: solver/substep.h.
@@ -69,33 +69,6 @@ static inline bool pl_is_home(const pl_pass *pass)
 {
     return pass->run == NULL && pass->soft == NULL && pass->classic == NULL;
 }
-
-#define PL_NO_SYSTEM UINT32_MAX
-
-// A line of the schedule.
-typedef struct pl_line {
-    uint32_t pass;   // place of it in pl_passes; of a system that of a row of its stage
-    uint32_t system; // PL_NO_SYSTEM: it is the pass itself
-} pl_line;
-
-typedef struct pl_time {
-    double last_ns, total_ns;
-} pl_time;
-
-typedef struct pl_schedule {
-    bool scheduled
-        [PL_PASS_MAX]; // passes; revised when something structural changed (schedule_dirty)
-    pl_buffer places;  // pl_line, in order
-    uint32_t count;    // 0: passes as they are in the table, no systems
-    pl_buffer rows;    // pl_substep_row: what runs in the substeps
-    uint32_t ends[8];  // behind the last row of each of their stages
-    unsigned watched;  // plumb_watch
-    pl_buffer times;   // pl_time a pass, if times were ever watched
-    pl_buffer shares;  // double a thread and row of the substeps: [ns]
-    double inner_ns;   // of the rows of the last substeps
-    pl_buffer digests; // uint64_t a kind of data, before the row that runs
-    uint32_t breaches; // how often a row wrote what it does not declare
-} pl_schedule;
 
 void pl_schedule_free(pl_memory *memory, pl_schedule *schedule);
 

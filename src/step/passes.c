@@ -4,6 +4,9 @@
 // check of what is written (check.c) and `plumb explain`. A row that nothing in the world wants is not in the schedule
 // and costs nothing. Systems of the user stand between these rows (schedule.c). A pass that changes the world's motion
 // comes after the last one that can run out of memory, so a refused step changes nothing.
+#include "step/system.h"
+#include "effects/effects.h"
+#include "step/quarantine.h"
 #include "world/push.h"
 #include "joints/joint.h"
 #include "character/character.h"
@@ -68,6 +71,20 @@ static plumb_result run_broad(plumb_world *world, plumb_real dt)
     return pl_broad_update(world, dt, &pl_end_listener) ? PLUMB_OK : PLUMB_E_MEMORY;
 }
 
+// Each tile of the ground keeps a contact of its own where systems look at contacts.
+static bool contacts_are_shown(const plumb_world *world)
+{
+    const char *reason;
+    for (uint32_t i = 0; i < world->systems.count; ++i) {
+        const pl_system *system = &world->systems.items[i];
+        if (system->desc.phase == PLUMB_PHASE_CONTACTS &&
+            pl_system_wanted(world, system, &reason)) {
+            return true;
+        }
+    }
+    return false;
+}
+
 static plumb_result run_narrow(plumb_world *world, plumb_real dt)
 {
     if (!pl_narrow_reserve(world, &world->broad.pairs, &world->narrow)) {
@@ -79,6 +96,7 @@ static plumb_result run_narrow(plumb_world *world, plumb_real dt)
     if (world->one_way_pieces > 0 || world->dropping_bodies > 0) {
         pl_one_way_run(world);
     }
+    world->internal_edges.apart = contacts_are_shown(world);
     const bool corrected =
         world->internal_edges.pair_count == 0 || pl_internal_edges_correct(world, dt);
     pl_ahead_settle(world);

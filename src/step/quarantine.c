@@ -14,6 +14,7 @@
 //
 // Reads: velocities, forces, solver bodies. Writes: rows of those taken out, events. Cost: a third of an
 // instruction a number.
+#include "world/marks.h"
 #include "joints/joint.h"
 #include "step/quarantine.h"
 
@@ -51,19 +52,6 @@ void pl_quarantine_begin(plumb_world *world)
 
 //---- whom it takes out ---------------------------------------------------------------------------
 
-static void tell(plumb_world *world, uint32_t row, const char *pass)
-{
-    pl_quarantine *q = &world->quarantine;
-    const pl_bodies *b = &world->bodies;
-    ++world->arrested_count;
-    if (q->event_count < PLUMB_QUARANTINE_MAX) {
-        q->events[q->event_count++] = (plumb_quarantine){ .body = b->entity[row], .pass = pass };
-    }
-    pl_warn(world, "body %u:%u was taken out: %s would have left it without a finite state",
-            (unsigned)b->entity[row].entity.index, (unsigned)b->entity[row].entity.generation,
-            pass);
-}
-
 // [m/s] what velocity and forces come to in a step at the most; not finite where they have no finite end.
 static real haste(const plumb_world *world, uint32_t row, real dt)
 {
@@ -99,14 +87,14 @@ static bool any_in_haste(const plumb_world *world, uint32_t count, real dt)
 // It goes now.
 static void expel(plumb_world *world, uint32_t row, const char *pass)
 {
-    tell(world, row, pass);
+    pl_quarantine_tell(world, row, pass);
     pl_body_take_out(world, row);
 }
 
 // It goes when the step is taken anew.
 static void sentence(plumb_world *world, uint32_t row, const char *pass)
 {
-    tell(world, row, pass);
+    pl_quarantine_tell(world, row, pass);
     world->bodies.flags[row] |= PL_BODY_LOST;
     world->quarantine.again = true;
 }
@@ -347,12 +335,6 @@ void pl_quarantine_judge(plumb_world *world, real dt, const char *pass)
 }
 
 //---- after motion --------------------------------------------------------------------------------
-
-void pl_quarantine_note_lost(plumb_world *world, uint32_t row)
-{
-    tell(world, row, "motion");
-    world->quarantine.lost = true;
-}
 
 void pl_quarantine_finish(plumb_world *world)
 {

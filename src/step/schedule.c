@@ -1,6 +1,7 @@
 // schedule.c - which rows this world wants, those of the substeps as a list, times, and the schedule's public view.
 //
 // Reads: the table, systems, counters. Writes: world->schedule. Cost: O(rows), when something structural changed.
+#include "step/system.h"
 #include "core/clock.h"
 #include "solver/substep.h"
 #include "step/acting.h"

@@ -1,6 +1,8 @@
 // step.c - drives the schedule: the step, row by row, and the user's systems between our rows.
 //
 // Reads, writes: what the rows do. The clock is read, and data is digested, only where somebody watches.
+#include "step/system.h"
+#include "step/quarantine.h"
 #include "internal_edges/internal_edges.h"
 #include "character/character.h"
 #include "core/clock.h"

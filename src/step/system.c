@@ -1,6 +1,7 @@
 // system.c - the user's systems: registered by name, run with the world locked.
 //
 // Reads, writes: the list of systems; what a system does is its own. Cost: O(systems) to register one.
+#include "step/system.h"
 #include "world/push.h"
 #include "world/island.h"
 #include "step/place.h"

@@ -53,3 +53,22 @@ bool pl_broad_reserve_left(plumb_world *world, uint32_t slots)
     }
     return true;
 }
+
+void pl_quarantine_tell(plumb_world *world, uint32_t row, const char *pass)
+{
+    pl_quarantine *q = &world->quarantine;
+    const pl_bodies *b = &world->bodies;
+    ++world->arrested_count;
+    if (q->event_count < PLUMB_QUARANTINE_MAX) {
+        q->events[q->event_count++] = (plumb_quarantine){ .body = b->entity[row], .pass = pass };
+    }
+    pl_warn(world, "body %u:%u was taken out: %s would have left it without a finite state",
+            (unsigned)b->entity[row].entity.index, (unsigned)b->entity[row].entity.generation,
+            pass);
+}
+
+void pl_quarantine_note_lost(plumb_world *world, uint32_t row)
+{
+    pl_quarantine_tell(world, row, "motion");
+    world->quarantine.lost = true;
+}

@@ -1,5 +1,7 @@
 // test_scene_watched.c - in every shipped scene each row of the step writes only what it declares, and watching changes
 // no bit.
+#include "step/pass.h"
+#include "step/data.h"
 #include "plumb/plumb.h"
 #include "scene/scene.h"
 #include "world/state.h"

@@ -9,6 +9,7 @@
 
 #include <cmocka.h>
 
+#include "solver/solver.h"
 #include "joints/wide.h"
 #include "joints/joint.h"
 #include "harness/sim.h"
