@@ -148,7 +148,7 @@ static forces forces_of(const pl_bodies *b)
                        (const pl_quad_mask *)(const void *)b->rest_torque } };
 }
 
-#define ANY(mask) (((mask)[0] | (mask)[1] | (mask)[2] | (mask)[3]) != 0)
+#define ANY_LANE(mask) (((mask)[0] | (mask)[1] | (mask)[2] | (mask)[3]) != 0)
 
 // Whether a row from quad i on, up to `end`, has a force.
 static bool any_pushed(const forces *f, uint32_t i, uint32_t end)
@@ -157,7 +157,7 @@ static bool any_pushed(const forces *f, uint32_t i, uint32_t end)
     for (; i < (end + 3) / 4; ++i) {
         pushed |= f->now[0][i] | f->now[1][i] | f->now[2][i];
     }
-    return ANY(pushed);
+    return ANY_LANE(pushed);
 }
 
 void pl_push_mark(plumb_world *world, void (*mark)(pl_sleep *, uint32_t))
@@ -178,7 +178,7 @@ void pl_push_mark(plumb_world *world, void (*mark)(pl_sleep *, uint32_t))
                                    (f.now[2][i] ^ f.rest[2][i]);
         pushed |= now;
         holds |= now | other;
-        if (!ANY(other)) {
+        if (!ANY_LANE(other)) {
             continue;
         }
         const uint32_t last = 4 * i + 4 < end ? 4 * i + 4 : end;
@@ -188,8 +188,8 @@ void pl_push_mark(plumb_world *world, void (*mark)(pl_sleep *, uint32_t))
             }
         }
     }
-    s->pushed = ANY(pushed);
-    s->holds = ANY(holds);
+    s->pushed = ANY_LANE(pushed);
+    s->holds = ANY_LANE(holds);
 }
 
 bool pl_push_matters(const plumb_world *world)
