@@ -33,7 +33,7 @@ int main(void)
     plumb_system_create(world, &(plumb_system_desc){ .name = "wind",
                                                      .phase = PLUMB_PHASE_FORCES,
                                                      .run = blow,
-                                                     .needs = sail,
+                                                     .needs = { sail },
                                                      .writes = "forces",
                                                      .context = &sail });
     plumb_body leaf[4];
