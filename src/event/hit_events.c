@@ -56,8 +56,14 @@ static plumb_vec2 start_of(const plumb_world *world, uint32_t row)
     const uint32_t movable = world->dynamic_count + world->kinematic_count;
     if (row < movable && world->solver.slot_count > 0) {
         const uint32_t slot = pl_solver_slot(&world->solver, row, movable);
-        at.x -= pl_solver_bodies(&world->solver)[slot].dx;
-        at.y -= pl_solver_bodies(&world->solver)[slot].dy;
+        if (slot ==
+            PL_NONE) { // no contact of the row was solved, others bear its loads: it moved by itself
+            at.x -= world->bodies.vx[row] * world->last_dt;
+            at.y -= world->bodies.vy[row] * world->last_dt;
+        } else {
+            at.x -= pl_solver_bodies(&world->solver)[slot].dx;
+            at.y -= pl_solver_bodies(&world->solver)[slot].dy;
+        }
     }
     return at;
 }

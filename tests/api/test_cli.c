@@ -156,7 +156,7 @@ static void list_is_one_item_a_line(void **state)
     expect_code("\"$P\" list materials --brief", 0);
     assert_string_equal(out, "materials of scene files:\n  material\n  material_pair\n");
     expect_code("\"$P\" list scene", 0);
-    assert_non_null(strstr(out, "\n    solver            one of soft|pgs\n"));
+    assert_non_null(strstr(out, "\n    solver            one of soft|pgs: "));
 }
 
 static void run_prints_every_body_and_step(void **state)

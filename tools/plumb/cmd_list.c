@@ -12,8 +12,11 @@ typedef struct list_args {
     bool brief;
 } list_args;
 
-#define TOPICS                                                                                     \
-    "solvers,precisions,passes,scene,settings,materials,bodies,shapes,joints,events,overlays"
+// With what stands between them: as options have them, and as a sentence that can be wrapped.
+#define TOPIC_LIST(S)                                                                              \
+    "solvers" S "precisions" S "passes" S "scene" S "settings" S "materials" S "bodies" S          \
+    "shapes" S "joints" S "events" S "overlays"
+#define TOPICS TOPIC_LIST(",")
 
 static void print_members(const char *title, const char *list)
 {
@@ -169,7 +172,7 @@ const cli_command cmd_list = {
     .operands = "[TOPIC]",
     .text = "Lists what there is: solvers, precisions, the passes of a step, the constructors of "
             "scene files with their keys, ranges and units, overlays of pictures. "
-            "TOPIC is one of " TOPICS ".",
+            "TOPIC is one of " TOPIC_LIST(", ") ".",
     .examples = "plumb list scene\nplumb list joints\nplumb list --brief",
     .options = options,
     .option_count = (int)(sizeof options / sizeof options[0]),
