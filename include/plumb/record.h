@@ -55,8 +55,10 @@ typedef struct plumb_recorder_desc {
 /// the state, and as much again once the user has changed something. A world that is not recorded
 /// pays nothing. A world that is destroyed stops recording first. When memory runs out or `write` refuses, the
 /// recording ends with the step before, the world steps on; plumb_recorder_get_info tells.
-/// Errors: E_NULL, E_RANGE, E_LOCKED, E_STATE (it is recording, or is the world of a replay), E_MEMORY,
-/// E_WRITE.
+/// A recording holds what systems do between passes: a world with systems in the substep, or before, after or
+/// instead of a pass, is refused, and so are these while it runs.
+/// Errors: E_NULL, E_RANGE, E_LOCKED, E_STATE (it is recording, is the world of a replay, or has such a system),
+/// E_MEMORY, E_WRITE.
 PLUMB_API plumb_result plumb_recorder_start(plumb_world *world, const plumb_recorder_desc *desc);
 
 /// Ends the recording: it is complete. What was changed since the last step is not in it.
