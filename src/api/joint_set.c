@@ -134,13 +134,20 @@ plumb_result plumb_joint_set_target(plumb_world *world, plumb_joint joint, plumb
     return PLUMB_OK;
 }
 
+// The joint, if force and torque can be bounds of its reaction.
+static plumb_result find_bounded(plumb_world *world, const char *fn, plumb_joint joint,
+                                 plumb_real force, plumb_real torque, pl_joint **j)
+{
+    plumb_result r = find(world, fn, joint, 0, "", j);
+    r = r != PLUMB_OK ? r : pl_check_range(world, fn, "force", force, 0, PLUMB_REAL_MAX);
+    return r != PLUMB_OK ? r : pl_check_range(world, fn, "torque", torque, 0, PLUMB_REAL_MAX);
+}
+
 plumb_result plumb_joint_set_break(plumb_world *world, plumb_joint joint, plumb_real force,
                                    plumb_real torque)
 {
     pl_joint *j = NULL;
-    plumb_result r = find(world, __func__, joint, 0, "", &j);
-    r = r != PLUMB_OK ? r : pl_check_range(world, __func__, "force", force, 0, PLUMB_REAL_MAX);
-    r = r != PLUMB_OK ? r : pl_check_range(world, __func__, "torque", torque, 0, PLUMB_REAL_MAX);
+    plumb_result r = find_bounded(world, __func__, joint, force, torque, &j);
     if (r == PLUMB_OK) {
         plumb_joint_desc wanted = j->desc;
         wanted.break_force = force;
@@ -155,9 +162,7 @@ plumb_result plumb_joint_set_event(plumb_world *world, plumb_joint joint, plumb_
                                    plumb_real torque)
 {
     pl_joint *j = NULL;
-    plumb_result r = find(world, __func__, joint, 0, "", &j);
-    r = r != PLUMB_OK ? r : pl_check_range(world, __func__, "force", force, 0, PLUMB_REAL_MAX);
-    r = r != PLUMB_OK ? r : pl_check_range(world, __func__, "torque", torque, 0, PLUMB_REAL_MAX);
+    plumb_result r = find_bounded(world, __func__, joint, force, torque, &j);
     if (r == PLUMB_OK) {
         plumb_joint_desc wanted = j->desc;
         wanted.event_force = force;

@@ -76,7 +76,7 @@ static void append_end(plumb_world *world, plumb_contact_end end)
 #define PART_NEAR 16u // it would touch on if it had touched before
 #define PART_BITS 5
 
-bool pl_parts_reserve(plumb_world *world, uint32_t count)
+static bool parts_reserve(plumb_world *world, uint32_t count)
 {
     if (world->part_pieces == 0 && !world->parts.buried) {
         return true;
@@ -139,7 +139,7 @@ static void lose_pair(plumb_world *world, const pl_pair *pair)
 
 static bool reserve_losses(plumb_world *world, uint32_t count)
 {
-    return reserve_ends(world, count) && pl_parts_reserve(world, count);
+    return reserve_ends(world, count) && parts_reserve(world, count);
 }
 
 const pl_pair_listener pl_end_listener = { .reserve = reserve_losses, .lost = lose_pair };
@@ -188,7 +188,7 @@ bool pl_events_prepare(plumb_world *world)
         !pl_buffer_reserve(&world->memory, &world->changed_pairs,
                            ((size_t)world->broad.pairs.count + 1) * sizeof(uint32_t)) ||
         !reserve_ends(world, world->broad.pairs.count + world->parts.count) ||
-        !pl_parts_reserve(world, world->broad.pairs.count)) {
+        !parts_reserve(world, world->broad.pairs.count)) {
         return false;
     }
     if (world->desc.hit_speed > 0 && !pl_hits_reserve(world, begins)) {

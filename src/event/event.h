@@ -30,8 +30,6 @@ void pl_hit_append(plumb_world *world, const pl_pair *pair, real impulse);
 // A pair left the list: tells the hit that lasted. Room must be reserved.
 void pl_hit_lost(plumb_world *world, const pl_pair *pair, plumb_contact_end who);
 
-// Room for `count` more pairs of pieces that are parts; nothing where there are none.
-bool pl_parts_reserve(plumb_world *world, uint32_t count);
 void pl_parts_free(pl_memory *memory, pl_parts *parts);
 void pl_pending_hits_free(pl_memory *memory, pl_pending_hits *hits);
 

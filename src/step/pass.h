@@ -82,8 +82,6 @@ int pl_pass_find(const char *name);
 bool pl_schedule_reserve(plumb_world *world);
 // Asks every pass whether it is wanted.
 void pl_schedule_revise(plumb_world *world);
-// Whether the pass is wanted by this world, and nothing runs in its place.
-bool pl_pass_wanted(const plumb_world *world, int pass, const char **reason);
 // A step begins: no row has taken any time.
 void pl_schedule_begin(plumb_world *world);
 // Adds to the time of a line.

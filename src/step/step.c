@@ -30,26 +30,22 @@ static void forget_contacts(plumb_world *world)
 
 //---- rows ----------------------------------------------------------------------------------------
 
-// How a row is run: with times and checks, if somebody watches.
-typedef struct row_start {
-    double ns;
-} row_start;
-
-static row_start open_row(plumb_world *world)
+// Around a row, where somebody watches. Returns when it starts [ns], if times are watched.
+static double open_row(plumb_world *world)
 {
     const unsigned watched = world->schedule.watched;
     if ((watched & PLUMB_WATCH_WRITES) != 0) {
         pl_check_before(world);
     }
     world->schedule.inner_ns = 0;
-    return (row_start){ (watched & PLUMB_WATCH_TIMES) != 0 ? pl_now_ns() : 0 };
+    return (watched & PLUMB_WATCH_TIMES) != 0 ? pl_now_ns() : 0;
 }
 
-static void close_row(plumb_world *world, uint32_t line, row_start start)
+static void close_row(plumb_world *world, uint32_t line, double start)
 {
     const unsigned watched = world->schedule.watched;
     if ((watched & PLUMB_WATCH_TIMES) != 0) {
-        const double ns = pl_now_ns() - start.ns - world->schedule.inner_ns;
+        const double ns = pl_now_ns() - start - world->schedule.inner_ns;
         pl_schedule_note(world, pl_schedule_place(world, line), ns);
     }
     if ((watched & PLUMB_WATCH_WRITES) != 0) {
@@ -66,7 +62,7 @@ static plumb_result run_pass(plumb_world *world, uint32_t line, real dt)
         return PLUMB_OK;
     }
     const bool watched = world->schedule.watched != 0;
-    const row_start start = watched ? open_row(world) : (row_start){ 0 };
+    const double start = watched ? open_row(world) : 0;
     world->query_grids.fresh = false; // what systems ask about moves from pass to pass
     const plumb_result result = pass->run(world, dt);
     if (watched) {
@@ -108,7 +104,7 @@ static void run_systems(plumb_world *world, group g, real dt)
             continue;
         }
         const bool watched = world->schedule.watched != 0;
-        const row_start start = watched ? open_row(world) : (row_start){ 0 };
+        const double start = watched ? open_row(world) : 0;
         pl_system_run(world, system, dt);
         if (watched) {
             close_row(world, line, start);

@@ -12,7 +12,8 @@
 
 //---- registration --------------------------------------------------------------------------------
 
-pl_system *pl_system_find(const plumb_world *world, const char *name)
+// NULL: none has the name.
+static pl_system *system_find(const plumb_world *world, const char *name)
 {
     for (uint32_t i = 0; i < world->systems.count; ++i) {
         if (strcmp(world->systems.items[i].name, name) == 0) {
@@ -81,7 +82,7 @@ static plumb_result check_desc(const plumb_world *world, const char *fn,
     r = r != PLUMB_OK ? r : check_data(world, fn, "writes", desc->writes);
     r = r != PLUMB_OK ? r : check_needs(world, fn, desc);
     if (r == PLUMB_OK &&
-        (pl_system_find(world, desc->name) != NULL || pl_pass_find(desc->name) >= 0)) {
+        (system_find(world, desc->name) != NULL || pl_pass_find(desc->name) >= 0)) {
         r = pl_fail(world, PLUMB_E_DUPLICATE, fn, "name is '%s'; it must be new", desc->name);
     }
     if (r == PLUMB_OK && world->systems.count == PL_SYSTEM_MAX) {
@@ -193,7 +194,7 @@ plumb_result plumb_system_enable(plumb_world *world, const char *name, bool enab
     if (r != PLUMB_OK) {
         return r;
     }
-    pl_system *system = pl_system_find(world, name);
+    pl_system *system = system_find(world, name);
     if (system == NULL) {
         return pl_fail(world, PLUMB_E_MISSING, __func__,
                        "name is '%.64s'; it must be that of a system", name);

@@ -9,8 +9,6 @@
 
 void pl_systems_free(pl_memory *memory, pl_systems *systems);
 
-// NULL: none has the name.
-pl_system *pl_system_find(const plumb_world *world, const char *name);
 // True when the system would run in this step; *reason says why or why not.
 bool pl_system_wanted(const plumb_world *world, const pl_system *system, const char **reason);
 // Runs one, with the world locked by its name.

@@ -36,13 +36,13 @@ bool pl_want_caps(const plumb_world *world, const char **reason)
                "no body has a speed cap");
 }
 
-bool pl_want_own_time(const plumb_world *world, const char **reason)
+static bool want_own_time(const plumb_world *world, const char **reason)
 {
     return say(world->settings.scaled > 0, reason, "some body has a time scale of its own",
                "all bodies move in the world's time");
 }
 
-bool pl_want_locks(const plumb_world *world, const char **reason)
+static bool want_locks(const plumb_world *world, const char **reason)
 {
     return say(world->locked_bodies > 0, reason, "some body has a locked axis",
                "no body has a locked axis");
@@ -65,15 +65,22 @@ bool pl_want_sensing(const plumb_world *world, const char **reason)
                "there are sensors", "no shape is a sensor that could meet another");
 }
 
-bool pl_want_broad(const plumb_world *world, const char **reason)
+// One of the two: with the reason of the one that is wanted, else of the first.
+static bool either(const plumb_world *world, const char **reason, pl_want_fn *first,
+                   pl_want_fn *second)
 {
-    const char *seen;
-    if (pl_want_collision(world, reason)) {
+    const char *other;
+    if (first(world, reason)) {
         return true;
     }
-    bool sensing = pl_want_sensing(world, &seen);
-    *reason = sensing ? seen : *reason;
-    return sensing;
+    const bool wanted = second(world, &other);
+    *reason = wanted ? other : *reason;
+    return wanted;
+}
+
+bool pl_want_broad(const plumb_world *world, const char **reason)
+{
+    return either(world, reason, pl_want_collision, pl_want_sensing);
 }
 
 bool pl_want_surfaces(const plumb_world *world, const char **reason)
@@ -81,7 +88,7 @@ bool pl_want_surfaces(const plumb_world *world, const char **reason)
     return pl_want_collision(world, reason) && pl_surfaces_wanted(world, reason);
 }
 
-bool pl_want_one_way(const plumb_world *world, const char **reason)
+static bool want_one_way(const plumb_world *world, const char **reason)
 {
     return pl_want_collision(world, reason) && pl_one_way_wanted(world, reason);
 }
@@ -137,9 +144,8 @@ bool pl_want_edges(const plumb_world *world, const char **reason)
 // Contacts, joints, or systems that act on bodies in the substeps.
 bool pl_want_solver(const plumb_world *world, const char **reason)
 {
-    const char *unused;
-    return pl_want_joints(world, reason) || pl_want_collision(world, reason) ||
-           (pl_want_called(world, &unused) && pl_want_called(world, reason));
+    return pl_want_joints(world, reason) ||
+           either(world, reason, pl_want_collision, pl_want_called);
 }
 
 bool pl_want_soft(const plumb_world *world, const char **reason)
@@ -160,12 +166,6 @@ bool pl_want_classic(const plumb_world *world, const char **reason)
                "the world asks for the classic solver", "the world asks for the soft step");
 }
 
-bool pl_want_rotation(const plumb_world *world, const char **reason)
-{
-    return say(world->turning_bodies > 0, reason, "some dynamic body can turn",
-               "no dynamic body can turn");
-}
-
 bool pl_want_continuous(const plumb_world *world, const char **reason)
 {
     return pl_want_collision(world, reason) && pl_continuous_wanted(world, reason);
@@ -182,13 +182,13 @@ static bool any_material(const plumb_world *world, const real *column)
     return false;
 }
 
-bool pl_want_adhesion(const plumb_world *world, const char **reason)
+static bool want_adhesion(const plumb_world *world, const char **reason)
 {
     return say(any_material(world, world->materials.adhesion) || world->material_pair_count > 0,
                reason, "some shape's material may stick", "no shape's material sticks");
 }
 
-bool pl_want_friction(const plumb_world *world, const char **reason)
+static bool want_friction(const plumb_world *world, const char **reason)
 {
     return say(any_material(world, world->materials.friction), reason,
                "some shape's material has friction", "no shape's material has friction");
@@ -246,12 +246,12 @@ int pl_contact_variants(const plumb_world *world, const char *out[PL_VARIANTS_MA
     const char *unused;
     const bool soft = world->desc.solver == PLUMB_SOLVER_SOFT;
     const pl_materials *m = &world->materials;
-    int n = add_variant(out, 0, pl_want_friction(world, &unused), "friction");
+    int n = add_variant(out, 0, want_friction(world, &unused), "friction");
     n = add_variant(out, n, world->turning_bodies > 0 || !soft, "rotation");
     n = add_variant(out, n, any_material(world, m->rolling_resistance), "rolling resistance");
     n = add_variant(out, n, any_material(world, m->surface_speed), "surface speed");
-    n = add_variant(out, n, pl_want_adhesion(world, &unused), "adhesion");
-    n = add_variant(out, n, pl_want_locks(world, &unused), "locked axes");
+    n = add_variant(out, n, want_adhesion(world, &unused), "adhesion");
+    n = add_variant(out, n, want_locks(world, &unused), "locked axes");
     return add_variant(out, n, soft && world->desc.hit_speed > 0, "speeds of hits");
 }
 
@@ -263,14 +263,14 @@ int pl_narrow_variants(const plumb_world *world, const char *out[PL_VARIANTS_MAX
     n = add_variant(out, n, kinds[PL_PIECE_CAPSULE] > 0, "capsules");
     n = add_variant(out, n, kinds[PL_PIECE_BOX] > 0, "boxes");
     n = add_variant(out, n, kinds[PL_PIECE_POLYGON] > 0, "polygons");
-    return add_variant(out, n, pl_want_one_way(world, &unused), "one-way");
+    return add_variant(out, n, want_one_way(world, &unused), "one-way");
 }
 
 int pl_gather_variants(const plumb_world *world, const char *out[PL_VARIANTS_MAX])
 {
     const char *unused;
-    int n = add_variant(out, 0, pl_want_locks(world, &unused), "locked axes");
-    return add_variant(out, n, pl_want_own_time(world, &unused), "own time");
+    int n = add_variant(out, 0, want_locks(world, &unused), "locked axes");
+    return add_variant(out, n, want_own_time(world, &unused), "own time");
 }
 
 int pl_motion_variants(const plumb_world *world, const char *out[PL_VARIANTS_MAX])

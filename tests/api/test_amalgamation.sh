@@ -4,26 +4,8 @@
 # program in C++ runs. And what tools/amalgamate does with names that clash.
 set -u
 
-if [ -n "${SAN:-}" ]; then
-    echo "ok - # SKIP the files are the same with sanitizers"
-    exit 0
-fi
-
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-
-# try "what it shows" command...: one TAP line; what the command said, when it failed.
-try()
-{
-    local what=$1
-    shift
-    if "$@" >"$work/log" 2>&1; then
-        echo "ok - $what"
-    else
-        echo "not ok - $what"
-        sed 's/^/# /' "$work/log"
-    fi
-}
+. tests/harness/try.sh
+skip_sanitized "the files are the same with sanitizers"
 
 cc=${CC:-gcc}
 cxx=${CXX:-g++}

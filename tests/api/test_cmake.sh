@@ -3,27 +3,10 @@
 # shared, in two precisions, ends in the same bits as with the library of make.
 set -u
 
-if [ -n "${SAN:-}" ]; then
-    echo "ok - # SKIP a game is not made of sanitized libraries"
-    exit 0
-fi
+. tests/harness/try.sh
+skip_sanitized "a game is not made of sanitized libraries"
 
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
 top=$PWD
-
-# try "what it shows" command...: one TAP line; what the command said, when it failed.
-try()
-{
-    local what=$1
-    shift
-    if "$@" >"$work/log" 2>&1; then
-        echo "ok - $what"
-    else
-        echo "not ok - $what"
-        sed 's/^/# /' "$work/log"
-    fi
-}
 
 cc=${CC:-gcc}
 export CMAKE_BUILD_PARALLEL_LEVEL=2

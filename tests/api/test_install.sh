@@ -3,28 +3,8 @@
 # through pkg-config and CMake, static and shared, in all three precisions, in C and in C++.
 set -u
 
-if [ -n "${SAN:-}" ]; then
-    echo "ok - # SKIP a package is not made of sanitized libraries"
-    exit 0
-fi
-
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-failures=0
-
-# try "what it shows" command...: one TAP line; what the command said, when it failed.
-try()
-{
-    local what=$1
-    shift
-    if "$@" >"$work/log" 2>&1; then
-        echo "ok - $what"
-    else
-        echo "not ok - $what"
-        sed 's/^/# /' "$work/log"
-        failures=$((failures + 1))
-    fi
-}
+. tests/harness/try.sh
+skip_sanitized "a package is not made of sanitized libraries"
 
 cc=${CC:-gcc}
 cxx=${CXX:-g++}

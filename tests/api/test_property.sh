@@ -3,29 +3,10 @@
 # scene loader built of it, and the property is used from C, Lua and JSON, refused beyond its range, saved and replayed.
 set -u
 
-if [ -n "${SAN:-}" ]; then
-    echo "ok - # SKIP the copy is not built with sanitizers"
-    exit 0
-fi
+. tests/harness/try.sh
+skip_sanitized "the copy is not built with sanitizers"
 
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
 tree=$work/tree
-failures=0
-
-# try "what it shows" command...: one TAP line; what the command said, when it failed.
-try()
-{
-    local what=$1
-    shift
-    if "$@" >"$work/log" 2>&1; then
-        echo "ok - $what"
-    else
-        echo "not ok - $what"
-        sed 's/^/# /' "$work/log"
-        failures=$((failures + 1))
-    fi
-}
 
 mkdir "$tree"
 cp -r Makefile src include tools "$tree"
