@@ -8,7 +8,6 @@
 plumb_vec2 pl_character_up(const plumb_world *world, const pl_character *c, uint32_t row);
 void pl_characters_free(pl_memory *memory, pl_characters *characters);
 
-bool pl_characters_wanted(const plumb_world *world, const char **reason);
 // Before the broad phase: velocities of kinematic characters, forces on dynamic ones. False when out
 // of memory.
 bool pl_characters_move(plumb_world *world, real dt);

@@ -14,6 +14,7 @@
 #include "character/walker.h"
 #include "narrow/narrow.h"
 #include "narrow/surface.h"
+#include "schema/passes.h"
 #include "world/rows.h"
 #include "world/wrap.h"
 

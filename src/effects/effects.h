@@ -83,9 +83,4 @@ static inline const pl_damping_decay *pl_damping_alone(const pl_effects *effects
 // Free flight of such a body over the step; returns the angle by which it turned.
 real pl_damping_fly(plumb_world *world, uint32_t row, const pl_damping_decay *decay);
 
-// Rows of the substep (solver/substep.h).
-struct pl_substep;
-void pl_damping_row(struct pl_substep *substep);
-void pl_caps_row(struct pl_substep *substep);
-
 #endif

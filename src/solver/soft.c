@@ -1,5 +1,5 @@
 // soft.c - contacts of the soft step, as rows of the substep: integrate, warm start, solve with soft contacts,
-// relax. Their order is in step/passes.c; joints and impacts are rows between them.
+// relax. Their order is in schema/passes.h; joints and impacts are rows between them.
 //
 // Warm starting within the step is done a body at a time: with anchors frozen, the impulses with
 // which a substep ended changed a body's velocity by v - u (u: velocity as integrated), and

@@ -1,10 +1,11 @@
 // substep.h - what the rows of the substep are called with: one cluster of islands, in the hands of some threads.
 //
 // A cluster goes through all substeps of a step before the next one does (substep.c): its bodies and bundles stay in
-// the cache. Which rows there are, and in what order, is the schedule's (step/passes.c).
+// the cache. Which rows there are, and in what order, is the schedule's (schema/passes.h).
 #ifndef PL_SUBSTEP_H
 #define PL_SUBSTEP_H
 
+#include "schema/passes.h"
 #include "solver/solver.h"
 
 // In order. Preparing and storing are done once a step, the rest in each substep.
@@ -75,22 +76,8 @@ void pl_substeps_run(plumb_world *world, const pl_substep_rows *rows, plumb_real
 pl_share pl_substep_share(const void *records, size_t size, size_t offset, uint32_t count,
                           const pl_substep *s);
 
-//---- rows ----------------------------------------------------------------------------------------
-
-// soft.c. Before all rows: what kernels are called with, and which of them.
+// Before all rows of the soft step: what kernels are called with, and which of them (soft.c).
 void pl_soft_open(plumb_world *world, pl_solving *out);
-pl_substep_fn pl_soft_prepare, pl_soft_integrate, pl_soft_warm_start, pl_soft_impacts,
-    pl_soft_contacts, pl_soft_relax, pl_soft_sum, pl_soft_store;
-// pgs.c
-pl_substep_fn pl_classic_prepare, pl_classic_integrate, pl_classic_warm_start, pl_classic_impacts,
-    pl_classic_contacts, pl_classic_correct, pl_classic_sum, pl_classic_store;
-#define PL_CLASSIC_CORRECTIONS 3 // sweeps over positions
-// integrate.c
-pl_substep_fn pl_move_bodies, pl_classic_move;
-// substep.c: joints and impacts, for both solvers
-pl_substep_fn pl_joints_row_prepare, pl_joints_row_warm_start, pl_joints_row_solve,
-    pl_joints_row_relax, pl_joints_row_classic, pl_joints_row_correct, pl_joints_row_sum,
-    pl_joints_row_store;
-pl_substep_fn pl_impacts_row_prepare, pl_impacts_row_classic;
+#define PL_CLASSIC_CORRECTIONS 3 // sweeps over positions, by the classic solver
 
 #endif

@@ -4,7 +4,8 @@
 // the solver, even where nothing touches them: "called" marks them before the graph gives out slots. Behind it, slots
 // and places in the columns are listed side by side, by rising slot, so those of a cluster follow one another, and each
 // cluster calls the system with its own. A system that is not parallel acts alone: its bodies are all of cluster 0,
-// which is solved before the others.
+// which is solved before the others. An effect of ours (ACTS of schema/passes.h) says whom it acts on, and looks its
+// bodies up among the slots of a cluster itself.
 //
 // Reads: components, settings, slots. Writes: lists. Cost: O(bodies of the solver) a system and step; a system's row
 // O(bodies that it acts on) and a search a cluster and substep.
@@ -33,11 +34,22 @@ static bool any_system(const plumb_world *world)
     return false;
 }
 
+static bool any_effect(const plumb_world *world)
+{
+    const char *unused;
+    for (int i = 0; i < pl_pass_count; ++i) {
+        if (pl_passes[i].acts_on != NULL && pl_pass_wanted(world, i, &unused)) {
+            return true;
+        }
+    }
+    return false;
+}
+
 bool pl_want_called(const plumb_world *world, const char **reason)
 {
-    const bool wanted = any_system(world) && world->dynamic_count > 0;
-    *reason = wanted ? "systems act on bodies in the substeps"
-                     : "no system acts on a body in the substeps";
+    const bool wanted = world->dynamic_count > 0 && (any_system(world) || any_effect(world));
+    *reason = wanted ? "systems or effects act on bodies in the substeps"
+                     : "no system and no effect acts on a body in the substeps";
     return wanted;
 }
 
@@ -80,6 +92,17 @@ static bool find_places(const plumb_world *world, const pl_system *system, uint3
     return true;
 }
 
+static void call_effect(plumb_world *world, const pl_pass *effect)
+{
+    uint8_t *called = world->effects.called.data;
+    for (uint32_t row = 0; row < world->dynamic_count; ++row) {
+        if (effect->acts_on(world, row)) {
+            called[row] |= PL_CALLED_SHARED;
+            world->effects.any_called = true;
+        }
+    }
+}
+
 bool pl_acting_call(plumb_world *world)
 {
     pl_effects *e = &world->effects;
@@ -88,6 +111,11 @@ bool pl_acting_call(plumb_world *world)
     }
     uint8_t *called = e->called.data;
     memset(called, 0, world->dynamic_count);
+    for (int i = 0; i < pl_pass_count; ++i) {
+        if (pl_passes[i].acts_on != NULL && world->schedule.scheduled[i]) {
+            call_effect(world, &pl_passes[i]);
+        }
+    }
     for (uint32_t i = 0; i < world->systems.count; ++i) {
         const pl_system *system = &world->systems.items[i];
         if (!is_of_substeps(world, system)) {

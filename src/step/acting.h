@@ -5,17 +5,13 @@
 #include "solver/substep.h"
 #include "step/pass.h"
 
-bool pl_want_called(const plumb_world *world, const char **reason);
-bool pl_want_acting(const plumb_world *world, const char **reason);
-bool pl_want_reset(const plumb_world *world, const char **reason);
-
 // Before the graph: dynamic bodies that systems of the substep act on, so that the solver moves them. False when out
 // of memory.
 bool pl_acting_call(plumb_world *world);
 // Behind the graph, for a step of dt [s]: who has which slot. False when out of memory.
 bool pl_acting_find(plumb_world *world, plumb_real dt);
 
-// Rows: accelerations of a cluster become those of the step again; a system of the user's.
-pl_substep_fn pl_acting_reset, pl_system_row;
+// A system of the user's as a row.
+pl_substep_fn pl_system_row;
 
 #endif

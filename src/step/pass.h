@@ -6,6 +6,7 @@
 #include "world/tables/step.h"
 #include "core/memory.h"
 #include "plumb/world.h"
+#include "schema/passes.h"
 #include "step/data.h"
 
 #define PL_VARIANTS_MAX PLUMB_VARIANTS_MAX
@@ -52,6 +53,8 @@ typedef struct pl_pass {
     // All NULL: the place of the user's systems of a phase.
     plumb_result (*run)(plumb_world *world, plumb_real dt);
     void (*soft)(struct pl_substep *s), (*classic)(struct pl_substep *s);
+    // Whether an effect acts on a dynamic body; NULL: it is none.
+    bool (*acts_on)(const plumb_world *world, uint32_t row);
     unsigned kind; // pl_pass_kind
     // Says which variants of its kernels run: writes static strings, returns how many. NULL: there is but one.
     int (*variants)(const plumb_world *world, const char *out[PL_VARIANTS_MAX]);
@@ -77,6 +80,8 @@ uint32_t pl_schedule_count(const plumb_world *world);
 pl_line pl_schedule_place(const plumb_world *world, uint32_t i);
 // Place in pl_passes of a name; -1: none has it.
 int pl_pass_find(const char *name);
+// Whether the pass at place i is wanted by this world and nothing runs in its place; *reason says why (not).
+bool pl_pass_wanted(const plumb_world *world, int i, const char **reason);
 
 // Room for what a step keeps of the schedule. False when out of memory.
 bool pl_schedule_reserve(plumb_world *world);

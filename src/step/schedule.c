@@ -42,8 +42,7 @@ static pl_substep_fn *fn_of(const plumb_world *world, const pl_pass *pass)
     return world->desc.solver == PLUMB_SOLVER_SOFT ? pass->soft : pass->classic;
 }
 
-// Whether the pass is wanted by this world, and nothing runs in its place.
-static bool pass_wanted(const plumb_world *world, int i, const char **reason)
+bool pl_pass_wanted(const plumb_world *world, int i, const char **reason)
 {
     const pl_pass *pass = &pl_passes[i];
     *reason = "part of every step";
@@ -114,7 +113,7 @@ void pl_schedule_revise(plumb_world *world)
     pl_schedule *s = &world->schedule;
     const char *unused;
     for (int i = 0; i < pl_pass_count; ++i) {
-        s->scheduled[i] = pass_wanted(world, i, &unused);
+        s->scheduled[i] = pl_pass_wanted(world, i, &unused);
     }
     world->effects.decays_stale = true;
     world->effects.resets = s->scheduled[pl_pass_find("forces of now")];
@@ -272,7 +271,7 @@ static plumb_pass_info pass_info(const plumb_world *world, uint32_t i)
                             .in_substeps = pl_is_substep_stage(pass->stage),
                             .last_ns = times == NULL ? 0 : times[i].last_ns,
                             .total_ns = times == NULL ? 0 : times[i].total_ns };
-    row.scheduled = pass_wanted(world, (int)i, &row.reason);
+    row.scheduled = pl_pass_wanted(world, (int)i, &row.reason);
     row.variant_count = pass->variants == NULL ? 0 : pass->variants(world, row.variants);
     return row;
 }

@@ -4,7 +4,7 @@
 // up. Writes: nothing. Cost: O(materials) a pass at most.
 #include "internal_edges/internal_edges.h"
 #include "joints/joint.h"
-#include "step/wanted.h"
+#include "step/pass.h"
 
 #include "character/character.h"
 #include "continuous/continuous.h"
@@ -12,6 +12,8 @@
 #include "narrow/surface.h"
 #include "step/acting.h"
 #include "world/wrap.h"
+
+typedef bool want_fn(const plumb_world *world, const char **reason);
 
 static bool say(bool wanted, const char **reason, const char *because, const char *because_not)
 {
@@ -66,8 +68,7 @@ bool pl_want_sensing(const plumb_world *world, const char **reason)
 }
 
 // One of the two: with the reason of the one that is wanted, else of the first.
-static bool either(const plumb_world *world, const char **reason, pl_want_fn *first,
-                   pl_want_fn *second)
+static bool either(const plumb_world *world, const char **reason, want_fn *first, want_fn *second)
 {
     const char *other;
     if (first(world, reason)) {
@@ -141,7 +142,7 @@ bool pl_want_edges(const plumb_world *world, const char **reason)
     return say(pl_is_wrapped(world), reason, "the world wraps around", "the world does not wrap");
 }
 
-// Contacts, joints, or systems that act on bodies in the substeps.
+// Contacts, joints, or what acts on bodies in the substeps.
 bool pl_want_solver(const plumb_world *world, const char **reason)
 {
     return pl_want_joints(world, reason) ||

@@ -1,6 +1,6 @@
 // state.h - the whole state of a world, for the library's own files.
 //
-// Reading order: columns.h (what is stored), this file (how it hangs together), step/passes.c (what
+// Reading order: columns.h (what is stored), this file (how it hangs together), schema/passes.h (what
 // happens to it in a step).
 #ifndef PL_STATE_H
 #define PL_STATE_H

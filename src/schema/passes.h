@@ -1,0 +1,143 @@
+// passes.h - the step: a row a pass, in order. From the rows follow the schedule (step/passes.c), with what it shows,
+// times and checks, and the prototypes of what they name: a pass is its file and a row here.
+//
+//     X(name, stage, wanted, run, kind, reads, writes, variants)
+//
+//   name      in the schedule
+//   stage     of pl_stage (step/pass.h); rows are in the order of their stages
+//   wanted    ALWAYS; IF(f): bool f(world, &reason), whether this world needs it; the reason is a static string
+//   run       ONCE(f): plumb_result f(world, dt), once a step, where f may run out of memory; of the stages PREPARE to STORE a
+//             function of the substep and cluster (solver/substep.h): EACH(f) with both solvers, BOTH(soft, classic),
+//             SOFT(f) with the soft step alone; ACTS(f, whom): an effect with both, on the dynamic bodies of whom
+//             bool whom(world, row) is true: the solver moves them; HOME: the place of the user's systems of a phase
+//   kind      ONCE a step; REFRESHES: in a step of dt 0 as well, it moves nothing; REPLACEABLE: a system may take its
+//             place, nothing behind it relies on what it leaves
+//   reads     names of data (step/data.h), which the check of what is written holds it to; and
+//   writes
+//   variants  ONE; HAS(f): int f(world, out) says which variants of its kernels run
+//
+// A row that nothing in the world wants is not in the schedule and costs nothing. A pass that changes the world's motion
+// comes after the last one that can run out of memory, so a refused step changes nothing.
+#ifndef PL_PASSES_H
+#define PL_PASSES_H
+
+#include "plumb/world.h"
+
+// clang-format off
+#define PL_PASSES(X)                                                                                                                         \
+    X("guard",             COMMANDS,    ALWAYS,                      ONCE(pl_run_guard),                                     REFRESHES,      \
+      "velocities, forces", "rows", ONE)                                                                                                     \
+    X("begin systems",     BEGIN,       ALWAYS,                      HOME,                                                   ONCE,           \
+      "", "", ONE)                                                                                                                           \
+    X("force systems",     FORCES,      ALWAYS,                      HOME,                                                   ONCE,           \
+      "", "", ONE)                                                                                                                           \
+    X("characters",        FORCES,      IF(pl_characters_wanted),    ONCE(pl_run_characters),                                ONCE,           \
+      "grids, poses, velocities", "velocities, forces, characters, poses, rows, islands", ONE)                                               \
+    X("waking",            PAIRS,       IF(pl_want_waking),          ONCE(pl_run_waking),                                    REFRESHES,      \
+      "islands, pieces, grids, joints", "rows, pairs, grids, islands", ONE)                                                                  \
+    X("broad phase",       PAIRS,       IF(pl_want_broad),           ONCE(pl_run_broad),                                     REFRESHES,      \
+      "poses, pieces", "grids, pairs, events", ONE)                                                                                          \
+    X("internal edges",    PAIRS,       IF(pl_want_internal_edges),  ONCE(pl_run_internal_edges),                            REFRESHES,      \
+      "pieces, grids, pairs", "internal edges", ONE)                                                                                         \
+    X("narrow phase",      CONTACTS,    IF(pl_want_collision),       ONCE(pl_run_narrow),                                    REFRESHES,      \
+      "pairs, poses, pieces, materials", "manifolds, pairs, internal edges", HAS(pl_narrow_variants))                                        \
+    X("surfaces",          CONTACTS,    IF(pl_want_surfaces),        ONCE(pl_run_surfaces),                                  REFRESHES,      \
+      "pairs, materials", "manifolds", ONE)                                                                                                  \
+    X("feet",              CONTACTS,    IF(pl_want_feet),            ONCE(pl_run_feet),                                      ONCE,           \
+      "manifolds, characters", "manifolds, characters", ONE)                                                                                 \
+    X("sleep",             CONTACTS,    IF(pl_want_sleep),           ONCE(pl_run_sleep),                                     ONCE,           \
+      "velocities, pairs, joints", "islands, rows, pairs, manifolds, velocities", ONE)                                                       \
+    X("sensor pairs",      CONTACTS,    IF(pl_want_sensing),         ONCE(pl_run_candidates),                                REFRESHES,      \
+      "pairs", "sensors", ONE)                                                                                                               \
+    X("contact systems",   EDITS,       ALWAYS,                      HOME,                                                   REFRESHES,      \
+      "", "", ONE)                                                                                                                           \
+    X("gravity",           GRAPH,       IF(pl_want_gravity),         ONCE(pl_run_gravity),                                   REPLACEABLE,    \
+      "settings", "accelerations", ONE)                                                                                                      \
+    X("called",            GRAPH,       IF(pl_want_called),          ONCE(pl_run_called),                                    ONCE,           \
+      "components, rows", "constraints", ONE)                                                                                                \
+    X("graph",             GRAPH,       IF(pl_want_solver),          ONCE(pl_run_graph),                                     ONCE,           \
+      "manifolds, velocities, forces, masses, joints", "solver bodies, accelerations, constraints, joints, movers", HAS(pl_gather_variants)) \
+    X("acting",            GRAPH,       IF(pl_want_acting),          ONCE(pl_run_acting),                                    ONCE,           \
+      "body settings, components, solver bodies", "constraints", ONE)                                                                        \
+    /* The substeps: rows up to "store contacts" run inside of one of the next two, cluster by cluster of islands. */                        \
+    X("soft step",         SOLVE,       IF(pl_want_soft),            ONCE(pl_run_soft),                                      ONCE,           \
+      "manifolds", "manifolds, pairs, joints, solver bodies, accelerations, constraints, rows", ONE)                                         \
+    X("classic solver",    SOLVE,       IF(pl_want_classic),         ONCE(pl_run_classic),                                   ONCE,           \
+      "manifolds", "manifolds, pairs, joints, solver bodies, accelerations, constraints, rows", ONE)                                         \
+    X("prepare contacts",  PREPARE,     IF(pl_want_collision),       BOTH(pl_soft_prepare, pl_classic_prepare),              ONCE,           \
+      "manifolds, solver bodies", "constraints", HAS(pl_contact_variants))                                                                   \
+    X("prepare impacts",   PREPARE,     IF(pl_want_impacts),         BOTH(pl_impacts_row_prepare, pl_impacts_row_classic),   ONCE,           \
+      "manifolds, constraints", "constraints", ONE)                                                                                          \
+    X("prepare joints",    PREPARE,     IF(pl_want_joints),          EACH(pl_joints_row_prepare),                            ONCE,           \
+      "joints, poses, solver bodies", "joints, constraints", ONE)                                                                            \
+    X("forces of now",     MOMENT,      IF(pl_want_reset),           EACH(pl_acting_reset),                                  ONCE,           \
+      "accelerations", "accelerations", ONE)                                                                                                 \
+    X("substep systems",   MOMENT,      ALWAYS,                      HOME,                                                   ONCE,           \
+      "", "", ONE)                                                                                                                           \
+    X("damping",           MOMENT,      IF(pl_want_damping),         EACH(pl_damping_row),                                   REPLACEABLE,    \
+      "solver bodies, body settings", "accelerations", ONE)                                                                                  \
+    X("speed caps",        MOMENT,      IF(pl_want_caps),            EACH(pl_caps_row),                                      REPLACEABLE,    \
+      "solver bodies, body settings", "accelerations", ONE)                                                                                  \
+    X("integrate",         VELOCITIES,  IF(pl_want_solver),          BOTH(pl_soft_integrate, pl_classic_integrate),          ONCE,           \
+      "accelerations", "solver bodies, accelerations", ONE)                                                                                  \
+    X("warm start joints", VELOCITIES,  IF(pl_want_joints),          EACH(pl_joints_row_warm_start),                         ONCE,           \
+      "joints", "solver bodies, joints", ONE)                                                                                                \
+    X("warm start",        VELOCITIES,  IF(pl_want_collision),       BOTH(pl_soft_warm_start, pl_classic_warm_start),        ONCE,           \
+      "constraints", "solver bodies, constraints", ONE)                                                                                      \
+    X("impacts",           VELOCITIES,  IF(pl_want_impacts),         BOTH(pl_soft_impacts, pl_classic_impacts),              ONCE,           \
+      "constraints", "solver bodies, constraints, pairs, manifolds", ONE)                                                                    \
+    X("joints",            CONSTRAINTS, IF(pl_want_joints),          BOTH(pl_joints_row_solve, pl_joints_row_classic),       ONCE,           \
+      "joints, constraints", "solver bodies, joints, constraints", ONE)                                                                      \
+    X("contacts",          CONSTRAINTS, IF(pl_want_collision),       BOTH(pl_soft_contacts, pl_classic_contacts),            ONCE,           \
+      "constraints", "solver bodies, constraints", HAS(pl_contact_variants))                                                                 \
+    X("positions",         POSITIONS,   IF(pl_want_solver),          BOTH(pl_move_bodies, pl_classic_move),                  ONCE,           \
+      "solver bodies, accelerations", "solver bodies, joints", ONE)                                                                          \
+    X("relax joints",      RELAX,       IF(pl_want_joints),          BOTH(pl_joints_row_relax, pl_joints_row_correct),       ONCE,           \
+      "joints, constraints", "solver bodies, joints, constraints", ONE)                                                                      \
+    X("relax contacts",    RELAX,       IF(pl_want_collision),       BOTH(pl_soft_relax, pl_classic_correct),                ONCE,           \
+      "constraints", "solver bodies, constraints", HAS(pl_contact_variants))                                                                 \
+    X("sum reactions",     SUMS,        IF(pl_want_reactions),       SOFT(pl_joints_row_sum),                                ONCE,           \
+      "joints, constraints", "joints, constraints", ONE)                                                                                     \
+    X("sum impulses",      SUMS,        IF(pl_want_sums),            BOTH(pl_soft_sum, pl_classic_sum),                      ONCE,           \
+      "constraints", "constraints, manifolds", ONE)                                                                                          \
+    X("store joints",      STORE,       IF(pl_want_joints),          SOFT(pl_joints_row_store),                              ONCE,           \
+      "constraints", "joints", ONE)                                                                                                          \
+    X("store contacts",    STORE,       IF(pl_want_collision),       BOTH(pl_soft_store, pl_classic_store),                  ONCE,           \
+      "constraints", "pairs, manifolds", ONE)                                                                                                \
+    X("motion",            FINISH,      ALWAYS,                      ONCE(pl_run_motion),                                    ONCE,           \
+      "solver bodies, forces, masses", "poses, velocities, forces, movers, time", HAS(pl_motion_variants))                                   \
+    X("continuous",        FINISH,      IF(pl_want_continuous),      ONCE(pl_run_continuous),                                ONCE,           \
+      "movers, pieces, grids", "poses, velocities, movers, manifolds, pairs, joints, events", ONE)                                           \
+    X("targets",           FINISH,      IF(pl_want_targets),         ONCE(pl_run_arrive),                                    REPLACEABLE,    \
+      "targets, poses", "poses, velocities, targets", ONE)                                                                                   \
+    X("edges",             FINISH,      IF(pl_want_edges),           ONCE(pl_run_edges),                                     ONCE,           \
+      "poses", "poses", ONE)                                                                                                                 \
+    X("reactions",         FINISH,      IF(pl_want_joints),          ONCE(pl_run_reactions),                                 ONCE,           \
+      "joints, poses", "joints, rows, events, islands, components, pairs", ONE)                                                              \
+    X("events",            EVENTS,      IF(pl_want_collision),       ONCE(pl_run_events),                                    REFRESHES,      \
+      "pairs, manifolds", "events, pairs, internal edges, manifolds", ONE)                                                                   \
+    X("sensors",           EVENTS,      IF(pl_want_sensing),         ONCE(pl_run_sensors),                                   REFRESHES,      \
+      "sensors, poses, pieces", "sensors, events", ONE)                                                                                      \
+    X("end systems",       END,         ALWAYS,                      HOME,                                                   ONCE,           \
+      "", "", ONE)
+// clang-format on
+
+struct pl_substep;
+
+#define PL_PROTOTYPE_ALWAYS
+#define PL_PROTOTYPE_HOME
+#define PL_PROTOTYPE_ONE
+#define PL_PROTOTYPE_IF(f)               bool f(const plumb_world *world, const char **reason);
+#define PL_PROTOTYPE_ONCE(f)             plumb_result f(plumb_world *world, plumb_real dt);
+#define PL_PROTOTYPE_EACH(f)             void f(struct pl_substep *substep);
+#define PL_PROTOTYPE_SOFT(f)             PL_PROTOTYPE_EACH(f)
+#define PL_PROTOTYPE_BOTH(soft, classic) PL_PROTOTYPE_EACH(soft) PL_PROTOTYPE_EACH(classic)
+#define PL_PROTOTYPE_ACTS(f, whom)                                                                 \
+    PL_PROTOTYPE_EACH(f) bool whom(const plumb_world *world, uint32_t row);
+#define PL_PROTOTYPE_HAS(f) int f(const plumb_world *world, const char *out[PLUMB_VARIANTS_MAX]);
+#define PL_PROTOTYPE_PASS(name, stage, wanted, run, kind, reads, writes, variants)                 \
+    PL_PROTOTYPE_##wanted PL_PROTOTYPE_##run PL_PROTOTYPE_##variants
+
+PL_PASSES(PL_PROTOTYPE_PASS)
+
+#endif

@@ -1,0 +1,200 @@
+// use.c - uses what test_extend.sh has added to a copy of the tree: from C, Lua and JSON, saved, replayed, listed, and what
+// it does to bodies against closed forms. One line each; exit status 1 if any is wrong.
+#include "plumb/plumb.h"
+#include "scene/scene.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static int bad;
+static char tape[1 << 20], image[1 << 20];
+static size_t used;
+
+static void is(const char *what, int good)
+{
+    printf("%s: %s\n", what, good ? "yes" : "NO");
+    bad += !good;
+}
+
+// |value - exact| <= error, with the difference.
+static void near(const char *what, plumb_real value, double exact, double error)
+{
+    printf("%s: %.9g, off by %.2g of %.2g: %s\n", what, (double)value, (double)value - exact, error,
+           fabs((double)value - exact) <= error ? "yes" : "NO");
+    bad += !(fabs((double)value - exact) <= error);
+}
+
+static bool keep(void *context, const void *bytes, size_t size)
+{
+    (void)context;
+    if (used + size > sizeof tape) {
+        return false;
+    }
+    memcpy(tape + used, bytes, size);
+    used += size;
+    return true;
+}
+
+static scene *load(const char *path, const char *text, scene_error *error)
+{
+    scene *s = NULL;
+    const scene_options options = { .path = path, .text = text, .text_size = strlen(text) };
+    scene_load(&options, &s, error);
+    return s;
+}
+
+static plumb_world *weightless(void)
+{
+    plumb_world *w = NULL;
+    plumb_world_create(&(plumb_world_desc){ .zero_gravity = true }, &w);
+    plumb_world_watch(w, PLUMB_WATCH_WRITES);
+    return w;
+}
+
+static void run(plumb_world *w, int steps)
+{
+    for (int i = 0; i < steps; i++) {
+        plumb_world_step(w, (plumb_real)(1.0 / 64));
+    }
+}
+
+static bool is_scheduled(const plumb_world *w, const char *name)
+{
+    plumb_pass_info rows[64];
+    const int count = plumb_world_schedule(w, rows, 64);
+    for (int i = 0; i < count; i++) {
+        if (strcmp(rows[i].name, name) == 0) {
+            return rows[i].scheduled && rows[i].reason[0] != 0;
+        }
+    }
+    return false;
+}
+
+// Runs on for `steps` from an image, and from a recording, to the same bits.
+static void comes_again(const char *what, plumb_world *w, int steps)
+{
+    plumb_world_save(w, image, sizeof image);
+    used = 0;
+    plumb_recorder_start(w, &(plumb_recorder_desc){ .write = keep });
+    run(w, steps);
+    plumb_recorder_stop(w);
+    const uint64_t hash = plumb_world_hash(w);
+    plumb_replay *replay = NULL;
+    plumb_replay_open(tape, used, NULL, &replay);
+    for (int i = 0; i < steps; i++) {
+        plumb_replay_step(replay);
+    }
+    const bool replayed = plumb_world_hash(plumb_replay_world(replay)) == hash;
+    plumb_replay_close(replay);
+    plumb_world_restore(w, image, sizeof image);
+    run(w, steps);
+    is(what, replayed && plumb_world_hash(w) == hash);
+}
+
+//---- body property -------------------------------------------------------------------------------
+
+static plumb_real charge_in(scene *s)
+{
+    plumb_world *w = scene_world(s);
+    return plumb_body_charge(w, plumb_world_bodies(w).body[0]);
+}
+
+static void use_charge(void)
+{
+    plumb_world *w;
+    plumb_world_create(NULL, &w);
+    plumb_body b = plumb_body_create(w, &(plumb_body_desc){ .charge = 3 });
+    is("charge: made", plumb_body_charge(w, b) == 3);
+    is("charge: refused", plumb_body_set_charge(w, b, 11) == PLUMB_E_RANGE &&
+                              strstr(plumb_world_error(w).message, "charge is 11; it must be 0 to 10") !=
+                                  NULL);
+    plumb_world_save(w, image, sizeof image);
+    const uint64_t hash = plumb_world_hash(w);
+    used = 0;
+    plumb_recorder_start(w, &(plumb_recorder_desc){ .write = keep });
+    plumb_body_set_charge(w, b, 5);
+    is("charge: hashed", plumb_world_hash(w) != hash);
+    run(w, 1);
+    plumb_recorder_stop(w);
+    plumb_replay *replay;
+    plumb_replay_open(tape, used, NULL, &replay);
+    plumb_replay_step(replay);
+    is("charge: replayed", plumb_body_charge(plumb_replay_world(replay), b) == 5);
+    plumb_world_restore(w, image, sizeof image);
+    is("charge: restored", plumb_body_charge(w, b) == 3);
+    const plumb_property *p = plumb_property_find(PLUMB_TABLE_BODY, "charge");
+    is("charge: listed", p != NULL && p->high == 10 && strcmp(p->unit, "C") == 0);
+
+    scene_error error;
+    scene *s = load("a.lua", "body{ circle{1}, charge = 4 }", &error);
+    is("charge: said in Lua", s != NULL && charge_in(s) == 4);
+    char *json = NULL;
+    size_t size;
+    FILE *file = open_memstream(&json, &size);
+    scene_to_json(s, file);
+    fclose(file);
+    scene *copy = load("a.json", json, &error);
+    is("charge: said in JSON",
+       strstr(json, "\"charge\":4") != NULL && copy != NULL && charge_in(copy) == 4);
+    is("charge: refused in Lua",
+       load("b.lua", "body{ circle{1}, charge = 12 }", &error) == NULL &&
+           strstr(error.text, "'charge' of body{} must be at least 0 and at most 10 C"));
+}
+
+//---- force effect --------------------------------------------------------------------------------
+
+static void use_wind(void)
+{
+    plumb_world *w = weightless();
+    const plumb_body_desc light = { .mass = 2, .inertia = 1 };
+    plumb_body free_one = plumb_body_create(w, &light), pushed = plumb_body_create(w, &light);
+    is("wind: none, no row", !is_scheduled(w, "wind"));
+    plumb_body_set_wind(w, pushed, 3);
+    run(w, 64);
+    is("wind: in the schedule", is_scheduled(w, "wind"));
+    near("wind: F/m t^2/2", plumb_body_position(w, pushed).x, 0.75, 1e-6);
+    near("wind: F/m t", plumb_body_velocity(w, pushed).x, 1.5, 1e-6);
+    is("wind: on nobody else", plumb_body_position(w, free_one).x == 0);
+    comes_again("wind: saved, replayed", w, 32);
+    is("wind: writes what it declares", plumb_world_error(w).code == PLUMB_OK);
+
+    // On the ground: (F - mu m g) / m.
+    scene_error error;
+    scene *s = load("w.lua",
+                    "scene{ gravity = {0, -10} } local m = material{ friction = 0.25 } "
+                    "body{ type = 'static', box{100, 2, at = {0, -1}}, material = m } "
+                    "body{ box{1, 1}, at = {0, 0.5}, mass = 2, material = m, wind = 9 }",
+                    &error);
+    if (s == NULL) {
+        printf("%s\n", error.text);
+    }
+    is("wind: said in Lua", s != NULL);
+    run(scene_world(s), 64);
+    near("wind: against friction", plumb_world_bodies(scene_world(s)).x[0], 1, 0.02);
+}
+
+//---- pass ----------------------------------------------------------------------------------------
+
+static void use_edge(void)
+{
+    plumb_world *w = weightless();
+    is("edge: nothing, no row", !is_scheduled(w, "edge of the world"));
+    plumb_body b = plumb_body_create(
+        w, &(plumb_body_desc){ .position = { 9, 0 }, .velocity = { 4, 1 }, .mass = 1, .inertia = 1 });
+    run(w, 8);
+    near("edge: before", plumb_body_position(w, b).x, 9.5, 1e-5);
+    comes_again("edge: saved, replayed", w, 56);
+    is("edge: held", plumb_body_position(w, b).x == 10 && plumb_body_velocity(w, b).x == 0);
+    near("edge: runs along it", plumb_body_position(w, b).y, 1, 1e-5);
+    is("edge: in the schedule", is_scheduled(w, "edge of the world"));
+    is("edge: writes what it declares", plumb_world_error(w).code == PLUMB_OK);
+}
+
+int main(void)
+{
+    use_charge();
+    use_wind();
+    use_edge();
+    return bad > 0;
+}
