@@ -6,6 +6,12 @@
 #include "plumb/joint.h"
 #include "schema/row.h"
 
+// From the list of kinds: "revolute|...", and the last of them.
+#define PL_JOINT_KIND_CHOICE(NAME, name, text)  "|" #name
+#define PL_JOINT_KIND_CHOICES                   &("" PLUMB_JOINT_LIST(PL_JOINT_KIND_CHOICE))[1]
+#define PL_JOINT_KIND_COUNTED(NAME, name, text) +1
+#define PL_JOINT_KIND_LAST                      (PLUMB_JOINT_LIST(PL_JOINT_KIND_COUNTED) - 1)
+
 // clang-format off
 // Of every kind: bounds of its reaction.
 #define PL_JOINT_BOUND_ROWS(R, X)                                                                   \
@@ -30,7 +36,7 @@
     R(X, OWN, VEC2, ground_b, UNSAID, "m", ANY, 0, NO_ZERO, "pulley: the wheel of B's rope")        \
     R(X, OWN, VEC2, axis, UNSAID, "1", ANY, 0, NO_ZERO,                                             \
       "prismatic, wheel: direction of the value; gear: B's travel along it")                        \
-    R(X, STATE, JOINT_KIND, kind, UNSAID, PL_JOINT_KIND_CHOICES, CHOICES(PLUMB_FRICTION),           \
+    R(X, STATE, JOINT_KIND, kind, UNSAID, PL_JOINT_KIND_CHOICES, CHOICES(PL_JOINT_KIND_LAST),       \
       PLUMB_REVOLUTE, NO_ZERO, "what it does")                                                      \
     R(X, STATE, BOOL, enable_limit, UNSAID, "1", CHOICES(1), 0, NO_ZERO,                            \
       "lower <= value <= upper")                                                                    \

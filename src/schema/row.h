@@ -51,8 +51,6 @@
 #define PL_BODY_TYPE_CHOICES "dynamic|kinematic|static"
 #define PL_Y_AXIS_CHOICES    "up|down"
 #define PL_SOLVER_CHOICES    "soft|pgs"
-#define PL_JOINT_KIND_CHOICES                                                                      \
-    "revolute|prismatic|weld|wheel|distance|mouse|motor|gear|pulley|ratchet|friction"
 
 // What a range is: low, high, whether low is left out.
 #define NO_END                 ((double)INFINITY)

@@ -87,17 +87,43 @@ pass()
 C
 }
 
+material_property()
+{
+    insert src/schema/material.h 'R.X, COLUMN, MIX, friction_mix' <<'C'
+    R(X, COLUMN, REAL, polish, SAID(polish), "1", FROM(0, 1), 0, NO_ZERO, "share of friction that it takes away") \
+C
+    insert include/plumb/material.h '^    plumb_mix adhesion_mix;' <<'C'
+    plumb_real polish;      ///< [-] 0..1, share of friction that it takes away, default 0
+C
+    insert src/narrow/surface.c 'm->adhesion.row. > 0 ' <<'C'
+                  m->polish[row] > 0 ||
+C
+    insert src/narrow/surface.c '^    m->rolling =$' <<'C'
+    m->friction *= (near_real)((1 - s->polish[a]) * (1 - s->polish[b]));
+C
+}
+
+joint()
+{
+    cp "$parts/rail.c" "$tree/src/joints/rail.c"
+    insert include/plumb/joint.h '^    X.FRICTION, ' <<'C'
+    X(RAIL,      rail,      "B's anchor stays on a line of A")                                      \
+C
+}
+
 try "a body property is two files" touches 2 property
 try "a force effect is two files" touches 2 effect
 try "what users set of it is a property: two more" touches 2 wind
 try "a pass is two files" touches 2 pass
+try "a material property is three files: its row, its docstring, what it does" touches 3 material_property
+try "a kind of joint is two files" touches 2 joint
 
 built()
 {
     env -u MAKEFLAGS -u MAKELEVEL -u MFLAGS make -C "$tree" --no-print-directory JOBS=1 O=build CFLAGS=-O0 WERROR=1 \
-        build/libplumb.a build/float/libscene.a
+        build/libplumb.a build/float/libscene.a build/float/tools/plumb/engine_joints.o
 }
-try "library and loader are built without a warning" built
+try "library, loader and pictures of joints are built without a warning" built
 
 used()
 {

@@ -42,9 +42,10 @@ static render_joint_kind sign_of(const plumb_joint_desc *d)
     case PLUMB_RATCHET:
         return RENDER_JOINT_RATCHET;
     case PLUMB_FRICTION:
-        break;
+        return RENDER_JOINT_PADS;
+    default:
+        return RENDER_JOINT_ROD; // a kind without a sign of its own: its anchors
     }
-    return RENDER_JOINT_PADS;
 }
 
 /// Half the size of the smaller of two bodies, as their mass is spread: the same however they turn.

@@ -1,6 +1,6 @@
 // lists_joints.c - the keys of the joint constructors, one array of rows a kind. PLUMB_JOINT_LIST
-// is the list of kinds: a kind added there needs <name>_rows here, and joints.c only where it has a
-// key that no other kind has. What all kinds have is said by the schema.
+// is the list of kinds: one added there has GENERAL_ROWS, until <name>_rows here say what it has more exactly, or
+// what no other kind has, which is then for joints.c. What all kinds have is said by the schema.
 #include <string.h>
 
 #include "lists.h"
@@ -101,13 +101,32 @@ static const sc_field ratchet_rows[] = {
 static const sc_field friction_rows[] = {
     ROW_A, ROW_AT, ROW_B, ROWS_BREAK, ROW_MAX_FORCE, ROW_MAX_TORQUE, ROW_NAME, ROW_STATE,
 };
-#undef T
+// Of a kind without rows of its own here; what it does not have of these, the world refuses.
+#define GENERAL_ROWS                                                                                \
+    ((const sc_field[]){ ROW_A, ROW_AT, ROW_AXIS, ROW_B, ROWS_BREAK, ROW_LIMITS(-BIG, "rad or m"),   \
+                         ROW_MAX_FORCE, ROW_MAX_TORQUE, ROW_MOTOR, ROW_NAME, ROW_RATIO(-1e6, 0),     \
+                         ROW_SPRING, ROW_STATE })
+#define OWN_revolute  , revolute_rows
+#define OWN_prismatic , prismatic_rows
+#define OWN_weld      , weld_rows
+#define OWN_wheel     , wheel_rows
+#define OWN_distance  , distance_rows
+#define OWN_mouse     , mouse_rows
+#define OWN_motor     , motor_rows
+#define OWN_gear      , gear_rows
+#define OWN_pulley    , pulley_rows
+#define OWN_ratchet   , ratchet_rows
+#define OWN_friction  , friction_rows
+// Where OWN_<name> is no macro, the row behind is the second.
+#define SECOND(first, second, ...) second
+#define ROWS_OF(...)               SECOND(__VA_ARGS__, GENERAL_ROWS, 0)
 
 const sc_list sc_list_joints[SC_JOINT_KINDS] = {
-#define JOINT_LIST(NAME, name, text) [PLUMB_##NAME] = { #name, name##_rows, COUNT(name##_rows) },
+#define JOINT_LIST(NAME, name, text) [PLUMB_##NAME] = { #name, ROWS_OF(OWN_##name), COUNT(ROWS_OF(OWN_##name)) },
     PLUMB_JOINT_LIST(JOINT_LIST)
 #undef JOINT_LIST
 };
+#undef T
 // clang-format on
 
 const sc_list *sc_list_named(const char *name)

@@ -7,6 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+// [m] what a step of 1/256 s leaves of a way of a second at 8 m/s^2: a h t / 2.
+#define FIRST_ORDER (8.0 / 256 / 2 * 1.1)
+
 static int bad;
 static char tape[1 << 20], image[1 << 20];
 static size_t used;
@@ -42,6 +45,24 @@ static scene *load(const char *path, const char *text, scene_error *error)
     const scene_options options = { .path = path, .text = text, .text_size = strlen(text) };
     scene_load(&options, &s, error);
     return s;
+}
+
+// The scene of the JSON that the scene of a Lua text writes; null if one of them is refused, or lacks `needle`.
+static scene *said(const char *lua, const char *needle)
+{
+    scene_error error = { .text = "" };
+    char *json = NULL;
+    size_t size;
+    scene *copy = NULL, *s = load("a.lua", lua, &error);
+    if (s != NULL) {
+        FILE *file = open_memstream(&json, &size);
+        scene_to_json(s, file);
+        fclose(file);
+        copy = strstr(json, needle) != NULL ? load("a.json", json, &error) : NULL;
+    }
+    printf("%s%s", error.text, copy == NULL && json != NULL ? json : "");
+    free(json);
+    return copy;
 }
 
 static plumb_world *weightless(void)
@@ -126,17 +147,9 @@ static void use_charge(void)
     const plumb_property *p = plumb_property_find(PLUMB_TABLE_BODY, "charge");
     is("charge: listed", p != NULL && p->high == 10 && strcmp(p->unit, "C") == 0);
 
+    scene *s = said("body{ circle{1}, charge = 4 }", "\"charge\":4");
+    is("charge: said in Lua and JSON", s != NULL && charge_in(s) == 4);
     scene_error error;
-    scene *s = load("a.lua", "body{ circle{1}, charge = 4 }", &error);
-    is("charge: said in Lua", s != NULL && charge_in(s) == 4);
-    char *json = NULL;
-    size_t size;
-    FILE *file = open_memstream(&json, &size);
-    scene_to_json(s, file);
-    fclose(file);
-    scene *copy = load("a.json", json, &error);
-    is("charge: said in JSON",
-       strstr(json, "\"charge\":4") != NULL && copy != NULL && charge_in(copy) == 4);
     is("charge: refused in Lua",
        load("b.lua", "body{ circle{1}, charge = 12 }", &error) == NULL &&
            strstr(error.text, "'charge' of body{} must be at least 0 and at most 10 C"));
@@ -160,18 +173,13 @@ static void use_wind(void)
     is("wind: writes what it declares", plumb_world_error(w).code == PLUMB_OK);
 
     // On the ground: (F - mu m g) / m.
-    scene_error error;
-    scene *s = load("w.lua",
-                    "scene{ gravity = {0, -10} } local m = material{ friction = 0.25 } "
+    scene *s = said("scene{ gravity = {0, -10} } local m = material{ friction = 0.25 } "
                     "body{ type = 'static', box{100, 2, at = {0, -1}}, material = m } "
                     "body{ box{1, 1}, at = {0, 0.5}, mass = 2, material = m, wind = 9 }",
-                    &error);
-    if (s == NULL) {
-        printf("%s\n", error.text);
-    }
-    is("wind: said in Lua", s != NULL);
+                    "\"wind\":9");
+    is("wind: said in Lua and JSON", s != NULL);
     run(scene_world(s), 64);
-    near("wind: against friction", plumb_world_bodies(scene_world(s)).x[0], 1, 0.02);
+    near("wind: against friction", plumb_world_bodies(scene_world(s)).x[0], 1, FIRST_ORDER);
 }
 
 //---- pass ----------------------------------------------------------------------------------------
@@ -191,10 +199,81 @@ static void use_edge(void)
     is("edge: writes what it declares", plumb_world_error(w).code == PLUMB_OK);
 }
 
+//---- material property ----------------------------------------------------------------------------
+
+static void use_polish(void)
+{
+    plumb_world *w;
+    plumb_world_create(&(plumb_world_desc){ .gravity = { 0, -10 } }, &w);
+    plumb_material_desc got;
+    plumb_material m = plumb_material_create(w, &(plumb_material_desc){ .friction = 0.5f, .polish = 0.5f });
+    is("polish: made", plumb_material_get(w, m, &got) == PLUMB_OK && got.polish == 0.5f);
+    is("polish: refused", plumb_material_set(w, m, &(plumb_material_desc){ .polish = 2 }) == PLUMB_E_RANGE);
+    const plumb_property *p = plumb_property_find(PLUMB_TABLE_MATERIAL, "polish");
+    is("polish: listed", p != NULL && p->high == 1 && p->saved);
+    // Slides to rest: v^2 / (2 mu g), mu = 0.5 (1 - 0.6).
+    scene *s = said("scene{ gravity = {0, -10} } local m = material{ friction = 0.5 } "
+                    "local ice = material{ friction = 0.5, polish = 0.6 } "
+                    "body{ type = 'static', box{100, 2, at = {0, -1}}, material = ice } "
+                    "body{ box{1, 0.2}, at = {0, 0.1}, velocity = {2, 0}, material = m }",
+                    "\"polish\":0.6");
+    is("polish: said in Lua and JSON", s != NULL);
+    run(scene_world(s), 20);
+    comes_again("polish: saved, replayed", scene_world(s), 100);
+    near("polish: slides to rest", plumb_world_bodies(scene_world(s)).x[0], 1, FIRST_ORDER);
+}
+
+//---- kind of joint --------------------------------------------------------------------------------
+
+static void count_line(void *context, plumb_vec2 a, plumb_vec2 b, plumb_color color)
+{
+    (void)a, (void)b, (void)color;
+    ++*(int *)context;
+}
+
+static void use_rail(void)
+{
+    plumb_world *w;
+    plumb_world_create(&(plumb_world_desc){ .gravity = { 0, -10 } }, &w);
+    plumb_body bead = plumb_body_create(w, &(plumb_body_desc){ .mass = 2, .inertia = 1, .angular_velocity = 1 });
+    plumb_joint rail = plumb_joint_create(
+        w, &(plumb_joint_desc){ .kind = PLUMB_RAIL, .body_b = bead, .axis = { 3, -4 } });
+    is("rail: made", plumb_joint_get_kind(w, rail) == PLUMB_RAIL &&
+                         strcmp(plumb_joint_kind_name(PLUMB_RAIL), "rail") == 0);
+    run(w, 32);
+    comes_again("rail: saved, replayed", w, 32);
+    const plumb_vec2 at = plumb_body_position(w, bead);
+    near("rail: speed", plumb_vec2_magnitude(plumb_body_velocity(w, bead)), 10 * 0.8, 1e-4);
+    near("rail: falls along the line", plumb_joint_value(w, rail), 10 * 0.8 / 2, FIRST_ORDER);
+    near("rail: stays on the line", 0.8f * at.x + 0.6f * at.y, 0, 1e-4);
+    near("rail: turns freely", plumb_body_angular_velocity(w, bead), 1, 1e-5);
+    near("rail: bears", plumb_vec2_magnitude(plumb_joint_force(w, rail)), 2 * 10 * 0.6, 1e-3);
+    int lines = 0;
+    plumb_draw(w, &(plumb_draw_calls){ .line = count_line, .context = &lines },
+               &(plumb_draw_desc){ .parts = PLUMB_DRAW_JOINTS });
+    is("rail: drawn", lines > 0);
+    const plumb_property *p = plumb_property_find(PLUMB_TABLE_JOINT, "kind");
+    is("rail: listed", strstr(p->unit, "|rail") != NULL && p->high > PLUMB_RAIL);
+    plumb_joint_desc limited = { .kind = PLUMB_RAIL, .body_b = bead, .enable_limit = true };
+    is("rail: refused what it has not", plumb_is_null(plumb_joint_create(w, &limited)));
+
+    scene *s = said("scene{ gravity = {0, -10} } body{ name = 'bead', circle{1} } "
+                    "rail{ world, 'bead', axis = {3, -4} }",
+                    "\"rail\"");
+    is("rail: said in Lua and JSON", s != NULL && scene_joint_count(s) == 1);
+    run(scene_world(s), 64);
+    near("rail: of the scene", plumb_world_bodies(scene_world(s)).y[0], -4 * 0.8, FIRST_ORDER);
+    scene_error error;
+    is("rail: refused in Lua", load("b.lua", "body{ name = 'b', circle{1} } rail{ world, 'b', ratio = 2 }", &error) == NULL &&
+                                   strstr(error.text, "ratio") != NULL && error.line == 1);
+}
+
 int main(void)
 {
     use_charge();
     use_wind();
     use_edge();
+    use_polish();
+    use_rail();
     return bad > 0;
 }
