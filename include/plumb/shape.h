@@ -25,6 +25,9 @@ typedef enum plumb_shape_kind {
     PLUMB_CHAIN    ///< points[2..]: joined segments, `closed` joins last to first; two-sided, no mass
 } plumb_shape_kind;
 
+/// How many kinds there are.
+#define PLUMB_SHAPE_KINDS (PLUMB_CHAIN + 1)
+
 /// Which shapes may meet. {0} is category 1 that meets everything. Two shapes whose groups are equal and
 /// not 0 go by the group alone: they meet when it is positive and do not when it is negative. All others
 /// meet when each one's category has a bit of the other's mask. Shapes of one body never meet.

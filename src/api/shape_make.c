@@ -41,7 +41,7 @@ typedef struct kind_fields {
     plumb_real radius_low;
 } kind_fields;
 
-static const kind_fields kinds[] = {
+static const kind_fields kinds[PLUMB_SHAPE_KINDS] = {
     [PLUMB_CIRCLE] = { "a circle", HAS_CENTER | HAS_RADIUS, 0, 0, PLUMB_LENGTH_MIN },
     [PLUMB_CAPSULE] = { "a capsule", HAS_POINTS | HAS_RADIUS, 2, 2, PLUMB_LENGTH_MIN },
     [PLUMB_BOX] = { "a box", HAS_CENTER | HAS_RADIUS | HAS_HALF | HAS_ANGLE, 0, 0, 0 },
@@ -130,7 +130,7 @@ static plumb_result check_desc(const maker *m)
     if (r != PLUMB_OK) {
         return r;
     }
-    if ((unsigned)m->desc->kind > PLUMB_CHAIN) {
+    if ((unsigned)m->desc->kind >= PLUMB_SHAPE_KINDS) {
         return pl_fail(m->world, PLUMB_E_RANGE, m->fn, "kind is %d; it must be a plumb_shape_kind",
                        (int)m->desc->kind);
     }

@@ -87,7 +87,7 @@ typedef struct pl_hint {
 #define PL_PIECE_COLUMNS(X)                                                                         \
     X(plumb_shape, shape, ANY) /* the shape it belongs to */                                        \
     X(uint8_t, kind, UP_TO(PL_PIECE_KIND_COUNT - 1)) /* pl_piece_kind: which narrow-phase kernel */ \
-    X(uint8_t, shape_kind, UP_TO(PLUMB_CHAIN)) /* plumb_shape_kind */                               \
+    X(uint8_t, shape_kind, UP_TO(PLUMB_SHAPE_KINDS - 1)) /* plumb_shape_kind */                     \
     X(uint8_t, vertex_count, UP_TO(16)) /* corners in the vertex pool; 0 for circles */             \
     X(uint8_t, vertex_class, UP_TO(PL_VERTEX_CLASSES - 1)) /* size class of its run in the pool */  \
     X(uint32_t, vertices, ANY) /* first corner in the vertex pool */                                \

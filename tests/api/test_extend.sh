@@ -111,12 +111,52 @@ joint()
 C
 }
 
+# Of pieces that there are.
+shape()
+{
+    sed -i -e 's/PLUMB_CHAIN  /PLUMB_CHAIN, /; s/(PLUMB_CHAIN + 1)/(PLUMB_ELLIPSE + 1)/' "$tree/include/plumb/shape.h"
+    insert include/plumb/shape.h '^} plumb_shape_kind;' <<'C'
+    PLUMB_ELLIPSE  ///< half, center, angle: 16 corners, two of them on each side of the axes
+C
+    insert src/api/shape_make.c 'PLUMB_CHAIN. = . "a chain"' <<'C'
+    [PLUMB_ELLIPSE] = { "an ellipse", HAS_CENTER | HAS_HALF | HAS_ANGLE, 0, 0, 0 },
+C
+    insert src/api/shape_make.c '^static plumb_result make_convex' <"$parts/ellipse.c"
+    insert src/api/shape_make.c '^    case PLUMB_BOX:' <<'C'
+    case PLUMB_ELLIPSE:
+        return make_ellipse(d, convex);
+C
+    insert tools/scene/defs.h '^    SC_SHAPE_KINDS' <<'C'
+    SC_ELLIPSE,
+C
+    insert tools/scene/lists.c '^static const sc_field polygon_rows' <<'C'
+static const sc_field ellipse_rows[] = {
+    ROWS_PLACE, ROWS_SOLID,
+    { "h", SC_NUMBER, AT(T, h), 2 * TINY, SIZE, "m", 2, SC_REQUIRED },
+    ROW_IGNORES, ROW_MATERIAL, ROWS_END,
+    { "w", SC_NUMBER, AT(T, w), 2 * TINY, SIZE, "m", 1, SC_REQUIRED },
+};
+C
+    insert tools/scene/lists.c 'SC_REGULAR. *= ' <<'C'
+    [SC_ELLIPSE]   = { "ellipse", ellipse_rows, COUNT(ellipse_rows) },
+C
+    insert tools/scene/shapes.c '^    case SC_POLYGON:' <<'C'
+    case SC_ELLIPSE:
+        desc.kind = PLUMB_ELLIPSE;
+        desc.half = (plumb_vec2){ (plumb_real)(d->w / 2), (plumb_real)(d->h / 2) };
+        desc.center = place(d, 0, 0);
+        desc.angle = (plumb_real)d->angle;
+        break;
+C
+}
+
 try "a body property is two files" touches 2 property
 try "a force effect is two files" touches 2 effect
 try "what users set of it is a property: two more" touches 2 wind
 try "a pass is two files" touches 2 pass
 try "a material property is three files: its row, its docstring, what it does" touches 3 material_property
 try "a kind of joint is two files" touches 2 joint
+try "a kind of shape is five files: two, and three of the scene language" touches 5 shape
 
 built()
 {

@@ -172,6 +172,18 @@ static void use_wind(void)
     comes_again("wind: saved, replayed", w, 32);
     is("wind: writes what it declares", plumb_world_error(w).code == PLUMB_OK);
 
+    // With damping c: F / (m c) (1 - exp(-c t)).
+    plumb_body_set_damping(w, pushed, 2, 0);
+    plumb_body_set_velocity(w, pushed, (plumb_vec2){ 0, 0 });
+    run(w, 64);
+    near("wind: against damping", plumb_body_velocity(w, pushed).x, 0.75 * (1 - exp(-2)), 1e-5);
+    plumb_world *classic = NULL;
+    plumb_world_create(
+        &(plumb_world_desc){ .zero_gravity = true, .solver = PLUMB_SOLVER_PGS, .workers = 2 }, &classic);
+    pushed = plumb_body_create(classic, &(plumb_body_desc){ .mass = 2, .inertia = 1, .wind = 3 });
+    run(classic, 64);
+    near("wind: by the classic solver", plumb_body_velocity(classic, pushed).x, 1.5, 1e-5);
+
     // On the ground: (F - mu m g) / m.
     scene *s = said("scene{ gravity = {0, -10} } local m = material{ friction = 0.25 } "
                     "body{ type = 'static', box{100, 2, at = {0, -1}}, material = m } "
@@ -268,6 +280,37 @@ static void use_rail(void)
                                    strstr(error.text, "ratio") != NULL && error.line == 1);
 }
 
+//---- kind of shape --------------------------------------------------------------------------------
+
+static void use_ellipse(void)
+{
+    const double half_edge = 3.141592653589793 / 16; // [rad] of the 16 corners
+    plumb_world *w = weightless();
+    plumb_body b = plumb_body_create(w, &(plumb_body_desc){ .position = { 5, 0 } });
+    plumb_shape shape = plumb_shape_create(
+        w, b, &(plumb_shape_desc){ .kind = PLUMB_ELLIPSE, .half = { 2, 0.5f }, .density = 3 });
+    is("ellipse: made", plumb_shape_get_kind(w, shape) == PLUMB_ELLIPSE);
+    near("ellipse: mass", plumb_body_mass(w, b), 3 * 8 * sin(2 * half_edge) * 2 * 0.5, 1e-5);
+    plumb_ray_hit hit = { .fraction = 0 };
+    is("ellipse: hit by a ray",
+       plumb_world_ray(w, (plumb_vec2){ 0, 0 }, (plumb_vec2){ 10, 0 }, NULL, &hit));
+    near("ellipse: where", hit.point.x, 5 - 2 * cos(half_edge), 1e-5);
+    plumb_shape_desc round = { .kind = PLUMB_ELLIPSE, .half = { 2, 1 }, .radius = 1 };
+    is("ellipse: refused what it has not", plumb_is_null(plumb_shape_create(w, b, &round)));
+    int lines = 0;
+    plumb_draw(w, &(plumb_draw_calls){ .line = count_line, .context = &lines },
+               &(plumb_draw_desc){ .parts = PLUMB_DRAW_SHAPES });
+    is("ellipse: drawn", lines >= 16);
+
+    scene *s = said("scene{ gravity = {0, -10} } body{ type = 'static', box{100, 2, at = {0, -1}} } "
+                    "body{ ellipse{4, 1}, at = {0, 1} }",
+                    "\"ellipse\"");
+    is("ellipse: said in Lua and JSON", s != NULL);
+    run(scene_world(s), 20);
+    comes_again("ellipse: saved, replayed", scene_world(s), 100);
+    near("ellipse: lies on its edge", plumb_world_bodies(scene_world(s)).y[0], 0.5 * cos(half_edge), 2e-3);
+}
+
 int main(void)
 {
     use_charge();
@@ -275,5 +318,6 @@ int main(void)
     use_edge();
     use_polish();
     use_rail();
+    use_ellipse();
     return bad > 0;
 }
