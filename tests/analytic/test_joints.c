@@ -1,5 +1,5 @@
 // test_joints.c - joints against closed forms: pendulums, springs, statics of reactions, machines.
-// Each case prints what it measured; the table of joints/README.md is from here.
+// Each case prints what it measured; the table of joints/DECISIONS.md is from here.
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
