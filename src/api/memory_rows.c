@@ -5,6 +5,7 @@
 // keep. Only components and the queries' grids are counted by hand, for theirs are reached through pointers.
 //
 // Reads: sizes. Writes: nothing. Cost: O(buffers).
+#include "api/command.h"
 #include "step/pass.h"
 #include "solver/solver.h"
 #include "step/quarantine.h"

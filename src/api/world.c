@@ -2,6 +2,7 @@
 //
 // Reads: the descriptor; for stats and energy, the whole state. Writes: the world.
 // Cost: O(1), plumb_world_destroy O(components), plumb_world_energy O(dynamic bodies).
+#include "api/command.h"
 #include "step/pass.h"
 #include "solver/solver.h"
 #include "step/quarantine.h"

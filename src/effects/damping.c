@@ -15,8 +15,8 @@
 #include "math/decay.h"
 #include "effects/effects.h"
 #include "core/quad.h"
-#include "solver/flight.h"
-#include "solver/substep.h"
+#include "world/flight.h"
+#include "world/substep.h"
 #include "world/state.h"
 
 // Of a record.
@@ -154,7 +154,7 @@ static void damp(void *context, uint32_t first, uint32_t count)
 
 void pl_damping_row(pl_substep *s)
 {
-    const plumb_world *world = s->step->world;
+    const plumb_world *world = s->world;
     const pl_effects *e = &world->effects;
     const pl_share mine = pl_substep_share(e->dampers.data, sizeof(pl_damper),
                                            offsetof(pl_damper, slot), e->damper_count, s);

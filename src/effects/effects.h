@@ -7,6 +7,7 @@
 #ifndef PL_EFFECTS_H
 #define PL_EFFECTS_H
 
+#include "world/substep.h"
 #include "world/tables/effects.h"
 #include "math/decay.h"
 

@@ -7,7 +7,7 @@
 // Cost: O(capped bodies) a substep.
 #include "effects/gather.h"
 #include "plumb/math.h"
-#include "solver/substep.h"
+#include "world/substep.h"
 #include "world/state.h"
 
 typedef struct pl_capper {
@@ -56,7 +56,7 @@ static void cap(const pl_capper *c, const pl_solver_body *body, pl_solver_motion
 
 void pl_caps_row(pl_substep *s)
 {
-    const plumb_world *world = s->step->world;
+    const plumb_world *world = s->world;
     const pl_effects *e = &world->effects;
     const pl_capper *cappers = e->cappers.data;
     const pl_share mine =
@@ -64,7 +64,7 @@ void pl_caps_row(pl_substep *s)
     for (uint32_t i = mine.first; i < mine.end; ++i) {
         const uint32_t slot = cappers[i].slot;
         cap(&cappers[i], &pl_solver_bodies(&world->solver)[slot],
-            &pl_solver_motions(&world->solver)[slot], (real)s->call.h);
+            &pl_solver_motions(&world->solver)[slot], (real)s->h);
     }
 }
 

@@ -4,6 +4,7 @@
 // is not the one that the step left has been moved since. Static bodies need none; those that sleep may wake in the step.
 //
 // Reads: poses. Writes: its own last_poses; steps the world. Cost: O(bodies that are not static) a step.
+#include "api/command.h"
 #include "plumb/loop.h"
 
 #include "plumb/math.h"

@@ -7,7 +7,7 @@
 //   stage     of pl_stage (step/pass.h); rows are in the order of their stages
 //   wanted    ALWAYS; IF(f): bool f(world, &reason), whether this world needs it; the reason is a static string
 //   run       ONCE(f): plumb_result f(world, dt), once a step, where f may run out of memory; of the stages PREPARE to STORE a
-//             function of the substep and cluster (solver/substep.h): EACH(f) with both solvers, BOTH(soft, classic),
+//             function of the substep and cluster (world/substep.h): EACH(f) with both solvers, BOTH(soft, classic),
 //             SOFT(f) with the soft step alone; ACTS(f, whom): an effect with both, on the dynamic bodies of whom
 //             bool whom(world, row) is true: the solver moves them; HOME: the place of the user's systems of a phase
 //   kind      ONCE a step; REFRESHES: in a step of dt 0 as well, it moves nothing; REPLACEABLE: a system may take its

@@ -1,6 +1,7 @@
 // check_extras.c - see check.h: ground of many pieces, and what few bodies have.
 //
 // Reads: the image. Writes: marks. Cost: O(state).
+#include "api/command.h"
 #include "snapshot/check.h"
 #include "world/check.h"
 #include "broad/pairs.h"

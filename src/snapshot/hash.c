@@ -4,6 +4,7 @@
 // motion or padding and addresses lie in them: contacts, awake or asleep, joints, characters, pending commands, user
 // components. Writes: nothing.
 // Cost: O(state), about 8 bytes a cycle.
+#include "api/command.h"
 #include "plumb/snapshot.h"
 
 #include "snapshot/section.h"

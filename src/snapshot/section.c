@@ -1,4 +1,5 @@
 // section.c - see section.h. The lists of list.h and world/columns.h become tables of offsets.
+#include "api/command.h"
 #include "world/marks.h"
 #include "snapshot/section.h"
 #include "snapshot/section_own.h"

@@ -10,7 +10,7 @@
 #include "effects/effects.h"
 #include "world/body_settings.h"
 #include "plumb/math.h"
-#include "solver/flight.h"
+#include "world/flight.h"
 #include "world/state.h"
 
 #include <string.h>

@@ -34,7 +34,7 @@ void pl_move_bodies(pl_substep *s)
     for (int i = 0; i < 2; ++i) {
         const pl_slots slots = s->cluster->slots[i];
         pl_tasks_ranges(s->tasks, slots.count, PL_BODIES_SHARED, move,
-                        &(passage){ &s->step->world->solver, slots.first, s->call.h });
+                        &(passage){ &s->world->solver, slots.first, s->h });
     }
 }
 

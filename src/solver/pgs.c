@@ -277,20 +277,20 @@ static void store(const classic *c, pl_manifold *manifolds, pl_pair *pairs)
 
 static classic classic_of(const pl_substep *s)
 {
-    const plumb_world *world = s->step->world;
+    const plumb_world *world = s->world;
     const pl_solver *solver = &world->solver;
     return (classic){ .solver = solver,
                       .bodies = pl_solver_bodies(solver),
                       .contacts = solver->classic.data,
                       .count = world->narrow.manifold_count,
-                      .h = s->call.h,
-                      .residuals = s->elastic ? solver->residuals.data : NULL };
+                      .h = s->h,
+                      .residuals = s->solving->elastic ? solver->residuals.data : NULL };
 }
 
 void pl_classic_prepare(pl_substep *s)
 {
     classic c = classic_of(s);
-    prepare(&c, s->step->world);
+    prepare(&c, s->world);
 }
 
 void pl_classic_integrate(pl_substep *s)
@@ -307,9 +307,9 @@ void pl_classic_warm_start(pl_substep *s)
 
 void pl_classic_impacts(pl_substep *s)
 {
-    if (s->elastic) {
-        pl_impacts_run(s->step->world, s->call.h);
-        pl_impacts_tell(s->step->world, s->call.h);
+    if (s->solving->elastic) {
+        pl_impacts_run(s->world, s->h);
+        pl_impacts_tell(s->world, s->h);
     }
 }
 
@@ -322,8 +322,8 @@ void pl_classic_contacts(pl_substep *s)
 
 void pl_joints_row_correct(pl_substep *s)
 {
-    if (s->any_joints) {
-        pl_joints_move(s->joints, POSITION_RATE);
+    if (s->solving->any_joints) {
+        pl_joints_move(s->solving->joints, POSITION_RATE);
     }
 }
 
@@ -336,11 +336,11 @@ void pl_classic_correct(pl_substep *s)
 void pl_classic_sum(pl_substep *s)
 {
     const classic c = classic_of(s);
-    tally(&c, s->call.manifolds);
+    tally(&c, s->solving->call.manifolds);
 }
 
 void pl_classic_store(pl_substep *s)
 {
     const classic c = classic_of(s);
-    store(&c, s->call.manifolds, s->call.pairs);
+    store(&c, s->solving->call.manifolds, s->solving->call.pairs);
 }

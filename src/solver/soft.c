@@ -87,7 +87,7 @@ static void run_kernel(void *context, uint32_t first, uint32_t count)
 // them; overflow contacts come last, one bundle after another.
 static void share_out(const pl_substep *s, pl_contact_kernel *kernel, pl_share_fn *share)
 {
-    const pl_contact_call *call = &s->call;
+    const pl_contact_call *call = &s->solving->call;
     const uint32_t *first = s->cluster->color_first;
     share(s->tasks, first, PL_COLORS, LEAST, run_kernel, &(kernel_call){ call, kernel });
     kernel(call, first[PL_OVERFLOW_COLOR], first[PL_COLOR_SLOTS] - first[PL_OVERFLOW_COLOR]);
@@ -104,7 +104,7 @@ static void each(const pl_substep *s, pl_contact_kernel *kernel)
     share_out(s, kernel, pl_tasks_shares);
 }
 
-void pl_soft_open(plumb_world *world, pl_solving *out)
+void pl_soft_open(plumb_world *world, pl_solving_step *out)
 {
     pl_solver *s = &world->solver;
     const near_real h = out->call.h;
@@ -138,15 +138,15 @@ void pl_soft_open(plumb_world *world, pl_solving *out)
 
 void pl_soft_prepare(pl_substep *s)
 {
-    const pl_contact_kernels *kernels = s->step->kernels;
+    const pl_contact_kernels *kernels = s->solving->step->kernels;
     each(s, kernels->prepare);
-    if (s->call.extras != NULL) {
+    if (s->solving->call.extras != NULL) {
         each(s, kernels->prepare_extras);
     }
-    if (s->call.specials != NULL) {
+    if (s->solving->call.specials != NULL) {
         each(s, kernels->prepare_specials);
     }
-    if (s->call.bounces != NULL) {
+    if (s->solving->call.bounces != NULL) {
         each(s, kernels->prepare_bounces);
     }
 }
@@ -154,14 +154,16 @@ void pl_soft_prepare(pl_substep *s)
 void pl_soft_integrate(pl_substep *s)
 {
     const pl_slots slots = s->cluster->slots[0];
-    pl_tasks_ranges(s->tasks, slots.count, PL_BODIES_SHARED, s->elastic ? fly_carefully : fly,
-                    &(flight){ &s->step->world->solver, slots.first, s->call.h });
+    pl_tasks_ranges(s->tasks, slots.count, PL_BODIES_SHARED,
+                    s->solving->elastic ? fly_carefully : fly,
+                    &(flight){ &s->world->solver, slots.first, s->h });
 }
 
 void pl_soft_warm_start(pl_substep *s)
 {
     if (s->first) {
-        sweep(s, s->step->kernels->warm_start[s->step->surface][s->step->motion]);
+        sweep(s, s->solving->step->kernels
+                     ->warm_start[s->solving->step->surface][s->solving->step->motion]);
     }
 }
 
@@ -169,48 +171,49 @@ void pl_soft_warm_start(pl_substep *s)
 // some of the former again.
 void pl_soft_impacts(pl_substep *s)
 {
-    plumb_world *world = s->step->world;
-    const pl_contact_kernels *kernels = s->step->kernels;
-    if (s->elastic) {
-        pl_impacts_run(world, s->call.h);
+    plumb_world *world = s->world;
+    const pl_contact_kernels *kernels = s->solving->step->kernels;
+    if (s->solving->elastic) {
+        pl_impacts_run(world, s->h);
     }
-    if (s->call.bounces != NULL) {
-        sweep(s, s->step->surface == PL_SPECIAL ? kernels->bounce_special : kernels->bounce);
+    if (s->solving->call.bounces != NULL) {
+        sweep(s,
+              s->solving->step->surface == PL_SPECIAL ? kernels->bounce_special : kernels->bounce);
     }
-    if (s->elastic) {
-        if (s->call.bounces != NULL) {
-            pl_impacts_run_on(world, s->call.h);
+    if (s->solving->elastic) {
+        if (s->solving->call.bounces != NULL) {
+            pl_impacts_run_on(world, s->h);
         }
-        pl_impacts_tell(world, s->call.h);
+        pl_impacts_tell(world, s->h);
     }
 }
 
 void pl_soft_contacts(pl_substep *s)
 {
-    s->call.unloaded = s->first && s->first_sweep ? NEAR_MAX : 0;
-    sweep(s, s->step->kernels->solve[s->step->surface][s->step->motion]);
-    s->call.unloaded = 0;
+    s->solving->call.unloaded = s->first && s->first_sweep ? NEAR_MAX : 0;
+    sweep(s, s->solving->step->kernels->solve[s->solving->step->surface][s->solving->step->motion]);
+    s->solving->call.unloaded = 0;
 }
 
 void pl_soft_relax(pl_substep *s)
 {
-    sweep(s, s->step->kernels->relax[s->step->surface][s->step->motion]);
+    sweep(s, s->solving->step->kernels->relax[s->solving->step->surface][s->solving->step->motion]);
 }
 
 void pl_soft_sum(pl_substep *s)
 {
-    if (s->step->tallies) {
-        each(s, s->step->kernels->tally);
+    if (s->solving->step->tallies) {
+        each(s, s->solving->step->kernels->tally);
     }
 }
 
 void pl_soft_store(pl_substep *s)
 {
-    each(s, s->step->kernels->store);
-    if (s->call.extras != NULL) {
-        each(s, s->step->kernels->store_extras);
+    each(s, s->solving->step->kernels->store);
+    if (s->solving->call.extras != NULL) {
+        each(s, s->solving->step->kernels->store_extras);
     }
-    if (s->call.bounces != NULL) {
-        each(s, s->step->kernels->store_bounces);
+    if (s->solving->call.bounces != NULL) {
+        each(s, s->solving->step->kernels->store_bounces);
     }
 }

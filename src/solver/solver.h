@@ -163,9 +163,6 @@ void pl_impacts_run(plumb_world *world, near_real h);
 void pl_impacts_run_on(plumb_world *world, near_real h);
 void pl_impacts_tell(plumb_world *world, near_real h);
 
-// Fewer bodies than this are not worth another thread in a pass that goes over them once.
-#define PL_BODIES_SHARED 256
-
 // Results into the columns, free flight of bodies in no contact, kinematic motion (finish.c).
 void pl_solver_finish(plumb_world *world, real dt);
 

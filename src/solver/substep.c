@@ -11,17 +11,15 @@
 #include "core/clock.h"
 #include "world/state.h"
 
-#include <string.h>
-
 // A cluster of more bundles keeps all threads busy, one after another; smaller ones are a thread's each.
 #define LARGE 512
 
 static void run_row(pl_substep *s)
 {
-    const pl_substep_rows *rows = s->step->rows;
+    const pl_substep_rows *rows = s->solving->step->rows;
     const uint32_t i = (uint32_t)(s->row - rows->items);
     if (rows->before != NULL) {
-        rows->before(s->step->world, s->row->place);
+        rows->before(s->world, s->row->place);
     }
     const double start = rows->ns == NULL ? 0 : pl_now_ns();
     s->row->run(s);
@@ -29,13 +27,13 @@ static void run_row(pl_substep *s)
         rows->ns[(size_t)s->thread * rows->count + i] += pl_now_ns() - start;
     }
     if (rows->after != NULL) {
-        rows->after(s->step->world, s->row->place);
+        rows->after(s->world, s->row->place);
     }
 }
 
 static void run_stage(pl_substep *s, pl_substep_stage stage, int times)
 {
-    const pl_substep_rows *rows = s->step->rows;
+    const pl_substep_rows *rows = s->solving->step->rows;
     const pl_substep_row *first = rows->items + (stage == 0 ? 0 : rows->end[stage - 1]);
     const pl_substep_row *end = rows->items + rows->end[stage];
     const bool plain = rows->ns == NULL && rows->before == NULL;
@@ -53,7 +51,7 @@ static void run_stage(pl_substep *s, pl_substep_stage stage, int times)
 
 static void run_substep(pl_substep *s)
 {
-    const plumb_world_desc *d = &s->step->world->desc;
+    const plumb_world_desc *d = &s->world->desc;
     run_stage(s, PL_SUBSTEP_FORCES, 1);
     run_stage(s, PL_SUBSTEP_VELOCITIES, 1);
     run_stage(s, PL_SUBSTEP_CONSTRAINTS, d->iterations);
@@ -63,34 +61,45 @@ static void run_substep(pl_substep *s)
     run_stage(s, PL_SUBSTEP_SUMS, 1);
 }
 
-// All of a step for one cluster, in a thread's room for bundles.
-static void run_cluster(const pl_solving *step, uint32_t i, pl_tasks *tasks, uint32_t thread)
+// The step's call for one cluster, in a thread's room for bundles.
+static pl_contact_call call_of(const pl_solving_step *step, const pl_cluster *cluster,
+                               uint32_t thread)
 {
-    const pl_solver *solver = &step->world->solver;
-    const size_t room = (size_t)thread * solver->bundle_room;
+    const size_t room = (size_t)thread * step->world->solver.bundle_room;
+    pl_contact_call call = step->call;
+    if (call.lanes != NULL) { // else no step has had a contact yet
+        call.lanes += cluster->first_lane;
+        call.bundles = (char *)call.bundles + room * step->kernels->bundle_size;
+    }
+    if (call.extras != NULL) {
+        call.extras = (char *)call.extras + room * step->kernels->extra_size;
+    }
+    if (call.specials != NULL) {
+        call.specials = (char *)call.specials + room * step->kernels->special_size;
+    }
+    if (call.bounces != NULL) {
+        call.bounces = (char *)call.bounces + room * step->kernels->bounce_size;
+    }
+    return call;
+}
+
+// All of a step for one cluster.
+static void run_cluster(const pl_solving_step *step, uint32_t i, pl_tasks *tasks, uint32_t thread)
+{
+    const pl_cluster *cluster = &pl_clusters(&step->world->solver)[i];
     const pl_joint_context joints =
         pl_joint_context_of(step->world, i, tasks, thread, (real)step->call.h);
-    pl_substep s = { .step = step,
-                     .cluster = &pl_clusters(solver)[i],
+    pl_solving solving = { .step = step,
+                           .call = call_of(step, cluster, thread),
+                           .joints = &joints,
+                           .any_joints = pl_joints_any(&joints),
+                           .elastic = i == 0 && step->elastic };
+    pl_substep s = { .world = step->world,
+                     .cluster = cluster,
                      .tasks = tasks,
                      .thread = thread,
-                     .call = step->call,
-                     .joints = &joints,
-                     .elastic = i == 0 && step->elastic };
-    s.any_joints = pl_joints_any(s.joints);
-    if (s.call.lanes != NULL) { // else no step has had a contact yet
-        s.call.lanes += s.cluster->first_lane;
-        s.call.bundles = (char *)s.call.bundles + room * step->kernels->bundle_size;
-    }
-    if (s.call.extras != NULL) {
-        s.call.extras = (char *)s.call.extras + room * step->kernels->extra_size;
-    }
-    if (s.call.specials != NULL) {
-        s.call.specials = (char *)s.call.specials + room * step->kernels->special_size;
-    }
-    if (s.call.bounces != NULL) {
-        s.call.bounces = (char *)s.call.bounces + room * step->kernels->bounce_size;
-    }
+                     .h = step->call.h,
+                     .solving = &solving };
     run_stage(&s, PL_SUBSTEP_PREPARE, 1);
     for (int k = 0; k < step->world->desc.substeps; ++k) {
         s.number = k;
@@ -101,7 +110,7 @@ static void run_cluster(const pl_solving *step, uint32_t i, pl_tasks *tasks, uin
 }
 
 // Solved by all threads together. Joints are swept twice as often as contacts.
-static bool is_large(const pl_solving *step, uint32_t i)
+static bool is_large(const pl_solving_step *step, uint32_t i)
 {
     const plumb_world *world = step->world;
     const pl_joint_context joints = pl_joint_context_of(step->world, i, NULL, 0, 0);
@@ -114,7 +123,7 @@ static bool is_large(const pl_solving *step, uint32_t i)
 
 static void run_small_ones(void *context, uint32_t thread)
 {
-    const pl_solving *step = context;
+    const pl_solving_step *step = context;
     const pl_share mine = pl_share_of(step->world->solver.cluster_count, step->threads, thread);
     for (uint32_t i = mine.first; i < mine.end; ++i) {
         if (!is_large(step, i)) {
@@ -123,11 +132,11 @@ static void run_small_ones(void *context, uint32_t thread)
     }
 }
 
-static pl_solving open_step(plumb_world *world, const pl_substep_rows *rows, real dt)
+static pl_solving_step open_step(plumb_world *world, const pl_substep_rows *rows, real dt)
 {
     pl_solver *s = &world->solver;
     const near_real h = (near_real)(dt / (real)world->desc.substeps);
-    return (pl_solving){
+    return (pl_solving_step){
         .world = world,
         .kernels = pl_solver_kernels(world),
         .call = { .bodies = pl_solver_bodies(s),
@@ -148,7 +157,7 @@ static pl_solving open_step(plumb_world *world, const pl_substep_rows *rows, rea
 
 void pl_substeps_run(plumb_world *world, const pl_substep_rows *rows, real dt)
 {
-    pl_solving step = open_step(world, rows, dt);
+    pl_solving_step step = open_step(world, rows, dt);
     pl_tasks *tasks = rows->before == NULL ? world->tasks : NULL;
     if (world->desc.solver == PLUMB_SOLVER_SOFT) {
         pl_soft_open(world, &step);
@@ -167,101 +176,68 @@ void pl_substeps_run(plumb_world *world, const pl_substep_rows *rows, real dt)
     pl_tasks_run(tasks, run_small_ones, &step, step.threads);
 }
 
-//---- shares of lists ----------------------------------------------------------------------------
-
-static uint32_t slot_at(const void *records, size_t size, size_t offset, uint32_t i)
-{
-    uint32_t slot;
-    memcpy(&slot, (const char *)records + size * i + offset, sizeof slot);
-    return slot;
-}
-
-// The first record whose slot is not below.
-static uint32_t first_at(const void *records, size_t size, size_t offset, uint32_t count,
-                         uint32_t slot)
-{
-    uint32_t low = 0, high = count;
-    while (low < high) {
-        const uint32_t middle = low + (high - low) / 2;
-        if (slot_at(records, size, offset, middle) < slot) {
-            low = middle + 1;
-        } else {
-            high = middle;
-        }
-    }
-    return low;
-}
-
-pl_share pl_substep_share(const void *records, size_t size, size_t offset, uint32_t count,
-                          const pl_substep *s)
-{
-    const pl_slots slots = s->cluster->slots[0];
-    return (pl_share){ first_at(records, size, offset, count, slots.first),
-                       first_at(records, size, offset, count, slots.first + slots.count) };
-}
-
 //---- rows of joints and impacts ------------------------------------------------------------------
 
 void pl_joints_row_prepare(pl_substep *s)
 {
-    if (s->any_joints) {
-        pl_joints_prepare(s->joints);
+    if (s->solving->any_joints) {
+        pl_joints_prepare(s->solving->joints);
     }
 }
 
 void pl_joints_row_warm_start(pl_substep *s)
 {
     // The soft step does that once: see soft.c.
-    if (s->any_joints && (s->first || s->step->world->desc.solver == PLUMB_SOLVER_PGS)) {
-        pl_joints_warm_start(s->joints);
+    if (s->solving->any_joints && (s->first || s->world->desc.solver == PLUMB_SOLVER_PGS)) {
+        pl_joints_warm_start(s->solving->joints);
     }
 }
 
 void pl_joints_row_solve(pl_substep *s)
 {
-    if (s->any_joints) {
-        pl_joints_solve(s->joints, PL_SWEEP_PULL, s->first_sweep);
+    if (s->solving->any_joints) {
+        pl_joints_solve(s->solving->joints, PL_SWEEP_PULL, s->first_sweep);
     }
 }
 
 void pl_joints_row_relax(pl_substep *s)
 {
-    if (s->any_joints) {
-        pl_joints_solve(s->joints, PL_SWEEP_RELAX, s->first_sweep);
+    if (s->solving->any_joints) {
+        pl_joints_solve(s->solving->joints, PL_SWEEP_RELAX, s->first_sweep);
     }
 }
 
 void pl_joints_row_classic(pl_substep *s)
 {
-    if (s->any_joints) {
-        pl_joints_solve(s->joints, PL_SWEEP_CLASSIC, false);
+    if (s->solving->any_joints) {
+        pl_joints_solve(s->solving->joints, PL_SWEEP_CLASSIC, false);
     }
 }
 
 void pl_joints_row_sum(pl_substep *s)
 {
-    if (s->any_joints && s->step->world->joints.watched > 0) {
-        pl_joints_tally(s->joints);
+    if (s->solving->any_joints && s->world->joints.watched > 0) {
+        pl_joints_tally(s->solving->joints);
     }
 }
 
 void pl_joints_row_store(pl_substep *s)
 {
-    if (s->any_joints) {
-        pl_joints_store(s->joints);
+    if (s->solving->any_joints) {
+        pl_joints_store(s->solving->joints);
     }
 }
 
 void pl_impacts_row_prepare(pl_substep *s)
 {
-    if (s->elastic) {
-        pl_impacts_prepare(s->step->world);
+    if (s->solving->elastic) {
+        pl_impacts_prepare(s->world);
     }
 }
 
 void pl_impacts_row_classic(pl_substep *s)
 {
-    if (s->elastic) {
-        pl_impacts_prepare_classic(s->step->world);
+    if (s->solving->elastic) {
+        pl_impacts_prepare_classic(s->world);
     }
 }

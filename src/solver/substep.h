@@ -1,4 +1,4 @@
-// substep.h - what the rows of the substep are called with: one cluster of islands, in the hands of some threads.
+// substep.h - the rows of a substep: who runs them, and the solver's own.
 //
 // A cluster goes through all substeps of a step before the next one does (substep.c): its bodies and bundles stay in
 // the cache. Which rows there are, and in what order, is the schedule's (schema/passes.h).
@@ -7,6 +7,7 @@
 
 #include "schema/passes.h"
 #include "solver/solver.h"
+#include "world/substep.h"
 
 // In order. Preparing and storing are done once a step, the rest in each substep.
 typedef enum pl_substep_stage {
@@ -22,7 +23,7 @@ typedef enum pl_substep_stage {
 } pl_substep_stage;
 
 // What all clusters of a step have in common.
-typedef struct pl_solving {
+typedef struct pl_solving_step {
     plumb_world *world;
     const pl_contact_kernels *kernels;
     pl_contact_call call;
@@ -32,32 +33,16 @@ typedef struct pl_solving {
     bool tallies, elastic;
     bool together; // something of cluster 0 is not to be shared out: it is solved by itself
     const struct pl_substep_rows *rows;
-} pl_solving;
+} pl_solving_step;
 
-typedef struct pl_substep pl_substep;
-typedef struct pl_substep_row pl_substep_row;
-typedef void pl_substep_fn(pl_substep *s);
-
-struct pl_substep {
-    const pl_solving *step;
-    const pl_cluster *cluster;
-    pl_tasks *tasks;      // null: one thread
-    uint32_t thread;      // whose room the cluster has
+// What the solver's own rows need of a cluster.
+typedef struct pl_solving {
+    const pl_solving_step *step;
     pl_contact_call call; // the step's, for this cluster
     const struct pl_joint_context *joints;
     bool any_joints;
-    bool elastic;              // cluster 0 alone has impacts that are followed one by one
-    int number;                // of the substep
-    bool first, first_sweep;   // substep; sweep of a stage
-    const pl_substep_row *row; // that runs
-};
-
-// A row of the substep as the schedule has it.
-struct pl_substep_row {
-    pl_substep_fn *run;
-    uint32_t place;  // in the schedule: whose time it is
-    uint32_t system; // of the user's; else PL_NO_SYSTEM
-};
+    bool elastic; // cluster 0 alone has impacts that are followed one by one
+} pl_solving;
 
 typedef struct pl_substep_rows {
     const pl_substep_row *items;
@@ -72,12 +57,8 @@ typedef struct pl_substep_rows {
 // All clusters through all rows (substep.c).
 void pl_substeps_run(plumb_world *world, const pl_substep_rows *rows, plumb_real dt);
 
-// Which of `count` records, by rising slot, are of a substep's cluster: [B] of a record and to its slot.
-pl_share pl_substep_share(const void *records, size_t size, size_t offset, uint32_t count,
-                          const pl_substep *s);
-
 // Before all rows of the soft step: what kernels are called with, and which of them (soft.c).
-void pl_soft_open(plumb_world *world, pl_solving *out);
+void pl_soft_open(plumb_world *world, pl_solving_step *out);
 #define PL_CLASSIC_CORRECTIONS 3 // sweeps over positions, by the classic solver
 
 #endif

@@ -204,7 +204,7 @@ bool pl_acting_find(plumb_world *world, real dt)
 
 void pl_acting_reset(pl_substep *s)
 {
-    const plumb_world *world = s->step->world;
+    const plumb_world *world = s->world;
     const pl_slots slots = s->cluster->slots[0];
     const pl_near_quad *from = world->effects.bases.data;
     pl_near_quad *motion = (pl_near_quad *)(void *)pl_solver_motions(&world->solver);
@@ -225,7 +225,7 @@ static void call_system(void *context, uint32_t first, uint32_t count)
     const part *p = context;
     const pl_system *system = p->system;
     const pl_acting *list = &system->acting;
-    plumb_world *world = p->substep->step->world;
+    plumb_world *world = p->substep->world;
     const uint32_t at = p->first + first;
     plumb_substep part_of = { .count = (int)count,
                               .number = p->substep->number,
@@ -237,7 +237,7 @@ static void call_system(void *context, uint32_t first, uint32_t count)
         part_of.at[k] = (const uint32_t *)list->at[k].data + at;
         part_of.values[k] = world->components.items[system->desc.needs[k].id - 1].values.data;
     }
-    const real h = (real)p->substep->call.h;
+    const real h = (real)p->substep->h;
     const plumb_system_call call = { .world = world,
                                      .dt = h,
                                      .time = world->time + (double)h * p->substep->number,
@@ -248,7 +248,7 @@ static void call_system(void *context, uint32_t first, uint32_t count)
 
 void pl_system_row(pl_substep *s)
 {
-    plumb_world *world = s->step->world;
+    plumb_world *world = s->world;
     const pl_system *system = &world->systems.items[s->row->system];
     const pl_acting *list = &system->acting;
     const pl_share mine = pl_substep_share(list->slots.data, sizeof(uint32_t), 0, list->count, s);

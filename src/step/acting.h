@@ -2,7 +2,7 @@
 #ifndef PL_ACTING_H
 #define PL_ACTING_H
 
-#include "solver/substep.h"
+#include "world/substep.h"
 #include "step/pass.h"
 
 // Before the graph: dynamic bodies that systems of the substep act on, so that the solver moves them. False when out

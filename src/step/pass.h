@@ -8,6 +8,7 @@
 #include "plumb/world.h"
 #include "schema/passes.h"
 #include "step/data.h"
+#include "world/substep.h"
 
 #define PL_VARIANTS_MAX PLUMB_VARIANTS_MAX
 
@@ -35,8 +36,6 @@ typedef enum pl_stage {
     PL_STAGES
 } pl_stage;
 
-struct pl_substep;
-
 typedef enum pl_pass_kind {
     PL_ONCE = 0,       // a step
     PL_REFRESHES = 1,  // and in a step of dt 0: it moves nothing
@@ -52,7 +51,7 @@ typedef struct pl_pass {
     // Does it, once a step; of the stages of the substep one for each solver, NULL where that has no such row.
     // All NULL: the place of the user's systems of a phase.
     plumb_result (*run)(plumb_world *world, plumb_real dt);
-    void (*soft)(struct pl_substep *s), (*classic)(struct pl_substep *s);
+    pl_substep_fn *soft, *classic;
     // Whether an effect acts on a dynamic body; NULL: it is none.
     bool (*acts_on)(const plumb_world *world, uint32_t row);
     unsigned kind; // pl_pass_kind

@@ -1,6 +1,7 @@
 // step.c - drives the schedule: the step, row by row, and the user's systems between our rows.
 //
 // Reads, writes: what the rows do. The clock is read, and data is digested, only where somebody watches.
+#include "step/step.h"
 #include "step/system.h"
 #include "step/quarantine.h"
 #include "internal_edges/internal_edges.h"
@@ -235,41 +236,17 @@ static void undo_step(plumb_world *world)
     world->narrow.manifold_count = world->narrow.borne_count = 0; // pairs no longer name them
 }
 
-plumb_result plumb_world_step(plumb_world *world, plumb_real dt)
+plumb_result pl_step(plumb_world *world, real dt)
 {
-    if (world == NULL) {
-        return PLUMB_E_NULL;
-    }
-    plumb_result result = pl_check_unlocked(world, __func__);
-    if (result != PLUMB_OK) {
-        return result;
-    }
-    result = pl_check_range(world, __func__, "dt", dt, 0, 1);
-    if (result != PLUMB_OK) {
-        return result;
-    }
-    pl_step_observer *observer = world->observer;
-    if (observer == NULL || !observer->replays) {
-        result = pl_commands_run(world);
-    }
-    if (result != PLUMB_OK) {
-        return result;
-    }
-    if (observer != NULL && observer->begin != NULL) {
-        observer->begin(observer, world);
-    }
     // Systems walk values beside rows.
     if (!pl_components_align(&world->memory, &world->components, &world->registry,
                              PLUMB_KIND_BODY)) {
-        return pl_fail_memory(world, __func__);
-    }
-    if (observer != NULL) {
-        observer->steps = true;
+        return PLUMB_E_MEMORY;
     }
     pl_tasks_rouse(world->tasks);
     pl_quarantine_begin(world);
     pl_schedule_begin(world);
-    result = try_step(world, dt);
+    plumb_result result = try_step(world, dt);
     while (result == PLUMB_OK && world->quarantine.again) {
         pl_quarantine_undo(world);
         undo_step(world);
@@ -277,20 +254,14 @@ plumb_result plumb_world_step(plumb_world *world, plumb_real dt)
         result = try_step(world, dt);
     }
     pl_tasks_rest(world->tasks);
-    if (observer != NULL) {
-        observer->steps = false;
-    }
     if (result == PLUMB_E_MEMORY) {
         undo_step(world);
-        return pl_fail_memory(world, __func__);
+        return result;
     }
     if (world->quarantine.lost) {
         pl_quarantine_finish(world);
     }
     world->sleep.events_told |= result == PLUMB_OK;
     world->rearranged = false;
-    if (observer != NULL && observer->end != NULL) {
-        observer->end(observer, world, dt);
-    }
     return result;
 }

@@ -5,6 +5,7 @@
 #include "internal_edges/internal_edges.h"
 #include "joints/joint.h"
 #include "step/pass.h"
+#include "solver/solver.h"
 
 #include "character/character.h"
 #include "continuous/continuous.h"

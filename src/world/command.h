@@ -1,31 +1,14 @@
-// command.h - the command buffer: structural changes recorded in order, applied at the start of a step.
+// command.h - the command buffer: structural changes recorded in order, applied at the start of a step
+// (api/command.h).
 #ifndef PL_COMMAND_H
 #define PL_COMMAND_H
 
-#include "core/digest.h"
 #include "core/memory.h"
-#include "ecs/registry.h"
-#include "plumb/ecs.h"
 
 typedef struct pl_commands {
     pl_buffer bytes; // records, one after another, each 16-byte aligned, payload copied in
     size_t used;
     uint32_t count;
 } pl_commands;
-
-void pl_commands_free(pl_memory *memory, pl_commands *commands);
-
-// Carries out the commands that were pending when it began; those given meanwhile (by hooks) stay for
-// the next time. On E_MEMORY the command that failed and those after it stay.
-plumb_result pl_commands_run(plumb_world *world);
-
-// Adds what is pending to the world hash: all but the user's data.
-void pl_commands_digest(const plumb_world *world, pl_digest *digest);
-// Whether saved records are some that a world with such a registry may have; components as in `world`.
-// `marks`: one a slot of the registry, 0 before and after.
-bool pl_commands_are_sound(const plumb_world *world, const pl_registry *registry, const char *bytes,
-                           size_t used, uint32_t count, uint32_t *marks);
-// Takes the user's data out of saved records.
-void pl_commands_strip(char *bytes, size_t used);
 
 #endif

@@ -154,7 +154,7 @@ done >"$work/symbols"
 awk 'NR == FNR { if ($2 ~ /^[TDBRC]$/) defined[$3] = $1; next }
     $2 == "U" && ($3 in defined) && defined[$3] != $1 { print "call", $1, defined[$3], $3 }' \
     "$work/symbols" "$work/symbols" >>"$work/arrows"
-awk -f $here/layers.awk $here/layers.txt $here/upward.txt "$work/arrows" | sort -u >"$work/out"
+awk -f $here/layers.awk $here/layers.txt "$work/arrows" | sort -u >"$work/out"
 breach "layers" <"$work/out"
 
 # No header may include itself by a detour.

@@ -22,6 +22,9 @@ typedef plumb_substep_motion pl_solver_motion;
 
 #define PL_COLOR_SLOTS (PL_COLORS + 1)
 
+// Fewer bodies than this are not worth another thread in a pass that goes over them once.
+#define PL_BODIES_SHARED 256
+
 // Slots [first, first + count).
 typedef struct pl_slots {
     uint32_t first, count;
