@@ -19,7 +19,7 @@
 /// when the step begins.
 ///
 /// Motion does not depend on the length of steps: walking goes by the way along the ground, jumps are exact
-/// parabolas, accelerations are integrated exactly; src/character/README.md has measured differences.
+/// parabolas, accelerations are integrated exactly; src/character/DECISIONS.md has measured differences.
 #ifndef PLUMB_CHARACTER_H
 #define PLUMB_CHARACTER_H
 

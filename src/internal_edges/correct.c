@@ -6,7 +6,7 @@
 // it, nor will within the step, the neighbour has the contact, and this one is taken out.
 //
 // Reads: pairs, poses, pieces, internal edges. Writes: manifolds, pairs, summary. Order: after the narrow
-// phase, before anything else looks at manifolds. Cost: README.md has the counts.
+// phase, before anything else looks at manifolds. Cost: DECISIONS.md has the counts.
 #include "narrow/ahead.h"
 #include "narrow/surface.h"
 #include "internal_edges/run.h"

@@ -6,7 +6,7 @@
 // angles, and no speed is lost to turning, as in RATTLE (Andersen 1983): a pendulum keeps its
 // amplitude. Taking all of C back with impulses that never yield holds one joint better, and shakes
 // bridges to pieces. The chord is met by the last sweep that pulls: it adds to the rows of a point what
-// the arcs of the anchors make of a substep (add_arc). README.md says why not by all sweeps, and not by J.
+// the arcs of the anchors make of a substep (add_arc). DECISIONS.md says why not by all sweeps, and not by J.
 //
 // soft.c warm starts body by body, v += v - u, with the directions of the substep before. Where J
 // has turned since, pay() adds the difference (J' - J)^T impulse, else a stale pull along
@@ -25,7 +25,7 @@
 #include "world/state.h"
 
 // Frequency of a rigid row as a share of the substep rate, its damping ratio, and sweeps that pull, and
-// that relax, in a substep. Fewer sweeps bear less stiffness: README.md has the table.
+// that relax, in a substep. Fewer sweeps bear less stiffness: DECISIONS.md has the table.
 #define SHARE  ((real)0.35)
 #define ZETA   ((real)3)
 #define SWEEPS 2

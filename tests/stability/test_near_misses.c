@@ -375,7 +375,7 @@ static void what_bounces_by_is_not_touched(void **state)
     }
     print_message("%d of %d bounces deflected\n", bad, count);
     // A sweep takes the straight line between the ends of a step, which may cut a corner that the disc went round
-    // (src/continuous/README.md, limits). Before contacts ahead were looked at again, 952 of 5000 were deflected.
+    // (src/continuous/README.md, what is promised). Before contacts ahead were looked at again, 952 of 5000 were deflected.
     assert_true(bad <= count / 200);
 }
 
