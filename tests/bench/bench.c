@@ -4,6 +4,7 @@
 // For each scene the engines take turns (A B C A B C ...), so that the drift of a shared machine
 // meets all of them alike; the median over the turns is what counts. See README.md.
 #define _GNU_SOURCE // getopt_long, strtok_r
+#include "drag.h"
 #include "report.h"
 
 #include <getopt.h>
@@ -55,6 +56,7 @@ static const char usage[] =
     "  --core N          pin to this core, N threads to the N from there (default 0; -1: no)\n"
     "  --sample N        steps between measurements of penetration (default 25)\n"
     "  --quick           --repeats 1 --steps-scale 0.1\n"
+    "  --drag            what drag costs by each way to have it, and nothing else (drag.c)\n"
     "  --csv FILE        write all figures there too\n"
     "  --list            list scenes and engines\n";
 
@@ -138,21 +140,14 @@ static void add_scene(struct plan *plan, const char *name)
 }
 
 static const struct option long_options[] = {
-    { "scenes", required_argument, NULL, 's' },
-    { "engines", required_argument, NULL, 'e' },
-    { "repeats", required_argument, NULL, 'r' },
-    { "steps-scale", required_argument, NULL, 'f' },
-    { "substeps", required_argument, NULL, 'u' },
-    { "width", required_argument, NULL, 'w' },
-    { "sleep", no_argument, NULL, 'z' },
-    { "clock", required_argument, NULL, 'c' },
-    { "core", required_argument, NULL, 'p' },
-    { "sample", required_argument, NULL, 'm' },
-    { "quick", no_argument, NULL, 'q' },
-    { "csv", required_argument, NULL, 'o' },
-    { "list", no_argument, NULL, 'l' },
-    { "help", no_argument, NULL, 'h' },
-    { NULL, 0, NULL, 0 },
+    { "scenes", required_argument, NULL, 's' },   { "engines", required_argument, NULL, 'e' },
+    { "repeats", required_argument, NULL, 'r' },  { "steps-scale", required_argument, NULL, 'f' },
+    { "substeps", required_argument, NULL, 'u' }, { "width", required_argument, NULL, 'w' },
+    { "sleep", no_argument, NULL, 'z' },          { "clock", required_argument, NULL, 'c' },
+    { "core", required_argument, NULL, 'p' },     { "sample", required_argument, NULL, 'm' },
+    { "quick", no_argument, NULL, 'q' },          { "drag", no_argument, NULL, 'd' },
+    { "csv", required_argument, NULL, 'o' },      { "list", no_argument, NULL, 'l' },
+    { "help", no_argument, NULL, 'h' },           { NULL, 0, NULL, 0 },
 };
 
 // One option. `optarg` outlives the plan: it points into argv.
@@ -207,6 +202,8 @@ static void take_option(struct plan *plan, int option)
             fail("cannot write", optarg);
         }
         break;
+    case 'd':
+        exit(drag_report(plan->settings.core));
     case 'l':
         list_all();
         exit(0);
