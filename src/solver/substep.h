@@ -5,7 +5,6 @@
 #ifndef PL_SUBSTEP_H
 #define PL_SUBSTEP_H
 
-#include "schema/passes.h"
 #include "solver/solver.h"
 #include "world/substep.h"
 

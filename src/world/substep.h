@@ -6,6 +6,7 @@
 #define PL_WORLD_SUBSTEP_H
 
 #include "core/tasks.h"
+#include "schema/passes.h"
 #include "world/tables/solver.h"
 
 typedef struct pl_substep pl_substep;

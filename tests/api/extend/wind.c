@@ -2,7 +2,7 @@
 //
 // Reads: winds, masses of solver bodies. Writes: accelerations. Order: before damping. Cost: O(bodies of the cluster) a
 // substep.
-#include "solver/substep.h"
+#include "world/substep.h"
 #include "world/state.h"
 
 bool pl_want_wind(const plumb_world *world, const char **reason)
@@ -22,7 +22,7 @@ bool pl_wind_acts_on(const plumb_world *world, uint32_t row)
 
 void pl_wind_row(pl_substep *s)
 {
-    const plumb_world *world = s->step->world;
+    const plumb_world *world = s->world;
     const pl_slots slots = s->cluster->slots[0];
     const uint32_t *rows = world->solver.rows.data;
     pl_solver_motion *motions = pl_solver_motions(&world->solver);
