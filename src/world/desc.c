@@ -31,8 +31,8 @@ static plumb_result fail(const plumb_world *world, const char *function, const c
     }
     switch (p->type) {
     case PLUMB_PROPERTY_CHOICE:
-        return pl_fail(world, PLUMB_E_RANGE, function, "%s is %d; it must be one of %s", field,
-                       (int)x, p->unit);
+        return pl_fail(world, PLUMB_E_RANGE, function, "%s is %.0f; it must be one of %s", field,
+                       pl_property_member(p, desc, 0), p->unit);
     case PLUMB_PROPERTY_VEC2:
         return pl_check_within(world, function, field, (plumb_vec2){ x, y }, bound(p->high));
     default:

@@ -29,6 +29,10 @@ static void bodies_refuse(void **state)
     fixture *f = *state;
     REFUSED(E_NULL, "plumb_body_create: desc is null; it must be given",
             made(W, plumb_body_create(W, NULL)));
+    // No float is 2^31 - 1.
+    REFUSED(E_RANGE,
+            "plumb_body_create: type is 2147483647; it must be one of dynamic|kinematic|static",
+            BODY(.type = (plumb_body_type)2147483647));
     REFUSED(E_RANGE, "plumb_body_create: type is 3; it must be one of dynamic|kinematic|static",
             BODY(.type = (plumb_body_type)3));
     REFUSED(E_NOT_FINITE, "plumb_body_create: position is (nan, 0); it must be finite",

@@ -191,7 +191,7 @@ static void check_contact(plumb_world *w, contact *c, near_real h, tally *t)
 }
 
 // Contacts of one bundle have no body in common.
-static void check_bundle(plumb_world *w, const pl_solving *step, uint32_t k, tally *t)
+static void check_bundle(plumb_world *w, const pl_solving_step *step, uint32_t k, tally *t)
 {
     const uint32_t width = (uint32_t)step->kernels->width, *lanes = step->call.lanes;
     contact contacts[16];
@@ -225,7 +225,7 @@ static void check_heap(int width, double belt, bool locked)
     for (int i = 0; i < 200; ++i) {
         assert_int_equal(plumb_world_step(w, R(1) / 60), PLUMB_OK);
         make_room(w);
-        pl_solving step = open_step(w, NULL, R(1) / 60);
+        pl_solving_step step = open_step(w, NULL, R(1) / 60);
         pl_soft_open(w, &step);
         for (uint32_t k = 0; k < w->solver.bundle_count; ++k) {
             memset(w->solver.residuals.data, 0, w->solver.slot_count * 4 * sizeof(near_real));
