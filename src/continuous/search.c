@@ -166,12 +166,14 @@ static double depth_at_start(const pl_search *s)
 static double time_of_hit(const pl_swept *a, const pl_swept *b, double from, double to,
                           double thick, double sunk)
 {
-    double depth = -pl_sweep_gap(a, b, from).distance;
+    pl_sweep s;
+    pl_sweep_open(&s, a, b);
+    double depth = -pl_sweep_gap_at(&s, from).distance;
     if (pl_target_is_lost(thick, depth)) {
         return PL_SWEEP_NEVER; // it has no side that could be told
     }
     pl_sweep_target target = pl_target_of(thick, depth, sunk);
-    return pl_sweep_first(a, b, from, to, target.distance, target.tolerance);
+    return pl_sweep_first_of(&s, from, to, target.distance, target.tolerance);
 }
 
 static bool stops(const pl_search *s, uint32_t other, const pl_swept *other_swept, double time)

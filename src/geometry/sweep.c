@@ -26,12 +26,10 @@
 
 #define CORNERS PLUMB_POLYGON_MAX_VERTICES
 
-// A core at one time, from the common origin, and its points from the pivot.
-typedef struct core {
-    int count;
-    double x[CORNERS], y[CORNERS];
-    double rx[CORNERS], ry[CORNERS];
-} core;
+// [-], [m] roots are looked at although they are later by so little: rounding does not decide.
+#define MARGIN 1e-12
+
+typedef pl_swept_core core;
 
 static void place(const pl_swept *piece, double time, core *out)
 {
@@ -50,12 +48,21 @@ static void place(const pl_swept *piece, double time, core *out)
     }
 }
 
+// The unit directions of its edges; (0, 0) where two points are one.
+static void find_edges(core *c)
+{
+    for (int i = 0; i < c->count && c->count > 1; ++i) {
+        const int next = i + 1 == c->count ? 0 : i + 1;
+        const double ex = c->x[next] - c->x[i], ey = c->y[next] - c->y[i];
+        const double length = sqrt(ex * ex + ey * ey);
+        c->ex[i] = length == 0 ? 0 : ex / length;
+        c->ey[i] = length == 0 ? 0 : ey / length;
+    }
+}
+
 //---- the axis -----------------------------------------------------------------------------------
 
-typedef struct axis {
-    double distance; // of the cores along it
-    double nx, ny;   // from B to A
-} axis;
+typedef pl_swept_axis axis;
 
 static double lowest(const core *a, double nx, double ny)
 {
@@ -74,35 +81,39 @@ typedef struct origin {
     double nx, ny;
 } origin;
 
-// Tries the unit normal n out of `a` at its value `edge`; `sign` makes it point from B to A.
-static bool try_axis(axis *best, const core *other, double edge, double nx, double ny, double sign)
+// Whether the other core lies farther out along n than `best`, from the value `edge`; `distance`: how far.
+static bool is_farther(const core *other, double edge, double nx, double ny, double best,
+                       double *distance)
 {
-    double distance = lowest(other, nx, ny) - edge;
-    if (distance > best->distance) {
-        *best = (axis){ distance, sign * nx, sign * ny };
-        return true;
+    double low = HUGE_VAL;
+    for (int i = 0; i < other->count; ++i) {
+        const double v = nx * other->x[i] + ny * other->y[i];
+        if (!(v - edge > best)) {
+            return false; // nor would the lowest be
+        }
+        low = v < low ? v : low;
     }
-    return false;
+    *distance = low - edge;
+    return true;
 }
 
-// The normals of a's edges, and the ends of a line.
+// The normals of a's edges, and the ends of a line. `sign` makes them point from B to A.
 static void try_edges(axis *best, const core *a, const core *other, double sign, origin *from)
 {
     for (int i = 0; i < a->count && a->count > 1; ++i) {
-        int next = i + 1 == a->count ? 0 : i + 1;
-        double ex = a->x[next] - a->x[i];
-        double ey = a->y[next] - a->y[i];
-        double length = sqrt(ex * ex + ey * ey);
-        if (length == 0) {
+        const double ex = a->ex[i], ey = a->ey[i];
+        if (ex == 0 && ey == 0) {
             continue;
         }
-        ex /= length;
-        ey /= length;
-        if (try_axis(best, other, ey * a->x[i] - ex * a->y[i], ey, -ex, sign)) {
+        double distance;
+        if (is_farther(other, ey * a->x[i] - ex * a->y[i], ey, -ex, best->distance, &distance)) {
+            *best = (axis){ distance, sign * ey, sign * -ex };
             *from = (origin){ a, other, i, ey, -ex };
         }
-        if (a->count == 2 &&
-            try_axis(best, other, ex * a->x[next] + ey * a->y[next], ex, ey, sign)) {
+        const int next = 1 - i;
+        if (a->count == 2 && is_farther(other, ex * a->x[next] + ey * a->y[next], ex, ey,
+                                        best->distance, &distance)) {
+            *best = (axis){ distance, sign * ex, sign * ey };
             *from = (origin){ a, other, -1, ex, ey };
         }
     }
@@ -179,18 +190,74 @@ static axis find_axis(const core *a, const core *b)
     return best;
 }
 
+//---- a pair at one time ----------------------------------------------------------------------------
+
+void pl_sweep_open(pl_sweep *s, const pl_swept *a, const pl_swept *b)
+{
+    s->piece[0] = a, s->piece[1] = b;
+    s->placed = s->has_axis = false;
+}
+
+static bool is_still(const pl_swept *piece)
+{
+    return piece->dx == 0 && piece->dy == 0 && piece->angle == 0;
+}
+
+static void place_both(pl_sweep *s, double time)
+{
+    if (s->placed && s->time == time) {
+        return;
+    }
+    for (int i = 0; i < 2; ++i) {
+        if (!s->placed || !is_still(s->piece[i])) {
+            place(s->piece[i], time, &s->at[i]);
+            s->has_edges[i] = false;
+        }
+    }
+    s->placed = true;
+    s->time = time;
+}
+
+static void find_axis_at(pl_sweep *s, double time)
+{
+    place_both(s, time);
+    if (s->has_axis && s->axis_time == time) {
+        return;
+    }
+    for (int i = 0; i < 2; ++i) {
+        if (!s->has_edges[i]) {
+            find_edges(&s->at[i]);
+            s->has_edges[i] = true;
+        }
+    }
+    s->axis = find_axis(&s->at[0], &s->at[1]);
+    s->has_axis = true;
+    s->axis_time = time;
+}
+
+static pl_gap gap_of(const pl_sweep *s)
+{
+    return (pl_gap){ s->axis.distance - s->piece[0]->radius - s->piece[1]->radius, s->axis.nx,
+                     s->axis.ny };
+}
+
+pl_gap pl_sweep_gap_at(pl_sweep *s, double time)
+{
+    find_axis_at(s, time);
+    return gap_of(s);
+}
+
 pl_gap pl_sweep_gap(const pl_swept *a, const pl_swept *b, double time)
 {
-    core at_a, at_b;
-    place(a, time, &at_a);
-    place(b, time, &at_b);
-    axis n = find_axis(&at_a, &at_b);
-    return (pl_gap){ n.distance - a->radius - b->radius, n.nx, n.ny };
+    pl_sweep s;
+    pl_sweep_open(&s, a, b);
+    return pl_sweep_gap_at(&s, time);
 }
 
 void pl_sweep_point(const pl_swept *piece, double time, double nx, double ny, double *x, double *y)
 {
     core at;
+    at.x[0] = at.y[0] = 0; // a piece has a point, which GCC does not know
     place(piece, time, &at);
     int best = 0;
     for (int i = 1; i < at.count; ++i) {
@@ -233,18 +300,17 @@ static double rate_of(const pl_swept *piece, double time, double x, double y, do
     return nx * (piece->dx - piece->angle * ry) + ny * (piece->dy + piece->angle * rx);
 }
 
-pl_nearest pl_sweep_nearest(const pl_swept *a, const pl_swept *b, double time)
+pl_nearest pl_sweep_nearest_at(pl_sweep *s, double time)
 {
-    core at_a, at_b;
-    place(a, time, &at_a);
-    place(b, time, &at_b);
-    axis n = find_axis(&at_a, &at_b);
-    brink of_a = brink_of(&at_a, -n.nx, -n.ny), of_b = brink_of(&at_b, n.nx, n.ny);
+    find_axis_at(s, time);
+    const pl_swept *a = s->piece[0], *b = s->piece[1];
+    const axis n = s->axis;
+    brink of_a = brink_of(&s->at[0], -n.nx, -n.ny), of_b = brink_of(&s->at[1], n.nx, n.ny);
     // Across it, seen along B's normal; A's runs the other way.
     double across = (pl_greater(-of_a.to, of_b.from) + pl_lesser(-of_a.from, of_b.to)) / 2;
     double along = (of_b.at + b->radius - (of_a.at + a->radius)) / 2;
     const double x = n.nx * along - n.ny * across, y = n.ny * along + n.nx * across;
-    return (pl_nearest){ .gap = { n.distance - a->radius - b->radius, n.nx, n.ny },
+    return (pl_nearest){ .gap = gap_of(s),
                          .x = x,
                          .y = y,
                          .opens = rate_of(a, time, x, y, n.nx, n.ny) -
@@ -290,58 +356,75 @@ static double time_to_close(double gap, double rate, double bend)
     return bend > 0 ? (rate + root) / bend : HUGE_VAL;
 }
 
-static double time_free(const pl_swept *a, const core *at_a, const pl_swept *b, const core *at_b,
-                        const axis *n, double apart)
+// How long every point of A stays beyond every point of B by `apart` along n, if that is less than `left`; else for ever.
+static double time_free(const pl_sweep *s, const axis *n, double apart, double left)
 {
     track of_a[CORNERS], of_b[CORNERS];
-    int count_a = tracks_of(a, at_a, n->nx, n->ny, 1, of_a);
-    int count_b = tracks_of(b, at_b, n->nx, n->ny, -1, of_b);
-    double first = HUGE_VAL;
+    const int count_a = tracks_of(s->piece[0], &s->at[0], n->nx, n->ny, 1, of_a);
+    const int count_b = tracks_of(s->piece[1], &s->at[1], n->nx, n->ny, -1, of_b);
+    double first = left * (1 + MARGIN);
+    bool any = false;
     for (int i = 0; i < count_a; ++i) {
         for (int k = 0; k < count_b; ++k) {
-            double t = time_to_close(of_a[i].at - of_b[k].at - apart, of_a[i].rate - of_b[k].rate,
-                                     of_a[i].bend + of_b[k].bend);
+            const double gap = of_a[i].at - of_b[k].at - apart;
+            const double rate = of_a[i].rate - of_b[k].rate, bend = of_a[i].bend + of_b[k].bend;
+            if (gap + (rate - bend / 2 * first) * first > MARGIN) {
+                continue; // still apart at the first root of those before
+            }
+            const double t = time_to_close(gap, rate, bend);
+            any = any || t < first;
             first = t < first ? t : first;
         }
     }
-    return first;
+    return any ? first : HUGE_VAL;
 }
 
-// Whether the pieces go by one another to one side of their way, as far as can be told at once.
-static bool goes_by(const pl_swept *a, const core *at_a, const pl_swept *b, const core *at_b,
-                    double apart, double left)
+// [m] how far the pieces go by one another to one side of their way, as far as can be told at once, if that is more than
+// `apart`; else `apart`.
+static double passes_by(const pl_sweep *s, double apart, double left)
 {
+    const pl_swept *a = s->piece[0], *b = s->piece[1];
     const double dx = a->dx - b->dx, dy = a->dy - b->dy, way = sqrt(dx * dx + dy * dy);
     if (!(way > 0)) {
-        return false;
+        return apart;
     }
     for (int side = -1; side <= 1; side += 2) {
         const axis n = { 0, side * -dy / way, side * dx / way };
-        const double gap = lowest(at_a, n.nx, n.ny) + lowest(at_b, -n.nx, -n.ny);
+        const double gap = lowest(&s->at[0], n.nx, n.ny) + lowest(&s->at[1], -n.nx, -n.ny);
         if (gap > apart) {
-            return !(time_free(a, at_a, b, at_b, &n, apart) < left);
+            return time_free(s, &n, apart, left) < left ? apart : gap;
         }
     }
-    return false;
+    return apart;
+}
+
+double pl_sweep_first_of(pl_sweep *s, double from, double to, double target, double tolerance)
+{
+    const double apart = s->piece[0]->radius + s->piece[1]->radius + target; // of the cores
+    place_both(s, from);
+    // First, as it costs little.
+    const double by = passes_by(s, apart, to - from);
+    if (by > apart + tolerance) {
+        return PL_SWEEP_NEVER;
+    }
+    double time = from;
+    for (int round = 0; round < PL_SWEEP_ROUNDS; ++round) {
+        find_axis_at(s, time);
+        if (!(s->axis.distance > apart + tolerance)) {
+            return time;
+        }
+        time += time_free(s, &s->axis, apart, to - time);
+        if (!(time < to) || by > apart) {
+            return PL_SWEEP_NEVER;
+        }
+    }
+    return time;
 }
 
 double pl_sweep_first(const pl_swept *a, const pl_swept *b, double from, double to, double target,
                       double tolerance)
 {
-    double apart = a->radius + b->radius + target; // of the cores
-    double time = from;
-    for (int round = 0; round < PL_SWEEP_ROUNDS; ++round) {
-        core at_a, at_b;
-        place(a, time, &at_a);
-        place(b, time, &at_b);
-        axis n = find_axis(&at_a, &at_b);
-        if (!(n.distance > apart + tolerance)) {
-            return time;
-        }
-        time += time_free(a, &at_a, b, &at_b, &n, apart);
-        if (!(time < to) || (round == 0 && goes_by(a, &at_a, b, &at_b, apart, to - from))) {
-            return PL_SWEEP_NEVER;
-        }
-    }
-    return time;
+    pl_sweep s;
+    pl_sweep_open(&s, a, b);
+    return pl_sweep_first_of(&s, from, to, target, tolerance);
 }

@@ -28,6 +28,32 @@ typedef struct pl_gap {
 
 pl_gap pl_sweep_gap(const pl_swept *a, const pl_swept *b, double time);
 
+// A core at one time, from the common origin, and its points from the pivot.
+typedef struct pl_swept_core {
+    int count;
+    double x[PLUMB_POLYGON_MAX_VERTICES], y[PLUMB_POLYGON_MAX_VERTICES];
+    double rx[PLUMB_POLYGON_MAX_VERTICES], ry[PLUMB_POLYGON_MAX_VERTICES];
+    double ex[PLUMB_POLYGON_MAX_VERTICES], ey[PLUMB_POLYGON_MAX_VERTICES]; // [-] edges
+} pl_swept_core;
+
+typedef struct pl_swept_axis {
+    double distance; // [m] of the cores along it
+    double nx, ny;   // from B to A
+} pl_swept_axis;
+
+// Two pieces about which several questions are asked: what is known of the last time is not computed again.
+typedef struct pl_sweep {
+    const pl_swept *piece[2];
+    double time, axis_time; // of `at`, of `axis`
+    bool placed, has_axis, has_edges[2];
+    pl_swept_core at[2];
+    pl_swept_axis axis;
+} pl_sweep;
+
+// The pieces must stay where they are. Fills in no more than it needs to: a pl_sweep is large.
+void pl_sweep_open(pl_sweep *s, const pl_swept *a, const pl_swept *b);
+pl_gap pl_sweep_gap_at(pl_sweep *s, double time);
+
 // The point of a piece's surface farthest along a unit vector.
 void pl_sweep_point(const pl_swept *piece, double time, double nx, double ny, double *x, double *y);
 
@@ -39,7 +65,7 @@ typedef struct pl_nearest {
     double opens; // [m] a whole step by which the gap grows there
 } pl_nearest;
 
-pl_nearest pl_sweep_nearest(const pl_swept *a, const pl_swept *b, double time);
+pl_nearest pl_sweep_nearest_at(pl_sweep *s, double time);
 
 // The first time in [from, to] at which the pieces are nearer than `target` [m], found at a moment
 // at which they are at most `tolerance` [m] > 0 farther apart than that and not yet nearer; above
@@ -47,6 +73,7 @@ pl_nearest pl_sweep_nearest(const pl_swept *a, const pl_swept *b, double time);
 // never late: where the search takes too long, the time up to which it knows that all is well.
 double pl_sweep_first(const pl_swept *a, const pl_swept *b, double from, double to, double target,
                       double tolerance);
+double pl_sweep_first_of(pl_sweep *s, double from, double to, double target, double tolerance);
 
 // What pl_sweep_first returns for never.
 #define PL_SWEEP_NEVER 2.0

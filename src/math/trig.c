@@ -39,6 +39,9 @@ _Static_assert(FLT_EVAL_METHOD == 0 || FLT_EVAL_METHOD == 16,
 // [rad] largest angle that is reduced with all four parts: below 2^20 pi / 2.
 #define EXACT_REDUCTION_MAX 1e6
 
+// [rad] below this nothing is reduced.
+#define SMALL 0.78
+
 // An angle reduced to a quarter turn: angle = quarters * pi / 2 + high + low.
 typedef struct reduced {
     double high;  // |high| <= pi / 4, give or take a rounding
@@ -90,36 +93,24 @@ static reduced reduce(double x)
     return out;
 }
 
-// sin(high + low) for |high| <= pi/4: series, and the first order of low.
-static double sine_series(double high, double low)
-{
-    double z = high * high;
-    double p = 1.0 / 355687428096000.0; // 1/17!
-    p = -1.0 / 1307674368000.0 + z * p; // 1/15!
-    p = 1.0 / 6227020800.0 + z * p;     // 1/13!
-    p = -1.0 / 39916800.0 + z * p;      // 1/11!
-    p = 1.0 / 362880.0 + z * p;         // 1/9!
-    p = -1.0 / 5040.0 + z * p;          // 1/7!
-    p = 1.0 / 120.0 + z * p;            // 1/5!
-    p = -1.0 / 6.0 + z * p;             // 1/3!
-    return high + (high * z * p + low * (1.0 - 0.5 * z));
-}
+typedef double pair __attribute__((vector_size(16)));
 
-// cos(high + low) for |high| <= pi/4. 1 - z/2 is split off with its rounding error.
-static double cosine_series(double high, double low)
+// sin(high + low) and cos(high + low) for |high| <= pi/4: series, and the first order of low. Of the cosine 1 - z/2 is split
+// off with its rounding error.
+static pair series(double high, double low)
 {
-    double z = high * high;
-    double p = -1.0 / 6402373705728000.0; // 1/18!
-    p = 1.0 / 20922789888000.0 + z * p;   // 1/16!
-    p = -1.0 / 87178291200.0 + z * p;     // 1/14!
-    p = 1.0 / 479001600.0 + z * p;        // 1/12!
-    p = -1.0 / 3628800.0 + z * p;         // 1/10!
-    p = 1.0 / 40320.0 + z * p;            // 1/8!
-    p = -1.0 / 720.0 + z * p;             // 1/6!
-    p = 1.0 / 24.0 + z * p;               // 1/4!
-    double half = 0.5 * z;
-    double first = 1.0 - half;
-    return first + ((1.0 - first) - half + (z * z * p - high * low));
+    const double z = high * high;
+    pair p = { 1.0 / 355687428096000.0, -1.0 / 6402373705728000.0 };      // 1/17!, 1/18!
+    p = (pair){ -1.0 / 1307674368000.0, 1.0 / 20922789888000.0 } + z * p; // 1/15!, 1/16!
+    p = (pair){ 1.0 / 6227020800.0, -1.0 / 87178291200.0 } + z * p;       // 1/13!, 1/14!
+    p = (pair){ -1.0 / 39916800.0, 1.0 / 479001600.0 } + z * p;           // 1/11!, 1/12!
+    p = (pair){ 1.0 / 362880.0, -1.0 / 3628800.0 } + z * p;               // 1/9!, 1/10!
+    p = (pair){ -1.0 / 5040.0, 1.0 / 40320.0 } + z * p;                   // 1/7!, 1/8!
+    p = (pair){ 1.0 / 120.0, -1.0 / 720.0 } + z * p;                      // 1/5!, 1/6!
+    p = (pair){ -1.0 / 6.0, 1.0 / 24.0 } + z * p;                         // 1/3!, 1/4!
+    const double half = 0.5 * z, first = 1.0 - half;
+    return (pair){ high + (high * z * p[0] + low * (1.0 - 0.5 * z)),
+                   first + ((1.0 - first) - half + (z * z * p[1] - high * low)) };
 }
 
 void pl_sincos(double angle, double *sine, double *cosine)
@@ -128,9 +119,11 @@ void pl_sincos(double angle, double *sine, double *cosine)
         *sine = *cosine = angle - angle; // NaN
         return;
     }
-    reduced r = reduce(angle < 0 ? -angle : angle);
-    double s = sine_series(r.high, r.low);
-    double c = cosine_series(r.high, r.low);
+    const double size = angle < 0 ? -angle : angle;
+    const bool small = size < SMALL;
+    reduced r = small ? (reduced){ size, 0, 0 } : reduce(size);
+    const pair both = series(r.high, r.low);
+    const double s = both[0], c = both[1];
     double turned_s = (r.quarters & 1) != 0 ? c : s;
     double turned_c = (r.quarters & 1) != 0 ? -s : c;
     bool opposite = (r.quarters & 2) != 0;

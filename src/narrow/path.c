@@ -104,20 +104,20 @@ static void put_leg(pl_swept *out, const pl_moving_pair *e, int side, double fro
 // The time in [from, 1] of a leg at which the pieces are nearest, where they close at `from`: the gap of convex pieces
 // that do not turn is a convex function of it, for others this is a good guess. By secants of the rate, which changes its
 // sign there.
-static double nearest_on_leg(const pl_swept *a, const pl_swept *b, double from, pl_nearest *out)
+static double nearest_on_leg(pl_sweep *s, double from, pl_nearest *out)
 {
     double low = from, high = 1;
-    *out = pl_sweep_nearest(a, b, low);
+    *out = pl_sweep_nearest_at(s, low);
     double closes = -out->opens;
     if (!(closes > 0)) {
         return low;
     }
-    *out = pl_sweep_nearest(a, b, high);
+    *out = pl_sweep_nearest_at(s, high);
     double opens = out->opens, at = high;
     int side = 0; // of the last secants: one that stays is worth half
     for (int i = 0; i < SECANTS && opens > 0; ++i) {
         at = low + (high - low) * closes / (closes + opens);
-        *out = pl_sweep_nearest(a, b, at);
+        *out = pl_sweep_nearest_at(s, at);
         if (fabs(out->opens) * (high - low) < PL_TOI_TOLERANCE) {
             break;
         }
@@ -142,20 +142,22 @@ pl_pair_approach pl_moving_pair_approach(const pl_moving_pair *e, double near)
         pl_swept a, b;
         put_leg(&a, e, 0, from, to);
         put_leg(&b, e, 1, from, to);
+        pl_sweep s;
+        pl_sweep_open(&s, &a, &b);
         double first = 0;
         if (best.kind == PL_APPROACH_NONE) {
-            first = pl_sweep_first(&a, &b, 0, 1, near, PL_TOI_TOLERANCE);
+            first = pl_sweep_first_of(&s, 0, 1, near, PL_TOI_TOLERANCE);
             if (first > 1) {
                 continue;
             }
         }
-        const double time = pl_sweep_first(&a, &b, first, 1, 0, PL_TOI_TOLERANCE);
+        const double time = pl_sweep_first_of(&s, first, 1, 0, PL_TOI_TOLERANCE);
         if (time <= 1) {
             return (pl_pair_approach){ PL_APPROACH_MEETS, from + time * (to - from),
-                                       pl_sweep_nearest(&a, &b, time) };
+                                       pl_sweep_nearest_at(&s, time) };
         }
         pl_nearest nearest;
-        const double at = nearest_on_leg(&a, &b, first, &nearest);
+        const double at = nearest_on_leg(&s, first, &nearest);
         if (best.kind == PL_APPROACH_NONE || nearest.gap.distance < best.nearest.gap.distance) {
             best = (pl_pair_approach){ PL_APPROACH_NEAR, from + at * (to - from), nearest };
         }
