@@ -60,8 +60,9 @@ void pl_ahead_hold_back(const plumb_world *world, const pl_pair *pair, real dt, 
         return;
     }
     const double horizon = pl_ahead_horizon(world, dt);
-    pl_toi item = { .paths = pl_paths_of(free_path(pl_flight_of(world, m->body_a, horizon)),
-                                         free_path(pl_flight_of(world, m->body_b, horizon))) };
+    const pl_path a = free_path(pl_flight_of(world, m->body_a, horizon));
+    const pl_path b = free_path(pl_flight_of(world, m->body_b, horizon));
+    pl_toi item = { .paths = pl_paths_of(&a, &b) };
     pl_toi_open(&item, m);
     if (item.verdict == PL_TOI_OPEN) {
         pl_toi_sweep(&item, world, m, pair);
@@ -106,13 +107,13 @@ static void make_manifolds(const pl_looking *l, uint32_t count)
         }
         pl_narrow_kernel_for(l->world, a, b)(&then, first, end - first, &made);
     }
-    for (uint32_t i = 0; i < count; ++i) {
-        pl_toi *item = &pl_looking_items(ahead)[listed[i]];
-        item->then.count = 0;
-        if (copies[i].manifold != PL_NONE) {
-            item->then = pl_manifolds(&made)[copies[i].manifold];
-        }
-    }
+}
+
+// What was made of place i of the list; NULL: nothing.
+static const pl_manifold *made_of(const pl_lookahead *ahead, uint32_t i)
+{
+    const uint32_t place = ((const pl_pair *)ahead->pairs.data)[i].manifold;
+    return place != PL_NONE ? &((const pl_manifold *)ahead->made.data)[place] : NULL;
 }
 
 static void sweep_some(void *context, uint32_t first, uint32_t count)
@@ -126,13 +127,14 @@ static void sweep_some(void *context, uint32_t first, uint32_t count)
     }
 }
 
-// Takes from the list those that are not open any more, and those that Newton's method does not serve.
+// Leaves in the list those that are still open, and that Newton's method serves.
 static uint32_t refine(const pl_looking *l, uint32_t count)
 {
     uint32_t *listed = l->ahead->list.data, kept = 0;
     for (uint32_t i = 0; i < count; ++i) {
         pl_toi *item = &pl_looking_items(l->ahead)[listed[i]];
-        if (pl_toi_refine(item, &pl_manifolds(l->narrow)[item->manifold]) &&
+        const pl_manifold *then = made_of(l->ahead, i);
+        if (then != NULL && pl_toi_refine(item, &pl_manifolds(l->narrow)[item->manifold], then) &&
             item->verdict == PL_TOI_OPEN) {
             listed[kept++] = listed[i];
         }
@@ -169,13 +171,16 @@ static void look_at_open(pl_looking *l)
         count = refine(l, count);
     }
     count = list_items(l, PL_TOI_OPEN, false);
-    for (uint32_t i = 0; i < count; ++i) {
-        pl_looking_items(l->ahead)[((uint32_t *)l->ahead->list.data)[i]].then.count = 0;
-    }
     pl_tasks_ranges(l->world->tasks, count, LEAST, sweep_some, l);
     count = list_items(l, PL_TOI_HIT, true);
     if (count > 0) {
         make_manifolds(l, count);
+    }
+    for (uint32_t i = 0; i < count; ++i) {
+        const pl_manifold *then = made_of(l->ahead, i);
+        if (then != NULL) {
+            pl_looking_items(l->ahead)[((uint32_t *)l->ahead->list.data)[i]].then = *then;
+        }
     }
 }
 
@@ -188,8 +193,11 @@ static bool list(pl_looking *l, uint32_t manifold)
         return false;
     }
     const pl_manifold *m = &pl_manifolds(l->narrow)[manifold];
-    pl_looking_items(l->ahead)[l->ahead->count++] =
-        (pl_toi){ .pair = m->pair, .manifold = manifold, .paths = pl_looking_paths(l, m) };
+    pl_toi *item = &pl_looking_items(l->ahead)[l->ahead->count++]; // the rest comes as it is known
+    item->verdict = PL_TOI_OPEN;
+    item->pair = m->pair;
+    item->manifold = manifold;
+    item->paths = pl_looking_paths(l, m);
     return true;
 }
 
@@ -207,7 +215,8 @@ static bool claim_bodies(pl_looking *l)
         }
         if ((candidates[i] & PL_CANDIDATE_ACTS) != 0) {
             const pl_manifold *m = &pl_manifolds(l->narrow)[place];
-            if (!reaches(m, pl_looking_flight(l, m->body_a), pl_looking_flight(l, m->body_b))) {
+            if (!reaches(m, pl_looking_path(l, m->body_a)->flight,
+                         pl_looking_path(l, m->body_b)->flight)) {
                 candidates[i] &= ~PL_CANDIDATE_ACTS;
             }
         }
@@ -220,13 +229,14 @@ static bool claim_bodies(pl_looking *l)
     return any;
 }
 
-static bool reaches_turned(const pl_looking *l, const pl_manifold *m)
+static bool reaches_turned(pl_looking *l, const pl_manifold *m)
 {
-    const pl_paths paths = pl_looking_paths(l, m);
+    const pl_path *a = pl_looking_path(l, m->body_a), *b = pl_looking_path(l, m->body_b);
+    const double at[3] = { a->impact, b->impact, 1 };
     bool acts = false;
-    for (int leg = 1; leg <= paths.legs; ++leg) {
-        acts = acts || reaches(m, pl_path_at(&paths.of[0], paths.breaks[leg]),
-                               pl_path_at(&paths.of[1], paths.breaks[leg]));
+    for (int i = 0; i < 3; ++i) {
+        acts = acts ||
+               (at[i] > 0 && at[i] <= 1 && reaches(m, pl_path_at(a, at[i]), pl_path_at(b, at[i])));
     }
     return acts;
 }
@@ -294,7 +304,7 @@ static bool reserve(plumb_world *world, pl_lookahead *ahead)
     pl_memory *memory = &world->memory;
     const size_t movable = (size_t)world->dynamic_count + world->kinematic_count;
     return pl_buffer_reserve(memory, &ahead->map, movable * sizeof(uint32_t)) &&
-           pl_buffer_reserve(memory, &ahead->paths, movable * sizeof(pl_path));
+           pl_buffer_reserve(memory, &ahead->paths, movable * sizeof(pl_way));
 }
 
 static bool reserve_lists(plumb_world *world, pl_lookahead *ahead)
@@ -344,7 +354,7 @@ bool pl_ahead_look(plumb_world *world, const pl_narrow_input *in, real dt, pl_na
     }
     look_at_open(&l);
     pl_looking_note_meetings(&l);
-    if (l.path_count > l.struck_count) {
+    if (l.any_turned) {
         if (!list_again(&l) || !reserve_lists(world, ahead)) {
             return false;
         }

@@ -4,6 +4,13 @@
 
 #include "narrow/ahead.h"
 
+// What is known of a movable body.
+typedef struct pl_way {
+    pl_path path;
+    bool claimed; // impacts of it are looked for: of others nobody will ask
+    bool struck;  // one turns it as the step begins
+} pl_way;
+
 typedef struct pl_looking {
     plumb_world *world;
     const pl_narrow_input *in;
@@ -11,10 +18,11 @@ typedef struct pl_looking {
     pl_lookahead *ahead;
     double horizon;
     uint32_t movable; // body rows
-    uint32_t *map;    // of a movable row: whether it is claimed, and its path
-    pl_path *all;     // paths
-    uint32_t path_count;
-    uint32_t struck_count; // paths: those of bodies that are turned as the step begins
+    uint32_t *map;    // of a movable row: 1 + the place of its way; 0: nobody has asked for it
+    pl_way *all;      // ways
+    uint32_t way_count;
+    bool strikes_noted;    // what turns bodies from now on are impacts that lie ahead
+    bool any_turned;       // these have turned a body
     uint32_t listed_first; // items: those before any impact was known
 } pl_looking;
 
@@ -30,38 +38,35 @@ static inline pl_manifold *pl_looking_manifold(const pl_looking *l, const pl_toi
 
 //---- turns.c: what impacts make of the ways ---------------------------------------------------------
 
-// Impacts of claimed bodies are looked for: of others nobody will ask.
-#define PL_UNCLAIMED 0u
-#define PL_CLAIMED   1u // 1 + n: and it has path n
-
-static inline void pl_looking_claim(const pl_looking *l, uint32_t row)
+static inline pl_way *pl_looking_known(const pl_looking *l, uint32_t row)
 {
-    if (row < l->movable && l->map[row] == PL_UNCLAIMED) {
-        l->map[row] = PL_CLAIMED;
-    }
+    return row < l->movable && l->map[row] != 0 ? &l->all[l->map[row] - 1] : NULL;
 }
 
 static inline bool pl_looking_is_claimed(const pl_looking *l, uint32_t row)
 {
-    return row < l->movable && l->map[row] != PL_UNCLAIMED;
+    const pl_way *way = pl_looking_known(l, row);
+    return way != NULL && way->claimed;
 }
 
 // Whether an impact turns it aside as the step begins.
 static inline bool pl_looking_is_struck(const pl_looking *l, uint32_t row)
 {
-    return row < l->movable && l->map[row] > PL_CLAIMED &&
-           l->map[row] - PL_CLAIMED <= l->struck_count;
+    const pl_way *way = pl_looking_known(l, row);
+    return way != NULL && way->struck;
 }
 
 // Whether another one does, before this time.
 static inline bool pl_looking_is_turned(const pl_looking *l, uint32_t row, double before)
 {
-    return row < l->movable && l->map[row] > PL_CLAIMED + l->struck_count &&
-           l->all[l->map[row] - PL_CLAIMED - 1].impact < before;
+    const pl_way *way = pl_looking_known(l, row);
+    return way != NULL && !way->struck && way->path.impact < before;
 }
 
-pl_motion pl_looking_flight(const pl_looking *l, uint32_t row);
-pl_paths pl_looking_paths(const pl_looking *l, const pl_manifold *m);
+void pl_looking_claim(pl_looking *l, uint32_t row);
+// The path of a body, static ones included; it may move as the next one is asked for.
+const pl_path *pl_looking_path(pl_looking *l, uint32_t row);
+pl_paths pl_looking_paths(pl_looking *l, const pl_manifold *m);
 // The first impact of each claimed body: by the contacts that are there already, then by those that were found to meet.
 void pl_looking_note_strikes(pl_looking *l);
 void pl_looking_note_meetings(pl_looking *l);

@@ -34,20 +34,6 @@ pl_motion pl_flight_of(const plumb_world *world, uint32_t row, double horizon)
     return f;
 }
 
-pl_paths pl_paths_of(pl_path a, pl_path b)
-{
-    pl_paths p = { .of = { a, b } };
-    const double first = pl_lesser(a.impact, b.impact), second = pl_greater(a.impact, b.impact);
-    if (first > 0 && first < 1) {
-        p.breaks[++p.legs] = first;
-    }
-    if (second > p.breaks[p.legs] && second < 1) {
-        p.breaks[++p.legs] = second;
-    }
-    p.breaks[++p.legs] = 1;
-    return p;
-}
-
 double pl_paths_closed(const pl_paths *p, const pl_manifold_point *point, double nx, double ny,
                        double time)
 {

@@ -4,6 +4,7 @@
 #define PL_NARROW_PATH_H
 
 #include "geometry/sweep.h"
+#include "math/compare.h"
 #include "world/state.h"
 
 // [m] that a sweep may end before the pieces meet: less than PL_AHEAD.
@@ -39,7 +40,20 @@ typedef struct pl_paths {
     int legs;         // spans between these; breaks[legs] is 1
 } pl_paths;
 
-pl_paths pl_paths_of(pl_path a, pl_path b);
+static inline pl_paths pl_paths_of(const pl_path *a, const pl_path *b)
+{
+    pl_paths p = { .of = { *a, *b } };
+    const double first = pl_lesser(a->impact, b->impact);
+    const double second = pl_greater(a->impact, b->impact);
+    if (first > 0 && first < 1) {
+        p.breaks[++p.legs] = first;
+    }
+    if (second > p.breaks[p.legs] && second < 1) {
+        p.breaks[++p.legs] = second;
+    }
+    p.breaks[++p.legs] = 1;
+    return p;
+}
 
 // [m] that a contact point with these anchors closes along (nx, ny) until a time, with arms that stay as they are:
 // as the solver counts it.

@@ -36,7 +36,10 @@ static uint32_t sort_out(const pl_looking *l, uint32_t *gaps, uint32_t *first)
         } else if (verdict == PL_TOI_HELD) {
             pl_toi_hold_back(&m[items[i].manifold], &items[i].paths);
         } else if (verdict == PL_TOI_HIT || verdict == PL_TOI_NEAR) {
-            items[kept++] = items[i];
+            if (kept != i) {
+                items[kept] = items[i];
+            }
+            ++kept;
         }
     }
     l->ahead->count = kept;

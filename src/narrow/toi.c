@@ -25,45 +25,72 @@ static pl_paths free_paths(const pl_paths *paths)
 {
     pl_path a = paths->of[0], b = paths->of[1];
     a.impact = b.impact = PL_SWEEP_NEVER;
-    return pl_paths_of(a, b);
+    return pl_paths_of(&a, &b);
 }
 
-// The time at which a point has this separation: closing is linear on each leg.
-static double time_of(const pl_paths *paths, const pl_manifold_point *p, double nx, double ny,
-                      double left)
+// [m] what the points of a manifold close until the ends of the legs.
+typedef struct closings {
+    double at[2][4];
+} closings;
+
+static void find_closings(closings *c, const pl_paths *paths, const pl_manifold *m)
 {
-    const double way = (double)p->separation - left;
-    double from = 0, closed = 0;
+    c->at[0][0] = c->at[1][0] = 0;
     for (int i = 1; i <= paths->legs; ++i) {
-        const double to = paths->breaks[i], then = pl_paths_closed(paths, p, nx, ny, to);
-        if (then > way) {
-            return way > closed ? from + (to - from) * (way - closed) / (then - closed) : from;
+        const pl_motion a = pl_path_at(&paths->of[0], paths->breaks[i]);
+        const pl_motion b = pl_path_at(&paths->of[1], paths->breaks[i]);
+        for (uint32_t k = 0; k < m->count; ++k) {
+            c->at[k][i] = pl_motions_closed(a, b, &m->point[k], (double)m->nx, (double)m->ny);
         }
-        from = to, closed = then;
     }
-    return PL_SWEEP_NEVER;
 }
 
-// The time at which the first point of a manifold reaches its plane; PL_SWEEP_NEVER: none does.
-static double first_time(const pl_paths *paths, const pl_manifold *m, double left)
+// The time at which the first point of a manifold reaches its plane, or is so far before it; PL_SWEEP_NEVER: none does.
+// Closing is linear on each leg.
+static double first_time(const closings *c, const pl_paths *paths, const pl_manifold *m,
+                         double left)
 {
     double first = PL_SWEEP_NEVER;
     for (uint32_t k = 0; k < m->count; ++k) {
-        first = pl_lesser(first, time_of(paths, &m->point[k], (double)m->nx, (double)m->ny, left));
+        const double way = (double)m->point[k].separation - left, *closed = c->at[k];
+        int i = 1;
+        while (i <= paths->legs && !(closed[i] > way)) {
+            ++i;
+        }
+        if (i <= paths->legs) {
+            const double from = paths->breaks[i - 1], to = paths->breaks[i];
+            const double time = way > closed[i - 1] ? from + (to - from) * (way - closed[i - 1]) /
+                                                                 (closed[i] - closed[i - 1])
+                                                    : from;
+            first = pl_lesser(first, time);
+        }
     }
     return first;
 }
 
+// Whether a point would reach its plane without impacts.
+static bool reaches_freely(const pl_paths *paths, const pl_manifold *m)
+{
+    bool reaches = false;
+    for (uint32_t k = 0; k < m->count; ++k) {
+        reaches = reaches ||
+                  pl_motions_closed(paths->of[0].flight, paths->of[1].flight, &m->point[k],
+                                    (double)m->nx, (double)m->ny) > (double)m->point[k].separation;
+    }
+    return reaches;
+}
+
 void pl_toi_open(pl_toi *item, const pl_manifold *m)
 {
+    closings c;
+    find_closings(&c, &item->paths, m);
     item->verdict = PL_TOI_OPEN;
-    item->time = first_time(&item->paths, m, 0);
+    item->time = first_time(&c, &item->paths, m, 0);
     if (item->time <= 1) {
-        item->time = first_time(&item->paths, m, AIM);
+        item->time = first_time(&c, &item->paths, m, AIM);
         return;
     }
-    const pl_paths free = free_paths(&item->paths);
-    item->verdict = first_time(&free, m, 0) <= 1 ? PL_TOI_HELD : PL_TOI_KEEPS;
+    item->verdict = reaches_freely(&item->paths, m) ? PL_TOI_HELD : PL_TOI_KEEPS;
 }
 
 void pl_toi_pose(pl_toi *item, const plumb_world *world, const pl_pair *pair)
@@ -85,11 +112,12 @@ static bool is_that_plane(const pl_toi *out, const pl_manifold *m)
     if (!is_same_normal(m, out->nx, out->ny)) {
         return false;
     }
+    const pl_motion a = pl_path_at(&out->paths.of[0], out->time);
+    const pl_motion b = pl_path_at(&out->paths.of[1], out->time);
     double least = HUGE_VAL;
     for (uint32_t k = 0; k < m->count; ++k) {
         const pl_manifold_point *p = &m->point[k];
-        least = pl_lesser(least, (double)p->separation -
-                                     pl_paths_closed(&out->paths, p, nx, ny, out->time));
+        least = pl_lesser(least, (double)p->separation - pl_motions_closed(a, b, p, nx, ny));
     }
     return fabs(least) < PL_TOI_ASIDE;
 }
@@ -98,6 +126,9 @@ static bool is_that_plane(const pl_toi *out, const pl_manifold *m)
 static double rate_of(const pl_paths *paths, const pl_manifold_point *p, double nx, double ny,
                       double time)
 {
+    if (paths->legs == 1) {
+        return pl_paths_closed(paths, p, nx, ny, 1);
+    }
     int leg = 1;
     while (leg < paths->legs && paths->breaks[leg] <= time) {
         ++leg;
@@ -107,12 +138,8 @@ static double rate_of(const pl_paths *paths, const pl_manifold_point *p, double 
            (to - from);
 }
 
-bool pl_toi_refine(pl_toi *item, const pl_manifold *m)
+bool pl_toi_refine(pl_toi *item, const pl_manifold *m, const pl_manifold *then)
 {
-    const pl_manifold *then = &item->then;
-    if (then->count == 0) {
-        return false;
-    }
     const pl_manifold_point *p =
         &then->point[then->point[1].separation < then->point[0].separation];
     const double s = (double)p->separation;
@@ -124,6 +151,9 @@ bool pl_toi_refine(pl_toi *item, const pl_manifold *m)
         item->nx = then->nx, item->ny = then->ny;
         item->point = *p;
         item->verdict = is_that_plane(item, m) ? PL_TOI_KEEPS : PL_TOI_HIT;
+        if (item->verdict == PL_TOI_HIT) {
+            item->then = *then;
+        }
         return true;
     }
     item->time += (s - AIM) / rate;

@@ -26,7 +26,7 @@ typedef struct pl_toi {
     double time; // that moment, as a share of the horizon; PL_SWEEP_NEVER: the contact does not act
     pl_paths paths;
     pl_pose poses[2];        // of then; the origin is A's centre of mass at the start of the step
-    pl_manifold then;        // what the kernel makes of these; count 0: none
+    pl_manifold then;        // HIT: what the kernel makes of these; count 0: none
     pl_manifold_point point; // the nearest points of then, where the pieces were swept
     near_real nx, ny;        // from A to B
 } pl_toi;
@@ -35,9 +35,9 @@ typedef struct pl_toi {
 void pl_toi_open(pl_toi *item, const pl_manifold *m);
 // Sets the poses of item->time.
 void pl_toi_pose(pl_toi *item, const plumb_world *world, const pl_pair *pair);
-// One step of Newton's method towards the moment of contact, from item->then at item->time. False: it does not lead there,
+// One step of Newton's method towards the moment of contact, from what the kernel makes of item->time. False: it does not lead there,
 // and a sweep must tell. True with the verdict OPEN: there is a better time; else it is found.
-bool pl_toi_refine(pl_toi *item, const pl_manifold *m);
+bool pl_toi_refine(pl_toi *item, const pl_manifold *m, const pl_manifold *then);
 // Sweeps the pieces: verdict, time, nearest points.
 void pl_toi_sweep(pl_toi *item, const plumb_world *world, const pl_manifold *m,
                   const pl_pair *pair);

@@ -8,56 +8,55 @@
 
 #include <math.h>
 
-static pl_path *path_of(const pl_looking *l, uint32_t row)
-{
-    return row < l->movable && l->map[row] > PL_CLAIMED ? &l->all[l->map[row] - PL_CLAIMED - 1]
-                                                        : NULL;
-}
+static const pl_path still = { .impact = PL_SWEEP_NEVER };
 
-static pl_path *make_path(pl_looking *l, uint32_t row)
+// NULL: it does not move. Bodies are asked for again and again: each flight is computed once.
+static pl_way *way_of(pl_looking *l, uint32_t row)
 {
-    pl_path *path = path_of(l, row);
-    if (path == NULL) {
-        path = &l->all[l->path_count++];
-        *path = (pl_path){ .flight = pl_flight_of(l->world, row, l->horizon),
-                           .impact = PL_SWEEP_NEVER };
-        l->map[row] = PL_CLAIMED + l->path_count;
+    if (row >= l->movable) {
+        return NULL;
     }
-    return path;
+    if (l->map[row] == 0) {
+        l->all[l->way_count++] =
+            (pl_way){ .path = { .flight = pl_flight_of(l->world, row, l->horizon),
+                                .impact = PL_SWEEP_NEVER } };
+        l->map[row] = l->way_count;
+    }
+    return &l->all[l->map[row] - 1];
 }
 
-pl_motion pl_looking_flight(const pl_looking *l, uint32_t row)
+void pl_looking_claim(pl_looking *l, uint32_t row)
 {
-    const pl_path *path = path_of(l, row);
-    return path != NULL ? path->flight : pl_flight_of(l->world, row, l->horizon);
+    pl_way *way = way_of(l, row);
+    if (way != NULL) {
+        way->claimed = true;
+    }
 }
 
-static pl_path way_of(const pl_looking *l, uint32_t row)
+const pl_path *pl_looking_path(pl_looking *l, uint32_t row)
 {
-    const pl_path *path = path_of(l, row);
-    return path != NULL ? *path
-                        : (pl_path){ .flight = pl_flight_of(l->world, row, l->horizon),
-                                     .impact = PL_SWEEP_NEVER };
+    const pl_way *way = way_of(l, row);
+    return way != NULL ? &way->path : &still;
 }
 
-pl_paths pl_looking_paths(const pl_looking *l, const pl_manifold *m)
+pl_paths pl_looking_paths(pl_looking *l, const pl_manifold *m)
 {
-    return pl_paths_of(way_of(l, m->body_a), way_of(l, m->body_b));
+    return pl_paths_of(pl_looking_path(l, m->body_a), pl_looking_path(l, m->body_b));
 }
 
 static void note_change(pl_looking *l, uint32_t row, double time, pl_motion change)
 {
-    if (!pl_looking_is_claimed(l, row)) {
+    pl_way *way = pl_looking_known(l, row);
+    if (way == NULL || !way->claimed || !(time < way->path.impact)) {
         return;
     }
     const double moves =
         fabs(change.x) + fabs(change.y) + fabs(change.turn) * (double)l->world->bodies.extent[row];
     if (moves * (1 - time) > (double)PL_TURNED) {
-        pl_path *path = make_path(l, row);
-        if (time < path->impact) {
-            path->impact = time;
-            path->change = change;
-        }
+        way->path.impact = time;
+        way->path.change = change;
+        way->struck = !l->strikes_noted;
+        l->any_turned = l->any_turned || l->strikes_noted;
     }
 }
 
@@ -66,8 +65,8 @@ static void note_impact(pl_looking *l, const pl_manifold *m, const pl_manifold_p
                         double ny, double time)
 {
     const pl_bodies *b = &l->world->bodies;
-    const double closing = pl_motions_closed(pl_looking_flight(l, m->body_a),
-                                             pl_looking_flight(l, m->body_b), p, nx, ny);
+    const double closing = pl_motions_closed(pl_looking_path(l, m->body_a)->flight,
+                                             pl_looking_path(l, m->body_b)->flight, p, nx, ny);
     if (!(closing > (double)PL_TURNED)) {
         return;
     }
@@ -103,7 +102,7 @@ void pl_looking_note_strikes(pl_looking *l)
             note_impact(l, m, first_point(m), (double)m->nx, (double)m->ny, 0);
         }
     }
-    l->struck_count = l->path_count;
+    l->strikes_noted = true;
 }
 
 void pl_looking_note_meetings(pl_looking *l)

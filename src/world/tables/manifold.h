@@ -163,7 +163,7 @@ typedef struct pl_lookahead {
     pl_buffer pairs;      // pl_pair: copies, whose bodies are these poses
     pl_buffer made;       // pl_manifold
     pl_buffer unread;     // what else a kernel writes
-    pl_buffer map, paths; // of bodies that have such contacts
+    pl_buffer map, paths; // of bodies that have such contacts: where, pl_way
 } pl_lookahead;
 
 typedef struct pl_narrow {
