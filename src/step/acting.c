@@ -14,6 +14,7 @@
 #include "step/acting.h"
 
 #include "core/quad.h"
+#include "world/push.h"
 #include "world/state.h"
 
 #include <string.h>
@@ -193,7 +194,11 @@ bool pl_acting_find(plumb_world *world, real dt)
     }
     for (uint32_t i = 0; i < world->systems.count && solves; ++i) {
         pl_system *system = &world->systems.items[i];
-        if (is_of_substeps(world, system) && !list_slots(world, system)) {
+        if (!is_of_substeps(world, system)) {
+            continue;
+        }
+        pl_sleep_heed(world);
+        if (!list_slots(world, system)) {
             return false;
         }
     }

@@ -278,6 +278,7 @@ void pl_system_run(plumb_world *world, pl_system *system, plumb_real dt)
                  .end = (int)rows } };
     world->locked_by = system->name;
     if (system->desc.parallel) {
+        pl_sleep_heed(world);
         pl_tasks_ranges(world->tasks, rows, LEAST, run_part, &p);
     } else {
         system->desc.run(&p.call);

@@ -115,7 +115,11 @@ void pl_sleep_wake_untold(plumb_world *world)
 
 void pl_sleep_heed(plumb_world *world)
 {
-    world->sleep.lent_step = world->step_count + 1;
+    // Only where it is news: systems that run on several threads ask for columns too, and before these do, pl_system_run
+    // or pl_acting_find has said it for them.
+    if (world->sleep.lent_step != world->step_count + 1) {
+        world->sleep.lent_step = world->step_count + 1;
+    }
 }
 
 void pl_sleep_heed_all(plumb_world *world)
