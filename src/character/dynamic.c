@@ -9,6 +9,8 @@
 // Reads: obstacles, body columns. Writes: forces and velocity of the body, forces of the ground.
 // Cost: as a kinematic character that stands.
 #include "character/walker.h"
+#include "world/island.h"
+#include "world/rows.h"
 #include "world/wrap.h"
 
 #include <math.h>
@@ -79,6 +81,9 @@ static void jump(pl_walker *m)
     double vx = (double)(b->vx[m->row] - c->ground.velocity.x);
     double vy = (double)(b->vy[m->row] - c->ground.velocity.y);
     double gain = (double)c->jump - pl_up(m, vx, vy);
+    if (pl_row_is_asleep(m->world, m->row)) { // a velocity alone wakes nobody
+        pl_sleep_stir(m->world, m->row);
+    }
     b->vx[m->row] += (real)(gain * m->ux);
     b->vy[m->row] += (real)(gain * m->uy);
     uint32_t row = pl_body_row(m->world, c->ground.body);

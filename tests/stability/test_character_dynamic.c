@@ -80,6 +80,38 @@ static void jumps(void **state)
     }
 }
 
+// Whoever stood long enough to fall asleep jumps as high as anybody, off the ground and off a crate that sleeps below.
+static void jumps_out_of_sleep(void **state)
+{
+    (void)state;
+    for (int on_crate = 0; on_crate < 2; ++on_crate) {
+        for (int put = 0; put < 2; ++put) { // asleep when the jump is ordered, and put to sleep after that
+            plumb_world *world = make_world();
+            add_floor(world);
+            if (on_crate) {
+                plumb_body crate = add_box(world, PLUMB_DYNAMIC, V(0, 0.5), V(0.5, 0.5));
+                assert_int_equal(plumb_body_set_mass(world, crate, 100), PLUMB_OK);
+            }
+            plumb_body hero = add_walker(world, 0, on_crate, NULL);
+            run(world, 60, put ? 0.25 : 3);
+            assert_int_equal(plumb_body_is_awake(world, hero), put);
+            double y = y_of(world, hero), top = y;
+            assert_true(plumb_character_jump(world, hero, 6));
+            if (put) {
+                assert_int_equal(plumb_body_sleep(world, hero), PLUMB_OK);
+            }
+            for (int i = 0; i < 60; ++i) {
+                run(world, 60, 1.0 / 60);
+                top = y_of(world, hero) > top ? y_of(world, hero) : top;
+            }
+            assert_near(top - y, 6 * 6 / (2 * 9.81), 0.01);
+            run(world, 60, 1);
+            assert_true(state_of(world, hero).on_ground);
+            plumb_world_destroy(world);
+        }
+    }
+}
+
 static void in_the_air(void **state)
 {
     (void)state;
@@ -174,6 +206,7 @@ int main(void)
         cmocka_unit_test(walks_at_its_speed),
         cmocka_unit_test(slopes),
         cmocka_unit_test(jumps),
+        cmocka_unit_test(jumps_out_of_sleep),
         cmocka_unit_test(in_the_air),
         cmocka_unit_test(platforms),
         cmocka_unit_test(action_and_reaction),
