@@ -41,7 +41,8 @@ typedef enum plumb_joint_kind {
 typedef struct plumb_joint_desc {
     plumb_joint_kind kind;
     plumb_body body_a, body_b; ///< not both null, not the same; null: the world
-    plumb_vec2 anchor;         ///< [m] the common point; distance, pulley: on A; mouse: the point of B
+    plumb_vec2 anchor;         ///< [m] the common point; distance, pulley: on A; mouse: the point of B; gear: not
+                               ///< used, it acts at the centres of mass, which are told as its anchors
     plumb_vec2 anchor_b;       ///< [m] distance, pulley: on B
     plumb_vec2 ground_a;       ///< [m] pulley: the wheel of A's rope, on the world
     plumb_vec2 ground_b;       ///< [m] pulley: the wheel of B's rope, on the world

@@ -158,6 +158,16 @@ void pl_joint_copy_desc(plumb_joint_desc *to, const plumb_joint_desc *from)
     PL_JOINT_DESC(PL_COPY_MEMBER)
 }
 
+// [m] where a joint holds a body: at the body's centre (that of the other one for the world) or at the anchor.
+static plumb_vec2 place_of(const plumb_world *world, const plumb_joint_desc *d, plumb_body body,
+                           plumb_body other, plumb_vec2 anchor)
+{
+    if ((pl_joint_classes[d->kind]->has & PL_JOINT_CENTRAL) == 0) {
+        return anchor;
+    }
+    return plumb_body_center(world, plumb_is_null(body) ? other : body);
+}
+
 static plumb_joint insert(plumb_world *world, const plumb_joint_desc *d)
 {
     const plumb_joint none = PLUMB_NULL_INIT;
@@ -166,8 +176,9 @@ static plumb_joint insert(plumb_world *world, const plumb_joint_desc *d)
     bool two = (pl_joint_classes[d->kind]->has & PL_JOINT_TWO_ANCHORS) != 0;
     memset(j, 0, sizeof *j); // padding, too: it is saved
     pl_joint_copy_desc(&j->desc, d);
-    attach(world, slot, &j->a, d->body_a, d->anchor);
-    attach(world, slot, &j->b, d->body_b, two ? d->anchor_b : d->anchor);
+    attach(world, slot, &j->a, d->body_a, place_of(world, d, d->body_a, d->body_b, d->anchor));
+    attach(world, slot, &j->b, d->body_b,
+           place_of(world, d, d->body_b, d->body_a, two ? d->anchor_b : d->anchor));
     j->axis =
         plumb_is_null(d->body_a) ? d->axis : plumb_body_local_vector(world, d->body_a, d->axis);
     j->entity.entity = pl_entity_claim(world, none.entity, PLUMB_KIND_JOINT, slot);

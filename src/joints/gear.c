@@ -50,7 +50,7 @@ static pl_row slope(const pl_joint *j, const pl_joint_pose *a, const pl_joint_po
 
 const pl_joint_class pl_joint_gear = {
     .name = "gear",
-    .has = PL_JOINT_AXIS | PL_JOINT_RATIO,
+    .has = PL_JOINT_AXIS | PL_JOINT_RATIO | PL_JOINT_CENTRAL,
     .check = check,
     .rows = rows,
     .keep = value,

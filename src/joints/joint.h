@@ -24,7 +24,8 @@ enum {
     PL_JOINT_PITCH = 4096,
     PL_JOINT_FORCE = 8192,
     PL_JOINT_TORQUE = 16384,
-    PL_JOINT_REST = 32768
+    PL_JOINT_REST = 32768,
+    PL_JOINT_CENTRAL = 65536 // acts at the centres of its bodies, whatever anchor it was given
 };
 
 typedef struct pl_joint_class {
@@ -66,6 +67,8 @@ uint32_t pl_joints_awake(plumb_world *world);
 bool pl_joints_any_awake(const plumb_world *world);
 // [m] anchor of an end, in the world.
 plumb_vec2 pl_joint_anchor(const plumb_world *world, const pl_joint_end *end);
+// [rad/s] or [m/s] of what its motor drives, if its kind has one.
+real pl_joint_motor_rate(const plumb_world *world, const pl_joint *joint);
 // Full turns, origin and poses up to date.
 void pl_joint_begin(const plumb_world *world, pl_joint *joint);
 // Eighth of a turn, 0 to 7 from -pi on, in which the rotation of a body row lies.

@@ -57,6 +57,13 @@ static real rate_of(const plumb_world *world, const pl_joint *joint)
     return along(world, joint, &slope);
 }
 
+real pl_joint_motor_rate(const plumb_world *world, const pl_joint *joint)
+{
+    const pl_row turn = { .aw = -1, .bw = 1 };
+    const bool spins = (pl_joint_classes[joint->desc.kind]->has & PL_JOINT_SPINS) != 0;
+    return spins ? along(world, joint, &turn) : rate_of(world, joint);
+}
+
 plumb_real plumb_joint_rate(const plumb_world *world, plumb_joint joint)
 {
     const pl_joint *j = find(world, __func__, joint);

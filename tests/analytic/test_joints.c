@@ -351,6 +351,41 @@ static void gears_keep_their_ratio(void **state)
     plumb_world_destroy(w);
 }
 
+// A rack that is held against its weight by a motor: the reaction is its weight at its centre, wherever the machine
+// stands, so that what a gear breaks by is its load.
+static void a_rack_weighs_the_same_everywhere(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 3; ++i) {
+        const double x = 500 * i;
+        plumb_world *w = sim_world(&(plumb_world_desc){ 0 });
+        plumb_body wheel = mass(w, x, 0, 1, 1), rack = mass(w, x + 1, 0, 2, 1);
+        tie(w, (plumb_joint_desc){ .kind = PLUMB_REVOLUTE,
+                                   .body_b = wheel,
+                                   .anchor = sim_vec(x, 0),
+                                   .enable_motor = true,
+                                   .motor_speed = 2,
+                                   .max_motor = 1000 });
+        tie(w, (plumb_joint_desc){ .kind = PLUMB_PRISMATIC,
+                                   .body_b = rack,
+                                   .anchor = sim_vec(x + 1, 0),
+                                   .axis = sim_vec(0, 1) });
+        plumb_joint gear = tie(w, (plumb_joint_desc){ .kind = PLUMB_GEAR,
+                                                      .body_a = wheel,
+                                                      .body_b = rack,
+                                                      .axis = sim_vec(0, 1),
+                                                      .ratio = -1,
+                                                      .break_torque = 1 });
+        sim_run(w, 120, DT);
+        assert_true(plumb_joint_valid(w, gear));
+        assert_near(plumb_joint_force(w, gear).y, 2 * SIM_G, ROUNDED(1e-3));
+        assert_near(plumb_joint_torque(w, gear), 0, ROUNDED(1e-3));
+        assert_near(plumb_joint_anchor_a(w, gear).x, x, 1e-3);
+        assert_near(plumb_joint_anchor_b(w, gear).x, x + 1, 1e-3);
+        plumb_world_destroy(w);
+    }
+}
+
 static void slider_on_an_incline(void **state)
 {
     (void)state;
@@ -509,6 +544,7 @@ int main(void)
         cmocka_unit_test(rotary_spring_keeps_time),
         cmocka_unit_test(pulley_falls_as_atwood_says),
         cmocka_unit_test(gears_keep_their_ratio),
+        cmocka_unit_test(a_rack_weighs_the_same_everywhere),
         cmocka_unit_test(slider_on_an_incline),
         cmocka_unit_test(motor_gets_up_to_speed),
         cmocka_unit_test(limits_and_ropes_stop),

@@ -151,6 +151,62 @@ static void make_chain(scene *s)
                                                   .upper = 2 });
 }
 
+static void join(scene *s, plumb_joint_desc desc)
+{
+    assert_false(plumb_is_null(plumb_joint_create(s->w, &desc)));
+}
+
+// The kinds of joints that a chain has not. A pinion turns several times, and with it what lies far from its centre.
+static void make_machines(scene *s)
+{
+    const plumb_body none = PLUMB_NULL_INIT;
+    plumb_body pinion = disc(s, PLUMB_DYNAMIC, 0, 0, 0.5), cog = disc(s, PLUMB_DYNAMIC, 2, 0, 1);
+    plumb_body rack = box(s, PLUMB_DYNAMIC, 4, 1, 0.25, 1), arm = rod(s, -3, 1, 1);
+    plumb_body heavy = box(s, PLUMB_DYNAMIC, -6, -2, 0.5, 0.5);
+    plumb_body light = box(s, PLUMB_DYNAMIC, -8, 2, 0.5, 0.25);
+    plumb_body drawn = box(s, PLUMB_DYNAMIC, 6, 3, 0.5, 0.5);
+    plumb_body driven = box(s, PLUMB_DYNAMIC, 7, -1, 0.5, 0.5);
+    plumb_body hub = disc(s, PLUMB_DYNAMIC, 0, 4, 0.5);
+    join(s, (plumb_joint_desc){ .kind = PLUMB_REVOLUTE,
+                                .body_b = pinion,
+                                .anchor = from(s, 0, 0),
+                                .enable_motor = true,
+                                .motor_speed = 6,
+                                .max_motor = 200 });
+    tie(s, PLUMB_REVOLUTE, none, cog, 2, 0);
+    join(s,
+         (plumb_joint_desc){
+             .kind = PLUMB_PRISMATIC, .body_b = rack, .anchor = from(s, 4, 1), .axis = { 0, 1 } });
+    join(s, (plumb_joint_desc){ .kind = PLUMB_GEAR, .body_a = pinion, .body_b = cog, .ratio = 2 });
+    join(s, (plumb_joint_desc){
+                .kind = PLUMB_GEAR, .body_a = cog, .body_b = rack, .axis = { 0, 1 }, .ratio = 4 });
+    tie(s, PLUMB_REVOLUTE, none, arm, -4, 1);
+    join(s, (plumb_joint_desc){
+                .kind = PLUMB_RATCHET, .body_b = arm, .anchor = from(s, -4, 1), .pitch = R(0.25) });
+    join(s, (plumb_joint_desc){ .kind = PLUMB_PULLEY,
+                                .body_a = heavy,
+                                .body_b = light,
+                                .anchor = from(s, -6, -2),
+                                .anchor_b = from(s, -8, 2),
+                                .ground_a = from(s, -6, 6),
+                                .ground_b = from(s, -8, 6) });
+    join(s, (plumb_joint_desc){
+                .kind = PLUMB_MOUSE, .body_b = drawn, .anchor = from(s, 6, 3), .max_force = 20 });
+    join(s, (plumb_joint_desc){ .kind = PLUMB_MOTOR,
+                                .body_b = driven,
+                                .anchor = from(s, 7, -1),
+                                .rest = 1,
+                                .hertz = 2,
+                                .max_force = 40 });
+    join(s, (plumb_joint_desc){ .kind = PLUMB_WHEEL,
+                                .body_b = hub,
+                                .anchor = from(s, 0, 4),
+                                .hertz = 1,
+                                .damping = R(0.25) });
+    join(s, (plumb_joint_desc){
+                .kind = PLUMB_FRICTION, .body_b = hub, .anchor = from(s, 0, 4), .max_force = 1 });
+}
+
 static void make_roll(scene *s)
 {
     ground(s);
@@ -272,6 +328,12 @@ static void chain_across_the_edge(void **state)
 {
     (void)state;
     across(make_chain, 300, 0);
+}
+
+static void machines_across_the_edge(void **state)
+{
+    (void)state;
+    across(make_machines, 300, 1e-3);
 }
 
 static void disc_rolls_across_the_edge(void **state)
@@ -512,6 +574,7 @@ int main(void)
         cmocka_unit_test(stack_across_the_edge),
         cmocka_unit_test(heap_across_the_edge),
         cmocka_unit_test(chain_across_the_edge),
+        cmocka_unit_test(machines_across_the_edge),
         cmocka_unit_test(disc_rolls_across_the_edge),
         cmocka_unit_test(bullets_across_the_edge),
         cmocka_unit_test(gas_keeps_momentum_and_energy),
