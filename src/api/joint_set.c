@@ -167,6 +167,7 @@ plumb_result plumb_joint_set_event(plumb_world *world, plumb_joint joint, plumb_
         plumb_joint_desc wanted = j->desc;
         wanted.event_force = force;
         wanted.event_torque = torque;
+        disturb_if(world, j, j->desc.event_force != force || j->desc.event_torque != torque);
         revise(world, j, wanted);
     }
     return r;
@@ -181,6 +182,7 @@ plumb_result plumb_joint_set_break_impulse(plumb_world *world, plumb_joint joint
     if (r == PLUMB_OK) {
         plumb_joint_desc wanted = j->desc;
         wanted.break_impulse = impulse;
+        disturb_if(world, j, j->desc.break_impulse != impulse);
         revise(world, j, wanted);
         pl_joints_replan(&world->joints); // perhaps it is solved by itself from now on
     }

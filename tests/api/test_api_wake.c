@@ -65,6 +65,10 @@ CHANGE(limit, plumb_joint_set_limit(p->w, p->rod, true, 0, 3))
 CHANGE(same_limit, plumb_joint_set_limit(p->w, p->rod, false, 0, 0))
 CHANGE(break_at, plumb_joint_set_break(p->w, p->rod, 1000, 0))
 CHANGE(same_break, plumb_joint_set_break(p->w, p->rod, 0, 0))
+CHANGE(break_by, plumb_joint_set_break_impulse(p->w, p->rod, R(0.01)))
+CHANGE(same_impulse, plumb_joint_set_break_impulse(p->w, p->rod, 0))
+CHANGE(tell_strain, plumb_joint_set_event(p->w, p->rod, 5, 0))
+CHANGE(same_strain, plumb_joint_set_event(p->w, p->rod, 0, 0))
 CHANGE(set_wood, plumb_material_set(p->w, p->wood, &(plumb_material_desc){ .friction = R(0.1) }))
 CHANGE(pair_wood, plumb_material_pair_set(p->w, p->wood, p->wood, &(plumb_material_pair){ 0 }))
 CHANGE(no_sleeping, plumb_world_set_sleep(p->w, false, 0, 0))
@@ -206,6 +210,10 @@ static const waker wakers[] = {
     ROW(same_limit, 0),
     ROW(break_at, HUNG),
     ROW(same_break, 0),
+    ROW(break_by, HUNG),
+    ROW(same_impulse, 0),
+    ROW(tell_strain, HUNG),
+    ROW(same_strain, 0),
     ROW(set_wood, ALL),
     ROW(pair_wood, ALL),
     ROW(no_sleeping, ALL),
