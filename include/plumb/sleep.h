@@ -5,7 +5,9 @@
 /// changed by less than a fiftieth of sleep_speed * sleep_time (by default, what accelerates by 8
 /// mm/s^2 stays awake), under a force that stayed the same meanwhile (see below). Bodies that
 /// touch one another, come within 2 cm, or are joined make an island; static and kinematic bodies
-/// do not connect. When all bodies of an island rest and none touches a kinematic body that moves,
+/// do not connect. What is pushed out of an overlap or pulled together by a joint is as fast as its
+/// place changes. When all bodies of an island rest, none touches a kinematic body that moves, and none
+/// is carried along by a surface (surface_speed) or moved by the motor of a joint, however slowly,
 /// they fall asleep together: their velocity is 0, their rows go to the partition of sleeping rows,
 /// no pass visits them. They keep their contacts with impulses, which go on being listed
 /// (plumb_world_contacts), and queries and sensors see them. Falling asleep and waking are neither

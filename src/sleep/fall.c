@@ -10,7 +10,7 @@
 // asleep sooner or later for what others do, and only when some body has rested for sleep_time:
 // union-find with path halving (Tarjan 1983) over the bodies that are candidates, by the contacts of
 // this step and the joints. A contact or joint of a candidate with one that is not, or with a
-// kinematic one that moves, holds its island awake.
+// kinematic one that moves, holds its island awake; so does what drives it (driven.c).
 //
 // What falls asleep is taken out of pair list and manifolds, of which it is the last to see this
 // step, and its rows change partition: nothing after this pass knows of it. Reads: velocities,
@@ -63,11 +63,13 @@ static void take_sample(plumb_world *world, uint32_t row)
     real turn = b->s[row] * b->rest_c[row] - b->c[row] * b->rest_s[row];
     real change = square(x - b->rest_dx[row]) + square(y - b->rest_dy[row]) +
                   square((turn - b->rest_turn[row]) * b->extent[row]);
+    real way = square(x) + square(y) + square(turn * b->extent[row]);
     real even = PL_EVEN * world->desc.sleep_speed * world->desc.sleep_time;
+    real slow = world->desc.sleep_speed * b->rest_time[row];
     pl_push_sample(world, row);
     bool goes_on =
         b->rest_samples[row] > 0 && !pl_push_differs(world, row, pl_push_tolerance(world));
-    b->rest_samples[row] = goes_on && change <= square(even) ? 2 : 1;
+    b->rest_samples[row] = goes_on && change <= square(even) && way <= square(slow) ? 2 : 1;
     b->rest_dx[row] = x;
     b->rest_dy[row] = y;
     b->rest_turn[row] = turn;
@@ -226,6 +228,18 @@ static void link_rows(plumb_world *world, uint32_t a, uint32_t b)
     }
 }
 
+static void hold_rows(plumb_world *world, uint32_t a, uint32_t b)
+{
+    const uint32_t *parents = world->sleep.parents.data, members = world->dynamic_count;
+    uint8_t *held = world->sleep.held.data;
+    if (a < members && parents[a] != PL_NONE) {
+        held[a] = 1;
+    }
+    if (b < members && parents[b] != PL_NONE) {
+        held[b] = 1;
+    }
+}
+
 static uint32_t row_of(const plumb_world *world, plumb_body body)
 {
     return plumb_is_null(body) ? PL_NONE : pl_body_row(world, body);
@@ -235,16 +249,25 @@ static uint32_t row_of(const plumb_world *world, plumb_body body)
 static void link_members(plumb_world *world, uint32_t pair_count)
 {
     const pl_pair *pairs = pl_pairs(&world->broad.pairs);
+    const pl_manifold *m = pl_manifolds(&world->narrow);
     uint32_t a, b;
     for (uint32_t i = 0; i < pair_count; ++i) {
         if (is_linked(&pairs[i]) && rows_of(world, &pairs[i], &a, &b)) {
             link_rows(world, a, b);
+            if (pairs[i].manifold < world->narrow.manifold_count &&
+                pl_sleep_is_carried(world, &m[pairs[i].manifold])) {
+                hold_rows(world, a, b);
+            }
         }
     }
     uint32_t joint_count = pl_joints_awake(world);
     for (uint32_t i = 0; i < joint_count; ++i) {
         const pl_joint *j = pl_joint_awake(&world->joints, i);
-        link_rows(world, row_of(world, j->a.body), row_of(world, j->b.body));
+        a = row_of(world, j->a.body), b = row_of(world, j->b.body);
+        link_rows(world, a, b);
+        if (pl_sleep_is_driven(world, j)) {
+            hold_rows(world, a, b);
+        }
     }
     uint32_t *parents = world->sleep.parents.data;
     for (uint32_t row = 0; row < world->dynamic_count; ++row) {

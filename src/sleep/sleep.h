@@ -16,6 +16,21 @@ void pl_sleep_events_clear(plumb_world *world);
 // may not sleep).
 plumb_result pl_sleep_put_to_sleep(plumb_world *world, const char *function, uint32_t row);
 
+//---- what is driven (driven.c) -------------------------------------------------------------------
+
+struct pl_joint;
+
+// At least half as fast as it is meant to be, and the same way.
+static inline bool pl_keeps_pace(double rate, double meant)
+{
+    return 2 * rate * meant >= meant * meant;
+}
+
+// The surface of one carries the other along, however slowly.
+bool pl_sleep_is_carried(const plumb_world *world, const pl_manifold *m);
+// The motor of a joint moves its bodies, however slowly.
+bool pl_sleep_is_driven(const plumb_world *world, const struct pl_joint *joint);
+
 void pl_sleep_free(pl_memory *memory, pl_sleep *sleep);
 
 #endif

@@ -85,7 +85,8 @@ static void jumps_out_of_sleep(void **state)
 {
     (void)state;
     for (int on_crate = 0; on_crate < 2; ++on_crate) {
-        for (int put = 0; put < 2; ++put) { // asleep when the jump is ordered, and put to sleep after that
+        for (int put = 0; put < 2;
+             ++put) { // asleep when the jump is ordered, and put to sleep after that
             plumb_world *world = make_world();
             add_floor(world);
             if (on_crate) {

@@ -201,6 +201,103 @@ static void moving_ground_keeps_awake(void **state)
     plumb_world_destroy(w);
 }
 
+//---- what is driven slowly --------------------------------------------------------------------------
+
+#define SLOW 0.03 // [m/s], [rad/s] below sleep_speed
+
+typedef struct machine {
+    plumb_world *w;
+    plumb_material belt;
+    plumb_joint motor;
+    plumb_body part; // that goes slowly
+} machine;
+
+static machine by_motor(plumb_joint_kind kind, double axis_y)
+{
+    machine m;
+    memset(&m, 0, sizeof m);
+    m.w = sim_world(&(plumb_world_desc){ 0 });
+    m.part = sim_crate(m.w, 0, 5, 0.5, 0.5, sim_material(m.w, 0.6, 0));
+    const plumb_joint_desc desc = { .kind = kind,
+                                    .body_b = m.part,
+                                    .anchor = sim_vec(0, 5),
+                                    .axis = sim_vec(0, axis_y),
+                                    .enable_motor = true,
+                                    .motor_speed = (plumb_real)SLOW,
+                                    .max_motor = 100 };
+    m.motor = plumb_joint_create(m.w, &desc);
+    return m;
+}
+
+static machine by_belt(bool rolls, bool below)
+{
+    machine m;
+    memset(&m, 0, sizeof m);
+    m.w = sim_world(&(plumb_world_desc){ 0 });
+    const plumb_material_desc belt = { .surface_speed = (plumb_real)SLOW };
+    m.belt = plumb_material_create(m.w, &belt);
+    plumb_material plain = sim_material(m.w, 0.6, 0);
+    sim_floor(m.w, below ? m.belt : plain);
+    m.part = rolls ? sim_ball(m.w, 0, 0.5, 0.5, plain)
+                   : sim_crate(m.w, 0, 0.5, 0.5, 0.5, below ? plain : m.belt);
+    return m;
+}
+
+static double gone(const machine *m)
+{
+    return plumb_is_null(m->motor) ? sim_x(m->w, m->part)
+                                   : (double)plumb_joint_value(m->w, m->motor);
+}
+
+// A motor and a belt go on, however slowly, and what they move sleeps when they stand.
+static void what_is_driven_slowly_goes_on(void **state)
+{
+    (void)state;
+    machine all[] = { by_motor(PLUMB_REVOLUTE, 0), by_motor(PLUMB_PRISMATIC, 1),
+                      by_belt(false, true), by_belt(false, false), by_belt(true, true) };
+    const double share[] = { 1, 1, 1, 1, 1.0 / 3 }; // a solid disc rolls, at a third of the speed
+    for (int i = 0; i < 5; ++i) {
+        machine *m = &all[i];
+        sim_run(m->w, 600, HZ60);
+        assert_near(gone(m) - SLOW * 10 * share[i], 0, 0.01);
+        assert_true(plumb_body_is_awake(m->w, m->part));
+        if (plumb_is_null(m->motor)) {
+            plumb_material_set(m->w, m->belt, &(plumb_material_desc){ 0 });
+        } else { // it runs against a stop
+            const plumb_real stop = (plumb_real)gone(m);
+            plumb_joint_set_limit(m->w, m->motor, true, -1, stop);
+        }
+        sim_run(m->w, 300, HZ60);
+        assert_false(plumb_body_is_awake(m->w, m->part));
+        assert_near(gone(m) - SLOW * 10 * share[i], 0, 0.02);
+        plumb_world_destroy(m->w);
+    }
+}
+
+// What errors that are undone move has no velocity of its own, and moves all the same.
+static void corrections_are_motion(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 2; ++i) {
+        plumb_world *w = sim_world(&(plumb_world_desc){ .push_speed = (plumb_real)0.1 });
+        plumb_material m = sim_material(w, 0.6, 0);
+        plumb_body crate = sim_crate(w, 0, 0, 0.5, 0.5, m);
+        if (i == 0) { // out of the ground
+            sim_floor(w, m);
+        } else { // turned by a torque that is bounded
+            const plumb_joint_desc d = {
+                .kind = PLUMB_MOTOR, .body_b = crate, .rest = 1, .max_torque = 10
+            };
+            plumb_joint_create(w, &d);
+        }
+        sim_run(w, 600, HZ60);
+        assert_true(i != 0 || fabs(sim_y(w, crate) - 0.5) < 1e-3);
+        assert_true(i != 1 || fabs((double)plumb_body_angle(w, crate) - 1) < 1e-3);
+        assert_false(plumb_body_is_awake(w, crate));
+        plumb_world_destroy(w);
+    }
+}
+
 //---- waking --------------------------------------------------------------------------------------
 
 static void dominoes_wake_one_another(void **state)
@@ -453,6 +550,8 @@ int main(void)
         cmocka_unit_test(what_accelerates_slowly_is_no_rest),
         cmocka_unit_test(motion_above_the_threshold_goes_on),
         cmocka_unit_test(moving_ground_keeps_awake),
+        cmocka_unit_test(what_is_driven_slowly_goes_on),
+        cmocka_unit_test(corrections_are_motion),
         cmocka_unit_test(dominoes_wake_one_another),
         cmocka_unit_test(a_ball_meets_a_pile_asleep_as_one_awake),
         cmocka_unit_test(a_blow_goes_through_sleepers),
