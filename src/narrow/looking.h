@@ -43,10 +43,11 @@ static inline pl_way *pl_looking_known(const pl_looking *l, uint32_t row)
     return row < l->movable && l->map[row] != 0 ? &l->all[l->map[row] - 1] : NULL;
 }
 
-static inline bool pl_looking_is_claimed(const pl_looking *l, uint32_t row)
+// Whether an impact at this time may be the first that turns it.
+static inline bool pl_looking_may_turn(const pl_looking *l, uint32_t row, double time)
 {
     const pl_way *way = pl_looking_known(l, row);
-    return way != NULL && way->claimed;
+    return way != NULL && way->claimed && time < way->path.impact;
 }
 
 // Whether an impact turns it aside as the step begins.
@@ -63,9 +64,29 @@ static inline bool pl_looking_is_turned(const pl_looking *l, uint32_t row, doubl
     return way != NULL && !way->struck && way->path.impact < before;
 }
 
-void pl_looking_claim(pl_looking *l, uint32_t row);
-// The path of a body, static ones included; it may move as the next one is asked for.
-const pl_path *pl_looking_path(pl_looking *l, uint32_t row);
+// Bodies are asked for again and again: each flight is computed once.
+pl_way *pl_looking_new_way(pl_looking *l, uint32_t row);
+
+static inline pl_way *pl_looking_way(pl_looking *l, uint32_t row)
+{
+    return l->map[row] != 0 ? &l->all[l->map[row] - 1] : pl_looking_new_way(l, row);
+}
+
+static inline void pl_looking_claim(pl_looking *l, uint32_t row)
+{
+    if (row < l->movable) {
+        pl_looking_way(l, row)->claimed = true;
+    }
+}
+
+extern const pl_path pl_looking_still;
+
+// The path of a body, static ones included.
+static inline const pl_path *pl_looking_path(pl_looking *l, uint32_t row)
+{
+    return row < l->movable ? &pl_looking_way(l, row)->path : &pl_looking_still;
+}
+
 pl_paths pl_looking_paths(pl_looking *l, const pl_manifold *m);
 // The first impact of each claimed body: by the contacts that are there already, then by those that were found to meet.
 void pl_looking_note_strikes(pl_looking *l);

@@ -120,6 +120,7 @@ static double nearest_on_leg(pl_sweep *s, double from, pl_nearest *out)
     return at;
 }
 
+// First to the contact: most that get here meet, or pass far to one side, which is told at once.
 pl_pair_approach pl_moving_pair_approach(const pl_moving_pair *e, double near)
 {
     pl_pair_approach best = { .kind = PL_APPROACH_NONE, .time = PL_SWEEP_NEVER };
@@ -130,21 +131,19 @@ pl_pair_approach pl_moving_pair_approach(const pl_moving_pair *e, double near)
         put_leg(&b, e, 1, from, to);
         pl_sweep s;
         pl_sweep_open(&s, &a, &b);
-        double first = 0;
-        if (best.kind == PL_APPROACH_NONE) {
-            first = pl_sweep_first_of(&s, 0, 1, near, PL_TOI_TOLERANCE);
-            if (first > 1) {
-                continue;
-            }
-        }
-        const double time = pl_sweep_first_of(&s, first, 1, 0, PL_TOI_TOLERANCE);
+        const double time = pl_sweep_first_of(&s, 0, 1, 0, PL_TOI_TOLERANCE);
         if (time <= 1) {
             return (pl_pair_approach){ PL_APPROACH_MEETS, from + time * (to - from),
                                        pl_sweep_nearest_at(&s, time) };
         }
+        const double first = pl_sweep_first_of(&s, 0, 1, near, near / 4);
+        if (first > 1) {
+            continue;
+        }
         pl_nearest nearest;
         const double at = nearest_on_leg(&s, first, &nearest);
-        if (best.kind == PL_APPROACH_NONE || nearest.gap.distance < best.nearest.gap.distance) {
+        if (nearest.gap.distance < near &&
+            (best.kind == PL_APPROACH_NONE || nearest.gap.distance < best.nearest.gap.distance)) {
             best = (pl_pair_approach){ PL_APPROACH_NEAR, from + at * (to - from), nearest };
         }
     }
@@ -155,8 +154,10 @@ pl_pose pl_moving_pair_pose(const pl_moving_pair *e, int side, double time)
 {
     const pl_pose *now = &pl_poses(e->world)[e->world->pieces.body[e->piece[side]]];
     const pl_motion m = pl_path_at(&e->paths->of[side], time);
-    double c, s;
-    pl_sincos(m.turn, &s, &c);
+    double c = 1, s = 0;
+    if (m.turn != 0) {
+        pl_sincos(m.turn, &s, &c);
+    }
     const double dx = c * (double)now->dx - s * (double)now->dy;
     const double dy = s * (double)now->dx + c * (double)now->dy;
     return (pl_pose){ .x = (real)(e->px[side] + m.x - dx),

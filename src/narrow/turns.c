@@ -8,35 +8,14 @@
 
 #include <math.h>
 
-static const pl_path still = { .impact = PL_SWEEP_NEVER };
+const pl_path pl_looking_still = { .impact = PL_SWEEP_NEVER };
 
-// NULL: it does not move. Bodies are asked for again and again: each flight is computed once.
-static pl_way *way_of(pl_looking *l, uint32_t row)
+pl_way *pl_looking_new_way(pl_looking *l, uint32_t row)
 {
-    if (row >= l->movable) {
-        return NULL;
-    }
-    if (l->map[row] == 0) {
-        l->all[l->way_count++] =
-            (pl_way){ .path = { .flight = pl_flight_of(l->world, row, l->horizon),
-                                .impact = PL_SWEEP_NEVER } };
-        l->map[row] = l->way_count;
-    }
-    return &l->all[l->map[row] - 1];
-}
-
-void pl_looking_claim(pl_looking *l, uint32_t row)
-{
-    pl_way *way = way_of(l, row);
-    if (way != NULL) {
-        way->claimed = true;
-    }
-}
-
-const pl_path *pl_looking_path(pl_looking *l, uint32_t row)
-{
-    const pl_way *way = way_of(l, row);
-    return way != NULL ? &way->path : &still;
+    l->all[l->way_count++] = (pl_way){ .path = { .flight = pl_flight_of(l->world, row, l->horizon),
+                                                 .impact = PL_SWEEP_NEVER } };
+    l->map[row] = l->way_count;
+    return &l->all[l->way_count - 1];
 }
 
 pl_paths pl_looking_paths(pl_looking *l, const pl_manifold *m)
@@ -46,13 +25,13 @@ pl_paths pl_looking_paths(pl_looking *l, const pl_manifold *m)
 
 static void note_change(pl_looking *l, uint32_t row, double time, pl_motion change)
 {
-    pl_way *way = pl_looking_known(l, row);
-    if (way == NULL || !way->claimed || !(time < way->path.impact)) {
+    if (!pl_looking_may_turn(l, row, time)) {
         return;
     }
     const double moves =
         fabs(change.x) + fabs(change.y) + fabs(change.turn) * (double)l->world->bodies.extent[row];
     if (moves * (1 - time) > (double)PL_TURNED) {
+        pl_way *way = pl_looking_way(l, row);
         way->path.impact = time;
         way->path.change = change;
         way->struck = !l->strikes_noted;
@@ -64,6 +43,9 @@ static void note_change(pl_looking *l, uint32_t row, double time, pl_motion chan
 static void note_impact(pl_looking *l, const pl_manifold *m, const pl_manifold_point *p, double nx,
                         double ny, double time)
 {
+    if (!pl_looking_may_turn(l, m->body_a, time) && !pl_looking_may_turn(l, m->body_b, time)) {
+        return;
+    }
     const pl_bodies *b = &l->world->bodies;
     const double closing = pl_motions_closed(pl_looking_path(l, m->body_a)->flight,
                                              pl_looking_path(l, m->body_b)->flight, p, nx, ny);
@@ -97,7 +79,7 @@ void pl_looking_note_strikes(pl_looking *l)
     for (uint32_t i = 0; i < l->narrow->candidate_count; ++i) {
         const uint32_t place = candidates[i] & PL_CANDIDATE_PLACE;
         if ((candidates[i] & PL_CANDIDATE_STRIKES) != 0 &&
-            (pl_looking_is_claimed(l, ends[place].a) || pl_looking_is_claimed(l, ends[place].b))) {
+            (pl_looking_may_turn(l, ends[place].a, 0) || pl_looking_may_turn(l, ends[place].b, 0))) {
             const pl_manifold *m = &pl_manifolds(l->narrow)[place];
             note_impact(l, m, first_point(m), (double)m->nx, (double)m->ny, 0);
         }
