@@ -10,8 +10,6 @@
 
 #include "math/compare.h"
 
-#include <string.h>
-
 static void take_out(pl_pair *pair, pl_manifold *m)
 {
     m->count = 0;
@@ -114,10 +112,11 @@ static void move_up(pl_narrow *narrow, pl_pair *pairs, uint32_t to, uint32_t fro
 {
     pl_manifold *m = pl_manifolds(narrow);
     pl_ends *ends = narrow->ends.data;
-    memmove(&m[to], &m[from], (end - from) * sizeof *m);
-    memmove(&ends[to], &ends[from], (end - from) * sizeof *ends);
-    for (uint32_t i = to; i < to + (end - from); ++i) {
-        pairs[m[i].pair].manifold = i;
+    for (uint32_t i = from; i < end;
+         ++i, ++to) { // in one go: the pair is told by what has just been moved
+        m[to] = m[i];
+        ends[to] = ends[i];
+        pairs[m[to].pair].manifold = to;
     }
 }
 

@@ -79,7 +79,8 @@ void pl_looking_note_strikes(pl_looking *l)
     for (uint32_t i = 0; i < l->narrow->candidate_count; ++i) {
         const uint32_t place = candidates[i] & PL_CANDIDATE_PLACE;
         if ((candidates[i] & PL_CANDIDATE_STRIKES) != 0 &&
-            (pl_looking_may_turn(l, ends[place].a, 0) || pl_looking_may_turn(l, ends[place].b, 0))) {
+            (pl_looking_may_turn(l, ends[place].a, 0) ||
+             pl_looking_may_turn(l, ends[place].b, 0))) {
             const pl_manifold *m = &pl_manifolds(l->narrow)[place];
             note_impact(l, m, first_point(m), (double)m->nx, (double)m->ny, 0);
         }
