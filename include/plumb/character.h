@@ -11,7 +11,7 @@
 /// body tells how:
 /// - kinematic: it goes where it is told, collides and slides along everything, stands still on slopes,
 ///   climbs steps, follows the ground downhill, is carried by what it stands on (exactly, turning
-///   included), is pushed aside by kinematic bodies, never pushed by dynamic ones. Other bodies meet it
+///   and belts, see plumb_material_desc.surface_speed, included), is pushed aside by kinematic bodies, never pushed by dynamic ones. Other bodies meet it
 ///   as a kinematic body; it pushes dynamic ones with a limited force and weighs on them.
 /// - dynamic: a body that cannot turn, driven by forces: everything can push it, its mass counts.
 /// When the body's type is changed, it goes on as the other kind, by those of its settings that are for both.
@@ -31,7 +31,8 @@ PLUMB_BEGIN
 /// {0} is valid. Fields marked k are of kinematic characters and must be 0 for dynamic ones.
 typedef struct plumb_character_desc {
     plumb_vec2 up; ///< direction, any length; {0, 0}: against gravity, or plumb_world_up without.
-                   ///< Walking to the right is walking to `up` turned clockwise
+                   ///< Walking to the right is walking to `up` turned clockwise, as seen on a screen:
+                   ///< to +x on level ground, whichever way y points
     /// [rad] 0..1.5, steepest ground to stand and walk on; 0 means 50 degrees
     plumb_real max_slope;
     plumb_real skin;        ///< k [m] distance kept from everything; 0: 1/50 of its half width

@@ -31,7 +31,8 @@ typedef struct plumb_material_desc {
     /// uses the larger.
     plumb_real rolling_resistance;
     /// [m/s] at which the surface runs along the outline of the shape, like a conveyor belt: positive
-    /// carries what lies on top of a shape to +x (the outward normal turned clockwise). Needs friction.
+    /// carries what lies on top of a shape to +x (the outward normal turned clockwise; in a y-down world, where
+    /// that is what a screen shows, counter-clockwise). Needs friction.
     plumb_real surface_speed;
     plumb_mix friction_mix;    ///< how pairs mix friction
     plumb_mix restitution_mix; ///< how pairs mix restitution

@@ -4,6 +4,7 @@
 // Writes: the array, the column. Cost: O(1).
 #include "world/destroy.h"
 #include "character/character.h"
+#include "narrow/surface.h"
 
 #include "plumb/math.h"
 #include "world/check.h"
@@ -210,7 +211,7 @@ plumb_result plumb_character_walk(plumb_world *world, plumb_body body, plumb_rea
     r = r != PLUMB_OK ? r
                       : pl_check_range(world, __func__, "speed", speed, -SPEED_MOST, SPEED_MOST);
     if (r == PLUMB_OK) {
-        c->walk = speed;
+        c->walk = pl_rightward(world, speed);
         c->flies = false;
     }
     return r;

@@ -9,6 +9,7 @@
 // Reads: obstacles, body columns. Writes: forces and velocity of the body, forces of the ground.
 // Cost: as a kinematic character that stands.
 #include "character/walker.h"
+#include "narrow/surface.h"
 #include "world/island.h"
 #include "world/rows.h"
 #include "world/wrap.h"
@@ -45,6 +46,8 @@ static void look_for_ground(pl_walker *m)
     pl_shift arm = pl_wrap_arm(m->world, row, x, y);
     double gx = (double)b->vx[row] - w * arm.y;
     double gy = (double)b->vy[row] + w * arm.x;
+    const double belt = (double)pl_belt_speed(m->world, t.obstacle->piece);
+    gx += belt * t.ny, gy -= belt * t.nx;
     double away = ((double)b->vx[m->row] - gx) * t.nx + ((double)b->vy[m->row] - gy) * t.ny;
     double g = sqrt(m->gravity_x * m->gravity_x + m->gravity_y * m->gravity_y);
     bool stays = away <= LEAVING + 2 * g * m->dt && (was || away <= LEAVING);

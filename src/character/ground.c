@@ -14,6 +14,7 @@
 // Reads: obstacles. Writes: place, ground. Cost: O(obstacles) a piece of an eighth of the half width.
 #include "world/island.h"
 #include "query/query.h"
+#include "narrow/surface.h"
 #include "character/walker.h"
 
 #include <math.h>
@@ -45,6 +46,8 @@ static void set_ground(pl_walker *m, const pl_touch *t)
     }
     pl_walker_touch_point(m, t, &x, &y);
     pl_obstacle_velocity(o, x, y, &vx, &vy);
+    const double belt = (double)pl_belt_speed(m->world, o->piece);
+    vx += belt * t->ny, vy -= belt * t->nx;
     c->on_ground = true;
     c->ground = (pl_ground){
         .body = m->world->bodies.entity[o->row],

@@ -44,6 +44,18 @@ static bool is_asleep_below(const pl_character *c, const plumb_world *world)
     return is_on(c, world) && pl_row_is_asleep(world, pl_body_row(world, c->ground.body));
 }
 
+// [m] by which the surface that it stands on runs in this step.
+static plumb_vec2 run_of_belt(const pl_walker *m)
+{
+    const pl_ground *g = &m->c->ground;
+    const uint32_t piece = pl_shape_piece(m->world, g->shape);
+    if (piece == PL_NONE || m->c->climbs) {
+        return plumb_v2(0, 0);
+    }
+    const real way = pl_belt_speed(m->world, piece) * (real)m->step;
+    return plumb_v2(way * g->normal.y, -way * g->normal.x);
+}
+
 // [m] by which what it stands on carries it in this step.
 static plumb_vec2 carry_of(const pl_walker *m)
 {
@@ -54,13 +66,14 @@ static plumb_vec2 carry_of(const pl_walker *m)
     uint32_t row = pl_body_row(m->world, c->ground.body);
     const pl_bodies *b = &m->world->bodies;
     if (b->vx[row] == 0 && b->vy[row] == 0 && b->w[row] == 0) {
-        return plumb_v2(0, 0);
+        return run_of_belt(m);
     }
     const pl_pose *pose = &pl_poses(m->world)[row];
     plumb_transform now = { { pose->x, pose->y }, { pose->c, pose->s } };
     plumb_transform end = pl_row_end_pose(m->world, row, m->step);
-    return plumb_vec2_sub(plumb_transform_apply(end, c->ground.local),
-                          plumb_transform_apply(now, c->ground.local));
+    return plumb_vec2_add(run_of_belt(m),
+                          plumb_vec2_sub(plumb_transform_apply(end, c->ground.local),
+                                         plumb_transform_apply(now, c->ground.local)));
 }
 
 static double length_of(plumb_vec2 v)

@@ -6,6 +6,7 @@
 // which something was edited; nothing where no system of the phase is registered.
 #include "event/event.h"
 #include "narrow/narrow.h"
+#include "narrow/surface.h"
 #include "plumb/math.h"
 #include "world/check.h"
 #include "world/wrap.h"
@@ -59,7 +60,7 @@ plumb_result plumb_contact_edit_get(const plumb_world *world, int i, plumb_conta
                                   .restitution = m->restitution,
                                   .rolling_resistance = m->rolling,
                                   .adhesion = m->adhesion,
-                                  .surface_speed = m->surface_speed };
+                                  .surface_speed = pl_rightward(world, m->surface_speed) };
     for (uint32_t k = 0; k < m->count; ++k) {
         const pl_manifold_point *p = &m->point[k];
         plumb_vec2 on_a = { b->center_x[m->body_a] + p->ax, b->center_y[m->body_a] + p->ay };
@@ -93,7 +94,7 @@ plumb_result plumb_contact_edit_set(plumb_world *world, int i, const plumb_conta
     m->restitution = (near_real)edit->restitution;
     m->rolling = (near_real)edit->rolling_resistance;
     m->adhesion = (near_real)edit->adhesion;
-    m->surface_speed = (near_real)edit->surface_speed;
+    m->surface_speed = (near_real)pl_rightward(world, edit->surface_speed);
     m->disabled = !edit->enabled;
     world->edited = true;
     return PLUMB_OK;

@@ -73,7 +73,7 @@ static void mix(const plumb_world *world, pl_manifold *m, const pl_pair *pair, u
                 uint32_t b)
 {
     const pl_materials *s = &world->materials;
-    m->surface_speed = (near_real)(s->surface_speed[a] + s->surface_speed[b]);
+    m->surface_speed = (near_real)pl_rightward(world, s->surface_speed[a] + s->surface_speed[b]);
     const plumb_material_pair *set = pl_material_pair_of(world, a, b);
     if (set != NULL) {
         m->friction = (near_real)set->friction;

@@ -31,6 +31,48 @@ static void a_conveyor_carries_a_box_at_its_speed(void **state)
     }
 }
 
+static void turn_belts(const plumb_system_call *call)
+{
+    for (int i = 0; i < plumb_contact_edit_count(call->world); ++i) {
+        plumb_contact_edit c;
+        assert_int_equal(plumb_contact_edit_get(call->world, i, &c), PLUMB_OK);
+        assert_true(c.surface_speed == 2);
+        c.surface_speed = -1;
+        assert_int_equal(plumb_contact_edit_set(call->world, i, &c), PLUMB_OK);
+    }
+}
+
+// Whichever way y points: positive is to +x, in materials and in edits of contacts.
+static void belts_run_to_the_right_of_the_screen(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 4; ++k) {
+        const plumb_real down = k % 2 == 0 ? 1 : -1;
+        plumb_world *w =
+            flat_world((plumb_world_desc){ .y_axis = k % 2 == 0 ? PLUMB_Y_UP : PLUMB_Y_DOWN });
+        plumb_material belt =
+            plumb_material_create(w, &(plumb_material_desc){ .surface_speed = 2 });
+        plumb_body floor = plumb_body_create(
+            w, &(plumb_body_desc){ .type = PLUMB_STATIC, .position = { 0, -down } });
+        plumb_shape_create(
+            w, floor,
+            &(plumb_shape_desc){ .kind = PLUMB_BOX, .half = { 50, 1 }, .material = belt });
+        plumb_body box =
+            plumb_body_create(w, &(plumb_body_desc){ .position = { 0, down * R(0.5) } });
+        plumb_shape_create(w, box,
+                           &(plumb_shape_desc){ .kind = PLUMB_BOX, .half = { R(0.5), R(0.5) } });
+        if (k >= 2) {
+            const plumb_system_desc turn = { .name = "turn",
+                                             .phase = PLUMB_PHASE_CONTACTS,
+                                             .run = turn_belts };
+            assert_int_equal(plumb_system_create(w, &turn), PLUMB_OK);
+        }
+        steps(w, 200);
+        assert_near(plumb_body_velocity(w, box).x, k < 2 ? 2 : -1, ROUNDED(1e-3));
+        plumb_world_destroy(w);
+    }
+}
+
 // A disc that rolls without slipping is slowed by a = f g / r / (1 + 1/2), and stops after v^2 /
 // 2a.
 static void a_rolling_disc_stops_where_it_should(void **state)
@@ -391,6 +433,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_conveyor_carries_a_box_at_its_speed),
+        cmocka_unit_test(belts_run_to_the_right_of_the_screen),
         cmocka_unit_test(a_rolling_disc_stops_where_it_should),
         cmocka_unit_test(rolling_resistance_holds_a_disc_on_a_slope),
         cmocka_unit_test(materials_mix_by_rule_or_table),

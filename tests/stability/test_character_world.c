@@ -30,13 +30,13 @@ static void which_way_is_up(void **state)
     (void)state;
     for (int k = 0; k < 3; ++k) {
         // Right and up of each world.
-        const plumb_vec2 right[] = { { 1, 0 }, { -1, 0 }, { 0, -1 } };
+        const plumb_vec2 right[] = { { 1, 0 }, { 1, 0 }, { 0, -1 } };
         const plumb_vec2 up[] = { { 0, 1 }, { 0, -1 }, { 1, 0 } };
         plumb_world_desc desc = { .y_axis = k == 1 ? PLUMB_Y_DOWN : PLUMB_Y_UP };
         desc.gravity = k == 2 ? V(-9.81, 0) : V(0, 0);
         plumb_world *world = NULL;
         plumb_world_create(&desc, &world);
-        plumb_rot q = plumb_rot_from_direction(right[k]);
+        plumb_rot q = plumb_rot_from_direction(k == 1 ? V(-1, 0) : right[k]);
         plumb_body floor = add_box(world, PLUMB_STATIC, plumb_vec2_neg(up[k]), V(100, 1));
         plumb_body_teleport(world, floor, plumb_vec2_neg(up[k]), plumb_rot_angle(q));
         plumb_body hero = add_hero(world, 0, 0, NULL);
