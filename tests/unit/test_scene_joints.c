@@ -133,6 +133,26 @@ static void test_breaking(void **state)
           "expect{ 'score', score = 'broken', value = 1 }\n");
 }
 
+// Told as the load comes, not while it lasts; the joint holds on.
+static void test_strain(void **state)
+{
+    (void)state;
+    check("scene{ duration = 1 }\n"
+          "local b = body{ name = 'b', box{1, 1}, mass = 10 }\n"
+          "local j = weld{ b, world, name = 'thread1', event_force = 50 }\n"
+          "weld{ body{ box{1, 1}, at = {3, 0}, mass = 1 }, world, name = 'thread2', event_force = "
+          "50 }\n"
+          "on_strain{ joint = 'thread*', function(name, e)\n"
+          "  assert(name == 'thread1' and (e.a == b or e.b == b) and j:alive())\n"
+          "  assert(e.kind == 'weld' and math.sqrt(e.fx^2 + e.fy^2) > 50)\n"
+          "  score('strained', score('strained') + 1)\n"
+          "  find_joint(name):destroy() end }\n"
+          "on_strain{ joint = 'thread2', function() error('it is slack') end }\n"
+          "on_break(function() error('none breaks') end)\n"
+          "expect{ 'once', score = 'strained', value = 1 }\n"
+          "expect{ 'none broke', broken = 0 }\n");
+}
+
 static void test_expectations(void **state)
 {
     (void)state;
@@ -436,6 +456,7 @@ int main(void)
         cmocka_unit_test(test_joint_methods),
         cmocka_unit_test(test_joints_go_with_bodies),
         cmocka_unit_test(test_breaking),
+        cmocka_unit_test(test_strain),
         cmocka_unit_test(test_expectations),
         cmocka_unit_test(test_filters),
         cmocka_unit_test(test_sensors),

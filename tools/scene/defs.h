@@ -219,7 +219,7 @@ typedef struct sc_exact_def {
 typedef struct sc_contact_def {
     uint64_t present;
     char a[SC_NAME_SIZE], b[SC_NAME_SIZE];
-    char joint[SC_NAME_SIZE]; ///< on_break
+    char joint[SC_NAME_SIZE]; ///< on_break, on_strain
     double speed;             ///< [m/s] on_hit
     int function;
 } sc_contact_def;
@@ -234,6 +234,7 @@ typedef enum sc_handler_kind {
     SC_ON_ENTER,
     SC_ON_LEAVE,
     SC_ON_BREAK,
+    SC_ON_STRAIN,
     SC_EDIT_CONTACT
 } sc_handler_kind;
 

@@ -1,5 +1,5 @@
 // events.c - what a script does about what happened in a step: on_contact, on_end, on_hit, on_enter,
-// on_leave, on_break, from copies of the world's event arrays (a handler may make and destroy
+// on_leave, on_break, on_strain, from copies of the world's event arrays (a handler may make and destroy
 // things); and edit_contact, which is asked in the middle of a step, after the narrow phase.
 // Handlers of one kind are called in the order in which they were registered. Cost: O(events *
 // handlers of their kind); kinds without handlers are not looked at.
@@ -20,6 +20,7 @@ static const struct {
     { "on_enter", SC_ON_ENTER, &sc_list_contact },
     { "on_leave", SC_ON_LEAVE, &sc_list_contact },
     { "on_break", SC_ON_BREAK, &sc_list_break },
+    { "on_strain", SC_ON_STRAIN, &sc_list_break },
     { "edit_contact", SC_EDIT_CONTACT, &sc_list_contact },
 };
 enum { KINDS = (int)(sizeof kinds / sizeof kinds[0]) };
@@ -77,7 +78,7 @@ static int lua_event(lua_State *L)
         lua_rawseti(L, 1, 1);
     }
     if (lua_gettop(L) != 1 || lua_type(L, 1) != LUA_TTABLE) {
-        const char *keys = kinds[k].kind == SC_ON_BREAK ? "joint = ..." : "a = ..., b = ...";
+        const char *keys = kinds[k].list == &sc_list_break ? "joint = ..." : "a = ..., b = ...";
         sc_raise(s, SCENE_E_TYPE, &site, NULL, 0, NULL,
                  "%s takes a function or a table: %s{%s, function}", kinds[k].name, kinds[k].name,
                  keys);
@@ -233,6 +234,18 @@ static void after_breaks(scene *s)
     s->broken_before = first;
 }
 
+static void after_strains(scene *s)
+{
+    s->strains.count = s->strained.count = 0;
+    if (has_kind(s, SC_ON_STRAIN)) {
+        TAKE(strains, plumb_world_joint_strain_events);
+    }
+    for (int i = 0; i < s->strains.count; i++) {
+        const sc_joint *j = s->strains.items[i].user_data;
+        memcpy(SC_PUSH(s, s->strained)->text, j->def.name, sizeof j->def.name);
+    }
+}
+
 static void push_end(scene *s, const char *key, plumb_body body)
 {
     const sc_body *b = sc_body_of(s, body);
@@ -244,15 +257,16 @@ static void push_end(scene *s, const char *key, plumb_body body)
     lua_setfield(s->L, -2, key);
 }
 
-// on_break: the name of the joint, and what it was and what broke it.
-static void dispatch_break(scene *s, const sc_name *name, const plumb_joint_break *e)
+// on_break, on_strain: the name of the joint, and what it is or was and what broke or strained it.
+static void dispatch_joint(scene *s, sc_handler_kind kind, const sc_name *name,
+                           const plumb_joint_break *e)
 {
     lua_State *L = s->L;
     int count = s->handlers.count;
     sc_step_work(s, (uint64_t)count);
     for (int i = 0; i < count; i++) {
         const sc_handler *h = &s->handlers.items[i];
-        if (h->kind != SC_ON_BREAK ||
+        if (h->kind != kind ||
             (h->contact.joint[0] != 0 && !sc_name_matches(h->contact.joint, name->text))) {
             continue;
         }
@@ -277,6 +291,7 @@ void sc_events_after(scene *s)
     after_contacts(s); // all arrays first: a handler that changes the world ends them
     after_sensors(s);
     after_breaks(s);
+    after_strains(s);
     for (int i = 0; i < s->begins.count; i++) {
         plumb_contact_begin e = s->begins.items[i];
         const blow b = { e.point, e.normal, e.approach_speed, -1 };
@@ -299,7 +314,12 @@ void sc_events_after(scene *s)
     for (int i = 0; i < s->breaks.count; i++) {
         sc_name name = s->broken.items[s->broken_before + i];
         plumb_joint_break e = s->breaks.items[i];
-        dispatch_break(s, &name, &e);
+        dispatch_joint(s, SC_ON_BREAK, &name, &e);
+    }
+    for (int i = 0; i < s->strains.count; i++) {
+        const sc_name name = s->strained.items[i];
+        const plumb_joint_strain e = s->strains.items[i];
+        dispatch_joint(s, SC_ON_STRAIN, &name, &e);
     }
 }
 

@@ -272,8 +272,10 @@ struct scene {
     SC_ARRAY(plumb_sensor_event) enters;
     SC_ARRAY(plumb_sensor_event) leaves;
     SC_ARRAY(plumb_joint_break) breaks;
-    bool edits;       ///< the system of edit_contact is there
-    bool edit_failed; ///< one of its handlers raised; s->error has it
+    SC_ARRAY(plumb_joint_strain) strains;
+    SC_ARRAY(sc_name) strained; ///< name of the joint of each strain
+    bool edits;                 ///< the system of edit_contact is there
+    bool edit_failed;           ///< one of its handlers raised; s->error has it
     bool wants_visits;
     double (*points)[2]; ///< last points read by a SC_POINTS field
     int point_count, point_capacity;
