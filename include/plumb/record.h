@@ -150,7 +150,7 @@ PLUMB_API plumb_result plumb_replay_get_info(const plumb_replay *replay, plumb_r
 PLUMB_API const char *plumb_replay_error(const plumb_replay *replay);
 
 /// Takes the next step. Cost: the step, and one digest of the state.
-/// Errors: E_NULL, E_MISSING (the recording is at its end), E_MEMORY, E_IMAGE: the step did not give the
+/// Errors: E_NULL, E_MISSING (the recording is at its end: not logged), E_MEMORY, E_IMAGE: the step did not give the
 /// bits that were recorded: the build is another, or the world was changed. The replay stands after that step;
 /// going on is refused with the same error, going back is not.
 PLUMB_API plumb_result plumb_replay_step(plumb_replay *replay);

@@ -32,7 +32,9 @@ plumb_result pl_replay_fail(plumb_replay *replay, plumb_result code, const char 
     va_start(list, format);
     vsnprintf(replay->error + used, sizeof replay->error - (size_t)used, format, list);
     va_end(list);
-    tell(&replay->desc, replay->error);
+    if (code != PLUMB_E_MISSING) { // either end of a recording is where a loop ends, and no fault
+        tell(&replay->desc, replay->error);
+    }
     return code;
 }
 
