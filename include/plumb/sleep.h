@@ -17,8 +17,8 @@
 /// - an awake body or a moving kinematic one touches it, comes within 2 cm or will in this step;
 /// - one of its bodies, shapes, materials or joints is changed, or is pushed, or one is destroyed;
 /// - a static or kinematic body that it touches is changed or destroyed, or a new one touches it;
-/// - gravity is changed, or a system of PLUMB_PHASE_CONTACTS is registered or switched (such systems
-///   see no sleeping contacts).
+/// - gravity or the tuning of contacts is changed, or a system of PLUMB_PHASE_CONTACTS is registered or
+///   switched (such systems see no sleeping contacts).
 /// What sets a value that is already there does not wake.
 ///
 /// Forces. A steady force lets a body at rest fall asleep, whether calls (plumb_body_apply_force) or systems that

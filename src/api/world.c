@@ -339,10 +339,16 @@ plumb_result plumb_world_set_contact_tuning(plumb_world *world, plumb_real hertz
             : pl_check_range(world, __func__, "push_speed", push_speed, 0, PLUMB_REAL_MAX);
     r = r != PLUMB_OK ? r : pl_check_unlocked(world, __func__);
     if (r == PLUMB_OK) {
+        const plumb_world_desc before = world->desc;
         world->desc.contact_hertz = hertz;
         world->desc.contact_damping = damping;
         world->desc.push_speed = push_speed;
         pl_world_resolve(&world->desc);
+        if (world->desc.contact_hertz != before.contact_hertz ||
+            world->desc.contact_damping != before.contact_damping ||
+            world->desc.push_speed != before.push_speed) {
+            pl_sleep_disturb_all(world); // what rests sinks by another way
+        }
     }
     return r;
 }

@@ -41,6 +41,8 @@ CHANGE(no_sleep, plumb_body_set_no_sleep(p->w, p->apart, true))
 CHANGE(tag, plumb_body_set_user_data(p->w, p->apart, p))
 CHANGE(gravity, plumb_world_set_gravity(p->w, plumb_v2(0, 9)))
 CHANGE(same_gravity, plumb_world_set_gravity(p->w, plumb_world_gravity(p->w)))
+CHANGE(tuning, plumb_world_set_contact_tuning(p->w, 12, 0, 0))
+CHANGE(same_tuning, plumb_world_set_contact_tuning(p->w, 0, 0, 0))
 CHANGE(remove_shape, plumb_shape_destroy(p->w, p->low_box))
 CHANGE(shape_material, plumb_shape_set_material(p->w, p->low_box, (plumb_material)PLUMB_NULL_INIT))
 CHANGE(same_material, plumb_shape_set_material(p->w, p->low_box, p->wood))
@@ -186,6 +188,8 @@ static const waker wakers[] = {
     ROW(tag, 0),
     ROW(gravity, ALL),
     ROW(same_gravity, 0),
+    ROW(tuning, ALL),
+    ROW(same_tuning, 0),
     ROW(remove_shape, STACK),
     ROW(shape_material, STACK),
     ROW(same_material, 0),
