@@ -61,7 +61,8 @@ typedef struct plumb_joint_desc {
     plumb_real ratio;          ///< [-] gear: turn of A + ratio * turn or travel [m] of B is constant; pulley,
                                ///< > 0; 0 means 1
     plumb_real pitch;          ///< [rad] ratchet: a tooth, not 0; negative: B turns clockwise only
-    plumb_real max_force;      ///< [N] >= 0; mouse, motor: 0 is unbounded; friction: as given
+    plumb_real max_force;      ///< [N] >= 0; mouse, motor: 0 is unbounded; friction: as given. A motor that has
+                               ///< a bound wants hertz too: rigid, it creeps at force / mass * h, h [s]: a substep
     plumb_real max_torque;     ///< [N m] likewise
     plumb_real break_force;    ///< [N] >= 0 breaks where the mean of the reaction over a step exceeds it; 0: never
     plumb_real break_torque;   ///< [N m] likewise
