@@ -194,6 +194,58 @@ static const malformed table[] = {
               "exact{ body = \"ball\" }",
       .code = SCENE_E_MISSING,
       .message = "scene.lua:2:1: exact{} needs a function of time, such as y = function(t) ... end" },
+    { .what = "exact without body",
+      .file = "scene.lua",
+      .text = "body{ name = \"ball\", circle{1} }\n"
+              "exact{ y = function() return 1 end }",
+      .code = SCENE_E_MISSING,
+      .message = "scene.lua:2:1: exact{} needs 'body' to know whose motion is meant" },
+    { .what = "exact of two kinds",
+      .file = "scene.lua",
+      .text = "body{ name = \"ball\", circle{1} }\n"
+              "exact{ body = \"ball\", y = function() return 1 end, measure = "
+              "function() return 1 end, value = function() return 1 end }",
+      .code = SCENE_E_CONFLICT,
+      .message = "scene.lua:2:52: exact{} takes the motion of a body or 'measure' and 'value', "
+                 "not both" },
+    { .what = "exact without value",
+      .file = "scene.lua",
+      .text = "body{ name = \"ball\", circle{1} }\n"
+              "exact{ measure = function() return 1 end }",
+      .code = SCENE_E_MISSING,
+      .message = "scene.lua:2:1: exact{} needs 'measure' and 'value' together" },
+    { .what = "exact unit of motion",
+      .file = "scene.lua",
+      .text = "body{ name = \"ball\", circle{1} }\n"
+              "exact{ body = \"ball\", y = function() return 1 end, unit = \"m\" }",
+      .code = SCENE_E_UNUSED,
+      .message = "scene.lua:2:52: 'unit' of exact{} is for 'measure': motion has units of its own" },
+    { .what = "exact at and till",
+      .file = "scene.lua",
+      .text = "body{ name = \"ball\", circle{1} }\n"
+              "exact{ body = \"ball\", y = function() return 1 end, at = 1, till = 2 }",
+      .code = SCENE_E_CONFLICT,
+      .message = "scene.lua:2:52: exact{} takes one of 'at' and 'from'/'till'" },
+    { .what = "exact twice",
+      .file = "scene.lua",
+      .text = "body{ name = \"ball\", circle{1} }\n"
+              "for i = 1, 2 do exact{ \"fall\", body = \"ball\", y = function() return 1 end } end",
+      .code = SCENE_E_DUPLICATE,
+      .message = "scene.lua:2:17: another exact{} is called 'fall'" },
+    { .what = "expect unknown exact",
+      .file = "scene.lua",
+      .text = "body{ name = \"ball\", circle{1} }\n"
+              "exact{ \"fall\", body = \"ball\", y = function() return 1 end } "
+              "expect{ \"x\", exact = \"fell\", tolerance = 1 }",
+      .code = SCENE_E_NAME,
+      .message = "scene.lua:2:74: no exact{} is called 'fell' (did you mean 'fall'?)" },
+    { .what = "expect exact without tolerance",
+      .file = "scene.lua",
+      .text = "body{ name = \"ball\", circle{1} }\n"
+              "exact{ \"fall\", body = \"ball\", y = function() return 1 end } "
+              "expect{ \"x\", exact = \"fall\" }",
+      .code = SCENE_E_MISSING,
+      .message = "scene.lua:2:74: expect{} with 'exact' needs 'tolerance'" },
     { .what = "param twice",
       .file = "scene.lua",
       .text = "local n = param(\"n\", 1)\n"

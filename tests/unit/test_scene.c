@@ -242,26 +242,6 @@ static void test_not_reached(void **state)
     scene_destroy(s);
 }
 
-static void test_exact(void **state)
-{
-    (void)state;
-    scene *s = load("body{ name = 'b', circle{1} }\n"
-                    "exact{ body = 'b', y = function(t) return -9.81 * t^2 / 2 end, vy = "
-                    "function(t) return -9.81 * t end,"
-                    " till = 2 }");
-    assert_int_equal(scene_exact_count(s), 1);
-    scene_exact x = scene_exact_get(s, 0);
-    assert_string_equal(x.body, "b");
-    assert_int_equal(x.given, 1u << SCENE_EXACT_Y | 1u << SCENE_EXACT_VY);
-    assert_near(x.till, 2, 0);
-    double v[SCENE_EXACT_COUNT];
-    scene_error e;
-    assert_int_equal(scene_exact_eval(s, 0, 2.0, v, &e), SCENE_OK);
-    assert_near(v[SCENE_EXACT_Y], -19.62, 1e-12);
-    assert_true(isnan(v[SCENE_EXACT_X]));
-    scene_destroy(s);
-}
-
 // ------------------------------------------------------------------------------------ the sandbox
 
 static void test_environment(void **state)
@@ -457,11 +437,11 @@ int main(void)
         cmocka_unit_test(test_params_and_sets),    cmocka_unit_test(test_camera),
         cmocka_unit_test(test_timed_handlers),     cmocka_unit_test(test_contact_handlers),
         cmocka_unit_test(test_body_methods),       cmocka_unit_test(test_expectations),
-        cmocka_unit_test(test_not_reached),        cmocka_unit_test(test_exact),
-        cmocka_unit_test(test_environment),        cmocka_unit_test(test_maths_agrees_with_libm),
-        cmocka_unit_test(test_random_is_fixed),    cmocka_unit_test(test_json_round_trip),
-        cmocka_unit_test(test_runs_are_identical), cmocka_unit_test(test_pairs_keeps_every_key),
-        cmocka_unit_test(test_find_is_plain),      cmocka_unit_test(test_any_period_is_a_period),
+        cmocka_unit_test(test_not_reached),        cmocka_unit_test(test_environment),
+        cmocka_unit_test(test_maths_agrees_with_libm),cmocka_unit_test(test_random_is_fixed),
+        cmocka_unit_test(test_json_round_trip),    cmocka_unit_test(test_runs_are_identical),
+        cmocka_unit_test(test_pairs_keeps_every_key),cmocka_unit_test(test_find_is_plain),
+        cmocka_unit_test(test_any_period_is_a_period),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -108,10 +108,18 @@ static void mark_best(cost_row *rows, int count)
     }
 }
 
-static void print_csv(const cost_row *rows, int count)
+/// The unit of the table's errors.
+static const char *error_unit(const cost_plan *plan, const scene_run *run)
+{
+    const char *unit = plan->has_exact ? run->info.exact_unit : "m";
+    return unit[0] != '\0' ? unit : "mixed";
+}
+
+static void print_csv(const cost_row *rows, int count, const char *unit)
 {
     char solver[16], precision[16];
-    printf("solver,substeps,precision,cpu [s/s],error [m],max penetration [m],pareto,diverged\n");
+    printf("solver,substeps,precision,cpu [s/s],error [%s],max penetration [m],pareto,diverged\n",
+           unit);
     for (int i = 0; i < count; i++) {
         const cost_row *r = &rows[i];
         name_of(ENGINE_SOLVERS, r->solver, solver, sizeof solver);
@@ -132,7 +140,9 @@ static void print_head(const cost_plan *plan, const scene_run *run, const cost_a
     printf("%s: %.6g s in steps of %.6g s; times are the least of %d run%s\n", run->info.name,
            plan->time, plan->dt, args->repeat, args->repeat == 1 ? "" : "s");
     if (plan->has_exact) {
-        printf("error: largest distance of a body from the scene's closed form, at every step\n");
+        bool places = strcmp(run->info.exact_unit, "m") == 0;
+        printf("error: largest %s the scene's closed form, at every step\n",
+               places ? "distance of a body from" : "deviation from");
     } else {
         printf("error: largest distance of a body from the scene's own finest setting, for the\n"
                "       scene has no closed form (soft, double, %d substeps, steps of %.3g s)\n",
@@ -145,10 +155,11 @@ static void print_head(const cost_plan *plan, const scene_run *run, const cost_a
     }
 }
 
-static void print_table(const cost_row *rows, int count)
+static void print_table(const cost_row *rows, int count, const char *unit)
 {
-    char solver[16], precision[16];
-    printf("\n  solver  substeps  precision  CPU ms a second     error m  overlap m\n");
+    char solver[16], precision[16], title[32];
+    snprintf(title, sizeof title, "error %s", unit);
+    printf("\n  solver  substeps  precision  CPU ms a second  %10s  overlap m\n", title);
     for (int i = 0; i < count; i++) {
         const cost_row *r = &rows[i];
         name_of(ENGINE_SOLVERS, r->solver, solver, sizeof solver);
@@ -166,7 +177,8 @@ static void print_table(const cost_row *rows, int count)
 }
 
 /// The cheapest row within the tolerance; rows are sorted by time.
-static int judge(const cost_args *args, const cost_row *rows, int count, FILE *file)
+static int judge(const cost_args *args, const cost_row *rows, int count, const char *unit,
+                 FILE *file)
 {
     char solver[16], precision[16];
     for (int i = 0; i < count; i++) {
@@ -175,13 +187,14 @@ static int judge(const cost_args *args, const cost_row *rows, int count, FILE *f
             name_of(ENGINE_SOLVERS, r->solver, solver, sizeof solver);
             name_of(SCENE_PRECISIONS, r->precision, precision, sizeof precision);
             fprintf(file,
-                    "cheapest within %g m: --solver %s --substeps %d --precision %s "
-                    "(%.4g ms a second, error %.3e m)\n",
-                    args->tolerance, solver, r->substeps, precision, 1e3 * r->cpu, r->error);
+                    "cheapest within %g %s: --solver %s --substeps %d --precision %s "
+                    "(%.4g ms a second, error %.3e %s)\n",
+                    args->tolerance, unit, solver, r->substeps, precision, 1e3 * r->cpu, r->error,
+                    unit);
             return CLI_OK;
         }
     }
-    fprintf(file, "no setting stays within %g m\n", args->tolerance);
+    fprintf(file, "no setting stays within %g %s\n", args->tolerance, unit);
     return CLI_EXPECT;
 }
 
@@ -235,13 +248,13 @@ static int cost_command(const cli_command *command, int argc, char **argv)
         qsort(rows, (size_t)count, sizeof rows[0], by_time);
         mark_best(rows, count);
         if (args.csv) {
-            print_csv(rows, count);
+            print_csv(rows, count, error_unit(&plan, &run));
         } else {
             print_head(&plan, &run, &args);
-            print_table(rows, count);
+            print_table(rows, count, error_unit(&plan, &run));
         }
         if (args.tolerance >= 0) {
-            code = judge(&args, rows, count, args.csv ? stderr : stdout);
+            code = judge(&args, rows, count, error_unit(&plan, &run), args.csv ? stderr : stdout);
         }
     }
     cost_track_free(&plan.reference);
@@ -256,7 +269,8 @@ static const cli_option options[] = {
     { "precisions", 0, CLI_CHOICES, offsetof(cost_args, precisions), "LIST", 0, 0, SCENE_PRECISIONS,
       "which precisions (default float,double)" },
     { "tolerance", 0, CLI_REAL, offsetof(cost_args, tolerance), "M", 0, 1e9, NULL,
-      "name the cheapest setting whose error is at most M metres; exit code 4 when there is none" },
+      "name the cheapest setting whose error is at most M metres, or in the unit of the scene's "
+      "exact{}; exit code 4 when there is none" },
     { "repeat", 0, CLI_INT, offsetof(cost_args, repeat), "N", 1, 1000, NULL,
       "runs by the clock a setting, of which the fastest counts (default 3)" },
     { "csv", 0, CLI_FLAG, offsetof(cost_args, csv), NULL, 0, 0, NULL,

@@ -61,6 +61,7 @@ typedef struct engine_info {
     bool y_down;           ///< the scene's y axis points down
     double wrap_x, wrap_y; ///< [m] the world wraps around every so many; 0: not along that axis
     int exact_count;       ///< closed forms declared
+    const char *exact_unit; ///< of their errors; "" when they have several
     engine_camera camera;
 } engine_info;
 
@@ -189,8 +190,7 @@ typedef struct engine_api {
     bool (*ended)(const engine_session *session);
     /// The end of the run, for what only then can be judged.
     int (*finish)(engine_session *session, engine_error *error);
-    /// How far the worst body is from its closed form now: a distance [m], for forms that give
-    /// no position an angle [rad] or a velocity [m/s, rad/s]. -1 when no form holds now.
+    /// How far the worst of the closed forms is from the truth now, in info.exact_unit. -1 when no form holds now.
     int (*exact)(engine_session *session, double *distance, engine_error *error);
     /// -1: out of memory.
     int (*expectations)(engine_session *session, const engine_expect **list);

@@ -26,54 +26,15 @@ bool pl_session_reserve(void *list, size_t *room, int count, size_t size)
     return true;
 }
 
-/// Distance of a body from its closed form `values`, of which `given` are there.
-static double exact_distance(const plumb_world *world, plumb_body body, unsigned given,
-                             const double values[SCENE_EXACT_COUNT])
-{
-    const double turn = 6.283185307179586; // [rad] angles are equal modulo one
-    plumb_vec2 p = plumb_body_position(world, body), v = plumb_body_velocity(world, body);
-    double error[SCENE_EXACT_COUNT] = { 0 };
-    const double now[SCENE_EXACT_COUNT] = {
-        [SCENE_EXACT_X] = (double)p.x,
-        [SCENE_EXACT_Y] = (double)p.y,
-        [SCENE_EXACT_ANGLE] = (double)plumb_body_angle(world, body),
-        [SCENE_EXACT_VX] = (double)v.x,
-        [SCENE_EXACT_VY] = (double)v.y,
-        [SCENE_EXACT_SPIN] = (double)plumb_body_angular_velocity(world, body),
-    };
-    for (int q = 0; q < SCENE_EXACT_COUNT; q++) {
-        error[q] = (given >> q & 1u) != 0 ? now[q] - values[q] : 0;
-    }
-    error[SCENE_EXACT_ANGLE] = remainder(error[SCENE_EXACT_ANGLE], turn);
-    if ((given & (1u << SCENE_EXACT_X | 1u << SCENE_EXACT_Y)) != 0) {
-        return hypot(error[SCENE_EXACT_X], error[SCENE_EXACT_Y]);
-    }
-    if ((given & 1u << SCENE_EXACT_ANGLE) != 0) {
-        return fabs(error[SCENE_EXACT_ANGLE]);
-    }
-    if ((given & (1u << SCENE_EXACT_VX | 1u << SCENE_EXACT_VY)) != 0) {
-        return hypot(error[SCENE_EXACT_VX], error[SCENE_EXACT_VY]);
-    }
-    return fabs(error[SCENE_EXACT_SPIN]);
-}
-
 int pl_session_exact(engine_session *session, double *distance, engine_error *error)
 {
-    double time = scene_time(session->stage.scene);
     *distance = -1;
     for (int i = 0; i < scene_exact_count(session->stage.scene); i++) {
-        scene_exact form = scene_exact_get(session->stage.scene, i);
-        plumb_body body = scene_body_find(session->stage.scene, form.body).entity;
-        double values[SCENE_EXACT_COUNT];
+        double d;
         scene_error from = { 0 };
-        // A tenth of a step of slack: times are sums of steps.
-        if (plumb_is_null(body) || time > form.till + session->stage.info.dt / 10) {
-            continue;
-        }
-        if (scene_exact_eval(session->stage.scene, i, time, values, &from) != SCENE_OK) {
+        if (scene_exact_error(session->stage.scene, i, &d, &from) != SCENE_OK) {
             return pl_session_fail_scene(session, &from, error);
         }
-        double d = exact_distance(session->stage.world, body, form.given, values);
         *distance = d > *distance || isnan(d) ? d : *distance;
     }
     return CLI_OK;

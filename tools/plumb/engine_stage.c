@@ -187,6 +187,17 @@ const char *pl_stage_text(const engine_stage *stage)
     return stage->scene != NULL ? scene_get_text(stage->scene) : pl_stage_read_text(stage->replay);
 }
 
+/// The unit that the errors of all closed forms have, "" when they have several.
+static const char *exact_unit(const scene *of)
+{
+    int count = of != NULL ? scene_exact_count(of) : 0;
+    const char *unit = count > 0 ? scene_exact_get(of, 0).unit : "";
+    for (int i = 1; i < count; i++) {
+        unit = strcmp(unit, scene_exact_get(of, i).unit) == 0 ? unit : "";
+    }
+    return unit;
+}
+
 engine_info pl_stage_info(const engine_stage *stage)
 {
     const scene_info *info = &stage->info;
@@ -204,6 +215,7 @@ engine_info pl_stage_info(const engine_stage *stage)
         .wrap_x = (double)world.wrap_x,
         .wrap_y = (double)world.wrap_y,
         .exact_count = stage->scene != NULL ? scene_exact_count(stage->scene) : 0,
+        .exact_unit = exact_unit(stage->scene),
         .camera = { .has_view = camera->has_view,
                     .x = camera->center[0],
                     .y = camera->center[1],

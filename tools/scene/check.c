@@ -177,6 +177,24 @@ void sc_check_joint_name(scene *s, const sc_site *site, const char *key, const c
     sc_raise(s, SCENE_E_NAME, site, key, 0, sc_suggest_best(&g), "no joint is called '%s'", name);
 }
 
+// Finds the exact{} that a line of expect{} is about.
+static void check_form(scene *s, const sc_site *site, sc_expect *e)
+{
+    if (!SC_GIVEN(&sc_list_expect, &e->def, sc_expect_def, exact)) {
+        return;
+    }
+    e->exact = sc_exact_find(s, e->def.exact);
+    if (e->exact >= 0) {
+        return;
+    }
+    sc_suggest g = sc_suggest_start(e->def.exact);
+    for (int i = 0; i < s->exact_count; i++) {
+        sc_suggest_offer(&g, s->exacts[i].def.name);
+    }
+    sc_raise(s, SCENE_E_NAME, site, "exact", 0, sc_suggest_best(&g), "no exact{} is called '%s'",
+             e->def.exact);
+}
+
 void sc_check_build(scene *s)
 {
     sc_need_world(s);
@@ -195,6 +213,7 @@ void sc_check_build(scene *s)
         sc_site site = { .construct = "expect", .line = e->line, .path = s->is_json ? path : NULL };
         sc_check_body_name(s, &site, "body", e->def.body);
         sc_check_joint_name(s, &site, "joint", e->def.joint);
+        check_form(s, &site, e);
         if (SC_GIVEN(&sc_list_expect, &e->def, sc_expect_def, at) &&
             e->def.at > s->start_time + s->duration) {
             // a shorter run was asked for: then the line is simply not reached

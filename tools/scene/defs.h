@@ -185,6 +185,7 @@ typedef struct sc_expect_def {
     double joint_value[2], reaction[2], reaction_torque[2], max_joint_error;
     double broken[2], visits[2], inside[2];
     char score[SC_NAME_SIZE];
+    char exact[SC_NAME_SIZE];
     int test;
 } sc_expect_def;
 
@@ -193,6 +194,7 @@ typedef struct sc_expect {
     int line;
     scene_expect_status status;
     bool done;
+    int exact;    ///< index of the exact{} that is meant
     double ratio; ///< how near to the limit: > 1 is broken
     double measured, limit, time;
     char quantity[2 * SC_NAME_SIZE];
@@ -211,9 +213,10 @@ typedef struct sc_blast_def {
 
 typedef struct sc_exact_def {
     uint64_t present;
-    char body[SC_NAME_SIZE];
+    char name[SC_NAME_SIZE], body[SC_NAME_SIZE], unit[16];
     int x, y, angle, vx, vy, spin;
-    double till;
+    int measure, value; ///< of what the script measures itself
+    double at, from, till, scale;
 } sc_exact_def;
 
 typedef struct sc_contact_def {

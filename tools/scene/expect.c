@@ -1,6 +1,6 @@
-// expect.c - expect{} and exact{}: what the author says must be true, and when it is looked at: at
-// one time, in a window, after every step, or (when it names no time) at the end. What is measured
-// is in expect_measure.c.
+// expect.c - expect{}: what the author says must be true, and when it is looked at: at
+// one time, in a window, after every step, or (when it names no time) at the end; errors of exact{} whenever the form
+// holds. What is measured is in expect_measure.c.
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -54,6 +54,10 @@ static void check_expect(scene *s, const sc_site *site, const sc_expect_def *d)
         sc_raise(s, SCENE_E_MISSING, site, "position", 0, NULL,
                  "expect{} with 'position' needs 'tolerance'");
     }
+    if (HAS(d, exact) && !HAS(d, tolerance)) {
+        sc_raise(s, SCENE_E_MISSING, site, "exact", 0, NULL,
+                 "expect{} with 'exact' needs 'tolerance'");
+    }
     if (HAS(d, score) != HAS(d, value)) {
         sc_raise(s, SCENE_E_MISSING, site, HAS(d, score) ? "score" : "value", 0, NULL,
                  "expect{} needs 'score' and 'value' together");
@@ -61,13 +65,13 @@ static void check_expect(scene *s, const sc_site *site, const sc_expect_def *d)
     bool any = body_only || HAS(d, max_speed) || HAS(d, min_speed) || HAS(d, max_spin) ||
                HAS(d, max_penetration) || HAS(d, energy_drift) || HAS(d, momentum_drift) ||
                HAS(d, count) || HAS(d, value) || HAS(d, test) || of_joints(d) || of_sensors(d) ||
-               HAS(d, broken) || HAS(d, max_joint_error);
+               HAS(d, broken) || HAS(d, max_joint_error) || HAS(d, exact);
     if (!any) {
         sc_raise(s, SCENE_E_MISSING, site, NULL, 0, NULL,
                  "expect{} needs something to measure, such as max_penetration = 0.005");
     }
     if (HAS(d, tolerance) && !body_only && !HAS(d, count) && !HAS(d, value) && !of_joints(d) &&
-        !of_sensors(d) && !HAS(d, broken)) {
+        !of_sensors(d) && !HAS(d, broken) && !HAS(d, exact)) {
         sc_raise(s, SCENE_E_UNUSED, site, "tolerance", 0, NULL,
                  "'tolerance' of expect{} is not used");
     }
@@ -79,6 +83,9 @@ void sc_build_expect(scene *s, const sc_site *site, int table)
     sc_expect_def def = { .test = LUA_NOREF };
     sc_read(s, site, LIST, table, &def);
     check_expect(s, site, &def);
+    if (HAS(&def, exact) && !HAS(&def, at) && !HAS(&def, from) && !HAS(&def, till)) {
+        def.always = true; // whenever the form holds
+    }
     if (!s->building) {
         sc_raise(s, SCENE_E_STATE, site, NULL, 0, NULL,
                  "expect{} belongs to the script, not to a handler");
@@ -107,20 +114,7 @@ static int lua_exact(lua_State *L)
     if (lua_gettop(L) != 1 || lua_type(L, 1) != LUA_TTABLE) {
         sc_raise(s, SCENE_E_TYPE, &site, NULL, 0, NULL, "exact takes one table: exact{...}");
     }
-    sc_exact_def def = { 0 };
-    sc_read(s, &site, &sc_list_exact, 1, &def);
-    bool any = false;
-    for (int i = 0; i < sc_list_exact.count; i++) {
-        any |= sc_list_exact.rows[i].kind == SC_FUNCTION && ((def.present >> i) & 1) != 0;
-    }
-    if (!any) {
-        sc_raise(s, SCENE_E_MISSING, &site, NULL, 0, NULL,
-                 "exact{} needs a function of time, such as y = function(t) ... end");
-    }
-    sc_grow(s, &s->exacts, s->exact_count, &s->exact_capacity, sizeof *s->exacts);
-    s->exacts[s->exact_count].def = def;
-    s->exacts[s->exact_count].line = site.line;
-    s->exact_count++;
+    sc_build_exact(s, &site, 1);
     return 0;
 }
 
@@ -194,7 +188,12 @@ void sc_expect_step(scene *s)
         } else if (d->always || HAS(d, from) || HAS(d, till)) {
             bool open = (!HAS(d, from) || now >= d->from - slack) &&
                         (!HAS(d, till) || now <= d->till + slack);
-            if (open && e->status != SCENE_EXPECT_FAILED) { // the first break is what is reported
+            if (HAS(d, exact)) { // of a form the largest error is told, even beyond the limit
+                open = open && sc_exact_holds(s, e->exact);
+            } else { // else the first break
+                open = open && e->status != SCENE_EXPECT_FAILED;
+            }
+            if (open) {
                 evaluate(s, e);
             }
         }

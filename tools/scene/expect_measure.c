@@ -288,7 +288,14 @@ void sc_measure(scene *s, sc_expect *e)
         const sc_score *score = sc_score_find(s, d->score);
         in_range(s, e, d->score, "score", "1", score == NULL ? 0 : score->value, d->value);
     }
-    if (HAS(d, test)) {
+    if (HAS(d, exact)) {
+        int index = (int)(e - s->expects.items);
+        double error = sc_exact_error(s, e->exact);
+        e = &s->expects.items[index]; // a function may have moved the list
+        at_most(s, e, e->def.exact, "error", scene_exact_get(s, e->exact).unit, error,
+                e->def.tolerance);
+    }
+    if (HAS(&e->def, test)) {
         measure_test(s, e);
     }
 }

@@ -394,6 +394,7 @@ void sc_build_joint(scene *s, const sc_site *site, plumb_joint_kind kind, int ta
 void sc_build_pair(scene *s, const sc_site *site, int table);
 void sc_build_camera(scene *s, const sc_site *site, int table);
 void sc_build_expect(scene *s, const sc_site *site, int table);
+void sc_build_exact(scene *s, const sc_site *site, int table);
 void sc_check_build(scene *s);               ///< after the build pass: unused things, unknown names
 void sc_apply_sets(scene *s);                ///< parses scene_options.sets
 bool sc_take_set(scene *s, const char *key); ///< pushes the Lua value of --set key; false: none
@@ -524,6 +525,10 @@ void sc_measure(scene *s, sc_expect *e);
 void sc_expect_begin(scene *s); ///< remembers energy and momentum at the start
 void sc_expect_step(scene *s);
 void sc_expect_finish(scene *s);
+int sc_exact_find(const scene *s, const char *name); ///< index, -1: there is none
+bool sc_exact_holds(scene *s, int i);                ///< whether form i says something of now
+/// How far the world is from form i now, in its unit. Raises.
+double sc_exact_error(scene *s, int i);
 sc_score *sc_score_find(scene *s, const char *name);
 
 void sc_open_json(lua_State *L);

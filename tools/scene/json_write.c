@@ -372,7 +372,7 @@ static void write_settings(const scene *s, writer *w)
 static bool is_open(const scene *s, const sc_expect_def *d)
 {
     const sc_list *list = &sc_list_expect;
-    if (SC_GIVEN(list, d, sc_expect_def, test)) {
+    if (SC_GIVEN(list, d, sc_expect_def, test) || SC_GIVEN(list, d, sc_expect_def, exact)) {
         return false;
     }
     double now = scene_time(s);

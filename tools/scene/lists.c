@@ -158,6 +158,7 @@ static const sc_field expect_rows[] = {
     { "broken",          SC_RANGE,    AT(T, broken),          0, 1e9, "1", 0, 0 },
     { "count",           SC_RANGE,    AT(T, count),           0, 1e9, "1", 0, 0 },
     { "energy_drift",    SC_NUMBER,   AT(T, energy_drift),    0, BIG, "1", 0, 0 },
+    { "exact",           SC_STRING,   AT(T, exact),           0, 0, NULL, 0, 0 },
     { "from",            SC_NUMBER,   AT(T, from),            0, 1e7, "s", 0, 0 },
     { "inside",          SC_RANGE,    AT(T, inside),          0, 1e9, "1", 0, 0 },
     { "joint",           SC_JOINT,    AT(T, joint),           0, 0, NULL, 0, 0 },
@@ -190,14 +191,21 @@ const sc_list sc_list_expect = { "expect", expect_rows, COUNT(expect_rows) };
 
 #define T sc_exact_def
 static const sc_field exact_rows[] = {
-    { "angle", SC_FUNCTION, AT(T, angle), 0, 0, NULL, 0, 0 },
-    { "body",  SC_BODY,     AT(T, body),  0, 0, NULL, 0, SC_REQUIRED },
-    { "spin",  SC_FUNCTION, AT(T, spin),  0, 0, NULL, 0, 0 },
-    { "till",  SC_NUMBER,   AT(T, till),  0, 1e7, "s", 0, SC_ABOVE },
-    { "vx",    SC_FUNCTION, AT(T, vx),    0, 0, NULL, 0, 0 },
-    { "vy",    SC_FUNCTION, AT(T, vy),    0, 0, NULL, 0, 0 },
-    { "x",     SC_FUNCTION, AT(T, x),     0, 0, NULL, 0, 0 },
-    { "y",     SC_FUNCTION, AT(T, y),     0, 0, NULL, 0, 0 },
+    { "angle",   SC_FUNCTION, AT(T, angle),   0, 0, NULL, 0, 0 },
+    { "at",      SC_NUMBER,   AT(T, at),      0, 1e7, "s", 0, SC_ABOVE },
+    { "body",    SC_BODY,     AT(T, body),    0, 0, NULL, 0, 0 },
+    { "from",    SC_NUMBER,   AT(T, from),    0, 1e7, "s", 0, 0 },
+    { "measure", SC_FUNCTION, AT(T, measure), 0, 0, NULL, 0, 0 },
+    { "name",    SC_STRING,   AT(T, name),    0, 0, NULL, 1, 0 },
+    { "scale",   SC_NUMBER,   AT(T, scale),   0, BIG, NULL, 0, SC_ABOVE },
+    { "spin",    SC_FUNCTION, AT(T, spin),    0, 0, NULL, 0, 0 },
+    { "till",    SC_NUMBER,   AT(T, till),    0, 1e7, "s", 0, SC_ABOVE },
+    { "unit",    SC_STRING,   AT(T, unit),    0, 0, NULL, 0, 0 },
+    { "value",   SC_FUNCTION, AT(T, value),   0, 0, NULL, 0, 0 },
+    { "vx",      SC_FUNCTION, AT(T, vx),      0, 0, NULL, 0, 0 },
+    { "vy",      SC_FUNCTION, AT(T, vy),      0, 0, NULL, 0, 0 },
+    { "x",       SC_FUNCTION, AT(T, x),       0, 0, NULL, 0, 0 },
+    { "y",       SC_FUNCTION, AT(T, y),       0, 0, NULL, 0, 0 },
 };
 const sc_list sc_list_exact = { "exact", exact_rows, COUNT(exact_rows) };
 #undef T

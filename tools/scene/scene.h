@@ -232,11 +232,14 @@ typedef enum scene_exact_quantity {
     SCENE_EXACT_COUNT
 } scene_exact_quantity;
 
-/// One exact{}: the closed form of one body's motion.
+/// One exact{}: the closed form of one body's motion, or of what the script measures.
 typedef struct scene_exact {
-    const char *body;
-    unsigned given; ///< bits 1 << SCENE_EXACT_*
-    double till;    ///< [s] the form holds up to here; the duration when not given
+    const char *name; ///< "" if none
+    const char *body; ///< "": of what the script measures
+    const char *unit; ///< of its error: "m", "rad", "m/s", "rad/s", the author's; "1" with a scale
+    unsigned given;   ///< bits 1 << SCENE_EXACT_*
+    double from;      ///< [s] the form holds from here on; the start when not given
+    double till;      ///< [s] up to here; the end when not given
 } scene_exact;
 
 int scene_exact_count(const scene *s);
@@ -244,6 +247,9 @@ scene_exact scene_exact_get(const scene *s, int i);
 /// Values of the closed form at time t [s]: SI units and radians; those not given are NaN.
 scene_code scene_exact_eval(scene *s, int i, double t, double values[SCENE_EXACT_COUNT],
                             scene_error *err);
+/// How far the world is from the form now, in its unit, over its scale: of a body the distance of the place; of forms
+/// without a place of the angle, else of the velocity, else of the spin. -1 when the form says nothing of now.
+scene_code scene_exact_error(scene *s, int i, double *error, scene_error *err);
 
 /// A declared param("name", default, min, max).
 typedef struct scene_param {

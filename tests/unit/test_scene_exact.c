@@ -1,0 +1,105 @@
+// test_scene_exact.c - exact{}: what a scene says of the truth, how far the world is from it, and expect{} lines about it.
+#include "scene_fixture.h"
+
+static void test_exact(void **state)
+{
+    (void)state;
+    scene *s = load("body{ name = 'b', circle{1} }\n"
+                    "exact{ body = 'b', y = function(t) return -9.81 * t^2 / 2 end, vy = "
+                    "function(t) return -9.81 * t end,"
+                    " till = 2 }");
+    assert_int_equal(scene_exact_count(s), 1);
+    scene_exact x = scene_exact_get(s, 0);
+    assert_string_equal(x.body, "b");
+    assert_int_equal(x.given, 1u << SCENE_EXACT_Y | 1u << SCENE_EXACT_VY);
+    assert_near(x.till, 2, 0);
+    double v[SCENE_EXACT_COUNT];
+    scene_error e;
+    assert_int_equal(scene_exact_eval(s, 0, 2.0, v, &e), SCENE_OK);
+    assert_near(v[SCENE_EXACT_Y], -19.62, 1e-12);
+    assert_true(isnan(v[SCENE_EXACT_X]));
+    scene_destroy(s);
+}
+
+// Errors of forms after 1 s, by kind: place, angle, velocity, spin, what the script measures, over a scale.
+static void test_exact_errors(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *form, *unit;
+        double error;
+    } rows[] = {
+        { "body = 'b', x = function(t) return 2 * t - 3 end, y = function() return 4 end, "
+          "spin = function() return 9 end",
+          "m", 5 },
+        { "body = 'b', angle = function(t) return t + 6.283185307179586 + 0.5 end, "
+          "vx = function() return 7 end",
+          "rad", 0.5 },
+        { "body = 'b', vx = function() return 5 end, vy = function() return 4 end", "m/s", 5 },
+        { "body = 'b', spin = function() return 3 end", "rad/s", 2 },
+        { "measure = function(t) return 10 * t end, value = function() return 4 end, unit = 'N'",
+          "N", 6 },
+        { "measure = function(t) return 10 * t end, value = function() return 4 end", "1", 6 },
+        { "measure = function(t) return 10 * t end, value = function() return 4 end, unit = 'N', "
+          "scale = 4",
+          "1", 1.5 },
+        { "body = 'b', x = function() return 0 end, till = 0.5", "m", -1 },
+        { "body = 'b', x = function() return 0 end, from = 1.5", "m", -1 },
+        { "body = 'b', x = function() return 0 end, at = 1.005", "m", 2 }, // the nearest step
+        { "body = 'b', x = function() return 0 end, at = 1.02", "m", -1 },
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        char text[512];
+        snprintf(text, sizeof text,
+                 "scene{ gravity = {0, 0}, dt = 1/64, duration = 2 }\n"
+                 "body{ name = 'b', circle{1}, velocity = {2, 0}, spin = 1 }\nexact{ %s }",
+                 rows[i].form);
+        scene *s = load(text);
+        scene_error e;
+        double error;
+        for (int k = 0; k < 64; k++) {
+            assert_int_equal(scene_step(s, &e), SCENE_OK);
+        }
+        assert_string_equal(scene_exact_get(s, 0).unit, rows[i].unit);
+        assert_int_equal(scene_exact_error(s, 0, &error, &e), SCENE_OK);
+        assert_near(error, rows[i].error, ROUNDED(1e-5));
+        scene_destroy(s);
+    }
+}
+
+// A line looks whenever its form says something, and tells the largest error, not the first beyond the limit.
+static void test_expected_exact(void **state)
+{
+    (void)state;
+    scene *s = load("scene{ gravity = {0, 0}, dt = 1/64, duration = 2 }\n"
+                    "body{ name = 'b', circle{1}, velocity = {2, 0} }\n"
+                    "exact{ 'stands', body = 'b', x = function() return 0 end, till = 1 }\n"
+                    "exact{ 'later', measure = function() return 1 end, "
+                    "value = function() return 0 end, from = 5 }\n"
+                    "expect{ 'good', exact = 'stands', tolerance = 2.01 }\n"
+                    "expect{ 'bad', exact = 'stands', tolerance = 0.5 }\n"
+                    "expect{ 'early', exact = 'stands', tolerance = 1.01, till = 0.5 }\n"
+                    "expect{ 'never', exact = 'later', tolerance = 2 }\n");
+    run(s);
+    static const scene_expect_status status[] = { SCENE_EXPECT_PASSED, SCENE_EXPECT_FAILED,
+                                                  SCENE_EXPECT_PASSED, SCENE_EXPECT_NOT_REACHED };
+    static const double measured[] = { 2, 2, 1, 0 };
+    for (int i = 0; i < 4; i++) {
+        assert_int_equal(scene_expect_get(s, i).status, status[i]);
+        assert_near(scene_expect_get(s, i).measured, measured[i], ROUNDED(1e-5));
+    }
+    assert_string_equal(scene_expect_get(s, 1).quantity, "stands.error");
+    assert_string_equal(scene_expect_get(s, 1).unit, "m");
+    assert_near(scene_expect_get(s, 1).time, 1, 1e-9);
+    scene_destroy(s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_exact),
+        cmocka_unit_test(test_exact_errors),
+        cmocka_unit_test(test_expected_exact),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
