@@ -154,6 +154,7 @@ static const char *const crowds[] = {
     "for k = 1, 90000 do end return true end } end",
     "for i = 1, 5000 do on_contact(function() for k = 1, 90000 do end end) end",
     "edit_contact(function() for k = 1, 100000 do end end)",
+    "field{ body = 'b*', function() for k = 1, 100000 do end end }",
 };
 enum { CROWDS = (int)(sizeof crowds / sizeof *crowds) };
 

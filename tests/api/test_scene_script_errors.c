@@ -246,6 +246,24 @@ static const malformed table[] = {
               "expect{ \"x\", exact = \"fall\" }",
       .code = SCENE_E_MISSING,
       .message = "scene.lua:2:74: expect{} with 'exact' needs 'tolerance'" },
+    { .what = "field misused",
+      .file = "scene.lua",
+      .text = "body{ name = \"ball\", circle{1} }\n"
+              "field(function() end)",
+      .code = SCENE_E_TYPE,
+      .message = "scene.lua:2:1: field takes one table: field{body = ..., function}" },
+    { .what = "field without body",
+      .file = "scene.lua",
+      .text = "body{ name = \"ball\", circle{1} }\n"
+              "field{ function() end }",
+      .code = SCENE_E_MISSING,
+      .message = "scene.lua:2:1: field{} needs 'body'" },
+    { .what = "field of nobody",
+      .file = "scene.lua",
+      .text = "body{ name = \"ball\", circle{1} }\n"
+              "field{ body = \"bell\", function() end }",
+      .code = SCENE_E_NAME,
+      .message = "scene.lua:2:8: no body is called 'bell' (did you mean 'ball'?)" },
     { .what = "param twice",
       .file = "scene.lua",
       .text = "local n = param(\"n\", 1)\n"

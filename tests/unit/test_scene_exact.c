@@ -1,4 +1,5 @@
 // test_scene_exact.c - exact{}: what a scene says of the truth, how far the world is from it, and expect{} lines about it.
+#define _POSIX_C_SOURCE 200809L // open_memstream
 #include "scene_fixture.h"
 
 static void test_exact(void **state)

@@ -235,7 +235,7 @@ void sc_check_build(scene *s)
     for (int i = 0; i < s->handlers.count; i++) {
         const sc_handler *h = &s->handlers.items[i];
         sc_site site = { .construct = sc_handler_name(h->kind), .line = h->line };
-        sc_check_body_name(s, &site, "a", h->contact.a);
+        sc_check_body_name(s, &site, h->kind == SC_FIELD ? "body" : "a", h->contact.a);
         sc_check_body_name(s, &site, "b", h->contact.b);
         sc_check_joint_name(s, &site, "joint", h->contact.joint);
     }

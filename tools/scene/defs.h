@@ -238,7 +238,8 @@ typedef enum sc_handler_kind {
     SC_ON_LEAVE,
     SC_ON_BREAK,
     SC_ON_STRAIN,
-    SC_EDIT_CONTACT
+    SC_EDIT_CONTACT,
+    SC_FIELD ///< `a` is the body
 } sc_handler_kind;
 
 typedef struct sc_handler {

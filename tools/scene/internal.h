@@ -275,7 +275,8 @@ struct scene {
     SC_ARRAY(plumb_joint_strain) strains;
     SC_ARRAY(sc_name) strained; ///< name of the joint of each strain
     bool edits;                 ///< the system of edit_contact is there
-    bool edit_failed;           ///< one of its handlers raised; s->error has it
+    bool fields;                ///< the system of field{} is there
+    bool edit_failed;           ///< a handler within the step raised; s->error has it
     bool wants_visits;
     double (*points)[2]; ///< last points read by a SC_POINTS field
     int point_count, point_capacity;
@@ -296,7 +297,7 @@ void sc_grow(scene *s, void *array_of_items, int count, int *capacity, size_t it
 // ---------------------------------------------------------------------------------------- lists
 
 extern const sc_list sc_list_scene, sc_list_material, sc_list_body, sc_list_camera, sc_list_expect,
-    sc_list_exact, sc_list_contact, sc_list_hit, sc_list_break, sc_list_pair, sc_list_filter,
+    sc_list_exact, sc_list_contact, sc_list_field, sc_list_hit, sc_list_break, sc_list_pair, sc_list_filter,
     sc_list_motor, sc_list_spring, sc_list_state, sc_list_blast, sc_list_character;
 extern const sc_list sc_list_queries[SC_QUERIES];
 extern const sc_list sc_list_shapes[SC_SHAPE_KINDS];
@@ -372,6 +373,7 @@ void sc_open_joint(lua_State *L);      ///< methods of joints
 void sc_open_handlers(lua_State *L);   ///< at, every, score, ...
 void sc_open_events(lua_State *L);     ///< on_contact, on_break, ...
 void sc_open_expect(lua_State *L);     ///< expect, exact
+void sc_open_field(lua_State *L);      ///< field
 void sc_open_math(lua_State *L);       ///< math, random
 
 /// Copies the functions of a library that count their work (library.c) from the table below into the one on top.

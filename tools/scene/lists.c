@@ -237,6 +237,11 @@ static const sc_field hit_rows[] = {
     { "speed",    SC_NUMBER,   AT(T, speed),    0, 1e6, "m/s", 0, SC_ABOVE },
 };
 const sc_list sc_list_hit = { "on_hit", hit_rows, COUNT(hit_rows) };
+static const sc_field field_rows[] = {
+    { "body",     SC_BODY,     AT(T, a),        0, 0, NULL, 0, SC_REQUIRED },
+    { "function", SC_FUNCTION, AT(T, function), 0, 0, NULL, 1, SC_REQUIRED },
+};
+const sc_list sc_list_field = { "field", field_rows, COUNT(field_rows) };
 static const sc_field break_rows[] = {
     { "function", SC_FUNCTION, AT(T, function), 0, 0, NULL, 1, SC_REQUIRED },
     { "joint",    SC_JOINT,    AT(T, joint),    0, 0, NULL, 0, 0 },
