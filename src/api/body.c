@@ -53,18 +53,16 @@ static plumb_result check_sleep(const plumb_world *world, const char *fn,
 
 plumb_result pl_body_check(const plumb_world *world, const char *fn, const plumb_body_desc *desc)
 {
-    plumb_result r = pl_check_pointer(world, fn, "desc", desc);
-    if (r != PLUMB_OK) {
-        return r;
+    PL_TRY(pl_check_pointer(world, fn, "desc", desc));
+    PL_TRY(pl_check_desc(world, fn, "", PLUMB_TABLE_BODY, desc));
+    PL_TRY(check_motion(world, fn, desc));
+    PL_TRY(check_sleep(world, fn, desc));
+    if (desc->continuous && desc->type != PLUMB_DYNAMIC) {
+        return pl_fail(world, PLUMB_E_RANGE, fn,
+                       "continuous is true; it must be false for a %s body",
+                       desc->type == PLUMB_STATIC ? "static" : "kinematic");
     }
-    r = pl_check_desc(world, fn, "", PLUMB_TABLE_BODY, desc);
-    r = r != PLUMB_OK ? r : check_motion(world, fn, desc);
-    r = r != PLUMB_OK ? r : check_sleep(world, fn, desc);
-    if (r == PLUMB_OK && desc->continuous && desc->type != PLUMB_DYNAMIC) {
-        r = pl_fail(world, PLUMB_E_RANGE, fn, "continuous is true; it must be false for a %s body",
-                    desc->type == PLUMB_STATIC ? "static" : "kinematic");
-    }
-    return r;
+    return PLUMB_OK;
 }
 
 static void set_continuous(plumb_world *world, uint32_t row, bool continuous)
@@ -139,12 +137,10 @@ plumb_body plumb_body_create(plumb_world *world, const plumb_body_desc *desc)
 plumb_result plumb_body_destroy(plumb_world *world, plumb_body body)
 {
     uint32_t row;
-    plumb_result r = pl_check_body(world, __func__, body, &row);
-    r = r != PLUMB_OK ? r : pl_check_unlocked(world, __func__);
-    if (r == PLUMB_OK) {
-        pl_destroy_entity(world, body.entity);
-    }
-    return r;
+    PL_TRY(pl_check_body(world, __func__, body, &row));
+    PL_TRY(pl_check_unlocked(world, __func__));
+    pl_destroy_entity(world, body.entity);
+    return PLUMB_OK;
 }
 
 //---- place and velocity --------------------------------------------------------------------------
@@ -176,13 +172,11 @@ plumb_result plumb_body_teleport(plumb_world *world, plumb_body body, plumb_vec2
                                  plumb_real angle)
 {
     uint32_t row;
-    plumb_result r = pl_check_body(world, __func__, body, &row);
-    r = r != PLUMB_OK ? r : pl_place_check(world, __func__, position, angle);
-    r = r != PLUMB_OK ? r : pl_check_unlocked(world, __func__);
-    if (r == PLUMB_OK) {
-        pl_body_place(world, row, position, angle);
-    }
-    return r;
+    PL_TRY(pl_check_body(world, __func__, body, &row));
+    PL_TRY(pl_place_check(world, __func__, position, angle));
+    PL_TRY(pl_check_unlocked(world, __func__));
+    pl_body_place(world, row, position, angle);
+    return PLUMB_OK;
 }
 
 static plumb_result check_movable(const plumb_world *world, const char *fn, uint32_t row)
@@ -209,40 +203,36 @@ static plumb_result check_locks(const plumb_world *world, const char *fn, uint32
 plumb_result plumb_body_set_velocity(plumb_world *world, plumb_body body, plumb_vec2 velocity)
 {
     uint32_t row;
-    plumb_result r = pl_check_body(world, __func__, body, &row);
-    r = r != PLUMB_OK ? r : pl_check_finite_vec(world, __func__, "velocity", velocity);
-    r = r != PLUMB_OK ? r : check_movable(world, __func__, row);
-    r = r != PLUMB_OK ? r : check_locks(world, __func__, row, velocity);
-    if (r == PLUMB_OK) {
-        if (velocity.x != world->bodies.vx[row] || velocity.y != world->bodies.vy[row]) {
-            pl_sleep_stir(world, row);
-        }
-        pl_target_forget(world, row);
-        world->bodies.vx[row] = pl_poses(world)[row].vx = velocity.x;
-        world->bodies.vy[row] = pl_poses(world)[row].vy = velocity.y;
-        world->bodies.residual_vx[row] = world->bodies.residual_vy[row] = 0;
+    PL_TRY(pl_check_body(world, __func__, body, &row));
+    PL_TRY(pl_check_finite_vec(world, __func__, "velocity", velocity));
+    PL_TRY(check_movable(world, __func__, row));
+    PL_TRY(check_locks(world, __func__, row, velocity));
+    if (velocity.x != world->bodies.vx[row] || velocity.y != world->bodies.vy[row]) {
+        pl_sleep_stir(world, row);
     }
-    return r;
+    pl_target_forget(world, row);
+    world->bodies.vx[row] = pl_poses(world)[row].vx = velocity.x;
+    world->bodies.vy[row] = pl_poses(world)[row].vy = velocity.y;
+    world->bodies.residual_vx[row] = world->bodies.residual_vy[row] = 0;
+    return PLUMB_OK;
 }
 
 plumb_result plumb_body_set_angular_velocity(plumb_world *world, plumb_body body, plumb_real w)
 {
     uint32_t row;
-    plumb_result r = pl_check_body(world, __func__, body, &row);
-    r = r != PLUMB_OK ? r : pl_check_finite(world, __func__, "w", w);
-    r = r != PLUMB_OK ? r : check_movable(world, __func__, row);
-    if (r == PLUMB_OK && w != 0 && (world->bodies.flags[row] & PL_BODY_FIXED_ROTATION)) {
-        r = pl_fail(world, PLUMB_E_STATE, __func__,
-                    "w is %g; it must be 0 for a body of fixed rotation", (double)w);
+    PL_TRY(pl_check_body(world, __func__, body, &row));
+    PL_TRY(pl_check_finite(world, __func__, "w", w));
+    PL_TRY(check_movable(world, __func__, row));
+    if (w != 0 && (world->bodies.flags[row] & PL_BODY_FIXED_ROTATION)) {
+        return pl_fail(world, PLUMB_E_STATE, __func__,
+                       "w is %g; it must be 0 for a body of fixed rotation", (double)w);
     }
-    if (r == PLUMB_OK) {
-        if (w != world->bodies.w[row]) {
-            pl_sleep_stir(world, row);
-        }
-        pl_target_forget(world, row);
-        world->bodies.w[row] = w;
+    if (w != world->bodies.w[row]) {
+        pl_sleep_stir(world, row);
     }
-    return r;
+    pl_target_forget(world, row);
+    world->bodies.w[row] = w;
+    return PLUMB_OK;
 }
 
 //---- mass ----------------------------------------------------------------------------------------
@@ -250,24 +240,20 @@ plumb_result plumb_body_set_angular_velocity(plumb_world *world, plumb_body body
 plumb_result pl_check_dynamic(const plumb_world *world, const char *fn, plumb_body body,
                               uint32_t *row)
 {
-    plumb_result r = pl_check_body(world, fn, body, row);
-    if (r != PLUMB_OK || world->bodies.type[*row] == PLUMB_DYNAMIC) {
-        return r;
-    }
-    return pl_fail(world, PLUMB_E_STATE, fn, "body is %s; it must be dynamic",
-                   world->bodies.type[*row] == PLUMB_STATIC ? "static" : "kinematic");
+    PL_TRY(pl_check_body(world, fn, body, row));
+    const uint8_t type = world->bodies.type[*row];
+    return type == PLUMB_DYNAMIC
+               ? PLUMB_OK
+               : pl_fail(world, PLUMB_E_STATE, fn, "body is %s; it must be dynamic",
+                         type == PLUMB_STATIC ? "static" : "kinematic");
 }
 
 plumb_result plumb_body_set_mass(plumb_world *world, plumb_body body, plumb_real mass)
 {
     uint32_t row;
-    plumb_result r = pl_check_body(world, __func__, body, &row);
-    r = r != PLUMB_OK ? r
-                      : pl_check_range(world, __func__, "mass", mass, PL_MASS_LEAST, PL_MASS_MOST);
-    r = r != PLUMB_OK ? r : pl_check_dynamic(world, __func__, body, &row);
-    if (r != PLUMB_OK) {
-        return r;
-    }
+    PL_TRY(pl_check_body(world, __func__, body, &row));
+    PL_TRY(pl_check_range(world, __func__, "mass", mass, PL_MASS_LEAST, PL_MASS_MOST));
+    PL_TRY(pl_check_dynamic(world, __func__, body, &row));
     pl_bodies *b = &world->bodies;
     double ratio = (double)mass / (double)b->mass[row];
     double inertia = (double)b->set_inertia[row] * ratio;
@@ -291,10 +277,7 @@ plumb_result plumb_body_set_mass(plumb_world *world, plumb_body body, plumb_real
 plumb_result plumb_body_reset_mass(plumb_world *world, plumb_body body)
 {
     uint32_t row;
-    plumb_result r = pl_check_dynamic(world, __func__, body, &row);
-    if (r != PLUMB_OK) {
-        return r;
-    }
+    PL_TRY(pl_check_dynamic(world, __func__, body, &row));
     pl_sleep_disturb(world, row);
     pl_pieces *pieces = &world->pieces;
     for (uint32_t p = world->bodies.first_piece[row]; p != PL_NONE; p = pieces->next_in_body[p]) {
@@ -310,10 +293,7 @@ plumb_result plumb_body_reset_mass(plumb_world *world, plumb_body body)
 plumb_result plumb_body_set_fixed_rotation(plumb_world *world, plumb_body body, bool fixed)
 {
     uint32_t row;
-    plumb_result r = pl_check_dynamic(world, __func__, body, &row);
-    if (r != PLUMB_OK) {
-        return r;
-    }
+    PL_TRY(pl_check_dynamic(world, __func__, body, &row));
     pl_bodies *b = &world->bodies;
     if (fixed != ((b->flags[row] & PL_BODY_FIXED_ROTATION) != 0)) {
         pl_sleep_disturb(world, row);
@@ -330,11 +310,9 @@ plumb_result plumb_body_set_fixed_rotation(plumb_world *world, plumb_body body, 
 plumb_result plumb_body_set_continuous(plumb_world *world, plumb_body body, bool continuous)
 {
     uint32_t row;
-    plumb_result r = pl_check_dynamic(world, __func__, body, &row);
-    if (r == PLUMB_OK) {
-        set_continuous(world, row, continuous);
-    }
-    return r;
+    PL_TRY(pl_check_dynamic(world, __func__, body, &row));
+    set_continuous(world, row, continuous);
+    return PLUMB_OK;
 }
 
 //---- the rest ------------------------------------------------------------------------------------
@@ -342,9 +320,7 @@ plumb_result plumb_body_set_continuous(plumb_world *world, plumb_body body, bool
 plumb_result plumb_body_set_user_data(plumb_world *world, plumb_body body, void *user_data)
 {
     uint32_t row;
-    plumb_result r = pl_check_body(world, __func__, body, &row);
-    if (r == PLUMB_OK) {
-        world->bodies.user_data[row] = user_data;
-    }
-    return r;
+    PL_TRY(pl_check_body(world, __func__, body, &row));
+    world->bodies.user_data[row] = user_data;
+    return PLUMB_OK;
 }

@@ -83,9 +83,9 @@ plumb_result pl_impulse_add(plumb_world *world, const char *fn, uint32_t row, pl
 static plumb_result check_pushable(const plumb_world *world, const char *fn, plumb_body body,
                                    uint32_t *row)
 {
-    plumb_result r = pl_check_dynamic(world, fn, body, row);
-    return r != PLUMB_OK || (world->bodies.flags[*row] & PL_BODY_DISABLED) == 0
-               ? r
+    PL_TRY(pl_check_dynamic(world, fn, body, row));
+    return (world->bodies.flags[*row] & PL_BODY_DISABLED) == 0
+               ? PLUMB_OK
                : pl_fail(world, PLUMB_E_STATE, fn, "body is disabled; it must be enabled");
 }
 
@@ -93,78 +93,71 @@ static plumb_result check_pushable(const plumb_world *world, const char *fn, plu
 static plumb_result check_push(const plumb_world *world, const char *fn, plumb_body body,
                                const char *field, plumb_vec2 value, uint32_t *row)
 {
-    plumb_result r = pl_check_body(world, fn, body, row);
-    r = r != PLUMB_OK ? r : pl_check_finite_vec(world, fn, field, value);
-    return r != PLUMB_OK ? r : check_pushable(world, fn, body, row);
+    PL_TRY(pl_check_body(world, fn, body, row));
+    PL_TRY(pl_check_finite_vec(world, fn, field, value));
+    return check_pushable(world, fn, body, row);
 }
 
 static plumb_result check_turn(const plumb_world *world, const char *fn, plumb_body body,
                                const char *field, real value, uint32_t *row)
 {
-    plumb_result r = pl_check_body(world, fn, body, row);
-    r = r != PLUMB_OK ? r : pl_check_finite(world, fn, field, value);
-    return r != PLUMB_OK ? r : check_pushable(world, fn, body, row);
+    PL_TRY(pl_check_body(world, fn, body, row));
+    PL_TRY(pl_check_finite(world, fn, field, value));
+    return check_pushable(world, fn, body, row);
 }
 
 plumb_result plumb_body_apply_force(plumb_world *world, plumb_body body, plumb_vec2 force,
                                     plumb_vec2 point)
 {
     uint32_t row;
-    plumb_result r = check_push(world, __func__, body, "force", force, &row);
-    r = r != PLUMB_OK ? r : pl_check_finite_vec(world, __func__, "point", point);
-    return r != PLUMB_OK
-               ? r
-               : add_force(world, __func__, "force", row, push_at(world, row, force, point));
+    PL_TRY(check_push(world, __func__, body, "force", force, &row));
+    PL_TRY(pl_check_finite_vec(world, __func__, "point", point));
+    return add_force(world, __func__, "force", row, push_at(world, row, force, point));
 }
 
 plumb_result plumb_body_apply_force_center(plumb_world *world, plumb_body body, plumb_vec2 force)
 {
     uint32_t row;
-    plumb_result r = check_push(world, __func__, body, "force", force, &row);
-    return r != PLUMB_OK ? r : add_force(world, __func__, "force", row, (pl_push){ force, 0 });
+    PL_TRY(check_push(world, __func__, body, "force", force, &row));
+    return add_force(world, __func__, "force", row, (pl_push){ force, 0 });
 }
 
 plumb_result plumb_body_apply_torque(plumb_world *world, plumb_body body, plumb_real torque)
 {
     uint32_t row;
-    plumb_result r = check_turn(world, __func__, body, "torque", torque, &row);
-    return r != PLUMB_OK ? r
-                         : add_force(world, __func__, "torque", row, (pl_push){ { 0, 0 }, torque });
+    PL_TRY(check_turn(world, __func__, body, "torque", torque, &row));
+    return add_force(world, __func__, "torque", row, (pl_push){ { 0, 0 }, torque });
 }
 
 plumb_result plumb_body_apply_impulse(plumb_world *world, plumb_body body, plumb_vec2 impulse,
                                       plumb_vec2 point)
 {
     uint32_t row;
-    plumb_result r = check_push(world, __func__, body, "impulse", impulse, &row);
-    r = r != PLUMB_OK ? r : pl_check_finite_vec(world, __func__, "point", point);
-    return r != PLUMB_OK
-               ? r
-               : pl_impulse_add(world, __func__, row, push_at(world, row, impulse, point));
+    PL_TRY(check_push(world, __func__, body, "impulse", impulse, &row));
+    PL_TRY(pl_check_finite_vec(world, __func__, "point", point));
+    return pl_impulse_add(world, __func__, row, push_at(world, row, impulse, point));
 }
 
 plumb_result plumb_body_apply_impulse_center(plumb_world *world, plumb_body body,
                                              plumb_vec2 impulse)
 {
     uint32_t row;
-    plumb_result r = check_push(world, __func__, body, "impulse", impulse, &row);
-    return r != PLUMB_OK ? r : pl_impulse_add(world, __func__, row, (pl_push){ impulse, 0 });
+    PL_TRY(check_push(world, __func__, body, "impulse", impulse, &row));
+    return pl_impulse_add(world, __func__, row, (pl_push){ impulse, 0 });
 }
 
 plumb_result plumb_body_apply_angular_impulse(plumb_world *world, plumb_body body,
                                               plumb_real impulse)
 {
     uint32_t row;
-    plumb_result r = check_turn(world, __func__, body, "impulse", impulse, &row);
-    return r != PLUMB_OK ? r : pl_impulse_add(world, __func__, row, (pl_push){ { 0, 0 }, impulse });
+    PL_TRY(check_turn(world, __func__, body, "impulse", impulse, &row));
+    return pl_impulse_add(world, __func__, row, (pl_push){ { 0, 0 }, impulse });
 }
 
 plumb_result plumb_body_clear_forces(plumb_world *world, plumb_body body)
 {
     uint32_t row;
-    plumb_result r = pl_check_body(world, __func__, body, &row);
-    if (r == PLUMB_OK) {
-        world->bodies.fx[row] = world->bodies.fy[row] = world->bodies.torque[row] = 0;
-    }
-    return r;
+    PL_TRY(pl_check_body(world, __func__, body, &row));
+    world->bodies.fx[row] = world->bodies.fy[row] = world->bodies.torque[row] = 0;
+    return PLUMB_OK;
 }

@@ -36,13 +36,10 @@ plumb_result plumb_body_set_damping(plumb_world *world, plumb_body body, plumb_r
 {
     uint32_t row;
     pl_body_settings t;
-    plumb_result r = pl_check_body(world, __func__, body, &row);
-    r = r != PLUMB_OK ? r : check(world, __func__, "linear", "damping", linear);
-    r = r != PLUMB_OK ? r : check(world, __func__, "angular", "angular_damping", angular);
-    r = r != PLUMB_OK ? r : open(world, __func__, row, &t);
-    if (r != PLUMB_OK) {
-        return r;
-    }
+    PL_TRY(pl_check_body(world, __func__, body, &row));
+    PL_TRY(check(world, __func__, "linear", "damping", linear));
+    PL_TRY(check(world, __func__, "angular", "angular_damping", angular));
+    PL_TRY(open(world, __func__, row, &t));
     t.damping = linear;
     t.angular_damping = angular;
     return store(world, row, &t);
@@ -53,13 +50,10 @@ plumb_result plumb_body_set_speed_cap(plumb_world *world, plumb_body body, plumb
 {
     uint32_t row;
     pl_body_settings t;
-    plumb_result r = pl_check_body(world, __func__, body, &row);
-    r = r != PLUMB_OK ? r : check(world, __func__, "max_speed", "max_speed", max_speed);
-    r = r != PLUMB_OK ? r : check(world, __func__, "max_spin", "max_spin", max_spin);
-    r = r != PLUMB_OK ? r : open(world, __func__, row, &t);
-    if (r != PLUMB_OK) {
-        return r;
-    }
+    PL_TRY(pl_check_body(world, __func__, body, &row));
+    PL_TRY(check(world, __func__, "max_speed", "max_speed", max_speed));
+    PL_TRY(check(world, __func__, "max_spin", "max_spin", max_spin));
+    PL_TRY(open(world, __func__, row, &t));
     t.max_speed = max_speed;
     t.max_spin = max_spin;
     return store(world, row, &t);
@@ -69,12 +63,9 @@ plumb_result plumb_body_set_time_scale(plumb_world *world, plumb_body body, plum
 {
     uint32_t row;
     pl_body_settings t;
-    plumb_result r = pl_check_body(world, __func__, body, &row);
-    r = r != PLUMB_OK ? r : check(world, __func__, "scale", "time_scale", scale);
-    r = r != PLUMB_OK ? r : open(world, __func__, row, &t);
-    if (r != PLUMB_OK) {
-        return r;
-    }
+    PL_TRY(pl_check_body(world, __func__, body, &row));
+    PL_TRY(check(world, __func__, "scale", "time_scale", scale));
+    PL_TRY(open(world, __func__, row, &t));
     t.time_scale = scale;
     store(world, row, &t);
     pl_target_reaim(world, row);
@@ -89,18 +80,14 @@ plumb_result plumb_body_set_time_scale(plumb_world *world, plumb_body body, plum
     plumb_result plumb_body_set_##name(plumb_world *world, plumb_body body, type name)             \
     {                                                                                              \
         uint32_t row;                                                                              \
-        plumb_result r = pl_check_body(world, __func__, body, &row);                               \
-        r = r != PLUMB_OK                                                                          \
-                ? r                                                                                \
-                : pl_check_property(world, __func__, #name, PLUMB_TABLE_BODY, #name, (real)name);  \
-        if (r == PLUMB_OK && name != world->bodies.name[row]) {                                    \
+        PL_TRY(pl_check_body(world, __func__, body, &row));                                        \
+        PL_TRY(check(world, __func__, #name, #name, (real)name));                                  \
+        if (name != world->bodies.name[row]) {                                                     \
             pl_sleep_disturb(world, row);                                                          \
         }                                                                                          \
-        if (r == PLUMB_OK) {                                                                       \
-            world->bodies.name[row] = name;                                                        \
-            world->schedule_dirty = true;                                                          \
-        }                                                                                          \
-        return r;                                                                                  \
+        world->bodies.name[row] = name;                                                            \
+        world->schedule_dirty = true;                                                              \
+        return PLUMB_OK;                                                                           \
     }
 #define SETTER_RECORD(...)
 #define SETTER_OWN(...)
@@ -136,11 +123,8 @@ PL_BODY_ROWS(PL_ROW_RECORD, RECORD_GETTER)
 plumb_result plumb_body_get(const plumb_world *world, plumb_body body, plumb_body_desc *desc)
 {
     uint32_t row;
-    plumb_result r = pl_check_body(world, __func__, body, &row);
-    r = r != PLUMB_OK ? r : pl_check_pointer(world, __func__, "desc", desc);
-    if (r != PLUMB_OK) {
-        return r;
-    }
+    PL_TRY(pl_check_body(world, __func__, body, &row));
+    PL_TRY(pl_check_pointer(world, __func__, "desc", desc));
     const pl_bodies *b = &world->bodies;
     const pl_body_settings t = pl_body_settings_get(world, row);
     const uint32_t flags = b->flags[row];

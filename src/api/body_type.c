@@ -53,15 +53,15 @@ static plumb_result check_masses(const plumb_world *world, const char *fn, uint3
 plumb_result plumb_body_set_type(plumb_world *world, plumb_body body, plumb_body_type type)
 {
     uint32_t row;
-    plumb_result r = pl_check_body(world, __func__, body, &row);
-    if (r == PLUMB_OK && (unsigned)type > PLUMB_STATIC) {
-        r = pl_fail(world, PLUMB_E_RANGE, __func__, "type is %d; it must be a plumb_body_type",
-                    (int)type);
+    PL_TRY(pl_check_body(world, __func__, body, &row));
+    if ((unsigned)type > PLUMB_STATIC) {
+        return pl_fail(world, PLUMB_E_RANGE, __func__, "type is %d; it must be a plumb_body_type",
+                       (int)type);
     }
-    r = r == PLUMB_OK && type == PLUMB_DYNAMIC ? check_masses(world, __func__, row) : r;
-    r = r != PLUMB_OK ? r : pl_check_unlocked(world, __func__);
-    if (r != PLUMB_OK || (plumb_body_type)world->bodies.type[row] == type) {
-        return r;
+    PL_TRY(type == PLUMB_DYNAMIC ? check_masses(world, __func__, row) : PLUMB_OK);
+    PL_TRY(pl_check_unlocked(world, __func__));
+    if ((plumb_body_type)world->bodies.type[row] == type) {
+        return PLUMB_OK;
     }
     pl_bodies *b = &world->bodies;
     pl_target_forget(world, row);
@@ -82,14 +82,14 @@ plumb_result plumb_body_set_type(plumb_world *world, plumb_body body, plumb_body
 plumb_result plumb_body_set_enabled(plumb_world *world, plumb_body body, bool enabled)
 {
     uint32_t row;
-    plumb_result r = pl_check_body(world, __func__, body, &row);
-    r = r != PLUMB_OK ? r : pl_check_unlocked(world, __func__);
-    if (r == PLUMB_OK && plumb_body_is_enabled(world, body) != enabled) {
+    PL_TRY(pl_check_body(world, __func__, body, &row));
+    PL_TRY(pl_check_unlocked(world, __func__));
+    if (plumb_body_is_enabled(world, body) != enabled) {
         world->bodies.flags[row] ^= PL_BODY_DISABLED;
         world->bodies.fx[row] = world->bodies.fy[row] = world->bodies.torque[row] = 0;
         pl_body_relocate(world, row);
     }
-    return r;
+    return PLUMB_OK;
 }
 
 //---- locked axes ---------------------------------------------------------------------------------
@@ -97,10 +97,7 @@ plumb_result plumb_body_set_enabled(plumb_world *world, plumb_body body, bool en
 plumb_result plumb_body_set_locks(plumb_world *world, plumb_body body, plumb_axis_locks locks)
 {
     uint32_t row;
-    plumb_result r = pl_check_dynamic(world, __func__, body, &row);
-    if (r != PLUMB_OK) {
-        return r;
-    }
+    PL_TRY(pl_check_dynamic(world, __func__, body, &row));
     uint16_t *flags = &world->bodies.flags[row];
     bool was = (*flags & PL_BODY_LOCKED) != 0;
     *flags = (uint16_t)((*flags & ~(PL_BODY_LOCKED | PL_BODY_FIXED_ROTATION)) |
@@ -121,28 +118,21 @@ plumb_result plumb_body_set_locks(plumb_world *world, plumb_body body, plumb_axi
 plumb_result plumb_body_set_inertia(plumb_world *world, plumb_body body, plumb_real inertia)
 {
     uint32_t row;
-    plumb_result r = pl_check_body(world, __func__, body, &row);
-    r = r != PLUMB_OK
-            ? r
-            : pl_check_range(world, __func__, "inertia", inertia, PL_MASS_LEAST, PL_MASS_MOST);
-    r = r != PLUMB_OK ? r : pl_check_dynamic(world, __func__, body, &row);
-    if (r == PLUMB_OK) {
-        world->bodies.set_inertia[row] = inertia;
-        pl_mass_revise(world, row);
-        pl_sleep_disturb(world, row);
-    }
-    return r;
+    PL_TRY(pl_check_body(world, __func__, body, &row));
+    PL_TRY(pl_check_range(world, __func__, "inertia", inertia, PL_MASS_LEAST, PL_MASS_MOST));
+    PL_TRY(pl_check_dynamic(world, __func__, body, &row));
+    world->bodies.set_inertia[row] = inertia;
+    pl_mass_revise(world, row);
+    pl_sleep_disturb(world, row);
+    return PLUMB_OK;
 }
 
 plumb_result plumb_body_set_local_center(plumb_world *world, plumb_body body, plumb_vec2 center)
 {
     uint32_t row;
-    plumb_result r = pl_check_body(world, __func__, body, &row);
-    r = r != PLUMB_OK ? r : pl_check_within(world, __func__, "center", center, CENTER_MOST);
-    r = r != PLUMB_OK ? r : pl_check_dynamic(world, __func__, body, &row);
-    if (r != PLUMB_OK) {
-        return r;
-    }
+    PL_TRY(pl_check_body(world, __func__, body, &row));
+    PL_TRY(pl_check_within(world, __func__, "center", center, CENTER_MOST));
+    PL_TRY(pl_check_dynamic(world, __func__, body, &row));
     pl_bodies *b = &world->bodies;
     pl_mass_sum sum = pl_mass_of_shapes(world, row);
     pl_body_mass mass;
@@ -164,24 +154,20 @@ plumb_result plumb_body_set_local_center(plumb_world *world, plumb_body body, pl
 plumb_result plumb_body_set_position(plumb_world *world, plumb_body body, plumb_vec2 position)
 {
     uint32_t row;
-    plumb_result r = pl_check_body(world, __func__, body, &row);
-    r = r != PLUMB_OK ? r : pl_place_check(world, __func__, position, 0);
-    r = r != PLUMB_OK ? r : pl_check_unlocked(world, __func__);
-    if (r == PLUMB_OK) {
-        plumb_rot q = { world->bodies.c[row], world->bodies.s[row] };
-        pl_body_place_at(world, row, position, q);
-    }
-    return r;
+    PL_TRY(pl_check_body(world, __func__, body, &row));
+    PL_TRY(pl_place_check(world, __func__, position, 0));
+    PL_TRY(pl_check_unlocked(world, __func__));
+    plumb_rot q = { world->bodies.c[row], world->bodies.s[row] };
+    pl_body_place_at(world, row, position, q);
+    return PLUMB_OK;
 }
 
 plumb_result plumb_body_set_angle(plumb_world *world, plumb_body body, plumb_real angle)
 {
     uint32_t row;
-    plumb_result r = pl_check_body(world, __func__, body, &row);
-    r = r != PLUMB_OK ? r : pl_check_finite(world, __func__, "angle", angle);
-    r = r != PLUMB_OK ? r : pl_check_unlocked(world, __func__);
-    if (r == PLUMB_OK) {
-        pl_body_place(world, row, plumb_v2(world->bodies.x[row], world->bodies.y[row]), angle);
-    }
-    return r;
+    PL_TRY(pl_check_body(world, __func__, body, &row));
+    PL_TRY(pl_check_finite(world, __func__, "angle", angle));
+    PL_TRY(pl_check_unlocked(world, __func__));
+    pl_body_place(world, row, plumb_v2(world->bodies.x[row], world->bodies.y[row]), angle);
+    return PLUMB_OK;
 }

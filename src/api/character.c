@@ -5,6 +5,7 @@
 #include "world/destroy.h"
 #include "character/character.h"
 #include "narrow/surface.h"
+#include "query/query.h"
 
 #include "plumb/math.h"
 #include "world/check.h"
@@ -23,13 +24,13 @@ static plumb_result find(const plumb_world *world, const char *function, plumb_b
                          pl_character **c)
 {
     uint32_t row;
-    plumb_result r = pl_check_body(world, function, body, &row);
-    *c = r == PLUMB_OK ? pl_character_of(world, row) : NULL;
-    if (r == PLUMB_OK && *c == NULL) {
-        r = pl_fail(world, PLUMB_E_HANDLE, function,
-                    "body is no character; it must be made one with plumb_character_create");
-    }
-    return r;
+    *c = NULL;
+    PL_TRY(pl_check_body(world, function, body, &row));
+    *c = pl_character_of(world, row);
+    return *c != NULL
+               ? PLUMB_OK
+               : pl_fail(world, PLUMB_E_HANDLE, function,
+                         "body is no character; it must be made one with plumb_character_create");
 }
 
 bool plumb_body_is_character(const plumb_world *world, plumb_body body)
@@ -58,11 +59,11 @@ static plumb_result check_numbers(const plumb_world *world, const char *fn,
         { "mass", d->mass, PLUMB_REAL_MAX },
         { "push_force", d->push_force, PLUMB_REAL_MAX },
     };
-    plumb_result r = pl_check_finite_vec(world, fn, "up", d->up);
-    for (size_t i = 0; i < sizeof fields / sizeof fields[0] && r == PLUMB_OK; ++i) {
-        r = pl_check_range(world, fn, fields[i].name, fields[i].value, 0, fields[i].high);
+    PL_TRY(pl_check_finite_vec(world, fn, "up", d->up));
+    for (size_t i = 0; i < sizeof fields / sizeof fields[0]; ++i) {
+        PL_TRY(pl_check_range(world, fn, fields[i].name, fields[i].value, 0, fields[i].high));
     }
-    return r;
+    return PLUMB_OK;
 }
 
 // What has no effect is refused, so that nobody waits for it.
@@ -102,9 +103,9 @@ static plumb_result check_unused(const plumb_world *world, const char *fn, bool 
 static plumb_result check_desc(const plumb_world *world, const char *fn, uint32_t row,
                                const plumb_character_desc *d)
 {
-    plumb_result r = check_numbers(world, fn, d);
+    PL_TRY(check_numbers(world, fn, d));
     bool is_dynamic = world->bodies.type[row] == PLUMB_DYNAMIC;
-    return r != PLUMB_OK ? r : check_unused(world, fn, is_dynamic, d);
+    return check_unused(world, fn, is_dynamic, d);
 }
 
 //---- create, destroy -----------------------------------------------------------------------------
@@ -112,15 +113,15 @@ static plumb_result check_desc(const plumb_world *world, const char *fn, uint32_
 static plumb_result check_body(const plumb_world *world, const char *fn, plumb_body body,
                                uint32_t *row)
 {
-    plumb_result r = pl_check_body(world, fn, body, row);
-    r = r != PLUMB_OK ? r : pl_check_unlocked(world, fn);
-    if (r == PLUMB_OK && world->bodies.type[*row] == PLUMB_STATIC) {
-        r = pl_fail(world, PLUMB_E_STATE, fn, "body is static; it must be kinematic or dynamic");
+    PL_TRY(pl_check_body(world, fn, body, row));
+    PL_TRY(pl_check_unlocked(world, fn));
+    if (world->bodies.type[*row] == PLUMB_STATIC) {
+        return pl_fail(world, PLUMB_E_STATE, fn, "body is static; it must be kinematic or dynamic");
     }
-    if (r == PLUMB_OK && world->bodies.character[*row] != 0) {
-        r = pl_fail(world, PLUMB_E_STATE, fn, "body is a character; it must not be one already");
+    if (world->bodies.character[*row] != 0) {
+        return pl_fail(world, PLUMB_E_STATE, fn, "body is a character; it must not be one already");
     }
-    return r;
+    return PLUMB_OK;
 }
 
 static void copy_desc(plumb_character_desc *to,
@@ -132,11 +133,8 @@ plumb_result
     const plumb_character_desc zero = { 0 };
     uint32_t row;
     desc = desc == NULL ? &zero : desc;
-    plumb_result r = check_body(world, __func__, body, &row);
-    r = r != PLUMB_OK ? r : check_desc(world, __func__, row, desc);
-    if (r != PLUMB_OK) {
-        return r;
-    }
+    PL_TRY(check_body(world, __func__, body, &row));
+    PL_TRY(check_desc(world, __func__, row, desc));
     pl_characters *all = &world->characters;
     if (!pl_buffer_reserve(&world->memory, &all->items,
                            ((size_t)all->count + 1) * sizeof(pl_character))) {
@@ -159,12 +157,10 @@ plumb_result
 plumb_result plumb_character_destroy(plumb_world *world, plumb_body body)
 {
     pl_character *c;
-    plumb_result r = find(world, __func__, body, &c);
-    r = r != PLUMB_OK ? r : pl_check_unlocked(world, __func__);
-    if (r == PLUMB_OK) {
-        pl_character_forget(world, pl_body_row(world, body));
-    }
-    return r;
+    PL_TRY(find(world, __func__, body, &c));
+    PL_TRY(pl_check_unlocked(world, __func__));
+    pl_character_forget(world, pl_body_row(world, body));
+    return PLUMB_OK;
 }
 
 void pl_characters_free(pl_memory *memory, pl_characters *all)
@@ -180,12 +176,10 @@ plumb_result plumb_character_settings(const plumb_world *world, plumb_body body,
                                       plumb_character_desc *desc)
 {
     pl_character *c;
-    plumb_result r = find(world, __func__, body, &c);
-    r = r != PLUMB_OK ? r : pl_check_pointer(world, __func__, "desc", desc);
-    if (r == PLUMB_OK) {
-        *desc = c->desc;
-    }
-    return r;
+    PL_TRY(find(world, __func__, body, &c));
+    PL_TRY(pl_check_pointer(world, __func__, "desc", desc));
+    *desc = c->desc;
+    return PLUMB_OK;
 }
 
 plumb_result plumb_character_set(plumb_world *world, plumb_body body,
@@ -193,13 +187,11 @@ plumb_result plumb_character_set(plumb_world *world, plumb_body body,
 {
     const plumb_character_desc zero = { 0 };
     pl_character *c;
-    plumb_result r = find(world, __func__, body, &c);
+    PL_TRY(find(world, __func__, body, &c));
     desc = desc == NULL ? &zero : desc;
-    r = r != PLUMB_OK ? r : check_desc(world, __func__, pl_body_row(world, body), desc);
-    if (r == PLUMB_OK) {
-        copy_desc(&c->desc, desc);
-    }
-    return r;
+    PL_TRY(check_desc(world, __func__, pl_body_row(world, body), desc));
+    copy_desc(&c->desc, desc);
+    return PLUMB_OK;
 }
 
 //---- orders --------------------------------------------------------------------------------------
@@ -207,26 +199,21 @@ plumb_result plumb_character_set(plumb_world *world, plumb_body body,
 plumb_result plumb_character_walk(plumb_world *world, plumb_body body, plumb_real speed)
 {
     pl_character *c;
-    plumb_result r = find(world, __func__, body, &c);
-    r = r != PLUMB_OK ? r
-                      : pl_check_range(world, __func__, "speed", speed, -SPEED_MOST, SPEED_MOST);
-    if (r == PLUMB_OK) {
-        c->walk = pl_rightward(world, speed);
-        c->flies = false;
-    }
-    return r;
+    PL_TRY(find(world, __func__, body, &c));
+    PL_TRY(pl_check_range(world, __func__, "speed", speed, -SPEED_MOST, SPEED_MOST));
+    c->walk = pl_rightward(world, speed);
+    c->flies = false;
+    return PLUMB_OK;
 }
 
 plumb_result plumb_character_fly(plumb_world *world, plumb_body body, plumb_vec2 velocity)
 {
     pl_character *c;
-    plumb_result r = find(world, __func__, body, &c);
-    r = r != PLUMB_OK ? r : pl_check_within(world, __func__, "velocity", velocity, SPEED_MOST);
-    if (r == PLUMB_OK) {
-        c->fly = velocity;
-        c->flies = true;
-    }
-    return r;
+    PL_TRY(find(world, __func__, body, &c));
+    PL_TRY(pl_check_within(world, __func__, "velocity", velocity, SPEED_MOST));
+    c->fly = velocity;
+    c->flies = true;
+    return PLUMB_OK;
 }
 
 bool plumb_character_jump(plumb_world *world, plumb_body body, plumb_real speed)
@@ -248,15 +235,14 @@ bool plumb_character_jump(plumb_world *world, plumb_body body, plumb_real speed)
 plumb_result plumb_character_set_velocity(plumb_world *world, plumb_body body, plumb_vec2 velocity)
 {
     pl_character *c;
-    plumb_result r = find(world, __func__, body, &c);
-    r = r != PLUMB_OK ? r : pl_check_within(world, __func__, "velocity", velocity, SPEED_MOST);
-    if (r == PLUMB_OK && world->bodies.type[pl_body_row(world, body)] == PLUMB_DYNAMIC) {
-        r = plumb_body_set_velocity(world, body, velocity);
-    } else if (r == PLUMB_OK) {
-        c->velocity = velocity;
-        c->thrown = true;
+    PL_TRY(find(world, __func__, body, &c));
+    PL_TRY(pl_check_within(world, __func__, "velocity", velocity, SPEED_MOST));
+    if (world->bodies.type[pl_body_row(world, body)] == PLUMB_DYNAMIC) {
+        return plumb_body_set_velocity(world, body, velocity);
     }
-    return r;
+    c->velocity = velocity;
+    c->thrown = true;
+    return PLUMB_OK;
 }
 
 bool plumb_character_drop(plumb_world *world, plumb_body body)
@@ -287,11 +273,8 @@ plumb_result plumb_character_get(const plumb_world *world, plumb_body body,
                                  plumb_character_state *state)
 {
     pl_character *c;
-    plumb_result r = find(world, __func__, body, &c);
-    r = r != PLUMB_OK ? r : pl_check_pointer(world, __func__, "state", state);
-    if (r != PLUMB_OK) {
-        return r;
-    }
+    PL_TRY(find(world, __func__, body, &c));
+    PL_TRY(pl_check_pointer(world, __func__, "state", state));
     uint32_t row = pl_body_row(world, body);
     bool is_dynamic = world->bodies.type[row] == PLUMB_DYNAMIC;
     const pl_ground *g = &c->ground;
@@ -318,13 +301,8 @@ int plumb_character_hits(const plumb_world *world, plumb_body body, plumb_charac
                          int capacity)
 {
     pl_character *c;
-    plumb_result r = find(world, __func__, body, &c);
-    if (r == PLUMB_OK && capacity < 0) {
-        r = pl_fail(world, PLUMB_E_RANGE, __func__, "capacity is %d; it must be at least 0",
-                    capacity);
-    }
-    r = r != PLUMB_OK || capacity == 0 ? r : pl_check_pointer(world, __func__, "hits", hits);
-    if (r != PLUMB_OK) {
+    if (find(world, __func__, body, &c) != PLUMB_OK ||
+        pl_query_check_output(world, __func__, "hits", hits, capacity) != PLUMB_OK) {
         return -1;
     }
     for (int i = 0; i < c->hit_count && i < capacity; ++i) {

@@ -13,6 +13,7 @@
 
 #include "world/check.h"
 #include "world/desc_list.h"
+#include "world/observer.h"
 #include "world/rows.h"
 
 #include <string.h>
@@ -244,14 +245,10 @@ plumb_result plumb_command_destroy(plumb_world *world, plumb_entity entity)
     if (world == NULL) {
         return PLUMB_E_NULL;
     }
-    plumb_result r = check_expected(world, __func__, entity);
+    PL_TRY(check_expected(world, __func__, entity));
     uint32_t material = pl_material_row(world, (plumb_material){ entity });
-    if (r == PLUMB_OK && material != PL_NONE) {
-        r = pl_check_unused(world, __func__, material);
-    }
-    return r != PLUMB_OK
-               ? r
-               : give(world, __func__, (record){ .kind = DESTROY, .target = entity }, NULL, 0);
+    PL_TRY(material != PL_NONE ? pl_check_unused(world, __func__, material) : PLUMB_OK);
+    return give(world, __func__, (record){ .kind = DESTROY, .target = entity }, NULL, 0);
 }
 
 plumb_result plumb_command_teleport(plumb_world *world, plumb_body body, plumb_vec2 position,
@@ -260,14 +257,14 @@ plumb_result plumb_command_teleport(plumb_world *world, plumb_body body, plumb_v
     if (world == NULL) {
         return PLUMB_E_NULL;
     }
-    plumb_result r = check_expected_body(world, __func__, body);
-    r = r != PLUMB_OK ? r : pl_place_check(world, __func__, position, angle);
+    PL_TRY(check_expected_body(world, __func__, body));
+    PL_TRY(pl_place_check(world, __func__, position, angle));
     record to = { .kind = TELEPORT,
                   .target = body.entity,
                   .x = (double)position.x,
                   .y = (double)position.y,
                   .angle = (double)angle };
-    return r != PLUMB_OK ? r : give(world, __func__, to, NULL, 0);
+    return give(world, __func__, to, NULL, 0);
 }
 
 plumb_result plumb_command_component_set(plumb_world *world, plumb_entity entity,
@@ -276,11 +273,8 @@ plumb_result plumb_command_component_set(plumb_world *world, plumb_entity entity
     if (world == NULL) {
         return PLUMB_E_NULL;
     }
-    plumb_result r = check_expected(world, __func__, entity);
-    r = r != PLUMB_OK ? r : check_component(world, __func__, component);
-    if (r != PLUMB_OK) {
-        return r;
-    }
+    PL_TRY(check_expected(world, __func__, entity));
+    PL_TRY(check_component(world, __func__, component));
     record set = {
         .kind = SET_COMPONENT, .target = entity, .component = component, .has_more = value != NULL
     };
@@ -294,10 +288,10 @@ plumb_result plumb_command_component_remove(plumb_world *world, plumb_entity ent
     if (world == NULL) {
         return PLUMB_E_NULL;
     }
-    plumb_result r = check_expected(world, __func__, entity);
-    r = r != PLUMB_OK ? r : check_component(world, __func__, component);
+    PL_TRY(check_expected(world, __func__, entity));
+    PL_TRY(check_component(world, __func__, component));
     record remove = { .kind = REMOVE_COMPONENT, .target = entity, .component = component };
-    return r != PLUMB_OK ? r : give(world, __func__, remove, NULL, 0);
+    return give(world, __func__, remove, NULL, 0);
 }
 
 //---- carrying out --------------------------------------------------------------------------------
@@ -397,6 +391,9 @@ static plumb_result run_record(plumb_world *world, record *r, const char *payloa
 
 plumb_result pl_commands_run(plumb_world *world)
 {
+    if (world->observer != NULL && world->observer->replays) {
+        return PLUMB_OK;
+    }
     pl_commands *commands = &world->commands;
     size_t end = commands->used; // what hooks append meanwhile is for the next time
     size_t at = 0;
@@ -576,9 +573,6 @@ bool pl_commands_are_sound(const plumb_world *world, const pl_registry *registry
 
 plumb_result plumb_commands_apply(plumb_world *world)
 {
-    if (world == NULL) {
-        return PLUMB_E_NULL;
-    }
-    plumb_result r = pl_check_unlocked(world, __func__);
-    return r != PLUMB_OK ? r : pl_commands_run(world);
+    PL_TRY(pl_check_unlocked(world, __func__));
+    return pl_commands_run(world);
 }

@@ -10,7 +10,7 @@
 void pl_commands_free(pl_memory *memory, pl_commands *commands);
 
 // Carries out the commands that were pending when it began; those given meanwhile (by hooks) stay for
-// the next time. On E_MEMORY the command that failed and those after it stay.
+// the next time. On E_MEMORY the command that failed and those after it stay. A replay has what they did instead.
 plumb_result pl_commands_run(plumb_world *world);
 
 // Adds what is pending to the world hash: all but the user's data.

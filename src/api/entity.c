@@ -21,19 +21,12 @@ plumb_entity plumb_entity_create(plumb_world *world)
 
 plumb_result plumb_entity_destroy(plumb_world *world, plumb_entity entity)
 {
-    plumb_result r = pl_check_entity(world, __func__, entity);
-    r = r != PLUMB_OK ? r : pl_check_unlocked(world, __func__);
-    if (r != PLUMB_OK) {
-        return r;
-    }
+    PL_TRY(pl_check_entity(world, __func__, entity));
+    PL_TRY(pl_check_unlocked(world, __func__));
     uint32_t material = pl_material_row(world, (plumb_material){ entity });
-    if (material != PL_NONE) {
-        r = pl_check_unused(world, __func__, material);
-    }
-    if (r == PLUMB_OK) {
-        pl_destroy_entity(world, entity);
-    }
-    return r;
+    PL_TRY(material != PL_NONE ? pl_check_unused(world, __func__, material) : PLUMB_OK);
+    pl_destroy_entity(world, entity);
+    return PLUMB_OK;
 }
 
 bool plumb_entity_alive(const plumb_world *world, plumb_entity entity)

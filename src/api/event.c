@@ -51,17 +51,12 @@ const plumb_quarantine *plumb_world_quarantine_events(const plumb_world *world, 
 
 plumb_result plumb_world_set_hit_speed(plumb_world *world, plumb_real speed)
 {
-    if (world == NULL) {
-        return PLUMB_E_NULL;
-    }
-    plumb_result r = pl_check_unlocked(world, __func__);
-    r = r != PLUMB_OK ? r : pl_check_range(world, __func__, "speed", speed, 0, PLUMB_REAL_MAX);
-    if (r == PLUMB_OK) {
-        world->desc.hit_speed = speed;
-        world->pending_hits.count =
-            speed > 0 ? world->pending_hits.count : 0; // nobody asks for them any more
-    }
-    return r;
+    PL_TRY(pl_check_unlocked(world, __func__));
+    PL_TRY(pl_check_range(world, __func__, "speed", speed, 0, PLUMB_REAL_MAX));
+    world->desc.hit_speed = speed;
+    world->pending_hits.count =
+        speed > 0 ? world->pending_hits.count : 0; // nobody asks for them any more
+    return PLUMB_OK;
 }
 
 // [rad] by which a row turned in the last step, as the solver left it.

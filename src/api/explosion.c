@@ -51,24 +51,18 @@ typedef struct blast {
 static plumb_result check(const plumb_world *world, const char *fn,
                           const plumb_explosion_desc *desc)
 {
-    plumb_result r = pl_check_pointer(world, fn, "desc", desc);
-    r = r != PLUMB_OK ? r : pl_check_within(world, fn, "position", desc->position, POSITION_MOST);
-    r = r != PLUMB_OK ? r : pl_check_range(world, fn, "radius", desc->radius, 0, REACH_MOST);
-    r = r != PLUMB_OK ? r : pl_check_range(world, fn, "falloff", desc->falloff, 0, REACH_MOST);
-    r = r != PLUMB_OK ? r : pl_check_finite(world, fn, "impulse", desc->impulse);
-    if (r != PLUMB_OK) {
-        return r;
-    }
+    PL_TRY(pl_check_pointer(world, fn, "desc", desc));
+    PL_TRY(pl_check_within(world, fn, "position", desc->position, POSITION_MOST));
+    PL_TRY(pl_check_range(world, fn, "radius", desc->radius, 0, REACH_MOST));
+    PL_TRY(pl_check_range(world, fn, "falloff", desc->falloff, 0, REACH_MOST));
+    PL_TRY(pl_check_finite(world, fn, "impulse", desc->impulse));
     real reach = desc->radius + desc->falloff;
     if (!(reach > 0 && reach <= REACH_MOST)) {
         return pl_fail(world, PLUMB_E_RANGE, fn,
                        "radius + falloff is %g; it must be above 0 and at most %g", (double)reach,
                        (double)REACH_MOST);
     }
-    r = pl_query_check_reach(world, fn, "the blast", 2 * (double)reach, 2 * (double)reach);
-    if (r != PLUMB_OK) {
-        return r;
-    }
+    PL_TRY(pl_query_check_reach(world, fn, "the blast", 2 * (double)reach, 2 * (double)reach));
     return (unsigned)desc->occlusion <= PLUMB_OCCLUDE_ALL
                ? PLUMB_OK
                : pl_fail(world, PLUMB_E_RANGE, fn, "occlusion is %d; it must be a plumb_occlusion",
@@ -330,11 +324,8 @@ plumb_result plumb_world_explode(plumb_world *world, const plumb_explosion_desc 
         return PLUMB_E_NULL;
     }
     pl_query q;
-    plumb_result r = check(world, __func__, desc);
-    r = r != PLUMB_OK ? r : pl_query_begin(&q, world, __func__, &desc->filter);
-    if (r != PLUMB_OK) {
-        return r;
-    }
+    PL_TRY(check(world, __func__, desc));
+    PL_TRY(pl_query_begin(&q, world, __func__, &desc->filter));
     blast b = { .world = world,
                 .desc = desc,
                 .reach = (double)desc->radius + (double)desc->falloff };
@@ -347,6 +338,7 @@ plumb_result plumb_world_explode(plumb_world *world, const plumb_explosion_desc 
     }
     pl_query_one_per_shape(&q);
     pl_buffer list = { 0 };
+    plumb_result r = PLUMB_OK;
     if (!pl_buffer_reserve(&world->memory, &list, q.count * sizeof(pushed))) {
         q.out_of_memory = true;
     } else if (!q.out_of_memory && q.count > 0) {

@@ -33,9 +33,8 @@ static plumb_result check_ends(const plumb_world *world, const char *fn, const p
 static plumb_result check_numbers(const plumb_world *world, const char *fn,
                                   const plumb_joint_desc *d)
 {
-    plumb_result r = pl_check_desc(world, fn, "", PLUMB_TABLE_JOINT, d);
-    return r != PLUMB_OK ? r
-                         : pl_check_range(world, fn, "upper", d->upper, d->lower, PLUMB_REAL_MAX);
+    PL_TRY(pl_check_desc(world, fn, "", PLUMB_TABLE_JOINT, d));
+    return pl_check_range(world, fn, "upper", d->upper, d->lower, PLUMB_REAL_MAX);
 }
 
 static bool is_set(plumb_vec2 v)
@@ -108,11 +107,11 @@ static plumb_result check_desc(const plumb_world *world, const char *fn, plumb_j
         return pl_fail(world, PLUMB_E_RANGE, fn, "kind is %d; it must be a plumb_joint_kind",
                        (int)d->kind);
     }
-    plumb_result r = check_ends(world, fn, d);
-    r = r != PLUMB_OK ? r : check_numbers(world, fn, d);
-    r = r != PLUMB_OK ? r : check_members(world, fn, d);
+    PL_TRY(check_ends(world, fn, d));
+    PL_TRY(check_numbers(world, fn, d));
+    PL_TRY(check_members(world, fn, d));
     const pl_joint_class *kind = pl_joint_classes[d->kind];
-    return r == PLUMB_OK && kind->check != NULL ? kind->check(world, fn, d) : r;
+    return kind->check != NULL ? kind->check(world, fn, d) : PLUMB_OK;
 }
 
 static bool reserve(plumb_world *world)
@@ -214,15 +213,9 @@ plumb_joint plumb_joint_create(plumb_world *world, const plumb_joint_desc *desc)
 
 plumb_result plumb_joint_destroy(plumb_world *world, plumb_joint joint)
 {
-    if (world == NULL) {
-        return PLUMB_E_NULL;
-    }
-    if (pl_joint_slot(world, joint) == PL_NONE) {
-        return pl_fail_handle(world, __func__, "joint", joint.entity, "a live joint");
-    }
-    plumb_result r = pl_check_unlocked(world, __func__);
-    if (r == PLUMB_OK) {
-        pl_destroy_entity(world, joint.entity);
-    }
-    return r;
+    pl_joint *j;
+    PL_TRY(pl_check_joint(world, __func__, joint, &j));
+    PL_TRY(pl_check_unlocked(world, __func__));
+    pl_destroy_entity(world, joint.entity);
+    return PLUMB_OK;
 }

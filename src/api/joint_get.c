@@ -8,19 +8,6 @@
 
 #include <math.h>
 
-// Null, and a refusal in the log, for a bad handle.
-static const pl_joint *find(const plumb_world *world, const char *fn, plumb_joint joint)
-{
-    uint32_t slot = pl_joint_slot(world, joint);
-    if (slot != PL_NONE) {
-        return &pl_joint_items(&world->joints)[slot];
-    }
-    if (world != NULL) {
-        pl_fail_handle(world, fn, "joint", joint.entity, "a live joint");
-    }
-    return NULL;
-}
-
 bool plumb_joint_valid(const plumb_world *world, plumb_joint joint)
 {
     return pl_joint_slot(world, joint) != PL_NONE;
@@ -28,13 +15,13 @@ bool plumb_joint_valid(const plumb_world *world, plumb_joint joint)
 
 bool plumb_joint_is_enabled(const plumb_world *world, plumb_joint joint)
 {
-    const pl_joint *j = find(world, __func__, joint);
+    const pl_joint *j = pl_ask_joint(world, __func__, joint);
     return j != NULL && !j->desc.disabled;
 }
 
 plumb_joint_kind plumb_joint_get_kind(const plumb_world *world, plumb_joint joint)
 {
-    const pl_joint *j = find(world, __func__, joint);
+    const pl_joint *j = pl_ask_joint(world, __func__, joint);
     return j == NULL ? PLUMB_REVOLUTE : j->desc.kind;
 }
 
@@ -45,25 +32,25 @@ const char *plumb_joint_kind_name(plumb_joint_kind kind)
 
 plumb_body plumb_joint_body_a(const plumb_world *world, plumb_joint joint)
 {
-    const pl_joint *j = find(world, __func__, joint);
+    const pl_joint *j = pl_ask_joint(world, __func__, joint);
     return j == NULL ? (plumb_body)PLUMB_NULL_INIT : j->a.body;
 }
 
 plumb_body plumb_joint_body_b(const plumb_world *world, plumb_joint joint)
 {
-    const pl_joint *j = find(world, __func__, joint);
+    const pl_joint *j = pl_ask_joint(world, __func__, joint);
     return j == NULL ? (plumb_body)PLUMB_NULL_INIT : j->b.body;
 }
 
 plumb_vec2 plumb_joint_anchor_a(const plumb_world *world, plumb_joint joint)
 {
-    const pl_joint *j = find(world, __func__, joint);
+    const pl_joint *j = pl_ask_joint(world, __func__, joint);
     return j == NULL ? plumb_v2(0, 0) : pl_joint_anchor(world, &j->a);
 }
 
 plumb_vec2 plumb_joint_anchor_b(const plumb_world *world, plumb_joint joint)
 {
-    const pl_joint *j = find(world, __func__, joint);
+    const pl_joint *j = pl_ask_joint(world, __func__, joint);
     return j == NULL ? plumb_v2(0, 0) : pl_joint_anchor(world, &j->b);
 }
 
@@ -73,20 +60,18 @@ plumb_result plumb_joint_settings(const plumb_world *world, plumb_joint joint,
     if (world == NULL) {
         return PLUMB_E_NULL;
     }
-    const pl_joint *j = find(world, __func__, joint);
+    const pl_joint *j = pl_ask_joint(world, __func__, joint);
     if (j == NULL) {
         return PLUMB_E_HANDLE;
     }
-    plumb_result r = pl_check_pointer(world, __func__, "desc", desc);
-    if (r == PLUMB_OK) {
-        *desc = j->desc;
-    }
-    return r;
+    PL_TRY(pl_check_pointer(world, __func__, "desc", desc));
+    *desc = j->desc;
+    return PLUMB_OK;
 }
 
 plumb_real plumb_joint_value(const plumb_world *world, plumb_joint joint)
 {
-    const pl_joint *j = find(world, __func__, joint);
+    const pl_joint *j = pl_ask_joint(world, __func__, joint);
     if (j == NULL) {
         return 0;
     }
@@ -102,7 +87,7 @@ static bool is_rigid(const pl_row *r)
 
 plumb_real plumb_joint_error(const plumb_world *world, plumb_joint joint)
 {
-    const pl_joint *j = find(world, __func__, joint);
+    const pl_joint *j = pl_ask_joint(world, __func__, joint);
     if (j == NULL) {
         return 0;
     }
@@ -123,19 +108,19 @@ plumb_real plumb_joint_error(const plumb_world *world, plumb_joint joint)
 
 plumb_vec2 plumb_joint_force(const plumb_world *world, plumb_joint joint)
 {
-    const pl_joint *j = find(world, __func__, joint);
+    const pl_joint *j = pl_ask_joint(world, __func__, joint);
     return j == NULL ? plumb_v2(0, 0) : j->force;
 }
 
 plumb_real plumb_joint_torque(const plumb_world *world, plumb_joint joint)
 {
-    const pl_joint *j = find(world, __func__, joint);
+    const pl_joint *j = pl_ask_joint(world, __func__, joint);
     return j == NULL ? 0 : j->torque;
 }
 
 void *plumb_joint_user_data(const plumb_world *world, plumb_joint joint)
 {
-    const pl_joint *j = find(world, __func__, joint);
+    const pl_joint *j = pl_ask_joint(world, __func__, joint);
     return j == NULL ? NULL : j->desc.user_data;
 }
 

@@ -15,28 +15,12 @@
 _Static_assert(sizeof((plumb_joint_memory *)0)->impulses == PL_JOINT_ROWS * sizeof(real),
                "one impulse a row");
 
-static pl_joint *find(const plumb_world *world, const char *fn, plumb_joint joint,
-                      plumb_result *result)
-{
-    uint32_t slot = pl_joint_slot(world, joint);
-    if (slot != PL_NONE) {
-        *result = PLUMB_OK;
-        return &pl_joint_items(&world->joints)[slot];
-    }
-    *result = world == NULL ? PLUMB_E_NULL
-                            : pl_fail_handle(world, fn, "joint", joint.entity, "a live joint");
-    return NULL;
-}
-
 plumb_result plumb_joint_get_memory(const plumb_world *world, plumb_joint joint,
                                     plumb_joint_memory *memory)
 {
-    plumb_result r;
-    const pl_joint *j = find(world, __func__, joint, &r);
-    r = r != PLUMB_OK ? r : pl_check_pointer(world, __func__, "memory", memory);
-    if (r != PLUMB_OK) {
-        return r;
-    }
+    pl_joint *j;
+    PL_TRY(pl_check_joint(world, __func__, joint, &j));
+    PL_TRY(pl_check_pointer(world, __func__, "memory", memory));
     pl_joint now = *j;
     pl_joint_begin(world, &now); // counts the turns of the last step
     *memory = (plumb_joint_memory){
@@ -59,23 +43,23 @@ plumb_result plumb_joint_get_memory(const plumb_world *world, plumb_joint joint,
 
 static plumb_result check(const plumb_world *world, const char *fn, const plumb_joint_memory *m)
 {
-    plumb_result r = pl_check_within(world, fn, "anchor_a", m->anchor_a, POINT_MOST);
-    r = r != PLUMB_OK ? r : pl_check_within(world, fn, "anchor_b", m->anchor_b, POINT_MOST);
-    r = r != PLUMB_OK ? r : pl_check_finite_vec(world, fn, "axis", m->axis);
-    r = r != PLUMB_OK ? r : pl_check_finite_vec(world, fn, "offset", m->offset);
-    r = r != PLUMB_OK ? r : pl_check_finite(world, fn, "start_a", m->start_a);
-    r = r != PLUMB_OK ? r : pl_check_finite(world, fn, "start_b", m->start_b);
-    r = r != PLUMB_OK ? r : pl_check_finite(world, fn, "kept", m->kept);
-    r = r != PLUMB_OK ? r : pl_check_range(world, fn, "substep", m->substep, 0, 1);
-    for (int i = 0; i < PL_JOINT_ROWS && r == PLUMB_OK; ++i) {
-        r = pl_check_finite(world, fn, "impulses", m->impulses[i]);
+    PL_TRY(pl_check_within(world, fn, "anchor_a", m->anchor_a, POINT_MOST));
+    PL_TRY(pl_check_within(world, fn, "anchor_b", m->anchor_b, POINT_MOST));
+    PL_TRY(pl_check_finite_vec(world, fn, "axis", m->axis));
+    PL_TRY(pl_check_finite_vec(world, fn, "offset", m->offset));
+    PL_TRY(pl_check_finite(world, fn, "start_a", m->start_a));
+    PL_TRY(pl_check_finite(world, fn, "start_b", m->start_b));
+    PL_TRY(pl_check_finite(world, fn, "kept", m->kept));
+    PL_TRY(pl_check_range(world, fn, "substep", m->substep, 0, 1));
+    for (int i = 0; i < PL_JOINT_ROWS; ++i) {
+        PL_TRY(pl_check_finite(world, fn, "impulses", m->impulses[i]));
     }
     real length = plumb_vec2_magnitude(m->axis);
-    if (r == PLUMB_OK && length != 0 && plumb_abs(length - 1) > UNIT_SLACK) {
-        r = pl_fail(world, PLUMB_E_RANGE, fn, "axis is (%g, %g); it must have length 1, or be 0",
-                    (double)m->axis.x, (double)m->axis.y);
+    if (length != 0 && plumb_abs(length - 1) > UNIT_SLACK) {
+        return pl_fail(world, PLUMB_E_RANGE, fn, "axis is (%g, %g); it must have length 1, or be 0",
+                       (double)m->axis.x, (double)m->axis.y);
     }
-    return r;
+    return PLUMB_OK;
 }
 
 static void recall(const plumb_world *world, pl_joint_end *end, plumb_vec2 anchor, real start,
@@ -92,14 +76,11 @@ static void recall(const plumb_world *world, pl_joint_end *end, plumb_vec2 ancho
 plumb_result plumb_joint_set_memory(plumb_world *world, plumb_joint joint,
                                     const plumb_joint_memory *memory)
 {
-    plumb_result r;
-    pl_joint *j = find(world, __func__, joint, &r);
-    r = r != PLUMB_OK ? r : pl_check_unlocked(world, __func__);
-    r = r != PLUMB_OK ? r : pl_check_pointer(world, __func__, "memory", memory);
-    r = r != PLUMB_OK ? r : check(world, __func__, memory);
-    if (r != PLUMB_OK) {
-        return r;
-    }
+    pl_joint *j;
+    PL_TRY(pl_check_joint(world, __func__, joint, &j));
+    PL_TRY(pl_check_unlocked(world, __func__));
+    PL_TRY(pl_check_pointer(world, __func__, "memory", memory));
+    PL_TRY(check(world, __func__, memory));
     recall(world, &j->a, memory->anchor_a, memory->start_a, memory->turns_a);
     recall(world, &j->b, memory->anchor_b, memory->start_b, memory->turns_b);
     j->axis = memory->axis;

@@ -10,14 +10,14 @@
 static plumb_result check_desc(const plumb_world *world, const char *fn,
                                const plumb_material_desc *desc)
 {
-    plumb_result r = pl_check_pointer(world, fn, "desc", desc);
-    r = r != PLUMB_OK ? r : pl_check_desc(world, fn, "", PLUMB_TABLE_MATERIAL, desc);
-    if (r == PLUMB_OK && desc->frictionless && desc->friction != 0) {
-        r = pl_fail(world, PLUMB_E_RANGE, fn,
-                    "friction is %g; it must be 0 together with frictionless",
-                    (double)desc->friction);
+    PL_TRY(pl_check_pointer(world, fn, "desc", desc));
+    PL_TRY(pl_check_desc(world, fn, "", PLUMB_TABLE_MATERIAL, desc));
+    if (desc->frictionless && desc->friction != 0) {
+        return pl_fail(world, PLUMB_E_RANGE, fn,
+                       "friction is %g; it must be 0 together with frictionless",
+                       (double)desc->friction);
     }
-    return r;
+    return PLUMB_OK;
 }
 
 void pl_material_fill(plumb_world *world, uint32_t row, const plumb_material_desc *desc)
@@ -66,37 +66,30 @@ plumb_result plumb_material_destroy(plumb_world *world, plumb_material material)
     if (row == PL_NONE) {
         return pl_fail_handle(world, __func__, "material", material.entity, "a live material");
     }
-    plumb_result r = pl_check_unlocked(world, __func__);
-    r = r != PLUMB_OK ? r : pl_check_unused(world, __func__, row);
-    if (r == PLUMB_OK) {
-        pl_destroy_entity(world, material.entity);
-    }
-    return r;
+    PL_TRY(pl_check_unlocked(world, __func__));
+    PL_TRY(pl_check_unused(world, __func__, row));
+    pl_destroy_entity(world, material.entity);
+    return PLUMB_OK;
 }
 
 plumb_result plumb_material_get(const plumb_world *world, plumb_material material,
                                 plumb_material_desc *desc)
 {
     uint32_t row;
-    plumb_result r = pl_check_material(world, __func__, material, &row);
-    r = r != PLUMB_OK ? r : pl_check_pointer(world, __func__, "desc", desc);
-    if (r == PLUMB_OK) {
-        const pl_materials *m = &world->materials;
-        *desc = (plumb_material_desc){ .density = 0 };
-        PL_MATERIAL_ROWS(PL_ROW_GET, m)
-    }
-    return r;
+    PL_TRY(pl_check_material(world, __func__, material, &row));
+    PL_TRY(pl_check_pointer(world, __func__, "desc", desc));
+    const pl_materials *m = &world->materials;
+    *desc = (plumb_material_desc){ .density = 0 };
+    PL_MATERIAL_ROWS(PL_ROW_GET, m)
+    return PLUMB_OK;
 }
 
 plumb_result plumb_material_set(plumb_world *world, plumb_material material,
                                 const plumb_material_desc *desc)
 {
     uint32_t row;
-    plumb_result r = pl_check_material(world, __func__, material, &row);
-    r = r != PLUMB_OK ? r : check_desc(world, __func__, desc);
-    if (r != PLUMB_OK) {
-        return r;
-    }
+    PL_TRY(pl_check_material(world, __func__, material, &row));
+    PL_TRY(check_desc(world, __func__, desc));
     pl_material_fill(world, row, desc);
     pl_pieces *pieces = &world->pieces;
     for (uint32_t p = 0; p < pieces->table.count; ++p) {

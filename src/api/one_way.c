@@ -17,17 +17,14 @@
 plumb_result pl_one_way_check(const plumb_world *world, const char *function,
                               const plumb_one_way *one_way)
 {
-    plumb_result r = pl_check_finite_vec(world, function, "one_way.direction", one_way->direction);
-    r = r != PLUMB_OK
-            ? r
-            : pl_check_range(world, function, "one_way.angle", one_way->angle, 0, RIGHT_ANGLE);
-    if (r == PLUMB_OK && one_way->direction.x == 0 && one_way->direction.y == 0 &&
-        one_way->angle != 0) {
-        r = pl_fail(world, PLUMB_E_RANGE, function,
-                    "one_way.angle is %g; it must be 0 without one_way.direction",
-                    (double)one_way->angle);
+    PL_TRY(pl_check_finite_vec(world, function, "one_way.direction", one_way->direction));
+    PL_TRY(pl_check_range(world, function, "one_way.angle", one_way->angle, 0, RIGHT_ANGLE));
+    if (one_way->direction.x == 0 && one_way->direction.y == 0 && one_way->angle != 0) {
+        return pl_fail(world, PLUMB_E_RANGE, function,
+                       "one_way.angle is %g; it must be 0 without one_way.direction",
+                       (double)one_way->angle);
     }
-    return r;
+    return PLUMB_OK;
 }
 
 void pl_one_way_apply(plumb_world *world, uint32_t first, const plumb_one_way *one_way)
@@ -64,26 +61,22 @@ plumb_one_way plumb_shape_one_way(const plumb_world *world, plumb_shape shape)
 plumb_result plumb_shape_set_one_way(plumb_world *world, plumb_shape shape, plumb_one_way one_way)
 {
     uint32_t first;
-    plumb_result r = pl_check_shape(world, __func__, shape, &first);
-    r = r != PLUMB_OK ? r : pl_one_way_check(world, __func__, &one_way);
-    if (r == PLUMB_OK) {
-        pl_one_way_apply(world, first, &one_way);
-        pl_sleep_disturb_piece(world, first);
-        world->rearranged = true;
-    }
-    return r;
+    PL_TRY(pl_check_shape(world, __func__, shape, &first));
+    PL_TRY(pl_one_way_check(world, __func__, &one_way));
+    pl_one_way_apply(world, first, &one_way);
+    pl_sleep_disturb_piece(world, first);
+    world->rearranged = true;
+    return PLUMB_OK;
 }
 
 plumb_result plumb_body_drop_through(plumb_world *world, plumb_body body)
 {
     uint32_t row;
-    plumb_result r = pl_check_dynamic(world, __func__, body, &row);
-    if (r == PLUMB_OK) {
-        pl_sleep_stir(world, row);
-        // Else nobody would take the request back.
-        bool any = world->one_way_pieces > 0 && (world->bodies.flags[row] & PL_BODY_DISABLED) == 0;
-        world->bodies.flags[row] |= any ? PL_BODY_DROPPING : 0;
-        world->dropping_bodies += any;
-    }
-    return r;
+    PL_TRY(pl_check_dynamic(world, __func__, body, &row));
+    pl_sleep_stir(world, row);
+    // Else nobody would take the request back.
+    bool any = world->one_way_pieces > 0 && (world->bodies.flags[row] & PL_BODY_DISABLED) == 0;
+    world->bodies.flags[row] |= any ? PL_BODY_DROPPING : 0;
+    world->dropping_bodies += any;
+    return PLUMB_OK;
 }

@@ -49,10 +49,7 @@ plumb_result pl_shape_insert(plumb_world *world, const char *fn, uint32_t row,
     uint32_t material = plumb_is_null(desc->material) ? 0 : pl_material_row(world, desc->material);
     real density = desc->density > 0 ? desc->density : world->materials.density[material];
     density = is_line(desc) || desc->sensor ? 0 : density;
-    plumb_result r = check_mass(world, fn, row, made, density);
-    if (r != PLUMB_OK) {
-        return r;
-    }
+    PL_TRY(check_mass(world, fn, row, made, density));
     if (!pl_registry_reserve(&world->memory, &world->registry, 1) ||
         !pl_pieces_reserve(world, made->count) ||
         !pl_pool_reserve(&world->memory, &world->vertices, made->corners)) {
@@ -95,12 +92,10 @@ plumb_shape plumb_shape_create(plumb_world *world, plumb_body body, const plumb_
 plumb_result plumb_shape_destroy(plumb_world *world, plumb_shape shape)
 {
     uint32_t first;
-    plumb_result r = pl_check_shape(world, __func__, shape, &first);
-    r = r != PLUMB_OK ? r : pl_check_unlocked(world, __func__);
-    if (r == PLUMB_OK) {
-        pl_destroy_entity(world, shape.entity);
-    }
-    return r;
+    PL_TRY(pl_check_shape(world, __func__, shape, &first));
+    PL_TRY(pl_check_unlocked(world, __func__));
+    pl_destroy_entity(world, shape.entity);
+    return PLUMB_OK;
 }
 
 //---- setters -------------------------------------------------------------------------------------
@@ -110,11 +105,8 @@ plumb_result plumb_shape_set_material(plumb_world *world, plumb_shape shape,
 {
     uint32_t first;
     uint32_t row;
-    plumb_result r = pl_check_shape(world, __func__, shape, &first);
-    r = r != PLUMB_OK ? r : pl_check_material(world, __func__, material, &row);
-    if (r != PLUMB_OK) {
-        return r;
-    }
+    PL_TRY(pl_check_shape(world, __func__, shape, &first));
+    PL_TRY(pl_check_material(world, __func__, material, &row));
     for (uint32_t p = first; p != PL_NONE; p = world->pieces.next_in_shape[p]) {
         --world->materials.users[world->pieces.material[p]];
         if (world->pieces.material[p] != row) {
@@ -129,11 +121,8 @@ plumb_result plumb_shape_set_material(plumb_world *world, plumb_shape shape,
 plumb_result plumb_shape_set_density(plumb_world *world, plumb_shape shape, plumb_real density)
 {
     uint32_t first;
-    plumb_result r = pl_check_shape(world, __func__, shape, &first);
-    r = r != PLUMB_OK ? r : pl_check_range(world, __func__, "density", density, 0, PLUMB_REAL_MAX);
-    if (r != PLUMB_OK) {
-        return r;
-    }
+    PL_TRY(pl_check_shape(world, __func__, shape, &first));
+    PL_TRY(pl_check_range(world, __func__, "density", density, 0, PLUMB_REAL_MAX));
     pl_pieces *pieces = &world->pieces;
     uint32_t row = pieces->body[first];
     real own = pieces->own_density[first], old = pieces->density[first];
@@ -141,7 +130,7 @@ plumb_result plumb_shape_set_density(plumb_world *world, plumb_shape shape, plum
         pieces->own_density[p] = density;
         pieces->density[p] = pl_density_of(world, p);
     }
-    r = check_mass(world, __func__, row, &(pl_made){ 0 }, density);
+    const plumb_result r = check_mass(world, __func__, row, &(pl_made){ 0 }, density);
     for (uint32_t p = first; r != PLUMB_OK && p != PL_NONE; p = pieces->next_in_shape[p]) {
         pieces->own_density[p] = own;
         pieces->density[p] = old;
@@ -157,12 +146,9 @@ plumb_result plumb_shape_set_geometry(plumb_world *world, plumb_shape shape,
                                       const plumb_shape_desc *desc)
 {
     uint32_t first;
-    plumb_result r = pl_check_shape(world, __func__, shape, &first);
-    r = r != PLUMB_OK ? r : pl_check_pointer(world, __func__, "desc", desc);
-    r = r != PLUMB_OK ? r : pl_check_unlocked(world, __func__);
-    if (r != PLUMB_OK) {
-        return r;
-    }
+    PL_TRY(pl_check_shape(world, __func__, shape, &first));
+    PL_TRY(pl_check_pointer(world, __func__, "desc", desc));
+    PL_TRY(pl_check_unlocked(world, __func__));
     const pl_pieces *pieces = &world->pieces;
     uint32_t row = pieces->body[first];
     plumb_shape_desc wanted = *desc;
@@ -173,25 +159,21 @@ plumb_result plumb_shape_set_geometry(plumb_world *world, plumb_shape shape,
     wanted.sensor = plumb_shape_is_sensor(world, shape);
     wanted.user_data = pieces->user_data[first];
     pl_made made;
-    r = pl_shape_make(world, __func__, &wanted, &made);
+    PL_TRY(pl_shape_make(world, __func__, &wanted, &made));
     // The new pieces take the handle over while the old ones are there: only then can nothing fail.
-    r = r != PLUMB_OK ? r : pl_shape_insert(world, __func__, row, &wanted, &made, &shape);
-    if (r == PLUMB_OK) {
-        pl_pieces_remove(world, first);
-        pl_mass_revise(world, row);
-        pl_sleep_disturb(world, row);
-    }
-    return r;
+    PL_TRY(pl_shape_insert(world, __func__, row, &wanted, &made, &shape));
+    pl_pieces_remove(world, first);
+    pl_mass_revise(world, row);
+    pl_sleep_disturb(world, row);
+    return PLUMB_OK;
 }
 
 plumb_result plumb_shape_set_user_data(plumb_world *world, plumb_shape shape, void *user_data)
 {
     uint32_t first;
-    plumb_result r = pl_check_shape(world, __func__, shape, &first);
-    if (r == PLUMB_OK) {
-        world->pieces.user_data[first] = user_data;
-    }
-    return r;
+    PL_TRY(pl_check_shape(world, __func__, shape, &first));
+    world->pieces.user_data[first] = user_data;
+    return PLUMB_OK;
 }
 
 //---- getters -------------------------------------------------------------------------------------
@@ -262,11 +244,8 @@ plumb_result plumb_shape_piece(const plumb_world *world, plumb_shape shape, int 
                                plumb_convex *piece, uint32_t *cuts)
 {
     uint32_t p;
-    plumb_result r = pl_check_shape(world, __func__, shape, &p);
-    r = r != PLUMB_OK ? r : pl_check_pointer(world, __func__, "piece", piece);
-    if (r != PLUMB_OK) {
-        return r;
-    }
+    PL_TRY(pl_check_shape(world, __func__, shape, &p));
+    PL_TRY(pl_check_pointer(world, __func__, "piece", piece));
     int count = plumb_shape_piece_count(world, shape);
     if (i < 0 || i >= count) {
         return pl_fail(world, PLUMB_E_RANGE, __func__, "i is %d; it must be 0 to %d", i, count - 1);

@@ -81,67 +81,61 @@ static plumb_result check_points(const maker *m, const kind_fields *kind)
 {
     const plumb_shape_desc *d = m->desc;
     int low = d->closed ? 3 : kind->count_low;
-    plumb_result r = pl_check_pointer(m->world, m->fn, "points", d->points);
-    if (r == PLUMB_OK && kind->count_high == INT32_MAX && d->count < low) {
-        r = pl_fail(m->world, PLUMB_E_RANGE, m->fn, "count is %d; it must be at least %d for %s",
-                    d->count, low, d->closed ? "a closed chain" : kind->name);
-    } else if (r == PLUMB_OK && low == kind->count_high && d->count != low) {
-        r = pl_fail(m->world, PLUMB_E_RANGE, m->fn, "count is %d; it must be %d for %s", d->count,
-                    low, kind->name);
-    } else if (r == PLUMB_OK && (d->count < low || d->count > kind->count_high)) {
-        r = pl_fail(m->world, PLUMB_E_RANGE, m->fn, "count is %d; it must be %d to %d for %s",
-                    d->count, low, kind->count_high, kind->name);
+    PL_TRY(pl_check_pointer(m->world, m->fn, "points", d->points));
+    if (kind->count_high == INT32_MAX && d->count < low) {
+        return pl_fail(m->world, PLUMB_E_RANGE, m->fn, "count is %d; it must be at least %d for %s",
+                       d->count, low, d->closed ? "a closed chain" : kind->name);
     }
-    for (int i = 0; i < d->count && r == PLUMB_OK; ++i) {
+    if (low == kind->count_high && d->count != low) {
+        return pl_fail(m->world, PLUMB_E_RANGE, m->fn, "count is %d; it must be %d for %s",
+                       d->count, low, kind->name);
+    }
+    if (d->count < low || d->count > kind->count_high) {
+        return pl_fail(m->world, PLUMB_E_RANGE, m->fn, "count is %d; it must be %d to %d for %s",
+                       d->count, low, kind->count_high, kind->name);
+    }
+    for (int i = 0; i < d->count; ++i) {
         plumb_vec2 p = d->points[i];
         if (!(plumb_abs(p.x) <= PLUMB_LENGTH_MAX && plumb_abs(p.y) <= PLUMB_LENGTH_MAX)) {
             char field[32];
             snprintf(field, sizeof field, "points[%d]", i);
-            r = pl_check_within(m->world, m->fn, field, p, PLUMB_LENGTH_MAX);
+            return pl_check_within(m->world, m->fn, field, p, PLUMB_LENGTH_MAX);
         }
     }
-    return r;
+    return PLUMB_OK;
 }
 
 static plumb_result check_numbers(const maker *m, const kind_fields *kind)
 {
     const plumb_shape_desc *d = m->desc;
-    plumb_result r = pl_check_within(m->world, m->fn, "center", d->center, PLUMB_LENGTH_MAX);
-    if (r == PLUMB_OK && (kind->has & HAS_RADIUS)) {
-        r = pl_check_range(m->world, m->fn, "radius", d->radius, kind->radius_low,
-                           PLUMB_LENGTH_MAX);
+    const real least = PLUMB_LENGTH_MIN, most = PLUMB_LENGTH_MAX;
+    PL_TRY(pl_check_within(m->world, m->fn, "center", d->center, most));
+    if (kind->has & HAS_RADIUS) {
+        PL_TRY(pl_check_range(m->world, m->fn, "radius", d->radius, kind->radius_low, most));
     }
-    if (r == PLUMB_OK && (kind->has & HAS_HALF)) {
-        r = pl_check_range(m->world, m->fn, "half.x", d->half.x, PLUMB_LENGTH_MIN,
-                           PLUMB_LENGTH_MAX);
-        r = r != PLUMB_OK ? r
-                          : pl_check_range(m->world, m->fn, "half.y", d->half.y, PLUMB_LENGTH_MIN,
-                                           PLUMB_LENGTH_MAX);
+    if (kind->has & HAS_HALF) {
+        PL_TRY(pl_check_range(m->world, m->fn, "half.x", d->half.x, least, most));
+        PL_TRY(pl_check_range(m->world, m->fn, "half.y", d->half.y, least, most));
     }
-    r = r != PLUMB_OK ? r : pl_check_finite(m->world, m->fn, "angle", d->angle);
-    return r != PLUMB_OK
-               ? r
-               : pl_check_range(m->world, m->fn, "density", d->density, 0, PLUMB_REAL_MAX);
+    PL_TRY(pl_check_finite(m->world, m->fn, "angle", d->angle));
+    return pl_check_range(m->world, m->fn, "density", d->density, 0, PLUMB_REAL_MAX);
 }
 
 static plumb_result check_desc(const maker *m)
 {
-    plumb_result r = pl_check_pointer(m->world, m->fn, "desc", m->desc);
-    if (r != PLUMB_OK) {
-        return r;
-    }
+    PL_TRY(pl_check_pointer(m->world, m->fn, "desc", m->desc));
     if ((unsigned)m->desc->kind >= PLUMB_SHAPE_KINDS) {
         return pl_fail(m->world, PLUMB_E_RANGE, m->fn, "kind is %d; it must be a plumb_shape_kind",
                        (int)m->desc->kind);
     }
     const kind_fields *kind = &kinds[m->desc->kind];
-    r = check_unused(m, kind);
-    r = r != PLUMB_OK ? r : check_numbers(m, kind);
-    if (r == PLUMB_OK && (kind->has & HAS_POINTS)) {
-        r = check_points(m, kind);
+    PL_TRY(check_unused(m, kind));
+    PL_TRY(check_numbers(m, kind));
+    if (kind->has & HAS_POINTS) {
+        PL_TRY(check_points(m, kind));
     }
     uint32_t row;
-    return r != PLUMB_OK ? r : pl_check_material(m->world, m->fn, m->desc->material, &row);
+    return pl_check_material(m->world, m->fn, m->desc->material, &row);
 }
 
 // The values were in range one by one; what is left is what they make together.
@@ -333,10 +327,7 @@ static plumb_result make_single(const maker *m)
         return PLUMB_E_MEMORY;
     }
     pl_made_piece *piece = add_piece(m);
-    plumb_result r = make_convex(d, &piece->convex);
-    if (r != PLUMB_OK) {
-        return r;
-    }
+    PL_TRY(make_convex(d, &piece->convex));
     switch (d->kind) {
     case PLUMB_CIRCLE:
         finish_circle(m, piece);
@@ -441,10 +432,7 @@ static plumb_result make_outline(const maker *m)
     }
     plumb_convex_piece *parts = scratch->data;
     int count;
-    plumb_result r = plumb_outline_decompose(d->points, d->count, parts, most, &count);
-    if (r != PLUMB_OK) {
-        return r;
-    }
+    PL_TRY(plumb_outline_decompose(d->points, d->count, parts, most, &count));
     real size = 0;
     for (int i = 0; i < d->count; ++i) {
         size = plumb_max(size, plumb_vec2_distance(d->points[i], d->points[0]));
@@ -470,30 +458,19 @@ plumb_result pl_shape_make(plumb_world *world, const char *function, const plumb
 {
     maker m = { world, function, desc, made };
     *made = (pl_made){ 0 };
-    plumb_result r = check_desc(&m);
-    r = r != PLUMB_OK ? r : pl_filter_check(world, function, &desc->filter);
-    r = r != PLUMB_OK ? r : pl_one_way_check(world, function, &desc->one_way);
-    if (r != PLUMB_OK) {
-        return r;
-    }
-    switch (desc->kind) {
-    case PLUMB_OUTLINE:
-        r = make_outline(&m);
-        break;
-    case PLUMB_SEGMENT:
-    case PLUMB_CHAIN:
-        r = make_lines(&m);
-        break;
-    default:
-        r = make_single(&m);
-        break;
-    }
+    PL_TRY(check_desc(&m));
+    PL_TRY(pl_filter_check(world, function, &desc->filter));
+    PL_TRY(pl_one_way_check(world, function, &desc->one_way));
+    const bool lines = desc->kind == PLUMB_SEGMENT || desc->kind == PLUMB_CHAIN;
+    const plumb_result r = desc->kind == PLUMB_OUTLINE ? make_outline(&m)
+                           : lines                     ? make_lines(&m)
+                                                       : make_single(&m);
     if (r != PLUMB_OK) {
         return refuse_geometry(&m, r);
     }
     const pl_made_piece *pieces = world->made.data;
-    for (uint32_t i = 0; r == PLUMB_OK && i < made->count; ++i) {
-        r = pl_wrap_check_piece(world, function, &pieces[i].core);
+    for (uint32_t i = 0; i < made->count; ++i) {
+        PL_TRY(pl_wrap_check_piece(world, function, &pieces[i].core));
     }
-    return r;
+    return PLUMB_OK;
 }

@@ -22,31 +22,30 @@ bool plumb_body_is_awake(const plumb_world *world, plumb_body body)
 plumb_result plumb_body_wake(plumb_world *world, plumb_body body)
 {
     uint32_t row;
-    plumb_result r = pl_check_body(world, __func__, body, &row);
-    if (r == PLUMB_OK && world->bodies.type[row] == PLUMB_DYNAMIC) {
+    PL_TRY(pl_check_body(world, __func__, body, &row));
+    if (world->bodies.type[row] == PLUMB_DYNAMIC) {
         pl_sleep_stir(world, row);
     }
-    return r;
+    return PLUMB_OK;
 }
 
 plumb_result plumb_body_sleep(plumb_world *world, plumb_body body)
 {
     uint32_t row;
-    plumb_result r = pl_check_dynamic(world, __func__, body, &row);
-    r = r != PLUMB_OK ? r : pl_check_unlocked(world, __func__);
-    if (r == PLUMB_OK && world->desc.no_sleep) {
-        r = pl_fail(world, PLUMB_E_STATE, __func__,
-                    "the world has no_sleep; see plumb_world_set_sleep");
+    PL_TRY(pl_check_dynamic(world, __func__, body, &row));
+    PL_TRY(pl_check_unlocked(world, __func__));
+    if (world->desc.no_sleep) {
+        return pl_fail(world, PLUMB_E_STATE, __func__,
+                       "the world has no_sleep; see plumb_world_set_sleep");
     }
-    if (r == PLUMB_OK && (world->bodies.flags[row] & PL_BODY_DISABLED) != 0) {
-        r = pl_fail(world, PLUMB_E_STATE, __func__, "body is disabled; it must be enabled");
-    }
-    if (r != PLUMB_OK || (pl_row_is_asleep(world, row) && !plumb_body_is_awake(world, body))) {
-        return r;
+    if ((world->bodies.flags[row] & PL_BODY_DISABLED) != 0) {
+        return pl_fail(world, PLUMB_E_STATE, __func__, "body is disabled; it must be enabled");
     }
     if (pl_row_is_asleep(world, row)) {
-        pl_island_calm(world, world->bodies.island[row]);
-        return r;
+        if (plumb_body_is_awake(world, body)) {
+            pl_island_calm(world, world->bodies.island[row]);
+        }
+        return PLUMB_OK;
     }
     return pl_sleep_put_to_sleep(world, __func__, row);
 }
@@ -54,17 +53,14 @@ plumb_result plumb_body_sleep(plumb_world *world, plumb_body body)
 plumb_result plumb_body_set_no_sleep(plumb_world *world, plumb_body body, bool no_sleep)
 {
     uint32_t row;
-    plumb_result r = pl_check_body(world, __func__, body, &row);
-    if (r != PLUMB_OK) {
-        return r;
-    }
+    PL_TRY(pl_check_body(world, __func__, body, &row));
     uint16_t *flags = &world->bodies.flags[row];
     *flags =
         (uint16_t)(no_sleep ? *flags | PL_BODY_NO_SLEEP : *flags & (uint16_t)~PL_BODY_NO_SLEEP);
     if (no_sleep && world->bodies.island[row] != PL_NONE) {
         pl_sleep_stir(world, row);
     }
-    return r;
+    return PLUMB_OK;
 }
 
 bool plumb_body_no_sleep(const plumb_world *world, plumb_body body)
@@ -79,11 +75,8 @@ plumb_result plumb_world_set_sleep(plumb_world *world, bool allowed, plumb_real 
     if (world == NULL) {
         return PLUMB_E_NULL;
     }
-    plumb_result r = pl_check_range(world, __func__, "speed", speed, 0, PLUMB_REAL_MAX);
-    r = r != PLUMB_OK ? r : pl_check_range(world, __func__, "time", time, 0, PLUMB_REAL_MAX);
-    if (r != PLUMB_OK) {
-        return r;
-    }
+    PL_TRY(pl_check_range(world, __func__, "speed", speed, 0, PLUMB_REAL_MAX));
+    PL_TRY(pl_check_range(world, __func__, "time", time, 0, PLUMB_REAL_MAX));
     if (!allowed) {
         pl_sleep_disturb_all(world);
     }

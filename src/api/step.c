@@ -7,31 +7,17 @@
 
 plumb_result plumb_world_step(plumb_world *world, plumb_real dt)
 {
-    if (world == NULL) {
-        return PLUMB_E_NULL;
-    }
-    plumb_result result = pl_check_unlocked(world, __func__);
-    if (result != PLUMB_OK) {
-        return result;
-    }
-    result = pl_check_range(world, __func__, "dt", dt, 0, 1);
-    if (result != PLUMB_OK) {
-        return result;
-    }
+    PL_TRY(pl_check_unlocked(world, __func__));
+    PL_TRY(pl_check_range(world, __func__, "dt", dt, 0, 1));
+    PL_TRY(pl_commands_run(world));
     pl_step_observer *observer = world->observer;
-    if (observer == NULL || !observer->replays) {
-        result = pl_commands_run(world);
-    }
-    if (result != PLUMB_OK) {
-        return result;
-    }
     if (observer != NULL && observer->begin != NULL) {
         observer->begin(observer, world);
     }
     if (observer != NULL) {
         observer->steps = true;
     }
-    result = pl_step(world, dt);
+    const plumb_result result = pl_step(world, dt);
     if (observer != NULL) {
         observer->steps = false;
     }

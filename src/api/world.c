@@ -64,13 +64,13 @@ static plumb_result check_integers(const plumb_world *world, const char *fn,
 
 static plumb_result check_desc(const plumb_world *world, const char *fn, const plumb_world_desc *d)
 {
-    plumb_result r = pl_check_desc(world, fn, "", PLUMB_TABLE_WORLD, d);
-    if (r == PLUMB_OK && d->zero_gravity && (d->gravity.x != 0 || d->gravity.y != 0)) {
-        r = pl_fail(world, PLUMB_E_RANGE, fn,
-                    "gravity is (%g, %g); it must be (0, 0) with zero_gravity",
-                    (double)d->gravity.x, (double)d->gravity.y);
+    PL_TRY(pl_check_desc(world, fn, "", PLUMB_TABLE_WORLD, d));
+    if (d->zero_gravity && (d->gravity.x != 0 || d->gravity.y != 0)) {
+        return pl_fail(world, PLUMB_E_RANGE, fn,
+                       "gravity is (%g, %g); it must be (0, 0) with zero_gravity",
+                       (double)d->gravity.x, (double)d->gravity.y);
     }
-    return r != PLUMB_OK ? r : check_integers(world, fn, d);
+    return check_integers(world, fn, d);
 }
 
 #define RESOLVE(X, store, kind, name, word, unit, range, initial, ...) RESOLVE_##kind(name, initial)
@@ -263,16 +263,14 @@ plumb_result plumb_world_set_gravity(plumb_world *world, plumb_vec2 gravity)
     if (world == NULL) {
         return PLUMB_E_NULL;
     }
-    plumb_result r = pl_check_finite_vec(world, __func__, "gravity", gravity);
-    if (r == PLUMB_OK && (gravity.x != world->gravity.x || gravity.y != world->gravity.y)) {
+    PL_TRY(pl_check_finite_vec(world, __func__, "gravity", gravity));
+    if (gravity.x != world->gravity.x || gravity.y != world->gravity.y) {
         pl_sleep_disturb_all(world);
     }
-    if (r == PLUMB_OK) {
-        world->gravity = world->desc.gravity = gravity;
-        world->desc.zero_gravity = gravity.x == 0 && gravity.y == 0;
-        world->schedule_dirty = true;
-    }
-    return r;
+    world->gravity = world->desc.gravity = gravity;
+    world->desc.zero_gravity = gravity.x == 0 && gravity.y == 0;
+    world->schedule_dirty = true;
+    return PLUMB_OK;
 }
 
 static plumb_result check_count(const plumb_world *world, const char *fn, const char *field,
@@ -289,29 +287,24 @@ plumb_result plumb_world_set_substeps(plumb_world *world, int substeps, int iter
     if (world == NULL) {
         return PLUMB_E_NULL;
     }
-    plumb_result r = check_count(world, __func__, "substeps", substeps, SUBSTEPS_MOST);
-    r = r != PLUMB_OK ? r : check_count(world, __func__, "iterations", iterations, ITERATIONS_MOST);
-    r = r != PLUMB_OK ? r : pl_check_unlocked(world, __func__);
-    if (r == PLUMB_OK) {
-        world->desc.substeps = substeps;
-        world->desc.iterations = iterations;
-    }
-    return r;
+    PL_TRY(check_count(world, __func__, "substeps", substeps, SUBSTEPS_MOST));
+    PL_TRY(check_count(world, __func__, "iterations", iterations, ITERATIONS_MOST));
+    PL_TRY(pl_check_unlocked(world, __func__));
+    world->desc.substeps = substeps;
+    world->desc.iterations = iterations;
+    return PLUMB_OK;
 }
 
 plumb_result plumb_world_set_workers(plumb_world *world, int workers)
 {
-    if (world == NULL) {
-        return PLUMB_E_NULL;
-    }
-    plumb_result r = pl_check_unlocked(world, __func__);
-    if (r == PLUMB_OK && (workers < 0 || workers > PLUMB_WORKERS_MAX)) {
-        r = pl_fail(world, PLUMB_E_RANGE, __func__, "workers is %d; it must be 0 to %d", workers,
-                    PLUMB_WORKERS_MAX);
+    PL_TRY(pl_check_unlocked(world, __func__));
+    if (workers < 0 || workers > PLUMB_WORKERS_MAX) {
+        return pl_fail(world, PLUMB_E_RANGE, __func__, "workers is %d; it must be 0 to %d", workers,
+                       PLUMB_WORKERS_MAX);
     }
     workers = workers == 0 ? 1 : workers;
-    if (r != PLUMB_OK || workers == world->desc.workers) {
-        return r;
+    if (workers == world->desc.workers) {
+        return PLUMB_OK;
     }
     pl_tasks *old = world->tasks;
     const int before = world->desc.workers;
@@ -332,25 +325,21 @@ plumb_result plumb_world_set_contact_tuning(plumb_world *world, plumb_real hertz
     if (world == NULL) {
         return PLUMB_E_NULL;
     }
-    plumb_result r = pl_check_range(world, __func__, "hertz", hertz, 0, PLUMB_REAL_MAX);
-    r = r != PLUMB_OK ? r : pl_check_range(world, __func__, "damping", damping, 0, PLUMB_REAL_MAX);
-    r = r != PLUMB_OK
-            ? r
-            : pl_check_range(world, __func__, "push_speed", push_speed, 0, PLUMB_REAL_MAX);
-    r = r != PLUMB_OK ? r : pl_check_unlocked(world, __func__);
-    if (r == PLUMB_OK) {
-        const plumb_world_desc before = world->desc;
-        world->desc.contact_hertz = hertz;
-        world->desc.contact_damping = damping;
-        world->desc.push_speed = push_speed;
-        pl_world_resolve(&world->desc);
-        if (world->desc.contact_hertz != before.contact_hertz ||
-            world->desc.contact_damping != before.contact_damping ||
-            world->desc.push_speed != before.push_speed) {
-            pl_sleep_disturb_all(world); // what rests sinks by another way
-        }
+    PL_TRY(pl_check_range(world, __func__, "hertz", hertz, 0, PLUMB_REAL_MAX));
+    PL_TRY(pl_check_range(world, __func__, "damping", damping, 0, PLUMB_REAL_MAX));
+    PL_TRY(pl_check_range(world, __func__, "push_speed", push_speed, 0, PLUMB_REAL_MAX));
+    PL_TRY(pl_check_unlocked(world, __func__));
+    const plumb_world_desc before = world->desc;
+    world->desc.contact_hertz = hertz;
+    world->desc.contact_damping = damping;
+    world->desc.push_speed = push_speed;
+    pl_world_resolve(&world->desc);
+    if (world->desc.contact_hertz != before.contact_hertz ||
+        world->desc.contact_damping != before.contact_damping ||
+        world->desc.push_speed != before.push_speed) {
+        pl_sleep_disturb_all(world); // what rests sinks by another way
     }
-    return r;
+    return PLUMB_OK;
 }
 
 plumb_result plumb_world_set_restitution_speed(plumb_world *world, plumb_real speed)
@@ -358,12 +347,10 @@ plumb_result plumb_world_set_restitution_speed(plumb_world *world, plumb_real sp
     if (world == NULL) {
         return PLUMB_E_NULL;
     }
-    plumb_result r = pl_check_range(world, __func__, "speed", speed, 0, PLUMB_REAL_MAX);
-    r = r != PLUMB_OK ? r : pl_check_unlocked(world, __func__);
-    if (r == PLUMB_OK) {
-        world->desc.restitution_speed = speed;
-    }
-    return r;
+    PL_TRY(pl_check_range(world, __func__, "speed", speed, 0, PLUMB_REAL_MAX));
+    PL_TRY(pl_check_unlocked(world, __func__));
+    world->desc.restitution_speed = speed;
+    return PLUMB_OK;
 }
 
 plumb_result plumb_world_set_user_data(plumb_world *world, void *user_data)

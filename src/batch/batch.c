@@ -6,6 +6,7 @@
 // Cost: of making, O(state of all worlds); of a job, a look at each result.
 #include "batch/batch.h"
 
+#include "core/try.h"
 #include "plumb/snapshot.h"
 
 #include <stdarg.h>
@@ -113,20 +114,20 @@ static plumb_result keep_image(plumb_batch *batch, uint32_t index)
     if (image->bytes == NULL) {
         return PLUMB_E_MEMORY;
     }
-    plumb_result r = plumb_world_save(item->world, image->bytes, image->size);
-    if (r == PLUMB_OK && index > 0 && image->size == first->size &&
+    PL_TRY(plumb_world_save(item->world, image->bytes, image->size));
+    if (index > 0 && image->size == first->size &&
         memcmp(image->bytes, first->bytes, first->size) == 0) {
         pl_resize(&batch->memory, image->bytes, image->size, 0);
         *image = (pl_batch_image){ first->bytes, first->size, true };
     }
-    return r;
+    return PLUMB_OK;
 }
 
 static plumb_result make_world(plumb_batch *batch, const plumb_world_desc *desc, uint32_t index)
 {
-    plumb_result r = plumb_world_create(desc, &batch->items[index].world);
-    r = r != PLUMB_OK ? r : pl_batch_vary(batch, batch->desc.build, index);
-    return r != PLUMB_OK ? r : keep_image(batch, index);
+    PL_TRY(plumb_world_create(desc, &batch->items[index].world));
+    PL_TRY(pl_batch_vary(batch, batch->desc.build, index));
+    return keep_image(batch, index);
 }
 
 static plumb_result vary_one(const void *of, plumb_batch *batch, uint32_t index)
@@ -150,13 +151,10 @@ static plumb_result make_all(plumb_batch *batch, const plumb_world_desc *world)
             return PLUMB_E_MEMORY;
         }
     }
-    plumb_result r = PLUMB_OK;
-    for (uint32_t i = 0; i < d->count && r == PLUMB_OK; ++i) {
-        r = make_world(batch, world, i);
+    for (uint32_t i = 0; i < d->count; ++i) {
+        PL_TRY(make_world(batch, world, i));
     }
-    return r != PLUMB_OK || d->randomise == NULL
-               ? r
-               : pl_batch_for(batch, vary_one, NULL, NULL, d->count);
+    return d->randomise == NULL ? PLUMB_OK : pl_batch_for(batch, vary_one, NULL, NULL, d->count);
 }
 
 // Told to the log of the world's descriptor: the batch does not come to be.
@@ -203,10 +201,7 @@ plumb_result plumb_batch_create(const plumb_batch_desc *desc, plumb_batch **batc
     if (batch != NULL) {
         *batch = NULL;
     }
-    plumb_result r = check(desc, batch);
-    if (r != PLUMB_OK) {
-        return r;
-    }
+    PL_TRY(check(desc, batch));
     pl_memory memory;
     pl_memory_init(&memory, &desc->allocator);
     plumb_batch *made = pl_resize(&memory, NULL, 0, sizeof *made);
@@ -218,7 +213,7 @@ plumb_result plumb_batch_create(const plumb_batch_desc *desc, plumb_batch **batc
     made->desc = *desc;
     made->desc.world = NULL;
     made->desc.workers = desc->workers == 0 ? 1 : desc->workers;
-    r = make_all(made, desc->world);
+    const plumb_result r = make_all(made, desc->world);
     if (r != PLUMB_OK) {
         plumb_batch_destroy(made);
         return refuse(desc, r, "%s", plumb_result_text(r));

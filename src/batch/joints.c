@@ -127,10 +127,7 @@ plumb_result plumb_batch_observe_joints(plumb_batch *batch, const plumb_batch_jo
     if (batch == NULL) {
         return PLUMB_E_NULL;
     }
-    const plumb_result r = check_view(batch, __func__, view, numbers, capacity, false);
-    if (r != PLUMB_OK) {
-        return r;
-    }
+    PL_TRY(check_view(batch, __func__, view, numbers, capacity, false));
     const joint_window w = { .function = __func__, .view = *view, .out = numbers };
     return pl_batch_for(batch, observe_one, &w, NULL, plumb_batch_count(batch));
 }
@@ -139,7 +136,7 @@ static plumb_result write_joint(plumb_world *world, plumb_joint joint,
                                 const plumb_batch_joint_view *view, const plumb_real *in)
 {
     plumb_joint_desc now;
-    plumb_result r = plumb_joint_settings(world, joint, &now);
+    PL_TRY(plumb_joint_settings(world, joint, &now));
     bool motor = false, spring = false;
     for (uint32_t f = 0; f < view->field_count; ++f) {
         motor |= view->fields[f] != PLUMB_JOINT_FIELD_REST;
@@ -148,12 +145,11 @@ static plumb_result write_joint(plumb_world *world, plumb_joint joint,
           : view->fields[f] == PLUMB_JOINT_FIELD_MAX_MOTOR ? &now.max_motor
                                                            : &now.rest) = in[f];
     }
-    if (r == PLUMB_OK && motor) {
-        r = plumb_joint_set_motor(world, joint, true, now.motor_speed, now.max_motor);
+    if (motor) {
+        PL_TRY(plumb_joint_set_motor(world, joint, true, now.motor_speed, now.max_motor));
     }
-    return r == PLUMB_OK && spring
-               ? plumb_joint_set_spring(world, joint, now.hertz, now.damping, now.rest)
-               : r;
+    return spring ? plumb_joint_set_spring(world, joint, now.hertz, now.damping, now.rest)
+                  : PLUMB_OK;
 }
 
 static plumb_result drive_one(const void *of, plumb_batch *batch, uint32_t index)
@@ -161,13 +157,12 @@ static plumb_result drive_one(const void *of, plumb_batch *batch, uint32_t index
     const joint_window *w = of;
     plumb_world *world = batch->items[index].world;
     const plumb_real *in = w->in + first_number(w, index);
-    plumb_result r = PLUMB_OK;
-    for (uint32_t j = 0; j < w->view.joint_count && r == PLUMB_OK; ++j) {
-        r = check_joint(world, w->function, w->view.joints[j]);
-        r = r != PLUMB_OK ? r : write_joint(world, w->view.joints[j], &w->view, in);
+    for (uint32_t j = 0; j < w->view.joint_count; ++j) {
+        PL_TRY(check_joint(world, w->function, w->view.joints[j]));
+        PL_TRY(write_joint(world, w->view.joints[j], &w->view, in));
         in += w->view.field_count;
     }
-    return r;
+    return PLUMB_OK;
 }
 
 plumb_result plumb_batch_drive_joints(plumb_batch *batch, const plumb_batch_joint_view *view,
@@ -176,10 +171,7 @@ plumb_result plumb_batch_drive_joints(plumb_batch *batch, const plumb_batch_join
     if (batch == NULL) {
         return PLUMB_E_NULL;
     }
-    const plumb_result r = check_view(batch, __func__, view, numbers, capacity, true);
-    if (r != PLUMB_OK) {
-        return r;
-    }
+    PL_TRY(check_view(batch, __func__, view, numbers, capacity, true));
     const joint_window w = { .function = __func__, .view = *view, .in = numbers };
     return pl_batch_for(batch, drive_one, &w, NULL, plumb_batch_count(batch));
 }

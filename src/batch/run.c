@@ -26,11 +26,10 @@ typedef struct stepping {
 static plumb_result step_one(const void *of, plumb_batch *batch, uint32_t index)
 {
     const stepping *s = of;
-    plumb_result r = PLUMB_OK;
-    for (int i = 0; i < s->steps && r == PLUMB_OK; ++i) {
-        r = plumb_world_step(batch->items[index].world, s->dt);
+    for (int i = 0; i < s->steps; ++i) {
+        PL_TRY(plumb_world_step(batch->items[index].world, s->dt));
     }
-    return r;
+    return PLUMB_OK;
 }
 
 plumb_result plumb_batch_step(plumb_batch *batch, plumb_real dt, int steps)
@@ -59,10 +58,7 @@ static plumb_result reset_one(const void *of, plumb_batch *batch, uint32_t index
 {
     (void)of;
     pl_batch_item *item = &batch->items[index];
-    plumb_result r = plumb_world_restore(item->world, item->image.bytes, item->image.size);
-    if (r != PLUMB_OK) {
-        return r;
-    }
+    PL_TRY(plumb_world_restore(item->world, item->image.bytes, item->image.size));
     ++item->episode;
     return pl_batch_vary(batch, batch->desc.randomise, index);
 }
@@ -200,10 +196,7 @@ plumb_result plumb_batch_observe(plumb_batch *batch, const plumb_batch_view *vie
     if (batch == NULL) {
         return PLUMB_E_NULL;
     }
-    plumb_result r = check_view(batch, __func__, view, numbers, capacity, false);
-    if (r != PLUMB_OK) {
-        return r;
-    }
+    PL_TRY(check_view(batch, __func__, view, numbers, capacity, false));
     const window w = { .function = __func__, .view = *view, .out = numbers };
     return pl_batch_for(batch, observe_one, &w, NULL, batch->desc.count);
 }
@@ -223,23 +216,22 @@ static plumb_result write_body(plumb_world *world, plumb_body body, const plumb_
     }
     plumb_vec2 to = { value[PLUMB_FIELD_X], value[PLUMB_FIELD_Y] };
     plumb_vec2 force = { value[PLUMB_FIELD_FORCE_X], value[PLUMB_FIELD_FORCE_Y] };
-    plumb_result r = PLUMB_OK;
     if (to.x != at.x || to.y != at.y) {
-        r = plumb_body_set_position(world, body, to);
+        PL_TRY(plumb_body_set_position(world, body, to));
     }
-    if (r == PLUMB_OK && (IS_SET(given, PLUMB_FIELD_VX) || IS_SET(given, PLUMB_FIELD_VY))) {
+    if (IS_SET(given, PLUMB_FIELD_VX) || IS_SET(given, PLUMB_FIELD_VY)) {
         v = plumb_v2(value[PLUMB_FIELD_VX], value[PLUMB_FIELD_VY]);
-        r = plumb_body_set_velocity(world, body, v);
+        PL_TRY(plumb_body_set_velocity(world, body, v));
     }
-    if (r == PLUMB_OK && IS_SET(given, PLUMB_FIELD_W)) {
-        r = plumb_body_set_angular_velocity(world, body, value[PLUMB_FIELD_W]);
+    if (IS_SET(given, PLUMB_FIELD_W)) {
+        PL_TRY(plumb_body_set_angular_velocity(world, body, value[PLUMB_FIELD_W]));
     }
-    if (r == PLUMB_OK && (force.x != 0 || force.y != 0)) {
-        r = plumb_body_apply_force_center(world, body, force);
+    if (force.x != 0 || force.y != 0) {
+        PL_TRY(plumb_body_apply_force_center(world, body, force));
     }
-    return r == PLUMB_OK && value[PLUMB_FIELD_TORQUE] != 0
+    return value[PLUMB_FIELD_TORQUE] != 0
                ? plumb_body_apply_torque(world, body, value[PLUMB_FIELD_TORQUE])
-               : r;
+               : PLUMB_OK;
 }
 
 static plumb_result act_one(const void *of, plumb_batch *batch, uint32_t index)
@@ -247,14 +239,13 @@ static plumb_result act_one(const void *of, plumb_batch *batch, uint32_t index)
     const window *w = of;
     plumb_world *world = batch->items[index].world;
     const plumb_real *in = w->in + first_number(w, index);
-    plumb_result r = PLUMB_OK;
-    for (uint32_t b = 0; b < w->view.body_count && r == PLUMB_OK; ++b) {
+    for (uint32_t b = 0; b < w->view.body_count; ++b) {
         uint32_t row;
-        r = pl_check_body(world, w->function, w->view.bodies[b], &row);
-        r = r != PLUMB_OK ? r : write_body(world, w->view.bodies[b], &w->view, in);
+        PL_TRY(pl_check_body(world, w->function, w->view.bodies[b], &row));
+        PL_TRY(write_body(world, w->view.bodies[b], &w->view, in));
         in += w->view.field_count;
     }
-    return r;
+    return PLUMB_OK;
 }
 
 plumb_result plumb_batch_act(plumb_batch *batch, const plumb_batch_view *view,
@@ -263,10 +254,7 @@ plumb_result plumb_batch_act(plumb_batch *batch, const plumb_batch_view *view,
     if (batch == NULL) {
         return PLUMB_E_NULL;
     }
-    plumb_result r = check_view(batch, __func__, view, numbers, capacity, true);
-    if (r != PLUMB_OK) {
-        return r;
-    }
+    PL_TRY(check_view(batch, __func__, view, numbers, capacity, true));
     const window w = { .function = __func__, .view = *view, .in = numbers };
     return pl_batch_for(batch, act_one, &w, NULL, batch->desc.count);
 }

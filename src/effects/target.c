@@ -49,18 +49,15 @@ plumb_result plumb_body_set_target(plumb_world *world, plumb_body body, plumb_ve
                                    plumb_real angle, plumb_real dt)
 {
     uint32_t row;
-    plumb_result r = pl_check_body(world, __func__, body, &row);
-    r = r != PLUMB_OK ? r : pl_place_check(world, __func__, position, angle);
-    r = r != PLUMB_OK ? r : pl_check_finite(world, __func__, "dt", dt);
-    if (r == PLUMB_OK && !(dt > 0)) {
-        r = pl_fail(world, PLUMB_E_RANGE, __func__, "dt is %g; it must be above 0", (double)dt);
+    PL_TRY(pl_check_body(world, __func__, body, &row));
+    PL_TRY(pl_place_check(world, __func__, position, angle));
+    PL_TRY(pl_check_finite(world, __func__, "dt", dt));
+    if (!(dt > 0)) {
+        return pl_fail(world, PLUMB_E_RANGE, __func__, "dt is %g; it must be above 0", (double)dt);
     }
-    if (r == PLUMB_OK && world->bodies.type[row] != PLUMB_KINEMATIC) {
-        r = pl_fail(world, PLUMB_E_STATE, __func__, "body is %s; it must be kinematic",
-                    world->bodies.type[row] == PLUMB_STATIC ? "static" : "dynamic");
-    }
-    if (r != PLUMB_OK) {
-        return r;
+    if (world->bodies.type[row] != PLUMB_KINEMATIC) {
+        return pl_fail(world, PLUMB_E_STATE, __func__, "body is %s; it must be kinematic",
+                       world->bodies.type[row] == PLUMB_STATIC ? "static" : "dynamic");
     }
     pl_targets *targets = &world->targets;
     if (!pl_buffer_reserve(&world->memory, &targets->items,

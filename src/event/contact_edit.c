@@ -26,12 +26,12 @@ static plumb_result check_open(const plumb_world *world, const char *function)
 static plumb_result check_index(const plumb_world *world, const char *function, int i,
                                 const void *edit)
 {
-    plumb_result r = check_open(world, function);
-    if (r == PLUMB_OK && (i < 0 || (uint32_t)i >= world->narrow.manifold_count)) {
-        r = pl_fail(world, PLUMB_E_RANGE, function, "i is %d; it must be 0 to %lld", i,
-                    (long long)world->narrow.manifold_count - 1);
+    PL_TRY(check_open(world, function));
+    if ((i < 0 || (uint32_t)i >= world->narrow.manifold_count)) {
+        return pl_fail(world, PLUMB_E_RANGE, function, "i is %d; it must be 0 to %lld", i,
+                       (long long)world->narrow.manifold_count - 1);
     }
-    return r != PLUMB_OK ? r : pl_check_pointer(world, function, "edit", edit);
+    return pl_check_pointer(world, function, "edit", edit);
 }
 
 int plumb_contact_edit_count(const plumb_world *world)
@@ -41,10 +41,7 @@ int plumb_contact_edit_count(const plumb_world *world)
 
 plumb_result plumb_contact_edit_get(const plumb_world *world, int i, plumb_contact_edit *edit)
 {
-    plumb_result r = check_index(world, __func__, i, edit);
-    if (r != PLUMB_OK) {
-        return r;
-    }
+    PL_TRY(check_index(world, __func__, i, edit));
     const pl_manifold *m = &pl_manifolds(&world->narrow)[i];
     const pl_pair *pair = &pl_pairs(&world->broad.pairs)[m->pair];
     const pl_bodies *b = &world->bodies;
@@ -74,21 +71,13 @@ plumb_result plumb_contact_edit_get(const plumb_world *world, int i, plumb_conta
 
 plumb_result plumb_contact_edit_set(plumb_world *world, int i, const plumb_contact_edit *edit)
 {
-    plumb_result r = check_index(world, __func__, i, edit);
-    r = r != PLUMB_OK
-            ? r
-            : pl_check_range(world, __func__, "friction", edit->friction, 0, FRICTION_MOST);
-    r = r != PLUMB_OK ? r : pl_check_range(world, __func__, "restitution", edit->restitution, 0, 1);
-    r = r != PLUMB_OK ? r
-                      : pl_check_range(world, __func__, "rolling_resistance",
-                                       edit->rolling_resistance, 0, PLUMB_REAL_MAX);
-    r = r != PLUMB_OK ? r : pl_check_finite(world, __func__, "surface_speed", edit->surface_speed);
-    r = r != PLUMB_OK
-            ? r
-            : pl_check_range(world, __func__, "adhesion", edit->adhesion, 0, PLUMB_REAL_MAX);
-    if (r != PLUMB_OK) {
-        return r;
-    }
+    PL_TRY(check_index(world, __func__, i, edit));
+    PL_TRY(pl_check_range(world, __func__, "friction", edit->friction, 0, FRICTION_MOST));
+    PL_TRY(pl_check_range(world, __func__, "restitution", edit->restitution, 0, 1));
+    PL_TRY(pl_check_range(world, __func__, "rolling_resistance", edit->rolling_resistance, 0,
+                          PLUMB_REAL_MAX));
+    PL_TRY(pl_check_finite(world, __func__, "surface_speed", edit->surface_speed));
+    PL_TRY(pl_check_range(world, __func__, "adhesion", edit->adhesion, 0, PLUMB_REAL_MAX));
     pl_manifold *m = &pl_manifolds(&world->narrow)[i];
     m->friction = (near_real)edit->friction;
     m->restitution = (near_real)edit->restitution;

@@ -269,22 +269,19 @@ static void draw_bodies(const pl_drawing *d, unsigned part)
 
 static plumb_result check(const plumb_world *world, const char *fn, const plumb_draw_desc *d)
 {
-    plumb_result r = pl_check_within(world, fn, "view.min", d->view.min, PL_QUERY_LIMIT);
-    r = r != PLUMB_OK ? r : pl_check_within(world, fn, "view.max", d->view.max, PL_QUERY_LIMIT);
-    r = r != PLUMB_OK ? r : pl_check_range(world, fn, "pixel", d->pixel, 0, PLUMB_REAL_MAX);
-    r = r != PLUMB_OK ? r
-                      : pl_check_range(world, fn, "force_scale", d->force_scale, 0, PLUMB_REAL_MAX);
-    r = r != PLUMB_OK
-            ? r
-            : pl_check_range(world, fn, "velocity_scale", d->velocity_scale, 0, PLUMB_REAL_MAX);
-    if (r == PLUMB_OK && (d->parts & ~(unsigned)PLUMB_DRAW_ALL) != 0) {
-        r = pl_fail(world, PLUMB_E_RANGE, fn, "parts is %#x; it must be bits of plumb_draw_part",
-                    d->parts);
+    PL_TRY(pl_check_within(world, fn, "view.min", d->view.min, PL_QUERY_LIMIT));
+    PL_TRY(pl_check_within(world, fn, "view.max", d->view.max, PL_QUERY_LIMIT));
+    PL_TRY(pl_check_range(world, fn, "pixel", d->pixel, 0, PLUMB_REAL_MAX));
+    PL_TRY(pl_check_range(world, fn, "force_scale", d->force_scale, 0, PLUMB_REAL_MAX));
+    PL_TRY(pl_check_range(world, fn, "velocity_scale", d->velocity_scale, 0, PLUMB_REAL_MAX));
+    if ((d->parts & ~(unsigned)PLUMB_DRAW_ALL) != 0) {
+        return pl_fail(world, PLUMB_E_RANGE, fn, "parts is %#x; it must be bits of plumb_draw_part",
+                       d->parts);
     }
-    if (r == PLUMB_OK && (d->view.min.x > d->view.max.x || d->view.min.y > d->view.max.y)) {
-        r = pl_fail(world, PLUMB_E_RANGE, fn, "view is empty; min must be at most max");
+    if ((d->view.min.x > d->view.max.x || d->view.min.y > d->view.max.y)) {
+        return pl_fail(world, PLUMB_E_RANGE, fn, "view is empty; min must be at most max");
     }
-    return r;
+    return PLUMB_OK;
 }
 
 // All there is: the whole plane, or the period of a world that wraps around.
@@ -313,8 +310,7 @@ static void resolve(pl_drawing *d)
 
 static plumb_result draw_all(pl_drawing *d)
 {
-    plumb_result r = PLUMB_OK;
-    for (unsigned part = 1; part <= PLUMB_DRAW_ALL && r == PLUMB_OK; part <<= 1) {
+    for (unsigned part = 1; part <= PLUMB_DRAW_ALL; part <<= 1) {
         switch (d->desc.parts & part) {
         case PLUMB_DRAW_SHAPES:
             each_piece(d, draw_piece);
@@ -323,10 +319,10 @@ static plumb_result draw_all(pl_drawing *d)
             pl_draw_joints(d);
             break;
         case PLUMB_DRAW_CONTACTS:
-            r = pl_draw_contacts(d, false);
+            PL_TRY(pl_draw_contacts(d, false));
             break;
         case PLUMB_DRAW_FORCES:
-            r = pl_draw_contacts(d, true);
+            PL_TRY(pl_draw_contacts(d, true));
             pl_draw_joint_forces(d);
             break;
         case PLUMB_DRAW_BOXES:
@@ -338,31 +334,25 @@ static plumb_result draw_all(pl_drawing *d)
             draw_bodies(d, part);
         }
     }
-    return r;
+    return PLUMB_OK;
 }
 
 plumb_result plumb_draw(plumb_world *world, const plumb_draw_calls *calls,
                         const plumb_draw_desc *desc)
 {
     const plumb_draw_desc none = { 0 };
-    if (world == NULL) {
-        return PLUMB_E_NULL;
-    }
-    plumb_result r = pl_check_unlocked(world, __func__);
-    r = r != PLUMB_OK ? r : pl_check_pointer(world, __func__, "calls", calls);
-    if (r == PLUMB_OK && calls->line == NULL) {
-        r = pl_fail(world, PLUMB_E_NULL, __func__, "calls.line is null; it must be given");
+    PL_TRY(pl_check_unlocked(world, __func__));
+    PL_TRY(pl_check_pointer(world, __func__, "calls", calls));
+    if (calls->line == NULL) {
+        return pl_fail(world, PLUMB_E_NULL, __func__, "calls.line is null; it must be given");
     }
     desc = desc == NULL ? &none : desc;
-    r = r != PLUMB_OK ? r : check(world, __func__, desc);
-    if (r != PLUMB_OK) {
-        return r;
-    }
+    PL_TRY(check(world, __func__, desc));
     pl_drawing d = { .world = world, .calls = *calls, .desc = *desc };
     resolve(&d);
     if (!pl_query_grids_update(world)) {
         return pl_fail_memory(world, __func__);
     }
-    r = draw_all(&d);
+    const plumb_result r = draw_all(&d);
     return r == PLUMB_E_MEMORY ? pl_fail_memory(world, __func__) : r;
 }

@@ -8,7 +8,6 @@
 #include "plumb/loop.h"
 
 #include "plumb/math.h"
-#include "world/observer.h"
 #include "world/check.h"
 #include "world/state.h"
 
@@ -44,14 +43,11 @@ plumb_result plumb_loop_create(plumb_world *world, const plumb_loop_desc *desc, 
     if (world == NULL) {
         return PLUMB_E_NULL;
     }
-    plumb_result r = pl_check_pointer(world, __func__, "loop", loop);
-    r = r != PLUMB_OK ? r : pl_check_range(world, __func__, "dt", (real)made.desc.dt, 0, 1);
-    if (r == PLUMB_OK && (made.desc.steps_max < 0 || made.desc.steps_max > STEPS_MOST)) {
-        r = pl_fail(world, PLUMB_E_RANGE, __func__, "steps_max is %d; it must be 0 to %d",
-                    made.desc.steps_max, STEPS_MOST);
-    }
-    if (r != PLUMB_OK) {
-        return r;
+    PL_TRY(pl_check_pointer(world, __func__, "loop", loop));
+    PL_TRY(pl_check_range(world, __func__, "dt", (real)made.desc.dt, 0, 1));
+    if ((made.desc.steps_max < 0 || made.desc.steps_max > STEPS_MOST)) {
+        return pl_fail(world, PLUMB_E_RANGE, __func__, "steps_max is %d; it must be 0 to %d",
+                       made.desc.steps_max, STEPS_MOST);
     }
     made.desc.dt = made.desc.dt > 0 ? made.desc.dt : 1.0 / 60;
     made.desc.steps_max = made.desc.steps_max > 0 ? made.desc.steps_max : 8;
@@ -156,23 +152,16 @@ plumb_result plumb_loop_step(plumb_loop *loop)
         return PLUMB_E_NULL;
     }
     plumb_world *world = loop->world;
-    plumb_result r = pl_check_unlocked(world, __func__);
-    r = r != PLUMB_OK || (world->observer != NULL && world->observer->replays)
-            ? r
-            : pl_commands_run(world);
-    if (r != PLUMB_OK) {
-        return r;
-    }
+    PL_TRY(pl_check_unlocked(world, __func__));
+    PL_TRY(pl_commands_run(world));
     if (!reserve(loop)) {
         return pl_fail_memory(world, __func__);
     }
     ++loop->tick;
     keep_before(loop);
-    r = plumb_world_step(world, (real)loop->desc.dt);
-    if (r == PLUMB_OK) {
-        keep_after(loop);
-    }
-    return r;
+    PL_TRY(plumb_world_step(world, (real)loop->desc.dt));
+    keep_after(loop);
+    return PLUMB_OK;
 }
 
 plumb_transform plumb_loop_transform(const plumb_loop *loop, plumb_body body)

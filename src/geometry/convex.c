@@ -8,6 +8,7 @@
 
 #include <string.h>
 
+#include "core/try.h"
 #include "geometry/exact.h"
 
 // Whether a rounding radius is in range; a lower bound above 0 is for circles and capsules.
@@ -55,10 +56,7 @@ plumb_result plumb_convex_circle(plumb_vec2 center, plumb_real radius, plumb_con
     if (out == NULL) {
         return PLUMB_E_NULL;
     }
-    plumb_result checked = worse(check_point(center), check_radius(radius, PLUMB_LENGTH_MIN));
-    if (checked != PLUMB_OK) {
-        return checked;
-    }
+    PL_TRY(worse(check_point(center), check_radius(radius, PLUMB_LENGTH_MIN)));
     memset(out, 0, sizeof *out);
     out->points[0] = center;
     out->count = 1;
@@ -73,11 +71,7 @@ static plumb_result make_two_points(plumb_vec2 a, plumb_vec2 b, plumb_real radiu
     if (out == NULL) {
         return PLUMB_E_NULL;
     }
-    plumb_result checked =
-        worse(worse(check_point(a), check_point(b)), check_radius(radius, radius_low));
-    if (checked != PLUMB_OK) {
-        return checked;
-    }
+    PL_TRY(worse(worse(check_point(a), check_point(b)), check_radius(radius, radius_low)));
     if (pl_distance(a, b) < (double)PLUMB_LENGTH_MIN) {
         return PLUMB_E_GEOMETRY;
     }
@@ -141,16 +135,10 @@ plumb_result plumb_convex_polygon(const plumb_vec2 *points, int count, plumb_rea
     if (points == NULL || out == NULL) {
         return PLUMB_E_NULL;
     }
-    plumb_result checked = check_radius(radius, 0);
-    if (checked != PLUMB_OK) {
-        return checked;
-    }
+    PL_TRY(check_radius(radius, 0));
     plumb_convex made;
     memset(&made, 0, sizeof made);
-    checked = plumb_hull(points, count, made.points, PLUMB_POLYGON_MAX_VERTICES, &made.count);
-    if (checked != PLUMB_OK) {
-        return checked;
-    }
+    PL_TRY(plumb_hull(points, count, made.points, PLUMB_POLYGON_MAX_VERTICES, &made.count));
     made.radius = radius;
     set_normals(&made);
     *out = made;

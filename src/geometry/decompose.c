@@ -14,6 +14,7 @@
 
 #include <string.h>
 
+#include "core/try.h"
 #include "geometry/exact.h"
 
 #define MAX_TRIANGLES (PLUMB_OUTLINE_MAX_VERTICES - 2)
@@ -207,10 +208,7 @@ plumb_result plumb_outline_decompose(const plumb_vec2 *points, int count,
     if (pieces == NULL || piece_count == NULL) {
         return PLUMB_E_NULL;
     }
-    plumb_result checked = pl_points_check(points, count);
-    if (checked != PLUMB_OK) {
-        return checked;
-    }
+    PL_TRY(pl_points_check(points, count));
     plumb_vec2 simple[PLUMB_OUTLINE_MAX_VERTICES];
     part parts[MAX_TRIANGLES];
     diagonal diagonals[MAX_TRIANGLES];

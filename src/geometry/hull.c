@@ -11,6 +11,7 @@
 
 #include <string.h>
 
+#include "core/try.h"
 #include "geometry/exact.h"
 
 plumb_result pl_points_check(const plumb_vec2 *points, int count)
@@ -145,10 +146,7 @@ plumb_result plumb_hull(const plumb_vec2 *points, int count, plumb_vec2 *hull, i
     if (hull == NULL || hull_count == NULL) {
         return PLUMB_E_NULL;
     }
-    plumb_result checked = pl_points_check(points, count);
-    if (checked != PLUMB_OK) {
-        return checked;
-    }
+    PL_TRY(pl_points_check(points, count));
     plumb_vec2 sorted[PLUMB_OUTLINE_MAX_VERTICES];
     plumb_vec2 work[2 * PLUMB_OUTLINE_MAX_VERTICES];
     memcpy(sorted, points, (size_t)count * sizeof *points);

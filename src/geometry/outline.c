@@ -6,6 +6,7 @@
 // Reads: the points. Writes: the answer. Cost: O(n); the check for crossings O(n^2), 2 KiB of
 // stack (4 in double).
 
+#include "core/try.h"
 #include "geometry/exact.h"
 
 static int sign(double x)
@@ -136,10 +137,7 @@ int pl_outline_simplify(const plumb_vec2 *points, int count,
 
 plumb_result plumb_outline_check(const plumb_vec2 *points, int count)
 {
-    plumb_result checked = pl_points_check(points, count);
-    if (checked != PLUMB_OK) {
-        return checked;
-    }
+    PL_TRY(pl_points_check(points, count));
     plumb_vec2 simple[PLUMB_OUTLINE_MAX_VERTICES];
     return pl_outline_simplify(points, count, simple) >= 3 ? PLUMB_OK : PLUMB_E_GEOMETRY;
 }

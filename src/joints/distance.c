@@ -7,11 +7,8 @@
 
 static plumb_result check(const plumb_world *world, const char *fn, plumb_joint_desc *desc)
 {
-    plumb_result r = pl_check_range(world, fn, "length", desc->length, 0, PLUMB_REAL_MAX);
-    r = r != PLUMB_OK ? r : pl_check_range(world, fn, "lower", desc->lower, 0, PLUMB_REAL_MAX);
-    if (r != PLUMB_OK) {
-        return r;
-    }
+    PL_TRY(pl_check_range(world, fn, "length", desc->length, 0, PLUMB_REAL_MAX));
+    PL_TRY(pl_check_range(world, fn, "lower", desc->lower, 0, PLUMB_REAL_MAX));
     if (desc->length == 0) {
         desc->length = plumb_vec2_magnitude(plumb_world_way(world, desc->anchor, desc->anchor_b));
     }

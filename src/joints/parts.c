@@ -34,10 +34,7 @@ void pl_row_motor(const pl_joint *j, pl_row row, pl_row *out)
 plumb_result pl_joint_check_axis(const plumb_world *world, const char *fn, plumb_joint_desc *desc,
                                  plumb_vec2 fallback)
 {
-    plumb_result r = pl_check_finite_vec(world, fn, "axis", desc->axis);
-    if (r != PLUMB_OK) {
-        return r;
-    }
+    PL_TRY(pl_check_finite_vec(world, fn, "axis", desc->axis));
     bool given = desc->axis.x != 0 || desc->axis.y != 0;
     plumb_vec2 unit = given ? plumb_vec2_unit(desc->axis) : fallback;
     if (unit.x == 0 && unit.y == 0) {

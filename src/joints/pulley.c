@@ -8,19 +8,19 @@
 static plumb_result check(const plumb_world *world, const char *fn, plumb_joint_desc *desc)
 {
     desc->ratio = desc->ratio != 0 ? desc->ratio : 1;
-    plumb_result r = pl_check_finite_vec(world, fn, "ground_a", desc->ground_a);
-    r = r != PLUMB_OK ? r : pl_check_finite_vec(world, fn, "ground_b", desc->ground_b);
-    if (r == PLUMB_OK && desc->ratio < 0) {
-        r = pl_fail(world, PLUMB_E_RANGE, fn, "ratio is %g; it must be above 0, or 0 for 1",
-                    (double)desc->ratio);
+    PL_TRY(pl_check_finite_vec(world, fn, "ground_a", desc->ground_a));
+    PL_TRY(pl_check_finite_vec(world, fn, "ground_b", desc->ground_b));
+    if (desc->ratio < 0) {
+        return pl_fail(world, PLUMB_E_RANGE, fn, "ratio is %g; it must be above 0, or 0 for 1",
+                       (double)desc->ratio);
     }
-    if (r == PLUMB_OK && (plumb_vec2_distance(desc->anchor, desc->ground_a) == 0 ||
-                          plumb_vec2_distance(desc->anchor_b, desc->ground_b) == 0)) {
-        r = pl_fail(world, PLUMB_E_GEOMETRY, fn,
-                    "ground_%c is the anchor; the rope must have length on both sides",
-                    plumb_vec2_distance(desc->anchor, desc->ground_a) == 0 ? 'a' : 'b');
+    if ((plumb_vec2_distance(desc->anchor, desc->ground_a) == 0 ||
+         plumb_vec2_distance(desc->anchor_b, desc->ground_b) == 0)) {
+        return pl_fail(world, PLUMB_E_GEOMETRY, fn,
+                       "ground_%c is the anchor; the rope must have length on both sides",
+                       plumb_vec2_distance(desc->anchor, desc->ground_a) == 0 ? 'a' : 'b');
     }
-    return r;
+    return PLUMB_OK;
 }
 
 // From a wheel of the world to an anchor: pose->x is told from the joint's origin.

@@ -33,19 +33,6 @@ static real along(const plumb_world *world, const pl_joint *joint, const pl_row 
     return pl_held((double)rate);
 }
 
-// Null, and the refusal told, for a bad handle.
-static const pl_joint *find(const plumb_world *world, const char *fn, plumb_joint joint)
-{
-    const uint32_t slot = pl_joint_slot(world, joint);
-    if (slot != PL_NONE) {
-        return &pl_joint_items(&world->joints)[slot];
-    }
-    if (world != NULL) {
-        pl_fail_handle(world, fn, "joint", joint.entity, "a live joint");
-    }
-    return NULL;
-}
-
 // Rate of its value, in the value's unit a second (rate.c).
 static real rate_of(const plumb_world *world, const pl_joint *joint)
 {
@@ -66,7 +53,7 @@ real pl_joint_motor_rate(const plumb_world *world, const pl_joint *joint)
 
 plumb_real plumb_joint_rate(const plumb_world *world, plumb_joint joint)
 {
-    const pl_joint *j = find(world, __func__, joint);
+    const pl_joint *j = pl_ask_joint(world, __func__, joint);
     return j == NULL ? 0 : rate_of(world, j);
 }
 
@@ -74,7 +61,7 @@ plumb_real plumb_joint_rate(const plumb_world *world, plumb_joint joint)
 static const pl_joint *find_of(const plumb_world *world, const char *fn, plumb_joint joint,
                                unsigned has, const char *what)
 {
-    const pl_joint *j = find(world, fn, joint);
+    const pl_joint *j = pl_ask_joint(world, fn, joint);
     if (j == NULL) {
         return NULL;
     }

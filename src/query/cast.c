@@ -53,12 +53,10 @@ static plumb_result check_cast(const plumb_world *world, const char *function, c
                                const plumb_cast *cast)
 {
     char buffer[PL_QUERY_FIELD];
-    plumb_result r = pl_query_check_convex(world, function, prefix, cast->convex);
-    r = r != PLUMB_OK ? r : pl_query_check_transform(world, function, prefix, cast->transform);
+    PL_TRY(pl_query_check_convex(world, function, prefix, cast->convex));
+    PL_TRY(pl_query_check_transform(world, function, prefix, cast->transform));
     const char *name = pl_query_field(buffer, prefix, "translation");
-    return r != PLUMB_OK
-               ? r
-               : pl_check_within(world, function, name, cast->translation, PL_QUERY_LIMIT);
+    return pl_check_within(world, function, name, cast->translation, PL_QUERY_LIMIT);
 }
 
 static plumb_result check_reach(const plumb_world *world, const char *function, const char *prefix,
@@ -88,14 +86,12 @@ static void aim(caster *c, const plumb_cast *cast)
 static plumb_result begin(caster *c, plumb_world *world, const char *function,
                           const plumb_cast *cast, const plumb_query_filter *filter)
 {
-    plumb_result r = pl_check_pointer(world, function, "cast", cast);
-    r = r != PLUMB_OK ? r : check_cast(world, function, "", cast);
-    r = r != PLUMB_OK || !pl_is_wrapped(world) ? r : check_reach(world, function, "", cast);
-    r = r != PLUMB_OK ? r : pl_query_begin(&c->seek.q, world, function, filter);
-    if (r == PLUMB_OK) {
-        aim(c, cast);
-    }
-    return r;
+    PL_TRY(pl_check_pointer(world, function, "cast", cast));
+    PL_TRY(check_cast(world, function, "", cast));
+    PL_TRY(pl_is_wrapped(world) ? check_reach(world, function, "", cast) : PLUMB_OK);
+    PL_TRY(pl_query_begin(&c->seek.q, world, function, filter));
+    aim(c, cast);
+    return PLUMB_OK;
 }
 
 static plumb_cast_hit public_hit(const pl_query_hit *hit)
@@ -151,19 +147,17 @@ int plumb_world_cast_all(plumb_world *world, const plumb_cast *cast,
 static plumb_result check_casts(const plumb_world *world, const char *function,
                                 const plumb_cast *casts, int count, const plumb_cast_hit *hits)
 {
-    plumb_result r = pl_query_check_count(world, function, count);
-    r = r != PLUMB_OK || count == 0 ? r : pl_check_pointer(world, function, "casts", casts);
-    r = r != PLUMB_OK || count == 0 ? r : pl_check_pointer(world, function, "hits", hits);
-    for (int i = 0; r == PLUMB_OK && i < count; ++i) {
+    PL_TRY(pl_query_check_lists(world, function, count, "casts", casts, hits));
+    for (int i = 0; i < count; ++i) {
         bool refused = check_cast(NULL, function, "", &casts[i]) != PLUMB_OK;
         if (refused || pl_is_wrapped(world)) {
             char prefix[24];
             snprintf(prefix, sizeof prefix, "casts[%d].", i);
-            r = refused ? check_cast(world, function, prefix, &casts[i])
-                        : check_reach(world, function, prefix, &casts[i]);
+            PL_TRY(refused ? check_cast(world, function, prefix, &casts[i])
+                           : check_reach(world, function, prefix, &casts[i]));
         }
     }
-    return r;
+    return PLUMB_OK;
 }
 
 int plumb_world_cast_batch(plumb_world *world, const plumb_cast *casts, int count,

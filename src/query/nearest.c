@@ -154,9 +154,9 @@ static void search_level(search *s, const pl_grid *grid, const pl_grid_level *le
 static plumb_result check_distance(const plumb_world *world, const char *function,
                                    plumb_real max_distance)
 {
-    plumb_result r = pl_check_finite(world, function, "max_distance", max_distance);
-    return r != PLUMB_OK || max_distance > 0
-               ? r
+    PL_TRY(pl_check_finite(world, function, "max_distance", max_distance));
+    return max_distance > 0
+               ? PLUMB_OK
                : pl_fail(world, PLUMB_E_RANGE, function, "max_distance is %g; it must be above 0",
                          (double)max_distance);
 }
@@ -164,9 +164,9 @@ static plumb_result check_distance(const plumb_world *world, const char *functio
 static plumb_result begin(search *s, plumb_world *world, const char *function, plumb_vec2 point,
                           plumb_real max_distance, const plumb_query_filter *filter)
 {
-    plumb_result r = pl_check_within(world, function, "point", point, PL_QUERY_LIMIT);
-    r = r != PLUMB_OK ? r : check_distance(world, function, max_distance);
-    return r != PLUMB_OK ? r : pl_query_begin(&s->q, world, function, filter);
+    PL_TRY(pl_check_within(world, function, "point", point, PL_QUERY_LIMIT));
+    PL_TRY(check_distance(world, function, max_distance));
+    return pl_query_begin(&s->q, world, function, filter);
 }
 
 // Goes on with what was found at other images of the point.
@@ -284,17 +284,15 @@ int plumb_world_nearest_all(plumb_world *world, plumb_vec2 point, plumb_real max
 static plumb_result check_points(const plumb_world *world, const char *function,
                                  const plumb_vec2 *points, int count, const plumb_nearest_hit *hits)
 {
-    plumb_result r = pl_query_check_count(world, function, count);
-    r = r != PLUMB_OK || count == 0 ? r : pl_check_pointer(world, function, "points", points);
-    r = r != PLUMB_OK || count == 0 ? r : pl_check_pointer(world, function, "hits", hits);
-    for (int i = 0; r == PLUMB_OK && i < count; ++i) {
+    PL_TRY(pl_query_check_lists(world, function, count, "points", points, hits));
+    for (int i = 0; i < count; ++i) {
         if (!pl_query_is_near(points[i])) {
             char field[32];
             snprintf(field, sizeof field, "points[%d]", i);
-            r = pl_check_within(world, function, field, points[i], PL_QUERY_LIMIT);
+            return pl_check_within(world, function, field, points[i], PL_QUERY_LIMIT);
         }
     }
-    return r;
+    return PLUMB_OK;
 }
 
 int plumb_world_nearest_batch(plumb_world *world, const plumb_vec2 *points, int count,

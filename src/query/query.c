@@ -47,11 +47,16 @@ plumb_result pl_query_check_output(const plumb_world *world, const char *functio
     return capacity == 0 ? PLUMB_OK : pl_check_pointer(world, function, field, output);
 }
 
-plumb_result pl_query_check_count(const plumb_world *world, const char *function, int count)
+plumb_result pl_query_check_lists(const plumb_world *world, const char *function, int count,
+                                  const char *field, const void *asked, const void *hits)
 {
-    return count >= 0 ? PLUMB_OK
-                      : pl_fail(world, PLUMB_E_RANGE, function,
-                                "count is %d; it must be at least 0", count);
+    if (count <= 0) {
+        return count == 0 ? PLUMB_OK
+                          : pl_fail(world, PLUMB_E_RANGE, function,
+                                    "count is %d; it must be at least 0", count);
+    }
+    PL_TRY(pl_check_pointer(world, function, field, asked));
+    return pl_check_pointer(world, function, "hits", hits);
 }
 
 const char *pl_query_field(char buffer[PL_QUERY_FIELD], const char *prefix, const char *name)
@@ -68,23 +73,21 @@ plumb_result pl_query_check_convex(const plumb_world *world, const char *functio
 {
     char buffer[PL_QUERY_FIELD];
     const char *name = pl_query_field(buffer, prefix, "convex");
-    plumb_result r = pl_check_pointer(world, function, name, convex);
-    if (r == PLUMB_OK && (convex->count < 1 || convex->count > PLUMB_POLYGON_MAX_VERTICES)) {
+    PL_TRY(pl_check_pointer(world, function, name, convex));
+    if (convex->count < 1 || convex->count > PLUMB_POLYGON_MAX_VERTICES) {
         return pl_fail(world, PLUMB_E_RANGE, function, "%s.count is %d; it must be 1 to %d", name,
                        convex->count, PLUMB_POLYGON_MAX_VERTICES);
     }
-    for (int i = 0; r == PLUMB_OK && i < convex->count; ++i) {
+    for (int i = 0; i < convex->count; ++i) {
         plumb_vec2 p = convex->points[i];
         if (!(plumb_abs(p.x) <= PLUMB_LENGTH_MAX && plumb_abs(p.y) <= PLUMB_LENGTH_MAX)) {
             char field[PL_QUERY_FIELD + 24];
             snprintf(field, sizeof field, "%s.points[%d]", name, i);
-            r = pl_check_within(world, function, field, p, PLUMB_LENGTH_MAX);
+            return pl_check_within(world, function, field, p, PLUMB_LENGTH_MAX);
         }
     }
     name = pl_query_field(buffer, prefix, "convex.radius");
-    return r != PLUMB_OK
-               ? r
-               : pl_check_range(world, function, name, convex->radius, 0, PLUMB_LENGTH_MAX);
+    return pl_check_range(world, function, name, convex->radius, 0, PLUMB_LENGTH_MAX);
 }
 
 plumb_result pl_query_check_transform(const plumb_world *world, const char *function,
@@ -92,15 +95,15 @@ plumb_result pl_query_check_transform(const plumb_world *world, const char *func
 {
     char buffer[PL_QUERY_FIELD];
     const char *name = pl_query_field(buffer, prefix, "transform.p");
-    plumb_result r = pl_check_within(world, function, name, t.p, PL_QUERY_LIMIT);
+    PL_TRY(pl_check_within(world, function, name, t.p, PL_QUERY_LIMIT));
     plumb_vec2 q = { t.q.c, t.q.s };
     name = pl_query_field(buffer, prefix, "transform.q");
-    r = r != PLUMB_OK ? r : pl_check_finite_vec(world, function, name, q);
-    if (r == PLUMB_OK && !plumb_rot_is_unit(t.q)) {
-        r = pl_fail(world, PLUMB_E_RANGE, function, "%s is (%g, %g); it must be a unit rotation",
-                    name, (double)t.q.c, (double)t.q.s);
+    PL_TRY(pl_check_finite_vec(world, function, name, q));
+    if (!plumb_rot_is_unit(t.q)) {
+        return pl_fail(world, PLUMB_E_RANGE, function, "%s is (%g, %g); it must be a unit rotation",
+                       name, (double)t.q.c, (double)t.q.s);
     }
-    return r;
+    return PLUMB_OK;
 }
 
 pl_box pl_query_box_at(plumb_vec2 point, double half)

@@ -105,7 +105,9 @@ static inline bool pl_query_is_near(plumb_vec2 p)
 pl_box pl_query_box_at(plumb_vec2 point, double half);
 
 // Checks of arguments; see world/check.h for the messages.
-plumb_result pl_query_check_count(const plumb_world *world, const char *function, int count);
+// Of `count` questions (`field` in the messages), which have room for as many hits.
+plumb_result pl_query_check_lists(const plumb_world *world, const char *function, int count,
+                                  const char *field, const void *asked, const void *hits);
 // `prefix` stands before the names of fields: "", or "casts[3].". A null world: no message.
 plumb_result pl_query_check_convex(const plumb_world *world, const char *function,
                                    const char *prefix, const plumb_convex *convex);

@@ -47,9 +47,9 @@ static plumb_result check_length(const plumb_world *world, const char *function,
 static plumb_result check_ray(const plumb_world *world, const char *function, plumb_vec2 from,
                               plumb_vec2 to)
 {
-    plumb_result r = pl_check_within(world, function, "from", from, PL_QUERY_LIMIT);
-    r = r != PLUMB_OK ? r : pl_check_within(world, function, "to", to, PL_QUERY_LIMIT);
-    return r != PLUMB_OK ? r : check_length(world, function, "the ray", from, to);
+    PL_TRY(pl_check_within(world, function, "from", from, PL_QUERY_LIMIT));
+    PL_TRY(pl_check_within(world, function, "to", to, PL_QUERY_LIMIT));
+    return check_length(world, function, "the ray", from, to);
 }
 
 static void aim(raycast *c, plumb_vec2 from, plumb_vec2 to)
@@ -63,12 +63,10 @@ static void aim(raycast *c, plumb_vec2 from, plumb_vec2 to)
 static plumb_result begin(raycast *c, plumb_world *world, const char *function, plumb_vec2 from,
                           plumb_vec2 to, const plumb_query_filter *filter)
 {
-    plumb_result r = check_ray(world, function, from, to);
-    r = r != PLUMB_OK ? r : pl_query_begin(&c->seek.q, world, function, filter);
-    if (r == PLUMB_OK) {
-        aim(c, from, to);
-    }
-    return r;
+    PL_TRY(check_ray(world, function, from, to));
+    PL_TRY(pl_query_begin(&c->seek.q, world, function, filter));
+    aim(c, from, to);
+    return PLUMB_OK;
 }
 
 static plumb_ray_hit public_hit(const pl_query_hit *hit)
@@ -123,25 +121,22 @@ bool plumb_world_ray_any(plumb_world *world, plumb_vec2 from, plumb_vec2 to,
 static plumb_result check_rays(const plumb_world *world, const char *function,
                                const plumb_ray *rays, int count, const plumb_ray_hit *hits)
 {
-    plumb_result r = pl_query_check_count(world, function, count);
-    r = r != PLUMB_OK || count == 0 ? r : pl_check_pointer(world, function, "rays", rays);
-    r = r != PLUMB_OK || count == 0 ? r : pl_check_pointer(world, function, "hits", hits);
-    for (int i = 0; r == PLUMB_OK && i < count; ++i) {
+    PL_TRY(pl_query_check_lists(world, function, count, "rays", rays, hits));
+    for (int i = 0; i < count; ++i) {
         if (!pl_query_is_near(rays[i].from) || !pl_query_is_near(rays[i].to)) {
             char from[32], to[32];
             snprintf(from, sizeof from, "rays[%d].from", i);
             snprintf(to, sizeof to, "rays[%d].to", i);
-            r = pl_check_within(world, function, from, rays[i].from, PL_QUERY_LIMIT);
-            r = r != PLUMB_OK ? r
-                              : pl_check_within(world, function, to, rays[i].to, PL_QUERY_LIMIT);
+            PL_TRY(pl_check_within(world, function, from, rays[i].from, PL_QUERY_LIMIT));
+            PL_TRY(pl_check_within(world, function, to, rays[i].to, PL_QUERY_LIMIT));
         }
-        if (r == PLUMB_OK && pl_is_wrapped(world)) {
+        if (pl_is_wrapped(world)) {
             char ray[32];
             snprintf(ray, sizeof ray, "rays[%d]", i);
-            r = check_length(world, function, ray, rays[i].from, rays[i].to);
+            PL_TRY(check_length(world, function, ray, rays[i].from, rays[i].to));
         }
     }
-    return r;
+    return PLUMB_OK;
 }
 
 int plumb_world_ray_batch(plumb_world *world, const plumb_ray *rays, int count,

@@ -460,15 +460,12 @@ plumb_result plumb_world_compare(const plumb_world *a, const plumb_world *b, plu
     if (a == NULL || b == NULL) {
         return PLUMB_E_NULL;
     }
-    plumb_result r = pl_check_unlocked(a, __func__);
-    r = r != PLUMB_OK ? r : pl_check_unlocked(b, __func__);
-    r = r != PLUMB_OK ? r : pl_check_pointer(a, __func__, "count", count);
-    if (r == PLUMB_OK && pl_section_user_schema(a) != pl_section_user_schema(b)) {
-        r = pl_fail(a, PLUMB_E_IMAGE, __func__,
-                    "b has other components; register the same ones in the same order");
-    }
-    if (r != PLUMB_OK) {
-        return r;
+    PL_TRY(pl_check_unlocked(a, __func__));
+    PL_TRY(pl_check_unlocked(b, __func__));
+    PL_TRY(pl_check_pointer(a, __func__, "count", count));
+    if (pl_section_user_schema(a) != pl_section_user_schema(b)) {
+        return pl_fail(a, PLUMB_E_IMAGE, __func__,
+                       "b has other components; register the same ones in the same order");
     }
     *count = 0;
     if (plumb_world_hash(a) == plumb_world_hash(b)) {
@@ -477,6 +474,7 @@ plumb_result plumb_world_compare(const plumb_world *a, const plumb_world *b, plu
     pl_memory memory;
     pl_buffer buffers[2] = { { 0 } };
     pl_image images[2];
+    plumb_result r = PLUMB_OK;
     pl_memory_init(&memory, &a->desc.allocator);
     if (keep(&memory, a, &buffers[0], &images[0]) && keep(&memory, b, &buffers[1], &images[1])) {
         *count = pl_compare_images(a, &images[0], &images[1], true, rows, capacity);

@@ -63,12 +63,12 @@ static plumb_result again(passes *p)
 {
     plumb_replay *replay = p->replay;
     memset(p->digest, 0, sizeof p->digest);
-    plumb_result r = plumb_replay_seek(replay, p->step);
+    PL_TRY(plumb_replay_seek(replay, p->step));
     replay->look = look;
     replay->look_context = p;
-    r = r != PLUMB_OK ? r : plumb_replay_step(replay);
+    PL_TRY(plumb_replay_step(replay));
     replay->look = NULL;
-    return r;
+    return PLUMB_OK;
 }
 
 // The first pass from `from` on behind which they differ; a pass that only one took leaves the other as
@@ -94,23 +94,23 @@ static const char *name_of(int place)
 // What differs behind the pass, or behind the next one of which a user can tell.
 static plumb_result find_first(passes *a, passes *b, plumb_replay_difference *out)
 {
-    plumb_result r = again(a);
-    r = r != PLUMB_OK ? r : again(b);
-    int pass = r == PLUMB_OK ? first_pass(a, b, 0) : PASSES;
+    PL_TRY(again(a));
+    PL_TRY(again(b));
+    int pass = first_pass(a, b, 0);
     int count = 0;
     out->pass = name_of(pass);
-    while (r == PLUMB_OK && pass < PASSES && count == 0) {
+    while (pass < PASSES && count == 0) {
         a->wanted = b->wanted = pass;
         a->image.image.bytes = b->image.image.bytes = NULL;
-        r = again(a);
-        r = r != PLUMB_OK ? r : again(b);
-        if (r == PLUMB_OK && a->image.image.bytes != NULL && b->image.image.bytes != NULL) {
+        PL_TRY(again(a));
+        PL_TRY(again(b));
+        if (a->image.image.bytes != NULL && b->image.image.bytes != NULL) {
             count = pl_compare_images(a->replay->world, &a->image.image, &b->image.image, false,
                                       &out->first, 1);
         }
         pass = first_pass(a, b, pass + 1);
     }
-    return r;
+    return PLUMB_OK;
 }
 
 static uint64_t state_of(const plumb_replay *replay)

@@ -381,34 +381,34 @@ static void at_gone(pl_step_observer *self, plumb_world *world)
 static plumb_result check_desc(const plumb_world *world, const char *fn,
                                const plumb_recorder_desc *desc)
 {
-    plumb_result r = pl_check_unlocked(world, fn);
-    r = r != PLUMB_OK ? r : pl_check_pointer(world, fn, "desc", desc);
-    if (r == PLUMB_OK && desc->write == NULL) {
-        r = pl_fail(world, PLUMB_E_NULL, fn, "write is null; it must be given");
+    PL_TRY(pl_check_unlocked(world, fn));
+    PL_TRY(pl_check_pointer(world, fn, "desc", desc));
+    if (desc->write == NULL) {
+        return pl_fail(world, PLUMB_E_NULL, fn, "write is null; it must be given");
     }
-    if (r == PLUMB_OK && (desc->keyframe_every < 0 || desc->keyframe_every > KEYFRAME_EVERY_MOST)) {
-        r = pl_fail(world, PLUMB_E_RANGE, fn, "keyframe_every is %d; it must be 0 to %d",
-                    desc->keyframe_every, KEYFRAME_EVERY_MOST);
+    if (desc->keyframe_every < 0 || desc->keyframe_every > KEYFRAME_EVERY_MOST) {
+        return pl_fail(world, PLUMB_E_RANGE, fn, "keyframe_every is %d; it must be 0 to %d",
+                       desc->keyframe_every, KEYFRAME_EVERY_MOST);
     }
-    if (r == PLUMB_OK && desc->title != NULL && memchr(desc->title, '\0', PL_TITLE_MAX) == NULL) {
-        r = pl_fail(world, PLUMB_E_RANGE, fn,
-                    "title is '%.16s...'; it must have at most %d characters", desc->title,
-                    PL_TITLE_MAX - 1);
+    if (desc->title != NULL && memchr(desc->title, '\0', PL_TITLE_MAX) == NULL) {
+        return pl_fail(world, PLUMB_E_RANGE, fn,
+                       "title is '%.16s...'; it must have at most %d characters", desc->title,
+                       PL_TITLE_MAX - 1);
     }
-    if (r == PLUMB_OK && world->observer != NULL) {
-        r = pl_fail(world, PLUMB_E_STATE, fn,
-                    world->observer->replays ? "the world is that of a replay; it must not be"
-                                             : "the world is recorded already; stop that first");
+    if (world->observer != NULL) {
+        return pl_fail(world, PLUMB_E_STATE, fn,
+                       world->observer->replays ? "the world is that of a replay; it must not be"
+                                                : "the world is recorded already; stop that first");
     }
-    for (uint32_t i = 0; r == PLUMB_OK && i < world->systems.count; ++i) {
+    for (uint32_t i = 0; i < world->systems.count; ++i) {
         if (pl_system_is_placed(&world->systems.items[i].desc)) {
-            r = pl_fail(world, PLUMB_E_STATE, fn,
-                        "the system '%s' runs in the substep or at a place of its own; a recording "
-                        "does not hold what such a system does",
-                        world->systems.items[i].name);
+            return pl_fail(world, PLUMB_E_STATE, fn,
+                           "the system '%s' runs in the substep or at a place of its own; a "
+                           "recording does not hold what such a system does",
+                           world->systems.items[i].name);
         }
     }
-    return r;
+    return PLUMB_OK;
 }
 
 static void put_head(recorder *r, plumb_world *world, const plumb_recorder_desc *desc)
@@ -430,10 +430,7 @@ plumb_result plumb_recorder_start(plumb_world *world, const plumb_recorder_desc 
     if (world == NULL) {
         return PLUMB_E_NULL;
     }
-    plumb_result result = check_desc(world, __func__, desc);
-    if (result != PLUMB_OK) {
-        return result;
-    }
+    PL_TRY(check_desc(world, __func__, desc));
     recorder *r = pl_resize(&world->memory, NULL, 0, sizeof *r);
     if (r == NULL) {
         return pl_fail_memory(world, __func__);
@@ -454,7 +451,7 @@ plumb_result plumb_recorder_start(plumb_world *world, const plumb_recorder_desc 
     if (keep(r, world, &r->last) && begin_step(r, world)) {
         put_head(r, world, desc);
     }
-    result = r->info.ended;
+    const plumb_result result = r->info.ended;
     if (result != PLUMB_OK) {
         free_recorder(world, r);
         return result == PLUMB_E_MEMORY
@@ -479,17 +476,11 @@ static plumb_result fail_ended(const plumb_world *world, const char *fn, plumb_r
 
 plumb_result plumb_recorder_stop(plumb_world *world)
 {
-    if (world == NULL) {
-        return PLUMB_E_NULL;
-    }
-    plumb_result result = pl_check_unlocked(world, __func__);
-    result = result != PLUMB_OK ? result : check_recording(world, __func__);
-    if (result != PLUMB_OK) {
-        return result;
-    }
+    PL_TRY(pl_check_unlocked(world, __func__));
+    PL_TRY(check_recording(world, __func__));
     recorder *r = (recorder *)world->observer;
     put_chunk(r, PL_CHUNK_END, NULL, 0);
-    result = r->info.ended;
+    const plumb_result result = r->info.ended;
     free_recorder(world, r);
     return result == PLUMB_OK ? PLUMB_OK : fail_ended(world, __func__, result);
 }
@@ -503,12 +494,9 @@ plumb_result plumb_recorder_name(plumb_world *world, plumb_entity entity, const 
     if (world == NULL) {
         return PLUMB_E_NULL;
     }
-    plumb_result result = pl_check_name(world, __func__, "name", name);
-    result = result != PLUMB_OK ? result : pl_check_entity(world, __func__, entity);
-    result = result != PLUMB_OK ? result : check_recording(world, __func__);
-    if (result != PLUMB_OK) {
-        return result;
-    }
+    PL_TRY(pl_check_name(world, __func__, "name", name));
+    PL_TRY(pl_check_entity(world, __func__, entity));
+    PL_TRY(check_recording(world, __func__));
     recorder *r = (recorder *)world->observer;
     copy_name(note.text, name);
     put_chunk(r, PL_CHUNK_NAME, &note, sizeof note);
@@ -520,17 +508,12 @@ plumb_result plumb_recorder_note(plumb_world *world, uint64_t key, const void *b
     if (world == NULL) {
         return PLUMB_E_NULL;
     }
-    plumb_result result = PLUMB_OK;
     if (size > PLUMB_NOTE_MAX) {
-        result = pl_fail(world, PLUMB_E_RANGE, __func__, "size is %zu; it must be 0 to %zu", size,
-                         PLUMB_NOTE_MAX);
-    } else if (size > 0) {
-        result = pl_check_pointer(world, __func__, "bytes", bytes);
+        return pl_fail(world, PLUMB_E_RANGE, __func__, "size is %zu; it must be 0 to %zu", size,
+                       PLUMB_NOTE_MAX);
     }
-    result = result != PLUMB_OK ? result : check_recording(world, __func__);
-    if (result != PLUMB_OK) {
-        return result;
-    }
+    PL_TRY(size > 0 ? pl_check_pointer(world, __func__, "bytes", bytes) : PLUMB_OK);
+    PL_TRY(check_recording(world, __func__));
     recorder *r = (recorder *)world->observer;
     const pl_note_head head = { key, size };
     size_t padded = pl_image_padded(size);

@@ -78,15 +78,13 @@ static plumb_result make_world(plumb_replay *replay)
                                     .allocator = d->allocator,
                                     .log = d->log,
                                     .hook_context = d->hook_context };
-    plumb_result r = plumb_world_create(&desc, &replay->world);
-    if (r == PLUMB_OK) {
-        replay->observer = (pl_step_observer){
-            .replays = true, .after = after_systems, .dropped = after_hook, .passed = after_pass
-        };
-        replay->world->observer = &replay->observer;
-        replay->code = UINT32_MAX;
-    }
-    return r;
+    PL_TRY(plumb_world_create(&desc, &replay->world));
+    replay->observer = (pl_step_observer){
+        .replays = true, .after = after_systems, .dropped = after_hook, .passed = after_pass
+    };
+    replay->world->observer = &replay->observer;
+    replay->code = UINT32_MAX;
+    return PLUMB_OK;
 }
 
 static void drop_world(plumb_replay *replay)
@@ -126,14 +124,12 @@ static plumb_result restore_key(plumb_replay *replay, const char *fn, const pl_k
 
 static plumb_result go_to_key(plumb_replay *replay, const char *fn, const pl_key_place *key)
 {
-    plumb_result r = restore_key(replay, fn, key);
-    if (r == PLUMB_OK) {
-        replay->step = key->step;
-        replay->differs = false;
-        replay->edit_count = 0;
-        replay->failed = PLUMB_OK;
-    }
-    return r;
+    PL_TRY(restore_key(replay, fn, key));
+    replay->step = key->step;
+    replay->differs = false;
+    replay->edit_count = 0;
+    replay->failed = PLUMB_OK;
+    return PLUMB_OK;
 }
 
 //---- open and close ------------------------------------------------------------------------------
@@ -208,11 +204,11 @@ static plumb_result play_head(plumb_replay *replay, const char *fn)
     if (listed && !pl_replay_keep(replay, &replay->before)) {
         return fail_memory(replay, fn);
     }
-    plumb_result r = restore_key(replay, fn, key);
-    if (r == PLUMB_OK && listed && pl_replay_keep(replay, &replay->now)) {
+    PL_TRY(restore_key(replay, fn, key));
+    if (listed && pl_replay_keep(replay, &replay->now)) {
         pl_replay_list(replay, -1, &replay->before.image, &replay->now.image);
     }
-    return r;
+    return PLUMB_OK;
 }
 
 static plumb_result fail_differs(plumb_replay *replay, const char *fn)

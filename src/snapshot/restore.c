@@ -463,14 +463,14 @@ static plumb_result restore_image(plumb_world *world, const char *function, cons
         return PLUMB_E_NULL;
     }
     pl_image image;
-    plumb_result r = pl_check_unlocked(world, function);
-    r = r != PLUMB_OK ? r : pl_check_pointer(world, function, "buffer", buffer);
-    r = r != PLUMB_OK ? r : pl_image_fit(world, function, "buffer", buffer, size, true, &image);
-    if (r == PLUMB_OK && image.header.base != 0) {
-        r = pl_fail(world, PLUMB_E_IMAGE, function,
-                    "buffer is a frame; plumb_world_restore_frame takes it with its base");
+    PL_TRY(pl_check_unlocked(world, function));
+    PL_TRY(pl_check_pointer(world, function, "buffer", buffer));
+    PL_TRY(pl_image_fit(world, function, "buffer", buffer, size, true, &image));
+    if (image.header.base != 0) {
+        return pl_fail(world, PLUMB_E_IMAGE, function,
+                       "buffer is a frame; plumb_world_restore_frame takes it with its base");
     }
-    return r != PLUMB_OK ? r : restore(world, function, &image, NULL, trusted);
+    return restore(world, function, &image, NULL, trusted);
 }
 
 static plumb_result restore_frame(plumb_world *world, const char *function, const void *base,
@@ -481,18 +481,16 @@ static plumb_result restore_frame(plumb_world *world, const char *function, cons
         return PLUMB_E_NULL;
     }
     pl_image image, base_image;
-    plumb_result r = pl_check_unlocked(world, function);
-    r = r != PLUMB_OK ? r : pl_check_pointer(world, function, "base", base);
-    r = r != PLUMB_OK ? r : pl_check_pointer(world, function, "frame", frame);
-    r = r != PLUMB_OK ? r
-                      : pl_image_fit(world, function, "base", base, base_size, true, &base_image);
-    r = r != PLUMB_OK ? r : pl_image_fit(world, function, "frame", frame, frame_size, true, &image);
-    if (r == PLUMB_OK &&
-        (base_image.header.base != 0 || image.header.base != base_image.header.checksum)) {
-        r = pl_fail(world, PLUMB_E_IMAGE, function,
-                    "base is not the one that the frame was made with");
+    PL_TRY(pl_check_unlocked(world, function));
+    PL_TRY(pl_check_pointer(world, function, "base", base));
+    PL_TRY(pl_check_pointer(world, function, "frame", frame));
+    PL_TRY(pl_image_fit(world, function, "base", base, base_size, true, &base_image));
+    PL_TRY(pl_image_fit(world, function, "frame", frame, frame_size, true, &image));
+    if ((base_image.header.base != 0 || image.header.base != base_image.header.checksum)) {
+        return pl_fail(world, PLUMB_E_IMAGE, function,
+                       "base is not the one that the frame was made with");
     }
-    return r != PLUMB_OK ? r : restore(world, function, &image, &base_image, trusted);
+    return restore(world, function, &image, &base_image, trusted);
 }
 
 plumb_result plumb_world_restore(plumb_world *world, const void *buffer, size_t size)

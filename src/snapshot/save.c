@@ -152,28 +152,25 @@ plumb_result plumb_world_save(const plumb_world *world, void *buffer, size_t siz
         return PLUMB_E_NULL;
     }
     size_t bytes;
-    plumb_result r = pl_check_unlocked(world, __func__);
-    r = r != PLUMB_OK ? r : pl_check_pointer(world, __func__, "buffer", buffer);
-    return r != PLUMB_OK ? r : save(world, __func__, NULL, buffer, size, &bytes);
+    PL_TRY(pl_check_unlocked(world, __func__));
+    PL_TRY(pl_check_pointer(world, __func__, "buffer", buffer));
+    return save(world, __func__, NULL, buffer, size, &bytes);
 }
 
 plumb_result plumb_world_save_frame(const plumb_world *world, const void *base, size_t base_size,
                                     void *buffer, size_t size, size_t *bytes)
 {
-    if (world == NULL) {
-        return PLUMB_E_NULL;
-    }
-    plumb_result r = pl_check_unlocked(world, __func__);
-    r = r != PLUMB_OK ? r : pl_check_pointer(world, __func__, "base", base);
-    r = r != PLUMB_OK ? r : pl_check_pointer(world, __func__, "buffer", buffer);
-    r = r != PLUMB_OK ? r : pl_check_pointer(world, __func__, "bytes", bytes);
+    PL_TRY(pl_check_unlocked(world, __func__));
+    PL_TRY(pl_check_pointer(world, __func__, "base", base));
+    PL_TRY(pl_check_pointer(world, __func__, "buffer", buffer));
+    PL_TRY(pl_check_pointer(world, __func__, "bytes", bytes));
     pl_image image;
-    r = r != PLUMB_OK ? r : pl_image_fit(world, __func__, "base", base, base_size, false, &image);
-    if (r == PLUMB_OK && image.header.base != 0) {
-        r = pl_fail(world, PLUMB_E_IMAGE, __func__,
-                    "base is a frame; it must come from plumb_world_save");
+    PL_TRY(pl_image_fit(world, __func__, "base", base, base_size, false, &image));
+    if (image.header.base != 0) {
+        return pl_fail(world, PLUMB_E_IMAGE, __func__,
+                       "base is a frame; it must come from plumb_world_save");
     }
-    return r != PLUMB_OK ? r : save(world, __func__, &image, buffer, size, bytes);
+    return save(world, __func__, &image, buffer, size, bytes);
 }
 
 plumb_result plumb_snapshot_read_info(const void *image, size_t size, plumb_snapshot_info *info)

@@ -7,6 +7,7 @@
 // Reads: the table, systems. Writes: the places of the schedule. Cost: O(systems x rows), when one is registered.
 #include "step/place.h"
 
+#include "core/try.h"
 #include "world/state.h"
 
 #include <string.h>
@@ -155,16 +156,16 @@ static plumb_result check_instead(const plumb_world *world, const char *fn,
 plumb_result pl_place_check_system(const plumb_world *world, const char *fn,
                                    const plumb_system_desc *d)
 {
-    plumb_result r = check_row(world, fn, d, "before", d->before);
-    r = r != PLUMB_OK ? r : check_row(world, fn, d, "after", d->after);
-    if (r == PLUMB_OK && is_given(d->before) && is_given(d->after) &&
+    PL_TRY(check_row(world, fn, d, "before", d->before));
+    PL_TRY(check_row(world, fn, d, "after", d->after));
+    if (is_given(d->before) && is_given(d->after) &&
         line_of(world, d->after) >= line_of(world, d->before)) {
-        r = pl_fail(
+        return pl_fail(
             world, PLUMB_E_STATE, fn,
             "after is '%.64s' and before is '%.64s'; the first must stand before the second",
             d->after, d->before);
     }
-    return r != PLUMB_OK || !is_given(d->instead) ? r : check_instead(world, fn, d);
+    return is_given(d->instead) ? check_instead(world, fn, d) : PLUMB_OK;
 }
 
 //---- placing -------------------------------------------------------------------------------------

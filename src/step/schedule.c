@@ -150,16 +150,10 @@ void pl_schedule_note(plumb_world *world, pl_line place, double ns)
 
 plumb_result plumb_world_watch(plumb_world *world, unsigned what)
 {
-    if (world == NULL) {
-        return PLUMB_E_NULL;
-    }
-    plumb_result r = pl_check_unlocked(world, __func__);
-    if (r == PLUMB_OK && what > (PLUMB_WATCH_TIMES | PLUMB_WATCH_WRITES)) {
-        r = pl_fail(world, PLUMB_E_RANGE, __func__, "what is %u; it must be a sum of plumb_watch",
-                    what);
-    }
-    if (r != PLUMB_OK) {
-        return r;
+    PL_TRY(pl_check_unlocked(world, __func__));
+    if (what > (PLUMB_WATCH_TIMES | PLUMB_WATCH_WRITES)) {
+        return pl_fail(world, PLUMB_E_RANGE, __func__,
+                       "what is %u; it must be a sum of plumb_watch", what);
     }
     pl_schedule *s = &world->schedule;
     const size_t known = s->times.size;

@@ -64,38 +64,38 @@ static plumb_result check_desc(const plumb_world *world, const char *fn,
                                const plumb_system_desc *desc)
 {
     const pl_system *form = NULL;
-    plumb_result r = pl_check_pointer(world, fn, "desc", desc);
-    r = r != PLUMB_OK ? r : pl_check_name(world, fn, "name", desc->name);
-    if (r == PLUMB_OK && (unsigned)desc->phase > PLUMB_PHASE_SUBSTEP) {
-        r = pl_fail(world, PLUMB_E_RANGE, fn, "phase is %d; it must be a plumb_phase",
-                    (int)desc->phase);
+    PL_TRY(pl_check_pointer(world, fn, "desc", desc));
+    PL_TRY(pl_check_name(world, fn, "name", desc->name));
+    if ((unsigned)desc->phase > PLUMB_PHASE_SUBSTEP) {
+        return pl_fail(world, PLUMB_E_RANGE, fn, "phase is %d; it must be a plumb_phase",
+                       (int)desc->phase);
     }
-    if (r == PLUMB_OK && desc->run == NULL) {
-        r = pl_fail(world, PLUMB_E_NULL, fn, "run is null; it must be given");
+    if (desc->run == NULL) {
+        return pl_fail(world, PLUMB_E_NULL, fn, "run is null; it must be given");
     }
-    r = r != PLUMB_OK ? r : check_text(world, fn, "reads", desc->reads, sizeof form->reads);
-    r = r != PLUMB_OK ? r : check_text(world, fn, "writes", desc->writes, sizeof form->writes);
-    r = r != PLUMB_OK ? r : check_text(world, fn, "before", desc->before, sizeof form->before);
-    r = r != PLUMB_OK ? r : check_text(world, fn, "after", desc->after, sizeof form->after);
-    r = r != PLUMB_OK ? r : check_text(world, fn, "instead", desc->instead, sizeof form->instead);
-    r = r != PLUMB_OK ? r : check_data(world, fn, "reads", desc->reads);
-    r = r != PLUMB_OK ? r : check_data(world, fn, "writes", desc->writes);
-    r = r != PLUMB_OK ? r : check_needs(world, fn, desc);
-    if (r == PLUMB_OK &&
-        (system_find(world, desc->name) != NULL || pl_pass_find(desc->name) >= 0)) {
-        r = pl_fail(world, PLUMB_E_DUPLICATE, fn, "name is '%s'; it must be new", desc->name);
+    PL_TRY(check_text(world, fn, "reads", desc->reads, sizeof form->reads));
+    PL_TRY(check_text(world, fn, "writes", desc->writes, sizeof form->writes));
+    PL_TRY(check_text(world, fn, "before", desc->before, sizeof form->before));
+    PL_TRY(check_text(world, fn, "after", desc->after, sizeof form->after));
+    PL_TRY(check_text(world, fn, "instead", desc->instead, sizeof form->instead));
+    PL_TRY(check_data(world, fn, "reads", desc->reads));
+    PL_TRY(check_data(world, fn, "writes", desc->writes));
+    PL_TRY(check_needs(world, fn, desc));
+    if ((system_find(world, desc->name) != NULL || pl_pass_find(desc->name) >= 0)) {
+        return pl_fail(world, PLUMB_E_DUPLICATE, fn, "name is '%s'; it must be new", desc->name);
     }
-    if (r == PLUMB_OK && world->systems.count == PL_SYSTEM_MAX) {
-        r = pl_fail(world, PLUMB_E_CAPACITY, fn, "system is the %dth; there must be at most %d",
-                    PL_SYSTEM_MAX + 1, PL_SYSTEM_MAX);
+    if (world->systems.count == PL_SYSTEM_MAX) {
+        return pl_fail(world, PLUMB_E_CAPACITY, fn, "system is the %dth; there must be at most %d",
+                       PL_SYSTEM_MAX + 1, PL_SYSTEM_MAX);
     }
-    if (r == PLUMB_OK && world->observer != NULL && pl_system_is_placed(desc)) {
-        r = pl_fail(world, PLUMB_E_STATE, fn,
-                    "'%s' runs in the substep or at a place of its own; a recording does not hold "
-                    "what such a system does: it must come after the recording ends",
-                    desc->name);
+    if (world->observer != NULL && pl_system_is_placed(desc)) {
+        return pl_fail(
+            world, PLUMB_E_STATE, fn,
+            "'%s' runs in the substep or at a place of its own; a recording does not hold "
+            "what such a system does: it must come after the recording ends",
+            desc->name);
     }
-    return r != PLUMB_OK ? r : pl_place_check_system(world, fn, desc);
+    return pl_place_check_system(world, fn, desc);
 }
 
 static bool grow_items(pl_memory *memory, pl_systems *systems)
@@ -144,14 +144,8 @@ static void wake_for(plumb_world *world, plumb_phase phase)
 
 plumb_result plumb_system_create(plumb_world *world, const plumb_system_desc *desc)
 {
-    if (world == NULL) {
-        return PLUMB_E_NULL;
-    }
-    plumb_result r = pl_check_unlocked(world, __func__);
-    r = r != PLUMB_OK ? r : check_desc(world, __func__, desc);
-    if (r != PLUMB_OK) {
-        return r;
-    }
+    PL_TRY(pl_check_unlocked(world, __func__));
+    PL_TRY(check_desc(world, __func__, desc));
     pl_systems *systems = &world->systems;
     if (!grow_items(&world->memory, systems) || !pl_place_reserve(world)) {
         return pl_fail_memory(world, __func__);
@@ -190,10 +184,7 @@ plumb_result plumb_system_enable(plumb_world *world, const char *name, bool enab
     if (world == NULL) {
         return PLUMB_E_NULL;
     }
-    plumb_result r = pl_check_pointer(world, __func__, "name", name);
-    if (r != PLUMB_OK) {
-        return r;
-    }
+    PL_TRY(pl_check_pointer(world, __func__, "name", name));
     pl_system *system = system_find(world, name);
     if (system == NULL) {
         return pl_fail(world, PLUMB_E_MISSING, __func__,

@@ -4,6 +4,7 @@
 #ifndef PL_CHECK_H
 #define PL_CHECK_H
 
+#include "core/try.h"
 #include "plumb/schema.h"
 #include "plumb/shape.h"
 
@@ -63,7 +64,8 @@ plumb_result pl_check_entity(const plumb_world *world, const char *function, plu
 uint32_t pl_ask_body(const plumb_world *world, const char *function, plumb_body body);
 uint32_t pl_ask_shape(const plumb_world *world, const char *function, plumb_shape shape);
 
-// Records that a handle is not `wanted` ("a live body"): what it is instead is found out here.
+// Records that a handle is not `wanted` ("a live body"): what it is instead is found out here. E_HANDLE; E_NULL, and
+// nothing is told, of a null world.
 plumb_result pl_fail_handle(const plumb_world *world, const char *function, const char *field,
                             plumb_entity entity, const char *wanted);
 plumb_result pl_fail_memory(const plumb_world *world, const char *function);

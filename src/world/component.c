@@ -73,21 +73,22 @@ static plumb_result check_fields(const plumb_world *world, const char *fn,
 static plumb_result check_desc(const plumb_world *world, const char *fn,
                                const plumb_component_desc *desc)
 {
-    plumb_result r = pl_check_pointer(world, fn, "desc", desc);
-    r = r != PLUMB_OK ? r : pl_check_name(world, fn, "name", desc->name);
-    if (r == PLUMB_OK && (desc->size == 0 || desc->size > SIZE_MOST)) {
-        r = pl_fail(world, PLUMB_E_RANGE, fn, "size is %zu; it must be 1 to %u", desc->size,
-                    SIZE_MOST);
+    PL_TRY(pl_check_pointer(world, fn, "desc", desc));
+    PL_TRY(pl_check_name(world, fn, "name", desc->name));
+    if ((desc->size == 0 || desc->size > SIZE_MOST)) {
+        return pl_fail(world, PLUMB_E_RANGE, fn, "size is %zu; it must be 1 to %u", desc->size,
+                       SIZE_MOST);
     }
-    r = r != PLUMB_OK ? r : check_fields(world, fn, desc);
-    if (r == PLUMB_OK && plumb_component_find(world, desc->name).id != 0) {
-        r = pl_fail(world, PLUMB_E_DUPLICATE, fn, "name is '%s'; it must be new", desc->name);
+    PL_TRY(check_fields(world, fn, desc));
+    if (plumb_component_find(world, desc->name).id != 0) {
+        return pl_fail(world, PLUMB_E_DUPLICATE, fn, "name is '%s'; it must be new", desc->name);
     }
-    if (r == PLUMB_OK && world->components.count == PL_COMPONENT_MAX) {
-        r = pl_fail(world, PLUMB_E_CAPACITY, fn, "component is the %dth; there must be at most %d",
-                    PL_COMPONENT_MAX + 1, PL_COMPONENT_MAX);
+    if (world->components.count == PL_COMPONENT_MAX) {
+        return pl_fail(world, PLUMB_E_CAPACITY, fn,
+                       "component is the %dth; there must be at most %d", PL_COMPONENT_MAX + 1,
+                       PL_COMPONENT_MAX);
     }
-    return r;
+    return PLUMB_OK;
 }
 
 plumb_component plumb_component_create(plumb_world *world, const plumb_component_desc *desc)
@@ -122,12 +123,10 @@ plumb_result plumb_component_info(const plumb_world *world, plumb_component comp
     if (world == NULL) {
         return PLUMB_E_NULL;
     }
-    plumb_result r = check_component(world, __func__, component);
-    r = r != PLUMB_OK ? r : pl_check_pointer(world, __func__, "desc", desc);
-    if (r == PLUMB_OK) {
-        *desc = find(world, component)->desc;
-    }
-    return r;
+    PL_TRY(check_component(world, __func__, component));
+    PL_TRY(pl_check_pointer(world, __func__, "desc", desc));
+    *desc = find(world, component)->desc;
+    return PLUMB_OK;
 }
 
 //---- values --------------------------------------------------------------------------------------
@@ -212,15 +211,14 @@ void pl_components_bury(plumb_world *world)
 plumb_result plumb_component_set(plumb_world *world, plumb_entity entity, plumb_component component,
                                  const void *value)
 {
-    plumb_result r = pl_check_entity(world, __func__, entity);
-    r = r != PLUMB_OK ? r : check_component(world, __func__, component);
-    if (r == PLUMB_OK && pl_component_place(find(world, component), entity.index) == PL_ABSENT) {
-        r = pl_check_unlocked(world, __func__); // adding a row is structural, overwriting is not
+    PL_TRY(pl_check_entity(world, __func__, entity));
+    PL_TRY(check_component(world, __func__, component));
+    if (pl_component_place(find(world, component), entity.index) == PL_ABSENT) {
+        PL_TRY(
+            pl_check_unlocked(world, __func__)); // adding a row is structural, overwriting is not
     }
-    if (r == PLUMB_OK && !pl_component_put(world, entity, component, value)) {
-        r = pl_fail_memory(world, __func__);
-    }
-    return r;
+    return pl_component_put(world, entity, component, value) ? PLUMB_OK
+                                                             : pl_fail_memory(world, __func__);
 }
 
 void *plumb_component_get(plumb_world *world, plumb_entity entity, plumb_component component)
@@ -236,14 +234,14 @@ void *plumb_component_get(plumb_world *world, plumb_entity entity, plumb_compone
 plumb_result plumb_component_remove(plumb_world *world, plumb_entity entity,
                                     plumb_component component)
 {
-    plumb_result r = pl_check_entity(world, __func__, entity);
-    r = r != PLUMB_OK ? r : check_component(world, __func__, component);
-    r = r != PLUMB_OK ? r : pl_check_unlocked(world, __func__);
-    if (r == PLUMB_OK && !pl_component_drop(world, entity, component)) {
-        r = pl_fail(world, PLUMB_E_MISSING, __func__, "entity has no '%s'; it must have it",
-                    find(world, component)->name);
+    PL_TRY(pl_check_entity(world, __func__, entity));
+    PL_TRY(check_component(world, __func__, component));
+    PL_TRY(pl_check_unlocked(world, __func__));
+    if (!pl_component_drop(world, entity, component)) {
+        return pl_fail(world, PLUMB_E_MISSING, __func__, "entity has no '%s'; it must have it",
+                       find(world, component)->name);
     }
-    return r;
+    return PLUMB_OK;
 }
 
 plumb_component_span plumb_world_column(plumb_world *world, plumb_component component)
@@ -269,10 +267,7 @@ static int components_of(const plumb_body_view_desc *desc)
 static plumb_result check_view(const plumb_world *world, const char *fn,
                                const plumb_body_view_desc *desc)
 {
-    plumb_result r = pl_check_pointer(world, fn, "desc", desc);
-    if (r != PLUMB_OK) {
-        return r;
-    }
+    PL_TRY(pl_check_pointer(world, fn, "desc", desc));
     if ((unsigned)desc->rows > PLUMB_VIEW_ALL) {
         return pl_fail(world, PLUMB_E_RANGE, fn, "rows is %d; it must be a plumb_view_rows",
                        (int)desc->rows);
@@ -307,11 +302,8 @@ plumb_result plumb_body_view_open(plumb_world *world, const plumb_body_view_desc
     if (view != NULL) {
         *view = opened;
     }
-    plumb_result r = world == NULL ? PLUMB_E_NULL : pl_check_pointer(world, __func__, "view", view);
-    r = r != PLUMB_OK ? r : check_view(world, __func__, desc);
-    if (r != PLUMB_OK) {
-        return r;
-    }
+    PL_TRY(world == NULL ? PLUMB_E_NULL : pl_check_pointer(world, __func__, "view", view));
+    PL_TRY(check_view(world, __func__, desc));
     const int count = components_of(desc);
     for (int k = 0; k < count; ++k) {
         pl_component *c = find(world, desc->with[k]);

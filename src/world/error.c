@@ -91,8 +91,8 @@ static const char *const remedies[][2] = {
 
 plumb_result pl_check_unlocked(const plumb_world *world, const char *function)
 {
-    if (world->locked_by == NULL) {
-        return PLUMB_OK;
+    if (world == NULL || world->locked_by == NULL) {
+        return world == NULL ? PLUMB_E_NULL : PLUMB_OK;
     }
     const char *remedy = "call it between steps";
     char use[64];
@@ -140,9 +140,9 @@ plumb_result pl_check_finite_vec(const plumb_world *world, const char *function,
 plumb_result pl_check_range(const plumb_world *world, const char *function, const char *field,
                             plumb_real value, plumb_real low, plumb_real high)
 {
-    plumb_result checked = pl_check_finite(world, function, field, value);
-    if (checked != PLUMB_OK || (value >= low && value <= high)) {
-        return checked;
+    PL_TRY(pl_check_finite(world, function, field, value));
+    if (value >= low && value <= high) {
+        return PLUMB_OK;
     }
     if (high >= PLUMB_REAL_MAX) {
         return pl_fail(world, PLUMB_E_RANGE, function, "%s is %g; it must be at least %g", field,
@@ -155,9 +155,9 @@ plumb_result pl_check_range(const plumb_world *world, const char *function, cons
 plumb_result pl_check_within(const plumb_world *world, const char *function, const char *field,
                              plumb_vec2 value, plumb_real limit)
 {
-    plumb_result checked = pl_check_finite_vec(world, function, field, value);
-    if (checked != PLUMB_OK || (plumb_abs(value.x) <= limit && plumb_abs(value.y) <= limit)) {
-        return checked;
+    PL_TRY(pl_check_finite_vec(world, function, field, value));
+    if (plumb_abs(value.x) <= limit && plumb_abs(value.y) <= limit) {
+        return PLUMB_OK;
     }
     return pl_fail(world, PLUMB_E_RANGE, function,
                    "%s is (%g, %g); each component must be %g to %g", field, shown(value.x),
@@ -176,10 +176,7 @@ plumb_result pl_check_pointer(const plumb_world *world, const char *function, co
 plumb_result pl_check_name(const plumb_world *world, const char *function, const char *field,
                            const char *name)
 {
-    plumb_result checked = pl_check_pointer(world, function, field, name);
-    if (checked != PLUMB_OK) {
-        return checked;
-    }
+    PL_TRY(pl_check_pointer(world, function, field, name));
     if (name[0] == '\0') {
         return pl_fail(world, PLUMB_E_RANGE, function,
                        "%s is empty; it must have 1 to 63 characters", field);
@@ -203,6 +200,9 @@ static const char *kind_text(uint32_t kind)
 plumb_result pl_fail_handle(const plumb_world *world, const char *function, const char *field,
                             plumb_entity entity, const char *wanted)
 {
+    if (world == NULL) {
+        return PLUMB_E_NULL;
+    }
     char is[64];
     const pl_slot *slot = pl_registry_find(&world->registry, entity);
     if (plumb_is_null(entity)) {
@@ -226,9 +226,6 @@ plumb_result pl_fail_memory(const plumb_world *world, const char *function)
 plumb_result pl_check_body(const plumb_world *world, const char *function, plumb_body body,
                            uint32_t *row)
 {
-    if (world == NULL) {
-        return PLUMB_E_NULL;
-    }
     *row = pl_body_row(world, body);
     return *row != PL_NONE ? PLUMB_OK
                            : pl_fail_handle(world, function, "body", body.entity, "a live body");
@@ -236,32 +233,25 @@ plumb_result pl_check_body(const plumb_world *world, const char *function, plumb
 
 uint32_t pl_ask_body(const plumb_world *world, const char *function, plumb_body body)
 {
-    uint32_t row = pl_body_row(world, body);
-    if (row == PL_NONE && world != NULL) {
-        pl_fail_handle(world, function, "body", body.entity, "a live body");
-    }
+    uint32_t row;
+    pl_check_body(world, function, body, &row);
     return row;
-}
-
-uint32_t pl_ask_shape(const plumb_world *world, const char *function, plumb_shape shape)
-{
-    uint32_t piece = pl_shape_piece(world, shape);
-    if (piece == PL_NONE && world != NULL) {
-        pl_fail_handle(world, function, "shape", shape.entity, "a live shape");
-    }
-    return piece;
 }
 
 plumb_result pl_check_shape(const plumb_world *world, const char *function, plumb_shape shape,
                             uint32_t *piece)
 {
-    if (world == NULL) {
-        return PLUMB_E_NULL;
-    }
     *piece = pl_shape_piece(world, shape);
     return *piece != PL_NONE
                ? PLUMB_OK
                : pl_fail_handle(world, function, "shape", shape.entity, "a live shape");
+}
+
+uint32_t pl_ask_shape(const plumb_world *world, const char *function, plumb_shape shape)
+{
+    uint32_t piece;
+    pl_check_shape(world, function, shape, &piece);
+    return piece;
 }
 
 plumb_result pl_check_material(const plumb_world *world, const char *function,
@@ -289,6 +279,6 @@ plumb_result pl_check_entity(const plumb_world *world, const char *function, plu
 plumb_result pl_place_check(const plumb_world *world, const char *fn, plumb_vec2 position,
                             plumb_real angle)
 {
-    plumb_result r = pl_check_within(world, fn, "position", position, (real)1e9);
-    return r != PLUMB_OK ? r : pl_check_finite(world, fn, "angle", angle);
+    PL_TRY(pl_check_within(world, fn, "position", position, (real)1e9));
+    return pl_check_finite(world, fn, "angle", angle);
 }

@@ -93,17 +93,15 @@ plumb_filter plumb_shape_filter(const plumb_world *world, plumb_shape shape)
 plumb_result plumb_shape_set_filter(plumb_world *world, plumb_shape shape, plumb_filter filter)
 {
     uint32_t first;
-    plumb_result r = pl_check_shape(world, __func__, shape, &first);
-    r = r != PLUMB_OK ? r : pl_filter_check(world, __func__, &filter);
-    if (r == PLUMB_OK) {
-        for (uint32_t p = first; p != PL_NONE; p = world->pieces.next_in_shape[p]) {
-            pl_sleep_see_anew(world, p);
-        }
-        pl_filter_apply(world, first, &filter);
-        pl_internal_edges_touch_shape(world, first);
-        pl_rearranged(world);
+    PL_TRY(pl_check_shape(world, __func__, shape, &first));
+    PL_TRY(pl_filter_check(world, __func__, &filter));
+    for (uint32_t p = first; p != PL_NONE; p = world->pieces.next_in_shape[p]) {
+        pl_sleep_see_anew(world, p);
     }
-    return r;
+    pl_filter_apply(world, first, &filter);
+    pl_internal_edges_touch_shape(world, first);
+    pl_rearranged(world);
+    return PLUMB_OK;
 }
 
 bool pl_pieces_meet(const plumb_world *world, uint32_t p, uint32_t q)
@@ -133,9 +131,9 @@ bool plumb_shape_is_sensor(const plumb_world *world, plumb_shape shape)
 plumb_result plumb_shape_set_sensor(plumb_world *world, plumb_shape shape, bool sensor)
 {
     uint32_t first;
-    plumb_result r = pl_check_shape(world, __func__, shape, &first);
-    r = r != PLUMB_OK ? r : pl_check_unlocked(world, __func__);
-    if (r == PLUMB_OK && sensor != plumb_shape_is_sensor(world, shape)) {
+    PL_TRY(pl_check_shape(world, __func__, shape, &first));
+    PL_TRY(pl_check_unlocked(world, __func__));
+    if (sensor != plumb_shape_is_sensor(world, shape)) {
         for (uint32_t p = first; p != PL_NONE; p = world->pieces.next_in_shape[p]) {
             pl_sleep_see_anew(world, p);
         }
@@ -145,7 +143,7 @@ plumb_result plumb_shape_set_sensor(plumb_world *world, plumb_shape shape, bool 
         pl_rearranged(world);
         world->schedule_dirty = true;
     }
-    return r;
+    return PLUMB_OK;
 }
 
 //---- excluded pairs ------------------------------------------------------------------------------
@@ -222,18 +220,15 @@ plumb_result plumb_world_exclude_pair(plumb_world *world, plumb_body a, plumb_bo
         return PLUMB_E_NULL;
     }
     uint32_t row_a, row_b;
-    plumb_result r = check_two(world, __func__, a, b, &row_a, &row_b);
-    bool found = false;
+    PL_TRY(check_two(world, __func__, a, b, &row_a, &row_b));
+    bool found;
     uint64_t key = key_of(a, b);
-    uint32_t at = r == PLUMB_OK ? find(world, key, &found) : 0;
-    if (r != PLUMB_OK || found == exclude) {
-        return r;
+    uint32_t at = find(world, key, &found);
+    if (found == exclude) {
+        return PLUMB_OK;
     }
     if (exclude) {
-        r = insert(world, __func__, key, at);
-        if (r != PLUMB_OK) {
-            return r;
-        }
+        PL_TRY(insert(world, __func__, key, at));
         world->bodies.flags[row_a] |= PL_BODY_EXCLUDING;
         world->bodies.flags[row_b] |= PL_BODY_EXCLUDING;
         pl_internal_edges_touch_static(world, row_a);

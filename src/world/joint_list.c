@@ -3,6 +3,7 @@
 // Reads: the registry, bodies. Writes: joints, first_joint of bodies. Cost: O(1), O(joints of a body) to ask and
 // to remove.
 #include "world/joint_list.h"
+#include "world/check.h"
 #include "world/island.h"
 #include "world/rows.h"
 #include "world/stale_edges.h"
@@ -16,6 +17,22 @@ uint32_t pl_joint_slot(const plumb_world *world, plumb_joint joint)
     }
     const pl_slot *slot = pl_registry_find(&world->registry, joint.entity);
     return slot != NULL && slot->kind == PLUMB_KIND_JOINT ? slot->row : PL_NONE;
+}
+
+plumb_result pl_check_joint(const plumb_world *world, const char *function, plumb_joint joint,
+                            pl_joint **out)
+{
+    const uint32_t slot = pl_joint_slot(world, joint);
+    *out = slot != PL_NONE ? &pl_joint_items(&world->joints)[slot] : NULL;
+    return *out != NULL ? PLUMB_OK
+                        : pl_fail_handle(world, function, "joint", joint.entity, "a live joint");
+}
+
+const pl_joint *pl_ask_joint(const plumb_world *world, const char *function, plumb_joint joint)
+{
+    pl_joint *found;
+    pl_check_joint(world, function, joint, &found);
+    return found;
 }
 
 uint32_t pl_joint_next(const pl_joint *joint, plumb_body body)

@@ -6,6 +6,10 @@
 
 // The slot of a live joint or PL_NONE.
 uint32_t pl_joint_slot(const plumb_world *world, plumb_joint joint);
+// The live joint, or the refusal told: E_HANDLE; E_NULL of a null world. `ask`: null for those.
+plumb_result pl_check_joint(const plumb_world *world, const char *function, plumb_joint joint,
+                            pl_joint **out);
+const pl_joint *pl_ask_joint(const plumb_world *world, const char *function, plumb_joint joint);
 // Unlinks a joint, gives its slot back and releases its handle.
 void pl_joint_remove(plumb_world *world, uint32_t slot);
 // Both bodies of a joint are about to notice that it is another: see sleep.h.

@@ -91,12 +91,9 @@ plumb_result plumb_material_pair_set(plumb_world *world, plumb_material a, plumb
         return PLUMB_E_NULL;
     }
     uint32_t row_a, row_b, at;
-    plumb_result r = check(world, __func__, a, b, &row_a, &row_b);
-    if (r == PLUMB_OK && pair != NULL) {
-        r = pl_check_desc(world, __func__, "pair.", PLUMB_TABLE_MATERIAL_PAIR, pair);
-    }
-    if (r != PLUMB_OK) {
-        return r;
+    PL_TRY(check(world, __func__, a, b, &row_a, &row_b));
+    if (pair != NULL) {
+        PL_TRY(pl_check_desc(world, __func__, "pair.", PLUMB_TABLE_MATERIAL_PAIR, pair));
     }
     uint64_t key = key_of(world, row_a, row_b);
     pl_material_pair *entry = find(world, key, &at);
@@ -131,11 +128,8 @@ plumb_result plumb_material_pair_get(const plumb_world *world, plumb_material a,
         return PLUMB_E_NULL;
     }
     uint32_t row_a, row_b;
-    plumb_result r = check(world, __func__, a, b, &row_a, &row_b);
-    r = r != PLUMB_OK ? r : pl_check_pointer(world, __func__, "pair", pair);
-    if (r != PLUMB_OK) {
-        return r;
-    }
+    PL_TRY(check(world, __func__, a, b, &row_a, &row_b));
+    PL_TRY(pl_check_pointer(world, __func__, "pair", pair));
     const plumb_material_pair *value = pl_material_pair_of(world, row_a, row_b);
     if (value == NULL) {
         return pl_fail(world, PLUMB_E_MISSING, __func__,

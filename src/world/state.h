@@ -149,7 +149,7 @@ plumb_result pl_fail(const plumb_world *world, plumb_result code, const char *fu
 // Sends a warning to the log hook.
 void pl_warn(const plumb_world *world, const char *format, ...) PL_PRINTF(2, 3);
 
-// E_LOCKED with the name of the system and the remedy when the world is stepping.
+// E_LOCKED with the name of the system and the remedy when the world is stepping; E_NULL without a world.
 plumb_result pl_check_unlocked(const plumb_world *world, const char *function);
 
 //---- rows (world/rows.c) --------------------------------------------------------------------------
