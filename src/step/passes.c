@@ -22,185 +22,69 @@
 
 //---- what is done once a step --------------------------------------------------------------------
 
-plumb_result pl_run_guard(plumb_world *world, plumb_real dt)
-{
-    pl_quarantine_guard(world, dt, "calls");
-    return PLUMB_OK;
-}
+// The function of a row with ONCE: a call that does not fail, or one that says whether there was memory for it.
+#define FUNCTION(run, ...)                                                                         \
+    plumb_result run(plumb_world *world, plumb_real dt)                                            \
+    {                                                                                              \
+        (void)dt;                                                                                  \
+        __VA_ARGS__;                                                                               \
+    }
+#define RUN(run, call) FUNCTION(run, call; return PLUMB_OK)
+#define TRY(run, call) FUNCTION(run, return (call) ? PLUMB_OK : PLUMB_E_MEMORY)
 
-plumb_result pl_run_characters(plumb_world *world, plumb_real dt)
-{
-    return pl_characters_move(world, dt) ? PLUMB_OK : PLUMB_E_MEMORY;
-}
-
-plumb_result pl_run_feet(plumb_world *world, plumb_real dt)
-{
-    (void)dt;
-    pl_characters_feet(world);
-    return PLUMB_OK;
-}
-
-plumb_result pl_run_waking(plumb_world *world, plumb_real dt)
+static bool wake(plumb_world *world, plumb_real dt)
 {
     const uint32_t awake = world->dynamic_count;
     if (!pl_sleep_wake(world, dt)) {
-        return PLUMB_E_MEMORY;
+        return false;
     }
     if (world->dynamic_count != awake) { // what slept may have been given any velocity
         pl_quarantine_guard_late(world, dt, "calls");
     }
-    return PLUMB_OK;
+    return true;
 }
 
-plumb_result pl_run_sleep(plumb_world *world, plumb_real dt)
+static bool narrow(plumb_world *world, plumb_real dt)
 {
-    return pl_sleep_fall(world, dt) ? PLUMB_OK : PLUMB_E_MEMORY;
-}
-
-plumb_result pl_run_arrive(plumb_world *world, plumb_real dt)
-{
-    pl_targets_arrive(world, dt);
-    return PLUMB_OK;
-}
-
-plumb_result pl_run_broad(plumb_world *world, plumb_real dt)
-{
-    return pl_broad_update(world, dt, &pl_end_listener) ? PLUMB_OK : PLUMB_E_MEMORY;
-}
-
-// Each tile of the ground keeps a contact of its own where systems look at contacts.
-static bool contacts_are_shown(const plumb_world *world)
-{
-    const char *reason;
-    for (uint32_t i = 0; i < world->systems.count; ++i) {
-        const pl_system *system = &world->systems.items[i];
-        if (system->desc.phase == PLUMB_PHASE_CONTACTS &&
-            pl_system_wanted(world, system, &reason)) {
-            return true;
-        }
-    }
-    return false;
-}
-
-plumb_result pl_run_narrow(plumb_world *world, plumb_real dt)
-{
-    if (!pl_narrow_reserve(world, &world->broad.pairs, &world->narrow)) {
-        return PLUMB_E_MEMORY;
-    }
-    if (!pl_narrow_run(world, &world->broad.pairs, dt, &world->narrow)) {
-        return PLUMB_E_MEMORY;
+    if (!pl_narrow_reserve(world, &world->broad.pairs, &world->narrow) ||
+        !pl_narrow_run(world, &world->broad.pairs, dt, &world->narrow)) {
+        return false;
     }
     if (world->one_way_pieces > 0 || world->dropping_bodies > 0) {
         pl_one_way_run(world);
     }
-    world->internal_edges.apart = contacts_are_shown(world);
+    // Each tile of the ground keeps a contact of its own where systems look at contacts.
+    world->internal_edges.apart = pl_system_sees_contacts(world);
     const bool corrected =
         world->internal_edges.pair_count == 0 || pl_internal_edges_correct(world, dt);
     pl_ahead_settle(world);
-    if (!corrected) {
-        return PLUMB_E_MEMORY;
-    }
-    return pl_events_prepare(world) ? PLUMB_OK : PLUMB_E_MEMORY;
+    return corrected && pl_events_prepare(world);
 }
 
-plumb_result pl_run_internal_edges(plumb_world *world, plumb_real dt)
+static bool graph(plumb_world *world)
 {
-    (void)dt;
-    return pl_internal_edges_update(world) ? PLUMB_OK : PLUMB_E_MEMORY;
-}
-
-plumb_result pl_run_candidates(plumb_world *world, plumb_real dt)
-{
-    (void)dt;
-    return pl_sensing_prepare(world) ? PLUMB_OK : PLUMB_E_MEMORY;
-}
-
-plumb_result pl_run_surfaces(plumb_world *world, plumb_real dt)
-{
-    (void)dt;
-    pl_surfaces_mix(world);
-    return PLUMB_OK;
-}
-
-plumb_result pl_run_sensors(plumb_world *world, plumb_real dt)
-{
-    (void)dt;
-    pl_sensing_run(world);
-    return PLUMB_OK;
-}
-
-plumb_result pl_run_graph(plumb_world *world, plumb_real dt)
-{
-    (void)dt;
     const char *unused;
-    bool room = pl_solver_graph(world) &&
-                (!pl_want_continuous(world, &unused) || pl_continuous_reserve(world)) &&
-                pl_quarantine_keep(world);
-    return room ? PLUMB_OK : PLUMB_E_MEMORY;
+    return pl_solver_graph(world) &&
+           (!pl_want_continuous(world, &unused) || pl_continuous_reserve(world)) &&
+           pl_quarantine_keep(world);
 }
 
-plumb_result pl_run_gravity(plumb_world *world, plumb_real dt)
-{
-    (void)dt;
-    world->effects.gravity = world->gravity;
-    return PLUMB_OK;
-}
-
-plumb_result pl_run_called(plumb_world *world, plumb_real dt)
-{
-    (void)dt;
-    return pl_acting_call(world) ? PLUMB_OK : PLUMB_E_MEMORY;
-}
-
-plumb_result pl_run_acting(plumb_world *world, plumb_real dt)
-{
-    return pl_acting_find(world, dt) ? PLUMB_OK : PLUMB_E_MEMORY;
-}
-
-plumb_result pl_run_soft(plumb_world *world, plumb_real dt)
+static void substeps(plumb_world *world, plumb_real dt, const char *name)
 {
     pl_schedule_substeps(world, dt);
-    pl_quarantine_judge(world, dt, "soft step");
-    return PLUMB_OK;
+    pl_quarantine_judge(world, dt, name);
 }
 
-plumb_result pl_run_classic(plumb_world *world, plumb_real dt)
-{
-    pl_schedule_substeps(world, dt);
-    pl_quarantine_judge(world, dt, "classic solver");
-    return PLUMB_OK;
-}
-
-plumb_result pl_run_motion(plumb_world *world, plumb_real dt)
+static void finish(plumb_world *world, plumb_real dt)
 {
     pl_solver_finish(world, dt);
     pl_sleep_clear_forces(world);
     world->time += (double)dt;
     world->last_dt = dt;
     ++world->step_count;
-    return PLUMB_OK;
 }
 
-plumb_result pl_run_continuous(plumb_world *world, plumb_real dt)
-{
-    pl_continuous_run(world, dt);
-    return PLUMB_OK;
-}
-
-plumb_result pl_run_edges(plumb_world *world, plumb_real dt)
-{
-    (void)dt;
-    pl_wrap_bodies(world);
-    return PLUMB_OK;
-}
-
-plumb_result pl_run_reactions(plumb_world *world, plumb_real dt)
-{
-    pl_joints_finish(world, dt);
-    return PLUMB_OK;
-}
-
-plumb_result pl_run_events(plumb_world *world, plumb_real dt)
+static void publish(plumb_world *world, plumb_real dt)
 {
     if (world->internal_edges.load_count > 0 && dt > 0) {
         pl_internal_edges_remember(world);
@@ -209,8 +93,31 @@ plumb_result pl_run_events(plumb_world *world, plumb_real dt)
     if (dt == 0) {
         pl_internal_edges_give_back(world);
     }
-    return PLUMB_OK;
 }
+
+RUN(pl_run_guard, pl_quarantine_guard(world, dt, "calls"))
+TRY(pl_run_characters, pl_characters_move(world, dt))
+TRY(pl_run_waking, wake(world, dt))
+TRY(pl_run_broad, pl_broad_update(world, dt, &pl_end_listener))
+TRY(pl_run_internal_edges, pl_internal_edges_update(world))
+TRY(pl_run_narrow, narrow(world, dt))
+RUN(pl_run_surfaces, pl_surfaces_mix(world))
+RUN(pl_run_feet, pl_characters_feet(world))
+TRY(pl_run_sleep, pl_sleep_fall(world, dt))
+TRY(pl_run_candidates, pl_sensing_prepare(world))
+RUN(pl_run_gravity, world->effects.gravity = world->gravity)
+TRY(pl_run_called, pl_acting_call(world))
+TRY(pl_run_graph, graph(world))
+TRY(pl_run_acting, pl_acting_find(world, dt))
+RUN(pl_run_soft, substeps(world, dt, "soft step"))
+RUN(pl_run_classic, substeps(world, dt, "classic solver"))
+RUN(pl_run_motion, finish(world, dt))
+RUN(pl_run_continuous, pl_continuous_run(world, dt))
+RUN(pl_run_arrive, pl_targets_arrive(world, dt))
+RUN(pl_run_edges, pl_wrap_bodies(world))
+RUN(pl_run_reactions, pl_joints_finish(world, dt))
+RUN(pl_run_events, publish(world, dt))
+RUN(pl_run_sensors, pl_sensing_run(world))
 
 //---- the table -----------------------------------------------------------------------------------
 

@@ -239,6 +239,19 @@ bool pl_system_wanted(const plumb_world *world, const pl_system *system, const c
     return used;
 }
 
+bool pl_system_sees_contacts(const plumb_world *world)
+{
+    const char *unused;
+    for (uint32_t i = 0; i < world->systems.count; ++i) {
+        const pl_system *system = &world->systems.items[i];
+        if (system->desc.phase == PLUMB_PHASE_CONTACTS &&
+            pl_system_wanted(world, system, &unused)) {
+            return true;
+        }
+    }
+    return false;
+}
+
 // A range of body rows of a parallel system.
 typedef struct part {
     const pl_system *system;

@@ -12,6 +12,7 @@
 #include "narrow/one_way.h"
 #include "narrow/surface.h"
 #include "step/acting.h"
+#include "step/system.h"
 #include "world/wrap.h"
 
 typedef bool want_fn(const plumb_world *world, const char **reason);
@@ -128,16 +129,6 @@ bool pl_want_sleep(const plumb_world *world, const char **reason)
                "no dynamic body is awake");
 }
 
-static bool any_contact_system(const plumb_world *world)
-{
-    for (uint32_t i = 0; i < world->systems.count; ++i) {
-        if (world->systems.items[i].desc.phase == PLUMB_PHASE_CONTACTS) {
-            return true;
-        }
-    }
-    return false;
-}
-
 bool pl_want_edges(const plumb_world *world, const char **reason)
 {
     return say(pl_is_wrapped(world), reason, "the world wraps around", "the world does not wrap");
@@ -203,7 +194,7 @@ bool pl_want_impacts(const plumb_world *world, const char **reason)
         return false;
     }
     return say(any_material(world, world->materials.restitution) ||
-                   world->material_pair_count > 0 || any_contact_system(world),
+                   world->material_pair_count > 0 || pl_system_sees_contacts(world),
                reason, "some shape's material has restitution",
                "no shape's material has restitution");
 }
