@@ -12,14 +12,6 @@ bool plumb_body_valid(const plumb_world *world, plumb_body body)
     return pl_body_row(world, body) != PL_NONE;
 }
 
-plumb_body_type plumb_body_get_type(const plumb_world *world, plumb_body body)
-{
-    uint32_t row = pl_ask_body(world, __func__, body);
-    return row == PL_NONE ? PLUMB_DYNAMIC : (plumb_body_type)world->bodies.type[row];
-}
-
-//---- place and motion ----------------------------------------------------------------------------
-
 // All zeros, which is not a rotation, for a bad handle.
 static plumb_transform frame_of(const plumb_world *world, const char *fn, plumb_body body)
 {
@@ -30,6 +22,30 @@ static plumb_transform frame_of(const plumb_world *world, const char *fn, plumb_
     const pl_bodies *b = &world->bodies;
     return (plumb_transform){ { b->x[row], b->y[row] }, { b->c[row], b->s[row] } };
 }
+
+// plumb_body_<name>: what is told of a row of the bodies.
+#define GETTER(type, name, value)                                                                  \
+    type plumb_body_##name(const plumb_world *world, plumb_body body)                              \
+    {                                                                                              \
+        const uint32_t row = pl_ask_body(world, __func__, body);                                   \
+        const pl_bodies *b = row == PL_NONE ? NULL : &world->bodies;                               \
+        return b == NULL ? (type){ 0 } : (value);                                                  \
+    }
+
+GETTER(plumb_body_type, get_type, (plumb_body_type)b->type[row])
+GETTER(plumb_vec2, center, plumb_v2(b->center_x[row], b->center_y[row]))
+GETTER(plumb_vec2, local_center, plumb_v2(b->local_x[row], b->local_y[row]))
+GETTER(plumb_vec2, velocity, plumb_v2(b->vx[row], b->vy[row]))
+GETTER(plumb_real, angular_velocity, b->w[row])
+GETTER(plumb_vec2, force, plumb_v2(b->fx[row], b->fy[row]))
+GETTER(plumb_real, torque, b->torque[row])
+GETTER(plumb_real, mass, b->inv_mass[row] > 0 ? b->mass[row] : 0)
+GETTER(plumb_real, inertia, b->inv_inertia[row] > 0 ? b->inertia[row] : 0)
+GETTER(bool, is_continuous, (b->flags[row] & PL_BODY_CONTINUOUS) != 0)
+GETTER(bool, is_enabled, (b->flags[row] & PL_BODY_DISABLED) == 0)
+GETTER(bool, no_sleep, (b->flags[row] & PL_BODY_NO_SLEEP) != 0)
+GETTER(bool, has_target, (b->flags[row] & PL_BODY_TARGETED) != 0)
+GETTER(void *, user_data, b->user_data[row])
 
 plumb_transform plumb_body_transform(const plumb_world *world, plumb_body body)
 {
@@ -46,32 +62,6 @@ plumb_real plumb_body_angle(const plumb_world *world, plumb_body body)
     return plumb_rot_angle(frame_of(world, __func__, body).q);
 }
 
-plumb_vec2 plumb_body_center(const plumb_world *world, plumb_body body)
-{
-    uint32_t row = pl_ask_body(world, __func__, body);
-    return row == PL_NONE ? plumb_v2(0, 0)
-                          : plumb_v2(world->bodies.center_x[row], world->bodies.center_y[row]);
-}
-
-plumb_vec2 plumb_body_local_center(const plumb_world *world, plumb_body body)
-{
-    uint32_t row = pl_ask_body(world, __func__, body);
-    return row == PL_NONE ? plumb_v2(0, 0)
-                          : plumb_v2(world->bodies.local_x[row], world->bodies.local_y[row]);
-}
-
-plumb_vec2 plumb_body_velocity(const plumb_world *world, plumb_body body)
-{
-    uint32_t row = pl_ask_body(world, __func__, body);
-    return row == PL_NONE ? plumb_v2(0, 0) : plumb_v2(world->bodies.vx[row], world->bodies.vy[row]);
-}
-
-plumb_real plumb_body_angular_velocity(const plumb_world *world, plumb_body body)
-{
-    uint32_t row = pl_ask_body(world, __func__, body);
-    return row == PL_NONE ? 0 : world->bodies.w[row];
-}
-
 // v + w x r.
 plumb_vec2 plumb_body_velocity_at(const plumb_world *world, plumb_body body, plumb_vec2 point)
 {
@@ -86,38 +76,6 @@ plumb_vec2 plumb_body_velocity_at(const plumb_world *world, plumb_body body, plu
     return plumb_v2(pl_held((double)v.x), pl_held((double)v.y));
 }
 
-//---- properties ----------------------------------------------------------------------------------
-
-plumb_real plumb_body_mass(const plumb_world *world, plumb_body body)
-{
-    uint32_t row = pl_ask_body(world, __func__, body);
-    return row == PL_NONE || world->bodies.inv_mass[row] <= 0 ? 0 : world->bodies.mass[row];
-}
-
-plumb_real plumb_body_inertia(const plumb_world *world, plumb_body body)
-{
-    uint32_t row = pl_ask_body(world, __func__, body);
-    return row == PL_NONE || world->bodies.inv_inertia[row] <= 0 ? 0 : world->bodies.inertia[row];
-}
-
-bool plumb_body_is_continuous(const plumb_world *world, plumb_body body)
-{
-    uint32_t row = pl_ask_body(world, __func__, body);
-    return row != PL_NONE && (world->bodies.flags[row] & PL_BODY_CONTINUOUS) != 0;
-}
-
-bool plumb_body_is_enabled(const plumb_world *world, plumb_body body)
-{
-    uint32_t row = pl_ask_body(world, __func__, body);
-    return row != PL_NONE && (world->bodies.flags[row] & PL_BODY_DISABLED) == 0;
-}
-
-bool plumb_body_has_target(const plumb_world *world, plumb_body body)
-{
-    uint32_t row = pl_ask_body(world, __func__, body);
-    return row != PL_NONE && (world->bodies.flags[row] & PL_BODY_TARGETED) != 0;
-}
-
 plumb_axis_locks plumb_body_locks(const plumb_world *world, plumb_body body)
 {
     uint32_t row = pl_ask_body(world, __func__, body);
@@ -125,18 +83,6 @@ plumb_axis_locks plumb_body_locks(const plumb_world *world, plumb_body body)
     return (plumb_axis_locks){ .x = (flags & PL_BODY_LOCK_X) != 0,
                                .y = (flags & PL_BODY_LOCK_Y) != 0,
                                .rotation = (flags & PL_BODY_FIXED_ROTATION) != 0 };
-}
-
-plumb_vec2 plumb_body_force(const plumb_world *world, plumb_body body)
-{
-    uint32_t row = pl_ask_body(world, __func__, body);
-    return row == PL_NONE ? plumb_v2(0, 0) : plumb_v2(world->bodies.fx[row], world->bodies.fy[row]);
-}
-
-plumb_real plumb_body_torque(const plumb_world *world, plumb_body body)
-{
-    uint32_t row = pl_ask_body(world, __func__, body);
-    return row == PL_NONE ? 0 : world->bodies.torque[row];
 }
 
 plumb_real plumb_body_kinetic_energy(const plumb_world *world, plumb_body body)
@@ -151,12 +97,6 @@ plumb_real plumb_body_kinetic_energy(const plumb_world *world, plumb_body body)
                         ((double)v.x * (double)v.x + (double)v.y * (double)v.y) +
                     (double)plumb_body_inertia(world, body) * w * w;
     return pl_held(energy / 2);
-}
-
-void *plumb_body_user_data(const plumb_world *world, plumb_body body)
-{
-    uint32_t row = pl_ask_body(world, __func__, body);
-    return row == PL_NONE ? NULL : world->bodies.user_data[row];
 }
 
 // The list has the newest shape first: it is counted, then written from the end.

@@ -13,41 +13,29 @@
 #include "world/rows.h"
 #include "world/wrap.h"
 
-const plumb_contact_begin *plumb_world_begin_events(const plumb_world *world, int *count)
-{
-    int events = world == NULL ? 0 : world->begin_count;
-    if (count != NULL) {
-        *count = events;
+// plumb_world_<name>_events: `number` of them at `items`; null for none.
+#define EVENTS(type, name, items, number)                                                          \
+    const type *plumb_world_##name##_events(const plumb_world *world, int *count)                  \
+    {                                                                                              \
+        const int events = world == NULL ? 0 : (int)(number);                                      \
+        if (count != NULL) {                                                                       \
+            *count = events;                                                                       \
+        }                                                                                          \
+        return events == 0 ? NULL : (const type *)(items);                                         \
     }
-    return events == 0 ? NULL : world->begin_events.data;
-}
 
-const plumb_contact_end *plumb_world_end_events(const plumb_world *world, int *count)
-{
-    int events = world == NULL ? 0 : world->end_count;
-    if (count != NULL) {
-        *count = events;
-    }
-    return events == 0 ? NULL : world->end_events.data;
-}
-
-const plumb_contact_hit *plumb_world_hit_events(const plumb_world *world, int *count)
-{
-    int events = world == NULL ? 0 : world->hit_count;
-    if (count != NULL) {
-        *count = events;
-    }
-    return events == 0 ? NULL : world->hit_events.data;
-}
-
-const plumb_quarantine *plumb_world_quarantine_events(const plumb_world *world, int *count)
-{
-    int events = world == NULL ? 0 : world->quarantine.event_count;
-    if (count != NULL) {
-        *count = events;
-    }
-    return events == 0 ? NULL : world->quarantine.events;
-}
+EVENTS(plumb_contact_begin, begin, world->begin_events.data, world->begin_count)
+EVENTS(plumb_contact_end, end, world->end_events.data, world->end_count)
+EVENTS(plumb_contact_hit, hit, world->hit_events.data, world->hit_count)
+EVENTS(plumb_quarantine, quarantine, world->quarantine.events, world->quarantine.event_count)
+EVENTS(plumb_sensor_event, sensor_begin, world->sensing.begins.data, world->sensing.begin_count)
+EVENTS(plumb_sensor_event, sensor_end, world->sensing.ends.data, world->sensing.end_count)
+EVENTS(plumb_body, sleep, world->sleep.sleep_events.data, world->sleep.sleep_event_count)
+EVENTS(plumb_body, wake, world->sleep.wake_events.data, world->sleep.wake_event_count)
+EVENTS(plumb_joint_strain, joint_strain,
+       (const plumb_joint_strain *)world->joints.broken.data + world->joints.strained_first,
+       world->joints.strained_count)
+EVENTS(plumb_joint_break, joint_break, world->joints.broken.data, world->joints.broken_count)
 
 plumb_result plumb_world_set_hit_speed(plumb_world *world, plumb_real speed)
 {

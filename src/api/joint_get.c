@@ -13,57 +13,34 @@ bool plumb_joint_valid(const plumb_world *world, plumb_joint joint)
     return pl_joint_slot(world, joint) != PL_NONE;
 }
 
-bool plumb_joint_is_enabled(const plumb_world *world, plumb_joint joint)
-{
-    const pl_joint *j = pl_ask_joint(world, __func__, joint);
-    return j != NULL && !j->desc.disabled;
-}
+// plumb_joint_<name>: what is told of a live joint; zeros for others.
+#define GETTER(type, name, value)                                                                  \
+    type plumb_joint_##name(const plumb_world *world, plumb_joint joint)                           \
+    {                                                                                              \
+        const pl_joint *j = pl_ask_joint(world, __func__, joint);                                  \
+        return j == NULL ? (type){ 0 } : (value);                                                  \
+    }
 
-plumb_joint_kind plumb_joint_get_kind(const plumb_world *world, plumb_joint joint)
-{
-    const pl_joint *j = pl_ask_joint(world, __func__, joint);
-    return j == NULL ? PLUMB_REVOLUTE : j->desc.kind;
-}
+GETTER(bool, is_enabled, !j->desc.disabled)
+GETTER(plumb_joint_kind, get_kind, j->desc.kind)
+GETTER(plumb_body, body_a, j->a.body)
+GETTER(plumb_body, body_b, j->b.body)
+GETTER(plumb_vec2, anchor_a, pl_joint_anchor(world, &j->a))
+GETTER(plumb_vec2, anchor_b, pl_joint_anchor(world, &j->b))
+GETTER(plumb_vec2, force, j->force)
+GETTER(plumb_real, torque, j->torque)
+GETTER(void *, user_data, j->desc.user_data)
 
 const char *plumb_joint_kind_name(plumb_joint_kind kind)
 {
     return (unsigned)kind < (unsigned)pl_joint_class_count ? pl_joint_classes[kind]->name : NULL;
 }
 
-plumb_body plumb_joint_body_a(const plumb_world *world, plumb_joint joint)
-{
-    const pl_joint *j = pl_ask_joint(world, __func__, joint);
-    return j == NULL ? (plumb_body)PLUMB_NULL_INIT : j->a.body;
-}
-
-plumb_body plumb_joint_body_b(const plumb_world *world, plumb_joint joint)
-{
-    const pl_joint *j = pl_ask_joint(world, __func__, joint);
-    return j == NULL ? (plumb_body)PLUMB_NULL_INIT : j->b.body;
-}
-
-plumb_vec2 plumb_joint_anchor_a(const plumb_world *world, plumb_joint joint)
-{
-    const pl_joint *j = pl_ask_joint(world, __func__, joint);
-    return j == NULL ? plumb_v2(0, 0) : pl_joint_anchor(world, &j->a);
-}
-
-plumb_vec2 plumb_joint_anchor_b(const plumb_world *world, plumb_joint joint)
-{
-    const pl_joint *j = pl_ask_joint(world, __func__, joint);
-    return j == NULL ? plumb_v2(0, 0) : pl_joint_anchor(world, &j->b);
-}
-
 plumb_result plumb_joint_settings(const plumb_world *world, plumb_joint joint,
                                   plumb_joint_desc *desc)
 {
-    if (world == NULL) {
-        return PLUMB_E_NULL;
-    }
-    const pl_joint *j = pl_ask_joint(world, __func__, joint);
-    if (j == NULL) {
-        return PLUMB_E_HANDLE;
-    }
+    pl_joint *j;
+    PL_TRY(pl_check_joint(world, __func__, joint, &j));
     PL_TRY(pl_check_pointer(world, __func__, "desc", desc));
     *desc = j->desc;
     return PLUMB_OK;
@@ -106,24 +83,6 @@ plumb_real plumb_joint_error(const plumb_world *world, plumb_joint joint)
     return pl_held(sum - sum == 0 ? sqrt(sum) : most); // squares beyond all doubles: beyond 1e154
 }
 
-plumb_vec2 plumb_joint_force(const plumb_world *world, plumb_joint joint)
-{
-    const pl_joint *j = pl_ask_joint(world, __func__, joint);
-    return j == NULL ? plumb_v2(0, 0) : j->force;
-}
-
-plumb_real plumb_joint_torque(const plumb_world *world, plumb_joint joint)
-{
-    const pl_joint *j = pl_ask_joint(world, __func__, joint);
-    return j == NULL ? 0 : j->torque;
-}
-
-void *plumb_joint_user_data(const plumb_world *world, plumb_joint joint)
-{
-    const pl_joint *j = pl_ask_joint(world, __func__, joint);
-    return j == NULL ? NULL : j->desc.user_data;
-}
-
 int plumb_world_joints(const plumb_world *world, plumb_joint *joints, int capacity)
 {
     int count = 0;
@@ -154,24 +113,4 @@ int plumb_body_joints(const plumb_world *world, plumb_body body, plumb_joint *jo
         i = pl_joint_next(j, body);
     }
     return count;
-}
-
-const plumb_joint_strain *plumb_world_joint_strain_events(const plumb_world *world, int *count)
-{
-    int events = world == NULL ? 0 : world->joints.strained_count;
-    if (count != NULL) {
-        *count = events;
-    }
-    return events == 0 ? NULL
-                       : (const plumb_joint_strain *)world->joints.broken.data +
-                             world->joints.strained_first;
-}
-
-const plumb_joint_break *plumb_world_joint_break_events(const plumb_world *world, int *count)
-{
-    int events = world == NULL ? 0 : world->joints.broken_count;
-    if (count != NULL) {
-        *count = events;
-    }
-    return events == 0 ? NULL : world->joints.broken.data;
 }

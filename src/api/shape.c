@@ -183,32 +183,20 @@ bool plumb_shape_valid(const plumb_world *world, plumb_shape shape)
     return pl_shape_piece(world, shape) != PL_NONE;
 }
 
-plumb_shape_kind plumb_shape_get_kind(const plumb_world *world, plumb_shape shape)
-{
-    uint32_t first = pl_ask_shape(world, __func__, shape);
-    return first == PL_NONE ? PLUMB_CIRCLE : (plumb_shape_kind)world->pieces.shape_kind[first];
-}
+// plumb_shape_<name>: what is told of the shape's first piece; zeros for a bad handle.
+#define GETTER(type, name, value)                                                                  \
+    type plumb_shape_##name(const plumb_world *world, plumb_shape shape)                           \
+    {                                                                                              \
+        const uint32_t p = pl_ask_shape(world, __func__, shape);                                   \
+        return p == PL_NONE ? (type){ 0 } : (value);                                               \
+    }
 
-plumb_body plumb_shape_body(const plumb_world *world, plumb_shape shape)
-{
-    uint32_t first = pl_ask_shape(world, __func__, shape);
-    plumb_body none = PLUMB_NULL_INIT;
-    return first == PL_NONE ? none : world->bodies.entity[world->pieces.body[first]];
-}
-
+GETTER(plumb_shape_kind, get_kind, (plumb_shape_kind)world->pieces.shape_kind[p])
+GETTER(plumb_body, body, world->bodies.entity[world->pieces.body[p]])
 // The default material has no handle: null.
-plumb_material plumb_shape_material(const plumb_world *world, plumb_shape shape)
-{
-    uint32_t first = pl_ask_shape(world, __func__, shape);
-    plumb_material none = PLUMB_NULL_INIT;
-    return first == PL_NONE ? none : world->materials.entity[world->pieces.material[first]];
-}
-
-plumb_real plumb_shape_density(const plumb_world *world, plumb_shape shape)
-{
-    uint32_t first = pl_ask_shape(world, __func__, shape);
-    return first == PL_NONE ? 0 : world->pieces.density[first];
-}
+GETTER(plumb_material, material, world->materials.entity[world->pieces.material[p]])
+GETTER(plumb_real, density, world->pieces.density[p])
+GETTER(void *, user_data, world->pieces.user_data[p])
 
 plumb_mass_properties plumb_shape_mass(const plumb_world *world, plumb_shape shape)
 {
@@ -220,12 +208,6 @@ plumb_mass_properties plumb_shape_mass(const plumb_world *world, plumb_shape sha
     m.mass *= world->pieces.density[first];
     m.inertia *= world->pieces.density[first];
     return m;
-}
-
-void *plumb_shape_user_data(const plumb_world *world, plumb_shape shape)
-{
-    uint32_t first = pl_ask_shape(world, __func__, shape);
-    return first == PL_NONE ? NULL : world->pieces.user_data[first];
 }
 
 //---- geometry ------------------------------------------------------------------------------------

@@ -63,12 +63,6 @@ plumb_result plumb_body_set_no_sleep(plumb_world *world, plumb_body body, bool n
     return PLUMB_OK;
 }
 
-bool plumb_body_no_sleep(const plumb_world *world, plumb_body body)
-{
-    uint32_t row = pl_ask_body(world, __func__, body);
-    return row != PL_NONE && (world->bodies.flags[row] & PL_BODY_NO_SLEEP) != 0;
-}
-
 plumb_result plumb_world_set_sleep(plumb_world *world, bool allowed, plumb_real speed,
                                    plumb_real time)
 {
@@ -86,25 +80,4 @@ plumb_result plumb_world_set_sleep(plumb_world *world, bool allowed, plumb_real 
     pl_world_resolve(&world->desc);
     world->schedule_dirty = true;
     return PLUMB_OK;
-}
-
-static const plumb_body *events(const pl_buffer *buffer, int events, int *count)
-{
-    if (count != NULL) {
-        *count = events;
-    }
-    return events == 0 ? NULL : buffer->data;
-}
-
-const plumb_body *plumb_world_sleep_events(const plumb_world *world, int *count)
-{
-    return world == NULL
-               ? events(NULL, 0, count)
-               : events(&world->sleep.sleep_events, world->sleep.sleep_event_count, count);
-}
-
-const plumb_body *plumb_world_wake_events(const plumb_world *world, int *count)
-{
-    return world == NULL ? events(NULL, 0, count)
-                         : events(&world->sleep.wake_events, world->sleep.wake_event_count, count);
 }

@@ -284,26 +284,6 @@ void pl_sensing_run(plumb_world *world)
 
 //---- read ----------------------------------------------------------------------------------------
 
-static const plumb_sensor_event *events(const pl_buffer *buffer, int events, int *count)
-{
-    if (count != NULL) {
-        *count = events;
-    }
-    return events == 0 ? NULL : buffer->data;
-}
-
-const plumb_sensor_event *plumb_world_sensor_begin_events(const plumb_world *world, int *count)
-{
-    return world == NULL ? events(NULL, 0, count)
-                         : events(&world->sensing.begins, world->sensing.begin_count, count);
-}
-
-const plumb_sensor_event *plumb_world_sensor_end_events(const plumb_world *world, int *count)
-{
-    return world == NULL ? events(NULL, 0, count)
-                         : events(&world->sensing.ends, world->sensing.end_count, count);
-}
-
 // Where the overlaps of a sensor begin.
 static const pl_overlap *from_sensor(const pl_buffer *overlaps, uint32_t count, plumb_shape sensor)
 {
