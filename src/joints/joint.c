@@ -223,7 +223,7 @@ void pl_joint_start_bare(const plumb_world *world, pl_joint_lane *lane, pl_joint
         to.x += s.x / 2, to.y += s.y / 2;
     }
     const pl_shift d = way(&from, &to);
-    real scale = j->h > 0 ? h / j->h : 0;
+    real scale = pl_joint_carried(j, h);
     const plumb_vec2 arm_a = arm_of(world, lane->local_a, mark->row_a);
     const plumb_vec2 arm_b = arm_of(world, lane->local_b, mark->row_b);
     *start = (pl_joint_start){ .arm_a = { (near_real)arm_a.x, (near_real)arm_a.y },

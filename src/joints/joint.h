@@ -6,6 +6,7 @@
 #include "joints/rows.h"
 #include "joints/wide.h"
 #include "plumb/joint.h"
+#include "plumb/math.h"
 
 // Members of the descriptor that a kind has.
 enum {
@@ -75,6 +76,16 @@ void pl_joint_begin(const plumb_world *world, pl_joint *joint);
 uint32_t pl_joint_eighth(const plumb_world *world, uint32_t row);
 // The same as pl_joint_begin with the rows of its bodies known (PL_NONE: the world).
 void pl_joint_place(const plumb_world *world, pl_joint *joint, uint32_t row_a, uint32_t row_b);
+// Impulses of a shorter step are multiplied by no more than this. What rounding and few sweeps leave of them is not in
+// proportion to the step: with a step of 1/10 s behind one of 1 us, five orders of magnitude larger than what it
+// should be, a hanging chain of two links flew to pieces at 1e10 m/s (tests/stability/test_step_changes.c).
+#define PL_JOINT_MOST_GROWTH ((real)4)
+// [-] by which the impulses of the step before are multiplied for the first substep, of h [s], of this one.
+static inline real pl_joint_carried(const pl_joint *joint, real h)
+{
+    return joint->h > 0 ? plumb_min(h / joint->h, PL_JOINT_MOST_GROWTH) : 0;
+}
+
 // How a lane of a bare hinge begins a step: of the joint itself, impulses are read, and turns counted
 // where an angle has left the eighth in which it was last seen.
 void pl_joint_start_bare(const plumb_world *world, pl_joint_lane *lane, pl_joint_start *start,
@@ -113,11 +124,12 @@ typedef struct pl_joint_context {
     pl_tasks *tasks;
     unsigned char *records; // a thread's
     real h;                 // [s] substep
+    pl_joint_soft rigid;    // of rows that are no springs, where they pull
 } pl_joint_context;
 
-// `thread`: whose room for records it takes.
+// `thread`: whose room for records it takes; `soft` [s]: the substep that rigid rows are as stiff for.
 pl_joint_context pl_joint_context_of(plumb_world *world, uint32_t cluster, pl_tasks *tasks,
-                                     uint32_t thread, real h);
+                                     uint32_t thread, real h, real soft);
 
 static inline bool pl_joints_any(const pl_joint_context *c)
 {

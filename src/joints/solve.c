@@ -31,9 +31,10 @@
 #define SWEEPS 2
 #define TAU    ((real)6.2831853071795864769)
 
-static pl_joint_soft rigid(real h)
+// Of a rigid row that pulls. `soft` [s]: the substep that it is as stiff for (pl_soft_substep).
+static pl_joint_soft rigid(real h, real soft)
 {
-    const real x = TAU * SHARE, stiff = x * (2 * ZETA + x);
+    const real x = TAU * SHARE * (h / soft), stiff = x * (2 * ZETA + x);
     return (pl_joint_soft){ stiff / (1 + stiff), x * x / (1 + stiff) / h, 1 / (1 + stiff) };
 }
 
@@ -47,10 +48,10 @@ pl_joint_soft pl_joint_spring(const pl_row *row, real h)
     return (pl_joint_soft){ 1 - b, b * xx / h, b };
 }
 
-static pl_joint_soft soften(const pl_row *row, real h, pl_joint_sweep sweep)
+static pl_joint_soft soften(const pl_joint_context *c, const pl_row *row, pl_joint_sweep sweep)
 {
     bool pulls = sweep == PL_SWEEP_PULL && row->type != PL_ROW_DRIVE && row->hertz == 0;
-    return pulls ? rigid(h) : pl_joint_spring(row, h);
+    return pulls ? c->rigid : pl_joint_spring(row, c->h);
 }
 
 //---- one row -------------------------------------------------------------------------------------
@@ -84,14 +85,14 @@ static real coupling(const pl_row *r, const pl_row *q, const pl_solver_body *a,
            b->inv_mass * (r->bx * q->bx + r->by * q->by) + b->inv_inertia * r->bw * q->bw;
 }
 
-static void solve_row(pl_joint *j, int i, pl_solver_body *a, pl_solver_body *b,
-                      pl_joint_sweep sweep)
+static void solve_row(const pl_joint_context *c, pl_joint *j, int i, pl_solver_body *a,
+                      pl_solver_body *b, pl_joint_sweep sweep)
 {
     const pl_row *r = &j->rows.row[i];
     if (r->type == PL_ROW_OFF || (sweep == PL_SWEEP_RELAX && r->hertz > 0)) {
         return;
     }
-    pl_joint_soft s = soften(r, j->h, sweep);
+    pl_joint_soft s = soften(c, r, sweep);
     bool apart = r->type == PL_ROW_LEAST && r->error > 0;
     if (apart) {
         s = (pl_joint_soft){ 1, 1 / j->h, 0 }; // may close the gap
@@ -165,15 +166,15 @@ static void add_arc(real v[2], real w, real h, real w0, real w1)
     }
 }
 
-static void solve_block(pl_joint *j, pl_solver_body *a, pl_solver_body *b, pl_joint_sweep sweep,
-                        bool first)
+static void solve_block(const pl_joint_context *c, pl_joint *j, pl_solver_body *a,
+                        pl_solver_body *b, pl_joint_sweep sweep, bool first)
 {
     const int n = j->rows.block;
     const pl_row *row = j->rows.row;
     if (n == 0 || (sweep == PL_SWEEP_RELAX && row[0].hertz > 0)) {
         return;
     }
-    pl_joint_soft s = soften(&row[0], j->h, sweep);
+    pl_joint_soft s = soften(c, &row[0], sweep);
     real wrong[3] = { 0 }, total[3] = { 0 };
     for (int i = 0; i < n; ++i) {
         wrong[i] = rate(&row[i], a, b);
@@ -266,7 +267,7 @@ static void make_rows(const plumb_world *world, pl_joint *j, const pl_solver_bod
 //---- joints in lanes ----------------------------------------------------------------------------------
 
 pl_joint_context pl_joint_context_of(plumb_world *world, uint32_t cluster, pl_tasks *tasks,
-                                     uint32_t thread, real h)
+                                     uint32_t thread, real h, real soft)
 {
     const pl_joint_plan *plan = &world->joints.plan;
     const bool any = world->joints.live > 0 && cluster < plan->group_count;
@@ -278,7 +279,8 @@ pl_joint_context pl_joint_context_of(plumb_world *world, uint32_t cluster, pl_ta
                                    any && plan->room > 0
                                        ? (unsigned char *)plan->records.data + thread * plan->room
                                        : NULL,
-                               .h = h };
+                               .h = h,
+                               .rigid = rigid(h, soft) };
 }
 
 static pl_joint_call call_of(const pl_joint_context *c)
@@ -295,7 +297,7 @@ static pl_joint_call call_of(const pl_joint_context *c)
                             .records = c->records,
                             .joints = pl_joint_items(&world->joints),
                             .h = c->h,
-                            .rigid = rigid(c->h) };
+                            .rigid = c->rigid };
 }
 
 // A share of fewer bundles than this is not worth a thread.
@@ -377,7 +379,7 @@ static void begin(const plumb_world *world, pl_joint *j, real h)
     pl_joint_place(world, j, mark->row_a, mark->row_b);
     j->slot_a = slot_of(world, mark->row_a);
     j->slot_b = slot_of(world, mark->row_b);
-    real scale = j->h > 0 ? h / j->h : 0;
+    real scale = pl_joint_carried(j, h);
     for (int k = 0; k < PL_JOINT_ROWS; ++k) {
         j->impulse[k] *= scale;
     }
@@ -519,9 +521,9 @@ static void sweep_alone(const pl_joint_context *c, pl_joint_sweep sweep, bool fi
         }
         // Motors and springs first: what must hold has the last word.
         for (int k = j->rows.count - 1; k >= j->rows.block; --k) {
-            solve_row(j, k, one.a, one.b, sweep);
+            solve_row(c, j, k, one.a, one.b, sweep);
         }
-        solve_block(j, one.a, one.b, sweep, first);
+        solve_block(c, j, one.a, one.b, sweep, first);
     }
 }
 

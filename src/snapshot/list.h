@@ -157,7 +157,7 @@
 
 // What lies in struct plumb_world itself.
 #define PL_STATE_WORLD(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                      \
-    LEFT(memory) LEFT(query_grids) LEFT(lookahead) VALUE(gravity) VALUE(step_count) VALUE(time) TALLY(last_dt) TALLY(arrested_count)                \
+    LEFT(memory) LEFT(query_grids) LEFT(lookahead) VALUE(gravity) VALUE(step_count) VALUE(time) TALLY(last_dt) VALUE(soft_substep) TALLY(arrested_count)                \
     TABLE(bodies) VALUE(dynamic_count) VALUE(kinematic_count) VALUE(asleep_count)                  \
     VALUE(disabled_count) VALUE(continuous_bodies) VALUE(locked_bodies)                            \
     VALUE(one_way_pieces) VALUE(dropping_bodies)                                                   \

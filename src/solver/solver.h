@@ -155,6 +155,8 @@ bool pl_solver_cluster(plumb_world *world);
 bool pl_solver_tallies(const plumb_world *world);
 // Whether locked axes, adhesion or bodies whose time stands still are there to be solved.
 bool pl_solver_specials(const plumb_world *world);
+// [s] the substep that contacts and joints are as stiff for in a step of dt: at least that of dt (soft.c).
+near_real pl_soft_substep(const plumb_world *world, real dt);
 // Impacts as events (impact.c): collects them; resolves those of one substep of h [s];
 // those that other impacts of the substep made; and tells the sweeps which points stay clear.
 void pl_impacts_prepare(plumb_world *world);

@@ -88,7 +88,8 @@ static void run_cluster(const pl_solving_step *step, uint32_t i, pl_tasks *tasks
 {
     const pl_cluster *cluster = &pl_clusters(&step->world->solver)[i];
     const pl_joint_context joints =
-        pl_joint_context_of(step->world, i, tasks, thread, (real)step->call.h);
+        pl_joint_context_of(
+        step->world, i, tasks, thread, (real)step->call.h, (real)step->soft_substep);
     pl_solving solving = { .step = step,
                            .call = call_of(step, cluster, thread),
                            .joints = &joints,
@@ -113,7 +114,7 @@ static void run_cluster(const pl_solving_step *step, uint32_t i, pl_tasks *tasks
 static bool is_large(const pl_solving_step *step, uint32_t i)
 {
     const plumb_world *world = step->world;
-    const pl_joint_context joints = pl_joint_context_of(step->world, i, NULL, 0, 0);
+    const pl_joint_context joints = pl_joint_context_of(step->world, i, NULL, 0, 0, 0);
     const uint32_t contacts = pl_clusters(&world->solver)[i].color_first[PL_COLOR_SLOTS];
     const uint32_t tied = pl_joints_any(&joints) ? joints.group->color_first[PL_JOINT_COLORS] -
                                                        joints.group->color_first[0]
@@ -151,6 +152,7 @@ static pl_solving_step open_step(plumb_world *world, const pl_substep_rows *rows
                   .flags = world->bodies.flags },
         .elastic = world->solver.follows_impacts,
         .together = world->solver.follows_impacts || world->effects.any_alone,
+        .soft_substep = pl_soft_substep(world, dt),
         .rows = rows,
     };
 }

@@ -30,6 +30,7 @@ typedef struct pl_solving_step {
     pl_surface_variant surface;
     pl_motion_variant motion;
     bool tallies, elastic;
+    near_real soft_substep; // [s] see pl_soft_substep
     bool together; // something of cluster 0 is not to be shared out: it is solved by itself
     const struct pl_substep_rows *rows;
 } pl_solving_step;

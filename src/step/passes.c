@@ -81,6 +81,7 @@ static void finish(plumb_world *world, plumb_real dt)
     pl_sleep_clear_forces(world);
     world->time += (double)dt;
     world->last_dt = dt;
+    world->soft_substep = pl_soft_substep(world, dt);
     ++world->step_count;
 }
 
