@@ -129,6 +129,7 @@ static const struct work {
     { "", "blast{ at = {0, 0}, radius = 100, impulse = 1e-6, occlusion = 'all' }" },
     { "", "energy() momentum() penetration() body_count() time()" },
     { "", "set_gravity(0, -9)" },
+    { "", "split_step(16000)" },
     { "", "find('b1') find('nobody')" },
     { "local b = find('b1')", "b:overlaps()" },
     { "local b = find('b1')", "b:position() b:velocity() b:set_velocity(0, 0)" },

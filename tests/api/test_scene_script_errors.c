@@ -86,6 +86,12 @@ static const malformed table[] = {
       .text = "print(math.floor({}))",
       .code = SCENE_E_RUNTIME,
       .message = "scene.lua:1:12: bad argument #1 to 'floor' (number expected, got table)" },
+    { .what = "parts shorter than any step",
+      .file = "scene.lua",
+      .text = "split_step(20000)",
+      .code = SCENE_E_RUNTIME,
+      .message =
+          "scene.lua:1:1: bad argument #1 to 'split_step' (makes steps shorter than 1e-6 s)" },
     { .what = "endless loop",
       .file = "scene.lua",
       .text = "while true do end",

@@ -114,6 +114,32 @@ static void a_blast_pushes(void **state)
     scene_destroy(s);
 }
 
+// Time passes as before, a force acts in the first part alone, and what follows a step follows each part.
+static void steps_are_split(void **state)
+{
+    (void)state;
+    scene *s = load("scene{ gravity = {0, 0} }\n"
+                    "body{ name = 'ball', circle{0.5}, mass = 1, velocity = {0, 3} }\n"
+                    "body{ name = 'wall', type = 'static', box{4, 1}, at = {0, 2.1} }\n"
+                    "split_step(10)\n"
+                    "at(0, function() find('ball'):apply_force(60, 0) end)\n"
+                    "at(1 / 60, function() split_step(1) find('ball'):apply_force(60, 0) end)\n"
+                    "on_contact{ a = 'ball', function() score('met', score('met') + 1) end }\n"
+                    "expect{ 'met once', score = 'met', value = 1 }\n");
+    steps(s, 1);
+    const plumb_world *w = scene_world(s);
+    assert_near(scene_time(s) - 1 / 60.0, 0, 1e-15);
+    assert_near((double)plumb_body_velocity(w, named(s, "ball")).x - 0.1, 0, ROUNDED(1e-5));
+    assert_near((double)plumb_body_position(w, named(s, "ball")).y - 0.05, 0, ROUNDED(1e-5));
+    char lacks[200];
+    assert_true(scene_json_lacks(s, lacks, sizeof lacks) > 0);
+    assert_non_null(strstr(lacks, "1 order to split steps"));
+    steps(s, 1);
+    assert_near((double)plumb_body_velocity(w, named(s, "ball")).x - 1.1, 0, ROUNDED(1e-5));
+    run_and_hold(s);
+    scene_destroy(s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -121,6 +147,7 @@ int main(void)
         cmocka_unit_test(json_keeps_it),
         cmocka_unit_test(handlers_move_bodies),
         cmocka_unit_test(a_blast_pushes),
+        cmocka_unit_test(steps_are_split),
     };
     return cmocka_run_group_tests_name("scene motion", tests, NULL, NULL);
 }

@@ -7,6 +7,8 @@
 
 #include "internal.h"
 
+#define MOST_PARTS 100000 ///< of a step
+
 void sc_call(scene *s, int args, int results)
 {
     sc_budget_call(s);
@@ -231,6 +233,17 @@ static int lua_set_gravity(lua_State *L)
     return 0;
 }
 
+// split_step(n): from the next step on, each is n steps of the world of dt / n.
+static int lua_split_step(lua_State *L)
+{
+    scene *s = sc_of(L);
+    lua_Integer parts = luaL_checkinteger(L, 1);
+    luaL_argcheck(L, parts >= 1 && parts <= MOST_PARTS, 1, "must be 1 to 100000");
+    luaL_argcheck(L, s->dt / (double)parts >= 1e-6, 1, "makes steps shorter than 1e-6 s");
+    s->split = (int)parts;
+    return 0;
+}
+
 void sc_open_handlers(lua_State *L)
 {
     static const luaL_Reg names[] = {
@@ -247,6 +260,7 @@ void sc_open_handlers(lua_State *L)
         { "momentum", lua_momentum },
         { "penetration", lua_penetration },
         { "set_gravity", lua_set_gravity },
+        { "split_step", lua_split_step },
         { NULL, NULL },
     };
     for (const luaL_Reg *r = names; r->name != NULL; r++) {

@@ -238,6 +238,7 @@ struct scene {
     int settings_line;
     double dt, duration, start_time;
     uint64_t steps;
+    int split; ///< steps of the world in one of the scene
     bool building, finished, stop;
 
     sc_camera camera;

@@ -52,5 +52,6 @@ int scene_json_lacks(const scene *s, char *text, size_t size)
         users += s->bodies.items[i]->user != LUA_NOREF;
     }
     append_count(text, size, &used, users, "user table");
+    append_count(text, size, &used, s->split > 1, "order to split steps");
     return used;
 }

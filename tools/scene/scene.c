@@ -137,6 +137,7 @@ static void take_options(scene *s, const scene_options *opts)
     s->is_json = length >= 5 && strcmp(s->path + length - 5, ".json") == 0;
     s->dt = 1.0 / 60;
     s->duration = 10;
+    s->split = 1;
 }
 
 // The title when the author gave none: the file's name without folder and ending.
@@ -240,21 +241,27 @@ void sc_begin_handlers(scene *s)
                     s->options.handler_seconds);
 }
 
+// A step of the scene is one of the world, or as many shorter ones as split_step() has said.
 static void step_inside(scene *s, void *unused)
 {
     (void)unused;
     sc_begin_handlers(s);
     sc_handlers_before(s);
-    plumb_result result = plumb_world_step(s->world, (plumb_real)s->dt);
-    if (s->edit_failed) { // s->error says why
-        lua_pushlightuserdata(s->L, s);
-        lua_error(s->L);
+    for (int left = s->split, count = left; left > 0; left--) {
+        plumb_result result = plumb_world_step(s->world, (plumb_real)(s->dt / count));
+        if (s->edit_failed) { // s->error says why
+            lua_pushlightuserdata(s->L, s);
+            lua_error(s->L);
+        }
+        if (result != PLUMB_OK) {
+            sc_refused(s, NULL, NULL, result, "step %llu failed", (unsigned long long)s->steps + 1);
+        }
+        s->steps += left == 1;
+        sc_events_after(s);
+        if (count > 1) {
+            sc_step_work(s, (uint64_t)s->bodies.count + 10); // the limits hold between the parts, too
+        }
     }
-    if (result != PLUMB_OK) {
-        sc_refused(s, NULL, NULL, result, "step %llu failed", (unsigned long long)s->steps + 1);
-    }
-    s->steps++;
-    sc_events_after(s);
     sc_expect_step(s);
 }
 
