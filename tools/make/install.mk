@@ -45,14 +45,15 @@ $(O)/plumb.1: $(O)/plumb
 	$(Q)$(O)/plumb help --man >$@
 
 install: install-lib $(O)/plumb $(O)/plumb.1
-	install -d $(addprefix $(DESTDIR),$(BINDIR) $(BASHDIR) $(MANDIR) $(SHAREDIR)/scenes $(SHAREDIR)/examples/sdl2)
+	install -d $(addprefix $(DESTDIR),$(BINDIR) $(BASHDIR) $(MANDIR) $(SHAREDIR)/scenes/hard $(SHAREDIR)/examples/sdl2)
 	install -m 755 $(O)/plumb $(DESTDIR)$(BINDIR)/plumb
 	install -m 644 tools/plumb/plumb.bash-completion $(DESTDIR)$(BASHDIR)/plumb
 	install -m 644 $(O)/plumb.1 $(DESTDIR)$(MANDIR)
 	install -m 644 README.md $(DESTDIR)$(DOCDIR)
 	install -m 644 tools/plumb/README.md $(DESTDIR)$(DOCDIR)/command-line.md
 	install -m 644 tools/scene/README.md $(DESTDIR)$(DOCDIR)/scenes.md
-	install -m 644 assets/scenes/* $(DESTDIR)$(SHAREDIR)/scenes
+	install -m 644 assets/scenes/*.* $(DESTDIR)$(SHAREDIR)/scenes
+	install -m 644 assets/scenes/hard/* $(DESTDIR)$(SHAREDIR)/scenes/hard
 	install -m 644 tools/examples/*.c $(DESTDIR)$(SHAREDIR)/examples
 	install -m 644 tools/examples/sdl2/*.c $(DESTDIR)$(SHAREDIR)/examples/sdl2
 
