@@ -136,7 +136,7 @@ static inline bool pl_joints_any(const pl_joint_context *c)
     return c->group != NULL && c->group->end > c->group->first;
 }
 
-// The solver's part (solve.c). Prepare: poses and rows at the start of the step.
+// The solver's part (solve.c, one.c). Prepare: poses and rows at the start of the step.
 void pl_joints_prepare(const pl_joint_context *context);
 void pl_joints_warm_start(const pl_joint_context *context);
 // Sweeps. The first of a substep that pulls pays what J's turning owes, the first that relaxes makes

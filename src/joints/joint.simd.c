@@ -1,4 +1,4 @@
-// joint.simd.c - the sweeps of solve.c over joints, W at a time, and what they begin and end with.
+// joint.simd.c - what one.c does to a joint, W at a time, and how a step begins and ends.
 //
 // What J's turning owes, (J' - J)^T impulse, is paid joint by joint as it is pulled; rows at the moved
 // places are made as it is relaxed: so a substep of one sweep each goes over the bodies twice.
@@ -325,6 +325,45 @@ WIDE_INLINE void fill_start(const parts *at, const pl_joint_start *starts, const
     }
 }
 
+typedef struct pull {
+    vf a, b; // [N m s]
+} pull_of_joint;
+
+// Impulse times arm, of A and of B.
+WIDE_INLINE pull_of_joint pulls(const parts *at, const pl_joint_pattern *p)
+{
+    vf x = splat(0), y = splat(0);
+    for (int i = 0; i < p->count; ++i) {
+        x += at->rows[i].nx * at->rows[i].impulse;
+        y += at->rows[i].ny * at->rows[i].impulse;
+    }
+    const bundle *c = at->c;
+    return (pull_of_joint){ -(x * c->ra_x + y * c->ra_y), x * c->rb_x + y * c->rb_y };
+}
+
+WIDE_INLINE bool is_tense(const parts *at, const pl_joint_pattern *p, const pl_joint_call *call)
+{
+    const pull_of_joint pull = pulls(at, p);
+    const vf share = splat((near_real)call->h), free = splat((near_real)0.5);
+    return any((pull.a * share * at->c->inertia_a > free) |
+               (pull.b * share * at->c->inertia_b > free));
+}
+
+static void stiffen(const pl_joint_call *call)
+{
+    for (uint32_t k = call->first; k < call->end; ++k) {
+        const pl_joint_pattern *p = &call->patterns[call->bundles[k].pattern];
+        parts at = open(call, k, p);
+        const pull_of_joint pull = pulls(&at, p);
+        for (int i = 0; i < PL_WIDTH; ++i) {
+            pl_joint_stiffen(&call->bodies[at.a[i]], pull.a[i], (near_real)call->h,
+                             at.c->inertia_a[i]);
+            pl_joint_stiffen(&call->bodies[at.b[i]], pull.b[i], (near_real)call->h,
+                             at.c->inertia_b[i]);
+        }
+    }
+}
+
 static void fill(const pl_joint_call *call)
 {
     const uint32_t k = call->first;
@@ -345,6 +384,9 @@ static void fill(const pl_joint_call *call)
     at.c->inertia_b = b.inv_inertia;
     make_rows(&at, p, &a, &b);
     at.c->owed_x = at.c->owed_y = at.c->owed_a = at.c->owed_b = splat(0);
+    if (is_tense(&at, p, call)) {
+        *call->tense = true;
+    }
 }
 
 static void warm_start(const pl_joint_call *call)
@@ -459,6 +501,7 @@ const pl_joint_kernels PL_WIDE_NAME(pl_joint_kernels) = {
     .width = PL_WIDTH,
     .record_size = record_size,
     .fill = fill,
+    .stiffen = stiffen,
     .warm_start = warm_start,
     .pull_first = pull_first,
     .pull = pull,

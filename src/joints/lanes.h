@@ -146,7 +146,7 @@ WIDE_INLINE vf rate(const row *r, const body *a, const body *b)
 
 #define PL_TINY_TURN ((near_real)1e-10) // [rad]
 
-// Bodies turn little in a step: see turned_by in solve.c.
+// Bodies turn little in a step: see turned_by in one.c.
 WIDE_INLINE void turned_by(vf x, vf *c, vf *s)
 {
     // Squares of less than this change no bit, but may be subnormal, which costs hundreds of cycles.
@@ -168,7 +168,7 @@ WIDE_INLINE void turned_by(vf x, vf *c, vf *s)
     }
 }
 
-// Adds to J v of a point what the arc of a body's anchor does, as in solve.c.
+// Adds to J v of a point what the arc of a body's anchor does, as in one.c.
 WIDE_INLINE void add_arc(vf v[2], vf w, vf h, vf w0, vf w1)
 {
     vf turn = vabs(h * w);

@@ -1,6 +1,6 @@
 // rows.h - what every joint is made of: scalar rows C(q) = 0 or >= 0 between two bodies, with
 // Jacobian J = dC/dq, softness, bounds and accumulated impulse. A kind of joint fills rows
-// (joint.h); solve.c knows nothing else about it.
+// (joint.h); one.c knows nothing else about it.
 //
 // Symbols: C position error [m] or [rad], J row over (vA, wA, vB, wB), n a unit direction from A to
 // B, d the way from A's anchor to B's, r arms from centres to anchors, x cross product.

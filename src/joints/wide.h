@@ -14,7 +14,7 @@
 typedef struct pl_joint pl_joint;
 typedef plumb_substep_body pl_solver_body;
 
-// Factors of J v, C and the impulse so far: see solve.c.
+// Factors of J v, C and the impulse so far: see one.c.
 typedef struct pl_joint_soft {
     real velocity, error, impulse;
 } pl_joint_soft;
@@ -53,6 +53,7 @@ typedef struct pl_joint_call {
     const pl_rows *rows;          // likewise, unless that is bare
     real h;                       // [s] substep
     pl_joint_soft rigid;          // of rows that are no springs, where they pull
+    bool *tense; // for `fill`: set where a lane asks for more inertia (pl_joint_inertia)
 } pl_joint_call;
 
 #define PL_JOINT_LANES 16 // of the widest kernel
@@ -63,6 +64,7 @@ typedef struct pl_joint_kernels {
     int width;
     size_t (*record_size)(const pl_joint_pattern *pattern); // [B]
     pl_joint_kernel *fill;       // one bundle, from poses, rows and impulses of the joints
+    pl_joint_kernel *stiffen;    // bodies of tense joints get more inertia
     pl_joint_kernel *warm_start; // the impulses that the step begins with
     // One sweep each. First of a substep: what J's turning owes is paid before pulling, rows are made
     // for the new poses before relaxing.
@@ -76,6 +78,27 @@ extern const pl_joint_kernels pl_joint_kernels_w8;
 extern const pl_joint_kernels pl_joint_kernels_w16;
 
 // Factors of a spring's row over a substep of h [s].
+// Geometric stiffness: a force F at the arm r turns a body back by r . F a radian, as a weight does a pendulum. Where
+// links are light and what hangs on them is heavy, that spring is too stiff for the substep, and the links flutter ever
+// faster. So such a body gets the inertia, h^2 r . F, with which a substep is a radian of its swing. [kg m^2] that a
+// joint adds to it; `pull` [N m s]: r . impulse; `own`: inverse inertia. Half of the body's own is free for each of two
+// joints: most bodies need no more, and keep every bit.
+// (Tournier et al., Stable Constrained Dynamics, 2015, add the matrix of which this is the turning part.)
+static inline near_real pl_joint_inertia(near_real pull, near_real h, near_real own)
+{
+    const near_real wanted = pull * h * own;
+    return wanted > (near_real)0.5 ? (wanted - (near_real)0.5) / own : 0;
+}
+
+static inline void pl_joint_stiffen(pl_solver_body *body, near_real pull, near_real h,
+                                    near_real own)
+{
+    const near_real more = pl_joint_inertia(pull, h, own);
+    if (more > 0) {
+        body->inv_inertia = 1 / (1 / body->inv_inertia + more);
+    }
+}
+
 pl_joint_soft pl_joint_spring(const pl_row *row, real h);
 
 #endif

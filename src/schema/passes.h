@@ -64,12 +64,12 @@
       "manifolds", "manifolds, pairs, joints, solver bodies, accelerations, constraints, rows", ONE)                                         \
     X("classic solver",    SOLVE,       IF(pl_want_classic),         ONCE(pl_run_classic),                                   ONCE,           \
       "manifolds", "manifolds, pairs, joints, solver bodies, accelerations, constraints, rows", ONE)                                         \
+    X("prepare joints",    PREPARE,     IF(pl_want_joints),          EACH(pl_joints_row_prepare),                            ONCE,           \
+      "joints, poses, solver bodies", "joints, constraints", ONE)                                                                            \
     X("prepare contacts",  PREPARE,     IF(pl_want_collision),       BOTH(pl_soft_prepare, pl_classic_prepare),              ONCE,           \
       "manifolds, solver bodies", "constraints", HAS(pl_contact_variants))                                                                   \
     X("prepare impacts",   PREPARE,     IF(pl_want_impacts),         BOTH(pl_impacts_row_prepare, pl_impacts_row_classic),   ONCE,           \
       "manifolds, constraints", "constraints", ONE)                                                                                          \
-    X("prepare joints",    PREPARE,     IF(pl_want_joints),          EACH(pl_joints_row_prepare),                            ONCE,           \
-      "joints, poses, solver bodies", "joints, constraints", ONE)                                                                            \
     X("forces of now",     MOMENT,      IF(pl_want_reset),           EACH(pl_acting_reset),                                  ONCE,           \
       "accelerations", "accelerations", ONE)                                                                                                 \
     X("substep systems",   MOMENT,      ALWAYS,                      HOME,                                                   ONCE,           \

@@ -119,8 +119,8 @@ static bool check_values(const pl_suspect *s)
     const plumb_world *w = &s->world;
     return pl_desc_is_sound(PLUMB_TABLE_WORLD, &w->desc) && w->desc.substeps > 0 &&
            w->desc.iterations > 0 && w->time - w->time == 0 && w->time >= 0 &&
-           w->soft_substep - w->soft_substep == 0 && w->soft_substep >= 0 &&
-           w->sleep.since >= 0 && w->sleep.passed >= 0 && w->continuous.least_slack >= 0;
+           w->soft_substep - w->soft_substep == 0 && w->soft_substep >= 0 && w->sleep.since >= 0 &&
+           w->sleep.passed >= 0 && w->continuous.least_slack >= 0;
 }
 
 //---- all -----------------------------------------------------------------------------------------

@@ -87,8 +87,7 @@ static pl_contact_call call_of(const pl_solving_step *step, const pl_cluster *cl
 static void run_cluster(const pl_solving_step *step, uint32_t i, pl_tasks *tasks, uint32_t thread)
 {
     const pl_cluster *cluster = &pl_clusters(&step->world->solver)[i];
-    const pl_joint_context joints =
-        pl_joint_context_of(
+    const pl_joint_context joints = pl_joint_context_of(
         step->world, i, tasks, thread, (real)step->call.h, (real)step->soft_substep);
     pl_solving solving = { .step = step,
                            .call = call_of(step, cluster, thread),

@@ -54,7 +54,7 @@ struct plumb_world {
     plumb_vec2 gravity;
     uint64_t step_count;
     double time;
-    real last_dt; // [s] of the last step that moved anything
+    real last_dt;           // [s] of the last step that moved anything
     near_real soft_substep; // [s] see pl_soft_substep; of that step
     // bodies taken out because a step would have left them without a finite state
     uint32_t arrested_count;

@@ -49,8 +49,7 @@ static double highest(const pile *p)
 
 static double any_step(uint32_t *seed)
 {
-    return sim_uniform(seed, 0, 1) < 0.3 ? HZ60
-                                           : exp(sim_uniform(seed, log(1e-6), log(0.1)));
+    return sim_uniform(seed, 0, 1) < 0.3 ? HZ60 : exp(sim_uniform(seed, log(1e-6), log(0.1)));
 }
 
 // What a pile has sunk into itself is given back so slowly that nothing rises above where it would stand if nothing

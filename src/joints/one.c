@@ -1,0 +1,317 @@
+// one.c - one joint in the solvers: how its rows are solved, and what the turning of its bodies does.
+//
+// A rigid row first is a stiff soft one (backward Euler: Catto, Soft Constraints, GDC 2011); after
+// the bodies have moved it is solved again, for C' = 0, with the Jacobian of where they are then.
+// The way of a substep is thus a chord between two places on the circle, left and reached at equal
+// angles, and no speed is lost to turning, as in RATTLE (Andersen 1983): a pendulum keeps its
+// amplitude. Taking all of C back with impulses that never yield holds one joint better, and shakes
+// bridges to pieces. The chord is met by the last sweep that pulls: it adds to the rows of a point what
+// the arcs of the anchors make of a substep (add_arc). DECISIONS.md says why not by all sweeps, and not by J.
+//
+// soft.c warm starts body by body, v += v - u, with the directions of the substep before. Where J
+// has turned since, pl_one_pay() adds the difference (J' - J)^T impulse, else a stale pull along
+// the old direction would feed energy to whatever swings.
+//
+// Springs: b = 1 / (1 + 2 z x + 2 (z x)^2 + x^4 / (1 + x^2)), x = h w, and the impulse such that
+// v' = b (v - h w^2 C). The first terms are exp(-2 z x), the damping of the continuous oscillator
+// over a substep; with z = 0 and small x this is the symplectic Euler step, which keeps the
+// amplitude; the last term makes stiff springs implicit, hence stable. At rest w^2 C is the
+// acceleration, exactly.
+//
+// joint.simd.c does the same with several at a time. Reads: joints, body columns. Writes: solver bodies, impulses. Cost: O(1).
+#include "joints/one.h"
+#include "plumb/math.h"
+#include "world/state.h"
+
+// Frequency of a rigid row as a share of the substep rate, and its damping ratio (DECISIONS.md).
+#define SHARE ((real)0.35)
+#define ZETA  ((real)3)
+#define TAU   ((real)6.2831853071795864769)
+
+// Of a rigid row that pulls. `soft` [s]: the substep that it is as stiff for (pl_soft_substep).
+pl_joint_soft pl_joint_rigid(real h, real soft)
+{
+    const real x = TAU * SHARE * (h / soft), stiff = x * (2 * ZETA + x);
+    return (pl_joint_soft){ stiff / (1 + stiff), x * x / (1 + stiff) / h, 1 / (1 + stiff) };
+}
+
+pl_joint_soft pl_joint_spring(const pl_row *row, real h)
+{
+    if (row->type == PL_ROW_DRIVE || row->hertz == 0) {
+        return (pl_joint_soft){ 1, 0, 0 };
+    }
+    real x = TAU * row->hertz * h, zx = row->damping * x, xx = x * x;
+    real b = 1 / (1 + 2 * zx + 2 * zx * zx + xx * xx / (1 + xx));
+    return (pl_joint_soft){ 1 - b, b * xx / h, b };
+}
+
+static pl_joint_soft soften(const pl_joint_context *c, const pl_row *row, pl_joint_sweep sweep)
+{
+    bool pulls = sweep == PL_SWEEP_PULL && row->type != PL_ROW_DRIVE && row->hertz == 0;
+    return pulls ? c->rigid : pl_joint_spring(row, c->h);
+}
+
+//---- one row -------------------------------------------------------------------------------------
+
+real pl_one_rate(const pl_row *r, const pl_solver_body *a, const pl_solver_body *b)
+{
+    return (r->ax * a->vx + r->ay * a->vy + r->aw * a->w) +
+           (r->bx * b->vx + r->by * b->vy + r->bw * b->w);
+}
+
+// What an impulse does to the velocity (x, y, turn) of a body, or a shift to its place.
+static void give(const pl_solver_body *body, near_real *x, near_real *y, near_real *turn, real jx,
+                 real jy, real jw, real amount)
+{
+    *x = (near_real)(*x + body->inv_mass * jx * amount);
+    *y = (near_real)(*y + body->inv_mass * jy * amount);
+    *turn = (near_real)(*turn + body->inv_inertia * jw * amount);
+}
+
+void pl_one_push(const pl_row *r, pl_solver_body *a, pl_solver_body *b, real impulse)
+{
+    give(a, &a->vx, &a->vy, &a->w, r->ax, r->ay, r->aw, impulse);
+    give(b, &b->vx, &b->vy, &b->w, r->bx, r->by, r->bw, impulse);
+}
+
+// J M^-1 K^T of two rows.
+real pl_one_coupling(const pl_row *r, const pl_row *q, const pl_solver_body *a,
+                     const pl_solver_body *b)
+{
+    return a->inv_mass * (r->ax * q->ax + r->ay * q->ay) + a->inv_inertia * r->aw * q->aw +
+           b->inv_mass * (r->bx * q->bx + r->by * q->by) + b->inv_inertia * r->bw * q->bw;
+}
+
+void pl_one_solve_row(const pl_joint_context *c, pl_joint *j, int i, pl_solver_body *a,
+                      pl_solver_body *b, pl_joint_sweep sweep)
+{
+    const pl_row *r = &j->rows.row[i];
+    if (r->type == PL_ROW_OFF || (sweep == PL_SWEEP_RELAX && r->hertz > 0)) {
+        return;
+    }
+    pl_joint_soft s = soften(c, r, sweep);
+    bool apart = r->type == PL_ROW_LEAST && r->error > 0;
+    if (apart) {
+        s = (pl_joint_soft){ 1, 1 / j->h, 0 }; // may close the gap
+    }
+    real v = pl_one_rate(r, a, b) - (r->type == PL_ROW_DRIVE ? r->speed : 0);
+    real old = j->impulse[i];
+    real total = old - j->mass[i] * (s.velocity * v + s.error * r->error) - s.impulse * old;
+    real most = r->most * j->h;
+    total = plumb_clamp(total, r->type == PL_ROW_LEAST ? 0 : -most, most);
+    j->impulse[i] = total;
+    pl_one_push(r, a, b, total - old);
+}
+
+//---- the block -----------------------------------------------------------------------------------
+
+// Inverse of the block's K by Gauss-Jordan; a direction in which nothing can move is left out.
+static void invert(pl_joint *j, const pl_solver_body *a, const pl_solver_body *b)
+{
+    const int n = j->rows.block;
+    real k[3][6] = { { 0 } };
+    real diagonal[3] = { 0 };
+    for (int i = 0; i < n; ++i) {
+        for (int m = 0; m < n; ++m) {
+            k[i][m] = pl_one_coupling(&j->rows.row[i], &j->rows.row[m], a, b);
+        }
+        k[i][n + i] = 1;
+        diagonal[i] = k[i][i];
+    }
+    for (int p = 0; p < n; ++p) {
+        bool usable = k[p][p] > PL_PIVOT * diagonal[p];
+        real inverse = usable ? 1 / k[p][p] : 0;
+        for (int m = 0; m < 2 * n; ++m) {
+            k[p][m] *= inverse;
+        }
+        for (int i = 0; i < n; ++i) {
+            real factor = i == p ? 0 : k[i][p];
+            for (int m = 0; m < 2 * n; ++m) {
+                k[i][m] -= factor * k[p][m];
+            }
+        }
+    }
+    for (int i = 0; i < n; ++i) {
+        for (int m = 0; m < n; ++m) {
+            j->inverse[i][m] = k[i][n + m];
+        }
+    }
+}
+
+// Shortens the force of a two-row block to its bound.
+static void bound_block(const pl_joint *j, real total[3])
+{
+    real most = j->rows.block_most * j->h;
+    real now = plumb_vec2_magnitude(plumb_v2(total[0], total[1]));
+    if (now > most) {
+        total[0] *= most / now;
+        total[1] *= most / now;
+    }
+}
+
+// A body that turns by x = h w in a substep takes its anchor r round an arc: it ends (R(x) - 1 - x k x) r
+// from where h J v leads. Added to J v of a point, whose rows have w0 and w1 of the body: the series, faded
+// out up to a radian, from where a tangent leads nowhere near.
+void pl_one_add_arc(real v[2], real w, real h, real w0, real w1)
+{
+    real x = h * w, xx = x * x;
+    if (plumb_abs(x) > PL_LEAST_ARC && plumb_abs(x) < 1) {
+        real u = w * (1 - xx * xx);
+        real c = -x * u / 2, s = -xx * u / 6;
+        v[0] += c * w1 + s * w0;
+        v[1] += s * w1 - c * w0;
+    }
+}
+
+void pl_one_solve_block(const pl_joint_context *c, pl_joint *j, pl_solver_body *a,
+                        pl_solver_body *b, pl_joint_sweep sweep, bool first)
+{
+    const int n = j->rows.block;
+    const pl_row *row = j->rows.row;
+    if (n == 0 || (sweep == PL_SWEEP_RELAX && row[0].hertz > 0)) {
+        return;
+    }
+    pl_joint_soft s = soften(c, &row[0], sweep);
+    real wrong[3] = { 0 }, total[3] = { 0 };
+    for (int i = 0; i < n; ++i) {
+        wrong[i] = pl_one_rate(&row[i], a, b);
+    }
+    bool holds = row[0].type == PL_ROW_EQUAL && row[0].hertz == 0;
+    if (holds && sweep == PL_SWEEP_PULL && !first && row[0].form == PL_FORM_POINT_X) {
+        pl_one_add_arc(wrong, a->w, j->h, row[0].aw, row[1].aw);
+        pl_one_add_arc(wrong, b->w, j->h, row[0].bw, row[1].bw);
+    }
+    for (int i = 0; i < n; ++i) {
+        wrong[i] = s.velocity * wrong[i] + s.error * row[i].error;
+    }
+    for (int i = 0; i < n; ++i) {
+        total[i] = (1 - s.impulse) * j->impulse[i];
+        for (int m = 0; m < n; ++m) {
+            total[i] -= j->inverse[i][m] * wrong[m];
+        }
+    }
+    if (j->rows.block_most < PL_UNBOUNDED) {
+        bound_block(j, total);
+    }
+    for (int i = 0; i < n; ++i) {
+        pl_one_push(&row[i], a, b, total[i] - j->impulse[i]);
+        j->impulse[i] = total[i];
+    }
+}
+
+//---- rows at a pose ------------------------------------------------------------------------------
+
+// Bodies turn little in a step: Taylor's series, off by x^9 / 9! = 3e-15 at most.
+static plumb_rot turned_by(real x)
+{
+    if (plumb_abs(x) > (real)0.1) {
+        return plumb_rot_make(x);
+    }
+    real xx = x * x;
+    return (plumb_rot){ 1 - xx / 2 * (1 - xx / 12 * (1 - xx / 30 * (1 - xx / 56))),
+                        x * (1 - xx / 6 * (1 - xx / 20 * (1 - xx / 42))) };
+}
+
+static pl_joint_pose moved(pl_joint_pose pose, plumb_body of, const pl_solver_body *body)
+{
+    if (plumb_is_null(of)) {
+        return pose;
+    }
+    pose.x += body->dx;
+    pose.y += body->dy;
+    if (body->da != 0) {
+        plumb_rot turn = turned_by(body->da);
+        plumb_vec2 arm = plumb_rot_apply(turn, plumb_v2(pose.rx, pose.ry));
+        plumb_rot q = plumb_rot_mul(turn, (plumb_rot){ pose.c, pose.s });
+        pose.angle += (double)body->da;
+        pose.rx = arm.x, pose.ry = arm.y;
+        pose.c = q.c, pose.s = q.s;
+    }
+    return pose;
+}
+
+static void add_momentum(pl_joint *j, real sign)
+{
+    for (int i = 0; i < j->rows.count; ++i) {
+        const pl_row *r = &j->rows.row[i];
+        if (j->impulse[i] == 0) {
+            continue;
+        }
+        real impulse = sign * j->impulse[i];
+        j->turn[0] += r->ax * impulse, j->turn[1] += r->ay * impulse, j->turn[2] += r->aw * impulse;
+        j->turn[3] += r->bx * impulse, j->turn[4] += r->by * impulse, j->turn[5] += r->bw * impulse;
+    }
+}
+
+void pl_one_rows(const plumb_world *world, pl_joint *j, const pl_solver_body *a,
+                 const pl_solver_body *b)
+{
+    pl_joint_pose pa = moved(j->pose_a, j->a.body, a), pb = moved(j->pose_b, j->b.body, b);
+    pl_joint_classes[j->desc.kind]->rows(j, &pa, &pb, &j->rows);
+    j->arm_b = plumb_v2(pb.rx, pb.ry);
+    if (world->locked_bodies > 0) {
+        pl_joint_lock_rows(world, j);
+    }
+    invert(j, a, b);
+    for (int i = j->rows.block; i < j->rows.count; ++i) {
+        const pl_row *r = &j->rows.row[i];
+        real k = r->type == PL_ROW_OFF ? 0 : pl_one_coupling(r, r, a, b);
+        j->mass[i] = k > 0 ? 1 / k : 0;
+        j->impulse[i] = k > 0 ? j->impulse[i] : 0;
+    }
+}
+
+void pl_one_forget(pl_joint *j)
+{
+    for (int k = 0; k < 6; ++k) {
+        j->turn[k] = 0;
+    }
+}
+
+// Pays what J's turning owes.
+void pl_one_pay(const pl_joint *j, pl_solver_body *a, pl_solver_body *b)
+{
+    const pl_row owed = { j->turn[0], j->turn[1], j->turn[2],          j->turn[3],
+                          j->turn[4], j->turn[5], .type = PL_ROW_EQUAL };
+    pl_one_push(&owed, a, b, 1);
+}
+
+void pl_one_refresh(const plumb_world *world, pl_joint *j, const pl_solver_body *a,
+                    const pl_solver_body *b)
+{
+    pl_one_forget(j);
+    add_momentum(j, -1);
+    pl_one_rows(world, j, a, b);
+    add_momentum(j, 1);
+}
+
+//---- positions, for the classic solver -----------------------------------------------------------
+
+static void shift(const pl_row *r, pl_solver_body *a, pl_solver_body *b, real amount)
+{
+    give(a, &a->dx, &a->dy, &a->da, r->ax, r->ay, r->aw, amount);
+    give(b, &b->dx, &b->dy, &b->da, r->bx, r->by, r->bw, amount);
+}
+
+static bool is_rigid(const pl_row *r)
+{
+    return r->hertz == 0 && (r->type == PL_ROW_EQUAL || (r->type == PL_ROW_LEAST && r->error < 0));
+}
+
+void pl_one_move(const pl_joint *j, pl_solver_body *a, pl_solver_body *b, real share)
+{
+    for (int k = j->rows.count - 1; k >= j->rows.block; --k) {
+        if (is_rigid(&j->rows.row[k]) && j->rows.row[k].most >= PL_UNBOUNDED) {
+            shift(&j->rows.row[k], a, b, -share * j->mass[k] * j->rows.row[k].error);
+        }
+    }
+    bool block =
+        j->rows.block > 0 && is_rigid(&j->rows.row[0]) && j->rows.block_most >= PL_UNBOUNDED;
+    for (int k = 0; block && k < j->rows.block; ++k) {
+        real amount = 0;
+        for (int m = 0; m < j->rows.block; ++m) {
+            amount += j->inverse[k][m] * j->rows.row[m].error;
+        }
+        shift(&j->rows.row[k], a, b, -share * amount);
+    }
+}

@@ -1,0 +1,45 @@
+// one.h - joints that are solved one by one (one.c).
+#ifndef PL_JOINT_ONE_H
+#define PL_JOINT_ONE_H
+
+#include "joints/joint.h"
+
+// A joint with its bodies. Clusters share the immovable body: each takes its own instead.
+typedef struct pl_lone {
+    pl_joint *joint;
+    pl_solver_body *a, *b;
+    pl_solver_body immovable;
+} pl_lone;
+
+// The i-th joint of all groups. `out` is not to be moved.
+void pl_one_take(const pl_joint_context *c, uint32_t i, pl_lone *out);
+
+// J v; velocities += M^-1 J^T impulse; J M^-1 K^T of two rows between the same bodies.
+real pl_one_rate(const pl_row *r, const pl_solver_body *a, const pl_solver_body *b);
+void pl_one_push(const pl_row *r, pl_solver_body *a, pl_solver_body *b, real impulse);
+real pl_one_coupling(const pl_row *r, const pl_row *q, const pl_solver_body *a,
+                     const pl_solver_body *b);
+// Adds to J v of a point, whose rows have w0 and w1 of a body, what that body's turning by w does in h [s].
+void pl_one_add_arc(real v[2], real w, real h, real w0, real w1);
+
+// Rows, effective masses and the block's inverse, from where the bodies are.
+void pl_one_rows(const plumb_world *world, pl_joint *j, const pl_solver_body *a,
+                 const pl_solver_body *b);
+// The same, and what J's turning owes for the impulses so far; that paid; that forgotten.
+void pl_one_refresh(const plumb_world *world, pl_joint *j, const pl_solver_body *a,
+                    const pl_solver_body *b);
+void pl_one_pay(const pl_joint *j, pl_solver_body *a, pl_solver_body *b);
+void pl_one_forget(pl_joint *j);
+
+// One row outside the block, the block; `first`: of the sweeps of a substep.
+void pl_one_solve_row(const pl_joint_context *c, pl_joint *j, int i, pl_solver_body *a,
+                      pl_solver_body *b, pl_joint_sweep sweep);
+void pl_one_solve_block(const pl_joint_context *c, pl_joint *j, pl_solver_body *a,
+                        pl_solver_body *b, pl_joint_sweep sweep, bool first);
+// Moves its bodies against a share of its errors (classic solver).
+void pl_one_move(const pl_joint *j, pl_solver_body *a, pl_solver_body *b, real share);
+
+// Of a rigid row that pulls. `soft` [s]: the substep that it is as stiff for (pl_soft_substep).
+pl_joint_soft pl_joint_rigid(real h, real soft);
+
+#endif
