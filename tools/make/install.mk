@@ -44,16 +44,17 @@ $(O)/plumb.1: $(O)/plumb
 	@echo "  GEN   $@"
 	$(Q)$(O)/plumb help --man >$@
 
+SCENE_FOLDERS := assets/scenes $(patsubst %/,%,$(wildcard assets/scenes/*/))
 install: install-lib $(O)/plumb $(O)/plumb.1
-	install -d $(addprefix $(DESTDIR),$(BINDIR) $(BASHDIR) $(MANDIR) $(SHAREDIR)/scenes/hard $(SHAREDIR)/examples/sdl2)
+	install -d $(addprefix $(DESTDIR),$(BINDIR) $(BASHDIR) $(MANDIR) $(SHAREDIR)/examples/sdl2 \
+		$(SCENE_FOLDERS:assets/%=$(SHAREDIR)/%))
 	install -m 755 $(O)/plumb $(DESTDIR)$(BINDIR)/plumb
 	install -m 644 tools/plumb/plumb.bash-completion $(DESTDIR)$(BASHDIR)/plumb
 	install -m 644 $(O)/plumb.1 $(DESTDIR)$(MANDIR)
 	install -m 644 README.md $(DESTDIR)$(DOCDIR)
 	install -m 644 tools/plumb/README.md $(DESTDIR)$(DOCDIR)/command-line.md
 	install -m 644 tools/scene/README.md $(DESTDIR)$(DOCDIR)/scenes.md
-	install -m 644 assets/scenes/*.* $(DESTDIR)$(SHAREDIR)/scenes
-	install -m 644 assets/scenes/hard/* $(DESTDIR)$(SHAREDIR)/scenes/hard
+	for d in $(SCENE_FOLDERS); do install -m 644 $$d/*.* $(DESTDIR)$(SHAREDIR)/$${d#assets/} || exit 1; done
 	install -m 644 tools/examples/*.c $(DESTDIR)$(SHAREDIR)/examples
 	install -m 644 tools/examples/sdl2/*.c $(DESTDIR)$(SHAREDIR)/examples/sdl2
 
