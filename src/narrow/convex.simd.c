@@ -434,15 +434,16 @@ void PL_WIDE_NAME(pl_convex_convex)(const pl_narrow_input *in, uint32_t first, u
                 waiting[held++] = first + i + j;
             }
         }
+        // Full lanes; behind the last chunk what is left. One call, which is compiled once.
+        const uint32_t least = i + n < count ? PL_WIDTH : 1;
         uint32_t done = 0;
-        for (; held - done >= PL_WIDTH; done += PL_WIDTH) {
-            look_closely(in, waiting + done, PL_WIDTH, out);
+        while (held - done >= least) {
+            const uint32_t next = held - done < PL_WIDTH ? held - done : PL_WIDTH;
+            look_closely(in, waiting + done, next, out);
+            done += next;
         }
         memmove(waiting, waiting + done, (held - done) * sizeof waiting[0]);
         held -= done;
-    }
-    if (held > 0) {
-        look_closely(in, waiting, held, out);
     }
 }
 
