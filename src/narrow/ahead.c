@@ -106,7 +106,7 @@ static void make_manifolds(const pl_looking *l, uint32_t count)
         while (end < count && kind[copies[end].a] == a && kind[copies[end].b] == b) {
             ++end;
         }
-        pl_narrow_kernel_for(l->world, a, b)(&then, first, end - first, &made);
+        pl_narrow_kernel_for(l->world->desc.simd_width, a, b)(&then, first, end - first, b, &made);
     }
 }
 

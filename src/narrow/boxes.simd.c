@@ -70,9 +70,9 @@ WIDE_INLINE void choose_face(face_frame *f, const lanes *l)
     f->code = (two & ~is_x) | (four & (sign < zero)) | (eight & f->flip);
 }
 
-WIDE_INLINE void box_box(touch *t, const lanes *l, const pl_narrow_input *in)
+WIDE_INLINE void box_box(touch *t, const lanes *l, const pl_narrow_input *in, int kind_b)
 {
-    (void)in;
+    (void)in, (void)kind_b;
     face_frame f;
     choose_face(&f, l);
     vf zero = splat(0), one = splat(1), half = splat((near_real)0.5);

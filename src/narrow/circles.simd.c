@@ -28,17 +28,15 @@ WIDE_INLINE vf unit(vf x, vf y, vf fx, vf fy, vf *nx, vf *ny)
     return length;
 }
 
-WIDE_INLINE void circle_circle(touch *t, const lanes *l, const pl_narrow_input *in)
+WIDE_INLINE void circle_circle(touch *t, const lanes *l)
 {
-    (void)in;
     vf nx, ny;
     vf distance = unit(l->dx, l->dy, splat(0), splat(1), &nx, &ny);
     touch_point(t, l, nx, ny, distance);
 }
 
-WIDE_INLINE void circle_capsule(touch *t, const lanes *l, const pl_narrow_input *in)
+WIDE_INLINE void circle_capsule(touch *t, const lanes *l)
 {
-    (void)in;
     vf along = vclamp(-(l->dx * l->bc + l->dy * l->bs), -l->bhx, l->bhx);
     vf qx = l->dx + l->bc * along;
     vf qy = l->dy + l->bs * along;
@@ -49,9 +47,8 @@ WIDE_INLINE void circle_capsule(touch *t, const lanes *l, const pl_narrow_input 
 
 // The circle's centre in the box's frame: outside, the nearest point by clamping; inside, the face
 // of least depth.
-WIDE_INLINE void circle_box(touch *t, const lanes *l, const pl_narrow_input *in)
+WIDE_INLINE void circle_box(touch *t, const lanes *l)
 {
-    (void)in;
     vf zero = splat(0), one = splat(1);
     vf cx = -(l->dx * l->bc + l->dy * l->bs);
     vf cy = -(l->dy * l->bc - l->dx * l->bs);
@@ -74,6 +71,17 @@ WIDE_INLINE void circle_box(touch *t, const lanes *l, const pl_narrow_input *in)
     touch_point(t, l, -(ux * l->bc - uy * l->bs), -(ux * l->bs + uy * l->bc), distance);
 }
 
-DEFINE_KERNEL(circle_circle)
-DEFINE_KERNEL(circle_capsule)
-DEFINE_KERNEL(circle_box)
+// The three share what is around them, which is most of a kernel's code.
+WIDE_INLINE void circle(touch *t, const lanes *l, const pl_narrow_input *in, int kind_b)
+{
+    (void)in;
+    if (kind_b == PL_PIECE_CIRCLE) {
+        circle_circle(t, l);
+    } else if (kind_b == PL_PIECE_CAPSULE) {
+        circle_capsule(t, l);
+    } else {
+        circle_box(t, l);
+    }
+}
+
+DEFINE_KERNEL(circle)

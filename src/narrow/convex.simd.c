@@ -276,8 +276,9 @@ WIDE_PART void convex_convex(touch *t, const lanes *l, const pl_narrow_input *in
 }
 
 // The circle is a core of one corner: faces of B alone, then the corners of the best face.
-WIDE_PART void circle_convex(touch *t, const lanes *l, const pl_narrow_input *in)
+WIDE_PART void circle_convex(touch *t, const lanes *l, const pl_narrow_input *in, int kind_b)
 {
+    (void)kind_b;
     outline b;
     vf zero = splat(0);
     outline_gather(&b, in, l, true);
@@ -420,8 +421,9 @@ static __attribute__((noinline)) void look_closely(const pl_narrow_input *in,
 // In order of pairs, so that the order of manifolds does not depend on the width.
 pl_narrow_kernel PL_WIDE_NAME(pl_convex_convex);
 void PL_WIDE_NAME(pl_convex_convex)(const pl_narrow_input *in, uint32_t first, uint32_t count,
-                                    pl_narrow *out)
+                                    int kind_b, pl_narrow *out)
 {
+    (void)kind_b;
     uint32_t waiting[chunk + PL_WIDTH];
     uint32_t held = 0;
     for (uint32_t i = 0; i < count; i += chunk) {

@@ -4,19 +4,15 @@
 
 #define DECLARE(name)                                                                              \
     void PL_WIDE_NAME(pl_##name)(const pl_narrow_input *in, uint32_t first, uint32_t count,        \
-                                 pl_narrow *out);
+                                 int kind_b, pl_narrow *out);
 
-DECLARE(circle_circle)
-DECLARE(circle_capsule)
-DECLARE(circle_box)
+DECLARE(circle)
 DECLARE(circle_convex)
 DECLARE(box_box)
 DECLARE(convex_convex)
 
 const pl_narrow_kernels PL_WIDE_NAME(pl_narrow_kernels) = {
-    .circle_circle = PL_WIDE_NAME(pl_circle_circle),
-    .circle_capsule = PL_WIDE_NAME(pl_circle_capsule),
-    .circle_box = PL_WIDE_NAME(pl_circle_box),
+    .circle = PL_WIDE_NAME(pl_circle),
     .circle_convex = PL_WIDE_NAME(pl_circle_convex),
     .box_box = PL_WIDE_NAME(pl_box_box),
     .convex_convex = PL_WIDE_NAME(pl_convex_convex),

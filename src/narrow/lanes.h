@@ -340,11 +340,11 @@ WIDE_PART void lanes_emit(const lanes *l, const touch *t, const pl_narrow_input 
     }
 }
 
-// A kernel that takes every pair of its range through `name(touch *, const lanes *, input *)`.
+// A kernel that takes every pair of its range through `name(touch *, const lanes *, input *, kind_b)`.
 #define DEFINE_KERNEL(name)                                                                        \
     pl_narrow_kernel PL_WIDE_NAME(pl_##name);                                                      \
     void PL_WIDE_NAME(pl_##name)(const pl_narrow_input *in, uint32_t first, uint32_t count,        \
-                                 pl_narrow *out)                                                   \
+                                 int kind_b, pl_narrow *out)                                       \
     {                                                                                              \
         for (uint32_t i = 0; i < count; i += PL_WIDTH) {                                           \
             uint32_t n = count - i < PL_WIDTH ? count - i : PL_WIDTH;                              \
@@ -355,7 +355,7 @@ WIDE_PART void lanes_emit(const lanes *l, const touch *t, const pl_narrow_input 
             lanes l;                                                                               \
             touch t;                                                                               \
             lanes_gather(&l, in, places, n);                                                       \
-            name(&t, &l, in);                                                                      \
+            name(&t, &l, in, kind_b);                                                              \
             lanes_emit(&l, &t, in, n, out);                                                        \
         }                                                                                          \
     }

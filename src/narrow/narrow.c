@@ -9,36 +9,22 @@
 
 #include <string.h>
 
-static const pl_narrow_kernels *kernels_of(int width)
-{
-    switch (width) {
-    case 16:
-        return &pl_narrow_kernels_w16;
-    case 8:
-        return &pl_narrow_kernels_w8;
-    default:
-        return &pl_narrow_kernels_w4;
-    }
-}
-
 // The matrix: rows kind of A, columns kind of B >= kind of A (pairs are stored so).
-static pl_narrow_kernel *kernel_for(const pl_narrow_kernels *k, int a, int b)
+pl_narrow_kernel *pl_narrow_kernel_for(int width, int a, int b)
 {
+    const pl_narrow_kernels *k = width == 16  ? &pl_narrow_kernels_w16
+                                 : width == 8 ? &pl_narrow_kernels_w8
+                                              : &pl_narrow_kernels_w4;
     // clang-format off
     pl_narrow_kernel *const matrix[PL_PIECE_KIND_COUNT][PL_PIECE_KIND_COUNT] = {
-        //                    free  circle            capsule            box               polygon
-        [PL_PIECE_CIRCLE]  = { NULL, k->circle_circle, k->circle_capsule, k->circle_box,    k->circle_convex },
-        [PL_PIECE_CAPSULE] = { NULL, NULL,             k->convex_convex,  k->convex_convex, k->convex_convex },
-        [PL_PIECE_BOX]     = { NULL, NULL,             NULL,              k->box_box,       k->convex_convex },
-        [PL_PIECE_POLYGON] = { NULL, NULL,             NULL,              NULL,             k->convex_convex },
+        //                    free  circle     capsule           box               polygon
+        [PL_PIECE_CIRCLE]  = { NULL, k->circle, k->circle,        k->circle,        k->circle_convex },
+        [PL_PIECE_CAPSULE] = { NULL, NULL,      k->convex_convex, k->convex_convex, k->convex_convex },
+        [PL_PIECE_BOX]     = { NULL, NULL,      NULL,             k->box_box,       k->convex_convex },
+        [PL_PIECE_POLYGON] = { NULL, NULL,      NULL,             NULL,             k->convex_convex },
     };
     // clang-format on
     return matrix[a][b];
-}
-
-pl_narrow_kernel *pl_narrow_kernel_for(const plumb_world *world, int a, int b)
-{
-    return kernel_for(kernels_of(world->desc.simd_width), a, b);
 }
 
 bool pl_narrow_reserve(plumb_world *world, const pl_pair_list *list, pl_narrow *narrow)
@@ -66,7 +52,7 @@ typedef struct share {
 } share;
 
 typedef struct job {
-    const pl_narrow_kernels *kernels;
+    int width; // of the kernels
     const pl_narrow_input *in;
     const pl_pair_list *list;
     pl_manifold *manifolds;
@@ -88,7 +74,7 @@ static void make_share(void *context, uint32_t i)
             first = first > s->pairs.first ? first : s->pairs.first;
             end = end < s->pairs.end ? end : s->pairs.end;
             if (first < end) {
-                kernel_for(j->kernels, a, b)(j->in, first, end - first, &made);
+                pl_narrow_kernel_for(j->width, a, b)(j->in, first, end - first, b, &made);
             }
         }
     }
@@ -137,7 +123,7 @@ static void make_manifolds(plumb_world *world, const pl_narrow_input *in, const 
                            pl_narrow *narrow)
 {
     share shares[PLUMB_WORKERS_MAX];
-    job j = { .kernels = kernels_of(world->desc.simd_width),
+    job j = { .width = world->desc.simd_width,
               .in = in,
               .list = list,
               .manifolds = pl_manifolds(narrow),

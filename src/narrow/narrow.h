@@ -27,15 +27,14 @@ typedef struct pl_narrow_input {
 } pl_narrow_input;
 
 // Appends the manifolds of pairs [first, first + count) to the narrow phase's list and keeps up its
-// summary. Sets the pairs' `manifold` and clears PL_PAIR_HIT. Room for every pair must be reserved.
-typedef void pl_narrow_kernel(const pl_narrow_input *in, uint32_t first, uint32_t count,
+// summary. Sets the pairs' `manifold` and clears PL_PAIR_HIT. Room for every pair must be reserved. `kind_b`: the
+// pl_piece_kind of their second pieces.
+typedef void pl_narrow_kernel(const pl_narrow_input *in, uint32_t first, uint32_t count, int kind_b,
                               pl_narrow *out);
 
 // One kernel for each shape of pair; which serves which kinds is the matrix in narrow.c.
 typedef struct pl_narrow_kernels {
-    pl_narrow_kernel *circle_circle;
-    pl_narrow_kernel *circle_capsule;
-    pl_narrow_kernel *circle_box;
+    pl_narrow_kernel *circle; // against a circle, a capsule, a box
     pl_narrow_kernel *circle_convex;
     pl_narrow_kernel *box_box;
     pl_narrow_kernel *convex_convex;
@@ -50,8 +49,8 @@ bool pl_narrow_reserve(plumb_world *world, const pl_pair_list *list, pl_narrow *
 // Contacts that lie ahead are told for the moment at which they happen, until pl_ahead_settle (ahead.h). False when
 // out of memory.
 bool pl_narrow_run(plumb_world *world, const pl_pair_list *list, plumb_real dt, pl_narrow *narrow);
-// The kernel of pairs of these kinds (pl_piece_kind, the lower one first).
-pl_narrow_kernel *pl_narrow_kernel_for(const plumb_world *world, int a, int b);
+// The kernel of so many lanes for pairs of these kinds (pl_piece_kind, the lower one first).
+pl_narrow_kernel *pl_narrow_kernel_for(int width, int a, int b);
 // Takes the manifolds that are `disabled` out of the world's list; their pairs forget their impulses and
 // get a flag (0: none).
 void pl_narrow_take_out_disabled(plumb_world *world, uint32_t flag);

@@ -214,22 +214,8 @@ bool pairs_width_runs(int width)
 #endif
 }
 
-static pl_narrow_kernel *kernel_for(const pl_narrow_kernels *k, pl_piece_kind a, pl_piece_kind b)
-{
-    if (a == PL_PIECE_CIRCLE) {
-        return b == PL_PIECE_CIRCLE    ? k->circle_circle
-               : b == PL_PIECE_CAPSULE ? k->circle_capsule
-               : b == PL_PIECE_BOX     ? k->circle_box
-                                       : k->circle_convex;
-    }
-    return a == PL_PIECE_BOX && b == PL_PIECE_BOX ? k->box_box : k->convex_convex;
-}
-
 void pairs_run(pair_batch *b, int width)
 {
-    const pl_narrow_kernels *kernels = width == 16  ? &pl_narrow_kernels_w16
-                                       : width == 8 ? &pl_narrow_kernels_w8
-                                                    : &pl_narrow_kernels_w4;
     pl_narrow_input in = { .poses = &b->poses[0].x,
                            .cores = b->cores,
                            .vertices = b->vertices,
@@ -245,8 +231,8 @@ void pairs_run(pair_batch *b, int width)
         b->pairs[i].manifold = PL_NONE; // as if they had been apart, whatever ran before
     }
     if (b->count > 0) {
-        kernel_for(kernels, b->sides[0].shape.kind,
-                   b->sides[1].shape.kind)(&in, 0, (uint32_t)b->count, &b->out);
+        const int kind_a = (int)b->sides[0].shape.kind, kind_b = (int)b->sides[1].shape.kind;
+        pl_narrow_kernel_for(width, kind_a, kind_b)(&in, 0, (uint32_t)b->count, kind_b, &b->out);
     }
 }
 
