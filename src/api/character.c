@@ -2,14 +2,13 @@
 //
 // They lie in one array without order; a column of the bodies says where. Reads: arguments.
 // Writes: the array, the column. Cost: O(1).
-#include "world/destroy.h"
 #include "character/character.h"
 #include "narrow/surface.h"
-#include "query/query.h"
-
 #include "plumb/math.h"
+#include "query/query.h"
 #include "world/check.h"
 #include "world/desc_list.h"
+#include "world/destroy.h"
 #include "world/state.h"
 
 #include <string.h>

@@ -8,11 +8,11 @@
 //
 // Reads, writes: the buffer, then whatever the commands change. Cost: O(1) to give, as the direct
 // call to carry out; shapes are made twice, once to be checked.
-#include "world/destroy.h"
 #include "api/command.h"
 
 #include "world/check.h"
 #include "world/desc_list.h"
+#include "world/destroy.h"
 #include "world/observer.h"
 #include "world/rows.h"
 

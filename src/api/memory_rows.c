@@ -6,22 +6,21 @@
 //
 // Reads: sizes. Writes: nothing. Cost: O(buffers).
 #include "api/command.h"
-#include "step/pass.h"
-#include "solver/solver.h"
-#include "step/quarantine.h"
-#include "effects/effects.h"
-#include "step/system.h"
-#include "joints/joint.h"
 #include "broad/broad.h"
 #include "broad/grid.h"
-#include "event/event.h"
 #include "character/character.h"
-#include "internal_edges/internal_edges.h"
 #include "continuous/continuous.h"
+#include "effects/effects.h"
+#include "event/event.h"
+#include "internal_edges/internal_edges.h"
+#include "joints/joint.h"
 #include "narrow/narrow.h"
-#include "sleep/sleep.h"
 #include "plumb/world.h"
-
+#include "sleep/sleep.h"
+#include "solver/solver.h"
+#include "step/pass.h"
+#include "step/quarantine.h"
+#include "step/system.h"
 #include "world/rows.h"
 
 typedef struct listing {

@@ -1,15 +1,14 @@
 // one_way.c - the one-way property of shapes, set and asked; bodies that ask to drop through.
 //
 // Reads: arguments. Writes: the pieces' columns, flags, counters. Cost: O(pieces of the shape).
-#include "world/stale_edges.h"
-#include "world/island.h"
-#include "narrow/one_way.h"
-
 #include "math/trig.h"
+#include "narrow/one_way.h"
 #include "plumb/math.h"
 #include "world/check.h"
 #include "world/filter.h"
+#include "world/island.h"
 #include "world/rows.h"
+#include "world/stale_edges.h"
 
 #define DEFAULT_COS ((real)0.5) // of 60 degrees
 #define RIGHT_ANGLE ((real)1.5707964)

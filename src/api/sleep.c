@@ -2,11 +2,10 @@
 //
 // Reads: arguments, islands. Writes: flags, islands due; plumb_body_sleep moves rows. Cost: O(1)
 // but for plumb_body_sleep and plumb_world_set_sleep.
-#include "world/island.h"
-#include "sleep/sleep.h"
 #include "plumb/sleep.h"
-
+#include "sleep/sleep.h"
 #include "world/check.h"
+#include "world/island.h"
 #include "world/rows.h"
 
 bool plumb_body_is_awake(const plumb_world *world, plumb_body body)

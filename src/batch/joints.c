@@ -2,7 +2,6 @@
 //
 // Reads, writes: joints. Cost: O(worlds x joints x fields), shared among the workers.
 #include "batch/batch.h"
-
 #include "plumb/joint.h"
 #include "world/check.h"
 

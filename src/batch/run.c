@@ -3,7 +3,6 @@
 // Reads and writes: the worlds, through their public functions; the user's array. Each world writes to
 // a part of its own. Cost: that of the worlds; of observe and act O(numbers).
 #include "batch/batch.h"
-
 #include "plumb/body.h"
 #include "plumb/math.h"
 #include "plumb/snapshot.h"

@@ -1,6 +1,7 @@
 // broad.c - the broad phase as a whole: fat boxes, grids, and when to rebuild the pair list.
-#include "world/marks.h"
 #include "broad/broad.h"
+
+#include "world/marks.h"
 #include "broad/pairs.h"
 #include "world/state.h"
 

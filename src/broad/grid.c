@@ -3,6 +3,7 @@
 // Cost of a build: four linear passes, O(pieces); 8,100 boxes take about 0.1 ms on one 2.6 GHz
 // core.
 #include "broad/grid.h"
+
 #include "plumb/math.h"
 
 #include <string.h>

@@ -3,6 +3,7 @@
 //
 // Threads cut both lists at the same keys and merge what lies between two cuts. Cost: O(pairs), linear.
 #include "broad/pairs.h"
+
 #include "core/sort.h"
 #include "world/state.h"
 

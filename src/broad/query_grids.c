@@ -2,6 +2,7 @@
 //
 // Reads: poses, pieces, fat boxes, the step's grids and what is due to be filed. Writes: world->query_grids alone.
 #include "broad/query_grids.h"
+
 #include "broad/pairs.h"
 #include "world/state.h"
 

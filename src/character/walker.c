@@ -3,8 +3,9 @@
 // An obstacle that the walker does not approach never stops it, however deep the two overlap: what is
 // inside of something can always leave. One-way shapes count where they hold, and there with the
 // faces that hold alone. Reads: obstacles. Writes: the walker's place, hits. Cost: O(obstacles).
-#include "query/query.h"
 #include "character/walker.h"
+
+#include "query/query.h"
 
 #include <math.h>
 

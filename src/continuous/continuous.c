@@ -10,12 +10,12 @@
 // Reads: movers, end poses, pieces, grids, filters, joints. Writes: transforms of stopped bodies.
 // Order: after motion, before whatever looks at the new poses. Cost: for each fast body a search of
 // the grid and a few rounds of sweep.c for each piece on its way; nothing else.
-#include "world/joint_list.h"
 #include "continuous/continuous.h"
 
 #include "broad/images.h"
 #include "continuous/search.h"
 #include "plumb/math.h"
+#include "world/joint_list.h"
 
 // Rounds among moving bodies; a pile-up that takes longer stays where it was for one step.
 #define MOST_ROUNDS 64

@@ -3,19 +3,19 @@
 //
 // Reads: movers, poses, pieces, grids, filters, joints. Writes: the search. Cost: entries of the grids
 // in the box around the way; a gap and a few rounds of sweep.c for each that the way does not miss.
-#include "world/joint_list.h"
-#include "continuous/continuous.h"
 #include "continuous/search.h"
-
-#include <math.h>
 
 #include "broad/images.h"
 #include "broad/pairs.h"
+#include "continuous/continuous.h"
 #include "continuous/target.h"
 #include "narrow/one_way.h"
 #include "plumb/math.h"
 #include "world/filter.h"
+#include "world/joint_list.h"
 #include "world/rows.h"
+
+#include <math.h>
 
 // [-] of a step: stopping earlier by less is no change.
 #define TINY_TIME 1e-9

@@ -5,12 +5,12 @@
 //
 // Reads: movers, poses, joints, piece geometry. Writes: nothing. Cost: O(joints of the body); O(corners)
 // a piece.
-#include "world/joint_list.h"
 #include "continuous/swept_motion.h"
 
-#include <math.h>
-
 #include "math/trig.h"
+#include "world/joint_list.h"
+
+#include <math.h>
 
 #define TURN 6.283185307179586
 

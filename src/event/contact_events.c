@@ -10,12 +10,11 @@
 //
 // Reads: pairs, manifolds. Writes: event arrays, the pairs' flags. Order: last of the built-in
 // passes. Cost: O(pairs), and O(n log n) for the n touching pairs of shapes of several pieces.
-#include "world/body_settings.h"
+#include "core/sort.h"
+#include "event/event.h"
 #include "internal_edges/internal_edges.h"
 #include "sleep/sleep.h"
-#include "event/event.h"
-
-#include "core/sort.h"
+#include "world/body_settings.h"
 #include "world/state.h"
 
 #include <string.h>

@@ -5,11 +5,11 @@
 // the middle of the view.
 //
 // Reads: the world. Writes: nothing of it but grids of queries. Cost: O(in view), O(joints), O(contacts).
-#include "plumb/draw.h"
+#include "game/draw.h"
 
 #include "broad/images.h"
 #include "broad/query_grids.h"
-#include "game/draw.h"
+#include "plumb/draw.h"
 #include "plumb/event.h"
 #include "query/query.h"
 #include "world/check.h"

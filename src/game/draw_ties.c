@@ -2,7 +2,6 @@
 //
 // Reads: joints, contacts. Writes: nothing. Cost: O(joints), O(contacts).
 #include "game/draw.h"
-
 #include "plumb/event.h"
 #include "plumb/math.h"
 

@@ -6,7 +6,6 @@
 // Reads: poses. Writes: its own last_poses; steps the world. Cost: O(bodies that are not static) a step.
 #include "api/command.h"
 #include "plumb/loop.h"
-
 #include "plumb/math.h"
 #include "world/check.h"
 #include "world/state.h"

@@ -6,10 +6,10 @@
 //
 // Reads: arguments. Writes: the shape made. Cost: O(vertices); the polygon maker as plumb_hull.
 
-#include <string.h>
-
 #include "core/try.h"
 #include "geometry/exact.h"
+
+#include <string.h>
 
 // Whether a rounding radius is in range; a lower bound above 0 is for circles and capsules.
 static plumb_result check_radius(plumb_real radius, plumb_real low)

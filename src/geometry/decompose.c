@@ -12,10 +12,10 @@
 // Reads: the outline. Writes: the pieces. Cost: O(n^3) at worst; random outlines of 64 vertices
 // take 0.13 ms, of 256 3.3 ms. 14 KiB of stack (16 in double).
 
-#include <string.h>
-
 #include "core/try.h"
 #include "geometry/exact.h"
+
+#include <string.h>
 
 #define MAX_TRIANGLES (PLUMB_OUTLINE_MAX_VERTICES - 2)
 

@@ -9,10 +9,10 @@
 //
 // Reads: the points. Writes: the hull. Cost: O(n^2) (the sort), 6 KiB of stack (12 in double).
 
-#include <string.h>
-
 #include "core/try.h"
 #include "geometry/exact.h"
+
+#include <string.h>
 
 plumb_result pl_points_check(const plumb_vec2 *points, int count)
 {

@@ -16,9 +16,8 @@
 //
 // Reads: arguments. Writes: the answer. Cost: O(vertices), one arc tangent a rounded corner.
 
-#include "math/trig.h"
-
 #include "geometry/exact.h"
+#include "math/trig.h"
 
 // The double nearest to pi: sector angles of a shape sum to 2 pi.
 #define PI 3.141592653589793

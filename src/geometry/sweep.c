@@ -19,10 +19,10 @@
 // Reads: arguments. Writes: the answer. Cost: O(corners of A x corners of B) a round.
 #include "geometry/sweep.h"
 
-#include <math.h>
-
 #include "math/compare.h"
 #include "math/trig.h"
+
+#include <math.h>
 
 #define CORNERS PLUMB_POLYGON_MAX_VERTICES
 

@@ -3,17 +3,17 @@
 // Reads: the piece, pieces around it, poses. Writes: its internal edge columns, corners and intervals. Order: part
 // of an update. Cost: O(neighbours x corners x corners of theirs), about 19,000 instructions for a
 // square tile among eight others.
-#include "world/joint_list.h"
-#include "world/stale_edges.h"
 #include "internal_edges/cover.h"
+
 #include "broad/images.h"
 #include "internal_edges/neighbour.h"
 #include "world/interval.h"
+#include "world/joint_list.h"
+#include "world/stale_edges.h"
 #include "world/state.h"
 
-#include <string.h>
-
 #include <math.h>
+#include <string.h>
 
 //---- who is a neighbour --------------------------------------------------------------------------
 

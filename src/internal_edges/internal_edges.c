@@ -7,6 +7,8 @@
 // Reads: pieces, poses, grids, pairs. Writes: internal edge columns, corners, intervals, list of pairs. Order:
 // after the broad phase. Cost: O(changed pieces x their neighbours), and O(piece slots) for looking;
 // O(pairs) when pairs were made anew, O(pairs with internal edges) a step; nothing in worlds without internal edges.
+#include "internal_edges/internal_edges.h"
+
 #include "world/stale_edges.h"
 #include "broad/images.h"
 #include "internal_edges/cover.h"

@@ -11,10 +11,10 @@
 //
 // Reads: manifolds of pairs with internal edges, poses. Writes: manifolds, pairs, loads. Cost: about 1,500
 // instructions a contact of a run.
-#include "world/stale_edges.h"
 #include "internal_edges/run.h"
 
 #include "core/sort.h"
+#include "world/stale_edges.h"
 #include "world/wrap.h"
 
 #include <math.h>

@@ -2,6 +2,7 @@
 //
 // Reads: pieces, internal edges. Cost: O(corners), O(log stretches) where an edge is covered in part.
 #include "internal_edges/side.h"
+
 #include "world/interval.h"
 #include "world/state.h"
 

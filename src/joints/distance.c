@@ -1,7 +1,6 @@
 // distance.c - rod, rope or spring between two anchors. Rigid unless there is a limit or a spring.
 // Value: the length [m].
 #include "joints/parts.h"
-
 #include "world/check.h"
 #include "world/state.h"
 

@@ -2,7 +2,6 @@
 // of its turn (rack and pinion), seen from the centre of A. Turns are those against the world.
 // Value: the sum, less what it was.
 #include "joints/parts.h"
-
 #include "world/check.h"
 #include "world/state.h"
 

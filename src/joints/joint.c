@@ -1,13 +1,13 @@
 // joint.c - where the bodies of joints are: poses from A's centre, full turns; who is awake.
 //
 // Reads: bodies, joints. Writes: poses and turns of joints, the list of those that are awake. Cost: O(1) a joint.
-#include "world/destroy.h"
-#include "world/joint_list.h"
 #include "joints/joint.h"
 
 #include "plumb/math.h"
 #include "world/check.h"
 #include "world/desc_list.h"
+#include "world/destroy.h"
+#include "world/joint_list.h"
 #include "world/rows.h"
 #include "world/wrap.h"
 

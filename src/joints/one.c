@@ -20,6 +20,7 @@
 //
 // joint.simd.c does the same with several at a time. Reads: joints, body columns. Writes: solver bodies, impulses. Cost: O(1).
 #include "joints/one.h"
+
 #include "plumb/math.h"
 #include "world/state.h"
 

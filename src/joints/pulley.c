@@ -1,7 +1,6 @@
 // pulley.c - a rope from A's anchor over two fixed wheels to B's: |A - ground_a| + ratio |B -
 // ground_b| is kept. Value: the sum, less what it was [m].
 #include "joints/parts.h"
-
 #include "world/check.h"
 #include "world/state.h"
 

@@ -1,7 +1,6 @@
 // ratchet.c - a pawl on A lets B turn one way and falls behind every tooth that passes: C = turn -
 // tooth, in the allowed direction. Value: the turn of B relative to A [rad].
 #include "joints/parts.h"
-
 #include "world/check.h"
 #include "world/state.h"
 

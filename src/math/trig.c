@@ -16,9 +16,9 @@
 
 #include "math/trig.h"
 
-#include <float.h>
-
 #include "plumb/math.h"
+
+#include <float.h>
 
 // Results are only the same bits if doubles are computed as doubles (not so on the x87).
 // 16: that, and _Float16 in its own format.

@@ -23,6 +23,8 @@
 // Reads: candidates, poses, velocities, forces, piece geometry. Writes: manifolds, pairs. Order: after the kernels.
 // Cost: 60 flops for each candidate that acts as far as its kernel can tell; a lane or three for each that does; a sweep
 // for those which that leads nowhere.
+#include "narrow/ahead.h"
+
 #include "narrow/looking.h"
 #include "narrow/surface.h"
 

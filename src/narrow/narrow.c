@@ -2,6 +2,8 @@
 //
 // Reads: pairs, poses, geometry, materials. Writes: manifolds, the pairs' features and flags.
 // Order: after the broad phase, before the solver. Cost: O(pairs).
+#include "narrow/narrow.h"
+
 #include "core/quad.h"
 #include "narrow/ahead.h"
 #include "narrow/surface.h"

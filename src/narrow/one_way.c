@@ -21,12 +21,12 @@
 // Reads: manifolds, pieces, rotations. Writes: manifolds, the pairs' flags. Order: after the kernels,
 // before internal edges, which see only what holds. Cost: O(pairs) in worlds that have one-way shapes, nothing in others.
 // Running it twice on the same manifolds changes nothing the second time (a step may be refused).
-#include "world/filter.h"
 #include "narrow/one_way.h"
 
 #include "narrow/narrow.h"
 #include "narrow/surface.h"
 #include "plumb/math.h"
+#include "world/filter.h"
 #include "world/wrap.h"
 
 #define STATES (PL_PAIR_HELD | PL_PAIR_PASSING | PL_PAIR_DROPPING)

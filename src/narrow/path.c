@@ -1,11 +1,11 @@
 // path.c - see path.h. All in double, from A's centre of mass, so that distance from the origin costs no precision.
 //
 // Reads: poses, velocities, forces, piece geometry. Writes: the answer. Cost: a sweep a leg.
-#include "world/body_settings.h"
 #include "narrow/path.h"
 
 #include "math/compare.h"
 #include "math/trig.h"
+#include "world/body_settings.h"
 #include "world/wrap.h"
 
 #include <math.h>

@@ -5,10 +5,9 @@
 // points close until then. The solver adds that motion again.
 //
 // Reads: verdicts, ways. Writes: manifolds, pairs. Cost: O(verdicts), and the manifolds behind what is taken out move up.
+#include "math/compare.h"
 #include "narrow/looking.h"
 #include "narrow/surface.h"
-
-#include "math/compare.h"
 
 static void take_out(pl_pair *pair, pl_manifold *m)
 {

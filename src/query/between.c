@@ -4,10 +4,10 @@
 // shapes. Of shapes that turn see continuous/impact.c.
 //
 // Reads, writes: arguments. Cost: O(corners).
-#include <math.h>
-
 #include "query/query.h"
 #include "query/sweep.h"
+
+#include <math.h>
 
 // [-] edges that lean less than this lie in the contact: the rounding of their direction, so that points told to be
 // on a surface are.

@@ -8,13 +8,13 @@
 // in: edges that are inner cuts do not count.
 //
 // Reads: grids, pieces, poses. Writes: the answer. Cost: cells and boxes nearer than the answer.
-#include <math.h>
-#include <stdio.h>
-
 #include "broad/images.h"
 #include "query/query.h"
 #include "query/walk.h"
 #include "world/check.h"
+
+#include <math.h>
+#include <stdio.h>
 
 typedef struct search {
     pl_query q;

@@ -10,11 +10,11 @@
 // Reads: grids, pieces, poses. Writes: the answer. Cost: cells of the box + O(corners^2) a piece.
 #include "query/overlap.h"
 
-#include <math.h>
-
 #include "broad/images.h"
 #include "query/query.h"
 #include "world/check.h"
+
+#include <math.h>
 
 //---- two convex shapes -------------------------------------------------------------------------
 

@@ -6,9 +6,10 @@
 // Reads: grids, pieces, poses, the filter. Writes: grids of the queries' own (broad/query_grids.h), the
 // query's own list. Cost: sorting is O(hits log hits); no allocation for PL_QUERY_NEAR_HITS or
 // fewer.
+#include "query/query.h"
+
 #include "world/filter.h"
 #include "broad/query_grids.h"
-#include "query/query.h"
 #include "broad/images.h"
 #include "query/walk.h"
 #include "world/check.h"

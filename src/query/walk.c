@@ -8,6 +8,7 @@
 //
 // Reads: grid. Writes: nothing. Cost: see walk.h.
 #include "query/walk.h"
+
 #include "query/query.h"
 
 #include <math.h>

@@ -7,7 +7,6 @@
 #include "record/compare.h"
 
 #include "record/value.h"
-
 #include "world/check.h"
 
 #include <stdio.h>

@@ -1,7 +1,7 @@
 // index.c - see index.h. Reads: the recording. Cost: O(bytes) digested; look-ups O(log entries).
-#include "plumb/record.h"
-
 #include "record/index.h"
+
+#include "plumb/record.h"
 
 #include <string.h>
 

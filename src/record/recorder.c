@@ -10,11 +10,10 @@
 // something was edited, what differs is coded. No allocation once all has been as large before.
 #include "plumb/record.h"
 #include "plumb/snapshot.h"
-
 #include "record/format.h"
 #include "step/place.h"
-#include "world/observer.h"
 #include "world/check.h"
+#include "world/observer.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -2,6 +2,7 @@
 //
 // Reads: the rows, descriptors. Writes: descriptors. Cost: O(1); O(rows) to find one by its name.
 #include "schema/schema.h"
+
 #include "schema/body.h"
 #include "schema/joint.h"
 #include "schema/material.h"

@@ -3,6 +3,7 @@
 //
 // Reads: the image. Writes: nothing but scratch. Cost: O(state), each list walked once.
 #include "snapshot/check.h"
+
 #include "snapshot/image.h"
 #include "snapshot/rules.h"
 #include "world/check.h"

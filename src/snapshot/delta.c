@@ -11,7 +11,6 @@
 //
 // Reads: two images, or image and delta. Writes: the buffer. Cost: O(bytes).
 #include "plumb/snapshot.h"
-
 #include "snapshot/image.h"
 #include "snapshot/sparse.h"
 

@@ -6,7 +6,6 @@
 // Cost: O(state), about 8 bytes a cycle.
 #include "api/command.h"
 #include "plumb/snapshot.h"
-
 #include "snapshot/section.h"
 
 #include <string.h>

@@ -12,13 +12,12 @@
 //
 // Reads: image, base. Writes: the world. Cost: O(state) digested and copied. No allocation where
 // the world has held as much before.
-#include "world/push.h"
-#include "narrow/narrow.h"
 #include "event/event.h"
+#include "narrow/narrow.h"
 #include "plumb/snapshot.h"
-
 #include "snapshot/image.h"
 #include "world/check.h"
+#include "world/push.h"
 
 #include <string.h>
 

@@ -7,7 +7,6 @@
 // Reads: the world, the base. Writes: the buffer. Cost: O(state) copied and digested; for a frame all
 // of it is compared, and what differs copied and digested.
 #include "plumb/snapshot.h"
-
 #include "snapshot/image.h"
 #include "world/check.h"
 

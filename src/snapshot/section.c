@@ -1,7 +1,8 @@
 // section.c - see section.h. The lists of list.h and world/columns.h become tables of offsets.
+#include "snapshot/section.h"
+
 #include "api/command.h"
 #include "world/marks.h"
-#include "snapshot/section.h"
 #include "snapshot/section_own.h"
 
 #include <string.h>

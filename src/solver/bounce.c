@@ -17,6 +17,7 @@
 // Which contacts, and in what order: impact.c. The same in lanes, for those of low restitution: restitution.simd.c.
 // Reads, writes: the two solver bodies, the manifold's totals of impulses. Cost: O(1) a contact.
 #include "solver/bounce.h"
+
 #include "world/state.h"
 
 #include <math.h>

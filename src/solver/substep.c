@@ -5,10 +5,10 @@
 // row where somebody asked for times; what threads take is added up a thread, in places of its own.
 //
 // Reads, writes: what the rows do. Order: after the graph. Cost: the rows', and 5 ns a row, cluster and substep.
-#include "joints/joint.h"
 #include "solver/substep.h"
 
 #include "core/clock.h"
+#include "joints/joint.h"
 #include "world/state.h"
 
 // A cluster of more bundles keeps all threads busy, one after another; smaller ones are a thread's each.

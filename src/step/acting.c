@@ -9,11 +9,11 @@
 //
 // Reads: components, settings, slots. Writes: lists. Cost: O(bodies of the solver) a system and step; a system's row
 // O(bodies that it acts on) and a search a cluster and substep.
-#include "step/system.h"
-#include "effects/effects.h"
 #include "step/acting.h"
 
 #include "core/quad.h"
+#include "effects/effects.h"
+#include "step/system.h"
 #include "world/push.h"
 #include "world/state.h"
 

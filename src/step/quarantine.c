@@ -14,11 +14,11 @@
 //
 // Reads: velocities, forces, solver bodies. Writes: rows of those taken out, events. Cost: a third of an
 // instruction a number.
-#include "world/marks.h"
-#include "joints/joint.h"
 #include "step/quarantine.h"
 
 #include "core/quad.h"
+#include "joints/joint.h"
+#include "world/marks.h"
 #include "world/rows.h"
 #include "world/state.h"
 

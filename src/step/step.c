@@ -2,15 +2,16 @@
 //
 // Reads, writes: what the rows do. The clock is read, and data is digested, only where somebody watches.
 #include "step/step.h"
-#include "step/system.h"
-#include "step/quarantine.h"
-#include "internal_edges/internal_edges.h"
+
 #include "character/character.h"
 #include "core/clock.h"
 #include "event/event.h"
+#include "internal_edges/internal_edges.h"
 #include "step/place.h"
-#include "world/observer.h"
+#include "step/quarantine.h"
+#include "step/system.h"
 #include "world/check.h"
+#include "world/observer.h"
 #include "world/state.h"
 
 // Nothing is left from a step in which there was collision.

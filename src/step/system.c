@@ -2,10 +2,11 @@
 //
 // Reads, writes: the list of systems; what a system does is its own. Cost: O(systems) to register one.
 #include "step/system.h"
-#include "world/push.h"
-#include "world/island.h"
+
 #include "step/place.h"
 #include "world/check.h"
+#include "world/island.h"
+#include "world/push.h"
 #include "world/state.h"
 
 #include <string.h>

@@ -2,16 +2,15 @@
 //
 // Asked only when something structural changed (world->schedule_dirty). Reads: counters that structural changes keep
 // up. Writes: nothing. Cost: O(materials) a pass at most.
-#include "internal_edges/internal_edges.h"
-#include "joints/joint.h"
-#include "step/pass.h"
-#include "solver/solver.h"
-
 #include "character/character.h"
 #include "continuous/continuous.h"
+#include "internal_edges/internal_edges.h"
+#include "joints/joint.h"
 #include "narrow/one_way.h"
 #include "narrow/surface.h"
+#include "solver/solver.h"
 #include "step/acting.h"
+#include "step/pass.h"
 #include "step/system.h"
 #include "world/wrap.h"
 

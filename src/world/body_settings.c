@@ -4,6 +4,7 @@
 // one fills the gap. The order means nothing: a record concerns its body alone. Reads, writes: the
 // list, the body's column and flag. Cost: O(1).
 #include "world/body_settings.h"
+
 #include "world/state.h"
 
 static pl_body_settings *items(const plumb_world *world)

@@ -1,12 +1,13 @@
 // destroy.c - destruction of entities of any kind: pieces, joints, lists and components that go with them.
 //
 // Reads, writes: rows and lists. Cost: that of the hooks; O(pieces + joints + contacts asleep) of a body.
+#include "world/destroy.h"
+
 #include "world/island.h"
 #include "world/filter.h"
 #include "world/joint_list.h"
 #include "world/material_pair.h"
 #include "world/rows.h"
-#include "world/destroy.h"
 
 // The last one fills the gap.
 pl_character *pl_character_of(const plumb_world *world, uint32_t row)

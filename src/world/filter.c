@@ -7,13 +7,13 @@
 // Excluded pairs are a sorted array of keys, made of the registry slots of two bodies; a flag of
 // the body tells whether it is worth looking. Reads: pieces, body entities. Writes: filter columns,
 // flags, counters, the table. Cost: O(1) a pair, O(log table) where both bodies have the flag.
-#include "world/stale_edges.h"
-#include "world/island.h"
 #include "world/filter.h"
 
 #include "core/sort.h"
 #include "world/check.h"
+#include "world/island.h"
 #include "world/rows.h"
+#include "world/stale_edges.h"
 
 #include <string.h>
 

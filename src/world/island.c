@@ -7,8 +7,9 @@
 // whoever changes it finds what rests on it.
 //
 // Reads, writes: islands, contacts, body rows. Cost: O(1) a body or contact.
-#include "world/push.h"
 #include "world/island.h"
+
+#include "world/push.h"
 #include "world/rows.h"
 
 #include <string.h>

@@ -3,6 +3,7 @@
 // Reads: the registry, bodies. Writes: joints, first_joint of bodies. Cost: O(1), O(joints of a body) to ask and
 // to remove.
 #include "world/joint_list.h"
+
 #include "world/check.h"
 #include "world/island.h"
 #include "world/rows.h"

@@ -4,11 +4,11 @@
 // default material, which has no slot, counts as 0 and the others from 1. Reads: materials. Writes:
 // the table, and in each material how many entries name it. Cost: O(log entries) to look up where
 // both materials are named, O(1) else; O(entries) to change.
-#include "world/island.h"
 #include "world/material_pair.h"
 
 #include "core/sort.h"
 #include "world/check.h"
+#include "world/island.h"
 
 #include <string.h>
 

@@ -19,8 +19,9 @@
 // Reads: forces, rows. Writes: marks, forces of sleeping rows. Cost: nothing while no sleeping body is pushed and
 // no force column was handed out; else four instructions a sleeping row, and six for those whose force is not the
 // same to the bit.
-#include "world/island.h"
 #include "world/push.h"
+
+#include "world/island.h"
 #include "core/quad.h"
 #include "world/rows.h"
 

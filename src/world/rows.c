@@ -8,9 +8,9 @@
 //
 // Reads, writes: body table, registry rows, pieces.body, poses. Cost: O(1) + pieces of the rows
 // moved.
-#include "world/body_settings.h"
 #include "world/rows.h"
 
+#include "world/body_settings.h"
 #include "world/filter.h"
 #include "world/material_pair.h"
 #include "world/wrap.h"

@@ -2,6 +2,7 @@
 //
 // Reads: pieces, fat boxes. Writes: columns of internal edges, regions, pool of intervals. Cost: O(1) a piece.
 #include "world/stale_edges.h"
+
 #include "world/interval.h"
 
 bool pl_piece_is_static(const plumb_world *world, uint32_t piece)

@@ -6,9 +6,9 @@
 // edge. Order: after all motion. Cost: O(moving bodies), two comparisons each.
 #include "world/wrap.h"
 
-#include <math.h>
-
 #include "world/check.h"
+
+#include <math.h>
 
 //---- checks --------------------------------------------------------------------------------------
 

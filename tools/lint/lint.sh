@@ -65,6 +65,13 @@ while IFS= read -r file; do
     head -n 1 "$file" | grep -qF "// ${file##*/} - " || echo "$file"
 done < <(grep -E '\.(c|cpp|h)$' "$work/files") >"$work/out"
 breach "header comment" <"$work/out"
+# Each .c file includes its own header first: so that has all that it needs.
+for file in src/*/*.c; do
+    own=${file#src/}
+    own=${own%.c}.h
+    [ ! -e "src/$own" ] || grep -m 1 '^#include' "$file" | grep -qF "\"$own\"" || echo "$file: $own comes first"
+done >"$work/out"
+breach "own header" <"$work/out"
 grep -rnIE '(^|[^A-Za-z])(/home/|/root/|/tmp/[a-z]+-build)' Makefile .ci src include \
     tools tests assets --exclude=lint.sh >"$work/out"
 breach "machine path" <"$work/out"
