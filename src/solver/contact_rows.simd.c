@@ -7,6 +7,17 @@
 // written for each contact.
 #include "solver/bundle.h"
 
+// What an impulse at one point does to the other, little enough for the points' block to have one answer: where neither
+// body can turn both rows are the same, and each sweep could move all load to one point and leave the other's friction
+// without any. The share is twice what solve_normals needs to call the block regular.
+WIDE_INLINE vf coupling(const bundle *c, vf mass, const body *a, const body *b)
+{
+    vf k01 = mass + a->inv_inertia * c->p[0].ran * c->p[1].ran +
+             b->inv_inertia * c->p[0].rbn * c->p[1].rbn;
+    vm same = (k01 == c->p[0].kn) & (k01 == c->p[1].kn);
+    return sel(same, k01 * splat((near_real)(1 - 1.0 / 1024)), k01);
+}
+
 WIDE_INLINE void prepare_point(point *p, const vf row[8], const bundle *c, const body *a,
                                const body *b)
 {
@@ -97,8 +108,7 @@ void PL_WIDE_NAME(pl_contact_prepare)(const pl_contact_call *call, uint32_t firs
             prepare_point(&c->p[j], r, c, &a, &b);
             c->p[j].give = c->p[j].kn * give * held_back(c, &c->p[j], call);
         }
-        c->k01 = a.inv_mass + b.inv_mass + a.inv_inertia * c->p[0].ran * c->p[1].ran +
-                 b.inv_inertia * c->p[0].rbn * c->p[1].rbn;
+        c->k01 = coupling(c, a.inv_mass + b.inv_mass, &a, &b);
     }
 }
 
@@ -168,8 +178,7 @@ void PL_WIDE_NAME(pl_contact_prepare_specials)(const pl_contact_call *call, uint
             p->mt = inverse_or_zero(mass_t + a.inv_inertia * p->rat * p->rat +
                                     b.inv_inertia * p->rbt * p->rbt);
         }
-        c->k01 = mass_n + a.inv_inertia * c->p[0].ran * c->p[1].ran +
-                 b.inv_inertia * c->p[0].rbn * c->p[1].rbn;
+        c->k01 = coupling(c, mass_n, &a, &b);
         vm fixed = ((mass_a == splat(0)) & (a.inv_inertia == splat(0))) |
                    ((mass_b == splat(0)) & (b.inv_inertia == splat(0)));
         c->bias_rate = sel(fixed, ground.bias_rate, pair.bias_rate);

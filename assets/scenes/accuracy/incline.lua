@@ -21,4 +21,4 @@ expect { "without friction", exact = "free", tolerance = 0.016 }
 expect { "mu = 0.3", exact = "slow", tolerance = 0.0041 }
 expect { "mu = 0.35", exact = "near", tolerance = 0.0038 }
 expect { "mu = 0.37 sticks", exact = "stuck", tolerance = 0.00018 }
-expect { "mu = 0.37 sticks that cannot turn", exact = "no turning", tolerance = 0.016 }
+expect { "mu = 0.37 sticks that cannot turn", exact = "no turning", tolerance = 1.6e-06 }
