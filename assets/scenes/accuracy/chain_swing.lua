@@ -20,5 +20,5 @@ exact { "energy", scale = ratio * g * n * l, value = function() return 0 end, me
     local kinetic, potential = energy()
     return kinetic + potential
 end }
-expect { "the length", exact = "length", tolerance = 52 }
-expect { "the energy", exact = "energy", tolerance = 0.35 }
+expect { "the length", exact = "length", tolerance = 47 }
+expect { "the energy", exact = "energy", tolerance = 2.1 }
