@@ -198,6 +198,8 @@ typedef struct plumb_substep_motion {
 
 /// The bodies that a call of a system of phase SUBSTEP is for: awake dynamic ones that have all components it needs (of
 /// none: all). They are moved by the solver, substep by substep, even where nothing touches them.
+/// It moves them by v h + a h^2 / 2 and adds a h: an acceleration asked for the middle, at dx + vx h / 2, makes that the
+/// leapfrog, of second order; asked for the beginning, at dx, orbits gain energy by first order.
 ///
 ///     for (int i = 0; i < s->count; ++i) {
 ///         const drag *d = (const drag *)s->values[0] + s->at[0][i];
