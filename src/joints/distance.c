@@ -36,24 +36,12 @@ static void rows(const pl_joint *j, const pl_joint_pose *a, const pl_joint_pose 
     out->block = 0;
 }
 
-static real value(const pl_joint *j, const pl_joint_pose *a, const pl_joint_pose *b)
-{
-    (void)j;
-    return plumb_vec2_magnitude(pl_joint_apart(a, b));
-}
-
-static pl_row slope(const pl_joint *j, const pl_joint_pose *a, const pl_joint_pose *b)
-{
-    (void)j;
-    return pl_row_length(a, b, 0);
-}
-
 const pl_joint_class pl_joint_distance = {
     .name = "distance",
     .has = PL_JOINT_LIMIT | PL_JOINT_SPRING | PL_JOINT_TWO_ANCHORS | PL_JOINT_TRAVELS |
            PL_JOINT_LENGTH,
     .check = check,
     .rows = rows,
-    .value = value,
-    .slope = slope,
+    .value = pl_value_distance,
+    .slope = pl_slope_distance,
 };

@@ -25,22 +25,10 @@ static void rows(const pl_joint *j, const pl_joint_pose *a, const pl_joint_pose 
     out->count = 2;
 }
 
-static real value(const pl_joint *j, const pl_joint_pose *a, const pl_joint_pose *b)
-{
-    (void)j;
-    return plumb_vec2_magnitude(pl_joint_apart(a, b));
-}
-
-static pl_row slope(const pl_joint *j, const pl_joint_pose *a, const pl_joint_pose *b)
-{
-    (void)j;
-    return pl_row_length(a, b, 0);
-}
-
 const pl_joint_class pl_joint_mouse = { .name = "mouse",
                                         .has = PL_JOINT_SPRING | PL_JOINT_TARGET |
                                                PL_JOINT_TRAVELS | PL_JOINT_FORCE,
                                         .check = check,
                                         .rows = rows,
-                                        .value = value,
-                                        .slope = slope };
+                                        .value = pl_value_distance,
+                                        .slope = pl_slope_distance };

@@ -1,8 +1,48 @@
-// parts.c - motor, spring and limits of a joint's coordinate. Reads: descriptor. Writes: rows.
+// parts.c - values of joints; motor, spring and limits of a value. Reads: descriptor. Writes: rows.
 #include "joints/parts.h"
 
 #include "world/check.h"
 #include "world/state.h"
+
+real pl_value_turn(const pl_joint *j, const pl_joint_pose *a, const pl_joint_pose *b)
+{
+    (void)j;
+    return (real)(b->angle - a->angle);
+}
+
+real pl_value_distance(const pl_joint *j, const pl_joint_pose *a, const pl_joint_pose *b)
+{
+    (void)j;
+    return plumb_vec2_magnitude(pl_joint_apart(a, b));
+}
+
+pl_row pl_slope_distance(const pl_joint *j, const pl_joint_pose *a, const pl_joint_pose *b)
+{
+    (void)j;
+    return pl_row_length(a, b, 0);
+}
+
+real pl_value_travel(const pl_joint *j, const pl_joint_pose *a, const pl_joint_pose *b)
+{
+    return plumb_vec2_dot(pl_joint_apart(a, b), pl_joint_axis(j, a));
+}
+
+pl_row pl_slope_travel(const pl_joint *j, const pl_joint_pose *a, const pl_joint_pose *b)
+{
+    return pl_row_along_axis(a, b, pl_joint_axis(j, a), 0);
+}
+
+pl_row pl_slope_row(const pl_joint *j, const pl_joint_pose *a, const pl_joint_pose *b)
+{
+    pl_rows made;
+    pl_joint_classes[j->desc.kind]->rows(j, a, b, &made);
+    return made.row[0];
+}
+
+real pl_value_row(const pl_joint *j, const pl_joint_pose *a, const pl_joint_pose *b)
+{
+    return pl_slope_row(j, a, b).error;
+}
 
 void pl_rows_spring_limits(const pl_joint *j, pl_row row, pl_row *out)
 {

@@ -20,22 +20,12 @@ static void rows(const pl_joint *j, const pl_joint_pose *a, const pl_joint_pose 
     out->block_most = PL_UNBOUNDED;
 }
 
-static real value(const pl_joint *j, const pl_joint_pose *a, const pl_joint_pose *b)
-{
-    return plumb_vec2_dot(pl_joint_apart(a, b), pl_joint_axis(j, a));
-}
-
-static pl_row slope(const pl_joint *j, const pl_joint_pose *a, const pl_joint_pose *b)
-{
-    return pl_row_along_axis(a, b, pl_joint_axis(j, a), 0);
-}
-
 const pl_joint_class pl_joint_prismatic = {
     .name = "prismatic",
     .has = PL_JOINT_LIMIT | PL_JOINT_MOTOR | PL_JOINT_SPRING | PL_JOINT_TRAVELS | PL_JOINT_REST |
            PL_JOINT_AXIS,
     .check = check,
     .rows = rows,
-    .value = value,
-    .slope = slope,
+    .value = pl_value_travel,
+    .slope = pl_slope_travel,
 };

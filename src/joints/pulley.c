@@ -49,25 +49,11 @@ static void rows(const pl_joint *j, const pl_joint_pose *a, const pl_joint_pose 
     out->block = 0;
 }
 
-static real value(const pl_joint *j, const pl_joint_pose *a, const pl_joint_pose *b)
-{
-    pl_rows made;
-    rows(j, a, b, &made);
-    return made.row[0].error;
-}
-
-static pl_row slope(const pl_joint *j, const pl_joint_pose *a, const pl_joint_pose *b)
-{
-    pl_rows made;
-    rows(j, a, b, &made);
-    return made.row[0];
-}
-
 const pl_joint_class pl_joint_pulley = { .name = "pulley",
                                          .has = PL_JOINT_TWO_ANCHORS | PL_JOINT_GROUNDS |
                                                 PL_JOINT_RATIO,
                                          .check = check,
                                          .rows = rows,
-                                         .keep = value,
-                                         .value = value,
-                                         .slope = slope };
+                                         .keep = pl_value_row,
+                                         .value = pl_value_row,
+                                         .slope = pl_slope_row };

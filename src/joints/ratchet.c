@@ -21,12 +21,6 @@ static void rows(const pl_joint *j, const pl_joint_pose *a, const pl_joint_pose 
     out->block = 0;
 }
 
-static real value(const pl_joint *j, const pl_joint_pose *a, const pl_joint_pose *b)
-{
-    (void)j;
-    return pl_joint_turn(a, b);
-}
-
 // The pawl falls behind the last tooth that has passed; it never goes back.
 static void advance(pl_joint *j, const pl_joint_pose *a, const pl_joint_pose *b)
 {
@@ -41,5 +35,5 @@ const pl_joint_class pl_joint_ratchet = { .name = "ratchet",
                                           .has = PL_JOINT_PITCH | PL_JOINT_RADIANS,
                                           .check = check,
                                           .rows = rows,
-                                          .value = value,
+                                          .value = pl_value_turn,
                                           .advance = advance };

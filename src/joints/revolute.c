@@ -10,15 +10,9 @@ static void rows(const pl_joint *j, const pl_joint_pose *a, const pl_joint_pose 
     out->count = 6;
 }
 
-static real value(const pl_joint *j, const pl_joint_pose *a, const pl_joint_pose *b)
-{
-    (void)j;
-    return pl_joint_turn(a, b);
-}
-
 const pl_joint_class pl_joint_revolute = {
     .name = "revolute",
     .has = PL_JOINT_LIMIT | PL_JOINT_MOTOR | PL_JOINT_SPRING | PL_JOINT_REST | PL_JOINT_RADIANS,
     .rows = rows,
-    .value = value,
+    .value = pl_value_turn,
 };
