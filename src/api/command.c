@@ -242,9 +242,7 @@ static plumb_result give(plumb_world *world, const char *fn, record r, const voi
 
 plumb_result plumb_command_destroy(plumb_world *world, plumb_entity entity)
 {
-    if (world == NULL) {
-        return PLUMB_E_NULL;
-    }
+    PL_TRY(pl_check_world(world));
     PL_TRY(check_expected(world, __func__, entity));
     uint32_t material = pl_material_row(world, (plumb_material){ entity });
     PL_TRY(material != PL_NONE ? pl_check_unused(world, __func__, material) : PLUMB_OK);
@@ -254,9 +252,7 @@ plumb_result plumb_command_destroy(plumb_world *world, plumb_entity entity)
 plumb_result plumb_command_teleport(plumb_world *world, plumb_body body, plumb_vec2 position,
                                     plumb_real angle)
 {
-    if (world == NULL) {
-        return PLUMB_E_NULL;
-    }
+    PL_TRY(pl_check_world(world));
     PL_TRY(check_expected_body(world, __func__, body));
     PL_TRY(pl_place_check(world, __func__, position, angle));
     record to = { .kind = TELEPORT,
@@ -270,9 +266,7 @@ plumb_result plumb_command_teleport(plumb_world *world, plumb_body body, plumb_v
 plumb_result plumb_command_component_set(plumb_world *world, plumb_entity entity,
                                          plumb_component component, const void *value)
 {
-    if (world == NULL) {
-        return PLUMB_E_NULL;
-    }
+    PL_TRY(pl_check_world(world));
     PL_TRY(check_expected(world, __func__, entity));
     PL_TRY(check_component(world, __func__, component));
     record set = {
@@ -285,9 +279,7 @@ plumb_result plumb_command_component_set(plumb_world *world, plumb_entity entity
 plumb_result plumb_command_component_remove(plumb_world *world, plumb_entity entity,
                                             plumb_component component)
 {
-    if (world == NULL) {
-        return PLUMB_E_NULL;
-    }
+    PL_TRY(pl_check_world(world));
     PL_TRY(check_expected(world, __func__, entity));
     PL_TRY(check_component(world, __func__, component));
     record remove = { .kind = REMOVE_COMPONENT, .target = entity, .component = component };

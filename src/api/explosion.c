@@ -320,9 +320,7 @@ static plumb_result push_all(blast *b, const char *fn, const pushed *list, uint3
 
 plumb_result plumb_world_explode(plumb_world *world, const plumb_explosion_desc *desc)
 {
-    if (world == NULL) {
-        return PLUMB_E_NULL;
-    }
+    PL_TRY(pl_check_world(world));
     pl_query q;
     PL_TRY(check(world, __func__, desc));
     PL_TRY(pl_query_begin(&q, world, __func__, &desc->filter));

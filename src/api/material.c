@@ -59,9 +59,7 @@ plumb_result pl_check_unused(const plumb_world *world, const char *fn, uint32_t 
 
 plumb_result plumb_material_destroy(plumb_world *world, plumb_material material)
 {
-    if (world == NULL) {
-        return PLUMB_E_NULL;
-    }
+    PL_TRY(pl_check_world(world));
     uint32_t row = pl_material_row(world, material);
     if (row == PL_NONE) {
         return pl_fail_handle(world, __func__, "material", material.entity, "a live material");

@@ -65,9 +65,7 @@ plumb_result plumb_body_set_no_sleep(plumb_world *world, plumb_body body, bool n
 plumb_result plumb_world_set_sleep(plumb_world *world, bool allowed, plumb_real speed,
                                    plumb_real time)
 {
-    if (world == NULL) {
-        return PLUMB_E_NULL;
-    }
+    PL_TRY(pl_check_world(world));
     PL_TRY(pl_check_range(world, __func__, "speed", speed, 0, PLUMB_REAL_MAX));
     PL_TRY(pl_check_range(world, __func__, "time", time, 0, PLUMB_REAL_MAX));
     if (!allowed) {

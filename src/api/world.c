@@ -259,9 +259,7 @@ plumb_world_desc plumb_world_settings(const plumb_world *world)
 
 plumb_result plumb_world_set_gravity(plumb_world *world, plumb_vec2 gravity)
 {
-    if (world == NULL) {
-        return PLUMB_E_NULL;
-    }
+    PL_TRY(pl_check_world(world));
     PL_TRY(pl_check_finite_vec(world, __func__, "gravity", gravity));
     if (gravity.x != world->gravity.x || gravity.y != world->gravity.y) {
         pl_sleep_disturb_all(world);
@@ -283,9 +281,7 @@ static plumb_result check_count(const plumb_world *world, const char *fn, const 
 
 plumb_result plumb_world_set_substeps(plumb_world *world, int substeps, int iterations)
 {
-    if (world == NULL) {
-        return PLUMB_E_NULL;
-    }
+    PL_TRY(pl_check_world(world));
     PL_TRY(check_count(world, __func__, "substeps", substeps, SUBSTEPS_MOST));
     PL_TRY(check_count(world, __func__, "iterations", iterations, ITERATIONS_MOST));
     PL_TRY(pl_check_unlocked(world, __func__));
@@ -321,9 +317,7 @@ plumb_result plumb_world_set_workers(plumb_world *world, int workers)
 plumb_result plumb_world_set_contact_tuning(plumb_world *world, plumb_real hertz,
                                             plumb_real damping, plumb_real push_speed)
 {
-    if (world == NULL) {
-        return PLUMB_E_NULL;
-    }
+    PL_TRY(pl_check_world(world));
     PL_TRY(pl_check_range(world, __func__, "hertz", hertz, 0, PLUMB_REAL_MAX));
     PL_TRY(pl_check_range(world, __func__, "damping", damping, 0, PLUMB_REAL_MAX));
     PL_TRY(pl_check_range(world, __func__, "push_speed", push_speed, 0, PLUMB_REAL_MAX));
@@ -343,9 +337,7 @@ plumb_result plumb_world_set_contact_tuning(plumb_world *world, plumb_real hertz
 
 plumb_result plumb_world_set_restitution_speed(plumb_world *world, plumb_real speed)
 {
-    if (world == NULL) {
-        return PLUMB_E_NULL;
-    }
+    PL_TRY(pl_check_world(world));
     PL_TRY(pl_check_range(world, __func__, "speed", speed, 0, PLUMB_REAL_MAX));
     PL_TRY(pl_check_unlocked(world, __func__));
     world->desc.restitution_speed = speed;
@@ -354,9 +346,7 @@ plumb_result plumb_world_set_restitution_speed(plumb_world *world, plumb_real sp
 
 plumb_result plumb_world_set_user_data(plumb_world *world, void *user_data)
 {
-    if (world == NULL) {
-        return PLUMB_E_NULL;
-    }
+    PL_TRY(pl_check_world(world));
     world->desc.user_data = user_data;
     return PLUMB_OK;
 }

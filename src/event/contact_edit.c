@@ -15,9 +15,7 @@
 
 static plumb_result check_open(const plumb_world *world, const char *function)
 {
-    if (world == NULL) {
-        return PLUMB_E_NULL;
-    }
+    PL_TRY(pl_check_world(world));
     return world->editing ? PLUMB_OK
                           : pl_fail(world, PLUMB_E_STATE, function,
                                     "no system of PLUMB_PHASE_CONTACTS runs; call it from one");

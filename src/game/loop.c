@@ -39,9 +39,7 @@ plumb_result plumb_loop_create(plumb_world *world, const plumb_loop_desc *desc, 
     if (loop != NULL) {
         *loop = NULL;
     }
-    if (world == NULL) {
-        return PLUMB_E_NULL;
-    }
+    PL_TRY(pl_check_world(world));
     PL_TRY(pl_check_pointer(world, __func__, "loop", loop));
     PL_TRY(pl_check_range(world, __func__, "dt", (real)made.desc.dt, 0, 1));
     if ((made.desc.steps_max < 0 || made.desc.steps_max > STEPS_MOST)) {

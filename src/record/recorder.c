@@ -426,9 +426,7 @@ static void put_head(recorder *r, plumb_world *world, const plumb_recorder_desc 
 
 plumb_result plumb_recorder_start(plumb_world *world, const plumb_recorder_desc *desc)
 {
-    if (world == NULL) {
-        return PLUMB_E_NULL;
-    }
+    PL_TRY(pl_check_world(world));
     PL_TRY(check_desc(world, __func__, desc));
     recorder *r = pl_resize(&world->memory, NULL, 0, sizeof *r);
     if (r == NULL) {
@@ -490,9 +488,7 @@ plumb_result plumb_recorder_name(plumb_world *world, plumb_entity entity, const 
         plumb_entity entity;
         char text[PL_NAME_MAX];
     } note = { .entity = entity };
-    if (world == NULL) {
-        return PLUMB_E_NULL;
-    }
+    PL_TRY(pl_check_world(world));
     PL_TRY(pl_check_name(world, __func__, "name", name));
     PL_TRY(pl_check_entity(world, __func__, entity));
     PL_TRY(check_recording(world, __func__));
@@ -504,9 +500,7 @@ plumb_result plumb_recorder_name(plumb_world *world, plumb_entity entity, const 
 
 plumb_result plumb_recorder_note(plumb_world *world, uint64_t key, const void *bytes, size_t size)
 {
-    if (world == NULL) {
-        return PLUMB_E_NULL;
-    }
+    PL_TRY(pl_check_world(world));
     if (size > PLUMB_NOTE_MAX) {
         return pl_fail(world, PLUMB_E_RANGE, __func__, "size is %zu; it must be 0 to %zu", size,
                        PLUMB_NOTE_MAX);

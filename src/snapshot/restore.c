@@ -173,26 +173,15 @@ static bool is_moving_grid_kept(const plumb_world *world, const filed *f)
 
 //---- the change ----------------------------------------------------------------------------------
 
-static void clear_rows(plumb_world *world)
+// Where the rows of components are, by registry slot; or that there are none.
+static void tell_rows(plumb_world *world, bool are_there)
 {
     for (uint32_t i = 0; i < world->components.count; ++i) {
         const pl_component *c = &world->components.items[i];
         const plumb_entity *owner = c->owners.data;
         uint32_t *rows = c->rows.data;
         for (uint32_t row = 0; row < c->count; ++row) {
-            rows[owner[row].index] = 0;
-        }
-    }
-}
-
-static void fill_rows(plumb_world *world)
-{
-    for (uint32_t i = 0; i < world->components.count; ++i) {
-        const pl_component *c = &world->components.items[i];
-        const plumb_entity *owner = c->owners.data;
-        uint32_t *rows = c->rows.data;
-        for (uint32_t row = 0; row < c->count; ++row) {
-            rows[owner[row].index] = row + 1;
+            rows[owner[row].index] = are_there ? row + 1 : 0;
         }
     }
 }
@@ -221,12 +210,12 @@ static void take_over(plumb_world *world, source s)
     bool keeps_fixed = is_fixed_grid_kept(world, &f);
     bool keeps_moving = is_moving_grid_kept(world, &f);
     pl_broad_forget_left(&world->broad);
-    clear_rows(world);
+    tell_rows(world, false);
     for (uint32_t i = 0; i < pl_section_count(world); ++i) {
         source_next(&s);
         pl_section_read(world, i, s.data, s.count);
     }
-    fill_rows(world);
+    tell_rows(world, true);
     pl_broad_mark_left(&world->broad);
     for (uint32_t row = 0; row < world->bodies.table.count; ++row) {
         pl_body_update_pose(world, row);
@@ -373,7 +362,7 @@ void pl_image_play(plumb_world *world, const pl_image *before, const pl_image *a
     filed f = find_filed(world, b);
     bool keeps_fixed = is_fixed_grid_kept(world, &f);
     bool keeps_moving = is_moving_grid_kept(world, &f);
-    clear_rows(world);
+    tell_rows(world, false);
     for (uint32_t i = 0; i < pl_section_count(world); ++i) {
         source_next(&a);
         source_next(&b);
@@ -382,7 +371,7 @@ void pl_image_play(plumb_world *world, const pl_image *before, const pl_image *a
             pl_section_read(world, i, b.data, b.count);
         }
     }
-    fill_rows(world);
+    tell_rows(world, true);
     for (uint32_t row = 0; row < world->bodies.table.count; ++row) {
         pl_body_update_pose(world, row);
     }
@@ -458,9 +447,7 @@ static plumb_result restore(plumb_world *world, const char *function, const pl_i
 static plumb_result restore_image(plumb_world *world, const char *function, const void *buffer,
                                   size_t size, bool trusted)
 {
-    if (world == NULL) {
-        return PLUMB_E_NULL;
-    }
+    PL_TRY(pl_check_world(world));
     pl_image image;
     PL_TRY(pl_check_unlocked(world, function));
     PL_TRY(pl_check_pointer(world, function, "buffer", buffer));
@@ -476,9 +463,7 @@ static plumb_result restore_frame(plumb_world *world, const char *function, cons
                                   size_t base_size, const void *frame, size_t frame_size,
                                   bool trusted)
 {
-    if (world == NULL) {
-        return PLUMB_E_NULL;
-    }
+    PL_TRY(pl_check_world(world));
     pl_image image, base_image;
     PL_TRY(pl_check_unlocked(world, function));
     PL_TRY(pl_check_pointer(world, function, "base", base));

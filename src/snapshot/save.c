@@ -147,9 +147,7 @@ static plumb_result save(const plumb_world *world, const char *function, const p
 
 plumb_result plumb_world_save(const plumb_world *world, void *buffer, size_t size)
 {
-    if (world == NULL) {
-        return PLUMB_E_NULL;
-    }
+    PL_TRY(pl_check_world(world));
     size_t bytes;
     PL_TRY(pl_check_unlocked(world, __func__));
     PL_TRY(pl_check_pointer(world, __func__, "buffer", buffer));

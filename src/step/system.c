@@ -182,9 +182,7 @@ plumb_result plumb_system_create(plumb_world *world, const plumb_system_desc *de
 
 plumb_result plumb_system_enable(plumb_world *world, const char *name, bool enabled)
 {
-    if (world == NULL) {
-        return PLUMB_E_NULL;
-    }
+    PL_TRY(pl_check_world(world));
     PL_TRY(pl_check_pointer(world, __func__, "name", name));
     pl_system *system = system_find(world, name);
     if (system == NULL) {

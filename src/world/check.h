@@ -8,6 +8,12 @@
 #include "plumb/schema.h"
 #include "plumb/shape.h"
 
+// A world is given. E_NULL, which nobody is told.
+static inline plumb_result pl_check_world(const plumb_world *world)
+{
+    return world != NULL ? PLUMB_OK : PLUMB_E_NULL;
+}
+
 // Finite. E_NOT_FINITE.
 plumb_result pl_check_finite(const plumb_world *world, const char *function, const char *field,
                              plumb_real value);

@@ -120,9 +120,7 @@ plumb_component plumb_component_find(const plumb_world *world, const char *name)
 plumb_result plumb_component_info(const plumb_world *world, plumb_component component,
                                   plumb_component_desc *desc)
 {
-    if (world == NULL) {
-        return PLUMB_E_NULL;
-    }
+    PL_TRY(pl_check_world(world));
     PL_TRY(check_component(world, __func__, component));
     PL_TRY(pl_check_pointer(world, __func__, "desc", desc));
     *desc = find(world, component)->desc;

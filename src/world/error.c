@@ -200,9 +200,7 @@ static const char *kind_text(uint32_t kind)
 plumb_result pl_fail_handle(const plumb_world *world, const char *function, const char *field,
                             plumb_entity entity, const char *wanted)
 {
-    if (world == NULL) {
-        return PLUMB_E_NULL;
-    }
+    PL_TRY(pl_check_world(world));
     char is[64];
     const pl_slot *slot = pl_registry_find(&world->registry, entity);
     if (plumb_is_null(entity)) {
@@ -257,9 +255,7 @@ uint32_t pl_ask_shape(const plumb_world *world, const char *function, plumb_shap
 plumb_result pl_check_material(const plumb_world *world, const char *function,
                                plumb_material material, uint32_t *row)
 {
-    if (world == NULL) {
-        return PLUMB_E_NULL;
-    }
+    PL_TRY(pl_check_world(world));
     *row = plumb_is_null(material) ? 0 : pl_material_row(world, material);
     return *row != PL_NONE ? PLUMB_OK
                            : pl_fail_handle(world, function, "material", material.entity,
@@ -268,9 +264,7 @@ plumb_result pl_check_material(const plumb_world *world, const char *function,
 
 plumb_result pl_check_entity(const plumb_world *world, const char *function, plumb_entity entity)
 {
-    if (world == NULL) {
-        return PLUMB_E_NULL;
-    }
+    PL_TRY(pl_check_world(world));
     return pl_registry_find(&world->registry, entity) != NULL
                ? PLUMB_OK
                : pl_fail_handle(world, function, "entity", entity, "a live entity");

@@ -216,9 +216,7 @@ static plumb_result check_two(const plumb_world *world, const char *function, pl
 
 plumb_result plumb_world_exclude_pair(plumb_world *world, plumb_body a, plumb_body b, bool exclude)
 {
-    if (world == NULL) {
-        return PLUMB_E_NULL;
-    }
+    PL_TRY(pl_check_world(world));
     uint32_t row_a, row_b;
     PL_TRY(check_two(world, __func__, a, b, &row_a, &row_b));
     bool found;

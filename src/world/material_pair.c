@@ -87,9 +87,7 @@ static void disturb_users(plumb_world *world, uint32_t row_a, uint32_t row_b)
 plumb_result plumb_material_pair_set(plumb_world *world, plumb_material a, plumb_material b,
                                      const plumb_material_pair *pair)
 {
-    if (world == NULL) {
-        return PLUMB_E_NULL;
-    }
+    PL_TRY(pl_check_world(world));
     uint32_t row_a, row_b, at;
     PL_TRY(check(world, __func__, a, b, &row_a, &row_b));
     if (pair != NULL) {
@@ -124,9 +122,7 @@ plumb_result plumb_material_pair_set(plumb_world *world, plumb_material a, plumb
 plumb_result plumb_material_pair_get(const plumb_world *world, plumb_material a, plumb_material b,
                                      plumb_material_pair *pair)
 {
-    if (world == NULL) {
-        return PLUMB_E_NULL;
-    }
+    PL_TRY(pl_check_world(world));
     uint32_t row_a, row_b;
     PL_TRY(check(world, __func__, a, b, &row_a, &row_b));
     PL_TRY(pl_check_pointer(world, __func__, "pair", pair));
