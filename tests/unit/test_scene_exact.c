@@ -95,12 +95,38 @@ static void test_expected_exact(void **state)
     scene_destroy(s);
 }
 
+// A caller that does not want expectations looked at pays nothing for them.
+static void test_no_expect(void **state)
+{
+    (void)state;
+    const char *text = "scene{ duration = 0.1 }\nbody{ name = 'b', circle{1} }\n"
+                       "exact{ 'e', measure = function() score('asked', 1) return 0 end, "
+                       "value = function() return 0 end }\n"
+                       "expect{ 'form', exact = 'e', tolerance = 1 }\n"
+                       "expect{ 'end', test = function() score('asked', 2) return true end }\n";
+    for (int without = 0; without < 2; without++) {
+        scene *s = NULL;
+        scene_error e;
+        scene_options options = {
+            .path = "t.lua", .text = text, .text_size = strlen(text), .no_expect = without == 1
+        };
+        assert_int_equal(scene_load(&options, &s, &e), SCENE_OK);
+        run(s);
+        assert_int_equal(scene_score_count(s), without ? 0 : 1);
+        scene_expect_status status = without ? SCENE_EXPECT_PENDING : SCENE_EXPECT_PASSED;
+        assert_int_equal(scene_expect_get(s, 0).status, status);
+        assert_int_equal(scene_expect_get(s, 1).status, status);
+        scene_destroy(s);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_exact),
         cmocka_unit_test(test_exact_errors),
         cmocka_unit_test(test_expected_exact),
+        cmocka_unit_test(test_no_expect),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -95,6 +95,7 @@ static scene_code load(const engine_settings *settings, scene **out, scene_error
                               .text_size = settings->text != NULL ? strlen(settings->text) : 0,
                               .sets = sets,
                               .set_count = count,
+                              .no_expect = settings->no_expect,
                               .stop = is_stopped };
     scene_code code = scene_load(&options, out, error);
     free(sets);

@@ -32,6 +32,7 @@ typedef struct engine_settings {
     int solver;     ///< index into ENGINE_SOLVERS; -1: the scene's
     int width;      ///< SIMD lanes; 0: the scene's or the best
     int workers;    ///< threads; 0: the scene's or one
+    bool no_expect; ///< nobody asks whether expectations hold
 } engine_settings;
 
 /// The solvers by name, in the order of plumb_solver.

@@ -63,7 +63,8 @@ int scene_run_open(const scene_args *args, const char *path, scene_run *run)
                                  .iterations = args->iterations,
                                  .solver = args->solver,
                                  .width = args->width,
-                                 .workers = args->workers };
+                                 .workers = args->workers,
+                                 .no_expect = args->no_expect };
     engine_error error = { 0 };
 
     const engine_api *const engines[] = { &engine_float, &engine_double, &engine_far };

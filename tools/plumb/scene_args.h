@@ -17,6 +17,7 @@ typedef struct scene_args {
     int precision;  ///< index into SCENE_PRECISIONS
     cli_texts sets;
     bool quiet;
+    bool no_expect; ///< no option: nobody asks whether expectations hold
 } scene_args;
 
 #define SCENE_ARGS_INIT                                                                            \

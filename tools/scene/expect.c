@@ -174,6 +174,9 @@ void sc_expect_step(scene *s)
 {
     double now = scene_time(s);
     double slack = 1e-9 * s->dt;
+    if (s->options.no_expect) {
+        return;
+    }
     if (s->wants_energy) {
         track_scales(s);
     }
@@ -202,7 +205,7 @@ void sc_expect_step(scene *s)
 
 void sc_expect_finish(scene *s)
 {
-    for (int i = 0; i < s->expects.count; i++) {
+    for (int i = 0; i < s->expects.count && !s->options.no_expect; i++) {
         sc_expect *e = &s->expects.items[i];
         const sc_expect_def *d = &e->def;
         bool timed = HAS(d, at) || d->always || HAS(d, from) || HAS(d, till);

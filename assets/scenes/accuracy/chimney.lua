@@ -29,10 +29,11 @@ local function solution(rates, start)
         return s
     end
 end
-local fall = solution(function(s) return { s[2], 1.5 * g / l * math.sin(s[1]) } end, { start, 0 })
+local function rates(s) return { s[2], 1.5 * g / l * math.sin(s[1]) } end
+local fall, earlier = solution(rates, { start, 0 }), solution(rates, { start, 0 })
 exact { "angle", body = "rod", angle = function(t) return fall(t)[1] end }
 exact { "force", scale = g, measure = function() return hinge:reaction() end, from = 0.05, value = function(t)
-    local a = fall(t - 1 / 480)[1] -- forces are means of the last substep
+    local a = earlier(t - 1 / 480)[1] -- forces are means of the last substep
     local along, across = g * (5 * math.cos(a) - 3 * math.cos(start)) / 2, g * math.sin(a) / 4
     return math.sqrt(along * along + across * across)
 end }
