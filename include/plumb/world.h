@@ -37,6 +37,12 @@ typedef struct plumb_world_desc {
     plumb_solver solver;            ///< default PLUMB_SOLVER_SOFT
     int substeps;                   ///< [-] 1..64, default 4. PGS: sub-steps of the whole step, default 1
     int iterations;                 ///< [-] 1..1000. PGS: sweeps a step, default 10. Soft: sweeps a substep, default 1
+    bool direct_joints;             ///< solve the joints of an island together, exactly, by a direct method: for long
+                                    ///< chains, heavy ends, trusses, cantilevers. Costs some 2 us a joint and substep,
+                                    ///< more where joints form nets. Soft step alone; mice, motors, friction joints
+                                    ///< and what has a bound are swept as ever. Default: all are. For machines whose
+                                    ///< parts do not overlap: what contacts push apart and joints hold together, it
+                                    ///< may throw
     plumb_real contact_hertz;       ///< [1/s] >= 0. Contact stiffness; default: a sixth of the substep rate,
                                     ///< which is also the largest that is used. Where steps become shorter, it
                                     ///< rises by e in half a second at most: no pile is thrown up by that

@@ -182,5 +182,5 @@ bool pl_joints_group(plumb_world *world)
     for (uint32_t g = 0; g < plan->group_count; ++g) {
         place_lanes(world, &pl_joint_groups(&world->joints)[g]);
     }
-    return true;
+    return !pl_joints_direct(world) || pl_direct_plan(world);
 }

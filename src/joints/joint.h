@@ -91,6 +91,10 @@ static inline real pl_joint_carried(const pl_joint *joint, real h)
 void pl_joint_start_bare(const plumb_world *world, pl_joint_lane *lane, pl_joint_start *start,
                          real h);
 
+// Whether joints are solved together, by a direct method (direct.c); then, in which order: false when out of memory.
+bool pl_joints_direct(const plumb_world *world);
+bool pl_direct_plan(plumb_world *world);
+
 typedef enum pl_joint_sweep {
     PL_SWEEP_PULL,   // springs, and errors undone
     PL_SWEEP_RELAX,  // rigid rows alone, errors left

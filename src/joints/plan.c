@@ -86,9 +86,11 @@ static uint8_t look(const plumb_world *world, pl_joint_mark *mark, pl_ends *ends
     const uint32_t b = row_of(world, mark->b, mark->row_b);
     mark->row_a = ends->a = a;
     mark->row_b = ends->b = b;
-    return (uint8_t)(SOLVED | (world->desc.solver == PLUMB_SOLVER_SOFT ? WIDE : 0) |
-                     (a < world->dynamic_count ? MOVES_A : 0) |
-                     (b < world->dynamic_count ? MOVES_B : 0));
+    return (
+        uint8_t)(SOLVED |
+                 (pl_joints_direct(world) || world->desc.solver != PLUMB_SOLVER_SOFT ? 0 : WIDE) |
+                 (a < world->dynamic_count ? MOVES_A : 0) |
+                 (b < world->dynamic_count ? MOVES_B : 0));
 }
 
 // True: all marks are as they were when the plan was made.
@@ -292,9 +294,11 @@ bool pl_joints_changed(const plumb_world *world)
 
 void pl_joints_plan_free(pl_memory *memory, pl_joint_plan *plan)
 {
-    pl_buffer *buffers[] = { &plan->marks,  &plan->ends,    &plan->order,
-                             &plan->groups, &plan->grouped, &plan->bundles,
-                             &plan->lanes,  &plan->slots,   &plan->records };
+    pl_buffer *buffers[] = { &plan->marks,          &plan->ends,           &plan->order,
+                             &plan->groups,         &plan->grouped,        &plan->bundles,
+                             &plan->lanes,          &plan->slots,          &plan->records,
+                             &plan->direct.columns, &plan->direct.entries, &plan->direct.swept,
+                             &plan->direct.parts,   &plan->direct.blocks,  &plan->direct.scratch };
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; ++i) {
         pl_buffer_free(memory, buffers[i]);
     }

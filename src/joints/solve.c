@@ -3,7 +3,7 @@
 // Joints of sleeping bodies are passed over (pl_joints_awake). Reads: joints, body columns. Writes: solver bodies,
 // impulses. Cost: O(joints awake) a sweep.
 #include "joints/joint.h"
-#include "joints/one.h"
+#include "joints/direct.h"
 #include "world/state.h"
 
 // Sweeps that pull, and that relax, in a substep. Fewer bear less stiffness: DECISIONS.md has the table.
@@ -289,6 +289,7 @@ static void sweep_lanes(const pl_joint_context *c, pl_joint_sweep sweep, bool fi
 
 static void sweep_alone(const pl_joint_context *c, pl_joint_sweep sweep, bool first)
 {
+    const bool *swept = pl_joints_direct(c->world) ? c->world->joints.plan.direct.swept.data : NULL;
     for (uint32_t i = c->group->alone; i < c->group->end; ++i) {
         pl_lone one;
         pl_one_take(c, i, &one);
@@ -297,6 +298,9 @@ static void sweep_alone(const pl_joint_context *c, pl_joint_sweep sweep, bool fi
             pl_one_pay(j, one.a, one.b);
         } else if (first && sweep == PL_SWEEP_RELAX) {
             pl_one_refresh(c->world, j, one.a, one.b);
+        }
+        if (swept != NULL && !swept[i]) {
+            continue;
         }
         // Motors and springs first: what must hold has the last word.
         for (int k = j->rows.count - 1; k >= j->rows.block; --k) {
@@ -312,6 +316,9 @@ void pl_joints_solve(const pl_joint_context *c, pl_joint_sweep sweep, bool first
     for (int i = 0; i < sweeps; ++i) {
         sweep_lanes(c, sweep, first && i == 0);
         sweep_alone(c, sweep, first && i == 0);
+    }
+    if (pl_joints_direct(c->world)) {
+        pl_direct_solve(c, sweep);
     }
 }
 

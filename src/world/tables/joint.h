@@ -125,8 +125,28 @@ typedef struct pl_joint_mark {
 typedef struct pl_joint_group {
     uint32_t first, end; // in `grouped`: in lanes, then those solved one by one
     uint32_t alone;      // the first of these
+    uint32_t direct_first, direct_end; // columns of those solved together, of `alone` to `end`
     uint32_t color_first[PL_JOINT_COLORS + 1]; // first bundle of a colour; then where the last ends
 } pl_joint_group;
+
+// A joint that is solved together with the others of its group: its place in the order of elimination.
+typedef struct pl_direct_column {
+    uint32_t joint;        // in `grouped`
+    uint32_t first, count; // in `entries`: columns of the same group, all of them behind it
+} pl_direct_column;
+
+// What direct_plan.c finds of the joints that are solved together, and room to solve them in (direct.c).
+typedef struct pl_direct {
+    pl_buffer columns; // pl_direct_column, group by group
+    pl_buffer entries; // uint32_t
+    pl_buffer swept;   // bool a joint of `grouped`: it is not among the columns
+    pl_buffer parts;   // pl_direct_part a column
+    pl_buffer blocks;  // double, PL_DIRECT_BLOCK a column, then as many an entry
+    pl_buffer scratch;
+    uint32_t column_count, entry_count;
+} pl_direct;
+
+#define PL_DIRECT_BLOCK (PL_JOINT_ROWS * PL_JOINT_ROWS)
 
 // Who is solved with whom: what follows from the joints and bodies that there are, and is kept from step to
 // step as long as it does (plan.c); which of them are in which cluster, and their lanes (group.c).
@@ -145,6 +165,7 @@ typedef struct pl_joint_plan {
     size_t room; // [B] of a thread
     uint32_t order_count, group_count, bundle_count, pattern_count;
     pl_joint_pattern patterns[PL_JOINT_PATTERNS];
+    pl_direct direct;
     bool made, changed; // since the last step
     bool adrift;        // no joint is off, or ties a body to what dynamics does not move
 } pl_joint_plan;

@@ -1,0 +1,539 @@
+// direct.c - the joints of a group solved together and exactly, by a sparse block factor of A = J M^-1 J^T.
+//
+// One sweep after the other hands an impulse on from joint to joint: N links that bear R times their mass take some
+// 2 N R sweeps a digit. Here the changes x of all impulses come at once from
+//     (A + G) x = target - J v - G impulse
+// G being what springs give. A is a block a joint and one for each pair of joints that are neighbours or become so (direct_plan.c).
+// Limits and motors at their bounds are no unknowns; which ones these are is found by trying: who leaves its bounds is
+// put there, who would come off is freed.
+//
+// As in one.c errors are undone in the sweep that pulls, whose velocities only move the bodies; the one that relaxes, with J of
+// where they are then, leaves J v = 0: the way is a chord, and no energy comes of it (RATTLE, Andersen 1983).
+//
+// Reads: the plan, rows. Writes: impulses, solver bodies, parts, blocks. Cost: O(joints of chains and trees).
+#include "joints/direct.h"
+#include "plumb/math.h"
+#include "world/state.h"
+
+// Share of an error that a substep undoes. More turns what a snapping chain leaves into a blow (DECISIONS.md).
+#define RECOVERY 0.1
+// Of the diagonal: a smaller pivot is what rounding of the rows left of a redundant one, which gets no impulse. A chain
+// whose end is so many times as heavy as its links has such pivots, too: it is the ratio that can be told.
+#define LEAST_PIVOT (sizeof(near_real) == sizeof(float) ? 1e-6 : 1e-10)
+// [rad] that a body whose inertia is raised may turn in a substep: it has hardly any energy.
+#define MOST_TURN 0.05
+#define PASSES    8    // of finding who is at a bound
+#define SLACK     1e-6 // [m/s], [rad/s] by which one must come off its bound to be freed
+
+typedef struct joint_system {
+    const pl_joint_context *context;
+    const pl_direct_column *columns;
+    const uint32_t *entries;
+    pl_direct_part *parts;
+    double *blocks;
+    uint32_t first, end; // columns
+    uint32_t all;        // columns of all groups
+} joint_system;
+
+static double *diagonal(const joint_system *s, uint32_t column)
+{
+    return s->blocks + (size_t)column * PL_DIRECT_BLOCK;
+}
+
+static double *beside(const joint_system *s, uint32_t entry)
+{
+    return s->blocks + ((size_t)s->all + entry) * PL_DIRECT_BLOCK;
+}
+
+//---- rows ----------------------------------------------------------------------------------------
+
+static double low_of(const pl_joint *j, int i)
+{
+    const pl_row *r = &j->rows.row[i];
+    return r->type == PL_ROW_LEAST ? 0 : -(double)r->most * (double)j->h;
+}
+
+static double high_of(const pl_joint *j, int i)
+{
+    return (double)j->rows.row[i].most * (double)j->h;
+}
+
+// By how much J v lacks what it is to be.
+static double lack_of(const pl_direct_part *p, int i)
+{
+    const pl_lone *l = &p->lone;
+    return p->target[i] - (double)pl_one_rate(&l->joint->rows.row[i], l->a, l->b);
+}
+
+static bool is_in_force(const pl_lone *l, int i, pl_joint_sweep sweep)
+{
+    const pl_row *r = &l->joint->rows.row[i];
+    return r->type != PL_ROW_OFF && !(r->hertz > 0 && sweep == PL_SWEEP_RELAX) &&
+           pl_one_coupling(r, r, l->a, l->b) > 0;
+}
+
+// What a row in force is to do.
+static void aim(pl_direct_part *p, int i, pl_joint_sweep sweep)
+{
+    const pl_lone *l = &p->lone;
+    const pl_joint *j = l->joint;
+    const pl_row *r = &j->rows.row[i];
+    const double back = (double)r->error / (double)j->h;
+    p->give[i] = 0;
+    if (r->type == PL_ROW_DRIVE) {
+        p->target[i] = (double)r->speed;
+    } else if (r->hertz > 0) {
+        // Of total = - m (velocity v + error C) + (1 - impulse) total, v being that before: see pl_joint_spring.
+        const pl_joint_soft soft = pl_joint_spring(r, j->h);
+        const double k = (double)pl_one_coupling(r, r, l->a, l->b);
+        const double share = plumb_max(soft.velocity, PLUMB_REAL_EPSILON);
+        p->give[i] = k * (double)soft.impulse / share;
+        p->target[i] = -(double)soft.error / share * (double)r->error;
+    } else if (r->type == PL_ROW_LEAST && r->error > 0) {
+        p->target[i] = -back; // may close the gap
+    } else {
+        p->target[i] = sweep == PL_SWEEP_PULL ? -RECOVERY * back : 0;
+    }
+}
+
+// Rows at a bound that would go beyond are no unknowns to begin with.
+static bool begins_at_bound(const pl_direct_part *p, int i)
+{
+    const pl_joint *j = p->lone.joint;
+    const double impulse = (double)j->impulse[i], lack = lack_of(p, i);
+    return (impulse <= low_of(j, i) && lack <= 0) || (impulse >= high_of(j, i) && lack >= 0);
+}
+
+static void open_part(const joint_system *s, uint32_t column, pl_joint_sweep sweep)
+{
+    pl_direct_part *p = &s->parts[column];
+    pl_one_take(s->context, s->columns[column].joint, &p->lone);
+    for (int i = 0; i < p->lone.joint->rows.count; ++i) {
+        p->in_force[i] = is_in_force(&p->lone, i, sweep);
+        if (p->in_force[i]) {
+            aim(p, i, sweep);
+            p->at_bound[i] = i >= p->lone.joint->rows.block && begins_at_bound(p, i);
+        }
+    }
+}
+
+static void number_unknowns(pl_direct_part *p)
+{
+    p->count = 0;
+    for (int i = 0; i < p->lone.joint->rows.count; ++i) {
+        if (p->in_force[i] && !p->at_bound[i]) {
+            p->row[p->count++] = (uint8_t)i;
+        }
+    }
+}
+
+//---- the matrix ----------------------------------------------------------------------------------
+
+// Of row i of p and row k of q: what they have to do with one another by the bodies that they share.
+static double across(const pl_direct_part *p, int i, const pl_direct_part *q, int k)
+{
+    const pl_row *r = &p->lone.joint->rows.row[i], *t = &q->lone.joint->rows.row[k];
+    const pl_solver_body *of_p[2] = { p->lone.a, p->lone.b };
+    const pl_solver_body *of_q[2] = { q->lone.a, q->lone.b };
+    const double jp[2][3] = { { (double)r->ax, (double)r->ay, (double)r->aw },
+                              { (double)r->bx, (double)r->by, (double)r->bw } };
+    const double jq[2][3] = { { (double)t->ax, (double)t->ay, (double)t->aw },
+                              { (double)t->bx, (double)t->by, (double)t->bw } };
+    double sum = 0;
+    for (int m = 0; m < 2; ++m) {
+        for (int n = 0; n < 2; ++n) {
+            if (of_p[m] == of_q[n]) {
+                sum += (double)of_p[m]->inv_mass * (jp[m][0] * jq[n][0] + jp[m][1] * jq[n][1]) +
+                       (double)of_p[m]->inv_inertia * jp[m][2] * jq[n][2];
+            }
+        }
+    }
+    return sum;
+}
+
+static void assemble(const joint_system *s)
+{
+    for (uint32_t c = s->first; c < s->end; ++c) {
+        pl_direct_part *p = &s->parts[c];
+        double *d = diagonal(s, c);
+        for (int i = 0; i < p->count; ++i) {
+            for (int k = 0; k < p->count; ++k) {
+                d[i * PL_JOINT_ROWS + k] = across(p, p->row[i], p, p->row[k]);
+            }
+            d[i * (PL_JOINT_ROWS + 1)] += p->give[p->row[i]];
+            p->scale[i] = d[i * (PL_JOINT_ROWS + 1)];
+        }
+        const pl_direct_column *column = &s->columns[c];
+        for (uint32_t e = column->first; e < column->first + column->count; ++e) {
+            const pl_direct_part *q = &s->parts[s->entries[e]];
+            for (int i = 0; i < p->count; ++i) {
+                for (int k = 0; k < q->count; ++k) {
+                    beside(s, e)[i * PL_JOINT_ROWS + k] = across(p, p->row[i], q, q->row[k]);
+                }
+            }
+        }
+    }
+}
+
+// Inverse of a positive definite block in place, by Gauss and Jordan. A pivot that rounding has eaten up is no
+// direction of its own.
+static void invert(double *d, const double *diagonal_of, int n)
+{
+    for (int p = 0; p < n; ++p) {
+        const double pivot = d[p * (PL_JOINT_ROWS + 1)];
+        const double inverse = pivot > LEAST_PIVOT * diagonal_of[p] ? 1 / pivot : 0;
+        d[p * (PL_JOINT_ROWS + 1)] = 1;
+        for (int k = 0; k < n; ++k) {
+            d[p * PL_JOINT_ROWS + k] *= inverse;
+        }
+        for (int i = 0; i < n; ++i) {
+            const double factor = i == p ? 0 : d[i * PL_JOINT_ROWS + p];
+            if (i != p) {
+                d[i * PL_JOINT_ROWS + p] = 0;
+            }
+            for (int k = 0; k < n; ++k) {
+                d[i * PL_JOINT_ROWS + k] -= factor * d[p * PL_JOINT_ROWS + k];
+            }
+        }
+    }
+}
+
+// to -= x^T y, x of n rows and m columns, y of n rows and l columns.
+static void take_product(double *to, const double *x, const double *y, int n, int m, int l)
+{
+    for (int i = 0; i < m; ++i) {
+        for (int k = 0; k < l; ++k) {
+            double sum = 0;
+            for (int r = 0; r < n; ++r) {
+                sum += x[r * PL_JOINT_ROWS + i] * y[r * PL_JOINT_ROWS + k];
+            }
+            to[i * PL_JOINT_ROWS + k] -= sum;
+        }
+    }
+}
+
+// out = d x, n rows, m columns.
+static void multiply(double *out, const double *d, const double *x, int n, int m)
+{
+    for (int i = 0; i < n; ++i) {
+        for (int k = 0; k < m; ++k) {
+            double sum = 0;
+            for (int r = 0; r < n; ++r) {
+                sum += d[i * PL_JOINT_ROWS + r] * x[r * PL_JOINT_ROWS + k];
+            }
+            out[i * PL_JOINT_ROWS + k] = sum;
+        }
+    }
+}
+
+// What a column leaves of those behind it.
+static void eliminate(const joint_system *s, uint32_t c)
+{
+    const pl_direct_column *column = &s->columns[c];
+    const int n = s->parts[c].count;
+    invert(diagonal(s, c), s->parts[c].scale, n);
+    const uint32_t end = column->first + column->count;
+    for (uint32_t e = column->first; e < end; ++e) {
+        const uint32_t q = s->entries[e];
+        const pl_direct_column *to = &s->columns[q];
+        const int m = s->parts[q].count;
+        double x[PL_DIRECT_BLOCK];
+        multiply(x, diagonal(s, c), beside(s, e), n, m);
+        take_product(diagonal(s, q), x, beside(s, e), n, m, m);
+        for (uint32_t k = to->first; k < to->first + to->count; ++k) {
+            s->parts[s->entries[k]].where = k;
+        }
+        for (uint32_t f = column->first; f < end; ++f) {
+            const uint32_t r = s->entries[f];
+            if (r > q) {
+                take_product(beside(s, s->parts[r].where), x, beside(s, f), n, m,
+                             s->parts[r].count);
+            }
+        }
+    }
+}
+
+// x of the parts: right sides, then the solution.
+static void substitute(const joint_system *s)
+{
+    for (uint32_t c = s->first; c < s->end; ++c) {
+        const pl_direct_column *column = &s->columns[c];
+        const pl_direct_part *p = &s->parts[c];
+        for (uint32_t e = column->first; e < column->first + column->count; ++e) {
+            pl_direct_part *q = &s->parts[s->entries[e]];
+            const double *b = beside(s, e), *d = diagonal(s, c);
+            for (int i = 0; i < p->count; ++i) {
+                double y = 0;
+                for (int k = 0; k < p->count; ++k) {
+                    y += d[i * PL_JOINT_ROWS + k] * p->x[k];
+                }
+                for (int k = 0; k < q->count; ++k) {
+                    q->x[k] -= b[i * PL_JOINT_ROWS + k] * y;
+                }
+            }
+        }
+    }
+    for (uint32_t c = s->end; c-- > s->first;) {
+        const pl_direct_column *column = &s->columns[c];
+        pl_direct_part *p = &s->parts[c];
+        double x[PL_JOINT_ROWS] = { 0 };
+        for (uint32_t e = column->first; e < column->first + column->count; ++e) {
+            const pl_direct_part *q = &s->parts[s->entries[e]];
+            for (int i = 0; i < p->count; ++i) {
+                for (int k = 0; k < q->count; ++k) {
+                    p->x[i] -= beside(s, e)[i * PL_JOINT_ROWS + k] * q->x[k];
+                }
+            }
+        }
+        for (int i = 0; i < p->count; ++i) {
+            for (int k = 0; k < p->count; ++k) {
+                x[i] += diagonal(s, c)[i * PL_JOINT_ROWS + k] * p->x[k];
+            }
+        }
+        for (int i = 0; i < p->count; ++i) {
+            p->x[i] = x[i];
+        }
+    }
+}
+
+//---- who is at a bound -----------------------------------------------------------------------------
+
+static void push(pl_direct_part *p, int i, double total)
+{
+    const pl_lone *l = &p->lone;
+    const real before = l->joint->impulse[i];
+    l->joint->impulse[i] = (real)total;
+    pl_one_push(&l->joint->rows.row[i], l->a, l->b, (real)total - before);
+}
+
+// Puts at its bound who would leave it. True: there were some, and the solution does not hold.
+static bool hold_to_bounds(const joint_system *s)
+{
+    bool any = false;
+    for (uint32_t c = s->first; c < s->end; ++c) {
+        pl_direct_part *p = &s->parts[c];
+        const pl_joint *j = p->lone.joint;
+        for (int k = 0; k < p->count; ++k) {
+            const int i = p->row[k];
+            const double total = (double)j->impulse[i] + p->x[k];
+            if (i >= j->rows.block && (total < low_of(j, i) || total > high_of(j, i))) {
+                push(p, i, total < low_of(j, i) ? low_of(j, i) : high_of(j, i));
+                p->at_bound[i] = any = true;
+            }
+        }
+    }
+    return any;
+}
+
+// Frees who would come off its bound. True: there were some.
+static bool let_go(const joint_system *s)
+{
+    bool any = false;
+    for (uint32_t c = s->first; c < s->end; ++c) {
+        pl_direct_part *p = &s->parts[c];
+        const pl_joint *j = p->lone.joint;
+        for (int i = j->rows.block; i < j->rows.count; ++i) {
+            if (!p->in_force[i] || !p->at_bound[i]) {
+                continue;
+            }
+            const bool low = (double)j->impulse[i] <= low_of(j, i);
+            const double lack = lack_of(p, i) - p->give[i] * (double)j->impulse[i];
+            if (low ? lack > SLACK : lack < -SLACK) {
+                p->at_bound[i] = false;
+                any = true;
+            }
+        }
+    }
+    return any;
+}
+
+//---- inertia ---------------------------------------------------------------------------------------
+
+// [1/(kg m^2)] of the body at an end, without what joints add.
+static near_real own_inertia(const joint_system *s, uint32_t column, int end)
+{
+    const plumb_world *world = s->context->world;
+    const uint32_t joint =
+        ((const uint32_t *)world->joints.plan.grouped.data)[s->columns[column].joint];
+    const pl_joint_mark *mark = &pl_joint_marks(&world->joints)[joint];
+    const uint32_t row = end == 0 ? mark->row_a : mark->row_b;
+    return row < world->dynamic_count ? (near_real)world->bodies.inv_inertia[row] : 0;
+}
+
+// Adds to what bodies spin by what the joints' impulses make of their inertia, `share` of it.
+static void spin(const joint_system *s, near_real share)
+{
+    for (uint32_t c = s->first; c < s->end; ++c) {
+        const pl_lone *l = &s->parts[c].lone;
+        const pl_joint *j = l->joint;
+        real a = 0, b = 0;
+        for (int i = 0; i < j->rows.count; ++i) {
+            if (j->rows.row[i].type != PL_ROW_OFF) {
+                a += j->rows.row[i].aw * j->impulse[i];
+                b += j->rows.row[i].bw * j->impulse[i];
+            }
+        }
+        l->a->w += share * l->a->inv_inertia * (near_real)a;
+        l->b->w += share * l->b->inv_inertia * (near_real)b;
+    }
+}
+
+static void reset_inertia(const joint_system *s)
+{
+    for (uint32_t c = s->first; c < s->end; ++c) {
+        pl_lone *l = &s->parts[c].lone;
+        l->a->inv_inertia = own_inertia(s, c, 0);
+        l->b->inv_inertia = own_inertia(s, c, 1);
+    }
+}
+
+static void keep_inertia(const joint_system *s)
+{
+    for (uint32_t c = s->first; c < s->end; ++c) {
+        pl_direct_part *p = &s->parts[c];
+        p->inertia[0] = p->lone.a->inv_inertia;
+        p->inertia[1] = p->lone.b->inv_inertia;
+    }
+}
+
+// No body has less than it had.
+static void hold_inertia(const joint_system *s)
+{
+    for (uint32_t c = s->first; c < s->end; ++c) {
+        pl_direct_part *p = &s->parts[c];
+        pl_solver_body *body[2] = { p->lone.a, p->lone.b };
+        for (int i = 0; i < 2; ++i) {
+            if (p->inertia[i] < body[i]->inv_inertia) {
+                body[i]->inv_inertia = p->inertia[i];
+            }
+        }
+    }
+}
+
+// Geometric stiffness by the impulses that the solution found would make: a chain that snaps taut is not yet tense
+// when the step begins. True: some body got more inertia.
+static bool stiffen(const joint_system *s)
+{
+    const near_real h = (near_real)s->context->h;
+    bool any = false;
+    spin(s, -1);
+    keep_inertia(s);
+    reset_inertia(s);
+    for (uint32_t c = s->first; c < s->end; ++c) {
+        pl_direct_part *p = &s->parts[c];
+        const pl_joint *j = p->lone.joint;
+        double x = 0, y = 0;
+        for (int k = 0; k < p->count; ++k) {
+            const pl_row *r = &j->rows.row[p->row[k]];
+            const double total = (double)j->impulse[p->row[k]] + p->x[k];
+            x += (double)r->bx * total, y += (double)r->by * total;
+        }
+        const pl_joint_pose *a = &j->pose_a, *b = &j->pose_b;
+        const near_real pull_a = (near_real) - (x * (double)a->rx + y * (double)a->ry);
+        const near_real pull_b = (near_real)(x * (double)b->rx + y * (double)b->ry);
+        const near_real own_a = own_inertia(s, c, 0), own_b = own_inertia(s, c, 1);
+        any |= pl_joint_inertia(pull_a, h, own_a) > 0 || pl_joint_inertia(pull_b, h, own_b) > 0;
+        pl_joint_stiffen(p->lone.a, pull_a, h, own_a);
+        pl_joint_stiffen(p->lone.b, pull_b, h, own_b);
+    }
+    hold_inertia(s);
+    spin(s, 1);
+    return any;
+}
+
+// A link that flutters under a tension of which the substep knew nothing.
+static void slow_down(const joint_system *s)
+{
+    const near_real most = (near_real)MOST_TURN / (near_real)s->context->h;
+    for (uint32_t c = s->first; c < s->end; ++c) {
+        pl_lone *l = &s->parts[c].lone;
+        pl_solver_body *body[2] = { l->a, l->b };
+        for (int i = 0; i < 2; ++i) {
+            if (body[i]->inv_inertia < own_inertia(s, c, i)) {
+                near_real w = body[i]->w;
+                body[i]->w = w > most ? most : w < -most ? -most : w;
+            }
+        }
+    }
+}
+
+//---- all -----------------------------------------------------------------------------------------
+
+// `arcs`: with what the bodies' turning does to the anchors within the substep.
+static void fill_sides(const joint_system *s, bool arcs)
+{
+    for (uint32_t c = s->first; c < s->end; ++c) {
+        pl_direct_part *p = &s->parts[c];
+        const pl_lone *l = &p->lone;
+        const pl_joint *j = l->joint;
+        const pl_row *row = j->rows.row;
+        real arc[2] = { 0, 0 };
+        if (arcs && row[0].form == PL_FORM_POINT_X && row[0].type == PL_ROW_EQUAL) {
+            pl_one_add_arc(arc, l->a->w, j->h, row[0].aw, row[1].aw);
+            pl_one_add_arc(arc, l->b->w, j->h, row[0].bw, row[1].bw);
+        }
+        for (int k = 0; k < p->count; ++k) {
+            const int i = p->row[k];
+            p->x[k] =
+                lack_of(p, i) - p->give[i] * (double)j->impulse[i] - (i < 2 ? (double)arc[i] : 0);
+        }
+    }
+}
+
+static void apply(const joint_system *s)
+{
+    for (uint32_t c = s->first; c < s->end; ++c) {
+        pl_direct_part *p = &s->parts[c];
+        for (int k = 0; k < p->count; ++k) {
+            push(p, p->row[k], (double)p->lone.joint->impulse[p->row[k]] + p->x[k]);
+        }
+    }
+}
+
+static void factor(const joint_system *s)
+{
+    for (uint32_t c = s->first; c < s->end; ++c) {
+        number_unknowns(&s->parts[c]);
+    }
+    assemble(s);
+    for (uint32_t c = s->first; c < s->end; ++c) {
+        eliminate(s, c);
+    }
+}
+
+void pl_direct_solve(const pl_joint_context *context, pl_joint_sweep sweep)
+{
+    const pl_direct *direct = &context->world->joints.plan.direct;
+    const joint_system s = { .context = context,
+                             .columns = direct->columns.data,
+                             .entries = direct->entries.data,
+                             .parts = direct->parts.data,
+                             .blocks = direct->blocks.data,
+                             .first = context->group->direct_first,
+                             .end = context->group->direct_end,
+                             .all = direct->column_count };
+    for (uint32_t c = s.first; c < s.end; ++c) {
+        open_part(&s, c, sweep);
+    }
+    for (int pass = 0; pass < PASSES; ++pass) {
+        factor(&s);
+        fill_sides(&s, false);
+        substitute(&s);
+        if (pass == 0 && sweep == PL_SWEEP_PULL && stiffen(&s)) {
+            continue;
+        }
+        if (hold_to_bounds(&s) && pass < PASSES - 1) {
+            continue;
+        }
+        apply(&s);
+        if (sweep == PL_SWEEP_PULL) {
+            fill_sides(&s, true);
+            substitute(&s);
+            apply(&s);
+        }
+        if (!let_go(&s)) {
+            break;
+        }
+    }
+    slow_down(&s);
+}
