@@ -433,14 +433,22 @@ static void test_any_period_is_a_period(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_settings),           cmocka_unit_test(test_bodies_and_shapes),
-        cmocka_unit_test(test_params_and_sets),    cmocka_unit_test(test_camera),
-        cmocka_unit_test(test_timed_handlers),     cmocka_unit_test(test_contact_handlers),
-        cmocka_unit_test(test_body_methods),       cmocka_unit_test(test_expectations),
-        cmocka_unit_test(test_not_reached),        cmocka_unit_test(test_environment),
-        cmocka_unit_test(test_maths_agrees_with_libm),cmocka_unit_test(test_random_is_fixed),
-        cmocka_unit_test(test_json_round_trip),    cmocka_unit_test(test_runs_are_identical),
-        cmocka_unit_test(test_pairs_keeps_every_key),cmocka_unit_test(test_find_is_plain),
+        cmocka_unit_test(test_settings),
+        cmocka_unit_test(test_bodies_and_shapes),
+        cmocka_unit_test(test_params_and_sets),
+        cmocka_unit_test(test_camera),
+        cmocka_unit_test(test_timed_handlers),
+        cmocka_unit_test(test_contact_handlers),
+        cmocka_unit_test(test_body_methods),
+        cmocka_unit_test(test_expectations),
+        cmocka_unit_test(test_not_reached),
+        cmocka_unit_test(test_environment),
+        cmocka_unit_test(test_maths_agrees_with_libm),
+        cmocka_unit_test(test_random_is_fixed),
+        cmocka_unit_test(test_json_round_trip),
+        cmocka_unit_test(test_runs_are_identical),
+        cmocka_unit_test(test_pairs_keeps_every_key),
+        cmocka_unit_test(test_find_is_plain),
         cmocka_unit_test(test_any_period_is_a_period),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -58,15 +58,16 @@ static void test_second_order(void **state)
 static void test_who_is_meant(void **state)
 {
     (void)state;
-    scene *s = load("scene{ gravity = {0, 0}, duration = 1 }\n"
-                    "body{ name = 'a1', circle{0.1} }\nbody{ name = 'a2', circle{0.1}, at = {5, 0} }\n"
-                    "body{ name = 'b', circle{0.1}, at = {0, 5} }\n"
-                    "field{ body = 'a*', function(x, y, vx, vy, t, body)\n"
-                    "    return body:name() == 'a1' and 2 or 4 end }\n"
-                    "field{ body = 'a2', function() return 0, 6 end }\n"
-                    "expect{ 'first', body = 'a1', position = {1, 0}, tolerance = 1e-4 }\n"
-                    "expect{ 'second', body = 'a2', position = {7, 3}, tolerance = 1e-4 }\n"
-                    "expect{ 'none', body = 'b', position = {0, 5}, tolerance = 0 }\n");
+    scene *s =
+        load("scene{ gravity = {0, 0}, duration = 1 }\n"
+             "body{ name = 'a1', circle{0.1} }\nbody{ name = 'a2', circle{0.1}, at = {5, 0} }\n"
+             "body{ name = 'b', circle{0.1}, at = {0, 5} }\n"
+             "field{ body = 'a*', function(x, y, vx, vy, t, body)\n"
+             "    return body:name() == 'a1' and 2 or 4 end }\n"
+             "field{ body = 'a2', function() return 0, 6 end }\n"
+             "expect{ 'first', body = 'a1', position = {1, 0}, tolerance = 1e-4 }\n"
+             "expect{ 'second', body = 'a2', position = {7, 3}, tolerance = 1e-4 }\n"
+             "expect{ 'none', body = 'b', position = {0, 5}, tolerance = 0 }\n");
     run(s);
     assert_int_equal(scene_expect_failures(s), 0);
     scene_destroy(s);

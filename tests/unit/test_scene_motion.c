@@ -143,10 +143,8 @@ static void steps_are_split(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(fields_reach_the_world),
-        cmocka_unit_test(json_keeps_it),
-        cmocka_unit_test(handlers_move_bodies),
-        cmocka_unit_test(a_blast_pushes),
+        cmocka_unit_test(fields_reach_the_world), cmocka_unit_test(json_keeps_it),
+        cmocka_unit_test(handlers_move_bodies),   cmocka_unit_test(a_blast_pushes),
         cmocka_unit_test(steps_are_split),
     };
     return cmocka_run_group_tests_name("scene motion", tests, NULL, NULL);

@@ -52,16 +52,16 @@ typedef struct engine_camera {
 
 /// What was opened, with all defaults resolved.
 typedef struct engine_info {
-    const char *name;      ///< the scene's title, or its file's name
-    double duration;       ///< [s] the scene's, the recording's
-    double dt;             ///< [s] of a recording the mean
-    int substeps;          ///< [-]
-    int iterations;        ///< [-]
-    int solver;            ///< index into ENGINE_SOLVERS
-    int width;             ///< SIMD lanes in use
-    bool y_down;           ///< the scene's y axis points down
-    double wrap_x, wrap_y; ///< [m] the world wraps around every so many; 0: not along that axis
-    int exact_count;       ///< closed forms declared
+    const char *name;       ///< the scene's title, or its file's name
+    double duration;        ///< [s] the scene's, the recording's
+    double dt;              ///< [s] of a recording the mean
+    int substeps;           ///< [-]
+    int iterations;         ///< [-]
+    int solver;             ///< index into ENGINE_SOLVERS
+    int width;              ///< SIMD lanes in use
+    bool y_down;            ///< the scene's y axis points down
+    double wrap_x, wrap_y;  ///< [m] the world wraps around every so many; 0: not along that axis
+    int exact_count;        ///< closed forms declared
     const char *exact_unit; ///< of their errors; "" when they have several
     engine_camera camera;
 } engine_info;

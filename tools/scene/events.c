@@ -34,7 +34,10 @@ const char *sc_handler_name(sc_handler_kind kind)
             return kinds[i].name;
         }
     }
-    return kind == SC_FIELD ? "field" : kind == SC_EVERY ? "every" : kind == SC_EVERY_STEP ? "every_step" : "at";
+    return kind == SC_FIELD        ? "field"
+           : kind == SC_EVERY      ? "every"
+           : kind == SC_EVERY_STEP ? "every_step"
+                                   : "at";
 }
 
 static bool has_kind(const scene *s, sc_handler_kind kind)

@@ -46,7 +46,7 @@ static const char *unit_of(const sc_exact_def *d)
     if (HAS(d, measure)) {
         return HAS(d, unit) ? d->unit : "1";
     }
-    return (given & place) != 0                    ? "m"
+    return (given & place) != 0                     ? "m"
            : (given & 1u << SCENE_EXACT_ANGLE) != 0 ? "rad"
            : (given & velocity) != 0                ? "m/s"
                                                     : "rad/s";

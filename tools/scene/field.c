@@ -18,7 +18,8 @@ enum { ROUNDS_MOST = 6 };
 typedef struct moved {
     const sc_handler *handler;
     const sc_body *body;
-    double x, y, vx, vy, angle, spin, time; ///< in the middle of the substep, without what the field does
+    double x, y, vx, vy, angle, spin,
+        time; ///< in the middle of the substep, without what the field does
 } moved;
 
 // A number that the function has returned, `index` from the top; none is 0.

@@ -298,8 +298,8 @@ void sc_grow(scene *s, void *array_of_items, int count, int *capacity, size_t it
 // ---------------------------------------------------------------------------------------- lists
 
 extern const sc_list sc_list_scene, sc_list_material, sc_list_body, sc_list_camera, sc_list_expect,
-    sc_list_exact, sc_list_contact, sc_list_field, sc_list_hit, sc_list_break, sc_list_pair, sc_list_filter,
-    sc_list_motor, sc_list_spring, sc_list_state, sc_list_blast, sc_list_character;
+    sc_list_exact, sc_list_contact, sc_list_field, sc_list_hit, sc_list_break, sc_list_pair,
+    sc_list_filter, sc_list_motor, sc_list_spring, sc_list_state, sc_list_blast, sc_list_character;
 extern const sc_list sc_list_queries[SC_QUERIES];
 extern const sc_list sc_list_shapes[SC_SHAPE_KINDS];
 

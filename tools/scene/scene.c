@@ -259,7 +259,8 @@ static void step_inside(scene *s, void *unused)
         s->steps += left == 1;
         sc_events_after(s);
         if (count > 1) {
-            sc_step_work(s, (uint64_t)s->bodies.count + 10); // the limits hold between the parts, too
+            sc_step_work(s,
+                         (uint64_t)s->bodies.count + 10); // the limits hold between the parts, too
         }
     }
     sc_expect_step(s);
