@@ -354,12 +354,32 @@ static void stiffen(const pl_joint_call *call)
     for (uint32_t k = call->first; k < call->end; ++k) {
         const pl_joint_pattern *p = &call->patterns[call->bundles[k].pattern];
         parts at = open(call, k, p);
+        if (!is_tense(&at, p, call)) {
+            continue;
+        }
         const pull_of_joint pull = pulls(&at, p);
         for (int i = 0; i < PL_WIDTH; ++i) {
             pl_joint_stiffen(&call->bodies[at.a[i]], pull.a[i], (near_real)call->h,
                              at.c->inertia_a[i]);
             pl_joint_stiffen(&call->bodies[at.b[i]], pull.b[i], (near_real)call->h,
                              at.c->inertia_b[i]);
+        }
+    }
+}
+
+// Bundles of which a body has more inertia than when they were filled.
+static void refill(const pl_joint_call *call)
+{
+    for (uint32_t k = call->first; k < call->end; ++k) {
+        const pl_joint_pattern *p = &call->patterns[call->bundles[k].pattern];
+        parts at = open(call, k, p);
+        body a, b;
+        gather_body(&a, call, at.a);
+        gather_body(&b, call, at.b);
+        if (any((a.inv_inertia < at.c->inertia_a) | (b.inv_inertia < at.c->inertia_b))) {
+            at.c->inertia_a = a.inv_inertia;
+            at.c->inertia_b = b.inv_inertia;
+            make_rows(&at, p, &a, &b);
         }
     }
 }
@@ -502,6 +522,7 @@ const pl_joint_kernels PL_WIDE_NAME(pl_joint_kernels) = {
     .record_size = record_size,
     .fill = fill,
     .stiffen = stiffen,
+    .refill = refill,
     .warm_start = warm_start,
     .pull_first = pull_first,
     .pull = pull,

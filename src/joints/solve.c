@@ -256,9 +256,15 @@ static void stiffen_all(const pl_joint_context *c)
 
 void pl_joints_prepare(const pl_joint_context *c)
 {
-    if (begin_all(c)) {
-        stiffen_all(c);
-        begin_all(c);
+    if (!begin_all(c)) {
+        return;
+    }
+    stiffen_all(c);
+    each_bundle(c, pl_joint_kernels_of(c->world)->refill);
+    for (uint32_t i = c->group->alone; i < c->group->end; ++i) {
+        pl_lone one;
+        pl_one_take(c, i, &one);
+        pl_one_rows(c->world, one.joint, one.a, one.b);
     }
 }
 

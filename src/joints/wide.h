@@ -65,6 +65,7 @@ typedef struct pl_joint_kernels {
     size_t (*record_size)(const pl_joint_pattern *pattern); // [B]
     pl_joint_kernel *fill;       // one bundle, from poses, rows and impulses of the joints
     pl_joint_kernel *stiffen;    // bodies of tense joints get more inertia
+    pl_joint_kernel *refill;     // rows for that
     pl_joint_kernel *warm_start; // the impulses that the step begins with
     // One sweep each. First of a substep: what J's turning owes is paid before pulling, rows are made
     // for the new poses before relaxing.

@@ -87,7 +87,7 @@ typedef struct scene_options {
     uint64_t handler_instructions; ///< of one handler call; ten times as many of a step; 0: 1e7
     double build_seconds;          ///< [s] processor time of the build pass; 0: 60
     double handler_seconds;        ///< [s] processor time of all handlers of a step; 0: 10
-    bool no_expect;                ///< expect{} lines are read but never looked at: they stay PENDING
+    bool no_expect; ///< expect{} lines are read but never looked at: they stay PENDING
     /// True ends the script with E_STOPPED; asked every 1000 instructions; null: none.
     bool (*stop)(void *context);
     void *stop_context;
