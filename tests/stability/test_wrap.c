@@ -561,11 +561,12 @@ static void make_walk(scene *s)
 }
 
 // Kinematic and dynamic characters push a crate, climb, and ride a lift across the edge.
+// Until the crate is jammed between one of them and the lift: then rounding decides who slips off the corner.
 static void characters_walk_across_the_edge(void **state)
 {
     (void)state;
     plumb_world_desc x = { .wrap_x = PERIOD };
-    same_at(&x, plumb_v2(INSIDE, 0), plumb_v2(EDGE, 0), make_walk, 215, 1e-3);
+    same_at(&x, plumb_v2(INSIDE, 0), plumb_v2(EDGE, 0), make_walk, 195, 1e-3);
 }
 
 int main(void)
