@@ -349,15 +349,9 @@ static bool let_go(const joint_system *s)
 
 //---- inertia ---------------------------------------------------------------------------------------
 
-// [1/(kg m^2)] of the body at an end, without what joints add.
 static near_real own_inertia(const joint_system *s, uint32_t column, int end)
 {
-    const plumb_world *world = s->context->world;
-    const uint32_t joint =
-        ((const uint32_t *)world->joints.plan.grouped.data)[s->columns[column].joint];
-    const pl_joint_mark *mark = &pl_joint_marks(&world->joints)[joint];
-    const uint32_t row = end == 0 ? mark->row_a : mark->row_b;
-    return row < world->dynamic_count ? (near_real)world->bodies.inv_inertia[row] : 0;
+    return pl_one_own_inertia(s->context->world, s->parts[column].lone.joint, end);
 }
 
 // Adds to what bodies spin by what the joints' impulses make of their inertia, `share` of it.

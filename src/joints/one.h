@@ -14,6 +14,9 @@ typedef struct pl_lone {
 // The i-th joint of all groups. `out` is not to be moved.
 void pl_one_take(const pl_joint_context *c, uint32_t i, pl_lone *out);
 
+// [1/(kg m^2)] of the body at an end (0: A), without what joints add (pl_joint_inertia).
+near_real pl_one_own_inertia(const plumb_world *world, const pl_joint *j, int end);
+
 // J v; velocities += M^-1 J^T impulse; J M^-1 K^T of two rows between the same bodies.
 real pl_one_rate(const pl_row *r, const pl_solver_body *a, const pl_solver_body *b);
 void pl_one_push(const pl_row *r, pl_solver_body *a, pl_solver_body *b, real impulse);

@@ -230,15 +230,16 @@ static bool begin_all(const pl_joint_context *c)
     return b.tense;
 }
 
-static near_real own_inertia(const plumb_world *world, uint32_t row)
+near_real pl_one_own_inertia(const plumb_world *world, const pl_joint *j, int end)
 {
+    const pl_joint_mark *mark = &pl_joint_marks(&world->joints)[j - pl_joint_items(&world->joints)];
+    const uint32_t row = end == 0 ? mark->row_a : mark->row_b;
     return row < world->dynamic_count ? (near_real)world->bodies.inv_inertia[row] : 0;
 }
 
 static void stiffen_all(const pl_joint_context *c)
 {
     const pl_joint_kernels *kernels = pl_joint_kernels_of(c->world);
-    const pl_joint_mark *marks = pl_joint_marks(&c->world->joints);
     const near_real h = (near_real)c->h;
     pl_joint_call call = call_of(c);
     call.first = c->group->color_first[0], call.end = c->group->color_first[PL_JOINT_COLORS];
@@ -248,9 +249,8 @@ static void stiffen_all(const pl_joint_context *c)
         near_real pull[2];
         pl_one_take(c, i, &one);
         pulls_of(one.joint, pull);
-        const pl_joint_mark *mark = &marks[one.joint - pl_joint_items(&c->world->joints)];
-        pl_joint_stiffen(one.a, pull[0], h, own_inertia(c->world, mark->row_a));
-        pl_joint_stiffen(one.b, pull[1], h, own_inertia(c->world, mark->row_b));
+        pl_joint_stiffen(one.a, pull[0], h, pl_one_own_inertia(c->world, one.joint, 0));
+        pl_joint_stiffen(one.b, pull[1], h, pl_one_own_inertia(c->world, one.joint, 1));
     }
 }
 
