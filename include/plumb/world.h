@@ -212,17 +212,20 @@ PLUMB_API int plumb_world_memory(const plumb_world *world, plumb_memory_row *row
 /// there are. O(shapes).
 PLUMB_API int plumb_world_cells(const plumb_world *world, plumb_aabb *cells, int capacity);
 
-/// Mechanical state of all dynamic bodies, summed in double in row order. O(bodies).
+/// Mechanical state of all dynamic bodies, summed in double in row order, and of the springs of joints. Their sum is
+/// kinetic + potential + stored. O(bodies + joints).
 typedef struct plumb_energy {
     double kinetic;          ///< [J] translation and rotation
     double potential;        ///< [J] -m g.x against the origin
+    double stored;           ///< [J] k x^2 / 2 of each joint with a spring that is on (mouse and motor joints too); where
+                             ///< its force is bounded, beyond that force times way
     double momentum_x;       ///< [kg m/s]
     double momentum_y;       ///< [kg m/s]
     double angular_momentum; ///< [kg m^2/s] about the origin
     double mass;             ///< [kg]
 } plumb_energy;
 
-/// Energy and momentum of now; all zero for null. O(dynamic bodies).
+/// Energy and momentum of now; all zero for null. O(dynamic bodies + joints).
 PLUMB_API plumb_energy plumb_world_energy(const plumb_world *world);
 
 #define PLUMB_VARIANTS_MAX 8 ///< of a pass

@@ -1,7 +1,7 @@
 // world.c - a world is made, destroyed, set and summed up.
 //
 // Reads: the descriptor; for stats and energy, the whole state. Writes: the world.
-// Cost: O(1), plumb_world_destroy O(components), plumb_world_energy O(dynamic bodies).
+// Cost: O(1), plumb_world_destroy O(components), plumb_world_energy O(dynamic bodies + joints).
 #include "api/command.h"
 #include "broad/broad.h"
 #include "broad/query_grids.h"
@@ -10,6 +10,7 @@
 #include "effects/effects.h"
 #include "event/event.h"
 #include "internal_edges/internal_edges.h"
+#include "joints/energy.h"
 #include "joints/joint.h"
 #include "narrow/narrow.h"
 #include "plumb/world.h"
@@ -450,5 +451,6 @@ plumb_energy plumb_world_energy(const plumb_world *world)
     for (uint32_t row = asleep; row < asleep + world->asleep_count; ++row) {
         add_energy(world, row, &energy);
     }
+    energy.stored = pl_joints_stored(world);
     return energy;
 }

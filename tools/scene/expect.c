@@ -164,7 +164,7 @@ void sc_expect_begin(scene *s)
         return;
     }
     plumb_energy now = plumb_world_energy(s->world);
-    s->energy_start = now.kinetic + now.potential;
+    s->energy_start = now.kinetic + now.potential + now.stored;
     s->momentum_start[0] = now.momentum_x;
     s->momentum_start[1] = now.momentum_y;
     track_scales(s);

@@ -155,7 +155,7 @@ static void measure_drift(scene *s, sc_expect *e)
     }
     plumb_energy now = plumb_world_energy(s->world);
     if (HAS(d, energy_drift)) {
-        double change = fabs(now.kinetic + now.potential - s->energy_start);
+        double change = fabs(now.kinetic + now.potential + now.stored - s->energy_start);
         at_most(s, e, "", "energy_drift", "1", change == 0 ? 0 : change / s->energy_scale,
                 d->energy_drift);
     }

@@ -198,7 +198,8 @@ static int lua_energy(lua_State *L)
     plumb_energy e = plumb_world_energy(s->world);
     lua_pushnumber(L, e.kinetic);
     lua_pushnumber(L, e.potential);
-    return 2;
+    lua_pushnumber(L, e.stored);
+    return 3;
 }
 
 static int lua_momentum(lua_State *L)
