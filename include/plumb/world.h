@@ -182,6 +182,8 @@ typedef struct plumb_stats {
     uint32_t overflow_count;     ///< contacts that found no colour
     uint32_t pair_rebuilds;      ///< rebuilds of the pair list since the world was made
     uint32_t bounce_count;       ///< impacts resolved with restitution in the last step
+    uint32_t cut_chain_count;    ///< contacts in all that had more impacts in a substep than could be followed: what
+                                 ///< bounce was left to them is lost; the first one is also a warning in the log
     uint32_t arrested_count;     ///< bodies taken out in all, because a step would have left them with a state
                                  ///< that is not finite or beyond 1e12 m or m/s: see plumb_quarantine
     uint32_t fast_count;         ///< bodies that moved so fast in the last step that their way was swept

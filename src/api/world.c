@@ -406,6 +406,7 @@ plumb_stats plumb_world_stats(const plumb_world *world)
         .overflow_count = world->solver.overflow_count,
         .pair_rebuilds = (uint32_t)world->broad.rebuilds,
         .bounce_count = world->solver.bounce_count,
+        .cut_chain_count = world->solver.cut_count,
         .arrested_count = world->arrested_count,
         .fast_count = world->continuous.count,
         .stopped_count = world->continuous.stopped_count,

@@ -13,10 +13,14 @@
 #include "solver/impact_queue.h"
 #include "world/state.h"
 
-// Impacts of one substep that are followed, of each elastic contact; what is left then is solved
-// without bounce. A light ball between two heavy ones strikes many times within a substep; but little of
-// the energy is left then (PL_IMPACT_KEPT): a stirred heap of e = 0.1 strikes ten times a contact.
-#define CHAIN 64
+// Impacts of one substep that are followed, of each elastic contact, as long as energy is left (PL_IMPACT_KEPT: a
+// stirred heap of e = 0.1 strikes ten times a contact). A light ball between two heavy ones strikes thousands of times
+// within a substep, and every one counts; so what contacts need beyond CHAIN they take from SPARE, which all share. What
+// is left when that is used up is solved without bounce, and told: energy is lost then. A kinematic body that moves
+// gives energy with every impact, for ever when it closes a gap: its contacts take nothing from it.
+#define CHAIN   64
+#define SPARE   (1u << 17)
+#define ENDLESS (1u << 30)
 
 static near_real *lane_value(pl_solver *s, const pl_contact_kernels *kernels, size_t lane,
                              size_t offset)
@@ -40,14 +44,21 @@ static __attribute__((noinline)) void note_locks(const plumb_world *world, const
     impact->biy = (near_real)pl_unlocked(flags[m->body_b], PL_BODY_LOCK_Y, imb);
 }
 
+static bool drives(const pl_solver *s, uint32_t slot)
+{
+    const pl_solver_body *b = &pl_solver_bodies(s)[slot];
+    return slot >= s->dynamic_slots && (b->vx != 0 || b->vy != 0 || b->w != 0);
+}
+
+// Impacts of a contact until its energy is spent.
 static uint32_t chain_of(near_real restitution)
 {
     double square = (double)restitution * (double)restitution, left = square;
     uint32_t count = 1;
-    for (; count < CHAIN && left > PL_IMPACT_KEPT; ++count) {
+    for (; count < SPARE && left > PL_IMPACT_KEPT; ++count) {
         left *= square;
     }
-    return count;
+    return count < SPARE ? count : ENDLESS;
 }
 
 // What a manifold's impact needs; where its contact reads separations and keeps impulses is the caller's.
@@ -140,10 +151,21 @@ static void queue_neighbours(plumb_world *world, uint32_t slot, double h)
     }
 }
 
+// One impact of a contact less; the last one where none is to spare.
+static void count_off(pl_solver *s, pl_impact *m)
+{
+    --m->left;
+    if (m->left > 0 && m->chain - m->left >= CHAIN) {
+        m->cut = s->spare_impacts == 0 || drives(s, m->a) || drives(s, m->b);
+        m->left = m->cut ? 0 : m->left;
+        s->spare_impacts -= !m->cut;
+    }
+}
+
 // Resolves an impact that is due, and foresees anew what its bodies meet.
 static void happen(plumb_world *world, pl_impact *m, const pl_approach at[2], double h)
 {
-    --m->left;
+    count_off(&world->solver, m);
     if (pl_bounce_resolve(world, m, at)) {
         pl_pairs(&world->broad.pairs)[m->pair].flags |= PL_PAIR_HIT;
         ++world->solver.bounce_count;
@@ -180,8 +202,10 @@ void pl_impacts_run(plumb_world *world, near_real h)
     for (uint32_t slot = 0; slot < s->slot_count; ++slot) {
         struck[slot] = -h; // none yet; an impact may lie one substep in the past
     }
+    s->spare_impacts = SPARE;
     for (uint32_t i = 0; i < s->impact_count; ++i) {
         impacts[i].left = impacts[i].chain;
+        impacts[i].cut = false;
         pl_bounce_foresee(world, &impacts[i], (double)h, at);
         pl_impact_queue_put(s, i);
     }
@@ -202,16 +226,27 @@ void pl_impacts_run_on(plumb_world *world, near_real h)
     empty_queue(world, (double)h);
 }
 
+static void note_cut(plumb_world *world, uint32_t cut)
+{
+    if (cut > 0 && world->solver.cut_count == 0) {
+        pl_warn(world, "more impacts in a substep at %.6g s than are followed: bounce is lost",
+                world->time);
+    }
+    world->solver.cut_count += cut;
+}
+
 // Points that stay clear of their own accord are none of the sweep's business.
 void pl_impacts_tell(plumb_world *world, near_real h)
 {
     pl_solver *s = &world->solver;
     pl_impact *impacts = s->impacts.data;
-    pl_approach at[2];
+    uint32_t cut = 0;
     for (uint32_t i = 0; i < s->impact_count; ++i) {
         pl_impact *m = &impacts[i];
+        pl_approach at[2] = { { 0 }, { 0 } };
         if (is_upset(s, m, h)) {
             pl_bounce_foresee(world, m, (double)h, at);
+            cut += m->cut && (at[0].due || at[1].due);
         }
         for (uint32_t j = 0; j < m->count; ++j) {
             const pl_impact_point *p = &m->point[j];
@@ -219,4 +254,5 @@ void pl_impacts_tell(plumb_world *world, near_real h)
             *p->lane_separation = p->separation + (off ? PL_APART : 0);
         }
     }
+    note_cut(world, cut);
 }

@@ -29,6 +29,7 @@ typedef struct pl_impact {
     bool clear[2];                // the point stays apart in it
     uint32_t chain;               // impacts of it that are followed in a substep
     uint32_t left;                // impacts that are still followed in the present substep
+    bool cut;                     // no more, though there is energy for more
     double time;                  // [s] of the first one, since the start of the substep
     uint32_t place;               // in the queue (impact_queue.h); PL_NONE: not in it
     uint32_t next[2];             // impact of a, and of b; PL_NONE: no more

@@ -246,9 +246,10 @@ static int collide_one_by_one(double ratio, double *light, double *heavy)
 static void collisions_count_out_pi(void **state)
 {
     (void)state;
-    const pi_case cases[] = {
-        { 1, 3, 60 }, { 100, 31, 60 }, { 100, 31, 1000 }, { 10000, 314, 60 }, { 10000, 314, 240 }
-    };
+    const pi_case cases[] = { { 1, 3, 60 },        { 100, 31, 60 },     { 100, 31, 1000 },
+                              { 10000, 314, 60 },  { 10000, 314, 240 }, { 1e5, 993, 60 },
+                              { 1e6, 3141, 60 },   { 1e6, 3141, 240 },  { 1e8, 31415, 60 },
+                              { 1e8, 31415, 1000 } };
     int wrong = 0;
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; ++k) {
         const pi_case *c = &cases[k];
@@ -278,6 +279,40 @@ static void collisions_count_out_pi(void **state)
         plumb_world_destroy(w);
     }
     assert_int_equal(wrong, 0);
+}
+
+static void count_warnings(void *context, plumb_log_level level, const char *message)
+{
+    (void)message;
+    *(int *)context += level == PLUMB_LOG_WARN;
+}
+
+// 3,141,592 impacts, most of them within a substep: more than are followed.
+static void a_cut_chain_is_told(void **state)
+{
+    (void)state;
+    int warnings = 0;
+    plumb_world *w = NULL;
+    plumb_world_desc desc = { .log = count_warnings,
+                              .hook_context = &warnings,
+                              .zero_gravity = true };
+    assert_int_equal(plumb_world_create(&desc, &w), PLUMB_OK);
+    plumb_material m = sim_material(w, 0, 1);
+    plumb_body wall = sim_body(w, PLUMB_STATIC, -1, 0, 0);
+    sim_add_box(w, wall, 1, 5, m);
+    plumb_body light = slider(w, 1.5, 1, true, m);
+    plumb_body heavy = slider(w, 4, 1e12, true, m);
+    assert_int_equal(plumb_body_set_fixed_rotation(w, light, true), PLUMB_OK);
+    assert_int_equal(plumb_body_set_fixed_rotation(w, heavy, true), PLUMB_OK);
+    sim_launch(w, heavy, -1, 0, 0);
+    sim_run(w, 60, HZ60);
+    assert_int_equal(plumb_world_stats(w).cut_chain_count, 0);
+    sim_run(w, 4 * 60, HZ60);
+    print_message("pi: masses 1 : 1e12: %u cut chains, %d warnings\n",
+                  plumb_world_stats(w).cut_chain_count, warnings);
+    assert_true(plumb_world_stats(w).cut_chain_count > 0);
+    assert_int_equal(warnings, 1);
+    plumb_world_destroy(w);
 }
 
 //---- a rod on the floor --------------------------------------------------------------------------
@@ -350,6 +385,7 @@ int main(void)
         cmocka_unit_test(pair_leaves_as_the_impact_law_says),
         cmocka_unit_test(cradle_passes_on_what_arrives),
         cmocka_unit_test(collisions_count_out_pi),
+        cmocka_unit_test(a_cut_chain_is_told),
         cmocka_unit_test(rod_turns_when_its_end_strikes),
         cmocka_unit_test(impacts_are_counted_where_they_happen),
     };

@@ -91,6 +91,17 @@ static void print_verbose(const scene_run *run, const char *path)
         run->engine->precision, stats.bodies, stats.contacts, stats.max_penetration);
 }
 
+static void print_cut(const scene_run *run, const char *path)
+{
+    const unsigned cut = run->engine->stats(run->stage).cut_chains;
+    if (cut > 0) {
+        printf(
+            "note  %s: %u time%s a contact had more impacts in a substep than are followed: energy "
+            "is lost\n",
+            base_name(path), cut, cut == 1 ? "" : "s");
+    }
+}
+
 static void check_one(const check_args *args, const char *path, tally *sum)
 {
     scene_run run;
@@ -105,6 +116,7 @@ static void check_one(const check_args *args, const char *path, tally *sum)
             print_verbose(&run, path);
         }
         if (code == CLI_OK) {
+            print_cut(&run, path);
             code = judge(&run, path, sum);
         }
         scene_run_close(&run, CLI_OK);

@@ -2,7 +2,6 @@
 -- Velocities before the first blow are turned by 2 atan(sqrt(m / M)) with each pair of blows.
 -- Source: Galperin, Regular and Chaotic Dynamics 8 (2003) 375. Hard: hundreds of blows in one substep where it turns; none
 -- may be left out, or energy is lost.
--- Aim: 1e-6.
 scene { title = "Counting pi: 1 : 1e4", gravity = {0, 0}, duration = 5, description = "Thousands of blows give all energy back." }
 local ratio = 1e4
 local steel = material { friction = 0, restitution = 1 }

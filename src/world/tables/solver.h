@@ -75,7 +75,9 @@ typedef struct pl_solver {
     uint32_t bundle_count; // of cluster 0: all that impacts as events look at
     uint32_t impact_count, due_count;
     bool follows_impacts; // of this step: some are events
+    uint32_t spare_impacts; // of this substep, that contacts may still take (impact.c)
     uint32_t color_count, overflow_count, bounce_count;
+    uint32_t cut_count; // chains of impacts that were not followed to their ends, in all
 } pl_solver;
 
 // Solver slot of a body row.

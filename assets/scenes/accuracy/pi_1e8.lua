@@ -1,0 +1,29 @@
+-- pi_1e8.lua - a block 10^8 times as heavy drives a light one against a wall: pi 10^4 elastic blows turn it back.
+-- Velocities before the first blow are turned by 2 atan(sqrt(m / M)) with each pair of blows.
+-- Source: Galperin, Regular and Chaotic Dynamics 8 (2003) 375. Hard: all of 31,415 blows in two substeps where it turns; none
+-- may be left out, or energy is lost.
+scene { title = "Counting pi: 1 : 1e8", gravity = {0, 0}, duration = 5, description = "Thousands of blows give all energy back." }
+local ratio = 1e8
+local steel = material { friction = 0, restitution = 1 }
+body { name = "wall", type = "static", box { 1, 2 }, at = {-0.5, 0}, material = steel }
+local light = body { name = "light", box { 0.2, 0.2 }, at = {1, 0}, mass = 1, material = steel, fixed_rotation = true,
+        sleep = false, color = 1 }
+local heavy = body { name = "heavy", box { 0.6, 0.6 }, at = {2, 0}, velocity = {-1, 0}, mass = ratio, material = steel,
+        fixed_rotation = true,
+                     sleep = false, color = 2 }
+local u, v, blows = -1, 0, 0 -- of the heavy and the light block, blow by blow
+while true do
+    if u < v then
+        u, v = ((ratio - 1) * u + 2 * v) / (ratio + 1), ((1 - ratio) * v + 2 * ratio * u) / (ratio + 1)
+    elseif v < 0 then
+        v = -v
+    else
+        break
+    end
+    blows = blows + 1
+end
+assert(blows == math.pi * math.sqrt(ratio) // 1)
+exact { "heavy", body = "heavy", vx = function() return u end, at = 5 }
+exact { "energy", at = 5, value = function() return 1 end, measure = function() return energy() / (ratio / 2) end }
+expect { "the heavy block's velocity", exact = "heavy", tolerance = 4.1e-11 }
+expect { "the energy", exact = "energy", tolerance = 8.1e-11 }
