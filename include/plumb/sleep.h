@@ -8,7 +8,9 @@
 /// do not connect. What is pushed out of an overlap or pulled together by a joint is as fast as its
 /// place changes. When all bodies of an island rest, none touches a kinematic body that moves, and none
 /// is carried along by a surface (surface_speed) or moved by the motor of a joint, however slowly,
-/// they fall asleep together: their velocity is 0, their rows go to the partition of sleeping rows,
+/// they fall asleep together. But what floats, an island that touches nothing static or kinematic and is not joined
+/// to such or to the world, drifts on however slowly: it falls asleep below a thousandth of sleep_speed.
+/// Asleep, bodies have velocity 0, their rows are in the partition of sleeping rows,
 /// no pass visits them. They keep their contacts with impulses, which go on being listed
 /// (plumb_world_contacts), and queries and sensors see them. Falling asleep and waking are neither
 /// begin nor end of a contact.

@@ -10,7 +10,9 @@
 // asleep sooner or later for what others do, and only when some body has rested for sleep_time:
 // union-find with path halving (Tarjan 1983) over the bodies that are candidates, by the contacts of
 // this step and the joints. A contact or joint of a candidate with one that is not, or with a
-// kinematic one that moves, holds its island awake; so does what drives it (driven.c).
+// kinematic one that moves, holds its island awake; so does what drives it (driven.c). An island that
+// touches nothing fixed and is joined to nothing fixed floats: nothing would stop it, so it is at rest only if it
+// stands still.
 //
 // What falls asleep is taken out of pair list and manifolds, of which it is the last to see this
 // step, and its rows change partition: nothing after this pass knows of it. Reads: velocities,
@@ -29,6 +31,13 @@
 #include "world/rows.h"
 
 #define LOOKS 8 // [-] for islands, in sleep_time
+
+// [-] of sleep_speed, below which what floats stands still: by default 3 mm a minute.
+#define STILL ((real)1e-3)
+
+// Of a member, in `held`.
+#define HELD     1u // something keeps it awake
+#define ANCHORED 2u // it touches, or is joined to, what is fixed
 
 //---- rest ----------------------------------------------------------------------------------------
 
@@ -222,9 +231,9 @@ static void link_rows(plumb_world *world, uint32_t a, uint32_t b)
     if (member_a && member_b) {
         unite(parents, a, b);
     } else if (member_a && !is_calm(world, b)) {
-        held[a] = 1;
+        held[a] |= HELD;
     } else if (member_b && !is_calm(world, a)) {
-        held[b] = 1;
+        held[b] |= HELD;
     }
 }
 
@@ -233,10 +242,22 @@ static void hold_rows(plumb_world *world, uint32_t a, uint32_t b)
     const uint32_t *parents = world->sleep.parents.data, members = world->dynamic_count;
     uint8_t *held = world->sleep.held.data;
     if (a < members && parents[a] != PL_NONE) {
-        held[a] = 1;
+        held[a] |= HELD;
     }
     if (b < members && parents[b] != PL_NONE) {
-        held[b] = 1;
+        held[b] |= HELD;
+    }
+}
+
+// What is fixed bears or ties a member.
+static void anchor_rows(plumb_world *world, uint32_t a, uint32_t b)
+{
+    const uint32_t *parents = world->sleep.parents.data, members = world->dynamic_count;
+    uint8_t *held = world->sleep.held.data;
+    if (a < members && b >= members && parents[a] != PL_NONE) {
+        held[a] |= ANCHORED;
+    } else if (b < members && a >= members && parents[b] != PL_NONE) {
+        held[b] |= ANCHORED;
     }
 }
 
@@ -254,6 +275,9 @@ static void link_members(plumb_world *world, uint32_t pair_count)
     for (uint32_t i = 0; i < pair_count; ++i) {
         if (is_linked(&pairs[i]) && rows_of(world, &pairs[i], &a, &b)) {
             link_rows(world, a, b);
+            if ((pairs[i].flags & PL_PAIR_TOUCHING) != 0) {
+                anchor_rows(world, a, b);
+            }
             if (pairs[i].manifold < world->narrow.manifold_count &&
                 pl_sleep_is_carried(world, &m[pairs[i].manifold])) {
                 hold_rows(world, a, b);
@@ -265,6 +289,7 @@ static void link_members(plumb_world *world, uint32_t pair_count)
         const pl_joint *j = pl_joint_awake(&world->joints, i);
         a = row_of(world, j->a.body), b = row_of(world, j->b.body);
         link_rows(world, a, b);
+        anchor_rows(world, a, b);
         if (pl_sleep_is_driven(world, j)) {
             hold_rows(world, a, b);
         }
@@ -300,6 +325,31 @@ static uint32_t leave_out_pushed_by_characters(plumb_world *world)
     return count;
 }
 
+static bool stands_still(const plumb_world *world, uint32_t row)
+{
+    const pl_bodies *b = &world->bodies;
+    return square(b->vx[row]) + square(b->vy[row]) + square(b->w[row] * b->extent[row]) <=
+           square(STILL * world->desc.sleep_speed);
+}
+
+// What keeps a member awake keeps its island; what floats is kept by its own motion.
+static void hold_islands(plumb_world *world)
+{
+    const uint32_t *parents = world->sleep.parents.data;
+    uint8_t *held = world->sleep.held.data;
+    for (uint32_t row = 0; row < world->dynamic_count; ++row) {
+        if (parents[row] != PL_NONE) {
+            held[parents[row]] |= held[row];
+        }
+    }
+    for (uint32_t row = 0; row < world->dynamic_count; ++row) {
+        if (parents[row] != PL_NONE && !(held[parents[row]] & ANCHORED) &&
+            !stands_still(world, row)) {
+            held[parents[row]] |= HELD;
+        }
+    }
+}
+
 // Leaves parents only to the bodies that fall asleep; returns how many they are.
 static uint32_t find_sleepers(plumb_world *world, uint32_t pair_count)
 {
@@ -319,14 +369,10 @@ static uint32_t find_sleepers(plumb_world *world, uint32_t pair_count)
     }
     count = 0;
     link_members(world, pair_count);
-    for (uint32_t row = 0; row < world->dynamic_count; ++row) {
-        if (held[row]) {
-            held[parents[row]] = 1;
-        }
-    }
+    hold_islands(world);
     for (uint32_t row = 0; row < world->dynamic_count; ++row) {
         if (parents[row] != PL_NONE) {
-            parents[row] = held[parents[row]] ? PL_NONE : parents[row];
+            parents[row] = held[parents[row]] & HELD ? PL_NONE : parents[row];
             count += parents[row] != PL_NONE;
         }
     }

@@ -178,6 +178,35 @@ static void motion_above_the_threshold_goes_on(void **state)
     }
 }
 
+// What touches nothing fixed goes on, however slowly; a wall that it passes at a distance does not hold it.
+static void what_floats_drifts(void **state)
+{
+    (void)state;
+    const double speeds[] = { 0.04, 0.001 };
+    for (int i = 0; i < 2; ++i) {
+        const double v = speeds[i];
+        plumb_world *w = sim_space();
+        plumb_material ice = sim_material(w, 0, 0);
+        plumb_body wall = sim_body(w, PLUMB_STATIC, 0, -1.51, 0);
+        sim_add_box(w, wall, 20, 1, ice);
+        plumb_body puck = sim_ball(w, 0, 0, 0.5, ice), pair[2], top = sim_ball(w, 10, 20, 0.5, ice);
+        plumb_body still = sim_ball(w, 20, 20, 0.5, ice);
+        for (int k = 0; k < 2; ++k) { // side by side
+            pair[k] = sim_ball(w, k, 10, 0.5, ice);
+            sim_launch(w, pair[k], 0, v, 0);
+        }
+        sim_launch(w, puck, v, 0, 0);
+        sim_launch(w, top, 0, 0, v);
+        sim_run(w, 60 * 10, HZ60);
+        assert_near(sim_x(w, puck), 10 * v, 1e-5);
+        assert_near(sim_y(w, pair[0]), 10 + 10 * v, 1e-5);
+        assert_near(sim_y(w, pair[1]), 10 + 10 * v, 1e-5);
+        assert_near(sim_angle(w, top), 10 * v, 1e-5);
+        assert_false(plumb_body_is_awake(w, still));
+        plumb_world_destroy(w);
+    }
+}
+
 // On a kinematic body that turns, or moves: awake. On one that stands: asleep, and awake with it.
 static void moving_ground_keeps_awake(void **state)
 {
@@ -549,6 +578,7 @@ int main(void)
         cmocka_unit_test(turning_points_are_no_rest),
         cmocka_unit_test(what_accelerates_slowly_is_no_rest),
         cmocka_unit_test(motion_above_the_threshold_goes_on),
+        cmocka_unit_test(what_floats_drifts),
         cmocka_unit_test(moving_ground_keeps_awake),
         cmocka_unit_test(what_is_driven_slowly_goes_on),
         cmocka_unit_test(corrections_are_motion),
