@@ -195,6 +195,37 @@ scene_code scene_exact_error(scene *s, int i, double *error, scene_error *err)
     return protect(s, error_inside, &(evaluation){ i, scene_time(s), error }, err);
 }
 
+static void truth_inside(scene *s, void *argument)
+{
+    const evaluation *e = argument;
+    const sc_exact_def d = s->exacts[e->index].def;
+    unsigned given = given_of(&d);
+    double all[SCENE_EXACT_COUNT] = { 0 };
+    if (HAS(&d, measure)) {
+        e->values[0] = ask(s, e->index, d.value, e->t);
+        return;
+    }
+    evaluate(s, &(evaluation){ e->index, e->t, all });
+    for (int q = 0; q < SCENE_EXACT_COUNT; q++) {
+        all[q] = (given >> q & 1u) != 0 ? all[q] : 0;
+    }
+    bool moves = (given & velocity) != 0, turns = (given & 1u << SCENE_EXACT_ANGLE) != 0;
+    int first = (given & place) != 0 ? SCENE_EXACT_X
+                : turns              ? SCENE_EXACT_ANGLE
+                : moves              ? SCENE_EXACT_VX
+                                     : SCENE_EXACT_SPIN;
+    e->values[0] = all[first];
+    e->values[1] = first == SCENE_EXACT_X || first == SCENE_EXACT_VX ? all[first + 1] : 0;
+}
+
+scene_code scene_exact_truth(scene *s, int i, double truth[2], bool *scaled, scene_error *err)
+{
+    const sc_exact_def d = s->exacts[i].def;
+    truth[0] = truth[1] = 0;
+    *scaled = HAS(&d, scale);
+    return protect(s, truth_inside, &(evaluation){ i, scene_time(s), truth }, err);
+}
+
 // ---------------------------------------------------------------------------------- registering
 
 static void check_exact(scene *s, const sc_site *site, const sc_exact_def *d)

@@ -248,6 +248,9 @@ scene_exact scene_exact_get(const scene *s, int i);
 /// Values of the closed form at time t [s]: SI units and radians; those not given are NaN.
 scene_code scene_exact_eval(scene *s, int i, double t, double values[SCENE_EXACT_COUNT],
                             scene_error *err);
+/// What the form says now, of a body what counts of it: its place, else angle, velocity, spin (the second is 0 where
+/// there is but one); of what the script measures its value. `scaled`: the error is over a scale of the author's.
+scene_code scene_exact_truth(scene *s, int i, double truth[2], bool *scaled, scene_error *err);
 /// How far the world is from the form now, in its unit, over its scale: of a body the distance of the place; of forms
 /// without a place of the angle, else of the velocity, else of the spin. -1 when the form says nothing of now.
 scene_code scene_exact_error(scene *s, int i, double *error, scene_error *err);
