@@ -101,10 +101,6 @@ static const struct {
     { "render good.lua -o a.gif --from 2 --to 1", "--to 1 lies before --from 2" },
     { "render good.lua -o a.png --follow bll",
       "option --follow: no body of 'drop' is named 'bll'" },
-    { "cost good.lua --substeps 1,x", "is not a list of whole numbers such as 1,2,4" },
-    { "cost good.lua --substeps 1,,2", "is not a list of whole numbers" },
-    { "cost good.lua --solvers soft,pg", "did you mean 'pgs'?" },
-    { "cost good.lua --repeat 0", "--repeat: 0 is outside 1 to 1000" },
     { "convert good.lua a.txt", "does not end in .json" },
     { "list sovlers", "did you mean 'solvers'?" },
 };
@@ -283,25 +279,6 @@ static void failed_expectations_are_code_4(void **state)
     assert_non_null(strstr(out, "0 ok, 2 failed"));
 }
 
-static void cost_measures_and_judges(void **state)
-{
-    (void)state;
-    expect_code("\"$P\" cost exact.lua --substeps 1,4 --repeat 1 --csv", 0);
-    assert_int_equal(count_lines(out), 1 + 2 * 2 * 2);
-    assert_non_null(strstr(out, "solver,substeps,precision,cpu [s/s],error [m],"));
-    assert_non_null(strstr(out, "soft,4,double,"));
-    expect_code("\"$P\" cost exact.lua --substeps 4 --solvers soft --repeat 1", 0);
-    assert_non_null(strstr(out, "closed form"));
-    assert_int_equal(strncmp(strstr(out, "overlap m\n"), "overlap m\n*", 11), 0);
-    expect_code("\"$P\" cost good.lua --substeps 2 --solvers soft --precisions float --repeat 1",
-                0);
-    assert_non_null(strstr(out, "own finest setting"));
-    expect_code("\"$P\" cost exact.lua --substeps 2 --repeat 1 --tolerance 10", 0);
-    assert_non_null(strstr(out, "cheapest within 10 m: --solver "));
-    expect_code("\"$P\" cost good.lua --substeps 1 --repeat 1 --tolerance 0", 4);
-    assert_non_null(strstr(out, "no setting stays within 0 m"));
-}
-
 // --set takes a value as a scene would write it, and is held by the bounds of the scene.
 static void set_takes_what_scenes_say(void **state)
 {
@@ -436,7 +413,6 @@ int main(void)
         cmocka_unit_test(what_ran_is_explained),
         cmocka_unit_test(what_a_scene_prints_is_no_data),
         cmocka_unit_test(failed_expectations_are_code_4),
-        cmocka_unit_test(cost_measures_and_judges),
     };
     return cmocka_run_group_tests(tests, set_up, clean_up);
 }

@@ -11,11 +11,11 @@
 #include <stdlib.h>
 #include <time.h>
 
-/// A body at a moment, found again by its name.
-struct cost_point {
-    unsigned long long name; ///< hash
-    double x, y;             ///< [m]
-};
+/// Moments of a run at which places are compared.
+enum { COMPARED_MOMENTS = 200 };
+/// [s] runs shorter than that are timed several times in a row: the clock's own noise is some microseconds.
+static const double SHORT_RUN = 2e-3;
+enum { SHORT_RUNS = 5 };
 
 static double cpu_now(void)
 {
@@ -24,119 +24,104 @@ static double cpu_now(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-double cost_work(double steps, int substeps)
-{
-    return steps * (substeps + 2);
-}
-
-/// FNV-1a, 64 bits: http://www.isthe.com/chongo/tech/comp/fnv/
-static unsigned long long hash_name(const char *name)
-{
-    unsigned long long hash = 14695981039346656037ull;
-    for (; *name != '\0'; name++) {
-        hash = (hash ^ (unsigned char)*name) * 1099511628211ull;
-    }
-    return hash;
-}
-
-void cost_track_free(cost_track *track)
-{
-    free(track->points);
-    free(track->ends);
-    *track = (cost_track){ 0 };
-}
-
-/// Appends the moving bodies as they are now. False: out of memory.
-static bool track_add(cost_track *track, const scene_run *run)
-{
-    const engine_row *rows;
-    int count = run->engine->rows(run->stage, &rows);
-    if (count < 0) {
-        return false;
-    }
-    if (track->count + (size_t)count > track->room) {
-        size_t room = 2 * (track->count + (size_t)count);
-        struct cost_point *grown = realloc(track->points, room * sizeof *grown);
-        if (grown == NULL) {
-            return false;
-        }
-        track->points = grown;
-        track->room = room;
-    }
-    if (track->moments == track->moment_room) {
-        int room = 2 * track->moment_room + 64;
-        size_t *grown = realloc(track->ends, (size_t)room * sizeof *grown);
-        if (grown == NULL) {
-            return false;
-        }
-        track->ends = grown;
-        track->moment_room = room;
-    }
-    for (int i = 0; i < count; i++) {
-        if (rows[i].moves) {
-            track->points[track->count++] =
-                (struct cost_point){ hash_name(rows[i].name), rows[i].x, rows[i].y };
-        }
-    }
-    track->ends[track->moments++] = track->count;
-    return true;
-}
-
-/// The largest distance of two tracks; -1 when no body is in both. A body that only one of them
-/// still has cannot be compared.
-static double track_distance(const cost_track *a, const cost_track *b)
-{
-    double worst = -1;
-    int moments = a->moments < b->moments ? a->moments : b->moments;
-    for (int m = 0; m < moments; m++) {
-        size_t a_begin = m > 0 ? a->ends[m - 1] : 0, b_begin = m > 0 ? b->ends[m - 1] : 0;
-        size_t b_count = b->ends[m] - b_begin;
-        for (size_t i = a_begin; i < a->ends[m]; i++) {
-            // Bodies come in the same order; the search goes far only after one has vanished.
-            for (size_t k = 0; k < b_count; k++) {
-                const struct cost_point *p = &a->points[i];
-                const struct cost_point *q = &b->points[b_begin + (i - a_begin + k) % b_count];
-                if (p->name == q->name) {
-                    worst = fmax(worst, hypot(p->x - q->x, p->y - q->y));
-                    break;
-                }
-            }
-        }
-    }
-    return worst;
-}
-
-static int open_row(const cost_plan *plan, int solver, int substeps, int precision, double dt,
-                    scene_run *run)
+int cost_open(const cost_plan *plan, const cost_setting *set, scene_run *run)
 {
     scene_args args = *plan->args;
-    args.solver = solver;
-    args.substeps = substeps;
-    args.precision = precision;
-    args.dt = dt;
+    args.engine = plan->sides[set->side].engine;
+    args.solver = set->solver;
+    args.substeps = set->substeps;
+    args.iterations = set->iterations;
+    args.precision = set->precision;
+    args.dt = set->dt;
+    args.time = plan->time;
     args.no_expect = true; // looking at them is none of the scene's work
     return scene_run_open(&args, plan->path, run);
 }
 
-/// Compares with the closed form now.
-static int feed_exact(scene_run *run, cost_row *row)
+int cost_moments(const cost_plan *plan)
 {
-    engine_error error = { 0 };
-    double distance;
-    int code = run->engine->exact(run->session, &distance, &error);
-    if (code != CLI_OK) {
-        return scene_report(&error);
+    double steps = ceil(plan->time / plan->dt - 1e-6);
+    return steps < COMPARED_MOMENTS ? (int)steps : COMPARED_MOMENTS;
+}
+
+/// What is taken down on the way.
+typedef struct watch {
+    const cost_plan *plan;
+    cost_row *row;     ///< errors of closed forms and the depth of overlaps; null: none
+    cost_track *track; ///< places; null: none
+    double sums[4];    ///< of the totals from the horizon on
+    int sum_count;
+    int moment; ///< the next one of cost_moments
+} watch;
+
+static int part_of(const cost_plan *plan, double elapsed)
+{
+    int part = (int)(elapsed / plan->time * COST_PARTS - 1e-9);
+    return part < 0 ? 0 : part < COST_PARTS ? part : COST_PARTS - 1;
+}
+
+static void note_error(const cost_plan *plan, cost_row *row, int q, double elapsed, double error)
+{
+    double *part = &row->part[q][part_of(plan, elapsed)];
+    row->error[q] = fmax(row->error[q], error);
+    *part = fmax(*part, error);
+}
+
+static int look_at_forms(watch *w, scene_run *run, double elapsed)
+{
+    for (int q = 0; q < w->plan->quantity_count; q++) {
+        const cost_quantity *quantity = &w->plan->quantities[q];
+        engine_error error = { 0 };
+        double distance = -1;
+        if (quantity->kind != COST_FORM || elapsed > quantity->till) {
+            continue;
+        }
+        int code = run->engine->form_error(run->session, quantity->form, &distance, &error);
+        if (code != CLI_OK) {
+            return scene_report(&error);
+        }
+        if (isnan(distance)) {
+            return CLI_DIVERGED;
+        }
+        if (distance >= 0) {
+            note_error(w->plan, w->row, q, elapsed, distance);
+        }
     }
-    row->error = fmax(row->error, distance);
     return CLI_OK;
 }
 
-/// Runs to the end, sampling every `sample` steps into `track` (may be null), the closed form at
-/// each into `row` (may be null). CLI_DIVERGED comes without a message.
-static int follow(cost_plan *plan, scene_run *run, long long sample, int substeps,
-                  cost_track *track, cost_row *row)
+static int look(watch *w, scene_run *run, double elapsed)
 {
-    double before = plan->work;
+    int code = CLI_OK;
+    if (w->row != NULL) {
+        // A closed form is cheap to ask and may be missed between moments: asked at every step.
+        w->row->penetration =
+            fmax(w->row->penetration, run->engine->stats(run->stage).max_penetration);
+        code = look_at_forms(w, run, elapsed);
+    }
+    double next = w->plan->time * (w->moment + 1) / cost_moments(w->plan);
+    if (code != CLI_OK || elapsed < next - run->info.dt / 2) {
+        return code;
+    }
+    w->moment++;
+    if (w->track != NULL && !cost_track_add(w->track, run)) {
+        cli_message("out of memory");
+        return CLI_FAILED;
+    }
+    if (elapsed > w->plan->horizon) {
+        engine_totals now = run->engine->totals(run->stage);
+        const double values[4] = { now.x, now.y, now.spread, now.energy };
+        for (int k = 0; k < 4; k++) {
+            w->sums[k] += values[k];
+        }
+        w->sum_count++;
+    }
+    return code;
+}
+
+/// Runs to the end. CLI_DIVERGED comes without a message.
+static int watch_run(cost_plan *plan, scene_run *run, watch *w)
+{
     int code = CLI_OK;
     for (long long step = 1; step <= run->steps && code == CLI_OK; step++) {
         engine_error error = { 0 };
@@ -155,97 +140,165 @@ static int follow(cost_plan *plan, scene_run *run, long long sample, int substep
         if (run->engine->ended(run->session)) {
             break;
         }
-        if (row != NULL) {
-            row->penetration =
-                fmax(row->penetration, run->engine->stats(run->stage).max_penetration);
-        }
-        if (step % sample == 0 || step == run->steps) {
-            if (track != NULL && !track_add(track, run)) {
-                cli_message("out of memory");
-                return CLI_FAILED;
-            }
-            if (row != NULL && plan->has_exact) {
-                code = feed_exact(run, row);
-            }
-        }
-        plan->work = before + cost_work((double)step, substeps);
-        progress_update(&plan->bar, plan->work);
+        code = look(w, run, (double)step * run->info.dt);
     }
     return code;
 }
 
-static int refer_once(cost_plan *plan, int finer, cost_track *track)
+int cost_follow(cost_plan *plan, const cost_setting *set, double nudge, unsigned seed,
+                cost_track *track)
 {
     scene_run run;
-    const int soft = 0, is_double = 1;
-    int code = open_row(plan, soft, plan->reference_substeps, is_double, plan->dt / finer, &run);
+    watch w = { .plan = plan, .track = track };
+    int code = cost_open(plan, set, &run);
     if (code != CLI_OK) {
         return code;
     }
-    run.steps = plan->steps * finer;
-    code = follow(plan, &run, plan->sample_steps * finer, plan->reference_substeps, track, NULL);
-    if (code == CLI_DIVERGED) {
-        progress_end(&plan->bar);
-        cli_message("%s: the reference (soft, double, %d substeps, steps of %.3g s) diverged",
-                    run.info.name, plan->reference_substeps, plan->dt / finer);
+    if (nudge > 0) {
+        run.engine->nudge(run.session, nudge, seed);
     }
-    return scene_run_close(&run, code);
+    return scene_run_close(&run, watch_run(plan, &run, &w));
 }
 
-int cost_refer(cost_plan *plan)
+/// [m] a start of an ensemble is moved by so much: far above rounding, far below what matters.
+static const double ENSEMBLE_NUDGE = 1e-6;
+
+int cost_ensemble(cost_plan *plan, const cost_setting *set, double mean[4], double error[4])
 {
-    cost_track coarse = { 0 };
-    int code = refer_once(plan, COST_REFERENCE_FINER, &plan->reference);
-    code = code == CLI_OK ? refer_once(plan, COST_REFERENCE_FINER / 2, &coarse) : code;
-    if (code == CLI_OK) {
-        plan->reference_error = track_distance(&plan->reference, &coarse);
+    double sums[4] = { 0 }, squares[4] = { 0 };
+    for (unsigned member = 0; member < COST_MEMBERS; member++) {
+        scene_run run;
+        watch w = { .plan = plan };
+        int code = cost_open(plan, set, &run);
+        if (code != CLI_OK) {
+            return code;
+        }
+        if (member > 0) {
+            run.engine->nudge(run.session, ENSEMBLE_NUDGE, member);
+        }
+        code = scene_run_close(&run, watch_run(plan, &run, &w));
+        if (code != CLI_OK) {
+            return code;
+        }
+        for (int k = 0; k < 4; k++) {
+            double value = w.sum_count > 0 ? w.sums[k] / w.sum_count : 0;
+            sums[k] += value;
+            squares[k] += value * value;
+        }
     }
-    cost_track_free(&coarse);
+    for (int k = 0; k < 4; k++) {
+        mean[k] = sums[k] / COST_MEMBERS;
+        double variance = fmax(squares[k] / COST_MEMBERS - mean[k] * mean[k], 0);
+        error[k] = sqrt(variance / (COST_MEMBERS - 1));
+    }
+    return CLI_OK;
+}
+
+/// Compares the ensemble of a row with that of the reference.
+static int measure_ensemble(cost_plan *plan, cost_row *row)
+{
+    double mean[4], error[4];
+    const double *truth = plan->means;
+    int code = cost_ensemble(plan, &row->set, mean, error);
+    for (int q = 0; q < plan->quantity_count && code == CLI_OK; q++) {
+        int kind = plan->quantities[q].kind;
+        if (kind == COST_CENTRE) {
+            row->error[q] = hypot(mean[0] - truth[0], mean[1] - truth[1]);
+            row->noise[q] = hypot(hypot(error[0], error[1]), hypot(truth[4], truth[5]));
+        } else if (kind == COST_SPREAD || kind == COST_ENERGY) {
+            int k = kind == COST_SPREAD ? 2 : 3;
+            row->error[q] = fabs(mean[k] - truth[k]);
+            row->noise[q] = hypot(error[k], truth[4 + k]);
+        }
+    }
     return code;
+}
+
+static void measure_places(const cost_plan *plan, const cost_track *track, cost_row *row)
+{
+    for (int q = 0; q < plan->quantity_count; q++) {
+        for (int m = 0; m < cost_track_moments(track) && plan->quantities[q].kind == COST_PLACES;
+             m++) {
+            double elapsed = plan->time * (m + 1) / cost_moments(plan);
+            double distance = cost_track_distance(plan->reference, track, m);
+            if (elapsed <= plan->horizon + 1e-9 && distance >= 0) {
+                note_error(plan, row, q, elapsed, distance);
+            }
+        }
+    }
 }
 
 int cost_measure(cost_plan *plan, cost_row *row)
 {
     scene_run run;
-    cost_track track = { 0 };
-
-    row->error = -1;
-    int code = open_row(plan, row->solver, row->substeps, row->precision, plan->dt, &run);
-    if (code != CLI_OK) {
-        return code;
+    for (int q = 0; q < plan->quantity_count; q++) {
+        row->error[q] = -1;
+        for (int k = 0; k < COST_PARTS; k++) {
+            row->part[q][k] = -1;
+        }
     }
-    run.steps = plan->steps;
-    // The closed form is cheap to ask and may be missed between moments: ask at every step.
-    code = follow(plan, &run, plan->has_exact ? 1 : plan->sample_steps, row->substeps,
-                  plan->has_exact ? NULL : &track, row);
+    watch w = { .plan = plan, .row = row, .track = plan->has_exact ? NULL : cost_track_new() };
+    if (w.track == NULL && !plan->has_exact) {
+        cli_message("out of memory");
+        return CLI_FAILED;
+    }
+    int code = cost_open(plan, &row->set, &run);
+    if (code == CLI_OK) {
+        code = scene_run_close(&run, watch_run(plan, &run, &w));
+    }
+    if (code == CLI_OK && w.track != NULL) {
+        measure_places(plan, w.track, row);
+        code = plan->horizon < plan->time ? measure_ensemble(plan, row) : CLI_OK;
+    }
+    cost_track_free(w.track);
     row->diverged = code == CLI_DIVERGED;
-    if (code == CLI_OK && !plan->has_exact) {
-        row->error = track_distance(&plan->reference, &track);
+    return row->diverged ? CLI_OK : code;
+}
+
+static int by_value(const void *a, const void *b)
+{
+    double p = *(const double *)a, q = *(const double *)b;
+    return p < q ? -1 : p > q;
+}
+
+/// Keeps a time; the least and the median follow.
+static void add_sample(cost_row *row, double cpu)
+{
+    double sorted[COST_SAMPLES_MAX];
+    int place = row->sample_count < COST_SAMPLES_MAX ? row->sample_count++ : COST_SAMPLES_MAX - 1;
+    row->samples[place] = cpu;
+    for (int i = 0; i < row->sample_count; i++) {
+        sorted[i] = row->samples[i];
     }
-    cost_track_free(&track);
-    return scene_run_close(&run, row->diverged ? CLI_OK : code);
+    qsort(sorted, (size_t)row->sample_count, sizeof sorted[0], by_value);
+    row->cpu = row->sample_count == 1 ? cpu : fmin(row->cpu, cpu);
+    row->jitter = sorted[row->sample_count / 2] - row->cpu;
 }
 
 int cost_time(cost_plan *plan, cost_row *row)
 {
-    scene_run run;
-    engine_error error = { 0 };
-    int code = open_row(plan, row->solver, row->substeps, row->precision, plan->dt, &run);
-    if (code != CLI_OK) {
-        return code;
+    double spent = 0, least = HUGE_VAL;
+    for (int i = 0; i < SHORT_RUNS && spent < SHORT_RUN; i++) {
+        scene_run run;
+        engine_error error = { 0 };
+        int code = cost_open(plan, &row->set, &run);
+        if (code != CLI_OK) {
+            return code;
+        }
+        double begin = cpu_now();
+        long long step = 0;
+        for (; step < run.steps && code == CLI_OK && !run.engine->ended(run.session); step++) {
+            code = run.engine->step(run.session, &error);
+        }
+        double cpu = cpu_now() - begin;
+        if (code != CLI_OK) {
+            progress_end(&plan->bar);
+            return scene_run_close(&run, scene_report(&error));
+        }
+        spent += cpu;
+        least = fmin(least, cpu / ((double)(step > 0 ? step : 1) * run.info.dt));
+        scene_run_close(&run, CLI_OK);
     }
-    double begin = cpu_now();
-    long long step = 0;
-    for (; step < plan->steps && code == CLI_OK && !run.engine->ended(run.session); step++) {
-        code = run.engine->step(run.session, &error);
-    }
-    double cpu = (cpu_now() - begin) / ((double)step * plan->dt);
-    if (code != CLI_OK) {
-        progress_end(&plan->bar);
-        return scene_run_close(&run, scene_report(&error));
-    }
-    row->cpu = fmin(row->cpu, cpu);
-    plan->work += cost_work((double)plan->steps, row->substeps);
-    progress_update(&plan->bar, plan->work);
-    return scene_run_close(&run, CLI_OK);
+    add_sample(row, least);
+    return CLI_OK;
 }

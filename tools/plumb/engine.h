@@ -77,6 +77,23 @@ typedef struct engine_row {
     int palette;      ///< colour in which it is drawn
 } engine_row;
 
+/// One closed form of a scene.
+typedef struct engine_form {
+    const char *name; ///< "" if none
+    const char *unit; ///< of its error
+    bool is_motion;   ///< of a body, not of what the script measures
+    bool is_place;    ///< of where it is or how it is turned: the way counts, not the value
+    bool is_scaled;   ///< the author divides by a scale of his own
+    double value[2];  ///< what it says now: place, angle, velocity, spin, or value
+} engine_form;
+
+/// What all dynamic bodies are together.
+typedef struct engine_totals {
+    double x, y;   ///< [m] centre of mass
+    double spread; ///< [m] root of the mean square distance from it
+    double energy; ///< [J] kinetic and potential
+} engine_totals;
+
 /// One expectation after engine_api.finish.
 typedef struct engine_expect {
     const char *name;
@@ -194,6 +211,12 @@ typedef struct engine_api {
     int (*finish)(engine_session *session, engine_error *error);
     /// How far the worst of the closed forms is from the truth now, in info.exact_unit. -1 when no form holds now.
     int (*exact)(engine_session *session, double *distance, engine_error *error);
+    /// How far the world is from form `i` now, in the form's unit; -1 when it says nothing of now.
+    int (*form_error)(engine_session *session, int i, double *distance, engine_error *error);
+    /// The form itself, and what it says now.
+    int (*form)(engine_session *session, int i, engine_form *form, engine_error *error);
+    /// Moves dynamic bodies that are awake by `distance` [m], each in a direction of its own that follows from `seed`.
+    void (*nudge)(engine_session *session, double distance, unsigned seed);
     /// -1: out of memory.
     int (*expectations)(engine_session *session, const engine_expect **list);
     /// -1: out of memory.
@@ -214,6 +237,7 @@ typedef struct engine_api {
     engine_info (*info)(const engine_stage *stage);
     double (*time)(const engine_stage *stage); ///< [s] simulated
     engine_stats (*stats)(const engine_stage *stage);
+    engine_totals (*totals)(const engine_stage *stage);
     /// The scene's counters and text in one line, "" if none.
     const char *(*text)(const engine_stage *stage);
     /// All bodies in the order in which they were made; of a recording by handle, which is the same as

@@ -91,6 +91,10 @@ void pl_stage_close(engine_stage *stage);
 
 /// The functions of engine_api that are not in engine.c, by the names they have there.
 int pl_session_exact(engine_session *session, double *distance, engine_error *error);
+int pl_session_form_error(engine_session *session, int i, double *distance, engine_error *error);
+int pl_session_form(engine_session *session, int i, engine_form *form, engine_error *error);
+void pl_session_nudge(engine_session *session, double distance, unsigned seed);
+engine_totals pl_stage_totals(const engine_stage *stage);
 int pl_session_expectations(engine_session *session, const engine_expect **list);
 int pl_session_overlaps(engine_session *session, const engine_overlap **list);
 int pl_session_passes(engine_session *session, const engine_pass **list);

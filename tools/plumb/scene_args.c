@@ -68,7 +68,7 @@ int scene_run_open(const scene_args *args, const char *path, scene_run *run)
     engine_error error = { 0 };
 
     const engine_api *const engines[] = { &engine_float, &engine_double, &engine_far };
-    *run = (scene_run){ .engine = engines[args->precision] };
+    *run = (scene_run){ .engine = args->engine != NULL ? args->engine : engines[args->precision] };
     if (run->engine == NULL) {
         cli_message(CLI_LACKS_PRECISION);
         return CLI_FAILED;
