@@ -24,6 +24,8 @@ static const struct {
     { "--budget nan", "'nan' is not a number" },
     { "--tolerance -1", "--tolerance: -1 is outside 0 to 1000000000" },
     { "--tolerance 1e-3m", "'1e-3m' is not a number" },
+    { "--chart a.pdf", "option --chart: 'a.pdf' does not end in .svg or .png" },
+    { "--chart .svg", "does not end in .svg or .png" },
     { "--tolerence 1", "did you mean '--tolerance'?" },
     { "--quantity hieght", "measures no 'hieght'; did you mean 'height'?" },
     { "--quantity xyzzy", "measures no 'xyzzy'; the first quantity is 'height'" },
@@ -131,6 +133,44 @@ static void what_diverges_is_no_truth(void **state)
                "scene { duration = 0.3 }\nlocal b = body { name = 'b', circle { 1 } }\n"
                "every_step(function() b:apply_force(1e38, 0) end)\n");
     expect_error("\"$P\" cost burst.lua --repeat 1 --budget 1e-3", 5, "diverged");
+}
+
+// A name that gnuplot would take for commands or signs is only a name.
+static void charts_are_drawn(void **state)
+{
+    (void)state;
+    expect_error("PATH=/nowhere \"$P\" cost exact.lua --substeps 4 --repeat 1 --chart a.svg", 1,
+                 "cannot draw 'a.svg': the program gnuplot is not on PATH; install the package "
+                 "gnuplot-nox");
+    if (shell("command -v gnuplot") != 0) {
+        return; // what it draws can be seen only where it is
+    }
+    write_text("named.lua",
+               "scene { title = 'it\\'s {/=99 a} ^name_ \\\\', duration = 0.2 }\n"
+               "body { name = 'b', circle { 1 } }\n"
+               "exact { '`ls` \\\\n{y}', body = 'b', y = function(t) return -5 * t * t end }\n"
+               "exact { 'none', body = 'b', from = 9, y = function(t) return 0 end }\n");
+    static const char *const scenes[] = { "exact.lua", "good.lua", "named.lua" };
+    for (int i = 0; i < 3; i++) {
+        char line[256];
+        snprintf(line, sizeof line, "\"$P\" cost %s --repeat 1 --budget 1e-3 --chart \"a b'.svg\"",
+                 scenes[i]);
+        expect_code(line, 0);
+        assert_string_equal(err, "");
+        expect_code("cat \"a b'.svg\"", 0);
+        assert_int_equal(strncmp(out, "<?xml ", 6), 0);
+        assert_non_null(strstr(out, "</svg>"));
+        assert_non_null(strstr(out, "soft, float"));
+    }
+    assert_non_null(strstr(out, "it's "));
+    assert_non_null(strstr(out, "`ls` "));
+    expect_code("\"$P\" cost exact.lua --substeps 1,4 --repeat 1 --chart a.png && "
+                "head -c 4 a.png | tail -c 3",
+                0);
+    assert_non_null(strstr(out, "PNG"));
+    expect_code("! ls | grep tmp", 0);
+    expect_error("\"$P\" cost exact.lua --substeps 4 --repeat 1 --chart no/a.png", 1,
+                 "cannot write 'no/a.png'");
 }
 
 // One field of a CSV line; the next begins behind it.
@@ -242,6 +282,7 @@ int main(void)
         cmocka_unit_test(every_ladder_ends),
         cmocka_unit_test(motion_is_compared_as_long_as_it_can_be),
         cmocka_unit_test(what_diverges_is_no_truth),
+        cmocka_unit_test(charts_are_drawn),
         cmocka_unit_test(csv_can_be_read),
         cmocka_unit_test(the_recommended_setting_is_as_good_as_told),
     };

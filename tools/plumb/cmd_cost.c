@@ -15,6 +15,7 @@ typedef struct cost_args {
     double tolerance;     ///< [unit] < 0: not given
     double budget;        ///< [s]
     const char *quantity; ///< NULL: all
+    const char *chart;    ///< NULL: none
     bool csv, relative, all;
 } cost_args;
 
@@ -118,7 +119,11 @@ static int report(const cost_args *args, cost_plan *plan)
     } else {
         cost_print_table(plan, args->relative, args->all || plan->ladder_count == 0);
     }
-    return args->tolerance >= 0 ? judge(args, plan, args->csv ? stderr : stdout) : CLI_OK;
+    int code = args->chart != NULL ? cost_chart(plan, args->chart, args->relative) : CLI_OK;
+    if (code == CLI_OK && args->tolerance >= 0) {
+        code = judge(args, plan, args->csv ? stderr : stdout);
+    }
+    return code;
 }
 
 static int cost_command(const cli_command *command, int argc, char **argv)
@@ -132,6 +137,12 @@ static int cost_command(const cli_command *command, int argc, char **argv)
     cli_operands operands;
     int code = cli_parse(command, argc, argv, &args, &operands);
     code = code == CLI_OK ? scene_args_check(command, &args.scene) : code;
+    code = code == CLI_OK && args.chart != NULL ? cost_chart_check(args.chart) : code;
+    if (code == CLI_OK && args.chart != NULL) {
+        const cli_file files[] = { { "SCENE", operands.items[0], false },
+                                   { "--chart", args.chart, true } };
+        code = cli_files_check(command, files, 2);
+    }
     if (code != CLI_OK) {
         return code;
     }
@@ -182,6 +193,8 @@ static const cli_option options[] = {
       "(default 0.1)" },
     { "repeat", 0, CLI_INT, offsetof(cost_args, repeat), "N", 1, 1000, NULL,
       "runs by the clock a setting, of which the fastest counts (default 3)" },
+    { "chart", 0, CLI_TEXT, offsetof(cost_args, chart), "FILE", 0, 0, NULL,
+      "draw errors over processor time into FILE.svg or FILE.png; needs gnuplot" },
     { "all", 0, CLI_FLAG, offsetof(cost_args, all), NULL, 0, 0, NULL,
       "show settings that are on no front, too" },
     { "csv", 0, CLI_FLAG, offsetof(cost_args, csv), NULL, 0, 0, NULL,
@@ -210,7 +223,7 @@ const cli_command cmd_cost = {
     .examples = "plumb cost assets/scenes/projectile.lua\n"
                 "plumb cost stack.lua --time 2 --substeps 2,4,8 --tolerance 1e-3\n"
                 "plumb cost assets/scenes/accuracy/kepler.lua --relative --tolerance 1e-3\n"
-                "plumb cost stack.lua --csv > stack.csv",
+                "plumb cost stack.lua --csv --chart stack.svg > stack.csv",
     .options = options,
     .option_count = (int)(sizeof options / sizeof options[0]),
     .operand_min = 1,

@@ -168,6 +168,11 @@ void cost_words(const cost_plan *plan, const cost_setting *set, char *text, size
 void cost_print_table(const cost_plan *plan, bool relative, bool all);
 void cost_print_csv(const cost_plan *plan, bool relative);
 
+/// Refuses a name that is neither .svg nor .png. CLI_OK or CLI_USAGE after a message.
+int cost_chart_check(const char *path);
+/// Draws the rows, ranked, by gnuplot. CLI_OK, or CLI_FAILED after a message: gnuplot is not there, the disk is full.
+int cost_chart(const cost_plan *plan, const char *path, bool relative);
+
 // ------------------------------------------------------------------------------- tracks (cost_track.c)
 
 /// Where the bodies were at some moments.
