@@ -63,6 +63,7 @@ typedef struct plumb_world_desc {
                                     ///< in which it does not matter; bodies that move slowly cost nothing anyway
     int simd_width;                 ///< lanes of the contact kernels: 4, 8 or 16; default 0 = best measured.
                                     ///< A pure speed setting: every width gives the same bits
+    bool measure;                   ///< each step measures its own error: see plumb/measure.h. Changes no bit
     uint32_t body_capacity;         ///< rows to reserve; 0: grow as needed
     uint32_t shape_capacity;        ///< likewise for shapes, of 4 corners
     uint32_t contact_capacity;      ///< likewise for contacts

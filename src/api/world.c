@@ -12,6 +12,7 @@
 #include "internal_edges/internal_edges.h"
 #include "joints/energy.h"
 #include "joints/joint.h"
+#include "step/measure.h"
 #include "narrow/narrow.h"
 #include "plumb/world.h"
 #include "schema/world.h"
@@ -169,6 +170,7 @@ static void free_world(plumb_world *world)
     pl_systems_free(&memory, &world->systems);
     pl_schedule_free(&memory, &world->schedule);
     pl_effects_free(&memory, &world->effects);
+    pl_measure_free(&memory, &world->measure);
     pl_commands_free(&memory, &world->commands);
     pl_buffer_free(&memory, &world->made);
     pl_buffer_free(&memory, &world->outline);
@@ -221,6 +223,7 @@ plumb_result plumb_world_create(const plumb_world_desc *desc, plumb_world **worl
     memset(made, 0, sizeof *made); // a compound literal would be built on the stack
     made->desc = *desc;
     made->memory = memory;
+    made->schedule.watched = pl_watched(0, desc->measure);
     init_tables(made);
     plumb_result r = check_desc(made, "plumb_world_create", desc);
     if (r == PLUMB_OK) {

@@ -153,6 +153,8 @@ void pl_joints_move(const pl_joint_context *context, real share);
 // Adds the substep's reactions to those of the step, where some joint is watched.
 void pl_joints_tally(const pl_joint_context *context);
 void pl_joints_tally_lanes(const pl_joint_context *context);
+// What impulses of joints in lanes have done (measure.c).
+void pl_joints_measure_lanes(const pl_joint_context *context, const struct pl_measuring *m);
 // Takes out of the rows what lies along locked axes of their bodies: infinite mass (lock.c).
 void pl_joint_lock_rows(const plumb_world *world, pl_joint *joint);
 // Reactions; breaks what is loaded too much (finish.c).

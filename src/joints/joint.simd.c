@@ -530,4 +530,5 @@ const pl_joint_kernels PL_WIDE_NAME(pl_joint_kernels) = {
     .relax = relax,
     .tally = tally,
     .store = store_all,
+    .measure = PL_WIDE_NAME(pl_joint_measure),
 };

@@ -17,6 +17,9 @@
 #include "core/wide.h"
 #include "joints/joint.h"
 
+// joints/measure.simd.c
+void PL_WIDE_NAME(pl_joint_measure)(const pl_joint_call *call, const struct pl_measuring *m);
+
 typedef struct row {
     vf nx, ny, wa, wb; // J
     vf error;          // C
@@ -67,7 +70,7 @@ typedef struct body {
     vf dx, dy, da, inv_inertia;
 } body;
 
-static size_t record_size(const pl_joint_pattern *p)
+WIDE_INLINE size_t record_size(const pl_joint_pattern *p)
 {
     size_t sources = p->bare ? 0 : p->count;
     return sizeof(bundle) + p->count * sizeof(row) + sources * sizeof(source) +

@@ -333,6 +333,13 @@ void pl_joints_tally_lanes(const pl_joint_context *c)
     each_bundle(c, pl_joint_kernels_of(c->world)->tally);
 }
 
+void pl_joints_measure_lanes(const pl_joint_context *c, const struct pl_measuring *m)
+{
+    pl_joint_call call = call_of(c);
+    call.first = c->group->color_first[0], call.end = c->group->color_first[PL_JOINT_COLORS];
+    pl_joint_kernels_of(c->world)->measure(&call, m);
+}
+
 void pl_joints_store(const pl_joint_context *c)
 {
     each_bundle(c, pl_joint_kernels_of(c->world)->store);

@@ -60,6 +60,8 @@ typedef struct pl_joint_call {
 
 typedef void pl_joint_kernel(const pl_joint_call *call);
 
+struct pl_measuring;
+
 typedef struct pl_joint_kernels {
     int width;
     size_t (*record_size)(const pl_joint_pattern *pattern); // [B]
@@ -72,6 +74,7 @@ typedef struct pl_joint_kernels {
     pl_joint_kernel *pull_first, *pull, *relax_first, *relax;
     pl_joint_kernel *tally; // adds the substep's reactions to those of the step, of what is watched
     pl_joint_kernel *store; // impulses and reactions into the joints
+    void (*measure)(const pl_joint_call *call, const struct pl_measuring *m); // measure.h
 } pl_joint_kernels;
 
 extern const pl_joint_kernels pl_joint_kernels_w4;

@@ -25,6 +25,8 @@
 
 // clang-format off
 #define PL_PASSES(X)                                                                                                                         \
+    X("measure",           COMMANDS,    IF(pl_want_measures),        ONCE(pl_run_measure_open),                              ONCE,           \
+      "poses, velocities, masses, joints", "", ONE)                                                                                          \
     X("guard",             COMMANDS,    ALWAYS,                      ONCE(pl_run_guard),                                     REFRESHES,      \
       "velocities, forces", "rows", ONE)                                                                                                     \
     X("begin systems",     BEGIN,       ALWAYS,                      HOME,                                                   ONCE,           \
@@ -59,6 +61,8 @@
       "manifolds, velocities, forces, masses, joints", "solver bodies, accelerations, constraints, joints, movers", HAS(pl_gather_variants)) \
     X("acting",            GRAPH,       IF(pl_want_acting),          ONCE(pl_run_acting),                                    ONCE,           \
       "body settings, components, solver bodies", "constraints", ONE)                                                                        \
+    X("measure bodies",    GRAPH,       IF(pl_want_measures),        ONCE(pl_run_measure_bodies),                            ONCE,           \
+      "solver bodies, masses", "", ONE)                                                                                                      \
     /* The substeps: rows up to "store contacts" run inside of one of the next two, cluster by cluster of islands. */                        \
     X("soft step",         SOLVE,       IF(pl_want_soft),            ONCE(pl_run_soft),                                      ONCE,           \
       "manifolds", "manifolds, pairs, joints, solver bodies, accelerations, constraints, rows", ONE)                                         \
@@ -100,6 +104,8 @@
       "joints, constraints", "joints, constraints", ONE)                                                                                     \
     X("sum impulses",      SUMS,        IF(pl_want_sums),            BOTH(pl_soft_sum, pl_classic_sum),                      ONCE,           \
       "constraints", "constraints, manifolds", ONE)                                                                                          \
+    X("measure contacts",  STORE,       IF(pl_want_residuals),       EACH(pl_measure_row),                                   ONCE,           \
+      "solver bodies, constraints, joints", "", ONE)                                                                                         \
     X("store joints",      STORE,       IF(pl_want_joints),          SOFT(pl_joints_row_store),                              ONCE,           \
       "constraints", "joints", ONE)                                                                                                          \
     X("store contacts",    STORE,       IF(pl_want_collision),       BOTH(pl_soft_store, pl_classic_store),                  ONCE,           \
@@ -119,7 +125,9 @@
     X("sensors",           EVENTS,      IF(pl_want_sensing),         ONCE(pl_run_sensors),                                   REFRESHES,      \
       "sensors, poses, pieces", "sensors, events", ONE)                                                                                      \
     X("end systems",       END,         ALWAYS,                      HOME,                                                   ONCE,           \
-      "", "", ONE)
+      "", "", ONE)                                                                                                                           \
+    X("measure sums",      END,         IF(pl_want_measures),        ONCE(pl_run_measure_close),                             ONCE,           \
+      "poses, velocities, masses, joints", "", ONE)
 // clang-format on
 
 struct pl_substep;

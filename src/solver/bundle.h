@@ -138,5 +138,9 @@ pl_contact_kernel PL_WIDE_NAME(pl_contact_prepare), PL_WIDE_NAME(pl_contact_prep
 pl_contact_kernel PL_WIDE_NAME(pl_contact_bounce), PL_WIDE_NAME(pl_contact_bounce_special);
 pl_contact_kernel PL_WIDE_NAME(pl_contact_tally), PL_WIDE_NAME(pl_contact_store),
     PL_WIDE_NAME(pl_contact_store_extras), PL_WIDE_NAME(pl_contact_store_bounces);
+void PL_WIDE_NAME(pl_contact_measure)(const pl_contact_call *call, uint32_t first, uint32_t count,
+                                      struct pl_measuring *m);
+void PL_WIDE_NAME(pl_contact_residual)(const pl_contact_call *call, uint32_t first, uint32_t count,
+                                       struct pl_measuring *m);
 
 #endif

@@ -294,4 +294,6 @@ const pl_contact_kernels PL_WIDE_NAME(pl_contact_kernels) = {
     .store_bounces = PL_WIDE_NAME(pl_contact_store_bounces),
     .tally = PL_WIDE_NAME(pl_contact_tally),
     .store_extras = PL_WIDE_NAME(pl_contact_store_extras),
+    .measure = PL_WIDE_NAME(pl_contact_measure),
+    .residual = PL_WIDE_NAME(pl_contact_residual),
 };

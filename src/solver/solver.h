@@ -94,6 +94,8 @@ typedef struct pl_contact_call {
     uint32_t *bounce_count;
 } pl_contact_call;
 
+struct pl_measuring;
+
 typedef void pl_contact_kernel(const pl_contact_call *call, uint32_t first, uint32_t count);
 
 // Variants of the sweeps: what surfaces do, times motion. Scenes pay only for what they have.
@@ -134,6 +136,11 @@ typedef struct pl_contact_kernels {
     // rolling impulses to the pairs; totals, speeds of hits to the manifolds
     pl_contact_kernel *store_extras;
     pl_contact_kernel *store; // impulses to the pairs
+    // While the world measures itself: what impulses did, what they leave (measure.simd.c).
+    void (*measure)(const pl_contact_call *call, uint32_t first, uint32_t count,
+                    struct pl_measuring *m);
+    void (*residual)(const pl_contact_call *call, uint32_t first, uint32_t count,
+                     struct pl_measuring *m);
 } pl_contact_kernels;
 
 extern const pl_contact_kernels pl_contact_kernels_w4;

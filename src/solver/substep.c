@@ -19,7 +19,7 @@ static void run_row(pl_substep *s)
     const pl_substep_rows *rows = s->solving->step->rows;
     const uint32_t i = (uint32_t)(s->row - rows->items);
     if (rows->before != NULL) {
-        rows->before(s->world, s->row->place);
+        rows->before(s);
     }
     const double start = rows->ns == NULL ? 0 : pl_now_ns();
     s->row->run(s);
@@ -27,7 +27,7 @@ static void run_row(pl_substep *s)
         rows->ns[(size_t)s->thread * rows->count + i] += pl_now_ns() - start;
     }
     if (rows->after != NULL) {
-        rows->after(s->world, s->row->place);
+        rows->after(s);
     }
 }
 
@@ -159,7 +159,7 @@ static pl_solving_step open_step(plumb_world *world, const pl_substep_rows *rows
 void pl_substeps_run(plumb_world *world, const pl_substep_rows *rows, real dt)
 {
     pl_solving_step step = open_step(world, rows, dt);
-    pl_tasks *tasks = rows->before == NULL ? world->tasks : NULL;
+    pl_tasks *tasks = rows->alone ? NULL : world->tasks;
     if (world->desc.solver == PLUMB_SOLVER_SOFT) {
         pl_soft_open(world, &step);
     }

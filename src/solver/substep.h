@@ -48,10 +48,9 @@ typedef struct pl_substep_rows {
     const pl_substep_row *items;
     uint32_t end[PL_SUBSTEP_STAGES]; // behind the last row of each stage
     uint32_t count;
-    double *ns; // [ns] a thread and row: time is added here; null: nobody asked
-    // Around each row, where somebody watches what it writes; then clusters are solved by one thread. Null: nobody.
-    void (*before)(plumb_world *world, uint32_t place),
-        (*after)(plumb_world *world, uint32_t place);
+    double *ns;                    // [ns] a thread and row: time is added here; null: nobody asked
+    pl_substep_fn *before, *after; // around each row, where somebody watches; null: nobody
+    bool alone;                    // clusters are solved by one thread
 } pl_substep_rows;
 
 // All clusters through all rows (substep.c).

@@ -3,6 +3,7 @@
 // Reads: the table, systems, counters. Writes: world->schedule. Cost: O(rows), when something structural changed.
 #include "step/system.h"
 #include "core/clock.h"
+#include "step/measure.h"
 #include "solver/substep.h"
 #include "step/acting.h"
 #include "step/place.h"
@@ -162,7 +163,7 @@ plumb_result plumb_world_watch(plumb_world *world, unsigned what)
         return pl_fail_memory(world, __func__);
     }
     memset((char *)s->times.data + known, 0, s->times.size - known);
-    s->watched = what;
+    s->watched = pl_watched(what, world->desc.measure);
     return PLUMB_OK;
 }
 
@@ -190,22 +191,51 @@ void pl_schedule_check(plumb_world *world, uint32_t line)
     pl_check_after(world, name_at(world, line), writes);
 }
 
-static void before_row(plumb_world *world, uint32_t line)
+static void check_before(pl_substep *s)
 {
-    (void)line;
-    pl_check_before(world);
+    pl_check_before(s->world);
+}
+
+static void check_after(pl_substep *s)
+{
+    pl_schedule_check(s->world, s->row->place);
+}
+
+// Of a world that measures itself as well.
+static void look_before(pl_substep *s)
+{
+    pl_measure_before_row(s);
+    pl_check_before(s->world);
+}
+
+static void look_after(pl_substep *s)
+{
+    pl_schedule_check(s->world, s->row->place);
+    pl_measure_after_row(s);
+}
+
+static void watch_rows(const plumb_world *world, pl_substep_rows *rows)
+{
+    const bool checked = writes_are_watched(world);
+    rows->alone = checked;
+    if (checked) {
+        rows->before = check_before, rows->after = check_after;
+    }
+    if (world->desc.measure) {
+        rows->before = checked ? look_before : pl_measure_before_row;
+        rows->after = checked ? look_after : pl_measure_after_row;
+    }
 }
 
 void pl_schedule_substeps(plumb_world *world, real dt)
 {
     pl_schedule *s = &world->schedule;
     const char *locked_by = world->locked_by;
-    const bool timed = times_are_watched(world), checked = writes_are_watched(world);
+    const bool timed = times_are_watched(world);
     pl_substep_rows rows = { .items = s->rows.data,
                              .count = s->ends[PL_SUBSTEP_STAGES - 1],
-                             .ns = timed ? s->shares.data : NULL,
-                             .before = checked ? before_row : NULL,
-                             .after = checked ? pl_schedule_check : NULL };
+                             .ns = timed ? s->shares.data : NULL };
+    watch_rows(world, &rows);
     memcpy(rows.end, s->ends, sizeof rows.end);
     const uint32_t threads = (uint32_t)pl_tasks_workers(world->tasks);
     if (timed) {

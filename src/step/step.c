@@ -7,6 +7,7 @@
 #include "core/clock.h"
 #include "event/event.h"
 #include "internal_edges/internal_edges.h"
+#include "step/measure.h"
 #include "step/place.h"
 #include "step/quarantine.h"
 #include "step/system.h"
@@ -32,10 +33,20 @@ static void forget_contacts(plumb_world *world)
 
 //---- rows ----------------------------------------------------------------------------------------
 
+// What a line runs once a step; NULL: a system.
+static pl_once_fn *once_of(plumb_world *world, uint32_t line)
+{
+    const pl_line place = pl_schedule_place(world, line);
+    return place.system == PL_NO_SYSTEM ? pl_passes[place.pass].run : NULL;
+}
+
 // Around a row, where somebody watches. Returns when it starts [ns], if times are watched.
-static double open_row(plumb_world *world)
+static double open_row(plumb_world *world, uint32_t line)
 {
     const unsigned watched = world->schedule.watched;
+    if ((watched & PL_WATCH_MEASURES) != 0) {
+        pl_measure_before(world, once_of(world, line));
+    }
     if ((watched & PLUMB_WATCH_WRITES) != 0) {
         pl_check_before(world);
     }
@@ -43,7 +54,7 @@ static double open_row(plumb_world *world)
     return (watched & PLUMB_WATCH_TIMES) != 0 ? pl_now_ns() : 0;
 }
 
-static void close_row(plumb_world *world, uint32_t line, double start)
+static void close_row(plumb_world *world, uint32_t line, double start, real dt)
 {
     const unsigned watched = world->schedule.watched;
     if ((watched & PLUMB_WATCH_TIMES) != 0) {
@@ -52,6 +63,9 @@ static void close_row(plumb_world *world, uint32_t line, double start)
     }
     if ((watched & PLUMB_WATCH_WRITES) != 0) {
         pl_schedule_check(world, line);
+    }
+    if ((watched & PL_WATCH_MEASURES) != 0) {
+        pl_measure_after(world, once_of(world, line), dt);
     }
 }
 
@@ -64,11 +78,11 @@ static plumb_result run_pass(plumb_world *world, uint32_t line, real dt)
         return PLUMB_OK;
     }
     const bool watched = world->schedule.watched != 0;
-    const double start = watched ? open_row(world) : 0;
+    const double start = watched ? open_row(world, line) : 0;
     world->query_grids.fresh = false; // what systems ask about moves from pass to pass
     const plumb_result result = pass->run(world, dt);
     if (watched) {
-        close_row(world, line, start);
+        close_row(world, line, start, dt);
     }
     if (result == PLUMB_OK && !world->quarantine.again && world->observer != NULL &&
         world->observer->passed != NULL) {
@@ -106,10 +120,10 @@ static void run_systems(plumb_world *world, group g, real dt)
             continue;
         }
         const bool watched = world->schedule.watched != 0;
-        const double start = watched ? open_row(world) : 0;
+        const double start = watched ? open_row(world, line) : 0;
         pl_system_run(world, system, dt);
         if (watched) {
-            close_row(world, line, start);
+            close_row(world, line, start, dt);
         }
     }
 }

@@ -18,6 +18,7 @@
 #include "world/tables/internal_edges.h"
 #include "world/tables/joint.h"
 #include "world/tables/manifold.h"
+#include "world/tables/measure.h"
 #include "world/tables/effects.h"
 #include "world/tables/sleep.h"
 #include "world/tables/solver.h"
@@ -116,6 +117,7 @@ struct plumb_world {
     pl_characters characters;
     pl_schedule schedule;
     pl_quarantine quarantine;
+    pl_measure measure;
 
     // Events of the last step.
     pl_buffer begin_events, end_events; // plumb_contact_begin, plumb_contact_end

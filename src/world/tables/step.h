@@ -12,6 +12,13 @@
 
 #define PL_NO_SYSTEM UINT32_MAX
 
+#define PL_WATCH_MEASURES 0x10000u // beside plumb_watch: the world measures its error (step/measure.c)
+
+static inline unsigned pl_watched(unsigned what, bool measures)
+{
+    return (what & ~PL_WATCH_MEASURES) | (measures ? PL_WATCH_MEASURES : 0);
+}
+
 // A line of the schedule.
 typedef struct pl_line {
     uint32_t pass;   // place of it in pl_passes; of a system that of a row of its stage
@@ -29,7 +36,7 @@ typedef struct pl_schedule {
     uint32_t count;    // 0: passes as they are in the table, no systems
     pl_buffer rows;    // pl_substep_row: what runs in the substeps
     uint32_t ends[8];  // behind the last row of each of their stages
-    unsigned watched;  // plumb_watch
+    unsigned watched;  // plumb_watch, PL_WATCH_MEASURES
     pl_buffer times;   // pl_time a pass, if times were ever watched
     pl_buffer shares;  // double a thread and row of the substeps: [ns]
     double inner_ns;   // of the rows of the last substeps

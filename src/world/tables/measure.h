@@ -1,0 +1,57 @@
+// measure.h - what a step keeps of itself to know its error: see step/measure.c.
+#ifndef PL_TABLE_MEASURE_H
+#define PL_TABLE_MEASURE_H
+
+#include "core/memory.h"
+#include "core/near.h"
+#include "plumb/measure.h"
+
+// A dynamic body in the solver.
+typedef struct pl_measured_body {
+    double mass, inertia;           // as the solver has it: own time counts
+    double pull_x, pull_y;          // [N] of the gravity that acts
+    double weight_x, weight_y;      // [N] of the gravity that potential energy is told by
+    near_real ease;                 // [1/(kg m^2)] its own inverse inertia: joints may give it less
+    double vx, vy, w, dx, dy;       // before the row that runs
+    double ax, ay, aw;              // likewise, accelerations
+    double booked;                  // [J] likewise, the sum of all kinetic work
+    double mean_x, mean_y, mean_w;  // velocity, mean of before and behind the row
+    double drag_x, drag_y, drag_w;  // [N], [N m] of damping and caps in this substep
+    double px, py, pw;              // [N s], [N m s] impulses of contacts and joints
+    plumb_balance work[PLUMB_WORKS]; // in this step
+} pl_measured_body;
+
+// A dynamic body as motion begins.
+typedef struct pl_measured_flight {
+    double vx, vy, w, x, y, fx, fy, torque;
+} pl_measured_flight;
+
+// What the kernels are given, and what they find.
+typedef struct pl_measuring {
+    pl_measured_body *bodies;
+    uint32_t count;            // slots from here on are immovable or kinematic
+    bool balances;             // impulses are added up instead of work
+    double owed;               // by how much what joints owe for turning is added: see joints/one.c
+    const void *kept;          // bundles or records before the row; null: all of an impulse counts
+    const void *kept_extras;   // likewise
+    const void *kept_impulses; // real, PL_JOINT_ROWS a joint of `grouped`, of those solved one by one
+    double gap, approach, complementarity, cone, momentum;
+} pl_measuring;
+
+typedef struct pl_measure {
+    pl_buffer last;    // one plumb_measures
+    double mechanical; // [J] kinetic and potential, as last looked at
+    double stored;     // [J] as the step began
+    pl_buffer bodies;  // pl_measured_body a dynamic slot
+    pl_buffer flights; // pl_measured_flight a dynamic row
+    // Copies of the solver's and the joints' buffers of these names, before the row that runs.
+    pl_buffer bundles, extras, classic, records, impulses;
+    pl_buffer found; // pl_measuring a thread: residuals
+} pl_measure;
+
+static inline plumb_measures *pl_measures_last(const pl_measure *m)
+{
+    return (plumb_measures *)m->last.data;
+}
+
+#endif
