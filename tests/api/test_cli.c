@@ -249,6 +249,21 @@ static void what_ran_is_explained(void **state)
     assert_true(solver != NULL && solver < strstr(out, "Left out"));
 }
 
+// Of a fall of 0.5 s without a contact, gravity has done it all.
+static void energy_is_explained(void **state)
+{
+    (void)state;
+    write_text("fall.lua", "scene { gravity = { 0, -10 } }\n"
+                           "body { circle { 1, density = 1 / math.pi }, at = { 0, 9 } }\n");
+    expect_code("\"$P\" explain fall.lua --energy --time 0.5 --precision double", 0);
+    assert_non_null(strstr(out, "Energy over 30 steps [J]: 90 before, 90 after\n"));
+    assert_non_null(strstr(out, "  gravity            12.5        -12.5 "));
+    assert_null(strstr(out, "  normal "));
+    assert_non_null(strstr(out, "  rest "));
+    assert_null(strstr(out, "Left out"));
+    assert_non_null(strstr(out, "contacts overlap by 0 m"));
+}
+
 static void what_a_scene_prints_is_no_data(void **state)
 {
     (void)state;
@@ -411,6 +426,7 @@ int main(void)
         cmocka_unit_test(overlaps_that_are_meant_are_not),
         cmocka_unit_test(the_scene_chooses_its_solver),
         cmocka_unit_test(what_ran_is_explained),
+        cmocka_unit_test(energy_is_explained),
         cmocka_unit_test(what_a_scene_prints_is_no_data),
         cmocka_unit_test(failed_expectations_are_code_4),
     };

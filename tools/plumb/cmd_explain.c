@@ -4,6 +4,7 @@
 /// --no-timing the text is the same on every run.
 #include "scene_args.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -11,6 +12,7 @@ typedef struct explain_args {
     scene_args scene;
     bool no_timing;
     bool columns;
+    bool energy;
 } explain_args;
 
 /// In how many steps a pass ran, and why when it last did: what falls asleep leaves the schedule. Of one
@@ -27,6 +29,9 @@ typedef struct tally {
 
 /// [s] simulated unless told otherwise: long enough for things to meet, short enough to wait for.
 static const double DEFAULT_TIME = 1;
+
+/// [-] of the largest energy in a table: less is none.
+static const double ROUNDING = 1e-12;
 
 static pass_tally *find_tally(const tally *t, const engine_pass *pass)
 {
@@ -191,6 +196,34 @@ static int print_schedule(const explain_args *args, const scene_run *run, tally 
     return CLI_OK;
 }
 
+/// What is between the sum and `after` - `before` was changed between the steps: by functions of the scene.
+static void print_energy(const engine_measures *m)
+{
+    double sum[2] = { 0 }, most = 0;
+    for (int i = 0; i < m->count; i++) {
+        most = fmax(most, fmax(fabs(m->works[i].kinetic), fabs(m->works[i].potential)));
+    }
+    printf("\nEnergy over %lld steps [J]: %.6g before, %.6g after\n", m->steps, m->before,
+           m->after);
+    printf("  %-10s%13s%13s%13s  what it covers\n", "by", "kinetic", "potential", "both");
+    for (int i = 0; i < m->count; i++) {
+        const double kinetic = m->works[i].kinetic, potential = m->works[i].potential;
+        sum[0] += kinetic, sum[1] += potential;
+        // The last, what is unexplained, is told however little it is.
+        if (i == m->count - 1 || fabs(kinetic) + fabs(potential) > ROUNDING * most) {
+            printf("  %-10s%13.5g%13.5g%13.5g  %s\n", m->works[i].name, kinetic, potential,
+                   kinetic + potential, m->works[i].text);
+        }
+    }
+    printf("  %-10s%13.5g%13.5g%13.5g\n", "all", sum[0], sum[1], sum[0] + sum[1]);
+    printf("\nMost in any step, where its last substep ended:\n");
+    printf("  contacts overlap by %.3g m, approach at %.3g m/s, push over gaps with %.3g N s m, "
+           "exceed friction by %.3g N s\n",
+           m->gap, m->approach, m->complementarity, m->cone);
+    printf("  momentum is off its impulses by %.3g N s; joints are off by %.3g m, %.3g rad\n",
+           m->momentum, m->joint_length, m->joint_angle);
+}
+
 static int explain_command(const cli_command *command, int argc, char **argv)
 {
     explain_args args = { .scene = SCENE_ARGS_INIT };
@@ -210,16 +243,27 @@ static int explain_command(const cli_command *command, int argc, char **argv)
     }
     tally t = { 0 };
     const engine_pass *list;
+    engine_measures measures = { 0 };
+    if (args.energy) {
+        run.engine->measure(run.session, &measures);
+    }
     progress_begin(&bar, run.info.name, (double)run.steps, args.scene.quiet);
     for (long long step = 0; code == CLI_OK && !scene_run_done(&run, step); step++) {
         progress_update(&bar, (double)step);
         code = note_schedule(&t, &run, 1, &list) >= 0 ? scene_run_step(&run, &bar) : CLI_FAILED;
+        if (args.energy && code == CLI_OK) {
+            run.engine->measure(run.session, &measures);
+        }
     }
     progress_end(&bar);
     run.steps = (long long)run.engine->stats(run.stage).step_count; // the scene may end itself
     if (code == CLI_OK && !cli_interrupted()) {
         print_settings(&run, operands.items[0]);
-        code = print_schedule(&args, &run, &t);
+        if (args.energy) {
+            print_energy(&measures);
+        } else {
+            code = print_schedule(&args, &run, &t);
+        }
     }
     free(t.items);
     return scene_run_close(&run, code);
@@ -231,6 +275,8 @@ static const cli_option options[] = {
       "leave the times out: the text is then the same on every run" },
     { "columns", 'c', CLI_FLAG, offsetof(explain_args, columns), NULL, 0, 0, NULL,
       "also tell which columns each pass reads and writes" },
+    { "energy", 'e', CLI_FLAG, offsetof(explain_args, energy), NULL, 0, 0, NULL,
+      "instead of the schedule, tell where the energy went and what each step left unsolved" },
     SCENE_OPTION_DT(explain_args, scene),
     SCENE_OPTION_SUBSTEPS(explain_args, scene),
     SCENE_OPTION_ITERATIONS(explain_args, scene),
@@ -252,7 +298,8 @@ const cli_command cmd_explain = {
             "inside of "
             "the row above them; with several threads they have shares of the time that it took.",
     .examples = "plumb explain assets/scenes/stack.lua\n"
-                "plumb explain stack.lua --no-timing --columns",
+                "plumb explain stack.lua --no-timing --columns\n"
+                "plumb explain assets/scenes/billiards.lua --energy --time 10",
     .options = options,
     .option_count = (int)(sizeof options / sizeof options[0]),
     .operand_min = 1,

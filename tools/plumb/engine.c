@@ -222,6 +222,7 @@ const engine_api ENGINE_NAME = {
     .nudge = pl_session_nudge,
     .expectations = pl_session_expectations,
     .passes = pl_session_passes,
+    .measure = pl_session_measure,
     .word = pl_session_word,
     .json_lacks = session_json_lacks,
     .to_json = session_to_json,

@@ -112,6 +112,20 @@ typedef struct engine_pass {
     double total_ns;  ///< [ns] since passes were first asked for
 } engine_pass;
 
+#define ENGINE_WORKS 32 ///< more than there are
+
+/// What a run did to the energy of its world, by what did it, and the most that is left of laws in any step: plumb_measures.
+typedef struct engine_measures {
+    int count; ///< of works
+    struct {
+        const char *name, *text;
+        double kinetic, potential; ///< [J] summed over the steps
+    } works[ENGINE_WORKS];
+    double before, after; ///< [J] as the run began, as it is now
+    double gap, approach, complementarity, cone, momentum, joint_length, joint_angle;
+    long long steps;
+} engine_measures;
+
 /// Counts of the last step, as in plumb_stats.
 typedef struct engine_stats {
     unsigned long long step_count;
@@ -221,6 +235,8 @@ typedef struct engine_api {
     int (*expectations)(engine_session *session, const engine_expect **list);
     /// -1: out of memory.
     int (*passes)(engine_session *session, const engine_pass **list);
+    /// From the first call on, with {0}, steps are measured; each call behind a step adds it to `sum`.
+    void (*measure)(engine_session *session, engine_measures *sum);
     /// Key `key` of constructor `constructor` of the scene language; key -1: the constructor
     /// itself. False past the end.
     bool (*word)(int constructor, int key, engine_word *word);

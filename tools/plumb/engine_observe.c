@@ -1,4 +1,4 @@
-/// engine_observe.c - what engine.h tells about a session: closed forms, expectations, passes. Compiled once for each precision, as engine.c.
+/// engine_observe.c - what engine.h tells about a session: closed forms, expectations, passes, measures. Compiled once for each precision, as engine.c.
 ///
 /// Reads the world and the scene, changes neither. The lists belong to the session and are reused:
 /// no allocation once they have grown.
@@ -92,4 +92,35 @@ int pl_session_passes(engine_session *session, const engine_pass **list)
     }
     *list = passes;
     return count;
+}
+
+static void raise_to(double *most, double value)
+{
+    *most = value > *most ? value : *most;
+}
+
+void pl_session_measure(engine_session *session, engine_measures *sum)
+{
+    plumb_world *world = session->stage.world;
+    const plumb_measures *m = plumb_world_measures(world);
+    (void)plumb_world_set_measure(world, true);
+    sum->count = PLUMB_WORKS < ENGINE_WORKS ? PLUMB_WORKS : ENGINE_WORKS;
+    for (int i = 0; i < sum->count; i++) {
+        sum->works[i].name = plumb_work_name((plumb_work)i);
+        sum->works[i].text = plumb_work_text((plumb_work)i);
+        sum->works[i].kinetic += m->work[i].kinetic;
+        sum->works[i].potential += m->work[i].potential;
+    }
+    if (m->step == 0) {
+        return;
+    }
+    sum->before = sum->steps++ == 0 ? m->before : sum->before;
+    sum->after = m->after;
+    raise_to(&sum->gap, m->gap);
+    raise_to(&sum->approach, m->approach);
+    raise_to(&sum->complementarity, m->complementarity);
+    raise_to(&sum->cone, m->cone);
+    raise_to(&sum->momentum, m->momentum);
+    raise_to(&sum->joint_length, m->joint_length);
+    raise_to(&sum->joint_angle, m->joint_angle);
 }

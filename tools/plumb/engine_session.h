@@ -98,6 +98,7 @@ engine_totals pl_stage_totals(const engine_stage *stage);
 int pl_session_expectations(engine_session *session, const engine_expect **list);
 int pl_session_overlaps(engine_session *session, const engine_overlap **list);
 int pl_session_passes(engine_session *session, const engine_pass **list);
+void pl_session_measure(engine_session *session, engine_measures *sum);
 bool pl_session_word(int constructor, int key, engine_word *word);
 int pl_session_record(engine_session *session, FILE *file, int keyframes, engine_error *error);
 int pl_session_record_end(engine_session *session, engine_error *error);
