@@ -138,7 +138,7 @@ help:
 #:   amalgamation      build/plumb.h and build/plumb.c: the library as one pair of files
 #:   determinism       the same bits with gcc and clang, -O0 to -O3, ASan, every SIMD width
 #:   hashes            write tests/determinism/hashes.txt anew, when physics was meant to change
-#:   cost              what accuracy costs, for SCENES="a.lua b.lua"
+#:   cost              what accuracy costs, beside Box2D 2.4.1, Chipmunk and, with BOX2D3=/prefix, Box2D 3: build/cost
 #:   asan, ubsan, tsan every test again under a sanitizer
 #:   fuzz              each fuzz harness for FUZZ_TIME=60 seconds
 #:   format, lint      clang-format in place; the rules of tools/lint
@@ -154,7 +154,7 @@ clean:
 	rm -rf $(O)
 
 # Packages of Debian 12: for building and testing, and what only developers need.
-DEPS := gcc g++ libc6-dev make binutils pkg-config cmake libbox2d-dev libccd-dev libosmesa6-dev \
+DEPS := gcc g++ libc6-dev make binutils pkg-config cmake libbox2d-dev libchipmunk-dev libccd-dev libosmesa6-dev \
 	libfreetype-dev fonts-dejavu-core liblua5.4-dev libcmocka-dev libpng-dev libgif-dev \
 	libcjson-dev libsdl2-dev ffmpeg gnuplot-nox mandoc
 DEPS_DEV := $(DEPS) clang clang-format libclang-rt-14-dev valgrind git gcc-mingw-w64-x86-64-posix

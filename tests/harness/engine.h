@@ -60,6 +60,9 @@ struct engine_options {
     int width;                    ///< SIMD lanes where they can be chosen; 0: the engine's choice
     int workers;                  ///< threads, where the engine has them; 0: one
     const char *solver;           ///< Plumb: "soft" or "baseline"; NULL: soft
+    bool
+        stiff; ///< what its manual offers for the least give: Box2D 2.4.1: no skin; Box2D 3: contacts
+    ///< and joints as stiff as the step allows; Chipmunk: overlap of 0.1 mm instead of 0.1 m
 };
 
 struct engine_body_def {
@@ -82,6 +85,25 @@ struct engine_hinge_def {
     bool enable_motor;   ///< drives that turn; speed 0 is friction
     double motor_speed;  ///< [rad/s]
     double max_torque;   ///< [N m]
+};
+
+enum engine_joint_kind { ENGINE_REVOLUTE, ENGINE_PRISMATIC, ENGINE_DISTANCE, ENGINE_WELD };
+
+/// A joint of any kind that all engines have; rigid, or with one spring.
+struct engine_joint_def {
+    enum engine_joint_kind kind;
+    int body_a, body_b;
+    double ax, ay;       ///< [m] world: the common point; of a distance, the end on A
+    double bx, by;       ///< [m] world: of a distance, the end on B
+    double ux, uy;       ///< of a prismatic: unit vector of its axis
+    bool enable_limit;   ///< of a distance: instead of the rod
+    double lower, upper; ///< [rad] [m]
+    bool enable_motor;
+    double motor_speed, max_motor; ///< [rad/s] [m/s], [N m] [N]
+    double hertz, damping;         ///< of a spring; 0: none
+    double stiffness, resistance;  ///< the same in [N/m], [N s/m] or by the radian
+    double rest;                   ///< [m] [rad] where the spring, or the rod, is at rest
+    bool collide;                  ///< the two bodies collide with one another
 };
 
 struct engine_material {
@@ -150,6 +172,14 @@ struct engine {
     int (*add_body)(struct engine_world *world, const struct engine_body_def *def);
     /// With its shapes and hinges.
     void (*destroy_body)(struct engine_world *world, int body);
+    /// [kg], [kg m^2] about the centre of mass, which is in the body's frame [m]; after its shapes. ENGINE_OK or
+    /// ENGINE_UNSUPPORTED.
+    int (*set_mass)(struct engine_world *world, int body, const struct engine_mass *mass);
+    /// Index of the new joint (hinges are not counted), ENGINE_UNSUPPORTED or ENGINE_FAILED.
+    int (*add_joint)(struct engine_world *world, const struct engine_joint_def *def);
+    /// What a joint bore in the last inner step [N], [N m]; of some kinds an engine knows the size alone: then y is 0.
+    void (*joint_force)(const struct engine_world *world, int joint, double force[2],
+                        double *torque);
     /// ENGINE_OK or ENGINE_FAILED.
     int (*add_hinge)(struct engine_world *world, const struct engine_hinge_def *def);
 
@@ -195,7 +225,8 @@ struct engine {
 /// The rows of an adapter whose functions have the names of the members.
 #define ENGINE_FUNCTIONS                                                                          \
     .describe = describe, .create = create, .destroy = destroy, .add_body = add_body,             \
-    .destroy_body = destroy_body, .add_hinge = add_hinge, .add_circle = add_circle,               \
+    .destroy_body = destroy_body, .set_mass = set_mass, .add_joint = add_joint,                   \
+    .joint_force = joint_force, .add_hinge = add_hinge, .add_circle = add_circle,               \
     .add_capsule = add_capsule, .add_polygon = add_polygon, .add_segment = add_segment,           \
     .add_chain = add_chain, .set_velocity = set_velocity, .apply_force = apply_force,             \
     .step = step, .get_pose = get_pose, .get_velocity = get_velocity, .get_mass = get_mass,       \
@@ -207,13 +238,15 @@ struct engine {
 static inline struct engine_options engine_options_default(void)
 {
     // In order: engine_box2d2.cpp is C++17.
-    struct engine_options options = { 0.0, -10.0, 0, 0, 0, false, true, -1.0, -1.0, 0, 0, NULL };
+    struct engine_options options = { 0.0,  -10.0, 0, 0, 0,    false, true,
+                                      -1.0, -1.0,  0, 0, NULL, false };
     return options;
 }
 
 extern const struct engine engine_plumb;
-extern const struct engine engine_box2d2; ///< Box2D 2.4.1
-extern const struct engine engine_box2d3; ///< Box2D 3; only in builds with BOX2D3=/prefix
+extern const struct engine engine_box2d2;   ///< Box2D 2.4.1
+extern const struct engine engine_chipmunk; ///< Chipmunk 7.0.3
+extern const struct engine engine_box2d3;   ///< Box2D 3; only in builds with BOX2D3=/prefix
 
 #ifdef __cplusplus
 }

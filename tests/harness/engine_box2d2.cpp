@@ -41,6 +41,8 @@ struct engine_world {
     int position_iterations = default_position_iterations;
     double restitution_threshold = -1.0; // < 0: b2FixtureDef's own
     double skin = b2_polygonRadius;
+    std::vector<b2Joint *> joints; // of add_joint
+    float inverse_step = 0.0f;     // [1/s] of the last inner step
 };
 
 namespace
@@ -76,8 +78,8 @@ engine_world *create(const engine_options *options)
         w->position_iterations = options->position_iterations;
     }
     w->restitution_threshold = options->restitution_threshold;
-    if (options->skin >= 0.0) {
-        w->skin = options->skin;
+    if (options->skin >= 0.0 || options->stiff) {
+        w->skin = options->stiff ? 0.0 : options->skin;
     }
     return w;
 }
@@ -126,6 +128,119 @@ int add_hinge(engine_world *w, const engine_hinge_def *def)
     return w->world.CreateJoint(&j) ? ENGINE_OK : ENGINE_FAILED;
 }
 
+int set_mass(engine_world *w, int body, const engine_mass *mass)
+{
+    b2MassData data;
+    data.mass = static_cast<float>(mass->mass);
+    data.center = vec(mass->x, mass->y);
+    // About the origin, as GetInertia.
+    data.I =
+        static_cast<float>(mass->inertia + mass->mass * (mass->x * mass->x + mass->y * mass->y));
+    b2Body *b = w->bodies[static_cast<size_t>(body)];
+    const b2Vec2 v = b->GetLinearVelocity();
+    b->SetMassData(&data);
+    b->SetLinearVelocity(v); // of the centre of mass, which has moved
+    return ENGINE_OK;
+}
+
+b2JointDef *define_distance(const engine_joint_def *def, b2Body *a, b2Body *b,
+                            b2DistanceJointDef &j)
+{
+    j.Initialize(a, b, vec(def->ax, def->ay), vec(def->bx, def->by));
+    j.length = static_cast<float>(def->rest);
+    j.minLength = j.maxLength = j.length;
+    if (def->enable_limit) {
+        j.minLength = static_cast<float>(def->lower);
+        j.maxLength = static_cast<float>(def->upper);
+    }
+    if (def->hertz > 0.0) {
+        j.stiffness = static_cast<float>(def->stiffness);
+        j.damping = static_cast<float>(def->resistance);
+        if (!def->enable_limit) { // a spring alone: no stops
+            j.minLength = 0.0f;
+            j.maxLength = b2_maxFloat;
+        }
+    }
+    return &j;
+}
+
+b2JointDef *define_revolute(const engine_joint_def *def, b2Body *a, b2Body *b,
+                            b2RevoluteJointDef &j)
+{
+    j.Initialize(a, b, vec(def->ax, def->ay));
+    j.enableLimit = def->enable_limit;
+    j.lowerAngle = static_cast<float>(def->lower);
+    j.upperAngle = static_cast<float>(def->upper);
+    j.enableMotor = def->enable_motor;
+    j.motorSpeed = static_cast<float>(def->motor_speed);
+    j.maxMotorTorque = static_cast<float>(def->max_motor);
+    return &j;
+}
+
+b2JointDef *define_prismatic(const engine_joint_def *def, b2Body *a, b2Body *b,
+                             b2PrismaticJointDef &j)
+{
+    j.Initialize(a, b, vec(def->ax, def->ay), vec(def->ux, def->uy));
+    j.enableLimit = def->enable_limit;
+    j.lowerTranslation = static_cast<float>(def->lower);
+    j.upperTranslation = static_cast<float>(def->upper);
+    j.enableMotor = def->enable_motor;
+    j.motorSpeed = static_cast<float>(def->motor_speed);
+    j.maxMotorForce = static_cast<float>(def->max_motor);
+    return &j;
+}
+
+// A slide with a spring is a wheel's suspension here; it leaves the turn free. Its rest is where both anchors meet.
+b2JointDef *define_suspension(const engine_joint_def *def, b2Body *a, b2Body *b, b2WheelJointDef &j)
+{
+    j.Initialize(a, b, vec(def->ax, def->ay), vec(def->ux, def->uy));
+    j.localAnchorA =
+        a->GetLocalPoint(vec(def->ax + def->rest * def->ux, def->ay + def->rest * def->uy));
+    j.stiffness = static_cast<float>(def->stiffness);
+    j.damping = static_cast<float>(def->resistance);
+    return &j;
+}
+
+int add_joint(engine_world *w, const engine_joint_def *def)
+{
+    b2Body *a = w->bodies[static_cast<size_t>(def->body_a)];
+    b2Body *b = w->bodies[static_cast<size_t>(def->body_b)];
+    b2DistanceJointDef distance;
+    b2RevoluteJointDef revolute;
+    b2PrismaticJointDef prismatic;
+    b2WeldJointDef weld;
+    b2WheelJointDef wheel;
+    b2JointDef *j = &weld;
+    const bool suspended = def->hertz > 0.0 && def->kind == ENGINE_PRISMATIC;
+    if (def->hertz > 0.0 && def->kind != ENGINE_DISTANCE &&
+        (!suspended || def->enable_limit || def->enable_motor)) {
+        return ENGINE_UNSUPPORTED;
+    }
+    if (suspended) {
+        j = define_suspension(def, a, b, wheel);
+    } else if (def->kind == ENGINE_DISTANCE) {
+        j = define_distance(def, a, b, distance);
+    } else if (def->kind == ENGINE_REVOLUTE) {
+        j = define_revolute(def, a, b, revolute);
+    } else if (def->kind == ENGINE_PRISMATIC) {
+        j = define_prismatic(def, a, b, prismatic);
+    } else {
+        weld.Initialize(a, b, vec(def->ax, def->ay));
+    }
+    j->collideConnected = def->collide;
+    w->joints.push_back(w->world.CreateJoint(j));
+    return static_cast<int>(w->joints.size()) - 1;
+}
+
+void joint_force(const engine_world *w, int joint, double force[2], double *torque)
+{
+    const b2Joint *j = w->joints[static_cast<size_t>(joint)];
+    const b2Vec2 f = j->GetReactionForce(w->inverse_step);
+    force[0] = f.x;
+    force[1] = f.y;
+    *torque = j->GetReactionTorque(w->inverse_step);
+}
+
 int add_shape(engine_world *w, int body, const engine_material *material, const b2Shape &shape)
 {
     b2FixtureDef def;
@@ -165,6 +280,12 @@ int add_polygon(engine_world *w, int body, const engine_material *material, cons
     b2Vec2 points[b2_maxPolygonVertices];
     for (int i = 0; i < count; ++i) {
         points[i] = vec(x[i], y[i]);
+        for (int k = 0; k < i; ++k) {
+            // Corners so near are welded, and what is left may be no polygon: that is an assertion.
+            if (b2Distance(points[i], points[k]) < b2_linearSlop) {
+                return ENGINE_UNSUPPORTED;
+            }
+        }
     }
     b2PolygonShape shape;
     shape.Set(points, count);
@@ -222,6 +343,7 @@ void step(engine_world *w, double dt)
 {
     const float h = static_cast<float>(dt / w->substeps);
     w->listener.told = { 0, 0 };
+    w->inverse_step = 1.0f / h;
     for (int i = 0; i < w->substeps; ++i) {
         w->world.Step(h, w->velocity_iterations, w->position_iterations);
     }

@@ -23,6 +23,10 @@ struct engine_world {
     int count;
     int capacity;
     int substeps;
+    bool stiff;
+    b2JointId *joints; // of add_joint
+    int joint_count;
+    int joint_capacity;
 };
 
 static b2Vec2 vec(double x, double y)
@@ -50,6 +54,11 @@ static struct engine_world *create(const struct engine_options *options)
     if (options->restitution_threshold >= 0.0) {
         def.restitutionThreshold = (float)options->restitution_threshold;
     }
+    if (options->stiff) {
+        // The library lowers what is stiffer than the step allows: the manual's advice for the least give.
+        def.contactHertz = 1e4f;
+    }
+    w->stiff = options->stiff;
     w->substeps = options->substeps > 0 ? options->substeps : default_substeps;
     w->id = b2CreateWorld(&def);
     return w;
@@ -60,6 +69,7 @@ static void destroy(struct engine_world *w)
     b2DestroyWorld(w->id);
     free(w->bodies);
     free(w->groups);
+    free(w->joints);
     free(w);
 }
 
@@ -103,6 +113,115 @@ static b2Transform frame_at(b2BodyId body, double x, double y)
     // Both frames have the world's axes now, so that the angle between them is 0.
     b2Rot turn = b2Body_GetRotation(body);
     return (b2Transform){ b2Body_GetLocalPoint(body, b2ToPos(vec(x, y))), b2InvertRot(turn) };
+}
+
+static int set_mass(struct engine_world *w, int body, const struct engine_mass *mass)
+{
+    b2MassData data = { (float)mass->mass, vec(mass->x, mass->y), (float)mass->inertia };
+    b2Vec2 v = b2Body_GetLinearVelocity(w->bodies[body]);
+    b2Body_SetMassData(w->bodies[body], data);
+    b2Body_SetLinearVelocity(w->bodies[body], v); // of the centre of mass, which has moved
+    return ENGINE_OK;
+}
+
+// Frames at the anchors whose x axis is the joint's, both as things are.
+static void place_frames(const struct engine_joint_def *def, b2JointDef *base)
+{
+    b2Rot axis = def->kind == ENGINE_PRISMATIC ? (b2Rot){ (float)def->ux, (float)def->uy }
+                                               : (b2Rot){ 1.0f, 0.0f };
+    bool two = def->kind == ENGINE_DISTANCE;
+    base->localFrameA = frame_at(base->bodyIdA, def->ax, def->ay);
+    base->localFrameB = frame_at(base->bodyIdB, two ? def->bx : def->ax, two ? def->by : def->ay);
+    base->localFrameA.q = b2MulRot(base->localFrameA.q, axis);
+    base->localFrameB.q = b2MulRot(base->localFrameB.q, axis);
+    base->collideConnected = def->collide;
+}
+
+static b2JointId make_revolute(struct engine_world *w, const struct engine_joint_def *def,
+                               const b2JointDef *base)
+{
+    b2RevoluteJointDef j = b2DefaultRevoluteJointDef();
+    j.base = *base;
+    j.enableLimit = def->enable_limit;
+    j.lowerAngle = (float)def->lower;
+    j.upperAngle = (float)def->upper;
+    j.enableMotor = def->enable_motor;
+    j.motorSpeed = (float)def->motor_speed;
+    j.maxMotorTorque = (float)def->max_motor;
+    return b2CreateRevoluteJoint(w->id, &j);
+}
+
+static b2JointId make_prismatic(struct engine_world *w, const struct engine_joint_def *def,
+                                const b2JointDef *base)
+{
+    b2PrismaticJointDef j = b2DefaultPrismaticJointDef();
+    j.base = *base;
+    j.enableLimit = def->enable_limit;
+    j.lowerTranslation = (float)def->lower;
+    j.upperTranslation = (float)def->upper;
+    j.enableMotor = def->enable_motor;
+    j.motorSpeed = (float)def->motor_speed;
+    j.maxMotorForce = (float)def->max_motor;
+    j.enableSpring = def->hertz > 0;
+    j.hertz = (float)def->hertz;
+    j.dampingRatio = (float)def->damping;
+    j.targetTranslation = (float)def->rest;
+    return b2CreatePrismaticJoint(w->id, &j);
+}
+
+static b2JointId make_distance(struct engine_world *w, const struct engine_joint_def *def,
+                               const b2JointDef *base)
+{
+    b2DistanceJointDef j = b2DefaultDistanceJointDef();
+    j.base = *base;
+    j.length = (float)def->rest;
+    j.enableLimit = def->enable_limit;
+    j.minLength = (float)def->lower;
+    j.maxLength = (float)def->upper;
+    // A rope is a spring without force between its stops.
+    j.enableSpring = def->hertz > 0 || def->enable_limit;
+    j.hertz = (float)def->hertz;
+    j.dampingRatio = (float)def->damping;
+    return b2CreateDistanceJoint(w->id, &j);
+}
+
+static int add_joint(struct engine_world *w, const struct engine_joint_def *def)
+{
+    if (def->hertz > 0 && def->kind != ENGINE_DISTANCE && def->kind != ENGINE_PRISMATIC) {
+        return ENGINE_UNSUPPORTED;
+    }
+    if (w->joint_count == w->joint_capacity) {
+        int capacity = w->joint_capacity > 0 ? 2 * w->joint_capacity : 16;
+        b2JointId *joints = realloc(w->joints, (size_t)capacity * sizeof *joints);
+        if (joints == NULL) {
+            return ENGINE_FAILED;
+        }
+        w->joints = joints;
+        w->joint_capacity = capacity;
+    }
+    b2WeldJointDef weld = b2DefaultWeldJointDef();
+    b2JointDef base = weld.base;
+    base.bodyIdA = w->bodies[def->body_a];
+    base.bodyIdB = w->bodies[def->body_b];
+    if (w->stiff) {
+        base.constraintHertz = 1e4f; // lowered to what the step allows
+    }
+    place_frames(def, &base);
+    weld.base = base;
+    b2JointId joint = def->kind == ENGINE_REVOLUTE    ? make_revolute(w, def, &base)
+                      : def->kind == ENGINE_PRISMATIC ? make_prismatic(w, def, &base)
+                      : def->kind == ENGINE_DISTANCE  ? make_distance(w, def, &base)
+                                                      : b2CreateWeldJoint(w->id, &weld);
+    w->joints[w->joint_count] = joint;
+    return b2Joint_IsValid(joint) ? w->joint_count++ : ENGINE_FAILED;
+}
+
+static void joint_force(const struct engine_world *w, int joint, double force[2], double *torque)
+{
+    b2Vec2 f = b2Joint_GetConstraintForce(w->joints[joint]);
+    force[0] = (double)f.x;
+    force[1] = (double)f.y;
+    *torque = (double)b2Joint_GetConstraintTorque(w->joints[joint]);
 }
 
 static int add_hinge(struct engine_world *w, const struct engine_hinge_def *def)

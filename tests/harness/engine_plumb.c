@@ -141,6 +141,29 @@ static int add_body(struct engine_world *w, const struct engine_body_def *def)
     return w->count++;
 }
 
+// Scenes of masses and joints of their own come to Plumb by its loader, not by this interface.
+static int set_mass(struct engine_world *w, int body, const struct engine_mass *mass)
+{
+    (void)w;
+    (void)body;
+    (void)mass;
+    return ENGINE_UNSUPPORTED;
+}
+
+static int add_joint(struct engine_world *w, const struct engine_joint_def *def)
+{
+    (void)w;
+    (void)def;
+    return ENGINE_UNSUPPORTED;
+}
+
+static void joint_force(const struct engine_world *w, int joint, double force[2], double *torque)
+{
+    (void)w;
+    (void)joint;
+    force[0] = force[1] = *torque = 0;
+}
+
 static void destroy_body(struct engine_world *w, int body)
 {
     (void)plumb_body_destroy(w->world, w->bodies[body]);

@@ -120,13 +120,142 @@ static void test_no_expect(void **state)
     }
 }
 
+// What forms say after 1 s, by kind: the place before the angle, the angle before the velocity.
+static void test_truth(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *form;
+        double truth[2];
+        bool scaled;
+    } rows[] = {
+        { "body = 'b', x = function(t) return 2 * t end, angle = function() return 9 end",
+          { 2, 0 },
+          false },
+        { "body = 'b', y = function() return 4 end, vx = function() return 9 end",
+          { 0, 4 },
+          false },
+        { "body = 'b', angle = function() return 3 end, vy = function() return 9 end",
+          { 3, 0 },
+          false },
+        { "body = 'b', vx = function() return 5 end, vy = function() return 6 end, "
+          "spin = function() return 9 end",
+          { 5, 6 },
+          false },
+        { "body = 'b', spin = function() return 3 end, scale = 2", { 3, 0 }, true },
+        { "measure = function() return 9 end, value = function(t) return 7 * t end",
+          { 7, 0 },
+          false },
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        char text[512];
+        snprintf(text, sizeof text,
+                 "scene{ gravity = {0, 0}, dt = 0.25 } body{ name = 'b', circle{1} } exact{ %s }",
+                 rows[i].form);
+        scene *s = load(text);
+        scene_error e;
+        double truth[2];
+        bool scaled;
+        for (int k = 0; k < 4; k++) {
+            assert_int_equal(scene_step(s, &e), SCENE_OK);
+        }
+        assert_int_equal(scene_exact_truth(s, 0, truth, &scaled, &e), SCENE_OK);
+        assert_near(truth[0], rows[i].truth[0], 1e-12);
+        assert_near(truth[1], rows[i].truth[1], 1e-12);
+        assert_int_equal(scaled, rows[i].scaled);
+        scene_destroy(s);
+    }
+}
+
+// What moves a scene instead of its world: here it puts every body 1 m further.
+static void move_on(void *context, plumb_world *world, double dt)
+{
+    plumb_body_span bodies = plumb_world_bodies(world);
+    for (int i = 0; i < bodies.dynamic_count; i++) {
+        plumb_body body = bodies.body[i];
+        plumb_vec2 at = plumb_body_position(world, body);
+        assert_int_equal(plumb_body_set_position(world, body, (plumb_vec2){ at.x + 1, at.y }),
+                         PLUMB_OK);
+    }
+    *(double *)context += dt;
+}
+
+static void bear(void *context, plumb_joint joint, double force[2], double *torque)
+{
+    (void)context;
+    (void)joint;
+    force[0] = 3;
+    force[1] = 4;
+    *torque = 7;
+}
+
+static void test_moved_by_another(void **state)
+{
+    (void)state;
+    double moved = 0;
+    static const char text[] =
+        "scene{ dt = 0.25 } body{ name = 'b', circle{1} } local j = revolute{ 'b', at = {0, 0} }\n"
+        "local x0 = 0\nevery_step(function(t) local x = find('b'):position() x0 = x end)\n"
+        "exact{ 'x', body = 'b', x = function(t) return 4 * t end }\n"
+        "exact{ 'seen', value = function(t) return 4 * t - 1 end, measure = function() return x0 "
+        "end }\n"
+        "exact{ 'force', value = function() return 5 + 7 end,\n"
+        "       measure = function() return j:reaction() + j:torque() end }";
+    scene *s;
+    scene_error e;
+    scene_options options = { .path = "moved.lua",
+                              .text = text,
+                              .text_size = sizeof text - 1,
+                              .step = move_on,
+                              .joint_force = bear,
+                              .step_context = &moved };
+    assert_int_equal(scene_load(&options, &s, &e), SCENE_OK);
+    assert_int_equal(scene_activity(s), SCENE_ACTS);
+    for (int k = 0; k < 4; k++) {
+        assert_int_equal(scene_step(s, &e), SCENE_OK);
+    }
+    assert_near(moved, 1, 1e-12);
+    for (int i = 0; i < 3; i++) {
+        double error;
+        assert_int_equal(scene_exact_error(s, i, &error, &e), SCENE_OK);
+        assert_near(error, 0, 1e-6);
+    }
+    scene_destroy(s);
+}
+
+static void test_activity(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text;
+        unsigned bits;
+    } rows[] = {
+        { "", 0 },
+        { "at(1, function() end)", SCENE_ACTS },
+        { "every(1, function() end)", SCENE_ACTS },
+        { "split_step(2)", SCENE_ACTS },
+        { "on_contact(function() end)", SCENE_LISTENS },
+        { "on_hit{ a = 'b', function() end }", SCENE_LISTENS },
+        { "edit_contact{ a = 'b', function() end }", SCENE_LISTENS },
+        { "field{ body = 'b', function() return 0, 0 end } every_step(function() end)",
+          SCENE_FIELDS | SCENE_ACTS },
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        char text[256];
+        snprintf(text, sizeof text, "body{ name = 'b', circle{1} } %s", rows[i].text);
+        scene *s = load(text);
+        assert_int_equal(scene_activity(s), rows[i].bits);
+        scene_destroy(s);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_exact),
-        cmocka_unit_test(test_exact_errors),
-        cmocka_unit_test(test_expected_exact),
-        cmocka_unit_test(test_no_expect),
+        cmocka_unit_test(test_exact),          cmocka_unit_test(test_exact_errors),
+        cmocka_unit_test(test_expected_exact), cmocka_unit_test(test_no_expect),
+        cmocka_unit_test(test_truth),          cmocka_unit_test(test_moved_by_another),
+        cmocka_unit_test(test_activity),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

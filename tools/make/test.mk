@@ -114,6 +114,25 @@ $(O)/bench: $(BENCH_OBJ) $(O)/libplumb.a
 	$(Q)$(CXX) $(SANFLAGS) $(LDFLAGS) -o $@ $^ $(if $(BOX2D3),$(BOX2D3)/lib/libbox2d.a) \
 		-lbox2d -lm -lpthread
 
+# What accuracy costs, beside other engines: tests/cost. A peer is one relocatable object, as the variants of the command
+# line are: scene loader and library in double, of which only the tables peer_... can be seen.
+PEERS    := box2d2 chipmunk $(if $(BOX2D3),box2d3)
+COST_CLI := $(call objects,float,$(patsubst %,tools/plumb/%.c,cost cost_track cost_truth cost_ladder cost_front \
+	cost_print cost_chart scene_args output files progress options suggest help))
+COST_OBJ := $(call objects,float,tests/cost/suite.c tests/harness/engine_chipmunk.c) $(O)/double/tests/cost/peer.o
+$(O)/float/tests/cost/%.o $(O)/double/tests/cost/%.o: OWN_FLAGS := $(if $(BOX2D3),-DCOST_BOX2D3)
+$(O)/engine_peer.o: $(O)/double/tests/cost/peer.o $(call objects,double,$(ENGINE_SRC)) $(O)/double/libscene.a \
+		$(O)/libplumb_d.a
+	@echo "  LD    $@"
+	$(Q)$(LD) -r -o $@.all $(filter %.o,$^) --start-group $(filter %.a,$^) --end-group
+	$(Q)$(OBJCOPY) $(PEERS:%=--keep-global-symbol=peer_%) $@.all $@
+	@rm -f $@.all
+$(O)/cost-suite: $(call objects,float,tests/cost/suite.c tests/harness/engine_chipmunk.c) $(COST_CLI) \
+		$(VARIANTS:%=$(O)/engine_%.o) $(O)/engine_peer.o $(O)/box2d2.o $(if $(BOX2D3),$(O)/box2d3.o) $(O)/librender.a
+	@echo "  LD    $@"
+	$(Q)$(CXX) $(SANFLAGS) $(LDFLAGS) -o $@ $^ $(if $(BOX2D3),$(BOX2D3)/lib/libbox2d.a) -lbox2d -lchipmunk \
+		$(SCENE_LIBS) $(RENDER_LIBS) -lm -lpthread
+
 # Shots at thin walls, beside Box2D: tests/shots.
 $(O)/shots: $(call objects,float,tests/shots/table.c tests/harness/shots.c \
 		tests/harness/engine_plumb.c) $(O)/box2d2.o $(O)/libplumb.a
@@ -134,7 +153,7 @@ TEST_OBJ := $(sort $(call objects,float,$(TEST_SRC) $(FUZZ_SRC) $(BENCH_SRC) $(H
 	$(foreach t,$(TEST_SRC),$(filter %.o,$(call test_parts,$t,float,))) \
 	$(foreach t,$(DOUBLE_SRC),$(filter %.o,$(call test_parts,$t,double,_d))) \
 	$(foreach t,$(FAR_SRC),$(filter %.o,$(call test_parts,$t,far,_far))) \
-	$(O)/float/tests/fuzz/replay_main.o $(O)/box2d2.o $(O)/box2d3.o)
+	$(O)/float/tests/fuzz/replay_main.o $(COST_OBJ) $(O)/box2d2.o $(O)/box2d3.o)
 
 # ---- running
 
@@ -152,7 +171,7 @@ RUN_PROGRAMS := $(filter $(T:tests/%.c=$(O)/tests/%) $(T:tests/%.c=$(O)/tests-do
 RUN_SH       := $(filter $(T),$(TEST_SH))
 endif
 
-test-programs: $(RUN_PROGRAMS) $(O)/plumb lib examples
+test-programs: $(RUN_PROGRAMS) $(O)/plumb lib examples $(if $(filter %/test_cost_suite.sh,$(RUN_SH)),$(O)/cost-suite)
 
 # What does not build must not hide what does: every test is still run, those that have no up to date
 # program count as failed, and the last line is the sum of the whole run.
@@ -160,7 +179,7 @@ test: | $(DEPS_FIRST)
 	@$(MAKE) --no-print-directory -k test-programs || \
 		$(MAKE) --no-print-directory -k ONE_EACH=1 test-programs || { \
 		echo "test: the build failed; what could not be built counts as failed" >&2; \
-		for p in $(RUN_PROGRAMS) $(O)/plumb; do \
+		for p in $(RUN_PROGRAMS) $(O)/plumb $(O)/cost-suite; do \
 			$(MAKE) -q $$p >/dev/null 2>&1 || rm -f $$p; \
 		done; }
 	@O=$(O) SAN=$(SAN) bash tests/run.sh -j $(JOBS) -l $(O)/test-logs $(RUN_PROGRAMS) $(RUN_SH)
@@ -178,8 +197,10 @@ shots: $(O)/shots
 bench: $(O)/bench
 	$(O)/bench $(BENCH)
 
-cost: $(O)/plumb
-	$(Q)for s in $(SCENES); do $(O)/plumb cost $$s || exit 1; done
+# Alone on the machine: COST="--budget 0.05" or other arguments, COST_SCENES="a.lua b.lua".
+COST_SCENES ?= $(sort $(wildcard assets/scenes/accuracy/*.lua))
+cost: $(O)/cost-suite
+	$(O)/cost-suite --folder $(O)/cost $(COST) $(COST_SCENES)
 
 # The matrix of compilers, optimisation levels, a sanitizer, widths, solvers. See the script.
 determinism:

@@ -60,7 +60,7 @@ static int choose_quantity(cost_plan *plan, const char *name)
 /// Says which setting is the cheapest that is good enough.
 static int judge(const cost_args *args, const cost_plan *plan, FILE *file)
 {
-    const cost_row *row = cost_cheapest(plan, args->tolerance, args->relative);
+    const cost_row *row = cost_cheapest(plan, NULL, args->tolerance, args->relative);
     const char *unit = args->relative ? "of the truth's size" : plan->quantities[0].unit;
     for (int q = 1; q < plan->quantity_count && !args->relative; q++) {
         unit = strcmp(plan->quantities[q].unit, unit) == 0 ? unit : "in each quantity's unit";
@@ -84,38 +84,11 @@ static int judge(const cost_args *args, const cost_plan *plan, FILE *file)
     return CLI_OK;
 }
 
-/// Fills the plan from the scene as the command line has it.
-static int make_plan(const cost_args *args, const char *path, cost_plan *plan)
-{
-    scene_run run;
-    int code = scene_run_open(&args->scene, path, &run);
-    if (code != CLI_OK) {
-        return code;
-    }
-    plan->args = &args->scene;
-    plan->path = path;
-    plan->lists = args->lists;
-    plan->time = run.time;
-    plan->dt = run.info.dt;
-    plan->budget = args->budget;
-    plan->repeat = args->repeat;
-    plan->own = (cost_setting){
-        0,          run.info.solver, args->scene.precision, run.info.substeps, run.info.iterations,
-        run.info.dt
-    };
-    snprintf(plan->title, sizeof plan->title, "%s", run.info.name);
-    if (run.steps < 1) {
-        cli_message("%s: there is nothing to measure in %g s", run.info.name, run.time);
-        return scene_run_close(&run, CLI_FAILED);
-    }
-    return scene_run_close(&run, CLI_OK);
-}
-
 static int report(const cost_args *args, cost_plan *plan)
 {
     cost_rank(plan);
     if (args->csv) {
-        cost_print_csv(plan, args->relative);
+        cost_print_csv(stdout, plan, args->relative);
     } else {
         cost_print_table(plan, args->relative, args->all || plan->ladder_count == 0);
     }
@@ -158,7 +131,10 @@ static int cost_command(const cli_command *command, int argc, char **argv)
     }
     plan->sides = &side;
     plan->side_count = 1;
-    code = make_plan(&args, operands.items[0], plan);
+    plan->lists = args.lists;
+    plan->budget = args.budget;
+    plan->repeat = args.repeat;
+    code = cost_plan_open(plan, &args.scene, operands.items[0]);
     code = code == CLI_OK ? cost_survey(plan) : code;
     if (code == CLI_OK && args.quantity != NULL) {
         code = choose_quantity(plan, args.quantity);

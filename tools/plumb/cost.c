@@ -24,7 +24,7 @@ static double cpu_now(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-int cost_open(const cost_plan *plan, const cost_setting *set, scene_run *run)
+static int open_for(const cost_plan *plan, const cost_setting *set, bool unseen, scene_run *run)
 {
     scene_args args = *plan->args;
     args.engine = plan->sides[set->side].engine;
@@ -35,7 +35,13 @@ int cost_open(const cost_plan *plan, const cost_setting *set, scene_run *run)
     args.dt = set->dt;
     args.time = plan->time;
     args.no_expect = true; // looking at them is none of the scene's work
+    args.unseen = unseen;
     return scene_run_open(&args, plan->path, run);
+}
+
+int cost_open(const cost_plan *plan, const cost_setting *set, scene_run *run)
+{
+    return open_for(plan, set, false, run);
 }
 
 int cost_moments(const cost_plan *plan)
@@ -77,11 +83,9 @@ static int look_at_forms(watch *w, scene_run *run, double elapsed)
             continue;
         }
         int code = run->engine->form_error(run->session, quantity->form, &distance, &error);
-        if (code != CLI_OK) {
-            return scene_report(&error);
-        }
-        if (isnan(distance)) {
-            return CLI_DIVERGED;
+        // The survey has asked them all at the scene's own setting: where one has no answer now, the run is lost.
+        if (code != CLI_OK || isnan(distance)) {
+            return cli_interrupted() ? CLI_FAILED : CLI_DIVERGED;
         }
         if (distance >= 0) {
             note_error(w->plan, w->row, q, elapsed, distance);
@@ -281,7 +285,7 @@ int cost_time(cost_plan *plan, cost_row *row)
     for (int i = 0; i < SHORT_RUNS && spent < SHORT_RUN; i++) {
         scene_run run;
         engine_error error = { 0 };
-        int code = cost_open(plan, &row->set, &run);
+        int code = open_for(plan, &row->set, true, &run);
         if (code != CLI_OK) {
             return code;
         }

@@ -141,6 +141,9 @@ enum { COST_MEMBERS = 8 };
 
 /// Opens the scene with a setting. CLI_OK or a code after a message.
 int cost_open(const cost_plan *plan, const cost_setting *set, scene_run *run);
+/// Fills a plan that has sides, lists, budget and repeats from the scene as the command line has it. CLI_OK or a code
+/// after a message.
+int cost_plan_open(cost_plan *plan, const scene_args *args, const char *path);
 /// Finds quantities, the horizon and, where the scene has no closed form, the reference.
 int cost_survey(cost_plan *plan);
 void cost_plan_free(cost_plan *plan);
@@ -160,18 +163,24 @@ const char *cost_end_text(cost_end end);
 void cost_rank(cost_plan *plan);
 /// Error of a quantity over its extent.
 double cost_relative(const cost_quantity *quantity, double error);
-/// The cheapest row whose errors are all within `tolerance`; NULL: none.
-const cost_row *cost_cheapest(const cost_plan *plan, double tolerance, bool relative);
+/// The cheapest row whose errors are all within `tolerance`, of sides named `side` (NULL: of all); NULL: none.
+const cost_row *cost_cheapest(const cost_plan *plan, const char *side, double tolerance,
+                              bool relative);
 /// The words of the command line for a setting.
 void cost_words(const cost_plan *plan, const cost_setting *set, char *text, size_t size);
 
 void cost_print_table(const cost_plan *plan, bool relative, bool all);
-void cost_print_csv(const cost_plan *plan, bool relative);
+void cost_print_csv(FILE *file, const cost_plan *plan, bool relative);
 
 /// Refuses a name that is neither .svg nor .png. CLI_OK or CLI_USAGE after a message.
 int cost_chart_check(const char *path);
 /// Draws the rows, ranked, by gnuplot. CLI_OK, or CLI_FAILED after a message: gnuplot is not there, the disk is full.
 int cost_chart(const cost_plan *plan, const char *path, bool relative);
+/// Draws what `put` writes as a script; it begins with cost_put_terminal.
+int cost_draw(const char *path, void (*put)(FILE *script, const char *path, const void *context),
+              const void *context);
+/// The picture's kind by its name, its size, and how axes look.
+void cost_put_terminal(FILE *script, const char *path, int width, int height);
 
 // ------------------------------------------------------------------------------- tracks (cost_track.c)
 

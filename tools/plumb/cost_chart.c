@@ -18,7 +18,7 @@
 
 extern char **environ;
 
-enum { PANELS_MAX = 4, TIMED_MAX = 6 };
+enum { PANELS_MAX = 4, TIMED_MAX = 6, SIDES = 8 };
 
 // Hues that stay apart in print and for most of those who see fewer; by side and solver.
 static const char *const hues[] = {
@@ -224,8 +224,8 @@ static void put_panel(FILE *file, const cost_plan *plan, int q, bool relative)
     bool front = put_marked(file, plan, q, 0, relative, low, high);
     bool own = put_marked(file, plan, q, 1, relative, low, high);
     bool lost = put_marked(file, plan, q, 2, relative, low, high);
-    bool there[HUES][8][3] = { { { false } } };
-    for (int k = 0; k < HUES * 8 * 3; k++) {
+    bool there[SIDES][8][3] = { { { false } } };
+    for (int k = 0; k < SIDES * 8 * 3; k++) {
         const int series[3] = { k / 24, k / 3 % 8, k % 3 };
         there[k / 24][k / 3 % 8][k % 3] = put_points(file, plan, q, series, relative, low);
     }
@@ -234,7 +234,7 @@ static void put_panel(FILE *file, const cost_plan *plan, int q, bool relative)
         fprintf(file, "%s$front%d with steps lw 2 lc rgb '#30363c' title 'front'", glue, q);
         glue = ", ";
     }
-    for (int k = 0, hue = -1, last = -1; k < HUES * 8 * 3; k++) {
+    for (int k = 0, hue = -1, last = -1; k < SIDES * 8 * 3; k++) {
         const int series[3] = { k / 24, k / 3 % 8, k % 3 };
         if (!there[series[0]][series[1]][series[2]]) {
             continue;
@@ -318,20 +318,33 @@ static void put_times(FILE *file, const cost_plan *plan, int q, bool relative)
     fprintf(file, "\n");
 }
 
-static void put_script(FILE *file, const cost_plan *plan, const char *path, bool relative)
+void cost_put_terminal(FILE *script, const char *path, int width, int height)
 {
+    fprintf(script,
+            "set terminal %s size %d,%d font 'DejaVu Sans,11' enhanced background rgb 'white'\n"
+            "set encoding utf8\n"
+            "set border 3 lc rgb '#8a9299'\nset tics nomirror textcolor rgb '#30363c'\n"
+            "set grid lc rgb '#dfe3e6' lt 1 lw 0.7\nset bars small\n"
+            "set key outside below horizontal height 1 samplen 1.2 spacing 1.1\n",
+            is_png(path) ? "pngcairo" : "svg", width, height);
+}
+
+/// What the script of a plan is made from.
+typedef struct drawing {
+    const cost_plan *plan;
+    bool relative;
+} drawing;
+
+static void put_script(FILE *file, const char *path, const void *context)
+{
+    const cost_plan *plan = ((const drawing *)context)->plan;
+    bool relative = ((const drawing *)context)->relative;
     int panels = plan->quantity_count < PANELS_MAX ? plan->quantity_count : PANELS_MAX;
     const cost_row *timed[TIMED_MAX];
     bool over_time = panels > 0 && choose_timed(plan, 0, timed) > 0;
     int cells = panels + over_time, columns = cells > 1 ? 2 : 1,
         rows = (cells + columns - 1) / columns;
-    fprintf(file,
-            "set terminal %s size %d,%d font 'DejaVu Sans,%d' enhanced background rgb 'white'\n",
-            is_png(path) ? "pngcairo" : "svg", 640 * columns, 480 * rows + 50, 11);
-    fprintf(file, "set encoding utf8\n"
-                  "set border 3 lc rgb '#8a9299'\nset tics nomirror textcolor rgb '#30363c'\n"
-                  "set grid lc rgb '#dfe3e6' lt 1 lw 0.7\nset bars small\n"
-                  "set key outside below horizontal height 1 samplen 1.2 spacing 1.1\n");
+    cost_put_terminal(file, path, 640 * columns, 480 * rows + 50);
     fprintf(file, "set multiplot layout %d,%d title '{/:Bold=14 ", rows, columns);
     put_text(file, plan->title);
     fprintf(file, "}{/=11    what accuracy costs, %.4g s simulated}'\n", plan->time);
@@ -396,6 +409,13 @@ static int tell_failure(const char *path, int code, FILE *said)
 
 int cost_chart(const cost_plan *plan, const char *path, bool relative)
 {
+    const drawing what = { plan, relative };
+    return cost_draw(path, put_script, &what);
+}
+
+int cost_draw(const char *path, void (*put)(FILE *script, const char *path, const void *context),
+              const void *context)
+{
     cli_output out;
     int code = cli_output_open(&out, path);
     if (code != CLI_OK) {
@@ -406,7 +426,7 @@ int cost_chart(const cost_plan *plan, const char *path, bool relative)
         cli_message("cannot draw '%s': %s", path, strerror(errno));
         code = CLI_FAILED;
     } else {
-        put_script(script, plan, path, relative);
+        put(script, path, context);
         int drawn = run_gnuplot(script, out.file, said);
         code = drawn != 0 ? tell_failure(path, drawn, said) : CLI_OK;
     }

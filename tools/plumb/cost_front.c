@@ -63,11 +63,14 @@ void cost_rank(cost_plan *plan)
     }
 }
 
-const cost_row *cost_cheapest(const cost_plan *plan, double tolerance, bool relative)
+const cost_row *cost_cheapest(const cost_plan *plan, const char *side, double tolerance,
+                              bool relative)
 {
     for (int i = 0; i < plan->row_count; i++) {
         const cost_row *row = &plan->rows[plan->order[i]];
-        bool good = !row->diverged, seen = false;
+        bool seen = false;
+        bool good =
+            !row->diverged && (side == NULL || strcmp(plan->sides[row->set.side].name, side) == 0);
         for (int q = 0; q < plan->quantity_count && good; q++) {
             double error = row->error[q];
             seen = seen || error >= 0;

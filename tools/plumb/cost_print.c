@@ -217,48 +217,48 @@ void cost_print_table(const cost_plan *plan, bool relative, bool all)
 
 // ------------------------------------------------------------------------------------------ CSV
 
-static void csv_number(double value, bool there)
+static void csv_number(FILE *file, double value, bool there)
 {
     if (there) {
-        printf("%.6g", value);
+        fprintf(file, "%.6g", value);
     }
-    putchar(',');
+    fputc(',', file);
 }
 
-static void csv_line(const cost_plan *plan, const cost_row *row, int q, bool relative)
+static void csv_line(FILE *file, const cost_plan *plan, const cost_row *row, int q, bool relative)
 {
     const cost_quantity *quantity = &plan->quantities[q];
     char solver[32], precision[16];
     name_of(plan->sides[row->set.side].solvers, row->set.solver, solver, sizeof solver);
     name_of(SCENE_PRECISIONS, row->set.precision, precision, sizeof precision);
-    printf("%s,%.17g,%d,%d,%s,", solver, row->set.dt, row->set.substeps, row->set.iterations,
-           precision);
-    cli_print_csv(stdout, quantity->name);
-    putchar(',');
-    cli_print_csv(stdout, unit_of(quantity, relative));
-    putchar(',');
+    fprintf(file, "%s,%s,%.17g,%d,%d,%s,", plan->sides[row->set.side].name, solver, row->set.dt,
+            row->set.substeps, row->set.iterations, precision);
+    cli_print_csv(file, quantity->name);
+    fputc(',', file);
+    cli_print_csv(file, unit_of(quantity, relative));
+    fputc(',', file);
     bool there = !row->diverged && row->error[q] >= 0;
-    csv_number(shown(quantity, row->error[q], relative), there);
-    csv_number(shown(quantity, row->noise[q], relative), there);
+    csv_number(file, shown(quantity, row->error[q], relative), there);
+    csv_number(file, shown(quantity, row->noise[q], relative), there);
     for (int k = 0; k < COST_PARTS; k++) {
-        csv_number(shown(quantity, row->part[q][k], relative), there && row->part[q][k] >= 0);
+        csv_number(file, shown(quantity, row->part[q][k], relative), there && row->part[q][k] >= 0);
     }
-    csv_number(row->cpu, !row->diverged);
-    csv_number(row->jitter, !row->diverged);
-    csv_number(row->penetration, !row->diverged);
-    printf("%d,%d,%d\n", row->front[q], row->own, row->diverged);
+    csv_number(file, row->cpu, !row->diverged);
+    csv_number(file, row->jitter, !row->diverged);
+    csv_number(file, row->penetration, !row->diverged);
+    fprintf(file, "%d,%d,%d\n", row->front[q], row->own, row->diverged);
 }
 
-void cost_print_csv(const cost_plan *plan, bool relative)
+void cost_print_csv(FILE *file, const cost_plan *plan, bool relative)
 {
-    printf("solver,dt [s],substeps,iterations,precision,quantity,unit,error,noise,");
+    fprintf(file, "engine,solver,dt [s],substeps,iterations,precision,quantity,unit,error,noise,");
     for (int k = 0; k < COST_PARTS; k++) {
-        printf("error %d/%d,", k + 1, (int)COST_PARTS);
+        fprintf(file, "error %d/%d,", k + 1, (int)COST_PARTS);
     }
-    printf("cpu [s/s],cpu noise [s/s],max penetration [m],pareto,own,diverged\n");
+    fprintf(file, "cpu [s/s],cpu noise [s/s],max penetration [m],pareto,own,diverged\n");
     for (int i = 0; i < plan->row_count; i++) {
         for (int q = 0; q < plan->quantity_count; q++) {
-            csv_line(plan, &plan->rows[plan->order[i]], q, relative);
+            csv_line(file, plan, &plan->rows[plan->order[i]], q, relative);
         }
     }
 }

@@ -253,6 +253,28 @@ static int survey_finest(cost_plan *plan, const cost_setting *own, double nudge,
     return code;
 }
 
+int cost_plan_open(cost_plan *plan, const scene_args *args, const char *path)
+{
+    scene_run run;
+    int code = scene_run_open(args, path, &run);
+    if (code != CLI_OK) {
+        return code;
+    }
+    plan->args = args;
+    plan->path = path;
+    plan->time = run.time;
+    plan->dt = run.info.dt;
+    plan->own = (cost_setting){
+        0, run.info.solver, args->precision, run.info.substeps, run.info.iterations, run.info.dt
+    };
+    snprintf(plan->title, sizeof plan->title, "%s", run.info.name);
+    if (run.steps < 1) {
+        cli_message("%s: there is nothing to measure in %g s", run.info.name, run.time);
+        return scene_run_close(&run, CLI_FAILED);
+    }
+    return scene_run_close(&run, CLI_OK);
+}
+
 int cost_survey(cost_plan *plan)
 {
     const cost_setting own = plan->own;

@@ -97,6 +97,11 @@ static scene_code load(const engine_settings *settings, scene **out, scene_error
                               .set_count = count,
                               .no_expect = settings->no_expect,
                               .stop = is_stopped };
+    if (settings->mover != NULL) {
+        options.step = settings->mover->step;
+        options.joint_force = settings->mover->joint_force;
+        options.step_context = settings->mover->context;
+    }
     scene_code code = scene_load(&options, out, error);
     free(sets);
     return code;
@@ -117,6 +122,8 @@ static engine_session *session_open(const engine_settings *settings, engine_erro
     }
     engine_stage *stage = &session->stage;
     stage->world = scene_world(stage->scene);
+    session->is_bare =
+        settings->unseen && settings->mover == NULL && scene_activity(stage->scene) == 0;
     stage->info = scene_get_info(stage->scene);
     stage->camera = scene_get_camera(stage->scene);
     return session;
@@ -147,6 +154,15 @@ static engine_stage *session_stage(engine_session *session)
 static int session_step(engine_session *session, engine_error *error)
 {
     scene_error from = { 0 };
+    if (session->is_bare) {
+        plumb_result result =
+            plumb_world_step(session->stage.world, (plumb_real)session->stage.info.dt);
+        return result == PLUMB_OK
+                   ? CLI_OK
+                   : pl_session_fail(error, CLI_FAILED, "%s: a step failed: %s",
+                                     session->stage.info.title,
+                                     plumb_world_error(session->stage.world).message);
+    }
     if (scene_step(session->stage.scene, &from) != SCENE_OK) {
         return pl_session_fail_scene(session, &from, error);
     }

@@ -12,6 +12,7 @@
 #include "cli.h"
 
 struct render_frame;
+struct engine_mover;
 
 /// What went wrong: an exit code and complete text for the user, possibly several lines.
 typedef struct engine_error {
@@ -33,6 +34,9 @@ typedef struct engine_settings {
     int width;      ///< SIMD lanes; 0: the scene's or the best
     int workers;    ///< threads; 0: the scene's or one
     bool no_expect; ///< nobody asks whether expectations hold
+    bool
+        unseen; ///< nobody looks between steps, nor at the time: what only looks need may be left out
+    const struct engine_mover *mover; ///< moves the scene instead of its world; NULL: none
 } engine_settings;
 
 /// The solvers by name, in the order of plumb_solver.

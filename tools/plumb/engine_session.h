@@ -34,8 +34,17 @@ struct engine_stage {
         cell_room; ///< [B]
 };
 
+/// Another engine that takes the scene's steps: see scene_options.
+typedef struct engine_mover {
+    void (*step)(void *context, plumb_world *world, double dt);
+    void (*joint_force)(void *context, plumb_joint joint, double force[2], double *torque);
+    void *context;
+} engine_mover;
+
 struct engine_session {
     engine_stage stage;
+    bool is_bare; ///< a step is one of the world and nothing else
+    void *mover;  ///< of who has opened it, for its own use
     engine_expect *expects;
     engine_pass *passes;
     plumb_pass_info *pass_infos;

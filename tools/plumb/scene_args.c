@@ -64,7 +64,8 @@ int scene_run_open(const scene_args *args, const char *path, scene_run *run)
                                  .solver = args->solver,
                                  .width = args->width,
                                  .workers = args->workers,
-                                 .no_expect = args->no_expect };
+                                 .no_expect = args->no_expect,
+                                 .unseen = args->unseen };
     engine_error error = { 0 };
 
     const engine_api *const engines[] = { &engine_float, &engine_double, &engine_far };

@@ -18,6 +18,7 @@ typedef struct scene_args {
     cli_texts sets;
     bool quiet;
     bool no_expect; ///< no option: nobody asks whether expectations hold
+    bool unseen;    ///< no option: nobody looks between steps
     const engine_api
         *engine; ///< no option: another engine behind the same table; NULL: Plumb in `precision`
 } scene_args;

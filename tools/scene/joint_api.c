@@ -150,22 +150,40 @@ static int method_error(lua_State *L)
     return sc_push_real(L, plumb_joint_error(c.world, c.entity));
 }
 
+// Force and torque of a joint: of the world, or of what moves it instead.
+static plumb_vec2 bears(lua_State *L, const call *c, double *torque)
+{
+    const scene_options *options = &sc_of(L)->options;
+    plumb_vec2 force = plumb_joint_force(c->world, c->entity);
+    *torque = (double)plumb_joint_torque(c->world, c->entity);
+    if (options->joint_force != NULL) {
+        double other[2] = { 0 };
+        options->joint_force(options->step_context, c->entity, other, torque);
+        force = (plumb_vec2){ (plumb_real)other[0], (plumb_real)other[1] };
+    }
+    return force;
+}
+
 static int method_force(lua_State *L)
 {
     call c = self(L, "force");
-    return sc_push_vector(L, plumb_joint_force(c.world, c.entity));
+    double torque;
+    return sc_push_vector(L, bears(L, &c, &torque));
 }
 
 static int method_torque(lua_State *L)
 {
     call c = self(L, "torque");
-    return sc_push_real(L, plumb_joint_torque(c.world, c.entity));
+    double torque;
+    (void)bears(L, &c, &torque);
+    return sc_push_real(L, (plumb_real)torque);
 }
 
 static int method_reaction(lua_State *L)
 {
     call c = self(L, "reaction");
-    return sc_push_real(L, plumb_vec2_magnitude(plumb_joint_force(c.world, c.entity)));
+    double torque;
+    return sc_push_real(L, plumb_vec2_magnitude(bears(L, &c, &torque)));
 }
 
 // -------------------------------------------------------------------------------------- setters

@@ -248,7 +248,12 @@ static void step_inside(scene *s, void *unused)
     sc_begin_handlers(s);
     sc_handlers_before(s);
     for (int left = s->split, count = left; left > 0; left--) {
-        plumb_result result = plumb_world_step(s->world, (plumb_real)(s->dt / count));
+        plumb_result result = PLUMB_OK;
+        if (s->options.step != NULL) {
+            s->options.step(s->options.step_context, s->world, s->dt / count);
+        } else {
+            result = plumb_world_step(s->world, (plumb_real)(s->dt / count));
+        }
         if (s->edit_failed) { // s->error says why
             lua_pushlightuserdata(s->L, s);
             lua_error(s->L);
@@ -295,6 +300,18 @@ scene_code scene_finish(scene *s, scene_error *err)
         s->finished = sc_protect(s, finish_inside, NULL);
     }
     return answer(s, err);
+}
+
+unsigned scene_activity(const scene *s)
+{
+    unsigned bits = s->split > 1 ? SCENE_ACTS : 0;
+    for (int i = 0; i < s->handlers.count; i++) {
+        sc_handler_kind kind = s->handlers.items[i].kind;
+        bits |= kind == SC_FIELD        ? SCENE_FIELDS
+                : kind <= SC_EVERY_STEP ? SCENE_ACTS
+                                        : SCENE_LISTENS;
+    }
+    return bits;
 }
 
 double scene_time(const scene *s)

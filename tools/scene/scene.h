@@ -93,6 +93,11 @@ typedef struct scene_options {
     void *stop_context;
     void (*print)(void *context, const char *line); ///< for print(); null: stderr
     void *print_context;
+    /// Takes the world's step instead of plumb_world_step: another engine, whose motion is written back. Null: none.
+    void (*step)(void *context, plumb_world *world, double dt);
+    /// What a joint bears of that motion [N], [N m], on b; asked by force(), torque() and reaction(). Null: the world's.
+    void (*joint_force)(void *context, plumb_joint joint, double force[2], double *torque);
+    void *step_context;
 } scene_options;
 
 typedef struct scene scene;
@@ -110,6 +115,15 @@ scene_code scene_step(scene *s, scene_error *err);
 
 /// Evaluates the expectations that wait for the end. Called twice it does nothing.
 scene_code scene_finish(scene *s, scene_error *err);
+
+/// What the scene's code does to its world on the way.
+enum {
+    SCENE_ACTS = 1,    ///< at, every, every_step, split_step
+    SCENE_LISTENS = 2, ///< on_contact and its like, edit_contact
+    SCENE_FIELDS = 4   ///< field
+};
+/// Bits of those; 0: a step of the scene is one of its world and nothing else.
+unsigned scene_activity(const scene *s);
 
 /// [s] simulated time, exactly start + steps * dt in double.
 double scene_time(const scene *s);
