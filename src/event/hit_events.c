@@ -100,7 +100,10 @@ static void keep_pending(plumb_world *world, const pl_pair *pair, const pl_manif
                          plumb_vec2 at)
 {
     ((pl_pending_hit *)world->pending_hits.items.data)[world->pending_hits.count++] =
-        (pl_pending_hit){ pair->a, pair->b, m->approach, m->hit_impulse, m->nx, m->ny, at };
+        (pl_pending_hit){ pair->a,     pair->b,
+                          m->approach, m->hit_impulse,
+                          m->nx,       m->ny,
+                          at,          (double)m->struck_at - (double)world->last_dt };
 }
 
 // `who`: shapes and bodies.
@@ -114,6 +117,7 @@ static void append_pending(plumb_world *world, const pl_pending_hit *hit, plumb_
                              .point = hit->at,
                              .normal = { hit->nx, hit->ny },
                              .approach_speed = hit->approach,
+                             .moment = (plumb_real)hit->moment,
                              .impulse = hit->impulse };
 }
 
@@ -147,6 +151,7 @@ void pl_hit_append(plumb_world *world, const pl_pair *pair, real impulse)
                              .point = place_of_hit(world, m),
                              .normal = { m->nx, m->ny },
                              .approach_speed = m->approach,
+                             .moment = m->struck_at,
                              .impulse = impulse };
 }
 
@@ -189,6 +194,9 @@ bool pl_hit_is_due(plumb_world *world, pl_pair *pair, bool touches)
         (m->met & PL_MET_MEASURED) != 0 && m->approach > least && m->hit_impulse > 0;
     pair->flags |= strikes || pending != NULL ? PL_PAIR_STRUCK : 0;
     if (pending != NULL) {
+        if (pending->approach > m->approach || (m->met & PL_MET_MEASURED) == 0) {
+            m->struck_at = (near_real)pending->moment;
+        }
         m->approach = pending->approach > m->approach ? pending->approach : m->approach;
         m->hit_impulse += pending->impulse;
         return true;

@@ -10,7 +10,7 @@
 #include "snapshot/section.h"
 
 #define PL_IMAGE_MAGIC   UINT64_C(0x474d49424d554c50) // "PLUMBIMG" in a little-endian file
-#define PL_IMAGE_VERSION 2u
+#define PL_IMAGE_VERSION 3u
 
 typedef struct pl_image_header {
     uint64_t magic;

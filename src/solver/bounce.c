@@ -264,7 +264,8 @@ bool pl_bounce_resolve(plumb_world *world, const pl_impact *m, const pl_approach
         if (impulse[j] > 0) {
             strike(world, m, j, impulse[j], 0, at[j].time);
             manifold->point[j].total += (near_real)impulse[j];
-            pl_manifold_strike(manifold, (near_real)at[j].speed);
+            pl_manifold_strike(manifold, (near_real)at[j].speed,
+                               world->solver.since + (near_real)at[j].time);
             struck = true;
         }
     }

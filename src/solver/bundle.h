@@ -35,6 +35,7 @@ typedef struct extra {
     vf lr;            // [N m s]
     vf total[2];      // [N s] normal impulses of the substeps so far
     vf struck;        // [m/s] fastest at which a point was struck in this step
+    vf struck_at;     // [s] when, since the step began
 } extra;
 
 // What only locked axes, bodies whose time stands still and surfaces that stick need. A body locked along an axis has infinite mass
@@ -52,6 +53,7 @@ typedef struct bounce {
     vf separation
         [2]; // [m] at the start of the step; the point's own may say that the point is out of reach
     vf speed;   // [m/s] of the fastest impact in this step
+    vf time;    // [s] of it, since the step began
     vf impacts; // in this step
 } bounce;
 

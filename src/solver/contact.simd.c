@@ -95,7 +95,7 @@ WIDE_INLINE special special_now(const special *s, const bundle *c, const body *a
 // it has.
 WIDE_INLINE vf shortfall(const bundle *c, const point *p, const body *a, const body *b,
                          const pl_contact_call *call, bool soft, bool rotation, vf *diagonal,
-                         vf *speed)
+                         vf *speed, vf *apart_by)
 {
     vf zero = splat(0);
     vf s = p->separation + c->nx * (b->dx - a->dx) + c->ny * (b->dy - a->dy);
@@ -106,6 +106,7 @@ WIDE_INLINE vf shortfall(const bundle *c, const point *p, const body *a, const b
     }
     vm apart = s > zero;
     *speed = vn;
+    *apart_by = s;
     *diagonal = p->kn;
     if (soft) {
         *diagonal += sel(apart, zero, p->give);
@@ -117,10 +118,14 @@ WIDE_INLINE vf shortfall(const bundle *c, const point *p, const body *a, const b
 
 // A point that bore nothing and pushes now has been struck, at the speed v [m/s] that it had; so has, in the first
 // sweep of a step, one that bears more than in the step before.
-WIDE_INLINE void note_strike(extra *e, const pl_contact_call *call, vf load, vf impulse, vf v)
+WIDE_INLINE void note_strike(extra *e, const pl_contact_call *call, vf load, vf impulse, vf v,
+                             vf apart)
 {
-    vm struck = (load <= splat(call->unloaded)) & (impulse > splat(0));
-    e->struck = vmax(e->struck, sel(struck, -v, splat(0)));
+    vm struck = (load <= splat(call->unloaded)) & (impulse > splat(0)) & (-v > e->struck);
+    vf way = vmax(apart, splat(0));
+    vf time = splat(call->since) + vmin(way / sel(struck, -v, splat(1)), splat(call->h));
+    e->struck = sel(struck, -v, e->struck);
+    e->struck_at = sel(struck, time, e->struck_at);
 }
 
 // `e` not null: notes who is struck.
@@ -128,9 +133,9 @@ WIDE_INLINE void solve_normals(const bundle *c, const special *s, extra *e, poin
                                body *b, const pl_contact_call *call, bool soft, bool rotation)
 {
     vf zero = splat(0), one = splat(1);
-    vf d0, d1, v0, v1;
-    vf lack0 = shortfall(c, &p[0], a, b, call, soft, rotation, &d0, &v0);
-    vf lack1 = shortfall(c, &p[1], a, b, call, soft, rotation, &d1, &v1);
+    vf d0, d1, v0, v1, s0, s1;
+    vf lack0 = shortfall(c, &p[0], a, b, call, soft, rotation, &d0, &v0, &s0);
+    vf lack1 = shortfall(c, &p[1], a, b, call, soft, rotation, &d1, &v1, &s1);
     vf k01 = c->k01;
     vf old0 = p[0].ln, old1 = p[1].ln;
     if (s != NULL) {
@@ -157,8 +162,8 @@ WIDE_INLINE void solve_normals(const bundle *c, const special *s, extra *e, poin
     vf impulse0 = total0 - old0;
     vf impulse1 = total1 - old1;
     if (e != NULL) {
-        note_strike(e, call, p[0].ln, impulse0, v0);
-        note_strike(e, call, p[1].ln, impulse1, v1);
+        note_strike(e, call, p[0].ln, impulse0, v0, s0);
+        note_strike(e, call, p[1].ln, impulse1, v1, s1);
     }
     p[0].ln = s != NULL ? (vf)(total0 - s->pull[0]) : total0;
     p[1].ln = s != NULL ? (vf)(total1 - s->pull[1]) : total1;

@@ -249,7 +249,7 @@ void PL_WIDE_NAME(pl_contact_store_extras)(const pl_contact_call *call, uint32_t
                 m->point[0].total += extras[k].total[0][i];
                 m->point[1].total += extras[k].total[1][i];
                 if (extras[k].struck[i] > 0) {
-                    pl_manifold_strike(m, extras[k].struck[i]);
+                    pl_manifold_strike(m, extras[k].struck[i], extras[k].struck_at[i]);
                 }
             }
         }

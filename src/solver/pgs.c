@@ -22,6 +22,7 @@ typedef struct classic {
     pl_classic_contact *contacts;
     uint32_t count;
     near_real h;
+    near_real since;      // [s] from the start of the step to that of the substep
     near_real unloaded;   // [N s] a point that bears no more and pushes has been struck
     near_real *residuals; // a quad a slot; NULL: nothing bounces
 } classic;
@@ -200,6 +201,7 @@ static void solve_velocity(const classic *c, pl_classic_contact *m, pl_classic_p
     total = total > -pull ? total : -pull;
     if (total > p->ln && p->ln <= c->unloaded && -speed > m->struck) {
         m->struck = -speed;
+        m->struck_at = c->since + (s > 0 && s < -speed * c->h ? s / -speed : s > 0 ? c->h : 0);
     }
     push(c, m, p, total - p->ln, 0);
     p->ln = total;
@@ -263,7 +265,7 @@ static void store(const classic *c, pl_manifold *manifolds, pl_pair *pairs)
         pl_manifold *m = &manifolds[c->contacts[i].manifold];
         m->met |= c->contacts[i].pushed ? PL_MET_ACTED : 0;
         if (c->contacts[i].struck > 0) {
-            pl_manifold_strike(m, c->contacts[i].struck);
+            pl_manifold_strike(m, c->contacts[i].struck, c->contacts[i].struck_at);
         }
         pair->rolling = c->contacts[i].lr;
         for (uint32_t j = 0; j < c->contacts[i].count; ++j) {
@@ -284,6 +286,7 @@ static classic classic_of(const pl_substep *s)
                       .contacts = solver->classic.data,
                       .count = world->narrow.manifold_count,
                       .h = s->h,
+                      .since = s->solving->call.since,
                       .residuals = s->solving->elastic ? solver->residuals.data : NULL };
 }
 
@@ -308,6 +311,7 @@ void pl_classic_warm_start(pl_substep *s)
 void pl_classic_impacts(pl_substep *s)
 {
     if (s->solving->elastic) {
+        s->world->solver.since = s->solving->call.since;
         pl_impacts_run(s->world, s->h);
         pl_impacts_tell(s->world, s->h);
     }

@@ -153,7 +153,9 @@ WIDE_PART void resolve(const bundle *c, const special *s, extra *e, bounce *r, s
     find_impulses(impulse, c, r, at);
     for (int j = 0; j < 2; ++j) {
         strike(c, s, j, a, b, impulse[j], zero, at[j].time);
-        r->speed = vmax(r->speed, sel(impulse[j] > zero, at[j].speed, zero));
+        const vm fastest = (impulse[j] > zero) & (at[j].speed > r->speed);
+        r->speed = sel(fastest, at[j].speed, r->speed);
+        r->time = sel(fastest, splat(call->since) + at[j].time, r->time);
     }
     for (int j = 0; j < 2; ++j) {
         const vf bound = c->friction * impulse[j];
@@ -243,7 +245,7 @@ void PL_WIDE_NAME(pl_contact_store_bounces)(const pl_contact_call *call, uint32_
         for (int i = 0; i < PL_WIDTH && any(r->impacts > splat(0)); ++i) {
             if (r->impacts[i] > 0) {
                 pl_manifold *m = &call->manifolds[call->lanes[(size_t)k * PL_WIDTH + (size_t)i]];
-                pl_manifold_strike(m, r->speed[i]);
+                pl_manifold_strike(m, r->speed[i], r->time[i]);
                 call->pairs[m->pair].flags |= PL_PAIR_HIT;
                 impacts += (uint32_t)r->impacts[i];
             }

@@ -192,6 +192,7 @@ void pl_soft_impacts(pl_substep *s)
     plumb_world *world = s->world;
     const pl_contact_kernels *kernels = s->solving->step->kernels;
     if (s->solving->elastic) {
+        world->solver.since = s->solving->call.since;
         pl_impacts_run(world, s->h);
     }
     if (s->solving->call.bounces != NULL) {
@@ -213,8 +214,10 @@ void pl_soft_contacts(pl_substep *s)
     s->solving->call.unloaded = 0;
 }
 
+// Where they are relaxed, bodies are where the next substep begins.
 void pl_soft_relax(pl_substep *s)
 {
+    s->solving->call.since = (near_real)(s->number + 1) * s->h;
     sweep(s, s->solving->step->kernels->relax[s->solving->step->surface][s->solving->step->motion]);
 }
 

@@ -60,6 +60,7 @@ typedef struct pl_classic_contact {
     near_real rolling;       // [m]
     near_real mr, lr;        // [kg m^2], [N m s] of rolling resistance
     near_real struck;        // [m/s] fastest at which a point was struck in this step
+    near_real struck_at;     // [s] when, since the step began
     bool pushed;             // in some substep so far
     pl_classic_point point[2];
 } pl_classic_contact;
@@ -86,6 +87,7 @@ typedef struct pl_contact_call {
     pl_manifold *manifolds;
     pl_pair *pairs;
     near_real h, inv_h;          // [s] substep
+    near_real since;             // [s] from the start of the step to that of the substep
     near_real hertz, damping;    // [1/s], [-] of soft contacts
     near_real push_speed;        // [m/s]
     near_real unloaded;          // [N s] a point that bears no more and pushes has been struck

@@ -104,6 +104,7 @@ static void run_cluster(const pl_solving_step *step, uint32_t i, pl_tasks *tasks
     for (int k = 0; k < step->world->desc.substeps; ++k) {
         s.number = k;
         s.first = k == 0;
+        solving.call.since = (near_real)k * s.h;
         run_substep(&s);
     }
     run_stage(&s, PL_SUBSTEP_STORE, 1);

@@ -108,10 +108,23 @@ static void put_rows(const pl_solver *s, uint32_t slot, const rows *r)
     pl_solver_motions(s)[slot] = r->motion;
 }
 
+// As prepared: behind a step, manifolds tell in its place when they were struck.
+static near_real surface_speed_of(const plumb_world *w, const pl_contact_kernels *kernels,
+                                  size_t lane)
+{
+    const size_t width = (size_t)kernels->width;
+    const char *extras = w->solver.extras.data;
+    return w->narrow.any_surface
+               ? ((const near_real *)(const void *)(extras + lane / width *
+                                                                 kernels->extra_size))[lane % width]
+               : 0;
+}
+
 static contact contact_of(plumb_world *w, const pl_manifold *m, size_t lane)
 {
     const pl_contact_kernels *kernels = pl_solver_kernels(w);
     contact c = { .impact = impact_of(w, m) };
+    c.impact.surface_speed = surface_speed_of(w, kernels, lane);
     c.before[0] = rows_of(&w->solver, c.impact.a);
     c.before[1] = rows_of(&w->solver, c.impact.b);
     for (uint32_t j = 0; j < m->count; ++j) {

@@ -22,7 +22,10 @@ typedef struct pl_manifold {
     near_real friction;      // [-]
     near_real restitution;   // [-]
     near_real approach;      // [m/s] for events: see pl_manifold_strike; 0 for pairs that touched
-    near_real surface_speed; // [m/s] added to the slip: see surface.c
+    union {
+        near_real surface_speed; // [m/s] added to the slip: see surface.c; until it is prepared to be solved
+        near_real struck_at;     // [s] since the step began: when `approach` was measured; then
+    };
     near_real rolling;       // [m] lever arm of rolling resistance
     union {
         near_real adhesion; // [N] that the contact may pull, until events are made
@@ -73,12 +76,13 @@ static inline bool pl_is_near(const pl_manifold *m, near_real reach)
            (m->met & PL_MET_ASIDE) == 0;
 }
 
-// A point was struck at this speed [m/s]. Before, `approach` is what velocities at the start of the step make of
+// A point was struck at this speed [m/s], so long [s] after the step began. Before, `approach` is what velocities at the start of the step make of
 // it, of pairs that did not touch.
-static inline void pl_manifold_strike(pl_manifold *m, near_real speed)
+static inline void pl_manifold_strike(pl_manifold *m, near_real speed, near_real at)
 {
     if ((m->met & PL_MET_MEASURED) == 0 || speed > m->approach) {
         m->approach = speed;
+        m->struck_at = at;
         m->met |= PL_MET_MEASURED;
     }
 }

@@ -74,6 +74,7 @@ typedef struct pl_solver {
     uint32_t bundle_room;
     uint32_t bundle_count; // of cluster 0: all that impacts as events look at
     uint32_t impact_count, due_count;
+    near_real since;      // [s] from the start of the step to that of the substep of cluster 0
     bool follows_impacts; // of this step: some are events
     uint32_t spare_impacts; // of this substep, that contacts may still take (impact.c)
     uint32_t color_count, overflow_count, bounce_count;
