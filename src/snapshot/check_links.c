@@ -335,7 +335,7 @@ static bool check_sensed(const plumb_world *w)
     for (uint32_t i = 0; i < w->pending_hits.count; ++i) {
         if (!CHECK_NEAR(hit[i].approach) || !CHECK_NEAR(hit[i].impulse) || !CHECK_NEAR(hit[i].nx) ||
             !CHECK_NEAR(hit[i].ny) || !CHECK_REALS(hit[i].at) ||
-            !(hit[i].moment <= 0 && hit[i].moment >= -2)) {
+            !(hit[i].moment >= -2 && hit[i].moment <= 2)) {
             return false;
         }
     }

@@ -279,7 +279,7 @@ static void test_hits_and_edits(void **state)
         "body{ name = 'slider', box{1, 1}, at = {-9, 0.5}, velocity = {3, 0} }\n"
         "on_hit{ a = 'ball', b = 'floor', speed = 3, function(a, b, c)\n"
         "  assert(a:name() == 'ball' and c.ny < -0.99)\n"
-        "  score('speed', c.speed) score('impulse', c.impulse) end }\n"
+        "  score('speed', c.speed) score('impulse', c.impulse) score('time', c.time) end }\n"
         "on_hit{ speed = 100, function() error('too slow for this') end }\n"
         "edit_contact{ a = 'ghost', b = 'floor', function(a, b, c)\n"
         "  assert(a:name() == 'ghost' and c.enabled and math.abs(c.friction - 0.6) < 1e-6)\n"
@@ -287,6 +287,7 @@ static void test_hits_and_edits(void **state)
         "edit_contact{ a = 'floor', b = 'slider', function(floor, slider, c) c.friction = 0 end }\n"
         "expect{ 'speed', score = 'speed', value = 6.2642, tolerance = 0.2 }\n"
         "expect{ 'impulse', score = 'impulse', value = 12.53, tolerance = 0.4 }\n"
+        "expect{ 'time', score = 'time', value = 0.63855, tolerance = 1e-3 }\n"
         "expect{ 'falls through', body = 'ghost', y = {-100, -1} }\n"
         "expect{ 'does not rub', body = 'slider', vx = 3, tolerance = 1e-4 }\n");
 }

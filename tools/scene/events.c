@@ -135,6 +135,7 @@ static void push_field(lua_State *L, const char *name, plumb_real v)
 typedef struct blow {
     plumb_vec2 point, normal;
     plumb_real speed, impulse;
+    double time; // [s] simulated; of a blow whose impulse is known
 } blow;
 
 // The third argument; the normal points from the handler's first body to its second.
@@ -149,6 +150,8 @@ static void push_blow(lua_State *L, const blow *e, bool swapped)
     push_field(L, "speed", e->speed);
     if (e->impulse >= 0) {
         push_field(L, "impulse", e->impulse);
+        lua_pushnumber(L, e->time);
+        lua_setfield(L, -2, "time");
     }
 }
 
@@ -297,12 +300,13 @@ void sc_events_after(scene *s)
     after_strains(s);
     for (int i = 0; i < s->begins.count; i++) {
         plumb_contact_begin e = s->begins.items[i];
-        const blow b = { e.point, e.normal, e.approach_speed, -1 };
+        const blow b = { e.point, e.normal, e.approach_speed, -1, 0 };
         dispatch(s, SC_ON_CONTACT, e.body_a, e.body_b, &b);
     }
     for (int i = 0; i < s->hits.count; i++) {
         plumb_contact_hit e = s->hits.items[i];
-        const blow b = { e.point, e.normal, e.approach_speed, e.impulse };
+        const double time = plumb_world_stats(s->world).time - s->dt / s->split + (double)e.moment;
+        const blow b = { e.point, e.normal, e.approach_speed, e.impulse, time };
         dispatch(s, SC_ON_HIT, e.body_a, e.body_b, &b);
     }
     for (int i = 0; i < s->ends.count; i++) {

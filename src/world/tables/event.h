@@ -22,7 +22,7 @@ typedef struct pl_pending_hit {
     near_real impulse;  // [N s]
     near_real nx, ny;   // unit, from A to B
     plumb_vec2 at;      // [m]
-    double moment;      // [s] since the step in which it is told began: < 0
+    double moment;      // [s] since the step in which it is told began
 } pl_pending_hit;
 
 // Hits that began in a step and will be through in the next one.
