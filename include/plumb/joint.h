@@ -54,7 +54,8 @@ typedef struct plumb_joint_desc {
     plumb_real motor_speed;    ///< [rad/s] or [m/s]; wheel: [rad/s] of B
     plumb_real max_motor;      ///< [N m] or [N] >= 0; wheel: [N m]
     plumb_real hertz;          ///< [1/s] >= 0 of the spring with the joint's own effective mass; 0: none.
-                               ///< Weld, distance, motor: 0 is rigid. Mouse: 0 means 5
+                               ///< Weld, distance, motor: 0 is rigid. Mouse: 0 means 5. Alone on its body it moves
+                               ///< exactly as the oscillator up to 0.09 of the substep rate, and is damped above
     plumb_real damping;        ///< [-] >= 0 damping ratio of the spring. Mouse: 0 means 1
     plumb_real rest;           ///< [rad] or [m] value at which the spring is at rest; motor: wanted angle
     plumb_real length;         ///< [m] distance: of rod or spring; 0 means as things are

@@ -18,7 +18,8 @@ WIDE_INLINE void solve_single(row *r, const single *s, const pl_pattern_row *kin
     if (kind->type == PL_ROW_DRIVE) {
         speed = s->speed;
     } else if (kind->spring) {
-        velocity = s->velocity, error_rate = s->error_rate, give = s->give;
+        velocity = s->velocity, error_rate = s->error_rate, give = one - velocity;
+        speed = s->speed;
     } else if (pull) {
         velocity = splat((near_real)call->rigid.velocity);
         error_rate = splat((near_real)call->rigid.error);
@@ -150,6 +151,27 @@ SWEEP_PART void solve_bundle(const parts *at, const pl_joint_pattern *p, const p
     solve_rows(at, p, call, pull, first, a, b);
 }
 
+WIDE_INLINE bool has_springs(const pl_joint_pattern *p)
+{
+    bool any = false;
+    for (int i = p->block; i < p->count; ++i) {
+        any |= p->row[i].spring;
+    }
+    return any;
+}
+
+// The velocity before the next substep, for springs.
+WIDE_INLINE void note_springs(const parts *at, const pl_joint_pattern *p, const body *a,
+                              const body *b)
+{
+    for (int i = p->block; i < p->count; ++i) {
+        if (p->row[i].spring) {
+            single *s = &at->singles[i - p->block];
+            s->speed = s->lead * rate(&at->rows[i], a, b);
+        }
+    }
+}
+
 WIDE_INLINE void sweep_bundle(const pl_joint_call *call, uint32_t k, const pl_joint_pattern *p,
                               const bool pull, const bool first)
 {
@@ -166,6 +188,9 @@ WIDE_INLINE void sweep_bundle(const pl_joint_call *call, uint32_t k, const pl_jo
         push(&a, &b, c->owed_x, c->owed_y, c->owed_a, c->owed_b);
     }
     solve_bundle(&at, p, call, pull, first, &a, &b);
+    if (!pull && !first) {
+        note_springs(&at, p, &a, &b);
+    }
     scatter_velocity(&a, call, at.a);
     scatter_velocity(&b, call, at.b);
 }
@@ -250,7 +275,7 @@ static void relax(const pl_joint_call *call)
 //---- joints <-> lanes ----------------------------------------------------------------------------
 
 static void fill_row(const parts *at, const pl_joint_pattern *p, int i, int lane,
-                     const pl_rows *rows, plumb_vec2 apart, real h)
+                     const pl_rows *rows, plumb_vec2 apart, real h, uint32_t degree)
 {
     const pl_row *from = &rows->row[p->row[i].index];
     const bool length = p->row[i].form == PL_FORM_LENGTH;
@@ -271,10 +296,10 @@ static void fill_row(const parts *at, const pl_joint_pattern *p, int i, int lane
     e->most[lane] = (near_real)(from->most * h);
     e->speed[lane] = (near_real)from->speed;
     if (p->row[i].spring) {
-        pl_joint_soft soft = pl_joint_spring(from, h);
-        e->velocity[lane] = (near_real)soft.velocity;
-        e->error_rate[lane] = (near_real)soft.error;
-        e->give[lane] = (near_real)soft.impulse;
+        const pl_oscillator o = pl_joint_oscillator(from, h, degree);
+        e->velocity[lane] = (near_real)o.soft.velocity;
+        e->error_rate[lane] = (near_real)o.soft.error;
+        e->lead[lane] = (near_real)o.lead;
     }
 }
 
@@ -294,7 +319,7 @@ static void fill_lane(const parts *at, const pl_joint_pattern *p, int lane, cons
     plumb_vec2 apart = pl_joint_apart(a, b);
     for (int i = 0; i < p->count; ++i) {
         at->rows[i].impulse[lane] = (near_real)j->impulse[p->row[i].index];
-        fill_row(at, p, i, lane, rows, apart, h);
+        fill_row(at, p, i, lane, rows, apart, h, j->degree);
     }
     if (p->row[0].form == PL_FORM_POINT_X) {
         // What B's anchor is held to, seen from A: the anchor, or a target beside it.
@@ -384,6 +409,27 @@ static void refill(const pl_joint_call *call)
     }
 }
 
+// Of a joint's first substep (its rows' `speed` says so: begin_wide) there is more to know.
+static void begin_springs(const parts *at, const pl_joint_pattern *p, const pl_joint_call *call,
+                          const body *a, const body *b)
+{
+    const pl_joint_lane *lanes = &call->lanes[(size_t)call->first * PL_WIDTH];
+    note_springs(at, p, a, b);
+    for (int i = p->block; i < p->count; ++i) {
+        const row *r = &at->rows[i];
+        const vf v = rate(r, a, b);
+        for (int k = 0; k < PL_WIDTH && p->row[i].spring; ++k) {
+            const pl_row *from = &call->rows[k].row[p->row[i].index];
+            if (lanes[k].joint != PL_NONE && from->speed != 0) {
+                const pl_oscillator o =
+                    pl_joint_oscillator(from, call->h, call->joints[lanes[k].joint].degree);
+                at->singles[i - p->block].speed[k] +=
+                    (near_real)(o.start_rate * v[k] + o.start_error * r->error[k]);
+            }
+        }
+    }
+}
+
 static void fill(const pl_joint_call *call)
 {
     const uint32_t k = call->first;
@@ -404,6 +450,9 @@ static void fill(const pl_joint_call *call)
     at.c->inertia_b = b.inv_inertia;
     make_rows(&at, p, &a, &b);
     at.c->owed_x = at.c->owed_y = at.c->owed_a = at.c->owed_b = splat(0);
+    if (has_springs(p)) {
+        begin_springs(&at, p, call, &a, &b);
+    }
     if (is_tense(&at, p, call)) {
         *call->tense = true;
     }

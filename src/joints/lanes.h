@@ -34,10 +34,10 @@ typedef struct source {
 
 // What a row outside the block has besides.
 typedef struct single {
-    vf mass;                       // [kg] effective
-    vf most;                       // [N s] bound
-    vf speed;                      // [m/s] or [rad/s] of drives
-    vf velocity, error_rate, give; // of springs: see pl_joint_soft
+    vf mass;  // [kg] effective
+    vf most;  // [N s] bound
+    vf speed; // [m/s] or [rad/s] of drives; of springs what v before the substep adds to J v
+    vf velocity, error_rate, lead; // of springs: see pl_oscillator
 } single;
 
 // A block that is a spring or bounded.

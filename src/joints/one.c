@@ -12,11 +12,9 @@
 // has turned since, pl_one_pay() adds the difference (J' - J)^T impulse, else a stale pull along
 // the old direction would feed energy to whatever swings.
 //
-// Springs: b = 1 / (1 + 2 z x + 2 (z x)^2 + x^4 / (1 + x^2)), x = h w, and the impulse such that
-// v' = b (v - h w^2 C). The first terms are exp(-2 z x), the damping of the continuous oscillator
-// over a substep; with z = 0 and small x this is the symplectic Euler step, which keeps the
-// amplitude; the last term makes stiff springs implicit, hence stable. At rest w^2 C is the
-// acceleration, exactly.
+// Springs as rows of their own are exact oscillators (spring.c). Those of blocks, and of the classic solver: b = 1 / (1 + 2
+// z x + 2 (z x)^2 + x^4 / (1 + x^2)), x = h w, and the impulse such that v' = b (v - h w^2 C). The first terms are
+// exp(-2 z x); the last makes stiff springs implicit, hence stable. At rest w^2 C is the acceleration, exactly.
 //
 // joint.simd.c does the same with several at a time. Reads: joints, body columns. Writes: solver bodies, impulses. Cost: O(1).
 #include "joints/one.h"
@@ -36,20 +34,18 @@ pl_joint_soft pl_joint_rigid(real h, real soft)
     return (pl_joint_soft){ stiff / (1 + stiff), x * x / (1 + stiff) / h, 1 / (1 + stiff) };
 }
 
-pl_joint_soft pl_joint_spring(const pl_row *row, real h)
-{
-    if (row->type == PL_ROW_DRIVE || row->hertz == 0) {
-        return (pl_joint_soft){ 1, 0, 0 };
-    }
-    real x = TAU * row->hertz * h, zx = row->damping * x, xx = x * x;
-    real b = 1 / (1 + 2 * zx + 2 * zx * zx + xx * xx / (1 + xx));
-    return (pl_joint_soft){ 1 - b, b * xx / h, b };
-}
-
 static pl_joint_soft soften(const pl_joint_context *c, const pl_row *row, pl_joint_sweep sweep)
 {
     bool pulls = sweep == PL_SWEEP_PULL && row->type != PL_ROW_DRIVE && row->hertz == 0;
     return pulls ? c->rigid : pl_joint_spring(row, c->h);
+}
+
+static pl_joint_soft soften_single(const pl_joint_context *c, const pl_row *row,
+                                   pl_joint_sweep sweep, uint32_t degree)
+{
+    return pl_row_is_spring(row) && sweep != PL_SWEEP_CLASSIC
+               ? pl_joint_oscillator(row, c->h, degree).soft
+               : soften(c, row, sweep);
 }
 
 //---- one row -------------------------------------------------------------------------------------
@@ -90,12 +86,12 @@ void pl_one_solve_row(const pl_joint_context *c, pl_joint *j, int i, pl_solver_b
     if (r->type == PL_ROW_OFF || (sweep == PL_SWEEP_RELAX && r->hertz > 0)) {
         return;
     }
-    pl_joint_soft s = soften(c, r, sweep);
+    pl_joint_soft s = soften_single(c, r, sweep, j->degree);
     bool apart = r->type == PL_ROW_LEAST && r->error > 0;
     if (apart) {
         s = (pl_joint_soft){ 1, 1 / j->h, 0 }; // may close the gap
     }
-    real v = pl_one_rate(r, a, b) - (r->type == PL_ROW_DRIVE ? r->speed : 0);
+    real v = pl_one_rate(r, a, b) - r->speed;
     real old = j->impulse[i];
     real total = old - j->mass[i] * (s.velocity * v + s.error * r->error) - s.impulse * old;
     real most = r->most * j->h;
@@ -259,6 +255,19 @@ void pl_one_rows(const plumb_world *world, pl_joint *j, const pl_solver_body *a,
         real k = r->type == PL_ROW_OFF ? 0 : pl_one_coupling(r, r, a, b);
         j->mass[i] = k > 0 ? 1 / k : 0;
         j->impulse[i] = k > 0 ? j->impulse[i] : 0;
+    }
+}
+
+void pl_one_note_springs(const pl_joint_context *c, pl_joint *j, const pl_solver_body *a,
+                         const pl_solver_body *b, bool fresh)
+{
+    for (int i = j->rows.block; i < j->rows.count; ++i) {
+        pl_row *r = &j->rows.row[i];
+        if (pl_row_is_spring(r)) {
+            const pl_oscillator o = pl_joint_oscillator(r, c->h, j->degree);
+            const real v = pl_one_rate(r, a, b);
+            r->speed = o.lead * v + (fresh ? o.start_rate * v + o.start_error * r->error : 0);
+        }
     }
 }
 

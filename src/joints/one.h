@@ -32,6 +32,9 @@ void pl_one_rows(const plumb_world *world, pl_joint *j, const pl_solver_body *a,
 void pl_one_refresh(const plumb_world *world, pl_joint *j, const pl_solver_body *a,
                     const pl_solver_body *b);
 void pl_one_pay(const pl_joint *j, pl_solver_body *a, pl_solver_body *b);
+// What springs go by in the next substep: how fast they are now; `fresh`: it is their first.
+void pl_one_note_springs(const pl_joint_context *c, pl_joint *j, const pl_solver_body *a,
+                         const pl_solver_body *b, bool fresh);
 void pl_one_forget(pl_joint *j);
 
 // One row outside the block, the block; `first`: of the sweeps of a substep.

@@ -203,6 +203,27 @@ static bool is_quiet(const pl_joint *j, const pl_joint_mark *mark)
            pl_joint_classes[j->desc.kind]->advance == NULL;
 }
 
+static int count_bits(uint64_t mask)
+{
+    int count = 0;
+    for (; mask != 0; mask &= mask - 1) {
+        ++count;
+    }
+    return count;
+}
+
+// How many joints are at that of its bodies which has more; those without a colour do not count.
+static uint8_t degree_of(const plumb_world *world, const pl_joint_mark *mark)
+{
+    const uint32_t movable = world->dynamic_count + world->kinematic_count, what = mark->what;
+    const uint64_t *masks = world->solver.masks.data;
+    const uint64_t a = masks[pl_solver_slot(&world->solver, mark->row_a, movable)];
+    const uint64_t b = masks[pl_solver_slot(&world->solver, mark->row_b, movable)];
+    const int of_a = (what & MOVES_A) != 0 ? count_bits(a) : 1;
+    const int of_b = (what & MOVES_B) != 0 ? count_bits(b) : 1;
+    return (uint8_t)(of_a > of_b ? of_a : of_b > 1 ? of_b : 1);
+}
+
 // Colours and patterns of all joints that are solved.
 static void sort_out(plumb_world *world)
 {
@@ -222,6 +243,9 @@ static void sort_out(plumb_world *world)
         mark->color = (uint8_t)(pattern != PL_NONE ? color_of(world, mark) : PL_JOINT_COLORS);
         mark->pattern = (uint8_t)(pl_joint_is_wide(mark) ? pattern : 0);
         mark->quiet = is_quiet(j, mark);
+    }
+    for (uint32_t i = 0; i < joints->count; ++i) {
+        marks[i].degree = marks[i].what != 0 ? degree_of(world, &marks[i]) : 1;
     }
 }
 

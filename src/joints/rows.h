@@ -13,6 +13,12 @@
     ((near_real)1e-6)             // [-] of the diagonal: a smaller pivot is no direction of its own
 #define PL_UNBOUNDED ((real)1e30) // [N] or [N m]
 
+// Of rows outside of blocks: their `speed` is what the velocity before the substep adds (spring.c).
+static inline bool pl_row_is_spring(const pl_row *row)
+{
+    return row->hertz > 0 && row->type == PL_ROW_EQUAL;
+}
+
 // d = anchor of B - anchor of A.
 static inline plumb_vec2 pl_joint_apart(const pl_joint_pose *a, const pl_joint_pose *b)
 {

@@ -104,8 +104,10 @@ static uint32_t slot_of(const plumb_world *world, uint32_t row)
     return pl_solver_slot(&world->solver, row < movable ? row : movable, movable);
 }
 
-static void begin(const plumb_world *world, pl_joint *j, real h)
+// Whether it is the joint's first step.
+static bool begin(const plumb_world *world, pl_joint *j, real h)
 {
+    const bool fresh = j->h == 0;
     const pl_joint_mark *mark = &pl_joint_marks(&world->joints)[j - pl_joint_items(&world->joints)];
     pl_joint_place(world, j, mark->row_a, mark->row_b);
     j->slot_a = slot_of(world, mark->row_a);
@@ -115,13 +117,15 @@ static void begin(const plumb_world *world, pl_joint *j, real h)
         j->impulse[k] *= scale;
     }
     j->h = h;
+    j->degree = mark->degree;
+    return fresh;
 }
 
 // A joint in a lane, its rows as they are now.
 static void begin_wide(const plumb_world *world, pl_joint *j, pl_joint_start *start, pl_rows *rows,
                        real h)
 {
-    begin(world, j, h);
+    const bool fresh = begin(world, j, h);
     pl_joint_classes[j->desc.kind]->rows(j, &j->pose_a, &j->pose_b, rows);
     *start = (pl_joint_start){ .arm_a = { (near_real)j->pose_a.rx, (near_real)j->pose_a.ry },
                                .arm_b = { (near_real)j->pose_b.rx, (near_real)j->pose_b.ry },
@@ -129,6 +133,9 @@ static void begin_wide(const plumb_world *world, pl_joint *j, pl_joint_start *st
                                           (near_real)(j->pose_b.y - j->pose_a.y) } };
     for (int k = 0; k < rows->count; ++k) {
         j->impulse[k] = rows->row[k].type != PL_ROW_OFF ? j->impulse[k] : 0;
+        if (k >= rows->block && pl_row_is_spring(&rows->row[k])) {
+            rows->row[k].speed = fresh; // the kernel makes the first substep's of it
+        }
     }
 }
 
@@ -197,10 +204,13 @@ static void begin_bundles(void *context, uint32_t first, uint32_t count)
 
 static void begin_lone(const pl_joint_context *c, uint32_t i, pl_lone *out)
 {
-    begin(c->world, pl_joint_grouped(&c->world->joints, i), c->h);
+    const bool fresh = begin(c->world, pl_joint_grouped(&c->world->joints, i), c->h);
     pl_one_take(c, i, out);
     pl_one_forget(out->joint);
     pl_one_rows(c->world, out->joint, out->a, out->b);
+    if (c->world->desc.solver == PLUMB_SOLVER_SOFT) {
+        pl_one_note_springs(c, out->joint, out->a, out->b, fresh);
+    }
 }
 
 // Impulse times arm of a joint with rows, of A and of B. [N m s]
@@ -325,6 +335,11 @@ void pl_joints_solve(const pl_joint_context *c, pl_joint_sweep sweep, bool first
     }
     if (pl_joints_direct(c->world)) {
         pl_direct_solve(c, sweep);
+    }
+    for (uint32_t i = c->group->alone; i < c->group->end && sweep == PL_SWEEP_RELAX; ++i) {
+        pl_lone one;
+        pl_one_take(c, i, &one);
+        pl_one_note_springs(c, one.joint, one.a, one.b, false);
     }
 }
 

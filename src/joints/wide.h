@@ -105,4 +105,14 @@ static inline void pl_joint_stiffen(pl_solver_body *body, near_real pull, near_r
 
 pl_joint_soft pl_joint_spring(const pl_row *row, real h);
 
+// The same for a row outside of blocks, and what velocity v and error C before the substep add to J v: lead v, and in
+// the first substep of a joint start_rate v + start_error C besides (spring.c).
+typedef struct pl_oscillator {
+    pl_joint_soft soft;
+    real lead, start_rate, start_error;
+} pl_oscillator;
+
+// `degree`: as pl_joint has it.
+pl_oscillator pl_joint_oscillator(const pl_row *row, real h, uint32_t degree);
+
 #endif

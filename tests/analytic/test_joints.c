@@ -266,6 +266,86 @@ static void springs_keep_time(void **state)
     plumb_world_destroy(w);
 }
 
+// Places of a spring let go at 0.2 m, at 60 Hz with 4 substeps; below some bound of stiffness it is exact.
+static void springs_follow_their_exponential(void **state)
+{
+    (void)state;
+    const double cases[][2] = { { 20, 0 }, { 1, 0 },   { 5, 0.1 }, { 5, 1 },
+                                { 5, 2 },  { 2, 0.5 }, { 3, 20 },  { 5, 0.9999 } };
+    for (size_t k = 0; k < sizeof cases / sizeof cases[0]; ++k) {
+        const double f = 2 * SIM_PI * cases[k][0], z = cases[k][1], a = 0.2;
+        plumb_world *w = sim_world(&(plumb_world_desc){ .zero_gravity = true, .no_sleep = true });
+        plumb_body b = mass(w, 2 + a, 0, 1, 0);
+        tie(w, (plumb_joint_desc){ .kind = PLUMB_DISTANCE,
+                                   .body_b = b,
+                                   .anchor_b = sim_vec(2 + a, 0),
+                                   .length = 2,
+                                   .hertz = (plumb_real)cases[k][0],
+                                   .damping = (plumb_real)z });
+        double worst = 0;
+        for (int i = 1; i <= 180; ++i) {
+            sim_step(w, DT);
+            const double t = i * DT, q = f * sqrt(fabs(1 - z * z)), left = exp(-z * f * t) / 2;
+            const double up = exp((q - z * f) * t) / 2, down = exp(-(q + z * f) * t) / 2;
+            const double exact = z < 1   ? 2 * left * (cos(q * t) + z * f / q * sin(q * t))
+                                 : z > 1 ? up + down + z * f / q * (up - down)
+                                         : 2 * left * (1 + f * t);
+            worst = fmax(worst, fabs(sim_x(w, b) - 2 - a * exact));
+        }
+        print_message("spring %g Hz, damping %g: within %.2g m in 3 s\n", cases[k][0], z, worst);
+        assert_true(worst < SIM_TOLERANCE(2e-5, 1e-7));
+        plumb_world_destroy(w);
+    }
+}
+
+// Sixteen springs on one body, and twenty bodies in a row on springs: the farthest that one goes.
+static double stretch_network(double hertz, bool star, double *rest)
+{
+    plumb_world *w = sim_world(&(plumb_world_desc){ .zero_gravity = true, .no_sleep = true });
+    const plumb_body none = { { 0, 0 } };
+    plumb_body first = none, last = none;
+    double farthest = 0;
+    for (int i = 0; i < (star ? 16 : 20); ++i) {
+        const double angle = 2 * SIM_PI * i / 16, x = star ? 2 * cos(angle) : i;
+        plumb_body b = star && i > 0 ? first : mass(w, star ? 0 : i, 0, 1, 0);
+        tie(w, (plumb_joint_desc){ .kind = PLUMB_DISTANCE,
+                                   .body_a = star ? none : last,
+                                   .body_b = b,
+                                   .anchor = star ? sim_vec(x, 2 * sin(angle)) : sim_vec(i - 1, 0),
+                                   .anchor_b = star ? sim_vec(0, 0) : sim_vec(i, 0),
+                                   .hertz = (plumb_real)hertz });
+        first = i == 0 ? b : first;
+        last = b;
+    }
+    sim_launch(w, last, 0.1, 0, 0);
+    const double start = sim_x(w, last);
+    for (int i = 0; i < 3600; ++i) {
+        sim_step(w, DT);
+        farthest = fmax(farthest, fabs(sim_x(w, last) - start));
+    }
+    *rest = sim_max_speed(w);
+    plumb_world_destroy(w);
+    return farthest;
+}
+
+static void networks_of_springs_gain_nothing(void **state)
+{
+    (void)state;
+    int wrong = 0;
+    const double hertz[] = { 1, 5, 10, 15, 20, 25, 30, 35, 40, 60, 120, 1000, 1e5 };
+    for (size_t k = 0; k < sizeof hertz / sizeof hertz[0]; ++k) {
+        for (int star = 0; star < 2; ++star) {
+            double speed, farthest = stretch_network(hertz[k], star == 1, &speed);
+            print_message("%s of %g Hz: %.3g m at most, after 60 s at %.2g m/s\n",
+                          star ? "star" : "row", hertz[k], farthest, speed);
+            // As soft as 20 Hz would be, at least, and 20 times as far in a row.
+            const double reach = 0.12 / (2 * SIM_PI * fmin(hertz[k], 20));
+            wrong += !(farthest < reach * (star ? 1 : 20) && speed < 0.12);
+        }
+    }
+    assert_int_equal(wrong, 0);
+}
+
 // A rotary spring is a revolute joint with hertz: about the joint the inertia is I + m r^2.
 static void rotary_spring_keeps_time(void **state)
 {
@@ -541,6 +621,8 @@ int main(void)
         cmocka_unit_test(spinning_rod_keeps_its_spin),
         cmocka_unit_test(reactions_at_rest_are_the_weight),
         cmocka_unit_test(springs_keep_time),
+        cmocka_unit_test(springs_follow_their_exponential),
+        cmocka_unit_test(networks_of_springs_gain_nothing),
         cmocka_unit_test(rotary_spring_keeps_time),
         cmocka_unit_test(pulley_falls_as_atwood_says),
         cmocka_unit_test(gears_keep_their_ratio),

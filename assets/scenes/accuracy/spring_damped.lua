@@ -3,7 +3,6 @@
 -- critical: (1 + w t) e^(-w t) A
 -- over:     (s1 e^(s2 t) - s2 e^(s1 t)) / (s1 - s2) A, s = w (-z +- sqrt(z^2 - 1))
 -- Source: any textbook of mechanics. Hard: overdamped springs are stiff: two rates that differ 14 times.
--- Aim: 1e-3 of the amplitude.
 scene { title = "Damped springs", gravity = {0, 0}, duration = 1.5,
         description = "Springs below, at and above critical damping." }
 local a, w = 0.5, 2 * math.pi * 5
@@ -24,6 +23,6 @@ for i, case in ipairs { {"under", 0.1}, {"critical", 1}, {"over", 2} } do
     prismatic { mass, at = {0, i}, axis = {1, 0}, spring = { frequency = 5, damping = z, rest = -a } }
     exact { name, body = name, x = way(z), y = function() return i end, scale = a }
 end
-expect { "under", exact = "under", tolerance = 0.07 }
-expect { "critical", exact = "critical", tolerance = 0.069 }
-expect { "over", exact = "over", tolerance = 0.13 }
+expect { "under", exact = "under", tolerance = 1.2e-06 }
+expect { "critical", exact = "critical", tolerance = 1e-06 }
+expect { "over", exact = "over", tolerance = 1e-06 }

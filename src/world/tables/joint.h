@@ -97,6 +97,7 @@ struct pl_joint {
     // What is behind here is of one step, and not saved (snapshot/list.h).
     pl_joint_pose pose_a, pose_b; // at the start of the step; first: aligned as the whole
     uint32_t slot_a, slot_b;      // solver slots
+    uint32_t degree;               // see pl_joint_mark
     plumb_vec2 origin; // [m] from where poses are told: A's centre at the start of the step
     // Solver: of joints solved one by one.
     real mass[PL_JOINT_ROWS]; // [kg] effective, of rows outside the block
@@ -116,6 +117,7 @@ typedef struct pl_joint_mark {
     uint8_t what;  // 0: not solved (off, or a body of it asleep or disabled); else see plan.c
     uint8_t color; // PL_JOINT_COLORS: it is solved by itself
     uint8_t pattern;
+    uint8_t degree; // joints in lanes at that of its bodies which has more of them; at least 1
     bool quiet; // nothing but its reaction comes of it after the step
 } pl_joint_mark;
 
