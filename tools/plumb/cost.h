@@ -122,7 +122,8 @@ typedef struct cost_plan {
     bool has_exact; ///< compared with closed forms, not with a run of its own
     double
         horizon; ///< [s] up to which trajectories can be compared; the whole time if they always can
-    double growth;                ///< [-] by how much a tiny difference at the start had grown then
+    bool is_wandering; ///< the horizon is where the reference itself moves when its step is doubled
+    double growth;     ///< [-] by how much a tiny difference at the start had grown then
     int reference_substeps;       ///< of the scene's own finest setting
     double reference_dt;          ///< [s]
     struct cost_track *reference; ///< NULL: none

@@ -20,10 +20,10 @@ static bool comes_before(const cost_row *a, const cost_row *b)
                                                 : a < b;
 }
 
-/// What can be told of an error: not less than its noise and than the truth is good for.
+/// What can be told of an error: not less than the truth, or the noise of ensembles, is good for.
 static double told(const cost_plan *plan, const cost_row *row, int q)
 {
-    return fmax(row->error[q], fmax(plan->quantities[q].floor, row->noise[q]));
+    return fmax(row->error[q], plan->quantities[q].floor);
 }
 
 /// True when nothing is cheaper, or as cheap within what repeats are apart, and as accurate.
@@ -45,8 +45,28 @@ static bool on_front(const cost_plan *plan, const cost_row *row, int q)
     return true;
 }
 
+/// What an ensemble cannot tell apart is equal, and the cheapest of it the best: the median of the rows' noise is the
+/// floor of all.
+static void raise_floor(cost_plan *plan, int q)
+{
+    int below = 0;
+    double floor = 0;
+    for (int i = 0; i < plan->row_count; i++) {
+        double noise = plan->rows[i].noise[q];
+        below = 0;
+        for (int k = 0; k < plan->row_count; k++) {
+            below += plan->rows[k].noise[q] <= noise;
+        }
+        floor = 2 * below >= plan->row_count && (noise < floor || !(floor > 0)) ? noise : floor;
+    }
+    plan->quantities[q].floor = fmax(plan->quantities[q].floor, floor);
+}
+
 void cost_rank(cost_plan *plan)
 {
+    for (int q = 0; q < plan->quantity_count; q++) {
+        raise_floor(plan, q);
+    }
     for (int i = 0; i < plan->row_count; i++) {
         int place = i;
         for (; place > 0 && comes_before(&plan->rows[i], &plan->rows[plan->order[place - 1]]);

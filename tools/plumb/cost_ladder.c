@@ -232,14 +232,35 @@ static void tell_rounding(cost_plan *plan)
     }
 }
 
-/// Further times of all rows, in turns.
+/// [-] what costs so many times as much as what is as good in all is not timed again.
+static const double FAR_BEHIND = 3;
+
+static bool is_far_behind(const cost_plan *plan, const cost_row *row)
+{
+    const char *side = plan->sides[row->set.side].name;
+    for (int i = 0; i < plan->row_count; i++) {
+        const cost_row *other = &plan->rows[i];
+        bool better = !other->diverged && FAR_BEHIND * other->cpu < row->cpu &&
+                      strcmp(plan->sides[other->set.side].name, side) == 0;
+        for (int q = 0; q < plan->quantity_count && better; q++) {
+            better = other->error[q] <= row->error[q];
+        }
+        if (better) {
+            return !row->own;
+        }
+    }
+    return false;
+}
+
+/// Further times of all rows that may come to be on a front, in turns.
 static int time_all(cost_plan *plan)
 {
     int code = CLI_OK;
     progress_begin(&plan->bar, "timing", (double)plan->repeat * plan->row_count, plan->args->quiet);
     for (int r = 1; r < plan->repeat; r++) {
         for (int i = 0; i < plan->row_count && code == CLI_OK && !cli_interrupted(); i++) {
-            code = plan->rows[i].diverged ? CLI_OK : cost_time(plan, &plan->rows[i]);
+            bool skipped = plan->rows[i].diverged || is_far_behind(plan, &plan->rows[i]);
+            code = skipped ? CLI_OK : cost_time(plan, &plan->rows[i]);
             progress_update(&plan->bar, (double)(r - 1) * plan->row_count + i);
         }
     }

@@ -52,9 +52,9 @@ static void print_truth(const cost_plan *plan)
                "times\n",
                plan->growth);
     } else {
-        printf("trajectories can be compared up to %.4g s: beyond, a difference at the start has "
-               "grown 1e5 times\n",
-               plan->horizon);
+        printf("trajectories can be compared up to %.4g s: beyond, %s\n", plan->horizon,
+               plan->is_wandering ? "the reference itself moves by a twentieth of its way"
+                                  : "a difference at the start has grown 1e5 times");
     }
     if (!all && plan->has_exact) {
         printf(
@@ -105,7 +105,10 @@ static void print_row(const cost_plan *plan, const cost_row *row, bool relative)
         if (row->error[q] < 0) {
             printf("  %15s ", "nothing");
         } else if (row->error[q] < row->noise[q]) {
-            printf("  %14s%.2g ", "< ", shown(&plan->quantities[q], row->noise[q], relative));
+            char text[32];
+            snprintf(text, sizeof text, "< %.2g",
+                     shown(&plan->quantities[q], row->noise[q], relative));
+            printf("  %15s%c", text, row->front[q] ? '*' : ' ');
         } else {
             printf("  %15.3e%c", error, row->front[q] ? '*' : ' ');
         }

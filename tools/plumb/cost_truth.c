@@ -9,10 +9,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double NUDGE = 1e-9;      // of the scene's size
-static const double GROWTH_MOST = 1e5; // [-]
-static const double BUDGETS_MOST = 20; // that the reference may take
-enum { FINEST = 16 };                  // steps in one of the scene's, and substeps of each
+static const double NUDGE = 1e-9;             // of the scene's size
+static const double GROWTH_MOST = 1e5;        // [-]
+static const double REFERENCE_WANDERS = 0.05; // of the longest way
+static const double BUDGETS_MOST = 20;        // that the reference may take
+enum { FINEST = 16 };                         // steps in one of the scene's, and substeps of each
 enum { SOFT = 0, DOUBLE = 1 };
 
 static int out_of_memory(void)
@@ -170,6 +171,20 @@ static int run_twins(cost_plan *plan, const cost_setting *set, double nudge, cos
 
 // ------------------------------------------------------------------------------- own finest setting
 
+/// Places are compared as long as the reference itself stays where it is when its step is doubled.
+static void trust(cost_plan *plan, const cost_track *coarse)
+{
+    double way = cost_track_way(plan->reference);
+    for (int m = 0; m < cost_track_moments(coarse); m++) {
+        double elapsed = plan->time * m / cost_moments(plan);
+        if (cost_track_distance(plan->reference, coarse, m) > REFERENCE_WANDERS * way &&
+            elapsed < plan->horizon) {
+            plan->horizon = elapsed;
+            plan->is_wandering = true;
+        }
+    }
+}
+
 static int tell_divergence(cost_plan *plan, const cost_setting *set)
 {
     progress_end(&plan->bar);
@@ -193,6 +208,7 @@ static int refer(cost_plan *plan, const cost_setting *finest, double nudge, doub
            : coarse != NULL ? cost_follow(plan, &half, 0, 0, coarse)
                             : out_of_memory();
     if (code == CLI_OK) {
+        trust(plan, coarse);
         cost_quantity places = { .kind = COST_PLACES, .name = "place", .unit = "m" };
         places.till = plan->horizon;
         places.extent = fmax(cost_track_way(plan->reference), 1e-3 * size);
