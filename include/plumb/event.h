@@ -136,13 +136,14 @@ PLUMB_API plumb_result plumb_contact_edit_set(plumb_world *world, int i, const p
 
 /// A point of a manifold after the step.
 typedef struct plumb_contact_point {
-    plumb_vec2 point;           ///< [m] world, midway between the surfaces
-    plumb_real separation;      ///< [m] negative when overlapping
-    plumb_real normal_impulse;  ///< [N s] over the last substep, >= 0; negative: adhesion pulls
-    plumb_real tangent_impulse; ///< [N s] over the last substep
-    plumb_real step_impulse;    ///< [N s] along the normal over the whole step, impacts included; 0 unless
-                                ///< plumb_world_desc.contact_impulses or hit_speed is set
-    uint32_t feature;           ///< which corner or edge made it: stable from step to step
+    plumb_vec2 point;                ///< [m] world, midway between the surfaces
+    plumb_real separation;           ///< [m] negative when overlapping
+    plumb_real normal_impulse;       ///< [N s] over the last substep, >= 0; negative: adhesion pulls
+    plumb_real tangent_impulse;      ///< [N s] over the last substep, on B along (-normal.y, normal.x)
+    plumb_real step_impulse;         ///< [N s] along the normal over the whole step, impacts included; 0 unless
+                                     ///< plumb_world_desc.contact_impulses or hit_speed is set
+    plumb_real step_tangent_impulse; ///< [N s] likewise along the tangent
+    uint32_t feature;                ///< which corner or edge made it: stable from step to step
 } plumb_contact_point;
 
 /// A touching pair.

@@ -68,6 +68,24 @@ static plumb_vec2 carried(const plumb_world *world, uint32_t row, real ax, real 
     return plumb_v2(world->bodies.center_x[row] + arm.x, world->bodies.center_y[row] + arm.y);
 }
 
+// [N s] along the tangent over the step. At rest, all substeps are alike.
+static plumb_real rubbed(const plumb_world *world, const pl_manifold *m, const pl_pair *pair,
+                         uint32_t k)
+{
+    const pl_narrow *narrow = &world->narrow;
+    const pl_manifold *first = pl_manifolds(narrow);
+    const size_t at = (size_t)(m - first), size = world->solver.rubbed.size / sizeof(near_real);
+    if (!pl_solver_tallies(world)) {
+        return 0;
+    }
+    if (first == NULL || m < first || m >= first + narrow->manifold_count + narrow->borne_count) {
+        return pair->tangent[k] * (near_real)world->desc.substeps;
+    }
+    return world->solver.slot_count > 0 && 2 * at + k < size
+               ? ((const near_real *)world->solver.rubbed.data)[2 * at + k]
+               : 0;
+}
+
 static plumb_contact_point view_point(const plumb_world *world, const pl_manifold *m,
                                       const pl_pair *pair, uint32_t k, uint32_t row_a,
                                       uint32_t row_b)
@@ -83,6 +101,7 @@ static plumb_contact_point view_point(const plumb_world *world, const pl_manifol
         .normal_impulse = pair->normal[k],
         .tangent_impulse = pair->tangent[k],
         .step_impulse = pl_solver_tallies(world) ? p->total : 0,
+        .step_tangent_impulse = rubbed(world, m, pair, k),
         .feature = m->feature[k],
     };
 }

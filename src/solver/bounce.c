@@ -230,6 +230,11 @@ static void strike_tangent(const plumb_world *world, const pl_impact *m, uint32_
     double impulse = k > 0 ? -slip / k : 0;
     impulse = impulse > bound ? bound : impulse < -bound ? -bound : impulse;
     strike(world, m, j, 0, impulse, time);
+    if (pl_solver_tallies(world)) {
+        const pl_pair *pair = &pl_pairs(&world->broad.pairs)[m->pair];
+        ((near_real *)world->solver.rubbed.data)[2 * (size_t)pair->manifold + j] +=
+            (near_real)impulse;
+    }
 }
 
 bool pl_bounce_resolve(plumb_world *world, const pl_impact *m, const pl_approach at[2])

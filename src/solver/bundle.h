@@ -34,6 +34,7 @@ typedef struct extra {
     vf mr;            // [kg m^2] effective inertia
     vf lr;            // [N m s]
     vf total[2];      // [N s] normal impulses of the substeps so far
+    vf rubbed[2];     // [N s] likewise along the tangent
     vf struck;        // [m/s] fastest at which a point was struck in this step
     vf struck_at;     // [s] when, since the step began
 } extra;

@@ -233,6 +233,8 @@ void PL_WIDE_NAME(pl_contact_tally)(const pl_contact_call *call, uint32_t first,
     for (uint32_t k = first; k < first + count; ++k) {
         extras[k].total[0] += bundles[k].p[0].ln;
         extras[k].total[1] += bundles[k].p[1].ln;
+        extras[k].rubbed[0] += bundles[k].p[0].lt;
+        extras[k].rubbed[1] += bundles[k].p[1].lt;
     }
 }
 
@@ -248,6 +250,10 @@ void PL_WIDE_NAME(pl_contact_store_extras)(const pl_contact_call *call, uint32_t
                 call->pairs[m->pair].rolling = extras[k].lr[i];
                 m->point[0].total += extras[k].total[0][i];
                 m->point[1].total += extras[k].total[1][i];
+                if (call->rubbed != NULL) {
+                    call->rubbed[2 * (size_t)at] += extras[k].rubbed[0][i];
+                    call->rubbed[2 * (size_t)at + 1] += extras[k].rubbed[1][i];
+                }
                 if (extras[k].struck[i] > 0) {
                     pl_manifold_strike(m, extras[k].struck[i], extras[k].struck_at[i]);
                 }

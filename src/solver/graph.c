@@ -93,6 +93,7 @@ static bool reserve_lanes(plumb_world *world)
     const needs need = needs_of(world, (uint32_t)k->width);
     size_t contacts = world->narrow.manifold_count;
     size_t impacts = s->follows_impacts ? contacts : 0;
+    size_t rubbed = pl_solver_tallies(world) ? 2 * (contacts + world->narrow.borne_count) : 0;
     size_t bounces = world->narrow.any_low ? need.bundles : 0;
     size_t specials = pl_solver_specials(world) ? need.bundles : 0;
     size_t extras =
@@ -104,6 +105,7 @@ static bool reserve_lanes(plumb_world *world)
            pl_buffer_reserve(memory, &s->specials, specials * k->special_size) &&
            pl_buffer_reserve(memory, &s->impacts, impacts * sizeof(pl_impact)) &&
            pl_buffer_reserve(memory, &s->bounces, bounces * k->bounce_size) &&
+           pl_buffer_reserve(memory, &s->rubbed, rubbed * sizeof(near_real)) &&
            pl_buffer_reserve(memory, &s->impact_heap, impacts * sizeof(uint32_t)) &&
            pl_buffer_reserve(memory, &s->impact_heads,
                              (impacts > 0 ? s->dynamic_slots : 0) * sizeof(uint32_t)) &&
@@ -449,6 +451,9 @@ bool pl_solver_graph(plumb_world *world)
     if (!reserve_lanes(world)) {
         return false;
     }
+    if (pl_solver_tallies(world)) {
+        memset(world->solver.rubbed.data, 0, world->solver.rubbed.size);
+    }
     place_lanes(world);
     return true;
 }
@@ -460,7 +465,7 @@ void pl_solver_free(pl_memory *memory, pl_solver *s)
                              &s->impacts, &s->classic,  &s->residuals,   &s->struck,
                              &s->extras,  &s->specials, &s->impact_heap, &s->impact_heads,
                              &s->bounces, &s->clusters, &s->labels,      &s->islands,
-                             &s->homes,   &s->leaders,  &s->cursors };
+                             &s->homes,   &s->leaders,  &s->cursors,     &s->rubbed };
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; ++i) {
         pl_buffer_free(memory, buffers[i]);
     }

@@ -247,12 +247,15 @@ static void sweep(const classic *c, bool positions)
 }
 
 // Adds the substep's impulses to what the step did.
-static void tally(const classic *c, pl_manifold *manifolds)
+static void tally(const classic *c, pl_manifold *manifolds, near_real *rubbed)
 {
     for (uint32_t i = 0; i < c->count; ++i) {
         pl_classic_contact *m = &c->contacts[i];
         for (uint32_t j = 0; j < m->count; ++j) {
             manifolds[m->manifold].point[j].total += m->point[j].ln;
+            if (rubbed != NULL) {
+                rubbed[2 * (size_t)m->manifold + j] += m->point[j].lt;
+            }
             m->pushed |= m->point[j].ln > 0;
         }
     }
@@ -340,7 +343,7 @@ void pl_classic_correct(pl_substep *s)
 void pl_classic_sum(pl_substep *s)
 {
     const classic c = classic_of(s);
-    tally(&c, s->solving->call.manifolds);
+    tally(&c, s->solving->call.manifolds, s->solving->call.rubbed);
 }
 
 void pl_classic_store(pl_substep *s)

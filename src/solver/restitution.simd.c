@@ -160,9 +160,11 @@ WIDE_PART void resolve(const bundle *c, const special *s, extra *e, bounce *r, s
     for (int j = 0; j < 2; ++j) {
         const vf bound = c->friction * impulse[j];
         const vf along = -c->p[j].mt * slip_at(c, e, &c->p[j], &a->now, &b->now, true);
-        strike(c, s, j, a, b, zero, vclamp(along, -bound, bound), at[j].time);
+        const vf along_t = vclamp(along, -bound, bound);
+        strike(c, s, j, a, b, zero, along_t, at[j].time);
         if (e != NULL) {
             e->total[j] += impulse[j];
+            e->rubbed[j] += along_t;
         }
         if (call->struck != NULL) {
             note_times(call, c->a, impulse[j] > zero, at[j].time);

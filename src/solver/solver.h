@@ -83,6 +83,7 @@ typedef struct pl_contact_call {
     void *extras;          // NULL: none
     void *specials;        // NULL: none
     void *bounces;         // NULL: none
+    near_real *rubbed;     // pl_solver.rubbed; NULL: impulses are not added up
     const uint16_t *flags; // PL_BODY_... of a body row
     pl_manifold *manifolds;
     pl_pair *pairs;

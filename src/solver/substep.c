@@ -147,6 +147,7 @@ static pl_solving_step open_step(plumb_world *world, const pl_substep_rows *rows
                   .immovable_slot = s->slot_count - 1,
                   .manifolds = pl_manifolds(&world->narrow),
                   .pairs = pl_pairs(&world->broad.pairs),
+                  .rubbed = pl_solver_tallies(world) ? s->rubbed.data : NULL,
                   .h = h,
                   .inv_h = 1 / h,
                   .flags = world->bodies.flags },

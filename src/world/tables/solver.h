@@ -54,6 +54,7 @@ typedef struct pl_solver {
     pl_buffer extras; // a record a bundle, where surfaces run or roll hard or impulses are added up
     pl_buffer specials; // a record a bundle, where bodies are locked or surfaces stick
     pl_buffer bounces;  // a record a bundle, where contacts are of low restitution
+    pl_buffer rubbed;   // near_real, two a manifold: [N s] along the tangent over the step, where impulses are added up
     pl_buffer impacts;  // pl_impact
     pl_buffer impact_heap,
         impact_heads;  // uint32_t: due ones by time; the first one of a dynamic slot
