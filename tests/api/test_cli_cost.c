@@ -275,6 +275,30 @@ static void the_recommended_setting_is_as_good_as_told(void **state)
     }
 }
 
+// Where joints hold a heavy end, nothing but solving them together does; the words for it are those of `run`.
+static void joints_are_solved_directly_too(void **state)
+{
+    (void)state;
+    write_text("chain.lua",
+               "scene { duration = 1 }\nlocal last = world\nfor i = 1, 20 do\n"
+               "    local b = body { name = 'b' .. i, box { 0.1, 0.5 }, at = {0, -0.5 * i}, "
+               "mass = i < 20 and 1 or 1e4, sleep = false }\n"
+               "    revolute { last, b, at = {0, 0.25 - 0.5 * i} } last = b\nend\n"
+               "exact { 'end', body = 'b20', x = function() return 0 end, y = function() return "
+               "-10 end }\n");
+    expect_code("\"$P\" cost chain.lua --repeat 1 --budget 2e-3 --tolerance 1e-4", 0);
+    const char *begin = strstr(strstr(out, "\ncheapest within "), "--solver");
+    assert_non_null(begin);
+    char line[512];
+    snprintf(line, sizeof line, "\"$P\" run chain.lua --every 1s --body b20 %.*s",
+             (int)strcspn(begin, "("), begin);
+    assert_non_null(strstr(line, " --set direct_joints=true"));
+    expect_code(line, 0);
+    const char *end = strstr(out, "\n1,b20,");
+    assert_non_null(end);
+    assert_true(fabs(strtod(strchr(end + 7, ',') + 1, NULL) + 10) <= 1e-4);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -284,6 +308,7 @@ int main(void)
         cmocka_unit_test(motion_is_compared_as_long_as_it_can_be),
         cmocka_unit_test(what_diverges_is_no_truth),
         cmocka_unit_test(charts_are_drawn),
+        cmocka_unit_test(joints_are_solved_directly_too),
         cmocka_unit_test(csv_can_be_read),
         cmocka_unit_test(the_recommended_setting_is_as_good_as_told),
     };

@@ -16,7 +16,13 @@
 #include <string.h>
 #include <sys/stat.h>
 
-enum { NAMES = 4, TOLERANCES = 3, SCENES_MAX = 128, REASONS_MAX = 24, SIDES_MAX = 8 };
+enum {
+    NAMES = 4,
+    TOLERANCES = 3,
+    SCENES_MAX = 128,
+    REASONS_MAX = 24,
+    SIDES_MAX = 8
+}; // two of each engine
 static const double tolerances[TOLERANCES] = { 1e-2, 1e-3, 1e-6 };
 static const char *const tolerance_names[TOLERANCES] = { "1 %", "1e-3", "1e-6" };
 
@@ -27,7 +33,7 @@ static const struct {
     int substeps, iterations;
     unsigned ways;
 } engines[NAMES] = {
-    { "Plumb", "plumb", NULL, 0, 0, (1u << COST_WAYS) - 1 },
+    { "Plumb", "plumb", NULL, 0, 0, 0 },
     { "Box2D 2.4.1", "box2d 2.4", &peer_box2d2, 1, 8,
       1u << COST_BY_STEP | 1u << COST_BY_ITERATIONS },
     { "Chipmunk 7", "chipmunk", &peer_chipmunk, 1, 10,
@@ -99,15 +105,12 @@ static int list_sides(struct suite *suite, const char *path, struct result *resu
                       cost_side sides[SIDES_MAX])
 {
     const unsigned float_and_double = 3;
-    int count = 0;
     char solver[32];
-    sides[count++] = (cost_side){ .name = engines[0].key,
-                                  .solvers = ENGINE_SOLVERS,
-                                  .precision_bits = float_and_double,
-                                  .ways = engines[0].ways };
+    unsigned solvers = 0;
     for (int i = 0; cli_member(ENGINE_SOLVERS, i, solver, sizeof solver); i++) {
-        sides[0].solver_bits |= 1u << i;
+        solvers |= 1u << i;
     }
+    int count = cost_own_sides(solvers, float_and_double, sides);
     result->reason[0] = -1;
     for (int e = 1; e < suite->engine_count; e++) {
         result->reason[e] = try_engine(suite, engines[e].api, path);
@@ -305,9 +308,12 @@ static bool put_stair(FILE *script, const struct suite *suite, int e, int t, dou
     qsort(times, (size_t)count, sizeof times[0], by_value);
     fprintf(script, "$d%d_%d << EOD\n", e, t);
     for (int i = 0; i < count; i++) {
+        if (i == 0) {
+            fprintf(script, "%.6g 0\n", times[i]);
+        }
         fprintf(script, "%.6g %d\n", times[i], i + 1);
     }
-    fprintf(script, count > 0 ? "%.6g %d\nEOD\n" : "%.6g %d\nEOD\n", last, count);
+    fprintf(script, "%.6g %d\nEOD\n", last, count);
     return count > 0;
 }
 

@@ -119,18 +119,15 @@ static int cost_command(const cli_command *command, int argc, char **argv)
     if (code != CLI_OK) {
         return code;
     }
-    cost_side side = { .name = "plumb",
-                       .solvers = ENGINE_SOLVERS,
-                       .solver_bits = solvers_of(args.solvers),
-                       .precision_bits = args.precisions,
-                       .ways = (1u << COST_WAYS) - 1 };
+    cost_side sides[2];
+    int side_count = cost_own_sides(solvers_of(args.solvers), args.precisions, sides);
     cost_plan *plan = calloc(1, sizeof *plan); // too large for a stack
     if (plan == NULL) {
         cli_message("out of memory");
         return CLI_FAILED;
     }
-    plan->sides = &side;
-    plan->side_count = 1;
+    plan->sides = sides;
+    plan->side_count = side_count;
     plan->lists = args.lists;
     plan->budget = args.budget;
     plan->repeat = args.repeat;

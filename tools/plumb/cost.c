@@ -38,6 +38,10 @@ static int open_for(const cost_plan *plan, const cost_setting *set, bool unseen,
     args.time = plan->time;
     args.no_expect = true; // looking at them is none of the scene's work
     args.unseen = unseen;
+    const char *set_of_side = plan->sides[set->side].set;
+    if (set_of_side != NULL && args.sets.count < CLI_TEXTS_MAX) {
+        args.sets.items[args.sets.count++] = set_of_side;
+    }
     return scene_run_open(&args, plan->path, run);
 }
 

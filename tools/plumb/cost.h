@@ -91,6 +91,7 @@ typedef struct cost_ladder {
 /// One engine with the settings that it has.
 typedef struct cost_side {
     const char *name;
+    const char *set;          ///< "key=value" that goes with all its settings; NULL: none
     const char *solvers;      ///< comma list
     unsigned solver_bits;     ///< which of them
     unsigned precision_bits;  ///< of SCENE_PRECISIONS
@@ -119,6 +120,7 @@ typedef struct cost_plan {
     int repeat;
     cost_quantity quantities[COST_QUANTITIES_MAX];
     int quantity_count;
+    bool has_joints;
     bool has_exact; ///< compared with closed forms, not with a run of its own
     double
         horizon; ///< [s] up to which trajectories can be compared; the whole time if they always can
@@ -142,6 +144,9 @@ enum { COST_MEMBERS = 8 };
 
 /// Opens the scene with a setting. CLI_OK or a code after a message.
 int cost_open(const cost_plan *plan, const cost_setting *set, scene_run *run);
+/// Plumb's own sides: its solvers of `solver_bits`, and once more with joints solved directly, which pays only where
+/// there are some (cost_plan_open leaves it out elsewhere). 2.
+int cost_own_sides(unsigned solver_bits, unsigned precision_bits, cost_side sides[2]);
 /// Fills a plan that has sides, lists, budget and repeats from the scene as the command line has it. CLI_OK or a code
 /// after a message.
 int cost_plan_open(cost_plan *plan, const scene_args *args, const char *path);

@@ -168,7 +168,7 @@ static void put_series_title(FILE *file, const cost_plan *plan, const int series
         !cli_member(SCENE_PRECISIONS, series[2], precision, sizeof precision)) {
         return;
     }
-    if (plan->side_count > 1) {
+    if (plan->sides[series[0]].engine != NULL) {
         put_text(file, plan->sides[series[0]].name);
         fputc(' ', file);
     }
@@ -312,7 +312,8 @@ static void put_times(FILE *file, const cost_plan *plan, int q, bool relative)
         (void)cli_member(plan->sides[set->side].solvers, set->solver, solver, sizeof solver);
         fprintf(file, "%s$t%d with linespoints pt 7 ps 0.5 lw 2 lc rgb '%s' title '",
                 i > 0 ? ", " : "", i, hues[i % HUES]);
-        put_text(file, plan->side_count > 1 ? plan->sides[set->side].name : solver);
+        put_text(file,
+                 plan->sides[set->side].engine != NULL ? plan->sides[set->side].name : solver);
         fprintf(file, " 1/%.4g s x %d'", 1 / set->dt, set->substeps);
     }
     fprintf(file, "\n");

@@ -283,6 +283,9 @@ static int climb_sides(cost_plan *plan)
         plan->lists.substeps.count + plan->lists.iterations.count + plan->lists.divide.count > 0;
     int code = CLI_OK;
     for (int side = 0; side < plan->side_count; side++) {
+        if (plan->sides[side].set != NULL && !plan->has_joints) {
+            continue;
+        }
         for (int bit = 0; bit < 32 * PRECISIONS && code == CLI_OK; bit++) {
             int solver = bit / PRECISIONS, precision = bit % PRECISIONS;
             cost_setting base;

@@ -16,10 +16,13 @@ static void name_of(const char *list, int index, char *out, size_t size)
 void cost_words(const cost_plan *plan, const cost_setting *set, char *text, size_t size)
 {
     char solver[32], precision[16];
-    name_of(plan->sides[set->side].solvers, set->solver, solver, sizeof solver);
+    const cost_side *side = &plan->sides[set->side];
+    name_of(side->engine == NULL ? ENGINE_SOLVERS : side->solvers, set->solver, solver,
+            sizeof solver);
     name_of(SCENE_PRECISIONS, set->precision, precision, sizeof precision);
-    snprintf(text, size, "--solver %s --dt %.17g --substeps %d --iterations %d --precision %s",
-             solver, set->dt, set->substeps, set->iterations, precision);
+    snprintf(text, size, "--solver %s --dt %.17g --substeps %d --iterations %d --precision %s%s%s",
+             solver, set->dt, set->substeps, set->iterations, precision,
+             side->set != NULL ? " --set " : "", side->set != NULL ? side->set : "");
 }
 
 // ---------------------------------------------------------------------------------------- table

@@ -15,6 +15,8 @@ static const double REFERENCE_WANDERS = 0.05; // of the longest way
 static const double BUDGETS_MOST = 20;        // that the reference may take
 enum { FINEST = 16 };                         // steps in one of the scene's, and substeps of each
 enum { SOFT = 0, DOUBLE = 1 };
+/// What the soft solver is called where joints are solved directly.
+#define DIRECT_NAME "direct"
 
 static int out_of_memory(void)
 {
@@ -269,6 +271,20 @@ static int survey_finest(cost_plan *plan, const cost_setting *own, double nudge,
     return code;
 }
 
+int cost_own_sides(unsigned solver_bits, unsigned precision_bits, cost_side sides[2])
+{
+    sides[0] = (cost_side){ .name = "plumb",
+                            .solvers = ENGINE_SOLVERS,
+                            .solver_bits = solver_bits,
+                            .precision_bits = precision_bits,
+                            .ways = (1u << COST_WAYS) - 1 };
+    sides[1] = sides[0];
+    sides[1].solvers = DIRECT_NAME;
+    sides[1].set = "direct_joints=true";
+    sides[1].solver_bits &= 1u << SOFT; // the only solver that knows it
+    return 2;
+}
+
 int cost_plan_open(cost_plan *plan, const scene_args *args, const char *path)
 {
     scene_run run;
@@ -283,6 +299,7 @@ int cost_plan_open(cost_plan *plan, const scene_args *args, const char *path)
     plan->own = (cost_setting){
         0, run.info.solver, args->precision, run.info.substeps, run.info.iterations, run.info.dt
     };
+    plan->has_joints = run.info.joint_count > 0;
     snprintf(plan->title, sizeof plan->title, "%s", run.info.name);
     if (run.steps < 1) {
         cli_message("%s: there is nothing to measure in %g s", run.info.name, run.time);

@@ -66,6 +66,7 @@ typedef struct engine_info {
     bool y_down;            ///< the scene's y axis points down
     double wrap_x, wrap_y;  ///< [m] the world wraps around every so many; 0: not along that axis
     int exact_count;        ///< closed forms declared
+    int joint_count;        ///< joints now
     const char *exact_unit; ///< of their errors; "" when they have several
     engine_camera camera;
 } engine_info;

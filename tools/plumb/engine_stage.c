@@ -214,6 +214,7 @@ engine_info pl_stage_info(const engine_stage *stage)
         .y_down = info->y_axis == PLUMB_Y_DOWN,
         .wrap_x = (double)world.wrap_x,
         .wrap_y = (double)world.wrap_y,
+        .joint_count = pl_stage_joint_count(stage),
         .exact_count = stage->scene != NULL ? scene_exact_count(stage->scene) : 0,
         .exact_unit = exact_unit(stage->scene),
         .camera = { .has_view = camera->has_view,
