@@ -91,7 +91,8 @@ static bool add_pieces(struct peer *p, const plumb_world *world, plumb_shape sha
                    : r > 0 ? e->add_capsule(p->world, body, &material, x[0], y[0], x[1], y[1], r)
                            : e->add_segment(p->world, body, &material, x[0], y[0], x[1], y[1]);
         if (code != ENGINE_OK) {
-            return refuse(p, c.count == 2 ? "capsules" : "rounded, thin or many-cornered polygons");
+            return refuse(p, c.count == 2 ? "capsules, or lines that are very short"
+                                          : "rounded, thin or many-cornered polygons");
         }
     }
     return true;
