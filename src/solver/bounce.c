@@ -237,12 +237,19 @@ static void strike_tangent(const plumb_world *world, const pl_impact *m, uint32_
     }
 }
 
+static void note_strike(plumb_world *world, const pl_impact *m, uint32_t j, const pl_approach *at,
+                        double impulse)
+{
+    pl_manifold *manifold =
+        &pl_manifolds(&world->narrow)[pl_pairs(&world->broad.pairs)[m->pair].manifold];
+    manifold->point[j].total += (near_real)impulse;
+    pl_manifold_strike(manifold, (near_real)at->speed, world->solver.since + (near_real)at->time);
+}
+
 bool pl_bounce_resolve(plumb_world *world, const pl_impact *m, const pl_approach at[2])
 {
     const double gain = 1 + (double)m->restitution;
     double impulse[2] = { 0, 0 };
-    pl_manifold *manifold =
-        &pl_manifolds(&world->narrow)[pl_pairs(&world->broad.pairs)[m->pair].manifold];
     if (at[0].due && at[1].due) {
         double k00 = coupling(world, m, 0, 0), k11 = coupling(world, m, 1, 1),
                k01 = coupling(world, m, 0, 1);
@@ -268,9 +275,7 @@ bool pl_bounce_resolve(plumb_world *world, const pl_impact *m, const pl_approach
     for (uint32_t j = 0; j < m->count; ++j) {
         if (impulse[j] > 0) {
             strike(world, m, j, impulse[j], 0, at[j].time);
-            manifold->point[j].total += (near_real)impulse[j];
-            pl_manifold_strike(manifold, (near_real)at[j].speed,
-                               world->solver.since + (near_real)at[j].time);
+            note_strike(world, m, j, &at[j], impulse[j]);
             struck = true;
         }
     }
@@ -280,4 +285,56 @@ bool pl_bounce_resolve(plumb_world *world, const pl_impact *m, const pl_approach
         }
     }
     return struck;
+}
+
+// Sweeps over impacts of one moment, and what is left of the velocity then.
+#define SWEEPS  64
+#define SETTLED 1e-13
+
+static double speed_at(const plumb_world *world, const pl_impact *m, uint32_t j)
+{
+    return at_point(&m->point[j], look_out(world, m).velocity);
+}
+
+// Solved as one system, by sweeps there and back: none comes first, so a symmetric arrangement stays one.
+void pl_bounce_resolve_together(plumb_world *world, pl_bounce *all, uint32_t count)
+{
+    for (uint32_t i = 0; i < count; ++i) {
+        for (uint32_t j = 0; j < all[i].impact->count; ++j) {
+            const pl_approach *at = &all[i].at[j];
+            all[i].wanted[j] = speed_at(world, all[i].impact, j) +
+                               (1 + (double)all[i].impact->restitution) * at->speed;
+            all[i].impulse[j] = 0;
+        }
+    }
+    double left = 1;
+    for (uint32_t sweep = 0; sweep < SWEEPS && left > SETTLED; ++sweep) {
+        left = 0;
+        for (uint32_t n = 0; n < count; ++n) {
+            pl_bounce *b = &all[sweep % 2 == 0 ? n : count - 1 - n];
+            for (uint32_t j = 0; j < b->impact->count; ++j) {
+                const double k = coupling(world, b->impact, j, j);
+                if (!b->at[j].due || !(k > 0)) {
+                    continue;
+                }
+                const double lack = b->wanted[j] - speed_at(world, b->impact, j);
+                double change = lack / k;
+                change = change < -b->impulse[j] ? -b->impulse[j] : change;
+                b->impulse[j] += change;
+                strike(world, b->impact, j, change, 0, b->at[j].time);
+                const double share = k * (change < 0 ? -change : change) / b->at[j].speed;
+                left = share > left ? share : left;
+            }
+        }
+    }
+    for (uint32_t i = 0; i < count; ++i) {
+        for (uint32_t j = 0; j < all[i].impact->count; ++j) {
+            if (all[i].impulse[j] > 0) {
+                note_strike(world, all[i].impact, j, &all[i].at[j], all[i].impulse[j]);
+                if (all[i].impact->friction > 0) {
+                    strike_tangent(world, all[i].impact, j, all[i].impulse[j], all[i].at[j].time);
+                }
+            }
+        }
+    }
 }

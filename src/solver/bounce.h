@@ -18,4 +18,14 @@ void pl_bounce_foresee(const plumb_world *world, pl_impact *impact, double h, pl
 // Resolves the impacts that are due, friction included; true when there was one.
 bool pl_bounce_resolve(plumb_world *world, const pl_impact *impact, const pl_approach at[2]);
 
+// One of several impacts of a moment.
+typedef struct pl_bounce {
+    pl_impact *impact;
+    pl_approach at[2];
+    double wanted[2], impulse[2]; // [m/s] along the normal at the end, [N s]
+} pl_bounce;
+
+// Resolves the impacts of a moment that are due, friction included; `impulse` says which there were.
+void pl_bounce_resolve_together(plumb_world *world, pl_bounce *all, uint32_t count);
+
 #endif

@@ -22,6 +22,10 @@
 #define SPARE   (1u << 17)
 #define ENDLESS (1u << 30)
 
+// Impacts within this share of a substep are of one moment; so many of them are solved together.
+#define MOMENT   1e-4
+#define TOGETHER 64
+
 static near_real *lane_value(pl_solver *s, const pl_contact_kernels *kernels, size_t lane,
                              size_t offset)
 {
@@ -162,27 +166,48 @@ static void count_off(pl_solver *s, pl_impact *m)
     }
 }
 
-// Resolves an impact that is due, and foresees anew what its bodies meet.
-static void happen(plumb_world *world, pl_impact *m, const pl_approach at[2], double h)
+// An impact has been: foresees anew what its bodies meet.
+static void follow(plumb_world *world, const pl_impact *m, double h)
 {
-    count_off(&world->solver, m);
-    if (pl_bounce_resolve(world, m, at)) {
-        pl_pairs(&world->broad.pairs)[m->pair].flags |= PL_PAIR_HIT;
-        ++world->solver.bounce_count;
-        queue_neighbours(world, m->a, h);
-        queue_neighbours(world, m->b, h);
-    }
+    pl_pairs(&world->broad.pairs)[m->pair].flags |= PL_PAIR_HIT;
+    ++world->solver.bounce_count;
+    queue_neighbours(world, m->a, h);
+    queue_neighbours(world, m->b, h);
+}
+
+// Takes the impact that comes first out of the queue.
+static void take(plumb_world *world, pl_impact *m, double h, pl_bounce *out)
+{
+    pl_solver *s = &world->solver;
+    *out = (pl_bounce){ .impact = m };
+    pl_bounce_foresee(world, m, h, out->at);
+    m->due = false;
+    pl_impact_queue_put(s, (uint32_t)(m - (pl_impact *)s->impacts.data));
+    count_off(s, m);
 }
 
 static void empty_queue(plumb_world *world, double h)
 {
     pl_solver *s = &world->solver;
+    pl_bounce now[TOGETHER];
     for (pl_impact *m; (m = pl_impact_queue_first(s)) != NULL;) {
-        pl_approach at[2] = { { 0 }, { 0 } };
-        pl_bounce_foresee(world, m, h, at);
-        m->due = false;
-        pl_impact_queue_put(s, (uint32_t)(m - (pl_impact *)s->impacts.data));
-        happen(world, m, at, h);
+        const double until = m->time + MOMENT * h;
+        uint32_t count = 0;
+        for (; m != NULL && m->time <= until && count < TOGETHER; m = pl_impact_queue_first(s)) {
+            take(world, m, h, &now[count++]);
+        }
+        if (count == 1) {
+            if (pl_bounce_resolve(world, now[0].impact, now[0].at)) {
+                follow(world, now[0].impact, h);
+            }
+            continue;
+        }
+        pl_bounce_resolve_together(world, now, count);
+        for (uint32_t i = 0; i < count; ++i) {
+            if (now[i].impulse[0] > 0 || now[i].impulse[1] > 0) {
+                follow(world, now[i].impact, h);
+            }
+        }
     }
 }
 
