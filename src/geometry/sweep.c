@@ -168,6 +168,9 @@ static void try_corners(nearest *best, const core *a, const core *b, double sign
 
 // Distances below this have no direction. [m]
 #define NO_DIRECTION 1e-12
+// [m] by which corners must be farther apart than edges tell: their direction is as wrong as rounding is large beside the
+// distance, and a face of kilometres reaches millimetres beyond where it says.
+#define CORNERS_TELL 1e-9
 
 static axis find_axis(const core *a, const core *b)
 {
@@ -181,7 +184,7 @@ static axis find_axis(const core *a, const core *b)
         try_corners(&n, a, b, 1);
         try_corners(&n, b, a, -1);
         double distance = sqrt(n.square);
-        if (distance > NO_DIRECTION && (points || distance > best.distance)) {
+        if (distance > NO_DIRECTION && (points || distance > best.distance + CORNERS_TELL)) {
             best = (axis){ distance, n.x / distance, n.y / distance };
         } else if (points) {
             best.distance = 0;
@@ -366,7 +369,8 @@ static double time_free(const pl_sweep *s, const axis *n, double apart, double l
     bool any = false;
     for (int i = 0; i < count_a; ++i) {
         for (int k = 0; k < count_b; ++k) {
-            const double gap = of_a[i].at - of_b[k].at - apart;
+            // Rounding may have closed it, by more than a tolerance where pieces are large.
+            const double gap = fmax(of_a[i].at - of_b[k].at - apart, 0);
             const double rate = of_a[i].rate - of_b[k].rate, bend = of_a[i].bend + of_b[k].bend;
             if (gap + (rate - bend / 2 * first) * first > MARGIN) {
                 continue; // still apart at the first root of those before

@@ -278,11 +278,41 @@ static void a_hinged_body_turns_about_its_hinge(void **state)
     plumb_world_destroy(w);
 }
 
+// A box slides down a face of ten kilometres, in touch to rounding. The direction between the corners that are nearest is off by
+// 1e-6 there, and time ran backwards.
+static void what_slides_along_a_long_face_goes_on(void **state)
+{
+    (void)state;
+    const pl_swept box = { .count = 4,
+                           .x = { -0.60633905231952667, 0.363803431391716, 0.60633905231952667,
+                                  -0.363803431391716 },
+                           .y = { -0.363803431391716, -0.60633905231952667, 0.363803431391716,
+                                  0.60633905231952667 },
+                           .dx = 0.2094268798828125,
+                           .dy = -0.052355766296386719 };
+    const pl_swept ground = { .count = 4,
+                              .x = { -4850.9549541771412, 4850.4698829352856, 4850.9549541771412,
+                                     -4850.4698829352856 },
+                              .y = { 1211.7079621553421, -1213.6482471227646, -1211.7079621553421,
+                                     1213.6482471227646 },
+                              .px = -42.22211554646492,
+                              .py = 9.0093640089035034 };
+    unsigned seed = 31;
+    for (int i = 0; i < 300; ++i) {
+        pl_swept other = box;
+        const double by = i == 0 ? 0 : pow(10, sim_uniform(&seed, -12, -6));
+        other.px = by * 0.2425356, other.py = by * 0.9701425;
+        other.angle = i % 2 == 0 ? 0 : pow(10, sim_uniform(&seed, -16, -8));
+        assert_true(pl_sweep_first(&other, &ground, 0, 1, -0.005, 0.00125) >= 1);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_gap_is_the_largest_of_all_directions),
         cmocka_unit_test(the_first_time_is_never_late),
+        cmocka_unit_test(what_slides_along_a_long_face_goes_on),
         cmocka_unit_test(near_misses_are_told_from_hits),
         cmocka_unit_test(targets_leave_room_and_keep_sides),
         cmocka_unit_test(a_way_joins_its_ends_within_its_box),
