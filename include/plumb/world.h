@@ -26,7 +26,10 @@ typedef enum plumb_y_axis {
 
 typedef enum plumb_solver {
     PLUMB_SOLVER_SOFT, ///< soft step: substeps, soft contacts, warm starting, relax pass
-    PLUMB_SOLVER_PGS   ///< the classic: projected Gauss-Seidel on velocities, then positions
+    PLUMB_SOLVER_PGS,  ///< the classic: projected Gauss-Seidel on velocities, then positions
+    PLUMB_SOLVER_EXACT ///< contacts with friction and joints of an island solved together, to a residual, by a direct
+                       ///< method: heavy on light, long chains, trusses, loops, limits of stability. Costs ten times
+                       ///< the soft step and more
 } plumb_solver;
 
 /// How a world is made. {0} is valid: every zero means the default told beside the field.

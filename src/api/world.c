@@ -17,6 +17,7 @@
 #include "plumb/world.h"
 #include "schema/world.h"
 #include "sleep/sleep.h"
+#include "exact/exact.h"
 #include "solver/solver.h"
 #include "step/pass.h"
 #include "step/quarantine.h"
@@ -157,6 +158,7 @@ static void free_world(plumb_world *world)
     pl_ahead_free(&memory, &world->lookahead);
     pl_internal_edges_free(&memory, &world->internal_edges);
     pl_solver_free(&memory, &world->solver);
+    pl_exact_free(&memory, &world->exact);
     pl_joints_free(&memory, &world->joints);
     pl_characters_free(&memory, &world->characters);
     pl_continuous_free(&memory, &world->continuous);

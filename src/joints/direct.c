@@ -15,8 +15,6 @@
 #include "plumb/math.h"
 #include "world/state.h"
 
-// Share of an error that a substep undoes. More turns what a snapping chain leaves into a blow (DECISIONS.md).
-#define RECOVERY 0.1
 // Of the diagonal: a smaller pivot is what rounding of the rows left of a redundant one, which gets no impulse. A chain
 // whose end is so many times as heavy as its links has such pivots, too: it is the ratio that can be told.
 #define LEAST_PIVOT (sizeof(near_real) == sizeof(float) ? 1e-6 : 1e-10)
@@ -47,53 +45,11 @@ static double *beside(const joint_system *s, uint32_t entry)
 
 //---- rows ----------------------------------------------------------------------------------------
 
-static double low_of(const pl_joint *j, int i)
-{
-    const pl_row *r = &j->rows.row[i];
-    return r->type == PL_ROW_LEAST ? 0 : -(double)r->most * (double)j->h;
-}
-
-static double high_of(const pl_joint *j, int i)
-{
-    return (double)j->rows.row[i].most * (double)j->h;
-}
-
 // By how much J v lacks what it is to be.
 static double lack_of(const pl_direct_part *p, int i)
 {
     const pl_lone *l = &p->lone;
-    return p->target[i] - (double)pl_one_rate(&l->joint->rows.row[i], l->a, l->b);
-}
-
-static bool is_in_force(const pl_lone *l, int i, pl_joint_sweep sweep)
-{
-    const pl_row *r = &l->joint->rows.row[i];
-    return r->type != PL_ROW_OFF && !(r->hertz > 0 && sweep == PL_SWEEP_RELAX) &&
-           pl_one_coupling(r, r, l->a, l->b) > 0;
-}
-
-// What a row in force is to do.
-static void aim(pl_direct_part *p, int i, pl_joint_sweep sweep)
-{
-    const pl_lone *l = &p->lone;
-    const pl_joint *j = l->joint;
-    const pl_row *r = &j->rows.row[i];
-    const double back = (double)r->error / (double)j->h;
-    p->give[i] = 0;
-    if (r->type == PL_ROW_DRIVE) {
-        p->target[i] = (double)r->speed;
-    } else if (r->hertz > 0) {
-        // Of total = - m (velocity v + error C) + (1 - impulse) total, v being that before: see pl_joint_spring.
-        const pl_joint_soft soft = pl_joint_spring(r, j->h);
-        const double k = (double)pl_one_coupling(r, r, l->a, l->b);
-        const double share = plumb_max(soft.velocity, PLUMB_REAL_EPSILON);
-        p->give[i] = k * (double)soft.impulse / share;
-        p->target[i] = -(double)soft.error / share * (double)r->error;
-    } else if (r->type == PL_ROW_LEAST && r->error > 0) {
-        p->target[i] = -back; // may close the gap
-    } else {
-        p->target[i] = sweep == PL_SWEEP_PULL ? -RECOVERY * back : 0;
-    }
+    return p->law[i].target - (double)pl_one_rate(&l->joint->rows.row[i], l->a, l->b);
 }
 
 // Rows at a bound that would go beyond are no unknowns to begin with.
@@ -101,7 +57,7 @@ static bool begins_at_bound(const pl_direct_part *p, int i)
 {
     const pl_joint *j = p->lone.joint;
     const double impulse = (double)j->impulse[i], lack = lack_of(p, i);
-    return (impulse <= low_of(j, i) && lack <= 0) || (impulse >= high_of(j, i) && lack >= 0);
+    return (impulse <= p->law[i].low && lack <= 0) || (impulse >= p->law[i].high && lack >= 0);
 }
 
 static void open_part(const joint_system *s, uint32_t column, pl_joint_sweep sweep)
@@ -109,9 +65,8 @@ static void open_part(const joint_system *s, uint32_t column, pl_joint_sweep swe
     pl_direct_part *p = &s->parts[column];
     pl_one_take(s->context, s->columns[column].joint, &p->lone);
     for (int i = 0; i < p->lone.joint->rows.count; ++i) {
-        p->in_force[i] = is_in_force(&p->lone, i, sweep);
-        if (p->in_force[i]) {
-            aim(p, i, sweep);
+        p->law[i] = pl_row_law_of(&p->lone, i, sweep);
+        if (p->law[i].in_force) {
             p->at_bound[i] = i >= p->lone.joint->rows.block && begins_at_bound(p, i);
         }
     }
@@ -121,7 +76,7 @@ static void number_unknowns(pl_direct_part *p)
 {
     p->count = 0;
     for (int i = 0; i < p->lone.joint->rows.count; ++i) {
-        if (p->in_force[i] && !p->at_bound[i]) {
+        if (p->law[i].in_force && !p->at_bound[i]) {
             p->row[p->count++] = (uint8_t)i;
         }
     }
@@ -160,7 +115,7 @@ static void assemble(const joint_system *s)
             for (int k = 0; k < p->count; ++k) {
                 d[i * PL_JOINT_ROWS + k] = across(p, p->row[i], p, p->row[k]);
             }
-            d[i * (PL_JOINT_ROWS + 1)] += p->give[p->row[i]];
+            d[i * (PL_JOINT_ROWS + 1)] += p->law[p->row[i]].give;
             p->scale[i] = d[i * (PL_JOINT_ROWS + 1)];
         }
         const pl_direct_column *column = &s->columns[c];
@@ -316,8 +271,8 @@ static bool hold_to_bounds(const joint_system *s)
         for (int k = 0; k < p->count; ++k) {
             const int i = p->row[k];
             const double total = (double)j->impulse[i] + p->x[k];
-            if (i >= j->rows.block && (total < low_of(j, i) || total > high_of(j, i))) {
-                push(p, i, total < low_of(j, i) ? low_of(j, i) : high_of(j, i));
+            if (i >= j->rows.block && (total < p->law[i].low || total > p->law[i].high)) {
+                push(p, i, total < p->law[i].low ? p->law[i].low : p->law[i].high);
                 p->at_bound[i] = any = true;
             }
         }
@@ -333,11 +288,11 @@ static bool let_go(const joint_system *s)
         pl_direct_part *p = &s->parts[c];
         const pl_joint *j = p->lone.joint;
         for (int i = j->rows.block; i < j->rows.count; ++i) {
-            if (!p->in_force[i] || !p->at_bound[i]) {
+            if (!p->law[i].in_force || !p->at_bound[i]) {
                 continue;
             }
-            const bool low = (double)j->impulse[i] <= low_of(j, i);
-            const double lack = lack_of(p, i) - p->give[i] * (double)j->impulse[i];
+            const bool low = (double)j->impulse[i] <= p->law[i].low;
+            const double lack = lack_of(p, i) - p->law[i].give * (double)j->impulse[i];
             if (low ? lack > SLACK : lack < -SLACK) {
                 p->at_bound[i] = false;
                 any = true;
@@ -469,7 +424,7 @@ static void fill_sides(const joint_system *s, bool arcs)
         for (int k = 0; k < p->count; ++k) {
             const int i = p->row[k];
             p->x[k] =
-                lack_of(p, i) - p->give[i] * (double)j->impulse[i] - (i < 2 ? (double)arc[i] : 0);
+                lack_of(p, i) - p->law[i].give * (double)j->impulse[i] - (i < 2 ? (double)arc[i] : 0);
         }
     }
 }

@@ -2,17 +2,15 @@
 #ifndef PL_JOINT_DIRECT_H
 #define PL_JOINT_DIRECT_H
 
-#include "joints/one.h"
+#include "joints/law.h"
 
 // A joint while it is solved: its rows in force, in the order of the unknowns.
 typedef struct pl_direct_part {
     pl_lone lone;
     int count;                    // of unknowns
     uint8_t row[PL_JOINT_ROWS];   // of an unknown
-    bool in_force[PL_JOINT_ROWS]; // of a row
+    pl_row_law law[PL_JOINT_ROWS]; // of a row
     bool at_bound[PL_JOINT_ROWS]; // of a row: its impulse is at its bound, and it is no unknown
-    double target[PL_JOINT_ROWS]; // of a row: J v is to be that
-    double give[PL_JOINT_ROWS];   // [1/kg] of a row, of its whole impulse
     double x[PL_JOINT_ROWS];      // of an unknown: right side, then change of impulse
     double scale[PL_JOINT_ROWS];  // of an unknown: the diagonal as assembled
     near_real inertia[2];         // [1/(kg m^2)] scratch: of its bodies before

@@ -40,8 +40,8 @@
 // The last relaxing sweep of the soft step keeps points from what they would do in one substep more.
 double pl_ahead_horizon(const plumb_world *world, real dt)
 {
-    bool soft = world->desc.solver == PLUMB_SOLVER_SOFT;
-    return (double)dt * (soft ? 1 + 1 / (double)world->desc.substeps : 1);
+    bool relaxes = world->desc.solver != PLUMB_SOLVER_PGS;
+    return (double)dt * (relaxes ? 1 + 1 / (double)world->desc.substeps : 1);
 }
 
 static pl_path free_path(pl_motion flight)

@@ -7,9 +7,10 @@
 //   stage     of pl_stage (step/pass.h); rows are in the order of their stages
 //   wanted    ALWAYS; IF(f): bool f(world, &reason), whether this world needs it; the reason is a static string
 //   run       ONCE(f): plumb_result f(world, dt), once a step, where f may run out of memory; of the stages PREPARE to STORE a
-//             function of the substep and cluster (world/substep.h): EACH(f) with both solvers, BOTH(soft, classic),
-//             SOFT(f) with the soft step alone; ACTS(f, whom): an effect with both, on the dynamic bodies of whom
-//             bool whom(world, row) is true: the solver moves them; HOME: the place of the user's systems of a phase
+//             function of the substep and cluster (world/substep.h): EACH(f) with all solvers, THREE(soft,
+//             classic, exact), BOTH(soft, classic), NOT_CLASSIC(f), EXACT(f); ACTS(f, whom): an effect with all, on the
+//             dynamic bodies of whom bool whom(world, row) is true: the solver moves them; HOME: the place of the
+//             user's systems of a phase
 //   kind      ONCE a step; REFRESHES: in a step of dt 0 as well, it moves nothing; REPLACEABLE: a system may take its
 //             place, nothing behind it relies on what it leaves
 //   reads     names of data (step/data.h), which the check of what is written holds it to; and
@@ -63,16 +64,20 @@
       "body settings, components, solver bodies", "constraints", ONE)                                                                        \
     X("measure bodies",    GRAPH,       IF(pl_want_measures),        ONCE(pl_run_measure_bodies),                            ONCE,           \
       "solver bodies, masses", "", ONE)                                                                                                      \
-    /* The substeps: rows up to "store contacts" run inside of one of the next two, cluster by cluster of islands. */                        \
+    X("elimination",       GRAPH,       IF(pl_want_exact),           ONCE(pl_run_elimination),                               ONCE,           \
+      "manifolds, joints, solver bodies", "constraints", ONE)                                                                                \
+    /* The substeps: rows up to "store contacts" run inside of one of the next three, cluster by cluster of islands. */                       \
     X("soft step",         SOLVE,       IF(pl_want_soft),            ONCE(pl_run_soft),                                      ONCE,           \
       "manifolds", "manifolds, pairs, joints, solver bodies, accelerations, constraints, rows", ONE)                                         \
     X("classic solver",    SOLVE,       IF(pl_want_classic),         ONCE(pl_run_classic),                                   ONCE,           \
       "manifolds", "manifolds, pairs, joints, solver bodies, accelerations, constraints, rows", ONE)                                         \
+    X("exact solver",      SOLVE,       IF(pl_want_exact),           ONCE(pl_run_exact),                                     ONCE,           \
+      "manifolds", "manifolds, pairs, joints, solver bodies, accelerations, constraints, rows", ONE)                                         \
     X("prepare joints",    PREPARE,     IF(pl_want_joints),          EACH(pl_joints_row_prepare),                            ONCE,           \
       "joints, poses, solver bodies", "joints, constraints", ONE)                                                                            \
-    X("prepare contacts",  PREPARE,     IF(pl_want_collision),       BOTH(pl_soft_prepare, pl_classic_prepare),              ONCE,           \
+    X("prepare contacts",  PREPARE,     IF(pl_want_collision),       THREE(pl_soft_prepare, pl_classic_prepare, pl_classic_prepare), ONCE,           \
       "manifolds, solver bodies", "constraints", HAS(pl_contact_variants))                                                                   \
-    X("prepare impacts",   PREPARE,     IF(pl_want_impacts),         BOTH(pl_impacts_row_prepare, pl_impacts_row_classic),   ONCE,           \
+    X("prepare impacts",   PREPARE,     IF(pl_want_impacts),         THREE(pl_impacts_row_prepare, pl_impacts_row_classic, pl_impacts_row_classic), ONCE,           \
       "manifolds, constraints", "constraints", ONE)                                                                                          \
     X("forces of now",     MOMENT,      IF(pl_want_reset),           EACH(pl_acting_reset),                                  ONCE,           \
       "accelerations", "accelerations", ONE)                                                                                                 \
@@ -82,33 +87,37 @@
       "solver bodies, body settings", "accelerations", ONE)                                                                                  \
     X("speed caps",        MOMENT,      IF(pl_want_caps),            EACH(pl_caps_row),                                      REPLACEABLE,    \
       "solver bodies, body settings", "accelerations", ONE)                                                                                  \
-    X("integrate",         VELOCITIES,  IF(pl_want_solver),          BOTH(pl_soft_integrate, pl_classic_integrate),          ONCE,           \
+    X("integrate",         VELOCITIES,  IF(pl_want_solver),          THREE(pl_soft_integrate, pl_classic_integrate, pl_classic_integrate), ONCE,           \
       "accelerations", "solver bodies, accelerations", ONE)                                                                                  \
-    X("warm start joints", VELOCITIES,  IF(pl_want_joints),          EACH(pl_joints_row_warm_start),                         ONCE,           \
+    X("warm start joints", VELOCITIES,  IF(pl_want_joints),          THREE(pl_joints_row_warm_start, pl_joints_row_warm_start, pl_exact_warm_start_joints), ONCE,           \
       "joints", "solver bodies, joints", ONE)                                                                                                \
-    X("warm start",        VELOCITIES,  IF(pl_want_collision),       BOTH(pl_soft_warm_start, pl_classic_warm_start),        ONCE,           \
+    X("warm start",        VELOCITIES,  IF(pl_want_collision),       THREE(pl_soft_warm_start, pl_classic_warm_start, pl_exact_warm_start), ONCE,           \
       "constraints", "solver bodies, constraints", ONE)                                                                                      \
-    X("impacts",           VELOCITIES,  IF(pl_want_impacts),         BOTH(pl_soft_impacts, pl_classic_impacts),              ONCE,           \
+    X("impacts",           VELOCITIES,  IF(pl_want_impacts),         THREE(pl_soft_impacts, pl_classic_impacts, pl_classic_impacts), ONCE,           \
       "constraints", "solver bodies, constraints, pairs, manifolds", ONE)                                                                    \
     X("joints",            CONSTRAINTS, IF(pl_want_joints),          BOTH(pl_joints_row_solve, pl_joints_row_classic),       ONCE,           \
       "joints, constraints", "solver bodies, joints, constraints", ONE)                                                                      \
     X("contacts",          CONSTRAINTS, IF(pl_want_collision),       BOTH(pl_soft_contacts, pl_classic_contacts),            ONCE,           \
       "constraints", "solver bodies, constraints", HAS(pl_contact_variants))                                                                 \
-    X("positions",         POSITIONS,   IF(pl_want_solver),          BOTH(pl_move_bodies, pl_classic_move),                  ONCE,           \
+    X("exact pull",        CONSTRAINTS, IF(pl_want_exact),           EXACT(pl_exact_pull),                                   ONCE,           \
+      "joints, constraints, manifolds", "solver bodies, joints, constraints", ONE)                                                           \
+    X("positions",         POSITIONS,   IF(pl_want_solver),          THREE(pl_move_bodies, pl_classic_move, pl_move_bodies), ONCE,           \
       "solver bodies, accelerations", "solver bodies, joints", ONE)                                                                          \
     X("relax joints",      RELAX,       IF(pl_want_joints),          BOTH(pl_joints_row_relax, pl_joints_row_correct),       ONCE,           \
       "joints, constraints", "solver bodies, joints, constraints", ONE)                                                                      \
     X("relax contacts",    RELAX,       IF(pl_want_collision),       BOTH(pl_soft_relax, pl_classic_correct),                ONCE,           \
       "constraints", "solver bodies, constraints", HAS(pl_contact_variants))                                                                 \
-    X("sum reactions",     SUMS,        IF(pl_want_reactions),       SOFT(pl_joints_row_sum),                                ONCE,           \
+    X("exact relax",       RELAX,       IF(pl_want_exact),           EXACT(pl_exact_relax),                                  ONCE,           \
+      "joints, constraints, manifolds", "solver bodies, joints, constraints", ONE)                                                           \
+    X("sum reactions",     SUMS,        IF(pl_want_reactions),       NOT_CLASSIC(pl_joints_row_sum),                         ONCE,           \
       "joints, constraints", "joints, constraints", ONE)                                                                                     \
-    X("sum impulses",      SUMS,        IF(pl_want_sums),            BOTH(pl_soft_sum, pl_classic_sum),                      ONCE,           \
+    X("sum impulses",      SUMS,        IF(pl_want_sums),            THREE(pl_soft_sum, pl_classic_sum, pl_classic_sum),     ONCE,           \
       "constraints", "constraints, manifolds", ONE)                                                                                          \
     X("measure contacts",  STORE,       IF(pl_want_residuals),       EACH(pl_measure_row),                                   ONCE,           \
       "solver bodies, constraints, joints", "", ONE)                                                                                         \
-    X("store joints",      STORE,       IF(pl_want_joints),          SOFT(pl_joints_row_store),                              ONCE,           \
+    X("store joints",      STORE,       IF(pl_want_joints),          NOT_CLASSIC(pl_joints_row_store),                       ONCE,           \
       "constraints", "joints", ONE)                                                                                                          \
-    X("store contacts",    STORE,       IF(pl_want_collision),       BOTH(pl_soft_store, pl_classic_store),                  ONCE,           \
+    X("store contacts",    STORE,       IF(pl_want_collision),       THREE(pl_soft_store, pl_classic_store, pl_classic_store), ONCE,           \
       "constraints", "pairs, manifolds", ONE)                                                                                                \
     X("motion",            FINISH,      ALWAYS,                      ONCE(pl_run_motion),                                    ONCE,           \
       "solver bodies, forces, masses", "poses, velocities, forces, movers, time", HAS(pl_motion_variants))                                   \
@@ -138,8 +147,11 @@ struct pl_substep;
 #define PL_PROTOTYPE_IF(f)               bool f(const plumb_world *world, const char **reason);
 #define PL_PROTOTYPE_ONCE(f)             plumb_result f(plumb_world *world, plumb_real dt);
 #define PL_PROTOTYPE_EACH(f)             void f(struct pl_substep *substep);
-#define PL_PROTOTYPE_SOFT(f)             PL_PROTOTYPE_EACH(f)
+#define PL_PROTOTYPE_NOT_CLASSIC(f)      PL_PROTOTYPE_EACH(f)
+#define PL_PROTOTYPE_EXACT(f)            PL_PROTOTYPE_EACH(f)
 #define PL_PROTOTYPE_BOTH(soft, classic) PL_PROTOTYPE_EACH(soft) PL_PROTOTYPE_EACH(classic)
+#define PL_PROTOTYPE_THREE(soft, classic, exact) \
+    PL_PROTOTYPE_BOTH(soft, classic) PL_PROTOTYPE_EACH(exact)
 #define PL_PROTOTYPE_ACTS(f, whom)                                                                 \
     PL_PROTOTYPE_EACH(f) bool whom(const plumb_world *world, uint32_t row);
 #define PL_PROTOTYPE_HAS(f) int f(const plumb_world *world, const char *out[PLUMB_VARIANTS_MAX]);

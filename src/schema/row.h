@@ -50,7 +50,7 @@
 #define PL_MIX_CHOICES       "default|average|geometric|multiply|min|max"
 #define PL_BODY_TYPE_CHOICES "dynamic|kinematic|static"
 #define PL_Y_AXIS_CHOICES    "up|down"
-#define PL_SOLVER_CHOICES    "soft|pgs"
+#define PL_SOLVER_CHOICES    "soft|pgs|exact"
 
 // What a range is: low, high, whether low is left out.
 #define NO_END                 ((double)INFINITY)

@@ -11,8 +11,8 @@
       "without it 9.81 downwards")                                                                  \
     R(X, STATE, Y_AXIS, y_axis, SAID(y), PL_Y_AXIS_CHOICES, CHOICES(PLUMB_Y_DOWN), PLUMB_Y_UP,      \
       NO_ZERO, "where +y points to: turns the default gravity, pictures, and what is up")           \
-    R(X, STATE, SOLVER, solver, SAID(solver), PL_SOLVER_CHOICES, CHOICES(PLUMB_SOLVER_PGS),         \
-      PLUMB_SOLVER_SOFT, NO_ZERO, "soft step, or the classic projected Gauss-Seidel")               \
+    R(X, STATE, SOLVER, solver, SAID(solver), PL_SOLVER_CHOICES, CHOICES(PLUMB_SOLVER_EXACT),       \
+      PLUMB_SOLVER_SOFT, NO_ZERO, "soft step, the classic projected Gauss-Seidel, or a direct one") \
     R(X, STATE, INT, substeps, SAID(substeps), "1", FROM(1, 64), 4, NO_ZERO,                        \
       "of a step; default of pgs: 1")                                                               \
     R(X, STATE, INT, iterations, SAID(iterations), "1", FROM(1, 1000), 1, NO_ZERO,                  \

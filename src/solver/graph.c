@@ -98,7 +98,7 @@ static bool reserve_lanes(plumb_world *world)
     size_t specials = pl_solver_specials(world) ? need.bundles : 0;
     size_t extras =
         world->narrow.any_surface || specials > 0 || pl_solver_tallies(world) ? need.bundles : 0;
-    size_t classic = world->desc.solver == PLUMB_SOLVER_PGS ? contacts : 0;
+    size_t classic = world->desc.solver != PLUMB_SOLVER_SOFT ? contacts : 0;
     return pl_buffer_reserve(memory, &s->lanes, need.lanes * sizeof(uint32_t)) &&
            pl_buffer_reserve(memory, &s->bundles, need.bundles * k->bundle_size) &&
            pl_buffer_reserve(memory, &s->extras, extras * k->extra_size) &&
@@ -129,7 +129,7 @@ static void note_ends(void *context, uint32_t first, uint32_t count)
 static bool is_followed(const plumb_world *world, near_real restitution)
 {
     return pl_is_elastic(restitution) ||
-           (restitution > 0 && world->desc.solver == PLUMB_SOLVER_PGS);
+           (restitution > 0 && world->desc.solver != PLUMB_SOLVER_SOFT);
 }
 
 // Marks the rows that have a contact or a joint.
@@ -432,7 +432,7 @@ bool pl_solver_graph(plumb_world *world)
 {
     const pl_narrow *narrow = &world->narrow;
     world->solver.follows_impacts =
-        narrow->any_elastic || (narrow->any_low && world->desc.solver == PLUMB_SOLVER_PGS);
+        narrow->any_elastic || (narrow->any_low && world->desc.solver != PLUMB_SOLVER_SOFT);
     if (!reserve_bodies(world)) {
         return false;
     }

@@ -54,10 +54,12 @@ static void run_substep(pl_substep *s)
     const plumb_world_desc *d = &s->world->desc;
     run_stage(s, PL_SUBSTEP_FORCES, 1);
     run_stage(s, PL_SUBSTEP_VELOCITIES, 1);
-    run_stage(s, PL_SUBSTEP_CONSTRAINTS, d->iterations);
+    run_stage(s, PL_SUBSTEP_CONSTRAINTS, d->solver == PLUMB_SOLVER_EXACT ? 1 : d->iterations);
     run_stage(s, PL_SUBSTEP_POSITIONS, 1);
     run_stage(s, PL_SUBSTEP_RELAX,
-              d->solver == PLUMB_SOLVER_SOFT ? d->iterations : PL_CLASSIC_CORRECTIONS);
+              d->solver == PLUMB_SOLVER_SOFT    ? d->iterations
+              : d->solver == PLUMB_SOLVER_EXACT ? 1
+                                                : PL_CLASSIC_CORRECTIONS);
     run_stage(s, PL_SUBSTEP_SUMS, 1);
 }
 

@@ -11,6 +11,7 @@
 #include "world/substep.h"
 
 #define PL_VARIANTS_MAX PLUMB_VARIANTS_MAX
+#define PL_SOLVERS      (PLUMB_SOLVER_EXACT + 1)
 
 // In order. Those from PREPARE to STORE are inside of the substeps: solver/substep.h.
 typedef enum pl_stage {
@@ -51,7 +52,7 @@ typedef struct pl_pass {
     // Does it, once a step; of the stages of the substep one for each solver, NULL where that has no such row.
     // All NULL: the place of the user's systems of a phase.
     plumb_result (*run)(plumb_world *world, plumb_real dt);
-    pl_substep_fn *soft, *classic;
+    pl_substep_fn *row[PL_SOLVERS];
     // Whether an effect acts on a dynamic body; NULL: it is none.
     bool (*acts_on)(const plumb_world *world, uint32_t row);
     unsigned kind; // pl_pass_kind
@@ -69,7 +70,8 @@ static inline bool pl_is_substep_stage(pl_stage stage)
 
 static inline bool pl_is_home(const pl_pass *pass)
 {
-    return pass->run == NULL && pass->soft == NULL && pass->classic == NULL;
+    return pass->run == NULL && pass->row[PLUMB_SOLVER_SOFT] == NULL && pass->row[PLUMB_SOLVER_PGS] == NULL &&
+           pass->row[PLUMB_SOLVER_EXACT] == NULL;
 }
 
 void pl_schedule_free(pl_memory *memory, pl_schedule *schedule);

@@ -12,6 +12,7 @@
 #include "sleep/sleep.h"
 #include "continuous/continuous.h"
 #include "event/event.h"
+#include "exact/exact.h"
 #include "narrow/ahead.h"
 #include "narrow/narrow.h"
 #include "narrow/one_way.h"
@@ -112,6 +113,8 @@ TRY(pl_run_graph, graph(world))
 TRY(pl_run_acting, pl_acting_find(world, dt))
 RUN(pl_run_soft, substeps(world, dt, "soft step"))
 RUN(pl_run_classic, substeps(world, dt, "classic solver"))
+TRY(pl_run_elimination, pl_exact_plan(world))
+RUN(pl_run_exact, substeps(world, dt, "exact solver"))
 RUN(pl_run_motion, finish(world, dt))
 RUN(pl_run_continuous, pl_continuous_run(world, dt))
 RUN(pl_run_arrive, pl_targets_arrive(world, dt))
@@ -126,10 +129,12 @@ RUN(pl_run_sensors, pl_sensing_run(world))
 #define WANTED_IF(f)       f
 #define RUN_HOME           .run = NULL
 #define RUN_ONCE(f)        .run = f
-#define RUN_EACH(f)        .soft = f, .classic = f
-#define RUN_ACTS(f, whom)  .soft = f, .classic = f, .acts_on = whom
-#define RUN_SOFT(f)        .soft = f
-#define RUN_BOTH(one, two) .soft = one, .classic = two
+#define RUN_THREE(one, two, three) .row = { one, two, three }
+#define RUN_EACH(f)        RUN_THREE(f, f, f)
+#define RUN_ACTS(f, whom)  RUN_EACH(f), .acts_on = whom
+#define RUN_NOT_CLASSIC(f) RUN_THREE(f, NULL, f)
+#define RUN_EXACT(f)       RUN_THREE(NULL, NULL, f)
+#define RUN_BOTH(one, two) RUN_THREE(one, two, NULL)
 #define VARIANTS_ONE       NULL
 #define VARIANTS_HAS(f)    f
 #define ROW(text, at, want, how, when, read, write, which)                                         \

@@ -148,7 +148,7 @@ static bool keep_joints(plumb_world *world)
 
 static bool rolls(const plumb_world *world)
 {
-    return world->narrow.any_surface || world->desc.solver == PLUMB_SOLVER_PGS;
+    return world->narrow.any_surface || world->desc.solver != PLUMB_SOLVER_SOFT;
 }
 
 static bool keep_rolling(plumb_world *world)

@@ -40,7 +40,7 @@ static bool writes_are_watched(const plumb_world *world)
 
 static pl_substep_fn *fn_of(const plumb_world *world, const pl_pass *pass)
 {
-    return world->desc.solver == PLUMB_SOLVER_SOFT ? pass->soft : pass->classic;
+    return pass->row[world->desc.solver];
 }
 
 bool pl_pass_wanted(const plumb_world *world, int i, const char **reason)

@@ -140,22 +140,28 @@ bool pl_want_solver(const plumb_world *world, const char **reason)
            either(world, reason, pl_want_collision, pl_want_called);
 }
 
+static bool asks_for(const plumb_world *world, plumb_solver solver, const char **reason)
+{
+    static const char *const asked[] = { "the world asks for the soft step",
+                                         "the world asks for the classic solver",
+                                         "the world asks for the exact solver" };
+    *reason = asked[world->desc.solver];
+    return world->desc.solver == solver;
+}
+
 bool pl_want_soft(const plumb_world *world, const char **reason)
 {
-    if (!pl_want_solver(world, reason)) {
-        return false;
-    }
-    return say(world->desc.solver == PLUMB_SOLVER_SOFT, reason, "the world asks for the soft step",
-               "the world asks for the classic solver");
+    return pl_want_solver(world, reason) && asks_for(world, PLUMB_SOLVER_SOFT, reason);
 }
 
 bool pl_want_classic(const plumb_world *world, const char **reason)
 {
-    if (!pl_want_solver(world, reason)) {
-        return false;
-    }
-    return say(world->desc.solver == PLUMB_SOLVER_PGS, reason,
-               "the world asks for the classic solver", "the world asks for the soft step");
+    return pl_want_solver(world, reason) && asks_for(world, PLUMB_SOLVER_PGS, reason);
+}
+
+bool pl_want_exact(const plumb_world *world, const char **reason)
+{
+    return pl_want_solver(world, reason) && asks_for(world, PLUMB_SOLVER_EXACT, reason);
 }
 
 bool pl_want_continuous(const plumb_world *world, const char **reason)
@@ -218,7 +224,7 @@ bool pl_want_sums(const plumb_world *world, const char **reason)
     if (!pl_want_collision(world, reason)) {
         return false;
     }
-    return say(pl_solver_tallies(world) || world->desc.solver == PLUMB_SOLVER_PGS, reason,
+    return say(pl_solver_tallies(world) || world->desc.solver != PLUMB_SOLVER_SOFT, reason,
                "impulses are added up over the step",
                "nobody asked for impulses of contacts or for hits");
 }

@@ -15,6 +15,7 @@
 #include "world/tables/character.h"
 #include "world/tables/continuous.h"
 #include "world/tables/event.h"
+#include "world/tables/exact.h"
 #include "world/tables/internal_edges.h"
 #include "world/tables/joint.h"
 #include "world/tables/manifold.h"
@@ -111,6 +112,7 @@ struct plumb_world {
     pl_narrow narrow;
     pl_lookahead lookahead; // contacts ahead, of the narrow phase that ran last
     pl_solver solver;
+    pl_exact exact;
     pl_continuous continuous;
     pl_internal_edges internal_edges;
     pl_joints joints;

@@ -40,7 +40,7 @@ typedef struct engine_settings {
 } engine_settings;
 
 /// The solvers by name, in the order of plumb_solver.
-#define ENGINE_SOLVERS "soft,pgs"
+#define ENGINE_SOLVERS "soft,pgs,exact"
 
 /// What the scene says about where to look.
 typedef struct engine_camera {

@@ -211,13 +211,13 @@ static void write_who(const engine_replay *replay, const plumb_difference *d, ch
 static void name_choice(engine_change *change)
 {
     static const struct {
-        const char *what, *names[2];
-    } choices[] = { { "solver", { "soft", "pgs" } }, { "y_axis", { "up", "down" } } };
+        const char *what, *names[3];
+    } choices[] = { { "solver", { "soft", "pgs", "exact" } }, { "y_axis", { "up", "down" } } };
     for (size_t i = 0; i < sizeof choices / sizeof choices[0]; i++) {
         if (strcmp(change->what, choices[i].what) == 0) {
             const char *const *names = choices[i].names;
-            snprintf(change->from, sizeof change->from, "%s", names[change->from[0] != '0']);
-            snprintf(change->to, sizeof change->to, "%s", names[change->to[0] != '0']);
+            snprintf(change->from, sizeof change->from, "%s", names[(change->from[0] - '0') % 3]);
+            snprintf(change->to, sizeof change->to, "%s", names[(change->to[0] - '0') % 3]);
         }
     }
 }

@@ -209,7 +209,7 @@ engine_info pl_stage_info(const engine_stage *stage)
         .dt = info->dt,
         .substeps = info->substeps,
         .iterations = info->iterations,
-        .solver = info->solver == PLUMB_SOLVER_PGS ? 1 : 0,
+        .solver = (int)info->solver,
         .width = plumb_world_stats(stage->world).simd_width,
         .y_down = info->y_axis == PLUMB_Y_DOWN,
         .wrap_x = (double)world.wrap_x,

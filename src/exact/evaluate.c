@@ -1,0 +1,162 @@
+// evaluate.c - which impulses follow from velocities, row by row, and what is left of the law of momentum.
+//
+// A row by itself is clamped, friction to what the load before it allows (Alart and Curnier 1991); or, convex, points with
+// friction are projected onto their cones (De Saxce and Feng 1998). newton.c says when which.
+//
+// Reads: rows, velocities. Writes: rows, `change`. Cost: O(rows).
+#include "exact/exact.h"
+
+#include <math.h>
+
+#define EPSILON 1e-15 // of J v, in rounding
+
+// What J v adds up: its rounding is a share of that.
+static double sum_of_rate(const pl_exact_system *s, const pl_exact_item *item, const pl_exact_row *r)
+{
+    double sum = 0;
+    for (int end = 0; end < 2; ++end) {
+        const uint32_t node = item->node[end];
+        for (int c = 0; node != PL_NONE && c < 3; ++c) {
+            sum += fabs(r->j[3 * end + c] * s->velocity[3 * (size_t)node + (size_t)c]);
+        }
+    }
+    return sum;
+}
+
+double pl_exact_rate(const pl_exact_system *s, const pl_exact_item *item, const pl_exact_row *r,
+                   const double *velocity)
+{
+    double sum = 0;
+    for (int end = 0; end < 2; ++end) {
+        const uint32_t node = item->node[end];
+        if (node != PL_NONE) {
+            const double *v = velocity + 3 * (size_t)node, *j = r->j + 3 * end;
+            sum += j[0] * v[0] + j[1] * v[1] + j[2] * v[2];
+        } else {
+            const pl_solver_body *b = &pl_solver_bodies(&s->world->solver)[item->slot[end]];
+            const double *j = r->j + 3 * end;
+            sum += j[0] * (double)b->vx + j[1] * (double)b->vy + j[2] * (double)b->w;
+        }
+    }
+    return sum;
+}
+
+// Impulse that the row would have without bounds.
+static double wish_of(const pl_exact_newton *n, const pl_exact_item *item, const pl_exact_row *r,
+                      double stiffness)
+{
+    const double trace = 1 / stiffness;
+    return (r->impulse * trace + r->target - pl_exact_rate(n->s, item, r, n->s->velocity)) /
+           (r->give + trace);
+}
+
+static void bound(pl_exact_row *r, double wish, double low, double high, double weight)
+{
+    r->weight = wish > low && wish < high ? weight : 0;
+    r->next = wish < low ? low : wish > high ? high : wish;
+}
+
+// [N s] that bounds friction or rolling resistance.
+static double load_of(const pl_exact_newton *n, const pl_exact_row *r)
+{
+    double load = 0;
+    for (uint32_t l = r->lead; l < r->lead + r->leads; ++l) {
+        const pl_exact_row *lead = &n->s->rows[l];
+        load += (n->convex ? lead->impulse : lead->next) - lead->low;
+    }
+    return load > 0 ? load : 0;
+}
+
+// A row as it is by itself, or with the loads before it.
+static void evaluate_row(const pl_exact_newton *n, const pl_exact_item *item, pl_exact_row *r)
+{
+    const double stiffness = n->stiffness * r->mass;
+    const double weight = 1 / (r->give + 1 / stiffness), wish = wish_of(n, item, r, stiffness);
+    const double most = r->leads > 0 ? r->factor * load_of(n, r) : 0;
+    bound(r, wish, r->leads > 0 ? -most : r->low, r->leads > 0 ? most : r->high, weight);
+    r->slope = 0;
+    if (r->leads > 0 && r->weight == 0 && !n->convex) {
+        r->slope = wish > 0 ? r->factor : -r->factor;
+    }
+}
+
+// A point with friction as a cone: impulses are projected onto it, along both rows. What slides would be lifted by
+// factor x slip; the slip of the start of the round is taken from what the normal is to do.
+static void evaluate_cone(const pl_exact_newton *n, const pl_exact_item *item, pl_exact_row *normal,
+                          pl_exact_row *tangent)
+{
+    const double stiffness = n->stiffness * normal->mass, mu = tangent->factor;
+    const double wish = wish_of(n, item, normal, stiffness) - stiffness * tangent->shift - normal->low;
+    const double aside = wish_of(n, item, tangent, stiffness), side = aside < 0 ? -1 : 1;
+    normal->slope = tangent->slope = 0;
+    normal->weight = tangent->weight = stiffness;
+    if (side * aside <= mu * wish) {
+        normal->next = wish + normal->low;
+        tangent->next = aside;
+    } else if (wish <= -mu * side * aside) {
+        normal->next = normal->low;
+        tangent->next = normal->weight = tangent->weight = 0;
+    } else {
+        const double load = (wish + mu * side * aside) / (1 + mu * mu);
+        normal->next = load + normal->low;
+        tangent->next = side * mu * load;
+        normal->weight = 0;
+        tangent->weight = stiffness / (1 + mu * mu);
+        tangent->slope = side * mu;
+    }
+}
+
+static void evaluate_item(const pl_exact_newton *n, const pl_exact_item *item)
+{
+    pl_exact_row *row = n->s->rows + item->first_row;
+    for (uint32_t k = 0; k < item->row_count; ++k) {
+        pl_exact_row *r = &row[k];
+        if (r->in_force && n->convex && r->leads == 1) {
+            evaluate_cone(n, item, &n->s->rows[r->lead], r);
+        } else if (r->in_force) {
+            evaluate_row(n, item, r);
+        }
+    }
+}
+
+static void push_row(const pl_exact_system *s, const pl_exact_item *item, const pl_exact_row *r)
+{
+    for (int end = 0; end < 2; ++end) {
+        const uint32_t node = item->node[end];
+        for (int c = 0; node != PL_NONE && c < 3; ++c) {
+            s->change[3 * node + (uint32_t)c] -=
+                s->nodes[node].inv_mass[c] * r->j[3 * end + c] * r->next;
+        }
+    }
+}
+
+// F into `change`; its size, by momentum.
+double pl_exact_evaluate(pl_exact_newton *n)
+{
+    n->noise = 0;
+    const pl_exact_system *s = n->s;
+    const pl_exact_island *island = s->island;
+    for (uint32_t k = 3 * island->first_node; k < 3 * island->end_node; ++k) {
+        s->change[k] = s->velocity[k] - s->base[k];
+    }
+    for (uint32_t i = island->first_item; i < island->end_item; ++i) {
+        const pl_exact_item *item = &s->items[i];
+        evaluate_item(n, item);
+        for (uint32_t k = item->first_row; k < item->first_row + item->row_count; ++k) {
+            const pl_exact_row *r = &s->rows[k];
+            if (r->in_force) {
+                const double blur = EPSILON * r->weight * sum_of_rate(s, item, r);
+                n->noise += blur * blur / r->mass;
+                push_row(s, item, r);
+            }
+        }
+    }
+    double size = 0;
+    for (uint32_t i = island->first_node; i < island->end_node; ++i) {
+        for (uint32_t c = 0; c < 3; ++c) {
+            const double x = s->change[3 * i + c], m = s->nodes[i].inv_mass[c];
+            size += m > 0 ? x * x / m : 0;
+        }
+    }
+    return size;
+}

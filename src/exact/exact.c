@@ -1,0 +1,159 @@
+// exact.c - the exact solver as rows of the substep.
+//
+// Every substep is solved twice, like the soft one: with velocities that also undo overlaps and errors, by which the bodies
+// move, and again from the same velocities without, which are kept. Bodies are warm started where impacts must know what
+// rests; everywhere else impulses of the substep before are only where the solution begins.
+//
+// Reads, writes: solver bodies, impulses. Order: as schema/passes.h says. Cost: newton.c's.
+#include "exact/exact.h"
+#include "joints/joint.h"
+
+static pl_exact_system system_of(const pl_substep *s, pl_joint_sweep sweep)
+{
+    pl_exact *e = &s->world->exact;
+    const size_t n = 3 * (size_t)e->node_count;
+    double *blocks = e->blocks.data, *vectors = e->vectors.data;
+    return (pl_exact_system){ .world = s->world,
+                              .joints = s->solving->joints,
+                              .exact = e,
+                              .nodes = e->nodes.data,
+                              .entries = e->entries.data,
+                              .items = e->items.data,
+                              .rows = e->rows.data,
+                              .diagonal = blocks,
+                              .above = blocks + 9 * (size_t)e->node_count,
+                              .below = blocks + 9 * ((size_t)e->node_count + e->entry_count),
+                              .velocity = vectors,
+                              .base = vectors + n,
+                              .change = vectors + 2 * n,
+                              .h = s->h,
+                              .sweep = sweep };
+}
+
+static bool is_warm(const pl_substep *s)
+{
+    return s->solving->elastic;
+}
+
+void pl_exact_warm_start(pl_substep *s)
+{
+    if (is_warm(s)) {
+        pl_classic_warm_start(s);
+    }
+}
+
+void pl_exact_warm_start_joints(pl_substep *s)
+{
+    if (is_warm(s) && s->solving->any_joints) {
+        pl_joints_warm_start(s->solving->joints);
+    }
+}
+
+// velocity = base + share M^-1 J^T impulse of what is in force, and the reverse.
+static void push_rows(const pl_exact_system *s, double *velocity, double share, bool springs)
+{
+    for (uint32_t i = s->island->first_item; i < s->island->end_item; ++i) {
+        const pl_exact_item *item = &s->items[i];
+        for (uint32_t k = item->first_row; k < item->first_row + item->row_count; ++k) {
+            const pl_exact_row *r = &s->rows[k];
+            if (!r->in_force || (springs && r->give == 0)) {
+                continue;
+            }
+            for (int end = 0; end < 2; ++end) {
+                const uint32_t node = item->node[end];
+                for (int c = 0; node != PL_NONE && c < 3; ++c) {
+                    velocity[3 * node + (uint32_t)c] +=
+                        share * s->nodes[node].inv_mass[c] * r->j[3 * end + c] * r->impulse;
+                }
+            }
+        }
+    }
+}
+
+static void take_velocities(const pl_exact_system *s)
+{
+    for (uint32_t n = s->island->first_node; n < s->island->end_node; ++n) {
+        pl_exact_node *node = &s->nodes[n];
+        const pl_solver_body *body = &pl_solver_bodies(&s->world->solver)[node->slot];
+        node->inv_mass[2] = (double)body->inv_inertia;
+        s->velocity[3 * n] = (double)body->vx;
+        s->velocity[3 * n + 1] = (double)body->vy;
+        s->velocity[3 * n + 2] = (double)body->w;
+    }
+}
+
+// Bodies that nothing pushes keep their velocities to the bit: they fly by the parabola (integrate.c).
+static void give_velocities(const pl_exact_system *s)
+{
+    for (uint32_t n = s->island->first_node; n < s->island->end_node; ++n) {
+        s->nodes[n].where = 0;
+    }
+    for (uint32_t i = s->island->first_item; i < s->island->end_item; ++i) {
+        const pl_exact_item *item = &s->items[i];
+        bool pushed = false;
+        for (uint32_t k = item->first_row; k < item->first_row + item->row_count; ++k) {
+            pushed |= s->rows[k].in_force && s->rows[k].next != 0;
+        }
+        for (int end = 0; end < 2 && pushed; ++end) {
+            if (item->node[end] != PL_NONE) {
+                s->nodes[item->node[end]].where = 1;
+            }
+        }
+    }
+    for (uint32_t n = s->island->first_node; n < s->island->end_node; ++n) {
+        pl_solver_body *body = &pl_solver_bodies(&s->world->solver)[s->nodes[n].slot];
+        const double *v = (s->nodes[n].where != 0 ? s->velocity : s->base) + 3 * (size_t)n;
+        body->vx = (near_real)v[0], body->vy = (near_real)v[1], body->w = (near_real)v[2];
+    }
+}
+
+static void copy(const pl_exact_system *s, double *to, const double *from)
+{
+    for (uint32_t k = 3 * s->island->first_node; k < 3 * s->island->end_node; ++k) {
+        to[k] = from[k];
+    }
+}
+
+static void solve_island(pl_exact_system *s, bool warm)
+{
+    take_velocities(s);
+    s->missed = s->sweep == PL_SWEEP_RELAX && s->island->missed; // what could not be undone pushed beyond measure
+    pl_exact_fill(s);
+    if (s->sweep == PL_SWEEP_RELAX) {
+        copy(s, s->velocity, s->base);
+    }
+    if (s->sweep == PL_SWEEP_PULL && warm) {
+        push_rows(s, s->velocity, -1, false);
+    }
+    copy(s, s->base, s->velocity);
+    push_rows(s, s->velocity, 1, false);
+    pl_exact_solve(s);
+    ((pl_exact_island *)s->exact->islands.data)[s->island - (pl_exact_island *)s->exact->islands.data].missed = s->missed;
+    pl_exact_keep(s);
+    give_velocities(s);
+    if (s->sweep == PL_SWEEP_PULL) { // springs act once a substep: what they gave stays
+        push_rows(s, s->base, 1, true);
+    }
+}
+
+static void solve_all(const pl_substep *substep, pl_joint_sweep sweep)
+{
+    pl_exact_system s = system_of(substep, sweep);
+    const pl_exact_island *islands = s.exact->islands.data;
+    for (uint32_t i = 0; i < s.exact->island_count; ++i) {
+        s.island = &islands[i];
+        if (s.island->end_item > s.island->first_item) {
+            solve_island(&s, is_warm(substep));
+        }
+    }
+}
+
+void pl_exact_pull(pl_substep *s)
+{
+    solve_all(s, PL_SWEEP_PULL);
+}
+
+void pl_exact_relax(pl_substep *s)
+{
+    solve_all(s, PL_SWEEP_RELAX);
+}

@@ -1,0 +1,83 @@
+// exact.h - contacts and joints of an island solved together, to a residual.
+#ifndef PL_EXACT_H
+#define PL_EXACT_H
+
+#include "joints/joint.h"
+#include "solver/substep.h"
+#include "world/state.h"
+
+// A scalar row J v + give impulse = target whose impulse has bounds. Those of friction and rolling resistance are
+// `factor` times the load, the impulses of the `leads` rows that lie before it in the contact.
+typedef struct pl_exact_row {
+    double j[6];            // of A's vx, vy, w, then of B's
+    double target;          // [m/s], [rad/s]
+    double give;            // [1/kg] of a spring
+    double low, high;       // [N s]
+    double factor;          // [-] or [m]
+    double mass;            // [kg] effective
+    double impulse;         // [N s] as known
+    double next;            // [N s] what follows from the velocities of the moment
+    double weight, slope;   // [kg] -d next / d (J v) of its own; of each lead's J v, as a share of the lead's weight
+    double before;          // [N s] as known before the sweep that pulls
+    double shift, gap;      // [m/s] of friction as a cone: see newton.c
+    uint32_t lead;          // first of the rows that load it
+    uint8_t leads;          // how many; 0: low and high hold
+    uint8_t point;          // of the contact, or row of the joint
+    bool in_force;
+} pl_exact_row;
+
+// An island with all that its solution reads and writes.
+typedef struct pl_exact_system {
+    plumb_world *world;
+    const pl_joint_context *joints;
+    pl_exact *exact;
+    const pl_exact_island *island;
+    pl_exact_node *nodes; // of all islands, as everything below
+    const uint32_t *entries;
+    const pl_exact_item *items;
+    pl_exact_row *rows;
+    double *above, *below; // of an entry: what the later node's velocity does to the earlier one, and the reverse
+    double *diagonal;
+    double *velocity, *base, *change; // three a node: of the moment; without any impulse of the rows; of Newton's step
+    near_real h;
+    pl_joint_sweep sweep;
+    bool missed; // the tolerance
+} pl_exact_system;
+
+// Who is eliminated when (plan.c). False when out of memory.
+bool pl_exact_plan(plumb_world *world);
+void pl_exact_free(pl_memory *memory, pl_exact *exact);
+
+// Rows as the bodies are now; impulses back, and what the events want to know (rows.c).
+void pl_exact_fill(const pl_exact_system *s);
+// Velocities of contacts and joints at which arcs lead to (rows.c).
+void pl_exact_bend(const pl_exact_system *s);
+void pl_exact_keep(const pl_exact_system *s);
+
+// The factor of what `rows` weigh, and -its inverse times `change`, into it (factor.c).
+void pl_exact_factor(const pl_exact_system *s);
+void pl_exact_substitute(const pl_exact_system *s);
+
+// A solution while it is found (newton.c).
+typedef struct pl_exact_newton {
+    pl_exact_system *s;
+    double stiffness; // times the mass of a row
+    double scale;     // [m/s] the largest speed that a row has to undo
+    double fastest;   // [m/s] that anything may slip
+    double enough;    // of F, by momentum
+    double noise;     // of the same, of rounding
+    double slope;     // of the potential, where the step begins
+    double length;    // of the last step of the shifts, in steps by slip alone
+    int shifts;       // such steps so far, in a row
+    bool convex;      // see evaluate_cone
+} pl_exact_newton;
+
+// J v of a row at such velocities; F into `change`: returns its size, by momentum (evaluate.c).
+double pl_exact_rate(const pl_exact_system *s, const pl_exact_item *item, const pl_exact_row *r,
+                     const double *velocity);
+double pl_exact_evaluate(pl_exact_newton *n);
+
+// Velocities and impulses that obey all rows (newton.c).
+void pl_exact_solve(pl_exact_system *s);
+
+#endif

@@ -1,0 +1,310 @@
+// newton.c - velocities and impulses of an island that obey all rows: proximal rounds of Newton's method.
+//
+// With impulses l of the round before and a stiffness p a row, the impulse that follows from velocities v is
+//     L(v) = clamp((l / p + target - J v) / (give + 1 / p), bounds),
+// the bounds of friction being those of the load L of the moment (Alart and Curnier 1991). The velocities of the round are the
+// root of F(v) = v - base - M^-1 J^T L(v), which is smooth but for kinks: Newton's method with the slopes of the side
+// that v is on. Then l = L(v); what is left of the law is |L - l| / p, a speed, and falls by a factor a round that grows
+// with p. Rows that say the same twice do no harm: the matrix is 1 + M^-1 J^T W J.
+//
+// Where Newton's steps do not settle, the loads that bound friction are held over a round: that problem is convex, and a step
+// is shortened until its potential falls.
+//
+// Reads: rows, nodes. Writes: velocities, impulses. Cost: some 2 to 20 factors a solution.
+#include "exact/exact.h"
+
+#include <math.h>
+#include <string.h>
+
+#define TOLERANCE   1e-9 // of the speeds that rows have to undo
+#define STIFFNESS   1e3 // of a row's own mass, in the first round, times the ratio of the masses of the island
+#define MOST_RATIO  1e6
+#define GROWTH      1e4 // of the stiffness, from round to round
+#define PULL_GROWTH 1e1 // where errors are undone
+#define ROUNDS      30
+#define NEWTONS     20 // steps of a round
+#define FAR_OFF     1.0 // of the same speeds: a solution that is none
+#define FACTORS     600 // of a solution, after which it is said to have missed
+#define LONGEST     20
+#define STALLS      6 // rounds without progress
+#define PULL_STALLS 2
+#define SHORTENINGS 6
+#define BISECTIONS  40
+
+//---- a round -----------------------------------------------------------------------------------------------
+
+// velocity += share of `step`.
+static void go(const pl_exact_system *s, const double *step, double share)
+{
+    for (uint32_t k = 3 * s->island->first_node; k < 3 * s->island->end_node; ++k) {
+        s->velocity[k] += share * step[k];
+    }
+}
+
+// F . M step, F being in `change`: the slope of the potential along the step, where loads are held.
+static double slope_along(const pl_exact_system *s, const double *step)
+{
+    double sum = 0;
+    for (uint32_t i = s->island->first_node; i < s->island->end_node; ++i) {
+        for (uint32_t c = 0; c < 3; ++c) {
+            const double m = s->nodes[i].inv_mass[c];
+            sum += m > 0 ? s->change[3 * i + c] * step[3 * i + c] / m : 0;
+        }
+    }
+    return sum;
+}
+
+// Share of a step along which the potential falls most, as far as half the slope goes. Returns the size of F there.
+static double descend(pl_exact_newton *n, const double *step)
+{
+    const pl_exact_system *s = n->s;
+    double low = 0, high = 1, at = 1;
+    const double before = n->slope;
+    go(s, step, 1);
+    double size = pl_exact_evaluate(n);
+    for (int i = 0; i < BISECTIONS; ++i) {
+        const double slope = slope_along(s, step);
+        if (fabs(slope) <= 0.5 * fabs(before)) {
+            break;
+        }
+        if (slope > 0) {
+            high = at;
+        } else if (high > at) {
+            low = at;
+        } else {
+            break; // still falls where Newton's step ends
+        }
+        const double next = (low + high) / 2;
+        go(s, step, next - at);
+        at = next;
+        size = pl_exact_evaluate(n);
+    }
+    return size;
+}
+
+// Share of a step that makes F smaller: halved until it does. Returns its size.
+static double shorten(pl_exact_newton *n, const double *step, double before)
+{
+    double share = 1, size = 0;
+    go(n->s, step, 1);
+    for (int i = 0; i < SHORTENINGS; ++i) {
+        size = pl_exact_evaluate(n);
+        if (size < before) {
+            break;
+        }
+        share /= 2;
+        go(n->s, step, -share);
+    }
+    return size;
+}
+
+// One step of Newton's from where F is in `change`; returns the size of F behind it.
+static double advance(pl_exact_newton *n, double before)
+{
+    const pl_exact_system *s = n->s;
+    double *step = s->change + 3 * (size_t)s->exact->node_count;
+    const uint32_t first = 3 * s->island->first_node, end = 3 * s->island->end_node;
+    pl_exact_factor(s);
+    memcpy(step + first, s->change + first, (end - first) * sizeof(double));
+    pl_exact_substitute(s);
+    for (uint32_t k = first; k < end; ++k) {
+        const double x = step[k];
+        step[k] = -s->change[k];
+        s->change[k] = x;
+    }
+    n->slope = slope_along(s, step);
+    return n->convex ? descend(n, step) : shorten(n, step, before);
+}
+
+// Velocities of the round, from where they are; false: they would not settle.
+static bool settle(pl_exact_newton *n, int most)
+{
+    double size = pl_exact_evaluate(n);
+    for (int i = 0; i < most && size > n->enough + n->noise; ++i) {
+        const double before = size;
+        size = advance(n, before);
+        if (!n->convex && size > 0.9 * before) {
+            return false;
+        }
+    }
+    return size <= n->enough + n->noise;
+}
+
+// The slip of the moment as what cones take from their normals. One such step after another converges by a factor, slowly
+// where much slides: from the second on it is lengthened by what the last two say of that factor (Irons and Tuck 1969).
+static void shift_cones(pl_exact_newton *n)
+{
+    const pl_exact_system *s = n->s;
+    double along = 0, square = 0;
+    for (uint32_t i = s->island->first_item; i < s->island->end_item; ++i) {
+        const pl_exact_item *item = &s->items[i];
+        for (uint32_t k = item->first_row; k < item->first_row + item->row_count; ++k) {
+            pl_exact_row *r = &s->rows[k];
+            if (r->in_force && r->leads == 1) {
+                const double slip = fabs(pl_exact_rate(s, item, r, s->velocity) - r->target);
+                const double gap = r->factor * slip - r->shift, turn = gap - r->gap;
+                along += r->gap * turn, square += turn * turn;
+                r->gap = gap;
+            }
+        }
+    }
+    const double length = n->shifts > 0 && square > 0 ? -n->length * along / square : 1;
+    n->length = n->shifts++ == 0 ? 1 : fmin(fmax(length, 0.5), LONGEST);
+    for (uint32_t k = s->island->first_row; k < s->island->end_row; ++k) {
+        pl_exact_row *r = &s->rows[k];
+        if (r->in_force && r->leads == 1) {
+            r->shift = fmin(fmax(r->shift + n->length * r->gap, 0), r->factor * n->fastest);
+        }
+    }
+}
+
+static void clear_shifts(const pl_exact_newton *n)
+{
+    for (uint32_t k = n->s->island->first_row; k < n->s->island->end_row; ++k) {
+        n->s->rows[k].shift = n->s->rows[k].gap = 0;
+    }
+}
+
+// A round: Newton's steps at the loads of the moment; from the start with loads held, where they do not settle.
+static bool round_off(pl_exact_newton *n)
+{
+    const pl_exact_system *s = n->s;
+    const uint32_t first = 3 * s->island->first_node, end = 3 * s->island->end_node;
+    double *start = s->change + 6 * (size_t)s->exact->node_count;
+    memcpy(start + first, s->velocity + first, (end - first) * sizeof(double));
+    n->convex = false;
+    if (!settle(n, NEWTONS)) {
+        memcpy(s->velocity + first, start + first, (end - first) * sizeof(double));
+        n->convex = true;
+        shift_cones(n);
+        return settle(n, 2 * NEWTONS);
+    }
+    n->shifts = 0;
+    clear_shifts(n);
+    return true;
+}
+
+// [m/s] by which impulses have not come to rest.
+static double unrest_of(const pl_exact_newton *n, const pl_exact_item *item, const pl_exact_row *r)
+{
+    const double left = fabs(r->next - r->impulse) / (n->stiffness * r->mass);
+    if (!n->convex || r->leads != 1) {
+        return left;
+    }
+    const double slip = pl_exact_rate(n->s, item, r, n->s->velocity) - r->target;
+    const double shifted = fabs(r->factor * fabs(slip) - r->shift);
+    return shifted > left ? shifted : left;
+}
+
+// `loads`: of rows without friction alone.
+static double unrest(const pl_exact_newton *n, bool loads)
+{
+    const pl_exact_system *s = n->s;
+    double most = 0;
+    for (uint32_t i = s->island->first_item; i < s->island->end_item; ++i) {
+        const pl_exact_item *item = &s->items[i];
+        for (uint32_t k = item->first_row; k < item->first_row + item->row_count; ++k) {
+            const pl_exact_row *r = &s->rows[k];
+            if (r->in_force && (r->leads == 0 || !loads)) {
+                const double left = unrest_of(n, item, r);
+                most = left > most ? left : most;
+            }
+        }
+    }
+    return most;
+}
+
+// [m/s] most that rows have to undo: what need not be pushed and cannot pull has nothing to undo. Most that slips.
+static void find_scale(pl_exact_newton *n)
+{
+    const pl_exact_system *s = n->s;
+    double slip = 0;
+    for (uint32_t i = s->island->first_item; i < s->island->end_item; ++i) {
+        const pl_exact_item *item = &s->items[i];
+        for (uint32_t k = item->first_row; k < item->first_row + item->row_count; ++k) {
+            const pl_exact_row *r = &s->rows[k];
+            const double lack = r->in_force ? r->target - pl_exact_rate(s, item, r, s->base) : 0;
+            if (r->leads > 0) {
+                slip = fmax(slip, fabs(lack));
+            } else {
+                n->scale = fmax(n->scale, r->low < 0 ? fabs(lack) : lack);
+            }
+        }
+    }
+    n->fastest = slip + 2 * n->scale;
+}
+
+static double heaviest(const pl_exact_system *s, double *ratio)
+{
+    double most = 0, least = INFINITY;
+    for (uint32_t i = s->island->first_node; i < s->island->end_node; ++i) {
+        const double inverse = s->nodes[i].inv_mass[0];
+        most = inverse > 0 && 1 / inverse > most ? 1 / inverse : most;
+        least = inverse > 0 && 1 / inverse < least ? 1 / inverse : least;
+    }
+    *ratio = most > 0 ? fmin(most / least, MOST_RATIO) : 1;
+    return most;
+}
+
+// Nothing settles: friction as cones without more, from the impulses before. What Newton's steps come to keeps momentum and
+// gains no energy, settled or not; impulses that do not belong to it are not carried on.
+static void give_in(pl_exact_newton *n)
+{
+    const pl_exact_system *s = n->s;
+    const size_t first = 3 * (size_t)s->island->first_node, end = 3 * (size_t)s->island->end_node;
+    for (uint32_t k = s->island->first_row; k < s->island->end_row; ++k) {
+        s->rows[k].impulse = s->rows[k].before;
+    }
+    memcpy(s->velocity + first, s->base + first, (end - first) * sizeof(double));
+    clear_shifts(n);
+    n->convex = true;
+    n->stiffness = STIFFNESS;
+    const bool settled = settle(n, 4 * NEWTONS);
+    for (uint32_t k = s->island->first_row; k < s->island->end_row && !settled; ++k) {
+        s->rows[k].next = s->rows[k].before;
+    }
+}
+
+void pl_exact_solve(pl_exact_system *s)
+{
+    const bool pulls = s->sweep == PL_SWEEP_PULL;
+    double ratio;
+    pl_exact_newton n = { .s = s };
+    find_scale(&n);
+    n.enough = 1e-4 * TOLERANCE * TOLERANCE * n.scale * n.scale * heaviest(s, &ratio);
+    n.stiffness = STIFFNESS;
+    const double due = STIFFNESS * ratio, most_stiff = due * (pulls ? PULL_GROWTH : GROWTH);
+    const int most_stalls = pulls ? PULL_STALLS : STALLS;
+    const uint32_t most_factored = s->exact->factored + FACTORS;
+    double left = 0, before = INFINITY, best = INFINITY;
+    for (uint32_t k = s->island->first_row; n.scale == 0 && k < s->island->end_row; ++k) {
+        s->rows[k].impulse = s->rows[k].next = 0;
+    }
+    for (int round = 0, stalled = 0; n.scale > 0 && stalled < most_stalls && round < ROUNDS && s->exact->factored < most_factored; ++round) {
+        if (pulls) {
+            pl_exact_bend(s);
+        }
+        const bool settled = round_off(&n);
+        left = unrest(&n, false) / n.scale;
+        const double loads = unrest(&n, true) / n.scale;
+        for (uint32_t k = s->island->first_row; k < s->island->end_row; ++k) {
+            s->rows[k].impulse = s->rows[k].next;
+        }
+        if (left <= TOLERANCE) {
+            break;
+        }
+        stalled = left < 0.7 * best || n.stiffness < due ? 0 : stalled + 1;
+        best = left < best ? left : best;
+        if (settled && loads > TOLERANCE &&
+            (n.stiffness < due || (loads > 0.25 * before && n.stiffness < most_stiff))) {
+            n.stiffness *= 10;
+        }
+        before = loads;
+    }
+    s->missed = left > TOLERANCE;
+    if (left > FAR_OFF) {
+        give_in(&n);
+    }
+    s->exact->missed += s->missed;
+    s->exact->residual = left > s->exact->residual ? left : s->exact->residual;
+}

@@ -1,0 +1,451 @@
+// plan.c - which bodies hang together, in which order they are eliminated, and what that fills in.
+//
+// Two bodies are neighbours that a contact or joint ties. The order is that of least degree, by the quotient graph: a body
+// that is gone leaves an element, the list of those behind it that it made neighbours (George and Liu 1989); degrees are
+// bounded from above by the sum of the elements' sizes. Ties are broken by slot. Chains and trees fill in nothing.
+//
+// Reads: manifolds, marks of joints, slots. Writes: world->exact. Order: after the graph. Cost: O(entries + contacts).
+#include "exact/exact.h"
+#include "joints/joint.h"
+#include "world/body_settings.h"
+
+#include <string.h>
+
+// Of an island: 150 MB. One with more is swept instead.
+#define MOST_ENTRIES 1000000u
+
+typedef struct search {
+    plumb_world *world;
+    pl_exact *exact;
+    uint32_t slots, ties;     // dynamic slots; contacts and joints between two of them
+    uint32_t *first, *length; // a slot: in `near`; of it
+    uint32_t *elements;       // a slot: how many of its list are elements; these come first
+    uint32_t *near;           // slots, for elements their nodes
+    uint32_t *island;         // a slot
+    uint32_t *node;           // a slot; PL_NONE: not yet eliminated
+    uint32_t *mark;           // a slot
+    uint32_t *degree, *next, *before; // a slot: in the list of its degree
+    uint32_t *list;                   // a degree: first slot
+    uint32_t stamp;
+} search;
+
+void pl_exact_free(pl_memory *memory, pl_exact *e)
+{
+    pl_buffer *all[] = { &e->nodes, &e->entries, &e->items,   &e->islands,
+                         &e->rows,  &e->blocks,  &e->vectors, &e->scratch };
+    for (size_t i = 0; i < sizeof all / sizeof *all; ++i) {
+        pl_buffer_free(memory, all[i]);
+    }
+}
+
+//---- contacts and joints -------------------------------------------------------------------------------
+
+static uint32_t slot_of(const plumb_world *world, uint32_t row)
+{
+    const uint32_t movable = world->dynamic_count + world->kinematic_count;
+    return pl_solver_slot(&world->solver, row < movable ? row : movable, movable);
+}
+
+static bool list_items(plumb_world *world, pl_exact *e)
+{
+    const pl_manifold *manifolds = pl_manifolds(&world->narrow);
+    const uint32_t contacts = world->narrow.manifold_count;
+    const pl_joint_context c = pl_joint_context_of(world, 0, NULL, 0, 1, 1);
+    const bool any = pl_joints_any(&c);
+    const uint32_t joints = any ? c.group->end - c.group->alone : 0;
+    if (!pl_buffer_reserve(&world->memory, &e->items,
+                           2 * ((size_t)contacts + joints) * sizeof(pl_exact_item))) {
+        return false;
+    }
+    pl_exact_item *items = e->items.data;
+    e->item_count = contacts + joints;
+    for (uint32_t i = 0; i < contacts; ++i) {
+        const pl_manifold *m = &manifolds[i];
+        items[i] = (pl_exact_item){ .contact = i,
+                                    .joint = PL_NONE,
+                                    .slot = { slot_of(world, m->body_a), slot_of(world, m->body_b) },
+                                    .row_count = 2 * m->count + (m->rolling > 0 ? 1 : 0) };
+    }
+    const uint32_t *grouped = world->joints.plan.grouped.data;
+    for (uint32_t i = 0; i < joints; ++i) {
+        const pl_joint_mark *mark = &pl_joint_marks(&world->joints)[grouped[c.group->alone + i]];
+        items[contacts + i] =
+            (pl_exact_item){ .contact = PL_NONE,
+                             .joint = c.group->alone + i,
+                             .slot = { slot_of(world, mark->row_a), slot_of(world, mark->row_b) },
+                             .row_count = PL_JOINT_ROWS };
+    }
+    return true;
+}
+
+//---- neighbours --------------------------------------------------------------------------------------
+
+static bool is_tie(const search *s, const pl_exact_item *item)
+{
+    return item->slot[0] < s->slots && item->slot[1] < s->slots && item->slot[0] != item->slot[1];
+}
+
+static bool open_search(plumb_world *world, pl_exact *e, search *s)
+{
+    *s = (search){ .world = world, .exact = e, .slots = world->solver.dynamic_slots };
+    const pl_exact_item *items = e->items.data;
+    for (uint32_t i = 0; i < e->item_count; ++i) {
+        s->ties += is_tie(s, &items[i]);
+    }
+    const size_t n = s->slots;
+    if (!pl_buffer_reserve(&world->memory, &e->scratch,
+                           (10 * n + 1 + 2 * (size_t)s->ties) * sizeof(uint32_t))) {
+        return false;
+    }
+    uint32_t *at = e->scratch.data;
+    s->first = at, s->length = at + n, s->elements = at + 2 * n, s->island = at + 3 * n;
+    s->node = at + 4 * n, s->mark = at + 5 * n, s->degree = at + 6 * n, s->next = at + 7 * n;
+    s->before = at + 8 * n, s->list = at + 9 * n, s->near = at + 10 * n + 1;
+    memset(s->length, 0, 2 * n * sizeof(uint32_t)); // and elements
+    memset(s->island, 0xff, 2 * n * sizeof(uint32_t)); // and node
+    memset(s->mark, 0, n * sizeof(uint32_t));
+    memset(s->list, 0xff, (n + 1) * sizeof(uint32_t));
+    return true;
+}
+
+static void add_near(search *s, uint32_t to, uint32_t other)
+{
+    s->near[s->first[to] + s->length[to]++] = other;
+}
+
+// Lists of neighbours, each once.
+static void list_neighbours(search *s)
+{
+    const pl_exact_item *items = s->exact->items.data;
+    for (uint32_t i = 0; i < s->exact->item_count; ++i) {
+        for (int end = 0; end < 2 && is_tie(s, &items[i]); ++end) {
+            ++s->length[items[i].slot[end]];
+        }
+    }
+    uint32_t at = 0;
+    for (uint32_t v = 0; v < s->slots; ++v) {
+        s->first[v] = at;
+        at += s->length[v];
+        s->length[v] = 0;
+    }
+    for (uint32_t i = 0; i < s->exact->item_count; ++i) {
+        if (is_tie(s, &items[i])) {
+            add_near(s, items[i].slot[0], items[i].slot[1]);
+            add_near(s, items[i].slot[1], items[i].slot[0]);
+        }
+    }
+    for (uint32_t v = 0; v < s->slots; ++v) {
+        const uint32_t count = s->length[v];
+        s->length[v] = 0;
+        ++s->stamp;
+        for (uint32_t k = 0; k < count; ++k) {
+            const uint32_t u = s->near[s->first[v] + k];
+            if (s->mark[u] != s->stamp) {
+                s->mark[u] = s->stamp;
+                add_near(s, v, u);
+            }
+        }
+    }
+}
+
+//---- islands -----------------------------------------------------------------------------------------
+
+// Numbers all that hangs together with slot `from`; `queue` has room for all slots.
+static uint32_t flood(search *s, uint32_t from, uint32_t number, uint32_t *queue)
+{
+    uint32_t count = 0;
+    queue[count++] = from;
+    s->island[from] = number;
+    for (uint32_t at = 0; at < count; ++at) {
+        const uint32_t v = queue[at];
+        for (uint32_t k = 0; k < s->length[v]; ++k) {
+            const uint32_t u = s->near[s->first[v] + k];
+            if (s->island[u] == PL_NONE) {
+                s->island[u] = number;
+                queue[count++] = u;
+            }
+        }
+    }
+    return count;
+}
+
+// Contacts and joints by their islands, in the order in which they were; rows of each.
+static void sort_items(search *s)
+{
+    pl_exact *e = s->exact;
+    pl_exact_item *items = e->items.data, *sorted = items + e->item_count;
+    pl_exact_island *islands = e->islands.data;
+    for (uint32_t i = 0; i < e->item_count; ++i) {
+        const uint32_t slot = items[i].slot[0] < s->slots ? items[i].slot[0] : items[i].slot[1];
+        if (slot < s->slots) {
+            ++islands[s->island[slot]].end_item;
+        }
+    }
+    uint32_t at = 0;
+    for (uint32_t k = 0; k < e->island_count; ++k) {
+        islands[k].first_item = at;
+        at += islands[k].end_item;
+        islands[k].end_item = islands[k].first_item;
+    }
+    for (uint32_t i = 0; i < e->item_count; ++i) {
+        const uint32_t slot = items[i].slot[0] < s->slots ? items[i].slot[0] : items[i].slot[1];
+        if (slot < s->slots) { // else nothing of it moves
+            sorted[islands[s->island[slot]].end_item++] = items[i];
+        }
+    }
+    e->item_count = at;
+    memcpy(items, sorted, at * sizeof *items);
+    e->row_count = 0;
+    for (uint32_t k = 0; k < e->island_count; ++k) {
+        islands[k].first_row = e->row_count;
+        for (uint32_t i = islands[k].first_item; i < islands[k].end_item; ++i) {
+            items[i].first_row = e->row_count;
+            e->row_count += items[i].row_count;
+        }
+        islands[k].end_row = e->row_count;
+    }
+}
+
+//---- elimination --------------------------------------------------------------------------------------
+
+static void unlist(search *s, uint32_t v)
+{
+    if (s->before[v] != PL_NONE) {
+        s->next[s->before[v]] = s->next[v];
+    } else {
+        s->list[s->degree[v]] = s->next[v];
+    }
+    if (s->next[v] != PL_NONE) {
+        s->before[s->next[v]] = s->before[v];
+    }
+}
+
+static void enlist(search *s, uint32_t v, uint32_t degree)
+{
+    s->degree[v] = degree;
+    s->before[v] = PL_NONE;
+    s->next[v] = s->list[degree];
+    if (s->next[v] != PL_NONE) {
+        s->before[s->next[v]] = v;
+    }
+    s->list[degree] = v;
+}
+
+static bool add_entry(search *s, uint32_t slot)
+{
+    pl_exact *e = s->exact;
+    if (s->mark[slot] == s->stamp) {
+        return true;
+    }
+    s->mark[slot] = s->stamp;
+    if ((size_t)(e->entry_count + 1) * sizeof(uint32_t) > e->entries.size &&
+        !pl_buffer_reserve(&s->world->memory, &e->entries,
+                           2 * (size_t)(e->entry_count + 1) * sizeof(uint32_t))) {
+        return false;
+    }
+    ((uint32_t *)e->entries.data)[e->entry_count++] = slot;
+    return true;
+}
+
+// All that a slot has to do with when it goes, as slots; the elements that it used up are gone with it.
+static bool fill_column(search *s, uint32_t v, pl_exact_node *node)
+{
+    pl_exact *e = s->exact;
+    pl_exact_node *nodes = e->nodes.data;
+    node->first = e->entry_count;
+    ++s->stamp;
+    s->mark[v] = s->stamp;
+    for (uint32_t k = 0; k < s->length[v]; ++k) {
+        const uint32_t u = s->near[s->first[v] + k];
+        if (k >= s->elements[v]) {
+            if (!add_entry(s, u)) {
+                return false;
+            }
+            continue;
+        }
+        for (uint32_t i = nodes[u].first; i < nodes[u].first + nodes[u].count; ++i) {
+            const uint32_t w = ((const uint32_t *)e->entries.data)[i];
+            if (s->node[w] == PL_NONE && !add_entry(s, w)) {
+                return false;
+            }
+        }
+        nodes[u].where = 1; // used up
+    }
+    node->count = e->entry_count - node->first;
+    return true;
+}
+
+// A neighbour of the slot that became `node`: what it knew of that, and of those that the element tells, goes.
+static void shorten(search *s, uint32_t v, uint32_t node)
+{
+    const pl_exact_node *nodes = s->exact->nodes.data;
+    uint32_t *near = s->near + s->first[v];
+    uint32_t elements = 0, kept = 0, degree = nodes[node].count - 1;
+    uint32_t held = node; // goes in behind the elements that are left
+    for (uint32_t k = 0; k < s->elements[v]; ++k) {
+        if (nodes[near[k]].where == 0) {
+            degree += nodes[near[k]].count - 1;
+            near[elements++] = near[k];
+        }
+    }
+    kept = elements;
+    for (uint32_t k = s->elements[v]; k < s->length[v]; ++k) {
+        if (s->mark[near[k]] != s->stamp) {
+            near[kept++] = near[k];
+            ++degree;
+        }
+    }
+    // One place at least has become free: of the slot itself, or of an element that was used up.
+    if (kept > elements) {
+        const uint32_t moved = near[elements];
+        near[elements] = held;
+        held = moved;
+    }
+    near[kept++] = held;
+    s->elements[v] = elements + 1;
+    s->length[v] = kept;
+    unlist(s, v);
+    enlist(s, v, degree < s->slots ? degree : s->slots - 1);
+}
+
+static bool eliminate(search *s, uint32_t v)
+{
+    pl_exact *e = s->exact;
+    const uint32_t number = e->node_count++;
+    pl_exact_node *node = (pl_exact_node *)e->nodes.data + number;
+    *node = (pl_exact_node){ .slot = v };
+    if (!fill_column(s, v, node)) {
+        return false;
+    }
+    s->node[v] = number;
+    for (uint32_t i = node->first; i < node->first + node->count; ++i) {
+        shorten(s, ((const uint32_t *)e->entries.data)[i], number);
+    }
+    return true;
+}
+
+// Takes the slots of `queue` in the order of least degree.
+static bool eliminate_all(search *s, const uint32_t *queue, uint32_t count, pl_exact_island *island)
+{
+    pl_exact *e = s->exact;
+    const uint32_t first_entry = e->entry_count;
+    island->first_node = e->node_count;
+    for (uint32_t i = count; i-- > 0;) {
+        enlist(s, queue[i], s->length[queue[i]]);
+    }
+    for (uint32_t i = 0; i < count; ++i) {
+        uint32_t degree = 0;
+        while (s->list[degree] == PL_NONE) {
+            ++degree;
+        }
+        const uint32_t v = s->list[degree];
+        unlist(s, v);
+        if (!eliminate(s, v)) {
+            return false;
+        }
+        if (e->entry_count - first_entry > MOST_ENTRIES) {
+            island->swept = true;
+            e->entry_count = first_entry;
+            e->node_count = island->first_node;
+            memset(s->list, 0xff, (s->slots + 1) * sizeof(uint32_t));
+            break;
+        }
+    }
+    for (uint32_t i = 0; i < count && island->swept; ++i) {
+        s->node[queue[i]] = e->node_count;
+        ((pl_exact_node *)e->nodes.data)[e->node_count++] =
+            (pl_exact_node){ .slot = queue[i], .first = first_entry };
+    }
+    island->end_node = e->node_count;
+    return true;
+}
+
+//---- all ---------------------------------------------------------------------------------------------
+
+static bool find_islands(search *s)
+{
+    pl_exact *e = s->exact;
+    e->island_count = e->node_count = e->entry_count = 0;
+    if (!pl_buffer_reserve(&s->world->memory, &e->nodes, s->slots * sizeof(pl_exact_node)) ||
+        !pl_buffer_reserve(&s->world->memory, &e->islands, s->slots * sizeof(pl_exact_island)) ||
+        !pl_buffer_reserve(&s->world->memory, &e->vectors, 15 * (size_t)s->slots * sizeof(double))) {
+        return false;
+    }
+    uint32_t *found = (uint32_t *)e->vectors.data; // scratch until the step is solved
+    for (uint32_t v = 0; v < s->slots; ++v) {
+        if (s->island[v] != PL_NONE) {
+            continue;
+        }
+        pl_exact_island *island = (pl_exact_island *)e->islands.data + e->island_count;
+        *island = (pl_exact_island){ 0 };
+        const uint32_t count = flood(s, v, e->island_count, found);
+        ++e->island_count;
+        if (!eliminate_all(s, found, count, island)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// Entries as nodes; which entry is between the bodies of each contact and joint.
+static void number_entries(search *s)
+{
+    pl_exact *e = s->exact;
+    uint32_t *entries = e->entries.data;
+    const pl_exact_node *nodes = e->nodes.data;
+    for (uint32_t i = 0; i < e->entry_count; ++i) {
+        entries[i] = s->node[entries[i]];
+    }
+    pl_exact_item *items = e->items.data;
+    for (uint32_t i = 0; i < e->item_count; ++i) {
+        pl_exact_item *item = &items[i];
+        for (int end = 0; end < 2; ++end) {
+            item->node[end] = item->slot[end] < s->slots ? s->node[item->slot[end]] : PL_NONE;
+        }
+        item->entry = PL_NONE;
+        if (item->node[0] == PL_NONE || item->node[1] == PL_NONE) {
+            continue;
+        }
+        const uint32_t low = item->node[0] < item->node[1] ? item->node[0] : item->node[1];
+        const uint32_t high = item->node[0] + item->node[1] - low;
+        for (uint32_t k = nodes[low].first; k < nodes[low].first + nodes[low].count; ++k) {
+            if (entries[k] == high) {
+                item->entry = k;
+            }
+        }
+    }
+}
+
+static void weigh(search *s)
+{
+    pl_exact_node *nodes = s->exact->nodes.data;
+    const pl_solver *solver = &s->world->solver;
+    const uint32_t *rows = solver->rows.data;
+    for (uint32_t i = 0; i < s->exact->node_count; ++i) {
+        const pl_solver_body *body = &pl_solver_bodies(solver)[nodes[i].slot];
+        const uint16_t flags = s->world->bodies.flags[rows[nodes[i].slot]];
+        nodes[i].inv_mass[0] = (double)pl_unlocked(flags, PL_BODY_LOCK_X, body->inv_mass);
+        nodes[i].inv_mass[1] = (double)pl_unlocked(flags, PL_BODY_LOCK_Y, body->inv_mass);
+    }
+}
+
+bool pl_exact_plan(plumb_world *world)
+{
+    pl_exact *e = &world->exact;
+    search s;
+    e->factored = e->missed = 0;
+    e->residual = 0;
+    if (!list_items(world, e) || !open_search(world, e, &s)) {
+        return false;
+    }
+    list_neighbours(&s);
+    if (!find_islands(&s)) {
+        return false;
+    }
+    sort_items(&s);
+    number_entries(&s);
+    weigh(&s);
+    const size_t blocks = (size_t)e->node_count + 2 * (size_t)e->entry_count;
+    return pl_buffer_reserve(&world->memory, &e->rows, e->row_count * sizeof(pl_exact_row)) &&
+           pl_buffer_reserve(&world->memory, &e->blocks, 9 * blocks * sizeof(double));
+}

@@ -1,0 +1,47 @@
+// law.c - rows of joints as laws: what J v is to be, how much an impulse gives way, how large it may be.
+//
+// Errors are undone in the sweep that pulls, a share a substep; the one that relaxes leaves J v = 0. Springs are those of
+// one.c, solved for the whole impulse: of total = - m (velocity v + error C) + (1 - impulse) total, v being that before.
+//
+// Reads: rows of joints. Cost: O(1).
+#include "joints/law.h"
+
+#include "plumb/math.h"
+#include "world/state.h"
+
+// Share of an error that a substep undoes. More turns what a snapping chain leaves into a blow (DECISIONS.md).
+#define RECOVERY 0.1
+
+static void aim_at_spring(const pl_lone *l, const pl_row *r, pl_row_law *out)
+{
+    const pl_joint_soft soft = pl_joint_spring(r, l->joint->h);
+    const double k = (double)pl_one_coupling(r, r, l->a, l->b);
+    const double share = plumb_max(soft.velocity, PLUMB_REAL_EPSILON);
+    out->give = k * (double)soft.impulse / share;
+    out->target = -(double)soft.error / share * (double)r->error;
+}
+
+pl_row_law pl_row_law_of(const pl_lone *l, int i, pl_joint_sweep sweep)
+{
+    const pl_joint *j = l->joint;
+    const pl_row *r = &j->rows.row[i];
+    const double most = (double)r->most * (double)j->h, back = (double)r->error / (double)j->h;
+    pl_row_law law = { .in_force = r->type != PL_ROW_OFF &&
+                                   !(r->hertz > 0 && sweep == PL_SWEEP_RELAX) &&
+                                   pl_one_coupling(r, r, l->a, l->b) > 0,
+                       .low = r->type == PL_ROW_LEAST ? 0 : -most,
+                       .high = most };
+    if (!law.in_force) {
+        return law;
+    }
+    if (r->type == PL_ROW_DRIVE) {
+        law.target = (double)r->speed;
+    } else if (r->hertz > 0) {
+        aim_at_spring(l, r, &law);
+    } else if (r->type == PL_ROW_LEAST && r->error > 0) {
+        law.target = -back; // may close the gap
+    } else {
+        law.target = sweep == PL_SWEEP_PULL ? -RECOVERY * back : 0;
+    }
+    return law;
+}

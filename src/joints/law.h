@@ -1,0 +1,18 @@
+// law.h - what a row of a joint asks for in a sweep, where rows are solved together.
+#ifndef PL_JOINT_LAW_H
+#define PL_JOINT_LAW_H
+
+#include "joints/one.h"
+
+// J v + give impulse = target, where the impulse is within its bounds.
+typedef struct pl_row_law {
+    bool in_force;
+    double target;    // [m/s] or [rad/s]
+    double give;      // [1/kg] of springs
+    double low, high; // [N s]
+} pl_row_law;
+
+// Row i of a joint, in a sweep that pulls or relaxes.
+pl_row_law pl_row_law_of(const pl_lone *lone, int i, pl_joint_sweep sweep);
+
+#endif
