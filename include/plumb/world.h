@@ -28,8 +28,7 @@ typedef enum plumb_solver {
     PLUMB_SOLVER_SOFT, ///< soft step: substeps, soft contacts, warm starting, relax pass
     PLUMB_SOLVER_PGS,  ///< the classic: projected Gauss-Seidel on velocities, then positions
     PLUMB_SOLVER_EXACT ///< contacts with friction and joints of an island solved together, to a residual, by a direct
-                       ///< method: heavy on light, long chains, trusses, loops, limits of stability. Costs ten times
-                       ///< the soft step and more
+                       ///< method, on one thread: heavy on light, long chains, trusses, loops, limits of stability
 } plumb_solver;
 
 /// How a world is made. {0} is valid: every zero means the default told beside the field.
@@ -46,6 +45,9 @@ typedef struct plumb_world_desc {
                                     ///< and what has a bound are swept as ever. Default: all are. For machines whose
                                     ///< parts do not overlap: what contacts push apart and joints hold together, it
                                     ///< may throw
+    plumb_real exact_tolerance;     ///< [-] 1e-12..0.1, default 1e-9: share of the largest speed that contacts and joints
+                                    ///< have to undo in a substep which PLUMB_SOLVER_EXACT may leave. What it left:
+                                    ///< plumb_stats.exact_residual
     plumb_real contact_hertz;       ///< [1/s] >= 0. Contact stiffness; default: a sixth of the substep rate,
                                     ///< which is also the largest that is used. Where steps become shorter, it
                                     ///< rises by e in half a second at most: no pile is thrown up by that
@@ -190,6 +192,10 @@ typedef struct plumb_stats {
                                  ///< bounce was left to them is lost; the first one is also a warning in the log
     uint32_t arrested_count;     ///< bodies taken out in all, because a step would have left them with a state
                                  ///< that is not finite or beyond 1e12 m or m/s: see plumb_quarantine
+    uint32_t exact_factored;     ///< matrices that the exact solver factored in the last step
+    uint32_t exact_missed;       ///< of its solutions in that step, those that missed the tolerance; the first one of a
+                                 ///< world is also a warning in the log
+    double exact_residual;       ///< [-] largest that was left in that step, as a share: see exact_tolerance
     uint32_t fast_count;         ///< bodies that moved so fast in the last step that their way was swept
     uint32_t stopped_count;      ///< of those, bodies put back to where they would have passed into something
     int simd_width;              ///< lanes in use

@@ -157,3 +157,13 @@ void pl_exact_relax(pl_substep *s)
 {
     solve_all(s, PL_SWEEP_RELAX);
 }
+
+void pl_exact_tell(plumb_world *world)
+{
+    pl_exact *e = &world->exact;
+    if (e->missed > 0 && !e->told) {
+        e->told = true;
+        pl_warn(world, "the exact solver missed its tolerance at %g s: %g of a speed was left", world->time,
+                e->residual);
+    }
+}

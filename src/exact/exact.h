@@ -46,6 +46,8 @@ typedef struct pl_exact_system {
 
 // Who is eliminated when (plan.c). False when out of memory.
 bool pl_exact_plan(plumb_world *world);
+// After the substeps: the first miss of a world is told in the log.
+void pl_exact_tell(plumb_world *world);
 void pl_exact_free(pl_memory *memory, pl_exact *exact);
 
 // Rows as the bodies are now; impulses back, and what the events want to know (rows.c).

@@ -16,7 +16,6 @@
 #include <math.h>
 #include <string.h>
 
-#define TOLERANCE   1e-9 // of the speeds that rows have to undo
 #define STIFFNESS   1e3 // of a row's own mass, in the first round, times the ratio of the masses of the island
 #define MOST_RATIO  1e6
 #define GROWTH      1e4 // of the stiffness, from round to round
@@ -271,7 +270,8 @@ void pl_exact_solve(pl_exact_system *s)
     double ratio;
     pl_exact_newton n = { .s = s };
     find_scale(&n);
-    n.enough = 1e-4 * TOLERANCE * TOLERANCE * n.scale * n.scale * heaviest(s, &ratio);
+    const double tolerance = (double)s->world->desc.exact_tolerance;
+    n.enough = 1e-4 * tolerance * tolerance * n.scale * n.scale * heaviest(s, &ratio);
     n.stiffness = STIFFNESS;
     const double due = STIFFNESS * ratio, most_stiff = due * (pulls ? PULL_GROWTH : GROWTH);
     const int most_stalls = pulls ? PULL_STALLS : STALLS;
@@ -290,21 +290,23 @@ void pl_exact_solve(pl_exact_system *s)
         for (uint32_t k = s->island->first_row; k < s->island->end_row; ++k) {
             s->rows[k].impulse = s->rows[k].next;
         }
-        if (left <= TOLERANCE) {
+        if (left <= tolerance) {
             break;
         }
         stalled = left < 0.7 * best || n.stiffness < due ? 0 : stalled + 1;
         best = left < best ? left : best;
-        if (settled && loads > TOLERANCE &&
+        if (settled && loads > tolerance &&
             (n.stiffness < due || (loads > 0.25 * before && n.stiffness < most_stiff))) {
             n.stiffness *= 10;
         }
         before = loads;
     }
-    s->missed = left > TOLERANCE;
+    s->missed = left > tolerance;
     if (left > FAR_OFF) {
         give_in(&n);
     }
-    s->exact->missed += s->missed;
-    s->exact->residual = left > s->exact->residual ? left : s->exact->residual;
+    if (!pulls) { // what cannot be undone is no miss
+        s->exact->missed += s->missed;
+        s->exact->residual = fmax(s->exact->residual, left);
+    }
 }

@@ -42,6 +42,7 @@ typedef struct pl_exact {
     // relative to the speeds that the rows had to undo.
     uint32_t factored, missed;
     double residual;
+    bool told; // in the log
 } pl_exact;
 
 #endif
