@@ -45,7 +45,7 @@ typedef struct plumb_world_desc {
                                     ///< and what has a bound are swept as ever. Default: all are. For machines whose
                                     ///< parts do not overlap: what contacts push apart and joints hold together, it
                                     ///< may throw
-    plumb_real exact_tolerance;     ///< [-] 1e-12..0.1, default 1e-9: share of the largest speed that contacts and joints
+    plumb_real exact_tolerance;     ///< [-] 0..0.5, default 1e-9 (also of 0): share of the largest speed that contacts and joints
                                     ///< have to undo in a substep which PLUMB_SOLVER_EXACT may leave. What it left:
                                     ///< plumb_stats.exact_residual
     plumb_real contact_hertz;       ///< [1/s] >= 0. Contact stiffness; default: a sixth of the substep rate,

@@ -11,7 +11,7 @@
 #define EPSILON 1e-15 // of J v, in rounding
 
 // What J v adds up: its rounding is a share of that.
-static double sum_of_rate(const pl_exact_system *s, const pl_exact_item *item, const pl_exact_row *r)
+double pl_exact_sum(const pl_exact_system *s, const pl_exact_item *item, const pl_exact_row *r)
 {
     double sum = 0;
     for (int end = 0; end < 2; ++end) {
@@ -24,7 +24,7 @@ static double sum_of_rate(const pl_exact_system *s, const pl_exact_item *item, c
 }
 
 double pl_exact_rate(const pl_exact_system *s, const pl_exact_item *item, const pl_exact_row *r,
-                   const double *velocity)
+                     const double *velocity)
 {
     double sum = 0;
     for (int end = 0; end < 2; ++end) {
@@ -86,7 +86,8 @@ static void evaluate_cone(const pl_exact_newton *n, const pl_exact_item *item, p
                           pl_exact_row *tangent)
 {
     const double stiffness = n->stiffness * normal->mass, mu = tangent->factor;
-    const double wish = wish_of(n, item, normal, stiffness) - stiffness * tangent->shift - normal->low;
+    const double wish =
+        wish_of(n, item, normal, stiffness) - stiffness * tangent->shift - normal->low;
     const double aside = wish_of(n, item, tangent, stiffness), side = aside < 0 ? -1 : 1;
     normal->slope = tangent->slope = 0;
     normal->weight = tangent->weight = stiffness;
@@ -145,7 +146,7 @@ double pl_exact_evaluate(pl_exact_newton *n)
         for (uint32_t k = item->first_row; k < item->first_row + item->row_count; ++k) {
             const pl_exact_row *r = &s->rows[k];
             if (r->in_force) {
-                const double blur = EPSILON * r->weight * sum_of_rate(s, item, r);
+                const double blur = EPSILON * r->weight * pl_exact_sum(s, item, r);
                 n->noise += blur * blur / r->mass;
                 push_row(s, item, r);
             }

@@ -10,7 +10,7 @@
 
 static pl_exact_system system_of(const pl_substep *s, pl_joint_sweep sweep)
 {
-    pl_exact *e = &s->world->exact;
+    pl_exact_solver *e = &s->world->exact;
     const size_t n = 3 * (size_t)e->node_count;
     double *blocks = e->blocks.data, *vectors = e->vectors.data;
     return (pl_exact_system){ .world = s->world,
@@ -117,7 +117,8 @@ static void copy(const pl_exact_system *s, double *to, const double *from)
 static void solve_island(pl_exact_system *s, bool warm)
 {
     take_velocities(s);
-    s->missed = s->sweep == PL_SWEEP_RELAX && s->island->missed; // what could not be undone pushed beyond measure
+    s->missed = s->sweep == PL_SWEEP_RELAX &&
+                s->island->missed; // what could not be undone pushed beyond measure
     pl_exact_fill(s);
     if (s->sweep == PL_SWEEP_RELAX) {
         copy(s, s->velocity, s->base);
@@ -128,7 +129,9 @@ static void solve_island(pl_exact_system *s, bool warm)
     copy(s, s->base, s->velocity);
     push_rows(s, s->velocity, 1, false);
     pl_exact_solve(s);
-    ((pl_exact_island *)s->exact->islands.data)[s->island - (pl_exact_island *)s->exact->islands.data].missed = s->missed;
+    ((pl_exact_island *)
+         s->exact->islands.data)[s->island - (pl_exact_island *)s->exact->islands.data]
+        .missed = s->missed;
     pl_exact_keep(s);
     give_velocities(s);
     if (s->sweep == PL_SWEEP_PULL) { // springs act once a substep: what they gave stays
@@ -160,10 +163,10 @@ void pl_exact_relax(pl_substep *s)
 
 void pl_exact_tell(plumb_world *world)
 {
-    pl_exact *e = &world->exact;
+    pl_exact_solver *e = &world->exact;
     if (e->missed > 0 && !e->told) {
         e->told = true;
-        pl_warn(world, "the exact solver missed its tolerance at %g s: %g of a speed was left", world->time,
-                e->residual);
+        pl_warn(world, "the exact solver missed its tolerance at %g s: %g of a speed was left",
+                world->time, e->residual);
     }
 }

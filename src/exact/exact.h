@@ -1,6 +1,6 @@
 // exact.h - contacts and joints of an island solved together, to a residual.
-#ifndef PL_EXACT_H
-#define PL_EXACT_H
+#ifndef PL_EXACT_SOLVER_H
+#define PL_EXACT_SOLVER_H
 
 #include "joints/joint.h"
 #include "solver/substep.h"
@@ -9,20 +9,21 @@
 // A scalar row J v + give impulse = target whose impulse has bounds. Those of friction and rolling resistance are
 // `factor` times the load, the impulses of the `leads` rows that lie before it in the contact.
 typedef struct pl_exact_row {
-    double j[6];            // of A's vx, vy, w, then of B's
-    double target;          // [m/s], [rad/s]
-    double give;            // [1/kg] of a spring
-    double low, high;       // [N s]
-    double factor;          // [-] or [m]
-    double mass;            // [kg] effective
-    double impulse;         // [N s] as known
-    double next;            // [N s] what follows from the velocities of the moment
-    double weight, slope;   // [kg] -d next / d (J v) of its own; of each lead's J v, as a share of the lead's weight
-    double before;          // [N s] as known before the sweep that pulls
-    double shift, gap;      // [m/s] of friction as a cone: see newton.c
-    uint32_t lead;          // first of the rows that load it
-    uint8_t leads;          // how many; 0: low and high hold
-    uint8_t point;          // of the contact, or row of the joint
+    double j[6];      // of A's vx, vy, w, then of B's
+    double target;    // [m/s], [rad/s]
+    double give;      // [1/kg] of a spring
+    double low, high; // [N s]
+    double factor;    // [-] or [m]
+    double mass;      // [kg] effective
+    double impulse;   // [N s] as known
+    double next;      // [N s] what follows from the velocities of the moment
+    double weight,
+        slope; // [kg] -d next / d (J v) of its own; of each lead's J v, as a share of the lead's weight
+    double before;     // [N s] as known before the sweep that pulls
+    double shift, gap; // [m/s] of friction as a cone: see newton.c
+    uint32_t lead;     // first of the rows that load it
+    uint8_t leads;     // how many; 0: low and high hold
+    uint8_t point;     // of the contact, or row of the joint
     bool in_force;
 } pl_exact_row;
 
@@ -30,15 +31,17 @@ typedef struct pl_exact_row {
 typedef struct pl_exact_system {
     plumb_world *world;
     const pl_joint_context *joints;
-    pl_exact *exact;
+    pl_exact_solver *exact;
     const pl_exact_island *island;
     pl_exact_node *nodes; // of all islands, as everything below
     const uint32_t *entries;
     const pl_exact_item *items;
     pl_exact_row *rows;
-    double *above, *below; // of an entry: what the later node's velocity does to the earlier one, and the reverse
+    double *above,
+        *below; // of an entry: what the later node's velocity does to the earlier one, and the reverse
     double *diagonal;
-    double *velocity, *base, *change; // three a node: of the moment; without any impulse of the rows; of Newton's step
+    double *velocity, *base,
+        *change; // three a node: of the moment; without any impulse of the rows; of Newton's step
     near_real h;
     pl_joint_sweep sweep;
     bool missed; // the tolerance
@@ -48,7 +51,7 @@ typedef struct pl_exact_system {
 bool pl_exact_plan(plumb_world *world);
 // After the substeps: the first miss of a world is told in the log.
 void pl_exact_tell(plumb_world *world);
-void pl_exact_free(pl_memory *memory, pl_exact *exact);
+void pl_exact_free(pl_memory *memory, pl_exact_solver *exact);
 
 // Rows as the bodies are now; impulses back, and what the events want to know (rows.c).
 void pl_exact_fill(const pl_exact_system *s);
@@ -66,6 +69,7 @@ typedef struct pl_exact_newton {
     double stiffness; // times the mass of a row
     double scale;     // [m/s] the largest speed that a row has to undo
     double fastest;   // [m/s] that anything may slip
+    double tolerance; // [-] of the scale
     double enough;    // of F, by momentum
     double noise;     // of the same, of rounding
     double slope;     // of the potential, where the step begins
@@ -74,9 +78,10 @@ typedef struct pl_exact_newton {
     bool convex;      // see evaluate_cone
 } pl_exact_newton;
 
-// J v of a row at such velocities; F into `change`: returns its size, by momentum (evaluate.c).
+// J v of a row at such velocities; what it adds up at those of the moment, of which its rounding is a share; F into `change`: returns its size, by momentum (evaluate.c).
 double pl_exact_rate(const pl_exact_system *s, const pl_exact_item *item, const pl_exact_row *r,
                      const double *velocity);
+double pl_exact_sum(const pl_exact_system *s, const pl_exact_item *item, const pl_exact_row *r);
 double pl_exact_evaluate(pl_exact_newton *n);
 
 // Velocities and impulses that obey all rows (newton.c).

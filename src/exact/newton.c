@@ -12,18 +12,21 @@
 //
 // Reads: rows, nodes. Writes: velocities, impulses. Cost: some 2 to 20 factors a solution.
 #include "exact/exact.h"
+#include "math/compare.h"
 
 #include <math.h>
 #include <string.h>
 
-#define STIFFNESS   1e3 // of a row's own mass, in the first round, times the ratio of the masses of the island
+#define STIFFNESS                                                                                  \
+    1e3 // of a row's own mass, in the first round, times the ratio of the masses of the island
 #define MOST_RATIO  1e6
 #define GROWTH      1e4 // of the stiffness, from round to round
 #define PULL_GROWTH 1e1 // where errors are undone
 #define ROUNDS      30
-#define NEWTONS     20 // steps of a round
-#define FAR_OFF     1.0 // of the same speeds: a solution that is none
-#define FACTORS     600 // of a solution, after which it is said to have missed
+#define NEWTONS     20    // steps of a round
+#define ROUNDING    1e-12 // of the speeds that a row adds up: what is less is nothing
+#define FAR_OFF     1.0   // of the same speeds: a solution that is none
+#define FACTORS     600   // of a solution, after which it is said to have missed
 #define LONGEST     20
 #define STALLS      6 // rounds without progress
 #define PULL_STALLS 2
@@ -148,11 +151,12 @@ static void shift_cones(pl_exact_newton *n)
         }
     }
     const double length = n->shifts > 0 && square > 0 ? -n->length * along / square : 1;
-    n->length = n->shifts++ == 0 ? 1 : fmin(fmax(length, 0.5), LONGEST);
+    n->length = n->shifts++ == 0 ? 1 : pl_lesser(pl_greater(length, 0.5), LONGEST);
     for (uint32_t k = s->island->first_row; k < s->island->end_row; ++k) {
         pl_exact_row *r = &s->rows[k];
         if (r->in_force && r->leads == 1) {
-            r->shift = fmin(fmax(r->shift + n->length * r->gap, 0), r->factor * n->fastest);
+            r->shift =
+                pl_lesser(pl_greater(r->shift + n->length * r->gap, 0), r->factor * n->fastest);
         }
     }
 }
@@ -217,20 +221,24 @@ static double unrest(const pl_exact_newton *n, bool loads)
 static void find_scale(pl_exact_newton *n)
 {
     const pl_exact_system *s = n->s;
-    double slip = 0;
+    double slip = 0, sum = 0;
     for (uint32_t i = s->island->first_item; i < s->island->end_item; ++i) {
         const pl_exact_item *item = &s->items[i];
         for (uint32_t k = item->first_row; k < item->first_row + item->row_count; ++k) {
             const pl_exact_row *r = &s->rows[k];
             const double lack = r->in_force ? r->target - pl_exact_rate(s, item, r, s->base) : 0;
+            sum = pl_greater(sum, r->in_force ? pl_exact_sum(s, item, r) : 0);
             if (r->leads > 0) {
-                slip = fmax(slip, fabs(lack));
+                slip = pl_greater(slip, fabs(lack));
             } else {
-                n->scale = fmax(n->scale, r->low < 0 ? fabs(lack) : lack);
+                n->scale = pl_greater(n->scale, r->low < 0 ? fabs(lack) : lack);
             }
         }
     }
     n->fastest = slip + 2 * n->scale;
+    n->scale = n->scale > ROUNDING * sum ? n->scale : 0;
+    n->tolerance = pl_greater((double)s->world->desc.exact_tolerance,
+                              n->scale > 0 ? ROUNDING * sum / n->scale : 0);
 }
 
 static double heaviest(const pl_exact_system *s, double *ratio)
@@ -241,7 +249,7 @@ static double heaviest(const pl_exact_system *s, double *ratio)
         most = inverse > 0 && 1 / inverse > most ? 1 / inverse : most;
         least = inverse > 0 && 1 / inverse < least ? 1 / inverse : least;
     }
-    *ratio = most > 0 ? fmin(most / least, MOST_RATIO) : 1;
+    *ratio = most > 0 ? pl_lesser(most / least, MOST_RATIO) : 1;
     return most;
 }
 
@@ -270,7 +278,7 @@ void pl_exact_solve(pl_exact_system *s)
     double ratio;
     pl_exact_newton n = { .s = s };
     find_scale(&n);
-    const double tolerance = (double)s->world->desc.exact_tolerance;
+    const double tolerance = n.tolerance;
     n.enough = 1e-4 * tolerance * tolerance * n.scale * n.scale * heaviest(s, &ratio);
     n.stiffness = STIFFNESS;
     const double due = STIFFNESS * ratio, most_stiff = due * (pulls ? PULL_GROWTH : GROWTH);
@@ -280,7 +288,9 @@ void pl_exact_solve(pl_exact_system *s)
     for (uint32_t k = s->island->first_row; n.scale == 0 && k < s->island->end_row; ++k) {
         s->rows[k].impulse = s->rows[k].next = 0;
     }
-    for (int round = 0, stalled = 0; n.scale > 0 && stalled < most_stalls && round < ROUNDS && s->exact->factored < most_factored; ++round) {
+    for (int round = 0, stalled = 0; n.scale > 0 && stalled < most_stalls && round < ROUNDS &&
+                                     s->exact->factored < most_factored;
+         ++round) {
         if (pulls) {
             pl_exact_bend(s);
         }
@@ -307,6 +317,8 @@ void pl_exact_solve(pl_exact_system *s)
     }
     if (!pulls) { // what cannot be undone is no miss
         s->exact->missed += s->missed;
-        s->exact->residual = fmax(s->exact->residual, left);
+        const double told =
+            s->missed ? left : pl_lesser(left, (double)s->world->desc.exact_tolerance);
+        s->exact->residual = pl_greater(s->exact->residual, told);
     }
 }

@@ -16,20 +16,20 @@
 
 typedef struct search {
     plumb_world *world;
-    pl_exact *exact;
-    uint32_t slots, ties;     // dynamic slots; contacts and joints between two of them
-    uint32_t *first, *length; // a slot: in `near`; of it
-    uint32_t *elements;       // a slot: how many of its list are elements; these come first
-    uint32_t *near;           // slots, for elements their nodes
-    uint32_t *island;         // a slot
-    uint32_t *node;           // a slot; PL_NONE: not yet eliminated
-    uint32_t *mark;           // a slot
+    pl_exact_solver *exact;
+    uint32_t slots, ties;             // dynamic slots; contacts and joints between two of them
+    uint32_t *first, *length;         // a slot: in `near`; of it
+    uint32_t *elements;               // a slot: how many of its list are elements; these come first
+    uint32_t *near;                   // slots, for elements their nodes
+    uint32_t *island;                 // a slot
+    uint32_t *node;                   // a slot; PL_NONE: not yet eliminated
+    uint32_t *mark;                   // a slot
     uint32_t *degree, *next, *before; // a slot: in the list of its degree
     uint32_t *list;                   // a degree: first slot
     uint32_t stamp;
 } search;
 
-void pl_exact_free(pl_memory *memory, pl_exact *e)
+void pl_exact_free(pl_memory *memory, pl_exact_solver *e)
 {
     pl_buffer *all[] = { &e->nodes, &e->entries, &e->items,   &e->islands,
                          &e->rows,  &e->blocks,  &e->vectors, &e->scratch };
@@ -46,7 +46,7 @@ static uint32_t slot_of(const plumb_world *world, uint32_t row)
     return pl_solver_slot(&world->solver, row < movable ? row : movable, movable);
 }
 
-static bool list_items(plumb_world *world, pl_exact *e)
+static bool list_items(plumb_world *world, pl_exact_solver *e)
 {
     const pl_manifold *manifolds = pl_manifolds(&world->narrow);
     const uint32_t contacts = world->narrow.manifold_count;
@@ -61,10 +61,11 @@ static bool list_items(plumb_world *world, pl_exact *e)
     e->item_count = contacts + joints;
     for (uint32_t i = 0; i < contacts; ++i) {
         const pl_manifold *m = &manifolds[i];
-        items[i] = (pl_exact_item){ .contact = i,
-                                    .joint = PL_NONE,
-                                    .slot = { slot_of(world, m->body_a), slot_of(world, m->body_b) },
-                                    .row_count = 2 * m->count + (m->rolling > 0 ? 1 : 0) };
+        items[i] =
+            (pl_exact_item){ .contact = i,
+                             .joint = PL_NONE,
+                             .slot = { slot_of(world, m->body_a), slot_of(world, m->body_b) },
+                             .row_count = 2 * m->count + (m->rolling > 0 ? 1 : 0) };
     }
     const uint32_t *grouped = world->joints.plan.grouped.data;
     for (uint32_t i = 0; i < joints; ++i) {
@@ -85,7 +86,7 @@ static bool is_tie(const search *s, const pl_exact_item *item)
     return item->slot[0] < s->slots && item->slot[1] < s->slots && item->slot[0] != item->slot[1];
 }
 
-static bool open_search(plumb_world *world, pl_exact *e, search *s)
+static bool open_search(plumb_world *world, pl_exact_solver *e, search *s)
 {
     *s = (search){ .world = world, .exact = e, .slots = world->solver.dynamic_slots };
     const pl_exact_item *items = e->items.data;
@@ -101,7 +102,7 @@ static bool open_search(plumb_world *world, pl_exact *e, search *s)
     s->first = at, s->length = at + n, s->elements = at + 2 * n, s->island = at + 3 * n;
     s->node = at + 4 * n, s->mark = at + 5 * n, s->degree = at + 6 * n, s->next = at + 7 * n;
     s->before = at + 8 * n, s->list = at + 9 * n, s->near = at + 10 * n + 1;
-    memset(s->length, 0, 2 * n * sizeof(uint32_t)); // and elements
+    memset(s->length, 0, 2 * n * sizeof(uint32_t));    // and elements
     memset(s->island, 0xff, 2 * n * sizeof(uint32_t)); // and node
     memset(s->mark, 0, n * sizeof(uint32_t));
     memset(s->list, 0xff, (n + 1) * sizeof(uint32_t));
@@ -172,7 +173,7 @@ static uint32_t flood(search *s, uint32_t from, uint32_t number, uint32_t *queue
 // Contacts and joints by their islands, in the order in which they were; rows of each.
 static void sort_items(search *s)
 {
-    pl_exact *e = s->exact;
+    pl_exact_solver *e = s->exact;
     pl_exact_item *items = e->items.data, *sorted = items + e->item_count;
     pl_exact_island *islands = e->islands.data;
     for (uint32_t i = 0; i < e->item_count; ++i) {
@@ -233,7 +234,7 @@ static void enlist(search *s, uint32_t v, uint32_t degree)
 
 static bool add_entry(search *s, uint32_t slot)
 {
-    pl_exact *e = s->exact;
+    pl_exact_solver *e = s->exact;
     if (s->mark[slot] == s->stamp) {
         return true;
     }
@@ -250,7 +251,7 @@ static bool add_entry(search *s, uint32_t slot)
 // All that a slot has to do with when it goes, as slots; the elements that it used up are gone with it.
 static bool fill_column(search *s, uint32_t v, pl_exact_node *node)
 {
-    pl_exact *e = s->exact;
+    pl_exact_solver *e = s->exact;
     pl_exact_node *nodes = e->nodes.data;
     node->first = e->entry_count;
     ++s->stamp;
@@ -310,7 +311,7 @@ static void shorten(search *s, uint32_t v, uint32_t node)
 
 static bool eliminate(search *s, uint32_t v)
 {
-    pl_exact *e = s->exact;
+    pl_exact_solver *e = s->exact;
     const uint32_t number = e->node_count++;
     pl_exact_node *node = (pl_exact_node *)e->nodes.data + number;
     *node = (pl_exact_node){ .slot = v };
@@ -327,7 +328,7 @@ static bool eliminate(search *s, uint32_t v)
 // Takes the slots of `queue` in the order of least degree.
 static bool eliminate_all(search *s, const uint32_t *queue, uint32_t count, pl_exact_island *island)
 {
-    pl_exact *e = s->exact;
+    pl_exact_solver *e = s->exact;
     const uint32_t first_entry = e->entry_count;
     island->first_node = e->node_count;
     for (uint32_t i = count; i-- > 0;) {
@@ -364,11 +365,12 @@ static bool eliminate_all(search *s, const uint32_t *queue, uint32_t count, pl_e
 
 static bool find_islands(search *s)
 {
-    pl_exact *e = s->exact;
+    pl_exact_solver *e = s->exact;
     e->island_count = e->node_count = e->entry_count = 0;
     if (!pl_buffer_reserve(&s->world->memory, &e->nodes, s->slots * sizeof(pl_exact_node)) ||
         !pl_buffer_reserve(&s->world->memory, &e->islands, s->slots * sizeof(pl_exact_island)) ||
-        !pl_buffer_reserve(&s->world->memory, &e->vectors, 15 * (size_t)s->slots * sizeof(double))) {
+        !pl_buffer_reserve(&s->world->memory, &e->vectors,
+                           15 * (size_t)s->slots * sizeof(double))) {
         return false;
     }
     uint32_t *found = (uint32_t *)e->vectors.data; // scratch until the step is solved
@@ -390,7 +392,7 @@ static bool find_islands(search *s)
 // Entries as nodes; which entry is between the bodies of each contact and joint.
 static void number_entries(search *s)
 {
-    pl_exact *e = s->exact;
+    pl_exact_solver *e = s->exact;
     uint32_t *entries = e->entries.data;
     const pl_exact_node *nodes = e->nodes.data;
     for (uint32_t i = 0; i < e->entry_count; ++i) {
@@ -431,7 +433,7 @@ static void weigh(search *s)
 
 bool pl_exact_plan(plumb_world *world)
 {
-    pl_exact *e = &world->exact;
+    pl_exact_solver *e = &world->exact;
     search s;
     e->factored = e->missed = 0;
     e->residual = 0;

@@ -23,8 +23,7 @@ static double separation_now(const pl_exact_system *s, const pl_exact_item *item
 {
     const pl_solver_body *a = &pl_solver_bodies(&s->world->solver)[item->slot[0]];
     const pl_solver_body *b = &pl_solver_bodies(&s->world->solver)[item->slot[1]];
-    return (double)p->separation +
-           (double)m->nx * ((double)b->dx - (double)a->dx) +
+    return (double)p->separation + (double)m->nx * ((double)b->dx - (double)a->dx) +
            (double)m->ny * ((double)b->dy - (double)a->dy) + (double)p->rbn * (double)b->da -
            (double)p->ran * (double)a->da;
 }
@@ -37,7 +36,7 @@ static void fill_normal(const pl_exact_system *s, const pl_exact_item *item,
     const double pull = apart < (double)m->reach ? (double)m->pull : 0;
     *r = (pl_exact_row){ .j = { -(double)m->nx, -(double)m->ny, -(double)p->ran, (double)m->nx,
                                 (double)m->ny, (double)p->rbn },
-                         .target = apart > 0                     ? -rate
+                         .target = apart > 0                    ? -rate
                                    : s->sweep == PL_SWEEP_RELAX ? 0
                                    : back < push                ? back
                                                                 : push,
@@ -89,8 +88,7 @@ static void note_strikes(const pl_exact_system *s, const pl_exact_item *item, bo
         double speed = 0;
         for (int end = 0; end < 2; ++end) {
             const uint32_t node = item->node[end];
-            const pl_solver_body *body =
-                &pl_solver_bodies(&s->world->solver)[item->slot[end]];
+            const pl_solver_body *body = &pl_solver_bodies(&s->world->solver)[item->slot[end]];
             const double own[3] = { (double)body->vx, (double)body->vy, (double)body->w };
             const double *v = node == PL_NONE ? own : s->base + 3 * (size_t)node;
             for (int i = 0; i < 3; ++i) {

@@ -370,7 +370,7 @@ static double time_free(const pl_sweep *s, const axis *n, double apart, double l
     for (int i = 0; i < count_a; ++i) {
         for (int k = 0; k < count_b; ++k) {
             // Rounding may have closed it, by more than a tolerance where pieces are large.
-            const double gap = fmax(of_a[i].at - of_b[k].at - apart, 0);
+            const double gap = pl_greater(of_a[i].at - of_b[k].at - apart, 0);
             const double rate = of_a[i].rate - of_b[k].rate, bend = of_a[i].bend + of_b[k].bend;
             if (gap + (rate - bend / 2 * first) * first > MARGIN) {
                 continue; // still apart at the first root of those before

@@ -423,8 +423,8 @@ static void fill_sides(const joint_system *s, bool arcs)
         }
         for (int k = 0; k < p->count; ++k) {
             const int i = p->row[k];
-            p->x[k] =
-                lack_of(p, i) - p->law[i].give * (double)j->impulse[i] - (i < 2 ? (double)arc[i] : 0);
+            p->x[k] = lack_of(p, i) - p->law[i].give * (double)j->impulse[i] -
+                      (i < 2 ? (double)arc[i] : 0);
         }
     }
 }

@@ -150,7 +150,7 @@ struct pl_substep;
 #define PL_PROTOTYPE_NOT_CLASSIC(f)      PL_PROTOTYPE_EACH(f)
 #define PL_PROTOTYPE_EXACT(f)            PL_PROTOTYPE_EACH(f)
 #define PL_PROTOTYPE_BOTH(soft, classic) PL_PROTOTYPE_EACH(soft) PL_PROTOTYPE_EACH(classic)
-#define PL_PROTOTYPE_THREE(soft, classic, exact) \
+#define PL_PROTOTYPE_THREE(soft, classic, exact)                                                   \
     PL_PROTOTYPE_BOTH(soft, classic) PL_PROTOTYPE_EACH(exact)
 #define PL_PROTOTYPE_ACTS(f, whom)                                                                 \
     PL_PROTOTYPE_EACH(f) bool whom(const plumb_world *world, uint32_t row);

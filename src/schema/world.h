@@ -19,7 +19,7 @@
       "sweeps a substep; default of pgs: 10 a step")                                                \
     R(X, STATE, BOOL, direct_joints, SAID(direct_joints), "1", CHOICES(1), 0, NO_ZERO,              \
       "joints are solved together, exactly, by a direct method: long chains, heavy ends, trusses")  \
-    R(X, STATE, REAL, exact_tolerance, SAID(exact_tolerance), "1", FROM(1e-12, 0.1), 1e-9, NO_ZERO, \
+    R(X, STATE, REAL, exact_tolerance, SAID(exact_tolerance), "1", FROM(0, 0.5), 1e-9, NO_ZERO, \
       "of the exact solver: what may be left of a speed that it has to undo")                       \
     R(X, STATE, REAL, contact_hertz, SAID(contact_hertz), "1/s", FROM(0, NO_END), 0, NO_ZERO,       \
       "stiffness of contacts; 0: a sixth of the substep rate, which is also the most")              \

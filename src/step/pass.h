@@ -70,8 +70,8 @@ static inline bool pl_is_substep_stage(pl_stage stage)
 
 static inline bool pl_is_home(const pl_pass *pass)
 {
-    return pass->run == NULL && pass->row[PLUMB_SOLVER_SOFT] == NULL && pass->row[PLUMB_SOLVER_PGS] == NULL &&
-           pass->row[PLUMB_SOLVER_EXACT] == NULL;
+    return pass->run == NULL && pass->row[PLUMB_SOLVER_SOFT] == NULL &&
+           pass->row[PLUMB_SOLVER_PGS] == NULL && pass->row[PLUMB_SOLVER_EXACT] == NULL;
 }
 
 void pl_schedule_free(pl_memory *memory, pl_schedule *schedule);

@@ -125,18 +125,18 @@ RUN(pl_run_sensors, pl_sensing_run(world))
 
 //---- the table -----------------------------------------------------------------------------------
 
-#define WANTED_ALWAYS      NULL
-#define WANTED_IF(f)       f
-#define RUN_HOME           .run = NULL
-#define RUN_ONCE(f)        .run = f
+#define WANTED_ALWAYS              NULL
+#define WANTED_IF(f)               f
+#define RUN_HOME                   .run = NULL
+#define RUN_ONCE(f)                .run = f
 #define RUN_THREE(one, two, three) .row = { one, two, three }
-#define RUN_EACH(f)        RUN_THREE(f, f, f)
-#define RUN_ACTS(f, whom)  RUN_EACH(f), .acts_on = whom
-#define RUN_NOT_CLASSIC(f) RUN_THREE(f, NULL, f)
-#define RUN_EXACT(f)       RUN_THREE(NULL, NULL, f)
-#define RUN_BOTH(one, two) RUN_THREE(one, two, NULL)
-#define VARIANTS_ONE       NULL
-#define VARIANTS_HAS(f)    f
+#define RUN_EACH(f)                RUN_THREE(f, f, f)
+#define RUN_ACTS(f, whom)          RUN_EACH(f), .acts_on = whom
+#define RUN_NOT_CLASSIC(f)         RUN_THREE(f, NULL, f)
+#define RUN_EXACT(f)               RUN_THREE(NULL, NULL, f)
+#define RUN_BOTH(one, two)         RUN_THREE(one, two, NULL)
+#define VARIANTS_ONE               NULL
+#define VARIANTS_HAS(f)            f
 #define ROW(text, at, want, how, when, read, write, which)                                         \
     { .name = text,                                                                                \
       .stage = PL_STAGE_##at,                                                                      \

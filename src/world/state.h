@@ -112,7 +112,7 @@ struct plumb_world {
     pl_narrow narrow;
     pl_lookahead lookahead; // contacts ahead, of the narrow phase that ran last
     pl_solver solver;
-    pl_exact exact;
+    pl_exact_solver exact;
     pl_continuous continuous;
     pl_internal_edges internal_edges;
     pl_joints joints;

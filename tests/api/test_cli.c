@@ -79,7 +79,7 @@ static const struct {
     { "run good.lua --set =1", "'=1' is not of the form key=value" },
     { "run good.lua --set frictoin=1", "frictoin" },
     { "run good.lua --set frction=1", "neither a key of scene{} nor a param of this scene\n" },
-    { "run good.lua --set solver=sfot", "must be one of soft|pgs, not 'sfot' (did you mean" },
+    { "run good.lua --set solver=sfot", "must be one of soft|pgs|exact, not 'sfot' (did you mean" },
     { "run good.lua --set solver=3", "'solver' of scene{} must be a string, not a number" },
     { "run good.lua --every 0.5", "neither a number of steps (10) nor a time (0.5s)" },
     { "run good.lua --every 0", "neither a number of steps" },
@@ -127,7 +127,7 @@ static void list_is_one_item_a_line(void **state)
 {
     (void)state;
     expect_code("\"$P\" list solvers", 0);
-    assert_string_equal(out, "solvers:\n  soft\n  pgs\n");
+    assert_string_equal(out, "solvers:\n  soft\n  pgs\n  exact\n");
     expect_code("\"$P\" list passes", 0);
     int passes = count_lines(out);
     assert_true(passes > 1 + 8);
@@ -152,7 +152,7 @@ static void list_is_one_item_a_line(void **state)
     expect_code("\"$P\" list materials --brief", 0);
     assert_string_equal(out, "materials of scene files:\n  material\n  material_pair\n");
     expect_code("\"$P\" list scene", 0);
-    assert_non_null(strstr(out, "\n    solver            one of soft|pgs: "));
+    assert_non_null(strstr(out, "\n    solver            one of soft|pgs|exact: "));
 }
 
 static void run_prints_every_body_and_step(void **state)

@@ -49,7 +49,7 @@ complete()
 }
 try "completes commands" test "$(complete re)" = "render replay"
 try "completes precisions" test "$(complete run --precision '')" = "float double far"
-try "completes solvers" test "$(complete run --solver '')" = "soft pgs"
+try "completes solvers" test "$(complete run --solver '')" = "soft pgs exact"
 try "completes options" test "$(complete run --prec)" = "--precision"
 
 # ---- headers: each stands alone, in both languages

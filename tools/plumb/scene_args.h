@@ -67,7 +67,7 @@ typedef struct scene_args {
       "solver sweeps: a step (pgs, default 10), a substep (soft, default 1)" }
 #define SCENE_OPTION_SOLVER(type, member)                                                        \
     { "solver", 0, CLI_CHOICE, offsetof(type, member.solver), "NAME", 0, 0, ENGINE_SOLVERS,      \
-      "soft: soft step with substeps (default); pgs: projected Gauss-Seidel, the classic" }
+      "soft: soft step with substeps (default); pgs: projected Gauss-Seidel, the classic; exact: all of an island by a direct method" }
 
 /// All of them, for commands that run one scene with one setting.
 #define SCENE_OPTIONS(type, member)                                                              \

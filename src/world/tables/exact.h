@@ -28,7 +28,7 @@ typedef struct pl_exact_island {
     bool missed; // the tolerance, when last solved
 } pl_exact_island;
 
-typedef struct pl_exact {
+typedef struct pl_exact_solver {
     pl_buffer nodes;   // pl_exact_node
     pl_buffer entries; // uint32_t
     pl_buffer items;   // pl_exact_item
@@ -43,6 +43,6 @@ typedef struct pl_exact {
     uint32_t factored, missed;
     double residual;
     bool told; // in the log
-} pl_exact;
+} pl_exact_solver;
 
 #endif
