@@ -7,8 +7,8 @@
 // that v is on. Then l = L(v); what is left of the law is |L - l| / p, a speed, and falls by a factor a round that grows
 // with p. Rows that say the same twice do no harm: the matrix is 1 + M^-1 J^T W J.
 //
-// Where Newton's steps do not settle, the loads that bound friction are held over a round: that problem is convex, and a step
-// is shortened until its potential falls.
+// Where Newton's steps do not settle, points with friction are cones for a round, whose lift is taken from the slip with which the
+// round begins (De Saxce and Feng 1998): that problem is convex, and a step is shortened until its potential falls.
 //
 // Reads: rows, nodes. Writes: velocities, impulses. Cost: some 2 to 20 factors a solution.
 #include "exact/exact.h"
@@ -18,17 +18,18 @@
 #include <string.h>
 
 #define STIFFNESS                                                                                  \
-    1e3 // of a row's own mass, in the first round, times the ratio of the masses of the island
+    1e3 // of a row's own mass, in the first round; times the ratio of masses of the island it is due
 #define MOST_RATIO  1e6
-#define GROWTH      1e4 // of the stiffness, from round to round
-#define PULL_GROWTH 1e1 // where errors are undone
+#define GROWTH      1e4  // of the stiffness that is due, where rounds gain little
+#define SLOW        0.05 // gain of a round, below which stiffness grows
+#define PULL_GROWTH 1e1  // where errors are undone
 #define ROUNDS      30
 #define NEWTONS     20    // steps of a round
 #define ROUNDING    1e-12 // of the speeds that a row adds up: what is less is nothing
 #define FAR_OFF     1.0   // of the same speeds: a solution that is none
 #define FACTORS     600   // of a solution, after which it is said to have missed
-#define LONGEST     20
-#define STALLS      6 // rounds without progress
+#define LONGEST     20    // step of the shifts, in steps by slip alone
+#define STALLS      6     // rounds without progress
 #define PULL_STALLS 2
 #define SHORTENINGS 6
 #define BISECTIONS  40
@@ -43,7 +44,7 @@ static void go(const pl_exact_system *s, const double *step, double share)
     }
 }
 
-// F . M step, F being in `change`: the slope of the potential along the step, where loads are held.
+// F . M step, F being in `change`: the slope of the potential along the step, where friction is cones.
 static double slope_along(const pl_exact_system *s, const double *step)
 {
     double sum = 0;
@@ -168,7 +169,7 @@ static void clear_shifts(const pl_exact_newton *n)
     }
 }
 
-// A round: Newton's steps at the loads of the moment; from the start with loads held, where they do not settle.
+// A round: Newton's steps at the loads of the moment; from the start with cones, where they do not settle.
 static bool round_off(pl_exact_newton *n)
 {
     const pl_exact_system *s = n->s;
@@ -306,7 +307,7 @@ void pl_exact_solve(pl_exact_system *s)
         stalled = left < 0.7 * best || n.stiffness < due ? 0 : stalled + 1;
         best = left < best ? left : best;
         if (settled && loads > tolerance &&
-            (n.stiffness < due || (loads > 0.25 * before && n.stiffness < most_stiff))) {
+            (n.stiffness < due || (loads > SLOW * before && n.stiffness < most_stiff))) {
             n.stiffness *= 10;
         }
         before = loads;
@@ -314,6 +315,7 @@ void pl_exact_solve(pl_exact_system *s)
     s->missed = left > tolerance;
     if (left > FAR_OFF) {
         give_in(&n);
+        left = unrest(&n, false) / n.scale;
     }
     if (!pulls) { // what cannot be undone is no miss
         s->exact->missed += s->missed;

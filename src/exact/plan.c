@@ -1,8 +1,8 @@
 // plan.c - which bodies hang together, in which order they are eliminated, and what that fills in.
 //
 // Two bodies are neighbours that a contact or joint ties. The order is that of least degree, by the quotient graph: a body
-// that is gone leaves an element, the list of those behind it that it made neighbours (George and Liu 1989); degrees are
-// bounded from above by the sum of the elements' sizes. Ties are broken by slot. Chains and trees fill in nothing.
+// that is gone leaves an element, the list of those behind it that it made neighbours (George and Liu 1989). Ties are broken
+// by slot. Chains and trees fill in nothing.
 //
 // Reads: manifolds, marks of joints, slots. Writes: world->exact. Order: after the graph. Cost: O(entries + contacts).
 #include "exact/exact.h"
@@ -17,16 +17,16 @@
 typedef struct search {
     plumb_world *world;
     pl_exact_solver *exact;
-    uint32_t slots, ties;             // dynamic slots; contacts and joints between two of them
-    uint32_t *first, *length;         // a slot: in `near`; of it
-    uint32_t *elements;               // a slot: how many of its list are elements; these come first
-    uint32_t *near;                   // slots, for elements their nodes
-    uint32_t *island;                 // a slot
-    uint32_t *node;                   // a slot; PL_NONE: not yet eliminated
-    uint32_t *mark;                   // a slot
+    uint32_t slots, ties;     // dynamic slots; contacts and joints between two of them
+    uint32_t *first, *length; // a slot: in `near`; of it
+    uint32_t *elements;       // a slot: how many of its list are elements; these come first
+    uint32_t *near;           // slots, for elements their nodes
+    uint32_t *island;         // a slot
+    uint32_t *node;           // a slot; PL_NONE: not yet eliminated
+    uint32_t *mark, *seen;    // a slot: stamp of the column, and of the count, that met it last
     uint32_t *degree, *next, *before; // a slot: in the list of its degree
     uint32_t *list;                   // a degree: first slot
-    uint32_t stamp;
+    uint32_t stamp, count;
 } search;
 
 void pl_exact_free(pl_memory *memory, pl_exact_solver *e)
@@ -95,16 +95,18 @@ static bool open_search(plumb_world *world, pl_exact_solver *e, search *s)
     }
     const size_t n = s->slots;
     if (!pl_buffer_reserve(&world->memory, &e->scratch,
-                           (10 * n + 1 + 2 * (size_t)s->ties) * sizeof(uint32_t))) {
+                           (11 * n + 1 + 2 * (size_t)s->ties) * sizeof(uint32_t))) {
         return false;
     }
     uint32_t *at = e->scratch.data;
     s->first = at, s->length = at + n, s->elements = at + 2 * n, s->island = at + 3 * n;
     s->node = at + 4 * n, s->mark = at + 5 * n, s->degree = at + 6 * n, s->next = at + 7 * n;
-    s->before = at + 8 * n, s->list = at + 9 * n, s->near = at + 10 * n + 1;
+    s->before = at + 8 * n, s->list = at + 9 * n, s->seen = at + 10 * n + 1,
+    s->near = at + 11 * n + 1;
     memset(s->length, 0, 2 * n * sizeof(uint32_t));    // and elements
     memset(s->island, 0xff, 2 * n * sizeof(uint32_t)); // and node
     memset(s->mark, 0, n * sizeof(uint32_t));
+    memset(s->seen, 0, n * sizeof(uint32_t));
     memset(s->list, 0xff, (n + 1) * sizeof(uint32_t));
     return true;
 }
@@ -276,16 +278,43 @@ static bool fill_column(search *s, uint32_t v, pl_exact_node *node)
     return true;
 }
 
+static uint32_t count_once(search *s, uint32_t slot)
+{
+    if (s->seen[slot] == s->count || s->node[slot] != PL_NONE) {
+        return 0;
+    }
+    s->seen[slot] = s->count;
+    return 1;
+}
+
+// How many a slot would leave as neighbours of one another.
+static uint32_t degree_of(search *s, uint32_t v)
+{
+    const pl_exact_node *nodes = s->exact->nodes.data;
+    const uint32_t *near = s->near + s->first[v], *entries = s->exact->entries.data;
+    uint32_t degree = 0;
+    s->seen[v] = ++s->count;
+    for (uint32_t k = 0; k < s->length[v]; ++k) {
+        if (k >= s->elements[v]) {
+            degree += count_once(s, near[k]);
+            continue;
+        }
+        const pl_exact_node *e = &nodes[near[k]];
+        for (uint32_t i = e->first; i < e->first + e->count; ++i) {
+            degree += count_once(s, entries[i]);
+        }
+    }
+    return degree;
+}
+
 // A neighbour of the slot that became `node`: what it knew of that, and of those that the element tells, goes.
 static void shorten(search *s, uint32_t v, uint32_t node)
 {
     const pl_exact_node *nodes = s->exact->nodes.data;
     uint32_t *near = s->near + s->first[v];
-    uint32_t elements = 0, kept = 0, degree = nodes[node].count - 1;
-    uint32_t held = node; // goes in behind the elements that are left
+    uint32_t elements = 0, kept = 0, last = node; // goes in behind the elements that are left
     for (uint32_t k = 0; k < s->elements[v]; ++k) {
         if (nodes[near[k]].where == 0) {
-            degree += nodes[near[k]].count - 1;
             near[elements++] = near[k];
         }
     }
@@ -293,20 +322,19 @@ static void shorten(search *s, uint32_t v, uint32_t node)
     for (uint32_t k = s->elements[v]; k < s->length[v]; ++k) {
         if (s->mark[near[k]] != s->stamp) {
             near[kept++] = near[k];
-            ++degree;
         }
     }
     // One place at least has become free: of the slot itself, or of an element that was used up.
     if (kept > elements) {
         const uint32_t moved = near[elements];
-        near[elements] = held;
-        held = moved;
+        near[elements] = last;
+        last = moved;
     }
-    near[kept++] = held;
+    near[kept++] = last;
     s->elements[v] = elements + 1;
     s->length[v] = kept;
     unlist(s, v);
-    enlist(s, v, degree < s->slots ? degree : s->slots - 1);
+    enlist(s, v, degree_of(s, v));
 }
 
 static bool eliminate(search *s, uint32_t v)
