@@ -6,7 +6,7 @@
 //
 // Reads, writes: solver bodies, impulses. Order: as schema/passes.h says. Cost: newton.c's.
 #include "exact/exact.h"
-#include "joints/joint.h"
+#include "joints/one.h"
 
 static pl_exact_system system_of(const pl_substep *s, pl_joint_sweep sweep)
 {
@@ -49,22 +49,61 @@ void pl_exact_warm_start_joints(pl_substep *s)
     }
 }
 
-// velocity = base + share M^-1 J^T impulse of what is in force, and the reverse.
-static void push_rows(const pl_exact_system *s, double *velocity, double share, bool springs)
+// velocity += share M^-1 J^T impulse of what is in force.
+static void push_row(const pl_exact_system *s, const pl_exact_item *item, const pl_exact_row *r,
+                     double *velocity, double share)
+{
+    for (int end = 0; end < 2 && r->in_force; ++end) {
+        const uint32_t node = item->node[end];
+        for (int c = 0; node != PL_NONE && c < 3; ++c) {
+            velocity[3 * node + (uint32_t)c] +=
+                share * s->nodes[node].inv_mass[c] * r->j[3 * end + c] * r->impulse;
+        }
+    }
+}
+
+static void push_rows(const pl_exact_system *s, double *velocity, double share)
 {
     for (uint32_t i = s->island->first_item; i < s->island->end_item; ++i) {
         const pl_exact_item *item = &s->items[i];
         for (uint32_t k = item->first_row; k < item->first_row + item->row_count; ++k) {
-            const pl_exact_row *r = &s->rows[k];
-            if (!r->in_force || (springs && r->give == 0)) {
-                continue;
-            }
-            for (int end = 0; end < 2; ++end) {
-                const uint32_t node = item->node[end];
-                for (int c = 0; node != PL_NONE && c < 3; ++c) {
-                    velocity[3 * node + (uint32_t)c] +=
-                        share * s->nodes[node].inv_mass[c] * r->j[3 * end + c] * r->impulse;
-                }
+            push_row(s, item, &s->rows[k], velocity, share);
+        }
+    }
+}
+
+// A body of the joint swings faster about it, for the joint's pull, than the substep can follow.
+static bool is_tense(const pl_exact_system *s, const pl_exact_item *item)
+{
+    const pl_joint *j = pl_joint_grouped(&s->world->joints, item->joint);
+    double x = 0, y = 0;
+    for (int i = 0; i < j->rows.count; ++i) {
+        const pl_exact_row *r = &s->rows[item->first_row + (uint32_t)i];
+        x += r->j[3] * r->next, y += r->j[4] * r->next;
+    }
+    const pl_joint_pose *a = &j->pose_a, *b = &j->pose_b;
+    const near_real pull_a = (near_real) - (x * (double)a->rx + y * (double)a->ry);
+    const near_real pull_b = (near_real)(x * (double)b->rx + y * (double)b->ry);
+    return pl_joint_inertia(pull_a, s->h, pl_one_own_inertia(s->world, j, 0)) > 0 ||
+           pl_joint_inertia(pull_b, s->h, pl_one_own_inertia(s->world, j, 1)) > 0;
+}
+
+// What joints gave stays in the velocities: relaxed along where they point then, the way of the substep is a chord between
+// two places on the circle, left and reached at equal angles (RATTLE, Andersen 1983), and turning costs no energy. Not so
+// where links are tense, which would make energy, and where errors could not be undone: there springs alone give, as they act
+// once a substep, and the rest is solved anew.
+static void keep_joints(const pl_exact_system *s)
+{
+    for (uint32_t i = s->island->first_item; i < s->island->end_item; ++i) {
+        const pl_exact_item *item = &s->items[i];
+        if (item->joint == PL_NONE) {
+            continue;
+        }
+        const bool stays = !s->missed && !is_tense(s, item);
+        s->rows[item->first_row].stays = stays;
+        for (uint32_t k = item->first_row; k < item->first_row + item->row_count; ++k) {
+            if (stays || s->rows[k].give > 0) {
+                push_row(s, item, &s->rows[k], s->base, 1);
             }
         }
     }
@@ -124,18 +163,18 @@ static void solve_island(pl_exact_system *s, bool warm)
         copy(s, s->velocity, s->base);
     }
     if (s->sweep == PL_SWEEP_PULL && warm) {
-        push_rows(s, s->velocity, -1, false);
+        push_rows(s, s->velocity, -1);
     }
     copy(s, s->base, s->velocity);
-    push_rows(s, s->velocity, 1, false);
+    push_rows(s, s->velocity, 1);
     pl_exact_solve(s);
     ((pl_exact_island *)
          s->exact->islands.data)[s->island - (pl_exact_island *)s->exact->islands.data]
         .missed = s->missed;
     pl_exact_keep(s);
     give_velocities(s);
-    if (s->sweep == PL_SWEEP_PULL) { // springs act once a substep: what they gave stays
-        push_rows(s, s->base, 1, true);
+    if (s->sweep == PL_SWEEP_PULL) {
+        keep_joints(s);
     }
 }
 

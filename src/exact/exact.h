@@ -19,12 +19,14 @@ typedef struct pl_exact_row {
     double next;      // [N s] what follows from the velocities of the moment
     double weight,
         slope; // [kg] -d next / d (J v) of its own; of each lead's J v, as a share of the lead's weight
+    double kept;       // [N s] of a joint's row: given to the velocities by the sweep that pulled
     double before;     // [N s] as known before the sweep that pulls
     double shift, gap; // [m/s] of friction as a cone: see newton.c
     uint32_t lead;     // first of the rows that load it
     uint8_t leads;     // how many; 0: low and high hold
     uint8_t point;     // of the contact, or row of the joint
     bool in_force;
+    bool stays; // of a joint: what it gave in the sweep that pulled
 } pl_exact_row;
 
 // An island with all that its solution reads and writes.
@@ -55,7 +57,7 @@ void pl_exact_free(pl_memory *memory, pl_exact_solver *exact);
 
 // Rows as the bodies are now; impulses back, and what the events want to know (rows.c).
 void pl_exact_fill(const pl_exact_system *s);
-// Velocities of contacts and joints at which arcs lead to (rows.c).
+// What the arcs of anchors make of a substep (rows.c); what joints gave that is to stay, into `base` (exact.c).
 void pl_exact_bend(const pl_exact_system *s);
 void pl_exact_keep(const pl_exact_system *s);
 

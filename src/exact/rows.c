@@ -118,6 +118,7 @@ static void keep_contact(const pl_exact_system *s, const pl_exact_item *item)
 
 static void fill_joint(const pl_exact_system *s, const pl_exact_item *item)
 {
+    const bool stays = s->rows[item->first_row].stays;
     pl_lone l;
     pl_one_take(s->joints, item->joint, &l);
     pl_one_rows(s->world, l.joint, l.a, l.b);
@@ -129,13 +130,16 @@ static void fill_joint(const pl_exact_system *s, const pl_exact_item *item)
         }
         const pl_row *r = &l.joint->rows.row[i];
         const pl_row_law law = pl_row_law_of(&l, i, s->sweep);
+        const double impulse = (double)l.joint->impulse[i];
+        const double kept = s->sweep == PL_SWEEP_RELAX && stays ? impulse : 0;
         *out = (pl_exact_row){ .j = { (double)r->ax, (double)r->ay, (double)r->aw, (double)r->bx,
                                       (double)r->by, (double)r->bw },
                                .target = law.target,
                                .give = law.give,
-                               .low = law.low,
-                               .high = law.high,
-                               .impulse = (double)l.joint->impulse[i],
+                               .low = law.low - kept,
+                               .high = law.high - kept,
+                               .kept = kept,
+                               .impulse = impulse - kept,
                                .point = (uint8_t)i,
                                .in_force = law.in_force };
     }
@@ -147,7 +151,7 @@ static void keep_joint(const pl_exact_system *s, const pl_exact_item *item)
     for (int i = 0; i < j->rows.count; ++i) {
         const pl_exact_row *r = &s->rows[item->first_row + (uint32_t)i];
         if (r->in_force) {
-            j->impulse[i] = (real)r->next;
+            j->impulse[i] = (real)(r->kept + r->next);
         }
     }
 }
