@@ -331,7 +331,9 @@ static void make_ground(session *s)
 static plumb_world_desc desc_of(session *s, const plumb_world_desc *settings)
 {
     plumb_world_desc d = settings == NULL ? (plumb_world_desc){ 0 } : *settings;
-    d.solver = one_in(s, 4) ? PLUMB_SOLVER_PGS : PLUMB_SOLVER_SOFT;
+    d.solver = one_in(s, 4)   ? PLUMB_SOLVER_PGS
+               : one_in(s, 6) ? PLUMB_SOLVER_EXACT
+                              : PLUMB_SOLVER_SOFT;
     d.sleep_time = one_in(s, 4) ? 0 : R(0.1);
     d.hit_speed = one_in(s, 2) ? 1 : 0;
     d.contact_impulses = one_in(s, 4);

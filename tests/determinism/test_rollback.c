@@ -465,12 +465,19 @@ static void whole_images_in_the_classic_solver(void **state)
     roll(PLUMB_SOLVER_PGS, false, true);
 }
 
+static void whole_images_in_the_exact_solver(void **state)
+{
+    (void)state;
+    roll(PLUMB_SOLVER_EXACT, false, true);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(whole_images_in_the_soft_step),
         cmocka_unit_test(frames_in_the_soft_step),
         cmocka_unit_test(whole_images_in_the_classic_solver),
+        cmocka_unit_test(whole_images_in_the_exact_solver),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -233,7 +233,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     // Seeds from before there were sleep and joints begin with less than 128, those from before there
     // were characters with less than 192.
     unsigned first = byte_of(&s);
-    plumb_world_desc d = { .solver = (plumb_solver)(first % 2), .simd_width = 4 };
+    plumb_world_desc d = { .solver = (plumb_solver)(first % 3), .simd_width = 4 };
     const unsigned calls = first < 128 ? 12 : first < 192 ? 25 : 36;
     d.sleep_time = first < 128 ? 0 : (plumb_real)0.1;
     if (plumb_world_create(&d, &w) != PLUMB_OK) {

@@ -1,5 +1,5 @@
 // test_near_misses.c - nothing pushes what does not touch it: bodies of all kinds fly by one another, clear by
-// millimetres to decimetres, at any angle and speed, and go on as if they were alone. Both solvers; float,
+// millimetres to decimetres, at any angle and speed, and go on as if they were alone. All solvers; float,
 // double, far. PLUMB_MISSES=N takes N passes instead of a few thousand.
 //
 // A pass is clear by construction: seen along the line of flight, the mover's outline (or, if it spins, the
@@ -194,8 +194,7 @@ static miss random_miss(uint32_t *seed)
     m.restitution = restitutions[sim_random(seed) % 5];
     m.dt = log_uniform(seed, 1.0 / 240, 1.0 / 30);
     m.desc = (plumb_world_desc){ .substeps = substeps[sim_random(seed) % 4],
-                                 .solver = sim_random(seed) % 3 == 0 ? PLUMB_SOLVER_PGS
-                                                                     : PLUMB_SOLVER_SOFT };
+                                 .solver = (plumb_solver)(sim_random(seed) % 3) };
     // Two that fall do so side by side; what stands still is passed in weightlessness.
     bool falls = m.type == PLUMB_DYNAMIC && sim_random(seed) % 2 == 0;
     m.desc.zero_gravity = !falls;
