@@ -28,6 +28,7 @@
 #define ROUNDING    1e-12 // of the speeds that a row adds up: what is less is nothing
 #define FAR_OFF     1.0   // of the same speeds: a solution that is none
 #define FACTORS     600   // of a solution, after which it is said to have missed
+#define MOST_CHANGE 4     // of the speeds that rows have to undo
 #define LONGEST     20    // step of the shifts, in steps by slip alone
 #define STALLS      6     // rounds without progress
 #define PULL_STALLS 2
@@ -254,8 +255,9 @@ static double heaviest(const pl_exact_system *s, double *ratio)
     return most;
 }
 
-// Nothing settles: friction as cones without more, from the impulses before. What Newton's steps come to keeps momentum and
-// gains no energy, settled or not; impulses that do not belong to it are not carried on.
+// Nothing settles: friction as cones without more, from the impulses before. What Newton's steps come to keeps momentum, settled
+// or not. That no body changes by much more than what there was to undo, the change of all is shortened; impulses that do not
+// belong to it are not carried on.
 static void give_in(pl_exact_newton *n)
 {
     const pl_exact_system *s = n->s;
@@ -267,8 +269,17 @@ static void give_in(pl_exact_newton *n)
     clear_shifts(n);
     n->convex = true;
     n->stiffness = STIFFNESS;
-    const bool settled = settle(n, 4 * NEWTONS);
-    for (uint32_t k = s->island->first_row; k < s->island->end_row && !settled; ++k) {
+    settle(n, 4 * NEWTONS);
+    double most = 0;
+    for (size_t k = first; k < end; k += 3) {
+        most = pl_greater(most, fabs(s->velocity[k] - s->base[k]));
+        most = pl_greater(most, fabs(s->velocity[k + 1] - s->base[k + 1]));
+    }
+    const double share = most > MOST_CHANGE * n->scale ? MOST_CHANGE * n->scale / most : 1;
+    for (size_t k = first; k < end; ++k) {
+        s->velocity[k] = s->base[k] + share * (s->velocity[k] - s->base[k]);
+    }
+    for (uint32_t k = s->island->first_row; k < s->island->end_row && share < 1; ++k) {
         s->rows[k].next = s->rows[k].before;
     }
 }
@@ -315,7 +326,6 @@ void pl_exact_solve(pl_exact_system *s)
     s->missed = left > tolerance;
     if (left > FAR_OFF) {
         give_in(&n);
-        left = unrest(&n, false) / n.scale;
     }
     if (!pulls) { // what cannot be undone is no miss
         s->exact->missed += s->missed;

@@ -197,7 +197,9 @@ static void sort_items(search *s)
         }
     }
     e->item_count = at;
-    memcpy(items, sorted, at * sizeof *items);
+    for (uint32_t i = 0; i < at; ++i) {
+        items[i] = sorted[i];
+    }
     e->row_count = 0;
     for (uint32_t k = 0; k < e->island_count; ++k) {
         islands[k].first_row = e->row_count;

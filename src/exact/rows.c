@@ -84,7 +84,7 @@ static void note_strikes(const pl_exact_system *s, const pl_exact_item *item, bo
     pl_classic_contact *m = contact_of(s, item);
     for (uint32_t k = 0; k < m->count; ++k) {
         const pl_exact_row *r = &s->rows[item->first_row + k];
-        const bool unloaded = first || r->impulse <= 0;
+        const bool unloaded = first || r->before <= 0;
         double speed = 0;
         for (int end = 0; end < 2; ++end) {
             const uint32_t node = item->node[end];
@@ -95,7 +95,7 @@ static void note_strikes(const pl_exact_system *s, const pl_exact_item *item, bo
                 speed += r->j[3 * end + i] * v[i];
             }
         }
-        if (unloaded && r->next > r->impulse && -speed > (double)m->struck) {
+        if (unloaded && r->next > r->before && -speed > (double)m->struck) {
             m->struck = (near_real)-speed;
         }
     }
@@ -118,7 +118,7 @@ static void keep_contact(const pl_exact_system *s, const pl_exact_item *item)
 
 static void fill_joint(const pl_exact_system *s, const pl_exact_item *item)
 {
-    const bool stays = s->rows[item->first_row].stays;
+    const bool stays = s->sweep == PL_SWEEP_RELAX && s->rows[item->first_row].stays;
     pl_lone l;
     pl_one_take(s->joints, item->joint, &l);
     pl_one_rows(s->world, l.joint, l.a, l.b);
@@ -131,7 +131,7 @@ static void fill_joint(const pl_exact_system *s, const pl_exact_item *item)
         const pl_row *r = &l.joint->rows.row[i];
         const pl_row_law law = pl_row_law_of(&l, i, s->sweep);
         const double impulse = (double)l.joint->impulse[i];
-        const double kept = s->sweep == PL_SWEEP_RELAX && stays ? impulse : 0;
+        const double kept = stays ? impulse : 0;
         *out = (pl_exact_row){ .j = { (double)r->ax, (double)r->ay, (double)r->aw, (double)r->bx,
                                       (double)r->by, (double)r->bw },
                                .target = law.target,
@@ -200,7 +200,7 @@ void pl_exact_fill(const pl_exact_system *s)
     for (uint32_t i = s->island->first_item; i < s->island->end_item; ++i) {
         const pl_exact_item *item = &s->items[i];
         double before[PL_JOINT_ROWS];
-        for (uint32_t k = 0; k < item->row_count; ++k) {
+        for (uint32_t k = 0; k < item->row_count && s->sweep == PL_SWEEP_RELAX; ++k) {
             before[k] = s->rows[item->first_row + k].before;
         }
         if (item->joint == PL_NONE) {

@@ -451,7 +451,7 @@ bool pl_solver_graph(plumb_world *world)
     if (!reserve_lanes(world)) {
         return false;
     }
-    if (pl_solver_tallies(world)) {
+    if (world->solver.rubbed.size > 0 && pl_solver_tallies(world)) {
         memset(world->solver.rubbed.data, 0, world->solver.rubbed.size);
     }
     place_lanes(world);
