@@ -172,6 +172,7 @@ PLUMB_API void plumb_world_clear_error(plumb_world *world);
 typedef struct plumb_stats {
     uint64_t step_count;         ///< steps taken
     double time;                 ///< [s] simulated
+    double exact_residual;       ///< [-] largest that was left in that step, as a share: see exact_tolerance
     uint32_t body_count;         ///< all bodies
     uint32_t dynamic_count;      ///< awake dynamic bodies
     uint32_t kinematic_count;    ///< kinematic bodies
@@ -195,7 +196,6 @@ typedef struct plumb_stats {
     uint32_t exact_factored;     ///< matrices that the exact solver factored in the last step
     uint32_t exact_missed;       ///< of its solutions in that step, those that missed the tolerance; the first one of a
                                  ///< world is also a warning in the log
-    double exact_residual;       ///< [-] largest that was left in that step, as a share: see exact_tolerance
     uint32_t fast_count;         ///< bodies that moved so fast in the last step that their way was swept
     uint32_t stopped_count;      ///< of those, bodies put back to where they would have passed into something
     int simd_width;              ///< lanes in use
