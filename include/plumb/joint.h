@@ -57,6 +57,11 @@ typedef struct plumb_joint_desc {
                                ///< Weld, distance, motor: 0 is rigid. Mouse: 0 means 5. Alone on its body it moves
                                ///< exactly as the oscillator up to 0.09 of the substep rate, and is damped above
     plumb_real damping;        ///< [-] >= 0 damping ratio of the spring. Mouse: 0 means 1
+    plumb_real stiffness;      ///< [N/m] or [N m/rad] >= 0 of the spring, told instead of hertz and damping (which are
+                               ///< then 0: E_RANGE): the force stays what it is when masses and anchors change. As
+                               ///< exact as hertz, up to 0.09 of the substep rate for the mass that it meets. Mouse,
+                               ///< motor: [N/m] in all directions; motor besides, with the same number, [N m/rad]
+    plumb_real damper;         ///< [N s/m] or [N m s/rad] >= 0 with stiffness, or alone: a dashpot
     plumb_real rest;           ///< [rad] or [m] value at which the spring is at rest; motor: wanted angle
     plumb_real length;         ///< [m] distance: of rod or spring; 0 means as things are
     plumb_real ratio;          ///< [-] gear: turn of A + ratio * turn or travel [m] of B is constant; pulley,
@@ -89,9 +94,13 @@ PLUMB_API plumb_result plumb_joint_set_limit(plumb_world *world, plumb_joint joi
 /// above.
 PLUMB_API plumb_result plumb_joint_set_motor(plumb_world *world, plumb_joint joint, bool enabled,
                                              plumb_real speed, plumb_real max_motor);
-/// Sets the spring; hertz 0 as in the descriptor. Errors as above.
+/// Sets the spring; hertz 0 as in the descriptor. Stiffness and damper are 0 from then on. Errors as above.
 PLUMB_API plumb_result plumb_joint_set_spring(plumb_world *world, plumb_joint joint, plumb_real hertz,
                                               plumb_real damping, plumb_real rest);
+/// Sets the spring by stiffness [N/m] or [N m/rad] and damper [N s/m] or [N m s/rad]; hertz and damping are 0 from then
+/// on. Both 0: as plumb_joint_set_spring with hertz 0. Errors as above.
+PLUMB_API plumb_result plumb_joint_set_stiffness(plumb_world *world, plumb_joint joint, plumb_real stiffness,
+                                                 plumb_real damper, plumb_real rest);
 /// Mouse: the target [m] in the world. Motor: where B's anchor is to be [m], in A's frame relative to
 /// A's anchor. Errors: E_HANDLE, E_NOT_FINITE, E_STATE (another kind).
 PLUMB_API plumb_result plumb_joint_set_target(plumb_world *world, plumb_joint joint, plumb_vec2 target);

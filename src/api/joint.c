@@ -64,6 +64,8 @@ static plumb_result check_members(const plumb_world *world, const char *fn,
         { "max_motor", d->max_motor != 0, PL_JOINT_MOTOR },
         { "hertz", d->hertz != 0, PL_JOINT_SPRING },
         { "damping", d->damping != 0, PL_JOINT_SPRING },
+        { "stiffness", d->stiffness != 0, PL_JOINT_SPRING },
+        { "damper", d->damper != 0, PL_JOINT_SPRING },
         { "rest", d->rest != 0, PL_JOINT_REST },
         { "length", d->length != 0, PL_JOINT_LENGTH },
         { "ratio", d->ratio != 0, PL_JOINT_RATIO },
@@ -76,6 +78,20 @@ static plumb_result check_members(const plumb_world *world, const char *fn,
             return pl_fail(world, PLUMB_E_RANGE, fn, "%s is set; it must be 0 for a %s joint",
                            members[i].name, kind->name);
         }
+    }
+    return PLUMB_OK;
+}
+
+// A spring is told in one way.
+static plumb_result check_spring(const plumb_world *world, const char *fn,
+                                 const plumb_joint_desc *d)
+{
+    if (pl_spring_is_in_newtons(d) && (d->hertz != 0 || d->damping != 0)) {
+        return pl_fail(world, PLUMB_E_RANGE, fn,
+                       "%s is set with %s; a spring has either hertz and damping, or stiffness and "
+                       "damper",
+                       d->stiffness != 0 ? "stiffness" : "damper",
+                       d->hertz != 0 ? "hertz" : "damping");
     }
     return PLUMB_OK;
 }
@@ -110,6 +126,7 @@ static plumb_result check_desc(const plumb_world *world, const char *fn, plumb_j
     PL_TRY(check_ends(world, fn, d));
     PL_TRY(check_numbers(world, fn, d));
     PL_TRY(check_members(world, fn, d));
+    PL_TRY(check_spring(world, fn, d));
     const pl_joint_class *kind = pl_joint_classes[d->kind];
     return kind->check != NULL ? kind->check(world, fn, d) : PLUMB_OK;
 }

@@ -57,11 +57,6 @@ plumb_real plumb_joint_value(const plumb_world *world, plumb_joint joint)
     return pl_held((double)pl_joint_classes[j->desc.kind]->value(&now, &now.pose_a, &now.pose_b));
 }
 
-static bool is_rigid(const pl_row *r)
-{
-    return r->hertz == 0 && (r->type == PL_ROW_EQUAL || (r->type == PL_ROW_LEAST && r->error < 0));
-}
-
 plumb_real plumb_joint_error(const plumb_world *world, plumb_joint joint)
 {
     const pl_joint *j = pl_ask_joint(world, __func__, joint);
@@ -74,7 +69,7 @@ plumb_real plumb_joint_error(const plumb_world *world, plumb_joint joint)
     pl_joint_classes[j->desc.kind]->rows(&now, &now.pose_a, &now.pose_b, &rows);
     double most = 0, sum = 0;
     for (int i = 0; i < rows.count; ++i) {
-        if (is_rigid(&rows.row[i])) {
+        if (pl_row_is_rigid(&rows.row[i])) {
             const double error = fabs((double)pl_held((double)rows.row[i].error));
             most = error > most ? error : most;
             sum += error * error;

@@ -25,9 +25,10 @@ static bool differ(const plumb_joint_desc *a, const plumb_joint_desc *b)
     return a->enable_limit != b->enable_limit || a->lower != b->lower || a->upper != b->upper ||
            a->enable_motor != b->enable_motor || a->motor_speed != b->motor_speed ||
            a->max_motor != b->max_motor || a->hertz != b->hertz || a->damping != b->damping ||
-           a->rest != b->rest || a->break_force != b->break_force ||
-           a->break_torque != b->break_torque || a->break_impulse != b->break_impulse ||
-           a->event_force != b->event_force || a->event_torque != b->event_torque;
+           a->stiffness != b->stiffness || a->damper != b->damper || a->rest != b->rest ||
+           a->break_force != b->break_force || a->break_torque != b->break_torque ||
+           a->break_impulse != b->break_impulse || a->event_force != b->event_force ||
+           a->event_torque != b->event_torque;
 }
 
 // Another descriptor, with which the joint may be solved in another way. What is set to what it was wakes nobody.
@@ -76,6 +77,15 @@ plumb_result plumb_joint_set_motor(plumb_world *world, plumb_joint joint, bool e
     return revise(world, j, wanted);
 }
 
+static plumb_result revise_spring(plumb_world *world, const char *fn, pl_joint *joint,
+                                  plumb_joint_desc wanted)
+{
+    if (joint->desc.kind == PLUMB_MOUSE) {
+        PL_TRY(pl_joint_classes[PLUMB_MOUSE]->check(world, fn, &wanted)); // resolves defaults
+    }
+    return revise(world, joint, wanted);
+}
+
 plumb_result plumb_joint_set_spring(plumb_world *world, plumb_joint joint, plumb_real hertz,
                                     plumb_real damping, plumb_real rest)
 {
@@ -87,11 +97,25 @@ plumb_result plumb_joint_set_spring(plumb_world *world, plumb_joint joint, plumb
     plumb_joint_desc wanted = j->desc;
     wanted.hertz = hertz;
     wanted.damping = damping;
+    wanted.stiffness = wanted.damper = 0;
     wanted.rest = rest;
-    if (j->desc.kind == PLUMB_MOUSE) {
-        PL_TRY(pl_joint_classes[PLUMB_MOUSE]->check(world, __func__, &wanted)); // resolves defaults
-    }
-    return revise(world, j, wanted);
+    return revise_spring(world, __func__, j, wanted);
+}
+
+plumb_result plumb_joint_set_stiffness(plumb_world *world, plumb_joint joint, plumb_real stiffness,
+                                       plumb_real damper, plumb_real rest)
+{
+    pl_joint *j = NULL;
+    PL_TRY(find(world, __func__, joint, PL_JOINT_SPRING, "spring", &j));
+    PL_TRY(pl_check_range(world, __func__, "stiffness", stiffness, 0, PLUMB_REAL_MAX));
+    PL_TRY(pl_check_range(world, __func__, "damper", damper, 0, PLUMB_REAL_MAX));
+    PL_TRY(pl_check_finite(world, __func__, "rest", rest));
+    plumb_joint_desc wanted = j->desc;
+    wanted.hertz = wanted.damping = 0;
+    wanted.stiffness = stiffness;
+    wanted.damper = damper;
+    wanted.rest = rest;
+    return revise_spring(world, __func__, j, wanted);
 }
 
 plumb_result plumb_joint_set_target(plumb_world *world, plumb_joint joint, plumb_vec2 target)

@@ -147,8 +147,12 @@ static plumb_result write_joint(plumb_world *world, plumb_joint joint,
     if (motor) {
         PL_TRY(plumb_joint_set_motor(world, joint, true, now.motor_speed, now.max_motor));
     }
-    return spring ? plumb_joint_set_spring(world, joint, now.hertz, now.damping, now.rest)
-                  : PLUMB_OK;
+    if (!spring) {
+        return PLUMB_OK;
+    }
+    return now.stiffness > 0 || now.damper > 0
+               ? plumb_joint_set_stiffness(world, joint, now.stiffness, now.damper, now.rest)
+               : plumb_joint_set_spring(world, joint, now.hertz, now.damping, now.rest);
 }
 
 static plumb_result drive_one(const void *of, plumb_batch *batch, uint32_t index)

@@ -59,8 +59,8 @@ static bool can_be_direct(const plumb_world *world, pl_joint *j)
     pl_joint_begin(world, j);
     pl_joint_classes[j->desc.kind]->rows(j, &j->pose_a, &j->pose_b, &j->rows);
     const pl_row *r = &j->rows.row[0];
-    return j->rows.block == 0 ||
-           (r->type == PL_ROW_EQUAL && r->hertz == 0 && !(j->rows.block_most < PL_UNBOUNDED));
+    return j->rows.block == 0 || (r->type == PL_ROW_EQUAL && r->spring == PL_SPRING_NONE &&
+                                  !(j->rows.block_most < PL_UNBOUNDED));
 }
 
 static void hang(search *s, uint32_t joint)

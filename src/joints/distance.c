@@ -11,7 +11,7 @@ static plumb_result check(const plumb_world *world, const char *fn, plumb_joint_
     if (desc->length == 0) {
         desc->length = plumb_vec2_magnitude(plumb_world_way(world, desc->anchor, desc->anchor_b));
     }
-    if (desc->length == 0 && desc->hertz == 0 && !desc->enable_limit) {
+    if (desc->length == 0 && !pl_joint_has_spring(desc) && !desc->enable_limit) {
         return pl_fail(world, PLUMB_E_GEOMETRY, fn,
                        "length is 0; a rod must have length (use a revolute joint)");
     }
@@ -23,13 +23,12 @@ static void rows(const pl_joint *j, const pl_joint_pose *a, const pl_joint_pose 
     pl_row length = pl_row_length(a, b, 0);
     out->row[0] = length;
     out->row[0].error -= j->desc.length;
-    out->row[0].hertz = j->desc.hertz;
-    out->row[0].damping = j->desc.damping;
+    pl_row_soften(&out->row[0], &j->desc);
     out->row[1] = pl_row_at_least(length, j->desc.lower);
     out->row[2] = pl_row_at_most(length, j->desc.upper);
     if (!j->desc.enable_limit) {
         out->row[1].type = out->row[2].type = PL_ROW_OFF;
-    } else if (j->desc.hertz == 0) {
+    } else if (!pl_joint_has_spring(&j->desc)) {
         out->row[0].type = PL_ROW_OFF;
     }
     out->count = 3;

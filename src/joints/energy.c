@@ -1,7 +1,7 @@
 // energy.c - what springs of joints have stored.
 //
 // A spring of frequency w acts on its row with the force w^2 m C, where m = 1 / (J M^-1 J^T) is the mass that it meets
-// (one.c): w^2 m C^2 / 2 is stored. Of a block of two rows it is w^2 C K^-1 C / 2, K = J M^-1 J^T. From where a bound
+// (one.c): w^2 m C^2 / 2 is stored, k C^2 / 2 of one in newtons. Of a block of two rows it is w^2 C K^-1 C / 2, K = J M^-1 J^T. From where a bound
 // holds the force, force times way is added.
 //
 // Reads: joints, bodies. Writes: nothing. Cost: O(1) a joint.
@@ -39,7 +39,7 @@ static double coupling(const pl_row *r, const pl_row *q, ease a, ease b)
 
 static bool is_spring(const pl_row *r)
 {
-    return r->type == PL_ROW_EQUAL && r->hertz > 0;
+    return pl_row_is_spring(r);
 }
 
 // Of a force of `force` that is w^2 m times the way, `twice` the energy without a bound.
@@ -55,8 +55,9 @@ static double of_row(const pl_row *r, ease a, ease b)
     if (!is_spring(r) || !(k > 0)) {
         return 0;
     }
-    const double w = TAU * (double)r->hertz, error = fabs((double)r->error);
-    const double force = w * w / k * error;
+    const double w = TAU * (double)r->stiff, error = fabs((double)r->error);
+    const double stiff = r->spring == PL_SPRING_NEWTONS ? (double)r->stiff : w * w / k;
+    const double force = stiff * error;
     return bounded(force * error, force, (double)r->most);
 }
 
@@ -69,8 +70,11 @@ static double of_block(const pl_rows *rows, ease a, ease b)
     if (rows->block != 2 || !is_spring(&r[0]) || !(det > (double)PL_PIVOT * k00 * k11)) {
         return 0;
     }
-    const double w = TAU * (double)r[0].hertz, x = (double)r[0].error, y = (double)r[1].error;
-    const double fx = w * w * (k11 * x - k01 * y) / det, fy = w * w * (k00 * y - k01 * x) / det;
+    const double w = TAU * (double)r[0].stiff, x = (double)r[0].error, y = (double)r[1].error;
+    const bool newtons = r[0].spring == PL_SPRING_NEWTONS;
+    const double stiff = (double)r[0].stiff;
+    const double fx = newtons ? stiff * x : w * w * (k11 * x - k01 * y) / det;
+    const double fy = newtons ? stiff * y : w * w * (k00 * y - k01 * x) / det;
     return bounded(fx * x + fy * y, sqrt(fx * fx + fy * fy), (double)rows->block_most);
 }
 
@@ -83,7 +87,7 @@ static bool is_gone(const plumb_world *world, const pl_joint_end *end)
 
 double pl_joint_stored(const plumb_world *world, const pl_joint *joint)
 {
-    if (joint->desc.disabled || joint->desc.hertz == 0 || is_gone(world, &joint->a) ||
+    if (joint->desc.disabled || !pl_joint_has_spring(&joint->desc) || is_gone(world, &joint->a) ||
         is_gone(world, &joint->b)) {
         return 0;
     }

@@ -137,14 +137,6 @@ WIDE_INLINE void solve_rows(const parts *at, const pl_joint_pattern *p, const pl
 #define SWEEP_PART WIDE_INLINE
 #endif
 
-SWEEP_PART void begin_bundle(const parts *at, const pl_joint_pattern *p, const pl_joint_call *call,
-                             body *a, body *b)
-{
-    gather_body(a, call, at->a);
-    gather_body(b, call, at->b);
-    make_rows(at, p, a, b);
-}
-
 SWEEP_PART void solve_bundle(const parts *at, const pl_joint_pattern *p, const pl_joint_call *call,
                              const bool pull, const bool first, body *a, body *b)
 {
@@ -155,9 +147,41 @@ WIDE_INLINE bool has_springs(const pl_joint_pattern *p)
 {
     bool any = false;
     for (int i = p->block; i < p->count; ++i) {
-        any |= p->row[i].spring;
+        any |= p->row[i].spring != PL_SPRING_NONE;
     }
     return any;
+}
+
+// Factors of springs in newtons, which follow the mass that they meet.
+static void tune_springs(const parts *at, const pl_joint_pattern *p, const pl_joint_call *call,
+                         uint32_t k)
+{
+    const pl_joint_lane *lanes = &call->lanes[(size_t)k * PL_WIDTH];
+    for (int i = p->block; i < p->count; ++i) {
+        single *s = &at->singles[i - p->block];
+        for (int n = 0; n < PL_WIDTH && p->row[i].spring == PL_SPRING_NEWTONS; ++n) {
+            if (lanes[n].joint != PL_NONE) {
+                const pl_joint *j = &call->joints[lanes[n].joint];
+                pl_row told = { .type = PL_ROW_EQUAL };
+                pl_row_soften(&told, &j->desc);
+                const pl_oscillator o =
+                    pl_joint_oscillator(&told, (real)s->mass[n], call->h, j->degree);
+                s->velocity[n] = (near_real)o.soft.velocity;
+                s->error_rate[n] = (near_real)o.soft.error;
+                s->lead[n] = (near_real)o.lead;
+            }
+        }
+    }
+}
+
+// Rows where the bodies are, of bundle k.
+WIDE_INLINE void remake(const parts *at, const pl_joint_pattern *p, const pl_joint_call *call,
+                        uint32_t k, const body *a, const body *b)
+{
+    make_rows(at, p, a, b);
+    if (p->newtons) {
+        tune_springs(at, p, call, k);
+    }
 }
 
 // The velocity before the next substep, for springs.
@@ -172,6 +196,14 @@ WIDE_INLINE void note_springs(const parts *at, const pl_joint_pattern *p, const 
     }
 }
 
+SWEEP_PART void begin_bundle(const parts *at, const pl_joint_pattern *p, const pl_joint_call *call,
+                             uint32_t k, body *a, body *b)
+{
+    gather_body(a, call, at->a);
+    gather_body(b, call, at->b);
+    remake(at, p, call, k, a, b);
+}
+
 WIDE_INLINE void sweep_bundle(const pl_joint_call *call, uint32_t k, const pl_joint_pattern *p,
                               const bool pull, const bool first)
 {
@@ -179,7 +211,7 @@ WIDE_INLINE void sweep_bundle(const pl_joint_call *call, uint32_t k, const pl_jo
     bundle *c = at.c;
     body a, b;
     if (first && !pull) {
-        begin_bundle(&at, p, call, &a, &b);
+        begin_bundle(&at, p, call, k, &a, &b);
     } else {
         gather_velocity(&a, call, at.a, c->inertia_a);
         gather_velocity(&b, call, at.b, c->inertia_b);
@@ -295,8 +327,8 @@ static void fill_row(const parts *at, const pl_joint_pattern *p, int i, int lane
     single *e = &at->singles[i - p->block];
     e->most[lane] = (near_real)(from->most * h);
     e->speed[lane] = (near_real)from->speed;
-    if (p->row[i].spring) {
-        const pl_oscillator o = pl_joint_oscillator(from, h, degree);
+    if (p->row[i].spring == PL_SPRING_HERTZ) {
+        const pl_oscillator o = pl_joint_oscillator(from, 0, h, degree);
         e->velocity[lane] = (near_real)o.soft.velocity;
         e->error_rate[lane] = (near_real)o.soft.error;
         e->lead[lane] = (near_real)o.lead;
@@ -305,7 +337,7 @@ static void fill_row(const parts *at, const pl_joint_pattern *p, int i, int lane
 
 static void fill_temper(temper *t, int lane, const pl_rows *rows, real h)
 {
-    pl_joint_soft soft = pl_joint_spring(&rows->row[0], h);
+    pl_joint_soft soft = pl_joint_spring(&rows->row[0], 0, h); // none in newtons: plan.c
     t->velocity[lane] = (near_real)soft.velocity;
     t->error_rate[lane] = (near_real)soft.error;
     t->give[lane] = (near_real)soft.impulse;
@@ -404,7 +436,7 @@ static void refill(const pl_joint_call *call)
         if (any((a.inv_inertia < at.c->inertia_a) | (b.inv_inertia < at.c->inertia_b))) {
             at.c->inertia_a = a.inv_inertia;
             at.c->inertia_b = b.inv_inertia;
-            make_rows(&at, p, &a, &b);
+            remake(&at, p, call, k, &a, &b);
         }
     }
 }
@@ -421,10 +453,10 @@ static void begin_springs(const parts *at, const pl_joint_pattern *p, const pl_j
         for (int k = 0; k < PL_WIDTH && p->row[i].spring; ++k) {
             const pl_row *from = &call->rows[k].row[p->row[i].index];
             if (lanes[k].joint != PL_NONE && from->speed != 0) {
-                const pl_oscillator o =
-                    pl_joint_oscillator(from, call->h, call->joints[lanes[k].joint].degree);
-                at->singles[i - p->block].speed[k] +=
-                    (near_real)(o.start_rate * v[k] + o.start_error * r->error[k]);
+                single *s = &at->singles[i - p->block];
+                const pl_oscillator o = pl_joint_oscillator(from, (real)s->mass[k], call->h,
+                                                            call->joints[lanes[k].joint].degree);
+                s->speed[k] += (near_real)(o.start_rate * v[k] + o.start_error * r->error[k]);
             }
         }
     }
@@ -448,7 +480,7 @@ static void fill(const pl_joint_call *call)
     gather_body(&b, call, at.b);
     at.c->inertia_a = a.inv_inertia;
     at.c->inertia_b = b.inv_inertia;
-    make_rows(&at, p, &a, &b);
+    remake(&at, p, call, k, &a, &b);
     at.c->owed_x = at.c->owed_y = at.c->owed_a = at.c->owed_b = splat(0);
     if (has_springs(p)) {
         begin_springs(&at, p, call, &a, &b);

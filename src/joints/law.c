@@ -14,8 +14,8 @@
 
 static void aim_at_spring(const pl_lone *l, const pl_row *r, pl_row_law *out)
 {
-    const pl_joint_soft soft = pl_joint_spring(r, l->joint->h);
     const double k = (double)pl_one_coupling(r, r, l->a, l->b);
+    const pl_joint_soft soft = pl_joint_spring(r, (real)(1 / k), l->joint->h);
     const double share = plumb_max(soft.velocity, PLUMB_REAL_EPSILON);
     out->give = k * (double)soft.impulse / share;
     out->target = -(double)soft.error / share * (double)r->error;
@@ -27,7 +27,7 @@ pl_row_law pl_row_law_of(const pl_lone *l, int i, pl_joint_sweep sweep)
     const pl_row *r = &j->rows.row[i];
     const double most = (double)r->most * (double)j->h, back = (double)r->error / (double)j->h;
     pl_row_law law = { .in_force = r->type != PL_ROW_OFF &&
-                                   !(r->hertz > 0 && sweep == PL_SWEEP_RELAX) &&
+                                   !(r->spring != PL_SPRING_NONE && sweep == PL_SWEEP_RELAX) &&
                                    pl_one_coupling(r, r, l->a, l->b) > 0,
                        .low = r->type == PL_ROW_LEAST ? 0 : -most,
                        .high = most };
@@ -36,7 +36,7 @@ pl_row_law pl_row_law_of(const pl_lone *l, int i, pl_joint_sweep sweep)
     }
     if (r->type == PL_ROW_DRIVE) {
         law.target = (double)r->speed;
-    } else if (r->hertz > 0) {
+    } else if (r->spring != PL_SPRING_NONE) {
         aim_at_spring(l, r, &law);
     } else if (r->type == PL_ROW_LEAST && r->error > 0) {
         law.target = -back; // may close the gap

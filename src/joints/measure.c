@@ -49,13 +49,15 @@ static void measure_lone(const pl_joint *j, const real *kept, const pl_measuring
         const pl_row *r = &j->rows.row[i];
         const double impulse = (double)j->impulse[i] - (kept != NULL ? (double)kept[i] : 0);
         if (r->type != PL_ROW_OFF && impulse != 0) {
-            push_row(m, j, r, impulse, pl_joint_work(j->desc.kind, r->type, r->hertz > 0));
+            push_row(m, j, r, impulse,
+                     pl_joint_work(j->desc.kind, r->type, r->spring != PL_SPRING_NONE));
         }
     }
     const real *t = j->turn;
     const pl_row owed = { t[0], t[1], t[2], t[3], t[4], t[5], .type = PL_ROW_EQUAL };
     const pl_row *first = &j->rows.row[0];
-    push_row(m, j, &owed, m->owed, pl_joint_work(j->desc.kind, first->type, first->hertz > 0));
+    push_row(m, j, &owed, m->owed,
+             pl_joint_work(j->desc.kind, first->type, first->spring != PL_SPRING_NONE));
 }
 
 void pl_joints_measure(const pl_joint_context *c, pl_measuring *m)
@@ -69,11 +71,6 @@ void pl_joints_measure(const pl_joint_context *c, pl_measuring *m)
 }
 
 //---- errors --------------------------------------------------------------------------------------
-
-static bool is_rigid(const pl_row *r)
-{
-    return r->hertz == 0 && (r->type == PL_ROW_EQUAL || (r->type == PL_ROW_LEAST && r->error < 0));
-}
 
 static bool turns_alone(const pl_row *r)
 {
@@ -91,7 +88,7 @@ void pl_joints_errors(const plumb_world *world, plumb_measures *m)
         pl_joint_classes[now.desc.kind]->rows(&now, &now.pose_a, &now.pose_b, &now.rows);
         for (int k = 0; k < now.rows.count; ++k) {
             const pl_row *r = &now.rows.row[k];
-            if (is_rigid(r)) {
+            if (pl_row_is_rigid(r)) {
                 pl_measure_most(turns_alone(r) ? &m->joint_angle : &m->joint_length,
                                 fabs((double)r->error));
             }

@@ -40,9 +40,10 @@ void PL_WIDE_NAME(pl_joint_measure)(const pl_joint_call *call, const pl_measurin
             for (int n = 0; n < p->count; ++n) {
                 const double was = m->kept != NULL ? (double)old.rows[n].impulse[i] : 0;
                 push_row(m, &at, &at.rows[n], i, (double)at.rows[n].impulse[i] - was,
-                         pl_joint_work(kind, p->row[n].type, p->row[n].spring));
+                         pl_joint_work(kind, p->row[n].type, p->row[n].spring != PL_SPRING_NONE));
             }
-            push_owed(m, &at, i, pl_joint_work(kind, p->row[0].type, p->row[0].spring));
+            push_owed(m, &at, i,
+                      pl_joint_work(kind, p->row[0].type, p->row[0].spring != PL_SPRING_NONE));
         }
     }
 }

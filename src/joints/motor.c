@@ -7,8 +7,7 @@ static void rows(const pl_joint *j, const pl_joint_pose *a, const pl_joint_pose 
     pl_rows_point(out, a, b, j->target);
     out->row[2] = pl_row_angle(a, b, j->desc.rest);
     for (int i = 0; i < 3; ++i) {
-        out->row[i].hertz = j->desc.hertz;
-        out->row[i].damping = j->desc.damping;
+        pl_row_soften(&out->row[i], &j->desc);
     }
     out->row[2].most = pl_joint_bound(j->desc.max_torque);
     out->block_most = pl_joint_bound(j->desc.max_force);

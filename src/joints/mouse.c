@@ -9,8 +9,10 @@ static plumb_result check(const plumb_world *world, const char *fn, plumb_joint_
 {
     (void)world;
     (void)fn;
-    desc->hertz = desc->hertz > 0 ? desc->hertz : HERTZ;
-    desc->damping = desc->damping > 0 ? desc->damping : DAMPING;
+    if (!pl_spring_is_in_newtons(desc)) {
+        desc->hertz = desc->hertz > 0 ? desc->hertz : HERTZ;
+        desc->damping = desc->damping > 0 ? desc->damping : DAMPING;
+    }
     return PLUMB_OK;
 }
 
@@ -18,8 +20,7 @@ static void rows(const pl_joint *j, const pl_joint_pose *a, const pl_joint_pose 
 {
     pl_rows_point(out, a, b, plumb_v2(0, 0));
     for (int i = 0; i < 2; ++i) {
-        out->row[i].hertz = j->desc.hertz;
-        out->row[i].damping = j->desc.damping;
+        pl_row_soften(&out->row[i], &j->desc);
     }
     out->block_most = pl_joint_bound(j->desc.max_force);
     out->count = 2;

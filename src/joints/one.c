@@ -34,18 +34,20 @@ pl_joint_soft pl_joint_rigid(real h, real soft)
     return (pl_joint_soft){ stiff / (1 + stiff), x * x / (1 + stiff) / h, 1 / (1 + stiff) };
 }
 
-static pl_joint_soft soften(const pl_joint_context *c, const pl_row *row, pl_joint_sweep sweep)
+static pl_joint_soft soften(const pl_joint_context *c, const pl_row *row, real mass,
+                            pl_joint_sweep sweep)
 {
-    bool pulls = sweep == PL_SWEEP_PULL && row->type != PL_ROW_DRIVE && row->hertz == 0;
-    return pulls ? c->rigid : pl_joint_spring(row, c->h);
+    bool pulls =
+        sweep == PL_SWEEP_PULL && row->type != PL_ROW_DRIVE && row->spring == PL_SPRING_NONE;
+    return pulls ? c->rigid : pl_joint_spring(row, mass, c->h);
 }
 
-static pl_joint_soft soften_single(const pl_joint_context *c, const pl_row *row,
+static pl_joint_soft soften_single(const pl_joint_context *c, const pl_row *row, real mass,
                                    pl_joint_sweep sweep, uint32_t degree)
 {
     return pl_row_is_spring(row) && sweep != PL_SWEEP_CLASSIC
-               ? pl_joint_oscillator(row, c->h, degree).soft
-               : soften(c, row, sweep);
+               ? pl_joint_oscillator(row, mass, c->h, degree).soft
+               : soften(c, row, mass, sweep);
 }
 
 //---- one row -------------------------------------------------------------------------------------
@@ -83,10 +85,10 @@ void pl_one_solve_row(const pl_joint_context *c, pl_joint *j, int i, pl_solver_b
                       pl_solver_body *b, pl_joint_sweep sweep)
 {
     const pl_row *r = &j->rows.row[i];
-    if (r->type == PL_ROW_OFF || (sweep == PL_SWEEP_RELAX && r->hertz > 0)) {
+    if (r->type == PL_ROW_OFF || (sweep == PL_SWEEP_RELAX && r->spring != PL_SPRING_NONE)) {
         return;
     }
-    pl_joint_soft s = soften_single(c, r, sweep, j->degree);
+    pl_joint_soft s = soften_single(c, r, j->mass[i], sweep, j->degree);
     bool apart = r->type == PL_ROW_LEAST && r->error > 0;
     if (apart) {
         s = (pl_joint_soft){ 1, 1 / j->h, 0 }; // may close the gap
@@ -160,32 +162,74 @@ void pl_one_add_arc(real v[2], real w, real h, real w0, real w1)
     }
 }
 
-void pl_one_solve_block(const pl_joint_context *c, pl_joint *j, pl_solver_body *a,
-                        pl_solver_body *b, pl_joint_sweep sweep, bool first)
+// Impulses of a rigid block, or of a spring of one frequency whatever the direction.
+static void pull_as_one(const pl_joint *j, pl_joint_soft s, const real v[3], real total[3])
 {
     const int n = j->rows.block;
-    const pl_row *row = j->rows.row;
-    if (n == 0 || (sweep == PL_SWEEP_RELAX && row[0].hertz > 0)) {
-        return;
-    }
-    pl_joint_soft s = soften(c, &row[0], sweep);
-    real wrong[3] = { 0 }, total[3] = { 0 };
+    real wrong[3];
     for (int i = 0; i < n; ++i) {
-        wrong[i] = pl_one_rate(&row[i], a, b);
-    }
-    bool holds = row[0].type == PL_ROW_EQUAL && row[0].hertz == 0;
-    if (holds && sweep == PL_SWEEP_PULL && !first && row[0].form == PL_FORM_POINT_X) {
-        pl_one_add_arc(wrong, a->w, j->h, row[0].aw, row[1].aw);
-        pl_one_add_arc(wrong, b->w, j->h, row[0].bw, row[1].bw);
-    }
-    for (int i = 0; i < n; ++i) {
-        wrong[i] = s.velocity * wrong[i] + s.error * row[i].error;
+        wrong[i] = s.velocity * v[i] + s.error * j->rows.row[i].error;
     }
     for (int i = 0; i < n; ++i) {
         total[i] = (1 - s.impulse) * j->impulse[i];
         for (int m = 0; m < n; ++m) {
             total[i] -= j->inverse[i][m] * wrong[m];
         }
+    }
+}
+
+// A unit direction in which the inverse of K, of two rows, points where it is led.
+static plumb_vec2 axis_of(const pl_joint *j)
+{
+    const real half = (j->inverse[0][0] - j->inverse[1][1]) / 2, mixed = j->inverse[0][1];
+    const real root = plumb_vec2_magnitude(plumb_v2(half, mixed));
+    const plumb_vec2 axis = half > 0 ? plumb_v2(half + root, mixed) : plumb_v2(mixed, root - half);
+    return mixed != 0 ? plumb_vec2_unit(axis) : plumb_v2(1, 0);
+}
+
+// Impulses of a spring in newtons, as stiff in all directions, on a block of two rows: along the axes of K each is an
+// oscillator by itself, of the mass that it meets there.
+static void pull_by_axes(const pl_joint *j, real h, const real v[3], real total[3])
+{
+    const plumb_vec2 first = axis_of(j), axes[2] = { first, { -first.y, first.x } };
+    const pl_row *row = j->rows.row;
+    total[0] = total[1] = 0;
+    for (int k = 0; k < 2; ++k) {
+        const plumb_vec2 u = axes[k];
+        const real mass = u.x * (j->inverse[0][0] * u.x + j->inverse[0][1] * u.y) +
+                          u.y * (j->inverse[1][0] * u.x + j->inverse[1][1] * u.y);
+        if (mass > 0) {
+            const pl_joint_soft s = pl_joint_spring(&row[0], mass, h);
+            const real rate = u.x * v[0] + u.y * v[1];
+            const real error = u.x * row[0].error + u.y * row[1].error;
+            const real old = u.x * j->impulse[0] + u.y * j->impulse[1];
+            const real push = (1 - s.impulse) * old - mass * (s.velocity * rate + s.error * error);
+            total[0] += u.x * push, total[1] += u.y * push;
+        }
+    }
+}
+
+void pl_one_solve_block(const pl_joint_context *c, pl_joint *j, pl_solver_body *a,
+                        pl_solver_body *b, pl_joint_sweep sweep, bool first)
+{
+    const int n = j->rows.block;
+    const pl_row *row = j->rows.row;
+    if (n == 0 || (sweep == PL_SWEEP_RELAX && row[0].spring != PL_SPRING_NONE)) {
+        return;
+    }
+    real v[3] = { 0 }, total[3] = { 0 };
+    for (int i = 0; i < n; ++i) {
+        v[i] = pl_one_rate(&row[i], a, b);
+    }
+    bool holds = row[0].type == PL_ROW_EQUAL && row[0].spring == PL_SPRING_NONE;
+    if (holds && sweep == PL_SWEEP_PULL && !first && row[0].form == PL_FORM_POINT_X) {
+        pl_one_add_arc(v, a->w, j->h, row[0].aw, row[1].aw);
+        pl_one_add_arc(v, b->w, j->h, row[0].bw, row[1].bw);
+    }
+    if (row[0].spring == PL_SPRING_NEWTONS) {
+        pull_by_axes(j, c->h, v, total);
+    } else {
+        pull_as_one(j, soften(c, &row[0], 0, sweep), v, total);
     }
     if (j->rows.block_most < PL_UNBOUNDED) {
         bound_block(j, total);
@@ -264,7 +308,7 @@ void pl_one_note_springs(const pl_joint_context *c, pl_joint *j, const pl_solver
     for (int i = j->rows.block; i < j->rows.count; ++i) {
         pl_row *r = &j->rows.row[i];
         if (pl_row_is_spring(r)) {
-            const pl_oscillator o = pl_joint_oscillator(r, c->h, j->degree);
+            const pl_oscillator o = pl_joint_oscillator(r, j->mass[i], c->h, j->degree);
             const real v = pl_one_rate(r, a, b);
             r->speed = o.lead * v + (fresh ? o.start_rate * v + o.start_error * r->error : 0);
         }
@@ -303,20 +347,15 @@ static void shift(const pl_row *r, pl_solver_body *a, pl_solver_body *b, real am
     give(b, &b->dx, &b->dy, &b->da, r->bx, r->by, r->bw, amount);
 }
 
-static bool is_rigid(const pl_row *r)
-{
-    return r->hertz == 0 && (r->type == PL_ROW_EQUAL || (r->type == PL_ROW_LEAST && r->error < 0));
-}
-
 void pl_one_move(const pl_joint *j, pl_solver_body *a, pl_solver_body *b, real share)
 {
     for (int k = j->rows.count - 1; k >= j->rows.block; --k) {
-        if (is_rigid(&j->rows.row[k]) && j->rows.row[k].most >= PL_UNBOUNDED) {
+        if (pl_row_is_rigid(&j->rows.row[k]) && j->rows.row[k].most >= PL_UNBOUNDED) {
             shift(&j->rows.row[k], a, b, -share * j->mass[k] * j->rows.row[k].error);
         }
     }
     bool block =
-        j->rows.block > 0 && is_rigid(&j->rows.row[0]) && j->rows.block_most >= PL_UNBOUNDED;
+        j->rows.block > 0 && pl_row_is_rigid(&j->rows.row[0]) && j->rows.block_most >= PL_UNBOUNDED;
     for (int k = 0; block && k < j->rows.block; ++k) {
         real amount = 0;
         for (int m = 0; m < j->rows.block; ++m) {

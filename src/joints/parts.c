@@ -48,11 +48,10 @@ void pl_rows_spring_limits(const pl_joint *j, pl_row row, pl_row *out)
 {
     const plumb_joint_desc *d = &j->desc;
     out[0].type = out[1].type = out[2].type = PL_ROW_OFF;
-    if (d->hertz > 0) {
+    if (pl_joint_has_spring(d)) {
         out[0] = row;
         out[0].error -= d->rest;
-        out[0].hertz = d->hertz;
-        out[0].damping = d->damping;
+        pl_row_soften(&out[0], d);
     }
     if (d->enable_limit) {
         out[1] = pl_row_at_least(row, d->lower);

@@ -65,8 +65,9 @@ static bool is_plain(const plumb_world *world, const pl_joint *j, const pl_joint
 uint32_t pl_joint_variant(const plumb_joint_desc *d)
 {
     return (uint32_t)d->kind | (d->enable_limit ? 0x100u : 0) | (d->enable_motor ? 0x200u : 0) |
-           (d->hertz > 0 ? 0x400u : 0) | (d->max_force > 0 ? 0x800u : 0) |
-           (pl_joint_is_watched(d) ? PL_JOINT_WATCHED : 0);
+           (pl_joint_has_spring(d) ? 0x400u : 0) | (d->max_force > 0 ? 0x800u : 0) |
+           (pl_joint_is_watched(d) ? PL_JOINT_WATCHED : 0) |
+           (pl_spring_is_in_newtons(d) ? 0x2000u : 0);
 }
 
 static uint32_t row_of(const plumb_world *world, plumb_body body, uint32_t before)
@@ -128,7 +129,7 @@ static void mark_all(plumb_world *world)
 
 //---- patterns ------------------------------------------------------------------------------------
 
-// False for rows that only their kind knows how to make.
+// False for rows that only their kind knows how to make, and blocks that are springs in newtons (one.c).
 static bool describe(const plumb_world *world, pl_joint *j, pl_joint_pattern *out)
 {
     pl_rows *rows = &j->rows;
@@ -141,13 +142,14 @@ static bool describe(const plumb_world *world, pl_joint *j, pl_joint_pattern *ou
     for (int i = 0; i < rows->count; ++i) {
         const pl_row *r = &rows->row[i];
         if (r->type != PL_ROW_OFF) {
-            known &= r->form != PL_FORM_OWN;
+            known &= r->form != PL_FORM_OWN && !(i < rows->block && r->spring == PL_SPRING_NEWTONS);
             out->row[out->count++] = (pl_pattern_row){ .index = (uint8_t)i,
                                                        .form = (uint8_t)r->form,
                                                        .type = (uint8_t)r->type,
-                                                       .spring = r->hertz > 0 };
+                                                       .spring = (uint8_t)r->spring };
         }
     }
+    out->newtons = pl_spring_is_in_newtons(&j->desc);
     out->tempered = out->block > 0 && (out->row[0].spring || out->row[0].type == PL_ROW_DRIVE ||
                                        rows->block_most < PL_UNBOUNDED);
     out->bare = j->desc.kind == PLUMB_REVOLUTE && out->count == 2 && !out->tempered;

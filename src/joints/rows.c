@@ -16,10 +16,11 @@ static void put_along(pl_row *row, plumb_vec2 arm_a, plumb_vec2 arm_b, plumb_vec
     row->bx = n.x, row->by = n.y;
     row->bw = plumb_vec2_cross(arm_b, n);
     row->error = error;
-    row->speed = row->hertz = row->damping = 0;
+    row->speed = 0;
     row->most = PL_UNBOUNDED;
     row->type = PL_ROW_EQUAL;
     row->form = form;
+    row->spring = PL_SPRING_NONE;
 }
 
 pl_row pl_row_along_axis(const pl_joint_pose *a, const pl_joint_pose *b, plumb_vec2 n, real offset)
@@ -51,6 +52,14 @@ pl_row pl_row_length(const pl_joint_pose *a, const pl_joint_pose *b, real length
     put_along(&row, plumb_v2(a->rx, a->ry), plumb_v2(b->rx, b->ry), n, now - length,
               PL_FORM_LENGTH);
     return row;
+}
+
+void pl_row_soften(pl_row *row, const plumb_joint_desc *desc)
+{
+    const bool newtons = pl_spring_is_in_newtons(desc);
+    row->spring = newtons ? PL_SPRING_NEWTONS : desc->hertz > 0 ? PL_SPRING_HERTZ : PL_SPRING_NONE;
+    row->stiff = newtons ? desc->stiffness : desc->hertz;
+    row->damp = newtons ? desc->damper : desc->damping;
 }
 
 pl_row pl_row_at_least(pl_row row, real lower)

@@ -16,7 +16,13 @@
 // Of rows outside of blocks: their `speed` is what the velocity before the substep adds (spring.c).
 static inline bool pl_row_is_spring(const pl_row *row)
 {
-    return row->hertz > 0 && row->type == PL_ROW_EQUAL;
+    return row->spring != PL_SPRING_NONE && row->type == PL_ROW_EQUAL;
+}
+
+static inline bool pl_row_is_rigid(const pl_row *row)
+{
+    return row->spring == PL_SPRING_NONE &&
+           (row->type == PL_ROW_EQUAL || (row->type == PL_ROW_LEAST && row->error < 0));
 }
 
 // d = anchor of B - anchor of A.
@@ -31,6 +37,8 @@ pl_row pl_row_along_axis(const pl_joint_pose *a, const pl_joint_pose *b, plumb_v
 pl_row pl_row_angle(const pl_joint_pose *a, const pl_joint_pose *b, real offset);
 // C = |d| - length.
 pl_row pl_row_length(const pl_joint_pose *a, const pl_joint_pose *b, real length);
+// A spring, if the joint has one.
+void pl_row_soften(pl_row *row, const plumb_joint_desc *desc);
 // C >= 0 where C is that of `row` - lower, or upper - that of `row`.
 pl_row pl_row_at_least(pl_row row, real lower);
 pl_row pl_row_at_most(pl_row row, real upper);

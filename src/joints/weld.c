@@ -6,9 +6,8 @@ static void rows(const pl_joint *j, const pl_joint_pose *a, const pl_joint_pose 
 {
     pl_rows_point(out, a, b, plumb_v2(0, 0));
     out->row[2] = pl_row_angle(a, b, j->desc.rest);
-    out->row[2].hertz = j->desc.hertz;
-    out->row[2].damping = j->desc.damping;
-    out->block = j->desc.hertz > 0 ? 2 : 3;
+    pl_row_soften(&out->row[2], &j->desc);
+    out->block = pl_joint_has_spring(&j->desc) ? 2 : 3;
     out->count = 3;
 }
 

@@ -103,7 +103,8 @@ static inline void pl_joint_stiffen(pl_solver_body *body, near_real pull, near_r
     }
 }
 
-pl_joint_soft pl_joint_spring(const pl_row *row, real h);
+// `mass` [kg] that the row meets: springs in newtons go by it.
+pl_joint_soft pl_joint_spring(const pl_row *row, real mass, real h);
 
 // The same for a row outside of blocks, and what velocity v and error C before the substep add to J v: lead v, and in
 // the first substep of a joint start_rate v + start_error C besides (spring.c).
@@ -113,6 +114,6 @@ typedef struct pl_oscillator {
 } pl_oscillator;
 
 // `degree`: as pl_joint has it.
-pl_oscillator pl_joint_oscillator(const pl_row *row, real h, uint32_t degree);
+pl_oscillator pl_joint_oscillator(const pl_row *row, real mass, real h, uint32_t degree);
 
 #endif

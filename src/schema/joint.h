@@ -51,6 +51,10 @@
       "frequency of the spring; 0: none, or rigid")                                                 \
     R(X, STATE, REAL, damping, UNSAID, "1", FROM(0, NO_END), 0, NO_ZERO,                            \
       "damping ratio of the spring")                                                                \
+    R(X, STATE, REAL, stiffness, UNSAID, "N/m or N m/rad", FROM(0, NO_END), 0, NO_ZERO,             \
+      "of the spring, instead of its frequency")                                                    \
+    R(X, STATE, REAL, damper, UNSAID, "N s/m or N m s/rad", FROM(0, NO_END), 0, NO_ZERO,            \
+      "force or torque by the rate against which it acts, instead of the damping ratio")            \
     R(X, STATE, REAL, rest, UNSAID, "rad or m", ANY, 0, NO_ZERO,                                    \
       "value at which the spring is at rest")                                                       \
     R(X, STATE, REAL, length, UNSAID, "m", FROM(0, NO_END), 0, NO_ZERO,                             \

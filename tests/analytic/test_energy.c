@@ -132,6 +132,43 @@ static void motor_joints_are_two(void **state)
     plumb_world_destroy(w);
 }
 
+// Of springs in newtons it is k x^2 / 2, whatever the masses.
+static void springs_in_newtons_store_what_they_say(void **state)
+{
+    (void)state;
+    const double k = 70, most = 100, x = most / k;
+    for (int heavy = 1; heavy <= 10; heavy += 9) {
+        plumb_world *w = sim_space();
+        plumb_body b = mass(w, 3, 0, heavy, 0.5 * heavy);
+        const plumb_joint_desc rod = { .kind = PLUMB_DISTANCE,
+                                       .body_b = b,
+                                       .anchor_b = { 3, 4 }, // far from its centre
+                                       .length = 2,
+                                       .stiffness = (plumb_real)k };
+        plumb_joint j = plumb_joint_create(w, &rod);
+        assert_near(stored(w) / (k * 9 / 2), 1, ROUNDED(1e-5));
+        plumb_joint_destroy(w, j);
+        const plumb_joint_desc pulled = { .kind = PLUMB_MOUSE,
+                                          .body_b = b,
+                                          .anchor = { 3, 4 },
+                                          .stiffness = (plumb_real)k,
+                                          .max_force = (plumb_real)most };
+        j = plumb_joint_create(w, &pulled);
+        plumb_joint_set_target(w, j, sim_vec(3 + 0.6, 4 - 0.8));
+        assert_near(stored(w) / (k / 2), 1, ROUNDED(1e-5));
+        plumb_joint_set_target(w, j, sim_vec(3, 4 + 5));
+        assert_near(stored(w) / (k * x * x / 2 + most * (5 - x)), 1, ROUNDED(1e-5));
+        plumb_joint_destroy(w, j);
+        const plumb_joint_desc turned = { .kind = PLUMB_REVOLUTE,
+                                          .body_b = b,
+                                          .rest = (plumb_real)-0.5,
+                                          .stiffness = (plumb_real)k };
+        j = plumb_joint_create(w, &turned);
+        assert_near(stored(w) / (k * 0.25 / 2), 1, ROUNDED(1e-5));
+        plumb_world_destroy(w);
+    }
+}
+
 // A mass on a spring: what the spring gives, the mass has. Off by what the substep makes of it, at 3840 Hz little.
 static void a_swinging_mass_keeps_the_sum(void **state)
 {
@@ -160,6 +197,7 @@ int main(void)
         cmocka_unit_test(distance_springs_meet_the_reduced_mass),
         cmocka_unit_test(springs_beside_the_centre_meet_less),
         cmocka_unit_test(rotary_and_sliding_springs),
+        cmocka_unit_test(springs_in_newtons_store_what_they_say),
         cmocka_unit_test(mouse_joints_are_springs),
         cmocka_unit_test(motor_joints_are_two),
         cmocka_unit_test(a_swinging_mass_keeps_the_sum),

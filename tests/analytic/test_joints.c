@@ -272,34 +272,46 @@ static void springs_follow_their_exponential(void **state)
     (void)state;
     const double cases[][2] = { { 20, 0 }, { 1, 0 },   { 5, 0.1 }, { 5, 1 },
                                 { 5, 2 },  { 2, 0.5 }, { 3, 20 },  { 5, 0.9999 } };
-    for (size_t k = 0; k < sizeof cases / sizeof cases[0]; ++k) {
-        const double f = 2 * SIM_PI * cases[k][0], z = cases[k][1], a = 0.2;
+    const size_t count = sizeof cases / sizeof cases[0];
+    for (size_t i = 0; i < 2 * count; ++i) {
+        const size_t k = i % count;
+        const bool newtons = i >= count; // the same spring, told by stiffness and damper
+        const double f = 2 * SIM_PI * cases[k][0], z = cases[k][1], a = 0.2, kg = 3;
         plumb_world *w = sim_world(&(plumb_world_desc){ .zero_gravity = true, .no_sleep = true });
-        plumb_body b = mass(w, 2 + a, 0, 1, 0);
+        plumb_body b = mass(w, 2 + a, 0, kg, 0);
         tie(w, (plumb_joint_desc){ .kind = PLUMB_DISTANCE,
                                    .body_b = b,
                                    .anchor_b = sim_vec(2 + a, 0),
                                    .length = 2,
-                                   .hertz = (plumb_real)cases[k][0],
-                                   .damping = (plumb_real)z });
+                                   .hertz = (plumb_real)(newtons ? 0 : cases[k][0]),
+                                   .damping = (plumb_real)(newtons ? 0 : z),
+                                   .stiffness = (plumb_real)(newtons ? kg * f * f : 0),
+                                   .damper = (plumb_real)(newtons ? 2 * z * f * kg : 0) });
         double worst = 0;
-        for (int i = 1; i <= 180; ++i) {
+        for (int n = 1; n <= 180; ++n) {
             sim_step(w, DT);
-            const double t = i * DT, q = f * sqrt(fabs(1 - z * z)), left = exp(-z * f * t) / 2;
+            const double t = n * DT, q = f * sqrt(fabs(1 - z * z)), left = exp(-z * f * t) / 2;
             const double up = exp((q - z * f) * t) / 2, down = exp(-(q + z * f) * t) / 2;
             const double exact = z < 1   ? 2 * left * (cos(q * t) + z * f / q * sin(q * t))
                                  : z > 1 ? up + down + z * f / q * (up - down)
                                          : 2 * left * (1 + f * t);
             worst = fmax(worst, fabs(sim_x(w, b) - 2 - a * exact));
         }
-        print_message("spring %g Hz, damping %g: within %.2g m in 3 s\n", cases[k][0], z, worst);
+        print_message("spring %g Hz, damping %g%s: within %.2g m in 3 s\n", cases[k][0], z,
+                      newtons ? ", in newtons" : "", worst);
         assert_true(worst < SIM_TOLERANCE(2e-5, 1e-7));
         plumb_world_destroy(w);
     }
 }
 
+// [N/m] of a spring of that frequency: a star holds bodies to the world, but for its first spring a row ties two.
+static plumb_real stiff_as(double hertz, bool star)
+{
+    return (plumb_real)(4 * SIM_PI * SIM_PI * hertz * hertz * (star ? 1 : 0.5));
+}
+
 // Sixteen springs on one body, and twenty bodies in a row on springs: the farthest that one goes.
-static double stretch_network(double hertz, bool star, double *rest)
+static double stretch_network(double hertz, bool star, bool newtons, double *rest)
 {
     plumb_world *w = sim_world(&(plumb_world_desc){ .zero_gravity = true, .no_sleep = true });
     const plumb_body none = { { 0, 0 } };
@@ -313,7 +325,8 @@ static double stretch_network(double hertz, bool star, double *rest)
                                    .body_b = b,
                                    .anchor = star ? sim_vec(x, 2 * sin(angle)) : sim_vec(i - 1, 0),
                                    .anchor_b = star ? sim_vec(0, 0) : sim_vec(i, 0),
-                                   .hertz = (plumb_real)hertz });
+                                   .hertz = (plumb_real)(newtons ? 0 : hertz),
+                                   .stiffness = newtons ? stiff_as(hertz, star) : 0 });
         first = i == 0 ? b : first;
         last = b;
     }
@@ -334,10 +347,12 @@ static void networks_of_springs_gain_nothing(void **state)
     int wrong = 0;
     const double hertz[] = { 1, 5, 10, 15, 20, 25, 30, 35, 40, 60, 120, 1000, 1e5 };
     for (size_t k = 0; k < sizeof hertz / sizeof hertz[0]; ++k) {
-        for (int star = 0; star < 2; ++star) {
-            double speed, farthest = stretch_network(hertz[k], star == 1, &speed);
-            print_message("%s of %g Hz: %.3g m at most, after 60 s at %.2g m/s\n",
-                          star ? "star" : "row", hertz[k], farthest, speed);
+        for (int how = 0; how < 4; ++how) {
+            const bool star = how % 2 == 1, newtons = how > 1;
+            double speed, farthest = stretch_network(hertz[k], star, newtons, &speed);
+            print_message("%s of %g Hz%s: %.3g m at most, after 60 s at %.2g m/s\n",
+                          star ? "star" : "row", hertz[k], newtons ? " in newtons" : "", farthest,
+                          speed);
             // As soft as 20 Hz would be, at least, and 20 times as far in a row.
             const double reach = 0.12 / (2 * SIM_PI * fmin(hertz[k], 20));
             wrong += !(farthest < reach * (star ? 1 : 20) && speed < 0.12);

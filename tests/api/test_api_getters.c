@@ -243,6 +243,11 @@ static void add_joint(session *s)
         d.hertz = uniform(s) < 0.5 ? size_of(s, -3, 9) : 0;
         d.damping = size_of(s, -3, 9);
         d.rest = scaled(s, -3, 38);
+        if (uniform(s) < 0.3) {
+            d.hertz = d.damping = 0;
+            d.stiffness = size_of(s, -3, 38);
+            d.damper = uniform(s) < 0.5 ? size_of(s, -3, 38) : 0;
+        }
     }
     if (d.kind == PLUMB_DISTANCE || d.kind == PLUMB_PULLEY) {
         d.anchor_b = vec(s, -2, 9);

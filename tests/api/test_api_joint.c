@@ -91,6 +91,12 @@ static void getters_tell_what_was_set(void **state)
     assert_int_equal(plumb_joint_set_spring(w, j, 0, 0, 0), PLUMB_OK);
     assert_int_equal(plumb_joint_settings(w, j, &d), PLUMB_OK);
     assert_true(d.hertz == 5 && d.damping == 1);
+    assert_int_equal(plumb_joint_set_stiffness(w, j, 30, 2, 0), PLUMB_OK);
+    assert_int_equal(plumb_joint_settings(w, j, &d), PLUMB_OK);
+    assert_true(d.stiffness == 30 && d.damper == 2 && d.hertz == 0 && d.damping == 0);
+    assert_int_equal(plumb_joint_set_stiffness(w, j, 0, 0, 0), PLUMB_OK);
+    assert_int_equal(plumb_joint_settings(w, j, &d), PLUMB_OK);
+    assert_true(d.stiffness == 0 && d.damper == 0 && d.hertz == 5 && d.damping == 1);
     assert_int_equal(plumb_joint_destroy(w, j), PLUMB_OK);
 
     j = make(f, PLUMB_MOTOR);
@@ -192,6 +198,16 @@ static void descriptors_are_checked(void **state)
                   .body_b = b, .enable_limit = true);
     REFUSED_JOINT(E_RANGE, "enable_motor is set; it must be 0 for a gear joint", PLUMB_GEAR,
                   .body_b = b, .enable_motor = true);
+    REFUSED_JOINT(E_RANGE, "stiffness is -1; it must be at least 0", .body_b = b, .stiffness = -1);
+    REFUSED_JOINT(E_RANGE, "damper is -1; it must be at least 0", .body_b = b, .damper = -1);
+    REFUSED_JOINT(E_RANGE,
+                  "stiffness is set with hertz; a spring has either hertz and damping, or "
+                  "stiffness and damper",
+                  .body_b = b, .hertz = 1, .stiffness = 2);
+    REFUSED_JOINT(E_RANGE,
+                  "damper is set with damping; a spring has either hertz and damping, or stiffness "
+                  "and damper",
+                  .body_b = b, .damping = 1, .damper = 2);
     REFUSED_JOINT(E_RANGE, "hertz is set; it must be 0 for a pulley joint", PLUMB_PULLEY,
                   .body_b = b, .hertz = 1);
     REFUSED_JOINT(E_NOT_FINITE, "axis is (nan, 0); it must be finite", PLUMB_PRISMATIC, .body_b = b,
@@ -234,12 +250,13 @@ static void members_that_a_kind_does_not_have_are_refused(void **state)
     // revolute prismatic weld wheel distance mouse motor gear pulley ratchet friction
     static const char letters[] = "rpwhdmogyaf";
     static const member members[] = {
-        MEMBER(anchor_b, "dy"),      MEMBER(ground_a, "y"),        MEMBER(ground_b, "y"),
-        MEMBER(axis, "phg"),         SWITCH(enable_limit, "rphd"), MEMBER(upper, "rphd"),
-        SWITCH(enable_motor, "rph"), MEMBER(motor_speed, "rph"),   MEMBER(max_motor, "rph"),
-        MEMBER(hertz, "rpwhdmo"),    MEMBER(damping, "rpwhdmo"),   MEMBER(rest, "rpwho"),
-        MEMBER(length, "d"),         MEMBER(ratio, "gy"),          MEMBER(pitch, "a"),
-        MEMBER(max_force, "mof"),    MEMBER(max_torque, "of"),
+        MEMBER(anchor_b, "dy"),       MEMBER(ground_a, "y"),        MEMBER(ground_b, "y"),
+        MEMBER(axis, "phg"),          SWITCH(enable_limit, "rphd"), MEMBER(upper, "rphd"),
+        SWITCH(enable_motor, "rph"),  MEMBER(motor_speed, "rph"),   MEMBER(max_motor, "rph"),
+        MEMBER(hertz, "rpwhdmo"),     MEMBER(damping, "rpwhdmo"),   MEMBER(rest, "rpwho"),
+        MEMBER(stiffness, "rpwhdmo"), MEMBER(damper, "rpwhdmo"),    MEMBER(length, "d"),
+        MEMBER(ratio, "gy"),          MEMBER(pitch, "a"),           MEMBER(max_force, "mof"),
+        MEMBER(max_torque, "of"),
     };
     for (int kind = 0; kind <= PLUMB_FRICTION; ++kind) {
         for (size_t i = 0; i < sizeof members / sizeof members[0]; ++i) {
@@ -335,6 +352,17 @@ static void setters_refuse(void **state)
             plumb_joint_set_spring(w, rod, 1, -1, 0));
     REFUSED(E_NOT_FINITE, "plumb_joint_set_spring: rest is nan; it must be finite",
             plumb_joint_set_spring(w, rod, 1, 0, (plumb_real)NAN));
+    REFUSED(E_STATE,
+            "plumb_joint_set_stiffness: joint is a gear joint; it must be one with a spring",
+            plumb_joint_set_stiffness(w, gear, 1, 0, 0));
+    REFUSED(E_RANGE, "plumb_joint_set_stiffness: stiffness is -1; it must be at least 0",
+            plumb_joint_set_stiffness(w, rod, -1, 0, 0));
+    REFUSED(E_RANGE, "plumb_joint_set_stiffness: damper is -1; it must be at least 0",
+            plumb_joint_set_stiffness(w, rod, 1, -1, 0));
+    REFUSED(E_NOT_FINITE, "plumb_joint_set_stiffness: stiffness is inf; it must be finite",
+            plumb_joint_set_stiffness(w, rod, (plumb_real)INFINITY, 0, 0));
+    REFUSED(E_NOT_FINITE, "plumb_joint_set_stiffness: rest is nan; it must be finite",
+            plumb_joint_set_stiffness(w, rod, 1, 0, (plumb_real)NAN));
     REFUSED(E_NOT_FINITE, "plumb_joint_set_target: target is (0, nan); it must be finite",
             plumb_joint_set_target(w, mouse, plumb_v2(0, (plumb_real)NAN)));
     REFUSED(E_RANGE, "plumb_joint_set_break: force is -1; it must be at least 0",

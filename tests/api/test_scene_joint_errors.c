@@ -125,7 +125,19 @@ static const malformed table[] = {
       .text = "local d = body{ name = 'door', box{1, 1} }\n"
               "wheel{ d, spring = { damping = 1 } }",
       .code = SCENE_E_MISSING,
-      .message = "scene.lua:2:11: spring{} needs 'frequency'" },
+      .message = "scene.lua:2:11: the spring of a wheel{} needs 'frequency', or 'stiffness' or 'damper' above 0" },
+    { .what = "spring told twice",
+      .file = "scene.lua",
+      .text = "local d = body{ name = 'door', box{1, 1} }\n"
+              "wheel{ d, spring = { frequency = 1, stiffness = 2 } }",
+      .code = SCENE_E_CONFLICT,
+      .message = "scene.lua:2:11: the spring of a wheel{} has either 'frequency' and 'damping', or 'stiffness' and 'damper'" },
+    { .what = "stiffness below 0",
+      .file = "scene.lua",
+      .text = "local d = body{ name = 'door', box{1, 1} }\n"
+              "wheel{ d, spring = { stiffness = -2 } }",
+      .code = SCENE_E_RANGE,
+      .message = "scene.lua:2:22: 'stiffness' of spring{} must be at least 0 and at most 1e+12 N/m or N m/rad, not -2" },
     { .what = "rest of a distance",
       .file = "scene.lua",
       .text = "local d = body{ name = 'door', box{1, 1} }\n"

@@ -242,6 +242,8 @@ void sim_fit_joint(plumb_joint_desc *desc)
     if (drives || k == PLUMB_WELD || k == PLUMB_DISTANCE || k == PLUMB_MOUSE || k == PLUMB_MOTOR) {
         desc->hertz = given.hertz;
         desc->damping = given.damping;
+        desc->stiffness = given.stiffness;
+        desc->damper = given.damper;
         desc->rest = k == PLUMB_DISTANCE || k == PLUMB_MOUSE ? 0 : given.rest;
     }
 }

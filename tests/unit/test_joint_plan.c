@@ -124,6 +124,50 @@ static void widths_give_the_same_bits(void **state)
     }
 }
 
+// Springs in newtons of each kind between crates that turn, beside their centres. Breaking by impulse makes a joint one
+// that is solved by itself.
+static plumb_world *stiff_zoo(int width, bool alone)
+{
+    plumb_world *w = sim_world(&(plumb_world_desc){ .simd_width = width });
+    for (int i = 0; i < 60; ++i) {
+        plumb_joint_desc d = { .kind = (plumb_joint_kind)(i % 7),
+                               .anchor = sim_vec(3 * i, 0.3),
+                               .stiffness = (plumb_real)(5 + 3 * i),
+                               .damper = (plumb_real)(i % 3),
+                               .break_impulse = alone ? (plumb_real)1e6 : 0 };
+        d.anchor_b = sim_vec(d.kind == PLUMB_DISTANCE ? 3 * i + 1.2 : 0,
+                             d.kind == PLUMB_DISTANCE ? -0.3 : 0);
+        plumb_body a = sim_crate(w, 3 * i - 0.5, 0, 0.4, 0.2, none);
+        plumb_body b = sim_crate(w, 3 * i + 0.5, 0, 0.4, 0.2, none);
+        sim_launch(w, a, 0.3, 1, 2);
+        add(w, d, a, b);
+    }
+    return w;
+}
+
+static void springs_in_newtons_are_the_same_in_lanes_and_alone(void **state)
+{
+    (void)state;
+    plumb_world *w[] = { stiff_zoo(4, false), stiff_zoo(8, false), stiff_zoo(16, false),
+                         stiff_zoo(4, true) };
+    for (int i = 0; i < 60; ++i) {
+        for (int k = 0; k < 4; ++k) {
+            assert_int_equal(plumb_world_step(w[k], DT), PLUMB_OK);
+        }
+    }
+    assert_true(bits_of(w[0]) == bits_of(w[1]) && bits_of(w[0]) == bits_of(w[2]));
+    assert_true(alone_count(w[0]) < 30 && alone_count(w[3]) == 60); // mice and motors
+    double apart = 0;
+    for (uint32_t row = 0; row < w[0]->dynamic_count; ++row) {
+        apart =
+            fmax(apart, fabs((double)(w[0]->bodies.center_y[row] - w[3]->bodies.center_y[row])));
+    }
+    assert_true(apart < SIM_TOLERANCE(1e-4, 1e-11));
+    for (int k = 0; k < 4; ++k) {
+        plumb_world_destroy(w[k]);
+    }
+}
+
 static void bundles_share_no_body_and_leave_no_joint_out(void **state)
 {
     (void)state;
@@ -274,6 +318,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(widths_give_the_same_bits),
+        cmocka_unit_test(springs_in_newtons_are_the_same_in_lanes_and_alone),
         cmocka_unit_test(bundles_share_no_body_and_leave_no_joint_out),
         cmocka_unit_test(a_plan_is_kept_until_something_changes),
         cmocka_unit_test(a_plan_does_not_depend_on_the_past),

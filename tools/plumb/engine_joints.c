@@ -16,6 +16,11 @@ static render_vec to_render(plumb_vec2 v)
 
 // ---- joints
 
+static bool has_spring(const plumb_joint_desc *d)
+{
+    return d->hertz > 0 || d->stiffness > 0 || d->damper > 0;
+}
+
 static render_joint_kind sign_of(const plumb_joint_desc *d)
 {
     switch (d->kind) {
@@ -28,7 +33,7 @@ static render_joint_kind sign_of(const plumb_joint_desc *d)
     case PLUMB_WHEEL:
         return RENDER_JOINT_WHEEL;
     case PLUMB_DISTANCE:
-        return d->hertz > 0      ? RENDER_JOINT_SPRING
+        return has_spring(d)     ? RENDER_JOINT_SPRING
                : d->enable_limit ? RENDER_JOINT_ROPE
                                  : RENDER_JOINT_ROD;
     case PLUMB_MOUSE:
@@ -104,7 +109,7 @@ static void add_joint(const plumb_world *world, plumb_joint joint, render_frame 
                          .lower = (double)d.lower,
                          .upper = (double)d.upper,
                          .value = (double)plumb_joint_value(world, joint),
-                         .has_spring = d.hertz > 0,
+                         .has_spring = has_spring(&d),
                          .reach = reach_of(world, a, b) };
     if (d.enable_motor && d.motor_speed != 0) {
         out.drive = d.motor_speed > 0 ? 1 : -1;

@@ -132,7 +132,7 @@ typedef struct sc_motor {
 
 typedef struct sc_spring {
     uint64_t present;
-    double frequency, damping, rest;
+    double damper, damping, frequency, rest, stiffness;
 } sc_spring;
 
 /// What plumb_joint_memory holds: only JSON says it.

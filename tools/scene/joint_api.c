@@ -232,13 +232,29 @@ static int method_set_spring(lua_State *L)
     return check(&c, plumb_joint_set_spring(c.world, c.entity, hertz, damping, rest), "spring");
 }
 
+// set_stiffness(stiffness, damper [, rest]), in N/m and N s/m, or by the radian.
+static int method_set_stiffness(lua_State *L)
+{
+    call c = self(L, "set_stiffness");
+    plumb_joint_desc d = settings(&c);
+    plumb_real stiffness = lua_isnoneornil(L, 2) ? 0 : (plumb_real)sc_finite_number(L, 2);
+    plumb_real damper = lua_isnoneornil(L, 3) ? 0 : (plumb_real)sc_finite_number(L, 3);
+    plumb_real rest = lua_isnoneornil(L, 4) ? d.rest : (plumb_real)sc_finite_number(L, 4);
+    return check(&c, plumb_joint_set_stiffness(c.world, c.entity, stiffness, damper, rest),
+                 "spring");
+}
+
 // Motor: the angle that is wanted; others: where the spring is at rest.
 static int method_set_rest(lua_State *L)
 {
     call c = self(L, "set_rest");
     plumb_joint_desc d = settings(&c);
     plumb_real rest = (plumb_real)sc_finite_number(L, 2);
-    return check(&c, plumb_joint_set_spring(c.world, c.entity, d.hertz, d.damping, rest), "spring");
+    const bool stiff = d.stiffness > 0 || d.damper > 0;
+    return check(&c,
+                 stiff ? plumb_joint_set_stiffness(c.world, c.entity, d.stiffness, d.damper, rest)
+                       : plumb_joint_set_spring(c.world, c.entity, d.hertz, d.damping, rest),
+                 "spring");
 }
 
 static int method_set_target(lua_State *L)
@@ -304,6 +320,7 @@ static const luaL_Reg methods[] = {
     { "set_motor_speed", method_set_motor_speed },
     { "set_rest", method_set_rest },
     { "set_spring", method_set_spring },
+    { "set_stiffness", method_set_stiffness },
     { "set_target", method_set_target },
     { "torque", method_torque },
     { "value", method_value },

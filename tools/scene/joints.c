@@ -157,6 +157,20 @@ static void check_spring(scene *s, const sc_site *site, const sc_joint_def *d)
                           : d->kind == PLUMB_MOTOR  ? "angle"
                           : d->kind == PLUMB_MOUSE  ? "target"
                                                     : NULL;
+    bool hertz = SC_GIVEN(&sc_list_spring, &d->spring, sc_spring, frequency);
+    bool damping = SC_GIVEN(&sc_list_spring, &d->spring, sc_spring, damping);
+    bool newtons = d->spring.stiffness > 0 || d->spring.damper > 0;
+    if (newtons && (hertz || damping)) {
+        sc_raise(s, SCENE_E_CONFLICT, &inner, NULL, 0, NULL,
+                 "the spring of a %s{} has either 'frequency' and 'damping', or 'stiffness' and "
+                 "'damper'",
+                 site->construct);
+    }
+    if (!newtons && !hertz) {
+        sc_raise(s, SCENE_E_MISSING, &inner, NULL, 0, NULL,
+                 "the spring of a %s{} needs 'frequency', or 'stiffness' or 'damper' above 0",
+                 site->construct);
+    }
     if (instead != NULL && SC_GIVEN(&sc_list_spring, &d->spring, sc_spring, rest)) {
         sc_raise(s, SCENE_E_KEY, &inner, "rest", 0, NULL,
                  "the spring of a %s{} has no 'rest': give the joint's '%s'", site->construct,
@@ -187,6 +201,8 @@ static plumb_joint_desc describe(const sc_joint_def *d, sc_joint *record)
         .max_motor = (plumb_real)(slides ? d->motor.force : d->motor.torque),
         .hertz = (plumb_real)d->spring.frequency,
         .damping = (plumb_real)d->spring.damping,
+        .stiffness = (plumb_real)d->spring.stiffness,
+        .damper = (plumb_real)d->spring.damper,
         .rest = (plumb_real)(d->kind == PLUMB_MOTOR ? d->angle : d->spring.rest),
         .length = (plumb_real)d->length,
         .ratio = (plumb_real)d->ratio,

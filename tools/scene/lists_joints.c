@@ -17,9 +17,11 @@ const sc_list sc_list_motor = { "motor", drive_rows, COUNT(drive_rows) };
 
 #define T sc_spring
 static const sc_field spring_rows[] = {
+    { "damper",    SC_NUMBER, AT(T, damper),    0, BIG, "N s/m or N m s/rad", 0, 0 },
     { "damping",   SC_NUMBER, AT(T, damping),   0, 1e6, "1", 0, 0 },
-    { "frequency", SC_NUMBER, AT(T, frequency), 0, 1e6, "1/s", 0, SC_REQUIRED | SC_ABOVE },
+    { "frequency", SC_NUMBER, AT(T, frequency), 0, 1e6, "1/s", 0, SC_ABOVE },
     { "rest",      SC_NUMBER, AT(T, rest),      -BIG, BIG, "rad or m", 0, 0 },
+    { "stiffness", SC_NUMBER, AT(T, stiffness), 0, BIG, "N/m or N m/rad", 0, 0 },
 };
 const sc_list sc_list_spring = { "spring", spring_rows, COUNT(spring_rows) };
 #undef T

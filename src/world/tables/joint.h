@@ -18,7 +18,7 @@ typedef struct pl_joint_pose {
 
 typedef enum pl_row_type {
     PL_ROW_OFF,   // not in force
-    PL_ROW_EQUAL, // C = 0; with hertz > 0 a spring
+    PL_ROW_EQUAL, // C = 0, or a spring
     PL_ROW_LEAST, // C >= 0
     PL_ROW_DRIVE  // J v = speed; C is the coordinate driven
 } pl_row_type;
@@ -33,14 +33,32 @@ typedef enum pl_row_form {
     PL_FORM_LENGTH // pl_row_length
 } pl_row_form;
 
+// In what a spring is told.
+typedef enum pl_row_spring {
+    PL_SPRING_NONE,   // rigid
+    PL_SPRING_HERTZ,  // frequency [1/s] and damping ratio, with the mass that the row meets
+    PL_SPRING_NEWTONS // stiffness [N/m] or [N m/rad], damper [N s/m] or [N m s/rad]
+} pl_row_spring;
+
+// The spring of a joint is told by stiffness and damper; it has one at all.
+static inline bool pl_spring_is_in_newtons(const plumb_joint_desc *d)
+{
+    return d->stiffness > 0 || d->damper > 0;
+}
+static inline bool pl_joint_has_spring(const plumb_joint_desc *d)
+{
+    return d->hertz > 0 || pl_spring_is_in_newtons(d);
+}
+
 typedef struct pl_row {
     real ax, ay, aw, bx, by, bw; // J
     real error;                  // C
     real speed;                  // [m/s] or [rad/s] of DRIVE
-    real hertz, damping;         // of the spring
+    real stiff, damp;            // of the spring, if it is one
     real most;                   // [N] or [N m] largest force either way
     pl_row_type type;
     pl_row_form form;
+    pl_row_spring spring;
 } pl_row;
 
 typedef struct pl_rows {
@@ -56,7 +74,7 @@ typedef struct pl_pattern_row {
     uint8_t index; // in pl_joint.impulse
     uint8_t form;  // pl_row_form
     uint8_t type;  // pl_row_type
-    bool spring;
+    uint8_t spring; // pl_row_spring
 } pl_pattern_row;
 
 typedef struct pl_joint_pattern {
@@ -66,6 +84,7 @@ typedef struct pl_joint_pattern {
     uint8_t block;        // so many of the first are solved as one system
     bool bare;            // nothing but the point of a rigid hinge
     bool tempered;        // the block is a spring, or of bounded force
+    bool newtons;         // it has springs in newtons
     pl_pattern_row row[PL_JOINT_ROWS];
 } pl_joint_pattern;
 

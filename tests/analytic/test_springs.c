@@ -1,0 +1,165 @@
+// test_springs.c - springs told by stiffness and damper, against closed forms. Those in hertz: test_joints.c.
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "harness/near.h"
+#include "harness/sim.h"
+
+#define DT (1 / 60.0)
+
+static plumb_joint tie(plumb_world *w, plumb_joint_desc desc)
+{
+    plumb_joint joint = plumb_joint_create(w, &desc);
+    assert_false(plumb_is_null(joint));
+    return joint;
+}
+
+// [kg] body without shape: a point mass, or with inertia.
+static plumb_body mass(plumb_world *w, double x, double y, double kg, double inertia)
+{
+    plumb_body b = plumb_body_create(w, &(plumb_body_desc){ .position = sim_vec(x, y),
+                                                            .mass = (plumb_real)kg,
+                                                            .inertia = (plumb_real)inertia });
+    assert_false(plumb_is_null(b));
+    return b;
+}
+
+static double value(const plumb_world *w, plumb_joint j)
+{
+    return (double)plumb_joint_value(w, j);
+}
+
+// A damper alone: v falls by exp(-c t / m), however strong it is.
+static void dampers_brake_by_their_exponential(void **state)
+{
+    (void)state;
+    const double dampers[] = { 0.5, 6, 60, 6000 };
+    for (size_t k = 0; k < sizeof dampers / sizeof dampers[0]; ++k) {
+        const double kg = 2, c = dampers[k], v = 3;
+        plumb_world *w = sim_world(&(plumb_world_desc){ .zero_gravity = true, .no_sleep = true });
+        plumb_body b = mass(w, 1, 0, kg, 0.1);
+        tie(w, (plumb_joint_desc){ .kind = PLUMB_PRISMATIC,
+                                   .body_b = b,
+                                   .anchor = sim_vec(1, 0),
+                                   .damper = (plumb_real)c });
+        sim_launch(w, b, v, 0, 0);
+        double worst = 0;
+        for (int i = 1; i <= 120; ++i) {
+            sim_step(w, DT);
+            const double way = v * kg / c * (1 - exp(-c / kg * i * DT));
+            worst = fmax(worst, fabs(sim_x(w, b) - 1 - way));
+        }
+        print_message("damper of %g N s/m: within %.2g m in 2 s\n", c, worst);
+        assert_true(worst < SIM_TOLERANCE(2e-5, 1e-9));
+        plumb_world_destroy(w);
+    }
+}
+
+// Time of five full swings about `middle` of what `j` has as its value.
+static double five_swings(plumb_world *w, plumb_joint j, double middle)
+{
+    double last = value(w, j) - middle, first = 0, at = 0, t = 0;
+    for (int crossings = 0; crossings < 11 && t < 60; t += DT) {
+        sim_step(w, DT);
+        const double now = value(w, j) - middle;
+        if ((now > 0) != (last > 0)) {
+            at = t + DT * last / (last - now);
+            first = crossings++ == 0 ? at : first;
+        }
+        last = now;
+    }
+    return at - first;
+}
+
+// A spring in newtons pulls with the same force whatever it holds: four times the mass swings half as fast. One in hertz
+// keeps its frequency.
+static void stiffness_stays_when_the_mass_changes(void **state)
+{
+    (void)state;
+    for (int newtons = 0; newtons < 2; ++newtons) {
+        plumb_world *w = sim_world(&(plumb_world_desc){ .zero_gravity = true, .no_sleep = true });
+        plumb_body b = mass(w, 2.2, 0, 1, 0);
+        plumb_joint j = tie(w, (plumb_joint_desc){ .kind = PLUMB_DISTANCE,
+                                                   .body_b = b,
+                                                   .anchor_b = sim_vec(2.2, 0),
+                                                   .length = 2,
+                                                   .hertz = (plumb_real)(newtons ? 0 : 1) });
+        if (newtons) {
+            assert_int_equal(
+                plumb_joint_set_stiffness(w, j, (plumb_real)(4 * SIM_PI * SIM_PI), 0, 0), PLUMB_OK);
+        }
+        const double before = five_swings(w, j, 2) / 5;
+        assert_int_equal(plumb_body_set_mass(w, b, 4), PLUMB_OK);
+        const double after = five_swings(w, j, 2) / 5;
+        print_message("spring in %s: period %.6f s, with four times the mass %.6f s\n",
+                      newtons ? "newtons" : "hertz", before, after);
+        assert_near(before, 1, 1e-3);
+        assert_near(after, newtons ? 2 : 1, 2e-3);
+        plumb_world_destroy(w);
+    }
+}
+
+// [N m/rad] about a hinge at a rod's end: the rod turns with I + m r^2; and a rod that two springs hold beside its centre.
+static void springs_in_newtons_turn_what_they_hold(void **state)
+{
+    (void)state;
+    plumb_world *w = sim_world(&(plumb_world_desc){ .zero_gravity = true, .no_sleep = true });
+    const double kg = 2, inertia = 0.4, arm = 0.7, stiffness = 30;
+    plumb_body rod = mass(w, arm, 0, kg, inertia);
+    plumb_joint hinge =
+        tie(w, (plumb_joint_desc){
+                   .kind = PLUMB_REVOLUTE, .body_b = rod, .stiffness = (plumb_real)stiffness });
+    sim_launch(w, rod, 0, 0.5 * arm, 0.5);
+    const double exact = 2 * SIM_PI * sqrt((inertia + kg * arm * arm) / stiffness);
+    const double period = five_swings(w, hinge, 0) / 5;
+    print_message("rod on a hinge of %g N m/rad: period %.6f s, exact %.6f\n", stiffness, period,
+                  exact);
+    assert_near(period / exact, 1, 1e-3);
+    plumb_world_destroy(w);
+}
+
+// What a load stretches: m g / k, of each kind with a spring, by each solver.
+static void loads_stretch_springs_in_newtons(void **state)
+{
+    (void)state;
+    const plumb_joint_kind kinds[] = { PLUMB_PRISMATIC, PLUMB_WHEEL, PLUMB_DISTANCE, PLUMB_MOUSE,
+                                       PLUMB_MOTOR };
+    const plumb_solver solvers[] = { PLUMB_SOLVER_SOFT, PLUMB_SOLVER_PGS, PLUMB_SOLVER_EXACT };
+    const double kg = 5, stiffness = 200, exact = kg * SIM_G / stiffness;
+    for (size_t i = 0; i < 15; ++i) {
+        const plumb_joint_kind kind = kinds[i % 5];
+        plumb_world *w =
+            sim_world(&(plumb_world_desc){ .solver = solvers[i / 5], .no_sleep = true });
+        plumb_body b = mass(w, 0, -2, kg, 1);
+        plumb_joint_desc d = { .kind = kind,
+                               .body_b = b,
+                               .anchor = sim_vec(0, kind == PLUMB_DISTANCE ? 0 : -2),
+                               .stiffness = (plumb_real)stiffness,
+                               .damper = 40 };
+        d.anchor_b = sim_vec(0, kind == PLUMB_DISTANCE ? -2 : 0);
+        d.axis = sim_vec(0, kind == PLUMB_PRISMATIC || kind == PLUMB_WHEEL ? 1 : 0);
+        tie(w, d);
+        sim_run(w, 900, DT);
+        const double sag = -2 - sim_y(w, b);
+        print_message("%s, solver %d: %.7f m, exact %.7f\n", plumb_joint_kind_name(kind),
+                      (int)solvers[i / 5], sag, exact);
+        assert_near(sag / exact, 1, 2e-6);
+        plumb_world_destroy(w);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(dampers_brake_by_their_exponential),
+        cmocka_unit_test(stiffness_stays_when_the_mass_changes),
+        cmocka_unit_test(springs_in_newtons_turn_what_they_hold),
+        cmocka_unit_test(loads_stretch_springs_in_newtons),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
