@@ -27,6 +27,7 @@ static pl_exact_system system_of(const pl_substep *s, pl_joint_sweep sweep)
                               .base = vectors + n,
                               .change = vectors + 2 * n,
                               .h = s->h,
+                              .since = s->solving->call.since,
                               .sweep = sweep };
 }
 

@@ -44,7 +44,7 @@ typedef struct pl_exact_system {
     double *diagonal;
     double *velocity, *base,
         *change; // three a node: of the moment; without any impulse of the rows; of Newton's step
-    near_real h;
+    near_real h, since; // [s] the substep; from the start of the step to its own
     pl_joint_sweep sweep;
     bool missed; // the tolerance
 } pl_exact_system;

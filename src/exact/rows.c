@@ -78,25 +78,17 @@ static void fill_contact(const pl_exact_system *s, const pl_exact_item *item)
     }
 }
 
-// Of which point a hit is to be told: it bore nothing and is pushed now.
-static void note_strikes(const pl_exact_system *s, const pl_exact_item *item, bool first)
+// Of which point a hit is to be told: it bore nothing and is pushed now. Where a sweep relaxes, bodies are where the next
+// substep begins: it slows down what would strike in that.
+static void note_strikes(const pl_exact_system *s, const pl_exact_item *item)
 {
     pl_classic_contact *m = contact_of(s, item);
+    const near_real since = s->since + (s->sweep == PL_SWEEP_RELAX ? s->h : 0);
     for (uint32_t k = 0; k < m->count; ++k) {
         const pl_exact_row *r = &s->rows[item->first_row + k];
-        const bool unloaded = first || r->before <= 0;
-        double speed = 0;
-        for (int end = 0; end < 2; ++end) {
-            const uint32_t node = item->node[end];
-            const pl_solver_body *body = &pl_solver_bodies(&s->world->solver)[item->slot[end]];
-            const double own[3] = { (double)body->vx, (double)body->vy, (double)body->w };
-            const double *v = node == PL_NONE ? own : s->base + 3 * (size_t)node;
-            for (int i = 0; i < 3; ++i) {
-                speed += r->j[3 * end + i] * v[i];
-            }
-        }
-        if (unloaded && r->next > r->before && -speed > (double)m->struck) {
-            m->struck = (near_real)-speed;
+        if (m->point[k].ln <= 0 && r->next > 0) {
+            pl_classic_strike(m, (near_real)-pl_exact_rate(s, item, r, s->base),
+                              (near_real)separation_now(s, item, m, &m->point[k]), since, s->h);
         }
     }
 }
@@ -236,9 +228,7 @@ void pl_exact_keep(const pl_exact_system *s)
             keep_joint(s, item);
             continue;
         }
-        if (s->sweep == PL_SWEEP_PULL) {
-            note_strikes(s, item, false);
-        }
+        note_strikes(s, item);
         keep_contact(s, item);
     }
 }

@@ -199,9 +199,8 @@ static void solve_velocity(const classic *c, pl_classic_contact *m, pl_classic_p
     near_real speed = normal_speed(c, m, p);
     total = p->ln - p->mn * (speed + slack);
     total = total > -pull ? total : -pull;
-    if (total > p->ln && p->ln <= c->unloaded && -speed > m->struck) {
-        m->struck = -speed;
-        m->struck_at = c->since + (s > 0 && s < -speed * c->h ? s / -speed : s > 0 ? c->h : 0);
+    if (total > p->ln && p->ln <= c->unloaded) {
+        pl_classic_strike(m, -speed, s, c->since, c->h);
     }
     push(c, m, p, total - p->ln, 0);
     p->ln = total;

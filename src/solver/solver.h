@@ -65,6 +65,16 @@ typedef struct pl_classic_contact {
     pl_classic_point point[2];
 } pl_classic_contact;
 
+// A point that was `apart` [m] is struck at `speed` [m/s] in the substep of h that begins `since` the step did.
+static inline void pl_classic_strike(pl_classic_contact *m, near_real speed, near_real apart,
+                                     near_real since, near_real h)
+{
+    if (speed > m->struck) {
+        m->struck = speed;
+        m->struck_at = since + (apart > 0 && apart < speed * h ? apart / speed : apart > 0 ? h : 0);
+    }
+}
+
 // What a row is marked with in `slots` before it gets its slot. An elastic body, one in a contact whose impacts are
 // events, keeps what rounding takes from its velocity; the others must not, or what one
 // island asks for would change the bits of the rest.
