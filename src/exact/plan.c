@@ -11,7 +11,7 @@
 
 #include <string.h>
 
-// Of an island: 150 MB. One with more is swept instead.
+// Of an island: 150 MB.
 #define MOST_ENTRIES 1000000u
 
 typedef struct search {
@@ -40,14 +40,10 @@ void pl_exact_free(pl_memory *memory, pl_exact_solver *e)
 
 //---- contacts and joints -------------------------------------------------------------------------------
 
-static uint32_t slot_of(const plumb_world *world, uint32_t row)
-{
-    const uint32_t movable = world->dynamic_count + world->kinematic_count;
-    return pl_solver_slot(&world->solver, row < movable ? row : movable, movable);
-}
-
 static bool list_items(plumb_world *world, pl_exact_solver *e)
 {
+    const pl_solver *solver = &world->solver;
+    const uint32_t movable = world->dynamic_count + world->kinematic_count;
     const pl_manifold *manifolds = pl_manifolds(&world->narrow);
     const uint32_t contacts = world->narrow.manifold_count;
     const pl_joint_context c = pl_joint_context_of(world, 0, NULL, 0, 1, 1);
@@ -61,11 +57,11 @@ static bool list_items(plumb_world *world, pl_exact_solver *e)
     e->item_count = contacts + joints;
     for (uint32_t i = 0; i < contacts; ++i) {
         const pl_manifold *m = &manifolds[i];
-        items[i] =
-            (pl_exact_item){ .contact = i,
-                             .joint = PL_NONE,
-                             .slot = { slot_of(world, m->body_a), slot_of(world, m->body_b) },
-                             .row_count = 2 * m->count + (m->rolling > 0 ? 1 : 0) };
+        items[i] = (pl_exact_item){ .contact = i,
+                                    .joint = PL_NONE,
+                                    .slot = { pl_solver_slot(solver, m->body_a, movable),
+                                              pl_solver_slot(solver, m->body_b, movable) },
+                                    .row_count = 2 * m->count + (m->rolling > 0 ? 1 : 0) };
     }
     const uint32_t *grouped = world->joints.plan.grouped.data;
     for (uint32_t i = 0; i < joints; ++i) {
@@ -73,7 +69,8 @@ static bool list_items(plumb_world *world, pl_exact_solver *e)
         items[contacts + i] =
             (pl_exact_item){ .contact = PL_NONE,
                              .joint = c.group->alone + i,
-                             .slot = { slot_of(world, mark->row_a), slot_of(world, mark->row_b) },
+                             .slot = { pl_solver_slot(solver, mark->row_a, movable),
+                                       pl_solver_slot(solver, mark->row_b, movable) },
                              .row_count = PL_JOINT_ROWS };
     }
     return true;
@@ -172,6 +169,13 @@ static uint32_t flood(search *s, uint32_t from, uint32_t number, uint32_t *queue
     return count;
 }
 
+// The island of a contact or joint; NULL: nothing of it moves.
+static pl_exact_island *island_of(const search *s, const pl_exact_item *item)
+{
+    const uint32_t slot = item->slot[0] < s->slots ? item->slot[0] : item->slot[1];
+    return slot < s->slots ? (pl_exact_island *)s->exact->islands.data + s->island[slot] : NULL;
+}
+
 // Contacts and joints by their islands, in the order in which they were; rows of each.
 static void sort_items(search *s)
 {
@@ -179,9 +183,9 @@ static void sort_items(search *s)
     pl_exact_item *items = e->items.data, *sorted = items + e->item_count;
     pl_exact_island *islands = e->islands.data;
     for (uint32_t i = 0; i < e->item_count; ++i) {
-        const uint32_t slot = items[i].slot[0] < s->slots ? items[i].slot[0] : items[i].slot[1];
-        if (slot < s->slots) {
-            ++islands[s->island[slot]].end_item;
+        pl_exact_island *island = island_of(s, &items[i]);
+        if (island != NULL) {
+            ++island->end_item;
         }
     }
     uint32_t at = 0;
@@ -191,9 +195,9 @@ static void sort_items(search *s)
         islands[k].end_item = islands[k].first_item;
     }
     for (uint32_t i = 0; i < e->item_count; ++i) {
-        const uint32_t slot = items[i].slot[0] < s->slots ? items[i].slot[0] : items[i].slot[1];
-        if (slot < s->slots) { // else nothing of it moves
-            sorted[islands[s->island[slot]].end_item++] = items[i];
+        pl_exact_island *island = island_of(s, &items[i]);
+        if (island != NULL) {
+            sorted[island->end_item++] = items[i];
         }
     }
     e->item_count = at;
@@ -355,11 +359,13 @@ static bool eliminate(search *s, uint32_t v)
     return true;
 }
 
-// Takes the slots of `queue` in the order of least degree.
+// Takes the slots of `queue` in the order of least degree. An island of too many entries has none: what a body does to
+// another is left out of Newton's steps, which then seldom settle, and are told as missed.
 static bool eliminate_all(search *s, const uint32_t *queue, uint32_t count, pl_exact_island *island)
 {
     pl_exact_solver *e = s->exact;
     const uint32_t first_entry = e->entry_count;
+    bool too_dense = false;
     island->first_node = e->node_count;
     for (uint32_t i = count; i-- > 0;) {
         enlist(s, queue[i], s->length[queue[i]]);
@@ -375,14 +381,14 @@ static bool eliminate_all(search *s, const uint32_t *queue, uint32_t count, pl_e
             return false;
         }
         if (e->entry_count - first_entry > MOST_ENTRIES) {
-            island->swept = true;
+            too_dense = true;
             e->entry_count = first_entry;
             e->node_count = island->first_node;
             memset(s->list, 0xff, (s->slots + 1) * sizeof(uint32_t));
             break;
         }
     }
-    for (uint32_t i = 0; i < count && island->swept; ++i) {
+    for (uint32_t i = 0; i < count && too_dense; ++i) {
         s->node[queue[i]] = e->node_count;
         ((pl_exact_node *)e->nodes.data)[e->node_count++] =
             (pl_exact_node){ .slot = queue[i], .first = first_entry };

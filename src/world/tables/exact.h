@@ -24,7 +24,6 @@ typedef struct pl_exact_item {
 // What is solved together: nothing of it moves anything else.
 typedef struct pl_exact_island {
     uint32_t first_node, end_node, first_item, end_item, first_row, end_row;
-    bool swept;  // too dense to be factored
     bool missed; // the tolerance, when last solved
 } pl_exact_island;
 
