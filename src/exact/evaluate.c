@@ -11,11 +11,11 @@
 #define EPSILON 1e-15 // of J v, in rounding
 
 // What J v adds up: its rounding is a share of that.
-double pl_exact_sum(const pl_exact_system *s, const pl_exact_item *item, const pl_exact_row *r)
+double pl_exact_sum(const pl_exact_system *s, const pl_exact_row *r)
 {
     double sum = 0;
     for (int end = 0; end < 2; ++end) {
-        const uint32_t node = item->node[end];
+        const uint32_t node = r->item->node[end];
         for (int c = 0; node != PL_NONE && c < 3; ++c) {
             sum += fabs(r->j[3 * end + c] * s->velocity[3 * (size_t)node + (size_t)c]);
         }
@@ -23,17 +23,28 @@ double pl_exact_sum(const pl_exact_system *s, const pl_exact_item *item, const p
     return sum;
 }
 
-double pl_exact_rate(const pl_exact_system *s, const pl_exact_item *item, const pl_exact_row *r,
-                     const double *velocity)
+void pl_exact_push(const pl_exact_system *s, const pl_exact_row *r, double *velocity,
+                   double impulse)
+{
+    for (int end = 0; end < 2; ++end) {
+        const uint32_t node = r->item->node[end];
+        for (int c = 0; node != PL_NONE && c < 3; ++c) {
+            velocity[3 * node + (uint32_t)c] +=
+                s->nodes[node].inv_mass[c] * r->j[3 * end + c] * impulse;
+        }
+    }
+}
+
+double pl_exact_rate(const pl_exact_system *s, const pl_exact_row *r, const double *velocity)
 {
     double sum = 0;
     for (int end = 0; end < 2; ++end) {
-        const uint32_t node = item->node[end];
+        const uint32_t node = r->item->node[end];
         if (node != PL_NONE) {
             const double *v = velocity + 3 * (size_t)node, *j = r->j + 3 * end;
             sum += j[0] * v[0] + j[1] * v[1] + j[2] * v[2];
         } else {
-            const pl_solver_body *b = &pl_solver_bodies(&s->world->solver)[item->slot[end]];
+            const pl_solver_body *b = &pl_solver_bodies(&s->world->solver)[r->item->slot[end]];
             const double *j = r->j + 3 * end;
             sum += j[0] * (double)b->vx + j[1] * (double)b->vy + j[2] * (double)b->w;
         }
@@ -42,11 +53,10 @@ double pl_exact_rate(const pl_exact_system *s, const pl_exact_item *item, const 
 }
 
 // Impulse that the row would have without bounds.
-static double wish_of(const pl_exact_newton *n, const pl_exact_item *item, const pl_exact_row *r,
-                      double stiffness)
+static double wish_of(const pl_exact_newton *n, const pl_exact_row *r, double stiffness)
 {
     const double trace = 1 / stiffness;
-    return (r->impulse * trace + r->target - pl_exact_rate(n->s, item, r, n->s->velocity)) /
+    return (r->impulse * trace + r->target - pl_exact_rate(n->s, r, n->s->velocity)) /
            (r->give + trace);
 }
 
@@ -68,10 +78,10 @@ static double load_of(const pl_exact_newton *n, const pl_exact_row *r)
 }
 
 // A row as it is by itself, or with the loads before it.
-static void evaluate_row(const pl_exact_newton *n, const pl_exact_item *item, pl_exact_row *r)
+static void evaluate_row(const pl_exact_newton *n, pl_exact_row *r)
 {
     const double stiffness = n->stiffness * r->mass;
-    const double weight = 1 / (r->give + 1 / stiffness), wish = wish_of(n, item, r, stiffness);
+    const double weight = 1 / (r->give + 1 / stiffness), wish = wish_of(n, r, stiffness);
     const double most = r->leads > 0 ? r->factor * load_of(n, r) : 0;
     bound(r, wish, r->leads > 0 ? -most : r->low, r->leads > 0 ? most : r->high, weight);
     r->slope = 0;
@@ -82,13 +92,11 @@ static void evaluate_row(const pl_exact_newton *n, const pl_exact_item *item, pl
 
 // A point with friction as a cone: impulses are projected onto it, along both rows. What slides would be lifted by
 // factor x slip; the slip of the start of the round is taken from what the normal is to do.
-static void evaluate_cone(const pl_exact_newton *n, const pl_exact_item *item, pl_exact_row *normal,
-                          pl_exact_row *tangent)
+static void evaluate_cone(const pl_exact_newton *n, pl_exact_row *normal, pl_exact_row *tangent)
 {
     const double stiffness = n->stiffness * normal->mass, mu = tangent->factor;
-    const double wish =
-        wish_of(n, item, normal, stiffness) - stiffness * tangent->shift - normal->low;
-    const double aside = wish_of(n, item, tangent, stiffness), side = aside < 0 ? -1 : 1;
+    const double wish = wish_of(n, normal, stiffness) - stiffness * tangent->shift - normal->low;
+    const double aside = wish_of(n, tangent, stiffness), side = aside < 0 ? -1 : 1;
     normal->slope = tangent->slope = 0;
     normal->weight = tangent->weight = stiffness;
     if (side * aside <= mu * wish) {
@@ -107,27 +115,12 @@ static void evaluate_cone(const pl_exact_newton *n, const pl_exact_item *item, p
     }
 }
 
-static void evaluate_item(const pl_exact_newton *n, const pl_exact_item *item)
+static void evaluate(const pl_exact_newton *n, pl_exact_row *r)
 {
-    pl_exact_row *row = n->s->rows + item->first_row;
-    for (uint32_t k = 0; k < item->row_count; ++k) {
-        pl_exact_row *r = &row[k];
-        if (r->in_force && n->convex && r->leads == 1) {
-            evaluate_cone(n, item, &n->s->rows[r->lead], r);
-        } else if (r->in_force) {
-            evaluate_row(n, item, r);
-        }
-    }
-}
-
-static void push_row(const pl_exact_system *s, const pl_exact_item *item, const pl_exact_row *r)
-{
-    for (int end = 0; end < 2; ++end) {
-        const uint32_t node = item->node[end];
-        for (int c = 0; node != PL_NONE && c < 3; ++c) {
-            s->change[3 * node + (uint32_t)c] -=
-                s->nodes[node].inv_mass[c] * r->j[3 * end + c] * r->next;
-        }
+    if (n->convex && r->leads == 1) {
+        evaluate_cone(n, &n->s->rows[r->lead], r);
+    } else {
+        evaluate_row(n, r);
     }
 }
 
@@ -137,19 +130,20 @@ double pl_exact_evaluate(pl_exact_newton *n)
     n->noise = 0;
     const pl_exact_system *s = n->s;
     const pl_exact_island *island = s->island;
+    for (uint32_t k = island->first_row; k < island->end_row; ++k) {
+        if (s->rows[k].in_force) {
+            evaluate(n, &s->rows[k]);
+        }
+    }
     for (uint32_t k = 3 * island->first_node; k < 3 * island->end_node; ++k) {
         s->change[k] = s->velocity[k] - s->base[k];
     }
-    for (uint32_t i = island->first_item; i < island->end_item; ++i) {
-        const pl_exact_item *item = &s->items[i];
-        evaluate_item(n, item);
-        for (uint32_t k = item->first_row; k < item->first_row + item->row_count; ++k) {
-            const pl_exact_row *r = &s->rows[k];
-            if (r->in_force) {
-                const double blur = EPSILON * r->weight * pl_exact_sum(s, item, r);
-                n->noise += blur * blur / r->mass;
-                push_row(s, item, r);
-            }
+    for (uint32_t k = island->first_row; k < island->end_row; ++k) {
+        const pl_exact_row *r = &s->rows[k];
+        if (r->in_force) {
+            const double blur = EPSILON * r->weight * pl_exact_sum(s, r);
+            n->noise += blur * blur / r->mass;
+            pl_exact_push(s, r, s->change, -r->next);
         }
     }
     double size = 0;

@@ -25,7 +25,9 @@ static pl_exact_system system_of(const pl_substep *s, pl_joint_sweep sweep)
                               .below = blocks + 9 * ((size_t)e->node_count + e->entry_count),
                               .velocity = vectors,
                               .base = vectors + n,
-                              .change = vectors + 2 * n,
+                              .start = vectors + 2 * n,
+                              .change = vectors + 3 * n,
+                              .step = vectors + 4 * n,
                               .h = s->h,
                               .since = s->solving->call.since,
                               .sweep = sweep };
@@ -50,25 +52,13 @@ void pl_exact_warm_start_joints(pl_substep *s)
     }
 }
 
-// velocity += share M^-1 J^T impulse of what is in force.
-static void push_row(const pl_exact_system *s, const pl_exact_item *item, const pl_exact_row *r,
-                     double *velocity, double share)
-{
-    for (int end = 0; end < 2 && r->in_force; ++end) {
-        const uint32_t node = item->node[end];
-        for (int c = 0; node != PL_NONE && c < 3; ++c) {
-            velocity[3 * node + (uint32_t)c] +=
-                share * s->nodes[node].inv_mass[c] * r->j[3 * end + c] * r->impulse;
-        }
-    }
-}
-
+// velocity += share M^-1 J^T impulse.
 static void push_rows(const pl_exact_system *s, double *velocity, double share)
 {
-    for (uint32_t i = s->island->first_item; i < s->island->end_item; ++i) {
-        const pl_exact_item *item = &s->items[i];
-        for (uint32_t k = item->first_row; k < item->first_row + item->row_count; ++k) {
-            push_row(s, item, &s->rows[k], velocity, share);
+    for (uint32_t k = s->island->first_row; k < s->island->end_row; ++k) {
+        const pl_exact_row *r = &s->rows[k];
+        if (r->in_force) {
+            pl_exact_push(s, r, velocity, share * r->impulse);
         }
     }
 }
@@ -103,8 +93,9 @@ static void keep_joints(const pl_exact_system *s)
         const bool stays = !s->missed && !is_tense(s, item);
         s->rows[item->first_row].stays = stays;
         for (uint32_t k = item->first_row; k < item->first_row + item->row_count; ++k) {
-            if (stays || s->rows[k].give > 0) {
-                push_row(s, item, &s->rows[k], s->base, 1);
+            const pl_exact_row *r = &s->rows[k];
+            if (r->in_force && (stays || r->give > 0)) {
+                pl_exact_push(s, r, s->base, r->impulse);
             }
         }
     }
@@ -128,15 +119,11 @@ static void give_velocities(const pl_exact_system *s)
     for (uint32_t n = s->island->first_node; n < s->island->end_node; ++n) {
         s->nodes[n].where = 0;
     }
-    for (uint32_t i = s->island->first_item; i < s->island->end_item; ++i) {
-        const pl_exact_item *item = &s->items[i];
-        bool pushed = false;
-        for (uint32_t k = item->first_row; k < item->first_row + item->row_count; ++k) {
-            pushed |= s->rows[k].in_force && s->rows[k].next != 0;
-        }
-        for (int end = 0; end < 2 && pushed; ++end) {
-            if (item->node[end] != PL_NONE) {
-                s->nodes[item->node[end]].where = 1;
+    for (uint32_t k = s->island->first_row; k < s->island->end_row; ++k) {
+        const pl_exact_row *r = &s->rows[k];
+        for (int end = 0; end < 2 && r->in_force && r->next != 0; ++end) {
+            if (r->item->node[end] != PL_NONE) {
+                s->nodes[r->item->node[end]].where = 1;
             }
         }
     }
@@ -169,9 +156,7 @@ static void solve_island(pl_exact_system *s, bool warm)
     copy(s, s->base, s->velocity);
     push_rows(s, s->velocity, 1);
     pl_exact_solve(s);
-    ((pl_exact_island *)
-         s->exact->islands.data)[s->island - (pl_exact_island *)s->exact->islands.data]
-        .missed = s->missed;
+    s->island->missed = s->missed;
     pl_exact_keep(s);
     give_velocities(s);
     if (s->sweep == PL_SWEEP_PULL) {
@@ -182,7 +167,7 @@ static void solve_island(pl_exact_system *s, bool warm)
 static void solve_all(const pl_substep *substep, pl_joint_sweep sweep)
 {
     pl_exact_system s = system_of(substep, sweep);
-    const pl_exact_island *islands = s.exact->islands.data;
+    pl_exact_island *islands = s.exact->islands.data;
     for (uint32_t i = 0; i < s.exact->island_count; ++i) {
         s.island = &islands[i];
         if (s.island->end_item > s.island->first_item) {

@@ -9,22 +9,22 @@
 // A scalar row J v + give impulse = target whose impulse has bounds. Those of friction and rolling resistance are
 // `factor` times the load, the impulses of the `leads` rows that lie before it in the contact.
 typedef struct pl_exact_row {
-    double j[6];      // of A's vx, vy, w, then of B's
-    double target;    // [m/s], [rad/s]
-    double give;      // [1/kg] of a spring
-    double low, high; // [N s]
-    double factor;    // [-] or [m]
-    double mass;      // [kg] effective
-    double impulse;   // [N s] as known
-    double next;      // [N s] what follows from the velocities of the moment
-    double weight,
-        slope; // [kg] -d next / d (J v) of its own; of each lead's J v, as a share of the lead's weight
+    const pl_exact_item *item; // the contact or joint that it is of
+    double j[6];               // of A's vx, vy, w, then of B's
+    double target;             // [m/s], [rad/s]
+    double give;               // [1/kg] of a spring
+    double low, high;          // [N s]
+    double factor;             // [-] or [m]
+    double mass;               // [kg] effective
+    double impulse;            // [N s] as known
+    double next;               // [N s] what follows from the velocities of the moment
+    double weight;             // [kg] -d next / d (J v) of its own
+    double slope;              // the same of each lead's J v, as a share of the lead's weight
     double kept;       // [N s] of a joint's row: given to the velocities by the sweep that pulled
     double before;     // [N s] as known before the sweep that pulls
     double shift, gap; // [m/s] of friction as a cone: see newton.c
     uint32_t lead;     // first of the rows that load it
     uint8_t leads;     // how many; 0: low and high hold
-    uint8_t point;     // of the contact, or row of the joint
     bool in_force;
     bool stays; // of a joint: what it gave in the sweep that pulled
 } pl_exact_row;
@@ -34,16 +34,16 @@ typedef struct pl_exact_system {
     plumb_world *world;
     const pl_joint_context *joints;
     pl_exact_solver *exact;
-    const pl_exact_island *island;
+    pl_exact_island *island;
     pl_exact_node *nodes; // of all islands, as everything below
     const uint32_t *entries;
     const pl_exact_item *items;
     pl_exact_row *rows;
-    double *above,
-        *below; // of an entry: what the later node's velocity does to the earlier one, and the reverse
+    // Of an entry: what the later node's velocity does to the earlier one, and the reverse.
+    double *above, *below;
     double *diagonal;
-    double *velocity, *base,
-        *change; // three a node: of the moment; without any impulse of the rows; of Newton's step
+    // Three a node: velocities of the moment, without any impulse of the rows, where a round began; F; Newton's step.
+    double *velocity, *base, *start, *change, *step;
     near_real h, since; // [s] the substep; from the start of the step to its own
     pl_joint_sweep sweep;
     bool missed; // the tolerance
@@ -55,15 +55,15 @@ bool pl_exact_plan(plumb_world *world);
 void pl_exact_tell(plumb_world *world);
 void pl_exact_free(pl_memory *memory, pl_exact_solver *exact);
 
-// Rows as the bodies are now; impulses back, and what the events want to know (rows.c).
+// Rows as the bodies are now; what the arcs of anchors make of a substep; impulses back, and what the events want to
+// know (rows.c).
 void pl_exact_fill(const pl_exact_system *s);
-// What the arcs of anchors make of a substep (rows.c); what joints gave that is to stay, into `base` (exact.c).
 void pl_exact_bend(const pl_exact_system *s);
 void pl_exact_keep(const pl_exact_system *s);
 
-// The factor of what `rows` weigh, and -its inverse times `change`, into it (factor.c).
+// The factor of what `rows` weigh; its inverse times x, into x (factor.c).
 void pl_exact_factor(const pl_exact_system *s);
-void pl_exact_substitute(const pl_exact_system *s);
+void pl_exact_substitute(const pl_exact_system *s, double *x);
 
 // A solution while it is found (newton.c).
 typedef struct pl_exact_newton {
@@ -80,10 +80,13 @@ typedef struct pl_exact_newton {
     bool convex;      // see evaluate_cone
 } pl_exact_newton;
 
-// J v of a row at such velocities; what it adds up at those of the moment, of which its rounding is a share; F into `change`: returns its size, by momentum (evaluate.c).
-double pl_exact_rate(const pl_exact_system *s, const pl_exact_item *item, const pl_exact_row *r,
-                     const double *velocity);
-double pl_exact_sum(const pl_exact_system *s, const pl_exact_item *item, const pl_exact_row *r);
+// Of a row: J v at such velocities; what it adds up at those of the moment, of which its rounding is a share;
+// velocity += M^-1 J^T impulse (evaluate.c).
+double pl_exact_rate(const pl_exact_system *s, const pl_exact_row *r, const double *velocity);
+double pl_exact_sum(const pl_exact_system *s, const pl_exact_row *r);
+void pl_exact_push(const pl_exact_system *s, const pl_exact_row *r, double *velocity,
+                   double impulse);
+// F into `change`: returns its size, by momentum (evaluate.c).
 double pl_exact_evaluate(pl_exact_newton *n);
 
 // Velocities and impulses that obey all rows (newton.c).

@@ -58,24 +58,21 @@ static void assemble(const pl_exact_system *s)
         memset(block(s->above, s->nodes[n].first), 0, 9 * s->nodes[n].count * sizeof(double));
         memset(block(s->below, s->nodes[n].first), 0, 9 * s->nodes[n].count * sizeof(double));
     }
-    for (uint32_t i = island->first_item; i < island->end_item; ++i) {
-        const pl_exact_item *item = &s->items[i];
-        for (uint32_t k = item->first_row; k < item->first_row + item->row_count; ++k) {
-            const pl_exact_row *r = &s->rows[k];
-            if (r->weight > 0 && r->slope != 0) {
-                double j[6]; // slides on a cone: along its edge
-                for (int c = 0; c < 6; ++c) {
-                    j[c] = s->rows[r->lead].j[c] + r->slope * r->j[c];
-                }
-                add_row(s, item, j, j, r->weight);
-                continue;
+    for (uint32_t k = island->first_row; k < island->end_row; ++k) {
+        const pl_exact_row *r = &s->rows[k];
+        if (r->weight > 0 && r->slope != 0) {
+            double j[6]; // slides on a cone: along its edge
+            for (int c = 0; c < 6; ++c) {
+                j[c] = s->rows[r->lead].j[c] + r->slope * r->j[c];
             }
-            if (r->weight > 0) {
-                add_row(s, item, r->j, r->j, r->weight);
-            }
-            for (uint32_t l = r->lead; r->slope != 0 && l < r->lead + r->leads; ++l) {
-                add_row(s, item, r->j, s->rows[l].j, r->slope * s->rows[l].weight);
-            }
+            add_row(s, r->item, j, j, r->weight);
+            continue;
+        }
+        if (r->weight > 0) {
+            add_row(s, r->item, r->j, r->j, r->weight);
+        }
+        for (uint32_t l = r->lead; r->slope != 0 && l < r->lead + r->leads; ++l) {
+            add_row(s, r->item, r->j, s->rows[l].j, r->slope * s->rows[l].weight);
         }
     }
 }
@@ -192,9 +189,8 @@ static void apply(double v[3], const double *d)
     }
 }
 
-void pl_exact_substitute(const pl_exact_system *s)
+void pl_exact_substitute(const pl_exact_system *s, double *x)
 {
-    double *x = s->change;
     for (uint32_t n = s->island->first_node; n < s->island->end_node; ++n) {
         const pl_exact_node *node = &s->nodes[n];
         for (uint32_t e = node->first; e < node->first + node->count; ++e) {

@@ -17,8 +17,7 @@
 #include <math.h>
 #include <string.h>
 
-#define STIFFNESS                                                                                  \
-    1e3 // of a row's own mass, in the first round; times the ratio of masses of the island it is due
+#define STIFFNESS   1e3 // of a row's own mass, in the first round
 #define MOST_RATIO  1e6
 #define GROWTH      1e4  // of the stiffness that is due, where rounds gain little
 #define SLOW        0.05 // gain of a round, below which stiffness grows
@@ -37,37 +36,37 @@
 
 //---- a round -----------------------------------------------------------------------------------------------
 
-// velocity += share of `step`.
-static void go(const pl_exact_system *s, const double *step, double share)
+// velocity += share of the step.
+static void go(const pl_exact_system *s, double share)
 {
     for (uint32_t k = 3 * s->island->first_node; k < 3 * s->island->end_node; ++k) {
-        s->velocity[k] += share * step[k];
+        s->velocity[k] += share * s->step[k];
     }
 }
 
 // F . M step, F being in `change`: the slope of the potential along the step, where friction is cones.
-static double slope_along(const pl_exact_system *s, const double *step)
+static double slope_along(const pl_exact_system *s)
 {
     double sum = 0;
     for (uint32_t i = s->island->first_node; i < s->island->end_node; ++i) {
         for (uint32_t c = 0; c < 3; ++c) {
             const double m = s->nodes[i].inv_mass[c];
-            sum += m > 0 ? s->change[3 * i + c] * step[3 * i + c] / m : 0;
+            sum += m > 0 ? s->change[3 * i + c] * s->step[3 * i + c] / m : 0;
         }
     }
     return sum;
 }
 
 // Share of a step along which the potential falls most, as far as half the slope goes. Returns the size of F there.
-static double descend(pl_exact_newton *n, const double *step)
+static double descend(pl_exact_newton *n)
 {
     const pl_exact_system *s = n->s;
     double low = 0, high = 1, at = 1;
     const double before = n->slope;
-    go(s, step, 1);
+    go(s, 1);
     double size = pl_exact_evaluate(n);
     for (int i = 0; i < BISECTIONS; ++i) {
-        const double slope = slope_along(s, step);
+        const double slope = slope_along(s);
         if (fabs(slope) <= 0.5 * fabs(before)) {
             break;
         }
@@ -79,7 +78,7 @@ static double descend(pl_exact_newton *n, const double *step)
             break; // still falls where Newton's step ends
         }
         const double next = (low + high) / 2;
-        go(s, step, next - at);
+        go(s, next - at);
         at = next;
         size = pl_exact_evaluate(n);
     }
@@ -87,17 +86,17 @@ static double descend(pl_exact_newton *n, const double *step)
 }
 
 // Share of a step that makes F smaller: halved until it does. Returns its size.
-static double shorten(pl_exact_newton *n, const double *step, double before)
+static double shorten(pl_exact_newton *n, double before)
 {
     double share = 1, size = 0;
-    go(n->s, step, 1);
+    go(n->s, 1);
     for (int i = 0; i < SHORTENINGS; ++i) {
         size = pl_exact_evaluate(n);
         if (size < before) {
             break;
         }
         share /= 2;
-        go(n->s, step, -share);
+        go(n->s, -share);
     }
     return size;
 }
@@ -106,18 +105,13 @@ static double shorten(pl_exact_newton *n, const double *step, double before)
 static double advance(pl_exact_newton *n, double before)
 {
     const pl_exact_system *s = n->s;
-    double *step = s->change + 3 * (size_t)s->exact->node_count;
-    const uint32_t first = 3 * s->island->first_node, end = 3 * s->island->end_node;
     pl_exact_factor(s);
-    memcpy(step + first, s->change + first, (end - first) * sizeof(double));
-    pl_exact_substitute(s);
-    for (uint32_t k = first; k < end; ++k) {
-        const double x = step[k];
-        step[k] = -s->change[k];
-        s->change[k] = x;
+    for (uint32_t k = 3 * s->island->first_node; k < 3 * s->island->end_node; ++k) {
+        s->step[k] = -s->change[k];
     }
-    n->slope = slope_along(s, step);
-    return n->convex ? descend(n, step) : shorten(n, step, before);
+    pl_exact_substitute(s, s->step);
+    n->slope = slope_along(s);
+    return n->convex ? descend(n) : shorten(n, before);
 }
 
 // Velocities of the round, from where they are; false: they would not settle.
@@ -140,16 +134,13 @@ static void shift_cones(pl_exact_newton *n)
 {
     const pl_exact_system *s = n->s;
     double along = 0, square = 0;
-    for (uint32_t i = s->island->first_item; i < s->island->end_item; ++i) {
-        const pl_exact_item *item = &s->items[i];
-        for (uint32_t k = item->first_row; k < item->first_row + item->row_count; ++k) {
-            pl_exact_row *r = &s->rows[k];
-            if (r->in_force && r->leads == 1) {
-                const double slip = fabs(pl_exact_rate(s, item, r, s->velocity) - r->target);
-                const double gap = r->factor * slip - r->shift, turn = gap - r->gap;
-                along += r->gap * turn, square += turn * turn;
-                r->gap = gap;
-            }
+    for (uint32_t k = s->island->first_row; k < s->island->end_row; ++k) {
+        pl_exact_row *r = &s->rows[k];
+        if (r->in_force && r->leads == 1) {
+            const double slip = fabs(pl_exact_rate(s, r, s->velocity) - r->target);
+            const double gap = r->factor * slip - r->shift, turn = gap - r->gap;
+            along += r->gap * turn, square += turn * turn;
+            r->gap = gap;
         }
     }
     const double length = n->shifts > 0 && square > 0 ? -n->length * along / square : 1;
@@ -175,11 +166,10 @@ static bool round_off(pl_exact_newton *n)
 {
     const pl_exact_system *s = n->s;
     const uint32_t first = 3 * s->island->first_node, end = 3 * s->island->end_node;
-    double *start = s->change + 6 * (size_t)s->exact->node_count;
-    memcpy(start + first, s->velocity + first, (end - first) * sizeof(double));
+    memcpy(s->start + first, s->velocity + first, (end - first) * sizeof(double));
     n->convex = false;
     if (!settle(n, NEWTONS)) {
-        memcpy(s->velocity + first, start + first, (end - first) * sizeof(double));
+        memcpy(s->velocity + first, s->start + first, (end - first) * sizeof(double));
         n->convex = true;
         shift_cones(n);
         return settle(n, 2 * NEWTONS);
@@ -190,13 +180,13 @@ static bool round_off(pl_exact_newton *n)
 }
 
 // [m/s] by which impulses have not come to rest.
-static double unrest_of(const pl_exact_newton *n, const pl_exact_item *item, const pl_exact_row *r)
+static double unrest_of(const pl_exact_newton *n, const pl_exact_row *r)
 {
     const double left = fabs(r->next - r->impulse) / (n->stiffness * r->mass);
     if (!n->convex || r->leads != 1) {
         return left;
     }
-    const double slip = pl_exact_rate(n->s, item, r, n->s->velocity) - r->target;
+    const double slip = pl_exact_rate(n->s, r, n->s->velocity) - r->target;
     const double shifted = fabs(r->factor * fabs(slip) - r->shift);
     return shifted > left ? shifted : left;
 }
@@ -206,14 +196,11 @@ static double unrest(const pl_exact_newton *n, bool loads)
 {
     const pl_exact_system *s = n->s;
     double most = 0;
-    for (uint32_t i = s->island->first_item; i < s->island->end_item; ++i) {
-        const pl_exact_item *item = &s->items[i];
-        for (uint32_t k = item->first_row; k < item->first_row + item->row_count; ++k) {
-            const pl_exact_row *r = &s->rows[k];
-            if (r->in_force && (r->leads == 0 || !loads)) {
-                const double left = unrest_of(n, item, r);
-                most = left > most ? left : most;
-            }
+    for (uint32_t k = s->island->first_row; k < s->island->end_row; ++k) {
+        const pl_exact_row *r = &s->rows[k];
+        if (r->in_force && (r->leads == 0 || !loads)) {
+            const double left = unrest_of(n, r);
+            most = left > most ? left : most;
         }
     }
     return most;
@@ -224,17 +211,17 @@ static void find_scale(pl_exact_newton *n)
 {
     const pl_exact_system *s = n->s;
     double slip = 0, sum = 0;
-    for (uint32_t i = s->island->first_item; i < s->island->end_item; ++i) {
-        const pl_exact_item *item = &s->items[i];
-        for (uint32_t k = item->first_row; k < item->first_row + item->row_count; ++k) {
-            const pl_exact_row *r = &s->rows[k];
-            const double lack = r->in_force ? r->target - pl_exact_rate(s, item, r, s->base) : 0;
-            sum = pl_greater(sum, r->in_force ? pl_exact_sum(s, item, r) : 0);
-            if (r->leads > 0) {
-                slip = pl_greater(slip, fabs(lack));
-            } else {
-                n->scale = pl_greater(n->scale, r->low < 0 ? fabs(lack) : lack);
-            }
+    for (uint32_t k = s->island->first_row; k < s->island->end_row; ++k) {
+        const pl_exact_row *r = &s->rows[k];
+        if (!r->in_force) {
+            continue;
+        }
+        const double lack = r->target - pl_exact_rate(s, r, s->base);
+        sum = pl_greater(sum, pl_exact_sum(s, r));
+        if (r->leads > 0) {
+            slip = pl_greater(slip, fabs(lack));
+        } else {
+            n->scale = pl_greater(n->scale, r->low < 0 ? fabs(lack) : lack);
         }
     }
     n->fastest = slip + 2 * n->scale;
@@ -293,6 +280,7 @@ void pl_exact_solve(pl_exact_system *s)
     const double tolerance = n.tolerance;
     n.enough = 1e-4 * tolerance * tolerance * n.scale * n.scale * heaviest(s, &ratio);
     n.stiffness = STIFFNESS;
+    // Heavy on light has to be stiffer by as much.
     const double due = STIFFNESS * ratio, most_stiff = due * (pulls ? PULL_GROWTH : GROWTH);
     const int most_stalls = pulls ? PULL_STALLS : STALLS;
     const uint32_t most_factored = s->exact->factored + FACTORS;

@@ -64,7 +64,6 @@ static void fill_contact(const pl_exact_system *s, const pl_exact_item *item)
     for (uint32_t k = 0; k < m->count; ++k) {
         fill_normal(s, item, m, &m->point[k], &r[k]);
         fill_tangent(m, &m->point[k], item->first_row + k, &r[m->count + k]);
-        r[k].point = r[m->count + k].point = (uint8_t)k;
         r[k].in_force = m->point[k].separation < PL_APART / 2;
         r[m->count + k].in_force = r[k].in_force && m->friction > 0;
     }
@@ -87,7 +86,7 @@ static void note_strikes(const pl_exact_system *s, const pl_exact_item *item)
     for (uint32_t k = 0; k < m->count; ++k) {
         const pl_exact_row *r = &s->rows[item->first_row + k];
         if (m->point[k].ln <= 0 && r->next > 0) {
-            pl_classic_strike(m, (near_real)-pl_exact_rate(s, item, r, s->base),
+            pl_classic_strike(m, (near_real)-pl_exact_rate(s, r, s->base),
                               (near_real)separation_now(s, item, m, &m->point[k]), since, s->h);
         }
     }
@@ -116,7 +115,7 @@ static void fill_joint(const pl_exact_system *s, const pl_exact_item *item)
     pl_one_rows(s->world, l.joint, l.a, l.b);
     for (int i = 0; i < PL_JOINT_ROWS; ++i) {
         pl_exact_row *out = &s->rows[item->first_row + (uint32_t)i];
-        *out = (pl_exact_row){ .point = (uint8_t)i };
+        *out = (pl_exact_row){ 0 };
         if (i >= l.joint->rows.count) {
             continue;
         }
@@ -132,7 +131,6 @@ static void fill_joint(const pl_exact_system *s, const pl_exact_item *item)
                                .high = law.high - kept,
                                .kept = kept,
                                .impulse = impulse - kept,
-                               .point = (uint8_t)i,
                                .in_force = law.in_force };
     }
 }
@@ -175,13 +173,14 @@ static void bend(const pl_exact_system *s, const pl_exact_item *item)
 
 //---- all -------------------------------------------------------------------------------------------------
 
-static double mass_of(const pl_exact_system *s, const pl_exact_item *item, const pl_exact_row *r)
+static double mass_of(const pl_exact_system *s, const pl_exact_row *r)
 {
+    const uint32_t *node = r->item->node;
     double k = 0;
     for (int end = 0; end < 2; ++end) {
-        for (int i = 0; item->node[end] != PL_NONE && i < 3; ++i) {
+        for (int i = 0; node[end] != PL_NONE && i < 3; ++i) {
             const double j = r->j[3 * end + i];
-            k += s->nodes[item->node[end]].inv_mass[i] * j * j;
+            k += s->nodes[node[end]].inv_mass[i] * j * j;
         }
     }
     return k > 0 ? 1 / k : 0;
@@ -202,7 +201,8 @@ void pl_exact_fill(const pl_exact_system *s)
         }
         for (uint32_t k = item->first_row; k < item->first_row + item->row_count; ++k) {
             pl_exact_row *r = &s->rows[k];
-            r->mass = r->in_force ? mass_of(s, item, r) : 0;
+            r->item = item;
+            r->mass = r->in_force ? mass_of(s, r) : 0;
             r->before = s->sweep == PL_SWEEP_PULL ? r->impulse : before[k - item->first_row];
             r->impulse = s->missed ? r->before : r->impulse;
             r->in_force &= r->mass > 0;
