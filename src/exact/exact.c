@@ -6,7 +6,7 @@
 //
 // Reads, writes: solver bodies, impulses. Order: as schema/passes.h says. Cost: newton.c's.
 #include "exact/exact.h"
-#include "joints/one.h"
+#include "joints/law.h"
 
 static pl_exact_system system_of(const pl_substep *s, pl_joint_sweep sweep)
 {
@@ -67,16 +67,14 @@ static void push_rows(const pl_exact_system *s, double *velocity, double share)
 static bool is_tense(const pl_exact_system *s, const pl_exact_item *item)
 {
     const pl_joint *j = pl_joint_grouped(&s->world->joints, item->joint);
-    double x = 0, y = 0;
-    for (int i = 0; i < j->rows.count; ++i) {
-        const pl_exact_row *r = &s->rows[item->first_row + (uint32_t)i];
-        x += r->j[3] * r->next, y += r->j[4] * r->next;
+    double impulse[PL_JOINT_ROWS];
+    for (uint32_t i = 0; i < PL_JOINT_ROWS; ++i) {
+        impulse[i] = s->rows[item->first_row + i].next;
     }
-    const pl_joint_pose *a = &j->pose_a, *b = &j->pose_b;
-    const near_real pull_a = (near_real) - (x * (double)a->rx + y * (double)a->ry);
-    const near_real pull_b = (near_real)(x * (double)b->rx + y * (double)b->ry);
-    return pl_joint_inertia(pull_a, s->h, pl_one_own_inertia(s->world, j, 0)) > 0 ||
-           pl_joint_inertia(pull_b, s->h, pl_one_own_inertia(s->world, j, 1)) > 0;
+    near_real pull[2];
+    pl_law_pulls(j, impulse, pull);
+    return pl_joint_inertia(pull[0], s->h, pl_one_own_inertia(s->world, j, 0)) > 0 ||
+           pl_joint_inertia(pull[1], s->h, pl_one_own_inertia(s->world, j, 1)) > 0;
 }
 
 // What joints gave stays in the velocities: relaxed along where they point then, the way of the substep is a chord between

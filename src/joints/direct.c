@@ -371,19 +371,16 @@ static bool stiffen(const joint_system *s)
     for (uint32_t c = s->first; c < s->end; ++c) {
         pl_direct_part *p = &s->parts[c];
         const pl_joint *j = p->lone.joint;
-        double x = 0, y = 0;
+        double total[PL_JOINT_ROWS] = { 0 };
         for (int k = 0; k < p->count; ++k) {
-            const pl_row *r = &j->rows.row[p->row[k]];
-            const double total = (double)j->impulse[p->row[k]] + p->x[k];
-            x += (double)r->bx * total, y += (double)r->by * total;
+            total[p->row[k]] = (double)j->impulse[p->row[k]] + p->x[k];
         }
-        const pl_joint_pose *a = &j->pose_a, *b = &j->pose_b;
-        const near_real pull_a = (near_real) - (x * (double)a->rx + y * (double)a->ry);
-        const near_real pull_b = (near_real)(x * (double)b->rx + y * (double)b->ry);
+        near_real pull[2];
+        pl_law_pulls(j, total, pull);
         const near_real own_a = own_inertia(s, c, 0), own_b = own_inertia(s, c, 1);
-        any |= pl_joint_inertia(pull_a, h, own_a) > 0 || pl_joint_inertia(pull_b, h, own_b) > 0;
-        pl_joint_stiffen(p->lone.a, pull_a, h, own_a);
-        pl_joint_stiffen(p->lone.b, pull_b, h, own_b);
+        any |= pl_joint_inertia(pull[0], h, own_a) > 0 || pl_joint_inertia(pull[1], h, own_b) > 0;
+        pl_joint_stiffen(p->lone.a, pull[0], h, own_a);
+        pl_joint_stiffen(p->lone.b, pull[1], h, own_b);
     }
     hold_inertia(s);
     spin(s, 1);

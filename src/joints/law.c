@@ -45,3 +45,15 @@ pl_row_law pl_row_law_of(const pl_lone *l, int i, pl_joint_sweep sweep)
     }
     return law;
 }
+
+void pl_law_pulls(const pl_joint *j, const double impulse[PL_JOINT_ROWS], near_real pull[2])
+{
+    double x = 0, y = 0;
+    for (int i = 0; i < j->rows.count; ++i) {
+        x += (double)j->rows.row[i].bx * impulse[i];
+        y += (double)j->rows.row[i].by * impulse[i];
+    }
+    const pl_joint_pose *a = &j->pose_a, *b = &j->pose_b;
+    pull[0] = (near_real) - (x * (double)a->rx + y * (double)a->ry);
+    pull[1] = (near_real)(x * (double)b->rx + y * (double)b->ry);
+}

@@ -81,7 +81,6 @@ extern const pl_joint_kernels pl_joint_kernels_w4;
 extern const pl_joint_kernels pl_joint_kernels_w8;
 extern const pl_joint_kernels pl_joint_kernels_w16;
 
-// Factors of a spring's row over a substep of h [s].
 // Geometric stiffness: a force F at the arm r turns a body back by r . F a radian, as a weight does a pendulum. Where
 // links are light and what hangs on them is heavy, that spring is too stiff for the substep, and the links flutter ever
 // faster. So such a body gets the inertia, h^2 r . F, with which a substep is a radian of its swing. [kg m^2] that a
@@ -103,7 +102,7 @@ static inline void pl_joint_stiffen(pl_solver_body *body, near_real pull, near_r
     }
 }
 
-// `mass` [kg] that the row meets: springs in newtons go by it.
+// Factors of a spring's row over a substep of h [s]. `mass` [kg] that the row meets: springs in newtons go by it.
 pl_joint_soft pl_joint_spring(const pl_row *row, real mass, real h);
 
 // The same for a row outside of blocks, and what velocity v and error C before the substep add to J v: lead v, and in
