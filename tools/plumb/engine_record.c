@@ -210,16 +210,11 @@ static void write_who(const engine_replay *replay, const plumb_difference *d, ch
 /// Choices by their names.
 static void name_choice(engine_change *change)
 {
-    static const struct {
-        const char *what, *names[3];
-    } choices[] = { { "solver", { "soft", "pgs", "exact" } }, { "y_axis", { "up", "down" } } };
-    for (size_t i = 0; i < sizeof choices / sizeof choices[0]; i++) {
-        if (strcmp(change->what, choices[i].what) == 0) {
-            const char *const *names = choices[i].names;
-            snprintf(change->from, sizeof change->from, "%s", names[(change->from[0] - '0') % 3]);
-            snprintf(change->to, sizeof change->to, "%s", names[(change->to[0] - '0') % 3]);
-        }
-    }
+    const char *names = strcmp(change->what, "solver") == 0   ? ENGINE_SOLVERS
+                        : strcmp(change->what, "y_axis") == 0 ? "up,down"
+                                                              : "";
+    (void)cli_member(names, change->from[0] - '0', change->from, sizeof change->from);
+    (void)cli_member(names, change->to[0] - '0', change->to, sizeof change->to);
 }
 
 /// `only`: what a thing is called that only B, or only A, has.
