@@ -70,8 +70,11 @@ static inline bool pl_is_substep_stage(pl_stage stage)
 
 static inline bool pl_is_home(const pl_pass *pass)
 {
-    return pass->run == NULL && pass->row[PLUMB_SOLVER_SOFT] == NULL &&
-           pass->row[PLUMB_SOLVER_PGS] == NULL && pass->row[PLUMB_SOLVER_EXACT] == NULL;
+    bool does = pass->run != NULL;
+    for (int i = 0; i < PL_SOLVERS; ++i) {
+        does |= pass->row[i] != NULL;
+    }
+    return !does;
 }
 
 void pl_schedule_free(pl_memory *memory, pl_schedule *schedule);
