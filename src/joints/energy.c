@@ -37,11 +37,6 @@ static double coupling(const pl_row *r, const pl_row *q, ease a, ease b)
            b.inertia * (double)r->bw * (double)q->bw;
 }
 
-static bool is_spring(const pl_row *r)
-{
-    return pl_row_is_spring(r);
-}
-
 // Of a force of `force` that is w^2 m times the way, `twice` the energy without a bound.
 static double bounded(double twice, double force, double most)
 {
@@ -52,7 +47,7 @@ static double bounded(double twice, double force, double most)
 static double of_row(const pl_row *r, ease a, ease b)
 {
     const double k = coupling(r, r, a, b);
-    if (!is_spring(r) || !(k > 0)) {
+    if (!pl_row_is_spring(r) || !(k > 0)) {
         return 0;
     }
     const double w = TAU * (double)r->stiff, error = fabs((double)r->error);
@@ -67,7 +62,7 @@ static double of_block(const pl_rows *rows, ease a, ease b)
     const pl_row *r = rows->row;
     const double k00 = coupling(&r[0], &r[0], a, b), k01 = coupling(&r[0], &r[1], a, b),
                  k11 = coupling(&r[1], &r[1], a, b), det = k00 * k11 - k01 * k01;
-    if (rows->block != 2 || !is_spring(&r[0]) || !(det > (double)PL_PIVOT * k00 * k11)) {
+    if (rows->block != 2 || !pl_row_is_spring(&r[0]) || !(det > (double)PL_PIVOT * k00 * k11)) {
         return 0;
     }
     const double w = TAU * (double)r[0].stiff, x = (double)r[0].error, y = (double)r[1].error;
