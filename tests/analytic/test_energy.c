@@ -13,16 +13,6 @@
 #define HERTZ 2.0
 #define OMEGA (2 * SIM_PI * HERTZ)
 
-// [kg], [kg m^2] body without shape.
-static plumb_body mass(plumb_world *w, double x, double y, double kg, double inertia)
-{
-    plumb_body b = plumb_body_create(w, &(plumb_body_desc){ .position = sim_vec(x, y),
-                                                            .mass = (plumb_real)kg,
-                                                            .inertia = (plumb_real)inertia });
-    assert_false(plumb_is_null(b));
-    return b;
-}
-
 static plumb_joint tie(plumb_world *w, plumb_joint_desc desc)
 {
     desc.hertz = (plumb_real)HERTZ;
@@ -47,7 +37,7 @@ static void distance_springs_meet_the_reduced_mass(void **state)
 {
     (void)state;
     plumb_world *w = sim_space();
-    plumb_body a = mass(w, 0, 0, 2, 0), b = mass(w, 3, 0, 6, 0);
+    plumb_body a = sim_mass(w, 0, 0, 2, 0), b = sim_mass(w, 3, 0, 6, 0);
     plumb_joint j = tie(
         w,
         (plumb_joint_desc){
@@ -71,7 +61,7 @@ static void springs_beside_the_centre_meet_less(void **state)
 {
     (void)state;
     plumb_world *w = sim_space();
-    plumb_body b = mass(w, 0, 0, 4, 0.5);
+    plumb_body b = sim_mass(w, 0, 0, 4, 0.5);
     tie(w, (plumb_joint_desc){ .kind = PLUMB_DISTANCE,
                                .body_b = b,
                                .anchor = { 1, 2 },
@@ -85,7 +75,7 @@ static void rotary_and_sliding_springs(void **state)
 {
     (void)state;
     plumb_world *w = sim_space();
-    plumb_body b = mass(w, 0, 0, 4, 0.5);
+    plumb_body b = sim_mass(w, 0, 0, 4, 0.5);
     plumb_joint j =
         tie(w, (plumb_joint_desc){ .kind = PLUMB_REVOLUTE, .body_b = b, .rest = (plumb_real)0.3 });
     check(w, 0.5, 0.3);
@@ -106,7 +96,7 @@ static void mouse_joints_are_springs(void **state)
 {
     (void)state;
     plumb_world *w = sim_space();
-    plumb_body b = mass(w, 0, 0, 4, 0);
+    plumb_body b = sim_mass(w, 0, 0, 4, 0);
     plumb_joint j = tie(w, (plumb_joint_desc){ .kind = PLUMB_MOUSE, .body_b = b });
     plumb_joint_set_target(w, j, sim_vec(3, 4));
     check(w, 4, 5);
@@ -123,7 +113,7 @@ static void motor_joints_are_two(void **state)
 {
     (void)state;
     plumb_world *w = sim_space();
-    plumb_body b = mass(w, 0, 0, 4, 0.5);
+    plumb_body b = sim_mass(w, 0, 0, 4, 0.5);
     plumb_joint j =
         tie(w, (plumb_joint_desc){ .kind = PLUMB_MOTOR, .body_b = b, .rest = (plumb_real)0.5 });
     plumb_joint_set_target(w, j, sim_vec(0, 2));
@@ -139,7 +129,7 @@ static void springs_in_newtons_store_what_they_say(void **state)
     const double k = 70, most = 100, x = most / k;
     for (int heavy = 1; heavy <= 10; heavy += 9) {
         plumb_world *w = sim_space();
-        plumb_body b = mass(w, 3, 0, heavy, 0.5 * heavy);
+        plumb_body b = sim_mass(w, 3, 0, heavy, 0.5 * heavy);
         const plumb_joint_desc rod = { .kind = PLUMB_DISTANCE,
                                        .body_b = b,
                                        .anchor_b = { 3, 4 }, // far from its centre
@@ -174,7 +164,7 @@ static void a_swinging_mass_keeps_the_sum(void **state)
 {
     (void)state;
     plumb_world *w = sim_world(&(plumb_world_desc){ .substeps = 64 });
-    plumb_body b = mass(w, 0, -2, 3, 0);
+    plumb_body b = sim_mass(w, 0, -2, 3, 0);
     tie(w, (plumb_joint_desc){ .kind = PLUMB_DISTANCE, .body_b = b, .anchor_b = { 0, -2 } });
     const plumb_energy start = plumb_world_energy(w);
     double most = 0, off = 0;

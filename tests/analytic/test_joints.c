@@ -20,16 +20,6 @@ static plumb_joint tie(plumb_world *w, plumb_joint_desc desc)
     return joint;
 }
 
-// [kg] body without shape: a point mass, or with inertia.
-static plumb_body mass(plumb_world *w, double x, double y, double kg, double inertia)
-{
-    plumb_body b = plumb_body_create(w, &(plumb_body_desc){ .position = sim_vec(x, y),
-                                                            .mass = (plumb_real)kg,
-                                                            .inertia = (plumb_real)inertia });
-    assert_false(plumb_is_null(b));
-    return b;
-}
-
 static double value(const plumb_world *w, plumb_joint j)
 {
     return (double)plumb_joint_value(w, j);
@@ -80,7 +70,7 @@ static void pendulum_keeps_period_and_amplitude(void **state)
         for (size_t k = 0; k < sizeof amplitudes / sizeof amplitudes[0]; ++k) {
             double a = amplitudes[k] * SIM_PI / 180;
             plumb_world *w = sim_world(&(plumb_world_desc){ 0 });
-            plumb_body b = mass(w, sin(a), -cos(a), 2, 0);
+            plumb_body b = sim_mass(w, sin(a), -cos(a), 2, 0);
             plumb_joint j = kind == 0
                                 ? tie(w, (plumb_joint_desc){ .kind = PLUMB_DISTANCE,
                                                              .body_a = b,
@@ -89,7 +79,7 @@ static void pendulum_keeps_period_and_amplitude(void **state)
             if (kind == 1) { // physical pendulum: inertia m L^2 / 2 makes it 1.5 times as long
                 plumb_joint_destroy(w, j);
                 plumb_body_destroy(w, b);
-                b = mass(w, sin(a), -cos(a), 2, 1);
+                b = sim_mass(w, sin(a), -cos(a), 2, 1);
                 j = tie(w, (plumb_joint_desc){ .kind = PLUMB_REVOLUTE, .body_b = b });
             }
             double kept = 0, measured = measure_period(w, b, 10, &kept);
@@ -113,7 +103,7 @@ static void rod_pulls_at_its_hinge(void **state)
     (void)state;
     plumb_world *w = sim_world(&(plumb_world_desc){ 0 });
     const double length = 2, kg = 3;
-    plumb_body rod = mass(w, length / 2, 0, kg, kg * length * length / 12);
+    plumb_body rod = sim_mass(w, length / 2, 0, kg, kg * length * length / 12);
     plumb_joint j = tie(w, (plumb_joint_desc){ .kind = PLUMB_REVOLUTE, .body_b = rod });
     double largest = 0;
     for (int i = 0; i < 120; ++i) {
@@ -133,10 +123,10 @@ static double spin_kept(double spin, int substeps, bool paired, bool alone, doub
 {
     plumb_world *w = sim_world(&(plumb_world_desc){ .zero_gravity = true, .substeps = substeps });
     const double half = 2, kg = 3, inertia = kg * half * half / 3;
-    plumb_body rod = mass(w, half, 0, kg, inertia), other = PLUMB_NULL_INIT;
+    plumb_body rod = sim_mass(w, half, 0, kg, inertia), other = PLUMB_NULL_INIT;
     sim_launch(w, rod, 0, spin * half, spin);
     if (paired) {
-        other = mass(w, -half, 0, kg, inertia);
+        other = sim_mass(w, -half, 0, kg, inertia);
         sim_launch(w, other, 0, -spin * half, spin);
     }
     plumb_joint_desc desc = { .kind = PLUMB_REVOLUTE, .body_a = rod, .body_b = other };
@@ -197,7 +187,7 @@ static void reactions_at_rest_are_the_weight(void **state)
     for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; ++k) {
         plumb_world *w = sim_world(&(plumb_world_desc){ 0 });
         plumb_joint_desc d = kinds[k];
-        d.body_b = mass(w, 0, 0, 2, 0.5);
+        d.body_b = sim_mass(w, 0, 0, 2, 0.5);
         plumb_joint j = tie(w, d);
         sim_run(w, 600, DT);
         plumb_vec2 f = plumb_joint_force(w, j);
@@ -222,7 +212,7 @@ static void springs_keep_time(void **state)
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; ++k) {
         double hertz = cases[k][0], zeta = cases[k][1], omega = 2 * SIM_PI * hertz;
         plumb_world *w = sim_space();
-        plumb_body b = mass(w, 2.5, 0, 1, 0);
+        plumb_body b = sim_mass(w, 2.5, 0, 1, 0);
         plumb_joint j = tie(w, (plumb_joint_desc){ .kind = PLUMB_DISTANCE,
                                                    .body_b = b,
                                                    .anchor_b = sim_vec(2.5, 0),
@@ -253,7 +243,7 @@ static void springs_keep_time(void **state)
         plumb_world_destroy(w);
     }
     plumb_world *w = sim_world(&(plumb_world_desc){ 0 });
-    plumb_body b = mass(w, 0, -2, 3, 0);
+    plumb_body b = sim_mass(w, 0, -2, 3, 0);
     plumb_joint j = tie(w, (plumb_joint_desc){ .kind = PLUMB_DISTANCE,
                                                .body_b = b,
                                                .anchor_b = sim_vec(0, -2),
@@ -278,7 +268,7 @@ static void springs_follow_their_exponential(void **state)
         const bool newtons = i >= count; // the same spring, told by stiffness and damper
         const double f = 2 * SIM_PI * cases[k][0], z = cases[k][1], a = 0.2, kg = 3;
         plumb_world *w = sim_world(&(plumb_world_desc){ .zero_gravity = true, .no_sleep = true });
-        plumb_body b = mass(w, 2 + a, 0, kg, 0);
+        plumb_body b = sim_mass(w, 2 + a, 0, kg, 0);
         tie(w, (plumb_joint_desc){ .kind = PLUMB_DISTANCE,
                                    .body_b = b,
                                    .anchor_b = sim_vec(2 + a, 0),
@@ -319,7 +309,7 @@ static double stretch_network(double hertz, bool star, bool newtons, double *res
     double farthest = 0;
     for (int i = 0; i < (star ? 16 : 20); ++i) {
         const double angle = 2 * SIM_PI * i / 16, x = star ? 2 * cos(angle) : i;
-        plumb_body b = star && i > 0 ? first : mass(w, star ? 0 : i, 0, 1, 0);
+        plumb_body b = star && i > 0 ? first : sim_mass(w, star ? 0 : i, 0, 1, 0);
         tie(w, (plumb_joint_desc){ .kind = PLUMB_DISTANCE,
                                    .body_a = star ? none : last,
                                    .body_b = b,
@@ -366,7 +356,7 @@ static void rotary_spring_keeps_time(void **state)
 {
     (void)state;
     plumb_world *w = sim_space();
-    plumb_body b = mass(w, 0, 0, 1, 0.5);
+    plumb_body b = sim_mass(w, 0, 0, 1, 0.5);
     plumb_joint j = tie(w, (plumb_joint_desc){ .kind = PLUMB_REVOLUTE, .body_b = b, .hertz = 2 });
     sim_launch(w, b, 0, 0, 1);
     double last = 0, first = -1, at = 0, t = 0;
@@ -391,7 +381,7 @@ static void pulley_falls_as_atwood_says(void **state)
 {
     (void)state;
     plumb_world *w = sim_world(&(plumb_world_desc){ 0 });
-    plumb_body a = mass(w, -1, -2, 3, 0), b = mass(w, 1, -2, 1, 0);
+    plumb_body a = sim_mass(w, -1, -2, 3, 0), b = sim_mass(w, 1, -2, 1, 0);
     plumb_joint j = tie(w, (plumb_joint_desc){ .kind = PLUMB_PULLEY,
                                                .body_a = a,
                                                .body_b = b,
@@ -414,7 +404,7 @@ static void gears_keep_their_ratio(void **state)
 {
     (void)state;
     plumb_world *w = sim_space();
-    plumb_body a = mass(w, 0, 0, 1, 1), b = mass(w, 3, 0, 1, 2);
+    plumb_body a = sim_mass(w, 0, 0, 1, 1), b = sim_mass(w, 3, 0, 1, 2);
     tie(w, (plumb_joint_desc){ .kind = PLUMB_REVOLUTE, .body_b = a });
     tie(w, (plumb_joint_desc){ .kind = PLUMB_REVOLUTE, .body_b = b, .anchor = sim_vec(3, 0) });
     plumb_joint gear =
@@ -430,8 +420,8 @@ static void gears_keep_their_ratio(void **state)
     plumb_world_destroy(w);
 
     w = sim_space();
-    a = mass(w, 0, 0, 1, 1);
-    b = mass(w, 0, -1, 2, 1);
+    a = sim_mass(w, 0, 0, 1, 1);
+    b = sim_mass(w, 0, -1, 2, 1);
     tie(w, (plumb_joint_desc){ .kind = PLUMB_REVOLUTE, .body_b = a });
     tie(w, (plumb_joint_desc){ .kind = PLUMB_PRISMATIC, .body_b = b, .anchor = sim_vec(0, -1) });
     gear = tie(
@@ -454,7 +444,7 @@ static void a_rack_weighs_the_same_everywhere(void **state)
     for (int i = 0; i < 3; ++i) {
         const double x = 500 * i;
         plumb_world *w = sim_world(&(plumb_world_desc){ 0 });
-        plumb_body wheel = mass(w, x, 0, 1, 1), rack = mass(w, x + 1, 0, 2, 1);
+        plumb_body wheel = sim_mass(w, x, 0, 1, 1), rack = sim_mass(w, x + 1, 0, 2, 1);
         tie(w, (plumb_joint_desc){ .kind = PLUMB_REVOLUTE,
                                    .body_b = wheel,
                                    .anchor = sim_vec(x, 0),
@@ -486,7 +476,7 @@ static void slider_on_an_incline(void **state)
     (void)state;
     const double slope = SIM_PI / 6, t = 1;
     plumb_world *w = sim_world(&(plumb_world_desc){ 0 });
-    plumb_body b = mass(w, 0, 0, 1, 0.3);
+    plumb_body b = sim_mass(w, 0, 0, 1, 0.3);
     plumb_joint j = tie(w, (plumb_joint_desc){ .kind = PLUMB_PRISMATIC,
                                                .body_b = b,
                                                .axis = sim_vec(-cos(slope), -sin(slope)) });
@@ -506,7 +496,7 @@ static void motor_gets_up_to_speed(void **state)
 {
     (void)state;
     plumb_world *w = sim_space();
-    plumb_body b = mass(w, 0, 0, 1, 2);
+    plumb_body b = sim_mass(w, 0, 0, 1, 2);
     plumb_joint j = tie(w, (plumb_joint_desc){ .kind = PLUMB_REVOLUTE,
                                                .body_b = b,
                                                .enable_motor = true,
@@ -527,7 +517,7 @@ static void limits_and_ropes_stop(void **state)
 {
     (void)state;
     plumb_world *w = sim_world(&(plumb_world_desc){ 0 });
-    plumb_body b = mass(w, 0, -1, 1, 0), rod = mass(w, 6, 0, 1, 0.3);
+    plumb_body b = sim_mass(w, 0, -1, 1, 0), rod = sim_mass(w, 6, 0, 1, 0.3);
     plumb_joint rope = tie(w, (plumb_joint_desc){ .kind = PLUMB_DISTANCE,
                                                   .body_b = b,
                                                   .anchor_b = sim_vec(0, -1),
@@ -558,7 +548,7 @@ static void ratchet_turns_one_way(void **state)
 {
     (void)state;
     plumb_world *w = sim_space();
-    plumb_body b = mass(w, 0, 0, 1, 1);
+    plumb_body b = sim_mass(w, 0, 0, 1, 1);
     tie(w, (plumb_joint_desc){ .kind = PLUMB_REVOLUTE, .body_b = b });
     plumb_joint j =
         tie(w, (plumb_joint_desc){ .kind = PLUMB_RATCHET, .body_b = b, .pitch = (plumb_real)0.5 });
@@ -579,7 +569,7 @@ static void friction_joint_brakes(void **state)
 {
     (void)state;
     plumb_world *w = sim_space();
-    plumb_body b = mass(w, 0, 0, 2, 1);
+    plumb_body b = sim_mass(w, 0, 0, 2, 1);
     tie(w,
         (plumb_joint_desc){ .kind = PLUMB_FRICTION, .body_b = b, .max_force = 2, .max_torque = 1 });
     sim_launch(w, b, 3, 4, 2);
@@ -596,7 +586,7 @@ static void wheel_rests_on_its_spring(void **state)
 {
     (void)state;
     plumb_world *w = sim_world(&(plumb_world_desc){ 0 });
-    plumb_body b = mass(w, 0, 0, 1, 1);
+    plumb_body b = sim_mass(w, 0, 0, 1, 1);
     plumb_joint j =
         tie(w, (plumb_joint_desc){ .kind = PLUMB_WHEEL, .body_b = b, .hertz = 2, .damping = 1 });
     sim_launch(w, b, 0, 0, 3);
@@ -614,7 +604,7 @@ static void classic_solver_holds_joints(void **state)
 {
     (void)state;
     plumb_world *w = sim_world(&(plumb_world_desc){ .solver = PLUMB_SOLVER_PGS });
-    plumb_body a = mass(w, 1, 0, 1, 0.1), b = mass(w, 2, 0, 1, 0.1);
+    plumb_body a = sim_mass(w, 1, 0, 1, 0.1), b = sim_mass(w, 2, 0, 1, 0.1);
     plumb_joint j = tie(w, (plumb_joint_desc){ .kind = PLUMB_REVOLUTE, .body_b = a });
     plumb_joint k = tie(
         w, (plumb_joint_desc){ .kind = PLUMB_WELD, .body_a = a, .body_b = b, .anchor = { 1, 0 } });

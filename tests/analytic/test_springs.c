@@ -19,16 +19,6 @@ static plumb_joint tie(plumb_world *w, plumb_joint_desc desc)
     return joint;
 }
 
-// [kg] body without shape: a point mass, or with inertia.
-static plumb_body mass(plumb_world *w, double x, double y, double kg, double inertia)
-{
-    plumb_body b = plumb_body_create(w, &(plumb_body_desc){ .position = sim_vec(x, y),
-                                                            .mass = (plumb_real)kg,
-                                                            .inertia = (plumb_real)inertia });
-    assert_false(plumb_is_null(b));
-    return b;
-}
-
 static double value(const plumb_world *w, plumb_joint j)
 {
     return (double)plumb_joint_value(w, j);
@@ -42,7 +32,7 @@ static void dampers_brake_by_their_exponential(void **state)
     for (size_t k = 0; k < sizeof dampers / sizeof dampers[0]; ++k) {
         const double kg = 2, c = dampers[k], v = 3;
         plumb_world *w = sim_world(&(plumb_world_desc){ .zero_gravity = true, .no_sleep = true });
-        plumb_body b = mass(w, 1, 0, kg, 0.1);
+        plumb_body b = sim_mass(w, 1, 0, kg, 0.1);
         tie(w, (plumb_joint_desc){ .kind = PLUMB_PRISMATIC,
                                    .body_b = b,
                                    .anchor = sim_vec(1, 0),
@@ -83,7 +73,7 @@ static void stiffness_stays_when_the_mass_changes(void **state)
     (void)state;
     for (int newtons = 0; newtons < 2; ++newtons) {
         plumb_world *w = sim_world(&(plumb_world_desc){ .zero_gravity = true, .no_sleep = true });
-        plumb_body b = mass(w, 2.2, 0, 1, 0);
+        plumb_body b = sim_mass(w, 2.2, 0, 1, 0);
         plumb_joint j = tie(w, (plumb_joint_desc){ .kind = PLUMB_DISTANCE,
                                                    .body_b = b,
                                                    .anchor_b = sim_vec(2.2, 0),
@@ -110,7 +100,7 @@ static void springs_in_newtons_turn_what_they_hold(void **state)
     (void)state;
     plumb_world *w = sim_world(&(plumb_world_desc){ .zero_gravity = true, .no_sleep = true });
     const double kg = 2, inertia = 0.4, arm = 0.7, stiffness = 30;
-    plumb_body rod = mass(w, arm, 0, kg, inertia);
+    plumb_body rod = sim_mass(w, arm, 0, kg, inertia);
     plumb_joint hinge =
         tie(w, (plumb_joint_desc){
                    .kind = PLUMB_REVOLUTE, .body_b = rod, .stiffness = (plumb_real)stiffness });
@@ -135,7 +125,7 @@ static void loads_stretch_springs_in_newtons(void **state)
         const plumb_joint_kind kind = kinds[i % 5];
         plumb_world *w =
             sim_world(&(plumb_world_desc){ .solver = solvers[i / 5], .no_sleep = true });
-        plumb_body b = mass(w, 0, -2, kg, 1);
+        plumb_body b = sim_mass(w, 0, -2, kg, 1);
         plumb_joint_desc d = { .kind = kind,
                                .body_b = b,
                                .anchor = sim_vec(0, kind == PLUMB_DISTANCE ? 0 : -2),

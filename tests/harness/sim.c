@@ -62,6 +62,15 @@ plumb_body sim_body(plumb_world *w, plumb_body_type type, double x, double y, do
     return b;
 }
 
+plumb_body sim_mass(plumb_world *w, double x, double y, double kg, double inertia)
+{
+    plumb_body b = plumb_body_create(w, &(plumb_body_desc){ .position = sim_vec(x, y),
+                                                            .mass = (plumb_real)kg,
+                                                            .inertia = (plumb_real)inertia });
+    need(!plumb_is_null(b), "a mass");
+    return b;
+}
+
 static void add(plumb_world *w, plumb_body b, const plumb_shape_desc *desc)
 {
     need(!plumb_is_null(plumb_shape_create(w, b, desc)), "the shape");
