@@ -34,6 +34,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdlib.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -241,6 +242,14 @@ static inline struct engine_options engine_options_default(void)
     struct engine_options options = { 0.0,  -10.0, 0, 0, 0,    false, true,
                                       -1.0, -1.0,  0, 0, NULL, false };
     return options;
+}
+
+/// `items` of `size` bytes, of which there are `count`, with room for one more: it doubles. NULL: out of memory, and they are
+/// where they were.
+static inline void *engine_grown(void *items, size_t size, int count)
+{
+    const bool full = (count & (count - 1)) == 0; // 0, 1, 2, 4, ...
+    return full ? realloc(items, (size_t)(count > 0 ? 2 * count : 1) * size) : items;
 }
 
 extern const struct engine engine_plumb;

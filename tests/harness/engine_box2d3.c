@@ -21,12 +21,10 @@ struct engine_world {
     b2BodyId *bodies;
     int *groups; // of the bodies
     int count;
-    int capacity;
     int substeps;
     bool stiff;
     b2JointId *joints; // of add_joint
     int joint_count;
-    int joint_capacity;
 };
 
 static b2Vec2 vec(double x, double y)
@@ -75,16 +73,12 @@ static void destroy(struct engine_world *w)
 
 static int add_body(struct engine_world *w, const struct engine_body_def *def)
 {
-    if (w->count == w->capacity) {
-        int capacity = w->capacity > 0 ? 2 * w->capacity : 64;
-        b2BodyId *bodies = realloc(w->bodies, (size_t)capacity * sizeof *bodies);
-        w->bodies = bodies != NULL ? bodies : w->bodies;
-        int *groups = realloc(w->groups, (size_t)capacity * sizeof *groups);
-        w->groups = groups != NULL ? groups : w->groups;
-        if (bodies == NULL || groups == NULL) {
-            return ENGINE_FAILED;
-        }
-        w->capacity = capacity;
+    b2BodyId *bodies = engine_grown(w->bodies, sizeof *bodies, w->count);
+    w->bodies = bodies != NULL ? bodies : w->bodies;
+    int *groups = engine_grown(w->groups, sizeof *groups, w->count);
+    w->groups = groups != NULL ? groups : w->groups;
+    if (bodies == NULL || groups == NULL) {
+        return ENGINE_FAILED;
     }
     b2BodyDef b = b2DefaultBodyDef();
     b.type = def->type == ENGINE_DYNAMIC     ? b2_dynamicBody
@@ -190,15 +184,11 @@ static int add_joint(struct engine_world *w, const struct engine_joint_def *def)
     if (def->hertz > 0 && def->kind != ENGINE_DISTANCE && def->kind != ENGINE_PRISMATIC) {
         return ENGINE_UNSUPPORTED;
     }
-    if (w->joint_count == w->joint_capacity) {
-        int capacity = w->joint_capacity > 0 ? 2 * w->joint_capacity : 16;
-        b2JointId *joints = realloc(w->joints, (size_t)capacity * sizeof *joints);
-        if (joints == NULL) {
-            return ENGINE_FAILED;
-        }
-        w->joints = joints;
-        w->joint_capacity = capacity;
+    b2JointId *joints = engine_grown(w->joints, sizeof *joints, w->joint_count);
+    if (joints == NULL) {
+        return ENGINE_FAILED;
     }
+    w->joints = joints;
     b2WeldJointDef weld = b2DefaultWeldJointDef();
     b2JointDef base = weld.base;
     base.bodyIdA = w->bodies[def->body_a];

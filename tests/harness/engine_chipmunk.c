@@ -21,9 +21,9 @@ struct engine_world {
     cpSpace *space;
     cpBody **bodies;
     int *groups; // of the bodies
-    int count, capacity;
+    int count;
     cpConstraint **joints;
-    int joint_count, joint_capacity;
+    int joint_count;
     int substeps;
     double inner_step; // [s] the last
 };
@@ -115,16 +115,12 @@ static void destroy(struct engine_world *w)
 
 static int add_body(struct engine_world *w, const struct engine_body_def *def)
 {
-    if (w->count == w->capacity) {
-        int capacity = w->capacity > 0 ? 2 * w->capacity : 64;
-        cpBody **bodies = realloc(w->bodies, (size_t)capacity * sizeof *bodies);
-        w->bodies = bodies != NULL ? bodies : w->bodies;
-        int *groups = realloc(w->groups, (size_t)capacity * sizeof *groups);
-        w->groups = groups != NULL ? groups : w->groups;
-        if (bodies == NULL || groups == NULL) {
-            return ENGINE_FAILED;
-        }
-        w->capacity = capacity;
+    cpBody **bodies = engine_grown(w->bodies, sizeof *bodies, w->count);
+    w->bodies = bodies != NULL ? bodies : w->bodies;
+    int *groups = engine_grown(w->groups, sizeof *groups, w->count);
+    w->groups = groups != NULL ? groups : w->groups;
+    if (bodies == NULL || groups == NULL) {
+        return ENGINE_FAILED;
     }
     cpBody *b = def->type == ENGINE_STATIC      ? cpBodyNewStatic()
                 : def->type == ENGINE_KINEMATIC ? cpBodyNewKinematic()
@@ -152,16 +148,12 @@ static int set_mass(struct engine_world *w, int body, const struct engine_mass *
 
 static int keep_joint(struct engine_world *w, cpConstraint *joint, bool collide)
 {
-    if (w->joint_count == w->joint_capacity) {
-        int capacity = w->joint_capacity > 0 ? 2 * w->joint_capacity : 16;
-        cpConstraint **joints = realloc(w->joints, (size_t)capacity * sizeof(cpConstraint *));
-        if (joints == NULL) {
-            cpConstraintFree(joint);
-            return ENGINE_FAILED;
-        }
-        w->joints = joints;
-        w->joint_capacity = capacity;
+    cpConstraint **joints = engine_grown(w->joints, sizeof(cpConstraint *), w->joint_count);
+    if (joints == NULL) {
+        cpConstraintFree(joint);
+        return ENGINE_FAILED;
     }
+    w->joints = joints;
     cpConstraintSetCollideBodies(joint, collide);
     w->joints[w->joint_count] = cpSpaceAddConstraint(w->space, joint);
     return w->joint_count++;

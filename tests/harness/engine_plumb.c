@@ -26,7 +26,6 @@ struct engine_world {
     plumb_body *bodies;
     int *groups; // of the bodies
     int count;
-    int capacity;
     int material_count;
     struct shared_material materials[max_materials];
 };
@@ -110,16 +109,12 @@ static void destroy(struct engine_world *w)
 
 static int add_body(struct engine_world *w, const struct engine_body_def *def)
 {
-    if (w->count == w->capacity) {
-        int capacity = w->capacity > 0 ? 2 * w->capacity : 64;
-        plumb_body *bodies = realloc(w->bodies, (size_t)capacity * sizeof *bodies);
-        w->bodies = bodies != NULL ? bodies : w->bodies;
-        int *groups = realloc(w->groups, (size_t)capacity * sizeof *groups);
-        w->groups = groups != NULL ? groups : w->groups;
-        if (bodies == NULL || groups == NULL) {
-            return ENGINE_FAILED;
-        }
-        w->capacity = capacity;
+    plumb_body *bodies = engine_grown(w->bodies, sizeof *bodies, w->count);
+    w->bodies = bodies != NULL ? bodies : w->bodies;
+    int *groups = engine_grown(w->groups, sizeof *groups, w->count);
+    w->groups = groups != NULL ? groups : w->groups;
+    if (bodies == NULL || groups == NULL) {
+        return ENGINE_FAILED;
     }
     plumb_body_desc desc = { 0 };
     desc.type = def->type == ENGINE_DYNAMIC     ? PLUMB_DYNAMIC
