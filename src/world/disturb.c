@@ -3,7 +3,7 @@
 // Every setter that changes something calls one of these with the body or piece concerned. Nothing
 // moves here: an island is taken down as due, and the waking pass does the rest, so that setters
 // neither invalidate spans nor need memory. Bodies that are awake begin to rest anew, and so do,
-// at the next step, those that touch an immovable body that was changed (fall.c).
+// at the next step, those that touch an immovable body that was changed (rest.c).
 //
 // Reads: rows, contacts at pieces. Writes: islands, times of rest. Cost: O(1) for dynamic bodies,
 // O(sleeping contacts of the body) for others; pl_sleep_disturb_all O(bodies).

@@ -5,7 +5,7 @@
 // difference would give is below the one that samples of its way just do not see: from one half of sleep_time
 // T to the next, the way changes by a (T / 2)^2, and EVEN * sleep_speed * T is even, so
 //
-//     a = 4 EVEN sleep_speed / T,    |dF| / m and |dM| extent / I taken together as speeds are (fall.c).
+//     a = 4 EVEN sleep_speed / T,    |dF| / m and |dM| extent / I taken together as speeds are (rest.c).
 //
 // By default that is 8 mm/s^2. What a body falls asleep under stays what its force is compared with, so
 // forces that creep wake it as those that jump do, and one that ends wakes it.

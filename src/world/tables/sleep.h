@@ -65,7 +65,7 @@ typedef struct pl_sleep {
     uint32_t marked_count;
     pl_buffer woken; // pl_keyed: their contacts, by kinds
 
-    // Falling asleep (fall.c).
+    // Falling asleep (fall.h).
     uint64_t timed_step;   // step count + 1 when bodies were last timed: a step may be tried again
     uint64_t changed_step; // likewise: something immovable was changed
     uint64_t tested_step;  // likewise: pairs were made or looked up
