@@ -34,7 +34,8 @@ static void contacts_tell_all_that_rubs(void **state)
 {
     (void)state;
     const double es[] = { 0, 0.3, 0.9 };
-    for (int solver = PLUMB_SOLVER_SOFT; solver <= PLUMB_SOLVER_PGS; ++solver) {
+    static const char *const names[] = { "soft", "pgs", "exact" };
+    for (int solver = PLUMB_SOLVER_SOFT; solver <= PLUMB_SOLVER_EXACT; ++solver) {
         for (int k = 0; k < 3; ++k) {
             plumb_world *w = sim_world(&(plumb_world_desc){
                 .solver = (plumb_solver)solver, .contact_impulses = true, .no_sleep = true });
@@ -55,8 +56,8 @@ static void contacts_tell_all_that_rubs(void **state)
                 }
                 before = now;
             }
-            print_message("%s, e = %.1f: %.4f N s told, off by %.2g N s at most\n",
-                          solver == PLUMB_SOLVER_SOFT ? "soft" : "pgs", es[k], told, off);
+            print_message("%s, e = %.1f: %.4f N s told, off by %.2g N s at most\n", names[solver],
+                          es[k], told, off);
             assert_true(told > (k == 0 ? 3.9 * mass : 0.5 * mass));
             assert_true(off <= ROUNDED(1e-4));
             plumb_world_destroy(w);

@@ -77,6 +77,7 @@ static bool chance(throw *t, double p)
 
 static void tell(throw *t, long *count, int step, const char *format, ...)
 {
+    static const char *const solvers[] = { "soft", "pgs", "exact" };
     char text[200], line[400];
     va_list arguments;
     ++*count;
@@ -89,10 +90,9 @@ static void tell(throw *t, long *count, int step, const char *format, ...)
     snprintf(line, sizeof line,
              "seed %u step %d: %s (form %d at %d of role %d, %s %d substeps, dt 1/%.0f, %.3g m/s, "
              "e %.2g, hit %.2g%s%s)",
-             t->seed, step, text, t->thrown_form, t->target_form, t->role,
-             t->solver == PLUMB_SOLVER_PGS ? "pgs" : "soft", t->substeps, 1 / t->dt, t->speed,
-             t->restitution, t->hit_speed, t->rough ? ", rough" : "",
-             t->wrapped ? ", wrapped" : "");
+             t->seed, step, text, t->thrown_form, t->target_form, t->role, solvers[t->solver],
+             t->substeps, 1 / t->dt, t->speed, t->restitution, t->hit_speed,
+             t->rough ? ", rough" : "", t->wrapped ? ", wrapped" : "");
     t->told(line);
 }
 
@@ -203,8 +203,9 @@ static double gap_now(const throw *t)
 static void make_world(throw *t)
 {
     static const int rates[] = { 30, 60, 60, 60, 90, 120, 240 };
-    t->solver = chance(t, 0.7) ? PLUMB_SOLVER_SOFT : PLUMB_SOLVER_PGS;
-    t->substeps = chance(t, 0.5) ? (t->solver == PLUMB_SOLVER_SOFT ? 4 : 1) : 1 + pick(t, 8);
+    const double u = uniform(t, 0, 1);
+    t->solver = u < 0.5 ? PLUMB_SOLVER_SOFT : u < 0.7 ? PLUMB_SOLVER_EXACT : PLUMB_SOLVER_PGS;
+    t->substeps = chance(t, 0.5) ? (t->solver == PLUMB_SOLVER_PGS ? 1 : 4) : 1 + pick(t, 8);
     t->dt = 1.0 / rates[pick(t, 7)];
     t->hit_speed = chance(t, 0.6) ? log_uniform(t, 0.5, 20) : 0;
     t->restitution = chance(t, 0.5) ? 0 : chance(t, 0.2) ? 1 : uniform(t, 0.01, 1);
