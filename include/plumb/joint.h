@@ -50,6 +50,10 @@ typedef struct plumb_joint_desc {
                                ///< gear: {0}: turns of both; else B's travel along it (rack)
     bool enable_limit;         ///< lower <= value <= upper; distance: instead of the rod
     plumb_real lower, upper;   ///< [rad] or [m] lower <= upper; distance: >= 0
+    plumb_real restitution;    ///< [-] 0 to 1 of the limit: share of the rate at which the value meets a bound with which it
+                               ///< leaves it; a rope is a distance joint with a limit. 0: what is met stops. Nothing
+                               ///< slower than the world's restitution_speed bounces. Newton's law at the joint's own
+                               ///< bodies: what other joints hold of them takes its share in the sweeps
     bool enable_motor;         ///< revolute, prismatic, wheel: drives the value's rate
     plumb_real motor_speed;    ///< [rad/s] or [m/s]; wheel: [rad/s] of B
     plumb_real max_motor;      ///< [N m] or [N] >= 0; wheel: [N m]
@@ -90,6 +94,9 @@ PLUMB_API plumb_result plumb_joint_destroy(plumb_world *world, plumb_joint joint
 /// (the kind has none).
 PLUMB_API plumb_result plumb_joint_set_limit(plumb_world *world, plumb_joint joint, bool enabled,
                                              plumb_real lower, plumb_real upper);
+/// Sets the restitution of the limit, 0 to 1. Errors as above.
+PLUMB_API plumb_result plumb_joint_set_restitution(plumb_world *world, plumb_joint joint,
+                                                   plumb_real restitution);
 /// Sets speed [rad/s] or [m/s] and largest torque [N m] or force [N] and switches the motor. Errors as
 /// above.
 PLUMB_API plumb_result plumb_joint_set_motor(plumb_world *world, plumb_joint joint, bool enabled,

@@ -59,6 +59,7 @@ static plumb_result check_members(const plumb_world *world, const char *fn,
         { "enable_limit", d->enable_limit, PL_JOINT_LIMIT },
         { "lower", d->lower != 0, PL_JOINT_LIMIT },
         { "upper", d->upper != 0, PL_JOINT_LIMIT },
+        { "restitution", d->restitution != 0, PL_JOINT_LIMIT },
         { "enable_motor", d->enable_motor, PL_JOINT_MOTOR },
         { "motor_speed", d->motor_speed != 0, PL_JOINT_MOTOR },
         { "max_motor", d->max_motor != 0, PL_JOINT_MOTOR },
@@ -106,8 +107,9 @@ void pl_joint_warn_of_motor(const plumb_world *world, const char *fn, const plum
 // Members that do nothing as the others are: allowed, as they may be switched on later, but seldom meant.
 static void warn_of_idle(const plumb_world *world, const char *fn, const plumb_joint_desc *d)
 {
-    if (!d->enable_limit && (d->lower != 0 || d->upper != 0)) {
-        pl_warn(world, "%s: lower or upper is set without enable_limit; there is no limit", fn);
+    if (!d->enable_limit && (d->lower != 0 || d->upper != 0 || d->restitution != 0)) {
+        pl_warn(world, "%s: %s is set without enable_limit; there is no limit", fn,
+                d->lower != 0 || d->upper != 0 ? "lower or upper" : "restitution");
     }
     if (!d->enable_motor && (d->motor_speed != 0 || d->max_motor != 0)) {
         pl_warn(world,
@@ -205,6 +207,7 @@ static plumb_joint insert(plumb_world *world, const plumb_joint_desc *d)
     ++world->joints.live;
     pl_joint_disturb(world, j);
     world->joints.watched += pl_joint_is_watched(d);
+    world->joints.bouncing += pl_joint_bounces(d);
     pl_joint_revise(world, j);
     return j->entity;
 }

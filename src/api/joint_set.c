@@ -26,9 +26,9 @@ static bool differ(const plumb_joint_desc *a, const plumb_joint_desc *b)
            a->enable_motor != b->enable_motor || a->motor_speed != b->motor_speed ||
            a->max_motor != b->max_motor || a->hertz != b->hertz || a->damping != b->damping ||
            a->stiffness != b->stiffness || a->damper != b->damper || a->rest != b->rest ||
-           a->break_force != b->break_force || a->break_torque != b->break_torque ||
-           a->break_impulse != b->break_impulse || a->event_force != b->event_force ||
-           a->event_torque != b->event_torque;
+           a->restitution != b->restitution || a->break_force != b->break_force ||
+           a->break_torque != b->break_torque || a->break_impulse != b->break_impulse ||
+           a->event_force != b->event_force || a->event_torque != b->event_torque;
 }
 
 // Another descriptor, with which the joint may be solved in another way. What is set to what it was wakes nobody.
@@ -37,13 +37,16 @@ static plumb_result revise(plumb_world *world, pl_joint *joint, plumb_joint_desc
     if (differ(&joint->desc, &wanted)) {
         pl_joint_disturb(world, joint);
     }
-    if (pl_joint_variant(&joint->desc) != pl_joint_variant(&wanted)) {
+    if (pl_joint_variant(&joint->desc) != pl_joint_variant(&wanted) ||
+        pl_joint_bounces(&joint->desc) != pl_joint_bounces(&wanted)) {
         pl_joints_replan(&world->joints);
     }
     world->joints.watched -= pl_joint_is_watched(&joint->desc);
+    world->joints.bouncing -= pl_joint_bounces(&joint->desc);
     pl_joint_copy_desc(&joint->desc, &wanted);
     world->joints.watched += pl_joint_is_watched(&joint->desc);
-    world->schedule_dirty = true; // sums of reactions are wanted, or no more
+    world->joints.bouncing += pl_joint_bounces(&joint->desc);
+    world->schedule_dirty = true; // sums of reactions or blows at limits are wanted, or no more
     return PLUMB_OK;
 }
 
@@ -59,6 +62,17 @@ plumb_result plumb_joint_set_limit(plumb_world *world, plumb_joint joint, bool e
     wanted.enable_limit = enabled;
     wanted.lower = lower;
     wanted.upper = upper;
+    return revise(world, j, wanted);
+}
+
+plumb_result plumb_joint_set_restitution(plumb_world *world, plumb_joint joint,
+                                         plumb_real restitution)
+{
+    pl_joint *j = NULL;
+    PL_TRY(find(world, __func__, joint, PL_JOINT_LIMIT, "limit", &j));
+    PL_TRY(pl_check_range(world, __func__, "restitution", restitution, 0, 1));
+    plumb_joint_desc wanted = j->desc;
+    wanted.restitution = restitution;
     return revise(world, j, wanted);
 }
 

@@ -113,6 +113,9 @@ static void fill_joint(const pl_exact_system *s, const pl_exact_item *item)
     pl_lone l;
     pl_one_take(s->joints, item->joint, &l);
     pl_one_rows(s->world, l.joint, l.a, l.b);
+    if (s->sweep == PL_SWEEP_RELAX) {
+        pl_one_let_go(l.joint, l.a, l.b);
+    }
     for (int i = 0; i < PL_JOINT_ROWS; ++i) {
         pl_exact_row *out = &s->rows[item->first_row + (uint32_t)i];
         *out = (pl_exact_row){ 0 };

@@ -142,6 +142,8 @@ static inline bool pl_joints_any(const pl_joint_context *c)
 
 // The solver's part (solve.c, one.c). Prepare: poses and rows at the start of the step.
 void pl_joints_prepare(const pl_joint_context *context);
+// Limits with restitution that are met in this substep (strike.c).
+void pl_joints_strike(const pl_joint_context *context);
 void pl_joints_warm_start(const pl_joint_context *context);
 // Sweeps. The first of a substep that pulls pays what J's turning owes, the first that relaxes makes
 // rows at the moved poses.

@@ -7,6 +7,7 @@
 #include "joints/law.h"
 
 #include "plumb/math.h"
+#include "world/joint_list.h"
 #include "world/state.h"
 
 // Share of an error that a substep undoes. More turns what a snapping chain leaves into a blow (DECISIONS.md).
@@ -28,6 +29,7 @@ pl_row_law pl_row_law_of(const pl_lone *l, int i, pl_joint_sweep sweep)
     const double most = (double)r->most * (double)j->h, back = (double)r->error / (double)j->h;
     pl_row_law law = { .in_force = r->type != PL_ROW_OFF &&
                                    !(r->spring != PL_SPRING_NONE && sweep == PL_SWEEP_RELAX) &&
+                                   !pl_joint_lets_come(j, i, sweep == PL_SWEEP_RELAX) &&
                                    pl_one_coupling(r, r, l->a, l->b) > 0,
                        .low = r->type == PL_ROW_LEAST ? 0 : -most,
                        .high = most };
@@ -38,6 +40,8 @@ pl_row_law pl_row_law_of(const pl_lone *l, int i, pl_joint_sweep sweep)
         law.target = (double)r->speed;
     } else if (r->spring != PL_SPRING_NONE) {
         aim_at_spring(l, r, &law);
+    } else if (i > 0 && i == j->struck) {
+        law.target = 0; // what others hold of the blow is lost, not won (DECISIONS.md)
     } else if (r->type == PL_ROW_LEAST && r->error > 0) {
         law.target = -back; // may close the gap
     } else {

@@ -20,6 +20,7 @@
 #include "joints/one.h"
 
 #include "plumb/math.h"
+#include "world/joint_list.h"
 #include "world/state.h"
 
 // Frequency of a rigid row as a share of the substep rate, and its damping ratio (DECISIONS.md).
@@ -88,12 +89,19 @@ void pl_one_solve_row(const pl_joint_context *c, pl_joint *j, int i, pl_solver_b
     if (r->type == PL_ROW_OFF || (sweep == PL_SWEEP_RELAX && r->spring != PL_SPRING_NONE)) {
         return;
     }
+    if (pl_joint_lets_come(j, i, sweep == PL_SWEEP_RELAX)) {
+        return;
+    }
     pl_joint_soft s = soften_single(c, r, j->mass[i], sweep, j->degree);
     bool apart = r->type == PL_ROW_LEAST && r->error > 0;
     if (apart) {
         s = (pl_joint_soft){ 1, 1 / j->h, 0 }; // may close the gap
     }
     real v = pl_one_rate(r, a, b) - r->speed;
+    if (i > 0 && i == j->struck) { // behind a blow it is on its way out
+        s = (pl_joint_soft){ 1, 0, 0 };
+        v -= j->struck_rate;
+    }
     real old = j->impulse[i];
     real total = old - j->mass[i] * (s.velocity * v + s.error * r->error) - s.impulse * old;
     real most = r->most * j->h;
@@ -315,6 +323,13 @@ void pl_one_note_springs(const pl_joint_context *c, pl_joint *j, const pl_solver
     }
 }
 
+void pl_one_let_go(pl_joint *j, const pl_solver_body *a, const pl_solver_body *b)
+{
+    if (j->struck > 0) {
+        j->struck_rate = plumb_min(j->struck_rate, pl_one_rate(&j->rows.row[j->struck], a, b));
+    }
+}
+
 void pl_one_forget(pl_joint *j)
 {
     for (int k = 0; k < 6; ++k) {
@@ -334,6 +349,12 @@ void pl_one_refresh(const plumb_world *world, pl_joint *j, const pl_solver_body 
                     const pl_solver_body *b)
 {
     pl_one_forget(j);
+    pl_one_turn(world, j, a, b);
+}
+
+void pl_one_turn(const plumb_world *world, pl_joint *j, const pl_solver_body *a,
+                 const pl_solver_body *b)
+{
     add_momentum(j, -1);
     pl_one_rows(world, j, a, b);
     add_momentum(j, 1);

@@ -314,6 +314,7 @@ static void sweep_alone(const pl_joint_context *c, pl_joint_sweep sweep, bool fi
             pl_one_pay(j, one.a, one.b);
         } else if (first && sweep == PL_SWEEP_RELAX) {
             pl_one_refresh(c->world, j, one.a, one.b);
+            pl_one_let_go(j, one.a, one.b);
         }
         if (swept != NULL && !swept[i]) {
             continue;

@@ -42,6 +42,8 @@
       "lower <= value <= upper")                                                                    \
     R(X, STATE, REAL, lower, UNSAID, "rad or m", ANY, 0, NO_ZERO, "least value")                    \
     R(X, STATE, REAL, upper, UNSAID, "rad or m", ANY, 0, NO_ZERO, "greatest value")                 \
+    R(X, STATE, REAL, restitution, UNSAID, "1", FROM(0, 1), 0, NO_ZERO,                             \
+      "of the limit: share of the rate that it gives back")                                         \
     R(X, STATE, BOOL, enable_motor, UNSAID, "1", CHOICES(1), 0, NO_ZERO,                            \
       "drives the rate of the value")                                                               \
     R(X, STATE, REAL, motor_speed, UNSAID, "rad/s or m/s", ANY, 0, NO_ZERO, "wanted rate")          \

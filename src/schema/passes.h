@@ -95,6 +95,8 @@
       "constraints", "solver bodies, constraints", ONE)                                                                                      \
     X("impacts",           VELOCITIES,  IF(pl_want_impacts),         THREE(pl_soft_impacts, pl_classic_impacts, pl_classic_impacts), ONCE,           \
       "constraints", "solver bodies, constraints, pairs, manifolds", ONE)                                                                    \
+    X("limits",            VELOCITIES,  IF(pl_want_strikes),         EACH(pl_joints_row_strike),                              ONCE,          \
+      "joints, constraints", "solver bodies, joints", ONE)                                                                                   \
     X("joints",            CONSTRAINTS, IF(pl_want_joints),          BOTH(pl_joints_row_solve, pl_joints_row_classic),       ONCE,           \
       "joints, constraints", "solver bodies, joints, constraints", ONE)                                                                      \
     X("contacts",          CONSTRAINTS, IF(pl_want_collision),       BOTH(pl_soft_contacts, pl_classic_contacts),            ONCE,           \

@@ -70,7 +70,7 @@ static bool check_joint_lists(const pl_suspect *s, uint32_t ends)
 bool pl_check_joints(pl_suspect *s)
 {
     const pl_joints *joints = &s->world.joints;
-    uint32_t live = 0, ends = 0, watched = 0, steps = 0;
+    uint32_t live = 0, ends = 0, watched = 0, bouncing = 0, steps = 0;
     for (uint32_t i = 0; i < joints->count; ++i) {
         const pl_joint *j = pl_suspect_joint(s, i);
         if (plumb_is_null(j->entity)) {
@@ -84,6 +84,7 @@ bool pl_check_joints(pl_suspect *s)
         ++live;
         ends += (plumb_is_null(j->a.body) ? 0u : 1u) + (plumb_is_null(j->b.body) ? 0u : 1u);
         watched += pl_joint_is_watched(&j->desc);
+        bouncing += pl_joint_bounces(&j->desc);
     }
     for (uint32_t i = joints->free_head; i != PL_NONE; i = pl_suspect_joint(s, i)->a.next) {
         if (i >= joints->count || !plumb_is_null(pl_suspect_joint(s, i)->entity) ||
@@ -92,7 +93,7 @@ bool pl_check_joints(pl_suspect *s)
         }
     }
     return live == joints->live && steps == joints->count - live && watched == joints->watched &&
-           check_joint_lists(s, ends);
+           bouncing == joints->bouncing && check_joint_lists(s, ends);
 }
 
 //---- sleep ---------------------------------------------------------------------------------------

@@ -86,7 +86,7 @@
 #define PL_STATE_JOINTS(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                     \
     ARRAY(pl_joint, joints.items, joints.count, 0, 0)                                              \
     LEFT(joints.broken) LEFT(joints.broken_count) LEFT(joints.strained_first) LEFT(joints.strained_count) VALUE(joints.live) VALUE(joints.free_head)       \
-    VALUE(joints.watched) LEFT(joints.awake) LEFT(joints.awake_count) LEFT(joints.awake_stale)   \
+    VALUE(joints.watched) VALUE(joints.bouncing) LEFT(joints.awake) LEFT(joints.awake_count) LEFT(joints.awake_stale)   \
     LEFT(joints.plan)
 
 #define PL_STATE_PARTS(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                      \

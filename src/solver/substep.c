@@ -198,6 +198,13 @@ void pl_joints_row_warm_start(pl_substep *s)
     }
 }
 
+void pl_joints_row_strike(pl_substep *s)
+{
+    if (s->solving->any_joints) {
+        pl_joints_strike(s->solving->joints);
+    }
+}
+
 void pl_joints_row_solve(pl_substep *s)
 {
     if (s->solving->any_joints) {

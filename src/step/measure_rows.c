@@ -49,6 +49,7 @@ static const row_rule rules[] = {
     { pl_classic_warm_start, ROW_WARM_CONTACTS, PLUMB_WORK_NORMAL },
     { pl_soft_impacts, ROW_WORK, PLUMB_WORK_IMPACTS },
     { pl_classic_impacts, ROW_WORK, PLUMB_WORK_IMPACTS },
+    { pl_joints_row_strike, ROW_WORK, PLUMB_WORK_IMPACTS },
     { pl_joints_row_solve, ROW_JOINTS, PLUMB_WORK_JOINTS },
     { pl_joints_row_classic, ROW_JOINTS, PLUMB_WORK_JOINTS },
     { pl_joints_row_relax, ROW_JOINTS, PLUMB_WORK_JOINTS },

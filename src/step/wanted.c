@@ -219,6 +219,15 @@ bool pl_want_reactions(const plumb_world *world, const char **reason)
                "no joint breaks or tells of its strain");
 }
 
+bool pl_want_strikes(const plumb_world *world, const char **reason)
+{
+    if (!pl_want_joints(world, reason)) {
+        return false;
+    }
+    return say(world->joints.bouncing > 0, reason, "some joint's limit bounces",
+               "no joint's limit bounces");
+}
+
 bool pl_want_sums(const plumb_world *world, const char **reason)
 {
     if (!pl_want_collision(world, reason)) {

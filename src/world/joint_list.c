@@ -127,6 +127,7 @@ void pl_joint_remove(plumb_world *world, uint32_t slot)
     pl_joint_revise(world, j);
     pl_registry_release(&world->registry, j->entity.entity);
     world->joints.watched -= pl_joint_is_watched(&j->desc);
+    world->joints.bouncing -= pl_joint_bounces(&j->desc);
     memset(j, 0, sizeof *j);
     j->a.next = world->joints.free_head;
     world->joints.free_head = slot;

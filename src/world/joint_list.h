@@ -26,6 +26,19 @@ static inline bool pl_joint_is_watched(const plumb_joint_desc *d)
     return d->break_force > 0 || d->break_torque > 0 || d->break_impulse > 0 ||
            d->event_force > 0 || d->event_torque > 0;
 }
+// Its limit gives back speed.
+static inline bool pl_joint_bounces(const plumb_joint_desc *d)
+{
+    return d->enable_limit && d->restitution > 0;
+}
+// A limit that is apart and has not borne: what gives back speed is not slowed on its way there. (Others are, when they
+// are relaxed, so that the next substep ends at the bound.) `relax`: behind the motion.
+static inline bool pl_joint_lets_come(const pl_joint *j, int i, bool relax)
+{
+    const pl_row *r = &j->rows.row[i];
+    return r->type == PL_ROW_LEAST && r->error > 0 && j->impulse[i] == 0 && i != j->struck &&
+           (relax || (j->clear >> i & 1u) != 0) && pl_joint_bounces(&j->desc);
+}
 // Row of the body of an end; PL_NONE: the world.
 uint32_t pl_joint_row(const plumb_world *world, const pl_joint_end *end);
 // A joint came, went or lets pass what it did not: pairs, internal edges and the plan are made anew.

@@ -66,11 +66,13 @@ static void getters_tell_what_was_set(void **state)
     assert_vec_near(plumb_joint_anchor_a(w, j), 0, 0, ROUNDED(1e-6));
     assert_vec_near(plumb_joint_anchor_b(w, j), 0, 5, ROUNDED(1e-6));
     assert_int_equal(plumb_joint_set_limit(w, j, true, 1, 7), PLUMB_OK);
+    assert_int_equal(plumb_joint_set_restitution(w, j, R(0.25)), PLUMB_OK);
     assert_int_equal(plumb_joint_set_spring(w, j, 2, R(0.5), 0), PLUMB_OK);
     assert_int_equal(plumb_joint_set_break(w, j, 100, 200), PLUMB_OK);
     assert_int_equal(plumb_joint_set_user_data(w, j, &tag), PLUMB_OK);
     assert_int_equal(plumb_joint_settings(w, j, &d), PLUMB_OK);
     assert_true(d.enable_limit && d.lower == 1 && d.upper == 7 && d.hertz == 2);
+    assert_true(d.restitution == R(0.25));
     assert_true(d.damping == R(0.5) && d.break_force == 100 && d.break_torque == 200);
     assert_ptr_equal(plumb_joint_user_data(w, j), &tag);
     assert_int_equal(plumb_joint_destroy(w, j), PLUMB_OK);
@@ -199,6 +201,11 @@ static void descriptors_are_checked(void **state)
     REFUSED_JOINT(E_RANGE, "enable_motor is set; it must be 0 for a gear joint", PLUMB_GEAR,
                   .body_b = b, .enable_motor = true);
     REFUSED_JOINT(E_RANGE, "stiffness is -1; it must be at least 0", .body_b = b, .stiffness = -1);
+    REFUSED_JOINT(E_RANGE, "restitution is -1; it must be 0 to 1", .body_b = b, .restitution = -1);
+    REFUSED_JOINT(E_RANGE, "restitution is 1.5; it must be 0 to 1", .body_b = b,
+                  .restitution = R(1.5));
+    REFUSED_JOINT(E_NOT_FINITE, "restitution is nan; it must be finite", .body_b = b,
+                  .restitution = (plumb_real)NAN);
     REFUSED_JOINT(E_RANGE, "damper is -1; it must be at least 0", .body_b = b, .damper = -1);
     REFUSED_JOINT(E_RANGE,
                   "stiffness is set with hertz; a spring has either hertz and damping, or "
@@ -250,13 +257,13 @@ static void members_that_a_kind_does_not_have_are_refused(void **state)
     // revolute prismatic weld wheel distance mouse motor gear pulley ratchet friction
     static const char letters[] = "rpwhdmogyaf";
     static const member members[] = {
-        MEMBER(anchor_b, "dy"),       MEMBER(ground_a, "y"),        MEMBER(ground_b, "y"),
-        MEMBER(axis, "phg"),          SWITCH(enable_limit, "rphd"), MEMBER(upper, "rphd"),
-        SWITCH(enable_motor, "rph"),  MEMBER(motor_speed, "rph"),   MEMBER(max_motor, "rph"),
-        MEMBER(hertz, "rpwhdmo"),     MEMBER(damping, "rpwhdmo"),   MEMBER(rest, "rpwho"),
-        MEMBER(stiffness, "rpwhdmo"), MEMBER(damper, "rpwhdmo"),    MEMBER(length, "d"),
-        MEMBER(ratio, "gy"),          MEMBER(pitch, "a"),           MEMBER(max_force, "mof"),
-        MEMBER(max_torque, "of"),
+        MEMBER(anchor_b, "dy"),      MEMBER(ground_a, "y"),        MEMBER(ground_b, "y"),
+        MEMBER(axis, "phg"),         SWITCH(enable_limit, "rphd"), MEMBER(upper, "rphd"),
+        SWITCH(enable_motor, "rph"), MEMBER(motor_speed, "rph"),   MEMBER(max_motor, "rph"),
+        MEMBER(hertz, "rpwhdmo"),    MEMBER(damping, "rpwhdmo"),   MEMBER(rest, "rpwho"),
+        MEMBER(restitution, "rphd"), MEMBER(stiffness, "rpwhdmo"), MEMBER(damper, "rpwhdmo"),
+        MEMBER(length, "d"),         MEMBER(ratio, "gy"),          MEMBER(pitch, "a"),
+        MEMBER(max_force, "mof"),    MEMBER(max_torque, "of"),
     };
     for (int kind = 0; kind <= PLUMB_FRICTION; ++kind) {
         for (size_t i = 0; i < sizeof members / sizeof members[0]; ++i) {
@@ -352,6 +359,11 @@ static void setters_refuse(void **state)
             plumb_joint_set_spring(w, rod, 1, -1, 0));
     REFUSED(E_NOT_FINITE, "plumb_joint_set_spring: rest is nan; it must be finite",
             plumb_joint_set_spring(w, rod, 1, 0, (plumb_real)NAN));
+    REFUSED(E_STATE,
+            "plumb_joint_set_restitution: joint is a gear joint; it must be one with a limit",
+            plumb_joint_set_restitution(w, gear, 1));
+    REFUSED(E_RANGE, "plumb_joint_set_restitution: restitution is 2; it must be 0 to 1",
+            plumb_joint_set_restitution(w, rod, 2));
     REFUSED(E_STATE,
             "plumb_joint_set_stiffness: joint is a gear joint; it must be one with a spring",
             plumb_joint_set_stiffness(w, gear, 1, 0, 0));

@@ -242,6 +242,7 @@ void sim_fit_joint(plumb_joint_desc *desc)
         desc->enable_limit = given.enable_limit;
         desc->lower = given.lower;
         desc->upper = given.upper;
+        desc->restitution = given.restitution;
     }
     if (drives) {
         desc->enable_motor = given.enable_motor;

@@ -93,7 +93,8 @@ static void test_joint_methods(void **state)
         "at(0.75, function() assert(math.abs(j:angle() - 0.25) < 0.02)\n"
         "  j:set_motor() j:set_limits(0, 0.1) end)\n"
         "at(0.9, function() j:set_limits() j:set_spring(5, 1, 0.3) j:set_rest(0.2)\n"
-        "  j:set_stiffness(20, 1, 0.3) j:set_rest(0.25) j:set_spring(5, 1, 0.2)\n"
+        "  j:set_restitution(0.5) j:set_stiffness(20, 1, 0.3) j:set_rest(0.25) j:set_spring(5, 1, "
+        "0.2)\n"
         "  j:set_break(1e9, 1e9) end)\n"
         "local m = mouse{ b, at = {1, 0} } m:set_target(1, 0) m:set_target{1, 0} m:destroy()\n");
 }

@@ -198,6 +198,14 @@ static int method_set_limits(lua_State *L)
     return check(&c, plumb_joint_set_limit(c.world, c.entity, on, lower, upper), "limits");
 }
 
+static int method_set_restitution(lua_State *L)
+{
+    call c = self(L, "set_restitution");
+    return check(&c,
+                 plumb_joint_set_restitution(c.world, c.entity, (plumb_real)sc_finite_number(L, 2)),
+                 "limit");
+}
+
 // set_motor(speed, torque or force); set_motor() switches it off.
 static int method_set_motor(lua_State *L)
 {
@@ -319,6 +327,7 @@ static const luaL_Reg methods[] = {
     { "set_motor", method_set_motor },
     { "set_motor_speed", method_set_motor_speed },
     { "set_rest", method_set_rest },
+    { "set_restitution", method_set_restitution },
     { "set_spring", method_set_spring },
     { "set_stiffness", method_set_stiffness },
     { "set_target", method_set_target },

@@ -196,6 +196,7 @@ static plumb_joint_desc describe(const sc_joint_def *d, sc_joint *record)
         .enable_limit = GIVEN(d, limits),
         .lower = (plumb_real)d->limits[0],
         .upper = (plumb_real)d->limits[1],
+        .restitution = (plumb_real)d->restitution,
         .enable_motor = GIVEN(d, motor),
         .motor_speed = (plumb_real)d->motor.speed,
         .max_motor = (plumb_real)(slides ? d->motor.force : d->motor.torque),

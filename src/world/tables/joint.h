@@ -124,6 +124,9 @@ struct pl_joint {
     real turn[6];             // change of momentum owed because J has turned: see solve.c
     pl_rows rows;
     plumb_vec2 arm_b;        // [m] from B's centre to its anchor, at the rows
+    int struck;              // row of a limit that bounced in this substep; 0: none (strike.c)
+    uint32_t clear;          // bit of each limit that stays apart in this substep, by its flight
+    real struck_rate;        // [m/s] or [rad/s] of that row behind the blow
     plumb_vec2 step_impulse; // [N s] on B over the step, where it is watched; 0 between steps
     real step_turn;          // [N m s] likewise, about B's anchor
 };
@@ -197,6 +200,7 @@ typedef struct pl_joints {
     uint32_t count;   // slots ever used
     uint32_t live;
     uint32_t watched;   // pl_joint_is_watched
+    uint32_t bouncing;  // pl_joint_bounces
     uint32_t free_head; // PL_NONE: none
     int broken_count;
     // place in `broken` of the strain events: a joint makes one event a step at most
