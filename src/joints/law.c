@@ -26,7 +26,9 @@ pl_row_law pl_row_law_of(const pl_lone *l, int i, pl_joint_sweep sweep)
 {
     const pl_joint *j = l->joint;
     const pl_row *r = &j->rows.row[i];
-    const double most = (double)r->most * (double)j->h, back = (double)r->error / (double)j->h;
+    // The bound of a vector: of each axis by itself.
+    const real bound = i < j->rows.block ? plumb_min(r->most, j->rows.block_most) : r->most;
+    const double most = (double)bound * (double)j->h, back = (double)r->error / (double)j->h;
     pl_row_law law = { .in_force = r->type != PL_ROW_OFF &&
                                    !(r->spring != PL_SPRING_NONE && sweep == PL_SWEEP_RELAX) &&
                                    !pl_joint_lets_come(j, i, sweep == PL_SWEEP_RELAX) &&
