@@ -206,6 +206,16 @@ static double unrest(const pl_exact_newton *n, bool loads)
     return most;
 }
 
+// Whether what loads a row of friction may pull: then it rubs though nothing presses.
+static bool is_drawn(const pl_exact_system *s, const pl_exact_row *r)
+{
+    bool drawn = false;
+    for (uint32_t l = r->lead; l < r->lead + r->leads; ++l) {
+        drawn |= s->rows[l].in_force && s->rows[l].low < 0;
+    }
+    return drawn;
+}
+
 // [m/s] most that rows have to undo: what need not be pushed and cannot pull has nothing to undo. Most that slips.
 static void find_scale(pl_exact_newton *n)
 {
@@ -220,6 +230,7 @@ static void find_scale(pl_exact_newton *n)
         sum = pl_greater(sum, pl_exact_sum(s, r));
         if (r->leads > 0) {
             slip = pl_greater(slip, fabs(lack));
+            n->scale = pl_greater(n->scale, is_drawn(s, r) ? fabs(lack) : 0);
         } else {
             n->scale = pl_greater(n->scale, r->low < 0 ? fabs(lack) : lack);
         }

@@ -63,8 +63,8 @@ static void damped_flight_is_exact(void **state)
 static void damped_motion_in_the_solver_is_second_order(void **state)
 {
     (void)state;
-    const plumb_solver solvers[] = { PLUMB_SOLVER_SOFT, PLUMB_SOLVER_PGS };
-    for (int s = 0; s < 2; ++s) {
+    const plumb_solver solvers[] = { PLUMB_SOLVER_SOFT, PLUMB_SOLVER_PGS, PLUMB_SOLVER_EXACT };
+    for (int s = 0; s < 3; ++s) {
         double error[4];
         for (int k = 0; k < 4; ++k) {
             plumb_world *w = sim_world(&(plumb_world_desc){ .solver = solvers[s], .substeps = 4 });
@@ -153,8 +153,8 @@ static void capped_fall(void **state)
 static void locked_table_carries_a_stack(void **state)
 {
     (void)state;
-    const plumb_solver solvers[] = { PLUMB_SOLVER_SOFT, PLUMB_SOLVER_PGS };
-    for (int s = 0; s < 2; ++s) {
+    const plumb_solver solvers[] = { PLUMB_SOLVER_SOFT, PLUMB_SOLVER_PGS, PLUMB_SOLVER_EXACT };
+    for (int s = 0; s < 3; ++s) {
         double top[2];
         for (int locked = 0; locked < 2; ++locked) {
             plumb_world *w = sim_world(&(plumb_world_desc){ .solver = solvers[s] });
@@ -316,9 +316,9 @@ static void walls_shield(void **state)
 static void adhesion_holds_what_it_can(void **state)
 {
     (void)state;
-    const plumb_solver solvers[] = { PLUMB_SOLVER_SOFT, PLUMB_SOLVER_PGS };
+    const plumb_solver solvers[] = { PLUMB_SOLVER_SOFT, PLUMB_SOLVER_PGS, PLUMB_SOLVER_EXACT };
     const double loads[] = { 0.2, 0.9, 0.99, 1.01, 1.5 };
-    for (int s = 0; s < 2; ++s) {
+    for (int s = 0; s < 3; ++s) {
         for (int shape = 0; shape < 2; ++shape) {
             for (int k = 0; k < 5; ++k) {
                 plumb_world *w = sim_world(&(plumb_world_desc){ .solver = solvers[s] });
@@ -392,9 +392,9 @@ static void sticky_box_stays_on_a_wall(void **state)
 static void what_is_thrown_sticks(void **state)
 {
     (void)state;
-    const plumb_solver solvers[] = { PLUMB_SOLVER_SOFT, PLUMB_SOLVER_PGS };
+    const plumb_solver solvers[] = { PLUMB_SOLVER_SOFT, PLUMB_SOLVER_PGS, PLUMB_SOLVER_EXACT };
     const double speeds[] = { 0.3, 1.7, 6, 13.1 };
-    for (int s = 0; s < 2; ++s) {
+    for (int s = 0; s < 3; ++s) {
         for (int k = 0; k < 4; ++k) {
             plumb_world *w = sim_world(&(plumb_world_desc){ .solver = solvers[s] });
             plumb_material tar = plumb_material_create(
