@@ -48,8 +48,8 @@ static void slow_motion_follows_the_same_parabola(void **state)
 static void stack_of_different_times_rests(void **state)
 {
     (void)state;
-    const plumb_solver solvers[] = { PLUMB_SOLVER_SOFT, PLUMB_SOLVER_PGS };
-    for (int s = 0; s < 2; ++s) {
+    const plumb_solver solvers[] = { PLUMB_SOLVER_SOFT, PLUMB_SOLVER_PGS, PLUMB_SOLVER_EXACT };
+    for (int s = 0; s < 3; ++s) {
         plumb_world *w = sim_world(&(plumb_world_desc){ .solver = solvers[s] });
         plumb_material m = sim_material(w, 0.6, 0);
         plumb_body box[4], ground = sim_floor(w, m);
@@ -111,8 +111,8 @@ static void slow_pendulum(void **state)
 static void a_frozen_stack_goes_on(void **state)
 {
     (void)state;
-    const plumb_solver solvers[] = { PLUMB_SOLVER_SOFT, PLUMB_SOLVER_PGS };
-    for (int s = 0; s < 2; ++s) {
+    const plumb_solver solvers[] = { PLUMB_SOLVER_SOFT, PLUMB_SOLVER_PGS, PLUMB_SOLVER_EXACT };
+    for (int s = 0; s < 3; ++s) {
         plumb_world *w = sim_world(&(plumb_world_desc){ .solver = solvers[s] });
         plumb_material m = sim_material(w, 0.6, 0.2);
         plumb_body box[4];

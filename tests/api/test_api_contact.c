@@ -159,7 +159,7 @@ static void edits_are_refused_out_of_their_phase(void **state)
 static void a_hit_tells_speed_point_and_impulse(void **state)
 {
     (void)state;
-    for (int solver = 0; solver < 2; ++solver) {
+    for (int solver = 0; solver < 3; ++solver) {
         plumb_world *w =
             flat_world((plumb_world_desc){ .hit_speed = 3, .solver = (plumb_solver)solver });
         plumb_shape floor = add_floor(w, NO_MATERIAL), ball;

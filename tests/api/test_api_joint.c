@@ -433,7 +433,7 @@ static void joints_go_with_their_bodies(void **state)
 static void joints_break_by_impulse(void **state)
 {
     (void)state;
-    const plumb_solver solvers[] = { PLUMB_SOLVER_SOFT, PLUMB_SOLVER_PGS };
+    const plumb_solver solvers[] = { PLUMB_SOLVER_SOFT, PLUMB_SOLVER_PGS, PLUMB_SOLVER_EXACT };
     for (int k = 0; k < 4; ++k) {
         plumb_world *w = NULL;
         plumb_world_create(&(plumb_world_desc){ .zero_gravity = true, .solver = solvers[k / 2] },

@@ -53,9 +53,9 @@ static void a_body_locked_altogether_is_immovable(void **state)
 {
     fixture *f = *state;
     plumb_world *w = f->world;
-    const plumb_solver solvers[] = { PLUMB_SOLVER_SOFT, PLUMB_SOLVER_PGS };
+    const plumb_solver solvers[] = { PLUMB_SOLVER_SOFT, PLUMB_SOLVER_PGS, PLUMB_SOLVER_EXACT };
     (void)w;
-    for (int s = 0; s < 2; ++s) {
+    for (int s = 0; s < 3; ++s) {
         plumb_world *own = NULL;
         plumb_world_create(&(plumb_world_desc){ .zero_gravity = true, .solver = solvers[s] }, &own);
         plumb_material m = plumb_material_create(

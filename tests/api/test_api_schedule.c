@@ -223,8 +223,8 @@ static double swing(plumb_world_desc desc, bool parallel)
 static void a_force_of_the_moment_follows_the_substeps(void **state)
 {
     (void)state;
-    for (int solver = 0; solver < 2; ++solver) {
-        const plumb_solver which = solver == 0 ? PLUMB_SOLVER_SOFT : PLUMB_SOLVER_PGS;
+    for (int solver = 0; solver < 3; ++solver) {
+        const plumb_solver which = (plumb_solver)solver;
         const double few = swing((plumb_world_desc){ .substeps = 4, .solver = which }, false);
         const double many = swing((plumb_world_desc){ .substeps = 32, .solver = which }, false);
         assert_true(few < 0.02 && many < few / 6);

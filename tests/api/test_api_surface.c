@@ -5,7 +5,7 @@
 static void a_conveyor_carries_a_box_at_its_speed(void **state)
 {
     (void)state;
-    for (int solver = 0; solver < 2; ++solver) {
+    for (int solver = 0; solver < 3; ++solver) {
         plumb_world *w = flat_world((plumb_world_desc){ .solver = (plumb_solver)solver });
         plumb_material belt = plumb_material_create(
             w, &(plumb_material_desc){ .friction = R(0.5), .surface_speed = 2 });
@@ -78,7 +78,7 @@ static void belts_run_to_the_right_of_the_screen(void **state)
 static void a_rolling_disc_stops_where_it_should(void **state)
 {
     (void)state;
-    for (int solver = 0; solver < 2; ++solver) {
+    for (int solver = 0; solver < 3; ++solver) {
         plumb_world *w = flat_world((plumb_world_desc){ .solver = (plumb_solver)solver });
         plumb_material soft = plumb_material_create(
             w, &(plumb_material_desc){ .friction = 1, .rolling_resistance = R(0.02) });

@@ -17,7 +17,7 @@
 #define R(x)    ((plumb_real)(x))
 #define V(x, y) plumb_v2(R(x), R(y))
 #define DT      R(1.0 / 60)
-#define SOLVERS 2
+#define SOLVERS 3
 
 static const plumb_one_way upwards = { { 0, 1 }, 0 };
 

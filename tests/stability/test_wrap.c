@@ -300,7 +300,7 @@ static void across(make_fn *make, int steps, double tolerance)
     if (sizeof(plumb_real) > sizeof(float) && !(tolerance > 0)) {
         tolerance = 1e-12;
     }
-    for (int solver = 0; solver < 2; ++solver) {
+    for (int solver = 0; solver < 3; ++solver) {
         plumb_world_desc x = { .wrap_x = PERIOD, .solver = (plumb_solver)solver };
         same_at(&x, plumb_v2(INSIDE, 0), plumb_v2(EDGE, 0), make, steps, tolerance);
         plumb_world_desc y = { .wrap_y = PERIOD, .solver = (plumb_solver)solver };
