@@ -23,6 +23,7 @@
 #include "plumb/record.h"
 #include "plumb/effect.h"
 #include "plumb/loop.h"
+#include "plumb/accuracy.h"
 #include "plumb/measure.h"
 #include "plumb/draw.h"
 

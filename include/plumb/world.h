@@ -48,6 +48,9 @@ typedef struct plumb_world_desc {
     plumb_real exact_tolerance;     ///< [-] 0..0.5, default 1e-9 (also of 0): share of the largest speed that contacts and joints
                                     ///< have to undo in a substep which PLUMB_SOLVER_EXACT may leave. What it left:
                                     ///< plumb_stats.exact_residual
+    plumb_real tolerance;           ///< [-] 0..0.5, default 0: none. Error that the world may make: it then chooses
+                                    ///< solver, substeps and direct_joints itself, and those given are what it
+                                    ///< begins with. See plumb/accuracy.h
     plumb_real contact_hertz;       ///< [1/s] >= 0. Contact stiffness; default: a sixth of the substep rate,
                                     ///< which is also the largest that is used. Where steps become shorter, it
                                     ///< rises by e in half a second at most: no pile is thrown up by that

@@ -2,6 +2,7 @@
 //
 // Reads: the descriptor; for stats and energy, the whole state. Writes: the world.
 // Cost: O(1), plumb_world_destroy O(components), plumb_world_energy O(dynamic bodies + joints).
+#include "accuracy/dial.h"
 #include "api/command.h"
 #include "broad/broad.h"
 #include "broad/query_grids.h"
@@ -232,6 +233,7 @@ plumb_result plumb_world_create(const plumb_world_desc *desc, plumb_world **worl
         pl_world_resolve(&made->desc);
         made->desc.allocator = memory.hooks;
         made->gravity = made->desc.gravity;
+        pl_dial_reset(made);
         if (!make_default_material(made) || !reserve_rows(made) || !start_workers(made)) {
             r = pl_fail_memory(made, "plumb_world_create");
         }

@@ -21,6 +21,8 @@
       "joints are solved together, exactly, by a direct method: long chains, heavy ends, trusses")  \
     R(X, STATE, REAL, exact_tolerance, SAID(exact_tolerance), "1", FROM(0, 0.5), 1e-9, NO_ZERO, \
       "of the exact solver: what may be left of a speed that it has to undo")                       \
+    R(X, STATE, REAL, tolerance, SAID(tolerance), "1", FROM(0, 0.5), 0, NO_ZERO,                    \
+      "error that the world keeps to by choosing solver and substeps itself; 0: it does not")       \
     R(X, STATE, REAL, contact_hertz, SAID(contact_hertz), "1/s", FROM(0, NO_END), 0, NO_ZERO,       \
       "stiffness of contacts; 0: a sixth of the substep rate, which is also the most")              \
     R(X, STATE, REAL, contact_damping, SAID(contact_damping), "1", ABOVE(0, NO_END), 3, NO_ZERO,    \

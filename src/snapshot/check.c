@@ -115,13 +115,26 @@ static bool keeps_rule(const plumb_world *w, pl_rule rule, const pl_section *sec
 
 //---- values --------------------------------------------------------------------------------------
 
+static bool is_amount(double v)
+{
+    return v - v == 0 && v >= 0;
+}
+
+static bool dial_is_sound(const pl_dial *d)
+{
+    return d->tier < PL_DIAL_TIERS && d->reason < PL_DIAL_REASONS && is_amount(d->elapsed) &&
+           is_amount(d->speed) && is_amount(d->push) && is_amount(d->need) && is_amount(d->loose) &&
+           is_amount(d->rest) && is_amount(d->motion) && is_amount(d->frozen) &&
+           is_amount(d->worst);
+}
+
 static bool check_values(const pl_suspect *s)
 {
     const plumb_world *w = &s->world;
     return pl_desc_is_sound(PLUMB_TABLE_WORLD, &w->desc) && w->desc.substeps > 0 &&
            w->desc.iterations > 0 && w->time - w->time == 0 && w->time >= 0 &&
            w->soft_substep - w->soft_substep == 0 && w->soft_substep >= 0 && w->sleep.since >= 0 &&
-           w->sleep.passed >= 0 && w->continuous.least_slack >= 0;
+           w->sleep.passed >= 0 && dial_is_sound(&w->dial) && w->continuous.least_slack >= 0;
 }
 
 //---- all -----------------------------------------------------------------------------------------

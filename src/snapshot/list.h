@@ -155,6 +155,11 @@
     VALUE(settings.damped) VALUE(settings.capped) VALUE(settings.scaled) VALUE(settings.frozen)        \
     ARRAY(pl_target, targets.items, targets.count, sizeof(pl_target), 8)
 
+#define PL_STATE_DIAL(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                       \
+    VALUE(dial.tier) TALLY(dial.reason) VALUE(dial.elapsed) VALUE(dial.speed) VALUE(dial.push)     \
+    VALUE(dial.need) VALUE(dial.loose) TALLY(dial.motion) TALLY(dial.frozen) VALUE(dial.rest)      \
+    TALLY(dial.worst) TALLY(dial.steps) TALLY(dial.solved) TALLY(dial.told)
+
 // What lies in struct plumb_world itself.
 #define PL_STATE_WORLD(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                      \
     LEFT(memory) LEFT(query_grids) LEFT(lookahead) VALUE(gravity) VALUE(step_count) VALUE(time) TALLY(last_dt) VALUE(soft_substep) TALLY(arrested_count)                \
@@ -183,7 +188,8 @@
     PL_STATE_JOINTS(__VA_ARGS__) PL_STATE_PARTS(__VA_ARGS__) PL_STATE_PENDING_HITS(__VA_ARGS__)           \
     PL_STATE_SENSING(__VA_ARGS__) PL_STATE_SLEEP(__VA_ARGS__) PL_STATE_INTERNAL_EDGES(__VA_ARGS__)          \
     PL_STATE_CHARACTERS(__VA_ARGS__) PL_STATE_CONTINUOUS(__VA_ARGS__)                              \
-    PL_STATE_QUARANTINE(__VA_ARGS__) PL_STATE_EFFECTS(__VA_ARGS__)
+    PL_STATE_QUARANTINE(__VA_ARGS__) PL_STATE_EFFECTS(__VA_ARGS__)                                \
+    PL_STATE_DIAL(__VA_ARGS__)
 
 // [B] at the start of an element that are saved. Behind it lies what every step fills before reading.
 #define PL_SAVED_BYTES(type)                                                                       \

@@ -3,6 +3,7 @@
 // The table drives the step (step.c) and the substeps (solver/substep.c), the timers, the check of what is written
 // (check.c) and `plumb explain`. Systems of the user stand between its rows (place.c).
 #include "step/system.h"
+#include "accuracy/dial.h"
 #include "effects/effects.h"
 #include "step/quarantine.h"
 #include "world/push.h"
@@ -74,6 +75,9 @@ static void substeps(plumb_world *world, plumb_real dt, const char *name)
 {
     pl_schedule_substeps(world, dt);
     pl_quarantine_judge(world, dt, name);
+    if (!world->quarantine.again) {
+        world->quarantine.again = pl_dial_look(world, dt);
+    }
 }
 
 static void finish(plumb_world *world, plumb_real dt)

@@ -3,6 +3,7 @@
 // Reads, writes: what the rows do. The clock is read, and data is digested, only where somebody watches.
 #include "step/step.h"
 
+#include "accuracy/dial.h"
 #include "character/character.h"
 #include "core/clock.h"
 #include "event/event.h"
@@ -260,12 +261,14 @@ plumb_result pl_step(plumb_world *world, real dt)
     }
     pl_tasks_rouse(world->tasks);
     pl_quarantine_begin(world);
+    pl_dial_begin(world, dt);
     pl_schedule_begin(world);
     plumb_result result = try_step(world, dt);
     while (result == PLUMB_OK && world->quarantine.again) {
         pl_quarantine_undo(world);
         undo_step(world);
         pl_quarantine_finish(world);
+        pl_dial_apply(world);
         result = try_step(world, dt);
     }
     pl_tasks_rest(world->tasks);

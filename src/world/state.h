@@ -14,6 +14,7 @@
 #include "world/tables/broad.h"
 #include "world/tables/character.h"
 #include "world/tables/continuous.h"
+#include "world/tables/dial.h"
 #include "world/tables/event.h"
 #include "world/tables/exact.h"
 #include "world/tables/internal_edges.h"
@@ -120,6 +121,7 @@ struct plumb_world {
     pl_schedule schedule;
     pl_quarantine quarantine;
     pl_measure measure;
+    pl_dial dial;
 
     // Events of the last step.
     pl_buffer begin_events, end_events; // plumb_contact_begin, plumb_contact_end
