@@ -48,6 +48,7 @@ void sc_build_settings(scene *s, const sc_site *site, int table)
             lua_setfield(L, merged, sc_list_scene.rows[i].name);
         }
     }
+    sc_take_accuracy(s, site, merged);
     sc_settings *d = &s->settings;
     sc_read(s, site, &sc_list_scene, merged, d);
     lua_pop(L, 1);

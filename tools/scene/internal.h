@@ -398,8 +398,10 @@ void sc_build_pair(scene *s, const sc_site *site, int table);
 void sc_build_camera(scene *s, const sc_site *site, int table);
 void sc_build_expect(scene *s, const sc_site *site, int table);
 void sc_build_exact(scene *s, const sc_site *site, int table);
-void sc_check_build(scene *s);               ///< after the build pass: unused things, unknown names
-void sc_apply_sets(scene *s);                ///< parses scene_options.sets
+void sc_check_build(scene *s); ///< after the build pass: unused things, unknown names
+void sc_apply_sets(scene *s);  ///< parses scene_options.sets
+/// Key `accuracy` of the table of scene{}, and --set accuracy, become `tolerance` and `substeps` in it.
+void sc_take_accuracy(scene *s, const sc_site *site, int merged);
 bool sc_take_set(scene *s, const char *key); ///< pushes the Lua value of --set key; false: none
 
 const char *sc_shape_kind_name(sc_shape_kind kind);
