@@ -102,6 +102,14 @@ static void print_cut(const scene_run *run, const char *path)
     }
 }
 
+static void print_accuracy(const scene_run *run, const char *path)
+{
+    char text[512];
+    if (scene_run_accuracy(run, text, sizeof text)) {
+        printf("note  %s: %s\n", base_name(path), text);
+    }
+}
+
 static void check_one(const check_args *args, const char *path, tally *sum)
 {
     scene_run run;
@@ -117,6 +125,7 @@ static void check_one(const check_args *args, const char *path, tally *sum)
         }
         if (code == CLI_OK) {
             print_cut(&run, path);
+            print_accuracy(&run, path);
             code = judge(&run, path, sum);
         }
         scene_run_close(&run, CLI_OK);

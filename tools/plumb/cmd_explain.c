@@ -114,6 +114,10 @@ static void print_settings(const scene_run *run, const char *path)
            run->info.substeps, run->info.substeps == 1 ? "" : "s", run->info.iterations,
            run->info.iterations == 1 ? "" : "s", run->info.dt, run->engine->precision,
            run->info.width);
+    char accuracy[512];
+    if (scene_run_accuracy(run, accuracy, sizeof accuracy)) {
+        printf("  %s\n", accuracy);
+    }
     printf(
         "  after %.6g s (%lld steps): %u bodies (%u moving, %u asleep in %u island%s, %u static), "
         "%u shapes of %u pieces\n",

@@ -143,6 +143,10 @@ static int run_command(const cli_command *command, int argc, char **argv)
         int closed = cli_output_close(&out, keep);
         code = code == CLI_OK ? closed : code;
     }
+    char text[512];
+    if (code == CLI_OK && scene_run_accuracy(&run, text, sizeof text)) {
+        cli_message("%s", text);
+    }
     return scene_run_close(&run, code);
 }
 

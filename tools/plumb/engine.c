@@ -40,7 +40,7 @@ int pl_session_fail_scene(const engine_session *session, const scene_error *from
 
 /// Settings of the command line become overrides of scene{}, after the user's own: a later one
 /// wins.
-enum { OVERRIDE_COUNT = 6, OVERRIDE_SIZE = 48 };
+enum { OVERRIDE_COUNT = 7, OVERRIDE_SIZE = 48 };
 
 static int write_overrides(const engine_settings *settings, char texts[][OVERRIDE_SIZE])
 {
@@ -57,6 +57,9 @@ static int write_overrides(const engine_settings *settings, char texts[][OVERRID
     }
     if (cli_member(ENGINE_SOLVERS, settings->solver, solver, sizeof solver)) {
         snprintf(texts[count++], OVERRIDE_SIZE, "solver=%s", solver);
+    }
+    if (settings->accuracy != NULL) {
+        snprintf(texts[count++], OVERRIDE_SIZE, "accuracy=%s", settings->accuracy);
     }
     if (settings->width > 0) {
         snprintf(texts[count++], OVERRIDE_SIZE, "simd_width=%d", settings->width);
@@ -247,6 +250,7 @@ const engine_api ENGINE_NAME = {
     .info = pl_stage_info,
     .time = pl_stage_time,
     .stats = pl_stage_stats,
+    .accuracy = pl_stage_accuracy,
     .totals = pl_stage_totals,
     .text = pl_stage_text,
     .rows = pl_stage_rows,

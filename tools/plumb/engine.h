@@ -27,13 +27,14 @@ typedef struct engine_settings {
     const char *text;        ///< the scene itself, `path` only names it; NULL: read the file
     const char *const *sets; ///< "key=value" each
     int set_count;
-    double dt;      ///< [s] step; 0: the scene's
-    int substeps;   ///< 0: the scene's
-    int iterations; ///< 0: the scene's
-    int solver;     ///< index into ENGINE_SOLVERS; -1: the scene's
-    int width;      ///< SIMD lanes; 0: the scene's or the best
-    int workers;    ///< threads; 0: the scene's or one
-    bool no_expect; ///< nobody asks whether expectations hold
+    double dt;            ///< [s] step; 0: the scene's
+    int substeps;         ///< 0: the scene's
+    int iterations;       ///< 0: the scene's
+    int solver;           ///< index into ENGINE_SOLVERS; -1: the scene's
+    const char *accuracy; ///< a tolerance or the name of a preset; NULL: the scene's
+    int width;            ///< SIMD lanes; 0: the scene's or the best
+    int workers;          ///< threads; 0: the scene's or one
+    bool no_expect;       ///< nobody asks whether expectations hold
     bool
         unseen; ///< nobody looks between steps, nor at the time: what only looks need may be left out
     const struct engine_mover *mover; ///< moves the scene instead of its world; NULL: none
@@ -142,6 +143,16 @@ typedef struct engine_stats {
     double max_penetration, mean_penetration; ///< [m]
     size_t bytes, peak_bytes;                 ///< [B]
 } engine_stats;
+
+/// What a world with a tolerance chose: see plumb/accuracy.h.
+typedef struct engine_accuracy {
+    double tolerance; ///< [-] 0: it has none
+    double motion, frozen, rest, worst;
+    int solver, substeps;
+    bool direct_joints, met;
+    const char *reason;
+    double solved; ///< [-] substeps a step
+} engine_accuracy;
 
 /// A word of the scene language.
 typedef struct engine_word {
@@ -258,6 +269,7 @@ typedef struct engine_api {
     engine_info (*info)(const engine_stage *stage);
     double (*time)(const engine_stage *stage); ///< [s] simulated
     engine_stats (*stats)(const engine_stage *stage);
+    engine_accuracy (*accuracy)(const engine_stage *stage);
     engine_totals (*totals)(const engine_stage *stage);
     /// The scene's counters and text in one line, "" if none.
     const char *(*text)(const engine_stage *stage);

@@ -76,6 +76,7 @@ int pl_session_fail_scene(const engine_session *session, const scene_error *from
 engine_info pl_stage_info(const engine_stage *stage);
 double pl_stage_time(const engine_stage *stage);
 engine_stats pl_stage_stats(const engine_stage *stage);
+engine_accuracy pl_stage_accuracy(const engine_stage *stage);
 const char *pl_stage_text(const engine_stage *stage);
 int pl_stage_rows(engine_stage *stage, const engine_row **rows);
 void pl_stage_bounds(const engine_stage *stage, const engine_box *home, engine_box *moving,

@@ -261,6 +261,23 @@ int pl_stage_rows(engine_stage *stage, const engine_row **rows)
     return count;
 }
 
+engine_accuracy pl_stage_accuracy(const engine_stage *stage)
+{
+    const plumb_accuracy a = plumb_world_accuracy(stage->world);
+    const double steps = a.steps > 0 ? (double)a.steps : 1;
+    return (engine_accuracy){ .tolerance = a.tolerance,
+                              .motion = a.motion,
+                              .frozen = a.frozen,
+                              .rest = a.rest,
+                              .worst = a.worst,
+                              .solver = (int)a.solver,
+                              .substeps = a.substeps,
+                              .direct_joints = a.direct_joints,
+                              .met = a.met,
+                              .reason = a.reason,
+                              .solved = (double)a.solved / steps };
+}
+
 engine_stats pl_stage_stats(const engine_stage *stage)
 {
     plumb_stats s = plumb_world_stats(stage->world);

@@ -62,6 +62,7 @@ int scene_run_open(const scene_args *args, const char *path, scene_run *run)
                                  .substeps = args->substeps,
                                  .iterations = args->iterations,
                                  .solver = args->solver,
+                                 .accuracy = args->accuracy,
                                  .width = args->width,
                                  .workers = args->workers,
                                  .no_expect = args->no_expect,
@@ -98,6 +99,24 @@ void scene_run_warn(const scene_run *run, const char *path)
         cli_message("warning: %s: and %d more pair%s of bodies", path, count - TOLD,
                     count - TOLD == 1 ? "" : "s");
     }
+}
+
+bool scene_run_accuracy(const scene_run *run, char *text, size_t size)
+{
+    const engine_accuracy a = run->engine->accuracy(run->stage);
+    char solver[16] = "";
+    if (!(a.tolerance > 0)) {
+        return false;
+    }
+    (void)cli_member(ENGINE_SOLVERS, a.solver, solver, sizeof solver);
+    snprintf(
+        text, size,
+        "tolerance %g %s: error about %.2g (motion %.2g, frozen %.2g, rest %.2g); %s solver%s, %d "
+        "substep%s: %s; %.3g substeps a step",
+        a.tolerance, a.met ? "met" : "MISSED", a.worst, a.motion, a.frozen, a.rest, solver,
+        a.direct_joints ? ", direct joints" : "", a.substeps, a.substeps == 1 ? "" : "s", a.reason,
+        a.solved);
+    return true;
 }
 
 int scene_run_step(scene_run *run, progress *bar)

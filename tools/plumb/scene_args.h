@@ -7,14 +7,15 @@
 
 /// Values of SCENE_OPTIONS. Begin with SCENE_ARGS_INIT.
 typedef struct scene_args {
-    double time;    ///< [s] to simulate; < 0: the scene's duration
-    double dt;      ///< [s] 0: the scene's
-    int substeps;   ///< 0: the scene's
-    int iterations; ///< 0: the scene's
-    int solver;     ///< -1: the scene's
-    int width;      ///< 0: best
-    int workers;    ///< 0: the scene's
-    int precision;  ///< index into SCENE_PRECISIONS
+    double time;          ///< [s] to simulate; < 0: the scene's duration
+    double dt;            ///< [s] 0: the scene's
+    int substeps;         ///< 0: the scene's
+    int iterations;       ///< 0: the scene's
+    int solver;           ///< -1: the scene's
+    const char *accuracy; ///< NULL: the scene's
+    int width;            ///< 0: best
+    int workers;          ///< 0: the scene's
+    int precision;        ///< index into SCENE_PRECISIONS
     cli_texts sets;
     bool quiet;
     bool no_expect; ///< no option: nobody asks whether expectations hold
@@ -69,11 +70,17 @@ typedef struct scene_args {
     { "solver", 0, CLI_CHOICE, offsetof(type, member.solver), "NAME", 0, 0, ENGINE_SOLVERS,      \
       "soft: soft step with substeps (default); pgs: projected Gauss-Seidel, the classic; exact: all of an island by a direct method" }
 
+#define SCENE_OPTION_ACCURACY(type, member)                                                      \
+    { "accuracy", 0, CLI_TEXT, offsetof(type, member.accuracy), "X", 0, 0, NULL,                 \
+      "a tolerance as 1e-3, for which the world chooses solver and substeps itself, or a preset: arcade, game, "  \
+      "precise, reference" }
+
 /// All of them, for commands that run one scene with one setting.
 #define SCENE_OPTIONS(type, member)                                                              \
     SCENE_OPTION_TIME(type, member), SCENE_OPTION_DT(type, member),                              \
     SCENE_OPTION_SUBSTEPS(type, member), SCENE_OPTION_ITERATIONS(type, member),                  \
-    SCENE_OPTION_SOLVER(type, member), SCENE_OPTION_WIDTH(type, member),                         \
+    SCENE_OPTION_SOLVER(type, member), SCENE_OPTION_ACCURACY(type, member),                      \
+    SCENE_OPTION_WIDTH(type, member),                                                            \
     SCENE_OPTION_WORKERS(type, member),                                                          \
     SCENE_OPTION_PRECISION(type, member), SCENE_OPTION_SET(type, member)
 // clang-format on
@@ -98,6 +105,8 @@ typedef struct scene_run {
 int scene_run_open(const scene_args *args, const char *path, scene_run *run);
 /// Tells on stderr of bodies that begin inside one another: they will fly apart, which authors seldom mean.
 void scene_run_warn(const scene_run *run, const char *path);
+/// What a world with a tolerance chose, and what error it made: words without a line's end. False: it has no tolerance.
+bool scene_run_accuracy(const scene_run *run, char *text, size_t size);
 /// Takes one step and looks whether all is finite. On failure the bar (may be null) is taken away
 /// and the message printed.
 int scene_run_step(scene_run *run, progress *bar);
