@@ -79,6 +79,7 @@ typedef struct plumb_joint_desc {
     plumb_real break_impulse;  ///< [N s] likewise of the reaction summed over a step, whatever its length
     plumb_real event_force;    ///< [N] >= 0 a strain event where that mean exceeds it; 0: none
     plumb_real event_torque;   ///< [N m] likewise
+    bool tell_impulse;         ///< plumb_joint_impulse tells what it gave over the step; breaking and strain ask for that too
     bool disabled;             ///< it does nothing until plumb_joint_set_enabled
     bool collide_connected;    ///< the two bodies collide with one another; default: they do not
     void *user_data;
@@ -121,6 +122,8 @@ PLUMB_API plumb_result plumb_joint_set_break_impulse(plumb_world *world, plumb_j
 /// Sets the bounds beyond which it makes strain events; 0: none. Errors: E_HANDLE, E_NOT_FINITE, E_RANGE.
 PLUMB_API plumb_result plumb_joint_set_event(plumb_world *world, plumb_joint joint, plumb_real force,
                                              plumb_real torque);
+/// Whether plumb_joint_impulse is to tell what it gave, from the next step on. Errors: E_HANDLE.
+PLUMB_API plumb_result plumb_joint_set_tell_impulse(plumb_world *world, plumb_joint joint, bool tell);
 /// Switches a joint off, or on again. Off, it exerts nothing, does not break, and keeps nobody apart; a
 /// rigid joint that is switched on pulls its bodies together. Errors: E_HANDLE, E_LOCKED.
 PLUMB_API plumb_result plumb_joint_set_enabled(plumb_world *world, plumb_joint joint, bool enabled);
@@ -158,6 +161,11 @@ PLUMB_API plumb_real plumb_joint_error(const plumb_world *world, plumb_joint joi
 /// [N] on B at its anchor, [N m] on B about its anchor: mean of the last substep of the last step.
 PLUMB_API plumb_vec2 plumb_joint_force(const plumb_world *world, plumb_joint joint);
 PLUMB_API plumb_real plumb_joint_torque(const plumb_world *world, plumb_joint joint);
+/// [N s] on B and [N m s] about its anchor over the whole last step, all substeps and blows at limits summed: divided by
+/// the step's length the mean force and torque. {0} on an error: E_HANDLE, E_STATE (nobody asks for the sums: neither
+/// tell_impulse nor a bound of breaking or strain is set).
+PLUMB_API plumb_vec2 plumb_joint_impulse(const plumb_world *world, plumb_joint joint);
+PLUMB_API plumb_real plumb_joint_angular_impulse(const plumb_world *world, plumb_joint joint);
 PLUMB_API void *plumb_joint_user_data(const plumb_world *world, plumb_joint joint);
 
 /// Joints of the world in order of their slots, or of a body, newest first: writes up to `capacity`,

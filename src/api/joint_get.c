@@ -29,6 +29,32 @@ GETTER(plumb_vec2, anchor_a, pl_joint_anchor(world, &j->a))
 GETTER(plumb_vec2, anchor_b, pl_joint_anchor(world, &j->b))
 GETTER(plumb_vec2, force, j->force)
 GETTER(plumb_real, torque, j->torque)
+
+// The joint, if what it gives is summed.
+static const pl_joint *ask_sums(const plumb_world *world, const char *fn, plumb_joint joint)
+{
+    const pl_joint *j = pl_ask_joint(world, fn, joint);
+    if (j != NULL && !pl_joint_is_watched(&j->desc)) {
+        pl_fail(
+            world, PLUMB_E_STATE, fn,
+            "joint does not sum what it gives; set tell_impulse, or a bound of breaking or strain");
+        return NULL;
+    }
+    return j;
+}
+
+plumb_vec2 plumb_joint_impulse(const plumb_world *world, plumb_joint joint)
+{
+    const pl_joint *j = ask_sums(world, __func__, joint);
+    return j != NULL ? j->told_impulse : plumb_v2(0, 0);
+}
+
+plumb_real plumb_joint_angular_impulse(const plumb_world *world, plumb_joint joint)
+{
+    const pl_joint *j = ask_sums(world, __func__, joint);
+    return j != NULL ? j->told_turn : 0;
+}
+
 GETTER(void *, user_data, j->desc.user_data)
 
 const char *plumb_joint_kind_name(plumb_joint_kind kind)

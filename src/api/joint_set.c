@@ -44,6 +44,10 @@ static plumb_result revise(plumb_world *world, pl_joint *joint, plumb_joint_desc
     world->joints.watched -= pl_joint_is_watched(&joint->desc);
     world->joints.bouncing -= pl_joint_bounces(&joint->desc);
     pl_joint_copy_desc(&joint->desc, &wanted);
+    if (!pl_joint_is_watched(&wanted)) {
+        joint->told_impulse = plumb_v2(0, 0);
+        joint->told_turn = 0;
+    }
     world->joints.watched += pl_joint_is_watched(&joint->desc);
     world->joints.bouncing += pl_joint_bounces(&joint->desc);
     world->schedule_dirty = true; // sums of reactions or blows at limits are wanted, or no more
@@ -188,6 +192,15 @@ plumb_result plumb_joint_set_break_impulse(plumb_world *world, plumb_joint joint
     plumb_joint_desc wanted = j->desc;
     wanted.break_impulse = impulse;
     pl_joints_replan(&world->joints); // perhaps it is solved by itself from now on
+    return revise(world, j, wanted);
+}
+
+plumb_result plumb_joint_set_tell_impulse(plumb_world *world, plumb_joint joint, bool tell)
+{
+    pl_joint *j = NULL;
+    PL_TRY(find(world, __func__, joint, 0, "", &j));
+    plumb_joint_desc wanted = j->desc;
+    wanted.tell_impulse = tell;
     return revise(world, j, wanted);
 }
 

@@ -112,7 +112,12 @@ static void fill_joint(const pl_exact_system *s, const pl_exact_item *item)
     const bool stays = s->sweep == PL_SWEEP_RELAX && s->rows[item->first_row].stays;
     pl_lone l;
     pl_one_take(s->joints, item->joint, &l);
-    pl_one_rows(s->world, l.joint, l.a, l.b);
+    pl_one_forget(l.joint);
+    if (stays) { // what was given along J of before is told so (joints/finish.c)
+        pl_one_turn(s->world, l.joint, l.a, l.b);
+    } else {
+        pl_one_rows(s->world, l.joint, l.a, l.b);
+    }
     if (s->sweep == PL_SWEEP_RELAX) {
         pl_one_let_go(l.joint, l.a, l.b);
     }

@@ -80,6 +80,8 @@ static void rest(pl_joint *j)
     }
     j->force = plumb_v2(0, 0);
     j->torque = 0;
+    j->told_impulse = plumb_v2(0, 0);
+    j->told_turn = 0;
     j->strained = 0;
 }
 
@@ -89,7 +91,10 @@ void pl_joints_tally(const pl_joint_context *c)
     for (uint32_t i = c->group->alone; i < c->group->end; ++i) {
         pl_joint *j = pl_joint_grouped(&c->world->joints, i);
         pl_rows made;
-        const momentum sum = push_on_b(j, whole_rows(c->world, j, &made));
+        momentum sum = push_on_b(j, whole_rows(c->world, j, &made));
+        // What J's turning owes is not given yet: it is paid to what the next substep begins with.
+        sum.linear = plumb_vec2_sub(sum.linear, plumb_v2(j->turn[3], j->turn[4]));
+        sum.angular -= j->turn[5];
         j->step_impulse = plumb_vec2_add(j->step_impulse, sum.linear);
         j->step_turn += sum.angular - plumb_vec2_cross(j->arm_b, sum.linear);
     }
@@ -198,6 +203,8 @@ void pl_joints_finish(plumb_world *world, real dt)
             snap(world, j, dt);
         } else {
             note_strain(world, j, dt);
+            j->told_impulse = j->step_impulse;
+            j->told_turn = j->step_turn;
             j->step_impulse = plumb_v2(0, 0);
             j->step_turn = 0;
         }

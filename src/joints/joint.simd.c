@@ -551,9 +551,11 @@ static void tally(const pl_joint_call *call)
             place now;
             vf sum[3];
             react(&at, p, call, &now, sum);
-            at.c->sum_x += sum[0];
-            at.c->sum_y += sum[1];
-            at.c->sum_w += sum[2];
+            // What J's turning owes is not given yet: it is paid to what the next substep begins with.
+            bundle *c = at.c;
+            c->sum_x += sum[0] - c->owed_x;
+            c->sum_y += sum[1] - c->owed_y;
+            c->sum_w += sum[2] - (c->owed_b - (now.rb_x * c->owed_y - now.rb_y * c->owed_x));
         }
     }
 }

@@ -242,7 +242,7 @@ static bool strike(const plumb_world *world, const pl_lone *l, int row, const fl
         j->struck_rate = (real)(e * speed + pull * (h - time - f->ago));
     }
     pl_one_rows(world, j, &a, &b);
-    if (due) {
+    if (due && world->desc.solver == PLUMB_SOLVER_SOFT) {
         pl_one_turn(world, j, l->a, l->b);
     }
     return due;

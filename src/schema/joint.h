@@ -21,6 +21,8 @@
       "mean torque over a step beyond which it breaks")                                             \
     R(X, STATE, REAL, break_impulse, SAID(break_impulse), "N s", ABOVE(0, NO_END), 0, NO_ZERO,      \
       "impulse in a step beyond which it breaks, whatever the length of the step")                  \
+    R(X, STATE, BOOL, tell_impulse, SAID(tell_impulse), "1", CHOICES(1), 0, NO_ZERO,                \
+      "tells what it gave over the whole step")                                                     \
     R(X, STATE, BOOL, disabled, UNSAID, "1", CHOICES(1), 0, NO_ZERO,                                \
       "does nothing until it is enabled")                                                           \
     R(X, STATE, REAL, event_force, SAID(event_force), "N", ABOVE(0, NO_END), 0, NO_ZERO,            \

@@ -39,13 +39,15 @@ static bool check_joint_desc(const plumb_joint_desc *d)
 static bool check_joint(const pl_suspect *s, const pl_joint *j)
 {
     return CHECK_BOOL(j->desc.enable_limit) && CHECK_BOOL(j->desc.enable_motor) &&
-           CHECK_BOOL(j->desc.disabled) && CHECK_BOOL(j->desc.collide_connected) &&
-           (int)j->desc.kind >= 0 && (int)j->desc.kind < pl_joint_class_count &&
-           check_joint_desc(&j->desc) && is_end(s, &j->a) && is_end(s, &j->b) &&
-           !plumb_same(j->a.body, j->b.body) && CHECK_REALS(j->impulse) && CHECK_REALS(j->h) &&
-           j->h >= 0 && CHECK_REALS(j->force) && j->strained <= 1 && CHECK_REALS(j->torque) &&
-           CHECK_REALS(j->axis) && CHECK_REALS(j->target) && CHECK_REALS(j->sum) &&
-           plumb_same(j->desc.body_a, j->a.body) && plumb_same(j->desc.body_b, j->b.body);
+           CHECK_BOOL(j->desc.disabled) && CHECK_BOOL(j->desc.tell_impulse) &&
+           CHECK_BOOL(j->desc.collide_connected) && (int)j->desc.kind >= 0 &&
+           (int)j->desc.kind < pl_joint_class_count && check_joint_desc(&j->desc) &&
+           is_end(s, &j->a) && is_end(s, &j->b) && !plumb_same(j->a.body, j->b.body) &&
+           CHECK_REALS(j->impulse) && CHECK_REALS(j->h) && j->h >= 0 && CHECK_REALS(j->force) &&
+           j->strained <= 1 && CHECK_REALS(j->torque) && CHECK_REALS(j->told_impulse) &&
+           CHECK_REALS(j->told_turn) && CHECK_REALS(j->axis) && CHECK_REALS(j->target) &&
+           CHECK_REALS(j->sum) && plumb_same(j->desc.body_a, j->a.body) &&
+           plumb_same(j->desc.body_b, j->b.body);
 }
 
 // Each end of a joint is in the list of its body once.

@@ -31,8 +31,8 @@ typedef struct pl_kept_joint {
     real h;
     plumb_vec2 force;
     real torque;
-    plumb_vec2 step_impulse;
-    real step_turn;
+    plumb_vec2 step_impulse, told_impulse;
+    real step_turn, told_turn;
 } pl_kept_joint;
 
 void pl_quarantine_free(pl_memory *memory, pl_quarantine *q)
@@ -142,6 +142,8 @@ static bool keep_joints(plumb_world *world)
         kept[i].torque = j->torque;
         kept[i].step_impulse = j->step_impulse;
         kept[i].step_turn = j->step_turn;
+        kept[i].told_impulse = j->told_impulse;
+        kept[i].told_turn = j->told_turn;
     }
     return true;
 }
@@ -201,6 +203,8 @@ static void undo_joints(plumb_world *world)
         j->torque = kept[i].torque;
         j->step_impulse = kept[i].step_impulse;
         j->step_turn = kept[i].step_turn;
+        j->told_impulse = kept[i].told_impulse;
+        j->told_turn = kept[i].told_turn;
     }
 }
 

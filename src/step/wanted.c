@@ -215,8 +215,9 @@ bool pl_want_reactions(const plumb_world *world, const char **reason)
     if (!pl_want_joints(world, reason)) {
         return false;
     }
-    return say(world->joints.watched > 0, reason, "some joint breaks or tells of its strain",
-               "no joint breaks or tells of its strain");
+    return say(world->joints.watched > 0, reason,
+               "some joint breaks, or tells of its strain or impulse",
+               "no joint breaks, or tells of its strain or impulse");
 }
 
 bool pl_want_strikes(const plumb_world *world, const char **reason)

@@ -24,7 +24,7 @@ bool pl_joints_part(const plumb_world *world, uint32_t row);
 static inline bool pl_joint_is_watched(const plumb_joint_desc *d)
 {
     return d->break_force > 0 || d->break_torque > 0 || d->break_impulse > 0 ||
-           d->event_force > 0 || d->event_torque > 0;
+           d->event_force > 0 || d->event_torque > 0 || d->tell_impulse;
 }
 // Its limit gives back speed.
 static inline bool pl_joint_bounces(const plumb_joint_desc *d)

@@ -72,7 +72,12 @@ static void getters_tell_what_was_set(void **state)
     assert_int_equal(plumb_joint_set_user_data(w, j, &tag), PLUMB_OK);
     assert_int_equal(plumb_joint_settings(w, j, &d), PLUMB_OK);
     assert_true(d.enable_limit && d.lower == 1 && d.upper == 7 && d.hertz == 2);
-    assert_true(d.restitution == R(0.25));
+    assert_true(d.restitution == R(0.25) && !d.tell_impulse);
+    assert_int_equal(plumb_joint_set_tell_impulse(w, j, true), PLUMB_OK);
+    assert_int_equal(plumb_joint_settings(w, j, &d), PLUMB_OK);
+    assert_true(d.tell_impulse);
+    assert_vec_near(plumb_joint_impulse(w, j), 0, 0, 0);
+    assert_near(plumb_joint_angular_impulse(w, j), 0, 0);
     assert_true(d.damping == R(0.5) && d.break_force == 100 && d.break_torque == 200);
     assert_ptr_equal(plumb_joint_user_data(w, j), &tag);
     assert_int_equal(plumb_joint_destroy(w, j), PLUMB_OK);
@@ -359,6 +364,8 @@ static void setters_refuse(void **state)
             plumb_joint_set_spring(w, rod, 1, -1, 0));
     REFUSED(E_NOT_FINITE, "plumb_joint_set_spring: rest is nan; it must be finite",
             plumb_joint_set_spring(w, rod, 1, 0, (plumb_real)NAN));
+    REFUSED(E_HANDLE, "plumb_joint_set_tell_impulse: joint is null; it must be a live joint",
+            plumb_joint_set_tell_impulse(w, NONE, true));
     REFUSED(E_STATE,
             "plumb_joint_set_restitution: joint is a gear joint; it must be one with a limit",
             plumb_joint_set_restitution(w, gear, 1));

@@ -226,6 +226,7 @@ void sim_fit_joint(plumb_joint_desc *desc)
                                 .break_impulse = given.break_impulse,
                                 .event_force = given.event_force,
                                 .event_torque = given.event_torque,
+                                .tell_impulse = given.tell_impulse,
                                 .disabled = given.disabled,
                                 .collide_connected = given.collide_connected,
                                 .user_data = given.user_data };

@@ -76,7 +76,11 @@ static void test_joint_methods(void **state)
     check(
         "scene{ gravity = {0, 0}, duration = 1 }\n"
         "local b = body{ name = 'b', box{1, 0.2}, at = {0.5, 0} }\n"
-        "local j = revolute{ b, at = {0, 0}, motor = { speed = 1, torque = 1000 }, name = 'j' }\n"
+        "local j = revolute{ b, at = {0, 0}, motor = { speed = 1, torque = 1000 }, name = 'j',\n"
+        "  tell_impulse = true }\n"
+        "local x, y, turn = j:impulse()\n"
+        "assert(x == 0 and y == 0 and turn == 0)\n"
+        "at(0.5, function() local x, y, turn = j:impulse() assert(turn ~= 0 or x ~= 0) end)\n"
         "assert(j:name() == 'j' and j:kind() == 'revolute' and j:alive() and tostring(j) == 'j')\n"
         "assert(j:a() == world and j:b() == b and find_joint('j') == j)\n"
         "assert(find_joint('k') == nil and joint_count() == 1)\n"

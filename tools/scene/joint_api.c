@@ -171,6 +171,19 @@ static int method_force(lua_State *L)
     return sc_push_vector(L, bears(L, &c, &torque));
 }
 
+// impulse(): x, y [N s] on b over the last step; turn [N m s] as the third. With tell_impulse, or a bound of breaking.
+static int method_impulse(lua_State *L)
+{
+    call c = self(L, "impulse");
+    const plumb_joint_desc d = settings(&c);
+    if (!d.tell_impulse && !(d.break_force > 0 || d.break_torque > 0 || d.break_impulse > 0 ||
+                             d.event_force > 0 || d.event_torque > 0)) {
+        fail_state(&c, "sum of impulses: say tell_impulse = true");
+    }
+    const int count = sc_push_vector(L, plumb_joint_impulse(c.world, c.entity));
+    return count + sc_push_real(L, plumb_joint_angular_impulse(c.world, c.entity));
+}
+
 static int method_torque(lua_State *L)
 {
     call c = self(L, "torque");
@@ -317,6 +330,7 @@ static const luaL_Reg methods[] = {
     { "destroy", method_destroy },
     { "error", method_error },
     { "force", method_force },
+    { "impulse", method_impulse },
     { "kind", method_kind },
     { "name", method_name },
     { "rate", method_rate },

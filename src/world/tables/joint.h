@@ -112,6 +112,8 @@ struct pl_joint {
     plumb_vec2 axis;   // unit, in A's frame (the world's without A)
     plumb_vec2 target; // mouse: world [m]; motor: in A's frame [m]
     real sum;          // gear, pulley: what is kept; ratchet: the tooth behind the pawl [rad]
+    plumb_vec2 told_impulse; // [N s] on B over the last step, where it is watched
+    real told_turn;          // [N m s] likewise, about B's anchor
     uint32_t strained; // 1: its reaction was beyond its bounds for events when last seen
     // What is behind here is of one step, and not saved (snapshot/list.h).
     pl_joint_pose pose_a, pose_b; // at the start of the step; first: aligned as the whole
