@@ -137,7 +137,8 @@ void pl_hit_lost(plumb_world *world, const pl_pair *pair, plumb_contact_end who)
 // Of the two points, the one that was pushed more.
 static plumb_vec2 place_of_hit(const plumb_world *world, const pl_manifold *m)
 {
-    return pl_contact_place(world, m, m->point[1].total > m->point[0].total ? 1 : 0);
+    return pl_contact_place(world, m,
+                            m->count > 1 && m->point[1].total > m->point[0].total ? 1 : 0);
 }
 
 void pl_hit_append(plumb_world *world, const pl_pair *pair, real impulse)
@@ -189,7 +190,7 @@ bool pl_hit_is_due(plumb_world *world, pl_pair *pair, bool touches)
         return false;
     }
     pl_manifold *m = &pl_manifolds(&world->narrow)[pair->manifold];
-    m->hit_impulse = m->point[0].total + m->point[1].total;
+    m->hit_impulse = m->point[0].total + (m->count > 1 ? m->point[1].total : 0);
     const bool strikes =
         (m->met & PL_MET_MEASURED) != 0 && m->approach > least && m->hit_impulse > 0;
     pair->flags |= strikes || pending != NULL ? PL_PAIR_STRUCK : 0;

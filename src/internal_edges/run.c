@@ -293,6 +293,84 @@ static void note_load(plumb_world *world, const run_contact *r, const pl_manifol
     keep_load(load, &pl_pairs(&world->broad.pairs)[m->pair]);
 }
 
+#define BENT_OVER 4 // faces on either side whose mean bend is taken: corners are rounded numbers
+
+// [rad] by which the face of chain piece q turns from that of p, and how far it is from middle to middle; false where q does not go on at
+// that end of p (1: where its edge ends).
+static bool goes_on(const plumb_world *world, uint32_t p, uint32_t q, int end, double *turn,
+                    double *length)
+{
+    const pl_pieces *pieces = &world->pieces;
+    if (q >= pieces->table.count || pieces->vertex_count[q] != 2 ||
+        memcmp(&pieces->shape[p], &pieces->shape[q], sizeof pieces->shape[p]) != 0) {
+        return false;
+    }
+    const pl_vertex *a = world->vertices.items + pieces->vertices[p];
+    const pl_vertex *b = world->vertices.items + pieces->vertices[q];
+    const pl_vertex *own = &a[end], *other = &b[1 - end];
+    if (own->x != other->x || own->y != other->y) {
+        return false;
+    }
+    const double nx = (double)a->nx, ny = (double)a->ny, mx = (double)b->nx, my = (double)b->ny;
+    const double across = nx * my - ny * mx;
+    if (!(fabs(across) < PL_EDGE_ANGLE) || nx * mx + ny * my < 0) {
+        return false;
+    }
+    *turn += end == 1 ? across : -across;
+    *length += (double)(pieces->core[p].hx + pieces->core[q].hx);
+    return true;
+}
+
+// [1/m] of a chain about one of its lines, seen from its front: positive where it bulges, 0 where it is straight or no chain.
+static double bend_of(const plumb_world *world, uint32_t piece)
+{
+    if (world->pieces.vertex_count[piece] != 2) {
+        return 0;
+    }
+    double turn = 0, length = 0;
+    for (int end = 0; end < 2; ++end) {
+        for (int way = -1; way <= 1; way += 2) {
+            uint32_t p = piece;
+            for (int i = 0; i < BENT_OVER; ++i) {
+                const uint32_t q = p + (uint32_t)way;
+                if (!goes_on(world, p, q, end, &turn, &length)) {
+                    break;
+                }
+                p = q;
+            }
+        }
+    }
+    return length > 0 ? turn / length : 0;
+}
+
+// [1/m] less is straight: a radius that the numbers of the solver do not hold.
+#define LEAST_BEND 1e-3
+
+// Puts a contact of one point on the arc that the faces of its ground are chords of: the normal turns along the way
+// instead of from face to face.
+static bool bear_on_arc(const pl_view *v, const pl_strip *strip, pl_face_point p, double bend,
+                        uint32_t feature, pl_manifold *m)
+{
+    const pl_face *f = &strip->f;
+    const double radius = 1 / bend, half = f->length / 2;
+    const double back = (bend > 0 ? 1 : -1) * sqrt(pl_greater(radius * radius - half * half, 0));
+    // From the arc's middle to the core, in the face's frame.
+    const double x = p.u + back, y = p.v - half, far = sqrt(x * x + y * y);
+    const double c = (bend > 0 ? x : -x) / far, s = (bend > 0 ? y : -y) / far;
+    if (!(c > 0.5)) {
+        return false;
+    }
+    pl_face on = { .nx = c * f->nx - s * f->ny, .ny = c * f->ny + s * f->nx };
+    on.x = f->x - back * f->nx - half * f->ny + radius * on.nx;
+    on.y = f->y - back * f->ny + half * f->nx + radius * on.ny;
+    const pl_face_point at = { (bend > 0 ? far : -far) - radius, 0 };
+    if (pl_view_write(v, &on, &at, 1, feature, m) == 0) {
+        return false;
+    }
+    m->point[1].bend = (near_real)bend;
+    return true;
+}
+
 // Gives the run to its owner. False when nothing of the mover lies over it: all stay as they are.
 static bool bear(plumb_world *world, const flat_run *run, double dt)
 {
@@ -314,6 +392,12 @@ static bool bear(plumb_world *world, const flat_run *run, double dt)
     if (pl_view_write(&v, &strip.f, points, count, PL_RUN_FEATURE | (uint32_t)feature << 1,
                       &written) == 0) {
         return false;
+    }
+    const double bend = written.count == 1 ? bend_of(world, v.own) : 0;
+    pl_manifold on_arc = *m;
+    if (fabs(bend) > LEAST_BEND && bear_on_arc(&v, &strip, points[0], r->edge == 0 ? bend : -bend,
+                                               PL_RUN_FEATURE | (uint32_t)feature << 1, &on_arc)) {
+        written = on_arc;
     }
     *m = written;
     carry_load(world, r, pair, m);

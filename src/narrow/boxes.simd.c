@@ -121,6 +121,7 @@ WIDE_INLINE void box_box(touch *t, const lanes *l, const pl_narrow_input *in, in
     vm face = f.code | (sixteen & by_x) | ((sixteen + sixteen) & (sign < zero));
     t->feature[0] = face;
     t->feature[1] = face + 1;
+    t->turns = selm(f.flip, (vm){ 0 } + PL_MET_TURNS_B, (vm){ 0 } + PL_MET_TURNS_A);
 }
 
 DEFINE_KERNEL(box_box)

@@ -15,6 +15,7 @@ WIDE_INLINE void touch_point(touch *t, const lanes *l, vf nx, vf ny, vf distance
     t->px[1] = t->py[1] = splat(0);
     t->sep[1] = splat(PL_APART);
     t->feature[0] = t->feature[1] = (vm){ 0 };
+    t->turns = (vm){ 0 } + PL_MET_TURNS_MID;
 }
 
 // Unit vector of (x, y); where that is too short, (fx, fy).
@@ -37,12 +38,14 @@ WIDE_INLINE void circle_circle(touch *t, const lanes *l)
 
 WIDE_INLINE void circle_capsule(touch *t, const lanes *l)
 {
-    vf along = vclamp(-(l->dx * l->bc + l->dy * l->bs), -l->bhx, l->bhx);
+    vf at = -(l->dx * l->bc + l->dy * l->bs);
+    vf along = vclamp(at, -l->bhx, l->bhx);
     vf qx = l->dx + l->bc * along;
     vf qy = l->dy + l->bs * along;
     vf nx, ny;
     vf distance = unit(qx, qy, -l->bs, l->bc, &nx, &ny);
     touch_point(t, l, nx, ny, distance);
+    t->turns = selm(along == at, (vm){ 0 } + PL_MET_TURNS_B, t->turns);
 }
 
 // The circle's centre in the box's frame: outside, the nearest point by clamping; inside, the face
@@ -69,6 +72,8 @@ WIDE_INLINE void circle_box(touch *t, const lanes *l)
     distance = sel(face, -sel(by_x, depth_x, depth_y), distance);
     // u points from the box to the circle; the normal from A (circle) to B (box).
     touch_point(t, l, -(ux * l->bc - uy * l->bs), -(ux * l->bs + uy * l->bc), distance);
+    const vm corner = ~face & (depth_x < zero) & (depth_y < zero);
+    t->turns = selm(corner, t->turns, (vm){ 0 } + PL_MET_TURNS_B);
 }
 
 // The three share what is around them, which is most of a kernel's code.

@@ -205,6 +205,7 @@ WIDE_PART void round_corners(touch *t, const lanes *l, const pl_narrow_input *in
     t->sep[0] = sel(corner, sep, t->sep[0]);
     t->sep[1] = sel(corner, splat(PL_APART), t->sep[1]);
     t->feature[0] = selm(corner, t->feature[0] | 2, t->feature[0]);
+    t->turns = selm(corner, (vm){ 0 } + PL_MET_TURNS_MID, t->turns);
 }
 
 // `flip_out` and `face_out`: which side has the reference face, and its edge.
@@ -260,6 +261,7 @@ WIDE_PART void meet_outlines(touch *t, const lanes *l, const pl_narrow_input *in
     vm code = (face << 3) | (edge << 8) | ((((vm)splat(0)) + 4) & flip);
     t->feature[0] = code;
     t->feature[1] = code | 1;
+    t->turns = selm(flip, (vm){ 0 } + PL_MET_TURNS_B, (vm){ 0 } + PL_MET_TURNS_A);
     vm lies_flat = ~beside & (vabs(slope) < splat(FLAT_SLOPE));
     round_corners(t, l, in, a, b, r, w, sel(flip, fb.separation, fa.separation), cut, lies_flat,
                   p_deeper);
@@ -294,6 +296,8 @@ WIDE_PART void circle_convex(touch *t, const lanes *l, const pl_narrow_input *in
     vf e[4], qx, qy;
     edge_ends(in, &b, &b, l->b, l->b, (vm){ 0 }, best.index, e);
     vf distance = vsqrt(segment_distance(zero, zero, e, &qx, &qy));
+    // Before a corner the connection is longer than the way to the face.
+    vm corner = distance > best.separation * splat((near_real)1.000002) + splat((near_real)1e-6);
     vm apart = (best.separation > zero) & (distance > splat((near_real)1e-9));
     vf inv = splat(1) / sel(apart, distance, splat(1));
     t->nx = sel(apart, qx * inv, -best.nx);
@@ -305,6 +309,7 @@ WIDE_PART void circle_convex(touch *t, const lanes *l, const pl_narrow_input *in
     t->px[1] = t->py[1] = zero;
     t->sep[1] = splat(PL_APART);
     t->feature[0] = t->feature[1] = (vm){ 0 };
+    t->turns = selm(apart & corner, (vm){ 0 } + PL_MET_TURNS_MID, (vm){ 0 } + PL_MET_TURNS_B);
 }
 
 //---- pairs that were apart -----------------------------------------------------------------------

@@ -28,6 +28,7 @@ typedef struct touch {
     vf px[2], py[2]; // midway between the surfaces, from A's core centre
     vf sep[2];
     vm feature[2];
+    vm turns; // PL_MET_TURNS_...
 } touch;
 
 //---- where the cores are -----------------------------------------------------------------------------
@@ -325,6 +326,7 @@ WIDE_PART void lanes_emit(const lanes *l, const touch *t, const pl_narrow_input 
         uint32_t feature[2] = { (uint32_t)t->feature[0][i], (uint32_t)t->feature[1][i] };
         if (emit_lane(pair, m, rows[i], limits[i], feature)) {
             m->pair = l->pair[i];
+            m->met = (uint16_t)t->turns[i];
             fresh[out->fresh_count] = l->pair[i];
             out->fresh_count += (pair->flags & PL_PAIR_TOUCHING) == 0;
             ends[out->manifold_count] = (pl_ends){ pair->body_a, pair->body_b };

@@ -8,7 +8,7 @@
 //   wanted    ALWAYS; IF(f): bool f(world, &reason), whether this world needs it; the reason is a static string
 //   run       ONCE(f): plumb_result f(world, dt), once a step, where f may run out of memory; of the stages PREPARE to STORE a
 //             function of the substep and cluster (world/substep.h): EACH(f) with all solvers, THREE(soft,
-//             classic, exact), BOTH(soft, classic), NOT_CLASSIC(f), EXACT(f); ACTS(f, whom): an effect with all, on the
+//             classic, exact), BOTH(soft, classic), NOT_CLASSIC(f), SOFT(f), EXACT(f); ACTS(f, whom): an effect with all, on the
 //             dynamic bodies of whom bool whom(world, row) is true: the solver moves them; HOME: the place of the
 //             user's systems of a phase
 //   kind      ONCE a step; REFRESHES: in a step of dt 0 as well, it moves nothing; REPLACEABLE: a system may take its
@@ -97,6 +97,8 @@
       "constraints", "solver bodies, constraints, pairs, manifolds", ONE)                                                                    \
     X("limits",            VELOCITIES,  IF(pl_want_strikes),         EACH(pl_joints_row_strike),                              ONCE,          \
       "joints, constraints", "solver bodies, joints", ONE)                                                                                   \
+    X("open moment",       VELOCITIES,  IF(pl_want_moment),          SOFT(pl_soft_open_moment),                              ONCE,           \
+      "constraints, solver bodies", "solver bodies, constraints", ONE)                                                                       \
     X("joints",            CONSTRAINTS, IF(pl_want_joints),          BOTH(pl_joints_row_solve, pl_joints_row_classic),       ONCE,           \
       "joints, constraints", "solver bodies, joints, constraints", ONE)                                                                      \
     X("contacts",          CONSTRAINTS, IF(pl_want_collision),       BOTH(pl_soft_contacts, pl_classic_contacts),            ONCE,           \
@@ -105,6 +107,8 @@
       "joints, constraints, manifolds", "solver bodies, joints, constraints", ONE)                                                           \
     X("positions",         POSITIONS,   IF(pl_want_solver),          THREE(pl_move_bodies, pl_classic_move, pl_move_bodies), ONCE,           \
       "solver bodies, accelerations", "solver bodies, joints", ONE)                                                                          \
+    X("follow moment",     POSITIONS,   IF(pl_want_moment),          SOFT(pl_soft_follow_moment),                            ONCE,           \
+      "solver bodies", "constraints", ONE)                                                                                                   \
     X("relax joints",      RELAX,       IF(pl_want_joints),          BOTH(pl_joints_row_relax, pl_joints_row_correct),       ONCE,           \
       "joints, constraints", "solver bodies, joints, constraints", ONE)                                                                      \
     X("relax contacts",    RELAX,       IF(pl_want_collision),       BOTH(pl_soft_relax, pl_classic_correct),                ONCE,           \
@@ -151,6 +155,7 @@ struct pl_substep;
 #define PL_PROTOTYPE_EACH(f)             void f(struct pl_substep *substep);
 #define PL_PROTOTYPE_NOT_CLASSIC(f)      PL_PROTOTYPE_EACH(f)
 #define PL_PROTOTYPE_EXACT(f)            PL_PROTOTYPE_EACH(f)
+#define PL_PROTOTYPE_SOFT(f)             PL_PROTOTYPE_EACH(f)
 #define PL_PROTOTYPE_BOTH(soft, classic) PL_PROTOTYPE_EACH(soft) PL_PROTOTYPE_EACH(classic)
 #define PL_PROTOTYPE_THREE(soft, classic, exact)                                                   \
     PL_PROTOTYPE_BOTH(soft, classic) PL_PROTOTYPE_EACH(exact)

@@ -76,7 +76,7 @@
     LEFT(solver.bodies) LEFT(solver.motions) LEFT(solver.residuals) LEFT(solver.struck)                 \
     LEFT(solver.rows) LEFT(solver.slots) LEFT(solver.masks) LEFT(solver.colors)                    \
     LEFT(solver.lanes) LEFT(solver.bundles) LEFT(solver.extras) LEFT(solver.specials)              \
-    LEFT(solver.impacts) LEFT(solver.rubbed) LEFT(solver.bounces)                     \
+    LEFT(solver.impacts) LEFT(solver.rubbed) LEFT(solver.bounces) LEFT(solver.turnings) LEFT(solver.turning)                     \
     LEFT(solver.impact_heap) LEFT(solver.impact_heads) LEFT(solver.due_count) LEFT(solver.since) LEFT(solver.follows_impacts)   \
     LEFT(solver.classic) LEFT(solver.dynamic_slots) LEFT(solver.slot_count)   \
     LEFT(solver.clusters) LEFT(solver.labels) LEFT(solver.islands) LEFT(solver.homes) LEFT(solver.island_count) LEFT(solver.leaders) LEFT(solver.cursors)                 \

@@ -58,6 +58,19 @@ typedef struct bounce {
     vf impacts; // in this step
 } bounce;
 
+// What only contacts need that turn within the step (moment.simd.c). Lanes that do not turn, and all where `any` is
+// false, are left as they are.
+typedef struct turning {
+    bool any;
+    vm turns;                   // lanes
+    vm with_a, with_b;          // whose face the normal is; neither: it connects centres
+    vf nx, ny;                  // when the step began
+    vf ra, rb;                  // [m] from the core points to the surfaces
+    vf ax[2], ay[2];            // [m] core points of A then, from its centre of mass
+    vf bx[2], by[2];            // [m] of B
+    vf start[2], separation[2]; // [m] then, and now
+} turning;
+
 //---- bodies of the lanes ------------------------------------------------------------------------
 
 typedef struct body {
@@ -134,6 +147,23 @@ WIDE_INLINE vf slip_at(const bundle *c, const extra *e, const point *p, const bo
     return slip;
 }
 
+//---- rows ----------------------------------------------------------------------------------------
+
+// What an impulse at one point does to the other, little enough for the points' block to have one answer: where neither
+// body can turn both rows are the same, and each sweep could move all load to one point and leave the other's friction
+// without any. The share is twice what solve_normals needs to call the block regular.
+WIDE_INLINE vf coupling(const bundle *c, vf mass, const body *a, const body *b)
+{
+    vf k01 = mass + a->inv_inertia * c->p[0].ran * c->p[1].ran +
+             b->inv_inertia * c->p[0].rbn * c->p[1].rbn;
+    vm same = (k01 == c->p[0].kn) & (k01 == c->p[1].kn);
+    return sel(same, k01 * splat((near_real)(1 - 1.0 / 1024)), k01);
+}
+
+// An empty lane: no mass, no impulse, out of reach.
+static const pl_manifold pl_no_manifold __attribute__((
+    aligned(64))) = { .point = { { .separation = PL_APART }, { .separation = PL_APART } } };
+
 //---- kernels that contact.simd.c puts into the table of its width ---------------------------------
 
 pl_contact_kernel PL_WIDE_NAME(pl_contact_prepare), PL_WIDE_NAME(pl_contact_prepare_extras),
@@ -141,6 +171,8 @@ pl_contact_kernel PL_WIDE_NAME(pl_contact_prepare), PL_WIDE_NAME(pl_contact_prep
 pl_contact_kernel PL_WIDE_NAME(pl_contact_bounce), PL_WIDE_NAME(pl_contact_bounce_special);
 pl_contact_kernel PL_WIDE_NAME(pl_contact_tally), PL_WIDE_NAME(pl_contact_store),
     PL_WIDE_NAME(pl_contact_store_extras), PL_WIDE_NAME(pl_contact_store_bounces);
+pl_contact_kernel PL_WIDE_NAME(pl_contact_prepare_moment), PL_WIDE_NAME(pl_contact_open_moment),
+    PL_WIDE_NAME(pl_contact_follow_moment);
 void PL_WIDE_NAME(pl_contact_measure)(const pl_contact_call *call, uint32_t first, uint32_t count,
                                       struct pl_measuring *m);
 void PL_WIDE_NAME(pl_contact_residual)(const pl_contact_call *call, uint32_t first, uint32_t count,

@@ -7,17 +7,6 @@
 // written for each contact.
 #include "solver/bundle.h"
 
-// What an impulse at one point does to the other, little enough for the points' block to have one answer: where neither
-// body can turn both rows are the same, and each sweep could move all load to one point and leave the other's friction
-// without any. The share is twice what solve_normals needs to call the block regular.
-WIDE_INLINE vf coupling(const bundle *c, vf mass, const body *a, const body *b)
-{
-    vf k01 = mass + a->inv_inertia * c->p[0].ran * c->p[1].ran +
-             b->inv_inertia * c->p[0].rbn * c->p[1].rbn;
-    vm same = (k01 == c->p[0].kn) & (k01 == c->p[1].kn);
-    return sel(same, k01 * splat((near_real)(1 - 1.0 / 1024)), k01);
-}
-
 WIDE_INLINE void prepare_point(point *p, const vf row[8], const bundle *c, const body *a,
                                const body *b)
 {
@@ -61,10 +50,6 @@ WIDE_INLINE vf held_back(const bundle *c, const point *p, const pl_contact_call 
     return limit / vmax(-p->separation * c->bias_rate, limit);
 }
 
-// An empty lane: no mass, no impulse, out of reach.
-static const pl_manifold empty_manifold __attribute__((
-    aligned(64))) = { .point = { { .separation = PL_APART }, { .separation = PL_APART } } };
-
 void PL_WIDE_NAME(pl_contact_prepare)(const pl_contact_call *call, uint32_t first, uint32_t count)
 {
     bundle *bundles = call->bundles;
@@ -81,7 +66,7 @@ void PL_WIDE_NAME(pl_contact_prepare)(const pl_contact_call *call, uint32_t firs
         }
         for (int i = 0; i < PL_WIDTH; ++i) {
             uint32_t at = call->lanes[(size_t)k * PL_WIDTH + (size_t)i];
-            const pl_manifold *m = at == PL_NONE ? &empty_manifold : &call->manifolds[at];
+            const pl_manifold *m = at == PL_NONE ? &pl_no_manifold : &call->manifolds[at];
             c->a[i] = c->b[i] = call->immovable_slot;
             if (at != PL_NONE && m->body_a < call->movable_rows) {
                 c->a[i] = call->slots[m->body_a];

@@ -95,6 +95,7 @@ static bool reserve_lanes(plumb_world *world)
     size_t impacts = s->follows_impacts ? contacts : 0;
     size_t rubbed = pl_solver_tallies(world) ? 2 * (contacts + world->narrow.borne_count) : 0;
     size_t bounces = world->narrow.any_low ? need.bundles : 0;
+    size_t turnings = world->desc.solver == PLUMB_SOLVER_SOFT && s->turning ? need.bundles : 0;
     size_t specials = pl_solver_specials(world) ? need.bundles : 0;
     size_t extras =
         world->narrow.any_surface || specials > 0 || pl_solver_tallies(world) ? need.bundles : 0;
@@ -103,6 +104,7 @@ static bool reserve_lanes(plumb_world *world)
            pl_buffer_reserve(memory, &s->bundles, need.bundles * k->bundle_size) &&
            pl_buffer_reserve(memory, &s->extras, extras * k->extra_size) &&
            pl_buffer_reserve(memory, &s->specials, specials * k->special_size) &&
+           pl_buffer_reserve(memory, &s->turnings, turnings * k->turning_size) &&
            pl_buffer_reserve(memory, &s->impacts, impacts * sizeof(pl_impact)) &&
            pl_buffer_reserve(memory, &s->bounces, bounces * k->bounce_size) &&
            pl_buffer_reserve(memory, &s->rubbed, rubbed * sizeof(near_real)) &&
@@ -428,7 +430,20 @@ static void place_lanes(plumb_world *world)
     s->bundle_count = pl_clusters(s)->color_first[PL_COLOR_SLOTS];
 }
 
-bool pl_solver_graph(plumb_world *world)
+static bool find_turning(const plumb_world *world, real dt)
+{
+    const pl_solver *s = &world->solver;
+    const pl_solver_body *b = pl_solver_bodies(s);
+    const near_real turn = PL_LEAST_TURN / (near_real)dt, way = PL_LEAST_WAY / (near_real)dt;
+    for (uint32_t i = 0; i + 1 < s->slot_count; ++i) {
+        if (b[i].w > turn || b[i].w < -turn || b[i].vx * b[i].vx + b[i].vy * b[i].vy > way * way) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool pl_solver_graph(plumb_world *world, real dt)
 {
     const pl_narrow *narrow = &world->narrow;
     world->solver.follows_impacts =
@@ -448,6 +463,7 @@ bool pl_solver_graph(plumb_world *world)
         return false;
     }
     color_contacts(world);
+    world->solver.turning = world->desc.solver == PLUMB_SOLVER_SOFT && find_turning(world, dt);
     if (!reserve_lanes(world)) {
         return false;
     }
@@ -465,7 +481,8 @@ void pl_solver_free(pl_memory *memory, pl_solver *s)
                              &s->impacts, &s->classic,  &s->residuals,   &s->struck,
                              &s->extras,  &s->specials, &s->impact_heap, &s->impact_heads,
                              &s->bounces, &s->clusters, &s->labels,      &s->islands,
-                             &s->homes,   &s->leaders,  &s->cursors,     &s->rubbed };
+                             &s->homes,   &s->leaders,  &s->cursors,     &s->rubbed,
+                             &s->turnings };
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; ++i) {
         pl_buffer_free(memory, buffers[i]);
     }

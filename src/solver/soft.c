@@ -135,6 +135,7 @@ void pl_soft_open(plumb_world *world, pl_solving_step *out)
     out->call.lanes = s->lanes.data;
     out->call.extras = running || out->tallies ? s->extras.data : NULL;
     out->call.specials = special ? s->specials.data : NULL;
+    out->call.turnings = s->turning ? s->turnings.data : NULL;
     out->call.bounces = world->narrow.any_low ? s->bounces.data : NULL;
     out->call.motions = pl_solver_motions(s);
     out->call.restitution_speed = (near_real)world->desc.restitution_speed;
@@ -166,6 +167,9 @@ void pl_soft_prepare(pl_substep *s)
     }
     if (s->solving->call.bounces != NULL) {
         each(s, kernels->prepare_bounces);
+    }
+    if (s->solving->call.turnings != NULL) {
+        each(s, kernels->prepare_moment);
     }
 }
 
@@ -204,6 +208,20 @@ void pl_soft_impacts(pl_substep *s)
             pl_impacts_run_on(world, s->h);
         }
         pl_impacts_tell(world, s->h);
+    }
+}
+
+void pl_soft_open_moment(pl_substep *s)
+{
+    if (s->solving->call.turnings != NULL) {
+        each(s, s->solving->step->kernels->open_moment);
+    }
+}
+
+void pl_soft_follow_moment(pl_substep *s)
+{
+    if (s->solving->call.turnings != NULL) {
+        sweep(s, s->solving->step->kernels->follow_moment);
     }
 }
 

@@ -93,11 +93,15 @@ typedef struct pl_contact_call {
     void *extras;          // NULL: none
     void *specials;        // NULL: none
     void *bounces;         // NULL: none
+    void *turnings;        // NULL: none
+    const pl_core *cores;  // of a piece
+    const uint8_t *kinds;  // pl_piece_kind of a piece
     near_real *rubbed;     // pl_solver.rubbed; NULL: impulses are not added up
     const uint16_t *flags; // PL_BODY_... of a body row
     pl_manifold *manifolds;
     pl_pair *pairs;
     near_real h, inv_h;          // [s] substep
+    near_real inv_dt;            // [1/s] of the step
     near_real since;             // [s] from the start of the step to that of the substep
     near_real hertz, damping;    // [1/s], [-] of soft contacts
     near_real push_speed;        // [m/s]
@@ -106,6 +110,10 @@ typedef struct pl_contact_call {
     near_real *struck;           // [s] a slot, for impacts that are events; NULL: there are none
     uint32_t *bounce_count;
 } pl_contact_call;
+
+// [rad], [m] in a step: where all bodies move less, no contact turns.
+#define PL_LEAST_TURN ((near_real)2e-4)
+#define PL_LEAST_WAY  ((near_real)4e-5)
 
 struct pl_measuring;
 
@@ -145,7 +153,9 @@ typedef struct pl_contact_kernels {
     pl_contact_kernel *prepare_bounces;
     pl_contact_kernel *bounce, *bounce_special; // without `specials` and with them
     pl_contact_kernel *store_bounces;           // impacts to pairs and manifolds
-    pl_contact_kernel *tally;                   // adds the substep's normal impulses to the totals
+    size_t turning_size;
+    pl_contact_kernel *prepare_moment, *open_moment, *follow_moment; // moment.simd.c
+    pl_contact_kernel *tally; // adds the substep's normal impulses to the totals
     // rolling impulses to the pairs; totals, speeds of hits to the manifolds
     pl_contact_kernel *store_extras;
     pl_contact_kernel *store; // impulses to the pairs
@@ -169,7 +179,7 @@ void pl_solver_free(pl_memory *memory, pl_solver *solver);
 const pl_contact_kernels *pl_solver_kernels(const plumb_world *world);
 
 // Active bodies, colours, lanes (graph.c). False when out of memory; nothing has moved then.
-bool pl_solver_graph(plumb_world *world);
+bool pl_solver_graph(plumb_world *world, plumb_real dt);
 // Which bodies are solved together (cluster.c). False when out of memory.
 bool pl_solver_cluster(plumb_world *world);
 // Whether the impulses of contacts are added up over the step.

@@ -79,6 +79,9 @@ static pl_contact_call call_of(const pl_solving_step *step, const pl_cluster *cl
     if (call.specials != NULL) {
         call.specials = (char *)call.specials + room * step->kernels->special_size;
     }
+    if (call.turnings != NULL) {
+        call.turnings = (char *)call.turnings + room * step->kernels->turning_size;
+    }
     if (call.bounces != NULL) {
         call.bounces = (char *)call.bounces + room * step->kernels->bounce_size;
     }
@@ -152,6 +155,9 @@ static pl_solving_step open_step(plumb_world *world, const pl_substep_rows *rows
                   .rubbed = pl_solver_tallies(world) ? s->rubbed.data : NULL,
                   .h = h,
                   .inv_h = 1 / h,
+                  .inv_dt = (near_real)(1 / dt),
+                  .cores = world->pieces.core,
+                  .kinds = world->pieces.kind,
                   .flags = world->bodies.flags },
         .elastic = world->solver.follows_impacts,
         .together = world->solver.follows_impacts || world->effects.any_alone,

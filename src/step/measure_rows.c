@@ -56,6 +56,7 @@ static const row_rule rules[] = {
     { pl_joints_row_correct, ROW_WORK, PLUMB_WORK_JOINTS },
     { pl_soft_contacts, ROW_CONTACTS, PLUMB_WORK_NORMAL },
     { pl_classic_contacts, ROW_CONTACTS, PLUMB_WORK_NORMAL },
+    { pl_soft_follow_moment, ROW_WORK, PLUMB_WORK_NORMAL },
     { pl_soft_relax, ROW_RELAX_CONTACTS, PLUMB_WORK_NORMAL },
     { pl_classic_correct, ROW_WORK, PLUMB_WORK_RECOVERY },
     { pl_move_bodies, ROW_WORK, PLUMB_WORK_GRAVITY },

@@ -63,10 +63,10 @@ static bool narrow(plumb_world *world, plumb_real dt)
     return corrected && pl_events_prepare(world);
 }
 
-static bool graph(plumb_world *world)
+static bool graph(plumb_world *world, plumb_real dt)
 {
     const char *unused;
-    return pl_solver_graph(world) &&
+    return pl_solver_graph(world, dt) &&
            (!pl_want_continuous(world, &unused) || pl_continuous_reserve(world)) &&
            pl_quarantine_keep(world);
 }
@@ -113,7 +113,7 @@ TRY(pl_run_sleep, pl_sleep_fall(world, dt))
 TRY(pl_run_candidates, pl_sensing_prepare(world))
 RUN(pl_run_gravity, world->effects.gravity = world->gravity)
 TRY(pl_run_called, pl_acting_call(world))
-TRY(pl_run_graph, graph(world))
+TRY(pl_run_graph, graph(world, dt))
 TRY(pl_run_acting, pl_acting_find(world, dt))
 RUN(pl_run_soft, substeps(world, dt, "soft step"))
 RUN(pl_run_classic, substeps(world, dt, "classic solver"))
@@ -138,6 +138,7 @@ RUN(pl_run_sensors, pl_sensing_run(world))
 #define RUN_ACTS(f, whom)          RUN_EACH(f), .acts_on = whom
 #define RUN_NOT_CLASSIC(f)         RUN_THREE(f, NULL, f)
 #define RUN_EXACT(f)               RUN_THREE(NULL, NULL, f)
+#define RUN_SOFT(f)                RUN_THREE(f, NULL, NULL)
 #define RUN_BOTH(one, two)         RUN_THREE(one, two, NULL)
 #define VARIANTS_ONE               NULL
 #define VARIANTS_HAS(f)            f

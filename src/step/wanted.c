@@ -204,6 +204,16 @@ bool pl_want_impacts(const plumb_world *world, const char **reason)
                "no shape's material has restitution");
 }
 
+bool pl_want_moment(const plumb_world *world, const char **reason)
+{
+    if (!pl_want_collision(world, reason)) {
+        return false;
+    }
+    return say(world->desc.solver == PLUMB_SOLVER_SOFT, reason,
+               "the soft step makes contacts that turn anew within the step",
+               "the soft step alone makes contacts anew within the step");
+}
+
 bool pl_want_gravity(const plumb_world *world, const char **reason)
 {
     return say(world->gravity.x != 0 || world->gravity.y != 0, reason, "the world has gravity",

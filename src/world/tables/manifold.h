@@ -12,7 +12,10 @@ typedef struct pl_manifold_point {
     near_real separation; // [m] negative: overlap
     near_real normal;     // [N s] impulse carried over from the last step
     near_real tangent;    // [N s]
-    near_real total;      // [N s] along the normal over the step, where the world adds it up
+    union {
+        near_real total; // [N s] along the normal over the step, where the world adds it up
+        near_real bend;  // [1/m] of the face that the normal is of; of the second point where it is absent
+    };
 } pl_manifold_point;
 
 // A touching or nearly touching pair of this step: three rows of eight reals, which the kernels
@@ -52,6 +55,13 @@ typedef struct pl_manifold {
     2u // `approach` is the fastest at which a point of it was struck in this step
 #define PL_MET_ASIDE                                                                               \
     4u // its plane is that of a later moment or of the ground: the pieces are clear of one another
+
+// How the normal goes on within the step: with A, whose face it is, with B, or as the connection of the centres of two
+// round features. 0: it stays as it is.
+#define PL_MET_TURNS     0x30u
+#define PL_MET_TURNS_A   0x10u
+#define PL_MET_TURNS_B   0x20u
+#define PL_MET_TURNS_MID 0x30u
 
 // [m] contacts that are farther apart lie ahead: whether they will meet is asked (ahead.c).
 #define PL_AHEAD ((near_real)5e-4)

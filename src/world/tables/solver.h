@@ -53,6 +53,7 @@ typedef struct pl_solver {
     pl_buffer bundles; // constraints of `width` contacts each
     pl_buffer extras; // a record a bundle, where surfaces run or roll hard or impulses are added up
     pl_buffer specials; // a record a bundle, where bodies are locked or surfaces stick
+    pl_buffer turnings; // a record a bundle, where something moves
     pl_buffer bounces;  // a record a bundle, where contacts are of low restitution
     pl_buffer rubbed;   // near_real, two a manifold: [N s] along the tangent over the step, where impulses are added up
     pl_buffer impacts;  // pl_impact
@@ -76,6 +77,7 @@ typedef struct pl_solver {
     uint32_t bundle_count; // of cluster 0: all that impacts as events look at
     uint32_t impact_count, due_count;
     near_real since;      // [s] from the start of the step to that of the substep of cluster 0
+    bool turning;         // of this step: some body moves fast enough for a contact to turn
     bool follows_impacts; // of this step: some are events
     uint32_t spare_impacts; // of this substep, that contacts may still take (impact.c)
     uint32_t color_count, overflow_count, bounce_count;
