@@ -97,6 +97,8 @@
       "constraints", "solver bodies, constraints, pairs, manifolds", ONE)                                                                    \
     X("limits",            VELOCITIES,  IF(pl_want_strikes),         EACH(pl_joints_row_strike),                              ONCE,          \
       "joints, constraints", "solver bodies, joints", ONE)                                                                                   \
+    X("half kick",         VELOCITIES,  IF(pl_want_soft),            SOFT(pl_soft_halve),                                    ONCE,           \
+      "accelerations", "solver bodies", ONE)                                                                                                 \
     X("open moment",       VELOCITIES,  IF(pl_want_moment),          SOFT(pl_soft_open_moment),                              ONCE,           \
       "constraints, solver bodies", "solver bodies, constraints", ONE)                                                                       \
     X("joints",            CONSTRAINTS, IF(pl_want_joints),          BOTH(pl_joints_row_solve, pl_joints_row_classic),       ONCE,           \
@@ -105,7 +107,7 @@
       "constraints", "solver bodies, constraints", HAS(pl_contact_variants))                                                                 \
     X("exact pull",        CONSTRAINTS, IF(pl_want_exact),           EXACT(pl_exact_pull),                                   ONCE,           \
       "joints, constraints, manifolds", "solver bodies, joints, constraints", ONE)                                                           \
-    X("positions",         POSITIONS,   IF(pl_want_solver),          THREE(pl_move_bodies, pl_classic_move, pl_move_bodies), ONCE,           \
+    X("positions",         POSITIONS,   IF(pl_want_solver),          THREE(pl_soft_move, pl_classic_move, pl_move_bodies), ONCE,           \
       "solver bodies, accelerations", "solver bodies, joints", ONE)                                                                          \
     X("follow moment",     POSITIONS,   IF(pl_want_moment),          SOFT(pl_soft_follow_moment),                            ONCE,           \
       "solver bodies", "constraints", ONE)                                                                                                   \

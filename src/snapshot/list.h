@@ -73,7 +73,7 @@
     LEFT(narrow.any_elastic) LEFT(narrow.any_low) LEFT(narrow.any_surface) LEFT(narrow.overlaps)
 
 #define PL_STATE_SOLVER(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                     \
-    LEFT(solver.bodies) LEFT(solver.motions) LEFT(solver.residuals) LEFT(solver.struck)                 \
+    LEFT(solver.bodies) LEFT(solver.motions) LEFT(solver.residuals) LEFT(solver.kicked) LEFT(solver.struck)                 \
     LEFT(solver.rows) LEFT(solver.slots) LEFT(solver.masks) LEFT(solver.colors)                    \
     LEFT(solver.lanes) LEFT(solver.bundles) LEFT(solver.extras) LEFT(solver.specials)              \
     LEFT(solver.impacts) LEFT(solver.rubbed) LEFT(solver.bounces) LEFT(solver.turnings) LEFT(solver.turning)                     \

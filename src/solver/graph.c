@@ -53,6 +53,7 @@ static bool reserve_bodies(plumb_world *world)
     size_t elastic_rows = s->follows_impacts ? rows : 0;
     return pl_buffer_reserve(memory, &s->bodies, rows * sizeof(pl_solver_body)) &&
            pl_buffer_reserve(memory, &s->motions, rows * sizeof(pl_solver_motion)) &&
+           pl_buffer_reserve(memory, &s->kicked, rows * 4 * sizeof(near_real)) &&
            pl_buffer_reserve(memory, &s->residuals, elastic_rows * 4 * sizeof(near_real)) &&
            pl_buffer_reserve(memory, &s->struck, elastic_rows * sizeof(near_real)) &&
            pl_buffer_reserve(memory, &s->rows, rows * sizeof(uint32_t)) &&
@@ -251,6 +252,7 @@ static void fill_slot(plumb_world *world, uint32_t slot)
                             .uy = (near_real)b->vy[row],
                             .uw = (near_real)b->w[row],
                             .inv_mass = im };
+    pl_soft_share(world, row, slot);
     if (s->follows_impacts) {
         start_low((near_real *)s->residuals.data + (size_t)slot * 4, b, row);
     }
@@ -476,13 +478,13 @@ bool pl_solver_graph(plumb_world *world, real dt)
 
 void pl_solver_free(pl_memory *memory, pl_solver *s)
 {
-    pl_buffer *buffers[] = { &s->bodies,  &s->motions,  &s->rows,        &s->slots,
-                             &s->masks,   &s->colors,   &s->lanes,       &s->bundles,
-                             &s->impacts, &s->classic,  &s->residuals,   &s->struck,
-                             &s->extras,  &s->specials, &s->impact_heap, &s->impact_heads,
-                             &s->bounces, &s->clusters, &s->labels,      &s->islands,
-                             &s->homes,   &s->leaders,  &s->cursors,     &s->rubbed,
-                             &s->turnings };
+    pl_buffer *buffers[] = { &s->bodies,   &s->motions,  &s->rows,        &s->slots,
+                             &s->masks,    &s->colors,   &s->lanes,       &s->bundles,
+                             &s->impacts,  &s->classic,  &s->residuals,   &s->struck,
+                             &s->extras,   &s->specials, &s->impact_heap, &s->impact_heads,
+                             &s->bounces,  &s->clusters, &s->labels,      &s->islands,
+                             &s->homes,    &s->leaders,  &s->cursors,     &s->rubbed,
+                             &s->turnings, &s->kicked };
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; ++i) {
         pl_buffer_free(memory, buffers[i]);
     }

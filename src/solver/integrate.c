@@ -1,4 +1,4 @@
-// integrate.c - positions from velocities, for both solvers.
+// integrate.c - positions from velocities, for the classic and the exact solver, and of kinematic bodies for all.
 //
 // Free flight is exact: a body that no contact pushed in the substep (its velocity is the one that was
 // integrated, bit for bit) moves by h v - h^2 a / 2, the parabola. A pushed body moves by h v; the parabola
@@ -29,13 +29,21 @@ static void move(void *context, uint32_t first, uint32_t count)
     }
 }
 
+static void move_slots(pl_substep *s, pl_slots slots)
+{
+    pl_tasks_ranges(s->tasks, slots.count, PL_BODIES_SHARED, move,
+                    &(passage){ &s->world->solver, slots.first, s->h });
+}
+
+void pl_move_kinematic(pl_substep *s)
+{
+    move_slots(s, s->cluster->slots[1]);
+}
+
 void pl_move_bodies(pl_substep *s)
 {
-    for (int i = 0; i < 2; ++i) {
-        const pl_slots slots = s->cluster->slots[i];
-        pl_tasks_ranges(s->tasks, slots.count, PL_BODIES_SHARED, move,
-                        &(passage){ &s->world->solver, slots.first, s->h });
-    }
+    move_slots(s, s->cluster->slots[0]);
+    move_slots(s, s->cluster->slots[1]);
 }
 
 // Rows that a joint's reaction is summed along turn when the classic solver moves it: summed before.

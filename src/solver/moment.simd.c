@@ -254,8 +254,8 @@ WIDE_INLINE given sum_impulses(const bundle *c)
 }
 
 // From core to core at point j; `grown`: by how much that has changed since the step began.
-WIDE_INLINE vec reach_of(const turning *t, int j, const body *a, const body *b, vec arm_a, vec arm_b,
-                     vec *grown)
+WIDE_INLINE vec reach_of(const turning *t, int j, const body *a, const body *b, vec arm_a,
+                         vec arm_b, vec *grown)
 {
     const vf gap = t->start[j] + t->ra + t->rb;
     *grown = (vec){ (b->dx - a->dx) + ((arm_b.x - t->bx[j]) - (arm_a.x - t->ax[j])),
@@ -317,26 +317,25 @@ WIDE_INLINE void follow(turning *t, bundle *c, const body *a, const body *b)
     c->k01 = sel(turns, coupling(c, a->inv_mass + b->inv_mass, a, b), c->k01);
 }
 
-// Which part of an impulse acts along the normal of the end of its substep: none where forces come in whole kicks before
-// the motion, for then relaxing gives that half anew.
-#define AT_THE_END ((near_real)0)
-
-// Turns the impulses of a side's body: that part now; all of it in the next substep, whose impulses are the difference of
-// its velocity to the one that was integrated.
+// Turns the impulses of a side's body: the share now that comes behind the drift (halves.c); all of it in the next substep,
+// whose impulses are the difference of the velocity to the one that was integrated.
 WIDE_INLINE void turn_side(const pl_contact_call *call, const uint32_t *slot, const body *of, vf x,
                            vf y, vf w)
 {
     const near_real *from[PL_WIDTH];
     near_real sink[4] __attribute__((aligned(32)));
-    near_real *to[PL_WIDTH];
+    near_real *to[PL_WIDTH], share[PL_WIDTH];
     for (int i = 0; i < PL_WIDTH; ++i) {
+        const bool moves = slot[i] < call->dynamic_slots;
+        const near_real behind = moves ? call->kicked[4 * (size_t)slot[i] + 3] : 0;
+        share[i] = behind > 0 ? behind : 0;
         from[i] = &call->motions[slot[i]].ux;
-        to[i] = slot[i] < call->dynamic_slots ? &call->motions[slot[i]].ux : sink;
+        to[i] = moves ? &call->motions[slot[i]].ux : sink;
     }
     x *= of->inv_mass, y *= of->inv_mass, w *= of->inv_inertia;
     vf u[4];
     gather4(u, from, 0);
-    const vf now = splat(AT_THE_END), then = splat(1 - AT_THE_END);
+    const vf now = load(share), then = splat(1) - now;
     scatter4(to, 0, (vf[4]){ u[0] - then * x, u[1] - then * y, u[2] - then * w, u[3] });
     body v = *of;
     v.vx += now * x, v.vy += now * y, v.w += now * w;

@@ -7,8 +7,8 @@
 // start of the step. Joints likewise, and what their turning changes is
 // added in every substep (joints/solve.c); they come before contacts in a sweep.
 //
-// Free flight is exact: a body that no contact pushed in the substep moves by h v - h^2 a / 2, the
-// parabola, instead of h v. A pushed body moves by h v; the parabola would make resting bodies hop.
+// Half of the kick comes behind the drift (halves.c): free flight is exact, the parabola, and what contacts push moves to
+// second order.
 //
 // Reads: solver bodies, lanes. Writes: solver bodies, impulses of pairs. Order: after the graph.
 // Cost: (2 substeps x iterations + 2) sweeps over the contacts, 2 substeps passes over the bodies.
@@ -138,6 +138,7 @@ void pl_soft_open(plumb_world *world, pl_solving_step *out)
     out->call.turnings = s->turning ? s->turnings.data : NULL;
     out->call.bounces = world->narrow.any_low ? s->bounces.data : NULL;
     out->call.motions = pl_solver_motions(s);
+    out->call.kicked = s->kicked.data;
     out->call.restitution_speed = (near_real)world->desc.restitution_speed;
     out->call.struck = world->solver.follows_impacts ? s->struck.data : NULL;
     out->call.bounce_count = &s->bounce_count;

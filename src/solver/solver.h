@@ -84,7 +84,8 @@ enum { PL_ACTIVE, PL_ELASTIC };
 typedef struct pl_contact_call {
     pl_solver_body *bodies;
     pl_solver_motion *motions;
-    uint32_t dynamic_slots; // slots from here on are read but never written
+    const near_real *kicked; // a quad a slot, as in pl_solver
+    uint32_t dynamic_slots;  // slots from here on are read but never written
     void *bundles;
     const uint32_t *lanes;
     const uint32_t *slots; // slot of a body row
@@ -198,5 +199,8 @@ void pl_impacts_tell(plumb_world *world, near_real h);
 
 // Results into the columns, free flight of bodies in no contact, kinematic motion (finish.c).
 void pl_solver_finish(plumb_world *world, real dt);
+
+// A slot that is filled: what share of its kicks comes behind the drift (halves.c).
+void pl_soft_share(const plumb_world *world, uint32_t row, uint32_t slot);
 
 #endif

@@ -56,6 +56,8 @@ typedef struct pl_substep_rows {
 // All clusters through all rows (substep.c).
 void pl_substeps_run(plumb_world *world, const pl_substep_rows *rows, plumb_real dt);
 
+void pl_move_kinematic(struct pl_substep *s); // by their velocities (integrate.c)
+
 // Before all rows of the soft step: what kernels are called with, and which of them (soft.c).
 void pl_soft_open(plumb_world *world, pl_solving_step *out);
 #define PL_CLASSIC_CORRECTIONS 3 // sweeps over positions, by the classic solver

@@ -26,6 +26,8 @@ typedef enum row_kind {
     ROW_INTEGRATE, // gives what accelerations make of the substep, and by the soft step the impulses so far
     ROW_WARM_JOINTS,
     ROW_WARM_CONTACTS,
+    ROW_HALVE,  // takes a share of the kick back
+    ROW_DRIFT,  // moves bodies, and gives that share
     ROW_JOINTS, // sweeps
     ROW_CONTACTS,
     ROW_RELAX_CONTACTS, // takes out of velocities what pushed overlaps apart
@@ -59,6 +61,8 @@ static const row_rule rules[] = {
     { pl_soft_follow_moment, ROW_WORK, PLUMB_WORK_NORMAL },
     { pl_soft_relax, ROW_RELAX_CONTACTS, PLUMB_WORK_NORMAL },
     { pl_classic_correct, ROW_WORK, PLUMB_WORK_RECOVERY },
+    { pl_soft_halve, ROW_HALVE, PLUMB_WORK_FORCES },
+    { pl_soft_move, ROW_DRIFT, PLUMB_WORK_GRAVITY },
     { pl_move_bodies, ROW_WORK, PLUMB_WORK_GRAVITY },
     { pl_classic_move, ROW_WORK, PLUMB_WORK_GRAVITY },
 };
@@ -142,10 +146,22 @@ static void keep_contacts(const pl_substep *s)
     }
 }
 
+static void forget_kicks(const pl_substep *s)
+{
+    const pl_slots slots = s->cluster->slots[0];
+    pl_measured_body *measured = s->world->measure.bodies.data;
+    for (uint32_t i = slots.first; i < slots.first + slots.count; ++i) {
+        memset(measured[i].kick, 0, sizeof measured[i].kick);
+    }
+}
+
 void pl_measure_before_row(pl_substep *s)
 {
     const row_kind kind = rule_of(s).kind;
     note_bodies(s);
+    if (kind == ROW_INTEGRATE) {
+        forget_kicks(s);
+    }
     if (kind == ROW_CONTACTS || kind == ROW_RELAX_CONTACTS) {
         keep_contacts(s);
     } else if (kind == ROW_JOINTS && s->solving->any_joints) {
@@ -183,16 +199,38 @@ static void book_all(pl_measured_body *b, const pl_solver_body *body, plumb_work
         b->weight_x * ((double)body->dx - b->dx) + b->weight_y * ((double)body->dy - b->dy);
 }
 
+static void add_kick(pl_measured_body *b, plumb_work work, double x, double y, double turn)
+{
+    b->kick[work][0] += x, b->kick[work][1] += y, b->kick[work][2] += turn;
+    b->work[work].kinetic += x * b->mean_x + y * b->mean_y + turn * b->mean_w;
+}
+
 static void book_accelerations(pl_measured_body *b, const pl_solver_motion *motion, double h)
 {
-    const double pulled = b->pull_x * b->mean_x + b->pull_y * b->mean_y;
-    const double dragged = b->drag_x * b->mean_x + b->drag_y * b->mean_y + b->drag_w * b->mean_w;
-    const double all = b->mass * ((double)motion->ax * b->mean_x + (double)motion->ay * b->mean_y) +
-                       b->inertia * (double)motion->aw * b->mean_w;
-    b->work[PLUMB_WORK_GRAVITY].kinetic += h * pulled;
-    b->work[PLUMB_WORK_DAMPING].kinetic += h * dragged;
-    b->work[PLUMB_WORK_FORCES].kinetic += h * (all - pulled - dragged);
+    const double x = b->mass * (double)motion->ax - b->pull_x - b->drag_x;
+    const double y = b->mass * (double)motion->ay - b->pull_y - b->drag_y;
+    const double turn = b->inertia * (double)motion->aw - b->drag_w;
+    add_kick(b, PLUMB_WORK_GRAVITY, h * b->pull_x, h * b->pull_y, 0);
+    add_kick(b, PLUMB_WORK_DAMPING, h * b->drag_x, h * b->drag_y, h * b->drag_w);
+    add_kick(b, PLUMB_WORK_FORCES, h * x, h * y, h * turn);
     b->drag_x = b->drag_y = b->drag_w = 0;
+}
+
+// A share of the kick that is given now, or taken back.
+static void book_share(pl_measured_body *b, double share)
+{
+    for (int i = 0; i < PLUMB_WORKS; ++i) {
+        const double *kick = b->kick[i];
+        b->work[i].kinetic +=
+            share * (kick[0] * b->mean_x + kick[1] * b->mean_y + kick[2] * b->mean_w);
+    }
+}
+
+static void book_drift(pl_measured_body *b, const pl_solver_body *body, double share)
+{
+    b->work[PLUMB_WORK_GRAVITY].potential -=
+        b->weight_x * ((double)body->dx - b->dx) + b->weight_y * ((double)body->dy - b->dy);
+    book_share(b, share);
 }
 
 // What damping and caps make of an acceleration. Where no row has reset it, damping began from the step's own.
@@ -262,7 +300,8 @@ static void measure_contacts(const pl_substep *s, pl_measuring m, bool from_kept
 
 static void share_out(const pl_substep *s, row_kind kind)
 {
-    const pl_measuring m = measuring_of(s);
+    pl_measuring m = measuring_of(s);
+    m.kicks = kind == ROW_INTEGRATE || kind == ROW_WARM_JOINTS || kind == ROW_WARM_CONTACTS;
     // The soft step warm starts in its first substep, and from then on body by body, as it integrates.
     const bool soft = is_soft(s), starts = s->first || !soft;
     switch (kind) {
@@ -304,6 +343,14 @@ static void book_body(const pl_substep *s, uint32_t slot, row_rule rule)
         book_all(b, body, rule.work);
     } else if (rule.kind == ROW_DAMPING || rule.kind == ROW_MOMENT) {
         note_drag(s, slot, b, rule.kind);
+    } else if (rule.kind == ROW_HALVE || rule.kind == ROW_DRIFT) {
+        const double share = (double)((const near_real *)solver->kicked.data)[4 * (size_t)slot + 3];
+        const double given = share > 0 ? share : 0;
+        if (rule.kind == ROW_HALVE) {
+            book_share(b, -given);
+        } else {
+            book_drift(b, body, given);
+        }
     } else if (rule.kind == ROW_INTEGRATE) {
         book_accelerations(b, &pl_solver_motions(solver)[slot], (double)s->h);
     } else if (rule.kind == ROW_RELAX_CONTACTS) {

@@ -137,8 +137,8 @@ RUN(pl_run_sensors, pl_sensing_run(world))
 #define RUN_EACH(f)                RUN_THREE(f, f, f)
 #define RUN_ACTS(f, whom)          RUN_EACH(f), .acts_on = whom
 #define RUN_NOT_CLASSIC(f)         RUN_THREE(f, NULL, f)
-#define RUN_EXACT(f)               RUN_THREE(NULL, NULL, f)
 #define RUN_SOFT(f)                RUN_THREE(f, NULL, NULL)
+#define RUN_EXACT(f)               RUN_THREE(NULL, NULL, f)
 #define RUN_BOTH(one, two)         RUN_THREE(one, two, NULL)
 #define VARIANTS_ONE               NULL
 #define VARIANTS_HAS(f)            f

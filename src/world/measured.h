@@ -17,6 +17,9 @@ static inline void pl_measure_push(const pl_measuring *m, uint32_t slot, double 
         b->px += x, b->py += y, b->pw += turn;
     } else {
         b->work[work].kinetic += x * b->mean_x + y * b->mean_y + turn * b->mean_w;
+        if (m->kicks) {
+            b->kick[work][0] += x, b->kick[work][1] += y, b->kick[work][2] += turn;
+        }
     }
 }
 

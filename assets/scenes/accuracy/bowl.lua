@@ -46,5 +46,5 @@ exact { "amplitude", at = 20, scale = start, value = function() return start end
     local v, w = disc:speed(), disc:spin()
     return math.acos(math.max(-1, -(y + (v * v + r * r * w * w / 2) / (2 * g)) / ring))
 end }
-expect { "the first 4 s", exact = "place", tolerance = 0.0072 }
-expect { "the amplitude after 20 s", exact = "amplitude", tolerance = 0.0019 }
+expect { "the first 4 s", exact = "place", tolerance = 0.00013 }
+expect { "the amplitude after 20 s", exact = "amplitude", tolerance = 0.00016 }

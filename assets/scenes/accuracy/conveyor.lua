@@ -10,4 +10,4 @@ exact { "way", body = "crate", x = function(t)
     local u = math.min(t, stop)
     return mu * g * u * u / 2 + v * (t - u)
 end }
-expect { "the way", exact = "way", tolerance = 0.0094 }
+expect { "the way", exact = "way", tolerance = 3.8e-05 }

@@ -24,5 +24,5 @@ for i, s0 in ipairs { 3.4, 1.5 } do
     local disc = body { name = name, circle { r }, at = {x, y}, material = ice, apart = "discs", sleep = false }
     exact { name, body = name, x = function(t) local px = at(t) return px end, y = function(t) local _, py = at(t) return py end }
 end
-expect { "from high", exact = "disc1", tolerance = 0.017 }
-expect { "from low", exact = "disc2", tolerance = 0.0074 }
+expect { "from high", exact = "disc1", tolerance = 0.0011 }
+expect { "from low", exact = "disc2", tolerance = 9.5e-05 }

@@ -50,7 +50,7 @@ for i, case in ipairs { {"slides", 0}, {"rolls", 0.5} } do
     exact { name .. ", off", measure = function() local u = disc:velocity() return u end, value = function() return vx end,
             unit = "m/s", from = leaves + 0.05, till = leaves + 0.2 }
 end
-expect { "slides along", exact = "slides", tolerance = 0.013 }
-expect { "leaves without friction", exact = "slides, off", tolerance = 0.016 }
-expect { "rolls along", exact = "rolls", tolerance = 0.011 }
-expect { "leaves with friction", exact = "rolls, off", tolerance = 0.013 }
+expect { "slides along", exact = "slides", tolerance = 5.9e-05 }
+expect { "leaves without friction", exact = "slides, off", tolerance = 8.4e-05 }
+expect { "rolls along", exact = "rolls", tolerance = 5.9e-05 }
+expect { "leaves with friction", exact = "rolls, off", tolerance = 0.00015 }

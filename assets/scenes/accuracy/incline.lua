@@ -17,8 +17,8 @@ for i, case in ipairs { {"free", 0}, {"slow", 0.3}, {"near", 0.35}, {"stuck", 0.
         return along - (c * px + s * py)
     end, value = function(t) return a * t * t / 2 end, unit = "m" }
 end
-expect { "without friction", exact = "free", tolerance = 0.016 }
-expect { "mu = 0.3", exact = "slow", tolerance = 0.0041 }
+expect { "without friction", exact = "free", tolerance = 4.4e-05 }
+expect { "mu = 0.3", exact = "slow", tolerance = 0.0014 }
 expect { "mu = 0.35", exact = "near", tolerance = 0.0038 }
 expect { "mu = 0.37 sticks", exact = "stuck", tolerance = 0.00018 }
 expect { "mu = 0.37 sticks that cannot turn", exact = "no turning", tolerance = 1.6e-06 }

@@ -40,5 +40,5 @@ local vx = math.sqrt(g * l * math.cos(start) * math.cos(start) * math.cos(start)
 exact { "angle", body = "ladder", angle = function(t) return math.pi / 2 + slide(t)[1] end, till = leaves }
 exact { "leaves", measure = function() local x = ladder:velocity() return x end, value = function() return vx end, unit = "m/s",
         from = leaves + 0.05, till = leaves + 0.2 }
-expect { "the slide", exact = "angle", tolerance = 0.0048 }
-expect { "leaves at two thirds", exact = "leaves", tolerance = 0.0074 }
+expect { "the slide", exact = "angle", tolerance = 4.9e-05 }
+expect { "leaves at two thirds", exact = "leaves", tolerance = 3.3e-05 }

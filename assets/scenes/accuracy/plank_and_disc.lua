@@ -13,5 +13,5 @@ every_step(function() plank:apply_force(force, 0) end)
 local a = force / (big + mass / 3)
 exact { "plank", body = "plank", x = function(t) return a * t * t / 2 end }
 exact { "disc", body = "disc", x = function(t) return 2 + a / 3 * t * t / 2 end }
-expect { "the plank", exact = "plank", tolerance = 0.013 }
-expect { "the disc", exact = "disc", tolerance = 0.0042 }
+expect { "the plank", exact = "plank", tolerance = 7e-05 }
+expect { "the disc", exact = "disc", tolerance = 2.6e-05 }

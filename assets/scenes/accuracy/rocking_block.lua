@@ -38,5 +38,5 @@ local function tilt(t)
 end
 exact { "angle", body = "block", angle = tilt, till = 2 }
 exact { "first fall", body = "block", angle = tilt, till = 0.45 }
-expect { "till it comes down", exact = "first fall", tolerance = 0.00056 }
+expect { "till it comes down", exact = "first fall", tolerance = 0.0017 }
 expect { "three half periods", exact = "angle", tolerance = 0.15 }

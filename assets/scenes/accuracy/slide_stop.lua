@@ -11,4 +11,4 @@ exact { "way", body = "block", x = function(t)
     local u = math.min(t, stop)
     return v * u - mu * g * u * u / 2
 end }
-expect { "the way and the stop", exact = "way", tolerance = 0.032 }
+expect { "the way and the stop", exact = "way", tolerance = 0.00022 }

@@ -18,6 +18,6 @@ exact { "spinner", body = "spinner", y = function() return r end, x = function(t
     return -5 + mu * g * u * u / 2 + w * r / 3 * (t - u)
 end }
 exact { "spin", body = "slider", spin = function() return -2 / 3 * v / r end, from = 1 }
-expect { "the sliding disc", exact = "slider", tolerance = 0.011 }
-expect { "the spinning disc", exact = "spinner", tolerance = 0.014 }
+expect { "the sliding disc", exact = "slider", tolerance = 7.9e-05 }
+expect { "the spinning disc", exact = "spinner", tolerance = 8.1e-05 }
 expect { "the spin of rolling", exact = "spin", tolerance = 0.00019 }

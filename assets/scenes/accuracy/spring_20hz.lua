@@ -12,6 +12,6 @@ exact { "both", scale = a, at = 3, value = function() return a end, measure = fu
     return math.sqrt(x * x + v * v / (w * w))
 end }
 exact { "phase", body = "mass", x = function(t) return a * math.cos(w * t) end, y = function() return 0 end }
-expect { "the amplitude", exact = "amplitude", tolerance = 2e-4 }
+expect { "the amplitude", exact = "amplitude", tolerance = 3.2e-06 }
 expect { "the amplitude with its velocity", exact = "both", tolerance = 0.049 }
 expect { "sixty periods", exact = "phase", tolerance = 2e-5 }

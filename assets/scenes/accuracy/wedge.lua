@@ -18,5 +18,5 @@ local ax = back * big / mass
 local ay = -math.tan(angle) * (ax + back)
 exact { "wedge", body = "wedge", x = function(t) return -back * t * t / 2 end }
 exact { "block", body = "block", x = function(t) return x + ax * t * t / 2 end, y = function(t) return y + ay * t * t / 2 end }
-expect { "the wedge", exact = "wedge", tolerance = 0.0041 }
-expect { "the block", exact = "block", tolerance = 0.016 }
+expect { "the wedge", exact = "wedge", tolerance = 2.4e-05 }
+expect { "the block", exact = "block", tolerance = 0.00015 }

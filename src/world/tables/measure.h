@@ -19,6 +19,7 @@ typedef struct pl_measured_body {
     double drag_x, drag_y, drag_w;  // [N], [N m] of damping and caps in this substep
     double px, py, pw;              // [N s], [N m s] impulses of contacts and joints
     plumb_balance work[PLUMB_WORKS]; // in this step
+    double kick[PLUMB_WORKS][3];     // [N s], [N m s] of what this substep kicked with (halves.c)
 } pl_measured_body;
 
 // A dynamic body as motion begins.
@@ -31,6 +32,7 @@ typedef struct pl_measuring {
     pl_measured_body *bodies;
     uint32_t count;            // slots from here on are immovable or kinematic
     bool balances;             // impulses are added up instead of work
+    bool kicks;                // and besides, as a part of the substep's kick
     double owed;               // by how much what joints owe for turning is added: see joints/one.c
     const void *kept;          // bundles or records before the row; null: all of an impulse counts
     const void *kept_extras;   // likewise
