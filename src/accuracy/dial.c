@@ -15,16 +15,12 @@
 
 #include <math.h>
 
-// 1: the soft step moves pushed bodies by half kicks, and its error falls as the square of the substep; 0: by h v, and they lag by half
-// a substep, as what the exact solver moves does.
-#define HALF_KICKS 0
-
 const pl_dial_fit pl_dial_constants = {
     .safety = 0.5,
     .turn = 1.57,
     .swing = 1.0 / 24,
-    .sprung = HALF_KICKS ? 0.01 : 1,
-    .lag = { HALF_KICKS ? 0 : 0.5, HALF_KICKS ? 0 : 0.5, 0.5 },
+    .sprung = 1,
+    .lag = 0.5,
     .lag_time = 1,
     .begun = 2.5,
     .speed_time = 2,
@@ -130,6 +126,14 @@ static double look_at_motion(plumb_world *world, double dt)
     return fastest;
 }
 
+// Bodies with joints and all that the exact solver moves are kicked before the drift, and lag; the others are in halves
+// (solver/halves.c).
+static double lag_of(const plumb_world *world)
+{
+    const bool whole = world->dial.tier == PL_DIAL_EXACT || world->joints.live > 0;
+    return whole ? FIT->lag : 0;
+}
+
 // [rad/s] of what swings; 0: nothing has turned yet, or all rests. `now` [m/s]: the fastest.
 static double swing_rate(const plumb_world *world, double now)
 {
@@ -139,7 +143,7 @@ static double swing_rate(const plumb_world *world, double now)
     }
     const double rate = FIT->turn * d->push / d->speed;
     const bool begun = rate * d->elapsed >= FIT->begun;
-    const double least = FIT->lag[d->tier] > 0 ? FIT->turn / FIT->lag_time : 0;
+    const double least = lag_of(world) > 0 ? FIT->turn / FIT->lag_time : 0;
     return begun && rate > least ? rate : least;
 }
 
@@ -265,7 +269,7 @@ static pl_dial_tier tier_for(const plumb_world *world, const finding *f, pl_dial
 static double substeps_for(const plumb_world *world, double dt, double rate, double swing)
 {
     const double aim = FIT->safety * (double)world->desc.tolerance;
-    const double lag = dt * FIT->lag[world->dial.tier] * rate / aim;
+    const double lag = dt * lag_of(world) * rate / aim;
     const double turn = dt * sqrt(swing * rate * rate * rate * PLUMB_ACCURACY_HORIZON / aim);
     return lag > turn ? lag : turn;
 }
@@ -308,7 +312,7 @@ static void add_errors(plumb_world *world, double dt, double rate, double swing)
     pl_dial *d = &world->dial;
     const double turn = rate * dt / world->desc.substeps;
     const double left = pl_decay_of(dt / PLUMB_ACCURACY_HORIZON).left;
-    const double lag = FIT->lag[d->tier] * turn;
+    const double lag = lag_of(world) * turn;
     if (lag > 0) { // it does not add up: it is there as long as this goes on
         const double all = lag + swing * turn * turn * rate * PLUMB_ACCURACY_HORIZON;
         d->motion += (all - d->motion) * (dt < FIT->lag_time ? dt / FIT->lag_time : 1);

@@ -12,24 +12,23 @@ typedef struct pl_dial_fit {
     double
         swing; // [-] error of the soft step in a turn by one radian, over the square of that in a substep
     double sprung; // [-] times that, where joints have springs: those are exact
-    double
-        lag[PL_DIAL_TIERS]; // [-] error over the turn in a substep, where pushed bodies move by h v
-    double lag_time;        // [s] in which what it moves is taken to turn by `turn` at the least
-    double begun;           // [rad] what has turned by less may yet go straight
-    double speed_time;      // [s] in which the fastest speed is forgotten
-    double push_time;       // [s] over which accelerations are averaged
-    double calm_time;       // [s] in which a need of substeps is forgotten
-    double least_way;       // [-] of the smallest body, in a second: slower motion is rest
-    double rest_way;        // [-] of its size, in a second: a body is held by what it lies on
-    double loose_share;     // [-] of the tolerance, overlaps and gaps over the smallest body
-    double loose_time;      // [s] over which they are averaged
-    double loose_most; // [-] substeps that are taken for them; from there on, a direct solver is
-    double heavy;      // [-] a mass ratio that sweeps do not hold
-    double frozen;     // [-] error over the square of the angle by which a contact turns in a step
-    double graze;      // [m] by which the place of a blow is off, along the surface
-    uint32_t few_most; // contacts and joints: more are not solved exactly for resting alone
-    int least;         // [-] substeps
-    int most;          // [-] substeps: beyond, rounding of a float grows
+    double lag; // [-] error over the turn in a substep, where the whole kick comes before the drift
+    double lag_time;    // [s] in which what it moves is taken to turn by `turn` at the least
+    double begun;       // [rad] what has turned by less may yet go straight
+    double speed_time;  // [s] in which the fastest speed is forgotten
+    double push_time;   // [s] over which accelerations are averaged
+    double calm_time;   // [s] in which a need of substeps is forgotten
+    double least_way;   // [-] of the smallest body, in a second: slower motion is rest
+    double rest_way;    // [-] of its size, in a second: a body is held by what it lies on
+    double loose_share; // [-] of the tolerance, overlaps and gaps over the smallest body
+    double loose_time;  // [s] over which they are averaged
+    double loose_most;  // [-] substeps that are taken for them; from there on, a direct solver is
+    double heavy;       // [-] a mass ratio that sweeps do not hold
+    double frozen;      // [-] error over the square of the angle by which a contact turns in a step
+    double graze;       // [m] by which the place of a blow is off, along the surface
+    uint32_t few_most;  // contacts and joints: more are not solved exactly for resting alone
+    int least;          // [-] substeps
+    int most;           // [-] substeps: beyond, rounding of a float grows
 } pl_dial_fit;
 
 extern const pl_dial_fit pl_dial_constants;

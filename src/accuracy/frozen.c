@@ -57,6 +57,14 @@ static double turn_of(const plumb_world *world, const pl_manifold *m, const pl_p
     return turn > w ? turn : w;
 }
 
+// The soft step follows some contacts (solver/moment.simd.c).
+static bool follows(const plumb_world *world, const pl_manifold *m, const pl_pair *pair)
+{
+    return world->desc.solver == PLUMB_SOLVER_SOFT &&
+           pl_can_turn(m, world->pieces.kind[pair->a] <= PL_PIECE_CAPSULE,
+                       world->pieces.kind[pair->b] <= PL_PIECE_CAPSULE);
+}
+
 // [rad] by which the direction of a blow between round bodies is off.
 static double graze_of(const plumb_world *world, const pl_manifold *m, const pl_pair *pair)
 {
@@ -87,7 +95,7 @@ double pl_dial_frozen(const plumb_world *world, double dt)
         if ((pair->flags & PL_PAIR_HIT) != 0) {
             const double graze = graze_of(world, m, pair);
             grazed = graze > grazed ? graze : grazed;
-        } else if (bears) {
+        } else if (bears && !follows(world, m, pair)) {
             const double turn = turn_of(world, m, pair, dt, least);
             most = turn > most ? turn : most;
         }

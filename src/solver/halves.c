@@ -5,13 +5,13 @@
 // before, P. Half of it is taken back before contacts are solved and given behind the drift, before they are relaxed:
 //     w = v + (h a + P) / 2,    x' = x + h w,    v' = w + (h a + P) / 2
 // as in RATTLE (Andersen 1983); sweeps change w and v'. Kicked whole before the drift, a body that is pushed with the
-// acceleration A is ahead by A h T / 2 after a time T (slide_stop: 0.021 m; in halves 0.00021 m). What rests is kicked
+// acceleration A is ahead by A h T / 2 after a time T (slide_stop: 0.021 m; in halves 1.5e-4 m). What rests is kicked
 // by nothing, and what flies moves on its parabola.
 //
 // A hit is no force: what it did is not to be expected again. Contacts take a push back that is given whole in the
 // sweep that solves them and what is left in the one that relaxes; of two halves each sweep would leave some. (A box of
-// 100 m/s against a wall of six went back 4 m.) So after a hit the kick is whole, and before the first push. So it is for bodies with joints, whose
-// rows turn and whose springs are made for it (joints/spring.c, one.c).
+// 100 m/s against a wall of six went back 4 m.) So the kick is whole after a hit, and before the first push; and always for
+// bodies with joints, whose rows turn and whose springs are made for it (joints/one.c, spring.c).
 //
 // Reads: solver bodies, motions. Writes: solver bodies. Order: behind impacts, before the sweeps; the drift. Cost: two passes
 // over the bodies of a substep.

@@ -97,13 +97,13 @@ WIDE_INLINE vm find_features(turning *t, const pl_contact_call *call, const uint
     for (int i = 0; i < PL_WIDTH; ++i) {
         const pl_manifold *m = lanes[i] == PL_NONE ? &pl_no_manifold : &call->manifolds[lanes[i]];
         const uint32_t turns = m->met & PL_MET_TURNS;
-        if (!fast[i] || turns == 0 || (m->met & PL_MET_ASIDE) != 0 || m->restitution > 0) {
+        if (!fast[i] || turns == 0) {
             continue;
         }
         const pl_pair *pair = &call->pairs[m->pair];
-        if ((turns != PL_MET_TURNS_A && call->kinds[pair->a] > PL_PIECE_CAPSULE) ||
-            (turns != PL_MET_TURNS_B && call->kinds[pair->b] > PL_PIECE_CAPSULE)) {
-            continue; // another corner may be the next to meet
+        if (!pl_can_turn(m, call->kinds[pair->a] <= PL_PIECE_CAPSULE,
+                         call->kinds[pair->b] <= PL_PIECE_CAPSULE)) {
+            continue;
         }
         const near_real bend = m->count == 1 ? m->point[1].bend : 0;
         const bool on_a = turns == PL_MET_TURNS_A, on_b = turns == PL_MET_TURNS_B;

@@ -86,6 +86,15 @@ static inline bool pl_is_near(const pl_manifold *m, near_real reach)
            (m->met & PL_MET_ASIDE) == 0;
 }
 
+// Whether the geometry of a manifold can be that of the moment (solver/moment.simd.c): of what meets the face, no corner may be
+// the next to meet. Round are discs and capsules.
+static inline bool pl_can_turn(const pl_manifold *m, bool round_a, bool round_b)
+{
+    const uint32_t turns = m->met & PL_MET_TURNS;
+    return turns != 0 && (m->met & PL_MET_ASIDE) == 0 && !(m->restitution > 0) &&
+           (turns == PL_MET_TURNS_A || round_a) && (turns == PL_MET_TURNS_B || round_b);
+}
+
 // A point was struck at this speed [m/s], so long [s] after the step began. Before, `approach` is what velocities at the start of the step make of
 // it, of pairs that did not touch.
 static inline void pl_manifold_strike(pl_manifold *m, near_real speed, near_real at)
