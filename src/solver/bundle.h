@@ -161,7 +161,7 @@ WIDE_INLINE vf coupling(const bundle *c, vf mass, const body *a, const body *b)
 }
 
 // An empty lane: no mass, no impulse, out of reach.
-static const pl_manifold pl_no_manifold __attribute__((
+static const pl_manifold no_manifold __attribute__((
     aligned(64))) = { .point = { { .separation = PL_APART }, { .separation = PL_APART } } };
 
 //---- kernels that contact.simd.c puts into the table of its width ---------------------------------

@@ -66,7 +66,7 @@ void PL_WIDE_NAME(pl_contact_prepare)(const pl_contact_call *call, uint32_t firs
         }
         for (int i = 0; i < PL_WIDTH; ++i) {
             uint32_t at = call->lanes[(size_t)k * PL_WIDTH + (size_t)i];
-            const pl_manifold *m = at == PL_NONE ? &pl_no_manifold : &call->manifolds[at];
+            const pl_manifold *m = at == PL_NONE ? &no_manifold : &call->manifolds[at];
             c->a[i] = c->b[i] = call->immovable_slot;
             if (at != PL_NONE && m->body_a < call->movable_rows) {
                 c->a[i] = call->slots[m->body_a];

@@ -25,6 +25,9 @@
 #define HIT_FORCES ((near_real)16)
 #define HIT_SPEED  ((near_real)(1.0 / 64))
 
+// Of a push, what is left where contacts took it back, by rounding.
+#define LEFT ((near_real)1e-6)
+
 typedef struct passage {
     const pl_solver *solver;
     uint32_t first; // slot
@@ -93,10 +96,15 @@ static void drift(void *context, uint32_t first, uint32_t count)
         const pl_near_quad v = body[2 * i], whole = kicked[i], force = h * motion[2 * i];
         const pl_near_quad pushed = whole - motion[2 * i + 1];
         const near_real share = whole[3] > 0 ? whole[3] : 0;
-        const pl_near_quad half = whole - share * (force + pushed);
-        pl_near_quad way = h * v, now = whole + (v - half);
-        if (share == 0 && is_same(&v, &motion[2 * i + 1])) { // it flies
-            way -= HALF * h * force;
+        const pl_near_quad behind = share * (force + pushed), half = whole - behind;
+        pl_near_quad way = h * v, now = v + behind;
+        if (is_same(&v, &half)) {
+            now = whole;
+        }
+        const pl_near_quad u = motion[2 * i + 1], kept = now - u;
+        const near_real left = share > 0 ? LEFT * energy_of(&pushed, 1) : 0;
+        if (energy_of(&kept, 1) <= left) { // it flies
+            way = h * u - HALF * h * force;
         }
         way[3] = 0, now[3] = v[3];
         body[2 * i + 1] += way;

@@ -95,7 +95,7 @@ WIDE_INLINE vm find_features(turning *t, const pl_contact_call *call, const uint
     near_real radius[2][PL_WIDTH] = { { 0 } };
     t->with_a = t->with_b = (vm){ 0 };
     for (int i = 0; i < PL_WIDTH; ++i) {
-        const pl_manifold *m = lanes[i] == PL_NONE ? &pl_no_manifold : &call->manifolds[lanes[i]];
+        const pl_manifold *m = lanes[i] == PL_NONE ? &no_manifold : &call->manifolds[lanes[i]];
         const uint32_t turns = m->met & PL_MET_TURNS;
         if (!fast[i] || turns == 0) {
             continue;
@@ -124,7 +124,7 @@ WIDE_INLINE void find_cores(turning *t, const pl_contact_call *call, const bundl
 {
     const near_real *row[2][PL_WIDTH];
     for (int i = 0; i < PL_WIDTH; ++i) {
-        const pl_manifold *m = lanes[i] == PL_NONE ? &pl_no_manifold : &call->manifolds[lanes[i]];
+        const pl_manifold *m = lanes[i] == PL_NONE ? &no_manifold : &call->manifolds[lanes[i]];
         row[0][i] = &m->point[0].ax;
         row[1][i] = &m->point[1].ax;
     }
@@ -317,25 +317,40 @@ WIDE_INLINE void follow(turning *t, bundle *c, const body *a, const body *b)
     c->k01 = sel(turns, coupling(c, a->inv_mass + b->inv_mass, a, b), c->k01);
 }
 
-// Turns the impulses of a side's body: the share now that comes behind the drift (halves.c); all of it in the next substep,
-// whose impulses are the difference of the velocity to the one that was integrated.
-WIDE_INLINE void turn_side(const pl_contact_call *call, const uint32_t *slot, const body *of, vf x,
-                           vf y, vf w)
+// The share of kicks that comes behind the drift (halves.c): of two bodies the smaller one, lest momentum be lost where
+// the rest is owed at the end of the step.
+WIDE_INLINE vf share_of(const pl_contact_call *call, const bundle *c)
+{
+    near_real share[PL_WIDTH];
+    for (int i = 0; i < PL_WIDTH; ++i) {
+        const uint32_t slot[2] = { c->a[i], c->b[i] };
+        share[i] = 1;
+        for (int k = 0; k < 2; ++k) {
+            if (slot[k] < call->dynamic_slots) {
+                const near_real behind = call->kicked[4 * (size_t)slot[k] + 3];
+                share[i] = behind < share[i] ? behind : share[i];
+            }
+        }
+    }
+    return vmax(load(share), splat(0));
+}
+
+// Turns the impulses of a side's body: a share now; all of it in the next substep, whose impulses are the difference of the
+// velocity to the one that was integrated.
+WIDE_INLINE void turn_side(const pl_contact_call *call, const uint32_t *slot, const body *of,
+                           vf share, vf x, vf y, vf w)
 {
     const near_real *from[PL_WIDTH];
     near_real sink[4] __attribute__((aligned(32)));
-    near_real *to[PL_WIDTH], share[PL_WIDTH];
+    near_real *to[PL_WIDTH];
     for (int i = 0; i < PL_WIDTH; ++i) {
-        const bool moves = slot[i] < call->dynamic_slots;
-        const near_real behind = moves ? call->kicked[4 * (size_t)slot[i] + 3] : 0;
-        share[i] = behind > 0 ? behind : 0;
         from[i] = &call->motions[slot[i]].ux;
-        to[i] = moves ? &call->motions[slot[i]].ux : sink;
+        to[i] = slot[i] < call->dynamic_slots ? &call->motions[slot[i]].ux : sink;
     }
     x *= of->inv_mass, y *= of->inv_mass, w *= of->inv_inertia;
     vf u[4];
     gather4(u, from, 0);
-    const vf now = load(share), then = splat(1) - now;
+    const vf now = share, then = splat(1) - now;
     scatter4(to, 0, (vf[4]){ u[0] - then * x, u[1] - then * y, u[2] - then * w, u[3] });
     body v = *of;
     v.vx += now * x, v.vy += now * y, v.w += now * w;
@@ -359,7 +374,8 @@ void PL_WIDE_NAME(pl_contact_follow_moment)(const pl_contact_call *call, uint32_
         const given was = sum_impulses(c);
         follow(t, c, &a, &b);
         const given is = sum_impulses(c);
-        turn_side(call, c->a, &a, was.x - is.x, was.y - is.y, was.a - is.a);
-        turn_side(call, c->b, &b, is.x - was.x, is.y - was.y, is.b - was.b);
+        const vf share = share_of(call, c);
+        turn_side(call, c->a, &a, share, was.x - is.x, was.y - is.y, was.a - is.a);
+        turn_side(call, c->b, &b, share, is.x - was.x, is.y - was.y, is.b - was.b);
     }
 }

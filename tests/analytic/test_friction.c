@@ -48,12 +48,12 @@ static double slide_error(const slide_case *c, double rate, double *distance)
     return fabs(*distance / expected - 1);
 }
 
-// What rounding can do to the way: each substep rounds the speed by half a spacing, always to the
+// What rounding can do to the way: each half of a substep rounds the speed by half a spacing, always to the
 // same side at worst, which passes for that much more or less friction.
 static double slide_rounding(const slide_case *c, double rate)
 {
     double loss = c->friction * SIM_G / (rate * 4); // [m/s] a substep
-    return SIM_EPSILON / 2 * c->speed / loss;
+    return SIM_EPSILON * c->speed / loss;
 }
 
 static void block_slides_its_distance(void **state)

@@ -70,6 +70,8 @@
     X(plumb_joint_travel_rate, plumb_joint_travel_rate(w, h))                                       \
     X(plumb_joint_force, plumb_joint_force(w, h))                                                   \
     X(plumb_joint_torque, plumb_joint_torque(w, h))                                                 \
+    X(plumb_joint_impulse, plumb_joint_impulse(w, h))                                               \
+    X(plumb_joint_angular_impulse, plumb_joint_angular_impulse(w, h))                               \
     X(plumb_joint_user_data, plumb_joint_user_data(w, h))
 // clang-format on
 

@@ -224,12 +224,19 @@ static void assert_alike(const stage *a, const stage *b, int step)
             assert_true(c[i].points[k].tangent_impulse == d[i].points[k].tangent_impulse);
         }
     }
-    // Of those that were taken out one after the other, their times of rest may differ: they mean nothing.
+    // Of those that were taken out one after the other, their times of rest may differ: they mean nothing. So may those of
+    // who lay against one that was taken out: its twin rests anew from the step's beginning.
     if (a->trouble != DRIVEN && plumb_world_hash(a->w) != plumb_world_hash(b->w)) {
-        plumb_difference rows[4];
-        int n = 0;
-        plumb_world_compare(a->w, b->w, rows, 4, &n);
-        for (int i = 0; i < n && i < 4; ++i) {
+        plumb_difference rows[64];
+        int n = 0, others = 0;
+        plumb_world_compare(a->w, b->w, rows, 64, &n);
+        for (int i = 0; i < n && i < 64; ++i) {
+            others += strncmp(rows[i].component, "rest_", 5) != 0;
+        }
+        if (n <= 64 && others == 0) {
+            return;
+        }
+        for (int i = 0; i < n && i < 64; ++i) {
             print_message("%u: %s %s %s | %s\n", rows[i].entity.index, rows[i].table,
                           rows[i].component, rows[i].a, rows[i].b);
         }
