@@ -21,11 +21,11 @@
 
 #define HALF ((near_real)0.5)
 
-// A push is a hit that has so many times the energy of the forces' kick, and such a share of the body's.
+// Squares of a push that is a hit, over those of the forces' kick and of the body's speed.
 #define HIT_FORCES ((near_real)16)
 #define HIT_SPEED  ((near_real)(1.0 / 64))
 
-// Of a push, what is left where contacts took it back, by rounding.
+// Of the forces' kick, what rounding leaves of a push that contacts took back.
 #define LEFT ((near_real)1e-6)
 
 typedef struct passage {
@@ -41,11 +41,10 @@ void pl_soft_share(const plumb_world *world, uint32_t row, uint32_t slot)
     (*kicked)[3] = tied ? 0 : HALF;
 }
 
-// Twice the energy of a velocity, for each kilogram; `arm` [m^2]: inertia for each kilogram.
-static inline near_real energy_of(const pl_near_quad *v, near_real arm)
+static inline near_real square_of(const pl_near_quad *v)
 {
     const pl_near_quad square = *v * *v;
-    return square[0] + square[1] + arm * square[2];
+    return square[0] + square[1];
 }
 
 // The share of a slot is negative while its kick is whole.
@@ -59,15 +58,15 @@ static void halve(void *context, uint32_t first, uint32_t count)
     for (uint32_t i = first; i < first + count; ++i) {
         const pl_near_quad v = body[2 * i], force = p->h * motion[2 * i];
         const pl_near_quad pushed = v - motion[2 * i + 1], before = motion[2 * i + 1] - force;
-        const near_real ease = body[2 * i + 1][3], arm = ease > 0 ? v[3] / ease : 0;
-        const near_real energy = energy_of(&pushed, arm);
-        const bool hit = !(energy > 0) || (energy > HIT_FORCES * energy_of(&force, arm) &&
-                                           energy > HIT_SPEED * energy_of(&before, arm));
-        near_real share = kicked[i][3] < 0 ? -kicked[i][3] : kicked[i][3];
-        share = hit ? -share : share;
-        kicked[i] = v;
-        kicked[i][3] = share;
-        body[2 * i] = v - (share > 0 ? share : 0) * (force + pushed);
+        const near_real square = square_of(&pushed);
+        const bool hit = !(square > 0) || (square > HIT_FORCES * square_of(&force) &&
+                                           square > HIT_SPEED * square_of(&before));
+        const near_real share = kicked[i][3] < 0 ? -kicked[i][3] : kicked[i][3];
+        const pl_near_quad behind = (hit ? 0 : share) * (force + pushed);
+        kicked[i] = behind;
+        kicked[i][3] = hit ? -share : share;
+        body[2 * i] = v - behind;
+        body[2 * i][3] = v[3];
     }
 }
 
@@ -78,12 +77,7 @@ void pl_soft_halve(pl_substep *s)
                     &(passage){ &s->world->solver, slots.first, s->h });
 }
 
-static inline bool is_same(const pl_near_quad *a, const pl_near_quad *b)
-{
-    return (*a)[0] == (*b)[0] && (*a)[1] == (*b)[1] && (*a)[2] == (*b)[2];
-}
-
-// Who was pushed by nothing ends with the very velocity of the whole kick: else rounding would be a push from then on.
+// Who has nothing left of what contacts gave flies: on the parabola, to the bit.
 static void drift(void *context, uint32_t first, uint32_t count)
 {
     const passage *p = context;
@@ -93,22 +87,18 @@ static void drift(void *context, uint32_t first, uint32_t count)
     const pl_near_quad *motion = (const pl_near_quad *)(void *)(pl_solver_motions(s) + p->first);
     const pl_near_quad *kicked = (const pl_near_quad *)s->kicked.data + p->first;
     for (uint32_t i = first; i < first + count; ++i) {
-        const pl_near_quad v = body[2 * i], whole = kicked[i], force = h * motion[2 * i];
-        const pl_near_quad pushed = whole - motion[2 * i + 1];
-        const near_real share = whole[3] > 0 ? whole[3] : 0;
-        const pl_near_quad behind = share * (force + pushed), half = whole - behind;
-        pl_near_quad way = h * v, now = v + behind;
-        if (is_same(&v, &half)) {
-            now = whole;
-        }
-        const pl_near_quad u = motion[2 * i + 1], kept = now - u;
-        const near_real left = share > 0 ? LEFT * energy_of(&pushed, 1) : 0;
-        if (energy_of(&kept, 1) <= left) { // it flies
+        const pl_near_quad v = body[2 * i], force = h * motion[2 * i], u = motion[2 * i + 1];
+        const bool halves = kicked[i][3] > 0;
+        const pl_near_quad now = v + kicked[i], kept = now - u;
+        const near_real turn = kept[2] * kept[2], left = halves ? LEFT * square_of(&force) : 0;
+        pl_near_quad way = h * v;
+        if (square_of(&kept) + turn <= left) {
             way = h * u - HALF * h * force;
         }
-        way[3] = 0, now[3] = v[3];
+        way[3] = 0;
         body[2 * i + 1] += way;
         body[2 * i] = now;
+        body[2 * i][3] = v[3];
     }
 }
 

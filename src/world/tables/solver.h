@@ -44,7 +44,7 @@ typedef struct pl_solver {
     pl_buffer bodies, motions; // active dynamic bodies, active kinematic ones, one immovable body
     // if impacts are events, a quad a slot: what rounding took from its velocity, if kept
     pl_buffer residuals;
-    // a quad a slot: velocity by all of the substep's kick, and the share of the kick that comes behind the drift (soft.c)
+    // a quad a slot: what of the kick comes behind the drift, and its share (halves.c)
     pl_buffer kicked;
     pl_buffer struck;  // likewise a real a slot: when in the substep an impact struck it last [s]
     pl_buffer rows;    // uint32_t: body row of a slot
