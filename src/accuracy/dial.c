@@ -19,7 +19,6 @@ const pl_dial_fit pl_dial_constants = {
     .safety = 0.5,
     .turn = 1.57,
     .swing = 1.0 / 24,
-    .sprung = 1,
     .lag = 0.5,
     .lag_time = 1,
     .begun = 2.5,
@@ -347,8 +346,7 @@ bool pl_dial_look(plumb_world *world, real dt)
     world->dial.solved += (uint64_t)world->desc.substeps;
     const double now = look_at_motion(world, (double)dt);
     const finding f = find(world);
-    const double rate = swing_rate(world, now),
-                 swing = f.springs ? FIT->swing * FIT->sprung : FIT->swing;
+    const double rate = swing_rate(world, now), swing = FIT->swing;
     look_at_rest(world, &f, (double)dt);
     if (choose(world, &f, (double)dt, rate, swing)) {
         const pl_dial chosen = world->dial;

@@ -11,7 +11,6 @@ typedef struct pl_dial_fit {
     double turn;   // [-] angle rate of a swing, times mean acceleration over greatest speed
     double
         swing; // [-] error of the soft step in a turn by one radian, over the square of that in a substep
-    double sprung; // [-] times that, where joints have springs: those are exact
     double lag; // [-] error over the turn in a substep, where the whole kick comes before the drift
     double lag_time;    // [s] in which what it moves is taken to turn by `turn` at the least
     double begun;       // [rad] what has turned by less may yet go straight
