@@ -1,5 +1,5 @@
 -- incline.lua - blocks on an incline of 20 degrees: a = g (sin - mu cos), and none from mu = tan(20 deg) = 0.364 on.
--- Source: Coulomb 1785. Hard: at mu = 0.37 the block must not creep, nor when it cannot turn; sliding lags by a h t / 2.
+-- Source: Coulomb 1785. Hard: at mu = 0.37 the block must not creep, nor when it cannot turn; what rests must tip its load forward.
 -- Aim: 1e-3 m sliding, 1e-5 m sticking.
 scene { title = "Incline", duration = 1.5, description = "Blocks slide by the law, or stick." }
 local g, angle = 9.81, math.pi / 9
