@@ -1,7 +1,6 @@
 -- wedge.lua - a block slides down a free wedge without friction: the wedge goes back with m g sin cos / (M + m sin^2), the
 -- block's centre moves as momentum and the slope demand.
--- Source: Landau and Lifshitz, Mechanics; Goldstein ch. 1. Hard: two bodies that only a contact moves; what it pushes
--- lags.
+-- Source: Landau and Lifshitz, Mechanics; Goldstein ch. 1. Hard: two bodies that only a contact moves.
 -- Aim: 1e-3 m.
 scene { title = "Block and wedge", duration = 1, description = "A block slides down a wedge that slides away." }
 local g, angle, mass, big = 9.81, math.pi / 6, 1, 3
