@@ -25,9 +25,6 @@
 #define HIT_FORCES ((near_real)16)
 #define HIT_SPEED  ((near_real)(1.0 / 64))
 
-// Of the forces' kick, what rounding leaves of a push that contacts took back.
-#define LEFT ((near_real)1e-6)
-
 typedef struct passage {
     const pl_solver *solver;
     uint32_t first; // slot
@@ -77,7 +74,17 @@ void pl_soft_halve(pl_substep *s)
                     &(passage){ &s->world->solver, slots.first, s->h });
 }
 
-// Who has nothing left of what contacts gave flies: on the parabola, to the bit.
+// Contacts that give up more than they have given yet would pull until the drift is over: where bodies leave them. [-] of
+// P, what is too much of it, when they took so much back.
+static inline near_real pulled(const pl_near_quad *taken, const pl_near_quad *push)
+{
+    const pl_near_quad dot = *taken * *push;
+    const near_real all = square_of(push), back = dot[0] + dot[1];
+    const near_real over = all > 0 ? back / all - HALF : 0;
+    return over < 0 ? 0 : over > HALF ? HALF : over;
+}
+
+// Who is not pushed flies on the parabola, to the bit.
 static void drift(void *context, uint32_t first, uint32_t count)
 {
     const passage *p = context;
@@ -88,12 +95,13 @@ static void drift(void *context, uint32_t first, uint32_t count)
     const pl_near_quad *kicked = (const pl_near_quad *)s->kicked.data + p->first;
     for (uint32_t i = first; i < first + count; ++i) {
         const pl_near_quad v = body[2 * i], force = h * motion[2 * i], u = motion[2 * i + 1];
-        const bool halves = kicked[i][3] > 0;
-        const pl_near_quad now = v + kicked[i], kept = now - u;
-        const near_real turn = kept[2] * kept[2], left = halves ? LEFT * square_of(&force) : 0;
+        const pl_near_quad behind = kicked[i], now = v + behind, kept = now - u;
         pl_near_quad way = h * v;
-        if (square_of(&kept) + turn <= left) {
-            way = h * u - HALF * h * force;
+        if (behind[3] > 0) {
+            const pl_near_quad push = 2 * behind - force, taken = u + push - now;
+            way += h * pulled(&taken, &push) * push;
+        } else if (square_of(&kept) == 0 && kept[2] == 0) {
+            way -= HALF * h * force;
         }
         way[3] = 0;
         body[2 * i + 1] += way;

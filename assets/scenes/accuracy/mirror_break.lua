@@ -25,4 +25,4 @@ exact { "asymmetry", at = 1, value = function() return 0 end, measure = function
     end
     return worst / v
 end }
-expect { "mirror images", exact = "asymmetry", tolerance = 3.4e-07 }
+expect { "mirror images", exact = "asymmetry", tolerance = 1.3e-07 }
