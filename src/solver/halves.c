@@ -80,8 +80,8 @@ static inline near_real pulled(const pl_near_quad *taken, const pl_near_quad *pu
 {
     const pl_near_quad dot = *taken * *push;
     const near_real all = square_of(push), back = dot[0] + dot[1];
-    const near_real over = all > 0 ? back / all - HALF : 0;
-    return over < 0 ? 0 : over > HALF ? HALF : over;
+    const near_real over = all > 0 ? 10 * back / all - 9 : 0; // a load that shifts is no leave
+    return over < 0 ? 0 : over > 1 ? HALF : HALF * over;
 }
 
 // Who is not pushed flies on the parabola, to the bit.

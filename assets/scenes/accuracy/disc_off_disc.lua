@@ -51,6 +51,6 @@ for i, case in ipairs { {"slides", 0}, {"rolls", 0.5} } do
             unit = "m/s", from = leaves + 0.05, till = leaves + 0.2 }
 end
 expect { "slides along", exact = "slides", tolerance = 5.9e-05 }
-expect { "leaves without friction", exact = "slides, off", tolerance = 5.2e-05 }
+expect { "leaves without friction", exact = "slides, off", tolerance = 0.00014 }
 expect { "rolls along", exact = "rolls", tolerance = 5.9e-05 }
 expect { "leaves with friction", exact = "rolls, off", tolerance = 0.00015 }
