@@ -414,10 +414,10 @@ static long play(unsigned seed, disturbance how, uint64_t *hashes, bool compare)
 enum { WORLDS = 40 };
 
 // Open: a step that is refused may make a pair of pieces that will meet at some hundred m/s forget the impulses that it had
-// (narrow/settle.c). One in some sixty worlds has such a pair just then; here it is this one.
+// (narrow/settle.c). One in some sixty worlds has such a pair just then; here it is this one (before halves.c seed 63).
 static bool is_open(unsigned seed, disturbance how)
 {
-    return how == FAILING && PLUMB_REAL_IS_DOUBLE && !PLUMB_IS_FAR && seed == 32;
+    return how == FAILING && PLUMB_REAL_IS_DOUBLE && !PLUMB_IS_FAR && seed == 17;
 }
 
 static void compare_with_undisturbed(disturbance how)
