@@ -48,7 +48,7 @@ static double amplitude(const plumb_world *w, plumb_body b)
 static void a_disc_rolls_on_in_a_bowl(void **state)
 {
     (void)state;
-    plumb_world *w = sim_world(&(plumb_world_desc){ .no_sleep = true, .gravity = { 0, -G } });
+    plumb_world *w = sim_world(&(plumb_world_desc){ .no_sleep = true, .gravity = sim_vec(0, -G) });
     plumb_body b = add_bowl(w, sim_material(w, 1, 0), 4000, 0);
     sim_run(w, 60 * 10, HZ60);
     const double off = amplitude(w, b) / ARC_TURN - 1;
@@ -61,7 +61,7 @@ static void a_disc_rolls_on_in_a_bowl(void **state)
 static double off_a_disc(int substeps)
 {
     plumb_world *w = sim_world(
-        &(plumb_world_desc){ .no_sleep = true, .gravity = { 0, -G }, .substeps = substeps });
+        &(plumb_world_desc){ .no_sleep = true, .gravity = sim_vec(0, -G), .substeps = substeps });
     plumb_material m = sim_material(w, 0, 0);
     plumb_body below = plumb_body_create(w, &(plumb_body_desc){ .type = PLUMB_STATIC });
     plumb_shape_create(w, below,
