@@ -210,7 +210,7 @@ static finding find(const plumb_world *world)
             const plumb_joint_desc *j = &pl_joint_items(&world->joints)[i].desc;
             const double ratio = ratio_of(world, marks[i].row_a, marks[i].row_b);
             f.ratio = ratio > f.ratio ? ratio : f.ratio;
-            f.springs = f.springs || j->hertz > 0 || j->stiffness > 0 || j->damper > 0;
+            f.springs = f.springs || pl_joint_has_spring(j);
             f.links +=
                 marks[i].row_a < world->dynamic_count && marks[i].row_b < world->dynamic_count;
             ++f.joints;
@@ -265,16 +265,16 @@ static pl_dial_tier tier_for(const plumb_world *world, const finding *f, pl_dial
                                                                                   : PL_DIAL_SWEPT;
 }
 
-static double substeps_for(const plumb_world *world, double dt, double rate, double swing)
+static double substeps_for(const plumb_world *world, double dt, double rate)
 {
     const double aim = FIT->safety * (double)world->desc.tolerance;
     const double lag = dt * lag_of(world) * rate / aim;
-    const double turn = dt * sqrt(swing * rate * rate * rate * PLUMB_ACCURACY_HORIZON / aim);
+    const double turn = dt * sqrt(FIT->swing * rate * rate * rate * PLUMB_ACCURACY_HORIZON / aim);
     return lag > turn ? lag : turn;
 }
 
 // True: the step is to be taken anew, by another tier.
-static bool choose(plumb_world *world, const finding *f, double dt, double rate, double swing)
+static bool choose(plumb_world *world, const finding *f, double dt, double rate)
 {
     pl_dial *d = &world->dial;
     pl_dial_reason why;
@@ -288,7 +288,7 @@ static bool choose(plumb_world *world, const finding *f, double dt, double rate,
         return better && world->quarantine.attempt < PL_DIAL_ANEW;
     }
     const double n = world->desc.substeps;
-    const double moving = substeps_for(world, dt, rate, swing);
+    const double moving = substeps_for(world, dt, rate);
     const double resting =
         d->tier == PL_DIAL_SWEPT ? n * sqrt(d->rest / (double)world->desc.tolerance) : 0;
     const double asked = moving > resting ? moving : resting;
@@ -306,17 +306,17 @@ static bool choose(plumb_world *world, const finding *f, double dt, double rate,
 
 //---- errors --------------------------------------------------------------------------------------
 
-static void add_errors(plumb_world *world, double dt, double rate, double swing)
+static void add_errors(plumb_world *world, double dt, double rate)
 {
     pl_dial *d = &world->dial;
     const double turn = rate * dt / world->desc.substeps;
     const double left = pl_decay_of(dt / PLUMB_ACCURACY_HORIZON).left;
     const double lag = lag_of(world) * turn;
     if (lag > 0) { // it does not add up: it is there as long as this goes on
-        const double all = lag + swing * turn * turn * rate * PLUMB_ACCURACY_HORIZON;
+        const double all = lag + FIT->swing * turn * turn * rate * PLUMB_ACCURACY_HORIZON;
         d->motion += (all - d->motion) * (dt < FIT->lag_time ? dt / FIT->lag_time : 1);
     } else {
-        d->motion = d->motion * left + swing * turn * turn * rate * dt;
+        d->motion = d->motion * left + FIT->swing * turn * turn * rate * dt;
     }
     d->frozen = d->frozen * left + pl_dial_frozen(world, dt);
 }
@@ -325,7 +325,7 @@ static void tell(plumb_world *world)
 {
     pl_dial *d = &world->dial;
     const double tolerance = (double)world->desc.tolerance;
-    const double moved = d->motion + d->frozen, error = d->rest > moved ? d->rest : moved;
+    const double error = pl_dial_error(d);
     d->worst = error > d->worst ? error : d->worst;
     if (d->worst > tolerance && !d->told) {
         d->told = true;
@@ -346,9 +346,9 @@ bool pl_dial_look(plumb_world *world, real dt)
     world->dial.solved += (uint64_t)world->desc.substeps;
     const double now = look_at_motion(world, (double)dt);
     const finding f = find(world);
-    const double rate = swing_rate(world, now), swing = FIT->swing;
+    const double rate = swing_rate(world, now);
     look_at_rest(world, &f, (double)dt);
-    if (choose(world, &f, (double)dt, rate, swing)) {
+    if (choose(world, &f, (double)dt, rate)) {
         const pl_dial chosen = world->dial;
         world->dial = before;
         world->dial.tier = chosen.tier;
@@ -357,7 +357,7 @@ bool pl_dial_look(plumb_world *world, real dt)
         world->dial.solved = chosen.solved;
         return true;
     }
-    add_errors(world, (double)dt, rate, swing);
+    add_errors(world, (double)dt, rate);
     tell(world);
     return false;
 }

@@ -37,6 +37,13 @@ static inline bool pl_dial_is_on(const plumb_world *world)
     return world->desc.tolerance > 0;
 }
 
+// What is expected by now [-].
+static inline double pl_dial_error(const pl_dial *d)
+{
+    const double moved = d->motion + d->frozen;
+    return d->rest > moved ? d->rest : moved;
+}
+
 // Forgets what was known, and begins as the world is set.
 void pl_dial_reset(plumb_world *world);
 // The step begins.

@@ -68,9 +68,8 @@ plumb_accuracy plumb_world_accuracy(const plumb_world *world)
         return (plumb_accuracy){ .reason = "" };
     }
     const pl_dial *d = &world->dial;
-    const double moved = d->motion + d->frozen;
     return (plumb_accuracy){ .tolerance = (double)world->desc.tolerance,
-                             .error = moved > d->rest ? moved : d->rest,
+                             .error = pl_dial_error(d),
                              .motion = d->motion,
                              .frozen = d->frozen,
                              .rest = d->rest,

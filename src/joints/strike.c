@@ -5,7 +5,7 @@
 //     c = sqrt(u^2 - 2 a s)        after        t = 2 s / (c - u)
 // and leaves at e c. Rows are those of that moment: a rope has turned until it is taut. Both the velocity and that
 // which was integrated get (1 + e) c, and places lose t times as much, so that the substep ends where the parabolas
-// do. Bodies that were pushed before move by h v (integrate.c): their velocity is that of half a substep ago.
+// do. Bodies with joints move by h v where they were pushed (halves.c): their velocity is that of half a substep ago.
 //
 // The impulse is that of the row together with the block of the same joint: an angle is struck about the hinge, not about
 // the centre. What other joints and contacts have to do with it is left to the sweeps, in which the row

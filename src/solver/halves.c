@@ -25,12 +25,6 @@
 #define HIT_FORCES ((near_real)16)
 #define HIT_SPEED  ((near_real)(1.0 / 64))
 
-typedef struct passage {
-    const pl_solver *solver;
-    uint32_t first; // slot
-    near_real h;    // [s]
-} passage;
-
 void pl_soft_share(const plumb_world *world, uint32_t row, uint32_t slot)
 {
     pl_near_quad *kicked = (pl_near_quad *)world->solver.kicked.data + slot;
@@ -47,7 +41,7 @@ static inline near_real square_of(const pl_near_quad *v)
 // The share of a slot is negative while its kick is whole.
 static void halve(void *context, uint32_t first, uint32_t count)
 {
-    const passage *p = context;
+    const pl_passage *p = context;
     const pl_solver *s = p->solver;
     pl_near_quad *body = (pl_near_quad *)(void *)(pl_solver_bodies(s) + p->first);
     const pl_near_quad *motion = (const pl_near_quad *)(void *)(pl_solver_motions(s) + p->first);
@@ -69,9 +63,7 @@ static void halve(void *context, uint32_t first, uint32_t count)
 
 void pl_soft_halve(pl_substep *s)
 {
-    const pl_slots slots = s->cluster->slots[0];
-    pl_tasks_ranges(s->tasks, slots.count, PL_BODIES_SHARED, halve,
-                    &(passage){ &s->world->solver, slots.first, s->h });
+    pl_pass_bodies(s, 0, halve);
 }
 
 // Contacts that give up more than they have given yet would pull until the drift is over: where bodies leave them. [-] of
@@ -87,7 +79,7 @@ static inline near_real pulled(const pl_near_quad *taken, const pl_near_quad *pu
 // Who is not pushed flies on the parabola, to the bit.
 static void drift(void *context, uint32_t first, uint32_t count)
 {
-    const passage *p = context;
+    const pl_passage *p = context;
     const pl_solver *s = p->solver;
     const near_real h = p->h;
     pl_near_quad *body = (pl_near_quad *)(void *)(pl_solver_bodies(s) + p->first);
@@ -112,8 +104,6 @@ static void drift(void *context, uint32_t first, uint32_t count)
 
 void pl_soft_move(pl_substep *s)
 {
-    const pl_slots slots = s->cluster->slots[0];
-    pl_tasks_ranges(s->tasks, slots.count, PL_BODIES_SHARED, drift,
-                    &(passage){ &s->world->solver, slots.first, s->h });
+    pl_pass_bodies(s, 0, drift);
     pl_move_kinematic(s);
 }

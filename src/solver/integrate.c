@@ -6,16 +6,10 @@
 #include "solver/substep.h"
 #include "world/state.h"
 
-typedef struct passage {
-    const pl_solver *solver;
-    uint32_t first; // slot
-    near_real h;    // [s]
-} passage;
-
 // Moves dynamic and kinematic bodies by the velocities with which the substep's contacts left them.
 static void move(void *context, uint32_t first, uint32_t count)
 {
-    const passage *p = context;
+    const pl_passage *p = context;
     const near_real h = p->h, half = h * h / 2;
     pl_solver_body *body = pl_solver_bodies(p->solver) + p->first;
     const pl_solver_motion *motion = pl_solver_motions(p->solver) + p->first;
@@ -29,21 +23,22 @@ static void move(void *context, uint32_t first, uint32_t count)
     }
 }
 
-static void move_slots(pl_substep *s, pl_slots slots)
+void pl_pass_bodies(pl_substep *s, int kind, pl_range_fn *pass)
 {
-    pl_tasks_ranges(s->tasks, slots.count, PL_BODIES_SHARED, move,
-                    &(passage){ &s->world->solver, slots.first, s->h });
+    const pl_slots slots = s->cluster->slots[kind];
+    pl_tasks_ranges(s->tasks, slots.count, PL_BODIES_SHARED, pass,
+                    &(pl_passage){ &s->world->solver, slots.first, s->h });
 }
 
 void pl_move_kinematic(pl_substep *s)
 {
-    move_slots(s, s->cluster->slots[1]);
+    pl_pass_bodies(s, 1, move);
 }
 
 void pl_move_bodies(pl_substep *s)
 {
-    move_slots(s, s->cluster->slots[0]);
-    move_slots(s, s->cluster->slots[1]);
+    pl_pass_bodies(s, 0, move);
+    pl_pass_bodies(s, 1, move);
 }
 
 // Rows that a joint's reaction is summed along turn when the classic solver moves it: summed before.

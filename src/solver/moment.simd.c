@@ -327,18 +327,18 @@ WIDE_INLINE vf share_of(const pl_contact_call *call, const bundle *c)
         share[i] = 1;
         for (int k = 0; k < 2; ++k) {
             if (slot[k] < call->dynamic_slots) {
-                const near_real behind = call->kicked[4 * (size_t)slot[k] + 3];
+                const near_real behind = pl_kick_behind(call->kicked, slot[k]);
                 share[i] = behind < share[i] ? behind : share[i];
             }
         }
     }
-    return vmax(load(share), splat(0));
+    return load(share);
 }
 
 // Turns the impulses of a side's body: a share now; all of it in the next substep, whose impulses are the difference of the
 // velocity to the one that was integrated.
 WIDE_INLINE void turn_side(const pl_contact_call *call, const uint32_t *slot, const body *of,
-                           vf share, vf x, vf y, vf w)
+                           vf now, vf x, vf y, vf w)
 {
     const near_real *from[PL_WIDTH];
     near_real sink[4] __attribute__((aligned(32)));
@@ -350,7 +350,7 @@ WIDE_INLINE void turn_side(const pl_contact_call *call, const uint32_t *slot, co
     x *= of->inv_mass, y *= of->inv_mass, w *= of->inv_inertia;
     vf u[4];
     gather4(u, from, 0);
-    const vf now = share, then = splat(1) - now;
+    const vf then = splat(1) - now;
     scatter4(to, 0, (vf[4]){ u[0] - then * x, u[1] - then * y, u[2] - then * w, u[3] });
     body v = *of;
     v.vx += now * x, v.vy += now * y, v.w += now * w;

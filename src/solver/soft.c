@@ -40,16 +40,10 @@ near_real pl_soft_substep(const plumb_world *world, real dt)
     return now > h ? now : h;
 }
 
-typedef struct flight {
-    const pl_solver *solver;
-    uint32_t first; // slot
-    near_real h;    // [s]
-} flight;
-
 // v = u + h a, plus what the contacts did in the substep before.
 static void fly(void *context, uint32_t first, uint32_t count)
 {
-    const flight *f = context;
+    const pl_passage *f = context;
     const pl_solver *s = f->solver;
     const near_real h = f->h;
     pl_near_quad *body = (pl_near_quad *)(void *)(pl_solver_bodies(s) + f->first);
@@ -68,7 +62,7 @@ static void fly(void *context, uint32_t first, uint32_t count)
 // for bit, what the function above does.
 static void fly_carefully(void *context, uint32_t first, uint32_t count)
 {
-    const flight *f = context;
+    const pl_passage *f = context;
     const pl_solver *s = f->solver;
     const near_real h = f->h;
     pl_near_quad *body = (pl_near_quad *)(void *)(pl_solver_bodies(s) + f->first);
@@ -176,10 +170,7 @@ void pl_soft_prepare(pl_substep *s)
 
 void pl_soft_integrate(pl_substep *s)
 {
-    const pl_slots slots = s->cluster->slots[0];
-    pl_tasks_ranges(s->tasks, slots.count, PL_BODIES_SHARED,
-                    s->solving->elastic ? fly_carefully : fly,
-                    &(flight){ &s->world->solver, slots.first, s->h });
+    pl_pass_bodies(s, 0, s->solving->elastic ? fly_carefully : fly);
 }
 
 void pl_soft_warm_start(pl_substep *s)

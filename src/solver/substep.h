@@ -56,6 +56,15 @@ typedef struct pl_substep_rows {
 // All clusters through all rows (substep.c).
 void pl_substeps_run(plumb_world *world, const pl_substep_rows *rows, plumb_real dt);
 
+// What a pass over slots from `first` on is given, and one over a cluster's dynamic bodies (kind 0) or its kinematic ones
+// (1), shared out (integrate.c).
+typedef struct pl_passage {
+    const pl_solver *solver;
+    uint32_t first;
+    near_real h; // [s]
+} pl_passage;
+void pl_pass_bodies(struct pl_substep *s, int kind, pl_range_fn *pass);
+
 void pl_move_kinematic(struct pl_substep *s); // by their velocities (integrate.c)
 
 // Before all rows of the soft step: what kernels are called with, and which of them (soft.c).

@@ -344,12 +344,11 @@ static void book_body(const pl_substep *s, uint32_t slot, row_rule rule)
     } else if (rule.kind == ROW_DAMPING || rule.kind == ROW_MOMENT) {
         note_drag(s, slot, b, rule.kind);
     } else if (rule.kind == ROW_HALVE || rule.kind == ROW_DRIFT) {
-        const double share = (double)((const near_real *)solver->kicked.data)[4 * (size_t)slot + 3];
-        const double given = share > 0 ? share : 0;
+        const double share = (double)pl_kick_behind(solver->kicked.data, slot);
         if (rule.kind == ROW_HALVE) {
-            book_share(b, -given);
+            book_share(b, -share);
         } else {
-            book_drift(b, body, given);
+            book_drift(b, body, share);
         }
     } else if (rule.kind == ROW_INTEGRATE) {
         book_accelerations(b, &pl_solver_motions(solver)[slot], (double)s->h);

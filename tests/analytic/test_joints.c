@@ -13,13 +13,6 @@
 
 #define DT (1 / 60.0)
 
-static plumb_joint tie(plumb_world *w, plumb_joint_desc desc)
-{
-    plumb_joint joint = plumb_joint_create(w, &desc);
-    assert_false(plumb_is_null(joint));
-    return joint;
-}
-
 static double value(const plumb_world *w, plumb_joint j)
 {
     return (double)plumb_joint_value(w, j);
@@ -71,16 +64,16 @@ static void pendulum_keeps_period_and_amplitude(void **state)
             double a = amplitudes[k] * SIM_PI / 180;
             plumb_world *w = sim_world(&(plumb_world_desc){ 0 });
             plumb_body b = sim_mass(w, sin(a), -cos(a), 2, 0);
-            plumb_joint j = kind == 0
-                                ? tie(w, (plumb_joint_desc){ .kind = PLUMB_DISTANCE,
+            plumb_joint j =
+                kind == 0 ? sim_joint(w, (plumb_joint_desc){ .kind = PLUMB_DISTANCE,
                                                              .body_a = b,
                                                              .anchor = plumb_body_position(w, b) })
-                                : tie(w, (plumb_joint_desc){ .kind = PLUMB_REVOLUTE, .body_b = b });
+                          : sim_joint(w, (plumb_joint_desc){ .kind = PLUMB_REVOLUTE, .body_b = b });
             if (kind == 1) { // physical pendulum: inertia m L^2 / 2 makes it 1.5 times as long
                 plumb_joint_destroy(w, j);
                 plumb_body_destroy(w, b);
                 b = sim_mass(w, sin(a), -cos(a), 2, 1);
-                j = tie(w, (plumb_joint_desc){ .kind = PLUMB_REVOLUTE, .body_b = b });
+                j = sim_joint(w, (plumb_joint_desc){ .kind = PLUMB_REVOLUTE, .body_b = b });
             }
             double kept = 0, measured = measure_period(w, b, 10, &kept);
             double wanted = pendulum_period(kind == 0 ? 1 : 1.5, a);
@@ -104,7 +97,7 @@ static void rod_pulls_at_its_hinge(void **state)
     plumb_world *w = sim_world(&(plumb_world_desc){ 0 });
     const double length = 2, kg = 3;
     plumb_body rod = sim_mass(w, length / 2, 0, kg, kg * length * length / 12);
-    plumb_joint j = tie(w, (plumb_joint_desc){ .kind = PLUMB_REVOLUTE, .body_b = rod });
+    plumb_joint j = sim_joint(w, (plumb_joint_desc){ .kind = PLUMB_REVOLUTE, .body_b = rod });
     double largest = 0;
     for (int i = 0; i < 120; ++i) {
         sim_step(w, DT);
@@ -131,7 +124,7 @@ static double spin_kept(double spin, int substeps, bool paired, bool alone, doub
     }
     plumb_joint_desc desc = { .kind = PLUMB_REVOLUTE, .body_a = rod, .body_b = other };
     desc.break_impulse = alone ? (plumb_real)1e9 : 0;
-    plumb_joint j = tie(w, desc);
+    plumb_joint j = sim_joint(w, desc);
     *apart = 0;
     for (int i = 0; i < 60; ++i) {
         sim_step(w, DT);
@@ -188,7 +181,7 @@ static void reactions_at_rest_are_the_weight(void **state)
         plumb_world *w = sim_world(&(plumb_world_desc){ 0 });
         plumb_joint_desc d = kinds[k];
         d.body_b = sim_mass(w, 0, 0, 2, 0.5);
-        plumb_joint j = tie(w, d);
+        plumb_joint j = sim_joint(w, d);
         sim_run(w, 600, DT);
         plumb_vec2 f = plumb_joint_force(w, j);
         double torque = (double)plumb_joint_torque(w, j), arm = -(double)d.anchor.x;
@@ -213,12 +206,12 @@ static void springs_keep_time(void **state)
         double hertz = cases[k][0], zeta = cases[k][1], omega = 2 * SIM_PI * hertz;
         plumb_world *w = sim_space();
         plumb_body b = sim_mass(w, 2.5, 0, 1, 0);
-        plumb_joint j = tie(w, (plumb_joint_desc){ .kind = PLUMB_DISTANCE,
-                                                   .body_b = b,
-                                                   .anchor_b = sim_vec(2.5, 0),
-                                                   .length = 2,
-                                                   .hertz = (plumb_real)hertz,
-                                                   .damping = (plumb_real)zeta });
+        plumb_joint j = sim_joint(w, (plumb_joint_desc){ .kind = PLUMB_DISTANCE,
+                                                         .body_b = b,
+                                                         .anchor_b = sim_vec(2.5, 0),
+                                                         .length = 2,
+                                                         .hertz = (plumb_real)hertz,
+                                                         .damping = (plumb_real)zeta });
         double t = 0, first = 0, at = 0, last = 0.5;
         int crossings = 0;
         for (; crossings < 11; t += DT / 4) {
@@ -244,11 +237,11 @@ static void springs_keep_time(void **state)
     }
     plumb_world *w = sim_world(&(plumb_world_desc){ 0 });
     plumb_body b = sim_mass(w, 0, -2, 3, 0);
-    plumb_joint j = tie(w, (plumb_joint_desc){ .kind = PLUMB_DISTANCE,
-                                               .body_b = b,
-                                               .anchor_b = sim_vec(0, -2),
-                                               .hertz = 1,
-                                               .damping = (plumb_real)0.5 });
+    plumb_joint j = sim_joint(w, (plumb_joint_desc){ .kind = PLUMB_DISTANCE,
+                                                     .body_b = b,
+                                                     .anchor_b = sim_vec(0, -2),
+                                                     .hertz = 1,
+                                                     .damping = (plumb_real)0.5 });
     sim_run(w, 900, DT);
     double sag = value(w, j) - 2, wanted = SIM_G / (4 * SIM_PI * SIM_PI);
     print_message("spring under a weight: gives %.6f m, exact %.6f\n", sag, wanted);
@@ -269,14 +262,14 @@ static void springs_follow_their_exponential(void **state)
         const double f = 2 * SIM_PI * cases[k][0], z = cases[k][1], a = 0.2, kg = 3;
         plumb_world *w = sim_world(&(plumb_world_desc){ .zero_gravity = true, .no_sleep = true });
         plumb_body b = sim_mass(w, 2 + a, 0, kg, 0);
-        tie(w, (plumb_joint_desc){ .kind = PLUMB_DISTANCE,
-                                   .body_b = b,
-                                   .anchor_b = sim_vec(2 + a, 0),
-                                   .length = 2,
-                                   .hertz = (plumb_real)(newtons ? 0 : cases[k][0]),
-                                   .damping = (plumb_real)(newtons ? 0 : z),
-                                   .stiffness = (plumb_real)(newtons ? kg * f * f : 0),
-                                   .damper = (plumb_real)(newtons ? 2 * z * f * kg : 0) });
+        sim_joint(w, (plumb_joint_desc){ .kind = PLUMB_DISTANCE,
+                                         .body_b = b,
+                                         .anchor_b = sim_vec(2 + a, 0),
+                                         .length = 2,
+                                         .hertz = (plumb_real)(newtons ? 0 : cases[k][0]),
+                                         .damping = (plumb_real)(newtons ? 0 : z),
+                                         .stiffness = (plumb_real)(newtons ? kg * f * f : 0),
+                                         .damper = (plumb_real)(newtons ? 2 * z * f * kg : 0) });
         double worst = 0;
         for (int n = 1; n <= 180; ++n) {
             sim_step(w, DT);
@@ -310,7 +303,8 @@ static double stretch_network(double hertz, bool star, bool newtons, double *res
     for (int i = 0; i < (star ? 16 : 20); ++i) {
         const double angle = 2 * SIM_PI * i / 16, x = star ? 2 * cos(angle) : i;
         plumb_body b = star && i > 0 ? first : sim_mass(w, star ? 0 : i, 0, 1, 0);
-        tie(w, (plumb_joint_desc){ .kind = PLUMB_DISTANCE,
+        sim_joint(
+            w, (plumb_joint_desc){ .kind = PLUMB_DISTANCE,
                                    .body_a = star ? none : last,
                                    .body_b = b,
                                    .anchor = star ? sim_vec(x, 2 * sin(angle)) : sim_vec(i - 1, 0),
@@ -357,7 +351,8 @@ static void rotary_spring_keeps_time(void **state)
     (void)state;
     plumb_world *w = sim_space();
     plumb_body b = sim_mass(w, 0, 0, 1, 0.5);
-    plumb_joint j = tie(w, (plumb_joint_desc){ .kind = PLUMB_REVOLUTE, .body_b = b, .hertz = 2 });
+    plumb_joint j =
+        sim_joint(w, (plumb_joint_desc){ .kind = PLUMB_REVOLUTE, .body_b = b, .hertz = 2 });
     sim_launch(w, b, 0, 0, 1);
     double last = 0, first = -1, at = 0, t = 0;
     int crossings = 0;
@@ -382,13 +377,13 @@ static void pulley_falls_as_atwood_says(void **state)
     (void)state;
     plumb_world *w = sim_world(&(plumb_world_desc){ 0 });
     plumb_body a = sim_mass(w, -1, -2, 3, 0), b = sim_mass(w, 1, -2, 1, 0);
-    plumb_joint j = tie(w, (plumb_joint_desc){ .kind = PLUMB_PULLEY,
-                                               .body_a = a,
-                                               .body_b = b,
-                                               .anchor = sim_vec(-1, -2),
-                                               .anchor_b = sim_vec(1, -2),
-                                               .ground_a = sim_vec(-1, 0),
-                                               .ground_b = sim_vec(1, 0) });
+    plumb_joint j = sim_joint(w, (plumb_joint_desc){ .kind = PLUMB_PULLEY,
+                                                     .body_a = a,
+                                                     .body_b = b,
+                                                     .anchor = sim_vec(-1, -2),
+                                                     .anchor_b = sim_vec(1, -2),
+                                                     .ground_a = sim_vec(-1, 0),
+                                                     .ground_b = sim_vec(1, 0) });
     sim_run(w, 30, DT);
     double accel = -sim_vy(w, a) / 0.5, wanted = SIM_G / 2;
     double pull = (double)plumb_joint_force(w, j).y, tension = 2 * 3 * 1 * SIM_G / 4;
@@ -405,10 +400,11 @@ static void gears_keep_their_ratio(void **state)
     (void)state;
     plumb_world *w = sim_space();
     plumb_body a = sim_mass(w, 0, 0, 1, 1), b = sim_mass(w, 3, 0, 1, 2);
-    tie(w, (plumb_joint_desc){ .kind = PLUMB_REVOLUTE, .body_b = a });
-    tie(w, (plumb_joint_desc){ .kind = PLUMB_REVOLUTE, .body_b = b, .anchor = sim_vec(3, 0) });
-    plumb_joint gear =
-        tie(w, (plumb_joint_desc){ .kind = PLUMB_GEAR, .body_a = a, .body_b = b, .ratio = 3 });
+    sim_joint(w, (plumb_joint_desc){ .kind = PLUMB_REVOLUTE, .body_b = a });
+    sim_joint(w,
+              (plumb_joint_desc){ .kind = PLUMB_REVOLUTE, .body_b = b, .anchor = sim_vec(3, 0) });
+    plumb_joint gear = sim_joint(
+        w, (plumb_joint_desc){ .kind = PLUMB_GEAR, .body_a = a, .body_b = b, .ratio = 3 });
     sim_launch(w, a, 0, 0, 9);
     sim_run(w, 1200, DT);
     print_message("gear 3:1 after 20 s: speeds %.5f and %.5f rad/s, off by %.2g rad\n", sim_w(w, a),
@@ -422,9 +418,10 @@ static void gears_keep_their_ratio(void **state)
     w = sim_space();
     a = sim_mass(w, 0, 0, 1, 1);
     b = sim_mass(w, 0, -1, 2, 1);
-    tie(w, (plumb_joint_desc){ .kind = PLUMB_REVOLUTE, .body_b = a });
-    tie(w, (plumb_joint_desc){ .kind = PLUMB_PRISMATIC, .body_b = b, .anchor = sim_vec(0, -1) });
-    gear = tie(
+    sim_joint(w, (plumb_joint_desc){ .kind = PLUMB_REVOLUTE, .body_b = a });
+    sim_joint(w,
+              (plumb_joint_desc){ .kind = PLUMB_PRISMATIC, .body_b = b, .anchor = sim_vec(0, -1) });
+    gear = sim_joint(
         w, (plumb_joint_desc){
                .kind = PLUMB_GEAR, .body_a = a, .body_b = b, .axis = sim_vec(1, 0), .ratio = -2 });
     sim_launch(w, b, 1, 0, 0);
@@ -445,22 +442,22 @@ static void a_rack_weighs_the_same_everywhere(void **state)
         const double x = 500 * i;
         plumb_world *w = sim_world(&(plumb_world_desc){ 0 });
         plumb_body wheel = sim_mass(w, x, 0, 1, 1), rack = sim_mass(w, x + 1, 0, 2, 1);
-        tie(w, (plumb_joint_desc){ .kind = PLUMB_REVOLUTE,
-                                   .body_b = wheel,
-                                   .anchor = sim_vec(x, 0),
-                                   .enable_motor = true,
-                                   .motor_speed = 2,
-                                   .max_motor = 1000 });
-        tie(w, (plumb_joint_desc){ .kind = PLUMB_PRISMATIC,
-                                   .body_b = rack,
-                                   .anchor = sim_vec(x + 1, 0),
-                                   .axis = sim_vec(0, 1) });
-        plumb_joint gear = tie(w, (plumb_joint_desc){ .kind = PLUMB_GEAR,
-                                                      .body_a = wheel,
-                                                      .body_b = rack,
-                                                      .axis = sim_vec(0, 1),
-                                                      .ratio = -1,
-                                                      .break_torque = 1 });
+        sim_joint(w, (plumb_joint_desc){ .kind = PLUMB_REVOLUTE,
+                                         .body_b = wheel,
+                                         .anchor = sim_vec(x, 0),
+                                         .enable_motor = true,
+                                         .motor_speed = 2,
+                                         .max_motor = 1000 });
+        sim_joint(w, (plumb_joint_desc){ .kind = PLUMB_PRISMATIC,
+                                         .body_b = rack,
+                                         .anchor = sim_vec(x + 1, 0),
+                                         .axis = sim_vec(0, 1) });
+        plumb_joint gear = sim_joint(w, (plumb_joint_desc){ .kind = PLUMB_GEAR,
+                                                            .body_a = wheel,
+                                                            .body_b = rack,
+                                                            .axis = sim_vec(0, 1),
+                                                            .ratio = -1,
+                                                            .break_torque = 1 });
         sim_run(w, 120, DT);
         assert_true(plumb_joint_valid(w, gear));
         assert_near(plumb_joint_force(w, gear).y, 2 * SIM_G, ROUNDED(1e-3));
@@ -477,9 +474,9 @@ static void slider_on_an_incline(void **state)
     const double slope = SIM_PI / 6, t = 1;
     plumb_world *w = sim_world(&(plumb_world_desc){ 0 });
     plumb_body b = sim_mass(w, 0, 0, 1, 0.3);
-    plumb_joint j = tie(w, (plumb_joint_desc){ .kind = PLUMB_PRISMATIC,
-                                               .body_b = b,
-                                               .axis = sim_vec(-cos(slope), -sin(slope)) });
+    plumb_joint j = sim_joint(w, (plumb_joint_desc){ .kind = PLUMB_PRISMATIC,
+                                                     .body_b = b,
+                                                     .axis = sim_vec(-cos(slope), -sin(slope)) });
     sim_run(w, 60, DT);
     double speed = hypot(sim_vx(w, b), sim_vy(w, b)), wanted = SIM_G * sin(slope) * t;
     double push = hypot((double)plumb_joint_force(w, j).x, (double)plumb_joint_force(w, j).y);
@@ -497,11 +494,11 @@ static void motor_gets_up_to_speed(void **state)
     (void)state;
     plumb_world *w = sim_space();
     plumb_body b = sim_mass(w, 0, 0, 1, 2);
-    plumb_joint j = tie(w, (plumb_joint_desc){ .kind = PLUMB_REVOLUTE,
-                                               .body_b = b,
-                                               .enable_motor = true,
-                                               .motor_speed = 5,
-                                               .max_motor = 4 });
+    plumb_joint j = sim_joint(w, (plumb_joint_desc){ .kind = PLUMB_REVOLUTE,
+                                                     .body_b = b,
+                                                     .enable_motor = true,
+                                                     .motor_speed = 5,
+                                                     .max_motor = 4 });
     sim_run(w, 60, DT);
     double half_way = sim_w(w, b), torque = (double)plumb_joint_torque(w, j);
     sim_run(w, 120, DT);
@@ -518,17 +515,17 @@ static void limits_and_ropes_stop(void **state)
     (void)state;
     plumb_world *w = sim_world(&(plumb_world_desc){ 0 });
     plumb_body b = sim_mass(w, 0, -1, 1, 0), rod = sim_mass(w, 6, 0, 1, 0.3);
-    plumb_joint rope = tie(w, (plumb_joint_desc){ .kind = PLUMB_DISTANCE,
-                                                  .body_b = b,
-                                                  .anchor_b = sim_vec(0, -1),
-                                                  .enable_limit = true,
-                                                  .upper = 2 });
-    plumb_joint door = tie(w, (plumb_joint_desc){ .kind = PLUMB_REVOLUTE,
-                                                  .body_b = rod,
-                                                  .anchor = sim_vec(5, 0),
-                                                  .enable_limit = true,
-                                                  .lower = (plumb_real)-0.5,
-                                                  .upper = (plumb_real)0.5 });
+    plumb_joint rope = sim_joint(w, (plumb_joint_desc){ .kind = PLUMB_DISTANCE,
+                                                        .body_b = b,
+                                                        .anchor_b = sim_vec(0, -1),
+                                                        .enable_limit = true,
+                                                        .upper = 2 });
+    plumb_joint door = sim_joint(w, (plumb_joint_desc){ .kind = PLUMB_REVOLUTE,
+                                                        .body_b = rod,
+                                                        .anchor = sim_vec(5, 0),
+                                                        .enable_limit = true,
+                                                        .lower = (plumb_real)-0.5,
+                                                        .upper = (plumb_real)0.5 });
     double longest = 0, farthest = 0;
     for (int i = 0; i < 240; ++i) {
         sim_step(w, DT);
@@ -549,9 +546,9 @@ static void ratchet_turns_one_way(void **state)
     (void)state;
     plumb_world *w = sim_space();
     plumb_body b = sim_mass(w, 0, 0, 1, 1);
-    tie(w, (plumb_joint_desc){ .kind = PLUMB_REVOLUTE, .body_b = b });
-    plumb_joint j =
-        tie(w, (plumb_joint_desc){ .kind = PLUMB_RATCHET, .body_b = b, .pitch = (plumb_real)0.5 });
+    sim_joint(w, (plumb_joint_desc){ .kind = PLUMB_REVOLUTE, .body_b = b });
+    plumb_joint j = sim_joint(
+        w, (plumb_joint_desc){ .kind = PLUMB_RATCHET, .body_b = b, .pitch = (plumb_real)0.5 });
     sim_launch(w, b, 0, 0, 3);
     sim_run(w, 70, DT);
     double forward = value(w, j);
@@ -573,8 +570,8 @@ static void friction_joint_brakes(void **state)
         plumb_world *w =
             sim_world(&(plumb_world_desc){ .zero_gravity = true, .solver = (plumb_solver)solver });
         plumb_body b = sim_mass(w, 0, 0, 2, 1);
-        tie(w, (plumb_joint_desc){
-                   .kind = PLUMB_FRICTION, .body_b = b, .max_force = 2, .max_torque = 1 });
+        sim_joint(w, (plumb_joint_desc){
+                         .kind = PLUMB_FRICTION, .body_b = b, .max_force = 2, .max_torque = 1 });
         sim_launch(w, b, aslant ? 3 : 0, aslant ? 4 : 5, 2);
         sim_run(w, 60, DT);
         const double v = hypot(sim_vx(w, b), sim_vy(w, b));
@@ -591,8 +588,8 @@ static void wheel_rests_on_its_spring(void **state)
     (void)state;
     plumb_world *w = sim_world(&(plumb_world_desc){ 0 });
     plumb_body b = sim_mass(w, 0, 0, 1, 1);
-    plumb_joint j =
-        tie(w, (plumb_joint_desc){ .kind = PLUMB_WHEEL, .body_b = b, .hertz = 2, .damping = 1 });
+    plumb_joint j = sim_joint(
+        w, (plumb_joint_desc){ .kind = PLUMB_WHEEL, .body_b = b, .hertz = 2, .damping = 1 });
     sim_launch(w, b, 0, 0, 3);
     sim_run(w, 600, DT);
     double wanted = -SIM_G / pow(4 * SIM_PI, 2);
@@ -609,8 +606,8 @@ static void classic_solver_holds_joints(void **state)
     (void)state;
     plumb_world *w = sim_world(&(plumb_world_desc){ .solver = PLUMB_SOLVER_PGS });
     plumb_body a = sim_mass(w, 1, 0, 1, 0.1), b = sim_mass(w, 2, 0, 1, 0.1);
-    plumb_joint j = tie(w, (plumb_joint_desc){ .kind = PLUMB_REVOLUTE, .body_b = a });
-    plumb_joint k = tie(
+    plumb_joint j = sim_joint(w, (plumb_joint_desc){ .kind = PLUMB_REVOLUTE, .body_b = a });
+    plumb_joint k = sim_joint(
         w, (plumb_joint_desc){ .kind = PLUMB_WELD, .body_a = a, .body_b = b, .anchor = { 1, 0 } });
     double worst = 0;
     for (int i = 0; i < 300; ++i) {

@@ -12,13 +12,6 @@
 
 #define DT (1 / 60.0)
 
-static plumb_joint tie(plumb_world *w, plumb_joint_desc desc)
-{
-    plumb_joint joint = plumb_joint_create(w, &desc);
-    assert_false(plumb_is_null(joint));
-    return joint;
-}
-
 static double value(const plumb_world *w, plumb_joint j)
 {
     return (double)plumb_joint_value(w, j);
@@ -33,10 +26,10 @@ static void dampers_brake_by_their_exponential(void **state)
         const double kg = 2, c = dampers[k], v = 3;
         plumb_world *w = sim_world(&(plumb_world_desc){ .zero_gravity = true, .no_sleep = true });
         plumb_body b = sim_mass(w, 1, 0, kg, 0.1);
-        tie(w, (plumb_joint_desc){ .kind = PLUMB_PRISMATIC,
-                                   .body_b = b,
-                                   .anchor = sim_vec(1, 0),
-                                   .damper = (plumb_real)c });
+        sim_joint(w, (plumb_joint_desc){ .kind = PLUMB_PRISMATIC,
+                                         .body_b = b,
+                                         .anchor = sim_vec(1, 0),
+                                         .damper = (plumb_real)c });
         sim_launch(w, b, v, 0, 0);
         double worst = 0;
         for (int i = 1; i <= 120; ++i) {
@@ -74,11 +67,11 @@ static void stiffness_stays_when_the_mass_changes(void **state)
     for (int newtons = 0; newtons < 2; ++newtons) {
         plumb_world *w = sim_world(&(plumb_world_desc){ .zero_gravity = true, .no_sleep = true });
         plumb_body b = sim_mass(w, 2.2, 0, 1, 0);
-        plumb_joint j = tie(w, (plumb_joint_desc){ .kind = PLUMB_DISTANCE,
-                                                   .body_b = b,
-                                                   .anchor_b = sim_vec(2.2, 0),
-                                                   .length = 2,
-                                                   .hertz = (plumb_real)(newtons ? 0 : 1) });
+        plumb_joint j = sim_joint(w, (plumb_joint_desc){ .kind = PLUMB_DISTANCE,
+                                                         .body_b = b,
+                                                         .anchor_b = sim_vec(2.2, 0),
+                                                         .length = 2,
+                                                         .hertz = (plumb_real)(newtons ? 0 : 1) });
         if (newtons) {
             assert_int_equal(
                 plumb_joint_set_stiffness(w, j, (plumb_real)(4 * SIM_PI * SIM_PI), 0, 0), PLUMB_OK);
@@ -101,9 +94,9 @@ static void springs_in_newtons_turn_what_they_hold(void **state)
     plumb_world *w = sim_world(&(plumb_world_desc){ .zero_gravity = true, .no_sleep = true });
     const double kg = 2, inertia = 0.4, arm = 0.7, stiffness = 30;
     plumb_body rod = sim_mass(w, arm, 0, kg, inertia);
-    plumb_joint hinge =
-        tie(w, (plumb_joint_desc){
-                   .kind = PLUMB_REVOLUTE, .body_b = rod, .stiffness = (plumb_real)stiffness });
+    plumb_joint hinge = sim_joint(w, (plumb_joint_desc){ .kind = PLUMB_REVOLUTE,
+                                                         .body_b = rod,
+                                                         .stiffness = (plumb_real)stiffness });
     sim_launch(w, rod, 0, 0.5 * arm, 0.5);
     const double exact = 2 * SIM_PI * sqrt((inertia + kg * arm * arm) / stiffness);
     const double period = five_swings(w, hinge, 0) / 5;
@@ -133,7 +126,7 @@ static void loads_stretch_springs_in_newtons(void **state)
                                .damper = 40 };
         d.anchor_b = sim_vec(0, kind == PLUMB_DISTANCE ? -2 : 0);
         d.axis = sim_vec(0, kind == PLUMB_PRISMATIC || kind == PLUMB_WHEEL ? 1 : 0);
-        tie(w, d);
+        sim_joint(w, d);
         sim_run(w, 900, DT);
         const double sag = -2 - sim_y(w, b);
         print_message("%s, solver %d: %.7f m, exact %.7f\n", plumb_joint_kind_name(kind),

@@ -71,6 +71,13 @@ plumb_body sim_mass(plumb_world *w, double x, double y, double kg, double inerti
     return b;
 }
 
+plumb_joint sim_joint(plumb_world *w, plumb_joint_desc desc)
+{
+    plumb_joint joint = plumb_joint_create(w, &desc);
+    need(!plumb_is_null(joint), "a joint");
+    return joint;
+}
+
 static void add(plumb_world *w, plumb_body b, const plumb_shape_desc *desc)
 {
     need(!plumb_is_null(plumb_shape_create(w, b, desc)), "the shape");

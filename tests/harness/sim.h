@@ -41,6 +41,8 @@ plumb_material sim_material(plumb_world *w, double friction, double restitution)
 plumb_body sim_body(plumb_world *w, plumb_body_type type, double x, double y, double angle);
 /// A dynamic body without shapes: a point mass, or with inertia. [kg], [kg m^2]
 plumb_body sim_mass(plumb_world *w, double x, double y, double kg, double inertia);
+/// A joint by all of a descriptor.
+plumb_joint sim_joint(plumb_world *w, plumb_joint_desc desc);
 void sim_add_circle(plumb_world *w, plumb_body b, double r, plumb_material m);
 void sim_add_box(plumb_world *w, plumb_body b, double hx, double hy, plumb_material m);
 void sim_add_segment(plumb_world *w, plumb_body b, plumb_vec2 p, plumb_vec2 q, plumb_material m);

@@ -109,6 +109,13 @@ static inline pl_solver_body *pl_solver_bodies(const pl_solver *solver)
     return (pl_solver_body *)solver->bodies.data;
 }
 
+// Share of a slot's kick that comes behind the drift, of pl_solver.kicked; there it is negative while the kick is whole.
+static inline near_real pl_kick_behind(const near_real *kicked, uint32_t slot)
+{
+    const near_real share = kicked[4 * (size_t)slot + 3];
+    return share > 0 ? share : 0;
+}
+
 static inline pl_solver_motion *pl_solver_motions(const pl_solver *solver)
 {
     return (pl_solver_motion *)solver->motions.data;
