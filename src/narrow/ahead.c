@@ -318,7 +318,8 @@ static bool reserve_lists(plumb_world *world, pl_lookahead *ahead)
            pl_buffer_reserve(memory, &ahead->pairs, count * sizeof(pl_pair)) &&
            pl_buffer_reserve(memory, &ahead->made, count * sizeof(pl_manifold)) &&
            pl_buffer_reserve(memory, &ahead->unread, count * sizeof(pl_ends)) &&
-           pl_buffer_reserve(memory, &ahead->list, count * sizeof(uint32_t));
+           pl_buffer_reserve(memory, &ahead->list, count * sizeof(uint32_t)) &&
+           pl_ahead_reserve_kept(memory, ahead);
 }
 
 static pl_looking open_look(plumb_world *world, const pl_narrow_input *in, real dt,
@@ -340,7 +341,7 @@ static pl_looking open_look(plumb_world *world, const pl_narrow_input *in, real 
 bool pl_ahead_look(plumb_world *world, const pl_narrow_input *in, real dt, pl_narrow *narrow)
 {
     pl_lookahead *ahead = &world->lookahead;
-    ahead->count = 0;
+    ahead->count = ahead->kept_count = 0;
     if (narrow->candidate_count == 0) {
         return true;
     }
@@ -375,6 +376,7 @@ void pl_ahead_free(pl_memory *memory, pl_lookahead *ahead)
     pl_buffer_free(memory, &ahead->made);
     pl_buffer_free(memory, &ahead->unread);
     pl_buffer_free(memory, &ahead->list);
+    pl_buffer_free(memory, &ahead->kept);
     pl_buffer_free(memory, &ahead->map);
     pl_buffer_free(memory, &ahead->paths);
     *ahead = (pl_lookahead){ 0 };

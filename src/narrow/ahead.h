@@ -20,6 +20,12 @@ bool pl_ahead_look(plumb_world *world, const pl_narrow_input *in, real dt, pl_na
 // places of the start of the step (internal_edges/correct.c).
 void pl_ahead_hold_back(const plumb_world *world, const pl_pair *pair, real dt, pl_manifold *m);
 
+// Room to keep what the pairs of all items had (settle.c).
+bool pl_ahead_reserve_kept(pl_memory *memory, pl_lookahead *ahead);
+// Gives pairs back what the kernels made of them, where a step is refused: their manifolds became those of later moments. Before
+// pl_internal_edges_undo, which knows what pairs of its own had before the kernels.
+void pl_ahead_undo(plumb_world *world);
+
 // Counts separations from the start of the step again: after this no manifold is `ahead`.
 void pl_ahead_settle(plumb_world *world);
 

@@ -4,10 +4,76 @@
 // ground's internal edges to judge (internal_edges/correct.c); then separations are counted back to the start of the step: by what the
 // points close until then. The solver adds that motion again.
 //
+// A step that is refused gives the pairs back what the kernels made of them.
+//
 // Reads: verdicts, ways. Writes: manifolds, pairs. Cost: O(verdicts), and the manifolds behind what is taken out move up.
 #include "math/compare.h"
 #include "narrow/looking.h"
 #include "narrow/surface.h"
+
+//---- a step that is refused -----------------------------------------------------------------------
+
+// What the kernels made of a pair whose manifold becomes another. A kernel that runs once more on that makes the same of it again;
+// of features of a later moment it does not.
+typedef struct kept_pair {
+    uint32_t place, a, b; // in the list; piece slots
+    uint32_t feature[2];
+    near_real normal[2], tangent[2], rolling;
+} kept_pair;
+
+bool pl_ahead_reserve_kept(pl_memory *memory, pl_lookahead *ahead)
+{
+    return pl_buffer_reserve(memory, &ahead->kept, ahead->count * sizeof(kept_pair));
+}
+
+static void keep(pl_lookahead *ahead, const pl_pair *pair, uint32_t place)
+{
+    kept_pair *k = (kept_pair *)ahead->kept.data + ahead->kept_count++;
+    *k = (kept_pair){ .place = place,
+                      .a = pair->a,
+                      .b = pair->b,
+                      .feature = { pair->feature[0], pair->feature[1] },
+                      .normal = { pair->normal[0], pair->normal[1] },
+                      .tangent = { pair->tangent[0], pair->tangent[1] },
+                      .rolling = pair->rolling };
+}
+
+static void give_back(pl_pair *pair, const kept_pair *kept)
+{
+    for (int k = 0; k < 2; ++k) {
+        pair->feature[k] = kept->feature[k];
+        pair->normal[k] = kept->normal[k];
+        pair->tangent[k] = kept->tangent[k];
+    }
+    pair->rolling = kept->rolling;
+}
+
+// Pairs of what fell asleep in that step have left the list, and keep what it made of them; the others moved up in it.
+static pl_pair *find_kept(const pl_pair_list *list, const kept_pair *kept)
+{
+    pl_pair *pairs = pl_pairs(list);
+    for (uint32_t end = kept->place < list->count ? kept->place + 1 : list->count; end > 0; --end) {
+        if (pairs[end - 1].a == kept->a && pairs[end - 1].b == kept->b) {
+            return &pairs[end - 1];
+        }
+    }
+    return NULL;
+}
+
+void pl_ahead_undo(plumb_world *world)
+{
+    pl_lookahead *ahead = &world->lookahead;
+    const kept_pair *kept = ahead->kept.data;
+    for (uint32_t i = 0; i < ahead->kept_count; ++i) {
+        pl_pair *pair = find_kept(&world->broad.pairs, &kept[i]);
+        if (pair != NULL) {
+            give_back(pair, &kept[i]);
+        }
+    }
+    ahead->kept_count = 0;
+}
+
+//---- verdicts ------------------------------------------------------------------------------------
 
 static void take_out(pl_pair *pair, pl_manifold *m)
 {
@@ -27,6 +93,7 @@ static uint32_t sort_out(const pl_looking *l, uint32_t *gaps, uint32_t *first)
         const pl_toi_state verdict = items[i].verdict;
         if (verdict == PL_TOI_PASSES) {
             l->narrow->overlaps.point_count -= m[items[i].manifold].count;
+            keep(l->ahead, &l->in->pairs[items[i].pair], items[i].pair);
             take_out(&l->in->pairs[items[i].pair], &m[items[i].manifold]);
             gaps[out++] = items[i].manifold;
             *first += i < l->listed_first;
@@ -93,6 +160,7 @@ static void replace_all(const pl_looking *l)
         pl_pair *pair = &l->in->pairs[item->pair];
         pl_manifold *m = pl_looking_manifold(l, item);
         const uint32_t before = m->count;
+        keep(l->ahead, pair, item->pair);
         if (item->verdict == PL_TOI_HIT && was_apart(item, &item->then)) {
             replace(m, pair, &item->then);
         } else {

@@ -8,6 +8,7 @@
 #include "core/clock.h"
 #include "event/event.h"
 #include "internal_edges/internal_edges.h"
+#include "narrow/ahead.h"
 #include "step/measure.h"
 #include "step/place.h"
 #include "step/quarantine.h"
@@ -27,6 +28,7 @@ static void forget_contacts(plumb_world *world)
     world->effects.any_called = world->effects.any_alone = false;
     world->joints.broken_count = world->joints.strained_count = 0;
     world->broad.refreshed = false;
+    world->lookahead.kept_count = 0;
     world->internal_edges.noted = world->internal_edges.opened = false;
     world->continuous.count = world->continuous.stopped_count = 0;
     world->continuous.noting = false;
@@ -248,6 +250,7 @@ static plumb_result try_step(plumb_world *world, plumb_real dt)
 static void undo_step(plumb_world *world)
 {
     pl_characters_undo(world);
+    pl_ahead_undo(world);
     pl_internal_edges_undo(world);
     world->narrow.manifold_count = world->narrow.borne_count = 0; // pairs no longer name them
 }

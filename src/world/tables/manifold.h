@@ -186,6 +186,8 @@ typedef struct pl_lookahead {
     pl_buffer pairs;      // pl_pair: copies, whose bodies are these poses
     pl_buffer made;       // pl_manifold
     pl_buffer unread;     // what else a kernel writes
+    pl_buffer kept;       // what pairs had whose manifolds became others (settle.c)
+    uint32_t kept_count;
     pl_buffer map, paths; // of bodies that have such contacts: where, pl_way
 } pl_lookahead;
 
