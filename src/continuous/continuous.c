@@ -64,7 +64,13 @@ static bool visit_any(void *context, const pl_grid_entry *entry)
     return false;
 }
 
-// Whether nothing static lies near the way of a body whose centre goes straight, however it turned. Most
+static bool visit_sleeper(void *context, const pl_grid_entry *entry)
+{
+    const plumb_world *world = context;
+    return (world->pieces.flags[entry->piece] & PL_PIECE_ASLEEP) == 0;
+}
+
+// Whether nothing that stands still lies near the way of a body whose centre goes straight, however it turned. Most
 // fast bodies are out in the open: this is all that they cost.
 static bool is_in_the_open(const plumb_world *world, const pl_mover *m)
 {
@@ -75,6 +81,7 @@ static bool is_in_the_open(const plumb_world *world, const pl_mover *m)
                    m->y > y ? m->y : y };
     box = (pl_box){ box.min_x - reach, box.min_y - reach, box.max_x + reach, box.max_y + reach };
     return pl_world_query(world, &world->broad.fixed, box, visit_any, NULL) &&
+           pl_search_sleepers(world, box, visit_sleeper, (void *)(uintptr_t)world) &&
            pl_swept_motion_is_free(world, m->row);
 }
 

@@ -225,6 +225,17 @@ static bool visit_asleep(void *context, const pl_grid_entry *entry)
     return !asleep || !asked || visit_still(context, entry);
 }
 
+// Who fell asleep in this step is where it was filed as one that moves; in one that is taken anew, among those that rest.
+bool pl_search_sleepers(const plumb_world *world, pl_box box, pl_grid_visit *visit, void *context)
+{
+    if (world->continuous_bodies == 0 || world->asleep_count == 0) {
+        return true;
+    }
+    return pl_world_query(world, &world->broad.resting, box, visit, context) &&
+           (!world->sleep.grid_stale ||
+            pl_world_query(world, &world->broad.moving, box, visit, context));
+}
+
 double pl_search_still(pl_search *s)
 {
     const plumb_world *world = s->world;
@@ -233,9 +244,7 @@ double pl_search_still(pl_search *s)
         if (is_solid(world, p)) {
             take_piece(s, p);
             pl_world_query(world, &world->broad.fixed, s->box, visit_still, s);
-            if (world->continuous_bodies > 0) {
-                pl_world_query(world, &world->broad.resting, s->box, visit_asleep, s);
-            }
+            pl_search_sleepers(world, s->box, visit_asleep, s);
         }
     }
     return s->first;
@@ -296,7 +305,8 @@ static bool visit_moving(void *context, const pl_grid_entry *entry)
 {
     pl_search *s = context;
     uint32_t row = s->world->pieces.body[entry->piece];
-    if (is_partner(s, row)) {
+    const bool asleep = (s->world->pieces.flags[entry->piece] & PL_PIECE_ASLEEP) != 0;
+    if (!asleep && is_partner(s, row)) {
         const pl_mover *other = pl_mover_find(s->world, row);
         if (other == NULL || !other->stray) {
             look_at(s, &entry->box);

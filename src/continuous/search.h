@@ -2,6 +2,7 @@
 #ifndef PL_SEARCH_H
 #define PL_SEARCH_H
 
+#include "broad/grid.h"
 #include "continuous/movers.h"
 
 // A mover that is swept.
@@ -29,6 +30,9 @@ typedef struct pl_search {
 pl_search pl_search_of(const plumb_world *world, const pl_mover *mover);
 // The first time at which it would go too deep into a static piece; 1: never.
 double pl_search_still(pl_search *s);
+// Calls back for pieces near a box among which are those that sleep (PL_PIECE_ASLEEP), where bodies ask not to pass through them;
+// stops, and is false, where the callback is.
+bool pl_search_sleepers(const plumb_world *world, pl_box box, pl_grid_visit *visit, void *context);
 // The first time at which it goes too deep into a moving partner, both on their way until they stop;
 // 1: never. Set `dt` and `among_kinematic` before.
 double pl_search_among(pl_search *s);

@@ -20,7 +20,7 @@
 
 enum { BODIES = 60, STEPS = 220, PAIRS = 4096 };
 
-typedef enum disturbance { NONE, FAILING, WIDTH, RESTORED, QUERIED } disturbance;
+typedef enum disturbance { NONE, FAILING, MOVED, WIDTH, RESTORED, QUERIED } disturbance;
 
 //---- a world -------------------------------------------------------------------------------------
 
@@ -143,23 +143,29 @@ static void make_body(run *r, int i)
     }
 }
 
-static void begin(run *r, unsigned seed, disturbance how)
+// An empty world.
+static void make_world(run *r, unsigned seed, disturbance how)
 {
     const int widths[] = { 4, 8, 16 };
-    r->seed = seed;
     const plumb_world_desc d = { .allocator = heap_allocator(&r->heap),
                                  .solver = seed % 4 == 3 ? PLUMB_SOLVER_PGS : PLUMB_SOLVER_SOFT,
                                  .sleep_time = (plumb_real)0.15,
                                  .hit_speed = (plumb_real)(seed % 2),
                                  .simd_width = how == WIDTH ? widths[1 + seed % 2] : 4 };
     assert_int_equal(plumb_world_create(&d, &r->w), PLUMB_OK);
-    r->rough = sim_material(r->w, 0.6, 0);
-    r->slick = sim_material(r->w, 0.05, seed % 3 ? 0.5 : 0);
     if (seed % 3 == 0) {
         plumb_system_create(r->w, &(plumb_system_desc){
                                       .name = "edit", .phase = PLUMB_PHASE_CONTACTS, .run = edit });
         plumb_system_enable(r->w, "edit", false);
     }
+}
+
+static void begin(run *r, unsigned seed, disturbance how)
+{
+    r->seed = seed;
+    make_world(r, seed, how);
+    r->rough = sim_material(r->w, 0.6, 0);
+    r->slick = sim_material(r->w, 0.05, seed % 3 ? 0.5 : 0);
     for (int i = -16; i <= 16; ++i) {
         plumb_body tile = sim_body(r->w, PLUMB_STATIC, 0.5 * i, -0.75, 0);
         sim_add_box(r->w, tile, 0.25, 0.25, r->rough);
@@ -355,12 +361,33 @@ static void count_touches(run *r)
     }
 }
 
+static void save(run *r)
+{
+    r->image_size = plumb_world_snapshot_size(r->w);
+    r->image = realloc(r->image, r->image_size);
+    assert_int_equal(plumb_world_save(r->w, r->image, r->image_size), PLUMB_OK);
+}
+
+// Into a world that has no room yet for anything that a step needs: every part of it may be refused.
+static void move(run *r, unsigned seed)
+{
+    save(r);
+    plumb_world_destroy(r->w);
+    make_world(r, seed, MOVED);
+    assert_int_equal(plumb_world_restore(r->w, r->image, r->image_size), PLUMB_OK);
+}
+
 static void step(run *r, disturbance how, unsigned *chance)
 {
-    if (how == FAILING) {
-        heap_fail(&r->heap, (long)(sim_random(chance) % 6));
+    plumb_result result = PLUMB_E_MEMORY;
+    const unsigned calls = how == MOVED ? 60 : 6;
+    for (int tries = how == MOVED     ? 4
+                     : how == FAILING ? 1
+                                      : 0;
+         tries > 0 && result == PLUMB_E_MEMORY; --tries) {
+        heap_fail(&r->heap, (long)(sim_random(chance) % calls));
+        result = plumb_world_step(r->w, (plumb_real)HZ60);
     }
-    plumb_result result = plumb_world_step(r->w, (plumb_real)HZ60);
     heap_fail(&r->heap, -1);
     if (result == PLUMB_E_MEMORY) {
         result = plumb_world_step(r->w, (plumb_real)HZ60);
@@ -368,9 +395,7 @@ static void step(run *r, disturbance how, unsigned *chance)
     assert_int_equal(result, PLUMB_OK);
     ++r->step;
     if (how == RESTORED && sim_random(chance) % 4 == 0) {
-        r->image_size = plumb_world_snapshot_size(r->w);
-        r->image = realloc(r->image, r->image_size);
-        assert_int_equal(plumb_world_save(r->w, r->image, r->image_size), PLUMB_OK);
+        save(r);
         sim_step(r->w, HZ60);
         sim_step(r->w, HZ60);
         assert_int_equal(plumb_world_restore(r->w, r->image, r->image_size), PLUMB_OK);
@@ -379,14 +404,15 @@ static void step(run *r, disturbance how, unsigned *chance)
     }
 }
 
-// Hashes after every step into `hashes`, or compared with them.
-static long play(unsigned seed, disturbance how, uint64_t *hashes, bool compare)
+// Hashes after every step into `hashes`, or compared with them: then, whether they are the same.
+static bool play(unsigned seed, disturbance how, uint64_t *hashes, bool compare, long *refused)
 {
+    bool same = true;
     static run r;
     unsigned chance = seed * 2654435761u + 1;
     r = (run){ .heap = HEAP_INIT };
     begin(&r, seed, how);
-    for (int i = 0; i < STEPS; ++i) {
+    for (int i = 0; i < STEPS && same; ++i) {
         unsigned changes = pick(&r, 3);
         for (unsigned k = 0; k < changes; ++k) {
             change(&r);
@@ -397,47 +423,65 @@ static long play(unsigned seed, disturbance how, uint64_t *hashes, bool compare)
         if (how == QUERIED) {
             ask(&r, &chance);
         }
+        if (how == MOVED && sim_random(&chance) % 3 == 0) {
+            move(&r, seed);
+        }
         step(&r, how, &chance);
         uint64_t hash = plumb_world_hash(r.w);
         if (compare && hash != hashes[i]) {
-            print_message("seed %u, disturbance %d: another world after step %d\n", seed, (int)how,
-                          i);
-            fail();
+            print_error("seed %u, disturbance %d: another world after step %d\n", seed, (int)how,
+                        i);
+            same = false;
         }
         hashes[i] = hash;
     }
     plumb_world_destroy(r.w);
     free(r.image);
-    return r.heap.refused;
+    *refused += r.heap.refused;
+    return same;
 }
 
+// SESSIONS=1000 [FIRST=1] plays more.
 enum { WORLDS = 40 };
 
-// Open: a step that is refused may make a pair of pieces that will meet at some hundred m/s forget the impulses that it had
-// (narrow/settle.c). One in some sixty worlds has such a pair just then; here it is this one (before halves.c seed 63).
-static bool is_open(unsigned seed, disturbance how)
+// Worlds that a refused step once showed in. 17, double: a pair that will meet at some hundred m/s forgot its impulses
+// (narrow/settle.c); 137, float: a fast body passed through one that had fallen asleep in that step (continuous/search.c).
+static const unsigned once[] = { 17, 137 };
+#define ONCE (sizeof once / sizeof once[0])
+
+static unsigned asked(const char *name, unsigned otherwise)
 {
-    return how == FAILING && PLUMB_REAL_IS_DOUBLE && !PLUMB_IS_FAR && seed == 17;
+    const char *text = getenv(name);
+    return text == NULL ? otherwise : (unsigned)strtoul(text, NULL, 10);
 }
 
 static void compare_with_undisturbed(disturbance how)
 {
     static uint64_t hashes[STEPS];
-    long refused = 0;
-    for (unsigned seed = 1; seed <= WORLDS; ++seed) {
-        play(seed, NONE, hashes, false);
-        refused += play(seed, how, hashes, !is_open(seed, how));
+    const unsigned count = asked("SESSIONS", WORLDS), first = asked("FIRST", 1);
+    long refused = 0, failures = 0;
+    for (unsigned i = 0; i < ONCE + count; ++i) {
+        const unsigned seed = i < ONCE ? once[i] : first + i - (unsigned)ONCE;
+        play(seed, NONE, hashes, false, &refused);
+        failures += !play(seed, how, hashes, true, &refused);
     }
-    if (how == FAILING) {
-        print_message("%d worlds, %ld refused steps\n", WORLDS, refused);
-        assert_true(refused > 5 * WORLDS);
+    if (how == FAILING || how == MOVED) {
+        print_message("%u worlds, %ld refused steps\n", count, refused);
+        assert_true(refused > 5 * (long)count);
     }
+    assert_int_equal(failures, 0);
 }
 
 static void refused_steps_leave_no_trace(void **state)
 {
     (void)state;
     compare_with_undisturbed(FAILING);
+}
+
+static void refused_steps_of_restored_worlds_leave_no_trace(void **state)
+{
+    (void)state;
+    compare_with_undisturbed(MOVED);
 }
 
 static void widths_agree(void **state)
@@ -462,6 +506,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(refused_steps_leave_no_trace),
+        cmocka_unit_test(refused_steps_of_restored_worlds_leave_no_trace),
         cmocka_unit_test(widths_agree),
         cmocka_unit_test(restored_worlds_go_on_alike),
         cmocka_unit_test(questions_change_nothing),
