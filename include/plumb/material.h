@@ -1,5 +1,13 @@
 /// material.h - what shapes are made of. A material is an entity shared by any number of shapes;
 /// the null handle is the world's default material (friction 0.6, restitution 0, density 1).
+///
+/// A material may be a fluid. Sensors of it are volumes of water, of air that blows, of a lake, whatever their shape, on
+/// whichever body: what is in them floats by what it displaces, exactly, is dragged surface by surface, and carried
+/// along. Their sides are the surface.
+///
+///     plumb_material water = plumb_material_create(world, &(plumb_material_desc){ .density = 1000, .fluid = true });
+///     plumb_shape_create(world, ground, &(plumb_shape_desc){
+///         .kind = PLUMB_BOX, .center = { 0, -2 }, .half = { 10, 2 }, .sensor = true, .material = water });
 #ifndef PLUMB_MATERIAL_H
 #define PLUMB_MATERIAL_H
 
@@ -42,6 +50,32 @@ typedef struct plumb_material_desc {
     /// an end event, when their nearest points are 5 mm apart. A pair uses the larger.
     plumb_real adhesion;
     plumb_mix adhesion_mix; ///< how pairs mix adhesion; default: the larger
+
+    /// A fluid: every sensor of this material is a volume of it, be it a pool, a tank that moves or a gust of wind
+    /// (see above). Its `density` is what floats and drags go by; solid shapes of it are solid.
+    bool fluid;
+    bool weightless; ///< it drags and carries, but neither lifts nor lends its mass: wind, among bodies whose
+                     ///< density is far from that of the real ones
+    /// [-] 0..1000, of pressure: a surface that goes ahead at v . n feels drag / 2 density (v . n)^2 against
+    /// its normal. 0 means 1.8, which is 1.2 for a disc and 1.8 for a box that goes flat (measured: 1.2, 2.05)
+    plumb_real drag;
+    bool no_drag;         ///< none; `drag` must then be 0
+    plumb_real skin_drag; ///< [-] 0..1000, of friction along all surfaces, likewise by their speed; 0 means 0.01
+    bool no_skin_drag;
+    /// [-] 0..100, the mass that moves along with a body, of what it displaces: it accelerates as if it had so much more.
+    /// 0 means 1, which is right for discs, and for ellipses and plates in the mean
+    plumb_real added_mass;
+    bool no_added_mass;
+    /// [-] 0..100, of the force density area sqrt(g / width) v on what floats, which the waves take that it would
+    /// make; 0 means 0.5
+    plumb_real wave_drag;
+    bool no_wave_drag;
+    plumb_real flow_x;       ///< [m/s] at which the fluid flows, in the frame of the world, in addition to the
+    plumb_real flow_y;       ///< motion of the body that holds it: it moves and turns along with that
+    plumb_real gust;         ///< [-] 0..10, root mean square of the changes of the flow's speed, over the speed
+    plumb_real gust_length;  ///< [m] > 0, length of gusts; 0 means 50
+    plumb_real shear_height; ///< [m] >= 0, thickness of the layer at the bottom: at height z above it the flow is
+                             ///< 1 - exp(-z / shear_height) of itself; 0: everywhere the same
 } plumb_material_desc;
 
 /// Makes a material. Null handle on error (see plumb_world_error): E_NULL, E_RANGE, E_NOT_FINITE,

@@ -17,6 +17,20 @@ static plumb_result check_desc(const plumb_world *world, const char *fn,
                        "friction is %g; it must be 0 together with frictionless",
                        (double)desc->friction);
     }
+    const struct {
+        bool none;
+        plumb_real value;
+        const char *name, *zero;
+    } twice[] = { { desc->no_drag, desc->drag, "drag", "no_drag" },
+                  { desc->no_skin_drag, desc->skin_drag, "skin_drag", "no_skin_drag" },
+                  { desc->no_added_mass, desc->added_mass, "added_mass", "no_added_mass" },
+                  { desc->no_wave_drag, desc->wave_drag, "wave_drag", "no_wave_drag" } };
+    for (size_t i = 0; i < sizeof twice / sizeof twice[0]; ++i) {
+        if (twice[i].none && twice[i].value != 0) {
+            return pl_fail(world, PLUMB_E_RANGE, fn, "%s is %g; it must be 0 together with %s",
+                           twice[i].name, (double)twice[i].value, twice[i].zero);
+        }
+    }
     return PLUMB_OK;
 }
 
@@ -82,17 +96,29 @@ plumb_result plumb_material_get(const plumb_world *world, plumb_material materia
     return PLUMB_OK;
 }
 
+// All that is made of it.
+static void disturb_users(plumb_world *world, uint32_t row)
+{
+    const pl_pieces *pieces = &world->pieces;
+    for (uint32_t p = 0; p < pieces->table.count; ++p) {
+        if (pieces->kind[p] != PL_PIECE_FREE && pieces->material[p] == row) {
+            pl_sleep_disturb_piece(world, p);
+        }
+    }
+}
+
 plumb_result plumb_material_set(plumb_world *world, plumb_material material,
                                 const plumb_material_desc *desc)
 {
     uint32_t row;
     PL_TRY(pl_check_material(world, __func__, material, &row));
     PL_TRY(check_desc(world, __func__, desc));
+    disturb_users(world, row); // those that float in what is a fluid no more, too
     pl_material_fill(world, row, desc);
+    disturb_users(world, row);
     pl_pieces *pieces = &world->pieces;
     for (uint32_t p = 0; p < pieces->table.count; ++p) {
         if (pieces->kind[p] != PL_PIECE_FREE && pieces->material[p] == row) {
-            pl_sleep_disturb_piece(world, p);
             pieces->friction[p] = world->materials.friction[row];
             pieces->restitution[p] = world->materials.restitution[row];
         }

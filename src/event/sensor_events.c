@@ -19,6 +19,8 @@
 #include "query/query.h"
 #include "world/check.h"
 #include "world/filter.h"
+#include "world/island.h"
+#include "world/rows.h"
 
 void pl_sensing_free(pl_memory *memory, pl_sensing *s)
 {
@@ -261,6 +263,20 @@ static cursor cursor_over(const pl_buffer *overlaps, uint32_t count, const pl_bu
                      overlap_at(rest, rest_count) };
 }
 
+// A fluid where something sleeps: it floats up.
+static void wake_drowned(plumb_world *world)
+{
+    const pl_sensing *s = &world->sensing;
+    const plumb_sensor_event *begins = s->begins.data;
+    for (int i = 0; i < s->begin_count; ++i) {
+        const uint32_t piece = pl_shape_piece(world, begins[i].sensor);
+        const uint32_t row = pl_body_row(world, begins[i].body);
+        if (pl_row_is_asleep(world, row) && world->materials.fluid[world->pieces.material[piece]]) {
+            pl_sleep_disturb(world, row);
+        }
+    }
+}
+
 // Pairs at rest overlap as they did, unless something was laid to rest, or woke.
 void pl_sensing_run(plumb_world *world)
 {
@@ -280,6 +296,7 @@ void pl_sensing_run(plumb_world *world)
     }
     compare(s, cursor_over(&s->overlaps, s->count, &s->rest_overlaps, rest_count),
             cursor_over(&s->old, s->old_count, &s->rest_old, rest_old_count));
+    wake_drowned(world);
 }
 
 //---- read ----------------------------------------------------------------------------------------

@@ -24,7 +24,28 @@
     R(X, COLUMN, MIX, restitution_mix, SAID(restitution_mix), PL_MIX_CHOICES, CHOICES(PLUMB_MIX_MAX), \
       PLUMB_MIX_DEFAULT, NO_ZERO, "how a pair mixes restitution")                                   \
     R(X, COLUMN, MIX, adhesion_mix, SAID(adhesion_mix), PL_MIX_CHOICES, CHOICES(PLUMB_MIX_MAX),     \
-      PLUMB_MIX_DEFAULT, NO_ZERO, "how a pair mixes adhesion")
+      PLUMB_MIX_DEFAULT, NO_ZERO, "how a pair mixes adhesion")                                      \
+    R(X, COLUMN, BOOL, fluid, SAID(fluid), "1", CHOICES(1), 0, NO_ZERO,                             \
+      "sensors of it are filled with it: what is in them floats, is dragged and carried along")     \
+    R(X, COLUMN, BOOL, weightless, SAID(weightless), "1", CHOICES(1), 0, NO_ZERO,                   \
+      "a fluid that drags without lifting, nor lending its mass: wind")                             \
+    R(X, COLUMN, REAL, drag, SAID(drag), "1", FROM(0, 1000), 1.8, ZERO(no_drag),                    \
+      "coefficient of a fluid's pressure on surfaces that go ahead; of a disc two thirds of it")    \
+    R(X, COLUMN, REAL, skin_drag, SAID(skin_drag), "1", FROM(0, 1000), 0.01, ZERO(no_skin_drag),    \
+      "coefficient of a fluid's friction along all surfaces")                                       \
+    R(X, COLUMN, REAL, added_mass, SAID(added_mass), "1", FROM(0, 100), 1, ZERO(no_added_mass),     \
+      "mass of the fluid that moves along with a body, of what it displaces")                       \
+    R(X, COLUMN, REAL, wave_drag, SAID(wave_drag), "1", FROM(0, 100), 0.5, ZERO(no_wave_drag),      \
+      "how soon a floating body comes to rest by the waves that it makes")                          \
+    R(X, COLUMN, REAL, flow_x, SAID(flow_x), "m/s", ANY, 0, NO_ZERO,                                \
+      "at which a fluid flows along x, against the body that holds it")                             \
+    R(X, COLUMN, REAL, flow_y, SAID(flow_y), "m/s", ANY, 0, NO_ZERO, "at which it flows along y")   \
+    R(X, COLUMN, REAL, gust, SAID(gust), "1", FROM(0, 10), 0, NO_ZERO,                              \
+      "root mean square of how a flow's speed changes, over the speed")                             \
+    R(X, COLUMN, REAL, gust_length, SAID(gust_length), "m", ABOVE(0, NO_END), 50, NO_ZERO,          \
+      "length of gusts, which pass at the flow's speed")                                            \
+    R(X, COLUMN, REAL, shear_height, SAID(shear_height), "m", FROM(0, NO_END), 0, NO_ZERO,          \
+      "height above the bottom at which a flow has 63 % of its speed; 0: it is the same everywhere")
 
 #define PL_MATERIAL_PAIR_ROWS(R, X)                                                                 \
     R(X, OWN, REAL, friction, SAID(friction), "1", FROM(0, 10), 0, NO_ZERO, "Coulomb coefficient")  \

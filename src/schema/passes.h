@@ -56,10 +56,14 @@
       "", "", ONE)                                                                                                                           \
     X("gravity",           GRAPH,       IF(pl_want_gravity),         ONCE(pl_run_gravity),                                   REPLACEABLE,    \
       "settings", "accelerations", ONE)                                                                                                      \
+    X("fluids",              GRAPH,       IF(pl_want_fluids),           ONCE(pl_run_fluids),                                     ONCE,              \
+      "sensors, pieces, materials", "constraints, islands", ONE)                                                                                    \
     X("called",            GRAPH,       IF(pl_want_called),          ONCE(pl_run_called),                                    ONCE,           \
       "components, rows", "constraints", ONE)                                                                                                \
     X("graph",             GRAPH,       IF(pl_want_solver),          ONCE(pl_run_graph),                                     ONCE,           \
       "manifolds, velocities, forces, masses, joints", "solver bodies, accelerations, constraints, joints, movers", HAS(pl_gather_variants)) \
+    X("immersion",           GRAPH,       IF(pl_want_fluids),           ONCE(pl_run_immersion),                                  ONCE,              \
+      "pieces, poses, materials, solver bodies", "constraints, solver bodies", ONE)                                                                 \
     X("acting",            GRAPH,       IF(pl_want_acting),          ONCE(pl_run_acting),                                    ONCE,           \
       "body settings, components, solver bodies", "constraints", ONE)                                                                        \
     X("measure bodies",    GRAPH,       IF(pl_want_measures),        ONCE(pl_run_measure_bodies),                            ONCE,           \
@@ -83,6 +87,8 @@
       "accelerations", "accelerations", ONE)                                                                                                 \
     X("substep systems",   MOMENT,      ALWAYS,                      HOME,                                                   ONCE,           \
       "", "", ONE)                                                                                                                           \
+    X("fluid forces",        MOMENT,      IF(pl_want_fluids),           ACTS(pl_fluid_row, pl_fluid_acts_on),                    ONCE,              \
+      "solver bodies, poses, velocities, pieces, materials", "accelerations", ONE)                                                                  \
     X("damping",           MOMENT,      IF(pl_want_damping),         EACH(pl_damping_row),                                   REPLACEABLE,    \
       "solver bodies, body settings", "accelerations", ONE)                                                                                  \
     X("speed caps",        MOMENT,      IF(pl_want_caps),            EACH(pl_caps_row),                                      REPLACEABLE,    \
@@ -140,7 +146,7 @@
     X("events",            EVENTS,      IF(pl_want_collision),       ONCE(pl_run_events),                                    REFRESHES,      \
       "pairs, manifolds", "events, pairs, internal edges, manifolds", ONE)                                                                   \
     X("sensors",           EVENTS,      IF(pl_want_sensing),         ONCE(pl_run_sensors),                                   REFRESHES,      \
-      "sensors, poses, pieces", "sensors, events", ONE)                                                                                      \
+      "sensors, poses, pieces", "sensors, events, islands", ONE)                                                                                   \
     X("end systems",       END,         ALWAYS,                      HOME,                                                   ONCE,           \
       "", "", ONE)                                                                                                                           \
     X("measure sums",      END,         IF(pl_want_measures),        ONCE(pl_run_measure_close),                             ONCE,           \

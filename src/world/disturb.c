@@ -7,6 +7,7 @@
 //
 // Reads: rows, contacts at pieces. Writes: islands, times of rest. Cost: O(1) for dynamic bodies,
 // O(sleeping contacts of the body) for others; pl_sleep_disturb_all O(bodies).
+#include "core/sort.h"
 #include "world/island.h"
 #include "world/rows.h"
 
@@ -29,6 +30,30 @@ static void wake_contacts(plumb_world *world, uint32_t piece)
     }
 }
 
+// What sleeps in a volume of a fluid, as sensors saw it last.
+static void wake_seen(plumb_world *world, const pl_buffer *overlaps, uint32_t count, plumb_shape sensor)
+{
+    bool found;
+    const pl_overlap *all = overlaps->data;
+    for (uint32_t i = pl_find_key(all, count, sizeof *all, pl_key(sensor.entity.index, 0), &found);
+         i < count && (uint32_t)(all[i].key >> 32) == sensor.entity.index; ++i) {
+        const uint32_t row = pl_body_row(world, all[i].who.body);
+        if (row != PL_NONE && world->bodies.type[row] == PLUMB_DYNAMIC) {
+            pl_sleep_disturb(world, row);
+        }
+    }
+}
+
+static void wake_swimmers(plumb_world *world, uint32_t piece)
+{
+    const pl_sensing *s = &world->sensing;
+    if ((world->pieces.flags[piece] & PL_PIECE_SENSOR) != 0 &&
+        world->materials.fluid[world->pieces.material[piece]]) {
+        wake_seen(world, &s->overlaps, s->count, world->pieces.shape[piece]);
+        wake_seen(world, &s->rest_overlaps, s->rest_count, world->pieces.shape[piece]);
+    }
+}
+
 static void note_immovable(plumb_world *world, uint32_t row)
 {
     world->sleep.changed_step = world->step_count + 1;
@@ -46,6 +71,7 @@ void pl_sleep_stir(plumb_world *world, uint32_t row)
         note_immovable(world, row);
         for (uint32_t p = b->first_piece[row]; p != PL_NONE; p = world->pieces.next_in_body[p]) {
             wake_contacts(world, p);
+            wake_swimmers(world, p);
         }
     }
 }
@@ -73,6 +99,7 @@ void pl_sleep_disturb_piece(plumb_world *world, uint32_t piece)
     } else {
         note_immovable(world, row);
         wake_contacts(world, piece);
+        wake_swimmers(world, piece);
     }
 }
 
@@ -91,6 +118,7 @@ void pl_sleep_disturb_all(plumb_world *world)
 void pl_sleep_void_contacts(plumb_world *world, uint32_t piece)
 {
     wake_contacts(world, piece);
+    wake_swimmers(world, piece);
     pl_sleeping_contact *all = pl_sleeping_contacts(&world->sleep);
     for (uint32_t c = world->pieces.first_sleeping[piece]; c != PL_NONE; c = all[c].fixed_next) {
         all[c].fixed = PL_NONE;

@@ -47,6 +47,10 @@ typedef struct pl_effects {
     pl_buffer decays, factors;  // pl_damping_decay, pl_damping_factors a record
     pl_buffer dampers, cappers; // pl_damper, pl_capper, by rising slot
     uint32_t decay_count, damper_count, capper_count;
+    pl_buffer swims;                     // uint8_t a dynamic row: whether a fluid may act on it
+    pl_buffer volumes, immersions;       // pl_volume; pl_keyed: row and piece, volume
+    pl_buffer swimmers;                  // pl_swimmer, by rising slot
+    uint32_t volume_count, immersion_count, swimmer_count;
     bool decays_stale; // records may have changed: set where the schedule is revised
     bool resets;       // accelerations are those of the step again as a substep begins
     bool damps, caps;  // their rows are in the schedule: nothing runs in place of them

@@ -1,0 +1,37 @@
+// fluid.h - volumes of fluid as a step has them: sensors of a fluid material, and who is in them.
+#ifndef PL_FLUID_H
+#define PL_FLUID_H
+
+#include "geometry/immersed.h"
+#include "world/state.h"
+
+// A piece of a sensor of a fluid that somebody is near.
+typedef struct pl_volume {
+    uint32_t piece, material; // row of the material
+    double bottom; // [m] lowest place of the shape, upwards from the centre of its body
+    int plane_count;
+    pl_half_plane planes[PL_HALF_PLANES_MOST]; // about the centre of its body, at the start of the step
+} pl_volume;
+
+// A body of the solver that is near some of them.
+typedef struct pl_swimmer {
+    uint32_t slot, first, count; // its immersions
+    double mass, inertia;        // [kg], [kg m^2] its own; 0: it does not turn
+    double lent;                 // [kg] of the fluid
+} pl_swimmer;
+
+// Who is near a volume, before the solver's slots are given out; where the immersed bodies are, behind it, and the mass that
+// the fluid lends them. False when out of memory.
+bool pl_fluids_find(plumb_world *world);
+bool pl_fluids_immerse(plumb_world *world);
+
+// The outline of what of a piece is in a volume, about its body's centre of mass, when that has moved by (dx, dy) and
+// turned by da since the step began, `time` [s] ago; *away gets the way from there to the volume's body.
+void pl_fluid_contour(const plumb_world *world, const pl_volume *volume, uint32_t piece,
+                      const double moved[3], double time, pl_contour *out, double away[2]);
+
+// The flow [m/s] of a volume's fluid against its body, at a place [m] in the world at a time [s].
+void pl_fluid_flow(const plumb_world *world, const pl_volume *volume, double x, double y,
+                   double height, double time, double out[2]);
+
+#endif

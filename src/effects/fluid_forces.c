@@ -1,0 +1,224 @@
+// fluid_forces.c - what fluids do to those who are in them, in each substep.
+//
+// Of the immersed outline, in the middle of the substep's way x + h v / 2: buoyancy, the weight of what is displaced, at its
+// centroid; drag, -D u / 2 with the velocity u against the fluid, of which -D is the derivative (geometry/drag.c); and
+// the waves that what floats would make, -B u. The acceleration is that of Kahan's method (1993), which takes products
+// of velocities as v v': implicit by one solution of three equations, of second order,
+//     (M + h/2 (D + B) + E) a = M a0 + F(x + h v / 2, u),
+// exact for quadratic drag alone, and with terminal speeds that are right for any h. M has the mass that the fluid
+// lends (fluid.c). A place in the middle of the way keeps the energy of what bobs, as long as its surface pushes back with
+// less than K = 4 M / h^2; E is what K has too much, and what is so stiff is damped as by the implicit method of first
+// order, so that nothing is too light, nor any step too long.
+//
+// Reads: solver bodies, lists of fluid.c. Writes: accelerations. Order: behind whatever else accelerates. Cost: O(edges)
+// a piece in a volume and substep.
+#include "effects/fluid.h"
+
+#include "core/quad.h"
+#include "world/substep.h"
+
+#include <math.h>
+
+// So many bodies are worth a thread.
+#define LEAST 16
+
+// All that acts on a body.
+typedef struct pl_pull {
+    double force[3];      // [N], [N], [N m]
+    double resist[3][3];  // [kg/s] and so on: D + B
+    double excess[3][3];  // [kg] and so on: E
+} pl_pull;
+
+typedef struct passage {
+    const plumb_world *world;
+    const pl_swimmer *swimmers;
+    double h, time; // [s] of the middle of the substep, since the step began
+} passage;
+
+static void add_drag(pl_pull *pull, const pl_drag *d)
+{
+    pull->resist[0][0] += d->xx;
+    pull->resist[1][1] += d->yy;
+    pull->resist[2][2] += d->ww;
+    pull->resist[0][1] += d->xy, pull->resist[1][0] += d->xy;
+    pull->resist[0][2] += d->xw, pull->resist[2][0] += d->xw;
+    pull->resist[1][2] += d->yw, pull->resist[2][1] += d->yw;
+}
+
+// Force and torque of f at a place.
+static void add_force(pl_pull *pull, double fx, double fy, double x, double y)
+{
+    pull->force[0] += fx;
+    pull->force[1] += fy;
+    pull->force[2] += x * fy - y * fx;
+}
+
+static void add_square(double to[3][3], double weight, double x, double y)
+{
+    to[0][0] += weight * x * x;
+    to[0][1] += weight * x * y, to[1][0] += weight * x * y;
+    to[1][1] += weight * y * y;
+}
+
+// What is too much of a surface that pushes a mass back with `stiffness` a metre. Twice as stiff as alone, for heave and
+// roll come together; half of what a step bears, for edges go in and out.
+static double excess_of(double stiffness, double mass, double h)
+{
+    const double excess = h * h / 2 * stiffness - mass / 2;
+    return excess > 0 ? excess : 0;
+}
+
+// Buoyancy, waves, and what the surface pushes back too much.
+static void float_up(const plumb_world *world, const pl_swimmer *s, const pl_volume *volume,
+                     uint32_t row, const pl_contour *contour, pl_spin u, double h, pl_pull *pull)
+{
+    const pl_materials *m = &world->materials;
+    const double density = (double)m->density[volume->material];
+    const double scale = (double)world->bodies.gravity_scale[row];
+    const double gx = (double)world->effects.gravity.x * scale;
+    const double gy = (double)world->effects.gravity.y * scale;
+    const double g = sqrt(gx * gx + gy * gy);
+    const pl_area a = pl_contour_area(contour);
+    if (!(a.area > 0) || g == 0) {
+        return;
+    }
+    add_force(pull, -density * a.area * gx, -density * a.area * gy, a.x / a.area, a.y / a.area);
+    const double ux = -gx / g, uy = -gy / g;
+    const pl_waterline line = pl_contour_waterline(contour, ux, uy);
+    if (!(line.width > 0)) {
+        return;
+    }
+    const double waves = (double)m->wave_drag[volume->material] * density * a.area * sqrt(g / line.width);
+    const double turns = waves * line.second / line.width, rise = u.vx * ux + u.vy * uy;
+    // A side of the mean draft pushes waves as a bottom of the width does.
+    const double draft = a.area / (line.width * line.width), sways = waves * (draft < 1 ? draft : 1);
+    const double sway = u.vy * ux - u.vx * uy;
+    add_force(pull, -waves * rise * ux + sways * sway * uy, -waves * rise * uy - sways * sway * ux, 0, 0);
+    pull->force[2] -= turns * u.w;
+    add_square(pull->resist, waves, ux, uy);
+    add_square(pull->resist, sways, -uy, ux);
+    pull->resist[2][2] += turns;
+    const double push = density * g * line.width, back = density * g * line.second;
+    const double heave = excess_of(push, s->mass + s->lent, h), roll = excess_of(back, s->inertia, h);
+    add_square(pull->excess, heave, ux, uy);
+    pull->excess[2][2] += roll;
+    add_force(pull, -heave / h * rise * ux, -heave / h * rise * uy, 0, 0);
+    pull->force[2] -= roll / h * u.w;
+    add_square(pull->resist, 2 * heave / h, ux, uy);
+    pull->resist[2][2] += 2 * roll / h;
+}
+
+// Velocity of a body against the fluid, as if both were rigid.
+static pl_spin against(const plumb_world *world, const pl_volume *volume, uint32_t row,
+                       const pl_solver_body *body, const double away[2], double time)
+{
+    const pl_bodies *b = &world->bodies;
+    const uint32_t holder = world->pieces.body[volume->piece];
+    const plumb_vec2 g = world->gravity, up = pl_world_up(world);
+    const double pull = sqrt((double)g.x * (double)g.x + (double)g.y * (double)g.y);
+    const double ux = pull > 0 ? -(double)g.x / pull : (double)up.x;
+    const double uy = pull > 0 ? -(double)g.y / pull : (double)up.y;
+    const double height = -(ux * away[0] + uy * away[1]) - volume->bottom;
+    double flow[2];
+    pl_fluid_flow(world, volume, (double)b->center_x[row] + (double)body->dx,
+                  (double)b->center_y[row] + (double)body->dy, height, world->time + time, flow);
+    const double w = (double)b->w[holder];
+    return (pl_spin){ (double)body->vx - flow[0] - (double)b->vx[holder] - w * away[1],
+                      (double)body->vy - flow[1] - (double)b->vy[holder] + w * away[0],
+                      (double)body->w - w };
+}
+
+static void immerse(const passage *p, const pl_swimmer *s, const pl_keyed *immersion,
+                    const pl_solver_body *body, pl_pull *pull)
+{
+    const plumb_world *world = p->world;
+    const pl_volume *volume = (const pl_volume *)world->effects.volumes.data + immersion->order;
+    const pl_materials *m = &world->materials;
+    const uint32_t of = volume->material, piece = immersion->value;
+    const double half = p->h / 2;
+    const double moved[3] = { (double)body->dx + half * (double)body->vx,
+                              (double)body->dy + half * (double)body->vy,
+                              (double)body->da + half * (double)body->w };
+    pl_contour contour;
+    double away[2];
+    pl_fluid_contour(world, volume, piece, moved, p->time, &contour, away);
+    if (contour.count == 0) {
+        return;
+    }
+    const uint32_t row = world->pieces.body[piece];
+    const pl_spin u = against(world, volume, row, body, away, p->time);
+    pl_drag d = { 0 };
+    pl_contour_drag(&contour, u, (double)(m->drag[of] * m->density[of]),
+                    (double)(m->skin_drag[of] * m->density[of]), &d);
+    add_drag(pull, &d);
+    pull->force[0] -= (d.xx * u.vx + d.xy * u.vy + d.xw * u.w) / 2;
+    pull->force[1] -= (d.xy * u.vx + d.yy * u.vy + d.yw * u.w) / 2;
+    pull->force[2] -= (d.xw * u.vx + d.yw * u.vy + d.ww * u.w) / 2;
+    if (!m->weightless[of]) {
+        float_up(world, s, volume, row, &contour, u, p->h, pull);
+    }
+}
+
+// Solves the symmetric positive definite m a = b by L D L'; axes that do not move have m 1 and b 0.
+static void solve(double m[3][3], double b[3])
+{
+    const double l10 = m[1][0] / m[0][0], l20 = m[2][0] / m[0][0];
+    const double d1 = m[1][1] - l10 * m[1][0], l21 = (m[2][1] - l20 * m[1][0]) / d1;
+    const double d2 = m[2][2] - l20 * m[2][0] - l21 * l21 * d1;
+    b[1] -= l10 * b[0];
+    b[2] -= l20 * b[0] + l21 * b[1];
+    b[2] /= d2;
+    b[1] = b[1] / d1 - l21 * b[2];
+    b[0] = b[0] / m[0][0] - l10 * b[1] - l20 * b[2];
+}
+
+static void accelerate(const passage *p, const pl_swimmer *s, const pl_pull *pull, uint32_t row)
+{
+    pl_solver_motion *motion = &pl_solver_motions(&p->world->solver)[s->slot];
+    const uint32_t flags = p->world->bodies.flags[row];
+    const bool still[3] = { (flags & PL_BODY_LOCK_X) != 0, (flags & PL_BODY_LOCK_Y) != 0,
+                            s->inertia == 0 };
+    const double own[3] = { s->mass, s->mass, s->inertia };
+    const double lent[3] = { s->lent, s->lent, 0 };
+    double a[3] = { (double)motion->ax, (double)motion->ay, (double)motion->aw }, m[3][3];
+    for (int i = 0; i < 3; ++i) {
+        a[i] = still[i] ? 0 : own[i] * a[i] + pull->force[i];
+        for (int k = 0; k < 3; ++k) {
+            const bool off = still[i] || still[k];
+            m[i][k] = off ? 0 : p->h / 2 * pull->resist[i][k] + pull->excess[i][k];
+        }
+        m[i][i] = still[i] ? 1 : m[i][i] + own[i] + lent[i];
+    }
+    solve(m, a);
+    motion->ax = (near_real)a[0];
+    motion->ay = (near_real)a[1];
+    motion->aw = (near_real)a[2];
+}
+
+static void act(void *context, uint32_t first, uint32_t count)
+{
+    const passage *p = context;
+    const plumb_world *world = p->world;
+    const pl_keyed *all = world->effects.immersions.data;
+    for (uint32_t i = first; i < first + count; ++i) {
+        const pl_swimmer *s = &p->swimmers[i];
+        const pl_solver_body *body = &pl_solver_bodies(&world->solver)[s->slot];
+        pl_pull pull = { .force = { 0 } };
+        for (uint32_t k = s->first; k < s->first + s->count; ++k) {
+            immerse(p, s, &all[k], body, &pull);
+        }
+        accelerate(p, s, &pull, ((const uint32_t *)world->solver.rows.data)[s->slot]);
+    }
+}
+
+void pl_fluid_row(pl_substep *s)
+{
+    const pl_effects *e = &s->world->effects;
+    const pl_share mine = pl_substep_share(e->swimmers.data, sizeof(pl_swimmer),
+                                           offsetof(pl_swimmer, slot), e->swimmer_count, s);
+    passage p = { .world = s->world,
+                  .swimmers = (const pl_swimmer *)e->swimmers.data + mine.first,
+                  .h = (double)s->h,
+                  .time = (double)s->h * (s->number + 0.5) };
+    pl_tasks_ranges(s->tasks, mine.end - mine.first, LEAST, act, &p);
+}
