@@ -114,6 +114,10 @@ plumb_result plumb_shape_set_material(plumb_world *world, plumb_shape shape,
         }
     }
     set_material(world, first, row);
+    for (uint32_t p = first; p != PL_NONE && world->materials.fluid[row];
+         p = world->pieces.next_in_shape[p]) {
+        pl_sleep_disturb_piece(world, p); // what lies in it floats
+    }
     world->schedule_dirty = true;
     return PLUMB_OK;
 }

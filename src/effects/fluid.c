@@ -69,7 +69,8 @@ static void open_volume(plumb_world *world, uint32_t piece)
     const double y = pull > 0 ? -(double)g.y / pull : (double)up.y;
     pl_piece_convex(world, piece, &shape);
     const plumb_transform frame = { { -(b->c[row] * b->local_x[row] - b->s[row] * b->local_y[row]),
-                                      -(b->s[row] * b->local_x[row] + b->c[row] * b->local_y[row]) },
+                                      -(b->s[row] * b->local_x[row] +
+                                        b->c[row] * b->local_y[row]) },
                                     { b->c[row], b->s[row] } };
     v->piece = piece;
     v->material = world->pieces.material[piece];
@@ -90,7 +91,8 @@ bool pl_fluids_find(plumb_world *world)
     const pl_keyed *c = sensing->candidates.data;
     e->volume_count = e->immersion_count = e->swimmer_count = 0;
     if (!pl_buffer_reserve(&world->memory, &e->swims, world->dynamic_count) ||
-        !pl_buffer_reserve(&world->memory, &e->volumes, sensing->candidate_count * sizeof(pl_volume)) ||
+        !pl_buffer_reserve(&world->memory, &e->volumes,
+                           sensing->candidate_count * sizeof(pl_volume)) ||
         !pl_buffer_reserve(&world->memory, &e->immersions,
                            sensing->candidate_count * sizeof(pl_keyed))) {
         return false;
@@ -155,8 +157,10 @@ void pl_fluid_contour(const plumb_world *world, const pl_volume *volume, uint32_
     const plumb_vec2 local = { b->local_x[row], b->local_y[row] };
     const plumb_vec2 arm = plumb_rot_apply(frame.q, local);
     frame.p = (plumb_vec2){ -arm.x, -arm.y };
-    away[0] = between.x + (double)held->dx - (double)pose->dx + (double)b->vx[holder] * time - moved[0];
-    away[1] = between.y + (double)held->dy - (double)pose->dy + (double)b->vy[holder] * time - moved[1];
+    away[0] =
+        between.x + (double)held->dx - (double)pose->dx + (double)b->vx[holder] * time - moved[0];
+    away[1] =
+        between.y + (double)held->dy - (double)pose->dy + (double)b->vy[holder] * time - moved[1];
     pl_piece_convex(world, piece, &shape);
     pl_contour_of(&shape, frame, 0, 0, out);
     for (int i = 0; i < volume->plane_count && out->count > 0; ++i) {

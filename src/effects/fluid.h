@@ -8,9 +8,10 @@
 // A piece of a sensor of a fluid that somebody is near.
 typedef struct pl_volume {
     uint32_t piece, material; // row of the material
-    double bottom; // [m] lowest place of the shape, upwards from the centre of its body
+    double bottom;            // [m] lowest place of the shape, upwards from the centre of its body
     int plane_count;
-    pl_half_plane planes[PL_HALF_PLANES_MOST]; // about the centre of its body, at the start of the step
+    pl_half_plane
+        planes[PL_HALF_PLANES_MOST]; // about the centre of its body, at the start of the step
 } pl_volume;
 
 // A body of the solver that is near some of them.

@@ -24,9 +24,9 @@
 
 // All that acts on a body.
 typedef struct pl_pull {
-    double force[3];      // [N], [N], [N m]
-    double resist[3][3];  // [kg/s] and so on: D + B
-    double excess[3][3];  // [kg] and so on: E
+    double force[3];     // [N], [N], [N m]
+    double resist[3][3]; // [kg/s] and so on: D + B
+    double excess[3][3]; // [kg] and so on: E
 } pl_pull;
 
 typedef struct passage {
@@ -88,18 +88,22 @@ static void float_up(const plumb_world *world, const pl_swimmer *s, const pl_vol
     if (!(line.width > 0)) {
         return;
     }
-    const double waves = (double)m->wave_drag[volume->material] * density * a.area * sqrt(g / line.width);
+    const double waves =
+        (double)m->wave_drag[volume->material] * density * a.area * sqrt(g / line.width);
     const double turns = waves * line.second / line.width, rise = u.vx * ux + u.vy * uy;
     // A side of the mean draft pushes waves as a bottom of the width does.
-    const double draft = a.area / (line.width * line.width), sways = waves * (draft < 1 ? draft : 1);
+    const double draft = a.area / (line.width * line.width),
+                 sways = waves * (draft < 1 ? draft : 1);
     const double sway = u.vy * ux - u.vx * uy;
-    add_force(pull, -waves * rise * ux + sways * sway * uy, -waves * rise * uy - sways * sway * ux, 0, 0);
+    add_force(pull, -waves * rise * ux + sways * sway * uy, -waves * rise * uy - sways * sway * ux,
+              0, 0);
     pull->force[2] -= turns * u.w;
     add_square(pull->resist, waves, ux, uy);
     add_square(pull->resist, sways, -uy, ux);
     pull->resist[2][2] += turns;
     const double push = density * g * line.width, back = density * g * line.second;
-    const double heave = excess_of(push, s->mass + s->lent, h), roll = excess_of(back, s->inertia, h);
+    const double heave = excess_of(push, s->mass + s->lent, h),
+                 roll = excess_of(back, s->inertia, h);
     add_square(pull->excess, heave, ux, uy);
     pull->excess[2][2] += roll;
     add_force(pull, -heave / h * rise * ux, -heave / h * rise * uy, 0, 0);

@@ -89,7 +89,8 @@ int pl_half_planes_of(const plumb_convex *shape, plumb_transform frame, double x
 {
     const vec from = { x, y };
     const double r = (double)shape->radius, turn = 6.283185307179586 / 24;
-    const int edges = shape->count > 1 ? shape->count : 0, all = shape->count > 2 ? edges : edges + 24;
+    const int edges = shape->count > 1 ? shape->count : 0,
+              all = shape->count > 2 ? edges : edges + 24;
     for (int i = 0; i < all; ++i) {
         vec n;
         if (i < edges) {
@@ -231,7 +232,8 @@ pl_area pl_contour_area(const pl_contour *o)
             const double length = sqrt(dot(middle, middle)), rr = e->r * e->r;
             const double sine = cross(u, v) / rr, angle = pl_atan2(cross(u, v), dot(u, v));
             const double area = rr * (angle - sine) / 2, half = sqrt((1 - dot(u, v) / rr) / 2);
-            const double moment = length > 0 ? 2 * e->r * rr * half * half * half / (3 * length) : 0;
+            const double moment =
+                length > 0 ? 2 * e->r * rr * half * half * half / (3 * length) : 0;
             sum.area += area;
             sum.x += area * e->cx + moment * middle.x;
             sum.y += area * e->cy + moment * middle.y;

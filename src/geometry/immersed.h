@@ -14,8 +14,8 @@ typedef struct pl_half_plane {
 } pl_half_plane;
 
 // A round shape has 2 elements a corner, a circle 4; each half plane adds at most 2.
-#define PL_HALF_PLANES_MOST     26
-#define PL_ELEMENTS_MOST (2 * PLUMB_POLYGON_MAX_VERTICES + 2 * PL_HALF_PLANES_MOST + 4)
+#define PL_HALF_PLANES_MOST 26
+#define PL_ELEMENTS_MOST    (2 * PLUMB_POLYGON_MAX_VERTICES + 2 * PL_HALF_PLANES_MOST + 4)
 
 // From its start to that of the next one, counter-clockwise.
 typedef struct pl_element {

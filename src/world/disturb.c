@@ -31,7 +31,8 @@ static void wake_contacts(plumb_world *world, uint32_t piece)
 }
 
 // What sleeps in a volume of a fluid, as sensors saw it last.
-static void wake_seen(plumb_world *world, const pl_buffer *overlaps, uint32_t count, plumb_shape sensor)
+static void wake_seen(plumb_world *world, const pl_buffer *overlaps, uint32_t count,
+                      plumb_shape sensor)
 {
     bool found;
     const pl_overlap *all = overlaps->data;

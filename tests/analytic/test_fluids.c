@@ -70,7 +70,8 @@ static void drafts_are_exact(void **state)
         const double of_disc = fabs(sim_y(w, disc) - disc_height(ratios[i]));
         print_message("ratio %5.3f: draft of a box off by %.2g m, of a disc by %.2g m\n", ratios[i],
                       of_box, of_disc);
-        assert_true(of_box < 1e-4 && of_disc < 1e-4); // quadratic drag takes long over the last millimetre
+        assert_true(of_box < 1e-4 &&
+                    of_disc < 1e-4); // quadratic drag takes long over the last millimetre
         plumb_world_destroy(w);
     }
 }
@@ -82,7 +83,7 @@ static void logs_float_flat_or_do_not(void **state)
     const struct {
         double ratio;
         bool flat;
-    } cases[] = { { 0.1, true },  { 0.2, true },  { 0.222, false }, { 0.5, false },
+    } cases[] = { { 0.1, true },   { 0.2, true }, { 0.222, false }, { 0.5, false },
                   { 0.77, false }, { 0.8, true }, { 0.9, true } };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
         plumb_world *w = world_of(4);
@@ -198,8 +199,9 @@ static void speeds_go_to_the_terminal_one(void **state)
         for (int i = 0; i < 3; ++i) {
             error[i] = sinking_error(ratios[k], (double)(plumb_real)(0.1 / (1 << i)));
         }
-        print_message("disc of %.3f: speed off by %.2g, %.2g, %.2g of the terminal one, order %.2f\n",
-                      ratios[k], error[0], error[1], error[2], sim_order(error, 3));
+        print_message(
+            "disc of %.3f: speed off by %.2g, %.2g, %.2g of the terminal one, order %.2f\n",
+            ratios[k], error[0], error[1], error[2], sim_order(error, 3));
         assert_true(sim_order(error, 3) > 1.8);
     }
 }
@@ -212,8 +214,10 @@ static void drag_alone_is_exact(void **state)
     for (int i = 0; i < 3; ++i) {
         const double dt = (double)(plumb_real)steps[i];
         plumb_world *w = sim_world(&(plumb_world_desc){ .zero_gravity = true, .no_sleep = true });
-        pool(w, &(plumb_material_desc){
-                    .density = (plumb_real)RHO, .fluid = true, .no_skin_drag = true, .no_added_mass = true });
+        pool(w, &(plumb_material_desc){ .density = (plumb_real)RHO,
+                                        .fluid = true,
+                                        .no_skin_drag = true,
+                                        .no_added_mass = true });
         plumb_body box = sim_crate(w, 0, -50, 0.5, 0.5, solid(w, 1)); // a thousandth
         sim_launch(w, box, 10, 0, 0);
         const double k = RHO * 1.8 / 2 * 1 / 1.0;

@@ -108,7 +108,8 @@ static void halves_add_up(void **state)
         pl_contour all = cut_contour(&p), one = all, other = all;
         pl_contour_cut(&one, p.by[0]);
         pl_contour_cut(&other, (pl_half_plane){ -p.by[0].nx, -p.by[0].ny, -p.by[0].d });
-        const pl_area a = pl_contour_area(&all), b = pl_contour_area(&one), c = pl_contour_area(&other);
+        const pl_area a = pl_contour_area(&all), b = pl_contour_area(&one),
+                      c = pl_contour_area(&other);
         const plumb_mass_properties mass = plumb_convex_mass(&p.shape, 1);
         worst = fmax(worst, fabs(a.area - b.area - c.area));
         worst = fmax(worst, fabs(a.x - b.x - c.x));
