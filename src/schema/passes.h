@@ -78,7 +78,7 @@
     X("exact solver",      SOLVE,       IF(pl_want_exact),           ONCE(pl_run_exact),                                     ONCE,           \
       "manifolds", "manifolds, pairs, joints, solver bodies, accelerations, constraints, rows", ONE)                                         \
     X("prepare joints",    PREPARE,     IF(pl_want_joints),          EACH(pl_joints_row_prepare),                            ONCE,           \
-      "joints, poses, solver bodies", "joints, constraints", ONE)                                                                            \
+      "joints, poses, solver bodies", "joints, constraints, solver bodies", ONE)                                                                            \
     X("prepare contacts",  PREPARE,     IF(pl_want_collision),       THREE(pl_soft_prepare, pl_classic_prepare, pl_classic_prepare), ONCE,           \
       "manifolds, solver bodies", "constraints", HAS(pl_contact_variants))                                                                   \
     X("prepare impacts",   PREPARE,     IF(pl_want_impacts),         THREE(pl_impacts_row_prepare, pl_impacts_row_classic, pl_impacts_row_classic), ONCE,           \
