@@ -162,7 +162,7 @@ void pl_fluid_contour(const plumb_world *world, const pl_volume *volume, uint32_
     away[1] =
         between.y + (double)held->dy - (double)pose->dy + (double)b->vy[holder] * time - moved[1];
     pl_piece_convex(world, piece, &shape);
-    pl_contour_of(&shape, frame, 0, 0, out);
+    pl_contour_of(&shape, world->pieces.cuts[piece], frame, 0, 0, out);
     for (int i = 0; i < volume->plane_count && out->count > 0; ++i) {
         pl_contour_cut(out, plane_now(volume->planes[i], (double)b->w[holder], time, away));
     }

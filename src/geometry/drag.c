@@ -185,7 +185,7 @@ void pl_contour_drag(const pl_contour *o, pl_spin v, double pressure, double ski
 {
     for (int i = 0; i < o->count; ++i) {
         const pl_element *e = &o->at[i], *next = &o->at[i + 1 == o->count ? 0 : i + 1];
-        if (e->cut) {
+        if (e->cut || e->inner) {
             continue;
         }
         if (e->r > 0) {

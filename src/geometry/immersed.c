@@ -39,14 +39,14 @@ static vec placed(plumb_vec2 p, plumb_transform frame, vec from)
     return (vec){ r.x + ((double)frame.p.x - from.x), r.y + ((double)frame.p.y - from.y) };
 }
 
-static void add_edge(pl_contour *out, vec from, bool cut)
+static void add_edge(pl_contour *out, vec from, bool cut, bool inner)
 {
-    out->at[out->count++] = (pl_element){ .x = from.x, .y = from.y, .cut = cut };
+    out->at[out->count++] = (pl_element){ .x = from.x, .y = from.y, .cut = cut, .inner = inner };
 }
 
 static void add_arc(pl_contour *out, vec from, vec center, double r)
 {
-    out->at[out->count++] = (pl_element){ from.x, from.y, center.x, center.y, r, false };
+    out->at[out->count++] = (pl_element){ from.x, from.y, center.x, center.y, r, false, false };
 }
 
 // Arcs about a core point, from one normal to another a quarter or less of a turn at a time.
@@ -58,8 +58,8 @@ static void add_quarters(pl_contour *out, vec center, double r, vec normal, int 
     }
 }
 
-void pl_contour_of(const plumb_convex *shape, plumb_transform frame, double x, double y,
-                   pl_contour *out)
+void pl_contour_of(const plumb_convex *shape, uint32_t inner, plumb_transform frame, double x,
+                   double y, pl_contour *out)
 {
     const vec from = { x, y };
     const double r = (double)shape->radius;
@@ -80,7 +80,7 @@ void pl_contour_of(const plumb_convex *shape, plumb_transform frame, double x, d
         } else if (r > 0) {
             add_arc(out, (vec){ p.x + r * back.x, p.y + r * back.y }, p, r);
         }
-        add_edge(out, (vec){ p.x + r * ahead.x, p.y + r * ahead.y }, false);
+        add_edge(out, (vec){ p.x + r * ahead.x, p.y + r * ahead.y }, false, (inner >> i & 1) != 0);
     }
 }
 
@@ -201,15 +201,15 @@ void pl_contour_cut(pl_contour *o, pl_half_plane by)
             }
             if (in) {
                 left.at[left.count++] =
-                    (pl_element){ points[k].x, points[k].y, e->cx, e->cy, e->r, e->cut };
+                    (pl_element){ points[k].x, points[k].y, e->cx, e->cy, e->r, e->cut, e->inner };
             } else if (was_in && (i > 0 || k > 0)) {
-                add_edge(&left, points[k], true);
+                add_edge(&left, points[k], true, false);
             }
             was_in = in;
         }
     }
     if (was_in && !first_in) {
-        add_edge(&left, start_of(o, 0), true);
+        add_edge(&left, start_of(o, 0), true, false);
     }
     *o = left;
 }

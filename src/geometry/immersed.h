@@ -8,6 +8,8 @@
 
 #include "plumb/geometry.h"
 
+#include <stdint.h>
+
 // The points with n . x <= d.
 typedef struct pl_half_plane {
     double nx, ny, d; // unit, [m]
@@ -22,6 +24,7 @@ typedef struct pl_element {
     double x, y;      // [m] start
     double cx, cy, r; // [m] of an arc, which turns by less than pi; r 0: it is an edge
     bool cut;         // a half plane made it: nothing of the shape's surface
+    bool inner;       // likewise: a cut between pieces of one shape
 } pl_element;
 
 typedef struct pl_contour {
@@ -29,9 +32,10 @@ typedef struct pl_contour {
     int count; // 0: nothing is left
 } pl_contour;
 
-// The outline of a shape in `frame`, relative to (x, y) [m]. Segments, which have no area, are edges on both sides.
-void pl_contour_of(const plumb_convex *shape, plumb_transform frame, double x, double y,
-                   pl_contour *out);
+// The outline of a shape in `frame`, relative to (x, y) [m]; bit k of `inner`: edge k is an inner cut. Segments, which
+// have no area, are edges on both sides.
+void pl_contour_of(const plumb_convex *shape, uint32_t inner, plumb_transform frame, double x,
+                   double y, pl_contour *out);
 // What of it lies in the half plane.
 void pl_contour_cut(pl_contour *outline, pl_half_plane by);
 

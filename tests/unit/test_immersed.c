@@ -66,7 +66,7 @@ static pl_area brute_area(const pose *p)
 static pl_contour cut_contour(const pose *p)
 {
     pl_contour contour;
-    pl_contour_of(&p->shape, p->frame, p->x, p->y, &contour);
+    pl_contour_of(&p->shape, 0, p->frame, p->x, p->y, &contour);
     for (int i = 0; i < p->cuts; ++i) {
         pl_contour_cut(&contour, p->by[i]);
     }
@@ -188,12 +188,33 @@ static void a_disc_has_two_thirds(void **state)
     SAYS(plumb_convex_circle(plumb_v2(0, 0), R(0.5), &disc), OK);
     plumb_transform still = { .q = { 1, 0 } };
     pl_contour contour;
-    pl_contour_of(&disc, still, 0, 0, &contour);
+    pl_contour_of(&disc, 0, still, 0, 0, &contour);
     pl_drag d = { 0 };
     pl_contour_drag(&contour, (pl_spin){ 3, 0, 0 }, 1.8, 0, &d);
     // D v / 2 = C / 2 v^2 times the diameter of 1 m
     assert_true(fabs(d.xx * 3 / 2 - 1.8 / 2 * 9 * 2 / 3) < 1e-12);
     assert_true(fabs(d.xy) + fabs(d.xw) + fabs(d.yw) + fabs(d.ww) < 1e-12);
+}
+
+// Two halves of a square have the drag of the square: what is between them feels nothing.
+static void inner_cuts_feel_nothing(void **state)
+{
+    (void)state;
+    plumb_convex all, left, right;
+    const plumb_transform still = { .q = { 1, 0 } };
+    SAYS(plumb_convex_box(plumb_v2(1, 1), plumb_v2(0, 0), 0, 0, &all), OK);
+    SAYS(plumb_convex_box(plumb_v2(R(0.5), 1), plumb_v2(R(-0.5), 0), 0, 0, &left), OK);
+    SAYS(plumb_convex_box(plumb_v2(R(0.5), 1), plumb_v2(R(0.5), 0), 0, 0, &right), OK);
+    pl_contour contour;
+    pl_drag one = { 0 }, both = { 0 };
+    const pl_spin v = { 2, 1, R(0.5) };
+    pl_contour_of(&all, 0, still, 0, 0, &contour);
+    pl_contour_drag(&contour, v, 1.8, 0.1, &one);
+    pl_contour_of(&left, 1u << 1, still, 0, 0, &contour); // its edge to the right
+    pl_contour_drag(&contour, v, 1.8, 0.1, &both);
+    pl_contour_of(&right, 1u << 3, still, 0, 0, &contour);
+    pl_contour_drag(&contour, v, 1.8, 0.1, &both);
+    assert_true(difference(&both, &one) < 1e-12);
 }
 
 static void planes_hold_their_shape(void **state)
@@ -205,7 +226,7 @@ static void planes_hold_their_shape(void **state)
         const int count = pl_half_planes_of(&p.shape, p.frame, p.x, p.y, planes);
         assert_true(count >= 3 && count <= PL_HALF_PLANES_MOST);
         pl_contour contour;
-        pl_contour_of(&p.shape, p.frame, p.x, p.y, &contour);
+        pl_contour_of(&p.shape, 0, p.frame, p.x, p.y, &contour);
         const double all = pl_contour_area(&contour).area;
         for (int k = 0; k < count; ++k) {
             planes[k].d += 1e-5;
@@ -222,6 +243,7 @@ int main(void)
         cmocka_unit_test_setup(halves_add_up, seed),
         cmocka_unit_test_setup(drag_is_that_of_many_points, seed),
         cmocka_unit_test_setup(a_disc_has_two_thirds, seed),
+        cmocka_unit_test_setup(inner_cuts_feel_nothing, seed),
         cmocka_unit_test_setup(planes_hold_their_shape, seed),
     };
     return cmocka_run_group_tests_name("immersed", tests, NULL, NULL);
