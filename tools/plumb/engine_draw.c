@@ -139,17 +139,58 @@ static bool wants_names(const engine_stage *stage, unsigned show)
     return (show & ENGINE_SHOW_NAMES) != 0 || named <= NAMES_MAX;
 }
 
-/// The sensors of a body, or what is solid of it; true when there was something.
-static bool add_shapes(const engine_stage *stage, int count, bool sensors, plumb_transform where,
+/// What is drawn apart of a body.
+typedef enum shape_role { ROLE_SOLID, ROLE_SENSOR, ROLE_FLUID } shape_role;
+
+/// Air is not to be seen.
+static shape_role role_of(const plumb_world *world, plumb_shape shape)
+{
+    plumb_material_desc material = { 0 };
+    if (!plumb_shape_is_sensor(world, shape)) {
+        return ROLE_SOLID;
+    }
+    plumb_material_get(world, plumb_shape_material(world, shape), &material);
+    return material.fluid && !material.weightless ? ROLE_FLUID : ROLE_SENSOR;
+}
+
+/// Lines along those sides of a fluid that face up.
+static void add_surface(const plumb_world *world, plumb_shape shape, plumb_transform where,
+                        render_frame *frame)
+{
+    const plumb_vec2 g = plumb_world_gravity(world), standing = plumb_world_up(world);
+    const plumb_vec2 up = g.x != 0 || g.y != 0 ? plumb_vec2_unit(plumb_vec2_neg(g)) : standing;
+    for (int i = 0; i < plumb_shape_piece_count(world, shape); i++) {
+        plumb_convex piece;
+        uint32_t cuts = 0;
+        if (plumb_shape_piece(world, shape, i, &piece, &cuts) != PLUMB_OK || piece.count < 3) {
+            continue;
+        }
+        for (int k = 0; k < piece.count; k++) {
+            const plumb_vec2 out = plumb_rot_apply(where.q, piece.normals[k]);
+            if ((cuts >> k & 1) == 0 && (double)plumb_vec2_dot(out, up) > 0.9) {
+                const render_vec line[2] = { to_world(where, piece.points[k]),
+                                             to_world(where, piece.points[(k + 1) % piece.count]) };
+                render_add_polyline(frame, line, 2, 0, 0);
+            }
+        }
+    }
+}
+
+/// The shapes of a body that are of a role; true when there was something.
+static bool add_shapes(const engine_stage *stage, int count, shape_role role, plumb_transform where,
                        bool is_static, const render_style *style, render_frame *frame)
 {
     int added = 0;
     for (int i = 0; i < count; i++) {
-        if (plumb_shape_is_sensor(stage->world, stage->shapes[i]) == sensors) {
+        if (role_of(stage->world, stage->shapes[i]) == role) {
             if (added++ == 0) {
                 render_body_begin(frame, style);
             }
-            add_shape(stage->world, stage->shapes[i], where, frame, is_static && !sensors);
+            add_shape(stage->world, stage->shapes[i], where, frame,
+                      is_static && role == ROLE_SOLID);
+            if (role == ROLE_FLUID) {
+                add_surface(stage->world, stage->shapes[i], where, frame);
+            }
         }
     }
     if (added > 0) {
@@ -178,11 +219,13 @@ static bool add_body(engine_stage *stage, const scene_body *body, int index, boo
                            .color = { body->color.r, body->color.g, body->color.b, body->color.a },
                            .label = label };
     bool is_static = type == PLUMB_STATIC;
-    if (add_shapes(stage, count, false, where, is_static, &style, frame)) {
+    if (add_shapes(stage, count, ROLE_SOLID, where, is_static, &style, frame)) {
         style.label = NULL;
     }
     style.kind = RENDER_SENSOR;
-    add_shapes(stage, count, true, where, is_static, &style, frame);
+    add_shapes(stage, count, ROLE_SENSOR, where, is_static, &style, frame);
+    style.kind = RENDER_FLUID;
+    add_shapes(stage, count, ROLE_FLUID, where, is_static, &style, frame);
     if ((show & RENDER_SHOW_SURFACES) != 0) {
         pl_stage_add_surfaces(stage, stage->shapes, count, frame);
     }

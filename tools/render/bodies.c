@@ -1,6 +1,6 @@
 // bodies.c - draws bodies: fill, outline, hatching, rotation marks, lines.
 //
-// Order: sensors below, then static bodies, then the rest as the caller listed them. A body of
+// Order: sensors below, then static bodies, then the rest as the caller listed them, fluids over them. A body of
 // several shapes is drawn in passes, outlines first and insides on top, so that only the outline
 // of the union remains; group.c removes the seams between polygons that touch.
 // Cost: O(points) a body; shapes out of view cost a box test.
@@ -274,6 +274,8 @@ static void draw_filled(plr_painter *painter, const plr_body *body, const plr_sh
     }
     if (pass == PLR_GROUP_INSIDE) {
         plr_paint_inside(painter, &painter->contour, width, paint->fill);
+    } else if (paint->plain) {
+        plr_paint_contour(painter, &painter->contour, 0.0, paint->fill, paint->fill);
     } else if (paint->dashed) {
         plr_paint_contour(painter, &painter->contour, 0.0, paint->fill, paint->outline);
         if (width > 0.0) {
@@ -291,7 +293,7 @@ static void draw_body(plr_painter *painter, const plr_body *body)
 {
     const plr_paint paint = plr_body_paint(body, painter->options.background);
     const plr_shape *shapes = painter->frame->shapes + body->first_shape;
-    const bool several = body->shape_count > 1 && !paint.dashed;
+    const bool several = body->shape_count > 1 && !paint.dashed && !paint.plain;
     const bool grouped = several && plr_group_make(painter, body);
     for (int pass = PLR_GROUP_ALL; pass <= PLR_GROUP_HATCH; pass++) {
         if (pass == PLR_GROUP_INSIDE && !several) {
@@ -318,10 +320,13 @@ static void draw_body(plr_painter *painter, const plr_body *body)
 void plr_draw_bodies(plr_painter *painter)
 {
     const render_frame *frame = painter->frame;
-    for (int layer = 0; layer < 3; layer++) {
+    for (int layer = 0; layer < 4; layer++) {
         for (size_t i = 0; i < frame->body_count; i++) {
             const render_class kind = frame->bodies[i].kind;
-            const int wanted = kind == RENDER_SENSOR ? 0 : kind == RENDER_STATIC ? 1 : 2;
+            const int wanted = kind == RENDER_SENSOR   ? 0
+                               : kind == RENDER_STATIC ? 1
+                               : kind == RENDER_FLUID  ? 3
+                                                       : 2;
             if (wanted == layer) {
                 draw_body(painter, &frame->bodies[i]);
             }

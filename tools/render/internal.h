@@ -199,6 +199,7 @@ typedef struct plr_paint {
     render_rgba outline;
     render_rgba hatch;
     bool dashed;
+    bool plain; // no outline
 } plr_paint;
 plr_paint plr_body_paint(const plr_body *body, render_rgba background);
 

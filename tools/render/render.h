@@ -78,6 +78,7 @@ typedef enum render_class {
     RENDER_KINEMATIC,   ///< palette colour with light stripes
     RENDER_ASLEEP,      ///< palette colour, faded
     RENDER_SENSOR,      ///< transparent, dashed outline
+    RENDER_FLUID,       ///< translucent, over all that is in it; lines are its surface
     RENDER_CLASS_COUNT
 } render_class;
 
