@@ -364,6 +364,7 @@ void sc_step_work(scene *s, uint64_t work);
 void sc_query_work(scene *s);
 void sc_open_build(lua_State *L);      ///< scene, material, body, camera, param, ...
 void sc_open_materials(lua_State *L);  ///< material, material_pair
+void sc_open_fluids(lua_State *L);     ///< water, wind
 void sc_open_shapes(lua_State *L);     ///< box, circle, ...
 void sc_open_body(lua_State *L);       ///< methods of bodies
 void sc_open_motion(lua_State *L);     ///< blast

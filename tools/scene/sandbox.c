@@ -224,6 +224,7 @@ static int open_protected(lua_State *L)
     sc_open_queries(L);
     sc_open_build(L);
     sc_open_materials(L);
+    sc_open_fluids(L);
     sc_open_filters(L);
     sc_open_joints(L);
     sc_open_joint(L);
