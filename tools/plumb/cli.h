@@ -101,7 +101,7 @@ typedef struct cli_exit_text {
 
 /// Prints the manual page of all commands to stdout, in the macros of man(7). CLI_MAN_DATE: of the last change of
 /// the command line.
-#define CLI_MAN_DATE "2026-11-22"
+#define CLI_MAN_DATE "2026-11-23"
 void cli_man(const cli_command *const *commands, int count, const char *summary,
              const cli_exit_text *exits, int exit_count);
 

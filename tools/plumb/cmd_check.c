@@ -1,6 +1,7 @@
 /// cmd_check.c - `plumb check`: runs scenes to their end and judges their `expect` lines.
 ///
 /// Reads scenes, writes one line for each expectation to stdout, the same on every run.
+#include "lint.h"
 #include "scene_args.h"
 
 #include <string.h>
@@ -8,11 +9,14 @@
 typedef struct check_args {
     scene_args scene;
     bool verbose;
+    bool lint;
+    cli_texts allowed;
 } check_args;
 
 typedef struct tally {
     int scenes, broken; ///< scenes that ran to their end, and that did not
     int held, failed;   ///< expectations
+    int found, faulty;  ///< findings of the linter, and scenes that have some
     int worst;          ///< exit code
 } tally;
 
@@ -110,11 +114,29 @@ static void print_accuracy(const scene_run *run, const char *path)
     }
 }
 
+/// Looks at the scene as it begins, and does not run it.
+static int lint(const check_args *args, const scene_run *run, const char *path, tally *sum)
+{
+    const int found = lint_scene(run, path, &args->allowed);
+    if (found == 0) {
+        printf("ok    %s: nothing found\n", base_name(path));
+    }
+    if (found > 0) {
+        sum->found += found;
+        sum->faulty++;
+        sum->worst = worse(sum->worst, CLI_EXPECT);
+    }
+    return found < 0 ? CLI_FAILED : CLI_OK;
+}
+
 static void check_one(const check_args *args, const char *path, tally *sum)
 {
     scene_run run;
     int code = scene_run_open(&args->scene, path, &run);
-    if (code == CLI_OK) {
+    if (code == CLI_OK && args->lint) {
+        code = lint(args, &run, path, sum);
+        scene_run_close(&run, CLI_OK);
+    } else if (code == CLI_OK) {
         progress bar;
         scene_run_warn(&run, path);
         progress_begin(&bar, base_name(path), (double)run.steps, args->scene.quiet);
@@ -145,6 +167,14 @@ static void check_one(const check_args *args, const char *path, tally *sum)
     sum->worst = worse(sum->worst, code);
 }
 
+static void print_broken(const tally *sum)
+{
+    if (sum->broken > 0) {
+        printf("; %d scene%s could not be judged", sum->broken, sum->broken == 1 ? "" : "s");
+    }
+    printf("\n");
+}
+
 static int check_command(const cli_command *command, int argc, char **argv)
 {
     check_args args = { .scene = SCENE_ARGS_INIT };
@@ -160,20 +190,29 @@ static int check_command(const cli_command *command, int argc, char **argv)
         check_one(&args, operands.items[i], &sum);
         fflush(stdout);
     }
+    if (args.lint) {
+        printf("%d finding%s in %d of %d scene%s", sum.found, sum.found == 1 ? "" : "s", sum.faulty,
+               sum.scenes, sum.scenes == 1 ? "" : "s");
+        print_broken(&sum);
+        return sum.worst;
+    }
     printf("%d expectation%s of %d scene%s: %d ok, %d failed", sum.held + sum.failed,
            sum.held + sum.failed == 1 ? "" : "s", sum.scenes, sum.scenes == 1 ? "" : "s", sum.held,
            sum.failed);
-    if (sum.broken > 0) {
-        printf("; %d scene%s could not be judged", sum.broken, sum.broken == 1 ? "" : "s");
-    }
-    printf("\n");
+    print_broken(&sum);
     return sum.worst;
 }
+
+#define RULE_TEXT(name, look, text, advice) " " name ": " text "."
 
 static const cli_option options[] = {
     SCENE_OPTIONS(check_args, scene),
     { "verbose", 'v', CLI_FLAG, offsetof(check_args, verbose), NULL, 0, 0, NULL,
       "also tell the settings and the state at the end" },
+    { "lint", 'l', CLI_FLAG, offsetof(check_args, lint), NULL, 0, 0, NULL,
+      "do not run the scenes: look for what is likely to go wrong as they begin" },
+    { "allow", 0, CLI_TEXTS, offsetof(check_args, allowed), "RULE,...", 0, 0, NULL,
+      "with --lint: rules that may find something" },
     SCENE_OPTION_QUIET(check_args, scene),
 };
 
@@ -181,12 +220,20 @@ const cli_command cmd_check = {
     .name = "check",
     .summary = "runs scenes to their end and judges what they expect",
     .operands = "SCENE...",
-    .text = "Runs every SCENE to its end and prints a line for each of its expectations: ok or "
-            "FAIL, the scene, the name of the expectation, what was measured, the limit. The exit "
-            "code is 4 when any failed, 3 when a scene does not load, 5 when one diverged. A scene "
-            "that expects nothing fails nothing: it is told so (none) and the exit code stays 0.",
+    .text =
+        "Runs every SCENE to its end and prints a line for each of its expectations: ok or "
+        "FAIL, the scene, the name of the expectation, what was measured, the limit. The exit "
+        "code is 4 when any failed, 3 when a scene does not load, 5 when one diverged. A scene "
+        "that expects nothing fails nothing: it is told so (none) and the exit code stays 0. With "
+        "--lint "
+        "scenes are not run: rules look at each as it begins and tell what is likely to go wrong, "
+        "and what to "
+        "do; the exit code is 4 when one finds something. A scene that is meant to be so says it "
+        "in a line of "
+        "its own, \"-- lint: allow mass-ratio, size: why\". The rules:" LINT_RULES(RULE_TEXT),
     .examples = "plumb check assets/scenes/*.lua\n"
-                "plumb check stack.lua --precision double --verbose",
+                "plumb check stack.lua --precision double --verbose\n"
+                "plumb check --lint assets/scenes/*.lua",
     .options = options,
     .option_count = (int)(sizeof options / sizeof options[0]),
     .operand_min = 1,

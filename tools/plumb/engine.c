@@ -141,6 +141,7 @@ static void session_close(engine_session *session)
     pl_stage_close(&session->stage);
     free(session->expects);
     free(session->overlaps);
+    free(session->findings);
     free(session->passes);
     free(session->pass_infos);
     free(session->kept);
@@ -233,6 +234,7 @@ const engine_api ENGINE_NAME = {
     .step = session_step,
     .check = session_check,
     .overlaps = pl_session_overlaps,
+    .lint = pl_session_lint,
     .ended = session_ended,
     .finish = session_finish,
     .exact = pl_session_exact,

@@ -215,6 +215,12 @@ typedef struct engine_overlap {
     double depth;      ///< [m]
 } engine_overlap;
 
+/// What a rule of the linter has found, and what to do (lint.h).
+typedef struct engine_finding {
+    const char *rule, *advice;
+    char text[224];
+} engine_finding;
+
 /// What is to be seen now: of a scene that runs, or of a recording.
 typedef struct engine_stage engine_stage;
 
@@ -235,6 +241,8 @@ typedef struct engine_api {
     /// Pairs of bodies that are inside one another now, by more than a twentieth of the smaller one's thickness, and
     /// will be pushed apart; deepest first. -1: out of memory.
     int (*overlaps)(engine_session *session, const engine_overlap **list);
+    /// What is likely to go wrong with the scene as it is now, by rules. -1: out of memory.
+    int (*lint)(engine_session *session, const engine_finding **list);
     /// True when the scene's code has ended the run.
     bool (*ended)(const engine_session *session);
     /// The end of the run, for what only then can be judged.

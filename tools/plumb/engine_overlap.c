@@ -12,8 +12,7 @@
 /// [-] of the smaller body's thickness that may overlap: corners that meet, planks laid roughly.
 static const double MOST = 0.05;
 
-/// The world again, with its contacts; null: it cannot be had.
-static plumb_world *copy_of(const engine_stage *stage)
+plumb_world *pl_stage_refreshed(const engine_stage *stage)
 {
     const plumb_world *world = stage->world;
     plumb_world_desc settings = plumb_world_settings(world);
@@ -87,7 +86,7 @@ static int sort_pairs(engine_overlap *list, int count)
 int pl_session_overlaps(engine_session *session, const engine_overlap **list)
 {
     engine_stage *stage = &session->stage;
-    plumb_world *copy = copy_of(stage);
+    plumb_world *copy = pl_stage_refreshed(stage);
     int count = copy != NULL ? plumb_world_contacts(copy, NULL, 0) : 0, found = 0;
     if (copy == NULL ||
         !pl_session_reserve(&stage->contacts, &stage->contact_room, count,

@@ -49,7 +49,8 @@ struct engine_session {
     engine_pass *passes;
     plumb_pass_info *pass_infos;
     engine_overlap *overlaps;
-    size_t expect_room, pass_room, info_room, overlap_room; ///< [B]
+    engine_finding *findings;
+    size_t expect_room, pass_room, info_room, overlap_room, finding_room; ///< [B]
     // While it is recorded: what was last said of the looks of each entity, by its index; and the text.
     bool recording;
     FILE *record_file;
@@ -107,6 +108,9 @@ void pl_session_nudge(engine_session *session, double distance, unsigned seed);
 engine_totals pl_stage_totals(const engine_stage *stage);
 int pl_session_expectations(engine_session *session, const engine_expect **list);
 int pl_session_overlaps(engine_session *session, const engine_overlap **list);
+int pl_session_lint(engine_session *session, const engine_finding **list);
+/// The stage's world again, all awake and with its contacts; null: it cannot be had.
+plumb_world *pl_stage_refreshed(const engine_stage *stage);
 int pl_session_passes(engine_session *session, const engine_pass **list);
 void pl_session_measure(engine_session *session, engine_measures *sum);
 bool pl_session_word(int constructor, int key, engine_word *word);

@@ -1,6 +1,7 @@
 -- heavy_on_light.lua - boxes of 10, 100, 1,000 and 10,000 kg each on one of 1 kg: after 5 s they lie where they were put.
 -- Source: statics. Hard: sweeps over contacts gain a digit in about 2.3 R sweeps, R the ratio of masses.
 -- Aim: 1e-3 m at 100 : 1 and above.
+-- lint: allow mass-ratio: that is what it asks about
 scene { title = "Heavy on light", duration = 5, description = "Heavy boxes on light ones." }
 local m = material { friction = 0.6 }
 body { name = "ground", type = "static", box { 30, 1 }, at = {0, -0.5}, material = m }

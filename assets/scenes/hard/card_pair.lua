@@ -1,6 +1,7 @@
 -- card_pair.lua - two cards of 2 mm lean on one another at 15 to 30 degrees: the least of a card house.
 -- By statics they stand while tan(angle from upright) < 2 mu: at mu = 0.7 all do. Fails: contacts that give, by sliding
 -- a little each step. Right: a minute later they stand as they stood.
+-- lint: allow size: cards are thin
 scene { title = "Pairs of cards", duration = 20, sleep = false }
 local paper = material { density = 1000, friction = param("friction", 0.7, 0, 1) }
 body { type = "static", box { 40, 1 }, at = {0, -0.5}, material = paper }

@@ -1,6 +1,7 @@
 -- confined.lua - 15 by 15 discs in a box that has room for 12 by 12 (Box2D's and Solver2D's Confined): no place without
 -- overlap exists. Fails: XPBD and solvers with velocity in their recovery never come to rest. Right: the discs share
 -- the overlap and lie still. More substeps: substeps_confined.lua.
+-- lint: allow overlap: it begins so on purpose
 scene { title = "Confined", gravity = {0, 0}, duration = 6, seed = 3 }
 local n = param("n", 15, 2, 30)
 local half = 0.4 * n -- discs of diameter 1

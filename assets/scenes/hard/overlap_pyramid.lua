@@ -1,5 +1,6 @@
 -- overlap_pyramid.lua - four rows of boxes that overlap by a quarter (Solver2D and Box2D: Overlap Recovery).
 -- Fails: XPBD explodes, soft solvers may hop. Right: the pile opens at no more than some m/s and then lies.
+-- lint: allow overlap: it begins so on purpose
 scene { title = "Overlap Recovery", duration = 5 }
 local rows, share = param("rows", 4, 1, 12), param("share", 0.25, 0, 0.9)
 local wood = material { density = 600, friction = 0.6 }

@@ -1,6 +1,7 @@
 -- substeps_confined.lua - more substeps must not make it worse: discs in a box with too little room for them, at 16
 -- substeps. Fails: whoever grows stiffer with every substep: calm at 8, 1.3 m/s at 16, 7 m/s at 32. Right: the discs
 -- share the overlap and lie still. With 4 substeps: confined.lua.
+-- lint: allow overlap: it begins so on purpose
 scene { title = "Confined, 16 substeps", substeps = 16, gravity = {0, 0}, duration = 6, seed = 3 }
 local n = param("n", 15, 2, 30)
 local half = 0.4 * n -- discs of diameter 1

@@ -1,6 +1,7 @@
 -- substeps_overlap.lua - a row of discs that overlap by 5 % of their size, at 16 substeps, without gravity.
 -- Fails: whoever grows stiffer with every substep parts them the faster, and leaves the speed. Right: they part, and
 -- the speed with which they part is not motion that stays.
+-- lint: allow overlap: it begins so on purpose
 scene { title = "Overlap, 16 substeps", gravity = {0, 0}, duration = 3, substeps = 16 }
 local n, share = param("n", 10, 2, 60), param("share", 0.05, 0.001, 0.9)
 for i = 1, n do

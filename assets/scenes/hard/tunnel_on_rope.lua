@@ -1,6 +1,7 @@
 -- tunnel_on_rope.lua - heavy balls on ropes and rods that swing at 60 m/s into a wall of 1 cm.
 -- Fails: continuous collision that does not know of joints: the rope pulls the ball through (Box2D ignores joints there).
 -- Right: the ball stays on its side.
+-- lint: allow fast-and-thin: fast things are what it asks
 scene { title = "Ball on a rope against a wall", duration = 2 }
 for k, v in ipairs { 10, 30, 60, 120 } do
     local x = k * 10

@@ -1,5 +1,6 @@
 -- tunnel_pairs.lua - pairs of discs and boxes, both dynamic, head on at 20 to 1000 m/s each.
 -- Fails: Box2D and Rapier (#984) have no continuous collision between dynamic bodies. Right: they never change sides.
+-- lint: allow fast-and-thin: fast things are what it asks
 scene { title = "Bullets head on", gravity = {0, 0}, duration = 1 }
 local count = 0
 for _, v in ipairs { 20, 100, 200, 500, 1000 } do

@@ -1,0 +1,30 @@
+/// lint.h - the rules of `plumb check --lint`, and a scene held to them.
+#ifndef PLUMB_LINT_H
+#define PLUMB_LINT_H
+
+#include "scene_args.h"
+
+/// X(name, the function of engine_lint.c that looks, what the rule says, what to do). The help prints them.
+// clang-format off
+#define LINT_RULES(X)                                                                                                        \
+    X("mass-ratio", look_at_masses, "a body rests on, or is joined to, one that is too light for it",                          \
+      "a heavier light one, substeps=16, direct_joints=true for joints, solver=\"exact\", or a tolerance")                   \
+    X("fast-and-thin", look_at_speeds, "a body goes farther in a step than it and what it may meet are thick",               \
+      "continuous=true on one of the two, a shorter step, or thicker shapes")                                                \
+    X("stiff-spring", look_at_springs, "a spring is stiffer than substeps can follow, and is damped",                        \
+      "a softer spring, more substeps, or a rigid joint")                                                                    \
+    X("filter-meets-none", look_at_filters, "a filter lets a shape meet no other",                                           \
+      "let categories and masks name one another; what is to meet nothing says so")                                          \
+    X("effect-on-none", look_at_effects, "a setting, a surface or a joint acts on nothing",                                  \
+      "take it away, or give it force, friction or a dynamic body")                                                                              \
+    X("overlap", look_at_overlaps, "bodies begin inside one another and are pushed apart",                                   \
+      "move them apart, let their filters not meet, or join them")                                                           \
+    X("size", look_at_sizes, "a body is thinner or thicker than is measured, or too far from the origin for its size",       \
+      "other units of length, thicker shapes, places near the origin, or double precision")
+// clang-format on
+
+/// Prints what the rules find in a scene as it begins, and what to do, but for rules that are `allowed` or that the scene allows
+/// itself. Answers the number of findings; -1 after a message: out of memory, or what was allowed is no rule.
+int lint_scene(const scene_run *run, const char *path, const cli_texts *allowed);
+
+#endif
