@@ -28,6 +28,8 @@ static pl_exact_system system_of(const pl_substep *s, pl_joint_sweep sweep)
                               .start = vectors + 2 * n,
                               .change = vectors + 3 * n,
                               .step = vectors + 4 * n,
+                              .kick = vectors + 5 * n,
+                              .full = vectors + 6 * n,
                               .h = s->h,
                               .since = s->solving->call.since,
                               .sweep = sweep };
@@ -73,6 +75,7 @@ static bool is_tense(const pl_exact_system *s, const pl_exact_item *item)
     }
     near_real pull[2];
     pl_law_pulls(j, impulse, pull);
+    pull[0] *= 2, pull[1] *= 2; // as much again behind the drift
     return pl_joint_inertia(pull[0], s->h, pl_one_own_inertia(s->world, j, 0)) > 0 ||
            pl_joint_inertia(pull[1], s->h, pl_one_own_inertia(s->world, j, 1)) > 0;
 }
@@ -92,8 +95,8 @@ static void keep_joints(const pl_exact_system *s)
         s->rows[item->first_row].stays = stays;
         for (uint32_t k = item->first_row; k < item->first_row + item->row_count; ++k) {
             const pl_exact_row *r = &s->rows[k];
-            if (r->in_force && (stays || r->give > 0)) {
-                pl_exact_push(s, r, s->base, r->impulse);
+            if (r->in_force && (stays || r->give > 0)) { // springs whatever else
+                pl_exact_push(s, r, s->full, r->impulse);
             }
         }
     }
@@ -108,6 +111,11 @@ static void take_velocities(const pl_exact_system *s)
         s->velocity[3 * n] = (double)body->vx;
         s->velocity[3 * n + 1] = (double)body->vy;
         s->velocity[3 * n + 2] = (double)body->w;
+        const pl_solver_motion *motion = &pl_solver_motions(&s->world->solver)[node->slot];
+        const double half = (double)s->h / 2;
+        s->kick[3 * n] = half * (double)motion->ax;
+        s->kick[3 * n + 1] = half * (double)motion->ay;
+        s->kick[3 * n + 2] = half * (double)motion->aw;
     }
 }
 
@@ -127,7 +135,7 @@ static void give_velocities(const pl_exact_system *s)
     }
     for (uint32_t n = s->island->first_node; n < s->island->end_node; ++n) {
         pl_solver_body *body = &pl_solver_bodies(&s->world->solver)[s->nodes[n].slot];
-        const double *v = (s->nodes[n].where != 0 ? s->velocity : s->base) + 3 * (size_t)n;
+        const double *v = (s->nodes[n].where != 0 ? s->velocity : s->full) + 3 * (size_t)n;
         body->vx = (near_real)v[0], body->vy = (near_real)v[1], body->w = (near_real)v[2];
     }
 }
@@ -139,19 +147,42 @@ static void copy(const pl_exact_system *s, double *to, const double *from)
     }
 }
 
+// Half of the kick comes before the drift, half behind it, and so do impulses (RATTLE, Andersen 1983): what is pushed moves
+// to second order in the substep. Where impulses are sought from.
+static void begin(const pl_exact_system *s, bool warm)
+{
+    const bool pulls = s->sweep == PL_SWEEP_PULL;
+    if (pulls) {
+        if (warm) {
+            push_rows(s, s->velocity, -1);
+        }
+        copy(s, s->full, s->velocity);
+        for (uint32_t k = 3 * s->island->first_node; k < 3 * s->island->end_node; ++k) {
+            s->velocity[k] -= s->kick[k];
+        }
+    }
+    pl_exact_spring(s, s->velocity);
+    if (!pulls) {
+        copy(s, s->velocity, s->full);
+    }
+    copy(s, s->base, s->velocity);
+    for (uint32_t k = s->island->first_row; k < s->island->end_row; ++k) {
+        pl_exact_row *r = &s->rows[k];
+        if (pulls) {
+            r->impulse /= 2;
+        } else if (!s->missed) {
+            r->impulse += r->before / 2;
+        }
+    }
+}
+
 static void solve_island(pl_exact_system *s, bool warm)
 {
     take_velocities(s);
     s->missed = s->sweep == PL_SWEEP_RELAX &&
                 s->island->missed; // what could not be undone pushed beyond measure
     pl_exact_fill(s);
-    if (s->sweep == PL_SWEEP_RELAX) {
-        copy(s, s->velocity, s->base);
-    }
-    if (s->sweep == PL_SWEEP_PULL && warm) {
-        push_rows(s, s->velocity, -1);
-    }
-    copy(s, s->base, s->velocity);
+    begin(s, warm);
     push_rows(s, s->velocity, 1);
     pl_exact_solve(s);
     s->island->missed = s->missed;

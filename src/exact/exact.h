@@ -6,6 +6,8 @@
 #include "solver/substep.h"
 #include "world/state.h"
 
+#define PL_EXACT_VECTORS 7 // of a system
+
 // A scalar row J v + give impulse = target whose impulse has bounds. Those of friction and rolling resistance are
 // `factor` times the load, the impulses of the `leads` rows that lie before it in the contact.
 typedef struct pl_exact_row {
@@ -42,8 +44,9 @@ typedef struct pl_exact_system {
     // Of an entry: what the later node's velocity does to the earlier one, and the reverse.
     double *above, *below;
     double *diagonal;
-    // Three a node: velocities of the moment, without any impulse of the rows, where a round began; F; Newton's step.
-    double *velocity, *base, *start, *change, *step;
+    // Three a node: velocities of the moment, without any impulse of the rows, where a round began; F; Newton's step; half of
+    // what forces do in the substep; the velocities that the sweep that relaxes begins with.
+    double *velocity, *base, *start, *change, *step, *kick, *full;
     near_real h, since; // [s] the substep; from the start of the step to its own
     pl_joint_sweep sweep;
     bool missed; // the tolerance
@@ -58,8 +61,10 @@ void pl_exact_free(pl_memory *memory, pl_exact_solver *exact);
 // Rows as the bodies are now; what the arcs of anchors make of a substep; impulses back, and what the events want to
 // know (rows.c).
 void pl_exact_fill(const pl_exact_system *s);
-void pl_exact_bend(const pl_exact_system *s);
+void pl_exact_bend(const pl_exact_system *s, int round);
 void pl_exact_keep(const pl_exact_system *s);
+// What springs ask for in the sweep, their ends moving at such velocities, forces of the sweep included (spring.c).
+void pl_exact_spring(const pl_exact_system *s, const double *velocity);
 
 // The factor of what `rows` weigh; its inverse times x, into x (factor.c).
 void pl_exact_factor(const pl_exact_system *s);

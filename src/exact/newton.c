@@ -226,7 +226,7 @@ static void find_scale(pl_exact_newton *n)
         if (!r->in_force) {
             continue;
         }
-        const double lack = r->target - pl_exact_rate(s, r, s->base);
+        const double lack = (r->target - pl_exact_rate(s, r, s->base)) / (1 + r->give * r->mass);
         sum = pl_greater(sum, pl_exact_sum(s, r));
         if (r->leads > 0) {
             slip = pl_greater(slip, fabs(lack));
@@ -303,7 +303,7 @@ void pl_exact_solve(pl_exact_system *s)
                                      s->exact->factored < most_factored;
          ++round) {
         if (pulls) {
-            pl_exact_bend(s);
+            pl_exact_bend(s, round);
         }
         const bool settled = round_off(&n);
         left = unrest(&n, false) / n.scale;

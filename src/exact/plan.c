@@ -406,7 +406,7 @@ static bool find_islands(search *s)
     if (!pl_buffer_reserve(&s->world->memory, &e->nodes, s->slots * sizeof(pl_exact_node)) ||
         !pl_buffer_reserve(&s->world->memory, &e->islands, s->slots * sizeof(pl_exact_island)) ||
         !pl_buffer_reserve(&s->world->memory, &e->vectors,
-                           15 * (size_t)s->slots * sizeof(double))) {
+                           PL_EXACT_VECTORS * 3 * (size_t)s->slots * sizeof(double))) {
         return false;
     }
     uint32_t *found = (uint32_t *)e->vectors.data; // scratch until the step is solved

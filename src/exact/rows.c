@@ -8,8 +8,19 @@
 #include "exact/exact.h"
 #include "joints/law.h"
 
+#include <math.h>
+
 // Share of an overlap that a substep undoes.
 #define RECOVERY 0.2
+
+// Rounds of a solution that ask where bodies are going to be: places are rounded, more would not settle.
+#define BENDS 2
+
+// Of what may be given in a substep, what may in this sweep: as much comes behind the drift as before it.
+static double share_of(const pl_exact_system *s)
+{
+    return s->sweep == PL_SWEEP_PULL ? 0.5 : 1;
+}
 
 //---- contacts ------------------------------------------------------------------------------------------
 
@@ -33,7 +44,7 @@ static void fill_normal(const pl_exact_system *s, const pl_exact_item *item,
 {
     const double apart = separation_now(s, item, m, p), rate = apart / (double)s->h;
     const double push = (double)s->world->desc.push_speed, back = -RECOVERY * rate;
-    const double pull = apart < (double)m->reach ? (double)m->pull : 0;
+    const double pull = apart < (double)m->reach ? (double)m->pull * share_of(s) : 0;
     *r = (pl_exact_row){ .j = { -(double)m->nx, -(double)m->ny, -(double)p->ran, (double)m->nx,
                                 (double)m->ny, (double)p->rbn },
                          .target = apart > 0                    ? -rate
@@ -86,7 +97,7 @@ static void note_strikes(const pl_exact_system *s, const pl_exact_item *item)
     for (uint32_t k = 0; k < m->count; ++k) {
         const pl_exact_row *r = &s->rows[item->first_row + k];
         if (m->point[k].ln <= 0 && r->next > 0) {
-            pl_classic_strike(m, (near_real)-pl_exact_rate(s, r, s->base),
+            pl_classic_strike(m, (near_real)-pl_exact_rate(s, r, s->full),
                               (near_real)separation_now(s, item, m, &m->point[k]), since, s->h);
         }
     }
@@ -128,15 +139,17 @@ static void fill_joint(const pl_exact_system *s, const pl_exact_item *item)
             continue;
         }
         const pl_row *r = &l.joint->rows.row[i];
-        const pl_row_law law = pl_row_law_of(&l, i, s->sweep);
-        const double impulse = (double)l.joint->impulse[i];
-        const double kept = stays ? impulse : 0;
+        const bool spring = pl_row_is_spring(r); // gives in both sweeps: spring.c
+        const pl_row_law law = pl_row_law_of(&l, i, spring ? PL_SWEEP_PULL : s->sweep);
+        const double impulse = (double)l.joint->impulse[i], share = share_of(s);
+        const bool keeps = stays || (spring && s->sweep == PL_SWEEP_RELAX);
+        const double kept = keeps ? impulse : 0;
         *out = (pl_exact_row){ .j = { (double)r->ax, (double)r->ay, (double)r->aw, (double)r->bx,
                                       (double)r->by, (double)r->bw },
                                .target = law.target,
                                .give = law.give,
-                               .low = law.low - kept,
-                               .high = law.high - kept,
+                               .low = share * law.low - kept,
+                               .high = share * law.high - kept,
                                .kept = kept,
                                .impulse = impulse - kept,
                                .in_force = law.in_force };
@@ -154,28 +167,88 @@ static void keep_joint(const pl_exact_system *s, const pl_exact_item *item)
     }
 }
 
-// What the turning of its bodies by w does to the anchors of a rigid point within the substep.
-static void bend(const pl_exact_system *s, const pl_exact_item *item)
+// [m/s], [rad/s] velocity of an end of an item, as the island has it now.
+static void velocity_of(const pl_exact_system *s, const pl_exact_item *item, int end, double v[3])
 {
-    const pl_joint *j = pl_joint_grouped(&s->world->joints, item->joint);
-    const pl_row *row = j->rows.row;
-    pl_exact_row *r = s->rows + item->first_row;
-    if (row[0].form != PL_FORM_POINT_X || row[0].type != PL_ROW_EQUAL || !r[0].in_force) {
-        return;
+    const pl_solver_body *body = &pl_solver_bodies(&s->world->solver)[item->slot[end]];
+    const double here[3] = { (double)body->vx, (double)body->vy, (double)body->w };
+    const uint32_t node = item->node[end];
+    for (size_t c = 0; c < 3; ++c) {
+        v[c] = node == PL_NONE ? here[c] : s->velocity[3 * (size_t)node + c];
     }
+}
+
+// What the turning of its bodies by w does to the anchors of a rigid point within the substep.
+static void bend_point(const pl_exact_system *s, const pl_exact_item *item, const pl_lone *l)
+{
+    const pl_row *row = l->joint->rows.row;
     real arc[2] = { 0, 0 };
     for (int end = 0; end < 2; ++end) {
-        const uint32_t node = item->node[end];
-        const real w = node == PL_NONE
-                           ? (real)pl_solver_bodies(&s->world->solver)[item->slot[end]].w
-                           : (real)s->velocity[3 * (size_t)node + 2];
-        pl_one_add_arc(arc, w, j->h, end == 0 ? row[0].aw : row[0].bw,
+        double v[3];
+        velocity_of(s, item, end, v);
+        pl_one_add_arc(arc, (real)v[2], l->joint->h, end == 0 ? row[0].aw : row[0].bw,
                        end == 0 ? row[1].aw : row[1].bw);
     }
+    for (uint32_t i = 0; i < 2; ++i) {
+        s->rows[item->first_row + i].target =
+            pl_row_law_of(l, (int)i, s->sweep).target - (double)arc[i];
+    }
+}
+
+// What J v could be, whichever way the bodies went.
+static double fastest(const pl_exact_row *r, double v[2][3])
+{
+    double sum = 0;
+    for (int end = 0; end < 2; ++end) {
+        const double *j = r->j + 3 * end, *u = v[end];
+        sum += sqrt((j[0] * j[0] + j[1] * j[1]) * (u[0] * u[0] + u[1] * u[1])) + fabs(j[2] * u[2]);
+    }
+    return sum;
+}
+
+// Of other rigid rows: by how much more than J v says their errors change in the substep. Up to half a radian, beyond which
+// tangents lead nowhere near, less and less of it.
+static void bend_rows(const pl_exact_system *s, const pl_exact_item *item, const pl_lone *l)
+{
+    const double h = (double)s->h;
+    pl_solver_body then[2] = { *l->a, *l->b };
+    double v[2][3];
+    for (int end = 0; end < 2; ++end) {
+        velocity_of(s, item, end, v[end]);
+        then[end].dx += (near_real)(h * v[end][0]);
+        then[end].dy += (near_real)(h * v[end][1]);
+        then[end].da += (near_real)(h * v[end][2]);
+    }
+    pl_joint there = *l->joint;
+    pl_one_rows(s->world, &there, &then[0], &then[1]);
+    for (int i = 0; i < there.rows.count; ++i) {
+        const pl_row *row = &l->joint->rows.row[i];
+        pl_exact_row *r = &s->rows[item->first_row + (uint32_t)i];
+        const bool bends = row->type == PL_ROW_EQUAL || row->type == PL_ROW_LEAST;
+        if (!r->in_force || !bends || row->spring != PL_SPRING_NONE ||
+            (i > 0 && i == l->joint->struck)) {
+            continue;
+        }
+        const double grown = (double)there.rows.row[i].error - (double)row->error;
+        const double arc = grown / h - pl_exact_rate(s, r, s->velocity);
+        const double most = fastest(r, v), turn = 4 * fabs(arc);
+        const double share =
+            turn < most ? 1 - turn * turn * turn * turn / (most * most * most * most) : 0;
+        r->target = pl_row_law_of(l, i, s->sweep).target - share * arc;
+    }
+}
+
+static void bend(const pl_exact_system *s, const pl_exact_item *item, int round)
+{
     pl_lone l;
     pl_one_take(s->joints, item->joint, &l);
-    for (int i = 0; i < 2; ++i) {
-        r[i].target = pl_row_law_of(&l, i, s->sweep).target - (double)arc[i];
+    const pl_row *row = l.joint->rows.row;
+    if (row[0].form == PL_FORM_POINT_X) {
+        if (pl_row_is_rigid(&row[0]) && s->rows[item->first_row].in_force) {
+            bend_point(s, item, &l);
+        }
+    } else if (round < BENDS) {
+        bend_rows(s, item, &l);
     }
 }
 
@@ -219,11 +292,11 @@ void pl_exact_fill(const pl_exact_system *s)
     }
 }
 
-void pl_exact_bend(const pl_exact_system *s)
+void pl_exact_bend(const pl_exact_system *s, int round)
 {
     for (uint32_t i = s->island->first_item; i < s->island->end_item; ++i) {
         if (s->items[i].joint != PL_NONE) {
-            bend(s, &s->items[i]);
+            bend(s, &s->items[i], round);
         }
     }
 }

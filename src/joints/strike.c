@@ -117,7 +117,8 @@ static flight flight_of(const plumb_world *world, const pl_lone *l, double h)
         pushed |= push[k] != 0;
         out.change[k] += lasts ? push[k] / h : 0;
     }
-    out.ago = pushed ? h / 2 : 0;
+    // The exact solver moves by the mean velocity.
+    out.ago = pushed && world->desc.solver != PLUMB_SOLVER_EXACT ? h / 2 : 0;
     for (int k = 0; k < 6; ++k) {
         out.start[k] += out.ago * out.change[k];
     }

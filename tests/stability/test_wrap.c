@@ -156,13 +156,14 @@ static void join(scene *s, plumb_joint_desc desc)
     assert_false(plumb_is_null(plumb_joint_create(s->w, &desc)));
 }
 
-// The kinds of joints that a chain has not. A pinion turns several times, and with it what lies far from its centre.
+// The kinds of joints that a chain has not. A pinion turns several times, and with it what lies far from its centre. The pulley's
+// rope is not used up: of length 0 it has no direction but by rounding.
 static void make_machines(scene *s)
 {
     const plumb_body none = PLUMB_NULL_INIT;
     plumb_body pinion = disc(s, PLUMB_DYNAMIC, 0, 0, 0.5), cog = disc(s, PLUMB_DYNAMIC, 2, 0, 1);
     plumb_body rack = box(s, PLUMB_DYNAMIC, 4, 1, 0.25, 1), arm = rod(s, -3, 1, 1);
-    plumb_body heavy = box(s, PLUMB_DYNAMIC, -6, -2, 0.5, 0.5);
+    plumb_body heavy = box(s, PLUMB_DYNAMIC, -6, -2, 0.5, R(0.265));
     plumb_body light = box(s, PLUMB_DYNAMIC, -8, 2, 0.5, 0.25);
     plumb_body drawn = box(s, PLUMB_DYNAMIC, 6, 3, 0.5, 0.5);
     plumb_body driven = box(s, PLUMB_DYNAMIC, 7, -1, 0.5, 0.5);
