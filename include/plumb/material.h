@@ -76,6 +76,9 @@ typedef struct plumb_material_desc {
     plumb_real gust_length;  ///< [m] > 0, length of gusts; 0 means 50
     plumb_real shear_height; ///< [m] >= 0, thickness of the layer at the bottom: at height z above it the flow is
                              ///< 1 - exp(-z / shear_height) of itself; 0: everywhere the same
+    /// [-] 0..10, lift of what spins: a force magnus 2 density area w v across its velocity v against the fluid, to the
+    /// side that goes with the flow; 1 is the law of Kutta and Joukowski for a cylinder, real balls have 0.2 to 0.5
+    plumb_real magnus;
 } plumb_material_desc;
 
 /// Makes a material. Null handle on error (see plumb_world_error): E_NULL, E_RANGE, E_NOT_FINITE,

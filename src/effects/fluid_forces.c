@@ -24,9 +24,10 @@
 
 // All that acts on a body.
 typedef struct pl_pull {
-    double force[3];     // [N], [N], [N m]
-    double resist[3][3]; // [kg/s] and so on: D + B
-    double excess[3][3]; // [kg] and so on: E
+    double force[3];             // [N], [N], [N m]
+    double resist[3][3];         // [kg/s] and so on: D + B
+    double lift, lift_x, lift_y; // [kg/s] of what spins, and times its velocity
+    double excess[3][3];         // [kg] and so on: E
 } pl_pull;
 
 typedef struct passage {
@@ -158,6 +159,13 @@ static void immerse(const passage *p, const pl_swimmer *s, const pl_keyed *immer
     pull->force[0] -= (d.xx * u.vx + d.xy * u.vy + d.xw * u.w) / 2;
     pull->force[1] -= (d.xy * u.vx + d.yy * u.vy + d.yw * u.w) / 2;
     pull->force[2] -= (d.xw * u.vx + d.yw * u.vy + d.ww * u.w) / 2;
+    if (m->magnus[of] > 0) {
+        const double area = pl_contour_area(&contour).area;
+        const double lift = 2 * (double)(m->magnus[of] * m->density[of]) * area * u.w;
+        pull->lift += lift;
+        pull->lift_x += lift * u.vx;
+        pull->lift_y += lift * u.vy;
+    }
     if (!m->weightless[of]) {
         float_up(world, s, volume, row, &contour, u, p->h, pull);
     }
@@ -174,6 +182,15 @@ static void solve(double m[3][3], double b[3])
     b[2] /= d2;
     b[1] = b[1] / d1 - l21 * b[2];
     b[0] = b[0] / m[0][0] - l10 * b[1] - l20 * b[2];
+}
+
+// Adds the lift of what spins, k J (v + v') / 2 with J the quarter turn: it takes no energy.
+static void lift(const pl_pull *pull, double mass, double h, double a[3])
+{
+    const double k = pull->lift / mass, q = h * k / 2;
+    const double x = pull->lift_x / mass + q * a[0], y = pull->lift_y / mass + q * a[1];
+    a[0] += (-y - q * x) / (1 + q * q);
+    a[1] += (x - q * y) / (1 + q * q);
 }
 
 static void accelerate(const passage *p, const pl_swimmer *s, const pl_pull *pull, uint32_t row)
@@ -194,6 +211,9 @@ static void accelerate(const passage *p, const pl_swimmer *s, const pl_pull *pul
         m[i][i] = still[i] ? 1 : m[i][i] + own[i] + lent[i];
     }
     solve(m, a);
+    if (pull->lift != 0 && !still[0] && !still[1]) {
+        lift(pull, s->mass + s->lent, p->h, a);
+    }
     motion->ax = (near_real)a[0];
     motion->ay = (near_real)a[1];
     motion->aw = (near_real)a[2];

@@ -45,7 +45,9 @@
     R(X, COLUMN, REAL, gust_length, SAID(gust_length), "m", ABOVE(0, NO_END), 50, NO_ZERO,          \
       "length of gusts, which pass at the flow's speed")                                            \
     R(X, COLUMN, REAL, shear_height, SAID(shear_height), "m", FROM(0, NO_END), 0, NO_ZERO,          \
-      "height above the bottom at which a flow has 63 % of its speed; 0: it is the same everywhere")
+      "height above the bottom at which a flow has 63 % of its speed; 0: it is the same everywhere") \
+    R(X, COLUMN, REAL, magnus, SAID(magnus), "1", FROM(0, 10), 0, NO_ZERO,                          \
+      "lift of what spins in a fluid, of that of a cylinder in an ideal one")
 
 #define PL_MATERIAL_PAIR_ROWS(R, X)                                                                 \
     R(X, OWN, REAL, friction, SAID(friction), "1", FROM(0, 10), 0, NO_ZERO, "Coulomb coefficient")  \

@@ -121,7 +121,8 @@ static void friction_holds_against_the_wind(void **state)
     const double shares[] = { 0.97, 1.03 };
     for (int i = 0; i < 2; ++i) {
         plumb_world *w = windy(4, true);
-        const double g = -(double)plumb_world_gravity(w).y, u = sqrt(2 * 0.5 * 2 * 2 * g / (RHO * C * 1));
+        const double g = -(double)plumb_world_gravity(w).y,
+                     u = sqrt(2 * 0.5 * 2 * 2 * g / (RHO * C * 1));
         air(w, (plumb_material_desc){ .flow_x = (plumb_real)(u * sqrt(shares[i])) });
         plumb_material m = plumb_material_create(
             w, &(plumb_material_desc){ .density = 2, .friction = (plumb_real)0.5 });
@@ -132,6 +133,28 @@ static void friction_holds_against_the_wind(void **state)
         assert_true(i == 0 ? sim_x(w, crate) < 1e-3 : sim_x(w, crate) > 0.1);
         plumb_world_destroy(w);
     }
+}
+
+// What spins and is not slowed goes in circles of m v / (2 rho area w), and keeps its speed.
+static void spin_lifts(void **state)
+{
+    (void)state;
+    plumb_world *w = windy(4, false);
+    air(w, (plumb_material_desc){ .no_drag = true, .magnus = (plumb_real)0.5 });
+    plumb_body ball = sim_ball(w, 0, 500, 0.5, solid(w, 4));
+    sim_launch(w, ball, 10, 0, 20);
+    const double turn = 0.5 * 2 * RHO / 4 * 20, radius = 10 / turn; // [rad/s]
+    double worst = 0;
+    for (int i = 1; i <= 600; ++i) {
+        sim_step(w, 1 / 60.0);
+        worst =
+            fmax(worst, fabs(hypot(sim_x(w, ball), sim_y(w, ball) - 500 - radius) / radius - 1));
+    }
+    const double speed = hypot(sim_vx(w, ball), sim_vy(w, ball));
+    print_message("a circle of %.3f m: off by %.2g of it, speed by %.2g\n", radius, worst,
+                  speed / 10 - 1);
+    assert_true(worst < 1e-3 && fabs(speed / 10 - 1) < SIM_TOLERANCE(1e-4, 1e-10));
+    plumb_world_destroy(w);
 }
 
 // Nothing blows outside of the zone; one that spins is a whirl.
@@ -186,6 +209,7 @@ int main(void)
         cmocka_unit_test(wind_carries_along),
         cmocka_unit_test(wind_is_weaker_near_the_ground),
         cmocka_unit_test(friction_holds_against_the_wind),
+        cmocka_unit_test(spin_lifts),
         cmocka_unit_test(zones_end_and_turn),
         cmocka_unit_test(gusts_are_of_their_size),
     };
