@@ -32,7 +32,7 @@ static inline bool pl_is_linked(const pl_pair *pair)
     return pair->manifold != PL_NONE || (pair->flags & PL_PAIR_TOUCHING) != 0;
 }
 
-// Body rows of a pair; false when one of its pieces has gone or changed since the pair was made.
+// Body rows of a pair; false when one of its pieces has gone, changed or been disabled since the pair was made.
 static inline bool pl_linked_rows(const plumb_world *world, const pl_pair *pair, uint32_t *a,
                                   uint32_t *b)
 {
@@ -40,7 +40,8 @@ static inline bool pl_linked_rows(const plumb_world *world, const pl_pair *pair,
     *a = p->body[pair->a];
     *b = p->body[pair->b];
     return p->kind[pair->a] != PL_PIECE_FREE && p->serial[pair->a] <= world->broad.serial &&
-           p->kind[pair->b] != PL_PIECE_FREE && p->serial[pair->b] <= world->broad.serial;
+           p->kind[pair->b] != PL_PIECE_FREE && p->serial[pair->b] <= world->broad.serial &&
+           p->moving[pair->a] != PL_OUT && p->moving[pair->b] != PL_OUT;
 }
 
 //---- lying down (lie.c) ----------------------------------------------------------------------------

@@ -331,6 +331,12 @@ static int find_touch(const run *r, plumb_shape a, plumb_shape b)
     return i;
 }
 
+static bool is_out(const run *r, plumb_shape shape)
+{
+    return !plumb_shape_valid(r->w, shape) ||
+           !plumb_body_is_enabled(r->w, plumb_shape_body(r->w, shape));
+}
+
 // What begins was not there, what ends was.
 static void count_touches(run *r)
 {
@@ -347,10 +353,9 @@ static void count_touches(run *r)
         assert_true(r->touch_count < PAIRS);
         r->touching[r->touch_count++] = (touch){ begun[i].shape_a, begun[i].shape_b };
     }
-    // Contacts of sleepers end without an event when a shape goes.
+    // Contacts of sleepers end without an event when a shape goes, or is disabled with its body.
     for (int i = 0; i < r->touch_count;) {
-        bool gone = !plumb_shape_valid(r->w, r->touching[i].a) ||
-                    !plumb_shape_valid(r->w, r->touching[i].b);
+        const bool gone = is_out(r, r->touching[i].a) || is_out(r, r->touching[i].b);
         r->touching[i] = gone ? r->touching[--r->touch_count] : r->touching[i];
         i += !gone;
     }
@@ -445,8 +450,9 @@ static bool play(unsigned seed, disturbance how, uint64_t *hashes, bool compare,
 enum { WORLDS = 40 };
 
 // Worlds that a refused step once showed in. 17, double: a pair that will meet at some hundred m/s forgot its impulses
-// (narrow/settle.c); 137, float: a fast body passed through one that had fallen asleep in that step (continuous/search.c).
-static const unsigned once[] = { 17, 137 };
+// (narrow/settle.c); 137, float: a fast body passed through one that had fallen asleep in that step (continuous/search.c). And where what was told of contacts
+// was wrong: 274, double: a body was put to sleep with one that had been disabled, and kept its contact (sleep/fall.h).
+static const unsigned once[] = { 17, 137, 274 };
 #define ONCE (sizeof once / sizeof once[0])
 
 static unsigned asked(const char *name, unsigned otherwise)
