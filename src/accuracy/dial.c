@@ -125,11 +125,10 @@ static double look_at_motion(plumb_world *world, double dt)
     return fastest;
 }
 
-// Bodies with joints and all that the exact solver moves are kicked before the drift, and lag; the others are in halves
-// (solver/halves.c).
+// All are kicked in halves about the drift (solver/halves.c), but for some assemblies of joints (joints/assembly.c).
 static double lag_of(const plumb_world *world)
 {
-    const bool whole = world->dial.tier == PL_DIAL_EXACT || world->joints.live > 0;
+    const bool whole = world->dial.tier != PL_DIAL_EXACT && world->joints.plan.any_whole;
     return whole ? FIT->lag : 0;
 }
 

@@ -140,7 +140,7 @@ static void fill_joint(const pl_exact_system *s, const pl_exact_item *item)
         }
         const pl_row *r = &l.joint->rows.row[i];
         const bool spring = pl_row_is_spring(r); // gives in both sweeps: spring.c
-        const pl_row_law law = pl_row_law_of(&l, i, spring ? PL_SWEEP_PULL : s->sweep);
+        const pl_row_law law = pl_row_law_of(&l, i, spring ? PL_SWEEP_PULL : s->sweep, false);
         const double impulse = (double)l.joint->impulse[i], share = share_of(s);
         const bool keeps = stays || (spring && s->sweep == PL_SWEEP_RELAX);
         const double kept = keeps ? impulse : 0;
@@ -191,7 +191,7 @@ static void bend_point(const pl_exact_system *s, const pl_exact_item *item, cons
     }
     for (uint32_t i = 0; i < 2; ++i) {
         s->rows[item->first_row + i].target =
-            pl_row_law_of(l, (int)i, s->sweep).target - (double)arc[i];
+            pl_row_law_of(l, (int)i, s->sweep, false).target - (double)arc[i];
     }
 }
 
@@ -234,7 +234,7 @@ static void bend_rows(const pl_exact_system *s, const pl_exact_item *item, const
         const double most = fastest(r, v), turn = 4 * fabs(arc);
         const double share =
             turn < most ? 1 - turn * turn * turn * turn / (most * most * most * most) : 0;
-        r->target = pl_row_law_of(l, i, s->sweep).target - share * arc;
+        r->target = pl_row_law_of(l, i, s->sweep, false).target - share * arc;
     }
 }
 

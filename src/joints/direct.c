@@ -65,7 +65,7 @@ static void open_part(const joint_system *s, uint32_t column, pl_joint_sweep swe
     pl_direct_part *p = &s->parts[column];
     pl_one_take(s->context, s->columns[column].joint, &p->lone);
     for (int i = 0; i < p->lone.joint->rows.count; ++i) {
-        p->law[i] = pl_row_law_of(&p->lone, i, sweep);
+        p->law[i] = pl_row_law_of(&p->lone, i, sweep, true);
         if (p->law[i].in_force) {
             p->at_bound[i] = i >= p->lone.joint->rows.block && begins_at_bound(p, i);
         }
@@ -309,21 +309,37 @@ static near_real own_inertia(const joint_system *s, uint32_t column, int end)
     return pl_one_own_inertia(s->context->world, s->parts[column].lone.joint, end);
 }
 
+// What impulses make a body spin by its inertia of now: `start` of them were the substep's to begin with, of which a
+// share comes behind the drift (halves.c).
+static void turn(const joint_system *s, pl_solver_body *body, uint32_t slot, near_real all,
+                 near_real start)
+{
+    const pl_solver *solver = &s->context->world->solver;
+    if (slot >= solver->dynamic_slots) {
+        return;
+    }
+    near_real *kicked = (near_real *)solver->kicked.data;
+    const near_real behind = pl_kick_behind(kicked, slot) * start;
+    body->w += body->inv_inertia * (all - behind);
+    kicked[4 * (size_t)slot + 2] += body->inv_inertia * behind;
+}
+
 // Adds to what bodies spin by what the joints' impulses make of their inertia, `share` of it.
 static void spin(const joint_system *s, near_real share)
 {
     for (uint32_t c = s->first; c < s->end; ++c) {
         const pl_lone *l = &s->parts[c].lone;
         const pl_joint *j = l->joint;
-        real a = 0, b = 0;
+        real a[2] = { 0, 0 }, b[2] = { 0, 0 };
         for (int i = 0; i < j->rows.count; ++i) {
-            if (j->rows.row[i].type != PL_ROW_OFF) {
-                a += j->rows.row[i].aw * j->impulse[i];
-                b += j->rows.row[i].bw * j->impulse[i];
+            const pl_row *r = &j->rows.row[i];
+            if (r->type != PL_ROW_OFF) {
+                a[0] += r->aw * j->impulse[i], a[1] += r->aw * j->half[i].start;
+                b[0] += r->bw * j->impulse[i], b[1] += r->bw * j->half[i].start;
             }
         }
-        l->a->w += share * l->a->inv_inertia * (near_real)a;
-        l->b->w += share * l->b->inv_inertia * (near_real)b;
+        turn(s, l->a, j->slot_a, share * (near_real)a[0], share * (near_real)a[1]);
+        turn(s, l->b, j->slot_b, share * (near_real)b[0], share * (near_real)b[1]);
     }
 }
 
@@ -417,6 +433,8 @@ static void fill_sides(const joint_system *s, bool arcs)
         if (arcs && row[0].form == PL_FORM_POINT_X && row[0].type == PL_ROW_EQUAL) {
             pl_one_add_arc(arc, l->a->w, j->h, row[0].aw, row[1].aw);
             pl_one_add_arc(arc, l->b->w, j->h, row[0].bw, row[1].bw);
+        } else if (arcs && row[0].type == PL_ROW_EQUAL && row[0].spring == PL_SPRING_NONE) {
+            arc[0] = pl_one_bow(&row[0], l->a, l->b, j->h);
         }
         for (int k = 0; k < p->count; ++k) {
             const int i = p->row[k];

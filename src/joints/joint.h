@@ -106,6 +106,10 @@ typedef enum pl_joint_sweep {
 bool pl_joints_look(plumb_world *world);
 bool pl_joints_plan(plumb_world *world);
 bool pl_joints_group(plumb_world *world);
+// Room for assemblies, which are made with the plan; then, once contacts have colours, whose kicks are whole (assembly.c).
+bool pl_assemblies_reserve(plumb_world *world);
+void pl_assemblies_make(plumb_world *world);
+void pl_assemblies_share(plumb_world *world);
 // How many `ends` there are after pl_joints_look; whether other joints are solved than in the last step.
 uint32_t pl_joints_tied(const plumb_world *world);
 bool pl_joints_changed(const plumb_world *world);

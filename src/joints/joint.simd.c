@@ -9,31 +9,40 @@
 
 //---- sweeps --------------------------------------------------------------------------------------
 
-WIDE_INLINE void solve_single(row *r, const single *s, const pl_pattern_row *kind,
-                              const pl_joint_call *call, const bool pull, body *a, body *b)
+WIDE_INLINE void solve_single(row *r, const source *from, const single *s,
+                              const pl_pattern_row *kind, const pl_joint_call *call, vf lagging,
+                              vf spared, const bool pull, const bool first, body *a, body *b)
 {
     const vf zero = splat(0), one = splat(1);
-    vf velocity = one, error_rate = zero, give = zero, speed = zero;
+    vf velocity = one, error_rate = zero, give = zero, speed = zero, before = zero, lag = zero;
     vf low = -s->most;
     if (kind->type == PL_ROW_DRIVE) {
         speed = s->speed;
     } else if (kind->spring) {
-        velocity = s->velocity, error_rate = s->error_rate, give = one - velocity;
-        speed = s->speed;
+        velocity = s->spring.velocity[!pull], error_rate = s->spring.error_rate[!pull];
+        give = one - velocity;
+        before = s->spring.before[!pull] * s->before;
+        lag = pull ? lagging * r->start : s->lag;
     } else if (pull) {
         velocity = splat((near_real)call->rigid.velocity);
         error_rate = splat((near_real)call->rigid.error);
         give = splat((near_real)call->rigid.impulse);
+        lag = spared * r->start;
     }
     if (kind->type == PL_ROW_LEAST) {
         vm apart = r->error > zero; // may close the gap
         velocity = sel(apart, one, velocity);
         error_rate = sel(apart, splat((near_real)(1 / call->h)), error_rate);
         give = sel(apart, zero, give);
+        before = sel(apart, zero, before);
         low = zero;
     }
-    vf v = rate(r, a, b) - speed;
-    vf total = r->impulse - s->mass * (velocity * v + error_rate * r->error) - give * r->impulse;
+    vf v = rate(r, a, b);
+    if (pull && !first && !kind->spring && kind->form == PL_FORM_LENGTH) {
+        v += bow(r, from, a, b, splat((near_real)call->h));
+    }
+    vf lack = velocity * (v - speed) - before + error_rate * r->error;
+    vf total = r->impulse - s->mass * lack - give * (r->impulse - lag);
     total = vclamp(total, low, s->most);
     vf change = total - r->impulse;
     r->impulse = total;
@@ -52,9 +61,9 @@ WIDE_INLINE void solve_block(const parts *at, const pl_joint_pattern *p, const i
     vf velocity = splat(1), error_rate = splat(0), keep = splat(1);
     const bool driven = p->tempered && (p->row[0].spring || p->row[0].type == PL_ROW_DRIVE);
     if (driven) {
-        velocity = at->temper->velocity;
-        error_rate = at->temper->error_rate;
-        keep = splat(1) - at->temper->give;
+        velocity = at->temper->spring.velocity[!pull];
+        error_rate = at->temper->spring.error_rate[!pull];
+        keep = velocity; // 1 - what gives
     } else if (pull) {
         velocity = splat((near_real)call->rigid.velocity);
         error_rate = splat((near_real)call->rigid.error);
@@ -69,10 +78,17 @@ WIDE_INLINE void solve_block(const parts *at, const pl_joint_pattern *p, const i
         add_arc(wrong, b->w, splat((near_real)call->h), r[0].wb, r[1].wb);
     }
     for (int i = 0; i < n; ++i) {
-        if (pull) {
+        if (pull || driven) {
             wrong[i] = velocity * wrong[i] + error_rate * r[i].error;
         }
         total[i] = keep * r[i].impulse;
+        if (pull && !driven) {
+            total[i] += (splat(1) - keep) * (at->c->lag * at->c->spared) * r[i].start;
+        }
+        if (driven) {
+            wrong[i] -= at->temper->spring.before[!pull] * at->temper->before[i];
+            total[i] += (splat(1) - keep) * (pull ? at->c->lag * r[i].start : at->temper->lag[i]);
+        }
     }
     total[0] -= inverse[0] * wrong[0];
     if (n > 1) {
@@ -108,12 +124,8 @@ WIDE_INLINE void solve_rows(const parts *at, const pl_joint_pattern *p, const pl
                             const bool pull, const bool first, body *a, body *b)
 {
     for (int i = p->count - 1; i >= p->block; --i) {
-        if (pull || !p->row[i].spring) {
-            solve_single(&at->rows[i], &at->singles[i - p->block], &p->row[i], call, pull, a, b);
-        }
-    }
-    if (!pull && p->row[0].spring) {
-        return;
+        solve_single(&at->rows[i], &at->sources[i], &at->singles[i - p->block], &p->row[i], call,
+                     at->c->lag, at->c->lag * at->c->spared, pull, first, a, b);
     }
     switch (p->block) {
     case 1:
@@ -146,10 +158,21 @@ SWEEP_PART void solve_bundle(const parts *at, const pl_joint_pattern *p, const p
 WIDE_INLINE bool has_springs(const pl_joint_pattern *p)
 {
     bool any = false;
-    for (int i = p->block; i < p->count; ++i) {
+    for (int i = 0; i < p->count; ++i) {
         any |= p->row[i].spring != PL_SPRING_NONE;
     }
     return any;
+}
+
+static void fill_spring(oscillator *to, int lane, const pl_row *from, real mass, real h,
+                        uint32_t degree)
+{
+    const pl_oscillator o = pl_joint_oscillator(from, mass, h, degree);
+    for (int i = 0; i < 2; ++i) {
+        to->velocity[i][lane] = (near_real)o.half[i].velocity;
+        to->error_rate[i][lane] = (near_real)o.half[i].error;
+        to->before[i][lane] = (near_real)o.half[i].before;
+    }
 }
 
 // Factors of springs in newtons, which follow the mass that they meet.
@@ -164,11 +187,7 @@ static void tune_springs(const parts *at, const pl_joint_pattern *p, const pl_jo
                 const pl_joint *j = &call->joints[lanes[n].joint];
                 pl_row told = { .type = PL_ROW_EQUAL };
                 pl_row_soften(&told, &j->desc);
-                const pl_oscillator o =
-                    pl_joint_oscillator(&told, (real)s->mass[n], call->h, j->degree);
-                s->velocity[n] = (near_real)o.soft.velocity;
-                s->error_rate[n] = (near_real)o.soft.error;
-                s->lead[n] = (near_real)o.lead;
+                fill_spring(&s->spring, n, &told, (real)s->mass[n], call->h, j->degree);
             }
         }
     }
@@ -176,32 +195,87 @@ static void tune_springs(const parts *at, const pl_joint_pattern *p, const pl_jo
 
 // Rows where the bodies are, of bundle k.
 WIDE_INLINE void remake(const parts *at, const pl_joint_pattern *p, const pl_joint_call *call,
-                        uint32_t k, const body *a, const body *b)
+                        uint32_t k, const body *a, const body *b, momentum *due)
 {
-    make_rows(at, p, a, b);
+    make_rows(at, p, a, b, due);
     if (p->newtons) {
         tune_springs(at, p, call, k);
     }
 }
 
-// The velocity before the next substep, for springs.
+// What springs go by from the start of a substep on: how fast they are.
 WIDE_INLINE void note_springs(const parts *at, const pl_joint_pattern *p, const body *a,
                               const body *b)
 {
-    for (int i = p->block; i < p->count; ++i) {
-        if (p->row[i].spring) {
-            single *s = &at->singles[i - p->block];
-            s->speed = s->lead * rate(&at->rows[i], a, b);
+    for (int i = 0; i < p->count; ++i) {
+        const row *r = &at->rows[i];
+        if (!p->row[i].spring) {
+            continue;
+        }
+        const vf v = rate(r, a, b);
+        if (i < p->block) {
+            at->temper->before[i] = v;
+        } else {
+            at->singles[i - p->block].before = v;
         }
     }
 }
 
-SWEEP_PART void begin_bundle(const parts *at, const pl_joint_pattern *p, const pl_joint_call *call,
-                             uint32_t k, body *a, body *b)
+// The same from where the places have moved on; `old`: errors before.
+WIDE_INLINE void turn_springs(const parts *at, const pl_joint_pattern *p, const vf *old,
+                              const pl_joint_call *call)
 {
+    const vf rate_of = splat((near_real)(1 / call->h));
+    for (int i = 0; i < p->count; ++i) {
+        const row *r = &at->rows[i];
+        if (!p->row[i].spring) {
+            continue;
+        }
+        const vf u = (r->error - old[i]) * rate_of, lag = r->impulse - at->c->lag * r->start;
+        if (i < p->block) {
+            at->temper->before[i] = u;
+            at->temper->lag[i] = lag;
+        } else {
+            at->singles[i - p->block].before = u;
+            at->singles[i - p->block].lag = lag;
+        }
+    }
+}
+
+// Where bodies have moved: rows of now, and what comes behind the drift of what turns.
+SWEEP_PART void move_on(const parts *at, const pl_joint_pattern *p, const pl_joint_call *call,
+                        uint32_t k, body *a, body *b)
+{
+    const bundle *c = at->c;
+    const momentum owed = c->owed;
+    momentum due;
+    vf old[PL_JOINT_ROWS];
+    for (int i = 0; i < p->count; ++i) {
+        old[i] = at->rows[i].error;
+    }
     gather_body(a, call, at->a);
     gather_body(b, call, at->b);
-    remake(at, p, call, k, a, b);
+    remake(at, p, call, k, a, b, &due);
+    give(a, b, &owed, c->behind_a, c->behind_b);
+    give(a, b, &due, splat(1), splat(1));
+    turn_springs(at, p, old, call);
+}
+
+// Before the drift: what is owed, but for the share that comes behind.
+WIDE_INLINE void begin_half(const parts *at, const pl_joint_pattern *p, const pl_joint_call *call,
+                            body *a, body *b)
+{
+    bundle *c = at->c;
+    const uint32_t end = call->dynamic_slots;
+    for (int i = 0; i < PL_WIDTH; ++i) {
+        c->behind_a[i] = pl_joint_behind(call->kicked, end, at->a[i]);
+        c->behind_b[i] = pl_joint_behind(call->kicked, end, at->b[i]);
+        c->lag[i] = pl_joint_lag(call->kicked, end, at->a[i], at->b[i]);
+    }
+    give(a, b, &c->owed, splat(1) - c->behind_a, splat(1) - c->behind_b);
+    for (int i = 0; i < p->count; ++i) {
+        at->rows[i].start = at->rows[i].impulse;
+    }
 }
 
 WIDE_INLINE void sweep_bundle(const pl_joint_call *call, uint32_t k, const pl_joint_pattern *p,
@@ -211,13 +285,13 @@ WIDE_INLINE void sweep_bundle(const pl_joint_call *call, uint32_t k, const pl_jo
     bundle *c = at.c;
     body a, b;
     if (first && !pull) {
-        begin_bundle(&at, p, call, k, &a, &b);
+        move_on(&at, p, call, k, &a, &b);
     } else {
         gather_velocity(&a, call, at.a, c->inertia_a);
         gather_velocity(&b, call, at.b, c->inertia_b);
     }
     if (first && pull) {
-        push(&a, &b, c->owed_x, c->owed_y, c->owed_a, c->owed_b);
+        begin_half(&at, p, call, &a, &b);
     }
     solve_bundle(&at, p, call, pull, first, &a, &b);
     if (!pull && !first) {
@@ -328,19 +402,13 @@ static void fill_row(const parts *at, const pl_joint_pattern *p, int i, int lane
     e->most[lane] = (near_real)(from->most * h);
     e->speed[lane] = (near_real)from->speed;
     if (p->row[i].spring == PL_SPRING_HERTZ) {
-        const pl_oscillator o = pl_joint_oscillator(from, 0, h, degree);
-        e->velocity[lane] = (near_real)o.soft.velocity;
-        e->error_rate[lane] = (near_real)o.soft.error;
-        e->lead[lane] = (near_real)o.lead;
+        fill_spring(&e->spring, lane, from, 0, h, degree);
     }
 }
 
-static void fill_temper(temper *t, int lane, const pl_rows *rows, real h)
+static void fill_temper(temper *t, int lane, const pl_rows *rows, real h, uint32_t degree)
 {
-    pl_joint_soft soft = pl_joint_spring(&rows->row[0], 0, h); // none in newtons: plan.c
-    t->velocity[lane] = (near_real)soft.velocity;
-    t->error_rate[lane] = (near_real)soft.error;
-    t->give[lane] = (near_real)soft.impulse;
+    fill_spring(&t->spring, lane, &rows->row[0], 0, h, degree); // none in newtons: plan.c
     t->most[lane] = (near_real)(rows->block_most * h);
 }
 
@@ -359,7 +427,7 @@ static void fill_lane(const parts *at, const pl_joint_pattern *p, int lane, cons
         at->c->ra_y[lane] = (near_real)(a->ry + apart.y - rows->row[1].error);
     }
     if (p->tempered) {
-        fill_temper(at->temper, lane, rows, h);
+        fill_temper(at->temper, lane, rows, h, j->degree);
     }
 }
 
@@ -436,28 +504,8 @@ static void refill(const pl_joint_call *call)
         if (any((a.inv_inertia < at.c->inertia_a) | (b.inv_inertia < at.c->inertia_b))) {
             at.c->inertia_a = a.inv_inertia;
             at.c->inertia_b = b.inv_inertia;
-            remake(&at, p, call, k, &a, &b);
-        }
-    }
-}
-
-// Of a joint's first substep (its rows' `speed` says so: begin_wide) there is more to know.
-static void begin_springs(const parts *at, const pl_joint_pattern *p, const pl_joint_call *call,
-                          const body *a, const body *b)
-{
-    const pl_joint_lane *lanes = &call->lanes[(size_t)call->first * PL_WIDTH];
-    note_springs(at, p, a, b);
-    for (int i = p->block; i < p->count; ++i) {
-        const row *r = &at->rows[i];
-        const vf v = rate(r, a, b);
-        for (int k = 0; k < PL_WIDTH && p->row[i].spring; ++k) {
-            const pl_row *from = &call->rows[k].row[p->row[i].index];
-            if (lanes[k].joint != PL_NONE && from->speed != 0) {
-                single *s = &at->singles[i - p->block];
-                const pl_oscillator o = pl_joint_oscillator(from, (real)s->mass[k], call->h,
-                                                            call->joints[lanes[k].joint].degree);
-                s->speed[k] += (near_real)(o.start_rate * v[k] + o.start_error * r->error[k]);
-            }
+            momentum due;
+            remake(&at, p, call, k, &a, &b, &due);
         }
     }
 }
@@ -470,6 +518,10 @@ static void fill(const pl_joint_call *call)
     const pl_joint_lane *lanes = &call->lanes[(size_t)k * PL_WIDTH];
     memset(at.c, 0, record_size(p));
     fill_start(&at, call->starts, p->bare);
+    for (int i = 0; i < PL_WIDTH; ++i) {
+        at.c->spared[i] =
+            pl_joint_spared(lanes[i].joint != PL_NONE ? call->marks[lanes[i].joint].degree : 1);
+    }
     for (int i = 0; i < PL_WIDTH && !p->bare; ++i) {
         if (lanes[i].joint != PL_NONE) {
             fill_lane(&at, p, i, &call->joints[lanes[i].joint], &call->rows[i], call->h);
@@ -480,10 +532,11 @@ static void fill(const pl_joint_call *call)
     gather_body(&b, call, at.b);
     at.c->inertia_a = a.inv_inertia;
     at.c->inertia_b = b.inv_inertia;
-    remake(&at, p, call, k, &a, &b);
-    at.c->owed_x = at.c->owed_y = at.c->owed_a = at.c->owed_b = splat(0);
+    momentum due;
+    remake(&at, p, call, k, &a, &b, &due);
+    at.c->owed = (momentum){ .ax = splat(0) };
     if (has_springs(p)) {
-        begin_springs(&at, p, call, &a, &b);
+        note_springs(&at, p, &a, &b);
     }
     if (is_tense(&at, p, call)) {
         *call->tense = true;
@@ -553,9 +606,10 @@ static void tally(const pl_joint_call *call)
             react(&at, p, call, &now, sum);
             // What J's turning owes is not given yet: it is paid to what the next substep begins with.
             bundle *c = at.c;
-            c->sum_x += sum[0] - c->owed_x;
-            c->sum_y += sum[1] - c->owed_y;
-            c->sum_w += sum[2] - (c->owed_b - (now.rb_x * c->owed_y - now.rb_y * c->owed_x));
+            const momentum *owed = &c->owed;
+            c->sum_x += sum[0] - owed->bx;
+            c->sum_y += sum[1] - owed->by;
+            c->sum_w += sum[2] - (owed->bw - (now.rb_x * owed->by - now.rb_y * owed->bx));
         }
     }
 }

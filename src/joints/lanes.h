@@ -24,36 +24,52 @@ typedef struct row {
     vf nx, ny, wa, wb; // J
     vf error;          // C
     vf impulse;        // [N s]
+    vf start;          // [N s] of it, what the substep began with
 } row;
 
 // What a row is made of, but for points.
 typedef struct source {
     vf nx, ny; // along: n at the start of the step; length: nx its sign
     vf offset;
+    vf along_a, along_b, over; // length: n . r of A and of B [m], 1 / |d| [1/m]
 } source;
+
+// Of the halves of a substep: see pl_oscillator.
+typedef struct oscillator {
+    vf velocity[2], error_rate[2], before[2];
+} oscillator;
 
 // What a row outside the block has besides.
 typedef struct single {
-    vf mass;  // [kg] effective
-    vf most;  // [N s] bound
-    vf speed; // [m/s] or [rad/s] of drives; of springs what v before the substep adds to J v
-    vf velocity, error_rate, lead; // of springs: see pl_oscillator
+    vf mass;        // [kg] effective
+    vf most;        // [N s] bound
+    vf speed;       // [m/s] or [rad/s] of drives
+    vf before, lag; // of springs: see pl_row
+    oscillator spring;
 } single;
 
 // A block that is a spring or bounded.
 typedef struct temper {
-    vf velocity, error_rate, give;
-    vf most; // [N s] of two rows as a vector
+    oscillator spring;
+    vf before[3], lag[3]; // of its rows, as of a single
+    vf most;              // [N s] of two rows as a vector
 } temper;
+
+// Given to A and to B.
+typedef struct momentum {
+    vf ax, ay, aw, bx, by, bw;
+} momentum;
 
 // Followed by the rows, a source for each if the block is no point, a temper, the singles.
 typedef struct bundle {
-    vf inertia_a, inertia_b;           // inverse
-    vf owed_x, owed_y, owed_a, owed_b; // momentum that J's turning owes
-    vf inverse[6];                     // of the block's K: 00, 01, 11, 02, 12, 22
-    vf ra_x, ra_y, rb_x, rb_y;         // [m] arms at the start of the step
-    vf apart_x, apart_y;               // [m] from A's centre to B's at the start of the step
-    vf sum_x, sum_y, sum_w;            // [N s], [N m s] as pl_joint.step_impulse, step_turn
+    vf inertia_a, inertia_b;    // inverse
+    momentum owed;              // because J has turned
+    vf behind_a, behind_b, lag; // shares: see pl_joint_behind, pl_joint_lag
+    vf spared;                  // see pl_joint_spared
+    vf inverse[6];              // of the block's K: 00, 01, 11, 02, 12, 22
+    vf ra_x, ra_y, rb_x, rb_y;  // [m] arms at the start of the step
+    vf apart_x, apart_y;        // [m] from A's centre to B's at the start of the step
+    vf sum_x, sum_y, sum_w;     // [N s], [N m s] as pl_joint.step_impulse, step_turn
 } bundle;
 
 typedef struct parts {
@@ -138,6 +154,26 @@ WIDE_INLINE void push(body *a, body *b, vf x, vf y, vf wa, vf wb)
     b->w += b->inv_inertia * wb;
 }
 
+// A share of m to each.
+WIDE_INLINE void give(body *a, body *b, const momentum *m, vf share_a, vf share_b)
+{
+    const vf mass_a = a->inv_mass * share_a, mass_b = b->inv_mass * share_b;
+    a->vx += mass_a * m->ax;
+    a->vy += mass_a * m->ay;
+    a->w += a->inv_inertia * share_a * m->aw;
+    b->vx += mass_b * m->bx;
+    b->vy += mass_b * m->by;
+    b->w += b->inv_inertia * share_b * m->bw;
+}
+
+// What impulses of A and of B along a row get by its turning.
+WIDE_INLINE void add_turning(momentum *m, const row *now, const row *old, vf of_a, vf of_b)
+{
+    const vf x = now->nx - old->nx, y = now->ny - old->ny;
+    m->ax -= x * of_a, m->ay -= y * of_a, m->aw += (now->wa - old->wa) * of_a;
+    m->bx += x * of_b, m->by += y * of_b, m->bw += (now->wb - old->wb) * of_b;
+}
+
 WIDE_INLINE vf rate(const row *r, const body *a, const body *b)
 {
     return (r->nx * (b->vx - a->vx) + r->ny * (b->vy - a->vy)) + (r->wa * a->w + r->wb * b->w);
@@ -181,6 +217,23 @@ WIDE_INLINE void add_arc(vf v[2], vf w, vf h, vf w0, vf w1)
     vf c = x * u * splat((near_real)-0.5), s = xx * u * -TAYLOR(6);
     v[0] += c * w1 + s * w0;
     v[1] += s * w1 - c * w0;
+}
+
+WIDE_INLINE vf fading(vf x)
+{
+    const vf xx = x * x, one = splat(1);
+    return sel(xx < one, one - xx * xx, splat(0));
+}
+
+// The same for a length: what the way across d and the arcs of its ends add to it, C'' h / 2.
+WIDE_INLINE vf bow(const row *r, const source *s, const body *a, const body *b, vf h)
+{
+    const vf across =
+        r->nx * (b->vy - a->vy) - r->ny * (b->vx - a->vx) + s->along_b * b->w - s->along_a * a->w;
+    const vf turn = across * s->over, of_a = fading(h * a->w) * a->w * a->w;
+    const vf of_b = fading(h * b->w) * b->w * b->w;
+    const vf way = fading(h * turn) * across * turn;
+    return splat((near_real)0.5) * h * (way + (of_a * s->along_a - of_b * s->along_b));
 }
 
 WIDE_INLINE vf inverse_or_zero(vf k)
@@ -258,8 +311,8 @@ WIDE_INLINE place place_now(const bundle *c, const body *a, const body *b)
     return p;
 }
 
-WIDE_INLINE void make_row(row *r, const source *from, const uint8_t form, const place *p,
-                          const body *a, const body *b)
+WIDE_INLINE void make_row(row *r, source *from, const uint8_t form, const place *p, const body *a,
+                          const body *b)
 {
     const vf zero = splat(0), half = splat((near_real)0.5);
     switch (form) {
@@ -294,25 +347,29 @@ WIDE_INLINE void make_row(row *r, const source *from, const uint8_t form, const 
         r->wa = -(p->ra_x * r->ny - p->ra_y * r->nx);
         r->wb = p->rb_x * r->ny - p->rb_y * r->nx;
         r->error = from->nx * length + from->offset;
+        from->along_a = p->ra_x * r->nx + p->ra_y * r->ny;
+        from->along_b = p->rb_x * r->nx + p->rb_y * r->ny;
+        from->over = sel(there, from->nx / sel(there, length, splat(1)), splat(0));
         break;
     }
     }
 }
 
-// Rows, effective masses and what is owed, from where the bodies are.
-WIDE_INLINE void make_rows(const parts *at, const pl_joint_pattern *p, const body *a, const body *b)
+// Rows, effective masses and what is owed, from where the bodies are. `due`: of the impulses with which the substep began,
+// what comes behind the drift gets by their turning; the rest is owed (one.c).
+WIDE_INLINE void make_rows(const parts *at, const pl_joint_pattern *p, const body *a, const body *b,
+                           momentum *due)
 {
     bundle *c = at->c;
     const place now = place_now(c, a, b);
-    c->owed_x = c->owed_y = c->owed_a = c->owed_b = splat(0);
+    *due = c->owed = (momentum){ splat(0), splat(0), splat(0), splat(0), splat(0), splat(0) };
     for (int i = 0; i < p->count; ++i) {
         row *r = &at->rows[i];
         const row old = *r;
         make_row(r, p->bare ? NULL : &at->sources[i], p->row[i].form, &now, a, b);
-        c->owed_x += (r->nx - old.nx) * r->impulse;
-        c->owed_y += (r->ny - old.ny) * r->impulse;
-        c->owed_a += (r->wa - old.wa) * r->impulse;
-        c->owed_b += (r->wb - old.wb) * r->impulse;
+        const vf of_a = c->behind_a * r->start, of_b = c->behind_b * r->start;
+        add_turning(due, r, &old, of_a, of_b);
+        add_turning(&c->owed, r, &old, r->impulse - of_a, r->impulse - of_b);
     }
     switch (p->block) {
     case 1:

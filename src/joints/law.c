@@ -13,26 +13,30 @@
 // Share of an error that a substep undoes. More turns what a snapping chain leaves into a blow (DECISIONS.md).
 #define RECOVERY 0.1
 
-static void aim_at_spring(const pl_lone *l, const pl_row *r, pl_row_law *out)
+static void aim_at_spring(const pl_lone *l, int i, bool halves, pl_row_law *out)
 {
+    const pl_row *r = &l->joint->rows.row[i];
     const double k = (double)pl_one_coupling(r, r, l->a, l->b);
-    const pl_joint_soft soft = pl_joint_spring(r, (real)(1 / k), l->joint->h);
+    const pl_joint_soft soft =
+        (halves ? pl_joint_half_spring : pl_joint_spring)(r, (real)(1 / k), l->joint->h);
     const double share = plumb_max(soft.velocity, PLUMB_REAL_EPSILON);
     out->give = k * (double)soft.impulse / share;
-    out->target = -(double)soft.error / share * (double)r->error;
+    out->target = -(double)soft.error / share * (double)r->error +
+                  (halves ? out->give * (double)l->joint->half[i].lag : 0);
 }
 
-pl_row_law pl_row_law_of(const pl_lone *l, int i, pl_joint_sweep sweep)
+pl_row_law pl_row_law_of(const pl_lone *l, int i, pl_joint_sweep sweep, bool halves)
 {
     const pl_joint *j = l->joint;
     const pl_row *r = &j->rows.row[i];
     // The bound of a vector: of each axis by itself.
     const real bound = i < j->rows.block ? plumb_min(r->most, j->rows.block_most) : r->most;
     const double most = (double)bound * (double)j->h, back = (double)r->error / (double)j->h;
-    pl_row_law law = { .in_force = r->type != PL_ROW_OFF &&
-                                   !(r->spring != PL_SPRING_NONE && sweep == PL_SWEEP_RELAX) &&
-                                   !pl_joint_lets_come(j, i, sweep == PL_SWEEP_RELAX) &&
-                                   pl_one_coupling(r, r, l->a, l->b) > 0,
+    pl_row_law law = { .in_force =
+                           r->type != PL_ROW_OFF &&
+                           (halves || r->spring == PL_SPRING_NONE || sweep == PL_SWEEP_PULL) &&
+                           !pl_joint_lets_come(j, i, sweep == PL_SWEEP_RELAX) &&
+                           pl_one_coupling(r, r, l->a, l->b) > 0,
                        .low = r->type == PL_ROW_LEAST ? 0 : -most,
                        .high = most };
     if (!law.in_force) {
@@ -41,7 +45,7 @@ pl_row_law pl_row_law_of(const pl_lone *l, int i, pl_joint_sweep sweep)
     if (r->type == PL_ROW_DRIVE) {
         law.target = (double)r->speed;
     } else if (r->spring != PL_SPRING_NONE) {
-        aim_at_spring(l, r, &law);
+        aim_at_spring(l, i, halves, &law);
     } else if (i > 0 && i == j->struck) {
         law.target = 0; // what others hold of the blow is lost, not won (DECISIONS.md)
     } else if (r->type == PL_ROW_LEAST && r->error > 0) {

@@ -12,8 +12,8 @@ typedef struct pl_row_law {
     double low, high; // [N s]
 } pl_row_law;
 
-// Row i of a joint, in a sweep that pulls or relaxes.
-pl_row_law pl_row_law_of(const pl_lone *lone, int i, pl_joint_sweep sweep);
+// Row i of a joint, in a sweep that pulls or relaxes; `halves`: springs give their impulses in both (spring.c).
+pl_row_law pl_row_law_of(const pl_lone *lone, int i, pl_joint_sweep sweep, bool halves);
 // [N m s] impulse times arm, of A and of B, by such impulses of the rows: what pl_joint_inertia asks for.
 void pl_law_pulls(const pl_joint *j, const double impulse[PL_JOINT_ROWS], near_real pull[2]);
 

@@ -53,10 +53,14 @@ static void measure_lone(const pl_joint *j, const real *kept, const pl_measuring
                      pl_joint_work(j->desc.kind, r->type, r->spring != PL_SPRING_NONE));
         }
     }
-    const real *t = j->turn;
+    if (m->debt == PL_DEBT_NONE) {
+        return;
+    }
+    const bool open = m->debt == PL_DEBT_OPEN;
+    const real *t = open ? j->turn : j->paid;
     const pl_row owed = { t[0], t[1], t[2], t[3], t[4], t[5], .type = PL_ROW_EQUAL };
     const pl_row *first = &j->rows.row[0];
-    push_row(m, j, &owed, m->owed,
+    push_row(m, j, &owed, open ? -1 : 1,
              pl_joint_work(j->desc.kind, first->type, first->spring != PL_SPRING_NONE));
 }
 

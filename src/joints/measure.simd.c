@@ -15,12 +15,34 @@ static void push_row(const pl_measuring *m, const parts *at, const row *r, int i
     pl_measure_push(m, at->b[i], x, y, (double)r->wb[i] * impulse, work);
 }
 
-static void push_owed(const pl_measuring *m, const parts *at, int i, plumb_work work)
+static void push_momentum(const pl_measuring *m, const parts *at, const momentum *of, int i,
+                          double share_a, double share_b, plumb_work work)
+{
+    pl_measure_push(m, at->a[i], share_a * (double)of->ax[i], share_a * (double)of->ay[i],
+                    share_a * (double)of->aw[i], work);
+    pl_measure_push(m, at->b[i], share_b * (double)of->bx[i], share_b * (double)of->by[i],
+                    share_b * (double)of->bw[i], work);
+}
+
+// As begin_half and move_on of joint.simd.c pay. `old`: before the sweep.
+static void push_debt(const pl_measuring *m, const parts *at, const parts *old, int count, int i,
+                      plumb_work work)
 {
     const bundle *c = at->c;
-    const double x = m->owed * (double)c->owed_x[i], y = m->owed * (double)c->owed_y[i];
-    pl_measure_push(m, at->a[i], -x, -y, m->owed * (double)c->owed_a[i], work);
-    pl_measure_push(m, at->b[i], x, y, m->owed * (double)c->owed_b[i], work);
+    const double behind_a = (double)c->behind_a[i], behind_b = (double)c->behind_b[i];
+    if (m->debt == PL_DEBT_OPEN) {
+        push_momentum(m, at, &c->owed, i, -1, -1, work);
+    } else if (m->debt == PL_DEBT_PAID) {
+        push_momentum(m, at, &c->owed, i, 1 - behind_a, 1 - behind_b, work);
+    } else if (m->debt == PL_DEBT_PAID_BEHIND) {
+        momentum due = { .ax = splat(0) };
+        push_momentum(m, at, &old->c->owed, i, behind_a, behind_b, work);
+        for (int n = 0; n < count; ++n) {
+            const row *r = &at->rows[n];
+            add_turning(&due, r, &old->rows[n], c->behind_a * r->start, c->behind_b * r->start);
+        }
+        push_momentum(m, at, &due, i, 1, 1, work);
+    }
 }
 
 void PL_WIDE_NAME(pl_joint_measure)(const pl_joint_call *call, const pl_measuring *m)
@@ -42,7 +64,7 @@ void PL_WIDE_NAME(pl_joint_measure)(const pl_joint_call *call, const pl_measurin
                 push_row(m, &at, &at.rows[n], i, (double)at.rows[n].impulse[i] - was,
                          pl_joint_work(kind, p->row[n].type, p->row[n].spring != PL_SPRING_NONE));
             }
-            push_owed(m, &at, i,
+            push_debt(m, &at, &old, p->count, i,
                       pl_joint_work(kind, p->row[0].type, p->row[0].spring != PL_SPRING_NONE));
         }
     }

@@ -8,9 +8,10 @@
 // bridges to pieces. The chord is met by the last sweep that pulls: it adds to the rows of a point what
 // the arcs of the anchors make of a substep (add_arc). DECISIONS.md says why not by all sweeps, and not by J.
 //
-// soft.c warm starts body by body, v += v - u, with the directions of the substep before. Where J
-// has turned since, pl_one_pay() adds the difference (J' - J)^T impulse, else a stale pull along
-// the old direction would feed energy to whatever swings.
+// soft.c warm starts body by body, v += v - u, with the directions of the substep before; halves.c gives a share of that
+// behind the motion. What came before is along the J of then, what comes behind is to be along that of now, J'. So behind the
+// motion (J' - J)^T start is paid of the share; (J' - J)^T of all other impulses is owed, and paid in the halves of the next
+// substep. Else a stale pull along the old direction would feed energy to whatever swings.
 //
 // Springs as rows of their own are exact oscillators (spring.c). Those of blocks, and of the classic solver: b = 1 / (1 + 2
 // z x + 2 (z x)^2 + x^4 / (1 + x^2)), x = h w, and the impulse such that v' = b (v - h w^2 C). The first terms are
@@ -23,6 +24,8 @@
 #include "world/joint_list.h"
 #include "world/state.h"
 
+#include <string.h>
+
 // Frequency of a rigid row as a share of the substep rate, and its damping ratio (DECISIONS.md).
 #define SHARE ((real)0.35)
 #define ZETA  ((real)3)
@@ -32,23 +35,18 @@
 pl_joint_soft pl_joint_rigid(real h, real soft)
 {
     const real x = TAU * SHARE * (h / soft), stiff = x * (2 * ZETA + x);
-    return (pl_joint_soft){ stiff / (1 + stiff), x * x / (1 + stiff) / h, 1 / (1 + stiff) };
+    return (pl_joint_soft){ stiff / (1 + stiff), x * x / (1 + stiff) / h, 1 / (1 + stiff), 0 };
 }
 
 static pl_joint_soft soften(const pl_joint_context *c, const pl_row *row, real mass,
-                            pl_joint_sweep sweep)
+                            pl_joint_sweep sweep, uint32_t degree)
 {
-    bool pulls =
+    if (pl_row_is_spring(row) && sweep != PL_SWEEP_CLASSIC) {
+        return pl_joint_oscillator(row, mass, c->h, degree).half[sweep == PL_SWEEP_RELAX];
+    }
+    const bool pulls =
         sweep == PL_SWEEP_PULL && row->type != PL_ROW_DRIVE && row->spring == PL_SPRING_NONE;
     return pulls ? c->rigid : pl_joint_spring(row, mass, c->h);
-}
-
-static pl_joint_soft soften_single(const pl_joint_context *c, const pl_row *row, real mass,
-                                   pl_joint_sweep sweep, uint32_t degree)
-{
-    return pl_row_is_spring(row) && sweep != PL_SWEEP_CLASSIC
-               ? pl_joint_oscillator(row, mass, c->h, degree).soft
-               : soften(c, row, mass, sweep);
 }
 
 //---- one row -------------------------------------------------------------------------------------
@@ -82,28 +80,46 @@ real pl_one_coupling(const pl_row *r, const pl_row *q, const pl_solver_body *a,
            b->inv_mass * (r->bx * q->bx + r->by * q->by) + b->inv_inertia * r->bw * q->bw;
 }
 
+// Of what is meant for small angles: 1 at 0, faded out up to a radian, from where it leads nowhere near.
+static real fading(real x)
+{
+    const real xx = x * x;
+    return xx < 1 ? 1 - xx * xx : 0;
+}
+
+real pl_one_bow(const pl_row *r, const pl_solver_body *a, const pl_solver_body *b, real h)
+{
+    const real across = (r->bx * (b->vy - a->vy) - r->by * (b->vx - a->vx)) +
+                        (r->along_b * b->w - r->along_a * a->w);
+    const real turn = across * r->over, of_a = fading(h * a->w) * a->w * a->w;
+    const real of_b = fading(h * b->w) * b->w * b->w;
+    const real bow = fading(h * turn) * across * turn;
+    return h / 2 * (bow + (of_a * r->along_a - of_b * r->along_b));
+}
+
 void pl_one_solve_row(const pl_joint_context *c, pl_joint *j, int i, pl_solver_body *a,
-                      pl_solver_body *b, pl_joint_sweep sweep)
+                      pl_solver_body *b, pl_joint_sweep sweep, bool first)
 {
     const pl_row *r = &j->rows.row[i];
-    if (r->type == PL_ROW_OFF || (sweep == PL_SWEEP_RELAX && r->spring != PL_SPRING_NONE)) {
+    if (r->type == PL_ROW_OFF || pl_joint_lets_come(j, i, sweep == PL_SWEEP_RELAX)) {
         return;
     }
-    if (pl_joint_lets_come(j, i, sweep == PL_SWEEP_RELAX)) {
-        return;
-    }
-    pl_joint_soft s = soften_single(c, r, j->mass[i], sweep, j->degree);
+    const pl_row_half *half = &j->half[i];
+    pl_joint_soft s = soften(c, r, j->mass[i], sweep, j->degree);
     bool apart = r->type == PL_ROW_LEAST && r->error > 0;
     if (apart) {
-        s = (pl_joint_soft){ 1, 1 / j->h, 0 }; // may close the gap
+        s = (pl_joint_soft){ 1, 1 / j->h, 0, 0 }; // may close the gap
     }
     real v = pl_one_rate(r, a, b) - r->speed;
     if (i > 0 && i == j->struck) { // behind a blow it is on its way out
-        s = (pl_joint_soft){ 1, 0, 0 };
+        s = (pl_joint_soft){ 1, 0, 0, 0 };
         v -= j->struck_rate;
+    } else if (sweep == PL_SWEEP_PULL && !first && r->over != 0 && r->spring == PL_SPRING_NONE) {
+        v += pl_one_bow(r, a, b, j->h);
     }
     real old = j->impulse[i];
-    real total = old - j->mass[i] * (s.velocity * v + s.error * r->error) - s.impulse * old;
+    real lack = s.velocity * v - s.before * half->before + s.error * r->error;
+    real total = old - j->mass[i] * lack - s.impulse * (old - half->lag);
     real most = r->most * j->h;
     total = plumb_clamp(total, r->type == PL_ROW_LEAST ? 0 : -most, most);
     j->impulse[i] = total;
@@ -176,10 +192,11 @@ static void pull_as_one(const pl_joint *j, pl_joint_soft s, const real v[3], rea
     const int n = j->rows.block;
     real wrong[3];
     for (int i = 0; i < n; ++i) {
-        wrong[i] = s.velocity * v[i] + s.error * j->rows.row[i].error;
+        const pl_row *r = &j->rows.row[i];
+        wrong[i] = s.velocity * v[i] - s.before * j->half[i].before + s.error * r->error;
     }
     for (int i = 0; i < n; ++i) {
-        total[i] = (1 - s.impulse) * j->impulse[i];
+        total[i] = j->impulse[i] - s.impulse * (j->impulse[i] - j->half[i].lag);
         for (int m = 0; m < n; ++m) {
             total[i] -= j->inverse[i][m] * wrong[m];
         }
@@ -197,7 +214,8 @@ static plumb_vec2 axis_of(const pl_joint *j)
 
 // Impulses of a spring in newtons, as stiff in all directions, on a block of two rows: along the axes of K each is an
 // oscillator by itself, of the mass that it meets there.
-static void pull_by_axes(const pl_joint *j, real h, const real v[3], real total[3])
+static void pull_by_axes(const pl_joint_context *c, const pl_joint *j, pl_joint_sweep sweep,
+                         const real v[3], real total[3])
 {
     const plumb_vec2 first = axis_of(j), axes[2] = { first, { -first.y, first.x } };
     const pl_row *row = j->rows.row;
@@ -207,11 +225,14 @@ static void pull_by_axes(const pl_joint *j, real h, const real v[3], real total[
         const real mass = u.x * (j->inverse[0][0] * u.x + j->inverse[0][1] * u.y) +
                           u.y * (j->inverse[1][0] * u.x + j->inverse[1][1] * u.y);
         if (mass > 0) {
-            const pl_joint_soft s = pl_joint_spring(&row[0], mass, h);
+            const pl_joint_soft s = soften(c, &row[0], mass, sweep, j->degree);
             const real rate = u.x * v[0] + u.y * v[1];
+            const real before = u.x * j->half[0].before + u.y * j->half[1].before;
             const real error = u.x * row[0].error + u.y * row[1].error;
             const real old = u.x * j->impulse[0] + u.y * j->impulse[1];
-            const real push = (1 - s.impulse) * old - mass * (s.velocity * rate + s.error * error);
+            const real lag = u.x * j->half[0].lag + u.y * j->half[1].lag;
+            const real lack = s.velocity * rate - s.before * before + s.error * error;
+            const real push = old - s.impulse * (old - lag) - mass * lack;
             total[0] += u.x * push, total[1] += u.y * push;
         }
     }
@@ -222,7 +243,7 @@ void pl_one_solve_block(const pl_joint_context *c, pl_joint *j, pl_solver_body *
 {
     const int n = j->rows.block;
     const pl_row *row = j->rows.row;
-    if (n == 0 || (sweep == PL_SWEEP_RELAX && row[0].spring != PL_SPRING_NONE)) {
+    if (n == 0) {
         return;
     }
     real v[3] = { 0 }, total[3] = { 0 };
@@ -235,9 +256,9 @@ void pl_one_solve_block(const pl_joint_context *c, pl_joint *j, pl_solver_body *
         pl_one_add_arc(v, b->w, j->h, row[0].bw, row[1].bw);
     }
     if (row[0].spring == PL_SPRING_NEWTONS) {
-        pull_by_axes(j, c->h, v, total);
+        pull_by_axes(c, j, sweep, v, total);
     } else {
-        pull_as_one(j, soften(c, &row[0], 0, sweep), v, total);
+        pull_as_one(j, soften(c, &row[0], 0, sweep, j->degree), v, total);
     }
     if (j->rows.block_most < PL_UNBOUNDED) {
         bound_block(j, total);
@@ -310,15 +331,11 @@ void pl_one_rows(const plumb_world *world, pl_joint *j, const pl_solver_body *a,
     }
 }
 
-void pl_one_note_springs(const pl_joint_context *c, pl_joint *j, const pl_solver_body *a,
-                         const pl_solver_body *b, bool fresh)
+void pl_one_note_springs(pl_joint *j, const pl_solver_body *a, const pl_solver_body *b)
 {
-    for (int i = j->rows.block; i < j->rows.count; ++i) {
-        pl_row *r = &j->rows.row[i];
-        if (pl_row_is_spring(r)) {
-            const pl_oscillator o = pl_joint_oscillator(r, j->mass[i], c->h, j->degree);
-            const real v = pl_one_rate(r, a, b);
-            r->speed = o.lead * v + (fresh ? o.start_rate * v + o.start_error * r->error : 0);
+    for (int i = 0; i < j->rows.count; ++i) {
+        if (pl_row_is_spring(&j->rows.row[i])) {
+            j->half[i].before = pl_one_rate(&j->rows.row[i], a, b);
         }
     }
 }
@@ -326,7 +343,8 @@ void pl_one_note_springs(const pl_joint_context *c, pl_joint *j, const pl_solver
 void pl_one_let_go(pl_joint *j, const pl_solver_body *a, const pl_solver_body *b)
 {
     if (j->struck > 0) {
-        j->struck_rate = plumb_min(j->struck_rate, pl_one_rate(&j->rows.row[j->struck], a, b));
+        const real now = pl_one_rate(&j->rows.row[j->struck], a, b);
+        j->struck_rate = plumb_min(j->struck_rate + j->struck_change, now);
     }
 }
 
@@ -337,19 +355,58 @@ void pl_one_forget(pl_joint *j)
     }
 }
 
-// Pays what J's turning owes.
-void pl_one_pay(const pl_joint *j, pl_solver_body *a, pl_solver_body *b)
+static void pay(pl_joint *j, pl_solver_body *a, pl_solver_body *b)
 {
-    const pl_row owed = { j->turn[0], j->turn[1], j->turn[2],          j->turn[3],
-                          j->turn[4], j->turn[5], .type = PL_ROW_EQUAL };
+    const real *m = j->paid;
+    const pl_row owed = { m[0], m[1], m[2], m[3], m[4], m[5], .type = PL_ROW_EQUAL };
     pl_one_push(&owed, a, b, 1);
 }
 
-void pl_one_refresh(const plumb_world *world, pl_joint *j, const pl_solver_body *a,
-                    const pl_solver_body *b)
+// Before the drift: what has turned by now, but for the share that comes behind.
+void pl_one_pay(const pl_joint_context *c, pl_joint *j, pl_solver_body *a, pl_solver_body *b)
 {
+    const pl_solver *solver = &c->world->solver;
+    const near_real *kicked = solver->kicked.data;
+    const real share = pl_joint_lag(kicked, solver->dynamic_slots, j->slot_a, j->slot_b);
+    const real stiff = share * pl_joint_spared(j->degree);
+    j->behind[0] = pl_joint_behind(kicked, solver->dynamic_slots, j->slot_a);
+    j->behind[1] = pl_joint_behind(kicked, solver->dynamic_slots, j->slot_b);
+    for (int k = 0; k < 6; ++k) {
+        j->paid[k] = (1 - j->behind[k / 3]) * j->turn[k];
+    }
+    pay(j, a, b);
+    for (int i = 0; i < j->rows.count; ++i) {
+        j->half[i].start = j->impulse[i];
+        j->half[i].lag = (pl_row_is_spring(&j->rows.row[i]) ? share : stiff) * j->impulse[i];
+    }
+}
+
+// Behind the drift: that share; of the impulse with which the substep began, what came behind turns as well. What came
+// before the drift was given in the direction of then, and is to turn for the next substep.
+void pl_one_refresh(const pl_joint_context *c, pl_joint *j, pl_solver_body *a, pl_solver_body *b)
+{
+    pl_row old[PL_JOINT_ROWS];
+    const real *behind = j->behind;
+    memcpy(old, j->rows.row, sizeof old);
+    for (int k = 0; k < 6; ++k) {
+        j->paid[k] = behind[k / 3] * j->turn[k];
+    }
+    pl_one_rows(c->world, j, a, b);
     pl_one_forget(j);
-    pl_one_turn(world, j, a, b);
+    for (int i = 0; i < j->rows.count; ++i) {
+        const pl_row *r = &j->rows.row[i], *o = &old[i];
+        pl_row_half *half = &j->half[i];
+        const real by[6] = { r->ax - o->ax, r->ay - o->ay, r->aw - o->aw,
+                             r->bx - o->bx, r->by - o->by, r->bw - o->bw };
+        for (int k = 0; k < 6; ++k) {
+            const real due = behind[k / 3] * half->start;
+            j->paid[k] += due * by[k];
+            j->turn[k] += (j->impulse[i] - due) * by[k];
+        }
+        half->before = (r->error - o->error) / c->h;
+        half->lag = j->impulse[i] - half->lag;
+    }
+    pay(j, a, b);
 }
 
 void pl_one_turn(const plumb_world *world, pl_joint *j, const pl_solver_body *a,

@@ -24,26 +24,27 @@ real pl_one_coupling(const pl_row *r, const pl_row *q, const pl_solver_body *a,
                      const pl_solver_body *b);
 // Adds to J v of a point, whose rows have w0 and w1 of a body, what that body's turning by w does in h [s].
 void pl_one_add_arc(real v[2], real w, real h, real w0, real w1);
+// The same of a length: what the way across and the arcs of its ends add, C'' h / 2. 0 of other rows.
+real pl_one_bow(const pl_row *r, const pl_solver_body *a, const pl_solver_body *b, real h);
 
 // Rows, effective masses and the block's inverse, from where the bodies are.
 void pl_one_rows(const plumb_world *world, pl_joint *j, const pl_solver_body *a,
                  const pl_solver_body *b);
-// The same, and what J's turning owes for the impulses so far; the same besides what is owed; that paid; that forgotten.
-void pl_one_refresh(const plumb_world *world, pl_joint *j, const pl_solver_body *a,
-                    const pl_solver_body *b);
+// The same, and what J's turning owes for the impulses so far is added to what is owed; that forgotten. What a half pays of
+// it: before the drift, and, with rows made anew, behind.
 void pl_one_turn(const plumb_world *world, pl_joint *j, const pl_solver_body *a,
                  const pl_solver_body *b);
-void pl_one_pay(const pl_joint *j, pl_solver_body *a, pl_solver_body *b);
-// What springs go by in the next substep: how fast they are now; `fresh`: it is their first.
-void pl_one_note_springs(const pl_joint_context *c, pl_joint *j, const pl_solver_body *a,
-                         const pl_solver_body *b, bool fresh);
 void pl_one_forget(pl_joint *j);
+void pl_one_pay(const pl_joint_context *c, pl_joint *j, pl_solver_body *a, pl_solver_body *b);
+void pl_one_refresh(const pl_joint_context *c, pl_joint *j, pl_solver_body *a, pl_solver_body *b);
+// What springs go by in the next substep: how fast they are now.
+void pl_one_note_springs(pl_joint *j, const pl_solver_body *a, const pl_solver_body *b);
 // Behind the motion a limit that bounced wants no more than it has there: its row has turned.
 void pl_one_let_go(pl_joint *j, const pl_solver_body *a, const pl_solver_body *b);
 
 // One row outside the block, the block; `first`: of the sweeps of a substep.
 void pl_one_solve_row(const pl_joint_context *c, pl_joint *j, int i, pl_solver_body *a,
-                      pl_solver_body *b, pl_joint_sweep sweep);
+                      pl_solver_body *b, pl_joint_sweep sweep, bool first);
 void pl_one_solve_block(const pl_joint_context *c, pl_joint *j, pl_solver_body *a,
                         pl_solver_body *b, pl_joint_sweep sweep, bool first);
 // Moves its bodies against a share of its errors (classic solver).

@@ -285,7 +285,8 @@ bool pl_joints_look(plumb_world *world)
     plan->made = false;
     if (!pl_buffer_reserve(&world->memory, &plan->marks, count * sizeof(pl_joint_mark)) ||
         !pl_buffer_reserve(&world->memory, &plan->ends, count * sizeof(pl_ends)) ||
-        !pl_buffer_reserve(&world->memory, &plan->order, count * sizeof(uint32_t))) {
+        !pl_buffer_reserve(&world->memory, &plan->order, count * sizeof(uint32_t)) ||
+        !pl_assemblies_reserve(world)) {
         return false;
     }
     mark_all(world);
@@ -302,6 +303,7 @@ bool pl_joints_plan(plumb_world *world)
     if (!plan->made) {
         sort_out(world);
         put_in_order(&world->joints);
+        pl_assemblies_make(world);
         plan->group_count = 0;
     }
     plan->made = pl_joints_group(world);
@@ -323,6 +325,7 @@ void pl_joints_plan_free(pl_memory *memory, pl_joint_plan *plan)
     pl_buffer *buffers[] = { &plan->marks,          &plan->ends,           &plan->order,
                              &plan->groups,         &plan->grouped,        &plan->bundles,
                              &plan->lanes,          &plan->slots,          &plan->records,
+                             &plan->leaders,        &plan->looped,         &plan->states,
                              &plan->direct.columns, &plan->direct.entries, &plan->direct.swept,
                              &plan->direct.parts,   &plan->direct.blocks,  &plan->direct.scratch };
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; ++i) {

@@ -17,6 +17,7 @@ static void put_along(pl_row *row, plumb_vec2 arm_a, plumb_vec2 arm_b, plumb_vec
     row->bw = plumb_vec2_cross(arm_b, n);
     row->error = error;
     row->speed = 0;
+    row->along_a = row->along_b = row->over = 0;
     row->most = PL_UNBOUNDED;
     row->type = PL_ROW_EQUAL;
     row->form = form;
@@ -49,8 +50,10 @@ pl_row pl_row_length(const pl_joint_pose *a, const pl_joint_pose *b, real length
     real now;
     plumb_vec2 n = plumb_vec2_unit_and_magnitude(pl_joint_apart(a, b), &now);
     n = now > 0 ? n : plumb_v2(1, 0);
-    put_along(&row, plumb_v2(a->rx, a->ry), plumb_v2(b->rx, b->ry), n, now - length,
-              PL_FORM_LENGTH);
+    const plumb_vec2 arm_a = plumb_v2(a->rx, a->ry), arm_b = plumb_v2(b->rx, b->ry);
+    put_along(&row, arm_a, arm_b, n, now - length, PL_FORM_LENGTH);
+    row.along_a = plumb_vec2_dot(n, arm_a), row.along_b = plumb_vec2_dot(n, arm_b);
+    row.over = now > 0 ? 1 / now : 0;
     return row;
 }
 
@@ -78,6 +81,9 @@ pl_row pl_row_at_most(pl_row row, real upper)
                      .by = -row.by,
                      .bw = -row.bw,
                      .error = upper - row.error,
+                     .along_a = -row.along_a,
+                     .along_b = -row.along_b,
+                     .over = -row.over,
                      .most = row.most,
                      .type = PL_ROW_LEAST,
                      .form = row.form };

@@ -13,7 +13,6 @@
     ((near_real)1e-6)             // [-] of the diagonal: a smaller pivot is no direction of its own
 #define PL_UNBOUNDED ((real)1e30) // [N] or [N m]
 
-// Outside of blocks their `speed` is what the velocity before the substep adds (spring.c).
 static inline bool pl_row_is_spring(const pl_row *row)
 {
     return row->spring != PL_SPRING_NONE && row->type == PL_ROW_EQUAL;

@@ -41,6 +41,8 @@ static pl_joint_call call_of(const pl_joint_context *c)
                             .slots = plan->slots.data,
                             .records = c->records,
                             .joints = pl_joint_items(&world->joints),
+                            .kicked = world->solver.kicked.data,
+                            .marks = pl_joint_marks(&world->joints),
                             .h = c->h,
                             .rigid = c->rigid };
 }
@@ -104,10 +106,8 @@ static uint32_t slot_of(const plumb_world *world, uint32_t row)
     return pl_solver_slot(&world->solver, row < movable ? row : movable, movable);
 }
 
-// Whether it is the joint's first step.
-static bool begin(const plumb_world *world, pl_joint *j, real h)
+static void begin(const plumb_world *world, pl_joint *j, real h)
 {
-    const bool fresh = j->h == 0;
     const pl_joint_mark *mark = &pl_joint_marks(&world->joints)[j - pl_joint_items(&world->joints)];
     pl_joint_place(world, j, mark->row_a, mark->row_b);
     j->slot_a = slot_of(world, mark->row_a);
@@ -118,14 +118,13 @@ static bool begin(const plumb_world *world, pl_joint *j, real h)
     }
     j->h = h;
     j->degree = mark->degree;
-    return fresh;
 }
 
 // A joint in a lane, its rows as they are now.
 static void begin_wide(const plumb_world *world, pl_joint *j, pl_joint_start *start, pl_rows *rows,
                        real h)
 {
-    const bool fresh = begin(world, j, h);
+    begin(world, j, h);
     pl_joint_classes[j->desc.kind]->rows(j, &j->pose_a, &j->pose_b, rows);
     *start = (pl_joint_start){ .arm_a = { (near_real)j->pose_a.rx, (near_real)j->pose_a.ry },
                                .arm_b = { (near_real)j->pose_b.rx, (near_real)j->pose_b.ry },
@@ -133,9 +132,6 @@ static void begin_wide(const plumb_world *world, pl_joint *j, pl_joint_start *st
                                           (near_real)(j->pose_b.y - j->pose_a.y) } };
     for (int k = 0; k < rows->count; ++k) {
         j->impulse[k] = rows->row[k].type != PL_ROW_OFF ? j->impulse[k] : 0;
-        if (k >= rows->block && pl_row_is_spring(&rows->row[k])) {
-            rows->row[k].speed = fresh; // the kernel makes the first substep's of it
-        }
     }
 }
 
@@ -204,12 +200,12 @@ static void begin_bundles(void *context, uint32_t first, uint32_t count)
 
 static void begin_lone(const pl_joint_context *c, uint32_t i, pl_lone *out)
 {
-    const bool fresh = begin(c->world, pl_joint_grouped(&c->world->joints, i), c->h);
+    begin(c->world, pl_joint_grouped(&c->world->joints, i), c->h);
     pl_one_take(c, i, out);
     pl_one_forget(out->joint);
     pl_one_rows(c->world, out->joint, out->a, out->b);
     if (c->world->desc.solver == PLUMB_SOLVER_SOFT) {
-        pl_one_note_springs(c, out->joint, out->a, out->b, fresh);
+        pl_one_note_springs(out->joint, out->a, out->b);
     }
 }
 
@@ -311,9 +307,9 @@ static void sweep_alone(const pl_joint_context *c, pl_joint_sweep sweep, bool fi
         pl_one_take(c, i, &one);
         pl_joint *j = one.joint;
         if (first && sweep == PL_SWEEP_PULL) {
-            pl_one_pay(j, one.a, one.b);
+            pl_one_pay(c, j, one.a, one.b);
         } else if (first && sweep == PL_SWEEP_RELAX) {
-            pl_one_refresh(c->world, j, one.a, one.b);
+            pl_one_refresh(c, j, one.a, one.b);
             pl_one_let_go(j, one.a, one.b);
         }
         if (swept != NULL && !swept[i]) {
@@ -321,7 +317,7 @@ static void sweep_alone(const pl_joint_context *c, pl_joint_sweep sweep, bool fi
         }
         // Motors and springs first: what must hold has the last word.
         for (int k = j->rows.count - 1; k >= j->rows.block; --k) {
-            pl_one_solve_row(c, j, k, one.a, one.b, sweep);
+            pl_one_solve_row(c, j, k, one.a, one.b, sweep, first);
         }
         pl_one_solve_block(c, j, one.a, one.b, sweep, first);
     }
@@ -340,7 +336,7 @@ void pl_joints_solve(const pl_joint_context *c, pl_joint_sweep sweep, bool first
     for (uint32_t i = c->group->alone; i < c->group->end && sweep == PL_SWEEP_RELAX; ++i) {
         pl_lone one;
         pl_one_take(c, i, &one);
-        pl_one_note_springs(c, one.joint, one.a, one.b, false);
+        pl_one_note_springs(one.joint, one.a, one.b);
     }
 }
 

@@ -1,19 +1,21 @@
 // spring.c - factors of spring rows: the linear oscillator, exact over a substep.
 //
 // With frequency w, damping ratio z, x = h w, a substep of the oscillator C'' = -w^2 C - 2 z w C' + f has the matrix
-// E = exp(h ((0, 1), (-w^2, -2 z w))). The solver moves places by h v', so its substep is
-//     v' = b (v + h f - h w^2 C) + (k - b) v,    C' = C + h v',
-// whose matrix has determinant k and trace 1 + k - b x^2. With
-//     k = det E = exp(-2 z x),    b = (1 + det E - trace E) / x^2
-// these are those of E: frequency and decay are exact, undamped springs keep their amplitude, and where several springs
-// meet, nothing grows. Places are exact, too, where the first substep goes to E's place (the factors `start`): v' is
-// then the velocity half a substep ago, as in leapfrog. At rest, v = v' = 0, C = f / w^2, exactly.
+// E = exp(h ((0, 1), (-w^2, -2 z w))). The soft step kicks by half of the substep's impulses, moves places by h u, and
+// kicks by the other half (soft.c). So a spring is two rows, before the places move and behind that, of the form
+//     u = p v + q h (f - w^2 C),    C' = C + h u,    v' = r u + s h (f - w^2 C')
+// whose matrix is E with
+//     q = (1 - E00) / x^2,    p = E01 / h,    r = det E / p,    s = (b - q) / p,    b = (1 + det E - trace E) / x^2.
+// So places and velocities are exact, with a constant f, too. A row knows f by what that has done until the row is
+// solved: without the row's own impulse, J v is v + h f / 2 =: g then, and
+//     u = 2 q g + (p - 2 q) v - q h w^2 C.
+// Of the row's impulse, so much of the substep's (`lag`) is not in J v yet when a half begins.
 //
 // Springs in newtons are the same with w^2 = k / m and 2 z w = c / m, m being the mass that the row meets at the moment.
 // A damper alone is one with w = 0.
 //
-// Stiffer springs fade to pl_joint_spring, which is implicit and damps them, from x = FULL on; where n joints meet on a
-// body, from MANY / sqrt(n) on: sweeps that leave something undone would feed the network (DECISIONS.md).
+// Stiffer springs fade to implicit halves, which damp them, from x = FULL on; where n joints meet on a body, from
+// MANY / sqrt(n) on: sweeps that leave something undone would feed the network (DECISIONS.md).
 #include "joints/rows.h"
 #include "joints/wide.h"
 #include "math/decay.h"
@@ -50,13 +52,13 @@ static pl_joint_soft plain_spring(swing s, real h)
 {
     const real zx = s.zx, xx = s.x * s.x;
     real b = 1 / (1 + 2 * zx + 2 * zx * zx + xx * xx / (1 + xx));
-    return (pl_joint_soft){ 1 - b, b * xx / h, b };
+    return (pl_joint_soft){ 1 - b, b * xx / h, b, 0 };
 }
 
 pl_joint_soft pl_joint_spring(const pl_row *row, real mass, real h)
 {
     if (row->type == PL_ROW_DRIVE || row->spring == PL_SPRING_NONE) {
-        return (pl_joint_soft){ 1, 0, 0 };
+        return (pl_joint_soft){ 1, 0, 0, 0 };
     }
     return plain_spring(swing_of(row, mass, h), h);
 }
@@ -92,33 +94,53 @@ static oscillation creeping(double x, double zx, double q)
                           .gone = (one.left - two.left) / (s2 - s1) };
 }
 
-// The same for one of many, which are not all solved to the end: it takes less of C back at once, and is no stiffer
-// than some substeps can tell.
-static pl_joint_soft spring_of_many(swing s, real h)
+// One of many, which are not all solved to the end, takes less of C back at once, and is no stiffer than some substeps
+// can tell.
+static swing bounded(swing s)
 {
-    const real x = plumb_min(s.x, STIFFEST), zx = s.x > x ? s.zx * (x / s.x) : s.zx, xx = x * x;
-    real b = 1 / (1 + 2 * zx + 2 * zx * zx + 2 * xx * xx / (1 + xx));
-    return (pl_joint_soft){ 1 - b, b * xx / h, b };
+    const real x = plumb_min(s.x, STIFFEST);
+    return (swing){ x, s.x > x ? s.zx * (x / s.x) : s.zx };
+}
+
+// b = 2 q = 2 s of implicit halves.
+static double fading(swing s, bool many)
+{
+    const double zx = (double)s.zx, xx = (double)s.x * (double)s.x;
+    return 1 / (1 + zx + zx * zx / 2 + (many ? 1 : 0.5) * xx * xx / (1 + xx));
+}
+
+static pl_joint_soft half_of(double b, swing s, double before, real h)
+{
+    const double xx = (double)s.x * (double)s.x;
+    return (pl_joint_soft){ (real)(1 - b), (real)(b * xx / (2 * (double)h)), (real)b,
+                            (real)before };
+}
+
+pl_joint_soft pl_joint_half_spring(const pl_row *row, real mass, real h)
+{
+    const swing s = swing_of(row, mass, h);
+    return half_of(fading(s, false), s, 0, h);
 }
 
 pl_oscillator pl_joint_oscillator(const pl_row *row, real mass, real h, uint32_t degree)
 {
-    const swing s = swing_of(row, mass, h);
-    const pl_joint_soft plain = degree > 1 ? spring_of_many(s, h) : plain_spring(s, h);
-    const double x = (double)s.x, zx = (double)s.zx, q = x * x - zx * zx;
-    const bool creeps = q <= -0.5 || zx > 2 * x;
-    const double met = MANY / sqrt((double)degree), full = met < FULL ? met : FULL;
+    if (row->type == PL_ROW_DRIVE || row->spring == PL_SPRING_NONE) {
+        return (pl_oscillator){ .half = { { 1, 0, 0, 0 }, { 1, 0, 0, 0 } } };
+    }
+    const bool many = degree > 1;
+    const swing told = swing_of(row, mass, h), s = many ? bounded(told) : told;
+    const double plain = fading(s, many);
+    const double x = (double)told.x, zx = (double)told.zx, w = x * x - zx * zx;
+    const bool creeps = w <= -0.5 || zx > 2 * x;
+    const double met = MANY / sqrt((double)(many ? degree : 1)), full = met < FULL ? met : FULL;
     const double fades = (FADES - x / full) / (FADES - 1), share = fades < 1 ? fades : 1;
     if (!(share > 0) || !(creeps ? zx > 1e-5 : x > 1e-5)) {
-        return (pl_oscillator){ .soft = plain };
+        return (pl_oscillator){ .half = { half_of(plain, s, 0, h), half_of(plain, s, 0, h) } };
     }
-    const oscillation o = creeps ? creeping(x, zx, q) : swinging(x, zx, q);
-    const double gives = share * (1 - o.b) + (1 - share) * (double)plain.velocity, b = 1 - gives;
-    const double bias = share / gives;
-    return (pl_oscillator){
-        .soft = { (real)gives, (real)(b * x * x / (double)h), (real)b },
-        .lead = (real)(bias * (o.k - o.b)),
-        .start_rate = (real)(bias * (o.gone - o.k)),
-        .start_error = (real)(bias * (o.b - o.start) * x * x / (double)h),
-    };
+    const oscillation o = creeps ? creeping(x, zx, w) : swinging(x, zx, w);
+    const double q = o.start, p = o.gone, r = o.k / p, t = (o.b - q) / p;
+    const double first = share * 2 * q + (1 - share) * plain;
+    const double last = share * 2 * t + (1 - share) * plain;
+    return (pl_oscillator){ .half = { half_of(first, told, share * (p - 2 * q), h),
+                                      half_of(last, told, share * (r - 2 * t), h) } };
 }

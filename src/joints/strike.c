@@ -5,7 +5,8 @@
 //     c = sqrt(u^2 - 2 a s)        after        t = 2 s / (c - u)
 // and leaves at e c. Rows are those of that moment: a rope has turned until it is taut. Both the velocity and that
 // which was integrated get (1 + e) c, and places lose t times as much, so that the substep ends where the parabolas
-// do. Bodies with joints move by h v where they were pushed (halves.c): their velocity is that of half a substep ago.
+// do. The classic and the exact solver move bodies by h v where they were pushed: their velocity is that of half a substep ago.
+// In the soft step the sweep before the drift wants the rate of the middle, the one behind that of the end (halves.c).
 //
 // The impulse is that of the row together with the block of the same joint: an angle is struck about the hinge, not about
 // the centre. What other joints and contacts have to do with it is left to the sweeps, in which the row
@@ -117,8 +118,7 @@ static flight flight_of(const plumb_world *world, const pl_lone *l, double h)
         pushed |= push[k] != 0;
         out.change[k] += lasts ? push[k] / h : 0;
     }
-    // The exact solver moves by the mean velocity.
-    out.ago = pushed && world->desc.solver != PLUMB_SOLVER_EXACT ? h / 2 : 0;
+    out.ago = pushed && world->desc.solver == PLUMB_SOLVER_PGS ? h / 2 : 0;
     for (int k = 0; k < 6; ++k) {
         out.start[k] += out.ago * out.change[k];
     }
@@ -240,7 +240,9 @@ static bool strike(const plumb_world *world, const pl_lone *l, int row, const fl
     const bool due = speed > 0 && of.rate > 0 && !calm && leaves;
     if (due) {
         strike_bodies(world, l, row, &of, speed, time);
-        j->struck_rate = (real)(e * speed + pull * (h - time - f->ago));
+        const bool halves = world->desc.solver == PLUMB_SOLVER_SOFT;
+        j->struck_change = (real)(halves ? pull * h / 2 : 0);
+        j->struck_rate = (real)(e * speed + pull * (h - time - f->ago)) - j->struck_change;
     }
     pl_one_rows(world, j, &a, &b);
     if (due && world->desc.solver == PLUMB_SOLVER_SOFT) {

@@ -14,9 +14,9 @@
 typedef struct pl_joint pl_joint;
 typedef plumb_substep_body pl_solver_body;
 
-// Factors of J v, C and the impulse so far: see one.c.
+// Factors of J v, C, the impulse so far, and of J v at the start of the half: see one.c, spring.c.
 typedef struct pl_joint_soft {
-    real velocity, error, impulse;
+    real velocity, error, impulse, before;
 } pl_joint_soft;
 
 // A lane's joint, and what a bare hinge needs of it.
@@ -40,7 +40,8 @@ typedef struct pl_joint_bundle {
 
 typedef struct pl_joint_call {
     pl_solver_body *bodies;
-    uint32_t dynamic_slots; // slots from here on are read but never written
+    const near_real *kicked; // as in pl_solver
+    uint32_t dynamic_slots;  // slots from here on are read but never written
     uint32_t immovable_slot;
     uint32_t first, end; // bundles to go through
     const pl_joint_bundle *bundles;
@@ -49,10 +50,11 @@ typedef struct pl_joint_call {
     const uint32_t *slots; // of a bundle: solver slots of all lanes' A, then of all B
     unsigned char *records;
     pl_joint *joints;
-    const pl_joint_start *starts; // for `fill`: of the lanes of its one bundle
-    const pl_rows *rows;          // likewise, unless that is bare
-    real h;                       // [s] substep
-    pl_joint_soft rigid;          // of rows that are no springs, where they pull
+    const struct pl_joint_mark *marks; // of the same
+    const pl_joint_start *starts;      // for `fill`: of the lanes of its one bundle
+    const pl_rows *rows;               // likewise, unless that is bare
+    real h;                            // [s] substep
+    pl_joint_soft rigid;               // of rows that are no springs, where they pull
     bool *tense; // for `fill`: set where a lane asks for more inertia (pl_joint_inertia)
 } pl_joint_call;
 
@@ -81,6 +83,13 @@ extern const pl_joint_kernels pl_joint_kernels_w4;
 extern const pl_joint_kernels pl_joint_kernels_w8;
 extern const pl_joint_kernels pl_joint_kernels_w16;
 
+// Of what a half knows to be no matter of its own (pl_joint_lag), so much is not held against a rigid row: all where sweeps
+// solve a joint to the end. Where several meet, what they leave undone would feed the network (DECISIONS.md).
+static inline near_real pl_joint_spared(uint32_t degree)
+{
+    return degree > 1 ? (near_real)0.5 : 1;
+}
+
 // Geometric stiffness: a force F at the arm r turns a body back by r . F a radian, as a weight does a pendulum. Where
 // links are light and what hangs on them is heavy, that spring is too stiff for the substep, and the links flutter ever
 // faster. So such a body gets the inertia, h^2 r . F, with which a substep is a radian of its swing. [kg m^2] that a
@@ -102,14 +111,14 @@ static inline void pl_joint_stiffen(pl_solver_body *body, near_real pull, near_r
     }
 }
 
-// Factors of a spring's row over a substep of h [s]. `mass` [kg] that the row meets: springs in newtons go by it.
+// A spring of the classic solver and the exact one, implicit. `mass` [kg] that the row meets: springs in newtons go by
+// it. The same for a half of a substep of the soft step.
 pl_joint_soft pl_joint_spring(const pl_row *row, real mass, real h);
+pl_joint_soft pl_joint_half_spring(const pl_row *row, real mass, real h);
 
-// The same for a row outside of blocks, and what velocity v and error C before the substep add to J v: lead v, and in
-// the first substep of a joint start_rate v + start_error C besides (spring.c).
+// In the halves of a substep, before the bodies move and behind that (spring.c).
 typedef struct pl_oscillator {
-    pl_joint_soft soft;
-    real lead, start_rate, start_error;
+    pl_joint_soft half[2];
 } pl_oscillator;
 
 // `degree`: as pl_joint has it.

@@ -465,6 +465,7 @@ bool pl_solver_graph(plumb_world *world, real dt)
         return false;
     }
     color_contacts(world);
+    pl_assemblies_share(world);
     world->solver.turning = world->desc.solver == PLUMB_SOLVER_SOFT && find_turning(world, dt);
     if (!reserve_lanes(world)) {
         return false;

@@ -10,8 +10,9 @@
 //
 // A hit is no force: what it did is not to be expected again. Contacts take a push back that is given whole in the
 // sweep that solves them and what is left in the one that relaxes; of two halves each sweep would leave some. (A box of
-// 100 m/s against a wall of six went back 4 m.) So the kick is whole after a hit, and before the first push; and always for
-// bodies with joints, whose rows turn and whose springs are made for it (joints/one.c, spring.c).
+// 100 m/s against a wall of six went back 4 m.) So the kick is whole after a hit, and before the first push. What joints push
+// is no hit. Joints know what of their impulses comes behind the drift, of either body (joints/one.c, spring.c), and some
+// assemblies of theirs are always kicked whole (joints/assembly.c).
 //
 // Reads: solver bodies, motions. Writes: solver bodies. Order: behind impacts, before the sweeps; the drift. Cost: two passes
 // over the bodies of a substep.
@@ -28,8 +29,7 @@
 void pl_soft_share(const plumb_world *world, uint32_t row, uint32_t slot)
 {
     pl_near_quad *kicked = (pl_near_quad *)world->solver.kicked.data + slot;
-    const bool tied = row >= world->dynamic_count || world->bodies.first_joint[row] != PL_NONE;
-    (*kicked)[3] = tied ? 0 : HALF;
+    (*kicked)[3] = row < world->dynamic_count ? HALF : 0;
 }
 
 static inline near_real square_of(const pl_near_quad *v)
@@ -38,11 +38,20 @@ static inline near_real square_of(const pl_near_quad *v)
     return square[0] + square[1];
 }
 
+// Of a body with joints that no contact pushes: what joints push is never a hit, and is there from the first substep on.
+static bool is_only_tied(const plumb_world *world, uint32_t slot)
+{
+    const pl_solver *s = &world->solver;
+    const uint32_t row = ((const uint32_t *)s->rows.data)[slot];
+    return ((const uint64_t *)s->masks.data)[slot] == 0 &&
+           world->bodies.first_joint[row] != PL_NONE;
+}
+
 // The share of a slot is negative while its kick is whole.
 static void halve(void *context, uint32_t first, uint32_t count)
 {
     const pl_passage *p = context;
-    const pl_solver *s = p->solver;
+    const pl_solver *s = &p->world->solver;
     pl_near_quad *body = (pl_near_quad *)(void *)(pl_solver_bodies(s) + p->first);
     const pl_near_quad *motion = (const pl_near_quad *)(void *)(pl_solver_motions(s) + p->first);
     pl_near_quad *kicked = (pl_near_quad *)s->kicked.data + p->first;
@@ -50,8 +59,9 @@ static void halve(void *context, uint32_t first, uint32_t count)
         const pl_near_quad v = body[2 * i], force = p->h * motion[2 * i];
         const pl_near_quad pushed = v - motion[2 * i + 1], before = motion[2 * i + 1] - force;
         const near_real square = square_of(&pushed);
-        const bool hit = !(square > 0) || (square > HIT_FORCES * square_of(&force) &&
-                                           square > HIT_SPEED * square_of(&before));
+        const bool hit = (!(square > 0) || (square > HIT_FORCES * square_of(&force) &&
+                                            square > HIT_SPEED * square_of(&before))) &&
+                         !is_only_tied(p->world, p->first + i);
         const near_real share = kicked[i][3] < 0 ? -kicked[i][3] : kicked[i][3];
         const pl_near_quad behind = (hit ? 0 : share) * (force + pushed);
         kicked[i] = behind;
@@ -80,7 +90,7 @@ static inline near_real pulled(const pl_near_quad *taken, const pl_near_quad *pu
 static void drift(void *context, uint32_t first, uint32_t count)
 {
     const pl_passage *p = context;
-    const pl_solver *s = p->solver;
+    const pl_solver *s = &p->world->solver;
     const near_real h = p->h;
     pl_near_quad *body = (pl_near_quad *)(void *)(pl_solver_bodies(s) + p->first);
     const pl_near_quad *motion = (const pl_near_quad *)(void *)(pl_solver_motions(s) + p->first);
@@ -91,7 +101,10 @@ static void drift(void *context, uint32_t first, uint32_t count)
         pl_near_quad way = h * v;
         if (behind[3] > 0) {
             const pl_near_quad push = 2 * behind - force, taken = u + push - now;
-            way += h * pulled(&taken, &push) * push;
+            const near_real over = pulled(&taken, &push);
+            if (over > 0 && !is_only_tied(p->world, p->first + i)) {
+                way += h * over * push;
+            }
         } else if (square_of(&kept) == 0 && kept[2] == 0) {
             way -= HALF * h * force;
         }

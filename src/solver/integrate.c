@@ -11,8 +11,8 @@ static void move(void *context, uint32_t first, uint32_t count)
 {
     const pl_passage *p = context;
     const near_real h = p->h, half = h * h / 2;
-    pl_solver_body *body = pl_solver_bodies(p->solver) + p->first;
-    const pl_solver_motion *motion = pl_solver_motions(p->solver) + p->first;
+    pl_solver_body *body = pl_solver_bodies(&p->world->solver) + p->first;
+    const pl_solver_motion *motion = pl_solver_motions(&p->world->solver) + p->first;
     for (uint32_t i = first; i < first + count; ++i) {
         bool free =
             body[i].vx == motion[i].ux && body[i].vy == motion[i].uy && body[i].w == motion[i].uw;
@@ -27,7 +27,7 @@ void pl_pass_bodies(pl_substep *s, int kind, pl_range_fn *pass)
 {
     const pl_slots slots = s->cluster->slots[kind];
     pl_tasks_ranges(s->tasks, slots.count, PL_BODIES_SHARED, pass,
-                    &(pl_passage){ &s->world->solver, slots.first, s->h });
+                    &(pl_passage){ s->world, slots.first, s->h });
 }
 
 void pl_move_kinematic(pl_substep *s)

@@ -44,7 +44,7 @@ near_real pl_soft_substep(const plumb_world *world, real dt)
 static void fly(void *context, uint32_t first, uint32_t count)
 {
     const pl_passage *f = context;
-    const pl_solver *s = f->solver;
+    const pl_solver *s = &f->world->solver;
     const near_real h = f->h;
     pl_near_quad *body = (pl_near_quad *)(void *)(pl_solver_bodies(s) + f->first);
     pl_near_quad *motion = (pl_near_quad *)(void *)(pl_solver_motions(s) + f->first);
@@ -63,7 +63,7 @@ static void fly(void *context, uint32_t first, uint32_t count)
 static void fly_carefully(void *context, uint32_t first, uint32_t count)
 {
     const pl_passage *f = context;
-    const pl_solver *s = f->solver;
+    const pl_solver *s = &f->world->solver;
     const near_real h = f->h;
     pl_near_quad *body = (pl_near_quad *)(void *)(pl_solver_bodies(s) + f->first);
     pl_near_quad *motion = (pl_near_quad *)(void *)(pl_solver_motions(s) + f->first);

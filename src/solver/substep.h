@@ -59,7 +59,7 @@ void pl_substeps_run(plumb_world *world, const pl_substep_rows *rows, plumb_real
 // What a pass over slots from `first` on is given, and one over a cluster's dynamic bodies (kind 0) or its kinematic ones
 // (1), shared out (integrate.c).
 typedef struct pl_passage {
-    const pl_solver *solver;
+    const plumb_world *world;
     uint32_t first;
     near_real h; // [s]
 } pl_passage;

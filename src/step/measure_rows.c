@@ -264,7 +264,8 @@ static void book_recovery(pl_measured_body *b, const pl_solver_body *body, doubl
     b->work[PLUMB_WORK_GRAVITY].potential -= lifted;
 }
 
-static void measure_joints(const pl_substep *s, pl_measuring m, bool from_kept, double owed)
+static void measure_joints(const pl_substep *s, pl_measuring m, bool from_kept,
+                           pl_measured_debt debt)
 {
     const pl_measure *measure = &s->world->measure;
     if (!s->solving->any_joints) {
@@ -275,7 +276,7 @@ static void measure_joints(const pl_substep *s, pl_measuring m, bool from_kept, 
                  ? (const char *)measure->records.data + (size_t)s->thread * room
                  : NULL;
     m.kept_impulses = from_kept ? measure->impulses.data : NULL;
-    m.owed = owed;
+    m.debt = debt;
     pl_joints_measure(s->solving->joints, &m);
 }
 
@@ -308,12 +309,12 @@ static void share_out(const pl_substep *s, row_kind kind)
     case ROW_INTEGRATE:
         if (!starts) {
             measure_contacts(s, m, false);
-            measure_joints(s, m, false, -1);
+            measure_joints(s, m, false, PL_DEBT_OPEN);
         }
         break;
     case ROW_WARM_JOINTS:
         if (starts) {
-            measure_joints(s, m, false, 0);
+            measure_joints(s, m, false, PL_DEBT_NONE);
         }
         break;
     case ROW_WARM_CONTACTS:
@@ -323,7 +324,9 @@ static void share_out(const pl_substep *s, row_kind kind)
         break;
     case ROW_JOINTS:
         measure_joints(s, m, true,
-                       soft && s->first_sweep && s->row->run == pl_joints_row_solve ? 1 : 0);
+                       !soft || !s->first_sweep             ? PL_DEBT_NONE
+                       : s->row->run == pl_joints_row_solve ? PL_DEBT_PAID
+                                                            : PL_DEBT_PAID_BEHIND);
         break;
     case ROW_CONTACTS:
     case ROW_RELAX_CONTACTS:
@@ -388,7 +391,7 @@ static void find_imbalance(const pl_substep *s, pl_measuring *found)
         measured[i].px = measured[i].py = measured[i].pw = 0;
     }
     measure_contacts(s, m, false);
-    measure_joints(s, m, false, -1);
+    measure_joints(s, m, false, PL_DEBT_OPEN);
     for (uint32_t i = slots.first; i < slots.first + slots.count; ++i) {
         const pl_measured_body *b = &measured[i];
         const pl_solver_body *body = &pl_solver_bodies(solver)[i];

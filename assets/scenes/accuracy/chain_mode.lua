@@ -17,4 +17,4 @@ exact { "upper", scale = a, measure = function()
     local x, y = upper:position()
     return math.atan(x, -y)
 end, value = function(t) return a * math.cos(w * t) end }
-expect { "five periods", exact = "upper", tolerance = 0.0073 }
+expect { "five periods", exact = "upper", tolerance = 0.0024 }

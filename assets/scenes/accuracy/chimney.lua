@@ -38,5 +38,5 @@ exact { "force", scale = g, measure = function() return hinge:reaction() end, fr
     local along, across = g * (5 * math.cos(a) - 3 * math.cos(start)) / 2, g * math.sin(a) / 4
     return math.sqrt(along * along + across * across)
 end }
-expect { "the fall", exact = "angle", tolerance = 0.0099 }
-expect { "the hinge's force", exact = "force", tolerance = 0.017 }
+expect { "the fall", exact = "angle", tolerance = 3e-05 }
+expect { "the hinge's force", exact = "force", tolerance = 4.2e-05 }

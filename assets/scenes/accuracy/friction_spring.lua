@@ -18,4 +18,4 @@ exact { "place", body = "block", x = function(t)
     end
     return x
 end }
-expect { "the swings and the stop", exact = "place", tolerance = 0.0048 }
+expect { "the swings and the stop", exact = "place", tolerance = 0.00022 }

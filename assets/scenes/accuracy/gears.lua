@@ -14,5 +14,5 @@ gear { revolute { pinion }, prismatic { weight, axis = {0, 1} }, ratio = 1 / 0.5
 local fall = 2 * g / (2 + pinion:inertia() / 0.25)
 exact { "wheel", body = "small", angle = function(t) return a * t * t / 2 end, till = 0.7 }
 exact { "rack", body = "weight", x = function() return 4.6 end, y = function(t) return -fall * t * t / 2 end }
-expect { "the driving wheel", exact = "wheel", tolerance = 0.03 }
-expect { "the rack", exact = "rack", tolerance = 0.024 }
+expect { "the driving wheel", exact = "wheel", tolerance = 0.0005 }
+expect { "the rack", exact = "rack", tolerance = 3.3e-05 }

@@ -42,6 +42,6 @@ exact { "rod", at = 0.8, value = function() return e * e end, measure = function
     local w, angle = rod:spin(), rod:angle()
     return (inertia * w * w / 2 + g * l / 2 * (math.sin(angle) + math.sin(bound))) / (g * l / 2 * math.sin(bound))
 end }
-expect { "the weight", exact = "weight", tolerance = 0.0123 }
+expect { "the weight", exact = "weight", tolerance = 1.6e-05 }
 expect { "the ball", exact = "ball", tolerance = 8.1e-7 }
-expect { "the rod", exact = "rod", tolerance = 0.0025 }
+expect { "the rod", exact = "rod", tolerance = 0.00079 }

@@ -7,4 +7,4 @@ local arm = body { name = "arm", box { 2, 0.1 }, mass = 3 }
 local inertia = arm:inertia()
 revolute { arm, at = {0, 0}, motor = { speed = 1000, torque = torque } }
 exact { "angle", body = "arm", angle = function(t) return torque / inertia * t * t / 2 end }
-expect { "the angle", exact = "angle", tolerance = 0.015 }
+expect { "the angle", exact = "angle", tolerance = 3.9e-05 }

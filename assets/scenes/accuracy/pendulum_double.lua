@@ -53,6 +53,6 @@ exact { "energy", unit = "J", value = function() return -g * l * (1.5 * c0 + 0.5
     local kinetic, potential = energy()
     return kinetic + potential
 end }
-expect { "the elbow", exact = "elbow", tolerance = 0.021 }
-expect { "the lower rod", exact = "lower", tolerance = 0.051 }
+expect { "the elbow", exact = "elbow", tolerance = 0.04 }
+expect { "the lower rod", exact = "lower", tolerance = 0.096 }
 expect { "the energy", exact = "energy", tolerance = 0.11 }

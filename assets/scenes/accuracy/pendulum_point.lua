@@ -37,5 +37,5 @@ exact { "energy", scale = g * l, value = function() return 0 end, measure = func
     local v = bob:speed()
     return v * v / 2 + g * y
 end }
-expect { "five periods", exact = "place", tolerance = 0.013 }
-expect { "the energy", exact = "energy", tolerance = 0.011 }
+expect { "five periods", exact = "place", tolerance = 0.00036 }
+expect { "the energy", exact = "energy", tolerance = 0.00036 }

@@ -35,5 +35,5 @@ local swing = solution(function(s) return { s[2], -g * l / 2 / inertia * math.si
 exact { "angle", body = "rod", angle = function(t) return swing(t)[1] end }
 exact { "energy", scale = g * l / 2 * (1 - math.cos(start)), value = function() return -g * l / 2 * math.cos(start) end,
         measure = function() return inertia * rod:spin() * rod:spin() / 2 - g * l / 2 * math.cos(rod:angle()) end }
-expect { "six periods", exact = "angle", tolerance = 0.012 }
-expect { "the energy", exact = "energy", tolerance = 0.012 }
+expect { "six periods", exact = "angle", tolerance = 0.00022 }
+expect { "the energy", exact = "energy", tolerance = 0.00027 }

@@ -35,4 +35,4 @@ local swing = solution(function(s)
 end, { l, start, 0, 0 })
 exact { "place", body = "bob", x = function(t) return swing(t)[1] * math.sin(swing(t)[2]) end,
         y = function(t) return -swing(t)[1] * math.cos(swing(t)[2]) end }
-expect { "6 s", exact = "place", tolerance = 0.0072 }
+expect { "6 s", exact = "place", tolerance = 9.4e-05 }

@@ -12,5 +12,5 @@ exact { "place", body = "mass",
         x = function(t) return t < taut and -2 + v * t or l * math.cos(start + w * (t - taut)) end,
         y = function(t) return t < taut and y0 or l * math.sin(start + w * (t - taut)) end }
 exact { "speed", unit = "m/s", from = 2, measure = function() return mass:speed() end, value = function() return v * y0 / l end }
-expect { "the way", exact = "place", tolerance = 4.6e-05 }
+expect { "the way", exact = "place", tolerance = 7.8e-06 }
 expect { "the speed", exact = "speed", tolerance = 1.8e-05 }

@@ -13,5 +13,5 @@ exact { "both", scale = a, at = 3, value = function() return a end, measure = fu
 end }
 exact { "phase", body = "mass", x = function(t) return a * math.cos(w * t) end, y = function() return 0 end }
 expect { "the amplitude", exact = "amplitude", tolerance = 3.2e-06 }
-expect { "the amplitude with its velocity", exact = "both", tolerance = 0.049 }
+expect { "the amplitude with its velocity", exact = "both", tolerance = 1.7e-06 }
 expect { "sixty periods", exact = "phase", tolerance = 2e-5 }

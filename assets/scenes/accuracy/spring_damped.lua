@@ -24,5 +24,5 @@ for i, case in ipairs { {"under", 0.1}, {"critical", 1}, {"over", 2} } do
     exact { name, body = name, x = way(z), y = function() return i end, scale = a }
 end
 expect { "under", exact = "under", tolerance = 1.2e-06 }
-expect { "critical", exact = "critical", tolerance = 1.5e-07 }
-expect { "over", exact = "over", tolerance = 1.1e-07 }
+expect { "critical", exact = "critical", tolerance = 3.7e-07 }
+expect { "over", exact = "over", tolerance = 1.8e-07 }

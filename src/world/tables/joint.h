@@ -54,12 +54,20 @@ typedef struct pl_row {
     real ax, ay, aw, bx, by, bw; // J
     real error;                  // C
     real speed;                  // [m/s] or [rad/s] of DRIVE
+    real along_a, along_b, over; // of a length: n . r of A and of B [m], 1 / |d| [1/m]; else 0
     real stiff, damp;            // of the spring, if it is one
     real most;                   // [N] or [N m] largest force either way
     pl_row_type type;
     pl_row_form form;
     pl_row_spring spring;
 } pl_row;
+
+// What the halves of a substep know of a row beside its impulse (one.c).
+typedef struct pl_row_half {
+    real start;  // [N s] with which the substep began
+    real lag;    // [N s] of the impulse, what is not of this half
+    real before; // of springs: J v at the start of the half
+} pl_row_half;
 
 typedef struct pl_rows {
     int count;       // rows; the same for all life of a joint
@@ -123,12 +131,15 @@ struct pl_joint {
     // Solver: of joints solved one by one.
     real mass[PL_JOINT_ROWS]; // [kg] effective, of rows outside the block
     real inverse[3][3];       // of the block's K = J M^-1 J^T
-    real turn[6];             // change of momentum owed because J has turned: see solve.c
+    real turn[6], paid[6];    // change of momentum owed because J has turned, and last paid: see one.c
+    real behind[2];           // shares of A's and B's kick that come behind the drift
+    pl_row_half half[PL_JOINT_ROWS];
     pl_rows rows;
     plumb_vec2 arm_b;        // [m] from B's centre to its anchor, at the rows
     int struck;              // row of a limit that bounced in this substep; 0: none (strike.c)
     uint32_t clear;          // bit of each limit that stays apart in this substep, by its flight
-    real struck_rate;        // [m/s] or [rad/s] of that row behind the blow
+    real struck_rate;        // [m/s] or [rad/s] of that row behind the blow, in the half that is solved
+    real struck_change;      // [m/s] or [rad/s] to the half behind the drift
     plumb_vec2 step_impulse; // [N s] on B over the step, where it is watched; 0 between steps
     real step_turn;          // [N m s] likewise, about B's anchor
 };
@@ -138,10 +149,12 @@ typedef struct pl_joint_mark {
     plumb_body a, b;
     uint32_t row_a, row_b; // of the bodies, as last found; PL_NONE: the world
     uint32_t cluster;      // of the bodies that it was grouped with
+    uint32_t assembly;     // bodies that joints tie together: assembly.c
     uint8_t what;  // 0: not solved (off, or a body of it asleep or disabled); else see plan.c
     uint8_t color; // PL_JOINT_COLORS: it is solved by itself
     uint8_t pattern;
     uint8_t degree; // joints in lanes at that of its bodies which has more of them; at least 1
+    bool closes; // a loop: assembly.c
     bool quiet; // nothing but its reaction comes of it after the step
 } pl_joint_mark;
 
@@ -188,6 +201,10 @@ typedef struct pl_joint_plan {
     pl_buffer slots;   // uint32_t, two a lane: see pl_joint_call
     // of the bundles of a group, room for one group a thread; from step to step nothing is kept
     pl_buffer records;
+    pl_buffer leaders; // uint32_t a dynamic row, while assemblies are found
+    pl_buffer looped, states; // uint8_t an assembly: see assembly.c
+    uint32_t assembly_count;
+    bool any_whole; // assembly is kicked whole in this step
     size_t room; // [B] of a thread
     uint32_t order_count, group_count, bundle_count, pattern_count;
     pl_joint_pattern patterns[PL_JOINT_PATTERNS];

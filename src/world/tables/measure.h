@@ -27,13 +27,21 @@ typedef struct pl_measured_flight {
     double vx, vy, w, x, y, fx, fy, torque;
 } pl_measured_flight;
 
+// Of what joints owe because J has turned (joints/one.c).
+typedef enum pl_measured_debt {
+    PL_DEBT_NONE,
+    PL_DEBT_OPEN,      // less what is owed still
+    PL_DEBT_PAID,      // what the sweep before the drift paid
+    PL_DEBT_PAID_BEHIND // and the one behind it
+} pl_measured_debt;
+
 // What the kernels are given, and what they find.
 typedef struct pl_measuring {
     pl_measured_body *bodies;
     uint32_t count;            // slots from here on are immovable or kinematic
     bool balances;             // impulses are added up instead of work
     bool kicks;                // and besides, as a part of the substep's kick
-    double owed;               // by how much what joints owe for turning is added: see joints/one.c
+    pl_measured_debt debt;     // what of it is added to the impulses
     const void *kept;          // bundles or records before the row; null: all of an impulse counts
     const void *kept_extras;   // likewise
     const void *kept_impulses; // real, PL_JOINT_ROWS a joint of `grouped`, of those solved one by one

@@ -116,6 +116,22 @@ static inline near_real pl_kick_behind(const near_real *kicked, uint32_t slot)
     return share > 0 ? share : 0;
 }
 
+// Of a body with joints, which may be one that nothing kicks.
+static inline near_real pl_joint_behind(const near_real *kicked, uint32_t dynamic_slots,
+                                        uint32_t slot)
+{
+    return slot < dynamic_slots ? pl_kick_behind(kicked, slot) : 0;
+}
+
+// Of a row between two: after a hit, of which neither end is to be kicked in halves, none of its impulse comes behind.
+static inline near_real pl_joint_lag(const near_real *kicked, uint32_t dynamic_slots, uint32_t a,
+                                     uint32_t b)
+{
+    const near_real of_a = pl_joint_behind(kicked, dynamic_slots, a);
+    const near_real of_b = pl_joint_behind(kicked, dynamic_slots, b);
+    return a >= dynamic_slots ? of_b : b >= dynamic_slots ? of_a : of_a < of_b ? of_a : of_b;
+}
+
 static inline pl_solver_motion *pl_solver_motions(const pl_solver *solver)
 {
     return (pl_solver_motion *)solver->motions.data;
