@@ -37,6 +37,11 @@ static uint32_t leader_of(uint32_t *leaders, uint32_t i)
     return i;
 }
 
+static bool ties_any(const plumb_world *world, const pl_joint_mark *m)
+{
+    return m->row_a < world->dynamic_count || m->row_b < world->dynamic_count;
+}
+
 static bool ties_two(const plumb_world *world, const pl_joint_mark *m)
 {
     return m->row_a < world->dynamic_count && m->row_b < world->dynamic_count;
@@ -76,6 +81,10 @@ void pl_assemblies_make(plumb_world *world)
     memset(held, 0, rows);
     for (uint32_t i = 0; i < plan->order_count; ++i) {
         pl_joint_mark *m = &marks[order[i]];
+        m->assembly = PL_NONE;
+        if (!ties_any(world, m)) {
+            continue;
+        }
         m->assembly = leader_of(leaders, m->row_a < rows ? m->row_a : m->row_b);
         const bool is_held = !ties_two(world, m) && holds_in_place(world, order[i]);
         looped[m->assembly] |= m->closes || (is_held && held[m->assembly] != 0);
@@ -120,11 +129,14 @@ void pl_assemblies_share(plumb_world *world)
     memset(states, 0, plan->assembly_count);
     for (uint32_t i = 0; i < plan->order_count; ++i) {
         const pl_joint_mark *m = &marks[order[i]];
-        states[m->assembly] |= state_of(world, m);
+        if (m->assembly != PL_NONE) {
+            states[m->assembly] |= state_of(world, m);
+        }
     }
     for (uint32_t i = 0; i < plan->order_count; ++i) {
         const pl_joint_mark *m = &marks[order[i]];
-        if (states[m->assembly] == (IS_TOUCHED | IS_UNEVEN) || (direct && looped[m->assembly])) {
+        if (m->assembly != PL_NONE &&
+            (states[m->assembly] == (IS_TOUCHED | IS_UNEVEN) || (direct && looped[m->assembly]))) {
             kick_whole(world, m->row_a);
             kick_whole(world, m->row_b);
             plan->any_whole = true;

@@ -149,7 +149,7 @@ typedef struct pl_joint_mark {
     plumb_body a, b;
     uint32_t row_a, row_b; // of the bodies, as last found; PL_NONE: the world
     uint32_t cluster;      // of the bodies that it was grouped with
-    uint32_t assembly;     // bodies that joints tie together: assembly.c
+    uint32_t assembly;     // bodies that joints tie together; PL_NONE: none moves (assembly.c)
     uint8_t what;  // 0: not solved (off, or a body of it asleep or disabled); else see plan.c
     uint8_t color; // PL_JOINT_COLORS: it is solved by itself
     uint8_t pattern;
