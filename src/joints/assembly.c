@@ -8,6 +8,7 @@
 // Reads: marks, order, masses, colours of contacts. Writes: assemblies, shares of kicks. Cost: O(joints) where a plan is made,
 // and a step with contacts or direct joints.
 #include "joints/joint.h"
+#include "core/union_find.h"
 #include "world/state.h"
 
 #include <string.h>
@@ -26,15 +27,6 @@ bool pl_assemblies_reserve(plumb_world *world)
     return pl_buffer_reserve(&world->memory, &plan->leaders, rows * sizeof(uint32_t)) &&
            pl_buffer_reserve(&world->memory, &plan->looped, rows * sizeof(uint8_t)) &&
            pl_buffer_reserve(&world->memory, &plan->states, rows * sizeof(uint8_t));
-}
-
-static uint32_t leader_of(uint32_t *leaders, uint32_t i)
-{
-    while (leaders[i] != i) {
-        leaders[i] = leaders[leaders[i]];
-        i = leaders[i];
-    }
-    return i;
 }
 
 static bool ties_any(const plumb_world *world, const pl_joint_mark *m)
@@ -65,17 +57,11 @@ void pl_assemblies_make(plumb_world *world)
     uint32_t *leaders = plan->leaders.data;
     uint8_t *looped = plan->looped.data, *held = plan->states.data;
     plan->assembly_count = rows;
-    for (uint32_t i = 0; i < rows; ++i) {
-        leaders[i] = i;
-    }
+    pl_union_reset(leaders, rows);
     for (uint32_t i = 0; i < plan->order_count; ++i) {
         pl_joint_mark *m = &marks[order[i]];
-        m->closes = false;
-        if (ties_two(world, m)) {
-            const uint32_t a = leader_of(leaders, m->row_a), b = leader_of(leaders, m->row_b);
-            m->closes = a == b && holds_in_place(world, order[i]);
-            leaders[a < b ? b : a] = a < b ? a : b;
-        }
+        m->closes = ties_two(world, m) && !pl_union_join(leaders, m->row_a, m->row_b) &&
+                    holds_in_place(world, order[i]);
     }
     memset(looped, 0, rows);
     memset(held, 0, rows);
@@ -85,7 +71,7 @@ void pl_assemblies_make(plumb_world *world)
         if (!ties_any(world, m)) {
             continue;
         }
-        m->assembly = leader_of(leaders, m->row_a < rows ? m->row_a : m->row_b);
+        m->assembly = pl_union_leader(leaders, m->row_a < rows ? m->row_a : m->row_b);
         const bool is_held = !ties_two(world, m) && holds_in_place(world, order[i]);
         looped[m->assembly] |= m->closes || (is_held && held[m->assembly] != 0);
         held[m->assembly] |= is_held;

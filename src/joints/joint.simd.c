@@ -22,7 +22,10 @@ WIDE_INLINE void solve_single(row *r, const source *from, const single *s,
         velocity = s->spring.velocity[!pull], error_rate = s->spring.error_rate[!pull];
         give = one - velocity;
         before = s->spring.before[!pull] * s->before;
-        lag = pull ? lagging * r->start : s->lag;
+        lag = s->lag;
+        if (pull) {
+            lag = lagging * r->start;
+        }
     } else if (pull) {
         velocity = splat((near_real)call->rigid.velocity);
         error_rate = splat((near_real)call->rigid.error);
@@ -87,7 +90,11 @@ WIDE_INLINE void solve_block(const parts *at, const pl_joint_pattern *p, const i
         }
         if (driven) {
             wrong[i] -= at->temper->spring.before[!pull] * at->temper->before[i];
-            total[i] += (splat(1) - keep) * (pull ? at->c->lag * r[i].start : at->temper->lag[i]);
+            vf lag = at->temper->lag[i];
+            if (pull) {
+                lag = at->c->lag * r[i].start;
+            }
+            total[i] += (splat(1) - keep) * lag;
         }
     }
     total[0] -= inverse[0] * wrong[0];

@@ -13,6 +13,7 @@
 // Reads: ends of manifolds and joints, marks of rows. Writes: islands, their homes, labels of rows. Cost:
 // two reads a contact or joint, one a body; O(bodies + contacts + joints) when islands are looked for.
 #include "solver/solver.h"
+#include "core/union_find.h"
 #include "effects/effects.h"
 #include "joints/joint.h"
 #include "world/state.h"
@@ -41,31 +42,6 @@ static bool reserve(plumb_world *world, uint32_t movable)
            pl_buffer_reserve(&world->memory, &s->islands, movable * sizeof(uint32_t)) &&
            pl_buffer_reserve(&world->memory, &s->homes, movable * sizeof(uint32_t)) &&
            pl_buffer_reserve(&world->memory, &s->leaders, movable * sizeof(uint32_t));
-}
-
-static uint32_t leader_of(uint32_t *leaders, uint32_t i)
-{
-    while (leaders[i] != i) {
-        leaders[i] = leaders[leaders[i]];
-        i = leaders[i];
-    }
-    return i;
-}
-
-// The lower of two leads both. True if they were apart.
-static bool join(uint32_t *leaders, uint32_t a, uint32_t b)
-{
-    a = leader_of(leaders, a);
-    b = leader_of(leaders, b);
-    leaders[a < b ? b : a] = a < b ? a : b;
-    return a != b;
-}
-
-static void lead_themselves(uint32_t *leaders, uint32_t count)
-{
-    for (uint32_t i = 0; i < count; ++i) {
-        leaders[i] = i;
-    }
 }
 
 //---- what has to be in cluster 0 -----------------------------------------------------------------
@@ -98,7 +74,7 @@ static void join_rows(uint32_t *leaders, const pl_ends *ends, uint32_t count, ui
 {
     for (uint32_t i = 0; i < count; ++i) {
         if (ends[i].a < movable && ends[i].b < movable) {
-            join(leaders, ends[i].a, ends[i].b);
+            pl_union_join(leaders, ends[i].a, ends[i].b);
         }
     }
 }
@@ -152,7 +128,7 @@ static void give_homes(const plumb_world *world, pl_solver *s, uint32_t movable)
 static void look_for_islands(plumb_world *world, uint32_t movable)
 {
     pl_solver *s = &world->solver;
-    lead_themselves(s->leaders.data, movable);
+    pl_union_reset(s->leaders.data, movable);
     join_rows(s->leaders.data, world->narrow.ends.data, world->narrow.manifold_count, movable);
     join_rows(s->leaders.data, world->joints.plan.ends.data, pl_joints_tied(world), movable);
     number_islands(s, movable);
@@ -183,7 +159,7 @@ static uint32_t join_islands(pl_solver *s, const pl_ends *ends, uint32_t count, 
         } else if (islands[row_b] == PL_NONE) {
             islands[row_b] = islands[row_a];
         } else {
-            joined += join(leaders, islands[row_a], islands[row_b]);
+            joined += pl_union_join(leaders, islands[row_a], islands[row_b]);
         }
     }
     return joined;
@@ -197,7 +173,7 @@ static void fetch_specials(const plumb_world *world, pl_solver *s, uint32_t mova
     uint32_t *homes = s->homes.data;
     for (uint32_t row = 0; specials.any && row < movable; ++row) {
         if (is_special(&specials, row) && islands[row] != PL_NONE) {
-            homes[leader_of(s->leaders.data, islands[row])] = 0;
+            homes[pl_union_leader(s->leaders.data, islands[row])] = 0;
         }
     }
 }
@@ -211,13 +187,13 @@ static uint32_t follow_islands(plumb_world *world, uint32_t movable)
         islands[row] = PL_NONE;
     }
     s->labelled = movable;
-    lead_themselves(leaders, s->island_count);
+    pl_union_reset(leaders, s->island_count);
     const uint32_t joined =
         join_islands(s, world->narrow.ends.data, world->narrow.manifold_count, movable) +
         join_islands(s, world->joints.plan.ends.data, pl_joints_tied(world), movable);
     fetch_specials(world, s, movable);
     for (uint32_t row = 0; joined > 0 && row < movable; ++row) {
-        islands[row] = islands[row] == PL_NONE ? PL_NONE : leader_of(leaders, islands[row]);
+        islands[row] = islands[row] == PL_NONE ? PL_NONE : pl_union_leader(leaders, islands[row]);
     }
     return joined;
 }
