@@ -54,7 +54,7 @@ static void add_force(pl_pull *pull, double fx, double fy, double x, double y)
     pull->force[2] += x * fy - y * fx;
 }
 
-static void add_square(double to[3][3], double weight, double x, double y)
+static void add_square(double (*to)[3], double weight, double x, double y)
 {
     to[0][0] += weight * x * x;
     to[0][1] += weight * x * y, to[1][0] += weight * x * y;
