@@ -65,8 +65,6 @@ static void open_volume(plumb_world *world, uint32_t piece)
     const uint32_t row = world->pieces.body[piece];
     const plumb_vec2 g = world->gravity, up = pl_world_up(world);
     const double pull = sqrt((double)g.x * (double)g.x + (double)g.y * (double)g.y);
-    const double x = pull > 0 ? -(double)g.x / pull : (double)up.x;
-    const double y = pull > 0 ? -(double)g.y / pull : (double)up.y;
     pl_piece_convex(world, piece, &shape);
     const plumb_transform frame = { { -(b->c[row] * b->local_x[row] - b->s[row] * b->local_y[row]),
                                       -(b->s[row] * b->local_x[row] +
@@ -75,10 +73,12 @@ static void open_volume(plumb_world *world, uint32_t piece)
     v->piece = piece;
     v->material = world->pieces.material[piece];
     v->plane_count = pl_half_planes_of(&shape, frame, 0, 0, v->planes);
+    v->up_x = pull > 0 ? -(double)g.x / pull : (double)up.x;
+    v->up_y = pull > 0 ? -(double)g.y / pull : (double)up.y;
     v->bottom = INFINITY;
     for (int i = 0; i < shape.count; ++i) {
         const plumb_vec2 p = plumb_transform_apply(frame, shape.points[i]);
-        const double height = x * (double)p.x + y * (double)p.y - (double)shape.radius;
+        const double height = v->up_x * (double)p.x + v->up_y * (double)p.y - (double)shape.radius;
         v->bottom = height < v->bottom ? height : v->bottom;
     }
 }

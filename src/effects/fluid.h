@@ -8,6 +8,7 @@
 // A piece of a sensor of a fluid that somebody is near.
 typedef struct pl_volume {
     uint32_t piece, material; // row of the material
+    double up_x, up_y;        // against gravity
     double bottom;            // [m] lowest place of the shape, upwards from the centre of its body
     int plane_count;
     pl_half_plane

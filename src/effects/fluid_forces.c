@@ -119,11 +119,7 @@ static pl_spin against(const plumb_world *world, const pl_volume *volume, uint32
 {
     const pl_bodies *b = &world->bodies;
     const uint32_t holder = world->pieces.body[volume->piece];
-    const plumb_vec2 g = world->gravity, up = pl_world_up(world);
-    const double pull = sqrt((double)g.x * (double)g.x + (double)g.y * (double)g.y);
-    const double ux = pull > 0 ? -(double)g.x / pull : (double)up.x;
-    const double uy = pull > 0 ? -(double)g.y / pull : (double)up.y;
-    const double height = -(ux * away[0] + uy * away[1]) - volume->bottom;
+    const double height = -(volume->up_x * away[0] + volume->up_y * away[1]) - volume->bottom;
     double flow[2];
     pl_fluid_flow(world, volume, (double)b->center_x[row] + (double)body->dx,
                   (double)b->center_y[row] + (double)body->dy, height, world->time + time, flow);
