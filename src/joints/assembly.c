@@ -6,7 +6,7 @@
 //   looped   joints in a loop, all solved together (direct.c), may ask for what cannot be: nothing damps what comes of it
 //
 // Reads: marks, order, masses, colours of contacts. Writes: assemblies, shares of kicks. Cost: O(joints) where a plan is made,
-// and a step with contacts or direct joints.
+// and, by the soft step, a step with contacts or direct joints.
 #include "joints/joint.h"
 #include "core/union_find.h"
 #include "world/state.h"
@@ -58,13 +58,14 @@ void pl_assemblies_make(plumb_world *world)
     uint8_t *looped = plan->looped.data, *held = plan->states.data;
     plan->assembly_count = rows;
     pl_union_reset(leaders, rows);
-    for (uint32_t i = 0; i < plan->order_count; ++i) {
-        pl_joint_mark *m = &marks[order[i]];
-        m->closes = ties_two(world, m) && !pl_union_join(leaders, m->row_a, m->row_b) &&
-                    holds_in_place(world, order[i]);
-    }
     memset(looped, 0, rows);
     memset(held, 0, rows);
+    for (uint32_t i = 0; i < plan->order_count; ++i) {
+        const pl_joint_mark *m = &marks[order[i]];
+        if (ties_two(world, m) && !pl_union_join(leaders, m->row_a, m->row_b)) {
+            looped[m->row_a] |= holds_in_place(world, order[i]); // told of a row first
+        }
+    }
     for (uint32_t i = 0; i < plan->order_count; ++i) {
         pl_joint_mark *m = &marks[order[i]];
         m->assembly = PL_NONE;
@@ -72,8 +73,9 @@ void pl_assemblies_make(plumb_world *world)
             continue;
         }
         m->assembly = pl_union_leader(leaders, m->row_a < rows ? m->row_a : m->row_b);
-        const bool is_held = !ties_two(world, m) && holds_in_place(world, order[i]);
-        looped[m->assembly] |= m->closes || (is_held && held[m->assembly] != 0);
+        const bool two = ties_two(world, m), is_held = !two && holds_in_place(world, order[i]);
+        looped[m->assembly] |=
+            (two && looped[m->row_a] != 0) || (is_held && held[m->assembly] != 0);
         held[m->assembly] |= is_held;
     }
 }
@@ -109,7 +111,8 @@ void pl_assemblies_share(plumb_world *world)
     uint8_t *states = plan->states.data;
     const bool direct = pl_joints_direct(world);
     plan->any_whole = false;
-    if (world->joints.live == 0 || (!direct && world->narrow.manifold_count == 0)) {
+    if (world->desc.solver != PLUMB_SOLVER_SOFT || world->joints.live == 0 ||
+        (!direct && world->narrow.manifold_count == 0)) {
         return;
     }
     memset(states, 0, plan->assembly_count);

@@ -201,13 +201,14 @@ static void tune_springs(const parts *at, const pl_joint_pattern *p, const pl_jo
 }
 
 // Rows where the bodies are, of bundle k.
-WIDE_INLINE void remake(const parts *at, const pl_joint_pattern *p, const pl_joint_call *call,
-                        uint32_t k, const body *a, const body *b, momentum *due)
+WIDE_INLINE momentum remake(const parts *at, const pl_joint_pattern *p, const pl_joint_call *call,
+                            uint32_t k, const body *a, const body *b)
 {
-    make_rows(at, p, a, b, due);
+    const momentum due = make_rows(at, p, a, b);
     if (p->newtons) {
         tune_springs(at, p, call, k);
     }
+    return due;
 }
 
 // What springs go by from the start of a substep on: how fast they are.
@@ -255,14 +256,13 @@ SWEEP_PART void move_on(const parts *at, const pl_joint_pattern *p, const pl_joi
 {
     const bundle *c = at->c;
     const momentum owed = c->owed;
-    momentum due;
     vf old[PL_JOINT_ROWS];
     for (int i = 0; i < p->count; ++i) {
         old[i] = at->rows[i].error;
     }
     gather_body(a, call, at->a);
     gather_body(b, call, at->b);
-    remake(at, p, call, k, a, b, &due);
+    const momentum due = remake(at, p, call, k, a, b);
     give(a, b, &owed, c->behind_a, c->behind_b);
     give(a, b, &due, splat(1), splat(1));
     turn_springs(at, p, old, call);
@@ -511,8 +511,7 @@ static void refill(const pl_joint_call *call)
         if (any((a.inv_inertia < at.c->inertia_a) | (b.inv_inertia < at.c->inertia_b))) {
             at.c->inertia_a = a.inv_inertia;
             at.c->inertia_b = b.inv_inertia;
-            momentum due;
-            remake(&at, p, call, k, &a, &b, &due);
+            remake(&at, p, call, k, &a, &b);
         }
     }
 }
@@ -539,8 +538,7 @@ static void fill(const pl_joint_call *call)
     gather_body(&b, call, at.b);
     at.c->inertia_a = a.inv_inertia;
     at.c->inertia_b = b.inv_inertia;
-    momentum due;
-    remake(&at, p, call, k, &a, &b, &due);
+    remake(&at, p, call, k, &a, &b);
     at.c->owed = (momentum){ .ax = splat(0) };
     if (has_springs(p)) {
         note_springs(&at, p, &a, &b);

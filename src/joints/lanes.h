@@ -44,7 +44,7 @@ typedef struct single {
     vf mass;        // [kg] effective
     vf most;        // [N s] bound
     vf speed;       // [m/s] or [rad/s] of drives
-    vf before, lag; // of springs: see pl_row
+    vf before, lag; // of springs: see pl_row_half
     oscillator spring;
 } single;
 
@@ -355,20 +355,21 @@ WIDE_INLINE void make_row(row *r, source *from, const uint8_t form, const place 
     }
 }
 
-// Rows, effective masses and what is owed, from where the bodies are. `due`: of the impulses with which the substep began,
-// what comes behind the drift gets by their turning; the rest is owed (one.c).
-WIDE_INLINE void make_rows(const parts *at, const pl_joint_pattern *p, const body *a, const body *b,
-                           momentum *due)
+// Rows, effective masses and what is owed, from where the bodies are. Answers what is due now: of the impulses
+// with which the substep began, what comes behind the drift gets by their turning; the rest is owed (one.c).
+WIDE_INLINE momentum make_rows(const parts *at, const pl_joint_pattern *p, const body *a,
+                               const body *b)
 {
     bundle *c = at->c;
     const place now = place_now(c, a, b);
-    *due = c->owed = (momentum){ splat(0), splat(0), splat(0), splat(0), splat(0), splat(0) };
+    momentum due = { .ax = splat(0) };
+    c->owed = due;
     for (int i = 0; i < p->count; ++i) {
         row *r = &at->rows[i];
         const row old = *r;
         make_row(r, p->bare ? NULL : &at->sources[i], p->row[i].form, &now, a, b);
         const vf of_a = c->behind_a * r->start, of_b = c->behind_b * r->start;
-        add_turning(due, r, &old, of_a, of_b);
+        add_turning(&due, r, &old, of_a, of_b);
         add_turning(&c->owed, r, &old, r->impulse - of_a, r->impulse - of_b);
     }
     switch (p->block) {
@@ -390,6 +391,7 @@ WIDE_INLINE void make_rows(const parts *at, const pl_joint_pattern *p, const bod
         at->singles[i - p->block].mass = mass;
         r->impulse = sel(mass > splat(0), r->impulse, splat(0));
     }
+    return due;
 }
 
 #endif

@@ -5,8 +5,8 @@
 //     c = sqrt(u^2 - 2 a s)        after        t = 2 s / (c - u)
 // and leaves at e c. Rows are those of that moment: a rope has turned until it is taut. Both the velocity and that
 // which was integrated get (1 + e) c, and places lose t times as much, so that the substep ends where the parabolas
-// do. The classic and the exact solver move bodies by h v where they were pushed: their velocity is that of half a substep ago.
-// In the soft step the sweep before the drift wants the rate of the middle, the one behind that of the end (halves.c).
+// do. The classic solver moves bodies by h v where they were pushed: their velocity is that of half a substep ago. In the
+// soft step the sweep before the drift wants the rate of the middle, the one behind that of the end (halves.c).
 //
 // The impulse is that of the row together with the block of the same joint: an angle is struck about the hinge, not about
 // the centre. What other joints and contacts have to do with it is left to the sweeps, in which the row

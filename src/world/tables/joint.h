@@ -154,7 +154,6 @@ typedef struct pl_joint_mark {
     uint8_t color; // PL_JOINT_COLORS: it is solved by itself
     uint8_t pattern;
     uint8_t degree; // joints in lanes at that of its bodies which has more of them; at least 1
-    bool closes; // a loop: assembly.c
     bool quiet; // nothing but its reaction comes of it after the step
 } pl_joint_mark;
 
