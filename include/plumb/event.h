@@ -111,13 +111,14 @@ PLUMB_API const plumb_sensor_event *plumb_world_sensor_end_events(const plumb_wo
 typedef struct plumb_contact_edit {
     plumb_shape shape_a, shape_b;
     plumb_body body_a, body_b;
-    plumb_vec2 normal;             ///< unit, from A to B
-    int point_count;               ///< 1 or 2
-    plumb_vec2 points[2];          ///< [m] world, midway between the surfaces
-    plumb_real separation[2];      ///< [m] negative when overlapping
-    bool touching;                 ///< it touched in the step before
-    bool enabled;                  ///< * false: in this step the shapes pass through each other, untouched
-    plumb_real friction;           ///< * [-] 0..10
+    plumb_vec2 normal;        ///< unit, from A to B
+    int point_count;          ///< 1 or 2
+    plumb_vec2 points[2];     ///< [m] world, midway between the surfaces
+    plumb_real separation[2]; ///< [m] negative when overlapping
+    bool touching;            ///< it touched in the step before
+    bool enabled;             ///< * false: in this step the shapes pass through each other, untouched
+    /// * [-] 0..10; of surfaces with a kinetic friction that of the state they are in, and what is set instead is both
+    plumb_real friction;
     plumb_real restitution;        ///< * [-] 0..1
     plumb_real rolling_resistance; ///< * [m] >= 0
     plumb_real surface_speed;      ///< * [m/s] of both surfaces together: see plumb_material_desc

@@ -79,6 +79,11 @@ typedef struct plumb_material_desc {
     /// [-] 0..10, lift of what spins: a force magnus 2 density area w v across its velocity v against the fluid, to the
     /// side that goes with the flow; 1 is the law of Kutta and Joukowski for a cylinder, real balls have 0.2 to 0.5
     plumb_real magnus;
+    /// [-] 0..10, of what slides; `friction` is then that of what sticks. 0, and what is above `friction`, means the
+    /// same as that. A contact that stuck in the substep before, or is new and slower than 1 cm/s along its surfaces,
+    /// holds up to `friction` times its load; once it slides it bears `kinetic_friction` times its load until it
+    /// sticks again. A pair mixes both by the same rule.
+    plumb_real kinetic_friction;
 } plumb_material_desc;
 
 /// Makes a material. Null handle on error (see plumb_world_error): E_NULL, E_RANGE, E_NOT_FINITE,
@@ -104,6 +109,7 @@ typedef struct plumb_material_pair {
     plumb_real restitution;        ///< [-] 0..1
     plumb_real rolling_resistance; ///< [m] >= 0
     plumb_real adhesion;           ///< [N] >= 0
+    plumb_real kinetic_friction;   ///< [-] 0..10, once they slide; 0, or above `friction`: the same as that
 } plumb_material_pair;
 
 /// Sets what two materials have between them, from the next step on; null handles are the default

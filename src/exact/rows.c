@@ -16,6 +16,9 @@
 // Rounds of a solution that ask where bodies are going to be: places are rounded, more would not settle.
 #define BENDS 2
 
+// Friction that is so near to its bound does not hold.
+#define ON_CONE 1e-6
+
 // Of what may be given in a substep, what may in this sweep: as much comes behind the drift as before it.
 static double share_of(const pl_exact_system *s)
 {
@@ -108,8 +111,13 @@ static void keep_contact(const pl_exact_system *s, const pl_exact_item *item)
     pl_classic_contact *m = contact_of(s, item);
     const pl_exact_row *r = s->rows + item->first_row;
     for (uint32_t k = 0; k < m->count; ++k) {
+        const double bound = (double)m->friction * (r[k].next - r[k].low);
+        m->point[k].yields = fabs(r[m->count + k].next) >= (1 - ON_CONE) * bound;
         m->point[k].ln = (near_real)r[k].next;
         m->point[k].lt = (near_real)r[m->count + k].next;
+    }
+    if (s->sweep == PL_SWEEP_PULL) { // of what relaxes, pgs.c asks at the end of the substep
+        pl_classic_grip(s->world, m);
     }
     if (m->rolling > 0) {
         m->lr = (near_real)r[2 * m->count].next;

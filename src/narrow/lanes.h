@@ -179,7 +179,7 @@ static inline void part(pl_pair *pair)
         pair->tangent[0] = pair->tangent[1] = 0;
         pair->manifold = PL_NONE;
     }
-    pair->flags &= ~(PL_PAIR_HIT | PL_PAIR_AHEAD);
+    pair->flags &= ~(PL_PAIR_HIT | PL_PAIR_AHEAD | PL_PAIR_SLIDES);
 }
 
 // One lane's manifold: keeps the points nearer than `limit`, carries impulses over by feature.

@@ -19,6 +19,7 @@ typedef struct kept_pair {
     uint32_t place, a, b; // in the list; piece slots
     uint32_t feature[2];
     near_real normal[2], tangent[2], rolling;
+    uint32_t slides; // PL_PAIR_SLIDES or 0
 } kept_pair;
 
 bool pl_ahead_reserve_kept(pl_memory *memory, pl_lookahead *ahead)
@@ -35,7 +36,8 @@ static void keep(pl_lookahead *ahead, const pl_pair *pair, uint32_t place)
                       .feature = { pair->feature[0], pair->feature[1] },
                       .normal = { pair->normal[0], pair->normal[1] },
                       .tangent = { pair->tangent[0], pair->tangent[1] },
-                      .rolling = pair->rolling };
+                      .rolling = pair->rolling,
+                      .slides = pair->flags & PL_PAIR_SLIDES };
 }
 
 static void give_back(pl_pair *pair, const kept_pair *kept)
@@ -46,6 +48,7 @@ static void give_back(pl_pair *pair, const kept_pair *kept)
         pair->tangent[k] = kept->tangent[k];
     }
     pair->rolling = kept->rolling;
+    pair->flags |= kept->slides;
 }
 
 // Pairs of what fell asleep in that step have left the list, and keep what it made of them; the others moved up in it.

@@ -26,6 +26,16 @@ static inline real pl_belt_speed(const plumb_world *world, uint32_t piece)
     return world->materials.friction[material] > 0 ? pl_rightward(world, speed) : 0;
 }
 
+// Friction of a contact while it sticks, and once it slides.
+typedef struct pl_grip {
+    near_real sticks, slides;
+} pl_grip;
+
+// [m/s] what is new, or bears nothing, slides if it is faster; so does what stuck and was given such a speed.
+#define PL_SLIDES_FROM ((near_real)0.01)
+
+pl_grip pl_surface_grip(const plumb_world *world, const pl_manifold *m);
+
 // The summary of the manifolds as they are now.
 void pl_narrow_summarise(pl_narrow *narrow);
 

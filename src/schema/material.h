@@ -47,7 +47,9 @@
     R(X, COLUMN, REAL, shear_height, SAID(shear_height), "m", FROM(0, NO_END), 0, NO_ZERO,          \
       "height above the bottom at which a flow has 63 % of its speed; 0: it is the same everywhere") \
     R(X, COLUMN, REAL, magnus, SAID(magnus), "1", FROM(0, 10), 0, NO_ZERO,                          \
-      "lift of what spins in a fluid, of that of a cylinder in an ideal one")
+      "lift of what spins in a fluid, of that of a cylinder in an ideal one")                       \
+    R(X, COLUMN, REAL, kinetic_friction, SAID(kinetic_friction), "1", FROM(0, 10), 0, NO_ZERO,      \
+      "Coulomb coefficient of what slides; 0, and what is above friction: the same as that")
 
 #define PL_MATERIAL_PAIR_ROWS(R, X)                                                                 \
     R(X, OWN, REAL, friction, SAID(friction), "1", FROM(0, 10), 0, NO_ZERO, "Coulomb coefficient")  \
@@ -56,7 +58,9 @@
     R(X, OWN, REAL, rolling_resistance, SAID(rolling_resistance), "m", FROM(0, NO_END), 0, NO_ZERO, \
       "lever arm of the torque against rolling, by the normal force")                               \
     R(X, OWN, REAL, adhesion, SAID(adhesion), "N", FROM(0, NO_END), 0, NO_ZERO,                     \
-      "force that it takes to part what has touched")
+      "force that it takes to part what has touched")                                               \
+    R(X, OWN, REAL, kinetic_friction, SAID(kinetic_friction), "1", FROM(0, 10), 0, NO_ZERO,         \
+      "Coulomb coefficient once they slide; 0, and what is above friction: the same as that")
 // clang-format on
 
 #endif

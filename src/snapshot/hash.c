@@ -10,10 +10,20 @@
 
 #include <string.h>
 
+// What few worlds have, and none had once: where it is nowhere, hashes are what they were.
+static bool is_absent(const pl_section *section)
+{
+    bool rare = strcmp(section->name, "kinetic_friction") == 0;
+    for (size_t i = 0; rare && i < pl_section_bytes(section); ++i) {
+        rare = section->data[i] == 0;
+    }
+    return rare;
+}
+
 static void add_section(pl_digest *digest, const plumb_world *world, uint32_t i)
 {
     pl_section section = pl_section_at(world, i);
-    if (section.hashed == 0 || section.count == 0) {
+    if (section.hashed == 0 || section.count == 0 || is_absent(&section)) {
         return;
     }
     if (section.data == NULL) {

@@ -69,13 +69,13 @@
 #define PL_STATE_NARROW(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                     \
     LEFT(narrow.manifolds) LEFT(narrow.staged) LEFT(narrow.ends) LEFT(narrow.fresh)               \
     LEFT(narrow.fresh_count) LEFT(narrow.candidates) LEFT(narrow.candidate_count) LEFT(narrow.ends_stale) LEFT(narrow.manifold_count) LEFT(narrow.borne_count)                    \
-    LEFT(narrow.any_adhesion) LEFT(narrow.any_friction)                                            \
+    LEFT(narrow.any_adhesion) LEFT(narrow.any_kinetic) LEFT(narrow.any_friction)                                            \
     LEFT(narrow.any_elastic) LEFT(narrow.any_low) LEFT(narrow.any_surface) LEFT(narrow.overlaps)
 
 #define PL_STATE_SOLVER(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                     \
     LEFT(solver.bodies) LEFT(solver.motions) LEFT(solver.residuals) LEFT(solver.kicked) LEFT(solver.struck)                 \
     LEFT(solver.rows) LEFT(solver.slots) LEFT(solver.masks) LEFT(solver.colors)                    \
-    LEFT(solver.lanes) LEFT(solver.bundles) LEFT(solver.extras) LEFT(solver.specials)              \
+    LEFT(solver.lanes) LEFT(solver.bundles) LEFT(solver.extras) LEFT(solver.specials) LEFT(solver.grips)              \
     LEFT(solver.impacts) LEFT(solver.rubbed) LEFT(solver.bounces) LEFT(solver.turnings) LEFT(solver.turning)                     \
     LEFT(solver.impact_heap) LEFT(solver.impact_heads) LEFT(solver.due_count) LEFT(solver.since) LEFT(solver.follows_impacts)   \
     LEFT(solver.classic) LEFT(solver.dynamic_slots) LEFT(solver.slot_count)   \

@@ -48,6 +48,11 @@ typedef struct special {
     vf reach;              // [m]
 } special;
 
+// What only surfaces need that slide more easily than they hold. The bundle has the friction of the moment.
+typedef struct grip {
+    vf sticks, slides; // [-] the same where there is one
+} grip;
+
 // What only contacts of low restitution need (restitution.simd.c).
 typedef struct bounce {
     vf restitution; // 0: none here, or an impact that is followed as an event (impact.c)
@@ -168,6 +173,7 @@ static const pl_manifold no_manifold __attribute__((
 
 pl_contact_kernel PL_WIDE_NAME(pl_contact_prepare), PL_WIDE_NAME(pl_contact_prepare_extras),
     PL_WIDE_NAME(pl_contact_prepare_specials), PL_WIDE_NAME(pl_contact_prepare_bounces);
+pl_contact_kernel PL_WIDE_NAME(pl_contact_prepare_grips), PL_WIDE_NAME(pl_contact_store_grips);
 pl_contact_kernel PL_WIDE_NAME(pl_contact_bounce), PL_WIDE_NAME(pl_contact_bounce_special);
 pl_contact_kernel PL_WIDE_NAME(pl_contact_tally), PL_WIDE_NAME(pl_contact_store),
     PL_WIDE_NAME(pl_contact_store_extras), PL_WIDE_NAME(pl_contact_store_bounces);

@@ -13,11 +13,15 @@
 // Friction acts along t = (-n_y, n_x), bounded by mu times the point's normal impulse, and is solved after
 // the normals: a pyramid of 100 rows leans by 0.5 m while it settles, with friction first by 2 m.
 //
+// Where what slides bears less than what sticks, the relaxing sweep decides for each contact which of the two it is; it is one
+// for both points, which slide alike.
+//
 // The two points of a contact are one 2x2 block, solved exactly: of the four cases (both push, one of
 // them, none) the one is taken that leaves no point approaching and no impulse pulling.
 //
 // Symbols: ran = r_A x n, rat = r_A x t; kn inverse effective mass; ln, lt accumulated impulses.
 // Cost: per bundle two gathers of W body rows, about 150 flops, one scatter.
+#include "narrow/surface.h"
 #include "solver/bundle.h"
 
 WIDE_INLINE void push_normal(const bundle *c, const point *p, body *a, body *b, vf impulse,
@@ -199,6 +203,29 @@ WIDE_INLINE void solve_tangent(const bundle *c, const special *s, const extra *e
     push_tangent(c, s, p, a, b, impulse, rotation);
 }
 
+// What the contact bears from now on. It slides where no loaded point holds; what slides since this sweep bears less at once.
+// What bears nothing will stick if it is slow.
+WIDE_INLINE void settle_grip(bundle *c, const special *s, const extra *e, const grip *g, body *a,
+                             body *b, bool rotation)
+{
+    const vf zero = splat(0), slip = slip_at(c, e, &c->p[0], a, b, rotation);
+    const vf load[2] = { c->p[0].ln + s->pull[0], c->p[1].ln + s->pull[1] };
+    const vm yields = (vabs(c->p[0].lt) >= c->friction * load[0]) &
+                      (vabs(c->p[1].lt) >= c->friction * load[1]) &
+                      (c->p[0].lt * c->p[1].lt >= zero);
+    const vm loaded = load[0] + load[1] > zero;
+    const vm slides = selm(loaded, yields, vabs(slip) > splat(PL_SLIDES_FROM));
+    const vm starts = loaded & slides & (c->friction > g->slides);
+    c->friction = sel(slides, g->slides, g->sticks);
+    for (int j = 0; j < 2 && any(starts); ++j) {
+        point *p = &c->p[j];
+        const vf bound = c->friction * load[j];
+        const vf total = sel(starts, vclamp(p->lt, -bound, bound), p->lt);
+        push_tangent(c, s, p, a, b, total - p->lt, rotation);
+        p->lt = total;
+    }
+}
+
 WIDE_INLINE void sweep(const pl_contact_call *call, uint32_t first, uint32_t count, bool soft,
                        bool friction, bool rotation, bool running, bool special_ones, bool telling)
 {
@@ -226,13 +253,17 @@ WIDE_INLINE void sweep(const pl_contact_call *call, uint32_t first, uint32_t cou
             }
             solve_tangent(c, s, e, 0, &c->p[0], &a, &b, rotation);
             solve_tangent(c, s, e, 1, &c->p[1], &a, &b, rotation);
+            if (special_ones && !soft && call->grips != NULL) {
+                const grip *g = (const grip *)call->grips + k;
+                settle_grip(c, s, e, g, &a, &b, rotation);
+            }
         }
         scatter_velocity(&a, call, c->a);
         scatter_velocity(&b, call, c->b);
     }
 }
 
-// The variants: friction F, rotation R, running surfaces S, locked axes and adhesion X, hits told T. Names that are
+// The variants: friction F, rotation R, running surfaces S, locked axes, adhesion and kinetic friction X, hits told T. Names that are
 // put together carry the width (tools/amalgamate cannot see them).
 #define DEFINE_SWEEPS(F, R, S, X, T)                                                               \
     static void PL_WIDE_NAME(solve_##F##R##S##X##T)(const pl_contact_call *call, uint32_t first,   \
@@ -298,6 +329,9 @@ const pl_contact_kernels PL_WIDE_NAME(pl_contact_kernels) = {
     .bounce_special = PL_WIDE_NAME(pl_contact_bounce_special),
     .store_bounces = PL_WIDE_NAME(pl_contact_store_bounces),
     .turning_size = sizeof(turning),
+    .grip_size = sizeof(grip),
+    .prepare_grips = PL_WIDE_NAME(pl_contact_prepare_grips),
+    .store_grips = PL_WIDE_NAME(pl_contact_store_grips),
     .prepare_moment = PL_WIDE_NAME(pl_contact_prepare_moment),
     .open_moment = PL_WIDE_NAME(pl_contact_open_moment),
     .follow_moment = PL_WIDE_NAME(pl_contact_follow_moment),

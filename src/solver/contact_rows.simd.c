@@ -5,6 +5,7 @@
 // Reads: manifolds, pairs, solver bodies. Writes: bundles and the records beside them; pairs, manifolds. Order:
 // before the first and behind the last substep. Cost: two gathers of W manifolds and bodies a bundle; a row
 // written for each contact.
+#include "narrow/surface.h"
 #include "solver/bundle.h"
 
 WIDE_INLINE void prepare_point(point *p, const vf row[8], const bundle *c, const body *a,
@@ -170,6 +171,43 @@ void PL_WIDE_NAME(pl_contact_prepare_specials)(const pl_contact_call *call, uint
         vf give = sel(fixed, ground.give, pair.give);
         for (int j = 0; j < 2; ++j) {
             c->p[j].give = c->p[j].kn * give * held_back(c, &c->p[j], call);
+        }
+    }
+}
+
+void PL_WIDE_NAME(pl_contact_prepare_grips)(const pl_contact_call *call, uint32_t first,
+                                            uint32_t count)
+{
+    const bundle *bundles = call->bundles;
+    grip *grips = call->grips;
+    for (uint32_t k = first; k < first + count; ++k) {
+        grip *g = &grips[k];
+        g->sticks = g->slides = bundles[k].friction;
+        for (int i = 0; i < PL_WIDTH; ++i) {
+            const uint32_t at = call->lanes[(size_t)k * PL_WIDTH + (size_t)i];
+            if (at != PL_NONE) {
+                const pl_grip of = pl_surface_grip(call->world, &call->manifolds[at]);
+                g->sticks[i] = of.sticks, g->slides[i] = of.slides;
+            }
+        }
+    }
+}
+
+void PL_WIDE_NAME(pl_contact_store_grips)(const pl_contact_call *call, uint32_t first,
+                                          uint32_t count)
+{
+    const bundle *bundles = call->bundles;
+    const grip *grips = call->grips;
+    for (uint32_t k = first; k < first + count; ++k) {
+        const bundle *c = &bundles[k];
+        for (int i = 0; i < PL_WIDTH; ++i) {
+            const uint32_t at = call->lanes[(size_t)k * PL_WIDTH + (size_t)i];
+            if (at != PL_NONE) {
+                pl_pair *pair = &call->pairs[call->manifolds[at].pair];
+                const bool slides = c->friction[i] < grips[k].sticks[i] &&
+                                    (c->p[0].ln[i] != 0 || c->p[1].ln[i] != 0);
+                pair->flags = (pair->flags & ~PL_PAIR_SLIDES) | (slides ? PL_PAIR_SLIDES : 0);
+            }
         }
     }
 }

@@ -42,7 +42,8 @@ bool pl_solver_tallies(const plumb_world *world)
 
 bool pl_solver_specials(const plumb_world *world)
 {
-    return world->locked_bodies > 0 || world->settings.frozen > 0 || world->narrow.any_adhesion;
+    return world->locked_bodies > 0 || world->settings.frozen > 0 || world->narrow.any_adhesion ||
+           world->narrow.any_kinetic;
 }
 
 static bool reserve_bodies(plumb_world *world)
@@ -98,6 +99,7 @@ static bool reserve_lanes(plumb_world *world)
     size_t bounces = world->narrow.any_low ? need.bundles : 0;
     size_t turnings = world->desc.solver == PLUMB_SOLVER_SOFT && s->turning ? need.bundles : 0;
     size_t specials = pl_solver_specials(world) ? need.bundles : 0;
+    size_t grips = world->narrow.any_kinetic ? need.bundles : 0;
     size_t extras =
         world->narrow.any_surface || specials > 0 || pl_solver_tallies(world) ? need.bundles : 0;
     size_t classic = world->desc.solver != PLUMB_SOLVER_SOFT ? contacts : 0;
@@ -105,6 +107,7 @@ static bool reserve_lanes(plumb_world *world)
            pl_buffer_reserve(memory, &s->bundles, need.bundles * k->bundle_size) &&
            pl_buffer_reserve(memory, &s->extras, extras * k->extra_size) &&
            pl_buffer_reserve(memory, &s->specials, specials * k->special_size) &&
+           pl_buffer_reserve(memory, &s->grips, grips * k->grip_size) &&
            pl_buffer_reserve(memory, &s->turnings, turnings * k->turning_size) &&
            pl_buffer_reserve(memory, &s->impacts, impacts * sizeof(pl_impact)) &&
            pl_buffer_reserve(memory, &s->bounces, bounces * k->bounce_size) &&
@@ -485,7 +488,7 @@ void pl_solver_free(pl_memory *memory, pl_solver *s)
                              &s->extras,   &s->specials, &s->impact_heap, &s->impact_heads,
                              &s->bounces,  &s->clusters, &s->labels,      &s->islands,
                              &s->homes,    &s->leaders,  &s->cursors,     &s->rubbed,
-                             &s->turnings, &s->kicked };
+                             &s->turnings, &s->kicked,   &s->grips };
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; ++i) {
         pl_buffer_free(memory, buffers[i]);
     }

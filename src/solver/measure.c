@@ -54,7 +54,7 @@ void pl_classic_residual(const plumb_world *world, pl_measuring *m)
             pl_measure_most(&m->gap, -apart);
             pl_measure_most(&m->approach, apart <= 0 || ln > 0 ? -speed : 0);
             pl_measure_most(&m->complementarity, apart > 0 && !sticks ? ln * apart : 0);
-            pl_measure_most(&m->cone, fabs((double)p->lt) - (double)c->friction * ln);
+            pl_measure_most(&m->cone, fabs((double)p->lt) - (double)c->bore * ln);
         }
     }
 }

@@ -8,6 +8,7 @@
 //
 // Reads, writes: solver bodies, impulses of pairs. Cost: (iterations + 5) sweeps a substep.
 #include "joints/joint.h"
+#include "narrow/surface.h"
 #include "world/body_settings.h"
 #include "solver/substep.h"
 #include "world/state.h"
@@ -113,9 +114,12 @@ static void prepare(classic *c, const plumb_world *world)
                                      .nx = m->nx,
                                      .ny = m->ny,
                                      .friction = m->friction,
+                                     .bore = m->friction,
                                      .restitution = m->restitution,
                                      .surface_speed = m->surface_speed,
                                      .rolling = m->rolling };
+        const pl_grip grip = pl_surface_grip(world, m);
+        out->sticks = grip.sticks, out->slides = grip.slides;
         const pl_solver_body *a = &c->bodies[out->a], *b = &c->bodies[out->b];
         const uint16_t *flags = world->bodies.flags;
         out->aix = (near_real)pl_unlocked(flags[m->body_a], PL_BODY_LOCK_X, a->inv_mass);
@@ -191,7 +195,9 @@ static void solve_velocity(const classic *c, pl_classic_contact *m, pl_classic_p
                      p->rat * a->w + m->surface_speed;
     near_real s = separation_now(c, m, p);
     near_real pull = pull_of(m, s), load = p->ln + pull;
-    near_real total = within(p->lt - p->mt * slip, m->friction * (load > 0 ? load : 0));
+    const near_real wish = p->lt - p->mt * slip;
+    near_real total = within(wish, m->friction * (load > 0 ? load : 0));
+    p->yields = total != wish;
     push(c, m, p, 0, total - p->lt);
     p->lt = total;
 
@@ -245,8 +251,35 @@ static void sweep(const classic *c, bool positions)
     }
 }
 
+// It slides where no loaded point holds; what bears nothing will stick if it is slow.
+void pl_classic_grip(const plumb_world *world, pl_classic_contact *m)
+{
+    m->bore = m->friction;
+    if (!(m->slides < m->sticks)) {
+        return;
+    }
+    const pl_solver_body *a = &pl_solver_bodies(&world->solver)[m->a];
+    const pl_solver_body *b = &pl_solver_bodies(&world->solver)[m->b];
+    near_real load = 0, least = 0, most = 0;
+    bool yields = true;
+    for (uint32_t j = 0; j < m->count; ++j) {
+        const pl_classic_point *p = &m->point[j];
+        const near_real of = p->ln + m->pull;
+        load += of > 0 ? of : 0;
+        yields &= p->yields || !(of > 0);
+        least = p->lt < least ? p->lt : least;
+        most = p->lt > most ? p->lt : most;
+    }
+    const near_real slip = m->nx * (b->vy - a->vy) - m->ny * (b->vx - a->vx) +
+                           m->point[0].rbt * b->w - m->point[0].rat * a->w + m->surface_speed;
+    const bool fast = slip > PL_SLIDES_FROM || slip < -PL_SLIDES_FROM;
+    const bool slides = load > 0 ? yields && !(least < 0 && most > 0) : fast;
+    m->friction = slides ? m->slides : m->sticks;
+}
+
 // Adds the substep's impulses to what the step did.
-static void tally(const classic *c, pl_manifold *manifolds, near_real *rubbed)
+static void tally(const classic *c, const plumb_world *world, pl_manifold *manifolds,
+                  near_real *rubbed)
 {
     for (uint32_t i = 0; i < c->count; ++i) {
         pl_classic_contact *m = &c->contacts[i];
@@ -257,6 +290,7 @@ static void tally(const classic *c, pl_manifold *manifolds, near_real *rubbed)
             }
             m->pushed |= m->point[j].ln > 0;
         }
+        pl_classic_grip(world, m);
     }
 }
 
@@ -270,6 +304,9 @@ static void store(const classic *c, pl_manifold *manifolds, pl_pair *pairs)
             pl_manifold_strike(m, c->contacts[i].struck, c->contacts[i].struck_at);
         }
         pair->rolling = c->contacts[i].lr;
+        const bool slides = c->contacts[i].friction < c->contacts[i].sticks &&
+                            (c->contacts[i].point[0].ln != 0 || c->contacts[i].point[1].ln != 0);
+        pair->flags = (pair->flags & ~PL_PAIR_SLIDES) | (slides ? PL_PAIR_SLIDES : 0);
         for (uint32_t j = 0; j < c->contacts[i].count; ++j) {
             pair->normal[j] = c->contacts[i].point[j].ln;
             pair->tangent[j] = c->contacts[i].point[j].lt;
@@ -342,7 +379,7 @@ void pl_classic_correct(pl_substep *s)
 void pl_classic_sum(pl_substep *s)
 {
     const classic c = classic_of(s);
-    tally(&c, s->solving->call.manifolds, s->solving->call.rubbed);
+    tally(&c, s->world, s->solving->call.manifolds, s->solving->call.rubbed);
 }
 
 void pl_classic_store(pl_substep *s)

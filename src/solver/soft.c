@@ -129,6 +129,7 @@ void pl_soft_open(plumb_world *world, pl_solving_step *out)
     out->call.lanes = s->lanes.data;
     out->call.extras = running || out->tallies ? s->extras.data : NULL;
     out->call.specials = special ? s->specials.data : NULL;
+    out->call.grips = world->narrow.any_kinetic ? s->grips.data : NULL;
     out->call.turnings = s->turning ? s->turnings.data : NULL;
     out->call.bounces = world->narrow.any_low ? s->bounces.data : NULL;
     out->call.motions = pl_solver_motions(s);
@@ -159,6 +160,9 @@ void pl_soft_prepare(pl_substep *s)
     }
     if (s->solving->call.specials != NULL) {
         each(s, kernels->prepare_specials);
+    }
+    if (s->solving->call.grips != NULL) {
+        each(s, kernels->prepare_grips);
     }
     if (s->solving->call.bounces != NULL) {
         each(s, kernels->prepare_bounces);
@@ -243,6 +247,9 @@ void pl_soft_store(pl_substep *s)
     each(s, s->solving->step->kernels->store);
     if (s->solving->call.extras != NULL) {
         each(s, s->solving->step->kernels->store_extras);
+    }
+    if (s->solving->call.grips != NULL) {
+        each(s, s->solving->step->kernels->store_grips);
     }
     if (s->solving->call.bounces != NULL) {
         each(s, s->solving->step->kernels->store_bounces);

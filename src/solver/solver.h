@@ -48,6 +48,7 @@ typedef struct pl_classic_point {
     near_real separation;         // [m] at the start of the step
     near_real mn, mt;             // [kg] effective masses
     near_real ln, lt;             // [N s]
+    bool yields;                  // friction is not enough to hold it
 } pl_classic_point;
 
 typedef struct pl_classic_contact {
@@ -56,12 +57,14 @@ typedef struct pl_classic_contact {
     near_real aix, aiy, bix, biy; // [1/kg] inverse masses along the axes
     near_real pull, reach;        // [N s] that a point may pull, [m] while it is nearer than this
     near_real nx, ny, friction, restitution;
-    near_real surface_speed; // [m/s]
-    near_real rolling;       // [m]
-    near_real mr, lr;        // [kg m^2], [N m s] of rolling resistance
-    near_real struck;        // [m/s] fastest at which a point was struck in this step
-    near_real struck_at;     // [s] when, since the step began
-    bool pushed;             // in some substep so far
+    near_real sticks, slides; // [-] friction of either state
+    near_real bore;           // [-] friction of the last substep
+    near_real surface_speed;  // [m/s]
+    near_real rolling;        // [m]
+    near_real mr, lr;         // [kg m^2], [N m s] of rolling resistance
+    near_real struck;         // [m/s] fastest at which a point was struck in this step
+    near_real struck_at;      // [s] when, since the step began
+    bool pushed;              // in some substep so far
     pl_classic_point point[2];
 } pl_classic_contact;
 
@@ -91,10 +94,12 @@ typedef struct pl_contact_call {
     const uint32_t *slots; // slot of a body row
     uint32_t movable_rows; // rows from here on are static
     uint32_t immovable_slot;
-    void *extras;          // NULL: none
-    void *specials;        // NULL: none
-    void *bounces;         // NULL: none
-    void *turnings;        // NULL: none
+    void *extras;   // NULL: none
+    void *specials; // NULL: none
+    void *bounces;  // NULL: none
+    void *turnings; // NULL: none
+    void *grips;    // NULL: none
+    const plumb_world *world;
     const pl_core *cores;  // of a piece
     const uint8_t *kinds;  // pl_piece_kind of a piece
     near_real *rubbed;     // pl_solver.rubbed; NULL: impulses are not added up
@@ -125,7 +130,8 @@ typedef enum pl_surface_variant {
     PL_SMOOTH,  // no friction
     PL_ROUGH,   // friction
     PL_RUNNING, // friction, surface speed, rolling resistance: needs `extras`
-    PL_SPECIAL, // the same, locked axes, adhesion, time scale 0, with rotation: needs `specials` too
+    // the same, locked axes, adhesion, time scale 0, kinetic friction, with rotation: needs `specials` too
+    PL_SPECIAL,
     PL_SURFACE_VARIANTS
 } pl_surface_variant;
 
@@ -155,6 +161,8 @@ typedef struct pl_contact_kernels {
     pl_contact_kernel *bounce, *bounce_special; // without `specials` and with them
     pl_contact_kernel *store_bounces;           // impacts to pairs and manifolds
     size_t turning_size;
+    size_t grip_size;
+    pl_contact_kernel *prepare_grips, *store_grips;                  // after prepare, after store
     pl_contact_kernel *prepare_moment, *open_moment, *follow_moment; // moment.simd.c
     pl_contact_kernel *tally; // adds the substep's normal impulses to the totals
     // rolling impulses to the pairs; totals, speeds of hits to the manifolds
@@ -185,10 +193,12 @@ bool pl_solver_graph(plumb_world *world, plumb_real dt);
 bool pl_solver_cluster(plumb_world *world);
 // Whether the impulses of contacts are added up over the step.
 bool pl_solver_tallies(const plumb_world *world);
-// Whether locked axes, adhesion or bodies whose time stands still are there to be solved.
+// Whether locked axes, adhesion, kinetic friction or bodies whose time stands still are there to be solved.
 bool pl_solver_specials(const plumb_world *world);
 // [s] the substep that contacts and joints are as stiff for in a step of dt: at least that of dt (soft.c).
 near_real pl_soft_substep(const plumb_world *world, real dt);
+// What a contact of the classic or the exact solver bears from now on: whether its points yield decides (pgs.c).
+void pl_classic_grip(const plumb_world *world, pl_classic_contact *m);
 // Impacts as events (impact.c): collects them; resolves those of one substep of h [s];
 // those that other impacts of the substep made; and tells the sweeps which points stay clear.
 void pl_impacts_prepare(plumb_world *world);

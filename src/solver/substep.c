@@ -79,6 +79,9 @@ static pl_contact_call call_of(const pl_solving_step *step, const pl_cluster *cl
     if (call.specials != NULL) {
         call.specials = (char *)call.specials + room * step->kernels->special_size;
     }
+    if (call.grips != NULL) {
+        call.grips = (char *)call.grips + room * step->kernels->grip_size;
+    }
     if (call.turnings != NULL) {
         call.turnings = (char *)call.turnings + room * step->kernels->turning_size;
     }
@@ -158,7 +161,8 @@ static pl_solving_step open_step(plumb_world *world, const pl_substep_rows *rows
                   .inv_dt = (near_real)(1 / dt),
                   .cores = world->pieces.core,
                   .kinds = world->pieces.kind,
-                  .flags = world->bodies.flags },
+                  .flags = world->bodies.flags,
+                  .world = world },
         .elastic = world->solver.follows_impacts,
         .together = world->solver.follows_impacts || world->effects.any_alone,
         .soft_substep = pl_soft_substep(world, dt),

@@ -185,6 +185,8 @@ static void undo_impulses(plumb_world *world)
             pair->normal[k] = m[i].point[k].normal;
             pair->tangent[k] = m[i].point[k].tangent;
         }
+        pair->flags =
+            (pair->flags & ~PL_PAIR_SLIDES) | ((m[i].met & PL_MET_SLID) != 0 ? PL_PAIR_SLIDES : 0);
         if (rolls(world)) {
             pair->rolling = rolling[i];
         }

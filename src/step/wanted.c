@@ -266,6 +266,7 @@ int pl_contact_variants(const plumb_world *world, const char *out[PL_VARIANTS_MA
     const pl_materials *m = &world->materials;
     int n = add_variant(out, 0, want_friction(world, &unused), "friction");
     n = add_variant(out, n, world->turning_bodies > 0 || !soft, "rotation");
+    n = add_variant(out, n, world->narrow.any_kinetic, "kinetic friction");
     n = add_variant(out, n, any_material(world, m->rolling_resistance), "rolling resistance");
     n = add_variant(out, n, any_material(world, m->surface_speed), "surface speed");
     n = add_variant(out, n, want_adhesion(world, &unused), "adhesion");

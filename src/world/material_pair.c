@@ -109,7 +109,9 @@ plumb_result plumb_material_pair_set(plumb_world *world, plumb_material a, plumb
         }
         pl_material_pair *items = world->material_pairs.data;
         memmove(items + at + 1, items + at, (world->material_pair_count - at) * sizeof *items);
-        items[at] = (pl_material_pair){ key, *pair };
+        memset(&items[at], 0, sizeof items[at]); // images have no padding of chance
+        items[at].key = key;
+        items[at].value = *pair;
         ++world->material_pair_count;
         ++world->materials.pairs[row_a];
         ++world->materials.pairs[row_b];

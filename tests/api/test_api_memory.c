@@ -337,7 +337,7 @@ static void a_small_world_is_small(void **state)
     }
     // Measured: 28,900 B in the float library, of which 8,000 are the world itself; 38,100 in the double one. 16 lanes,
     // the choice of some machines, take 2,200 more.
-    assert_in_range(plumb_world_stats(w).peak_bytes, 1, PLUMB_REAL_IS_DOUBLE ? 43000 : 32000);
+    assert_in_range(plumb_world_stats(w).peak_bytes, 1, PLUMB_REAL_IS_DOUBLE ? 43500 : 32000);
     plumb_world_destroy(w);
 }
 

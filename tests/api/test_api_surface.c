@@ -357,9 +357,11 @@ static void special_contacts_give_the_same_bits(void **state)
     uint64_t digest[3];
     for (int k = 0; k < 3; ++k) {
         plumb_world *w = flat_world((plumb_world_desc){ .simd_width = 4 << k });
-        plumb_material tar = plumb_material_create(
-            w, &(plumb_material_desc){
-                   .friction = R(0.4), .adhesion = 3, .rolling_resistance = R(0.01) });
+        plumb_material tar =
+            plumb_material_create(w, &(plumb_material_desc){ .friction = R(0.4),
+                                                             .kinetic_friction = R(0.2),
+                                                             .adhesion = 3,
+                                                             .rolling_resistance = R(0.01) });
         add_floor(w, tar);
         for (int i = 0; i < 60; ++i) {
             plumb_shape_desc d = { .material = i % 2 == 0 ? tar : NO_MATERIAL };
@@ -382,6 +384,12 @@ static void wrong_materials_and_speeds_are_refused(void **state)
     plumb_material_desc d = { .rolling_resistance = -1 };
     REFUSED(E_RANGE, "plumb_material_create: rolling_resistance is -1; it must be at least 0",
             made(W, plumb_material_create(W, &d)));
+    d = (plumb_material_desc){ .kinetic_friction = R(-0.5) };
+    REFUSED(E_RANGE, "plumb_material_create: kinetic_friction is -0.5; it must be 0 to 10",
+            made(W, plumb_material_create(W, &d)));
+    d = (plumb_material_desc){ .kinetic_friction = R(NAN) };
+    REFUSED(E_NOT_FINITE, "plumb_material_set: kinetic_friction is nan; it must be finite",
+            plumb_material_set(W, f->wood, &d));
     d = (plumb_material_desc){ .surface_speed = R(INFINITY) };
     REFUSED(E_NOT_FINITE, "plumb_material_set: surface_speed is inf; it must be finite",
             plumb_material_set(W, f->wood, &d));
@@ -395,7 +403,10 @@ static void wrong_materials_and_speeds_are_refused(void **state)
             "plumb_material_set: restitution_mix is 6; it must be one of "
             "default|average|geometric|multiply|min|max",
             plumb_material_set(W, f->wood, &d));
-    plumb_material_pair p = { .friction = 11 };
+    plumb_material_pair p = { .kinetic_friction = 11 };
+    REFUSED(E_RANGE, "plumb_material_pair_set: pair.kinetic_friction is 11; it must be 0 to 10",
+            plumb_material_pair_set(W, f->wood, f->used, &p));
+    p = (plumb_material_pair){ .friction = 11 };
     REFUSED(E_RANGE, "plumb_material_pair_set: pair.friction is 11; it must be 0 to 10",
             plumb_material_pair_set(W, f->wood, f->used, &p));
     p = (plumb_material_pair){ .restitution = R(NAN) };

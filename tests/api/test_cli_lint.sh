@@ -84,6 +84,9 @@ END
 rule effect-on-none 'friction = 0' 'friction = 0.5' <<'END'
 body { type = "static", box { 10, 1, material = material { @, surface_speed = 2 } }, at = {0, -0.5} }
 END
+rule effect-on-none 'kinetic_friction = 0.7' 'kinetic_friction = 0.4' <<'END'
+body { type = "static", box { 10, 1, material = material { friction = 0.5, @ } }, at = {0, -0.5} }
+END
 rule overlap 0.4 0.5 <<'END'
 body { type = "static", box { 10, 1 }, at = {0, -0.5} }
 body { name = "crate", box { 1, 1 }, at = {0, @} }

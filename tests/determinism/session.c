@@ -353,7 +353,8 @@ void session_begin(session *s, uint32_t seed, const plumb_world_desc *settings)
         const plumb_material_desc m = { .friction = number(s, 0, 1),
                                         .restitution = one_in(s, 3) ? R(0.5) : 0,
                                         .surface_speed = one_in(s, 6) ? 1 : 0,
-                                        .adhesion = one_in(s, 8) ? 5 : 0 };
+                                        .adhesion = one_in(s, 8) ? 5 : 0,
+                                        .kinetic_friction = one_in(s, 4) ? R(0.2) : 0 };
         s->material[i] = plumb_material_create(s->world, &m);
     }
     make_ground(s);

@@ -266,8 +266,9 @@ static plumb_world *make_world(script *s, plumb_solver solver)
                                     .sleep_speed = R(0.1),
                                     .sleep_time = R(0.25) };
     plumb_world *w = make_empty(s, &desc);
-    s->rubber =
-        plumb_material_create(w, &(plumb_material_desc){ .friction = 1, .restitution = R(0.75) });
+    s->rubber = plumb_material_create(w, &(plumb_material_desc){ .friction = 1,
+                                                                 .kinetic_friction = R(0.5),
+                                                                 .restitution = R(0.75) });
     s->ice = plumb_material_create(
         w, &(plumb_material_desc){ .frictionless = true, .rolling_resistance = R(0.01) });
     s->belt =

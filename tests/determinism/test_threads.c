@@ -118,6 +118,7 @@ static plumb_world *make(const setting *s, int workers,
             w, &(plumb_material_desc){ .friction = R(0.3),
                                        .restitution = (s->what & BOUNCY) != 0 ? R(0.6) : 0,
                                        .rolling_resistance = surfaces ? R(0.02) : 0,
+                                       .kinetic_friction = surfaces ? R(0.2) : 0,
                                        .adhesion = surfaces ? 5 : 0 }),
     };
     add_bin(w, belt);

@@ -115,8 +115,9 @@ static inline void fill(plumb_world *w, int which)
         plumb_world_set_sleep(w, true, 1, R(0.02));
     } else {
         plumb_material m = plumb_material_create(w, &(plumb_material_desc){ .friction = R(0.3) });
-        plumb_material_pair_set(w, m, (plumb_material)PLUMB_NULL_INIT,
-                                &(plumb_material_pair){ .friction = 1 });
+        plumb_material_pair_set(
+            w, m, (plumb_material)PLUMB_NULL_INIT,
+            &(plumb_material_pair){ .friction = 1, .kinetic_friction = R(0.5) });
         plumb_character_create(w, c, NULL);
         plumb_character_walk(w, c, 1);
         plumb_body d = add(w, PLUMB_KINEMATIC, -2, 1, &ball);

@@ -77,8 +77,10 @@ static answers of_material(const plumb_world *w, plumb_material m)
     answers a = { .count = 0 };
     plumb_material_desc d;
     assert_int_equal(plumb_material_get(w, m, &d), PLUMB_OK);
-    const plumb_real numbers[] = { d.density,       d.friction, d.restitution, d.rolling_resistance,
-                                   d.surface_speed, d.adhesion };
+    const plumb_real numbers[] = { d.density,         d.friction,
+                                   d.restitution,     d.rolling_resistance,
+                                   d.surface_speed,   d.adhesion,
+                                   d.kinetic_friction };
     const int rules[] = { (int)d.friction_mix, (int)d.restitution_mix, (int)d.adhesion_mix,
                           d.frictionless };
     for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; ++i) {

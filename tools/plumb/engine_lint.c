@@ -421,11 +421,29 @@ static void look_at_running(lint_job *job, plumb_body body)
     }
 }
 
+/// What is above the friction of what sticks counts as that.
+static void look_at_sliding(lint_job *job, plumb_body body)
+{
+    plumb_shape *list;
+    const int count = shapes_of(job, body, &list);
+    for (int i = 0; i < count; i++) {
+        plumb_material_desc m;
+        if (plumb_material_get(job->world, plumb_shape_material(job->world, list[i]), &m) ==
+                PLUMB_OK &&
+            m.kinetic_friction > m.friction) {
+            tell(job, "a surface of '%s' has a kinetic friction of %g, above its friction of %g",
+                 name_of(job, body), (double)m.kinetic_friction, (double)m.friction);
+            return;
+        }
+    }
+}
+
 static void look_at_effects(lint_job *job)
 {
     for (int i = 0; i < body_count(job); i++) {
         const plumb_body body = body_at(job, i);
         look_at_running(job, body);
+        look_at_sliding(job, body);
         if (plumb_body_get_type(job->world, body) != PLUMB_DYNAMIC) {
             look_at_still(job, body);
         }

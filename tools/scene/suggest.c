@@ -69,6 +69,9 @@ const sc_synonym sc_synonyms[] = {
     { "ground_a", "wheel_a" },
     { "ground_b", "wheel_b" },
     { "rolling_friction", "rolling_resistance" },
+    { "static_friction", "friction" },
+    { "dynamic_friction", "kinetic_friction" },
+    { "sliding_friction", "kinetic_friction" },
     { "trigger", "sensor" },
     { NULL, NULL },
 };

@@ -56,6 +56,9 @@ typedef struct pl_manifold {
 #define PL_MET_ASIDE                                                                               \
     4u // its plane is that of a later moment or of the ground: the pieces are clear of one another
 
+#define PL_MET_KINETIC 0x40u // what slides has another friction than what sticks (narrow/surface.h)
+#define PL_MET_SLID    0x80u // PL_PAIR_SLIDES as the step began
+
 // How the normal goes on within the step: with A, whose face it is, with B, or as the connection of the centres of two
 // round features. 0: it stays as it is.
 #define PL_MET_TURNS     0x30u
@@ -209,6 +212,7 @@ typedef struct pl_narrow {
     bool any_low;      // some manifold has a restitution, a low one
     bool any_surface;  // some manifold has surface speed or rolling resistance
     bool any_adhesion; // some manifold may pull
+    bool any_kinetic;  // some manifold has a kinetic friction
     pl_overlaps overlaps;
 } pl_narrow;
 

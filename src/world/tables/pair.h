@@ -29,6 +29,8 @@ typedef struct pl_pair {
     32768u // its manifold is that of a later moment; only within the narrow phase (narrow/ahead.h)
 #define PL_PAIR_COVERED                                                                            \
     65536u // parts only, until events are made: its surfaces met, but a neighbour has the contact
+#define PL_PAIR_SLIDES                                                                             \
+    131072u // of surfaces with a kinetic friction: they slid in the last substep
 
 // The face that parted the pieces when they were last looked at, in bits of the flags: 0 none, else
 // 1 + 2 x edge, + 1 when it is an edge of b. Tried first; see narrow/convex.simd.c.
@@ -52,6 +54,7 @@ typedef struct pl_pair_list {
 static inline void pl_pair_forget(pl_pair *pair)
 {
     pair->rolling = 0;
+    pair->flags &= ~PL_PAIR_SLIDES;
     for (int k = 0; k < 2; ++k) {
         pair->feature[k] = PL_NONE;
         pair->normal[k] = pair->tangent[k] = 0;

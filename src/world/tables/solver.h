@@ -55,6 +55,7 @@ typedef struct pl_solver {
     pl_buffer bundles; // constraints of `width` contacts each
     pl_buffer extras; // a record a bundle, where surfaces run or roll hard or impulses are added up
     pl_buffer specials; // a record a bundle, where bodies are locked or surfaces stick
+    pl_buffer grips;    // a record a bundle, where what slides has another friction than what sticks
     pl_buffer turnings; // a record a bundle, where something moves
     pl_buffer bounces;  // a record a bundle, where contacts are of low restitution
     pl_buffer rubbed;   // near_real, two a manifold: [N s] along the tangent over the step, where impulses are added up
