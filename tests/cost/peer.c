@@ -55,6 +55,9 @@ static bool read_material(struct peer *p, const plumb_world *world, plumb_shape 
     if (m.rolling_resistance > 0 || m.adhesion > 0) {
         return refuse(p, "rolling resistance, adhesion");
     }
+    if (m.kinetic_friction > 0) {
+        return refuse(p, "kinetic friction");
+    }
     if (m.friction_mix != PLUMB_MIX_DEFAULT || m.restitution_mix != PLUMB_MIX_DEFAULT) {
         return refuse(p, "rules of mixing");
     }
