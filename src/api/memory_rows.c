@@ -14,6 +14,7 @@
 #include "event/event.h"
 #include "internal_edges/internal_edges.h"
 #include "joints/joint.h"
+#include "liquid/liquid.h"
 #include "step/measure.h"
 #include "narrow/narrow.h"
 #include "plumb/world.h"
@@ -129,10 +130,11 @@ static size_t query_grid_bytes(const pl_query_grid_set *set)
 
 static void tell_rest(listing *out, const plumb_world *w)
 {
-    size_t characters = 0, systems = 0, measures = 0;
+    size_t characters = 0, liquid = 0, systems = 0, measures = 0;
     size_t effects = BUFFERS(&w->settings.items, &w->targets.items);
     size_t events = BUFFERS(&w->begin_events, &w->end_events, &w->changed_pairs, &w->hit_events);
     PART(characters, pl_characters, w->characters, pl_characters_free(&dry, &copy));
+    PART(liquid, pl_liquid, w->liquid, pl_liquid_free(&dry, &copy));
     PART(systems, pl_systems, w->systems, pl_systems_free(&dry, &copy));
     PART(systems, pl_schedule, w->schedule, pl_schedule_free(&dry, &copy));
     PART(measures, pl_measure, w->measure, pl_measure_free(&dry, &copy));
@@ -143,6 +145,7 @@ static void tell_rest(listing *out, const plumb_world *w)
     PART(events, pl_sensing, w->sensing, pl_sensing_free(&dry, &copy));
     tell(out, "queries", query_grid_bytes(&w->query_grids), 0);
     tell(out, "characters", characters, 0);
+    tell(out, "liquid", liquid, w->liquid.count);
     tell(out, "effects", effects, 0);
     tell(out, "events", events, 0);
     tell(out, "components", component_bytes(&w->components), w->components.count);

@@ -13,6 +13,7 @@
 #include "internal_edges/internal_edges.h"
 #include "joints/energy.h"
 #include "joints/joint.h"
+#include "liquid/liquid.h"
 #include "step/measure.h"
 #include "narrow/narrow.h"
 #include "plumb/world.h"
@@ -162,6 +163,7 @@ static void free_world(plumb_world *world)
     pl_exact_free(&memory, &world->exact);
     pl_joints_free(&memory, &world->joints);
     pl_characters_free(&memory, &world->characters);
+    pl_liquid_free(&memory, &world->liquid);
     pl_continuous_free(&memory, &world->continuous);
     pl_quarantine_free(&memory, &world->quarantine);
     pl_registry_free(&memory, &world->registry);

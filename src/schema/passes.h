@@ -36,6 +36,8 @@
       "", "", ONE)                                                                                                                           \
     X("characters",        FORCES,      IF(pl_characters_wanted),    ONCE(pl_run_characters),                                ONCE,           \
       "grids, poses, velocities", "velocities, forces, characters, poses, rows, islands", ONE)                                               \
+    X("liquid",            FORCES,      IF(pl_want_liquid),          ONCE(pl_run_liquid),                                    ONCE,           \
+      "liquid, poses, velocities, masses, pieces, forces", "forces, islands", ONE)                                                           \
     X("waking",            PAIRS,       IF(pl_want_waking),          ONCE(pl_run_waking),                                    REFRESHES,      \
       "islands, pieces, grids, joints", "rows, pairs, grids, islands", ONE)                                                                  \
     X("broad phase",       PAIRS,       IF(pl_want_broad),           ONCE(pl_run_broad),                                     REFRESHES,      \
@@ -141,6 +143,8 @@
       "targets, poses", "poses, velocities, targets", ONE)                                                                                   \
     X("edges",             FINISH,      IF(pl_want_edges),           ONCE(pl_run_edges),                                     ONCE,           \
       "poses", "poses", ONE)                                                                                                                 \
+    X("liquid motion",     FINISH,      IF(pl_want_liquid),          ONCE(pl_run_liquid_motion),                             ONCE,           \
+      "", "liquid", ONE)                                                                                                                     \
     X("reactions",         FINISH,      IF(pl_want_joints),          ONCE(pl_run_reactions),                                 ONCE,           \
       "joints, poses", "joints, rows, events, islands, components, pairs", ONE)                                                              \
     X("events",            EVENTS,      IF(pl_want_collision),       ONCE(pl_run_events),                                    REFRESHES,      \

@@ -6,6 +6,7 @@
 #include "world/check.h"
 #include "broad/pairs.h"
 #include "internal_edges/cone.h"
+#include "liquid/liquid.h"
 #include "world/rows.h"
 
 #include <string.h>
@@ -217,6 +218,20 @@ static bool check_records(const plumb_world *w)
     return characters == w->characters.count && has_settings == w->settings.count;
 }
 
+static bool check_liquid(const plumb_world *w)
+{
+    const pl_liquid *f = &w->liquid;
+    if (f->settings_count > 1 || f->count > PLUMB_LIQUID_MAX ||
+        (f->count > 0 && f->settings_count == 0)) {
+        return false;
+    }
+    bool sound = f->settings_count == 0 || pl_liquid_desc_is_sound(pl_liquid_desc(f));
+    for (uint32_t i = 0; i < f->count && sound; ++i) {
+        sound = pl_liquid_particle_is_sound(&pl_liquid_items(f)[i]);
+    }
+    return sound;
+}
+
 static bool check_excluded(const plumb_world *w)
 {
     const uint64_t *keys = w->excluded.data;
@@ -237,7 +252,8 @@ bool pl_check_extras(pl_suspect *s)
             return false;
         }
     }
-    return check_records(w) && check_settings(s) && check_targets(s) && check_excluded(w) &&
+    return check_records(w) && check_settings(s) && check_targets(s) && check_liquid(w) &&
+           check_excluded(w) &&
            pl_commands_are_sound(s->like, &w->registry, w->commands.bytes.data, w->commands.used,
                                  w->commands.count, s->marks);
 }

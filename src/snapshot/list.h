@@ -141,6 +141,11 @@
     LEFT(characters.farthest) LEFT(characters.obstacles) LEFT(characters.near) LEFT(characters.pushes)                       \
     LEFT(characters.push_count)
 
+#define PL_STATE_LIQUID(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                      \
+    ARRAY(plumb_liquid_desc, liquid.settings, liquid.settings_count, sizeof(plumb_liquid_desc), 0)     \
+    ARRAY(plumb_particle, liquid.particles, liquid.count, sizeof(plumb_particle), 0)                 \
+    LEFT(liquid.scratch)
+
 #define PL_STATE_CONTINUOUS(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                 \
     LEFT(continuous.movers) LEFT(continuous.count) VALUE(continuous.least_slack)                   \
     LEFT(continuous.noting) LEFT(continuous.stopped_count)
@@ -187,7 +192,7 @@
     PL_STATE_BROAD(__VA_ARGS__) PL_STATE_NARROW(__VA_ARGS__) PL_STATE_SOLVER(__VA_ARGS__)          \
     PL_STATE_JOINTS(__VA_ARGS__) PL_STATE_PARTS(__VA_ARGS__) PL_STATE_PENDING_HITS(__VA_ARGS__)           \
     PL_STATE_SENSING(__VA_ARGS__) PL_STATE_SLEEP(__VA_ARGS__) PL_STATE_INTERNAL_EDGES(__VA_ARGS__)          \
-    PL_STATE_CHARACTERS(__VA_ARGS__) PL_STATE_CONTINUOUS(__VA_ARGS__)                              \
+    PL_STATE_CHARACTERS(__VA_ARGS__) PL_STATE_CONTINUOUS(__VA_ARGS__) PL_STATE_LIQUID(__VA_ARGS__)  \
     PL_STATE_QUARANTINE(__VA_ARGS__) PL_STATE_EFFECTS(__VA_ARGS__)                                \
     PL_STATE_DIAL(__VA_ARGS__)
 

@@ -173,6 +173,9 @@ static void add_records(pl_digest *d, const plumb_world *w, int data)
     case PL_DATA_CHARACTERS:
         add_list(d, w->characters.items.data, w->characters.count, sizeof(pl_character));
         break;
+    case PL_DATA_LIQUID:
+        add_list(d, w->liquid.particles.data, w->liquid.count, sizeof(plumb_particle));
+        break;
     case PL_DATA_SENSORS:
         add_list(d, w->sensing.candidates.data, w->sensing.candidate_count, sizeof(pl_keyed));
         add_list(d, w->sensing.overlaps.data, w->sensing.count, sizeof(pl_overlap));

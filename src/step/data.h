@@ -23,6 +23,7 @@
     X(INTERNAL_EDGES, "internal edges", "edges and corners of ground that neighbours cover")       \
     X(JOINTS, "joints", "their impulses, errors and reactions")                                    \
     X(ISLANDS, "islands", "what sleeps, and how long bodies have rested")                          \
+    X(LIQUID, "liquid", "its particles")                                                           \
     X(CHARACTERS, "characters", "bodies that walk")                                                \
     X(SENSORS, "sensors", "what they overlap")                                                     \
     X(SOLVER_BODIES, "solver bodies", "velocities and ways of bodies in the substeps")             \

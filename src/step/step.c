@@ -8,6 +8,7 @@
 #include "core/clock.h"
 #include "event/event.h"
 #include "internal_edges/internal_edges.h"
+#include "liquid/liquid.h"
 #include "narrow/ahead.h"
 #include "step/measure.h"
 #include "step/place.h"
@@ -249,6 +250,7 @@ static plumb_result try_step(plumb_world *world, plumb_real dt)
 // Nothing has moved; what passes did before motion does not count.
 static void undo_step(plumb_world *world)
 {
+    pl_liquid_undo(world);
     pl_characters_undo(world);
     pl_ahead_undo(world);
     pl_internal_edges_undo(world);

@@ -19,6 +19,7 @@
 #include "world/tables/exact.h"
 #include "world/tables/internal_edges.h"
 #include "world/tables/joint.h"
+#include "world/tables/liquid.h"
 #include "world/tables/manifold.h"
 #include "world/tables/measure.h"
 #include "world/tables/effects.h"
@@ -118,6 +119,7 @@ struct plumb_world {
     pl_internal_edges internal_edges;
     pl_joints joints;
     pl_characters characters;
+    pl_liquid liquid;
     pl_schedule schedule;
     pl_quarantine quarantine;
     pl_measure measure;

@@ -83,7 +83,7 @@ static inline void add_joints(plumb_world *w, plumb_body a, plumb_body b, int fi
 }
 
 // World 0: bodies in contact, joints. 1: ground of many pieces, sleepers, sensors. 2: a character, targets, settings of bodies,
-// commands, materials. 3: a world that wraps around, solved the classic way.
+// commands, materials, a liquid. 3: a world that wraps around, solved the classic way.
 static inline void fill(plumb_world *w, int which)
 {
     static const plumb_vec2 ell[] = { { 0, 0 },           { 1, 0 },      { 1, R(0.5) },
@@ -124,6 +124,9 @@ static inline void fill(plumb_world *w, int which)
         plumb_body_set_target(w, d, (plumb_vec2){ -1, 2 }, 1, 1);
         plumb_body_set_damping(w, a, R(0.1), 0);
         plumb_world_exclude_pair(w, a, b, true);
+        plumb_liquid_create(w, &(plumb_liquid_desc){ .spacing = R(0.1), .viscosity = 1 });
+        plumb_liquid_add_box(w, (plumb_vec2){ R(-0.6), R(0.6) }, (plumb_vec2){ R(0.2), R(0.8) },
+                             (plumb_vec2){ 0 });
     }
     plumb_component_set(w, a.entity, plumb_component_find(w, "mark"), NULL);
 }

@@ -1,0 +1,80 @@
+/// liquid.h - water that flows: particles that carry mass, a grid that keeps their volume.
+///
+///     plumb_liquid_create(world, &(plumb_liquid_desc){ .spacing = 0.05f });
+///     plumb_liquid_add_box(world, (plumb_vec2){ 0, 0 }, (plumb_vec2){ 2, 1 }, (plumb_vec2){ 0, 0 });
+///     for (;;) {
+///         plumb_world_step(world, 1.0f / 60);
+///         int count;
+///         const plumb_particle *p = plumb_liquid_particles(world, &count);
+///     }
+///
+/// A world has one liquid or none. It falls by the world's gravity, is kept out by every solid shape (sensors let it
+/// through, filters do not count), and floats, pushes and is pushed by dynamic bodies: their velocities are unknowns of
+/// its one system of pressures, so that a body of a thousandth of its density is as stable as a heavy one.
+/// Shapes without area, and those thinner than a cell (two spacings), hold it back as walls do.
+/// The world must not wrap around. Nothing of it is done in a world without a liquid.
+#ifndef PLUMB_LIQUID_H
+#define PLUMB_LIQUID_H
+
+#include "plumb/world.h"
+
+PLUMB_BEGIN
+
+/// Most particles of a liquid.
+#define PLUMB_LIQUID_MAX 4000000
+
+/// {0} is valid: water, 5 cm apart.
+typedef struct plumb_liquid_desc {
+    plumb_real spacing; ///< [m] 1e-4..1e3 between particles at rest; 0 means 0.05. Cells are twice as wide
+    plumb_real density; ///< [kg/m^2] 1e-6..1e9 of area; 0 means 1000
+    /// [Pa s] 0..1e9 dynamic; 0: it slips along walls. Above 0 it clings to them. What a grid can tell apart
+    /// ends at 12.5 density (2 spacing)^2 / dt; higher values act as that
+    plumb_real viscosity;
+} plumb_liquid_desc;
+
+/// A particle: spacing^2 of area.
+typedef struct plumb_particle {
+    plumb_vec2 position; ///< [m]
+    plumb_vec2 velocity; ///< [m/s]
+    /// [1/s] how velocity changes around it: of its x component along x and y, then of its y component
+    plumb_real gradient[4];
+} plumb_particle;
+
+/// Gives the world a liquid without any particle yet. `desc` may be null (= {0}). Errors: E_NULL, E_RANGE,
+/// E_NOT_FINITE, E_STATE (it has one; the world wraps around), E_MEMORY, E_LOCKED.
+PLUMB_API plumb_result plumb_liquid_create(plumb_world *world, const plumb_liquid_desc *desc);
+/// Takes the liquid away with all of its particles. Errors: E_NULL, E_STATE (there is none), E_LOCKED.
+PLUMB_API plumb_result plumb_liquid_destroy(plumb_world *world);
+
+/// The settings in force, defaults resolved. Errors: E_NULL, E_STATE (there is no liquid).
+PLUMB_API plumb_result plumb_liquid_settings(const plumb_world *world, plumb_liquid_desc *desc);
+/// Changes density and viscosity from the next step on; `spacing` must be 0 or what it is. `desc` may be null
+/// (= {0}). Errors: as plumb_liquid_create; E_STATE also for another spacing.
+PLUMB_API plumb_result plumb_liquid_set(plumb_world *world, const plumb_liquid_desc *desc);
+
+/// Adds `count` particles as they are: positions [m], |x|, |y| <= 1e9 and at most 2^29 cells from 0, velocities [m/s] up
+/// to 1e6, gradients up to 1e9. They should lie a spacing apart; those inside of shapes are pushed out. Errors: E_NULL,
+/// E_STATE (there is no liquid), E_RANGE (also: more than PLUMB_LIQUID_MAX), E_NOT_FINITE, E_MEMORY, E_LOCKED; then none
+/// is added.
+PLUMB_API plumb_result plumb_liquid_add(plumb_world *world, const plumb_particle *particles,
+                                        int count);
+/// Fills a box from `low` to `high` [m] with particles: the places of the lattice of multiples of the spacing plus one half
+/// that lie in it. A box that is a multiple of cells (two spacings) wide is filled to its edges. Errors: as
+/// plumb_liquid_add; E_RANGE where `low` is not below `high`.
+PLUMB_API plumb_result plumb_liquid_add_box(plumb_world *world, plumb_vec2 low, plumb_vec2 high,
+                                            plumb_vec2 velocity);
+/// Fills a closed outline of `count` points [m], 3..256 in order, concave or not, in the same lattice. Errors: as
+/// plumb_liquid_add.
+PLUMB_API plumb_result plumb_liquid_add_shape(plumb_world *world, const plumb_vec2 *points,
+                                              int count, plumb_vec2 velocity);
+/// Removes the particles in a box [m]; the others keep their order. Returns how many were removed; -1 on error: E_NULL,
+/// E_STATE, E_RANGE (low above high), E_NOT_FINITE, E_LOCKED.
+PLUMB_API int plumb_liquid_remove(plumb_world *world, plumb_vec2 low, plumb_vec2 high);
+
+/// All particles, in the order in which they were added, and how many (`count` may be null). Valid until the next
+/// step, or change of the liquid. Null without any, or without a world.
+PLUMB_API const plumb_particle *plumb_liquid_particles(const plumb_world *world, int *count);
+
+PLUMB_END
+
+#endif

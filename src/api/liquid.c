@@ -1,0 +1,333 @@
+// liquid.c - the world's liquid: made, filled, asked.
+//
+// Reads: arguments. Writes: the liquid's settings and particles. Cost: O(particles) that come or go.
+#include "plumb/liquid.h"
+#include "liquid/liquid.h"
+#include "plumb/geometry.h"
+#include "world/check.h"
+#include "world/wrap.h"
+
+#include <string.h>
+
+#define SPACING_LEAST ((real)1e-4)
+#define SPACING_MOST  ((real)1e3)
+#define DENSITY_LEAST ((real)1e-6)
+#define MOST          ((real)1e9)
+#define SPEED_MOST    ((real)PL_LIQUID_SPEED)
+#define SLOPE_MOST    ((real)PL_LIQUID_SLOPE)
+
+//---- settings ------------------------------------------------------------------------------------
+
+static plumb_result check_desc(const plumb_world *world, const char *fn, const plumb_liquid_desc *d)
+{
+    if (d->spacing != 0) {
+        PL_TRY(pl_check_range(world, fn, "spacing", d->spacing, SPACING_LEAST, SPACING_MOST));
+    }
+    if (d->density != 0) {
+        PL_TRY(pl_check_range(world, fn, "density", d->density, DENSITY_LEAST, MOST));
+    }
+    return pl_check_range(world, fn, "viscosity", d->viscosity, 0, MOST);
+}
+
+bool pl_liquid_desc_is_sound(const plumb_liquid_desc *d)
+{
+    return d->spacing >= SPACING_LEAST && d->spacing <= SPACING_MOST &&
+           d->density >= DENSITY_LEAST && d->density <= MOST && d->viscosity >= 0 &&
+           d->viscosity <= MOST;
+}
+
+bool pl_liquid_particle_is_sound(const plumb_particle *p)
+{
+    bool sound = p->position.x - p->position.x == 0 && p->position.y - p->position.y == 0 &&
+                 p->velocity.x >= -SPEED_MOST && p->velocity.x <= SPEED_MOST &&
+                 p->velocity.y >= -SPEED_MOST && p->velocity.y <= SPEED_MOST;
+    for (int k = 0; k < 4; ++k) {
+        sound &= p->gradient[k] >= -SLOPE_MOST && p->gradient[k] <= SLOPE_MOST;
+    }
+    return sound;
+}
+
+static plumb_result check_liquid(const plumb_world *world, const char *fn)
+{
+    PL_TRY(pl_check_world(world));
+    return world->liquid.settings_count > 0
+               ? PLUMB_OK
+               : pl_fail(world, PLUMB_E_STATE, fn,
+                         "the world has no liquid; it must be made with plumb_liquid_create");
+}
+
+static void put_desc(pl_liquid *liquid, const plumb_liquid_desc *d)
+{
+    plumb_liquid_desc *to = liquid->settings.data;
+    memset(to, 0, sizeof *to); // padding, too: it is saved
+    to->spacing = d->spacing > 0 ? d->spacing : PLUMB_REAL(0.05);
+    to->density = d->density > 0 ? d->density : 1000;
+    to->viscosity = d->viscosity;
+}
+
+plumb_result plumb_liquid_create(plumb_world *world, const plumb_liquid_desc *desc)
+{
+    const plumb_liquid_desc zero = { 0 };
+    desc = desc == NULL ? &zero : desc;
+    PL_TRY(pl_check_world(world));
+    PL_TRY(pl_check_unlocked(world, __func__));
+    if (world->liquid.settings_count > 0) {
+        return pl_fail(world, PLUMB_E_STATE, __func__, "the world has a liquid; it must have none");
+    }
+    if (pl_is_wrapped(world)) {
+        return pl_fail(world, PLUMB_E_STATE, __func__,
+                       "the world wraps around; one with a liquid must not");
+    }
+    PL_TRY(check_desc(world, __func__, desc));
+    if (!pl_buffer_reserve(&world->memory, &world->liquid.settings, sizeof *desc)) {
+        return pl_fail_memory(world, __func__);
+    }
+    put_desc(&world->liquid, desc);
+    world->liquid.settings_count = 1;
+    return PLUMB_OK;
+}
+
+plumb_result plumb_liquid_destroy(plumb_world *world)
+{
+    PL_TRY(check_liquid(world, __func__));
+    PL_TRY(pl_check_unlocked(world, __func__));
+    pl_liquid_free(&world->memory, &world->liquid);
+    world->schedule_dirty = true;
+    return PLUMB_OK;
+}
+
+plumb_result plumb_liquid_settings(const plumb_world *world, plumb_liquid_desc *desc)
+{
+    PL_TRY(check_liquid(world, __func__));
+    PL_TRY(pl_check_pointer(world, __func__, "desc", desc));
+    *desc = *pl_liquid_desc(&world->liquid);
+    return PLUMB_OK;
+}
+
+plumb_result plumb_liquid_set(plumb_world *world, const plumb_liquid_desc *desc)
+{
+    const plumb_liquid_desc zero = { 0 };
+    desc = desc == NULL ? &zero : desc;
+    PL_TRY(check_liquid(world, __func__));
+    PL_TRY(pl_check_unlocked(world, __func__));
+    PL_TRY(check_desc(world, __func__, desc));
+    plumb_liquid_desc d = *desc;
+    const real spacing = pl_liquid_desc(&world->liquid)->spacing;
+    if (d.spacing != 0 && d.spacing != spacing) {
+        return pl_fail(world, PLUMB_E_STATE, __func__, "spacing is %g; it must be 0 or %g",
+                       (double)d.spacing, (double)spacing);
+    }
+    d.spacing = spacing;
+    put_desc(&world->liquid, &d);
+    return PLUMB_OK;
+}
+
+//---- particles come ------------------------------------------------------------------------------
+
+static plumb_result reserve(plumb_world *world, const char *fn, double extra)
+{
+    pl_liquid *liquid = &world->liquid;
+    if ((double)liquid->count + extra > PLUMB_LIQUID_MAX) {
+        return pl_fail(world, PLUMB_E_RANGE, fn,
+                       "there would be %.0f particles; there must be at most %d",
+                       (double)liquid->count + extra, PLUMB_LIQUID_MAX);
+    }
+    const size_t count = liquid->count + (size_t)extra;
+    if (!pl_buffer_reserve(&world->memory, &liquid->particles, count * sizeof(plumb_particle))) {
+        return pl_fail_memory(world, fn);
+    }
+    return PLUMB_OK;
+}
+
+static void put(plumb_world *world, plumb_vec2 position, plumb_vec2 velocity)
+{
+    pl_liquid *liquid = &world->liquid;
+    world->schedule_dirty |= liquid->count == 0;
+    plumb_particle *p = &pl_liquid_items(liquid)[liquid->count++];
+    memset(p, 0, sizeof *p);
+    p->position = position;
+    p->velocity = velocity;
+}
+
+// Within what the grid can count.
+static real most_place(const plumb_world *world)
+{
+    const double cells = (double)PL_LIQUID_MOST_CELL;
+    const double most = cells * 2 * (double)pl_liquid_desc(&world->liquid)->spacing;
+    return most < (double)MOST ? (real)most : MOST;
+}
+
+static plumb_result check_particle(const plumb_world *world, const char *fn,
+                                   const plumb_particle *p)
+{
+    PL_TRY(pl_check_within(world, fn, "position", p->position, most_place(world)));
+    PL_TRY(pl_check_within(world, fn, "velocity", p->velocity, SPEED_MOST));
+    for (int k = 0; k < 4; ++k) {
+        PL_TRY(pl_check_range(world, fn, "gradient", p->gradient[k], -SLOPE_MOST, SLOPE_MOST));
+    }
+    return PLUMB_OK;
+}
+
+plumb_result plumb_liquid_add(plumb_world *world, const plumb_particle *particles, int count)
+{
+    PL_TRY(check_liquid(world, __func__));
+    PL_TRY(pl_check_unlocked(world, __func__));
+    if (count < 0) {
+        return pl_fail(world, PLUMB_E_RANGE, __func__, "count is %d; it must be at least 0", count);
+    }
+    if (count > 0) {
+        PL_TRY(pl_check_pointer(world, __func__, "particles", particles));
+    }
+    for (int i = 0; i < count; ++i) {
+        PL_TRY(check_particle(world, __func__, &particles[i]));
+    }
+    PL_TRY(reserve(world, __func__, count));
+    for (int i = 0; i < count; ++i) {
+        put(world, particles[i].position, particles[i].velocity);
+        memcpy(pl_liquid_items(&world->liquid)[world->liquid.count - 1].gradient,
+               particles[i].gradient, sizeof particles[i].gradient);
+    }
+    return PLUMB_OK;
+}
+
+//---- lattices ------------------------------------------------------------------------------------
+
+// Places (i + 1/2, j + 1/2) spacings within a box.
+typedef struct lattice {
+    double spacing, first_x, first_y;
+    double columns, rows;
+} lattice;
+
+static double above(double v)
+{
+    const double whole = (double)(int64_t)v;
+    return whole < v ? whole + 1 : whole;
+}
+
+// Rounding of a corner that is a multiple of the spacing decides nothing.
+static double first_of(double low, double spacing)
+{
+    return above(low / spacing - 0.5 - 1e-3);
+}
+
+static double count_of(double low, double high, double spacing)
+{
+    const double count = first_of(high, spacing) - first_of(low, spacing);
+    return count > 0 ? count : 0;
+}
+
+static lattice lattice_of(const plumb_world *world, plumb_vec2 low, plumb_vec2 high)
+{
+    const double s = (double)pl_liquid_desc(&world->liquid)->spacing;
+    return (lattice){ s, first_of((double)low.x, s), first_of((double)low.y, s),
+                      count_of((double)low.x, (double)high.x, s),
+                      count_of((double)low.y, (double)high.y, s) };
+}
+
+static plumb_vec2 place_in(const lattice *l, double i, double j)
+{
+    return (plumb_vec2){ (real)((l->first_x + i + 0.5) * l->spacing),
+                         (real)((l->first_y + j + 0.5) * l->spacing) };
+}
+
+static plumb_result check_box(const plumb_world *world, const char *fn, plumb_vec2 low,
+                              plumb_vec2 high)
+{
+    const real most = most_place(world);
+    PL_TRY(pl_check_within(world, fn, "low", low, most));
+    PL_TRY(pl_check_within(world, fn, "high", high, most));
+    if (!(low.x < high.x && low.y < high.y)) {
+        return pl_fail(world, PLUMB_E_RANGE, fn, "low is (%g, %g); it must be below high (%g, %g)",
+                       (double)low.x, (double)low.y, (double)high.x, (double)high.y);
+    }
+    return PLUMB_OK;
+}
+
+plumb_result plumb_liquid_add_box(plumb_world *world, plumb_vec2 low, plumb_vec2 high,
+                                  plumb_vec2 velocity)
+{
+    PL_TRY(check_liquid(world, __func__));
+    PL_TRY(pl_check_unlocked(world, __func__));
+    PL_TRY(check_box(world, __func__, low, high));
+    PL_TRY(pl_check_within(world, __func__, "velocity", velocity, SPEED_MOST));
+    const lattice l = lattice_of(world, low, high);
+    PL_TRY(reserve(world, __func__, l.columns * l.rows));
+    for (double j = 0; j < l.rows; ++j) {
+        for (double i = 0; i < l.columns; ++i) {
+            put(world, place_in(&l, i, j), velocity);
+        }
+    }
+    return PLUMB_OK;
+}
+
+static void box_of(const plumb_vec2 *points, int count, plumb_vec2 *low, plumb_vec2 *high)
+{
+    *low = *high = points[0];
+    for (int i = 1; i < count; ++i) {
+        low->x = points[i].x < low->x ? points[i].x : low->x;
+        low->y = points[i].y < low->y ? points[i].y : low->y;
+        high->x = points[i].x > high->x ? points[i].x : high->x;
+        high->y = points[i].y > high->y ? points[i].y : high->y;
+    }
+}
+
+plumb_result plumb_liquid_add_shape(plumb_world *world, const plumb_vec2 *points, int count,
+                                    plumb_vec2 velocity)
+{
+    plumb_vec2 low, high;
+    PL_TRY(check_liquid(world, __func__));
+    PL_TRY(pl_check_unlocked(world, __func__));
+    PL_TRY(pl_check_pointer(world, __func__, "points", points));
+    if (count < 3 || count > PLUMB_OUTLINE_MAX_VERTICES) {
+        return pl_fail(world, PLUMB_E_RANGE, __func__, "count is %d; it must be 3 to %d", count,
+                       PLUMB_OUTLINE_MAX_VERTICES);
+    }
+    for (int i = 0; i < count; ++i) {
+        PL_TRY(pl_check_within(world, __func__, "points", points[i], most_place(world)));
+    }
+    PL_TRY(pl_check_within(world, __func__, "velocity", velocity, SPEED_MOST));
+    box_of(points, count, &low, &high);
+    const lattice l = lattice_of(world, low, high);
+    PL_TRY(reserve(world, __func__, l.columns * l.rows));
+    for (double j = 0; j < l.rows; ++j) {
+        for (double i = 0; i < l.columns; ++i) {
+            const plumb_vec2 at = place_in(&l, i, j);
+            if (plumb_outline_contains(points, count, at)) {
+                put(world, at, velocity);
+            }
+        }
+    }
+    return PLUMB_OK;
+}
+
+//---- they go, are seen ---------------------------------------------------------------------------
+
+int plumb_liquid_remove(plumb_world *world, plumb_vec2 low, plumb_vec2 high)
+{
+    if (check_liquid(world, __func__) != PLUMB_OK ||
+        pl_check_unlocked(world, __func__) != PLUMB_OK ||
+        check_box(world, __func__, low, high) != PLUMB_OK) {
+        return -1;
+    }
+    pl_liquid *liquid = &world->liquid;
+    plumb_particle *items = pl_liquid_items(liquid);
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < liquid->count; ++i) {
+        const plumb_vec2 at = items[i].position;
+        if (at.x < low.x || at.x > high.x || at.y < low.y || at.y > high.y) {
+            items[kept++] = items[i];
+        }
+    }
+    const uint32_t removed = liquid->count - kept;
+    liquid->count = kept;
+    world->schedule_dirty |= kept == 0 && removed > 0;
+    return (int)removed;
+}
+
+const plumb_particle *plumb_liquid_particles(const plumb_world *world, int *count)
+{
+    if (count != NULL) {
+        *count = world != NULL ? (int)world->liquid.count : 0;
+    }
+    return world != NULL && world->liquid.count > 0 ? pl_liquid_items(&world->liquid) : NULL;
+}

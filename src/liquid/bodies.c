@@ -1,0 +1,251 @@
+// bodies.c - shapes of the world as solids in the liquid's grid, and what the liquid does to bodies.
+//
+// The liquid has copies of the bodies near it, which fall and are pushed within the step; the rigid solver is handed
+// the impulses as forces, before it looks for contacts. What sleeps is pushed as well: the same force every step lets it
+// sleep on, another one wakes it (world/push.c).
+//
+// Reads: rows, pieces, particles. Writes: bodies and solids of the grid; forces, with what they were, so that a
+// refused step can be undone. Cost: O(bodies + pieces), and the links of what is near.
+#include "liquid/liquid.h"
+#include "math/trig.h"
+#include "world/push.h"
+#include "world/rows.h"
+
+#include <math.h>
+#include <string.h>
+
+#define MARGIN 6.0 // cells round the particles in which solids are looked for
+
+typedef struct region {
+    double low_x, low_y, high_x, high_y; // [m]
+} region;
+
+static region region_of(const plumb_particle *p, uint32_t count, double margin)
+{
+    region r = { INFINITY, INFINITY, -INFINITY, -INFINITY };
+    for (uint32_t i = 0; i < count; ++i) {
+        const double x = (double)p[i].position.x, y = (double)p[i].position.y;
+        r.low_x = x < r.low_x ? x : r.low_x, r.high_x = x > r.high_x ? x : r.high_x;
+        r.low_y = y < r.low_y ? y : r.low_y, r.high_y = y > r.high_y ? y : r.high_y;
+    }
+    return (region){ r.low_x - margin, r.low_y - margin, r.high_x + margin, r.high_y + margin };
+}
+
+//---- what is near --------------------------------------------------------------------------------
+
+static bool is_near(const plumb_world *world, uint32_t piece, const region *r, double way)
+{
+    const pl_box box = pl_piece_tight_box(world, piece);
+    return (double)box.min_x - way < r->high_x && (double)box.max_x + way > r->low_x &&
+           (double)box.min_y - way < r->high_y && (double)box.max_y + way > r->low_y;
+}
+
+// [cells] across, at the narrowest.
+static double width_of(const plumb_convex *shape, double scale)
+{
+    double least = shape->count > 2 ? INFINITY : 0;
+    for (int i = 0; i < shape->count && shape->count > 2; ++i) {
+        const plumb_vec2 a = shape->points[i], b = shape->points[(i + 1) % shape->count];
+        const double dx = (double)b.x - (double)a.x, dy = (double)b.y - (double)a.y;
+        const double length = sqrt(dx * dx + dy * dy);
+        double most = 0;
+        for (int k = 0; k < shape->count; ++k) {
+            const double x = (double)shape->points[k].x - (double)a.x;
+            const double y = (double)shape->points[k].y - (double)a.y;
+            const double d = (x * dy - y * dx) / length;
+            most = -d > most ? -d : most;
+        }
+        least = most < least ? most : least;
+    }
+    return (least + 2 * (double)shape->radius) * scale;
+}
+
+static bool add_solid(plumb_world *world, uint32_t piece, uint32_t body)
+{
+    pl_liquid_scratch *scratch = world->liquid.scratch;
+    pl_liquid_grid *g = &scratch->grid;
+    plumb_convex shape;
+    if (!pl_buffer_reserve(&world->memory, &scratch->solids,
+                           (g->solid_count + 1) * sizeof(pl_liquid_solid))) {
+        return false;
+    }
+    g->solids = scratch->solids.data;
+    pl_liquid_solid *s = &g->solids[g->solid_count++];
+    pl_piece_convex(world, piece, &shape);
+    const double scale = 1 / (double)g->h;
+    memset(s, 0, sizeof *s);
+    s->piece = piece;
+    s->body = body;
+    s->count = shape.count;
+    s->radius = (double)shape.radius * scale;
+    s->thin = width_of(&shape, scale) < 1;
+    return true;
+}
+
+static bool add_body(plumb_world *world, uint32_t row)
+{
+    pl_liquid_scratch *scratch = world->liquid.scratch;
+    pl_liquid_grid *g = &scratch->grid;
+    const pl_bodies *b = &world->bodies;
+    if (!pl_buffer_reserve(&world->memory, &scratch->bodies,
+                           (g->body_count + 1) * sizeof(pl_liquid_body)) ||
+        !pl_buffer_reserve(&world->memory, &scratch->pushes,
+                           (g->body_count + 1) * sizeof(pl_liquid_push))) {
+        return false;
+    }
+    g->bodies = scratch->bodies.data;
+    const bool locked_x = (b->flags[row] & PL_BODY_LOCK_X) != 0;
+    const bool locked_y = (b->flags[row] & PL_BODY_LOCK_Y) != 0;
+    g->bodies[g->body_count++] = (pl_liquid_body){
+        .body = b->entity[row],
+        .x = (double)b->center_x[row],
+        .y = (double)b->center_y[row],
+        .c = (double)b->c[row],
+        .s = (double)b->s[row],
+        .vx = (double)b->vx[row],
+        .vy = (double)b->vy[row],
+        .w = (double)b->w[row],
+        .inv_mass_x = locked_x ? 0 : (double)b->inv_mass[row],
+        .inv_mass_y = locked_y ? 0 : (double)b->inv_mass[row],
+        .inv_inertia = (double)b->inv_inertia[row],
+        .moves = b->type[row] == PLUMB_DYNAMIC,
+    };
+    return true;
+}
+
+// The pieces of a row that are near; its body only if there are any.
+static bool add_row(plumb_world *world, uint32_t row, const region *r, real dt)
+{
+    const pl_bodies *b = &world->bodies;
+    const pl_pieces *pieces = &world->pieces;
+    const bool is_static = b->type[row] == PLUMB_STATIC;
+    const double way = is_static ? 0
+                                 : (fabs((double)b->vx[row]) + fabs((double)b->vy[row]) +
+                                    fabs((double)b->w[row]) * (double)b->extent[row]) *
+                                       (double)dt;
+    uint32_t body = PL_LIQUID_NONE;
+    for (uint32_t p = b->first_piece[row]; p != PL_NONE; p = pieces->next_in_body[p]) {
+        if ((pieces->flags[p] & PL_PIECE_SENSOR) != 0 || !is_near(world, p, r, way)) {
+            continue;
+        }
+        if (!is_static && body == PL_LIQUID_NONE) {
+            body = world->liquid.scratch->grid.body_count;
+            if (!add_body(world, row)) {
+                return false;
+            }
+        }
+        if (!add_solid(world, p, body)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+bool pl_liquid_find_solids(plumb_world *world, real dt)
+{
+    const pl_liquid *liquid = &world->liquid;
+    pl_liquid_grid *g = &liquid->scratch->grid;
+    const uint32_t end = pl_partition_first(world, PL_PART_DISABLED);
+    const region r = region_of(pl_liquid_items(liquid), liquid->count, MARGIN * (double)g->h);
+    g->body_count = g->solid_count = 0;
+    for (uint32_t row = 0; row < end; ++row) {
+        if (!add_row(world, row, &r, dt)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+//---- within the step -----------------------------------------------------------------------------
+
+void pl_liquid_pull_bodies(plumb_world *world, real dt)
+{
+    pl_liquid_grid *g = &world->liquid.scratch->grid;
+    const pl_bodies *b = &world->bodies;
+    for (uint32_t i = 0; i < g->body_count; ++i) {
+        pl_liquid_body *body = &g->bodies[i];
+        const uint32_t row = pl_body_row(world, body->body);
+        if (!body->moves) {
+            continue;
+        }
+        const double h = (double)dt, fall = h * (double)b->gravity_scale[row];
+        const bool falls_x = body->inv_mass_x > 0, falls_y = body->inv_mass_y > 0;
+        body->vx += falls_x ? fall * (double)world->gravity.x : 0;
+        body->vy += falls_y ? fall * (double)world->gravity.y : 0;
+        body->vx += h * (double)b->fx[row] * body->inv_mass_x;
+        body->vy += h * (double)b->fy[row] * body->inv_mass_y;
+        body->w += h * (double)b->torque[row] * body->inv_inertia;
+    }
+}
+
+static double least(double a, double b)
+{
+    return a < b ? a : b;
+}
+
+static void place_solid(const plumb_world *world, pl_liquid_solid *s)
+{
+    const uint32_t row = world->pieces.body[s->piece];
+    const pl_bodies *b = &world->bodies;
+    const pl_liquid_body *body =
+        s->body == PL_LIQUID_NONE ? NULL : &world->liquid.scratch->grid.bodies[s->body];
+    const double scale = 1 / (double)world->liquid.scratch->grid.h;
+    const double c = body != NULL ? body->c : (double)b->c[row];
+    const double sine = body != NULL ? body->s : (double)b->s[row];
+    const double x = body != NULL ? body->x : (double)b->center_x[row];
+    const double y = body != NULL ? body->y : (double)b->center_y[row];
+    plumb_convex shape;
+    pl_piece_convex(world, s->piece, &shape);
+    s->low_x = s->low_y = INFINITY;
+    s->high_x = s->high_y = -INFINITY;
+    for (int i = 0; i < s->count; ++i) {
+        const double px = (double)shape.points[i].x - (double)b->local_x[row];
+        const double py = (double)shape.points[i].y - (double)b->local_y[row];
+        s->x[i] = (x + c * px - sine * py) * scale;
+        s->y[i] = (y + sine * px + c * py) * scale;
+        s->low_x = least(s->low_x, s->x[i] - s->radius);
+        s->low_y = least(s->low_y, s->y[i] - s->radius);
+        s->high_x = -least(-s->high_x, -s->x[i] - s->radius);
+        s->high_y = -least(-s->high_y, -s->y[i] - s->radius);
+    }
+}
+
+void pl_liquid_place_solids(plumb_world *world, double dt)
+{
+    pl_liquid_grid *g = &world->liquid.scratch->grid;
+    for (uint32_t i = 0; i < g->body_count; ++i) {
+        pl_liquid_body *b = &g->bodies[i];
+        double s, c;
+        pl_sincos(b->w * dt, &s, &c);
+        const double turned = b->c * c - b->s * s;
+        b->s = b->s * c + b->c * s;
+        b->c = turned;
+        b->x += b->vx * dt;
+        b->y += b->vy * dt;
+    }
+    for (uint32_t i = 0; i < g->solid_count; ++i) {
+        place_solid(world, &g->solids[i]);
+    }
+}
+
+//---- what they get -------------------------------------------------------------------------------
+
+void pl_liquid_push_rows(plumb_world *world, real dt)
+{
+    pl_liquid_scratch *scratch = world->liquid.scratch;
+    pl_bodies *b = &world->bodies;
+    pl_liquid_push *pushes = scratch->pushes.data;
+    for (uint32_t i = 0; i < scratch->grid.body_count; ++i) {
+        const pl_liquid_body *body = &scratch->grid.bodies[i];
+        if (!body->moves || (body->impulse_x == 0 && body->impulse_y == 0 && body->turn == 0)) {
+            continue;
+        }
+        const uint32_t row = pl_body_row(world, body->body);
+        pushes[scratch->push_count++] =
+            (pl_liquid_push){ body->body, b->fx[row], b->fy[row], b->torque[row] };
+        pl_sleep_push(world, row);
+        b->fx[row] = pl_held((double)b->fx[row] + body->impulse_x / (double)dt);
+        b->fy[row] = pl_held((double)b->fy[row] + body->impulse_y / (double)dt);
+        b->torque[row] = pl_held((double)b->torque[row] + body->turn / (double)dt);
+    }
+}

@@ -1,0 +1,154 @@
+// move.c - particles go where the liquid takes them, and not into solids.
+//
+// Velocity half way along the step is known from a particle's own slopes, so turning water does not spiral outwards.
+// A step is cut where it crosses an edge of a thin piece; what ends inside of a piece is moved to its nearest face.
+//
+// Reads: points, displacements, solids at tiles. Writes: particles. Cost: O(points x solids near their tile).
+#include "liquid/liquid.h"
+
+#include <math.h>
+
+#define MOST_WAY 2.0  // cells
+#define SKIN     0.01 // cells that are kept from solids
+
+typedef struct place {
+    double x, y; // cells
+} place;
+
+static place place_of(const pl_liquid_grid *g, const pl_liquid_point *p)
+{
+    const pl_liquid_tile *tile = &g->tiles[(p->cell - 1) / PL_LIQUID_TILE];
+    const uint32_t k = (p->cell - 1) % PL_LIQUID_TILE;
+    return (place){
+        (double)(tile->x * PL_LIQUID_SIDE + (int32_t)(k % PL_LIQUID_SIDE)) + (double)p->fx,
+        (double)(tile->y * PL_LIQUID_SIDE + (int32_t)(k / PL_LIQUID_SIDE)) + (double)p->fy
+    };
+}
+
+static double held(double way)
+{
+    return way > MOST_WAY ? MOST_WAY : way >= -MOST_WAY ? way : -MOST_WAY;
+}
+
+static place end_of(const pl_liquid_grid *g, const pl_liquid_point *p, place from, double way)
+{
+    near_real dx, dy;
+    pl_liquid_sample(g, g->new_u, g->new_v, p, &dx, &dy);
+    const double u = (double)p->u, v = (double)p->v, half = way / 2;
+    const double x = u + half * (u * (double)p->ux + v * (double)p->uy);
+    const double y = v + half * (u * (double)p->vx + v * (double)p->vy);
+    return (place){ from.x + held(way * x + (double)dx), from.y + held(way * y + (double)dy) };
+}
+
+//---- out of solids -------------------------------------------------------------------------------
+
+// How far outside of a piece, and the way out.
+typedef struct gap {
+    double distance, nx, ny;
+} gap;
+
+static gap gap_to_segment(const pl_liquid_solid *s, int i, int k, place at)
+{
+    const double dx = s->x[k] - s->x[i], dy = s->y[k] - s->y[i], square = dx * dx + dy * dy;
+    double t = square > 0 ? ((at.x - s->x[i]) * dx + (at.y - s->y[i]) * dy) / square : 0;
+    t = t < 0 ? 0 : t > 1 ? 1 : t;
+    const double x = at.x - s->x[i] - t * dx, y = at.y - s->y[i] - t * dy;
+    const double d = sqrt(x * x + y * y);
+    return d > 0 ? (gap){ d, x / d, y / d } : (gap){ 0, 0, 1 };
+}
+
+static gap gap_to(const pl_liquid_solid *s, place at)
+{
+    gap inside = { -INFINITY, 0, 1 }, outside = { INFINITY, 0, 1 };
+    for (int i = 0; i < s->count; ++i) {
+        const int k = i + 1 < s->count ? i + 1 : 0;
+        const double dx = s->x[k] - s->x[i], dy = s->y[k] - s->y[i];
+        const double length = sqrt(dx * dx + dy * dy);
+        const gap edge = gap_to_segment(s, i, k, at);
+        outside = edge.distance < outside.distance ? edge : outside;
+        if (length > 0) {
+            const double nx = dy / length, ny = -dx / length;
+            const double d = (at.x - s->x[i]) * nx + (at.y - s->y[i]) * ny;
+            inside = d > inside.distance ? (gap){ d, nx, ny } : inside;
+        }
+    }
+    gap out = s->count > 2 && inside.distance < 0 ? inside : outside;
+    out.distance -= s->radius;
+    return out;
+}
+
+// Where the way meets an edge of a thin piece: it ends a skin before it.
+static place cut(const pl_liquid_solid *s, place from, place to)
+{
+    const double wx = to.x - from.x, wy = to.y - from.y;
+    double least = 1;
+    place end = to;
+    for (int i = 0; i < s->count; ++i) {
+        const int k = i + 1 < s->count ? i + 1 : 0;
+        const double dx = s->x[k] - s->x[i], dy = s->y[k] - s->y[i];
+        const double ax = s->x[i] - from.x, ay = s->y[i] - from.y;
+        const double det = wx * dy - wy * dx, length = sqrt(dx * dx + dy * dy);
+        if (!(fabs(det) > 1e-12)) {
+            continue;
+        }
+        const double t = (ax * dy - ay * dx) / det, along = (ax * wy - ay * wx) / det;
+        if (t >= 0 && t <= least && along >= 0 && along <= 1) {
+            // The side that it comes from.
+            const double side = (ax * dy - ay * dx > 0 ? -1 : 1) * (s->radius + SKIN) / length;
+            least = t;
+            end = (place){ from.x + t * wx + side * dy, from.y + t * wy - side * dx };
+        }
+    }
+    return end;
+}
+
+static place keep_out(const pl_liquid_grid *g, const pl_liquid_tile *tile, place from, place to)
+{
+    for (uint32_t k = 0; k < tile->solid_count; ++k) {
+        const pl_liquid_solid *s = &g->solids[g->tile_solids[tile->first_solid + k]];
+        const double room = SKIN + MOST_WAY;
+        if (to.x < s->low_x - room || to.x > s->high_x + room || to.y < s->low_y - room ||
+            to.y > s->high_y + room) {
+            continue;
+        }
+        if (s->thin) {
+            to = cut(s, from, to);
+        }
+        const gap out = gap_to(s, to);
+        if (out.distance < SKIN) {
+            to.x += (SKIN - out.distance) * out.nx;
+            to.y += (SKIN - out.distance) * out.ny;
+        }
+    }
+    return to;
+}
+
+//---- all of them ---------------------------------------------------------------------------------
+
+static plumb_real speed(near_real u)
+{
+    return (plumb_real)pl_liquid_held((double)u, PL_LIQUID_SPEED);
+}
+
+static plumb_real slope(near_real u, double h)
+{
+    return (plumb_real)pl_liquid_held((double)u / h, PL_LIQUID_SLOPE);
+}
+
+void pl_liquid_move(const pl_liquid_grid *g, double way, plumb_particle *particles)
+{
+    const double h = (double)g->h;
+    for (uint32_t k = 0; k < g->point_count; ++k) {
+        const pl_liquid_point *p = &g->points[k];
+        const pl_liquid_tile *tile = &g->tiles[(p->cell - 1) / PL_LIQUID_TILE];
+        const place from = place_of(g, p);
+        const place to = keep_out(g, tile, from, end_of(g, p, from, way));
+        plumb_particle *out = &particles[p->index];
+        out->position = (plumb_vec2){ (plumb_real)(to.x * h), (plumb_real)(to.y * h) };
+        out->velocity = (plumb_vec2){ speed(p->u), speed(p->v) };
+        out->gradient[0] = slope(p->ux, h);
+        out->gradient[1] = slope(p->uy, h);
+        out->gradient[2] = slope(p->vx, h);
+        out->gradient[3] = slope(p->vy, h);
+    }
+}

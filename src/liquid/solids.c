@@ -1,0 +1,281 @@
+// solids.c - which part of each face is closed by solids: chords of convex pieces with the lines of the grid.
+//
+// A line x = i of the grid meets a convex piece in one interval, found exactly; what it covers of the faces along the
+// line is closed. A piece that is less than a cell across could lie between two lines and close nothing: it closes
+// every face that it crosses on the way from one cell's centre to the next. Three chords tell how much of a cell is
+// solid.
+//
+// What moving bodies close is a link each: it pushes the liquid by the body's velocity, and the pressure there pushes
+// the body (pressure.c).
+//
+// Reads: solids, tiles. Writes: openness, speeds of what closes, links. Cost: O(tiles x (solids + chords in them)).
+#include "liquid/liquid.h"
+
+#include <math.h>
+
+#define SIDE PL_LIQUID_SIDE
+
+//---- chords --------------------------------------------------------------------------------------
+
+typedef struct interval {
+    double low, high;
+} interval;
+
+static void widen(interval *a, double y)
+{
+    a->low = y < a->low ? y : a->low;
+    a->high = y > a->high ? y : a->high;
+}
+
+// The edge from corner a to b, moved outwards by the radius: where it meets the line.
+static void meet_edge(interval *out, double ax, double ay, double bx, double by, double radius,
+                      double at)
+{
+    const double dx = bx - ax, dy = by - ay, length = sqrt(dx * dx + dy * dy);
+    if (!(length > 0)) {
+        return;
+    }
+    const double nx = dy / length * radius, ny = -dx / length * radius;
+    const double from = at - ax - nx;
+    if (dx != 0 && (dx > 0 ? from >= 0 && from <= dx : from <= 0 && from >= dx)) {
+        widen(out, ay + ny + dy * (from / dx));
+    }
+}
+
+bool pl_liquid_chord(const double *x, const double *y, int n, double radius, double at, double *low,
+                     double *high)
+{
+    interval out = { INFINITY, -INFINITY };
+    for (int i = 0; i < n; ++i) {
+        const int k = i + 1 < n ? i + 1 : 0;
+        const double off = at - x[i], square = radius * radius - off * off;
+        if (square >= 0) {
+            const double half = sqrt(square);
+            widen(&out, y[i] - half);
+            widen(&out, y[i] + half);
+        }
+        meet_edge(&out, x[i], y[i], x[k], y[k], radius, at);
+        if (n == 2) {
+            meet_edge(&out, x[k], y[k], x[i], y[i], radius, at);
+        }
+    }
+    *low = out.low;
+    *high = out.high;
+    return out.low <= out.high;
+}
+
+//---- faces ---------------------------------------------------------------------------------------
+
+// A solid in a tile: coordinates from the tile's corner, with x and y exchanged for lines y = at.
+typedef struct view {
+    double x[16], y[16];
+    const pl_liquid_solid *solid;
+    const pl_liquid_body *body; // NULL: static
+    uint32_t first;             // cell of the tile
+    bool upright;               // x and y are exchanged
+    double corner_x, corner_y;  // of the tile, cells
+} view;
+
+static uint32_t cell_of(const view *v, int along, int across)
+{
+    return v->first + (uint32_t)(v->upright ? along * SIDE + across : across * SIDE + along);
+}
+
+static bool add_link(pl_memory *memory, pl_liquid_scratch *scratch, pl_liquid_link link)
+{
+    pl_liquid_grid *g = &scratch->grid;
+    if (!pl_buffer_reserve(memory, &scratch->links, (g->link_count + 1) * sizeof link)) {
+        return false;
+    }
+    g->links = scratch->links.data;
+    g->links[g->link_count++] = link;
+    return true;
+}
+
+// Closes the part of a face from low to high along it. What is closed already stays with whom it is.
+static bool close_face(pl_memory *memory, pl_liquid_scratch *scratch, const view *v, uint32_t c,
+                       double at, double low, double high)
+{
+    pl_liquid_grid *g = &scratch->grid;
+    near_real *open = v->upright ? &g->open_v[c] : &g->open_u[c];
+    near_real *speed = v->upright ? &g->solid_v[c] : &g->solid_u[c];
+    const near_real wanted = (near_real)(high - low), part = wanted < *open ? wanted : *open;
+    if (!(part > 0)) {
+        return true;
+    }
+    *open = *open - part < (near_real)1e-3 ? 0 : *open - part;
+    if (v->body == NULL) {
+        return true;
+    }
+    // The middle of what is closed, seen from the body's centre.
+    const double h = (double)g->h, mid = (low + high) / 2;
+    const double x = (v->corner_x + (v->upright ? mid : at)) * h - v->body->x;
+    const double y = (v->corner_y + (v->upright ? at : mid)) * h - v->body->y;
+    const double arm = v->upright ? x : -y;
+    const double moves = (v->upright ? v->body->vy : v->body->vx) + arm * v->body->w;
+    *speed += part * (near_real)pl_liquid_held(moves, PL_LIQUID_SPEED);
+    return !v->body->moves ||
+           add_link(memory, scratch,
+                    (pl_liquid_link){ c, v->solid->body, v->upright, part, (near_real)arm });
+}
+
+// The first of a tile's cells at or above a place; a large piece may begin far above it.
+static int first_at(double low)
+{
+    return low >= SIDE ? SIDE : low > 0 ? (int)low : 0;
+}
+
+// Lines x = i of a tile, from its left side on.
+static bool close_lines(pl_memory *memory, pl_liquid_scratch *scratch, const view *v)
+{
+    const pl_liquid_solid *s = v->solid;
+    double low, high;
+    for (int i = 0; i < SIDE; ++i) {
+        if (!pl_liquid_chord(v->x, v->y, s->count, s->radius, i, &low, &high)) {
+            continue;
+        }
+        for (int j = first_at(low); j < SIDE && j < high; ++j) {
+            const double from = low > j ? low : j, to = high < j + 1 ? high : j + 1;
+            if (from < to && !close_face(memory, scratch, v, cell_of(v, i, j), i, from, to)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+// Lines y = j + 1/2 from centre to centre; `other`: the view with x and y exchanged.
+static bool close_crossed(pl_memory *memory, pl_liquid_scratch *scratch, const view *v,
+                          const view *other)
+{
+    const pl_liquid_solid *s = v->solid;
+    double low, high;
+    for (int j = 0; j < SIDE; ++j) {
+        if (!pl_liquid_chord(other->x, other->y, s->count, s->radius, j + 0.5, &low, &high)) {
+            continue;
+        }
+        for (int i = first_at(low + 0.5); i < SIDE && i - 0.5 <= high; ++i) {
+            if (i + 0.5 >= low && !close_face(memory, scratch, v, cell_of(v, i, j), i, j, j + 1)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+static double chord_at(const view *v, double at, int j)
+{
+    double low, high;
+    if (!pl_liquid_chord(v->x, v->y, v->solid->count, v->solid->radius, at, &low, &high)) {
+        return 0;
+    }
+    low = low > j ? low : j;
+    high = high < j + 1 ? high : j + 1;
+    return high > low ? high - low : 0;
+}
+
+// The part of a cell that is solid: Gauss's rule of three chords over as much of it as the piece is wide.
+static double part_of(const view *v, int i, int j)
+{
+    const pl_liquid_solid *s = v->solid;
+    const double low = s->low_x - v->corner_x, high = s->high_x - v->corner_x;
+    const double from = low > i ? low : i, to = high < i + 1 ? high : i + 1;
+    if (!(from < to)) {
+        return 0;
+    }
+    const double middle = (from + to) / 2, off = (to - from) * 0.3872983346207417;
+    return (to - from) *
+           (5 * chord_at(v, middle - off, j) + 8 * chord_at(v, middle, j) +
+            5 * chord_at(v, middle + off, j)) /
+           18;
+}
+
+static void cover_cells(pl_liquid_grid *g, const view *v)
+{
+    const pl_liquid_solid *s = v->solid;
+    for (int i = 0; i < SIDE; ++i) {
+        if (s->high_x - v->corner_x < i || s->low_x - v->corner_x > i + 1) {
+            continue;
+        }
+        for (int j = 0; j < SIDE; ++j) {
+            if (s->high_y - v->corner_y < j || s->low_y - v->corner_y > j + 1) {
+                continue;
+            }
+            near_real *cover = &g->cover[cell_of(v, i, j)];
+            *cover += (near_real)part_of(v, i, j);
+            *cover = *cover > 1 ? 1 : *cover;
+        }
+    }
+}
+
+static bool close_tile(pl_memory *memory, pl_liquid_scratch *scratch, const pl_liquid_tile *tile,
+                       uint32_t t, const pl_liquid_solid *s)
+{
+    pl_liquid_grid *g = &scratch->grid;
+    view v = { .solid = s,
+               .body = s->body == PL_LIQUID_NONE ? NULL : &g->bodies[s->body],
+               .first = 1 + t * PL_LIQUID_TILE,
+               .corner_x = (double)tile->x * SIDE,
+               .corner_y = (double)tile->y * SIDE };
+    view up = v;
+    up.upright = true;
+    for (int i = 0; i < s->count; ++i) {
+        const int k = s->count - 1 - i; // mirrored: the other way round
+        v.x[i] = up.y[k] = s->x[i] - v.corner_x;
+        v.y[i] = up.x[k] = s->y[i] - v.corner_y;
+    }
+    cover_cells(g, &v);
+    if (s->thin &&
+        (!close_crossed(memory, scratch, &v, &up) || !close_crossed(memory, scratch, &up, &v))) {
+        return false;
+    }
+    return close_lines(memory, scratch, &v) && close_lines(memory, scratch, &up);
+}
+
+//---- all of them ---------------------------------------------------------------------------------
+
+static bool overlaps(const pl_liquid_tile *tile, const pl_liquid_solid *s, double margin)
+{
+    const double x = (double)tile->x * SIDE, y = (double)tile->y * SIDE;
+    return s->low_x - margin < x + SIDE && s->high_x + margin > x && s->low_y - margin < y + SIDE &&
+           s->high_y + margin > y;
+}
+
+static bool list_solid(pl_memory *memory, pl_liquid_scratch *scratch, pl_liquid_tile *tile,
+                       uint32_t s)
+{
+    const size_t place = (size_t)tile->first_solid + tile->solid_count;
+    if (!pl_buffer_reserve(memory, &scratch->tile_solids, (place + 1) * sizeof(uint32_t))) {
+        return false;
+    }
+    scratch->grid.tile_solids = scratch->tile_solids.data;
+    scratch->grid.tile_solids[place] = s;
+    ++tile->solid_count;
+    return true;
+}
+
+bool pl_liquid_close_faces(pl_memory *memory, pl_liquid_scratch *scratch)
+{
+    pl_liquid_grid *g = &scratch->grid;
+    uint32_t listed = 0;
+    g->link_count = 0;
+    for (uint32_t c = 0; c < g->cell_count; ++c) {
+        g->open_u[c] = g->open_v[c] = 1;
+    }
+    for (uint32_t t = 0; t < g->tile_count; ++t) {
+        pl_liquid_tile *tile = &g->tiles[t];
+        tile->first_solid = listed;
+        tile->solid_count = 0;
+        for (uint32_t s = 0; s < g->solid_count; ++s) {
+            const pl_liquid_solid *solid = &g->solids[s];
+            if (overlaps(tile, solid, PL_LIQUID_REACH) && !list_solid(memory, scratch, tile, s)) {
+                return false;
+            }
+            if (overlaps(tile, solid, 1) && !close_tile(memory, scratch, tile, t, solid)) {
+                return false;
+            }
+        }
+        listed += tile->solid_count;
+    }
+    return true;
+}

@@ -1,0 +1,139 @@
+// step.c - the liquid's two passes.
+//
+// "liquid" comes before the broad phase: bodies are pushed before contacts are looked for, or boats would hop. It
+// leaves where particles will be in scratch, and "liquid motion", behind the last pass that can run out of memory, takes
+// that over; so a refused step has moved nothing. A step is cut where the fastest particle would cross more than a
+// cell.
+//
+// Reads: particles, poses, velocities, masses, pieces. Writes: forces, particles. Cost: see DECISIONS.md.
+#include "liquid/liquid.h"
+#include "schema/passes.h"
+#include "world/rows.h"
+
+#include <math.h>
+#include <string.h>
+
+#define MOST_PARTS   8 // of a step
+#define CELLS_A_PART 1.0
+
+bool pl_want_liquid(const plumb_world *world, const char **reason)
+{
+    const bool wanted = world->liquid.count > 0;
+    *reason = wanted ? "there is liquid" : "there is no liquid";
+    return wanted;
+}
+
+static int parts_of(const plumb_world *world, double h, double dt)
+{
+    const plumb_particle *p = pl_liquid_items(&world->liquid);
+    double most = 0;
+    for (uint32_t i = 0; i < world->liquid.count; ++i) {
+        const double x = fabs((double)p[i].velocity.x), y = fabs((double)p[i].velocity.y);
+        most = x > most ? x : most;
+        most = y > most ? y : most;
+    }
+    most += dt * (fabs((double)world->gravity.x) + fabs((double)world->gravity.y));
+    const double parts = most * dt / h / CELLS_A_PART;
+    return parts > MOST_PARTS ? MOST_PARTS : parts > 1 ? (int)ceil(parts) : 1;
+}
+
+static near_real kick_of(real gravity, real dt)
+{
+    return (near_real)pl_liquid_held((double)gravity * (double)dt, PL_LIQUID_SPEED);
+}
+
+// One part of the step, of all particles in `moved`.
+static bool run_part(plumb_world *world, real dt)
+{
+    pl_liquid_scratch *scratch = world->liquid.scratch;
+    pl_liquid_grid *g = &scratch->grid;
+    pl_memory *memory = &world->memory;
+    const plumb_liquid_desc *d = pl_liquid_desc(&world->liquid);
+    plumb_particle *moved = scratch->moved.data;
+    const double h = 2 * (double)d->spacing;
+    pl_liquid_pull_bodies(world, dt);
+    if (!pl_liquid_grid_build(memory, scratch, moved, world->liquid.count, h) ||
+        !pl_liquid_close_faces(memory, scratch)) {
+        return false;
+    }
+    pl_liquid_to_grid(g);
+    pl_liquid_weigh(g);
+    if (!pl_liquid_plan(memory, scratch)) {
+        return false;
+    }
+    pl_liquid_extrapolate(g, g->u, g->v, 2);
+    pl_liquid_accelerate(g, kick_of(world->gravity.x, dt), kick_of(world->gravity.y, dt));
+    if (d->viscosity > 0) {
+        pl_liquid_diffuse(g, (double)d->viscosity / (double)d->density * (double)dt / (h * h));
+    }
+    pl_liquid_project(g, (double)d->density * h * h);
+    pl_liquid_extrapolate(g, g->u, g->v, 2);
+    pl_liquid_bound(g);
+    pl_liquid_from_grid(g);
+    pl_liquid_even_out(g);
+    pl_liquid_move(g, (double)dt / h, moved);
+    pl_liquid_place_solids(world, (double)dt);
+    return true;
+}
+
+static bool make_scratch(plumb_world *world)
+{
+    pl_liquid *liquid = &world->liquid;
+    if (liquid->scratch == NULL) {
+        liquid->scratch = pl_resize(&world->memory, NULL, 0, sizeof *liquid->scratch);
+        if (liquid->scratch != NULL) {
+            *liquid->scratch = (pl_liquid_scratch){ .push_count = 0 };
+        }
+    }
+    return liquid->scratch != NULL;
+}
+
+plumb_result pl_run_liquid(plumb_world *world, plumb_real dt)
+{
+    pl_liquid *liquid = &world->liquid;
+    const size_t bytes = liquid->count * sizeof(plumb_particle);
+    const double h = 2 * (double)pl_liquid_desc(liquid)->spacing;
+    if (!make_scratch(world)) {
+        return PLUMB_E_MEMORY;
+    }
+    pl_liquid_scratch *scratch = liquid->scratch;
+    scratch->push_count = 0;
+    scratch->grid.h = (near_real)h;
+    if (!pl_buffer_reserve(&world->memory, &scratch->moved, bytes) ||
+        !pl_liquid_find_solids(world, dt)) {
+        return PLUMB_E_MEMORY;
+    }
+    memcpy(scratch->moved.data, liquid->particles.data, bytes);
+    pl_liquid_place_solids(world, 0);
+    const int parts = parts_of(world, h, (double)dt);
+    for (int i = 0; i < parts; ++i) {
+        if (!run_part(world, dt / (real)parts)) {
+            return PLUMB_E_MEMORY;
+        }
+    }
+    pl_liquid_push_rows(world, dt);
+    return PLUMB_OK;
+}
+
+plumb_result pl_run_liquid_motion(plumb_world *world, plumb_real dt)
+{
+    pl_liquid *liquid = &world->liquid;
+    (void)dt;
+    memcpy(liquid->particles.data, liquid->scratch->moved.data,
+           liquid->count * sizeof(plumb_particle));
+    liquid->scratch->push_count = 0;
+    return PLUMB_OK;
+}
+
+void pl_liquid_undo(plumb_world *world)
+{
+    pl_liquid_scratch *scratch = world->liquid.scratch;
+    while (scratch != NULL && scratch->push_count > 0) {
+        const pl_liquid_push *pushes = scratch->pushes.data;
+        const pl_liquid_push *p = &pushes[--scratch->push_count];
+        const uint32_t row = pl_body_row(world, p->body); // it may have moved: bodies woke
+        world->bodies.fx[row] = p->fx;
+        world->bodies.fy[row] = p->fy;
+        world->bodies.torque[row] = p->torque;
+    }
+}

@@ -1,0 +1,148 @@
+// liquid.h - the liquid as it is stored: particles are its state, the grid is scratch of a step.
+#ifndef PL_TABLE_LIQUID_H
+#define PL_TABLE_LIQUID_H
+
+#include "core/memory.h"
+#include "core/near.h"
+#include "core/sort.h"
+#include "plumb/liquid.h"
+
+#define PL_LIQUID_SIDE 16                                // cells along a tile
+#define PL_LIQUID_TILE (PL_LIQUID_SIDE * PL_LIQUID_SIDE) // cells of a tile
+
+enum {
+    PL_LIQUID_P,
+    PL_LIQUID_R,
+    PL_LIQUID_S,
+    PL_LIQUID_Q,
+    PL_LIQUID_Z,
+    PL_LIQUID_E,
+    PL_LIQUID_VECTORS
+}; // of rows: see pressure.c
+
+// A particle as kernels have it, sorted by cells. Lengths in cells.
+typedef struct pl_liquid_point {
+    near_real fx, fy;         // 0..1, place in its cell
+    near_real u, v;           // [m/s]
+    near_real ux, uy, vx, vy; // [m/s] a cell
+    uint32_t cell, index;     // index: among the particles
+} pl_liquid_point;
+
+// Columns of cells; of faces that of a cell's left side (u) and lower side (v). Cell 0 lies outside of all tiles: its
+// neighbours are itself.
+// clang-format off
+#define PL_LIQUID_COLUMNS(X)                                                                          \
+    X(uint32_t, left) X(uint32_t, right) X(uint32_t, down) X(uint32_t, up) /* neighbours */          \
+    X(uint32_t, first) /* of its points */                                                           \
+    X(uint32_t, row) /* of the system of pressures; PL_NONE: air or solid */                         \
+    X(near_real, u) X(near_real, v) /* [m/s] */                                                      \
+    X(near_real, new_u) X(near_real, new_v) /* of a sweep; displacements [cells] */                  \
+    X(near_real, open_u) X(near_real, open_v) /* 0..1 */                                             \
+    X(near_real, solid_u) X(near_real, solid_v) /* [m/s] closed part times the speed of what closes it */ \
+    X(near_real, density) /* of liquid round its centre, over that of rest; solid counts as full */    \
+    X(near_real, solid) /* the solid's part in that */                                               \
+    X(near_real, cover) /* 0..1 of it is solid */                                                    \
+    X(uint8_t, known_u) X(uint8_t, known_v)
+// clang-format on
+
+typedef struct pl_liquid_tile {
+    uint64_t key;
+    int32_t x, y;         // in tiles
+    uint32_t first_solid; // in the list of solids at tiles
+    uint32_t solid_count;
+} pl_liquid_tile;
+
+// A body that the liquid pushes: its velocity is an unknown.
+typedef struct pl_liquid_body {
+    plumb_body body;
+    double x, y, c, s;                 // [m] centre, rotation, at this time of the step
+    double vx, vy, w;                  // [m/s], [rad/s]
+    double inv_mass_x, inv_mass_y;     // [1/kg] 0: it is locked
+    double inv_inertia;                // [1/(kg m^2)]
+    double impulse_x, impulse_y, turn; // [N s], [N m s] since the step began
+    double sum[3];                     // of pressures, in one product with the matrix
+    bool moves;                        // its velocity is unknown: else it is driven
+} pl_liquid_body;
+
+// A part of a face that a moving body closes.
+typedef struct pl_liquid_link {
+    uint32_t cell;  // whose left or lower face
+    uint32_t body;  // place in the grid's list
+    bool upright;   // the lower one
+    near_real part; // 0..1
+    near_real arm;  // [m] about the body's centre: a turn of 1 rad/s moves it so fast along the normal
+} pl_liquid_link;
+
+// A convex piece near the liquid, in cells from the origin of the world.
+typedef struct pl_liquid_solid {
+    uint32_t piece, body; // body: of the list above; PL_NONE: static
+    int count;            // corners
+    bool thin;            // less than a cell across
+    double radius, width; // cells
+    double x[16], y[16];  // cells, at this time of the step
+    double low_x, low_y, high_x, high_y;
+} pl_liquid_solid;
+
+// A row of the system of pressures: a cell with liquid.
+typedef struct pl_liquid_row {
+    uint32_t cell;
+    uint32_t next[4];  // rows at its left, right, down, up; the row behind the last: air
+    near_real open[4]; // 0..1, openness of these faces
+    near_real diagonal;
+} pl_liquid_row;
+
+// Scratch: cells, points and rows of one part of a step.
+typedef struct pl_liquid_grid {
+    near_real h; // [m] side of a cell
+    void *hash;  // which tile lies where
+    uint32_t slots;
+    uint32_t tile_count, cell_count, point_count, row_count, body_count, solid_count, link_count;
+    int32_t low_x, low_y, high_x, high_y; // tiles from low to high
+    pl_liquid_tile *tiles;                // sorted by key
+    pl_liquid_point *points;              // sorted by cell
+    pl_liquid_row *rows;
+    near_real *vectors[PL_LIQUID_VECTORS]; // of rows, and a 0 for the air behind
+    pl_liquid_body *bodies;
+    pl_liquid_link *links;
+    pl_liquid_solid *solids;
+    uint32_t *tile_solids;
+#define PL_LIQUID_DECLARE(type, name) type *name;
+    PL_LIQUID_COLUMNS(PL_LIQUID_DECLARE)
+#undef PL_LIQUID_DECLARE
+} pl_liquid_grid;
+
+// What was on a body before, or what was expected of it.
+typedef struct pl_liquid_push {
+    plumb_body body;
+    plumb_real fx, fy, torque;
+} pl_liquid_push;
+
+// What a step of the liquid needs besides the particles: made when it first flows, as most worlds have none.
+typedef struct pl_liquid_scratch {
+    pl_buffer moved;  // plumb_particle: where they are after the step
+    pl_buffer pushes; // pl_liquid_push
+    uint32_t push_count; // of this step, until nothing can fail any more: they can be undone
+    pl_liquid_grid grid;
+    uint32_t slots; // of the table of tiles, a power of 2
+    pl_buffer cells, tiles, hash, keys, points, rows, vectors, bodies, links, solids, tile_solids;
+} pl_liquid_scratch;
+
+typedef struct pl_liquid {
+    pl_buffer settings; // plumb_liquid_desc: one, or none
+    uint32_t settings_count;
+    uint32_t count;
+    pl_buffer particles; // plumb_particle
+    pl_liquid_scratch *scratch; // NULL: no step has needed it yet
+} pl_liquid;
+
+static inline plumb_particle *pl_liquid_items(const pl_liquid *liquid)
+{
+    return (plumb_particle *)liquid->particles.data;
+}
+
+static inline const plumb_liquid_desc *pl_liquid_desc(const pl_liquid *liquid)
+{
+    return (const plumb_liquid_desc *)liquid->settings.data;
+}
+
+#endif

@@ -1,0 +1,465 @@
+// test_api_liquid.c - the liquid as a user has it: refused calls, what is absent costs nothing, images and
+// deltas, threads and widths, recordings, out of memory.
+#include "harness/heap.h"
+#include "harness/recording.h"
+#include "world_fixture.h"
+
+#include <stdlib.h>
+
+#define DT R(1.0 / 60)
+
+// A tank with a crate and a plank on water, some of which falls; something beside it that the water never meets.
+static plumb_world *make_tank(plumb_world_desc desc)
+{
+    plumb_world *w;
+    assert_int_equal(plumb_world_create(&desc, &w), PLUMB_OK);
+    const plumb_body ground = plumb_body_create(w, &(plumb_body_desc){ .type = PLUMB_STATIC });
+    const plumb_vec2 line[] = { { R(-1.1), 4 }, { R(-1.1), 0 }, { R(1.3), 0 }, { R(1.3), 4 } };
+    plumb_shape_create(w, ground,
+                       &(plumb_shape_desc){ .kind = PLUMB_CHAIN, .points = line, .count = 4 });
+    for (int i = 0; i < 2; ++i) {
+        const plumb_body crate =
+            plumb_body_create(w, &(plumb_body_desc){ .position = { R(i - 0.4), R(1.2 + i) } });
+        const plumb_material m =
+            plumb_material_create(w, &(plumb_material_desc){ .density = R(i == 0 ? 400 : 700) });
+        plumb_shape_create(
+            w, crate,
+            &(plumb_shape_desc){ .kind = PLUMB_BOX, .half = { R(0.25), R(0.2) }, .material = m });
+    }
+    return w;
+}
+
+static plumb_result fill(plumb_world *w)
+{
+    const plumb_vec2 still = { 0, 0 };
+    plumb_result r = plumb_liquid_create(w, &(plumb_liquid_desc){ .viscosity = R(0.5) });
+    if (r == PLUMB_OK) {
+        r = plumb_liquid_add_box(w, plumb_v2(-1, 0), plumb_v2(1, R(0.6)), still);
+    }
+    if (r == PLUMB_OK) {
+        const plumb_vec2 drop[] = { { R(-0.2), 3 }, { R(0.6), 3 }, { R(0.2), R(3.6) } };
+        r = plumb_liquid_add_shape(w, drop, 3, plumb_v2(1, 0));
+    }
+    return r;
+}
+
+static plumb_world *make_full_tank(plumb_world_desc desc)
+{
+    plumb_world *w = make_tank(desc);
+    assert_int_equal(fill(w), PLUMB_OK);
+    return w;
+}
+
+static void run(plumb_world *w, int steps)
+{
+    for (int i = 0; i < steps; ++i) {
+        assert_int_equal(plumb_world_step(w, DT), PLUMB_OK);
+    }
+}
+
+static int count_of(const plumb_world *w)
+{
+    int count;
+    plumb_liquid_particles(w, &count);
+    return count;
+}
+
+//---- calls ---------------------------------------------------------------------------------------
+
+static void bad_settings_are_refused(void **state)
+{
+    fixture *f = *state;
+    plumb_world *w = f->world;
+    const plumb_real bad[] = { R(-1), R(NAN), R(INFINITY), PLUMB_REAL_MAX };
+    assert_int_equal(plumb_liquid_create(NULL, NULL), PLUMB_E_NULL);
+    for (int i = 0; i < 4; ++i) {
+        assert_true(plumb_liquid_create(w, &(plumb_liquid_desc){ .spacing = bad[i] }) != PLUMB_OK);
+        assert_true(plumb_liquid_create(w, &(plumb_liquid_desc){ .density = bad[i] }) != PLUMB_OK);
+        assert_true(plumb_liquid_create(w, &(plumb_liquid_desc){ .viscosity = bad[i] }) !=
+                    PLUMB_OK);
+    }
+    plumb_liquid_desc d;
+    assert_int_equal(plumb_liquid_settings(w, &d), PLUMB_E_STATE);
+    assert_int_equal(plumb_liquid_set(w, NULL), PLUMB_E_STATE);
+    assert_int_equal(plumb_liquid_destroy(w), PLUMB_E_STATE);
+    assert_int_equal(plumb_liquid_create(w, NULL), PLUMB_OK);
+    assert_int_equal(plumb_liquid_create(w, NULL), PLUMB_E_STATE);
+    assert_int_equal(plumb_liquid_settings(w, NULL), PLUMB_E_NULL);
+    assert_int_equal(plumb_liquid_settings(w, &d), PLUMB_OK);
+    assert_true(d.spacing == R(0.05) && d.density == 1000 && d.viscosity == 0);
+    assert_int_equal(plumb_liquid_set(w, &(plumb_liquid_desc){ .spacing = 1 }), PLUMB_E_STATE);
+    assert_int_equal(plumb_liquid_set(w, &(plumb_liquid_desc){ .density = 3, .viscosity = 2 }),
+                     PLUMB_OK);
+    assert_int_equal(plumb_liquid_settings(w, &d), PLUMB_OK);
+    assert_true(d.spacing == R(0.05) && d.density == 3 && d.viscosity == 2);
+    assert_int_equal(plumb_liquid_destroy(w), PLUMB_OK);
+    assert_int_equal(plumb_liquid_create(w, &(plumb_liquid_desc){ .spacing = 1 }), PLUMB_OK);
+}
+
+static void a_world_that_wraps_has_none(void **state)
+{
+    (void)state;
+    plumb_world *w;
+    assert_int_equal(plumb_world_create(&(plumb_world_desc){ .wrap_x = 10 }, &w), PLUMB_OK);
+    assert_int_equal(plumb_liquid_create(w, NULL), PLUMB_E_STATE);
+    plumb_world_destroy(w);
+}
+
+static void bad_particles_are_refused(void **state)
+{
+    fixture *f = *state;
+    plumb_world *w = f->world;
+    const plumb_real bad[] = { R(NAN), R(INFINITY), R(-2e9), R(2e9) };
+    plumb_particle p = { .position = { 1, 1 } };
+    assert_int_equal(plumb_liquid_add(w, &p, 1), PLUMB_E_STATE);
+    plumb_liquid_create(w, NULL);
+    assert_int_equal(plumb_liquid_add(w, NULL, 1), PLUMB_E_NULL);
+    assert_int_equal(plumb_liquid_add(w, &p, -1), PLUMB_E_RANGE);
+    for (int i = 0; i < 4; ++i) {
+        plumb_particle two[2] = { p, p };
+        plumb_real *const members[] = {
+            &two[1].position.x, &two[1].position.y,  &two[1].velocity.x,
+            &two[1].velocity.y, &two[1].gradient[0], &two[1].gradient[3]
+        };
+        for (int k = 0; k < 6; ++k) {
+            const plumb_real good = *members[k];
+            *members[k] = bad[i];
+            assert_true(plumb_liquid_add(w, two, 2) != PLUMB_OK);
+            *members[k] = good;
+        }
+        assert_true(plumb_liquid_add_box(w, plumb_v2(0, bad[i]), plumb_v2(1, 1), p.velocity) !=
+                    PLUMB_OK);
+        assert_true(plumb_liquid_add_box(w, plumb_v2(0, 0), plumb_v2(1, 1), plumb_v2(bad[i], 0)) !=
+                    PLUMB_OK);
+        const plumb_vec2 three[] = { { 0, 0 }, { 1, 0 }, { 0, bad[i] } };
+        assert_true(plumb_liquid_add_shape(w, three, 3, p.velocity) != PLUMB_OK);
+        assert_int_equal(plumb_liquid_remove(w, plumb_v2(0, bad[i]), plumb_v2(1, 1)), -1);
+    }
+    assert_int_equal(plumb_liquid_add_box(w, plumb_v2(1, 0), plumb_v2(0, 1), p.velocity),
+                     PLUMB_E_RANGE);
+    assert_int_equal(plumb_liquid_add_box(w, plumb_v2(0, 0), plumb_v2(1000, 1000), p.velocity),
+                     PLUMB_E_RANGE); // too many
+    assert_int_equal(count_of(w), 0);
+    assert_int_equal(plumb_liquid_add(w, &p, 1), PLUMB_OK);
+    assert_int_equal(plumb_liquid_add_box(w, plumb_v2(0, 0), plumb_v2(R(0.5), R(0.25)), p.velocity),
+                     PLUMB_OK);
+    assert_int_equal(count_of(w), 1 + 10 * 5);
+    assert_int_equal(plumb_liquid_remove(w, plumb_v2(0, 0), plumb_v2(R(0.25), 1)), 25);
+    const plumb_particle *left = plumb_liquid_particles(w, NULL);
+    assert_true(left[0].position.x == 1 && left[1].position.x > R(0.25));
+}
+
+// The fastest, densest and farthest that calls allow: nothing that is not finite comes of it.
+static void extremes_stay_finite(void **state)
+{
+    fixture *f = *state;
+    plumb_world *w = f->world;
+    assert_int_equal(
+        plumb_liquid_create(
+            w, &(plumb_liquid_desc){ .spacing = R(0.2), .density = R(1e9), .viscosity = R(1e9) }),
+        PLUMB_OK);
+    for (int i = 0; i < 50; ++i) {
+        const plumb_real s = i % 2 == 0 ? R(1e6) : R(-1e6);
+        const plumb_particle p = { { R(0.001 * i), R(i % 3) },
+                                   { s, -s },
+                                   { R(1e9), R(-1e9), R(1e9), R(1e9) } };
+        assert_int_equal(plumb_liquid_add(w, &p, 1), PLUMB_OK);
+    }
+    const plumb_particle far = { { R(1e8), R(-1e8) }, { 0, 0 }, { 0 } };
+    assert_int_equal(plumb_liquid_add(w, &far, 1), PLUMB_OK);
+    run(w, 60);
+    const plumb_particle *p = plumb_liquid_particles(w, NULL);
+    for (int i = 0; i < 51; ++i) {
+        const plumb_real *v = (const plumb_real *)&p[i];
+        for (size_t k = 0; k < sizeof *p / sizeof *v; ++k) {
+            assert_true(v[k] - v[k] == 0);
+        }
+    }
+    const plumb_vec2 at = plumb_body_position(w, f->dynamic);
+    assert_true(at.x - at.x == 0 && at.y - at.y == 0);
+}
+
+// Bodies that fly as no float can tell, weigh nothing or all, and a gravity beyond all: particles stay within the bounds
+// of what may be added.
+static void bodies_beyond_bounds_leave_it_finite(void **state)
+{
+    (void)state;
+    const plumb_real most = PLUMB_REAL_MAX / 4;
+    plumb_world *w = make_full_tank((plumb_world_desc){ 0 });
+    const plumb_real densities[] = { R(1e-9), R(1e9), 1 };
+    for (int i = 0; i < 3; ++i) {
+        const plumb_body b = plumb_body_create(
+            w, &(plumb_body_desc){ .type = i == 2 ? PLUMB_KINEMATIC : PLUMB_DYNAMIC,
+                                   .position = { R(0.3 * i - 0.3), R(0.3) } });
+        const plumb_material m =
+            plumb_material_create(w, &(plumb_material_desc){ .density = densities[i] });
+        plumb_shape_create(
+            w, b,
+            &(plumb_shape_desc){ .kind = PLUMB_BOX, .half = { R(0.2), R(0.1) }, .material = m });
+        plumb_body_set_velocity(w, b, plumb_v2(i == 1 ? -most : most, most));
+        plumb_body_set_angular_velocity(w, b, most);
+    }
+    for (int k = 0; k < 3; ++k) {
+        plumb_world_set_gravity(w, plumb_v2(0, k == 1 ? -most : R(-9.81)));
+        for (int i = 0; i < 10; ++i) {
+            plumb_world_step(w, DT); // bodies may be taken out: that is told
+        }
+        int count;
+        const plumb_particle *p = plumb_liquid_particles(w, &count);
+        for (int i = 0; i < count; ++i) {
+            assert_true(p[i].position.x - p[i].position.x == 0);
+            assert_true(p[i].position.y - p[i].position.y == 0);
+            assert_in_range((int64_t)p[i].velocity.x + 1000000, 0, 2000000);
+            assert_in_range((int64_t)p[i].velocity.y + 1000000, 0, 2000000);
+        }
+    }
+    plumb_world_destroy(w);
+}
+
+//---- what is absent ------------------------------------------------------------------------------
+
+static bool has_row(plumb_world *w, const char *name)
+{
+    plumb_pass_info rows[128];
+    const int count = plumb_world_schedule(w, rows, 128);
+    for (int i = 0; i < count; ++i) {
+        if (strcmp(rows[i].name, name) == 0) {
+            return rows[i].scheduled;
+        }
+    }
+    fail();
+    return false;
+}
+
+static void without_particles_there_is_no_pass(void **state)
+{
+    (void)state;
+    plumb_world *w = make_tank((plumb_world_desc){ 0 }), *like = make_tank((plumb_world_desc){ 0 });
+    run(w, 1);
+    assert_false(has_row(w, "liquid"));
+    assert_false(has_row(w, "liquid motion"));
+    assert_int_equal(fill(w), PLUMB_OK);
+    run(w, 1);
+    assert_true(has_row(w, "liquid"));
+    assert_true(has_row(w, "liquid motion"));
+    assert_int_equal(plumb_liquid_destroy(w), PLUMB_OK);
+    run(w, 1);
+    assert_false(has_row(w, "liquid"));
+    run(like, 3);
+    // A liquid without particles moves nothing, and one that is gone has left nothing.
+    plumb_liquid_create(like, NULL);
+    run(like, 30);
+    plumb_liquid_destroy(like);
+    plumb_world *never = make_tank((plumb_world_desc){ 0 });
+    run(never, 33);
+    assert_true(plumb_world_hash(like) == plumb_world_hash(never));
+    plumb_world_destroy(w);
+    plumb_world_destroy(like);
+    plumb_world_destroy(never);
+}
+
+//---- the same bits -------------------------------------------------------------------------------
+
+static void threads_and_widths_change_no_bit(void **state)
+{
+    (void)state;
+    const int widths[] = { 4, 8, 16, 8 }, workers[] = { 1, 1, 1, 3 };
+    uint64_t hashes[4];
+    for (int i = 0; i < 4; ++i) {
+        plumb_world *w =
+            make_full_tank((plumb_world_desc){ .simd_width = widths[i], .workers = workers[i] });
+        run(w, 120);
+        hashes[i] = plumb_world_hash(w);
+        assert_true(hashes[i] == hashes[0]);
+        plumb_world_destroy(w);
+    }
+}
+
+static void *save(const plumb_world *w, size_t *size)
+{
+    *size = plumb_world_snapshot_size(w);
+    void *bytes = malloc(*size);
+    assert_non_null(bytes);
+    assert_int_equal(plumb_world_save(w, bytes, *size), PLUMB_OK);
+    return bytes;
+}
+
+static void images_go_on_with_the_same_bits(void **state)
+{
+    (void)state;
+    plumb_world *w = make_full_tank((plumb_world_desc){ 0 });
+    plumb_world *other = make_tank((plumb_world_desc){ .workers = 2 });
+    size_t size, later_size;
+    run(w, 40); // the drop is in the midst of its splash
+    void *bytes = save(w, &size);
+    run(w, 40);
+    const uint64_t end = plumb_world_hash(w);
+    void *later = save(w, &later_size);
+    assert_int_equal(plumb_world_restore(other, bytes, size), PLUMB_OK);
+    run(other, 40);
+    assert_true(plumb_world_hash(other) == end);
+    assert_int_equal(plumb_world_restore_trusted(w, bytes, size), PLUMB_OK); // rollback
+    run(w, 40);
+    assert_true(plumb_world_hash(w) == end);
+    // Deltas.
+    const size_t bound = plumb_snapshot_delta_bound(later_size);
+    void *delta = malloc(bound), *again = malloc(later_size);
+    size_t used, got;
+    assert_int_equal(plumb_snapshot_delta(bytes, size, later, later_size, delta, bound, &used),
+                     PLUMB_OK);
+    assert_int_equal(plumb_snapshot_apply(bytes, size, delta, used, again, later_size, &got),
+                     PLUMB_OK);
+    assert_true(got == later_size && memcmp(again, later, got) == 0);
+    // One where there is no liquid.
+    plumb_world *dry = make_tank((plumb_world_desc){ 0 });
+    size_t dry_size;
+    void *dry_bytes = save(dry, &dry_size);
+    assert_int_equal(plumb_world_restore(w, dry_bytes, dry_size), PLUMB_OK);
+    assert_int_equal(count_of(w), 0);
+    run(w, 20);
+    run(dry, 20);
+    assert_true(plumb_world_hash(w) == plumb_world_hash(dry));
+    free(bytes), free(later), free(delta), free(again), free(dry_bytes);
+    plumb_world_destroy(w), plumb_world_destroy(other), plumb_world_destroy(dry);
+}
+
+static void recordings_hold_it(void **state)
+{
+    (void)state;
+    plumb_world *w = make_tank((plumb_world_desc){ 0 });
+    recording tape = { 0 };
+    uint64_t hashes[61];
+    assert_int_equal(
+        plumb_recorder_start(w, &(plumb_recorder_desc){ .write = to_recording, .context = &tape }),
+        PLUMB_OK);
+    for (int i = 1; i <= 60; ++i) {
+        if (i == 10) {
+            assert_int_equal(fill(w), PLUMB_OK);
+        }
+        if (i == 45) {
+            assert_in_range(plumb_liquid_remove(w, plumb_v2(-1, 0), plumb_v2(0, 1)), 50, 1000);
+        }
+        run(w, 1);
+        hashes[i] = plumb_world_hash(w);
+    }
+    plumb_recorder_stop(w);
+    plumb_replay *replay;
+    assert_int_equal(plumb_replay_open(tape.bytes, tape.size, NULL, &replay), PLUMB_OK);
+    for (int i = 1; i <= 60; ++i) {
+        assert_int_equal(plumb_replay_step(replay), PLUMB_OK);
+        assert_true(plumb_world_hash(plumb_replay_world(replay)) == hashes[i]);
+    }
+    assert_int_equal(plumb_replay_seek(replay, 33), PLUMB_OK);
+    assert_true(plumb_world_hash(plumb_replay_world(replay)) == hashes[33]);
+    plumb_replay_close(replay);
+    recording_free(&tape);
+    plumb_world_destroy(w);
+}
+
+//---- out of memory -------------------------------------------------------------------------------
+
+// Every allocation of filling and stepping fails once: the call is refused, changes nothing, and succeeds
+// when it is tried again.
+static uint64_t play(heap *h, long fail_at, long *calls, int *refused)
+{
+    *h = (heap){ .fail_at = -1 };
+    plumb_world *w = make_tank((plumb_world_desc){ .allocator = heap_allocator(h) });
+    run(w, 1);
+    const long before = h->calls;
+    h->fail_at = fail_at < 0 ? -1 : before + fail_at;
+    plumb_result r;
+    while ((r = plumb_liquid_create(w, NULL)) == PLUMB_E_MEMORY) {
+        ++*refused;
+    }
+    assert_int_equal(r, PLUMB_OK);
+    while ((r = plumb_liquid_add_box(w, plumb_v2(-1, 0), plumb_v2(1, R(0.6)), plumb_v2(0, 0))) ==
+           PLUMB_E_MEMORY) {
+        ++*refused;
+        assert_int_equal(count_of(w), 0);
+    }
+    for (int i = 0; i < 40; ++i) {
+        const uint64_t hash = plumb_world_hash(w);
+        while ((r = plumb_world_step(w, DT)) == PLUMB_E_MEMORY) {
+            ++*refused;
+            assert_true(plumb_world_hash(w) == hash);
+        }
+        assert_int_equal(r, PLUMB_OK);
+    }
+    *calls = h->calls - before;
+    const uint64_t hash = plumb_world_hash(w);
+    plumb_world_destroy(w);
+    assert_int_equal(h->bytes, 0);
+    return hash;
+}
+
+static void any_allocation_may_fail(void **state)
+{
+    (void)state;
+    static heap h;
+    long calls, unused;
+    int refused = 0;
+    const uint64_t hash = play(&h, -1, &calls, &refused);
+    assert_int_equal(refused, 0);
+    assert_in_range(calls, 12, 400);
+    for (long k = 0; k < calls; ++k) {
+        refused = 0;
+        assert_true(play(&h, k, &unused, &refused) == hash);
+        assert_int_equal(refused, 1);
+    }
+    print_message("%ld allocations, each failed once\n", calls);
+}
+
+// What the liquid put on bodies in a step that went well is no business of a later one that is refused.
+static void forces_of_a_step_are_not_taken_back_by_the_next(void **state)
+{
+    (void)state;
+    static heap h;
+    h = (heap){ .fail_at = -1 };
+    plumb_world *w = make_full_tank((plumb_world_desc){ .allocator = heap_allocator(&h) });
+    run(w, 60);
+    const plumb_body crate = plumb_world_bodies(w).body[0];
+    assert_int_equal(plumb_body_apply_force_center(w, crate, plumb_v2(1, 1)), PLUMB_OK);
+    run(w, 1);
+    assert_true(plumb_liquid_remove(w, plumb_v2(-100, -100), plumb_v2(100, 100)) > 0);
+    for (int i = 0; i < 200; ++i) { // a step that needs room
+        const plumb_body ball =
+            plumb_body_create(w, &(plumb_body_desc){ .position = { R(0.01 * i), 2 } });
+        plumb_shape_create(w, ball, &(plumb_shape_desc){ .kind = PLUMB_CIRCLE, .radius = R(0.5) });
+    }
+    heap_fail(&h, 0);
+    assert_int_equal(plumb_world_step(w, DT), PLUMB_E_MEMORY);
+    assert_true(plumb_body_force(w, crate).x == 0 && plumb_body_force(w, crate).y == 0);
+    plumb_world_destroy(w);
+}
+
+static void a_pool_at_rest_allocates_nothing(void **state)
+{
+    (void)state;
+    static heap h;
+    h = (heap){ .fail_at = -1 };
+    plumb_world *w = make_full_tank((plumb_world_desc){ .allocator = heap_allocator(&h) });
+    run(w, 300);
+    const long calls = h.calls;
+    run(w, 60);
+    assert_int_equal(h.calls, calls);
+    plumb_world_destroy(w);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        API_TEST(bad_settings_are_refused),
+        API_TEST(bad_particles_are_refused),
+        API_TEST(extremes_stay_finite),
+        cmocka_unit_test(bodies_beyond_bounds_leave_it_finite),
+        cmocka_unit_test(a_world_that_wraps_has_none),
+        cmocka_unit_test(without_particles_there_is_no_pass),
+        cmocka_unit_test(threads_and_widths_change_no_bit),
+        cmocka_unit_test(images_go_on_with_the_same_bits),
+        cmocka_unit_test(recordings_hold_it),
+        cmocka_unit_test(any_allocation_may_fail),
+        cmocka_unit_test(forces_of_a_step_are_not_taken_back_by_the_next),
+        cmocka_unit_test(a_pool_at_rest_allocates_nothing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
