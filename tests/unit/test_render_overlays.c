@@ -279,11 +279,48 @@ static void test_cameras_far_out(void **state)
     render_frame_destroy(frame);
 }
 
+// A block of particles covers what it fills, in its colour, and nothing besides; from far off and near by, too.
+static void test_a_liquid_fills_its_area(void **state)
+{
+    (void)state;
+    render_frame *frame = new_frame();
+    render_target *target = new_target(300, 300);
+    render_vec points[400];
+    for (int i = 0; i < 400; i++) {
+        points[i] = (render_vec){ -0.95 + 0.1 * (i % 20), -0.95 + 0.1 * (i / 20) };
+    }
+    assert_int_equal(render_add_liquid(frame, points, 400, 0.1, (render_rgba){ 0, 0, 0, 0 }),
+                     RENDER_OK);
+    draw(target, frame, (render_camera){ .view_height = 3.0 }, flat());
+    const double area = (double)changed_pixels(target) / (100.0 * 100.0);
+    print_message("2 m x 2 m of liquid are drawn as %.3f m^2\n", area);
+    assert_true(area > 4.0 && area < 4.7); // less than a spacing too much on each side
+    const uint8_t *water = pixel(target, 150, 150);
+    assert_true(water[2] > water[0] + 60);
+    assert_memory_equal(pixel(target, 20, 150), &white, 4);
+    render_frame_clear(frame);
+    assert_int_equal(render_add_liquid(frame, points, 400, 0.1, red), RENDER_OK);
+    draw(target, frame, (render_camera){ .view_height = 3.0 }, flat());
+    assert_true(pixel(target, 150, 150)[0] > pixel(target, 150, 150)[2] + 60);
+    assert_int_equal(render_add_liquid(frame, points, 1, 0.1, red), RENDER_OK);
+    assert_int_equal(render_add_liquid(frame, points, 0, 0.1, red), RENDER_OK);
+    const double heights[] = { 1e-9, 1e-3, 1e6, 1e12 };
+    for (int i = 0; i < 4; i++) {
+        draw(target, frame, (render_camera){ .view_height = heights[i] }, flat());
+    }
+    assert_int_equal(render_add_liquid(frame, points, 2, 0.0, red), RENDER_E_ARGUMENT);
+    points[1].x = (double)NAN;
+    assert_int_equal(render_add_liquid(frame, points, 2, 0.1, red), RENDER_E_NOT_FINITE);
+    render_target_destroy(target);
+    render_frame_destroy(frame);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_cameras_far_out),
         cmocka_unit_test(test_every_overlay_is_switchable),
+        cmocka_unit_test(test_a_liquid_fills_its_area),
         cmocka_unit_test(test_joints_have_signs),
         cmocka_unit_test(test_surfaces_run),
         cmocka_unit_test(test_rest_shows_no_velocity),

@@ -9,6 +9,7 @@
 
 #include <float.h>
 #include <math.h>
+#include <stdlib.h>
 
 #include "../render/render.h"
 
@@ -318,12 +319,39 @@ static bool add_contacts(engine_stage *stage, render_frame *frame, unsigned show
     return true;
 }
 
+static bool add_liquid(engine_stage *stage, render_frame *frame)
+{
+    int count;
+    plumb_liquid_desc d;
+    const plumb_particle *p = plumb_liquid_particles(stage->world, &count);
+    if (p == NULL || plumb_liquid_settings(stage->world, &d) != PLUMB_OK) {
+        return true;
+    }
+    render_vec *points = malloc((size_t)count * sizeof *points);
+    if (points == NULL) {
+        return false;
+    }
+    for (int i = 0; i < count; i++) {
+        points[i] = (render_vec){ (double)p[i].position.x, (double)p[i].position.y };
+    }
+    render_rgba color = { 0 };
+    if (stage->scene != NULL) {
+        const scene_liquid f = scene_get_liquid(stage->scene);
+        color = f.palette >= 0 ? render_palette(f.palette)
+                               : (render_rgba){ f.color.r, f.color.g, f.color.b, f.color.a };
+    }
+    render_add_liquid(frame, points, (size_t)count, (double)d.spacing, color);
+    free(points);
+    return true;
+}
+
 int pl_stage_draw(engine_stage *stage, struct render_frame *frame, unsigned show)
 {
     int count = pl_stage_body_count(stage);
     bool good = true, names = wants_names(stage, show);
     plumb_world_desc world = plumb_world_settings(stage->world);
     render_frame_set_period(frame, (double)world.wrap_x, (double)world.wrap_y);
+    good = add_liquid(stage, frame);
     // What does not move lies behind what does.
     for (int layer = 0; layer < 2; layer++) {
         for (int i = 0; i < count && good; i++) {

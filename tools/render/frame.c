@@ -331,11 +331,11 @@ render_result render_add_cell(render_frame *frame, render_box box)
     return add_pair(frame, PLR_CELL, box.min.x, box.min.y, box.max.x, box.max.y);
 }
 
-// A mark with a run of points.
+// A mark with a run of points, `least` of them or more.
 static render_result add_path(render_frame *frame, plr_mark mark, const render_vec *points,
-                              size_t count)
+                              size_t count, size_t least)
 {
-    if (points == NULL || count < 2) {
+    if (points == NULL || count < least) {
         return note(frame, RENDER_E_ARGUMENT);
     }
     for (size_t i = 0; i < count; i++) {
@@ -360,7 +360,20 @@ static render_result add_path(render_frame *frame, plr_mark mark, const render_v
 render_result render_add_trail(render_frame *frame, const render_vec *points, size_t count,
                                int palette)
 {
-    return add_path(frame, (plr_mark){ .kind = PLR_TRAIL, .variant = palette }, points, count);
+    return add_path(frame, (plr_mark){ .kind = PLR_TRAIL, .variant = palette }, points, count, 2);
+}
+
+render_result render_add_liquid(render_frame *frame, const render_vec *points, size_t count,
+                                double spacing, render_rgba color)
+{
+    if (count == 0) {
+        return RENDER_OK;
+    }
+    if (!(spacing > 0)) {
+        return note(frame, RENDER_E_ARGUMENT);
+    }
+    const plr_mark mark = { .kind = PLR_LIQUID, .value = spacing, .color = color };
+    return add_path(frame, mark, points, count, 1);
 }
 
 render_result render_add_joint(render_frame *frame, const render_joint *joint)
@@ -396,7 +409,7 @@ render_result render_add_surface(render_frame *frame, const render_vec *points, 
                                  bool closed, double travel)
 {
     const plr_mark mark = { .kind = PLR_SURFACE, .variant = closed, .value = travel };
-    return add_path(frame, mark, points, count);
+    return add_path(frame, mark, points, count, 2);
 }
 
 render_result render_add_text(render_frame *frame, double x, double y, render_anchor anchor,

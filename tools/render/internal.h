@@ -63,6 +63,7 @@ typedef enum plr_mark_kind {
     PLR_AABB,
     PLR_CELL,
     PLR_TRAIL,
+    PLR_LIQUID,
     PLR_SURFACE,
     PLR_TEXT,
     PLR_MARK_KINDS
@@ -74,7 +75,8 @@ typedef struct plr_mark {
     int variant; ///< anchor, palette index, or whether a surface is closed
     render_vec a;
     render_vec b;
-    double value;       ///< depth of a contact; travel of a surface
+    double value;       ///< depth of a contact; travel of a surface; spacing of a liquid
+    render_rgba color;  ///< liquid
     size_t first_point; ///< trail, surface
     size_t point_count; ///< trail, surface
     size_t text;        ///< offset into frame->text
@@ -271,6 +273,8 @@ void plr_group_draw(plr_painter *painter, const plr_body *body, const plr_paint 
 plr_group *plr_group_create(const render_allocator *allocator);
 void plr_group_destroy(plr_group *group);
 
+/// Liquids, which lie under everything but the grid (liquid.c).
+void plr_draw_liquids(plr_painter *painter);
 /// Trails, which lie under the bodies; cells and boxes (overlay.c).
 void plr_draw_underlay(plr_painter *painter);
 /// Surfaces, boxes, contacts, arrows.

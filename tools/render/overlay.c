@@ -259,6 +259,7 @@ void plr_overlay_sample(plr_painter *painter, plr_mark_kind kind, render_vec mid
         chevron(painter, (render_vec){ middle.x + 0.4 * half, middle.y }, (render_vec){ 1.0, 0.0 },
                 surface_color);
         break;
+    case PLR_LIQUID:
     case PLR_TEXT:
     case PLR_MARK_KINDS:
         break;

@@ -157,6 +157,9 @@ render_result render_add_velocity(render_frame *frame, double x, double y, doubl
 render_result render_add_aabb(render_frame *frame, render_box box);
 /// A grid cell that is in use.
 render_result render_add_cell(render_frame *frame, render_box box);
+/// A liquid of particles, `spacing` > 0 apart at rest: drawn as one body with a surface. Of a colour; a == 0: water.
+render_result render_add_liquid(render_frame *frame, const render_vec *points, size_t count,
+                                double spacing, render_rgba color);
 /// A trail, oldest point first (it fades towards that end), in palette colour `palette`.
 render_result render_add_trail(render_frame *frame, const render_vec *points, size_t count,
                                int palette);

@@ -113,6 +113,7 @@ static render_options with_defaults(const render_options *given, int height)
 static void paint(plr_painter *painter)
 {
     plr_draw_grid(painter);
+    plr_for_images(painter, plr_draw_liquids);
     plr_for_images(painter, plr_draw_underlay);
     plr_for_images(painter, plr_draw_bodies);
     plr_for_images(painter, plr_draw_overlay);

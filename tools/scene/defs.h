@@ -202,6 +202,15 @@ typedef struct sc_expect {
     char description[320];
 } sc_expect;
 
+/// liquid{}
+typedef struct sc_liquid_def {
+    uint64_t present;
+    double spacing, density, viscosity, velocity[2];
+    sc_color color;
+    bool particles;
+    int shape_count;
+} sc_liquid_def;
+
 /// blast{}
 typedef struct sc_blast_def {
     uint64_t present;

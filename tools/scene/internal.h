@@ -241,6 +241,8 @@ struct scene {
     int split; ///< steps of the world in one of the scene
     bool building, finished, stop;
 
+    sc_liquid_def liquid; ///< present: it was made
+    int liquid_line;
     sc_camera camera;
     int camera_line;
     SC_ARRAY(sc_body *) bodies;
@@ -299,7 +301,8 @@ void sc_grow(scene *s, void *array_of_items, int count, int *capacity, size_t it
 
 extern const sc_list sc_list_scene, sc_list_material, sc_list_body, sc_list_camera, sc_list_expect,
     sc_list_exact, sc_list_contact, sc_list_field, sc_list_hit, sc_list_break, sc_list_pair,
-    sc_list_filter, sc_list_motor, sc_list_spring, sc_list_state, sc_list_blast, sc_list_character;
+    sc_list_filter, sc_list_motor, sc_list_spring, sc_list_state, sc_list_blast, sc_list_character,
+    sc_list_liquid;
 extern const sc_list sc_list_queries[SC_QUERIES];
 extern const sc_list sc_list_shapes[SC_SHAPE_KINDS];
 
@@ -335,6 +338,9 @@ void sc_character_make(scene *s, const sc_site *site, const sc_body *b);
 extern const luaL_Reg sc_character_methods[]; ///< of bodies
 plumb_one_way sc_one_way_of(const sc_body_def *d);
 void sc_one_way_check(scene *s, const sc_site *site, const sc_body_def *d);
+/// The outline of the shape whose object is on top of the stack, in its own frame, up to 256 points; raises when it
+/// encloses nothing.
+int sc_shape_outline(scene *s, const sc_site *site, plumb_vec2 points[256]);
 /// The convex shape whose object is on top of the stack, in its own frame; raises when it is none.
 void sc_shape_convex(scene *s, const sc_site *site, plumb_convex *convex);
 
@@ -368,6 +374,7 @@ void sc_open_fluids(lua_State *L);     ///< water, wind
 void sc_open_shapes(lua_State *L);     ///< box, circle, ...
 void sc_open_body(lua_State *L);       ///< methods of bodies
 void sc_open_motion(lua_State *L);     ///< blast
+void sc_open_liquid(lua_State *L);     ///< liquid, liquid_in
 void sc_open_characters(lua_State *L); ///< character
 void sc_open_queries(lua_State *L);    ///< ray, cast, nearest, inside
 void sc_open_joints(lua_State *L);     ///< revolute, wheel, ..., exclude, world
@@ -396,6 +403,7 @@ sc_joint_def sc_joint_now(const scene *s, const sc_joint *joint);
 void sc_build_body(scene *s, const sc_site *site, int table);                         ///< pushes it
 void sc_build_joint(scene *s, const sc_site *site, plumb_joint_kind kind, int table); ///< pushes it
 void sc_build_pair(scene *s, const sc_site *site, int table);
+void sc_build_liquid(scene *s, const sc_site *site, int table);
 void sc_build_camera(scene *s, const sc_site *site, int table);
 void sc_build_expect(scene *s, const sc_site *site, int table);
 void sc_build_exact(scene *s, const sc_site *site, int table);

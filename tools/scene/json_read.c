@@ -169,8 +169,9 @@ static const cJSON *elements(scene *s, const cJSON *root, const char *name)
 
 static void check_root(scene *s, const cJSON *root)
 {
-    static const char *const names[] = { "bodies", "camera",    "excluded", "expect", "format",
-                                         "joints", "materials", "pairs",    "scene",  "time" };
+    static const char *const names[] = { "bodies", "camera", "excluded", "expect",
+                                         "format", "joints", "liquid",   "materials",
+                                         "pairs",  "scene",  "time" };
     sc_site site = { .construct = "file", .path = "" };
     if (!cJSON_IsObject(root)) {
         sc_raise(s, SCENE_E_TYPE, &site, NULL, 0, NULL, "a scene must be an object {...}");
@@ -359,6 +360,11 @@ void sc_json_load(scene *s)
     i = 0;
     for (const cJSON *item = elements(s, root, "excluded"); item != NULL; item = item->next, i++) {
         make_excluded(s, item, i);
+    }
+    const cJSON *liquid = cJSON_GetObjectItemCaseSensitive(root, "liquid");
+    if (liquid != NULL) {
+        make(s, liquid, "liquid", "liquid", sc_build_liquid);
+        lua_settop(L, 1);
     }
     const cJSON *camera = cJSON_GetObjectItemCaseSensitive(root, "camera");
     if (camera != NULL) {

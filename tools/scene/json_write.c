@@ -139,7 +139,8 @@ static void write_axes(writer *w, int axes)
 
 static bool has_json_form(const sc_field *row)
 {
-    return row->kind != SC_FUNCTION && row->kind != SC_TABLE;
+    return row->kind != SC_FUNCTION &&
+           (row->kind != SC_TABLE || strcmp(row->name, "particles") == 0);
 }
 
 static void write_shapes(writer *w, const sc_body *b);
@@ -176,6 +177,23 @@ static void write_numbers(writer *w, const double *numbers, size_t count, bool i
         write_number(w, numbers[i], is_real);
     }
     fputc(']', w->file);
+}
+
+// A particle a line: place, velocity, gradient.
+static void write_particles(writer *w)
+{
+    int count;
+    const plumb_particle *p = plumb_liquid_particles(w->s->world, &count);
+    fputc('[', w->file);
+    for (int i = 0; i < count; i++) {
+        const double numbers[8] = { (double)p[i].position.x,  (double)p[i].position.y,
+                                    (double)p[i].velocity.x,  (double)p[i].velocity.y,
+                                    (double)p[i].gradient[0], (double)p[i].gradient[1],
+                                    (double)p[i].gradient[2], (double)p[i].gradient[3] };
+        fputs(i > 0 ? ",\n" : "\n", w->file);
+        write_numbers(w, numbers, 8, true);
+    }
+    fputs("\n]", w->file);
 }
 
 static const char *name_of(const scene *s, plumb_body body)
@@ -250,8 +268,10 @@ static void write_value(writer *w, const sc_field *row, const void *def, const o
         write_pair(w, numbers + 2, false);
         fputc(']', w->file);
         break;
-    case SC_FUNCTION:
     case SC_TABLE:
+        write_particles(w); // no other table has a JSON form
+        break;
+    case SC_FUNCTION:
         break;
     }
 }
@@ -448,6 +468,24 @@ static void write_materials(writer *w)
     fputs(s->pairs.count > 0 ? "\n],\n" : "", w->file);
 }
 
+// As it is now: shapes and velocity that particles were made with are told by these.
+static void write_liquid(writer *w)
+{
+    const sc_list *list = &sc_list_liquid;
+    sc_liquid_def d = w->s->liquid;
+    int count;
+    plumb_liquid_particles(w->s->world, &count);
+    if (d.present == 0 && count == 0 && w->s->liquid_line == 0) {
+        return;
+    }
+    SC_MARK(list, &d, sc_liquid_def, shape_count, false);
+    SC_MARK(list, &d, sc_liquid_def, velocity, false);
+    SC_MARK(list, &d, sc_liquid_def, particles, count > 0);
+    fputs("\"liquid\":", w->file);
+    write_object(w, list, &d, NULL, &as_said);
+    fputs(",\n", w->file);
+}
+
 bool scene_to_json(const scene *s, FILE *file)
 {
     writer w = { .s = s, .file = file };
@@ -466,6 +504,7 @@ bool scene_to_json(const scene *s, FILE *file)
     write_expects(s, &w);
     fputs("\"format\":\"plumb-scene-1\",\n", file);
     write_joints(&w);
+    write_liquid(&w);
     write_materials(&w);
     fputs("\"scene\":", file);
     write_settings(s, &w);

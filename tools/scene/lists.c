@@ -223,6 +223,19 @@ static const sc_field blast_rows[] = {
 const sc_list sc_list_blast = { "blast", blast_rows, COUNT(blast_rows) };
 #undef T
 
+#define T sc_liquid_def
+static const sc_field liquid_rows[] = {
+    { "color",     SC_COLOR,  AT(T, color),       0, 0, NULL, 0, 0 },
+    { "density",   SC_NUMBER, AT(T, density),     1e-6, 1e9, "kg/m^2", 0, 0 },
+    { "particles", SC_TABLE,  AT(T, particles),   0, 0, NULL, 0, 0 },
+    { "shapes",    SC_SHAPES, AT(T, shape_count), 0, 0, NULL, SC_REST, 0 },
+    { "spacing",   SC_NUMBER, AT(T, spacing),     1e-4, 1e3, "m", 0, 0 },
+    { "velocity",  SC_VEC2,   AT(T, velocity),    -1e6, 1e6, "m/s", 0, 0 },
+    { "viscosity", SC_NUMBER, AT(T, viscosity),   0, 1e9, "Pa s", 0, 0 },
+};
+const sc_list sc_list_liquid = { "liquid", liquid_rows, COUNT(liquid_rows) };
+#undef T
+
 #define T sc_contact_def
 static const sc_field contact_rows[] = {
     { "a",        SC_BODY,     AT(T, a),        0, 0, NULL, 0, 0 },

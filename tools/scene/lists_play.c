@@ -65,7 +65,7 @@ const sc_list *sc_list_at(int i)
     static const sc_list *const single[] = { &sc_list_material, &sc_list_body,   &sc_list_scene,
                                              &sc_list_camera,   &sc_list_pair,   &sc_list_character,
                                              &sc_list_motor,    &sc_list_spring, &sc_list_expect,
-                                             &sc_list_blast };
+                                             &sc_list_blast,    &sc_list_liquid };
     const int count = (int)(sizeof single / sizeof *single);
     return i < count                    ? single[i]
            : i < count + SC_JOINT_KINDS ? &sc_list_joints[i - count]

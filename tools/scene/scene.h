@@ -199,6 +199,12 @@ typedef struct scene_camera {
 } scene_camera;
 
 scene_camera scene_get_camera(const scene *s);
+/// How liquid{} wants it drawn: palette number, -1: see color; color.a 0: neither was said.
+typedef struct scene_liquid {
+    int palette;
+    scene_rgba color;
+} scene_liquid;
+scene_liquid scene_get_liquid(const scene *s);
 
 /// The counters and the text of the scene in one line, e.g. "left 3   right 2   second half"; "" if
 /// none.

@@ -201,6 +201,47 @@ void sc_shape_convex(scene *s, const sc_site *site, plumb_convex *convex)
     }
 }
 
+static int outline_of(const plumb_shape_desc *d, const sc_shape_def *def, plumb_vec2 points[256])
+{
+    enum { AROUND = 64 };
+    if (d->kind == PLUMB_CIRCLE) {
+        for (int i = 0; i < AROUND; i++) {
+            const double a = 2 * 3.141592653589793 * i / AROUND;
+            points[i] = place(def, def->r * sc_cos(a), def->r * sc_sin(a));
+        }
+        return AROUND;
+    }
+    if (d->kind == PLUMB_BOX) {
+        const double x = def->w / 2, y = def->h / 2;
+        const plumb_vec2 corners[4] = { place(def, -x, -y), place(def, x, -y), place(def, x, y),
+                                        place(def, -x, y) };
+        memcpy(points, corners, sizeof corners);
+        return 4;
+    }
+    if (d->kind == PLUMB_POLYGON || d->kind == PLUMB_OUTLINE) {
+        memcpy(points, d->points, (size_t)d->count * sizeof *points);
+        return d->count;
+    }
+    return 0;
+}
+
+int sc_shape_outline(scene *s, const sc_site *site, plumb_vec2 points[256])
+{
+    sc_shape_object *object = sc_to_shape(s->L, -1);
+    if (object->epoch == s->epoch) {
+        s->made.items[object->made].used = true;
+    }
+    const plumb_shape_desc d = describe(s, site, &object->def);
+    const int count = outline_of(&d, &object->def, points);
+    lua_pop(s->L, 1);
+    if (count == 0 || object->def.round != 0) {
+        sc_raise(s, SCENE_E_GEOMETRY, site, NULL, 0, NULL,
+                 "%s{} takes circles, boxes, polygons and outlines without 'round', not this %s{}",
+                 site->construct, sc_shape_kind_name(object->def.kind));
+    }
+    return count;
+}
+
 bool sc_shape_is_sensor(const sc_body *body, const sc_shape_def *shape)
 {
     bool own = SC_GIVEN(&sc_list_shapes[shape->kind], shape, sc_shape_def, sensor);

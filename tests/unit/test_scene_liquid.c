@@ -1,0 +1,111 @@
+// test_scene_liquid.c - liquid{} and liquid_in(): what they fill and tell, what they refuse, the way through JSON.
+#define _POSIX_C_SOURCE 200809L // open_memstream
+#include "scene_fixture.h"
+
+static const char tank[] =
+    "scene{ duration = 1 }\n"
+    "body{ type = 'static', box{6, 1, at = {0, -0.5}}, box{1, 4, at = {-2.5, 2}}, "
+    "box{1, 4, at = {2.5, 2}} }\n"
+    "body{ name = 'crate', box{0.6, 0.4}, density = 400, at = {0.3, 1.4}, angle = 0.2 }\n"
+    "liquid{ spacing = 0.1, density = 900, viscosity = 2, color = '#804020', box{4, 1, at = {0, "
+    "0.5}} "
+    "}\n"
+    "liquid{ circle{0.3, at = {-1, 2}}, polygon{ {-0.2, 2}, {0.8, 2}, {0.3, 3} }, velocity = {1, "
+    "-2} "
+    "}\n"
+    "local area, top, speed, x, y = liquid_in(-2, 0, 2, 1)\n"
+    "print(string.format('%.2f %.2f %.2f %.2f %.2f', area, top, speed, math.abs(x), y))\n"
+    "print(liquid_in(5, 5, 6, 6))\n"
+    "expect{ 'it stays in the tank', at = 1, test = function() return liquid_in(-2, 0, 2, 4) == "
+    "liquid_in(-9, -9, 9, 9) end }\n"
+    "expect{ 'the crate floats', at = 1, body = 'crate', y = {0.9, 1.6} }\n";
+
+static void words_fill_shapes(void **state)
+{
+    (void)state;
+    scene *s = load(tank);
+    plumb_liquid_desc d;
+    assert_int_equal(plumb_liquid_settings(scene_world(s), &d), PLUMB_OK);
+    assert_true(fabs((double)d.spacing - 0.1) < 1e-6 && d.density == 900 && d.viscosity == 2);
+    const scene_liquid looks = scene_get_liquid(s);
+    assert_true(looks.palette < 0 && looks.color.r == 0x80 && looks.color.a == 0xff);
+    int count, moving = 0;
+    const plumb_particle *p = plumb_liquid_particles(scene_world(s), &count);
+    for (int i = 0; i < count; ++i) {
+        moving += p[i].velocity.x == 1 && p[i].velocity.y == -2;
+    }
+    assert_int_equal(count - moving, 400);
+    assert_in_range(moving, 28 + 50 - 8, 28 + 50 + 8); // pi 0.09 + 0.5 m^2
+    run_and_hold(s);
+    scene_destroy(s);
+}
+
+// The same motion, bit for bit, from the start and from the midst of it.
+static void json_keeps_it(void **state)
+{
+    (void)state;
+    for (int before = 0; before <= 20; before += 20) {
+        scene *a = load(tank);
+        steps(a, before);
+        size_t size;
+        char *json = export_json(a, &size);
+        scene *b = load_as("test.json", json, size, NULL);
+        steps(a, 40);
+        steps(b, 40);
+        int count, other;
+        const plumb_particle *p = plumb_liquid_particles(scene_world(a), &count);
+        const plumb_particle *q = plumb_liquid_particles(scene_world(b), &other);
+        assert_int_equal(count, other);
+        assert_true(before > 0 || memcmp(p, q, (size_t)count * sizeof *p) == 0);
+        free(json);
+        json = export_json(b, &size);
+        assert_non_null(
+            strstr(json, "\"liquid\":{\"color\":\"#804020\",\"density\":900,\"particles\":"));
+        free(json);
+        scene_destroy(a);
+        scene_destroy(b);
+    }
+}
+
+static void mistakes_are_told(void **state)
+{
+    (void)state;
+    static const char *const rows[][2] = {
+        { "liquid{ spacing = 0 }", "spacing" },
+        { "liquid{ spacing = 1e-9 }", "spacing" },
+        { "liquid{ density = -1 }", "density" },
+        { "liquid{ viscosity = 0/0 }", "viscosity" },
+        { "liquid{ velocty = {1, 0} }", "did you mean 'velocity'" },
+        { "liquid{ capsule{1, 0.5} }", "takes circles, boxes, polygons and outlines" },
+        { "liquid{ box{1, 1, round = 0.1} }", "without 'round'" },
+        { "liquid{ spacing = 0.0001, box{100, 100} }", "particles" },
+        { "liquid{ particles = {{1}} }", "must be 2, 4 or 8 numbers" },
+        { "liquid{ particles = {{1, 2, 3, 'x'}} }", "must be 2, 4 or 8 numbers" },
+        { "liquid{ particles = {{1, 2, 3, 1e7}} }", "velocity" },
+        { "liquid{ spacing = 0.1 } liquid{ spacing = 0.1 }", "were given on line 1" },
+        { "liquid_in(1, 2, 3)", "takes four numbers" },
+        { "liquid(3)", "liquid" },
+        { "scene{ wrap_x = 10 } liquid{ }", "wraps around" },
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i) {
+        scene *s = NULL;
+        scene_error e = { 0 };
+        const char *text = rows[i][0];
+        scene_load(&(scene_options){ .path = "test.lua", .text = text, .text_size = strlen(text) },
+                   &s, &e);
+        assert_null(s);
+        if (strstr(e.text, rows[i][1]) == NULL || strstr(e.text, "test.lua:1") == NULL) {
+            fail_msg("%s: %s", text, e.text);
+        }
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(words_fill_shapes),
+        cmocka_unit_test(json_keeps_it),
+        cmocka_unit_test(mistakes_are_told),
+    };
+    return cmocka_run_group_tests_name("liquid of scenes", tests, NULL, NULL);
+}
