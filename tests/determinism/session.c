@@ -532,11 +532,31 @@ static void change_joint(session *s)
     }
 }
 
+// Pours some, takes some away; worlds that wrap refuse it.
+static void change_liquid(session *s)
+{
+    plumb_world *w = s->world;
+    const plumb_vec2 at = place(s, -4, 3, 0, 2), far = { at.x + R(0.6), at.y + R(0.3) };
+    const plumb_vec2 velocity = place(s, -2, 2, -1, 1);
+    plumb_liquid_desc d;
+    if (plumb_liquid_settings(w, &d) != PLUMB_OK) {
+        plumb_liquid_create(w, &(plumb_liquid_desc){ .spacing = R(0.1) });
+    } else if (one_in(s, 2)) { // soon: it takes most of a step
+        plumb_liquid_destroy(w);
+        return;
+    } else if (one_in(s, 4)) {
+        plumb_liquid_remove(w, at, far);
+    } else if (one_in(s, 4)) {
+        plumb_liquid_set(w, &(plumb_liquid_desc){ .density = 700, .viscosity = 1 });
+    }
+    plumb_liquid_add_box(w, at, far, velocity);
+}
+
 static void change_world(session *s)
 {
     plumb_world *w = s->world;
     uint32_t m = pick(s, SESSION_MATERIALS);
-    switch (pick(s, 9)) {
+    switch (pick(s, 10)) {
     case 0:
         plumb_world_set_gravity(w, place(s, -2, 2, -12, 0));
         break;
@@ -562,6 +582,9 @@ static void change_world(session *s)
         plumb_world_set_sleep(w, !one_in(s, 3), 0, 0);
         break;
     case 7:
+        change_liquid(s);
+        break;
+    case 8:
         if (s->late.id == 0) { // registered in the midst of it
             register_late(s);
         }
