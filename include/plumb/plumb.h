@@ -26,6 +26,7 @@
 #include "plumb/loop.h"
 #include "plumb/accuracy.h"
 #include "plumb/measure.h"
+#include "plumb/watchdog.h"
 #include "plumb/draw.h"
 
 #endif

@@ -72,6 +72,8 @@ typedef struct plumb_world_desc {
     int simd_width;                 ///< lanes of the contact kernels: 4, 8 or 16; default 0 = best measured.
                                     ///< A pure speed setting: every width gives the same bits
     bool measure;                   ///< each step measures its own error: see plumb/measure.h. Changes no bit
+    bool watchdog;                  ///< each step is watched for what it should never do: see plumb/watchdog.h. Changes no
+                                    ///< bit
     uint32_t body_capacity;         ///< rows to reserve; 0: grow as needed
     uint32_t shape_capacity;        ///< likewise for shapes, of 4 corners
     uint32_t contact_capacity;      ///< likewise for contacts
@@ -196,6 +198,7 @@ typedef struct plumb_stats {
                                  ///< bounce was left to them is lost; the first one is also a warning in the log
     uint32_t arrested_count;     ///< bodies taken out in all, because a step would have left them with a state
                                  ///< that is not finite or beyond 1e12 m or m/s: see plumb_quarantine
+    uint32_t alarm_count;        ///< alarms of the watchdog since it began to watch: see plumb/watchdog.h
     uint32_t exact_factored;     ///< matrices that the exact solver factored in the last step
     uint32_t exact_missed;       ///< of its solutions in that step, those that missed the tolerance; the first one of a
                                  ///< world is also a warning in the log

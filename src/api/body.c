@@ -6,6 +6,7 @@
 #include "world/destroy.h"
 #include "world/stale_edges.h"
 #include "world/island.h"
+#include "world/told.h"
 #include "effects/effects.h"
 #include "world/check.h"
 #include "world/rows.h"
@@ -120,6 +121,7 @@ plumb_result pl_body_insert(plumb_world *world, const char *fn, const plumb_body
     if (asleep) {
         pl_sleep_make(world, row);
     }
+    pl_told(world, body->entity, fn);
     return PLUMB_OK;
 }
 
@@ -176,6 +178,7 @@ plumb_result plumb_body_teleport(plumb_world *world, plumb_body body, plumb_vec2
     PL_TRY(pl_place_check(world, __func__, position, angle));
     PL_TRY(pl_check_unlocked(world, __func__));
     pl_body_place(world, row, position, angle);
+    pl_told(world, body.entity, __func__);
     return PLUMB_OK;
 }
 
@@ -209,6 +212,7 @@ plumb_result plumb_body_set_velocity(plumb_world *world, plumb_body body, plumb_
     PL_TRY(check_locks(world, __func__, row, velocity));
     if (velocity.x != world->bodies.vx[row] || velocity.y != world->bodies.vy[row]) {
         pl_sleep_stir(world, row);
+        pl_told(world, body.entity, __func__);
     }
     pl_target_forget(world, row);
     world->bodies.vx[row] = pl_poses(world)[row].vx = velocity.x;
@@ -229,6 +233,7 @@ plumb_result plumb_body_set_angular_velocity(plumb_world *world, plumb_body body
     }
     if (w != world->bodies.w[row]) {
         pl_sleep_stir(world, row);
+        pl_told(world, body.entity, __func__);
     }
     pl_target_forget(world, row);
     world->bodies.w[row] = w;
@@ -271,6 +276,7 @@ plumb_result plumb_body_set_mass(plumb_world *world, plumb_body body, plumb_real
     b->set_mass[row] = mass;
     b->set_inertia[row] = given ? made.inertia : 0;
     pl_mass_apply(world, row, &made);
+    pl_told(world, body.entity, __func__);
     return PLUMB_OK;
 }
 
@@ -287,6 +293,7 @@ plumb_result plumb_body_reset_mass(plumb_world *world, plumb_body body)
     world->bodies.set_inertia[row] = 0;
     world->bodies.flags[row] &= (uint16_t)~PL_BODY_OWN_CENTER;
     pl_mass_revise(world, row);
+    pl_told(world, body.entity, __func__);
     return PLUMB_OK;
 }
 
@@ -304,6 +311,7 @@ plumb_result plumb_body_set_fixed_rotation(plumb_world *world, plumb_body body, 
         b->w[row] = 0;
     }
     pl_mass_revise(world, row);
+    pl_told(world, body.entity, __func__);
     return PLUMB_OK;
 }
 
@@ -312,6 +320,7 @@ plumb_result plumb_body_set_continuous(plumb_world *world, plumb_body body, bool
     uint32_t row;
     PL_TRY(pl_check_dynamic(world, __func__, body, &row));
     set_continuous(world, row, continuous);
+    pl_told(world, body.entity, __func__);
     return PLUMB_OK;
 }
 

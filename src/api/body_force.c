@@ -10,6 +10,7 @@
 #include "world/island.h"
 #include "world/check.h"
 #include "world/rows.h"
+#include "world/told.h"
 #include "world/wrap.h"
 
 static pl_push push_at(const plumb_world *world, uint32_t row, plumb_vec2 linear, plumb_vec2 point)
@@ -40,6 +41,7 @@ static plumb_result add_force(plumb_world *world, const char *fn, const char *fi
     b->fx[row] = force.x;
     b->fy[row] = force.y;
     b->torque[row] = torque;
+    pl_told(world, b->entity[row].entity, fn);
     return PLUMB_OK;
 }
 
@@ -77,6 +79,7 @@ plumb_result pl_impulse_add(plumb_world *world, const char *fn, uint32_t row, pl
     b->vx[row] = pl_poses(world)[row].vx = v.x;
     b->vy[row] = pl_poses(world)[row].vy = v.y;
     b->w[row] = w;
+    pl_told(world, b->entity[row].entity, fn);
     return PLUMB_OK;
 }
 
@@ -159,5 +162,6 @@ plumb_result plumb_body_clear_forces(plumb_world *world, plumb_body body)
     uint32_t row;
     PL_TRY(pl_check_body(world, __func__, body, &row));
     world->bodies.fx[row] = world->bodies.fy[row] = world->bodies.torque[row] = 0;
+    pl_told(world, body.entity, __func__);
     return PLUMB_OK;
 }

@@ -4,6 +4,7 @@
 // Reads: arguments, checked first. Writes: columns, the body's record (world/body_settings.c). Cost: O(1).
 #include "world/body_settings.h"
 #include "world/island.h"
+#include "world/told.h"
 #include "effects/effects.h"
 #include "world/check.h"
 #include "world/rows.h"
@@ -42,6 +43,7 @@ plumb_result plumb_body_set_damping(plumb_world *world, plumb_body body, plumb_r
     PL_TRY(open(world, __func__, row, &t));
     t.damping = linear;
     t.angular_damping = angular;
+    pl_told(world, body.entity, __func__);
     return store(world, row, &t);
 }
 
@@ -56,6 +58,7 @@ plumb_result plumb_body_set_speed_cap(plumb_world *world, plumb_body body, plumb
     PL_TRY(open(world, __func__, row, &t));
     t.max_speed = max_speed;
     t.max_spin = max_spin;
+    pl_told(world, body.entity, __func__);
     return store(world, row, &t);
 }
 
@@ -67,6 +70,7 @@ plumb_result plumb_body_set_time_scale(plumb_world *world, plumb_body body, plum
     PL_TRY(check(world, __func__, "scale", "time_scale", scale));
     PL_TRY(open(world, __func__, row, &t));
     t.time_scale = scale;
+    pl_told(world, body.entity, __func__);
     store(world, row, &t);
     pl_target_reaim(world, row);
     return PLUMB_OK;
@@ -86,6 +90,7 @@ plumb_result plumb_body_set_time_scale(plumb_world *world, plumb_body body, plum
             pl_sleep_disturb(world, row);                                                          \
         }                                                                                          \
         world->bodies.name[row] = name;                                                            \
+        pl_told(world, body.entity, __func__);                                                     \
         world->schedule_dirty = true;                                                              \
         return PLUMB_OK;                                                                           \
     }

@@ -10,6 +10,7 @@
 #include "world/island.h"
 #include "world/check.h"
 #include "world/rows.h"
+#include "world/told.h"
 
 #define CENTER_MOST ((real)1e7) // [m] as points of shapes: PLUMB_LENGTH_MAX
 
@@ -76,6 +77,7 @@ plumb_result plumb_body_set_type(plumb_world *world, plumb_body body, plumb_body
         hold(world, row);
     }
     pl_body_relocate(world, row);
+    pl_told(world, body.entity, __func__);
     return PLUMB_OK;
 }
 
@@ -89,6 +91,7 @@ plumb_result plumb_body_set_enabled(plumb_world *world, plumb_body body, bool en
         world->bodies.fx[row] = world->bodies.fy[row] = world->bodies.torque[row] = 0;
         pl_body_relocate(world, row);
     }
+    pl_told(world, body.entity, __func__);
     return PLUMB_OK;
 }
 
@@ -110,6 +113,7 @@ plumb_result plumb_body_set_locks(plumb_world *world, plumb_body body, plumb_axi
     pl_mass_revise(world, row);
     pl_sleep_disturb(world, row);
     world->schedule_dirty = true;
+    pl_told(world, body.entity, __func__);
     return PLUMB_OK;
 }
 
@@ -124,6 +128,7 @@ plumb_result plumb_body_set_inertia(plumb_world *world, plumb_body body, plumb_r
     world->bodies.set_inertia[row] = inertia;
     pl_mass_revise(world, row);
     pl_sleep_disturb(world, row);
+    pl_told(world, body.entity, __func__);
     return PLUMB_OK;
 }
 
@@ -146,6 +151,7 @@ plumb_result plumb_body_set_local_center(plumb_world *world, plumb_body body, pl
     pl_mass_apply(world, row, &mass);
     b->flags[row] |= PL_BODY_OWN_CENTER;
     pl_sleep_disturb(world, row);
+    pl_told(world, body.entity, __func__);
     return PLUMB_OK;
 }
 
@@ -159,6 +165,7 @@ plumb_result plumb_body_set_position(plumb_world *world, plumb_body body, plumb_
     PL_TRY(pl_check_unlocked(world, __func__));
     plumb_rot q = { world->bodies.c[row], world->bodies.s[row] };
     pl_body_place_at(world, row, position, q);
+    pl_told(world, body.entity, __func__);
     return PLUMB_OK;
 }
 
@@ -169,5 +176,6 @@ plumb_result plumb_body_set_angle(plumb_world *world, plumb_body body, plumb_rea
     PL_TRY(pl_check_finite(world, __func__, "angle", angle));
     PL_TRY(pl_check_unlocked(world, __func__));
     pl_body_place(world, row, plumb_v2(world->bodies.x[row], world->bodies.y[row]), angle);
+    pl_told(world, body.entity, __func__);
     return PLUMB_OK;
 }

@@ -9,7 +9,7 @@
 #include "world/check.h"
 #include "world/desc_list.h"
 #include "world/destroy.h"
-#include "world/state.h"
+#include "world/told.h"
 
 #include <string.h>
 
@@ -202,6 +202,7 @@ plumb_result plumb_character_walk(plumb_world *world, plumb_body body, plumb_rea
     PL_TRY(pl_check_range(world, __func__, "speed", speed, -SPEED_MOST, SPEED_MOST));
     c->walk = pl_rightward(world, speed);
     c->flies = false;
+    pl_told(world, body.entity, __func__);
     return PLUMB_OK;
 }
 
@@ -212,6 +213,7 @@ plumb_result plumb_character_fly(plumb_world *world, plumb_body body, plumb_vec2
     PL_TRY(pl_check_within(world, __func__, "velocity", velocity, SPEED_MOST));
     c->fly = velocity;
     c->flies = true;
+    pl_told(world, body.entity, __func__);
     return PLUMB_OK;
 }
 
@@ -228,6 +230,7 @@ bool plumb_character_jump(plumb_world *world, plumb_body body, plumb_real speed)
         return false;
     }
     c->jump = speed;
+    pl_told(world, body.entity, __func__);
     return true;
 }
 
@@ -241,6 +244,7 @@ plumb_result plumb_character_set_velocity(plumb_world *world, plumb_body body, p
     }
     c->velocity = velocity;
     c->thrown = true;
+    pl_told(world, body.entity, __func__);
     return PLUMB_OK;
 }
 

@@ -15,6 +15,7 @@
 #include "world/destroy.h"
 #include "world/observer.h"
 #include "world/rows.h"
+#include "world/told.h"
 
 #include <string.h>
 
@@ -353,6 +354,7 @@ static plumb_result run_on_live(plumb_world *world, const record *r, const char 
     case TELEPORT:
         pl_body_place(world, pl_body_row(world, (plumb_body){ r->target }),
                       plumb_v2((plumb_real)r->x, (plumb_real)r->y), (plumb_real)r->angle);
+        pl_told(world, r->target, command_names[r->kind]);
         return PLUMB_OK;
     case SET_COMPONENT:
         return pl_component_put(world, r->target, r->component, r->has_more ? payload : NULL)

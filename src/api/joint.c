@@ -7,6 +7,7 @@
 #include "world/destroy.h"
 #include "world/joint_list.h"
 #include "world/rows.h"
+#include "world/told.h"
 #include "world/wrap.h"
 
 #include <string.h>
@@ -209,6 +210,7 @@ static plumb_joint insert(plumb_world *world, const plumb_joint_desc *d)
     world->joints.watched += pl_joint_is_watched(d);
     world->joints.bouncing += pl_joint_bounces(d);
     pl_joint_revise(world, j);
+    pl_told(world, j->entity.entity, "plumb_joint_create");
     return j->entity;
 }
 

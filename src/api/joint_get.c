@@ -2,6 +2,7 @@
 // O(1), lists O(joints).
 #include "world/joint_list.h"
 #include "joints/joint.h"
+#include "joints/measure.h"
 #include "plumb/math.h"
 #include "world/check.h"
 #include "world/state.h"
@@ -89,19 +90,7 @@ plumb_real plumb_joint_error(const plumb_world *world, plumb_joint joint)
     if (j == NULL) {
         return 0;
     }
-    pl_joint now = *j;
-    pl_rows rows = { .count = 0 };
-    pl_joint_begin(world, &now);
-    pl_joint_classes[j->desc.kind]->rows(&now, &now.pose_a, &now.pose_b, &rows);
-    double most = 0, sum = 0;
-    for (int i = 0; i < rows.count; ++i) {
-        if (pl_row_is_rigid(&rows.row[i])) {
-            const double error = fabs((double)pl_held((double)rows.row[i].error));
-            most = error > most ? error : most;
-            sum += error * error;
-        }
-    }
-    return pl_held(sum - sum == 0 ? sqrt(sum) : most); // squares beyond all doubles: beyond 1e154
+    return pl_joint_off(world, j);
 }
 
 int plumb_world_joints(const plumb_world *world, plumb_joint *joints, int capacity)

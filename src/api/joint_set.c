@@ -4,7 +4,7 @@
 #include "joints/joint.h"
 #include "plumb/math.h"
 #include "world/check.h"
-#include "world/state.h"
+#include "world/told.h"
 
 // The live joint, whose kind has `needs` (called `what` in the message).
 static plumb_result find(plumb_world *world, const char *fn, plumb_joint joint, unsigned needs,
@@ -32,8 +32,10 @@ static bool differ(const plumb_joint_desc *a, const plumb_joint_desc *b)
 }
 
 // Another descriptor, with which the joint may be solved in another way. What is set to what it was wakes nobody.
-static plumb_result revise(plumb_world *world, pl_joint *joint, plumb_joint_desc wanted)
+static plumb_result revise(plumb_world *world, const char *fn, pl_joint *joint,
+                           plumb_joint_desc wanted)
 {
+    pl_told(world, joint->entity.entity, fn);
     if (differ(&joint->desc, &wanted)) {
         pl_joint_disturb(world, joint);
     }
@@ -66,7 +68,7 @@ plumb_result plumb_joint_set_limit(plumb_world *world, plumb_joint joint, bool e
     wanted.enable_limit = enabled;
     wanted.lower = lower;
     wanted.upper = upper;
-    return revise(world, j, wanted);
+    return revise(world, __func__, j, wanted);
 }
 
 plumb_result plumb_joint_set_restitution(plumb_world *world, plumb_joint joint,
@@ -77,7 +79,7 @@ plumb_result plumb_joint_set_restitution(plumb_world *world, plumb_joint joint,
     PL_TRY(pl_check_range(world, __func__, "restitution", restitution, 0, 1));
     plumb_joint_desc wanted = j->desc;
     wanted.restitution = restitution;
-    return revise(world, j, wanted);
+    return revise(world, __func__, j, wanted);
 }
 
 plumb_result plumb_joint_set_motor(plumb_world *world, plumb_joint joint, bool enabled,
@@ -92,7 +94,7 @@ plumb_result plumb_joint_set_motor(plumb_world *world, plumb_joint joint, bool e
     wanted.motor_speed = speed;
     wanted.max_motor = max_motor;
     pl_joint_warn_of_motor(world, __func__, &wanted);
-    return revise(world, j, wanted);
+    return revise(world, __func__, j, wanted);
 }
 
 static plumb_result revise_spring(plumb_world *world, const char *fn, pl_joint *joint,
@@ -101,7 +103,7 @@ static plumb_result revise_spring(plumb_world *world, const char *fn, pl_joint *
     if (joint->desc.kind == PLUMB_MOUSE) {
         PL_TRY(pl_joint_classes[PLUMB_MOUSE]->check(world, fn, &wanted)); // resolves defaults
     }
-    return revise(world, joint, wanted);
+    return revise(world, fn, joint, wanted);
 }
 
 plumb_result plumb_joint_set_spring(plumb_world *world, plumb_joint joint, plumb_real hertz,
@@ -149,6 +151,7 @@ plumb_result plumb_joint_set_target(plumb_world *world, plumb_joint joint, plumb
         pl_joint_disturb(world, j);
     }
     *kept = target;
+    pl_told(world, joint.entity, __func__);
     return PLUMB_OK;
 }
 
@@ -169,7 +172,7 @@ plumb_result plumb_joint_set_break(plumb_world *world, plumb_joint joint, plumb_
     plumb_joint_desc wanted = j->desc;
     wanted.break_force = force;
     wanted.break_torque = torque;
-    return revise(world, j, wanted);
+    return revise(world, __func__, j, wanted);
 }
 
 plumb_result plumb_joint_set_event(plumb_world *world, plumb_joint joint, plumb_real force,
@@ -180,7 +183,7 @@ plumb_result plumb_joint_set_event(plumb_world *world, plumb_joint joint, plumb_
     plumb_joint_desc wanted = j->desc;
     wanted.event_force = force;
     wanted.event_torque = torque;
-    return revise(world, j, wanted);
+    return revise(world, __func__, j, wanted);
 }
 
 plumb_result plumb_joint_set_break_impulse(plumb_world *world, plumb_joint joint,
@@ -192,7 +195,7 @@ plumb_result plumb_joint_set_break_impulse(plumb_world *world, plumb_joint joint
     plumb_joint_desc wanted = j->desc;
     wanted.break_impulse = impulse;
     pl_joints_replan(&world->joints); // perhaps it is solved by itself from now on
-    return revise(world, j, wanted);
+    return revise(world, __func__, j, wanted);
 }
 
 plumb_result plumb_joint_set_tell_impulse(plumb_world *world, plumb_joint joint, bool tell)
@@ -201,7 +204,7 @@ plumb_result plumb_joint_set_tell_impulse(plumb_world *world, plumb_joint joint,
     PL_TRY(find(world, __func__, joint, 0, "", &j));
     plumb_joint_desc wanted = j->desc;
     wanted.tell_impulse = tell;
-    return revise(world, j, wanted);
+    return revise(world, __func__, j, wanted);
 }
 
 plumb_result plumb_joint_set_enabled(plumb_world *world, plumb_joint joint, bool enabled)
@@ -217,6 +220,7 @@ plumb_result plumb_joint_set_enabled(plumb_world *world, plumb_joint joint, bool
             pl_rearranged(world);
         }
     }
+    pl_told(world, joint.entity, __func__);
     return PLUMB_OK;
 }
 

@@ -8,7 +8,7 @@ plumb_result plumb_world_set_measure(plumb_world *world, bool measure)
 {
     PL_TRY(pl_check_unlocked(world, __func__));
     world->desc.measure = measure;
-    world->schedule.watched = pl_watched(world->schedule.watched, measure);
+    world->schedule.watched = pl_watched_bits(world->schedule.watched, &world->desc);
     world->schedule_dirty = true;
     return PLUMB_OK;
 }

@@ -23,6 +23,7 @@
 #include "step/pass.h"
 #include "step/quarantine.h"
 #include "step/system.h"
+#include "watchdog/watchdog.h"
 #include "world/rows.h"
 
 typedef struct listing {
@@ -130,7 +131,7 @@ static size_t query_grid_bytes(const pl_query_grid_set *set)
 
 static void tell_rest(listing *out, const plumb_world *w)
 {
-    size_t characters = 0, liquid = 0, systems = 0, measures = 0;
+    size_t characters = 0, liquid = 0, systems = 0, measures = 0, watchdog = 0;
     size_t effects = BUFFERS(&w->settings.items, &w->targets.items);
     size_t events = BUFFERS(&w->begin_events, &w->end_events, &w->changed_pairs, &w->hit_events);
     PART(characters, pl_characters, w->characters, pl_characters_free(&dry, &copy));
@@ -138,6 +139,7 @@ static void tell_rest(listing *out, const plumb_world *w)
     PART(systems, pl_systems, w->systems, pl_systems_free(&dry, &copy));
     PART(systems, pl_schedule, w->schedule, pl_schedule_free(&dry, &copy));
     PART(measures, pl_measure, w->measure, pl_measure_free(&dry, &copy));
+    PART(watchdog, pl_watchdog, w->watchdog, pl_watchdog_free(&dry, &copy));
     PART(effects, pl_effects, w->effects, pl_effects_free(&dry, &copy));
     PART(systems, pl_commands, w->commands, pl_commands_free(&dry, &copy));
     PART(events, pl_parts, w->parts, pl_parts_free(&dry, &copy));
@@ -151,6 +153,7 @@ static void tell_rest(listing *out, const plumb_world *w)
     tell(out, "components", component_bytes(&w->components), w->components.count);
     tell(out, "systems", systems, w->systems.count);
     tell(out, "measures", measures, 0);
+    tell(out, "watchdog", watchdog, 0);
 }
 
 int plumb_world_memory(const plumb_world *world, plumb_memory_row *rows, int capacity)

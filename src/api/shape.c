@@ -8,6 +8,7 @@
 #include "world/check.h"
 #include "world/filter.h"
 #include "world/rows.h"
+#include "world/told.h"
 
 //---- create, destroy -----------------------------------------------------------------------------
 
@@ -85,6 +86,7 @@ plumb_shape plumb_shape_create(plumb_world *world, plumb_body body, const plumb_
         pl_check_unlocked(world, __func__) == PLUMB_OK &&
         pl_shape_make(world, __func__, desc, &made) == PLUMB_OK) {
         pl_shape_insert(world, __func__, row, desc, &made, &shape);
+        pl_told(world, body.entity, __func__);
     }
     return shape;
 }

@@ -24,6 +24,7 @@
 #include "step/pass.h"
 #include "step/quarantine.h"
 #include "step/system.h"
+#include "watchdog/watchdog.h"
 #include "world/check.h"
 #include "world/island.h"
 #include "world/observer.h"
@@ -176,6 +177,7 @@ static void free_world(plumb_world *world)
     pl_schedule_free(&memory, &world->schedule);
     pl_effects_free(&memory, &world->effects);
     pl_measure_free(&memory, &world->measure);
+    pl_watchdog_free(&memory, &world->watchdog);
     pl_commands_free(&memory, &world->commands);
     pl_buffer_free(&memory, &world->made);
     pl_buffer_free(&memory, &world->outline);
@@ -228,7 +230,7 @@ plumb_result plumb_world_create(const plumb_world_desc *desc, plumb_world **worl
     memset(made, 0, sizeof *made); // a compound literal would be built on the stack
     made->desc = *desc;
     made->memory = memory;
-    made->schedule.watched = pl_watched(0, desc->measure);
+    made->schedule.watched = pl_watched_bits(0, desc);
     init_tables(made);
     plumb_result r = check_desc(made, "plumb_world_create", desc);
     if (r == PLUMB_OK) {
@@ -420,6 +422,7 @@ plumb_stats plumb_world_stats(const plumb_world *world)
         .exact_residual = world->exact.residual,
         .cut_chain_count = world->solver.cut_count,
         .arrested_count = world->arrested_count,
+        .alarm_count = world->watchdog.total,
         .fast_count = world->continuous.count,
         .stopped_count = world->continuous.stopped_count,
         .simd_width = world->desc.simd_width,

@@ -7,6 +7,7 @@
 // their bodies. Cost: O(targets).
 #include "effects/effects.h"
 #include "world/body_settings.h"
+#include "world/told.h"
 #include "plumb/math.h"
 #include "world/check.h"
 #include "world/rows.h"
@@ -70,6 +71,7 @@ plumb_result plumb_body_set_target(plumb_world *world, plumb_body body, plumb_ve
     world->bodies.flags[row] |= PL_BODY_TARGETED;
     world->schedule_dirty = true;
     aim(world, row, target, dt);
+    pl_told(world, body.entity, __func__);
     return PLUMB_OK;
 }
 

@@ -99,3 +99,20 @@ void pl_joints_errors(const plumb_world *world, plumb_measures *m)
         }
     }
 }
+
+real pl_joint_off(const plumb_world *world, const pl_joint *j)
+{
+    pl_joint now = *j;
+    pl_rows rows = { .count = 0 };
+    pl_joint_begin(world, &now);
+    pl_joint_classes[j->desc.kind]->rows(&now, &now.pose_a, &now.pose_b, &rows);
+    double most = 0, sum = 0;
+    for (int i = 0; i < rows.count; ++i) {
+        if (pl_row_is_rigid(&rows.row[i])) {
+            const double error = fabs((double)pl_held((double)rows.row[i].error));
+            most = error > most ? error : most;
+            sum += error * error;
+        }
+    }
+    return pl_held(sum - sum == 0 ? sqrt(sum) : most); // squares beyond all doubles: beyond 1e154
+}

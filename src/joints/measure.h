@@ -22,6 +22,8 @@ void pl_joints_keep(const pl_joint_context *context, uint32_t thread);
 void pl_joints_measure(const pl_joint_context *context, pl_measuring *m);
 // Room for the copies. False when out of memory.
 bool pl_joints_measure_reserve(plumb_world *world);
+// How far the rigid rows of a joint are off, [m] and [rad], where its bodies are: the root of the sum of squares.
+plumb_real pl_joint_off(const plumb_world *world, const pl_joint *joint);
 // Errors of joints that are awake, where their bodies are.
 void pl_joints_errors(const plumb_world *world, plumb_measures *m);
 

@@ -28,6 +28,8 @@
 #define PL_PASSES(X)                                                                                                                         \
     X("measure",           COMMANDS,    IF(pl_want_measures),        ONCE(pl_run_measure_open),                              ONCE,           \
       "poses, velocities, masses, joints", "", ONE)                                                                                          \
+    X("watch",             COMMANDS,    IF(pl_want_watchdog),        ONCE(pl_run_watch),                                     ONCE,           \
+      "poses, velocities, masses, pieces, joints", "", ONE)                                                                                  \
     X("guard",             COMMANDS,    ALWAYS,                      ONCE(pl_run_guard),                                     REFRESHES,      \
       "velocities, forces", "rows", ONE)                                                                                                     \
     X("begin systems",     BEGIN,       ALWAYS,                      HOME,                                                   ONCE,           \
@@ -154,7 +156,9 @@
     X("end systems",       END,         ALWAYS,                      HOME,                                                   ONCE,           \
       "", "", ONE)                                                                                                                           \
     X("measure sums",      END,         IF(pl_want_measures),        ONCE(pl_run_measure_close),                             ONCE,           \
-      "poses, velocities, masses, joints", "", ONE)
+      "poses, velocities, masses, joints", "", ONE)                                                                                          \
+    X("watchdog",          END,         IF(pl_want_watchdog),        ONCE(pl_run_watchdog),                                  ONCE,           \
+      "poses, velocities, masses, pieces, grids, pairs, manifolds, joints", "", ONE)
 // clang-format on
 
 struct pl_substep;

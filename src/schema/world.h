@@ -51,6 +51,8 @@
       "lanes of the contact kernels: 4, 8, 16; 0: the best measured; every width gives the same bits") \
     R(X, HERE, BOOL, measure, SAID(measure), "1", CHOICES(1), 0, NO_ZERO,                           \
       "the world measures its error: residuals, and energy by what changed it")                     \
+    R(X, HERE, BOOL, watchdog, SAID(watchdog), "1", CHOICES(1), 0, NO_ZERO,                         \
+      "the world tells alarms: energy jumps, tunnelling, torn joints and the like, with what was called last") \
     R(X, HERE, INT, workers, SAID(workers), "1", FROM(0, PLUMB_WORKERS_MAX), 1, NO_ZERO,            \
       "threads that share the work of a step; any number gives the same bits")
 // clang-format on

@@ -33,7 +33,7 @@
 // clang-format off
 #define PL_STATE_DESC(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                       \
     PL_WORLD_ROWS(PL_ROW_STATE, VALUE)                                                            \
-    LEFT(desc.workers) LEFT(desc.measure) LEFT(desc.tasks)                                                            \
+    LEFT(desc.workers) LEFT(desc.measure) LEFT(desc.watchdog) LEFT(desc.tasks)                                                            \
     LEFT(desc.simd_width) /* of this machine; every width gives the same bits */                   \
     LEFT(desc.body_capacity) LEFT(desc.shape_capacity) LEFT(desc.contact_capacity)                 \
     LEFT(desc.allocator) LEFT(desc.log) LEFT(desc.assert_failed) LEFT(desc.hook_context)           \
@@ -182,7 +182,7 @@
     ARRAY(uint64_t, excluded, excluded_count, sizeof(uint64_t), 8)                                 \
     ARRAY(pl_material_pair, material_pairs, material_pair_count,                                   \
           sizeof(uint64_t) + sizeof(plumb_material_pair), 8)                                       \
-    LEFT(schedule) LEFT(effects) LEFT(measure) LEFT(exact) LEFT(begin_events) LEFT(end_events) LEFT(changed_pairs) LEFT(hit_events)                            \
+    LEFT(schedule) LEFT(effects) LEFT(measure) LEFT(watchdog) LEFT(exact) LEFT(begin_events) LEFT(end_events) LEFT(changed_pairs) LEFT(hit_events)                            \
     LEFT(begin_count) LEFT(end_count) LEFT(hit_count)                                              \
     LEFT(checking) LEFT(checked) LEFT(observer) LEFT(locked_by) LEFT(editing) VALUE(edited) LEFT(in_hook) LEFT(error) LEFT(error_text)
 

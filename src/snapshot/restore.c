@@ -16,6 +16,7 @@
 #include "narrow/narrow.h"
 #include "plumb/snapshot.h"
 #include "snapshot/image.h"
+#include "watchdog/watchdog.h"
 #include "world/check.h"
 #include "world/push.h"
 
@@ -197,6 +198,7 @@ static void forget_last_step(plumb_world *world)
     world->sleep.events_told = false;
     world->joints.broken_count = world->joints.strained_count = 0;
     world->quarantine.event_count = 0;
+    pl_watchdog_forget(&world->watchdog);
     world->continuous.count = world->continuous.stopped_count = 0;
     pl_narrow_clear(&world->narrow);
     world->solver.slot_count = world->solver.dynamic_slots = 0;

@@ -163,7 +163,7 @@ plumb_result plumb_world_watch(plumb_world *world, unsigned what)
         return pl_fail_memory(world, __func__);
     }
     memset((char *)s->times.data + known, 0, s->times.size - known);
-    s->watched = pl_watched(what, world->desc.measure);
+    s->watched = pl_watched_bits(what, &world->desc);
     return PLUMB_OK;
 }
 

@@ -16,6 +16,7 @@
 #include "step/system.h"
 #include "world/check.h"
 #include "world/observer.h"
+#include "watchdog/watchdog.h"
 #include "world/state.h"
 
 // Nothing is left from a step in which there was collision.
@@ -44,12 +45,50 @@ static pl_once_fn *once_of(plumb_world *world, uint32_t line)
     return place.system == PL_NO_SYSTEM ? pl_passes[place.pass].run : NULL;
 }
 
+static const char *const homes[] = {
+    [PLUMB_PHASE_BEGIN] = "begin systems",
+    [PLUMB_PHASE_FORCES] = "force systems",
+    [PLUMB_PHASE_CONTACTS] = "contact systems",
+    [PLUMB_PHASE_END] = "end systems",
+};
+
+static pl_doing doing_of(plumb_world *world, uint32_t line)
+{
+    static const struct {
+        pl_once_fn *run;
+        pl_doing doing;
+    } rows[] = { { NULL, PL_DOES_SYSTEM },          { pl_run_broad, PL_DOES_FILE },
+                 { pl_run_waking, PL_DOES_WAKE },   { pl_run_characters, PL_DOES_MOVE },
+                 { pl_run_motion, PL_DOES_MOTION }, { pl_run_continuous, PL_DOES_STOP },
+                 { pl_run_arrive, PL_DOES_MOVE },   { pl_run_edges, PL_DOES_SHIFT } };
+    pl_once_fn *const run = once_of(world, line);
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; ++i) {
+        if (rows[i].run == run) {
+            return rows[i].doing;
+        }
+    }
+    return PL_DOES_NOTHING;
+}
+
+static void watch_row(plumb_world *world, uint32_t line, real dt)
+{
+    const pl_line place = pl_schedule_place(world, line);
+    const bool is_system = place.system != PL_NO_SYSTEM;
+    pl_watchdog_after(world, doing_of(world, line),
+                      is_system ? homes[world->systems.items[place.system].desc.phase]
+                                : pl_passes[place.pass].name,
+                      place.system, dt);
+}
+
 // Around a row, where somebody watches. Returns when it starts [ns], if times are watched.
 static double open_row(plumb_world *world, uint32_t line)
 {
     const unsigned watched = world->schedule.watched;
     if ((watched & PL_WATCH_MEASURES) != 0) {
         pl_measure_before(world, once_of(world, line));
+    }
+    if ((watched & PL_WATCH_DOG) != 0) {
+        pl_watchdog_before(world, doing_of(world, line));
     }
     if ((watched & PLUMB_WATCH_WRITES) != 0) {
         pl_check_before(world);
@@ -70,6 +109,9 @@ static void close_row(plumb_world *world, uint32_t line, double start, real dt)
     }
     if ((watched & PL_WATCH_MEASURES) != 0) {
         pl_measure_after(world, once_of(world, line), dt);
+    }
+    if ((watched & PL_WATCH_DOG) != 0) {
+        watch_row(world, line, dt);
     }
 }
 
@@ -149,13 +191,6 @@ static void run_observed(plumb_world *world, group g, plumb_phase phase, real dt
         observer->after(observer, world, phase);
     }
 }
-
-static const char *const homes[] = {
-    [PLUMB_PHASE_BEGIN] = "begin systems",
-    [PLUMB_PHASE_FORCES] = "force systems",
-    [PLUMB_PHASE_CONTACTS] = "contact systems",
-    [PLUMB_PHASE_END] = "end systems",
-};
 
 // What systems leave without a finite state is taken out: at once where nothing of the step has been found out yet.
 static void run_group(plumb_world *world, group g, real dt)
@@ -266,6 +301,7 @@ plumb_result pl_step(plumb_world *world, real dt)
     }
     pl_tasks_rouse(world->tasks);
     pl_quarantine_begin(world);
+    world->watchdog.count = 0;
     pl_dial_begin(world, dt);
     pl_schedule_begin(world);
     plumb_result result = try_step(world, dt);

@@ -26,6 +26,7 @@
 #include "world/tables/sleep.h"
 #include "world/tables/solver.h"
 #include "world/tables/step.h"
+#include "world/tables/watchdog.h"
 #include "world/component.h"
 
 // A size class of the vertex pool holds runs of 4, 8 or 16 corners.
@@ -123,6 +124,7 @@ struct plumb_world {
     pl_schedule schedule;
     pl_quarantine quarantine;
     pl_measure measure;
+    pl_watchdog watchdog;
     pl_dial dial;
 
     // Events of the last step.

@@ -1,6 +1,6 @@
 // test_images.c - no saved byte depends on capacity, history or addresses: worlds with equal hashes have equal
 // images, byte for byte. Random sessions are taken twice, step for step, the second time in a world with other
-// capacities, threads or width, restored from its own image, exchanged for a new one, or asked about in between.
+// capacities, threads or width, restored from its own image, exchanged for a new one, asked about in between, or watched.
 //
 // SESSIONS asks for so many sessions of each kind.
 #include "session.h"
@@ -14,7 +14,7 @@
 
 enum { STEPS = 40, SESSIONS = 20 };
 
-typedef enum variation { AGAIN, ROOMY, THREADS, RESTORED, EXCHANGED, ASKED } variation;
+typedef enum variation { AGAIN, ROOMY, THREADS, RESTORED, EXCHANGED, ASKED, WATCHED } variation;
 
 typedef struct image {
     char *bytes;
@@ -54,11 +54,21 @@ static void ask(plumb_world *w)
     plumb_world_overlap_aabb(w, (plumb_aabb){ { -2, -2 }, { 2, 2 } }, NULL, shapes, 8);
 }
 
+// By a watchdog, with measures or without; or no more.
+static void watch(plumb_world *w, uint32_t *seed)
+{
+    assert_int_equal(plumb_world_set_watchdog(w, sim_random(seed) % 4 != 0), PLUMB_OK);
+    assert_int_equal(plumb_world_set_measure(w, sim_random(seed) % 2 == 0), PLUMB_OK);
+}
+
 // What is done to the second world in between.
 static void vary(session *s, variation how, uint32_t *seed, heap *h)
 {
     if (how == ASKED) {
         ask(s->world);
+    }
+    if (how == WATCHED && sim_random(seed) % 8 == 0) {
+        watch(s->world, seed);
     }
     if ((how != RESTORED && how != EXCHANGED) || sim_random(seed) % 3 != 0) {
         return;
@@ -126,6 +136,9 @@ static void run(uint32_t seed, variation how)
     const plumb_world_desc other = settings_of(how, seed, &heaps[1]);
     session_begin(&a, seed, &plain);
     session_begin(&b, seed, &other);
+    if (how == WATCHED) {
+        watch(b.world, &moments);
+    }
     for (int step = 0; step < STEPS; ++step) {
         session_act(&a);
         session_act(&b);
@@ -187,12 +200,22 @@ static void test_asked_in_between(void **state)
     run_all(ASKED);
 }
 
+static void test_watched(void **state)
+{
+    (void)state;
+    run_all(WATCHED);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_sessions_taken_again),      cmocka_unit_test(test_other_capacities),
-        cmocka_unit_test(test_other_threads_and_widths),  cmocka_unit_test(test_restored),
-        cmocka_unit_test(test_exchanged_for_a_new_world), cmocka_unit_test(test_asked_in_between),
+        cmocka_unit_test(test_sessions_taken_again),
+        cmocka_unit_test(test_other_capacities),
+        cmocka_unit_test(test_other_threads_and_widths),
+        cmocka_unit_test(test_restored),
+        cmocka_unit_test(test_exchanged_for_a_new_world),
+        cmocka_unit_test(test_asked_in_between),
+        cmocka_unit_test(test_watched),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
-// test_scene_watched.c - in every shipped scene each row of the step writes only what it declares, and watching changes
-// no bit.
+// test_scene_watched.c - in every shipped scene each row of the step writes only what it declares, and neither watching that
+// nor the watchdog changes a bit.
 #include "step/pass.h"
 #include "step/data.h"
 #include "plumb/plumb.h"
@@ -21,7 +21,8 @@
 #define STEPS        40
 #define STEPS_LARGE  3
 
-static uint64_t run(const char *path, const char *solver, unsigned watched, uint32_t *breaches)
+static uint64_t run(const char *path, const char *solver, unsigned watched, bool dog,
+                    uint32_t *breaches)
 {
     char set[64];
     snprintf(set, sizeof set, "solver=%s", solver);
@@ -32,6 +33,7 @@ static uint64_t run(const char *path, const char *solver, unsigned watched, uint
     assert_int_equal(scene_load(&options, &s, &error), SCENE_OK);
     plumb_world *world = scene_world(s);
     assert_int_equal(plumb_world_watch(world, watched), PLUMB_OK);
+    assert_int_equal(plumb_world_set_watchdog(world, dog), PLUMB_OK);
     const int steps = plumb_world_stats(world).body_count > LARGE ? STEPS_LARGE : STEPS;
     uint32_t seen = 0;
     for (int i = 0; i < steps; ++i) {
@@ -56,8 +58,9 @@ static void rows_write_what_they_declare(void **state)
     uint32_t breaches = 0;
     for (size_t i = 0; i < found.gl_pathc; ++i) {
         const char *solver = i % 3 == 0 ? "pgs" : "soft";
-        const uint64_t watched = run(found.gl_pathv[i], solver, PLUMB_WATCH_WRITES, &breaches);
-        assert_true(run(found.gl_pathv[i], solver, PLUMB_WATCH_TIMES, &breaches) == watched);
+        const char *path = found.gl_pathv[i];
+        const uint64_t watched = run(path, solver, PLUMB_WATCH_WRITES, true, &breaches);
+        assert_true(run(path, solver, PLUMB_WATCH_TIMES, false, &breaches) == watched);
     }
     globfree(&found);
     assert_int_equal(breaches, 0);

@@ -10,14 +10,16 @@ typedef struct check_args {
     scene_args scene;
     bool verbose;
     bool lint;
-    cli_texts allowed;
+    cli_texts rules; ///< with it, what --allow names
 } check_args;
 
 typedef struct tally {
     int scenes, broken; ///< scenes that ran to their end, and that did not
     int held, failed;   ///< expectations
     int found, faulty;  ///< findings of the linter, and scenes that have some
-    int worst;          ///< exit code
+    int watched;        ///< scenes with alarms
+    long long alarms;
+    int worst; ///< exit code
 } tally;
 
 /// Of two codes the one to answer: a scene that does not even load outranks one that diverged,
@@ -117,7 +119,7 @@ static void print_accuracy(const scene_run *run, const char *path)
 /// Looks at the scene as it begins, and does not run it.
 static int lint(const check_args *args, const scene_run *run, const char *path, tally *sum)
 {
-    const int found = lint_scene(run, path, &args->allowed);
+    const int found = lint_scene(run, path, &args->rules);
     if (found == 0) {
         printf("ok    %s: nothing found\n", base_name(path));
     }
@@ -127,6 +129,17 @@ static int lint(const check_args *args, const scene_run *run, const char *path, 
         sum->worst = worse(sum->worst, CLI_EXPECT);
     }
     return found < 0 ? CLI_FAILED : CLI_OK;
+}
+
+/// A scene that has a watchdog of its own expects alarms, or not; who asks for one here wants none.
+static void count_alarms(const check_args *args, scene_run *run, tally *sum)
+{
+    const long long found = watch_close(&run->watch);
+    sum->alarms += found;
+    sum->watched += found > 0;
+    if (args->scene.watchdog && found > 0) {
+        sum->worst = worse(sum->worst, CLI_EXPECT);
+    }
 }
 
 static void check_one(const check_args *args, const char *path, tally *sum)
@@ -139,9 +152,11 @@ static void check_one(const check_args *args, const char *path, tally *sum)
     } else if (code == CLI_OK) {
         progress bar;
         scene_run_warn(&run, path);
+        run.watch.to_stdout = true;
         progress_begin(&bar, base_name(path), (double)run.steps, args->scene.quiet);
         code = simulate(&run, &bar);
         progress_end(&bar);
+        count_alarms(args, &run, sum);
         if (code == CLI_OK && args->verbose) {
             print_verbose(&run, path);
         }
@@ -186,6 +201,10 @@ static int check_command(const cli_command *command, int argc, char **argv)
     if (code != CLI_OK) {
         return code;
     }
+    if (args.lint) {
+        args.rules = args.scene.allowed;
+        args.scene.allowed = (cli_texts){ .count = 0 };
+    }
     for (int i = 0; i < operands.count && !cli_interrupted(); i++) {
         check_one(&args, operands.items[i], &sum);
         fflush(stdout);
@@ -199,6 +218,10 @@ static int check_command(const cli_command *command, int argc, char **argv)
     printf("%d expectation%s of %d scene%s: %d ok, %d failed", sum.held + sum.failed,
            sum.held + sum.failed == 1 ? "" : "s", sum.scenes, sum.scenes == 1 ? "" : "s", sum.held,
            sum.failed);
+    if (args.scene.watchdog || sum.alarms > 0) {
+        printf("; %lld alarm%s in %d scene%s", sum.alarms, sum.alarms == 1 ? "" : "s", sum.watched,
+               sum.watched == 1 ? "" : "s");
+    }
     print_broken(&sum);
     return sum.worst;
 }
@@ -211,8 +234,8 @@ static const cli_option options[] = {
       "also tell the settings and the state at the end" },
     { "lint", 'l', CLI_FLAG, offsetof(check_args, lint), NULL, 0, 0, NULL,
       "do not run the scenes: look for what is likely to go wrong as they begin" },
-    { "allow", 0, CLI_TEXTS, offsetof(check_args, allowed), "RULE,...", 0, 0, NULL,
-      "with --lint: rules that may find something" },
+    { "allow", 0, CLI_TEXTS, offsetof(check_args, scene.allowed), "RULE,...", 0, 0, NULL,
+      "with --lint: rules that may find something; else alarms that may be told" },
     SCENE_OPTION_QUIET(check_args, scene),
 };
 
@@ -230,10 +253,18 @@ const cli_command cmd_check = {
         "and what to "
         "do; the exit code is 4 when one finds something. A scene that is meant to be so says it "
         "in a line of "
-        "its own, \"-- lint: allow mass-ratio, size: why\". The rules:" LINT_RULES(RULE_TEXT),
+        "its own, \"-- lint: allow mass-ratio, size: why\". The rules:" LINT_RULES(
+            RULE_TEXT) " With --watchdog every step of every scene is watched and measured, which "
+                       "takes several times as long; an alarm is "
+                       "told with the body or joint, what was found and its bound, when, in which "
+                       "row of the schedule and by which work, and the last call that "
+                       "changed the body; the exit code is 4 when there is one. A scene may allow "
+                       "some as above: \"-- watchdog: allow torn-joint: why\". "
+                       "The alarms, with their bounds:" PLUMB_ALARM_LIST(WATCH_TEXT),
     .examples = "plumb check assets/scenes/*.lua\n"
                 "plumb check stack.lua --precision double --verbose\n"
-                "plumb check --lint assets/scenes/*.lua",
+                "plumb check --lint assets/scenes/*.lua\n"
+                "plumb check --watchdog crates.lua",
     .options = options,
     .option_count = (int)(sizeof options / sizeof options[0]),
     .operand_min = 1,

@@ -40,7 +40,7 @@ int pl_session_fail_scene(const engine_session *session, const scene_error *from
 
 /// Settings of the command line become overrides of scene{}, after the user's own: a later one
 /// wins.
-enum { OVERRIDE_COUNT = 7, OVERRIDE_SIZE = 48 };
+enum { OVERRIDE_COUNT = 9, OVERRIDE_SIZE = 48 };
 
 static int write_overrides(const engine_settings *settings, char texts[][OVERRIDE_SIZE])
 {
@@ -66,6 +66,10 @@ static int write_overrides(const engine_settings *settings, char texts[][OVERRID
     }
     if (settings->workers > 0) {
         snprintf(texts[count++], OVERRIDE_SIZE, "workers=%d", settings->workers);
+    }
+    if (settings->watchdog) {
+        snprintf(texts[count++], OVERRIDE_SIZE, "watchdog=true");
+        snprintf(texts[count++], OVERRIDE_SIZE, "measure=true");
     }
     return count;
 }
@@ -142,6 +146,7 @@ static void session_close(engine_session *session)
     free(session->expects);
     free(session->overlaps);
     free(session->findings);
+    free(session->alarms);
     free(session->passes);
     free(session->pass_infos);
     free(session->kept);
@@ -235,6 +240,7 @@ const engine_api ENGINE_NAME = {
     .check = session_check,
     .overlaps = pl_session_overlaps,
     .lint = pl_session_lint,
+    .alarms = pl_session_alarms,
     .ended = session_ended,
     .finish = session_finish,
     .exact = pl_session_exact,

@@ -34,6 +34,7 @@ typedef struct engine_settings {
     const char *accuracy; ///< a tolerance or the name of a preset; NULL: the scene's
     int width;            ///< SIMD lanes; 0: the scene's or the best
     int workers;          ///< threads; 0: the scene's or one
+    bool watchdog;        ///< the world is watched, and measures
     bool no_expect;       ///< nobody asks whether expectations hold
     bool
         unseen; ///< nobody looks between steps, nor at the time: what only looks need may be left out
@@ -207,6 +208,13 @@ typedef struct engine_difference {
     engine_change first;
 } engine_difference;
 
+/// An alarm of the watchdog: plumb_alarm, in words.
+typedef struct engine_alarm {
+    int number; ///< of the kind
+    const char *kind, *advice;
+    char text[256];
+} engine_alarm;
+
 typedef struct engine_replay engine_replay;
 typedef struct engine_session engine_session;
 /// Two bodies that begin inside one another.
@@ -243,6 +251,8 @@ typedef struct engine_api {
     int (*overlaps)(engine_session *session, const engine_overlap **list);
     /// What is likely to go wrong with the scene as it is now, by rules. -1: out of memory.
     int (*lint)(engine_session *session, const engine_finding **list);
+    /// Alarms of the last step. -1: out of memory.
+    int (*alarms)(engine_session *session, const engine_alarm **list);
     /// True when the scene's code has ended the run.
     bool (*ended)(const engine_session *session);
     /// The end of the run, for what only then can be judged.

@@ -50,7 +50,8 @@ struct engine_session {
     plumb_pass_info *pass_infos;
     engine_overlap *overlaps;
     engine_finding *findings;
-    size_t expect_room, pass_room, info_room, overlap_room, finding_room; ///< [B]
+    engine_alarm *alarms;
+    size_t expect_room, pass_room, info_room, overlap_room, finding_room, alarm_room; ///< [B]
     // While it is recorded: what was last said of the looks of each entity, by its index; and the text.
     bool recording;
     FILE *record_file;
@@ -109,6 +110,7 @@ engine_totals pl_stage_totals(const engine_stage *stage);
 int pl_session_expectations(engine_session *session, const engine_expect **list);
 int pl_session_overlaps(engine_session *session, const engine_overlap **list);
 int pl_session_lint(engine_session *session, const engine_finding **list);
+int pl_session_alarms(engine_session *session, const engine_alarm **list);
 /// The stage's world again, all awake and with its contacts; null: it cannot be had.
 plumb_world *pl_stage_refreshed(const engine_stage *stage);
 int pl_session_passes(engine_session *session, const engine_pass **list);

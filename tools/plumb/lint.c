@@ -5,11 +5,12 @@
 /// Reads the scene's file again, for such lines; writes to stdout, the same on every run.
 #include "lint.h"
 
-#include <stdlib.h>
+#include "allow.h"
+
 #include <string.h>
 
 /// Of one rule, so many findings are told.
-enum { TOLD = 3, LINE = 512 };
+enum { TOLD = 3 };
 
 static const struct {
     const char *name, *advice;
@@ -20,59 +21,6 @@ static const struct {
 };
 
 enum { RULES = sizeof rules / sizeof rules[0] };
-
-/// The rule that begins here; RULES: none.
-static int rule_at(const char *text, size_t length)
-{
-    int i = 0;
-    while (i < RULES &&
-           !(strlen(rules[i].name) == length && strncmp(rules[i].name, text, length) == 0)) {
-        i++;
-    }
-    return i;
-}
-
-/// Notes the rules of a list; false after a message: one is none.
-static bool allow(const char *list, const char *where, bool *allowed)
-{
-    while (*list != '\0') {
-        list += strspn(list, " ,");
-        const size_t length = strcspn(list, " ,:\r\n");
-        if (length == 0) {
-            break;
-        }
-        const int i = rule_at(list, length);
-        if (i == RULES) {
-            cli_message("%s: there is no rule '%.*s' to allow; see plumb help check", where,
-                        (int)length, list);
-            return false;
-        }
-        allowed[i] = true;
-        list += length;
-        if (*list == ':') {
-            break;
-        }
-    }
-    return true;
-}
-
-/// What the scene's own lines allow. Those of a scene that is not a file are not seen.
-static bool read_allowed(const char *path, bool *allowed)
-{
-    static const char mark[] = "-- lint: allow ";
-    FILE *file = fopen(path, "r");
-    char line[LINE];
-    bool good = true;
-    while (file != NULL && good && fgets(line, sizeof line, file) != NULL) {
-        if (strncmp(line, mark, sizeof mark - 1) == 0) {
-            good = allow(line + sizeof mark - 1, path, allowed);
-        }
-    }
-    if (file != NULL) {
-        fclose(file);
-    }
-    return good;
-}
 
 /// The findings of one rule.
 static int tell_rule(const engine_finding *list, int count, int rule, const char *scene)
@@ -96,10 +44,12 @@ int lint_scene(const scene_run *run, const char *path, const cli_texts *allowed)
 {
     const char *slash = strrchr(path, '/'), *scene = slash != NULL ? slash + 1 : path;
     bool silent[RULES] = { false };
-    bool good = read_allowed(path, silent);
-    for (int i = 0; i < allowed->count && good; i++) {
-        good = allow(allowed->items[i], "--allow", silent);
+    const char *names[RULES];
+    for (int i = 0; i < RULES; i++) {
+        names[i] = rules[i].name;
     }
+    const allow_words words = { "-- lint: allow ", "rule", names, RULES };
+    const bool good = allow_read(&words, path, allowed, silent);
     const engine_finding *list = NULL;
     const int count = good ? run->engine->lint(run->session, &list) : -1;
     if (good && count < 0) {

@@ -65,6 +65,7 @@ int scene_run_open(const scene_args *args, const char *path, scene_run *run)
                                  .accuracy = args->accuracy,
                                  .width = args->width,
                                  .workers = args->workers,
+                                 .watchdog = args->watchdog,
                                  .no_expect = args->no_expect,
                                  .unseen = args->unseen };
     engine_error error = { 0 };
@@ -78,6 +79,9 @@ int scene_run_open(const scene_args *args, const char *path, scene_run *run)
     run->session = run->engine->open(&settings, &error);
     if (run->session == NULL) {
         return scene_report(&error);
+    }
+    if (!watch_open(&run->watch, path, &args->allowed)) {
+        return scene_run_close(run, CLI_USAGE);
     }
     run->stage = run->engine->stage(run->session);
     run->info = run->engine->info(run->stage);
@@ -125,7 +129,7 @@ int scene_run_step(scene_run *run, progress *bar)
     int code = run->engine->step(run->session, &error);
     code = code == CLI_OK ? run->engine->check(run->session, &error) : code;
     if (code == CLI_OK) {
-        return CLI_OK;
+        return watch_step(&run->watch, run->engine, run->session);
     }
     if (bar != NULL) {
         progress_end(bar);
@@ -157,6 +161,7 @@ bool scene_run_done(const scene_run *run, long long step)
 
 int scene_run_close(scene_run *run, int code)
 {
+    watch_close(&run->watch);
     if (run->engine != NULL) {
         run->engine->close(run->session);
     }

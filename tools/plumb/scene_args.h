@@ -4,6 +4,7 @@
 #define PLUMB_SCENE_ARGS_H
 
 #include "engine.h"
+#include "watch.h"
 
 /// Values of SCENE_OPTIONS. Begin with SCENE_ARGS_INIT.
 typedef struct scene_args {
@@ -17,6 +18,8 @@ typedef struct scene_args {
     int workers;          ///< 0: the scene's
     int precision;        ///< index into SCENE_PRECISIONS
     cli_texts sets;
+    bool watchdog;
+    cli_texts allowed; ///< of check: alarms that may be told, or rules of the linter
     bool quiet;
     bool no_expect; ///< no option: nobody asks whether expectations hold
     bool unseen;    ///< no option: nobody looks between steps
@@ -54,6 +57,9 @@ typedef struct scene_args {
 #define SCENE_OPTION_SET(type, member)                                                           \
     { "set", 0, CLI_TEXTS, offsetof(type, member.sets), "KEY=VALUE", 0, 0, NULL,                 \
       "override what the scene declares; may be repeated" }
+#define SCENE_OPTION_WATCHDOG(type, member)                                                      \
+    { "watchdog", 0, CLI_FLAG, offsetof(type, member.watchdog), NULL, 0, 0, NULL,                \
+      "watch each step: alarms of what it should never do, with who, where, and what was called last" }
 #define SCENE_OPTION_QUIET(type, member)                                                         \
     { "quiet", 'q', CLI_FLAG, offsetof(type, member.quiet), NULL, 0, 0, NULL,                    \
       "no progress bar" }
@@ -82,7 +88,8 @@ typedef struct scene_args {
     SCENE_OPTION_SOLVER(type, member), SCENE_OPTION_ACCURACY(type, member),                      \
     SCENE_OPTION_WIDTH(type, member),                                                            \
     SCENE_OPTION_WORKERS(type, member),                                                          \
-    SCENE_OPTION_PRECISION(type, member), SCENE_OPTION_SET(type, member)
+    SCENE_OPTION_PRECISION(type, member), SCENE_OPTION_SET(type, member),                        \
+    SCENE_OPTION_WATCHDOG(type, member)
 // clang-format on
 
 /// Checks a --width. CLI_OK or CLI_USAGE after a message.
@@ -97,8 +104,9 @@ typedef struct scene_run {
     engine_session *session;
     engine_stage *stage;
     engine_info info;
-    double time;     ///< [s] to simulate
-    long long steps; ///< of info.dt, to reach `time`
+    double time;       ///< [s] to simulate
+    long long steps;   ///< of info.dt, to reach `time`
+    watch_tally watch; ///< alarms so far
 } scene_run;
 
 /// Opens the scene. On failure a message was printed and `run` holds nothing.

@@ -183,7 +183,8 @@ typedef struct sc_expect_def {
     double count[2], value[2];
     char joint[SC_NAME_SIZE];
     double joint_value[2], reaction[2], reaction_torque[2], max_joint_error;
-    double broken[2], visits[2], inside[2];
+    double broken[2], visits[2], inside[2], alarms[2];
+    char alarm[SC_NAME_SIZE]; ///< kind of the alarms that are meant; "": all
     char score[SC_NAME_SIZE];
     char exact[SC_NAME_SIZE];
     int test;

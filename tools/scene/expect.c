@@ -23,6 +23,23 @@ static bool of_sensors(const sc_expect_def *d)
 
 // ---------------------------------------------------------------------------------- registering
 
+// The kind of alarms that are meant is one.
+static void check_alarm(scene *s, const sc_site *site, const sc_expect_def *d)
+{
+    bool known = false;
+    for (int i = 0; i < PLUMB_ALARM_KINDS; i++) {
+        known |= strcmp(d->alarm, plumb_alarm_name((plumb_alarm_kind)i)) == 0;
+    }
+    if (!known) {
+        sc_raise(s, SCENE_E_RANGE, site, "alarm", 0, NULL,
+                 "there is no alarm '%s': plumb help check lists them", d->alarm);
+    }
+    if (!HAS(d, alarms)) {
+        sc_raise(s, SCENE_E_MISSING, site, "alarm", 0, NULL,
+                 "expect{} with 'alarm' needs 'alarms', how many");
+    }
+}
+
 static void check_expect(scene *s, const sc_site *site, const sc_expect_def *d)
 {
     bool window = HAS(d, from) || HAS(d, till);
@@ -62,16 +79,19 @@ static void check_expect(scene *s, const sc_site *site, const sc_expect_def *d)
         sc_raise(s, SCENE_E_MISSING, site, HAS(d, score) ? "score" : "value", 0, NULL,
                  "expect{} needs 'score' and 'value' together");
     }
+    if (HAS(d, alarm)) {
+        check_alarm(s, site, d);
+    }
     bool any = body_only || HAS(d, max_speed) || HAS(d, min_speed) || HAS(d, max_spin) ||
                HAS(d, max_penetration) || HAS(d, energy_drift) || HAS(d, momentum_drift) ||
                HAS(d, count) || HAS(d, value) || HAS(d, test) || of_joints(d) || of_sensors(d) ||
-               HAS(d, broken) || HAS(d, max_joint_error) || HAS(d, exact);
+               HAS(d, broken) || HAS(d, max_joint_error) || HAS(d, exact) || HAS(d, alarms);
     if (!any) {
         sc_raise(s, SCENE_E_MISSING, site, NULL, 0, NULL,
                  "expect{} needs something to measure, such as max_penetration = 0.005");
     }
     if (HAS(d, tolerance) && !body_only && !HAS(d, count) && !HAS(d, value) && !of_joints(d) &&
-        !of_sensors(d) && !HAS(d, broken) && !HAS(d, exact)) {
+        !of_sensors(d) && !HAS(d, broken) && !HAS(d, exact) && !HAS(d, alarms)) {
         sc_raise(s, SCENE_E_UNUSED, site, "tolerance", 0, NULL,
                  "'tolerance' of expect{} is not used");
     }
@@ -93,6 +113,9 @@ void sc_build_expect(scene *s, const sc_site *site, int table)
     sc_expect *e = SC_PUSH(s, s->expects);
     *e = (sc_expect){ .def = def, .line = site->line, .ratio = -1, .unit = "1" };
     s->wants_visits |= HAS(&def, visits);
+    if (HAS(&def, alarms)) {
+        plumb_world_set_watchdog(s->world, true);
+    }
     s->wants_energy |= HAS(&def, energy_drift) || HAS(&def, momentum_drift);
 }
 
@@ -170,6 +193,15 @@ void sc_expect_begin(scene *s)
     track_scales(s);
 }
 
+static void count_alarms(scene *s)
+{
+    int count;
+    const plumb_alarm *alarms = plumb_world_alarms(s->world, &count);
+    for (int i = 0; i < count; i++) {
+        s->alarms[alarms[i].kind]++;
+    }
+}
+
 void sc_expect_step(scene *s)
 {
     double now = scene_time(s);
@@ -180,6 +212,7 @@ void sc_expect_step(scene *s)
     if (s->wants_energy) {
         track_scales(s);
     }
+    count_alarms(s);
     for (int i = 0; i < s->expects.count; i++) {
         sc_expect *e = &s->expects.items[i];
         const sc_expect_def *d = &e->def;

@@ -272,6 +272,16 @@ static void measure_sensors(scene *s, sc_expect *e)
     }
 }
 
+static double alarms_of(const scene *s, const char *kind)
+{
+    double sum = 0;
+    for (int i = 0; i < PLUMB_ALARM_KINDS; i++) {
+        const bool meant = kind[0] == 0 || strcmp(kind, plumb_alarm_name((plumb_alarm_kind)i)) == 0;
+        sum += meant ? s->alarms[i] : 0;
+    }
+    return sum;
+}
+
 void sc_measure(scene *s, sc_expect *e)
 {
     const sc_expect_def *d = &e->def;
@@ -284,6 +294,9 @@ void sc_measure(scene *s, sc_expect *e)
                 (double)plumb_world_stats(s->world).max_penetration, d->max_penetration);
     }
     measure_drift(s, e);
+    if (HAS(d, alarms)) {
+        in_range(s, e, d->alarm, "alarms", "1", alarms_of(s, d->alarm), d->alarms);
+    }
     if (HAS(d, value)) {
         const sc_score *score = sc_score_find(s, d->score);
         in_range(s, e, d->score, "score", "1", score == NULL ? 0 : score->value, d->value);

@@ -287,6 +287,7 @@ struct scene {
     char shown[512];
     uint64_t random;
     bool wants_energy;
+    int alarms[PLUMB_ALARM_KINDS];            ///< so far
     double energy_start, energy_scale;        ///< [J] see expect.c
     double momentum_start[2], momentum_scale; ///< [kg m/s]
 };

@@ -151,6 +151,8 @@ const sc_list sc_list_camera = { "camera", camera_rows, COUNT(camera_rows) };
 
 #define T sc_expect_def
 static const sc_field expect_rows[] = {
+    { "alarm",           SC_STRING,   AT(T, alarm),           0, 0, NULL, 0, 0 },
+    { "alarms",          SC_RANGE,    AT(T, alarms),          0, 1e9, "1", 0, 0 },
     { "always",          SC_BOOL,     AT(T, always),          0, 0, NULL, 0, 0 },
     { "angle",           SC_RANGE,    AT(T, angle),           -BIG, BIG, "rad", 0, 0 },
     { "at",              SC_NUMBER,   AT(T, at),              0, 1e7, "s", 0, 0 },

@@ -3,6 +3,7 @@
 -- Source: conservation of energy. Hard: as chain_1e4, with forces that grow to three weights and turn.
 -- Aim: 1e-2 m, 1e-3 of the energy.
 -- lint: allow mass-ratio: that is what it asks about
+-- watchdog: allow torn-joint: what gives way is what it measures
 scene { title = "Heavy swing", duration = 3, description = "A heavy weight swings on a light chain." }
 local g, n, l, ratio = 9.81, 50, 0.2, 1e4
 local last = world

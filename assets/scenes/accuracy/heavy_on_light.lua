@@ -2,6 +2,7 @@
 -- Source: statics. Hard: sweeps over contacts gain a digit in about 2.3 R sweeps, R the ratio of masses.
 -- Aim: 1e-3 m at 100 : 1 and above.
 -- lint: allow mass-ratio: that is what it asks about
+-- watchdog: allow sinking: what sinks is what it measures
 scene { title = "Heavy on light", duration = 5, description = "Heavy boxes on light ones." }
 local m = material { friction = 0.6 }
 body { name = "ground", type = "static", box { 30, 1 }, at = {0, -0.5}, material = m }

@@ -2,6 +2,7 @@
 -- overlap exists. Fails: XPBD and solvers with velocity in their recovery never come to rest. Right: the discs share
 -- the overlap and lie still. More substeps: substeps_confined.lua.
 -- lint: allow overlap: it begins so on purpose
+-- watchdog: allow energy-jump, runaway-speed, sinking: it begins with an overlap that nothing can end
 scene { title = "Confined", gravity = {0, 0}, duration = 6, seed = 3 }
 local n = param("n", 15, 2, 30)
 local half = 0.4 * n -- discs of diameter 1

@@ -12,11 +12,14 @@
 
 #define PL_NO_SYSTEM UINT32_MAX
 
-#define PL_WATCH_MEASURES 0x10000u // beside plumb_watch: the world measures its error (step/measure.c)
+// Beside plumb_watch: the world measures its error (step/measure.c), it has a watchdog (src/watchdog).
+#define PL_WATCH_MEASURES 0x10000u
+#define PL_WATCH_DOG      0x20000u
 
-static inline unsigned pl_watched(unsigned what, bool measures)
+static inline unsigned pl_watched_bits(unsigned what, const plumb_world_desc *desc)
 {
-    return (what & ~PL_WATCH_MEASURES) | (measures ? PL_WATCH_MEASURES : 0);
+    return (what & ~(PL_WATCH_MEASURES | PL_WATCH_DOG)) | (desc->measure ? PL_WATCH_MEASURES : 0) |
+           (desc->watchdog ? PL_WATCH_DOG : 0);
 }
 
 // A line of the schedule.
@@ -36,7 +39,7 @@ typedef struct pl_schedule {
     uint32_t count;    // 0: passes as they are in the table, no systems
     pl_buffer rows;    // pl_substep_row: what runs in the substeps
     uint32_t ends[8];  // behind the last row of each of their stages
-    unsigned watched;  // plumb_watch, PL_WATCH_MEASURES
+    unsigned watched;  // plumb_watch, PL_WATCH_...
     pl_buffer times;   // pl_time a pass, if times were ever watched
     pl_buffer shares;  // double a thread and row of the substeps: [ns]
     double inner_ns;   // of the rows of the last substeps
