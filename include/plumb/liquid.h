@@ -67,6 +67,10 @@ PLUMB_API plumb_result plumb_liquid_add_box(plumb_world *world, plumb_vec2 low, 
 /// plumb_liquid_add.
 PLUMB_API plumb_result plumb_liquid_add_shape(plumb_world *world, const plumb_vec2 *points,
                                               int count, plumb_vec2 velocity);
+/// Keeps an outline full: as plumb_liquid_add_shape, but only at places from which every particle is a spacing off, or nearly,
+/// along x or y. Called before each step it is a source: a jet with a velocity, a spring without. Errors: the same.
+PLUMB_API plumb_result plumb_liquid_refill(plumb_world *world, const plumb_vec2 *points, int count,
+                                           plumb_vec2 velocity);
 /// Removes the particles in a box [m]; the others keep their order. Returns how many were removed; -1 on error: E_NULL,
 /// E_STATE, E_RANGE (low above high), E_NOT_FINITE, E_LOCKED.
 PLUMB_API int plumb_liquid_remove(plumb_world *world, plumb_vec2 low, plumb_vec2 high);

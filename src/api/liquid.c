@@ -13,6 +13,7 @@
 #define SPACING_MOST  ((real)1e3)
 #define DENSITY_LEAST ((real)1e-6)
 #define MOST          ((real)1e9)
+#define NEAREST       0.95 // [spacings] that particles leave between them where a source refills
 #define SPEED_MOST    ((real)PL_LIQUID_SPEED)
 #define SLOPE_MOST    ((real)PL_LIQUID_SLOPE)
 
@@ -271,33 +272,83 @@ static void box_of(const plumb_vec2 *points, int count, plumb_vec2 *low, plumb_v
     }
 }
 
-plumb_result plumb_liquid_add_shape(plumb_world *world, const plumb_vec2 *points, int count,
-                                    plumb_vec2 velocity)
+// Marks places of the lattice that have a particle nearer than a spacing along both axes.
+static void mark_taken(const pl_liquid *liquid, const lattice *l, uint8_t *taken)
 {
-    plumb_vec2 low, high;
-    PL_TRY(check_liquid(world, __func__));
-    PL_TRY(pl_check_unlocked(world, __func__));
-    PL_TRY(pl_check_pointer(world, __func__, "points", points));
-    if (count < 3 || count > PLUMB_OUTLINE_MAX_VERTICES) {
-        return pl_fail(world, PLUMB_E_RANGE, __func__, "count is %d; it must be 3 to %d", count,
-                       PLUMB_OUTLINE_MAX_VERTICES);
+    const plumb_particle *p = pl_liquid_items(liquid);
+    for (uint32_t k = 0; k < liquid->count; ++k) {
+        const double x = (double)p[k].position.x / l->spacing - 0.5 - l->first_x;
+        const double y = (double)p[k].position.y / l->spacing - 0.5 - l->first_y;
+        if (!(x > -1 && x < l->columns && y > -1 && y < l->rows)) {
+            continue;
+        }
+        for (double j = above(y - NEAREST); j <= y + NEAREST; ++j) {
+            for (double i = above(x - NEAREST); i <= x + NEAREST; ++i) {
+                if (i >= 0 && i < l->columns && j >= 0 && j < l->rows) {
+                    taken[(size_t)(j * l->columns + i)] = 1;
+                }
+            }
+        }
     }
-    for (int i = 0; i < count; ++i) {
-        PL_TRY(pl_check_within(world, __func__, "points", points[i], most_place(world)));
-    }
-    PL_TRY(pl_check_within(world, __func__, "velocity", velocity, SPEED_MOST));
-    box_of(points, count, &low, &high);
-    const lattice l = lattice_of(world, low, high);
-    PL_TRY(reserve(world, __func__, l.columns * l.rows));
-    for (double j = 0; j < l.rows; ++j) {
-        for (double i = 0; i < l.columns; ++i) {
-            const plumb_vec2 at = place_in(&l, i, j);
-            if (plumb_outline_contains(points, count, at)) {
+}
+
+// taken: a byte a place of the lattice, or null.
+static void put_shape(plumb_world *world, const lattice *l, const uint8_t *taken,
+                      const plumb_vec2 *points, int count, plumb_vec2 velocity)
+{
+    for (double j = 0; j < l->rows; ++j) {
+        for (double i = 0; i < l->columns; ++i) {
+            const plumb_vec2 at = place_in(l, i, j);
+            if ((taken == NULL || taken[(size_t)(j * l->columns + i)] == 0) &&
+                plumb_outline_contains(points, count, at)) {
                 put(world, at, velocity);
             }
         }
     }
+}
+
+static plumb_result add_shape(plumb_world *world, const char *fn, const plumb_vec2 *points,
+                              int count, plumb_vec2 velocity, bool refills)
+{
+    plumb_vec2 low, high;
+    PL_TRY(check_liquid(world, fn));
+    PL_TRY(pl_check_unlocked(world, fn));
+    PL_TRY(pl_check_pointer(world, fn, "points", points));
+    if (count < 3 || count > PLUMB_OUTLINE_MAX_VERTICES) {
+        return pl_fail(world, PLUMB_E_RANGE, fn, "count is %d; it must be 3 to %d", count,
+                       PLUMB_OUTLINE_MAX_VERTICES);
+    }
+    for (int i = 0; i < count; ++i) {
+        PL_TRY(pl_check_within(world, fn, "points", points[i], most_place(world)));
+    }
+    PL_TRY(pl_check_within(world, fn, "velocity", velocity, SPEED_MOST));
+    box_of(points, count, &low, &high);
+    const lattice l = lattice_of(world, low, high);
+    PL_TRY(reserve(world, fn, l.columns * l.rows));
+    pl_buffer taken = { NULL, 0 };
+    if (refills) {
+        const size_t bytes = (size_t)(l.columns * l.rows) + 1;
+        if (!pl_buffer_reserve(&world->memory, &taken, bytes)) {
+            return pl_fail_memory(world, fn);
+        }
+        memset(taken.data, 0, bytes);
+        mark_taken(&world->liquid, &l, taken.data);
+    }
+    put_shape(world, &l, taken.data, points, count, velocity);
+    pl_buffer_free(&world->memory, &taken);
     return PLUMB_OK;
+}
+
+plumb_result plumb_liquid_add_shape(plumb_world *world, const plumb_vec2 *points, int count,
+                                    plumb_vec2 velocity)
+{
+    return add_shape(world, __func__, points, count, velocity, false);
+}
+
+plumb_result plumb_liquid_refill(plumb_world *world, const plumb_vec2 *points, int count,
+                                 plumb_vec2 velocity)
+{
+    return add_shape(world, __func__, points, count, velocity, true);
 }
 
 //---- they go, are seen ---------------------------------------------------------------------------

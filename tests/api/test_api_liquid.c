@@ -149,6 +149,38 @@ static void bad_particles_are_refused(void **state)
     assert_true(left[0].position.x == 1 && left[1].position.x > R(0.25));
 }
 
+// A source: nothing where it is full; a jet of 3 m/s and 0.4 m for a second is 1.2 m^2, whatever the steps.
+static void refilling_keeps_a_shape_full(void **state)
+{
+    (void)state;
+    const plumb_vec2 box[] = { { 0, 0 }, { R(0.2), 0 }, { R(0.2), R(0.4) }, { 0, R(0.4) } };
+    const plumb_vec2 bad[] = { { 0, 0 }, { R(NAN), 0 }, { 0, 1 } };
+    for (int hz = 30; hz <= 240; hz *= 2) {
+        plumb_world *w;
+        assert_int_equal(plumb_world_create(&(plumb_world_desc){ .zero_gravity = true }, &w),
+                         PLUMB_OK);
+        assert_int_equal(plumb_liquid_refill(w, box, 4, plumb_v2(3, 0)), PLUMB_E_STATE);
+        plumb_liquid_create(w, NULL);
+        assert_int_equal(plumb_liquid_refill(NULL, box, 4, plumb_v2(3, 0)), PLUMB_E_NULL);
+        assert_int_equal(plumb_liquid_refill(w, NULL, 4, plumb_v2(3, 0)), PLUMB_E_NULL);
+        assert_int_equal(plumb_liquid_refill(w, box, 2, plumb_v2(3, 0)), PLUMB_E_RANGE);
+        assert_int_equal(plumb_liquid_refill(w, bad, 3, plumb_v2(3, 0)), PLUMB_E_NOT_FINITE);
+        assert_int_equal(plumb_liquid_refill(w, box, 4, plumb_v2(3, R(INFINITY))),
+                         PLUMB_E_NOT_FINITE);
+        assert_int_equal(plumb_liquid_refill(w, box, 4, plumb_v2(3, 0)), PLUMB_OK);
+        assert_int_equal(count_of(w), 32);
+        assert_int_equal(plumb_liquid_refill(w, box, 4, plumb_v2(3, 0)), PLUMB_OK);
+        assert_int_equal(count_of(w), 32);
+        for (int i = 0; i < hz; ++i) {
+            assert_int_equal(plumb_world_step(w, 1 / (plumb_real)hz), PLUMB_OK);
+            assert_int_equal(plumb_liquid_refill(w, box, 4, plumb_v2(3, 0)), PLUMB_OK);
+        }
+        print_message("%d Hz: %d particles\n", hz, count_of(w) - 32);
+        assert_in_range(count_of(w) - 32, 480 * 0.85, 480 * 1.1);
+        plumb_world_destroy(w);
+    }
+}
+
 // The fastest, densest and farthest that calls allow: nothing that is not finite comes of it.
 static void extremes_stay_finite(void **state)
 {
@@ -450,6 +482,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         API_TEST(bad_settings_are_refused),
         API_TEST(bad_particles_are_refused),
+        cmocka_unit_test(refilling_keeps_a_shape_full),
         API_TEST(extremes_stay_finite),
         cmocka_unit_test(bodies_beyond_bounds_leave_it_finite),
         cmocka_unit_test(a_world_that_wraps_has_none),

@@ -83,7 +83,10 @@ static void mistakes_are_told(void **state)
         { "liquid{ particles = {{1, 2, 3, 'x'}} }", "must be 2, 4 or 8 numbers" },
         { "liquid{ particles = {{1, 2, 3, 1e7}} }", "velocity" },
         { "liquid{ spacing = 0.1 } liquid{ spacing = 0.1 }", "were given on line 1" },
-        { "liquid_in(1, 2, 3)", "takes four numbers" },
+        { "liquid_in(1, 2, 3)", "liquid_in takes four numbers" },
+        { "liquid_drain(1, 2, 3, 'x')", "liquid_drain takes four numbers" },
+        { "liquid{ box{1, 1} } liquid_drain(1, 2, 0, 3)", "takes a box x0 < x1" },
+        { "liquid{ refill = 3 }", "refill" },
         { "liquid(3)", "liquid" },
         { "scene{ wrap_x = 10 } liquid{ }", "wraps around" },
     };
@@ -100,12 +103,32 @@ static void mistakes_are_told(void **state)
     }
 }
 
+// A jet that ends in a drain: what is poured is there, or has gone.
+static void sources_and_drains(void **state)
+{
+    (void)state;
+    scene *s =
+        load("scene{ duration = 1, gravity = {0, 0} }\n"
+             "local gone = 0\n"
+             "every_step(function()\n"
+             "  liquid{ box{0.2, 0.4, at = {0.1, 0.2}}, velocity = {3, 0}, refill = true }\n"
+             "  gone = gone + liquid_drain(1, -1e300, 1e300, 2)\n"
+             "end)\n"
+             "expect{ 'poured', at = 1, test = function() return gone + liquid_in(-9, -9, 9, "
+             "9) > 1.1 end }\n"
+             "expect{ 'drained', at = 1, test = function() return gone > 0.6 and "
+             "liquid_in(1.1, -9, 99, 9) == 0 end }\n");
+    run_and_hold(s);
+    scene_destroy(s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(words_fill_shapes),
         cmocka_unit_test(json_keeps_it),
         cmocka_unit_test(mistakes_are_told),
+        cmocka_unit_test(sources_and_drains),
     };
     return cmocka_run_group_tests_name("liquid of scenes", tests, NULL, NULL);
 }

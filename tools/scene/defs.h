@@ -208,7 +208,7 @@ typedef struct sc_liquid_def {
     uint64_t present;
     double spacing, density, viscosity, velocity[2];
     sc_color color;
-    bool particles;
+    bool particles, refill;
     int shape_count;
 } sc_liquid_def;
 

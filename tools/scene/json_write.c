@@ -480,6 +480,7 @@ static void write_liquid(writer *w)
     }
     SC_MARK(list, &d, sc_liquid_def, shape_count, false);
     SC_MARK(list, &d, sc_liquid_def, velocity, false);
+    SC_MARK(list, &d, sc_liquid_def, refill, false);
     SC_MARK(list, &d, sc_liquid_def, particles, count > 0);
     fputs("\"liquid\":", w->file);
     write_object(w, list, &d, NULL, &as_said);

@@ -27,12 +27,13 @@ static void add_shape(scene *s, const sc_site *site, const sc_liquid_def *d)
     const plumb_vec2 velocity = { (plumb_real)d->velocity[0], (plumb_real)d->velocity[1] };
     int before, after;
     plumb_liquid_particles(s->world, &before);
-    const plumb_result r = plumb_liquid_add_shape(s->world, points, count, velocity);
+    const plumb_result r = d->refill ? plumb_liquid_refill(s->world, points, count, velocity)
+                                     : plumb_liquid_add_shape(s->world, points, count, velocity);
     if (r != PLUMB_OK) {
         sc_refused(s, site, NULL, r, "liquid{}");
     }
     plumb_liquid_particles(s->world, &after);
-    sc_work(s, 100 + 10 * (uint64_t)(after - before));
+    sc_work(s, 100 + 10 * (uint64_t)(after - before) + (d->refill ? (uint64_t)before : 0));
 }
 
 static void add_shapes(scene *s, const sc_site *site, int table, const sc_liquid_def *d)
@@ -119,6 +120,17 @@ static int lua_liquid(lua_State *L)
     return sc_construct(L, "liquid", sc_build_liquid, 0);
 }
 
+static void take_box(scene *s, const sc_site *site, double box[4])
+{
+    for (int i = 0; i < 4; i++) {
+        if (lua_type(s->L, i + 1) != LUA_TNUMBER) {
+            sc_raise(s, SCENE_E_TYPE, site, NULL, 0, NULL, "%s takes four numbers: x0, y0, x1, y1",
+                     site->construct);
+        }
+        box[i] = lua_tonumber(s->L, i + 1);
+    }
+}
+
 // Nil where nothing is.
 static void push_place(lua_State *L, int inside, double place)
 {
@@ -136,13 +148,7 @@ static int lua_liquid_in(lua_State *L)
     scene *s = sc_of(L);
     sc_site site = sc_here(s, "liquid_in");
     double box[4];
-    for (int i = 0; i < 4; i++) {
-        if (lua_type(L, i + 1) != LUA_TNUMBER) {
-            sc_raise(s, SCENE_E_TYPE, &site, NULL, 0, NULL,
-                     "liquid_in takes four numbers: x0, y0, x1, y1");
-        }
-        box[i] = lua_tonumber(L, i + 1);
-    }
+    take_box(s, &site, box);
     sc_need_world(s);
     int count, inside = 0;
     double squares = 0, top = 0, sum[2] = { 0, 0 };
@@ -171,6 +177,38 @@ static int lua_liquid_in(lua_State *L)
     return 5;
 }
 
+// Beyond what the grid can count nothing flows.
+static plumb_vec2 corner(const double at[2], const plumb_liquid_desc *d)
+{
+    const double most = fmin(1e9, 1e9 * (double)d->spacing);
+    return (plumb_vec2){ (plumb_real)fmin(fmax(at[0], -most), most),
+                         (plumb_real)fmin(fmax(at[1], -most), most) };
+}
+
+// liquid_drain(x0, y0, x1, y1): removes what is in the box; the area that went [m^2].
+static int lua_liquid_drain(lua_State *L)
+{
+    scene *s = sc_of(L);
+    const sc_site site = sc_here(s, "liquid_drain");
+    double box[4];
+    take_box(s, &site, box);
+    sc_need_world(s);
+    plumb_liquid_desc d = { 0 };
+    int count, removed = 0;
+    plumb_liquid_particles(s->world, &count);
+    sc_work(s, 10 + (uint64_t)count);
+    if (count > 0) {
+        plumb_liquid_settings(s->world, &d);
+        removed = plumb_liquid_remove(s->world, corner(box, &d), corner(box + 2, &d));
+    }
+    if (removed < 0) {
+        sc_raise(s, SCENE_E_RANGE, &site, NULL, 0, NULL,
+                 "liquid_drain takes a box x0 < x1, y0 < y1");
+    }
+    lua_pushnumber(L, removed * (double)d.spacing * (double)d.spacing);
+    return 1;
+}
+
 scene_liquid scene_get_liquid(const scene *s)
 {
     return (scene_liquid){ s->liquid.color.palette, s->liquid.color.rgba };
@@ -180,4 +218,5 @@ void sc_open_liquid(lua_State *L)
 {
     lua_register(L, "liquid", lua_liquid);
     lua_register(L, "liquid_in", lua_liquid_in);
+    lua_register(L, "liquid_drain", lua_liquid_drain);
 }

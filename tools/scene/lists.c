@@ -230,6 +230,7 @@ static const sc_field liquid_rows[] = {
     { "color",     SC_COLOR,  AT(T, color),       0, 0, NULL, 0, 0 },
     { "density",   SC_NUMBER, AT(T, density),     1e-6, 1e9, "kg/m^2", 0, 0 },
     { "particles", SC_TABLE,  AT(T, particles),   0, 0, NULL, 0, 0 },
+    { "refill",    SC_BOOL,   AT(T, refill),      0, 0, NULL, 0, 0 },
     { "shapes",    SC_SHAPES, AT(T, shape_count), 0, 0, NULL, SC_REST, 0 },
     { "spacing",   SC_NUMBER, AT(T, spacing),     1e-4, 1e3, "m", 0, 0 },
     { "velocity",  SC_VEC2,   AT(T, velocity),    -1e6, 1e6, "m/s", 0, 0 },
