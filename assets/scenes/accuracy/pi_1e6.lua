@@ -11,19 +11,27 @@ local light = body { name = "light", box { 0.2, 0.2 }, at = {1, 0}, mass = 1, ma
 local heavy = body { name = "heavy", box { 0.6, 0.6 }, at = {2, 0}, velocity = {-1, 0}, mass = ratio, material = steel,
         fixed_rotation = true,
                      sleep = false, color = 2 }
-local u, v, blows = -1, 0, 0 -- of the heavy and the light block, blow by blow
+-- The same blow by blow: speeds, places, times.
+local u, v, x, y, t, blows = -1, 0, 2, 1, 0, 0 -- of the heavy and the light block
+local function fly(time)
+    x, y, t = x + u * time, y + v * time, t + time
+    blows = blows + 1
+end
 while true do
     if u < v then
+        fly((x - 0.3 - (y + 0.1)) / (v - u))
         u, v = ((ratio - 1) * u + 2 * v) / (ratio + 1), ((1 - ratio) * v + 2 * ratio * u) / (ratio + 1)
     elseif v < 0 then
+        fly((y - 0.1) / -v)
         v = -v
     else
         break
     end
-    blows = blows + 1
 end
 assert(blows == math.pi * math.sqrt(ratio) // 1)
 exact { "heavy", body = "heavy", vx = function() return u end, at = 5 }
+exact { "heavy, place", body = "heavy", x = function() return x + u * (5 - t) end, at = 5 }
+exact { "light", body = "light", vx = function() return v end, at = 5 }
 exact { "energy", at = 5, value = function() return 1 end, measure = function() return energy() / (ratio / 2) end }
 expect { "the heavy block's velocity", exact = "heavy", tolerance = 3.5e-08 }
 expect { "the energy", exact = "energy", tolerance = 7e-08 }
