@@ -18,9 +18,10 @@
 // within a substep, and every one counts; so what contacts need beyond CHAIN they take from SPARE, which all share. What
 // is left when that is used up is solved without bounce, and told: energy is lost then. A kinematic body that moves
 // gives energy with every impact, for ever when it closes a gap: its contacts take nothing from it.
-#define CHAIN   64
-#define SPARE   (1u << 17)
-#define ENDLESS (1u << 30)
+#define CHAIN      64
+#define SPARE_BITS 17
+#define SPARE      (1u << SPARE_BITS)
+#define ENDLESS    (1u << 30)
 
 // Impacts within this share of a substep are of one moment; so many of them are solved together.
 #define MOMENT   1e-4
@@ -54,13 +55,21 @@ static bool drives(const pl_solver *s, uint32_t slot)
     return slot >= s->dynamic_slots && (b->vx != 0 || b->vy != 0 || b->w != 0);
 }
 
-// Impacts of a contact until its energy is spent.
+// Impacts of a contact until its energy is spent: one more than the largest n with e^(2 n) > PL_IMPACT_KEPT, found bit by
+// bit. (One after another took 300,000 instructions a contact and step where e is 1.)
 static uint32_t chain_of(near_real restitution)
 {
-    double square = (double)restitution * (double)restitution, left = square;
+    double power[SPARE_BITS], left = 1;
+    power[0] = (double)restitution * (double)restitution;
+    for (int k = 1; k < SPARE_BITS; ++k) {
+        power[k] = power[k - 1] * power[k - 1];
+    }
     uint32_t count = 1;
-    for (; count < SPARE && left > PL_IMPACT_KEPT; ++count) {
-        left *= square;
+    for (int k = SPARE_BITS - 1; k >= 0; --k) {
+        if (left * power[k] > (double)PL_IMPACT_KEPT) {
+            left *= power[k];
+            count += 1u << k;
+        }
     }
     return count < SPARE ? count : ENDLESS;
 }
