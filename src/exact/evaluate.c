@@ -83,7 +83,8 @@ static void evaluate_row(const pl_exact_newton *n, pl_exact_row *r)
     const double stiffness = n->stiffness * r->mass;
     const double weight = 1 / (r->give + 1 / stiffness), wish = wish_of(n, r, stiffness);
     const double most = r->leads > 0 ? r->factor * load_of(n, r) : 0;
-    bound(r, wish, r->leads > 0 ? -most : r->low, r->leads > 0 ? most : r->high, weight);
+    bound(r, wish, r->leads > 0 ? r->low - most : r->low, r->leads > 0 ? r->low + most : r->high,
+          weight);
     r->slope = 0;
     if (r->leads > 0 && r->weight == 0 && !n->convex) {
         r->slope = wish > 0 ? r->factor : -r->factor;
@@ -96,19 +97,20 @@ static void evaluate_cone(const pl_exact_newton *n, pl_exact_row *normal, pl_exa
 {
     const double stiffness = n->stiffness * normal->mass, mu = tangent->factor;
     const double wish = wish_of(n, normal, stiffness) - stiffness * tangent->shift - normal->low;
-    const double aside = wish_of(n, tangent, stiffness), side = aside < 0 ? -1 : 1;
+    const double aside = wish_of(n, tangent, stiffness) - tangent->low, side = aside < 0 ? -1 : 1;
     normal->slope = tangent->slope = 0;
     normal->weight = tangent->weight = stiffness;
     if (side * aside <= mu * wish) {
         normal->next = wish + normal->low;
-        tangent->next = aside;
+        tangent->next = aside + tangent->low;
     } else if (wish <= -mu * side * aside) {
         normal->next = normal->low;
-        tangent->next = normal->weight = tangent->weight = 0;
+        tangent->next = tangent->low;
+        normal->weight = tangent->weight = 0;
     } else {
         const double load = (wish + mu * side * aside) / (1 + mu * mu);
         normal->next = load + normal->low;
-        tangent->next = side * mu * load;
+        tangent->next = side * mu * load + tangent->low;
         normal->weight = 0;
         tangent->weight = stiffness / (1 + mu * mu);
         tangent->slope = side * mu;

@@ -20,6 +20,7 @@ static pl_exact_system system_of(const pl_substep *s, pl_joint_sweep sweep)
                               .entries = e->entries.data,
                               .items = e->items.data,
                               .rows = e->rows.data,
+                              .turnings = e->turnings.data,
                               .diagonal = blocks,
                               .above = blocks + 9 * (size_t)e->node_count,
                               .below = blocks + 9 * ((size_t)e->node_count + e->entry_count),
@@ -32,6 +33,8 @@ static pl_exact_system system_of(const pl_substep *s, pl_joint_sweep sweep)
                               .full = vectors + 6 * n,
                               .h = s->h,
                               .since = s->solving->call.since,
+                              .inv_dt = (double)s->solving->call.inv_dt,
+                              .first = s->first,
                               .sweep = sweep };
 }
 
@@ -65,9 +68,12 @@ static void push_rows(const pl_exact_system *s, double *velocity, double share)
     }
 }
 
-// A body of the joint swings faster about it, for the joint's pull, than the substep can follow.
+// A body of the joint or contact swings faster about it, for its pull, than the substep can follow.
 static bool is_tense(const pl_exact_system *s, const pl_exact_item *item)
 {
+    if (item->joint == PL_NONE) {
+        return pl_exact_is_pressed(s, item);
+    }
     const pl_joint *j = pl_joint_grouped(&s->world->joints, item->joint);
     double impulse[PL_JOINT_ROWS];
     for (uint32_t i = 0; i < PL_JOINT_ROWS; ++i) {
@@ -80,15 +86,16 @@ static bool is_tense(const pl_exact_system *s, const pl_exact_item *item)
            pl_joint_inertia(pull[1], s->h, pl_one_own_inertia(s->world, j, 1)) > 0;
 }
 
-// What joints gave stays in the velocities: relaxed along where they point then, the way of the substep is a chord between
+// What joints and contacts that turn gave stays in the velocities: relaxed along where they point then, the way of the substep is a chord between
 // two places on the circle, left and reached at equal angles (RATTLE, Andersen 1983), and turning costs no energy. Not so
 // where links are tense, which would make energy, and where errors could not be undone: there springs alone give, as they act
 // once a substep, and the rest is solved anew.
-static void keep_joints(const pl_exact_system *s)
+static void keep_given(const pl_exact_system *s)
 {
     for (uint32_t i = s->island->first_item; i < s->island->end_item; ++i) {
         const pl_exact_item *item = &s->items[i];
-        if (item->joint == PL_NONE) {
+        if (item->joint == PL_NONE &&
+            (item->turning == PL_NONE || !s->turnings[item->turning].turns)) {
             continue;
         }
         const bool stays = !s->missed && !is_tense(s, item);
@@ -189,7 +196,7 @@ static void solve_island(pl_exact_system *s, bool warm)
     pl_exact_keep(s);
     give_velocities(s);
     if (s->sweep == PL_SWEEP_PULL) {
-        keep_joints(s);
+        keep_given(s);
     }
 }
 

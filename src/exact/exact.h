@@ -15,21 +15,32 @@ typedef struct pl_exact_row {
     double j[6];               // of A's vx, vy, w, then of B's
     double target;             // [m/s], [rad/s]
     double give;               // [1/kg] of a spring
-    double low, high;          // [N s]
+    double low, high;          // [N s]; of friction and rolling resistance, low is the middle of what it may be
     double factor;             // [-] or [m]
     double mass;               // [kg] effective
     double impulse;            // [N s] as known
     double next;               // [N s] what follows from the velocities of the moment
     double weight;             // [kg] -d next / d (J v) of its own
     double slope;              // the same of each lead's J v, as a share of the lead's weight
-    double kept;       // [N s] of a joint's row: given to the velocities by the sweep that pulled
+    double kept;       // [N s] given to the velocities by the sweep that pulled, and stays
     double before;     // [N s] as known before the sweep that pulls
     double shift, gap; // [m/s] of friction as a cone: see newton.c
     uint32_t lead;     // first of the rows that load it
     uint8_t leads;     // how many; 0: low and high hold
     bool in_force;
-    bool stays; // of a joint: what it gave in the sweep that pulled
+    bool stays; // of a joint or a contact that turns: what it gave in the sweep that pulled
 } pl_exact_row;
+
+// A contact that may turn within the step, and how: moment.c.
+typedef struct pl_exact_turning {
+    bool turns;        // it does in this step
+    int face;          // the body whose face the normal is of, 0 or 1; -1: it connects centres
+    double nx, ny;     // when the step began
+    double radius[2];  // [m] of each body, from core points to the surface, against and along the normal
+    double core[2][4]; // [m] of each point, when the step began: of A x, y from its centre of mass, of B
+    double start[2];   // [m] separations then
+    double apart[2];   // [m] when the sweep began
+} pl_exact_turning;
 
 // An island with all that its solution reads and writes.
 typedef struct pl_exact_system {
@@ -41,6 +52,7 @@ typedef struct pl_exact_system {
     const uint32_t *entries;
     const pl_exact_item *items;
     pl_exact_row *rows;
+    pl_exact_turning *turnings;
     // Of an entry: what the later node's velocity does to the earlier one, and the reverse.
     double *above, *below;
     double *diagonal;
@@ -48,6 +60,8 @@ typedef struct pl_exact_system {
     // what forces do in the substep; the velocities that the sweep that relaxes begins with.
     double *velocity, *base, *start, *change, *step, *kick, *full;
     near_real h, since; // [s] the substep; from the start of the step to its own
+    double inv_dt;      // [1/s] of the step
+    bool first;         // substep of it
     pl_joint_sweep sweep;
     bool missed; // the tolerance
 } pl_exact_system;
@@ -63,6 +77,15 @@ void pl_exact_free(pl_memory *memory, pl_exact_solver *exact);
 void pl_exact_fill(const pl_exact_system *s);
 void pl_exact_bend(const pl_exact_system *s, int round);
 void pl_exact_keep(const pl_exact_system *s);
+// Contacts that turn within the step (moment.c): which may; whether one does in this step; its geometry of now; by how much
+// its points part [m] while its bodies go by such velocities.
+bool pl_exact_may_turn(const plumb_world *world, const pl_manifold *m);
+void pl_exact_find_turning(const pl_exact_system *s, const pl_exact_item *item);
+void pl_exact_turn(const pl_exact_system *s, const pl_exact_item *item, pl_classic_contact *m);
+void pl_exact_part(const pl_exact_system *s, const pl_exact_item *item, double velocity[2][3],
+                   double parted[2]);
+// A body of the contact swings faster about it, for what presses it, than the substep can follow.
+bool pl_exact_is_pressed(const pl_exact_system *s, const pl_exact_item *item);
 // What springs ask for in the sweep, their ends moving at such velocities, forces of the sweep included (spring.c).
 void pl_exact_spring(const pl_exact_system *s, const double *velocity);
 

@@ -32,7 +32,7 @@ typedef struct search {
 void pl_exact_free(pl_memory *memory, pl_exact_solver *e)
 {
     pl_buffer *all[] = { &e->nodes, &e->entries, &e->items,   &e->islands,
-                         &e->rows,  &e->blocks,  &e->vectors, &e->scratch };
+                         &e->rows,  &e->blocks,  &e->vectors, &e->turnings, &e->scratch };
     for (size_t i = 0; i < sizeof all / sizeof *all; ++i) {
         pl_buffer_free(memory, all[i]);
     }
@@ -55,10 +55,12 @@ static bool list_items(plumb_world *world, pl_exact_solver *e)
     }
     pl_exact_item *items = e->items.data;
     e->item_count = contacts + joints;
+    e->turning_count = 0;
     for (uint32_t i = 0; i < contacts; ++i) {
         const pl_manifold *m = &manifolds[i];
         items[i] = (pl_exact_item){ .contact = i,
                                     .joint = PL_NONE,
+                                    .turning = pl_exact_may_turn(world, m) ? e->turning_count++ : PL_NONE,
                                     .slot = { pl_solver_slot(solver, m->body_a, movable),
                                               pl_solver_slot(solver, m->body_b, movable) },
                                     .row_count = 2 * m->count + (m->rolling > 0 ? 1 : 0) };
@@ -69,11 +71,13 @@ static bool list_items(plumb_world *world, pl_exact_solver *e)
         items[contacts + i] =
             (pl_exact_item){ .contact = PL_NONE,
                              .joint = c.group->alone + i,
+                             .turning = PL_NONE,
                              .slot = { pl_solver_slot(solver, mark->row_a, movable),
                                        pl_solver_slot(solver, mark->row_b, movable) },
                              .row_count = PL_JOINT_ROWS };
     }
-    return true;
+    return pl_buffer_reserve(&world->memory, &e->turnings,
+                             e->turning_count * sizeof(pl_exact_turning));
 }
 
 //---- neighbours --------------------------------------------------------------------------------------

@@ -42,53 +42,82 @@ static double separation_now(const pl_exact_system *s, const pl_exact_item *item
            (double)p->ran * (double)a->da;
 }
 
-static void fill_normal(const pl_exact_system *s, const pl_exact_item *item,
-                        const pl_classic_contact *m, const pl_classic_point *p, pl_exact_row *r)
+static bool turns(const pl_exact_system *s, const pl_exact_item *item)
 {
-    const double apart = separation_now(s, item, m, p), rate = apart / (double)s->h;
-    const double push = (double)s->world->desc.push_speed, back = -RECOVERY * rate;
+    return item->turning != PL_NONE && s->turnings[item->turning].turns;
+}
+
+// [m/s] at which a point that is so far apart [m] may close, or has to part.
+static double target_of(const pl_exact_system *s, double apart)
+{
+    const double rate = apart / (double)s->h, back = -RECOVERY * rate;
+    const double push = (double)s->world->desc.push_speed;
+    return apart > 0                    ? -rate
+           : s->sweep == PL_SWEEP_RELAX ? 0
+           : back < push                ? back
+                                        : push;
+}
+
+static void fill_normal(const pl_exact_system *s, const pl_classic_contact *m,
+                        const pl_classic_point *p, double apart, double kept, pl_exact_row *r)
+{
     const double pull = apart < (double)m->reach ? (double)m->pull * share_of(s) : 0;
     *r = (pl_exact_row){ .j = { -(double)m->nx, -(double)m->ny, -(double)p->ran, (double)m->nx,
                                 (double)m->ny, (double)p->rbn },
-                         .target = apart > 0                    ? -rate
-                                   : s->sweep == PL_SWEEP_RELAX ? 0
-                                   : back < push                ? back
-                                                                : push,
-                         .low = -pull,
+                         .target = target_of(s, apart),
+                         .low = -pull - kept,
                          .high = (double)PL_UNBOUNDED,
-                         .impulse = (double)p->ln };
+                         .kept = kept,
+                         .impulse = (double)p->ln - kept };
 }
 
 static void fill_tangent(const pl_classic_contact *m, const pl_classic_point *p, uint32_t lead,
-                         pl_exact_row *r)
+                         double kept, pl_exact_row *r)
 {
     *r = (pl_exact_row){ .j = { (double)m->ny, -(double)m->nx, -(double)p->rat, -(double)m->ny,
                                 (double)m->nx, (double)p->rbt },
                          .target = -(double)m->surface_speed,
+                         .low = -kept,
                          .factor = (double)m->friction,
                          .lead = lead,
                          .leads = 1,
-                         .impulse = (double)p->lt };
+                         .kept = kept,
+                         .impulse = (double)p->lt - kept };
 }
 
 static void fill_contact(const pl_exact_system *s, const pl_exact_item *item)
 {
-    const pl_classic_contact *m = contact_of(s, item);
+    pl_classic_contact *m = contact_of(s, item);
     pl_exact_row *r = s->rows + item->first_row;
+    const bool stays = s->sweep == PL_SWEEP_RELAX && r->stays;
+    const double share = stays ? 1 : 0;
+    if (s->first && s->sweep == PL_SWEEP_PULL && item->turning != PL_NONE) {
+        pl_exact_find_turning(s, item);
+    }
+    if (turns(s, item)) {
+        pl_exact_turn(s, item, m);
+    }
     for (uint32_t k = 0; k < m->count; ++k) {
-        fill_normal(s, item, m, &m->point[k], &r[k]);
-        fill_tangent(m, &m->point[k], item->first_row + k, &r[m->count + k]);
-        r[k].in_force = m->point[k].separation < PL_APART / 2;
+        const pl_classic_point *p = &m->point[k];
+        const double apart =
+            turns(s, item) ? s->turnings[item->turning].apart[k] : separation_now(s, item, m, p);
+        fill_normal(s, m, p, apart, share * (double)p->ln, &r[k]);
+        fill_tangent(m, p, item->first_row + k, share * (double)p->lt, &r[m->count + k]);
+        r[k].in_force = p->separation < PL_APART / 2;
         r[m->count + k].in_force = r[k].in_force && m->friction > 0;
     }
     if (m->rolling > 0) {
+        const double kept = share * (double)m->lr;
         r[2 * m->count] = (pl_exact_row){ .j = { 0, 0, -1, 0, 0, 1 },
+                                          .low = -kept,
                                           .factor = (double)m->rolling,
                                           .lead = item->first_row,
                                           .leads = (uint8_t)m->count,
-                                          .impulse = (double)m->lr,
+                                          .kept = kept,
+                                          .impulse = (double)m->lr - kept,
                                           .in_force = true };
     }
+    r->stays = stays;
 }
 
 // Of which point a hit is to be told: it bore nothing and is pushed now. Where a sweep relaxes, bodies are where the next
@@ -111,16 +140,17 @@ static void keep_contact(const pl_exact_system *s, const pl_exact_item *item)
     pl_classic_contact *m = contact_of(s, item);
     const pl_exact_row *r = s->rows + item->first_row;
     for (uint32_t k = 0; k < m->count; ++k) {
-        const double bound = (double)m->friction * (r[k].next - r[k].low);
-        m->point[k].yields = fabs(r[m->count + k].next) >= (1 - ON_CONE) * bound;
-        m->point[k].ln = (near_real)r[k].next;
-        m->point[k].lt = (near_real)r[m->count + k].next;
+        const pl_exact_row *normal = &r[k], *tangent = &r[m->count + k];
+        const double bound = (double)m->friction * (normal->next - normal->low);
+        m->point[k].yields = fabs(tangent->next - tangent->low) >= (1 - ON_CONE) * bound;
+        m->point[k].ln = (near_real)(normal->kept + normal->next);
+        m->point[k].lt = (near_real)(tangent->kept + tangent->next);
     }
     if (s->sweep == PL_SWEEP_PULL) { // of what relaxes, pgs.c asks at the end of the substep
         pl_classic_grip(s->world, m);
     }
     if (m->rolling > 0) {
-        m->lr = (near_real)r[2 * m->count].next;
+        m->lr = (near_real)(r[2 * m->count].kept + r[2 * m->count].next);
     }
 }
 
@@ -246,6 +276,21 @@ static void bend_rows(const pl_exact_system *s, const pl_exact_item *item, const
     }
 }
 
+// Of a contact that turns: by how much more than J v says its points part in the substep.
+static void bend_contact(const pl_exact_system *s, const pl_exact_item *item)
+{
+    const uint32_t count = contact_of(s, item)->count;
+    double v[2][3], parted[2];
+    velocity_of(s, item, 0, v[0]);
+    velocity_of(s, item, 1, v[1]);
+    pl_exact_part(s, item, v, parted);
+    for (uint32_t k = 0; k < count; ++k) {
+        pl_exact_row *r = &s->rows[item->first_row + k];
+        const double arc = parted[k] / (double)s->h - pl_exact_rate(s, r, s->velocity);
+        r->target = target_of(s, s->turnings[item->turning].apart[k]) - (r->in_force ? arc : 0);
+    }
+}
+
 static void bend(const pl_exact_system *s, const pl_exact_item *item, int round)
 {
     pl_lone l;
@@ -305,6 +350,8 @@ void pl_exact_bend(const pl_exact_system *s, int round)
     for (uint32_t i = s->island->first_item; i < s->island->end_item; ++i) {
         if (s->items[i].joint != PL_NONE) {
             bend(s, &s->items[i], round);
+        } else if (round < BENDS && turns(s, &s->items[i])) {
+            bend_contact(s, &s->items[i]);
         }
     }
 }

@@ -15,6 +15,7 @@ typedef struct pl_exact_node {
 // A contact or a joint.
 typedef struct pl_exact_item {
     uint32_t contact, joint;     // in solver.classic, in `grouped` of the joints; PL_NONE
+    uint32_t turning;            // in `turnings`, of a contact that may turn within the step; PL_NONE
     uint32_t node[2];            // of A and B; PL_NONE: does not move
     uint32_t slot[2];            // of the solver
     uint32_t entry;              // between the two nodes; PL_NONE: one of them does not move
@@ -35,8 +36,9 @@ typedef struct pl_exact_solver {
     pl_buffer rows;    // pl_exact_row
     pl_buffer blocks;  // double: nine a node, then twice nine an entry, above and below the diagonal
     pl_buffer vectors; // double, of nodes
+    pl_buffer turnings; // pl_exact_turning: of contacts that may turn within the step
     pl_buffer scratch;
-    uint32_t node_count, entry_count, item_count, island_count, row_count;
+    uint32_t node_count, entry_count, item_count, island_count, row_count, turning_count;
     // Of the step: factorisations; islands that missed the tolerance in some substep; largest residual [-] of them all,
     // relative to the speeds that the rows had to undo.
     uint32_t factored, missed;
