@@ -57,12 +57,13 @@ static double turn_of(const plumb_world *world, const pl_manifold *m, const pl_p
     return turn > w ? turn : w;
 }
 
-// The soft step follows some contacts (solver/moment.simd.c).
+// The soft step follows some contacts (solver/moment.simd.c), the exact solver corners, too (exact/moment.c).
 static bool follows(const plumb_world *world, const pl_manifold *m, const pl_pair *pair)
 {
-    return world->desc.solver == PLUMB_SOLVER_SOFT &&
-           pl_can_turn(m, world->pieces.kind[pair->a] <= PL_PIECE_CAPSULE,
-                       world->pieces.kind[pair->b] <= PL_PIECE_CAPSULE);
+    const bool exact = world->desc.solver == PLUMB_SOLVER_EXACT;
+    return (exact || world->desc.solver == PLUMB_SOLVER_SOFT) &&
+           pl_can_turn(m, exact || world->pieces.kind[pair->a] <= PL_PIECE_CAPSULE,
+                       exact || world->pieces.kind[pair->b] <= PL_PIECE_CAPSULE);
 }
 
 // [rad] by which the direction of a blow between round bodies is off.

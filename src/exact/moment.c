@@ -50,13 +50,6 @@ static vec turned(vec v, vec by)
     return (vec){ by.x * v.x - by.y * v.y, by.y * v.x + by.x * v.y };
 }
 
-bool pl_exact_may_turn(const plumb_world *world, const pl_manifold *m)
-{
-    const pl_pair *pair = &pl_pairs(&world->broad.pairs)[m->pair];
-    return pl_can_turn(m, world->pieces.kind[pair->a] <= PL_PIECE_CAPSULE,
-                       world->pieces.kind[pair->b] <= PL_PIECE_CAPSULE);
-}
-
 //---- when the step begins -------------------------------------------------------------------------------
 
 static void find_cores(const plumb_world *world, const pl_manifold *m, pl_exact_turning *t)

@@ -58,9 +58,10 @@ static bool list_items(plumb_world *world, pl_exact_solver *e)
     e->turning_count = 0;
     for (uint32_t i = 0; i < contacts; ++i) {
         const pl_manifold *m = &manifolds[i];
+        const bool turns = pl_can_turn(m, true, true); // of corners, too: DECISIONS.md
         items[i] = (pl_exact_item){ .contact = i,
                                     .joint = PL_NONE,
-                                    .turning = pl_exact_may_turn(world, m) ? e->turning_count++ : PL_NONE,
+                                    .turning = turns ? e->turning_count++ : PL_NONE,
                                     .slot = { pl_solver_slot(solver, m->body_a, movable),
                                               pl_solver_slot(solver, m->body_b, movable) },
                                     .row_count = 2 * m->count + (m->rolling > 0 ? 1 : 0) };
