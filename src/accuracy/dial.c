@@ -260,8 +260,12 @@ static pl_dial_tier tier_for(const plumb_world *world, const finding *f, pl_dial
     if (d->tier == PL_DIAL_EXACT && d->reason != PL_DIAL_RESTING) {
         return PL_DIAL_EXACT; // in the air for a while
     }
-    return (f->joints >= 2 && f->links >= 1) || heavy || (loose && f->joints > 0) ? PL_DIAL_DIRECT
-                                                                                  : PL_DIAL_SWEPT;
+    if (!((f->joints >= 2 && f->links >= 1) || heavy || (loose && f->joints > 0))) {
+        return PL_DIAL_SWEPT;
+    }
+    // Loops of joints that are solved directly lag by half a substep (joints/assembly.c); those of the exact solver do not.
+    const bool lags = d->tier == PL_DIAL_DIRECT && world->joints.plan.any_whole;
+    return lags && few ? PL_DIAL_EXACT : PL_DIAL_DIRECT;
 }
 
 static double substeps_for(const plumb_world *world, double dt, double rate)

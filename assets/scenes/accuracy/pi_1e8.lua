@@ -34,4 +34,6 @@ exact { "heavy, place", body = "heavy", x = function() return x + u * (5 - t) en
 exact { "light", body = "light", vx = function() return v end, at = 5 }
 exact { "energy", at = 5, value = function() return 1 end, measure = function() return energy() / (ratio / 2) end }
 expect { "the heavy block's velocity", exact = "heavy", tolerance = 4.1e-11 }
+expect { "the heavy block's place", exact = "heavy, place", tolerance = 2.2e-06 }
+expect { "the light block's velocity", exact = "light", tolerance = 0.00015 }
 expect { "the energy", exact = "energy", tolerance = 8.1e-11 }
