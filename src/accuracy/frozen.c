@@ -3,6 +3,7 @@
 //
 // Reads: manifolds, pairs, pieces, solver bodies, velocities at the start of the step. Cost: O(contacts).
 #include "accuracy/dial.h"
+#include "exact/exact.h"
 #include "solver/solver.h"
 
 #include <math.h>
@@ -60,10 +61,12 @@ static double turn_of(const plumb_world *world, const pl_manifold *m, const pl_p
 // The soft step follows some contacts (solver/moment.simd.c), the exact solver corners, too (exact/moment.c).
 static bool follows(const plumb_world *world, const pl_manifold *m, const pl_pair *pair)
 {
-    const bool exact = world->desc.solver == PLUMB_SOLVER_EXACT;
-    return (exact || world->desc.solver == PLUMB_SOLVER_SOFT) &&
-           pl_can_turn(m, exact || world->pieces.kind[pair->a] <= PL_PIECE_CAPSULE,
-                       exact || world->pieces.kind[pair->b] <= PL_PIECE_CAPSULE);
+    if (world->desc.solver == PLUMB_SOLVER_EXACT) {
+        return pl_exact_may_turn(world, m);
+    }
+    return world->desc.solver == PLUMB_SOLVER_SOFT &&
+           pl_can_turn(m, world->pieces.kind[pair->a] <= PL_PIECE_CAPSULE,
+                       world->pieces.kind[pair->b] <= PL_PIECE_CAPSULE);
 }
 
 // [rad] by which the direction of a blow between round bodies is off.

@@ -12,8 +12,8 @@
 #include <math.h>
 
 // As in solver/moment.simd.c: [rad] in a step on two points, where less is left as it is, and on any, where more is; [m]
-// centres that are closer give no direction. On one point all that turns is followed (with the bounds of there a disc that
-// sets off on another one is off by 2e-5 rad, however small the substeps).
+// centres that are closer give no direction. Of what is round and touches at one point, all that turns is followed (with
+// the bounds of there a disc that sets off on another one is off by 2e-5 rad, however small the substeps).
 #define LEAST_ON_TWO 2e-3
 #define MOST         0.25
 #define LEAST_GAP    1e-3
@@ -48,6 +48,19 @@ static vec rotation(double angle)
 static vec turned(vec v, vec by)
 {
     return (vec){ by.x * v.x - by.y * v.y, by.y * v.x + by.x * v.y };
+}
+
+static bool is_round(const plumb_world *world, const pl_manifold *m)
+{
+    const pl_pair *pair = &pl_pairs(&world->broad.pairs)[m->pair];
+    return world->pieces.kind[pair->a] <= PL_PIECE_CAPSULE &&
+           world->pieces.kind[pair->b] <= PL_PIECE_CAPSULE;
+}
+
+bool pl_exact_may_turn(const plumb_world *world, const pl_manifold *m)
+{
+    const bool any = m->count == 1 || is_round(world, m);
+    return pl_can_turn(m, any, any);
 }
 
 //---- when the step begins -------------------------------------------------------------------------------
@@ -118,8 +131,9 @@ void pl_exact_find_turning(const pl_exact_system *s, const pl_exact_item *item)
     pl_exact_turning *t = &s->turnings[item->turning];
     find_cores(world, m, t);
     const double rate = rate_of(t, a, b, MOST * s->inv_dt);
-    const double least = m->count == 1 ? 0 : LEAST_ON_TWO * s->inv_dt;
-    t->turns = rate > least && touches(m);
+    const bool round = t->face < 0 || is_round(world, m);
+    const double least = m->count == 2 ? LEAST_ON_TWO : round ? 0 : (double)PL_LEAST_TURN;
+    t->turns = rate > least * s->inv_dt && touches(m);
 }
 
 //---- now ----------------------------------------------------------------------------------------------------

@@ -58,7 +58,7 @@ static bool list_items(plumb_world *world, pl_exact_solver *e)
     e->turning_count = 0;
     for (uint32_t i = 0; i < contacts; ++i) {
         const pl_manifold *m = &manifolds[i];
-        const bool turns = pl_can_turn(m, true, true); // of corners, too: DECISIONS.md
+        const bool turns = pl_exact_may_turn(world, m);
         items[i] = (pl_exact_item){ .contact = i,
                                     .joint = PL_NONE,
                                     .turning = turns ? e->turning_count++ : PL_NONE,

@@ -33,7 +33,7 @@
 
 // Steps of Newton's method: of tumbling boxes nine of ten contacts that are found by it are found in two. A sweep costs
 // as much as six.
-#define ROUNDS 5
+#define ROUNDS 6
 // So many sweeps are worth a thread.
 #define LEAST 16
 

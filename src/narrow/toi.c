@@ -85,6 +85,7 @@ void pl_toi_open(pl_toi *item, const pl_manifold *m)
     closings c;
     find_closings(&c, &item->paths, m);
     item->verdict = PL_TOI_OPEN;
+    item->close = false;
     item->time = first_time(&c, &item->paths, m, 0);
     if (item->time <= 1) {
         item->time = first_time(&c, &item->paths, m, AIM);
@@ -103,6 +104,13 @@ void pl_toi_pose(pl_toi *item, const plumb_world *world, const pl_pair *pair)
 static bool is_same_normal(const pl_manifold *m, near_real nx, near_real ny)
 {
     return (double)m->nx * (double)nx + (double)m->ny * (double)ny > 1 - SAME_NORMAL;
+}
+
+// A blow that throws round features back: its direction is that of the line between their centres, and 2.5e-4 m before
+// they meet that of discs of 0.03 m is 0.15 degrees off.
+static bool is_round_blow(const pl_manifold *m, const pl_manifold *then)
+{
+    return m->restitution > 0 && (then->met & PL_MET_TURNS) == PL_MET_TURNS_MID;
 }
 
 // Whether the plane of the start is that of the features that meet at out->time.
@@ -138,6 +146,19 @@ static double rate_of(const pl_paths *paths, const pl_manifold_point *p, double 
            (to - from);
 }
 
+// The manifold of the moment is found: the start's own, or another one.
+static void settle(pl_toi *item, const pl_manifold *m, const pl_manifold *then,
+                   const pl_manifold_point *p)
+{
+    item->nx = then->nx, item->ny = then->ny;
+    item->point = *p;
+    const bool keeps = !is_round_blow(m, then) && is_that_plane(item, m);
+    item->verdict = keeps ? PL_TOI_KEEPS : PL_TOI_HIT;
+    if (item->verdict == PL_TOI_HIT) {
+        item->then = *then;
+    }
+}
+
 bool pl_toi_refine(pl_toi *item, const pl_manifold *m, const pl_manifold *then)
 {
     const pl_manifold_point *p =
@@ -147,16 +168,17 @@ bool pl_toi_refine(pl_toi *item, const pl_manifold *m, const pl_manifold *then)
     if (!(rate > 0)) {
         return false;
     }
-    if (s > 0 && s < PL_TOI_ASIDE) {
-        item->nx = then->nx, item->ny = then->ny;
-        item->point = *p;
-        item->verdict = is_that_plane(item, m) ? PL_TOI_KEEPS : PL_TOI_HIT;
-        if (item->verdict == PL_TOI_HIT) {
-            item->then = *then;
+    double aim = AIM;
+    if (s > (item->close ? -PL_TOI_ASIDE : 0) && s < PL_TOI_ASIDE) {
+        const bool last = item->close || !is_round_blow(m, then) || item->time + s / rate > 1;
+        if (last) {
+            settle(item, m, then, p);
+            return true;
         }
-        return true;
+        item->close = true;
+        aim = 0;
     }
-    item->time += (s - AIM) / rate;
+    item->time += (s - aim) / rate;
     return item->time >= 0 && item->time <= 1;
 }
 
