@@ -15,13 +15,14 @@ typedef struct pl_exact_row {
     double j[6];               // of A's vx, vy, w, then of B's
     double target;             // [m/s], [rad/s]
     double give;               // [1/kg] of a spring
-    double low, high;          // [N s]; of friction and rolling resistance, low is the middle of what it may be
-    double factor;             // [-] or [m]
-    double mass;               // [kg] effective
-    double impulse;            // [N s] as known
-    double next;               // [N s] what follows from the velocities of the moment
-    double weight;             // [kg] -d next / d (J v) of its own
-    double slope;              // the same of each lead's J v, as a share of the lead's weight
+    double low,
+        high;      // [N s]; of friction and rolling resistance, low is the middle of what it may be
+    double factor; // [-] or [m]
+    double mass;   // [kg] effective
+    double impulse;    // [N s] as known
+    double next;       // [N s] what follows from the velocities of the moment
+    double weight;     // [kg] -d next / d (J v) of its own
+    double slope;      // the same of each lead's J v, as a share of the lead's weight
     double kept;       // [N s] given to the velocities by the sweep that pulled, and stays
     double before;     // [N s] as known before the sweep that pulls
     double shift, gap; // [m/s] of friction as a cone: see newton.c
@@ -33,13 +34,16 @@ typedef struct pl_exact_row {
 
 // A contact that may turn within the step, and how: moment.c.
 typedef struct pl_exact_turning {
-    bool turns;        // it does in this step
-    int face;          // the body whose face the normal is of, 0 or 1; -1: it connects centres
-    double nx, ny;     // when the step began
-    double radius[2];  // [m] of each body, from core points to the surface, against and along the normal
-    double core[2][4]; // [m] of each point, when the step began: of A x, y from its centre of mass, of B
-    double start[2];   // [m] separations then
-    double apart[2];   // [m] when the sweep began
+    bool turns;    // it does in this step
+    int face;      // the body whose face the normal is of, 0 or 1; -1: it connects centres
+    double nx, ny; // when the step began
+    double radius
+        [2]; // [m] of each body, from core points to the surface, against and along the normal
+    double
+        core[2]
+            [4]; // [m] of each point, when the step began: of A x, y from its centre of mass, of B
+    double start[2]; // [m] separations then
+    double apart[2]; // [m] when the sweep began
 } pl_exact_turning;
 
 // An island with all that its solution reads and writes.

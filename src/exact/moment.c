@@ -97,7 +97,8 @@ static double rate_of(const pl_exact_turning *t, const pl_solver_body *a, const 
     const vec arm_b = { t->core[0][2], t->core[0][3] };
     const double wa = fabs((double)a->w), wb = fabs((double)b->w);
     const vec v = { (double)b->vx - (double)b->w * arm_b.y - (double)a->vx + (double)a->w * arm_a.y,
-                    (double)b->vy + (double)b->w * arm_b.x - (double)a->vy - (double)a->w * arm_a.x };
+                    (double)b->vy + (double)b->w * arm_b.x - (double)a->vy -
+                        (double)a->w * arm_a.x };
     const double gap = fabs(t->start[0] + t->radius[0] + t->radius[1]);
     if (t->face < 0 && gap <= LEAST_GAP) {
         return 0;
@@ -116,8 +117,7 @@ static double rate_of(const pl_exact_turning *t, const pl_solver_body *a, const 
 static bool touches(const pl_manifold *m)
 {
     const bool one = m->count == 1;
-    return m->point[0].separation <= PL_AHEAD ||
-           (!one && m->point[1].separation <= PL_AHEAD) ||
+    return m->point[0].separation <= PL_AHEAD || (!one && m->point[1].separation <= PL_AHEAD) ||
            m->point[0].normal > 0 || (!one && m->point[1].normal > 0);
 }
 
@@ -161,8 +161,7 @@ static look look_at(const pl_exact_turning *t, double pose[2][3])
     }
     const double gap = t->start[0] + t->radius[0] + t->radius[1];
     const double length = gap < 0 ? -sqrt(dot(x[0], x[0])) : sqrt(dot(x[0], x[0]));
-    out.n = t->face >= 0 ? turned(start, turn[t->face])
-                         : (vec){ x[0].x / length, x[0].y / length };
+    out.n = t->face >= 0 ? turned(start, turn[t->face]) : (vec){ x[0].x / length, x[0].y / length };
     for (int k = 0; k < 2; ++k) {
         const double far = dot(x[k], out.n);
         // Between centres by what has changed, lest a large radius rounds it off.
@@ -208,7 +207,8 @@ void pl_exact_turn(const pl_exact_system *s, const pl_exact_item *item, pl_class
         const double went = now.n.x * (pose[1][0] - pose[0][0]) +
                             now.n.y * (pose[1][1] - pose[0][1]) + (double)p->rbn * pose[1][2] -
                             (double)p->ran * pose[0][2];
-        p->separation = p->separation < PL_APART / 2 ? (near_real)(now.apart[k] - went) : p->separation;
+        p->separation =
+            p->separation < PL_APART / 2 ? (near_real)(now.apart[k] - went) : p->separation;
     }
 }
 

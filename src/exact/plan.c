@@ -31,8 +31,8 @@ typedef struct search {
 
 void pl_exact_free(pl_memory *memory, pl_exact_solver *e)
 {
-    pl_buffer *all[] = { &e->nodes, &e->entries, &e->items,   &e->islands,
-                         &e->rows,  &e->blocks,  &e->vectors, &e->turnings, &e->scratch };
+    pl_buffer *all[] = { &e->nodes,  &e->entries, &e->items,    &e->islands, &e->rows,
+                         &e->blocks, &e->vectors, &e->turnings, &e->scratch };
     for (size_t i = 0; i < sizeof all / sizeof *all; ++i) {
         pl_buffer_free(memory, all[i]);
     }

@@ -52,10 +52,7 @@ static double target_of(const pl_exact_system *s, double apart)
 {
     const double rate = apart / (double)s->h, back = -RECOVERY * rate;
     const double push = (double)s->world->desc.push_speed;
-    return apart > 0                    ? -rate
-           : s->sweep == PL_SWEEP_RELAX ? 0
-           : back < push                ? back
-                                        : push;
+    return apart > 0 ? -rate : s->sweep == PL_SWEEP_RELAX ? 0 : back < push ? back : push;
 }
 
 static void fill_normal(const pl_exact_system *s, const pl_classic_contact *m,

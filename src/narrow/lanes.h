@@ -261,6 +261,25 @@ WIDE_INLINE vm lanes_act(const lanes *l, const touch *t, const pl_narrow_input *
     return acts;
 }
 
+// Which contacts lie ahead. What touched goes on to touch while it is near, and is none of those.
+WIDE_INLINE vm lanes_ahead(const lanes *l, const touch *t, const pl_narrow_input *in,
+                           vf restitution)
+{
+    const vm far = (t->sep[0] > splat(PL_AHEAD)) & (t->sep[1] > splat(PL_AHEAD));
+    const vm apart = (t->sep[0] > splat(PL_AHEAD_BLOW)) & (t->sep[1] > splat(PL_AHEAD_BLOW));
+    vm blow = (restitution > splat(0)) & apart & ~far &
+              ((t->turns & (pl_lane)PL_MET_TURNS) == (pl_lane)PL_MET_TURNS_MID);
+    if (!any(blow)) {
+        return far;
+    }
+    for (int i = 0; i < PL_WIDTH; ++i) {
+        if ((in->pairs[l->pair[i]].flags & PL_PAIR_TOUCHING) != 0) {
+            blow[i] = 0;
+        }
+    }
+    return far | blow;
+}
+
 // Appends the manifolds of `count` lanes.
 WIDE_PART void lanes_emit(const lanes *l, const touch *t, const pl_narrow_input *in, uint32_t count,
                           pl_narrow *out)
@@ -311,7 +330,7 @@ WIDE_PART void lanes_emit(const lanes *l, const touch *t, const pl_narrow_input 
     }
     near_real limits[PL_WIDTH];
     store(limits, limit);
-    const vm ahead = (t->sep[0] > splat(PL_AHEAD)) & (t->sep[1] > splat(PL_AHEAD));
+    const vm ahead = lanes_ahead(l, t, in, restitution);
     const vm acts = lanes_act(l, t, in, (const vf(*)[4])arms, ahead);
     const vm notes = (~ahead & (pl_lane)PL_CANDIDATE_STRIKES) |
                      (acts & (pl_lane)PL_CANDIDATE_ACTS) |

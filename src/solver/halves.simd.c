@@ -28,7 +28,8 @@
 
 // Reals of a solver body and of its motion; of what it is kicked by.
 enum { BODY = sizeof(pl_solver_body) / sizeof(near_real), KICK = 4 };
-_Static_assert(sizeof(pl_solver_motion) == sizeof(pl_solver_body), "a motion is as long as its body");
+_Static_assert(sizeof(pl_solver_motion) == sizeof(pl_solver_body),
+               "a motion is as long as its body");
 
 // Bodies in a row, W or the first few of them.
 typedef struct block {

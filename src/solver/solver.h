@@ -165,7 +165,7 @@ typedef struct pl_contact_kernels {
     pl_contact_kernel *prepare_grips, *store_grips;                  // after prepare, after store
     pl_contact_kernel *prepare_moment, *open_moment, *follow_moment; // moment.simd.c
     pl_range_fn *halve, *drift; // of a pl_passage (substep.h): halves.simd.c
-    pl_contact_kernel *tally; // adds the substep's normal impulses to the totals
+    pl_contact_kernel *tally;   // adds the substep's normal impulses to the totals
     // rolling impulses to the pairs; totals, speeds of hits to the manifolds
     pl_contact_kernel *store_extras;
     pl_contact_kernel *store; // impulses to the pairs

@@ -185,6 +185,45 @@ static void pair_leaves_as_the_impact_law_says(void **state)
     }
 }
 
+// Discs of any size and speed strike one another off the centre, in steps of any length: they part along the line of
+// centres of the moment at which they meet, not of a quarter of a millimetre before.
+static void discs_leave_by_the_line_of_their_centres(void **state)
+{
+    (void)state;
+    const double hertz[] = { 30, 60, 120, 240, 1000, 4000 };
+    uint32_t seed = 20;
+    double worst = 0;
+    for (int k = 0; k < 1200; ++k) {
+        const double r1 = sim_uniform(&seed, 0.02, 1), r2 = sim_uniform(&seed, 0.02, 1);
+        const double m1 = sim_uniform(&seed, 0.1, 10), m2 = sim_uniform(&seed, 0.1, 10);
+        const double speed = sim_uniform(&seed, 0.5, 20), turn = sim_uniform(&seed, 0, 2 * SIM_PI);
+        const double e = k % 3 == 0 ? sim_uniform(&seed, 0.2, 1) : 1, r = r1 + r2;
+        const double aside = sim_uniform(&seed, -0.9, 0.9) * r, dt = 1 / hertz[k % 6];
+        const double c = cos(turn), s = sin(turn), way = sqrt(r * r - aside * aside);
+        const double far = way + sim_uniform(&seed, 0.001, 4) * speed * dt;
+        plumb_world *w = sim_space();
+        plumb_material m = sim_material(w, 0, e);
+        plumb_body a = sim_ball(w, -far * c - aside * s, -far * s + aside * c, r1, m);
+        plumb_body b = sim_ball(w, 0, 0, r2, m);
+        assert_int_equal(plumb_body_set_mass(w, a, (plumb_real)m1), PLUMB_OK);
+        assert_int_equal(plumb_body_set_mass(w, b, (plumb_real)m2), PLUMB_OK);
+        sim_launch(w, a, speed * c, speed * s, 0);
+        sim_run(w, 7, dt);
+        // From A to B when they meet: (way, -aside) over r, in the frame of the flight.
+        const double nx = (way * c + aside * s) / r, ny = (way * s - aside * c) / r;
+        const double gets = (1 + e) * speed * (way / r) * m1 / (m1 + m2);
+        const double off = hypot(sim_vx(w, b) - gets * nx, sim_vy(w, b) - gets * ny) / speed;
+        if (off > 4e-5) {
+            print_message("case %d: off by %.2g of %.3g m/s, r %.3g, aside %.2g, e %.2g, %g Hz\n",
+                          k, off, speed, r, aside / r, e, hertz[k % 6]);
+        }
+        worst = fmax(worst, off);
+        assert_true(off <= 4e-5);
+        plumb_world_destroy(w);
+    }
+    print_message("1200 cuts: velocities within %.2g of the speed\n", worst);
+}
+
 // n equal balls in a row, k of them arrive: k leave, the others stay.
 static void cradle_passes_on_what_arrives(void **state)
 {
@@ -383,6 +422,7 @@ int main(void)
         cmocka_unit_test(elastic_ball_keeps_its_energy),
         cmocka_unit_test(ball_in_a_box_never_sticks),
         cmocka_unit_test(pair_leaves_as_the_impact_law_says),
+        cmocka_unit_test(discs_leave_by_the_line_of_their_centres),
         cmocka_unit_test(cradle_passes_on_what_arrives),
         cmocka_unit_test(collisions_count_out_pi),
         cmocka_unit_test(a_cut_chain_is_told),

@@ -18,6 +18,6 @@ local c, s = math.cos(math.pi / 6), math.sin(math.pi / 6)
 exact { "ball", measure = direction(ball), value = function() return 30 end, unit = "deg", from = 0.3 }
 exact { "cue", measure = direction(cue), value = function() return -60 end, unit = "deg", from = 0.3 }
 exact { "velocity", body = "ball", vx = function() return v * c * c end, vy = function() return v * c * s end, from = 0.3 }
-expect { "the ball's direction", exact = "ball", tolerance = 0.22 }
-expect { "the cue's direction", exact = "cue", tolerance = 0.22 }
-expect { "the ball's velocity", exact = "velocity", tolerance = 0.02 }
+expect { "the ball's direction", exact = "ball", tolerance = 0.00017 }
+expect { "the cue's direction", exact = "cue", tolerance = 0.00017 }
+expect { "the ball's velocity", exact = "velocity", tolerance = 1.5e-05 }

@@ -79,6 +79,6 @@ end }
 exact { "energy", scale = 1, value = function() return 1 end, measure = function()
     return energy() / (20 * find("disc1"):mass() * 1.3 * 1.3 / 2)
 end }
-expect { "there", exact = "there", tolerance = 0.039 }
-expect { "all are back", exact = "back", tolerance = 0.027 }
-expect { "the energy", exact = "energy", tolerance = 7.4e-08 }
+expect { "there", exact = "there", tolerance = 5.1e-06 }
+expect { "all are back", exact = "back", tolerance = 1.1e-05 }
+expect { "the energy", exact = "energy", tolerance = 2.5e-08 }
