@@ -266,18 +266,18 @@ WIDE_INLINE vm lanes_ahead(const lanes *l, const touch *t, const pl_narrow_input
                            vf restitution)
 {
     const vm far = (t->sep[0] > splat(PL_AHEAD)) & (t->sep[1] > splat(PL_AHEAD));
-    const vm apart = (t->sep[0] > splat(PL_AHEAD_BLOW)) & (t->sep[1] > splat(PL_AHEAD_BLOW));
-    vm blow = (restitution > splat(0)) & apart & ~far &
+    const vm apart = (t->sep[0] > splat(PL_AHEAD_HIT)) & (t->sep[1] > splat(PL_AHEAD_HIT));
+    vm hits = (restitution > splat(0)) & apart & ~far &
               ((t->turns & (pl_lane)PL_MET_TURNS) == (pl_lane)PL_MET_TURNS_MID);
-    if (!any(blow)) {
+    if (!any(hits)) {
         return far;
     }
     for (int i = 0; i < PL_WIDTH; ++i) {
         if ((in->pairs[l->pair[i]].flags & PL_PAIR_TOUCHING) != 0) {
-            blow[i] = 0;
+            hits[i] = 0;
         }
     }
-    return far | blow;
+    return far | hits;
 }
 
 // Appends the manifolds of `count` lanes.

@@ -106,9 +106,9 @@ static bool is_same_normal(const pl_manifold *m, near_real nx, near_real ny)
     return (double)m->nx * (double)nx + (double)m->ny * (double)ny > 1 - SAME_NORMAL;
 }
 
-// A blow that throws round features back: its direction is that of the line between their centres, and 2.5e-4 m before
+// A hit that throws round features back: its direction is that of the line between their centres, and 2.5e-4 m before
 // they meet that of discs of 0.03 m is 0.15 degrees off.
-static bool is_round_blow(const pl_manifold *m, const pl_manifold *then)
+static bool is_round_hit(const pl_manifold *m, const pl_manifold *then)
 {
     return m->restitution > 0 && (then->met & PL_MET_TURNS) == PL_MET_TURNS_MID;
 }
@@ -152,7 +152,7 @@ static void settle(pl_toi *item, const pl_manifold *m, const pl_manifold *then,
 {
     item->nx = then->nx, item->ny = then->ny;
     item->point = *p;
-    const bool keeps = !is_round_blow(m, then) && is_that_plane(item, m);
+    const bool keeps = !is_round_hit(m, then) && is_that_plane(item, m);
     item->verdict = keeps ? PL_TOI_KEEPS : PL_TOI_HIT;
     if (item->verdict == PL_TOI_HIT) {
         item->then = *then;
@@ -170,7 +170,7 @@ bool pl_toi_refine(pl_toi *item, const pl_manifold *m, const pl_manifold *then)
     }
     double aim = AIM;
     if (s > (item->close ? -PL_TOI_ASIDE : 0) && s < PL_TOI_ASIDE) {
-        const bool last = item->close || !is_round_blow(m, then) || item->time + s / rate > 1;
+        const bool last = item->close || !is_round_hit(m, then) || item->time + s / rate > 1;
         if (last) {
             settle(item, m, then, p);
             return true;

@@ -69,7 +69,7 @@ typedef struct pl_manifold {
 // [m] contacts that are farther apart lie ahead: whether they will meet is asked (ahead.c).
 #define PL_AHEAD ((near_real)5e-4)
 // [m] the same of round features that bounce: their line of centres turns until they meet, however near they are.
-#define PL_AHEAD_BLOW ((near_real)1e-6)
+#define PL_AHEAD_HIT ((near_real)1e-6)
 
 // [m] an impact that moves a body by less until the horizon is none: it would meet what it would have met.
 #define PL_TURNED ((near_real)2e-3)
