@@ -115,6 +115,16 @@ PLUMB_API plumb_result plumb_body_set_angle(plumb_world *world, plumb_body body,
 /// O(1). Errors: E_HANDLE, E_RANGE, E_NOT_FINITE, E_STATE (not kinematic), E_MEMORY.
 PLUMB_API plumb_result plumb_body_set_target(plumb_world *world, plumb_body body, plumb_vec2 position,
                                              plumb_real angle, plumb_real dt);
+/// Sends a kinematic body to a pose as above, to arrive there after dt [s] with a velocity [m/s] of its centre of mass and an
+/// angular velocity [rad/s], with which it goes on. From the pose and the velocity that it has now it goes by cubics of
+/// time: keyframes are joined so, and the velocity has no jumps; with both velocities 0 it starts and stops smoothly. What it
+/// carries bears m (g + a) in every substep. It turns the way, and as often, as comes nearest to what its angular
+/// velocities would turn it by. dt is of the world's time.
+/// O(1). Errors: E_HANDLE, E_RANGE (also where it would be faster than 1e12 m/s), E_NOT_FINITE, E_STATE (not
+/// kinematic), E_MEMORY.
+PLUMB_API plumb_result plumb_body_set_target_moving(plumb_world *world, plumb_body body, plumb_vec2 position,
+                                                    plumb_real angle, plumb_vec2 velocity,
+                                                    plumb_real angular_velocity, plumb_real dt);
 /// True while the body is on its way to a target.
 PLUMB_API bool plumb_body_has_target(const plumb_world *world, plumb_body body);
 

@@ -132,7 +132,7 @@ static size_t query_grid_bytes(const pl_query_grid_set *set)
 static void tell_rest(listing *out, const plumb_world *w)
 {
     size_t characters = 0, liquid = 0, systems = 0, measures = 0, watchdog = 0;
-    size_t effects = BUFFERS(&w->settings.items, &w->targets.items);
+    size_t effects = BUFFERS(&w->settings.items, &w->targets.items, &w->tracks.items);
     size_t events = BUFFERS(&w->begin_events, &w->end_events, &w->changed_pairs, &w->hit_events);
     PART(characters, pl_characters, w->characters, pl_characters_free(&dry, &copy));
     PART(liquid, pl_liquid, w->liquid, pl_liquid_free(&dry, &copy));

@@ -194,6 +194,7 @@ static void free_world(plumb_world *world)
     pl_buffer_free(&memory, &world->checked);
     pl_buffer_free(&memory, &world->settings.items);
     pl_buffer_free(&memory, &world->targets.items);
+    pl_buffer_free(&memory, &world->tracks.items);
     pl_parts_free(&memory, &world->parts);
     pl_pending_hits_free(&memory, &world->pending_hits);
     pl_sensing_free(&memory, &world->sensing);

@@ -47,6 +47,18 @@ pl_flight pl_effects_fly(const plumb_world *world, uint32_t row, real dt);
 // After motion: who has arrived, and where to from here.
 void pl_targets_arrive(plumb_world *world, real dt);
 
+// Bodies that arrive with a velocity (track.c): of a time scale that changed; as a step begins, as it is refused, as it ends.
+void pl_tracks_reaim(plumb_world *world, uint32_t row);
+void pl_tracks_open(plumb_world *world, real dt);
+void pl_tracks_undo(plumb_world *world);
+void pl_tracks_arrive(plumb_world *world, real dt);
+// Before a substep's velocities, and behind its drift.
+void pl_tracks_begin(const struct pl_substep *s);
+void pl_tracks_end(const struct pl_substep *s);
+
+// Of a target: E_RANGE, E_NOT_FINITE (dt), E_STATE (the body is not kinematic).
+plumb_result pl_target_check(const plumb_world *world, const char *function, uint32_t row, real dt);
+
 // Of a velocity over a step, in a body's own time T: what is left of it is v - v drop + a way, its way
 // v (way + way_low) + a way_of_a.
 typedef struct pl_decay_step {

@@ -38,6 +38,9 @@ static void aim(plumb_world *world, uint32_t row, const pl_target *target, real 
 void pl_target_reaim(plumb_world *world, uint32_t row)
 {
     bool has = (world->bodies.flags[row] & PL_BODY_TARGETED) != 0;
+    if (has) {
+        pl_tracks_reaim(world, row);
+    }
     for (uint32_t i = 0; has && i < world->targets.count; ++i) {
         const pl_target *target = &items(world)[i];
         if (plumb_same(target->body, world->bodies.entity[row])) {
@@ -46,20 +49,26 @@ void pl_target_reaim(plumb_world *world, uint32_t row)
     }
 }
 
+plumb_result pl_target_check(const plumb_world *world, const char *function, uint32_t row, real dt)
+{
+    PL_TRY(pl_check_finite(world, function, "dt", dt));
+    if (!(dt > 0)) {
+        return pl_fail(world, PLUMB_E_RANGE, function, "dt is %g; it must be above 0", (double)dt);
+    }
+    if (world->bodies.type[row] != PLUMB_KINEMATIC) {
+        return pl_fail(world, PLUMB_E_STATE, function, "body is %s; it must be kinematic",
+                       world->bodies.type[row] == PLUMB_STATIC ? "static" : "dynamic");
+    }
+    return PLUMB_OK;
+}
+
 plumb_result plumb_body_set_target(plumb_world *world, plumb_body body, plumb_vec2 position,
                                    plumb_real angle, plumb_real dt)
 {
     uint32_t row;
     PL_TRY(pl_check_body(world, __func__, body, &row));
     PL_TRY(pl_place_check(world, __func__, position, angle));
-    PL_TRY(pl_check_finite(world, __func__, "dt", dt));
-    if (!(dt > 0)) {
-        return pl_fail(world, PLUMB_E_RANGE, __func__, "dt is %g; it must be above 0", (double)dt);
-    }
-    if (world->bodies.type[row] != PLUMB_KINEMATIC) {
-        return pl_fail(world, PLUMB_E_STATE, __func__, "body is %s; it must be kinematic",
-                       world->bodies.type[row] == PLUMB_STATIC ? "static" : "dynamic");
-    }
+    PL_TRY(pl_target_check(world, __func__, row, dt));
     pl_targets *targets = &world->targets;
     if (!pl_buffer_reserve(&world->memory, &targets->items,
                            ((size_t)targets->count + 1) * sizeof(pl_target))) {

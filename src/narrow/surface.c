@@ -27,10 +27,10 @@ bool pl_surfaces_wanted(const plumb_world *world, const char **reason)
              m->kinetic_friction[row] > 0 || m->friction_mix[row] != PLUMB_MIX_DEFAULT ||
              m->restitution_mix[row] != PLUMB_MIX_DEFAULT);
     }
-    *reason = wanted ? "some material rolls hard, runs like a belt, sticks, slides more easily "
-                       "than it holds, or has a mix of "
-                       "its own"
-                     : "all materials in use are mixed by default";
+    *reason = wanted
+                  ? "some material rolls hard, runs like a belt, sticks, has a kinetic friction or "
+                    "a mix of its own"
+                  : "all materials in use are mixed by default";
     return wanted;
 }
 

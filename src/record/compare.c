@@ -147,6 +147,10 @@ static const pl_member character_members[] = { PL_STATE_CHARACTER(CHARACTER_MEMB
 static const pl_member settings_members[] = { PL_BODY_ROWS(PL_ROW_RECORD, TUNING_MEMBER) };
 static const pl_member target_members[] = { MEMBER(pl_target, x) MEMBER(pl_target, y)
                                                 MEMBER(pl_target, turn) MEMBER(pl_target, left) };
+static const pl_member track_members[] = { MEMBER(pl_track, axis) MEMBER(pl_track, end)
+                                               MEMBER(pl_track, time) MEMBER(pl_track, left)
+                                                   MEMBER(pl_track, x) MEMBER(pl_track, y)
+                                                       MEMBER(pl_track, turn) };
 static const pl_member pair_members[] = { MEMBER(pl_pair, normal) MEMBER(pl_pair, tangent)
                                               MEMBER(pl_pair, rolling) MEMBER(pl_pair, flags) };
 
@@ -406,11 +410,14 @@ static void compare(comparison *c)
                                  settings_members, COUNT(settings_members) };
     const body_list targets = { "targets.items", "targets", sizeof(pl_target), target_members,
                                 COUNT(target_members) };
+    const body_list tracks = { "tracks.items", "tracks", sizeof(pl_track), track_members,
+                               COUNT(track_members) };
     const body_list characters = { "characters.items", "characters", sizeof(pl_character),
                                    character_members, COUNT(character_members) };
     add_kind(c, PLUMB_KIND_BODY);
     add_of_bodies(c, &settings);
     add_of_bodies(c, &targets);
+    add_of_bodies(c, &tracks);
     add_kind(c, PLUMB_KIND_SHAPE);
     add_kind(c, PLUMB_KIND_JOINT);
     add_of_bodies(c, &characters);

@@ -36,6 +36,8 @@
       "", "", ONE)                                                                                                                           \
     X("force systems",     FORCES,      ALWAYS,                      HOME,                                                   ONCE,           \
       "", "", ONE)                                                                                                                           \
+    X("tracks",           FORCES,      IF(pl_want_tracks),           ONCE(pl_run_tracks),                                     ONCE,           \
+      "targets, rows", "velocities, poses", ONE)                                                                                             \
     X("characters",        FORCES,      IF(pl_characters_wanted),    ONCE(pl_run_characters),                                ONCE,           \
       "grids, poses, velocities", "velocities, forces, characters, poses, rows, islands", ONE)                                               \
     X("liquid",            FORCES,      IF(pl_want_liquid),          ONCE(pl_run_liquid),                                    ONCE,           \
@@ -98,7 +100,7 @@
     X("speed caps",        MOMENT,      IF(pl_want_caps),            EACH(pl_caps_row),                                      REPLACEABLE,    \
       "solver bodies, body settings", "accelerations", ONE)                                                                                  \
     X("integrate",         VELOCITIES,  IF(pl_want_solver),          THREE(pl_soft_integrate, pl_classic_integrate, pl_classic_integrate), ONCE,           \
-      "accelerations", "solver bodies, accelerations", ONE)                                                                                  \
+      "accelerations, targets", "solver bodies, accelerations", ONE)                                                                               \
     X("warm start joints", VELOCITIES,  IF(pl_want_joints),          THREE(pl_joints_row_warm_start, pl_joints_row_warm_start, pl_exact_warm_start_joints), ONCE,           \
       "joints", "solver bodies, joints", ONE)                                                                                                \
     X("warm start",        VELOCITIES,  IF(pl_want_collision),       THREE(pl_soft_warm_start, pl_classic_warm_start, pl_exact_warm_start), ONCE,           \
@@ -118,7 +120,7 @@
     X("exact pull",        CONSTRAINTS, IF(pl_want_exact),           EXACT(pl_exact_pull),                                   ONCE,           \
       "joints, constraints, manifolds", "solver bodies, joints, constraints", ONE)                                                           \
     X("positions",         POSITIONS,   IF(pl_want_solver),          THREE(pl_soft_move, pl_classic_move, pl_move_bodies), ONCE,           \
-      "solver bodies, accelerations", "solver bodies, joints", ONE)                                                                          \
+      "solver bodies, accelerations, targets", "solver bodies, joints", ONE)                                                                          \
     X("follow moment",     POSITIONS,   IF(pl_want_moment),          SOFT(pl_soft_follow_moment),                            ONCE,           \
       "solver bodies", "constraints", ONE)                                                                                                   \
     X("relax joints",      RELAX,       IF(pl_want_joints),          BOTH(pl_joints_row_relax, pl_joints_row_correct),       ONCE,           \

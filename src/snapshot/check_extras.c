@@ -184,9 +184,23 @@ static bool check_settings(const pl_suspect *s)
            frozen == all->frozen;
 }
 
+static bool check_track(const pl_track *track)
+{
+    bool sound = CHECK_REALS(track->x) && CHECK_REALS(track->y) && CHECK_REALS(track->turn) &&
+                 track->time > 0 && track->left >= 0 && track->left <= track->time &&
+                 track->time - track->time == 0;
+    for (int k = 0; k < 3; ++k) {
+        const pl_track_axis *x = &track->axis[k];
+        const double sum = x->speed + x->rate + x->jerk + track->end[k];
+        sound = sound && sum - sum == 0;
+    }
+    return sound;
+}
+
 static bool check_targets(const pl_suspect *s)
 {
     const plumb_world *w = &s->world;
+    const pl_track *tracks = w->tracks.items.data;
     const pl_target *items = w->targets.items.data;
     uint32_t flagged = 0;
     for (uint32_t i = 0; i < w->targets.count; ++i) {
@@ -197,10 +211,17 @@ static bool check_targets(const pl_suspect *s)
             return false;
         }
     }
+    for (uint32_t i = 0; i < w->tracks.count; ++i) {
+        const uint32_t row = pl_suspect_row(s, tracks[i].body);
+        if (row == PL_NONE || (w->bodies.flags[row] & PL_BODY_TARGETED) == 0 ||
+            !check_track(&tracks[i])) {
+            return false;
+        }
+    }
     for (uint32_t row = 0; row < w->bodies.table.count; ++row) {
         flagged += (w->bodies.flags[row] & PL_BODY_TARGETED) != 0;
     }
-    return flagged == w->targets.count;
+    return flagged == w->targets.count + w->tracks.count;
 }
 
 // Bodies that say that they have a record have one: as many as there are records.

@@ -158,7 +158,8 @@
 #define PL_STATE_EFFECTS(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                    \
     ARRAY(pl_body_settings, settings.items, settings.count, sizeof(pl_body_settings), 8)                     \
     VALUE(settings.damped) VALUE(settings.capped) VALUE(settings.scaled) VALUE(settings.frozen)        \
-    ARRAY(pl_target, targets.items, targets.count, sizeof(pl_target), 8)
+    ARRAY(pl_target, targets.items, targets.count, sizeof(pl_target), 8)                           \
+    ARRAY(pl_track, tracks.items, tracks.count, sizeof(pl_track), 8)
 
 #define PL_STATE_DIAL(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                       \
     VALUE(dial.tier) TALLY(dial.reason) VALUE(dial.elapsed) VALUE(dial.speed) VALUE(dial.push)     \

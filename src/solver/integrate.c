@@ -3,6 +3,7 @@
 // Free flight is exact: a body that no contact pushed in the substep (its velocity is the one that was
 // integrated, bit for bit) moves by h v - h^2 a / 2, the parabola. A pushed body moves by h v; the parabola
 // would make resting bodies hop. Cost: O(bodies in contacts) a substep.
+#include "effects/effects.h"
 #include "solver/substep.h"
 #include "world/state.h"
 
@@ -33,12 +34,13 @@ void pl_pass_bodies(pl_substep *s, int kind, pl_range_fn *pass)
 void pl_move_kinematic(pl_substep *s)
 {
     pl_pass_bodies(s, 1, move);
+    pl_tracks_end(s);
 }
 
 void pl_move_bodies(pl_substep *s)
 {
     pl_pass_bodies(s, 0, move);
-    pl_pass_bodies(s, 1, move);
+    pl_move_kinematic(s);
 }
 
 // Rows that a joint's reaction is summed along turn when the classic solver moves it: summed before.

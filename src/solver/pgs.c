@@ -7,6 +7,7 @@
 // stack's height: 0.93 N^2 for N equal boxes.
 //
 // Reads, writes: solver bodies, impulses of pairs. Cost: (iterations + 5) sweeps a substep.
+#include "effects/effects.h"
 #include "joints/joint.h"
 #include "narrow/surface.h"
 #include "world/body_settings.h"
@@ -337,6 +338,7 @@ void pl_classic_prepare(pl_substep *s)
 
 void pl_classic_integrate(pl_substep *s)
 {
+    pl_tracks_begin(s);
     const classic c = classic_of(s);
     integrate_velocities(&c);
 }

@@ -13,6 +13,7 @@
 // Reads: solver bodies, lanes. Writes: solver bodies, impulses of pairs. Order: after the graph.
 // Cost: (2 substeps x iterations + 2) sweeps over the contacts, 2 substeps passes over the bodies.
 #include "core/quad.h"
+#include "effects/effects.h"
 #include "math/decay.h"
 #include "solver/substep.h"
 #include "world/state.h"
@@ -174,6 +175,7 @@ void pl_soft_prepare(pl_substep *s)
 
 void pl_soft_integrate(pl_substep *s)
 {
+    pl_tracks_begin(s);
     pl_pass_bodies(s, 0, s->solving->elastic ? fly_carefully : fly);
 }
 

@@ -154,6 +154,7 @@ static void add_records(pl_digest *d, const plumb_world *w, int data)
         break;
     case PL_DATA_TARGETS:
         add_list(d, w->targets.items.data, w->targets.count, sizeof(pl_target));
+        add_list(d, w->tracks.items.data, w->tracks.count, sizeof(pl_track));
         break;
     case PL_DATA_COMPONENTS:
         for (uint32_t i = 0; i < w->components.count; ++i) {

@@ -6,6 +6,7 @@
 #include "accuracy/dial.h"
 #include "character/character.h"
 #include "core/clock.h"
+#include "effects/effects.h"
 #include "event/event.h"
 #include "internal_edges/internal_edges.h"
 #include "liquid/liquid.h"
@@ -287,6 +288,7 @@ static void undo_step(plumb_world *world)
 {
     pl_liquid_undo(world);
     pl_characters_undo(world);
+    pl_tracks_undo(world);
     pl_ahead_undo(world);
     pl_internal_edges_undo(world);
     world->narrow.manifold_count = world->narrow.borne_count = 0; // pairs no longer name them

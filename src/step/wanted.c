@@ -24,8 +24,14 @@ static bool say(bool wanted, const char **reason, const char *because, const cha
 
 bool pl_want_targets(const plumb_world *world, const char **reason)
 {
-    return say(world->targets.count > 0, reason, "kinematic bodies are on their way to a target",
-               "no kinematic body has a target");
+    return say(world->targets.count + world->tracks.count > 0, reason,
+               "kinematic bodies are on their way to a target", "no kinematic body has a target");
+}
+
+bool pl_want_tracks(const plumb_world *world, const char **reason)
+{
+    return say(world->tracks.count > 0, reason, "kinematic bodies will arrive with a velocity",
+               "no kinematic body will arrive with a velocity");
 }
 
 bool pl_want_damping(const plumb_world *world, const char **reason)

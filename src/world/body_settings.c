@@ -111,6 +111,14 @@ void pl_target_forget(plumb_world *world, uint32_t row)
         }
     }
     world->targets.count = kept;
+    pl_track *tracks = world->tracks.items.data;
+    kept = 0;
+    for (uint32_t i = 0; i < world->tracks.count; ++i) {
+        if (!plumb_same(tracks[i].body, body)) {
+            tracks[kept++] = tracks[i];
+        }
+    }
+    world->tracks.count = kept;
     world->schedule_dirty = true;
 }
 

@@ -101,6 +101,7 @@ struct plumb_world {
     uint32_t locked_bodies;   // bodies locked in x or y
     pl_body_settings_list settings;
     pl_targets targets;
+    pl_tracks tracks;
     pl_effects effects;
 
     // Tables that few worlds have, sorted by key.

@@ -103,6 +103,8 @@ static bool fill_world(run *r)
     TRY(r, plumb_body_set_speed_cap(r->world, r->bodies[9], 9, 9));
     TRY(r, plumb_body_set_locks(r->world, r->bodies[10], (plumb_axis_locks){ .x = true }));
     TRY(r, plumb_body_set_target(r->world, r->bodies[6], plumb_v2(9, 9), 1, R(0.25)));
+    TRY(r, plumb_body_set_target_moving(r->world, r->bodies[6], plumb_v2(9, 9), 1, plumb_v2(1, 0),
+                                        0, R(0.25)));
     TRY(r, plumb_world_exclude_pair(r->world, r->bodies[0], r->bodies[1], true));
     // A kinematic character among them, one that stands on a plank, and a dynamic one.
     TRY_MAKE(r, base, plumb_body_create(r->world, &(plumb_body_desc){ .position = { 20, 1 } }));
@@ -335,9 +337,9 @@ static void a_small_world_is_small(void **state)
     for (int i = 0; i < 120; ++i) {
         plumb_world_step(w, R(1.0 / 60));
     }
-    // Measured: 28,900 B in the float library, of which 8,000 are the world itself; 38,100 in the double one. 16 lanes,
+    // Measured: 32,024 B in the float library, of which 8,000 are the world itself; 38,100 in the double one. 16 lanes,
     // the choice of some machines, take 2,200 more.
-    assert_in_range(plumb_world_stats(w).peak_bytes, 1, PLUMB_REAL_IS_DOUBLE ? 43500 : 32000);
+    assert_in_range(plumb_world_stats(w).peak_bytes, 1, PLUMB_REAL_IS_DOUBLE ? 44000 : 32500);
     plumb_world_destroy(w);
 }
 

@@ -95,7 +95,7 @@ C
     insert include/plumb/material.h '^    plumb_mix adhesion_mix;' <<'C'
     plumb_real polish;      ///< [-] 0..1, share of friction that it takes away, default 0
 C
-    insert src/narrow/surface.c 'm->adhesion.row. > 0 ' <<'C'
+    insert src/narrow/surface.c '^ *m->kinetic_friction.row. > 0 ' <<'C'
                   m->polish[row] > 0 ||
 C
     insert src/narrow/surface.c '^    m->rolling =$' <<'C'

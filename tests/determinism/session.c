@@ -401,7 +401,12 @@ static void change_motion(session *s, plumb_body b)
         plumb_body_teleport(w, b, place(s, -6, 6, 0, 5), number(s, -3, 3));
         break;
     case 3:
-        plumb_body_set_target(w, b, place(s, -6, 6, 0, 5), 1, R(0.2));
+        if (one_in(s, 2)) {
+            plumb_body_set_target(w, b, place(s, -6, 6, 0, 5), 1, R(0.2));
+        } else {
+            plumb_body_set_target_moving(w, b, place(s, -6, 6, 0, 5), 1, place(s, -3, 3, -3, 3), 2,
+                                         R(0.3));
+        }
         break;
     case 4:
         plumb_body_set_time_scale(w, b, one_in(s, 3) ? 0 : number(s, 0.2, 2));

@@ -329,6 +329,10 @@ static void act_on_motion(plumb_world *w, uint32_t step, plumb_body a, plumb_bod
             plumb_body_set_target(w, span.body[span.dynamic_count], (plumb_vec2){ 1, 5 }, 0,
                                   R(0.5));
         }
+        if (span.kinematic_count > 1) {
+            plumb_body_set_target_moving(w, span.body[span.dynamic_count + 1], (plumb_vec2){ 3, 5 },
+                                         1, (plumb_vec2){ 1, -1 }, 2, R(0.6));
+        }
         break;
     }
     case 41:

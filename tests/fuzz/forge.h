@@ -122,6 +122,8 @@ static inline void fill(plumb_world *w, int which)
         plumb_character_walk(w, c, 1);
         plumb_body d = add(w, PLUMB_KINEMATIC, -2, 1, &ball);
         plumb_body_set_target(w, d, (plumb_vec2){ -1, 2 }, 1, 1);
+        d = add(w, PLUMB_KINEMATIC, -4, 1, &ball);
+        plumb_body_set_target_moving(w, d, (plumb_vec2){ -3, 2 }, 1, (plumb_vec2){ 1, 0 }, 2, 1);
         plumb_body_set_damping(w, a, R(0.1), 0);
         plumb_world_exclude_pair(w, a, b, true);
         plumb_liquid_create(w, &(plumb_liquid_desc){ .spacing = R(0.1), .viscosity = 1 });

@@ -73,12 +73,17 @@ static void handlers_move_bodies(void **state)
         load("scene{ gravity = {0, 0} }\n"
              "local lift = body{ name = 'lift', type = 'kinematic', box{1, 1} }\n"
              "local ball = body{ name = 'ball', circle{0.5}, at = {5, 0} }\n"
-             "at(0, function() lift:move_to(3, 4, 0.5, 0.5) end)\n"
+             "local cart = body{ name = 'cart', type = 'kinematic', circle{1}, at = {20, 0} }\n"
+             "at(0, function() lift:move_to(3, 4, 0.5, 0.5) cart:move_to({22, 0}, 1, 0.5, 3, 0, 2) "
+             "end)\n"
              "at(0.25, function() ball:set_type('static') assert(ball:type() == 'static') end)\n"
              "at(0.75, function() ball:set_type('dynamic') ball:set_enabled(false)\n"
              "  assert(not ball:enabled()) lift:move_to({1, 1}) end)\n");
     steps(s, 30);
     const plumb_world *w = scene_world(s);
+    assert_near(plumb_body_velocity(w, named(s, "cart")).x, 3, 0);
+    assert_near(plumb_body_angular_velocity(w, named(s, "cart")), 2, 0);
+    assert_near(plumb_body_position(w, named(s, "cart")).x, 22, 0);
     plumb_vec2 p = plumb_body_position(w, named(s, "lift"));
     assert_true(p.x == 3 && p.y == 4);
     assert_int_equal(plumb_body_get_type(w, named(s, "ball")), PLUMB_STATIC);

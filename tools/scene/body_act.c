@@ -117,7 +117,8 @@ static int method_set_damping(lua_State *L)
     return 0;
 }
 
-// body:move_to(x, y [, angle [, seconds]]): by default within the next step.
+// body:move_to(x, y [, angle [, seconds [, vx, vy [, spin]]]]): by default within the next step. With a velocity it arrives with that,
+// by a smooth path.
 static int method_move_to(lua_State *L)
 {
     sc_body_call c = sc_body_self(L, "move_to");
@@ -126,7 +127,15 @@ static int method_move_to(lua_State *L)
     plumb_real angle = lua_isnoneornil(L, index) ? plumb_body_angle(c.world, c.entity)
                                                  : (plumb_real)sc_finite_number(L, index);
     double time = lua_isnoneornil(L, index + 1) ? c.s->dt : sc_finite_number(L, index + 1);
-    return sc_body_check(&c, plumb_body_set_target(c.world, c.entity, p, angle, (plumb_real)time));
+    index += 2;
+    if (lua_isnoneornil(L, index)) {
+        return sc_body_check(&c,
+                             plumb_body_set_target(c.world, c.entity, p, angle, (plumb_real)time));
+    }
+    const plumb_vec2 v = sc_vector(L, &index);
+    const double spin = lua_isnoneornil(L, index) ? 0 : sc_finite_number(L, index);
+    return sc_body_check(&c, plumb_body_set_target_moving(c.world, c.entity, p, angle, v,
+                                                          (plumb_real)spin, (plumb_real)time));
 }
 
 static int method_set_label(lua_State *L)

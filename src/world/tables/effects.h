@@ -35,6 +35,26 @@ typedef struct pl_targets {
     uint32_t count;
 } pl_targets;
 
+// A cubic of time: velocity and acceleration at its beginning, and jerk; of x and y [m], or of the angle [rad].
+typedef struct pl_track_axis {
+    double speed, rate, jerk;
+} pl_track_axis;
+
+// A kinematic body that arrives at a velocity: effects/track.c.
+typedef struct pl_track {
+    plumb_body body;
+    pl_track_axis axis[3]; // of the centre of mass along x and y, of the angle; in the world's time
+    double end[3];        // [m/s], [rad/s] on arrival
+    double time, left;    // [s] from the beginning; until then
+    real x, y;            // [m] origin then
+    plumb_rot turn;       // rotation then
+} pl_track;
+
+typedef struct pl_tracks {
+    pl_buffer items; // pl_track, in the order in which they were set
+    uint32_t count;
+} pl_tracks;
+
 // What a step needs of effects, and forgets.
 typedef struct pl_effects {
     plumb_vec2 gravity; // [m/s^2] that acts in this step: 0 where the row of gravity does not run
