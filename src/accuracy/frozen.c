@@ -1,7 +1,7 @@
 // frozen.c - what errors come from contacts that a step makes once: the angle by which they turn while it lasts, and the places
 // of blows between round bodies.
 //
-// Reads: manifolds, pairs, pieces, solver bodies, velocities at the start of the step. Cost: O(contacts).
+// Reads: manifolds, pairs, pieces, solver bodies, velocities at the start of the step. Cost: O(contacts), times the hits.
 #include "accuracy/dial.h"
 #include "exact/exact.h"
 #include "solver/solver.h"
@@ -16,6 +16,18 @@ static motion motion_of(const plumb_world *world, uint32_t row)
 {
     const pl_bodies *b = &world->bodies;
     return (motion){ (double)b->vx[row], (double)b->vy[row], (double)b->w[row] };
+}
+
+// As the step has left it.
+static motion motion_after(const plumb_world *world, uint32_t row)
+{
+    const uint32_t slot =
+        pl_solver_slot(&world->solver, row, world->dynamic_count + world->kinematic_count);
+    if (slot == PL_NONE || row >= world->dynamic_count) {
+        return motion_of(world, row);
+    }
+    const pl_solver_body *b = &pl_solver_bodies(&world->solver)[slot];
+    return (motion){ (double)b->vx, (double)b->vy, (double)b->w };
 }
 
 static bool is_round(const plumb_world *world, uint32_t piece)
@@ -69,13 +81,41 @@ static bool follows(const plumb_world *world, const pl_manifold *m, const pl_pai
                        world->pieces.kind[pair->b] <= PL_PIECE_CAPSULE);
 }
 
-// [rad] by which the direction of a blow between round bodies is off.
+static bool was_hit(const plumb_world *world, const pl_manifold *m)
+{
+    return (pl_pairs(&world->broad.pairs)[m->pair].flags & PL_PAIR_HIT) != 0;
+}
+
+// Whether a body of a manifold was struck elsewhere, too, in the step.
+static bool is_struck_twice(const plumb_world *world, const pl_manifold *m)
+{
+    const pl_manifold *other = pl_manifolds(&world->narrow);
+    for (uint32_t i = 0; i < world->narrow.manifold_count; ++i, ++other) {
+        if (other == m || !was_hit(world, other)) {
+            continue;
+        }
+        const uint32_t a = other->body_a, b = other->body_b;
+        if ((is_dynamic(world, m->body_a) && (a == m->body_a || b == m->body_a)) ||
+            (is_dynamic(world, m->body_b) && (a == m->body_b || b == m->body_b))) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// [rad] by which the direction of a blow between round bodies is off. Those that bounce are struck at the moment at which they
+// meet (narrow/toi.c), and once more along the way that they take from there; what is third in a step is not.
 static double graze_of(const plumb_world *world, const pl_manifold *m, const pl_pair *pair)
 {
-    if (!is_round(world, pair->a) || !is_round(world, pair->b)) {
+    if (!is_round(world, pair->a) || !is_round(world, pair->b) ||
+        (m->restitution > 0 && !is_struck_twice(world, m))) {
         return 0;
     }
-    const motion a = motion_of(world, m->body_a), b = motion_of(world, m->body_b);
+    motion a = motion_of(world, m->body_a), b = motion_of(world, m->body_b);
+    if (m->restitution >
+        0) { // what they had when the second blow came is not known: as it left them
+        a = motion_after(world, m->body_a), b = motion_after(world, m->body_b);
+    }
     const double nx = (double)m->nx, ny = (double)m->ny, x = b.vx - a.vx, y = b.vy - a.vy;
     const double along = fabs(x * nx + y * ny), across = fabs(y * nx - x * ny);
     const double reach =
@@ -96,7 +136,7 @@ double pl_dial_frozen(const plumb_world *world, double dt)
     for (uint32_t i = 0; i < world->narrow.manifold_count; ++i, ++m) {
         const pl_pair *pair = &pairs[m->pair];
         const bool bears = pair->normal[0] > 0 || pair->normal[1] > 0;
-        if ((pair->flags & PL_PAIR_HIT) != 0) {
+        if (was_hit(world, m)) {
             const double graze = graze_of(world, m, pair);
             grazed = graze > grazed ? graze : grazed;
         } else if (bears && !follows(world, m, pair)) {
