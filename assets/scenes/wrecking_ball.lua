@@ -6,7 +6,7 @@ camera { fit = {{-9, -0.8}, {9, 11}}, at = 1.95 }
 
 local iron = material { name = "iron", density = 200, friction = 0.4 }
 local brick = material { name = "brick", density = 60, friction = 0.6 }
-body { name = "ground", type = "static", box { 40, 1 }, at = {0, -0.5}, material = brick }
+body { name = "ground", type = "static", box { 80, 1 }, at = {0, -0.5}, material = brick }
 local crane = body { name = "crane", type = "static", box { 0.6, 0.6 }, at = {0, 9.5}, color = "#d69e2e" }
 
 -- The chain lies level to the left of its hook, the ball at its end.

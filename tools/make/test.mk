@@ -118,7 +118,7 @@ $(O)/bench: $(BENCH_OBJ) $(O)/libplumb.a
 # line are: scene loader and library in double, of which only the tables peer_... can be seen.
 PEERS    := box2d2 chipmunk $(if $(BOX2D3),box2d3)
 COST_CLI := $(call objects,float,$(patsubst %,tools/plumb/%.c,cost cost_track cost_truth cost_ladder cost_front \
-	cost_print cost_chart scene_args output files progress options suggest help))
+	cost_print cost_chart scene_args watch allow output files progress options suggest help))
 COST_OBJ := $(call objects,float,tests/cost/suite.c tests/harness/engine_chipmunk.c) $(O)/double/tests/cost/peer.o
 $(O)/float/tests/cost/%.o $(O)/double/tests/cost/%.o: OWN_FLAGS := $(if $(BOX2D3),-DCOST_BOX2D3)
 $(O)/engine_peer.o: $(O)/double/tests/cost/peer.o $(call objects,double,$(ENGINE_SRC)) $(O)/double/libscene.a \
