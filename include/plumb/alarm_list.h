@@ -2,6 +2,8 @@
 #ifndef PLUMB_ALARM_LIST_H
 #define PLUMB_ALARM_LIST_H
 
+#include "plumb/base.h"
+
 /// The detectors: X(NAME, "name", bound, unit of value and bound, what it looks for, what to do). The one list: enum,
 /// bounds, docs, help of the command line.
 // clang-format off

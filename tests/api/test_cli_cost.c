@@ -275,6 +275,21 @@ static void the_recommended_setting_is_as_good_as_told(void **state)
     }
 }
 
+// A setting that takes many budgets is given up, not waited for: 60 discs by the exact solver would be run 30 times.
+static void what_takes_too_long_is_given_up(void **state)
+{
+    (void)state;
+    write_text("heap.lua", "scene { duration = 1 }\n"
+                           "body { type = 'static', box { 9, 1 }, at = {0, -0.5} }\n"
+                           "for i = 0, 59 do body { circle { 0.2 }, at = {i % 10 * 0.41 - 2, 0.3 + "
+                           "i // 10 * 0.41}, sleep = false } end\n"
+                           "exact { 'energy', measure = function() return energy() end, value = "
+                           "function() return 0 end }\n");
+    expect_code("\"$P\" cost heap.lua --solvers exact --precisions float --repeat 1 --budget 1e-6",
+                0);
+    assert_non_null(strstr(out, "exact float 0: the next run would exceed the budget"));
+}
+
 // Where joints hold a heavy end, nothing but solving them together does; the words for it are those of `run`.
 static void joints_are_solved_directly_too(void **state)
 {
@@ -309,6 +324,7 @@ int main(void)
         cmocka_unit_test(motion_is_compared_as_long_as_it_can_be),
         cmocka_unit_test(what_diverges_is_no_truth),
         cmocka_unit_test(charts_are_drawn),
+        cmocka_unit_test(what_takes_too_long_is_given_up),
         cmocka_unit_test(joints_are_solved_directly_too),
         cmocka_unit_test(csv_can_be_read),
         cmocka_unit_test(the_recommended_setting_is_as_good_as_told),

@@ -19,6 +19,10 @@ enum { SHORT_RUNS = 5 };
 /// [s] scenes that take longer to load are not loaded for that: a script may integrate its own truth.
 static const double LONG_LOAD = 5e-3;
 
+/// A run, or an ensemble of them, that takes so many budgets is given up: of settings that are looked for, not of those that the user
+/// names, nor of the scene's own.
+enum { BUDGETS_GIVEN_UP = 20 };
+
 static double cpu_now(void)
 {
     struct timespec t;
@@ -63,7 +67,9 @@ typedef struct watch {
     cost_track *track; ///< places; null: none
     double sums[4];    ///< of the totals from the horizon on
     int sum_count;
-    int moment; ///< the next one of cost_moments
+    int moment;  ///< the next one of cost_moments
+    double cpu;  ///< [s] so far
+    double most; ///< [s] from which on it is given up; 0: never
 } watch;
 
 static int part_of(const cost_plan *plan, double elapsed)
@@ -133,6 +139,7 @@ static int look(watch *w, scene_run *run, double elapsed)
 static int watch_run(cost_plan *plan, scene_run *run, watch *w)
 {
     int code = CLI_OK;
+    const double begin = cpu_now();
     for (long long step = 1; step <= run->steps && code == CLI_OK; step++) {
         engine_error error = { 0 };
         if (cli_interrupted()) {
@@ -151,6 +158,10 @@ static int watch_run(cost_plan *plan, scene_run *run, watch *w)
             break;
         }
         code = look(w, run, (double)step * run->info.dt);
+        w->cpu = cpu_now() - begin;
+        if (w->most > 0 && w->cpu > w->most) {
+            break;
+        }
     }
     return code;
 }
@@ -252,11 +263,18 @@ int cost_measure(cost_plan *plan, cost_row *row)
         cli_message("out of memory");
         return CLI_FAILED;
     }
+    const cost_lists *lists = &plan->lists;
+    const bool asked =
+        lists->substeps.count + lists->iterations.count + lists->divide.count > 0 || row->own;
+    w.most = asked ? 0 : BUDGETS_GIVEN_UP * plan->budget;
     int code = cost_open(plan, &row->set, &run);
     if (code == CLI_OK) {
         code = scene_run_close(&run, watch_run(plan, &run, &w));
     }
-    if (code == CLI_OK && w.track != NULL) {
+    const bool ensemble = w.track != NULL && plan->horizon < plan->time;
+    row->given_up =
+        code == CLI_OK && w.most > 0 && w.cpu * (ensemble ? 1 + COST_MEMBERS : 1) > w.most;
+    if (code == CLI_OK && w.track != NULL && !row->given_up) {
         measure_places(plan, w.track, row);
         code = plan->horizon < plan->time ? measure_ensemble(plan, row) : CLI_OK;
     }

@@ -59,7 +59,8 @@ typedef struct cost_row {
     double cpu;    ///< [s/s] the least of all
     double jitter; ///< [s/s] from the least to the median
     bool diverged;
-    bool own; ///< the scene's own setting
+    bool given_up; ///< it took many times the budget, and is no row
+    bool own;      ///< the scene's own setting
 } cost_row;
 
 /// Which knob a ladder turns.

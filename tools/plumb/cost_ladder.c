@@ -60,8 +60,8 @@ static int row_of(cost_plan *plan, const cost_setting *set, int *code)
     cost_row *row = &plan->rows[plan->row_count];
     *row = (cost_row){ .set = *set, .own = same_setting(set, &plan->own) };
     *code = cost_measure(plan, row);
-    *code = *code == CLI_OK && !row->diverged ? cost_time(plan, row) : *code;
-    return *code == CLI_OK ? plan->row_count++ : -1;
+    *code = *code == CLI_OK && !row->diverged && !row->given_up ? cost_time(plan, row) : *code;
+    return *code == CLI_OK && !row->given_up ? plan->row_count++ : -1;
 }
 
 /// The setting of rung `k`; false: there is none.
@@ -119,6 +119,7 @@ static int climb(cost_plan *plan, cost_ladder *ladder)
         }
         int row = row_of(plan, &set, &code);
         if (row < 0) {
+            ladder->end = COST_BUDGET;
             return code;
         }
         ladder->rows[ladder->count++] = row;

@@ -244,7 +244,7 @@ static int refer_ensemble(cost_plan *plan, const cost_setting *finest, double si
 /// The scene's own finest setting, as fine as a few budgets of processor time allow.
 static int survey_finest(cost_plan *plan, const cost_setting *own, double nudge, double size)
 {
-    cost_row probe = { .set = *own };
+    cost_row probe = { .set = *own, .own = true };
     probe.set.solver = SOFT;
     probe.set.precision = DOUBLE;
     // Before the clock: what diverges may be an error in the scene's code a step later.
