@@ -70,7 +70,7 @@ static double turn_of(const plumb_world *world, const pl_manifold *m, const pl_p
     return turn > w ? turn : w;
 }
 
-// The soft step follows some contacts (solver/moment.simd.c), the exact solver corners, too (exact/moment.c).
+// The soft step follows some contacts (solver/moment.simd.c), the exact solver the same (exact/moment.c).
 static bool follows(const plumb_world *world, const pl_manifold *m, const pl_pair *pair)
 {
     if (world->desc.solver == PLUMB_SOLVER_EXACT) {

@@ -81,7 +81,7 @@ void pl_exact_free(pl_memory *memory, pl_exact_solver *exact);
 void pl_exact_fill(const pl_exact_system *s);
 void pl_exact_bend(const pl_exact_system *s, int round);
 void pl_exact_keep(const pl_exact_system *s);
-// Contacts that turn within the step (moment.c): which may, discs, capsules, corners by themselves; whether one does in this step; its geometry of now; by how much
+// Contacts that turn within the step (moment.c): which may; whether one does in this step; its geometry of now; by how much
 // its points part [m] while its bodies go by such velocities.
 bool pl_exact_may_turn(const plumb_world *world, const pl_manifold *m);
 void pl_exact_find_turning(const pl_exact_system *s, const pl_exact_item *item);

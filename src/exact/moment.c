@@ -59,8 +59,9 @@ static bool is_round(const plumb_world *world, const pl_manifold *m)
 
 bool pl_exact_may_turn(const plumb_world *world, const pl_manifold *m)
 {
-    const bool any = m->count == 1 || is_round(world, m);
-    return pl_can_turn(m, any, any);
+    const pl_pair *pair = &pl_pairs(&world->broad.pairs)[m->pair];
+    return pl_can_turn(m, world->pieces.kind[pair->a] <= PL_PIECE_CAPSULE,
+                       world->pieces.kind[pair->b] <= PL_PIECE_CAPSULE);
 }
 
 //---- when the step begins -------------------------------------------------------------------------------
