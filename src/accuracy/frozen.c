@@ -3,7 +3,6 @@
 //
 // Reads: manifolds, pairs, pieces, solver bodies, velocities at the start of the step. Cost: O(contacts), times the hits.
 #include "accuracy/dial.h"
-#include "exact/exact.h"
 #include "solver/solver.h"
 
 #include <math.h>
@@ -70,13 +69,10 @@ static double turn_of(const plumb_world *world, const pl_manifold *m, const pl_p
     return turn > w ? turn : w;
 }
 
-// The soft step follows some contacts (solver/moment.simd.c), the exact solver the same (exact/moment.c).
+// The soft step and the exact solver follow some contacts (solver/moment.simd.c, exact/moment.c).
 static bool follows(const plumb_world *world, const pl_manifold *m, const pl_pair *pair)
 {
-    if (world->desc.solver == PLUMB_SOLVER_EXACT) {
-        return pl_exact_may_turn(world, m);
-    }
-    return world->desc.solver == PLUMB_SOLVER_SOFT &&
+    return world->desc.solver != PLUMB_SOLVER_PGS &&
            pl_can_turn(m, world->pieces.kind[pair->a] <= PL_PIECE_CAPSULE,
                        world->pieces.kind[pair->b] <= PL_PIECE_CAPSULE);
 }
@@ -112,8 +108,8 @@ static double graze_of(const plumb_world *world, const pl_manifold *m, const pl_
         return 0;
     }
     motion a = motion_of(world, m->body_a), b = motion_of(world, m->body_b);
-    if (m->restitution >
-        0) { // what they had when the second blow came is not known: as it left them
+    // What they had when the second blow came is not known: as it left them.
+    if (m->restitution > 0) {
         a = motion_after(world, m->body_a), b = motion_after(world, m->body_b);
     }
     const double nx = (double)m->nx, ny = (double)m->ny, x = b.vx - a.vx, y = b.vy - a.vy;

@@ -70,6 +70,13 @@ typedef struct pl_exact_system {
     bool missed; // the tolerance
 } pl_exact_system;
 
+// Of an item that is a contact.
+static inline pl_classic_contact *pl_exact_contact(const pl_exact_system *s,
+                                                   const pl_exact_item *item)
+{
+    return (pl_classic_contact *)s->world->solver.classic.data + item->contact;
+}
+
 // Who is eliminated when (plan.c). False when out of memory.
 bool pl_exact_plan(plumb_world *world);
 // After the substeps: the first miss of a world is told in the log.

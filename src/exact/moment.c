@@ -125,7 +125,7 @@ static bool touches(const pl_manifold *m)
 void pl_exact_find_turning(const pl_exact_system *s, const pl_exact_item *item)
 {
     const plumb_world *world = s->world;
-    const pl_classic_contact *c = (pl_classic_contact *)world->solver.classic.data + item->contact;
+    const pl_classic_contact *c = pl_exact_contact(s, item);
     const pl_manifold *m = &pl_manifolds(&world->narrow)[c->manifold];
     const pl_solver_body *a = &pl_solver_bodies(&world->solver)[item->slot[0]];
     const pl_solver_body *b = &pl_solver_bodies(&world->solver)[item->slot[1]];
@@ -217,8 +217,7 @@ void pl_exact_part(const pl_exact_system *s, const pl_exact_item *item, double v
                    double parted[2])
 {
     const pl_exact_turning *t = &s->turnings[item->turning];
-    const pl_classic_contact *m =
-        (pl_classic_contact *)s->world->solver.classic.data + item->contact;
+    const pl_classic_contact *m = pl_exact_contact(s, item);
     double pose[2][3];
     pose_of(s, item, pose);
     for (int end = 0; end < 2; ++end) {
@@ -236,8 +235,7 @@ void pl_exact_part(const pl_exact_system *s, const pl_exact_item *item, double v
 bool pl_exact_is_pressed(const pl_exact_system *s, const pl_exact_item *item)
 {
     const pl_exact_turning *t = &s->turnings[item->turning];
-    const pl_classic_contact *m =
-        (pl_classic_contact *)s->world->solver.classic.data + item->contact;
+    const pl_classic_contact *m = pl_exact_contact(s, item);
     const pl_solver_body *body[2] = { &pl_solver_bodies(&s->world->solver)[item->slot[0]],
                                       &pl_solver_bodies(&s->world->solver)[item->slot[1]] };
     double push = 0;

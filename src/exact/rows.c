@@ -27,11 +27,6 @@ static double share_of(const pl_exact_system *s)
 
 //---- contacts ------------------------------------------------------------------------------------------
 
-static pl_classic_contact *contact_of(const pl_exact_system *s, const pl_exact_item *item)
-{
-    return (pl_classic_contact *)s->world->solver.classic.data + item->contact;
-}
-
 static double separation_now(const pl_exact_system *s, const pl_exact_item *item,
                              const pl_classic_contact *m, const pl_classic_point *p)
 {
@@ -84,7 +79,7 @@ static void fill_tangent(const pl_classic_contact *m, const pl_classic_point *p,
 
 static void fill_contact(const pl_exact_system *s, const pl_exact_item *item)
 {
-    pl_classic_contact *m = contact_of(s, item);
+    pl_classic_contact *m = pl_exact_contact(s, item);
     pl_exact_row *r = s->rows + item->first_row;
     const bool stays = s->sweep == PL_SWEEP_RELAX && r->stays;
     const double share = stays ? 1 : 0;
@@ -121,7 +116,7 @@ static void fill_contact(const pl_exact_system *s, const pl_exact_item *item)
 // substep begins: it slows down what would strike in that.
 static void note_strikes(const pl_exact_system *s, const pl_exact_item *item)
 {
-    pl_classic_contact *m = contact_of(s, item);
+    pl_classic_contact *m = pl_exact_contact(s, item);
     const near_real since = s->since + (s->sweep == PL_SWEEP_RELAX ? s->h : 0);
     for (uint32_t k = 0; k < m->count; ++k) {
         const pl_exact_row *r = &s->rows[item->first_row + k];
@@ -134,7 +129,7 @@ static void note_strikes(const pl_exact_system *s, const pl_exact_item *item)
 
 static void keep_contact(const pl_exact_system *s, const pl_exact_item *item)
 {
-    pl_classic_contact *m = contact_of(s, item);
+    pl_classic_contact *m = pl_exact_contact(s, item);
     const pl_exact_row *r = s->rows + item->first_row;
     for (uint32_t k = 0; k < m->count; ++k) {
         const pl_exact_row *normal = &r[k], *tangent = &r[m->count + k];
@@ -276,7 +271,7 @@ static void bend_rows(const pl_exact_system *s, const pl_exact_item *item, const
 // Of a contact that turns: by how much more than J v says its points part in the substep.
 static void bend_contact(const pl_exact_system *s, const pl_exact_item *item)
 {
-    const uint32_t count = contact_of(s, item)->count;
+    const uint32_t count = pl_exact_contact(s, item)->count;
     double v[2][3], parted[2];
     velocity_of(s, item, 0, v[0]);
     velocity_of(s, item, 1, v[1]);
