@@ -132,7 +132,7 @@ help:
 #:   deps-ci           those of deps, and what checks the formatting
 #:   lib               the libraries alone: PRECISION=float (double, far; all without)
 #:   test              every test; T="tests/unit/test_math.c ..." runs only these
-#:   stability         the hard-case tests and the expectations of every scene
+#:   stability         the hard-case tests, the expectations of every scene; hard scenes beside Box2D 2.4.1, Chipmunk (BOX2D3=)
 #:   shots             what gets through thin walls, beside Box2D 2.4.1; SHOTS=100000
 #:   bench             side by side with Box2D 2.4.1; BOX2D3=/prefix adds Box2D 3; BENCH="arguments"
 #:   amalgamation      build/plumb.h and build/plumb.c: the library as one pair of files

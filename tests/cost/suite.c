@@ -5,7 +5,7 @@
 // are processor times of this process; the runs of all engines on a scene take turns. Main program.
 #define _POSIX_C_SOURCE 200809L // mkdir, sigaction
 
-#include "peer.h"
+#include "harness/peer.h"
 
 #include "plumb/cost.h"
 
@@ -38,7 +38,7 @@ static const struct {
       1u << COST_BY_STEP | 1u << COST_BY_ITERATIONS },
     { "Chipmunk 7", "chipmunk", &peer_chipmunk, 1, 10,
       1u << COST_BY_STEP | 1u << COST_BY_ITERATIONS },
-#ifdef COST_BOX2D3
+#ifdef PEER_BOX2D3
     { "Box2D 3", "box2d 3", &peer_box2d3, 4, 1,
       1u << COST_BY_STEP | 1u << COST_BY_SUBSTEPS | 1u << COST_BY_STEP_ALONE },
 #endif

@@ -94,8 +94,8 @@ enum engine_joint_kind { ENGINE_REVOLUTE, ENGINE_PRISMATIC, ENGINE_DISTANCE, ENG
 struct engine_joint_def {
     enum engine_joint_kind kind;
     int body_a, body_b;
-    double ax, ay;       ///< [m] world: the common point; of a distance, the end on A
-    double bx, by;       ///< [m] world: of a distance, the end on B
+    double ax, ay;       ///< [m] world: the joint's point on A
+    double bx, by;       ///< [m] world: the same on B; apart where a joint begins open
     double ux, uy;       ///< of a prismatic: unit vector of its axis
     bool enable_limit;   ///< of a distance: instead of the rod
     double lower, upper; ///< [rad] [m]
@@ -178,6 +178,9 @@ struct engine {
     int (*set_mass)(struct engine_world *world, int body, const struct engine_mass *mass);
     /// Index of the new joint (hinges are not counted), ENGINE_UNSUPPORTED or ENGINE_FAILED.
     int (*add_joint)(struct engine_world *world, const struct engine_joint_def *def);
+    /// Drives a revolute, as motor_speed and max_motor of its definition say; `on` false: it turns freely. Wakes. ENGINE_OK
+    /// or ENGINE_UNSUPPORTED.
+    int (*set_motor)(struct engine_world *world, int joint, bool on, double speed, double max);
     /// What a joint bore in the last inner step [N], [N m]; of some kinds an engine knows the size alone: then y is 0.
     void (*joint_force)(const struct engine_world *world, int joint, double force[2],
                         double *torque);
@@ -227,7 +230,7 @@ struct engine {
 #define ENGINE_FUNCTIONS                                                                          \
     .describe = describe, .create = create, .destroy = destroy, .add_body = add_body,             \
     .destroy_body = destroy_body, .set_mass = set_mass, .add_joint = add_joint,                   \
-    .joint_force = joint_force, .add_hinge = add_hinge, .add_circle = add_circle,               \
+    .set_motor = set_motor, .joint_force = joint_force, .add_hinge = add_hinge, .add_circle = add_circle,               \
     .add_capsule = add_capsule, .add_polygon = add_polygon, .add_segment = add_segment,           \
     .add_chain = add_chain, .set_velocity = set_velocity, .apply_force = apply_force,             \
     .step = step, .get_pose = get_pose, .get_velocity = get_velocity, .get_mass = get_mass,       \

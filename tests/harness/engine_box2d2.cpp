@@ -168,6 +168,7 @@ b2JointDef *define_revolute(const engine_joint_def *def, b2Body *a, b2Body *b,
                             b2RevoluteJointDef &j)
 {
     j.Initialize(a, b, vec(def->ax, def->ay));
+    j.localAnchorB = b->GetLocalPoint(vec(def->bx, def->by));
     j.enableLimit = def->enable_limit;
     j.lowerAngle = static_cast<float>(def->lower);
     j.upperAngle = static_cast<float>(def->upper);
@@ -230,6 +231,19 @@ int add_joint(engine_world *w, const engine_joint_def *def)
     j->collideConnected = def->collide;
     w->joints.push_back(w->world.CreateJoint(j));
     return static_cast<int>(w->joints.size()) - 1;
+}
+
+int set_motor(engine_world *w, int joint, bool on, double speed, double max)
+{
+    b2Joint *j = w->joints[static_cast<size_t>(joint)];
+    if (j->GetType() != e_revoluteJoint) {
+        return ENGINE_UNSUPPORTED;
+    }
+    b2RevoluteJoint *hinge = static_cast<b2RevoluteJoint *>(j);
+    hinge->EnableMotor(on);
+    hinge->SetMotorSpeed(static_cast<float>(speed));
+    hinge->SetMaxMotorTorque(static_cast<float>(max));
+    return ENGINE_OK;
 }
 
 void joint_force(const engine_world *w, int joint, double force[2], double *torque)

@@ -123,7 +123,7 @@ static void place_frames(const struct engine_joint_def *def, b2JointDef *base)
 {
     b2Rot axis = def->kind == ENGINE_PRISMATIC ? (b2Rot){ (float)def->ux, (float)def->uy }
                                                : (b2Rot){ 1.0f, 0.0f };
-    bool two = def->kind == ENGINE_DISTANCE;
+    bool two = def->kind == ENGINE_DISTANCE || def->kind == ENGINE_REVOLUTE;
     base->localFrameA = frame_at(base->bodyIdA, def->ax, def->ay);
     base->localFrameB = frame_at(base->bodyIdB, two ? def->bx : def->ax, two ? def->by : def->ay);
     base->localFrameA.q = b2MulRot(base->localFrameA.q, axis);
@@ -204,6 +204,19 @@ static int add_joint(struct engine_world *w, const struct engine_joint_def *def)
                                                       : b2CreateWeldJoint(w->id, &weld);
     w->joints[w->joint_count] = joint;
     return b2Joint_IsValid(joint) ? w->joint_count++ : ENGINE_FAILED;
+}
+
+static int set_motor(struct engine_world *w, int joint, bool on, double speed, double max)
+{
+    b2JointId j = w->joints[joint];
+    if (b2Joint_GetType(j) != b2_revoluteJoint) {
+        return ENGINE_UNSUPPORTED;
+    }
+    b2RevoluteJoint_EnableMotor(j, on);
+    b2RevoluteJoint_SetMotorSpeed(j, (float)speed);
+    b2RevoluteJoint_SetMaxMotorTorque(j, (float)max);
+    b2Joint_WakeBodies(j);
+    return ENGINE_OK;
 }
 
 static void joint_force(const struct engine_world *w, int joint, double force[2], double *torque)

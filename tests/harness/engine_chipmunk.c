@@ -23,6 +23,7 @@ struct engine_world {
     int *groups; // of the bodies
     int count;
     cpConstraint **joints;
+    cpConstraint **motors; // of joints; NULL: none
     int joint_count;
     int substeps;
     double inner_step; // [s] the last
@@ -84,6 +85,7 @@ static void free_joint(cpBody *body, cpConstraint *joint, void *world)
     (void)body;
     for (int i = 0; i < w->joint_count; ++i) {
         w->joints[i] = w->joints[i] == joint ? NULL : w->joints[i];
+        w->motors[i] = w->motors[i] == joint ? NULL : w->motors[i];
     }
     cpSpaceRemoveConstraint(w->space, joint);
     cpConstraintFree(joint);
@@ -110,6 +112,7 @@ static void destroy(struct engine_world *w)
     free(w->bodies);
     free(w->groups);
     free(w->joints);
+    free(w->motors);
     free(w);
 }
 
@@ -149,11 +152,14 @@ static int set_mass(struct engine_world *w, int body, const struct engine_mass *
 static int keep_joint(struct engine_world *w, cpConstraint *joint, bool collide)
 {
     cpConstraint **joints = engine_grown(w->joints, sizeof(cpConstraint *), w->joint_count);
-    if (joints == NULL) {
+    w->joints = joints != NULL ? joints : w->joints;
+    cpConstraint **motors = engine_grown(w->motors, sizeof(cpConstraint *), w->joint_count);
+    w->motors = motors != NULL ? motors : w->motors;
+    if (joints == NULL || motors == NULL) {
         cpConstraintFree(joint);
         return ENGINE_FAILED;
     }
-    w->joints = joints;
+    w->motors[w->joint_count] = NULL;
     cpConstraintSetCollideBodies(joint, collide);
     w->joints[w->joint_count] = cpSpaceAddConstraint(w->space, joint);
     return w->joint_count++;
@@ -173,6 +179,21 @@ static cpConstraint *make_distance(cpBody *a, cpBody *b, cpVect at_a, cpVect at_
     return joint;
 }
 
+static int set_motor(struct engine_world *w, int joint, bool on, double speed, double max)
+{
+    cpConstraint *j = w->joints[joint], *motor = w->motors[joint];
+    if (j == NULL || !cpConstraintIsPivotJoint(j)) {
+        return ENGINE_UNSUPPORTED;
+    }
+    if (motor == NULL) {
+        motor = cpSimpleMotorNew(cpConstraintGetBodyA(j), cpConstraintGetBodyB(j), 0);
+        w->motors[joint] = cpSpaceAddConstraint(w->space, motor);
+    }
+    cpSimpleMotorSetRate(motor, -speed);
+    cpConstraintSetMaxForce(motor, on ? max : 0);
+    return ENGINE_OK;
+}
+
 // What takes two joints of Chipmunk (limits, motors, slides that do not turn) keeps the first as the one that is told.
 static int add_joint(struct engine_world *w, const struct engine_joint_def *def)
 {
@@ -180,21 +201,25 @@ static int add_joint(struct engine_world *w, const struct engine_joint_def *def)
     cpVect at = vec(def->ax, def->ay);
     bool slides = def->kind == ENGINE_PRISMATIC;
     if ((def->hertz > 0 && ((def->kind != ENGINE_DISTANCE && !slides) || def->enable_limit)) ||
-        (slides && (def->enable_motor || def->enable_limit))) {
+        (slides && def->enable_motor)) {
         return ENGINE_UNSUPPORTED;
     }
-    cpVect at_a = cpBodyWorldToLocal(a, at), at_b = cpBodyWorldToLocal(b, at);
+    cpVect at_a = cpBodyWorldToLocal(a, at);
+    cpVect at_b = cpBodyWorldToLocal(b, vec(def->bx, def->by));
     if (def->kind == ENGINE_DISTANCE) {
-        at_b = cpBodyWorldToLocal(b, vec(def->bx, def->by));
         return keep_joint(w, make_distance(a, b, at_a, at_b, def), def->collide);
     }
     if (def->kind == ENGINE_PRISMATIC) {
         const double far = 1e3; // [m] a groove has two ends
-        cpVect u = vec(def->ux * far, def->uy * far);
-        int joint = keep_joint(w,
-                               cpGrooveJointNew(a, b, cpBodyWorldToLocal(a, cpvsub(at, u)),
-                                                cpBodyWorldToLocal(a, cpvadd(at, u)), at_b),
-                               def->collide);
+        const double ends[2] = { def->enable_limit ? def->lower : -far,
+                                 def->enable_limit ? def->upper : far };
+        cpVect axis = vec(def->ux, def->uy), u = cpvmult(axis, far);
+        cpVect first = cpvadd(at, cpvmult(axis, ends[0]));
+        cpVect last = cpvadd(at, cpvmult(axis, ends[1]));
+        int joint = keep_joint(
+            w,
+            cpGrooveJointNew(a, b, cpBodyWorldToLocal(a, first), cpBodyWorldToLocal(a, last), at_b),
+            def->collide);
         double turn = cpBodyGetAngle(b) - cpBodyGetAngle(a);
         cpSpaceAddConstraint(w->space, cpGearJointNew(a, b, turn, 1));
         if (def->hertz > 0) { // from a point far down the groove: along it, that is the same spring
@@ -213,10 +238,8 @@ static int add_joint(struct engine_world *w, const struct engine_joint_def *def)
         cpSpaceAddConstraint(w->space,
                              cpRotaryLimitJointNew(a, b, turn + def->lower, turn + def->upper));
     }
-    if (def->enable_motor) {
-        cpConstraint *motor =
-            cpSpaceAddConstraint(w->space, cpSimpleMotorNew(a, b, -def->motor_speed));
-        cpConstraintSetMaxForce(motor, def->max_motor);
+    if (def->enable_motor && joint >= 0) {
+        (void)set_motor(w, joint, true, def->motor_speed, def->max_motor);
     }
     return joint;
 }
@@ -235,6 +258,8 @@ static int add_hinge(struct engine_world *w, const struct engine_hinge_def *def)
                                       .body_b = def->body_b,
                                       .ax = def->x,
                                       .ay = def->y,
+                                      .bx = def->x,
+                                      .by = def->y,
                                       .enable_limit = def->enable_limit,
                                       .lower = def->lower,
                                       .upper = def->upper,

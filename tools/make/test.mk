@@ -11,7 +11,7 @@ TEST_SRC    := $(sort $(wildcard tests/*/test_*.c))
 TEST_SH     := $(sort $(wildcard tests/*/test_*.sh))
 FUZZ_SRC    := $(sort $(wildcard tests/fuzz/fuzz_*.c))
 BENCH_SRC   := $(wildcard tests/bench/*.c)
-HARNESS_SRC := $(filter-out tests/harness/engine_% tests/harness/main.c,$(wildcard tests/harness/*.c))
+HARNESS_SRC := $(filter-out tests/harness/engine_% tests/harness/peer% tests/harness/main.c,$(wildcard tests/harness/*.c))
 
 # Built and run in double precision as well, unless the file says PLUMB_FLOAT_ONLY.
 DOUBLE_KINDS := unit analytic stability api determinism
@@ -114,21 +114,27 @@ $(O)/bench: $(BENCH_OBJ) $(O)/libplumb.a
 	$(Q)$(CXX) $(SANFLAGS) $(LDFLAGS) -o $@ $^ $(if $(BOX2D3),$(BOX2D3)/lib/libbox2d.a) \
 		-lbox2d -lm -lpthread
 
-# What accuracy costs, beside other engines: tests/cost. A peer is one relocatable object, as the variants of the command
-# line are: scene loader and library in double, of which only the tables peer_... can be seen.
+# What accuracy costs (tests/cost) and what stays stable (tests/referee), beside other engines. A peer is one relocatable
+# object, as the variants of the command line are: scene loader and library in double, of which only the tables peer_... can
+# be seen.
 PEERS    := box2d2 chipmunk $(if $(BOX2D3),box2d3)
 COST_CLI := $(call objects,float,$(patsubst %,tools/plumb/%.c,cost cost_track cost_truth cost_ladder cost_front \
 	cost_print cost_chart scene_args watch allow output files progress options suggest help))
-COST_OBJ := $(call objects,float,tests/cost/suite.c tests/harness/engine_chipmunk.c) $(O)/double/tests/cost/peer.o
-$(O)/float/tests/cost/%.o $(O)/double/tests/cost/%.o: OWN_FLAGS := $(if $(BOX2D3),-DCOST_BOX2D3)
-$(O)/engine_peer.o: $(O)/double/tests/cost/peer.o $(call objects,double,$(ENGINE_SRC)) $(O)/double/libscene.a \
+PEER_OBJ := $(call objects,double,$(wildcard tests/harness/peer*.c))
+REFEREE_SRC := $(wildcard tests/referee/*.c)
+COST_OBJ := $(call objects,float,tests/cost/suite.c tests/harness/engine_chipmunk.c $(REFEREE_SRC)) $(PEER_OBJ)
+$(O)/float/tests/cost/%.o $(O)/float/tests/referee/%.o $(PEER_OBJ): OWN_FLAGS := $(if $(BOX2D3),-DPEER_BOX2D3)
+$(O)/engine_peer.o: $(PEER_OBJ) $(call objects,double,$(ENGINE_SRC)) $(O)/double/libscene.a \
 		$(O)/libplumb_d.a
 	@echo "  LD    $@"
 	$(Q)$(LD) -r -o $@.all $(filter %.o,$^) --start-group $(filter %.a,$^) --end-group
 	$(Q)$(OBJCOPY) $(PEERS:%=--keep-global-symbol=peer_%) $@.all $@
 	@rm -f $@.all
-$(O)/cost-suite: $(call objects,float,tests/cost/suite.c tests/harness/engine_chipmunk.c) $(COST_CLI) \
-		$(VARIANTS:%=$(O)/engine_%.o) $(O)/engine_peer.o $(O)/box2d2.o $(if $(BOX2D3),$(O)/box2d3.o) $(O)/librender.a
+SUITE_PARTS := $(call objects,float,tests/harness/engine_chipmunk.c) $(COST_CLI) $(VARIANTS:%=$(O)/engine_%.o) \
+	$(O)/engine_peer.o $(O)/box2d2.o $(if $(BOX2D3),$(O)/box2d3.o) $(O)/librender.a
+$(O)/cost-suite: $(call objects,float,tests/cost/suite.c) $(SUITE_PARTS)
+$(O)/referee: $(call objects,float,$(REFEREE_SRC)) $(SUITE_PARTS)
+$(O)/cost-suite $(O)/referee:
 	@echo "  LD    $@"
 	$(Q)$(CXX) $(SANFLAGS) $(LDFLAGS) -o $@ $^ $(if $(BOX2D3),$(BOX2D3)/lib/libbox2d.a) -lbox2d -lchipmunk \
 		$(SCENE_LIBS) $(RENDER_LIBS) -lm -lpthread
@@ -171,7 +177,8 @@ RUN_PROGRAMS := $(filter $(T:tests/%.c=$(O)/tests/%) $(T:tests/%.c=$(O)/tests-do
 RUN_SH       := $(filter $(T),$(TEST_SH))
 endif
 
-test-programs: $(RUN_PROGRAMS) $(O)/plumb lib examples $(if $(filter %/test_cost_suite.sh,$(RUN_SH)),$(O)/cost-suite)
+test-programs: $(RUN_PROGRAMS) $(O)/plumb lib examples $(if $(filter %/test_cost_suite.sh,$(RUN_SH)),$(O)/cost-suite) \
+	$(if $(filter %/test_referee.sh,$(RUN_SH)),$(O)/referee)
 
 # What does not build must not hide what does: every test is still run, those that have no up to date
 # program count as failed, and the last line is the sum of the whole run.
@@ -179,16 +186,18 @@ test: | $(DEPS_FIRST)
 	@$(MAKE) --no-print-directory -k test-programs || \
 		$(MAKE) --no-print-directory -k ONE_EACH=1 test-programs || { \
 		echo "test: the build failed; what could not be built counts as failed" >&2; \
-		for p in $(RUN_PROGRAMS) $(O)/plumb $(O)/cost-suite; do \
+		for p in $(RUN_PROGRAMS) $(O)/plumb $(O)/cost-suite $(O)/referee; do \
 			$(MAKE) -q $$p >/dev/null 2>&1 || rm -f $$p; \
 		done; }
 	@O=$(O) SAN=$(SAN) bash tests/run.sh -j $(JOBS) -l $(O)/test-logs $(RUN_PROGRAMS) $(RUN_SH)
 
 STABILITY := $(wildcard tests/stability/test_*)
 SCENES ?= $(sort $(wildcard assets/scenes/*.lua))
-stability: $(O)/plumb
+HARD   ?= $(sort $(wildcard assets/scenes/hard/*.lua))
+stability: $(O)/plumb $(O)/referee
 	$(if $(STABILITY),@$(MAKE) --no-print-directory test T="$(STABILITY)")
 	$(Q)$(O)/plumb check $(SCENES)
+	$(Q)$(O)/referee --folder $(O)/referee-out --jobs $(JOBS) --sweeps tests/referee $(REFEREE) $(HARD)
 
 SHOTS ?= 100000
 shots: $(O)/shots

@@ -103,6 +103,7 @@ static scene_code load(const engine_settings *settings, scene **out, scene_error
                               .sets = sets,
                               .set_count = count,
                               .no_expect = settings->no_expect,
+                              .worst = settings->worst,
                               .stop = is_stopped };
     if (settings->mover != NULL) {
         options.step = settings->mover->step;

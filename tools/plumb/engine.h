@@ -36,6 +36,7 @@ typedef struct engine_settings {
     int workers;          ///< threads; 0: the scene's or one
     bool watchdog;        ///< the world is watched, and measures
     bool no_expect;       ///< nobody asks whether expectations hold
+    bool worst; ///< expectations tell their worst moment, not the first at which they break
     bool
         unseen; ///< nobody looks between steps, nor at the time: what only looks need may be left out
     const struct engine_mover *mover; ///< moves the scene instead of its world; NULL: none
@@ -107,6 +108,8 @@ typedef struct engine_expect {
     bool passed;
     bool reached;     ///< false: the run ended before its time
     const char *text; ///< what was measured, the limit and when, in one line
+    const char *quantity, *unit;
+    double measured, limit, time; ///< time [s]: of the measurement
 } engine_expect;
 
 /// One pass of the schedule.

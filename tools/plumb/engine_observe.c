@@ -54,6 +54,11 @@ int pl_session_expectations(engine_session *session, const engine_expect **list)
             .passed = r.passed,
             .reached = r.status == SCENE_EXPECT_PASSED || r.status == SCENE_EXPECT_FAILED,
             .text = r.description,
+            .quantity = r.quantity,
+            .unit = r.unit,
+            .measured = r.measured,
+            .limit = r.limit,
+            .time = r.time,
         };
     }
     *list = session->expects;

@@ -88,6 +88,8 @@ typedef struct scene_options {
     double build_seconds;          ///< [s] processor time of the build pass; 0: 60
     double handler_seconds;        ///< [s] processor time of all handlers of a step; 0: 10
     bool no_expect; ///< expect{} lines are read but never looked at: they stay PENDING
+    bool
+        worst; ///< what is broken is measured on: the line tells the worst instead of the first break
     /// True ends the script with E_STOPPED; asked every 1000 instructions; null: none.
     bool (*stop)(void *context);
     void *stop_context;

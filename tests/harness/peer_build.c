@@ -1,48 +1,18 @@
-// peer.c - a scene of Plumb's loader, moved by another engine (peer.h).
-// Reads the scene's world through libplumb's public headers, writes the motion back into it. Compiled in double and
-// linked with a loader and a libplumb of its own (tools/make/test.mk), as the variants of tools/plumb are.
-#include "peer.h"
-
-#include "harness/engine.h"
-#include "plumb/engine_session.h"
+// peer_build.c - a scene's bodies, shapes and joints in another engine (peer.h). Reads the scene's world through libplumb's
+// public headers; what the peer has no words for is refused with the reason.
+#include "peer_world.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { SHAPES_MAX = 256, JOINTS_MAX = 1024, BOX2D2_POSITION = 3, BOX2D2_VELOCITY = 8 };
+enum { SHAPES_MAX = 256, BOX2D2_POSITION = 3, BOX2D2_VELOCITY = 8 };
 
-// A body here and there.
-struct pair {
-    plumb_body body;
-    int other;
-    bool dynamic;
-    double v[3]; // as written back last
-};
-
-struct peer {
-    const struct engine *engine;
-    struct engine_world *world;
-    engine_mover mover;
-    struct pair *pairs;
-    int count;
-    int ground; // a static body of the peer that stands for the world
-    plumb_joint joints[JOINTS_MAX];
-    int others[JOINTS_MAX];
-    int joint_count;
-    bool bare;     // nobody looks: only the peer's own step is taken
-    bool diverged; // its motion is no longer finite
-    double dt;
-    char reason[128]; // why the scene cannot be brought over
-};
-
-static bool refuse(struct peer *p, const char *reason)
+bool pl_peer_refuse(struct peer *p, const char *reason)
 {
     snprintf(p->reason, sizeof p->reason, "%s", reason);
     return false;
 }
-
-// ------------------------------------------------------------------------------------- building
 
 static bool read_material(struct peer *p, const plumb_world *world, plumb_shape shape,
                           struct engine_material *out)
@@ -50,21 +20,43 @@ static bool read_material(struct peer *p, const plumb_world *world, plumb_shape 
     plumb_material_desc m = { 0 };
     (void)plumb_material_get(world, plumb_shape_material(world, shape), &m);
     if (m.surface_speed != 0) {
-        return refuse(p, "surfaces that run");
+        return pl_peer_refuse(p, "surfaces that run");
     }
     if (m.rolling_resistance > 0 || m.adhesion > 0) {
-        return refuse(p, "rolling resistance, adhesion");
+        return pl_peer_refuse(p, "rolling resistance, adhesion");
     }
     if (m.kinetic_friction > 0) {
-        return refuse(p, "kinetic friction");
+        return pl_peer_refuse(p, "kinetic friction");
     }
     if (m.friction_mix != PLUMB_MIX_DEFAULT || m.restitution_mix != PLUMB_MIX_DEFAULT) {
-        return refuse(p, "rules of mixing");
+        return pl_peer_refuse(p, "rules of mixing");
+    }
+    plumb_one_way way = plumb_shape_one_way(world, shape);
+    if (way.direction.x != 0 || way.direction.y != 0) {
+        return pl_peer_refuse(p, "one-way shapes");
     }
     double density = (double)plumb_shape_density(world, shape);
     *out = (struct engine_material){ density > 0 ? density : 1, (double)m.friction,
                                      (double)m.restitution };
     return true;
+}
+
+// Where an engine has no capsules: a box and a circle at either end, which are the same set of points.
+static int add_capsule(struct peer *p, int body, const struct engine_material *material,
+                       const double *x, const double *y, double r)
+{
+    const struct engine *e = p->engine;
+    int code = e->add_capsule(p->world, body, material, x[0], y[0], x[1], y[1], r);
+    if (code != ENGINE_UNSUPPORTED) {
+        return code;
+    }
+    double dx = x[1] - x[0], dy = y[1] - y[0], length = hypot(dx, dy);
+    double u = length > 0 ? -dy / length * r : 0, v = length > 0 ? dx / length * r : 0;
+    const double bx[4] = { x[0] - u, x[1] - u, x[1] + u, x[0] + u };
+    const double by[4] = { y[0] - v, y[1] - v, y[1] + v, y[0] + v };
+    code = e->add_circle(p->world, body, material, x[0], y[0], r);
+    code = code == ENGINE_OK ? e->add_circle(p->world, body, material, x[1], y[1], r) : code;
+    return code == ENGINE_OK ? e->add_polygon(p->world, body, material, bx, by, 4, 0) : code;
 }
 
 // A shape is brought over piece by piece: circles, capsules, convex polygons, lines.
@@ -81,7 +73,7 @@ static bool add_pieces(struct peer *p, const plumb_world *world, plumb_shape sha
         plumb_convex c;
         double x[PLUMB_POLYGON_MAX_VERTICES], y[PLUMB_POLYGON_MAX_VERTICES];
         if (plumb_shape_piece(world, shape, i, &c, NULL) != PLUMB_OK) {
-            return refuse(p, "a shape");
+            return pl_peer_refuse(p, "a shape");
         }
         for (int k = 0; k < c.count; k++) {
             x[k] = (double)c.points[k].x;
@@ -91,11 +83,11 @@ static bool add_pieces(struct peer *p, const plumb_world *world, plumb_shape sha
         const struct engine *e = p->engine;
         int code = c.count == 1  ? e->add_circle(p->world, body, &material, x[0], y[0], r)
                    : c.count > 2 ? e->add_polygon(p->world, body, &material, x, y, c.count, r)
-                   : r > 0 ? e->add_capsule(p->world, body, &material, x[0], y[0], x[1], y[1], r)
+                   : r > 0       ? add_capsule(p, body, &material, x, y, r)
                            : e->add_segment(p->world, body, &material, x[0], y[0], x[1], y[1]);
         if (code != ENGINE_OK) {
-            return refuse(p, c.count == 2 ? "capsules, or lines that are very short"
-                                          : "rounded, thin or many-cornered polygons");
+            return pl_peer_refuse(p, c.count == 2 ? "capsules, or lines that are very short"
+                                                  : "rounded, thin or many-cornered polygons");
         }
     }
     return true;
@@ -104,14 +96,14 @@ static bool add_pieces(struct peer *p, const plumb_world *world, plumb_shape sha
 static bool is_plain(struct peer *p, const plumb_body_desc *d)
 {
     if (d->damping > 0 || d->angular_damping > 0) {
-        return refuse(p, "damping of a body by its own law");
+        return pl_peer_refuse(p, "damping of a body by its own law");
     }
     if (d->no_gravity || (d->gravity_scale != 0 && d->gravity_scale != 1)) {
-        return refuse(p, "gravity of a body's own");
+        return pl_peer_refuse(p, "gravity of a body's own");
     }
     if (d->lock_x || d->lock_y || d->max_speed > 0 || d->max_spin > 0 ||
         (d->time_scale != 0 && d->time_scale != 1)) {
-        return refuse(p, "locked axes, caps, time scales");
+        return pl_peer_refuse(p, "locked axes, caps, time scales");
     }
     return true;
 }
@@ -124,7 +116,7 @@ static bool find_group(struct peer *p, const plumb_world *world, const plumb_sha
     for (int i = 0; i < count; i++) {
         plumb_filter f = plumb_shape_filter(world, shapes[i]);
         if (f.group > 0 || f.nothing || f.category != 1 || f.mask != UINT64_MAX) {
-            return refuse(p, "filters by category");
+            return pl_peer_refuse(p, "filters by category");
         }
         *group = -f.group;
     }
@@ -138,7 +130,7 @@ static bool add_body(struct peer *p, plumb_world *world, plumb_body body)
     int group, count = plumb_body_shapes(world, body, shapes, SHAPES_MAX);
     (void)plumb_body_get(world, body, &d);
     if (count > SHAPES_MAX || !is_plain(p, &d) || !find_group(p, world, shapes, count, &group)) {
-        return p->reason[0] != '\0' ? false : refuse(p, "more shapes of a body than 256");
+        return p->reason[0] != '\0' ? false : pl_peer_refuse(p, "more shapes of a body than 256");
     }
     plumb_vec2 at = plumb_body_position(world, body), v = plumb_body_velocity(world, body);
     struct engine_body_def def = { .type = d.type == PLUMB_DYNAMIC     ? ENGINE_DYNAMIC
@@ -156,9 +148,10 @@ static bool add_body(struct peer *p, plumb_world *world, plumb_body body)
     *pair = (struct pair){ body,
                            p->engine->add_body(p->world, &def),
                            d.type == PLUMB_DYNAMIC,
+                           d.type != PLUMB_STATIC,
                            { def.vx, def.vy, def.w } };
     if (pair->other < 0) {
-        return refuse(p, "a body");
+        return pl_peer_refuse(p, "a body");
     }
     p->count++;
     for (int i = 0; i < count; i++) {
@@ -227,7 +220,7 @@ static bool add_joint(struct peer *p, const plumb_world *world, plumb_joint join
     bool is_known = d.kind == PLUMB_REVOLUTE || d.kind == PLUMB_PRISMATIC ||
                     d.kind == PLUMB_DISTANCE || d.kind == PLUMB_WELD;
     if (!is_known) {
-        return refuse(p, plumb_joint_kind_name(d.kind));
+        return pl_peer_refuse(p, plumb_joint_kind_name(d.kind));
     }
     plumb_vec2 a = plumb_joint_anchor_a(world, joint), b = plumb_joint_anchor_b(world, joint);
     double length = hypot((double)d.axis.x, (double)d.axis.y);
@@ -252,7 +245,7 @@ static bool add_joint(struct peer *p, const plumb_world *world, plumb_joint join
                                     .rest = (double)(d.hertz > 0 && d.rest > 0 ? d.rest : d.length),
                                     .collide = d.collide_connected };
     if (d.break_force > 0 || d.break_torque > 0 || d.break_impulse > 0) {
-        return refuse(p, "joints that break");
+        return pl_peer_refuse(p, "joints that break");
     }
     if (d.hertz > 0) {
         d.anchor = a;
@@ -264,16 +257,16 @@ static bool add_joint(struct peer *p, const plumb_world *world, plumb_joint join
     } else if (def.rest <= 0) {
         def.rest = hypot(def.bx - def.ax, def.by - def.ay);
     }
-    int other = p->joint_count < JOINTS_MAX ? p->engine->add_joint(p->world, &def) : ENGINE_FAILED;
+    int other = p->tie_count < PEER_JOINTS ? p->engine->add_joint(p->world, &def) : ENGINE_FAILED;
     if (other < 0) {
-        return refuse(p, "a joint with these springs, limits or motors");
+        return pl_peer_refuse(p, "a joint with these springs, limits or motors");
     }
-    p->joints[p->joint_count] = joint;
-    p->others[p->joint_count++] = other;
+    p->ties[p->tie_count++] =
+        (struct tie){ joint, other, def.enable_motor, def.motor_speed, def.max_motor };
     return true;
 }
 
-static bool build(struct peer *p, const engine_settings *settings, const scene *s)
+bool pl_peer_build(struct peer *p, const engine_settings *settings, const scene *s)
 {
     plumb_world *world = scene_world(s);
     plumb_world_desc d = plumb_world_settings(world);
@@ -281,10 +274,11 @@ static bool build(struct peer *p, const engine_settings *settings, const scene *
     struct engine_options o = engine_options_default();
     unsigned activity = scene_activity(s);
     if ((activity & (SCENE_FIELDS | SCENE_LISTENS)) != 0) {
-        return refuse(p, (activity & SCENE_FIELDS) != 0 ? "field{}" : "handlers of contacts");
+        return pl_peer_refuse(p,
+                              (activity & SCENE_FIELDS) != 0 ? "field{}" : "handlers of contacts");
     }
     if (d.wrap_x > 0 || d.wrap_y > 0) {
-        return refuse(p, "a world that wraps around");
+        return pl_peer_refuse(p, "a world that wraps around");
     }
     o.gravity_x = d.zero_gravity ? 0 : (double)d.gravity.x;
     o.gravity_y = d.zero_gravity ? 0 : (double)d.gravity.y;
@@ -292,13 +286,14 @@ static bool build(struct peer *p, const engine_settings *settings, const scene *
     o.velocity_iterations = info.iterations;
     o.position_iterations = info.iterations * BOX2D2_POSITION / BOX2D2_VELOCITY;
     o.restitution_threshold = 0;
+    o.sleep = !settings->no_expect && !d.no_sleep; // of what is timed nobody sleeps
     o.stiff = settings->solver == 1;
     p->dt = info.dt;
     p->bare = settings->unseen && activity == 0;
     p->world = p->engine->create(&o);
     p->pairs = calloc((size_t)scene_body_count(s) + 1, sizeof *p->pairs);
     if (p->world == NULL || p->pairs == NULL) {
-        return refuse(p, "memory");
+        return pl_peer_refuse(p, "memory");
     }
     struct engine_body_def ground = { .type = ENGINE_STATIC };
     p->ground = p->engine->add_body(p->world, &ground);
@@ -314,170 +309,3 @@ static bool build(struct peer *p, const engine_settings *settings, const scene *
     }
     return true;
 }
-
-// ------------------------------------------------------------------------------------- stepping
-
-// What handlers have done to bodies since the last step.
-static void bring_over(struct peer *p, plumb_world *world)
-{
-    for (int i = 0; i < p->count; i++) {
-        struct pair *pair = &p->pairs[i];
-        if (!pair->dynamic) {
-            continue;
-        }
-        plumb_vec2 v = plumb_body_velocity(world, pair->body);
-        plumb_vec2 f = plumb_body_force(world, pair->body);
-        double w = (double)plumb_body_angular_velocity(world, pair->body);
-        double torque = (double)plumb_body_torque(world, pair->body);
-        bool same = (double)v.x == pair->v[0] && (double)v.y == pair->v[1] && w == pair->v[2];
-        if (!same) {
-            p->engine->set_velocity(p->world, pair->other, (double)v.x, (double)v.y, w);
-        }
-        if (f.x != 0 || f.y != 0 || torque != 0) {
-            p->engine->apply_force(p->world, pair->other, (double)f.x, (double)f.y, torque);
-            (void)plumb_body_clear_forces(world, pair->body);
-        }
-    }
-}
-
-static void write_back(struct peer *p, plumb_world *world)
-{
-    for (int i = 0; i < p->count; i++) {
-        struct pair *pair = &p->pairs[i];
-        struct engine_pose at = p->engine->get_pose(p->world, pair->other);
-        struct engine_velocity v = p->engine->get_velocity(p->world, pair->other);
-        plumb_vec2 place = { (plumb_real)at.x, (plumb_real)at.y };
-        plumb_vec2 velocity = { (plumb_real)v.x, (plumb_real)v.y };
-        if (plumb_body_get_type(world, pair->body) == PLUMB_STATIC) {
-            continue;
-        }
-        if (plumb_body_teleport(world, pair->body, place, (plumb_real)at.angle) != PLUMB_OK ||
-            plumb_body_set_velocity(world, pair->body, velocity) != PLUMB_OK ||
-            plumb_body_set_angular_velocity(world, pair->body, (plumb_real)v.w) != PLUMB_OK) {
-            p->diverged = true;
-            return;
-        }
-        // As the world has rounded them.
-        velocity = plumb_body_velocity(world, pair->body);
-        pair->v[0] = (double)velocity.x;
-        pair->v[1] = (double)velocity.y;
-        pair->v[2] = (double)plumb_body_angular_velocity(world, pair->body);
-    }
-}
-
-static void move(void *context, plumb_world *world, double dt)
-{
-    struct peer *p = context;
-    bring_over(p, world);
-    p->engine->step(p->world, dt);
-    write_back(p, world);
-}
-
-static void joint_force(void *context, plumb_joint joint, double force[2], double *torque)
-{
-    const struct peer *p = context;
-    for (int i = 0; i < p->joint_count; i++) {
-        if (p->joints[i].entity.index == joint.entity.index) {
-            p->engine->joint_force(p->world, p->others[i], force, torque);
-        }
-    }
-}
-
-// ----------------------------------------------------------------------------- the engine's table
-
-static void peer_close(engine_session *session)
-{
-    struct peer *p = session != NULL ? session->mover : NULL;
-    engine_double.close(session);
-    if (p != NULL) {
-        if (p->world != NULL) {
-            p->engine->destroy(p->world);
-        }
-        free(p->pairs);
-        free(p);
-    }
-}
-
-static engine_session *peer_open(const struct engine *engine, const engine_settings *settings,
-                                 engine_error *error)
-{
-    struct peer *p = calloc(1, sizeof *p);
-    engine_settings of_scene = *settings;
-    of_scene.solver = -1; // `solver` is the peer's own
-    if (p == NULL) {
-        pl_session_fail(error, CLI_FAILED, "out of memory");
-        return NULL;
-    }
-    p->engine = engine;
-    p->mover = (engine_mover){ move, joint_force, p };
-    of_scene.mover = &p->mover;
-    engine_session *session = engine_double.open(&of_scene, error);
-    if (session == NULL) {
-        free(p);
-        return NULL;
-    }
-    session->mover = p;
-    if (!build(p, settings, session->stage.scene)) {
-        pl_session_fail(error, CLI_FAILED, "%s", p->reason);
-        peer_close(session);
-        return NULL;
-    }
-    return session;
-}
-
-static int peer_step(engine_session *session, engine_error *error)
-{
-    struct peer *p = session->mover;
-    if (p->bare) {
-        p->engine->step(p->world, p->dt);
-        return CLI_OK;
-    }
-    return engine_double.step(session, error);
-}
-
-static int peer_check(engine_session *session, engine_error *error)
-{
-    const struct peer *p = session->mover;
-    if (p->diverged) {
-        return pl_session_fail(error, CLI_DIVERGED, "diverged");
-    }
-    return CLI_OK;
-}
-
-static engine_stage *peer_stage(engine_session *session)
-{
-    return engine_double.stage(session);
-}
-
-static bool peer_ended(const engine_session *session)
-{
-    const struct peer *p = session->mover;
-    return !p->bare && engine_double.ended(session);
-}
-
-#define PEER(name)                                                                                 \
-    static engine_session *open_##name(const engine_settings *settings, engine_error *error)       \
-    {                                                                                              \
-        return peer_open(&engine_##name, settings, error);                                         \
-    }                                                                                              \
-    const engine_api peer_##name = { .precision = "double",                                        \
-                                     .open = open_##name,                                          \
-                                     .close = peer_close,                                          \
-                                     .stage = peer_stage,                                          \
-                                     .step = peer_step,                                            \
-                                     .check = peer_check,                                          \
-                                     .ended = peer_ended,                                          \
-                                     .form_error = pl_session_form_error,                          \
-                                     .form = pl_session_form,                                      \
-                                     .info = pl_stage_info,                                        \
-                                     .time = pl_stage_time,                                        \
-                                     .stats = pl_stage_stats,                                      \
-                                     .rows = pl_stage_rows,                                        \
-                                     .totals = pl_stage_totals,                                    \
-                                     .bounds = pl_stage_bounds }
-
-PEER(box2d2);
-PEER(chipmunk);
-#ifdef COST_BOX2D3
-PEER(box2d3);
-#endif
