@@ -152,6 +152,16 @@ static int add_joint(struct engine_world *w, const struct engine_joint_def *def)
     return ENGINE_UNSUPPORTED;
 }
 
+static int set_motor(struct engine_world *w, int joint, bool on, double speed, double max)
+{
+    (void)w;
+    (void)joint;
+    (void)on;
+    (void)speed;
+    (void)max;
+    return ENGINE_UNSUPPORTED;
+}
+
 static void joint_force(const struct engine_world *w, int joint, double force[2], double *torque)
 {
     (void)w;
