@@ -170,8 +170,18 @@ static pl_solving_step open_step(plumb_world *world, const pl_substep_rows *rows
     };
 }
 
+// Whether rows have nothing to act on: no body is in a contact, has a joint or is in the hands of an effect. Systems run
+// all the same, and who watches rows is told of each.
+static bool is_idle(const plumb_world *world, const pl_substep_rows *rows)
+{
+    return world->solver.slot_count <= 1 && world->systems.in_substeps == 0 && rows->before == NULL;
+}
+
 void pl_substeps_run(plumb_world *world, const pl_substep_rows *rows, real dt)
 {
+    if (is_idle(world, rows)) {
+        return;
+    }
     pl_solving_step step = open_step(world, rows, dt);
     pl_tasks *tasks = rows->alone ? NULL : world->tasks;
     if (world->desc.solver == PLUMB_SOLVER_SOFT) {

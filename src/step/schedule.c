@@ -21,6 +21,7 @@ void pl_schedule_free(pl_memory *memory, pl_schedule *schedule)
 {
     pl_buffer_free(memory, &schedule->places);
     pl_buffer_free(memory, &schedule->rows);
+    pl_buffer_free(memory, &schedule->next);
     pl_buffer_free(memory, &schedule->times);
     pl_buffer_free(memory, &schedule->shares);
     pl_buffer_free(memory, &schedule->digests);
@@ -70,6 +71,7 @@ bool pl_schedule_reserve(plumb_world *world)
     const size_t rows = (size_t)pl_pass_count + world->systems.count;
     const size_t threads = times_are_watched(world) ? (size_t)pl_tasks_workers(world->tasks) : 0;
     return pl_buffer_reserve(&world->memory, &s->rows, rows * sizeof(pl_substep_row)) &&
+           pl_buffer_reserve(&world->memory, &s->next, (rows + 1) * sizeof(uint16_t)) &&
            pl_buffer_reserve(&world->memory, &s->shares, threads * rows * sizeof(double));
 }
 
@@ -109,6 +111,22 @@ static void list_rows(plumb_world *world)
     }
 }
 
+// The lines that run outside of the substeps: passes that are wanted, and systems, which are asked when they are reached.
+// Most lines of a small world are none of these, and to ask each of them took a sixth of its step.
+static void link_lines(plumb_world *world)
+{
+    const pl_schedule *s = &world->schedule;
+    uint16_t *next = s->next.data;
+    uint32_t i = pl_schedule_count(world);
+    next[i] = (uint16_t)i;
+    while (i-- > 0) {
+        const pl_line place = pl_schedule_place(world, i);
+        const bool runs = place.system != PL_NO_SYSTEM ||
+                          (s->scheduled[place.pass] && pl_passes[place.pass].run != NULL);
+        next[i] = runs ? (uint16_t)i : next[i + 1];
+    }
+}
+
 void pl_schedule_revise(plumb_world *world)
 {
     pl_schedule *s = &world->schedule;
@@ -121,6 +139,7 @@ void pl_schedule_revise(plumb_world *world)
     world->effects.damps = s->scheduled[pl_pass_find("damping")];
     world->effects.caps = s->scheduled[pl_pass_find("speed caps")];
     list_rows(world);
+    link_lines(world);
     world->schedule_dirty = false;
 }
 

@@ -120,8 +120,7 @@ static plumb_result run_pass(plumb_world *world, uint32_t line, real dt)
 {
     const uint32_t i = pl_schedule_place(world, line).pass;
     const pl_pass *pass = &pl_passes[i];
-    if (!world->schedule.scheduled[i] || pass->run == NULL ||
-        (dt == 0 && (pass->kind & PL_REFRESHES) == 0)) {
+    if (dt == 0 && (pass->kind & PL_REFRESHES) == 0) {
         return PLUMB_OK;
     }
     const bool watched = world->schedule.watched != 0;
@@ -234,9 +233,15 @@ static uint32_t run_group_at(plumb_world *world, uint32_t line, real dt)
     return g.end;
 }
 
+static uint32_t next_line(const plumb_world *world, uint32_t line)
+{
+    return ((const uint16_t *)world->schedule.next.data)[line];
+}
+
 static plumb_result run_passes(plumb_world *world, real dt)
 {
-    for (uint32_t line = 0; line < pl_schedule_count(world);) {
+    const uint32_t count = pl_schedule_count(world);
+    for (uint32_t line = 0; (line = next_line(world, line)) < count;) {
         if (pl_schedule_place(world, line).system != PL_NO_SYSTEM) {
             line = run_group_at(world, line, dt);
         } else {

@@ -38,6 +38,7 @@ typedef struct pl_schedule {
     pl_buffer places;  // pl_line, in order
     uint32_t count;    // 0: passes as they are in the table, no systems
     pl_buffer rows;    // pl_substep_row: what runs in the substeps
+    pl_buffer next;    // uint16_t a line, and one behind: the first from it on that runs outside of the substeps
     uint32_t ends[8];  // behind the last row of each of their stages
     unsigned watched;  // plumb_watch, PL_WATCH_...
     pl_buffer times;   // pl_time a pass, if times were ever watched
