@@ -8,6 +8,7 @@
 #include "broad/query_grids.h"
 #include "character/character.h"
 #include "continuous/continuous.h"
+#include "core/bits.h"
 #include "effects/effects.h"
 #include "event/event.h"
 #include "internal_edges/internal_edges.h"
@@ -414,7 +415,7 @@ plumb_stats plumb_world_stats(const plumb_world *world)
         .pair_count = world->broad.pairs.count + world->sleep.contact_count,
         .contact_count = all.touching_count,
         .point_count = all.point_count,
-        .color_count = world->solver.color_count,
+        .color_count = pl_count_bits(world->solver.colors_used),
         .overflow_count = world->solver.overflow_count,
         .pair_rebuilds = (uint32_t)world->broad.rebuilds,
         .bounce_count = world->solver.bounce_count,

@@ -4,6 +4,7 @@
 // core.
 #include "broad/grid.h"
 
+#include "core/bits.h"
 #include "plumb/math.h"
 
 #include <string.h>
@@ -85,7 +86,8 @@ typedef struct filing {
     const pl_box *fat;
     uint32_t count, shares;
     uint8_t level_of_octave[PL_GRID_LEVELS];
-    survey *octaves; // PL_GRID_LEVELS for each share
+    survey *octaves; // PL_GRID_LEVELS for each share: those that have boxes
+    uint32_t *used;  // a share: bits of these
 } filing;
 
 // Of neighbours in the list most are of one size: its survey is at hand until another comes.
@@ -93,11 +95,8 @@ static void survey_share(void *context, uint32_t i)
 {
     filing *f = context;
     const pl_share mine = pl_share_of(f->count, f->shares, i);
-    survey octaves[PL_GRID_LEVELS];
-    for (uint32_t k = 0; k < PL_GRID_LEVELS; ++k) {
-        octaves[k] = NONE;
-    }
-    uint32_t at = 0;
+    survey *octaves = f->octaves + (size_t)i * PL_GRID_LEVELS;
+    uint32_t at = 0, used = 0;
     survey here = NONE;
     for (uint32_t k = mine.first; k < mine.end; ++k) {
         const pl_box box = f->fat[f->pieces[k]];
@@ -105,14 +104,15 @@ static void survey_share(void *context, uint32_t i)
         const uint32_t octave = octave_of(extent);
         if (octave != at) {
             octaves[at] = here;
-            here = octaves[octave];
+            here = (used >> octave & 1) != 0 ? octaves[octave] : NONE;
             at = octave;
         }
+        used |= UINT32_C(1) << octave;
         here = joined(here, (survey){ 1, extent, box.min_x, box.min_y, box.min_x, box.min_y,
                                       box.max_x, box.max_y });
     }
     octaves[at] = here;
-    memcpy(f->octaves + (size_t)i * PL_GRID_LEVELS, octaves, sizeof octaves);
+    f->used[i] = used;
 }
 
 static uint32_t power_of_two_from(uint64_t least)
@@ -202,24 +202,24 @@ static void order_places(pl_grid *grid, uint32_t count, size_t start_count)
     }
 }
 
-// The octaves of all shares, in the place of the first; returns how many have boxes.
-static uint32_t join_shares(filing *f)
+// The octaves of all shares, in the place of the first.
+static void join_shares(filing *f)
 {
-    uint32_t used = 0;
-    for (uint32_t k = 0; k < PL_GRID_LEVELS; ++k) {
-        for (uint32_t i = 1; i < f->shares; ++i) {
-            f->octaves[k] = joined(f->octaves[k], f->octaves[(size_t)i * PL_GRID_LEVELS + k]);
+    for (uint32_t i = 1; i < f->shares; ++i) {
+        const survey *octaves = f->octaves + (size_t)i * PL_GRID_LEVELS;
+        for (uint32_t bits = f->used[i]; bits != 0; bits &= bits - 1) {
+            const uint32_t k = (uint32_t)__builtin_ctz(bits);
+            f->octaves[k] =
+                (f->used[0] >> k & 1) != 0 ? joined(f->octaves[k], octaves[k]) : octaves[k];
         }
-        used += f->octaves[k].count > 0;
+        f->used[0] |= f->used[i];
     }
-    return used;
 }
 
-// Room for so many levels, and for a few that may come while things move.
-static bool reserve_levels(pl_memory *memory, pl_grid *grid, uint32_t count)
+// Room for a level an octave of these bits, and for a few that may come while things move.
+static bool reserve_levels(pl_memory *memory, pl_grid *grid, uint32_t octaves)
 {
-    const uint32_t least = 4;
-    count = count > least ? count : least;
+    const uint32_t least = 4, used = pl_count_bits(octaves), count = used > least ? used : least;
     if (!pl_buffer_reserve(memory, &grid->level_room, count * sizeof(pl_grid_level))) {
         return false;
     }
@@ -233,16 +233,15 @@ static size_t lay_out(filing *f)
     pl_grid *grid = f->grid;
     size_t start_count = 0;
     uint32_t first = 0, used = 0;
-    for (uint32_t k = 0; k < PL_GRID_LEVELS; ++k) {
-        if (f->octaves[k].count > 0) {
-            pl_grid_level *level = &grid->levels[used];
-            f->level_of_octave[k] = (uint8_t)used++;
-            lay_out_level(level, &f->octaves[k]);
-            level->first = first;
-            level->starts = (uint32_t)start_count;
-            first += level->count;
-            start_count += (size_t)level->mask + 2;
-        }
+    for (uint32_t bits = f->used[0]; bits != 0; bits &= bits - 1) {
+        const uint32_t k = (uint32_t)__builtin_ctz(bits);
+        pl_grid_level *level = &grid->levels[used];
+        f->level_of_octave[k] = (uint8_t)used++;
+        lay_out_level(level, &f->octaves[k]);
+        level->first = first;
+        level->starts = (uint32_t)start_count;
+        first += level->count;
+        start_count += (size_t)level->mask + 2;
     }
     grid->level_count = used;
     return start_count;
@@ -252,6 +251,7 @@ bool pl_grid_build(pl_memory *memory, pl_tasks *tasks, pl_grid *grid, const uint
                    uint32_t count, const pl_box *fat)
 {
     survey alone[PL_GRID_LEVELS]; // of one share; those of several lie where the places come to lie
+    uint32_t used[PLUMB_WORKERS_MAX];
     filing f;
     f.grid = grid;
     f.pieces = pieces;
@@ -266,8 +266,10 @@ bool pl_grid_build(pl_memory *memory, pl_tasks *tasks, pl_grid *grid, const uint
         return false;
     }
     f.octaves = f.shares > 1 ? grid->places.data : alone;
+    f.used = used;
     pl_tasks_run(tasks, survey_share, &f, f.shares);
-    if (!reserve_levels(memory, grid, join_shares(&f))) {
+    join_shares(&f);
+    if (!reserve_levels(memory, grid, used[0])) {
         return false;
     }
     const size_t start_count = lay_out(&f);

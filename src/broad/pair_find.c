@@ -452,7 +452,10 @@ static bool look(hunt *h, const uint8_t *left)
 bool pl_pairs_find(plumb_world *world)
 {
     world->broad.sensed_count = 0;
-    hunt h = { .world = world, .look = look_everywhere, .count = world->broad.moving.entry_count };
+    hunt h; // most of it is for threads, and written where there are some
+    h.world = world;
+    h.look = look_everywhere;
+    h.count = world->broad.moving.entry_count;
     return look(&h, NULL);
 }
 

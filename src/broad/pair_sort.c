@@ -315,6 +315,10 @@ bool pl_pairs_sort(plumb_world *world, pl_sorted *sorted)
                            ((size_t)count + 1) * sizeof(pl_found))) {
         return false;
     }
+    if (count == 0) {
+        *sorted = (pl_sorted){ .pairs = broad->sorted.data };
+        return true;
+    }
     sorter s; // what is for threads is written where there are some
     s.from = broad->found.data;
     s.to = broad->sorted.data;

@@ -187,6 +187,10 @@ static void merge_share(void *context, uint32_t i)
     m.lost = g->lost + from->old;
     for (int a = 0; a < PL_PIECE_KIND_COUNT; ++a) {
         for (int b = 0; b < PL_PIECE_KIND_COUNT; ++b) {
+            if ((list->size[a][b] | sorted->size[a][b]) == 0) {
+                g->size[i][a][b] = 0;
+                continue;
+            }
             pl_share old = clip(list->first[a][b], list->size[a][b], from->old, to->old);
             pl_share found = clip(sorted->first[a][b], sorted->size[a][b], from->found, to->found);
             uint32_t before = (uint32_t)(m.out - g->made) + (uint32_t)(m.old - m.kept);
@@ -313,6 +317,9 @@ static bool merge(plumb_world *world, const pl_pair_listener *listener, const pl
                   const uint8_t *left)
 {
     pl_broad *broad = &world->broad;
+    if (sorted->count == 0 && broad->pairs.count == 0) {
+        return false;
+    }
     merging g; // most of it is for threads, and written where there are some
     g.world = world;
     g.listener = listener;

@@ -77,11 +77,8 @@ void *pl_resize(pl_memory *memory, void *p, size_t old_size, size_t new_size)
     return fresh;
 }
 
-bool pl_buffer_reserve(pl_memory *memory, pl_buffer *buffer, size_t size)
+bool pl_buffer_grow(pl_memory *memory, pl_buffer *buffer, size_t size)
 {
-    if (size <= buffer->size) {
-        return true;
-    }
     size_t grown = buffer->size + buffer->size / 2;
     size_t target = rounded(grown > size ? grown : size);
     void *data = pl_resize(memory, buffer->data, buffer->size, target);

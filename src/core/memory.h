@@ -33,7 +33,11 @@ typedef struct pl_buffer {
 } pl_buffer;
 
 // Makes room for at least `size` bytes and keeps the content; grows by half again at the least.
-bool pl_buffer_reserve(pl_memory *memory, pl_buffer *buffer, size_t size);
+bool pl_buffer_grow(pl_memory *memory, pl_buffer *buffer, size_t size);
+static inline bool pl_buffer_reserve(pl_memory *memory, pl_buffer *buffer, size_t size)
+{
+    return size <= buffer->size || pl_buffer_grow(memory, buffer, size);
+}
 void pl_buffer_free(pl_memory *memory, pl_buffer *buffer);
 
 #endif

@@ -186,6 +186,10 @@ void pl_tasks_ranges(pl_tasks *t, uint32_t count, uint32_t least, pl_range_fn *r
               .context = context,
               .count = count,
               .shares = pl_tasks_share_count(t, count, least) };
+    if (j.shares == 1) {
+        range(context, 0, count);
+        return;
+    }
     pl_tasks_run(t, run_share, &j, j.shares);
 }
 

@@ -9,6 +9,7 @@
 //
 // Reads: joints, slots of bodies. Writes: marks, ends, order. Cost: O(joints).
 #include "world/joint_list.h"
+#include "core/bits.h"
 #include "core/sort.h"
 #include "joints/joint.h"
 #include "world/state.h"
@@ -205,15 +206,6 @@ static bool is_quiet(const pl_joint *j, const pl_joint_mark *mark)
            pl_joint_classes[j->desc.kind]->advance == NULL;
 }
 
-static int count_bits(uint64_t mask)
-{
-    int count = 0;
-    for (; mask != 0; mask &= mask - 1) {
-        ++count;
-    }
-    return count;
-}
-
 // How many joints are at that of its bodies which has more; those without a colour do not count.
 static uint8_t degree_of(const plumb_world *world, const pl_joint_mark *mark)
 {
@@ -221,8 +213,8 @@ static uint8_t degree_of(const plumb_world *world, const pl_joint_mark *mark)
     const uint64_t *masks = world->solver.masks.data;
     const uint64_t a = masks[pl_solver_slot(&world->solver, mark->row_a, movable)];
     const uint64_t b = masks[pl_solver_slot(&world->solver, mark->row_b, movable)];
-    const int of_a = (what & MOVES_A) != 0 ? count_bits(a) : 1;
-    const int of_b = (what & MOVES_B) != 0 ? count_bits(b) : 1;
+    const int of_a = (what & MOVES_A) != 0 ? (int)pl_count_bits(a) : 1;
+    const int of_b = (what & MOVES_B) != 0 ? (int)pl_count_bits(b) : 1;
     return (uint8_t)(of_a > of_b ? of_a : of_b > 1 ? of_b : 1);
 }
 

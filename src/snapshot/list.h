@@ -80,7 +80,7 @@
     LEFT(solver.impact_heap) LEFT(solver.impact_heads) LEFT(solver.due_count) LEFT(solver.since) LEFT(solver.follows_impacts)   \
     LEFT(solver.classic) LEFT(solver.dynamic_slots) LEFT(solver.slot_count)   \
     LEFT(solver.clusters) LEFT(solver.labels) LEFT(solver.islands) LEFT(solver.homes) LEFT(solver.island_count) LEFT(solver.leaders) LEFT(solver.cursors)                 \
-    LEFT(solver.cluster_count) LEFT(solver.cluster_age) LEFT(solver.labelled) LEFT(solver.bundle_room) LEFT(solver.bundle_count) LEFT(solver.impact_count) LEFT(solver.color_count)                 \
+    LEFT(solver.cluster_count) LEFT(solver.cluster_age) LEFT(solver.labelled) LEFT(solver.bundle_room) LEFT(solver.bundle_count) LEFT(solver.impact_count) LEFT(solver.colors_used)                 \
     LEFT(solver.overflow_count) LEFT(solver.bounce_count) TALLY(solver.cut_count) LEFT(solver.spare_impacts)
 
 #define PL_STATE_JOINTS(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                     \

@@ -76,8 +76,8 @@ static needs needs_of(plumb_world *world, uint32_t width)
     size_t sum = 0, most = 0;
     for (uint32_t i = 0; i < s->cluster_count; ++i, counts += PL_COLOR_SLOTS) {
         size_t bundles = counts[PL_OVERFLOW_COLOR];
-        for (int c = 0; c < PL_COLORS; ++c) {
-            bundles += (counts[c] + width - 1) / width;
+        for (uint64_t colors = s->colors_used; colors != 0; colors &= colors - 1) {
+            bundles += (counts[__builtin_ctzll(colors)] + width - 1) / width;
         }
         sum += bundles;
         most = bundles > most ? bundles : most;
@@ -325,6 +325,7 @@ static void color_contacts(plumb_world *world)
     uint8_t *colors = s->colors.data;
     memset(masks, 0, s->slot_count * sizeof(uint64_t));
     memset(by.cursors, 0, s->cluster_count * PL_COLOR_SLOTS * sizeof(uint32_t));
+    uint64_t used = 0;
     for (uint32_t i = 0; i < count; ++i) {
         bool a_moves = ends[i].a < by.dynamic;
         bool b_moves = ends[i].b < by.dynamic;
@@ -334,6 +335,7 @@ static void color_contacts(plumb_world *world)
             color_of((a_moves ? *mask_a : 0) | (b_moves ? *mask_b : 0), !(a_moves && b_moves));
         if (color < PL_OVERFLOW_COLOR) {
             uint64_t bit = UINT64_C(1) << color;
+            used |= bit;
             if (a_moves) {
                 *mask_a |= bit;
             }
@@ -344,6 +346,7 @@ static void color_contacts(plumb_world *world)
         colors[i] = (uint8_t)color;
         ++*cursor_of(by, ends[i], color);
     }
+    s->colors_used = used;
 }
 
 // Where the bundles of each cluster and colour begin; counts of contacts become places of their lanes.
@@ -352,7 +355,6 @@ static uint32_t divide_lanes(plumb_world *world, uint32_t width)
 {
     pl_solver *s = &world->solver;
     uint32_t *cursors = s->cursors.data, all = 0;
-    uint64_t colors = 0;
     s->overflow_count = 0;
     for (uint32_t i = 0; i < s->cluster_count; ++i, cursors += PL_COLOR_SLOTS) {
         pl_cluster *cluster = &pl_clusters(s)[i];
@@ -360,9 +362,10 @@ static uint32_t divide_lanes(plumb_world *world, uint32_t width)
         cluster->first_lane = (size_t)all * width;
         for (uint32_t c = 0; c < PL_COLORS; ++c) {
             first[c] = bundles;
-            colors |= (uint64_t)(cursors[c] > 0) << c;
-            bundles += (cursors[c] + width - 1) / width;
-            cursors[c] = (all + first[c]) * width;
+            if ((s->colors_used >> c & 1) != 0) {
+                bundles += (cursors[c] + width - 1) / width;
+                cursors[c] = (all + first[c]) * width;
+            }
         }
         const uint32_t overflow = cursors[PL_OVERFLOW_COLOR];
         first[PL_OVERFLOW_COLOR] = bundles;
@@ -370,9 +373,6 @@ static uint32_t divide_lanes(plumb_world *world, uint32_t width)
         all += bundles;
         cursors[PL_OVERFLOW_COLOR] = all * width - overflow;
         s->overflow_count += overflow;
-    }
-    for (s->color_count = 0; colors != 0; colors &= colors - 1) {
-        ++s->color_count;
     }
     return all;
 }

@@ -83,7 +83,8 @@ typedef struct pl_solver {
     bool turning;         // of this step: some body moves fast enough for a contact to turn
     bool follows_impacts; // of this step: some are events
     uint32_t spare_impacts; // of this substep, that contacts may still take (impact.c)
-    uint32_t color_count, overflow_count, bounce_count;
+    uint64_t colors_used; // by contacts: a bit each
+    uint32_t overflow_count, bounce_count;
     uint32_t cut_count; // chains of impacts that were not followed to their ends, in all
 } pl_solver;
 
