@@ -6,8 +6,8 @@
 # `make help` lists the rest. Everything is made below $(O). Nothing here needs a compiler or
 # pkg-config before a recipe runs, so that `deps` can install them first.
 #
-# Reading order: this file (library, command line), tools/make/flags.mk, tools/make/test.mk (tests, benchmark, fuzzing,
-# sanitizers), tools/make/install.mk, tools/make/deps.sh.
+# Reading order: this file (library, command line), tools/make/flags.mk, tools/make/effects.mk (what is left out),
+# tools/make/test.mk (tests, benchmark, fuzzing, sanitizers), tools/make/install.mk, tools/make/deps.sh.
 
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
@@ -49,6 +49,7 @@ SANFLAGS := $(if $(SAN),-fsanitize=$(SAN) -fno-sanitize-recover=all -fno-omit-fr
 SANFLAGS += $(if $(FUZZ),-fsanitize=fuzzer-no-link)
 
 include tools/make/flags.mk
+include tools/make/effects.mk
 ifneq ($(filter x86_64 amd64,$(ARCH)),)
 MACHINE := X86_64
 endif
@@ -65,7 +66,7 @@ endif
 # local ones, and a static library that is position-independent can go into a user's plug-in.
 SHARED   := -fPIC -fvisibility=hidden -fno-semantic-interposition -DPLUMB_BUILD_SHARED
 
-COMMON   := -std=c17 $(WARN_C) $(MATHS) $(SANFLAGS) -MMD -MP -Iinclude
+COMMON   := -std=c17 $(WARN_C) $(MATHS) $(SANFLAGS) -MMD -MP $(EFFECT_DEFS) -Iinclude
 LIB_FLAGS  = $(COMMON) $(FRAME) $(SHARED) -Isrc $(CFLAGS) $(BASELINE)
 TOOL_FLAGS = $(COMMON) $(if $(filter tests/%,$<),,$(FRAME)) -Isrc -Itools -Itests $(CFLAGS) $(BASELINE) $(PKG_CFLAGS)
 CXX_FLAGS  = -std=c++20 $(WARN) $(MATHS) $(SANFLAGS) -MMD -MP -Iinclude $(CFLAGS)
@@ -78,7 +79,7 @@ SCENE_LIBS  := -llua5.4 -lcjson
 RENDER_LIBS := -lOSMesa -lfreetype -lpng -lgif
 
 # Compiler or flags changed: everything is built again.
-FLAGS_LINE := $(CC) $(CXX) $(WARN_C) $(FRAME) $(MATHS) $(BASELINE) $(SANFLAGS) $(SHARED) $(CFLAGS) $(LDFLAGS) $(BOX2D3)
+FLAGS_LINE := $(CC) $(CXX) $(WARN_C) $(FRAME) $(MATHS) $(BASELINE) $(SANFLAGS) $(SHARED) $(CFLAGS) $(LDFLAGS) $(BOX2D3)$(EFFECT_DEFS:%= %)
 NO_BUILD   := help clean deps deps-ci deps-dev format format-check
 ifneq ($(filter-out $(NO_BUILD),$(or $(MAKECMDGOALS),all)),)
 ifneq ($(file <$(O)/flags),$(FLAGS_LINE))
@@ -89,8 +90,8 @@ endif
 
 # ---- sources and objects: build/float/..., build/double/... and build/far/... mirror the tree
 
-LIB_SRC    := $(filter-out %.simd.c,$(wildcard src/*/*.c))
-SIMD_SRC   := $(wildcard src/*/*.simd.c)
+LIB_SRC    := $(filter-out %.simd.c $(LEFT_OUT),$(wildcard src/*/*.c))
+SIMD_SRC   := $(filter-out $(LEFT_OUT),$(wildcard src/*/*.simd.c))
 SCENE_SRC  := $(wildcard tools/scene/*.c)
 RENDER_SRC := $(wildcard tools/render/*.c)
 ENGINE_SRC := $(wildcard tools/plumb/engine*.c)
@@ -148,6 +149,7 @@ help:
 #:   windows           build/windows/hello.exe: the amalgamation by mingw-w64, for Windows
 #:   clean             remove build/
 #:
+#:   EFFECTS="gravity friction joints"  EFFECTS="all -liquid": a library without the rest (src/schema/effects.h)
 #:   CC=clang  CFLAGS="-O2 -g"  WERROR=1  JOBS=1  O=elsewhere
 
 clean:
@@ -203,7 +205,7 @@ $$(O)/libplumb$2.a: $$(call lib_objects,$1)
 
 $$(O)/libplumb$2.so: $$(call lib_objects,$1)
 	@echo "  LD    $$@"
-	$$(Q)$$(CC) -shared $$(SANFLAGS) $$(LDFLAGS) -Wl,-soname,libplumb$2.so.0 -o $$@ $$^ -lm -lpthread
+	$$(Q)$$(CC) -shared $$(if $$(ABSENT),-Wl$$(comma)-z$$(comma)defs) $$(SANFLAGS) $$(LDFLAGS) -Wl,-soname,libplumb$2.so.0 -o $$@ $$^ -lm -lpthread
 	$$(Q)ln -sf libplumb$2.so $$@.0
 endef
 

@@ -85,7 +85,8 @@ typedef float plumb_real;
     X(E_CAPACITY,    10, "a fixed limit is used up")                                             \
     X(E_STATE,       11, "the call does not fit the state of the object")                        \
     X(E_IMAGE,       12, "a snapshot is damaged, or of another build or world")                  \
-    X(E_WRITE,       13, "a write function took no more")
+    X(E_WRITE,       13, "a write function took no more")                                         \
+    X(E_UNSUPPORTED, 14, "this library was built without what is asked for")
 // clang-format on
 
 /// Result of a call that can fail. On any error the state is as it was before the call.

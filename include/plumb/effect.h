@@ -40,6 +40,17 @@ typedef struct plumb_explosion_desc {
 /// then no body is pushed.
 PLUMB_API plumb_result plumb_world_explode(plumb_world *world, const plumb_explosion_desc *desc);
 
+/// What a library may be built without: `make EFFECTS="all -liquid"`. Whatever asks for what is not in it is refused:
+/// E_UNSUPPORTED. What is on by default is off without it: gravity, friction, `continuous`.
+typedef struct plumb_effect {
+    const char *name; ///< "liquid"
+    const char *text; ///< "particles that flow"
+    bool present;     ///< it is in this library
+} plumb_effect;
+
+/// All of them, and how many (`count` may be null). Constant.
+PLUMB_API const plumb_effect *plumb_effects(int *count);
+
 PLUMB_END
 
 #endif

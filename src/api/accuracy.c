@@ -45,6 +45,9 @@ plumb_result plumb_world_set_tolerance(plumb_world *world, plumb_real tolerance)
 {
     PL_TRY(pl_check_unlocked(world, __func__));
     PL_TRY(pl_check_range(world, __func__, "tolerance", tolerance, 0, (plumb_real)0.5));
+    if (tolerance > 0) {
+        PL_TRY(PL_CHECK_HAS(world, __func__, "tolerance", TOLERANCE, "tolerance"));
+    }
     world->desc.tolerance = tolerance;
     pl_dial_reset(world);
     return PLUMB_OK;

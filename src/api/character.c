@@ -102,6 +102,7 @@ static plumb_result check_unused(const plumb_world *world, const char *fn, bool 
 static plumb_result check_desc(const plumb_world *world, const char *fn, uint32_t row,
                                const plumb_character_desc *d)
 {
+    PL_TRY(PL_CHECK_HAS(world, fn, "a character", CHARACTERS, "characters"));
     PL_TRY(check_numbers(world, fn, d));
     bool is_dynamic = world->bodies.type[row] == PLUMB_DYNAMIC;
     return check_unused(world, fn, is_dynamic, d);

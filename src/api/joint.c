@@ -122,6 +122,7 @@ static void warn_of_idle(const plumb_world *world, const char *fn, const plumb_j
 // Checks a descriptor and resolves its defaults in place.
 static plumb_result check_desc(const plumb_world *world, const char *fn, plumb_joint_desc *d)
 {
+    PL_TRY(PL_CHECK_HAS(world, fn, "a joint", JOINTS, "joints"));
     if ((unsigned)d->kind >= (unsigned)pl_joint_class_count) {
         return pl_fail(world, PLUMB_E_RANGE, fn, "kind is %d; it must be a plumb_joint_kind",
                        (int)d->kind);

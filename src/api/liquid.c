@@ -72,6 +72,7 @@ plumb_result plumb_liquid_create(plumb_world *world, const plumb_liquid_desc *de
     desc = desc == NULL ? &zero : desc;
     PL_TRY(pl_check_world(world));
     PL_TRY(pl_check_unlocked(world, __func__));
+    PL_TRY(PL_CHECK_HAS(world, __func__, "a liquid", LIQUID, "liquid"));
     if (world->liquid.settings_count > 0) {
         return pl_fail(world, PLUMB_E_STATE, __func__, "the world has a liquid; it must have none");
     }

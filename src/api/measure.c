@@ -7,6 +7,9 @@
 plumb_result plumb_world_set_measure(plumb_world *world, bool measure)
 {
     PL_TRY(pl_check_unlocked(world, __func__));
+    if (measure) {
+        PL_TRY(PL_CHECK_HAS(world, __func__, "measure", MEASURES, "measures"));
+    }
     world->desc.measure = measure;
     world->schedule.watched = pl_watched_bits(world->schedule.watched, &world->desc);
     world->schedule_dirty = true;

@@ -50,6 +50,9 @@ plumb_result pl_shape_insert(plumb_world *world, const char *fn, uint32_t row,
     uint32_t material = plumb_is_null(desc->material) ? 0 : pl_material_row(world, desc->material);
     real density = desc->density > 0 ? desc->density : world->materials.density[material];
     density = is_line(desc) || desc->sensor ? 0 : density;
+    if (desc->sensor) {
+        PL_TRY(PL_CHECK_HAS(world, fn, "a sensor", SENSORS, "sensors"));
+    }
     PL_TRY(check_mass(world, fn, row, made, density));
     if (!pl_registry_reserve(&world->memory, &world->registry, 1) ||
         !pl_pieces_reserve(world, made->count) ||

@@ -7,6 +7,9 @@
 plumb_result plumb_world_set_watchdog(plumb_world *world, bool watchdog)
 {
     PL_TRY(pl_check_unlocked(world, __func__));
+    if (watchdog) {
+        PL_TRY(PL_CHECK_HAS(world, __func__, "watchdog", WATCHDOG, "watchdog"));
+    }
     pl_watchdog_forget(&world->watchdog);
     world->desc.watchdog = watchdog;
     world->schedule.watched = pl_watched_bits(world->schedule.watched, &world->desc);

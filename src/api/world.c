@@ -76,6 +76,11 @@ static plumb_result check_desc(const plumb_world *world, const char *fn, const p
                        "gravity is (%g, %g); it must be (0, 0) with zero_gravity",
                        (double)d->gravity.x, (double)d->gravity.y);
     }
+    if (d->solver == PLUMB_SOLVER_PGS) {
+        PL_TRY(PL_CHECK_HAS(world, fn, "solver pgs", PGS, "pgs"));
+    } else if (d->solver == PLUMB_SOLVER_EXACT) {
+        PL_TRY(PL_CHECK_HAS(world, fn, "solver exact", EXACT, "exact"));
+    }
     return check_integers(world, fn, d);
 }
 
@@ -90,6 +95,7 @@ static plumb_result check_desc(const plumb_world *world, const char *fn, const p
 // contact_hertz stays 0: "a sixth of the substep rate", which is known only when a step is taken.
 void pl_world_resolve(plumb_world_desc *desc)
 {
+    desc->zero_gravity |= !PL_HAS(GRAVITY);
     if (!desc->zero_gravity && desc->gravity.x == 0 && desc->gravity.y == 0) {
         desc->gravity.y = desc->y_axis == PLUMB_Y_UP ? -STANDARD_GRAVITY : STANDARD_GRAVITY;
     }
@@ -275,6 +281,9 @@ plumb_result plumb_world_set_gravity(plumb_world *world, plumb_vec2 gravity)
 {
     PL_TRY(pl_check_world(world));
     PL_TRY(pl_check_finite_vec(world, __func__, "gravity", gravity));
+    if (gravity.x != 0 || gravity.y != 0) {
+        PL_TRY(PL_CHECK_HAS(world, __func__, "gravity", GRAVITY, "gravity"));
+    }
     if (gravity.x != world->gravity.x || gravity.y != world->gravity.y) {
         pl_sleep_disturb_all(world);
     }

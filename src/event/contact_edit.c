@@ -76,6 +76,12 @@ plumb_result plumb_contact_edit_set(plumb_world *world, int i, const plumb_conta
                           PLUMB_REAL_MAX));
     PL_TRY(pl_check_finite(world, __func__, "surface_speed", edit->surface_speed));
     PL_TRY(pl_check_range(world, __func__, "adhesion", edit->adhesion, 0, PLUMB_REAL_MAX));
+    if (edit->friction > 0 || edit->rolling_resistance > 0 || edit->surface_speed != 0) {
+        PL_TRY(PL_CHECK_HAS(world, __func__, "friction", FRICTION, "friction"));
+    }
+    if (edit->restitution > 0) {
+        PL_TRY(PL_CHECK_HAS(world, __func__, "restitution", RESTITUTION, "restitution"));
+    }
     pl_manifold *m = &pl_manifolds(&world->narrow)[i];
     m->friction = (near_real)edit->friction;
     m->restitution = (near_real)edit->restitution;

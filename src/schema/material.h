@@ -3,13 +3,17 @@
 #define PL_SCHEMA_MATERIAL_H
 
 #include "plumb/material.h"
+#include "schema/effects.h"
 #include "schema/row.h"
+
+// A library without friction has none by default.
+#define PL_DEFAULT_FRICTION (PL_HAS(FRICTION) ? 0.6 : 0)
 
 // clang-format off
 #define PL_MATERIAL_ROWS(R, X)                                                                      \
     R(X, COLUMN, REAL, density, SAID(density), "kg/m^2", ABOVE(0, NO_END), 1, NO_ZERO,              \
       "mass of an area of what is made of it")                                                      \
-    R(X, COLUMN, REAL, friction, SAID(friction), "1", FROM(0, 10), 0.6, ZERO(frictionless),         \
+    R(X, COLUMN, REAL, friction, SAID(friction), "1", FROM(0, 10), PL_DEFAULT_FRICTION, ZERO(frictionless), \
       "Coulomb coefficient; a pair uses the root of the product")                                   \
     R(X, COLUMN, REAL, restitution, SAID(restitution), "1", FROM(0, 1), 0, NO_ZERO,                 \
       "share of the speed that an impact gives back; a pair uses the larger")                       \

@@ -2,6 +2,7 @@
 #include "snapshot/section.h"
 
 #include "api/command.h"
+#include "schema/effects.h"
 #include "world/marks.h"
 #include "snapshot/section_own.h"
 
@@ -494,6 +495,9 @@ uint64_t pl_section_schema(void)
         add_text(&digest, arrays[i].name);
         add_number(&digest, arrays[i].stride);
     }
+#define ADD_ABSENT(NAME, word, ...) PL_HAS(NAME) ? (void)0 : add_text(&digest, word);
+    PL_EFFECTS(ADD_ABSENT)
+#undef ADD_ABSENT
     return pl_digest_end(&digest);
 }
 

@@ -108,7 +108,7 @@ bool pl_section_reserve(plumb_world *world, uint32_t i, uint32_t count);
 // plumb_world_hash; `values` false: without the numbers of the first section (settings, time, counts).
 uint64_t pl_world_digest(const plumb_world *world, bool values);
 
-// What the sections of this build are: names and sizes of all that is saved.
+// What the sections of this build are: names and sizes of all that is saved, and which effects it lacks.
 uint64_t pl_section_schema(void);
 // The same of the components that a world has registered.
 uint64_t pl_section_user_schema(const plumb_world *world);

@@ -22,6 +22,7 @@
 // Symbols: ran = r_A x n, rat = r_A x t; kn inverse effective mass; ln, lt accumulated impulses.
 // Cost: per bundle two gathers of W body rows, about 150 flops, one scatter.
 #include "narrow/surface.h"
+#include "schema/effects.h"
 #include "solver/bundle.h"
 
 WIDE_INLINE void push_normal(const bundle *c, const point *p, body *a, body *b, vf impulse,
@@ -289,23 +290,28 @@ WIDE_INLINE void sweep(const pl_contact_call *call, uint32_t first, uint32_t cou
 #define DEFINE_TURNING(F, S, X) DEFINE_WARM_START(F, 1, S, X) DEFINE_SWEEPS(F, 1, S, X, 0) DEFINE_SWEEPS(F, 1, S, X, 1)
 
 DEFINE_STRAIGHT(0, 0)
+DEFINE_TURNING(0, 0, 0)
+DEFINE_TURNING(1, 1, 1)
+#if PL_HAS(FRICTION)
 DEFINE_STRAIGHT(1, 0)
 DEFINE_STRAIGHT(1, 1)
-DEFINE_TURNING(0, 0, 0)
 DEFINE_TURNING(1, 0, 0)
 DEFINE_TURNING(1, 1, 0)
-DEFINE_TURNING(1, 1, 1)
+#define ROUGH(with, without) PL_WIDE_NAME(with)
+#else
+#define ROUGH(with, without) PL_WIDE_NAME(without)
+#endif
 
 // In the order of pl_motion_variant.
 #define SWEEPS(name)                                                                               \
     { { PL_WIDE_NAME(name##_00000), PL_WIDE_NAME(name##_01000), PL_WIDE_NAME(name##_01001) },      \
-      { PL_WIDE_NAME(name##_10000), PL_WIDE_NAME(name##_11000), PL_WIDE_NAME(name##_11001) },      \
-      { PL_WIDE_NAME(name##_10100), PL_WIDE_NAME(name##_11100), PL_WIDE_NAME(name##_11101) },      \
+      { ROUGH(name##_10000, name##_00000), ROUGH(name##_11000, name##_01000), ROUGH(name##_11001, name##_01001) }, \
+      { ROUGH(name##_10100, name##_00000), ROUGH(name##_11100, name##_01000), ROUGH(name##_11101, name##_01001) }, \
       { PL_WIDE_NAME(name##_11110), PL_WIDE_NAME(name##_11110), PL_WIDE_NAME(name##_11111) } }
 #define WARM_STARTS                                                                                \
     { { PL_WIDE_NAME(warm_start_0000), PL_WIDE_NAME(warm_start_0100), PL_WIDE_NAME(warm_start_0100) }, \
-      { PL_WIDE_NAME(warm_start_1000), PL_WIDE_NAME(warm_start_1100), PL_WIDE_NAME(warm_start_1100) }, \
-      { PL_WIDE_NAME(warm_start_1010), PL_WIDE_NAME(warm_start_1110), PL_WIDE_NAME(warm_start_1110) }, \
+      { ROUGH(warm_start_1000, warm_start_0000), ROUGH(warm_start_1100, warm_start_0100), ROUGH(warm_start_1100, warm_start_0100) }, \
+      { ROUGH(warm_start_1010, warm_start_0000), ROUGH(warm_start_1110, warm_start_0100), ROUGH(warm_start_1110, warm_start_0100) }, \
       { PL_WIDE_NAME(warm_start_1111), PL_WIDE_NAME(warm_start_1111), PL_WIDE_NAME(warm_start_1111) } }
 // clang-format on
 

@@ -7,6 +7,7 @@
 #include "core/try.h"
 #include "plumb/schema.h"
 #include "plumb/shape.h"
+#include "schema/effects.h"
 
 // A world is given. E_NULL, which nobody is told.
 static inline plumb_result pl_check_world(const plumb_world *world)
@@ -37,6 +38,12 @@ plumb_result pl_check_property(const plumb_world *world, const char *function, c
                                plumb_property_table table, const char *name, plumb_real value);
 // The same of one that lies in an image.
 bool pl_desc_is_sound(plumb_property_table table, const void *desc);
+
+// Whether the library has an effect (schema/effects.h). E_UNSUPPORTED.
+plumb_result pl_fail_absent(const plumb_world *world, const char *function, const char *what,
+                            const char *effect);
+#define PL_CHECK_HAS(world, function, what, NAME, name)                                            \
+    (PL_HAS(NAME) ? PLUMB_OK : pl_fail_absent(world, function, what, name))
 
 // Defaults of a world's settings (world.c).
 void pl_world_resolve(plumb_world_desc *desc);

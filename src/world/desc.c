@@ -6,6 +6,7 @@
 #include "world/rows.h"
 
 #include <stdio.h>
+#include <string.h>
 
 static plumb_real bound(double v)
 {
@@ -46,11 +47,52 @@ static bool is_sound(const plumb_property *p, const void *desc)
     return x - x == 0 && y - y == 0 && is_in_range(p, x) && is_in_range(p, y);
 }
 
+//---- what the library is built without -----------------------------------------------------------
+
+plumb_result pl_fail_absent(const plumb_world *world, const char *function, const char *what,
+                            const char *effect)
+{
+    return pl_fail(world, PLUMB_E_UNSUPPORTED, function,
+                   "%s is asked for; this library was built without '%s' (make EFFECTS=...)", what,
+                   effect);
+}
+
+// The effect that a property of worlds, bodies or materials belongs to, if it is not in the library; else NULL.
+static const char *absent_of(plumb_property_table table, const char *name)
+{
+#define ROW(NAME, word, needs, files, properties, text) { word, properties, PL_HAS(NAME) },
+    static const struct {
+        const char *name, *properties;
+        bool present;
+    } effects[] = { PL_EFFECTS(ROW) };
+#undef ROW
+    const size_t length = strlen(name);
+    for (size_t i = 0; i < sizeof effects / sizeof effects[0]; ++i) {
+        const char *at =
+            effects[i].present || table == PLUMB_TABLE_JOINT ? "" : effects[i].properties;
+        for (; *at != '\0'; at += strcspn(at, " "), at += *at == ' ') {
+            if (strcspn(at, " ") == length && memcmp(at, name, length) == 0) {
+                return effects[i].name;
+            }
+        }
+    }
+    return NULL;
+}
+
+// E_UNSUPPORTED where a property that the library does not have is not at its default.
+static plumb_result check_absent(const plumb_world *world, const char *function, const char *field,
+                                 plumb_property_table table, const plumb_property *p, double value)
+{
+    const char *effect = PL_HAS_ALL || value == p->initial ? NULL : absent_of(table, p->name);
+    return effect == NULL ? PLUMB_OK : pl_fail_absent(world, function, field, effect);
+}
+
 plumb_result pl_check_property(const plumb_world *world, const char *function, const char *field,
                                plumb_property_table table, const char *name, plumb_real value)
 {
     const plumb_property *p = plumb_property_find(table, name);
-    return pl_check_range(world, function, field, value, bound(p->low), bound(p->high));
+    PL_TRY(pl_check_range(world, function, field, value, bound(p->low), bound(p->high)));
+    return check_absent(world, function, field, table, p, (double)value);
 }
 
 plumb_result pl_check_desc(const plumb_world *world, const char *function, const char *prefix,
@@ -63,6 +105,12 @@ plumb_result pl_check_desc(const plumb_world *world, const char *function, const
         if (!is_sound(&rows[i], desc)) {
             snprintf(field, sizeof field, "%s%s", prefix, rows[i].name);
             return fail(world, function, field, &rows[i], desc);
+        }
+        for (int axis = 0; axis < 2 && !PL_HAS_ALL; ++axis) {
+            snprintf(field, sizeof field, "%s%s", prefix, rows[i].name);
+            const double value = pl_property_member(&rows[i], desc, axis);
+            PL_TRY(check_absent(world, function, field, table, &rows[i],
+                                value != 0 ? value : rows[i].initial));
         }
     }
     return PLUMB_OK;

@@ -133,6 +133,9 @@ plumb_result plumb_shape_set_sensor(plumb_world *world, plumb_shape shape, bool 
     uint32_t first;
     PL_TRY(pl_check_shape(world, __func__, shape, &first));
     PL_TRY(pl_check_unlocked(world, __func__));
+    if (sensor) {
+        PL_TRY(PL_CHECK_HAS(world, __func__, "a sensor", SENSORS, "sensors"));
+    }
     if (sensor != plumb_shape_is_sensor(world, shape)) {
         for (uint32_t p = first; p != PL_NONE; p = world->pieces.next_in_shape[p]) {
             pl_sleep_see_anew(world, p);

@@ -180,13 +180,34 @@ static void explosions_are_refused(void **state)
     assert_int_equal(plumb_world_explode(NULL, NULL), PLUMB_E_NULL);
 }
 
+// A library without some: test_effects.sh.
+static void all_effects_are_in_the_library(void **state)
+{
+    int count;
+    const plumb_effect *effects = plumb_effects(&count);
+    (void)state;
+    assert_int_equal(count, 18);
+    for (int i = 0; i < count; ++i) {
+        assert_true(effects[i].present && effects[i].name[0] != '\0' && effects[i].text[0] != '\0');
+        assert_true(i == 0 || strcmp(effects[i].name, effects[i - 1].name) != 0);
+    }
+    assert_ptr_equal(plumb_effects(NULL), effects);
+    assert_string_equal(plumb_result_text(PLUMB_E_UNSUPPORTED),
+                        "this library was built without what is asked for");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        API_TEST(only_what_is_near_is_pushed),      API_TEST(strength_and_filter),
-        API_TEST(a_body_can_get_its_whole_impulse), API_TEST(parts_of_a_body_shield_one_another),
-        API_TEST(occlusion_says_what_shields),      API_TEST(a_blast_inside_a_body_drives_it_out),
-        API_TEST(locked_axes_take_nothing),         API_TEST(explosions_are_refused),
+        API_TEST(only_what_is_near_is_pushed),
+        API_TEST(strength_and_filter),
+        API_TEST(a_body_can_get_its_whole_impulse),
+        API_TEST(parts_of_a_body_shield_one_another),
+        API_TEST(occlusion_says_what_shields),
+        API_TEST(a_blast_inside_a_body_drives_it_out),
+        API_TEST(locked_axes_take_nothing),
+        API_TEST(explosions_are_refused),
+        cmocka_unit_test(all_effects_are_in_the_library),
     };
     return cmocka_run_group_tests_name("effect", tests, NULL, NULL);
 }

@@ -159,7 +159,7 @@ static void every_result_has_a_text(void **state)
     assert_int_equal(PLUMB_##name, value);                                                         \
     assert_string_equal(plumb_result_text(PLUMB_##name), text);
     PLUMB_RESULT_LIST(CHECK_TEXT)
-    assert_string_equal(plumb_result_text((plumb_result)14), "unknown result");
+    assert_string_equal(plumb_result_text((plumb_result)15), "unknown result");
     assert_string_equal(plumb_result_text((plumb_result)-1), "unknown result");
 }
 
