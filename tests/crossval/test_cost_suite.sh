@@ -3,6 +3,7 @@
 # become short; what cannot be brought over is told by a letter with the reason; hostile arguments are refused.
 
 suite=${O:-build}/cost-suite
+frozen=${O:-build}/cost-frozen
 work=$(mktemp -d "${TMPDIR:-/tmp}/plumb-suite-XXXXXX")
 trap 'rm -rf "$work"' EXIT
 failed=0
@@ -108,4 +109,25 @@ done
 "$suite" --folder "$work/out" "$work/none.lua" > "$work/told" 2> "$work/messages"
 [ $? -ne 0 ] && grep -q 'none.lua' "$work/messages"
 tell $? "a scene that is not there"
+
+# Contact problems against their exact answer: sweeps of the soft step get there on a pile, where nothing touches is no problem.
+cat > "$work/pile.scene" <<'LUA'
+scene { duration = 1 }
+body { name = "ground", type = "static", box { 20, 1 }, at = {0, -0.5} }
+for i = 1, 3 do body { box { 1, 1 }, at = {0, i - 0.5} } end
+LUA
+"$frozen" --folder "$work/out" "$work/pile.scene" > "$work/told" 2> "$work/messages"
+tell $? "frozen problems are studied: $(tail -n 1 "$work/messages")"
+errors=$(grep 'soft, k sweeps' "$work/out/frozen.csv" | head -n 7 | cut -d, -f7)
+echo "$errors" | awk '{ if (NR == 1) first = $1; last = $1 } END { exit !(NR == 7 && first > 0.1 && last < 1e-3 * first) }'
+tell $? "each sweep brings the soft step nearer: $(echo $errors)"
+"$frozen" --folder "$work/out" "$work/throw.lua" > "$work/told" 2> "$work/messages"
+[ $? -ne 0 ] && grep -q 'contact problem' "$work/messages"
+tell $? "where nothing touches there is no problem"
+"$frozen" --folder "$work/out" "$work/none.lua" > "$work/told" 2> "$work/messages"
+[ $? -ne 0 ] && grep -q 'none.lua' "$work/messages"
+tell $? "nor in a scene that is not there"
+"$frozen" > "$work/told" 2> "$work/messages"
+[ $? -eq 2 ] && grep -q '^usage: cost-frozen' "$work/messages"
+tell $? "frozen: no scene at all"
 exit $failed

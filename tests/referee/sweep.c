@@ -220,8 +220,8 @@ static void put_csv(FILE *file, const struct drawing *d)
             for (int c = 0; c < d->r->contender_count; c++) {
                 const struct cell *cell = &task->cells[c];
                 const struct contender *who = d->r->contenders[c];
-                fprintf(file, "\"%s\",%s,%g,%s,\"%s\",", sweeps[i].title, sweeps[i].key, task->value,
-                        who->name, who->way);
+                fprintf(file, "\"%s\",%s,%g,%s,\"%s\",", sweeps[i].title, sweeps[i].key,
+                        task->value, who->name, who->way);
                 if (cell->status == CELL_JUDGED && cell->count > 0) {
                     fprintf(file, "%.6g,%.6g,%s\n", cell->lines[0].measured, cell->lines[0].limit,
                             cell->lines[0].holds ? "yes" : "no");
