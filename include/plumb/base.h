@@ -129,8 +129,12 @@ typedef struct plumb_joint {
     plumb_entity entity; ///< has a joint row
 } plumb_joint;
 
+typedef struct plumb_law {
+    plumb_entity entity; ///< has a row of plumb/law.h
+} plumb_law;
+
 // clang-format off
-#define PLUMB_NULL_INIT        { { 0, 0 } } ///< initialiser of the null handle of a body, shape, material or joint
+#define PLUMB_NULL_INIT        { { 0, 0 } } ///< initialiser of the null handle of a body, shape, material, joint or law
 #define PLUMB_NULL_ENTITY_INIT { 0, 0 }     ///< of a plumb_entity
 // clang-format on
 
@@ -159,6 +163,7 @@ PLUMB_HANDLE_TESTS(plumb_body, .entity)
 PLUMB_HANDLE_TESTS(plumb_shape, .entity)
 PLUMB_HANDLE_TESTS(plumb_material, .entity)
 PLUMB_HANDLE_TESTS(plumb_joint, .entity)
+PLUMB_HANDLE_TESTS(plumb_law, .entity)
 #else
 #define PLUMB_HANDLE_TESTS(type)                                                                    \
     static inline bool type##_is_null(type handle) { return plumb_entity_is_null(handle.entity); }  \
@@ -167,13 +172,15 @@ PLUMB_HANDLE_TESTS(plumb_body)
 PLUMB_HANDLE_TESTS(plumb_shape)
 PLUMB_HANDLE_TESTS(plumb_material)
 PLUMB_HANDLE_TESTS(plumb_joint)
+PLUMB_HANDLE_TESTS(plumb_law)
 #define PLUMB_HANDLE_TEST(test, handle)                                                             \
     _Generic((handle),                                                                              \
         plumb_entity: plumb_entity_##test,                                                          \
         plumb_body: plumb_body_##test,                                                              \
         plumb_shape: plumb_shape_##test,                                                            \
         plumb_material: plumb_material_##test,                                                      \
-        plumb_joint: plumb_joint_##test)
+        plumb_joint: plumb_joint_##test,                                                            \
+        plumb_law: plumb_law_##test)
 #define plumb_is_null(handle) PLUMB_HANDLE_TEST(is_null, handle)(handle)
 #define plumb_same(a, b)      PLUMB_HANDLE_TEST(same, a)(a, b)
 #endif

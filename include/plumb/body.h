@@ -42,6 +42,8 @@ typedef struct plumb_body_desc {
     plumb_real max_speed;        ///< [m/s] >= 0: see plumb_body_set_speed_cap; 0: none
     plumb_real max_spin;         ///< [rad/s] >= 0; 0: none
     plumb_real time_scale;       ///< [-] 0..100: see plumb_body_set_time_scale; 0 means 1
+    plumb_real charge;           ///< [C]: see plumb/law.h
+    plumb_real attraction;       ///< [-] 0..1e6: see plumb/law.h
     bool disabled;               ///< out of the simulation: see plumb_body_set_enabled
     void *user_data;             ///< see plumb_body_user_data
 } plumb_body_desc;

@@ -22,6 +22,7 @@
 #include "plumb/batch.h"
 #include "plumb/record.h"
 #include "plumb/effect.h"
+#include "plumb/law.h"
 #include "plumb/liquid.h"
 #include "plumb/loop.h"
 #include "plumb/accuracy.h"

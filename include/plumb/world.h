@@ -234,7 +234,8 @@ PLUMB_API int plumb_world_cells(const plumb_world *world, plumb_aabb *cells, int
 /// kinetic + potential + stored. O(bodies + joints).
 typedef struct plumb_energy {
     double kinetic;          ///< [J] translation and rotation
-    double potential;        ///< [J] -m g.x against the origin
+    double potential;        ///< [J] -m g.x against the origin, and of laws (plumb/law.h) that have one: not of
+                             ///< zones, nor of what replaces
     double stored;           ///< [J] k x^2 / 2 of each joint with a spring that is on (mouse and motor joints too); where
                              ///< its force is bounded, beyond that force times way
     double momentum_x;       ///< [kg m/s]

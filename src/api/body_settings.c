@@ -5,6 +5,7 @@
 #include "world/body_settings.h"
 #include "world/island.h"
 #include "world/told.h"
+#include "plumb/law.h"
 #include "effects/effects.h"
 #include "world/check.h"
 #include "world/rows.h"
@@ -75,6 +76,22 @@ plumb_result plumb_body_set_time_scale(plumb_world *world, plumb_body body, plum
     pl_target_reaim(world, row);
     return PLUMB_OK;
 }
+
+// plumb_body_set_charge, plumb_body_set_attraction.
+#define LAW_SETTER(name)                                                                           \
+    plumb_result plumb_body_set_##name(plumb_world *world, plumb_body body, plumb_real name)       \
+    {                                                                                              \
+        uint32_t row;                                                                              \
+        pl_body_settings t;                                                                        \
+        PL_TRY(pl_check_body(world, __func__, body, &row));                                        \
+        PL_TRY(check(world, __func__, #name, #name, name));                                        \
+        PL_TRY(open(world, __func__, row, &t));                                                    \
+        t.name = name;                                                                             \
+        pl_told(world, body.entity, __func__);                                                     \
+        return store(world, row, &t);                                                              \
+    }
+LAW_SETTER(charge)
+LAW_SETTER(attraction)
 
 //---- columns ------------------------------------------------------------------------------------
 

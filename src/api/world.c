@@ -14,6 +14,7 @@
 #include "internal_edges/internal_edges.h"
 #include "joints/energy.h"
 #include "joints/joint.h"
+#include "effects/laws.h"
 #include "liquid/liquid.h"
 #include "step/measure.h"
 #include "narrow/narrow.h"
@@ -172,6 +173,7 @@ static void free_world(plumb_world *world)
     pl_joints_free(&memory, &world->joints);
     pl_characters_free(&memory, &world->characters);
     pl_liquid_free(&memory, &world->liquid);
+    pl_laws_free(&memory, &world->laws);
     pl_continuous_free(&memory, &world->continuous);
     pl_quarantine_free(&memory, &world->quarantine);
     pl_registry_free(&memory, &world->registry);
@@ -477,6 +479,9 @@ plumb_energy plumb_world_energy(const plumb_world *world)
     uint32_t asleep = pl_partition_first(world, PL_PART_ASLEEP);
     for (uint32_t row = asleep; row < asleep + world->asleep_count; ++row) {
         add_energy(world, row, &energy);
+    }
+    if (world->laws.count > 0) {
+        energy.potential += pl_laws_potential(world);
     }
     energy.stored = pl_joints_stored(world);
     return energy;

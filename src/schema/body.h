@@ -44,6 +44,10 @@
       "angular speed that it never exceeds; dynamic bodies")                                        \
     R(X, RECORD, REAL, time_scale, SAID(time_scale), "1", FROM(0, 100), 1, NO_ZERO,                 \
       "below 1 it moves in slow motion, through the same path; not for static bodies")              \
+    R(X, RECORD, REAL, charge, SAID(charge), "C", FROM(-1e9, 1e9), 0, NO_ZERO,                      \
+      "what electric and magnetic laws act on; dynamic bodies")                                     \
+    R(X, RECORD, REAL, attraction, SAID(attraction), "1", FROM(0, 1e6), 0, NO_ZERO,                 \
+      "1: attracts others by mutual gravitation; dynamic bodies")                                   \
     R(X, OWN, BOOL, disabled, NOT(enabled), "1", CHOICES(1), 0, NO_ZERO, "whether it is in the simulation")
 // clang-format on
 

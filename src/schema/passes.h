@@ -64,12 +64,16 @@
       "settings", "accelerations", ONE)                                                                                                      \
     X("fluids",              GRAPH,       IF(pl_want_fluids),           ONCE(pl_run_fluids),                                     ONCE,              \
       "sensors, pieces, materials", "constraints, islands", ONE)                                                                                    \
+    X("laws",              GRAPH,       IF(pl_want_laws),            ONCE(pl_run_laws),                                      ONCE,           \
+      "poses, velocities, masses, body settings, pieces, manifolds, joints", "constraints", ONE)                                    \
     X("called",            GRAPH,       IF(pl_want_called),          ONCE(pl_run_called),                                    ONCE,           \
       "components, rows", "constraints", ONE)                                                                                                \
     X("graph",             GRAPH,       IF(pl_want_solver),          ONCE(pl_run_graph),                                     ONCE,           \
       "manifolds, velocities, forces, masses, joints", "solver bodies, accelerations, constraints, joints, movers", HAS(pl_gather_variants)) \
     X("immersion",           GRAPH,       IF(pl_want_fluids),           ONCE(pl_run_immersion),                                  ONCE,              \
       "pieces, poses, materials, solver bodies", "constraints, solver bodies", ONE)                                                                 \
+    X("law slots",         GRAPH,       IF(pl_want_laws),            ONCE(pl_run_law_slots),                                 ONCE,           \
+      "solver bodies", "constraints", ONE)                                                                                                   \
     X("acting",            GRAPH,       IF(pl_want_acting),          ONCE(pl_run_acting),                                    ONCE,           \
       "body settings, components, solver bodies", "constraints", ONE)                                                                        \
     X("measure bodies",    GRAPH,       IF(pl_want_measures),        ONCE(pl_run_measure_bodies),                            ONCE,           \
@@ -95,6 +99,8 @@
       "", "", ONE)                                                                                                                           \
     X("fluid forces",        MOMENT,      IF(pl_want_fluids),           ACTS(pl_fluid_row, pl_fluid_acts_on),                    ONCE,              \
       "solver bodies, poses, velocities, pieces, materials", "accelerations", ONE)                                                                  \
+    X("law forces",        MOMENT,      IF(pl_want_laws),            ACTS(pl_law_row, pl_law_acts_on),                       ONCE,           \
+      "solver bodies, poses, velocities, masses, body settings", "accelerations", ONE)                                                       \
     X("damping",           MOMENT,      IF(pl_want_damping),         EACH(pl_damping_row),                                   REPLACEABLE,    \
       "solver bodies, body settings", "accelerations", ONE)                                                                                  \
     X("speed caps",        MOMENT,      IF(pl_want_caps),            EACH(pl_caps_row),                                      REPLACEABLE,    \
@@ -139,6 +145,8 @@
       "constraints", "joints", ONE)                                                                                                          \
     X("store contacts",    STORE,       IF(pl_want_collision),       THREE(pl_soft_store, pl_classic_store, pl_classic_store), ONCE,           \
       "constraints", "pairs, manifolds", ONE)                                                                                                \
+    X("orbits",            FINISH,      IF(pl_want_laws),            ONCE(pl_run_orbits),                                    ONCE,           \
+      "poses, velocities, forces, masses, body settings", "islands", ONE)                                                                           \
     X("motion",            FINISH,      ALWAYS,                      ONCE(pl_run_motion),                                    ONCE,           \
       "solver bodies, forces, masses", "poses, velocities, forces, movers, time", HAS(pl_motion_variants))                                   \
     X("continuous",        FINISH,      IF(pl_want_continuous),      ONCE(pl_run_continuous),                                ONCE,           \

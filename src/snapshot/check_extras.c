@@ -6,7 +6,9 @@
 #include "world/check.h"
 #include "broad/pairs.h"
 #include "internal_edges/cone.h"
+#include "effects/laws.h"
 #include "liquid/liquid.h"
+#include "world/wrap.h"
 #include "world/rows.h"
 
 #include <string.h>
@@ -253,6 +255,22 @@ static bool check_liquid(const plumb_world *w)
     return sound;
 }
 
+static bool check_laws(const pl_suspect *s)
+{
+    const pl_laws *laws = &s->world.laws;
+    bool sound = laws->orbit_count <= 1 && (laws->count == 0 || !pl_is_wrapped(&s->world)) &&
+                 (laws->orbit_count == 0 ||
+                  pl_orbit_desc_is_sound((const plumb_orbit_desc *)laws->orbits.data));
+    for (uint32_t i = 0; i < laws->count && sound; ++i) {
+        const pl_law *law = &pl_law_items(laws)[i];
+        const plumb_body body = law->desc.body;
+        sound = pl_law_desc_is_sound(&law->desc) && law->x - law->x == 0 && law->y - law->y == 0 &&
+                *(const uint8_t *)&law->placed <= 1 &&
+                (plumb_is_null(body) || pl_suspect_row(s, body) != PL_NONE);
+    }
+    return sound;
+}
+
 static bool check_excluded(const plumb_world *w)
 {
     const uint64_t *keys = w->excluded.data;
@@ -274,7 +292,7 @@ bool pl_check_extras(pl_suspect *s)
         }
     }
     return check_records(w) && check_settings(s) && check_targets(s) && check_liquid(w) &&
-           check_excluded(w) &&
+           check_laws(s) && check_excluded(w) &&
            pl_commands_are_sound(s->like, &w->registry, w->commands.bytes.data, w->commands.used,
                                  w->commands.count, s->marks);
 }

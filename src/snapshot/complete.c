@@ -44,6 +44,7 @@ COMPLETE(PL_STATE_INTERNAL_EDGES, internal_edges);
 COMPLETE(PL_STATE_CHARACTERS, characters);
 COMPLETE(PL_STATE_CONTINUOUS, continuous);
 COMPLETE(PL_STATE_LIQUID, liquid);
+COMPLETE(PL_STATE_LAWS, laws);
 COMPLETE(PL_STATE_DIAL, dial);
 _Static_assert(LISTED(PL_STATE) == sizeof(plumb_world),
                "a member of plumb_world is not in snapshot/list.h: add its row");
@@ -54,6 +55,7 @@ _Static_assert(LISTED(PL_STATE) == sizeof(plumb_world),
 #define SHAPE_DESC_SIZE(path)     MEMBER_SIZE(plumb_shape_desc, path)
 #define JOINT_DESC_SIZE(path)     MEMBER_SIZE(plumb_joint_desc, path)
 #define CHARACTER_DESC_SIZE(path) MEMBER_SIZE(plumb_character_desc, path)
+#define LAW_DESC_SIZE(path)       MEMBER_SIZE(plumb_law_desc, path)
 #define MATERIAL_DESC_SIZE(path)  MEMBER_SIZE(plumb_material_desc, path)
 #define PAIR_DESC_SIZE(path)      MEMBER_SIZE(plumb_material_pair, path)
 #define COMPLETE_DESC(sizes, desc)                                                                 \
@@ -65,4 +67,5 @@ COMPLETE_DESC(0 PL_MATERIAL_PAIR_ROWS(PL_ROW_MEMBERS, PAIR_DESC_SIZE), plumb_mat
 COMPLETE_DESC(0 PL_BODY_DESC(BODY_DESC_SIZE), plumb_body_desc);
 COMPLETE_DESC(sizeof(void *) PL_SHAPE_DESC(SHAPE_DESC_SIZE), plumb_shape_desc);
 COMPLETE_DESC(0 PL_JOINT_DESC(JOINT_DESC_SIZE), plumb_joint_desc);
+COMPLETE_DESC(0 PL_LAW_DESC(LAW_DESC_SIZE), plumb_law_desc);
 COMPLETE_DESC(0 PL_CHARACTER_DESC(CHARACTER_DESC_SIZE), plumb_character_desc);

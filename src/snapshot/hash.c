@@ -123,6 +123,19 @@ static void add_joints(pl_digest *digest, const plumb_world *world)
     }
 }
 
+// Charges and attractions of bodies that have one.
+static void add_holds(pl_digest *digest, const plumb_world *world)
+{
+    const pl_body_settings *items = world->settings.items.data;
+    for (uint32_t i = 0; i < world->settings.count; ++i) {
+        const real held[] = { items[i].charge, items[i].attraction };
+        if (held[0] != 0 || held[1] != 0) {
+            pl_digest_add(digest, &items[i].body, sizeof items[i].body);
+            pl_digest_add(digest, held, sizeof held);
+        }
+    }
+}
+
 static void add_characters(pl_digest *digest, const plumb_world *world)
 {
     for (uint32_t i = 0; i < world->characters.count; ++i) {
@@ -168,6 +181,7 @@ uint64_t pl_world_digest(const plumb_world *world, bool values)
     add_loads(&digest, world);
     add_joints(&digest, world);
     add_characters(&digest, world);
+    add_holds(&digest, world);
     pl_commands_digest(world, &digest);
     for (uint32_t i = 0; i < world->components.count; ++i) {
         add_component(&digest, &world->components.items[i]);

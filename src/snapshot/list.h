@@ -146,6 +146,11 @@
     ARRAY(plumb_particle, liquid.particles, liquid.count, sizeof(plumb_particle), 0)                 \
     LEFT(liquid.scratch)
 
+#define PL_STATE_LAWS(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                       \
+    ARRAY(pl_law, laws.items, laws.count, sizeof(pl_law), 8)                                       \
+    ARRAY(plumb_orbit_desc, laws.orbits, laws.orbit_count, sizeof(plumb_orbit_desc), 0)            \
+    LEFT(laws.step)
+
 #define PL_STATE_CONTINUOUS(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                 \
     LEFT(continuous.movers) LEFT(continuous.count) VALUE(continuous.least_slack)                   \
     LEFT(continuous.noting) LEFT(continuous.stopped_count)
@@ -156,7 +161,7 @@
     LEFT(quarantine.rolling) LEFT(quarantine.kept) LEFT(quarantine.since)
 
 #define PL_STATE_EFFECTS(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                    \
-    ARRAY(pl_body_settings, settings.items, settings.count, sizeof(pl_body_settings), 8)                     \
+    ARRAY(pl_body_settings, settings.items, settings.count, PL_SETTINGS_HASHED, 8)                     \
     VALUE(settings.damped) VALUE(settings.capped) VALUE(settings.scaled) VALUE(settings.frozen)        \
     ARRAY(pl_target, targets.items, targets.count, sizeof(pl_target), 8)                           \
     ARRAY(pl_track, tracks.items, tracks.count, sizeof(pl_track), 8)
@@ -194,6 +199,7 @@
     PL_STATE_JOINTS(__VA_ARGS__) PL_STATE_PARTS(__VA_ARGS__) PL_STATE_PENDING_HITS(__VA_ARGS__)           \
     PL_STATE_SENSING(__VA_ARGS__) PL_STATE_SLEEP(__VA_ARGS__) PL_STATE_INTERNAL_EDGES(__VA_ARGS__)          \
     PL_STATE_CHARACTERS(__VA_ARGS__) PL_STATE_CONTINUOUS(__VA_ARGS__) PL_STATE_LIQUID(__VA_ARGS__)  \
+    PL_STATE_LAWS(__VA_ARGS__)                                                                     \
     PL_STATE_QUARANTINE(__VA_ARGS__) PL_STATE_EFFECTS(__VA_ARGS__)                                \
     PL_STATE_DIAL(__VA_ARGS__)
 

@@ -8,6 +8,7 @@
 #include "world/marks.h"
 #include "solver/solver.h"
 #include "effects/effects.h"
+#include "effects/laws.h"
 #include "world/body_settings.h"
 #include "plumb/math.h"
 #include "world/flight.h"
@@ -57,11 +58,9 @@ static void add_exactly(real *value, real *low, double change)
     pl_add(value, low, large);
 }
 
-// The same for a body that has locked axes, damping, caps or a time of its own.
-static real fly_with_effects(plumb_world *world, uint32_t row, real dt)
+static real take_flight(plumb_world *world, uint32_t row, pl_flight f)
 {
     pl_bodies *b = &world->bodies;
-    pl_flight f = pl_effects_fly(world, row, dt);
     add_exactly(&b->center_x[row], &b->residual_x[row], f.x);
     add_exactly(&b->center_y[row], &b->residual_y[row], f.y);
     pl_turn(b, row, (real)f.angle);
@@ -69,6 +68,12 @@ static real fly_with_effects(plumb_world *world, uint32_t row, real dt)
     add_exactly(&b->vy[row], &b->residual_vy[row], f.vy);
     b->w[row] = (real)((double)b->w[row] + f.w);
     return (real)f.angle;
+}
+
+// The same for a body that has locked axes, damping, caps or a time of its own.
+static real fly_with_effects(plumb_world *world, uint32_t row, real dt)
+{
+    return take_flight(world, row, pl_effects_fly(world, row, dt));
 }
 
 typedef struct where {
@@ -159,12 +164,15 @@ static void take_over(plumb_world *world, uint32_t row, const pl_solver_body *bo
     b->residual_vy[row] = kept ? low[1] : 0;
 }
 
-// Moves a dynamic body; returns the angle by which it turned.
-static real move_dynamic(const passage *p, uint32_t row)
+// Moves a dynamic body; returns the angle by which it turned. orbits: some fly where laws lead them.
+static inline real move_dynamic(const passage *p, uint32_t row, bool orbits)
 {
     plumb_world *world = p->world;
     const bool has_effects = (world->bodies.flags[row] & PL_BODY_HAS_EFFECTS) != 0;
     const uint32_t slot = p->collided ? ((const uint32_t *)world->solver.slots.data)[row] : PL_NONE;
+    if (orbits && pl_law_way_of(world, row) == PL_LAW_FLIES) {
+        return take_flight(world, row, *pl_orbit_of(world, row));
+    }
     if (slot == PL_NONE) {
         const pl_damping_decay *decay =
             has_effects ? pl_damping_alone(&world->effects, &world->bodies, row) : NULL;
@@ -195,9 +203,8 @@ static real move_kinematic(const passage *p, uint32_t row)
     return time * b->w[row];
 }
 
-static void move_share(void *context, uint32_t i)
+static inline __attribute__((always_inline)) void move_rows(passage *p, uint32_t i, bool orbits)
 {
-    passage *p = context;
     plumb_world *world = p->world;
     pl_bodies *b = &world->bodies;
     const pl_share rows = pl_share_of(world->dynamic_count + world->kinematic_count, p->shares, i);
@@ -208,7 +215,7 @@ static void move_share(void *context, uint32_t i)
         where before = { b->center_x[row], b->center_y[row], b->c[row], b->s[row] };
         real angle;
         if (row < world->dynamic_count) {
-            angle = move_dynamic(p, row);
+            angle = move_dynamic(p, row, orbits);
             b->fx[row] = b->fy[row] = b->torque[row] = 0;
         } else {
             angle = move_kinematic(p, row);
@@ -221,6 +228,16 @@ static void move_share(void *context, uint32_t i)
     }
     p->made[i].count = count;
     p->made[i].lost = lost;
+}
+
+static void move_share(void *context, uint32_t i)
+{
+    move_rows(context, i, false);
+}
+
+static void move_orbits(void *context, uint32_t i)
+{
+    move_rows(context, i, true);
 }
 
 // Movers in order of rows, without gaps.
@@ -247,7 +264,7 @@ void pl_solver_finish(plumb_world *world, real dt)
                   .noting = world->continuous.noting,
                   .residuals = world->solver.follows_impacts ? world->solver.residuals.data : NULL,
                   .shares = pl_tasks_share_count(world->tasks, rows, PL_BODIES_SHARED) };
-    pl_tasks_run(world->tasks, move_share, &p, p.shares);
+    pl_tasks_run(world->tasks, world->laws.step.flies ? move_orbits : move_share, &p, p.shares);
     bool lost = false;
     for (uint32_t i = 0; i < p.shares; ++i) {
         lost |= p.made[i].lost;

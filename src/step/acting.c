@@ -13,6 +13,7 @@
 
 #include "core/quad.h"
 #include "effects/effects.h"
+#include "effects/laws.h"
 #include "step/system.h"
 #include "world/push.h"
 #include "world/state.h"
@@ -117,6 +118,7 @@ bool pl_acting_call(plumb_world *world)
             call_effect(world, &pl_passes[i]);
         }
     }
+    e->any_alone |= world->laws.count > 0 && pl_laws_couple(world, called);
     for (uint32_t i = 0; i < world->systems.count; ++i) {
         const pl_system *system = &world->systems.items[i];
         if (!is_of_substeps(world, system)) {

@@ -6,6 +6,7 @@
 #include "accuracy/dial.h"
 #include "effects/effects.h"
 #include "effects/fluid.h"
+#include "effects/laws.h"
 #include "step/quarantine.h"
 #include "world/push.h"
 #include "joints/joint.h"
@@ -114,9 +115,11 @@ TRY(pl_run_sleep, pl_sleep_fall(world, dt))
 TRY(pl_run_candidates, pl_sensing_prepare(world))
 RUN(pl_run_gravity, world->effects.gravity = world->gravity)
 TRY(pl_run_fluids, pl_fluids_find(world))
+TRY(pl_run_laws, pl_laws_find(world, dt))
 TRY(pl_run_called, pl_acting_call(world))
 TRY(pl_run_graph, graph(world, dt))
 TRY(pl_run_immersion, pl_fluids_immerse(world))
+TRY(pl_run_law_slots, pl_laws_take_slots(world))
 TRY(pl_run_acting, pl_acting_find(world, dt))
 RUN(pl_run_soft, substeps(world, dt, "soft step"))
 RUN(pl_run_classic, substeps(world, dt, "classic solver"))

@@ -29,6 +29,7 @@ static void forget_contacts(plumb_world *world)
     world->solver.follows_impacts = false;
     world->effects.gravity = plumb_v2(0, 0);
     world->effects.any_called = world->effects.any_alone = false;
+    world->laws.step.flies = false;
     world->joints.broken_count = world->joints.strained_count = 0;
     world->broad.refreshed = false;
     world->lookahead.kept_count = 0;

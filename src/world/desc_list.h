@@ -20,6 +20,10 @@
 
 #define PL_JOINT_DESC(X) X(body_a) X(body_b) PL_JOINT_DESC_ROWS(PL_ROW_MEMBERS, X) X(user_data)
 
+#define PL_LAW_DESC(X)                                                                             \
+    X(kind) X(hold) X(falloff) X(combine) X(priority) X(body) X(position) X(angle) X(vector)       \
+    X(strength) X(softening) X(radius) X(half) X(categories)
+
 #define PL_CHARACTER_DESC(X)                                                                       \
     X(up) X(max_slope) X(skin) X(step_height) X(step_width) X(snap_distance) X(acceleration)       \
     X(air_acceleration) X(max_fall_speed) X(mass) X(push_force) X(no_steps) X(no_snap) X(no_push)  \

@@ -6,6 +6,7 @@
 #include "world/island.h"
 #include "world/filter.h"
 #include "world/joint_list.h"
+#include "world/law_list.h"
 #include "world/material_pair.h"
 #include "world/rows.h"
 
@@ -54,6 +55,9 @@ static void destroy_body(plumb_world *world, plumb_body body)
     }
     while (world->bodies.first_joint[row] != PL_NONE) {
         pl_joint_remove(world, world->bodies.first_joint[row]);
+    }
+    if (world->laws.count > 0) {
+        pl_laws_forget(world, body);
     }
     pl_row_close(world, row);
     pl_registry_release(&world->registry, body.entity);
@@ -114,6 +118,9 @@ void pl_destroy_entity(plumb_world *world, plumb_entity entity)
         break;
     case PLUMB_KIND_JOINT:
         pl_joint_remove(world, pl_joint_slot(world, (plumb_joint){ entity }));
+        break;
+    case PLUMB_KIND_LAW:
+        pl_law_remove(world, pl_law_find(world, (plumb_law){ entity }));
         break;
     case PLUMB_KIND_MATERIAL:
         destroy_material(world, (plumb_material){ entity });

@@ -19,6 +19,7 @@
 #include "world/tables/exact.h"
 #include "world/tables/internal_edges.h"
 #include "world/tables/joint.h"
+#include "world/tables/law.h"
 #include "world/tables/liquid.h"
 #include "world/tables/manifold.h"
 #include "world/tables/measure.h"
@@ -122,6 +123,7 @@ struct plumb_world {
     pl_joints joints;
     pl_characters characters;
     pl_liquid liquid;
+    pl_laws laws;
     pl_schedule schedule;
     pl_quarantine quarantine;
     pl_measure measure;

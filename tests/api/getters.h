@@ -27,6 +27,8 @@
     X(plumb_body_angular_damping, plumb_body_angular_damping(w, h))                                 \
     X(plumb_body_max_speed, plumb_body_max_speed(w, h))                                             \
     X(plumb_body_max_spin, plumb_body_max_spin(w, h))                                               \
+    X(plumb_body_charge, plumb_body_charge(w, h))                                                   \
+    X(plumb_body_attraction, plumb_body_attraction(w, h))                                           \
     X(plumb_body_time_scale, plumb_body_time_scale(w, h))                                           \
     X(plumb_body_gravity_scale, plumb_body_gravity_scale(w, h))                                     \
     X(plumb_body_user_data, plumb_body_user_data(w, h))                                             \

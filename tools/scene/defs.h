@@ -212,6 +212,37 @@ typedef struct sc_liquid_def {
     int shape_count;
 } sc_liquid_def;
 
+/// attractor{}, zone{}, magnetic{}, mutual{}
+typedef enum sc_law_kind {
+    SC_ATTRACTOR,
+    SC_ZONE,
+    SC_MAGNETIC,
+    SC_MUTUAL,
+    SC_LAW_KINDS
+} sc_law_kind;
+
+typedef struct sc_law_def {
+    uint64_t present;
+    sc_law_kind kind;
+    double at[2], angle, gravity[2], electric[2], half[2];
+    double strength, softening, radius, priority;
+    char body[SC_NAME_SIZE];
+    uint64_t only; ///< bits: categories
+    int on, falloff;
+    bool replace;
+} sc_law_def;
+
+typedef struct sc_law {
+    sc_law_def def;
+    plumb_law handle;
+} sc_law;
+
+/// orbits{}
+typedef struct sc_orbits_def {
+    uint64_t present;
+    double order, tolerance;
+} sc_orbits_def;
+
 /// blast{}
 typedef struct sc_blast_def {
     uint64_t present;

@@ -169,8 +169,8 @@ static const cJSON *elements(scene *s, const cJSON *root, const char *name)
 
 static void check_root(scene *s, const cJSON *root)
 {
-    static const char *const names[] = { "bodies", "camera", "excluded", "expect",
-                                         "format", "joints", "liquid",   "materials",
+    static const char *const names[] = { "bodies", "camera", "excluded", "expect",    "format",
+                                         "joints", "laws",   "liquid",   "materials", "orbits",
                                          "pairs",  "scene",  "time" };
     sc_site site = { .construct = "file", .path = "" };
     if (!cJSON_IsObject(root)) {
@@ -237,6 +237,36 @@ static void make_joint(scene *s, const cJSON *item, int number)
     }
     sc_raise(s, SCENE_E_NAME, &site, "kind", 0, sc_suggest_best(&g),
              "unknown kind of joint '%.63s'", kind);
+}
+
+// {"kind": "attractor", ...}
+static void make_law(scene *s, const cJSON *item, int number)
+{
+    lua_State *L = s->L;
+    char path[48];
+    snprintf(path, sizeof path, "laws[%d]", number);
+    sc_site site = { .construct = "law", .path = path };
+    push_object(s, &site, item);
+    if (lua_getfield(L, -1, "kind") != LUA_TSTRING) {
+        sc_raise(s, SCENE_E_MISSING, &site, NULL, 0, NULL,
+                 "a law needs 'kind', such as \"attractor\"");
+    }
+    const char *kind = lua_tostring(L, -1);
+    sc_suggest g = sc_suggest_start(kind);
+    for (int k = 0; k < SC_LAW_KINDS; k++) {
+        sc_suggest_offer(&g, sc_list_laws[k].name);
+        if (strcmp(sc_list_laws[k].name, kind) == 0) {
+            site.construct = sc_list_laws[k].name;
+            lua_pop(L, 1);
+            lua_pushnil(L);
+            lua_setfield(L, -2, "kind");
+            sc_build_law(s, &site, (sc_law_kind)k, lua_gettop(L));
+            lua_settop(L, 1); // 1: the parsed tree
+            return;
+        }
+    }
+    sc_raise(s, SCENE_E_NAME, &site, "kind", 0, sc_suggest_best(&g), "unknown kind of law '%.63s'",
+             kind);
 }
 
 // ["a", "b"]
@@ -360,6 +390,15 @@ void sc_json_load(scene *s)
     i = 0;
     for (const cJSON *item = elements(s, root, "excluded"); item != NULL; item = item->next, i++) {
         make_excluded(s, item, i);
+    }
+    i = 0;
+    for (const cJSON *item = elements(s, root, "laws"); item != NULL; item = item->next, i++) {
+        make_law(s, item, i);
+    }
+    const cJSON *orbits = cJSON_GetObjectItemCaseSensitive(root, "orbits");
+    if (orbits != NULL) {
+        make(s, orbits, "orbits", "orbits", sc_build_orbits);
+        lua_settop(L, 1);
     }
     const cJSON *liquid = cJSON_GetObjectItemCaseSensitive(root, "liquid");
     if (liquid != NULL) {

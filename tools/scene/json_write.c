@@ -487,6 +487,22 @@ static void write_liquid(writer *w)
     fputs(",\n", w->file);
 }
 
+static void write_laws(writer *w)
+{
+    const scene *s = w->s;
+    bool any = false;
+    for (int i = 0; i < s->laws.count; i++) {
+        const sc_law *law = &s->laws.items[i];
+        if (plumb_entity_alive(s->world, law->handle.entity)) {
+            fputs(any ? ",\n" : "\"laws\":[\n", w->file);
+            const sc_list *list = &sc_list_laws[law->def.kind];
+            write_object(w, list, &law->def, list->name, &as_said);
+            any = true;
+        }
+    }
+    fputs(any ? "\n],\n" : "", w->file);
+}
+
 bool scene_to_json(const scene *s, FILE *file)
 {
     writer w = { .s = s, .file = file };
@@ -505,8 +521,14 @@ bool scene_to_json(const scene *s, FILE *file)
     write_expects(s, &w);
     fputs("\"format\":\"plumb-scene-1\",\n", file);
     write_joints(&w);
+    write_laws(&w);
     write_liquid(&w);
     write_materials(&w);
+    if (s->orbits.present != 0) {
+        fputs("\"orbits\":", file);
+        write_object(&w, &sc_list_orbits, &s->orbits, NULL, &as_said);
+        fputs(",\n", file);
+    }
     fputs("\"scene\":", file);
     write_settings(s, &w);
     fputs(",\n\"time\":", file);

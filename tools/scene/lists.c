@@ -239,6 +239,52 @@ static const sc_field liquid_rows[] = {
 const sc_list sc_list_liquid = { "liquid", liquid_rows, COUNT(liquid_rows) };
 #undef T
 
+#define T sc_law_def
+#define ROW_LAW_ANGLE { "angle",     SC_NUMBER,  AT(T, angle),     -FAR, FAR, "rad", 0, 0 }
+#define ROW_LAW_AT    { "at",        SC_VEC2,    AT(T, at),        -FAR, FAR, "m", 0, 0 }
+#define ROW_LAW_BODY  { "body",      SC_BODY,    AT(T, body),      0, 0, NULL, 0, 0 }
+#define ROW_FALLOFF   { "falloff",   SC_CHOICE,  AT(T, falloff),   0, 0, "square|inverse|cube|none|spring", 0, 0 }
+#define ROW_LAW_HALF  { "half",      SC_VEC2,    AT(T, half),      0, FAR, "m", 0, 0 }
+#define ROW_ON        { "on",        SC_CHOICE,  AT(T, on),        0, 0, "mass|charge", 0, 0 }
+#define ROW_ONLY      { "only",      SC_NAMES,   AT(T, only),      0, 0, NULL, 0, 0 }
+#define ROW_PRIORITY  { "priority",  SC_INTEGER, AT(T, priority),  -1e6, 1e6, "1", 0, 0 }
+#define ROW_REACH     { "radius",    SC_NUMBER,  AT(T, radius),    0, FAR, "m", 0, SC_ABOVE }
+#define ROW_REPLACE   { "replace",   SC_BOOL,    AT(T, replace),   0, 0, NULL, 0, 0 }
+#define ROW_SOFTENING { "softening", SC_NUMBER,  AT(T, softening), 0, FAR, "m", 0, 0 }
+#define ROW_STRENGTH(unit) { "strength", SC_NUMBER, AT(T, strength), -1e30, 1e30, unit, 0, 0 }
+
+static const sc_field attractor_rows[] = {
+    ROW_LAW_AT, ROW_LAW_BODY, ROW_FALLOFF, ROW_ON, ROW_ONLY, ROW_PRIORITY, ROW_REACH, ROW_REPLACE,
+    ROW_SOFTENING, ROW_STRENGTH("m^3/s^2 where square"),
+};
+static const sc_field zone_rows[] = {
+    ROW_LAW_ANGLE, ROW_LAW_AT, ROW_LAW_BODY,
+    { "electric", SC_VEC2, AT(T, electric), -BIG, BIG, "N/C", 0, 0 },
+    { "gravity",  SC_VEC2, AT(T, gravity),  -BIG, BIG, "m/s^2", 0, 0 },
+    ROW_LAW_HALF, ROW_ONLY, ROW_PRIORITY, ROW_REACH, ROW_REPLACE,
+};
+static const sc_field magnetic_rows[] = {
+    ROW_LAW_ANGLE, ROW_LAW_AT, ROW_LAW_BODY, ROW_LAW_HALF, ROW_ONLY, ROW_REACH, ROW_STRENGTH("T"),
+};
+static const sc_field mutual_rows[] = {
+    ROW_FALLOFF, ROW_ON, ROW_ONLY, ROW_REACH, ROW_SOFTENING, ROW_STRENGTH("G, or k of charges"),
+};
+const sc_list sc_list_laws[SC_LAW_KINDS] = {
+    [SC_ATTRACTOR] = { "attractor", attractor_rows, COUNT(attractor_rows) },
+    [SC_ZONE]      = { "zone",      zone_rows,      COUNT(zone_rows) },
+    [SC_MAGNETIC]  = { "magnetic",  magnetic_rows,  COUNT(magnetic_rows) },
+    [SC_MUTUAL]    = { "mutual",    mutual_rows,    COUNT(mutual_rows) },
+};
+#undef T
+
+#define T sc_orbits_def
+static const sc_field orbits_rows[] = {
+    { "order",     SC_INTEGER, AT(T, order),     2, 4, "2 or 4", 0, 0 },
+    { "tolerance", SC_NUMBER,  AT(T, tolerance), 0, 0.01, "1", 0, 0 },
+};
+const sc_list sc_list_orbits = { "orbits", orbits_rows, COUNT(orbits_rows) };
+#undef T
+
 #define T sc_contact_def
 static const sc_field contact_rows[] = {
     { "a",        SC_BODY,     AT(T, a),        0, 0, NULL, 0, 0 },

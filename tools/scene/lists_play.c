@@ -66,10 +66,12 @@ const sc_list *sc_list_at(int i)
                                              &sc_list_camera,   &sc_list_pair,   &sc_list_character,
                                              &sc_list_motor,    &sc_list_spring, &sc_list_expect,
                                              &sc_list_blast,    &sc_list_liquid };
-    const int count = (int)(sizeof single / sizeof *single);
+    const int count = (int)(sizeof single / sizeof *single),
+              all = count + SC_JOINT_KINDS + SC_SHAPE_KINDS;
     return i < count                    ? single[i]
            : i < count + SC_JOINT_KINDS ? &sc_list_joints[i - count]
            : i < count + SC_JOINT_KINDS + SC_SHAPE_KINDS
                ? &sc_list_shapes[i - count - SC_JOINT_KINDS]
-               : NULL;
+           : i < all + SC_LAW_KINDS ? &sc_list_laws[i - all]
+                                    : NULL;
 }

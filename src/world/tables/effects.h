@@ -15,6 +15,8 @@ typedef struct pl_body_settings {
 } pl_body_settings;
 
 #define PL_SETTINGS_SAVED sizeof(pl_body_settings)
+// The rest few of those few have: hash.c adds it where it is not 0.
+#define PL_SETTINGS_HASHED offsetof(pl_body_settings, charge)
 
 typedef struct pl_body_settings_list {
     pl_buffer items; // pl_body_settings, no order

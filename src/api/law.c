@@ -1,0 +1,270 @@
+// law.c - laws: made, changed, asked; how what flies in them is moved.
+//
+// Reads: arguments, checked first. Writes: the list of laws. Cost: O(laws); what sleeps where they act wakes: O(bodies).
+#include "plumb/law.h"
+
+#include "effects/laws.h"
+#include "world/check.h"
+#include "world/desc_list.h"
+#include "world/destroy.h"
+#include "world/law_list.h"
+#include "world/rows.h"
+#include "world/wrap.h"
+
+#include <string.h>
+
+#define FAR            ((real)1e9)
+#define STRONGEST      ((real)1e30)
+#define TOLERANCE_MOST ((real)0.01)
+
+//---- checks --------------------------------------------------------------------------------------
+
+typedef struct choice {
+    const char *name;
+    int value, last;
+} choice;
+
+// A number of the descriptor, and between what it lies.
+typedef struct number {
+    const char *name;
+    real value, low, high;
+} number;
+
+enum { CHOICES = 4, NUMBERS = 9 };
+
+static void list_choices(const plumb_law_desc *d, choice out[CHOICES])
+{
+    out[0] = (choice){ "kind", (int)d->kind, PLUMB_LAW_MUTUAL };
+    out[1] = (choice){ "hold", (int)d->hold, PLUMB_LAW_ON_CHARGE };
+    out[2] = (choice){ "falloff", (int)d->falloff, PLUMB_FALLOFF_SPRING };
+    out[3] = (choice){ "combine", (int)d->combine, PLUMB_LAW_REPLACE };
+}
+
+static void list_numbers(const plumb_law_desc *d, number out[NUMBERS])
+{
+    out[0] = (number){ "position.x", d->position.x, -FAR, FAR };
+    out[1] = (number){ "position.y", d->position.y, -FAR, FAR };
+    out[2] = (number){ "angle", d->angle, -FAR, FAR };
+    out[3] = (number){ "vector.x", d->vector.x, -STRONGEST, STRONGEST };
+    out[4] = (number){ "vector.y", d->vector.y, -STRONGEST, STRONGEST };
+    out[5] = (number){ "strength", d->strength, -STRONGEST, STRONGEST };
+    out[6] = (number){ "softening", d->softening, 0, FAR };
+    out[7] = (number){ "radius", d->radius, 0, FAR };
+    out[8] = (number){ "half", d->half.x < d->half.y ? d->half.x : d->half.y, 0, FAR };
+}
+
+// What is not a number is found in either half.
+static bool is_half_sound(plumb_vec2 half)
+{
+    return half.x >= 0 && half.x <= FAR && half.y >= 0 && half.y <= FAR &&
+           (half.x > 0) == (half.y > 0);
+}
+
+// Members that do not go together; NULL: they do.
+static const char *discord(const plumb_law_desc *d)
+{
+    const bool zone = d->kind == PLUMB_LAW_UNIFORM || d->kind == PLUMB_LAW_MAGNETIC;
+    const bool replaces = d->combine == PLUMB_LAW_REPLACE;
+    return !zone && d->half.x > 0 ? "half is set; only uniform and magnetic laws have a box"
+           : d->half.x > 0 && d->radius > 0 ? "radius is set with half; a zone is a circle or a box"
+           : d->kind == PLUMB_LAW_MUTUAL && !plumb_is_null(d->body)
+               ? "body is set; a mutual law has none"
+           : replaces && d->kind != PLUMB_LAW_UNIFORM && d->kind != PLUMB_LAW_ATTRACTOR
+               ? "combine is replace; only uniform laws and attractors do"
+               : NULL;
+}
+
+bool pl_law_desc_is_sound(const plumb_law_desc *d)
+{
+    choice choices[CHOICES];
+    number numbers[NUMBERS];
+    bool sound = is_half_sound(d->half) && discord(d) == NULL &&
+                 d->priority >= -PLUMB_LAW_PRIORITY_MOST && d->priority <= PLUMB_LAW_PRIORITY_MOST;
+    list_choices(d, choices);
+    list_numbers(d, numbers);
+    for (int i = 0; i < CHOICES; ++i) {
+        sound &= choices[i].value >= 0 && choices[i].value <= choices[i].last;
+    }
+    for (int i = 0; i < NUMBERS; ++i) {
+        sound &= numbers[i].value >= numbers[i].low && numbers[i].value <= numbers[i].high;
+    }
+    return sound;
+}
+
+static plumb_result check_numbers(const plumb_world *world, const char *fn, const plumb_law_desc *d)
+{
+    number numbers[NUMBERS];
+    list_numbers(d, numbers);
+    for (int i = 0; i < NUMBERS - 1; ++i) {
+        const number *n = &numbers[i];
+        PL_TRY(pl_check_range(world, fn, n->name, n->value, n->low, n->high));
+    }
+    PL_TRY(pl_check_range(world, fn, "half.x", d->half.x, 0, FAR));
+    PL_TRY(pl_check_range(world, fn, "half.y", d->half.y, 0, FAR));
+    if ((d->half.x > 0) != (d->half.y > 0)) {
+        return pl_fail(world, PLUMB_E_RANGE, fn, "half is (%g, %g); both must be above 0, or none",
+                       (double)d->half.x, (double)d->half.y);
+    }
+    return PLUMB_OK;
+}
+
+static plumb_result check_desc(const plumb_world *world, const char *fn, const plumb_law_desc *d)
+{
+    choice choices[CHOICES];
+    list_choices(d, choices);
+    for (int i = 0; i < CHOICES; ++i) {
+        if (choices[i].value < 0 || choices[i].value > choices[i].last) {
+            return pl_fail(world, PLUMB_E_RANGE, fn, "%s is %d; it must be 0 to %d",
+                           choices[i].name, choices[i].value, choices[i].last);
+        }
+    }
+    if (d->priority < -PLUMB_LAW_PRIORITY_MOST || d->priority > PLUMB_LAW_PRIORITY_MOST) {
+        return pl_fail(world, PLUMB_E_RANGE, fn, "priority is %d; it must be %d to %d", d->priority,
+                       -PLUMB_LAW_PRIORITY_MOST, PLUMB_LAW_PRIORITY_MOST);
+    }
+    PL_TRY(check_numbers(world, fn, d));
+    if (discord(d) != NULL) {
+        return pl_fail(world, PLUMB_E_RANGE, fn, "%s", discord(d));
+    }
+    if (pl_is_wrapped(world)) {
+        return pl_fail(world, PLUMB_E_STATE, fn, "the world wraps around; one with laws must not");
+    }
+    uint32_t row;
+    return plumb_is_null(d->body) ? PLUMB_OK : pl_check_body(world, fn, d->body, &row);
+}
+
+static plumb_result check_law(const plumb_world *world, const char *fn, plumb_law law,
+                              uint32_t *row)
+{
+    PL_TRY(pl_check_world(world));
+    *row = pl_law_find(world, law);
+    return *row != PL_NONE ? PLUMB_OK
+                           : pl_fail(world, PLUMB_E_HANDLE, fn,
+                                     "law %u:%u does not exist; it was destroyed or never made",
+                                     (unsigned)law.entity.index, (unsigned)law.entity.generation);
+}
+
+//---- laws ----------------------------------------------------------------------------------------
+
+static void copy(plumb_law_desc *to, const plumb_law_desc *from){ PL_LAW_DESC(PL_COPY_MEMBER) }
+
+plumb_law plumb_law_create(plumb_world *world, const plumb_law_desc *desc)
+{
+    plumb_law law = PLUMB_NULL_INIT;
+    if (world == NULL || pl_check_unlocked(world, __func__) != PLUMB_OK ||
+        pl_check_pointer(world, __func__, "desc", desc) != PLUMB_OK ||
+        check_desc(world, __func__, desc) != PLUMB_OK) {
+        return law;
+    }
+    pl_laws *laws = &world->laws;
+    if (!pl_registry_reserve(&world->memory, &world->registry, 1) ||
+        !pl_buffer_reserve(&world->memory, &laws->items, (laws->count + 1) * sizeof(pl_law))) {
+        pl_fail_memory(world, __func__);
+        return law;
+    }
+    pl_law *item = &pl_law_items(laws)[laws->count];
+    memset(item, 0, sizeof *item); // padding, too: it is saved
+    copy(&item->desc, desc);
+    law.entity = pl_entity_claim(world, law.entity, PLUMB_KIND_LAW, laws->count++);
+    item->entity = law;
+    pl_law_disturb(world, desc);
+    world->schedule_dirty = true;
+    return law;
+}
+
+plumb_result plumb_law_destroy(plumb_world *world, plumb_law law)
+{
+    uint32_t row;
+    PL_TRY(check_law(world, __func__, law, &row));
+    PL_TRY(pl_check_unlocked(world, __func__));
+    pl_destroy_entity(world, law.entity);
+    return PLUMB_OK;
+}
+
+plumb_result plumb_law_get(const plumb_world *world, plumb_law law, plumb_law_desc *desc)
+{
+    uint32_t row;
+    PL_TRY(check_law(world, __func__, law, &row));
+    PL_TRY(pl_check_pointer(world, __func__, "desc", desc));
+    *desc = pl_law_items(&world->laws)[row].desc;
+    return PLUMB_OK;
+}
+
+plumb_result plumb_law_set(plumb_world *world, plumb_law law, const plumb_law_desc *desc)
+{
+    uint32_t row;
+    PL_TRY(check_law(world, __func__, law, &row));
+    PL_TRY(pl_check_unlocked(world, __func__));
+    PL_TRY(pl_check_pointer(world, __func__, "desc", desc));
+    PL_TRY(check_desc(world, __func__, desc));
+    pl_law *item = &pl_law_items(&world->laws)[row];
+    pl_law_disturb(world, &item->desc);
+    copy(&item->desc, desc);
+    item->placed = false;
+    item->x = item->y = 0;
+    pl_law_disturb(world, desc);
+    return PLUMB_OK;
+}
+
+int plumb_world_laws(const plumb_world *world, plumb_law *laws, int capacity)
+{
+    const int count = world == NULL ? 0 : (int)world->laws.count;
+    for (int i = 0; i < count && i < capacity && laws != NULL; ++i) {
+        laws[i] = pl_law_items(&world->laws)[i].entity;
+    }
+    return count;
+}
+
+plumb_vec2 plumb_world_law_at(const plumb_world *world, plumb_vec2 position, plumb_vec2 velocity,
+                              plumb_real charge_per_mass)
+{
+    if (world == NULL || pl_check_finite_vec(world, __func__, "position", position) != PLUMB_OK ||
+        pl_check_finite_vec(world, __func__, "velocity", velocity) != PLUMB_OK ||
+        pl_check_finite(world, __func__, "charge_per_mass", charge_per_mass) != PLUMB_OK) {
+        return plumb_v2(0, 0);
+    }
+    const pl_law_state at = { (double)position.x, (double)position.y, (double)velocity.x,
+                              (double)velocity.y };
+    double a[2];
+    pl_laws_probe(world, &at, (double)charge_per_mass, a);
+    return plumb_v2((real)a[0], (real)a[1]);
+}
+
+//---- orbits --------------------------------------------------------------------------------------
+
+bool pl_orbit_desc_is_sound(const plumb_orbit_desc *d)
+{
+    return (d->order == 0 || d->order == 2 || d->order == 4) && d->tolerance >= 0 &&
+           d->tolerance <= TOLERANCE_MOST;
+}
+
+plumb_result plumb_world_set_orbits(plumb_world *world, const plumb_orbit_desc *desc)
+{
+    const plumb_orbit_desc zero = { 0 };
+    desc = desc == NULL ? &zero : desc;
+    PL_TRY(pl_check_world(world));
+    PL_TRY(pl_check_unlocked(world, __func__));
+    if (desc->order != 0 && desc->order != 2 && desc->order != 4) {
+        return pl_fail(world, PLUMB_E_RANGE, __func__, "order is %d; it must be 2 or 4, 0 means 2",
+                       desc->order);
+    }
+    PL_TRY(pl_check_range(world, __func__, "tolerance", desc->tolerance, 0, TOLERANCE_MOST));
+    pl_laws *laws = &world->laws;
+    if (!pl_buffer_reserve(&world->memory, &laws->orbits, sizeof *desc)) {
+        return pl_fail_memory(world, __func__);
+    }
+    plumb_orbit_desc *to = laws->orbits.data;
+    memset(to, 0, sizeof *to); // padding, too: it is saved
+    to->order = desc->order;
+    to->tolerance = desc->tolerance;
+    laws->orbit_count = desc->order != 0 || desc->tolerance != 0;
+    return PLUMB_OK;
+}
+
+plumb_result plumb_world_orbits(const plumb_world *world, plumb_orbit_desc *desc)
+{
+    PL_TRY(pl_check_world(world));
+    PL_TRY(pl_check_pointer(world, __func__, "desc", desc));
+    *desc = pl_orbits_of(world);
+    return PLUMB_OK;
+}

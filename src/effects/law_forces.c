@@ -1,0 +1,274 @@
+// law_forces.c - what laws give bodies: accelerations at places, the row of the substeps, potentials.
+//
+// A pull at an offset d, q = d^2 + softening^2:  a = -k d f(q),  f = q^(-3/2), q^-1, q^-2, q^(-1/2), 1 for 1/r^2, 1/r, 1/r^3,
+// constant, r. Only square roots and divisions: the same bits everywhere. (Softened as Plummer 1911, Mon. Not. R. Astron.
+// Soc. 71.) Of a pair one force is worked out and given to both, so momentum is kept to rounding.
+//
+// In a substep, places are those of its middle without what the laws do, x + v h / 2: with the solver's kick and parabola
+// that is the leapfrog (drift, kick, drift). A magnetic law turns velocities as Boris does (1970, Proc. 4th Conf.
+// Numerical Simulation of Plasmas): half of the other acceleration, a turn by 2 atan(w h / 2), the other half: no energy
+// is gained, and circles have the radius m v / (q B).
+//
+// Reads: laws and bodies of the step, solver bodies. Writes: accelerations. Cost: O(bodies laws) a substep, coupled bodies
+// O(those that attract x all).
+#include "effects/laws.h"
+
+#include "core/sort.h"
+#include "schema/passes.h"
+
+#include <math.h>
+
+bool pl_law_reaches(const pl_law_now *law, double dx, double dy)
+{
+    const double hx = (double)law->desc->half.x, hy = (double)law->desc->half.y;
+    if (hx > 0) {
+        const double x = law->c * dx + law->s * dy, y = law->c * dy - law->s * dx;
+        return fabs(x) <= hx && fabs(y) <= hy;
+    }
+    return dx * dx + dy * dy <= law->reach * law->reach;
+}
+
+double pl_law_falloff(const pl_law_now *law, double square)
+{
+    const plumb_falloff kind = law->desc->falloff;
+    const double q = square + law->square;
+    if (!(q > 0) || square > law->reach * law->reach) {
+        return 0;
+    }
+    switch (kind) {
+    case PLUMB_FALLOFF_INVERSE:
+        return 1 / q;
+    case PLUMB_FALLOFF_CUBE:
+        return 1 / (q * q);
+    case PLUMB_FALLOFF_NONE:
+        return 1 / sqrt(q);
+    case PLUMB_FALLOFF_SPRING:
+        return 1;
+    default:
+        return 1 / (q * sqrt(q));
+    }
+}
+
+//---- laws with a place ---------------------------------------------------------------------------
+
+static void offset(const pl_law_now *law, const pl_law_state *states, const pl_law_state *at,
+                   double time, double d[2])
+{
+    const bool follows = law->member != PL_NONE;
+    d[0] = at->x - (follows ? states[law->member].x : law->x + law->vx * time);
+    d[1] = at->y - (follows ? states[law->member].y : law->y + law->vy * time);
+}
+
+// The body of index i, from uniform laws and attractors.
+static void pull_one(const pl_law_system *system, const pl_law_state *states, uint32_t i,
+                     double time, double *out)
+{
+    const pl_law_body *body = &system->bodies[i];
+    int floor[] = { INT32_MIN, INT32_MIN };
+    for (uint32_t k = 0; k < system->law_count; ++k) {
+        const pl_law_now *law = &system->laws[k];
+        const plumb_law_desc *d = law->desc;
+        const double hold = pl_law_hold_of(d, body);
+        if (hold == 0 || law->member == i || d->kind == PLUMB_LAW_MAGNETIC ||
+            d->kind == PLUMB_LAW_MUTUAL || d->priority < floor[d->hold] ||
+            (!system->replaces && pl_law_is_endless(d))) {
+            continue;
+        }
+        double way[2] = { 0, 0 };
+        if (!pl_law_is_endless(d)) {
+            offset(law, states, &states[i], time, way);
+            if (!pl_law_reaches(law, way[0], way[1])) {
+                continue;
+            }
+        }
+        if (d->combine == PLUMB_LAW_REPLACE) {
+            floor[d->hold] = d->priority;
+        }
+        const bool pulls = d->kind == PLUMB_LAW_ATTRACTOR;
+        const double r = way[0] * way[0] + way[1] * way[1];
+        const double k_f = pulls ? -(double)d->strength * pl_law_falloff(law, r) * hold : hold;
+        const double fx = k_f * (pulls ? way[0] : (double)d->vector.x);
+        const double fy = k_f * (pulls ? way[1] : (double)d->vector.y);
+        if (body->mass > 0) {
+            out[2 * i] += fx / body->mass, out[2 * i + 1] += fy / body->mass;
+        }
+        if (law->member != PL_NONE) {
+            const double m = system->bodies[law->member].mass;
+            out[2 * law->member] -= fx / m, out[2 * law->member + 1] -= fy / m;
+        }
+    }
+    if (floor[PLUMB_LAW_ON_MASS] != INT32_MIN && body->mass > 0) {
+        const plumb_vec2 g = system->gravity;
+        out[2 * i] -= body->weight / body->mass * (double)g.x;
+        out[2 * i + 1] -= body->weight / body->mass * (double)g.y;
+    }
+}
+
+//---- laws between bodies -------------------------------------------------------------------------
+
+double pl_law_pair(const pl_law_now *law, const pl_law_body *a, const pl_law_body *b)
+{
+    const plumb_law_desc *d = law->desc;
+    const double factor = d->hold == PLUMB_LAW_ON_CHARGE  ? -1
+                          : a->attraction > b->attraction ? a->attraction
+                                                          : b->attraction;
+    return (double)d->strength * factor * pl_law_hold_of(d, a) * pl_law_hold_of(d, b);
+}
+
+static void pull_pairs(const pl_law_system *system, const pl_law_now *law,
+                       const pl_law_state *states, double *out)
+{
+    const pl_law_body *bodies = system->bodies;
+    for (uint32_t i = 0; i < system->sources; ++i) {
+        double ax = 0, ay = 0;
+        const double ease = bodies[i].mass > 0 ? 1 / bodies[i].mass : 0;
+        for (uint32_t k = i + 1; k < system->count; ++k) {
+            const double dx = states[k].x - states[i].x, dy = states[k].y - states[i].y;
+            const double f =
+                pl_law_pair(law, &bodies[i], &bodies[k]) * pl_law_falloff(law, dx * dx + dy * dy);
+            const double other = bodies[k].mass > 0 ? f / bodies[k].mass : 0;
+            ax += f * ease * dx, ay += f * ease * dy;
+            out[2 * k] -= other * dx, out[2 * k + 1] -= other * dy;
+        }
+        out[2 * i] += ax, out[2 * i + 1] += ay;
+    }
+}
+
+void pl_laws_pull(const pl_law_system *system, const pl_law_state *states, double time, double *out)
+{
+    for (uint32_t i = 0; i < 2 * system->count; ++i) {
+        out[i] = 0;
+    }
+    for (uint32_t k = 0; k < system->law_count && system->sources > 0; ++k) {
+        if (system->laws[k].desc->kind == PLUMB_LAW_MUTUAL) {
+            pull_pairs(system, &system->laws[k], states, out);
+        }
+    }
+    for (uint32_t i = 0; i < system->count; ++i) {
+        pull_one(system, states, i, time, out);
+    }
+}
+
+double pl_laws_spin(const pl_law_system *system, const pl_law_body *body, const pl_law_state *state,
+                    double time)
+{
+    double spin = 0;
+    for (uint32_t k = 0; k < system->law_count && body->charge != 0 && body->mass > 0; ++k) {
+        const pl_law_now *law = &system->laws[k];
+        const double dx = state->x - law->x - law->vx * time;
+        const double dy = state->y - law->y - law->vy * time;
+        if (law->desc->kind == PLUMB_LAW_MAGNETIC && pl_law_hold_of(law->desc, body) != 0 &&
+            pl_law_reaches(law, dx, dy)) {
+            spin += body->charge / body->mass * (double)law->desc->strength;
+        }
+    }
+    return spin;
+}
+
+//---- the row -------------------------------------------------------------------------------------
+
+typedef struct passage {
+    plumb_world *world;
+    const pl_keyed *pushed;
+    double h, time; // [s] the substep; since the step began, in its middle
+} passage;
+
+static pl_law_system system_of(const plumb_world *world, pl_law_body *bodies, uint32_t count,
+                               uint32_t sources)
+{
+    const pl_law_step *s = &world->laws.step;
+    return (pl_law_system){ .world = world,
+                            .laws = pl_laws_now(world),
+                            .law_count = s->law_count,
+                            .bodies = bodies,
+                            .count = count,
+                            .sources = sources,
+                            .gravity = world->effects.gravity,
+                            .replaces = s->replaces };
+}
+
+// Where a body of the solver is in the middle of the substep, without what laws do; one that sleeps, where it lies.
+static pl_law_state middle(const passage *p, const pl_law_body *body)
+{
+    const pl_bodies *b = &p->world->bodies;
+    const uint32_t row = body->row;
+    pl_law_state s = { (double)b->center_x[row] + (double)b->residual_x[row],
+                       (double)b->center_y[row] + (double)b->residual_y[row], 0, 0 };
+    if (body->slot != PL_NONE) {
+        const pl_solver_body *now = &pl_solver_bodies(&p->world->solver)[body->slot];
+        s.vx = (double)now->vx, s.vy = (double)now->vy;
+        s.x += (double)now->dx + p->h / 2 * s.vx;
+        s.y += (double)now->dy + p->h / 2 * s.vy;
+    }
+    return s;
+}
+
+// a, and the turn, become what the solver is to add to the velocity in a second.
+static void give(const passage *p, const pl_law_system *system, const pl_law_body *body,
+                 const pl_law_state *state, const double a[2])
+{
+    const uint32_t flags = p->world->bodies.flags[body->row];
+    pl_solver_motion *motion = &pl_solver_motions(&p->world->solver)[body->slot];
+    const double own = body->time * body->time;
+    double ax = (double)motion->ax + own * (a[0] + body->ax);
+    double ay = (double)motion->ay + own * (a[1] + body->ay);
+    const double t = pl_laws_spin(system, body, state, p->time) * body->time * p->h / 2;
+    if (t != 0) {
+        const double vx = state->vx + p->h / 2 * ax, vy = state->vy + p->h / 2 * ay;
+        const double s = 2 * t / (1 + t * t);
+        ax += s * (vy - t * vx) / p->h;
+        ay -= s * (vx + t * vy) / p->h;
+    }
+    motion->ax = (flags & PL_BODY_LOCK_X) != 0 ? 0 : (near_real)ax;
+    motion->ay = (flags & PL_BODY_LOCK_Y) != 0 ? 0 : (near_real)ay;
+}
+
+static void push_single(void *context, uint32_t first, uint32_t count)
+{
+    const passage *p = context;
+    for (uint32_t i = first; i < first + count; ++i) {
+        pl_law_body *body = &pl_law_bodies(p->world)[p->pushed[i].value];
+        const pl_law_system system = system_of(p->world, body, 1, 0);
+        const pl_law_state state = middle(p, body);
+        double a[2];
+        pl_laws_pull(&system, &state, p->time, a);
+        give(p, &system, body, &state, a);
+    }
+}
+
+static void push_coupled(const passage *p)
+{
+    const pl_law_step *s = &p->world->laws.step;
+    const pl_law_system system =
+        system_of(p->world, pl_law_bodies(p->world), s->coupled_count, s->source_count);
+    pl_law_state *states = s->states.data;
+    double *a = s->forces.data;
+    for (uint32_t i = 0; i < system.count; ++i) {
+        states[i] = middle(p, &system.bodies[i]);
+    }
+    pl_laws_pull(&system, states, p->time, a);
+    for (uint32_t i = 0; i < system.count; ++i) {
+        if (system.bodies[i].slot != PL_NONE) {
+            give(p, &system, &system.bodies[i], &states[i], &a[2 * i]);
+        }
+    }
+}
+
+// So many bodies are worth a thread.
+#define LEAST 64
+
+void pl_law_row(pl_substep *sub)
+{
+    const pl_law_step *s = &sub->world->laws.step;
+    const pl_keyed *all = s->order.data;
+    const pl_share mine =
+        pl_substep_share(all, sizeof *all, offsetof(pl_keyed, order), s->pushed_count, sub);
+    passage p = { .world = sub->world,
+                  .pushed = all + mine.first,
+                  .h = (double)sub->h,
+                  .time = (double)sub->h * (sub->number + 0.5) };
+    pl_tasks_ranges(sub->tasks, mine.end - mine.first, LEAST, push_single, &p);
+    if (s->couples && sub->cluster == pl_clusters(&sub->world->solver)) {
+        push_coupled(&p);
+    }
+}

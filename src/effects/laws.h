@@ -1,0 +1,110 @@
+// laws.h - forces at a distance: what the files of laws share, and what the step and the API call.
+#ifndef PL_LAWS_H
+#define PL_LAWS_H
+
+#include "effects/effects.h"
+#include "world/state.h"
+
+//---- laws.c: a step ------------------------------------------------------------------------------
+
+// Of an image: numbers in their ranges; the body is asked for elsewhere.
+bool pl_law_desc_is_sound(const plumb_law_desc *desc);
+bool pl_orbit_desc_is_sound(const plumb_orbit_desc *desc);
+plumb_orbit_desc pl_orbits_of(const plumb_world *world); // defaults resolved
+void pl_laws_free(pl_memory *memory, pl_laws *laws);
+
+// A body as laws have it.
+pl_law_body pl_law_body_of(const plumb_world *world, uint32_t row);
+// A law as it lies now; false: who carries it is out of the simulation.
+bool pl_law_place(const plumb_world *world, const pl_law *item, pl_law_now *law);
+// Laws as they lie now, by priority, into room for all of them; returns how many act.
+uint32_t pl_laws_place(const plumb_world *world, pl_law_now *out);
+// Before the graph: who flies, who is pushed. False when out of memory.
+bool pl_laws_find(plumb_world *world, plumb_real dt);
+// Those that are pushed together are in one cluster, which one thread solves: marks them. True if there are any.
+bool pl_laws_couple(const plumb_world *world, uint8_t *called);
+// When nothing can fail any more: who wakes, who does not fall asleep, where laws were.
+void pl_laws_settle(plumb_world *world);
+// Behind the graph: slots of those that are pushed. False when out of memory.
+bool pl_laws_take_slots(plumb_world *world);
+
+static inline pl_law_now *pl_laws_now(const plumb_world *world)
+{
+    return (pl_law_now *)world->laws.step.laws.data;
+}
+
+static inline pl_law_body *pl_law_bodies(const plumb_world *world)
+{
+    return (pl_law_body *)world->laws.step.bodies.data;
+}
+
+static inline pl_law_way pl_law_way_of(const plumb_world *world, uint32_t row)
+{
+    return (pl_law_way)((const uint8_t *)world->laws.step.ways.data)[row];
+}
+
+// Uniform or magnetic, everywhere.
+static inline bool pl_law_is_endless(const plumb_law_desc *d)
+{
+    return (d->kind == PLUMB_LAW_UNIFORM || d->kind == PLUMB_LAW_MAGNETIC) && d->radius == 0 &&
+           d->half.x == 0;
+}
+
+// [kg] or [C] by which a law takes hold of a body; 0: it does not.
+static inline double pl_law_hold_of(const plumb_law_desc *d, const pl_law_body *body)
+{
+    const bool named = d->categories == 0 || (d->categories & body->categories) != 0;
+    const bool charge = d->hold == PLUMB_LAW_ON_CHARGE || d->kind == PLUMB_LAW_MAGNETIC;
+    return !named ? 0 : charge ? body->charge : body->weight;
+}
+
+//---- law_forces.c --------------------------------------------------------------------------------
+
+// Bodies that are moved together, or one alone.
+typedef struct pl_law_system {
+    const plumb_world *world;
+    const pl_law_now *laws;
+    pl_law_body *bodies;
+    uint32_t law_count, count;
+    uint32_t sources;   // the first so many attract; 0: the system is not coupled
+    plumb_vec2 gravity; // that acts besides, where nothing replaces it
+    bool replaces;      // some law does: then nothing is in the bodies' ax, ay
+} pl_law_system;
+
+// Accelerations (x, y a body) at a time [s] since the step began, but for those in the bodies' ax, ay, and for magnetic
+// laws.
+void pl_laws_pull(const pl_law_system *system, const pl_law_state *states, double time,
+                  double *out);
+// [rad/s] by which magnetic laws turn the velocity of a body clockwise.
+double pl_laws_spin(const pl_law_system *system, const pl_law_body *body, const pl_law_state *state,
+                    double time);
+// A law acts at an offset from where it is.
+bool pl_law_reaches(const pl_law_now *law, double dx, double dy);
+// What a law of strength 1 makes of the square of a distance [m^2]: a force over the way's vector.
+double pl_law_falloff(const pl_law_now *law, double square);
+// How strongly two bodies attract each other by a mutual law; below 0 they repel.
+double pl_law_pair(const pl_law_now *law, const pl_law_body *a, const pl_law_body *b);
+
+//---- law_field.c ---------------------------------------------------------------------------------
+
+// [J] of the laws that have a potential, at the bodies' places now.
+double pl_laws_potential(const plumb_world *world);
+// What all laws of a system of one body give it at a place, mutual ones too: as pl_laws_pull.
+void pl_laws_at(const pl_law_system *of, const pl_law_state *state, double out[2]);
+// What all laws and gravity give a body of a charge a mass [C/kg] at a place: an acceleration.
+void pl_laws_probe(const plumb_world *world, const pl_law_state *state, double charge,
+                   double out[2]);
+// Laws that move, and bodies that attract, pull the body of a row more than what rests may be pushed otherwise.
+bool pl_laws_stir(const plumb_world *world, uint32_t row);
+
+//---- orbits.c ------------------------------------------------------------------------------------
+
+// Room for those that fly. False when out of memory.
+bool pl_orbits_reserve(plumb_world *world);
+// The flight of a body of PL_LAW_FLIES over the step.
+static inline const pl_flight *pl_orbit_of(const plumb_world *world, uint32_t row)
+{
+    return (const pl_flight *)world->laws.step.flights.data + row;
+}
+
+#endif

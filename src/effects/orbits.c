@@ -1,0 +1,357 @@
+// orbits.c - bodies that fly in the fields of laws: one by one, or together where they attract one another.
+//
+// The step is split: what is constant (gravity, forces, uniform laws without end) and the turn by magnetic laws are followed
+// exactly, what depends on the place is given in kicks between. Of order 2, velocity Verlet: half a kick, the flow, half
+// a kick. Of order 4, SRKN of Blanes and Moan (2002, J. Comput. Appl. Math. 142, table 3): seven kicks, of which the last is
+// the first of the next substep. Both are symplectic and symmetric: energies and periods stay. With a tolerance, Verlet with
+// 1, 2, ... 8 parts of an interval is extrapolated in the square of their lengths (Gragg; Bulirsch and Stoer 1966) until two
+// results agree; where 8 do not do, the interval is halved. What only constant things act on is followed in one piece.
+//
+// The flow of dv/dt = a + w (vy, -vx): with z = vx + i vy, z' = z e + a t p, way = t (z p) + a t^2 r, where e = exp(-i w t),
+// p = (1 - e) / (i w t), r = (1 - p) / (i w t).
+//
+// Reads: laws and bodies of the step. Writes: flights. Order: behind the substeps, before motion. Cost: O(bodies laws) a
+// kick; coupled bodies O(those that attract x all).
+#include "effects/laws.h"
+
+#include "schema/passes.h"
+#include "math/trig.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { COLUMNS = 8 };
+
+// Kicks, and the flows between them.
+typedef struct scheme {
+    int flows;
+    double kick[7], flow[6];
+} scheme;
+
+static const scheme verlet = { 1, { 0.5, 0.5 }, { 1 } };
+
+#define B1 0.0829844064174052
+#define B2 0.396309801498368
+#define B3 (-0.0390563049223486)
+#define A1 0.245298957184271
+#define A2 0.604872665711080
+static const scheme fourth = { 6,
+                               { B1, B2, B3, 1 - 2 * (B1 + B2 + B3), B3, B2, B1 },
+                               { A1, A2, 0.5 - (A1 + A2), 0.5 - (A1 + A2), A2, A1 } };
+
+// Bodies on their way through the step, and room for as many.
+typedef struct voyage {
+    pl_law_system system;
+    pl_law_state *now, *start, *table; // table: COLUMNS + 1 of them
+    double *pull;
+    double *constant; // [m/s^2] x, y a body
+    bool bent;        // something depends on the place
+} voyage;
+
+static size_t state_bytes(size_t count)
+{
+    return count * (COLUMNS + 3) * sizeof(pl_law_state);
+}
+
+static size_t force_bytes(size_t count)
+{
+    return count * 4 * sizeof(double);
+}
+
+bool pl_orbits_reserve(plumb_world *world)
+{
+    pl_law_step *s = &world->laws.step;
+    pl_memory *memory = &world->memory;
+    const size_t flights = s->flies ? world->dynamic_count : 0;
+    return pl_buffer_reserve(memory, &s->flights, flights * sizeof(pl_flight)) &&
+           pl_buffer_reserve(memory, &s->states, state_bytes(s->coupled_count)) &&
+           pl_buffer_reserve(memory, &s->forces, force_bytes(s->coupled_count));
+}
+
+//---- the flow ------------------------------------------------------------------------------------
+
+typedef struct turn {
+    double e[2], p[2], r[2];
+} turn;
+
+// p and r by their series where their differences would cancel.
+static turn turn_of(double angle)
+{
+    turn t;
+    double s, c;
+    pl_sincos(angle, &s, &c);
+    const double q = angle * angle;
+    t.e[0] = c, t.e[1] = -s;
+    if (q < 1e-2) {
+        t.p[0] = 1 - q / 6 * (1 - q / 20 * (1 - q / 42 * (1 - q / 72)));
+        t.p[1] = -angle / 2 * (1 - q / 12 * (1 - q / 30 * (1 - q / 56)));
+        t.r[0] = 0.5 - q / 24 * (1 - q / 30 * (1 - q / 56 * (1 - q / 90)));
+        t.r[1] = -angle / 6 * (1 - q / 20 * (1 - q / 42 * (1 - q / 72)));
+    } else {
+        t.p[0] = s / angle, t.p[1] = (c - 1) / angle;
+        t.r[0] = -t.p[1] / angle, t.r[1] = (t.p[0] - 1) / angle;
+    }
+    return t;
+}
+
+static void flow_one(const voyage *v, uint32_t i, double time, double t)
+{
+    pl_law_state *s = &v->now[i];
+    const double ax = v->constant[2 * i], ay = v->constant[2 * i + 1];
+    const double spin = pl_laws_spin(&v->system, &v->system.bodies[i], s, time);
+    if (spin == 0) {
+        s->x += t * s->vx + t * t / 2 * ax;
+        s->y += t * s->vy + t * t / 2 * ay;
+        s->vx += t * ax;
+        s->vy += t * ay;
+        return;
+    }
+    const turn by = turn_of(spin * t);
+    const double vx = s->vx, vy = s->vy;
+    s->x += t * (vx * by.p[0] - vy * by.p[1]) + t * t * (ax * by.r[0] - ay * by.r[1]);
+    s->y += t * (vx * by.p[1] + vy * by.p[0]) + t * t * (ax * by.r[1] + ay * by.r[0]);
+    s->vx = vx * by.e[0] - vy * by.e[1] + t * (ax * by.p[0] - ay * by.p[1]);
+    s->vy = vx * by.e[1] + vy * by.e[0] + t * (ax * by.p[1] + ay * by.p[0]);
+}
+
+static void flow(const voyage *v, double time, double t)
+{
+    for (uint32_t i = 0; i < v->system.count; ++i) {
+        if (v->system.bodies[i].mass > 0) {
+            flow_one(v, i, time, t);
+        }
+    }
+}
+
+static void kick(const voyage *v, double t)
+{
+    for (uint32_t i = 0; i < v->system.count; ++i) {
+        if (v->system.bodies[i].mass > 0) {
+            v->now[i].vx += t * v->pull[2 * i];
+            v->now[i].vy += t * v->pull[2 * i + 1];
+        }
+    }
+}
+
+// An interval from `time` on, in n parts.
+static void run(const voyage *v, const scheme *by, double time, double length, int n)
+{
+    const double h = length / n;
+    pl_laws_pull(&v->system, v->now, time, v->pull);
+    for (int part = 0; part < n; ++part) {
+        double at = time + part * h;
+        for (int k = 0; k < by->flows; ++k) {
+            kick(v, h * by->kick[k]);
+            flow(v, at, h * by->flow[k]);
+            at += h * by->flow[k];
+            pl_laws_pull(&v->system, v->now, at, v->pull);
+        }
+        kick(v, h * by->kick[by->flows]);
+    }
+}
+
+//---- to a tolerance ------------------------------------------------------------------------------
+
+static double larger(double a, double b)
+{
+    return a > b ? a : b;
+}
+
+// Two results agree, and which of them is in `now`.
+static bool agree(const voyage *v, const pl_law_state *other, double length, double tolerance)
+{
+    bool good = true;
+    for (uint32_t i = 0; i < v->system.count; ++i) {
+        const pl_law_state *a = &v->now[i], *b = &other[i], *s = &v->start[i];
+        const double speed = larger(fabs(a->vx) + fabs(a->vy), fabs(s->vx) + fabs(s->vy));
+        const double way = fabs(a->x - b->x) + fabs(a->y - b->y);
+        const double change = fabs(a->vx - b->vx) + fabs(a->vy - b->vy);
+        good &= way <= tolerance * length * speed && change <= tolerance * speed;
+    }
+    return good;
+}
+
+// now = now + (now - before) / by.
+static void extrapolate(const voyage *v, const pl_law_state *before, double by)
+{
+    for (uint32_t i = 0; i < v->system.count; ++i) {
+        pl_law_state *a = &v->now[i];
+        const pl_law_state *b = &before[i];
+        a->x += (a->x - b->x) / by, a->y += (a->y - b->y) / by;
+        a->vx += (a->vx - b->vx) / by, a->vy += (a->vy - b->vy) / by;
+    }
+}
+
+// From `start`; what comes of it is in `now`. The table holds the last row, by columns.
+static bool attempt(const voyage *v, double time, double length, double tolerance)
+{
+    const size_t count = v->system.count, bytes = count * sizeof(pl_law_state);
+    pl_law_state *spare = v->table + COLUMNS * count;
+    for (int n = 1; n <= COLUMNS; ++n) {
+        memcpy(v->now, v->start, bytes);
+        run(v, &verlet, time, length, n);
+        for (int k = 1; k < n; ++k) {
+            pl_law_state *before = v->table + (size_t)(k - 1) * count;
+            const double ratio = (double)n / (n - k);
+            memcpy(spare, v->now, bytes);
+            extrapolate(v, before, ratio * ratio - 1);
+            memcpy(before, spare, bytes);
+        }
+        if (n > 2 && agree(v, spare, length, tolerance)) {
+            return true;
+        }
+        memcpy(v->table + (size_t)(n - 1) * count, v->now, bytes);
+    }
+    return false;
+}
+
+// Parts of a step, and how often it is tried at most: at an edge of a zone nothing agrees.
+#define PARTS    (UINT64_C(1) << 24)
+#define ATTEMPTS 4000
+
+static void run_to(const voyage *v, double dt, double tolerance)
+{
+    uint64_t at = 0, length = PARTS;
+    for (int tries = 0; at < PARTS; ++tries) {
+        memcpy(v->start, v->now, v->system.count * sizeof(pl_law_state));
+        const double time = dt * ((double)at / (double)PARTS);
+        const double part = dt * ((double)length / (double)PARTS);
+        if (attempt(v, time, part, tolerance) || length == 1 || tries > ATTEMPTS) {
+            at += length;
+            while (length < PARTS && at % (2 * length) == 0 && at + 2 * length <= PARTS) {
+                length *= 2;
+            }
+        } else {
+            memcpy(v->now, v->start, v->system.count * sizeof(pl_law_state));
+            length /= 2;
+        }
+    }
+}
+
+//---- the pass ------------------------------------------------------------------------------------
+
+// What does not depend on the place.
+static void set_out(const voyage *v, uint32_t i)
+{
+    const plumb_world *world = v->system.world;
+    const pl_bodies *b = &world->bodies;
+    const pl_law_body *body = &v->system.bodies[i];
+    const uint32_t row = body->row;
+    const plumb_vec2 g = world->effects.gravity;
+    const double scale = (double)b->gravity_scale[row], ease = (double)b->inv_mass[row];
+    v->constant[2 * i] = body->ax + scale * (double)g.x + ease * (double)b->fx[row];
+    v->constant[2 * i + 1] = body->ay + scale * (double)g.y + ease * (double)b->fy[row];
+    v->now[i] = (pl_law_state){ (double)b->center_x[row] + (double)b->residual_x[row],
+                                (double)b->center_y[row] + (double)b->residual_y[row],
+                                (double)b->vx[row] + (double)b->residual_vx[row],
+                                (double)b->vy[row] + (double)b->residual_vy[row] };
+}
+
+static void arrive(const voyage *v, uint32_t i, double dt)
+{
+    const plumb_world *world = v->system.world;
+    const pl_bodies *b = &world->bodies;
+    const uint32_t row = v->system.bodies[i].row;
+    const pl_law_state *s = &v->now[i];
+    const double aw = (double)b->torque[row] * (double)b->inv_inertia[row];
+    ((pl_flight *)world->laws.step.flights.data)[row] = (pl_flight){
+        .x = s->x - (double)b->center_x[row] - (double)b->residual_x[row],
+        .y = s->y - (double)b->center_y[row] - (double)b->residual_y[row],
+        .angle = dt * ((double)b->w[row] + aw * dt / 2),
+        .vx = s->vx - (double)b->vx[row] - (double)b->residual_vx[row],
+        .vy = s->vy - (double)b->vy[row] - (double)b->residual_vy[row],
+        .w = aw * dt,
+    };
+}
+
+static bool is_bent(const pl_law_system *system)
+{
+    bool bent = system->replaces;
+    for (uint32_t k = 0; k < system->law_count; ++k) {
+        bent |= !pl_law_is_endless(system->laws[k].desc);
+    }
+    return bent;
+}
+
+static void travel(voyage *v, double dt)
+{
+    const plumb_world *world = v->system.world;
+    const plumb_orbit_desc orbits = pl_orbits_of(world);
+    for (uint32_t i = 0; i < v->system.count; ++i) {
+        set_out(v, i);
+    }
+    if (!is_bent(&v->system)) {
+        flow(v, 0, dt);
+    } else if (orbits.tolerance > 0) {
+        run_to(v, dt, (double)orbits.tolerance);
+    } else {
+        run(v, orbits.order == 4 ? &fourth : &verlet, 0, dt, world->desc.substeps);
+    }
+    for (uint32_t i = 0; i < v->system.count; ++i) {
+        if (v->system.bodies[i].mass > 0) {
+            arrive(v, i, dt);
+        }
+    }
+}
+
+static pl_law_system system_of(const plumb_world *world, uint32_t first, uint32_t count,
+                               uint32_t sources)
+{
+    const pl_law_step *s = &world->laws.step;
+    return (pl_law_system){ .world = world,
+                            .laws = pl_laws_now(world),
+                            .law_count = s->law_count,
+                            .bodies = pl_law_bodies(world) + first,
+                            .count = count,
+                            .sources = sources,
+                            .gravity = world->effects.gravity,
+                            .replaces = s->replaces };
+}
+
+typedef struct singles {
+    const plumb_world *world;
+    uint32_t first;
+    double dt;
+} singles;
+
+static void travel_alone(void *context, uint32_t first, uint32_t count)
+{
+    const singles *all = context;
+    for (uint32_t i = all->first + first; i < all->first + first + count; ++i) {
+        pl_law_state states[COLUMNS + 3];
+        double numbers[4];
+        voyage v = { .system = system_of(all->world, i, 1, 0),
+                     .now = states,
+                     .start = states + 1,
+                     .table = states + 2,
+                     .pull = numbers,
+                     .constant = numbers + 2 };
+        if (pl_law_way_of(all->world, v.system.bodies->row) == PL_LAW_FLIES) {
+            travel(&v, all->dt);
+        }
+    }
+}
+
+// So many bodies are worth a thread.
+#define LEAST 16
+
+plumb_result pl_run_orbits(plumb_world *world, plumb_real dt)
+{
+    const pl_law_step *s = &world->laws.step;
+    const uint32_t count = s->coupled_count;
+    if (s->flies && count > 0 && !s->couples) {
+        pl_law_state *states = s->states.data;
+        double *numbers = s->forces.data;
+        voyage v = { .system = system_of(world, 0, count, s->source_count),
+                     .now = states,
+                     .start = states + count,
+                     .table = states + 2 * (size_t)count,
+                     .pull = numbers,
+                     .constant = numbers + 2 * (size_t)count };
+        travel(&v, (double)dt);
+    }
+    pl_laws_settle(world);
+    singles rest = { world, count, (double)dt };
+    pl_tasks_ranges(world->tasks, s->flies ? s->body_count - count : 0, LEAST, travel_alone, &rest);
+    return PLUMB_OK;
+}

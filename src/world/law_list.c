@@ -1,0 +1,58 @@
+// law_list.c - the list of laws: dense, in the order in which they were made.
+//
+// Reads, writes: the list, the registry. Cost: O(laws); to wake O(bodies).
+#include "world/law_list.h"
+
+#include "world/island.h"
+#include "world/rows.h"
+
+#include <string.h>
+
+uint32_t pl_law_find(const plumb_world *world, plumb_law law)
+{
+    if (world == NULL) {
+        return PL_NONE;
+    }
+    const pl_slot *slot = pl_registry_find(&world->registry, law.entity);
+    return slot != NULL && slot->kind == PLUMB_KIND_LAW ? slot->row : PL_NONE;
+}
+
+void pl_law_disturb(plumb_world *world, const plumb_law_desc *d)
+{
+    const double half = (double)(d->half.x + d->half.y);
+    const double reach = half > 0 ? half : (double)d->radius;
+    if (!(reach > 0) || !plumb_is_null(d->body)) {
+        pl_sleep_disturb_all(world);
+        return;
+    }
+    const pl_bodies *b = &world->bodies;
+    for (uint32_t row = 0; row < b->table.count; ++row) {
+        const double x = (double)b->center_x[row] - (double)d->position.x;
+        const double y = (double)b->center_y[row] - (double)d->position.y;
+        if (b->type[row] == PLUMB_DYNAMIC && x * x + y * y <= reach * reach) {
+            pl_sleep_disturb(world, row);
+        }
+    }
+}
+
+void pl_law_remove(plumb_world *world, uint32_t row)
+{
+    pl_laws *laws = &world->laws;
+    pl_law *items = pl_law_items(laws);
+    pl_law_disturb(world, &items[row].desc);
+    pl_registry_release(&world->registry, items[row].entity.entity);
+    memmove(&items[row], &items[row + 1], (--laws->count - row) * sizeof *items);
+    for (uint32_t i = row; i < laws->count; ++i) {
+        pl_registry_move(&world->registry, items[i].entity.entity.index, i);
+    }
+    world->schedule_dirty = true;
+}
+
+void pl_laws_forget(plumb_world *world, plumb_body body)
+{
+    for (uint32_t i = world->laws.count; i-- > 0;) {
+        if (plumb_same(pl_law_items(&world->laws)[i].desc.body, body)) {
+            pl_law_remove(world, i);
+        }
+    }
+}

@@ -1,0 +1,83 @@
+// law.h - laws as they are stored, and what a step makes of them.
+#ifndef PL_TABLE_LAW_H
+#define PL_TABLE_LAW_H
+
+#include "core/memory.h"
+#include "core/near.h"
+#include "plumb/law.h"
+
+typedef struct pl_law {
+    plumb_law entity;
+    plumb_law_desc desc;
+    double x, y; // [m] where the last step had it: who is carried or teleported wakes those it reaches
+    bool placed; // a step has seen it
+} pl_law;
+
+// A law in a step: by falling priority, then in the order in which they were made.
+typedef struct pl_law_now {
+    const plumb_law_desc *desc;
+    double x, y;          // [m] of an attractor or a zone as the step begins
+    double vx, vy;        // [m/s] of who carries it, if kinematic
+    double c, s;          // of a box zone, turned about its middle
+    double square;        // [m^2] of the softening
+    double reach;         // [m] from (x, y), beyond which it does not act; infinite
+    uint32_t carrier;     // row of an awake dynamic body; PL_NONE
+    uint32_t member;      // the same among those that fly or are pushed together; PL_NONE
+    bool moved;           // it is not where the last step had it
+} pl_law_now;
+
+// How a body gets what the laws give it in this step.
+typedef enum pl_law_way {
+    PL_LAW_NONE,  // nothing acts on it
+    PL_LAW_FLIES, // by itself (orbits.c)
+    PL_LAW_PUSHED // in the substeps
+} pl_law_way;
+
+// A body that laws act on, in a step.
+typedef struct pl_law_body {
+    uint32_t row, slot;  // slot: of the solver; PL_NONE
+    double mass;         // [kg] 0: it does not move
+    double weight;       // [kg] mass times gravity scale
+    double charge;       // [C]
+    double attraction;   // [-]
+    double time;         // [-] its time scale
+    uint64_t categories; // of its shapes
+    double ax, ay;       // [m/s^2] of forces; of gravity and of uniform laws without end, where nothing replaces them
+    double spin;         // [rad/s] by which magnetic laws turn its velocity (of the last place that was asked)
+    bool coupled;        // it attracts or is attracted by a dynamic body
+} pl_law_body;
+
+// Place and velocity of a body in the middle of whatever.
+typedef struct pl_law_state {
+    double x, y, vx, vy; // [m], [m/s]
+} pl_law_state;
+
+// What a step makes, and forgets.
+typedef struct pl_law_step {
+    pl_buffer laws;   // pl_law_now
+    pl_buffer ways;   // uint8_t a dynamic row: pl_law_way
+    pl_buffer bodies; // pl_law_body: coupled ones, those that attract before the others; then the rest, by rows
+    pl_buffer order;  // pl_keyed: slot and place among the bodies that are pushed
+    pl_buffer states, forces, table; // pl_law_state; plumb doubles; rows of extrapolations
+    pl_buffer flights;               // pl_flight a dynamic row, of those that fly
+    uint32_t law_count, body_count, coupled_count, source_count, pushed_count;
+    bool replaces; // some law does
+    bool flies;    // some body does
+    bool couples;  // coupled bodies are pushed
+    double time;   // [s] of the step
+} pl_law_step;
+
+typedef struct pl_laws {
+    pl_buffer items; // pl_law
+    uint32_t count;
+    uint32_t orbit_count;
+    pl_buffer orbits; // plumb_orbit_desc: one, or none for the default
+    pl_law_step step;
+} pl_laws;
+
+static inline pl_law *pl_law_items(const pl_laws *laws)
+{
+    return (pl_law *)laws->items.data;
+}
+
+#endif
