@@ -56,7 +56,7 @@ typedef struct plumb_accuracy {
     double tolerance;    ///< [-] 0: it has none, and nothing below is known
     double error;        ///< [-] estimate of what tolerance bounds: of the last seconds, as many as the horizon
     double motion;       ///< [-] of that, what substeps make of motion
-    double frozen;       ///< [-] of that, what turned while a step held it still
+    double frozen;       ///< [-] of that, what turned while a step held it still, and what long chains of impacts rounded
     double rest;         ///< [-] overlaps and gaps of joints, as half their share of the smallest body
     double worst;        ///< [-] the largest `error` since the tolerance was set
     plumb_solver solver; ///< of the last step

@@ -33,6 +33,8 @@ const pl_dial_fit pl_dial_constants = {
     .heavy = 50,
     .frozen = 0.7,
     .graze = 5e-4,
+    .struck = 2,
+    .rounding = sizeof(near_real) == 4 ? 1.2e-7 : 2.2e-16,
     .few_most = 300,
     .least = 4,
     .most = sizeof(near_real) == 4 ? 32 : 64,
@@ -132,6 +134,12 @@ static double lag_of(const plumb_world *world)
     return whole ? FIT->lag : 0;
 }
 
+// [rad/s] at which things turn round, by accelerations and speeds of late.
+static double turn_rate(const pl_dial *d)
+{
+    return d->speed > 0 ? FIT->turn * d->push / d->speed : 0;
+}
+
 // [rad/s] of what swings; 0: nothing has turned yet, or all rests. `now` [m/s]: the fastest.
 static double swing_rate(const plumb_world *world, double now)
 {
@@ -139,7 +147,7 @@ static double swing_rate(const plumb_world *world, double now)
     if (!(now > FIT->least_way * smallest(world)) || !(now > 0)) {
         return 0;
     }
-    const double rate = FIT->turn * d->push / d->speed;
+    const double rate = turn_rate(d);
     const bool begun = rate * d->elapsed >= FIT->begun;
     const double least = lag_of(world) > 0 ? FIT->turn / FIT->lag_time : 0;
     return begun && rate > least ? rate : least;
@@ -273,7 +281,11 @@ static double substeps_for(const plumb_world *world, double dt, double rate)
     const double aim = FIT->safety * (double)world->desc.tolerance;
     const double lag = dt * lag_of(world) * rate / aim;
     const double turn = dt * sqrt(FIT->swing * rate * rate * rate * PLUMB_ACCURACY_HORIZON / aim);
-    return lag > turn ? lag : turn;
+    // A limit is struck with the speed of a parabola, under the pull of the substep before.
+    const double struck =
+        world->joints.bouncing > 0 ? dt * turn_rate(&world->dial) * sqrt(FIT->struck / aim) : 0;
+    const double most = lag > turn ? lag : turn;
+    return most > struck ? most : struck;
 }
 
 // True: the step is to be taken anew, by another tier.
@@ -321,7 +333,8 @@ static void add_errors(plumb_world *world, double dt, double rate)
     } else {
         d->motion = d->motion * left + FIT->swing * turn * turn * rate * dt;
     }
-    d->frozen = d->frozen * left + pl_dial_frozen(world, dt);
+    d->frozen =
+        d->frozen * left + pl_dial_frozen(world, dt) + FIT->rounding * world->solver.chain_count;
 }
 
 static void tell(plumb_world *world)

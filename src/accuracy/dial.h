@@ -25,9 +25,12 @@ typedef struct pl_dial_fit {
     double heavy;       // [-] a mass ratio that sweeps do not hold
     double frozen;      // [-] error over the square of the angle by which a contact turns in a step
     double graze;       // [m] by which the place of a blow is off, along the surface
-    uint32_t few_most;  // contacts and joints: more are not solved exactly for resting alone
-    int least;          // [-] substeps
-    int most;           // [-] substeps: beyond, rounding of a float grows
+    double struck; // [-] error of the bounce of a limit, over the square of the turn in a substep
+    double
+        rounding; // [-] of velocities, an impact of a chain: half an epsilon, and as much of what strikes back between
+    uint32_t few_most; // contacts and joints: more are not solved exactly for resting alone
+    int least;         // [-] substeps
+    int most;          // [-] substeps: beyond, rounding of a float grows
 } pl_dial_fit;
 
 extern const pl_dial_fit pl_dial_constants;

@@ -81,7 +81,7 @@
     LEFT(solver.classic) LEFT(solver.dynamic_slots) LEFT(solver.slot_count)   \
     LEFT(solver.clusters) LEFT(solver.labels) LEFT(solver.islands) LEFT(solver.homes) LEFT(solver.island_count) LEFT(solver.leaders) LEFT(solver.cursors)                 \
     LEFT(solver.cluster_count) LEFT(solver.cluster_age) LEFT(solver.labelled) LEFT(solver.bundle_room) LEFT(solver.bundle_count) LEFT(solver.impact_count) LEFT(solver.colors_used)                 \
-    LEFT(solver.overflow_count) LEFT(solver.bounce_count) TALLY(solver.cut_count) LEFT(solver.spare_impacts)
+    LEFT(solver.overflow_count) LEFT(solver.bounce_count) LEFT(solver.chain_count) TALLY(solver.cut_count) LEFT(solver.spare_impacts)
 
 #define PL_STATE_JOINTS(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                     \
     ARRAY(pl_joint, joints.items, joints.count, 0, 0)                                              \

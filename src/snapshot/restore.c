@@ -204,7 +204,7 @@ static void forget_last_step(plumb_world *world)
     world->solver.slot_count = world->solver.dynamic_slots = 0;
     world->solver.bundle_count = world->solver.impact_count = 0;
     world->solver.colors_used = 0;
-    world->solver.overflow_count = world->solver.bounce_count = 0;
+    world->solver.overflow_count = world->solver.bounce_count = world->solver.chain_count = 0;
 }
 
 static void take_over(plumb_world *world, source s)

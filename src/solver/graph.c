@@ -417,7 +417,7 @@ static void place_lanes(plumb_world *world)
     const pl_ends *ends = world->narrow.ends.data;
     const uint8_t *colors = s->colors.data;
     uint32_t *lanes = s->lanes.data;
-    s->bundle_count = s->bounce_count = 0;
+    s->bundle_count = s->bounce_count = s->chain_count = 0;
     if (bundles == 0) {
         return; // there may be no lanes
     }

@@ -274,9 +274,11 @@ void pl_impacts_tell(plumb_world *world, near_real h)
 {
     pl_solver *s = &world->solver;
     pl_impact *impacts = s->impacts.data;
-    uint32_t cut = 0;
+    uint32_t cut = 0, longest = 0;
     for (uint32_t i = 0; i < s->impact_count; ++i) {
         pl_impact *m = &impacts[i];
+        const uint32_t chain = m->chain - m->left;
+        longest = chain > longest ? chain : longest;
         pl_approach at[2] = { { 0 }, { 0 } };
         if (is_upset(s, m, h)) {
             pl_bounce_foresee(world, m, (double)h, at);
@@ -288,5 +290,6 @@ void pl_impacts_tell(plumb_world *world, near_real h)
             *p->lane_separation = p->separation + (off ? PL_APART : 0);
         }
     }
+    s->chain_count += longest;
     note_cut(world, cut);
 }

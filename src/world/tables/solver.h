@@ -85,7 +85,8 @@ typedef struct pl_solver {
     uint32_t spare_impacts; // of this substep, that contacts may still take (impact.c)
     uint64_t colors_used; // by contacts: a bit each
     uint32_t overflow_count, bounce_count;
-    uint32_t cut_count; // chains of impacts that were not followed to their ends, in all
+    uint32_t chain_count; // impacts of the step in the longest chain of one contact
+    uint32_t cut_count;   // chains of impacts that were not followed to their ends, in all
 } pl_solver;
 
 // Solver slot of a body row.
