@@ -51,10 +51,23 @@ WIDE_INLINE vf held_back(const bundle *c, const point *p, const pl_contact_call 
     return limit / vmax(-p->separation * c->bias_rate, limit);
 }
 
+// A point whose bodies part faster than any push has parted them bears nothing any more. What it bore, of which a body that
+// was crushed has plenty, would only pull it along, sweep after sweep: that much of it may be taken back.
+#define LEAVES ((near_real)6) // [m/s] the push speed of a world that says nothing
+
+WIDE_INLINE void let_go(const bundle *c, point *p, const body *a, const body *b, vm fixed, vf limit)
+{
+    const vf vn = c->nx * (b->vx - a->vx) + c->ny * (b->vy - a->vy) + p->rbn * b->w - p->ran * a->w;
+    const vm leaves = fixed & (vn > limit);
+    p->ln = sel(leaves, splat(0), p->ln);
+    p->lt = sel(leaves, splat(0), p->lt);
+}
+
 void PL_WIDE_NAME(pl_contact_prepare)(const pl_contact_call *call, uint32_t first, uint32_t count)
 {
     bundle *bundles = call->bundles;
     const softness pair = soften(call, 1), ground = soften(call, STATIC_STIFFNESS);
+    const vf leaves = splat(call->push_speed > LEAVES ? call->push_speed : LEAVES);
     for (uint32_t k = first; k < first + count; ++k) {
         bundle *c = &bundles[k];
         const near_real *row[3][PL_WIDTH];
@@ -92,6 +105,7 @@ void PL_WIDE_NAME(pl_contact_prepare)(const pl_contact_call *call, uint32_t firs
         for (int j = 0; j < 2; ++j) {
             gather8(r, row[1 + j]);
             prepare_point(&c->p[j], r, c, &a, &b);
+            let_go(c, &c->p[j], &a, &b, fixed, leaves);
             c->p[j].give = c->p[j].kn * give * held_back(c, &c->p[j], call);
         }
         c->k01 = coupling(c, a.inv_mass + b.inv_mass, &a, &b);

@@ -257,6 +257,38 @@ static void stirred_heap_strikes_each_contact_once(void **state)
     plumb_world_destroy(w);
 }
 
+// A jaw that has pressed a disc against a wall until it overlaps by 30 cm, and leaves at v [m/s], pulls nothing along: what
+// the press has stored was glue, and the disc left at the jaw's speed.
+static void jaws_that_leave_pull_nothing(void **state)
+{
+    (void)state;
+    const double speeds[] = { 1, 10, 40, 100 };
+    for (int k = 0; k < 4; ++k) {
+        plumb_world *w = sim_space();
+        plumb_material m = sim_material(w, 0.3, 0);
+        plumb_body wall = sim_body(w, PLUMB_STATIC, -1, 0, 0);
+        plumb_body jaw = sim_body(w, PLUMB_KINEMATIC, 1.5, 0, 0);
+        sim_add_box(w, wall, 0.5, 1.5, m);
+        sim_add_box(w, jaw, 0.5, 1.5, m);
+        plumb_body disc = sim_ball(w, 0, 0, 0.5, m);
+        sim_launch(w, jaw, -0.8, 0, 0);
+        sim_run(w, 60, HZ60);
+        sim_launch(w, jaw, 0, 0, 0);
+        sim_run(w, 18, HZ60);
+        sim_launch(w, jaw, speeds[k], 0, 0);
+        double fastest = 0;
+        for (int i = 0; i < 60; ++i) {
+            const double was = sim_x(w, disc);
+            sim_step(w, HZ60);
+            fastest = fmax(fastest, fabs(sim_x(w, disc) - was) / HZ60);
+        }
+        print_message("a jaw that leaves at %3.0f m/s: the disc is as fast as %.2f\n", speeds[k],
+                      fastest);
+        assert_true(fastest <= 1.1 * (double)plumb_world_settings(w).push_speed);
+        plumb_world_destroy(w);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -267,6 +299,7 @@ int main(void)
         cmocka_unit_test(stirred_heap_strikes_each_contact_once),
         cmocka_unit_test(elastic_pile_wins_no_energy),
         cmocka_unit_test(deep_overlap_bears_its_load),
+        cmocka_unit_test(jaws_that_leave_pull_nothing),
     };
     return cmocka_run_group_tests_name("hard", tests, NULL, NULL);
 }
