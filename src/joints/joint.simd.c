@@ -9,7 +9,22 @@
 
 //---- sweeps --------------------------------------------------------------------------------------
 
-WIDE_INLINE void solve_single(row *r, const source *from, const single *s,
+// What a motor may drive at: it comes to a stop where a limit of the same value begins. Else limit and motor, two rows of one
+// direction, would push against one another, and the limit gives way by what the motor has.
+WIDE_INLINE vf drive_speed(const parts *at, const pl_joint_pattern *p, int drive, vf inv_h)
+{
+    const vf speed = at->singles[drive - p->block].speed;
+    const int upper = drive - 1, lower = drive - 2; // where there is a limit (parts.c)
+    if (lower < p->block || p->row[upper].type != PL_ROW_LEAST ||
+        p->row[upper].form != p->row[drive].form) {
+        return speed;
+    }
+    const vf down = vmax(at->rows[lower].error, splat(0)) * inv_h;
+    const vf up = vmax(at->rows[upper].error, splat(0)) * inv_h;
+    return vmin(vmax(speed, -down), up);
+}
+
+WIDE_INLINE void solve_single(row *r, const source *from, const single *s, vf driven,
                               const pl_pattern_row *kind, const pl_joint_call *call, vf lagging,
                               vf spared, const bool pull, const bool first, body *a, body *b)
 {
@@ -17,7 +32,7 @@ WIDE_INLINE void solve_single(row *r, const source *from, const single *s,
     vf velocity = one, error_rate = zero, give = zero, speed = zero, before = zero, lag = zero;
     vf low = -s->most;
     if (kind->type == PL_ROW_DRIVE) {
-        speed = s->speed;
+        speed = driven;
     } else if (kind->spring) {
         velocity = s->spring.velocity[!pull], error_rate = s->spring.error_rate[!pull];
         give = one - velocity;
@@ -131,8 +146,12 @@ WIDE_INLINE void solve_rows(const parts *at, const pl_joint_pattern *p, const pl
                             const bool pull, const bool first, body *a, body *b)
 {
     for (int i = p->count - 1; i >= p->block; --i) {
-        solve_single(&at->rows[i], &at->sources[i], &at->singles[i - p->block], &p->row[i], call,
-                     at->c->lag, at->c->lag * at->c->spared, pull, first, a, b);
+        vf driven = splat(0);
+        if (p->row[i].type == PL_ROW_DRIVE) {
+            driven = drive_speed(at, p, i, splat((near_real)(1 / call->h)));
+        }
+        solve_single(&at->rows[i], &at->sources[i], &at->singles[i - p->block], driven, &p->row[i],
+                     call, at->c->lag, at->c->lag * at->c->spared, pull, first, a, b);
     }
     switch (p->block) {
     case 1:

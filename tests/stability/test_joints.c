@@ -231,12 +231,50 @@ static void heavy_ends_make_no_energy(void **state)
     }
 }
 
+// A motor that is driven into its limit stops there, however strong it is and whichever way. [N m] or [N] of the motor.
+static void motors_stop_at_limits(void **state)
+{
+    (void)state;
+    const plumb_joint_kind kinds[] = { PLUMB_REVOLUTE, PLUMB_PRISMATIC };
+    const plumb_solver solvers[] = { PLUMB_SOLVER_SOFT, PLUMB_SOLVER_PGS, PLUMB_SOLVER_EXACT };
+    for (int i = 0; i < 3 * 2 * 2 * 5; ++i) {
+        const double way = i % 2 == 0 ? 1 : -1, most = pow(10, 2 + i / 4 % 5);
+        plumb_world_desc desc = { .solver = solvers[i / 20], .zero_gravity = true };
+        plumb_world *w = sim_world(&desc);
+        plumb_body arm = sim_mass(w, 0.5, 0, 1, 0.1);
+        plumb_joint_desc d = { .kind = kinds[i / 2 % 2],
+                               .body_b = arm,
+                               .enable_limit = true,
+                               .lower = (plumb_real)-0.5,
+                               .upper = (plumb_real)0.5,
+                               .enable_motor = true,
+                               .motor_speed = (plumb_real)(10 * way),
+                               .max_motor = (plumb_real)most };
+        plumb_joint j = sim_joint(w, d);
+        double farthest = 0;
+        for (int k = 0; k < 60; ++k) {
+            sim_step(w, DT);
+            farthest = fmax(farthest, way * (double)plumb_joint_value(w, j));
+        }
+        if (way > 0) {
+            print_message("solver %d, %s, motor of %.0e: %.6f, at the end %.6f\n", (int)desc.solver,
+                          plumb_joint_kind_name(d.kind), most, farthest,
+                          (double)plumb_joint_value(w, j));
+        }
+        assert_true(farthest < 0.51);
+        assert_true(way * (double)plumb_joint_value(w, j) > 0.499);
+        plumb_world_destroy(w);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(ball_and_chain_holds),     cmocka_unit_test(bridge_hangs_still),
         cmocka_unit_test(ragdolls_come_to_rest),    cmocka_unit_test(grid_hangs),
         cmocka_unit_test(spin_that_dies_away_ends), cmocka_unit_test(heavy_ends_make_no_energy),
+        cmocka_unit_test(motors_stop_at_limits),
+
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
