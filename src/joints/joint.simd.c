@@ -67,6 +67,26 @@ WIDE_INLINE void solve_single(row *r, const source *from, const single *s, vf dr
     push(a, b, r->nx * change, r->ny * change, r->wa * change, r->wb * change);
 }
 
+// A point of two bodies that move, apart by more than `most` and than its arms sweep over in a substep, is drawn together no
+// faster than if it were by that, and gives way less by the same share: it bears what its spring would. (What hangs on the world
+// adds up to nothing; a rod that spins there may be a metre off after a substep.)
+WIDE_INLINE void hold_back(const row r[2], const body *a, const body *b, vf error[2], vf kept[2],
+                           vf most, vf h)
+{
+    const vf gap = vmax(vabs(error[0]), vabs(error[1]));
+    if (!any(gap > most)) {
+        return;
+    }
+    const vf swept = vabs(a->w) * vmax(vabs(r[0].wa), vabs(r[1].wa)) +
+                     vabs(b->w) * vmax(vabs(r[0].wb), vabs(r[1].wb));
+    const vf one = splat(1), reach = most + h * swept, share = reach / vmax(gap, reach);
+    const vm far = (gap > reach) & (a->inv_mass > splat(0)) & (b->inv_mass > splat(0));
+    for (int i = 0; i < 2; ++i) {
+        error[i] *= sel(far, share, one);
+        kept[i] = sel(far, one - (one - kept[i]) * share, kept[i]);
+    }
+}
+
 WIDE_INLINE void solve_block(const parts *at, const pl_joint_pattern *p, const int n,
                              const pl_joint_call *call, const bool pull, const bool first, body *a,
                              body *b)
@@ -95,13 +115,22 @@ WIDE_INLINE void solve_block(const parts *at, const pl_joint_pattern *p, const i
         add_arc(wrong, a->w, splat((near_real)call->h), r[0].wa, r[1].wa);
         add_arc(wrong, b->w, splat((near_real)call->h), r[0].wb, r[1].wb);
     }
+    vf error[3], kept[3];
+    for (int i = 0; i < n; ++i) {
+        error[i] = r[i].error;
+        kept[i] = keep;
+    }
+    if (n > 1 && pull && !driven && p->row[0].form == PL_FORM_POINT_X) {
+        hold_back(r, a, b, error, kept, splat((near_real)(PL_CLOSES / call->rigid.error)),
+                  splat((near_real)call->h));
+    }
     for (int i = 0; i < n; ++i) {
         if (pull || driven) {
-            wrong[i] = velocity * wrong[i] + error_rate * r[i].error;
+            wrong[i] = velocity * wrong[i] + error_rate * error[i];
         }
-        total[i] = keep * r[i].impulse;
+        total[i] = kept[i] * r[i].impulse;
         if (pull && !driven) {
-            total[i] += (splat(1) - keep) * (at->c->lag * at->c->spared) * r[i].start;
+            total[i] += (splat(1) - kept[i]) * (at->c->lag * at->c->spared) * r[i].start;
         }
         if (driven) {
             wrong[i] -= at->temper->spring.before[!pull] * at->temper->before[i];

@@ -199,17 +199,36 @@ void pl_one_add_arc(real v[2], real w, real h, real w0, real w1)
     }
 }
 
+// Of a rigid point of two bodies that move, apart by more than a sweep may draw together, and than its arms sweep over in a substep: the share
+// that it may. It gives way less by the same share: so it bears what its spring would.
+static real held_back(const pl_joint *j, pl_joint_soft s, const pl_solver_body *a,
+                      const pl_solver_body *b)
+{
+    const pl_row *x = &j->rows.row[0], *y = &j->rows.row[1];
+    if (x->form != PL_FORM_POINT_X || !pl_row_is_rigid(x) || !(s.error > 0) || a->inv_mass == 0 ||
+        b->inv_mass == 0) {
+        return 1;
+    }
+    const real swept = plumb_abs(a->w) * plumb_max(plumb_abs(x->aw), plumb_abs(y->aw)) +
+                       plumb_abs(b->w) * plumb_max(plumb_abs(x->bw), plumb_abs(y->bw));
+    const real most = PL_CLOSES / s.error + j->h * swept;
+    return most / plumb_max(plumb_max(plumb_abs(x->error), plumb_abs(y->error)), most);
+}
+
 // Impulses of a rigid block, or of a spring of one frequency whatever the direction.
-static void pull_as_one(const pl_joint *j, pl_joint_soft s, const real v[3], real total[3])
+static void pull_as_one(const pl_joint *j, pl_joint_soft s, const pl_solver_body *a,
+                        const pl_solver_body *b, const real v[3], real total[3])
 {
     const int n = j->rows.block;
+    const real share = n > 1 ? held_back(j, s, a, b) : 1;
     real wrong[3];
     for (int i = 0; i < n; ++i) {
-        const pl_row *r = &j->rows.row[i];
-        wrong[i] = s.velocity * v[i] - s.before * j->half[i].before + s.error * r->error;
+        const real error = (i < 2 ? share : 1) * j->rows.row[i].error;
+        wrong[i] = s.velocity * v[i] - s.before * j->half[i].before + s.error * error;
     }
     for (int i = 0; i < n; ++i) {
-        total[i] = j->impulse[i] - s.impulse * (j->impulse[i] - j->half[i].lag);
+        const real gives = s.impulse * (i < 2 ? share : 1);
+        total[i] = j->impulse[i] - gives * (j->impulse[i] - j->half[i].lag);
         for (int m = 0; m < n; ++m) {
             total[i] -= j->inverse[i][m] * wrong[m];
         }
@@ -271,7 +290,7 @@ void pl_one_solve_block(const pl_joint_context *c, pl_joint *j, pl_solver_body *
     if (row[0].spring == PL_SPRING_NEWTONS) {
         pull_by_axes(c, j, sweep, v, total);
     } else {
-        pull_as_one(j, soften(c, &row[0], 0, sweep, j->degree), v, total);
+        pull_as_one(j, soften(c, &row[0], 0, sweep, j->degree), a, b, v, total);
     }
     if (j->rows.block_most < PL_UNBOUNDED) {
         bound_block(j, total);

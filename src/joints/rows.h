@@ -12,6 +12,8 @@
 #define PL_PIVOT                                                                                   \
     ((near_real)1e-6)             // [-] of the diagonal: a smaller pivot is no direction of its own
 #define PL_UNBOUNDED ((real)1e30) // [N] or [N m]
+// [m/s] at which a rigid point is drawn together at most: what joints that begin open gain adds up along a chain.
+#define PL_CLOSES ((real)2)
 
 static inline bool pl_row_is_spring(const pl_row *row)
 {
