@@ -123,15 +123,17 @@ static void add_joints(pl_digest *digest, const plumb_world *world)
     }
 }
 
-// Charges and attractions of bodies that have one.
+// What few of the few that have settings have: from `charge` on.
 static void add_holds(pl_digest *digest, const plumb_world *world)
 {
     const pl_body_settings *items = world->settings.items.data;
+    const size_t rest = sizeof *items - PL_SETTINGS_HASHED;
     for (uint32_t i = 0; i < world->settings.count; ++i) {
-        const real held[] = { items[i].charge, items[i].attraction };
-        if (held[0] != 0 || held[1] != 0) {
+        static const char none[sizeof *items] = { 0 };
+        const char *from = (const char *)&items[i] + PL_SETTINGS_HASHED;
+        if (memcmp(from, none, rest) != 0) {
             pl_digest_add(digest, &items[i].body, sizeof items[i].body);
-            pl_digest_add(digest, held, sizeof held);
+            pl_digest_add(digest, from, rest);
         }
     }
 }

@@ -4,6 +4,7 @@
 // step; behind the graph; around rows that change bodies; behind the last row. Cost: O(bodies + joints).
 #include "step/measure.h"
 
+#include "effects/laws.h"
 #include "joints/energy.h"
 #include "joints/measure.h"
 #include "solver/substep.h"
@@ -107,8 +108,9 @@ static void book_flight(plumb_world *world, uint32_t row, double dt)
                                           ((double)told.x * ((double)b->center_x[row] - f->x) +
                                            (double)told.y * ((double)b->center_y[row] - f->y));
     work[PLUMB_WORK_FORCES].kinetic += pushed;
-    if (has_effects) {
-        work[PLUMB_WORK_DAMPING].kinetic +=
+    const bool orbits = world->laws.step.flies && pl_law_way_of(world, row) == PL_LAW_FLIES;
+    if (has_effects || orbits) {
+        work[orbits ? PLUMB_WORK_FORCES : PLUMB_WORK_DAMPING].kinetic +=
             m * (dvx * vx + dvy * vy) + own_inertia(b, row) * dw * w - pulled - pushed;
     }
 }

@@ -6,11 +6,12 @@
 // they bring an island to their own speed, and lift it by that in a step. Overlaps are lifted out of one another by
 // push_speed.
 //
-// Where substeps have systems or fluids, forces are known only to a world that measures: else its energy is not watched.
+// Where substeps have systems, fluids or laws, forces are known only to a world that measures: else its energy is not watched.
 // Reads: bodies, manifolds, joints. Writes: nothing but its own. Order: around motion. Cost: O(bodies + contacts + joints).
 #include "watchdog/watchdog.h"
 
 #include "core/union_find.h"
+#include "effects/laws.h"
 #include "joints/energy.h"
 #include "world/body_settings.h"
 #include "world/joint_list.h"
@@ -72,6 +73,14 @@ double pl_watch_work(const plumb_world *world, uint32_t row, real dt)
     double joules;
     if (measured(world, row, &joules)) {
         return joules;
+    }
+    if (world->laws.step.flies && pl_law_way_of(world, row) == PL_LAW_FLIES) {
+        // What laws did is all that gravity did not.
+        const plumb_vec2 g = world->effects.gravity;
+        const double weight = (double)b->mass[row] * (double)b->gravity_scale[row];
+        return kinetic(b, row) - f->kinetic -
+               weight * ((double)g.x * ((double)b->center_x[row] - f->x) +
+                         (double)g.y * ((double)b->center_y[row] - f->y));
     }
     return f->force_x * ((double)b->center_x[row] - f->x) +
            f->force_y * ((double)b->center_y[row] - f->y) +
@@ -267,7 +276,8 @@ void pl_watch_energy_after(plumb_world *world, real dt)
 {
     const char *unused;
     const bool known =
-        world->desc.measure || (world->systems.in_substeps == 0 && !pl_want_fluids(world, &unused));
+        world->desc.measure || (world->systems.in_substeps == 0 && world->laws.count == 0 &&
+                                !pl_want_fluids(world, &unused));
     if (world->solver.slot_count == 0) {
         return;
     }

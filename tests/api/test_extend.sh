@@ -41,15 +41,15 @@ touches()
 property()
 {
     insert src/schema/body.h 'R.X, OWN, BOOL, disabled' <<'C'
-    R(X, COLUMN, REAL, charge, SAID(charge), "C", FROM(0, 10), 0, NO_ZERO, "of a tracer") \
+    R(X, COLUMN, REAL, tracing, SAID(tracing), "C", FROM(0, 10), 0, NO_ZERO, "of a tracer") \
 C
     insert include/plumb/body.h 'bool disabled; ' <<'C'
-    plumb_real charge; ///< [C] 0..10, default 0
+    plumb_real tracing; ///< [C] 0..10, default 0
 C
     insert include/plumb/body.h '^/// Sets the factor on gravity' <<'C'
-/// Sets and tells the charge [C] 0..10. Errors: E_HANDLE, E_NOT_FINITE, E_RANGE.
-PLUMB_API plumb_result plumb_body_set_charge(plumb_world *world, plumb_body body, plumb_real charge);
-PLUMB_API plumb_real plumb_body_charge(const plumb_world *world, plumb_body body);
+/// Sets and tells the tracing [C] 0..10. Errors: E_HANDLE, E_NOT_FINITE, E_RANGE.
+PLUMB_API plumb_result plumb_body_set_tracing(plumb_world *world, plumb_body body, plumb_real tracing);
+PLUMB_API plumb_real plumb_body_tracing(const plumb_world *world, plumb_body body);
 
 C
 }

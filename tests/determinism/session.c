@@ -557,11 +557,46 @@ static void change_liquid(session *s)
     plumb_liquid_add_box(w, at, far, velocity);
 }
 
+// Makes one of any kind, or changes or takes away another; worlds that wrap refuse them.
+static void change_laws(session *s)
+{
+    plumb_world *w = s->world;
+    plumb_law laws[4];
+    const int count = plumb_world_laws(w, laws, 4);
+    const plumb_law_kind kind = (plumb_law_kind)pick(s, 4);
+    const bool zone = kind == PLUMB_LAW_UNIFORM || kind == PLUMB_LAW_MAGNETIC;
+    const plumb_body body = s->body[pick(s, SESSION_BODIES)];
+    const plumb_law_desc d = {
+        .kind = kind,
+        .hold = one_in(s, 4) ? PLUMB_LAW_ON_CHARGE : PLUMB_LAW_ON_MASS,
+        .falloff = (plumb_falloff)pick(s, 5),
+        .combine = kind == PLUMB_LAW_UNIFORM && one_in(s, 3) ? PLUMB_LAW_REPLACE : PLUMB_LAW_ADD,
+        .body = kind != PLUMB_LAW_MUTUAL && one_in(s, 2) ? body : (plumb_body)PLUMB_NULL_INIT,
+        .position = place(s, -3, 3, 0, 4),
+        .vector = place(s, -5, 5, -5, 5),
+        .strength = number(s, -3, 3),
+        .softening = number(s, R(0.1), 1),
+        .radius = zone ? 0 : number(s, 1, 9),
+        .half = zone && one_in(s, 2) ? plumb_v2(3, 2) : plumb_v2(0, 0)
+    };
+    plumb_body_set_charge(w, body, number(s, -1, 1));
+    plumb_body_set_attraction(w, body, one_in(s, 2) ? 1 : 0);
+    plumb_world_set_orbits(w,
+                           &(plumb_orbit_desc){ one_in(s, 2) ? 4 : 2, one_in(s, 3) ? R(1e-4) : 0 });
+    if (count < 4 && one_in(s, 2)) {
+        plumb_law_create(w, &d);
+    } else if (count > 0 && one_in(s, 2)) {
+        plumb_law_set(w, laws[0], &d);
+    } else if (count > 0) {
+        plumb_law_destroy(w, laws[count - 1]);
+    }
+}
+
 static void change_world(session *s)
 {
     plumb_world *w = s->world;
     uint32_t m = pick(s, SESSION_MATERIALS);
-    switch (pick(s, 10)) {
+    switch (pick(s, 11)) {
     case 0:
         plumb_world_set_gravity(w, place(s, -2, 2, -12, 0));
         break;
@@ -588,6 +623,9 @@ static void change_world(session *s)
         break;
     case 7:
         change_liquid(s);
+        break;
+    case 9:
+        change_laws(s);
         break;
     case 8:
         if (s->late.id == 0) { // registered in the midst of it

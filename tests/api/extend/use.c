@@ -115,44 +115,44 @@ static void comes_again(const char *what, plumb_world *w, int steps)
 
 //---- body property -------------------------------------------------------------------------------
 
-static plumb_real charge_in(scene *s)
+static plumb_real tracing_in(scene *s)
 {
     plumb_world *w = scene_world(s);
-    return plumb_body_charge(w, plumb_world_bodies(w).body[0]);
+    return plumb_body_tracing(w, plumb_world_bodies(w).body[0]);
 }
 
-static void use_charge(void)
+static void use_tracing(void)
 {
     plumb_world *w;
     plumb_world_create(NULL, &w);
-    plumb_body b = plumb_body_create(w, &(plumb_body_desc){ .charge = 3 });
-    is("charge: made", plumb_body_charge(w, b) == 3);
-    is("charge: refused", plumb_body_set_charge(w, b, 11) == PLUMB_E_RANGE &&
-                              strstr(plumb_world_error(w).message, "charge is 11; it must be 0 to 10") !=
+    plumb_body b = plumb_body_create(w, &(plumb_body_desc){ .tracing = 3 });
+    is("tracing: made", plumb_body_tracing(w, b) == 3);
+    is("tracing: refused", plumb_body_set_tracing(w, b, 11) == PLUMB_E_RANGE &&
+                              strstr(plumb_world_error(w).message, "tracing is 11; it must be 0 to 10") !=
                                   NULL);
     plumb_world_save(w, image, sizeof image);
     const uint64_t hash = plumb_world_hash(w);
     used = 0;
     plumb_recorder_start(w, &(plumb_recorder_desc){ .write = keep });
-    plumb_body_set_charge(w, b, 5);
-    is("charge: hashed", plumb_world_hash(w) != hash);
+    plumb_body_set_tracing(w, b, 5);
+    is("tracing: hashed", plumb_world_hash(w) != hash);
     run(w, 1);
     plumb_recorder_stop(w);
     plumb_replay *replay;
     plumb_replay_open(tape, used, NULL, &replay);
     plumb_replay_step(replay);
-    is("charge: replayed", plumb_body_charge(plumb_replay_world(replay), b) == 5);
+    is("tracing: replayed", plumb_body_tracing(plumb_replay_world(replay), b) == 5);
     plumb_world_restore(w, image, sizeof image);
-    is("charge: restored", plumb_body_charge(w, b) == 3);
-    const plumb_property *p = plumb_property_find(PLUMB_TABLE_BODY, "charge");
-    is("charge: listed", p != NULL && p->high == 10 && strcmp(p->unit, "C") == 0);
+    is("tracing: restored", plumb_body_tracing(w, b) == 3);
+    const plumb_property *p = plumb_property_find(PLUMB_TABLE_BODY, "tracing");
+    is("tracing: listed", p != NULL && p->high == 10 && strcmp(p->unit, "C") == 0);
 
-    scene *s = said("body{ circle{1}, charge = 4 }", "\"charge\":4");
-    is("charge: said in Lua and JSON", s != NULL && charge_in(s) == 4);
+    scene *s = said("body{ circle{1}, tracing = 4 }", "\"tracing\":4");
+    is("tracing: said in Lua and JSON", s != NULL && tracing_in(s) == 4);
     scene_error error;
-    is("charge: refused in Lua",
-       load("b.lua", "body{ circle{1}, charge = 12 }", &error) == NULL &&
-           strstr(error.text, "'charge' of body{} must be at least 0 and at most 10 C"));
+    is("tracing: refused in Lua",
+       load("b.lua", "body{ circle{1}, tracing = 12 }", &error) == NULL &&
+           strstr(error.text, "'tracing' of body{} must be at least 0 and at most 10 C"));
 }
 
 //---- force effect --------------------------------------------------------------------------------
@@ -313,7 +313,7 @@ static void use_ellipse(void)
 
 int main(void)
 {
-    use_charge();
+    use_tracing();
     use_wind();
     use_edge();
     use_polish();
