@@ -91,6 +91,7 @@ typedef struct passage {
     real dt;
     bool collided; // the graph was made in this step
     bool noting;
+    bool orbits; // some bodies fly where laws lead them
     const near_real *residuals;
     uint32_t shares;
     struct {
@@ -164,16 +165,25 @@ static void take_over(plumb_world *world, uint32_t row, const pl_solver_body *bo
     b->residual_vy[row] = kept ? low[1] : 0;
 }
 
-// Moves a dynamic body; returns the angle by which it turned. orbits: some fly where laws lead them.
-static inline real move_dynamic(const passage *p, uint32_t row, bool orbits)
+// Of a world in which some fly where laws lead them. Not inlined: the others fly as they did.
+static __attribute__((noinline)) bool took_orbit(const passage *p, uint32_t row, real *angle)
+{
+    const bool orbits = pl_law_way_of(p->world, row) == PL_LAW_FLIES;
+    *angle = orbits ? take_flight(p->world, row, *pl_orbit_of(p->world, row)) : 0;
+    return orbits;
+}
+
+// Moves a dynamic body; returns the angle by which it turned.
+static real move_dynamic(const passage *p, uint32_t row)
 {
     plumb_world *world = p->world;
     const bool has_effects = (world->bodies.flags[row] & PL_BODY_HAS_EFFECTS) != 0;
     const uint32_t slot = p->collided ? ((const uint32_t *)world->solver.slots.data)[row] : PL_NONE;
-    if (orbits && pl_law_way_of(world, row) == PL_LAW_FLIES) {
-        return take_flight(world, row, *pl_orbit_of(world, row));
-    }
     if (slot == PL_NONE) {
+        real angle;
+        if (p->orbits && took_orbit(p, row, &angle)) {
+            return angle;
+        }
         const pl_damping_decay *decay =
             has_effects ? pl_damping_alone(&world->effects, &world->bodies, row) : NULL;
         return decay != NULL ? pl_damping_fly(world, row, decay)
@@ -203,8 +213,9 @@ static real move_kinematic(const passage *p, uint32_t row)
     return time * b->w[row];
 }
 
-static inline __attribute__((always_inline)) void move_rows(passage *p, uint32_t i, bool orbits)
+static void move_share(void *context, uint32_t i)
 {
+    passage *p = context;
     plumb_world *world = p->world;
     pl_bodies *b = &world->bodies;
     const pl_share rows = pl_share_of(world->dynamic_count + world->kinematic_count, p->shares, i);
@@ -215,7 +226,7 @@ static inline __attribute__((always_inline)) void move_rows(passage *p, uint32_t
         where before = { b->center_x[row], b->center_y[row], b->c[row], b->s[row] };
         real angle;
         if (row < world->dynamic_count) {
-            angle = move_dynamic(p, row, orbits);
+            angle = move_dynamic(p, row);
             b->fx[row] = b->fy[row] = b->torque[row] = 0;
         } else {
             angle = move_kinematic(p, row);
@@ -228,16 +239,6 @@ static inline __attribute__((always_inline)) void move_rows(passage *p, uint32_t
     }
     p->made[i].count = count;
     p->made[i].lost = lost;
-}
-
-static void move_share(void *context, uint32_t i)
-{
-    move_rows(context, i, false);
-}
-
-static void move_orbits(void *context, uint32_t i)
-{
-    move_rows(context, i, true);
 }
 
 // Movers in order of rows, without gaps.
@@ -262,9 +263,10 @@ void pl_solver_finish(plumb_world *world, real dt)
                   .dt = dt,
                   .collided = world->solver.slot_count > 0,
                   .noting = world->continuous.noting,
+                  .orbits = world->laws.step.flies,
                   .residuals = world->solver.follows_impacts ? world->solver.residuals.data : NULL,
                   .shares = pl_tasks_share_count(world->tasks, rows, PL_BODIES_SHARED) };
-    pl_tasks_run(world->tasks, world->laws.step.flies ? move_orbits : move_share, &p, p.shares);
+    pl_tasks_run(world->tasks, move_share, &p, p.shares);
     bool lost = false;
     for (uint32_t i = 0; i < p.shares; ++i) {
         lost |= p.made[i].lost;
