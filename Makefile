@@ -136,6 +136,7 @@ help:
 #:   stability         the hard-case tests, the expectations of every scene; hard scenes beside Box2D 2.4.1, Chipmunk (BOX2D3=)
 #:   shots             what gets through thin walls, beside Box2D 2.4.1; SHOTS=100000
 #:   bench             side by side with Box2D 2.4.1; BOX2D3=/prefix adds Box2D 3; BENCH="arguments"
+#:   effects           what each effect costs, used, not used, left out: instructions by callgrind, build/effects.csv
 #:   amalgamation      build/plumb.h and build/plumb.c: the library as one pair of files
 #:   determinism       the same bits with gcc and clang, -O0 to -O3, ASan, every SIMD width
 #:   hashes            write tests/determinism/hashes.txt anew, when physics was meant to change

@@ -265,6 +265,8 @@ typedef struct plumb_pass_info {
     double total_ns;    ///< [ns] while times were watched
     int variant_count;
     const char *variants[PLUMB_VARIANTS_MAX]; ///< which variants of its kernels run: "friction", "rotation", ...
+    int away_count;
+    const char *away[PLUMB_VARIANTS_MAX]; ///< and which are specialised away: nothing in this world needs them
 } plumb_pass_info;
 
 /// The schedule in order, passes left out included. Writes up to `capacity` rows, returns how many
@@ -289,6 +291,9 @@ PLUMB_API plumb_result plumb_world_watch(plumb_world *world, unsigned what);
 /// Names of data that rows of the schedule read and write: "velocities", "manifolds", ...; null from the last
 /// on.
 PLUMB_API const char *plumb_data_name(int index);
+/// [B] of that data now, in the columns and lists that hold it; 0 for what is none, and of data that is not counted
+/// ("internal edges"). O(rows).
+PLUMB_API size_t plumb_data_bytes(const plumb_world *world, int index);
 
 PLUMB_END
 

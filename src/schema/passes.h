@@ -15,7 +15,7 @@
 //             place, nothing behind it relies on what it leaves
 //   reads     names of data (step/data.h), which the check of what is written holds it to; and
 //   writes
-//   variants  ONE; HAS(f): int f(world, out) says which variants of its kernels run
+//   variants  ONE; HAS(f): void f(world, variants) says which variants of its kernels run, and which do not
 //
 // A row that nothing in the world wants is not in the schedule and costs nothing. A pass that changes the world's motion
 // comes after the last one that can run out of memory, so a refused step changes nothing.
@@ -172,6 +172,7 @@
 // clang-format on
 
 struct pl_substep;
+struct pl_variants;
 
 #define PL_PROTOTYPE_ALWAYS
 #define PL_PROTOTYPE_HOME
@@ -187,7 +188,7 @@ struct pl_substep;
     PL_PROTOTYPE_BOTH(soft, classic) PL_PROTOTYPE_EACH(exact)
 #define PL_PROTOTYPE_ACTS(f, whom)                                                                 \
     PL_PROTOTYPE_EACH(f) bool whom(const plumb_world *world, uint32_t row);
-#define PL_PROTOTYPE_HAS(f) int f(const plumb_world *world, const char *out[PLUMB_VARIANTS_MAX]);
+#define PL_PROTOTYPE_HAS(f) void f(const plumb_world *world, struct pl_variants *v);
 #define PL_PROTOTYPE_PASS(name, stage, wanted, run, kind, reads, writes, variants)                 \
     PL_PROTOTYPE_##wanted PL_PROTOTYPE_##run PL_PROTOTYPE_##variants
 

@@ -34,7 +34,9 @@ void pl_pass_bodies(pl_substep *s, int kind, pl_range_fn *pass)
 void pl_move_kinematic(pl_substep *s)
 {
     pl_pass_bodies(s, 1, move);
-    pl_tracks_end(s);
+    if (s->world->tracks.count > 0) {
+        pl_tracks_end(s);
+    }
 }
 
 void pl_move_bodies(pl_substep *s)

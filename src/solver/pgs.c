@@ -338,7 +338,9 @@ void pl_classic_prepare(pl_substep *s)
 
 void pl_classic_integrate(pl_substep *s)
 {
-    pl_tracks_begin(s);
+    if (s->world->tracks.count > 0) {
+        pl_tracks_begin(s);
+    }
     const classic c = classic_of(s);
     integrate_velocities(&c);
 }

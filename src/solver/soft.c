@@ -175,7 +175,9 @@ void pl_soft_prepare(pl_substep *s)
 
 void pl_soft_integrate(pl_substep *s)
 {
-    pl_tracks_begin(s);
+    if (s->world->tracks.count > 0) {
+        pl_tracks_begin(s);
+    }
     pl_pass_bodies(s, 0, s->solving->elastic ? fly_carefully : fly);
 }
 

@@ -8,6 +8,7 @@
 #include "step/data.h"
 #include "core/digest.h"
 #include "core/sort.h"
+#include "solver/solver.h"
 #include "world/state.h"
 
 #include <string.h>
@@ -71,15 +72,30 @@ bool pl_data_parse(const plumb_world *world, const char *text, uint32_t *mask, c
 
 //---- digests -------------------------------------------------------------------------------------
 
+// At bytes of data: digested, or only counted.
+typedef struct look {
+    pl_digest digest;
+    size_t bytes;
+    bool counts;
+} look;
+
+static void look_at(look *d, const void *bytes, size_t size)
+{
+    d->bytes += size;
+    if (!d->counts) {
+        pl_digest_add(&d->digest, bytes, size);
+    }
+}
+
 typedef struct column {
     const void *data;
     size_t size; // [B] of a value
 } column;
 
-static void add_columns(pl_digest *d, const column *columns, size_t count, uint32_t rows)
+static void add_columns(look *d, const column *columns, size_t count, uint32_t rows)
 {
     for (size_t i = 0; i < count; ++i) {
-        pl_digest_add(d, columns[i].data, columns[i].size * rows);
+        look_at(d, columns[i].data, columns[i].size * rows);
     }
 }
 
@@ -93,7 +109,7 @@ static void add_columns(pl_digest *d, const column *columns, size_t count, uint3
         (table)->name, sizeof *(table)->name                                                       \
     }
 
-static void add_bodies(pl_digest *d, const plumb_world *w, int data)
+static void add_bodies(look *d, const plumb_world *w, int data)
 {
     const pl_bodies *b = &w->bodies;
     const uint32_t rows = b->table.count;
@@ -121,35 +137,35 @@ static void add_bodies(pl_digest *d, const plumb_world *w, int data)
     }
 }
 
-static void add_solver(pl_digest *d, const plumb_world *w, int data)
+static void add_solver(look *d, const plumb_world *w, int data)
 {
     const pl_solver *s = &w->solver;
     for (uint32_t i = 0; i < s->slot_count; ++i) {
         const pl_solver_motion *m = &pl_solver_motions(s)[i];
         if (data == PL_DATA_SOLVER_BODIES) {
-            pl_digest_add(d, &pl_solver_bodies(s)[i], sizeof(pl_solver_body));
+            look_at(d, &pl_solver_bodies(s)[i], sizeof(pl_solver_body));
         } else {
-            pl_digest_add(d, &m->ax, sizeof m->ax);
-            pl_digest_add(d, &m->ay, sizeof m->ay);
-            pl_digest_add(d, &m->aw, sizeof m->aw);
+            look_at(d, &m->ax, sizeof m->ax);
+            look_at(d, &m->ay, sizeof m->ay);
+            look_at(d, &m->aw, sizeof m->aw);
         }
     }
 }
 
 // Bytes as they lie, padding too: what is not written stays as it is.
-static void add_list(pl_digest *d, const void *items, uint32_t count, size_t size)
+static void add_list(look *d, const void *items, uint32_t count, size_t size)
 {
-    pl_digest_add(d, &count, sizeof count);
-    pl_digest_add(d, items, count * size);
+    look_at(d, &count, sizeof count);
+    look_at(d, items, count * size);
 }
 
-static void add_records(pl_digest *d, const plumb_world *w, int data)
+static void add_records(look *d, const plumb_world *w, int data)
 {
     const pl_body_settings *t = w->settings.items.data;
     switch (data) {
     case PL_DATA_BODY_SETTINGS:
         for (uint32_t i = 0; i < w->settings.count; ++i) {
-            pl_digest_add(d, &t[i], PL_SETTINGS_SAVED);
+            look_at(d, &t[i], PL_SETTINGS_SAVED);
         }
         break;
     case PL_DATA_TARGETS:
@@ -159,7 +175,7 @@ static void add_records(pl_digest *d, const plumb_world *w, int data)
     case PL_DATA_COMPONENTS:
         for (uint32_t i = 0; i < w->components.count; ++i) {
             const pl_component *c = &w->components.items[i];
-            pl_digest_add(d, c->values.data, c->count * c->desc.size);
+            look_at(d, c->values.data, c->count * c->desc.size);
         }
         break;
     case PL_DATA_PAIRS:
@@ -185,16 +201,16 @@ static void add_records(pl_digest *d, const plumb_world *w, int data)
         add_list(d, w->continuous.movers.data, w->continuous.count, sizeof(pl_mover));
         break;
     case PL_DATA_SETTINGS:
-        pl_digest_add(d, &w->desc, sizeof w->desc);
+        look_at(d, &w->desc, sizeof w->desc);
         break;
     case PL_DATA_EVENTS:
-        pl_digest_add(d, &w->begin_count, sizeof w->begin_count);
-        pl_digest_add(d, &w->end_count, sizeof w->end_count);
-        pl_digest_add(d, &w->hit_count, sizeof w->hit_count);
+        look_at(d, &w->begin_count, sizeof w->begin_count);
+        look_at(d, &w->end_count, sizeof w->end_count);
+        look_at(d, &w->hit_count, sizeof w->hit_count);
         break;
     case PL_DATA_TIME:
-        pl_digest_add(d, &w->time, sizeof w->time);
-        pl_digest_add(d, &w->step_count, sizeof w->step_count);
+        look_at(d, &w->time, sizeof w->time);
+        look_at(d, &w->step_count, sizeof w->step_count);
         break;
     case PL_DATA_MATERIALS: {
         const pl_materials *m = &w->materials;
@@ -211,18 +227,46 @@ static void add_records(pl_digest *d, const plumb_world *w, int data)
     }
 }
 
+static void look_at_data(look *d, const plumb_world *w, int data)
+{
+    if (data == PL_DATA_SOLVER_BODIES || data == PL_DATA_ACCELERATIONS) {
+        add_solver(d, w, data);
+    } else {
+        add_bodies(d, w, data);
+        add_records(d, w, data);
+    }
+}
+
 // Data without a digest has none that changes.
 static uint64_t digest_of(const plumb_world *w, int data)
 {
-    pl_digest d;
-    pl_digest_begin(&d);
-    if (data == PL_DATA_SOLVER_BODIES || data == PL_DATA_ACCELERATIONS) {
-        add_solver(&d, w, data);
-    } else {
-        add_bodies(&d, w, data);
-        add_records(&d, w, data);
+    look d = { .bytes = 0 };
+    pl_digest_begin(&d.digest);
+    look_at_data(&d, w, data);
+    return pl_digest_end(&d.digest);
+}
+
+static size_t grid_bytes(const pl_grid *grid)
+{
+    return grid->entries.size + grid->starts.size + grid->maps.size;
+}
+
+size_t plumb_data_bytes(const plumb_world *world, int index)
+{
+    look d = { .counts = true };
+    if (world == NULL || index < 0 || index >= PL_DATA_COUNT) {
+        return 0;
     }
-    return pl_digest_end(&d);
+    look_at_data(&d, world, index);
+    switch (index) { // those that are not digested: what is held for them
+    case PL_DATA_GRIDS:
+        return grid_bytes(&world->broad.moving) + grid_bytes(&world->broad.fixed) +
+               grid_bytes(&world->broad.resting);
+    case PL_DATA_CONSTRAINTS:
+        return (size_t)world->solver.bundle_room * pl_solver_kernels(world)->bundle_size;
+    default:
+        return d.bytes;
+    }
 }
 
 bool pl_check_reserve(plumb_world *world)

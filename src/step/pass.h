@@ -43,6 +43,12 @@ typedef enum pl_pass_kind {
     PL_REPLACEABLE = 2 // a system may take its place: nothing behind it relies on what it leaves
 } pl_pass_kind;
 
+// Of the kernels of a pass, static strings: what runs, and what is specialised away.
+typedef struct pl_variants {
+    int count, away_count;
+    const char *names[PL_VARIANTS_MAX], *away[PL_VARIANTS_MAX];
+} pl_variants;
+
 typedef struct pl_pass {
     const char *name;
     pl_stage stage;
@@ -56,8 +62,8 @@ typedef struct pl_pass {
     // Whether an effect acts on a dynamic body; NULL: it is none.
     bool (*acts_on)(const plumb_world *world, uint32_t row);
     unsigned kind; // pl_pass_kind
-    // Says which variants of its kernels run: writes static strings, returns how many. NULL: there is but one.
-    int (*variants)(const plumb_world *world, const char *out[PL_VARIANTS_MAX]);
+    // Says which variants of its kernels run, and which do not. NULL: there is but one.
+    void (*variants)(const plumb_world *world, pl_variants *v);
 } pl_pass;
 
 extern const pl_pass pl_passes[];

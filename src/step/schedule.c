@@ -315,7 +315,13 @@ static plumb_pass_info pass_info(const plumb_world *world, uint32_t i)
                             .last_ns = times == NULL ? 0 : times[i].last_ns,
                             .total_ns = times == NULL ? 0 : times[i].total_ns };
     row.scheduled = pl_pass_wanted(world, (int)i, &row.reason);
-    row.variant_count = pass->variants == NULL ? 0 : pass->variants(world, row.variants);
+    pl_variants v = { 0, 0, { NULL }, { NULL } };
+    if (pass->variants != NULL) {
+        pass->variants(world, &v);
+    }
+    row.variant_count = v.count, row.away_count = v.away_count;
+    memcpy(row.variants, v.names, sizeof v.names);
+    memcpy(row.away, v.away, sizeof v.away);
     return row;
 }
 

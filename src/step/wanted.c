@@ -257,51 +257,52 @@ bool pl_want_sums(const plumb_world *world, const char **reason)
 
 //---- variants -----------------------------------------------------------------------------------
 
-static int add_variant(const char *out[PL_VARIANTS_MAX], int count, bool is, const char *name)
+static void add_variant(pl_variants *v, bool is, const char *name)
 {
-    if (is && count < PL_VARIANTS_MAX) {
-        out[count++] = name;
+    if (is && v->count < PL_VARIANTS_MAX) {
+        v->names[v->count++] = name;
+    } else if (!is && v->away_count < PL_VARIANTS_MAX) {
+        v->away[v->away_count++] = name;
     }
-    return count;
 }
 
-int pl_contact_variants(const plumb_world *world, const char *out[PL_VARIANTS_MAX])
+void pl_contact_variants(const plumb_world *world, pl_variants *v)
 {
     const char *unused;
     const bool soft = world->desc.solver == PLUMB_SOLVER_SOFT;
     const pl_materials *m = &world->materials;
-    int n = add_variant(out, 0, want_friction(world, &unused), "friction");
-    n = add_variant(out, n, world->turning_bodies > 0 || !soft, "rotation");
-    n = add_variant(out, n, world->narrow.any_kinetic, "kinetic friction");
-    n = add_variant(out, n, any_material(world, m->rolling_resistance), "rolling resistance");
-    n = add_variant(out, n, any_material(world, m->surface_speed), "surface speed");
-    n = add_variant(out, n, want_adhesion(world, &unused), "adhesion");
-    n = add_variant(out, n, want_locks(world, &unused), "locked axes");
-    return add_variant(out, n, soft && world->desc.hit_speed > 0, "speeds of hits");
+    add_variant(v, want_friction(world, &unused), "friction");
+    add_variant(v, world->turning_bodies > 0 || !soft, "rotation");
+    add_variant(v, world->narrow.any_kinetic, "kinetic friction");
+    add_variant(v, any_material(world, m->rolling_resistance), "rolling resistance");
+    add_variant(v, any_material(world, m->surface_speed), "surface speed");
+    add_variant(v, want_adhesion(world, &unused), "adhesion");
+    add_variant(v, want_locks(world, &unused), "locked axes");
+    add_variant(v, soft && world->desc.hit_speed > 0, "speeds of hits");
 }
 
-int pl_narrow_variants(const plumb_world *world, const char *out[PL_VARIANTS_MAX])
+void pl_narrow_variants(const plumb_world *world, pl_variants *v)
 {
     const uint32_t *kinds = world->piece_kinds;
     const char *unused;
-    int n = add_variant(out, 0, kinds[PL_PIECE_CIRCLE] > 0, "circles");
-    n = add_variant(out, n, kinds[PL_PIECE_CAPSULE] > 0, "capsules");
-    n = add_variant(out, n, kinds[PL_PIECE_BOX] > 0, "boxes");
-    n = add_variant(out, n, kinds[PL_PIECE_POLYGON] > 0, "polygons");
-    return add_variant(out, n, want_one_way(world, &unused), "one-way");
+    add_variant(v, kinds[PL_PIECE_CIRCLE] > 0, "circles");
+    add_variant(v, kinds[PL_PIECE_CAPSULE] > 0, "capsules");
+    add_variant(v, kinds[PL_PIECE_BOX] > 0, "boxes");
+    add_variant(v, kinds[PL_PIECE_POLYGON] > 0, "polygons");
+    add_variant(v, want_one_way(world, &unused), "one-way");
 }
 
-int pl_gather_variants(const plumb_world *world, const char *out[PL_VARIANTS_MAX])
+void pl_gather_variants(const plumb_world *world, pl_variants *v)
 {
     const char *unused;
-    int n = add_variant(out, 0, want_locks(world, &unused), "locked axes");
-    return add_variant(out, n, want_own_time(world, &unused), "own time");
+    add_variant(v, want_locks(world, &unused), "locked axes");
+    add_variant(v, want_own_time(world, &unused), "own time");
 }
 
-int pl_motion_variants(const plumb_world *world, const char *out[PL_VARIANTS_MAX])
+void pl_motion_variants(const plumb_world *world, pl_variants *v)
 {
     const char *unused;
-    int n = pl_gather_variants(world, out);
-    n = add_variant(out, n, pl_want_damping(world, &unused), "damping");
-    return add_variant(out, n, pl_want_caps(world, &unused), "speed caps");
+    pl_gather_variants(world, v);
+    add_variant(v, pl_want_damping(world, &unused), "damping");
+    add_variant(v, pl_want_caps(world, &unused), "speed caps");
 }

@@ -144,6 +144,20 @@ static void systems_that_cannot_stand_there_are_refused(void **state)
     assert_null(plumb_data_name(1000));
 }
 
+static void data_has_bytes(void **state)
+{
+    fixture *f = *state;
+    const size_t bodies = plumb_world_stats(f->world).body_count;
+    for (int i = 0; plumb_data_name(i) != NULL; ++i) {
+        if (strcmp(plumb_data_name(i), "velocities") == 0) {
+            assert_int_equal(plumb_data_bytes(f->world, i), bodies * 3 * sizeof(plumb_real));
+        }
+    }
+    assert_int_equal(plumb_data_bytes(f->world, -1), 0);
+    assert_int_equal(plumb_data_bytes(f->world, 1000), 0);
+    assert_int_equal(plumb_data_bytes(NULL, 0), 0);
+}
+
 //---- in the substeps -----------------------------------------------------------------------------
 
 // A spring to a place, and its drag.
@@ -463,6 +477,7 @@ static void what_is_written_is_held_to_what_was_declared(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        API_TEST(data_has_bytes),
         API_TEST(systems_stand_where_they_ask_to),
         API_TEST(systems_that_cannot_stand_there_are_refused),
         API_TEST(a_force_of_the_moment_follows_the_substeps),

@@ -169,7 +169,7 @@ TEST_OBJ := $(sort $(call objects,float,$(TEST_SRC) $(FUZZ_SRC) $(BENCH_SRC) $(H
 
 # ---- running
 
-.PHONY: test test-programs stability bench cost determinism hashes asan ubsan tsan sanitized fuzz fuzz-run lint headers \
+.PHONY: test test-programs stability bench effects cost determinism hashes asan ubsan tsan sanitized fuzz fuzz-run lint headers \
 	format format-check
 
 # T names the tests to run by their sources; without it, all of them.
@@ -208,6 +208,10 @@ stability: $(O)/plumb $(O)/referee
 SHOTS ?= 100000
 shots: $(O)/shots
 	$(O)/shots $(SHOTS)
+
+# Instructions, not time: anything else may run beside it.
+effects:
+	@O=$(O) CC=$(CC) bash tests/effects/run.sh
 
 bench: $(O)/bench
 	$(O)/bench $(BENCH)

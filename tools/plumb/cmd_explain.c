@@ -1,8 +1,8 @@
 /// cmd_explain.c - `plumb explain`: the schedule of a scene, with reasons and shares of time.
 ///
-/// Reads the scene and the engine's pass table after a short run, writes text to stdout. With
+/// Reads the scene and the engine's pass table after a short run, writes text or JSON (explain_json.c) to stdout. With
 /// --no-timing the text is the same on every run.
-#include "scene_args.h"
+#include "explain.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -13,27 +13,20 @@ typedef struct explain_args {
     bool no_timing;
     bool columns;
     bool energy;
+    bool json;
+    const char *flow;
 } explain_args;
-
-/// In how many steps a pass ran, and why when it last did: what falls asleep leaves the schedule. Of one
-/// that never ran, why it did not in the first step.
-typedef struct pass_tally {
-    char name[64], reason[128];
-    long long steps;
-} pass_tally;
-
-typedef struct tally {
-    pass_tally *items;
-    int count, room;
-} tally;
 
 /// [s] simulated unless told otherwise: long enough for things to meet, short enough to wait for.
 static const double DEFAULT_TIME = 1;
 
+/// In how many steps of a run it is asked because of whom passes run, and what they visit.
+static const long long LOOKS = 16;
+
 /// [-] of the largest energy in a table: less is none.
 static const double ROUNDING = 1e-12;
 
-static pass_tally *find_tally(const tally *t, const engine_pass *pass)
+pass_tally *explain_find(const tally *t, const engine_pass *pass)
 {
     for (int i = 0; i < t->count; i++) {
         if (strcmp(t->items[i].name, pass->name) == 0) {
@@ -53,13 +46,14 @@ static bool grow(tally *t)
 }
 
 /// The schedule of now, each pass with its tally, in which `steps` more are counted if it is in the schedule.
-/// -1 after a message.
-static int note_schedule(tally *t, const scene_run *run, int steps, const engine_pass **list)
+/// `looks`: because of whom it runs, and what it visits, is asked; it is where it runs first. -1 after a message.
+static int note_schedule(tally *t, const scene_run *run, int steps, bool looks,
+                         const engine_pass **list)
 {
     int count = run->engine->passes(run->session, list);
     for (int i = 0; i < count; i++) {
         const engine_pass *pass = &(*list)[i];
-        pass_tally *item = find_tally(t, pass);
+        pass_tally *item = explain_find(t, pass);
         bool is_new = item == NULL;
         if (is_new && t->count == t->room && !grow(t)) {
             count = -1;
@@ -72,6 +66,13 @@ static int note_schedule(tally *t, const scene_run *run, int steps, const engine
         }
         if (is_new || (pass->scheduled && steps > 0)) {
             snprintf(item->reason, sizeof item->reason, "%s", pass->reason);
+        }
+        if (pass->scheduled && (item->steps == 0 || looks)) {
+            engine_because now;
+            run->engine->because(run->session, pass, &now);
+            const bool more = item->steps == 0 || now.rows > item->because.rows ||
+                              now.bytes > item->because.bytes;
+            item->because = more ? now : item->because;
         }
         item->steps += pass->scheduled ? steps : 0;
     }
@@ -130,6 +131,25 @@ static void print_settings(const scene_run *run, const char *path)
            s.mean_penetration, (double)s.bytes / 1000);
 }
 
+/// How many rows of what, and bytes a step.
+static void print_visited(const engine_because *b)
+{
+    static const char *const units[] = { " B", "kB", "MB", "GB" };
+    double bytes = b->bytes;
+    int unit = 0;
+    for (; bytes >= 1000 && unit < 3; unit++) {
+        bytes /= 1000;
+    }
+    if (b->rows >= 0) {
+        char what[16];
+        snprintf(what, sizeof what, "%.*s", (int)strlen(b->what) - (b->rows == 1), b->what);
+        printf("  %6ld %-9s", b->rows, strcmp(what, "bodie") == 0 ? "body" : what);
+    } else {
+        printf("  %6s %-9s", "", "");
+    }
+    printf("  %5.3g %s", bytes, units[unit]);
+}
+
 /// One row of the table. `total` [ns]: of all passes; 0: no timing.
 static void print_pass(const engine_pass *pass, const pass_tally *ran, widths width, double total,
                        long long steps, bool columns)
@@ -141,9 +161,21 @@ static void print_pass(const engine_pass *pass, const pass_tally *ran, widths wi
         printf("  %5.1f %%  %9.2f us", 100 * pass->total_ns / total,
                1e-3 * pass->total_ns / (double)steps);
     }
+    if (ran->steps > 0) {
+        print_visited(&ran->because);
+    }
     printf("  %s%s", ran->reason, pass->is_user ? " (registered by the scene)" : "");
+    if (ran->steps > 0 && ran->because.first[0] != '\0') {
+        printf(": '%s'", ran->because.first);
+        if (ran->because.count > 1) {
+            printf(" and %d more", ran->because.count - 1);
+        }
+    }
     for (int i = 0; i < pass->variant_count && ran->steps > 0; i++) {
         printf("%s%s", i == 0 ? "; with " : ", ", pass->variants[i]);
+    }
+    for (int i = 0; i < pass->away_count && ran->steps > 0; i++) {
+        printf("%s%s", i == 0 ? "; without " : ", ", pass->away[i]);
     }
     if (ran->steps > 0 && ran->steps < steps) {
         printf(" (in %lld of %lld steps)", ran->steps, steps);
@@ -156,48 +188,78 @@ static void print_pass(const engine_pass *pass, const pass_tally *ran, widths wi
     }
 }
 
-static int print_schedule(const explain_args *args, const scene_run *run, tally *t)
+static void print_schedule(const explain_report *r, bool columns)
 {
-    const engine_pass *list;
-    // Of no steps, what would run.
-    int count = note_schedule(t, run, run->steps == 0, &list);
-    if (count < 0) {
-        return CLI_FAILED;
-    }
-    const widths width = longest(list, count);
+    const widths width = longest(r->list, r->count);
     int left_out = 0;
-    double total = 0;
 
-    for (int i = 0; i < count; i++) {
-        total += list[i].total_ns;
-        left_out += find_tally(t, &list[i])->steps == 0;
-    }
-    if (args->no_timing || run->steps == 0) {
-        total = 0;
+    for (int i = 0; i < r->count; i++) {
+        left_out += explain_find(r->tally, &r->list[i])->steps == 0;
     }
     printf("\nRuns, in this order:\n");
-    printf("  %-*s  %-*s  %swhy\n", width.name, "pass", width.phase, "stage",
-           total > 0 ? "  share        a step  " : "");
-    for (int i = 0; i < count; i++) {
-        const pass_tally *ran = find_tally(t, &list[i]);
+    printf("  %-*s  %-*s  %s%16s  %8s  why\n", width.name, "pass", width.phase, "stage",
+           r->total > 0 ? "  share        a step  " : "", "visits", "a step");
+    for (int i = 0; i < r->count; i++) {
+        const pass_tally *ran = explain_find(r->tally, &r->list[i]);
         if (ran->steps > 0) {
-            print_pass(&list[i], ran, width, total, run->steps, args->columns);
+            print_pass(&r->list[i], ran, width, r->total, r->run->steps, columns);
         }
     }
     if (left_out > 0) {
         printf("\nLeft out, costs nothing:\n");
     }
-    for (int i = 0; i < count; i++) {
-        const pass_tally *ran = find_tally(t, &list[i]);
+    for (int i = 0; i < r->count; i++) {
+        const pass_tally *ran = explain_find(r->tally, &r->list[i]);
         if (ran->steps == 0) {
-            print_pass(&list[i], ran, width, 0, run->steps, args->columns);
+            print_pass(&r->list[i], ran, width, 0, r->run->steps, columns);
         }
     }
-    if (total > 0) {
-        printf("\nOne simulated second takes %.3g ms of passes.\n",
-               1e-6 * total / ((double)run->steps * run->info.dt));
+    for (int i = 0; r->run->engine->lacks(i) != NULL; i++) {
+        printf("%s%s", i == 0 ? "\nNot in this program (make EFFECTS=...): " : ", ",
+               r->run->engine->lacks(i));
     }
-    return CLI_OK;
+    if (r->run->engine->lacks(0) != NULL) {
+        printf("\n");
+    }
+    if (r->unused_count > 0) {
+        printf("\nDeclared, and of no use in these %lld steps:\n", r->run->steps);
+    }
+    for (int i = 0; i < r->unused_count; i++) {
+        printf("  warning: %s: %s", r->unused[i].rule, r->unused[i].text);
+        if (r->unused[i].more > 0) {
+            printf(", and %d more", r->unused[i].more);
+        }
+        printf("\n");
+        printf("    to do: %s\n", r->unused[i].advice);
+    }
+    if (r->total > 0) {
+        printf("\nOne simulated second takes %.3g ms of passes.\n",
+               1e-6 * r->total / ((double)r->run->steps * r->run->info.dt));
+    }
+}
+
+/// Gathers what is told, and tells it.
+static int report(const explain_args *args, const scene_run *run, const char *path, tally *t)
+{
+    explain_report r = { .run = run, .path = path, .tally = t };
+    // Of no steps, what would run.
+    r.count = note_schedule(t, run, run->steps == 0, true, &r.list);
+    r.unused_count =
+        r.count < 0 || run->steps == 0 ? 0 : run->engine->unused(run->session, &r.unused);
+    if (r.count < 0 || r.unused_count < 0) {
+        return CLI_FAILED;
+    }
+    for (int i = 0; i < r.count && !args->no_timing && run->steps > 0; i++) {
+        r.total += r.list[i].total_ns;
+    }
+    int code = args->flow != NULL ? explain_flow(&r, args->flow) : CLI_OK;
+    if (code == CLI_OK && args->json) {
+        explain_json(&r);
+    } else if (code == CLI_OK) {
+        print_settings(run, path);
+        print_schedule(&r, args->columns);
+    }
+    return code;
 }
 
 /// What is between the sum and `after` - `before` was changed between the steps: by functions of the scene.
@@ -237,6 +299,16 @@ static int explain_command(const cli_command *command, int argc, char **argv)
 
     int code = cli_parse(command, argc, argv, &args, &operands);
     code = code == CLI_OK ? scene_args_check(command, &args.scene) : code;
+    const cli_file files[] = { { "SCENE", code == CLI_OK ? operands.items[0] : NULL, false },
+                               { "--flow", args.flow, true } };
+    code = code == CLI_OK ? cli_files_check(command, files, 2) : code;
+    if (code == CLI_OK && args.flow != NULL && !explain_flow_names(args.flow)) {
+        return CLI_USAGE;
+    }
+    if (code == CLI_OK && args.energy && (args.json || args.flow != NULL)) {
+        cli_message("--energy tells of no passes: it goes with neither --json nor --flow");
+        return CLI_USAGE;
+    }
     code = code == CLI_OK ? scene_run_open(&args.scene, operands.items[0], &run) : code;
     if (code != CLI_OK) {
         return code;
@@ -251,10 +323,17 @@ static int explain_command(const cli_command *command, int argc, char **argv)
     if (args.energy) {
         run.engine->measure(run.session, &measures);
     }
+    const long long look = run.steps / LOOKS + 1;
     progress_begin(&bar, run.info.name, (double)run.steps, args.scene.quiet);
     for (long long step = 0; code == CLI_OK && !scene_run_done(&run, step); step++) {
         progress_update(&bar, (double)step);
-        code = note_schedule(&t, &run, 1, &list) >= 0 ? scene_run_step(&run, &bar) : CLI_FAILED;
+        const bool looks = step % look == look - 1;
+        code =
+            note_schedule(&t, &run, 1, looks, &list) >= 0 ? scene_run_step(&run, &bar) : CLI_FAILED;
+        if (code == CLI_OK && !args.energy && !run.engine->note_use(run.session)) {
+            cli_message("out of memory");
+            code = CLI_FAILED;
+        }
         if (args.energy && code == CLI_OK) {
             run.engine->measure(run.session, &measures);
         }
@@ -262,11 +341,11 @@ static int explain_command(const cli_command *command, int argc, char **argv)
     progress_end(&bar);
     run.steps = (long long)run.engine->stats(run.stage).step_count; // the scene may end itself
     if (code == CLI_OK && !cli_interrupted()) {
-        print_settings(&run, operands.items[0]);
         if (args.energy) {
+            print_settings(&run, operands.items[0]);
             print_energy(&measures);
         } else {
-            code = print_schedule(&args, &run, &t);
+            code = report(&args, &run, operands.items[0], &t);
         }
     }
     free(t.items);
@@ -279,6 +358,10 @@ static const cli_option options[] = {
       "leave the times out: the text is then the same on every run" },
     { "columns", 'c', CLI_FLAG, offsetof(explain_args, columns), NULL, 0, 0, NULL,
       "also tell which columns each pass reads and writes" },
+    { "json", 'j', CLI_FLAG, offsetof(explain_args, json), NULL, 0, 0, NULL,
+      "print it as JSON: the keys are in tools/plumb/README.md" },
+    { "flow", 0, CLI_TEXT, offsetof(explain_args, flow), "FILE.svg", 0, 0, NULL,
+      "also draw which pass reads and writes what" },
     { "energy", 'e', CLI_FLAG, offsetof(explain_args, energy), NULL, 0, 0, NULL,
       "instead of the schedule, tell where the energy went and what each step left unsolved" },
     SCENE_OPTION_DT(explain_args, scene),
@@ -296,13 +379,18 @@ const cli_command cmd_explain = {
     .name = "explain",
     .summary = "tells which passes a scene runs, why, and what each costs",
     .operands = "SCENE",
-    .text = "Simulates SCENE for a second (or its duration, if that is shorter; see --time) and "
-            "prints the schedule in order: which passes ran and because of what, which were left "
-            "out of all steps, and what share of the time each took. Rows that are set in run "
-            "inside of "
-            "the row above them; with several threads they have shares of the time that it took.",
+    .text =
+        "Simulates SCENE for a second (or its duration, if that is shorter; see --time) and "
+        "prints the schedule in order: which passes ran and because of what and whom, how many "
+        "rows they "
+        "visited and how many bytes the data has that they name, which were left "
+        "out of all steps, and what share of the time each took; then what the scene declares that "
+        "was of no use. Rows that are set in run "
+        "inside of "
+        "the row above them; with several threads they have shares of the time that it took.",
     .examples = "plumb explain assets/scenes/stack.lua\n"
                 "plumb explain stack.lua --no-timing --columns\n"
+                "plumb explain stack.lua --json --flow stack.svg\n"
                 "plumb explain assets/scenes/billiards.lua --energy --time 10",
     .options = options,
     .option_count = (int)(sizeof options / sizeof options[0]),

@@ -147,6 +147,8 @@ static void session_close(engine_session *session)
     free(session->expects);
     free(session->overlaps);
     free(session->findings);
+    free(session->idle);
+    free(session->uses);
     free(session->alarms);
     free(session->passes);
     free(session->pass_infos);
@@ -250,6 +252,10 @@ const engine_api ENGINE_NAME = {
     .nudge = pl_session_nudge,
     .expectations = pl_session_expectations,
     .passes = pl_session_passes,
+    .because = pl_session_because,
+    .note_use = pl_session_note_use,
+    .unused = pl_session_unused,
+    .lacks = pl_session_lacks,
     .measure = pl_session_measure,
     .word = pl_session_word,
     .json_lacks = session_json_lacks,

@@ -117,10 +117,21 @@ typedef struct engine_pass {
     const char *name, *phase, *reads, *writes, *reason;
     const char *variants[8]; ///< of its kernels that run
     int variant_count;
+    const char *away[8]; ///< and those that nothing in this world needs
+    int away_count;
     bool scheduled, is_user;
     bool in_substeps; ///< runs inside of the solver's pass
     double total_ns;  ///< [ns] since passes were first asked for
 } engine_pass;
+
+/// Because of whom a pass runs, and what it visits.
+typedef struct engine_because {
+    char first[64];   ///< name; "": nobody's, or nobody knows
+    int count;        ///< of those like it
+    long rows;        ///< -1: nobody knows
+    const char *what; ///< "bodies", "contacts", ...; "" if rows is -1
+    double bytes;     ///< [B] of the data that it reads or writes, a step
+} engine_because;
 
 #define ENGINE_WORKS 32 ///< more than there are
 
@@ -230,6 +241,7 @@ typedef struct engine_overlap {
 typedef struct engine_finding {
     const char *rule, *advice;
     char text[224];
+    int more; ///< of `unused`: so many others like it
 } engine_finding;
 
 /// What is to be seen now: of a scene that runs, or of a recording.
@@ -272,6 +284,14 @@ typedef struct engine_api {
     int (*expectations)(engine_session *session, const engine_expect **list);
     /// -1: out of memory.
     int (*passes)(engine_session *session, const engine_pass **list);
+    /// Because of whom a pass of that list runs now, and what it visits. O(bodies + shapes + joints).
+    void (*because)(engine_session *session, const engine_pass *pass, engine_because *because);
+    /// Notes what of the scene's effects was of use in the last step. False: out of memory. O(bodies + shapes).
+    bool (*note_use)(engine_session *session);
+    /// What was of no use in any step that was noted. -1: out of memory.
+    int (*unused)(engine_session *session, const engine_finding **list);
+    /// Names of effects that the library is built without; null behind the last.
+    const char *(*lacks)(int index);
     /// From the first call on, with {0}, steps are measured; each call behind a step adds it to `sum`.
     void (*measure)(engine_session *session, engine_measures *sum);
     /// Key `key` of constructor `constructor` of the scene language; key -1: the constructor

@@ -94,6 +94,8 @@ int pl_session_passes(engine_session *session, const engine_pass **list)
             .total_ns = p->total_ns,
         };
         memcpy(passes[i].variants, p->variants, sizeof p->variants);
+        passes[i].away_count = p->away_count;
+        memcpy(passes[i].away, p->away, sizeof p->away);
     }
     *list = passes;
     return count;

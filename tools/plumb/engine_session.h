@@ -49,9 +49,12 @@ struct engine_session {
     engine_pass *passes;
     plumb_pass_info *pass_infos;
     engine_overlap *overlaps;
-    engine_finding *findings;
+    engine_finding *findings, *idle;
+    struct session_use *uses; ///< by index of the entity: engine_explain.c
+    uint32_t use_count;
     engine_alarm *alarms;
-    size_t expect_room, pass_room, info_room, overlap_room, finding_room, alarm_room; ///< [B]
+    size_t expect_room, pass_room, info_room, overlap_room, finding_room, alarm_room,
+        idle_room; ///< [B]
     // While it is recorded: what was last said of the looks of each entity, by its index; and the text.
     bool recording;
     FILE *record_file;
@@ -114,6 +117,10 @@ int pl_session_alarms(engine_session *session, const engine_alarm **list);
 /// The stage's world again, all awake and with its contacts; null: it cannot be had.
 plumb_world *pl_stage_refreshed(const engine_stage *stage);
 int pl_session_passes(engine_session *session, const engine_pass **list);
+void pl_session_because(engine_session *session, const engine_pass *pass, engine_because *because);
+bool pl_session_note_use(engine_session *session);
+int pl_session_unused(engine_session *session, const engine_finding **list);
+const char *pl_session_lacks(int index);
 void pl_session_measure(engine_session *session, engine_measures *sum);
 bool pl_session_word(int constructor, int key, engine_word *word);
 int pl_session_record(engine_session *session, FILE *file, int keyframes, engine_error *error);

@@ -1,0 +1,133 @@
+// cost.c - a pile of 60 bodies, with one effect in it or none, for callgrind: `cost NAME` takes 60 steps, and 60 more in
+// measured_steps(), which run.sh counts. Exit 3: the library is built without the effect.
+#include "plumb/plumb.h"
+
+#include <stdio.h>
+#include <string.h>
+
+enum { BODIES = 60, STEPS = 60 };
+#define R(x) ((plumb_real)(x))
+
+static const char *effect;
+
+static int is(const char *name)
+{
+    return strcmp(effect, name) == 0;
+}
+
+static void must(const plumb_world *world, int good)
+{
+    if (!good) {
+        const plumb_error error = plumb_world_error(world);
+        fprintf(stderr, "cost: %s\n", error.message);
+    }
+}
+
+static plumb_body body_at(plumb_world *world, plumb_body_desc desc, double x, double y)
+{
+    desc.position = (plumb_vec2){ R(x), R(y) };
+    return plumb_body_create(world, &desc);
+}
+
+// Something is added, but for what is said of the bodies of the pile.
+static void add(plumb_world *world)
+{
+    if (is("targets")) {
+        plumb_body lift = body_at(world, (plumb_body_desc){ .type = PLUMB_KINEMATIC }, 30, 5);
+        must(world, plumb_body_set_target(world, lift, (plumb_vec2){ 30, 9 }, 0, 10) == PLUMB_OK);
+    } else if (is("sensors") || is("fluids")) {
+        plumb_material water = PLUMB_NULL_INIT;
+        if (is("fluids")) {
+            water = plumb_material_create(
+                world, &(plumb_material_desc){ .fluid = true, .density = R(0.5) });
+        }
+        plumb_shape_create(
+            world, body_at(world, (plumb_body_desc){ .type = PLUMB_STATIC }, 0, 1),
+            &(plumb_shape_desc){
+                .kind = PLUMB_BOX, .half = { 2, 1 }, .sensor = true, .material = water });
+    } else if (is("liquid")) {
+        must(world,
+             plumb_liquid_create(world, &(plumb_liquid_desc){ .spacing = R(0.1) }) == PLUMB_OK);
+        must(world, plumb_liquid_add_box(world, (plumb_vec2){ 30, 0 }, (plumb_vec2){ 31, 1 },
+                                         (plumb_vec2){ 0, 0 }) == PLUMB_OK);
+    } else if (is("characters")) {
+        plumb_body hero = body_at(world, (plumb_body_desc){ .type = PLUMB_KINEMATIC }, 30, 1);
+        plumb_shape_create(world, hero,
+                           &(plumb_shape_desc){ .kind = PLUMB_CIRCLE, .radius = R(0.5) });
+        must(world, plumb_character_create(world, hero, NULL) == PLUMB_OK);
+    } else if (is("joints")) {
+        plumb_body a = body_at(world, (plumb_body_desc){ .type = PLUMB_STATIC }, 30, 9);
+        plumb_body b = body_at(world, (plumb_body_desc){ 0 }, 31, 9);
+        plumb_shape_create(world, b, &(plumb_shape_desc){ .kind = PLUMB_CIRCLE, .radius = R(0.4) });
+        must(world,
+             !plumb_is_null(plumb_joint_create(world, &(plumb_joint_desc){ .kind = PLUMB_REVOLUTE,
+                                                                           .body_a = a,
+                                                                           .body_b = b,
+                                                                           .anchor = { 30, 9 } })));
+    }
+}
+
+static plumb_world *make(void)
+{
+    plumb_world_desc desc = { .simd_width = 8,
+                              .no_sleep = true,
+                              .no_continuous = !is("continuous"),
+                              .zero_gravity = is("nothing"),
+                              .measure = is("measures"),
+                              .watchdog = is("watchdog"),
+                              .tolerance = is("tolerance") ? R(0.01) : 0,
+                              .solver = is("pgs")     ? PLUMB_SOLVER_PGS
+                                        : is("exact") ? PLUMB_SOLVER_EXACT
+                                                      : PLUMB_SOLVER_SOFT };
+    plumb_world *world = NULL;
+    if (plumb_world_create(&desc, &world) != PLUMB_OK) {
+        return NULL;
+    }
+    plumb_material_desc said = { .frictionless = !is("friction"),
+                                 .restitution = is("restitution") ? R(0.5) : 0 };
+    said.friction = is("friction") ? R(0.6) : 0;
+    const plumb_material material = plumb_material_create(world, &said);
+    plumb_shape_create(
+        world, body_at(world, (plumb_body_desc){ .type = PLUMB_STATIC }, 0, 0),
+        &(plumb_shape_desc){
+            .kind = PLUMB_BOX, .half = { 40, 1 }, .center = { 0, -1 }, .material = material });
+    for (int i = 0; i < BODIES; ++i) {
+        plumb_body_desc d = { .no_gravity = false };
+        d.damping = is("damping") && i == 0 ? R(0.1) : 0;
+        d.max_speed = is("speed_caps") && i == 0 ? 50 : 0;
+        d.time_scale = is("time_scales") && i == 0 ? R(0.5) : 0;
+        plumb_body body = body_at(world, d, i % 6 * 1.05, 0.31 + i / 6 * 0.62);
+        plumb_shape_create(world, body,
+                           &(plumb_shape_desc){ .kind = PLUMB_BOX,
+                                                .half = { R(0.5), R(0.3) },
+                                                .material = material });
+    }
+    add(world);
+    return world;
+}
+
+__attribute__((noinline)) static void measured_steps(plumb_world *world)
+{
+    for (int i = 0; i < STEPS; ++i) {
+        plumb_world_step(world, R(1.0 / 60));
+    }
+}
+
+int main(int argc, char **argv)
+{
+    effect = argc == 2 ? argv[1] : "";
+    plumb_world *world = make();
+    if (world == NULL || plumb_world_error(world).code == PLUMB_E_UNSUPPORTED) {
+        return 3;
+    }
+    if (plumb_world_error(world).code != PLUMB_OK) {
+        fprintf(stderr, "cost: %s\n", plumb_world_error(world).message);
+        return 1;
+    }
+    for (int i = 0; i < STEPS; ++i) {
+        plumb_world_step(world, R(1.0 / 60));
+    }
+    measured_steps(world);
+    plumb_world_destroy(world);
+    return 0;
+}
