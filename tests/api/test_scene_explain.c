@@ -136,7 +136,7 @@ static void the_flow_is_drawn(void **state)
     expect_usage_error("\"$P\" explain pool.lua --flwo f.svg", "did you mean '--flow'?");
     expect_usage_error("\"$P\" explain pool.lua --energy --json", "--energy tells of no passes");
     expect_usage_error("ln -s pool.lua link.svg && \"$P\" explain pool.lua --flow link.svg",
-                       "pool.lua");
+                       "SCENE and --flow are one file");
 }
 
 int main(void)
