@@ -83,18 +83,35 @@ static double kepler(run r)
     return off;
 }
 
+// [m] off the place of a body on a spring about the origin, after three turns and a half.
+static double spring(run r)
+{
+    const double time = 3.5 * TAU;
+    plumb_world *w = make_world((plumb_world_desc){ .substeps = r.substeps });
+    plumb_law_create(w, &(plumb_law_desc){ .kind = PLUMB_LAW_ATTRACTOR,
+                                           .strength = 1,
+                                           .falloff = PLUMB_FALLOFF_SPRING });
+    plumb_world_set_orbits(w, &r.orbits);
+    const plumb_body body = plumb_body_create(
+        w, &(plumb_body_desc){ .position = { 1, 0 }, .velocity = { 0, R(0.5) }, .no_sleep = true });
+    go(w, time, r.dt);
+    const double off = apart(plumb_body_center(w, body), cos(time), 0.5 * sin(time));
+    plumb_world_destroy(w);
+    return off;
+}
+
 //---- order ---------------------------------------------------------------------------------------
 
-// Halving the step divides the error by 2^order. Of order 4 so little is left that rounding is near.
-static void assert_order(run r, double order)
+// Halving the step divides the error by 2^order.
+static void assert_order(run r, double (*error)(run r), double order)
 {
-    double last = kepler(r);
+    double last = error(r);
     for (int i = 0; i < 3; ++i) {
         r.dt /= 2;
-        const double off = kepler(r), fell = log(last / off) / log(2);
+        const double off = error(r), fell = log(last / off) / log(2);
         print_message("dt %.3g: off by %.3g m, order %.2f\n", r.dt, off, fell);
         if (i > 0) {
-            assert_true(fabs(fell - order) < (order > 2 ? 0.6 : 0.25));
+            assert_true(fabs(fell - order) < 0.25);
         }
         last = off;
     }
@@ -103,29 +120,30 @@ static void assert_order(run r, double order)
 static void velocity_verlet_is_of_second_order(void **state)
 {
     (void)state;
-    assert_order((run){ .e = 0.5, .turns = 1, .dt = 0.1, .substeps = 1 }, 2);
+    assert_order((run){ .e = 0.5, .turns = 1, .dt = 0.1, .substeps = 1 }, kepler, 2);
 }
 
 static void what_is_pushed_is_of_second_order(void **state)
 {
     (void)state;
-    assert_order((run){ .e = 0.5, .turns = 1, .dt = 0.1, .substeps = 1, .pushed = true }, 2);
+    assert_order((run){ .e = 0.5, .turns = 1, .dt = 0.1, .substeps = 1, .pushed = true }, kepler,
+                 2);
     assert_order((run){ .e = 0.5,
                         .turns = 1,
                         .dt = 0.1,
                         .substeps = 1,
                         .pushed = true,
                         .solver = PLUMB_SOLVER_PGS },
-                 2);
+                 kepler, 2);
 }
 
+// On a spring: about a sun the errors of fourth order are so small that those of sixth are seen, until rounding is.
 static void blanes_and_moan_is_of_fourth_order(void **state)
 {
     (void)state;
     if (sizeof(plumb_real) == 8) { // floats do not hold what it leaves
-        assert_order(
-            (run){ .orbits = { .order = 4 }, .e = 0.9, .turns = 1.37, .dt = 0.004, .substeps = 1 },
-            4);
+        assert_order((run){ .orbits = { .order = 4 }, .dt = 0.4, .substeps = 1 }, spring, 4);
+        assert_order((run){ .orbits = { .order = 4 }, .dt = 0.8, .substeps = 3 }, spring, 4);
     }
 }
 
@@ -158,15 +176,17 @@ static void energies_stay_bounded(void **state)
         make_planet(w, 0.3, (plumb_body_desc){ .mass = 3 });
         const double before = plumb_world_energy(w).kinetic + plumb_world_energy(w).potential;
         assert_true(fabs(before + 1.5) < 1e-5);
-        double worst[2] = { 0, 0 };
-        for (int turn = 0; turn < 1000; ++turn) {
-            go(w, TAU, 0.1);
-            const plumb_energy e = plumb_world_energy(w);
-            const double off = fabs(e.kinetic + e.potential - before);
-            worst[turn >= 10] = fmax(worst[turn >= 10], off);
+        double worst[2] = { 0, 0 }; // of the first ten turns, of the last ten
+        for (int step = 0; step < 1000 * 63; ++step) {
+            assert_int_equal(plumb_world_step(w, R(TAU / 63)), PLUMB_OK);
+            if (step < 10 * 63 || step >= 990 * 63) {
+                const plumb_energy e = plumb_world_energy(w);
+                const double off = fabs(e.kinetic + e.potential - before);
+                worst[step >= 10 * 63] = fmax(worst[step >= 10 * 63], off);
+            }
         }
         print_message("order %d: %.3g J, then %.3g J\n", order, worst[0], worst[1]);
-        assert_true(worst[1] < (order == 2 ? 0.03 : 2e-5) + 10 * NOISE);
+        assert_true(worst[1] < 1.1 * worst[0] + 20 * NOISE);
         plumb_world_destroy(w);
     }
 }
