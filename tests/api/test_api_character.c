@@ -6,8 +6,8 @@
 
 static bool scheduled(plumb_world *world, const char *name)
 {
-    plumb_pass_info rows[64];
-    int count = plumb_world_schedule(world, rows, 64);
+    plumb_pass_info rows[128];
+    int count = plumb_world_schedule(world, rows, 128);
     for (int i = 0; i < count; ++i) {
         if (strcmp(rows[i].name, name) == 0) {
             return rows[i].scheduled;

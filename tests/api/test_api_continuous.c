@@ -59,8 +59,8 @@ static void a_body_says_whether_it_asks(void **state)
 
 static const char *reason_of(const plumb_world *w, bool *scheduled)
 {
-    plumb_pass_info rows[64];
-    int count = plumb_world_schedule(w, rows, 64);
+    plumb_pass_info rows[128];
+    int count = plumb_world_schedule(w, rows, 128);
     for (int i = 0; i < count; ++i) {
         if (strcmp(rows[i].name, "continuous") == 0) {
             *scheduled = rows[i].scheduled;

@@ -151,12 +151,12 @@ static void systems_stand_in_the_schedule_with_reasons(void **state)
                                                  .writes = "forces",
                                                  .context = &t });
     memset(name, '?', 4); // copied
-    plumb_pass_info rows[64];
+    plumb_pass_info rows[128];
     for (int round = 0; round < 3; ++round) {
         const char *const reasons[] = { "no entity has the component that it needs",
                                         "some entity has the component that it needs",
                                         "switched off" };
-        int count = plumb_world_schedule(w, rows, 64);
+        int count = plumb_world_schedule(w, rows, 128);
         int found = 0;
         for (int i = 0; i < count; ++i) {
             if (strcmp(rows[i].name, "wind") == 0) {

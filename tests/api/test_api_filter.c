@@ -252,8 +252,8 @@ static void the_test_is_exact(void **state)
 
 static bool is_scheduled(const plumb_world *w, const char *name)
 {
-    plumb_pass_info rows[64];
-    int count = plumb_world_schedule(w, rows, 64);
+    plumb_pass_info rows[128];
+    int count = plumb_world_schedule(w, rows, 128);
     for (int i = 0; i < count; ++i) {
         if (strcmp(rows[i].name, name) == 0) {
             return rows[i].scheduled;

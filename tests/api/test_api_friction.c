@@ -92,8 +92,8 @@ static void a_system_sets_the_friction_of_both_states(void **state)
 
 static bool has_variant(plumb_world *w)
 {
-    plumb_pass_info rows[64];
-    const int count = plumb_world_schedule(w, rows, 64);
+    plumb_pass_info rows[128];
+    const int count = plumb_world_schedule(w, rows, 128);
     for (int i = 0; i < count; ++i) {
         for (int k = 0; k < rows[i].variant_count && strcmp(rows[i].name, "contacts") == 0; ++k) {
             if (strcmp(rows[i].variants[k], "kinetic friction") == 0) {

@@ -548,8 +548,8 @@ static void schedule_follows_joints(void **state)
             j = plumb_joint_create(w, &(plumb_joint_desc){ .body_b = b, .anchor = { 0, 0 } });
         }
         assert_int_equal(plumb_world_step(w, R(0.01)), PLUMB_OK);
-        plumb_pass_info rows[64];
-        int count = plumb_world_schedule(w, rows, 64), found = 0;
+        plumb_pass_info rows[128];
+        int count = plumb_world_schedule(w, rows, 128), found = 0;
         for (int i = 0; i < count; ++i) {
             bool joint_pass =
                 strcmp(rows[i].name, "graph") == 0 || strcmp(rows[i].name, "soft step") == 0 ||

@@ -3,8 +3,8 @@
 
 static plumb_pass_info row_of(const plumb_world *w, const char *name)
 {
-    plumb_pass_info rows[80];
-    const int count = plumb_world_schedule(w, rows, 80);
+    plumb_pass_info rows[128];
+    const int count = plumb_world_schedule(w, rows, 128);
     for (int i = 0; i < count; ++i) {
         if (strcmp(rows[i].name, name) == 0) {
             return rows[i];

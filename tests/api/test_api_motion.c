@@ -135,8 +135,8 @@ static void settings_are_read_back(void **state)
 
 static bool is_scheduled(plumb_world *w, const char *name)
 {
-    plumb_pass_info rows[64];
-    int count = plumb_world_schedule(w, rows, 64);
+    plumb_pass_info rows[128];
+    int count = plumb_world_schedule(w, rows, 128);
     for (int i = 0; i < count; ++i) {
         if (strcmp(rows[i].name, name) == 0) {
             return rows[i].scheduled;
@@ -148,8 +148,8 @@ static bool is_scheduled(plumb_world *w, const char *name)
 
 static bool has_variant(plumb_world *w, const char *pass, const char *variant)
 {
-    plumb_pass_info rows[64];
-    int count = plumb_world_schedule(w, rows, 64);
+    plumb_pass_info rows[128];
+    int count = plumb_world_schedule(w, rows, 128);
     for (int i = 0; i < count; ++i) {
         for (int k = 0; strcmp(rows[i].name, pass) == 0 && k < rows[i].variant_count; ++k) {
             if (strcmp(rows[i].variants[k], variant) == 0) {

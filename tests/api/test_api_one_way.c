@@ -26,8 +26,8 @@ static void property_is_kept(void **state)
 
 static bool scheduled(plumb_world *world)
 {
-    plumb_pass_info rows[64];
-    int count = plumb_world_schedule(world, rows, 64);
+    plumb_pass_info rows[128];
+    int count = plumb_world_schedule(world, rows, 128);
     for (int i = 0; i < count; ++i) {
         for (int k = 0; strcmp(rows[i].name, "narrow phase") == 0 && k < rows[i].variant_count;
              ++k) {

@@ -163,8 +163,8 @@ static void no_world_no_period(void **state)
 
 static bool edges_scheduled(plumb_world *w)
 {
-    plumb_pass_info rows[64];
-    int count = plumb_world_schedule(w, rows, 64);
+    plumb_pass_info rows[128];
+    int count = plumb_world_schedule(w, rows, 128);
     for (int i = 0; i < count; ++i) {
         if (strcmp(rows[i].name, "edges") == 0) {
             assert_string_equal(rows[i].reason, rows[i].scheduled ? "the world wraps around"
