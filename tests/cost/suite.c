@@ -3,15 +3,15 @@
 //
 // Reads scenes; writes the closing table to stdout and, with what each setting did and charts, below a folder. Times
 // are processor times of this process; the runs of all engines on a scene take turns. Main program.
-#define _POSIX_C_SOURCE 200809L // mkdir, sigaction
+#define _POSIX_C_SOURCE 200809L // mkdir
 
+#include "harness/interrupt.h"
 #include "harness/peer.h"
 
 #include "plumb/cost.h"
 
 #include <errno.h>
 #include <math.h>
-#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -61,19 +61,6 @@ struct suite {
     int repeat;
     const char *folder;
 };
-
-static volatile sig_atomic_t stopped;
-
-static void on_stop(int number)
-{
-    (void)number;
-    stopped = 1;
-}
-
-bool cli_interrupted(void)
-{
-    return stopped != 0;
-}
 
 // ------------------------------------------------------------------------------------- measuring
 
@@ -402,10 +389,7 @@ static int read_arguments(struct suite *suite, int argc, char **argv)
 int main(int argc, char **argv)
 {
     static struct suite suite = { .budget = 0.02, .repeat = 3, .folder = "build/cost" };
-    struct sigaction stop = { .sa_handler = on_stop };
-    sigemptyset(&stop.sa_mask);
-    sigaction(SIGINT, &stop, NULL);
-    sigaction(SIGTERM, &stop, NULL);
+    catch_interrupts();
     int first = read_arguments(&suite, argc, argv);
     if (first < 0) {
         fprintf(stderr,

@@ -2,14 +2,15 @@
 //
 // Reads scenes; writes the table to stdout and, with CSV, Markdown and the charts of the sweeps, below a folder. Every
 // run is a process of its own. Main program.
-#define _POSIX_C_SOURCE 200809L // mkdir, sigaction, isatty
+#define _POSIX_C_SOURCE 200809L // mkdir, isatty
 
 #include "referee.h"
+
+#include "harness/interrupt.h"
 
 #include "harness/peer.h"
 
 #include <errno.h>
-#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -38,19 +39,6 @@ struct arguments {
     int jobs;
     double limit;
 };
-
-static volatile sig_atomic_t stopped;
-
-static void on_stop(int number)
-{
-    (void)number;
-    stopped = 1;
-}
-
-bool cli_interrupted(void)
-{
-    return stopped != 0;
-}
 
 // Whether `key` is in the comma list; everything is in none.
 static bool is_asked(const char *list, const char *key)
@@ -163,10 +151,7 @@ int main(int argc, char **argv)
 {
     struct arguments a = { .folder = "build/referee-out", .jobs = 1, .limit = 40 };
     struct referee r = { 0 };
-    struct sigaction stop = { .sa_handler = on_stop };
-    sigemptyset(&stop.sa_mask);
-    sigaction(SIGINT, &stop, NULL);
-    sigaction(SIGTERM, &stop, NULL);
+    catch_interrupts();
     int first = read_arguments(&a, argc, argv);
     if (first < 0 || !find_contenders(&r, a.engines)) {
         return usage();

@@ -131,7 +131,7 @@ $(O)/engine_peer.o: $(PEER_OBJ) $(call objects,double,$(ENGINE_SRC)) $(O)/double
 	$(Q)$(LD) -r -o $@.all $(filter %.o,$^) --start-group $(filter %.a,$^) --end-group
 	$(Q)$(OBJCOPY) $(PEERS:%=--keep-global-symbol=peer_%) $@.all $@
 	@rm -f $@.all
-SUITE_PARTS := $(call objects,float,tests/harness/engine_chipmunk.c) $(COST_CLI) $(VARIANTS:%=$(O)/engine_%.o) \
+SUITE_PARTS := $(call objects,float,tests/harness/engine_chipmunk.c tests/harness/interrupt.c) $(COST_CLI) $(VARIANTS:%=$(O)/engine_%.o) \
 	$(O)/engine_peer.o $(O)/box2d2.o $(if $(BOX2D3),$(O)/box2d3.o) $(O)/librender.a
 $(O)/cost-suite: $(call objects,float,tests/cost/suite.c) $(SUITE_PARTS)
 $(O)/referee: $(call objects,float,$(REFEREE_SRC)) $(SUITE_PARTS)
@@ -141,7 +141,7 @@ $(O)/cost-suite $(O)/referee:
 		$(SCENE_LIBS) $(RENDER_LIBS) -lm -lpthread
 
 # Contact problems out of scenes, each solver against their exact answer.
-$(O)/cost-frozen: $(O)/double/tests/cost/frozen.o $(COST_CLI) $(O)/double/libscene.a $(O)/libplumb_d.a
+$(O)/cost-frozen: $(O)/double/tests/cost/frozen.o $(call objects,float,tests/harness/interrupt.c) $(COST_CLI) $(O)/double/libscene.a $(O)/libplumb_d.a
 	@echo "  LD    $@"
 	$(Q)$(CC) $(SANFLAGS) $(LDFLAGS) -o $@ $^ $(SCENE_LIBS) -lm -lpthread
 
