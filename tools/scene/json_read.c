@@ -208,65 +208,59 @@ static void check_root(scene *s, const cJSON *root)
     s->start_time = time != NULL ? time->valuedouble : 0;
 }
 
+// Things of several kinds, each with a list of its words.
+typedef struct kinds {
+    const char *what, *plural, *example;
+    const sc_list *lists;
+    int count;
+    void (*build)(scene *s, const sc_site *site, int kind, int table); // pushes it
+} kinds;
+
+static void build_joint(scene *s, const sc_site *site, int kind, int table)
+{
+    sc_build_joint(s, site, (plumb_joint_kind)kind, table);
+}
+
+static void build_law(scene *s, const sc_site *site, int kind, int table)
+{
+    sc_build_law(s, site, (sc_law_kind)kind, table);
+}
+
+static const kinds joint_kinds = { "joint",        "joints",       "revolute",
+                                   sc_list_joints, SC_JOINT_KINDS, build_joint };
+static const kinds law_kinds = {
+    "law", "laws", "attractor", sc_list_laws, SC_LAW_KINDS, build_law
+};
+
 // {"kind": "revolute", ...}
-static void make_joint(scene *s, const cJSON *item, int number)
+static void make_of(scene *s, const kinds *of, const cJSON *item, int number)
 {
     lua_State *L = s->L;
     char path[48];
-    snprintf(path, sizeof path, "joints[%d]", number);
-    sc_site site = { .construct = "joint", .path = path };
+    snprintf(path, sizeof path, "%s[%d]", of->plural, number);
+    sc_site site = { .construct = of->what, .path = path };
     push_object(s, &site, item);
     if (lua_getfield(L, -1, "kind") != LUA_TSTRING) {
-        sc_raise(s, SCENE_E_MISSING, &site, NULL, 0, NULL,
-                 "a joint needs 'kind', such as \"revolute\"");
+        sc_raise(s, SCENE_E_MISSING, &site, NULL, 0, NULL, "a %s needs 'kind', such as \"%s\"",
+                 of->what, of->example);
     }
     const char *kind = lua_tostring(L, -1);
     sc_suggest g = sc_suggest_start(kind);
-    for (int k = 0; k < SC_JOINT_KINDS; k++) {
-        const char *name = sc_list_joints[k].name;
+    for (int k = 0; k < of->count; k++) {
+        const char *name = of->lists[k].name;
         sc_suggest_offer(&g, name);
         if (strcmp(name, kind) == 0) {
             site.construct = name;
             lua_pop(L, 1);
             lua_pushnil(L);
             lua_setfield(L, -2, "kind");
-            sc_build_joint(s, &site, (plumb_joint_kind)k, lua_gettop(L));
+            of->build(s, &site, k, lua_gettop(L));
             lua_settop(L, 1); // 1: the parsed tree
             return;
         }
     }
-    sc_raise(s, SCENE_E_NAME, &site, "kind", 0, sc_suggest_best(&g),
-             "unknown kind of joint '%.63s'", kind);
-}
-
-// {"kind": "attractor", ...}
-static void make_law(scene *s, const cJSON *item, int number)
-{
-    lua_State *L = s->L;
-    char path[48];
-    snprintf(path, sizeof path, "laws[%d]", number);
-    sc_site site = { .construct = "law", .path = path };
-    push_object(s, &site, item);
-    if (lua_getfield(L, -1, "kind") != LUA_TSTRING) {
-        sc_raise(s, SCENE_E_MISSING, &site, NULL, 0, NULL,
-                 "a law needs 'kind', such as \"attractor\"");
-    }
-    const char *kind = lua_tostring(L, -1);
-    sc_suggest g = sc_suggest_start(kind);
-    for (int k = 0; k < SC_LAW_KINDS; k++) {
-        sc_suggest_offer(&g, sc_list_laws[k].name);
-        if (strcmp(sc_list_laws[k].name, kind) == 0) {
-            site.construct = sc_list_laws[k].name;
-            lua_pop(L, 1);
-            lua_pushnil(L);
-            lua_setfield(L, -2, "kind");
-            sc_build_law(s, &site, (sc_law_kind)k, lua_gettop(L));
-            lua_settop(L, 1); // 1: the parsed tree
-            return;
-        }
-    }
-    sc_raise(s, SCENE_E_NAME, &site, "kind", 0, sc_suggest_best(&g), "unknown kind of law '%.63s'",
-             kind);
+    sc_raise(s, SCENE_E_NAME, &site, "kind", 0, sc_suggest_best(&g), "unknown kind of %s '%.63s'",
+             of->what, kind);
 }
 
 // ["a", "b"]
@@ -385,7 +379,7 @@ void sc_json_load(scene *s)
     }
     i = 0;
     for (const cJSON *item = elements(s, root, "joints"); item != NULL; item = item->next, i++) {
-        make_joint(s, item, i);
+        make_of(s, &joint_kinds, item, i);
     }
     i = 0;
     for (const cJSON *item = elements(s, root, "excluded"); item != NULL; item = item->next, i++) {
@@ -393,7 +387,7 @@ void sc_json_load(scene *s)
     }
     i = 0;
     for (const cJSON *item = elements(s, root, "laws"); item != NULL; item = item->next, i++) {
-        make_law(s, item, i);
+        make_of(s, &law_kinds, item, i);
     }
     const cJSON *orbits = cJSON_GetObjectItemCaseSensitive(root, "orbits");
     if (orbits != NULL) {

@@ -76,36 +76,32 @@ void sc_build_law(scene *s, const sc_site *site, sc_law_kind kind, int table)
     luaL_setmetatable(s->L, META);
 }
 
+static int make_law(lua_State *L, sc_law_kind kind)
+{
+    const sc_site site = sc_here(sc_of(L), sc_list_laws[kind].name);
+    luaL_checktype(L, 1, LUA_TTABLE);
+    sc_build_law(sc_of(L), &site, kind, 1);
+    return 1;
+}
+
 static int lua_attractor(lua_State *L)
 {
-    const sc_site site = sc_here(sc_of(L), "attractor");
-    luaL_checktype(L, 1, LUA_TTABLE);
-    sc_build_law(sc_of(L), &site, SC_ATTRACTOR, 1);
-    return 1;
+    return make_law(L, SC_ATTRACTOR);
 }
 
 static int lua_zone(lua_State *L)
 {
-    const sc_site site = sc_here(sc_of(L), "zone");
-    luaL_checktype(L, 1, LUA_TTABLE);
-    sc_build_law(sc_of(L), &site, SC_ZONE, 1);
-    return 1;
+    return make_law(L, SC_ZONE);
 }
 
 static int lua_magnetic(lua_State *L)
 {
-    const sc_site site = sc_here(sc_of(L), "magnetic");
-    luaL_checktype(L, 1, LUA_TTABLE);
-    sc_build_law(sc_of(L), &site, SC_MAGNETIC, 1);
-    return 1;
+    return make_law(L, SC_MAGNETIC);
 }
 
 static int lua_mutual(lua_State *L)
 {
-    const sc_site site = sc_here(sc_of(L), "mutual");
-    luaL_checktype(L, 1, LUA_TTABLE);
-    sc_build_law(sc_of(L), &site, SC_MUTUAL, 1);
-    return 1;
+    return make_law(L, SC_MUTUAL);
 }
 
 // ------------------------------------------------------------------------------------- methods
