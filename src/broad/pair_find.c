@@ -330,13 +330,16 @@ static bool find_over_edges(finder *f, bool meet, bool grounded)
 // Fewer boxes than this are not worth a thread.
 #define LEAST 64
 
+struct hunt;
+typedef bool look_fn(const struct hunt *hunt, finder *f, pl_share share);
+
 typedef struct hunt {
     plumb_world *world;
     bool meet, grounded; // moving pieces may meet one another; static ones
     bool senses;         // sensors may see what sleeps
     uint32_t count;      // boxes from which is looked: of the moving grid, or those that were left
     uint32_t shares;
-    bool (*look)(const struct hunt *hunt, finder *f, pl_share share);
+    look_fn *look;
     finder finders[PLUMB_WORKERS_MAX];
 } hunt;
 
@@ -425,9 +428,12 @@ static bool bring_in(hunt *h)
     return whole;
 }
 
-static bool look(hunt *h, const uint8_t *left)
+static bool look(plumb_world *world, look_fn *from, uint32_t count, const uint8_t *left)
 {
-    plumb_world *world = h->world;
+    hunt all, *h = &all; // most of it is for threads, and written where there are some
+    h->world = world;
+    h->look = from;
+    h->count = count;
     pl_filters_may_meet(world, &h->meet, &h->grounded);
     h->senses = world->sensor_pieces > 0 && world->broad.resting.entry_count > 0;
     const bool together = world->sensor_pieces == 0 && !pl_is_wrapped(world);
@@ -452,11 +458,7 @@ static bool look(hunt *h, const uint8_t *left)
 bool pl_pairs_find(plumb_world *world)
 {
     world->broad.sensed_count = 0;
-    hunt h; // most of it is for threads, and written where there are some
-    h.world = world;
-    h.look = look_everywhere;
-    h.count = world->broad.moving.entry_count;
-    return look(&h, NULL);
+    return look(world, look_everywhere, world->broad.moving.entry_count, NULL);
 }
 
 // Takes out what the pieces that left their boxes had to do with sensors.
@@ -475,6 +477,5 @@ static void forget_sensed(pl_broad *broad)
 bool pl_pairs_find_left(plumb_world *world)
 {
     forget_sensed(&world->broad);
-    hunt h = { .world = world, .look = look_about, .count = world->broad.left_count };
-    return look(&h, world->broad.left_marks.data);
+    return look(world, look_about, world->broad.left_count, world->broad.left_marks.data);
 }

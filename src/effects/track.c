@@ -218,9 +218,6 @@ void pl_tracks_undo(plumb_world *world)
 static void drive(const pl_substep *s, bool ends)
 {
     plumb_world *world = s->world;
-    if (world->tracks.count == 0) {
-        return;
-    }
     const pl_solver *solver = &world->solver;
     const pl_slots slots = s->cluster->slots[1];
     const double h = (double)s->h, dt = h * world->desc.substeps;
