@@ -231,7 +231,9 @@ pl_area pl_contour_area(const pl_contour *o)
             const vec middle = { u.x + v.x, u.y + v.y };
             const double length = sqrt(dot(middle, middle)), rr = e->r * e->r;
             const double sine = cross(u, v) / rr, angle = pl_atan2(cross(u, v), dot(u, v));
-            const double area = rr * (angle - sine) / 2, half = sqrt((1 - dot(u, v) / rr) / 2);
+            // Of a sliver the product rounds to more than the square.
+            const double versed = 1 - dot(u, v) / rr, half = versed > 0 ? sqrt(versed / 2) : 0;
+            const double area = rr * (angle - sine) / 2;
             const double moment =
                 length > 0 ? 2 * e->r * rr * half * half * half / (3 * length) : 0;
             sum.area += area;

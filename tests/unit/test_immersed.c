@@ -236,6 +236,26 @@ static void planes_hold_their_shape(void **state)
     }
 }
 
+// A cut beside the end of an arc leaves a sliver of it, whose radius vectors may have a product that rounds to more
+// than the square of the radius.
+static void slivers_of_arcs_are_finite(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 20000; ++i) {
+        pose p = random_pose(i);
+        pl_contour contour;
+        pl_contour_of(&p.shape, 0, p.frame, p.x, p.y, &contour);
+        const int which = i % contour.count;
+        const pl_element *e = &contour.at[which];
+        const double angle = uniform(-4, 4), off = uniform(-1, 1) * pow(10, uniform(-17, -7));
+        pl_half_plane by = { cos(angle), sin(angle), 0 };
+        by.d = by.nx * e->x + by.ny * e->y + off;
+        pl_contour_cut(&contour, by);
+        const pl_area a = pl_contour_area(&contour);
+        assert_true(isfinite(a.area) && isfinite(a.x) && isfinite(a.y));
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -245,6 +265,7 @@ int main(void)
         cmocka_unit_test_setup(a_disc_has_two_thirds, seed),
         cmocka_unit_test_setup(inner_cuts_feel_nothing, seed),
         cmocka_unit_test_setup(planes_hold_their_shape, seed),
+        cmocka_unit_test_setup(slivers_of_arcs_are_finite, seed),
     };
     return cmocka_run_group_tests_name("immersed", tests, NULL, NULL);
 }
