@@ -84,9 +84,7 @@ static void jump(pl_walker *m)
     double vx = (double)(b->vx[m->row] - c->ground.velocity.x);
     double vy = (double)(b->vy[m->row] - c->ground.velocity.y);
     double gain = (double)c->jump - pl_up(m, vx, vy);
-    if (pl_row_is_asleep(m->world, m->row)) { // a velocity alone wakes nobody
-        pl_sleep_stir(m->world, m->row);
-    }
+    pl_walker_rouse(m->world, m->row); // a velocity alone wakes nobody
     b->vx[m->row] += (real)(gain * m->ux);
     b->vy[m->row] += (real)(gain * m->uy);
     uint32_t row = pl_body_row(m->world, c->ground.body);
@@ -134,8 +132,7 @@ bool pl_character_drive(plumb_world *world, pl_character *c, real dt)
 {
     pl_walker m;
     bool idle = c->walk == 0 && c->jump == 0 && !c->flies;
-    if (!pl_walker_begin(world, c, dt, &m) ||
-        (idle && world->bodies.island[m.row] != PL_NONE)) { // it sleeps
+    if (!pl_walker_begin(world, c, dt, &m) || (idle && pl_row_slept(world, m.row))) {
         return true;
     }
     if (!pl_walker_look(&m, REACH * m.half_width + m.skin)) {

@@ -77,8 +77,8 @@ void pl_walker_leave_ground(pl_walker *m)
 {
     pl_character *c = m->c;
     uint32_t row = pl_body_row(m->world, c->ground.body);
-    if (row != PL_NONE && m->world->bodies.island[row] != PL_NONE) {
-        pl_sleep_stir(m->world, row); // it bears him no more
+    if (row != PL_NONE) {
+        pl_walker_rouse(m->world, row); // it bears him no more
     }
     c->velocity.x = (real)((double)c->ground.velocity.x + (double)c->speed * m->ny);
     c->velocity.y = (real)((double)c->ground.velocity.y - (double)c->speed * m->nx);

@@ -41,7 +41,7 @@ static bool is_on(const pl_character *c, const plumb_world *world)
 
 static bool is_asleep_below(const pl_character *c, const plumb_world *world)
 {
-    return is_on(c, world) && pl_row_is_asleep(world, pl_body_row(world, c->ground.body));
+    return is_on(c, world) && pl_row_slept(world, pl_body_row(world, c->ground.body));
 }
 
 // [m] by which the surface that it stands on runs in this step.

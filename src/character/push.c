@@ -13,9 +13,18 @@
 #include "world/island.h"
 #include "query/query.h"
 #include "character/walker.h"
+#include "world/rows.h"
 #include "world/wrap.h"
 
 #include <math.h>
+
+// What has fallen asleep in this very step, which was refused, would have been awake now.
+void pl_walker_rouse(plumb_world *world, uint32_t row)
+{
+    if (pl_row_is_asleep(world, row) && pl_row_slept(world, row)) {
+        pl_sleep_stir(world, row);
+    }
+}
 
 // Wakes what sleeps.
 void pl_shove_add(plumb_world *world, uint32_t row, double fx, double fy, double px, double py)
@@ -25,9 +34,7 @@ void pl_shove_add(plumb_world *world, uint32_t row, double fx, double fy, double
     pushes[world->characters.push_count++] =
         (pl_shove){ b->entity[row], b->fx[row], b->fy[row], b->torque[row] };
     pl_shift arm = pl_wrap_arm(world, row, px, py);
-    if (b->island[row] != PL_NONE) {
-        pl_sleep_stir(world, row);
-    }
+    pl_walker_rouse(world, row);
     b->fx[row] += (real)fx;
     b->fy[row] += (real)fy;
     b->torque[row] += (real)(arm.x * fy - arm.y * fx);
@@ -75,7 +82,7 @@ void pl_walker_weigh(pl_walker *m)
     }
     m->world->characters.treads = true;
     // What sleeps under somebody who stands still bears him already.
-    bool rests = b->island[row] != PL_NONE && c->speed == 0 && !m->landed;
+    bool rests = pl_row_slept(m->world, row) && c->speed == 0 && !m->landed;
     if (!rests) {
         pl_shove_add(m->world, row, m->mass * m->gravity_x, m->mass * m->gravity_y,
                      (double)c->ground.point.x, (double)c->ground.point.y);

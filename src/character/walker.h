@@ -116,6 +116,8 @@ double pl_ramp(double *v, double target, double rate, double time);
 //---- push.c: forces on dynamic bodies.
 void pl_walker_push(pl_walker *m, const pl_touch *touch, double speed);
 void pl_walker_weigh(pl_walker *m);
+// Wakes the body of a row in this step, if it sleeps.
+void pl_walker_rouse(plumb_world *world, uint32_t row);
 // Adds a force at a point [m, world] of a dynamic row, so that it can be undone. Room is reserved.
 void pl_shove_add(plumb_world *world, uint32_t row, double fx, double fy, double px, double py);
 

@@ -52,5 +52,7 @@ bool pl_lie_reserve(plumb_world *world, uint32_t pair_count, uint32_t bodies);
 void pl_lie_down(plumb_world *world, uint32_t pair_count, bool steps);
 // The events of it: before they lie down.
 void pl_lie_tell(plumb_world *world);
+// Beside the event that comes next: what the body of a row has now (retry.c). Room must be reserved.
+void pl_sleep_note_fallen(plumb_world *world, uint32_t row);
 
 #endif

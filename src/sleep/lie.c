@@ -37,10 +37,12 @@ bool pl_lie_reserve(plumb_world *world, uint32_t pair_count, uint32_t bodies)
         contacts += pl_is_linked(&pairs[i]) && island_of(world, &pairs[i]) != PL_NONE;
     }
     size_t events = ((size_t)s->sleep_event_count + bodies) * sizeof(plumb_body);
+    size_t fallen = ((size_t)s->sleep_event_count + bodies) * sizeof(pl_fallen);
     size_t places = world->internal_edges.pair_count > 0 ? pair_count * sizeof(uint32_t) : 0;
     return pl_islands_reserve(world, islands, contacts) &&
            pl_buffer_reserve(&world->memory, &s->places, places) &&
-           pl_buffer_reserve(&world->memory, &s->sleep_events, events);
+           pl_buffer_reserve(&world->memory, &s->sleep_events, events) &&
+           pl_buffer_reserve(&world->memory, &s->fallen, fallen);
 }
 
 // Takes the pairs of sleepers out of the list, and their manifolds; those that are contacts are
@@ -145,6 +147,7 @@ void pl_lie_tell(plumb_world *world)
     plumb_body *events = s->sleep_events.data;
     for (uint32_t row = 0; row < world->dynamic_count; ++row) {
         if (parents[row] != PL_NONE) {
+            pl_sleep_note_fallen(world, row);
             events[s->sleep_event_count++] = world->bodies.entity[row];
         }
     }

@@ -16,6 +16,18 @@ void pl_sleep_events_clear(plumb_world *world);
 // may not sleep).
 plumb_result pl_sleep_put_to_sleep(plumb_world *world, const char *function, uint32_t row);
 
+//---- a step that is taken again (retry.c) ----------------------------------------------------------
+
+// At the head of a try: bodies that turned in one that was refused are as they were before it.
+void pl_sleep_recall(plumb_world *world);
+// What fell asleep lies still again: at the head of the waking pass.
+void pl_sleep_lay(plumb_world *world);
+// Around what a refused try undoes: what fell asleep in it has the forces of then.
+void pl_sleep_undo_open(plumb_world *world);
+void pl_sleep_undo_close(plumb_world *world);
+// The step is over, refused or not.
+void pl_sleep_recall_end(plumb_world *world);
+
 //---- what is driven (driven.c) -------------------------------------------------------------------
 
 struct pl_joint;

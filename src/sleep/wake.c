@@ -451,6 +451,7 @@ static bool wake_marked(plumb_world *world)
 bool pl_sleep_wake(plumb_world *world, real dt)
 {
     pl_sleep *s = &world->sleep;
+    pl_sleep_lay(world);
     if (!pl_broad_update_resting(world) ||
         !pl_buffer_reserve(&world->memory, &s->marked, s->island_count * sizeof(uint32_t))) {
         return false;
@@ -480,7 +481,7 @@ void pl_sleep_free(pl_memory *memory, pl_sleep *s)
     pl_buffer *buffers[] = { &s->islands,     &s->contacts, &s->resting, &s->near.items,
                              &s->probe.items, &s->found,    &s->marked,  &s->woken,
                              &s->parents,     &s->held,     &s->places,  &s->sleep_events,
-                             &s->wake_events };
+                             &s->wake_events, &s->fallen };
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; ++i) {
         pl_buffer_free(memory, buffers[i]);
     }

@@ -119,6 +119,7 @@
     LEFT(sleep.woken) VALUE(sleep.timed_step) VALUE(sleep.changed_step) VALUE(sleep.tested_step)   \
     VALUE(sleep.since) VALUE(sleep.passed) VALUE(sleep.candidate_in) LEFT(sleep.parents)               \
     LEFT(sleep.held) LEFT(sleep.places) LEFT(sleep.sleep_events) LEFT(sleep.wake_events)           \
+    LEFT(sleep.fallen)                                                                             \
     LEFT(sleep.sleep_event_count) LEFT(sleep.wake_event_count) LEFT(sleep.events_told)               \
     LEFT(sleep.lent_step) LEFT(sleep.holds) LEFT(sleep.holds_new) LEFT(sleep.pushed) /* hints */
 

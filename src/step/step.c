@@ -11,6 +11,7 @@
 #include "internal_edges/internal_edges.h"
 #include "liquid/liquid.h"
 #include "narrow/ahead.h"
+#include "sleep/sleep.h"
 #include "step/measure.h"
 #include "step/place.h"
 #include "step/quarantine.h"
@@ -270,6 +271,7 @@ static plumb_result run_passes(plumb_world *world, real dt)
 static plumb_result try_step(plumb_world *world, plumb_real dt)
 {
     pl_events_clear(world);
+    pl_sleep_recall(world);
     pl_edits_forget(world);
     if (dt == 0 && !world->rearranged) {
         world->joints.broken_count = world->joints.strained_count =
@@ -292,8 +294,10 @@ static plumb_result try_step(plumb_world *world, plumb_real dt)
 // Nothing has moved; what passes did before motion does not count.
 static void undo_step(plumb_world *world)
 {
+    pl_sleep_undo_open(world);
     pl_liquid_undo(world);
     pl_characters_undo(world);
+    pl_sleep_undo_close(world);
     pl_tracks_undo(world);
     pl_ahead_undo(world);
     pl_internal_edges_undo(world);
@@ -323,6 +327,9 @@ plumb_result pl_step(plumb_world *world, real dt)
     pl_tasks_rest(world->tasks);
     if (result == PLUMB_E_MEMORY) {
         undo_step(world);
+    }
+    pl_sleep_recall_end(world);
+    if (result == PLUMB_E_MEMORY) {
         return result;
     }
     if (world->quarantine.lost) {

@@ -79,7 +79,7 @@ void pl_push_begin_sleep(plumb_world *world, uint32_t row, bool steps)
 // Of a body that sleeps under a force it is known only when all of a step's are added up.
 void pl_sleep_push(plumb_world *world, uint32_t row)
 {
-    if (pl_row_is_asleep(world, row)) {
+    if (pl_row_is_asleep(world, row) && pl_row_slept(world, row)) {
         if (sleeps_under_force(world, row)) {
             pl_sleep_heed(world);
         } else {
@@ -135,6 +135,10 @@ void pl_sleep_heed_all(plumb_world *world)
 static bool is_woken(const plumb_world *world, uint32_t row, real tolerance)
 {
     const uint32_t flags = world->bodies.flags[row];
+    if ((flags & PL_BODY_TURNED) !=
+        0) { // it fell asleep in this step, which was refused: the next one asks
+        return false;
+    }
     const bool told = (flags & PL_BODY_NEW_SLEEPER) == 0 || pl_is_pushed(world, row);
     return pl_push_differs(world, row, tolerance) && (told || (flags & PL_BODY_UNTOLD) == 0);
 }
@@ -211,14 +215,17 @@ void pl_push_settle(plumb_world *world)
     if (!world->sleep.holds_new) {
         return;
     }
+    world->sleep.holds_new = false;
     for (uint32_t row = first; row < first + world->asleep_count; ++row) {
-        if ((b->flags[row] & PL_BODY_NEW_SLEEPER) != 0) {
+        const bool fell = (b->flags[row] & PL_BODY_TURNED) != 0; // in this step, which was refused
+        if ((b->flags[row] & PL_BODY_NEW_SLEEPER) != 0 && fell) {
+            world->sleep.holds = world->sleep.holds_new = true;
+        } else if ((b->flags[row] & PL_BODY_NEW_SLEEPER) != 0) {
             const uint32_t known = pl_is_pushed(world, row) ? PL_BODY_UNTOLD : 0;
             b->flags[row] &= (uint16_t) ~(PL_BODY_NEW_SLEEPER | known);
             pl_push_keep(b, row);
         }
     }
-    world->sleep.holds_new = false;
 }
 
 void pl_sleep_clear_forces(plumb_world *world)

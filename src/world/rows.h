@@ -47,6 +47,12 @@ static inline bool pl_row_is_asleep(const plumb_world *world, uint32_t row)
     return row - (world->dynamic_count + world->kinematic_count) < world->asleep_count;
 }
 
+// The same, as it was when the step was first tried: what passes before the waking one ask (sleep/retry.c).
+static inline bool pl_row_slept(const plumb_world *world, uint32_t row)
+{
+    return pl_row_is_asleep(world, row) != ((world->bodies.flags[row] & PL_BODY_TURNED) != 0);
+}
+
 //---- vertex pool (pool.c) ------------------------------------------------------------------------
 
 // Size class of a run of `count` corners, 1..16, and the corners that a class holds.

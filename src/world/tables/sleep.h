@@ -38,6 +38,13 @@ typedef struct pl_island {
     pl_overlaps recalled; // of those that a call put to sleep; not saved
 } pl_island;
 
+// What a body had when it fell asleep, for a step that is refused later on (sleep/retry.c).
+typedef struct pl_fallen {
+    real vx, vy, w;
+    real fx, fy, torque;
+    bool lifted; // the body has it now
+} pl_fallen;
+
 typedef struct pl_sleep {
     // Islands asleep and their contacts, in slots.
     pl_buffer islands; // pl_island
@@ -84,6 +91,7 @@ typedef struct pl_sleep {
 
     // Events of the last step.
     pl_buffer sleep_events, wake_events; // plumb_body
+    pl_buffer fallen;                    // pl_fallen: one beside each sleep event
     int sleep_event_count, wake_event_count;
     bool events_told; // the step that made them is over
 } pl_sleep;
