@@ -30,6 +30,13 @@ static double size_of(const plumb_world *world, const pl_joint *j)
     return pl_more(least, (double)j->desc.length);
 }
 
+// Whether it drives by a bounded force or torque: then it lags behind its target as it is meant to.
+static bool may_lag(const plumb_joint_desc *d)
+{
+    return (d->kind == PLUMB_MOTOR || d->kind == PLUMB_MOUSE) &&
+           (d->max_force > 0 || d->max_torque > 0);
+}
+
 static void look_at(plumb_world *world, const pl_joint *j)
 {
     pl_watched *w = pl_watched_find(world, j->entity.entity);
@@ -58,7 +65,8 @@ void pl_watch_joints(plumb_world *world, real dt)
         if ((world->step_count + j->entity.entity.index) % EVERY != 0) {
             continue;
         }
-        if (!plumb_is_null(j->entity) && !j->desc.disabled) { // else it broke in this step
+        if (!plumb_is_null(j->entity) && !j->desc.disabled &&
+            !may_lag(&j->desc)) { // else it broke in this step
             look_at(world, j);
         }
     }

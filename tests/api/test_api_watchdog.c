@@ -279,6 +279,17 @@ static void a_joint_that_gives_way_is_told(void **state)
     }
 }
 
+static void a_drive_too_weak_for_its_load_is_none(void **state)
+{
+    (void)state;
+    plumb_world *w = watched_world((plumb_world_desc){ 0 });
+    const plumb_body b = add(w, PLUMB_DYNAMIC, 0, 0, 0.5, 0.5);
+    plumb_joint_create(w, &(plumb_joint_desc){ .kind = PLUMB_MOTOR, .body_b = b, .max_force = 1 });
+    const watched r = step_all(w, 60, HZ60, PLUMB_ALARM_TORN_JOINT);
+    assert_int_equal(r.count, 0);
+    plumb_world_destroy(w);
+}
+
 static void a_place_beyond_resolution_is_told(void **state)
 {
     (void)state;
@@ -475,6 +486,7 @@ int main(void)
         cmocka_unit_test(a_push_from_afar_is_told),
         cmocka_unit_test(many_in_one_place_are_told),
         cmocka_unit_test(a_joint_that_gives_way_is_told),
+        cmocka_unit_test(a_drive_too_weak_for_its_load_is_none),
         cmocka_unit_test(a_place_beyond_resolution_is_told),
         cmocka_unit_test(a_system_is_a_command),
         cmocka_unit_test(it_is_told_once_until_it_was_silent),
