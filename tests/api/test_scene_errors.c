@@ -439,6 +439,12 @@ static const malformed table[] = {
               "camera{ follow = \"bal\" }",
       .code = SCENE_E_NAME,
       .message = "scene.lua:2:9: no body is called 'bal' (did you mean 'ball'?)" },
+    { .what = "star within a pattern",
+      .file = "scene.lua",
+      .text = "body{ name = \"disc1_2\", circle{1} }\n"
+              "expect{ \"still\", body = \"disc*_2\", max_speed = 1 }",
+      .code = SCENE_E_RANGE,
+      .message = "scene.lua:2:18: 'disc*_2' fits nothing: '*' stands for any ending, and must be the last" },
     { .what = "bad color",
       .file = "scene.lua",
       .text = "body{ box{1, 1}, color = \"red\" }",

@@ -153,9 +153,20 @@ static void check_unused(scene *s)
     s->epoch++;
 }
 
+// Whether a name stands for several; raises when it does so in a way that nothing could match.
+static bool is_pattern(scene *s, const sc_site *site, const char *key, const char *name)
+{
+    const char *star = strchr(name, '*');
+    if (star != NULL && star[1] != 0) {
+        sc_raise(s, SCENE_E_RANGE, site, key, 0, NULL,
+                 "'%s' fits nothing: '*' stands for any ending, and must be the last", name);
+    }
+    return star != NULL;
+}
+
 void sc_check_body_name(scene *s, const sc_site *site, const char *key, const char *name)
 {
-    if (name[0] == 0 || strchr(name, '*') != NULL || sc_body_named(s, name) != NULL) {
+    if (name[0] == 0 || is_pattern(s, site, key, name) || sc_body_named(s, name) != NULL) {
         return;
     }
     sc_suggest g = sc_suggest_start(name);
@@ -167,7 +178,7 @@ void sc_check_body_name(scene *s, const sc_site *site, const char *key, const ch
 
 void sc_check_joint_name(scene *s, const sc_site *site, const char *key, const char *name)
 {
-    if (name[0] == 0 || strchr(name, '*') != NULL || sc_joint_named(s, name) != NULL) {
+    if (name[0] == 0 || is_pattern(s, site, key, name) || sc_joint_named(s, name) != NULL) {
         return;
     }
     sc_suggest g = sc_suggest_start(name);
