@@ -135,6 +135,7 @@ help:
 #:   test              every test; T="tests/unit/test_math.c ..." runs only these
 #:   stability         the hard-case tests, the expectations of every scene; hard scenes beside Box2D 2.4.1, Chipmunk (BOX2D3=)
 #:   shots             what gets through thin walls, beside Box2D 2.4.1; SHOTS=100000
+#:   soak              a busy world for 10^6 steps, twice at once: flat memory, the same bits; SOAK="1000000 seed"
 #:   bench             side by side with Box2D 2.4.1; BOX2D3=/prefix adds Box2D 3; BENCH="arguments"
 #:   effects           what each effect costs, used, not used, left out: instructions by callgrind, build/effects.csv
 #:   amalgamation      build/plumb.h and build/plumb.c: the library as one pair of files

@@ -151,6 +151,11 @@ $(O)/shots: $(call objects,float,tests/shots/table.c tests/harness/shots.c \
 	@echo "  LD    $@"
 	$(Q)$(CXX) $(SANFLAGS) $(LDFLAGS) -o $@ $^ -lbox2d -lm -lpthread
 
+# A busy world for a million steps, twice at once: tests/soak.
+$(O)/soak: $(call objects,float,tests/soak/table.c tests/harness/soak.c) $(O)/libplumb.a
+	@echo "  LD    $@"
+	$(Q)$(CC) $(SANFLAGS) $(LDFLAGS) -o $@ $^ -lm -lpthread
+
 # A fuzz harness twice: with a main that goes through its seeds, and with libFuzzer.
 define fuzz_rule
 $(O)/tests/fuzz/$3: $(call objects,float,$1 $2) $(O)/float/libscene.a $(O)/libplumb.a
@@ -169,7 +174,7 @@ TEST_OBJ := $(sort $(call objects,float,$(TEST_SRC) $(FUZZ_SRC) $(BENCH_SRC) $(H
 
 # ---- running
 
-.PHONY: test test-programs stability bench effects cost determinism hashes asan ubsan tsan sanitized fuzz fuzz-run lint headers \
+.PHONY: test test-programs stability shots soak bench effects cost determinism hashes asan ubsan tsan sanitized fuzz fuzz-run lint headers \
 	format format-check
 
 # T names the tests to run by their sources; without it, all of them.
@@ -212,6 +217,11 @@ shots: $(O)/shots
 # Instructions, not time: anything else may run beside it.
 effects:
 	@O=$(O) CC=$(CC) bash tests/effects/run.sh
+
+# SOAK="1000000 2": so many steps, a seed.
+SOAK ?= 1000000
+soak: $(O)/soak
+	$(O)/soak $(SOAK)
 
 bench: $(O)/bench
 	$(O)/bench $(BENCH)
