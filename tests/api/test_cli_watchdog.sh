@@ -141,7 +141,7 @@ if [ -n "${WATCHDOG_ALL:-}" ]; then
     scenes=(assets/scenes/*.lua assets/scenes/*/*.lua)
 fi
 for scene in "${scenes[@]}"; do
-    if [ ! -f "$scene" ] || grep -q "| *$(basename "$scene") *|" assets/scenes/hard/open.txt; then
+    if [ ! -f "$scene" ] || grep -q "| *$(basename "$scene") *|" assets/scenes/*/open.txt; then
         continue
     fi
     watches "$scene"

@@ -1,54 +1,5 @@
 #!/bin/bash
-# test_hard_scenes.sh - every scene of assets/scenes/hard holds what it expects, but for what its open.txt lists; and
-# what is listed there still fails. So whoever mends one must take it off the list, and whoever breaks one sees it.
+# test_hard_scenes.sh - the hard cases hold, but for those listed as open: holds_but_open.sh.
 
-bin=${PLUMB_BIN:-${O:-build}/plumb}
-folder=assets/scenes/hard
-
-for precision in float double; do
-    "$bin" check --quiet --precision $precision $folder/*.lua 2>/dev/null |
-        awk -v precision=$precision '
-            # "float,double | scene.lua | expectation | measured | cause"
-            FILENAME != "-" {
-                if (/^#/ || split($0, field, / *[|] */) < 3 || index(field[1], precision) == 0) next
-                listed[field[2] "|" field[3]] = 1
-                next
-            }
-            !/^(ok|FAIL|none) / { next }
-            {
-                status = $1
-                scene = $2
-                sub(/:$/, "", scene)
-                name = $0
-                sub(/^[^:]*: /, "", name)
-                if (!(scene in seen)) order[++scenes] = scene
-                seen[scene]++
-                open_one = ""
-                for (key in listed) {
-                    what = substr(key, length(scene) + 2)
-                    if (index(key, scene "|") == 1 && (name == what || index(name, what ": ") == 1)) open_one = key
-                }
-                if (open_one != "") {
-                    met[open_one] = 1
-                    opened[scene]++
-                    if (status == "ok") wrong[scene] = wrong[scene] "; holds now, take it off the list: " name
-                } else if (status != "ok") {
-                    wrong[scene] = wrong[scene] "; " name
-                }
-            }
-            END {
-                for (key in listed) {
-                    if (!(key in met)) {
-                        split(key, field, "|")
-                        wrong[field[1]] = wrong[field[1]] "; listed, but not among its expectations: " field[2]
-                        if (!(field[1] in seen)) { order[++scenes] = field[1]; seen[field[1]] = 0 }
-                    }
-                }
-                for (i = 1; i <= scenes; i++) {
-                    s = order[i]
-                    printf "%s - %s %s: %d of %d hold%s\n", s in wrong ? "not ok" : "ok", precision, s,
-                           seen[s] - opened[s], seen[s], wrong[s]
-                }
-                if (scenes < 60) print "not ok - " precision ": only " scenes + 0 " scenes"
-            }' $folder/open.txt -
-done
+. tests/stability/holds_but_open.sh
+holds_but_open assets/scenes/hard 60
