@@ -87,6 +87,8 @@ static void set_scenes(void)
                "at(0, function() while true do local c = a < b end end)\n");
     write_text("steps.lua", "scene { duration = 1e7 }\nbody { circle { 1 }, sleep = false }\n"
                             "every_step(function() end)\n");
+    write_text("drift.lua", "scene { duration = 1e7, gravity = {0, 0} }\n"
+                            "body { circle { 1 }, sleep = false }\nevery_step(function() end)\n");
     // One step takes half a second.
     write_text("pile.lua",
                "scene { duration = 1e7, solver = 'pgs', substeps = 64, iterations = 1000 }\n"
@@ -127,6 +129,17 @@ static void the_first_signal_ends_it(void **state)
     expect_code("! ls | grep -E 'never|tmp|part' >&2", 0); // and nothing is left of it
 }
 
+// Between two steps, where no step tells of the signal: what would be said at the end is not.
+static void a_stop_between_steps_is_silent(void **state)
+{
+    (void)state;
+    set_scenes();
+    for (int i = 0; i < 5; i++) {
+        expect_stop("convert drift.lua --time 1e7 never.json", i % 2 == 0 ? SIGINT : SIGTERM);
+    }
+    expect_code("! ls | grep -E 'never|tmp|part' >&2", 0);
+}
+
 static void a_recording_stays_as_far_as_it_went(void **state)
 {
     (void)state;
@@ -159,6 +172,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_first_signal_ends_it),
+        cmocka_unit_test(a_stop_between_steps_is_silent),
         cmocka_unit_test(a_recording_stays_as_far_as_it_went),
         cmocka_unit_test(a_replay_ends_too),
     };

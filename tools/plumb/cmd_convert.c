@@ -41,6 +41,9 @@ static int convert_command(const cli_command *command, int argc, char **argv)
     for (long long step = 0; code == CLI_OK && !scene_run_done(&run, step); step++) {
         code = scene_run_step(&run, NULL);
     }
+    if (code == CLI_OK && cli_interrupted()) {
+        code = CLI_FAILED; // between two steps: nothing is written, and nothing more is said
+    }
     if (code == CLI_OK) {
         code = cli_output_open(&out, target);
     }
@@ -51,7 +54,7 @@ static int convert_command(const cli_command *command, int argc, char **argv)
             code = CLI_FAILED;
         }
         const char *lacks = run.engine->json_lacks(run.session);
-        if (code == CLI_OK && lacks[0] != '\0') {
+        if (code == CLI_OK && lacks[0] != '\0' && !cli_interrupted()) {
             cli_message("%s: %s of '%s' have no JSON form and are left out", command->name, lacks,
                         operands.items[0]);
         }
