@@ -8,8 +8,15 @@
 
 // -------------------------------------------------------------------------------------- getters
 
+// The name and the user table can be asked for when the body is gone, too: its object keeps them.
 static int method_name(lua_State *L)
 {
+    const plumb_body *object = luaL_testudata(L, 1, SC_META_BODY);
+    if (object != NULL && sc_body_of(sc_of(L), *object) == NULL) {
+        sc_work(sc_of(L), 10);
+        lua_getiuservalue(L, 1, SC_BODY_NAME);
+        return 1;
+    }
     lua_pushstring(L, sc_body_self(L, "name").body->def.name);
     return 1;
 }
@@ -103,6 +110,7 @@ static int method_destroy(lua_State *L)
     int joints = plumb_body_joints(c.world, c.entity, NULL, 0);
     sc_work(c.s, 100 + (uint64_t)c.s->bodies.count / 8 + (uint64_t)c.s->excluded.count +
                      (uint64_t)joints * (100 + (uint64_t)c.s->joints.count / 8));
+    sc_body_depart(c.s, c.body);
     sc_body_check(&c, destroy_body(c.s, c.entity));
     sc_body_release(c.s, c.body);
     return 0;
@@ -145,17 +153,29 @@ _Noreturn static void fail_member(lua_State *L, const char *name)
     sc_raise(s, SCENE_E_NAME, &site, NULL, 0, sc_suggest_best(&g), "a body has no '%.40s'", name);
 }
 
+static void push_user(lua_State *L)
+{
+    const plumb_body *object = luaL_testudata(L, 1, SC_META_BODY);
+    sc_body *b = object == NULL ? NULL : sc_body_of(sc_of(L), *object);
+    if (b != NULL && b->user != LUA_NOREF) {
+        lua_rawgeti(L, LUA_REGISTRYINDEX, b->user);
+    } else if (b != NULL) {
+        lua_newtable(L);
+        lua_pushvalue(L, -1);
+        b->user = luaL_ref(L, LUA_REGISTRYINDEX);
+    } else if (lua_getiuservalue(L, 1, SC_BODY_USER) != LUA_TTABLE) {
+        lua_newtable(L);
+        lua_pushvalue(L, -1);
+        lua_setiuservalue(L, 1, SC_BODY_USER);
+    }
+}
+
 // body.user, else a method (upvalue 1).
 static int body_index(lua_State *L)
 {
     const char *name = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : "?";
     if (strcmp(name, "user") == 0) {
-        sc_body *b = sc_body_self(L, "user").body;
-        if (b->user == LUA_NOREF) {
-            lua_newtable(L);
-            b->user = luaL_ref(L, LUA_REGISTRYINDEX);
-        }
-        lua_rawgeti(L, LUA_REGISTRYINDEX, b->user);
+        push_user(L);
         return 1;
     }
     lua_pushvalue(L, 2);

@@ -247,7 +247,7 @@ void sc_build_body(scene *s, const sc_site *site, int table)
     b->set_rot = plumb_body_transform(s->world, b->entity).q;
     lua_getfield(L, table, "user");
     b->user = lua_istable(L, -1) ? luaL_ref(L, LUA_REGISTRYINDEX) : (lua_pop(L, 1), LUA_NOREF);
-    plumb_body *object = lua_newuserdatauv(L, sizeof *object, 0);
+    plumb_body *object = lua_newuserdatauv(L, sizeof *object, SC_BODY_KEEPSAKES);
     *object = b->entity;
     luaL_setmetatable(L, SC_META_BODY);
     lua_pushvalue(L, -1);

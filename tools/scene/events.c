@@ -1,6 +1,7 @@
 // events.c - what a script does about what happened in a step: on_contact, on_end, on_hit, on_enter,
 // on_leave, on_break, on_strain, from copies of the world's event arrays (a handler may make and destroy
-// things); and edit_contact, which is asked in the middle of a step, after the narrow phase.
+// things). edit_contact is registered here; edits.c asks it. Whoever has heard on_contact or on_enter hears on_end or
+// on_leave, also of bodies that are gone by then: their objects still have name and user table (body_record.c).
 // Handlers of one kind are called in the order in which they were registered. Cost: O(events *
 // handlers of their kind); kinds without handlers are not looked at.
 #include <math.h>
@@ -67,8 +68,6 @@ static void set_hit_speed(scene *s, const sc_site *site)
     }
 }
 
-static void open_edits(scene *s, const sc_site *site);
-
 // on_contact(function) or on_contact{a = ..., b = ..., function}. Upvalue: place in `kinds`.
 static int lua_event(lua_State *L)
 {
@@ -100,7 +99,7 @@ static int lua_event(lua_State *L)
     if (kinds[k].kind == SC_ON_HIT) {
         set_hit_speed(s, &site);
     } else if (kinds[k].kind == SC_EDIT_CONTACT) {
-        open_edits(s, &site);
+        sc_open_edits(s, &site);
     }
     return 0;
 }
@@ -109,7 +108,7 @@ static int lua_event(lua_State *L)
 
 // Whether the handler wants this pair; *swapped when a's pattern fits the second body. Sensor events
 // are never swapped: `a` is the sensor.
-static bool wants(const sc_handler *h, const sc_body *a, const sc_body *b, bool *swapped)
+bool sc_handler_wants(const sc_handler *h, const char *a, const char *b, bool *swapped)
 {
     const sc_contact_def *d = &h->contact;
     *swapped = false;
@@ -117,15 +116,15 @@ static bool wants(const sc_handler *h, const sc_body *a, const sc_body *b, bool 
         return true;
     }
     const char *second = d->b[0] != 0 ? d->b : "*";
-    if (sc_name_matches(d->a, a->def.name) && sc_name_matches(second, b->def.name)) {
+    if (sc_name_matches(d->a, a) && sc_name_matches(second, b)) {
         return true;
     }
     *swapped = true;
-    return h->kind != SC_ON_ENTER && h->kind != SC_ON_LEAVE && sc_name_matches(d->a, b->def.name) &&
-           sc_name_matches(second, a->def.name);
+    return h->kind != SC_ON_ENTER && h->kind != SC_ON_LEAVE && sc_name_matches(d->a, b) &&
+           sc_name_matches(second, a);
 }
 
-static void push_field(lua_State *L, const char *name, plumb_real v)
+void sc_push_field(lua_State *L, const char *name, plumb_real v)
 {
     lua_pushnumber(L, (double)v);
     lua_setfield(L, -2, name);
@@ -143,44 +142,91 @@ static void push_blow(lua_State *L, const blow *e, bool swapped)
 {
     plumb_real sign = swapped ? (plumb_real)-1 : (plumb_real)1;
     lua_createtable(L, 0, 6);
-    push_field(L, "x", e->point.x);
-    push_field(L, "y", e->point.y);
-    push_field(L, "nx", sign * e->normal.x);
-    push_field(L, "ny", sign * e->normal.y);
-    push_field(L, "speed", e->speed);
+    sc_push_field(L, "x", e->point.x);
+    sc_push_field(L, "y", e->point.y);
+    sc_push_field(L, "nx", sign * e->normal.x);
+    sc_push_field(L, "ny", sign * e->normal.y);
+    sc_push_field(L, "speed", e->speed);
     if (e->impulse >= 0) {
-        push_field(L, "impulse", e->impulse);
+        sc_push_field(L, "impulse", e->impulse);
         lua_pushnumber(L, e->time);
         lua_setfield(L, -2, "time");
     }
 }
 
-static void dispatch(scene *s, sc_handler_kind kind, plumb_body body_a, plumb_body body_b,
-                     const blow *event)
+// ------------------------------------------------------------------------------------- calling
+
+/// Who an event is about; `shapes` are null where no end follows.
+typedef struct pair {
+    plumb_body a, b;
+    plumb_shape shape_a, shape_b;
+} pair;
+
+static bool is_end(sc_handler_kind kind)
+{
+    return kind == SC_ON_END || kind == SC_ON_LEAVE;
+}
+
+// Who was destroyed before any handler heard of the beginning: nobody hears of the end.
+static bool is_unheard(scene *s, sc_handler_kind kind, const pair *p)
+{
+    const bool either_way = kind == SC_ON_END; // a sensor is always the first
+    sc_step_work(s, (uint64_t)s->unheard.count / 4);
+    for (int i = 0; i < s->unheard.count; i++) {
+        const plumb_contact_end *u = &s->unheard.items[i];
+        if ((plumb_same(u->shape_a, p->shape_a) && plumb_same(u->shape_b, p->shape_b)) ||
+            (either_way && plumb_same(u->shape_a, p->shape_b) &&
+             plumb_same(u->shape_b, p->shape_a))) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// With the objects of both bodies below. True: a handler was called, or none is for these two.
+static bool call_handlers(scene *s, sc_handler_kind kind, const pair *p, const char *name_a,
+                          const char *name_b, const blow *event)
 {
     lua_State *L = s->L;
+    const int first = lua_gettop(L) - 1, second = first + 1;
     int count = s->handlers.count; // those registered meanwhile start with the next event
+    bool called = false;
     sc_step_work(s, (uint64_t)count);
     for (int i = 0; i < count; i++) {
         const sc_handler *h = &s->handlers.items[i];
-        const sc_body *a = sc_body_of(s, body_a);
-        const sc_body *b = sc_body_of(s, body_b);
         bool swapped;
-        if (a == NULL || b == NULL) {
-            return; // destroyed by an earlier handler
-        }
-        if (h->kind != kind || !wants(h, a, b, &swapped) ||
+        if (h->kind != kind || !sc_handler_wants(h, name_a, name_b, &swapped) ||
             (kind == SC_ON_HIT && (double)event->speed < h->contact.speed)) {
             continue;
         }
+        if (!is_end(kind) && (sc_body_of(s, p->a) == NULL || sc_body_of(s, p->b) == NULL)) {
+            return called; // destroyed by an earlier handler
+        }
+        called = true;
         lua_rawgeti(L, LUA_REGISTRYINDEX, h->contact.function);
-        sc_body_push(s, swapped ? b : a);
-        sc_body_push(s, swapped ? a : b);
+        lua_pushvalue(L, swapped ? second : first);
+        lua_pushvalue(L, swapped ? first : second);
         if (event != NULL) {
             push_blow(L, event, swapped);
         }
         sc_call(s, event != NULL ? 3 : 2, 0);
     }
+    return true;
+}
+
+// What ends may have ended because it was destroyed; what begins is told of what is there.
+static void dispatch(scene *s, sc_handler_kind kind, const pair *p, const blow *event)
+{
+    char name_a[SC_NAME_SIZE], name_b[SC_NAME_SIZE];
+    if (is_end(kind) && is_unheard(s, kind, p)) {
+        return;
+    }
+    const int top = lua_gettop(s->L);
+    if (sc_body_recall(s, p->a, name_a) && sc_body_recall(s, p->b, name_b) &&
+        !call_handlers(s, kind, p, name_a, name_b, event) && kind != SC_ON_HIT) {
+        *SC_PUSH(s, s->unheard) = (plumb_contact_end){ p->shape_a, p->shape_b, p->a, p->b };
+    }
+    lua_settop(s->L, top);
 }
 
 // ------------------------------------------------------------------------------- after the step
@@ -281,15 +327,35 @@ static void dispatch_joint(scene *s, sc_handler_kind kind, const sc_name *name,
         lua_createtable(L, 0, 8);
         push_end(s, "a", e->body_a);
         push_end(s, "b", e->body_b);
-        push_field(L, "x", e->point.x);
-        push_field(L, "y", e->point.y);
-        push_field(L, "fx", e->force.x);
-        push_field(L, "fy", e->force.y);
-        push_field(L, "torque", e->torque);
+        sc_push_field(L, "x", e->point.x);
+        sc_push_field(L, "y", e->point.y);
+        sc_push_field(L, "fx", e->force.x);
+        sc_push_field(L, "fy", e->force.y);
+        sc_push_field(L, "torque", e->torque);
         lua_pushstring(L, plumb_joint_kind_name(e->kind));
         lua_setfield(L, -2, "kind");
         sc_call(s, 2, 0);
     }
+}
+
+static void tell_begins(scene *s)
+{
+    for (int i = 0; i < s->begins.count; i++) {
+        const plumb_contact_begin e = s->begins.items[i];
+        const blow b = { e.point, e.normal, e.approach_speed, -1, 0 };
+        dispatch(s, SC_ON_CONTACT, &(pair){ e.body_a, e.body_b, e.shape_a, e.shape_b }, &b);
+    }
+    for (int i = 0; i < s->hits.count; i++) {
+        const plumb_contact_hit e = s->hits.items[i];
+        const double time = plumb_world_stats(s->world).time - s->dt / s->split + (double)e.moment;
+        const blow b = { e.point, e.normal, e.approach_speed, e.impulse, time };
+        dispatch(s, SC_ON_HIT, &(pair){ e.body_a, e.body_b, e.shape_a, e.shape_b }, &b);
+    }
+}
+
+static void dispatch_visit(scene *s, sc_handler_kind kind, plumb_sensor_event e)
+{
+    dispatch(s, kind, &(pair){ e.sensor_body, e.body, e.sensor, e.shape }, NULL);
 }
 
 void sc_events_after(scene *s)
@@ -298,25 +364,23 @@ void sc_events_after(scene *s)
     after_sensors(s);
     after_breaks(s);
     after_strains(s);
-    for (int i = 0; i < s->begins.count; i++) {
-        plumb_contact_begin e = s->begins.items[i];
-        const blow b = { e.point, e.normal, e.approach_speed, -1, 0 };
-        dispatch(s, SC_ON_CONTACT, e.body_a, e.body_b, &b);
-    }
-    for (int i = 0; i < s->hits.count; i++) {
-        plumb_contact_hit e = s->hits.items[i];
-        const double time = plumb_world_stats(s->world).time - s->dt / s->split + (double)e.moment;
-        const blow b = { e.point, e.normal, e.approach_speed, e.impulse, time };
-        dispatch(s, SC_ON_HIT, e.body_a, e.body_b, &b);
-    }
+    sc_departed_turn(s);
+    const int unheard = s->unheard.count; // of the step before
+    tell_begins(s);
     for (int i = 0; i < s->ends.count; i++) {
-        dispatch(s, SC_ON_END, s->ends.items[i].body_a, s->ends.items[i].body_b, NULL);
+        const plumb_contact_end e = s->ends.items[i];
+        dispatch(s, SC_ON_END, &(pair){ e.body_a, e.body_b, e.shape_a, e.shape_b }, NULL);
     }
     for (int i = 0; i < s->enters.count; i++) {
-        dispatch(s, SC_ON_ENTER, s->enters.items[i].sensor_body, s->enters.items[i].body, NULL);
+        dispatch_visit(s, SC_ON_ENTER, s->enters.items[i]);
     }
     for (int i = 0; i < s->leaves.count; i++) {
-        dispatch(s, SC_ON_LEAVE, s->leaves.items[i].sensor_body, s->leaves.items[i].body, NULL);
+        dispatch_visit(s, SC_ON_LEAVE, s->leaves.items[i]);
+    }
+    if (unheard > 0) {
+        s->unheard.count -= unheard;
+        memmove(s->unheard.items, s->unheard.items + unheard,
+                (size_t)s->unheard.count * sizeof *s->unheard.items);
     }
     for (int i = 0; i < s->breaks.count; i++) {
         sc_name name = s->broken.items[s->broken_before + i];
@@ -328,122 +392,6 @@ void sc_events_after(scene *s)
         const plumb_joint_strain e = s->strains.items[i];
         dispatch_joint(s, SC_ON_STRAIN, &name, &e);
     }
-}
-
-// ----------------------------------------------------------------------------- within the step
-
-// Puts the contact as the script sees it on the stack.
-static void push_edit(lua_State *L, const plumb_contact_edit *e, bool swapped)
-{
-    plumb_real sign = swapped ? (plumb_real)-1 : (plumb_real)1;
-    lua_createtable(L, 0, 12);
-    push_field(L, "x", e->points[0].x);
-    push_field(L, "y", e->points[0].y);
-    push_field(L, "nx", sign * e->normal.x);
-    push_field(L, "ny", sign * e->normal.y);
-    push_field(L, "separation", e->separation[0]);
-    push_field(L, "friction", e->friction);
-    push_field(L, "restitution", e->restitution);
-    push_field(L, "rolling_resistance", e->rolling_resistance);
-    push_field(L, "surface_speed", e->surface_speed);
-    lua_pushboolean(L, e->touching);
-    lua_setfield(L, -2, "touching");
-    lua_pushboolean(L, e->enabled);
-    lua_setfield(L, -2, "enabled");
-}
-
-// What the handler left in the table, in the struct.
-static void pull_edit(scene *s, const sc_site *site, int table, plumb_contact_edit *e)
-{
-    lua_State *L = s->L;
-    const struct {
-        const char *name;
-        plumb_real *value;
-    } numbers[] = { { "friction", &e->friction },
-                    { "restitution", &e->restitution },
-                    { "rolling_resistance", &e->rolling_resistance },
-                    { "surface_speed", &e->surface_speed } };
-    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++) {
-        if (lua_getfield(L, table, numbers[i].name) != LUA_TNUMBER) {
-            sc_raise(s, SCENE_E_TYPE, site, NULL, 0, NULL,
-                     "'%s' of a contact must be a number, not %s", numbers[i].name,
-                     sc_type_name(s, -1));
-        }
-        *numbers[i].value = (plumb_real)lua_tonumber(L, -1);
-        lua_pop(L, 1);
-    }
-    if (lua_getfield(L, table, "enabled") != LUA_TBOOLEAN) {
-        sc_raise(s, SCENE_E_TYPE, site, NULL, 0, NULL,
-                 "'enabled' of a contact must be true or false, not %s", sc_type_name(s, -1));
-    }
-    e->enabled = lua_toboolean(L, -1) != 0;
-    lua_pop(L, 1);
-}
-
-static void edit_one(scene *s, int index)
-{
-    lua_State *L = s->L;
-    plumb_contact_edit e;
-    plumb_contact_edit_get(s->world, index, &e);
-    const sc_body *a = sc_body_of(s, e.body_a), *b = sc_body_of(s, e.body_b);
-    sc_step_work(s, (uint64_t)s->handlers.count);
-    for (int i = 0; i < s->handlers.count; i++) {
-        const sc_handler *h = &s->handlers.items[i];
-        bool swapped;
-        if (h->kind != SC_EDIT_CONTACT || !wants(h, a, b, &swapped)) {
-            continue;
-        }
-        sc_site site = { .construct = "edit_contact", .line = h->line };
-        push_edit(L, &e, swapped);
-        lua_rawgeti(L, LUA_REGISTRYINDEX, h->contact.function);
-        sc_body_push(s, swapped ? b : a);
-        sc_body_push(s, swapped ? a : b);
-        lua_pushvalue(L, -4);
-        sc_call(s, 3, 0);
-        pull_edit(s, &site, lua_gettop(L), &e);
-        lua_pop(L, 1);
-        plumb_result r = plumb_contact_edit_set(s->world, index, &e);
-        if (r != PLUMB_OK) {
-            sc_refused(s, &site, NULL, r, "edit_contact");
-        }
-    }
-}
-
-static void edit_all(scene *s, void *unused)
-{
-    (void)unused;
-    int count = plumb_contact_edit_count(s->world);
-    for (int i = 0; i < count; i++) {
-        edit_one(s, i);
-    }
-}
-
-// The system. An error must not leave through the world's step: it is kept for scene.c to raise.
-static void run_edits(const plumb_system_call *call)
-{
-    scene *s = call->context;
-    if (s->edit_failed || !has_kind(s, SC_EDIT_CONTACT)) {
-        return;
-    }
-    s->edit_failed = !sc_protect(s, edit_all, NULL);
-}
-
-static void open_edits(scene *s, const sc_site *site)
-{
-    if (s->edits) {
-        return;
-    }
-    plumb_system_desc system = { .name = "edit_contact",
-                                 .phase = PLUMB_PHASE_CONTACTS,
-                                 .run = run_edits,
-                                 .reads = "manifolds",
-                                 .writes = "manifolds",
-                                 .context = s };
-    plumb_result r = plumb_system_create(s->world, &system);
-    if (r != PLUMB_OK) {
-        sc_refused(s, site, NULL, r, "edit_contact");
-    }
-    s->edits = true;
 }
 
 void sc_open_events(lua_State *L)

@@ -279,9 +279,12 @@ struct scene {
     SC_ARRAY(plumb_joint_break) breaks;
     SC_ARRAY(plumb_joint_strain) strains;
     SC_ARRAY(sc_name) strained; ///< name of the joint of each strain
-    bool edits;                 ///< the system of edit_contact is there
-    bool fields;                ///< the system of field{} is there
-    bool edit_failed;           ///< a handler within the step raised; s->error has it
+    SC_ARRAY(plumb_contact_end)
+    unheard;             ///< began with a body that was gone before a handler was called
+    bool departed, told; ///< bodies were destroyed since the last step; before it (body_record.c)
+    bool edits;          ///< the system of edit_contact is there
+    bool fields;         ///< the system of field{} is there
+    bool edit_failed;    ///< a handler within the step raised; s->error has it
     bool wants_visits;
     double (*points)[2]; ///< last points read by a SC_POINTS field
     int point_count, point_capacity;
@@ -509,6 +512,14 @@ void sc_excluded_forget(scene *s, plumb_body body);
 void sc_open_filters(lua_State *L); ///< exclude
 
 void sc_body_push(scene *s, const sc_body *body);
+/// What the Lua object of a body keeps when the body is gone: its user values.
+enum { SC_BODY_NAME = 1, SC_BODY_USER, SC_BODY_KEEPSAKES = SC_BODY_USER };
+/// The body is about to be destroyed: its object keeps the name and the user table.
+void sc_body_depart(scene *s, const sc_body *body);
+/// A step has been taken: the ends that it tells of are those of bodies that departed before, and none earlier.
+void sc_departed_turn(scene *s);
+/// Pushes the object of a body that is there, or whose end may be told now. False, and pushes nothing: it is neither.
+bool sc_body_recall(scene *s, plumb_body body, char name[SC_NAME_SIZE]);
 void sc_body_release(scene *s, sc_body *body); ///< forgets it; the world's body is gone
 bool sc_name_matches(const char *pattern, const char *name); ///< "brick*" or exact
 /// Raises unless the name (or pattern) fits a body that is alive.
@@ -538,6 +549,13 @@ const char *sc_handler_name(sc_handler_kind kind);
 sc_handler *sc_handler_add(scene *s, sc_handler_kind kind, const sc_site *site);
 void sc_handlers_before(scene *s); ///< at, every, every_step
 void sc_events_after(scene *s);    ///< on_contact and all others that follow a step
+/// Whether the handler wants bodies of these names; *swapped when its `a` fits the second. Sensor events are never
+/// swapped: `a` is the sensor.
+bool sc_handler_wants(const sc_handler *h, const char *a, const char *b, bool *swapped);
+/// Makes the system of edit_contact, once (edits.c).
+void sc_open_edits(scene *s, const sc_site *site);
+/// A number in the table on top.
+void sc_push_field(lua_State *L, const char *name, plumb_real v);
 /// Calls the function on the stack (below `args` arguments) with a fresh instruction budget.
 void sc_call(scene *s, int args, int results);
 
