@@ -540,6 +540,43 @@ static void test_handler_errors(void **state)
     }
 }
 
+// What a test function returns in place of true or false, and numbers: an error with the line and the name.
+static void test_verdicts(void **state)
+{
+    (void)state;
+    static const char *const verdicts[][2] = {
+        { "", "must return true or false first, not nothing (nil)" },
+        { "return nil, 3", "must return true or false first, not nothing (nil)" },
+        { "return 1", "must return true or false first, not a number" },
+        { "return 'yes'", "must return true or false first, not a string" },
+        { "return {}", "must return true or false first, not a table" },
+        { "return print", "must return true or false first, not a function" },
+        { "return find('b')", "must return true or false first, not a body" },
+        { "return true, 'fast'",
+          "must return a number as its second value, what was measured, not a string" },
+        { "return true, false",
+          "must return a number as its second value, what was measured, not false" },
+        { "return false, {}, 1",
+          "must return a number as its second value, what was measured, not a table" },
+        { "return true, 1, '5'",
+          "must return a number as its third value, the limit, not a string" },
+    };
+    for (size_t i = 0; i < sizeof verdicts / sizeof *verdicts; i++) {
+        char text[256], message[256];
+        snprintf(text, sizeof text,
+                 "body{ name = 'b', box{1, 1} }\nexpect{ 'holds', at = 0.01,\n"
+                 "  test = function() %s end }",
+                 verdicts[i][0]);
+        snprintf(message, sizeof message, "scene.lua:3:3: the function 'test' of 'holds' %s",
+                 verdicts[i][1]);
+        scene *s = load(text);
+        scene_error e = { 0 };
+        assert_int_equal(scene_step(s, &e), SCENE_E_TYPE);
+        assert_string_equal(e.text, message);
+        scene_destroy(s);
+    }
+}
+
 static void test_arguments(void **state)
 {
     (void)state;
@@ -564,6 +601,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_malformed_scripts),
         cmocka_unit_test(test_handler_errors),
+        cmocka_unit_test(test_verdicts),
         cmocka_unit_test(test_arguments),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -168,6 +168,27 @@ static void measure_drift(scene *s, sc_expect *e)
     }
 }
 
+// Raises unless the function of `test` has returned true or false and, if it did, numbers after that.
+static void check_verdict(scene *s, const sc_expect *e)
+{
+    lua_State *L = s->L;
+    const sc_site site = { .construct = "expect", .line = e->line };
+    const char *name = e->def.name;
+    if (lua_type(L, -3) != LUA_TBOOLEAN) {
+        sc_raise(s, SCENE_E_TYPE, &site, "test", 0, NULL,
+                 "the function 'test' of '%s' must return true or false first, not %s", name,
+                 lua_isnil(L, -3) ? "nothing (nil)" : sc_type_name(s, -3));
+    }
+    for (int i = -2; i < 0; i++) {
+        if (!lua_isnil(L, i) && lua_type(L, i) != LUA_TNUMBER) {
+            sc_raise(s, SCENE_E_TYPE, &site, "test", 0, NULL,
+                     "the function 'test' of '%s' must return a number as its %s, not %s", name,
+                     i == -2 ? "second value, what was measured" : "third value, the limit",
+                     sc_type_name(s, i));
+        }
+    }
+}
+
 // test = function() return ok [, measured [, limit]] end
 static void measure_test(scene *s, sc_expect *e)
 {
@@ -176,6 +197,7 @@ static void measure_test(scene *s, sc_expect *e)
     lua_rawgeti(L, LUA_REGISTRYINDEX, e->def.test);
     sc_call(s, 0, 3);
     e = &s->expects.items[index];
+    check_verdict(s, e);
     bool good = lua_toboolean(L, -3) != 0;
     sample m = { .quantity = "test", .unit = "1", .ratio = good ? 1 : DBL_MAX / 2 };
     m.measured = lua_type(L, -2) == LUA_TNUMBER ? lua_tonumber(L, -2) : good;
