@@ -57,9 +57,48 @@ local heavy = body { name = "heavy", circle { 0.2 }, mass = @, at = {0, -1} }
 revolute { light, at = {0, 0} }
 revolute { light, heavy, at = {0, -0.5} }
 END
+for how in "weld { hub, arm" "revolute { motor = { speed = 0, torque = 99 }, hub, arm"; do
+    rule mass-ratio 1 16 <<END
+scene { gravity = {0, 0} }
+local hub = body { name = "hub", circle { 0.4 }, mass = @, apart = "rotor" }
+revolute { hub, at = {0, 0}, motor = { speed = 3, torque = 1000 } }
+for i = 0, 2 do
+    local x, y = math.cos(2 * i), math.sin(2 * i)
+    local arm = body { name = "arm" .. i, box { 2.6, 0.3 }, at = {1.7 * x, 1.7 * y}, angle = 2 * i, mass = 1, apart = "rotor" }
+    $how, at = {0.4 * x, 0.4 * y} }
+end
+END
+done
+rule mass-ratio 0.5 4 <<'END'
+scene { gravity = {0, 0} }
+local hub = body { name = "hub", circle { 0.4 }, mass = @, apart = "rotor" }
+local arm = body { name = "arm", box { 2.6, 0.3 }, at = {1.7, 0}, mass = 1, apart = "rotor" }
+weld { hub, arm, at = {0.4, 0} }
+weld { hub, at = {-0.4, 0} }
+END
+rule mass-ratio '{ hub, at = {-0.4, 0} }' '{ arm, at = {3, 0} }' <<'END'
+scene { gravity = {0, 0} }
+local hub = body { name = "hub", circle { 0.4 }, mass = 0.5, apart = "rotor" }
+local arm = body { name = "arm", box { 2.6, 0.3 }, at = {1.7, 0}, mass = 1, apart = "rotor" }
+weld { hub, arm, at = {0.4, 0} }
+weld @
+END
 rule fast-and-thin 'velocity = {90, 0}' 'velocity = {90, 0}, continuous = true' <<'END'
 body { name = "bullet", circle { 0.05 }, @, at = {-3, 2} }
 body { name = "sheet", box { 0.05, 2 }, at = {0, 2} }
+END
+rule fast-and-thin '{-90, 0}' '{90, 0}' <<'END'
+body { name = "bullet", circle { 0.05 }, velocity = {90, 0}, at = {-3, 2} }
+body { name = "sheet", box { 0.05, 2 }, velocity = @, at = {0, 2} }
+END
+rule fast-and-thin '{-8, 0}' '{0, 0}' <<'END'
+body { name = "ball", circle { 0.1 }, velocity = {8, 0}, at = {-3, 2} }
+body { name = "other", circle { 0.02 }, velocity = @, at = {0, 2} }
+END
+rule fast-and-thin 0 90 <<'END'
+scene { continuous = false }
+body { name = "bullet", circle { 0.05 }, velocity = {90, 0}, at = {-3, 2} }
+body { name = "wall", type = "kinematic", box { 0.05, 2 }, velocity = {@, 0}, at = {0, 2} }
 END
 rule stiff-spring 'frequency = 60, damping = 0.5' 'frequency = 5, damping = 0.5' <<'END'
 local ball = body { name = "ball", circle { 0.2 }, at = {1, 0} }

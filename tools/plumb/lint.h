@@ -7,9 +7,9 @@
 /// X(name, the function of engine_lint.c that looks, what the rule says, what to do). The help prints them.
 // clang-format off
 #define LINT_RULES(X)                                                                                                        \
-    X("mass-ratio", look_at_masses, "a body rests on, or is joined to, one that is too light for it",                          \
+    X("mass-ratio", look_at_masses, "a body rests on, is joined to, or turns with one that is too light for it",                          \
       "a heavier light one, substeps=16, direct_joints=true for joints, solver=\"exact\", or a tolerance")                   \
-    X("fast-and-thin", look_at_speeds, "a body goes farther in a step than it and what it may meet are thick",               \
+    X("fast-and-thin", look_at_speeds, "a body goes farther in a step than it and what it may meet are thick, seen from there",               \
       "continuous=true on one of the two, a shorter step, or thicker shapes")                                                \
     X("stiff-spring", look_at_springs, "a spring is stiffer than substeps can follow, and is damped",                        \
       "a softer spring, more substeps, or a rigid joint")                                                                    \
