@@ -163,6 +163,12 @@ static void middle_of(const pair_batch *batch, const pl_manifold *m, uint32_t i,
     *y = ((double)(a->y + m->point[i].ay) + (double)(b->y + m->point[i].by)) / 2;
 }
 
+static plumb_transform transform_of(const pair_side *s)
+{
+    return (plumb_transform){ plumb_v2((plumb_real)s->pose.x, (plumb_real)s->pose.y),
+                              { (plumb_real)s->pose.c, (plumb_real)s->pose.s } };
+}
+
 // One case; prints what differs. Points that the table gives twice may be one.
 static bool as_known(const pair_batch *batch, const known *k)
 {
@@ -341,6 +347,51 @@ static void widths_agree_bit_for_bit(void **state)
     }
 }
 
+// Long things end to end, turned and shifted by less than a reference face changes sides for: what the faces say of
+// each other then differs. No contact is deeper than the pieces are.
+static void nothing_in_line_is_struck_in_thin_air(void **state)
+{
+    (void)state;
+    const side kinds[] = { { CAPSULE, 0.15, 0, 0.15, 0, 0, 0 },
+                           { CAPSULE, 1, 0, 0, 0, 0, 0 },
+                           { CAPSULE, 0.5, 0, 0.4, 0, 0, 0 },
+                           { BOX, 0.4, 0.001, 0.2, 0, 0, 0 },
+                           { HEXAGON, 0.5, 0, 0.1, 0, 0, 0 } };
+    enum { KINDS = sizeof kinds / sizeof kinds[0] };
+    pair_batch *batch = pairs_create(1);
+    unsigned seed = 5;
+    int wrong = 0, met = 0;
+    for (int i = 0; i < 20000; ++i) {
+        known k = { .p = kinds[i % KINDS], .q = kinds[i / KINDS % KINDS] };
+        const double turn = sim_uniform(&seed, -3, 3), gap = sim_uniform(&seed, 1e-4, 0.6);
+        const double along = k.p.u + k.q.u + gap, aside = sim_uniform(&seed, -6e-4, 6e-4);
+        k.p.angle = turn + sim_uniform(&seed, -1e-3, 1e-3);
+        k.q.angle = turn + sim_uniform(&seed, -1e-3, 1e-3);
+        k.q.x = along * cos(turn) - aside * sin(turn);
+        k.q.y = along * sin(turn) + aside * cos(turn);
+        pairs_clear(batch);
+        add_known(batch, &k);
+        pairs_run(batch, 4);
+        const pair_side *a = pairs_a(batch, 0), *b = pairs_b(batch, 0);
+        const double distance = (double)plumb_convex_distance(&a->shape.convex, transform_of(a),
+                                                              &b->shape.convex, transform_of(b))
+                                    .distance;
+        pl_manifold m = { .count = 0 };
+        if (!pairs_manifold(batch, 0, &m)) {
+            continue;
+        }
+        double deepest = INFINITY;
+        for (uint32_t j = 0; j < m.count; ++j) {
+            deepest = fmin(deepest, (double)m.point[j].separation);
+        }
+        ++met;
+        wrong += deepest < distance - 5e-4 - slack();
+    }
+    pairs_destroy(batch);
+    assert_true(met > 5000);
+    assert_int_equal(wrong, 0);
+}
+
 // A heap of polygons, capsules and circles thrown together, one shape a body.
 static plumb_world *heap_of_shapes(void)
 {
@@ -399,6 +450,7 @@ int main(void)
         cmocka_unit_test(coincident_shapes_get_some_contact),
         cmocka_unit_test(features_stay_and_carry_impulses),
         cmocka_unit_test(widths_agree_bit_for_bit),
+        cmocka_unit_test(nothing_in_line_is_struck_in_thin_air),
         cmocka_unit_test(remembered_face_changes_nothing),
     };
     return cmocka_run_group_tests_name("narrow", tests, NULL, NULL);

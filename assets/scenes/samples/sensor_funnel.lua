@@ -1,6 +1,5 @@
 -- sensor_funnel.lua - discs and capsules fall through a zigzag of slides; a sensor at the bottom takes each out of the
 -- world when it comes. A hundred and twenty go in at the top, and all of them are counted out.
--- watchdog: allow contact-without-touch: 1 mm beyond the bound, of things that fly apart
 scene { title = "Sensor funnel", duration = 20, seed = 6 }
 camera { fit = {{-8, -7}, {8, 13}}, at = 6 }
 local steel = material { friction = 0.1 }
