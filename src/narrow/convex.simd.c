@@ -173,19 +173,20 @@ WIDE_INLINE vf edge_distance(const vf r[4], const vf w[4])
 // no face across their direction, are such a case at face separation 0. Edges that all but lie on the
 // face keep both points, or a body that overhangs would lose its second support at the least tilt (a
 // stack of overhanging capsules then walks); only the depth beside the corner is set right.
-// `apart` [m]: how far the face that separates most does; the reference face may be the other one, which a line in line
-// with it crosses.
+// `separation` [m]: of the reference face; `other`: of the face of the other side, which separates lines in line where they
+// cross the reference face. It counts where edges are far from one another: beside a corner that bears, it is by chance the larger.
 // `cut` [m]: by so much the clip has raised the deeper end. Of an edge that is steep it may raise it out of reach, while
 // its corner is hardly beside the face.
 WIDE_PART void round_corners(touch *t, const lanes *l, const pl_narrow_input *in, const outline *a,
-                             const outline *b, const vf r[4], const vf w[4], vf face_separation,
-                             vf apart, vf cut, vm lies_flat, vm low_is_nearer)
+                             const outline *b, const vf r[4], const vf w[4], vf separation,
+                             vf other, vf cut, vm lies_flat, vm low_is_nearer)
 {
-    vf zero = splat(0);
-    vm corner = (apart > splat((near_real)-1e-5)) &
-                ((edge_distance(r, w) > vmax(face_separation, zero) * splat((near_real)1.000002) +
-                                            splat((near_real)4e-6)) |
-                 ((cut > splat(MOST_CUT)) & ~lies_flat));
+    vf zero = splat(0), between = edge_distance(r, w);
+    vf most = sel(between > splat(2 * PREFER_A), vmax(separation, other), separation);
+    vm corner =
+        (most > splat((near_real)-1e-5)) &
+        ((between > vmax(separation, zero) * splat((near_real)1.000002) + splat((near_real)4e-6)) |
+         ((cut > splat(MOST_CUT)) & ~lies_flat));
     if (!any(corner)) {
         return; // the result of a lane does not depend on the others: it would not be taken
     }
@@ -266,7 +267,7 @@ WIDE_PART void meet_outlines(touch *t, const lanes *l, const pl_narrow_input *in
     t->turns = selm(flip, (vm){ 0 } + PL_MET_TURNS_B, (vm){ 0 } + PL_MET_TURNS_A);
     vm lies_flat = ~beside & (vabs(slope) < splat(FLAT_SLOPE));
     round_corners(t, l, in, a, b, r, w, sel(flip, fb.separation, fa.separation),
-                  vmax(fa.separation, fb.separation), cut, lies_flat, p_deeper);
+                  sel(flip, fa.separation, fb.separation), cut, lies_flat, p_deeper);
     *flip_out = flip;
     *face_out = face;
 }
