@@ -58,5 +58,5 @@ expect { "the crate stands on the platform", body = "crate", position = {6, 2.6}
 expect { "and lies still", body = "crate", max_speed = 0.02 }
 expect { "the rope is never longer than wound", always = true, test = function()
     local over = rope:value() - length
-    return over < 0.03, over, 0.03
+    return over < 0.04, over, 0.04 -- wound at 1 m/s, it lags by 0.03 m
 end }

@@ -39,12 +39,12 @@ typedef struct plumb_world_desc {
     plumb_solver solver;            ///< default PLUMB_SOLVER_SOFT
     int substeps;                   ///< [-] 1..64, default 4. PGS: sub-steps of the whole step, default 1
     int iterations;                 ///< [-] 1..1000. PGS: sweeps a step, default 10. Soft: sweeps a substep, default 1
-    bool direct_joints;             ///< solve the joints of an island together, exactly, by a direct method: for long
-                                    ///< chains, heavy ends, trusses, cantilevers. Costs some 2 us a joint and substep,
-                                    ///< more where joints form nets. Soft step alone; mice, motors, friction joints
-                                    ///< and what has a bound are swept as ever. Default: all are. For machines whose
-                                    ///< parts do not overlap: what contacts push apart and joints hold together, it
-                                    ///< may throw
+    bool direct_joints;             ///< solve all joints of an island together, exactly, by a direct method. Costs some
+                                    ///< 2 us a joint and substep, more where joints form nets. Soft step alone; mice,
+                                    ///< motors, friction joints and what has a bound are swept as ever. Default: so are
+                                    ///< all joints but those of bodies that hang together by a light one between heavy
+                                    ///< ones, a hub, a row of welds: they are solved together unasked, up to nets of 150
+                                    ///< joints. What contacts push apart and joints hold together may be thrown
     plumb_real exact_tolerance;     ///< [-] 0..0.5, default 1e-9 (also of 0): share of the largest speed that contacts and joints
                                     ///< have to undo in a substep which PLUMB_SOLVER_EXACT may leave. What it left:
                                     ///< plumb_stats.exact_residual

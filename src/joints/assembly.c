@@ -19,6 +19,7 @@
 // What an assembly is.
 #define IS_TOUCHED 1u // by a contact, in this step
 #define IS_UNEVEN  2u
+#define IS_DIRECT  4u // joints of it are solved together
 
 bool pl_assemblies_reserve(plumb_world *world)
 {
@@ -26,7 +27,8 @@ bool pl_assemblies_reserve(plumb_world *world)
     const size_t rows = world->dynamic_count;
     return pl_buffer_reserve(&world->memory, &plan->leaders, rows * sizeof(uint32_t)) &&
            pl_buffer_reserve(&world->memory, &plan->looped, rows * sizeof(uint8_t)) &&
-           pl_buffer_reserve(&world->memory, &plan->states, rows * sizeof(uint8_t));
+           pl_buffer_reserve(&world->memory, &plan->states, rows * sizeof(uint8_t)) &&
+           pl_buffer_reserve(&world->memory, &plan->hubs, rows * sizeof(pl_hub));
 }
 
 static bool ties_any(const plumb_world *world, const pl_joint_mark *m)
@@ -52,7 +54,7 @@ static bool holds_in_place(const plumb_world *world, uint32_t joint)
 void pl_assemblies_make(plumb_world *world)
 {
     pl_joint_plan *plan = &world->joints.plan;
-    const uint32_t *order = plan->order.data, rows = world->dynamic_count;
+    const uint32_t count = world->joints.count, rows = world->dynamic_count;
     pl_joint_mark *marks = plan->marks.data;
     uint32_t *leaders = plan->leaders.data;
     uint8_t *looped = plan->looped.data, *held = plan->states.data;
@@ -60,20 +62,20 @@ void pl_assemblies_make(plumb_world *world)
     pl_union_reset(leaders, rows);
     memset(looped, 0, rows);
     memset(held, 0, rows);
-    for (uint32_t i = 0; i < plan->order_count; ++i) {
-        const pl_joint_mark *m = &marks[order[i]];
-        if (ties_two(world, m) && !pl_union_join(leaders, m->row_a, m->row_b)) {
-            looped[m->row_a] |= holds_in_place(world, order[i]); // told of a row first
+    for (uint32_t i = 0; i < count; ++i) {
+        const pl_joint_mark *m = &marks[i];
+        if (m->what != 0 && ties_two(world, m) && !pl_union_join(leaders, m->row_a, m->row_b)) {
+            looped[m->row_a] |= holds_in_place(world, i); // told of a row first
         }
     }
-    for (uint32_t i = 0; i < plan->order_count; ++i) {
-        pl_joint_mark *m = &marks[order[i]];
+    for (uint32_t i = 0; i < count; ++i) {
+        pl_joint_mark *m = &marks[i];
         m->assembly = PL_NONE;
-        if (!ties_any(world, m)) {
+        if (m->what == 0 || !ties_any(world, m)) {
             continue;
         }
         m->assembly = pl_union_leader(leaders, m->row_a < rows ? m->row_a : m->row_b);
-        const bool two = ties_two(world, m), is_held = !two && holds_in_place(world, order[i]);
+        const bool two = ties_two(world, m), is_held = !two && holds_in_place(world, i);
         looped[m->assembly] |=
             (two && looped[m->row_a] != 0) || (is_held && held[m->assembly] != 0);
         held[m->assembly] |= is_held;
@@ -86,7 +88,7 @@ static uint8_t state_of(const plumb_world *world, const pl_joint_mark *m)
     const uint32_t *slots = world->solver.slots.data, rows = world->dynamic_count;
     const bool touched = (m->row_a < rows && contacts[slots[m->row_a]] != 0) ||
                          (m->row_b < rows && contacts[slots[m->row_b]] != 0);
-    uint8_t state = touched ? IS_TOUCHED : 0;
+    uint8_t state = (touched ? IS_TOUCHED : 0) | (m->direct ? IS_DIRECT : 0);
     if (ties_two(world, m)) {
         const real a = world->bodies.inv_mass[m->row_a], b = world->bodies.inv_mass[m->row_b];
         state |= a > UNEVEN * b || b > UNEVEN * a ? IS_UNEVEN : 0;
@@ -100,6 +102,12 @@ static void kick_whole(plumb_world *world, uint32_t row)
         const uint32_t slot = ((const uint32_t *)world->solver.slots.data)[row];
         ((near_real *)world->solver.kicked.data)[4 * (size_t)slot + 3] = 0;
     }
+}
+
+static bool is_whole(uint8_t state, uint8_t looped)
+{
+    const uint8_t uneven = IS_TOUCHED | IS_UNEVEN;
+    return (state & uneven) == uneven || ((state & IS_DIRECT) != 0 && looped != 0);
 }
 
 void pl_assemblies_share(plumb_world *world)
@@ -124,8 +132,7 @@ void pl_assemblies_share(plumb_world *world)
     }
     for (uint32_t i = 0; i < plan->order_count; ++i) {
         const pl_joint_mark *m = &marks[order[i]];
-        if (m->assembly != PL_NONE &&
-            (states[m->assembly] == (IS_TOUCHED | IS_UNEVEN) || (direct && looped[m->assembly]))) {
+        if (m->assembly != PL_NONE && is_whole(states[m->assembly], looped[m->assembly])) {
             kick_whole(world, m->row_a);
             kick_whole(world, m->row_b);
             plan->any_whole = true;

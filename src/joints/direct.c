@@ -60,6 +60,30 @@ static bool begins_at_bound(const pl_direct_part *p, int i)
     return (impulse <= p->law[i].low && lack <= 0) || (impulse >= p->law[i].high && lack >= 0);
 }
 
+static void push(pl_direct_part *p, int i, double total)
+{
+    const pl_lone *l = &p->lone;
+    const real before = l->joint->impulse[i];
+    l->joint->impulse[i] = (real)total;
+    pl_one_push(&l->joint->rows.row[i], l->a, l->b, (real)total - before);
+}
+
+// A motor and a limit of one value are one direction, of which the elimination leaves the motor nothing: so a limit that the
+// motor leaves lets go first. If the motor is too weak for that, it ends at its bound, and the limit is freed again.
+static void leave_limits(pl_direct_part *p)
+{
+    const pl_joint *j = p->lone.joint;
+    for (int i = j->rows.block + 2; i < j->rows.count; ++i) {
+        const double speed = p->law[i].target;
+        const int left = speed > 0 ? i - 2 : i - 1; // lower, upper
+        if (pl_one_is_limited(j, i) && p->law[i].in_force && speed != 0 && p->law[left].in_force &&
+            (double)j->impulse[left] > p->law[left].low) {
+            push(p, left, p->law[left].low);
+            p->at_bound[left] = true;
+        }
+    }
+}
+
 static void open_part(const joint_system *s, uint32_t column, pl_joint_sweep sweep)
 {
     pl_direct_part *p = &s->parts[column];
@@ -70,6 +94,7 @@ static void open_part(const joint_system *s, uint32_t column, pl_joint_sweep swe
             p->at_bound[i] = i >= p->lone.joint->rows.block && begins_at_bound(p, i);
         }
     }
+    leave_limits(p);
 }
 
 static void number_unknowns(pl_direct_part *p)
@@ -252,14 +277,6 @@ static void substitute(const joint_system *s)
 }
 
 //---- who is at a bound -----------------------------------------------------------------------------
-
-static void push(pl_direct_part *p, int i, double total)
-{
-    const pl_lone *l = &p->lone;
-    const real before = l->joint->impulse[i];
-    l->joint->impulse[i] = (real)total;
-    pl_one_push(&l->joint->rows.row[i], l->a, l->b, (real)total - before);
-}
 
 // Puts at its bound who would leave it. True: there were some, and the solution does not hold.
 static bool hold_to_bounds(const joint_system *s)

@@ -16,7 +16,7 @@
 
 bool pl_joints_direct(const plumb_world *world)
 {
-    return world->desc.direct_joints && world->desc.solver == PLUMB_SOLVER_SOFT;
+    return world->joints.plan.any_direct;
 }
 
 // Scratch of a group: joints are told by their place in it.
@@ -193,7 +193,7 @@ static bool plan_group(search *s, pl_joint_group *group)
     bool *swept = (bool *)direct->swept.data + group->alone;
     for (uint32_t i = 0; i < all; ++i) {
         pl_joint *j = pl_joint_grouped(&s->world->joints, group->alone + i);
-        swept[i] = !can_be_direct(s->world, j);
+        swept[i] = !mark_of(s, i)->direct || !can_be_direct(s->world, j);
         if (!swept[i]) {
             hang(s, i);
         }
@@ -212,8 +212,11 @@ static bool plan_group(search *s, pl_joint_group *group)
     }
     group->direct_first = group->direct_end = direct->column_count;
     if (!fits) {
-        pl_warn(s->world, "%u joints make too dense a net to be solved directly: they are swept",
-                s->count);
+        if (s->world->desc.direct_joints) {
+            pl_warn(s->world,
+                    "%u joints make too dense a net to be solved directly: they are swept",
+                    s->count);
+        }
         memset(swept, 1, all);
         direct->entry_count = first_entry;
         return true;

@@ -106,7 +106,9 @@ typedef enum pl_joint_sweep {
 bool pl_joints_look(plumb_world *world);
 bool pl_joints_plan(plumb_world *world);
 bool pl_joints_group(plumb_world *world);
-// Room for assemblies, which are made with the plan; then, once contacts have colours, whose kicks are whole (assembly.c).
+// Which joints are solved together, once there are assemblies (hub.c).
+void pl_joints_find_hubs(plumb_world *world);
+// Room for assemblies and hubs, which are made with the plan; then, once contacts have colours, whose kicks are whole (assembly.c).
 bool pl_assemblies_reserve(plumb_world *world);
 void pl_assemblies_make(plumb_world *world);
 void pl_assemblies_share(plumb_world *world);

@@ -43,7 +43,7 @@ pl_row_law pl_row_law_of(const pl_lone *l, int i, pl_joint_sweep sweep, bool hal
         return law;
     }
     if (r->type == PL_ROW_DRIVE) {
-        law.target = (double)r->speed;
+        law.target = (double)(halves ? pl_one_drive_speed(j, i) : r->speed);
     } else if (r->spring != PL_SPRING_NONE) {
         aim_at_spring(l, i, halves, &law);
     } else if (i > 0 && i == j->struck) {

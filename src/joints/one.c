@@ -97,13 +97,17 @@ real pl_one_bow(const pl_row *r, const pl_solver_body *a, const pl_solver_body *
     return h / 2 * (bow + (of_a * r->along_a - of_b * r->along_b));
 }
 
-// What a motor may drive at: it comes to a stop where a limit of the same value begins, the two rows before it. Else limit
-// and motor would push against one another, and the limit gives way by what the motor has.
-static real drive_speed(const pl_joint *j, int i)
+bool pl_one_is_limited(const pl_joint *j, int i)
+{
+    const pl_row *drive = &j->rows.row[i], *upper = drive - 1;
+    return drive->type == PL_ROW_DRIVE && i - 2 >= j->rows.block && upper->type == PL_ROW_LEAST &&
+           upper->form == drive->form;
+}
+
+real pl_one_drive_speed(const pl_joint *j, int i)
 {
     const pl_row *drive = &j->rows.row[i], *lower = drive - 2, *upper = drive - 1;
-    if (drive->type != PL_ROW_DRIVE || i - 2 < j->rows.block || upper->type != PL_ROW_LEAST ||
-        upper->form != drive->form) {
+    if (!pl_one_is_limited(j, i)) {
         return drive->speed;
     }
     const real down = plumb_max(lower->error, 0) / j->h, up = plumb_max(upper->error, 0) / j->h;
@@ -123,7 +127,7 @@ void pl_one_solve_row(const pl_joint_context *c, pl_joint *j, int i, pl_solver_b
     if (apart) {
         s = (pl_joint_soft){ 1, 1 / j->h, 0, 0 }; // may close the gap
     }
-    real v = pl_one_rate(r, a, b) - drive_speed(j, i);
+    real v = pl_one_rate(r, a, b) - pl_one_drive_speed(j, i);
     if (i > 0 && i == j->struck) { // behind a blow it is on its way out
         s = (pl_joint_soft){ 1, 0, 0, 0 };
         v -= j->struck_rate;

@@ -52,5 +52,10 @@ void pl_one_move(const pl_joint *j, pl_solver_body *a, pl_solver_body *b, real s
 
 // Of a rigid row that pulls. `soft` [s]: the substep that it is as stiff for (pl_soft_substep).
 pl_joint_soft pl_joint_rigid(real h, real soft);
+// Whether row i is a motor, and the two rows before it are the limits of its value.
+bool pl_one_is_limited(const pl_joint *j, int i);
+// What a motor may drive at: it comes to a stop where a limit of the same value begins. Else limit and motor would push
+// against one another, and the limit gives way by what the motor has.
+real pl_one_drive_speed(const pl_joint *j, int i);
 
 #endif

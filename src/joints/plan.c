@@ -88,11 +88,10 @@ static uint8_t look(const plumb_world *world, pl_joint_mark *mark, pl_ends *ends
     const uint32_t b = row_of(world, mark->b, mark->row_b);
     mark->row_a = ends->a = a;
     mark->row_b = ends->b = b;
-    return (
-        uint8_t)(SOLVED |
-                 (pl_joints_direct(world) || world->desc.solver != PLUMB_SOLVER_SOFT ? 0 : WIDE) |
-                 (a < world->dynamic_count ? MOVES_A : 0) |
-                 (b < world->dynamic_count ? MOVES_B : 0));
+    const plumb_world_desc *d = &world->desc;
+    return (uint8_t)(SOLVED | (d->direct_joints || d->solver != PLUMB_SOLVER_SOFT ? 0 : WIDE) |
+                     (a < world->dynamic_count ? MOVES_A : 0) |
+                     (b < world->dynamic_count ? MOVES_B : 0));
 }
 
 // True: all marks are as they were when the plan was made.
@@ -225,6 +224,8 @@ static void sort_out(plumb_world *world)
     pl_joint_plan *plan = &joints->plan;
     pl_joint_mark *marks = plan->marks.data;
     plan->pattern_count = 0;
+    pl_assemblies_make(world);
+    pl_joints_find_hubs(world);
     memset(world->solver.masks.data, 0, world->solver.slot_count * sizeof(uint64_t));
     for (uint32_t i = 0; i < joints->count; ++i) {
         pl_joint_mark *mark = &marks[i];
@@ -232,7 +233,7 @@ static void sort_out(plumb_world *world)
             continue;
         }
         pl_joint *j = &pl_joint_items(joints)[i];
-        bool wide = (mark->what & WIDE) != 0 && is_plain(world, j, mark);
+        bool wide = (mark->what & WIDE) != 0 && !mark->direct && is_plain(world, j, mark);
         uint32_t pattern = wide ? pattern_of(world, j) : PL_NONE;
         mark->color = (uint8_t)(pattern != PL_NONE ? color_of(world, mark) : PL_JOINT_COLORS);
         mark->pattern = (uint8_t)(pl_joint_is_wide(mark) ? pattern : 0);
@@ -295,7 +296,6 @@ bool pl_joints_plan(plumb_world *world)
     if (!plan->made) {
         sort_out(world);
         put_in_order(&world->joints);
-        pl_assemblies_make(world);
         plan->group_count = 0;
     }
     plan->made = pl_joints_group(world);
@@ -314,12 +314,13 @@ bool pl_joints_changed(const plumb_world *world)
 
 void pl_joints_plan_free(pl_memory *memory, pl_joint_plan *plan)
 {
-    pl_buffer *buffers[] = { &plan->marks,          &plan->ends,           &plan->order,
-                             &plan->groups,         &plan->grouped,        &plan->bundles,
-                             &plan->lanes,          &plan->slots,          &plan->records,
-                             &plan->leaders,        &plan->looped,         &plan->states,
-                             &plan->direct.columns, &plan->direct.entries, &plan->direct.swept,
-                             &plan->direct.parts,   &plan->direct.blocks,  &plan->direct.scratch };
+    pl_buffer *buffers[] = { &plan->marks,         &plan->ends,           &plan->order,
+                             &plan->groups,        &plan->grouped,        &plan->bundles,
+                             &plan->lanes,         &plan->slots,          &plan->records,
+                             &plan->leaders,       &plan->looped,         &plan->states,
+                             &plan->hubs,          &plan->direct.columns, &plan->direct.entries,
+                             &plan->direct.swept,  &plan->direct.parts,   &plan->direct.blocks,
+                             &plan->direct.scratch };
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; ++i) {
         pl_buffer_free(memory, buffers[i]);
     }

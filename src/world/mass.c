@@ -85,6 +85,11 @@ void pl_mass_apply(plumb_world *world, uint32_t row, const pl_body_mass *mass)
     pl_bodies *b = &world->bodies;
     bool turned = b->inv_inertia[row] > 0;
     bool turns = mass->inertia > 0 && !(b->flags[row] & PL_BODY_FIXED_ROTATION);
+    if (b->first_joint[row] != PL_NONE &&
+        (b->mass[row] != mass->mass || b->inertia[row] != mass->inertia || turned != turns ||
+         b->local_x[row] != mass->x || b->local_y[row] != mass->y)) {
+        pl_joints_replan(&world->joints); // by masses it is told who is solved together
+    }
     b->mass[row] = mass->mass;
     b->inertia[row] = mass->inertia;
     b->inv_mass[row] = 1 / mass->mass;

@@ -155,6 +155,7 @@ typedef struct pl_joint_mark {
     uint8_t pattern;
     uint8_t degree; // joints in lanes at that of its bodies which has more of them; at least 1
     bool quiet; // nothing but its reaction comes of it after the step
+    bool direct; // it is solved together with the others of its group: see direct.c
 } pl_joint_mark;
 
 #define PL_JOINT_COLORS 64
@@ -186,6 +187,16 @@ typedef struct pl_direct {
 
 #define PL_DIRECT_BLOCK (PL_JOINT_ROWS * PL_JOINT_ROWS)
 
+// A body with joints, and the assembly that has its number (hub.c).
+typedef struct pl_hub {
+    double share;      // of a body, added up over its joints
+    uint32_t joints;   // of a body
+    uint32_t assembly; // of a body with joints
+    uint32_t joints_of_all, bodies; // of an assembly
+    double most;                    // share of its bodies
+    double cubes;                   // sum of its bodies' joints to the third
+} pl_hub;
+
 // Who is solved with whom: what follows from the joints and bodies that there are, and is kept from step to
 // step as long as it does (plan.c); which of them are in which cluster, and their lanes (group.c).
 typedef struct pl_joint_plan {
@@ -202,8 +213,10 @@ typedef struct pl_joint_plan {
     pl_buffer records;
     pl_buffer leaders; // uint32_t a dynamic row, while assemblies are found
     pl_buffer looped, states; // uint8_t an assembly: see assembly.c
+    pl_buffer hubs; // pl_hub a dynamic row, while it is found which joints are solved together
     uint32_t assembly_count;
     bool any_whole; // assembly is kicked whole in this step
+    bool any_direct; // joint is solved together with others
     size_t room; // [B] of a thread
     uint32_t order_count, group_count, bundle_count, pattern_count;
     pl_joint_pattern patterns[PL_JOINT_PATTERNS];

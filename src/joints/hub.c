@@ -1,0 +1,167 @@
+// hub.c - which joints are solved together (direct.c) although nobody asked: those of assemblies that sweeps cannot hold.
+//
+// A round of sweeps leaves G e of an error e of the impulses. As each substep begins with the impulses of the one before, a mode of
+// G of the eigenvalue g goes on by mu^2 - 2 g mu + g = 0. That dies away for any g from 0 to 1, if slowly near 1; but where three
+// joints and more meet at one body g is complex, and from |g| = 1/3 on such a mode may grow. Six boxes welded to one flew apart; more
+// substeps made it worse.
+//
+// What tells is how much of what gives way at a joint is one of its bodies. Let k be the most by which that body moves under a push
+// between the two, over what the other one moves; it adds the square of k / (1 + k). Equal links of a chain have 1/2, discs of a
+// net 1, ragdolls 0.9; a link between two of its mass that bears much more has 5/4, equal boxes in a row of welds 1.7. Beyond MOST
+// an assembly is solved together, whole: in part, what is solved and what is swept feed one another (DECISIONS.md).
+//
+// The rule asks for masses and for places on the bodies alone, never for poses, so that a plan can be kept.
+//
+// Reads: marks with assemblies, joints, masses. Writes: marks. Order: before joints get colours. Cost: O(joints) where a plan is made.
+#include "joints/joint.h"
+#include "plumb/math.h"
+#include "world/state.h"
+
+#include <string.h>
+
+#define MOST 1.1
+
+// What is swept all the same, for the factor of it would take longer than all the rest: nets of more joints, and bodies of so many
+// (the sum of cubes is three times the blocks that one elimination multiplies).
+#define MOST_OF_NET 150u
+#define MOST_CUBES  60000u
+
+// A body of a joint: inverse mass and inertia, and where its anchor is from its centre.
+typedef struct end {
+    double inv_mass, inv_inertia;
+    plumb_vec2 arm; // [m] in its own frame
+} end;
+
+static end end_of(const plumb_world *world, const pl_joint_end *e, uint32_t row)
+{
+    const pl_bodies *b = &world->bodies;
+    return (end){ (double)b->inv_mass[row], (double)b->inv_inertia[row],
+                  plumb_v2(e->local.x - b->local_x[row], e->local.y - b->local_y[row]) };
+}
+
+static double square(plumb_vec2 v)
+{
+    return (double)v.x * (double)v.x + (double)v.y * (double)v.y;
+}
+
+// k / (1 + k) of what holds the other's place and turn. k is but for a hundredth the other's mass and inertia about the centre of
+// this one, over its own. `apart` [m^2]: square of the way from centre to centre.
+static double held_share(const end *self, const end *other, double apart)
+{
+    const double k = self->inv_mass / other->inv_mass +
+                     (apart / other->inv_mass + 1 / other->inv_inertia) * self->inv_inertia;
+    return k < 1e12 ? k / (1 + k) : 1;
+}
+
+// The same of what holds a point: k in the mean of all directions, for the bodies turn.
+static double hinged_share(const end *self, const end *other)
+{
+    const double of_self = 2 * self->inv_mass + square(self->arm) * self->inv_inertia;
+    const double of_other = 2 * other->inv_mass + square(other->arm) * other->inv_inertia;
+    return of_self > 0 ? of_self / (of_self + of_other) : 0;
+}
+
+typedef enum what_holds { NOTHING, PLACE, PLACE_AND_TURN } what_holds;
+
+static what_holds held_by(const plumb_joint_desc *d)
+{
+    const bool sprung = pl_joint_has_spring(d);
+    switch (d->kind) {
+    case PLUMB_WELD:
+        return sprung ? PLACE : PLACE_AND_TURN;
+    case PLUMB_PRISMATIC:
+        return PLACE_AND_TURN;
+    case PLUMB_REVOLUTE:
+    case PLUMB_WHEEL:
+        return PLACE;
+    case PLUMB_DISTANCE:
+        return sprung ? NOTHING : PLACE;
+    default:
+        return NOTHING;
+    }
+}
+
+// [m^2] from A's centre to B's, squared, as they were when the joint was made.
+static double apart_of(const pl_joint *j, const end *a, const end *b)
+{
+    const plumb_rot turn = plumb_rot_make((real)(j->b.start - j->a.start));
+    const plumb_vec2 back = plumb_rot_apply(turn, b->arm);
+    return square(plumb_v2(a->arm.x - back.x, a->arm.y - back.y));
+}
+
+static void add_shares(const plumb_world *world, const pl_joint *j, const pl_joint_mark *m,
+                       pl_hub *hubs)
+{
+    const what_holds holds = held_by(&j->desc);
+    if (holds == NOTHING || m->row_a >= world->dynamic_count || m->row_b >= world->dynamic_count) {
+        return;
+    }
+    const end a = end_of(world, &j->a, m->row_a), b = end_of(world, &j->b, m->row_b);
+    const double apart = holds == PLACE_AND_TURN ? apart_of(j, &a, &b) : 0;
+    const double of_a = holds == PLACE ? hinged_share(&a, &b) : held_share(&a, &b, apart);
+    const double of_b = holds == PLACE ? hinged_share(&b, &a) : held_share(&b, &a, apart);
+    hubs[m->row_a].share += of_a * of_a;
+    hubs[m->row_b].share += of_b * of_b;
+}
+
+// Bodies: their shares and joints. Assemblies, which have the number of a body: their joints.
+static void tally_joints(const plumb_world *world, pl_hub *hubs)
+{
+    const pl_joint_mark *marks = pl_joint_marks(&world->joints);
+    for (uint32_t i = 0; i < world->joints.count; ++i) {
+        const pl_joint_mark *m = &marks[i];
+        if (m->what == 0 || m->assembly == PL_NONE) {
+            continue;
+        }
+        add_shares(world, &pl_joint_items(&world->joints)[i], m, hubs);
+        hubs[m->assembly].joints_of_all++;
+        const uint32_t rows[2] = { m->row_a, m->row_b };
+        for (int k = 0; k < 2; ++k) {
+            if (rows[k] < world->dynamic_count) {
+                hubs[rows[k]].assembly = m->assembly;
+                hubs[rows[k]].joints++;
+            }
+        }
+    }
+}
+
+// Assemblies: what their bodies add up to.
+static void tally_bodies(const plumb_world *world, pl_hub *hubs)
+{
+    for (uint32_t row = 0; row < world->dynamic_count; ++row) {
+        const pl_hub *body = &hubs[row];
+        if (body->joints > 0) {
+            pl_hub *all = &hubs[body->assembly];
+            const double n = (double)body->joints;
+            all->bodies++;
+            all->most = body->share > all->most ? body->share : all->most;
+            all->cubes += n * n * n;
+        }
+    }
+}
+
+static bool is_together(const pl_hub *all)
+{
+    const uint32_t loops = all->joints_of_all > all->bodies ? all->joints_of_all - all->bodies : 0;
+    const bool net = loops > all->joints_of_all / 8 && all->joints_of_all > MOST_OF_NET;
+    return all->most > MOST && !net && all->cubes < MOST_CUBES + 27.0 * all->joints_of_all;
+}
+
+void pl_joints_find_hubs(plumb_world *world)
+{
+    pl_joint_plan *plan = &world->joints.plan;
+    pl_joint_mark *marks = plan->marks.data;
+    pl_hub *hubs = plan->hubs.data;
+    const bool soft = world->desc.solver == PLUMB_SOLVER_SOFT;
+    memset(hubs, 0, world->dynamic_count * sizeof *hubs);
+    tally_joints(world, hubs);
+    tally_bodies(world, hubs);
+    plan->any_direct = false;
+    for (uint32_t i = 0; i < world->joints.count; ++i) {
+        pl_joint_mark *m = &marks[i];
+        m->direct = soft && m->what != 0 &&
+                    (world->desc.direct_joints ||
+                     (m->assembly != PL_NONE && is_together(&hubs[m->assembly])));
+        plan->any_direct |= m->direct;
+    }
+}

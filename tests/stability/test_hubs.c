@@ -1,0 +1,127 @@
+// test_hubs.c - bodies that many hang on: joints make no energy, however heavy what hangs there is (src/joints/hub.c).
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#include "harness/sim.h"
+
+#define HZ60 (1 / 60.0)
+
+// A tree of bodies that turns as one at 1 rad/s, in space: kinds of joints, masses and places at random.
+typedef struct tree {
+    plumb_world *world;
+    plumb_body body[32];
+    int count;
+} tree;
+
+static plumb_joint_kind any_kind(uint32_t *seed)
+{
+    static const plumb_joint_kind kinds[] = { PLUMB_WELD, PLUMB_WELD, PLUMB_REVOLUTE,
+                                              PLUMB_PRISMATIC };
+    return kinds[(int)sim_uniform(seed, 0, 4)];
+}
+
+static plumb_body add_body(tree *t, uint32_t *seed, double x, double y)
+{
+    const double kg = pow(10, sim_uniform(seed, -1, 1)), radius = sim_uniform(seed, 0.05, 0.7);
+    const plumb_body b = sim_mass(t->world, x, y, kg, kg * radius * radius);
+    plumb_body_set_velocity(t->world, b, sim_vec(-y, x));
+    plumb_body_set_angular_velocity(t->world, b, 1);
+    return t->body[t->count++] = b;
+}
+
+// Hangs a body on one of those that there are.
+static void grow(tree *t, uint32_t *seed, plumb_body on)
+{
+    const double angle = sim_uniform(seed, 0, 2 * SIM_PI), turn = sim_uniform(seed, -0.5, 0.5);
+    const double near = sim_uniform(seed, 0.1, 0.5), far = sim_uniform(seed, 0.1, 1.5);
+    const double x = sim_x(t->world, on) + near * cos(angle);
+    const double y = sim_y(t->world, on) + near * sin(angle);
+    const plumb_body b =
+        add_body(t, seed, x + far * cos(angle + turn), y + far * sin(angle + turn));
+    plumb_joint_desc d = {
+        .kind = any_kind(seed), .body_a = on, .body_b = b, .anchor = sim_vec(x, y)
+    };
+    if (d.kind == PLUMB_PRISMATIC) {
+        d.axis = sim_vec(cos(angle), sin(angle));
+    }
+    sim_joint(t->world, d);
+}
+
+static double kinetic(const tree *t)
+{
+    return (double)plumb_world_energy(t->world).kinetic;
+}
+
+// The most that its energy grows by in 3 s, over what it begins with.
+static double growth(tree *t)
+{
+    const double before = kinetic(t);
+    double most = 0;
+    for (int i = 0; i < 180; ++i) {
+        sim_step(t->world, HZ60);
+        most = fmax(most, kinetic(t) / before - 1);
+    }
+    return most;
+}
+
+static unsigned asked(const char *name, unsigned otherwise)
+{
+    const char *text = getenv(name);
+    return text != NULL ? (unsigned)strtoul(text, NULL, 10) : otherwise;
+}
+
+// FIRST=7 TREES=1 plays one of them.
+static void try_trees(bool stars)
+{
+    const unsigned first = asked("FIRST", 1), count = asked("TREES", 150);
+    int grew = 0;
+    double worst = 0;
+    for (unsigned i = first; i < first + count; ++i) {
+        uint32_t seed = 7919 * i;
+        const int substeps[] = { 4, 1, 2, 8, 16 };
+        tree t = { .world = sim_world(&(plumb_world_desc){
+                       .zero_gravity = true, .no_sleep = true, .substeps = substeps[i % 5] }) };
+        add_body(&t, &seed, sim_uniform(&seed, -1, 1), sim_uniform(&seed, -1, 1));
+        const int bodies = 4 + (int)sim_uniform(&seed, 0, stars ? 6 : 20);
+        while (t.count < bodies) {
+            grow(&t, &seed, t.body[stars ? 0 : (int)sim_uniform(&seed, 0, t.count)]);
+        }
+        const double by = growth(&t);
+        if (!(by < 0.02)) {
+            print_message("%s %u, %d bodies, %d substeps: energy grows by %.3g\n",
+                          stars ? "star" : "tree", i, t.count, substeps[i % 5], by);
+            ++grew;
+        }
+        worst = fmax(worst, by);
+        plumb_world_destroy(t.world);
+    }
+    print_message("%u %s: energy grows by %.3g at most\n", count, stars ? "stars" : "trees", worst);
+    assert_int_equal(grew, 0);
+}
+
+static void stars_make_no_energy(void **state)
+{
+    (void)state;
+    try_trees(true);
+}
+
+static void trees_make_no_energy(void **state)
+{
+    (void)state;
+    try_trees(false);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(stars_make_no_energy),
+        cmocka_unit_test(trees_make_no_energy),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
