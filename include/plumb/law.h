@@ -70,7 +70,7 @@ typedef struct plumb_law_desc {
 } plumb_law_desc;
 
 /// Adds a law. Null on error: E_NULL, E_RANGE, E_NOT_FINITE, E_HANDLE (body), E_STATE (the world wraps around), E_MEMORY,
-/// E_LOCKED. What sleeps where it acts wakes.
+/// E_LOCKED, E_UNSUPPORTED (a library without laws). What sleeps where it acts wakes.
 PLUMB_API plumb_law plumb_law_create(plumb_world *world, const plumb_law_desc *desc);
 /// Takes it away. Errors: E_HANDLE, E_LOCKED.
 PLUMB_API plumb_result plumb_law_destroy(plumb_world *world, plumb_law law);
@@ -96,7 +96,7 @@ typedef struct plumb_orbit_desc {
     plumb_real tolerance;
 } plumb_orbit_desc;
 
-/// Errors: E_RANGE, E_NOT_FINITE, E_MEMORY, E_LOCKED. `desc` may be null (= {0}).
+/// Errors: E_RANGE, E_NOT_FINITE, E_MEMORY, E_LOCKED, E_UNSUPPORTED (a library without laws). `desc` may be null (= {0}).
 PLUMB_API plumb_result plumb_world_set_orbits(plumb_world *world, const plumb_orbit_desc *desc);
 /// What is in force. Errors: E_NULL.
 PLUMB_API plumb_result plumb_world_orbits(const plumb_world *world, plumb_orbit_desc *desc);

@@ -10,6 +10,7 @@
 #include "effects/effects.h"
 #include "effects/fluid.h"
 #include "effects/gather.h"
+#include "effects/laws.h"
 #include "event/event.h"
 #include "exact/exact.h"
 #include "joints/energy.h"
@@ -116,6 +117,25 @@ RESERVE(pl_fluids_find)
 RESERVE(pl_fluids_immerse)
 ROW(pl_fluid_row)
 GIVES(bool, pl_fluid_acts_on, false, const plumb_world *world, uint32_t row)
+#endif
+
+#if !PL_HAS(LAWS)
+WANT(pl_want_laws)
+PASS(pl_run_orbits)
+ROW(pl_law_row)
+RESERVE_DT(pl_laws_find)
+RESERVE(pl_laws_take_slots)
+WORLD(pl_laws_settle)
+FREE(pl_laws_free, pl_laws)
+GIVES(bool, pl_law_acts_on, false, const plumb_world *world, uint32_t row)
+GIVES(bool, pl_laws_couple, false, const plumb_world *world, uint8_t *called)
+GIVES(double, pl_laws_potential, 0, const plumb_world *world)
+GIVES(plumb_orbit_desc, pl_orbits_of, (plumb_orbit_desc){ .order = 2 }, const plumb_world *world)
+void pl_laws_probe(const plumb_world *world, const pl_law_state *state, double charge, double out[2])
+{
+    out[0] = (double)world->desc.gravity.x;
+    out[1] = (double)world->desc.gravity.y;
+}
 #endif
 
 #if !PL_HAS(LIQUID)

@@ -110,6 +110,7 @@ static plumb_result check_numbers(const plumb_world *world, const char *fn, cons
 
 static plumb_result check_desc(const plumb_world *world, const char *fn, const plumb_law_desc *d)
 {
+    PL_TRY(PL_CHECK_HAS(world, fn, "a law", LAWS, "laws"));
     choice choices[CHOICES];
     list_choices(d, choices);
     for (int i = 0; i < CHOICES; ++i) {
@@ -244,6 +245,7 @@ plumb_result plumb_world_set_orbits(plumb_world *world, const plumb_orbit_desc *
     desc = desc == NULL ? &zero : desc;
     PL_TRY(pl_check_world(world));
     PL_TRY(pl_check_unlocked(world, __func__));
+    PL_TRY(PL_CHECK_HAS(world, __func__, "orbits", LAWS, "laws"));
     if (desc->order != 0 && desc->order != 2 && desc->order != 4) {
         return pl_fail(world, PLUMB_E_RANGE, __func__, "order is %d; it must be 2 or 4, 0 means 2",
                        desc->order);

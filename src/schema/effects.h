@@ -29,6 +29,8 @@
     X(SENSORS, "sensors", "", "src/event/sensor_events.c", "", "shapes that tell what they overlap")                           \
     X(FLUIDS, "fluids", "sensors", "src/effects/fluid.c src/effects/fluid_forces.c src/effects/flow.c src/geometry/immersed.c", \
       "fluid", "volumes that lift and drag: water, wind")                                                                      \
+    X(LAWS, "laws", "", "src/effects/laws.c src/effects/law_field.c src/effects/law_forces.c src/effects/orbits.c",            \
+      "charge attraction", "forces at a distance: attractors, gravitation, zones, magnetic fields")                            \
     X(LIQUID, "liquid", "", "src/liquid/%", "", "particles that flow")                                                         \
     X(CHARACTERS, "characters", "", "src/character/%", "", "bodies that walk")                                                 \
     X(JOINTS, "joints", "", "src/joints/%", "direct_joints", "of all kinds")                                                   \

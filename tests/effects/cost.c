@@ -45,6 +45,11 @@ static void add(plumb_world *world)
             world, body_at(world, (plumb_body_desc){ .type = PLUMB_STATIC }, 0, 1),
             &(plumb_shape_desc){
                 .kind = PLUMB_BOX, .half = { 2, 1 }, .sensor = true, .material = water });
+    } else if (is("laws")) {
+        must(world,
+             !plumb_is_null(plumb_law_create(world, &(plumb_law_desc){ .kind = PLUMB_LAW_ATTRACTOR,
+                                                                       .position = { 0, -50 },
+                                                                       .strength = 1 })));
     } else if (is("liquid")) {
         must(world,
              plumb_liquid_create(world, &(plumb_liquid_desc){ .spacing = R(0.1) }) == PLUMB_OK);

@@ -86,6 +86,12 @@ static void refusals(void)
             MADE(plumb_material_create, (plumb_material_desc){ .restitution = 1 }));
     refused(w, "fluids", MADE(plumb_material_create, (plumb_material_desc){ .fluid = true }));
     refused(w, "sensors", plumb_shape_set_sensor(w, shape, true) == PLUMB_OK);
+    refused(w, "laws", MADE(plumb_law_create, (plumb_law_desc){ .vector = { 1, 0 } }));
+    refused(w, "laws", MADE(plumb_body_create, (plumb_body_desc){ .charge = 1 }));
+    refused(w, "laws", plumb_body_set_attraction(w, body, 1) == PLUMB_OK);
+    refused(w, "laws", plumb_world_set_orbits(w, &(plumb_orbit_desc){ .order = 4 }) == PLUMB_OK);
+    const plumb_vec2 g = plumb_world_law_at(w, (plumb_vec2){ 1, 2 }, (plumb_vec2){ 3, 4 }, 5);
+    bad += g.x != 0 || g.y != plumb_world_gravity(w).y; // no law, so that is all
     refused(w, "liquid", plumb_liquid_create(w, NULL) == PLUMB_OK);
     refused(w, "characters", plumb_character_create(w, body, NULL) == PLUMB_OK);
     refused(w, "joints",
