@@ -44,6 +44,7 @@ typedef struct plumb_body_desc {
     plumb_real time_scale;       ///< [-] 0..100: see plumb_body_set_time_scale; 0 means 1
     plumb_real charge;           ///< [C]: see plumb/law.h
     plumb_real attraction;       ///< [-] 0..1e6: see plumb/law.h
+    plumb_real drag;             ///< [kg/m] 0..1e9: see plumb_body_set_drag
     bool disabled;               ///< out of the simulation: see plumb_body_set_enabled
     void *user_data;             ///< see plumb_body_user_data
 } plumb_body_desc;
@@ -199,6 +200,16 @@ PLUMB_API plumb_result plumb_body_set_damping(plumb_world *world, plumb_body bod
                                               plumb_real angular);
 PLUMB_API plumb_real plumb_body_damping(const plumb_world *world, plumb_body body);
 PLUMB_API plumb_real plumb_body_angular_damping(const plumb_world *world, plumb_body body);
+
+/// Drag [kg/m] 0..1e9 of still air on a dynamic body, at its centre of mass: a force -drag |v| v, besides that of
+/// damping. Of a shape it is density of the air times drag coefficient times width / 2: 0.7 of a ball of 1 m in
+/// air of 1.2 kg/m^2. Top speed of what falls: sqrt(m g / drag). Exact for what falls from rest and for what slows down alone,
+/// with damping or without, whatever the step; top speeds are exact, other motion is of second order in the substep. A
+/// body at rest weighs less by the share drag g h^2 / (3 m). Where air flows, or shapes are to be dragged by their outlines:
+/// a sensor of a fluid, see plumb/material.h. Bodies without it pay nothing. Default 0. Errors: E_HANDLE, E_RANGE,
+/// E_NOT_FINITE, E_MEMORY, E_UNSUPPORTED (a library without it).
+PLUMB_API plumb_result plumb_body_set_drag(plumb_world *world, plumb_body body, plumb_real drag);
+PLUMB_API plumb_real plumb_body_drag(const plumb_world *world, plumb_body body);
 
 /// Speeds [m/s], [rad/s] >= 0 that a dynamic body never ends a step with more than; 0: no cap, the default.
 /// Bodies without a cap pay nothing. Errors: E_HANDLE, E_RANGE, E_NOT_FINITE, E_MEMORY.

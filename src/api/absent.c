@@ -7,6 +7,7 @@
 #include "accuracy/dial.h"
 #include "character/character.h"
 #include "continuous/continuous.h"
+#include "effects/drag.h"
 #include "effects/effects.h"
 #include "effects/fluid.h"
 #include "effects/gather.h"
@@ -69,6 +70,13 @@ WIDTHS(KERNEL, pl_contact_store_bounces)
 ROW(pl_damping_row)
 RESERVE_DT(pl_damping_find)
 GIVES(real, pl_damping_fly, 0, plumb_world *world, uint32_t row, const pl_damping_decay *decay)
+#endif
+
+#if !PL_HAS(DRAG)
+WANT(pl_want_drag)
+RESERVE(pl_drag_find)
+ROW(pl_drag_row)
+GIVES(bool, pl_drag_acts_on, false, const plumb_world *world, uint32_t row)
 #endif
 
 #if !PL_HAS(SPEED_CAPS)

@@ -77,8 +77,8 @@ plumb_result plumb_body_set_time_scale(plumb_world *world, plumb_body body, plum
     return PLUMB_OK;
 }
 
-// plumb_body_set_charge, plumb_body_set_attraction.
-#define LAW_SETTER(name)                                                                           \
+// plumb_body_set_charge, plumb_body_set_attraction, plumb_body_set_drag.
+#define NUMBER_SETTER(name)                                                                        \
     plumb_result plumb_body_set_##name(plumb_world *world, plumb_body body, plumb_real name)       \
     {                                                                                              \
         uint32_t row;                                                                              \
@@ -90,8 +90,9 @@ plumb_result plumb_body_set_time_scale(plumb_world *world, plumb_body body, plum
         pl_told(world, body.entity, __func__);                                                     \
         return store(world, row, &t);                                                              \
     }
-LAW_SETTER(charge)
-LAW_SETTER(attraction)
+NUMBER_SETTER(charge)
+NUMBER_SETTER(attraction)
+NUMBER_SETTER(drag)
 
 //---- columns ------------------------------------------------------------------------------------
 

@@ -43,15 +43,21 @@ static pl_decay_step step_of(const pl_decay *d, double time)
                             .drop = (real)(1 - d->left) };
 }
 
+// [1/s] Where there is drag besides, both are one equation (drag.c).
+static real linear_of(const pl_body_settings *t)
+{
+    return t->drag > 0 ? 0 : t->damping;
+}
+
 static pl_damping_decay decay_of(const pl_body_settings *t, real dt, real h)
 {
     const double own = (double)t->time_scale, step = own * (double)dt,
                  sub = (double)(t->time_scale * h);
-    const pl_decay linear = pl_decay_of((double)t->damping * sub);
+    const pl_decay linear = pl_decay_of((double)linear_of(t) * sub);
     const pl_decay turn = pl_decay_of((double)t->angular_damping * sub);
-    const pl_decay flight = pl_decay_of((double)t->damping * step);
+    const pl_decay flight = pl_decay_of((double)linear_of(t) * step);
     const pl_decay flight_turn = pl_decay_of((double)t->angular_damping * step);
-    return (pl_damping_decay){ .damping = t->damping,
+    return (pl_damping_decay){ .damping = linear_of(t),
                                .angular_damping = t->angular_damping,
                                .time_scale = t->time_scale,
                                .dt = dt,
@@ -68,7 +74,7 @@ static pl_damping_decay decay_of(const pl_body_settings *t, real dt, real h)
 
 static bool is_of(const pl_damping_decay *d, const pl_body_settings *t, real dt, real h)
 {
-    return d->damping == t->damping && d->angular_damping == t->angular_damping &&
+    return d->damping == linear_of(t) && d->angular_damping == t->angular_damping &&
            d->time_scale == t->time_scale && d->dt == dt && d->h == h;
 }
 
@@ -125,7 +131,7 @@ bool pl_damping_find(plumb_world *world, real dt)
             continue;
         }
         const pl_body_settings *t = &settings(world)[record - 1];
-        if ((t->damping > 0 || t->angular_damping > 0) && t->time_scale > 0) {
+        if ((linear_of(t) > 0 || t->angular_damping > 0) && t->time_scale > 0) {
             dampers[e->damper_count++] = (pl_damper){ slot, record - 1 };
         }
     }

@@ -48,6 +48,8 @@
       "what electric and magnetic laws act on; dynamic bodies")                                     \
     R(X, RECORD, REAL, attraction, SAID(attraction), "1", FROM(0, 1e6), 0, NO_ZERO,                 \
       "1: attracts others by mutual gravitation; dynamic bodies")                                   \
+    R(X, RECORD, REAL, drag, SAID(drag), "kg/m", FROM(0, 1e9), 0, NO_ZERO,                          \
+      "of still air, by the square of the speed; dynamic bodies")                                   \
     R(X, OWN, BOOL, disabled, NOT(enabled), "1", CHOICES(1), 0, NO_ZERO, "whether it is in the simulation")
 // clang-format on
 

@@ -21,6 +21,7 @@
       "src/solver/impact.c src/solver/impact_queue.c src/solver/bounce.c src/solver/restitution.simd.c",                       \
       "restitution restitution_mix", "contacts that bounce")                                                                   \
     X(DAMPING, "damping", "", "src/effects/damping.c", "damping angular_damping", "velocities of bodies that decay")           \
+    X(DRAG, "drag", "", "src/effects/drag.c", "drag", "still air that slows bodies by the square of their speed")              \
     X(SPEED_CAPS, "speed_caps", "", "src/effects/speed_cap.c", "max_speed max_spin", "speeds that bodies never exceed")        \
     X(TIME_SCALES, "time_scales", "", "src/effects/time_scale.c", "time_scale", "bodies with a time of their own")             \
     X(TARGETS, "targets", "", "src/effects/target.c src/effects/track.c", "", "kinematic bodies on their way to a target")     \

@@ -103,6 +103,8 @@
       "solver bodies, poses, velocities, masses, body settings", "accelerations", ONE)                                                       \
     X("damping",           MOMENT,      IF(pl_want_damping),         EACH(pl_damping_row),                                   REPLACEABLE,    \
       "solver bodies, body settings", "accelerations", ONE)                                                                                  \
+    X("drag",              MOMENT,      IF(pl_want_drag),            ACTS(pl_drag_row, pl_drag_acts_on),                     ONCE,           \
+      "solver bodies, body settings", "accelerations", ONE)                                                                                  \
     X("speed caps",        MOMENT,      IF(pl_want_caps),            EACH(pl_caps_row),                                      REPLACEABLE,    \
       "solver bodies, body settings", "accelerations", ONE)                                                                                  \
     X("integrate",         VELOCITIES,  IF(pl_want_solver),          THREE(pl_soft_integrate, pl_classic_integrate, pl_classic_integrate), ONCE,           \

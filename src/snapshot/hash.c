@@ -127,13 +127,16 @@ static void add_joints(pl_digest *digest, const plumb_world *world)
 static void add_holds(pl_digest *digest, const plumb_world *world)
 {
     const pl_body_settings *items = world->settings.items.data;
-    const size_t rest = sizeof *items - PL_SETTINGS_HASHED;
+    const size_t first = PL_SETTINGS_CHARGE, rest = sizeof *items - PL_SETTINGS_HASHED;
     for (uint32_t i = 0; i < world->settings.count; ++i) {
         static const char none[sizeof *items] = { 0 };
         const char *from = (const char *)&items[i] + PL_SETTINGS_HASHED;
         if (memcmp(from, none, rest) != 0) {
             pl_digest_add(digest, &items[i].body, sizeof items[i].body);
-            pl_digest_add(digest, from, rest);
+            pl_digest_add(digest, from, first);
+            if (memcmp(from + first, none, rest - first) != 0) { // fewer still
+                pl_digest_add(digest, from + first, rest - first);
+            }
         }
     }
 }

@@ -12,6 +12,7 @@
 #include "step/acting.h"
 
 #include "core/quad.h"
+#include "effects/drag.h"
 #include "effects/effects.h"
 #include "effects/laws.h"
 #include "step/system.h"
@@ -190,7 +191,7 @@ static bool keep_accelerations(plumb_world *world)
 bool pl_acting_find(plumb_world *world, real dt)
 {
     const bool solves = world->solver.slot_count > 0;
-    if (!pl_damping_find(world, dt) || !pl_caps_find(world) ||
+    if (!pl_damping_find(world, dt) || !pl_drag_find(world) || !pl_caps_find(world) ||
         (solves && !keep_accelerations(world))) {
         return false;
     }

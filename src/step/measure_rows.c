@@ -42,6 +42,7 @@ typedef struct row_rule {
 
 static const row_rule rules[] = {
     { pl_damping_row, ROW_DAMPING, PLUMB_WORK_DAMPING },
+    { pl_drag_row, ROW_MOMENT, PLUMB_WORK_DAMPING },
     { pl_caps_row, ROW_MOMENT, PLUMB_WORK_DAMPING },
     { pl_acting_reset, ROW_WORK, PLUMB_WORK_REST },
     { pl_soft_integrate, ROW_INTEGRATE, PLUMB_WORK_FORCES },

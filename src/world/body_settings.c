@@ -47,6 +47,7 @@ static bool is_capped(const pl_body_settings *t)
 static void count(pl_body_settings_list *settings, const pl_body_settings *t, uint32_t by)
 {
     settings->damped += is_damped(t) ? by : 0;
+    settings->dragged += t->drag > 0 ? by : 0;
     settings->capped += is_capped(t) ? by : 0;
     settings->scaled += t->time_scale != 1 ? by : 0;
     settings->frozen += t->time_scale == 0 ? by : 0;

@@ -29,6 +29,7 @@
     X(plumb_body_max_spin, plumb_body_max_spin(w, h))                                               \
     X(plumb_body_charge, plumb_body_charge(w, h))                                                   \
     X(plumb_body_attraction, plumb_body_attraction(w, h))                                           \
+    X(plumb_body_drag, plumb_body_drag(w, h))                                                       \
     X(plumb_body_time_scale, plumb_body_time_scale(w, h))                                           \
     X(plumb_body_gravity_scale, plumb_body_gravity_scale(w, h))                                     \
     X(plumb_body_user_data, plumb_body_user_data(w, h))                                             \

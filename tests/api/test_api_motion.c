@@ -107,6 +107,9 @@ static void settings_are_read_back(void **state)
                                                         .max_spin = 40,
                                                         .time_scale = R(0.5) });
     }
+    plumb_body_set_drag(w, b[3], R(0.25));
+    assert_near(plumb_body_drag(w, b[3]), 0.25, 0);
+    assert_near(plumb_body_drag(w, b[2]), 0, 0);
     assert_near(plumb_body_damping(w, b[3]), 3, 0);
     assert_near(plumb_body_angular_damping(w, b[3]), 2, 0);
     assert_near(plumb_body_max_speed(w, b[3]), 30, 0);
@@ -235,6 +238,14 @@ static void settings_are_refused(void **state)
             plumb_body_set_time_scale(w, f->dynamic, -1));
     REFUSED(E_HANDLE, "plumb_body_set_time_scale: body is null; it must be a live body",
             plumb_body_set_time_scale(w, NONE, 1));
+    REFUSED(E_RANGE, "plumb_body_set_drag: drag is -1; it must be 0 to 1e+09",
+            plumb_body_set_drag(w, f->dynamic, -1));
+    REFUSED(E_NOT_FINITE, "plumb_body_set_drag: drag is nan; it must be finite",
+            plumb_body_set_drag(w, f->dynamic, NAN_));
+    REFUSED(E_HANDLE, "plumb_body_set_drag: body is null; it must be a live body",
+            plumb_body_set_drag(w, NONE, 1));
+    REFUSED(E_RANGE, "plumb_body_create: drag is 2e+09; it must be 0 to 1e+09",
+            made(w, plumb_body_create(w, &(plumb_body_desc){ .drag = R(2e9) })));
     REFUSED(E_RANGE, "plumb_body_create: damping is -1; it must be at least 0",
             made(w, plumb_body_create(w, &(plumb_body_desc){ .damping = -1 })));
     REFUSED(E_RANGE, "plumb_body_create: time_scale is 200; it must be 0 to 100",

@@ -413,6 +413,7 @@ static void change_motion(session *s, plumb_body b)
         break;
     case 5:
         plumb_body_set_damping(w, b, one_in(s, 2) ? R(0.3) : 0, 0);
+        plumb_body_set_drag(w, b, one_in(s, 2) ? R(0.1) : 0);
         break;
     case 6:
         plumb_body_set_speed_cap(w, b, one_in(s, 2) ? 2 : 0, 0);

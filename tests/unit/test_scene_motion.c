@@ -12,7 +12,8 @@ static plumb_body named(scene *s, const char *name)
     "scene{ gravity = {0, 0} }\n"                                                                  \
     "local tar = material{ adhesion = 25, friction = 0.5 }\n"                                      \
     "body{ name = 'a', circle{1}, lock = {'y', 'rotation'}, material = tar }\n"                    \
-    "body{ name = 'b', circle{1}, at = {5, 0}, damping = 0.5, angular_damping = 2 }\n"             \
+    "body{ name = 'b', circle{1}, at = {5, 0}, damping = 0.5, angular_damping = 2, drag = 0.75 "   \
+    "}\n"                                                                                          \
     "body{ name = 'c', circle{1}, at = {10, 0}, max_speed = 3, max_spin = 4 }\n"                   \
     "body{ name = 'd', circle{1}, at = {15, 0}, enabled = false, time_scale = 0.25 }\n"            \
     "body{ name = 'e', type = 'kinematic', circle{1}, at = {20, 0}, time_scale = 0 }\n"            \
@@ -28,6 +29,7 @@ static void fields_reach_the_world(void **state)
     assert_true(f.x && !f.y && !f.rotation);
     assert_true(plumb_body_damping(w, named(s, "b")) == (plumb_real)0.5);
     assert_true(plumb_body_angular_damping(w, named(s, "b")) == 2);
+    assert_true(plumb_body_drag(w, named(s, "b")) == (plumb_real)0.75);
     assert_true(plumb_body_max_speed(w, named(s, "c")) == 3);
     assert_true(plumb_body_max_spin(w, named(s, "c")) == 4);
     assert_false(plumb_body_is_enabled(w, named(s, "d")));
@@ -44,9 +46,11 @@ static void fields_reach_the_world(void **state)
 static void json_keeps_it(void **state)
 {
     (void)state;
-    scene *s = load(EVERYTHING "find('f'):set_type('kinematic') find('b'):set_damping(3) "
-                               "find('c'):set_lock('x', 'y') find('c'):set_time_scale(2) "
-                               "find('d'):set_enabled(true) find('a'):set_enabled(false)\n");
+    scene *s =
+        load(EVERYTHING
+             "find('f'):set_type('kinematic') find('b'):set_damping(3) "
+             "find('c'):set_lock('x', 'y') find('c'):set_time_scale(2) find('c'):set_drag(0.5)"
+             "find('d'):set_enabled(true) find('a'):set_enabled(false)\n");
     size_t size;
     char *text = export_json(s, &size);
     scene *t = load_as("test.json", text, size, NULL);
@@ -58,6 +62,8 @@ static void json_keeps_it(void **state)
     assert_true(plumb_body_angular_damping(w, named(t, "b")) == 2);
     assert_true(plumb_body_locks(w, named(t, "c")).x && plumb_body_locks(w, named(t, "c")).y);
     assert_true(plumb_body_time_scale(w, named(t, "c")) == 2);
+    assert_true(plumb_body_drag(w, named(t, "b")) == (plumb_real)0.75);
+    assert_true(plumb_body_drag(w, named(t, "c")) == (plumb_real)0.5);
     assert_true(plumb_body_is_enabled(w, named(t, "d")));
     assert_false(plumb_body_is_enabled(w, named(t, "a")));
     free(text);

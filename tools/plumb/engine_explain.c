@@ -23,6 +23,7 @@ typedef enum cause {
     SENSORS, ///< bodies with one
     FLUIDS,
     DAMPED,
+    DRAGGED,
     CAPPED,
     ELASTIC, ///< of a material with restitution
     FAST,    ///< that ask for sweeps
@@ -74,6 +75,7 @@ static const struct reason {
     { "forces of now", NOBODY, BODIES },
     { "fluid forces", FLUIDS, IMMERSED },
     { "damping", DAMPED, SAME },
+    { "drag", DRAGGED, SAME },
     { "speed caps", CAPPED, SAME },
     { "integrate", MOVING, SAME },
     { "warm start joints", JOINTS, SAME },
@@ -170,6 +172,8 @@ static bool is_one(engine_stage *stage, plumb_body b, cause who)
         return look_at_shapes(stage, b).fluid;
     case DAMPED:
         return plumb_body_damping(w, b) > 0 || plumb_body_angular_damping(w, b) > 0;
+    case DRAGGED:
+        return plumb_body_drag(w, b) > 0;
     case CAPPED:
         return plumb_body_max_speed(w, b) > 0 || plumb_body_max_spin(w, b) > 0;
     case ELASTIC:
@@ -438,6 +442,10 @@ static void judge_motion(telling *t, const scene_body *b, const session_use *use
     if (still && is_one(&t->session->stage, b->entity, DAMPED)) {
         tell(t, "damping-at-rest", "take damping away, or let it move",
              "'%s' is damped and never moved", b->name);
+    }
+    if (still && is_one(&t->session->stage, b->entity, DRAGGED)) {
+        tell(t, "drag-at-rest", "take drag away, or let it move", "'%s' has drag and never moved",
+             b->name);
     }
     if (still && plumb_body_time_scale(w, b->entity) != 1 &&
         plumb_body_time_scale(w, b->entity) != 0) {

@@ -36,7 +36,7 @@ static int method_teleport(lua_State *L)
 
 // What takes one number or one flag: body:set_mass(2). The world has it, or refuses; the record keeps it as given,
 // and whoever writes the scene out writes it.
-#define NUMBERS(X) X(attraction) X(charge) X(gravity_scale) X(mass) X(time_scale)
+#define NUMBERS(X) X(attraction) X(charge) X(drag) X(gravity_scale) X(mass) X(time_scale)
 #define FLAGS(X)   X(continuous) X(enabled) X(fixed_rotation)
 
 #define NUMBER_SETTER(field)                                                                       \

@@ -14,10 +14,10 @@ int sc_axis_bit(const char *name)
     return 0;
 }
 
-static const char *const dynamic_rows[] = { "angular_damping", "attraction",     "charge",
-                                            "damping",         "fixed_rotation", "gravity_scale",
-                                            "inertia",         "lock",           "mass",
-                                            "max_speed",       "max_spin" };
+static const char *const dynamic_rows[] = {
+    "angular_damping", "attraction", "charge", "damping", "drag",      "fixed_rotation",
+    "gravity_scale",   "inertia",    "lock",   "mass",    "max_speed", "max_spin"
+};
 
 bool sc_motion_is_dynamic(const char *row)
 {

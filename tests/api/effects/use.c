@@ -75,6 +75,8 @@ static void refusals(void)
 #define MADE(make, ...) !plumb_is_null(make(w, &(__VA_ARGS__)))
     refused(w, "damping", MADE(plumb_body_create, (plumb_body_desc){ .damping = 1 }));
     refused(w, "damping", plumb_body_set_damping(w, body, 0, 1) == PLUMB_OK);
+    refused(w, "drag", MADE(plumb_body_create, (plumb_body_desc){ .drag = 1 }));
+    refused(w, "drag", plumb_body_set_drag(w, body, 1) == PLUMB_OK);
     refused(w, "speed_caps", MADE(plumb_body_create, (plumb_body_desc){ .max_spin = 1 }));
     refused(w, "time_scales", plumb_body_set_time_scale(w, body, 0) == PLUMB_OK);
     refused(w, "continuous", MADE(plumb_body_create, (plumb_body_desc){ .continuous = true }));
