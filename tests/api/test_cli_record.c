@@ -20,7 +20,7 @@ static void render_draws(void **state)
     expect_code("\"$P\" render good.lua --at 0.5 --size 320x200 -o two.png && cmp one.png two.png",
                 0);
     expect_code("\"$P\" render good.lua --at 0.5 --size 320x200 -o two.png "
-                "--overlay contacts,impulses,velocities,aabbs,legend,no-grid && "
+                "--overlay contacts,impulses,velocities,aabbs,field,legend,no-grid && "
                 "! cmp -s one.png two.png",
                 0);
     expect_code("\"$P\" render good.lua --size 64x64 --fps 4 -o 'f%02d.png' && "
@@ -122,10 +122,11 @@ static void a_recording_is_drawn(void **state)
                 0);
     assert_string_equal(out, "");
     expect_code(
-        "\"$P\" render good.lua --size 320x200 --at 0.5 --trail 0.25 --overlay contacts,legend "
+        "\"$P\" render good.lua --size 320x200 --at 0.5 --trail 0.25 --overlay "
+        "contacts,field,legend "
         "--title x --zoom 2 --follow ball -o s.png && "
         "for when in '--seek 0.5' '--step 30'; do "
-        "\"$P\" replay g.rec --size 320x200 $when --trail 0.25 --overlay contacts,legend "
+        "\"$P\" replay g.rec --size 320x200 $when --trail 0.25 --overlay contacts,field,legend "
         "--title x --zoom 2 --follow ball --render r.png && cmp s.png r.png || exit; done",
         0);
     expect_code("\"$P\" replay g.rec --size 64x64 --fps 4 --render 's%02d.png' && "

@@ -23,6 +23,7 @@ static void add_every_overlay(render_frame *frame)
     assert_int_equal(render_add_contact(frame, 0.0, 0.0, 0.0, 1.0, 0.01), RENDER_OK);
     assert_int_equal(render_add_impulse(frame, 0.0, 0.0, 1.0, 1.0), RENDER_OK);
     assert_int_equal(render_add_velocity(frame, 0.0, 0.0, -1.0, 1.0), RENDER_OK);
+    assert_int_equal(render_add_field(frame, 0.0, 0.0, 1.0, -0.5, 9.8, 0.7), RENDER_OK);
     assert_int_equal(render_add_aabb(frame, box), RENDER_OK);
     assert_int_equal(render_add_cell(frame, box), RENDER_OK);
     assert_int_equal(render_add_trail(frame, path, 3, 2), RENDER_OK);
@@ -65,7 +66,7 @@ static void test_every_overlay_is_switchable(void **state)
     assert_int_equal(changed_pixels(target), 0);
     const unsigned alone = RENDER_SHOW_LABELS | RENDER_SHOW_LEGEND | RENDER_SHOW_SPOKES |
                            RENDER_SHOW_NOTHING; // these show nothing of an overlay
-    for (unsigned bit = 0; bit < 16; bit++) {
+    for (unsigned bit = 0; bit < 17; bit++) {
         if ((1u << bit & alone) != 0) {
             continue;
         }
@@ -126,6 +127,40 @@ static void test_joints_have_signs(void **state)
             assert_true(signs[other] != signs[kind] || rows[other] != rows[kind]);
         }
     }
+    render_target_destroy(target);
+}
+
+// An arrow of a field is about its place and as long as told; strong ones are darker; legends tell the strongest.
+static void test_field_is_arrows(void **state)
+{
+    (void)state;
+    render_target *target = new_target(320, 240);
+    const render_camera camera = { .view_height = 4.0 }; // 60 px a metre
+    int dark[2];
+    for (int strong = 0; strong < 2; strong++) {
+        render_frame *frame = new_frame();
+        render_options options = flat();
+        options.show = RENDER_SHOW_FIELD;
+        assert_int_equal(render_add_field(frame, 0.0, 0.0, 1.0, 0.0, 9.81, strong), RENDER_OK);
+        draw(target, frame, camera, options);
+        const uint8_t *middle = pixel(target, 150, 120);
+        dark[strong] = middle[0] + middle[1] + middle[2];
+        assert_memory_equal(pixel(target, 126, 120), &white, 4);
+        assert_memory_equal(pixel(target, 194, 120), &white, 4);
+        assert_true(memcmp(pixel(target, 134, 120), &white, 4) != 0);
+        assert_true(memcmp(pixel(target, 186, 120), &white, 4) != 0);
+        assert_memory_equal(pixel(target, 134, 123), &white, 4); // the head is at the other end
+        assert_true(memcmp(pixel(target, 185, 121), &white, 4) != 0);
+        const size_t alone = changed_pixels(target);
+        options.show |= RENDER_SHOW_LEGEND;
+        draw(target, frame, camera, options);
+        assert_true(changed_pixels(target) > alone + 100);
+        assert_int_equal(render_add_field(frame, 0.0, 0.0, 1.0, 0.0, 1.0, 1.5), RENDER_E_ARGUMENT);
+        assert_int_equal(render_add_field(frame, 0.0, 0.0, NAN, 0.0, 1.0, 0.5),
+                         RENDER_E_NOT_FINITE);
+        render_frame_destroy(frame);
+    }
+    assert_true(dark[1] + 100 < dark[0]);
     render_target_destroy(target);
 }
 
@@ -322,6 +357,7 @@ int main(void)
         cmocka_unit_test(test_every_overlay_is_switchable),
         cmocka_unit_test(test_a_liquid_fills_its_area),
         cmocka_unit_test(test_joints_have_signs),
+        cmocka_unit_test(test_field_is_arrows),
         cmocka_unit_test(test_surfaces_run),
         cmocka_unit_test(test_rest_shows_no_velocity),
         cmocka_unit_test(test_labels_leave_other_bodies_alone),

@@ -26,6 +26,7 @@ static const struct {
     { "velocities", RENDER_SHOW_VELOCITIES },
     { "aabbs", RENDER_SHOW_AABBS },
     { "cells", RENDER_SHOW_CELLS },
+    { "field", RENDER_SHOW_FIELD },
     { "joints", RENDER_SHOW_JOINTS },
     { "surfaces", RENDER_SHOW_SURFACES },
     { "grid", RENDER_SHOW_GRID },
@@ -203,6 +204,18 @@ static void write_caption(const engine_scenery *of, char *text, size_t size)
              scores[0] != '\0' ? "   " : "", scores);
 }
 
+/// Arrows of the field, where they are wanted.
+static int draw_field(film *f, const render_camera *camera)
+{
+    const engine_scenery *of = &f->source->seen;
+    const double high = camera->view_height / 2, wide = high * f->size.width / f->size.height;
+    const engine_box box = { camera->center.x - wide, camera->center.y - high,
+                             camera->center.x + wide, camera->center.y + high };
+    return (f->args->show & RENDER_SHOW_FIELD) == 0
+               ? CLI_OK
+               : of->engine->draw_field(of->stage, f->frame, &box);
+}
+
 static int draw(film *f)
 {
     render_error error = { { 0 } };
@@ -215,7 +228,8 @@ static int draw(film *f)
     write_caption(of, caption, sizeof caption);
     render_frame_set_title(f->frame, f->args->title != NULL ? f->args->title : of->info.name);
     render_frame_set_caption(f->frame, caption);
-    if (of->engine->draw(of->stage, f->frame, f->args->show) != CLI_OK) {
+    if (of->engine->draw(of->stage, f->frame, f->args->show) != CLI_OK ||
+        draw_field(f, &camera) != CLI_OK) {
         cli_message("out of memory");
         return CLI_FAILED;
     }

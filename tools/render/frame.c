@@ -321,6 +321,20 @@ render_result render_add_velocity(render_frame *frame, double x, double y, doubl
     return add_pair(frame, PLR_VELOCITY, x, y, vx, vy);
 }
 
+render_result render_add_field(render_frame *frame, double x, double y, double length_x,
+                               double length_y, double strength, double share)
+{
+    if (!(share >= 0.0 && share <= 1.0)) {
+        return note(frame, RENDER_E_ARGUMENT);
+    }
+    const plr_mark mark = { .kind = PLR_FIELD,
+                            .variant = (int)(255.0 * share + 0.5),
+                            .a = { x, y },
+                            .b = { length_x, length_y },
+                            .value = strength };
+    return add_mark(frame, mark, NULL);
+}
+
 render_result render_add_aabb(render_frame *frame, render_box box)
 {
     return add_pair(frame, PLR_AABB, box.min.x, box.min.y, box.max.x, box.max.y);

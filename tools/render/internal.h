@@ -64,6 +64,7 @@ typedef enum plr_mark_kind {
     PLR_CELL,
     PLR_TRAIL,
     PLR_LIQUID,
+    PLR_FIELD,
     PLR_SURFACE,
     PLR_TEXT,
     PLR_MARK_KINDS
@@ -72,10 +73,11 @@ typedef enum plr_mark_kind {
 /// One overlay mark: two points or vectors, or a run of points (trail), or a text.
 typedef struct plr_mark {
     plr_mark_kind kind;
-    int variant; ///< anchor, palette index, or whether a surface is closed
+    int variant; ///< anchor, palette index, share of 255 of a field, or whether a surface is closed
     render_vec a;
     render_vec b;
-    double value;       ///< depth of a contact; travel of a surface; spacing of a liquid
+    double
+        value; ///< depth of a contact; travel of a surface; spacing of a liquid; strength of a field
     render_rgba color;  ///< liquid
     size_t first_point; ///< trail, surface
     size_t point_count; ///< trail, surface

@@ -13,6 +13,8 @@ static const render_rgba impulse_color = { 0xd9, 0x5f, 0x0e, 0xff };
 static const render_rgba velocity_color = { 0x1f, 0x6f, 0x9f, 0xff };
 static const render_rgba aabb_color = { 0x7a, 0x5c, 0xa8, 0xff };
 static const render_rgba cell_color = { 0x2f, 0x95, 0x7a, 0xff };
+static const render_rgba field_weak = { 0xb9, 0xc9, 0xd6, 0xff };
+static const render_rgba field_strong = { 0x8a, 0x2f, 0x73, 0xff };
 static const render_rgba surface_color = { 0xf0, 0x9a, 0x3e, 0xff };
 
 // The longest arrow is at most this share of the picture's height under automatic scale.
@@ -91,8 +93,26 @@ static void draw_box(plr_painter *painter, const plr_mark *mark, render_rgba col
     plr_stroke(painter, corners, 4, true, fmax(1.0, painter->ui), color, color);
 }
 
+// World vector to pixel vector.
+static render_vec pixel_vector(const plr_painter *painter, render_vec v)
+{
+    const double up = painter->camera->y_down ? 1.0 : -1.0;
+    return (render_vec){ v.x * painter->scale, v.y * painter->scale * up };
+}
+
+// The place is in the middle of its arrow.
+static void draw_field(plr_painter *painter, const plr_mark *mark)
+{
+    const render_vec at = plr_pixel(painter, mark->a), v = pixel_vector(painter, mark->b);
+    const render_vec tail = { at.x - v.x / 2.0, at.y - v.y / 2.0 };
+    const render_vec tip = { at.x + v.x / 2.0, at.y + v.y / 2.0 };
+    plr_arrow(painter, tail, tip, 1.5 * painter->ui,
+              plr_mix(field_weak, field_strong, mark->variant / 255.0));
+}
+
 void plr_draw_underlay(plr_painter *painter)
 {
+    const bool field = visible(painter, PLR_FIELD, RENDER_SHOW_FIELD);
     const bool cells = visible(painter, PLR_CELL, RENDER_SHOW_CELLS);
     const bool trails = visible(painter, PLR_TRAIL, RENDER_SHOW_TRAILS);
     const render_frame *frame = painter->frame;
@@ -100,6 +120,11 @@ void plr_draw_underlay(plr_painter *painter)
         if (frame->marks[i].kind == PLR_CELL) {
             draw_box(painter, &frame->marks[i], plr_fade(cell_color, 0.35),
                      plr_fade(cell_color, 0.07));
+        }
+    }
+    for (size_t i = 0; field && i < frame->mark_count; i++) {
+        if (frame->marks[i].kind == PLR_FIELD) {
+            draw_field(painter, &frame->marks[i]);
         }
     }
     for (size_t i = 0; trails && i < frame->mark_count; i++) {
@@ -165,13 +190,6 @@ static void draw_contact(plr_painter *painter, render_vec at, render_vec normal,
     } else {
         plr_ring(painter, at, 2.1 * ui, 1.2 * ui, contact_color); // a gap: speculative contact
     }
-}
-
-// World vector to pixel vector.
-static render_vec pixel_vector(const plr_painter *painter, render_vec v)
-{
-    const double up = painter->camera->y_down ? 1.0 : -1.0;
-    return (render_vec){ v.x * painter->scale, v.y * painter->scale * up };
 }
 
 static void draw_arrow(plr_painter *painter, const plr_mark *mark, double scale, render_rgba color)
@@ -248,6 +266,11 @@ void plr_overlay_sample(plr_painter *painter, plr_mark_kind kind, render_vec mid
         plr_fill(painter, corners, 4, plr_fade(cell_color, 0.12));
         plr_stroke(painter, corners, 4, true, line, plr_fade(cell_color, 0.5),
                    plr_fade(cell_color, 0.5));
+        break;
+    case PLR_FIELD:
+        plr_arrow(painter, left, (render_vec){ middle.x - 0.2 * half, middle.y }, 1.5 * painter->ui,
+                  field_weak);
+        plr_arrow(painter, middle, right, 1.5 * painter->ui, field_strong);
         break;
     case PLR_TRAIL:
         plr_stroke(painter, (render_vec[2]){ left, right }, 2, false, 2.2 * painter->ui,

@@ -153,6 +153,10 @@ render_result render_add_contact(render_frame *frame, double x, double y, double
 render_result render_add_impulse(render_frame *frame, double x, double y, double jx, double jy);
 /// A velocity [m/s] of a point.
 render_result render_add_velocity(render_frame *frame, double x, double y, double vx, double vy);
+/// What a field does at a place: an arrow (length_x, length_y) long in the world about it, coloured by `share`, 0 (weak) to 1, of
+/// a strength in units of the caller, for the legend.
+render_result render_add_field(render_frame *frame, double x, double y, double length_x,
+                               double length_y, double strength, double share);
 /// A bounding box.
 render_result render_add_aabb(render_frame *frame, render_box box);
 /// A grid cell that is in use.
@@ -257,15 +261,16 @@ enum {
     RENDER_SHOW_CELLS = 1 << 4,
     RENDER_SHOW_TRAILS = 1 << 5,
     RENDER_SHOW_JOINTS = 1 << 6,
-    RENDER_SHOW_LABELS = 1 << 7,   ///< names of bodies; left out where there is no room
-    RENDER_SHOW_TEXTS = 1 << 8,    ///< texts of the caller
-    RENDER_SHOW_LEGEND = 1 << 9,   ///< explains the overlays that are on and present
-    RENDER_SHOW_GRID = 1 << 10,    ///< background lines at round distances
-    RENDER_SHOW_SCALE = 1 << 11,   ///< scale bar with its length
-    RENDER_SHOW_TITLE = 1 << 12,   ///< title and caption
-    RENDER_SHOW_SPOKES = 1 << 13,  ///< rotation marks of discs
-    RENDER_SHOW_NOTHING = 1 << 14, ///< bodies only (0 means the default)
-    RENDER_SHOW_SURFACES = 1 << 15 ///< chevrons on surfaces that run
+    RENDER_SHOW_LABELS = 1 << 7,    ///< names of bodies; left out where there is no room
+    RENDER_SHOW_TEXTS = 1 << 8,     ///< texts of the caller
+    RENDER_SHOW_LEGEND = 1 << 9,    ///< explains the overlays that are on and present
+    RENDER_SHOW_GRID = 1 << 10,     ///< background lines at round distances
+    RENDER_SHOW_SCALE = 1 << 11,    ///< scale bar with its length
+    RENDER_SHOW_TITLE = 1 << 12,    ///< title and caption
+    RENDER_SHOW_SPOKES = 1 << 13,   ///< rotation marks of discs
+    RENDER_SHOW_NOTHING = 1 << 14,  ///< bodies only (0 means the default)
+    RENDER_SHOW_SURFACES = 1 << 15, ///< chevrons on surfaces that run
+    RENDER_SHOW_FIELD = 1 << 16     ///< arrows of a field, below the bodies
 };
 /// What a `show` of 0 means.
 #define RENDER_SHOW_DEFAULT                                                                        \
