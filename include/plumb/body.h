@@ -45,6 +45,12 @@ typedef struct plumb_body_desc {
     plumb_real charge;           ///< [C]: see plumb/law.h
     plumb_real attraction;       ///< [-] 0..1e6: see plumb/law.h
     plumb_real drag;             ///< [kg/m] 0..1e9: see plumb_body_set_drag
+    plumb_real thrust;           ///< [N] 0..1e12: see plumb_body_set_thrust
+    plumb_real exhaust;          ///< [m/s] 0..1e9 of its engine; 0: it burns nothing
+    plumb_real fuel;             ///< [kg] 0..1e12 left, part of the mass
+    plumb_real thrust_x;         ///< [m] of its engine in the body's frame
+    plumb_real thrust_y;         ///< [m]
+    plumb_real thrust_angle;     ///< [rad] whereto it pushes, from the x axis of the body's frame
     bool disabled;               ///< out of the simulation: see plumb_body_set_enabled
     void *user_data;             ///< see plumb_body_user_data
 } plumb_body_desc;
@@ -210,6 +216,29 @@ PLUMB_API plumb_real plumb_body_angular_damping(const plumb_world *world, plumb_
 /// E_NOT_FINITE, E_MEMORY, E_UNSUPPORTED (a library without it).
 PLUMB_API plumb_result plumb_body_set_drag(plumb_world *world, plumb_body body, plumb_real drag);
 PLUMB_API plumb_real plumb_body_drag(const plumb_world *world, plumb_body body);
+
+/// An engine: thrust [N] 0..1e12 that pushes a dynamic body at the point (thrust_x, thrust_y) [m] of its frame towards thrust_angle
+/// [rad] in it, until it is set to 0. With an exhaust speed [m/s] it burns thrust / exhaust a second of its fuel [kg], which is
+/// part of the body's mass: mass and inertia fall alike, the centre of mass stays, and it ends when the fuel is out, within
+/// the substep. The speed that it wins is exhaust ln(m0 / m1), whatever the step (the rocket equation); places are of second
+/// order. With exhaust 0 (the default) it burns nothing and never ends. It does not run while fuel is not less than the
+/// mass. A mass that burns is given from then on (as by plumb_body_set_mass). A body whose engine runs does not fall
+/// asleep. Bodies without thrust pay nothing. Errors: E_HANDLE, E_RANGE, E_NOT_FINITE, E_MEMORY, E_UNSUPPORTED (a library
+/// without it).
+PLUMB_API plumb_result plumb_body_set_thrust(plumb_world *world, plumb_body body, plumb_real thrust);
+PLUMB_API plumb_real plumb_body_thrust(const plumb_world *world, plumb_body body);
+PLUMB_API plumb_result plumb_body_set_exhaust(plumb_world *world, plumb_body body, plumb_real exhaust);
+PLUMB_API plumb_real plumb_body_exhaust(const plumb_world *world, plumb_body body);
+/// The mass stays as it is: fuel that is taken aboard is added by plumb_body_set_mass.
+PLUMB_API plumb_result plumb_body_set_fuel(plumb_world *world, plumb_body body, plumb_real fuel);
+PLUMB_API plumb_real plumb_body_fuel(const plumb_world *world, plumb_body body);
+PLUMB_API plumb_result plumb_body_set_thrust_x(plumb_world *world, plumb_body body, plumb_real thrust_x);
+PLUMB_API plumb_real plumb_body_thrust_x(const plumb_world *world, plumb_body body);
+PLUMB_API plumb_result plumb_body_set_thrust_y(plumb_world *world, plumb_body body, plumb_real thrust_y);
+PLUMB_API plumb_real plumb_body_thrust_y(const plumb_world *world, plumb_body body);
+PLUMB_API plumb_result plumb_body_set_thrust_angle(plumb_world *world, plumb_body body,
+                                                   plumb_real thrust_angle);
+PLUMB_API plumb_real plumb_body_thrust_angle(const plumb_world *world, plumb_body body);
 
 /// Speeds [m/s], [rad/s] >= 0 that a dynamic body never ends a step with more than; 0: no cap, the default.
 /// Bodies without a cap pay nothing. Errors: E_HANDLE, E_RANGE, E_NOT_FINITE, E_MEMORY.

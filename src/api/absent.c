@@ -9,6 +9,7 @@
 #include "continuous/continuous.h"
 #include "effects/drag.h"
 #include "effects/effects.h"
+#include "effects/engine.h"
 #include "effects/fluid.h"
 #include "effects/gather.h"
 #include "effects/laws.h"
@@ -77,6 +78,14 @@ WANT(pl_want_drag)
 RESERVE(pl_drag_find)
 ROW(pl_drag_row)
 GIVES(bool, pl_drag_acts_on, false, const plumb_world *world, uint32_t row)
+#endif
+
+#if !PL_HAS(ENGINES)
+WANT(pl_want_engines)
+RESERVE_DT(pl_engines_find)
+WORLD(pl_engines_burn)
+ROW(pl_thrust_row)
+GIVES(bool, pl_engine_acts_on, false, const plumb_world *world, uint32_t row)
 #endif
 
 #if !PL_HAS(SPEED_CAPS)

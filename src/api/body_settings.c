@@ -77,7 +77,7 @@ plumb_result plumb_body_set_time_scale(plumb_world *world, plumb_body body, plum
     return PLUMB_OK;
 }
 
-// plumb_body_set_charge, plumb_body_set_attraction, plumb_body_set_drag.
+// Of one number: plumb_body_set_charge and so on.
 #define NUMBER_SETTER(name)                                                                        \
     plumb_result plumb_body_set_##name(plumb_world *world, plumb_body body, plumb_real name)       \
     {                                                                                              \
@@ -93,6 +93,12 @@ plumb_result plumb_body_set_time_scale(plumb_world *world, plumb_body body, plum
 NUMBER_SETTER(charge)
 NUMBER_SETTER(attraction)
 NUMBER_SETTER(drag)
+NUMBER_SETTER(thrust)
+NUMBER_SETTER(exhaust)
+NUMBER_SETTER(fuel)
+NUMBER_SETTER(thrust_x)
+NUMBER_SETTER(thrust_y)
+NUMBER_SETTER(thrust_angle)
 
 //---- columns ------------------------------------------------------------------------------------
 

@@ -59,9 +59,9 @@ void pl_effects_take_over(plumb_world *world, uint32_t row)
 
 void pl_effects_free(pl_memory *memory, pl_effects *e)
 {
-    pl_buffer *buffers[] = { &e->called,     &e->bases,    &e->decays,  &e->factors,
-                             &e->dampers,    &e->cappers,  &e->swims,   &e->volumes,
-                             &e->immersions, &e->swimmers, &e->draggers };
+    pl_buffer *buffers[] = { &e->called,     &e->bases,    &e->decays,   &e->factors,
+                             &e->dampers,    &e->cappers,  &e->swims,    &e->volumes,
+                             &e->immersions, &e->swimmers, &e->draggers, &e->engines };
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; ++i) {
         pl_buffer_free(memory, buffers[i]);
     }

@@ -220,7 +220,7 @@ static bool is_busy(const plumb_world *world, uint32_t row)
     }
     const pl_body_settings t = pl_body_settings_get(world, row);
     return t.damping > 0 || t.angular_damping > 0 || t.max_speed > 0 || t.max_spin > 0 ||
-           t.time_scale != 1 || t.drag > 0;
+           t.time_scale != 1 || t.drag > 0 || t.thrust > 0;
 }
 
 // Uniform laws without end, where nothing replaces them.

@@ -50,6 +50,18 @@
       "1: attracts others by mutual gravitation; dynamic bodies")                                   \
     R(X, RECORD, REAL, drag, SAID(drag), "kg/m", FROM(0, 1e9), 0, NO_ZERO,                          \
       "of still air, by the square of the speed; dynamic bodies")                                   \
+    R(X, RECORD, REAL, thrust, SAID(thrust), "N", FROM(0, 1e12), 0, NO_ZERO,                        \
+      "of its engine; dynamic bodies")                                                              \
+    R(X, RECORD, REAL, exhaust, SAID(exhaust), "m/s", FROM(0, 1e9), 0, NO_ZERO,                     \
+      "speed of the exhaust: it burns thrust / exhaust; 0: nothing; dynamic bodies")                \
+    R(X, RECORD, REAL, fuel, SAID(fuel), "kg", FROM(0, 1e12), 0, NO_ZERO,                           \
+      "left, part of its mass; dynamic bodies")                                                     \
+    R(X, RECORD, REAL, thrust_x, SAID(thrust_x), "m", FROM(-1e7, 1e7), 0, NO_ZERO,                  \
+      "where its engine is, in its frame; dynamic bodies")                                          \
+    R(X, RECORD, REAL, thrust_y, SAID(thrust_y), "m", FROM(-1e7, 1e7), 0, NO_ZERO,                  \
+      "where its engine is, in its frame; dynamic bodies")                                          \
+    R(X, RECORD, REAL, thrust_angle, SAID(thrust_angle), "rad", FROM(-1e9, 1e9), 0, NO_ZERO,        \
+      "whereto its engine pushes, from the x axis of its frame; dynamic bodies")                    \
     R(X, OWN, BOOL, disabled, NOT(enabled), "1", CHOICES(1), 0, NO_ZERO, "whether it is in the simulation")
 // clang-format on
 

@@ -22,6 +22,8 @@
       "restitution restitution_mix", "contacts that bounce")                                                                   \
     X(DAMPING, "damping", "", "src/effects/damping.c", "damping angular_damping", "velocities of bodies that decay")           \
     X(DRAG, "drag", "", "src/effects/drag.c", "drag", "still air that slows bodies by the square of their speed")              \
+    X(ENGINES, "engines", "", "src/effects/engine.c", "thrust exhaust fuel thrust_x thrust_y thrust_angle",                    \
+      "thrust that burns fuel")                                                                                                \
     X(SPEED_CAPS, "speed_caps", "", "src/effects/speed_cap.c", "max_speed max_spin", "speeds that bodies never exceed")        \
     X(TIME_SCALES, "time_scales", "", "src/effects/time_scale.c", "time_scale", "bodies with a time of their own")             \
     X(TARGETS, "targets", "", "src/effects/target.c src/effects/track.c", "", "kinematic bodies on their way to a target")     \

@@ -72,6 +72,8 @@
       "manifolds, velocities, forces, masses, joints", "solver bodies, accelerations, constraints, joints, movers", HAS(pl_gather_variants)) \
     X("immersion",           GRAPH,       IF(pl_want_fluids),           ONCE(pl_run_immersion),                                  ONCE,              \
       "pieces, poses, materials, solver bodies", "constraints, solver bodies", ONE)                                                                 \
+    X("engines",           GRAPH,       IF(pl_want_engines),         ONCE(pl_run_engines),                                   ONCE,           \
+      "solver bodies, forces, masses, body settings", "solver bodies, accelerations", ONE)                                                   \
     X("law slots",         GRAPH,       IF(pl_want_laws),            ONCE(pl_run_law_slots),                                 ONCE,           \
       "solver bodies", "constraints", ONE)                                                                                                   \
     X("acting",            GRAPH,       IF(pl_want_acting),          ONCE(pl_run_acting),                                    ONCE,           \
@@ -103,6 +105,8 @@
       "solver bodies, poses, velocities, masses, body settings", "accelerations", ONE)                                                       \
     X("damping",           MOMENT,      IF(pl_want_damping),         EACH(pl_damping_row),                                   REPLACEABLE,    \
       "solver bodies, body settings", "accelerations", ONE)                                                                                  \
+    X("thrust",            MOMENT,      IF(pl_want_engines),         ACTS(pl_thrust_row, pl_engine_acts_on),                 ONCE,           \
+      "solver bodies, poses, body settings", "accelerations", ONE)                                                                           \
     X("drag",              MOMENT,      IF(pl_want_drag),            ACTS(pl_drag_row, pl_drag_acts_on),                     ONCE,           \
       "solver bodies, body settings", "accelerations", ONE)                                                                                  \
     X("speed caps",        MOMENT,      IF(pl_want_caps),            EACH(pl_caps_row),                                      REPLACEABLE,    \
@@ -165,6 +169,8 @@
       "pairs, manifolds", "events, pairs, internal edges, manifolds", ONE)                                                                   \
     X("sensors",           EVENTS,      IF(pl_want_sensing),         ONCE(pl_run_sensors),                                   REFRESHES,      \
       "sensors, poses, pieces", "sensors, events, islands", ONE)                                                                                   \
+    X("burning",           END,         IF(pl_want_engines),         ONCE(pl_run_burning),                                   ONCE,           \
+      "body settings", "masses, body settings, islands", ONE)                                                                                \
     X("end systems",       END,         ALWAYS,                      HOME,                                                   ONCE,           \
       "", "", ONE)                                                                                                                           \
     X("measure sums",      END,         IF(pl_want_measures),        ONCE(pl_run_measure_close),                             ONCE,           \

@@ -123,20 +123,26 @@ static void add_joints(pl_digest *digest, const plumb_world *world)
     }
 }
 
-// What few of the few that have settings have: from `charge` on.
+// What few of the few that have settings have: charge and attraction, drag, engines. Where one is nowhere, hashes are what they
+// were before it was known.
 static void add_holds(pl_digest *digest, const plumb_world *world)
 {
+    static const char none[sizeof(pl_body_settings)] = { 0 };
     const pl_body_settings *items = world->settings.items.data;
-    const size_t first = PL_SETTINGS_CHARGE, rest = sizeof *items - PL_SETTINGS_HASHED;
+    const size_t charge = PL_SETTINGS_HASHED, drag = PL_SETTINGS_DRAG, engine = PL_SETTINGS_ENGINE,
+                 end = sizeof *items;
     for (uint32_t i = 0; i < world->settings.count; ++i) {
-        static const char none[sizeof *items] = { 0 };
-        const char *from = (const char *)&items[i] + PL_SETTINGS_HASHED;
-        if (memcmp(from, none, rest) != 0) {
-            pl_digest_add(digest, &items[i].body, sizeof items[i].body);
-            pl_digest_add(digest, from, first);
-            if (memcmp(from + first, none, rest - first) != 0) { // fewer still
-                pl_digest_add(digest, from + first, rest - first);
-            }
+        const char *from = (const char *)&items[i];
+        if (memcmp(from + charge, none, end - charge) == 0) {
+            continue;
+        }
+        pl_digest_add(digest, &items[i].body, sizeof items[i].body);
+        pl_digest_add(digest, from + charge, drag - charge);
+        if (memcmp(from + drag, none, end - drag) != 0) {
+            pl_digest_add(digest, from + drag, engine - drag);
+        }
+        if (memcmp(from + engine, none, end - engine) != 0) {
+            pl_digest_add(digest, from + engine, end - engine);
         }
     }
 }

@@ -5,6 +5,7 @@
 #include "step/system.h"
 #include "accuracy/dial.h"
 #include "effects/effects.h"
+#include "effects/engine.h"
 #include "effects/fluid.h"
 #include "effects/laws.h"
 #include "step/quarantine.h"
@@ -119,6 +120,7 @@ TRY(pl_run_laws, pl_laws_find(world, dt))
 TRY(pl_run_called, pl_acting_call(world))
 TRY(pl_run_graph, graph(world, dt))
 TRY(pl_run_immersion, pl_fluids_immerse(world))
+TRY(pl_run_engines, pl_engines_find(world, dt))
 TRY(pl_run_law_slots, pl_laws_take_slots(world))
 TRY(pl_run_acting, pl_acting_find(world, dt))
 RUN(pl_run_soft, substeps(world, dt, "soft step"))
@@ -129,6 +131,7 @@ RUN(pl_run_motion, finish(world, dt))
 RUN(pl_run_continuous, pl_continuous_run(world, dt))
 RUN(pl_run_tracks, pl_tracks_open(world, dt))
 RUN(pl_run_arrive, pl_targets_arrive(world, dt); pl_tracks_arrive(world, dt))
+RUN(pl_run_burning, pl_engines_burn(world))
 RUN(pl_run_edges, pl_wrap_bodies(world))
 RUN(pl_run_reactions, pl_joints_finish(world, dt))
 RUN(pl_run_events, publish(world, dt))

@@ -277,7 +277,7 @@ void pl_watch_energy_after(plumb_world *world, real dt)
     const char *unused;
     const bool known =
         world->desc.measure || (world->systems.in_substeps == 0 && world->laws.count == 0 &&
-                                !pl_want_fluids(world, &unused));
+                                world->settings.engines == 0 && !pl_want_fluids(world, &unused));
     if (world->solver.slot_count == 0) {
         return;
     }

@@ -68,7 +68,7 @@ void pl_watch_speeds(plumb_world *world, real dt)
     const char *unused;
     const bool known =
         world->desc.measure || (world->systems.in_substeps == 0 && world->laws.count == 0 &&
-                                !pl_want_fluids(world, &unused));
+                                world->settings.engines == 0 && !pl_want_fluids(world, &unused));
     for (uint32_t row = 0; row < world->dynamic_count; ++row) {
         if (known) {
             look_at_speed(world, row);

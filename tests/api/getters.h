@@ -30,6 +30,12 @@
     X(plumb_body_charge, plumb_body_charge(w, h))                                                   \
     X(plumb_body_attraction, plumb_body_attraction(w, h))                                           \
     X(plumb_body_drag, plumb_body_drag(w, h))                                                       \
+    X(plumb_body_thrust, plumb_body_thrust(w, h)) \
+    X(plumb_body_exhaust, plumb_body_exhaust(w, h)) \
+    X(plumb_body_fuel, plumb_body_fuel(w, h)) \
+    X(plumb_body_thrust_x, plumb_body_thrust_x(w, h)) \
+    X(plumb_body_thrust_y, plumb_body_thrust_y(w, h)) \
+    X(plumb_body_thrust_angle, plumb_body_thrust_angle(w, h)) \
     X(plumb_body_time_scale, plumb_body_time_scale(w, h))                                           \
     X(plumb_body_gravity_scale, plumb_body_gravity_scale(w, h))                                     \
     X(plumb_body_user_data, plumb_body_user_data(w, h))                                             \

@@ -110,6 +110,17 @@ static void settings_are_read_back(void **state)
     plumb_body_set_drag(w, b[3], R(0.25));
     assert_near(plumb_body_drag(w, b[3]), 0.25, 0);
     assert_near(plumb_body_drag(w, b[2]), 0, 0);
+    plumb_body_set_thrust(w, b[3], 7);
+    plumb_body_set_exhaust(w, b[3], 8);
+    plumb_body_set_fuel(w, b[3], 9);
+    plumb_body_set_thrust_x(w, b[3], 1);
+    plumb_body_set_thrust_y(w, b[3], -2);
+    plumb_body_set_thrust_angle(w, b[3], 3);
+    plumb_body_desc d;
+    assert_int_equal(plumb_body_get(w, b[3], &d), PLUMB_OK);
+    assert_true(d.thrust == 7 && d.exhaust == 8 && d.fuel == 9 && d.drag == R(0.25));
+    assert_true(d.thrust_x == 1 && d.thrust_y == -2 && d.thrust_angle == 3);
+    assert_true(plumb_body_fuel(w, b[3]) == 9 && plumb_body_thrust(w, b[2]) == 0);
     assert_near(plumb_body_damping(w, b[3]), 3, 0);
     assert_near(plumb_body_angular_damping(w, b[3]), 2, 0);
     assert_near(plumb_body_max_speed(w, b[3]), 30, 0);
@@ -246,6 +257,14 @@ static void settings_are_refused(void **state)
             plumb_body_set_drag(w, NONE, 1));
     REFUSED(E_RANGE, "plumb_body_create: drag is 2e+09; it must be 0 to 1e+09",
             made(w, plumb_body_create(w, &(plumb_body_desc){ .drag = R(2e9) })));
+    REFUSED(E_RANGE, "plumb_body_set_thrust: thrust is -1; it must be 0 to 1e+12",
+            plumb_body_set_thrust(w, f->dynamic, -1));
+    REFUSED(E_RANGE, "plumb_body_set_exhaust: exhaust is -1; it must be 0 to 1e+09",
+            plumb_body_set_exhaust(w, f->dynamic, -1));
+    REFUSED(E_NOT_FINITE, "plumb_body_set_fuel: fuel is nan; it must be finite",
+            plumb_body_set_fuel(w, f->dynamic, NAN_));
+    REFUSED(E_HANDLE, "plumb_body_set_thrust_angle: body is null; it must be a live body",
+            plumb_body_set_thrust_angle(w, NONE, 1));
     REFUSED(E_RANGE, "plumb_body_create: damping is -1; it must be at least 0",
             made(w, plumb_body_create(w, &(plumb_body_desc){ .damping = -1 })));
     REFUSED(E_RANGE, "plumb_body_create: time_scale is 200; it must be 0 to 100",

@@ -414,6 +414,11 @@ static void change_motion(session *s, plumb_body b)
     case 5:
         plumb_body_set_damping(w, b, one_in(s, 2) ? R(0.3) : 0, 0);
         plumb_body_set_drag(w, b, one_in(s, 2) ? R(0.1) : 0);
+        plumb_body_set_thrust(w, b, one_in(s, 3) ? R(2) : 0);
+        plumb_body_set_exhaust(w, b, 20);
+        plumb_body_set_fuel(w, b, R(0.2));
+        plumb_body_set_thrust_x(w, b, R(0.1));
+        plumb_body_set_thrust_angle(w, b, number(s, -3, 3));
         break;
     case 6:
         plumb_body_set_speed_cap(w, b, one_in(s, 2) ? 2 : 0, 0);

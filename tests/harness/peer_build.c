@@ -95,7 +95,7 @@ static bool add_pieces(struct peer *p, const plumb_world *world, plumb_shape sha
 
 static bool is_plain(struct peer *p, const plumb_body_desc *d)
 {
-    if (d->damping > 0 || d->angular_damping > 0 || d->drag > 0) {
+    if (d->damping > 0 || d->angular_damping > 0 || d->drag > 0 || d->thrust > 0) {
         return pl_peer_refuse(p, "damping of a body by its own law");
     }
     if (d->no_gravity || (d->gravity_scale != 0 && d->gravity_scale != 1)) {

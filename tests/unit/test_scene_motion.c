@@ -12,7 +12,8 @@ static plumb_body named(scene *s, const char *name)
     "scene{ gravity = {0, 0} }\n"                                                                  \
     "local tar = material{ adhesion = 25, friction = 0.5 }\n"                                      \
     "body{ name = 'a', circle{1}, lock = {'y', 'rotation'}, material = tar }\n"                    \
-    "body{ name = 'b', circle{1}, at = {5, 0}, damping = 0.5, angular_damping = 2, drag = 0.75 "   \
+    "body{ name = 'b', circle{1}, at = {5, 0}, damping = 0.5, angular_damping = 2, drag = 0.75, "  \
+    "thrust = 2, exhaust = 3, fuel = 0.5, thrust_angle = 1, thrust_x = -1, thrust_y = 0.25 "       \
     "}\n"                                                                                          \
     "body{ name = 'c', circle{1}, at = {10, 0}, max_speed = 3, max_spin = 4 }\n"                   \
     "body{ name = 'd', circle{1}, at = {15, 0}, enabled = false, time_scale = 0.25 }\n"            \
@@ -46,11 +47,10 @@ static void fields_reach_the_world(void **state)
 static void json_keeps_it(void **state)
 {
     (void)state;
-    scene *s =
-        load(EVERYTHING
-             "find('f'):set_type('kinematic') find('b'):set_damping(3) "
-             "find('c'):set_lock('x', 'y') find('c'):set_time_scale(2) find('c'):set_drag(0.5)"
-             "find('d'):set_enabled(true) find('a'):set_enabled(false)\n");
+    scene *s = load(EVERYTHING "find('f'):set_type('kinematic') find('b'):set_damping(3) "
+                               "find('c'):set_lock('x', 'y') find('c'):set_time_scale(2) "
+                               "find('c'):set_drag(0.5) find('c'):set_thrust(4)"
+                               "find('d'):set_enabled(true) find('a'):set_enabled(false)\n");
     size_t size;
     char *text = export_json(s, &size);
     scene *t = load_as("test.json", text, size, NULL);
@@ -64,6 +64,12 @@ static void json_keeps_it(void **state)
     assert_true(plumb_body_time_scale(w, named(t, "c")) == 2);
     assert_true(plumb_body_drag(w, named(t, "b")) == (plumb_real)0.75);
     assert_true(plumb_body_drag(w, named(t, "c")) == (plumb_real)0.5);
+    assert_true(plumb_body_thrust(w, named(t, "b")) == 2);
+    assert_true(plumb_body_exhaust(w, named(t, "b")) == 3);
+    assert_true(plumb_body_fuel(w, named(t, "b")) == (plumb_real)0.5);
+    assert_true(plumb_body_thrust_x(w, named(t, "b")) == -1);
+    assert_true(plumb_body_thrust_angle(w, named(t, "b")) == 1);
+    assert_true(plumb_body_thrust(w, named(t, "c")) == 4);
     assert_true(plumb_body_is_enabled(w, named(t, "d")));
     assert_false(plumb_body_is_enabled(w, named(t, "a")));
     free(text);

@@ -24,6 +24,7 @@ typedef enum cause {
     FLUIDS,
     DAMPED,
     DRAGGED,
+    THRUSTING,
     CAPPED,
     ELASTIC, ///< of a material with restitution
     FAST,    ///< that ask for sweeps
@@ -63,6 +64,8 @@ static const struct reason {
     { "called", NOBODY, BODIES },
     { "graph", SOLID, BODIES },
     { "immersion", FLUIDS, IMMERSED },
+    { "engines", THRUSTING, SAME },
+    { "burning", THRUSTING, SAME },
     { "acting", NOBODY, BODIES },
     { "measure bodies", NOBODY, BODIES },
     { "elimination", SOLID, CONTACTS },
@@ -75,6 +78,7 @@ static const struct reason {
     { "forces of now", NOBODY, BODIES },
     { "fluid forces", FLUIDS, IMMERSED },
     { "damping", DAMPED, SAME },
+    { "thrust", THRUSTING, SAME },
     { "drag", DRAGGED, SAME },
     { "speed caps", CAPPED, SAME },
     { "integrate", MOVING, SAME },
@@ -174,6 +178,8 @@ static bool is_one(engine_stage *stage, plumb_body b, cause who)
         return plumb_body_damping(w, b) > 0 || plumb_body_angular_damping(w, b) > 0;
     case DRAGGED:
         return plumb_body_drag(w, b) > 0;
+    case THRUSTING:
+        return plumb_body_thrust(w, b) > 0;
     case CAPPED:
         return plumb_body_max_speed(w, b) > 0 || plumb_body_max_spin(w, b) > 0;
     case ELASTIC:

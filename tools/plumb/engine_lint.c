@@ -487,6 +487,7 @@ static void look_at_still(lint_job *job, plumb_body body)
         plumb_body_damping(w, body) > 0 || plumb_body_angular_damping(w, body) > 0 ? "damping"
         : plumb_body_max_speed(w, body) > 0 || plumb_body_max_spin(w, body) > 0    ? "a speed cap"
         : plumb_body_drag(w, body) > 0                                             ? "drag"
+        : plumb_body_thrust(w, body) > 0                                           ? "thrust"
         : plumb_body_gravity_scale(w, body) != 1 ? "a gravity scale"
                                                  : NULL;
     if (what != NULL) {

@@ -36,8 +36,13 @@ static int method_teleport(lua_State *L)
 
 // What takes one number or one flag: body:set_mass(2). The world has it, or refuses; the record keeps it as given,
 // and whoever writes the scene out writes it.
-#define NUMBERS(X) X(attraction) X(charge) X(drag) X(gravity_scale) X(mass) X(time_scale)
-#define FLAGS(X)   X(continuous) X(enabled) X(fixed_rotation)
+#define NUMBERS(X)                                                                                 \
+    X(attraction)                                                                                  \
+    X(charge)                                                                                      \
+    X(drag)                                                                                        \
+    X(exhaust)                                                                                     \
+    X(fuel) X(gravity_scale) X(mass) X(thrust) X(thrust_angle) X(thrust_x) X(thrust_y) X(time_scale)
+#define FLAGS(X) X(continuous) X(enabled) X(fixed_rotation)
 
 #define NUMBER_SETTER(field)                                                                       \
     static int method_set_##field(lua_State *L)                                                    \

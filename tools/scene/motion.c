@@ -15,8 +15,9 @@ int sc_axis_bit(const char *name)
 }
 
 static const char *const dynamic_rows[] = {
-    "angular_damping", "attraction", "charge", "damping", "drag",      "fixed_rotation",
-    "gravity_scale",   "inertia",    "lock",   "mass",    "max_speed", "max_spin"
+    "angular_damping", "attraction", "charge",        "damping",      "drag",     "exhaust",
+    "fixed_rotation",  "fuel",       "gravity_scale", "inertia",      "lock",     "mass",
+    "max_speed",       "max_spin",   "thrust",        "thrust_angle", "thrust_x", "thrust_y"
 };
 
 bool sc_motion_is_dynamic(const char *row)

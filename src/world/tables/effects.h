@@ -12,17 +12,19 @@
 typedef struct pl_body_settings {
     plumb_body body;
     PL_BODY_ROWS(PL_ROW_RECORD, PL_SETTINGS_MEMBER)
+    real fuel_low, mass_low; // [kg] what rounding took from what is left, of an engine that burns
 } pl_body_settings;
 
 #define PL_SETTINGS_SAVED sizeof(pl_body_settings)
 // The rest few of those few have: hash.c adds it where it is not 0.
 #define PL_SETTINGS_HASHED offsetof(pl_body_settings, charge)
-#define PL_SETTINGS_CHARGE (offsetof(pl_body_settings, drag) - PL_SETTINGS_HASHED)
+#define PL_SETTINGS_DRAG   offsetof(pl_body_settings, drag)
+#define PL_SETTINGS_ENGINE offsetof(pl_body_settings, thrust)
 
 typedef struct pl_body_settings_list {
     pl_buffer items; // pl_body_settings, no order
     uint32_t count;
-    uint32_t damped, dragged, capped, scaled, frozen; // records that ask for it; frozen: time scale 0
+    uint32_t damped, dragged, engines, capped, scaled, frozen; // records that ask for it; frozen: time scale 0
 } pl_body_settings_list;
 
 // Where a kinematic body is to be in a while.
@@ -74,7 +76,8 @@ typedef struct pl_effects {
     pl_buffer volumes, immersions;       // pl_volume; pl_keyed: row and piece, volume
     pl_buffer swimmers;                  // pl_swimmer, by rising slot
     pl_buffer draggers;                  // pl_dragger, by rising slot
-    uint32_t dragger_count;
+    pl_buffer engines;                   // pl_engine, by rising slot
+    uint32_t dragger_count, engine_count;
     uint32_t volume_count, immersion_count, swimmer_count;
     bool decays_stale; // records may have changed: set where the schedule is revised
     bool resets;       // accelerations are those of the step again as a substep begins

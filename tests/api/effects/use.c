@@ -77,6 +77,8 @@ static void refusals(void)
     refused(w, "damping", plumb_body_set_damping(w, body, 0, 1) == PLUMB_OK);
     refused(w, "drag", MADE(plumb_body_create, (plumb_body_desc){ .drag = 1 }));
     refused(w, "drag", plumb_body_set_drag(w, body, 1) == PLUMB_OK);
+    refused(w, "engines", MADE(plumb_body_create, (plumb_body_desc){ .thrust = 1 }));
+    refused(w, "engines", plumb_body_set_fuel(w, body, 1) == PLUMB_OK);
     refused(w, "speed_caps", MADE(plumb_body_create, (plumb_body_desc){ .max_spin = 1 }));
     refused(w, "time_scales", plumb_body_set_time_scale(w, body, 0) == PLUMB_OK);
     refused(w, "continuous", MADE(plumb_body_create, (plumb_body_desc){ .continuous = true }));
