@@ -13,7 +13,7 @@
     X(VELOCITIES, "velocities", "of bodies, linear and angular")                                   \
     X(FORCES, "forces", "and torques for the next step")                                           \
     X(MASSES, "masses", "and inertias")                                                            \
-    X(BODY_SETTINGS, "body settings", "damping, speed caps, time scales")                          \
+    X(BODY_SETTINGS, "body settings", "damping, drag, engines, speed caps, time scales")           \
     X(TARGETS, "targets", "of kinematic bodies")                                                   \
     X(PIECES, "pieces", "convex parts of shapes")                                                  \
     X(MATERIALS, "materials", "and their pairs")                                                   \
