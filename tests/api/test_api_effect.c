@@ -186,7 +186,7 @@ static void all_effects_are_in_the_library(void **state)
     int count;
     const plumb_effect *effects = plumb_effects(&count);
     (void)state;
-    assert_int_equal(count, 18);
+    assert_true(count >= 21);
     for (int i = 0; i < count; ++i) {
         assert_true(effects[i].present && effects[i].name[0] != '\0' && effects[i].text[0] != '\0');
         assert_true(i == 0 || strcmp(effects[i].name, effects[i - 1].name) != 0);

@@ -250,24 +250,27 @@ static void many_in_one_place_are_told(void **state)
     }
 }
 
-// A chain of light links bears ten times what they do, or 100,000 times.
+// A chain of ten links ends at a kinematic body, which stands, or flies off at 5 m/s.
 static void a_joint_that_gives_way_is_told(void **state)
 {
     (void)state;
-    for (int heavy = 0; heavy < 2; ++heavy) {
+    for (int leaves = 0; leaves < 2; ++leaves) {
         plumb_world *w = watched_world((plumb_world_desc){ 0 });
         plumb_body last = PLUMB_NULL_INIT;
         plumb_joint joint[11];
         for (int i = 0; i < 11; ++i) {
-            const plumb_body link = add(w, PLUMB_DYNAMIC, i + 0.5, 0, 0.5, 0.1);
-            plumb_body_set_mass(w, link, i < 10 ? 1 : heavy ? R(1e5) : 10);
+            const plumb_body link =
+                add(w, i < 10 ? PLUMB_DYNAMIC : PLUMB_KINEMATIC, i + 0.5, 0, 0.5, 0.1);
+            if (i == 10 && leaves) {
+                plumb_body_set_velocity(w, link, (plumb_vec2){ 5, 0 });
+            }
             joint[i] = plumb_joint_create(
                 w, &(plumb_joint_desc){ .body_a = last, .body_b = link, .anchor = { R(i), 0 } });
             last = link;
         }
         const watched r = step_all(w, 120, HZ60, PLUMB_ALARM_TORN_JOINT);
-        assert_true((r.count > 0) == (heavy == 1));
-        if (heavy) {
+        assert_true((r.count > 0) == (leaves == 1));
+        if (leaves) {
             int i = 0;
             while (i < 11 && !plumb_same(joint[i], r.first.joint)) {
                 ++i;
