@@ -29,7 +29,7 @@ typedef struct joint_system {
     const uint32_t *entries;
     pl_direct_part *parts;
     double *blocks;
-    uint32_t first, end; // columns
+    uint32_t first, end; // columns of joints that hang together
     uint32_t all;        // columns of all groups
 } joint_system;
 
@@ -482,39 +482,49 @@ static void factor(const joint_system *s)
     }
 }
 
-void pl_direct_solve(const pl_joint_context *context, pl_joint_sweep sweep)
+static void solve_system(const joint_system *s, pl_joint_sweep sweep)
 {
-    const pl_direct *direct = &context->world->joints.plan.direct;
-    const joint_system s = { .context = context,
-                             .columns = direct->columns.data,
-                             .entries = direct->entries.data,
-                             .parts = direct->parts.data,
-                             .blocks = direct->blocks.data,
-                             .first = context->group->direct_first,
-                             .end = context->group->direct_end,
-                             .all = direct->column_count };
-    for (uint32_t c = s.first; c < s.end; ++c) {
-        open_part(&s, c, sweep);
+    for (uint32_t c = s->first; c < s->end; ++c) {
+        open_part(s, c, sweep);
     }
     for (int pass = 0; pass < PASSES; ++pass) {
-        factor(&s);
-        fill_sides(&s, false);
-        substitute(&s);
-        if (pass == 0 && sweep == PL_SWEEP_PULL && stiffen(&s)) {
+        factor(s);
+        fill_sides(s, false);
+        substitute(s);
+        if (pass == 0 && sweep == PL_SWEEP_PULL && stiffen(s)) {
             continue;
         }
-        if (hold_to_bounds(&s) && pass < PASSES - 1) {
+        if (hold_to_bounds(s) && pass < PASSES - 1) {
             continue;
         }
-        apply(&s);
+        apply(s);
         if (sweep == PL_SWEEP_PULL) {
-            fill_sides(&s, true);
-            substitute(&s);
-            apply(&s);
+            fill_sides(s, true);
+            substitute(s);
+            apply(s);
         }
-        if (!let_go(&s)) {
+        if (!let_go(s)) {
             break;
         }
     }
-    slow_down(&s);
+    slow_down(s);
+}
+
+// One system behind another (direct_plan.c): who is at a bound, and how often that is asked, is a matter of each.
+void pl_direct_solve(const pl_joint_context *context, pl_joint_sweep sweep)
+{
+    const pl_direct *direct = &context->world->joints.plan.direct;
+    joint_system s = { .context = context,
+                       .columns = direct->columns.data,
+                       .entries = direct->entries.data,
+                       .parts = direct->parts.data,
+                       .blocks = direct->blocks.data,
+                       .end = context->group->direct_first,
+                       .all = direct->column_count };
+    while (s.end < context->group->direct_end) {
+        s.first = s.end;
+        while (s.columns[s.end++].count > 0) {
+        }
+        solve_system(&s, sweep);
+    }
 }

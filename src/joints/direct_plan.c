@@ -6,13 +6,16 @@
 // and trees fill in nothing, nets a band. The columns of the factor follow without computing it: the bodies of the
 // joint that goes become one, and its column is what hangs on that one (George and Liu 1981, chapter 5).
 //
+// Joints that hang together are a system, whose columns follow one another; the last one has no entries. A system knows nothing
+// of what else is in its group: so where clusters begin and end changes no bit.
+//
 // Reads: groups, marks. Writes: plan.direct. Cost: O(joints + entries), when joints or clusters change.
 #include "joints/direct.h"
 #include "world/state.h"
 
 #include <string.h>
 
-#define MOST_ENTRIES 200000u // of a group: 58 MB; a larger one is swept
+#define MOST_ENTRIES 200000u // of a system: 58 MB; a larger one is swept
 
 bool pl_joints_direct(const plumb_world *world)
 {
@@ -186,15 +189,56 @@ static void number_entries(search *s, uint32_t first_entry, uint32_t first_colum
     }
 }
 
-static bool plan_group(search *s, pl_joint_group *group)
+// Whom the group solves together.
+static void choose(plumb_world *world, const pl_joint_group *group)
+{
+    const uint32_t *grouped = world->joints.plan.grouped.data;
+    bool *swept = world->joints.plan.direct.swept.data;
+    for (uint32_t i = group->alone; i < group->end; ++i) {
+        swept[i] = !pl_joint_marks(&world->joints)[grouped[i]].direct ||
+                   !can_be_direct(world, pl_joint_grouped(&world->joints, i));
+    }
+}
+
+// Gives up what hangs together with a joint. The queue is lost.
+static void sweep_system(search *s, uint32_t joint)
+{
+    bool *swept = (bool *)s->world->joints.plan.direct.swept.data + s->group->alone;
+    const uint32_t count = walk(s, joint, 0, PL_NONE);
+    for (uint32_t k = 0; k < count; ++k) {
+        swept[s->queue[k]] = true;
+    }
+    if (s->world->desc.direct_joints) {
+        pl_warn(s->world, "%u joints make too dense a net to be solved directly: they are swept",
+                count);
+    }
+}
+
+typedef enum outcome { PLANNED, TOO_DENSE, NO_MEMORY } outcome;
+
+static outcome eliminate_all(search *s, pl_direct_column *columns)
+{
+    const pl_direct *direct = &s->world->joints.plan.direct;
+    uint32_t first_entry = direct->entry_count; // of the system
+    for (uint32_t at = 0; at < s->count; ++at) {
+        if (!eliminate(s, at, &columns[at])) {
+            return NO_MEMORY;
+        }
+        if (direct->entry_count - first_entry > MOST_ENTRIES) {
+            sweep_system(s, s->queue[s->count - 1 - at]);
+            return TOO_DENSE;
+        }
+        first_entry = columns[at].count == 0 ? direct->entry_count : first_entry;
+    }
+    return PLANNED;
+}
+
+static outcome plan_group(search *s, pl_joint_group *group)
 {
     pl_direct *direct = &s->world->joints.plan.direct;
-    const uint32_t all = s->count, first_entry = direct->entry_count;
-    bool *swept = (bool *)direct->swept.data + group->alone;
-    for (uint32_t i = 0; i < all; ++i) {
-        pl_joint *j = pl_joint_grouped(&s->world->joints, group->alone + i);
-        swept[i] = !mark_of(s, i)->direct || !can_be_direct(s->world, j);
-        if (!swept[i]) {
+    const uint32_t first_entry = direct->entry_count;
+    for (uint32_t i = 0; i < s->count; ++i) {
+        if (!is_swept(s, i)) {
             hang(s, i);
         }
     }
@@ -202,28 +246,16 @@ static bool plan_group(search *s, pl_joint_group *group)
     for (uint32_t at = 0; at < s->count; ++at) {
         s->place[s->queue[s->count - 1 - at]] = at;
     }
-    pl_direct_column *columns = (pl_direct_column *)direct->columns.data + direct->column_count;
-    bool fits = true;
-    for (uint32_t at = 0; fits && at < s->count; ++at) {
-        if (!eliminate(s, at, &columns[at])) {
-            return false;
-        }
-        fits = direct->entry_count - first_entry <= MOST_ENTRIES;
-    }
-    group->direct_first = group->direct_end = direct->column_count;
-    if (!fits) {
-        if (s->world->desc.direct_joints) {
-            pl_warn(s->world,
-                    "%u joints make too dense a net to be solved directly: they are swept",
-                    s->count);
-        }
-        memset(swept, 1, all);
+    const outcome result =
+        eliminate_all(s, (pl_direct_column *)direct->columns.data + direct->column_count);
+    if (result != PLANNED) {
         direct->entry_count = first_entry;
-        return true;
+        return result;
     }
     number_entries(s, first_entry, direct->column_count);
+    group->direct_first = direct->column_count;
     group->direct_end = direct->column_count += s->count;
-    return true;
+    return PLANNED;
 }
 
 // Room for the search of a group of so many joints.
@@ -262,11 +294,16 @@ bool pl_direct_plan(plumb_world *world)
     }
     for (uint32_t g = 0; g < plan->group_count; ++g) {
         pl_joint_group *group = &pl_joint_groups(&world->joints)[g];
-        search s;
-        if (group->end == group->alone) {
-            group->direct_first = group->direct_end = direct->column_count;
-        } else if (!open_search(world, group, &s) || !plan_group(&s, group)) {
-            return false;
+        group->direct_first = group->direct_end = direct->column_count;
+        if (group->end > group->alone) {
+            choose(world, group);
+            outcome result = TOO_DENSE;
+            for (search s; result == TOO_DENSE;) {
+                result = open_search(world, group, &s) ? plan_group(&s, group) : NO_MEMORY;
+            }
+            if (result == NO_MEMORY) {
+                return false;
+            }
         }
     }
     const size_t blocks = (size_t)direct->column_count + direct->entry_count;

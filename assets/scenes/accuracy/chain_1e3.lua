@@ -3,7 +3,6 @@
 -- Source: statics. Hard: sweeps along a chain gain a digit in about 2.3 N R sweeps, here 115,000.
 -- Aim: 1e-3 m, 1e-3 of the force.
 -- lint: allow mass-ratio: that is what it asks about
--- watchdog: allow torn-joint: what gives way is what it measures
 scene { title = "Chain with 1,000 : 1", duration = 3, description = "A weight of 1,000 kg on a chain of 50 light links." }
 local g, n, l, ratio = 9.81, 50, 0.2, 1e3
 local last, top = world, nil
