@@ -3,18 +3,11 @@
 // Reads: poses, piece geometry, velocities. Writes: fat boxes, which pieces left theirs. Order: first of the broad phase.
 // Cost: O(moving pieces); O(all pieces) when static ones changed.
 #include "world/body_settings.h"
+#include "broad/fat.h"
 #include "broad/pairs.h"
 #include "world/wrap.h"
 
 #include <string.h>
-
-// A fat box goes beyond the tight one by an eighth of its size, at most 0.1 m: large enough that
-// resting and slowly moving bodies do not refile, small enough that few pairs are kept in vain.
-#define FAT_FRACTION ((real)0.125)
-#define FAT_LIMIT    ((real)0.1)
-
-// What goes farther than that in a step leaves its box in the next one anyway: it gets this part of it.
-#define FAST_SHARE 4
 
 // When more than one in so many moving pieces has left its box, the pair list is made from nothing.
 #define MANY 2
@@ -114,9 +107,9 @@ static pl_box fattened(pl_box needed, const pl_box *tight, real way)
 {
     real w = tight->max_x - tight->min_x;
     real h = tight->max_y - tight->min_y;
-    real margin = FAT_FRACTION * (w > h ? w : h);
-    margin = margin < FAT_LIMIT ? margin : FAT_LIMIT;
-    return widened(needed, way > margin ? margin / FAST_SHARE : margin);
+    real margin = PL_FAT_FRACTION * (w > h ? w : h);
+    margin = margin < PL_FAT_LIMIT ? margin : PL_FAT_LIMIT;
+    return widened(needed, way > margin ? margin / PL_FAT_FAST_SHARE : margin);
 }
 
 void pl_broad_forget_left(pl_broad *broad)
@@ -129,15 +122,12 @@ void pl_broad_forget_left(pl_broad *broad)
     broad->left_count = 0;
 }
 
-// Marks of a piece: it is in `left`, or is to be put there.
-enum { IN_LIST = 1, JUST_LEFT = 2 };
-
 void pl_broad_mark_left(pl_broad *broad)
 {
     const uint32_t *left = broad->left.data;
     uint8_t *marks = broad->left_marks.data;
     for (uint32_t i = 0; i < broad->left_count; ++i) {
-        marks[left[i]] = IN_LIST;
+        marks[left[i]] = PL_IN_LIST;
     }
 }
 
@@ -147,9 +137,9 @@ static void list_left(plumb_world *world)
     uint8_t *marks = broad->left_marks.data;
     const uint32_t *moving = pl_moving(world);
     for (uint32_t i = 0; i < world->moving_count; ++i) {
-        if (marks[moving[i]] == JUST_LEFT) {
+        if (marks[moving[i]] == PL_JUST_LEFT) {
             ((uint32_t *)broad->left.data)[broad->left_count++] = moving[i];
-            marks[moving[i]] = IN_LIST;
+            marks[moving[i]] = PL_IN_LIST;
         }
     }
 }
@@ -169,11 +159,29 @@ typedef struct refreshment {
     real dt;
 } refreshment;
 
+// NULL where places are wider than lanes, or boxes have images.
+static pl_fat_kernel *kernel_of(const plumb_world *world)
+{
+#if PLUMB_IS_FAR
+    (void)world;
+    return NULL;
+#else
+    return pl_is_wrapped(world)           ? NULL
+           : world->desc.simd_width == 16 ? pl_fat_refresh_w16
+           : world->desc.simd_width == 8  ? pl_fat_refresh_w8
+                                          : pl_fat_refresh_w4;
+#endif
+}
+
 // Returns how many of these have left their boxes.
 static uint32_t refresh_some(void *context, uint32_t first, uint32_t count)
 {
     const refreshment *r = context;
     const plumb_world *world = r->world;
+    pl_fat_kernel *kernel = kernel_of(world);
+    if (kernel != NULL) {
+        return kernel(world, first, count, r->dt);
+    }
     pl_box *fat = world->pieces.fat;
     uint8_t *marks = world->broad.left_marks.data;
     uint32_t left = 0;
@@ -185,7 +193,7 @@ static uint32_t refresh_some(void *context, uint32_t first, uint32_t count)
             const pl_pose *pose = &pl_poses(world)[world->pieces.body[piece]];
             real way = (absolute(pose->vx) + absolute(pose->vy)) * r->dt;
             fat[piece] = fattened(needed, &tight, way);
-            marks[piece] = marks[piece] == 0 ? JUST_LEFT : marks[piece];
+            marks[piece] = marks[piece] == 0 ? PL_JUST_LEFT : marks[piece];
             ++left;
         }
     }
