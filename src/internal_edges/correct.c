@@ -8,9 +8,61 @@
 // Reads: pairs, poses, pieces, internal edges. Writes: manifolds, pairs, summary. Order: after the narrow
 // phase, before anything else looks at manifolds. Cost: DECISIONS.md has the counts.
 #include "narrow/ahead.h"
+#include "narrow/narrow.h"
 #include "narrow/surface.h"
 #include "internal_edges/run.h"
 #include "internal_edges/view.h"
+
+// The two views of a contact; opened where somebody looks.
+typedef struct outlook {
+    pl_view view[2];
+    bool open[2];
+} outlook;
+
+static pl_view *view_of(outlook *o, const plumb_world *world, const pl_pair *pair,
+                        const pl_manifold *m, int i, double dt)
+{
+    if (!o->open[i]) {
+        pl_view_open(&o->view[i], world, pair, m, i == 0, dt);
+        o->open[i] = true;
+    }
+    return &o->view[i];
+}
+
+// What the general kernel has found of one side: its edge that is the contact's face, or lies before that of the other.
+typedef struct found {
+    int edge; // -1: nothing is known
+    bool is_face;
+    bool outer; // no neighbour narrows the corners of the edge: it goes on flat nowhere
+} found;
+
+static found find_edge(const plumb_world *world, const pl_pair *pair, const pl_manifold *m, int i)
+{
+    const pl_pieces *pieces = &world->pieces;
+    const uint32_t own = i == 0 ? pair->a : pair->b, feature = m->feature[0];
+    const int count = pieces->vertex_count[own];
+    if (pieces->kind[pair->b] != PL_PIECE_POLYGON || pieces->kind[pair->a] == PL_PIECE_CIRCLE ||
+        count < 3 || (feature & (PL_CONVEX_CORNERS | PL_EDGE_FEATURE)) != 0) {
+        return (found){ .edge = -1 };
+    }
+    const bool is_face = ((feature & PL_CONVEX_OF_B) != 0) == (i == 1);
+    const int k = (int)(is_face ? PL_CONVEX_FACE(feature) : PL_CONVEX_EDGE(feature));
+    const uint32_t narrowed = pieces->internal_corners[own];
+    return (found){ k, is_face,
+                    ((narrowed >> k | narrowed >> (k + 1 < count ? k + 1 : 0)) & 1) == 0 };
+}
+
+// True when that tells without a view that the ground allows the contact: a face that nothing covers, or an edge that nothing
+// covers between corners that nothing narrows, the deeper of which bears. Most contacts of compounds are such.
+static bool is_clear(const plumb_world *world, const pl_pair *pair, const pl_manifold *m, int i)
+{
+    const uint32_t own = i == 0 ? pair->a : pair->b;
+    const found f = find_edge(world, pair, m, i);
+    return f.edge >= 0 && (pair->flags & PL_PAIR_AHEAD) == 0 &&
+           (world->pieces.internal_edges[own] &
+            (PL_EDGE_COVERED(f.edge) | PL_EDGE_PARTLY(f.edge))) == 0 &&
+           (f.is_face || (f.outer && pl_view_end_bears(world, m, own, i == 0, f.edge)));
+}
 
 typedef enum verdict { RIGHT, SET_RIGHT, FALSE_CONTACT } verdict;
 
@@ -24,34 +76,50 @@ static bool is_deep_in_free_body(const plumb_world *world, const pl_manifold *m,
            plumb_min(m->point[0].separation, m->point[1].separation) < -DEEP;
 }
 
-// Either piece may be ground; the ground of one must allow what the other's makes of the contact. Opens
-// the views of pieces with internal edges.
+// Either piece may be ground; the ground of one must allow what the other's makes of the contact.
 static verdict judge(const plumb_world *world, const pl_pair *pair, pl_manifold *m, double dt,
-                     pl_view views[2])
+                     outlook *o)
 {
     bool allowed[2];
     for (int i = 0; i < 2; ++i) {
-        bool has = pl_piece_has_internal_edges(&world->pieces, i == 0 ? pair->a : pair->b);
-        if (has) {
-            pl_view_open(&views[i], world, pair, m, i == 0, dt);
-        }
-        allowed[i] = !has || is_deep_in_free_body(world, m, i == 0 ? m->body_a : m->body_b) ||
-                     pl_view_is_allowed(&views[i]);
+        allowed[i] = !pl_piece_has_internal_edges(&world->pieces, i == 0 ? pair->a : pair->b) ||
+                     is_deep_in_free_body(world, m, i == 0 ? m->body_a : m->body_b) ||
+                     is_clear(world, pair, m, i) ||
+                     pl_view_is_allowed(view_of(o, world, pair, m, i, dt));
     }
     if (allowed[0] && allowed[1]) {
         return RIGHT;
     }
     for (int i = 0; i < 2; ++i) {
-        if (allowed[i] || !pl_view_rebuild(&views[i], m)) {
+        if (allowed[i] || !pl_view_rebuild(view_of(o, world, pair, m, i, dt), m)) {
             continue;
         }
-        pl_view_open(&views[0], world, pair, m, true, dt);
-        pl_view_open(&views[1], world, pair, m, false, dt);
-        if (pl_view_is_allowed(&views[1 - i])) {
+        o->open[0] = o->open[1] = false;
+        if (pl_view_is_allowed(view_of(o, world, pair, m, 1 - i, dt))) {
             return SET_RIGHT;
         }
     }
     return FALSE_CONTACT;
+}
+
+// Faces that go on flat are joined (run.c).
+static void add_to_runs(plumb_world *world, uint32_t index, const pl_pair *pair,
+                        const pl_manifold *m, outlook *o, double dt)
+{
+    const uint32_t *bits = world->pieces.internal_corners;
+    if (world->internal_edges.apart || ((bits[pair->a] | bits[pair->b]) & PL_EDGE_FLAT) == 0) {
+        return;
+    }
+    // Ground is the piece that does not move freely, if either may be it.
+    const int first = pair->body_a >= world->dynamic_count ? 0 : 1;
+    for (int k = 0; k < 2; ++k) {
+        const int i = k == 0 ? first : 1 - first;
+        if ((bits[i == 0 ? pair->a : pair->b] & PL_EDGE_FLAT) != 0 &&
+            !find_edge(world, pair, m, i).outer &&
+            pl_runs_add(world, index, view_of(o, world, pair, m, i, dt))) {
+            return;
+        }
+    }
 }
 
 // Impulses follow their features, as in narrow/lanes.h. A contact of one point keeps its own whichever
@@ -152,9 +220,10 @@ bool pl_internal_edges_correct(plumb_world *world, real dt)
             continue;
         }
         pl_manifold *m = &pl_manifolds(&world->narrow)[pair->manifold];
-        pl_view views[2];
+        outlook o;
+        o.open[0] = o.open[1] = false;
         const near_real gap = nearest(m);
-        verdict v = judge(world, pair, m, (double)dt, views);
+        verdict v = judge(world, pair, m, (double)dt, &o);
         if (v == SET_RIGHT && (pair->flags & PL_PAIR_AHEAD) == 0) {
             pl_ahead_hold_back(world, pair, dt, m);
         }
@@ -169,7 +238,7 @@ bool pl_internal_edges_correct(plumb_world *world, real dt)
             m->met |= gap > PL_TOUCH_HOLD && nearest(m) <= PL_TOUCH_HOLD ? PL_MET_ASIDE : 0;
         }
         if (v != FALSE_CONTACT && (pair->flags & PL_PAIR_AHEAD) == 0) {
-            pl_runs_add(world, i, views);
+            add_to_runs(world, i, pair, m, &o, (double)dt);
         }
         changed |= v != RIGHT;
     }

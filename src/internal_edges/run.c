@@ -138,32 +138,20 @@ static run_contact describe(const pl_view *v, uint32_t index, int k)
     return r;
 }
 
-void pl_runs_add(plumb_world *world, uint32_t index, pl_view views[2])
+bool pl_runs_add(plumb_world *world, uint32_t index, pl_view *v)
 {
     pl_internal_edges *s = &world->internal_edges;
-    if (s->apart) {
-        return;
+    const int k = flat_edge(v);
+    if (k < 0) {
+        return false;
     }
-    const pl_edge_pair *list = s->pairs.data;
-    const pl_pair *pair = &pl_pairs(&world->broad.pairs)[list[index].pair];
-    // Ground is the piece that does not move freely, if either may be it.
-    bool a_first = pair->body_a >= world->dynamic_count;
-    for (int i = 0; i < 2; ++i) {
-        bool from_a = (i == 0) == a_first;
-        pl_view *v = &views[from_a ? 0 : 1];
-        uint32_t piece = from_a ? pair->a : pair->b;
-        bool has = (world->pieces.internal_corners[piece] & PL_EDGE_FLAT) != 0;
-        int k = has ? flat_edge(v) : -1;
-        if (k >= 0) {
-            run_slot *slot = (run_slot *)s->slots.data + v->other;
-            v->count = 0; // the strip is wanted, not what lies in it
-            run_contact *r = (run_contact *)s->contacts.data + s->contact_count;
-            *r = describe(v, index, k);
-            r->next = slot->contact;
-            slot->contact = s->contact_count++;
-            return;
-        }
-    }
+    run_slot *slot = (run_slot *)s->slots.data + v->other;
+    v->count = 0; // the strip is wanted, not what lies in it
+    run_contact *r = (run_contact *)s->contacts.data + s->contact_count;
+    *r = describe(v, index, k);
+    r->next = slot->contact;
+    slot->contact = s->contact_count++;
+    return true;
 }
 
 //---- runs ----------------------------------------------------------------------------------------

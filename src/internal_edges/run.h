@@ -7,9 +7,9 @@
 // Before the contacts of a step, of which there are at most `contacts`: none is in a run. False when out
 // of memory.
 bool pl_runs_open(plumb_world *world, uint32_t contacts);
-// Adds the contact of entry `index` of the list of pairs with internal edges, if it lies on such a face. `views`
-// are those from A and from B, of pieces with internal edges.
-void pl_runs_add(plumb_world *world, uint32_t index, pl_view views[2]);
+// Adds the contact of entry `index` of the list of pairs with internal edges, if the ground of this view has such a face there.
+// False: it has none.
+bool pl_runs_add(plumb_world *world, uint32_t index, pl_view *v);
 // Joins what was added into runs and gives each to one of its contacts. False when out of memory.
 bool pl_runs_join(plumb_world *world, double dt);
 // Pairs have moved in the list: see pl_internal_edges_follow.

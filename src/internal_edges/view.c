@@ -145,19 +145,41 @@ static bool faces_open_part(pl_view *v, int k)
     return pl_side_edge_is_open(&v->side, k, low, pl_greater(low, high));
 }
 
+// True when the deepest point lies at a corner of the own piece; (nx, ny) is the normal in its frame.
+static bool bears_at(const plumb_world *world, const pl_manifold *m, uint32_t own, bool own_is_a,
+                     const pl_pose *pose, double nx, double ny, const pl_vertex *corner)
+{
+    const pl_manifold_point *p = &m->point[m->point[1].separation < m->point[0].separation];
+    double c = (double)pose->c, s = (double)pose->s;
+    double x = (double)(own_is_a ? p->ax : p->bx) + (double)pose->dx;
+    double y = (double)(own_is_a ? p->ay : p->by) + (double)pose->dy;
+    double radius = (double)world->pieces.core[own].radius;
+    double dx = c * x + s * y - radius * nx - (double)corner->x;
+    double dy = c * y - s * x - radius * ny - (double)corner->y;
+    return dx * dx + dy * dy <= PL_EDGE_SLOP * PL_EDGE_SLOP;
+}
+
+bool pl_view_end_bears(const plumb_world *world, const pl_manifold *m, uint32_t own, bool own_is_a,
+                       int k)
+{
+    const pl_pose *pose = &pl_poses(world)[world->pieces.body[own]];
+    const pl_vertex *corners = world->vertices.items + world->pieces.vertices[own];
+    const int next = k + 1 < world->pieces.vertex_count[own] ? k + 1 : 0;
+    const double sign = own_is_a ? 1 : -1, c = (double)pose->c, s = (double)pose->s;
+    const double wx = sign * (double)m->nx, wy = sign * (double)m->ny;
+    const double nx = c * wx + s * wy, ny = c * wy - s * wx;
+    const double ex = (double)corners[next].x - (double)corners[k].x;
+    const double ey = (double)corners[next].y - (double)corners[k].y;
+    return bears_at(world, m, own, own_is_a, pose, nx, ny,
+                    &corners[ex * nx + ey * ny > 0 ? next : k]);
+}
+
 // True when the deepest point is at corner k. Otherwise it lies on an edge, with the normal of the other
 // piece's face, which leans as that piece does.
 static bool lies_at(const pl_view *v, int k)
 {
-    const pl_manifold_point *p = &v->m->point[0];
-    p += v->m->point[1].separation < p->separation;
-    double c = (double)v->own_pose->c, s = (double)v->own_pose->s;
-    double x = (double)(v->own_is_a ? p->ax : p->bx) + (double)v->own_pose->dx;
-    double y = (double)(v->own_is_a ? p->ay : p->by) + (double)v->own_pose->dy;
-    double radius = (double)v->world->pieces.core[v->own].radius;
-    double dx = c * x + s * y - radius * v->nx - (double)v->side.corners[k].x;
-    double dy = c * y - s * x - radius * v->ny - (double)v->side.corners[k].y;
-    return dx * dx + dy * dy <= PL_EDGE_SLOP * PL_EDGE_SLOP;
+    return bears_at(v->world, v->m, v->own, v->own_is_a, v->own_pose, v->nx, v->ny,
+                    &v->side.corners[k]);
 }
 
 bool pl_view_is_allowed(pl_view *v)

@@ -58,6 +58,10 @@ void pl_view_bring_other(pl_view *v);
 // True when the ground allows the normal where the other piece is, or comes within the step.
 bool pl_view_is_allowed(pl_view *v);
 
+// True when the deepest point of a manifold is at that end of edge k which lies farther along the normal.
+bool pl_view_end_bears(const plumb_world *world, const pl_manifold *m, uint32_t own, bool own_is_a,
+                       int k);
+
 // The strip before edge k, open ends and way of the other piece included.
 pl_strip pl_view_strip(const pl_view *v, int k);
 

@@ -32,6 +32,14 @@ typedef struct pl_narrow_input {
 typedef void pl_narrow_kernel(const pl_narrow_input *in, uint32_t first, uint32_t count, int kind_b,
                               pl_narrow *out);
 
+// Features of the general kernel (convex.simd.c): reference face and the edge of the other piece that lies before it, whose
+// points are 0 and 1.
+#define PL_CONVEX_FEATURE(face, edge) ((face) << 3 | (edge) << 8)
+#define PL_CONVEX_FACE(feature)       ((feature) >> 3 & 31)
+#define PL_CONVEX_EDGE(feature)       ((feature) >> 8 & 31)
+#define PL_CONVEX_OF_B                4 // the face is one of B
+#define PL_CONVEX_CORNERS             2 // instead, the nearest corners of both
+
 // One kernel for each shape of pair; which serves which kinds is the matrix in narrow.c.
 typedef struct pl_narrow_kernels {
     pl_narrow_kernel *circle; // against a circle, a capsule, a box
