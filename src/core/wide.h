@@ -24,7 +24,7 @@
 
 // Parts of a kernel. Lanes of doubles that no register holds live in memory, each one ever written: all parts in one
 // function would have a stack frame of 32 kB.
-#if PL_NEAR_IS_DOUBLE && PL_WIDTH > 4
+#if PL_NEAR_IS_DOUBLE
 #define WIDE_PART static __attribute__((noinline, unused))
 #else
 #define WIDE_PART WIDE_INLINE

@@ -17,6 +17,7 @@
 // Corners and edge normals of one side of W pairs, in world axes about A's core centre.
 typedef struct outline {
     int count; // of the lane with most
+    vm last;   // corner of each lane
     vf x[MAX_CORNERS], y[MAX_CORNERS];
     vf nx[MAX_CORNERS], ny[MAX_CORNERS];
 } outline;
@@ -31,13 +32,16 @@ WIDE_PART void outline_gather(outline *o, const pl_narrow_input *in, const lanes
     const pl_vertex *corner[PL_WIDTH];
     const plumb_real *center[PL_WIDTH];
     uint32_t count[PL_WIDTH];
+    pl_lane last[PL_WIDTH];
     o->count = 0;
     for (int i = 0; i < PL_WIDTH; ++i) {
         corner[i] = in->vertices + in->vertex_first[piece[i]];
         center[i] = &in->cores[piece[i]].x;
         count[i] = in->vertex_count[piece[i]];
+        last[i] = (pl_lane)count[i] - 1;
         o->count = (int)count[i] > o->count ? (int)count[i] : o->count;
     }
+    memcpy(&o->last, last, sizeof last);
     for (int k = 0; k < o->count; ++k) {
         const plumb_real *row[PL_WIDTH];
         for (int i = 0; i < PL_WIDTH; ++i) {
@@ -78,23 +82,26 @@ static inline best_face find_face(const outline *a, const outline *b)
     return best;
 }
 
-// Ends of edge `index` of each lane: corner index and the one after it.
-WIDE_PART void edge_ends(const pl_narrow_input *in, const outline *a, const outline *b,
-                         const uint32_t *piece_a, const uint32_t *piece_b, vm use_b, vm index,
-                         vf end[4])
+// Ends of edge k: corner k and the one after it. Lanes that have fewer edges get their last one.
+WIDE_INLINE void edge_ends(const outline *o, int k, vf end[4])
 {
-    near_real x0[PL_WIDTH], y0[PL_WIDTH], x1[PL_WIDTH], y1[PL_WIDTH];
-    for (int i = 0; i < PL_WIDTH; ++i) {
-        const outline *o = use_b[i] ? b : a;
-        int count = in->vertex_count[use_b[i] ? piece_b[i] : piece_a[i]];
-        int k = (int)index[i] < count ? (int)index[i] : count - 1;
-        int next = k + 1 < count ? k + 1 : 0;
-        x0[i] = ((const near_real *)&o->x[k])[i];
-        y0[i] = ((const near_real *)&o->y[k])[i];
-        x1[i] = ((const near_real *)&o->x[next])[i];
-        y1[i] = ((const near_real *)&o->y[next])[i];
+    const vm inner = o->last > (pl_lane)k;
+    const int next = k + 1 < o->count ? k + 1 : 0;
+    end[0] = o->x[k], end[1] = o->y[k];
+    end[2] = sel(inner, o->x[next], o->x[0]), end[3] = sel(inner, o->y[next], o->y[0]);
+}
+
+// Those of edge `index` of each lane in `here`; the others keep what they have.
+WIDE_PART void edge_pick(const outline *o, vm index, vm here, vf end[4])
+{
+    for (int k = 0; k < o->count; ++k) {
+        const vm it = here & (index == (pl_lane)k);
+        vf e[4];
+        edge_ends(o, k, e);
+        for (int i = 0; i < 4; ++i) {
+            end[i] = sel(it, e[i], end[i]);
+        }
     }
-    end[0] = load(x0), end[1] = load(y0), end[2] = load(x1), end[3] = load(y1);
 }
 
 // The edge of the incident core whose normal is most against (nx, ny).
@@ -134,12 +141,11 @@ typedef struct nearest {
 } nearest;
 
 // Every corner of `from` against every edge of `to`.
-WIDE_PART void nearest_corners(nearest *n, const pl_narrow_input *in, const outline *from,
-                               const outline *to, const uint32_t *to_piece, bool from_a)
+WIDE_PART void nearest_corners(nearest *n, const outline *from, const outline *to, bool from_a)
 {
     for (int k = 0; k < to->count; ++k) {
         vf e[4];
-        edge_ends(in, to, to, to_piece, to_piece, (vm){ 0 }, (vm)splat(0) + k, e);
+        edge_ends(to, k, e);
         for (int i = 0; i < from->count; ++i) {
             vf qx, qy;
             vf d = segment_distance(from->x[i], from->y[i], e, &qx, &qy);
@@ -177,9 +183,9 @@ WIDE_INLINE vf edge_distance(const vf r[4], const vf w[4])
 // cross the reference face. It counts where edges are far from one another: beside a corner that bears, it is by chance the larger.
 // `cut` [m]: by so much the clip has raised the deeper end. Of an edge that is steep it may raise it out of reach, while
 // its corner is hardly beside the face.
-WIDE_PART void round_corners(touch *t, const lanes *l, const pl_narrow_input *in, const outline *a,
-                             const outline *b, const vf r[4], const vf w[4], vf separation,
-                             vf other, vf cut, vm lies_flat, vm low_is_nearer)
+WIDE_PART void round_corners(touch *t, const lanes *l, const outline *a, const outline *b,
+                             const vf r[4], const vf w[4], vf separation, vf other, vf cut,
+                             vm lies_flat, vm low_is_nearer)
 {
     vf zero = splat(0), between = edge_distance(r, w);
     vf most = sel(between > splat(2 * PREFER_A), vmax(separation, other), separation);
@@ -191,8 +197,8 @@ WIDE_PART void round_corners(touch *t, const lanes *l, const pl_narrow_input *in
         return; // the result of a lane does not depend on the others: it would not be taken
     }
     nearest n = { splat(PL_APART), zero, zero, zero, zero };
-    nearest_corners(&n, in, a, b, l->b, true);
-    nearest_corners(&n, in, b, a, l->a, false);
+    nearest_corners(&n, a, b, true);
+    nearest_corners(&n, b, a, false);
     vf distance = vsqrt(n.square);
     vf divisor = sel(corner & (distance > zero), distance, splat(1));
     vf nx = (n.bx - n.ax) / divisor, ny = (n.by - n.ay) / divisor;
@@ -207,13 +213,13 @@ WIDE_PART void round_corners(touch *t, const lanes *l, const pl_narrow_input *in
     t->py[0] = sel(corner, n.ay + ny * out, t->py[0]);
     t->sep[0] = sel(corner, sep, t->sep[0]);
     t->sep[1] = sel(corner, splat(PL_APART), t->sep[1]);
-    t->feature[0] = selm(corner, t->feature[0] | 2, t->feature[0]);
+    t->feature[0] = selm(corner, t->feature[0] | (pl_lane)PL_CONVEX_CORNERS, t->feature[0]);
     t->turns = selm(corner, (vm){ 0 } + PL_MET_TURNS_MID, t->turns);
 }
 
 // `flip_out` and `face_out`: which side has the reference face, and its edge.
-WIDE_PART void meet_outlines(touch *t, const lanes *l, const pl_narrow_input *in, const outline *a,
-                             const outline *b, vm *flip_out, vm *face_out)
+WIDE_PART void meet_outlines(touch *t, const lanes *l, const outline *a, const outline *b,
+                             vm *flip_out, vm *face_out)
 {
     vf zero = splat(0), half = splat((near_real)0.5);
     best_face fa = find_face(a, b);
@@ -222,9 +228,11 @@ WIDE_PART void meet_outlines(touch *t, const lanes *l, const pl_narrow_input *in
     vf nx = sel(flip, fb.nx, fa.nx), ny = sel(flip, fb.ny, fa.ny);
     vm face = selm(flip, fb.index, fa.index);
     vm edge = incident_edge(a, b, flip, nx, ny);
-    vf r[4], w[4];
-    edge_ends(in, a, b, l->a, l->b, flip, face, r);
-    edge_ends(in, a, b, l->a, l->b, ~flip, edge, w);
+    vf r[4] = { zero, zero, zero, zero }, w[4] = { zero, zero, zero, zero };
+    edge_pick(a, face, ~flip, r);
+    edge_pick(b, face, flip, r);
+    edge_pick(b, edge, ~flip, w);
+    edge_pick(a, edge, flip, w);
 
     // Face frame: u along the normal from r0, v along the face; the incident edge runs against v.
     vf face_v = (r[3] - r[1]) * nx - (r[2] - r[0]) * ny; // length of the face
@@ -261,12 +269,12 @@ WIDE_PART void meet_outlines(touch *t, const lanes *l, const pl_narrow_input *in
     t->py[1] = r[1] + ny * u1 + nx * high;
     t->nx = sel(flip, -nx, nx);
     t->ny = sel(flip, -ny, ny);
-    vm code = (face << 3) | (edge << 8) | ((((vm)splat(0)) + 4) & flip);
+    vm code = PL_CONVEX_FEATURE(face, edge) | (flip & (pl_lane)PL_CONVEX_OF_B);
     t->feature[0] = code;
     t->feature[1] = code | 1;
     t->turns = selm(flip, (vm){ 0 } + PL_MET_TURNS_B, (vm){ 0 } + PL_MET_TURNS_A);
     vm lies_flat = ~beside & (vabs(slope) < splat(FLAT_SLOPE));
-    round_corners(t, l, in, a, b, r, w, sel(flip, fb.separation, fa.separation),
+    round_corners(t, l, a, b, r, w, sel(flip, fb.separation, fa.separation),
                   sel(flip, fa.separation, fb.separation), cut, lies_flat, p_deeper);
     *flip_out = flip;
     *face_out = face;
@@ -277,7 +285,7 @@ WIDE_PART void convex_convex(touch *t, const lanes *l, const pl_narrow_input *in
 {
     outline b;
     outline_gather(&b, in, l, true);
-    meet_outlines(t, l, in, a, &b, flip, face);
+    meet_outlines(t, l, a, &b, flip, face);
 }
 
 // The circle is a core of one corner: faces of B alone, then the corners of the best face.
@@ -296,8 +304,8 @@ WIDE_PART void circle_convex(touch *t, const lanes *l, const pl_narrow_input *in
         best.ny = sel(better, b.ny[i], best.ny);
         best.index = selm(better, (vm)splat(0) + i, best.index);
     }
-    vf e[4], qx, qy;
-    edge_ends(in, &b, &b, l->b, l->b, (vm){ 0 }, best.index, e);
+    vf e[4] = { zero, zero, zero, zero }, qx, qy;
+    edge_pick(&b, best.index, ~(vm){ 0 }, e);
     vf distance = vsqrt(segment_distance(zero, zero, e, &qx, &qy));
     // Before a corner the connection is longer than the way to the face.
     vm corner = distance > best.separation * splat((near_real)1.000002) + splat((near_real)1e-6);
