@@ -6,6 +6,8 @@
 #include "joints/direct.h"
 #include "world/state.h"
 
+#include <stddef.h>
+
 // Sweeps that pull, and that relax, in a substep. Fewer bear less stiffness: DECISIONS.md has the table.
 #define SWEEPS 2
 
@@ -135,6 +137,18 @@ static void begin_wide(const plumb_world *world, pl_joint *j, pl_joint_start *st
     }
 }
 
+// Lanes from one joint to that which is brought from memory meanwhile.
+#define AHEAD 8
+
+// What the beginning of a step reads and writes of a joint; of a bare hinge, its first line.
+static inline void fetch(const pl_joint *j, bool bare)
+{
+    const size_t size = bare ? 1 : offsetof(pl_joint, mass);
+    for (size_t at = 0; at < size; at += 64) {
+        __builtin_prefetch((const char *)j + at, 1);
+    }
+}
+
 // How the lanes of a bundle begin the step; slots as the kernels want them.
 static void begin_lanes(const pl_joint_context *c, uint32_t bundle, pl_joint_start *starts,
                         pl_rows *rows)
@@ -147,13 +161,12 @@ static void begin_lanes(const pl_joint_context *c, uint32_t bundle, pl_joint_sta
     pl_joint_lane *lanes = (pl_joint_lane *)plan->lanes.data + first;
     const bool bare =
         plan->patterns[((const pl_joint_bundle *)plan->bundles.data)[bundle].pattern].bare;
-    for (uint32_t i = 0; i < width && bundle + 1 < plan->bundle_count; ++i) {
-        if (lanes[width + i].joint != PL_NONE) {
-            __builtin_prefetch(&pl_joint_items(&world->joints)[lanes[width + i].joint]);
-        }
-    }
+    const uint32_t end = width * (plan->bundle_count - bundle); // of lanes
     for (uint32_t i = 0; i < width; ++i) {
         uint32_t joint = lanes[i].joint;
+        if (i + AHEAD < end && lanes[i + AHEAD].joint != PL_NONE) {
+            fetch(&pl_joint_items(&world->joints)[lanes[i + AHEAD].joint], bare);
+        }
         if (joint == PL_NONE) {
             slots[i] = slots[width + i] = world->solver.slot_count - 1;
             starts[i] = (pl_joint_start){ .arm_a = { 0, 0 } };

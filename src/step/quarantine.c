@@ -140,6 +140,9 @@ static bool keep_joints(plumb_world *world)
         kept[i].h = j->h;
         kept[i].force = j->force;
         kept[i].torque = j->torque;
+        if (world->joints.watched == 0) {
+            continue; // a step leaves the rest as it is, and it lies on other cache lines
+        }
         kept[i].step_impulse = j->step_impulse;
         kept[i].step_turn = j->step_turn;
         kept[i].told_impulse = j->told_impulse;
@@ -203,6 +206,9 @@ static void undo_joints(plumb_world *world)
         j->h = kept[i].h;
         j->force = kept[i].force;
         j->torque = kept[i].torque;
+        if (world->joints.watched == 0) {
+            continue;
+        }
         j->step_impulse = kept[i].step_impulse;
         j->step_turn = kept[i].step_turn;
         j->told_impulse = kept[i].told_impulse;

@@ -44,6 +44,9 @@ uint32_t pl_joint_next(const pl_joint *joint, plumb_body body)
 bool pl_joints_forbid(const plumb_world *world, uint32_t row, uint32_t other)
 {
     const pl_joint *items = pl_joint_items(&world->joints);
+    if (world->bodies.first_joint[other] == PL_NONE) {
+        return false;
+    }
     plumb_body body = world->bodies.entity[row], partner = world->bodies.entity[other];
     for (uint32_t i = world->bodies.first_joint[row]; i != PL_NONE;
          i = pl_joint_next(&items[i], body)) {
