@@ -182,17 +182,11 @@ static inline void part(pl_pair *pair)
     pair->flags &= ~(PL_PAIR_HIT | PL_PAIR_AHEAD | PL_PAIR_SLIDES);
 }
 
-// One lane's manifold: keeps the points nearer than `limit`, carries impulses over by feature.
-static inline bool emit_lane(pl_pair *pair, pl_manifold *m, const near_real *row, near_real limit,
-                             const uint32_t feature[2])
+// What points are, and whose impulses they go on with: those that are nearer than `limit`, by feature.
+static inline uint32_t keep_points(pl_pair *pair, pl_manifold *m, near_real limit,
+                                   const uint32_t feature[2])
 {
-    const pl_manifold_point *point = (const pl_manifold_point *)(const void *)(row + 8);
-    if (!(point[0].separation < limit || point[1].separation < limit)) {
-        part(pair);
-        return false;
-    }
     const pl_pair old = *pair;
-    memcpy(m, row, 24 * sizeof(near_real));
     uint32_t count = 0;
     for (int k = 0; k < 2; ++k) {
         if (!(m->point[k].separation < limit)) {
@@ -216,9 +210,36 @@ static inline bool emit_lane(pl_pair *pair, pl_manifold *m, const near_real *row
         m->feature[k] = pair->feature[k] = PL_NONE;
         pair->normal[k] = pair->tangent[k] = 0;
     }
-    m->count = count;
+    return count;
+}
+
+// The same where both points are as they were, as most of a pile's are.
+static inline uint32_t keep_both(const pl_pair *pair, pl_manifold *m)
+{
+    for (int k = 0; k < 2; ++k) {
+        m->point[k].normal = pair->normal[k];
+        m->point[k].tangent = pair->tangent[k];
+        m->feature[k] = pair->feature[k];
+    }
+    return 2;
+}
+
+// One lane's manifold.
+static inline bool emit_lane(pl_pair *pair, pl_manifold *m, const near_real *row, near_real limit,
+                             const uint32_t feature[2])
+{
+    const pl_manifold_point *point = (const pl_manifold_point *)(const void *)(row + 8);
+    const bool near[2] = { point[0].separation < limit, point[1].separation < limit };
+    if (!near[0] && !near[1]) {
+        part(pair);
+        return false;
+    }
+    const bool same = pair->feature[0] == feature[0] && pair->feature[1] == feature[1];
+    memcpy(m, row, 24 * sizeof(near_real));
+    m->count =
+        near[0] && near[1] && same ? keep_both(pair, m) : keep_points(pair, m, limit, feature);
     m->disabled = m->met = 0;
-    m->before = old.manifold;
+    m->before = pair->manifold;
     m->body_a = pair->body_a;
     m->body_b = pair->body_b;
     pair->flags &= ~(PL_PAIR_HIT | PL_PAIR_AHEAD);
