@@ -51,6 +51,10 @@ typedef struct plumb_body_desc {
     plumb_real thrust_x;         ///< [m] of its engine in the body's frame
     plumb_real thrust_y;         ///< [m]
     plumb_real thrust_angle;     ///< [rad] whereto it pushes, from the x axis of the body's frame
+    plumb_real break_force;      ///< [N] >= 0: see plumb_body_set_break_force in plumb/fracture.h
+    plumb_real break_impulse;    ///< [N s] >= 0
+    plumb_real break_energy;     ///< [J] >= 0
+    plumb_real break_cells;      ///< [-] 0..64 that it breaks into at most; 0 means 12
     bool disabled;               ///< out of the simulation: see plumb_body_set_enabled
     void *user_data;             ///< see plumb_body_user_data
 } plumb_body_desc;

@@ -23,6 +23,7 @@
 #include "plumb/record.h"
 #include "plumb/effect.h"
 #include "plumb/law.h"
+#include "plumb/fracture.h"
 #include "plumb/liquid.h"
 #include "plumb/loop.h"
 #include "plumb/accuracy.h"

@@ -5,6 +5,7 @@
 #include "world/body_settings.h"
 #include "world/island.h"
 #include "world/told.h"
+#include "plumb/fracture.h"
 #include "plumb/law.h"
 #include "effects/effects.h"
 #include "world/check.h"
@@ -99,6 +100,10 @@ NUMBER_SETTER(fuel)
 NUMBER_SETTER(thrust_x)
 NUMBER_SETTER(thrust_y)
 NUMBER_SETTER(thrust_angle)
+NUMBER_SETTER(break_force)
+NUMBER_SETTER(break_impulse)
+NUMBER_SETTER(break_energy)
+NUMBER_SETTER(break_cells)
 
 //---- columns ------------------------------------------------------------------------------------
 

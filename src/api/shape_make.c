@@ -451,6 +451,26 @@ static plumb_result make_outline(const maker *m)
     return PLUMB_OK;
 }
 
+//---- pieces that come from elsewhere --------------------------------------------------------------
+
+void pl_made_add(plumb_world *world, pl_made *made, const pl_made_piece *piece)
+{
+    const maker m = { world, "", NULL, made };
+    pl_made_piece *to = add_piece(&m);
+    *to = *piece;
+    count_corners(&m, to);
+}
+
+void pl_made_add_polygon(plumb_world *world, pl_made *made, const plumb_convex *convex,
+                         uint32_t cuts)
+{
+    const maker m = { world, "", NULL, made };
+    pl_made_piece *piece = add_piece(&m);
+    piece->convex = *convex;
+    piece->cuts = cuts;
+    finish_polygon(&m, piece);
+}
+
 //---- all of it -----------------------------------------------------------------------------------
 
 plumb_result pl_shape_make(plumb_world *world, const char *function, const plumb_shape_desc *desc,

@@ -15,6 +15,7 @@
 #include "joints/energy.h"
 #include "joints/joint.h"
 #include "effects/laws.h"
+#include "api/fracture.h"
 #include "liquid/liquid.h"
 #include "step/measure.h"
 #include "narrow/narrow.h"
@@ -174,6 +175,7 @@ static void free_world(plumb_world *world)
     pl_characters_free(&memory, &world->characters);
     pl_liquid_free(&memory, &world->liquid);
     pl_laws_free(&memory, &world->laws);
+    pl_fracture_free(&memory, &world->fracture);
     pl_continuous_free(&memory, &world->continuous);
     pl_quarantine_free(&memory, &world->quarantine);
     pl_registry_free(&memory, &world->registry);

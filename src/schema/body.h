@@ -62,6 +62,14 @@
       "where its engine is, in its frame; dynamic bodies")                                          \
     R(X, RECORD, REAL, thrust_angle, SAID(thrust_angle), "rad", FROM(-1e9, 1e9), 0, NO_ZERO,        \
       "whereto its engine pushes, from the x axis of its frame; dynamic bodies")                    \
+    R(X, RECORD, REAL, break_force, SAID(break_force), "N", FROM(0, NO_END), 0, NO_ZERO,            \
+      "mean force of a contact over a step above which it breaks; dynamic bodies")                  \
+    R(X, RECORD, REAL, break_impulse, SAID(break_impulse), "N s", FROM(0, NO_END), 0, NO_ZERO,      \
+      "impulse of a contact in a step above which it breaks; dynamic bodies")                       \
+    R(X, RECORD, REAL, break_energy, SAID(break_energy), "J", FROM(0, NO_END), 0, NO_ZERO,          \
+      "that breaking takes from the blow; dynamic bodies")                                          \
+    R(X, RECORD, REAL, break_cells, SAID(break_cells), "1", FROM(0, 64), 0, NO_ZERO,                \
+      "parts that it breaks into at most; 0: twelve; dynamic bodies")                               \
     R(X, OWN, BOOL, disabled, NOT(enabled), "1", CHOICES(1), 0, NO_ZERO, "whether it is in the simulation")
 // clang-format on
 

@@ -45,6 +45,7 @@ COMPLETE(PL_STATE_CHARACTERS, characters);
 COMPLETE(PL_STATE_CONTINUOUS, continuous);
 COMPLETE(PL_STATE_LIQUID, liquid);
 COMPLETE(PL_STATE_LAWS, laws);
+COMPLETE(PL_STATE_FRACTURE, fracture);
 COMPLETE(PL_STATE_DIAL, dial);
 _Static_assert(LISTED(PL_STATE) == sizeof(plumb_world),
                "a member of plumb_world is not in snapshot/list.h: add its row");

@@ -123,14 +123,14 @@ static void add_joints(pl_digest *digest, const plumb_world *world)
     }
 }
 
-// What few of the few that have settings have: charge and attraction, drag, engines. Where one is nowhere, hashes are what they
+// What few of the few that have settings have: charge and attraction, drag, engines, breaking. Where one is nowhere, hashes are what they
 // were before it was known.
 static void add_holds(pl_digest *digest, const plumb_world *world)
 {
     static const char none[sizeof(pl_body_settings)] = { 0 };
     const pl_body_settings *items = world->settings.items.data;
     const size_t charge = PL_SETTINGS_HASHED, drag = PL_SETTINGS_DRAG, engine = PL_SETTINGS_ENGINE,
-                 end = sizeof *items;
+                 breaks = PL_SETTINGS_BREAK, low = PL_SETTINGS_LOW, end = sizeof *items;
     for (uint32_t i = 0; i < world->settings.count; ++i) {
         const char *from = (const char *)&items[i];
         if (memcmp(from + charge, none, end - charge) == 0) {
@@ -138,11 +138,17 @@ static void add_holds(pl_digest *digest, const plumb_world *world)
         }
         pl_digest_add(digest, &items[i].body, sizeof items[i].body);
         pl_digest_add(digest, from + charge, drag - charge);
-        if (memcmp(from + drag, none, end - drag) != 0) {
+        const bool burns = memcmp(from + engine, none, breaks - engine) != 0 ||
+                           memcmp(from + low, none, end - low) != 0;
+        if (burns || memcmp(from + drag, none, engine - drag) != 0) {
             pl_digest_add(digest, from + drag, engine - drag);
         }
-        if (memcmp(from + engine, none, end - engine) != 0) {
-            pl_digest_add(digest, from + engine, end - engine);
+        if (burns) {
+            pl_digest_add(digest, from + engine, breaks - engine);
+            pl_digest_add(digest, from + low, end - low);
+        }
+        if (memcmp(from + breaks, none, low - breaks) != 0) {
+            pl_digest_add(digest, from + breaks, low - breaks);
         }
     }
 }

@@ -152,6 +152,13 @@
     ARRAY(plumb_orbit_desc, laws.orbits, laws.orbit_count, sizeof(plumb_orbit_desc), 0)            \
     LEFT(laws.step)
 
+// Scratch; and events, which a restored world has none of.
+#define PL_STATE_FRACTURE(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                   \
+    LEFT(fracture.fragments) LEFT(fracture.parts) LEFT(fracture.children) LEFT(fracture.shapes)    \
+    LEFT(fracture.fragment_count) LEFT(fracture.part_count) LEFT(fracture.child_count)             \
+    LEFT(fracture.shape_count) LEFT(fracture.breaks) LEFT(fracture.pieces)                         \
+    LEFT(fracture.break_count) LEFT(fracture.piece_count)
+
 #define PL_STATE_CONTINUOUS(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                 \
     LEFT(continuous.movers) LEFT(continuous.count) VALUE(continuous.least_slack)                   \
     LEFT(continuous.noting) LEFT(continuous.stopped_count)
@@ -163,7 +170,7 @@
 
 #define PL_STATE_EFFECTS(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                    \
     ARRAY(pl_body_settings, settings.items, settings.count, PL_SETTINGS_HASHED, 8)                     \
-    TALLY(settings.dragged) TALLY(settings.engines) VALUE(settings.damped) VALUE(settings.capped) VALUE(settings.scaled) VALUE(settings.frozen)        \
+    TALLY(settings.dragged) TALLY(settings.engines) TALLY(settings.breakable) VALUE(settings.damped) VALUE(settings.capped) VALUE(settings.scaled) VALUE(settings.frozen)        \
     ARRAY(pl_target, targets.items, targets.count, sizeof(pl_target), 8)                           \
     ARRAY(pl_track, tracks.items, tracks.count, sizeof(pl_track), 8)
 
@@ -200,6 +207,7 @@
     PL_STATE_JOINTS(__VA_ARGS__) PL_STATE_PARTS(__VA_ARGS__) PL_STATE_PENDING_HITS(__VA_ARGS__)           \
     PL_STATE_SENSING(__VA_ARGS__) PL_STATE_SLEEP(__VA_ARGS__) PL_STATE_INTERNAL_EDGES(__VA_ARGS__)          \
     PL_STATE_CHARACTERS(__VA_ARGS__) PL_STATE_CONTINUOUS(__VA_ARGS__) PL_STATE_LIQUID(__VA_ARGS__)  \
+    PL_STATE_FRACTURE(__VA_ARGS__)                                                                 \
     PL_STATE_LAWS(__VA_ARGS__)                                                                     \
     PL_STATE_QUARANTINE(__VA_ARGS__) PL_STATE_EFFECTS(__VA_ARGS__)                                \
     PL_STATE_DIAL(__VA_ARGS__)

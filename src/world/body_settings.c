@@ -44,11 +44,17 @@ static bool is_capped(const pl_body_settings *t)
     return t->max_speed > 0 || t->max_spin > 0;
 }
 
+static bool is_breakable(const pl_body_settings *t)
+{
+    return t->break_force > 0 || t->break_impulse > 0;
+}
+
 static void count(pl_body_settings_list *settings, const pl_body_settings *t, uint32_t by)
 {
     settings->damped += is_damped(t) ? by : 0;
     settings->dragged += t->drag > 0 ? by : 0;
     settings->engines += t->thrust > 0 ? by : 0;
+    settings->breakable += is_breakable(t) ? by : 0;
     settings->capped += is_capped(t) ? by : 0;
     settings->scaled += t->time_scale != 1 ? by : 0;
     settings->frozen += t->time_scale == 0 ? by : 0;

@@ -121,6 +121,20 @@ static void detach(plumb_world *world, uint32_t slot, const pl_joint_end *end)
     *link = end->next;
 }
 
+void pl_joint_rehang(plumb_world *world, uint32_t slot, pl_joint_end *end, plumb_body body)
+{
+    pl_joint *j = &pl_joint_items(&world->joints)[slot];
+    pl_joint_disturb(world, j);
+    pl_joint_revise(world, j);
+    detach(world, slot, end);
+    uint32_t *first = &world->bodies.first_joint[pl_body_row(world, body)];
+    *(end == &j->a ? &j->desc.body_a : &j->desc.body_b) = end->body = body;
+    end->next = *first;
+    *first = slot;
+    pl_joint_disturb(world, j);
+    pl_joint_revise(world, j);
+}
+
 void pl_joint_remove(plumb_world *world, uint32_t slot)
 {
     pl_joint *j = &pl_joint_items(&world->joints)[slot];

@@ -12,6 +12,8 @@ plumb_result pl_check_joint(const plumb_world *world, const char *function, plum
 const pl_joint *pl_ask_joint(const plumb_world *world, const char *function, plumb_joint joint);
 // Unlinks a joint, gives its slot back and releases its handle.
 void pl_joint_remove(plumb_world *world, uint32_t slot);
+// Gives an end of a joint another body, on which its anchor lies at the same local place.
+void pl_joint_rehang(plumb_world *world, uint32_t slot, pl_joint_end *end, plumb_body body);
 // Both bodies of a joint are about to notice that it is another: see sleep.h.
 void pl_joint_disturb(plumb_world *world, const pl_joint *joint);
 // The next joint of a body in its list.

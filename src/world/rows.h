@@ -137,6 +137,11 @@ void pl_extent_revise(plumb_world *world, uint32_t row);
 plumb_result pl_shape_make(plumb_world *world, const char *function, const plumb_shape_desc *desc,
                            pl_made *made);
 
+// Appends a piece, or a convex polygon with its inner edges, to a shape in world->made (room must be reserved).
+void pl_made_add(plumb_world *world, pl_made *made, const pl_made_piece *piece);
+void pl_made_add_polygon(plumb_world *world, pl_made *made, const plumb_convex *convex,
+                         uint32_t cuts);
+
 //---- API calls that commands share with the direct ones ------------------------------------------
 
 // `reserved` null: a new handle; otherwise one that a command has reserved, which comes alive.

@@ -17,6 +17,7 @@
 #include "world/tables/dial.h"
 #include "world/tables/event.h"
 #include "world/tables/exact.h"
+#include "world/tables/fracture.h"
 #include "world/tables/internal_edges.h"
 #include "world/tables/joint.h"
 #include "world/tables/law.h"
@@ -124,6 +125,7 @@ struct plumb_world {
     pl_characters characters;
     pl_liquid liquid;
     pl_laws laws;
+    pl_fracture fracture;
     pl_schedule schedule;
     pl_quarantine quarantine;
     pl_measure measure;

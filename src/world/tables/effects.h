@@ -13,6 +13,7 @@ typedef struct pl_body_settings {
     plumb_body body;
     PL_BODY_ROWS(PL_ROW_RECORD, PL_SETTINGS_MEMBER)
     real fuel_low, mass_low; // [kg] what rounding took from what is left, of an engine that burns
+#define PL_SETTINGS_LOW offsetof(pl_body_settings, fuel_low)
 } pl_body_settings;
 
 #define PL_SETTINGS_SAVED sizeof(pl_body_settings)
@@ -20,11 +21,12 @@ typedef struct pl_body_settings {
 #define PL_SETTINGS_HASHED offsetof(pl_body_settings, charge)
 #define PL_SETTINGS_DRAG   offsetof(pl_body_settings, drag)
 #define PL_SETTINGS_ENGINE offsetof(pl_body_settings, thrust)
+#define PL_SETTINGS_BREAK  offsetof(pl_body_settings, break_force)
 
 typedef struct pl_body_settings_list {
     pl_buffer items; // pl_body_settings, no order
     uint32_t count;
-    uint32_t damped, dragged, engines, capped, scaled, frozen; // records that ask for it; frozen: time scale 0
+    uint32_t damped, dragged, engines, breakable, capped, scaled, frozen; // records that ask for it; frozen: time scale 0
 } pl_body_settings_list;
 
 // Where a kinematic body is to be in a while.
