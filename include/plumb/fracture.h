@@ -49,6 +49,25 @@ PLUMB_API int plumb_body_cut(plumb_world *world, plumb_body body, plumb_vec2 poi
 PLUMB_API int plumb_body_shatter(plumb_world *world, plumb_body body, const plumb_shatter_desc *desc,
                                  plumb_body *parts, int capacity);
 
+//---- bodies that become one, that grow and shrink -------------------------------------------------
+
+/// Makes another body part of a body, where both are now, however far apart: the body keeps its handle, frame, type and settings; the other
+/// one's shapes become shapes of it, with their handles, joints to others hold on to it, and the rest of the other
+/// goes: joints between the two, its components, laws that it carried. Momentum and angular momentum are those of both.
+/// *lost (may be null) gets the kinetic energy [J] that becomes heat: that of a blow without restitution. A body that is not dynamic
+/// stays as it is, and takes the motion of the other. A mass, inertia or centre that was given to either is given to both
+/// together. O(pieces and joints). Errors: E_HANDLE (also: one body twice), E_RANGE (mass, distance), E_MEMORY, E_LOCKED.
+PLUMB_API plumb_result plumb_body_merge(plumb_world *world, plumb_body body, plumb_body other,
+                                        double *lost);
+
+/// Makes all shapes of a body larger or smaller by a factor 0.001..1000, about its centre of mass; anchors of joints go along. Its mass
+/// goes with the square, at the densities that there are, a mass or inertia that was given with square and fourth power.
+/// Velocity and spin stay: what is added moves along with it, what is taken away goes at the velocity that it has, and momentum with
+/// it. Shapes keep their handles; what it touches wakes, and what it grows into is pushed out, as of any
+/// overlap. To grow over time, or to melt or burn away, call it in every step.
+/// O(pieces and joints). Errors: E_HANDLE, E_RANGE (factor; a length or mass of its shapes), E_NOT_FINITE, E_MEMORY, E_LOCKED.
+PLUMB_API plumb_result plumb_body_scale(plumb_world *world, plumb_body body, plumb_real factor);
+
 //---- bodies that break by themselves -------------------------------------------------------------
 
 /// Bounds above which a dynamic body breaks by itself: the mean force [N] of one contact over a step, its impulse [N s] in a step; 0, the

@@ -110,7 +110,9 @@ static bool reserve(const division *d)
            pl_pieces_reserve(world, (uint32_t)pieces) &&
            pl_pool_reserve(memory, &world->vertices, corners) &&
            pl_buffer_reserve(memory, &world->made, pieces * sizeof(pl_made_piece)) &&
-           pl_buffer_reserve(memory, &f->shapes, shapes * sizeof(uint32_t));
+           pl_buffer_reserve(memory, &f->shapes, shapes * sizeof(uint32_t)) &&
+           pl_buffer_reserve(memory, &f->pieces, // where they are told of: breaking.c
+                             ((size_t)f->piece_count + f->child_count) * sizeof(plumb_body));
 }
 
 //---- rows ----------------------------------------------------------------------------------------

@@ -47,4 +47,10 @@ plumb_result pl_divide(plumb_world *world, const char *function, plumb_body body
 plumb_result pl_shatter(plumb_world *world, const char *function, plumb_body body,
                         const plumb_shatter_desc *desc, int *count);
 
+//---- breaking.c ----------------------------------------------------------------------------------
+
+// Bodies that broke in the step before shatter, with their events; those of the step before are forgotten. E_MEMORY: those
+// that are left wait for the next step.
+plumb_result pl_breaks_run(plumb_world *world, const char *function);
+
 #endif

@@ -27,6 +27,7 @@ void pl_fracture_free(pl_memory *memory, pl_fracture *fracture)
     pl_buffer_free(memory, &fracture->shapes);
     pl_buffer_free(memory, &fracture->breaks);
     pl_buffer_free(memory, &fracture->pieces);
+    pl_buffer_free(memory, &fracture->pending);
 }
 
 bool pl_fragments_have(const plumb_world *world, uint32_t piece)

@@ -1,5 +1,6 @@
 // step.c - the public step: what was asked for beforehand, the step itself, who looks on.
 #include "api/command.h"
+#include "api/fracture.h"
 #include "step/step.h"
 #include "world/check.h"
 #include "world/observer.h"
@@ -10,6 +11,9 @@ plumb_result plumb_world_step(plumb_world *world, plumb_real dt)
     PL_TRY(pl_check_unlocked(world, __func__));
     PL_TRY(pl_check_range(world, __func__, "dt", dt, 0, 1));
     PL_TRY(pl_commands_run(world));
+    if ((world->fracture.pending_count | world->fracture.break_count) != 0) {
+        PL_TRY(pl_breaks_run(world, __func__));
+    }
     pl_step_observer *observer = world->observer;
     if (observer != NULL && observer->begin != NULL) {
         observer->begin(observer, world);

@@ -58,6 +58,8 @@
       "velocities, pairs, joints", "islands, rows, pairs, manifolds, velocities", ONE)                                                       \
     X("sensor pairs",      CONTACTS,    IF(pl_want_sensing),         ONCE(pl_run_candidates),                                REFRESHES,      \
       "pairs", "sensors", ONE)                                                                                                               \
+    X("breakable",         CONTACTS,    IF(pl_want_breaking),        ONCE(pl_run_breakable),                                 ONCE,           \
+      "body settings", "events", ONE)                                                                                                        \
     X("contact systems",   EDITS,       ALWAYS,                      HOME,                                                   REFRESHES,      \
       "", "", ONE)                                                                                                                           \
     X("gravity",           GRAPH,       IF(pl_want_gravity),         ONCE(pl_run_gravity),                                   REPLACEABLE,    \
@@ -167,6 +169,8 @@
       "joints, poses", "joints, rows, events, islands, components, pairs", ONE)                                                              \
     X("events",            EVENTS,      IF(pl_want_collision),       ONCE(pl_run_events),                                    REFRESHES,      \
       "pairs, manifolds", "events, pairs, internal edges, manifolds", ONE)                                                                   \
+    X("breaking",          EVENTS,      IF(pl_want_breaking),        ONCE(pl_run_breaking),                                  ONCE,           \
+      "manifolds, body settings, masses", "velocities, events", ONE)                                                                         \
     X("sensors",           EVENTS,      IF(pl_want_sensing),         ONCE(pl_run_sensors),                                   REFRESHES,      \
       "sensors, poses, pieces", "sensors, events, islands", ONE)                                                                                   \
     X("burning",           END,         IF(pl_want_engines),         ONCE(pl_run_burning),                                   ONCE,           \

@@ -274,6 +274,19 @@ static bool check_laws(const pl_suspect *s)
     return sound;
 }
 
+static bool check_breaks(const plumb_world *w)
+{
+    const pl_pending_break *all = w->fracture.pending.data;
+    bool sound = w->fracture.pending_count <= w->settings.breakable;
+    for (uint32_t i = 0; i < w->fracture.pending_count && sound; ++i) {
+        const pl_pending_break *b = &all[i];
+        sound = plumb_abs(b->point.x) <= PL_LARGEST && plumb_abs(b->point.y) <= PL_LARGEST &&
+                plumb_abs(b->normal.x) <= 2 && plumb_abs(b->normal.y) <= 2 && b->impulse >= 0 &&
+                b->energy >= 0 && b->impulse - b->impulse == 0 && b->energy - b->energy == 0;
+    }
+    return sound;
+}
+
 static bool check_excluded(const plumb_world *w)
 {
     const uint64_t *keys = w->excluded.data;
@@ -295,7 +308,7 @@ bool pl_check_extras(pl_suspect *s)
         }
     }
     return check_records(w) && check_settings(s) && check_targets(s) && check_liquid(w) &&
-           check_laws(s) && check_excluded(w) &&
+           check_laws(s) && check_excluded(w) && check_breaks(w) &&
            pl_commands_are_sound(s->like, &w->registry, w->commands.bytes.data, w->commands.used,
                                  w->commands.count, s->marks);
 }

@@ -152,12 +152,13 @@
     ARRAY(plumb_orbit_desc, laws.orbits, laws.orbit_count, sizeof(plumb_orbit_desc), 0)            \
     LEFT(laws.step)
 
-// Scratch; and events, which a restored world has none of.
+// Who is about to break; scratch; and events, which a restored world has none of.
 #define PL_STATE_FRACTURE(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                   \
     LEFT(fracture.fragments) LEFT(fracture.parts) LEFT(fracture.children) LEFT(fracture.shapes)    \
     LEFT(fracture.fragment_count) LEFT(fracture.part_count) LEFT(fracture.child_count)             \
     LEFT(fracture.shape_count) LEFT(fracture.breaks) LEFT(fracture.pieces)                         \
-    LEFT(fracture.break_count) LEFT(fracture.piece_count)
+    LEFT(fracture.break_count) LEFT(fracture.piece_count)                                          \
+    ARRAY(pl_pending_break, fracture.pending, fracture.pending_count, sizeof(pl_pending_break), 0)
 
 #define PL_STATE_CONTINUOUS(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                 \
     LEFT(continuous.movers) LEFT(continuous.count) VALUE(continuous.least_slack)                   \

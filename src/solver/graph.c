@@ -37,7 +37,8 @@ const pl_contact_kernels *pl_solver_kernels(const plumb_world *world)
 
 bool pl_solver_tallies(const plumb_world *world)
 {
-    return world->desc.contact_impulses || world->desc.hit_speed > 0;
+    return world->desc.contact_impulses || world->desc.hit_speed > 0 ||
+           world->settings.breakable > 0;
 }
 
 bool pl_solver_specials(const plumb_world *world)

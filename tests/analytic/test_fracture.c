@@ -413,6 +413,217 @@ static void test_the_same_seed(void **state)
     assert_true(shattered(7) != shattered(8));
 }
 
+//---- merging, scaling ----------------------------------------------------------------------------
+
+static void test_sums_of_merges(void **state)
+{
+    (void)state;
+    seed = 5;
+    for (int i = 0; i < BODIES; ++i) {
+        plumb_world *w = sim_space();
+        const plumb_body a = random_body(w, pick(2) == 0), b = random_body(w, pick(2) == 0);
+        const totals before = all_of(w);
+        double lost = 0;
+        assert_int_equal(plumb_body_merge(w, a, b, &lost), PLUMB_OK);
+        assert_false(plumb_body_valid(w, b));
+        totals after = all_of(w);
+        after.energy += lost;
+        assert_true(lost >= -1e-5 * before.energy);
+        compare(&before, &after, true);
+        assert_int_equal(plumb_world_step(w, R(1.0 / 60)), PLUMB_OK);
+        plumb_world_destroy(w);
+    }
+    const double area = worst[5];
+    tell("merge", BODIES, 0, ROUNDED(2e-5));
+    assert_near(area, 0, ROUNDED(1e-5));
+}
+
+// Cut and put together again: one body of the same mass, centre, inertia and motion.
+static void test_cut_and_merged(void **state)
+{
+    (void)state;
+    seed = 6;
+    for (int i = 0; i < 200; ++i) {
+        plumb_world *w = sim_space();
+        const plumb_body b = plumb_body_create(w, &(plumb_body_desc){ .angle = R(between(-3, 3)) });
+        add_shapes(w, b, false);
+        plumb_body_set_angular_velocity(w, b, 2);
+        const totals before = all_of(w);
+        const double inertia = (double)plumb_body_inertia(w, b);
+        const plumb_vec2 c = plumb_body_center(w, b);
+        plumb_body parts[32];
+        const int count = plumb_body_shatter(w, b, &(plumb_shatter_desc){ .seed = seed }, parts, 32);
+        for (int k = 0; k < count; ++k) {
+            assert_int_equal(plumb_body_merge(w, b, parts[k], NULL), PLUMB_OK);
+        }
+        const totals after = all_of(w);
+        compare(&before, &after, true);
+        assert_vec_near(plumb_body_center(w, b), c.x, c.y, ROUNDED(1e-5));
+        assert_near((double)plumb_body_inertia(w, b) / inertia, 1, ROUNDED(1e-5));
+        plumb_world_destroy(w);
+    }
+    tell("shatter and merge", BODIES, 0, ROUNDED(2e-5));
+}
+
+// A hinge between two others holds on to the one that is left, and turns on as before.
+static void test_joints_of_merged(void **state)
+{
+    (void)state;
+    plumb_world *w = sim_space();
+    plumb_body b[3];
+    for (int i = 0; i < 3; ++i) {
+        b[i] = plumb_body_create(w, &(plumb_body_desc){ .position = { R(2 * i), 0 },
+                                                        .angle = R(0.7 * i) });
+        plumb_shape_create(w, b[i], &(plumb_shape_desc){ .kind = PLUMB_BOX, .half = { 1, R(0.2) } });
+    }
+    const plumb_joint between_two = plumb_joint_create(
+        w, &(plumb_joint_desc){
+               .kind = PLUMB_REVOLUTE, .body_a = b[0], .body_b = b[1], .anchor = { 1, 0 } });
+    const plumb_joint to_third = plumb_joint_create(
+        w, &(plumb_joint_desc){
+               .kind = PLUMB_REVOLUTE, .body_a = b[1], .body_b = b[2], .anchor = { 3, 0 } });
+    sim_step(w, 1.0 / 60);
+    const double angle = (double)plumb_joint_value(w, to_third);
+    assert_int_equal(plumb_body_merge(w, b[0], b[1], NULL), PLUMB_OK);
+    assert_false(plumb_joint_valid(w, between_two));
+    assert_true(plumb_same(plumb_joint_body_a(w, to_third), b[0]));
+    plumb_body_set_angular_velocity(w, b[2], 1);
+    sim_step(w, 1.0 / 60);
+    const plumb_vec2 p = plumb_joint_anchor_a(w, to_third), q = plumb_joint_anchor_b(w, to_third);
+    assert_near(plumb_vec2_distance(p, q), 0, 1e-3);
+    assert_near(plumb_joint_value(w, to_third), angle + 1.0 / 60, 0.01);
+    plumb_world_destroy(w);
+}
+
+static void test_scale(void **state)
+{
+    (void)state;
+    seed = 7;
+    for (int i = 0; i < 400; ++i) {
+        plumb_world *w = sim_space();
+        const plumb_body b = random_body(w, pick(2) == 0);
+        const double f = between(0.3, 3), m = (double)plumb_body_mass(w, b);
+        const double inertia = (double)plumb_body_inertia(w, b);
+        const plumb_vec2 c = plumb_body_center(w, b), v = plumb_body_velocity(w, b);
+        const double spin = (double)plumb_body_angular_velocity(w, b);
+        const totals before = all_of(w);
+        assert_int_equal(plumb_body_scale(w, b, R(f)), PLUMB_OK);
+        const totals after = all_of(w);
+        assert_near(after.area / before.area, f * f, ROUNDED(1e-4));
+        assert_near((double)plumb_body_mass(w, b) / m, f * f, ROUNDED(1e-4));
+        assert_near((double)plumb_body_inertia(w, b) / inertia / (f * f * f * f), 1, ROUNDED(1e-4));
+        assert_vec_near(plumb_body_center(w, b), c.x, c.y, ROUNDED(1e-5));
+        assert_vec_near(plumb_body_velocity(w, b), v.x, v.y, ROUNDED(1e-5));
+        assert_near(plumb_body_angular_velocity(w, b), spin, 0);
+        assert_int_equal(plumb_world_step(w, R(1.0 / 60)), PLUMB_OK);
+        plumb_world_destroy(w);
+    }
+}
+
+//---- breaking by blows ---------------------------------------------------------------------------
+
+typedef struct shot {
+    double speed;  // [m/s] of the bullet behind the pane
+    double energy; // [J] told
+    int parts;
+    totals before, after;
+} shot;
+
+// A bullet of 0.1 kg meets a pane of 2 kg in its middle at 50 m/s: 125 J in it, 119 J in their relative motion.
+static shot shoot(plumb_real impulse, plumb_real energy)
+{
+    plumb_world *w = sim_space();
+    plumb_shape_desc d = { .kind = PLUMB_BOX, .half = { R(0.05), 1 } };
+    const plumb_body pane = plumb_body_create(
+        w, &(plumb_body_desc){ .mass = 2, .break_impulse = impulse, .break_energy = energy });
+    plumb_shape_create(w, pane, &d);
+    const plumb_body bullet = plumb_body_create(
+        w, &(plumb_body_desc){ .position = { R(-1), 0 }, .velocity = { 50, 0 }, .mass = R(0.1) });
+    plumb_shape_create(w, bullet, &(plumb_shape_desc){ .kind = PLUMB_CIRCLE, .radius = R(0.05) });
+    shot s = { .before = all_of(w) };
+    for (int i = 0; i < 30 && s.parts == 0; ++i) {
+        sim_step(w, 1.0 / 240);
+        int count;
+        const plumb_body_break *e = plumb_world_body_break_events(w, &count);
+        if (count > 0) {
+            assert_int_equal(count, 1);
+            assert_true(plumb_same(e->body, pane) && plumb_same(e->other, bullet));
+            assert_near(e->normal.x, -1, 1e-3);
+            assert_near(e->point.y, 0, 1e-3);
+            s.parts = e->part_count;
+            s.energy = (double)e->energy;
+        } else if (s.parts == 0) {
+            s.speed = sim_vx(w, bullet); // before parts meet it again
+        }
+    }
+    s.after = all_of(w);
+    plumb_world_destroy(w);
+    return s;
+}
+
+static void test_energy_of_breaking(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 4; ++i) {
+        const double energy = 20 * (i + 1);
+        const shot s = shoot(R(0.1), R(energy));
+        // Of momentum and energy: m v + M V = 5, and the energy that is asked for is gone.
+        const double m = 0.1, big = 2, mu = m * big / (m + big);
+        const double v = (5 + big * sqrt(2500 - 2 * energy / mu)) / (m + big);
+        assert_true(s.parts > 3);
+        assert_near(s.speed, v, 0.01 * v);
+        assert_near(s.energy, energy, 0.01 * energy);
+        assert_near(s.after.px, s.before.px, ROUNDED(1e-4));
+        assert_near(s.after.l, s.before.l, 0.01); // the parts have met the bullet by then
+    }
+    // The impulse that it bears takes its own energy: 2 N s from 50 m/s.
+    const shot hard = shoot(2, 0);
+    assert_near(hard.energy, 2 * 50 - 2 * 2 * (10 + 0.5) / 2, 0.5);
+    // Too little energy, or too little impulse (4.76 N s): it holds.
+    assert_int_equal(shoot(R(0.1), 130).parts, 0);
+    assert_int_equal(shoot(5, 0).parts, 0);
+    assert_true(shoot(R(4.5), 0).parts > 0);
+}
+
+// A slab of ice on two piers under a load that grows: by force, whatever the step.
+static double load_at_break(int rate)
+{
+    plumb_world *w = sim_space();
+    plumb_world_set_gravity(w, plumb_v2(0, -10));
+    for (int i = -1; i <= 1; i += 2) {
+        const plumb_body pier = plumb_body_create(
+            w, &(plumb_body_desc){ .type = PLUMB_STATIC, .position = { R(2 * i), R(-0.5) } });
+        plumb_shape_create(w, pier,
+                           &(plumb_shape_desc){ .kind = PLUMB_BOX, .half = { R(0.5), R(0.5) } });
+    }
+    const plumb_body slab = plumb_body_create(
+        w, &(plumb_body_desc){ .position = { 0, R(0.1) }, .mass = 1, .break_force = 100 });
+    plumb_shape_create(w, slab, &(plumb_shape_desc){ .kind = PLUMB_BOX, .half = { 2, R(0.1) } });
+    const plumb_body load = plumb_body_create(
+        w, &(plumb_body_desc){ .position = { 0, R(0.5) }, .mass = 1, .no_sleep = true });
+    plumb_shape_create(w, load, &(plumb_shape_desc){ .kind = PLUMB_BOX, .half = { R(0.3), R(0.3) } });
+    int count = 0;
+    double force = 0;
+    for (int i = 1; i < 10 * rate && count == 0; ++i) {
+        force = 20.0 * i / rate;
+        plumb_body_apply_force_center(w, load, plumb_v2(0, R(-force)));
+        sim_step(w, 1.0 / rate);
+        plumb_world_body_break_events(w, &count);
+    }
+    plumb_world_destroy(w);
+    return count > 0 ? force + 10 : 0;
+}
+
+static void test_load(void **state)
+{
+    (void)state;
+    for (int rate = 60; rate <= 240; rate *= 2) {
+        const double force = load_at_break(rate);
+        printf("a load at %d Hz breaks at %.1f N\n", rate, force);
+        assert_near(force, 100, 3);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -420,6 +631,9 @@ int main(void)
         cmocka_unit_test(test_energy_stays),       cmocka_unit_test(test_no_slivers),
         cmocka_unit_test(test_what_hangs_together), cmocka_unit_test(test_inner_edges),
         cmocka_unit_test(test_joints_follow),      cmocka_unit_test(test_the_same_seed),
+        cmocka_unit_test(test_sums_of_merges),     cmocka_unit_test(test_cut_and_merged),
+        cmocka_unit_test(test_joints_of_merged),   cmocka_unit_test(test_scale),
+        cmocka_unit_test(test_energy_of_breaking), cmocka_unit_test(test_load),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
