@@ -38,6 +38,7 @@ static int method_teleport(lua_State *L)
 // and whoever writes the scene out writes it.
 #define NUMBERS(X)                                                                                 \
     X(attraction)                                                                                  \
+    X(break_cells) X(break_energy) X(break_force) X(break_impulse)                                 \
     X(charge)                                                                                      \
     X(drag)                                                                                        \
     X(exhaust)                                                                                     \

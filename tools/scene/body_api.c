@@ -134,8 +134,9 @@ static const luaL_Reg methods[] = {
     { "velocity", method_velocity }, { NULL, NULL },
 };
 
-// All methods, in three tables.
-static const luaL_Reg *const tables[] = { methods, sc_body_acts, sc_character_methods };
+// All methods, in four tables.
+static const luaL_Reg *const tables[] = { methods, sc_body_acts, sc_character_methods,
+                                         sc_fracture_methods };
 
 enum { TABLES = sizeof tables / sizeof tables[0] };
 

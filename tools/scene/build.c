@@ -130,7 +130,7 @@ static void check_body(scene *s, const sc_site *site, const sc_body_def *d)
 }
 
 // Puts a fresh record with its name into the scene's lists; its Lua object is left on the stack.
-static sc_body *add_record(scene *s, const sc_body_def *def)
+sc_body *sc_body_add(scene *s, const sc_body_def *def)
 {
     sc_body **slot = SC_PUSH(s, s->bodies);
     s->bodies.count--; // until there is a record
@@ -205,7 +205,7 @@ void sc_build_body(scene *s, const sc_site *site, int table)
         SC_GIVE(&sc_list_body, &def, sc_body_def, angle);
     }
     sc_work(s, 200 + 100 * (uint64_t)def.shape_count); // some microseconds
-    sc_body *b = add_record(s, &def);
+    sc_body *b = sc_body_add(s, &def);
     b->line = site->line;
     create_body(s, site, b);
     b->shapes = def.shape_count == 0

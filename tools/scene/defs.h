@@ -116,6 +116,7 @@ typedef struct sc_body {
     int visits;        ///< how often something began to overlap its sensors
     uint64_t listed;   ///< scene.list_number of the last list of bodies that it was put into
     sc_shape_def *shapes;
+    bool is_part; ///< of a body that was cut or broke: "pane.3"
 } sc_body;
 
 /// What a joint holds on to: a body, or the world.
@@ -268,6 +269,12 @@ typedef struct sc_contact_def {
     int function;
 } sc_contact_def;
 
+/// A body that broke by itself in the last step.
+typedef struct sc_shattered {
+    plumb_body_break event;
+    int parts; ///< registry reference of the list of their objects
+} sc_shattered;
+
 typedef enum sc_handler_kind {
     SC_AT,
     SC_EVERY,
@@ -279,6 +286,7 @@ typedef enum sc_handler_kind {
     SC_ON_LEAVE,
     SC_ON_BREAK,
     SC_ON_STRAIN,
+    SC_ON_SHATTER,
     SC_EDIT_CONTACT,
     SC_FIELD ///< `a` is the body
 } sc_handler_kind;

@@ -22,6 +22,7 @@ static const struct {
     { "on_leave", SC_ON_LEAVE, &sc_list_contact },
     { "on_break", SC_ON_BREAK, &sc_list_break },
     { "on_strain", SC_ON_STRAIN, &sc_list_break },
+    { "on_shatter", SC_ON_SHATTER, &sc_list_contact },
     { "edit_contact", SC_EDIT_CONTACT, &sc_list_contact },
 };
 enum { KINDS = (int)(sizeof kinds / sizeof kinds[0]) };
@@ -360,12 +361,14 @@ static void dispatch_visit(scene *s, sc_handler_kind kind, plumb_sensor_event e)
 
 void sc_events_after(scene *s)
 {
+    sc_shatters_take(s);
     after_contacts(s); // all arrays first: a handler that changes the world ends them
     after_sensors(s);
     after_breaks(s);
     after_strains(s);
     sc_departed_turn(s);
     const int unheard = s->unheard.count; // of the step before
+    sc_shatters_tell(s);
     tell_begins(s);
     for (int i = 0; i < s->ends.count; i++) {
         const plumb_contact_end e = s->ends.items[i];

@@ -276,6 +276,7 @@ struct scene {
     SC_ARRAY(plumb_contact_hit) hits;
     SC_ARRAY(plumb_sensor_event) enters;
     SC_ARRAY(plumb_sensor_event) leaves;
+    SC_ARRAY(sc_shattered) shatters;
     SC_ARRAY(plumb_joint_break) breaks;
     SC_ARRAY(plumb_joint_strain) strains;
     SC_ARRAY(sc_name) strained; ///< name of the joint of each strain
@@ -544,6 +545,12 @@ plumb_vec2 sc_vector(lua_State *L, int *index);
 int sc_body_check(const sc_body_call *c, plumb_result result);
 extern const char *const sc_body_types[]; ///< in the order of plumb_body_type, then null
 extern const luaL_Reg sc_body_acts[];     ///< body_act.c
+extern const luaL_Reg sc_fracture_methods[]; ///< fracture.c
+/// Bodies that broke in the step: their parts become bodies of the scene; handlers hear of it.
+void sc_shatters_take(scene *s);
+void sc_shatters_tell(scene *s);
+/// A fresh record with its name (one is made up where it has none) in the scene's lists.
+sc_body *sc_body_add(scene *s, const sc_body_def *def);
 
 const char *sc_handler_name(sc_handler_kind kind);
 sc_handler *sc_handler_add(scene *s, sc_handler_kind kind, const sc_site *site);

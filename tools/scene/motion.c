@@ -15,7 +15,7 @@ int sc_axis_bit(const char *name)
 }
 
 static const char *const dynamic_rows[] = {
-    "angular_damping", "attraction", "charge",        "damping",      "drag",     "exhaust",
+    "angular_damping", "attraction", "break_cells", "break_energy", "break_force", "break_impulse", "charge",        "damping",      "drag",     "exhaust",
     "fixed_rotation",  "fuel",       "gravity_scale", "inertia",      "lock",     "mass",
     "max_speed",       "max_spin",   "thrust",        "thrust_angle", "thrust_x", "thrust_y"
 };
