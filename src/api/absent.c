@@ -5,6 +5,7 @@
 #include "schema/effects.h"
 
 #include "accuracy/dial.h"
+#include "api/fracture.h"
 #include "character/character.h"
 #include "continuous/continuous.h"
 #include "effects/drag.h"
@@ -153,6 +154,31 @@ void pl_laws_probe(const plumb_world *world, const pl_law_state *state, double c
     out[0] = (double)world->desc.gravity.x;
     out[1] = (double)world->desc.gravity.y;
 }
+#endif
+
+#if !PL_HAS(FRACTURE)
+WANT(pl_want_breaking)
+RESERVE(pl_breaking_reserve)
+WORLD_DT(pl_breaking_find)
+FREE(pl_fracture_free, pl_fracture)
+GIVES(plumb_result, pl_breaks_run, PLUMB_OK, plumb_world *world, const char *function)
+#define REFUSES_PARTS(fn, ...)                                                                     \
+    int fn(__VA_ARGS__)                                                                            \
+    {                                                                                              \
+        pl_fail_absent(world, __func__, "a body in parts", "fracture");                            \
+        return -1;                                                                                 \
+    }
+REFUSES_PARTS(plumb_body_cut, plumb_world *world, plumb_body body, plumb_vec2 point, plumb_vec2 along,
+              plumb_body *parts, int capacity)
+REFUSES_PARTS(plumb_body_shatter, plumb_world *world, plumb_body body, const plumb_shatter_desc *desc,
+              plumb_body *parts, int capacity)
+REFUSES(plumb_body_merge, "a merged body", "fracture", plumb_world *world, plumb_body body, plumb_body other,
+        double *lost)
+REFUSES(plumb_body_scale, "a scaled body", "fracture", plumb_world *world, plumb_body body, plumb_real factor)
+GIVES(const plumb_body_break *, plumb_world_body_break_events, (count != NULL ? (*count = 0) : 0, NULL),
+      const plumb_world *world, int *count)
+GIVES(const plumb_body *, plumb_world_body_break_parts, (count != NULL ? (*count = 0) : 0, NULL),
+      const plumb_world *world, int *count)
 #endif
 
 #if !PL_HAS(LIQUID)

@@ -34,6 +34,9 @@
       "fluid", "volumes that lift and drag: water, wind")                                                                      \
     X(LAWS, "laws", "", "src/effects/laws.c src/effects/law_field.c src/effects/law_forces.c src/effects/orbits.c",            \
       "charge attraction", "forces at a distance: attractors, gravitation, zones, magnetic fields")                            \
+    X(FRACTURE, "fracture", "", "src/api/breaking.c src/api/divide.c src/api/fracture.c src/api/fragments.c src/api/merge.c "  \
+      "src/event/breaking.c src/geometry/region.c", "break_force break_impulse break_energy break_cells",                      \
+      "bodies that are cut, break, merge, grow and shrink")                                                                    \
     X(LIQUID, "liquid", "", "src/liquid/%", "", "particles that flow")                                                         \
     X(CHARACTERS, "characters", "", "src/character/%", "", "bodies that walk")                                                 \
     X(JOINTS, "joints", "", "src/joints/%", "direct_joints", "of all kinds")                                                   \

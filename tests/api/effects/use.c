@@ -96,6 +96,11 @@ static void refusals(void)
     refused(w, "laws", plumb_world_set_orbits(w, &(plumb_orbit_desc){ .order = 4 }) == PLUMB_OK);
     const plumb_vec2 g = plumb_world_law_at(w, (plumb_vec2){ 1, 2 }, (plumb_vec2){ 3, 4 }, 5);
     bad += g.x != 0 || g.y != plumb_world_gravity(w).y; // no law, so that is all
+    refused(w, "fracture", MADE(plumb_body_create, (plumb_body_desc){ .break_force = 1 }));
+    refused(w, "fracture", plumb_body_cut(w, body, (plumb_vec2){ 0, 0 }, (plumb_vec2){ 1, 0 }, NULL, 0) >= 0);
+    refused(w, "fracture", plumb_body_shatter(w, body, NULL, NULL, 0) >= 0);
+    refused(w, "fracture", plumb_body_merge(w, body, lift, NULL) == PLUMB_OK);
+    refused(w, "fracture", plumb_body_scale(w, body, 2) == PLUMB_OK);
     refused(w, "liquid", plumb_liquid_create(w, NULL) == PLUMB_OK);
     refused(w, "characters", plumb_character_create(w, body, NULL) == PLUMB_OK);
     refused(w, "joints",
