@@ -44,7 +44,7 @@ PLUMB_API int plumb_body_cut(plumb_world *world, plumb_body body, plumb_vec2 poi
 
 /// Divides a body along the borders of Voronoi cells about places in it (G. Voronoi 1908), most of them near the point. A cell
 /// of which a part would be smaller than `min_share`, or more than ten times as long as wide, gives its room to its neighbours
-/// (of bodies that are slender themselves, as slender as they are). Answers and errors as of plumb_body_cut; null `desc`: {0}.
+/// (what is more than 0.6 times as wide as the body may be as long as it is). Answers and errors as of plumb_body_cut; null `desc`: {0}.
 /// O(cells^2 pieces) each time a cell is given up.
 PLUMB_API int plumb_body_shatter(plumb_world *world, plumb_body body, const plumb_shatter_desc *desc,
                                  plumb_body *parts, int capacity);
@@ -94,14 +94,14 @@ PLUMB_API plumb_real plumb_body_break_cells(const plumb_world *world, plumb_body
 
 /// A body that broke by itself. `normal` points from it to the other.
 typedef struct plumb_body_break {
-    plumb_body body;     ///< the largest part, which has its handle
-    plumb_body other;    ///< what struck it or lay on it; stale if it is gone by now
-    plumb_vec2 point;    ///< [m] where
-    plumb_vec2 normal;   ///< unit
-    plumb_real impulse;  ///< [N s] that broke it, of the whole step
-    plumb_real energy;   ///< [J] taken out of the relative motion of the two, by what it bore
-    int first_part;      ///< of plumb_world_body_break_parts
-    int part_count;      ///< new bodies
+    plumb_body body;    ///< the largest part, which has its handle
+    plumb_body other;   ///< what struck it or lay on it; stale if it is gone by now
+    plumb_vec2 point;   ///< [m] where
+    plumb_vec2 normal;  ///< unit
+    plumb_real impulse; ///< [N s] that broke it, of the whole step
+    plumb_real energy;  ///< [J] taken out of the relative motion of the two, by what it bore
+    int first_part;     ///< of plumb_world_body_break_parts
+    int part_count;     ///< new bodies
 } plumb_body_break;
 
 /// Bodies that broke as the last step began, in the order of their contacts in the step before; valid until the next step. Saved

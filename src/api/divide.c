@@ -28,12 +28,12 @@ typedef struct division {
     plumb_world *world;
     const char *fn;
     plumb_body body;
-    uint32_t keeper;       // child that the body becomes
-    double mass, inertia;  // [kg], [kg m^2] before
-    double x, y;           // [m] centre
+    uint32_t keeper;      // child that the body becomes
+    double mass, inertia; // [kg], [kg m^2] before
+    double x, y;          // [m] centre
     double vx, vy, w;
-    double weight;         // of all children
-    bool given;            // masses are shares of the mass that there was, not of shapes
+    double weight; // of all children
+    bool given;    // masses are shares of the mass that there was, not of shapes
 } division;
 
 //---- what may fail -------------------------------------------------------------------------------
@@ -90,7 +90,8 @@ static bool reserve(const division *d)
         const pl_fragment *g = &pl_fragments(world)[i];
         pieces += g->parts > 0 ? g->parts : 1;
         for (uint32_t k = 0; k < g->parts; ++k) {
-            corners += pl_pool_run(pl_pool_class(pl_fragment_parts(world)[g->part + k].convex.count));
+            corners +=
+                pl_pool_run(pl_pool_class(pl_fragment_parts(world)[g->part + k].convex.count));
         }
         corners += g->parts == 0 && world->pieces.vertex_count[g->piece] > 0
                        ? pl_pool_run(world->pieces.vertex_class[g->piece])
@@ -165,9 +166,8 @@ static void make_rows(const division *d)
     const uint32_t row = pl_body_row(world, d->body);
     pl_bodies *b = &world->bodies;
     share_settings(d, row, share_of(d, keeper), true);
-    b->set_mass[row] = d->given && b->type[row] == PLUMB_DYNAMIC
-                           ? (real)(d->mass * share_of(d, keeper))
-                           : 0;
+    b->set_mass[row] =
+        d->given && b->type[row] == PLUMB_DYNAMIC ? (real)(d->mass * share_of(d, keeper)) : 0;
     b->set_inertia[row] = 0;
     b->flags[row] &= (uint16_t)~PL_BODY_OWN_CENTER;
 }
@@ -249,8 +249,8 @@ static void open_edges(const plumb_world *world, const pl_made *made)
                 c->points[k], c->points[k + 1 == c->count ? 0 : k + 1], (plumb_real)0.5);
             bool inner = false;
             for (uint32_t j = 0; j < made->count && !inner && (all[i].cuts >> k & 1u) != 0; ++j) {
-                inner = j != i && plumb_convex_nearest(&all[j].convex, middle).distance <=
-                                      PLUMB_LENGTH_MIN;
+                inner = j != i &&
+                        plumb_convex_nearest(&all[j].convex, middle).distance <= PLUMB_LENGTH_MIN;
             }
             all[i].cuts &= inner ? UINT32_MAX : ~(1u << k);
         }
@@ -364,8 +364,9 @@ static void divide_shape(const division *d, const shape_run *run)
 static shape_run run_of(const plumb_world *world, uint32_t piece, uint32_t end)
 {
     shape_run run = { .piece = piece, .first = end, .end = end };
-    while (run.first > 0 && plumb_same(world->pieces.shape[pl_fragments(world)[run.first - 1].piece],
-                                       world->pieces.shape[piece])) {
+    while (run.first > 0 &&
+           plumb_same(world->pieces.shape[pl_fragments(world)[run.first - 1].piece],
+                      world->pieces.shape[piece])) {
         --run.first;
     }
     return run;

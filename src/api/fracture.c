@@ -16,8 +16,9 @@
 
 #define DEFAULT_CELLS 12
 #define DEFAULT_SHARE 0.005
-#define THROWS        32   // for the place of one cell
-#define SLENDER       0.1  // [-] area over the square of the diameter
+#define THROWS        32  // for the place of one cell
+#define SLENDER       0.1 // [-] width over length
+#define WIDE          0.6 // [-] of the width of the body
 #define PLACE_MOST    ((plumb_real)1e9)
 #define PI            3.14159265358979323846
 
@@ -212,8 +213,8 @@ static void drop(pl_cells *cells, uint32_t cell)
     --cells->count;
 }
 
-// Area over the square of the diagonal of the box that it lies in, turned as it lies best of six ways.
-static double thickness(const plumb_world *world, uint32_t child)
+// Width over length of the narrowest of six boxes around it, each turned by 15 degrees; *width [m].
+static double thickness(const plumb_world *world, uint32_t child, double *width)
 {
     double least = HUGE_VAL;
     for (int way = 0; way < 6; ++way) {
@@ -239,20 +240,24 @@ static double thickness(const plumb_world *world, uint32_t child)
             }
         }
         const double w = high[0] - low[0], h = high[1] - low[1];
-        least = fmin(least, fmin(w / h, h / w));
+        const double ratio = fmin(w / h, h / w);
+        *width = ratio < least ? fmin(w, h) : *width;
+        least = fmin(least, ratio);
     }
     return least;
 }
 
-// The cell that has the worst part of those that are none, or PL_NONE.
-static uint32_t worst_cell(const plumb_world *world, double least_area, double slender)
+// The cell that has the worst part of those that are none, or PL_NONE. Slender is not what is about as wide as the body, `wide` [m].
+static uint32_t worst_cell(const plumb_world *world, double least_area, double wide)
 {
     const pl_fracture *f = &world->fracture;
     double worst = 1;
     uint32_t cell = PL_NONE;
     for (uint32_t i = 0; i < f->child_count; ++i) {
         const double area = pl_children(world)[i].area / least_area;
-        const double thick = thickness(world, i) / slender;
+        double width = 0;
+        const double slender = thickness(world, i, &width) / SLENDER;
+        const double thick = width > WIDE * wide ? 1 : slender;
         const double bad = area < thick ? area : thick;
         for (uint32_t k = 0; bad < worst && k < f->fragment_count; ++k) {
             if (pl_fragments(world)[k].child == i) {
@@ -271,10 +276,12 @@ static bool settle_cells(plumb_world *world, uint32_t row, const plumb_shatter_d
     if (!pl_fragments_make(world, row, &one)) {
         return false;
     }
-    double area = 0, slender = SLENDER;
+    double area = 0, wide = HUGE_VAL;
     for (uint32_t i = 0; i < world->fracture.child_count; ++i) {
         area += pl_children(world)[i].area;
-        slender = fmin(slender, thickness(world, i));
+        double width = 0;
+        thickness(world, i, &width);
+        wide = fmin(wide, width);
     }
     const double share = desc->min_share > 0 ? (double)desc->min_share : DEFAULT_SHARE;
     uint32_t worst = PL_NONE;
@@ -285,7 +292,7 @@ static bool settle_cells(plumb_world *world, uint32_t row, const plumb_shatter_d
         if (!pl_fragments_make(world, row, cells)) {
             return false;
         }
-        worst = worst_cell(world, share * area, slender * 0.999);
+        worst = worst_cell(world, share * area, wide);
     } while (worst != PL_NONE && cells->count > 1);
     return true;
 }

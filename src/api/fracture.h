@@ -7,7 +7,7 @@
 // The plane, divided in cells: the two sides of a line, or Voronoi cells.
 typedef struct pl_cells {
     int count;
-    bool is_line;       // two cells: cell 0 is the side of n . p <= d
+    bool is_line;   // two cells: cell 0 is the side of n . p <= d
     pl_border line; // in the body's frame
     double x[PLUMB_SHATTER_MAX], y[PLUMB_SHATTER_MAX]; // [m] places of cells, in the body's frame
 } pl_cells;

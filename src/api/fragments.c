@@ -66,8 +66,7 @@ static bool take(const pl_cells *cells, int cell, const plumb_convex *convex, pl
         if (beyond <= (cells->is_line ? TOUCHING : NOTHING)) {
             continue;
         }
-        const double within =
-            pl_border_beyond((pl_border){ -h.nx, -h.ny, -h.d }, convex);
+        const double within = pl_border_beyond((pl_border){ -h.nx, -h.ny, -h.d }, convex);
         if (within <= (cells->is_line ? TOUCHING : NOTHING)) {
             return false;
         }

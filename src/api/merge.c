@@ -66,14 +66,8 @@ static void map_piece(const plumb_world *world, const mapping *m, uint32_t p, pl
     const plumb_vec2 way = turned(m, plumb_v2(core.c, core.s));
     const double half_x = m->scale * (double)core.hx, half_y = m->scale * (double)core.hy;
     const bool turns = out->kind == PL_PIECE_CAPSULE || out->kind == PL_PIECE_BOX;
-    out->core = (pl_core){ center.x,
-                           center.y,
-                           turns ? way.x : 1,
-                           turns ? way.y : 0,
-                           (real)half_x,
-                           (real)half_y,
-                           convex->radius,
-                           reach_of(convex) };
+    out->core = (pl_core){ center.x,     center.y,     turns ? way.x : 1, turns ? way.y : 0,
+                           (real)half_x, (real)half_y, convex->radius,    reach_of(convex) };
     if (out->kind == PL_PIECE_POLYGON) {
         const plumb_vec2 middle = plumb_aabb_center(box);
         out->core.x = middle.x;
@@ -130,7 +124,8 @@ static bool reserve_shapes(plumb_world *world, uint32_t row)
     uint32_t p = world->bodies.first_piece[row];
     for (; p != PL_NONE; p = world->pieces.next_in_body[p]) {
         ++pieces;
-        corners += world->pieces.vertex_count[p] > 0 ? pl_pool_run(world->pieces.vertex_class[p]) : 0;
+        corners +=
+            world->pieces.vertex_count[p] > 0 ? pl_pool_run(world->pieces.vertex_class[p]) : 0;
     }
     return pl_registry_reserve(&world->memory, &world->registry, 1) &&
            pl_pieces_reserve(world, (uint32_t)pieces) &&
@@ -146,7 +141,8 @@ static uint32_t list_shapes(plumb_world *world, uint32_t row)
     uint32_t count = 0;
     uint32_t p = world->bodies.first_piece[row];
     for (; p != PL_NONE; p = world->pieces.next_in_body[p]) {
-        if (count == 0 || !plumb_same(world->pieces.shape[p], world->pieces.shape[shapes[count - 1]])) {
+        if (count == 0 ||
+            !plumb_same(world->pieces.shape[p], world->pieces.shape[shapes[count - 1]])) {
             shapes[count++] = p;
         }
     }
@@ -216,8 +212,7 @@ static double join_motion(plumb_world *world, uint32_t row, const state *a, cons
     now.vy = (a->mass * a->vy + b->mass * b->vy) / mass;
     for (int k = 0; k < 2; ++k) {
         const state *s = both[k];
-        l += s->inertia * s->w +
-             s->mass * ((s->x - now.x) * s->vy - (s->y - now.y) * s->vx);
+        l += s->inertia * s->w + s->mass * ((s->x - now.x) * s->vy - (s->y - now.y) * s->vx);
     }
     now.w = now.inertia > 0 ? l / now.inertia : 0;
     set_motion(world, row, now.vx, now.vy, now.w);
@@ -253,14 +248,12 @@ static bool has_own_mass(const plumb_world *world, uint32_t row)
 {
     const pl_bodies *b = &world->bodies;
     return b->set_mass[row] > 0 || b->set_inertia[row] > 0 ||
-           (b->flags[row] & PL_BODY_OWN_CENTER) != 0 ||
-           pl_mass_of_shapes(world, row).mass <= 0;
+           (b->flags[row] & PL_BODY_OWN_CENTER) != 0 || pl_mass_of_shapes(world, row).mass <= 0;
 }
 
 static void hand_on_joints(plumb_world *world, const mapping *m, plumb_body from, plumb_body to)
 {
-    const double turn =
-        (double)plumb_body_angle(world, to) - (double)plumb_body_angle(world, from);
+    const double turn = (double)plumb_body_angle(world, to) - (double)plumb_body_angle(world, from);
     uint32_t slot = world->bodies.first_joint[pl_body_row(world, from)];
     while (slot != PL_NONE) {
         pl_joint *j = &pl_joint_items(&world->joints)[slot];
@@ -305,13 +298,14 @@ static plumb_result check_merge(const plumb_world *world, const char *fn, plumb_
         return pl_fail(world, PLUMB_E_HANDLE, fn, "other is body; it must be another");
     }
     const mapping m = frame_in(world, a, b);
-    for (uint32_t p = world->bodies.first_piece[b]; p != PL_NONE; p = world->pieces.next_in_body[p]) {
+    for (uint32_t p = world->bodies.first_piece[b]; p != PL_NONE;
+         p = world->pieces.next_in_body[p]) {
         pl_made_piece piece;
         map_piece(world, &m, p, &piece);
         if (!(piece.core.reach <= PLUMB_LENGTH_MAX)) {
             return pl_fail(world, PLUMB_E_RANGE, fn,
-                           "other is %g m from body; it must be at most %g", (double)piece.core.reach,
-                           (double)PLUMB_LENGTH_MAX);
+                           "other is %g m from body; it must be at most %g",
+                           (double)piece.core.reach, (double)PLUMB_LENGTH_MAX);
         }
     }
     return PLUMB_OK;
@@ -326,8 +320,9 @@ plumb_result plumb_body_merge(plumb_world *world, plumb_body body, plumb_body ot
     const bool given = has_own_mass(world, row) || has_own_mass(world, gone);
     const bool is_dynamic = b->type[row] == PLUMB_DYNAMIC;
     if (is_dynamic && second.mass > 0 && !(first.mass + second.mass <= (double)PL_MASS_MOST)) {
-        return pl_fail(world, PLUMB_E_RANGE, __func__, "other has mass %g; together they must have at most %g",
-                       second.mass, (double)PL_MASS_MOST);
+        return pl_fail(world, PLUMB_E_RANGE, __func__,
+                       "other has mass %g; together they must have at most %g", second.mass,
+                       (double)PL_MASS_MOST);
     }
     if (!reserve_shapes(world, gone)) {
         return pl_fail_memory(world, __func__);

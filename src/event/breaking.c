@@ -64,19 +64,16 @@ typedef struct blow {
 
 static double yield_of(const plumb_world *world, uint32_t row, double arm)
 {
-    return (double)world->bodies.inv_mass[row] +
-           arm * arm * (double)world->bodies.inv_inertia[row];
+    return (double)world->bodies.inv_mass[row] + arm * arm * (double)world->bodies.inv_inertia[row];
 }
 
 static blow blow_of(const plumb_world *world, const pl_manifold *m)
 {
     const pl_bodies *b = &world->bodies;
     const double all = impulse_of(m);
-    blow s = { .a = m->body_a,
-               .b = m->body_b,
-               .nx = (double)m->nx,
-               .ny = (double)m->ny,
-               .impulse = all };
+    blow s = {
+        .a = m->body_a, .b = m->body_b, .nx = (double)m->nx, .ny = (double)m->ny, .impulse = all
+    };
     for (uint32_t k = 0; k < m->count; ++k) {
         const pl_manifold_point *p = &m->point[k];
         const double share = (double)p->total / all;
@@ -138,7 +135,8 @@ static plumb_vec2 place_of(const plumb_world *world, const pl_manifold *m)
 }
 
 // Keeps the strongest contact of each body that exceeds a bound: `point` and so on are filled in when all are known.
-static void note(plumb_world *world, uint32_t manifold, uint32_t row, double impulse, uint32_t first)
+static void note(plumb_world *world, uint32_t manifold, uint32_t row, double impulse,
+                 uint32_t first)
 {
     pl_fracture *f = &world->fracture;
     pl_pending_break *all = f->pending.data;

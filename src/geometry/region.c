@@ -37,8 +37,7 @@ static void add_arc(pl_region *r, const plumb_convex *c, int k, plumb_vec2 from,
 // [rad] 0..2 pi from one direction to another, counter-clockwise.
 static double turn(plumb_vec2 from, plumb_vec2 to)
 {
-    const plumb_real angle =
-        plumb_atan2(plumb_vec2_cross(from, to), plumb_vec2_dot(from, to));
+    const plumb_real angle = plumb_atan2(plumb_vec2_cross(from, to), plumb_vec2_dot(from, to));
     return angle < 0 ? (double)angle + 2 * PI : (double)angle;
 }
 
@@ -95,7 +94,8 @@ void pl_region_clip(pl_region *region, pl_border h)
             add(region, in.x[k], in.y[k], in.inner[k] != 0);
         }
         if (keeps != kept_next && region->count < PL_REGION_MOST) {
-            add(region, x, y, !keeps && in.inner[k] != 0); // leaving: the edge along the line begins
+            add(region, x, y,
+                !keeps && in.inner[k] != 0); // leaving: the edge along the line begins
         }
     }
 }
@@ -200,8 +200,7 @@ static bool make_part(const pl_region *r, int first, int last, bool is_all, plum
 
 int pl_region_parts(const pl_region *region, plumb_convex *parts, uint32_t *inner)
 {
-    if (region->count < 3 ||
-        pl_region_area(region) <= grain(region) * pl_region_diameter(region)) {
+    if (region->count < 3 || pl_region_area(region) <= grain(region) * pl_region_diameter(region)) {
         return 0;
     }
     int count = 0;

@@ -16,9 +16,9 @@
 #define PL_REGION_CHORDS 24
 
 typedef struct pl_region {
-    int count; // corners; below 3: nothing
+    int count;                                   // corners; below 3: nothing
     double x[PL_REGION_MOST], y[PL_REGION_MOST]; // [m]
-    uint8_t inner[PL_REGION_MOST];               // 1: the edge from corner k to k + 1 is an inner one
+    uint8_t inner[PL_REGION_MOST]; // 1: the edge from corner k to k + 1 is an inner one
 } pl_region;
 
 // Points with n . p <= d stay; n is of length 1.

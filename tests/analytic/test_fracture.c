@@ -171,7 +171,8 @@ static plumb_vec2 place_near(const plumb_world *w, plumb_body b)
 
 static void tell(const char *what, int count, double parts, double bound)
 {
-    printf("%s: %d of %d, %.1f parts each; worst of mass %.1e, momentum %.1e %.1e, angular momentum %.1e, "
+    printf("%s: %d of %d, %.1f parts each; worst of mass %.1e, momentum %.1e %.1e, angular "
+           "momentum %.1e, "
            "energy %.1e, area %.1e\n",
            what, count, BODIES, parts / count, worst[0], worst[1], worst[2], worst[3], worst[4],
            worst[5]);
@@ -288,8 +289,7 @@ static void test_no_slivers(void **state)
                     const double at = (double)plumb_vec2_dot(c.normals[e], c.points[j]);
                     low = fmin(low, at);
                     high = fmax(high, at);
-                    length =
-                        fmax(length, (double)plumb_vec2_distance(c.points[e], c.points[j]));
+                    length = fmax(length, (double)plumb_vec2_distance(c.points[e], c.points[j]));
                 }
                 width = fmin(width, high - low);
             }
@@ -302,11 +302,11 @@ static void test_no_slivers(void **state)
 
 static plumb_body make_u(plumb_world *w)
 {
-    const plumb_vec2 points[] = { { -2, 0 }, { 2, 0 },          { 2, 3 },  { 1, 3 },
+    const plumb_vec2 points[] = { { -2, 0 }, { 2, 0 },  { 2, 3 },  { 1, 3 },
                                   { 1, 1 },  { -1, 1 }, { -1, 3 }, { -2, 3 } };
     const plumb_body b = plumb_body_create(w, &(plumb_body_desc){ 0 });
-    plumb_shape_create(
-        w, b, &(plumb_shape_desc){ .kind = PLUMB_OUTLINE, .points = points, .count = 8 });
+    plumb_shape_create(w, b,
+                       &(plumb_shape_desc){ .kind = PLUMB_OUTLINE, .points = points, .count = 8 });
     return b;
 }
 
@@ -370,8 +370,7 @@ static void test_joints_follow(void **state)
     (void)state;
     plumb_world *w = sim_space();
     const plumb_body plank = plumb_body_create(w, &(plumb_body_desc){ .position = { 3, 1 } });
-    plumb_shape_create(w, plank,
-                       &(plumb_shape_desc){ .kind = PLUMB_BOX, .half = { 2, R(0.25) } });
+    plumb_shape_create(w, plank, &(plumb_shape_desc){ .kind = PLUMB_BOX, .half = { 2, R(0.25) } });
     const plumb_joint ends[2] = {
         plumb_joint_create(w, &(plumb_joint_desc){ .kind = PLUMB_REVOLUTE,
                                                    .body_b = plank,
@@ -452,7 +451,8 @@ static void test_cut_and_merged(void **state)
         const double inertia = (double)plumb_body_inertia(w, b);
         const plumb_vec2 c = plumb_body_center(w, b);
         plumb_body parts[32];
-        const int count = plumb_body_shatter(w, b, &(plumb_shatter_desc){ .seed = seed }, parts, 32);
+        const int count =
+            plumb_body_shatter(w, b, &(plumb_shatter_desc){ .seed = seed }, parts, 32);
         for (int k = 0; k < count; ++k) {
             assert_int_equal(plumb_body_merge(w, b, parts[k], NULL), PLUMB_OK);
         }
@@ -472,9 +472,10 @@ static void test_joints_of_merged(void **state)
     plumb_world *w = sim_space();
     plumb_body b[3];
     for (int i = 0; i < 3; ++i) {
-        b[i] = plumb_body_create(w, &(plumb_body_desc){ .position = { R(2 * i), 0 },
-                                                        .angle = R(0.7 * i) });
-        plumb_shape_create(w, b[i], &(plumb_shape_desc){ .kind = PLUMB_BOX, .half = { 1, R(0.2) } });
+        b[i] = plumb_body_create(
+            w, &(plumb_body_desc){ .position = { R(2 * i), 0 }, .angle = R(0.7 * i) });
+        plumb_shape_create(w, b[i],
+                           &(plumb_shape_desc){ .kind = PLUMB_BOX, .half = { 1, R(0.2) } });
     }
     const plumb_joint between_two = plumb_joint_create(
         w, &(plumb_joint_desc){
@@ -601,7 +602,8 @@ static double load_at_break(int rate)
     plumb_shape_create(w, slab, &(plumb_shape_desc){ .kind = PLUMB_BOX, .half = { 2, R(0.1) } });
     const plumb_body load = plumb_body_create(
         w, &(plumb_body_desc){ .position = { 0, R(0.5) }, .mass = 1, .no_sleep = true });
-    plumb_shape_create(w, load, &(plumb_shape_desc){ .kind = PLUMB_BOX, .half = { R(0.3), R(0.3) } });
+    plumb_shape_create(w, load,
+                       &(plumb_shape_desc){ .kind = PLUMB_BOX, .half = { R(0.3), R(0.3) } });
     int count = 0;
     double force = 0;
     for (int i = 1; i < 10 * rate && count == 0; ++i) {
@@ -627,13 +629,13 @@ static void test_load(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_sums_of_cuts),       cmocka_unit_test(test_sums_of_shatter),
-        cmocka_unit_test(test_energy_stays),       cmocka_unit_test(test_no_slivers),
+        cmocka_unit_test(test_sums_of_cuts),        cmocka_unit_test(test_sums_of_shatter),
+        cmocka_unit_test(test_energy_stays),        cmocka_unit_test(test_no_slivers),
         cmocka_unit_test(test_what_hangs_together), cmocka_unit_test(test_inner_edges),
-        cmocka_unit_test(test_joints_follow),      cmocka_unit_test(test_the_same_seed),
-        cmocka_unit_test(test_sums_of_merges),     cmocka_unit_test(test_cut_and_merged),
-        cmocka_unit_test(test_joints_of_merged),   cmocka_unit_test(test_scale),
-        cmocka_unit_test(test_energy_of_breaking), cmocka_unit_test(test_load),
+        cmocka_unit_test(test_joints_follow),       cmocka_unit_test(test_the_same_seed),
+        cmocka_unit_test(test_sums_of_merges),      cmocka_unit_test(test_cut_and_merged),
+        cmocka_unit_test(test_joints_of_merged),    cmocka_unit_test(test_scale),
+        cmocka_unit_test(test_energy_of_breaking),  cmocka_unit_test(test_load),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

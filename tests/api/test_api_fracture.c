@@ -86,7 +86,8 @@ static void a_part_that_has_no_mass_is_refused(void **state)
         }
         plumb_shape_create(f->world, b, &d);
     }
-    DENIED(E_RANGE, AS_RESULT(plumb_body_cut(f->world, b, plumb_v2(41, 40), plumb_v2(0, 1), NULL, 0)));
+    DENIED(E_RANGE,
+           AS_RESULT(plumb_body_cut(f->world, b, plumb_v2(41, 40), plumb_v2(0, 1), NULL, 0)));
 }
 
 static void parts_have_what_the_whole_had(void **state)
@@ -94,18 +95,17 @@ static void parts_have_what_the_whole_had(void **state)
     fixture *f = *state;
     plumb_world *w = f->world;
     int mark;
-    const plumb_body b =
-        plumb_body_create(w, &(plumb_body_desc){ .position = { 40, 40 },
-                                                 .damping = 2,
-                                                 .charge = 6,
-                                                 .drag = 3,
-                                                 .thrust = 5,
-                                                 .fuel = 1,
-                                                 .break_impulse = 9,
-                                                 .mass = 8,
-                                                 .no_gravity = true,
-                                                 .no_sleep = true,
-                                                 .user_data = &mark });
+    const plumb_body b = plumb_body_create(w, &(plumb_body_desc){ .position = { 40, 40 },
+                                                                  .damping = 2,
+                                                                  .charge = 6,
+                                                                  .drag = 3,
+                                                                  .thrust = 5,
+                                                                  .fuel = 1,
+                                                                  .break_impulse = 9,
+                                                                  .mass = 8,
+                                                                  .no_gravity = true,
+                                                                  .no_sleep = true,
+                                                                  .user_data = &mark });
     const plumb_material m = plumb_material_create(w, &(plumb_material_desc){ .density = 2 });
     const plumb_filter filter = { .category = 4, .mask = 2, .group = -3 };
     const plumb_shape whole = plumb_shape_create(w, b,
@@ -157,7 +157,8 @@ static void what_is_asleep_wakes(void **state)
     const plumb_body ground = plumb_body_create(w, &(plumb_body_desc){ .type = PLUMB_STATIC });
     plumb_shape_create(w, ground, &(plumb_shape_desc){ .kind = PLUMB_BOX, .half = { 4, 1 } });
     const plumb_body box = plumb_body_create(w, &(plumb_body_desc){ .position = { 2, R(1.5) } });
-    plumb_shape_create(w, box, &(plumb_shape_desc){ .kind = PLUMB_BOX, .half = { R(0.5), R(0.5) } });
+    plumb_shape_create(w, box,
+                       &(plumb_shape_desc){ .kind = PLUMB_BOX, .half = { R(0.5), R(0.5) } });
     for (int i = 0; i < 120; ++i) {
         plumb_world_step(w, DT);
     }
@@ -190,10 +191,9 @@ static void cut_within(const plumb_system_call *call)
 static void systems_may_not_cut(void **state)
 {
     fixture *f = *state;
-    plumb_system_desc d = { .name = "cutter",
-                            .phase = PLUMB_PHASE_BEGIN,
-                            .run = cut_within,
-                            .context = &f->dynamic };
+    plumb_system_desc d = {
+        .name = "cutter", .phase = PLUMB_PHASE_BEGIN, .run = cut_within, .context = &f->dynamic
+    };
     plumb_system_create(f->world, &d);
     plumb_world_step(f->world, DT);
     assert_int_equal(answer, -1);
@@ -207,8 +207,8 @@ static plumb_world *make_wall(plumb_world_desc desc)
 {
     plumb_world *w;
     assert_int_equal(plumb_world_create(&desc, &w), PLUMB_OK);
-    const plumb_body ground = plumb_body_create(
-        w, &(plumb_body_desc){ .type = PLUMB_STATIC, .position = { 0, -1 } });
+    const plumb_body ground =
+        plumb_body_create(w, &(plumb_body_desc){ .type = PLUMB_STATIC, .position = { 0, -1 } });
     plumb_shape_create(w, ground, &(plumb_shape_desc){ .kind = PLUMB_BOX, .half = { 30, 1 } });
     for (int i = 0; i < 8; ++i) {
         const plumb_body brick = plumb_body_create(
@@ -220,11 +220,11 @@ static plumb_world *make_wall(plumb_world_desc desc)
                            &(plumb_shape_desc){ .kind = PLUMB_BOX, .half = { R(0.2), R(0.5) } });
     }
     for (int i = 0; i < 4; ++i) {
-        const plumb_body bullet = plumb_body_create(
-            w, &(plumb_body_desc){ .position = { R(-2 - 6 * i), R(0.5 + i) },
-                                   .velocity = { 30, 2 },
-                                   .mass = R(0.5),
-                                   .continuous = true });
+        const plumb_body bullet =
+            plumb_body_create(w, &(plumb_body_desc){ .position = { R(-2 - 6 * i), R(0.5 + i) },
+                                                     .velocity = { 30, 2 },
+                                                     .mass = R(0.5),
+                                                     .continuous = true });
         plumb_shape_create(w, bullet,
                            &(plumb_shape_desc){ .kind = PLUMB_CIRCLE, .radius = R(0.1) });
     }
@@ -287,7 +287,8 @@ static void threads_and_widths_change_no_bit(void **state)
 static void images_go_on_with_the_same_bits(void **state)
 {
     (void)state;
-    plumb_world *w = make_wall((plumb_world_desc){ 0 }), *other = make_wall((plumb_world_desc){ 0 });
+    plumb_world *w = make_wall((plumb_world_desc){ 0 }),
+                *other = make_wall((plumb_world_desc){ 0 });
     for (int i = 0; i < 60; ++i) {
         const size_t size = plumb_world_snapshot_size(w);
         void *bytes = malloc(size);
@@ -318,8 +319,8 @@ static void recordings_hold_it(void **state)
         const plumb_body_span span = plumb_world_bodies(w);
         const plumb_body first = span.body[0], last = span.body[span.dynamic_count - 1];
         if (i == 30) {
-            assert_true(plumb_body_cut(w, first, plumb_body_center(w, first), plumb_v2(1, 1), NULL,
-                                       0) > 0);
+            assert_true(
+                plumb_body_cut(w, first, plumb_body_center(w, first), plumb_v2(1, 1), NULL, 0) > 0);
         } else if (i == 40) {
             assert_int_equal(plumb_body_merge(w, first, last, NULL), PLUMB_OK);
         } else if (i == 50) {

@@ -34,7 +34,9 @@ static plumb_world *make(heap *h)
     const plumb_world_desc desc = { .allocator = heap_allocator(h) };
     assert_int_equal(plumb_world_create(&desc, &w), PLUMB_OK);
     const plumb_body walls = plumb_body_create(w, &(plumb_body_desc){ .type = PLUMB_STATIC });
-    const double half[4][4] = { { 0, -6, 11, 1 }, { 0, 14, 11, 1 }, { -11, 4, 1, 11 }, { 11, 4, 1, 11 } };
+    const double half[4][4] = {
+        { 0, -6, 11, 1 }, { 0, 14, 11, 1 }, { -11, 4, 1, 11 }, { 11, 4, 1, 11 }
+    };
     for (int i = 0; i < 4; ++i) {
         plumb_shape_create(w, walls,
                            &(plumb_shape_desc){ .kind = PLUMB_BOX,
@@ -140,9 +142,10 @@ static uint64_t soak(int steps, bool tells)
     }
     assert_near(mass_of(w) / mass, 1, ROUNDED(1e-6 * (d.cuts + d.shatters + d.merges + d.breaks)));
     if (tells) {
-        printf("%d steps: %d cuts, %d shattered, %d merged, %d broke; %d bodies, mass off by %.1e, %ld then %ld bytes\n",
-               steps, d.cuts, d.shatters, d.merges, d.breaks, s.count, mass_of(w) / mass - 1, middle,
-               (long)h.bytes);
+        printf("%d steps: %d cuts, %d shattered, %d merged, %d broke; %d bodies, mass off by %.1e, "
+               "%ld then %ld bytes\n",
+               steps, d.cuts, d.shatters, d.merges, d.breaks, s.count, mass_of(w) / mass - 1,
+               middle, (long)h.bytes);
         assert_true(d.cuts > 10 && d.shatters > 20 && d.merges > 100 && d.breaks > 5);
     }
     assert_true((double)h.bytes < 1.6 * (double)middle);

@@ -136,7 +136,7 @@ static const luaL_Reg methods[] = {
 
 // All methods, in four tables.
 static const luaL_Reg *const tables[] = { methods, sc_body_acts, sc_character_methods,
-                                         sc_fracture_methods };
+                                          sc_fracture_methods };
 
 enum { TABLES = sizeof tables / sizeof tables[0] };
 

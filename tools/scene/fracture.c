@@ -150,7 +150,8 @@ static sc_body *adopt(scene *s, const sc_body *whole, plumb_body part)
     def.shape_count = 0;
     int base = (int)strlen(whole->def.name);
     const char *dot = whole->is_part ? strrchr(whole->def.name, '.') : NULL;
-    base = dot != NULL ? (int)(dot - whole->def.name) : base; // parts of "pane.3" are those of "pane"
+    base =
+        dot != NULL ? (int)(dot - whole->def.name) : base; // parts of "pane.3" are those of "pane"
     base = base < 50 ? base : 50;
     for (int number = 1, found = 0; found == 0; number++) {
         snprintf(def.name, sizeof def.name, "%.*s.%d", base, whole->def.name, number);
@@ -240,7 +241,8 @@ static int method_merge(lua_State *L)
     luaL_argcheck(L, other != c.body, 2, "must be another body");
     plumb_joint joints[64];
     const int count = plumb_body_joints(c.world, other->entity, joints, 64);
-    for (int i = 0; i < count && i < 64; i++) { // those between the two go; their records are ours to forget
+    for (int i = 0; i < count && i < 64;
+         i++) { // those between the two go; their records are ours to forget
         const plumb_body a = plumb_joint_body_a(c.world, joints[i]);
         const plumb_body b = plumb_joint_body_b(c.world, joints[i]);
         if (plumb_same(a, c.entity) || plumb_same(b, c.entity)) {
@@ -306,8 +308,7 @@ static void tell(scene *s, const sc_shattered *e, const sc_handler *h)
 {
     lua_State *L = s->L;
     const sc_body *body = sc_body_of(s, e->event.body), *other = sc_body_of(s, e->event.other);
-    if (body == NULL ||
-        (h->contact.a[0] != 0 && !sc_name_matches(h->contact.a, body->def.name)) ||
+    if (body == NULL || (h->contact.a[0] != 0 && !sc_name_matches(h->contact.a, body->def.name)) ||
         (h->contact.b[0] != 0 &&
          (other == NULL || !sc_name_matches(h->contact.b, other->def.name)))) {
         return;

@@ -543,8 +543,8 @@ double sc_finite_number(lua_State *L, int index);
 plumb_vec2 sc_vector(lua_State *L, int *index);
 /// Raises when the world has refused the call. Always 0, for methods that return nothing.
 int sc_body_check(const sc_body_call *c, plumb_result result);
-extern const char *const sc_body_types[]; ///< in the order of plumb_body_type, then null
-extern const luaL_Reg sc_body_acts[];     ///< body_act.c
+extern const char *const sc_body_types[];    ///< in the order of plumb_body_type, then null
+extern const luaL_Reg sc_body_acts[];        ///< body_act.c
 extern const luaL_Reg sc_fracture_methods[]; ///< fracture.c
 /// Bodies that broke in the step: their parts become bodies of the scene; handlers hear of it.
 void sc_shatters_take(scene *s);

@@ -14,11 +14,28 @@ int sc_axis_bit(const char *name)
     return 0;
 }
 
-static const char *const dynamic_rows[] = {
-    "angular_damping", "attraction", "break_cells", "break_energy", "break_force", "break_impulse", "charge",        "damping",      "drag",     "exhaust",
-    "fixed_rotation",  "fuel",       "gravity_scale", "inertia",      "lock",     "mass",
-    "max_speed",       "max_spin",   "thrust",        "thrust_angle", "thrust_x", "thrust_y"
-};
+static const char *const dynamic_rows[] = { "angular_damping",
+                                            "attraction",
+                                            "break_cells",
+                                            "break_energy",
+                                            "break_force",
+                                            "break_impulse",
+                                            "charge",
+                                            "damping",
+                                            "drag",
+                                            "exhaust",
+                                            "fixed_rotation",
+                                            "fuel",
+                                            "gravity_scale",
+                                            "inertia",
+                                            "lock",
+                                            "mass",
+                                            "max_speed",
+                                            "max_spin",
+                                            "thrust",
+                                            "thrust_angle",
+                                            "thrust_x",
+                                            "thrust_y" };
 
 bool sc_motion_is_dynamic(const char *row)
 {
