@@ -184,7 +184,7 @@ static double distance_to(const plumb_world *world, const pl_fragment *g, plumb_
         } else {
             pl_piece_convex(world, g->piece, &convex);
         }
-        least = fmin(least, (double)plumb_convex_nearest(&convex, point).distance);
+        least = pl_smaller(least, (double)plumb_convex_nearest(&convex, point).distance);
     }
     return least;
 }

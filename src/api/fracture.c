@@ -74,7 +74,7 @@ int plumb_body_cut(plumb_world *world, plumb_body body, plumb_vec2 point, plumb_
     const double c = (double)b->c[row], s = (double)b->s[row];
     const double dx = (double)point.x - (double)b->x[row], dy = (double)point.y - (double)b->y[row];
     const double px = c * dx + s * dy, py = c * dy - s * dx;
-    const double scale = fmax(fabs((double)along.x), fabs((double)along.y));
+    const double scale = pl_larger(fabs((double)along.x), fabs((double)along.y));
     const double ax = (double)along.x / scale, ay = (double)along.y / scale;
     const double length = sqrt(ax * ax + ay * ay);
     if (!(scale > 0)) {
@@ -123,7 +123,7 @@ static double farthest(const plumb_world *world, uint32_t row, double x, double 
         pl_piece_convex(world, p, &convex);
         for (int k = 0; k < convex.count && pl_fragments_have(world, p); ++k) {
             const double dx = (double)convex.points[k].x - x, dy = (double)convex.points[k].y - y;
-            most = fmax(most, sqrt(dx * dx + dy * dy) + (double)convex.radius);
+            most = pl_larger(most, sqrt(dx * dx + dy * dy) + (double)convex.radius);
         }
     }
     return most;
@@ -233,16 +233,16 @@ static double thickness(const plumb_world *world, uint32_t child, double *width)
                     const double x = (double)convex.points[j].x, y = (double)convex.points[j].y;
                     const double at[2] = { c * x + s * y, c * y - s * x };
                     for (int a = 0; a < 2; ++a) {
-                        low[a] = fmin(low[a], at[a] - (double)convex.radius);
-                        high[a] = fmax(high[a], at[a] + (double)convex.radius);
+                        low[a] = pl_smaller(low[a], at[a] - (double)convex.radius);
+                        high[a] = pl_larger(high[a], at[a] + (double)convex.radius);
                     }
                 }
             }
         }
         const double w = high[0] - low[0], h = high[1] - low[1];
-        const double ratio = fmin(w / h, h / w);
-        *width = ratio < least ? fmin(w, h) : *width;
-        least = fmin(least, ratio);
+        const double ratio = pl_smaller(w / h, h / w);
+        *width = ratio < least ? pl_smaller(w, h) : *width;
+        least = pl_smaller(least, ratio);
     }
     return least;
 }
@@ -281,7 +281,7 @@ static bool settle_cells(plumb_world *world, uint32_t row, const plumb_shatter_d
         area += pl_children(world)[i].area;
         double width = 0;
         thickness(world, i, &width);
-        wide = fmin(wide, width);
+        wide = pl_smaller(wide, width);
     }
     const double share = desc->min_share > 0 ? (double)desc->min_share : DEFAULT_SHARE;
     uint32_t worst = PL_NONE;

@@ -93,10 +93,10 @@ static void measure(pl_fragment *g, const pl_region *region)
     g->max_x = g->max_y = -HUGE_VAL;
     g->x = g->y = 0;
     for (int k = 0; k < region->count; ++k) {
-        g->min_x = fmin(g->min_x, region->x[k]);
-        g->max_x = fmax(g->max_x, region->x[k]);
-        g->min_y = fmin(g->min_y, region->y[k]);
-        g->max_y = fmax(g->max_y, region->y[k]);
+        g->min_x = pl_smaller(g->min_x, region->x[k]);
+        g->max_x = pl_larger(g->max_x, region->x[k]);
+        g->min_y = pl_smaller(g->min_y, region->y[k]);
+        g->max_y = pl_larger(g->max_y, region->y[k]);
         g->x += region->x[k] / region->count;
         g->y += region->y[k] / region->count;
     }
@@ -216,10 +216,10 @@ static void add_to_child(const plumb_world *world, pl_child *child, const pl_fra
     const bool is_dynamic = world->bodies.type[world->pieces.body[g->piece]] == PLUMB_DYNAMIC;
     child->area += g->area;
     child->weight += g->area * (is_dynamic ? density : 1);
-    child->min_x = fmin(child->min_x, g->min_x);
-    child->min_y = fmin(child->min_y, g->min_y);
-    child->max_x = fmax(child->max_x, g->max_x);
-    child->max_y = fmax(child->max_y, g->max_y);
+    child->min_x = pl_smaller(child->min_x, g->min_x);
+    child->min_y = pl_smaller(child->min_y, g->min_y);
+    child->max_x = pl_larger(child->max_x, g->max_x);
+    child->max_y = pl_larger(child->max_y, g->max_y);
 }
 
 // Numbers the children in the order of their first fragments.

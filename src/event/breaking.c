@@ -53,25 +53,25 @@ static bool exceeds(const pl_body_settings *t, double impulse, double dt)
 
 //---- a contact as a blow -------------------------------------------------------------------------
 
-typedef struct blow {
+typedef struct hit {
     uint32_t a, b;         // rows
     double nx, ny;         // from a to b
     double ax, ay, bx, by; // [m] from the centres to where it acts
     double impulse;        // [N s]
     double yield;          // [1/kg] k above
     double approach;       // [m/s] u above
-} blow;
+} hit;
 
 static double yield_of(const plumb_world *world, uint32_t row, double arm)
 {
     return (double)world->bodies.inv_mass[row] + arm * arm * (double)world->bodies.inv_inertia[row];
 }
 
-static blow blow_of(const plumb_world *world, const pl_manifold *m)
+static hit hit_of(const plumb_world *world, const pl_manifold *m)
 {
     const pl_bodies *b = &world->bodies;
     const double all = impulse_of(m);
-    blow s = {
+    hit s = {
         .a = m->body_a, .b = m->body_b, .nx = (double)m->nx, .ny = (double)m->ny, .impulse = all
     };
     for (uint32_t k = 0; k < m->count; ++k) {
@@ -105,7 +105,7 @@ static void push(plumb_world *world, uint32_t row, double x, double y, double tu
 }
 
 // Both get back what exceeds `borne`.
-static void give_back(plumb_world *world, const blow *s, double borne)
+static void give_back(plumb_world *world, const hit *s, double borne)
 {
     const double x = (s->impulse - borne) * s->nx, y = (s->impulse - borne) * s->ny;
     push(world, s->a, x, y, s->ax * y - s->ay * x);
@@ -113,7 +113,7 @@ static void give_back(plumb_world *world, const blow *s, double borne)
 }
 
 // What the body bears of it; < 0: the blow has not the energy that breaking takes.
-static double borne_of(const pl_body_settings *t, const blow *s, double dt)
+static double borne_of(const pl_body_settings *t, const hit *s, double dt)
 {
     const double u = s->approach, k = s->yield, energy = (double)t->break_energy;
     const bool struck = u > 0 && k > 0 && u * u >= 2 * k * energy;
@@ -123,8 +123,8 @@ static double borne_of(const pl_body_settings *t, const blow *s, double dt)
     }
     const double least =
         t->break_impulse > 0 ? (double)t->break_impulse : (double)t->break_force * dt;
-    const double borne = fmax(least, (u - sqrt(u * u - 2 * k * energy)) / k);
-    return fmin(borne, s->impulse);
+    const double borne = pl_larger(least, (u - sqrt(u * u - 2 * k * energy)) / k);
+    return pl_smaller(borne, s->impulse);
 }
 
 //---- who breaks ----------------------------------------------------------------------------------
@@ -192,7 +192,7 @@ static void settle(plumb_world *world, uint32_t first, double dt)
         pl_pending_break b = all[i];
         const pl_manifold *m = manifold_of(world, &b);
         const uint32_t row = pl_body_row(world, b.body);
-        const blow s = blow_of(world, m);
+        const hit s = hit_of(world, m);
         const bool shared = is_shared(all + first, kept - first, &b);
         const double borne = shared ? s.impulse : borne_of(bounds_of(world, row), &s, dt);
         if (borne < 0) {

@@ -129,9 +129,9 @@ static double grain(const pl_region *r)
 {
     double far = 0;
     for (int k = 0; k < r->count; ++k) {
-        far = fmax(far, fmax(fabs(r->x[k]), fabs(r->y[k])));
+        far = pl_larger(far, pl_larger(fabs(r->x[k]), fabs(r->y[k])));
     }
-    return fmax(1e-9, 16 * (double)PLUMB_REAL_EPSILON * far);
+    return pl_larger(1e-9, 16 * (double)PLUMB_REAL_EPSILON * far);
 }
 
 static void remove_corner(pl_region *r, int k)

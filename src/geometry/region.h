@@ -21,6 +21,17 @@ typedef struct pl_region {
     uint8_t inner[PL_REGION_MOST]; // 1: the edge from corner k to k + 1 is an inner one
 } pl_region;
 
+// The larger and the smaller of two numbers that are none but numbers.
+static inline double pl_larger(double a, double b)
+{
+    return a > b ? a : b;
+}
+
+static inline double pl_smaller(double a, double b)
+{
+    return a < b ? a : b;
+}
+
 // Points with n . p <= d stay; n is of length 1.
 typedef struct pl_border {
     double nx, ny;

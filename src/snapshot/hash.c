@@ -144,8 +144,10 @@ static void add_holds(pl_digest *digest, const plumb_world *world)
             pl_digest_add(digest, from + drag, engine - drag);
         }
         if (burns) {
-            pl_digest_add(digest, from + engine, breaks - engine);
-            pl_digest_add(digest, from + low, end - low);
+            char all[sizeof *items]; // as one, as they once lay
+            memcpy(all, from + engine, breaks - engine);
+            memcpy(all + (breaks - engine), from + low, end - low);
+            pl_digest_add(digest, all, breaks - engine + (end - low));
         }
         if (memcmp(from + breaks, none, low - breaks) != 0) {
             pl_digest_add(digest, from + breaks, low - breaks);

@@ -159,7 +159,7 @@ static void test_long_tumbling(void **state)
 {
     (void)state;
     const char *said = getenv("FRACTURE_STEPS");
-    const int steps = said != NULL ? atoi(said) : 1500;
+    const int steps = said != NULL ? (int)strtol(said, NULL, 10) : 1500;
     assert_true(soak(steps, true) == soak(steps, false));
 }
 
