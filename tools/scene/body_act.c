@@ -41,8 +41,18 @@ static int method_teleport(lua_State *L)
     X(break_cells)                                                                                 \
     X(break_energy)                                                                                \
     X(break_force)                                                                                 \
-    X(break_impulse) X(charge) X(drag) X(exhaust) X(fuel) X(gravity_scale) X(mass) X(thrust)       \
-        X(thrust_angle) X(thrust_x) X(thrust_y) X(time_scale)
+    X(break_impulse)                                                                               \
+    X(charge)                                                                                      \
+    X(drag)                                                                                        \
+    X(exhaust)                                                                                     \
+    X(fuel)                                                                                        \
+    X(gravity_scale)                                                                               \
+    X(mass)                                                                                        \
+    X(thrust)                                                                                      \
+    X(thrust_angle)                                                                                \
+    X(thrust_x)                                                                                    \
+    X(thrust_y)                                                                                    \
+    X(time_scale)
 #define FLAGS(X) X(continuous) X(enabled) X(fixed_rotation)
 
 #define NUMBER_SETTER(field)                                                                       \
