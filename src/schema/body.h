@@ -67,7 +67,7 @@
     R(X, RECORD, REAL, break_impulse, SAID(break_impulse), "N s", FROM(0, NO_END), 0, NO_ZERO,      \
       "impulse of a contact in a step above which it breaks; dynamic bodies")                       \
     R(X, RECORD, REAL, break_energy, SAID(break_energy), "J", FROM(0, NO_END), 0, NO_ZERO,          \
-      "that breaking takes from the blow; dynamic bodies")                                          \
+      "that breaking takes from the hit; dynamic bodies")                                          \
     R(X, RECORD, REAL, break_cells, SAID(break_cells), "1", FROM(0, 64), 0, NO_ZERO,                \
       "parts that it breaks into at most; 0: twelve; dynamic bodies")                               \
     R(X, OWN, BOOL, disabled, NOT(enabled), "1", CHOICES(1), 0, NO_ZERO, "whether it is in the simulation")
