@@ -9,6 +9,8 @@
 
 #include <string.h>
 
+#define FEWEST 2048 // particles that are worth a thread
+
 int32_t pl_liquid_floor(double cells, near_real *fraction)
 {
     const double most = PL_LIQUID_MOST_CELL;
@@ -82,14 +84,12 @@ static bool add_tile(pl_memory *memory, pl_liquid_scratch *scratch, int32_t x, i
     return 2 * g->tile_count <= scratch->slots || resize(memory, scratch, 2 * scratch->slots);
 }
 
-static bool find_tiles(pl_memory *memory, pl_liquid_scratch *scratch,
-                       const plumb_particle *particles, uint32_t count, double scale)
+static bool find_tiles(pl_memory *memory, pl_liquid_scratch *scratch, uint32_t count)
 {
-    near_real unused;
+    const pl_liquid_spot *spots = scratch->spots.data;
     uint64_t last = 0;
     for (uint32_t k = 0; k < count; ++k) {
-        const int32_t i = pl_liquid_floor((double)particles[k].position.x * scale, &unused);
-        const int32_t j = pl_liquid_floor((double)particles[k].position.y * scale, &unused);
+        const int32_t i = spots[k].i, j = spots[k].j;
         const int32_t x = tile_of(i - PL_LIQUID_REACH), y = tile_of(j - PL_LIQUID_REACH);
         const int32_t right = tile_of(i + PL_LIQUID_REACH), top = tile_of(j + PL_LIQUID_REACH);
         const uint64_t seen = key_of(x, y) * 4 + (uint64_t)(2 * (right - x) + (top - y)) + 1;
@@ -147,22 +147,26 @@ uint32_t pl_liquid_cell_at(const pl_liquid_grid *g, int32_t i, int32_t j)
     return first == 0 ? 0 : first + (uint32_t)((j & 15) * PL_LIQUID_SIDE + (i & 15));
 }
 
-// One block of memory, a column behind the other, all of them zero.
+// One block of memory, a column behind the other. Cell 0 is zero in all of them.
 static bool make_columns(pl_memory *memory, pl_liquid_scratch *scratch)
 {
     pl_liquid_grid *g = &scratch->grid;
     const uint32_t n = 1 + g->tile_count * PL_LIQUID_TILE;
     size_t bytes = 0;
-#define ROOM(type, name) bytes += ((n + 1) * sizeof(type) + PL_ALIGN - 1) / PL_ALIGN * PL_ALIGN;
-    PL_LIQUID_COLUMNS(ROOM)
+#define SIZE(type)       (((n + 1) * sizeof(type) + PL_ALIGN - 1) / PL_ALIGN * PL_ALIGN)
+#define ROOM(type, name) bytes += SIZE(type);
+    PL_LIQUID_ZEROED(ROOM)
+    const size_t zeroed = bytes;
+    PL_LIQUID_WRITTEN(ROOM)
     if (!pl_buffer_reserve(memory, &scratch->cells, bytes)) {
         return false;
     }
-    memset(scratch->cells.data, 0, bytes);
+    memset(scratch->cells.data, 0, zeroed);
     char *at = scratch->cells.data;
 #define CARVE(type, name)                                                                          \
     g->name = (type *)(void *)at;                                                                  \
-    at += ((n + 1) * sizeof(type) + PL_ALIGN - 1) / PL_ALIGN * PL_ALIGN;
+    g->name[0] = 0;                                                                                \
+    at += SIZE(type);
     PL_LIQUID_COLUMNS(CARVE)
     g->cell_count = n;
     return true;
@@ -176,60 +180,112 @@ static void link_tile(pl_liquid_grid *g, uint32_t t)
     const uint32_t right = first_cell(g, tile->x + 1, tile->y);
     const uint32_t down = first_cell(g, tile->x, tile->y - 1);
     const uint32_t up = first_cell(g, tile->x, tile->y + 1);
-    for (uint32_t k = 0; k < PL_LIQUID_TILE; ++k) {
-        const uint32_t i = k % side, j = k / side, c = first + k;
-        g->left[c] = i > 0 ? c - 1 : left != 0 ? left + k + side - 1 : 0;
-        g->right[c] = i + 1 < side ? c + 1 : right != 0 ? right + k + 1 - side : 0;
-        g->down[c] = j > 0 ? c - side : down != 0 ? down + k + PL_LIQUID_TILE - side : 0;
-        g->up[c] = j + 1 < side ? c + side : up != 0 ? up + k + side - PL_LIQUID_TILE : 0;
+    for (uint32_t c = first; c < first + PL_LIQUID_TILE; ++c) {
+        g->left[c] = c - 1;
+        g->right[c] = c + 1;
+        g->down[c] = c - side;
+        g->up[c] = c + side;
     }
+    for (uint32_t k = 0; k < side; ++k) {
+        const uint32_t line = k * side, top = PL_LIQUID_TILE - side;
+        g->left[first + line] = left != 0 ? left + line + side - 1 : 0;
+        g->right[first + line + side - 1] = right != 0 ? right + line : 0;
+        g->down[first + k] = down != 0 ? down + top + k : 0;
+        g->up[first + top + k] = up != 0 ? up + k : 0;
+    }
+}
+
+void pl_liquid_cells(pl_liquid_grid *g, pl_range_fn *range)
+{
+    pl_tasks_ranges(g->tasks, g->cell_count - 1, 2048, range, g);
 }
 
 //---- points --------------------------------------------------------------------------------------
 
-static pl_liquid_point point_of(const plumb_particle *p, double scale, near_real h, int32_t *i,
-                                int32_t *j)
+// Of a build, for its threads.
+typedef struct build {
+    pl_liquid_grid *g;
+    const plumb_particle *particles;
+    pl_liquid_spot *spots;
+    double scale;
+} build;
+
+static void spot_range(void *context, uint32_t first, uint32_t count)
 {
-    pl_liquid_point q = { .u = (near_real)p->velocity.x, .v = (near_real)p->velocity.y };
-    *i = pl_liquid_floor((double)p->position.x * scale, &q.fx);
-    *j = pl_liquid_floor((double)p->position.y * scale, &q.fy);
-    q.ux = (near_real)p->gradient[0] * h;
-    q.uy = (near_real)p->gradient[1] * h;
-    q.vx = (near_real)p->gradient[2] * h;
-    q.vy = (near_real)p->gradient[3] * h;
-    return q;
+    const build *b = context;
+    for (uint32_t k = first; k < first + count; ++k) {
+        pl_liquid_spot *s = &b->spots[k];
+        s->i = pl_liquid_floor((double)b->particles[k].position.x * b->scale, &s->fx);
+        s->j = pl_liquid_floor((double)b->particles[k].position.y * b->scale, &s->fy);
+    }
+}
+
+static void cell_range(void *context, uint32_t first, uint32_t count)
+{
+    const build *b = context;
+    int32_t x = INT32_MAX, y = INT32_MAX; // no tile has these
+    uint32_t tile = 0;
+    for (uint32_t k = first; k < first + count; ++k) {
+        pl_liquid_spot *s = &b->spots[k];
+        if (tile_of(s->i) != x || tile_of(s->j) != y) {
+            x = tile_of(s->i);
+            y = tile_of(s->j);
+            tile = first_cell(b->g, x, y);
+        }
+        s->cell = tile + (uint32_t)((s->j & 15) * PL_LIQUID_SIDE + (s->i & 15));
+    }
+}
+
+static void point_range(void *context, uint32_t first, uint32_t count)
+{
+    const build *b = context;
+    const near_real h = b->g->h;
+    for (uint32_t k = first; k < first + count; ++k) {
+        const pl_liquid_spot *s = &b->spots[k];
+        const plumb_particle *p = &b->particles[k];
+        b->g->points[s->place] = (pl_liquid_point){
+            .fx = s->fx,
+            .fy = s->fy,
+            .u = (near_real)p->velocity.x,
+            .v = (near_real)p->velocity.y,
+            .ux = (near_real)p->gradient[0] * h,
+            .uy = (near_real)p->gradient[1] * h,
+            .vx = (near_real)p->gradient[2] * h,
+            .vy = (near_real)p->gradient[3] * h,
+            .cell = s->cell,
+            .index = k,
+        };
+    }
 }
 
 // By counting: `first` of a cell runs through its places, and is put back to where they begin.
-static bool sort_points(pl_memory *memory, pl_liquid_scratch *scratch,
-                        const plumb_particle *particles, uint32_t count, double scale)
+static bool sort_points(pl_memory *memory, pl_liquid_scratch *scratch, build *b, uint32_t count)
 {
     pl_liquid_grid *g = &scratch->grid;
-    if (!pl_buffer_reserve(memory, &scratch->points, (count + 1) * sizeof(pl_liquid_point)) ||
-        !pl_buffer_reserve(memory, &scratch->keys, (count + 1) * sizeof(uint32_t))) {
+    if (!pl_buffer_reserve(memory, &scratch->points, (count + 1) * sizeof(pl_liquid_point))) {
         return false;
     }
-    uint32_t *cells = scratch->keys.data;
-    near_real unused;
+    g->points = scratch->points.data;
+    pl_tasks_ranges(g->tasks, count, FEWEST, cell_range, b);
     for (uint32_t k = 0; k < count; ++k) {
-        const plumb_vec2 at = particles[k].position;
-        cells[k] = pl_liquid_cell_at(g, pl_liquid_floor((double)at.x * scale, &unused),
-                                     pl_liquid_floor((double)at.y * scale, &unused));
-        ++g->first[cells[k]];
+        ++g->first[b->spots[k].cell];
     }
     pl_counts_to_places(g->first, g->cell_count, 0);
-    g->points = scratch->points.data;
     for (uint32_t k = 0; k < count; ++k) {
-        int32_t i, j;
-        pl_liquid_point *q = &g->points[g->first[cells[k]]++];
-        *q = point_of(&particles[k], scale, g->h, &i, &j);
-        q->cell = cells[k];
-        q->index = k;
+        b->spots[k].place = g->first[b->spots[k].cell]++;
     }
     memmove(g->first + 1, g->first, g->cell_count * sizeof *g->first);
     g->first[0] = 0;
+    pl_tasks_ranges(g->tasks, count, FEWEST, point_range, b);
     g->point_count = count;
     return true;
+}
+
+static void link_range(void *context, uint32_t first, uint32_t count)
+{
+    for (uint32_t t = first; t < first + count; ++t) {
+        link_tile(context, t);
+    }
 }
 
 bool pl_liquid_grid_build(pl_memory *memory, pl_liquid_scratch *scratch,
@@ -238,23 +294,28 @@ bool pl_liquid_grid_build(pl_memory *memory, pl_liquid_scratch *scratch,
     pl_liquid_grid *g = &scratch->grid;
     g->tile_count = 0;
     g->h = (near_real)h;
+    if (!pl_buffer_reserve(memory, &scratch->spots, (count + 1) * sizeof(pl_liquid_spot))) {
+        return false;
+    }
+    build b = { g, particles, scratch->spots.data, 1 / h };
+    pl_tasks_ranges(g->tasks, count, FEWEST, spot_range, &b);
     if (!resize(memory, scratch, scratch->slots > 64 ? scratch->slots : 64) ||
-        !find_tiles(memory, scratch, particles, count, 1 / h) || !sort_tiles(memory, scratch) ||
+        !find_tiles(memory, scratch, count) || !sort_tiles(memory, scratch) ||
         !make_columns(memory, scratch)) {
         return false;
     }
-    for (uint32_t t = 0; t < g->tile_count; ++t) {
-        link_tile(g, t);
-    }
-    return sort_points(memory, scratch, particles, count, 1 / h);
+    pl_tasks_ranges(g->tasks, g->tile_count, 8, link_range, g);
+    return sort_points(memory, scratch, &b, count);
 }
 
 void pl_liquid_free_arrays(pl_memory *memory, pl_liquid_scratch *scratch)
 {
-    pl_buffer *all[] = { &scratch->moved,      &scratch->pushes, &scratch->cells,  &scratch->tiles,
-                         &scratch->hash,       &scratch->keys,   &scratch->points, &scratch->rows,
-                         &scratch->vectors,    &scratch->bodies, &scratch->links,  &scratch->solids,
-                         &scratch->tile_solids };
+    pl_buffer *all[] = { &scratch->moved,  &scratch->pushes,     &scratch->cells,
+                         &scratch->tiles,  &scratch->hash,       &scratch->keys,
+                         &scratch->points, &scratch->spots,      &scratch->occupied,
+                         &scratch->blocks, &scratch->strips,     &scratch->vectors,
+                         &scratch->sums,   &scratch->bodies,     &scratch->links,
+                         &scratch->solids, &scratch->tile_solids };
     for (size_t i = 0; i < sizeof all / sizeof all[0]; ++i) {
         pl_buffer_free(memory, all[i]);
     }

@@ -2,6 +2,7 @@
 #ifndef PL_LIQUID_H
 #define PL_LIQUID_H
 
+#include "core/tasks.h"
 #include "world/state.h"
 
 #define PL_LIQUID_REACH     3 // cells around particles that tiles cover
@@ -34,6 +35,8 @@ bool pl_liquid_grid_build(pl_memory *memory, pl_liquid_scratch *scratch,
                           const plumb_particle *particles, uint32_t count, double h);
 // The cell at (i, j); 0: in no tile.
 uint32_t pl_liquid_cell_at(const pl_liquid_grid *grid, int32_t i, int32_t j);
+// Runs over all cells but cell 0, shared out among threads: range counts them from 0.
+void pl_liquid_cells(pl_liquid_grid *grid, pl_range_fn *range);
 // Cell coordinate of a place, and what is left of it.
 int32_t pl_liquid_floor(double cells, near_real *fraction);
 
@@ -47,18 +50,37 @@ bool pl_liquid_chord(const double *x, const double *y, int n, double radius, dou
 
 //---- transfer.c ----------------------------------------------------------------------------------
 
+// Sums the points of each cell up. False when out of memory.
+bool pl_liquid_sum_cells(pl_memory *memory, pl_liquid_scratch *scratch);
+// Velocities of faces; densities at centres of cells.
 void pl_liquid_to_grid(pl_liquid_grid *grid);
 // Fills faces that are not known from those beside them, two cells far and more.
 void pl_liquid_extrapolate(pl_liquid_grid *grid, near_real *u, near_real *v, int cells);
 void pl_liquid_accelerate(pl_liquid_grid *grid, near_real du, near_real dv);
 // What flows along faces that solids close goes with them.
 void pl_liquid_bound(pl_liquid_grid *grid);
-void pl_liquid_from_grid(pl_liquid_grid *grid);
-// Between faces, at a point.
-void pl_liquid_sample(const pl_liquid_grid *grid, const near_real *u, const near_real *v,
-                      const pl_liquid_point *point, near_real *x, near_real *y);
+// Gives a point the velocity and slopes of the faces round it; the displacement there, between new_u and new_v.
+void pl_liquid_sample(const pl_liquid_grid *grid, pl_liquid_point *point, near_real *dx,
+                      near_real *dy);
 // Viscosity by explicit sweeps; amount: kinematic times the step, in squares of a cell.
 void pl_liquid_diffuse(pl_liquid_grid *grid, double amount);
+
+//---- multigrid.c ---------------------------------------------------------------------------------
+
+// Strips of the finest grid are added from below, and from left to right; strip 0 stands for all that there are not.
+// False when out of memory.
+bool pl_liquid_first_strip(pl_memory *memory, pl_liquid_scratch *scratch);
+bool pl_liquid_add_strip(pl_memory *memory, pl_liquid_scratch *scratch, int32_t x, int32_t y,
+                         uint32_t cell);
+bool pl_liquid_make_grids(pl_memory *memory, pl_liquid_scratch *scratch);
+// The matrices of the coarser grids.
+void pl_liquid_fold_grids(pl_liquid_grid *grid);
+// out[0..15]: a strip of the matrix times a vector.
+void pl_liquid_multiply_strip(const pl_liquid_grid *grid, uint32_t strip, const near_real *vector,
+                              near_real *restrict out);
+// Q: about the inverse of the matrix times R, but for the last sweep on the finest grid. Z must be I R.
+void pl_liquid_cycle(pl_liquid_grid *grid);
+void pl_liquid_sweep_strip(const pl_liquid_grid *grid, uint32_t strip);
 
 //---- pressure.c, density.c -----------------------------------------------------------------------
 
@@ -66,10 +88,9 @@ void pl_liquid_diffuse(pl_liquid_grid *grid, double amount);
 bool pl_liquid_plan(pl_memory *memory, pl_liquid_scratch *scratch);
 // Makes velocities free of divergence. `push`: [kg] density times the square of a cell's side.
 void pl_liquid_project(pl_liquid_grid *grid, double push);
-// Solves the system without bodies for what lies in vectors[PL_LIQUID_R]; the answer is in P.
-void pl_liquid_solve(pl_liquid_grid *grid, double push, double tolerance);
-// Densities at centres of cells.
-void pl_liquid_weigh(pl_liquid_grid *grid);
+// Solves the system for what lies in vectors[PL_LIQUID_R], with bodies if push is not 0; the answer is in P. Ends when
+// the largest of what is left is below `floor`, or `tolerance` of what it was.
+void pl_liquid_solve(pl_liquid_grid *grid, double push, double tolerance, double floor);
 // How far it is [cells] from the centre of the one of two cells that has liquid to the surface between them; 1 where both
 // have.
 near_real pl_liquid_gap(const pl_liquid_grid *grid, uint32_t a, uint32_t b);
@@ -78,9 +99,9 @@ void pl_liquid_even_out(pl_liquid_grid *grid);
 
 //---- move.c --------------------------------------------------------------------------------------
 
-// Moves points by their velocities times `way` [cells a m/s] and by the displacements, out of solids, and writes them
-// to the particles.
-void pl_liquid_move(const pl_liquid_grid *grid, double way, plumb_particle *particles);
+// Points get the velocities of faces, move by them times `way` [cells a m/s] and by the displacements, out of solids,
+// and are written to the particles.
+void pl_liquid_move(pl_liquid_grid *grid, double way, plumb_particle *particles);
 
 //---- bodies.c ------------------------------------------------------------------------------------
 

@@ -30,14 +30,15 @@ static double held(double way)
     return way > MOST_WAY ? MOST_WAY : way >= -MOST_WAY ? way : -MOST_WAY;
 }
 
-static place end_of(const pl_liquid_grid *g, const pl_liquid_point *p, place from, double way)
+static place end_of(const pl_liquid_grid *g, pl_liquid_point *p, place from, double way)
 {
     near_real dx, dy;
-    pl_liquid_sample(g, g->new_u, g->new_v, p, &dx, &dy);
-    const double u = (double)p->u, v = (double)p->v, half = way / 2;
-    const double x = u + half * (u * (double)p->ux + v * (double)p->uy);
-    const double y = v + half * (u * (double)p->vx + v * (double)p->vy);
-    return (place){ from.x + held(way * x + (double)dx), from.y + held(way * y + (double)dy) };
+    pl_liquid_sample(g, p, &dx, &dy);
+    const near_real half = (near_real)(way / 2);
+    const near_real x = p->u + half * (p->u * p->ux + p->v * p->uy);
+    const near_real y = p->v + half * (p->u * p->vx + p->v * p->vy);
+    return (place){ from.x + held(way * (double)x + (double)dx),
+                    from.y + held(way * (double)y + (double)dy) };
 }
 
 //---- out of solids -------------------------------------------------------------------------------
@@ -125,30 +126,41 @@ static place keep_out(const pl_liquid_grid *g, const pl_liquid_tile *tile, place
 
 //---- all of them ---------------------------------------------------------------------------------
 
-static plumb_real speed(near_real u)
+static plumb_real within(near_real value, near_real most)
 {
-    return (plumb_real)pl_liquid_held((double)u, PL_LIQUID_SPEED);
+    return (plumb_real)(value > most ? most : value < -most ? -most : value == value ? value : 0);
 }
 
-static plumb_real slope(near_real u, double h)
-{
-    return (plumb_real)pl_liquid_held((double)u / h, PL_LIQUID_SLOPE);
-}
+typedef struct motion {
+    pl_liquid_grid *g;
+    double way;
+    plumb_particle *particles;
+} motion;
 
-void pl_liquid_move(const pl_liquid_grid *g, double way, plumb_particle *particles)
+static void move_range(void *context, uint32_t first, uint32_t count)
 {
+    const motion *m = context;
+    const pl_liquid_grid *g = m->g;
     const double h = (double)g->h;
-    for (uint32_t k = 0; k < g->point_count; ++k) {
-        const pl_liquid_point *p = &g->points[k];
+    const near_real scale = 1 / g->h, fastest = (near_real)PL_LIQUID_SPEED;
+    const near_real steepest = (near_real)PL_LIQUID_SLOPE;
+    for (uint32_t k = first; k < first + count; ++k) {
+        pl_liquid_point *p = &g->points[k];
         const pl_liquid_tile *tile = &g->tiles[(p->cell - 1) / PL_LIQUID_TILE];
         const place from = place_of(g, p);
-        const place to = keep_out(g, tile, from, end_of(g, p, from, way));
-        plumb_particle *out = &particles[p->index];
+        const place to = keep_out(g, tile, from, end_of(g, p, from, m->way));
+        plumb_particle *out = &m->particles[p->index];
         out->position = (plumb_vec2){ (plumb_real)(to.x * h), (plumb_real)(to.y * h) };
-        out->velocity = (plumb_vec2){ speed(p->u), speed(p->v) };
-        out->gradient[0] = slope(p->ux, h);
-        out->gradient[1] = slope(p->uy, h);
-        out->gradient[2] = slope(p->vx, h);
-        out->gradient[3] = slope(p->vy, h);
+        out->velocity = (plumb_vec2){ within(p->u, fastest), within(p->v, fastest) };
+        out->gradient[0] = within(p->ux * scale, steepest);
+        out->gradient[1] = within(p->uy * scale, steepest);
+        out->gradient[2] = within(p->vx * scale, steepest);
+        out->gradient[3] = within(p->vy * scale, steepest);
     }
+}
+
+void pl_liquid_move(pl_liquid_grid *g, double way, plumb_particle *particles)
+{
+    motion m = { g, way, particles };
+    pl_tasks_ranges(g->tasks, g->point_count, 512, move_range, &m);
 }

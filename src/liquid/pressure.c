@@ -8,33 +8,35 @@
 // a the openness of its faces, P = 0 in air, c_b how a motion of body b fills the cell: three columns a body, for x, y
 // and its turn, K = density h^2 times inverse mass or inertia (Batty, Bertails, Bridson 2007, with faces as Ng, Min, Gibou
 // 2009 open them). The terms of a body have rank one each: they are added by its links, matrix-free. Conjugate
-// gradients, preconditioned by an incomplete factor without the bodies (MIC(0), Bridson 2008).
+// gradients, preconditioned by a cycle of coarser grids without the bodies (multigrid.c).
 //
-// Sums run in a fixed order in eight parts, so that no width of lanes changes a bit.
+// Sums run in fixed parts, so that neither lanes nor threads change a bit.
 //
-// Reads: openness, velocities, links. Writes: rows, vectors, velocities of faces and bodies. Cost: O(rows x iterations).
+// Reads: openness, velocities, links. Writes: strips, vectors, velocities of faces and bodies. Cost: O(rows x iterations).
 #include "liquid/liquid.h"
 
 #include <math.h>
 #include <string.h>
 
-#define MOST_ITERATIONS 200
+#define MOST_ITERATIONS 100
 #define COVERED         ((near_real)0.3)
-#define TUNING          ((near_real)0.97) // of the modified factor
-#define SAFETY          ((near_real)0.25)
 #define LEVEL           ((near_real)0.5)
 #define LEAST_GAP       ((near_real)0.25) // [cells] nearer surfaces would make the system stiff
 #define LEAST_ROOM      ((near_real)0.1)  // of a cell's surroundings that is not solid
-#define PARTS           8
+#define LINE            PL_LIQUID_SIDE
+#define CHUNK                                                                                      \
+    8 // strips of a sum that is one part of a total: fixed, so that nothing decides its bits
+#define LEAST 64 // strips that are worth a thread
 
 //---- which cells have liquid ----------------------------------------------------------------------
 
+// Cell 0 is open.
 static void faces_of(const pl_liquid_grid *g, uint32_t c, near_real open[4])
 {
     open[0] = g->open_u[c];
-    open[1] = g->right[c] != 0 ? g->open_u[g->right[c]] : 1;
+    open[1] = g->open_u[g->right[c]];
     open[2] = g->open_v[c];
-    open[3] = g->up[c] != 0 ? g->open_v[g->up[c]] : 1;
+    open[3] = g->open_v[g->up[c]];
 }
 
 static bool has_points(const pl_liquid_grid *g, uint32_t c)
@@ -61,7 +63,7 @@ static bool is_liquid(const pl_liquid_grid *g, uint32_t c)
 // half way. Pressure is 0 there, not at the centre of the air's cell (ghost fluid; Enright et al. 2003).
 near_real pl_liquid_gap(const pl_liquid_grid *g, uint32_t a, uint32_t b)
 {
-    const bool wet_a = g->row[a] != PL_LIQUID_NONE, wet_b = g->row[b] != PL_LIQUID_NONE;
+    const bool wet_a = g->row[a] != 0, wet_b = g->row[b] != 0;
     if (wet_a == wet_b) {
         return 1;
     }
@@ -76,111 +78,123 @@ near_real pl_liquid_gap(const pl_liquid_grid *g, uint32_t a, uint32_t b)
     return gap > 1 ? 1 : gap > LEAST_GAP ? gap : LEAST_GAP;
 }
 
-static void fill_row(pl_liquid_grid *g, pl_liquid_row *row)
+//---- the matrix ----------------------------------------------------------------------------------
+
+static near_real weight_of(const pl_liquid_grid *g, near_real open, uint32_t c, uint32_t near)
 {
-    const uint32_t c = row->cell;
-    const uint32_t near[4] = { g->left[c], g->right[c], g->down[c], g->up[c] };
-    faces_of(g, c, row->open);
-    row->diagonal = 0;
-    for (int k = 0; k < 4; ++k) {
-        row->next[k] = near[k] == 0 || row->open[k] == 0 ? PL_LIQUID_NONE : g->row[near[k]];
-        row->next[k] = row->next[k] == PL_LIQUID_NONE ? g->row_count : row->next[k];
-        const bool air = row->next[k] == g->row_count && row->open[k] > 0;
-        row->diagonal += air ? row->open[k] / pl_liquid_gap(g, c, near[k]) : row->open[k];
+    return open == 0 || g->row[near] != 0 ? open : open / pl_liquid_gap(g, c, near);
+}
+
+static void fill_strip(pl_liquid_grid *g, uint32_t s)
+{
+    for (uint32_t i = 0; i < PL_LIQUID_SIDE; ++i) {
+        const uint32_t c = g->strips[s].cell + i, row = g->row[c];
+        if (row == 0) {
+            continue;
+        }
+        const uint32_t left = g->left[c], right = g->right[c], down = g->down[c], up = g->up[c];
+        near_real open[4];
+        faces_of(g, c, open);
+        g->vectors[PL_LIQUID_L][row] = g->row[left] != 0 ? open[0] : 0;
+        g->vectors[PL_LIQUID_B][row] = g->row[down] != 0 ? open[2] : 0;
+        g->vectors[PL_LIQUID_D][row] =
+            weight_of(g, open[0], c, left) + weight_of(g, open[1], c, right) +
+            weight_of(g, open[2], c, down) + weight_of(g, open[3], c, up);
     }
 }
 
-// The inverse square roots of the pivots; rows at the left and below come first.
-static void factor(pl_liquid_grid *g)
+static void fill_range(void *context, uint32_t first, uint32_t count)
 {
-    near_real *e = g->vectors[PL_LIQUID_E];
-    for (uint32_t i = 0; i < g->row_count; ++i) {
-        const pl_liquid_row *row = &g->rows[i];
-        near_real pivot = row->diagonal;
-        for (int k = 0; k < 4; k += 2) {
-            const uint32_t j = row->next[k];
-            if (j < i) {
-                const pl_liquid_row *before = &g->rows[j];
-                // What of its row lies on the other side of it, and fills in.
-                const int other = k == 0 ? 3 : 1;
-                const near_real a = row->open[k] * e[j];
-                const near_real b = before->next[other] < g->row_count ? before->open[other] : 0;
-                pivot -= a * a + TUNING * a * b * e[j];
+    for (uint32_t s = 1 + first; s < 1 + first + count; ++s) {
+        fill_strip(context, s);
+    }
+}
+
+static bool line_has_points(const pl_liquid_grid *g, uint32_t c)
+{
+    return c != 0 && g->first[c + PL_LIQUID_SIDE] > g->first[c];
+}
+
+// Whether a line of a tile may have liquid: one that has points touches it.
+static bool may_have_liquid(const pl_liquid_grid *g, uint32_t c)
+{
+    return line_has_points(g, c) || line_has_points(g, g->down[c]) ||
+           line_has_points(g, g->up[c]) || has_points(g, g->left[c]) ||
+           has_points(g, g->right[c + PL_LIQUID_SIDE - 1]);
+}
+
+static bool add_line(pl_memory *memory, pl_liquid_scratch *scratch, uint32_t tile, uint32_t line)
+{
+    pl_liquid_grid *g = &scratch->grid;
+    const uint32_t c = 1 + tile * PL_LIQUID_TILE + line * PL_LIQUID_SIDE;
+    const uint32_t row = g->strip_count * PL_LIQUID_SIDE;
+    bool any = false;
+    if (!may_have_liquid(g, c)) {
+        return true;
+    }
+    for (uint32_t i = 0; i < PL_LIQUID_SIDE; ++i) {
+        const bool wet = is_liquid(g, c + i);
+        g->row[c + i] = wet ? row + i : 0;
+        any |= wet;
+    }
+    return !any || pl_liquid_add_strip(memory, scratch, g->tiles[tile].x,
+                                       g->tiles[tile].y * PL_LIQUID_SIDE + (int32_t)line, c);
+}
+
+// Strips by their height, then from left to right.
+static bool add_strips(pl_memory *memory, pl_liquid_scratch *scratch)
+{
+    const pl_liquid_grid *g = &scratch->grid;
+    for (uint32_t first = 0, end; first < g->tile_count; first = end) {
+        for (end = first; end < g->tile_count && g->tiles[end].y == g->tiles[first].y;) {
+            ++end;
+        }
+        for (uint32_t line = 0; line < PL_LIQUID_SIDE; ++line) {
+            for (uint32_t t = first; t < end; ++t) {
+                if (!add_line(memory, scratch, t, line)) {
+                    return false;
+                }
             }
         }
-        pivot = pivot < SAFETY * row->diagonal ? row->diagonal : pivot;
-        e[i] = pivot > 0 ? 1 / (near_real)sqrt((double)pivot) : 0;
     }
+    return true;
 }
 
 bool pl_liquid_plan(pl_memory *memory, pl_liquid_scratch *scratch)
 {
     pl_liquid_grid *g = &scratch->grid;
-    g->row_count = 0;
-    for (uint32_t c = 0; c < g->cell_count; ++c) {
-        g->row[c] = c != 0 && is_liquid(g, c) ? g->row_count++ : PL_LIQUID_NONE;
-    }
-    const size_t room = ((size_t)g->row_count + 1 + PARTS) / PARTS * PARTS;
-    if (!pl_buffer_reserve(memory, &scratch->rows, (g->row_count + 1) * sizeof(pl_liquid_row)) ||
-        !pl_buffer_reserve(memory, &scratch->vectors,
-                           PL_LIQUID_VECTORS * room * sizeof(near_real))) {
+    if (!pl_liquid_first_strip(memory, scratch) || !add_strips(memory, scratch) ||
+        !pl_liquid_make_grids(memory, scratch)) {
         return false;
     }
-    g->rows = scratch->rows.data;
+    const size_t room =
+        ((size_t)g->strip_count + 1) * PL_LIQUID_SIDE; // one more: lines look beside
+    const size_t parts = (g->levels[0].end + CHUNK) / CHUNK + 1;
+    if (!pl_buffer_reserve(memory, &scratch->vectors,
+                           PL_LIQUID_VECTORS * room * sizeof(near_real)) ||
+        !pl_buffer_reserve(memory, &scratch->sums, parts * sizeof *g->sums)) {
+        return false;
+    }
+    g->sums = scratch->sums.data;
     memset(scratch->vectors.data, 0, PL_LIQUID_VECTORS * room * sizeof(near_real));
     for (int k = 0; k < PL_LIQUID_VECTORS; ++k) {
         g->vectors[k] = (near_real *)scratch->vectors.data + (size_t)k * room;
     }
-    for (uint32_t c = 1; c < g->cell_count; ++c) {
-        if (g->row[c] != PL_LIQUID_NONE) {
-            g->rows[g->row[c]].cell = c;
-            fill_row(g, &g->rows[g->row[c]]);
-        }
-    }
-    factor(g);
+    pl_tasks_ranges(g->tasks, g->levels[0].end - 1, LEAST, fill_range, g);
+    pl_liquid_fold_grids(g);
     return true;
 }
 
-//---- sums ----------------------------------------------------------------------------------------
-
-// Padded to whole parts with zeros.
-static double dot(const pl_liquid_grid *g, const near_real *a, const near_real *b)
-{
-    near_real parts[PARTS] = { 0 };
-    for (uint32_t i = 0; i < g->row_count; i += PARTS) {
-        for (uint32_t k = 0; k < PARTS; ++k) {
-            parts[k] += a[i + k] * b[i + k];
-        }
-    }
-    double total = 0;
-    for (int k = 0; k < PARTS; ++k) {
-        total += (double)parts[k];
-    }
-    return total;
-}
-
-static near_real largest(const pl_liquid_grid *g, const near_real *a)
-{
-    near_real most = 0;
-    for (uint32_t i = 0; i < g->row_count; ++i) {
-        const near_real size = a[i] < 0 ? -a[i] : a[i];
-        most = size > most ? size : most;
-    }
-    return most;
-}
-
-//---- the matrix ----------------------------------------------------------------------------------
+//---- bodies --------------------------------------------------------------------------------------
 
 typedef struct ends {
-    uint32_t before, behind; // rows on both sides of a face; that of air: row_count
+    uint32_t before, behind; // rows on both sides of a face; that of air: 0
 } ends;
 
 static ends ends_of(const pl_liquid_grid *g, const pl_liquid_link *link)
 {
     const uint32_t other = link->upright ? g->down[link->cell] : g->left[link->cell];
-    const uint32_t a = g->row[other], b = g->row[link->cell];
-    return (ends){ other == 0 || a == PL_LIQUID_NONE ? g->row_count : a,
-                   b == PL_LIQUID_NONE ? g->row_count : b };
+    return (ends){ g->row[other], g->row[link->cell] };
 }
 
 // What pressures P do to the sums of bodies: force over density h^2.
@@ -205,9 +219,20 @@ static near_real speed_of(const pl_liquid_link *link, const double motion[3])
     return (near_real)(motion[link->upright ? 1 : 0] + motion[2] * (double)link->arm);
 }
 
-static void add_bodies(pl_liquid_grid *g, const near_real *p, near_real *out, double push)
+// Adds their part of A p to out; what it adds to p . A p.
+static double add_bodies(pl_liquid_grid *g, const near_real *p, near_real *out, double push)
 {
+    double bend = 0;
+    if (push == 0 || g->link_count == 0) {
+        return 0;
+    }
     sum_links(g, p);
+    for (uint32_t i = 0; i < g->body_count; ++i) {
+        const pl_liquid_body *b = &g->bodies[i];
+        bend +=
+            push * (b->inv_mass_x * b->sum[0] * b->sum[0] + b->inv_mass_y * b->sum[1] * b->sum[1] +
+                    b->inv_inertia * b->sum[2] * b->sum[2]);
+    }
     for (uint32_t i = 0; i < g->link_count; ++i) {
         const pl_liquid_link *link = &g->links[i];
         const pl_liquid_body *b = &g->bodies[link->body];
@@ -219,108 +244,208 @@ static void add_bodies(pl_liquid_grid *g, const near_real *p, near_real *out, do
         out[at.before] += flow;
         out[at.behind] -= flow;
     }
-    out[g->row_count] = 0;
-}
-
-static void multiply(pl_liquid_grid *g, const near_real *p, near_real *out, double push)
-{
-    for (uint32_t i = 0; i < g->row_count; ++i) {
-        const pl_liquid_row *row = &g->rows[i];
-        out[i] = row->diagonal * p[i] - row->open[0] * p[row->next[0]] -
-                 row->open[1] * p[row->next[1]] - row->open[2] * p[row->next[2]] -
-                 row->open[3] * p[row->next[3]];
-    }
-    if (push > 0 && g->link_count > 0) {
-        add_bodies(g, p, out, push);
-    }
-}
-
-// Forward and back through the factor.
-static void precondition(const pl_liquid_grid *g, const near_real *r, near_real *q, near_real *z)
-{
-    const near_real *e = g->vectors[PL_LIQUID_E];
-    const uint32_t n = g->row_count;
-    for (uint32_t i = 0; i < n; ++i) {
-        const pl_liquid_row *row = &g->rows[i];
-        const uint32_t a = row->next[0], b = row->next[2];
-        q[i] = (r[i] + row->open[0] * e[a] * q[a] + row->open[2] * e[b] * q[b]) * e[i];
-    }
-    for (uint32_t i = n; i-- > 0;) {
-        const pl_liquid_row *row = &g->rows[i];
-        const uint32_t a = row->next[1], b = row->next[3];
-        z[i] = (q[i] + e[i] * (row->open[1] * z[a] + row->open[3] * z[b])) * e[i];
-    }
+    out[0] = 0;
+    return bend;
 }
 
 //---- conjugate gradients -------------------------------------------------------------------------
 
-void pl_liquid_solve(pl_liquid_grid *g, double push, double tolerance)
+typedef struct work {
+    pl_liquid_grid *g;
+    near_real factor;
+} work;
+
+typedef struct span {
+    size_t first, end;    // rows
+    uint32_t strip, stop; // strips
+} span;
+
+static span span_of(const pl_liquid_grid *g, uint32_t chunk)
 {
-    near_real *p = g->vectors[PL_LIQUID_P], *r = g->vectors[PL_LIQUID_R];
-    near_real *s = g->vectors[PL_LIQUID_S], *q = g->vectors[PL_LIQUID_Q],
-              *z = g->vectors[PL_LIQUID_Z];
-    const uint32_t n = g->row_count;
-    memset(p, 0, (n + 1) * sizeof *p);
-    memset(z, 0, (n + 1) * sizeof *z);
-    memset(q, 0, (n + 1) * sizeof *q);
-    const near_real enough = (near_real)tolerance * largest(g, r);
-    precondition(g, r, q, z);
-    memcpy(s, z, (n + 1) * sizeof *s);
-    double sigma = dot(g, z, r);
-    for (int k = 0; k < MOST_ITERATIONS && sigma > 0; ++k) {
-        multiply(g, s, z, push);
-        const double bend = dot(g, s, z);
+    const uint32_t first = 1 + chunk * CHUNK, end = first + CHUNK, all = g->levels[0].end;
+    const uint32_t stop = end < all ? end : all;
+    return (span){ (size_t)first * LINE, (size_t)stop * LINE, first, stop };
+}
+
+static double dot(const near_real *a, const near_real *b, span at)
+{
+    near_real parts[LINE] = { 0 };
+    for (size_t i = at.first; i < at.end; i += LINE) {
+        for (size_t k = 0; k < LINE; ++k) {
+            parts[k] += a[i + k] * b[i + k];
+        }
+    }
+    double total = 0;
+    for (int k = 0; k < LINE; ++k) {
+        total += (double)parts[k];
+    }
+    return total;
+}
+
+// Z = A S, and S . Z
+static void multiply_chunks(void *context, uint32_t first, uint32_t count)
+{
+    pl_liquid_grid *g = ((work *)context)->g;
+    for (uint32_t c = first; c < first + count; ++c) {
+        const span at = span_of(g, c);
+        for (uint32_t s = at.strip; s < at.stop; ++s) {
+            pl_liquid_multiply_strip(g, s, g->vectors[PL_LIQUID_S],
+                                     g->vectors[PL_LIQUID_Z] + (size_t)s * LINE);
+        }
+        g->sums[c] = dot(g->vectors[PL_LIQUID_S], g->vectors[PL_LIQUID_Z], at);
+    }
+}
+
+// P += a S, R -= a Z, Z = I R, and the largest of R
+static void step_chunks(void *context, uint32_t first, uint32_t count)
+{
+    const work *w = context;
+    const pl_liquid_grid *g = w->g;
+    near_real *restrict p = g->vectors[PL_LIQUID_P], *restrict r = g->vectors[PL_LIQUID_R];
+    near_real *restrict z = g->vectors[PL_LIQUID_Z];
+    const near_real *restrict s = g->vectors[PL_LIQUID_S], *restrict inverse =
+                                                               g->vectors[PL_LIQUID_I];
+    for (uint32_t c = first; c < first + count; ++c) {
+        const span at = span_of(g, c);
+        near_real most[LINE] = { 0 }, least[LINE] = { 0 };
+        for (size_t i = at.first; i < at.end; i += LINE) {
+            for (size_t k = 0; k < LINE; ++k) {
+                p[i + k] += w->factor * s[i + k];
+                const near_real left = r[i + k] - w->factor * z[i + k];
+                r[i + k] = left;
+                z[i + k] = inverse[i + k] * left;
+                most[k] = left > most[k] ? left : most[k];
+                least[k] = left < least[k] ? left : least[k];
+            }
+        }
+        for (int k = 0; k < LINE; ++k) {
+            most[0] = most[k] > most[0] ? most[k] : most[0];
+            most[0] = -least[k] > most[0] ? -least[k] : most[0];
+        }
+        g->sums[c] = (double)most[0];
+    }
+}
+
+// The last sweep of a cycle, and Q . R
+static void sweep_chunks(void *context, uint32_t first, uint32_t count)
+{
+    pl_liquid_grid *g = ((work *)context)->g;
+    for (uint32_t c = first; c < first + count; ++c) {
+        const span at = span_of(g, c);
+        for (uint32_t s = at.strip; s < at.stop; ++s) {
+            pl_liquid_sweep_strip(g, s);
+        }
+        g->sums[c] = dot(g->vectors[PL_LIQUID_Q], g->vectors[PL_LIQUID_R], at);
+    }
+}
+
+// S = Q + b S
+static void turn_chunks(void *context, uint32_t first, uint32_t count)
+{
+    const work *w = context;
+    const pl_liquid_grid *g = w->g;
+    near_real *restrict s = g->vectors[PL_LIQUID_S];
+    const near_real *restrict q = g->vectors[PL_LIQUID_Q];
+    for (uint32_t c = first; c < first + count; ++c) {
+        const span at = span_of(g, c);
+        for (size_t i = at.first; i < at.end; ++i) {
+            s[i] = q[i] + w->factor * s[i];
+        }
+    }
+}
+
+static uint32_t chunk_count(const pl_liquid_grid *g)
+{
+    return (g->levels[0].end - 1 + CHUNK - 1) / CHUNK;
+}
+
+static void run(pl_liquid_grid *g, pl_range_fn *range, double factor)
+{
+    work w = { g, (near_real)factor };
+    pl_tasks_ranges(g->tasks, chunk_count(g), LEAST / CHUNK, range, &w);
+}
+
+// In their order, whoever made them.
+static double sum_of(const pl_liquid_grid *g)
+{
+    double total = 0;
+    for (uint32_t c = 0; c < chunk_count(g); ++c) {
+        total += g->sums[c];
+    }
+    return total;
+}
+
+static double most_of(const pl_liquid_grid *g)
+{
+    double most = 0;
+    for (uint32_t c = 0; c < chunk_count(g); ++c) {
+        most = g->sums[c] > most ? g->sums[c] : most;
+    }
+    return most;
+}
+
+void pl_liquid_solve(pl_liquid_grid *g, double push, double tolerance, double floor)
+{
+    const size_t bytes = (size_t)g->levels[0].end * LINE * sizeof(near_real);
+    memset(g->vectors[PL_LIQUID_P], 0, bytes);
+    memset(g->vectors[PL_LIQUID_S], 0, bytes);
+    memset(g->vectors[PL_LIQUID_Z], 0, bytes);
+    run(g, step_chunks, 0);
+    const double wanted = tolerance * most_of(g), enough = wanted > floor ? wanted : floor;
+    double sigma = 0;
+    g->iterations = 0;
+    for (int k = 0; k < MOST_ITERATIONS && most_of(g) > enough; ++k) {
+        pl_liquid_cycle(g);
+        run(g, sweep_chunks, 0);
+        const double next = sum_of(g);
+        if (!(next > 0)) {
+            return;
+        }
+        run(g, turn_chunks, k > 0 ? next / sigma : 0);
+        sigma = next;
+        run(g, multiply_chunks, 0);
+        const double bend =
+            sum_of(g) + add_bodies(g, g->vectors[PL_LIQUID_S], g->vectors[PL_LIQUID_Z], push);
         if (!(bend > 0)) {
             return;
         }
-        const near_real alpha = (near_real)(sigma / bend);
-        for (uint32_t i = 0; i < n; ++i) {
-            p[i] += alpha * s[i];
-            r[i] -= alpha * z[i];
-        }
-        if (!(largest(g, r) > enough)) {
-            return;
-        }
-        precondition(g, r, q, z);
-        const double next = dot(g, z, r);
-        const near_real beta = (near_real)(next / sigma);
-        sigma = next;
-        for (uint32_t i = 0; i < n; ++i) {
-            s[i] = z[i] + beta * s[i];
-        }
+        run(g, step_chunks, sigma / bend);
+        ++g->iterations;
     }
 }
 
 //---- velocities ----------------------------------------------------------------------------------
 
 // The right side: what flows into a cell.
-static void inflow(pl_liquid_grid *g, near_real *r)
+static void inflow_range(void *context, uint32_t first, uint32_t count)
 {
-    for (uint32_t i = 0; i < g->row_count; ++i) {
-        const uint32_t c = g->rows[i].cell, right = g->right[c], up = g->up[c];
-        const near_real *open = g->rows[i].open;
-        r[i] = open[0] * g->u[c] + g->solid_u[c] - open[1] * g->u[right] - g->solid_u[right] +
-               open[2] * g->v[c] + g->solid_v[c] - open[3] * g->v[up] - g->solid_v[up];
+    pl_liquid_grid *g = context;
+    for (uint32_t s = 1 + first; s < 1 + first + count; ++s) {
+        for (uint32_t i = 0; i < LINE; ++i) {
+            const uint32_t c = g->strips[s].cell + i, right = g->right[c], up = g->up[c];
+            if (g->row[c] != 0) {
+                g->vectors[PL_LIQUID_R][g->row[c]] =
+                    g->open_u[c] * g->u[c] + g->solid_u[c] - g->open_u[right] * g->u[right] -
+                    g->solid_u[right] + g->open_v[c] * g->v[c] + g->solid_v[c] -
+                    g->open_v[up] * g->v[up] - g->solid_v[up];
+            }
+        }
     }
 }
 
-static near_real pressure_at(const pl_liquid_grid *g, uint32_t c)
-{
-    return c == 0 || g->row[c] == PL_LIQUID_NONE ? 0 : g->vectors[PL_LIQUID_P][g->row[c]];
-}
-
 // Faces between a cell with liquid and anything get the pressure's slope; closed ones are found anew (pl_liquid_bound).
-static void add_slopes(pl_liquid_grid *g)
+static void slope_cells(void *context, uint32_t first, uint32_t count)
 {
-    for (uint32_t c = 1; c < g->cell_count; ++c) {
-        const uint32_t left = g->left[c], down = g->down[c];
-        const bool here = g->row[c] != PL_LIQUID_NONE;
-        if (here || g->row[left] != PL_LIQUID_NONE) {
-            g->u[c] -= (pressure_at(g, c) - pressure_at(g, left)) / pl_liquid_gap(g, left, c);
+    pl_liquid_grid *g = context;
+    const near_real *p = g->vectors[PL_LIQUID_P];
+    for (uint32_t c = 1 + first; c < 1 + first + count; ++c) {
+        const uint32_t left = g->left[c], down = g->down[c], here = g->row[c];
+        if (here != 0 || g->row[left] != 0) {
+            g->u[c] -= (p[here] - p[g->row[left]]) / pl_liquid_gap(g, left, c);
             g->known_u[c] = 1;
         }
-        if (here || g->row[down] != PL_LIQUID_NONE) {
-            g->v[c] -= (pressure_at(g, c) - pressure_at(g, down)) / pl_liquid_gap(g, down, c);
+        if (here != 0 || g->row[down] != 0) {
+            g->v[c] -= (p[here] - p[g->row[down]]) / pl_liquid_gap(g, down, c);
             g->known_v[c] = 1;
         }
         g->known_u[c] = g->open_u[c] > 0 ? g->known_u[c] : 0;
@@ -344,9 +469,9 @@ static void push_bodies(pl_liquid_grid *g, double push)
 
 void pl_liquid_project(pl_liquid_grid *g, double push)
 {
-    inflow(g, g->vectors[PL_LIQUID_R]);
-    pl_liquid_solve(g, push, 1e-5);
-    add_slopes(g);
+    pl_tasks_ranges(g->tasks, g->levels[0].end - 1, LEAST, inflow_range, g);
+    pl_liquid_solve(g, push, 1e-5, 0);
+    pl_liquid_cells(g, slope_cells);
     push_bodies(g, push);
 }
 
@@ -355,11 +480,10 @@ static bool has_room(const pl_liquid_grid *g, uint32_t c)
     return g->cover[c] < (near_real)0.999;
 }
 
-// Closed faces of cells that are not all solid go as what closes them, whether there is liquid now or not: else drops
-// would feel a way into walls. Those deeper in solids go on as the liquid beside them: walls are smooth.
-void pl_liquid_bound(pl_liquid_grid *g)
+static void bound_cells(void *context, uint32_t first, uint32_t count)
 {
-    for (uint32_t c = 1; c < g->cell_count; ++c) {
+    pl_liquid_grid *g = context;
+    for (uint32_t c = 1 + first; c < 1 + first + count; ++c) {
         const bool here = has_room(g, c);
         if (g->open_u[c] == 0 && (here || has_room(g, g->left[c]))) {
             g->u[c] = g->solid_u[c];
@@ -370,4 +494,11 @@ void pl_liquid_bound(pl_liquid_grid *g)
             g->known_v[c] = 1;
         }
     }
+}
+
+// Closed faces of cells that are not all solid go as what closes them, whether there is liquid now or not: else drops
+// would feel a way into walls. Those deeper in solids go on as the liquid beside them: walls are smooth.
+void pl_liquid_bound(pl_liquid_grid *g)
+{
+    pl_liquid_cells(g, bound_cells);
 }

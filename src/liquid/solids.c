@@ -163,48 +163,47 @@ static bool close_crossed(pl_memory *memory, pl_liquid_scratch *scratch, const v
     return true;
 }
 
-static double chord_at(const view *v, double at, int j)
+static interval chord_at(const view *v, double at)
 {
-    double low, high;
-    if (!pl_liquid_chord(v->x, v->y, v->solid->count, v->solid->radius, at, &low, &high)) {
-        return 0;
+    interval c;
+    if (!pl_liquid_chord(v->x, v->y, v->solid->count, v->solid->radius, at, &c.low, &c.high)) {
+        c = (interval){ 0, 0 };
     }
-    low = low > j ? low : j;
-    high = high < j + 1 ? high : j + 1;
+    return c;
+}
+
+// What of a chord lies in line j.
+static double length_in(interval c, int j)
+{
+    const double low = c.low > j ? c.low : j, high = c.high < j + 1 ? c.high : j + 1;
     return high > low ? high - low : 0;
 }
 
-// The part of a cell that is solid: Gauss's rule of three chords over as much of it as the piece is wide.
-static double part_of(const view *v, int i, int j)
+// The part of each cell of a column that is solid: Gauss's rule of three chords over as much of it as the piece is wide.
+static void cover_column(pl_liquid_grid *g, const view *v, int i)
 {
     const pl_liquid_solid *s = v->solid;
-    const double low = s->low_x - v->corner_x, high = s->high_x - v->corner_x;
-    const double from = low > i ? low : i, to = high < i + 1 ? high : i + 1;
+    const double left = s->low_x - v->corner_x, right = s->high_x - v->corner_x;
+    const double from = left > i ? left : i, to = right < i + 1 ? right : i + 1;
     if (!(from < to)) {
-        return 0;
+        return;
     }
     const double middle = (from + to) / 2, off = (to - from) * 0.3872983346207417;
-    return (to - from) *
-           (5 * chord_at(v, middle - off, j) + 8 * chord_at(v, middle, j) +
-            5 * chord_at(v, middle + off, j)) /
-           18;
+    const interval a = chord_at(v, middle - off), b = chord_at(v, middle);
+    const interval c = chord_at(v, middle + off);
+    const double low = s->low_y - v->corner_y, high = s->high_y - v->corner_y;
+    for (int j = first_at(low); j < SIDE && j <= high; ++j) {
+        near_real *cover = &g->cover[cell_of(v, i, j)];
+        const double part = 5 * length_in(a, j) + 8 * length_in(b, j) + 5 * length_in(c, j);
+        *cover += (near_real)((to - from) * part / 18);
+        *cover = *cover > 1 ? 1 : *cover;
+    }
 }
 
 static void cover_cells(pl_liquid_grid *g, const view *v)
 {
-    const pl_liquid_solid *s = v->solid;
     for (int i = 0; i < SIDE; ++i) {
-        if (s->high_x - v->corner_x < i || s->low_x - v->corner_x > i + 1) {
-            continue;
-        }
-        for (int j = 0; j < SIDE; ++j) {
-            if (s->high_y - v->corner_y < j || s->low_y - v->corner_y > j + 1) {
-                continue;
-            }
-            near_real *cover = &g->cover[cell_of(v, i, j)];
-            *cover += (near_real)part_of(v, i, j);
-            *cover = *cover > 1 ? 1 : *cover;
-        }
+        cover_column(g, v, i);
     }
 }
 
@@ -259,8 +258,9 @@ bool pl_liquid_close_faces(pl_memory *memory, pl_liquid_scratch *scratch)
     pl_liquid_grid *g = &scratch->grid;
     uint32_t listed = 0;
     g->link_count = 0;
+    near_real *restrict u = g->open_u, *restrict v = g->open_v;
     for (uint32_t c = 0; c < g->cell_count; ++c) {
-        g->open_u[c] = g->open_v[c] = 1;
+        u[c] = v[c] = 1;
     }
     for (uint32_t t = 0; t < g->tile_count; ++t) {
         pl_liquid_tile *tile = &g->tiles[t];

@@ -56,8 +56,10 @@ static bool run_part(plumb_world *world, real dt)
         !pl_liquid_close_faces(memory, scratch)) {
         return false;
     }
+    if (!pl_liquid_sum_cells(memory, scratch)) {
+        return false;
+    }
     pl_liquid_to_grid(g);
-    pl_liquid_weigh(g);
     if (!pl_liquid_plan(memory, scratch)) {
         return false;
     }
@@ -69,7 +71,6 @@ static bool run_part(plumb_world *world, real dt)
     pl_liquid_project(g, (double)d->density * h * h);
     pl_liquid_extrapolate(g, g->u, g->v, 2);
     pl_liquid_bound(g);
-    pl_liquid_from_grid(g);
     pl_liquid_even_out(g);
     pl_liquid_move(g, (double)dt / h, moved);
     pl_liquid_place_solids(world, (double)dt);
@@ -99,6 +100,7 @@ plumb_result pl_run_liquid(plumb_world *world, plumb_real dt)
     pl_liquid_scratch *scratch = liquid->scratch;
     scratch->push_count = 0;
     scratch->grid.h = (near_real)h;
+    scratch->grid.tasks = world->tasks;
     if (!pl_buffer_reserve(&world->memory, &scratch->moved, bytes) ||
         !pl_liquid_find_solids(world, dt)) {
         return PLUMB_E_MEMORY;

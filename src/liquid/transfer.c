@@ -1,157 +1,323 @@
 // transfer.c - velocities from particles to faces and back: affine particle in cell (Jiang et al. 2015).
 //
 // A particle carries its velocity and how that changes around it, so angular momentum survives the way to the grid
-// and back. Faces gather from the sorted points of six cells each; nothing is scattered, so any thread may
-// take any cell. Weights are bilinear.
+// and back. Weights are bilinear. The sorted points of a cell are summed up once, for the faces and centres that they
+// reach: a block. Faces gather from the blocks of six cells, densities from those of nine; nothing is scattered, so any
+// thread may take any cell.
 //
-// Reads, writes: faces, points. Cost: O(cells + 12 points).
+// Reads, writes: faces, densities, points. Cost: O(cells + points).
 #include "liquid/liquid.h"
+#include "core/quad.h"
 
-typedef struct sum {
-    near_real weight, value;
-} sum;
-
-// Of the points of a cell for a face at (x, y) from the cell's corner: the x component, or y.
-static void gather_u(const pl_liquid_grid *g, uint32_t c, near_real x, near_real y, sum *s)
-{
-    for (uint32_t k = g->first[c]; k < g->first[c + 1]; ++k) {
-        const pl_liquid_point *p = &g->points[k];
-        const near_real dx = x - p->fx, dy = y - p->fy;
-        const near_real wx = 1 - (dx < 0 ? -dx : dx), wy = 1 - (dy < 0 ? -dy : dy);
-        const near_real w = wy > 0 ? wx * wy : 0;
-        s->weight += w;
-        s->value += w * (p->u + p->ux * dx + p->uy * dy);
-    }
-}
-
-static void gather_v(const pl_liquid_grid *g, uint32_t c, near_real x, near_real y, sum *s)
-{
-    for (uint32_t k = g->first[c]; k < g->first[c + 1]; ++k) {
-        const pl_liquid_point *p = &g->points[k];
-        const near_real dx = x - p->fx, dy = y - p->fy;
-        const near_real wx = 1 - (dx < 0 ? -dx : dx), wy = 1 - (dy < 0 ? -dy : dy);
-        const near_real w = wx > 0 ? wx * wy : 0;
-        s->weight += w;
-        s->value += w * (p->v + p->vx * dx + p->vy * dy);
-    }
-}
+#include <string.h>
 
 #define LEAST_WEIGHT ((near_real)1e-4)
 #define HALF         ((near_real)0.5)
+#define OWN_SHARE    ((near_real)0.75) // of a hat over cells: its own, those beside it
+#define BESIDE_SHARE ((near_real)0.125)
+#define FEWEST       256 // cells that are worth a thread
+
+typedef pl_near_quad quad;
+
+// What the points of a cell are to what is around it. The last of each four is not used.
+struct pl_liquid_block {
+    quad weight_u[2],
+        value_u[2]; // faces at its left side, at its right: in the line below, its own, above
+    quad weight_v[2],
+        value_v[2]; // faces below it, above: in the column at its left, its own, at its right
+    quad full[3];   // centres in the line below, its own, above: from left to right
+};
+
+//---- sums of a cell ------------------------------------------------------------------------------
+
+static near_real positive(near_real x)
+{
+    return x > 0 ? x : 0;
+}
+
+static near_real peak(near_real x)
+{
+    return 1 - (x < HALF ? HALF - x : x - HALF);
+}
+
+// Hats of the places -1/2, 1/2, 3/2 at x.
+#define HATS(x) ((quad){ positive(HALF - (x)), peak(x), positive((x)-HALF), 0 })
+#define PLACES  ((quad){ -HALF, HALF, 1 + HALF, 0 })
+
+static void sum_points(const pl_liquid_grid *g, uint32_t c, pl_liquid_block *out)
+{
+    pl_liquid_block sum = { 0 };
+    for (uint32_t k = g->first[c]; k < g->first[c + 1]; ++k) {
+        const pl_liquid_point *p = &g->points[k];
+        const quad x = HATS(p->fx), y = HATS(p->fy);
+        const quad u = p->u + p->uy * (PLACES - p->fy), v = p->v + p->vx * (PLACES - p->fx);
+        const quad left = y * (1 - p->fx), right = y * p->fx;
+        const quad low = x * (1 - p->fy), high = x * p->fy;
+        sum.weight_u[0] += left;
+        sum.weight_u[1] += right;
+        sum.value_u[0] += left * (u - p->ux * p->fx);
+        sum.value_u[1] += right * (u + p->ux * (1 - p->fx));
+        sum.weight_v[0] += low;
+        sum.weight_v[1] += high;
+        sum.value_v[0] += low * (v - p->vy * p->fy);
+        sum.value_v[1] += high * (v + p->vy * (1 - p->fy));
+        sum.full[0] += x * y[0];
+        sum.full[1] += x * y[1];
+        sum.full[2] += x * y[2];
+    }
+    *out = sum;
+}
+
+static void sum_range(void *context, uint32_t first, uint32_t count)
+{
+    const pl_liquid_grid *g = context;
+    for (uint32_t i = first; i < first + count; ++i) {
+        sum_points(g, g->occupied[i], &g->blocks[1 + i]);
+    }
+}
+
+bool pl_liquid_sum_cells(pl_memory *memory, pl_liquid_scratch *scratch)
+{
+    pl_liquid_grid *g = &scratch->grid;
+    uint32_t count = 0;
+    if (!pl_buffer_reserve(memory, &scratch->occupied, (g->point_count + 1) * sizeof(uint32_t))) {
+        return false;
+    }
+    g->occupied = scratch->occupied.data;
+    for (uint32_t c = 1; c < g->cell_count; ++c) {
+        const bool any = g->first[c + 1] > g->first[c];
+        g->occupied[count] = c;
+        count += any;
+        g->block[c] = any ? count : 0;
+    }
+    if (!pl_buffer_reserve(memory, &scratch->blocks, (count + 1) * sizeof(pl_liquid_block))) {
+        return false;
+    }
+    g->blocks = scratch->blocks.data;
+    g->blocks[0] = (pl_liquid_block){ 0 };
+    pl_tasks_ranges(g->tasks, count, FEWEST, sum_range, g);
+    return true;
+}
+
+//---- to the grid ---------------------------------------------------------------------------------
+
+static near_real solid_hat(const pl_liquid_grid *g, uint32_t c)
+{
+    const uint32_t l = g->left[c], r = g->right[c], d = g->down[c], u = g->up[c];
+    const near_real *s = g->cover;
+    const near_real sides = s[l] + s[r] + s[d] + s[u];
+    const near_real corners = s[g->left[d]] + s[g->right[d]] + s[g->left[u]] + s[g->right[u]];
+    return OWN_SHARE * OWN_SHARE * s[c] + OWN_SHARE * BESIDE_SHARE * sides +
+           BESIDE_SHARE * BESIDE_SHARE * corners;
+}
+
+// b: blocks of the cells around one and of itself, line by line from below.
+static void gather_cell(pl_liquid_grid *g, uint32_t c, const pl_liquid_block *const b[9])
+{
+    const near_real u = b[0]->weight_u[1][2] + b[1]->weight_u[0][2] + b[3]->weight_u[1][1] +
+                        b[4]->weight_u[0][1] + b[6]->weight_u[1][0] + b[7]->weight_u[0][0];
+    const near_real v = b[0]->weight_v[1][2] + b[1]->weight_v[1][1] + b[2]->weight_v[1][0] +
+                        b[3]->weight_v[0][2] + b[4]->weight_v[0][1] + b[5]->weight_v[0][0];
+    const near_real u_sum = b[0]->value_u[1][2] + b[1]->value_u[0][2] + b[3]->value_u[1][1] +
+                            b[4]->value_u[0][1] + b[6]->value_u[1][0] + b[7]->value_u[0][0];
+    const near_real v_sum = b[0]->value_v[1][2] + b[1]->value_v[1][1] + b[2]->value_v[1][0] +
+                            b[3]->value_v[0][2] + b[4]->value_v[0][1] + b[5]->value_v[0][0];
+    const near_real full = b[0]->full[2][2] + b[1]->full[2][1] + b[2]->full[2][0] +
+                           b[3]->full[1][2] + b[4]->full[1][1] + b[5]->full[1][0] +
+                           b[6]->full[0][2] + b[7]->full[0][1] + b[8]->full[0][0];
+    g->known_u[c] = u > LEAST_WEIGHT;
+    g->known_v[c] = v > LEAST_WEIGHT;
+    g->u[c] = u > LEAST_WEIGHT ? u_sum / u : 0;
+    g->v[c] = v > LEAST_WEIGHT ? v_sum / v : 0;
+    g->density[c] = full / PL_LIQUID_FULL + g->solid[c];
+}
+
+static void gather_range(void *context, uint32_t first, uint32_t count)
+{
+    pl_liquid_grid *g = context;
+    for (uint32_t c = 1 + first; c < 1 + first + count; ++c) {
+        const uint32_t d = g->down[c], u = g->up[c];
+        const uint32_t near[9] = { g->left[d],  d,          g->right[d], g->left[c], c,
+                                   g->right[c], g->left[u], u,           g->right[u] };
+        const pl_liquid_block *b[9];
+        uint32_t any = 0;
+        for (int i = 0; i < 9; ++i) {
+            any |= g->block[near[i]];
+            b[i] = &g->blocks[g->block[near[i]]];
+        }
+        g->solid[c] = solid_hat(g, c);
+        if (any == 0) {
+            g->known_u[c] = g->known_v[c] = 0;
+            g->u[c] = g->v[c] = 0;
+            g->density[c] = g->solid[c];
+        } else {
+            gather_cell(g, c, b);
+        }
+    }
+}
 
 void pl_liquid_to_grid(pl_liquid_grid *g)
 {
-    for (uint32_t c = 1; c < g->cell_count; ++c) {
-        const uint32_t left = g->left[c], right = g->right[c], down = g->down[c], up = g->up[c];
-        sum u = { 0, 0 }, v = { 0, 0 };
-        gather_u(g, g->left[down], 1, 1 + HALF, &u);
-        gather_u(g, down, 0, 1 + HALF, &u);
-        gather_u(g, left, 1, HALF, &u);
-        gather_u(g, c, 0, HALF, &u);
-        gather_u(g, g->left[up], 1, -HALF, &u);
-        gather_u(g, up, 0, -HALF, &u);
-        gather_v(g, g->left[down], 1 + HALF, 1, &v);
-        gather_v(g, down, HALF, 1, &v);
-        gather_v(g, g->right[down], -HALF, 1, &v);
-        gather_v(g, left, 1 + HALF, 0, &v);
-        gather_v(g, c, HALF, 0, &v);
-        gather_v(g, right, -HALF, 0, &v);
-        g->known_u[c] = u.weight > LEAST_WEIGHT;
-        g->known_v[c] = v.weight > LEAST_WEIGHT;
-        g->u[c] = g->known_u[c] ? u.value / u.weight : 0;
-        g->v[c] = g->known_v[c] ? v.value / v.weight : 0;
-    }
+    pl_liquid_cells(g, gather_range);
 }
 
 //---- where nothing is known ----------------------------------------------------------------------
 
-// The mean of the known faces beside it. What becomes known in this sweep is marked 2: order decides nothing.
-static void spread(const pl_liquid_grid *g, near_real *value, uint8_t *known, uint32_t c)
+// The mean of the known faces beside it. What becomes known in this sweep is fresh: order decides nothing.
+static bool spread(const pl_liquid_grid *g, near_real *value, const uint8_t *known, uint32_t c)
 {
     const uint32_t near[4] = { g->left[c], g->right[c], g->down[c], g->up[c] };
     near_real total = 0;
     int count = 0;
     for (int k = 0; k < 4; ++k) {
-        if (known[near[k]] == 1) {
+        if (known[near[k]] != 0) {
             total += value[near[k]];
             ++count;
         }
     }
     if (count > 0) {
         value[c] = total / (near_real)count;
-        known[c] = 2;
+    }
+    return count > 0;
+}
+
+// 16 of them at once.
+typedef struct marks {
+    uint64_t a, b;
+} marks;
+
+static marks marks_of(const uint8_t *known, uint32_t c)
+{
+    marks m = { 0, 0 };
+    if (c != 0) {
+        memcpy(&m, known + c, sizeof m);
+    }
+    return m;
+}
+
+#define ALL UINT64_C(0x0101010101010101)
+
+static void spread_line(const pl_liquid_grid *g, near_real *value, const uint8_t *known,
+                        uint8_t *fresh, uint32_t c)
+{
+    const marks here = marks_of(known, c);
+    const marks low = marks_of(known, g->down[c]), high = marks_of(known, g->up[c]);
+    const bool beside = known[g->left[c]] != 0 || known[g->right[c + PL_LIQUID_SIDE - 1]] != 0;
+    const bool near = (here.a | here.b | low.a | low.b | high.a | high.b) != 0;
+    memset(fresh + c, 0, PL_LIQUID_SIDE);
+    if ((here.a & here.b) == ALL || !(near || beside)) {
+        return;
+    }
+    for (uint32_t i = c; i < c + PL_LIQUID_SIDE; ++i) {
+        fresh[i] = known[i] == 0 && spread(g, value, known, i);
+    }
+}
+
+typedef struct field {
+    pl_liquid_grid *g;
+    near_real *u, *v;
+} field;
+
+static void spread_range(void *context, uint32_t first, uint32_t count)
+{
+    const field *f = context;
+    for (uint32_t k = first; k < first + count; ++k) {
+        const uint32_t c = 1 + k * PL_LIQUID_SIDE;
+        spread_line(f->g, f->u, f->g->known_u, f->g->fresh_u, c);
+        spread_line(f->g, f->v, f->g->known_v, f->g->fresh_v, c);
+    }
+}
+
+static void take_range(void *context, uint32_t first, uint32_t count)
+{
+    pl_liquid_grid *g = ((field *)context)->g;
+    uint8_t *restrict u = g->known_u, *restrict v = g->known_v;
+    const uint8_t *restrict fresh_u = g->fresh_u, *restrict fresh_v = g->fresh_v;
+    const uint32_t from = 1 + first * PL_LIQUID_SIDE, end = from + count * PL_LIQUID_SIDE;
+    for (uint32_t c = from; c < end; ++c) {
+        u[c] |= fresh_u[c];
+        v[c] |= fresh_v[c];
     }
 }
 
 void pl_liquid_extrapolate(pl_liquid_grid *g, near_real *u, near_real *v, int cells)
 {
+    field f = { g, u, v };
+    const uint32_t lines = g->tile_count * PL_LIQUID_SIDE;
     for (int sweep = 0; sweep < cells; ++sweep) {
-        for (uint32_t c = 1; c < g->cell_count; ++c) {
-            if (g->known_u[c] == 0) {
-                spread(g, u, g->known_u, c);
-            }
-            if (g->known_v[c] == 0) {
-                spread(g, v, g->known_v, c);
-            }
-        }
-        for (uint32_t c = 1; c < g->cell_count; ++c) {
-            g->known_u[c] = g->known_u[c] != 0;
-            g->known_v[c] = g->known_v[c] != 0;
-        }
+        pl_tasks_ranges(g->tasks, lines, 128, spread_range, &f);
+        pl_tasks_ranges(g->tasks, lines, 1024, take_range, &f);
+    }
+}
+
+typedef struct kick {
+    pl_liquid_grid *g;
+    near_real u, v;
+} kick;
+
+static void kick_range(void *context, uint32_t first, uint32_t count)
+{
+    const kick *k = context;
+    near_real *restrict u = k->g->u, *restrict v = k->g->v;
+    const near_real du = k->u, dv = k->v;
+    for (uint32_t c = 1 + first; c < 1 + first + count; ++c) {
+        u[c] += du;
+        v[c] += dv;
     }
 }
 
 void pl_liquid_accelerate(pl_liquid_grid *g, near_real du, near_real dv)
 {
-    for (uint32_t c = 1; c < g->cell_count; ++c) {
-        g->u[c] += du;
-        g->v[c] += dv;
-    }
+    kick k = { g, du, dv };
+    pl_tasks_ranges(g->tasks, g->cell_count - 1, 16384, kick_range, &k);
 }
 
 //---- back ----------------------------------------------------------------------------------------
+
+// Four faces round a point, and where between them it lies.
+typedef struct corners {
+    uint32_t a, b, c, d; // at the lower left, right; above them
+    near_real x, y;
+} corners;
 
 typedef struct square {
     near_real value, x, y; // with its slopes
 } square;
 
-// Between the faces at a, at its right, above both.
-static square between(const pl_liquid_grid *g, const near_real *f, uint32_t a, near_real x,
-                      near_real y)
+static corners corners_of(const pl_liquid_grid *g, uint32_t a, near_real x, near_real y)
 {
-    const uint32_t b = g->up[a];
-    const near_real f00 = f[a], f10 = f[g->right[a]], f01 = f[b], f11 = f[g->right[b]];
+    const uint32_t up = g->up[a];
+    return (corners){ a, g->right[a], up, g->right[up], x, y };
+}
+
+static corners corners_u(const pl_liquid_grid *g, const pl_liquid_point *p)
+{
+    return p->fy < HALF ? corners_of(g, g->down[p->cell], p->fx, p->fy + HALF)
+                        : corners_of(g, p->cell, p->fx, p->fy - HALF);
+}
+
+static corners corners_v(const pl_liquid_grid *g, const pl_liquid_point *p)
+{
+    return p->fx < HALF ? corners_of(g, g->left[p->cell], p->fx + HALF, p->fy)
+                        : corners_of(g, p->cell, p->fx - HALF, p->fy);
+}
+
+static square between(const near_real *f, const corners *at)
+{
+    const near_real f00 = f[at->a], f10 = f[at->b], f01 = f[at->c], f11 = f[at->d];
+    const near_real x = at->x, y = at->y;
     const near_real low = f00 + x * (f10 - f00), high = f01 + x * (f11 - f01);
     return (square){ low + y * (high - low), (1 - y) * (f10 - f00) + y * (f11 - f01), high - low };
 }
 
-static square u_at(const pl_liquid_grid *g, const near_real *u, const pl_liquid_point *p)
+void pl_liquid_sample(const pl_liquid_grid *g, pl_liquid_point *p, near_real *dx, near_real *dy)
 {
-    return p->fy < HALF ? between(g, u, g->down[p->cell], p->fx, p->fy + HALF)
-                        : between(g, u, p->cell, p->fx, p->fy - HALF);
-}
-
-static square v_at(const pl_liquid_grid *g, const near_real *v, const pl_liquid_point *p)
-{
-    return p->fx < HALF ? between(g, v, g->left[p->cell], p->fx + HALF, p->fy)
-                        : between(g, v, p->cell, p->fx - HALF, p->fy);
-}
-
-void pl_liquid_from_grid(pl_liquid_grid *g)
-{
-    for (uint32_t k = 0; k < g->point_count; ++k) {
-        pl_liquid_point *p = &g->points[k];
-        const square u = u_at(g, g->u, p), v = v_at(g, g->v, p);
-        p->u = u.value, p->ux = u.x, p->uy = u.y;
-        p->v = v.value, p->vx = v.x, p->vy = v.y;
-    }
-}
-
-void pl_liquid_sample(const pl_liquid_grid *g, const near_real *u, const near_real *v,
-                      const pl_liquid_point *p, near_real *x, near_real *y)
-{
-    *x = u_at(g, u, p).value;
-    *y = v_at(g, v, p).value;
+    const corners at_u = corners_u(g, p), at_v = corners_v(g, p);
+    const square u = between(g->u, &at_u), v = between(g->v, &at_v);
+    p->u = u.value, p->ux = u.x, p->uy = u.y;
+    p->v = v.value, p->vx = v.x, p->vy = v.y;
+    *dx = between(g->new_u, &at_u).value;
+    *dy = between(g->new_v, &at_v).value;
 }
 
 //---- viscosity -----------------------------------------------------------------------------------

@@ -10,15 +10,21 @@
 #define PL_LIQUID_SIDE 16                                // cells along a tile
 #define PL_LIQUID_TILE (PL_LIQUID_SIDE * PL_LIQUID_SIDE) // cells of a tile
 
+#define PL_LIQUID_LEVELS 16
+
+// Of rows, 16 to a strip: see pressure.c, multigrid.c.
 enum {
-    PL_LIQUID_P,
-    PL_LIQUID_R,
-    PL_LIQUID_S,
+    PL_LIQUID_P, // the answer
+    PL_LIQUID_R, // what is left
+    PL_LIQUID_S, // where conjugate gradients go
     PL_LIQUID_Q,
     PL_LIQUID_Z,
-    PL_LIQUID_E,
+    PL_LIQUID_D, // the matrix: diagonal, to the left, below, and the damped inverse of the diagonal
+    PL_LIQUID_L,
+    PL_LIQUID_B,
+    PL_LIQUID_I,
     PL_LIQUID_VECTORS
-}; // of rows: see pressure.c
+};
 
 // A particle as kernels have it, sorted by cells. Lengths in cells.
 typedef struct pl_liquid_point {
@@ -29,21 +35,33 @@ typedef struct pl_liquid_point {
 } pl_liquid_point;
 
 // Columns of cells; of faces that of a cell's left side (u) and lower side (v). Cell 0 lies outside of all tiles: its
-// neighbours are itself.
+// neighbours are itself. Those of the first list begin as 0, the others are written before they are read.
 // clang-format off
-#define PL_LIQUID_COLUMNS(X)                                                                          \
-    X(uint32_t, left) X(uint32_t, right) X(uint32_t, down) X(uint32_t, up) /* neighbours */          \
+#define PL_LIQUID_ZEROED(X)                                                                          \
     X(uint32_t, first) /* of its points */                                                           \
-    X(uint32_t, row) /* of the system of pressures; PL_NONE: air or solid */                         \
+    X(uint32_t, row) /* of the system of pressures; 0: air or solid */                               \
+    X(near_real, solid_u) X(near_real, solid_v) /* [m/s] closed part times the speed of what closes it */ \
+    X(near_real, cover) /* 0..1 of it is solid */
+#define PL_LIQUID_WRITTEN(X)                                                                         \
+    X(uint32_t, left) X(uint32_t, right) X(uint32_t, down) X(uint32_t, up) /* neighbours */          \
+    X(uint32_t, block) /* sums of its points; 0: it has none */                                      \
     X(near_real, u) X(near_real, v) /* [m/s] */                                                      \
     X(near_real, new_u) X(near_real, new_v) /* of a sweep; displacements [cells] */                  \
     X(near_real, open_u) X(near_real, open_v) /* 0..1 */                                             \
-    X(near_real, solid_u) X(near_real, solid_v) /* [m/s] closed part times the speed of what closes it */ \
-    X(near_real, density) /* of liquid round its centre, over that of rest; solid counts as full */    \
+    X(near_real, density) /* of liquid round its centre, over that of rest; solid counts as full */  \
     X(near_real, solid) /* the solid's part in that */                                               \
-    X(near_real, cover) /* 0..1 of it is solid */                                                    \
-    X(uint8_t, known_u) X(uint8_t, known_v)
+    X(uint8_t, known_u) X(uint8_t, known_v) X(uint8_t, fresh_u) X(uint8_t, fresh_v)
+#define PL_LIQUID_COLUMNS(X) PL_LIQUID_ZEROED(X) PL_LIQUID_WRITTEN(X)
 // clang-format on
+
+// Where a particle is, in its own order.
+typedef struct pl_liquid_spot {
+    int32_t i, j;         // cell
+    near_real fx, fy;     // 0..1 in it
+    uint32_t cell, place; // place: among the sorted points
+} pl_liquid_spot;
+
+typedef struct pl_liquid_block pl_liquid_block; // transfer.c
 
 typedef struct pl_liquid_tile {
     uint64_t key;
@@ -83,25 +101,37 @@ typedef struct pl_liquid_solid {
     double low_x, low_y, high_x, high_y;
 } pl_liquid_solid;
 
-// A row of the system of pressures: a cell with liquid.
-typedef struct pl_liquid_row {
-    uint32_t cell;
-    uint32_t next[4];  // rows at its left, right, down, up; the row behind the last: air
-    near_real open[4]; // 0..1, openness of these faces
-    near_real diagonal;
-} pl_liquid_row;
+// A line of 16 cells of a tile that has liquid; or of a coarser grid.
+typedef struct pl_liquid_strip {
+    int32_t x, y;      // [strips], [cells] of its grid
+    uint32_t down, up; // strips below and above; 0: none
+    uint32_t cell;     // its first, on the finest grid
+    uint32_t finer[4]; // below at the left, at the right, above; 0: none
+} pl_liquid_strip;
+
+// A grid: strips from first to end.
+typedef struct pl_liquid_level {
+    uint32_t first, end;
+} pl_liquid_level;
 
 // Scratch: cells, points and rows of one part of a step.
 typedef struct pl_liquid_grid {
     near_real h; // [m] side of a cell
     void *hash;  // which tile lies where
     uint32_t slots;
-    uint32_t tile_count, cell_count, point_count, row_count, body_count, solid_count, link_count;
+    uint32_t tile_count, cell_count, point_count, body_count, solid_count, link_count;
     int32_t low_x, low_y, high_x, high_y; // tiles from low to high
     pl_liquid_tile *tiles;                // sorted by key
     pl_liquid_point *points;              // sorted by cell
-    pl_liquid_row *rows;
-    near_real *vectors[PL_LIQUID_VECTORS]; // of rows, and a 0 for the air behind
+    uint32_t *occupied;                   // cells with points
+    pl_liquid_block *blocks;              // their sums, behind one of zeros
+    struct pl_tasks *tasks;               // NULL: one thread
+    pl_liquid_strip *strips;              // those of the coarser grids behind; 0 stands for none
+    pl_liquid_level levels[PL_LIQUID_LEVELS];
+    uint32_t strip_count, level_count;
+    uint32_t iterations;                   // of the last solution
+    near_real *vectors[PL_LIQUID_VECTORS]; // 16 zeros of strip 0 in front
+    double *sums;                          // parts of totals
     pl_liquid_body *bodies;
     pl_liquid_link *links;
     pl_liquid_solid *solids;
@@ -124,7 +154,7 @@ typedef struct pl_liquid_scratch {
     uint32_t push_count; // of this step, until nothing can fail any more: they can be undone
     pl_liquid_grid grid;
     uint32_t slots; // of the table of tiles, a power of 2
-    pl_buffer cells, tiles, hash, keys, points, rows, vectors, bodies, links, solids, tile_solids;
+    pl_buffer cells, tiles, hash, keys, points, spots, occupied, blocks, strips, vectors, sums, bodies, links, solids, tile_solids;
 } pl_liquid_scratch;
 
 typedef struct pl_liquid {
