@@ -28,11 +28,38 @@ void pl_liquid_free(pl_memory *memory, pl_liquid *liquid);
 // The arrays of the scratch, not itself.
 void pl_liquid_free_arrays(pl_memory *memory, pl_liquid_scratch *scratch);
 
+//---- tiles.c -------------------------------------------------------------------------------------
+
+static inline int32_t pl_liquid_tile_of(int32_t cell)
+{
+    return cell >> 4;
+}
+
+// Tiles round the spots of all particles but strays, sorted. False when out of memory.
+bool pl_liquid_find_tiles(pl_memory *memory, pl_liquid_scratch *scratch, uint32_t count);
+// The first cell of the tile (x, y); 0: there is no such tile.
+uint32_t pl_liquid_tile_first(const pl_liquid_grid *grid, int32_t x, int32_t y);
+// A table of tiles by itself: none; one more, unless it is there; the place of one, or PL_LIQUID_NONE.
+bool pl_liquid_clear_tiles(pl_memory *memory, pl_liquid_scratch *scratch);
+bool pl_liquid_add_tile(pl_memory *memory, pl_liquid_scratch *scratch, int32_t x, int32_t y);
+uint32_t pl_liquid_tile_at(const pl_liquid_scratch *scratch, int32_t x, int32_t y);
+
+//---- strays.c ------------------------------------------------------------------------------------
+
+// Marks particles that are on their own. Solids must be placed. False when out of memory.
+bool pl_liquid_find_strays(pl_memory *memory, pl_liquid_scratch *scratch,
+                           const plumb_particle *particles, uint32_t count);
+// They fly for dt, and are kept out of solids.
+void pl_liquid_fly(const pl_liquid_grid *grid, plumb_vec2 gravity, double dt,
+                   plumb_particle *particles, uint32_t count);
+
 //---- grid.c --------------------------------------------------------------------------------------
 
 // Tiles round the particles, points sorted by cell, and by their order within one. False when out of memory.
 bool pl_liquid_grid_build(pl_memory *memory, pl_liquid_scratch *scratch,
                           const plumb_particle *particles, uint32_t count, double h);
+void pl_liquid_find_spots(pl_liquid_grid *grid, pl_liquid_spot *spots,
+                          const plumb_particle *particles, uint32_t count);
 // The cell at (i, j); 0: in no tile.
 uint32_t pl_liquid_cell_at(const pl_liquid_grid *grid, int32_t i, int32_t j);
 // Runs over all cells but cell 0, shared out among threads: range counts them from 0.
@@ -102,6 +129,13 @@ void pl_liquid_even_out(pl_liquid_grid *grid);
 // Points get the velocities of faces, move by them times `way` [cells a m/s] and by the displacements, out of solids,
 // and are written to the particles.
 void pl_liquid_move(pl_liquid_grid *grid, double way, plumb_particle *particles);
+
+// Keeps a place [cells] out of a solid, on its way from another.
+typedef struct pl_liquid_place {
+    double x, y;
+} pl_liquid_place;
+pl_liquid_place pl_liquid_keep_out(const pl_liquid_solid *solid, bool cuts, pl_liquid_place from,
+                                   pl_liquid_place to);
 
 //---- bodies.c ------------------------------------------------------------------------------------
 

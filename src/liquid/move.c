@@ -5,15 +5,15 @@
 //
 // Reads: points, displacements, solids at tiles. Writes: particles. Cost: O(points x solids near their tile).
 #include "liquid/liquid.h"
+#include "core/quad.h"
 
 #include <math.h>
+#include <string.h>
 
 #define MOST_WAY 2.0  // cells
 #define SKIN     0.01 // cells that are kept from solids
 
-typedef struct place {
-    double x, y; // cells
-} place;
+typedef pl_liquid_place place;
 
 static place place_of(const pl_liquid_grid *g, const pl_liquid_point *p)
 {
@@ -35,8 +35,8 @@ static place end_of(const pl_liquid_grid *g, pl_liquid_point *p, place from, dou
     near_real dx, dy;
     pl_liquid_sample(g, p, &dx, &dy);
     const near_real half = (near_real)(way / 2);
-    const near_real x = p->u + half * (p->u * p->ux + p->v * p->uy);
-    const near_real y = p->v + half * (p->u * p->vx + p->v * p->vy);
+    const near_real x = p->u + half * (p->u * p->slope[0] + p->v * p->slope[1]);
+    const near_real y = p->v + half * (p->u * p->slope[2] + p->v * p->slope[3]);
     return (place){ from.x + held(way * (double)x + (double)dx),
                     from.y + held(way * (double)y + (double)dy) };
 }
@@ -103,28 +103,52 @@ static place cut(const pl_liquid_solid *s, place from, place to)
     return end;
 }
 
+place pl_liquid_keep_out(const pl_liquid_solid *s, bool cuts, place from, place to)
+{
+    if (cuts) {
+        to = cut(s, from, to);
+    }
+    const gap out = gap_to(s, to);
+    if (out.distance < SKIN) {
+        to.x += (SKIN - out.distance) * out.nx;
+        to.y += (SKIN - out.distance) * out.ny;
+    }
+    return to;
+}
+
 static place keep_out(const pl_liquid_grid *g, const pl_liquid_tile *tile, place from, place to)
 {
+    const double room = SKIN + MOST_WAY;
     for (uint32_t k = 0; k < tile->solid_count; ++k) {
         const pl_liquid_solid *s = &g->solids[g->tile_solids[tile->first_solid + k]];
-        const double room = SKIN + MOST_WAY;
-        if (to.x < s->low_x - room || to.x > s->high_x + room || to.y < s->low_y - room ||
-            to.y > s->high_y + room) {
-            continue;
-        }
-        if (s->thin) {
-            to = cut(s, from, to);
-        }
-        const gap out = gap_to(s, to);
-        if (out.distance < SKIN) {
-            to.x += (SKIN - out.distance) * out.nx;
-            to.y += (SKIN - out.distance) * out.ny;
+        if (to.x >= s->low_x - room && to.x <= s->high_x + room && to.y >= s->low_y - room &&
+            to.y <= s->high_y + room) {
+            to = pl_liquid_keep_out(s, s->thin, from, to);
         }
     }
     return to;
 }
 
 //---- all of them ---------------------------------------------------------------------------------
+
+typedef pl_near_quad quad;
+
+// Each of four within bounds; what is no number is 0.
+static inline void put_within(plumb_real out[4], const near_real in[4], near_real scale,
+                              near_real most)
+{
+    quad q;
+    memcpy(&q, in, sizeof q);
+    q *= scale;
+    const quad top = (quad){ most, most, most, most }, low = -top;
+    const pl_near_mask above = q > top, below = q < low, is_number = q == q;
+    pl_near_mask bits = (above & (pl_near_mask)top) | (~above & (pl_near_mask)q);
+    bits = (below & (pl_near_mask)low) | (~below & bits);
+    q = (quad)(bits & is_number);
+    for (int k = 0; k < 4; ++k) {
+        out[k] = (plumb_real)q[k];
+    }
+}
 
 static plumb_real within(near_real value, near_real most)
 {
@@ -152,10 +176,7 @@ static void move_range(void *context, uint32_t first, uint32_t count)
         plumb_particle *out = &m->particles[p->index];
         out->position = (plumb_vec2){ (plumb_real)(to.x * h), (plumb_real)(to.y * h) };
         out->velocity = (plumb_vec2){ within(p->u, fastest), within(p->v, fastest) };
-        out->gradient[0] = within(p->ux * scale, steepest);
-        out->gradient[1] = within(p->uy * scale, steepest);
-        out->gradient[2] = within(p->vx * scale, steepest);
-        out->gradient[3] = within(p->vy * scale, steepest);
+        put_within(out->gradient, p->slope, scale, steepest);
     }
 }
 

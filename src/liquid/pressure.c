@@ -14,6 +14,7 @@
 //
 // Reads: openness, velocities, links. Writes: strips, vectors, velocities of faces and bodies. Cost: O(rows x iterations).
 #include "liquid/liquid.h"
+#include "core/quad.h"
 
 #include <math.h>
 #include <string.h>
@@ -267,6 +268,25 @@ static span span_of(const pl_liquid_grid *g, uint32_t chunk)
     return (span){ (size_t)first * LINE, (size_t)stop * LINE, first, stop };
 }
 
+typedef pl_near_quad quad;
+
+static inline quad load(const near_real *v)
+{
+    quad q;
+    memcpy(&q, v, sizeof q);
+    return q;
+}
+
+static inline void store(near_real *v, quad q)
+{
+    memcpy(v, &q, sizeof q);
+}
+
+static inline quad choose(pl_near_mask where, quad a, quad b)
+{
+    return (quad)((where & (pl_near_mask)a) | (~where & (pl_near_mask)b));
+}
+
 static double dot(const near_real *a, const near_real *b, span at)
 {
     near_real parts[LINE] = { 0 };
@@ -301,28 +321,26 @@ static void step_chunks(void *context, uint32_t first, uint32_t count)
 {
     const work *w = context;
     const pl_liquid_grid *g = w->g;
-    near_real *restrict p = g->vectors[PL_LIQUID_P], *restrict r = g->vectors[PL_LIQUID_R];
-    near_real *restrict z = g->vectors[PL_LIQUID_Z];
-    const near_real *restrict s = g->vectors[PL_LIQUID_S], *restrict inverse =
-                                                               g->vectors[PL_LIQUID_I];
+    const near_real factor = w->factor;
+    near_real *p = g->vectors[PL_LIQUID_P], *r = g->vectors[PL_LIQUID_R];
+    near_real *z = g->vectors[PL_LIQUID_Z];
+    const near_real *s = g->vectors[PL_LIQUID_S], *inverse = g->vectors[PL_LIQUID_I];
     for (uint32_t c = first; c < first + count; ++c) {
         const span at = span_of(g, c);
-        near_real most[LINE] = { 0 }, least[LINE] = { 0 };
-        for (size_t i = at.first; i < at.end; i += LINE) {
-            for (size_t k = 0; k < LINE; ++k) {
-                p[i + k] += w->factor * s[i + k];
-                const near_real left = r[i + k] - w->factor * z[i + k];
-                r[i + k] = left;
-                z[i + k] = inverse[i + k] * left;
-                most[k] = left > most[k] ? left : most[k];
-                least[k] = left < least[k] ? left : least[k];
-            }
+        quad most = { 0 }, least = { 0 };
+        for (size_t i = at.first; i < at.end; i += 4) {
+            const quad left = load(r + i) - factor * load(z + i);
+            store(p + i, load(p + i) + factor * load(s + i));
+            store(r + i, left);
+            store(z + i, load(inverse + i) * left);
+            most = choose(left > most, left, most);
+            least = choose(left < least, left, least);
         }
-        for (int k = 0; k < LINE; ++k) {
-            most[0] = most[k] > most[0] ? most[k] : most[0];
-            most[0] = -least[k] > most[0] ? -least[k] : most[0];
+        g->sums[c] = 0;
+        for (int k = 0; k < 4; ++k) {
+            g->sums[c] = (double)most[k] > g->sums[c] ? (double)most[k] : g->sums[c];
+            g->sums[c] = (double)-least[k] > g->sums[c] ? (double)-least[k] : g->sums[c];
         }
-        g->sums[c] = (double)most[0];
     }
 }
 

@@ -2,8 +2,8 @@
 //
 // "liquid" comes before the broad phase: bodies are pushed before contacts are looked for, or boats would hop. It
 // leaves where particles will be in scratch, and "liquid motion", behind the last pass that can run out of memory, takes
-// that over; so a refused step has moved nothing. A step is cut where the fastest particle would cross more than a
-// cell.
+// that over; so a refused step has moved nothing. A step is cut where the fastest particle, of those that are not alone, would cross more
+// than a cell.
 //
 // Reads: particles, poses, velocities, masses, pieces. Writes: forces, particles. Cost: see DECISIONS.md.
 #include "liquid/liquid.h"
@@ -26,8 +26,12 @@ bool pl_want_liquid(const plumb_world *world, const char **reason)
 static int parts_of(const plumb_world *world, double h, double dt)
 {
     const plumb_particle *p = pl_liquid_items(&world->liquid);
+    const uint8_t *strays = world->liquid.scratch->grid.strays;
     double most = 0;
     for (uint32_t i = 0; i < world->liquid.count; ++i) {
+        if (strays[i]) {
+            continue;
+        }
         const double x = fabs((double)p[i].velocity.x), y = fabs((double)p[i].velocity.y);
         most = x > most ? x : most;
         most = y > most ? y : most;
@@ -107,12 +111,16 @@ plumb_result pl_run_liquid(plumb_world *world, plumb_real dt)
     }
     memcpy(scratch->moved.data, liquid->particles.data, bytes);
     pl_liquid_place_solids(world, 0);
+    if (!pl_liquid_find_strays(&world->memory, scratch, scratch->moved.data, liquid->count)) {
+        return PLUMB_E_MEMORY;
+    }
     const int parts = parts_of(world, h, (double)dt);
     for (int i = 0; i < parts; ++i) {
         if (!run_part(world, dt / (real)parts)) {
             return PLUMB_E_MEMORY;
         }
     }
+    pl_liquid_fly(&scratch->grid, world->gravity, (double)dt, scratch->moved.data, liquid->count);
     pl_liquid_push_rows(world, dt);
     return PLUMB_OK;
 }

@@ -50,17 +50,18 @@ static void sum_points(const pl_liquid_grid *g, uint32_t c, pl_liquid_block *out
     for (uint32_t k = g->first[c]; k < g->first[c + 1]; ++k) {
         const pl_liquid_point *p = &g->points[k];
         const quad x = HATS(p->fx), y = HATS(p->fy);
-        const quad u = p->u + p->uy * (PLACES - p->fy), v = p->v + p->vx * (PLACES - p->fx);
+        const quad u = p->u + p->slope[1] * (PLACES - p->fy),
+                   v = p->v + p->slope[2] * (PLACES - p->fx);
         const quad left = y * (1 - p->fx), right = y * p->fx;
         const quad low = x * (1 - p->fy), high = x * p->fy;
         sum.weight_u[0] += left;
         sum.weight_u[1] += right;
-        sum.value_u[0] += left * (u - p->ux * p->fx);
-        sum.value_u[1] += right * (u + p->ux * (1 - p->fx));
+        sum.value_u[0] += left * (u - p->slope[0] * p->fx);
+        sum.value_u[1] += right * (u + p->slope[0] * (1 - p->fx));
         sum.weight_v[0] += low;
         sum.weight_v[1] += high;
-        sum.value_v[0] += low * (v - p->vy * p->fy);
-        sum.value_v[1] += high * (v + p->vy * (1 - p->fy));
+        sum.value_v[0] += low * (v - p->slope[3] * p->fy);
+        sum.value_v[1] += high * (v + p->slope[3] * (1 - p->fy));
         sum.full[0] += x * y[0];
         sum.full[1] += x * y[1];
         sum.full[2] += x * y[2];
@@ -314,8 +315,8 @@ void pl_liquid_sample(const pl_liquid_grid *g, pl_liquid_point *p, near_real *dx
 {
     const corners at_u = corners_u(g, p), at_v = corners_v(g, p);
     const square u = between(g->u, &at_u), v = between(g->v, &at_v);
-    p->u = u.value, p->ux = u.x, p->uy = u.y;
-    p->v = v.value, p->vx = v.x, p->vy = v.y;
+    p->u = u.value, p->slope[0] = u.x, p->slope[1] = u.y;
+    p->v = v.value, p->slope[2] = v.x, p->slope[3] = v.y;
     *dx = between(g->new_u, &at_u).value;
     *dy = between(g->new_v, &at_v).value;
 }

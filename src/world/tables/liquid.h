@@ -30,7 +30,7 @@ enum {
 typedef struct pl_liquid_point {
     near_real fx, fy;         // 0..1, place in its cell
     near_real u, v;           // [m/s]
-    near_real ux, uy, vx, vy; // [m/s] a cell
+    near_real slope[4];         // [m/s] a cell, of u along x and y, of v
     uint32_t cell, index;     // index: among the particles
 } pl_liquid_point;
 
@@ -68,6 +68,8 @@ typedef struct pl_liquid_tile {
     int32_t x, y;         // in tiles
     uint32_t first_solid; // in the list of solids at tiles
     uint32_t solid_count;
+    uint32_t points; // of a table of homes (strays.c)
+    bool lively;
 } pl_liquid_tile;
 
 // A body that the liquid pushes: its velocity is an unknown.
@@ -123,6 +125,7 @@ typedef struct pl_liquid_grid {
     int32_t low_x, low_y, high_x, high_y; // tiles from low to high
     pl_liquid_tile *tiles;                // sorted by key
     pl_liquid_point *points;              // sorted by cell
+    uint8_t *strays;                      // whether a particle is one; null: none is
     uint32_t *occupied;                   // cells with points
     pl_liquid_block *blocks;              // their sums, behind one of zeros
     struct pl_tasks *tasks;               // NULL: one thread
@@ -154,7 +157,7 @@ typedef struct pl_liquid_scratch {
     uint32_t push_count; // of this step, until nothing can fail any more: they can be undone
     pl_liquid_grid grid;
     uint32_t slots; // of the table of tiles, a power of 2
-    pl_buffer cells, tiles, hash, keys, points, spots, occupied, blocks, strips, vectors, sums, bodies, links, solids, tile_solids;
+    pl_buffer cells, tiles, hash, keys, points, spots, strays, occupied, blocks, strips, vectors, sums, bodies, links, solids, tile_solids;
 } pl_liquid_scratch;
 
 typedef struct pl_liquid {

@@ -1,0 +1,154 @@
+// strays.c - particles on their own: drops that fly as points, without tiles.
+//
+// What spills over an edge spreads out without end, and a particle alone would take tiles of its own. Where a tile
+// and those beside it hold but a few particles each, and no body but static ones is near, there is no pressure to speak of:
+// such particles fly on parabolas, and lose what of their velocity goes into a solid. Who is a stray is found anew in
+// each step, so it is no state.
+//
+// Reads: particles, solids. Writes: strays; those particles. Cost: O(particles + tiles with few of them x bodies near +
+// strays x solids).
+#include "liquid/liquid.h"
+
+#include <math.h>
+#include <string.h>
+
+#define CROWD  8    // particles that make a tile lively
+#define FEWEST 2048 // particles that are worth a thread
+
+static bool find_homes(pl_memory *memory, pl_liquid_scratch *scratch, uint32_t count)
+{
+    pl_liquid_spot *spots = scratch->spots.data;
+    int32_t x = INT32_MAX, y = INT32_MAX; // no tile has these
+    uint32_t home = 0;
+    for (uint32_t k = 0; k < count; ++k) {
+        const int32_t to_x = pl_liquid_tile_of(spots[k].i), to_y = pl_liquid_tile_of(spots[k].j);
+        if (to_x != x || to_y != y) {
+            x = to_x;
+            y = to_y;
+            if (!pl_liquid_add_tile(memory, scratch, x, y)) {
+                return false;
+            }
+            home = pl_liquid_tile_at(scratch, x, y);
+        }
+        ++scratch->grid.tiles[home].points;
+        spots[k].cell = home;
+    }
+    return true;
+}
+
+static bool crowd_near(const pl_liquid_scratch *scratch, const pl_liquid_tile *tile)
+{
+    for (int32_t j = -1; j <= 1; ++j) {
+        for (int32_t i = -1; i <= 1; ++i) {
+            const uint32_t t = pl_liquid_tile_at(scratch, tile->x + i, tile->y + j);
+            if (t != PL_LIQUID_NONE && scratch->grid.tiles[t].points >= CROWD) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+// A body may be pushed, or push.
+static bool body_near(const pl_liquid_grid *g, const pl_liquid_tile *tile)
+{
+    const double side = PL_LIQUID_SIDE, x = tile->x * side, y = tile->y * side;
+    for (uint32_t i = 0; i < g->solid_count; ++i) {
+        const pl_liquid_solid *s = &g->solids[i];
+        if (s->body != PL_LIQUID_NONE && s->low_x < x + 2 * side && s->high_x > x - side &&
+            s->low_y < y + 2 * side && s->high_y > y - side) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool pl_liquid_find_strays(pl_memory *memory, pl_liquid_scratch *scratch,
+                           const plumb_particle *particles, uint32_t count)
+{
+    pl_liquid_grid *g = &scratch->grid;
+    if (!pl_buffer_reserve(memory, &scratch->spots, (count + 1) * sizeof(pl_liquid_spot)) ||
+        !pl_buffer_reserve(memory, &scratch->strays, count + 1) ||
+        !pl_liquid_clear_tiles(memory, scratch)) {
+        return false;
+    }
+    pl_liquid_find_spots(g, scratch->spots.data, particles, count);
+    if (!find_homes(memory, scratch, count)) {
+        return false;
+    }
+    for (uint32_t t = 0; t < g->tile_count; ++t) {
+        pl_liquid_tile *tile = &g->tiles[t];
+        tile->lively = crowd_near(scratch, tile) || body_near(g, tile);
+    }
+    const pl_liquid_spot *spots = scratch->spots.data;
+    g->strays = scratch->strays.data;
+    for (uint32_t k = 0; k < count; ++k) {
+        g->strays[k] = !g->tiles[spots[k].cell].lively;
+    }
+    return true;
+}
+
+//---- flight --------------------------------------------------------------------------------------
+
+typedef struct flight {
+    const pl_liquid_grid *g;
+    plumb_vec2 gravity;
+    double dt;
+    plumb_particle *particles;
+} flight;
+
+static double held(double velocity)
+{
+    return pl_liquid_held(velocity, PL_LIQUID_SPEED);
+}
+
+// What goes into a solid that moved it out by (x, y) is lost.
+static void stop_at(double *vx, double *vy, double x, double y)
+{
+    const double square = x * x + y * y, into = *vx * x + *vy * y;
+    if (square > 0 && into < 0) {
+        *vx -= into / square * x;
+        *vy -= into / square * y;
+    }
+}
+
+static void fly(const flight *f, plumb_particle *p)
+{
+    const pl_liquid_grid *g = f->g;
+    const double h = (double)g->h, ax = (double)f->gravity.x, ay = (double)f->gravity.y;
+    double vx = held((double)p->velocity.x), vy = held((double)p->velocity.y);
+    const pl_liquid_place from = { (double)p->position.x / h, (double)p->position.y / h };
+    pl_liquid_place to = { from.x + f->dt * (vx + f->dt / 2 * ax) / h,
+                           from.y + f->dt * (vy + f->dt / 2 * ay) / h };
+    vx = held(vx + f->dt * ax);
+    vy = held(vy + f->dt * ay);
+    for (uint32_t i = 0; i < g->solid_count; ++i) {
+        const pl_liquid_solid *s = &g->solids[i];
+        if (fmax(from.x, to.x) < s->low_x - 1 || fmin(from.x, to.x) > s->high_x + 1 ||
+            fmax(from.y, to.y) < s->low_y - 1 || fmin(from.y, to.y) > s->high_y + 1) {
+            continue;
+        }
+        const pl_liquid_place out = pl_liquid_keep_out(s, true, from, to);
+        stop_at(&vx, &vy, out.x - to.x, out.y - to.y);
+        to = out;
+    }
+    *p = (plumb_particle){ .position = { pl_held(to.x * h), pl_held(to.y * h) },
+                           .velocity = { (plumb_real)vx, (plumb_real)vy } };
+}
+
+static void fly_range(void *context, uint32_t first, uint32_t count)
+{
+    const flight *f = context;
+    for (uint32_t k = first; k < first + count; ++k) {
+        if (f->g->strays[k]) {
+            fly(f, &f->particles[k]);
+        }
+    }
+}
+
+void pl_liquid_fly(const pl_liquid_grid *g, plumb_vec2 gravity, double dt,
+                   plumb_particle *particles, uint32_t count)
+{
+    flight f = { g, gravity, dt, particles };
+    pl_tasks_ranges(g->tasks, count, FEWEST, fly_range, &f);
+}

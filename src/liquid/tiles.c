@@ -1,0 +1,147 @@
+// tiles.c - which tiles of cells there are.
+//
+// A world has no end, so there is no box of cells: tiles of 16 x 16 lie where particles are, and as far around as
+// the kernels look. They are sorted by their places, so neither memory nor the order of insertion decides anything.
+//
+// Reads: spots, strays. Writes: tiles and their table. Cost: O(particles + tiles).
+#include "liquid/liquid.h"
+
+#include <string.h>
+
+#define LEAST_SLOTS 64
+
+static uint64_t key_of(int32_t x, int32_t y)
+{
+    return pl_key((uint32_t)y + (UINT32_C(1) << 31), (uint32_t)x + (UINT32_C(1) << 31));
+}
+
+//---- the table of tiles --------------------------------------------------------------------------
+
+// Open addressing; capacity is a power of 2, at most half full.
+typedef struct entry {
+    uint64_t key;
+    uint32_t tile;
+    uint32_t taken;
+} entry;
+
+static entry *slot_of(const pl_liquid_scratch *scratch, uint64_t key)
+{
+    entry *table = scratch->hash.data;
+    const uint32_t mask = scratch->slots - 1;
+    uint32_t slot = (uint32_t)((key * UINT64_C(0x9e3779b97f4a7c15)) >> 40) & mask;
+    while (table[slot].taken != 0 && table[slot].key != key) {
+        slot = (slot + 1) & mask;
+    }
+    return &table[slot];
+}
+
+static bool resize(pl_memory *memory, pl_liquid_scratch *scratch, uint32_t slots)
+{
+    if (!pl_buffer_reserve(memory, &scratch->hash, slots * sizeof(entry))) {
+        return false;
+    }
+    memset(scratch->hash.data, 0, slots * sizeof(entry));
+    scratch->slots = slots;
+    const pl_liquid_tile *tiles = scratch->grid.tiles;
+    for (uint32_t i = 0; i < scratch->grid.tile_count; ++i) {
+        *slot_of(scratch, tiles[i].key) = (entry){ tiles[i].key, i, 1 };
+    }
+    return true;
+}
+
+bool pl_liquid_add_tile(pl_memory *memory, pl_liquid_scratch *scratch, int32_t x, int32_t y)
+{
+    pl_liquid_grid *g = &scratch->grid;
+    const uint64_t key = key_of(x, y);
+    entry *slot = slot_of(scratch, key);
+    if (slot->taken != 0) {
+        return true;
+    }
+    const uint32_t i = g->tile_count;
+    if (!pl_buffer_reserve(memory, &scratch->tiles, (i + 1) * sizeof(pl_liquid_tile))) {
+        return false;
+    }
+    g->tiles = scratch->tiles.data;
+    g->tiles[i] = (pl_liquid_tile){ .key = key, .x = x, .y = y };
+    *slot = (entry){ key, i, 1 };
+    ++g->tile_count;
+    return 2 * g->tile_count <= scratch->slots || resize(memory, scratch, 2 * scratch->slots);
+}
+
+static bool cover_spots(pl_memory *memory, pl_liquid_scratch *scratch, uint32_t count)
+{
+    const uint8_t *strays = scratch->grid.strays;
+    const pl_liquid_spot *spots = scratch->spots.data;
+    uint64_t last = 0;
+    for (uint32_t k = 0; k < count; ++k) {
+        const int32_t i = spots[k].i, j = spots[k].j;
+        const int32_t x = pl_liquid_tile_of(i - PL_LIQUID_REACH),
+                      y = pl_liquid_tile_of(j - PL_LIQUID_REACH);
+        const int32_t right = pl_liquid_tile_of(i + PL_LIQUID_REACH),
+                      top = pl_liquid_tile_of(j + PL_LIQUID_REACH);
+        const uint64_t seen = key_of(x, y) * 4 + (uint64_t)(2 * (right - x) + (top - y)) + 1;
+        if (seen == last || (strays != NULL && strays[k])) {
+            continue;
+        }
+        last = seen;
+        if (!pl_liquid_add_tile(memory, scratch, x, y) ||
+            !pl_liquid_add_tile(memory, scratch, right, y) ||
+            !pl_liquid_add_tile(memory, scratch, x, top) ||
+            !pl_liquid_add_tile(memory, scratch, right, top)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+bool pl_liquid_clear_tiles(pl_memory *memory, pl_liquid_scratch *scratch)
+{
+    scratch->grid.tile_count = 0;
+    return resize(memory, scratch, scratch->slots > LEAST_SLOTS ? scratch->slots : LEAST_SLOTS);
+}
+
+uint32_t pl_liquid_tile_at(const pl_liquid_scratch *scratch, int32_t x, int32_t y)
+{
+    const entry *slot = slot_of(scratch, key_of(x, y));
+    return slot->taken != 0 ? slot->tile : PL_LIQUID_NONE;
+}
+
+static bool sort_tiles(pl_memory *memory, pl_liquid_scratch *scratch)
+{
+    pl_liquid_grid *g = &scratch->grid;
+    const uint32_t n = g->tile_count;
+    if (!pl_buffer_reserve(memory, &scratch->keys, n * sizeof(pl_keyed))) {
+        return false;
+    }
+    pl_keyed *keys = scratch->keys.data;
+    for (uint32_t i = 0; i < n; ++i) {
+        keys[i] = (pl_keyed){ .key = g->tiles[i].key, .value = i };
+    }
+    pl_sort_keyed(keys, n);
+    g->low_x = g->low_y = INT32_MAX;
+    g->high_x = g->high_y = INT32_MIN;
+    for (uint32_t i = 0; i < n; ++i) {
+        const int32_t x = (int32_t)((uint32_t)keys[i].key - (UINT32_C(1) << 31));
+        const int32_t y = (int32_t)((uint32_t)(keys[i].key >> 32) - (UINT32_C(1) << 31));
+        g->tiles[i] = (pl_liquid_tile){ .key = keys[i].key, .x = x, .y = y };
+        slot_of(scratch, keys[i].key)->tile = i;
+        g->low_x = x < g->low_x ? x : g->low_x, g->high_x = x > g->high_x ? x : g->high_x;
+        g->low_y = y < g->low_y ? y : g->low_y, g->high_y = y > g->high_y ? y : g->high_y;
+    }
+    g->hash = scratch->hash.data;
+    g->slots = scratch->slots;
+    return true;
+}
+
+bool pl_liquid_find_tiles(pl_memory *memory, pl_liquid_scratch *scratch, uint32_t count)
+{
+    return pl_liquid_clear_tiles(memory, scratch) && cover_spots(memory, scratch, count) &&
+           sort_tiles(memory, scratch);
+}
+
+uint32_t pl_liquid_tile_first(const pl_liquid_grid *g, int32_t x, int32_t y)
+{
+    const pl_liquid_scratch view = { .hash = { g->hash, 0 }, .slots = g->slots };
+    const entry *slot = slot_of(&view, key_of(x, y));
+    return slot->taken != 0 ? 1 + slot->tile * PL_LIQUID_TILE : 0;
+}
