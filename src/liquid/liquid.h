@@ -130,12 +130,14 @@ void pl_liquid_even_out(pl_liquid_grid *grid);
 // and are written to the particles.
 void pl_liquid_move(pl_liquid_grid *grid, double way, plumb_particle *particles);
 
-// Keeps a place [cells] out of a solid, on its way from another.
 typedef struct pl_liquid_place {
-    double x, y;
+    double x, y; // [cells]
 } pl_liquid_place;
-pl_liquid_place pl_liquid_keep_out(const pl_liquid_solid *solid, bool cuts, pl_liquid_place from,
-                                   pl_liquid_place to);
+
+// Keeps a place out of all solids, on its way from another; what is left of a way goes on along them. The normal of the
+// last that is met; 0: none is.
+pl_liquid_place pl_liquid_slide_all(const pl_liquid_grid *grid, pl_liquid_place from,
+                                    pl_liquid_place to, pl_liquid_place *normal);
 
 //---- bodies.c ------------------------------------------------------------------------------------
 

@@ -10,7 +10,7 @@
 #include <math.h>
 #include <string.h>
 
-#define MOST_WAY 2.0  // cells
+#define MOST_WAY 2.0  // cells that the solids listed at a tile are good for
 #define SKIN     0.01 // cells that are kept from solids
 
 typedef pl_liquid_place place;
@@ -25,11 +25,6 @@ static place place_of(const pl_liquid_grid *g, const pl_liquid_point *p)
     };
 }
 
-static double held(double way)
-{
-    return way > MOST_WAY ? MOST_WAY : way >= -MOST_WAY ? way : -MOST_WAY;
-}
-
 static place end_of(const pl_liquid_grid *g, pl_liquid_point *p, place from, double way)
 {
     near_real dx, dy;
@@ -37,8 +32,8 @@ static place end_of(const pl_liquid_grid *g, pl_liquid_point *p, place from, dou
     const near_real half = (near_real)(way / 2);
     const near_real x = p->u + half * (p->u * p->slope[0] + p->v * p->slope[1]);
     const near_real y = p->v + half * (p->u * p->slope[2] + p->v * p->slope[3]);
-    return (place){ from.x + held(way * (double)x + (double)dx),
-                    from.y + held(way * (double)y + (double)dy) };
+    return (place){ from.x + pl_liquid_held(way * (double)x + (double)dx, PL_LIQUID_MOST_CELL),
+                    from.y + pl_liquid_held(way * (double)y + (double)dy, PL_LIQUID_MOST_CELL) };
 }
 
 //---- out of solids -------------------------------------------------------------------------------
@@ -78,8 +73,8 @@ static gap gap_to(const pl_liquid_solid *s, place at)
     return out;
 }
 
-// Where the way meets an edge of a thin piece: it ends a skin before it.
-static place cut(const pl_liquid_solid *s, place from, place to)
+// Where the way meets an edge of a piece: it ends a skin before it, or goes on along it if it slides.
+static place cut(const pl_liquid_solid *s, bool slides, place from, place to, place *normal)
 {
     const double wx = to.x - from.x, wy = to.y - from.y;
     double least = 1;
@@ -95,23 +90,40 @@ static place cut(const pl_liquid_solid *s, place from, place to)
         const double t = (ax * dy - ay * dx) / det, along = (ax * wy - ay * wx) / det;
         if (t >= 0 && t <= least && along >= 0 && along <= 1) {
             // The side that it comes from.
-            const double side = (ax * dy - ay * dx > 0 ? -1 : 1) * (s->radius + SKIN) / length;
+            const double side = (ax * dy - ay * dx > 0 ? -1 : 1) / length;
+            const place n = { side * dy, -side * dx };
+            const double rest = slides ? 1 - t : 0, into = n.x * wx + n.y * wy;
+            const double x = rest * (wx - into * n.x), y = rest * (wy - into * n.y);
             least = t;
-            end = (place){ from.x + t * wx + side * dy, from.y + t * wy - side * dx };
+            *normal = n;
+            end = (place){ from.x + t * wx + x + (s->radius + SKIN) * n.x,
+                           from.y + t * wy + y + (s->radius + SKIN) * n.y };
         }
     }
     return end;
 }
 
-place pl_liquid_keep_out(const pl_liquid_solid *s, bool cuts, place from, place to)
+static place out_of(const pl_liquid_solid *s, place to, place *normal)
 {
-    if (cuts) {
-        to = cut(s, from, to);
-    }
     const gap out = gap_to(s, to);
     if (out.distance < SKIN) {
+        *normal = (place){ out.nx, out.ny };
         to.x += (SKIN - out.distance) * out.nx;
         to.y += (SKIN - out.distance) * out.ny;
+    }
+    return to;
+}
+
+place pl_liquid_slide_all(const pl_liquid_grid *g, place from, place to, place *normal)
+{
+    *normal = (place){ 0, 0 };
+    for (uint32_t i = 0; i < g->solid_count; ++i) {
+        const pl_liquid_solid *s = &g->solids[i];
+        if (fmax(from.x, to.x) < s->low_x - 1 || fmin(from.x, to.x) > s->high_x + 1 ||
+            fmax(from.y, to.y) < s->low_y - 1 || fmin(from.y, to.y) > s->high_y + 1) {
+            continue;
+        }
+        to = out_of(s, cut(s, true, from, to, normal), normal);
     }
     return to;
 }
@@ -119,11 +131,15 @@ place pl_liquid_keep_out(const pl_liquid_solid *s, bool cuts, place from, place 
 static place keep_out(const pl_liquid_grid *g, const pl_liquid_tile *tile, place from, place to)
 {
     const double room = SKIN + MOST_WAY;
+    place unused;
+    if (fabs(to.x - from.x) > MOST_WAY || fabs(to.y - from.y) > MOST_WAY) {
+        return pl_liquid_slide_all(g, from, to, &unused);
+    }
     for (uint32_t k = 0; k < tile->solid_count; ++k) {
         const pl_liquid_solid *s = &g->solids[g->tile_solids[tile->first_solid + k]];
         if (to.x >= s->low_x - room && to.x <= s->high_x + room && to.y >= s->low_y - room &&
             to.y <= s->high_y + room) {
-            to = pl_liquid_keep_out(s, s->thin, from, to);
+            to = out_of(s, s->thin ? cut(s, false, from, to, &unused) : to, &unused);
         }
     }
     return to;

@@ -9,10 +9,9 @@
 // strays x solids).
 #include "liquid/liquid.h"
 
-#include <math.h>
 #include <string.h>
 
-#define CROWD  8    // particles that make a tile lively
+#define CROWD  24   // particles that make a tile lively
 #define FEWEST 2048 // particles that are worth a thread
 
 static bool find_homes(pl_memory *memory, pl_liquid_scratch *scratch, uint32_t count)
@@ -102,16 +101,6 @@ static double held(double velocity)
     return pl_liquid_held(velocity, PL_LIQUID_SPEED);
 }
 
-// What goes into a solid that moved it out by (x, y) is lost.
-static void stop_at(double *vx, double *vy, double x, double y)
-{
-    const double square = x * x + y * y, into = *vx * x + *vy * y;
-    if (square > 0 && into < 0) {
-        *vx -= into / square * x;
-        *vy -= into / square * y;
-    }
-}
-
 static void fly(const flight *f, plumb_particle *p)
 {
     const pl_liquid_grid *g = f->g;
@@ -122,16 +111,11 @@ static void fly(const flight *f, plumb_particle *p)
                            from.y + f->dt * (vy + f->dt / 2 * ay) / h };
     vx = held(vx + f->dt * ax);
     vy = held(vy + f->dt * ay);
-    for (uint32_t i = 0; i < g->solid_count; ++i) {
-        const pl_liquid_solid *s = &g->solids[i];
-        if (fmax(from.x, to.x) < s->low_x - 1 || fmin(from.x, to.x) > s->high_x + 1 ||
-            fmax(from.y, to.y) < s->low_y - 1 || fmin(from.y, to.y) > s->high_y + 1) {
-            continue;
-        }
-        const pl_liquid_place out = pl_liquid_keep_out(s, true, from, to);
-        stop_at(&vx, &vy, out.x - to.x, out.y - to.y);
-        to = out;
-    }
+    pl_liquid_place n;
+    to = pl_liquid_slide_all(g, from, to, &n);
+    const double into = vx * n.x + vy * n.y;
+    vx -= into < 0 ? into * n.x : 0;
+    vy -= into < 0 ? into * n.y : 0;
     *p = (plumb_particle){ .position = { pl_held(to.x * h), pl_held(to.y * h) },
                            .velocity = { (plumb_real)vx, (plumb_real)vy } };
 }

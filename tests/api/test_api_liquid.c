@@ -307,6 +307,92 @@ static void threads_and_widths_change_no_bit(void **state)
     }
 }
 
+// A dam of 8,000 particles with crates in it: enough for every pass to be shared out.
+static void large_pools_are_shared_out_without_a_bit(void **state)
+{
+    (void)state;
+    const int workers[] = { 1, 2, 3 };
+    uint64_t hashes[3];
+    for (int k = 0; k < 3; ++k) {
+        plumb_world *w;
+        assert_int_equal(plumb_world_create(&(plumb_world_desc){ .workers = workers[k] }, &w),
+                         PLUMB_OK);
+        const plumb_body ground = plumb_body_create(w, &(plumb_body_desc){ .type = PLUMB_STATIC });
+        const plumb_vec2 corners[] = { { 0, 6 }, { 0, 0 }, { 8, 0 }, { 8, 6 } };
+        plumb_shape_create(w, ground,
+                           &(plumb_shape_desc){
+                               .kind = PLUMB_CHAIN, .points = (plumb_vec2 *)corners, .count = 4 });
+        for (int i = 0; i < 12; ++i) {
+            const plumb_body crate = plumb_body_create(
+                w, &(plumb_body_desc){ .type = PLUMB_DYNAMIC,
+                                       .position = { R(0.5) + R(0.6) * (plumb_real)i, 3 } });
+            plumb_shape_create(
+                w, crate, &(plumb_shape_desc){ .kind = PLUMB_BOX, .half = { R(0.2), R(0.2) } });
+        }
+        plumb_liquid_create(w, NULL);
+        plumb_liquid_add_box(w, plumb_v2(0, 0), plumb_v2(8, R(2.5)), plumb_v2(1, 0));
+        assert_int_equal(count_of(w), 8000);
+        run(w, 30);
+        hashes[k] = plumb_world_hash(w);
+        assert_true(hashes[k] == hashes[0]);
+        plumb_world_destroy(w);
+    }
+}
+
+//---- what spills ---------------------------------------------------------------------------------
+
+// A particle alone is a point: its parabola is exact, and it comes to rest where it lands.
+static void a_particle_alone_flies_and_lands(void **state)
+{
+    (void)state;
+    plumb_world *w;
+    assert_int_equal(plumb_world_create(&(plumb_world_desc){ 0 }, &w), PLUMB_OK);
+    const plumb_body ground = plumb_body_create(
+        w, &(plumb_body_desc){ .type = PLUMB_STATIC, .position = { 100, R(-31) } });
+    plumb_shape_create(w, ground,
+                       &(plumb_shape_desc){ .kind = PLUMB_BOX, .half = { 200, R(0.1) } });
+    plumb_liquid_create(w, NULL);
+    const plumb_particle drop = { .position = { 0, 10 }, .velocity = { 7, 3 } };
+    assert_int_equal(plumb_liquid_add(w, &drop, 1), PLUMB_OK);
+    run(w, 120);
+    const plumb_particle *p = plumb_liquid_particles(w, NULL);
+    assert_true(fabs((double)p->position.x - 14) < 1e-4);
+    assert_true(fabs((double)p->position.y - (10 + 3 * 2 - 9.81 * 2)) < 1e-4);
+    run(w, 300); // it meets the ground, a plate thinner than its way in a step
+    p = plumb_liquid_particles(w, NULL);
+    assert_true(fabs((double)p->position.y + 30.9) < 0.01);
+    assert_true(fabs((double)p->velocity.y) < 1e-3 && fabs((double)p->velocity.x - 7) < 1e-3);
+    plumb_world_destroy(w);
+}
+
+// 3,200 particles run off a table, and fall for 10 s: half a km. They would take up to four tiles each, 80 kB.
+static void what_spills_takes_no_room(void **state)
+{
+    (void)state;
+    plumb_world *w;
+    assert_int_equal(plumb_world_create(&(plumb_world_desc){ 0 }, &w), PLUMB_OK);
+    const plumb_body table = plumb_body_create(
+        w, &(plumb_body_desc){ .type = PLUMB_STATIC, .position = { 0, R(-0.5) } });
+    plumb_shape_create(w, table, &(plumb_shape_desc){ .kind = PLUMB_BOX, .half = { 2, R(0.5) } });
+    plumb_liquid_create(w, NULL);
+    plumb_liquid_add_box(w, plumb_v2(-2, 0), plumb_v2(2, 2), plumb_v2(0, 0));
+    assert_int_equal(count_of(w), 3200);
+    run(w, 20);
+    const double before = (double)plumb_world_stats(w).peak_bytes;
+    run(w, 580);
+    const double most = (double)plumb_world_stats(w).peak_bytes;
+    int count, fallen = 0;
+    const plumb_particle *p = plumb_liquid_particles(w, &count);
+    for (int i = 0; i < count; ++i) {
+        fallen += p[i].position.y < -100;
+    }
+    print_message("%d of %d particles fell from the table; memory grew from %.1f to %.1f MB\n",
+                  fallen, count, before * 1e-6, most * 1e-6);
+    assert_true(fallen > 0.9 * count);
+    assert_true(most < 8 * before);
+    plumb_world_destroy(w);
+}
+
 static void *save(const plumb_world *w, size_t *size)
 {
     *size = plumb_world_snapshot_size(w);
@@ -488,6 +574,9 @@ int main(void)
         cmocka_unit_test(a_world_that_wraps_has_none),
         cmocka_unit_test(without_particles_there_is_no_pass),
         cmocka_unit_test(threads_and_widths_change_no_bit),
+        cmocka_unit_test(large_pools_are_shared_out_without_a_bit),
+        cmocka_unit_test(a_particle_alone_flies_and_lands),
+        cmocka_unit_test(what_spills_takes_no_room),
         cmocka_unit_test(images_go_on_with_the_same_bits),
         cmocka_unit_test(recordings_hold_it),
         cmocka_unit_test(any_allocation_may_fail),
