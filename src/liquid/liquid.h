@@ -89,8 +89,13 @@ void pl_liquid_bound(pl_liquid_grid *grid);
 // Gives a point the velocity and slopes of the faces round it; the displacement there, between new_u and new_v.
 void pl_liquid_sample(const pl_liquid_grid *grid, pl_liquid_point *point, near_real *dx,
                       near_real *dy);
-// Viscosity by explicit sweeps; amount: kinematic times the step, in squares of a cell.
-void pl_liquid_diffuse(pl_liquid_grid *grid, double amount);
+
+//---- viscosity.c ---------------------------------------------------------------------------------
+
+#define PL_LIQUID_THICK 1e6 // [-] beyond it float cannot tell a liquid from a solid
+
+// What viscosity does to faces; amount: kinematic viscosity times the step, in squares of a cell. False when out of memory.
+bool pl_liquid_diffuse(pl_memory *memory, pl_liquid_scratch *scratch, double amount);
 
 //---- multigrid.c ---------------------------------------------------------------------------------
 

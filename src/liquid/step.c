@@ -69,8 +69,9 @@ static bool run_part(plumb_world *world, real dt)
     }
     pl_liquid_extrapolate(g, g->u, g->v, 2);
     pl_liquid_accelerate(g, kick_of(world->gravity.x, dt), kick_of(world->gravity.y, dt));
-    if (d->viscosity > 0) {
-        pl_liquid_diffuse(g, (double)d->viscosity / (double)d->density * (double)dt / (h * h));
+    const double amount = (double)d->viscosity / (double)d->density * (double)dt / (h * h);
+    if (amount > 0 && !pl_liquid_diffuse(memory, scratch, amount)) {
+        return false;
     }
     pl_liquid_project(g, (double)d->density * h * h);
     pl_liquid_extrapolate(g, g->u, g->v, 2);

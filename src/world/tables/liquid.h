@@ -157,7 +157,7 @@ typedef struct pl_liquid_scratch {
     uint32_t push_count; // of this step, until nothing can fail any more: they can be undone
     pl_liquid_grid grid;
     uint32_t slots; // of the table of tiles, a power of 2
-    pl_buffer cells, tiles, hash, keys, points, spots, strays, occupied, blocks, strips, vectors, sums, bodies, links, solids, tile_solids;
+    pl_buffer cells, tiles, hash, keys, points, spots, strays, occupied, viscous, blocks, strips, vectors, sums, bodies, links, solids, tile_solids;
 } pl_liquid_scratch;
 
 typedef struct pl_liquid {
