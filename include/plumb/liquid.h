@@ -12,6 +12,7 @@
 /// through, filters do not count), and floats, pushes and is pushed by dynamic bodies: their velocities are unknowns of
 /// its one system of pressures, so that a body of a thousandth of its density is as stable as a heavy one.
 /// Shapes without area, and those thinner than a cell (two spacings), hold it back as walls do.
+/// Particles on their own, fewer than 24 in tiles of 16 x 16 cells with no body near, fly as points.
 /// The world must not wrap around. Nothing of it is done in a world without a liquid.
 #ifndef PLUMB_LIQUID_H
 #define PLUMB_LIQUID_H
@@ -27,8 +28,8 @@ PLUMB_BEGIN
 typedef struct plumb_liquid_desc {
     plumb_real spacing; ///< [m] 1e-4..1e3 between particles at rest; 0 means 0.05. Cells are twice as wide
     plumb_real density; ///< [kg/m^2] 1e-6..1e9 of area; 0 means 1000
-    /// [Pa s] 0..1e9 dynamic; 0: it slips along walls. Above 0 it clings to them. What a grid can tell apart
-    /// ends at 12.5 density (2 spacing)^2 / dt; higher values act as that
+    /// [Pa s] 0..1e9 dynamic; 0: it slips along walls. Above 0 it clings to them, as honey (10), and pitch (1e6 and
+    /// more). Stable at any; values beyond 1e6 density (2 spacing)^2 / dt act as that. Costs a solution of its own
     plumb_real viscosity;
 } plumb_liquid_desc;
 
