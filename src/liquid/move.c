@@ -114,13 +114,23 @@ static place out_of(const pl_liquid_solid *s, place to, place *normal)
     return to;
 }
 
+static double larger(double a, double b)
+{
+    return a > b ? a : b;
+}
+
+static double smaller(double a, double b)
+{
+    return a < b ? a : b;
+}
+
 place pl_liquid_slide_all(const pl_liquid_grid *g, place from, place to, place *normal)
 {
     *normal = (place){ 0, 0 };
     for (uint32_t i = 0; i < g->solid_count; ++i) {
         const pl_liquid_solid *s = &g->solids[i];
-        if (fmax(from.x, to.x) < s->low_x - 1 || fmin(from.x, to.x) > s->high_x + 1 ||
-            fmax(from.y, to.y) < s->low_y - 1 || fmin(from.y, to.y) > s->high_y + 1) {
+        if (larger(from.x, to.x) < s->low_x - 1 || smaller(from.x, to.x) > s->high_x + 1 ||
+            larger(from.y, to.y) < s->low_y - 1 || smaller(from.y, to.y) > s->high_y + 1) {
             continue;
         }
         to = out_of(s, cut(s, true, from, to, normal), normal);

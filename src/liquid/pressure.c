@@ -256,16 +256,16 @@ typedef struct work {
     near_real factor;
 } work;
 
-typedef struct span {
+typedef struct interval {
     size_t first, end;    // rows
     uint32_t strip, stop; // strips
-} span;
+} interval;
 
-static span span_of(const pl_liquid_grid *g, uint32_t chunk)
+static interval interval_of(const pl_liquid_grid *g, uint32_t chunk)
 {
     const uint32_t first = 1 + chunk * CHUNK, end = first + CHUNK, all = g->levels[0].end;
     const uint32_t stop = end < all ? end : all;
-    return (span){ (size_t)first * LINE, (size_t)stop * LINE, first, stop };
+    return (interval){ (size_t)first * LINE, (size_t)stop * LINE, first, stop };
 }
 
 typedef pl_near_quad quad;
@@ -287,7 +287,7 @@ static inline quad choose(pl_near_mask where, quad a, quad b)
     return (quad)((where & (pl_near_mask)a) | (~where & (pl_near_mask)b));
 }
 
-static double dot(const near_real *a, const near_real *b, span at)
+static double dot(const near_real *a, const near_real *b, interval at)
 {
     near_real parts[LINE] = { 0 };
     for (size_t i = at.first; i < at.end; i += LINE) {
@@ -307,7 +307,7 @@ static void multiply_chunks(void *context, uint32_t first, uint32_t count)
 {
     pl_liquid_grid *g = ((work *)context)->g;
     for (uint32_t c = first; c < first + count; ++c) {
-        const span at = span_of(g, c);
+        const interval at = interval_of(g, c);
         for (uint32_t s = at.strip; s < at.stop; ++s) {
             pl_liquid_multiply_strip(g, s, g->vectors[PL_LIQUID_S],
                                      g->vectors[PL_LIQUID_Z] + (size_t)s * LINE);
@@ -326,7 +326,7 @@ static void step_chunks(void *context, uint32_t first, uint32_t count)
     near_real *z = g->vectors[PL_LIQUID_Z];
     const near_real *s = g->vectors[PL_LIQUID_S], *inverse = g->vectors[PL_LIQUID_I];
     for (uint32_t c = first; c < first + count; ++c) {
-        const span at = span_of(g, c);
+        const interval at = interval_of(g, c);
         quad most = { 0 }, least = { 0 };
         for (size_t i = at.first; i < at.end; i += 4) {
             const quad left = load(r + i) - factor * load(z + i);
@@ -349,7 +349,7 @@ static void sweep_chunks(void *context, uint32_t first, uint32_t count)
 {
     pl_liquid_grid *g = ((work *)context)->g;
     for (uint32_t c = first; c < first + count; ++c) {
-        const span at = span_of(g, c);
+        const interval at = interval_of(g, c);
         for (uint32_t s = at.strip; s < at.stop; ++s) {
             pl_liquid_sweep_strip(g, s);
         }
@@ -365,7 +365,7 @@ static void turn_chunks(void *context, uint32_t first, uint32_t count)
     near_real *restrict s = g->vectors[PL_LIQUID_S];
     const near_real *restrict q = g->vectors[PL_LIQUID_Q];
     for (uint32_t c = first; c < first + count; ++c) {
-        const span at = span_of(g, c);
+        const interval at = interval_of(g, c);
         for (size_t i = at.first; i < at.end; ++i) {
             s[i] = q[i] + w->factor * s[i];
         }

@@ -11,7 +11,7 @@
 
 #include <string.h>
 
-#define CROWD  24   // particles that make a tile lively
+#define MANY   24   // particles that make a tile lively
 #define FEWEST 2048 // particles that are worth a thread
 
 static bool find_homes(pl_memory *memory, pl_liquid_scratch *scratch, uint32_t count)
@@ -35,12 +35,12 @@ static bool find_homes(pl_memory *memory, pl_liquid_scratch *scratch, uint32_t c
     return true;
 }
 
-static bool crowd_near(const pl_liquid_scratch *scratch, const pl_liquid_tile *tile)
+static bool many_near(const pl_liquid_scratch *scratch, const pl_liquid_tile *tile)
 {
     for (int32_t j = -1; j <= 1; ++j) {
         for (int32_t i = -1; i <= 1; ++i) {
             const uint32_t t = pl_liquid_tile_at(scratch, tile->x + i, tile->y + j);
-            if (t != PL_LIQUID_NONE && scratch->grid.tiles[t].points >= CROWD) {
+            if (t != PL_LIQUID_NONE && scratch->grid.tiles[t].points >= MANY) {
                 return true;
             }
         }
@@ -77,7 +77,7 @@ bool pl_liquid_find_strays(pl_memory *memory, pl_liquid_scratch *scratch,
     }
     for (uint32_t t = 0; t < g->tile_count; ++t) {
         pl_liquid_tile *tile = &g->tiles[t];
-        tile->lively = crowd_near(scratch, tile) || body_near(g, tile);
+        tile->lively = many_near(scratch, tile) || body_near(g, tile);
     }
     const pl_liquid_spot *spots = scratch->spots.data;
     g->strays = scratch->strays.data;
