@@ -5,6 +5,7 @@
 #include "schema/effects.h"
 
 #include "accuracy/dial.h"
+#include "air/air.h"
 #include "api/fracture.h"
 #include "character/character.h"
 #include "continuous/continuous.h"
@@ -187,6 +188,15 @@ PASS(pl_run_liquid)
 PASS(pl_run_liquid_motion)
 WORLD(pl_liquid_undo)
 FREE(pl_liquid_free, pl_liquid)
+#endif
+
+#if !PL_HAS(AIR)
+WANT(pl_want_air)
+PASS(pl_run_air)
+PASS(pl_run_air_motion)
+WORLD(pl_air_undo)
+FREE(pl_air_free, pl_air)
+GIVES(pl_air_extent, pl_air_extent_of, (pl_air_extent){ 0 }, const plumb_air_desc *desc)
 #endif
 
 #if !PL_HAS(CHARACTERS)

@@ -15,6 +15,7 @@
 #include "internal_edges/internal_edges.h"
 #include "joints/joint.h"
 #include "effects/laws.h"
+#include "air/air.h"
 #include "liquid/liquid.h"
 #include "step/measure.h"
 #include "narrow/narrow.h"
@@ -132,11 +133,12 @@ static size_t query_grid_bytes(const pl_query_grid_set *set)
 
 static void tell_rest(listing *out, const plumb_world *w)
 {
-    size_t characters = 0, liquid = 0, laws = 0, systems = 0, measures = 0, watchdog = 0;
+    size_t characters = 0, liquid = 0, air = 0, laws = 0, systems = 0, measures = 0, watchdog = 0;
     size_t effects = BUFFERS(&w->settings.items, &w->targets.items, &w->tracks.items);
     size_t events = BUFFERS(&w->begin_events, &w->end_events, &w->changed_pairs, &w->hit_events);
     PART(characters, pl_characters, w->characters, pl_characters_free(&dry, &copy));
     PART(liquid, pl_liquid, w->liquid, pl_liquid_free(&dry, &copy));
+    PART(air, pl_air, w->air, pl_air_free(&dry, &copy));
     PART(laws, pl_laws, w->laws, pl_laws_free(&dry, &copy));
     PART(systems, pl_systems, w->systems, pl_systems_free(&dry, &copy));
     PART(systems, pl_schedule, w->schedule, pl_schedule_free(&dry, &copy));
@@ -150,6 +152,7 @@ static void tell_rest(listing *out, const plumb_world *w)
     tell(out, "queries", query_grid_bytes(&w->query_grids), 0);
     tell(out, "characters", characters, 0);
     tell(out, "liquid", liquid, w->liquid.count);
+    tell(out, "air", air, w->air.cell_count);
     tell(out, "laws", laws, w->laws.count);
     tell(out, "effects", effects, 0);
     tell(out, "events", events, 0);

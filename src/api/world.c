@@ -16,6 +16,7 @@
 #include "joints/joint.h"
 #include "effects/laws.h"
 #include "api/fracture.h"
+#include "air/air.h"
 #include "liquid/liquid.h"
 #include "step/measure.h"
 #include "narrow/narrow.h"
@@ -174,6 +175,7 @@ static void free_world(plumb_world *world)
     pl_joints_free(&memory, &world->joints);
     pl_characters_free(&memory, &world->characters);
     pl_liquid_free(&memory, &world->liquid);
+    pl_air_free(&memory, &world->air);
     pl_laws_free(&memory, &world->laws);
     pl_fracture_free(&memory, &world->fracture);
     pl_continuous_free(&memory, &world->continuous);

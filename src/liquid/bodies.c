@@ -16,14 +16,14 @@
 
 #define MARGIN 6.0 // cells round the particles in which solids are looked for
 
-typedef struct region {
-    double low_x, low_y, high_x, high_y; // [m]
-} region;
+typedef pl_liquid_region region;
 
-static region region_of(const plumb_particle *p, uint32_t count, double margin)
+pl_liquid_region pl_liquid_region_of(const pl_liquid *liquid)
 {
+    const plumb_particle *p = pl_liquid_items(liquid);
+    const double margin = MARGIN * (double)liquid->scratch->grid.h;
     region r = { INFINITY, INFINITY, -INFINITY, -INFINITY };
-    for (uint32_t i = 0; i < count; ++i) {
+    for (uint32_t i = 0; i < liquid->count; ++i) {
         const double x = (double)p[i].position.x, y = (double)p[i].position.y;
         r.low_x = x < r.low_x ? x : r.low_x, r.high_x = x > r.high_x ? x : r.high_x;
         r.low_y = y < r.low_y ? y : r.low_y, r.high_y = y > r.high_y ? y : r.high_y;
@@ -60,9 +60,8 @@ static double width_of(const plumb_convex *shape, double scale)
     return (least + 2 * (double)shape->radius) * scale;
 }
 
-static bool add_solid(plumb_world *world, uint32_t piece, uint32_t body)
+static bool add_solid(plumb_world *world, pl_liquid_scratch *scratch, uint32_t piece, uint32_t body)
 {
-    pl_liquid_scratch *scratch = world->liquid.scratch;
     pl_liquid_grid *g = &scratch->grid;
     plumb_convex shape;
     if (!pl_buffer_reserve(&world->memory, &scratch->solids,
@@ -82,9 +81,8 @@ static bool add_solid(plumb_world *world, uint32_t piece, uint32_t body)
     return true;
 }
 
-static bool add_body(plumb_world *world, uint32_t row)
+static bool add_body(plumb_world *world, pl_liquid_scratch *scratch, uint32_t row)
 {
-    pl_liquid_scratch *scratch = world->liquid.scratch;
     pl_liquid_grid *g = &scratch->grid;
     const pl_bodies *b = &world->bodies;
     if (!pl_buffer_reserve(&world->memory, &scratch->bodies,
@@ -114,7 +112,8 @@ static bool add_body(plumb_world *world, uint32_t row)
 }
 
 // The pieces of a row that are near; its body only if there are any.
-static bool add_row(plumb_world *world, uint32_t row, const region *r, real dt)
+static bool add_row(plumb_world *world, pl_liquid_scratch *scratch, uint32_t row, const region *r,
+                    real dt)
 {
     const pl_bodies *b = &world->bodies;
     const pl_pieces *pieces = &world->pieces;
@@ -129,27 +128,24 @@ static bool add_row(plumb_world *world, uint32_t row, const region *r, real dt)
             continue;
         }
         if (!is_static && body == PL_LIQUID_NONE) {
-            body = world->liquid.scratch->grid.body_count;
-            if (!add_body(world, row)) {
+            body = scratch->grid.body_count;
+            if (!add_body(world, scratch, row)) {
                 return false;
             }
         }
-        if (!add_solid(world, p, body)) {
+        if (!add_solid(world, scratch, p, body)) {
             return false;
         }
     }
     return true;
 }
 
-bool pl_liquid_find_solids(plumb_world *world, real dt)
+bool pl_liquid_find_solids(plumb_world *world, pl_liquid_scratch *scratch, pl_liquid_region r,
+                           real dt)
 {
-    const pl_liquid *liquid = &world->liquid;
-    pl_liquid_grid *g = &liquid->scratch->grid;
     const uint32_t end = pl_partition_first(world, PL_PART_DISABLED);
-    const region r = region_of(pl_liquid_items(liquid), liquid->count, MARGIN * (double)g->h);
-    g->body_count = g->solid_count = 0;
     for (uint32_t row = 0; row < end; ++row) {
-        if (!add_row(world, row, &r, dt)) {
+        if (!add_row(world, scratch, row, &r, dt)) {
             return false;
         }
     }
@@ -183,13 +179,13 @@ static double least(double a, double b)
     return a < b ? a : b;
 }
 
-static void place_solid(const plumb_world *world, pl_liquid_solid *s)
+static void place_solid(const plumb_world *world, const pl_liquid_grid *g, pl_liquid_solid *s)
 {
     const uint32_t row = world->pieces.body[s->piece];
     const pl_bodies *b = &world->bodies;
     const pl_liquid_body *body =
-        s->body == PL_LIQUID_NONE ? NULL : &world->liquid.scratch->grid.bodies[s->body];
-    const double scale = 1 / (double)world->liquid.scratch->grid.h;
+        s->body == PL_LIQUID_NONE ? NULL : &g->bodies[s->body];
+    const double scale = 1 / (double)g->h;
     const double c = body != NULL ? body->c : (double)b->c[row];
     const double sine = body != NULL ? body->s : (double)b->s[row];
     const double x = body != NULL ? body->x : (double)b->center_x[row];
@@ -210,9 +206,9 @@ static void place_solid(const plumb_world *world, pl_liquid_solid *s)
     }
 }
 
-void pl_liquid_place_solids(plumb_world *world, double dt)
+void pl_liquid_place_solids(plumb_world *world, pl_liquid_scratch *scratch, double dt)
 {
-    pl_liquid_grid *g = &world->liquid.scratch->grid;
+    pl_liquid_grid *g = &scratch->grid;
     for (uint32_t i = 0; i < g->body_count; ++i) {
         pl_liquid_body *b = &g->bodies[i];
         double s, c;
@@ -224,15 +220,16 @@ void pl_liquid_place_solids(plumb_world *world, double dt)
         b->y += b->vy * dt;
     }
     for (uint32_t i = 0; i < g->solid_count; ++i) {
-        place_solid(world, &g->solids[i]);
+        if (g->solids[i].piece != PL_LIQUID_NONE) {
+            place_solid(world, g, &g->solids[i]);
+        }
     }
 }
 
 //---- what they get -------------------------------------------------------------------------------
 
-void pl_liquid_push_rows(plumb_world *world, real dt)
+void pl_liquid_push_rows(plumb_world *world, pl_liquid_scratch *scratch, real dt)
 {
-    pl_liquid_scratch *scratch = world->liquid.scratch;
     pl_bodies *b = &world->bodies;
     pl_liquid_push *pushes = scratch->pushes.data;
     for (uint32_t i = 0; i < scratch->grid.body_count; ++i) {
@@ -247,5 +244,17 @@ void pl_liquid_push_rows(plumb_world *world, real dt)
         b->fx[row] = pl_held((double)b->fx[row] + body->impulse_x / (double)dt);
         b->fy[row] = pl_held((double)b->fy[row] + body->impulse_y / (double)dt);
         b->torque[row] = pl_held((double)b->torque[row] + body->turn / (double)dt);
+    }
+}
+
+void pl_liquid_unpush_rows(plumb_world *world, pl_liquid_scratch *scratch)
+{
+    while (scratch != NULL && scratch->push_count > 0) {
+        const pl_liquid_push *pushes = scratch->pushes.data;
+        const pl_liquid_push *p = &pushes[--scratch->push_count];
+        const uint32_t row = pl_body_row(world, p->body); // it may have moved: bodies woke
+        world->bodies.fx[row] = p->fx;
+        world->bodies.fy[row] = p->fy;
+        world->bodies.torque[row] = p->torque;
     }
 }

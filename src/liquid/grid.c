@@ -183,6 +183,16 @@ static void link_range(void *context, uint32_t first, uint32_t count)
     }
 }
 
+bool pl_liquid_make_cells(pl_memory *memory, pl_liquid_scratch *scratch)
+{
+    pl_liquid_grid *g = &scratch->grid;
+    if (!make_columns(memory, scratch)) {
+        return false;
+    }
+    pl_tasks_ranges(g->tasks, g->tile_count, 8, link_range, g);
+    return true;
+}
+
 bool pl_liquid_grid_build(pl_memory *memory, pl_liquid_scratch *scratch,
                           const plumb_particle *particles, uint32_t count, double h)
 {
@@ -193,10 +203,9 @@ bool pl_liquid_grid_build(pl_memory *memory, pl_liquid_scratch *scratch,
     }
     build b = { g, particles, g->strays, scratch->spots.data, 1 / h };
     pl_liquid_find_spots(g, b.spots, particles, count);
-    if (!pl_liquid_find_tiles(memory, scratch, count) || !make_columns(memory, scratch)) {
+    if (!pl_liquid_find_tiles(memory, scratch, count) || !pl_liquid_make_cells(memory, scratch)) {
         return false;
     }
-    pl_tasks_ranges(g->tasks, g->tile_count, 8, link_range, g);
     return sort_points(memory, scratch, &b, count);
 }
 

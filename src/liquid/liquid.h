@@ -37,6 +37,7 @@ static inline int32_t pl_liquid_tile_of(int32_t cell)
 
 // Tiles round the spots of all particles but strays, sorted. False when out of memory.
 bool pl_liquid_find_tiles(pl_memory *memory, pl_liquid_scratch *scratch, uint32_t count);
+bool pl_liquid_sort_tiles(pl_memory *memory, pl_liquid_scratch *scratch);
 // The first cell of the tile (x, y); 0: there is no such tile.
 uint32_t pl_liquid_tile_first(const pl_liquid_grid *grid, int32_t x, int32_t y);
 // A table of tiles by itself: none; one more, unless it is there; the place of one, or PL_LIQUID_NONE.
@@ -58,6 +59,8 @@ void pl_liquid_fly(const pl_liquid_grid *grid, plumb_vec2 gravity, double dt,
 // Tiles round the particles, points sorted by cell, and by their order within one. False when out of memory.
 bool pl_liquid_grid_build(pl_memory *memory, pl_liquid_scratch *scratch,
                           const plumb_particle *particles, uint32_t count, double h);
+// The cells of its sorted tiles, without any point. False when out of memory.
+bool pl_liquid_make_cells(pl_memory *memory, pl_liquid_scratch *scratch);
 void pl_liquid_find_spots(pl_liquid_grid *grid, pl_liquid_spot *spots,
                           const plumb_particle *particles, uint32_t count);
 // The cell at (i, j); 0: in no tile.
@@ -118,6 +121,9 @@ void pl_liquid_sweep_strip(const pl_liquid_grid *grid, uint32_t strip);
 
 // Which cells have liquid, the matrix, its factors. False when out of memory.
 bool pl_liquid_plan(pl_memory *memory, pl_liquid_scratch *scratch);
+// Its parts: what flows into cells, into vectors[PL_LIQUID_R]; what pressures do to faces and bodies.
+void pl_liquid_find_inflow(pl_liquid_grid *grid);
+void pl_liquid_take_pressure(pl_liquid_grid *grid, double push);
 // Makes velocities free of divergence. `push`: [kg] density times the square of a cell's side.
 void pl_liquid_project(pl_liquid_grid *grid, double push);
 // Solves the system for what lies in vectors[PL_LIQUID_R], with bodies if push is not 0; the answer is in P. Ends when
@@ -146,14 +152,23 @@ pl_liquid_place pl_liquid_slide_all(const pl_liquid_grid *grid, pl_liquid_place 
 
 //---- bodies.c ------------------------------------------------------------------------------------
 
-// Shapes near the liquid as solids, those of bodies that are not static with their motion. False when out of memory.
-bool pl_liquid_find_solids(plumb_world *world, real dt);
+typedef struct pl_liquid_region {
+    double low_x, low_y, high_x, high_y; // [m]
+} pl_liquid_region;
+
+// The liquid's, with what is near it.
+pl_liquid_region pl_liquid_region_of(const pl_liquid *liquid);
+// Shapes near a region as solids, those of bodies that are not static with their motion, behind what there is. False
+// when out of memory.
+bool pl_liquid_find_solids(plumb_world *world, pl_liquid_scratch *scratch, pl_liquid_region region,
+                           real dt);
 // Gravity and forces on bodies in dt.
 void pl_liquid_pull_bodies(plumb_world *world, real dt);
 // Bodies go on by their velocities for dt, and solids with them.
-void pl_liquid_place_solids(plumb_world *world, double dt);
-// Impulses of the step become forces on bodies. Room was made by pl_liquid_find_solids.
-void pl_liquid_push_rows(plumb_world *world, real dt);
+void pl_liquid_place_solids(plumb_world *world, pl_liquid_scratch *scratch, double dt);
+// Impulses of the step become forces on bodies, and back. Room was made by pl_liquid_find_solids.
+void pl_liquid_push_rows(plumb_world *world, pl_liquid_scratch *scratch, real dt);
+void pl_liquid_unpush_rows(plumb_world *world, pl_liquid_scratch *scratch);
 
 //---- step.c --------------------------------------------------------------------------------------
 

@@ -96,8 +96,10 @@ static void fill_strip(pl_liquid_grid *g, uint32_t s)
         const uint32_t left = g->left[c], right = g->right[c], down = g->down[c], up = g->up[c];
         near_real open[4];
         faces_of(g, c, open);
-        g->vectors[PL_LIQUID_L][row] = g->row[left] != 0 ? open[0] : 0;
-        g->vectors[PL_LIQUID_B][row] = g->row[down] != 0 ? open[2] : 0;
+        // What is not beside it in memory, or below its strip, lies across a seam.
+        const bool below = g->row[down] >= LINE && g->row[down] / LINE == g->strips[s].down;
+        g->vectors[PL_LIQUID_L][row] = g->row[left] == row - 1 ? open[0] : 0;
+        g->vectors[PL_LIQUID_B][row] = below ? open[2] : 0;
         g->vectors[PL_LIQUID_D][row] =
             weight_of(g, open[0], c, left) + weight_of(g, open[1], c, right) +
             weight_of(g, open[2], c, down) + weight_of(g, open[3], c, up);
@@ -246,6 +248,19 @@ static double add_bodies(pl_liquid_grid *g, const near_real *p, near_real *out, 
         out[at.behind] -= flow;
     }
     out[0] = 0;
+    return bend;
+}
+
+// The same of what lies across seams, where a grid goes on at its other side.
+static double add_seams(const pl_liquid_grid *g, const near_real *p, near_real *out)
+{
+    double bend = 0;
+    for (uint32_t i = 0; i < g->seam_count; ++i) {
+        const pl_liquid_seam *s = &g->seams[i];
+        bend -= 2 * (double)(s->open * p[s->a] * p[s->b]);
+        out[s->a] -= s->open * p[s->b];
+        out[s->b] -= s->open * p[s->a];
+    }
     return bend;
 }
 
@@ -422,8 +437,9 @@ void pl_liquid_solve(pl_liquid_grid *g, double push, double tolerance, double fl
         run(g, turn_chunks, k > 0 ? next / sigma : 0);
         sigma = next;
         run(g, multiply_chunks, 0);
+        near_real *way = g->vectors[PL_LIQUID_S], *product = g->vectors[PL_LIQUID_Z];
         const double bend =
-            sum_of(g) + add_bodies(g, g->vectors[PL_LIQUID_S], g->vectors[PL_LIQUID_Z], push);
+            sum_of(g) + add_bodies(g, way, product, push) + add_seams(g, way, product);
         if (!(bend > 0)) {
             return;
         }
@@ -485,12 +501,22 @@ static void push_bodies(pl_liquid_grid *g, double push)
     }
 }
 
-void pl_liquid_project(pl_liquid_grid *g, double push)
+void pl_liquid_find_inflow(pl_liquid_grid *g)
 {
     pl_tasks_ranges(g->tasks, g->levels[0].end - 1, LEAST, inflow_range, g);
-    pl_liquid_solve(g, push, 1e-5, 0);
+}
+
+void pl_liquid_take_pressure(pl_liquid_grid *g, double push)
+{
     pl_liquid_cells(g, slope_cells);
     push_bodies(g, push);
+}
+
+void pl_liquid_project(pl_liquid_grid *g, double push)
+{
+    pl_liquid_find_inflow(g);
+    pl_liquid_solve(g, push, 1e-5, 0);
+    pl_liquid_take_pressure(g, push);
 }
 
 static bool has_room(const pl_liquid_grid *g, uint32_t c)

@@ -8,7 +8,6 @@
 // Reads: particles, poses, velocities, masses, pieces. Writes: forces, particles. Cost: see DECISIONS.md.
 #include "liquid/liquid.h"
 #include "schema/passes.h"
-#include "world/rows.h"
 
 #include <math.h>
 #include <string.h>
@@ -78,7 +77,7 @@ static bool run_part(plumb_world *world, real dt)
     pl_liquid_bound(g);
     pl_liquid_even_out(g);
     pl_liquid_move(g, (double)dt / h, moved);
-    pl_liquid_place_solids(world, (double)dt);
+    pl_liquid_place_solids(world, scratch, (double)dt);
     return true;
 }
 
@@ -106,12 +105,13 @@ plumb_result pl_run_liquid(plumb_world *world, plumb_real dt)
     scratch->push_count = 0;
     scratch->grid.h = (near_real)h;
     scratch->grid.tasks = world->tasks;
+    scratch->grid.body_count = scratch->grid.solid_count = 0;
     if (!pl_buffer_reserve(&world->memory, &scratch->moved, bytes) ||
-        !pl_liquid_find_solids(world, dt)) {
+        !pl_liquid_find_solids(world, scratch, pl_liquid_region_of(liquid), dt)) {
         return PLUMB_E_MEMORY;
     }
     memcpy(scratch->moved.data, liquid->particles.data, bytes);
-    pl_liquid_place_solids(world, 0);
+    pl_liquid_place_solids(world, scratch, 0);
     if (!pl_liquid_find_strays(&world->memory, scratch, scratch->moved.data, liquid->count)) {
         return PLUMB_E_MEMORY;
     }
@@ -122,7 +122,7 @@ plumb_result pl_run_liquid(plumb_world *world, plumb_real dt)
         }
     }
     pl_liquid_fly(&scratch->grid, world->gravity, (double)dt, scratch->moved.data, liquid->count);
-    pl_liquid_push_rows(world, dt);
+    pl_liquid_push_rows(world, scratch, dt);
     return PLUMB_OK;
 }
 
@@ -138,13 +138,5 @@ plumb_result pl_run_liquid_motion(plumb_world *world, plumb_real dt)
 
 void pl_liquid_undo(plumb_world *world)
 {
-    pl_liquid_scratch *scratch = world->liquid.scratch;
-    while (scratch != NULL && scratch->push_count > 0) {
-        const pl_liquid_push *pushes = scratch->pushes.data;
-        const pl_liquid_push *p = &pushes[--scratch->push_count];
-        const uint32_t row = pl_body_row(world, p->body); // it may have moved: bodies woke
-        world->bodies.fx[row] = p->fx;
-        world->bodies.fy[row] = p->fy;
-        world->bodies.torque[row] = p->torque;
-    }
+    pl_liquid_unpush_rows(world, world->liquid.scratch);
 }

@@ -106,7 +106,7 @@ uint32_t pl_liquid_tile_at(const pl_liquid_scratch *scratch, int32_t x, int32_t 
     return slot->taken != 0 ? slot->tile : PL_LIQUID_NONE;
 }
 
-static bool sort_tiles(pl_memory *memory, pl_liquid_scratch *scratch)
+bool pl_liquid_sort_tiles(pl_memory *memory, pl_liquid_scratch *scratch)
 {
     pl_liquid_grid *g = &scratch->grid;
     const uint32_t n = g->tile_count;
@@ -136,7 +136,7 @@ static bool sort_tiles(pl_memory *memory, pl_liquid_scratch *scratch)
 bool pl_liquid_find_tiles(pl_memory *memory, pl_liquid_scratch *scratch, uint32_t count)
 {
     return pl_liquid_clear_tiles(memory, scratch) && cover_spots(memory, scratch, count) &&
-           sort_tiles(memory, scratch);
+           pl_liquid_sort_tiles(memory, scratch);
 }
 
 uint32_t pl_liquid_tile_first(const pl_liquid_grid *g, int32_t x, int32_t y)

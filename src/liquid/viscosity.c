@@ -10,6 +10,9 @@
 // lines are half a cell from the faces beside them, so slopes there count twice. The system is symmetric: conjugate
 // gradients with its diagonal, which lose energy in each iteration: cut short it is stable all the same.
 //
+// Where the grid says so (`drag`), velocities of moving bodies are unknown too: three columns a body, which its links
+// add to the faces that it closes, as in pressure.c. What walls take from the flow is then what bodies get.
+//
 // Reads: openness, rows, speeds of what closes. Writes: velocities of faces. Cost: O(cells with liquid x iterations),
 // and iterations grow as the square root of k.
 #include "liquid/liquid.h"
@@ -44,12 +47,20 @@ enum {
     COLUMNS
 };
 
+// A body's part of the vectors; those of faces and of bodies have one mass, density h^2.
+typedef struct dragged {
+    double mass[3];     // over density h^2; 0: this axis does not move
+    double diagonal[3]; // likewise
+    double now[3], left[3], way[3], out[3];
+} dragged;
+
 typedef struct system {
     pl_liquid_grid *g;
     near_real k;
     near_real *col[COLUMNS];
     uint32_t *cells; // in which something is not 0
     uint32_t count;
+    dragged *bodies; // NULL: all are driven
 } system;
 
 //---- what is unknown -----------------------------------------------------------------------------
@@ -126,21 +137,165 @@ static void find_stresses(system *s, const near_real *u, const near_real *v)
     }
 }
 
+// What stresses do to a face.
+static near_real pull_u(const system *s, uint32_t c)
+{
+    const uint32_t up = s->g->up[c];
+    const near_real *xx = s->col[XX], *xy = s->col[XY], *twice = s->col[TWICE_U];
+    return xx[c] - xx[s->g->left[c]] + twice[up] * xy[up] - twice[c] * xy[c];
+}
+
+static near_real pull_v(const system *s, uint32_t c)
+{
+    const uint32_t right = s->g->right[c];
+    const near_real *yy = s->col[YY], *xy = s->col[XY], *twice = s->col[TWICE_V];
+    return yy[c] - yy[s->g->down[c]] + twice[right] * xy[right] - twice[c] * xy[c];
+}
+
 // out = mass (u, v) - k (what stresses do to them), of faces that are unknown.
 static void apply(system *s, const near_real *u, const near_real *v, near_real mass,
                   near_real *out_u, near_real *out_v)
 {
-    const pl_liquid_grid *g = s->g;
-    const near_real *xx = s->col[XX], *yy = s->col[YY], *xy = s->col[XY];
-    const near_real *twice_u = s->col[TWICE_U], *twice_v = s->col[TWICE_V];
     find_stresses(s, u, v);
     for (uint32_t i = 0; i < s->count; ++i) {
-        const uint32_t c = s->cells[i], up = g->up[c], right = g->right[c];
-        const near_real x = xx[c] - xx[g->left[c]] + twice_u[up] * xy[up] - twice_u[c] * xy[c];
-        const near_real y =
-            yy[c] - yy[g->down[c]] + twice_v[right] * xy[right] - twice_v[c] * xy[c];
-        out_u[c] = s->col[FREE_U][c] * (mass * u[c] - s->k * x);
-        out_v[c] = s->col[FREE_V][c] * (mass * v[c] - s->k * y);
+        const uint32_t c = s->cells[i];
+        out_u[c] = s->col[FREE_U][c] * (mass * u[c] - s->k * pull_u(s, c));
+        out_v[c] = s->col[FREE_V][c] * (mass * v[c] - s->k * pull_v(s, c));
+    }
+}
+
+//---- bodies --------------------------------------------------------------------------------------
+
+// Links of faces that are all closed: open ones are unknown themselves.
+static bool is_shut(const pl_liquid_grid *g, const pl_liquid_link *link)
+{
+    return link->upright ? g->open_v[link->cell] == 0 : g->open_u[link->cell] == 0;
+}
+
+static double mass_of(double inverse, const pl_liquid_grid *g)
+{
+    return inverse > 0 ? 1 / (inverse * g->drag) : 0;
+}
+
+static void find_bodies(system *s)
+{
+    const pl_liquid_grid *g = s->g;
+    for (uint32_t i = 0; i < g->body_count; ++i) {
+        const pl_liquid_body *b = &g->bodies[i];
+        dragged *d = &s->bodies[i];
+        *d = (dragged){ .mass = { mass_of(b->inv_mass_x, g), mass_of(b->inv_mass_y, g),
+                                  mass_of(b->inv_inertia, g) },
+                        .now = { b->vx, b->vy, b->w } };
+        memcpy(d->diagonal, d->mass, sizeof d->mass);
+    }
+    for (uint32_t i = 0; i < g->link_count; ++i) {
+        const pl_liquid_link *link = &g->links[i];
+        double *to = s->bodies[link->body].diagonal;
+        if (is_shut(g, link)) {
+            const int at = link->upright ? DIAGONAL_V : DIAGONAL_U;
+            const double part = (double)link->part, arm = (double)link->arm;
+            const double more = part * part * ((double)s->col[at][link->cell] - 1);
+            to[link->upright ? 1 : 0] += more > 0 ? more : 0;
+            to[2] += more > 0 ? more * arm * arm : 0;
+        }
+    }
+}
+
+// Faces that bodies close go as these do: of a part of the vectors.
+static void carry(system *s, near_real *u, near_real *v)
+{
+    const pl_liquid_grid *g = s->g;
+    for (uint32_t i = 0; i < g->link_count && s->bodies != NULL; ++i) {
+        const pl_liquid_link *link = &g->links[i];
+        if (is_shut(g, link)) {
+            (link->upright ? v : u)[link->cell] = 0;
+        }
+    }
+    for (uint32_t i = 0; i < g->link_count && s->bodies != NULL; ++i) {
+        const pl_liquid_link *link = &g->links[i];
+        if (is_shut(g, link)) {
+            const double *way = s->bodies[link->body].way;
+            (link->upright ? v : u)[link->cell] +=
+                link->part *
+                (near_real)(way[link->upright ? 1 : 0] + way[2] * (double)link->arm);
+        }
+    }
+}
+
+// What stresses of the last product do to bodies; with their mass times `of`, if that is not null.
+static void drag_bodies(system *s, bool inert)
+{
+    const pl_liquid_grid *g = s->g;
+    for (uint32_t i = 0; i < g->body_count && s->bodies != NULL; ++i) {
+        dragged *d = &s->bodies[i];
+        for (int k = 0; k < 3; ++k) {
+            d->out[k] = inert ? d->mass[k] * d->way[k] : 0;
+        }
+    }
+    for (uint32_t i = 0; i < g->link_count && s->bodies != NULL; ++i) {
+        const pl_liquid_link *link = &g->links[i];
+        if (is_shut(g, link)) {
+            const double pull = (double)(link->upright ? pull_v(s, link->cell) : pull_u(s, link->cell));
+            const double got = -(double)s->k * (double)link->part * pull;
+            double *out = s->bodies[link->body].out;
+            out[link->upright ? 1 : 0] += got;
+            out[2] += got * (double)link->arm;
+        }
+    }
+    for (uint32_t i = 0; i < g->body_count && s->bodies != NULL; ++i) {
+        for (int k = 0; k < 3; ++k) {
+            s->bodies[i].out[k] = s->bodies[i].mass[k] > 0 ? s->bodies[i].out[k] : 0;
+        }
+    }
+}
+
+static double dot_bodies(const system *s, bool bend)
+{
+    double total = 0;
+    for (uint32_t i = 0; i < s->g->body_count && s->bodies != NULL; ++i) {
+        const dragged *d = &s->bodies[i];
+        for (int k = 0; k < 3; ++k) {
+            total += bend                ? d->way[k] * d->out[k]
+                     : d->mass[k] > 0 ? d->left[k] * d->left[k] / d->diagonal[k]
+                                      : 0;
+        }
+    }
+    return total;
+}
+
+// left = keep left + factor out; way = turn way + left over the diagonal.
+static void go_bodies(system *s, double alpha)
+{
+    for (uint32_t i = 0; i < s->g->body_count && s->bodies != NULL; ++i) {
+        dragged *d = &s->bodies[i];
+        for (int k = 0; k < 3; ++k) {
+            d->now[k] += alpha * d->way[k];
+            d->left[k] -= alpha * d->out[k];
+        }
+    }
+}
+
+static void turn_bodies(system *s, double beta)
+{
+    for (uint32_t i = 0; i < s->g->body_count && s->bodies != NULL; ++i) {
+        dragged *d = &s->bodies[i];
+        for (int k = 0; k < 3; ++k) {
+            d->way[k] = beta * d->way[k] + (d->mass[k] > 0 ? d->left[k] / d->diagonal[k] : 0);
+        }
+    }
+}
+
+// Bodies have what they got.
+static void keep_bodies(system *s)
+{
+    for (uint32_t i = 0; i < s->g->body_count && s->bodies != NULL; ++i) {
+        pl_liquid_body *b = &s->g->bodies[i];
+        const dragged *d = &s->bodies[i];
+        const double push = s->g->drag;
+        b->impulse_x += push * d->mass[0] * (d->now[0] - b->vx);
+        b->impulse_y += push * d->mass[1] * (d->now[1] - b->vy);
+        b->turn += push * d->mass[2] * (d->now[2] - b->w);
+        b->vx = d->now[0], b->vy = d->now[1], b->w = d->now[2];
     }
 }
 
@@ -176,21 +331,32 @@ static void add(system *s, int to, near_real keep, int from, near_real factor, b
 static void solve(system *s)
 {
     apply(s, s->col[U], s->col[V], 0, s->col[LEFT_U], s->col[LEFT_V]);
+    drag_bodies(s, false);
+    for (uint32_t i = 0; i < s->g->body_count && s->bodies != NULL; ++i) {
+        for (int k = 0; k < 3; ++k) {
+            s->bodies[i].left[k] = -s->bodies[i].out[k];
+        }
+    }
     add(s, LEFT_U, -1, LEFT_U, 0, false);
     add(s, WAY_U, 0, LEFT_U, 1, true);
-    double sigma = dot(s, LEFT_U, LEFT_U, true);
+    turn_bodies(s, 0);
+    double sigma = dot(s, LEFT_U, LEFT_U, true) + dot_bodies(s, false);
     const double enough = SOLVE_TO * SOLVE_TO * sigma;
     for (int n = 0; n < MOST_ITERATIONS && sigma > enough; ++n) {
+        carry(s, s->col[WAY_U], s->col[WAY_V]);
         apply(s, s->col[WAY_U], s->col[WAY_V], 1, s->col[OUT_U], s->col[OUT_V]);
-        const double bend = dot(s, WAY_U, OUT_U, false);
+        drag_bodies(s, true);
+        const double bend = dot(s, WAY_U, OUT_U, false) + dot_bodies(s, true);
         if (!(bend > 0)) {
             return;
         }
         const near_real alpha = (near_real)(sigma / bend);
         add(s, U, 1, WAY_U, alpha, false);
         add(s, LEFT_U, 1, OUT_U, -alpha, false);
-        const double next = dot(s, LEFT_U, LEFT_U, true);
+        go_bodies(s, (double)alpha);
+        const double next = dot(s, LEFT_U, LEFT_U, true) + dot_bodies(s, false);
         add(s, WAY_U, (near_real)(next / sigma), LEFT_U, 1, true);
+        turn_bodies(s, next / sigma);
         sigma = next;
     }
 }
@@ -199,7 +365,9 @@ bool pl_liquid_diffuse(pl_memory *memory, pl_liquid_scratch *scratch, double amo
 {
     pl_liquid_grid *g = &scratch->grid;
     const size_t room = (g->cell_count + 1) * sizeof(near_real);
-    if (!pl_buffer_reserve(memory, &scratch->viscous, COLUMNS * room) ||
+    const size_t columns = (COLUMNS * room + PL_ALIGN - 1) / PL_ALIGN * PL_ALIGN;
+    if (!pl_buffer_reserve(memory, &scratch->viscous,
+                           columns + (g->body_count + 1) * sizeof(dragged)) ||
         !pl_buffer_reserve(memory, &scratch->keys, (g->cell_count + 1) * sizeof(uint32_t))) {
         return false;
     }
@@ -207,14 +375,19 @@ bool pl_liquid_diffuse(pl_memory *memory, pl_liquid_scratch *scratch, double amo
     system s = { .g = g,
                  .k = (near_real)(amount < most ? amount : most),
                  .cells = scratch->keys.data };
-    memset(scratch->viscous.data, 0, COLUMNS * room);
+    memset(scratch->viscous.data, 0, columns);
     for (int i = 0; i < COLUMNS; ++i) {
         s.col[i] = (near_real *)scratch->viscous.data + (size_t)i * (g->cell_count + 1);
     }
     find_faces(&s);
     find_corners(&s);
     find_diagonal(&s);
+    if (g->drag > 0) {
+        s.bodies = (dragged *)(void *)((char *)scratch->viscous.data + columns);
+        find_bodies(&s);
+    }
     solve(&s);
+    keep_bodies(&s);
     for (uint32_t i = 0; i < s.count; ++i) {
         const uint32_t c = s.cells[i];
         g->u[c] = s.col[FREE_U][c] > 0 ? s.col[U][c] : g->u[c];

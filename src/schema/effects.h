@@ -38,6 +38,7 @@
       "src/event/breaking.c src/geometry/region.c", "break_force break_impulse break_energy break_cells",                      \
       "bodies that are cut, break, merge, grow and shrink")                                                                    \
     X(LIQUID, "liquid", "", "src/liquid/%", "", "particles that flow")                                                         \
+    X(AIR, "air", "liquid", "src/air/%", "", "air that flows round shapes, with smoke and heat")                               \
     X(CHARACTERS, "characters", "", "src/character/%", "", "bodies that walk")                                                 \
     X(JOINTS, "joints", "", "src/joints/%", "direct_joints", "of all kinds")                                                   \
     X(PGS, "pgs", "", "src/solver/pgs.c", "", "the classic solver")                                                            \

@@ -42,6 +42,8 @@
       "grids, poses, velocities", "velocities, forces, characters, poses, rows, islands", ONE)                                               \
     X("liquid",            FORCES,      IF(pl_want_liquid),          ONCE(pl_run_liquid),                                    ONCE,           \
       "liquid, poses, velocities, masses, pieces, forces", "forces, islands", ONE)                                                           \
+    X("air",               FORCES,      IF(pl_want_air),             ONCE(pl_run_air),                                       ONCE,           \
+      "air, poses, velocities, masses, pieces, forces", "forces, islands", ONE)                                                              \
     X("waking",            PAIRS,       IF(pl_want_waking),          ONCE(pl_run_waking),                                    REFRESHES,      \
       "islands, pieces, grids, joints", "rows, pairs, grids, islands", ONE)                                                                  \
     X("broad phase",       PAIRS,       IF(pl_want_broad),           ONCE(pl_run_broad),                                     REFRESHES,      \
@@ -165,6 +167,8 @@
       "poses", "poses", ONE)                                                                                                                 \
     X("liquid motion",     FINISH,      IF(pl_want_liquid),          ONCE(pl_run_liquid_motion),                             ONCE,           \
       "", "liquid", ONE)                                                                                                                     \
+    X("air motion",        FINISH,      IF(pl_want_air),             ONCE(pl_run_air_motion),                                ONCE,           \
+      "", "air", ONE)                                                                                                                        \
     X("reactions",         FINISH,      IF(pl_want_joints),          ONCE(pl_run_reactions),                                 ONCE,           \
       "joints, poses", "joints, rows, events, islands, components, pairs", ONE)                                                              \
     X("events",            EVENTS,      IF(pl_want_collision),       ONCE(pl_run_events),                                    REFRESHES,      \

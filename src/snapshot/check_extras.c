@@ -7,6 +7,7 @@
 #include "broad/pairs.h"
 #include "internal_edges/cone.h"
 #include "effects/laws.h"
+#include "air/air.h"
 #include "liquid/liquid.h"
 #include "world/wrap.h"
 #include "world/rows.h"
@@ -260,6 +261,27 @@ static bool check_liquid(const plumb_world *w)
     return sound;
 }
 
+static bool check_air(const plumb_world *w)
+{
+    const pl_air *air = &w->air;
+    if (air->settings_count == 0) {
+        return air->cell_count == 0 && air->source_count == 0;
+    }
+    if (air->settings_count > 1 || air->source_count > PLUMB_AIR_MAX_SOURCES || pl_is_wrapped(w) ||
+        !pl_air_desc_is_sound(pl_air_desc(air))) {
+        return false;
+    }
+    const pl_air_extent box = pl_air_extent_of(pl_air_desc(air));
+    bool sound = air->cell_count == (uint32_t)((box.columns + 1) * (box.rows + 1));
+    for (uint32_t i = 0; i < air->cell_count && sound; ++i) {
+        sound = pl_air_cell_is_sound(&pl_air_items(air)[i]);
+    }
+    for (uint32_t i = 0; i < air->source_count && sound; ++i) {
+        sound = pl_air_source_is_sound(&pl_air_sources(air)[i]);
+    }
+    return sound;
+}
+
 static bool check_laws(const pl_suspect *s)
 {
     const pl_laws *laws = &s->world.laws;
@@ -309,7 +331,7 @@ bool pl_check_extras(pl_suspect *s)
             return false;
         }
     }
-    return check_records(w) && check_settings(s) && check_targets(s) && check_liquid(w) &&
+    return check_records(w) && check_settings(s) && check_targets(s) && check_liquid(w) && check_air(w) &&
            check_laws(s) && check_excluded(w) && check_breaks(w) &&
            pl_commands_are_sound(s->like, &w->registry, w->commands.bytes.data, w->commands.used,
                                  w->commands.count, s->marks);

@@ -147,6 +147,12 @@
     ARRAY(plumb_particle, liquid.particles, liquid.count, sizeof(plumb_particle), 0)                 \
     LEFT(liquid.scratch)
 
+#define PL_STATE_AIR(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                        \
+    ARRAY(plumb_air_desc, air.settings, air.settings_count, sizeof(plumb_air_desc), 0)             \
+    ARRAY(plumb_air_cell, air.cells, air.cell_count, sizeof(plumb_air_cell), 0)                    \
+    ARRAY(plumb_air_source, air.sources, air.source_count, sizeof(plumb_air_source), 0)            \
+    LEFT(air.scratch)
+
 #define PL_STATE_LAWS(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                       \
     ARRAY(pl_law, laws.items, laws.count, sizeof(pl_law), 8)                                       \
     ARRAY(plumb_orbit_desc, laws.orbits, laws.orbit_count, sizeof(plumb_orbit_desc), 0)            \
@@ -208,6 +214,7 @@
     PL_STATE_JOINTS(__VA_ARGS__) PL_STATE_PARTS(__VA_ARGS__) PL_STATE_PENDING_HITS(__VA_ARGS__)           \
     PL_STATE_SENSING(__VA_ARGS__) PL_STATE_SLEEP(__VA_ARGS__) PL_STATE_INTERNAL_EDGES(__VA_ARGS__)          \
     PL_STATE_CHARACTERS(__VA_ARGS__) PL_STATE_CONTINUOUS(__VA_ARGS__) PL_STATE_LIQUID(__VA_ARGS__)  \
+    PL_STATE_AIR(__VA_ARGS__)                                                                      \
     PL_STATE_FRACTURE(__VA_ARGS__)                                                                 \
     PL_STATE_LAWS(__VA_ARGS__)                                                                     \
     PL_STATE_QUARANTINE(__VA_ARGS__) PL_STATE_EFFECTS(__VA_ARGS__)                                \

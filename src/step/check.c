@@ -193,6 +193,9 @@ static void add_records(look *d, const plumb_world *w, int data)
     case PL_DATA_LIQUID:
         add_list(d, w->liquid.particles.data, w->liquid.count, sizeof(plumb_particle));
         break;
+    case PL_DATA_AIR:
+        add_list(d, w->air.cells.data, w->air.cell_count, sizeof(plumb_air_cell));
+        break;
     case PL_DATA_SENSORS:
         add_list(d, w->sensing.candidates.data, w->sensing.candidate_count, sizeof(pl_keyed));
         add_list(d, w->sensing.overlaps.data, w->sensing.count, sizeof(pl_overlap));

@@ -24,6 +24,7 @@
     X(JOINTS, "joints", "their impulses, errors and reactions")                                    \
     X(ISLANDS, "islands", "what sleeps, and how long bodies have rested")                          \
     X(LIQUID, "liquid", "its particles")                                                           \
+    X(AIR, "air", "its velocities, smoke and heat")                                                \
     X(CHARACTERS, "characters", "bodies that walk")                                                \
     X(SENSORS, "sensors", "what they overlap")                                                     \
     X(SOLVER_BODIES, "solver bodies", "velocities and ways of bodies in the substeps")             \

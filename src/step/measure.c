@@ -161,7 +161,7 @@ static bool is_counted(pl_once_fn *run, plumb_work *work)
         pl_once_fn *run;
         plumb_work work;
     } rows[] = { { NULL, PLUMB_WORK_SYSTEMS },          { pl_run_characters, PLUMB_WORK_SYSTEMS },
-                 { pl_run_liquid, PLUMB_WORK_SYSTEMS }, { pl_run_waking, PLUMB_WORK_SLEEP },
+                 { pl_run_liquid, PLUMB_WORK_SYSTEMS }, { pl_run_air, PLUMB_WORK_SYSTEMS }, { pl_run_waking, PLUMB_WORK_SLEEP },
                  { pl_run_sleep, PLUMB_WORK_SLEEP },    { pl_run_continuous, PLUMB_WORK_STOPS },
                  { pl_run_edges, PLUMB_WORK_SYSTEMS },  { pl_run_breaking, PLUMB_WORK_SYSTEMS },
                  { pl_run_burning, PLUMB_WORK_FORCES } };

@@ -9,6 +9,7 @@
 #include "effects/effects.h"
 #include "event/event.h"
 #include "internal_edges/internal_edges.h"
+#include "air/air.h"
 #include "liquid/liquid.h"
 #include "narrow/ahead.h"
 #include "sleep/sleep.h"
@@ -295,6 +296,7 @@ static plumb_result try_step(plumb_world *world, plumb_real dt)
 static void undo_step(plumb_world *world)
 {
     pl_sleep_undo_open(world);
+    pl_air_undo(world);
     pl_liquid_undo(world);
     pl_characters_undo(world);
     pl_sleep_undo_close(world);

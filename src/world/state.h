@@ -11,6 +11,7 @@
 #include "plumb/event.h"
 #include "plumb/query.h"
 #include "world/columns.h"
+#include "world/tables/air.h"
 #include "world/tables/broad.h"
 #include "world/tables/character.h"
 #include "world/tables/continuous.h"
@@ -124,6 +125,7 @@ struct plumb_world {
     pl_joints joints;
     pl_characters characters;
     pl_liquid liquid;
+    pl_air air;
     pl_laws laws;
     pl_fracture fracture;
     pl_schedule schedule;

@@ -93,9 +93,15 @@ typedef struct pl_liquid_link {
     near_real arm;  // [m] about the body's centre: a turn of 1 rad/s moves it so fast along the normal
 } pl_liquid_link;
 
+// A face across which a grid goes on at its other side.
+typedef struct pl_liquid_seam {
+    uint32_t a, b;  // rows
+    near_real open; // 0..1
+} pl_liquid_seam;
+
 // A convex piece near the liquid, in cells from the origin of the world.
 typedef struct pl_liquid_solid {
-    uint32_t piece, body; // body: of the list above; PL_NONE: static
+    uint32_t piece, body; // body: of the list above; PL_NONE: static. piece: PL_NONE, it stays where it is
     int count;            // corners
     bool thin;            // less than a cell across
     double radius, width; // cells
@@ -137,6 +143,9 @@ typedef struct pl_liquid_grid {
     double *sums;                          // parts of totals
     pl_liquid_body *bodies;
     pl_liquid_link *links;
+    pl_liquid_seam *seams;
+    uint32_t seam_count;
+    double drag; // [kg] above 0: viscosity drags bodies, density times the square of a cell's side
     pl_liquid_solid *solids;
     uint32_t *tile_solids;
 #define PL_LIQUID_DECLARE(type, name) type *name;

@@ -1,0 +1,78 @@
+// air.h - the kernels of the air, and what the step calls.
+#ifndef PL_AIR_H
+#define PL_AIR_H
+
+#include "liquid/liquid.h"
+#include "world/state.h"
+
+#define PL_AIR_SPEED 1e4 // [m/s] of air, at most
+#define PL_AIR_MOST  1e6 // of smoke, and of heat [K] either way
+
+// Of an image: defaults are resolved in it.
+bool pl_air_desc_is_sound(const plumb_air_desc *desc);
+bool pl_air_source_is_sound(const plumb_air_source *source);
+bool pl_air_cell_is_sound(const plumb_air_cell *cell);
+// Does not write to the scratch: of a copy of the air it tells what would be freed (api/memory_rows.c).
+void pl_air_free(pl_memory *memory, pl_air *air);
+
+// The box in cells: its lowest, and how many there are.
+typedef struct pl_air_extent {
+    int32_t low_x, low_y, columns, rows;
+} pl_air_extent;
+
+// Of a descriptor with a cell above 0, within the ranges of the API.
+pl_air_extent pl_air_extent_of(const plumb_air_desc *desc);
+
+// Place of the cell (i, j) of the box in the columns of the scratch.
+static inline size_t pl_air_at(const pl_air_scratch *s, int32_t i, int32_t j)
+{
+    return (size_t)(j + PL_AIR_GHOSTS) * s->stride + (size_t)(i + PL_AIR_GHOSTS);
+}
+
+//---- cells.c -------------------------------------------------------------------------------------
+
+// Room for the columns. False when out of memory.
+bool pl_air_make_columns(pl_memory *memory, pl_air_scratch *scratch, pl_air_extent extent);
+// From cells to columns, and back.
+void pl_air_load(pl_air_scratch *scratch, const plumb_air_cell *cells, double fastest);
+void pl_air_store(const pl_air_scratch *scratch, plumb_air_cell *cells);
+// Velocities between the columns and the grid of pressures.
+void pl_air_to_grid(pl_air_scratch *scratch);
+void pl_air_from_grid(pl_air_scratch *scratch);
+
+//---- sides.c -------------------------------------------------------------------------------------
+
+// Walls at sides that are closed, or flow, as solids of the grid. False when out of memory.
+bool pl_air_add_sides(pl_memory *memory, pl_air_scratch *scratch, const plumb_air_desc *desc);
+// The tiles of the box, their cells, those at periodic sides joined to one another. False when out of memory.
+bool pl_air_make_grid(pl_memory *memory, pl_air_scratch *scratch, const plumb_air_desc *desc);
+// Behind pl_liquid_plan: what lies across periodic sides. False when out of memory.
+bool pl_air_make_seams(pl_memory *memory, pl_air_scratch *scratch, const plumb_air_desc *desc);
+// Takes from what flows into cells that no way joins to open sides what is too much in all.
+bool pl_air_balance(pl_memory *memory, pl_air_scratch *scratch);
+
+//---- carry.c -------------------------------------------------------------------------------------
+
+// How open faces are, how much room cells have, how fast solids fill them: from the grid.
+void pl_air_find_room(pl_air_scratch *scratch, const plumb_air_desc *desc);
+// Fluxes of the velocities as they are.
+void pl_air_find_fluxes(pl_air_scratch *scratch, const plumb_air_desc *desc);
+// Carries with the fluxes for dt [s]; cells are h [m].
+void pl_air_carry_velocities(pl_air_scratch *scratch, const plumb_air_desc *desc, pl_tasks *tasks,
+                             double dt, double h);
+void pl_air_carry_scalars(pl_air_scratch *scratch, const plumb_air_desc *desc, pl_tasks *tasks,
+                          double dt, double h);
+
+//---- sources.c -----------------------------------------------------------------------------------
+
+// Smoke and heat of sources, and what fades, in dt.
+void pl_air_feed(const plumb_world *world, pl_air_scratch *scratch, double dt);
+// Fans, and heat that rises.
+void pl_air_drive(const plumb_world *world, pl_air_scratch *scratch, double dt);
+
+//---- step.c --------------------------------------------------------------------------------------
+
+// The step was refused: forces on bodies as before it.
+void pl_air_undo(plumb_world *world);
+
+#endif
