@@ -118,6 +118,10 @@ typedef void plumb_air_fill_fn(void *context, plumb_vec2 at, plumb_air_sample *s
 /// Errors: E_NULL, E_STATE (there is no air), E_LOCKED.
 PLUMB_API plumb_result plumb_air_fill(plumb_world *world, plumb_air_fill_fn *fill, void *context);
 
+/// Sets all cells of the box as plumb_air_cells has them. Errors: E_NULL, E_STATE (there is no air), E_RANGE (not as many as
+/// there are; a number beyond what it may be), E_NOT_FINITE, E_LOCKED; then they are as before.
+PLUMB_API plumb_result plumb_air_set_cells(plumb_world *world, const plumb_air_cell *cells,
+                                           int count);
 /// The box with its cells. Errors: E_NULL, E_STATE (there is no air).
 PLUMB_API plumb_result plumb_air_cells(const plumb_world *world, plumb_air_box *box);
 /// Between cells, at a place [m]; nothing outside of the box, or without air.

@@ -4,19 +4,20 @@
 // side with two slopes, (b + 2 a) / 6 with a the slope behind and b the one across: of third order where it is smooth
 // (van Leer's kappa = 1/3). Of smoke and heat it is limited (Koren 1993), so that none is below 0, or above what there was;
 // velocities have no limit, which would flatten their peaks. Time by Heun's method, in as many parts as keep what leaves a
-// cell below half of what is in it: of second order, stable at any speed.
+// cell in one well below what is in it: of second order, stable at any speed.
 //
 // A cell that solids cut has the room that is left, and at least as much as its faces are open, or it would be emptied
 // in no time. Where moving solids fill it, what is in it stays as thick. Cells of velocities are those of
 // faces, half of each cell beside; they take from the fluxes what these leave behind, so that even flow stays even.
 //
-// Reads: velocities, openness. Writes: what is carried. Cost: O(cells x parts): 2 x 4 faces a cell.
+// Reads: velocities, openness. Writes: what is carried. Cost: O(cells x parts).
 #include "air/air.h"
 
 #include <math.h>
 #include <string.h>
 
-#define MOST_LEAVES 0.5 // of what is in a cell, in a part
+#define MOST_MOVES  0.75 // of a cell, in a part, by velocities: beyond 0.87 it would not be stable
+#define MOST_LEAVES 0.5  // likewise of smoke: beyond that there might be less than none
 #define MOST_PARTS  64
 #define LEAST       16 // lines that are worth a thread
 #define HALF        ((near_real)0.5)
@@ -95,15 +96,15 @@ static outside outside_of_scalars(const plumb_air_desc *d)
     return o;
 }
 
-// What blows in has the velocity that it has outside.
+// What blows in has the velocity that it has outside, what comes in at an open side none: so it is sucked in by half the square
+// of its speed, as Bernoulli says, and brings no energy.
 static outside outside_of_velocity(const plumb_air_desc *d, near_real flow)
 {
-    outside o = outside_of(d);
-    o.left = o.right = o.bottom = o.top = flow;
-    o.gives[0] = d->left == PLUMB_AIR_FLOW;
-    o.gives[1] = d->right == PLUMB_AIR_FLOW;
-    o.gives[2] = d->bottom == PLUMB_AIR_FLOW;
-    o.gives[3] = d->top == PLUMB_AIR_FLOW;
+    outside o = outside_of_scalars(d);
+    o.left = d->left == PLUMB_AIR_FLOW ? flow : 0;
+    o.right = d->right == PLUMB_AIR_FLOW ? flow : 0;
+    o.bottom = d->bottom == PLUMB_AIR_FLOW ? flow : 0;
+    o.top = d->top == PLUMB_AIR_FLOW ? flow : 0;
     return o;
 }
 
@@ -177,6 +178,7 @@ void pl_air_find_fluxes(pl_air_scratch *s, const plumb_air_desc *d)
 typedef struct load {
     pl_air_scratch *s;
     span n;
+    const near_real *flux_x, *flux_y;
     const near_real *from;
     near_real *to;
     const near_real *moves; // 0: this one stays; NULL: all move
@@ -199,60 +201,88 @@ static inline near_real limited(near_real behind, near_real here, near_real ahea
     return a * b > 0 ? here + (b < 0 ? -add : add) : here;
 }
 
-// The value that goes through the lower side of k across `way`, whose flux is f.
-static inline near_real through(const near_real *q, size_t k, ptrdiff_t way, near_real f)
+// The value that goes through the lower side of a cell across `way`, times its flux f.
+static inline near_real through(const near_real *at, ptrdiff_t way, near_real f)
 {
-    const near_real *at = q + k;
-    return f > 0 ? smooth(at[-2 * way], at[-way], at[0]) : smooth(at[way], at[0], at[-way]);
+    const near_real up = smooth(at[-2 * way], at[-way], at[0]);
+    const near_real down = smooth(at[way], at[0], at[-way]);
+    return f * (f > 0 ? up : down);
 }
 
 // Of smoke: nothing is known behind a wall.
-static inline near_real through_limited(const near_real *q, const near_real *flux, size_t k,
-                                        ptrdiff_t way)
+static inline near_real through_limited(const near_real *at, const near_real *f, ptrdiff_t way)
 {
-    const near_real *at = q + k, *f = flux + k;
-    return f[0] > 0 ? limited(f[-way] != 0 ? at[-2 * way] : at[-way], at[-way], at[0])
-                    : limited(f[way] != 0 ? at[way] : at[0], at[0], at[-way]);
+    const near_real up = limited(f[-way] != 0 ? at[-2 * way] : at[-way], at[-way], at[0]);
+    const near_real down = limited(f[way] != 0 ? at[way] : at[0], at[0], at[-way]);
+    return f[0] * (f[0] > 0 ? up : down);
 }
 
-static void carry_velocity_line(const load *l, int32_t j)
+// All that goes through the lower sides of cells and those at their left, the last of a line and of all lines too.
+static void flow_lines(void *context, uint32_t first, uint32_t count)
 {
+    const load *l = context;
     const pl_air_scratch *s = l->s;
     const ptrdiff_t up = (ptrdiff_t)s->stride;
-    const near_real *q = l->from, *fx = s->across_x, *fy = s->across_y;
-    for (int32_t i = 0; i < l->n.columns; ++i) {
-        const size_t k = pl_air_at(s, i, j), above = k + s->stride;
-        const near_real sum = fx[k + 1] - fx[k] + fy[above] - fy[k];
-        const near_real out =
-            fx[k + 1] * through(q, k + 1, 1, fx[k + 1]) - fx[k] * through(q, k, 1, fx[k]) +
-            fy[above] * through(q, above, up, fy[above]) - fy[k] * through(q, k, up, fy[k]);
-        const near_real more = l->step * s->share[k] * (q[k] * sum - out);
-        l->to[k] = q[k] + (l->moves[k] > 0 ? more : 0);
+    const int32_t n = l->n.columns + 1;
+    for (int32_t j = (int32_t)first; j < (int32_t)(first + count); ++j) {
+        const size_t line = pl_air_at(s, 0, j);
+        const near_real *q = l->from + line, *fx = l->flux_x + line, *fy = l->flux_y + line;
+        near_real *restrict x = s->flow_x + line, *restrict y = s->flow_y + line;
+        if (l->limited) {
+            for (int32_t i = 0; i < n; ++i) {
+                x[i] = through_limited(q + i, fx + i, 1);
+            }
+            for (int32_t i = 0; i < n; ++i) {
+                y[i] = through_limited(q + i, fy + i, up);
+            }
+        } else {
+            for (int32_t i = 0; i < n; ++i) {
+                x[i] = through(q + i, 1, fx[i]);
+            }
+            for (int32_t i = 0; i < n; ++i) {
+                y[i] = through(q + i, up, fy[i]);
+            }
+        }
     }
 }
 
-static void carry_scalar_line(const load *l, int32_t j)
+static void move_velocities(const load *l, size_t line)
 {
     const pl_air_scratch *s = l->s;
-    const ptrdiff_t up = (ptrdiff_t)s->stride;
-    const near_real *q = l->from, *fx = s->flux_u, *fy = s->flux_v;
+    const size_t up = s->stride;
+    const near_real *q = l->from + line, *fx = l->flux_x + line, *fy = l->flux_y + line;
+    const near_real *x = s->flow_x + line, *y = s->flow_y + line, *share = s->share + line;
+    const near_real *open = l->moves + line;
+    near_real *restrict to = l->to + line;
     for (int32_t i = 0; i < l->n.columns; ++i) {
-        const size_t k = pl_air_at(s, i, j), above = k + s->stride;
-        const near_real out =
-            fx[k + 1] * through_limited(q, fx, k + 1, 1) - fx[k] * through_limited(q, fx, k, 1) +
-            fy[above] * through_limited(q, fy, above, up) - fy[k] * through_limited(q, fy, k, up);
-        l->to[k] = q[k] - l->step * s->share[k] * (out + q[k] * s->filled[k]);
+        const near_real sum = fx[i + 1] - fx[i] + fy[(size_t)i + up] - fy[i];
+        const near_real out = x[i + 1] - x[i] + y[(size_t)i + up] - y[i];
+        const near_real more = l->step * share[i] * (q[i] * sum - out);
+        to[i] = q[i] + (open[i] > 0 ? more : 0);
     }
 }
 
-static void carry_lines(void *context, uint32_t first, uint32_t count)
+static void move_scalars(const load *l, size_t line)
+{
+    const pl_air_scratch *s = l->s;
+    const size_t up = s->stride;
+    const near_real *q = l->from + line, *x = s->flow_x + line, *y = s->flow_y + line;
+    const near_real *share = s->share + line, *filled = s->filled + line;
+    near_real *restrict to = l->to + line;
+    for (int32_t i = 0; i < l->n.columns; ++i) {
+        const near_real out = x[i + 1] - x[i] + y[(size_t)i + up] - y[i];
+        to[i] = q[i] - l->step * share[i] * (out + q[i] * filled[i]);
+    }
+}
+
+static void move_lines(void *context, uint32_t first, uint32_t count)
 {
     const load *l = context;
     for (int32_t j = (int32_t)first; j < (int32_t)(first + count); ++j) {
         if (l->limited) {
-            carry_scalar_line(l, j);
+            move_scalars(l, pl_air_at(l->s, 0, j));
         } else {
-            carry_velocity_line(l, j);
+            move_velocities(l, pl_air_at(l->s, 0, j));
         }
     }
 }
@@ -267,20 +297,22 @@ static void add_halves(const pl_air_scratch *s, near_real *q, const near_real *l
     }
 }
 
+static void go_on(load *l, near_real *from, near_real *to, const outside *o, pl_tasks *tasks)
+{
+    fill_ghosts(l->s, from, l->n, o);
+    l->from = from;
+    l->to = to;
+    pl_tasks_ranges(tasks, (uint32_t)l->n.lines + 1, LEAST, flow_lines, l);
+    pl_tasks_ranges(tasks, (uint32_t)l->n.lines, LEAST, move_lines, l);
+}
+
 // Heun: the mean of what was, and of two parts further on.
 static void carry(load l, near_real *q, const outside *o, pl_tasks *tasks, int parts)
 {
-    pl_air_scratch *s = l.s;
     for (int part = 0; part < parts; ++part) {
-        fill_ghosts(s, q, l.n, o);
-        l.from = q;
-        l.to = s->first;
-        pl_tasks_ranges(tasks, (uint32_t)l.n.lines, LEAST, carry_lines, &l);
-        fill_ghosts(s, s->first, l.n, o);
-        l.from = s->first;
-        l.to = s->second;
-        pl_tasks_ranges(tasks, (uint32_t)l.n.lines, LEAST, carry_lines, &l);
-        add_halves(s, q, s->second, l.n);
+        go_on(&l, q, l.s->first, o, tasks);
+        go_on(&l, l.s->first, l.s->second, o, tasks);
+        add_halves(l.s, q, l.s->second, l.n);
     }
 }
 
@@ -313,11 +345,11 @@ typedef struct stride {
     near_real step;
 } stride;
 
-static stride stride_of(const pl_air_scratch *s, double dt, double h)
+static stride stride_of(const pl_air_scratch *s, double dt, double h, double most)
 {
-    const double speed = fastest(s), parts = speed * dt / h / MOST_LEAVES;
+    const double speed = fastest(s), parts = speed * dt / h / most;
     if (parts > MOST_PARTS) {
-        return (stride){ MOST_PARTS, (near_real)(MOST_LEAVES / speed) };
+        return (stride){ MOST_PARTS, (near_real)(most / speed) };
     }
     const int count = (int)ceil(parts);
     return (stride){ count, (near_real)(count > 0 ? dt / h / count : 0) };
@@ -341,11 +373,11 @@ static void find_across(pl_air_scratch *s, span n, bool upright)
 void pl_air_carry_velocities(pl_air_scratch *s, const plumb_air_desc *d, pl_tasks *tasks, double dt,
                              double h)
 {
-    const stride way = stride_of(s, dt, h);
+    const stride way = stride_of(s, dt, h, MOST_MOVES);
     if (way.parts == 0) {
         return;
     }
-    load l = { .s = s, .step = way.step };
+    load l = { .s = s, .flux_x = s->across_x, .flux_y = s->across_y, .step = way.step };
     outside o = outside_of_velocity(d, (near_real)d->flow.x);
     l.n = (span){ s->columns_x + 1, s->columns_y };
     l.moves = s->open_u;
@@ -374,7 +406,7 @@ static bool is_all_zero(const pl_air_scratch *s, const near_real *q)
 void pl_air_carry_scalars(pl_air_scratch *s, const plumb_air_desc *d, pl_tasks *tasks, double dt,
                           double h)
 {
-    const stride way = stride_of(s, dt, h);
+    const stride way = stride_of(s, dt, h, MOST_LEAVES);
     const outside o = outside_of_scalars(d);
     near_real *const all[] = { s->smoke, s->heat };
     const span n = { s->columns_x, s->columns_y };
@@ -389,7 +421,12 @@ void pl_air_carry_scalars(pl_air_scratch *s, const plumb_air_desc *d, pl_tasks *
     }
     for (int i = 0; i < 2; ++i) {
         if (!is_all_zero(s, all[i])) {
-            const load l = { .s = s, .n = n, .step = way.step, .limited = true };
+            const load l = { .s = s,
+                             .n = n,
+                             .flux_x = s->flux_u,
+                             .flux_y = s->flux_v,
+                             .step = way.step,
+                             .limited = true };
             carry(l, all[i], &o, tasks, way.parts);
         }
     }

@@ -343,6 +343,32 @@ plumb_result plumb_air_fill(plumb_world *world, plumb_air_fill_fn *fill, void *c
     return PLUMB_OK;
 }
 
+static plumb_result check_cell(const plumb_world *world, const char *fn, const plumb_air_cell *c)
+{
+    PL_TRY(pl_check_range(world, fn, "u", c->u, -SPEED_MOST, SPEED_MOST));
+    PL_TRY(pl_check_range(world, fn, "v", c->v, -SPEED_MOST, SPEED_MOST));
+    PL_TRY(pl_check_range(world, fn, "smoke", c->smoke, 0, MOST_AMOUNT));
+    PL_TRY(pl_check_range(world, fn, "heat", c->heat, -MOST_AMOUNT, MOST_AMOUNT));
+    return pl_check_range(world, fn, "room", c->room, 0, 1);
+}
+
+plumb_result plumb_air_set_cells(plumb_world *world, const plumb_air_cell *cells, int count)
+{
+    PL_TRY(check_air(world, __func__));
+    PL_TRY(pl_check_unlocked(world, __func__));
+    PL_TRY(pl_check_pointer(world, __func__, "cells", cells));
+    pl_air *air = &world->air;
+    if (count < 0 || (uint32_t)count != air->cell_count) {
+        return pl_fail(world, PLUMB_E_RANGE, __func__, "count is %d; it must be %u", count,
+                       (unsigned)air->cell_count);
+    }
+    for (int i = 0; i < count; ++i) {
+        PL_TRY(check_cell(world, __func__, &cells[i]));
+    }
+    memmove(air->cells.data, cells, air->cell_count * sizeof *cells);
+    return PLUMB_OK;
+}
+
 static plumb_air_box box_of(const plumb_world *world)
 {
     const plumb_air_desc *d = pl_air_desc(&world->air);

@@ -272,6 +272,7 @@ const engine_api ENGINE_NAME = {
     .bounds = pl_stage_bounds,
     .draw = pl_stage_draw,
     .draw_field = pl_stage_draw_field,
+    .draw_flow = pl_stage_draw_flow,
     .replay_open = pl_replay_session_open,
     .replay_close = pl_replay_session_close,
     .replay_info = pl_replay_session_info,

@@ -345,13 +345,78 @@ static bool add_liquid(engine_stage *stage, render_frame *frame)
     return true;
 }
 
+/// Into solids, as far as a cell and a half: so that smoke goes on under bodies, not ends before them.
+static void spread_smoke(const plumb_air_box *box, render_vec *points, bool *known)
+{
+    const int nx = box->columns, ny = box->rows;
+    for (int sweep = 0; sweep < 2; sweep++) {
+        for (int k = 0; k < nx * ny; k++) {
+            const int i = k % nx, j = k / nx;
+            render_vec sum = { 0, 0 };
+            int count = 0;
+            for (int n = 0; n < 4 && !known[k]; n++) {
+                const int x = i + (n == 0) - (n == 1), y = j + (n == 2) - (n == 3);
+                if (x >= 0 && y >= 0 && x < nx && y < ny && known[y * nx + x]) {
+                    sum.x += points[y * nx + x].x;
+                    sum.y += points[y * nx + x].y;
+                    count++;
+                }
+            }
+            if (count > 0) {
+                points[k] = (render_vec){ sum.x / count, sum.y / count };
+            }
+        }
+        for (int k = 0; k < nx * ny; k++) {
+            known[k] = known[k] || points[k].x > 0 || points[k].y > 0;
+        }
+    }
+}
+
+enum { GLOW = 400 }; ///< [K] at which air glows
+
+static bool add_air(engine_stage *stage, render_frame *frame)
+{
+    plumb_air_box box;
+    const scene_air looks =
+        stage->scene != NULL ? scene_get_air(stage->scene) : (scene_air){ .palette = -1 };
+    if (plumb_air_cells(stage->world, &box) != PLUMB_OK || looks.hidden) {
+        return true;
+    }
+    const size_t count = (size_t)box.columns * (size_t)box.rows;
+    render_vec *points = malloc(count * sizeof *points);
+    bool *known = malloc(count * sizeof *known);
+    bool any = false;
+    for (size_t k = 0; k < count && points != NULL && known != NULL; k++) {
+        const size_t i = k % (size_t)box.columns, j = k / (size_t)box.columns;
+        const plumb_air_cell *c = &box.at[j * (size_t)(box.columns + 1) + i];
+        known[k] = (double)c->room > 0.3;
+        const double heat = (double)c->heat / GLOW;
+        points[k] = known[k] ? (render_vec){ (double)c->smoke, heat > 0 ? heat : 0 }
+                             : (render_vec){ 0, 0 };
+        any = any || points[k].x > 0 || points[k].y > 0;
+    }
+    const bool good = points != NULL && known != NULL;
+    if (good && any) {
+        const render_vec low = { (double)box.low.x, (double)box.low.y };
+        const render_rgba color =
+            looks.palette >= 0
+                ? render_palette(looks.palette)
+                : (render_rgba){ looks.color.r, looks.color.g, looks.color.b, looks.color.a };
+        spread_smoke(&box, points, known);
+        render_add_smoke(frame, low, (double)box.cell, box.columns, points, count, color);
+    }
+    free(known);
+    free(points);
+    return good;
+}
+
 int pl_stage_draw(engine_stage *stage, struct render_frame *frame, unsigned show)
 {
     int count = pl_stage_body_count(stage);
     bool good = true, names = wants_names(stage, show);
     plumb_world_desc world = plumb_world_settings(stage->world);
     render_frame_set_period(frame, (double)world.wrap_x, (double)world.wrap_y);
-    good = add_liquid(stage, frame);
+    good = add_liquid(stage, frame) && add_air(stage, frame);
     // What does not move lies behind what does.
     for (int layer = 0; layer < 2; layer++) {
         for (int i = 0; i < count && good; i++) {

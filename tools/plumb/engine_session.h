@@ -87,6 +87,7 @@ int pl_stage_rows(engine_stage *stage, const engine_row **rows);
 void pl_stage_bounds(const engine_stage *stage, const engine_box *home, engine_box *moving,
                      engine_box *fixed);
 int pl_stage_draw(engine_stage *stage, struct render_frame *frame, unsigned show);
+int pl_stage_draw_flow(engine_stage *stage, struct render_frame *frame, const engine_box *view);
 int pl_stage_draw_field(engine_stage *stage, struct render_frame *frame, const engine_box *view);
 /// Bodies and joints as scene.h tells them.
 int pl_stage_body_count(const engine_stage *stage);

@@ -33,6 +33,8 @@ static const word_run runs[] = {
     { "events", "on_break, on_strain", &sc_list_break, 1, PLUMB_TABLE_COUNT },
     { "effects", NULL, &sc_list_blast, 1, PLUMB_TABLE_COUNT },
     { "effects", NULL, &sc_list_liquid, 1, PLUMB_TABLE_COUNT },
+    { "effects", NULL, &sc_list_air, 1, PLUMB_TABLE_COUNT },
+    { "effects", NULL, &sc_list_source, 1, PLUMB_TABLE_COUNT },
     { "effects", NULL, sc_list_laws, SC_LAW_KINDS, PLUMB_TABLE_COUNT },
     { "effects", NULL, &sc_list_orbits, 1, PLUMB_TABLE_COUNT },
     { "effects", NULL, &sc_list_field, 1, PLUMB_TABLE_COUNT },

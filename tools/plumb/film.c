@@ -27,6 +27,7 @@ static const struct {
     { "aabbs", RENDER_SHOW_AABBS },
     { "cells", RENDER_SHOW_CELLS },
     { "field", RENDER_SHOW_FIELD },
+    { "flow", RENDER_SHOW_FLOW },
     { "joints", RENDER_SHOW_JOINTS },
     { "surfaces", RENDER_SHOW_SURFACES },
     { "grid", RENDER_SHOW_GRID },
@@ -204,16 +205,21 @@ static void write_caption(const engine_scenery *of, char *text, size_t size)
              scores[0] != '\0' ? "   " : "", scores);
 }
 
-/// Arrows of the field, where they are wanted.
+/// Arrows of the field, the flow of the air, where they are wanted.
 static int draw_field(film *f, const render_camera *camera)
 {
     const engine_scenery *of = &f->source->seen;
     const double high = camera->view_height / 2, wide = high * f->size.width / f->size.height;
     const engine_box box = { camera->center.x - wide, camera->center.y - high,
                              camera->center.x + wide, camera->center.y + high };
-    return (f->args->show & RENDER_SHOW_FIELD) == 0
-               ? CLI_OK
-               : of->engine->draw_field(of->stage, f->frame, &box);
+    int code = CLI_OK;
+    if ((f->args->show & RENDER_SHOW_FIELD) != 0) {
+        code = of->engine->draw_field(of->stage, f->frame, &box);
+    }
+    if (code == CLI_OK && (f->args->show & RENDER_SHOW_FLOW) != 0) {
+        code = of->engine->draw_flow(of->stage, f->frame, &box);
+    }
+    return code;
 }
 
 static int draw(film *f)

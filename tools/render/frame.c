@@ -390,6 +390,33 @@ render_result render_add_liquid(render_frame *frame, const render_vec *points, s
     return add_path(frame, mark, points, count, 1);
 }
 
+render_result render_add_smoke(render_frame *frame, render_vec low, double cell, int columns,
+                               const render_vec *points, size_t count, render_rgba color)
+{
+    if (!(cell > 0) || columns < 1 || count % (size_t)columns != 0) {
+        return note(frame, RENDER_E_ARGUMENT);
+    }
+    if (!finite2(low.x, low.y)) {
+        return note(frame, RENDER_E_NOT_FINITE);
+    }
+    const plr_mark mark = {
+        .kind = PLR_SMOKE, .variant = columns, .a = low, .value = cell, .color = color
+    };
+    return add_path(frame, mark, points, count, 1);
+}
+
+render_result render_add_flow(render_frame *frame, const render_vec *points, size_t count,
+                              double speed, double share)
+{
+    if (!(share >= 0.0 && share <= 1.0)) {
+        return note(frame, RENDER_E_ARGUMENT);
+    }
+    const plr_mark mark = { .kind = PLR_FLOW,
+                            .variant = (int)(255.0 * share + 0.5),
+                            .value = speed };
+    return add_path(frame, mark, points, count, 2);
+}
+
 render_result render_add_joint(render_frame *frame, const render_joint *joint)
 {
     const render_joint *j = joint;

@@ -153,6 +153,7 @@ static int legend_rows(const plr_painter *painter, legend_row *rows)
         { RENDER_SHOW_VELOCITIES, PLR_VELOCITY, "velocity", "m/s" },
         { RENDER_SHOW_SURFACES, PLR_SURFACE, "running surface", NULL },
         { RENDER_SHOW_FIELD, PLR_FIELD, "field", NULL },
+        { RENDER_SHOW_FLOW, PLR_FLOW, "flow", NULL },
         { RENDER_SHOW_TRAILS, PLR_TRAIL, "trail", NULL },
         { RENDER_SHOW_AABBS, PLR_AABB, "bounding box", NULL },
         { RENDER_SHOW_CELLS, PLR_CELL, "grid cell in use", NULL },
@@ -166,13 +167,14 @@ static int legend_rows(const plr_painter *painter, legend_row *rows)
         legend_row *row = &rows[count++];
         row->kind = kind;
         row->joint = NULL;
-        if (kind == PLR_FIELD) {
+        if (kind == PLR_FIELD || kind == PLR_FLOW) {
             double most = 0.0;
             for (size_t k = 0; k < painter->frame->mark_count; k++) {
                 const plr_mark *mark = &painter->frame->marks[k];
-                most = mark->kind == PLR_FIELD ? fmax(most, mark->value) : most;
+                most = mark->kind == kind ? fmax(most, mark->value) : most;
             }
-            snprintf(row->text, sizeof row->text, "%s, up to %.3g m/s²", entries[i].name, most);
+            snprintf(row->text, sizeof row->text, "%s, up to %.3g %s", entries[i].name, most,
+                     kind == PLR_FIELD ? "m/s²" : "m/s");
         } else if (entries[i].quantity != NULL) {
             snprintf(row->text, sizeof row->text, "%s: 1 %s = %g %s", entries[i].name,
                      entries[i].quantity, plr_arrow_scale(painter, kind), painter->options.unit);

@@ -64,7 +64,9 @@ typedef enum plr_mark_kind {
     PLR_CELL,
     PLR_TRAIL,
     PLR_LIQUID,
+    PLR_SMOKE,
     PLR_FIELD,
+    PLR_FLOW,
     PLR_SURFACE,
     PLR_TEXT,
     PLR_MARK_KINDS
@@ -73,12 +75,14 @@ typedef enum plr_mark_kind {
 /// One overlay mark: two points or vectors, or a run of points (trail), or a text.
 typedef struct plr_mark {
     plr_mark_kind kind;
-    int variant; ///< anchor, palette index, share of 255 of a field, or whether a surface is closed
+    int variant; ///< anchor, palette index, share of 255 of a field or flow, columns of smoke, or whether a surface is
+                 ///< closed
     render_vec a;
     render_vec b;
     double
-        value; ///< depth of a contact; travel of a surface; spacing of a liquid; strength of a field
-    render_rgba color;  ///< liquid
+        value; ///< depth of a contact; travel of a surface; spacing of a liquid; strength of a field, of a
+               ///< flow; side of a cell of smoke
+    render_rgba color;  ///< liquid, smoke
     size_t first_point; ///< trail, surface
     size_t point_count; ///< trail, surface
     size_t text;        ///< offset into frame->text
@@ -277,6 +281,8 @@ void plr_group_destroy(plr_group *group);
 
 /// Liquids, which lie under everything but the grid (liquid.c).
 void plr_draw_liquids(plr_painter *painter);
+/// Smoke and heat, above these (smoke.c).
+void plr_draw_smoke(plr_painter *painter);
 /// Trails, which lie under the bodies; cells and boxes (overlay.c).
 void plr_draw_underlay(plr_painter *painter);
 /// Surfaces, boxes, contacts, arrows.

@@ -15,6 +15,8 @@ static const render_rgba aabb_color = { 0x7a, 0x5c, 0xa8, 0xff };
 static const render_rgba cell_color = { 0x2f, 0x95, 0x7a, 0xff };
 static const render_rgba field_weak = { 0xb9, 0xc9, 0xd6, 0xff };
 static const render_rgba field_strong = { 0x8a, 0x2f, 0x73, 0xff };
+static const render_rgba flow_slow = { 0x8f, 0xa8, 0xbc, 0xff };
+static const render_rgba flow_fast = { 0x0d, 0x4f, 0x8b, 0xff };
 static const render_rgba surface_color = { 0xf0, 0x9a, 0x3e, 0xff };
 
 // The longest arrow is at most this share of the picture's height under automatic scale.
@@ -55,6 +57,21 @@ double plr_arrow_scale(const plr_painter *painter, plr_mark_kind kind)
 }
 
 // ---- below the bodies
+
+// From where it was, where it is nothing, to where it is.
+static void draw_flow(plr_painter *painter, const plr_mark *mark)
+{
+    enum { most = 32 };
+    render_vec points[most];
+    const size_t n = mark->point_count < most ? mark->point_count : most;
+    for (size_t i = 0; i < n; i++) {
+        points[i] = plr_pixel(painter, painter->frame->points[mark->first_point + i]);
+    }
+    const double share = mark->variant / 255.0;
+    const render_rgba color = plr_mix(flow_slow, flow_fast, share);
+    plr_stroke(painter, points, n, false, 1.6 * painter->ui, plr_fade(color, 0.0),
+               plr_fade(color, 0.45 + 0.5 * share));
+}
 
 static void draw_trail(plr_painter *painter, const plr_mark *mark)
 {
@@ -113,6 +130,7 @@ static void draw_field(plr_painter *painter, const plr_mark *mark)
 void plr_draw_underlay(plr_painter *painter)
 {
     const bool field = visible(painter, PLR_FIELD, RENDER_SHOW_FIELD);
+    const bool flow = visible(painter, PLR_FLOW, RENDER_SHOW_FLOW);
     const bool cells = visible(painter, PLR_CELL, RENDER_SHOW_CELLS);
     const bool trails = visible(painter, PLR_TRAIL, RENDER_SHOW_TRAILS);
     const render_frame *frame = painter->frame;
@@ -125,6 +143,11 @@ void plr_draw_underlay(plr_painter *painter)
     for (size_t i = 0; field && i < frame->mark_count; i++) {
         if (frame->marks[i].kind == PLR_FIELD) {
             draw_field(painter, &frame->marks[i]);
+        }
+    }
+    for (size_t i = 0; flow && i < frame->mark_count; i++) {
+        if (frame->marks[i].kind == PLR_FLOW) {
+            draw_flow(painter, &frame->marks[i]);
         }
     }
     for (size_t i = 0; trails && i < frame->mark_count; i++) {
@@ -282,7 +305,12 @@ void plr_overlay_sample(plr_painter *painter, plr_mark_kind kind, render_vec mid
         chevron(painter, (render_vec){ middle.x + 0.4 * half, middle.y }, (render_vec){ 1.0, 0.0 },
                 surface_color);
         break;
+    case PLR_FLOW:
+        plr_stroke(painter, (render_vec[2]){ left, right }, 2, false, 2.0 * painter->ui,
+                   plr_fade(flow_fast, 0.0), flow_fast);
+        break;
     case PLR_LIQUID:
+    case PLR_SMOKE:
     case PLR_TEXT:
     case PLR_MARK_KINDS:
         break;

@@ -164,6 +164,13 @@ render_result render_add_cell(render_frame *frame, render_box box);
 /// A liquid of particles, `spacing` > 0 apart at rest: drawn as one body with a surface. Of a colour; a == 0: water.
 render_result render_add_liquid(render_frame *frame, const render_vec *points, size_t count,
                                 double spacing, render_rgba color);
+/// Smoke and heat in cells, `columns` a line from the lower left one on, whose corner is `low`; `cell` > 0 is their side. A
+/// point is smoke (1: half of what is behind it is seen) and heat (1: it glows). Smoke of a colour; a == 0: grey.
+render_result render_add_smoke(render_frame *frame, render_vec low, double cell, int columns,
+                               const render_vec *points, size_t count, render_rgba color);
+/// A piece of a streamline, from where what flows was; coloured by `share`, 0 (slow) to 1, of a speed for the legend.
+render_result render_add_flow(render_frame *frame, const render_vec *points, size_t count,
+                              double speed, double share);
 /// A trail, oldest point first (it fades towards that end), in palette colour `palette`.
 render_result render_add_trail(render_frame *frame, const render_vec *points, size_t count,
                                int palette);
@@ -270,7 +277,8 @@ enum {
     RENDER_SHOW_SPOKES = 1 << 13,   ///< rotation marks of discs
     RENDER_SHOW_NOTHING = 1 << 14,  ///< bodies only (0 means the default)
     RENDER_SHOW_SURFACES = 1 << 15, ///< chevrons on surfaces that run
-    RENDER_SHOW_FIELD = 1 << 16     ///< arrows of a field, below the bodies
+    RENDER_SHOW_FIELD = 1 << 16,    ///< arrows of a field, below the bodies
+    RENDER_SHOW_FLOW = 1 << 17      ///< pieces of streamlines, below the bodies
 };
 /// What a `show` of 0 means.
 #define RENDER_SHOW_DEFAULT                                                                        \

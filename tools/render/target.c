@@ -114,6 +114,7 @@ static void paint(plr_painter *painter)
 {
     plr_draw_grid(painter);
     plr_for_images(painter, plr_draw_liquids);
+    plr_for_images(painter, plr_draw_smoke);
     plr_for_images(painter, plr_draw_underlay);
     plr_for_images(painter, plr_draw_bodies);
     plr_for_images(painter, plr_draw_overlay);

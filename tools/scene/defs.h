@@ -213,6 +213,27 @@ typedef struct sc_liquid_def {
     int shape_count;
 } sc_liquid_def;
 
+/// air{}
+typedef struct sc_air_def {
+    uint64_t present;
+    double at[2], size[2], cell, density, viscosity, temperature, fading, cooling, flow[2];
+    int left, right, bottom, top;
+    sc_color color;
+    bool cells, hidden;
+} sc_air_def;
+
+/// air_source{}
+typedef struct sc_source_def {
+    uint64_t present;
+    double at[2], radius, smoke, heat, push[2];
+    char body[SC_NAME_SIZE];
+} sc_source_def;
+
+typedef struct sc_source {
+    sc_source_def def;
+    int number; ///< its object's
+} sc_source;
+
 /// attractor{}, zone{}, magnetic{}, mutual{}
 typedef enum sc_law_kind {
     SC_ATTRACTOR,

@@ -169,9 +169,9 @@ static const cJSON *elements(scene *s, const cJSON *root, const char *name)
 
 static void check_root(scene *s, const cJSON *root)
 {
-    static const char *const names[] = { "bodies", "camera", "excluded", "expect",    "format",
-                                         "joints", "laws",   "liquid",   "materials", "orbits",
-                                         "pairs",  "scene",  "time" };
+    static const char *const names[] = { "air",    "bodies", "camera", "excluded",  "expect",
+                                         "format", "joints", "laws",   "liquid",    "materials",
+                                         "orbits", "pairs",  "scene",  "sources",   "time" };
     sc_site site = { .construct = "file", .path = "" };
     if (!cJSON_IsObject(root)) {
         sc_raise(s, SCENE_E_TYPE, &site, NULL, 0, NULL, "a scene must be an object {...}");
@@ -397,6 +397,17 @@ void sc_json_load(scene *s)
     const cJSON *liquid = cJSON_GetObjectItemCaseSensitive(root, "liquid");
     if (liquid != NULL) {
         make(s, liquid, "liquid", "liquid", sc_build_liquid);
+        lua_settop(L, 1);
+    }
+    const cJSON *air = cJSON_GetObjectItemCaseSensitive(root, "air");
+    if (air != NULL) {
+        make(s, air, "air", "air", sc_build_air);
+        lua_settop(L, 1);
+    }
+    i = 0;
+    for (const cJSON *item = elements(s, root, "sources"); item != NULL; item = item->next, i++) {
+        snprintf(path, sizeof path, "sources[%d]", i);
+        make(s, item, "air_source", path, sc_build_source);
         lua_settop(L, 1);
     }
     const cJSON *camera = cJSON_GetObjectItemCaseSensitive(root, "camera");

@@ -140,7 +140,8 @@ static void write_axes(writer *w, int axes)
 static bool has_json_form(const sc_field *row)
 {
     return row->kind != SC_FUNCTION &&
-           (row->kind != SC_TABLE || strcmp(row->name, "particles") == 0);
+           (row->kind != SC_TABLE || strcmp(row->name, "particles") == 0 ||
+            strcmp(row->name, "cells") == 0);
 }
 
 static void write_shapes(writer *w, const sc_body *b);
@@ -192,6 +193,23 @@ static void write_particles(writer *w)
                                     (double)p[i].gradient[2], (double)p[i].gradient[3] };
         fputs(i > 0 ? ",\n" : "\n", w->file);
         write_numbers(w, numbers, 8, true);
+    }
+    fputs("\n]", w->file);
+}
+
+// A cell a line: velocities, smoke, heat, room.
+static void write_cells(writer *w)
+{
+    plumb_air_box box;
+    plumb_air_cells(w->s->world, &box);
+    const int count = (box.columns + 1) * (box.rows + 1);
+    fputc('[', w->file);
+    for (int i = 0; i < count; i++) {
+        const double numbers[5] = { (double)box.at[i].u, (double)box.at[i].v,
+                                    (double)box.at[i].smoke, (double)box.at[i].heat,
+                                    (double)box.at[i].room };
+        fputs(i > 0 ? ",\n" : "\n", w->file);
+        write_numbers(w, numbers, 5, true);
     }
     fputs("\n]", w->file);
 }
@@ -269,7 +287,11 @@ static void write_value(writer *w, const sc_field *row, const void *def, const o
         fputc(']', w->file);
         break;
     case SC_TABLE:
-        write_particles(w); // no other table has a JSON form
+        if (strcmp(row->name, "cells") == 0) {
+            write_cells(w);
+        } else {
+            write_particles(w); // no other table has a JSON form
+        }
         break;
     case SC_FUNCTION:
         break;
@@ -487,6 +509,35 @@ static void write_liquid(writer *w)
     fputs(",\n", w->file);
 }
 
+// As it is now.
+static void write_air(writer *w)
+{
+    sc_air_def d = w->s->air;
+    plumb_air_box box;
+    if (w->s->air_line == 0 || plumb_air_cells(w->s->world, &box) != PLUMB_OK) {
+        return;
+    }
+    SC_MARK(&sc_list_air, &d, sc_air_def, cells, true);
+    fputs("\"air\":", w->file);
+    write_object(w, &sc_list_air, &d, NULL, &as_said);
+    fputs(",\n", w->file);
+}
+
+static void write_sources(writer *w)
+{
+    const scene *s = w->s;
+    bool any = false;
+    for (int i = 0; i < s->sources.count; i++) {
+        const sc_source_def *d = &s->sources.items[i].def;
+        if (d->body[0] == 0 || sc_body_named(s, d->body) != NULL) {
+            fputs(any ? ",\n" : "\"sources\":[\n", w->file);
+            write_object(w, &sc_list_source, d, NULL, &as_said);
+            any = true;
+        }
+    }
+    fputs(any ? "\n],\n" : "", w->file);
+}
+
 static void write_laws(writer *w)
 {
     const scene *s = w->s;
@@ -506,7 +557,9 @@ static void write_laws(writer *w)
 bool scene_to_json(const scene *s, FILE *file)
 {
     writer w = { .s = s, .file = file };
-    fputs("{\"bodies\":[\n", file);
+    fputc('{', file);
+    write_air(&w);
+    fputs("\"bodies\":[\n", file);
     for (int i = 0; i < s->bodies.count; i++) {
         fputs(i > 0 ? ",\n" : "", file);
         write_body(s, &w, s->bodies.items[i]);
@@ -531,7 +584,9 @@ bool scene_to_json(const scene *s, FILE *file)
     }
     fputs("\"scene\":", file);
     write_settings(s, &w);
-    fputs(",\n\"time\":", file);
+    fputs(",\n", file);
+    write_sources(&w);
+    fputs("\"time\":", file);
     write_number(&w, scene_time(s), false);
     fputs("}\n", file);
     return ferror(file) == 0;

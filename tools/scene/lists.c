@@ -239,6 +239,41 @@ static const sc_field liquid_rows[] = {
 const sc_list sc_list_liquid = { "liquid", liquid_rows, COUNT(liquid_rows) };
 #undef T
 
+#define T sc_air_def
+#define SIDES "open|closed|periodic|flow"
+static const sc_field air_rows[] = {
+    { "at",          SC_VEC2,   AT(T, at),          -1e6, 1e6, "m", 0, 0 },
+    { "bottom",      SC_CHOICE, AT(T, bottom),      0, 0, SIDES, 0, 0 },
+    { "cell",        SC_NUMBER, AT(T, cell),        1e-4, 1e4, "m", 0, 0 },
+    { "cells",       SC_TABLE,  AT(T, cells),       0, 0, NULL, 0, 0 },
+    { "color",       SC_COLOR,  AT(T, color),       0, 0, NULL, 0, 0 },
+    { "cooling",     SC_NUMBER, AT(T, cooling),     0, 1e6, "1/s", 0, 0 },
+    { "density",     SC_NUMBER, AT(T, density),     1e-9, 1e9, "kg/m^2", 0, 0 },
+    { "fading",      SC_NUMBER, AT(T, fading),      0, 1e6, "1/s", 0, 0 },
+    { "flow",        SC_VEC2,   AT(T, flow),        -1e4, 1e4, "m/s", 0, 0 },
+    { "hidden",      SC_BOOL,   AT(T, hidden),      0, 0, NULL, 0, 0 },
+    { "left",        SC_CHOICE, AT(T, left),        0, 0, SIDES, 0, 0 },
+    { "right",       SC_CHOICE, AT(T, right),       0, 0, SIDES, 0, 0 },
+    { "size",        SC_VEC2,   AT(T, size),        2e-4, 2e6, "m", 0, SC_REQUIRED },
+    { "temperature", SC_NUMBER, AT(T, temperature), 1e-3, 1e6, "K", 0, 0 },
+    { "top",         SC_CHOICE, AT(T, top),         0, 0, SIDES, 0, 0 },
+    { "viscosity",   SC_NUMBER, AT(T, viscosity),   0, 1e9, "m^2/s", 0, 0 },
+};
+const sc_list sc_list_air = { "air", air_rows, COUNT(air_rows) };
+#undef T
+
+#define T sc_source_def
+static const sc_field source_rows[] = {
+    { "at",     SC_VEC2,   AT(T, at),     -1e6, 1e6, "m", 0, 0 },
+    { "body",   SC_BODY,   AT(T, body),   0, 0, NULL, 0, 0 },
+    { "heat",   SC_NUMBER, AT(T, heat),   -1e6, 1e6, "K/s", 0, 0 },
+    { "push",   SC_VEC2,   AT(T, push),   -1e6, 1e6, "m/s^2", 0, 0 },
+    { "radius", SC_NUMBER, AT(T, radius), 0, 1e6, "m", 0, SC_ABOVE },
+    { "smoke",  SC_NUMBER, AT(T, smoke),  -1e6, 1e6, "1/s", 0, 0 },
+};
+const sc_list sc_list_source = { "air_source", source_rows, COUNT(source_rows) };
+#undef T
+
 #define T sc_law_def
 #define ROW_LAW_ANGLE { "angle",     SC_NUMBER,  AT(T, angle),     -FAR, FAR, "rad", 0, 0 }
 #define ROW_LAW_AT    { "at",        SC_VEC2,    AT(T, at),        -FAR, FAR, "m", 0, 0 }

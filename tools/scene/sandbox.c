@@ -221,6 +221,7 @@ static int open_protected(lua_State *L)
     sc_open_body(L);
     sc_open_motion(L);
     sc_open_liquid(L);
+    sc_open_air(L);
     sc_open_laws(L);
     sc_open_characters(L);
     sc_open_queries(L);

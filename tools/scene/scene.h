@@ -207,6 +207,13 @@ typedef struct scene_liquid {
     scene_rgba color;
 } scene_liquid;
 scene_liquid scene_get_liquid(const scene *s);
+/// How air{} wants its smoke drawn: likewise.
+typedef struct scene_air {
+    int palette;
+    scene_rgba color;
+    bool hidden;
+} scene_air;
+scene_air scene_get_air(const scene *s);
 
 /// The counters and the text of the scene in one line, e.g. "left 3   right 2   second half"; "" if
 /// none.

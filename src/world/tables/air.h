@@ -17,6 +17,7 @@
     X(room)                             /* 0..1 of a cell, and at least what its faces are open */    \
     X(filled)                           /* [m/s] by which moving solids fill a cell */                \
     X(across_x) X(across_y)             /* fluxes of what is being carried */                         \
+    X(flow_x) X(flow_y)                 /* what goes through its sides of that */                     \
     X(share)                            /* 1 over its room */                                         \
     X(first) X(second)                  /* what is carried, in the midst of that */
 // clang-format on
