@@ -22,7 +22,7 @@
 #define CELLS_A_PART      8.0 // that air may cross
 #define BODY_CELLS_A_PART 1.0 // that bodies may
 #define MARGIN            2   // cells round the box in which solids are looked for
-#define SOLVE_TO          1e-5
+#define SOLVE_TO          1e-4
 
 bool pl_want_air(const plumb_world *world, const char **reason)
 {
