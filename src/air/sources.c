@@ -106,24 +106,49 @@ void pl_air_feed(const plumb_world *world, pl_air_scratch *s, double dt)
 
 //---- forces --------------------------------------------------------------------------------------
 
-// Of a face the mean of what is beside it; beyond a side of the box there is as much.
+// Of a face: the mean of what is beside it and is air.
+static near_real warmth(const pl_air_scratch *s, size_t before, size_t behind)
+{
+    const bool a = s->room[before] > 0, b = s->room[behind] > 0;
+    return a && b ? (s->heat[before] + s->heat[behind]) / 2
+           : a    ? s->heat[before]
+           : b    ? s->heat[behind]
+                  : 0;
+}
+
+// Of periodic sides the last cell lies before the first, of others a cell itself.
+static int32_t before(int32_t i, int32_t count, bool periodic)
+{
+    return i > 0 ? i - 1 : periodic ? count - 1 : 0;
+}
+
+static int32_t behind(int32_t i, int32_t count, bool periodic)
+{
+    return i < count ? i : periodic ? 0 : count - 1;
+}
+
 static void rise(const plumb_world *world, pl_air_scratch *s, double dt)
 {
-    const double per_kelvin = dt / (double)pl_air_desc(&world->air)->temperature / 2;
+    const plumb_air_desc *d = pl_air_desc(&world->air);
+    const double per_kelvin = dt / (double)d->temperature;
     const near_real x = (near_real)pl_liquid_held(-(double)world->gravity.x * per_kelvin, 1e6);
     const near_real y = (near_real)pl_liquid_held(-(double)world->gravity.y * per_kelvin, 1e6);
+    const bool wraps_x = d->left == PLUMB_AIR_PERIODIC, wraps_y = d->bottom == PLUMB_AIR_PERIODIC;
     const int32_t nx = s->columns_x, ny = s->columns_y;
-    for (int32_t j = 0; j < ny; ++j) {
+    for (int32_t j = 0; j < ny && x != 0; ++j) {
+        for (int32_t i = 0; i <= nx; ++i) {
+            const size_t k = pl_air_at(s, i, j);
+            s->u[k] += s->open_u[k] > 0 ? x * warmth(s, pl_air_at(s, before(i, nx, wraps_x), j),
+                                                     pl_air_at(s, behind(i, nx, wraps_x), j))
+                                        : 0;
+        }
+    }
+    for (int32_t j = 0; j <= ny && y != 0; ++j) {
         for (int32_t i = 0; i < nx; ++i) {
             const size_t k = pl_air_at(s, i, j);
-            const near_real heat = s->room[k] > 0 ? s->heat[k] : 0;
-            if (heat == 0) {
-                continue;
-            }
-            s->u[k] += x * heat * s->open_u[k];
-            s->u[k + 1] += x * heat * s->open_u[k + 1];
-            s->v[k] += y * heat * s->open_v[k];
-            s->v[k + s->stride] += y * heat * s->open_v[k + s->stride];
+            s->v[k] += s->open_v[k] > 0 ? y * warmth(s, pl_air_at(s, i, before(j, ny, wraps_y)),
+                                                     pl_air_at(s, i, behind(j, ny, wraps_y)))
+                                        : 0;
         }
     }
 }

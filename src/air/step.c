@@ -23,6 +23,7 @@
 #define BODY_CELLS_A_PART 1.0 // that bodies may
 #define MARGIN            2   // cells round the box in which solids are looked for
 #define SOLVE_TO          1e-4
+#define REST              1e-6 // [m/s], [rad/s] of air and bodies: what is slower does not flow
 
 bool pl_want_air(const plumb_world *world, const char **reason)
 {
@@ -89,16 +90,17 @@ static bool is_still(const plumb_world *world)
     }
     const pl_liquid_grid *g = &air->scratch->liquid.grid;
     for (uint32_t i = 1; i < g->body_count; ++i) {
-        if (g->bodies[i].vx != 0 || g->bodies[i].vy != 0 || g->bodies[i].w != 0) {
+        const pl_liquid_body *b = &g->bodies[i];
+        if (fabs(b->vx) > REST || fabs(b->vy) > REST || fabs(b->w) > REST) {
             return false;
         }
     }
     for (uint32_t i = 0; i < air->cell_count; ++i) {
-        if (c[i].u != 0 || c[i].v != 0 || c[i].heat != 0 || (c[i].smoke != 0 && d->fading > 0)) {
+        if (c[i].heat != 0 || (c[i].smoke != 0 && d->fading > 0)) {
             return false;
         }
     }
-    return true;
+    return fastest_air(air) <= REST;
 }
 
 //---- a part of the step --------------------------------------------------------------------------
