@@ -56,7 +56,8 @@ typedef struct plumb_air_source {
     plumb_real radius;   ///< [m] > 0, at most 1e6; strongest in its middle, by 1 - (r/radius)^2; at least one cell
     plumb_real smoke;    ///< [1/s] |smoke| <= 1e6 so much more a second; below 0 it is drawn off
     plumb_real heat;     ///< [K/s] |heat| <= 1e6; below 0 it cools
-    plumb_vec2 push;     ///< [m/s^2] |x|, |y| <= 1e6: a fan
+    /// [m/s^2] |x|, |y| <= 1e6: a fan. A dynamic body that carries one near itself is pushed back: a propeller
+    plumb_vec2 push;
 } plumb_air_source;
 
 /// A cell, or face: of those at the right and upper sides of the box only the velocity through them counts.

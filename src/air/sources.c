@@ -153,29 +153,65 @@ static void rise(const plumb_world *world, pl_air_scratch *s, double dt)
     }
 }
 
-static void blow(pl_air_scratch *s, const spot *p, double dt)
+// What a fan gives the air: momentum over the mass of a cell, and its moment about the corner of the box, in cells.
+typedef struct thrust {
+    double x, y, turn;
+} thrust;
+
+static thrust blow(pl_air_scratch *s, const spot *p, double dt)
 {
+    thrust sum = { 0, 0, 0 };
     for (int32_t j = p->low_y; j < p->high_y; ++j) {
         for (int32_t i = p->low_x; i < p->high_x; ++i) {
             const size_t k = pl_air_at(s, i, j);
-            const double u = s->open_u[k] > 0 ? dt * weight_at(p, i, j + 0.5) : 0;
-            const double v = s->open_v[k] > 0 ? dt * weight_at(p, i + 0.5, j) : 0;
-            s->u[k] += (near_real)(u * p->push_x);
-            s->v[k] += (near_real)(v * p->push_y);
+            const double u = s->open_u[k] > 0 ? dt * p->push_x * weight_at(p, i, j + 0.5) : 0;
+            const double v = s->open_v[k] > 0 ? dt * p->push_y * weight_at(p, i + 0.5, j) : 0;
+            s->u[k] += (near_real)u;
+            s->v[k] += (near_real)v;
+            sum.x += u * (double)s->open_u[k];
+            sum.y += v * (double)s->open_v[k];
+            sum.turn += (i + 0.5) * v * (double)s->open_v[k] - (j + 0.5) * u * (double)s->open_u[k];
         }
+    }
+    return sum;
+}
+
+// Whoever carries a fan is pushed the other way; `mass` of a cell [kg].
+static void push_back(pl_air_scratch *s, plumb_body body, thrust t, double mass)
+{
+    pl_liquid_grid *g = &s->liquid.grid;
+    const double h = (double)g->h;
+    for (uint32_t i = 0; i < g->body_count; ++i) {
+        pl_liquid_body *b = &g->bodies[i];
+        if (!b->moves || !plumb_same(b->body, body)) {
+            continue;
+        }
+        const double x = -mass * t.x, y = -mass * t.y;
+        const double arm_x = s->low_x * h - b->x, arm_y = s->low_y * h - b->y; // of the box's corner
+        const double turn = -mass * h * t.turn + arm_x * y - arm_y * x;
+        b->impulse_x += b->inv_mass_x > 0 ? x : 0;
+        b->impulse_y += b->inv_mass_y > 0 ? y : 0;
+        b->turn += b->inv_inertia > 0 ? turn : 0;
+        b->vx += b->inv_mass_x * x;
+        b->vy += b->inv_mass_y * y;
+        b->w += b->inv_inertia * turn;
     }
 }
 
 void pl_air_drive(const plumb_world *world, pl_air_scratch *s, double dt)
 {
     const pl_air *air = &world->air;
+    const plumb_air_desc *d = pl_air_desc(air);
+    const double h = (double)d->cell;
     rise(world, s, dt);
     for (uint32_t n = 0; n < air->source_count; ++n) {
         const plumb_air_source *source = &pl_air_sources(air)[n];
         spot p;
-        if ((source->push.x != 0 || source->push.y != 0) &&
-            find_spot(world, s, source, (double)pl_air_desc(air)->cell, &p)) {
-            blow(s, &p, dt);
+        if ((source->push.x != 0 || source->push.y != 0) && find_spot(world, s, source, h, &p)) {
+            const thrust t = blow(s, &p, dt);
+            if (!plumb_is_null(source->body)) {
+                push_back(s, source->body, t, (double)d->density * h * h);
+            }
         }
     }
 }

@@ -174,7 +174,10 @@ static bool run_half(const part *p, double dt)
         (size_t)s->stride * (size_t)(s->columns_y + 1 + 2 * PL_AIR_GHOSTS) * sizeof(near_real);
     const double amount = (double)p->d->viscosity * dt / (p->h * p->h);
     pl_air_carry_velocities(s, p->d, p->world->tasks, dt, p->h);
+    note_bodies(g, p->gain);
     pl_air_drive(p->world, s, dt);
+    find_gain(g, p->gain);
+    add_speeds(g, p->gain);
     pl_air_to_grid(s);
     if (amount > 0) {
         g->drag = p->push;

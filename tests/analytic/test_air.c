@@ -410,6 +410,34 @@ static void momentum_is_kept(void **state)
     }
 }
 
+// A disc with a fan behind it, in a box that is open nowhere: what its jet has it has the other way.
+static void a_fan_pushes_whoever_carries_it(void **state)
+{
+    (void)state;
+    const plumb_material none = PLUMB_NULL_INIT;
+    plumb_world *w = make_world(sim_vec(0, 0));
+    add_air(w, (plumb_air_desc){ .half = sim_vec(2, 2),
+                                 .cell = R(0.1),
+                                 .left = PLUMB_AIR_PERIODIC,
+                                 .right = PLUMB_AIR_PERIODIC,
+                                 .bottom = PLUMB_AIR_PERIODIC,
+                                 .top = PLUMB_AIR_PERIODIC });
+    const plumb_body b = sim_body(w, PLUMB_DYNAMIC, 0, 0, PI / 2);
+    sim_add_circle(w, b, 0.3, none);
+    plumb_body_set_mass(w, b, 20);
+    const plumb_air_source fan = { .body = b,
+                                   .position = sim_vec(-0.55, 0.1),
+                                   .radius = R(0.25),
+                                   .push = sim_vec(-40, 0) };
+    assert_int_equal(plumb_air_set_sources(w, &fan, 1), PLUMB_OK);
+    run(w, 0.5, 120);
+    const double own = 20 * (double)plumb_body_velocity(w, b).y, air = sums_of(w).momentum_y;
+    print_message("disc %.4f kg m/s, air %.4f\n", own, air);
+    assert_true(own > 0.5 && fabs(own + air) < 0.02 * own);
+    assert_true(plumb_body_angular_velocity(w, b) < -0.01F); // the fan is to the left of its centre
+    plumb_world_destroy(w);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -423,6 +451,7 @@ int main(void)
         cmocka_unit_test(still_air_does_nothing),
         cmocka_unit_test(a_disc_lends_mass),
         cmocka_unit_test(momentum_is_kept),
+        cmocka_unit_test(a_fan_pushes_whoever_carries_it),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

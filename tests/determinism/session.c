@@ -441,7 +441,7 @@ static void change_motion(session *s, plumb_body b)
 static void change_body(session *s, plumb_body b, uint32_t i)
 {
     plumb_world *w = s->world;
-    switch (pick(s, 12)) {
+    switch (pick(s, 11)) {
     case 0:
     case 1:
         plumb_body_destroy(w, b);
@@ -563,6 +563,34 @@ static void change_liquid(session *s)
     plumb_liquid_add_box(w, at, far, velocity);
 }
 
+// A box of air, what is in it, what feeds it; worlds that wrap refuse it.
+static void change_air(session *s)
+{
+    plumb_world *w = s->world;
+    const plumb_air_source source = { .position = place(s, -2, 2, 0, 2),
+                                      .radius = number(s, 0, 1) + R(0.1),
+                                      .smoke = number(s, 0, 5),
+                                      .heat = number(s, -90, 90),
+                                      .push = place(s, -9, 9, -9, 9),
+                                      .body = one_in(s, 2) ? s->body[pick(s, SESSION_BODIES)] : s->body[0] };
+    plumb_air_desc d = { .position = place(s, -2, 2, 1, 2),
+                         .half = { 2, 1 },
+                         .cell = R(0.25),
+                         .viscosity = one_in(s, 2) ? R(0.02) : 0,
+                         .bottom = PLUMB_AIR_CLOSED,
+                         .left = one_in(s, 2) ? PLUMB_AIR_FLOW : PLUMB_AIR_OPEN,
+                         .flow = { 1, 0 } };
+    if (plumb_air_create(w, &d) == PLUMB_OK) {
+        plumb_air_set_sources(w, &source, 1);
+    } else if (one_in(s, 2)) { // soon: it takes most of a step
+        plumb_air_destroy(w);
+    } else if (plumb_air_settings(w, &d) == PLUMB_OK) {
+        d.right = PLUMB_AIR_CLOSED;
+        plumb_air_set(w, &d);
+        plumb_air_set_sources(w, &source, one_in(s, 2));
+    }
+}
+
 // Makes one of any kind, or changes or takes away another; worlds that wrap refuse them.
 static void change_laws(session *s)
 {
@@ -636,6 +664,8 @@ static void change_world(session *s)
     case 8:
         if (s->late.id == 0) { // registered in the midst of it
             register_late(s);
+        } else {
+            change_air(s);
         }
         break;
     default:

@@ -55,6 +55,14 @@ static void add(plumb_world *world)
              plumb_liquid_create(world, &(plumb_liquid_desc){ .spacing = R(0.1) }) == PLUMB_OK);
         must(world, plumb_liquid_add_box(world, (plumb_vec2){ 30, 0 }, (plumb_vec2){ 31, 1 },
                                          (plumb_vec2){ 0, 0 }) == PLUMB_OK);
+    } else if (is("air")) {
+        must(world, plumb_air_create(world, &(plumb_air_desc){ .position = { 31, 1 },
+                                                               .half = { 1, 1 },
+                                                               .cell = R(0.125) }) == PLUMB_OK);
+        must(world, plumb_air_set_sources(
+                        world,
+                        &(plumb_air_source){ .position = { 31, 1 }, .radius = R(0.3), .heat = 50 },
+                        1) == PLUMB_OK);
     } else if (is("characters")) {
         plumb_body hero = body_at(world, (plumb_body_desc){ .type = PLUMB_KINEMATIC }, 30, 1);
         plumb_shape_create(world, hero,

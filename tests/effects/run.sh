@@ -42,6 +42,7 @@ for effect in $effects; do
     without="all -$effect"
     case $effect in # who needs it goes along
     sensors) without="$without -fluids" ;;
+    liquid) without="$without -air" ;;
     joints | pgs) without="$without -exact -tolerance" ;;
     exact) without="$without -tolerance" ;;
     esac

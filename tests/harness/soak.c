@@ -270,6 +270,23 @@ static void change_liquid(soak *s)
     }
 }
 
+// Likewise.
+static void change_air(soak *s)
+{
+    if (plumb_air_destroy(s->world) == PLUMB_OK || pick(s, 4) != 0) {
+        return;
+    }
+    const plumb_air_source source = { .position = place(s, -1, 1, 0, 1),
+                                      .radius = R(0.4),
+                                      .smoke = 3,
+                                      .heat = 60 };
+    plumb_air_create(s->world, &(plumb_air_desc){ .position = { 0, 1 },
+                                                  .half = { 3, 1 },
+                                                  .cell = R(0.25),
+                                                  .bottom = PLUMB_AIR_CLOSED });
+    plumb_air_set_sources(s->world, &source, 1);
+}
+
 static void change_body(soak *s, int i)
 {
     plumb_world *w = s->world;
@@ -342,6 +359,9 @@ static void act(soak *s)
     }
     if (pick(s, 150) == 0) {
         change_liquid(s);
+    }
+    if (pick(s, 150) == 0) {
+        change_air(s);
     }
     if (pick(s, 1000) == 0) {
         plumb_world_set_substeps(s->world, 1 + (int)pick(s, 6), 1);

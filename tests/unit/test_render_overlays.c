@@ -27,6 +27,7 @@ static void add_every_overlay(render_frame *frame)
     assert_int_equal(render_add_aabb(frame, box), RENDER_OK);
     assert_int_equal(render_add_cell(frame, box), RENDER_OK);
     assert_int_equal(render_add_trail(frame, path, 3, 2), RENDER_OK);
+    assert_int_equal(render_add_flow(frame, path, 3, 2.0, 1.0), RENDER_OK);
     assert_int_equal(render_add_surface(frame, path, 3, true, -0.3), RENDER_OK);
     for (int kind = 0; kind < RENDER_JOINT_KINDS; kind++) {
         for (int parts = 0; parts < 2; parts++) {
@@ -66,7 +67,7 @@ static void test_every_overlay_is_switchable(void **state)
     assert_int_equal(changed_pixels(target), 0);
     const unsigned alone = RENDER_SHOW_LABELS | RENDER_SHOW_LEGEND | RENDER_SHOW_SPOKES |
                            RENDER_SHOW_NOTHING; // these show nothing of an overlay
-    for (unsigned bit = 0; bit < 17; bit++) {
+    for (unsigned bit = 0; bit < 18; bit++) {
         if ((1u << bit & alone) != 0) {
             continue;
         }
@@ -350,12 +351,52 @@ static void test_a_liquid_fills_its_area(void **state)
     render_frame_destroy(frame);
 }
 
+// Smoke is thickest in its cells, in its colour; heat glows; nothing is drawn where neither is, or beyond its box.
+static void test_smoke_is_a_veil(void **state)
+{
+    (void)state;
+    render_frame *frame = new_frame();
+    render_target *target = new_target(300, 300);
+    render_vec cells[64] = { { 0.0, 0.0 } };
+    const render_rgba grey = { 0, 0, 0, 0 };
+    const render_vec low = { -1.0, -1.0 };
+    cells[8 * 3 + 2].x = 3.0; // at (-0.375, -0.125)
+    cells[8 * 5 + 6].y = 2.0; // at (0.625, 0.375)
+    assert_int_equal(render_add_smoke(frame, low, 0.25, 8, cells, 64, grey), RENDER_OK);
+    draw(target, frame, (render_camera){ .view_height = 3.0 }, flat());
+    const uint8_t *smoke = pixel(target, 112, 162), *glow = pixel(target, 212, 112);
+    assert_true(smoke[0] < 210 && smoke[2] < 215 && smoke[2] >= smoke[0]);
+    assert_true(glow[0] > glow[2] + 40);
+    assert_memory_equal(pixel(target, 150, 240), &white, 4);
+    assert_memory_equal(pixel(target, 40, 150), &white, 4);
+    const size_t some = changed_pixels(target);
+    assert_in_range(some, 1000, 15000);
+    render_frame_clear(frame);
+    assert_int_equal(render_add_smoke(frame, low, 0.25, 8, cells, 64, red), RENDER_OK);
+    draw(target, frame, (render_camera){ .view_height = 3.0 }, flat());
+    assert_true(pixel(target, 112, 162)[0] > pixel(target, 112, 162)[2] + 60);
+    const double heights[] = { 1e-9, 1e-3, 1e6, 1e12 };
+    for (int i = 0; i < 4; i++) {
+        draw(target, frame, (render_camera){ .view_height = heights[i] }, flat());
+    }
+    assert_int_equal(render_add_smoke(frame, low, 0.0, 8, cells, 64, grey), RENDER_E_ARGUMENT);
+    assert_int_equal(render_add_smoke(frame, low, 1.0, 7, cells, 64, grey), RENDER_E_ARGUMENT);
+    assert_int_equal(render_add_smoke(frame, low, 1.0, 0, cells, 64, grey), RENDER_E_ARGUMENT);
+    cells[3].y = (double)NAN;
+    assert_int_equal(render_add_smoke(frame, low, 1.0, 8, cells, 64, grey), RENDER_E_NOT_FINITE);
+    assert_int_equal(render_add_flow(frame, cells, 1, 1.0, 0.5), RENDER_E_ARGUMENT);
+    assert_int_equal(render_add_flow(frame, cells, 3, 1.0, 1.5), RENDER_E_ARGUMENT);
+    render_target_destroy(target);
+    render_frame_destroy(frame);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_cameras_far_out),
         cmocka_unit_test(test_every_overlay_is_switchable),
         cmocka_unit_test(test_a_liquid_fills_its_area),
+        cmocka_unit_test(test_smoke_is_a_veil),
         cmocka_unit_test(test_joints_have_signs),
         cmocka_unit_test(test_field_is_arrows),
         cmocka_unit_test(test_surfaces_run),

@@ -102,6 +102,7 @@ static void refusals(void)
     refused(w, "fracture", plumb_body_merge(w, body, lift, NULL) == PLUMB_OK);
     refused(w, "fracture", plumb_body_scale(w, body, 2) == PLUMB_OK);
     refused(w, "liquid", plumb_liquid_create(w, NULL) == PLUMB_OK);
+    refused(w, "air", plumb_air_create(w, &(plumb_air_desc){ .half = { 1, 1 } }) == PLUMB_OK);
     refused(w, "characters", plumb_character_create(w, body, NULL) == PLUMB_OK);
     refused(w, "joints",
             MADE(plumb_joint_create,
