@@ -26,11 +26,11 @@ PLUMB_BEGIN
 
 /// What a side of the box is.
 typedef enum plumb_air_side {
-    PLUMB_AIR_OPEN,    ///< still air behind it, without smoke and heat: what flows goes in and out
-    PLUMB_AIR_CLOSED,  ///< a wall
+    PLUMB_AIR_OPEN,     ///< still air behind it, without smoke and heat: what flows goes in and out
+    PLUMB_AIR_CLOSED,   ///< a wall
     PLUMB_AIR_PERIODIC, ///< what goes out comes in at the opposite side, which must be periodic, too
-    PLUMB_AIR_FLOW     ///< air with the velocity `flow` behind it: it blows in, or draws out. Along a side, as a wall
-                       ///< that moves: a lid, a belt
+    PLUMB_AIR_FLOW      ///< air with the velocity `flow` behind it: it blows in, or draws out. Along a side, as a wall
+                        ///< that moves: a lid, a belt
 } plumb_air_side;
 
 /// {0} is not a box: it needs `half`.
@@ -42,10 +42,10 @@ typedef struct plumb_air_desc {
     /// [m^2/s] 0..1e9 kinematic; 0: it slips along walls. Above 0 it clings to them. What a grid can tell apart ends at
     /// 1e6 cell^2 / dt; higher values act as that
     plumb_real viscosity;
-    plumb_real temperature; ///< [K] 1e-3..1e6 without heat; 0 means 293. Air that is so much warmer is weightless
-    plumb_real fading;      ///< [1/s] 0..1e6 smoke fades by e^(-fading t)
-    plumb_real cooling;     ///< [1/s] 0..1e6 heat is lost by e^(-cooling t)
-    plumb_vec2 flow;        ///< [m/s] |x|, |y| <= 1e4 behind sides that are PLUMB_AIR_FLOW
+    plumb_real temperature;                  ///< [K] 1e-3..1e6 without heat; 0 means 293. Air that is so much warmer is weightless
+    plumb_real fading;                       ///< [1/s] 0..1e6 smoke fades by e^(-fading t)
+    plumb_real cooling;                      ///< [1/s] 0..1e6 heat is lost by e^(-cooling t)
+    plumb_vec2 flow;                         ///< [m/s] |x|, |y| <= 1e4 behind sides that are PLUMB_AIR_FLOW
     plumb_air_side left, right, bottom, top; ///< at the least and the most x, at the least and the most y
 } plumb_air_desc;
 
@@ -86,10 +86,10 @@ typedef struct plumb_air_sample {
 
 /// What there is in all of the box.
 typedef struct plumb_air_sums {
-    double smoke;              ///< [m^2] of smoke 1, in as much of cells as is no solid
-    double heat;               ///< [K m^2]
+    double smoke;                  ///< [m^2] of smoke 1, in as much of cells as is no solid
+    double heat;                   ///< [K m^2]
     double momentum_x, momentum_y; ///< [kg m/s]
-    double energy;             ///< [J] kinetic
+    double energy;                 ///< [J] kinetic
 } plumb_air_sums;
 
 /// Gives the world a box of air at rest. Errors: E_NULL, E_RANGE (also: more than PLUMB_AIR_MAX cells; a side that is

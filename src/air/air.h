@@ -47,7 +47,7 @@ bool pl_air_add_sides(pl_memory *memory, pl_air_scratch *scratch, const plumb_ai
 // The tiles of the box, their cells, those at periodic sides joined to one another. False when out of memory.
 bool pl_air_make_grid(pl_memory *memory, pl_air_scratch *scratch, const plumb_air_desc *desc);
 // Behind pl_liquid_plan: what lies across periodic sides. False when out of memory.
-bool pl_air_make_seams(pl_memory *memory, pl_air_scratch *scratch, const plumb_air_desc *desc);
+bool pl_air_make_wraps(pl_memory *memory, pl_air_scratch *scratch, const plumb_air_desc *desc);
 // Takes from what flows into cells that no way joins to open sides what is too much in all.
 bool pl_air_balance(pl_memory *memory, pl_air_scratch *scratch);
 

@@ -25,9 +25,9 @@
 
 //---- ghosts --------------------------------------------------------------------------------------
 
-typedef struct span {
+typedef struct area {
     int32_t columns, lines; // of what there is from (0, 0)
-} span;
+} area;
 
 // What lies beyond sides, of values: those at the opposite side; `in`, where air blows in, else the nearest.
 typedef struct outside {
@@ -36,7 +36,7 @@ typedef struct outside {
     bool gives[4];                      // else the nearest
 } outside;
 
-static void fill_line(const pl_air_scratch *s, near_real *q, span n, int32_t j, const outside *o)
+static void fill_line(const pl_air_scratch *s, near_real *q, area n, int32_t j, const outside *o)
 {
     const size_t at = pl_air_at(s, 0, j);
     near_real *line = q + at;
@@ -64,7 +64,7 @@ static void copy_line(const pl_air_scratch *s, near_real *q, int32_t to, int32_t
     }
 }
 
-static void fill_ghosts(const pl_air_scratch *s, near_real *q, span n, const outside *o)
+static void fill_ghosts(const pl_air_scratch *s, near_real *q, area n, const outside *o)
 {
     const int32_t period = s->columns_y;
     const near_real *low = s->flux_v + pl_air_at(s, 0, 0);
@@ -144,7 +144,7 @@ void pl_air_find_room(pl_air_scratch *s, const plumb_air_desc *d)
         }
     }
     const outside nearest = outside_of(d);
-    fill_ghosts(s, s->room, (span){ nx, ny }, &nearest);
+    fill_ghosts(s, s->room, (area){ nx, ny }, &nearest);
 }
 
 void pl_air_find_fluxes(pl_air_scratch *s, const plumb_air_desc *d)
@@ -168,8 +168,8 @@ void pl_air_find_fluxes(pl_air_scratch *s, const plumb_air_desc *d)
         s->flux_v[high] = d->top == PLUMB_AIR_FLOW ? (near_real)d->flow.y : s->flux_v[high];
     }
     const outside nearest = outside_of(d);
-    fill_ghosts(s, s->flux_u, (span){ nx + 1, ny }, &nearest);
-    fill_ghosts(s, s->flux_v, (span){ nx, ny + 1 }, &nearest);
+    fill_ghosts(s, s->flux_u, (area){ nx + 1, ny }, &nearest);
+    fill_ghosts(s, s->flux_v, (area){ nx, ny + 1 }, &nearest);
 }
 
 //---- one part ------------------------------------------------------------------------------------
@@ -177,7 +177,7 @@ void pl_air_find_fluxes(pl_air_scratch *s, const plumb_air_desc *d)
 // What is carried: its values, where fluxes go through the sides of its cells, and what is to be had of them.
 typedef struct load {
     pl_air_scratch *s;
-    span n;
+    area n;
     const near_real *flux_x, *flux_y;
     const near_real *from;
     near_real *to;
@@ -287,7 +287,7 @@ static void move_lines(void *context, uint32_t first, uint32_t count)
     }
 }
 
-static void add_halves(const pl_air_scratch *s, near_real *q, const near_real *later, span n)
+static void add_halves(const pl_air_scratch *s, near_real *q, const near_real *later, area n)
 {
     for (int32_t j = 0; j < n.lines; ++j) {
         const size_t line = pl_air_at(s, 0, j);
@@ -356,7 +356,7 @@ static stride stride_of(const pl_air_scratch *s, double dt, double h, double mos
 }
 
 // Fluxes through the sides of the cells of faces, and their room.
-static void find_across(pl_air_scratch *s, span n, bool upright)
+static void find_across(pl_air_scratch *s, area n, bool upright)
 {
     const size_t way = upright ? s->stride : 1;
     for (int32_t j = 0; j <= n.lines; ++j) {
@@ -379,12 +379,12 @@ void pl_air_carry_velocities(pl_air_scratch *s, const plumb_air_desc *d, pl_task
     }
     load l = { .s = s, .flux_x = s->across_x, .flux_y = s->across_y, .step = way.step };
     outside o = outside_of_velocity(d, (near_real)d->flow.x);
-    l.n = (span){ s->columns_x + 1, s->columns_y };
+    l.n = (area){ s->columns_x + 1, s->columns_y };
     l.moves = s->open_u;
     find_across(s, l.n, false);
     carry(l, s->u, &o, tasks, way.parts);
     o = outside_of_velocity(d, (near_real)d->flow.y);
-    l.n = (span){ s->columns_x, s->columns_y + 1 };
+    l.n = (area){ s->columns_x, s->columns_y + 1 };
     l.moves = s->open_v;
     find_across(s, l.n, true);
     carry(l, s->v, &o, tasks, way.parts);
@@ -409,7 +409,7 @@ void pl_air_carry_scalars(pl_air_scratch *s, const plumb_air_desc *d, pl_tasks *
     const stride way = stride_of(s, dt, h, MOST_LEAVES);
     const outside o = outside_of_scalars(d);
     near_real *const all[] = { s->smoke, s->heat };
-    const span n = { s->columns_x, s->columns_y };
+    const area n = { s->columns_x, s->columns_y };
     if (way.parts == 0) {
         return;
     }

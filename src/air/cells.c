@@ -24,7 +24,7 @@ void pl_air_free(pl_memory *memory, pl_air *air)
 {
     if (air->scratch != NULL) {
         pl_air_scratch copy = *air->scratch;
-        pl_buffer *all[] = { &copy.columns, &copy.moved, &copy.stack, &copy.seams, &copy.gains };
+        pl_buffer *all[] = { &copy.columns, &copy.moved, &copy.stack, &copy.wraps, &copy.gains };
         pl_liquid_free_arrays(memory, &copy.liquid);
         for (size_t i = 0; i < sizeof all / sizeof all[0]; ++i) {
             pl_buffer_free(memory, all[i]);
@@ -45,8 +45,8 @@ bool pl_air_make_columns(pl_memory *memory, pl_air_scratch *s, pl_air_extent ext
     s->columns_y = extent.rows;
     s->stride = (uint32_t)extent.columns + 1 + 2 * PL_AIR_GHOSTS;
     const size_t lines = (size_t)extent.rows + 1 + 2 * PL_AIR_GHOSTS;
-    const size_t room = (lines * s->stride * sizeof(near_real) + PL_ALIGN - 1) / PL_ALIGN *
-                        PL_ALIGN;
+    const size_t room =
+        (lines * s->stride * sizeof(near_real) + PL_ALIGN - 1) / PL_ALIGN * PL_ALIGN;
     size_t count = 0;
 #define COUNT(name) ++count;
     PL_AIR_COLUMNS(COUNT)

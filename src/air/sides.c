@@ -7,7 +7,7 @@
 // Pressures of a room without an open side have no level of their own, and what flows into it must be 0 in all: what is
 // not, as a piston presses into it, is taken out evenly. Rooms that a moving body is in both of are one: it yields.
 //
-// Reads: settings, faces. Writes: solids, tiles, cells, seams, vectors[PL_LIQUID_R]. Cost: O(cells).
+// Reads: settings, faces. Writes: solids, tiles, cells, wraps, vectors[PL_LIQUID_R]. Cost: O(cells).
 #include "air/air.h"
 
 #include <string.h>
@@ -140,34 +140,34 @@ bool pl_air_make_grid(pl_memory *memory, pl_air_scratch *s, const plumb_air_desc
     return true;
 }
 
-//---- seams ---------------------------------------------------------------------------------------
+//---- wraps ---------------------------------------------------------------------------------------
 
-static void add_seam(pl_liquid_grid *g, uint32_t cell, uint32_t other, near_real open)
+static void add_wrap(pl_liquid_grid *g, uint32_t cell, uint32_t other, near_real open)
 {
     if (g->row[cell] != 0 && g->row[other] != 0 && open > 0) {
-        g->seams[g->seam_count++] = (pl_liquid_seam){ g->row[cell], g->row[other], open };
+        g->wraps[g->wrap_count++] = (pl_liquid_wrap){ g->row[cell], g->row[other], open };
     }
 }
 
-bool pl_air_make_seams(pl_memory *memory, pl_air_scratch *s, const plumb_air_desc *d)
+bool pl_air_make_wraps(pl_memory *memory, pl_air_scratch *s, const plumb_air_desc *d)
 {
     pl_liquid_grid *g = &s->liquid.grid;
     const size_t most = (size_t)s->columns_x + (size_t)s->columns_y;
-    g->seam_count = 0;
+    g->wrap_count = 0;
     if (d->left != PLUMB_AIR_PERIODIC && d->bottom != PLUMB_AIR_PERIODIC) {
         return true;
     }
-    if (!pl_buffer_reserve(memory, &s->seams, most * sizeof(pl_liquid_seam))) {
+    if (!pl_buffer_reserve(memory, &s->wraps, most * sizeof(pl_liquid_wrap))) {
         return false;
     }
-    g->seams = s->seams.data;
+    g->wraps = s->wraps.data;
     for (int32_t j = 0; j < s->columns_y && d->left == PLUMB_AIR_PERIODIC; ++j) {
         const uint32_t c = pl_liquid_cell_at(g, s->low_x, s->low_y + j);
-        add_seam(g, c, g->left[c], g->open_u[c]);
+        add_wrap(g, c, g->left[c], g->open_u[c]);
     }
     for (int32_t i = 0; i < s->columns_x && d->bottom == PLUMB_AIR_PERIODIC; ++i) {
         const uint32_t c = pl_liquid_cell_at(g, s->low_x + i, s->low_y);
-        add_seam(g, c, g->down[c], g->open_v[c]);
+        add_wrap(g, c, g->down[c], g->open_v[c]);
     }
     return true;
 }

@@ -158,7 +158,7 @@ typedef struct thrust {
     double x, y, turn;
 } thrust;
 
-static thrust blow(pl_air_scratch *s, const spot *p, double dt)
+static thrust drive_fan(pl_air_scratch *s, const spot *p, double dt)
 {
     thrust sum = { 0, 0, 0 };
     for (int32_t j = p->low_y; j < p->high_y; ++j) {
@@ -187,7 +187,8 @@ static void push_back(pl_air_scratch *s, plumb_body body, thrust t, double mass)
             continue;
         }
         const double x = -mass * t.x, y = -mass * t.y;
-        const double arm_x = s->low_x * h - b->x, arm_y = s->low_y * h - b->y; // of the box's corner
+        const double arm_x = s->low_x * h - b->x,
+                     arm_y = s->low_y * h - b->y; // of the box's corner
         const double turn = -mass * h * t.turn + arm_x * y - arm_y * x;
         b->impulse_x += b->inv_mass_x > 0 ? x : 0;
         b->impulse_y += b->inv_mass_y > 0 ? y : 0;
@@ -208,7 +209,7 @@ void pl_air_drive(const plumb_world *world, pl_air_scratch *s, double dt)
         const plumb_air_source *source = &pl_air_sources(air)[n];
         spot p;
         if ((source->push.x != 0 || source->push.y != 0) && find_spot(world, s, source, h, &p)) {
-            const thrust t = blow(s, &p, dt);
+            const thrust t = drive_fan(s, &p, dt);
             if (!plumb_is_null(source->body)) {
                 push_back(s, source->body, t, (double)d->density * h * h);
             }

@@ -83,9 +83,9 @@ static bool is_still(const plumb_world *world)
     const pl_air *air = &world->air;
     const plumb_air_desc *d = pl_air_desc(air);
     const plumb_air_cell *c = pl_air_items(air);
-    const bool blows = d->left == PLUMB_AIR_FLOW || d->right == PLUMB_AIR_FLOW ||
-                       d->bottom == PLUMB_AIR_FLOW || d->top == PLUMB_AIR_FLOW;
-    if (air->source_count > 0 || (blows && (d->flow.x != 0 || d->flow.y != 0))) {
+    const bool driven = d->left == PLUMB_AIR_FLOW || d->right == PLUMB_AIR_FLOW ||
+                        d->bottom == PLUMB_AIR_FLOW || d->top == PLUMB_AIR_FLOW;
+    if (air->source_count > 0 || (driven && (d->flow.x != 0 || d->flow.y != 0))) {
         return false;
     }
     const pl_liquid_grid *g = &air->scratch->liquid.grid;
@@ -214,7 +214,7 @@ static bool run_part(plumb_world *world, double dt)
     const plumb_air_desc *d = pl_air_desc(&world->air);
     const double h = (double)d->cell;
     if (!pl_air_make_grid(memory, s, d) || !pl_liquid_close_faces(memory, &s->liquid) ||
-        !pl_liquid_plan(memory, &s->liquid) || !pl_air_make_seams(memory, s, d) ||
+        !pl_liquid_plan(memory, &s->liquid) || !pl_air_make_wraps(memory, s, d) ||
         !pl_buffer_reserve(memory, &s->gains, g->body_count * sizeof(double[3]))) {
         return false;
     }

@@ -104,7 +104,9 @@ static plumb_result check_sides(const plumb_world *world, const char *fn, const 
     const struct {
         const char *name;
         plumb_air_side side;
-    } all[] = { { "left", d->left }, { "right", d->right }, { "bottom", d->bottom }, { "top", d->top } };
+    } all[] = {
+        { "left", d->left }, { "right", d->right }, { "bottom", d->bottom }, { "top", d->top }
+    };
     for (int i = 0; i < 4; ++i) {
         if (!is_side(all[i].side)) {
             return pl_fail(world, PLUMB_E_RANGE, fn, "%s is %d; it must be 0 to %d", all[i].name,
@@ -113,8 +115,9 @@ static plumb_result check_sides(const plumb_world *world, const char *fn, const 
     }
     for (int i = 0; i < 4; i += 2) {
         if (!are_paired(all[i].side, all[i + 1].side)) {
-            return pl_fail(world, PLUMB_E_RANGE, fn, "%s is %d and %s is %d; both must be periodic, or none",
-                           all[i].name, (int)all[i].side, all[i + 1].name, (int)all[i + 1].side);
+            return pl_fail(world, PLUMB_E_RANGE, fn,
+                           "%s is %d and %s is %d; both must be periodic, or none", all[i].name,
+                           (int)all[i].side, all[i + 1].name, (int)all[i + 1].side);
         }
     }
     return PLUMB_OK;
@@ -134,8 +137,9 @@ static plumb_result check_desc(const plumb_world *world, const char *fn, const p
     const plumb_air_desc full = resolved(d);
     PL_TRY(pl_check_range(world, fn, "cell", full.cell, CELL_LEAST, CELL_MOST));
     if (cells_of(&full) > PLUMB_AIR_MAX) {
-        return pl_fail(world, PLUMB_E_RANGE, fn, "there would be %.0f cells; there must be at most %d",
-                       cells_of(&full), PLUMB_AIR_MAX);
+        return pl_fail(world, PLUMB_E_RANGE, fn,
+                       "there would be %.0f cells; there must be at most %d", cells_of(&full),
+                       PLUMB_AIR_MAX);
     }
     return PLUMB_OK;
 }
@@ -228,7 +232,8 @@ bool pl_air_source_is_sound(const plumb_air_source *s)
            s->push.y <= MOST_AMOUNT;
 }
 
-static plumb_result check_source(const plumb_world *world, const char *fn, const plumb_air_source *s)
+static plumb_result check_source(const plumb_world *world, const char *fn,
+                                 const plumb_air_source *s)
 {
     uint32_t row;
     PL_TRY(pl_check_within(world, fn, "position", s->position, FAR));
@@ -394,7 +399,8 @@ plumb_result plumb_air_cells(const plumb_world *world, plumb_air_box *box)
 
 // Between the four of a lattice round (x, y), of which columns and rows there are so many; `member` is the offset of a
 // number of a cell.
-static double between(const plumb_air_box *b, size_t member, double x, double y, int columns, int rows)
+static double between(const plumb_air_box *b, size_t member, double x, double y, int columns,
+                      int rows)
 {
     x = x < 0 ? 0 : x > columns - 1 ? columns - 1 : x;
     y = y < 0 ? 0 : y > rows - 1 ? rows - 1 : y;
@@ -402,9 +408,10 @@ static double between(const plumb_air_box *b, size_t member, double x, double y,
     const int right = i + 1 < columns ? i + 1 : i, above = j + 1 < rows ? j + 1 : j;
     const double fx = x - i, fy = y - j;
 #define VALUE(i, j)                                                                                \
-    (double)*(const real *)(const void *)((const char *)&b->at[(size_t)(j) * (size_t)(b->columns + 1) + \
-                                                               (size_t)(i)] +                      \
-                                          member)
+    (double)*(                                                                                     \
+        const real *)(const void *)((const char *)&b->at[(size_t)(j) * (size_t)(b->columns + 1) +  \
+                                                         (size_t)(i)] +                            \
+                                    member)
     const double low = VALUE(i, j) + fx * (VALUE(right, j) - VALUE(i, j));
     const double high = VALUE(i, above) + fx * (VALUE(right, above) - VALUE(i, above));
 #undef VALUE

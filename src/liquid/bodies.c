@@ -183,8 +183,7 @@ static void place_solid(const plumb_world *world, const pl_liquid_grid *g, pl_li
 {
     const uint32_t row = world->pieces.body[s->piece];
     const pl_bodies *b = &world->bodies;
-    const pl_liquid_body *body =
-        s->body == PL_LIQUID_NONE ? NULL : &g->bodies[s->body];
+    const pl_liquid_body *body = s->body == PL_LIQUID_NONE ? NULL : &g->bodies[s->body];
     const double scale = 1 / (double)g->h;
     const double c = body != NULL ? body->c : (double)b->c[row];
     const double sine = body != NULL ? body->s : (double)b->s[row];

@@ -96,7 +96,7 @@ static void fill_strip(pl_liquid_grid *g, uint32_t s)
         const uint32_t left = g->left[c], right = g->right[c], down = g->down[c], up = g->up[c];
         near_real open[4];
         faces_of(g, c, open);
-        // What is not beside it in memory, or below its strip, lies across a seam.
+        // What is not beside it in memory, or below its strip, lies across a wrap.
         const bool below = g->row[down] >= LINE && g->row[down] / LINE == g->strips[s].down;
         g->vectors[PL_LIQUID_L][row] = g->row[left] == row - 1 ? open[0] : 0;
         g->vectors[PL_LIQUID_B][row] = below ? open[2] : 0;
@@ -251,12 +251,12 @@ static double add_bodies(pl_liquid_grid *g, const near_real *p, near_real *out, 
     return bend;
 }
 
-// The same of what lies across seams, where a grid goes on at its other side.
-static double add_seams(const pl_liquid_grid *g, const near_real *p, near_real *out)
+// The same of what lies across wraps, where a grid goes on at its other side.
+static double add_wraps(const pl_liquid_grid *g, const near_real *p, near_real *out)
 {
     double bend = 0;
-    for (uint32_t i = 0; i < g->seam_count; ++i) {
-        const pl_liquid_seam *s = &g->seams[i];
+    for (uint32_t i = 0; i < g->wrap_count; ++i) {
+        const pl_liquid_wrap *s = &g->wraps[i];
         bend -= 2 * (double)(s->open * p[s->a] * p[s->b]);
         out[s->a] -= s->open * p[s->b];
         out[s->b] -= s->open * p[s->a];
@@ -439,7 +439,7 @@ void pl_liquid_solve(pl_liquid_grid *g, double push, double tolerance, double fl
         run(g, multiply_chunks, 0);
         near_real *way = g->vectors[PL_LIQUID_S], *product = g->vectors[PL_LIQUID_Z];
         const double bend =
-            sum_of(g) + add_bodies(g, way, product, push) + add_seams(g, way, product);
+            sum_of(g) + add_bodies(g, way, product, push) + add_wraps(g, way, product);
         if (!(bend > 0)) {
             return;
         }

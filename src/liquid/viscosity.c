@@ -216,8 +216,7 @@ static void carry(system *s, near_real *u, near_real *v)
         if (is_shut(g, link)) {
             const double *way = s->bodies[link->body].way;
             (link->upright ? v : u)[link->cell] +=
-                link->part *
-                (near_real)(way[link->upright ? 1 : 0] + way[2] * (double)link->arm);
+                link->part * (near_real)(way[link->upright ? 1 : 0] + way[2] * (double)link->arm);
         }
     }
 }
@@ -235,7 +234,8 @@ static void drag_bodies(system *s, bool inert)
     for (uint32_t i = 0; i < g->link_count && s->bodies != NULL; ++i) {
         const pl_liquid_link *link = &g->links[i];
         if (is_shut(g, link)) {
-            const double pull = (double)(link->upright ? pull_v(s, link->cell) : pull_u(s, link->cell));
+            const double pull =
+                (double)(link->upright ? pull_v(s, link->cell) : pull_u(s, link->cell));
             const double got = -(double)s->k * (double)link->part * pull;
             double *out = s->bodies[link->body].out;
             out[link->upright ? 1 : 0] += got;
@@ -255,7 +255,7 @@ static double dot_bodies(const system *s, bool bend)
     for (uint32_t i = 0; i < s->g->body_count && s->bodies != NULL; ++i) {
         const dragged *d = &s->bodies[i];
         for (int k = 0; k < 3; ++k) {
-            total += bend                ? d->way[k] * d->out[k]
+            total += bend             ? d->way[k] * d->out[k]
                      : d->mass[k] > 0 ? d->left[k] * d->left[k] / d->diagonal[k]
                                       : 0;
         }

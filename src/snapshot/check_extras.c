@@ -331,8 +331,8 @@ bool pl_check_extras(pl_suspect *s)
             return false;
         }
     }
-    return check_records(w) && check_settings(s) && check_targets(s) && check_liquid(w) && check_air(w) &&
-           check_laws(s) && check_excluded(w) && check_breaks(w) &&
+    return check_records(w) && check_settings(s) && check_targets(s) && check_liquid(w) &&
+           check_air(w) && check_laws(s) && check_excluded(w) && check_breaks(w) &&
            pl_commands_are_sound(s->like, &w->registry, w->commands.bytes.data, w->commands.used,
                                  w->commands.count, s->marks);
 }

@@ -315,13 +315,11 @@ static bool is_held(const pl_section *section)
 // Of these not even how many there are.
 static bool is_counted(const pl_section *section)
 {
-    static const char *const counted[] = { "joints.items",    "sleep.islands",
-                                           "sleep.contacts",  "characters.items",
-                                           "liquid.settings", "liquid.particles",
-                                           "air.settings",    "air.cells",
-                                           "air.sources",
-                                           "laws.items",      "laws.orbits",
-                                           "fracture.pending" };
+    static const char *const counted[] = {
+        "joints.items",    "sleep.islands",    "sleep.contacts", "characters.items",
+        "liquid.settings", "liquid.particles", "air.settings",   "air.cells",
+        "air.sources",     "laws.items",       "laws.orbits",    "fracture.pending"
+    };
     for (size_t i = 0; i < sizeof counted / sizeof counted[0]; ++i) {
         if (strcmp(section->name, counted[i]) == 0) {
             return true;

@@ -160,10 +160,15 @@ static bool is_counted(pl_once_fn *run, plumb_work *work)
     static const struct {
         pl_once_fn *run;
         plumb_work work;
-    } rows[] = { { NULL, PLUMB_WORK_SYSTEMS },          { pl_run_characters, PLUMB_WORK_SYSTEMS },
-                 { pl_run_liquid, PLUMB_WORK_SYSTEMS }, { pl_run_air, PLUMB_WORK_SYSTEMS }, { pl_run_waking, PLUMB_WORK_SLEEP },
-                 { pl_run_sleep, PLUMB_WORK_SLEEP },    { pl_run_continuous, PLUMB_WORK_STOPS },
-                 { pl_run_edges, PLUMB_WORK_SYSTEMS },  { pl_run_breaking, PLUMB_WORK_SYSTEMS },
+    } rows[] = { { NULL, PLUMB_WORK_SYSTEMS },
+                 { pl_run_characters, PLUMB_WORK_SYSTEMS },
+                 { pl_run_liquid, PLUMB_WORK_SYSTEMS },
+                 { pl_run_air, PLUMB_WORK_SYSTEMS },
+                 { pl_run_waking, PLUMB_WORK_SLEEP },
+                 { pl_run_sleep, PLUMB_WORK_SLEEP },
+                 { pl_run_continuous, PLUMB_WORK_STOPS },
+                 { pl_run_edges, PLUMB_WORK_SYSTEMS },
+                 { pl_run_breaking, PLUMB_WORK_SYSTEMS },
                  { pl_run_burning, PLUMB_WORK_FORCES } };
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; ++i) {
         if (rows[i].run == run) {

@@ -242,12 +242,10 @@ static void a_closed_room_keeps_its_smoke(void **state)
     sim_add_box(w, sim_body(w, PLUMB_STATIC, 1.1, 0.4, 0.3), 0.13, 0.21, none);
     sim_add_circle(w, sim_body(w, PLUMB_STATIC, 0.5, 0.62, 0), 0.11, none);
     sim_add_box(w, sim_body(w, PLUMB_STATIC, 1.6, 0.7, -0.8), 0.3, 0.01, none);
-    const plumb_air_source fans[] = { { .position = sim_vec(0.3, 0.3),
-                                        .radius = R(0.2),
-                                        .push = sim_vec(9, 4) },
-                                      { .position = sim_vec(1.7, 0.4),
-                                        .radius = R(0.2),
-                                        .push = sim_vec(-5, 9) } };
+    const plumb_air_source fans[] = {
+        { .position = sim_vec(0.3, 0.3), .radius = R(0.2), .push = sim_vec(9, 4) },
+        { .position = sim_vec(1.7, 0.4), .radius = R(0.2), .push = sim_vec(-5, 9) }
+    };
     assert_int_equal(plumb_air_set_sources(w, fans, 2), PLUMB_OK);
     run(w, 0.1, 60); // it has seen the posts
     plumb_air_fill(w, veil, NULL);
@@ -324,7 +322,8 @@ static void still_air_does_nothing(void **state)
     for (int k = 0; k < 2; ++k) {
         plumb_world *w = make_world(sim_vec(0, -9.81));
         if (k == 1) {
-            add_air(w, (plumb_air_desc){ .position = sim_vec(0, 1), .half = sim_vec(3, 2), .cell = R(0.1) });
+            add_air(w, (plumb_air_desc){
+                           .position = sim_vec(0, 1), .half = sim_vec(3, 2), .cell = R(0.1) });
         }
         sim_add_box(w, sim_body(w, PLUMB_STATIC, 0, -0.5, 0), 5, 0.5, none);
         const plumb_body bodies[] = { sim_body(w, PLUMB_DYNAMIC, 0, 0.5, 0),
@@ -359,7 +358,8 @@ static void a_disc_lends_mass(void **state)
     plumb_world *w = make_world(sim_vec(0, 0));
     add_air(w, (plumb_air_desc){ .half = sim_vec(4, 4), .cell = R(0.1), .density = 1 });
     const plumb_body b = sim_body(w, PLUMB_DYNAMIC, 0, 0, 0);
-    const plumb_material light = plumb_material_create(w, &(plumb_material_desc){ .density = R(0.5) });
+    const plumb_material light =
+        plumb_material_create(w, &(plumb_material_desc){ .density = R(0.5) });
     sim_add_circle(w, b, 0.5, light);
     const double mass = (double)plumb_body_mass(w, b), air = PI * 0.25;
     for (int i = 0; i < 24; ++i) {
@@ -425,10 +425,9 @@ static void a_fan_pushes_whoever_carries_it(void **state)
     const plumb_body b = sim_body(w, PLUMB_DYNAMIC, 0, 0, PI / 2);
     sim_add_circle(w, b, 0.3, none);
     plumb_body_set_mass(w, b, 20);
-    const plumb_air_source fan = { .body = b,
-                                   .position = sim_vec(-0.55, 0.1),
-                                   .radius = R(0.25),
-                                   .push = sim_vec(-40, 0) };
+    const plumb_air_source fan = {
+        .body = b, .position = sim_vec(-0.55, 0.1), .radius = R(0.25), .push = sim_vec(-40, 0)
+    };
     assert_int_equal(plumb_air_set_sources(w, &fan, 1), PLUMB_OK);
     run(w, 0.5, 120);
     const double own = 20 * (double)plumb_body_velocity(w, b).y, air = sums_of(w).momentum_y;

@@ -22,29 +22,38 @@ static plumb_world *make_room(plumb_world_desc desc)
     plumb_world *w;
     assert_int_equal(plumb_world_create(&desc, &w), PLUMB_OK);
     const plumb_body ground = plumb_body_create(w, &(plumb_body_desc){ .type = PLUMB_STATIC });
+    plumb_shape_create(
+        w, ground,
+        &(plumb_shape_desc){ .kind = PLUMB_BOX, .half = { 20, R(0.5) }, .center = { 0, R(-0.5) } });
     plumb_shape_create(w, ground,
-                       &(plumb_shape_desc){ .kind = PLUMB_BOX, .half = { 20, R(0.5) }, .center = { 0, R(-0.5) } });
-    plumb_shape_create(w, ground,
-                       &(plumb_shape_desc){ .kind = PLUMB_BOX, .half = { R(0.1), R(0.3) }, .center = { R(0.5), R(0.3) } });
+                       &(plumb_shape_desc){ .kind = PLUMB_BOX,
+                                            .half = { R(0.1), R(0.3) },
+                                            .center = { R(0.5), R(0.3) } });
     const plumb_material light = plumb_material_create(w, &(plumb_material_desc){ .density = 3 });
     const plumb_vec2 places[] = { { R(-0.3), R(0.9) }, { R(0.1), R(1.2) }, { 10, 3 } };
     for (int i = 0; i < 3; ++i) {
-        const plumb_body b = plumb_body_create(w, &(plumb_body_desc){ .position = places[i], .angle = R(0.4) });
-        plumb_shape_create(w, b,
-                           i == 1 ? &(plumb_shape_desc){ .kind = PLUMB_CIRCLE, .radius = R(0.12), .material = light }
-                                  : &(plumb_shape_desc){ .kind = PLUMB_BOX, .half = { R(0.25), R(0.08) }, .material = light });
+        const plumb_body b =
+            plumb_body_create(w, &(plumb_body_desc){ .position = places[i], .angle = R(0.4) });
+        plumb_shape_create(
+            w, b,
+            i == 1
+                ? &(plumb_shape_desc){ .kind = PLUMB_CIRCLE, .radius = R(0.12), .material = light }
+                : &(plumb_shape_desc){
+                      .kind = PLUMB_BOX, .half = { R(0.25), R(0.08) }, .material = light });
     }
     return w;
 }
 
 static plumb_result fill(plumb_world *w)
 {
-    const plumb_air_source sources[] = { { .position = { 0, R(0.2) }, .radius = R(0.15), .heat = 300, .smoke = 5 },
-                                         { .body = plumb_world_bodies(w).body[0],
-                                           .radius = R(0.05),
-                                           .position = { R(0.3), 0 },
-                                           .smoke = 2,
-                                           .push = { 4, 0 } } };
+    const plumb_air_source sources[] = {
+        { .position = { 0, R(0.2) }, .radius = R(0.15), .heat = 300, .smoke = 5 },
+        { .body = plumb_world_bodies(w).body[0],
+          .radius = R(0.05),
+          .position = { R(0.3), 0 },
+          .smoke = 2,
+          .push = { 4, 0 } }
+    };
     const plumb_result r = plumb_air_create(w, &small_box);
     return r == PLUMB_OK ? plumb_air_set_sources(w, sources, 2) : r;
 }
@@ -71,8 +80,8 @@ static void bad_settings_are_refused(void **state)
     plumb_world *w = f->world;
     const plumb_real bad[] = { R(-1), R(NAN), R(INFINITY), PLUMB_REAL_MAX };
     plumb_air_desc d = { .half = { 1, 1 } };
-    plumb_real *const members[] = { &d.half.x,      &d.half.y,  &d.cell,    &d.density,
-                                    &d.viscosity,   &d.fading,  &d.cooling, &d.temperature };
+    plumb_real *const members[] = { &d.half.x,    &d.half.y, &d.cell,    &d.density,
+                                    &d.viscosity, &d.fading, &d.cooling, &d.temperature };
     assert_int_equal(plumb_air_create(NULL, &d), PLUMB_E_NULL);
     assert_int_equal(plumb_air_create(w, NULL), PLUMB_E_NULL);
     assert_int_equal(plumb_air_create(w, &(plumb_air_desc){ 0 }), PLUMB_E_RANGE);
@@ -245,7 +254,8 @@ static void extremes_stay_finite(void **state)
         const plumb_air_source sources[] = {
             { .radius = R(1e6), .smoke = R(1e6), .heat = R(1e6), .push = { R(1e6), R(-1e6) } },
             { .position = { R(1e6), R(-1e6) }, .radius = R(1e-6), .smoke = R(-1e6) },
-            { .position = { 0, 1 }, .radius = R(0.3), .heat = R(-1e6) } };
+            { .position = { 0, 1 }, .radius = R(0.3), .heat = R(-1e6) }
+        };
         assert_int_equal(plumb_air_set_sources(w, sources, 3), PLUMB_OK);
         for (int k = 0; k < 3; ++k) {
             const plumb_body b = plumb_world_bodies(w).body[k];
@@ -274,7 +284,8 @@ static void pistons_in_closed_rooms(void **state)
     (void)state;
     for (int driven = 0; driven < 2; ++driven) {
         plumb_world *w;
-        assert_int_equal(plumb_world_create(&(plumb_world_desc){ .zero_gravity = true }, &w), PLUMB_OK);
+        assert_int_equal(plumb_world_create(&(plumb_world_desc){ .zero_gravity = true }, &w),
+                         PLUMB_OK);
         const plumb_air_desc d = { .half = { 1, R(0.5) },
                                    .cell = R(0.125),
                                    .left = PLUMB_AIR_CLOSED,
@@ -283,13 +294,16 @@ static void pistons_in_closed_rooms(void **state)
                                    .top = PLUMB_AIR_CLOSED };
         assert_int_equal(plumb_air_create(w, &d), PLUMB_OK);
         const plumb_body b = plumb_body_create(
-            w, &(plumb_body_desc){ .type = driven ? PLUMB_KINEMATIC : PLUMB_DYNAMIC, .velocity = { R(0.5), 0 } });
-        plumb_shape_create(w, b, &(plumb_shape_desc){ .kind = PLUMB_BOX, .half = { R(0.2), R(0.6) } });
+            w, &(plumb_body_desc){ .type = driven ? PLUMB_KINEMATIC : PLUMB_DYNAMIC,
+                                   .velocity = { R(0.5), 0 } });
+        plumb_shape_create(w, b,
+                           &(plumb_shape_desc){ .kind = PLUMB_BOX, .half = { R(0.2), R(0.6) } });
         run(w, 60);
         plumb_air_sums sums;
         assert_int_equal(plumb_air_sum(w, &sums), PLUMB_OK);
         const double way = (double)plumb_body_position(w, b).x;
-        print_message("%s piston: way %.4f m, energy %.3g J\n", driven ? "driven" : "free", way, sums.energy);
+        print_message("%s piston: way %.4f m, energy %.3g J\n", driven ? "driven" : "free", way,
+                      sums.energy);
         assert_near(way, driven ? 0.5 : 0, 0.01);
         assert_true(sums.energy < 1);
         plumb_world_destroy(w);
@@ -314,7 +328,8 @@ static bool has_row(plumb_world *w, const char *name)
 static void without_air_there_is_no_pass(void **state)
 {
     (void)state;
-    plumb_world *w = make_room((plumb_world_desc){ 0 }), *never = make_room((plumb_world_desc){ 0 });
+    plumb_world *w = make_room((plumb_world_desc){ 0 }),
+                *never = make_room((plumb_world_desc){ 0 });
     run(w, 1);
     assert_false(has_row(w, "air"));
     assert_false(has_row(w, "air motion"));

@@ -572,7 +572,8 @@ static void change_air(session *s)
                                       .smoke = number(s, 0, 5),
                                       .heat = number(s, -90, 90),
                                       .push = place(s, -9, 9, -9, 9),
-                                      .body = one_in(s, 2) ? s->body[pick(s, SESSION_BODIES)] : s->body[0] };
+                                      .body = one_in(s, 2) ? s->body[pick(s, SESSION_BODIES)]
+                                                           : s->body[0] };
     plumb_air_desc d = { .position = place(s, -2, 2, 1, 2),
                          .half = { 2, 1 },
                          .cell = R(0.25),

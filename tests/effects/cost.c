@@ -59,10 +59,10 @@ static void add(plumb_world *world)
         must(world, plumb_air_create(world, &(plumb_air_desc){ .position = { 31, 1 },
                                                                .half = { 1, 1 },
                                                                .cell = R(0.125) }) == PLUMB_OK);
-        must(world, plumb_air_set_sources(
-                        world,
-                        &(plumb_air_source){ .position = { 31, 1 }, .radius = R(0.3), .heat = 50 },
-                        1) == PLUMB_OK);
+        must(world,
+             plumb_air_set_sources(
+                 world, &(plumb_air_source){ .position = { 31, 1 }, .radius = R(0.3), .heat = 50 },
+                 1) == PLUMB_OK);
     } else if (is("characters")) {
         plumb_body hero = body_at(world, (plumb_body_desc){ .type = PLUMB_KINEMATIC }, 30, 1);
         plumb_shape_create(world, hero,

@@ -276,10 +276,9 @@ static void change_air(soak *s)
     if (plumb_air_destroy(s->world) == PLUMB_OK || pick(s, 4) != 0) {
         return;
     }
-    const plumb_air_source source = { .position = place(s, -1, 1, 0, 1),
-                                      .radius = R(0.4),
-                                      .smoke = 3,
-                                      .heat = 60 };
+    const plumb_air_source source = {
+        .position = place(s, -1, 1, 0, 1), .radius = R(0.4), .smoke = 3, .heat = 60
+    };
     plumb_air_create(s->world, &(plumb_air_desc){ .position = { 0, 1 },
                                                   .half = { 3, 1 },
                                                   .cell = R(0.25),

@@ -6,8 +6,10 @@ static const char room[] =
     "scene{ duration = 1 }\n"
     "body{ type = 'static', box{6, 1, at = {0, -0.5}} }\n"
     "body{ name = 'fan', type = 'kinematic', circle{0.1}, at = {0.8, 1} }\n"
-    "air{ size = {4, 2}, at = {0, 1}, cell = 0.125, density = 2, viscosity = 0.01, temperature = 300, "
-    "bottom = 'closed', left = 'flow', flow = {0.5, 0}, fading = 0.1, cooling = 0.2, color = '#804020' }\n"
+    "air{ size = {4, 2}, at = {0, 1}, cell = 0.125, density = 2, viscosity = 0.01, temperature = "
+    "300, "
+    "bottom = 'closed', left = 'flow', flow = {0.5, 0}, fading = 0.1, cooling = 0.2, color = "
+    "'#804020' }\n"
     "local s = air_source{ at = {0, 0.3}, radius = 0.25, smoke = 3, heat = 90 }\n"
     "air_source{ body = 'fan', radius = 0.3, push = {6, 0} }\n"
     "air_fill(function(x, y) return nil, nil, y > 1 and 1 or nil, 10 end)\n"
@@ -64,7 +66,8 @@ static void json_keeps_it(void **state)
         assert_int_equal(count, 2);
         free(json);
         json = export_json(b, &size);
-        assert_non_null(strstr(json, "{\"air\":{\"at\":[0,1],\"bottom\":\"closed\",\"cell\":0.125,\"cells\":"));
+        assert_non_null(
+            strstr(json, "{\"air\":{\"at\":[0,1],\"bottom\":\"closed\",\"cell\":0.125,\"cells\":"));
         assert_non_null(strstr(json, "\"sources\":["));
         free(json);
         scene_destroy(a);
@@ -85,13 +88,17 @@ static void mistakes_are_told(void **state)
         { "air{ size = {1, 1}, viscosty = 1 }", "did you mean 'viscosity'" },
         { "air{ size = {1, 1} } air{ size = {1, 1} }", "has air since line 1" },
         { "air{ size = {1, 1}, cells = {{1, 2}} }", "must have as many" },
-        { "air{ size = {1, 1}, cell = 1, cells = {{0, 0, 0, 0, 0}, {1}, {}, {}} }", "must be five numbers" },
-        { "air{ size = {1, 1}, cell = 1, cells = {{0, 0, -1, 0, 0}, {0,0,0,0,0}, {0,0,0,0,0}, {0,0,0,0,0}} }", "smoke" },
+        { "air{ size = {1, 1}, cell = 1, cells = {{0, 0, 0, 0, 0}, {1}, {}, {}} }",
+          "must be five numbers" },
+        { "air{ size = {1, 1}, cell = 1, cells = {{0, 0, -1, 0, 0}, {0,0,0,0,0}, {0,0,0,0,0}, "
+          "{0,0,0,0,0}} }",
+          "smoke" },
         { "air_source{ radius = 1 }", "no air" },
         { "air{ size = {1, 1} } air_source{ smoke = 1 }", "needs 'radius'" },
         { "air{ size = {1, 1} } air_source{ radius = 1, body = 'who' }", "who" },
         { "air{ size = {1, 1} } air_source{ radius = 1, heat = 1/0 }", "heat" },
-        { "air{ size = {1, 1} } local s = air_source{ radius = 1 } s:remove() s:set{ heat = 1 }", "was removed" },
+        { "air{ size = {1, 1} } local s = air_source{ radius = 1 } s:remove() s:set{ heat = 1 }",
+          "was removed" },
         { "air_at(0, 0, 0, 'x') air_at('x')", "number" },
         { "air_sum()", "no air" },
         { "air_fill(3)", "function" },
@@ -105,7 +112,8 @@ static void mistakes_are_told(void **state)
         const char *text = rows[i][0];
         scene_load(&(scene_options){ .path = "test.lua", .text = text, .text_size = strlen(text) },
                    &s, &e);
-        if (s != NULL || strstr(e.text, rows[i][1]) == NULL || strstr(e.text, "test.lua:1") == NULL) {
+        if (s != NULL || strstr(e.text, rows[i][1]) == NULL ||
+            strstr(e.text, "test.lua:1") == NULL) {
             fail_msg("%s: %s", text, e.text);
         }
     }

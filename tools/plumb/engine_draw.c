@@ -391,8 +391,8 @@ static bool add_air(engine_stage *stage, render_frame *frame)
         const plumb_air_cell *c = &box.at[j * (size_t)(box.columns + 1) + i];
         known[k] = (double)c->room > 0.3;
         const double heat = (double)c->heat / GLOW;
-        points[k] = known[k] ? (render_vec){ (double)c->smoke, heat > 0 ? heat : 0 }
-                             : (render_vec){ 0, 0 };
+        points[k] =
+            known[k] ? (render_vec){ (double)c->smoke, heat > 0 ? heat : 0 } : (render_vec){ 0, 0 };
         any = any || points[k].x > 0 || points[k].y > 0;
     }
     const bool good = points != NULL && known != NULL;

@@ -34,7 +34,17 @@ typedef enum cause {
 } cause;
 
 /// What a pass visits.
-typedef enum visit { NO_ROWS, SAME, BODIES, IMMERSED, PIECES, PAIRS, CONTACTS, PARTICLES } visit;
+typedef enum visit {
+    NO_ROWS,
+    SAME,
+    BODIES,
+    IMMERSED,
+    PIECES,
+    PAIRS,
+    CONTACTS,
+    PARTICLES,
+    AIR_CELLS
+} visit;
 
 static const struct reason {
     const char *pass;
@@ -47,6 +57,7 @@ static const struct reason {
     { "tracks", TARGETED, SAME },
     { "characters", CHARACTERS, SAME },
     { "liquid", NOBODY, PARTICLES },
+    { "air", NOBODY, AIR_CELLS },
     { "waking", ASLEEP, SAME },
     { "broad phase", SOLID, PIECES },
     { "internal edges", GROUND, PIECES },
@@ -106,6 +117,7 @@ static const struct reason {
     { "targets", TARGETED, SAME },
     { "edges", NOBODY, BODIES },
     { "liquid motion", NOBODY, PARTICLES },
+    { "air motion", NOBODY, AIR_CELLS },
     { "reactions", JOINTS, SAME },
     { "events", SOLID, PAIRS },
     { "sensors", SENSORS, SAME },
@@ -288,6 +300,7 @@ void pl_session_because(engine_session *session, const engine_pass *pass, engine
     }
     find_whom(stage, reason->who, because);
     int particles = 0;
+    plumb_air_box box;
     because->what = reason->visits == SAME ? (reason->who >= JOINTS ? "joints" : "bodies")
                                            : words[reason->visits];
     switch (reason->visits) {
@@ -308,6 +321,10 @@ void pl_session_because(engine_session *session, const engine_pass *pass, engine
         break;
     case CONTACTS:
         because->rows = s.contact_count;
+        break;
+    case AIR_CELLS:
+        because->rows =
+            plumb_air_cells(stage->world, &box) == PLUMB_OK ? box.columns * box.rows : 0;
         break;
     case PARTICLES:
         (void)plumb_liquid_particles(stage->world, &particles);
@@ -525,6 +542,12 @@ int pl_session_unused(engine_session *session, const engine_finding **list)
         (plumb_liquid_particles(stage->world, &particles) == NULL || particles == 0)) {
         tell(&t, "liquid-without-particles", "fill it with a box or a shape",
              "the liquid has no particles");
+    }
+    plumb_air_sums air;
+    if (plumb_air_sum(stage->world, &air) == PLUMB_OK && air.energy == 0 && air.smoke == 0) {
+        tell(&t, "air-at-rest",
+             "give it a source, a side with a flow, or something that moves in it",
+             "the air never moved, and has no smoke");
     }
     *list = session->idle;
     return t.failed ? -1 : t.count;

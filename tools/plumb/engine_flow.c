@@ -47,8 +47,10 @@ static int by_speed(const void *a, const void *b)
 static int find_seeds(const plumb_world *world, const engine_box *view, const plumb_air_box *box,
                       double spacing, render_vec *seeds, double *speeds)
 {
-    const double left = fmax(view->min_x, (double)box->low.x), right = fmin(view->max_x, (double)box->high.x);
-    const double low = fmax(view->min_y, (double)box->low.y), high = fmin(view->max_y, (double)box->high.y);
+    const double left = fmax(view->min_x, (double)box->low.x),
+                 right = fmin(view->max_x, (double)box->high.x);
+    const double low = fmax(view->min_y, (double)box->low.y),
+                 high = fmin(view->max_y, (double)box->high.y);
     int count = 0;
     for (double j = ceil(low / spacing); j * spacing <= high; j++) {
         const double shift = fmod(fabs(j), 2) / 2;

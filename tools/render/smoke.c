@@ -8,8 +8,8 @@
 #include <math.h>
 #include <string.h>
 
-#define STEP    3.0  // [px] between points of the raster, times ui scale
-#define MOST    1000 // points along a side
+#define STEP     3.0  // [px] between points of the raster, times ui scale
+#define MOST     1000 // points along a side
 #define THICKEST 0.88 // of what is behind it smoke hides so much at the most
 
 typedef struct cells {

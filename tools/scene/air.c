@@ -136,8 +136,7 @@ static void tell_sources(scene *s, const sc_site *site)
 {
     int count = 0;
     lua_State *L = s->L;
-    plumb_air_source *all =
-        lua_newuserdatauv(L, (size_t)(s->sources.count + 1) * sizeof *all, 0);
+    plumb_air_source *all = lua_newuserdatauv(L, (size_t)(s->sources.count + 1) * sizeof *all, 0);
     for (int i = 0; i < s->sources.count; i++) {
         const sc_source_def *d = &s->sources.items[i].def;
         if (d->body[0] == 0 || sc_body_named(s, d->body) != NULL) {
@@ -253,7 +252,8 @@ static int lua_air_fill(lua_State *L)
 static int lua_air_at(lua_State *L)
 {
     scene *s = sc_of(L);
-    const plumb_vec2 at = { (plumb_real)luaL_checknumber(L, 1), (plumb_real)luaL_checknumber(L, 2) };
+    const plumb_vec2 at = { (plumb_real)luaL_checknumber(L, 1),
+                            (plumb_real)luaL_checknumber(L, 2) };
     sc_need_world(s);
     const plumb_air_sample a = plumb_air_at(s->world, at);
     sc_work(s, 10);

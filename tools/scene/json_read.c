@@ -169,9 +169,9 @@ static const cJSON *elements(scene *s, const cJSON *root, const char *name)
 
 static void check_root(scene *s, const cJSON *root)
 {
-    static const char *const names[] = { "air",    "bodies", "camera", "excluded",  "expect",
-                                         "format", "joints", "laws",   "liquid",    "materials",
-                                         "orbits", "pairs",  "scene",  "sources",   "time" };
+    static const char *const names[] = { "air",    "bodies", "camera", "excluded", "expect",
+                                         "format", "joints", "laws",   "liquid",   "materials",
+                                         "orbits", "pairs",  "scene",  "sources",  "time" };
     sc_site site = { .construct = "file", .path = "" };
     if (!cJSON_IsObject(root)) {
         sc_raise(s, SCENE_E_TYPE, &site, NULL, 0, NULL, "a scene must be an object {...}");

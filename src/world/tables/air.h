@@ -26,10 +26,10 @@
 typedef struct pl_air_scratch {
     pl_liquid_scratch liquid; // grid, solids, bodies, matrix: the liquid's kernels
     pl_buffer columns;
-    pl_buffer moved; // plumb_air_cell: as they are after the step
-    pl_buffer stack; // of cells that are joined
-    pl_buffer seams; // pl_liquid_seam
-    pl_buffer gains; // double[3]: of bodies, what a projection gives their velocities
+    pl_buffer moved;      // plumb_air_cell: as they are after the step
+    pl_buffer stack;      // of cells that are joined
+    pl_buffer wraps;      // pl_liquid_wrap
+    pl_buffer gains;      // double[3]: of bodies, what a projection gives their velocities
     int32_t low_x, low_y; // cells, from the origin of the world
     int32_t columns_x, columns_y;
     uint32_t stride;
@@ -44,7 +44,7 @@ typedef struct pl_air {
     uint32_t cell_count; // (columns + 1) * (rows + 1)
     pl_buffer cells;     // plumb_air_cell
     uint32_t source_count;
-    pl_buffer sources; // plumb_air_source
+    pl_buffer sources;       // plumb_air_source
     pl_air_scratch *scratch; // NULL: no step has needed it yet
 } pl_air;
 

@@ -94,10 +94,10 @@ typedef struct pl_liquid_link {
 } pl_liquid_link;
 
 // A face across which a grid goes on at its other side.
-typedef struct pl_liquid_seam {
+typedef struct pl_liquid_wrap {
     uint32_t a, b;  // rows
     near_real open; // 0..1
-} pl_liquid_seam;
+} pl_liquid_wrap;
 
 // A convex piece near the liquid, in cells from the origin of the world.
 typedef struct pl_liquid_solid {
@@ -143,8 +143,8 @@ typedef struct pl_liquid_grid {
     double *sums;                          // parts of totals
     pl_liquid_body *bodies;
     pl_liquid_link *links;
-    pl_liquid_seam *seams;
-    uint32_t seam_count;
+    pl_liquid_wrap *wraps;
+    uint32_t wrap_count;
     double drag; // [kg] above 0: viscosity drags bodies, density times the square of a cell's side
     pl_liquid_solid *solids;
     uint32_t *tile_solids;
