@@ -84,6 +84,15 @@ typedef struct plumb_material_desc {
     /// holds up to `friction` times its load; once it slides it bears `kinetic_friction` times its load until it
     /// sticks again. A pair mixes both by the same rule.
     plumb_real kinetic_friction;
+
+    /// [-] 0..1, of a fluid that flows: what stands behind a shape, seen along the flow, gets so much less of it; 0: as if it
+    /// stood alone. Surfaces that are hidden in part are so in part, exactly. All solid shapes in the volume shelter that may meet
+    /// it; parts of one body shelter one another. As it is at the beginning of the step; not in worlds that wrap around.
+    /// Each step looks at all pieces: O(n log n) of those in the volume, and O(1) for each two that stand behind one another
+    plumb_real shelter;
+    /// [-] 0..10, how far shelter reaches: a distance x behind a shape that is 2 r wide across the flow it is shelter (r / (r +
+    /// wake x))^2, of several the most (Jensen 1983; 0.04 to 0.1 of turbines, more in gusty wind). 0: for ever
+    plumb_real wake;
 } plumb_material_desc;
 
 /// Makes a material. Null handle on error (see plumb_world_error): E_NULL, E_RANGE, E_NOT_FINITE,

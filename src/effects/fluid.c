@@ -215,6 +215,9 @@ bool pl_fluids_immerse(plumb_world *world)
         all[i].key = pl_key(slots[all[i].key >> 32], (uint32_t)all[i].key);
     }
     pl_sort_keyed(all, e->immersion_count);
+    if (!pl_shelter_find(world)) {
+        return false;
+    }
     pl_swimmer *swimmers = e->swimmers.data;
     for (uint32_t i = 0; i < e->immersion_count;) {
         const uint32_t slot = (uint32_t)(all[i].key >> 32), first = i;

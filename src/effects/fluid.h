@@ -32,6 +32,20 @@ bool pl_fluids_immerse(plumb_world *world);
 void pl_fluid_contour(const plumb_world *world, const pl_volume *volume, uint32_t piece,
                       const double moved[3], double time, pl_contour *out, double away[2]);
 
+// Across the flow, n . x from low to high [m] in the world, n the flow's direction turned by a quarter counter-clockwise: there
+// `share` of the flow is kept off.
+typedef struct pl_shade {
+    double low, high, share;
+} pl_shade;
+
+// Shades that an immersion has: apart from one another, rising.
+typedef struct pl_shadow {
+    uint32_t first, count;
+} pl_shadow;
+
+// What stands behind what, as the step begins. False when out of memory.
+bool pl_shelter_find(plumb_world *world);
+
 // The flow [m/s] of a volume's fluid against its body, at a place [m] in the world at a time [s].
 void pl_fluid_flow(const plumb_world *world, const pl_volume *volume, double x, double y,
                    double height, double time, double out[2]);

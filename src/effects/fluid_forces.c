@@ -113,20 +113,82 @@ static void float_up(const plumb_world *world, const pl_swimmer *s, const pl_vol
     pull->resist[2][2] += 2 * roll / h;
 }
 
-// Velocity of a body against the fluid, as if both were rigid.
+// Velocity of a body against the fluid, as if both were rigid; and the flow.
 static pl_spin against(const plumb_world *world, const pl_volume *volume, uint32_t row,
-                       const pl_solver_body *body, const double away[2], double time)
+                       const pl_solver_body *body, const double away[2], double time,
+                       double flow[2])
 {
     const pl_bodies *b = &world->bodies;
     const uint32_t holder = world->pieces.body[volume->piece];
     const double height = -(volume->up_x * away[0] + volume->up_y * away[1]) - volume->bottom;
-    double flow[2];
     pl_fluid_flow(world, volume, (double)b->center_x[row] + (double)body->dx,
                   (double)b->center_y[row] + (double)body->dy, height, world->time + time, flow);
     const double w = (double)b->w[holder];
     return (pl_spin){ (double)body->vx - flow[0] - (double)b->vx[holder] - w * away[1],
                       (double)body->vy - flow[1] - (double)b->vy[holder] + w * away[0],
                       (double)body->w - w };
+}
+
+// The drag of an outline at a velocity against the fluid.
+static void drag_outline(const plumb_world *world, uint32_t material, const pl_contour *contour,
+                         pl_spin u, pl_pull *pull)
+{
+    const pl_materials *m = &world->materials;
+    pl_drag d = { 0 };
+    pl_contour_drag(contour, u, (double)(m->drag[material] * m->density[material]),
+                    (double)(m->skin_drag[material] * m->density[material]), &d);
+    add_drag(pull, &d);
+    pull->force[0] -= (d.xx * u.vx + d.xy * u.vy + d.xw * u.w) / 2;
+    pull->force[1] -= (d.xy * u.vx + d.yy * u.vy + d.yw * u.w) / 2;
+    pull->force[2] -= (d.xw * u.vx + d.yw * u.vy + d.ww * u.w) / 2;
+}
+
+// What of an outline lies from low to high across a unit vector.
+static void drag_strip(const plumb_world *world, uint32_t material, const pl_contour *contour,
+                       const double n[2], double low, double high, pl_spin u, pl_pull *pull)
+{
+    pl_contour strip = *contour;
+    if (high < INFINITY) {
+        pl_contour_cut(&strip, (pl_half_plane){ n[0], n[1], high });
+    }
+    if (low > -INFINITY && strip.count > 0) {
+        pl_contour_cut(&strip, (pl_half_plane){ -n[0], -n[1], -low });
+    }
+    if (strip.count > 0) {
+        drag_outline(world, material, &strip, u, pull);
+    }
+}
+
+// The same strip by strip where some are sheltered; (x, y): what the outline is relative to, in the world.
+static void drag_shaded(const plumb_world *world, uint32_t material, const pl_contour *contour,
+                        pl_shadow shadow, const double flow[2], double x, double y, pl_spin u,
+                        pl_pull *pull)
+{
+    const pl_shade *shades = (const pl_shade *)world->effects.shelter->shades.data + shadow.first;
+    const double fx = (double)world->materials.flow_x[material];
+    const double fy = (double)world->materials.flow_y[material], speed = sqrt(fx * fx + fy * fy);
+    const double n[2] = { -fy / speed, fx / speed }, at = n[0] * x + n[1] * y;
+    double from = -INFINITY;
+    for (uint32_t i = 0; i < shadow.count; ++i) {
+        const pl_shade *s = &shades[i];
+        if (s->low - at > from) {
+            drag_strip(world, material, contour, n, from, s->low - at, u, pull);
+        }
+        const pl_spin v = { u.vx + s->share * flow[0], u.vy + s->share * flow[1], u.w };
+        drag_strip(world, material, contour, n, s->low - at, s->high - at, v, pull);
+        from = s->high - at;
+    }
+    drag_strip(world, material, contour, n, from, INFINITY, u, pull);
+}
+
+static pl_shadow shadow_of(const plumb_world *world, const pl_keyed *immersion)
+{
+    const pl_effects *e = &world->effects;
+    if (e->shelter == NULL || !e->shelter->any) {
+        return (pl_shadow){ 0, 0 };
+    }
+    const pl_shadow *shadows = e->shelter->shadows.data;
+    return shadows[immersion - (const pl_keyed *)e->immersions.data];
 }
 
 static void immerse(const passage *p, const pl_swimmer *s, const pl_keyed *immersion,
@@ -147,14 +209,16 @@ static void immerse(const passage *p, const pl_swimmer *s, const pl_keyed *immer
         return;
     }
     const uint32_t row = world->pieces.body[piece];
-    const pl_spin u = against(world, volume, row, body, away, p->time);
-    pl_drag d = { 0 };
-    pl_contour_drag(&contour, u, (double)(m->drag[of] * m->density[of]),
-                    (double)(m->skin_drag[of] * m->density[of]), &d);
-    add_drag(pull, &d);
-    pull->force[0] -= (d.xx * u.vx + d.xy * u.vy + d.xw * u.w) / 2;
-    pull->force[1] -= (d.xy * u.vx + d.yy * u.vy + d.yw * u.w) / 2;
-    pull->force[2] -= (d.xw * u.vx + d.yw * u.vy + d.ww * u.w) / 2;
+    double flow[2];
+    const pl_spin u = against(world, volume, row, body, away, p->time, flow);
+    const pl_shadow shadow = shadow_of(world, immersion);
+    if (shadow.count > 0) {
+        const double x = (double)world->bodies.center_x[row] + moved[0];
+        const double y = (double)world->bodies.center_y[row] + moved[1];
+        drag_shaded(world, of, &contour, shadow, flow, x, y, u, pull);
+    } else {
+        drag_outline(world, of, &contour, u, pull);
+    }
     if (m->magnus[of] > 0) {
         const double area = pl_contour_area(&contour).area;
         const double lift = 2 * (double)(m->magnus[of] * m->density[of]) * area * u.w;

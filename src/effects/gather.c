@@ -62,6 +62,14 @@ void pl_effects_free(pl_memory *memory, pl_effects *e)
     pl_buffer *buffers[] = { &e->called,     &e->bases,    &e->decays,   &e->factors,
                              &e->dampers,    &e->cappers,  &e->swims,    &e->volumes,
                              &e->immersions, &e->swimmers, &e->draggers, &e->engines };
+    if (e->shelter != NULL) {
+        pl_shelter copy = *e->shelter; // of a copy of the effects it tells what would be freed
+        pl_buffer_free(memory, &copy.shades);
+        pl_buffer_free(memory, &copy.shadows);
+        pl_buffer_free(memory, &copy.blockers);
+        pl_buffer_free(memory, &copy.casts);
+        pl_resize(memory, e->shelter, sizeof *e->shelter, 0);
+    }
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; ++i) {
         pl_buffer_free(memory, buffers[i]);
     }

@@ -74,9 +74,6 @@ int32_t pl_liquid_floor(double cells, near_real *fraction);
 
 // Closes faces by the grid's solids, as they are now. False when out of memory.
 bool pl_liquid_close_faces(pl_memory *memory, pl_liquid_scratch *scratch);
-// Chord of the line x = at with a convex piece of n corners and a radius; false: none. Corners y, x for y = at.
-bool pl_liquid_chord(const double *x, const double *y, int n, double radius, double at, double *low,
-                     double *high);
 
 //---- transfer.c ----------------------------------------------------------------------------------
 

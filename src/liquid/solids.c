@@ -11,62 +11,19 @@
 // Reads: solids, tiles. Writes: openness, speeds of what closes, links. Cost: O(tiles x (solids + chords in them)).
 #include "liquid/liquid.h"
 
+#include "geometry/chord.h"
+
 #include <math.h>
 
 #define SIDE PL_LIQUID_SIDE
 
-//---- chords --------------------------------------------------------------------------------------
+//---- faces ---------------------------------------------------------------------------------------
 
+// A solid in a tile: coordinates from the tile's corner, with x and y exchanged for lines y = at.
 typedef struct interval {
     double low, high;
 } interval;
 
-static void widen(interval *a, double y)
-{
-    a->low = y < a->low ? y : a->low;
-    a->high = y > a->high ? y : a->high;
-}
-
-// The edge from corner a to b, moved outwards by the radius: where it meets the line.
-static void meet_edge(interval *out, double ax, double ay, double bx, double by, double radius,
-                      double at)
-{
-    const double dx = bx - ax, dy = by - ay, length = sqrt(dx * dx + dy * dy);
-    if (!(length > 0)) {
-        return;
-    }
-    const double nx = dy / length * radius, ny = -dx / length * radius;
-    const double from = at - ax - nx;
-    if (dx != 0 && (dx > 0 ? from >= 0 && from <= dx : from <= 0 && from >= dx)) {
-        widen(out, ay + ny + dy * (from / dx));
-    }
-}
-
-bool pl_liquid_chord(const double *x, const double *y, int n, double radius, double at, double *low,
-                     double *high)
-{
-    interval out = { INFINITY, -INFINITY };
-    for (int i = 0; i < n; ++i) {
-        const int k = i + 1 < n ? i + 1 : 0;
-        const double off = at - x[i], square = radius * radius - off * off;
-        if (square >= 0) {
-            const double half = sqrt(square);
-            widen(&out, y[i] - half);
-            widen(&out, y[i] + half);
-        }
-        meet_edge(&out, x[i], y[i], x[k], y[k], radius, at);
-        if (n == 2) {
-            meet_edge(&out, x[k], y[k], x[i], y[i], radius, at);
-        }
-    }
-    *low = out.low;
-    *high = out.high;
-    return out.low <= out.high;
-}
-
-//---- faces ---------------------------------------------------------------------------------------
-
-// A solid in a tile: coordinates from the tile's corner, with x and y exchanged for lines y = at.
 typedef struct view {
     double x[16], y[16];
     const pl_liquid_solid *solid;
@@ -131,7 +88,7 @@ static bool close_lines(pl_memory *memory, pl_liquid_scratch *scratch, const vie
     const pl_liquid_solid *s = v->solid;
     double low, high;
     for (int i = 0; i < SIDE; ++i) {
-        if (!pl_liquid_chord(v->x, v->y, s->count, s->radius, i, &low, &high)) {
+        if (!pl_chord(v->x, v->y, s->count, s->radius, i, &low, &high)) {
             continue;
         }
         for (int j = first_at(low); j < SIDE && j < high; ++j) {
@@ -151,7 +108,7 @@ static bool close_crossed(pl_memory *memory, pl_liquid_scratch *scratch, const v
     const pl_liquid_solid *s = v->solid;
     double low, high;
     for (int j = 0; j < SIDE; ++j) {
-        if (!pl_liquid_chord(other->x, other->y, s->count, s->radius, j + 0.5, &low, &high)) {
+        if (!pl_chord(other->x, other->y, s->count, s->radius, j + 0.5, &low, &high)) {
             continue;
         }
         for (int i = first_at(low + 0.5); i < SIDE && i - 0.5 <= high; ++i) {
@@ -166,7 +123,7 @@ static bool close_crossed(pl_memory *memory, pl_liquid_scratch *scratch, const v
 static interval chord_at(const view *v, double at)
 {
     interval c;
-    if (!pl_liquid_chord(v->x, v->y, v->solid->count, v->solid->radius, at, &c.low, &c.high)) {
+    if (!pl_chord(v->x, v->y, v->solid->count, v->solid->radius, at, &c.low, &c.high)) {
         c = (interval){ 0, 0 };
     }
     return c;

@@ -53,7 +53,11 @@
     R(X, COLUMN, REAL, magnus, SAID(magnus), "1", FROM(0, 10), 0, NO_ZERO,                          \
       "lift of what spins in a fluid, of that of a cylinder in an ideal one")                       \
     R(X, COLUMN, REAL, kinetic_friction, SAID(kinetic_friction), "1", FROM(0, 10), 0, NO_ZERO,      \
-      "Coulomb coefficient of what slides; 0, and what is above friction: the same as that")
+      "Coulomb coefficient of what slides; 0, and what is above friction: the same as that")        \
+    R(X, COLUMN, REAL, shelter, SAID(shelter), "1", FROM(0, 1), 0, NO_ZERO,                         \
+      "share of a fluid's flow that what stands in it keeps from what stands right behind")         \
+    R(X, COLUMN, REAL, wake, SAID(wake), "1", FROM(0, 10), 0, NO_ZERO,                              \
+      "widening of wakes a metre, by which flow recovers behind what shelters; 0: it never does")
 
 #define PL_MATERIAL_PAIR_ROWS(R, X)                                                                 \
     R(X, OWN, REAL, friction, SAID(friction), "1", FROM(0, 10), 0, NO_ZERO, "Coulomb coefficient")  \

@@ -13,7 +13,11 @@
 // What few worlds have, and none had once: where it is nowhere, hashes are what they were.
 static bool is_absent(const pl_section *section)
 {
-    bool rare = strcmp(section->name, "kinetic_friction") == 0;
+    static const char *const names[] = { "kinetic_friction", "shelter", "wake" };
+    bool rare = false;
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; ++i) {
+        rare |= strcmp(section->name, names[i]) == 0;
+    }
     for (size_t i = 0; rare && i < pl_section_bytes(section); ++i) {
         rare = section->data[i] == 0;
     }

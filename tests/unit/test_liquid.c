@@ -12,6 +12,7 @@
 
 #include "harness/near.h"
 
+#include "geometry/chord.h"
 #include "liquid/liquid.h"
 #include "harness/random.h"
 
@@ -90,16 +91,16 @@ static void chords_are_exact(void **state)
     (void)state;
     double low, high;
     const double cx[] = { 1 }, cy[] = { 2 };
-    assert_true(pl_liquid_chord(cx, cy, 1, 0.5, 1.3, &low, &high));
+    assert_true(pl_chord(cx, cy, 1, 0.5, 1.3, &low, &high));
     assert_near(high - low, 0.8, 1e-12); // 2 sqrt(0.25 - 0.09)
-    assert_false(pl_liquid_chord(cx, cy, 1, 0.5, 1.6, &low, &high));
+    assert_false(pl_chord(cx, cy, 1, 0.5, 1.6, &low, &high));
     const double tx[] = { 0, 4, 0 }, ty[] = { 0, 0, 2 };
-    assert_true(pl_liquid_chord(tx, ty, 3, 0, 1, &low, &high));
+    assert_true(pl_chord(tx, ty, 3, 0, 1, &low, &high));
     assert_near(low, 0, 1e-12);
     assert_near(high, 1.5, 1e-12);
     // A slanting capsule: the chord of its sides is 2 r / cos.
     const double ax[] = { -5, 5 }, ay[] = { -5, 5 };
-    assert_true(pl_liquid_chord(ax, ay, 2, 0.5, 0.25, &low, &high));
+    assert_true(pl_chord(ax, ay, 2, 0.5, 0.25, &low, &high));
     assert_near(high - low, sqrt(2), 1e-12);
     assert_near((low + high) / 2, 0.25, 1e-12);
 }
@@ -114,7 +115,7 @@ static void chords_hold_what_is_inside(void **state)
         const double y[] = { sim_uniform(&r, 0, 1), 0.2, 2 }, radius = sim_uniform(&r, 0, 1);
         const double at = -1 + 5 * sim_uniform(&r, 0, 1);
         double low, high;
-        const bool meets = pl_liquid_chord(x, y, 3, radius, at, &low, &high);
+        const bool meets = pl_chord(x, y, 3, radius, at, &low, &high);
         const plumb_vec2 p[] = { { (plumb_real)x[0], (plumb_real)y[0] },
                                  { (plumb_real)x[1], (plumb_real)y[1] },
                                  { (plumb_real)x[2], (plumb_real)y[2] } };

@@ -62,6 +62,14 @@ typedef struct pl_tracks {
     uint32_t count;
 } pl_tracks;
 
+// What stands behind what in fluids that flow: made when the first of them shelters.
+typedef struct pl_shelter {
+    pl_buffer shades, shadows; // pl_shade; pl_shadow of each immersion
+    pl_buffer blockers, casts; // scratch of shelter.c
+    uint32_t shade_count;
+    bool any; // some volume shelters in this step: there are shadows
+} pl_shelter;
+
 // What a step needs of effects, and forgets.
 typedef struct pl_effects {
     plumb_vec2 gravity; // [m/s^2] that acts in this step: 0 where the row of gravity does not run
@@ -77,6 +85,7 @@ typedef struct pl_effects {
     pl_buffer swims;                     // uint8_t a dynamic row: whether a fluid may act on it
     pl_buffer volumes, immersions;       // pl_volume; pl_keyed: row and piece, volume
     pl_buffer swimmers;                  // pl_swimmer, by rising slot
+    struct pl_shelter *shelter;          // NULL: no volume has sheltered yet
     pl_buffer draggers;                  // pl_dragger, by rising slot
     pl_buffer engines;                   // pl_engine, by rising slot
     uint32_t dragger_count, engine_count;

@@ -1,0 +1,53 @@
+// chord.c - where a line meets a convex shape.
+//
+// Reads: corners and a radius. Writes: an interval. Cost: O(corners).
+#include "geometry/chord.h"
+
+#include <math.h>
+
+typedef struct interval {
+    double low, high;
+} interval;
+
+static void widen(interval *a, double y)
+{
+    a->low = y < a->low ? y : a->low;
+    a->high = y > a->high ? y : a->high;
+}
+
+// The edge from corner a to b, moved outwards by the radius: where it meets the line.
+static void meet_edge(interval *out, double ax, double ay, double bx, double by, double radius,
+                      double at)
+{
+    const double dx = bx - ax, dy = by - ay, length = sqrt(dx * dx + dy * dy);
+    if (!(length > 0)) {
+        return;
+    }
+    const double nx = dy / length * radius, ny = -dx / length * radius;
+    const double from = at - ax - nx;
+    if (dx != 0 && (dx > 0 ? from >= 0 && from <= dx : from <= 0 && from >= dx)) {
+        widen(out, ay + ny + dy * (from / dx));
+    }
+}
+
+bool pl_chord(const double *x, const double *y, int n, double radius, double at, double *low,
+              double *high)
+{
+    interval out = { INFINITY, -INFINITY };
+    for (int i = 0; i < n; ++i) {
+        const int k = i + 1 < n ? i + 1 : 0;
+        const double off = at - x[i], square = radius * radius - off * off;
+        if (square >= 0) {
+            const double half = sqrt(square);
+            widen(&out, y[i] - half);
+            widen(&out, y[i] + half);
+        }
+        meet_edge(&out, x[i], y[i], x[k], y[k], radius, at);
+        if (n == 2) {
+            meet_edge(&out, x[k], y[k], x[i], y[i], radius, at);
+        }
+    }
+    *low = out.low;
+    *high = out.high;
+    return out.low <= out.high;
+}
