@@ -283,24 +283,11 @@ static interval interval_of(const pl_liquid_grid *g, uint32_t chunk)
     return (interval){ (size_t)first * LINE, (size_t)stop * LINE, first, stop };
 }
 
-typedef pl_near_quad quad;
-
-static inline quad load(const near_real *v)
-{
-    quad q;
-    memcpy(&q, v, sizeof q);
-    return q;
-}
-
-static inline void store(near_real *v, quad q)
-{
-    memcpy(v, &q, sizeof q);
-}
-
-static inline quad choose(pl_near_mask where, quad a, quad b)
-{
-    return (quad)((where & (pl_near_mask)a) | (~where & (pl_near_mask)b));
-}
+// Four at a time. Macros: a function that takes a quad of doubles would take it another way with AVX than without.
+typedef near_real quad
+    __attribute__((vector_size(4 * sizeof(near_real)), aligned(sizeof(near_real)), may_alias));
+#define QUAD(v)             (*(quad *)(void *)(v))
+#define CHOOSE(where, a, b) ((quad)(((where) & (pl_near_mask)(a)) | (~(where) & (pl_near_mask)(b))))
 
 static double dot(const near_real *a, const near_real *b, interval at)
 {
@@ -344,12 +331,12 @@ static void step_chunks(void *context, uint32_t first, uint32_t count)
         const interval at = interval_of(g, c);
         quad most = { 0 }, least = { 0 };
         for (size_t i = at.first; i < at.end; i += 4) {
-            const quad left = load(r + i) - factor * load(z + i);
-            store(p + i, load(p + i) + factor * load(s + i));
-            store(r + i, left);
-            store(z + i, load(inverse + i) * left);
-            most = choose(left > most, left, most);
-            least = choose(left < least, left, least);
+            const quad left = QUAD(r + i) - factor * QUAD(z + i);
+            QUAD(p + i) += factor * QUAD(s + i);
+            QUAD(r + i) = left;
+            QUAD(z + i) = QUAD(inverse + i) * left;
+            most = CHOOSE(left > most, left, most);
+            least = CHOOSE(left < least, left, least);
         }
         g->sums[c] = 0;
         for (int k = 0; k < 4; ++k) {

@@ -52,14 +52,16 @@ typedef struct push {
     double x, y, turn; // [N], [N m]
 } push;
 
+#define MASS 1e9 // [kg] what gives way feels less
+
 // What the wind does to a body at rest.
 static push push_on(plumb_world *w, plumb_body b)
 {
-    plumb_body_set_mass(w, b, 10000);
+    plumb_body_set_mass(w, b, R(MASS));
     sim_step(w, DT);
     const plumb_vec2 v = plumb_body_velocity(w, b);
     const double inertia = (double)plumb_body_inertia(w, b);
-    return (push){ (double)v.x * 10000 / DT, (double)v.y * 10000 / DT,
+    return (push){ (double)v.x * MASS / DT, (double)v.y * MASS / DT,
                    (double)plumb_body_angular_velocity(w, b) * inertia / DT };
 }
 
