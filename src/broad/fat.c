@@ -2,9 +2,10 @@
 //
 // Reads: poses, piece geometry, velocities. Writes: fat boxes, which pieces left theirs. Order: first of the broad phase.
 // Cost: O(moving pieces); O(all pieces) when static ones changed.
-#include "world/body_settings.h"
 #include "broad/fat.h"
+
 #include "broad/pairs.h"
+#include "world/body_settings.h"
 #include "world/wrap.h"
 
 #include <string.h>

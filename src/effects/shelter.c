@@ -12,6 +12,7 @@
 
 #include "core/sort.h"
 #include "geometry/chord.h"
+#include "math/compare.h"
 #include "world/filter.h"
 #include "world/rows.h"
 #include "world/wrap.h"
@@ -95,8 +96,8 @@ static bool add_blocker(sweep *s, uint32_t piece, uint32_t immersion)
         const double y = (double)bodies->center_y[row] - s->at_y + sine * px + c * py;
         b->x[i] = -s->ey * x + s->ex * y;
         b->y[i] = s->ex * x + s->ey * y;
-        b->low = fmin(b->low, b->x[i] - b->radius);
-        b->high = fmax(b->high, b->x[i] + b->radius);
+        b->low = pl_lesser(b->low, b->x[i] - b->radius);
+        b->high = pl_greater(b->high, b->x[i] + b->radius);
     }
     return true;
 }

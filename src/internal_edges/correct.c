@@ -14,12 +14,12 @@
 #include "internal_edges/view.h"
 
 // The two views of a contact; opened where somebody looks.
-typedef struct outlook {
+typedef struct prospect {
     pl_view view[2];
     bool open[2];
-} outlook;
+} prospect;
 
-static pl_view *view_of(outlook *o, const plumb_world *world, const pl_pair *pair,
+static pl_view *view_of(prospect *o, const plumb_world *world, const pl_pair *pair,
                         const pl_manifold *m, int i, double dt)
 {
     if (!o->open[i]) {
@@ -78,7 +78,7 @@ static bool is_deep_in_free_body(const plumb_world *world, const pl_manifold *m,
 
 // Either piece may be ground; the ground of one must allow what the other's makes of the contact.
 static verdict judge(const plumb_world *world, const pl_pair *pair, pl_manifold *m, double dt,
-                     outlook *o)
+                     prospect *o)
 {
     bool allowed[2];
     for (int i = 0; i < 2; ++i) {
@@ -104,7 +104,7 @@ static verdict judge(const plumb_world *world, const pl_pair *pair, pl_manifold 
 
 // Faces that go on flat are joined (run.c).
 static void add_to_runs(plumb_world *world, uint32_t index, const pl_pair *pair,
-                        const pl_manifold *m, outlook *o, double dt)
+                        const pl_manifold *m, prospect *o, double dt)
 {
     const uint32_t *bits = world->pieces.internal_corners;
     if (world->internal_edges.apart || ((bits[pair->a] | bits[pair->b]) & PL_EDGE_FLAT) == 0) {
@@ -220,7 +220,7 @@ bool pl_internal_edges_correct(plumb_world *world, real dt)
             continue;
         }
         pl_manifold *m = &pl_manifolds(&world->narrow)[pair->manifold];
-        outlook o;
+        prospect o;
         o.open[0] = o.open[1] = false;
         const near_real gap = nearest(m);
         verdict v = judge(world, pair, m, (double)dt, &o);

@@ -88,8 +88,9 @@ static void sloshing_keeps_the_volume(void **state)
         sim_run(w, 3600, HZ60);
         const water a = look(w);
         const double ratio = 2 * a.mean_y / (width / 2);
-        print_message("%.2f m broke, then 60 s: height over that of the volume %.4f, rms speed %.3f m/s\n",
-                      width, ratio, a.rms);
+        print_message(
+            "%.2f m broke, then 60 s: height over that of the volume %.4f, rms speed %.3f m/s\n",
+            width, ratio, a.rms);
         assert_near(ratio, 1, 0.04);
         sum += ratio;
         plumb_world_destroy(w);
