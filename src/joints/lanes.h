@@ -132,15 +132,24 @@ WIDE_INLINE void gather_velocity(body *out, const pl_joint_call *call, const uin
     out->inv_inertia = inv_inertia;
 }
 
-// Lanes of immovable bodies write to a sink, for others share those rows.
+// Lanes of immovable bodies write to a sink, for others share those rows. Most bundles have none.
 WIDE_INLINE void scatter_velocity(const body *in, const pl_joint_call *call, const uint32_t *slot)
 {
-    near_real sink[4] __attribute__((aligned(32)));
+    const vf out[4] = { in->vx, in->vy, in->w, in->inv_mass };
     near_real *at[PL_WIDTH];
+    __asm__("" : "+r"(slot)); // read again: see solver/bundle.h
+    if (all_below(slot, call->dynamic_slots)) {
+        for (int i = 0; i < PL_WIDTH; ++i) {
+            at[i] = &call->bodies[slot[i]].vx;
+        }
+        scatter4(at, 0, out);
+        return;
+    }
+    near_real sink[4] __attribute__((aligned(32)));
     for (int i = 0; i < PL_WIDTH; ++i) {
         at[i] = slot[i] < call->dynamic_slots ? &call->bodies[slot[i]].vx : sink;
     }
-    scatter4(at, 0, (vf[4]){ in->vx, in->vy, in->w, in->inv_mass });
+    scatter4(at, 0, out);
 }
 
 // Adds the momentum (-x, -y, wa) to A and (x, y, wb) to B.

@@ -224,26 +224,36 @@ static inline uint32_t keep_both(const pl_pair *pair, pl_manifold *m)
     return 2;
 }
 
-// One lane's manifold.
-static inline bool emit_lane(pl_pair *pair, pl_manifold *m, const near_real *row, near_real limit,
+// What is carried over to one lane's manifold, whose rows are there.
+static inline void emit_lane(pl_pair *pair, pl_manifold *m, near_real limit,
                              const uint32_t feature[2])
 {
-    const pl_manifold_point *point = (const pl_manifold_point *)(const void *)(row + 8);
-    const bool near[2] = { point[0].separation < limit, point[1].separation < limit };
-    if (!near[0] && !near[1]) {
-        part(pair);
-        return false;
-    }
+    const bool both = m->point[0].separation < limit && m->point[1].separation < limit;
     const bool same = pair->feature[0] == feature[0] && pair->feature[1] == feature[1];
-    memcpy(m, row, 24 * sizeof(near_real));
-    m->count =
-        near[0] && near[1] && same ? keep_both(pair, m) : keep_points(pair, m, limit, feature);
-    m->disabled = m->met = 0;
+    m->count = both && same ? keep_both(pair, m) : keep_points(pair, m, limit, feature);
+    m->disabled = 0;
     m->before = pair->manifold;
     m->body_a = pair->body_a;
     m->body_b = pair->body_b;
     pair->flags &= ~(PL_PAIR_HIT | PL_PAIR_AHEAD);
-    return true;
+}
+
+// pl_overlaps_count() of the lanes in `here`.
+WIDE_INLINE void count_overlaps(pl_overlaps *o, const touch *t, vf limit, vm here)
+{
+    const vf zero = splat(0);
+    const vm near[2] = { here & (t->sep[0] < limit), here & (t->sep[1] < limit) };
+    o->point_count += count_set(near[0]) + count_set(near[1]);
+    const vm met[2] = { here & (t->sep[0] <= zero), here & (t->sep[1] <= zero) };
+    const vm touching = met[0] | met[1];
+    if (!any(touching)) {
+        return;
+    }
+    const vf depth = vmax(sel(met[0], -t->sep[0], zero), sel(met[1], -t->sep[1], zero));
+    o->touching_count += count_set(touching);
+    o->sum_penetration += sum_whole(vmin(depth, splat(1000)) / splat((near_real)PL_DEPTH_UNIT));
+    const near_real most = most_of(depth);
+    o->max_penetration = most > o->max_penetration ? most : o->max_penetration;
 }
 
 // [m] sum of what two points close by until the horizon.
@@ -301,7 +311,16 @@ WIDE_INLINE vm lanes_ahead(const lanes *l, const touch *t, const pl_narrow_input
     return far | hits;
 }
 
-// Appends the manifolds of `count` lanes.
+static inline void note_restitutions(pl_narrow *out, vm here, vf restitution)
+{
+    for (int i = 0; i < PL_WIDTH; ++i) {
+        if (here[i] != 0 && restitution[i] > 0) {
+            pl_narrow_note_restitution(out, restitution[i]);
+        }
+    }
+}
+
+// Appends the manifolds of `count` lanes, straight to where they stay.
 WIDE_PART void lanes_emit(const lanes *l, const touch *t, const pl_narrow_input *in, uint32_t count,
                           pl_narrow *out)
 {
@@ -330,12 +349,18 @@ WIDE_PART void lanes_emit(const lanes *l, const touch *t, const pl_narrow_input 
         }
         return;
     }
-    near_real rows[PL_WIDTH][24] __attribute__((aligned(64)));
+    near_real told[PL_WIDTH]; // the lanes that have a manifold, and its place
+    pl_lane keeps[PL_WIDTH];
+    uint32_t end = out->manifold_count;
+    const vm here = ((t->sep[0] < limit) | (t->sep[1] < limit)) & lanes_below(count);
+    memcpy(keeps, &here, sizeof keeps);
+    store(told, limit);
+    pl_manifold none; // of lanes that have none
     near_real *row[PL_WIDTH], *point0[PL_WIDTH], *point1[PL_WIDTH];
     for (int i = 0; i < PL_WIDTH; ++i) {
-        row[i] = rows[i];
-        point0[i] = rows[i] + 8;
-        point1[i] = rows[i] + 16;
+        pl_manifold *m = keeps[i] != 0 ? &pl_manifolds(out)[end] : &none;
+        end += keeps[i] != 0;
+        row[i] = &m->nx, point0[i] = &m->point[0].ax, point1[i] = &m->point[1].ax;
     }
     scatter8(row, (vf[8]){ t->nx, t->ny, friction, restitution, zero, zero, zero, zero });
     // Anchors lie on the surfaces, half the separation to either side of the middle: an elastic
@@ -349,37 +374,42 @@ WIDE_PART void lanes_emit(const lanes *l, const touch *t, const pl_narrow_input 
         scatter8(k == 0 ? point0 : point1, (vf[8]){ arms[k][0], arms[k][1], arms[k][2], arms[k][3],
                                                     t->sep[k], zero, zero, zero });
     }
-    near_real limits[PL_WIDTH];
-    store(limits, limit);
     const vm ahead = lanes_ahead(l, t, in, restitution);
     const vm acts = lanes_act(l, t, in, (const vf(*)[4])arms, ahead);
     const vm notes = (~ahead & (pl_lane)PL_CANDIDATE_STRIKES) |
                      (acts & (pl_lane)PL_CANDIDATE_ACTS) |
                      ((restitution > zero) & (pl_lane)PL_CANDIDATE_BOUNCES);
-    const vm noted = ahead | acts;
-    uint32_t *candidates = out->candidates.data;
+    const vm noted = here & (ahead | acts);
+    const bool some_noted = any(noted);
+    out->any_friction |= any(here & (friction > zero));
+    if (any(here & (restitution > zero))) {
+        note_restitutions(out, here, restitution);
+    }
+    count_overlaps(&out->overlaps, t, limit, here);
     pl_ends *ends = out->ends.data;
-    uint32_t *fresh = out->fresh.data;
+    uint32_t *fresh = out->fresh.data, fresh_count = out->fresh_count;
+    uint32_t at = out->manifold_count;
     for (uint32_t i = 0; i < count; ++i) {
         pl_pair *pair = &in->pairs[l->pair[i]];
-        pl_manifold *m = &pl_manifolds(out)[out->manifold_count];
-        uint32_t feature[2] = { (uint32_t)t->feature[0][i], (uint32_t)t->feature[1][i] };
-        if (emit_lane(pair, m, rows[i], limits[i], feature)) {
-            m->pair = l->pair[i];
-            m->met = (uint16_t)t->turns[i];
-            fresh[out->fresh_count] = l->pair[i];
-            out->fresh_count += (pair->flags & PL_PAIR_TOUCHING) == 0;
-            ends[out->manifold_count] = (pl_ends){ pair->body_a, pair->body_b };
-            candidates[out->candidate_count] = out->manifold_count | (uint32_t)notes[i];
-            out->candidate_count += noted[i] != 0;
-            out->any_friction |= m->friction > 0;
-            if (m->restitution > 0) {
-                pl_narrow_note_restitution(out, m->restitution);
-            }
-            pl_overlaps_count(&out->overlaps, m);
-            pair->manifold = out->manifold_count++;
+        if (keeps[i] == 0) {
+            part(pair);
+            continue;
         }
+        pl_manifold *m = (pl_manifold *)(void *)row[i];
+        const uint32_t feature[2] = { (uint32_t)t->feature[0][i], (uint32_t)t->feature[1][i] };
+        emit_lane(pair, m, told[i], feature);
+        m->pair = l->pair[i];
+        m->met = (uint16_t)t->turns[i];
+        fresh[fresh_count] = l->pair[i];
+        fresh_count += (pair->flags & PL_PAIR_TOUCHING) == 0;
+        ends[at] = (pl_ends){ pair->body_a, pair->body_b };
+        if (some_noted && noted[i] != 0) {
+            ((uint32_t *)out->candidates.data)[out->candidate_count++] = at | (uint32_t)notes[i];
+        }
+        pair->manifold = at++;
     }
+    out->fresh_count = fresh_count;
+    out->manifold_count = at;
 }
 
 // A kernel that takes every pair of its range through `name(touch *, const lanes *, input *, kind_b)`.

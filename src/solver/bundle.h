@@ -16,7 +16,7 @@ typedef struct point {
 } point;
 
 typedef struct bundle {
-    uint32_t a[PL_WIDTH], b[PL_WIDTH]; // solver slots
+    uint32_t a[PL_WIDTH], b[PL_WIDTH]; // [B] where the solver bodies are, from the first: place_of
     vf nx, ny;
     vf friction;
     vf bias_rate; // [1/s] softness: the push for each metre of overlap
@@ -82,26 +82,56 @@ typedef struct body {
     vf vx, vy, w, inv_mass, dx, dy, da, inv_inertia;
 } body;
 
-WIDE_INLINE void gather_body(body *out, const pl_contact_call *call, const uint32_t *slot)
+// Bytes, for a sweep asks for 64 places of every 16 contacts: to multiply slots took a tenth of its instructions.
+WIDE_INLINE uint32_t place_of(uint32_t slot)
+{
+    return slot * (uint32_t)sizeof(pl_solver_body);
+}
+
+WIDE_INLINE uint32_t slot_at(uint32_t place)
+{
+    return place / (uint32_t)sizeof(pl_solver_body);
+}
+
+WIDE_INLINE near_real *body_at(const pl_contact_call *call, uint32_t place)
+{
+    return (near_real *)(void *)((char *)call->bodies + place);
+}
+
+WIDE_INLINE void gather_body(body *out, const pl_contact_call *call, const uint32_t *places)
 {
     const near_real *row[PL_WIDTH];
     for (int i = 0; i < PL_WIDTH; ++i) {
-        row[i] = &call->bodies[slot[i]].vx;
+        row[i] = body_at(call, places[i]);
     }
     vf r[8];
     gather8(r, row);
     *out = (body){ r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7] };
 }
 
-// Writes velocities back; lanes of immovable bodies write to a sink, for others share those rows.
-WIDE_INLINE void scatter_velocity(const body *in, const pl_contact_call *call, const uint32_t *slot)
+// Writes velocities back; lanes of immovable bodies write to a sink, for others share those rows. Most bundles have none.
+WIDE_INLINE void scatter_velocity(const body *in, const pl_contact_call *call,
+                                  const uint32_t *places)
 {
-    near_real sink[4] __attribute__((aligned(32)));
+    const vf out[4] = { in->vx, in->vy, in->w, in->inv_mass };
+    const uint32_t end = place_of(call->dynamic_slots);
     near_real *row[PL_WIDTH];
-    for (int i = 0; i < PL_WIDTH; ++i) {
-        row[i] = slot[i] < call->dynamic_slots ? &call->bodies[slot[i]].vx : sink;
+    __asm__(
+        ""
+        : "+r"(
+            places)); // read again: kept since they were gathered, 32 of them are moved to and fro
+    if (all_below(places, end)) {
+        for (int i = 0; i < PL_WIDTH; ++i) {
+            row[i] = body_at(call, places[i]);
+        }
+        scatter4(row, 0, out);
+        return;
     }
-    scatter4(row, 0, (vf[4]){ in->vx, in->vy, in->w, in->inv_mass });
+    near_real sink[4] __attribute__((aligned(32)));
+    for (int i = 0; i < PL_WIDTH; ++i) {
+        row[i] = places[i] < end ? body_at(call, places[i]) : sink;
+    }
+    scatter4(row, 0, out);
 }
 
 WIDE_INLINE vf inverse_or_zero(vf k)

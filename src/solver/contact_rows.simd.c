@@ -81,12 +81,12 @@ void PL_WIDE_NAME(pl_contact_prepare)(const pl_contact_call *call, uint32_t firs
         for (int i = 0; i < PL_WIDTH; ++i) {
             uint32_t at = call->lanes[(size_t)k * PL_WIDTH + (size_t)i];
             const pl_manifold *m = at == PL_NONE ? &no_manifold : &call->manifolds[at];
-            c->a[i] = c->b[i] = call->immovable_slot;
+            c->a[i] = c->b[i] = place_of(call->immovable_slot);
             if (at != PL_NONE && m->body_a < call->movable_rows) {
-                c->a[i] = call->slots[m->body_a];
+                c->a[i] = place_of(call->slots[m->body_a]);
             }
             if (at != PL_NONE && m->body_b < call->movable_rows) {
-                c->b[i] = call->slots[m->body_b];
+                c->b[i] = place_of(call->slots[m->body_b]);
             }
             row[0][i] = &m->nx;
             row[1][i] = &m->point[0].ax;

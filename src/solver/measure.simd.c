@@ -10,10 +10,14 @@ static void push_point(const pl_measuring *m, const bundle *c, const point *p, i
                        double lt)
 {
     const double nx = (double)c->nx[i], ny = (double)c->ny[i];
-    pl_measure_push(m, c->a[i], -nx * ln, -ny * ln, -(double)p->ran[i] * ln, PLUMB_WORK_NORMAL);
-    pl_measure_push(m, c->b[i], nx * ln, ny * ln, (double)p->rbn[i] * ln, PLUMB_WORK_NORMAL);
-    pl_measure_push(m, c->a[i], ny * lt, -nx * lt, -(double)p->rat[i] * lt, PLUMB_WORK_FRICTION);
-    pl_measure_push(m, c->b[i], -ny * lt, nx * lt, (double)p->rbt[i] * lt, PLUMB_WORK_FRICTION);
+    pl_measure_push(m, slot_at(c->a[i]), -nx * ln, -ny * ln, -(double)p->ran[i] * ln,
+                    PLUMB_WORK_NORMAL);
+    pl_measure_push(m, slot_at(c->b[i]), nx * ln, ny * ln, (double)p->rbn[i] * ln,
+                    PLUMB_WORK_NORMAL);
+    pl_measure_push(m, slot_at(c->a[i]), ny * lt, -nx * lt, -(double)p->rat[i] * lt,
+                    PLUMB_WORK_FRICTION);
+    pl_measure_push(m, slot_at(c->b[i]), -ny * lt, nx * lt, (double)p->rbt[i] * lt,
+                    PLUMB_WORK_FRICTION);
 }
 
 void PL_WIDE_NAME(pl_contact_measure)(const pl_contact_call *call, uint32_t first, uint32_t count,
@@ -33,8 +37,8 @@ void PL_WIDE_NAME(pl_contact_measure)(const pl_contact_call *call, uint32_t firs
             if (extras != NULL) {
                 const double lr = (double)extras[k].lr[i] -
                                   (kept_extras != NULL ? (double)kept_extras[k].lr[i] : 0);
-                pl_measure_push(m, c->a[i], 0, 0, -lr, PLUMB_WORK_FRICTION);
-                pl_measure_push(m, c->b[i], 0, 0, lr, PLUMB_WORK_FRICTION);
+                pl_measure_push(m, slot_at(c->a[i]), 0, 0, -lr, PLUMB_WORK_FRICTION);
+                pl_measure_push(m, slot_at(c->b[i]), 0, 0, lr, PLUMB_WORK_FRICTION);
             }
         }
     }
@@ -44,7 +48,7 @@ static void look_at_point(pl_measuring *m, const pl_contact_call *call, const bu
                           const special *s, int i, int j)
 {
     const point *p = &c->p[j];
-    const pl_solver_body *a = &call->bodies[c->a[i]], *b = &call->bodies[c->b[i]];
+    const pl_solver_body *a = &call->bodies[slot_at(c->a[i])], *b = &call->bodies[slot_at(c->b[i])];
     const double nx = (double)c->nx[i], ny = (double)c->ny[i];
     const double ran = (double)p->ran[i], rbn = (double)p->rbn[i];
     const double apart = (double)p->separation[i] + nx * (double)(b->dx - a->dx) +

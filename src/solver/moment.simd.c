@@ -323,7 +323,7 @@ WIDE_INLINE vf share_of(const pl_contact_call *call, const bundle *c)
 {
     near_real share[PL_WIDTH];
     for (int i = 0; i < PL_WIDTH; ++i) {
-        const uint32_t slot[2] = { c->a[i], c->b[i] };
+        const uint32_t slot[2] = { slot_at(c->a[i]), slot_at(c->b[i]) };
         share[i] = 1;
         for (int k = 0; k < 2; ++k) {
             if (slot[k] < call->dynamic_slots) {
@@ -337,15 +337,16 @@ WIDE_INLINE vf share_of(const pl_contact_call *call, const bundle *c)
 
 // Turns the impulses of a side's body: a share now; all of it in the next substep, whose impulses are the difference of the
 // velocity to the one that was integrated.
-WIDE_INLINE void turn_side(const pl_contact_call *call, const uint32_t *slot, const body *of,
+WIDE_INLINE void turn_side(const pl_contact_call *call, const uint32_t *places, const body *of,
                            vf now, vf x, vf y, vf w)
 {
     const near_real *from[PL_WIDTH];
     near_real sink[4] __attribute__((aligned(32)));
     near_real *to[PL_WIDTH];
     for (int i = 0; i < PL_WIDTH; ++i) {
-        from[i] = &call->motions[slot[i]].ux;
-        to[i] = slot[i] < call->dynamic_slots ? &call->motions[slot[i]].ux : sink;
+        const uint32_t slot = slot_at(places[i]);
+        from[i] = &call->motions[slot].ux;
+        to[i] = slot < call->dynamic_slots ? &call->motions[slot].ux : sink;
     }
     x *= of->inv_mass, y *= of->inv_mass, w *= of->inv_inertia;
     vf u[4];
@@ -354,7 +355,7 @@ WIDE_INLINE void turn_side(const pl_contact_call *call, const uint32_t *slot, co
     scatter4(to, 0, (vf[4]){ u[0] - then * x, u[1] - then * y, u[2] - then * w, u[3] });
     body v = *of;
     v.vx += now * x, v.vy += now * y, v.w += now * w;
-    scatter_velocity(&v, call, slot);
+    scatter_velocity(&v, call, places);
 }
 
 void PL_WIDE_NAME(pl_contact_follow_moment)(const pl_contact_call *call, uint32_t first,

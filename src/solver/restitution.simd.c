@@ -25,15 +25,15 @@ typedef struct approach {
     vf time;  // [s] since the start of the substep
 } approach;
 
-WIDE_PART void gather_side(side *s, const pl_contact_call *call, const uint32_t *slot)
+WIDE_PART void gather_side(side *s, const pl_contact_call *call, const uint32_t *places)
 {
     const near_real *row[PL_WIDTH];
     for (int i = 0; i < PL_WIDTH; ++i) {
-        row[i] = &call->motions[slot[i]].ax;
+        row[i] = &call->motions[slot_at(places[i])].ax;
     }
     vf r[8];
     gather8(r, row);
-    gather_body(&s->now, call, slot);
+    gather_body(&s->now, call, places);
     const body *now = &s->now;
     s->force = (body){ .vx = r[0], .vy = r[1], .w = r[2] };
     s->start = (body){
@@ -47,14 +47,15 @@ WIDE_PART void gather_side(side *s, const pl_contact_call *call, const uint32_t 
 }
 
 // Lanes of immovable bodies write to a sink.
-WIDE_PART void scatter_side(const side *s, const pl_contact_call *call, const uint32_t *slot)
+WIDE_PART void scatter_side(const side *s, const pl_contact_call *call, const uint32_t *places)
 {
     near_real sink[8] __attribute__((aligned(32)));
     near_real *bodies[PL_WIDTH], *motions[PL_WIDTH];
     for (int i = 0; i < PL_WIDTH; ++i) {
-        const bool moves = slot[i] < call->dynamic_slots;
-        bodies[i] = moves ? &call->bodies[slot[i]].vx : sink;
-        motions[i] = moves ? &call->motions[slot[i]].ax : sink;
+        const uint32_t slot = slot_at(places[i]);
+        const bool moves = slot < call->dynamic_slots;
+        bodies[i] = moves ? &call->bodies[slot].vx : sink;
+        motions[i] = moves ? &call->motions[slot].ax : sink;
     }
     const body *now = &s->now, *place = &s->place, *start = &s->start;
     scatter8(bodies, (vf[8]){ now->vx, now->vy, now->w, now->inv_mass, place->vx, place->vy,
@@ -136,11 +137,12 @@ WIDE_INLINE void strike(const bundle *c, const special *s, int j, side *a, side 
 }
 
 // For what follows impacts as events: when a body was struck last.
-WIDE_INLINE void note_times(const pl_contact_call *call, const uint32_t *slot, vm struck, vf time)
+WIDE_INLINE void note_times(const pl_contact_call *call, const uint32_t *places, vm struck, vf time)
 {
     for (int i = 0; i < PL_WIDTH; ++i) {
-        if (struck[i] && slot[i] < call->dynamic_slots) {
-            call->struck[slot[i]] = time[i];
+        const uint32_t slot = slot_at(places[i]);
+        if (struck[i] && slot < call->dynamic_slots) {
+            call->struck[slot] = time[i];
         }
     }
 }
