@@ -54,18 +54,18 @@ typedef struct dragged {
     double now[3], left[3], way[3], out[3];
 } dragged;
 
-typedef struct system {
+typedef struct equations {
     pl_liquid_grid *g;
     near_real k;
     near_real *col[COLUMNS];
     uint32_t *cells; // in which something is not 0
     uint32_t count;
     dragged *bodies; // NULL: all are driven
-} system;
+} equations;
 
 //---- what is unknown -----------------------------------------------------------------------------
 
-static void find_faces(system *s)
+static void find_faces(equations *s)
 {
     const pl_liquid_grid *g = s->g;
     for (uint32_t c = 1; c < g->cell_count; ++c) {
@@ -89,7 +89,7 @@ static near_real slope_of(const near_real *is_free, const near_real *open, uint3
     return shut_a != shut_b ? 2 : 1;
 }
 
-static void find_corners(system *s)
+static void find_corners(equations *s)
 {
     const pl_liquid_grid *g = s->g;
     for (uint32_t c = 1; c < g->cell_count; ++c) {
@@ -108,7 +108,7 @@ static void find_corners(system *s)
     }
 }
 
-static void find_diagonal(system *s)
+static void find_diagonal(equations *s)
 {
     const pl_liquid_grid *g = s->g;
     const near_real *w = s->col[WEIGHT], *corner = s->col[CORNER];
@@ -124,7 +124,7 @@ static void find_diagonal(system *s)
 
 //---- the matrix ----------------------------------------------------------------------------------
 
-static void find_stresses(system *s, const near_real *u, const near_real *v)
+static void find_stresses(equations *s, const near_real *u, const near_real *v)
 {
     const pl_liquid_grid *g = s->g;
     for (uint32_t i = 0; i < s->count; ++i) {
@@ -138,14 +138,14 @@ static void find_stresses(system *s, const near_real *u, const near_real *v)
 }
 
 // What stresses do to a face.
-static near_real pull_u(const system *s, uint32_t c)
+static near_real pull_u(const equations *s, uint32_t c)
 {
     const uint32_t up = s->g->up[c];
     const near_real *xx = s->col[XX], *xy = s->col[XY], *twice = s->col[TWICE_U];
     return xx[c] - xx[s->g->left[c]] + twice[up] * xy[up] - twice[c] * xy[c];
 }
 
-static near_real pull_v(const system *s, uint32_t c)
+static near_real pull_v(const equations *s, uint32_t c)
 {
     const uint32_t right = s->g->right[c];
     const near_real *yy = s->col[YY], *xy = s->col[XY], *twice = s->col[TWICE_V];
@@ -153,7 +153,7 @@ static near_real pull_v(const system *s, uint32_t c)
 }
 
 // out = mass (u, v) - k (what stresses do to them), of faces that are unknown.
-static void apply(system *s, const near_real *u, const near_real *v, near_real mass,
+static void apply(equations *s, const near_real *u, const near_real *v, near_real mass,
                   near_real *out_u, near_real *out_v)
 {
     find_stresses(s, u, v);
@@ -177,7 +177,7 @@ static double mass_of(double inverse, const pl_liquid_grid *g)
     return inverse > 0 ? 1 / (inverse * g->drag) : 0;
 }
 
-static void find_bodies(system *s)
+static void find_bodies(equations *s)
 {
     const pl_liquid_grid *g = s->g;
     for (uint32_t i = 0; i < g->body_count; ++i) {
@@ -202,7 +202,7 @@ static void find_bodies(system *s)
 }
 
 // Faces that bodies close go as these do: of a part of the vectors.
-static void carry(system *s, near_real *u, near_real *v)
+static void carry(equations *s, near_real *u, near_real *v)
 {
     const pl_liquid_grid *g = s->g;
     for (uint32_t i = 0; i < g->link_count && s->bodies != NULL; ++i) {
@@ -222,7 +222,7 @@ static void carry(system *s, near_real *u, near_real *v)
 }
 
 // What stresses of the last product do to bodies; with their mass times `of`, if that is not null.
-static void drag_bodies(system *s, bool inert)
+static void drag_bodies(equations *s, bool inert)
 {
     const pl_liquid_grid *g = s->g;
     for (uint32_t i = 0; i < g->body_count && s->bodies != NULL; ++i) {
@@ -249,7 +249,7 @@ static void drag_bodies(system *s, bool inert)
     }
 }
 
-static double dot_bodies(const system *s, bool bend)
+static double dot_bodies(const equations *s, bool bend)
 {
     double total = 0;
     for (uint32_t i = 0; i < s->g->body_count && s->bodies != NULL; ++i) {
@@ -264,7 +264,7 @@ static double dot_bodies(const system *s, bool bend)
 }
 
 // left = keep left + factor out; way = turn way + left over the diagonal.
-static void go_bodies(system *s, double alpha)
+static void go_bodies(equations *s, double alpha)
 {
     for (uint32_t i = 0; i < s->g->body_count && s->bodies != NULL; ++i) {
         dragged *d = &s->bodies[i];
@@ -275,7 +275,7 @@ static void go_bodies(system *s, double alpha)
     }
 }
 
-static void turn_bodies(system *s, double beta)
+static void turn_bodies(equations *s, double beta)
 {
     for (uint32_t i = 0; i < s->g->body_count && s->bodies != NULL; ++i) {
         dragged *d = &s->bodies[i];
@@ -286,7 +286,7 @@ static void turn_bodies(system *s, double beta)
 }
 
 // Bodies have what they got.
-static void keep_bodies(system *s)
+static void keep_bodies(equations *s)
 {
     for (uint32_t i = 0; i < s->g->body_count && s->bodies != NULL; ++i) {
         pl_liquid_body *b = &s->g->bodies[i];
@@ -302,7 +302,7 @@ static void keep_bodies(system *s)
 //---- conjugate gradients -------------------------------------------------------------------------
 
 // Of two columns beside one another; `over`: divided by the diagonal.
-static double dot(const system *s, int a, int b, bool over)
+static double dot(const equations *s, int a, int b, bool over)
 {
     double total = 0;
     for (uint32_t i = 0; i < s->count; ++i) {
@@ -316,7 +316,7 @@ static double dot(const system *s, int a, int b, bool over)
 }
 
 // to = to factor_to + from factor_from, over the diagonal if `over`.
-static void add(system *s, int to, near_real keep, int from, near_real factor, bool over)
+static void add(equations *s, int to, near_real keep, int from, near_real factor, bool over)
 {
     for (uint32_t i = 0; i < s->count; ++i) {
         const uint32_t c = s->cells[i];
@@ -328,7 +328,7 @@ static void add(system *s, int to, near_real keep, int from, near_real factor, b
     }
 }
 
-static void solve(system *s)
+static void solve(equations *s)
 {
     apply(s, s->col[U], s->col[V], 0, s->col[LEFT_U], s->col[LEFT_V]);
     drag_bodies(s, false);
@@ -372,9 +372,9 @@ bool pl_liquid_diffuse(pl_memory *memory, pl_liquid_scratch *scratch, double amo
         return false;
     }
     const double most = PL_LIQUID_THICK;
-    system s = { .g = g,
-                 .k = (near_real)(amount < most ? amount : most),
-                 .cells = scratch->keys.data };
+    equations s = { .g = g,
+                    .k = (near_real)(amount < most ? amount : most),
+                    .cells = scratch->keys.data };
     memset(scratch->viscous.data, 0, columns);
     for (int i = 0; i < COLUMNS; ++i) {
         s.col[i] = (near_real *)scratch->viscous.data + (size_t)i * (g->cell_count + 1);
