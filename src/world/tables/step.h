@@ -8,7 +8,7 @@
 #include "plumb/event.h"
 #include "plumb/world.h"
 
-#define PL_PASS_MAX 80
+#define PL_PASS_MAX 96
 
 #define PL_NO_SYSTEM UINT32_MAX
 
