@@ -102,9 +102,9 @@ WIDE_INLINE vf vsqrt(vf v)
 }
 
 // Whether some bit of N / 8 words is set, by halves: a loop over the lanes becomes an extraction of each.
-typedef int64_t words2 __attribute__((vector_size(16)));
-typedef int64_t words4 __attribute__((vector_size(32)));
-typedef int64_t words8 __attribute__((vector_size(64)));
+typedef int64_t words2 __attribute__((vector_size(16), PL_REGISTER(16)));
+typedef int64_t words4 __attribute__((vector_size(32), PL_REGISTER(PL_WIDTH == 4 ? 16 : 32)));
+typedef int64_t words8 __attribute__((vector_size(64), PL_REGISTER(PL_WIDTH * 4)));
 
 WIDE_INLINE bool any16(words2 w)
 {
@@ -127,7 +127,7 @@ typedef uint32_t numbers __attribute__((vector_size(PL_WIDTH * sizeof(uint32_t))
 WIDE_INLINE bool any(vm mask)
 {
 #if PL_NEAR_IS_DOUBLE && PL_WIDTH == 16
-    typedef int64_t words16 __attribute__((vector_size(128)));
+    typedef int64_t words16 __attribute__((vector_size(128), PL_REGISTER(64)));
     const words16 w = (words16)mask;
     return any64(__builtin_shufflevector(w, w, 0, 1, 2, 3, 4, 5, 6, 7) |
                  __builtin_shufflevector(w, w, 8, 9, 10, 11, 12, 13, 14, 15));
