@@ -133,8 +133,12 @@ typedef struct plumb_law {
     plumb_entity entity; ///< has a row of plumb/law.h
 } plumb_law;
 
+typedef struct plumb_softbody {
+    plumb_entity entity; ///< has a row of plumb/softbody.h
+} plumb_softbody;
+
 // clang-format off
-#define PLUMB_NULL_INIT        { { 0, 0 } } ///< initialiser of the null handle of a body, shape, material, joint or law
+#define PLUMB_NULL_INIT        { { 0, 0 } } ///< initialiser of the null handle of any type but plumb_entity
 #define PLUMB_NULL_ENTITY_INIT { 0, 0 }     ///< of a plumb_entity
 // clang-format on
 
@@ -164,6 +168,7 @@ PLUMB_HANDLE_TESTS(plumb_shape, .entity)
 PLUMB_HANDLE_TESTS(plumb_material, .entity)
 PLUMB_HANDLE_TESTS(plumb_joint, .entity)
 PLUMB_HANDLE_TESTS(plumb_law, .entity)
+PLUMB_HANDLE_TESTS(plumb_softbody, .entity)
 #else
 #define PLUMB_HANDLE_TESTS(type)                                                                    \
     static inline bool type##_is_null(type handle) { return plumb_entity_is_null(handle.entity); }  \
@@ -173,6 +178,7 @@ PLUMB_HANDLE_TESTS(plumb_shape)
 PLUMB_HANDLE_TESTS(plumb_material)
 PLUMB_HANDLE_TESTS(plumb_joint)
 PLUMB_HANDLE_TESTS(plumb_law)
+PLUMB_HANDLE_TESTS(plumb_softbody)
 #define PLUMB_HANDLE_TEST(test, handle)                                                             \
     _Generic((handle),                                                                              \
         plumb_entity: plumb_entity_##test,                                                          \
@@ -180,7 +186,8 @@ PLUMB_HANDLE_TESTS(plumb_law)
         plumb_shape: plumb_shape_##test,                                                            \
         plumb_material: plumb_material_##test,                                                      \
         plumb_joint: plumb_joint_##test,                                                            \
-        plumb_law: plumb_law_##test)
+        plumb_law: plumb_law_##test,                                                                \
+        plumb_softbody: plumb_softbody_##test)
 #define plumb_is_null(handle) PLUMB_HANDLE_TEST(is_null, handle)(handle)
 #define plumb_same(a, b)      PLUMB_HANDLE_TEST(same, a)(a, b)
 #endif

@@ -1,6 +1,6 @@
 /// ecs.h - entities, user components, user systems, commands.
 ///
-/// Bodies, shapes, materials, joints and laws are entities; so are things of the user's own. A component is a value
+/// Bodies, shapes, materials, joints, laws and soft bodies are entities; so are things of the user's own. A component is a value
 /// of fixed size that any entity may have; a system is a function called in each step or substep, at a named
 /// phase, with whole columns. A system whose component nobody has is not in the schedule (plumb_world_schedule).
 ///
@@ -23,7 +23,8 @@ typedef enum plumb_entity_kind {
     PLUMB_KIND_SHAPE,
     PLUMB_KIND_MATERIAL,
     PLUMB_KIND_JOINT,
-    PLUMB_KIND_LAW
+    PLUMB_KIND_LAW,
+    PLUMB_KIND_SOFTBODY
 } plumb_entity_kind;
 
 /// Makes a bare entity, to carry user components. Null on error: E_MEMORY, E_LOCKED.

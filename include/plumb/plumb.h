@@ -26,6 +26,7 @@
 #include "plumb/fracture.h"
 #include "plumb/air.h"
 #include "plumb/liquid.h"
+#include "plumb/softbody.h"
 #include "plumb/loop.h"
 #include "plumb/accuracy.h"
 #include "plumb/measure.h"

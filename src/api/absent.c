@@ -20,6 +20,7 @@
 #include "joints/energy.h"
 #include "joints/measure.h"
 #include "liquid/liquid.h"
+#include "softbody/softbody.h"
 #include "solver/measure.h"
 #include "step/measure.h"
 #include "watchdog/watchdog.h"
@@ -197,6 +198,20 @@ PASS(pl_run_air_motion)
 WORLD(pl_air_undo)
 FREE(pl_air_free, pl_air)
 GIVES(pl_air_extent, pl_air_extent_of, (pl_air_extent){ 0 }, const plumb_air_desc *desc)
+#endif
+
+#if !PL_HAS(SOFTBODIES)
+WANT(pl_want_softbodies)
+PASS(pl_run_softbodies)
+PASS(pl_run_soft_slots)
+PASS(pl_run_softbodies_motion)
+ROW(pl_softbodies_row)
+GIVES(bool, pl_softbodies_act_on, false, const plumb_world *world, uint32_t row)
+GIVES(bool, pl_softbodies_couple, false, const plumb_world *world, uint8_t *called)
+FREE(pl_softbodies_free, pl_softbodies)
+GIVES(double, pl_soft_elastic, 0, const plumb_world *world, uint32_t row, pl_softbody_place at)
+GIVES(double, pl_soft_area, 0, const plumb_world *world, const pl_softbody *item, pl_softbody_place at)
+GIVES(double, pl_soft_pressure, 0, const pl_softbody *item, double area)
 #endif
 
 #if !PL_HAS(CHARACTERS)

@@ -17,6 +17,7 @@
 #include "effects/laws.h"
 #include "air/air.h"
 #include "liquid/liquid.h"
+#include "softbody/softbody.h"
 #include "step/measure.h"
 #include "narrow/narrow.h"
 #include "plumb/world.h"
@@ -133,12 +134,14 @@ static size_t query_grid_bytes(const pl_query_grid_set *set)
 
 static void tell_rest(listing *out, const plumb_world *w)
 {
-    size_t characters = 0, liquid = 0, air = 0, laws = 0, systems = 0, measures = 0, watchdog = 0;
+    size_t characters = 0, liquid = 0, air = 0, softbodies = 0, laws = 0, systems = 0, measures = 0;
+    size_t watchdog = 0;
     size_t effects = BUFFERS(&w->settings.items, &w->targets.items, &w->tracks.items);
     size_t events = BUFFERS(&w->begin_events, &w->end_events, &w->changed_pairs, &w->hit_events);
     PART(characters, pl_characters, w->characters, pl_characters_free(&dry, &copy));
     PART(liquid, pl_liquid, w->liquid, pl_liquid_free(&dry, &copy));
     PART(air, pl_air, w->air, pl_air_free(&dry, &copy));
+    PART(softbodies, pl_softbodies, w->softbodies, pl_softbodies_free(&dry, &copy));
     PART(laws, pl_laws, w->laws, pl_laws_free(&dry, &copy));
     PART(systems, pl_systems, w->systems, pl_systems_free(&dry, &copy));
     PART(systems, pl_schedule, w->schedule, pl_schedule_free(&dry, &copy));
@@ -153,6 +156,7 @@ static void tell_rest(listing *out, const plumb_world *w)
     tell(out, "characters", characters, 0);
     tell(out, "liquid", liquid, w->liquid.count);
     tell(out, "air", air, w->air.cell_count);
+    tell(out, "soft bodies", softbodies, w->softbodies.count);
     tell(out, "laws", laws, w->laws.count);
     tell(out, "effects", effects, 0);
     tell(out, "events", events, 0);

@@ -18,6 +18,7 @@
 #include "api/fracture.h"
 #include "air/air.h"
 #include "liquid/liquid.h"
+#include "softbody/softbody.h"
 #include "step/measure.h"
 #include "narrow/narrow.h"
 #include "plumb/world.h"
@@ -176,6 +177,7 @@ static void free_world(plumb_world *world)
     pl_characters_free(&memory, &world->characters);
     pl_liquid_free(&memory, &world->liquid);
     pl_air_free(&memory, &world->air);
+    pl_softbodies_free(&memory, &world->softbodies);
     pl_laws_free(&memory, &world->laws);
     pl_fracture_free(&memory, &world->fracture);
     pl_continuous_free(&memory, &world->continuous);
@@ -484,9 +486,10 @@ plumb_energy plumb_world_energy(const plumb_world *world)
     for (uint32_t row = asleep; row < asleep + world->asleep_count; ++row) {
         add_energy(world, row, &energy);
     }
+    pl_softbodies_energy(world, &energy);
     if (world->laws.count > 0) {
         energy.potential += pl_laws_potential(world);
     }
-    energy.stored = pl_joints_stored(world);
+    energy.stored += pl_joints_stored(world);
     return energy;
 }

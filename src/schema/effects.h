@@ -40,6 +40,7 @@
       "bodies that are cut, break, merge, grow and shrink")                                                                    \
     X(LIQUID, "liquid", "", "src/liquid/%", "", "particles that flow")                                                         \
     X(AIR, "air", "liquid", "src/air/%", "", "air that flows round shapes, with smoke and heat")                               \
+    X(SOFTBODIES, "softbodies", "", "src/softbody/%", "", "ropes, nets and cloth, jelly, skins with gas")                      \
     X(CHARACTERS, "characters", "", "src/character/%", "", "bodies that walk")                                                 \
     X(JOINTS, "joints", "", "src/joints/%", "direct_joints", "of all kinds")                                                   \
     X(PGS, "pgs", "", "src/solver/pgs.c", "", "the classic solver")                                                            \

@@ -70,6 +70,8 @@
       "sensors, pieces, materials", "constraints, islands", ONE)                                                                                    \
     X("laws",              GRAPH,       IF(pl_want_laws),            ONCE(pl_run_laws),                                      ONCE,           \
       "poses, velocities, masses, body settings, pieces, manifolds, joints", "constraints", ONE)                                    \
+    X("soft bodies",       GRAPH,       IF(pl_want_softbodies),      ONCE(pl_run_softbodies),                                ONCE,           \
+      "soft bodies, poses, velocities, masses, pieces, rows", "", ONE)                                                                       \
     X("called",            GRAPH,       IF(pl_want_called),          ONCE(pl_run_called),                                    ONCE,           \
       "components, rows", "constraints", ONE)                                                                                                \
     X("graph",             GRAPH,       IF(pl_want_solver),          ONCE(pl_run_graph),                                     ONCE,           \
@@ -80,6 +82,8 @@
       "solver bodies, forces, masses, body settings", "solver bodies, accelerations", ONE)                                                   \
     X("law slots",         GRAPH,       IF(pl_want_laws),            ONCE(pl_run_law_slots),                                 ONCE,           \
       "solver bodies", "constraints", ONE)                                                                                                   \
+    X("soft slots",        GRAPH,       IF(pl_want_softbodies),      ONCE(pl_run_soft_slots),                                ONCE,           \
+      "soft bodies, solver bodies", "", ONE)                                                                                                 \
     X("acting",            GRAPH,       IF(pl_want_acting),          ONCE(pl_run_acting),                                    ONCE,           \
       "body settings, components, solver bodies", "constraints", ONE)                                                                        \
     X("measure bodies",    GRAPH,       IF(pl_want_measures),        ONCE(pl_run_measure_bodies),                            ONCE,           \
@@ -107,6 +111,8 @@
       "solver bodies, poses, velocities, pieces, materials", "accelerations", ONE)                                                                  \
     X("law forces",        MOMENT,      IF(pl_want_laws),            ACTS(pl_law_row, pl_law_acts_on),                       ONCE,           \
       "solver bodies, poses, velocities, masses, body settings", "accelerations", ONE)                                                       \
+    X("soft forces",       MOMENT,      IF(pl_want_softbodies),      ACTS(pl_softbodies_row, pl_softbodies_act_on),          ONCE,           \
+      "soft bodies, solver bodies, poses, velocities, pieces", "accelerations", ONE)                                                         \
     X("damping",           MOMENT,      IF(pl_want_damping),         EACH(pl_damping_row),                                   REPLACEABLE,    \
       "solver bodies, body settings", "accelerations", ONE)                                                                                  \
     X("thrust",            MOMENT,      IF(pl_want_engines),         ACTS(pl_thrust_row, pl_engine_acts_on),                 ONCE,           \
@@ -169,6 +175,8 @@
       "", "liquid", ONE)                                                                                                                     \
     X("air motion",        FINISH,      IF(pl_want_air),             ONCE(pl_run_air_motion),                                ONCE,           \
       "", "air", ONE)                                                                                                                        \
+    X("soft motion",       FINISH,      IF(pl_want_softbodies),      ONCE(pl_run_softbodies_motion),                         ONCE,           \
+      "poses", "soft bodies, islands", ONE)                                                                                                  \
     X("reactions",         FINISH,      IF(pl_want_joints),          ONCE(pl_run_reactions),                                 ONCE,           \
       "joints, poses", "joints, rows, events, islands, components, pairs", ONE)                                                              \
     X("events",            EVENTS,      IF(pl_want_collision),       ONCE(pl_run_events),                                    REFRESHES,      \

@@ -9,6 +9,7 @@
 #include "effects/laws.h"
 #include "air/air.h"
 #include "liquid/liquid.h"
+#include "softbody/softbody.h"
 #include "world/wrap.h"
 #include "world/rows.h"
 
@@ -282,6 +283,17 @@ static bool check_air(const plumb_world *w)
     return sound;
 }
 
+static bool check_softbodies(const pl_suspect *s)
+{
+    const pl_softbodies *f = &s->world.softbodies;
+    bool sound = pl_softbodies_are_sound(f) && (f->count == 0 || !pl_is_wrapped(&s->world));
+    for (uint32_t i = 0; i < f->pin_count && sound; ++i) {
+        const plumb_body body = pl_softbody_pins(f)[i].body;
+        sound = plumb_is_null(body) || pl_suspect_row(s, body) != PL_NONE;
+    }
+    return sound;
+}
+
 static bool check_laws(const pl_suspect *s)
 {
     const pl_laws *laws = &s->world.laws;
@@ -332,7 +344,8 @@ bool pl_check_extras(pl_suspect *s)
         }
     }
     return check_records(w) && check_settings(s) && check_targets(s) && check_liquid(w) &&
-           check_air(w) && check_laws(s) && check_excluded(w) && check_breaks(w) &&
+           check_air(w) && check_softbodies(s) && check_laws(s) && check_excluded(w) &&
+           check_breaks(w) &&
            pl_commands_are_sound(s->like, &w->registry, w->commands.bytes.data, w->commands.used,
                                  w->commands.count, s->marks);
 }

@@ -32,6 +32,9 @@ static bool names_row(const plumb_world *w, const pl_suspect *s, uint32_t index,
     case PLUMB_KIND_LAW:
         return slot->row < w->laws.count &&
                plumb_same(pl_law_items(&w->laws)[slot->row].entity.entity, e);
+    case PLUMB_KIND_SOFTBODY:
+        return slot->row < w->softbodies.count &&
+               plumb_same(pl_softbody_items(&w->softbodies)[slot->row].entity.entity, e);
     case PLUMB_KIND_JOINT:
         return slot->row < w->joints.count &&
                plumb_same(pl_suspect_joint(s, slot->row)->entity.entity, e);
@@ -58,11 +61,11 @@ bool pl_check_registry(pl_suspect *s)
 {
     const plumb_world *w = &s->world;
     const pl_registry *r = &w->registry;
-    uint32_t live[PLUMB_KIND_LAW + 1] = { 0 }, taken = 0, open = 0;
+    uint32_t live[PLUMB_KIND_SOFTBODY + 1] = { 0 }, taken = 0, open = 0;
     for (uint32_t i = 0; i < r->count; ++i) {
         const pl_slot *slot = &r->slots[i];
         const bool is_live = slot->state == PL_SLOT_LIVE, pending = slot->state == PL_SLOT_PENDING;
-        if (slot->state > PL_SLOT_PENDING || slot->kind > PLUMB_KIND_LAW ||
+        if (slot->state > PL_SLOT_PENDING || slot->kind > PLUMB_KIND_SOFTBODY ||
             (slot->state == PL_SLOT_FREE) != (slot->kind == PLUMB_KIND_NONE) ||
             (slot->generation == 0 && slot->state != PL_SLOT_FREE) ||
             (is_live && !names_row(w, s, i, slot)) || (pending && slot->kind > PLUMB_KIND_SHAPE)) {
@@ -76,7 +79,8 @@ bool pl_check_registry(pl_suspect *s)
            live[PLUMB_KIND_BODY] == w->bodies.table.count &&
            live[PLUMB_KIND_SHAPE] == w->shape_count &&
            live[PLUMB_KIND_MATERIAL] + 1 == w->materials.table.count &&
-           live[PLUMB_KIND_JOINT] == w->joints.live && live[PLUMB_KIND_LAW] == w->laws.count;
+           live[PLUMB_KIND_JOINT] == w->joints.live && live[PLUMB_KIND_LAW] == w->laws.count &&
+           live[PLUMB_KIND_SOFTBODY] == w->softbodies.count;
 }
 
 //---- bodies --------------------------------------------------------------------------------------

@@ -152,6 +152,20 @@
     ARRAY(plumb_air_cell, air.cells, air.cell_count, sizeof(plumb_air_cell), 0)                    \
     ARRAY(plumb_air_source, air.sources, air.source_count, sizeof(plumb_air_source), 0)            \
     LEFT(air.scratch)
+#define PL_STATE_SOFTBODIES(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                 \
+    ARRAY(pl_softbody, softbodies.items, softbodies.count, sizeof(pl_softbody), 8)                 \
+    ARRAY(plumb_softbody_node, softbodies.nodes, softbodies.node_count,                            \
+          sizeof(plumb_softbody_node), 0)                                                          \
+    ARRAY(plumb_softbody_edge, softbodies.edges, softbodies.edge_count,                            \
+          sizeof(plumb_softbody_edge), 0)                                                          \
+    ARRAY(plumb_softbody_bend, softbodies.bends, softbodies.bend_count,                            \
+          sizeof(plumb_softbody_bend), 0)                                                          \
+    ARRAY(plumb_softbody_triangle, softbodies.triangles, softbodies.triangle_count,                \
+          sizeof(plumb_softbody_triangle), 0)                                                      \
+    ARRAY(uint32_t, softbodies.rings, softbodies.ring_count, sizeof(uint32_t), 0)                  \
+    ARRAY(plumb_softbody_pin, softbodies.pins, softbodies.pin_count, sizeof(plumb_softbody_pin),   \
+          0)                                                                                       \
+    LEFT(softbodies.step)
 
 #define PL_STATE_LAWS(VALUE, TALLY, ARRAY, TABLE, OWN, LEFT)                                       \
     ARRAY(pl_law, laws.items, laws.count, sizeof(pl_law), 8)                                       \
@@ -216,7 +230,7 @@
     PL_STATE_CHARACTERS(__VA_ARGS__) PL_STATE_CONTINUOUS(__VA_ARGS__) PL_STATE_LIQUID(__VA_ARGS__)  \
     PL_STATE_AIR(__VA_ARGS__)                                                                      \
     PL_STATE_FRACTURE(__VA_ARGS__)                                                                 \
-    PL_STATE_LAWS(__VA_ARGS__)                                                                     \
+    PL_STATE_SOFTBODIES(__VA_ARGS__) PL_STATE_LAWS(__VA_ARGS__)                                                                     \
     PL_STATE_QUARANTINE(__VA_ARGS__) PL_STATE_EFFECTS(__VA_ARGS__)                                \
     PL_STATE_DIAL(__VA_ARGS__)
 

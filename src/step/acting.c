@@ -15,6 +15,7 @@
 #include "effects/drag.h"
 #include "effects/effects.h"
 #include "effects/laws.h"
+#include "softbody/softbody.h"
 #include "step/system.h"
 #include "world/push.h"
 #include "world/state.h"
@@ -120,6 +121,7 @@ bool pl_acting_call(plumb_world *world)
         }
     }
     e->any_alone |= world->laws.count > 0 && pl_laws_couple(world, called);
+    e->any_alone |= world->softbodies.count > 0 && pl_softbodies_couple(world, called);
     for (uint32_t i = 0; i < world->systems.count; ++i) {
         const pl_system *system = &world->systems.items[i];
         if (!is_of_substeps(world, system)) {

@@ -7,6 +7,7 @@
 #include "world/filter.h"
 #include "world/joint_list.h"
 #include "world/law_list.h"
+#include "world/softbody_list.h"
 #include "world/material_pair.h"
 #include "world/rows.h"
 
@@ -59,6 +60,7 @@ static void destroy_body(plumb_world *world, plumb_body body)
     if (world->laws.count > 0) {
         pl_laws_forget(world, body);
     }
+    pl_softbodies_forget(world, body);
     pl_row_close(world, row);
     pl_registry_release(&world->registry, body.entity);
 }
@@ -121,6 +123,9 @@ void pl_destroy_entity(plumb_world *world, plumb_entity entity)
         break;
     case PLUMB_KIND_LAW:
         pl_law_remove(world, pl_law_find(world, (plumb_law){ entity }));
+        break;
+    case PLUMB_KIND_SOFTBODY:
+        pl_softbody_remove(world, pl_softbody_find(world, (plumb_softbody){ entity }));
         break;
     case PLUMB_KIND_MATERIAL:
         destroy_material(world, (plumb_material){ entity });

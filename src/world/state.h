@@ -23,6 +23,7 @@
 #include "world/tables/joint.h"
 #include "world/tables/law.h"
 #include "world/tables/liquid.h"
+#include "world/tables/softbody.h"
 #include "world/tables/manifold.h"
 #include "world/tables/measure.h"
 #include "world/tables/effects.h"
@@ -126,6 +127,7 @@ struct plumb_world {
     pl_characters characters;
     pl_liquid liquid;
     pl_air air;
+    pl_softbodies softbodies;
     pl_laws laws;
     pl_fracture fracture;
     pl_schedule schedule;

@@ -1,0 +1,401 @@
+// contacts.c - nodes that touch shapes.
+//
+// Once a step the pieces near nodes are listed, by boxes that what is fast sweeps; in each substep, whom of them a node
+// reaches. A node that is on its way into a piece is held where it would enter it, one that is in it is pushed out
+// slowly, so that nothing tunnels and nothing is shot out. The law is that of a stiff spring asked for at x' + h v' / 2
+// (elements.c), stiff for all of the mass that may press: no restitution, and what is pressed sinks by less than
+// g h^2 / 10. Friction: a damper so stiff that it holds, and no stronger than Coulomb's law by the normal force that
+// the pass before had.
+//
+// Reads: points, rows, pieces. Writes: bodies and obstacles of the step, contacts, the matrix. Cost: once a step
+// O(bodies + pieces), and nodes times pieces in the box of their soft body; a substep O(what is near).
+#include "softbody/softbody.h"
+#include "world/rows.h"
+
+#include <math.h>
+
+#define STIFFNESS 10.0 // of a contact, times mass / h^2
+#define GRIP      1e4  // of friction that holds, times mass / h
+#define PUSH_OUT  0.2  // [m/s]
+
+static pl_soft_point *points_of(const pl_soft_step *s)
+{
+    return s->points.data;
+}
+
+//---- bodies that are near --------------------------------------------------------------------------
+
+static pl_soft_body body_of(const plumb_world *world, uint32_t row)
+{
+    const pl_bodies *b = &world->bodies;
+    const bool moves = row < world->dynamic_count + world->kinematic_count;
+    const bool fixed = (b->flags[row] & PL_BODY_FIXED_ROTATION) != 0 || b->inv_inertia[row] == 0;
+    return (pl_soft_body){
+        .body = b->entity[row],
+        .row = row,
+        .slot = PL_NONE,
+        .block = PL_NONE,
+        .x0 = (double)b->center_x[row] + (double)b->residual_x[row],
+        .y0 = (double)b->center_y[row] + (double)b->residual_y[row],
+        .c0 = (double)b->c[row],
+        .s0 = (double)b->s[row],
+        .vx = moves ? (double)b->vx[row] : 0,
+        .vy = moves ? (double)b->vy[row] : 0,
+        .w = moves ? (double)b->w[row] : 0,
+        .mass = (double)b->mass[row],
+        .inertia = (double)b->inertia[row],
+        .locked_x = (b->flags[row] & PL_BODY_LOCK_X) != 0 ? 0 : 1,
+        .locked_y = (b->flags[row] & PL_BODY_LOCK_Y) != 0 ? 0 : 1,
+        .locked_w = fixed ? 0 : 1,
+        .asleep = pl_row_is_asleep(world, row),
+    };
+}
+
+uint32_t pl_soft_body_of(plumb_world *world, uint32_t row)
+{
+    pl_soft_step *s = world->softbodies.step;
+    pl_soft_body *bodies = s->bodies.data;
+    for (uint32_t i = s->body_count; i-- > 0;) { // most often the last one
+        if (bodies[i].row == row) {
+            return i;
+        }
+    }
+    if (!pl_buffer_reserve(&world->memory, &s->bodies,
+                           (s->body_count + 1) * sizeof(pl_soft_body))) {
+        return PL_NONE;
+    }
+    ((pl_soft_body *)s->bodies.data)[s->body_count] = body_of(world, row);
+    return s->body_count++;
+}
+
+static bool add_obstacle(plumb_world *world, uint32_t row, uint32_t piece)
+{
+    pl_soft_step *s = world->softbodies.step;
+    const uint32_t body = pl_soft_body_of(world, row);
+    if (body == PL_NONE || !pl_buffer_reserve(&world->memory, &s->obstacles,
+                                              (s->obstacle_count + 1) * sizeof(pl_soft_obstacle))) {
+        return false;
+    }
+    pl_soft_obstacle *o = (pl_soft_obstacle *)s->obstacles.data + s->obstacle_count++;
+    const pl_bodies *b = &world->bodies;
+    plumb_convex shape;
+    pl_piece_convex(world, piece, &shape);
+    *o = (pl_soft_obstacle){ .piece = piece,
+                             .body = body,
+                             .count = shape.count,
+                             .friction = (double)world->pieces.friction[piece],
+                             .radius = (double)shape.radius };
+    for (int i = 0; i < shape.count; ++i) {
+        o->x[i] = (double)shape.points[i].x - (double)b->local_x[row];
+        o->y[i] = (double)shape.points[i].y - (double)b->local_y[row];
+        const double r = sqrt(o->x[i] * o->x[i] + o->y[i] * o->y[i]);
+        o->extent = r > o->extent ? r : o->extent;
+    }
+    return true;
+}
+
+typedef struct region {
+    double low_x, low_y, high_x, high_y; // [m]
+} region;
+
+static void widen(region *r, double x, double y, double by)
+{
+    r->low_x = x - by < r->low_x ? x - by : r->low_x;
+    r->low_y = y - by < r->low_y ? y - by : r->low_y;
+    r->high_x = x + by > r->high_x ? x + by : r->high_x;
+    r->high_y = y + by > r->high_y ? y + by : r->high_y;
+}
+
+// [m] that a node may move in a step.
+static double way_of(const plumb_world *world, const pl_soft_point *p, double dt)
+{
+    const double g = fabs((double)world->gravity.x) + fabs((double)world->gravity.y);
+    return 2 * dt * (fabs(p->vx) + fabs(p->vy) + dt * g) + p->radius;
+}
+
+static double way_of_row(const plumb_world *world, uint32_t row, double dt)
+{
+    const pl_bodies *b = &world->bodies;
+    return row >= world->dynamic_count + world->kinematic_count
+               ? 0
+               : 2 * dt *
+                     (fabs((double)b->vx[row]) + fabs((double)b->vy[row]) +
+                      fabs((double)b->w[row]) * (double)b->extent[row]);
+}
+
+static bool meets(const plumb_world *world, uint32_t piece, const pl_softbody *item)
+{
+    const pl_pieces *p = &world->pieces;
+    plumb_filter own = { p->category[piece], p->mask[piece], p->group[piece], p->mask[piece] == 0 };
+    return (p->flags[piece] & PL_PIECE_SENSOR) == 0 && plumb_filters_meet(own, item->filter);
+}
+
+static bool near_piece(plumb_world *world, const pl_softbody *item, uint32_t first, uint32_t row,
+                       uint32_t piece, const region *r, double dt)
+{
+    pl_soft_step *s = world->softbodies.step;
+    const double way = way_of_row(world, row, dt);
+    const pl_box box = pl_piece_tight_box(world, piece);
+    const region reach = { (double)box.min_x - way, (double)box.min_y - way,
+                           (double)box.max_x + way, (double)box.max_y + way };
+    if (reach.low_x > r->high_x || reach.high_x < r->low_x || reach.low_y > r->high_y ||
+        reach.high_y < r->low_y || !meets(world, piece, item)) {
+        return true;
+    }
+    uint32_t obstacle = PL_NONE;
+    for (uint32_t i = first; i < first + item->nodes; ++i) {
+        const pl_soft_point *p = points_of(s) + i;
+        const double by = p->radius > 0 && !p->pinned ? way_of(world, p, dt) : -INFINITY;
+        if (p->x + by < reach.low_x || p->x - by > reach.high_x || p->y + by < reach.low_y ||
+            p->y - by > reach.high_y) {
+            continue;
+        }
+        if (obstacle == PL_NONE) {
+            obstacle = s->obstacle_count;
+            if (!add_obstacle(world, row, piece)) {
+                return false;
+            }
+        }
+        if (!pl_buffer_reserve(&world->memory, &s->near_,
+                               (s->near_count + 1) * sizeof(pl_soft_near))) {
+            return false;
+        }
+        ((pl_soft_near *)s->near_.data)[s->near_count++] = (pl_soft_near){ i, obstacle };
+    }
+    return true;
+}
+
+static bool find_near(plumb_world *world, const pl_softbody *item, uint32_t first, double dt)
+{
+    const uint32_t rows = pl_partition_first(world, PL_PART_DISABLED);
+    region r = { INFINITY, INFINITY, -INFINITY, -INFINITY };
+    for (uint32_t i = first; i < first + item->nodes; ++i) {
+        const pl_soft_point *p = points_of(world->softbodies.step) + i;
+        if (p->radius > 0 && !p->pinned) {
+            widen(&r, p->x, p->y, way_of(world, p, dt));
+        }
+    }
+    for (uint32_t row = 0; row < rows && r.low_x <= r.high_x; ++row) {
+        uint32_t piece = world->bodies.first_piece[row];
+        for (; piece != PL_NONE; piece = world->pieces.next_in_body[piece]) {
+            if (!near_piece(world, item, first, row, piece, &r, dt)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+bool pl_soft_find_near(plumb_world *world, double dt)
+{
+    const pl_softbodies *all = &world->softbodies;
+    pl_soft_step *s = all->step;
+    uint32_t first = 0;
+    s->near_count = s->obstacle_count = 0;
+    for (uint32_t i = 0; i < all->count; ++i) {
+        const pl_softbody *item = &pl_softbody_items(all)[i];
+        if (!find_near(world, item, first, dt)) {
+            return false;
+        }
+        first += item->nodes;
+    }
+    return pl_buffer_reserve(&world->memory, &s->contacts, s->near_count * sizeof(pl_soft_contact));
+}
+
+//---- contacts of a substep -----------------------------------------------------------------------
+
+// Way out of a convex piece: distance of a point from its surface, below 0 inside, and the outward normal.
+static double distance(const pl_soft_obstacle *o, double x, double y, double n[2])
+{
+    double best = INFINITY, out[2] = { 0, 1 }, inside = -INFINITY, in[2] = { 0, 1 };
+    bool within = o->count > 2;
+    for (int i = 0; i < o->count; ++i) {
+        const int k = i + 1 < o->count ? i + 1 : 0;
+        const double ex = o->x[k] - o->x[i], ey = o->y[k] - o->y[i];
+        const double px = x - o->x[i], py = y - o->y[i], square = ex * ex + ey * ey;
+        double t = square > 0 ? (px * ex + py * ey) / square : 0;
+        t = t < 0 ? 0 : t > 1 ? 1 : t;
+        const double dx = px - t * ex, dy = py - t * ey, d = dx * dx + dy * dy;
+        if (d < best) {
+            best = d, out[0] = dx, out[1] = dy;
+        }
+        if (o->count > 2) {
+            const double length = sqrt(square), side = (px * ey - py * ex) / length;
+            within &= side <= 0;
+            if (side > inside) {
+                inside = side, in[0] = ey / length, in[1] = -ex / length;
+            }
+        }
+    }
+    const double d = sqrt(best);
+    if (within || d < 1e-9) {
+        n[0] = in[0], n[1] = in[1];
+        return (within ? inside : 0) - o->radius;
+    }
+    n[0] = out[0] / d, n[1] = out[1] / d;
+    return d - o->radius;
+}
+
+// Where a node that moves by (dx, dy), in the frame of the piece, comes to be as near as its radius: by steps that are
+// safe. False: nowhere.
+static bool advance(const pl_soft_obstacle *o, double x, double y, double dx, double dy,
+                    double radius, double n[2], double *gap)
+{
+    const double way = sqrt(dx * dx + dy * dy);
+    const double start = distance(o, x, y, n) - radius;
+    double t = 0, d = start;
+    if (start > way) {
+        return false;
+    }
+    if (start <= 0.05 * radius) { // it lies on it: as it lies
+        *gap = start;
+        return true;
+    }
+    for (int k = 0; k < 24 && d > 0.01 * radius; ++k) {
+        t += d / way;
+        if (t > 1) {
+            return false;
+        }
+        d = distance(o, x + t * dx, y + t * dy, n) - radius;
+    }
+    *gap = d - t * (dx * n[0] + dy * n[1]); // from the plane that it would meet
+    return true;
+}
+
+static bool touch(const pl_soft_step *s, const pl_soft_near *near, double h, pl_soft_contact *out)
+{
+    const pl_soft_obstacle *o = (const pl_soft_obstacle *)s->obstacles.data + near->obstacle;
+    const pl_soft_body *b = (const pl_soft_body *)s->bodies.data + o->body;
+    const pl_soft_point *p = points_of(s) + near->point;
+    const double rx = p->x - b->x, ry = p->y - b->y;
+    const double later = b->block == PL_NONE ? 0 : h;
+    const double vx = p->vx + p->cx - (b->vx + later * b->ax - b->w * ry);
+    const double vy = p->vy + p->cy - (b->vy + later * b->ay + b->w * rx);
+    const double reach = 1.5 * h * (fabs(vx) + fabs(vy)) + p->radius + o->radius + o->extent;
+    if (rx * rx + ry * ry > reach * reach) {
+        return false;
+    }
+    double n[2], gap;
+    if (!advance(o, b->c * rx + b->s * ry, b->c * ry - b->s * rx, 1.5 * h * (b->c * vx + b->s * vy),
+                 1.5 * h * (b->c * vy - b->s * vx), p->radius, n, &gap)) {
+        return false;
+    }
+    out->point = near->point;
+    out->body = o->body;
+    out->nx = b->c * n[0] - b->s * n[1];
+    out->ny = b->s * n[0] + b->c * n[1];
+    out->gap = gap > -PUSH_OUT * h ? gap : -PUSH_OUT * h;
+    out->rx = rx - (p->radius + gap) * out->nx;
+    out->ry = ry - (p->radius + gap) * out->ny;
+    const double heavy = p->heavy + (b->block == PL_NONE ? 0 : b->mass);
+    out->stiffness = STIFFNESS * heavy / (h * h);
+    out->friction = sqrt(o->friction * p->friction);
+    out->force = out->most = 0;
+    return true;
+}
+
+void pl_soft_find_contacts(plumb_world *world, double h)
+{
+    pl_soft_step *s = world->softbodies.step;
+    const pl_soft_near *near = s->near_.data;
+    pl_soft_contact *contacts = s->contacts.data;
+    s->contact_count = 0;
+    for (uint32_t i = 0; i < s->near_count; ++i) {
+        s->contact_count += touch(s, &near[i], h, &contacts[s->contact_count]);
+    }
+}
+
+//---- what they press with ------------------------------------------------------------------------
+
+// Along a direction d: of the node against the body.
+typedef struct way {
+    double node[2], body[3]; // by which unknowns it grows
+} way;
+
+static way way_along(const pl_soft_step *s, const pl_soft_contact *c, double x, double y)
+{
+    const pl_soft_body *b = (const pl_soft_body *)s->bodies.data + c->body;
+    return (way){ { x, y },
+                  { -x * b->locked_x, -y * b->locked_y, -(c->rx * y - c->ry * x) * b->locked_w } };
+}
+
+static double rate_of(const pl_soft_step *s, const pl_soft_contact *c, const way *w, bool added)
+{
+    const pl_soft_point *p = points_of(s) + c->point;
+    const pl_soft_body *b = (const pl_soft_body *)s->bodies.data + c->body;
+    if (added) {
+        const double of_node = p->cx * w->node[0] + p->cy * w->node[1];
+        const double *u = s->matrix.u + (b->block == PL_NONE ? 0 : 3 * (size_t)b->block);
+        return b->block == PL_NONE
+                   ? of_node
+                   : of_node + u[0] * w->body[0] + u[1] * w->body[1] + u[2] * w->body[2];
+    }
+    const double x = w->node[0], y = w->node[1];
+    return p->vx * x + p->vy * y - b->vx * x - b->vy * y - b->w * (c->rx * y - c->ry * x);
+}
+
+// An impulse along a way, and a stiffness for the matrix.
+static void act(const pl_soft_step *s, const pl_soft_contact *c, const way *w, double impulse,
+                double stiff)
+{
+    const pl_soft_matrix *m = &s->matrix;
+    const pl_soft_point *p = points_of(s) + c->point;
+    const pl_soft_body *b = (const pl_soft_body *)s->bodies.data + c->body;
+    double *right = m->right + 3 * (size_t)p->block, *own = m->diagonal + 9 * (size_t)p->block;
+    for (int r = 0; r < 2; ++r) {
+        right[r] += impulse * w->node[r];
+        own[3 * r] += stiff * w->node[r] * w->node[0];
+        own[3 * r + 1] += stiff * w->node[r] * w->node[1];
+    }
+    if (b->block == PL_NONE) {
+        return;
+    }
+    double *other = pl_soft_entry(m, b->block, p->block), *at = m->right + 3 * (size_t)b->block;
+    double *body = m->diagonal + 9 * (size_t)b->block;
+    for (int r = 0; r < 3; ++r) {
+        at[r] += impulse * w->body[r];
+        for (int k = 0; k < 3; ++k) {
+            body[3 * r + k] += stiff * w->body[r] * w->body[k];
+        }
+        other[3 * r] += stiff * w->body[r] * w->node[0];
+        other[3 * r + 1] += stiff * w->body[r] * w->node[1];
+    }
+}
+
+static double press(pl_soft_step *s, pl_soft_contact *c, double h, bool fills)
+{
+    const way n = way_along(s, c, c->nx, c->ny), t = way_along(s, c, -c->ny, c->nx);
+    const double gap = c->gap + h * (1.5 * rate_of(s, c, &n, false) + rate_of(s, c, &n, true));
+    const double force = gap < 0 ? -c->stiffness * gap : 0;
+    if (fills) {
+        c->most = s->grips ? c->friction * force : 0;
+        c->force = force;
+    }
+    double energy = force * -gap / 2;
+    if (force > 0 && fills) {
+        act(s, c, &n, h * force, h * h * c->stiffness);
+    }
+    if (!(c->most > 0)) {
+        return energy;
+    }
+    const double slip = rate_of(s, c, &t, false) + rate_of(s, c, &t, true), speed = fabs(slip);
+    const double grip = GRIP * c->stiffness * h / STIFFNESS;
+    const bool slides = grip * speed > c->most;
+    const double hold = slides ? c->most / speed : grip;
+    energy +=
+        h * (slides ? c->most * speed - c->most * c->most / (2 * grip) : grip * speed * speed / 2);
+    if (fills) {
+        act(s, c, &t, -h * hold * slip, h * hold);
+    }
+    return energy;
+}
+
+double pl_soft_press(pl_soft_step *s, double h, bool fills)
+{
+    pl_soft_contact *contacts = s->contacts.data;
+    double energy = 0;
+    for (uint32_t i = 0; i < s->contact_count; ++i) {
+        energy += press(s, &contacts[i], h, fills);
+    }
+    return energy;
+}

@@ -1,0 +1,623 @@
+// elements.c - edges, bends, triangles, gas: what they pull with, how stiff they are.
+//
+// A substep takes nodes by x' = x + h (v + v') / 2, as the solver takes bodies. An element's force is asked for in the
+// middle, at x + h v / 2 + h u / 4, u = v' - v: the implicit midpoint rule, of second order, which loses neither energy nor
+// momentum nor angular momentum. To that comes a damper beside each spring, of s h k for a spring of k, that sees
+// the rate of v + 3 u / 4. With s = 1 what is infinitely stiff is at rest at once (both eigenvalues are 0), the product of the
+// eigenvalues of a stiff mode is (1 - s) / (1 + 3 s), and a slow one has a damping ratio of s w h / 2. Each element has its
+// s = z^2 / (z^2 + SOFTNESS), z = h sqrt(k / m): what the substep sees is kept, the error is of second order; what is
+// faster dies out. A damper does not see turns, so that what swings and spins is not slowed.
+//
+// Edges have no such damper: it and the turning of thread that is stiff, limp and heavily loaded gained energy between them
+// (DECISIONS.md). They are asked for at x + (1/2 + s) h v + (1/4 + 3 s / 4) h u, s up to 1/2: for one along the other the
+// same equation, and a gradient whatever turns. What swings is damped a little, by s w h / 2.
+//
+// All forces but dampers and friction are gradients by u of one function; with these it is one nearly, and Newton's iteration
+// makes it least (step.c).
+//
+// Edge: k (l - length)^2 / 2, of thread only where l is longer. Bend: E = (E I / 2 L) (turn - angle)^2.
+// Triangle: stable neo-Hookean, psi = mu / 2 (tr F'F - 2) + lambda / 2 (det F - 1 - mu / lambda)^2 (Smith, de Goes, Kim
+// 2018, ACM Trans. Graph. 37), in the plane: mu = E / 2 (1 + nu), lambda = E nu / (1 - nu^2) + mu. Gas: (p + ambient) A is
+// constant; how it stiffens is one more unknown, for it ties all nodes of the ring to each other.
+// Matrices of stiffness are made positive definite: what would make them otherwise is left out (Newton's
+// iteration then takes more passes and ends in the same place).
+//
+// Reads: points, elements. Writes: the matrix and its right side. Cost: O(elements) a pass.
+#include "math/trig.h"
+#include "softbody/softbody.h"
+
+#include <math.h>
+
+#define SOFTNESS 16.0 // of z^2: where s is one half
+#define LATE     0.75 // of u, in the rate that a damper sees
+
+#define LEAD_MOST     0.5 // of s of edges
+#define LEAD_SOFTNESS 8.0
+
+static const pl_soft_point *point_at(const pl_soft_step *s, uint32_t i)
+{
+    return (const pl_soft_point *)s->points.data + i;
+}
+
+static const pl_soft_body *holder_of(const pl_soft_step *s, const pl_soft_point *p)
+{
+    return p->body == PL_NONE ? NULL : (const pl_soft_body *)s->bodies.data + p->body;
+}
+
+//---- between points and blocks -------------------------------------------------------------------
+
+// How a point follows the unknowns of its block: two rows of 3.
+static void follow(const pl_soft_step *s, const pl_soft_point *p, double j[6])
+{
+    const pl_soft_body *b = holder_of(s, p);
+    j[0] = b == NULL ? 1 : b->locked_x, j[1] = 0, j[2] = b == NULL ? 0 : -p->ry * b->locked_w;
+    j[3] = 0, j[4] = b == NULL ? 1 : b->locked_y, j[5] = b == NULL ? 0 : p->rx * b->locked_w;
+}
+
+// to += scale ja' k jb.
+static void add_block(double *to, const double ja[6], const double jb[6], const double k[4])
+{
+    for (int r = 0; r < 3; ++r) {
+        for (int c = 0; c < 3; ++c) {
+            to[3 * r + c] += ja[r] * (k[0] * jb[c] + k[1] * jb[3 + c]) +
+                             ja[3 + r] * (k[2] * jb[c] + k[3] * jb[3 + c]);
+        }
+    }
+}
+
+static void add_plain(double *to, const double k[4])
+{
+    to[0] += k[0], to[1] += k[1], to[3] += k[2], to[4] += k[3];
+}
+
+void pl_soft_add(const pl_soft_step *s, uint32_t a, uint32_t b, const double k[4])
+{
+    const pl_soft_matrix *m = &s->matrix;
+    const pl_soft_point *pa = point_at(s, a), *pb = point_at(s, b);
+    if (pa->block == PL_NONE || pb->block == PL_NONE) {
+        return;
+    }
+    const double turned[4] = { k[0], k[2], k[1], k[3] };
+    double ja[6], jb[6];
+    if (pa->body == PL_NONE && pb->body == PL_NONE) {
+        add_plain(a == b                  ? m->diagonal + 9 * (size_t)pa->block
+                  : pa->block > pb->block ? pl_soft_entry(m, pa->block, pb->block)
+                                          : pl_soft_entry(m, pb->block, pa->block),
+                  pa->block >= pb->block ? k : turned);
+        return;
+    }
+    follow(s, pa, ja);
+    follow(s, pb, jb);
+    if (pa->block == pb->block) {
+        double *to = m->diagonal + 9 * (size_t)pa->block;
+        add_block(to, ja, jb, k);
+        if (a != b) {
+            add_block(to, jb, ja, turned);
+        }
+    } else if (pa->block > pb->block) {
+        add_block(pl_soft_entry(m, pa->block, pb->block), ja, jb, k);
+    } else {
+        add_block(pl_soft_entry(m, pb->block, pa->block), jb, ja, turned);
+    }
+}
+
+void pl_soft_push(const pl_soft_step *s, uint32_t point, double x, double y)
+{
+    const pl_soft_point *p = point_at(s, point);
+    if (p->block == PL_NONE) {
+        return;
+    }
+    double *to = s->matrix.right + 3 * (size_t)p->block;
+    const pl_soft_body *b = holder_of(s, p);
+    to[0] += b == NULL ? x : x * b->locked_x;
+    to[1] += b == NULL ? y : y * b->locked_y;
+    to[2] += b == NULL ? 0 : (p->rx * y - p->ry * x) * b->locked_w;
+}
+
+void pl_soft_change(const pl_soft_step *s)
+{
+    pl_soft_point *points = s->points.data;
+    for (uint32_t i = 0; i < s->point_count; ++i) {
+        pl_soft_point *p = &points[i];
+        const double *u = s->matrix.u + (p->block == PL_NONE ? 0 : 3 * (size_t)p->block);
+        if (p->block == PL_NONE) {
+            p->cx = p->cy = 0;
+        } else if (p->body == PL_NONE) {
+            p->cx = u[0], p->cy = u[1];
+        } else {
+            const pl_soft_body *b = holder_of(s, p);
+            p->cx = u[0] * b->locked_x - u[2] * b->locked_w * p->ry;
+            p->cy = u[1] * b->locked_y + u[2] * b->locked_w * p->rx;
+        }
+    }
+}
+
+//---- when forces are asked for -------------------------------------------------------------------
+
+// [s] of the damper beside a spring, over its stiffness: of what is h^2 k / m = z2.
+static double calm(double z2, double h)
+{
+    return h * z2 / (z2 + SOFTNESS);
+}
+
+static void place(const pl_soft_point *p, double h, double out[2])
+{
+    out[0] = p->x + h * (p->vx / 2 + p->cx / 4);
+    out[1] = p->y + h * (p->vy / 2 + p->cy / 4);
+}
+
+static double ease(const pl_soft_point *p)
+{
+    return p->block == PL_NONE || p->body != PL_NONE ? 0 : 1 / p->mass;
+}
+
+//---- edges ---------------------------------------------------------------------------------------
+
+static double pull(const pl_soft_step *s, const plumb_softbody_edge *e, uint32_t first, double h,
+                   bool fills, pl_soft_pull *now)
+{
+    const uint32_t ia = first + e->a, ib = first + e->b;
+    const pl_soft_point *a = point_at(s, ia), *b = point_at(s, ib);
+    const double k = (double)e->stiffness, rest = (double)e->length, c = (double)e->damping;
+    const double w = ease(a) + ease(b), z2 = h * h * k * w, zc = h * c * w;
+    const double lead = LEAD_MOST * z2 / (z2 + LEAD_SOFTNESS), later = 0.25 + 0.75 * lead;
+    const double share = 0.5 + 0.5 * zc / (zc + 4);
+    const double ta = h * (0.5 + lead), tb = h * later;
+    const double dx = b->x - a->x + ta * (b->vx - a->vx) + tb * (b->cx - a->cx);
+    const double dy = b->y - a->y + ta * (b->vy - a->vy) + tb * (b->cy - a->cy);
+    const double length = sqrt(dx * dx + dy * dy), stretch = length - rest;
+    *now = (pl_soft_pull){ 0, stretch / rest };
+    if (length < 1e-12 || ((e->flags & PLUMB_EDGE_PULLS) != 0 && stretch <= 0)) {
+        return 0;
+    }
+    const double x = dx / length, y = dy / length;
+    const double rate = x * (b->vx - a->vx + share * (b->cx - a->cx)) +
+                        y * (b->vy - a->vy + share * (b->cy - a->cy));
+    now->tension = k * stretch + c * rate;
+    if (fills) {
+        const double along = h * (tb * k + share * c);
+        const double across = stretch > 0 ? h * tb * k * stretch / length : 0;
+        const double own[4] = { along * x * x + across * y * y, (along - across) * x * y,
+                                (along - across) * x * y, along * y * y + across * x * x };
+        const double other[4] = { -own[0], -own[1], -own[2], -own[3] };
+        pl_soft_push(s, ia, h * now->tension * x, h * now->tension * y);
+        pl_soft_push(s, ib, -h * now->tension * x, -h * now->tension * y);
+        pl_soft_add(s, ia, ia, own);
+        pl_soft_add(s, ib, ib, own);
+        pl_soft_add(s, ia, ib, other);
+    }
+    return k * stretch * stretch / (2 * later) + h * c * rate * rate / (2 * share);
+}
+
+// Of a force that grows with u along its way by `slope` a unit of it [kg/s]: its part in the function.
+static double part_of(double force, double slope, double h)
+{
+    return slope > 0 ? h * force * force / (2 * slope) : 0;
+}
+
+//---- bends ---------------------------------------------------------------------------------------
+
+static double turn_of(const double a[2], const double b[2], const double c[2])
+{
+    const double ux = b[0] - a[0], uy = b[1] - a[1], vx = c[0] - b[0], vy = c[1] - b[1];
+    return pl_atan2(ux * vy - uy * vx, ux * vx + uy * vy);
+}
+
+// How a turn grows with the places of its nodes.
+static bool turn_slopes(const double a[2], const double b[2], const double c[2], double out[6])
+{
+    const double ux = b[0] - a[0], uy = b[1] - a[1], vx = c[0] - b[0], vy = c[1] - b[1];
+    const double u = ux * ux + uy * uy, v = vx * vx + vy * vy;
+    if (u < 1e-24 || v < 1e-24) {
+        return false;
+    }
+    out[0] = -uy / u, out[1] = ux / u;
+    out[4] = -vy / v, out[5] = vx / v;
+    out[2] = -out[0] - out[4], out[3] = -out[1] - out[5];
+    return true;
+}
+
+static double wrapped(double angle)
+{
+    const double pi = 3.14159265358979323846;
+    return angle > pi ? angle - 2 * pi : angle < -pi ? angle + 2 * pi : angle;
+}
+
+static double bend(const pl_soft_step *s, const plumb_softbody_bend *e, uint32_t first, double h,
+                   bool fills)
+{
+    const uint32_t i[3] = { first + e->a, first + e->b, first + e->c };
+    const double k = (double)e->stiffness / (double)e->length, l = (double)e->length;
+    const double w =
+        ease(point_at(s, i[0])) + 4 * ease(point_at(s, i[1])) + ease(point_at(s, i[2]));
+    const double c = k * calm(h * h * k * w / (l * l), h), slope = h * k / 4 + LATE * c;
+    double p[3][2], g[6], rate = 0;
+    for (int n = 0; n < 3; ++n) {
+        place(point_at(s, i[n]), h, p[n]);
+    }
+    if (!turn_slopes(p[0], p[1], p[2], g)) {
+        return 0;
+    }
+    for (int n = 0; n < 3; ++n) {
+        const pl_soft_point *q = point_at(s, i[n]);
+        rate += g[2 * n] * (q->vx + LATE * q->cx) + g[2 * n + 1] * (q->vy + LATE * q->cy);
+    }
+    const double turn = wrapped(turn_of(p[0], p[1], p[2]) - (double)e->angle);
+    const double moment = k * turn + c * rate;
+    for (int n = 0; n < 3 && fills; ++n) {
+        pl_soft_push(s, i[n], -h * moment * g[2 * n], -h * moment * g[2 * n + 1]);
+        for (int o = n; o < 3; ++o) {
+            const double x = h * slope * g[2 * n], y = h * slope * g[2 * n + 1];
+            const double block[4] = { x * g[2 * o], x * g[2 * o + 1], y * g[2 * o],
+                                      y * g[2 * o + 1] };
+            pl_soft_add(s, i[n], i[o], block);
+        }
+    }
+    return part_of(moment, slope, h);
+}
+
+//---- triangles -----------------------------------------------------------------------------------
+
+// A triangle at rest: gradients of its nodes' shares, its area, its constants.
+typedef struct sheet {
+    double g[3][2];
+    double area, mu, lambda;
+} sheet;
+
+static bool sheet_of(const plumb_softbody_triangle *e, sheet *out)
+{
+    const double ux = (double)e->ab.x, uy = (double)e->ab.y;
+    const double vx = (double)e->ac.x, vy = (double)e->ac.y, d = ux * vy - uy * vx;
+    const double young = (double)e->young, nu = (double)e->poisson;
+    if (!(d > 0)) {
+        return false;
+    }
+    out->g[1][0] = vy / d, out->g[1][1] = -vx / d;
+    out->g[2][0] = -uy / d, out->g[2][1] = ux / d;
+    out->g[0][0] = -out->g[1][0] - out->g[2][0], out->g[0][1] = -out->g[1][1] - out->g[2][1];
+    out->area = d / 2;
+    out->mu = young / (2 * (1 + nu));
+    out->lambda = young * nu / (1 - nu * nu) + out->mu;
+    return true;
+}
+
+// F by rows.
+static void deform(const sheet *t, const double p[3][2], double f[4])
+{
+    f[0] = f[1] = f[2] = f[3] = 0;
+    for (int n = 0; n < 3; ++n) {
+        f[0] += p[n][0] * t->g[n][0], f[1] += p[n][0] * t->g[n][1];
+        f[2] += p[n][1] * t->g[n][0], f[3] += p[n][1] * t->g[n][1];
+    }
+}
+
+// [J] over its area.
+static double density_of(const sheet *t, const double f[4])
+{
+    const double squares = f[0] * f[0] + f[1] * f[1] + f[2] * f[2] + f[3] * f[3];
+    const double j = f[0] * f[3] - f[1] * f[2] - 1, off = t->mu / t->lambda;
+    return t->mu / 2 * (squares - 2) + t->lambda / 2 * (j * j - 2 * j * off);
+}
+
+static double stretch(const pl_soft_step *s, const plumb_softbody_triangle *e, uint32_t first,
+                      double h, bool fills)
+{
+    const uint32_t i[3] = { first + e->a, first + e->b, first + e->c };
+    sheet t;
+    if (!sheet_of(e, &t)) {
+        return 0;
+    }
+    double w = 0;
+    for (int n = 0; n < 3; ++n) {
+        w += ease(point_at(s, i[n])) * (t.g[n][0] * t.g[n][0] + t.g[n][1] * t.g[n][1]);
+    }
+    const double time = (double)e->damping + calm(h * h * (t.lambda + t.mu) * t.area * w, h);
+    double p[3][2], f[4], slope[3][2];
+    for (int n = 0; n < 3; ++n) {
+        place(point_at(s, i[n]), h, p[n]);
+    }
+    deform(&t, (const double(*)[2])p, f);
+    const double excess = t.lambda * (f[0] * f[3] - f[1] * f[2] - 1) - t.mu;
+    const double twist = excess > t.mu ? t.mu : excess < -t.mu ? -t.mu : excess;
+    for (int n = 0; n < 3; ++n) { // of det F
+        slope[n][0] = f[3] * t.g[n][0] - f[2] * t.g[n][1];
+        slope[n][1] = f[0] * t.g[n][1] - f[1] * t.g[n][0];
+    }
+    // The damper sees the rate of Green's strain (11, 22, twice 12), which no turn has.
+    double sees[3][3][2], rate[3] = { 0, 0, 0 };
+    for (int n = 0; n < 3; ++n) {
+        const pl_soft_point *q = point_at(s, i[n]);
+        for (int k = 0; k < 2; ++k) {
+            const double f1 = f[2 * k], f2 = f[2 * k + 1];
+            const double v = k == 0 ? q->vx + LATE * q->cx : q->vy + LATE * q->cy;
+            sees[0][n][k] = f1 * t.g[n][0], sees[1][n][k] = f2 * t.g[n][1];
+            sees[2][n][k] = f1 * t.g[n][1] + f2 * t.g[n][0];
+            for (int c = 0; c < 3; ++c) {
+                rate[c] += sees[c][n][k] * v;
+            }
+        }
+    }
+    const double sum = time * (t.lambda - t.mu) * (rate[0] + rate[1]);
+    const double stress[3] = { sum + 2 * time * t.mu * rate[0], sum + 2 * time * t.mu * rate[1],
+                               time * t.mu * rate[2] };
+    if (fills) {
+        const double near = h * h / 4 * t.area, late = h * LATE * time * t.area;
+        for (int n = 0; n < 3; ++n) {
+            double push[2], drag[3][2];
+            for (int k = 0; k < 2; ++k) {
+                push[k] =
+                    t.mu * (f[2 * k] * t.g[n][0] + f[2 * k + 1] * t.g[n][1]) + excess * slope[n][k];
+                const double both = sees[0][n][k] + sees[1][n][k];
+                drag[0][k] = (t.lambda - t.mu) * both + 2 * t.mu * sees[0][n][k];
+                drag[1][k] = (t.lambda - t.mu) * both + 2 * t.mu * sees[1][n][k];
+                drag[2][k] = t.mu * sees[2][n][k];
+                for (int c = 0; c < 3; ++c) {
+                    push[k] += stress[c] * sees[c][n][k];
+                }
+            }
+            pl_soft_push(s, i[n], -h * t.area * push[0], -h * t.area * push[1]);
+            for (int o = n; o < 3; ++o) {
+                const double even = t.mu * (t.g[n][0] * t.g[o][0] + t.g[n][1] * t.g[o][1]);
+                const double cross = twist * (t.g[n][0] * t.g[o][1] - t.g[n][1] * t.g[o][0]);
+                double block[4] = { even, cross, -cross, even };
+                for (int k = 0; k < 4; ++k) {
+                    const int r = k / 2, c = k % 2;
+                    block[k] = near * (block[k] + t.lambda * slope[n][r] * slope[o][c]);
+                    for (int q = 0; q < 3; ++q) {
+                        block[k] += late * drag[q][r] * sees[q][o][c];
+                    }
+                }
+                pl_soft_add(s, i[n], i[o], block);
+            }
+        }
+    }
+    const double lost = stress[0] * rate[0] + stress[1] * rate[1] + stress[2] * rate[2];
+    return t.area * (4 * density_of(&t, f) + h * lost / (2 * LATE));
+}
+
+//---- gas -----------------------------------------------------------------------------------------
+
+double pl_soft_pressure(const pl_softbody *item, double area)
+{
+    const double outside = (double)item->ambient, rest = (double)item->area;
+    const double least = rest * 1e-3;
+    return ((double)item->pressure + outside) * rest / (area > least ? area : least) - outside;
+}
+
+// Natural logarithm of x > 0, by roots and a series.
+static double logarithm(double x)
+{
+    double scale = 2;
+    for (; x > 1.1 || x < 0.9; scale *= 2) {
+        x = sqrt(x);
+    }
+    const double t = (x - 1) / (x + 1), q = t * t;
+    return scale * t * (1 + q * (1 / 3.0 + q * (1 / 5.0 + q * (1 / 7.0 + q / 9.0))));
+}
+
+static double energy_of_gas(const pl_softbody *item, double area)
+{
+    const double rest = (double)item->area, outside = (double)item->ambient;
+    return -((double)item->pressure + outside) * rest *
+               logarithm(area > rest * 1e-3 ? area / rest : 1e-3) +
+           outside * (area - rest);
+}
+
+// How the area grows with the place of a node of the ring.
+static void slope_of_area(const pl_soft_step *s, uint32_t first, const uint32_t *ring, uint32_t n,
+                          uint32_t i, double h, double out[2])
+{
+    double before[2], behind[2];
+    place(point_at(s, first + ring[(i + n - 1) % n]), h, before);
+    place(point_at(s, first + ring[(i + 1) % n]), h, behind);
+    out[0] = (behind[1] - before[1]) / 2, out[1] = (before[0] - behind[0]) / 2;
+}
+
+// Its unknown is the impulse of pressure, scaled so that the matrix is symmetric.
+static double inflate(const pl_soft_step *s, const pl_softbody *item, uint32_t first,
+                      const uint32_t *ring, uint32_t block, double h, bool fills)
+{
+    const pl_soft_matrix *mx = &s->matrix;
+    const uint32_t n = item->ring;
+    double area = 0, rate = 0, p[3][2];
+    place(point_at(s, first + ring[n - 1]), h, p[0]);
+    for (uint32_t i = 0; i < n; ++i) {
+        place(point_at(s, first + ring[i]), h, p[1]);
+        area += (p[0][0] * p[1][1] - p[0][1] * p[1][0]) / 2;
+        p[0][0] = p[1][0], p[0][1] = p[1][1];
+    }
+    const double least = (double)item->area * 1e-3, held = area > least ? area : least;
+    const double pressure = pl_soft_pressure(item, area);
+    const double stiff = (pressure + (double)item->ambient) / held, c = stiff * h / 2;
+    if (fills) {
+        mx->diagonal[9 * (size_t)block] = stiff > 0 ? -1 / (h * (h * stiff / 4 + LATE * c)) : -1;
+    }
+    for (uint32_t i = 0; i < n; ++i) {
+        const pl_soft_point *node = point_at(s, first + ring[i]);
+        double g[2];
+        slope_of_area(s, first, ring, n, i, h, g);
+        rate += g[0] * (node->vx + LATE * node->cx) + g[1] * (node->vy + LATE * node->cy);
+    }
+    for (uint32_t i = 0; i < n && fills; ++i) {
+        const uint32_t at = first + ring[i];
+        double g[2], j[6];
+        slope_of_area(s, first, ring, n, i, h, g);
+        pl_soft_push(s, at, h * (pressure - c * rate) * g[0], h * (pressure - c * rate) * g[1]);
+        const pl_soft_point *node = point_at(s, at);
+        if (node->block == PL_NONE || !(stiff > 0)) {
+            continue;
+        }
+        follow(s, node, j);
+        double *to = pl_soft_entry(mx, block, node->block);
+        for (int k = 0; k < 3; ++k) {
+            to[k] += g[0] * j[k] + g[1] * j[3 + k];
+        }
+    }
+    return 4 * energy_of_gas(item, area) + h * c * rate * rate / (2 * LATE);
+}
+
+//---- all of them ---------------------------------------------------------------------------------
+
+double pl_soft_elements(plumb_world *world, double h, bool fills)
+{
+    double energy = 0;
+    const pl_softbodies *all = &world->softbodies;
+    const pl_soft_step *s = all->step;
+    pl_softbody_place at = { 0, 0, 0, 0, 0, 0 };
+    pl_soft_pull *pulls = s->pulls.data;
+    uint32_t gas = s->matrix.blocks;
+    for (uint32_t i = 0; i < all->count; ++i) {
+        gas -= pl_softbody_items(all)[i].ring > 0;
+    }
+    for (uint32_t i = 0; i < all->count; ++i) {
+        const pl_softbody *item = &pl_softbody_items(all)[i];
+        for (uint32_t k = 0; k < item->edges; ++k) {
+            const plumb_softbody_edge *e = &pl_softbody_edges(all)[at.edge + k];
+            if ((e->flags & PLUMB_EDGE_TORN) == 0) {
+                energy += pull(s, e, at.node, h, fills, &pulls[at.edge + k]);
+            }
+        }
+        for (uint32_t k = 0; k < item->bends; ++k) {
+            energy += bend(s, &pl_softbody_bends(all)[at.bend + k], at.node, h, fills);
+        }
+        for (uint32_t k = 0; k < item->triangles; ++k) {
+            energy += stretch(s, &pl_softbody_triangles(all)[at.triangle + k], at.node, h, fills);
+        }
+        if (item->ring > 0) {
+            energy += inflate(s, item, at.node, pl_softbody_rings(all) + at.ring, gas++, h, fills);
+        }
+        at = pl_softbody_behind(at, item);
+    }
+    return energy;
+}
+
+//---- after the step ------------------------------------------------------------------------------
+
+static double exact(real value, real rest)
+{
+    return (double)value + (double)rest;
+}
+
+static void node_place(const plumb_softbody_node *n, double out[2])
+{
+    out[0] = exact(n->position.x, n->position_rest.x);
+    out[1] = exact(n->position.y, n->position_rest.y);
+}
+
+static double length_of(const plumb_softbody_node *nodes, const plumb_softbody_edge *e)
+{
+    double a[2], b[2];
+    node_place(&nodes[e->a], a);
+    node_place(&nodes[e->b], b);
+    const double dx = b[0] - a[0], dy = b[1] - a[1];
+    return sqrt(dx * dx + dy * dy);
+}
+
+static void settle(plumb_softbody_edge *e, const pl_soft_pull *now)
+{
+    const double strain = now->strain, yield = (double)e->yield_strain;
+    const double length = (1 + strain) * (double)e->length;
+    const bool torn = (e->flags & PLUMB_EDGE_TORN) != 0;
+    e->flags &= ~PLUMB_EDGE_TORN_NOW;
+    e->tension = torn ? 0 : (real)now->tension;
+    if (torn) {
+        return;
+    }
+    if (e->break_strain > 0 && strain > (double)e->break_strain) {
+        e->flags |= PLUMB_EDGE_TORN | PLUMB_EDGE_TORN_NOW;
+        e->tension = 0;
+    } else if (yield > 0 && strain > yield) {
+        e->length = (real)(length / (1 + yield));
+    } else if (yield > 0 && strain < -yield && (e->flags & PLUMB_EDGE_PULLS) == 0) {
+        e->length = (real)(length / (1 - yield));
+    }
+}
+
+// Nothing bends any more over an edge that is torn.
+static void limp(const pl_softbodies *all, const pl_softbody *item, pl_softbody_place at,
+                 const plumb_softbody_edge *torn)
+{
+    for (uint32_t k = 0; k < item->bends; ++k) {
+        plumb_softbody_bend *b = &pl_softbody_bends(all)[at.bend + k];
+        const bool first =
+            (b->a == torn->a && b->b == torn->b) || (b->a == torn->b && b->b == torn->a);
+        const bool second =
+            (b->b == torn->a && b->c == torn->b) || (b->b == torn->b && b->c == torn->a);
+        b->stiffness = first || second ? 0 : b->stiffness;
+    }
+}
+
+void pl_soft_settle_edges(plumb_world *world)
+{
+    const pl_softbodies *all = &world->softbodies;
+    pl_softbody_place at = { 0, 0, 0, 0, 0, 0 };
+    for (uint32_t i = 0; i < all->count; ++i) {
+        pl_softbody *item = &pl_softbody_items(all)[i];
+        bool tears = false;
+        for (uint32_t k = 0; k < item->edges; ++k) {
+            plumb_softbody_edge *e = &pl_softbody_edges(all)[at.edge + k];
+            settle(e, (const pl_soft_pull *)all->step->pulls.data + at.edge + k);
+            if ((e->flags & PLUMB_EDGE_TORN_NOW) != 0) {
+                tears = true;
+                limp(all, item, at, e);
+            }
+        }
+        if (tears && item->ring > 0) { // its gas is out
+            item->pressure = item->ambient = 0;
+        }
+        at = pl_softbody_behind(at, item);
+    }
+}
+
+//---- energy --------------------------------------------------------------------------------------
+
+double pl_soft_area(const plumb_world *world, const pl_softbody *item, pl_softbody_place at)
+{
+    const plumb_softbody_node *nodes = pl_softbody_nodes(&world->softbodies) + at.node;
+    const uint32_t *ring = pl_softbody_rings(&world->softbodies) + at.ring;
+    double area = 0, p[2], q[2];
+    for (uint32_t i = 0; i < item->ring; ++i) {
+        node_place(&nodes[ring[i]], p);
+        node_place(&nodes[ring[(i + 1) % item->ring]], q);
+        area += (p[0] * q[1] - p[1] * q[0]) / 2;
+    }
+    return area;
+}
+
+double pl_soft_elastic(const plumb_world *world, uint32_t row, pl_softbody_place at)
+{
+    const pl_softbodies *all = &world->softbodies;
+    const pl_softbody *item = &pl_softbody_items(all)[row];
+    const plumb_softbody_node *nodes = pl_softbody_nodes(all) + at.node;
+    double sum = item->ring > 0 ? energy_of_gas(item, pl_soft_area(world, item, at)) : 0;
+    for (uint32_t k = 0; k < item->edges; ++k) {
+        const plumb_softbody_edge *e = &pl_softbody_edges(all)[at.edge + k];
+        const double d = length_of(nodes, e) - (double)e->length;
+        const bool idle =
+            (e->flags & PLUMB_EDGE_TORN) != 0 || ((e->flags & PLUMB_EDGE_PULLS) != 0 && d < 0);
+        sum += idle ? 0 : (double)e->stiffness * d * d / 2;
+    }
+    for (uint32_t k = 0; k < item->bends; ++k) {
+        const plumb_softbody_bend *e = &pl_softbody_bends(all)[at.bend + k];
+        double a[2], b[2], c[2];
+        node_place(&nodes[e->a], a);
+        node_place(&nodes[e->b], b);
+        node_place(&nodes[e->c], c);
+        const double turn = wrapped(turn_of(a, b, c) - (double)e->angle);
+        sum += (double)e->stiffness / (double)e->length * turn * turn / 2;
+    }
+    for (uint32_t k = 0; k < item->triangles; ++k) {
+        const plumb_softbody_triangle *e = &pl_softbody_triangles(all)[at.triangle + k];
+        sheet t;
+        double p[3][2], f[4];
+        if (!sheet_of(e, &t)) {
+            continue;
+        }
+        node_place(&nodes[e->a], p[0]);
+        node_place(&nodes[e->b], p[1]);
+        node_place(&nodes[e->c], p[2]);
+        deform(&t, (const double(*)[2])p, f);
+        sum += t.area * density_of(&t, f);
+    }
+    return sum;
+}

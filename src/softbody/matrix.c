@@ -1,0 +1,272 @@
+// matrix.c - the system of a substep: symmetric, sparse, in blocks of 1 to 3 unknowns, factored as L D L^T without pivoting.
+//
+// Blocks of nodes come in the order of step.c, those of bodies and gas behind them: the matrix of what is elastic is
+// positive definite, a block of gas brings a negative pivot (quasi-definite: Vanderbei 1995, SIAM J. Optim. 5), so that any
+// order has a factorisation. Rows of L are found by the elimination tree (Liu 1990, SIAM J. Matrix Anal. Appl. 11) and
+// solved one after the other (up-looking: Davis 2006, Direct Methods for Sparse Linear Systems, ch. 4).
+//
+// Reads: pairs of blocks that are neighbours. Writes: structure, factors. Cost: structure O(fill), factors O(sum of squares of
+// what columns have). Sums run in a fixed order.
+#include "core/sort.h"
+#include "softbody/softbody.h"
+
+#include <string.h>
+
+//---- structure -----------------------------------------------------------------------------------
+
+// Blocks of row k of L, in an order in which each comes before those that it changes: stack[top..blocks).
+static uint32_t reach(const pl_soft_matrix *m, uint32_t k)
+{
+    uint32_t top = m->blocks;
+    m->mark[k] = k;
+    for (uint32_t p = m->first[k]; p < m->first[k + 1]; ++p) {
+        uint32_t length = 0;
+        for (uint32_t i = m->column[p]; m->mark[i] != k; i = m->parent[i]) {
+            m->stack[length++] = i;
+            m->mark[i] = k;
+        }
+        while (length > 0) {
+            m->stack[--top] = m->stack[--length];
+        }
+    }
+    return top;
+}
+
+static void grow_tree(pl_soft_matrix *m)
+{
+    uint32_t *ancestor = m->stack;
+    for (uint32_t k = 0; k < m->blocks; ++k) {
+        m->parent[k] = ancestor[k] = PL_NONE;
+        for (uint32_t p = m->first[k]; p < m->first[k + 1]; ++p) {
+            for (uint32_t i = m->column[p]; i != PL_NONE && i < k;) {
+                const uint32_t next = ancestor[i];
+                ancestor[i] = k;
+                if (next == PL_NONE) {
+                    m->parent[i] = k;
+                }
+                i = next;
+            }
+        }
+    }
+}
+
+static void count_columns(pl_soft_matrix *m)
+{
+    memset(m->fill, 0, m->blocks * sizeof *m->fill);
+    memset(m->mark, 0xff, m->blocks * sizeof *m->mark);
+    for (uint32_t k = 0; k < m->blocks; ++k) {
+        for (uint32_t at = reach(m, k); at < m->blocks; ++at) {
+            ++m->fill[m->stack[at]];
+        }
+    }
+    m->start[0] = 0;
+    for (uint32_t k = 0; k < m->blocks; ++k) {
+        m->start[k + 1] = m->start[k] + m->fill[k];
+    }
+    m->factors = m->start[m->blocks];
+}
+
+bool pl_soft_structure(pl_memory *memory, pl_soft_step *step, uint32_t blocks, uint32_t pairs)
+{
+    pl_soft_matrix *m = &step->matrix;
+    const pl_keyed *keys = step->keys.data;
+    const size_t words = 6 * (size_t)blocks + 8 + pairs;
+    if (!pl_buffer_reserve(memory, &step->index, words * sizeof(uint32_t))) {
+        return false;
+    }
+    uint32_t *at = step->index.data;
+    m->blocks = blocks;
+    m->size = step->shapes.data;
+    m->first = at, at += blocks + 1;
+    m->start = at, at += blocks + 1;
+    m->parent = at, at += blocks;
+    m->fill = at, at += blocks;
+    m->mark = at, at += blocks;
+    m->stack = at, at += blocks;
+    m->column = at;
+    m->entries = 0;
+    uint32_t next = 0;
+    for (uint32_t i = 0; i < pairs; ++i) { // keys are (higher, lower), sorted
+        const uint32_t row = (uint32_t)(keys[i].key >> 32);
+        if (i > 0 && keys[i].key == keys[i - 1].key) {
+            continue;
+        }
+        while (next <= row) {
+            m->first[next++] = m->entries;
+        }
+        m->column[m->entries++] = (uint32_t)keys[i].key;
+    }
+    while (next <= blocks) {
+        m->first[next++] = m->entries;
+    }
+    grow_tree(m);
+    count_columns(m);
+    const size_t numbers = 9 * (4 * (size_t)blocks + m->entries + m->factors) + 12 * (size_t)blocks;
+    const size_t bytes = numbers * sizeof(double) + m->factors * sizeof(uint32_t);
+    if (!pl_buffer_reserve(memory, &step->numbers, bytes)) {
+        return false;
+    }
+    double *d = step->numbers.data;
+    m->diagonal = d, d += 9 * (size_t)blocks;
+    m->off = d, d += 9 * (size_t)m->entries;
+    m->pivot = d, d += 9 * (size_t)blocks;
+    m->inverse = d, d += 9 * (size_t)blocks;
+    m->work = d, d += 9 * (size_t)blocks;
+    m->l = d, d += 9 * (size_t)m->factors;
+    m->right = d, d += 3 * (size_t)blocks;
+    m->u = d, d += 3 * (size_t)blocks;
+    m->tried = d, d += 3 * (size_t)blocks;
+    m->slope = d, d += 3 * (size_t)blocks;
+    m->row_of = (uint32_t *)(void *)d;
+    return true;
+}
+
+void pl_soft_clear(pl_soft_matrix *m)
+{
+    memset(m->diagonal, 0, 9 * (size_t)m->blocks * sizeof(double));
+    memset(m->off, 0, 9 * (size_t)m->entries * sizeof(double));
+    memset(m->right, 0, 3 * (size_t)m->blocks * sizeof(double));
+}
+
+double *pl_soft_entry(const pl_soft_matrix *m, uint32_t row, uint32_t column)
+{
+    uint32_t low = m->first[row], high = m->first[row + 1];
+    while (low + 1 < high) {
+        const uint32_t middle = (low + high) / 2;
+        if (m->column[middle] <= column) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    return m->off + 9 * (size_t)low;
+}
+
+//---- numbers: blocks are by rows, 3 numbers a row -------------------------------------------------
+
+static void invert(const double *a, int n, double *out)
+{
+    if (n == 1) {
+        out[0] = 1 / a[0];
+    } else if (n == 2) {
+        const double d = 1 / (a[0] * a[4] - a[1] * a[3]);
+        out[0] = a[4] * d, out[1] = -a[1] * d, out[3] = -a[3] * d, out[4] = a[0] * d;
+    } else {
+        const double x = a[4] * a[8] - a[5] * a[7], y = a[5] * a[6] - a[3] * a[8];
+        const double z = a[3] * a[7] - a[4] * a[6];
+        const double d = 1 / (a[0] * x + a[1] * y + a[2] * z);
+        out[0] = x * d, out[3] = y * d, out[6] = z * d;
+        out[1] = (a[2] * a[7] - a[1] * a[8]) * d, out[4] = (a[0] * a[8] - a[2] * a[6]) * d;
+        out[7] = (a[1] * a[6] - a[0] * a[7]) * d;
+        out[2] = (a[1] * a[5] - a[2] * a[4]) * d, out[5] = (a[2] * a[3] - a[0] * a[5]) * d;
+        out[8] = (a[0] * a[4] - a[1] * a[3]) * d;
+    }
+}
+
+// to -= a b^T: rows x between, columns x between.
+static void take_product(double *to, const double *a, const double *b, int rows, int columns,
+                         int between)
+{
+    if (rows == 2 && columns == 2 && between == 2) {
+        to[0] -= a[0] * b[0] + a[1] * b[1], to[1] -= a[0] * b[3] + a[1] * b[4];
+        to[3] -= a[3] * b[0] + a[4] * b[1], to[4] -= a[3] * b[3] + a[4] * b[4];
+        return;
+    }
+    for (int i = 0; i < rows; ++i) {
+        for (int j = 0; j < columns; ++j) {
+            double sum = 0;
+            for (int k = 0; k < between; ++k) {
+                sum += a[3 * i + k] * b[3 * j + k];
+            }
+            to[3 * i + j] -= sum;
+        }
+    }
+}
+
+// Row k: what A has of it becomes L D of it block by block, and L.
+static void factor_row(pl_soft_matrix *m, uint32_t k)
+{
+    const int n = m->size[k];
+    const uint32_t top = reach(m, k);
+    double *pivot = m->pivot + 9 * (size_t)k;
+    for (uint32_t at = top; at < m->blocks; ++at) {
+        memset(m->work + 9 * (size_t)m->stack[at], 0, 9 * sizeof(double));
+    }
+    for (uint32_t p = m->first[k]; p < m->first[k + 1]; ++p) {
+        memcpy(m->work + 9 * (size_t)m->column[p], m->off + 9 * (size_t)p, 9 * sizeof(double));
+    }
+    memcpy(pivot, m->diagonal + 9 * (size_t)k, 9 * sizeof(double));
+    for (uint32_t at = top; at < m->blocks; ++at) {
+        const uint32_t i = m->stack[at], end = m->start[i] + m->fill[i];
+        const double *y = m->work + 9 * (size_t)i, *inverse = m->inverse + 9 * (size_t)i;
+        for (uint32_t p = m->start[i]; p < end; ++p) {
+            const uint32_t j = m->row_of[p];
+            take_product(m->work + 9 * (size_t)j, y, m->l + 9 * (size_t)p, n, m->size[j],
+                         m->size[i]);
+        }
+        double *l = m->l + 9 * (size_t)end;
+        for (int r = 0; r < 9; ++r) {
+            l[r] = 0;
+        }
+        for (int r = 0; r < n; ++r) {
+            for (int c = 0; c < m->size[i]; ++c) {
+                double sum = 0;
+                for (int q = 0; q < m->size[i]; ++q) {
+                    sum += y[3 * r + q] * inverse[3 * q + c];
+                }
+                l[3 * r + c] = sum;
+            }
+        }
+        take_product(pivot, l, y, n, n, m->size[i]);
+        m->row_of[end] = k;
+        ++m->fill[i];
+    }
+    invert(pivot, n, m->inverse + 9 * (size_t)k);
+}
+
+void pl_soft_factor(pl_soft_matrix *m)
+{
+    memset(m->fill, 0, m->blocks * sizeof *m->fill);
+    memset(m->mark, 0xff, m->blocks * sizeof *m->mark);
+    for (uint32_t k = 0; k < m->blocks; ++k) {
+        factor_row(m, k);
+    }
+}
+
+void pl_soft_solve(const pl_soft_matrix *m)
+{
+    double *x = m->right;
+    for (uint32_t i = 0; i < m->blocks; ++i) {
+        const double *from = x + 3 * (size_t)i;
+        for (uint32_t p = m->start[i]; p < m->start[i + 1]; ++p) {
+            const double *l = m->l + 9 * (size_t)p;
+            double *to = x + 3 * (size_t)m->row_of[p];
+            for (int r = 0; r < m->size[m->row_of[p]]; ++r) {
+                for (int c = 0; c < m->size[i]; ++c) {
+                    to[r] -= l[3 * r + c] * from[c];
+                }
+            }
+        }
+    }
+    for (uint32_t i = m->blocks; i-- > 0;) {
+        const double *inverse = m->inverse + 9 * (size_t)i;
+        double *to = x + 3 * (size_t)i, sum[3] = { 0, 0, 0 };
+        const int n = m->size[i];
+        for (int r = 0; r < n; ++r) {
+            for (int c = 0; c < n; ++c) {
+                sum[r] += inverse[3 * r + c] * to[c];
+            }
+        }
+        for (uint32_t p = m->start[i]; p < m->start[i + 1]; ++p) {
+            const double *l = m->l + 9 * (size_t)p, *from = x + 3 * (size_t)m->row_of[p];
+            for (int r = 0; r < m->size[m->row_of[p]]; ++r) {
+                for (int c = 0; c < n; ++c) {
+                    sum[c] -= l[3 * r + c] * from[r];
+                }
+            }
+        }
+        for (int r = 0; r < n; ++r) {
+            to[r] = sum[r];
+        }
+    }
+}

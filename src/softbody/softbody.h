@@ -1,0 +1,65 @@
+// softbody.h - soft bodies in a step: the kernels, and what the step calls.
+#ifndef PL_SOFTBODY_H
+#define PL_SOFTBODY_H
+
+#include "world/state.h"
+
+#define PL_SOFT_SPEED 1e6 // [m/s] of nodes at most
+
+void pl_softbodies_free(pl_memory *memory, pl_softbodies *softbodies);
+// Of an image: numbers in their ranges, nodes that there are. Bodies of pins are asked for elsewhere.
+bool pl_softbodies_are_sound(const pl_softbodies *s);
+// Adds their energy, momentum and mass.
+void pl_softbodies_energy(const plumb_world *world, plumb_energy *energy);
+
+//---- step.c --------------------------------------------------------------------------------------
+
+// Before the graph: nodes and what is near them. False when out of memory.
+bool pl_softbodies_find(plumb_world *world, plumb_real dt);
+// Marks bodies that are solved with soft ones: they are of one cluster. True if there are any.
+bool pl_softbodies_couple(const plumb_world *world, uint8_t *called);
+// Behind the graph: their slots, the structure of the system. False when out of memory.
+bool pl_softbodies_plan(plumb_world *world);
+
+//---- matrix.c ------------------------------------------------------------------------------------
+
+// The structure of `pairs` of blocks (pl_keyed keys of pl_pair_key, sorted); sizes stand in step->shapes. False when out of
+// memory.
+bool pl_soft_structure(pl_memory *memory, pl_soft_step *step, uint32_t blocks, uint32_t pairs);
+void pl_soft_clear(pl_soft_matrix *m);
+// Place of an entry, row > column; both are neighbours.
+double *pl_soft_entry(const pl_soft_matrix *m, uint32_t row, uint32_t column);
+// Factors the matrix; solves for `right`, into itself.
+void pl_soft_factor(pl_soft_matrix *m);
+void pl_soft_solve(const pl_soft_matrix *m);
+
+//---- elements.c ----------------------------------------------------------------------------------
+
+// The function that is to be least, of all elements, at the velocities that u adds [kg m^2/s^2]. Where it `fills`, their
+// impulses are added to `right` [N s] and their stiffness to the matrix.
+double pl_soft_elements(plumb_world *world, double h, bool fills);
+// Adds k (2 x 2) between two points, and its transpose where they are different, as blocks have them.
+void pl_soft_add(const pl_soft_step *s, uint32_t a, uint32_t b, const double k[4]);
+// Adds an impulse at a point.
+void pl_soft_push(const pl_soft_step *s, uint32_t point, double x, double y);
+// What u adds to the velocities of points.
+void pl_soft_change(const pl_soft_step *s);
+// Ready when the step is over: tension, what tears, what yields.
+void pl_soft_settle_edges(plumb_world *world);
+// [J] in all elements; [m^2], [N/m] of the gas of one.
+double pl_soft_elastic(const plumb_world *world, uint32_t row, pl_softbody_place at);
+double pl_soft_area(const plumb_world *world, const pl_softbody *item, pl_softbody_place at);
+double pl_soft_pressure(const pl_softbody *item, double area);
+
+//---- contacts.c ----------------------------------------------------------------------------------
+
+// Pieces near nodes, with their bodies; which nodes. False when out of memory.
+bool pl_soft_find_near(plumb_world *world, double dt);
+uint32_t pl_soft_body_of(plumb_world *world,
+                         uint32_t row); // place in the list; PL_NONE: out of memory
+// Contacts of a substep.
+void pl_soft_find_contacts(plumb_world *world, double h);
+// As pl_soft_elements. What holds by friction goes by the normal forces of the last time that it filled.
+double pl_soft_press(pl_soft_step *s, double h, bool fills);
+
+#endif

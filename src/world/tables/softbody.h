@@ -1,0 +1,161 @@
+// softbody.h - soft bodies as they are stored, and what a step makes of them.
+#ifndef PL_TABLE_SOFTBODY_H
+#define PL_TABLE_SOFTBODY_H
+
+#include "core/memory.h"
+#include "core/near.h"
+#include "plumb/softbody.h"
+
+// Nodes and elements of all of them lie one behind the other, in the order of the soft bodies; an element names nodes as
+// the soft body counts them.
+typedef struct pl_softbody {
+    plumb_softbody entity;
+    uint32_t nodes, edges, bends, triangles, ring, pins; // how many it has
+    plumb_real friction, damping;
+    plumb_real pressure, ambient, area; // area: at rest
+    plumb_filter filter;
+} pl_softbody;
+
+// Where those of a soft body begin.
+typedef struct pl_softbody_place {
+    uint32_t node, edge, bend, triangle, ring, pin;
+} pl_softbody_place;
+
+// A node in a step.
+typedef struct pl_soft_point {
+    double x, y, vx, vy; // [m], [m/s] as the substep begins
+    double cx, cy;       // [m/s] that this substep adds to the velocity, as far as is known
+    double mass, radius; // [kg], [m]
+    double damping;      // [1/s]
+    double friction;     // [-]
+    double rx, ry;       // [m] of one that is pinned to a body: from its centre of mass, now
+    double px, py;       // [m] the same in the body's frame; in the world where no body holds it
+    double heavy;        // [kg] all that its soft body moves: what contacts are stiff for
+    uint32_t block;      // of unknowns; PL_NONE: its motion is known
+    uint32_t body;       // of the list of bodies that holds it; PL_NONE
+    bool pinned;
+} pl_soft_point;
+
+// A body that is near, or holds a node.
+typedef struct pl_soft_body {
+    plumb_body body;
+    uint32_t row, slot, block; // slot, block: PL_NONE where its motion is known
+    double x0, y0, c0, s0;     // [m] centre of mass, rotation as the step begins
+    double x, y, c, s;         // the same as the substep begins
+    double vx, vy, w;          // [m/s], [rad/s]
+    double ax, ay, aw;         // what moves it besides
+    double mass, inertia;      // [kg], [kg m^2]
+    double locked_x, locked_y, locked_w; // 1: free, 0: it does not move so
+    bool asleep, touched;
+} pl_soft_body;
+
+// A convex piece that is near.
+typedef struct pl_soft_obstacle {
+    uint32_t piece, body; // of the list
+    int count;
+    double friction, radius, extent; // extent: [m] about the centre of mass
+    double x[16], y[16];             // [m] about the body's centre of mass, in its frame
+} pl_soft_obstacle;
+
+typedef struct pl_soft_near {
+    uint32_t point, obstacle;
+} pl_soft_near;
+
+// A node touches, or is about to.
+typedef struct pl_soft_contact {
+    uint32_t point, body;
+    double nx, ny;   // from the body to the node
+    double gap;      // [m] as the substep begins
+    double rx, ry;   // [m] from the centre of mass to where it touches
+    double stiffness, friction;
+    double force;    // [N] as the last pass had it
+    double most;     // [N] that friction holds
+} pl_soft_contact;
+
+// What an edge was asked for last.
+typedef struct pl_soft_pull {
+    double tension, strain; // [N], [-]
+} pl_soft_pull;
+
+// Unknowns in blocks of up to 3, the symmetric matrix by rows: lower neighbours and diagonal; factors L D L^T.
+typedef struct pl_soft_matrix {
+    uint32_t blocks, entries, factors;
+    uint32_t *first, *column; // entries of a row of blocks, by rising column
+    uint32_t *parent, *start, *fill, *row_of; // elimination tree; columns of L
+    uint32_t *mark, *stack;
+    uint8_t *size;           // unknowns of a block
+    double *diagonal, *off;  // 9 a block
+    double *pivot, *inverse, *l, *work;
+    double *right, *u, *tried, *slope; // 3 a block
+} pl_soft_matrix;
+
+typedef struct pl_soft_step {
+    pl_buffer points, bodies, obstacles, near_, contacts, keys, order, index, numbers, shapes, rows, pulls;
+    uint32_t point_count, body_count, obstacle_count, near_count, contact_count;
+    uint32_t coupled; // bodies that are unknowns; rows: a byte a dynamic row, whether it is one
+    int done;         // substeps
+    double mass;      // [kg] of all nodes
+    bool grips;       // friction acts: from the second pass on
+    pl_soft_matrix matrix;
+} pl_soft_step;
+
+typedef struct pl_softbodies {
+    pl_buffer items;                                       // pl_softbody
+    pl_buffer nodes, edges, bends, triangles, rings, pins; // plumb_softbody_...; of rings uint32_t
+    uint32_t count, node_count, edge_count, bend_count, triangle_count, ring_count, pin_count;
+    pl_soft_step *step; // NULL: no step has needed it yet
+} pl_softbodies;
+
+static inline pl_softbody *pl_softbody_items(const pl_softbodies *s)
+{
+    return (pl_softbody *)s->items.data;
+}
+
+static inline plumb_softbody_node *pl_softbody_nodes(const pl_softbodies *s)
+{
+    return (plumb_softbody_node *)s->nodes.data;
+}
+
+static inline plumb_softbody_edge *pl_softbody_edges(const pl_softbodies *s)
+{
+    return (plumb_softbody_edge *)s->edges.data;
+}
+
+static inline plumb_softbody_bend *pl_softbody_bends(const pl_softbodies *s)
+{
+    return (plumb_softbody_bend *)s->bends.data;
+}
+
+static inline plumb_softbody_triangle *pl_softbody_triangles(const pl_softbodies *s)
+{
+    return (plumb_softbody_triangle *)s->triangles.data;
+}
+
+static inline uint32_t *pl_softbody_rings(const pl_softbodies *s)
+{
+    return (uint32_t *)s->rings.data;
+}
+
+static inline plumb_softbody_pin *pl_softbody_pins(const pl_softbodies *s)
+{
+    return (plumb_softbody_pin *)s->pins.data;
+}
+
+// The places behind those of a soft body.
+static inline pl_softbody_place pl_softbody_behind(pl_softbody_place at, const pl_softbody *s)
+{
+    return (pl_softbody_place){ at.node + s->nodes, at.edge + s->edges,
+                                at.bend + s->bends, at.triangle + s->triangles,
+                                at.ring + s->ring,  at.pin + s->pins };
+}
+
+static inline pl_softbody_place pl_softbody_place_of(const pl_softbodies *s, uint32_t row)
+{
+    pl_softbody_place at = { 0, 0, 0, 0, 0, 0 };
+    for (uint32_t i = 0; i < row; ++i) {
+        at = pl_softbody_behind(at, &pl_softbody_items(s)[i]);
+    }
+    return at;
+}
+
+#endif
