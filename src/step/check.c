@@ -195,6 +195,7 @@ static void add_records(look *d, const plumb_world *w, int data)
         break;
     case PL_DATA_AIR:
         add_list(d, w->air.cells.data, w->air.cell_count, sizeof(plumb_air_cell));
+        break;
     case PL_DATA_SOFT_BODIES:
         add_list(d, w->softbodies.nodes.data, w->softbodies.node_count,
                  sizeof(plumb_softbody_node));
