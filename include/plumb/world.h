@@ -202,6 +202,8 @@ typedef struct plumb_stats {
     uint32_t exact_factored;     ///< matrices that the exact solver factored in the last step
     uint32_t exact_missed;       ///< of its solutions in that step, those that missed the tolerance; the first one of a
                                  ///< world is also a warning in the log
+    uint32_t soft_missed;        ///< substeps in all whose soft bodies had not settled when the iteration ended (after 24
+                                 ///< passes); the first one is also a warning in the log
     uint32_t fast_count;         ///< bodies that moved so fast in the last step that their way was swept
     uint32_t stopped_count;      ///< of those, bodies put back to where they would have passed into something
     int simd_width;              ///< lanes in use

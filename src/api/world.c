@@ -440,6 +440,7 @@ plumb_stats plumb_world_stats(const plumb_world *world)
         .exact_missed = world->exact.missed,
         .exact_residual = world->exact.residual,
         .cut_chain_count = world->solver.cut_count,
+        .soft_missed = world->softbodies.missed_count,
         .arrested_count = world->arrested_count,
         .alarm_count = world->watchdog.total,
         .fast_count = world->continuous.count,

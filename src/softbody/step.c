@@ -155,6 +155,7 @@ bool pl_softbodies_find(plumb_world *world, real dt)
     pl_soft_step *s = world->softbodies.step;
     s->coupled = 0;
     s->done = 0;
+    s->missed = 0;
     memset(s->rows.data, 0, world->dynamic_count);
     for (uint32_t i = 0; i < s->body_count; ++i) {
         if (bodies_of(s)[i].row < world->dynamic_count) {
@@ -597,6 +598,7 @@ static void run_substep(plumb_world *world, double h)
             break;
         }
     }
+    s->missed += gain <= enough ? 0 : 1;
     evaluate(world, h, false);
     store_substep(world, h);
     ++s->done;
@@ -674,6 +676,18 @@ static void stir(plumb_world *world)
     }
 }
 
+static void tell_missed(plumb_world *world)
+{
+    pl_softbodies *all = &world->softbodies;
+    if (all->step->missed > 0 && all->missed_count == 0) {
+        pl_warn(world,
+                "soft bodies did not settle within %d passes in a substep at %g s: what they do there is less exact; more "
+                "substeps, or softer ones, help",
+                MOST_PASSES, world->time);
+    }
+    all->missed_count += all->step->missed;
+}
+
 plumb_result pl_run_softbodies_motion(plumb_world *world, plumb_real dt)
 {
     const pl_soft_step *s = world->softbodies.step;
@@ -684,5 +698,6 @@ plumb_result pl_run_softbodies_motion(plumb_world *world, plumb_real dt)
     store_nodes(world);
     pl_soft_settle_edges(world);
     stir(world);
+    tell_missed(world);
     return PLUMB_OK;
 }

@@ -1,6 +1,10 @@
-// test_api_softbody.c - soft bodies as a user has them: refused calls, pins, destruction, images while cloth tears.
+// test_api_softbody.c - soft bodies as a user has them: refused calls, pins, destruction, sleep, images while cloth tears,
+// threads and widths, recordings, out of memory, what did not settle.
+#include "harness/heap.h"
+#include "harness/recording.h"
 #include "world_fixture.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 #define DT R(1.0 / 60)
@@ -159,6 +163,268 @@ static void an_image_is_taken_while_it_tears(void **state)
     free(image);
 }
 
+//---- the same bits -------------------------------------------------------------------------------
+
+// One of each, with bodies that fall onto them, are held by them, or lie apart.
+static plumb_world *make_yard(plumb_world_desc desc)
+{
+    plumb_world *w;
+    assert_int_equal(plumb_world_create(&desc, &w), PLUMB_OK);
+    const plumb_body ground = plumb_body_create(w, &(plumb_body_desc){ .type = PLUMB_STATIC });
+    plumb_shape_create(
+        w, ground,
+        &(plumb_shape_desc){ .kind = PLUMB_BOX, .half = { 20, R(0.5) }, .center = { 0, R(-0.5) } });
+    plumb_body boxes[6];
+    for (int i = 0; i < 6; ++i) {
+        boxes[i] = plumb_body_create(
+            w, &(plumb_body_desc){ .position = { R(i * 1.1 - 4), R(3.2) }, .angle = R(0.1 * i) });
+        plumb_shape_create(
+            w, boxes[i], &(plumb_shape_desc){ .kind = PLUMB_BOX, .half = { R(0.2), R(0.2) } });
+    }
+    return w;
+}
+
+static plumb_result furnish(plumb_world *w)
+{
+    const plumb_vec2 outline[] = { { 4, 1 }, { 5, 1 }, { 5, 2 }, { 4, 2 } };
+    const plumb_body held = plumb_world_bodies(w).body[0];
+    const plumb_softbody made[] = {
+        plumb_rope_create(w, &(plumb_rope_desc){ .from = { -6, 2 },
+                                                 .to = { R(-2.5), 2 },
+                                                 .nodes = 16,
+                                                 .bending = R(0.1),
+                                                 .hold_from = true,
+                                                 .hold_to = true }),
+        plumb_rope_create(w, &(plumb_rope_desc){ .from = { -4, 5 },
+                                                 .to = { R(-4), R(3.2) },
+                                                 .nodes = 8,
+                                                 .hold_from = true,
+                                                 .to_body = held }),
+        plumb_cloth_create(w, &(plumb_cloth_desc){ .low = { R(-1.5), R(1.5) },
+                                                   .high = { 1, R(2.5) },
+                                                   .columns = 8,
+                                                   .break_strain = R(0.08),
+                                                   .hold_corners = true }),
+        plumb_jelly_create(w, &(plumb_jelly_desc){ .points = outline, .count = 4, .spacing = R(0.25) }),
+        plumb_skin_create(w, &(plumb_skin_desc){ .center = { 2, R(0.8) }, .nodes = 16 })
+    };
+    for (int i = 0; i < 5; ++i) {
+        if (plumb_is_null(made[i])) {
+            const plumb_result code = plumb_world_error(w).code;
+            for (int k = 0; k < 5; ++k) {
+                plumb_softbody_destroy(w, made[k]);
+            }
+            return code;
+        }
+    }
+    return PLUMB_OK;
+}
+
+static plumb_world *make_full_yard(plumb_world_desc desc)
+{
+    plumb_world *w = make_yard(desc);
+    assert_int_equal(furnish(w), PLUMB_OK);
+    return w;
+}
+
+static void threads_and_widths_change_no_bit(void **state)
+{
+    (void)state;
+    const int widths[] = { 4, 8, 16, 8 }, workers[] = { 1, 1, 1, 3 };
+    uint64_t hashes[4];
+    for (int i = 0; i < 4; ++i) {
+        plumb_world *w =
+            make_full_yard((plumb_world_desc){ .simd_width = widths[i], .workers = workers[i] });
+        run(w, 120);
+        hashes[i] = plumb_world_hash(w);
+        assert_true(hashes[i] == hashes[0]);
+        plumb_world_destroy(w);
+    }
+}
+
+static void recordings_have_it(void **state)
+{
+    (void)state;
+    recording tape = { 0 };
+    uint64_t hashes[61];
+    plumb_world *w = make_yard((plumb_world_desc){ 0 });
+    assert_int_equal(plumb_recorder_start(w, &(plumb_recorder_desc){ .write = to_recording,
+                                                                     .context = &tape,
+                                                                     .keyframe_every = 16 }),
+                     PLUMB_OK);
+    for (int i = 1; i <= 60; ++i) {
+        plumb_softbody all[5];
+        if (i == 5) {
+            assert_int_equal(furnish(w), PLUMB_OK);
+        }
+        if (i == 30) { // cut, freed, gone
+            plumb_softbody_desc d;
+            assert_int_equal(plumb_world_softbodies(w, all, 5), 5);
+            assert_int_equal(plumb_softbody_get(w, all[0], &d), PLUMB_OK);
+            plumb_softbody_edge e = d.edges[7];
+            e.flags |= PLUMB_EDGE_TORN;
+            assert_int_equal(plumb_softbody_set_edge(w, all[0], 7, &e), PLUMB_OK);
+            assert_int_equal(plumb_softbody_release(w, all[1], 0), PLUMB_OK);
+            assert_int_equal(plumb_softbody_destroy(w, all[3]), PLUMB_OK);
+        }
+        run(w, 1);
+        hashes[i] = plumb_world_hash(w);
+    }
+    plumb_recorder_stop(w);
+    plumb_replay *replay;
+    assert_int_equal(plumb_replay_open(tape.bytes, tape.size, NULL, &replay), PLUMB_OK);
+    for (int i = 1; i <= 60; ++i) {
+        assert_int_equal(plumb_replay_step(replay), PLUMB_OK);
+        assert_true(plumb_world_hash(plumb_replay_world(replay)) == hashes[i]);
+    }
+    assert_int_equal(plumb_replay_seek(replay, 33), PLUMB_OK);
+    assert_true(plumb_world_hash(plumb_replay_world(replay)) == hashes[33]);
+    plumb_replay_close(replay);
+    recording_free(&tape);
+    plumb_world_destroy(w);
+}
+
+//---- out of memory -------------------------------------------------------------------------------
+
+// Every allocation of making and stepping fails once: the call is refused, changes nothing, and succeeds when it is tried
+// again.
+static uint64_t play(heap *h, long fail_at, long *calls, int *refusals)
+{
+    *h = (heap){ .fail_at = -1 };
+    plumb_world *w = // a refused step may count as rest for bodies that could sleep
+        make_yard((plumb_world_desc){ .allocator = heap_allocator(h), .no_sleep = true });
+    run(w, 1);
+    const long before = h->calls;
+    h->fail_at = fail_at < 0 ? -1 : before + fail_at;
+    plumb_result r;
+    while ((r = furnish(w)) == PLUMB_E_MEMORY) {
+        ++*refusals;
+        assert_int_equal(plumb_world_softbodies(w, NULL, 0), 0);
+    }
+    assert_int_equal(r, PLUMB_OK);
+    for (int i = 0; i < 12; ++i) {
+        const uint64_t hash = plumb_world_hash(w);
+        while ((r = plumb_world_step(w, DT)) == PLUMB_E_MEMORY) {
+            ++*refusals;
+            assert_true(plumb_world_hash(w) == hash);
+        }
+        assert_int_equal(r, PLUMB_OK);
+    }
+    plumb_softbody all[5];
+    plumb_world_softbodies(w, all, 5);
+    while ((r = plumb_softbody_hold(w, all[4], 0, (plumb_body)PLUMB_NULL_INIT,
+                                    (plumb_vec2){ 2, 1 })) == PLUMB_E_MEMORY) {
+        ++*refusals;
+    }
+    assert_int_equal(r, PLUMB_OK);
+    run(w, 1);
+    *calls = h->calls - before;
+    plumb_softbody_state sum;
+    plumb_softbody_measure(w, all[0], &sum);
+    plumb_softbody_desc d;
+    plumb_softbody_get(w, all[4], &d);
+    assert_int_equal(d.pin_count, 1);
+    const double end = (double)sum.center.y;
+    plumb_world_destroy(w);
+    assert_int_equal(h->bytes, 0);
+    uint64_t bits;
+    memcpy(&bits, &end, sizeof bits); // handles differ, for those that were taken back: what moved does not
+    return bits;
+}
+
+static void any_allocation_may_fail(void **state)
+{
+    (void)state;
+    static heap h;
+    long calls, unused;
+    int refusals = 0;
+    const uint64_t end = play(&h, -1, &calls, &refusals);
+    assert_int_equal(refusals, 0);
+    assert_in_range(calls, 20, 400);
+    for (long k = 0; k < calls; ++k) {
+        refusals = 0;
+        assert_true(play(&h, k, &unused, &refusals) == end);
+        assert_int_equal(refusals, 1);
+    }
+    print_message("%ld allocations, each failed once\n", calls);
+}
+
+static void a_steady_step_allocates_nothing(void **state)
+{
+    (void)state;
+    static heap h;
+    h = (heap){ .fail_at = -1 };
+    plumb_world *w = make_full_yard((plumb_world_desc){ .allocator = heap_allocator(&h) });
+    run(w, 240);
+    const long calls = h.calls;
+    run(w, 60);
+    assert_int_equal(h.calls, calls);
+    plumb_world_destroy(w);
+}
+
+//---- sleep, what did not settle ------------------------------------------------------------------
+
+// What lies on a rope stays awake, and so does what lies on that; gone is the rope, and both fall.
+static void nothing_sleeps_in_thin_air(void **state)
+{
+    fixture *f = *state;
+    plumb_world *w = f->world;
+    plumb_body_destroy(w, f->dynamic);
+    plumb_body_destroy(w, f->fixed);
+    const plumb_softbody rope = plumb_rope_create(w, &(plumb_rope_desc){ .from = { -2, 4 },
+                                                                         .to = { 2, 4 },
+                                                                         .length = R(4.5),
+                                                                         .damping = 50,
+                                                                         .drag = 1,
+                                                                         .hold_from = true,
+                                                                         .hold_to = true });
+    plumb_body boxes[2];
+    for (int i = 0; i < 2; ++i) {
+        boxes[i] = plumb_body_create(w, &(plumb_body_desc){ .position = { 0, R(4 + i * 0.5) } });
+        plumb_shape_create(
+            w, boxes[i],
+            &(plumb_shape_desc){ .kind = PLUMB_BOX, .half = { R(0.4 - 0.1 * i), R(0.2) } });
+    }
+    run(w, 600);
+    const double low = (double)plumb_body_position(w, boxes[0]).y;
+    assert_true(low > 2 && (double)plumb_body_position(w, boxes[1]).y > low + 0.3);
+    assert_true(fabs((double)plumb_body_velocity(w, boxes[0]).y) < 0.01);
+    assert_true(plumb_body_is_awake(w, boxes[0]) && plumb_body_is_awake(w, boxes[1]));
+    assert_int_equal(plumb_softbody_destroy(w, rope), PLUMB_OK);
+    run(w, 30);
+    assert_true((double)plumb_body_position(w, boxes[0]).y < low - 1);
+    assert_true((double)plumb_body_position(w, boxes[1]).y < low - 0.5);
+}
+
+// A rope as stiff as a rod of steel, loaded by a ton with a single substep at 10 Hz: the iteration ends before it has settled.
+static void what_did_not_settle_is_told(void **state)
+{
+    fixture *f = *state;
+    plumb_world *w = f->world;
+    plumb_body_destroy(w, f->dynamic);
+    plumb_world_set_substeps(w, 1, 1);
+    plumb_rope_create(w, &(plumb_rope_desc){ .from = { -2, 4 },
+                                             .to = { 2, 4 },
+                                             .length = R(4.4),
+                                             .nodes = 60,
+                                             .mass = R(0.5),
+                                             .stiffness = R(1e9),
+                                             .friction = 2,
+                                             .hold_from = true,
+                                             .hold_to = true });
+    const plumb_body b =
+        plumb_body_create(w, &(plumb_body_desc){ .position = { R(0.3), 6 }, .angular_velocity = 20 });
+    const plumb_material heavy = plumb_material_create(w, &(plumb_material_desc){ .density = 20000 });
+    plumb_shape_create(
+        w, b, &(plumb_shape_desc){ .kind = PLUMB_BOX, .half = { R(0.5), R(0.3) }, .material = heavy });
+    for (int i = 0; i < 30; ++i) {
+        assert_int_equal(plumb_world_step(w, R(0.1)), PLUMB_OK);
+    }
+    print_message("%u substeps missed\n", plumb_world_stats(w).soft_missed);
+    assert_true(plumb_world_stats(w).soft_missed > 0);
+    assert_non_null(strstr(f->logged, "did not settle"));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -166,6 +432,12 @@ int main(void)
         cmocka_unit_test_setup_teardown(calls_are_checked, set_up, tear_down),
         cmocka_unit_test_setup_teardown(what_goes_takes_its_pins_along, set_up, tear_down),
         cmocka_unit_test_setup_teardown(an_image_is_taken_while_it_tears, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(nothing_sleeps_in_thin_air, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(what_did_not_settle_is_told, set_up, tear_down),
+        cmocka_unit_test(threads_and_widths_change_no_bit),
+        cmocka_unit_test(recordings_have_it),
+        cmocka_unit_test(any_allocation_may_fail),
+        cmocka_unit_test(a_steady_step_allocates_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

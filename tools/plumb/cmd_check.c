@@ -108,6 +108,15 @@ static void print_cut(const scene_run *run, const char *path)
     }
 }
 
+static void print_missed(const scene_run *run, const char *path)
+{
+    const unsigned missed = run->engine->stats(run->stage).soft_missed;
+    if (missed > 0) {
+        printf("note  %s: %u substep%s soft bodies had not settled when the iteration ended\n",
+               base_name(path), missed, missed == 1 ? " whose" : "s whose");
+    }
+}
+
 static void print_accuracy(const scene_run *run, const char *path)
 {
     char text[512];
@@ -162,6 +171,7 @@ static void check_one(const check_args *args, const char *path, tally *sum)
         }
         if (code == CLI_OK) {
             print_cut(&run, path);
+            print_missed(&run, path);
             print_accuracy(&run, path);
             code = judge(&run, path, sum);
         }

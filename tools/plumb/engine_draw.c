@@ -426,6 +426,9 @@ int pl_stage_draw(engine_stage *stage, struct render_frame *frame, unsigned show
                 good = add_body(stage, &body, i, names, show, frame);
             }
         }
+        if (layer == 0) {
+            good = good && pl_stage_add_softbodies(stage, frame);
+        }
     }
     if ((show & RENDER_SHOW_JOINTS) != 0) {
         pl_stage_add_joints(stage, frame);
@@ -481,6 +484,17 @@ void pl_stage_bounds(const engine_stage *stage, const engine_box *home, engine_b
                 add_to_box(&near_home, b);
                 stayed++;
             }
+        }
+    }
+    plumb_softbody soft[64];
+    const int soft_count = plumb_world_softbodies(stage->world, soft, 64);
+    for (int i = 0; i < soft_count && i < 64; i++) {
+        const plumb_aabb b = pl_stage_softbody_box(stage, soft[i]);
+        add_to_box(moving, b);
+        movers++;
+        if (home != NULL && is_middle_in(home, b)) {
+            add_to_box(&near_home, b);
+            stayed++;
         }
     }
     if (stayed > 0 && 3 * stayed >= movers) {

@@ -43,7 +43,8 @@ typedef enum visit {
     PAIRS,
     CONTACTS,
     PARTICLES,
-    AIR_CELLS
+    AIR_CELLS,
+    NODES
 } visit;
 
 static const struct reason {
@@ -58,6 +59,9 @@ static const struct reason {
     { "characters", CHARACTERS, SAME },
     { "liquid", NOBODY, PARTICLES },
     { "air", NOBODY, AIR_CELLS },
+    { "soft bodies", NOBODY, NODES },
+    { "soft slots", NOBODY, NODES },
+    { "soft forces", NOBODY, NODES },
     { "waking", ASLEEP, SAME },
     { "broad phase", SOLID, PIECES },
     { "internal edges", GROUND, PIECES },
@@ -118,6 +122,7 @@ static const struct reason {
     { "edges", NOBODY, BODIES },
     { "liquid motion", NOBODY, PARTICLES },
     { "air motion", NOBODY, AIR_CELLS },
+    { "soft motion", NOBODY, NODES },
     { "reactions", JOINTS, SAME },
     { "events", SOLID, PAIRS },
     { "sensors", SENSORS, SAME },
@@ -285,6 +290,19 @@ static bool is_once(const engine_pass *pass)
            strcmp(pass->phase, "store") == 0;
 }
 
+/// Of all soft bodies.
+static int soft_nodes(const plumb_world *world)
+{
+    plumb_softbody some[64];
+    plumb_softbody_desc d;
+    int nodes = 0;
+    const int count = plumb_world_softbodies(world, some, 64);
+    for (int i = 0; i < count && i < 64; i++) {
+        nodes += plumb_softbody_get(world, some[i], &d) == PLUMB_OK ? d.node_count : 0;
+    }
+    return nodes;
+}
+
 void pl_session_because(engine_session *session, const engine_pass *pass, engine_because *because)
 {
     engine_stage *stage = &session->stage;
@@ -292,7 +310,7 @@ void pl_session_because(engine_session *session, const engine_pass *pass, engine
     const plumb_stats s = plumb_world_stats(stage->world);
     const int substeps = is_once(pass) ? 1 : plumb_world_settings(stage->world).substeps;
     static const char *const words[] = { "",       "",      "bodies",   "bodies",
-                                         "pieces", "pairs", "contacts", "particles" };
+                                         "pieces", "pairs", "contacts", "particles", "cells", "nodes" };
     *because = (engine_because){ .rows = -1, .what = "" };
     because->bytes = substeps * bytes_of(stage->world, pass->reads, pass->writes);
     if (reason == NULL) {
@@ -325,6 +343,9 @@ void pl_session_because(engine_session *session, const engine_pass *pass, engine
     case AIR_CELLS:
         because->rows =
             plumb_air_cells(stage->world, &box) == PLUMB_OK ? box.columns * box.rows : 0;
+        break;
+    case NODES:
+        because->rows = soft_nodes(stage->world);
         break;
     case PARTICLES:
         (void)plumb_liquid_particles(stage->world, &particles);

@@ -98,6 +98,9 @@ scene_joint pl_stage_joint(const engine_stage *stage, int i);
 int pl_stage_palette(const scene_body *body, int i);
 /// Parts of pl_stage_draw: joints that are not hidden; of `shapes` those that run.
 void pl_stage_add_joints(const engine_stage *stage, struct render_frame *frame);
+plumb_aabb pl_stage_softbody_box(const engine_stage *stage, plumb_softbody body); ///< of its nodes
+/// Adds all soft bodies to a draw list. False when out of memory.
+bool pl_stage_add_softbodies(const engine_stage *stage, struct render_frame *frame);
 void pl_stage_add_surfaces(const engine_stage *stage, const plumb_shape *shapes, int count,
                            struct render_frame *frame);
 /// Of a recording: `path` names it where it has no title.

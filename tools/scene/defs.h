@@ -234,6 +234,40 @@ typedef struct sc_source {
     int number; ///< its object's
 } sc_source;
 
+/// rope{}, cloth{}, jelly{}, balloon{}, softbody{}
+typedef enum sc_softbody_kind {
+    SC_ROPE,
+    SC_CLOTH,
+    SC_JELLY,
+    SC_BALLOON,
+    SC_SOFTBODY,
+    SC_SOFTBODY_KINDS
+} sc_softbody_kind;
+
+enum { SC_HOLD_FROM = 1, SC_HOLD_TO = 2 }; ///< bits of `hold`: "none|from|to|both"
+enum { SC_HELD_NOT, SC_HELD_TOP, SC_HELD_CORNERS };
+
+typedef struct sc_softbody_def {
+    uint64_t present;
+    double at[2], from[2], to[2], size[2], velocity[2];
+    double length, mass, density, spacing, radius;
+    double stiffness, shear, damping, bending, young, poisson;
+    double friction, drag, break_strain, yield_strain;
+    double pressure, ambient, area;
+    double node_count, columns, row_count;
+    char from_body[SC_NAME_SIZE], to_body[SC_NAME_SIZE];
+    int hold, held, shape_count;
+    bool pushes, nodes, edges, bends, triangles, ring, pins;
+    sc_color color;
+    sc_filter filter;
+} sc_softbody_def;
+
+typedef struct sc_softbody {
+    sc_softbody_def def;
+    sc_softbody_kind kind;
+    plumb_softbody handle;
+} sc_softbody;
+
 /// attractor{}, zone{}, magnetic{}, mutual{}
 typedef enum sc_law_kind {
     SC_ATTRACTOR,

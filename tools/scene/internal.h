@@ -247,6 +247,7 @@ struct scene {
     int air_line;
     SC_ARRAY(sc_source) sources;
     int source_number; ///< of the last that was made
+    SC_ARRAY(sc_softbody) softbodies;
     SC_ARRAY(sc_law) laws;
     sc_orbits_def orbits; ///< present: it was said
     sc_camera camera;
@@ -315,6 +316,7 @@ extern const sc_list sc_list_scene, sc_list_material, sc_list_body, sc_list_came
     sc_list_filter, sc_list_motor, sc_list_spring, sc_list_state, sc_list_blast, sc_list_character,
     sc_list_liquid, sc_list_air, sc_list_source, sc_list_orbits;
 extern const sc_list sc_list_laws[SC_LAW_KINDS];
+extern const sc_list sc_list_softbodies[SC_SOFTBODY_KINDS];
 extern const sc_list sc_list_queries[SC_QUERIES];
 extern const sc_list sc_list_shapes[SC_SHAPE_KINDS];
 
@@ -388,6 +390,7 @@ void sc_open_body(lua_State *L);       ///< methods of bodies
 void sc_open_motion(lua_State *L);     ///< blast
 void sc_open_laws(lua_State *L);       ///< attractor, zone, magnetic, mutual, orbits
 void sc_open_liquid(lua_State *L);     ///< liquid, liquid_in
+void sc_open_softbody(lua_State *L);   ///< rope, cloth, jelly, balloon, softbody
 void sc_open_air(lua_State *L);        ///< air, air_source, air_fill, air_at, air_sum
 void sc_open_characters(lua_State *L); ///< character
 void sc_open_queries(lua_State *L);    ///< ray, cast, nearest, inside
@@ -421,6 +424,7 @@ void sc_build_law(scene *s, const sc_site *site, sc_law_kind kind, int table); /
 void sc_build_orbits(scene *s, const sc_site *site, int table);
 void sc_build_liquid(scene *s, const sc_site *site, int table);
 void sc_build_air(scene *s, const sc_site *site, int table);
+void sc_build_softbody(scene *s, const sc_site *site, sc_softbody_kind kind, int table); ///< pushes it
 void sc_build_source(scene *s, const sc_site *site, int table); ///< pushes it
 void sc_build_camera(scene *s, const sc_site *site, int table);
 void sc_build_expect(scene *s, const sc_site *site, int table);

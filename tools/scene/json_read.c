@@ -171,7 +171,7 @@ static void check_root(scene *s, const cJSON *root)
 {
     static const char *const names[] = { "air",    "bodies", "camera", "excluded", "expect",
                                          "format", "joints", "laws",   "liquid",   "materials",
-                                         "orbits", "pairs",  "scene",  "sources",  "time" };
+                                         "orbits", "pairs",  "scene",  "softbodies", "sources", "time" };
     sc_site site = { .construct = "file", .path = "" };
     if (!cJSON_IsObject(root)) {
         sc_raise(s, SCENE_E_TYPE, &site, NULL, 0, NULL, "a scene must be an object {...}");
@@ -347,6 +347,11 @@ static void make(scene *s, const cJSON *item, const char *construct, const char 
     build(s, &site, lua_gettop(s->L));
 }
 
+static void build_softbody(scene *s, const sc_site *site, int table)
+{
+    sc_build_softbody(s, site, SC_SOFTBODY, table);
+}
+
 void sc_json_load(scene *s)
 {
     lua_State *L = s->L;
@@ -388,6 +393,12 @@ void sc_json_load(scene *s)
     i = 0;
     for (const cJSON *item = elements(s, root, "laws"); item != NULL; item = item->next, i++) {
         make_of(s, &law_kinds, item, i);
+    }
+    i = 0;
+    for (const cJSON *item = elements(s, root, "softbodies"); item != NULL; item = item->next, i++) {
+        snprintf(path, sizeof path, "softbodies[%d]", i);
+        make(s, item, "softbody", path, build_softbody);
+        lua_settop(L, 1);
     }
     const cJSON *orbits = cJSON_GetObjectItemCaseSensitive(root, "orbits");
     if (orbits != NULL) {

@@ -21,6 +21,7 @@ typedef struct writer {
 typedef struct origin {
     bool is_state; ///< the world, as reals; else the author, whose numbers fit both precisions
     const sc_body *body; ///< the body that is being written: its shapes are not in its definition
+    const plumb_softbody_desc *soft; ///< the soft body
 } origin;
 
 static const origin as_said = { .is_state = false };
@@ -140,8 +141,7 @@ static void write_axes(writer *w, int axes)
 static bool has_json_form(const sc_field *row)
 {
     return row->kind != SC_FUNCTION &&
-           (row->kind != SC_TABLE || strcmp(row->name, "particles") == 0 ||
-            strcmp(row->name, "cells") == 0);
+           (row->kind != SC_TABLE || strcmp(row->name, "user") != 0);
 }
 
 static void write_shapes(writer *w, const sc_body *b);
@@ -220,6 +220,73 @@ static const char *name_of(const scene *s, plumb_body body)
     return b != NULL ? b->def.name : "world";
 }
 
+// A row a line, in the order in which softbody.c takes them.
+static void write_soft_rows(writer *w, const char *what, const plumb_softbody_desc *d)
+{
+    const bool nodes = strcmp(what, "nodes") == 0, edges = strcmp(what, "edges") == 0;
+    const bool bends = strcmp(what, "bends") == 0, triangles = strcmp(what, "triangles") == 0;
+    const int count = nodes       ? d->node_count
+                      : edges     ? d->edge_count
+                      : bends     ? d->bend_count
+                      : triangles ? d->triangle_count
+                                  : d->ring_count;
+    fputc('[', w->file);
+    for (int i = 0; i < count; i++) {
+        fputs(i > 0 ? ",\n" : "\n", w->file);
+        if (nodes) {
+            const plumb_softbody_node *n = &d->nodes[i];
+            const double v[] = { (double)n->position.x, (double)n->position.y,
+                                 (double)n->velocity.x, (double)n->velocity.y,
+                                 (double)n->mass,       (double)n->radius };
+            write_numbers(w, v, 6, true);
+        } else if (edges) {
+            const plumb_softbody_edge *e = &d->edges[i];
+            const double v[] = { e->a + 1.0,
+                                 e->b + 1.0,
+                                 (double)e->length,
+                                 (double)e->stiffness,
+                                 (double)e->damping,
+                                 (double)e->break_strain,
+                                 (double)e->yield_strain,
+                                 e->flags & (PLUMB_EDGE_PULLS | PLUMB_EDGE_TORN) };
+            write_numbers(w, v, 8, true);
+        } else if (bends) {
+            const plumb_softbody_bend *b = &d->bends[i];
+            const double v[] = { b->a + 1.0,           b->b + 1.0,        b->c + 1.0,
+                                 (double)b->stiffness, (double)b->length, (double)b->angle };
+            write_numbers(w, v, 6, true);
+        } else if (triangles) {
+            const plumb_softbody_triangle *t = &d->triangles[i];
+            const double v[] = { t->a + 1.0,         t->b + 1.0,           t->c + 1.0,
+                                 (double)t->young,   (double)t->poisson,   (double)t->damping,
+                                 (double)t->ab.x,    (double)t->ab.y,      (double)t->ac.x,
+                                 (double)t->ac.y };
+            write_numbers(w, v, 10, true);
+        } else {
+            write_numbers(w, (const double[]){ d->ring[i] + 1.0 }, 1, true);
+        }
+    }
+    fputs("\n]", w->file);
+}
+
+static void write_pins(writer *w, const plumb_softbody_desc *d)
+{
+    fputc('[', w->file);
+    for (int i = 0; i < d->pin_count; i++) {
+        const plumb_softbody_pin *p = &d->pins[i];
+        fprintf(w->file, "%s[%u,", i > 0 ? ",\n" : "\n", (unsigned)p->node + 1);
+        write_number(w, (double)p->point.x, true);
+        fputc(',', w->file);
+        write_number(w, (double)p->point.y, true);
+        if (!plumb_is_null(p->body)) {
+            fputc(',', w->file);
+            write_string(w, name_of(w->s, p->body));
+        }
+        fputc(']', w->file);
+    }
+    fputs("\n]", w->file);
+}
+
 static void write_value(writer *w, const sc_field *row, const void *def, const origin *from)
 {
     const void *member = (const char *)def + row->offset;
@@ -287,7 +354,11 @@ static void write_value(writer *w, const sc_field *row, const void *def, const o
         fputc(']', w->file);
         break;
     case SC_TABLE:
-        if (strcmp(row->name, "cells") == 0) {
+        if (from->soft != NULL && strcmp(row->name, "pins") == 0) {
+            write_pins(w, from->soft);
+        } else if (from->soft != NULL) {
+            write_soft_rows(w, row->name, from->soft);
+        } else if (strcmp(row->name, "cells") == 0) {
             write_cells(w);
         } else {
             write_particles(w); // no other table has a JSON form
@@ -523,6 +594,50 @@ static void write_air(writer *w)
     fputs(",\n", w->file);
 }
 
+// As it is now: node by node.
+static void write_softbody(writer *w, const sc_softbody *b)
+{
+    const sc_list *list = &sc_list_softbodies[SC_SOFTBODY], *own = &sc_list_softbodies[b->kind];
+    sc_softbody_def d = b->def;
+    plumb_softbody_desc now;
+    plumb_softbody_get(w->s->world, b->handle, &now);
+    d.present = 0;
+#define KEEP(member)                                                                               \
+    SC_MARK(list, &d, sc_softbody_def, member, SC_GIVEN(own, &b->def, sc_softbody_def, member))
+    KEEP(color);
+    KEEP(filter.category);
+    KEEP(filter.collides);
+    KEEP(filter.ignores);
+#undef KEEP
+    d.friction = (double)now.friction;
+    d.drag = (double)now.damping;
+    d.pressure = (double)now.pressure;
+    d.ambient = (double)now.ambient;
+    d.area = (double)now.area;
+    SC_GIVE(list, &d, sc_softbody_def, friction);
+    SC_GIVE(list, &d, sc_softbody_def, drag);
+    SC_GIVE(list, &d, sc_softbody_def, nodes);
+    SC_MARK(list, &d, sc_softbody_def, edges, now.edge_count > 0);
+    SC_MARK(list, &d, sc_softbody_def, bends, now.bend_count > 0);
+    SC_MARK(list, &d, sc_softbody_def, triangles, now.triangle_count > 0);
+    SC_MARK(list, &d, sc_softbody_def, pins, now.pin_count > 0);
+    SC_MARK(list, &d, sc_softbody_def, ring, now.ring_count > 0);
+    SC_MARK(list, &d, sc_softbody_def, pressure, now.ring_count > 0);
+    SC_MARK(list, &d, sc_softbody_def, ambient, now.ring_count > 0);
+    SC_MARK(list, &d, sc_softbody_def, area, now.ring_count > 0);
+    write_object(w, list, &d, NULL, &(origin){ .is_state = true, .soft = &now });
+}
+
+static void write_softbodies(writer *w)
+{
+    const scene *s = w->s;
+    for (int i = 0; i < s->softbodies.count; i++) {
+        fputs(i > 0 ? ",\n" : "\"softbodies\":[\n", w->file);
+        write_softbody(w, &s->softbodies.items[i]);
+    }
+    fputs(s->softbodies.count > 0 ? "\n],\n" : "", w->file);
+}
+
 static void write_sources(writer *w)
 {
     const scene *s = w->s;
@@ -585,6 +700,7 @@ bool scene_to_json(const scene *s, FILE *file)
     fputs("\"scene\":", file);
     write_settings(s, &w);
     fputs(",\n", file);
+    write_softbodies(&w);
     write_sources(&w);
     fputs("\"time\":", file);
     write_number(&w, scene_time(s), false);

@@ -74,5 +74,7 @@ const sc_list *sc_list_at(int i)
            : i < count + SC_JOINT_KINDS + SC_SHAPE_KINDS
                ? &sc_list_shapes[i - count - SC_JOINT_KINDS]
            : i < all + SC_LAW_KINDS ? &sc_list_laws[i - all]
-                                    : NULL;
+           : i < all + SC_LAW_KINDS + SC_SOFTBODY_KINDS
+               ? &sc_list_softbodies[i - all - SC_LAW_KINDS]
+               : NULL;
 }

@@ -207,6 +207,12 @@ typedef struct scene_liquid {
     scene_rgba color;
 } scene_liquid;
 scene_liquid scene_get_liquid(const scene *s);
+/// How a soft body wants to be drawn: likewise.
+typedef struct scene_softbody {
+    int palette;
+    scene_rgba color;
+} scene_softbody;
+scene_softbody scene_get_softbody(const scene *s, plumb_softbody softbody);
 /// How air{} wants its smoke drawn: likewise.
 typedef struct scene_air {
     int palette;

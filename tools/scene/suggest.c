@@ -102,7 +102,6 @@ const sc_synonym sc_absent_names[] = {
 };
 
 const sc_synonym sc_other_names[] = {
-    { "rope", "distance" },
     { "rod", "distance" },
     { "spring", "distance" },
     { "hinge", "revolute" },

@@ -95,6 +95,7 @@ typedef struct pl_soft_step {
     uint32_t coupled; // bodies that are unknowns; rows: a byte a dynamic row, whether it is one
     int done;         // substeps
     double mass;      // [kg] of all nodes
+    uint32_t missed;  // substeps of this step that ended before they had settled
     bool grips;       // friction acts: from the second pass on
     pl_soft_matrix matrix;
 } pl_soft_step;
@@ -103,6 +104,7 @@ typedef struct pl_softbodies {
     pl_buffer items;                                       // pl_softbody
     pl_buffer nodes, edges, bends, triangles, rings, pins; // plumb_softbody_...; of rings uint32_t
     uint32_t count, node_count, edge_count, bend_count, triangle_count, ring_count, pin_count;
+    uint32_t missed_count; // substeps in all that ended before they had settled
     pl_soft_step *step; // NULL: no step has needed it yet
 } pl_softbodies;
 
