@@ -4,8 +4,10 @@
 // reaches. A node that is on its way into a piece is held where it would enter it, one that is in it is pushed out
 // slowly, so that nothing tunnels and nothing is shot out. The law is that of a stiff spring asked for at x' + h v' / 2
 // (elements.c), stiff for all of the mass that may press: no restitution, and what is pressed sinks by less than
-// g h^2 / 10. Friction: a damper so stiff that it holds, and no stronger than Coulomb's law by the normal force that
-// the pass before had.
+// g h^2 / 10. Friction: a damper that gives all that Coulomb's law allows at a slip of a four-hundredth of g h, so what is held
+// creeps by less. Coulomb's law goes by the normal forces of the pass before, and after a few passes by those that it has then: so
+// the function stays one, and convex, and Newton's iteration ends. What slides has no stiffness; a fiftieth of the secant's
+// keeps light nodes from being sent far (DECISIONS.md).
 //
 // Reads: points, rows, pieces. Writes: bodies and obstacles of the step, contacts, the matrix. Cost: once a step
 // O(bodies + pieces), and nodes times pieces in the box of their soft body; a substep O(what is near).
@@ -15,8 +17,9 @@
 #include <math.h>
 
 #define STIFFNESS 10.0 // of a contact, times mass / h^2
-#define GRIP      1e4  // of friction that holds, times mass / h
 #define PUSH_OUT  0.2  // [m/s]
+#define LAG       5    // passes; after these the normal forces that bound friction stay as they are
+#define SLIDING   0.02 // of the secant stiffness of what slides
 
 static pl_soft_point *points_of(const pl_soft_step *s)
 {
@@ -368,7 +371,7 @@ static double press(pl_soft_step *s, pl_soft_contact *c, double h, bool fills)
     const double gap = c->gap + h * (1.5 * rate_of(s, c, &n, false) + rate_of(s, c, &n, true));
     const double force = gap < 0 ? -c->stiffness * gap : 0;
     if (fills) {
-        c->most = s->grips ? c->friction * force : 0;
+        c->most = s->pass == 0 ? 0 : s->pass < LAG ? c->friction * force : c->most;
         c->force = force;
     }
     double energy = force * -gap / 2;
@@ -379,13 +382,11 @@ static double press(pl_soft_step *s, pl_soft_contact *c, double h, bool fills)
         return energy;
     }
     const double slip = rate_of(s, c, &t, false) + rate_of(s, c, &t, true), speed = fabs(slip);
-    const double grip = GRIP * c->stiffness * h / STIFFNESS;
-    const bool slides = grip * speed > c->most;
-    const double hold = slides ? c->most / speed : grip;
-    energy +=
-        h * (slides ? c->most * speed - c->most * c->most / (2 * grip) : grip * speed * speed / 2);
+    const bool slides = speed > s->creep;
+    const double hold = c->most / (slides ? speed : s->creep);
+    energy += h * c->most * (slides ? speed - s->creep / 2 : speed * speed / (2 * s->creep));
     if (fills) {
-        act(s, c, &t, -h * hold * slip, h * hold);
+        act(s, c, &t, -h * hold * slip, h * hold * (slides ? SLIDING : 1));
     }
     return energy;
 }

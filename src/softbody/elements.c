@@ -153,6 +153,48 @@ static double ease(const pl_soft_point *p)
 
 //---- edges ---------------------------------------------------------------------------------------
 
+// What an edge is asked for along its way q = n . (u_b - u_a): stretch and its rate, and how they grow with q.
+typedef struct asked {
+    double stretch, rate; // [m], [m/s]
+    double late, share;   // [s], [-]
+} asked;
+
+// Its answer: tension [N], how it grows with q [kg/s^2], its part in the function over h.
+typedef struct answer {
+    double tension, slope, part;
+} answer;
+
+static answer spring_and_damper(double k, double c, const asked *e)
+{
+    return (answer){ k * e->stretch + c * e->rate, k * e->late + c * e->share,
+                     k * e->stretch * e->stretch / (2 * e->late) +
+                         c * e->rate * e->rate / (2 * e->share) };
+}
+
+// A thread pulls only where it is longer than at rest, and its damper no more than its spring: what would be there at once
+// with the first stretch would have no least function, and passes went to and fro about it. Along q the rate is `own`
+// where the thread is at its length, and grows by `turn` with the stretch; the damper is the spring's equal up to the stretch
+// `from`, or, where it is the faster to grow, from `to` on.
+static answer thread(double k, double c, const asked *e)
+{
+    const double s = e->stretch, turn = e->share / e->late, own = e->rate - turn * s;
+    if (s <= 0) {
+        return (answer){ 0, 0, 0 };
+    }
+    const double equal = k - c * turn, meets = equal != 0 ? c * own / equal : -1;
+    const double from = own >= 0 ? (equal > 0 ? meets : INFINITY) : -c * own / (k + c * turn);
+    const double to = own < 0 && equal < 0 ? meets : INFINITY;
+    const double first = own >= 0 ? k : 0; // 2 k s or nothing up to `from`
+    if (s <= from) {
+        return (answer){ 2 * first * s, 2 * first * e->late, first * s * s / e->late };
+    }
+    const double end = s < to ? s : to;
+    const double part = first * from * from + (k + c * turn) * (end * end - from * from) / 2 +
+                        c * own * (end - from) + (s > to ? k * (s * s - to * to) : 0);
+    return s > to ? (answer){ 2 * k * s, 2 * k * e->late, part / e->late }
+                  : (answer){ k * s + c * e->rate, k * e->late + c * e->share, part / e->late };
+}
+
 static double pull(const pl_soft_step *s, const plumb_softbody_edge *e, uint32_t first, double h,
                    bool fills, pl_soft_pull *now)
 {
@@ -167,26 +209,28 @@ static double pull(const pl_soft_step *s, const plumb_softbody_edge *e, uint32_t
     const double dy = b->y - a->y + ta * (b->vy - a->vy) + tb * (b->cy - a->cy);
     const double length = sqrt(dx * dx + dy * dy), stretch = length - rest;
     *now = (pl_soft_pull){ 0, stretch / rest };
-    if (length < 1e-12 || ((e->flags & PLUMB_EDGE_PULLS) != 0 && stretch <= 0)) {
+    if (length < 1e-12) {
         return 0;
     }
     const double x = dx / length, y = dy / length;
     const double rate = x * (b->vx - a->vx + share * (b->cx - a->cx)) +
                         y * (b->vy - a->vy + share * (b->cy - a->cy));
-    now->tension = k * stretch + c * rate;
-    if (fills) {
-        const double along = h * (tb * k + share * c);
-        const double across = stretch > 0 ? h * tb * k * stretch / length : 0;
+    const asked way = { stretch, rate, tb, share };
+    const bool pulls = (e->flags & PLUMB_EDGE_PULLS) != 0;
+    const answer f = pulls ? thread(k, c, &way) : spring_and_damper(k, c, &way);
+    now->tension = f.tension;
+    if (fills && (f.tension != 0 || f.slope != 0)) {
+        const double along = h * f.slope, across = stretch > 0 ? h * tb * k * stretch / length : 0;
         const double own[4] = { along * x * x + across * y * y, (along - across) * x * y,
                                 (along - across) * x * y, along * y * y + across * x * x };
         const double other[4] = { -own[0], -own[1], -own[2], -own[3] };
-        pl_soft_push(s, ia, h * now->tension * x, h * now->tension * y);
-        pl_soft_push(s, ib, -h * now->tension * x, -h * now->tension * y);
+        pl_soft_push(s, ia, h * f.tension * x, h * f.tension * y);
+        pl_soft_push(s, ib, -h * f.tension * x, -h * f.tension * y);
         pl_soft_add(s, ia, ia, own);
         pl_soft_add(s, ib, ib, own);
         pl_soft_add(s, ia, ib, other);
     }
-    return k * stretch * stretch / (2 * later) + h * c * rate * rate / (2 * share);
+    return h * f.part;
 }
 
 // Of a force that grows with u along its way by `slope` a unit of it [kg/s]: its part in the function.

@@ -19,8 +19,12 @@
 #include <math.h>
 #include <string.h>
 
-#define MOST_PASSES 24
-#define SMALL       1e-3 // of what gravity adds to velocities: what the last pass may
+#define MOST_PASSES  24
+#define SECTIONS     14   // of a way, by 0.618 each
+#define CREEP        2.5e-3 // of what gravity adds to velocities: the slip at which friction is all that Coulomb's law gives
+#define ENOUGH_OF_IT 0.25 // of what is gained along the whole way, where a half is what Newton's step promises
+#define SMALL        1e-3 // of what gravity adds to velocities: what the last pass may
+#define TOLD         0.1  // likewise: what is told, where passes end before
 
 bool pl_want_softbodies(const plumb_world *world, const char **reason)
 {
@@ -526,8 +530,37 @@ static double product(const double *a, const double *b, size_t count)
     return sum;
 }
 
-// A pass of Newton's iteration; halved until it makes the function less (Armijo 1966). Twice what is to be gained by it: no
-// number where there is none.
+static double at_part(plumb_world *world, double h, double part)
+{
+    try_part(world->softbodies.step, part);
+    return evaluate(world, h, false);
+}
+
+// The part of a way along which the function falls the most, by golden sections: it is convex but for what folds. Exact where
+// steps are halved (Armijo 1966), for what friction holds lies in a fold of the function: a way to halve ends before
+// or behind it, and the passes go to and fro over it.
+static double best_part(plumb_world *world, double h, double before, double gain)
+{
+    const double share = 0.6180339887498949;
+    double whole = at_part(world, h, 1);
+    if (whole <= before - ENOUGH_OF_IT * gain) {
+        return 1;
+    }
+    double low = 0, high = 1, a = 1 - share, b = share;
+    double at_a = at_part(world, h, a), at_b = at_part(world, h, b);
+    for (int i = 0; i < SECTIONS; ++i) {
+        if (at_a < at_b) {
+            high = b, b = a, at_b = at_a;
+            a = high - share * (high - low), at_a = at_part(world, h, a);
+        } else {
+            low = a, a = b, at_a = at_b;
+            b = low + share * (high - low), at_b = at_part(world, h, b);
+        }
+    }
+    return at_a < at_b ? a : b;
+}
+
+// A pass of Newton's iteration. Twice what is to be gained by it: no number where there is none.
 static double pass(plumb_world *world, double h, double enough)
 {
     pl_soft_step *s = world->softbodies.step;
@@ -539,17 +572,8 @@ static double pass(plumb_world *world, double h, double enough)
     pl_soft_factor(m);
     pl_soft_solve(m);
     const double gain = product(m->slope, m->right, count);
-    try_part(s, 1);
-    if (gain <= enough || !(gain < 1e300)) {
-        return gain;
-    }
-    const double slack = 1e-13 * fabs(before);
-    for (double part = 0.5; part > 1e-3; part /= 2) {
-        if (evaluate(world, h, false) <= before + slack) {
-            break;
-        }
-        try_part(s, part);
-    }
+    const bool goes_on = gain > enough && gain < 1e300;
+    try_part(s, goes_on ? best_part(world, h, before, gain) : 1);
     return gain;
 }
 
@@ -579,6 +603,16 @@ static void store_substep(plumb_world *world, double h)
     }
 }
 
+// [kg] of nodes and of bodies that are unknowns.
+static double moved_mass(const pl_soft_step *s)
+{
+    double sum = s->mass;
+    for (uint32_t i = 0; i < s->body_count; ++i) {
+        sum += bodies_of(s)[i].block != PL_NONE ? bodies_of(s)[i].mass : 0;
+    }
+    return sum;
+}
+
 static void run_substep(plumb_world *world, double h)
 {
     pl_soft_step *s = world->softbodies.step;
@@ -586,19 +620,21 @@ static void run_substep(plumb_world *world, double h)
     guess(world, h);
     pl_soft_change(s); // where they are on their way to
     pl_soft_find_contacts(world, h);
-    const double speed =
-        SMALL * h * (fabs((double)world->gravity.x) + fabs((double)world->gravity.y));
-    const double enough = s->mass * (speed * speed + 1e-12);
+    const double fall = h * (fabs((double)world->gravity.x) + fabs((double)world->gravity.y));
+    const double small = SMALL * fall, told = TOLD * fall;
+    const double enough = s->mass * (small * small + 1e-12);
     double gain = INFINITY;
-    for (int i = 0; i < MOST_PASSES && (gain > enough || (i < 3 && s->contact_count > 0)); ++i) {
-        s->grips = i > 0;
+    s->pass = 0;
+    s->creep = CREEP * fall + 1e-9;
+    while (s->pass < MOST_PASSES && (gain > enough || (s->pass < 3 && s->contact_count > 0))) {
         gain = pass(world, h, enough);
         if (!(gain < 1e300)) { // no number: as if nothing pulled
             guess(world, h);
             break;
         }
+        ++s->pass;
     }
-    s->missed += gain <= enough ? 0 : 1;
+    s->missed += gain <= moved_mass(s) * (told * told + 1e-12) ? 0 : 1;
     evaluate(world, h, false);
     store_substep(world, h);
     ++s->done;

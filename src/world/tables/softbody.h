@@ -96,7 +96,8 @@ typedef struct pl_soft_step {
     int done;         // substeps
     double mass;      // [kg] of all nodes
     uint32_t missed;  // substeps of this step that ended before they had settled
-    bool grips;       // friction acts: from the second pass on
+    int pass;         // of this substep's iteration; friction acts from the second on
+    double creep;     // [m/s] of slip, below which friction is a damper
     pl_soft_matrix matrix;
 } pl_soft_step;
 
