@@ -19,12 +19,14 @@
 #include <math.h>
 #include <string.h>
 
-#define MOST_PASSES  24
-#define SECTIONS     14   // of a way, by 0.618 each
-#define CREEP        2.5e-3 // of what gravity adds to velocities: the slip at which friction is all that Coulomb's law gives
-#define ENOUGH_OF_IT 0.25 // of what is gained along the whole way, where a half is what Newton's step promises
-#define SMALL        1e-3 // of what gravity adds to velocities: what the last pass may
-#define TOLD         0.1  // likewise: what is told, where passes end before
+#define MOST_PASSES 48
+#define SECTIONS    14 // of a way, by 0.618 each
+#define CREEP                                                                                      \
+    2.5e-3 // of what gravity adds to velocities: the slip at which friction is all that Coulomb's law gives
+#define ENOUGH_OF_IT                                                                               \
+    0.25 // of what is gained along the whole way, where a half is what Newton's step promises
+#define SMALL 1e-3 // of what gravity adds to velocities: what the last pass may
+#define TOLD  0.1  // likewise: what is told, where passes end before
 
 bool pl_want_softbodies(const plumb_world *world, const char **reason)
 {
@@ -717,7 +719,8 @@ static void tell_missed(plumb_world *world)
     pl_softbodies *all = &world->softbodies;
     if (all->step->missed > 0 && all->missed_count == 0) {
         pl_warn(world,
-                "soft bodies did not settle within %d passes in a substep at %g s: what they do there is less exact; more "
+                "soft bodies did not settle within %d passes in a substep at %g s: what they do "
+                "there is less exact; more "
                 "substeps, or softer ones, help",
                 MOST_PASSES, world->time);
     }

@@ -178,8 +178,8 @@ static plumb_world *make_yard(plumb_world_desc desc)
     for (int i = 0; i < 6; ++i) {
         boxes[i] = plumb_body_create(
             w, &(plumb_body_desc){ .position = { R(i * 1.1 - 4), R(3.2) }, .angle = R(0.1 * i) });
-        plumb_shape_create(
-            w, boxes[i], &(plumb_shape_desc){ .kind = PLUMB_BOX, .half = { R(0.2), R(0.2) } });
+        plumb_shape_create(w, boxes[i],
+                           &(plumb_shape_desc){ .kind = PLUMB_BOX, .half = { R(0.2), R(0.2) } });
     }
     return w;
 }
@@ -205,7 +205,8 @@ static plumb_result furnish(plumb_world *w)
                                                    .columns = 8,
                                                    .break_strain = R(0.08),
                                                    .hold_corners = true }),
-        plumb_jelly_create(w, &(plumb_jelly_desc){ .points = outline, .count = 4, .spacing = R(0.25) }),
+        plumb_jelly_create(
+            w, &(plumb_jelly_desc){ .points = outline, .count = 4, .spacing = R(0.25) }),
         plumb_skin_create(w, &(plumb_skin_desc){ .center = { 2, R(0.8) }, .nodes = 16 })
     };
     for (int i = 0; i < 5; ++i) {
@@ -343,7 +344,8 @@ static uint64_t play(heap *h, long fail_at, long *calls, int *refusals)
     plumb_world_destroy(w);
     assert_int_equal(h->bytes, 0);
     uint64_t bits;
-    memcpy(&bits, &end, sizeof bits); // handles differ, for those that were taken back: what moved does not
+    memcpy(&bits, &end,
+           sizeof bits); // handles differ, for those that were taken back: what moved does not
     return bits;
 }
 
@@ -427,11 +429,13 @@ static void what_did_not_settle_is_told(void **state)
                                              .friction = 2,
                                              .hold_from = true,
                                              .hold_to = true });
-    const plumb_body b =
-        plumb_body_create(w, &(plumb_body_desc){ .position = { R(0.3), 6 }, .angular_velocity = 20 });
-    const plumb_material heavy = plumb_material_create(w, &(plumb_material_desc){ .density = 20000 });
+    const plumb_body b = plumb_body_create(
+        w, &(plumb_body_desc){ .position = { R(0.3), 6 }, .angular_velocity = 20 });
+    const plumb_material heavy =
+        plumb_material_create(w, &(plumb_material_desc){ .density = 20000 });
     plumb_shape_create(
-        w, b, &(plumb_shape_desc){ .kind = PLUMB_BOX, .half = { R(0.5), R(0.3) }, .material = heavy });
+        w, b,
+        &(plumb_shape_desc){ .kind = PLUMB_BOX, .half = { R(0.5), R(0.3) }, .material = heavy });
     for (int i = 0; i < 30; ++i) {
         assert_int_equal(plumb_world_step(w, R(0.1)), PLUMB_OK);
     }

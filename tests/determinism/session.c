@@ -592,6 +592,37 @@ static void change_air(session *s)
     }
 }
 
+// Ropes between a body and a place, jelly, skins: made, cut, taken away. Worlds that wrap refuse them.
+static void change_softbodies(session *s)
+{
+    plumb_world *w = s->world;
+    plumb_softbody all[4];
+    const int count = plumb_world_softbodies(w, all, 4);
+    const plumb_vec2 at = place(s, -2, 2, 1, 2), far = place(s, 2, 3, 2, 3);
+    const bool first = one_in(s, 2), second = one_in(s, 2);
+    const uint32_t which = pick(s, 4), edge = pick(s, 6);
+    if (count > 2 || (count > 0 && first && second)) {
+        plumb_softbody_destroy(w, all[which % (uint32_t)count]);
+    } else if (count > 0 && first) {
+        plumb_softbody_desc d;
+        if (plumb_softbody_get(w, all[which % (uint32_t)count], &d) == PLUMB_OK &&
+            (int)edge < d.edge_count) {
+            plumb_softbody_edge torn = d.edges[edge];
+            torn.flags |= PLUMB_EDGE_TORN;
+            plumb_softbody_set_edge(w, all[which % (uint32_t)count], (int)edge, &torn);
+        }
+    } else if (second) {
+        plumb_skin_create(w, &(plumb_skin_desc){ .center = at, .radius = R(0.4), .nodes = 10 });
+    } else {
+        plumb_rope_create(w, &(plumb_rope_desc){ .from = at,
+                                                 .to = far,
+                                                 .nodes = 7,
+                                                 .break_strain = R(0.1),
+                                                 .hold_from = true,
+                                                 .to_body = s->body[which] });
+    }
+}
+
 // Makes one of any kind, or changes or takes away another; worlds that wrap refuse them.
 static void change_laws(session *s)
 {
@@ -631,7 +662,7 @@ static void change_world(session *s)
 {
     plumb_world *w = s->world;
     uint32_t m = pick(s, SESSION_MATERIALS);
-    switch (pick(s, 11)) {
+    switch (pick(s, 12)) {
     case 0:
         plumb_world_set_gravity(w, place(s, -2, 2, -12, 0));
         break;
@@ -668,6 +699,9 @@ static void change_world(session *s)
         } else {
             change_air(s);
         }
+        break;
+    case 10:
+        change_softbodies(s);
         break;
     default:
         plumb_commands_apply(w);

@@ -63,6 +63,13 @@ static void add(plumb_world *world)
              plumb_air_set_sources(
                  world, &(plumb_air_source){ .position = { 31, 1 }, .radius = R(0.3), .heat = 50 },
                  1) == PLUMB_OK);
+    } else if (is("softbodies")) {
+        must(world,
+             !plumb_is_null(plumb_rope_create(world, &(plumb_rope_desc){ .from = { 30, 9 },
+                                                                         .to = { 32, 9 },
+                                                                         .nodes = 17,
+                                                                         .hold_from = true,
+                                                                         .hold_to = true })));
     } else if (is("characters")) {
         plumb_body hero = body_at(world, (plumb_body_desc){ .type = PLUMB_KINEMATIC }, 30, 1);
         plumb_shape_create(world, hero,

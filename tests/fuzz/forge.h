@@ -132,6 +132,13 @@ static inline void fill(plumb_world *w, int which)
         plumb_air_create(
             w, &(plumb_air_desc){ .half = { 1, 1 }, .cell = R(0.25), .left = PLUMB_AIR_CLOSED });
         plumb_air_set_sources(w, &(plumb_air_source){ .body = b, .radius = 1, .heat = 9 }, 1);
+        plumb_rope_create(w, &(plumb_rope_desc){ .from = { 0, 2 },
+                                                 .to = { 1, 2 },
+                                                 .nodes = 4,
+                                                 .bending = 1,
+                                                 .hold_from = true,
+                                                 .to_body = b });
+        plumb_skin_create(w, &(plumb_skin_desc){ .center = { 2, 1 }, .nodes = 8 });
     }
     plumb_component_set(w, a.entity, plumb_component_find(w, "mark"), NULL);
 }

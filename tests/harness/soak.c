@@ -286,6 +286,35 @@ static void change_air(soak *s)
     plumb_air_set_sources(s->world, &source, 1);
 }
 
+// Ropes between bodies and places, jelly, skins; three at most.
+static void change_softbodies(soak *s)
+{
+    plumb_world *w = s->world;
+    plumb_softbody all[4];
+    const int count = plumb_world_softbodies(w, all, 4);
+    if (count > 2) {
+        plumb_softbody_destroy(w, all[pick(s, (uint32_t)count)]);
+        return;
+    }
+    const plumb_vec2 low = place(s, -2, 2, 1, 2);
+    if (pick(s, 3) == 0) {
+        plumb_skin_create(w, &(plumb_skin_desc){ .center = low, .radius = R(0.4), .nodes = 12 });
+    } else if (pick(s, 2) == 0) {
+        plumb_cloth_create(w,
+                           &(plumb_cloth_desc){ .low = low,
+                                                .high = at((double)low.x + 1, (double)low.y + 0.6),
+                                                .columns = 4,
+                                                .rows = 3,
+                                                .break_strain = R(0.1) });
+    } else {
+        plumb_rope_create(w, &(plumb_rope_desc){ .from = low,
+                                                 .to = place(s, -3, 3, 2, 3),
+                                                 .nodes = 8,
+                                                 .hold_from = pick(s, 2) == 0,
+                                                 .to_body = s->body[pick(s, 4)] });
+    }
+}
+
 static void change_body(soak *s, int i)
 {
     plumb_world *w = s->world;
@@ -361,6 +390,9 @@ static void act(soak *s)
     }
     if (pick(s, 150) == 0) {
         change_air(s);
+    }
+    if (pick(s, 200) == 0) {
+        change_softbodies(s);
     }
     if (pick(s, 1000) == 0) {
         plumb_world_set_substeps(s->world, 1 + (int)pick(s, 6), 1);

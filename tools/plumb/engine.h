@@ -155,7 +155,7 @@ typedef struct engine_stats {
         colors, overflow;
     unsigned pair_rebuilds;
     unsigned soft_missed; ///< substeps in all whose soft bodies had not settled
-    unsigned cut_chains; ///< contacts in all whose impacts in a substep were not all followed
+    unsigned cut_chains;  ///< contacts in all whose impacts in a substep were not all followed
     double max_penetration, mean_penetration; ///< [m]
     size_t bytes, peak_bytes;                 ///< [B]
 } engine_stats;

@@ -309,8 +309,8 @@ void pl_session_because(engine_session *session, const engine_pass *pass, engine
     const struct reason *reason = reason_of(pass->name);
     const plumb_stats s = plumb_world_stats(stage->world);
     const int substeps = is_once(pass) ? 1 : plumb_world_settings(stage->world).substeps;
-    static const char *const words[] = { "",       "",      "bodies",   "bodies",
-                                         "pieces", "pairs", "contacts", "particles", "cells", "nodes" };
+    static const char *const words[] = { "",      "",         "bodies",    "bodies", "pieces",
+                                         "pairs", "contacts", "particles", "cells",  "nodes" };
     *because = (engine_because){ .rows = -1, .what = "" };
     because->bytes = substeps * bytes_of(stage->world, pass->reads, pass->writes);
     if (reason == NULL) {

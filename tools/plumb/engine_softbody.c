@@ -44,8 +44,8 @@ static bool is_ear(const render_vec *p, int count, int i)
         return false;
     }
     for (int k = 0; k < count; k++) {
-        if (k != before && k != i && k != after && turn(a, b, p[k]) >= 0 &&
-            turn(b, c, p[k]) >= 0 && turn(c, a, p[k]) >= 0) {
+        if (k != before && k != i && k != after && turn(a, b, p[k]) >= 0 && turn(b, c, p[k]) >= 0 &&
+            turn(c, a, p[k]) >= 0) {
             return false;
         }
     }
@@ -145,9 +145,8 @@ static render_style style_of(const engine_stage *stage, plumb_softbody body, int
     if (stage->scene != NULL) {
         const scene_softbody looks = scene_get_softbody(stage->scene, body);
         s.palette = looks.palette >= 0 ? looks.palette : s.palette;
-        s.color =
-            (render_rgba){ looks.color.r, looks.color.g, looks.color.b,
-                           looks.palette < 0 ? looks.color.a : 0 };
+        s.color = (render_rgba){ looks.color.r, looks.color.g, looks.color.b,
+                                 looks.palette < 0 ? looks.color.a : 0 };
     }
     return s;
 }

@@ -424,7 +424,8 @@ void sc_build_law(scene *s, const sc_site *site, sc_law_kind kind, int table); /
 void sc_build_orbits(scene *s, const sc_site *site, int table);
 void sc_build_liquid(scene *s, const sc_site *site, int table);
 void sc_build_air(scene *s, const sc_site *site, int table);
-void sc_build_softbody(scene *s, const sc_site *site, sc_softbody_kind kind, int table); ///< pushes it
+void sc_build_softbody(scene *s, const sc_site *site, sc_softbody_kind kind,
+                       int table);                              ///< pushes it
 void sc_build_source(scene *s, const sc_site *site, int table); ///< pushes it
 void sc_build_camera(scene *s, const sc_site *site, int table);
 void sc_build_expect(scene *s, const sc_site *site, int table);

@@ -169,9 +169,10 @@ static const cJSON *elements(scene *s, const cJSON *root, const char *name)
 
 static void check_root(scene *s, const cJSON *root)
 {
-    static const char *const names[] = { "air",    "bodies", "camera", "excluded", "expect",
-                                         "format", "joints", "laws",   "liquid",   "materials",
-                                         "orbits", "pairs",  "scene",  "softbodies", "sources", "time" };
+    static const char *const names[] = { "air",    "bodies",     "camera",  "excluded",
+                                         "expect", "format",     "joints",  "laws",
+                                         "liquid", "materials",  "orbits",  "pairs",
+                                         "scene",  "softbodies", "sources", "time" };
     sc_site site = { .construct = "file", .path = "" };
     if (!cJSON_IsObject(root)) {
         sc_raise(s, SCENE_E_TYPE, &site, NULL, 0, NULL, "a scene must be an object {...}");
@@ -395,7 +396,8 @@ void sc_json_load(scene *s)
         make_of(s, &law_kinds, item, i);
     }
     i = 0;
-    for (const cJSON *item = elements(s, root, "softbodies"); item != NULL; item = item->next, i++) {
+    for (const cJSON *item = elements(s, root, "softbodies"); item != NULL;
+         item = item->next, i++) {
         snprintf(path, sizeof path, "softbodies[%d]", i);
         make(s, item, "softbody", path, build_softbody);
         lua_settop(L, 1);

@@ -140,8 +140,7 @@ static void write_axes(writer *w, int axes)
 
 static bool has_json_form(const sc_field *row)
 {
-    return row->kind != SC_FUNCTION &&
-           (row->kind != SC_TABLE || strcmp(row->name, "user") != 0);
+    return row->kind != SC_FUNCTION && (row->kind != SC_TABLE || strcmp(row->name, "user") != 0);
 }
 
 static void write_shapes(writer *w, const sc_body *b);
@@ -257,9 +256,9 @@ static void write_soft_rows(writer *w, const char *what, const plumb_softbody_de
             write_numbers(w, v, 6, true);
         } else if (triangles) {
             const plumb_softbody_triangle *t = &d->triangles[i];
-            const double v[] = { t->a + 1.0,         t->b + 1.0,           t->c + 1.0,
-                                 (double)t->young,   (double)t->poisson,   (double)t->damping,
-                                 (double)t->ab.x,    (double)t->ab.y,      (double)t->ac.x,
+            const double v[] = { t->a + 1.0,       t->b + 1.0,         t->c + 1.0,
+                                 (double)t->young, (double)t->poisson, (double)t->damping,
+                                 (double)t->ab.x,  (double)t->ab.y,    (double)t->ac.x,
                                  (double)t->ac.y };
             write_numbers(w, v, 10, true);
         } else {

@@ -83,24 +83,23 @@ static plumb_softbody make_cloth(scene *s, const sc_site *site, const sc_softbod
 {
     (void)table;
     const sc_list *list = &sc_list_softbodies[SC_CLOTH];
-    const plumb_cloth_desc desc = {
-        .low = { (plumb_real)(d->at[0] - d->size[0] / 2), (plumb_real)(d->at[1] - d->size[1] / 2) },
-        .high = { (plumb_real)(d->at[0] + d->size[0] / 2),
-                  (plumb_real)(d->at[1] + d->size[1] / 2) },
-        .columns = (int)d->columns,
-        .rows = (int)d->row_count,
-        .mass = (plumb_real)d->mass,
-        .stiffness = (plumb_real)d->stiffness,
-        .shear = OR_NONE(list, shear),
-        .damping = (plumb_real)d->damping,
-        .drag = (plumb_real)d->drag,
-        .radius = (plumb_real)d->radius,
-        .friction = OR_NONE(list, friction),
-        .break_strain = (plumb_real)d->break_strain,
-        .hold_top = d->held == SC_HELD_TOP,
-        .hold_corners = d->held == SC_HELD_CORNERS,
-        .filter = filter_of(s, site, list, d)
-    };
+    const plumb_cloth_desc desc = { .low = { (plumb_real)(d->at[0] - d->size[0] / 2),
+                                             (plumb_real)(d->at[1] - d->size[1] / 2) },
+                                    .high = { (plumb_real)(d->at[0] + d->size[0] / 2),
+                                              (plumb_real)(d->at[1] + d->size[1] / 2) },
+                                    .columns = (int)d->columns,
+                                    .rows = (int)d->row_count,
+                                    .mass = (plumb_real)d->mass,
+                                    .stiffness = (plumb_real)d->stiffness,
+                                    .shear = OR_NONE(list, shear),
+                                    .damping = (plumb_real)d->damping,
+                                    .drag = (plumb_real)d->drag,
+                                    .radius = (plumb_real)d->radius,
+                                    .friction = OR_NONE(list, friction),
+                                    .break_strain = (plumb_real)d->break_strain,
+                                    .hold_top = d->held == SC_HELD_TOP,
+                                    .hold_corners = d->held == SC_HELD_CORNERS,
+                                    .filter = filter_of(s, site, list, d) };
     return plumb_cloth_create(s->world, &desc);
 }
 
@@ -110,7 +109,8 @@ static plumb_softbody make_jelly(scene *s, const sc_site *site, const sc_softbod
     lua_State *L = s->L;
     plumb_vec2 points[256];
     if (d->shape_count != 1) {
-        sc_raise(s, SCENE_E_RANGE, site, NULL, 0, NULL, "jelly{} takes one shape, such as box{1, 1}");
+        sc_raise(s, SCENE_E_RANGE, site, NULL, 0, NULL,
+                 "jelly{} takes one shape, such as box{1, 1}");
     }
     lua_rawgeti(L, table, 1);
     const int count = sc_shape_outline(s, site, points);
@@ -191,8 +191,8 @@ static double *take_rows(scene *s, const sc_site *site, int table, const char *k
 static uint32_t index_of(scene *s, const sc_site *site, const char *key, double number, int of)
 {
     if (!(number >= 1 && number <= of && number == floor(number))) {
-        sc_raise(s, SCENE_E_RANGE, site, key, 0, NULL, "'%s' names node %.10g; there are 1..%d", key,
-                 number, of);
+        sc_raise(s, SCENE_E_RANGE, site, key, 0, NULL, "'%s' names node %.10g; there are 1..%d",
+                 key, number, of);
     }
     return (uint32_t)number - 1;
 }
@@ -209,11 +209,10 @@ static void take_nodes(scene *s, const sc_site *site, int table, plumb_softbody_
     const double *v = take_rows(s, site, table, "nodes", 6, &desc->node_count);
     plumb_softbody_node *nodes = block(s, desc->node_count, sizeof *nodes);
     for (int i = 0; i < desc->node_count; i++, v += 6) {
-        nodes[i] =
-            (plumb_softbody_node){ .position = vec(v),
-                                   .velocity = vec(v + 2),
-                                   .mass = (plumb_real)v[4],
-                                   .radius = (plumb_real)v[5] };
+        nodes[i] = (plumb_softbody_node){ .position = vec(v),
+                                          .velocity = vec(v + 2),
+                                          .mass = (plumb_real)v[4],
+                                          .radius = (plumb_real)v[5] };
     }
     desc->nodes = nodes;
 }
@@ -259,14 +258,15 @@ static void take_triangles(scene *s, const sc_site *site, int table, plumb_softb
     const double *v = take_rows(s, site, table, "triangles", 10, &desc->triangle_count);
     plumb_softbody_triangle *t = block(s, desc->triangle_count, sizeof *t);
     for (int i = 0; i < desc->triangle_count; i++, v += 10) {
-        t[i] = (plumb_softbody_triangle){ .a = index_of(s, site, "triangles", v[0], desc->node_count),
-                                          .b = index_of(s, site, "triangles", v[1], desc->node_count),
-                                          .c = index_of(s, site, "triangles", v[2], desc->node_count),
-                                          .young = (plumb_real)v[3],
-                                          .poisson = (plumb_real)v[4],
-                                          .damping = (plumb_real)v[5],
-                                          .ab = vec(v + 6),
-                                          .ac = vec(v + 8) };
+        t[i] =
+            (plumb_softbody_triangle){ .a = index_of(s, site, "triangles", v[0], desc->node_count),
+                                       .b = index_of(s, site, "triangles", v[1], desc->node_count),
+                                       .c = index_of(s, site, "triangles", v[2], desc->node_count),
+                                       .young = (plumb_real)v[3],
+                                       .poisson = (plumb_real)v[4],
+                                       .damping = (plumb_real)v[5],
+                                       .ab = vec(v + 6),
+                                       .ac = vec(v + 8) };
     }
     desc->triangles = t;
 }
@@ -359,9 +359,7 @@ void sc_build_softbody(scene *s, const sc_site *site, sc_softbody_kind kind, int
     }
     plumb_softbody_get(s->world, made, &now);
     sc_work(s, 100 + 20 * ((uint64_t)now.node_count + (uint64_t)now.edge_count));
-    *SC_PUSH(s, s->softbodies) = (sc_softbody){ .def = def,
-                                               .kind = kind,
-                                               .handle = made };
+    *SC_PUSH(s, s->softbodies) = (sc_softbody){ .def = def, .kind = kind, .handle = made };
     plumb_softbody *object = lua_newuserdatauv(s->L, sizeof *object, 0);
     *object = made;
     luaL_setmetatable(s->L, META);
@@ -455,7 +453,15 @@ static int soft_release(lua_State *L)
     const sc_site site = sc_here(s, "release");
     plumb_softbody_desc now;
     const plumb_softbody self = self_of(L, &site, &now);
-    return done(s, &site, plumb_softbody_release(s->world, self, node_of(L, &site, &now)));
+    const int node = node_of(L, &site, &now);
+    bool held = false;
+    for (int i = 0; i < now.pin_count; i++) {
+        held |= now.pins[i].node == (uint32_t)node;
+    }
+    if (!held) {
+        sc_raise(s, SCENE_E_RANGE, &site, NULL, 1, NULL, "nothing holds node %d", node + 1);
+    }
+    return done(s, &site, plumb_softbody_release(s->world, self, node));
 }
 
 // rope:cut(edge)
@@ -482,9 +488,9 @@ static int soft_set_gas(lua_State *L)
     const sc_site site = sc_here(s, "set_gas");
     plumb_softbody_desc now;
     const plumb_softbody self = self_of(L, &site, &now);
-    return done(s, &site,
-                plumb_softbody_set_gas(s->world, self, (plumb_real)luaL_checknumber(L, 2),
-                                       now.ambient));
+    return done(
+        s, &site,
+        plumb_softbody_set_gas(s->world, self, (plumb_real)luaL_checknumber(L, 2), now.ambient));
 }
 
 // rope:node(n): x, y, vx, vy
@@ -569,11 +575,11 @@ scene_softbody scene_get_softbody(const scene *s, plumb_softbody handle)
 
 void sc_open_softbody(lua_State *L)
 {
-    static const luaL_Reg methods[] = { { "hold", soft_hold },       { "release", soft_release },
-                                        { "cut", soft_cut },         { "set_gas", soft_set_gas },
-                                        { "node", soft_node },       { "count", soft_count },
-                                        { "measure", soft_measure }, { "remove", soft_remove },
-                                        { NULL, NULL } };
+    static const luaL_Reg methods[] = {
+        { "hold", soft_hold },       { "release", soft_release }, { "cut", soft_cut },
+        { "set_gas", soft_set_gas }, { "node", soft_node },       { "count", soft_count },
+        { "measure", soft_measure }, { "remove", soft_remove },   { NULL, NULL }
+    };
     luaL_newmetatable(L, META);
     lua_newtable(L);
     luaL_setfuncs(L, methods, 0);

@@ -103,6 +103,7 @@ static void refusals(void)
     refused(w, "fracture", plumb_body_scale(w, body, 2) == PLUMB_OK);
     refused(w, "liquid", plumb_liquid_create(w, NULL) == PLUMB_OK);
     refused(w, "air", plumb_air_create(w, &(plumb_air_desc){ .half = { 1, 1 } }) == PLUMB_OK);
+    refused(w, "softbodies", MADE(plumb_rope_create, (plumb_rope_desc){ .to = { 1, 0 } }));
     refused(w, "characters", plumb_character_create(w, body, NULL) == PLUMB_OK);
     refused(w, "joints",
             MADE(plumb_joint_create,
