@@ -278,18 +278,18 @@ typedef near_real oct
     __attribute__((vector_size(8 * sizeof(near_real)), aligned(4 * sizeof(near_real)), may_alias));
 
 // Groups of four lanes of two vectors, side by side: low has x0 y0 (x2 y2) and high x1 y1 (x3 y3), or where W is
-// 16 `EVEN` x0 x2 y0 y2, `ODD` x1 x3 y1 y3.
+// 16 `FIRSTS` x0 x2 y0 y2, `SECONDS` x1 x3 y1 y3.
 #if PL_WIDTH == 8
-#define EVEN(x, y)      __builtin_shufflevector(x, y, 0, 1, 2, 3, 8, 9, 10, 11)
-#define ODD(x, y)       __builtin_shufflevector(x, y, 4, 5, 6, 7, 12, 13, 14, 15)
-#define LOW(x, y)       EVEN(x, y)
-#define HIGH(x, y)      ODD(x, y)
+#define FIRSTS(x, y)    __builtin_shufflevector(x, y, 0, 1, 2, 3, 8, 9, 10, 11)
+#define SECONDS(x, y)   __builtin_shufflevector(x, y, 4, 5, 6, 7, 12, 13, 14, 15)
+#define LOW(x, y)       FIRSTS(x, y)
+#define HIGH(x, y)      SECONDS(x, y)
 #define EIGHT(i)        (*(const oct *)(const void *)rows[i])
 #define PUT_EIGHT(i, v) *(oct *)(void *)rows[i] = (v)
 #else
-#define EVEN(x, y)                                                                                 \
+#define FIRSTS(x, y)                                                                               \
     __builtin_shufflevector(x, y, 0, 1, 2, 3, 8, 9, 10, 11, 16, 17, 18, 19, 24, 25, 26, 27)
-#define ODD(x, y)                                                                                  \
+#define SECONDS(x, y)                                                                              \
     __builtin_shufflevector(x, y, 4, 5, 6, 7, 12, 13, 14, 15, 20, 21, 22, 23, 28, 29, 30, 31)
 #define LOW(x, y)                                                                                  \
     __builtin_shufflevector(x, y, 0, 1, 2, 3, 16, 17, 18, 19, 4, 5, 6, 7, 20, 21, 22, 23)
@@ -321,8 +321,8 @@ WIDE_INLINE void gather8(vf out[8], const near_real *const *rows)
     transpose4(r);
     transpose4(r + 4);
     for (int k = 0; k < 4; ++k) {
-        out[k] = EVEN(r[k], r[k + 4]);
-        out[k + 4] = ODD(r[k], r[k + 4]);
+        out[k] = FIRSTS(r[k], r[k + 4]);
+        out[k + 4] = SECONDS(r[k], r[k + 4]);
     }
 #else
     gather4(out, rows, 0);
@@ -424,8 +424,8 @@ WIDE_INLINE void scatter8(near_real *const *rows, const vf in[8])
 #undef JOIN
 #undef B
 #if EIGHTS
-#undef EVEN
-#undef ODD
+#undef FIRSTS
+#undef SECONDS
 #undef LOW
 #undef HIGH
 #undef EIGHT

@@ -21,6 +21,12 @@ bool pl_softbodies_couple(const plumb_world *world, uint8_t *called);
 // Behind the graph: their slots, the structure of the system. False when out of memory.
 bool pl_softbodies_plan(plumb_world *world);
 
+//---- newton.c ------------------------------------------------------------------------------------
+
+#define PL_SOFT_PASSES 48 // of a substep's iteration at most
+
+void pl_soft_newton(plumb_world *world, double h); // [s]
+
 //---- matrix.c ------------------------------------------------------------------------------------
 
 // The structure of `pairs` of blocks (pl_keyed keys of pl_pair_key, sorted); sizes stand in step->shapes. False when out of

@@ -1,0 +1,278 @@
+// newton.c - a substep of soft bodies: Newton's iteration finds what it adds to the velocities of nodes and of the bodies that are
+// solved with them, u: M u = h f(u), as the place where a function is least (elements.c, contacts.c).
+//
+// Reads: solver bodies, elements, contacts. Writes: points, accelerations of bodies. Cost: passes times what the matrix costs.
+#include "math/trig.h"
+#include "softbody/softbody.h"
+
+#include <math.h>
+#include <string.h>
+
+#define MOST_PASSES 48
+#define SECTIONS    14 // of a way, by 0.618 each
+#define CREEP                                                                                      \
+    2.5e-3 // of what gravity adds to velocities: the slip at which friction is all that Coulomb's law gives
+#define ENOUGH_OF_IT                                                                               \
+    0.25 // of what is gained along the whole way, where a half is what Newton's step promises
+#define SMALL 1e-3 // of what gravity adds to velocities: what the last pass may
+#define TOLD  0.1  // likewise: what is told, where passes end before
+
+static pl_soft_point *points_of(const pl_soft_step *s)
+{
+    return s->points.data;
+}
+
+static pl_soft_body *bodies_of(const pl_soft_step *s)
+{
+    return s->bodies.data;
+}
+
+static void turn(pl_soft_body *b, double angle)
+{
+    double s, c;
+    pl_sincos(angle, &s, &c);
+    b->c = b->c0 * c - b->s0 * s;
+    b->s = b->s0 * c + b->c0 * s;
+}
+
+// Bodies and what they hold, as the substep begins, `since` [s] after the step did.
+static void see_bodies(const plumb_world *world, double since)
+{
+    const pl_soft_step *s = world->softbodies.step;
+    for (uint32_t i = 0; i < s->body_count; ++i) {
+        pl_soft_body *b = &bodies_of(s)[i];
+        if (b->slot == PL_NONE) {
+            b->x = b->x0 + since * b->vx, b->y = b->y0 + since * b->vy;
+            turn(b, since * b->w);
+            continue;
+        }
+        const pl_solver_body *now = &pl_solver_bodies(&world->solver)[b->slot];
+        const pl_solver_motion *motion = &pl_solver_motions(&world->solver)[b->slot];
+        b->x = b->x0 + (double)now->dx, b->y = b->y0 + (double)now->dy;
+        b->vx = (double)now->vx, b->vy = (double)now->vy, b->w = (double)now->w;
+        b->ax = (double)motion->ax, b->ay = (double)motion->ay, b->aw = (double)motion->aw;
+        turn(b, (double)now->da);
+    }
+    for (uint32_t i = 0; i < s->point_count; ++i) {
+        pl_soft_point *p = &points_of(s)[i];
+        if (p->body == PL_NONE) {
+            continue;
+        }
+        const pl_soft_body *b = &bodies_of(s)[p->body];
+        p->rx = b->c * p->px - b->s * p->py, p->ry = b->s * p->px + b->c * p->py;
+        p->x = b->x + p->rx, p->y = b->y + p->ry;
+        p->vx = b->vx - b->w * p->ry, p->vy = b->vy + b->w * p->rx;
+    }
+}
+
+// What velocities gain if nothing pulls.
+static void guess(const plumb_world *world, double h)
+{
+    const pl_soft_step *s = world->softbodies.step;
+    double *u = s->matrix.u;
+    memset(u, 0, 3 * (size_t)s->matrix.blocks * sizeof(double));
+    for (uint32_t i = 0; i < s->point_count; ++i) {
+        const pl_soft_point *p = &points_of(s)[i];
+        if (p->block != PL_NONE && p->body == PL_NONE) {
+            u[3 * (size_t)p->block] = h * (double)world->gravity.x;
+            u[3 * (size_t)p->block + 1] = h * (double)world->gravity.y;
+        }
+    }
+    for (uint32_t i = 0; i < s->body_count; ++i) {
+        const pl_soft_body *b = &bodies_of(s)[i];
+        if (b->block != PL_NONE) {
+            double *to = u + 3 * (size_t)b->block;
+            to[0] = h * b->ax, to[1] = h * b->ay, to[2] = h * b->aw;
+        }
+    }
+}
+
+// Of a mass that would gain u0 and gains u, in a unit of u.
+typedef struct inertia {
+    double mass, free, damping, velocity;
+} inertia;
+
+static double add_inertia(const inertia *i, double u, double *diagonal, double *right, bool fills)
+{
+    const double c = i->damping, share = 0.5 + 0.5 * c / (c + 4);
+    const double rate = i->velocity + share * u, off = u - i->free;
+    if (fills) {
+        *diagonal += i->mass * (1 + share * c);
+        *right -= i->mass * (off + c * rate);
+    }
+    return i->mass * (off * off + c * rate * rate / share) / 2;
+}
+
+static double add_masses(const plumb_world *world, double h, bool fills)
+{
+    const pl_soft_step *s = world->softbodies.step;
+    const pl_soft_matrix *m = &s->matrix;
+    const double gx = h * (double)world->gravity.x, gy = h * (double)world->gravity.y;
+    double energy = 0;
+    for (uint32_t i = 0; i < s->point_count; ++i) {
+        const pl_soft_point *p = &points_of(s)[i];
+        if (p->block == PL_NONE || p->body != PL_NONE) {
+            continue;
+        }
+        double *at = m->diagonal + 9 * (size_t)p->block, *to = m->right + 3 * (size_t)p->block;
+        const inertia x = { p->mass, gx, h * p->damping, p->vx };
+        const inertia y = { p->mass, gy, h * p->damping, p->vy };
+        energy += add_inertia(&x, p->cx, at, to, fills);
+        energy += add_inertia(&y, p->cy, at + 4, to + 1, fills);
+    }
+    for (uint32_t i = 0; i < s->body_count; ++i) {
+        const pl_soft_body *b = &bodies_of(s)[i];
+        if (b->block == PL_NONE) {
+            continue;
+        }
+        double *at = m->diagonal + 9 * (size_t)b->block, *to = m->right + 3 * (size_t)b->block;
+        const double *u = m->u + 3 * (size_t)b->block;
+        const inertia own[3] = { { b->mass, h * b->ax, 0, 0 },
+                                 { b->mass, h * b->ay, 0, 0 },
+                                 { b->inertia, h * b->aw, 0, 0 } };
+        for (int k = 0; k < 3; ++k) {
+            energy += add_inertia(&own[k], u[k], at + 4 * (size_t)k, to + k, fills);
+        }
+    }
+    return energy;
+}
+
+// The function that is to be least, where u is; with its slopes, if it fills.
+static double evaluate(plumb_world *world, double h, bool fills)
+{
+    pl_soft_step *s = world->softbodies.step;
+    pl_soft_change(s);
+    if (fills) {
+        pl_soft_clear(&s->matrix);
+    }
+    const double masses = add_masses(world, h, fills);
+    return masses + pl_soft_elements(world, h, fills) + pl_soft_press(s, h, fills);
+}
+
+// u = tried + part d, d the answer of the system.
+static void try_part(const pl_soft_step *s, double part)
+{
+    const pl_soft_matrix *m = &s->matrix;
+    for (size_t i = 0; i < 3 * (size_t)m->blocks; ++i) {
+        m->u[i] = m->tried[i] + part * m->right[i];
+    }
+}
+
+static double product(const double *a, const double *b, size_t count)
+{
+    double sum = 0;
+    for (size_t i = 0; i < count; ++i) {
+        sum += a[i] * b[i];
+    }
+    return sum;
+}
+
+static double at_part(plumb_world *world, double h, double part)
+{
+    try_part(world->softbodies.step, part);
+    return evaluate(world, h, false);
+}
+
+// The part of a way along which the function falls the most, by golden sections: it is convex but for what folds. Exact where
+// steps are halved (Armijo 1966), for what friction holds lies in a fold of the function: a way to halve ends before
+// or behind it, and the passes go to and fro over it.
+static double best_part(plumb_world *world, double h, double before, double gain)
+{
+    const double share = 0.6180339887498949;
+    double whole = at_part(world, h, 1);
+    if (whole <= before - ENOUGH_OF_IT * gain) {
+        return 1;
+    }
+    double low = 0, high = 1, a = 1 - share, b = share;
+    double at_a = at_part(world, h, a), at_b = at_part(world, h, b);
+    for (int i = 0; i < SECTIONS; ++i) {
+        if (at_a < at_b) {
+            high = b, b = a, at_b = at_a;
+            a = high - share * (high - low), at_a = at_part(world, h, a);
+        } else {
+            low = a, a = b, at_a = at_b;
+            b = low + share * (high - low), at_b = at_part(world, h, b);
+        }
+    }
+    return at_a < at_b ? a : b;
+}
+
+// A pass of Newton's iteration. Twice what is to be gained by it: no number where there is none.
+static double pass(plumb_world *world, double h, double enough)
+{
+    pl_soft_step *s = world->softbodies.step;
+    pl_soft_matrix *m = &s->matrix;
+    const size_t count = 3 * (size_t)m->blocks, bytes = count * sizeof(double);
+    const double before = evaluate(world, h, true);
+    memcpy(m->tried, m->u, bytes);
+    memcpy(m->slope, m->right, bytes);
+    pl_soft_factor(m);
+    pl_soft_solve(m);
+    const double gain = product(m->slope, m->right, count);
+    const bool goes_on = gain > enough && gain < 1e300;
+    try_part(s, goes_on ? best_part(world, h, before, gain) : 1);
+    return gain;
+}
+
+static void store_substep(plumb_world *world, double h)
+{
+    const pl_soft_step *s = world->softbodies.step;
+    for (uint32_t i = 0; i < s->point_count; ++i) {
+        pl_soft_point *p = &points_of(s)[i];
+        if (p->body == PL_NONE) {
+            p->x += h * (p->vx + p->cx / 2), p->y += h * (p->vy + p->cy / 2);
+            p->vx += p->cx, p->vy += p->cy;
+        }
+    }
+    for (uint32_t i = 0; i < s->body_count; ++i) {
+        const pl_soft_body *b = &bodies_of(s)[i];
+        if (b->block != PL_NONE) {
+            pl_solver_motion *motion = &pl_solver_motions(&world->solver)[b->slot];
+            const double *u = s->matrix.u + 3 * (size_t)b->block;
+            motion->ax = b->locked_x > 0 ? (near_real)(u[0] / h) : motion->ax;
+            motion->ay = b->locked_y > 0 ? (near_real)(u[1] / h) : motion->ay;
+            motion->aw = b->locked_w > 0 ? (near_real)(u[2] / h) : motion->aw;
+        }
+    }
+    const pl_soft_contact *contacts = s->contacts.data;
+    for (uint32_t i = 0; i < s->contact_count; ++i) {
+        bodies_of(s)[contacts[i].body].touched |= contacts[i].force > 0;
+    }
+}
+
+// [kg] of nodes and of bodies that are unknowns.
+static double moved_mass(const pl_soft_step *s)
+{
+    double sum = s->mass;
+    for (uint32_t i = 0; i < s->body_count; ++i) {
+        sum += bodies_of(s)[i].block != PL_NONE ? bodies_of(s)[i].mass : 0;
+    }
+    return sum;
+}
+
+void pl_soft_newton(plumb_world *world, double h)
+{
+    pl_soft_step *s = world->softbodies.step;
+    see_bodies(world, h * s->done);
+    guess(world, h);
+    pl_soft_change(s); // where they are on their way to
+    pl_soft_find_contacts(world, h);
+    const double fall = h * (fabs((double)world->gravity.x) + fabs((double)world->gravity.y));
+    const double small = SMALL * fall, told = TOLD * fall;
+    const double enough = s->mass * (small * small + 1e-12);
+    double gain = INFINITY;
+    s->pass = 0;
+    s->creep = CREEP * fall + 1e-9;
+    while (s->pass < PL_SOFT_PASSES && (gain > enough || (s->pass < 3 && s->contact_count > 0))) {
+        gain = pass(world, h, enough);
+        if (!(gain < 1e300)) { // no number: as if nothing pulled
+            guess(world, h);
+            break;
+        }
+        ++s->pass;
+    }
+    s->missed += gain <= moved_mass(s) * (told * told + 1e-12) ? 0 : 1;
+    evaluate(world, h, false);
+    store_substep(world, h);
+    ++s->done;
+}
