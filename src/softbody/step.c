@@ -463,7 +463,7 @@ static void tell_missed(plumb_world *world)
                 "soft bodies did not settle within %d passes in a substep at %g s: what they do "
                 "there is less exact; more "
                 "substeps, or softer ones, help",
-                MOST_PASSES, world->time);
+                PL_SOFT_PASSES, world->time);
     }
     all->missed_count += all->step->missed;
 }
