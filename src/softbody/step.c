@@ -8,7 +8,6 @@
 // Reads: soft bodies, rows, pieces, solver bodies. Writes: accelerations; nodes and edges; times of rest. Order: before
 // "called", behind the graph, with the forces of the moment, behind "motion". Cost: see DECISIONS.md.
 #include "core/sort.h"
-#include "math/trig.h"
 #include "effects/effects.h"
 #include "schema/passes.h"
 #include "softbody/softbody.h"
