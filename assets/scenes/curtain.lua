@@ -1,7 +1,7 @@
 -- curtain.lua - a ball is shot through a curtain, which tears.
 -- Shows: cloth{} that tears at a strain. What the ball loses, the curtain and its edges have taken: energy does not grow.
 scene { title = "Curtain", description = "A ball goes through a curtain of threads.", duration = 2.5 }
-camera { fit = {{-5, -0.5}, {5, 5}}, at = 0.5 }
+camera { fit = {{-5, -0.5}, {5, 5}}, at = 0.45 }
 
 local rock = material { name = "rock", friction = 0.6 }
 body { name = "ground", type = "static", material = rock, box { 12, 1, at = {0, -0.5} } }
