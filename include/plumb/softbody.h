@@ -83,7 +83,9 @@ typedef struct plumb_softbody_desc {
     int node_count; ///< 1..PLUMB_SOFTBODY_MAX
     int edge_count, bend_count, triangle_count, ring_count, pin_count;
     plumb_real friction; ///< [-] 0..1e3 of nodes, mixed with that of what they touch by the geometric mean
-    plumb_real damping;  ///< [1/s] 0..1e6 of velocities in still air: dv/dt = a - damping v
+    /// [1/s] 0..1e6 of velocities against the fluid that a node is in (sensors of a fluid material, wind and gusts
+    /// among them, that the filter meets; of several the densest), still air elsewhere: dv/dt = a - damping (v - flow)
+    plumb_real damping;
     /// Gas in the ring: (pressure + ambient) area is constant. Of the ring's two sides this is the difference at rest
     plumb_real pressure; ///< [N/m] 0..1e12 at rest; 0: no gas
     plumb_real ambient;  ///< [N/m] 0..1e12 outside: much of it makes the gas stiff

@@ -57,10 +57,9 @@ static bool is_volume(const plumb_world *world, uint32_t piece)
     return world->materials.fluid[world->pieces.material[piece]];
 }
 
-static void open_volume(plumb_world *world, uint32_t piece)
+void pl_fluid_volume(const plumb_world *world, uint32_t piece, pl_volume *v)
 {
     plumb_convex shape;
-    pl_volume *v = (pl_volume *)world->effects.volumes.data + world->effects.volume_count++;
     const pl_bodies *b = &world->bodies;
     const uint32_t row = world->pieces.body[piece];
     const plumb_vec2 g = world->gravity, up = pl_world_up(world);
@@ -118,7 +117,7 @@ bool pl_fluids_find(plumb_world *world)
             ++at;
         }
         if (at == e->volume_count) {
-            open_volume(world, sensor);
+            pl_fluid_volume(world, sensor, (pl_volume *)e->volumes.data + e->volume_count++);
         }
         ((uint8_t *)e->swims.data)[row] = 1;
         ((pl_keyed *)e->immersions.data)[e->immersion_count++] =

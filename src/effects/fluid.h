@@ -22,6 +22,9 @@ typedef struct pl_swimmer {
     double lent;                 // [kg] of the fluid
 } pl_swimmer;
 
+// The volume that a piece of a sensor of a fluid is.
+void pl_fluid_volume(const plumb_world *world, uint32_t piece, pl_volume *out);
+
 // Who is near a volume, before the solver's slots are given out; where the immersed bodies are, behind it, and the mass that
 // the fluid lends them. False when out of memory.
 bool pl_fluids_find(plumb_world *world);

@@ -115,8 +115,8 @@ static double add_masses(const plumb_world *world, double h, bool fills)
             continue;
         }
         double *at = m->diagonal + 9 * (size_t)p->block, *to = m->right + 3 * (size_t)p->block;
-        const inertia x = { p->mass, gx, h * p->damping, p->vx };
-        const inertia y = { p->mass, gy, h * p->damping, p->vy };
+        const inertia x = { p->mass, gx, h * p->damping, p->vx - p->wind_x };
+        const inertia y = { p->mass, gy, h * p->damping, p->vy - p->wind_y };
         energy += add_inertia(&x, p->cx, at, to, fills);
         energy += add_inertia(&y, p->cy, at + 4, to + 1, fills);
     }
@@ -254,6 +254,7 @@ void pl_soft_newton(plumb_world *world, double h)
 {
     pl_soft_step *s = world->softbodies.step;
     see_bodies(world, h * s->done);
+    pl_soft_feel_winds(world, h * (s->done + 0.5));
     guess(world, h);
     pl_soft_change(s); // where they are on their way to
     pl_soft_find_contacts(world, h);

@@ -57,6 +57,13 @@ double pl_soft_elastic(const plumb_world *world, uint32_t row, pl_softbody_place
 double pl_soft_area(const plumb_world *world, const pl_softbody *item, pl_softbody_place at);
 double pl_soft_pressure(const pl_softbody *item, double area);
 
+//---- winds.c -------------------------------------------------------------------------------------
+
+// Volumes of fluid that soft bodies may be in. False when out of memory.
+bool pl_soft_find_winds(plumb_world *world);
+// The flow about each node, `since` [s] after the step began.
+void pl_soft_feel_winds(const plumb_world *world, double since);
+
 //---- contacts.c ----------------------------------------------------------------------------------
 
 // Pieces near nodes, with their bodies; which nodes. False when out of memory.

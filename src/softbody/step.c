@@ -34,9 +34,9 @@ void pl_softbodies_free(pl_memory *memory, pl_softbodies *s)
     }
     if (s->step != NULL) {
         pl_soft_step *t = s->step;
-        pl_buffer *scratch[] = { &t->points,   &t->bodies, &t->obstacles, &t->near_,
-                                 &t->contacts, &t->keys,   &t->order,     &t->index,
-                                 &t->numbers,  &t->shapes, &t->rows,      &t->pulls };
+        pl_buffer *scratch[] = { &t->points, &t->bodies, &t->obstacles, &t->near_,   &t->contacts,
+                                 &t->keys,   &t->order,  &t->index,     &t->numbers, &t->shapes,
+                                 &t->rows,   &t->pulls,  &t->winds };
         for (size_t i = 0; i < sizeof scratch / sizeof scratch[0]; ++i) {
             pl_buffer copy = *scratch[i];
             pl_buffer_free(memory, &copy);
@@ -145,7 +145,8 @@ static bool reserve(plumb_world *world)
 
 bool pl_softbodies_find(plumb_world *world, real dt)
 {
-    if (!reserve(world) || !gather(world) || !pl_soft_find_near(world, (double)dt)) {
+    if (!reserve(world) || !gather(world) || !pl_soft_find_near(world, (double)dt) ||
+        !pl_soft_find_winds(world)) {
         return false;
     }
     pl_soft_step *s = world->softbodies.step;

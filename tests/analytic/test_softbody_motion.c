@@ -1,5 +1,5 @@
 // test_softbody_motion.c - soft bodies against closed forms: a spring and its order, 1,000 kg on a rope of 1 kg at four rates,
-// a catenary and its order, a rope on a slope, gas at p A constant, jelly that flies with its momentum.
+// a catenary and its order, a rope on a slope, gas at p A constant, jelly that flies with its momentum, a streamer in a wind.
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -226,6 +226,42 @@ static void fast_thread_does_not_tunnel(void **state)
     plumb_world_destroy(w);
 }
 
+// A streamer in an even wind of 4 m/s, held by a pole that stands, or in still air on one that moves against it with its volume:
+// it hangs straight, at tan(angle) = drag U / g. One whose filter does not meet the wind hangs down.
+static void a_streamer_hangs_as_the_wind_has_it(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 3; ++k) {
+        plumb_world *w = sim_world(&(plumb_world_desc){ 0 });
+        const plumb_material air = plumb_material_create(
+            w,
+            &(plumb_material_desc){ .fluid = true, .weightless = true, .flow_x = k == 1 ? 1 : 4 });
+        const plumb_body holder = sim_body(w, PLUMB_KINEMATIC, 0, 0, 0);
+        plumb_body_set_velocity(w, holder, sim_vec(k == 1 ? 3 : 0, 0));
+        plumb_shape_create(w, holder,
+                           &(plumb_shape_desc){ .kind = PLUMB_BOX,
+                                                .half = sim_vec(50, 50),
+                                                .sensor = true,
+                                                .material = air,
+                                                .filter = { .category = 2, .mask = UINT64_MAX } });
+        const plumb_softbody s = plumb_rope_create(
+            w, &(plumb_rope_desc){ .from = sim_vec(0, 4),
+                                   .to = sim_vec(0, 2),
+                                   .nodes = 15,
+                                   .mass = (plumb_real)0.1,
+                                   .drag = 3,
+                                   .hold_from = true,
+                                   .filter = { .category = 1, .mask = k == 2 ? 1 : 3 } });
+        run(w, 900, 60);
+        plumb_softbody_desc d;
+        plumb_softbody_get(w, s, &d);
+        const double tangent =
+            (double)d.nodes[14].position.x / (4 - (double)d.nodes[14].position.y);
+        within("streamer", tangent - (k == 2 ? 0 : 12 / 9.81), 2e-5);
+        plumb_world_destroy(w);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -236,6 +272,7 @@ int main(void)
         cmocka_unit_test(gas_keeps_p_a),
         cmocka_unit_test(jelly_keeps_its_momentum),
         cmocka_unit_test(fast_thread_does_not_tunnel),
+        cmocka_unit_test(a_streamer_hangs_as_the_wind_has_it),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -192,7 +192,7 @@ static uint32_t index_of(scene *s, const sc_site *site, const char *key, double 
 {
     if (!(number >= 1 && number <= of && number == floor(number))) {
         sc_raise(s, SCENE_E_RANGE, site, key, 0, NULL, "'%s' names node %.10g; there are 1..%d",
-                 key, number, of);
+                 key != NULL ? key : site->construct, number, of);
     }
     return (uint32_t)number - 1;
 }

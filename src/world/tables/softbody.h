@@ -27,6 +27,7 @@ typedef struct pl_soft_point {
     double cx, cy;       // [m/s] that this substep adds to the velocity, as far as is known
     double mass, radius; // [kg], [m]
     double damping;      // [1/s]
+    double wind_x, wind_y; // [m/s] against which
     double friction;     // [-]
     double rx, ry;       // [m] of one that is pinned to a body: from its centre of mass, now
     double px, py;       // [m] the same in the body's frame; in the world where no body holds it
@@ -90,8 +91,9 @@ typedef struct pl_soft_matrix {
 } pl_soft_matrix;
 
 typedef struct pl_soft_step {
-    pl_buffer points, bodies, obstacles, near_, contacts, keys, order, index, numbers, shapes, rows, pulls;
+    pl_buffer points, bodies, obstacles, near_, contacts, keys, order, index, numbers, shapes, rows, pulls, winds;
     uint32_t point_count, body_count, obstacle_count, near_count, contact_count;
+    uint32_t wind_count; // volumes of fluid that nodes may be in
     uint32_t coupled; // bodies that are unknowns; rows: a byte a dynamic row, whether it is one
     int done;         // substeps
     double mass;      // [kg] of all nodes
