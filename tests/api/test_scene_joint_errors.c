@@ -229,12 +229,12 @@ static const malformed table[] = {
               "hinge{ d }",
       .code = SCENE_E_NAME,
       .message = "scene.lua:2:1: unknown name 'hinge' (did you mean 'revolute'?)" },
-    { .what = "rope",
+    { .what = "rod",
       .file = "scene.lua",
       .text = "local d = body{ name = 'door', box{1, 1} }\n"
-              "rope{ d, world }",
+              "rod{ d, world }",
       .code = SCENE_E_NAME,
-      .message = "scene.lua:2:1: unknown name 'rope' (did you mean 'distance'?)" },
+      .message = "scene.lua:2:1: unknown name 'rod' (did you mean 'distance'?)" },
     { .what = "joint's unknown method",
       .file = "scene.lua",
       .text = "local d = body{ name = 'door', box{1, 1} }\n"

@@ -459,6 +459,19 @@ static int collect_filters(const lint_job *job, filter_kind *kinds)
     return count;
 }
 
+static bool meets_soft(const lint_job *job, const plumb_filter *filter)
+{
+    plumb_softbody all[256];
+    const int count = plumb_world_softbodies(job->world, all, 256);
+    bool meets = count > 256; // nobody looks through so many
+    for (int i = 0; i < count && !meets; i++) {
+        plumb_softbody_desc d;
+        meets = plumb_softbody_get(job->world, all[i], &d) == PLUMB_OK &&
+                plumb_filters_meet(*filter, d.filter);
+    }
+    return meets;
+}
+
 static void look_at_filters(lint_job *job)
 {
     filter_kind kinds[FILTER_KINDS];
@@ -470,6 +483,7 @@ static void look_at_filters(lint_job *job)
             meets = (kinds[i].moves || kinds[k].moves) && (i != k || kinds[i].several) &&
                     plumb_filters_meet(kinds[i].filter, kinds[k].filter);
         }
+        meets = meets || meets_soft(job, &kinds[i].filter);
         if (!meets) {
             tell(job,
                  "the filter of '%s' (category 0x%llx, mask 0x%llx) meets no shape of the scene",
