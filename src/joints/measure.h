@@ -6,7 +6,7 @@
 #include "world/tables/measure.h"
 
 // What a row's impulse counts as.
-static inline plumb_work pl_joint_work(plumb_joint_kind kind, int type, bool spring)
+static inline plumb_work pl_joint_work(plumb_joint_kind kind, pl_row_type type, bool spring)
 {
     if (spring) {
         return PLUMB_WORK_SPRINGS;
