@@ -140,7 +140,7 @@ static bool reserve(plumb_world *world)
                              all->node_count * sizeof(pl_soft_point)) &&
            pl_buffer_reserve(&world->memory, &all->step->pulls,
                              all->edge_count * sizeof(pl_soft_pull)) &&
-           pl_buffer_reserve(&world->memory, &all->step->rows, world->dynamic_count);
+           pl_buffer_reserve(&world->memory, &all->step->rows, (size_t)world->dynamic_count + 1);
 }
 
 bool pl_softbodies_find(plumb_world *world, real dt)
