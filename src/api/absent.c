@@ -280,6 +280,7 @@ ROW(pl_exact_warm_start)
 ROW(pl_exact_pull)
 ROW(pl_exact_relax)
 RESERVE(pl_exact_plan)
+RESERVE(pl_hard_find)
 WORLD(pl_exact_tell)
 FREE(pl_exact_free, pl_exact_solver)
 #endif

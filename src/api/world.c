@@ -437,6 +437,7 @@ plumb_stats plumb_world_stats(const plumb_world *world)
         .pair_rebuilds = (uint32_t)world->broad.rebuilds,
         .bounce_count = world->solver.bounce_count,
         .exact_factored = world->exact.factored,
+        .exact_islands = world->solver.hard_islands,
         .exact_missed = world->exact.missed,
         .exact_residual = world->exact.residual,
         .cut_chain_count = world->solver.cut_count,

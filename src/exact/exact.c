@@ -220,6 +220,9 @@ void pl_exact_pull(pl_substep *s)
 void pl_exact_relax(pl_substep *s)
 {
     solve_all(s, PL_SWEEP_RELAX);
+    if (s->world->desc.solver == PLUMB_SOLVER_SOFT && !pl_solver_tallies(s->world)) {
+        pl_classic_sum(s); // no row of this world does
+    }
 }
 
 void pl_exact_tell(plumb_world *world)

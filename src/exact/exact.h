@@ -77,6 +77,13 @@ static inline pl_classic_contact *pl_exact_contact(const pl_exact_system *s,
     return (pl_classic_contact *)s->world->solver.classic.data + item->contact;
 }
 
+// Islands that sweeps cannot hold, of a world of the soft step, into a cluster of their own (hard.c). False when out of memory.
+bool pl_hard_find(plumb_world *world);
+// Whether something is solved exactly in this step.
+static inline bool pl_exact_wanted(const plumb_world *world)
+{
+    return world->desc.solver == PLUMB_SOLVER_EXACT || world->solver.hard_cluster != PL_NONE;
+}
 // Who is eliminated when (plan.c). False when out of memory.
 bool pl_exact_plan(plumb_world *world);
 // After the substeps: the first miss of a world is told in the log.

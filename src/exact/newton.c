@@ -27,9 +27,10 @@
 #define ROUNDING    1e-12 // of the speeds that a row adds up: what is less is nothing
 #define FAR_OFF     1.0   // of the same speeds: a solution that is none
 #define FACTORS     600   // of a solution, after which it is said to have missed
-#define MOST_CHANGE 4     // of the speeds that rows have to undo
-#define LONGEST     20    // step of the shifts, in steps by slip alone
-#define STALLS      6     // rounds without progress
+#define UNASKED     40 // the same in a world of the soft step: a frame is not to be missed for it
+#define MOST_CHANGE 4  // of the speeds that rows have to undo
+#define LONGEST     20 // step of the shifts, in steps by slip alone
+#define STALLS      6  // rounds without progress
 #define PULL_STALLS 2
 #define SHORTENINGS 6
 #define BISECTIONS  40
@@ -294,7 +295,8 @@ void pl_exact_solve(pl_exact_system *s)
     // Heavy on light has to be stiffer by as much.
     const double due = STIFFNESS * ratio, most_stiff = due * (pulls ? PULL_GROWTH : GROWTH);
     const int most_stalls = pulls ? PULL_STALLS : STALLS;
-    const uint32_t most_factored = s->exact->factored + FACTORS;
+    const uint32_t most_factored =
+        s->exact->factored + (s->world->solver.hard_cluster == PL_NONE ? FACTORS : UNASKED);
     double left = 0, before = INFINITY, best = INFINITY;
     for (uint32_t k = s->island->first_row; n.scale == 0 && k < s->island->end_row; ++k) {
         s->rows[k].impulse = s->rows[k].next = 0;

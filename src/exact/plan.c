@@ -17,6 +17,7 @@
 typedef struct search {
     plumb_world *world;
     pl_exact_solver *exact;
+    uint32_t base;            // slots are told from this one on: of hard islands
     uint32_t slots, ties;     // dynamic slots; contacts and joints between two of them
     uint32_t *first, *length; // a slot: in `near`; of it
     uint32_t *elements;       // a slot: how many of its list are elements; these come first
@@ -40,14 +41,23 @@ void pl_exact_free(pl_memory *memory, pl_exact_solver *e)
 
 //---- contacts and joints -------------------------------------------------------------------------------
 
+// Of bodies that move: all, or those of hard islands.
+static pl_slots slots_of(const pl_solver *s)
+{
+    return s->hard_cluster == PL_NONE ? (pl_slots){ 0, s->dynamic_slots }
+                                      : pl_clusters(s)[s->hard_cluster].slots[0];
+}
+
 static bool list_items(plumb_world *world, pl_exact_solver *e)
 {
     const pl_solver *solver = &world->solver;
     const uint32_t movable = world->dynamic_count + world->kinematic_count;
     const pl_manifold *manifolds = pl_manifolds(&world->narrow);
-    const uint32_t contacts = world->narrow.manifold_count;
-    const pl_joint_context c = pl_joint_context_of(world, 0, NULL, 0, 1, 1);
+    const uint32_t contacts = pl_classic_count(solver, world->narrow.manifold_count);
+    const pl_joint_context c = pl_joint_context_of(
+        world, solver->hard_cluster == PL_NONE ? 0 : solver->hard_cluster, NULL, 0, 1, 1);
     const bool any = pl_joints_any(&c);
+    const uint32_t base = slots_of(solver).first;
     const uint32_t joints = any ? c.group->end - c.group->alone : 0;
     if (!pl_buffer_reserve(&world->memory, &e->items,
                            2 * ((size_t)contacts + joints) * sizeof(pl_exact_item))) {
@@ -57,13 +67,13 @@ static bool list_items(plumb_world *world, pl_exact_solver *e)
     e->item_count = contacts + joints;
     e->turning_count = 0;
     for (uint32_t i = 0; i < contacts; ++i) {
-        const pl_manifold *m = &manifolds[i];
+        const pl_manifold *m = &manifolds[pl_classic_manifold(solver, i)];
         const bool turns = pl_exact_may_turn(world, m);
         items[i] = (pl_exact_item){ .contact = i,
                                     .joint = PL_NONE,
                                     .turning = turns ? e->turning_count++ : PL_NONE,
-                                    .slot = { pl_solver_slot(solver, m->body_a, movable),
-                                              pl_solver_slot(solver, m->body_b, movable) },
+                                    .slot = { pl_solver_slot(solver, m->body_a, movable) - base,
+                                              pl_solver_slot(solver, m->body_b, movable) - base },
                                     .row_count = 2 * m->count + (m->rolling > 0 ? 1 : 0) };
     }
     const uint32_t *grouped = world->joints.plan.grouped.data;
@@ -73,8 +83,8 @@ static bool list_items(plumb_world *world, pl_exact_solver *e)
             (pl_exact_item){ .contact = PL_NONE,
                              .joint = c.group->alone + i,
                              .turning = PL_NONE,
-                             .slot = { pl_solver_slot(solver, mark->row_a, movable),
-                                       pl_solver_slot(solver, mark->row_b, movable) },
+                             .slot = { pl_solver_slot(solver, mark->row_a, movable) - base,
+                                       pl_solver_slot(solver, mark->row_b, movable) - base },
                              .row_count = PL_JOINT_ROWS };
     }
     return pl_buffer_reserve(&world->memory, &e->turnings,
@@ -90,7 +100,8 @@ static bool is_tie(const search *s, const pl_exact_item *item)
 
 static bool open_search(plumb_world *world, pl_exact_solver *e, search *s)
 {
-    *s = (search){ .world = world, .exact = e, .slots = world->solver.dynamic_slots };
+    const pl_slots slots = slots_of(&world->solver);
+    *s = (search){ .world = world, .exact = e, .base = slots.first, .slots = slots.count };
     const pl_exact_item *items = e->items.data;
     for (uint32_t i = 0; i < e->item_count; ++i) {
         s->ties += is_tie(s, &items[i]);
@@ -445,6 +456,7 @@ static void number_entries(search *s)
         for (int end = 0; end < 2; ++end) {
             item->node[end] = item->slot[end] < s->slots ? s->node[item->slot[end]] : PL_NONE;
         }
+        item->slot[0] += s->base, item->slot[1] += s->base;
         item->entry = PL_NONE;
         if (item->node[0] == PL_NONE || item->node[1] == PL_NONE) {
             continue;
@@ -465,6 +477,7 @@ static void weigh(search *s)
     const pl_solver *solver = &s->world->solver;
     const uint32_t *rows = solver->rows.data;
     for (uint32_t i = 0; i < s->exact->node_count; ++i) {
+        nodes[i].slot += s->base;
         const pl_solver_body *body = &pl_solver_bodies(solver)[nodes[i].slot];
         const uint16_t flags = s->world->bodies.flags[rows[nodes[i].slot]];
         nodes[i].inv_mass[0] = (double)pl_unlocked(flags, PL_BODY_LOCK_X, body->inv_mass);
@@ -478,6 +491,10 @@ bool pl_exact_plan(plumb_world *world)
     search s;
     e->factored = e->missed = 0;
     e->residual = 0;
+    e->island_count = 0;
+    if (!pl_exact_wanted(world)) {
+        return true;
+    }
     if (!list_items(world, e) || !open_search(world, e, &s)) {
         return false;
     }

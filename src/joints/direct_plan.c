@@ -295,7 +295,7 @@ bool pl_direct_plan(plumb_world *world)
     for (uint32_t g = 0; g < plan->group_count; ++g) {
         pl_joint_group *group = &pl_joint_groups(&world->joints)[g];
         group->direct_first = group->direct_end = direct->column_count;
-        if (group->end > group->alone) {
+        if (group->end > group->alone && g != plan->exact_group) {
             choose(world, group);
             outcome result = TOO_DENSE;
             for (search s; result == TOO_DENSE;) {

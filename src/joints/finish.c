@@ -190,7 +190,7 @@ void pl_joints_finish(plumb_world *world, real dt)
             rest(j);
             continue;
         }
-        if (!pl_joint_is_wide(mark)) {
+        if (!pl_joint_is_wide(mark) || mark->cluster == world->joints.plan.exact_group) {
             react(world, j);
         }
         const pl_joint_class *kind = pl_joint_classes[j->desc.kind];

@@ -21,7 +21,8 @@ static bool find_clusters(plumb_world *world)
     pl_joint_mark *marks = plan->marks.data;
     const uint32_t *awake = world->joints.awake.data, *labels = pl_solver_labels(&world->solver);
     const uint32_t movable = world->dynamic_count + world->kinematic_count;
-    bool same = plan->group_count == world->solver.cluster_count;
+    bool same = plan->group_count == world->solver.cluster_count &&
+                plan->exact_group == world->solver.hard_cluster;
     if (same && labels == NULL) {
         return true;
     }
@@ -56,7 +57,7 @@ static void sort_by_cluster(plumb_world *world)
         const pl_joint_mark *mark = &marks[order[i]];
         pl_joint_group *group = &groups[mark->cluster];
         grouped[group->end++] = order[i];
-        group->alone += pl_joint_is_wide(mark);
+        group->alone += pl_joint_is_wide(mark) && mark->cluster != plan->exact_group;
     }
 }
 
@@ -171,6 +172,7 @@ bool pl_joints_group(plumb_world *world)
         return true;
     }
     plan->group_count = world->solver.cluster_count;
+    plan->exact_group = world->solver.hard_cluster;
     if (!reserve_groups(world)) {
         return false;
     }

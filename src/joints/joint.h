@@ -134,6 +134,7 @@ typedef struct pl_joint_context {
     pl_tasks *tasks;
     unsigned char *records; // a thread's
     real h;                 // [s] substep
+    bool exact;             // of hard islands
     pl_joint_soft rigid;    // of rows that are no springs, where they pull
 } pl_joint_context;
 

@@ -27,6 +27,7 @@ pl_joint_context pl_joint_context_of(plumb_world *world, uint32_t cluster, pl_ta
                                        ? (unsigned char *)plan->records.data + thread * plan->room
                                        : NULL,
                                .h = h,
+                               .exact = any && cluster == plan->exact_group,
                                .rigid = pl_joint_rigid(h, soft) };
 }
 
@@ -217,7 +218,7 @@ static void begin_lone(const pl_joint_context *c, uint32_t i, pl_lone *out)
     pl_one_take(c, i, out);
     pl_one_forget(out->joint);
     pl_one_rows(c->world, out->joint, out->a, out->b);
-    if (c->world->desc.solver == PLUMB_SOLVER_SOFT) {
+    if (c->world->desc.solver == PLUMB_SOLVER_SOFT && !c->exact) {
         pl_one_note_springs(out->joint, out->a, out->b);
     }
 }

@@ -179,7 +179,7 @@ static inline void part(pl_pair *pair)
         pair->tangent[0] = pair->tangent[1] = 0;
         pair->manifold = PL_NONE;
     }
-    pair->flags &= ~(PL_PAIR_HIT | PL_PAIR_AHEAD | PL_PAIR_SLIDES);
+    pair->flags &= ~(PL_PAIR_HIT | PL_PAIR_AHEAD | PL_PAIR_SLIDES | PL_PAIR_LOADS);
 }
 
 // What points are, and whose impulses they go on with: those that are nearer than `limit`, by feature.

@@ -88,7 +88,7 @@
       "body settings, components, solver bodies", "constraints", ONE)                                                                        \
     X("measure bodies",    GRAPH,       IF(pl_want_measures),        ONCE(pl_run_measure_bodies),                            ONCE,           \
       "solver bodies, masses", "", ONE)                                                                                                      \
-    X("elimination",       GRAPH,       IF(pl_want_exact),           ONCE(pl_run_elimination),                               ONCE,           \
+    X("elimination",       GRAPH,       IF(pl_want_direct),          ONCE(pl_run_elimination),                               ONCE,           \
       "manifolds, joints, solver bodies", "constraints", ONE)                                                                                \
     /* The substeps: rows up to "store contacts" run inside of one of the next three, cluster by cluster of islands. */                       \
     X("soft step",         SOLVE,       IF(pl_want_soft),            ONCE(pl_run_soft),                                      ONCE,           \
@@ -139,7 +139,7 @@
       "joints, constraints", "solver bodies, joints, constraints", ONE)                                                                      \
     X("contacts",          CONSTRAINTS, IF(pl_want_collision),       BOTH(pl_soft_contacts, pl_classic_contacts),            ONCE,           \
       "constraints", "solver bodies, constraints", HAS(pl_contact_variants))                                                                 \
-    X("exact pull",        CONSTRAINTS, IF(pl_want_exact),           EXACT(pl_exact_pull),                                   ONCE,           \
+    X("exact pull",        CONSTRAINTS, IF(pl_want_direct),          EXACT(pl_exact_pull),                                   ONCE,           \
       "joints, constraints, manifolds", "solver bodies, joints, constraints", ONE)                                                           \
     X("positions",         POSITIONS,   IF(pl_want_solver),          THREE(pl_soft_move, pl_classic_move, pl_move_bodies), ONCE,           \
       "solver bodies, accelerations, targets", "solver bodies, joints", ONE)                                                                          \
@@ -149,7 +149,7 @@
       "joints, constraints", "solver bodies, joints, constraints", ONE)                                                                      \
     X("relax contacts",    RELAX,       IF(pl_want_collision),       BOTH(pl_soft_relax, pl_classic_correct),                ONCE,           \
       "constraints", "solver bodies, constraints", HAS(pl_contact_variants))                                                                 \
-    X("exact relax",       RELAX,       IF(pl_want_exact),           EXACT(pl_exact_relax),                                  ONCE,           \
+    X("exact relax",       RELAX,       IF(pl_want_direct),          EXACT(pl_exact_relax),                                  ONCE,           \
       "joints, constraints, manifolds", "solver bodies, joints, constraints", ONE)                                                           \
     X("sum reactions",     SUMS,        IF(pl_want_reactions),       NOT_CLASSIC(pl_joints_row_sum),                         ONCE,           \
       "joints, constraints", "joints, constraints", ONE)                                                                                     \

@@ -19,6 +19,8 @@
       "sweeps a substep; default of pgs: 10 a step")                                                \
     R(X, STATE, BOOL, direct_joints, SAID(direct_joints), "1", CHOICES(1), 0, NO_ZERO,              \
       "joints are solved together, exactly, by a direct method: long chains, heavy ends, trusses")  \
+    R(X, STATE, BOOL, no_exact_islands, NOT(exact_islands), "1", CHOICES(1), 0, NO_ZERO,            \
+      "whether the soft step solves small islands exactly that sweeps cannot hold")                 \
     R(X, STATE, REAL, exact_tolerance, SAID(exact_tolerance), "1", FROM(0, 0.5), 1e-9, NO_ZERO, \
       "of the exact solver: what may be left of a speed that it has to undo")                       \
     R(X, STATE, REAL, tolerance, SAID(tolerance), "1", FROM(0, 0.5), 0, NO_ZERO,                    \

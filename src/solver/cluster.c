@@ -15,6 +15,7 @@
 #include "solver/solver.h"
 #include "core/union_find.h"
 #include "effects/effects.h"
+#include "exact/exact.h"
 #include "joints/joint.h"
 #include "world/state.h"
 
@@ -230,6 +231,9 @@ bool pl_solver_cluster(plumb_world *world)
 {
     pl_solver *s = &world->solver;
     const uint32_t movable = world->dynamic_count + world->kinematic_count;
+    s->cluster_count -= s->hard_cluster != PL_NONE && s->cluster_count > 1; // of the step before
+    s->hard_cluster = PL_NONE;
+    s->hard_count = s->hard_islands = 0;
     if (!is_divisible(world)) {
         s->cluster_count = 1;
         s->labelled = 0;
@@ -237,6 +241,9 @@ bool pl_solver_cluster(plumb_world *world)
         return false;
     } else {
         find_clusters(world, movable);
+    }
+    if (!pl_hard_find(world)) {
+        return false;
     }
     return pl_buffer_reserve(&world->memory, &s->clusters, s->cluster_count * sizeof(pl_cluster)) &&
            pl_buffer_reserve(&world->memory, &s->cursors,

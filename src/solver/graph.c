@@ -103,7 +103,7 @@ static bool reserve_lanes(plumb_world *world)
     size_t grips = world->narrow.any_kinetic ? need.bundles : 0;
     size_t extras =
         world->narrow.any_surface || specials > 0 || pl_solver_tallies(world) ? need.bundles : 0;
-    size_t classic = world->desc.solver != PLUMB_SOLVER_SOFT ? contacts : 0;
+    size_t classic = world->desc.solver != PLUMB_SOLVER_SOFT ? contacts : s->hard_count;
     return pl_buffer_reserve(memory, &s->lanes, need.lanes * sizeof(uint32_t)) &&
            pl_buffer_reserve(memory, &s->bundles, need.bundles * k->bundle_size) &&
            pl_buffer_reserve(memory, &s->extras, extras * k->extra_size) &&
@@ -483,13 +483,14 @@ bool pl_solver_graph(plumb_world *world, real dt)
 
 void pl_solver_free(pl_memory *memory, pl_solver *s)
 {
-    pl_buffer *buffers[] = { &s->bodies,   &s->motions,  &s->rows,        &s->slots,
-                             &s->masks,    &s->colors,   &s->lanes,       &s->bundles,
-                             &s->impacts,  &s->classic,  &s->residuals,   &s->struck,
-                             &s->extras,   &s->specials, &s->impact_heap, &s->impact_heads,
-                             &s->bounces,  &s->clusters, &s->labels,      &s->islands,
-                             &s->homes,    &s->leaders,  &s->cursors,     &s->rubbed,
-                             &s->turnings, &s->kicked,   &s->grips };
+    pl_buffer *buffers[] = { &s->bodies,       &s->motions,     &s->rows,        &s->slots,
+                             &s->masks,        &s->colors,      &s->lanes,       &s->bundles,
+                             &s->impacts,      &s->classic,     &s->residuals,   &s->struck,
+                             &s->extras,       &s->specials,    &s->impact_heap, &s->impact_heads,
+                             &s->bounces,      &s->clusters,    &s->labels,      &s->islands,
+                             &s->homes,        &s->leaders,     &s->cursors,     &s->rubbed,
+                             &s->turnings,     &s->kicked,      &s->grips,       &s->hard_contacts,
+                             &s->hard_leaders, &s->hard_tallies };
     for (size_t i = 0; i < sizeof buffers / sizeof buffers[0]; ++i) {
         pl_buffer_free(memory, buffers[i]);
     }

@@ -21,7 +21,7 @@ static void push_point(const pl_measuring *m, const pl_classic_contact *c,
 void pl_classic_measure(const plumb_world *world, const pl_classic_contact *kept, pl_measuring *m)
 {
     const pl_classic_contact *contacts = world->solver.classic.data;
-    for (uint32_t i = 0; i < world->narrow.manifold_count; ++i) {
+    for (uint32_t i = 0; i < pl_classic_count(&world->solver, world->narrow.manifold_count); ++i) {
         const pl_classic_contact *c = &contacts[i];
         for (uint32_t j = 0; j < c->count; ++j) {
             const pl_classic_point *p = &c->point[j];
@@ -38,7 +38,7 @@ void pl_classic_residual(const plumb_world *world, pl_measuring *m)
 {
     const pl_classic_contact *contacts = world->solver.classic.data;
     const pl_solver_body *bodies = pl_solver_bodies(&world->solver);
-    for (uint32_t i = 0; i < world->narrow.manifold_count; ++i) {
+    for (uint32_t i = 0; i < pl_classic_count(&world->solver, world->narrow.manifold_count); ++i) {
         const pl_classic_contact *c = &contacts[i];
         const pl_solver_body *a = &bodies[c->a], *b = &bodies[c->b];
         const double nx = (double)c->nx, ny = (double)c->ny;

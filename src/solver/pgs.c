@@ -105,12 +105,13 @@ static void prepare(classic *c, const plumb_world *world)
     const pl_manifold *manifolds = pl_manifolds(&world->narrow);
     uint32_t movable = world->dynamic_count + world->kinematic_count;
     for (uint32_t i = 0; i < c->count; ++i) {
-        const pl_manifold *m = &manifolds[i];
+        const uint32_t at = pl_classic_manifold(c->solver, i);
+        const pl_manifold *m = &manifolds[at];
         pl_classic_contact *out = &c->contacts[i];
         *out = (pl_classic_contact){ .a = pl_solver_slot(c->solver, m->body_a, movable),
                                      .b = pl_solver_slot(c->solver, m->body_b, movable),
                                      .pair = m->pair,
-                                     .manifold = i,
+                                     .manifold = at,
                                      .count = m->count,
                                      .nx = m->nx,
                                      .ny = m->ny,
@@ -164,10 +165,10 @@ static void add(near_real *v, near_real *u, near_real *low, near_real change)
     *v = *u;
 }
 
-static void integrate_velocities(const classic *c)
+static void integrate_velocities(const classic *c, pl_slots slots)
 {
     pl_solver_motion *motion = pl_solver_motions(c->solver);
-    for (uint32_t i = 0; i < c->solver->dynamic_slots; ++i) {
+    for (uint32_t i = slots.first; i < slots.first + slots.count; ++i) {
         pl_solver_body *body = &c->bodies[i];
         near_real *low = c->residuals != NULL && c->residuals[(size_t)i * 4 + 3] > 0
                              ? c->residuals + (size_t)i * 4
@@ -324,7 +325,7 @@ static classic classic_of(const pl_substep *s)
     return (classic){ .solver = solver,
                       .bodies = pl_solver_bodies(solver),
                       .contacts = solver->classic.data,
-                      .count = world->narrow.manifold_count,
+                      .count = pl_classic_count(solver, world->narrow.manifold_count),
                       .h = s->h,
                       .since = s->solving->call.since,
                       .residuals = s->solving->elastic ? solver->residuals.data : NULL };
@@ -342,7 +343,7 @@ void pl_classic_integrate(pl_substep *s)
         pl_tracks_begin(s);
     }
     const classic c = classic_of(s);
-    integrate_velocities(&c);
+    integrate_velocities(&c, s->cluster->slots[0]);
 }
 
 void pl_classic_warm_start(pl_substep *s)

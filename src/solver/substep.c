@@ -22,7 +22,7 @@ static void run_row(pl_substep *s)
         rows->before(s);
     }
     const double start = rows->ns == NULL ? 0 : pl_now_ns();
-    s->row->run(s);
+    pl_substep_fn_of(s)(s);
     if (rows->ns != NULL) {
         rows->ns[(size_t)s->thread * rows->count + i] += pl_now_ns() - start;
     }
@@ -40,8 +40,11 @@ static void run_stage(pl_substep *s, pl_substep_stage stage, int times)
     for (int i = 0; i < times; ++i) {
         s->first_sweep = i == 0;
         for (s->row = first; s->row < end; ++s->row) {
+            if (pl_substep_fn_of(s) == NULL) {
+                continue;
+            }
             if (plain) {
-                s->row->run(s);
+                pl_substep_fn_of(s)(s);
             } else {
                 run_row(s);
             }
@@ -54,12 +57,13 @@ static void run_substep(pl_substep *s)
     const plumb_world_desc *d = &s->world->desc;
     run_stage(s, PL_SUBSTEP_FORCES, 1);
     run_stage(s, PL_SUBSTEP_VELOCITIES, 1);
-    run_stage(s, PL_SUBSTEP_CONSTRAINTS, d->solver == PLUMB_SOLVER_EXACT ? 1 : d->iterations);
+    const bool exact = s->solving->exact || d->solver == PLUMB_SOLVER_EXACT;
+    run_stage(s, PL_SUBSTEP_CONSTRAINTS, exact ? 1 : d->iterations);
     run_stage(s, PL_SUBSTEP_POSITIONS, 1);
     run_stage(s, PL_SUBSTEP_RELAX,
-              d->solver == PLUMB_SOLVER_SOFT    ? d->iterations
-              : d->solver == PLUMB_SOLVER_EXACT ? 1
-                                                : PL_CLASSIC_CORRECTIONS);
+              exact                            ? 1
+              : d->solver == PLUMB_SOLVER_SOFT ? d->iterations
+                                               : PL_CLASSIC_CORRECTIONS);
     run_stage(s, PL_SUBSTEP_SUMS, 1);
 }
 
@@ -101,7 +105,8 @@ static void run_cluster(const pl_solving_step *step, uint32_t i, pl_tasks *tasks
                            .call = call_of(step, cluster, thread),
                            .joints = &joints,
                            .any_joints = pl_joints_any(&joints),
-                           .elastic = i == 0 && step->elastic };
+                           .elastic = i == 0 && step->elastic,
+                           .exact = i == step->world->solver.hard_cluster };
     pl_substep s = { .world = step->world,
                      .cluster = cluster,
                      .tasks = tasks,

@@ -42,7 +42,14 @@ typedef struct pl_solving {
     const struct pl_joint_context *joints;
     bool any_joints;
     bool elastic; // cluster 0 alone has impacts that are followed one by one
+    bool exact;   // islands that sweeps cannot hold, in a world of the soft step
 } pl_solving;
+
+// What the row that runs is for the cluster.
+static inline pl_substep_fn *pl_substep_fn_of(const pl_substep *s)
+{
+    return s->solving->exact ? s->row->exact : s->row->run;
+}
 
 typedef struct pl_substep_rows {
     const pl_substep_row *items;

@@ -72,19 +72,20 @@ static const row_rule rules[] = {
 static row_rule rule_of(const pl_substep *s)
 {
     for (size_t i = 0; i < sizeof rules / sizeof rules[0]; ++i) {
-        if (rules[i].run == s->row->run) {
+        if (rules[i].run == pl_substep_fn_of(s)) {
             return rules[i];
         }
     }
     const pl_substep_rows *rows = s->solving->step->rows;
     const bool forces = s->row->system != PL_NO_SYSTEM ||
                         (uint32_t)(s->row - rows->items) < rows->end[PL_SUBSTEP_FORCES];
-    return (row_rule){ s->row->run, ROW_WORK, forces ? PLUMB_WORK_FORCES : PLUMB_WORK_REST };
+    return (row_rule){ pl_substep_fn_of(s), ROW_WORK,
+                       forces ? PLUMB_WORK_FORCES : PLUMB_WORK_REST };
 }
 
 static bool is_soft(const pl_substep *s)
 {
-    return s->world->desc.solver == PLUMB_SOLVER_SOFT;
+    return s->world->desc.solver == PLUMB_SOLVER_SOFT && !s->solving->exact;
 }
 
 static pl_measuring measuring_of(const pl_substep *s)
@@ -133,7 +134,8 @@ static void keep_contacts(const pl_substep *s)
     const size_t count = s->cluster->color_first[PL_COLOR_SLOTS];
     if (!is_soft(s)) {
         memcpy(m->classic.data, s->world->solver.classic.data,
-               s->world->narrow.manifold_count * sizeof(pl_classic_contact));
+               pl_classic_count(&s->world->solver, s->world->narrow.manifold_count) *
+                   sizeof(pl_classic_contact));
         return;
     }
     if (count == 0) {
@@ -325,9 +327,9 @@ static void share_out(const pl_substep *s, row_kind kind)
         break;
     case ROW_JOINTS:
         measure_joints(s, m, true,
-                       !soft || !s->first_sweep             ? PL_DEBT_NONE
-                       : s->row->run == pl_joints_row_solve ? PL_DEBT_PAID
-                                                            : PL_DEBT_PAID_BEHIND);
+                       !soft || !s->first_sweep                     ? PL_DEBT_NONE
+                       : pl_substep_fn_of(s) == pl_joints_row_solve ? PL_DEBT_PAID
+                                                                    : PL_DEBT_PAID_BEHIND);
         break;
     case ROW_CONTACTS:
     case ROW_RELAX_CONTACTS:

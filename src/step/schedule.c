@@ -54,7 +54,9 @@ bool pl_pass_wanted(const plumb_world *world, int i, const char **reason)
     if (pass->wanted != NULL && !pass->wanted(world, reason)) {
         return false;
     }
-    if (pl_is_substep_stage(pass->stage) && fn_of(world, pass) == NULL) {
+    const bool held =
+        world->desc.solver == PLUMB_SOLVER_SOFT && pass->row[PLUMB_SOLVER_EXACT] != NULL;
+    if (pl_is_substep_stage(pass->stage) && fn_of(world, pass) == NULL && !held) {
         *reason = "the world's solver has no such part";
         return false;
     }
@@ -75,11 +77,11 @@ bool pl_schedule_reserve(plumb_world *world)
            pl_buffer_reserve(&world->memory, &s->shares, threads * rows * sizeof(double));
 }
 
-static void add_row(pl_schedule *s, uint32_t *count, pl_substep_fn *run, uint32_t place,
-                    uint32_t system)
+static void add_row(pl_schedule *s, uint32_t *count, pl_substep_fn *run, pl_substep_fn *exact,
+                    uint32_t place, uint32_t system)
 {
     ((pl_substep_row *)s->rows.data)[(*count)++] =
-        (pl_substep_row){ .run = run, .place = place, .system = system };
+        (pl_substep_row){ .run = run, .exact = exact, .place = place, .system = system };
 }
 
 // The rows of the substeps, as they are run.
@@ -100,10 +102,10 @@ static void list_rows(plumb_world *world)
         }
         if (place.system != PL_NO_SYSTEM) {
             if (pl_system_wanted(world, &world->systems.items[place.system], &unused)) {
-                add_row(s, &count, pl_system_row, i, place.system);
+                add_row(s, &count, pl_system_row, pl_system_row, i, place.system);
             }
         } else if (s->scheduled[place.pass]) {
-            add_row(s, &count, fn_of(world, pass), i, PL_NO_SYSTEM);
+            add_row(s, &count, fn_of(world, pass), pass->row[PLUMB_SOLVER_EXACT], i, PL_NO_SYSTEM);
         }
     }
     while (stage <= PL_STAGE_STORE) {

@@ -170,6 +170,18 @@ bool pl_want_exact(const plumb_world *world, const char **reason)
     return pl_want_solver(world, reason) && asks_for(world, PLUMB_SOLVER_EXACT, reason);
 }
 
+// Soft worlds have islands that sweeps cannot hold.
+bool pl_want_direct(const plumb_world *world, const char **reason)
+{
+    if (!pl_want_solver(world, reason) || world->desc.solver == PLUMB_SOLVER_PGS) {
+        return pl_want_exact(world, reason);
+    }
+    return say(true, reason,
+               world->desc.solver == PLUMB_SOLVER_SOFT ? "for islands that sweeps cannot hold"
+                                                       : "the world asks for the exact solver",
+               "");
+}
+
 bool pl_want_continuous(const plumb_world *world, const char **reason)
 {
     return pl_want_collision(world, reason) && pl_continuous_wanted(world, reason);

@@ -14,7 +14,9 @@ typedef void pl_substep_fn(pl_substep *s);
 
 // A row of the substep as the schedule has it.
 typedef struct pl_substep_row {
-    pl_substep_fn *run;
+    pl_substep_fn *run; // NULL: nothing, in clusters of the soft step
+    pl_substep_fn
+        *exact; // likewise, in that of islands that are solved exactly in a world of the soft step
     uint32_t place;  // in the schedule: whose time it is
     uint32_t system; // of the user's; else PL_NO_SYSTEM
 } pl_substep_row;

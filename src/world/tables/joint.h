@@ -218,6 +218,7 @@ typedef struct pl_joint_plan {
     bool any_whole; // assembly is kicked whole in this step
     bool any_direct; // joint is solved together with others
     size_t room; // [B] of a thread
+    uint32_t exact_group; // that of hard islands, all of whose joints are alone; PL_NONE: there are none
     uint32_t order_count, group_count, bundle_count, pattern_count;
     pl_joint_pattern patterns[PL_JOINT_PATTERNS];
     pl_direct direct;

@@ -74,6 +74,14 @@ typedef struct pl_solver {
     pl_buffer cursors; // uint32_t a cluster and colour: contacts, then the next lane
     uint32_t cluster_count, cluster_age; // steps since islands were looked for
     uint32_t island_count;
+    // Islands that sweeps cannot hold (hard.c), all of them one cluster, the last; PL_NONE: there are none.
+    uint32_t hard_cluster;
+    uint32_t hard_count;       // contacts of them, in `hard_contacts`
+    uint32_t hard_islands;
+    bool hard_pressed;         // some contact was PL_PAIR_PRESSED at the last look
+    pl_buffer hard_contacts;   // uint32_t: manifolds
+    pl_buffer hard_leaders;    // uint32_t a movable row, while they are looked for
+    pl_buffer hard_tallies;    // pl_hard_tally a movable row, likewise
     uint32_t labelled; // rows whose islands are kept; 0: none
     // bundles of the largest cluster; of each thread's room, if there are several
     uint32_t bundle_room;
@@ -94,6 +102,17 @@ static inline uint32_t pl_solver_slot(const pl_solver *solver, uint32_t row, uin
 {
     return row < movable_rows ? ((const uint32_t *)solver->slots.data)[row]
                               : solver->slot_count - 1;
+}
+
+// Manifolds that the classic and the exact solver have: all, or those of hard islands.
+static inline uint32_t pl_classic_count(const pl_solver *solver, uint32_t manifolds)
+{
+    return solver->hard_cluster == PL_NONE ? manifolds : solver->hard_count;
+}
+
+static inline uint32_t pl_classic_manifold(const pl_solver *solver, uint32_t i)
+{
+    return solver->hard_cluster == PL_NONE ? i : ((const uint32_t *)solver->hard_contacts.data)[i];
 }
 
 // Clusters of rows; null: all are of one cluster.

@@ -1,0 +1,322 @@
+// hard.c - which islands of a world of the soft step are solved exactly though nobody asked: small ones that sweeps cannot hold.
+//
+// A soft contact gives way to its load F by s = F (1/m_A + 1/m_B) / w^2, and a sweep a substep hands a load on by one
+// contact: what bears much is pressed in, and what stands on it falls over. A contact is a seed of its island that is
+// - uneven: one body is UNEVEN times as heavy as the other, and lies on it; or gives way by more than DEEP of their size, and the
+//   lighter one bears BORNE of its weight; or
+// - pressed: at two looks, LOOK steps apart, it gave way by so much and bore BURDEN times the weight of the lighter body. A blow
+//   does not last so long. A young world is looked at after 1, 2 and 4 steps, too: it may begin with a stack.
+// What is asked is the load that would press a soft contact in, not by how much it is pressed in: loads are the same however they
+// are borne, so an island that has become exact stays so. What had sunk then is undone without velocity (rows.c); an island that is
+// soft again sinks in by its springs. Impulses go over.
+//
+// An island is all that hangs together by contacts and joints, through kinematic bodies too, as in solver/cluster.c, but found anew
+// in each step that has seeds: it depends on nothing else in the world, and on the past by three flags a pair. One of more
+// than MOST contacts and joints is swept, and so is one that bounces, and one of whose bodies a system acts on alone.
+//
+// Reads: manifolds, ends, masses, loads of the last step. Writes: labels of rows, hard contacts, flags of pairs. Order: behind
+// clusters. Cost: a read of the masses, where they are uneven one of the ends, every LOOK steps one of the manifolds; with seeds
+// O(contacts + bodies).
+#include "core/union_find.h"
+#include "effects/effects.h"
+#include "exact/exact.h"
+#include "joints/joint.h"
+#include "world/joint_list.h"
+#include "world/state.h"
+
+#include <math.h>
+#include <string.h>
+
+#define MOST   96   // contacts and joints of an island
+#define DEEP   5e-3 // of the way from the contact to the centre of mass
+#define UNEVEN 10.0
+#define BORNE  0.25
+#define BURDEN 5.0
+#define ABOVE  0.3               // cosine
+#define NEAR   ((near_real)5e-3) // [m]
+#define LOOK   8u                // steps
+
+#define SOFTNESS 0.912 // (6 / (2 pi))^2: 1 / (w h)^2 of soft.c
+
+typedef struct pl_hard_tally {
+    uint32_t contacts; // and joints
+    bool seeded, barred;
+} pl_hard_tally;
+
+// What an island is told by.
+typedef struct search {
+    plumb_world *world;
+    const pl_ends *ends, *ties;
+    uint32_t contacts, joints, movable, dynamic;
+    uint32_t *leaders;
+    pl_hard_tally *tallies; // of leaders
+    double h;               // [s] substep of the last step, by which loads are known
+    double weight;          // [m/s^2] of a kilogram
+    bool uneven;            // masses are
+} search;
+
+static double inverse_mass(const search *s, uint32_t row)
+{
+    return row < s->dynamic ? (double)s->world->bodies.inv_mass[row] : 0;
+}
+
+//---- seeds ---------------------------------------------------------------------------------------------
+
+static bool are_uneven(const search *s, const pl_ends *e)
+{
+    const double a = inverse_mass(s, e->a), b = inverse_mass(s, e->b);
+    return (a > UNEVEN * b && b > 0) || (b > UNEVEN * a && a > 0);
+}
+
+typedef struct burden {
+    bool deep;               // the contact gives way by more than it should
+    double lighter, heavier; // times the weight of either body, of those that move
+} burden;
+
+static burden burden_of(const search *s, const pl_manifold *m)
+{
+    const double a = inverse_mass(s, m->body_a), b = inverse_mass(s, m->body_b);
+    double load = 0, arm = (double)PL_APART;
+    for (uint32_t k = 0; k < m->count; ++k) {
+        const pl_manifold_point *p = &m->point[k];
+        const double of_a = fabs((double)(p->ax * m->nx + p->ay * m->ny));
+        const double of_b = fabs((double)(p->bx * m->nx + p->by * m->ny));
+        load += (double)p->normal;
+        arm = a > 0 && of_a < arm ? of_a : arm;
+        arm = b > 0 && of_b < arm ? of_b : arm;
+    }
+    const double stiffer = a > 0 && b > 0 ? 1 : 0.25;
+    const double least = a > 0 && (b == 0 || a < b) ? a : b;
+    const double light = load * (a > b ? a : b), heavy = load * least, one = s->weight * s->h;
+    return (burden){ load > 0 && load * (a + b) * stiffer * SOFTNESS * s->h > DEEP * arm,
+                     one > 0 ? light / one : (double)PL_UNBOUNDED,
+                     one > 0 ? heavy / one : (double)PL_UNBOUNDED };
+}
+
+// The heavier body is on the lighter one, and near it.
+static bool is_above(const search *s, const pl_manifold *m)
+{
+    const plumb_vec2 g = s->world->gravity;
+    const double down = (double)m->nx * (double)g.x + (double)m->ny * (double)g.y; // from A to B
+    const bool b_heavier = inverse_mass(s, m->body_b) < inverse_mass(s, m->body_a);
+    return (b_heavier ? -down : down) > ABOVE * s->weight && pl_is_near(m, NEAR);
+}
+
+static pl_pair *pair_of(const search *s, uint32_t contact)
+{
+    return &pl_pairs(&s->world->broad.pairs)[pl_manifolds(&s->world->narrow)[contact].pair];
+}
+
+static bool is_seed(const search *s, uint32_t i)
+{
+    if (s->world->solver.hard_pressed && (pair_of(s, i)->flags & PL_PAIR_PRESSED) != 0) {
+        return true;
+    }
+    if (!s->uneven || !are_uneven(s, &s->ends[i])) {
+        return false;
+    }
+    const pl_manifold *m = &pl_manifolds(&s->world->narrow)[i];
+    const burden b = burden_of(s, m);
+    return is_above(s, m) || (b.deep && b.heavier > BORNE);
+}
+
+static bool is_look_due(uint64_t step)
+{
+    return step % LOOK == 0 || (step < LOOK && (step & (step - 1)) == 0);
+}
+
+// Which contacts are loaded, and were so at the last look. A step that is taken anew looks anew: two flags take turns.
+static void look(const search *s)
+{
+    const uint64_t n = s->world->step_count;
+    const bool odd = n < LOOK ? n == 2 : (n / LOOK & 1) != 0; // 1, 2, 4, 8, 16, 24, ...
+    const uint32_t now = odd ? PL_PAIR_LOADED_ODD : PL_PAIR_LOADED_EVEN;
+    const uint32_t before = odd ? PL_PAIR_LOADED_EVEN : PL_PAIR_LOADED_ODD;
+    s->world->solver.hard_pressed = false;
+    for (uint32_t i = 0; i < s->contacts; ++i) {
+        const burden b = burden_of(s, &pl_manifolds(&s->world->narrow)[i]);
+        const bool loaded = b.deep && b.lighter > BURDEN;
+        pl_pair *pair = pair_of(s, i);
+        const uint32_t was = pair->flags;
+        const bool pressed = loaded && (was & before) != 0;
+        if (loaded || (was & (now | PL_PAIR_PRESSED)) != 0) {
+            pair->flags = (was & ~(now | PL_PAIR_PRESSED)) | (loaded ? now : 0) |
+                          (pressed ? PL_PAIR_PRESSED : 0);
+        }
+        s->world->solver.hard_pressed |= pressed;
+    }
+}
+
+static bool masses_are_uneven(const plumb_world *world)
+{
+    const real *inverse = world->bodies.inv_mass;
+    real least = inverse[0], most = inverse[0];
+    for (uint32_t row = 1; row < world->dynamic_count; ++row) {
+        least = inverse[row] < least ? inverse[row] : least;
+        most = inverse[row] > most ? inverse[row] : most;
+    }
+    return (double)most > UNEVEN * (double)least;
+}
+
+static bool any_seed(const search *s)
+{
+    bool any = false;
+    for (uint32_t i = 0; !any && i < s->contacts; ++i) {
+        any = is_seed(s, i);
+    }
+    return any;
+}
+
+//---- islands -------------------------------------------------------------------------------------------
+
+static uint32_t leader_of(const search *s, const pl_ends *e)
+{
+    const uint32_t row = e->a < s->movable ? e->a : e->b;
+    return row < s->movable ? pl_union_leader(s->leaders, row) : PL_NONE;
+}
+
+static void join(const search *s, const pl_ends *ends, uint32_t count)
+{
+    for (uint32_t i = 0; i < count; ++i) {
+        if (ends[i].a < s->movable && ends[i].b < s->movable) {
+            pl_union_join(s->leaders, ends[i].a, ends[i].b);
+        }
+    }
+}
+
+static void tally_joints(const search *s)
+{
+    const uint32_t *awake = s->world->joints.awake.data;
+    for (uint32_t i = 0; i < s->joints; ++i) {
+        const uint32_t leader = leader_of(s, &s->ties[i]);
+        if (leader != PL_NONE) {
+            pl_hard_tally *t = &s->tallies[leader];
+            ++t->contacts;
+            t->barred |= pl_joint_bounces(&pl_joint_items(&s->world->joints)[awake[i]].desc);
+        }
+    }
+}
+
+static void tally(const search *s)
+{
+    const pl_manifold *m = pl_manifolds(&s->world->narrow);
+    const uint8_t *called = s->world->effects.called.data;
+    pl_union_reset(s->leaders, s->movable);
+    memset(s->tallies, 0, s->movable * sizeof *s->tallies);
+    join(s, s->ends, s->contacts);
+    join(s, s->ties, s->joints);
+    for (uint32_t i = 0; i < s->contacts; ++i) {
+        const uint32_t leader = leader_of(s, &s->ends[i]);
+        pl_hard_tally *t = &s->tallies[leader];
+        ++t->contacts;
+        t->seeded = t->seeded || is_seed(s, i);
+        t->barred |= m[i].restitution > 0;
+    }
+    tally_joints(s);
+    for (uint32_t row = 0; s->world->effects.any_alone && row < s->dynamic; ++row) {
+        if ((called[row] & PL_CALLED_ALONE) != 0) {
+            s->tallies[pl_union_leader(s->leaders, row)].barred = true;
+        }
+    }
+}
+
+static bool is_hard(const search *s, uint32_t leader)
+{
+    const pl_hard_tally *t = &s->tallies[leader];
+    return t->seeded && !t->barred && t->contacts <= MOST;
+}
+
+// All of them are one cluster, the last.
+static void label(const search *s)
+{
+    pl_solver *solver = &s->world->solver;
+    const uint32_t *slots = solver->slots.data;
+    uint32_t *labels = solver->labels.data, *contacts = solver->hard_contacts.data;
+    for (uint32_t row = 0; row < s->movable; ++row) {
+        solver->hard_islands += s->leaders[row] == row && is_hard(s, row);
+    }
+    if (solver->hard_islands == 0) {
+        return;
+    }
+    if (solver->cluster_count == 1) {
+        memset(labels, 0, s->movable * sizeof *labels);
+    }
+    solver->hard_cluster = solver->cluster_count++;
+    for (uint32_t row = 0; row < s->movable; ++row) {
+        if (slots[row] != PL_NONE && is_hard(s, pl_union_leader(s->leaders, row))) {
+            labels[row] = solver->hard_cluster;
+        }
+    }
+    for (uint32_t i = 0; i < s->contacts; ++i) {
+        if (is_hard(s, leader_of(s, &s->ends[i]))) {
+            contacts[solver->hard_count++] = i;
+        }
+    }
+}
+
+// What is too large to be solved exactly is not asked about until the next look.
+static void forget_large(const search *s)
+{
+    bool kept = false;
+    for (uint32_t i = 0; s->world->solver.hard_pressed && i < s->contacts; ++i) {
+        pl_pair *pair = pair_of(s, i);
+        if ((pair->flags & PL_PAIR_PRESSED) == 0) {
+            continue;
+        }
+        if (is_hard(s, leader_of(s, &s->ends[i]))) {
+            kept = true;
+        } else {
+            pair->flags &= ~PL_PAIR_PRESSED;
+        }
+    }
+    s->world->solver.hard_pressed = kept;
+}
+
+static bool reserve(plumb_world *world, search *s)
+{
+    pl_solver *solver = &world->solver;
+    if (!pl_buffer_reserve(&world->memory, &solver->hard_leaders, s->movable * sizeof(uint32_t)) ||
+        !pl_buffer_reserve(&world->memory, &solver->hard_tallies,
+                           s->movable * sizeof(pl_hard_tally)) ||
+        !pl_buffer_reserve(&world->memory, &solver->hard_contacts,
+                           s->contacts * sizeof(uint32_t)) ||
+        !pl_buffer_reserve(&world->memory, &solver->labels, s->movable * sizeof(uint32_t))) {
+        return false;
+    }
+    s->leaders = solver->hard_leaders.data;
+    s->tallies = solver->hard_tallies.data;
+    return true;
+}
+
+bool pl_hard_find(plumb_world *world)
+{
+    const uint32_t dynamic = world->dynamic_count;
+    search s = { .world = world,
+                 .ends = world->narrow.ends.data,
+                 .ties = world->joints.plan.ends.data,
+                 .contacts = world->narrow.manifold_count,
+                 .joints = pl_joints_tied(world),
+                 .movable = dynamic + world->kinematic_count,
+                 .dynamic = dynamic,
+                 .h = (double)world->soft_substep,
+                 .weight = sqrt((double)world->gravity.x * (double)world->gravity.x +
+                                (double)world->gravity.y * (double)world->gravity.y) };
+    if (world->desc.solver != PLUMB_SOLVER_SOFT || world->desc.no_exact_islands ||
+        s.contacts == 0) {
+        return true;
+    }
+    s.uneven = masses_are_uneven(world);
+    if (is_look_due(world->step_count)) {
+        look(&s);
+    }
+    if (!(s.uneven || world->solver.hard_pressed) || !any_seed(&s)) {
+        return true;
+    }
+    if (!reserve(world, &s)) {
+        return false;
+    }
+    tally(&s);
+    label(&s);
+    forget_large(&s);
+    return true;
+}
