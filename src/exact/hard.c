@@ -5,13 +5,13 @@
 // - uneven: one body is UNEVEN times as heavy as the other, and lies on it; or gives way by more than DEEP of their size, and the
 //   lighter one bears BORNE of its weight; or
 // - pressed: at two looks, LOOK steps apart, it gave way by so much and bore BURDEN times the weight of the lighter body. A blow
-//   does not last so long. A young world is looked at after 1, 2 and 4 steps, too: it may begin with a stack.
+//   does not last so long. A young world is looked at after 1, 2, 4 and 8 steps, too: it may begin with a stack.
 // What is asked is the load that would press a soft contact in, not by how much it is pressed in: loads are the same however they
 // are borne, so an island that has become exact stays so. What had sunk then is undone without velocity (rows.c); an island that is
 // soft again sinks in by its springs. Impulses go over.
 //
 // An island is all that hangs together by contacts and joints, through kinematic bodies too, as in solver/cluster.c, but found anew
-// in each step that has seeds: it depends on nothing else in the world, and on the past by three flags a pair. One of more
+// in each step that has seeds: it depends on nothing else in the world, and on the past by four flags a pair. One of more
 // than MOST contacts and joints is swept, and so is one that bounces, and one of whose bodies a system acts on alone.
 //
 // Reads: manifolds, ends, masses, loads of the last step. Writes: labels of rows, hard contacts, flags of pairs. Order: behind
@@ -62,35 +62,39 @@ static double inverse_mass(const search *s, uint32_t row)
 
 //---- seeds ---------------------------------------------------------------------------------------------
 
-static bool are_uneven(const search *s, const pl_ends *e)
+static bool are_uneven(const search *s, uint32_t row_a, uint32_t row_b)
 {
-    const double a = inverse_mass(s, e->a), b = inverse_mass(s, e->b);
+    const double a = inverse_mass(s, row_a), b = inverse_mass(s, row_b);
     return (a > UNEVEN * b && b > 0) || (b > UNEVEN * a && a > 0);
 }
 
 typedef struct burden {
-    bool deep;               // the contact gives way by more than it should
-    double lighter, heavier; // times the weight of either body, of those that move
+    bool deep;      // the contact gives way by more than it should
+    double heavier; // it bears, of the weight of the heavier body, of those that move
 } burden;
 
-static burden burden_of(const search *s, const pl_manifold *m)
+// False: it bears less than what makes it one that is pressed.
+static bool burden_of(const search *s, const pl_manifold *m, burden *out)
 {
+    const double load = (double)m->point[0].normal + (double)m->point[1].normal;
+    *out = (burden){ false, 0 };
+    if (!(load > 0)) {
+        return false;
+    }
     const double a = inverse_mass(s, m->body_a), b = inverse_mass(s, m->body_b);
-    double load = 0, arm = (double)PL_APART;
+    const double lighter = a > b ? a : b, least = a > 0 && (b == 0 || a < b) ? a : b;
+    const double stiffer = a > 0 && b > 0 ? 1 : 0.25, one = s->weight * s->h;
+    const double way = load * (a + b) * stiffer * SOFTNESS * s->h;
+    double arm = (double)PL_APART;
     for (uint32_t k = 0; k < m->count; ++k) {
         const pl_manifold_point *p = &m->point[k];
         const double of_a = fabs((double)(p->ax * m->nx + p->ay * m->ny));
         const double of_b = fabs((double)(p->bx * m->nx + p->by * m->ny));
-        load += (double)p->normal;
         arm = a > 0 && of_a < arm ? of_a : arm;
         arm = b > 0 && of_b < arm ? of_b : arm;
     }
-    const double stiffer = a > 0 && b > 0 ? 1 : 0.25;
-    const double least = a > 0 && (b == 0 || a < b) ? a : b;
-    const double light = load * (a > b ? a : b), heavy = load * least, one = s->weight * s->h;
-    return (burden){ load > 0 && load * (a + b) * stiffer * SOFTNESS * s->h > DEEP * arm,
-                     one > 0 ? light / one : (double)PL_UNBOUNDED,
-                     one > 0 ? heavy / one : (double)PL_UNBOUNDED };
+    *out = (burden){ way > DEEP * arm, one > 0 ? load * least / one : (double)PL_UNBOUNDED };
+    return out->deep && load * lighter > BURDEN * one;
 }
 
 // The heavier body is on the lighter one, and near it.
@@ -99,7 +103,7 @@ static bool is_above(const search *s, const pl_manifold *m)
     const plumb_vec2 g = s->world->gravity;
     const double down = (double)m->nx * (double)g.x + (double)m->ny * (double)g.y; // from A to B
     const bool b_heavier = inverse_mass(s, m->body_b) < inverse_mass(s, m->body_a);
-    return (b_heavier ? -down : down) > ABOVE * s->weight && pl_is_near(m, NEAR);
+    return (b_heavier ? -down : down) > ABOVE * s->weight;
 }
 
 static pl_pair *pair_of(const search *s, uint32_t contact)
@@ -109,15 +113,52 @@ static pl_pair *pair_of(const search *s, uint32_t contact)
 
 static bool is_seed(const search *s, uint32_t i)
 {
-    if (s->world->solver.hard_pressed && (pair_of(s, i)->flags & PL_PAIR_PRESSED) != 0) {
-        return true;
+    return (pair_of(s, i)->flags & PL_PAIR_PRESSED) != 0;
+}
+
+// Uneven, whether the lighter body bears much already or not.
+static bool is_uneven(const search *s, const pl_manifold *m, const burden *b)
+{
+    return are_uneven(s, m->body_a, m->body_b) &&
+           ((is_above(s, m) && pl_is_near(m, NEAR)) || (b->deep && b->heavier > BORNE));
+}
+
+static uint32_t contacts_of(const search *s, uint32_t row)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < s->contacts; ++i) {
+        count += s->ends[i].a == row || s->ends[i].b == row;
     }
-    if (!s->uneven || !are_uneven(s, &s->ends[i])) {
-        return false;
+    return count;
+}
+
+// Contacts that have just come are looked at at once.
+static void look_at_new(const search *s)
+{
+    const uint32_t *fresh = s->world->narrow.fresh.data;
+    uint32_t asked =
+        PL_NONE; // the first one that is heavier; a hub of a large island, more often than not
+    bool large = false;
+    for (uint32_t i = 0; i < s->world->narrow.fresh_count; ++i) {
+        pl_pair *pair = &pl_pairs(&s->world->broad.pairs)[fresh[i]];
+        if (pair->manifold >= s->contacts || !are_uneven(s, pair->body_a, pair->body_b) ||
+            (pair->flags & PL_PAIR_LARGE) != 0 ||
+            !is_above(s, &pl_manifolds(&s->world->narrow)[pair->manifold])) {
+            continue;
+        }
+        const bool a_heavier = inverse_mass(s, pair->body_a) < inverse_mass(s, pair->body_b);
+        const uint32_t heavier = a_heavier ? pair->body_a : pair->body_b;
+        if (asked == PL_NONE) {
+            asked = heavier;
+            large = contacts_of(s, heavier) > MOST;
+        }
+        if (heavier == asked && large) {
+            pair->flags |= PL_PAIR_LARGE;
+        } else {
+            pair->flags |= PL_PAIR_PRESSED;
+            s->world->solver.hard_pressed = true;
+        }
     }
-    const pl_manifold *m = &pl_manifolds(&s->world->narrow)[i];
-    const burden b = burden_of(s, m);
-    return is_above(s, m) || (b.deep && b.heavier > BORNE);
 }
 
 static bool is_look_due(uint64_t step)
@@ -129,18 +170,19 @@ static bool is_look_due(uint64_t step)
 static void look(const search *s)
 {
     const uint64_t n = s->world->step_count;
-    const bool odd = n < LOOK ? n == 2 : (n / LOOK & 1) != 0; // 1, 2, 4, 8, 16, 24, ...
+    const bool odd = n < LOOK ? n == 2 || n == 8 : (n / LOOK & 1) == 0; // 1, 2, 4, 8, 16, 32, ...
     const uint32_t now = odd ? PL_PAIR_LOADED_ODD : PL_PAIR_LOADED_EVEN;
     const uint32_t before = odd ? PL_PAIR_LOADED_EVEN : PL_PAIR_LOADED_ODD;
     s->world->solver.hard_pressed = false;
     for (uint32_t i = 0; i < s->contacts; ++i) {
-        const burden b = burden_of(s, &pl_manifolds(&s->world->narrow)[i]);
-        const bool loaded = b.deep && b.lighter > BURDEN;
+        const pl_manifold *m = &pl_manifolds(&s->world->narrow)[i];
+        burden b;
+        const bool loaded = burden_of(s, m, &b);
         pl_pair *pair = pair_of(s, i);
         const uint32_t was = pair->flags;
-        const bool pressed = loaded && (was & before) != 0;
-        if (loaded || (was & (now | PL_PAIR_PRESSED)) != 0) {
-            pair->flags = (was & ~(now | PL_PAIR_PRESSED)) | (loaded ? now : 0) |
+        const bool pressed = (loaded && (was & before) != 0) || (s->uneven && is_uneven(s, m, &b));
+        if (loaded || (was & (now | PL_PAIR_PRESSED | PL_PAIR_LARGE)) != 0) {
+            pair->flags = (was & ~(now | PL_PAIR_PRESSED | PL_PAIR_LARGE)) | (loaded ? now : 0) |
                           (pressed ? PL_PAIR_PRESSED : 0);
         }
         s->world->solver.hard_pressed |= pressed;
@@ -258,7 +300,7 @@ static void label(const search *s)
 static void forget_large(const search *s)
 {
     bool kept = false;
-    for (uint32_t i = 0; s->world->solver.hard_pressed && i < s->contacts; ++i) {
+    for (uint32_t i = 0; i < s->contacts; ++i) {
         pl_pair *pair = pair_of(s, i);
         if ((pair->flags & PL_PAIR_PRESSED) == 0) {
             continue;
@@ -266,7 +308,7 @@ static void forget_large(const search *s)
         if (is_hard(s, leader_of(s, &s->ends[i]))) {
             kept = true;
         } else {
-            pair->flags &= ~PL_PAIR_PRESSED;
+            pair->flags = (pair->flags & ~PL_PAIR_PRESSED) | PL_PAIR_LARGE;
         }
     }
     s->world->solver.hard_pressed = kept;
@@ -306,10 +348,13 @@ bool pl_hard_find(plumb_world *world)
         return true;
     }
     s.uneven = masses_are_uneven(world);
-    if (is_look_due(world->step_count)) {
+    if (s.h > 0 && is_look_due(world->step_count)) { // else no load is known
         look(&s);
     }
-    if (!(s.uneven || world->solver.hard_pressed) || !any_seed(&s)) {
+    if (s.uneven && s.weight > 0) {
+        look_at_new(&s);
+    }
+    if (!world->solver.hard_pressed || !any_seed(&s)) {
         return true;
     }
     if (!reserve(world, &s)) {

@@ -27,7 +27,7 @@
 #define ROUNDING    1e-12 // of the speeds that a row adds up: what is less is nothing
 #define FAR_OFF     1.0   // of the same speeds: a solution that is none
 #define FACTORS     600   // of a solution, after which it is said to have missed
-#define UNASKED     40 // the same in a world of the soft step: a frame is not to be missed for it
+#define UNASKED     20 // the same in a world of the soft step: a frame is not to be missed for it
 #define MOST_CHANGE 4  // of the speeds that rows have to undo
 #define LONGEST     20 // step of the shifts, in steps by slip alone
 #define STALLS      6  // rounds without progress

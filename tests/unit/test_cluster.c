@@ -249,7 +249,7 @@ static uint32_t check_joints(const plumb_world *w)
             const pl_joint_mark *mark = &pl_joint_marks(&w->joints)[joint];
             assert_false(seen[joint]);
             seen[joint] = true;
-            assert_int_equal(pl_joint_is_wide(mark), k < g->alone);
+            assert_int_equal(pl_joint_is_wide(mark) && i != s->hard_cluster, k < g->alone);
             check_end(w, &pl_clusters(s)[i], mark->row_a);
             check_end(w, &pl_clusters(s)[i], mark->row_b);
             ++count;
@@ -321,6 +321,7 @@ static void all_in_one(plumb_world *w, uint32_t *seed)
     (void)seed;
     w->solver.labelled = w->dynamic_count + w->kinematic_count;
     w->solver.cluster_count = 1;
+    w->solver.hard_cluster = PL_NONE;
     w->solver.cluster_age = 0;
 }
 
@@ -328,6 +329,7 @@ static void mix_up(plumb_world *w, uint32_t *seed)
 {
     pl_solver *s = &w->solver;
     uint32_t *islands = s->islands.data, *homes = s->homes.data;
+    const uint32_t clusters = s->cluster_count - (s->hard_cluster != PL_NONE);
     for (uint32_t row = 0; row < s->labelled; ++row) {
         if (sim_random(seed) % 20 == 0) {
             islands[row] = sim_random(seed) % (s->island_count + 1);
@@ -335,7 +337,7 @@ static void mix_up(plumb_world *w, uint32_t *seed)
         }
     }
     for (uint32_t i = 0; i < s->island_count; ++i) {
-        homes[i] = sim_random(seed) % s->cluster_count;
+        homes[i] = sim_random(seed) % clusters;
     }
 }
 
