@@ -1,10 +1,14 @@
 // plan.c - which bodies hang together, in which order they are eliminated, and what that fills in.
 //
 // Two bodies are neighbours that a contact or joint ties. The order is that of least degree, by the quotient graph: a body
-// that is gone leaves an element, the list of those behind it that it made neighbours (George and Liu 1989). Ties are broken
-// by slot. Chains and trees fill in nothing.
+// that is gone leaves an element, the list of those behind it that it made neighbours (George and Liu 1989). Chains and trees
+// fill in nothing.
+//
+// Bodies are told by their place: the order of their handles. Contacts and joints are listed by the places of their bodies, then
+// by handles of pieces and joints. So what is the same in an island stays so whatever else there is, and wherever rows went.
 //
 // Reads: manifolds, marks of joints, slots. Writes: world->exact. Order: after the graph. Cost: O(entries + contacts).
+#include "core/sort.h"
 #include "exact/exact.h"
 #include "joints/joint.h"
 #include "world/body_settings.h"
@@ -17,16 +21,19 @@
 typedef struct search {
     plumb_world *world;
     pl_exact_solver *exact;
-    uint32_t base;            // slots are told from this one on: of hard islands
-    uint32_t slots, ties;     // dynamic slots; contacts and joints between two of them
-    uint32_t *first, *length; // a slot: in `near`; of it
-    uint32_t *elements;       // a slot: how many of its list are elements; these come first
-    uint32_t *near;           // slots, for elements their nodes
-    uint32_t *island;         // a slot
-    uint32_t *node;           // a slot; PL_NONE: not yet eliminated
-    uint32_t *mark, *seen;    // a slot: stamp of the column, and of the count, that met it last
-    uint32_t *degree, *next, *before; // a slot: in the list of its degree
-    uint32_t *list;                   // a degree: first slot
+    uint32_t base;            // first of the slots that are looked at: all that move, or those of hard islands
+    uint32_t slots, ties;     // how many; contacts and joints between two of them
+    uint32_t *place;          // a slot, from `base` on. What follows is about places
+    uint32_t *slot;           // a place
+    uint32_t *first, *length; // in `near`; of it
+    uint32_t *elements;       // how many of its list are elements; these come first
+    uint32_t *near;           // places, for elements their nodes
+    uint32_t *island;
+    uint32_t *node;           // PL_NONE: not yet eliminated
+    uint32_t *mark, *seen;    // stamp of the column, and of the count, that met it last
+    uint32_t *degree, *next, *before; // in the list of its degree
+    uint32_t *list;                   // a degree: first place
+    pl_keyed *keyed;                  // scratch
     uint32_t stamp, count;
 } search;
 
@@ -57,7 +64,6 @@ static bool list_items(plumb_world *world, pl_exact_solver *e)
     const pl_joint_context c = pl_joint_context_of(
         world, solver->hard_cluster == PL_NONE ? 0 : solver->hard_cluster, NULL, 0, 1, 1);
     const bool any = pl_joints_any(&c);
-    const uint32_t base = slots_of(solver).first;
     const uint32_t joints = any ? c.group->end - c.group->alone : 0;
     if (!pl_buffer_reserve(&world->memory, &e->items,
                            2 * ((size_t)contacts + joints) * sizeof(pl_exact_item))) {
@@ -72,8 +78,8 @@ static bool list_items(plumb_world *world, pl_exact_solver *e)
         items[i] = (pl_exact_item){ .contact = i,
                                     .joint = PL_NONE,
                                     .turning = turns ? e->turning_count++ : PL_NONE,
-                                    .slot = { pl_solver_slot(solver, m->body_a, movable) - base,
-                                              pl_solver_slot(solver, m->body_b, movable) - base },
+                                    .slot = { pl_solver_slot(solver, m->body_a, movable),
+                                              pl_solver_slot(solver, m->body_b, movable) },
                                     .row_count = 2 * m->count + (m->rolling > 0 ? 1 : 0) };
     }
     const uint32_t *grouped = world->joints.plan.grouped.data;
@@ -83,8 +89,8 @@ static bool list_items(plumb_world *world, pl_exact_solver *e)
             (pl_exact_item){ .contact = PL_NONE,
                              .joint = c.group->alone + i,
                              .turning = PL_NONE,
-                             .slot = { pl_solver_slot(solver, mark->row_a, movable) - base,
-                                       pl_solver_slot(solver, mark->row_b, movable) - base },
+                             .slot = { pl_solver_slot(solver, mark->row_a, movable),
+                                       pl_solver_slot(solver, mark->row_b, movable) },
                              .row_count = PL_JOINT_ROWS };
     }
     return pl_buffer_reserve(&world->memory, &e->turnings,
@@ -93,9 +99,17 @@ static bool list_items(plumb_world *world, pl_exact_solver *e)
 
 //---- neighbours --------------------------------------------------------------------------------------
 
+// PL_NONE: the body does not move, or only as it likes.
+static uint32_t place_of(const search *s, const pl_exact_item *item, int end)
+{
+    const uint32_t slot = item->slot[end] - s->base;
+    return slot < s->slots ? s->place[slot] : PL_NONE;
+}
+
 static bool is_tie(const search *s, const pl_exact_item *item)
 {
-    return item->slot[0] < s->slots && item->slot[1] < s->slots && item->slot[0] != item->slot[1];
+    return item->slot[0] - s->base < s->slots && item->slot[1] - s->base < s->slots &&
+           item->slot[0] != item->slot[1];
 }
 
 static bool open_search(plumb_world *world, pl_exact_solver *e, search *s)
@@ -106,22 +120,69 @@ static bool open_search(plumb_world *world, pl_exact_solver *e, search *s)
     for (uint32_t i = 0; i < e->item_count; ++i) {
         s->ties += is_tie(s, &items[i]);
     }
-    const size_t n = s->slots;
+    const size_t n = s->slots, keyed = n > e->item_count ? n : e->item_count;
     if (!pl_buffer_reserve(&world->memory, &e->scratch,
-                           (11 * n + 1 + 2 * (size_t)s->ties) * sizeof(uint32_t))) {
+                           keyed * sizeof(pl_keyed) +
+                               (13 * n + 1 + 2 * (size_t)s->ties) * sizeof(uint32_t))) {
         return false;
     }
-    uint32_t *at = e->scratch.data;
+    s->keyed = e->scratch.data;
+    uint32_t *at = (uint32_t *)(s->keyed + keyed);
     s->first = at, s->length = at + n, s->elements = at + 2 * n, s->island = at + 3 * n;
     s->node = at + 4 * n, s->mark = at + 5 * n, s->degree = at + 6 * n, s->next = at + 7 * n;
-    s->before = at + 8 * n, s->list = at + 9 * n, s->seen = at + 10 * n + 1,
-    s->near = at + 11 * n + 1;
+    s->before = at + 8 * n, s->place = at + 9 * n, s->slot = at + 10 * n, s->seen = at + 11 * n;
+    s->list = at + 12 * n, s->near = at + 13 * n + 1;
     memset(s->length, 0, 2 * n * sizeof(uint32_t));    // and elements
     memset(s->island, 0xff, 2 * n * sizeof(uint32_t)); // and node
     memset(s->mark, 0, n * sizeof(uint32_t));
     memset(s->seen, 0, n * sizeof(uint32_t));
     memset(s->list, 0xff, (n + 1) * sizeof(uint32_t));
     return true;
+}
+
+static void order_bodies(search *s)
+{
+    const uint32_t *rows = s->world->solver.rows.data;
+    const plumb_body *entity = s->world->bodies.entity;
+    for (uint32_t i = 0; i < s->slots; ++i) {
+        s->keyed[i] = (pl_keyed){ .key = entity[rows[s->base + i]].entity.index, .value = i };
+    }
+    pl_sort_keyed(s->keyed, s->slots);
+    for (uint32_t i = 0; i < s->slots; ++i) {
+        s->slot[i] = s->base + s->keyed[i].value;
+        s->place[s->keyed[i].value] = i;
+    }
+}
+
+// By handles of pieces, then of joints.
+static uint64_t handle_key(const search *s, const pl_exact_item *item)
+{
+    if (item->contact == PL_NONE) {
+        return pl_key(PL_NONE, ((const uint32_t *)s->world->joints.plan.grouped.data)[item->joint]);
+    }
+    const uint32_t manifold = pl_classic_manifold(&s->world->solver, item->contact);
+    const uint32_t pair = pl_manifolds(&s->world->narrow)[manifold].pair;
+    return pl_key(pl_pairs(&s->world->broad.pairs)[pair].a, pl_pairs(&s->world->broad.pairs)[pair].b);
+}
+
+static void order_items(search *s)
+{
+    pl_exact_item *items = s->exact->items.data, *sorted = items + s->exact->item_count;
+    const uint32_t count = s->exact->item_count;
+    for (uint32_t i = 0; i < count; ++i) {
+        s->keyed[i] = (pl_keyed){ .key = handle_key(s, &items[i]), .value = i };
+    }
+    pl_sort_keyed(s->keyed, count);
+    for (uint32_t rank = 0; rank < count; ++rank) {
+        const pl_exact_item *item = &items[s->keyed[rank].value];
+        s->keyed[rank].key = pl_pair_key(place_of(s, item, 0), place_of(s, item, 1));
+        s->keyed[rank].order = rank;
+    }
+    pl_sort_keyed(s->keyed, count);
+    for (uint32_t i = 0; i < count; ++i) {
+        sorted[i] = items[s->keyed[i].value];
+    }
+    memcpy(items, sorted, count * sizeof *items);
 }
 
 static void add_near(search *s, uint32_t to, uint32_t other)
@@ -135,7 +196,7 @@ static void list_neighbours(search *s)
     const pl_exact_item *items = s->exact->items.data;
     for (uint32_t i = 0; i < s->exact->item_count; ++i) {
         for (int end = 0; end < 2 && is_tie(s, &items[i]); ++end) {
-            ++s->length[items[i].slot[end]];
+            ++s->length[place_of(s, &items[i], end)];
         }
     }
     uint32_t at = 0;
@@ -146,8 +207,9 @@ static void list_neighbours(search *s)
     }
     for (uint32_t i = 0; i < s->exact->item_count; ++i) {
         if (is_tie(s, &items[i])) {
-            add_near(s, items[i].slot[0], items[i].slot[1]);
-            add_near(s, items[i].slot[1], items[i].slot[0]);
+            const uint32_t a = place_of(s, &items[i], 0), b = place_of(s, &items[i], 1);
+            add_near(s, a, b);
+            add_near(s, b, a);
         }
     }
     for (uint32_t v = 0; v < s->slots; ++v) {
@@ -166,7 +228,7 @@ static void list_neighbours(search *s)
 
 //---- islands -----------------------------------------------------------------------------------------
 
-// Numbers all that hangs together with slot `from`; `queue` has room for all slots.
+// Numbers all that hangs together with place `from`; `queue` has room for all places.
 static uint32_t flood(search *s, uint32_t from, uint32_t number, uint32_t *queue)
 {
     uint32_t count = 0;
@@ -188,8 +250,8 @@ static uint32_t flood(search *s, uint32_t from, uint32_t number, uint32_t *queue
 // The island of a contact or joint; NULL: nothing of it moves.
 static pl_exact_island *island_of(const search *s, const pl_exact_item *item)
 {
-    const uint32_t slot = item->slot[0] < s->slots ? item->slot[0] : item->slot[1];
-    return slot < s->slots ? (pl_exact_island *)s->exact->islands.data + s->island[slot] : NULL;
+    const uint32_t a = place_of(s, item, 0), place = a != PL_NONE ? a : place_of(s, item, 1);
+    return place != PL_NONE ? (pl_exact_island *)s->exact->islands.data + s->island[place] : NULL;
 }
 
 // Contacts and joints by their islands, in the order in which they were; rows of each.
@@ -256,23 +318,23 @@ static void enlist(search *s, uint32_t v, uint32_t degree)
     s->list[degree] = v;
 }
 
-static bool add_entry(search *s, uint32_t slot)
+static bool add_entry(search *s, uint32_t place)
 {
     pl_exact_solver *e = s->exact;
-    if (s->mark[slot] == s->stamp) {
+    if (s->mark[place] == s->stamp) {
         return true;
     }
-    s->mark[slot] = s->stamp;
+    s->mark[place] = s->stamp;
     if ((size_t)(e->entry_count + 1) * sizeof(uint32_t) > e->entries.size &&
         !pl_buffer_reserve(&s->world->memory, &e->entries,
                            2 * (size_t)(e->entry_count + 1) * sizeof(uint32_t))) {
         return false;
     }
-    ((uint32_t *)e->entries.data)[e->entry_count++] = slot;
+    ((uint32_t *)e->entries.data)[e->entry_count++] = place;
     return true;
 }
 
-// All that a slot has to do with when it goes, as slots; the elements that it used up are gone with it.
+// All that a body has to do with when it goes, as places; the elements that it used up are gone with it.
 static bool fill_column(search *s, uint32_t v, pl_exact_node *node)
 {
     pl_exact_solver *e = s->exact;
@@ -300,16 +362,16 @@ static bool fill_column(search *s, uint32_t v, pl_exact_node *node)
     return true;
 }
 
-static uint32_t count_once(search *s, uint32_t slot)
+static uint32_t count_once(search *s, uint32_t place)
 {
-    if (s->seen[slot] == s->count || s->node[slot] != PL_NONE) {
+    if (s->seen[place] == s->count || s->node[place] != PL_NONE) {
         return 0;
     }
-    s->seen[slot] = s->count;
+    s->seen[place] = s->count;
     return 1;
 }
 
-// How many a slot would leave as neighbours of one another.
+// How many a body would leave as neighbours of one another.
 static uint32_t degree_of(search *s, uint32_t v)
 {
     const pl_exact_node *nodes = s->exact->nodes.data;
@@ -329,7 +391,7 @@ static uint32_t degree_of(search *s, uint32_t v)
     return degree;
 }
 
-// A neighbour of the slot that became `node`: what it knew of that, and of those that the element tells, goes.
+// A neighbour of the body that became `node`: what it knew of that, and of those that the element tells, goes.
 static void shorten(search *s, uint32_t v, uint32_t node)
 {
     const pl_exact_node *nodes = s->exact->nodes.data;
@@ -346,7 +408,7 @@ static void shorten(search *s, uint32_t v, uint32_t node)
             near[kept++] = near[k];
         }
     }
-    // One place at least has become free: of the slot itself, or of an element that was used up.
+    // One place at least has become free: of the body itself, or of an element that was used up.
     if (kept > elements) {
         const uint32_t moved = near[elements];
         near[elements] = last;
@@ -375,7 +437,7 @@ static bool eliminate(search *s, uint32_t v)
     return true;
 }
 
-// Takes the slots of `queue` in the order of least degree. An island of too many entries has none: what a body does to
+// Takes the places of `queue` in the order of least degree. An island of too many entries has none: what a body does to
 // another is left out of Newton's steps, which then seldom settle, and are told as missed.
 static bool eliminate_all(search *s, const uint32_t *queue, uint32_t count, pl_exact_island *island)
 {
@@ -454,9 +516,9 @@ static void number_entries(search *s)
     for (uint32_t i = 0; i < e->item_count; ++i) {
         pl_exact_item *item = &items[i];
         for (int end = 0; end < 2; ++end) {
-            item->node[end] = item->slot[end] < s->slots ? s->node[item->slot[end]] : PL_NONE;
+            const uint32_t place = place_of(s, item, end);
+            item->node[end] = place != PL_NONE ? s->node[place] : PL_NONE;
         }
-        item->slot[0] += s->base, item->slot[1] += s->base;
         item->entry = PL_NONE;
         if (item->node[0] == PL_NONE || item->node[1] == PL_NONE) {
             continue;
@@ -477,7 +539,7 @@ static void weigh(search *s)
     const pl_solver *solver = &s->world->solver;
     const uint32_t *rows = solver->rows.data;
     for (uint32_t i = 0; i < s->exact->node_count; ++i) {
-        nodes[i].slot += s->base;
+        nodes[i].slot = s->slot[nodes[i].slot]; // was the place
         const pl_solver_body *body = &pl_solver_bodies(solver)[nodes[i].slot];
         const uint16_t flags = s->world->bodies.flags[rows[nodes[i].slot]];
         nodes[i].inv_mass[0] = (double)pl_unlocked(flags, PL_BODY_LOCK_X, body->inv_mass);
@@ -498,6 +560,8 @@ bool pl_exact_plan(plumb_world *world)
     if (!list_items(world, e) || !open_search(world, e, &s)) {
         return false;
     }
+    order_bodies(&s);
+    order_items(&s);
     list_neighbours(&s);
     if (!find_islands(&s)) {
         return false;
