@@ -51,9 +51,9 @@ typedef struct plumb_world_desc {
     bool no_exact_islands;          ///< Soft step: solve no island exactly unasked. Default: a small island (96 contacts
                                     ///< and joints at the most, none of which bounces) that sweeps cannot hold is solved as
                                     ///< PLUMB_SOLVER_EXACT does, whatever else there is: where a body lies on one that is ten
-                                    ///< times lighter, or contacts have borne five times the weight of a body for 16
-                                    ///< steps and give way by 0.5 % of it. Costs some 30 us a step for two bodies, 0.4 ms
-                                    ///< for a stack of 80. How many: plumb_stats.exact_islands
+                                    ///< times lighter, contacts have borne four times the weight of a body for 8 steps and
+                                    ///< give way by 2 % of it, or bodies are made inside one another. Costs some 30 us a
+                                    ///< step for two bodies, 0.4 ms for a stack of 80. How many: plumb_stats.exact_islands
     plumb_real tolerance;           ///< [-] 0..0.5, default 0: none. Error that the world may make: it then chooses
                                     ///< solver, substeps and direct_joints itself, and those given are what it
                                     ///< begins with. See plumb/accuracy.h

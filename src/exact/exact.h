@@ -135,6 +135,11 @@ void pl_exact_push(const pl_exact_system *s, const pl_exact_row *r, double *velo
 // F into `change`: returns its size, by momentum (evaluate.c).
 double pl_exact_evaluate(pl_exact_newton *n);
 
+// Whether velocities have more energy than the start and what drove the rows; velocities and impulses by sweeps from `base`
+// (sweep.c).
+bool pl_exact_has_gained(const pl_exact_system *s);
+void pl_exact_sweep(const pl_exact_system *s);
+
 // Velocities and impulses that obey all rows (newton.c).
 void pl_exact_solve(pl_exact_system *s);
 

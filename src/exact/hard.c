@@ -5,7 +5,9 @@
 // - uneven: one body is UNEVEN times as heavy as the other, and lies on it; or gives way by more than DEEP of their size, and the
 //   lighter one bears BORNE of its weight; or
 // - pressed: at two looks, LOOK steps apart, it gave way by so much and bore BURDEN times the weight of the lighter body. A blow
-//   does not last so long. A young world is looked at after 1, 2, 4 and 8 steps, too: it may begin with a stack.
+//   does not last so long. A young world is looked at after 1, 2, 4 and 8 steps, too: it may begin with a stack; or
+// - deep: its bodies overlapped by OVERLAP of their size when they met, as those do that are made inside one another. It stays
+//   one until LEFT of their size is left: sweeps would throw them.
 // What is asked is the load that would press a soft contact in, not by how much it is pressed in: loads are the same however they
 // are borne, so an island that has become exact stays so. What had sunk then is undone without velocity (rows.c); an island that is
 // soft again sinks in by its springs. Impulses go over.
@@ -15,7 +17,7 @@
 // than MOST contacts and joints is swept, and so is one that bounces, and one of whose bodies a system acts on alone.
 //
 // Reads: manifolds, ends, masses, loads of the last step. Writes: labels of rows, hard contacts, flags of pairs. Order: behind
-// clusters. Cost: a read of the masses, where they are uneven one of the ends, every LOOK steps one of the manifolds; with seeds
+// clusters. Cost: a read of the masses and of new contacts, every LOOK steps one of the manifolds; with seeds
 // O(contacts + bodies).
 #include "core/union_find.h"
 #include "effects/effects.h"
@@ -27,14 +29,16 @@
 #include <math.h>
 #include <string.h>
 
-#define MOST   96   // contacts and joints of an island
-#define DEEP   5e-3 // of the way from the contact to the centre of mass
-#define UNEVEN 10.0
-#define BORNE  0.25
-#define BURDEN 5.0
-#define ABOVE  0.3               // cosine
-#define NEAR   ((near_real)5e-3) // [m]
-#define LOOK   8u                // steps
+#define MOST    96   // contacts and joints of an island
+#define DEEP    2e-2 // of the way from the contact to the centre of mass
+#define UNEVEN  10.0
+#define BORNE   0.25
+#define BURDEN  4.0
+#define OVERLAP 0.05              // of the same way, where a contact begins
+#define LEFT    3e-3              // of it, until which it is undone
+#define ABOVE   0.3               // cosine
+#define NEAR    ((near_real)5e-3) // [m]
+#define LOOK    8u                // steps
 
 #define SOFTNESS 0.912 // (6 / (2 pi))^2: 1 / (w h)^2 of soft.c
 
@@ -68,6 +72,27 @@ static bool are_uneven(const search *s, uint32_t row_a, uint32_t row_b)
     return (a > UNEVEN * b && b > 0) || (b > UNEVEN * a && a > 0);
 }
 
+// [m] from a contact to the nearer centre of mass of those that move, along the normal.
+static double arm_of(const search *s, const pl_manifold *m)
+{
+    const bool a = inverse_mass(s, m->body_a) > 0, b = inverse_mass(s, m->body_b) > 0;
+    double arm = (double)PL_APART;
+    for (uint32_t k = 0; k < m->count; ++k) {
+        const pl_manifold_point *p = &m->point[k];
+        const double of_a = fabs((double)(p->ax * m->nx + p->ay * m->ny));
+        const double of_b = fabs((double)(p->bx * m->nx + p->by * m->ny));
+        arm = a && of_a < arm ? of_a : arm;
+        arm = b && of_b < arm ? of_b : arm;
+    }
+    return arm;
+}
+
+static bool overlaps(const search *s, const pl_manifold *m, double share)
+{
+    const near_real s0 = m->point[0].separation, s1 = m->point[1].separation;
+    return -(double)(s0 < s1 ? s0 : s1) > share * arm_of(s, m);
+}
+
 typedef struct burden {
     bool deep;      // the contact gives way by more than it should
     double heavier; // it bears, of the weight of the heavier body, of those that move
@@ -85,15 +110,8 @@ static bool burden_of(const search *s, const pl_manifold *m, burden *out)
     const double lighter = a > b ? a : b, least = a > 0 && (b == 0 || a < b) ? a : b;
     const double stiffer = a > 0 && b > 0 ? 1 : 0.25, one = s->weight * s->h;
     const double way = load * (a + b) * stiffer * SOFTNESS * s->h;
-    double arm = (double)PL_APART;
-    for (uint32_t k = 0; k < m->count; ++k) {
-        const pl_manifold_point *p = &m->point[k];
-        const double of_a = fabs((double)(p->ax * m->nx + p->ay * m->ny));
-        const double of_b = fabs((double)(p->bx * m->nx + p->by * m->ny));
-        arm = a > 0 && of_a < arm ? of_a : arm;
-        arm = b > 0 && of_b < arm ? of_b : arm;
-    }
-    *out = (burden){ way > DEEP * arm, one > 0 ? load * least / one : (double)PL_UNBOUNDED };
+    *out =
+        (burden){ way > DEEP * arm_of(s, m), one > 0 ? load * least / one : (double)PL_UNBOUNDED };
     return out->deep && load * lighter > BURDEN * one;
 }
 
@@ -141,9 +159,16 @@ static void look_at_new(const search *s)
     bool large = false;
     for (uint32_t i = 0; i < s->world->narrow.fresh_count; ++i) {
         pl_pair *pair = &pl_pairs(&s->world->broad.pairs)[fresh[i]];
-        if (pair->manifold >= s->contacts || !are_uneven(s, pair->body_a, pair->body_b) ||
-            (pair->flags & PL_PAIR_LARGE) != 0 ||
-            !is_above(s, &pl_manifolds(&s->world->narrow)[pair->manifold])) {
+        if (pair->manifold >= s->contacts || (pair->flags & PL_PAIR_LARGE) != 0) {
+            continue;
+        }
+        const pl_manifold *m = &pl_manifolds(&s->world->narrow)[pair->manifold];
+        if (overlaps(s, m, OVERLAP)) {
+            pair->flags |= PL_PAIR_PRESSED;
+            s->world->solver.hard_pressed = true;
+        }
+        if (!s->uneven || !(s->weight > 0) || !are_uneven(s, pair->body_a, pair->body_b) ||
+            !is_above(s, m)) {
             continue;
         }
         const bool a_heavier = inverse_mass(s, pair->body_a) < inverse_mass(s, pair->body_b);
@@ -180,7 +205,9 @@ static void look(const search *s)
         const bool loaded = burden_of(s, m, &b);
         pl_pair *pair = pair_of(s, i);
         const uint32_t was = pair->flags;
-        const bool pressed = (loaded && (was & before) != 0) || (s->uneven && is_uneven(s, m, &b));
+        const bool pressed = (loaded && (was & before) != 0) ||
+                             (s->uneven && is_uneven(s, m, &b)) ||
+                             ((was & PL_PAIR_PRESSED) != 0 && overlaps(s, m, LEFT));
         if (loaded || (was & (now | PL_PAIR_PRESSED | PL_PAIR_LARGE)) != 0) {
             pair->flags = (was & ~(now | PL_PAIR_PRESSED | PL_PAIR_LARGE)) | (loaded ? now : 0) |
                           (pressed ? PL_PAIR_PRESSED : 0);
@@ -351,9 +378,7 @@ bool pl_hard_find(plumb_world *world)
     if (s.h > 0 && is_look_due(world->step_count)) { // else no load is known
         look(&s);
     }
-    if (s.uneven && s.weight > 0) {
-        look_at_new(&s);
-    }
+    look_at_new(&s);
     if (!world->solver.hard_pressed || !any_seed(&s)) {
         return true;
     }

@@ -27,7 +27,7 @@
 #define ROUNDING    1e-12 // of the speeds that a row adds up: what is less is nothing
 #define FAR_OFF     1.0   // of the same speeds: a solution that is none
 #define FACTORS     600   // of a solution, after which it is said to have missed
-#define UNASKED     20 // the same in a world of the soft step: a frame is not to be missed for it
+#define UNASKED     8  // the same in a world of the soft step: a frame is not to be missed for it
 #define MOST_CHANGE 4  // of the speeds that rows have to undo
 #define LONGEST     20 // step of the shifts, in steps by slip alone
 #define STALLS      6  // rounds without progress
@@ -327,6 +327,9 @@ void pl_exact_solve(pl_exact_system *s)
     s->missed = left > tolerance;
     if (left > FAR_OFF) {
         give_in(&n);
+    }
+    if (s->missed && pl_exact_has_gained(s)) {
+        pl_exact_sweep(s);
     }
     if (!pulls) { // what cannot be undone is no miss
         s->exact->missed += s->missed;

@@ -21,7 +21,7 @@
 typedef struct search {
     plumb_world *world;
     pl_exact_solver *exact;
-    uint32_t base;            // first of the slots that are looked at: all that move, or those of hard islands
+    uint32_t base; // first of the slots that are looked at: all that move, or those of hard islands
     uint32_t slots, ties;     // how many; contacts and joints between two of them
     uint32_t *place;          // a slot, from `base` on. What follows is about places
     uint32_t *slot;           // a place
@@ -29,8 +29,8 @@ typedef struct search {
     uint32_t *elements;       // how many of its list are elements; these come first
     uint32_t *near;           // places, for elements their nodes
     uint32_t *island;
-    uint32_t *node;           // PL_NONE: not yet eliminated
-    uint32_t *mark, *seen;    // stamp of the column, and of the count, that met it last
+    uint32_t *node;                   // PL_NONE: not yet eliminated
+    uint32_t *mark, *seen;            // stamp of the column, and of the count, that met it last
     uint32_t *degree, *next, *before; // in the list of its degree
     uint32_t *list;                   // a degree: first place
     pl_keyed *keyed;                  // scratch
@@ -162,7 +162,8 @@ static uint64_t handle_key(const search *s, const pl_exact_item *item)
     }
     const uint32_t manifold = pl_classic_manifold(&s->world->solver, item->contact);
     const uint32_t pair = pl_manifolds(&s->world->narrow)[manifold].pair;
-    return pl_key(pl_pairs(&s->world->broad.pairs)[pair].a, pl_pairs(&s->world->broad.pairs)[pair].b);
+    return pl_key(pl_pairs(&s->world->broad.pairs)[pair].a,
+                  pl_pairs(&s->world->broad.pairs)[pair].b);
 }
 
 static void order_items(search *s)
