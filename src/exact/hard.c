@@ -17,7 +17,7 @@
 // than MOST contacts and joints is swept, and so is one that bounces, and one of whose bodies a system acts on alone.
 //
 // Reads: manifolds, ends, masses, loads of the last step. Writes: labels of rows, hard contacts, flags of pairs. Order: behind
-// clusters. Cost: a read of the masses and of new contacts, every LOOK steps one of the manifolds; with seeds
+// clusters, before the graph. Cost: a read of the masses and of new contacts, every LOOK steps one of the manifolds; with seeds
 // O(contacts + bodies).
 #include "core/union_find.h"
 #include "effects/effects.h"
@@ -195,9 +195,9 @@ static bool is_look_due(uint64_t step)
 static void look(const search *s)
 {
     const uint64_t n = s->world->step_count;
-    const bool odd = n < LOOK ? n == 2 || n == 8 : (n / LOOK & 1) == 0; // 1, 2, 4, 8, 16, 32, ...
-    const uint32_t now = odd ? PL_PAIR_LOADED_ODD : PL_PAIR_LOADED_EVEN;
-    const uint32_t before = odd ? PL_PAIR_LOADED_EVEN : PL_PAIR_LOADED_ODD;
+    const bool one = n < LOOK ? n == 2 || n == 8 : (n / LOOK & 1) == 0; // 1, 2, 4, 8, 16, 32, ...
+    const uint32_t now = one ? PL_PAIR_LOADED_1 : PL_PAIR_LOADED_0;
+    const uint32_t before = one ? PL_PAIR_LOADED_0 : PL_PAIR_LOADED_1;
     s->world->solver.hard_pressed = false;
     for (uint32_t i = 0; i < s->contacts; ++i) {
         const pl_manifold *m = &pl_manifolds(&s->world->narrow)[i];
@@ -370,8 +370,7 @@ bool pl_hard_find(plumb_world *world)
                  .h = (double)world->soft_substep,
                  .weight = sqrt((double)world->gravity.x * (double)world->gravity.x +
                                 (double)world->gravity.y * (double)world->gravity.y) };
-    if (world->desc.solver != PLUMB_SOLVER_SOFT || world->desc.no_exact_islands ||
-        s.contacts == 0) {
+    if (s.contacts == 0) {
         return true;
     }
     s.uneven = masses_are_uneven(world);

@@ -74,6 +74,10 @@
       "soft bodies, poses, velocities, masses, pieces, rows", "", ONE)                                                                       \
     X("called",            GRAPH,       IF(pl_want_called),          ONCE(pl_run_called),                                    ONCE,           \
       "components, rows", "constraints", ONE)                                                                                                \
+    X("clusters",          GRAPH,       IF(pl_want_solver),          ONCE(pl_run_clusters),                                  ONCE,           \
+      "manifolds, joints, islands", "constraints, joints", ONE)                                                                              \
+    X("hard islands",      GRAPH,       IF(pl_want_hard_islands),    ONCE(pl_run_hard_islands),                              ONCE,           \
+      "manifolds, pairs, joints, masses", "constraints, pairs", ONE)                                                                         \
     X("graph",             GRAPH,       IF(pl_want_solver),          ONCE(pl_run_graph),                                     ONCE,           \
       "manifolds, velocities, forces, masses, joints", "solver bodies, accelerations, constraints, joints, movers", HAS(pl_gather_variants)) \
     X("immersion",           GRAPH,       IF(pl_want_fluids),           ONCE(pl_run_immersion),                                  ONCE,              \

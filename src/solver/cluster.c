@@ -15,7 +15,6 @@
 #include "solver/solver.h"
 #include "core/union_find.h"
 #include "effects/effects.h"
-#include "exact/exact.h"
 #include "joints/joint.h"
 #include "world/state.h"
 
@@ -242,10 +241,5 @@ bool pl_solver_cluster(plumb_world *world)
     } else {
         find_clusters(world, movable);
     }
-    if (!pl_hard_find(world)) {
-        return false;
-    }
-    return pl_buffer_reserve(&world->memory, &s->clusters, s->cluster_count * sizeof(pl_cluster)) &&
-           pl_buffer_reserve(&world->memory, &s->cursors,
-                             s->cluster_count * PL_COLOR_SLOTS * sizeof(uint32_t));
+    return true;
 }

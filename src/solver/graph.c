@@ -449,7 +449,7 @@ static bool find_turning(const plumb_world *world, real dt)
     return false;
 }
 
-bool pl_solver_graph(plumb_world *world, real dt)
+bool pl_solver_open(plumb_world *world)
 {
     const pl_narrow *narrow = &world->narrow;
     world->solver.follows_impacts =
@@ -461,7 +461,20 @@ bool pl_solver_graph(plumb_world *world, real dt)
         pl_tasks_ranges(world->tasks, world->narrow.manifold_count, LEAST, note_ends, world);
     }
     mark_rows(world, world->dynamic_count + world->kinematic_count);
-    if (!pl_joints_look(world) || !pl_solver_cluster(world)) {
+    return pl_joints_look(world) && pl_solver_cluster(world);
+}
+
+static bool reserve_clusters(plumb_world *world)
+{
+    pl_solver *s = &world->solver;
+    return pl_buffer_reserve(&world->memory, &s->clusters, s->cluster_count * sizeof(pl_cluster)) &&
+           pl_buffer_reserve(&world->memory, &s->cursors,
+                             s->cluster_count * PL_COLOR_SLOTS * sizeof(uint32_t));
+}
+
+bool pl_solver_graph(plumb_world *world, real dt)
+{
+    if (!reserve_clusters(world)) {
         return false;
     }
     fill_bodies(world);

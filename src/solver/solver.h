@@ -188,7 +188,8 @@ void pl_solver_free(pl_memory *memory, pl_solver *solver);
 // The kernels of the world's width.
 const pl_contact_kernels *pl_solver_kernels(const plumb_world *world);
 
-// Active bodies, colours, lanes (graph.c). False when out of memory; nothing has moved then.
+// Which bodies are active, and in which cluster; then colours, lanes (graph.c). False when out of memory; nothing has moved then.
+bool pl_solver_open(plumb_world *world);
 bool pl_solver_graph(plumb_world *world, plumb_real dt);
 // Which bodies are solved together (cluster.c). False when out of memory.
 bool pl_solver_cluster(plumb_world *world);

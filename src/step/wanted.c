@@ -170,16 +170,17 @@ bool pl_want_exact(const plumb_world *world, const char **reason)
     return pl_want_solver(world, reason) && asks_for(world, PLUMB_SOLVER_EXACT, reason);
 }
 
-// Soft worlds have islands that sweeps cannot hold.
+bool pl_want_hard_islands(const plumb_world *world, const char **reason)
+{
+    return pl_want_soft(world, reason) &&
+           say(PL_HAS(EXACT) && !world->desc.no_exact_islands, reason,
+               "for small islands that sweeps cannot hold", "no island is to be solved exactly");
+}
+
 bool pl_want_direct(const plumb_world *world, const char **reason)
 {
-    if (!pl_want_solver(world, reason) || world->desc.solver == PLUMB_SOLVER_PGS) {
-        return pl_want_exact(world, reason);
-    }
-    return say(true, reason,
-               world->desc.solver == PLUMB_SOLVER_SOFT ? "for islands that sweeps cannot hold"
-                                                       : "the world asks for the exact solver",
-               "");
+    return world->desc.solver == PLUMB_SOLVER_SOFT ? pl_want_hard_islands(world, reason)
+                                                   : pl_want_exact(world, reason);
 }
 
 bool pl_want_continuous(const plumb_world *world, const char **reason)

@@ -83,6 +83,8 @@ static const struct reason {
     { "burning", THRUSTING, SAME },
     { "acting", NOBODY, BODIES },
     { "measure bodies", NOBODY, BODIES },
+    { "clusters", NOBODY, BODIES },
+    { "hard islands", SOLID, CONTACTS },
     { "elimination", SOLID, CONTACTS },
     { "soft step", NOBODY, BODIES },
     { "classic solver", NOBODY, BODIES },
