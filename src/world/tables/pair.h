@@ -33,12 +33,12 @@ typedef struct pl_pair {
     131072u // of surfaces with a kinetic friction: they slid in the last substep
 // What is known of a contact's load (exact/hard.c): whether it bore much at the last two looks, which take turns; it is
 // why its island is to be solved exactly; that was too large for it at the last look.
-#define PL_PAIR_LOADED_0 262144u
+#define PL_PAIR_LOADED_0    262144u
 #define PL_PAIR_LOADED_1    524288u
 #define PL_PAIR_PRESSED     1048576u
 #define PL_PAIR_LARGE       2097152u
 #define PL_PAIR_LOADS                                                                              \
-    (PL_PAIR_LOADED_0 | PL_PAIR_LOADED_1   | PL_PAIR_PRESSED | PL_PAIR_LARGE)
+    (PL_PAIR_LOADED_0 | PL_PAIR_LOADED_1 | PL_PAIR_PRESSED | PL_PAIR_LARGE)
 
 // The face that parted the pieces when they were last looked at, in bits of the flags: 0 none, else
 // 1 + 2 x edge, + 1 when it is an edge of b. Tried first; see narrow/convex.simd.c.
