@@ -33,6 +33,8 @@ PLUMB_API plumb_entity plumb_entity_create(plumb_world *world);
 PLUMB_API plumb_result plumb_entity_destroy(plumb_world *world, plumb_entity entity);
 PLUMB_API bool plumb_entity_alive(const plumb_world *world, plumb_entity entity);
 PLUMB_API plumb_entity_kind plumb_entity_get_kind(const plumb_world *world, plumb_entity entity);
+/// "body", "soft body", ...; "nothing" of PLUMB_KIND_NONE, null for what is no kind.
+PLUMB_API const char *plumb_entity_kind_name(plumb_entity_kind kind);
 
 /// A registered component: 1 + its index; 0 is null.
 typedef struct plumb_component {

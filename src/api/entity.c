@@ -39,3 +39,8 @@ plumb_entity_kind plumb_entity_get_kind(const plumb_world *world, plumb_entity e
     const pl_slot *slot = world == NULL ? NULL : pl_registry_find(&world->registry, entity);
     return slot == NULL ? PLUMB_KIND_NONE : (plumb_entity_kind)slot->kind;
 }
+
+const char *plumb_entity_kind_name(plumb_entity_kind kind)
+{
+    return pl_kind_name((uint32_t)kind);
+}

@@ -60,8 +60,10 @@ void pl_assemblies_make(plumb_world *world)
     uint8_t *looped = plan->looped.data, *held = plan->states.data;
     plan->assembly_count = rows;
     pl_union_reset(leaders, rows);
-    memset(looped, 0, rows);
-    memset(held, 0, rows);
+    if (rows > 0) { // nothing has been made for none
+        memset(looped, 0, rows);
+        memset(held, 0, rows);
+    }
     for (uint32_t i = 0; i < count; ++i) {
         const pl_joint_mark *m = &marks[i];
         if (m->what != 0 && ties_two(world, m) && !pl_union_join(leaders, m->row_a, m->row_b)) {

@@ -156,10 +156,18 @@ static const pl_member pair_members[] = { MEMBER(pl_pair, normal) MEMBER(pl_pair
 
 static const char *table_of(plumb_entity_kind kind)
 {
-    static const char *const tables[] = {
-        "", "entities", "bodies", "shapes", "materials", "joints"
-    };
-    return tables[kind];
+    switch (kind) {
+    case PLUMB_KIND_BODY:
+        return "bodies";
+    case PLUMB_KIND_SHAPE:
+        return "shapes";
+    case PLUMB_KIND_MATERIAL:
+        return "materials";
+    case PLUMB_KIND_JOINT:
+        return "joints";
+    default:
+        return "entities"; // of no table that is compared
+    }
 }
 
 static void add_joint(comparison *c, const plumb_difference *who, uint32_t a, uint32_t b)

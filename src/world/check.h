@@ -77,6 +77,8 @@ plumb_result pl_check_entity(const plumb_world *world, const char *function, plu
 uint32_t pl_ask_body(const plumb_world *world, const char *function, plumb_body body);
 uint32_t pl_ask_shape(const plumb_world *world, const char *function, plumb_shape shape);
 
+// "body", "shape", ... of a plumb_entity_kind; NULL: it is none.
+const char *pl_kind_name(uint32_t kind);
 // Records that a handle is not `wanted` ("a live body"): what it is instead is found out here. E_HANDLE; E_NULL, and
 // nothing is told, of a null world.
 plumb_result pl_fail_handle(const plumb_world *world, const char *function, const char *field,

@@ -190,11 +190,12 @@ plumb_result pl_check_name(const plumb_world *world, const char *function, const
 
 //---- handles -------------------------------------------------------------------------------------
 
-static const char *kind_text(uint32_t kind)
+const char *pl_kind_name(uint32_t kind)
 {
-    static const char *const texts[] = { "nothing", "a bare entity", "a body",
-                                         "a shape", "a material",    "a joint" };
-    return texts[kind];
+    static const char *const names[] = { "nothing",  "bare entity", "body", "shape",
+                                         "material", "joint",       "law",  "soft body" };
+    _Static_assert(sizeof names / sizeof names[0] == PLUMB_KIND_SOFTBODY + 1, "a name a kind");
+    return kind <= PLUMB_KIND_SOFTBODY ? names[kind] : NULL;
 }
 
 plumb_result pl_fail_handle(const plumb_world *world, const char *function, const char *field,
@@ -206,7 +207,7 @@ plumb_result pl_fail_handle(const plumb_world *world, const char *function, cons
     if (plumb_is_null(entity)) {
         snprintf(is, sizeof is, "null");
     } else if (slot != NULL) {
-        snprintf(is, sizeof is, "%s", kind_text(slot->kind));
+        snprintf(is, sizeof is, "a %s", pl_kind_name(slot->kind));
     } else if (pl_registry_find_pending(&world->registry, entity) != NULL) {
         snprintf(is, sizeof is, "not yet made by its command");
     } else {

@@ -43,6 +43,13 @@ static void entities_of_every_kind_are_told_apart(void **state)
     }
     assert_false(plumb_entity_alive(NULL, bare));
     assert_int_equal(plumb_entity_get_kind(NULL, bare), PLUMB_KIND_NONE);
+    static const char *const names[] = { "nothing",  "bare entity", "body", "shape",
+                                         "material", "joint",       "law",  "soft body" };
+    for (int kind = 0; kind <= PLUMB_KIND_SOFTBODY; ++kind) {
+        assert_string_equal(plumb_entity_kind_name((plumb_entity_kind)kind), names[kind]);
+    }
+    assert_null(plumb_entity_kind_name((plumb_entity_kind)(PLUMB_KIND_SOFTBODY + 1)));
+    assert_null(plumb_entity_kind_name((plumb_entity_kind)-1));
 }
 
 static void components_go_to_any_kind_and_leave_with_it(void **state)

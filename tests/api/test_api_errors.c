@@ -73,6 +73,14 @@ static void bodies_refuse(void **state)
             plumb_body_destroy(W, (plumb_body){ f->box.entity }));
     REFUSED(E_HANDLE, "plumb_body_destroy: body is a material; it must be a live body",
             plumb_body_destroy(W, (plumb_body){ f->wood.entity }));
+    const plumb_law law = plumb_law_create(W, &(plumb_law_desc){ .vector = { 1, 2 } });
+    REFUSED(E_HANDLE, "plumb_body_destroy: body is a law; it must be a live body",
+            plumb_body_destroy(W, (plumb_body){ law.entity }));
+    const plumb_entity bare = plumb_entity_create(W);
+    REFUSED(E_HANDLE, "plumb_body_destroy: body is a bare entity; it must be a live body",
+            plumb_body_destroy(W, (plumb_body){ bare }));
+    assert_int_equal(plumb_law_destroy(W, law), PLUMB_OK);
+    assert_int_equal(plumb_entity_destroy(W, bare), PLUMB_OK);
     REFUSED(E_HANDLE, "plumb_body_teleport: body is null; it must be a live body",
             plumb_body_teleport(W, NO_BODY, plumb_v2(0, 0), 0));
     REFUSED(E_RANGE,

@@ -162,7 +162,6 @@ unsigned long long pl_replay_session_find(const engine_replay *replay, double ti
 static void write_entity(const engine_replay *replay, plumb_entity entity, const char *table,
                          char *to, size_t size)
 {
-    static const char *const kinds[] = { "entity", "entity", "body", "shape", "material", "joint" };
     plumb_entity_kind kind = plumb_entity_get_kind(plumb_replay_world(replay->replay), entity);
     const char *name = plumb_replay_name(replay->replay, entity);
     if (name != NULL) {
@@ -171,8 +170,9 @@ static void write_entity(const engine_replay *replay, plumb_entity entity, const
             kind == PLUMB_KIND_JOINT || (kind == PLUMB_KIND_NONE && strcmp(table, "joints") == 0);
         snprintf(to, size, "%s '%s'", joint ? "joint" : "body", name);
     } else {
-        snprintf(to, size, "%s %u:%u", kinds[kind], (unsigned)entity.index,
-                 (unsigned)entity.generation);
+        const bool bare = kind == PLUMB_KIND_NONE || kind == PLUMB_KIND_BARE;
+        snprintf(to, size, "%s %u:%u", bare ? "entity" : plumb_entity_kind_name(kind),
+                 (unsigned)entity.index, (unsigned)entity.generation);
     }
 }
 
